@@ -7,6 +7,7 @@
 #include "base/nearest.h"
 #include "base/verbs.h"
 #include "base/version.h"
+#include "bisect/wrong.h"
 #include "diff/diff.h"
 #include "replay/draw_names.h"
 
@@ -14,6 +15,12 @@
 static int diff_with_names(int argc, char **argv)
 {
 	return diff_main(argc, argv, replay_name_draws);
+}
+
+/* nor does replay/ render and score. */
+static int reduce_with_pictures(int argc, char **argv)
+{
+	return reduce_main(argc, argv, wrong_note, wrong_again);
 }
 
 static const struct verb {
@@ -27,7 +34,7 @@ static const struct verb {
 	{ "dump", dump_main, "print a trace's calls as text" },
 	{ "trim", trim_main, "cut a recording down to some frames" },
 	{ "repair", repair_main, "save what can be read of a recording that was cut or damaged" },
-	{ "reduce", reduce_main, "find the smallest recording with which a command still fails" },
+	{ "reduce", reduce_with_pictures, "find the smallest recording with which a frame or a command still fails" },
 	{ "bisect", bisect_main, "find the first call at which two recordings of a program part" },
 	{ "scene", scene_main, "print the scene of a frame" },
 	{ "export", export_main, "write a frame as glTF, for other programs" },

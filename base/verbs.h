@@ -14,7 +14,6 @@ int dump_main(int argc, char **argv);    /* replay/verbs/dump.c */
 int scene_main(int argc, char **argv);   /* replay/verbs/scene.c */
 int trim_main(int argc, char **argv);    /* replay/verbs/trim.c */
 int repair_main(int argc, char **argv);  /* replay/verbs/repair.c */
-int reduce_main(int argc, char **argv);  /* replay/verbs/reduce.c */
 int bisect_main(int argc, char **argv);  /* bisect/bisect.c */
 int export_main(int argc, char **argv);  /* replay/verbs/export.c */
 int look_main(int argc, char **argv);    /* render/look.c */
@@ -28,4 +27,4 @@ int raster_main(int argc, char **argv);  /* replay/verbs/raster.c */
 int film_main(int argc, char **argv);    /* film/film.c */
 int denoise_main(int argc, char **argv); /* film/denoise.c */
 int approve_main(int argc, char **argv); /* diff/baseline/approve.c */
-/* relume diff also takes what it must not know: diff/diff.h. */
+/* relume diff and reduce also take what they must not know: diff/diff.h, replay/verbs/reduce.h. */

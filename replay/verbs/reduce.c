@@ -1,9 +1,11 @@
 /*
- * relume reduce: the smallest recording with which a command still fails.
+ * relume reduce: the smallest recording with which a command still fails, or a frame still shows a fault.
  *
  * Calls are left out in steps (enum level), ever finer ones, as long as the command ends with the exit code that it ends with on the
  * whole recording. What belongs together (Begin and End, Push and Pop) goes together.
  */
+#include "replay/verbs/reduce.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -28,7 +30,8 @@
 #include "replay/trace/trace_out.h"
 #include "replay/verbs/shrink.h"
 
-enum { MOST_AT_ONCE = 64, MOST_NESTED = 256, ALWAYS = 0 };
+enum { MOST_AT_ONCE = 64, MOST_NESTED = 256, ALWAYS = 0, MOST_SECONDS = 24 * 3600 };
+#define NO_FRAME UINT64_MAX
 
 /* What is left out as one. */
 enum level {
@@ -42,20 +45,27 @@ static const char *const level_names[N_LEVELS] = { "frames", "draws", "blocks", 
 
 /* Of one call of the recording. */
 struct place {
+	uint64_t number; /* in the recording */
 	int32_t command; /* in gls_commands, or -1 */
 	uint32_t frame;
 	uint32_t begin, list, pair; /* the call, counted from 1, that begins what it is in or ends; 0: none */
 };
 
 struct reduce {
-	const char *path, *new, *when;
+	const char *path, *new;
+	const char *when;         /* NULL: a frame is asked for */
+	uint64_t frame;           /* NO_FRAME: a command is */
+	const char *reference;    /* of the frame */
+	reduce_note *note_fault;
+	reduce_again *again;
+	size_t fault;             /* place of its call */
 	unsigned at_once, limit_s;
 	struct place *calls; /* [n] */
 	size_t n, room;
 	uint8_t *kept;       /* [n] */
 	uint32_t *unit;      /* [n]: what a call is left out with at this level, counted from 1; ALWAYS: it is not left out */
 	char folder[PATH_MAX - 64];
-	int code;            /* of the command, on the whole recording */
+	int code;            /* of the command, on the whole recording; of a trial that has the fault */
 	uint64_t trials;
 };
 
@@ -93,6 +103,11 @@ static void place_call(struct reduce *r, struct open_calls open[N_PAIRS], const 
 	}
 }
 
+static int ends_frame(const struct place *p)
+{
+	return p->command >= 0 && gls_commands[p->command].drawing == GLS_ENDS;
+}
+
 static int read_calls(struct reduce *r)
 {
 	struct open_calls open[N_PAIRS] = { { .n = 0 } };
@@ -105,9 +120,9 @@ static int read_calls(struct reduce *r)
 		rc = MEMORY_GROW(r->calls, r->room, r->n + 1);
 		if (rc)
 			break;
-		r->calls[r->n++] = (struct place){ .command = call->sig->command, .frame = frame };
+		r->calls[r->n++] = (struct place){ .number = call->number, .command = call->sig->command, .frame = frame };
 		place_call(r, open, call->sig->name);
-		frame += call->sig->command >= 0 && gls_commands[call->sig->command].drawing == GLS_ENDS;
+		frame += ends_frame(&r->calls[r->n - 1]);
 	}
 	trace_reader_close(&reader);
 	r->kept = malloc(r->n + 1);
@@ -119,7 +134,13 @@ static int read_calls(struct reduce *r)
 	return rc;
 }
 
-/* Write the recording, but for calls of units that are not in. in: NULL: all that is kept */
+/* in: units; NULL: all that is kept */
+static int is_in(const struct reduce *r, const uint8_t *in, size_t i)
+{
+	return r->kept[i] && (!in || r->unit[i] == ALWAYS || in[r->unit[i] - 1]);
+}
+
+/* Write the recording, but for calls of units that are not in. */
 static int write_calls(const struct reduce *r, const uint8_t *in, const char *path, uint64_t *bytes)
 {
 	struct trace_reader *reader = NULL;
@@ -134,7 +155,7 @@ static int write_calls(const struct reduce *r, const uint8_t *in, const char *pa
 		if (rc != 1)
 			rc = rc ? rc : err_report(ERR_INPUT, r->path, "has changed while it was read");
 		else
-			rc = r->kept[i] && (!in || r->unit[i] == ALWAYS || in[r->unit[i] - 1]) ? trace_out_call(out, call) : 0;
+			rc = is_in(r, in, i) ? trace_out_call(out, call) : 0;
 	}
 	if (!rc)
 		rc = trace_out_finish(&out, bytes);
@@ -143,31 +164,65 @@ static int write_calls(const struct reduce *r, const uint8_t *in, const char *pa
 	return rc;
 }
 
-/* --- The command -------------------------------------------------------------------------------------------------------- */
+/* --- Trials ------------------------------------------------------------------------------------------------------------- */
 
 static void trial_path(const struct reduce *r, size_t i, const char *name, char out[PATH_MAX])
 {
 	snprintf(out, PATH_MAX, "%s/%zu%s", r->folder, i, name);
 }
 
-/* Start the command on a trial's recording. @return its process; below 0: ERR_SYSTEM (reported) */
-static pid_t start(const struct reduce *r, size_t i)
+static void note_path(const struct reduce *r, char out[PATH_MAX])
 {
-	char trace[PATH_MAX], folder[PATH_MAX];
+	snprintf(out, PATH_MAX, "%s/fault", r->folder);
+}
+
+/* Has a trial's recording the fault? @return as reduce_again */
+static int ask(const struct reduce *r, const uint8_t *in, const char *trace)
+{
+	uint64_t call = 0, frame = 0;
+	char note[PATH_MAX];
+
+	if (!is_in(r, in, r->fault))
+		return 0;
+	for (size_t i = 0; i < r->fault; i++)
+		if (is_in(r, in, i)) {
+			call++;
+			frame += (uint64_t)ends_frame(&r->calls[i]);
+		}
+	note_path(r, note);
+	return r->again(note, trace, frame, call);
+}
+
+/* @return a process that ends with this one; 0 within it; ERR_SYSTEM (reported) */
+static pid_t start_process(void)
+{
 	const pid_t pid = fork();
-	int quiet;
 
 	if (pid < 0)
 		return err_report(ERR_SYSTEM, "fork", "%s", strerror(errno));
+	if (!pid) {
+		prctl(PR_SET_PDEATHSIG, SIGKILL);
+		setpgid(0, 0);
+	}
+	return pid;
+}
+
+/* Start the command, or the search for the fault, on a trial's recording. @return its process; below 0: ERR_SYSTEM (reported) */
+static pid_t start(const struct reduce *r, const uint8_t *in, size_t i)
+{
+	char trace[PATH_MAX], folder[PATH_MAX];
+	const pid_t pid = start_process();
+	int quiet;
+
 	if (pid)
 		return pid;
 	trial_path(r, i, "/x.trace", trace);
-	prctl(PR_SET_PDEATHSIG, SIGKILL);
-	setpgid(0, 0);
 	quiet = open("/dev/null", O_RDWR);
 	dup2(quiet, STDIN_FILENO);
 	dup2(quiet, STDOUT_FILENO);
 	dup2(quiet, STDERR_FILENO);
+	if (!r->when)
+		_exit(ask(r, in, trace) == 1);
 	setenv("TRACE", trace, 1);
 	trial_path(r, i, "", folder);
 	if (chdir(folder))
@@ -215,7 +270,7 @@ static int run_all(struct reduce *r, uint8_t *const *sets, size_t n, int *codes)
 		trial_path(r, started, "/x.trace", path);
 		if (!err)
 			err = write_calls(r, sets[started], path, NULL);
-		pids[started] = err ? err : start(r, started);
+		pids[started] = err ? err : start(r, sets[started], started);
 		err = pids[started] < 0 ? ERR_SYSTEM : err;
 	}
 	for (size_t i = 0; i < started; i++) {
@@ -236,25 +291,53 @@ static int test(void *user, uint8_t *const *sets, size_t n, int *fails)
 	return err;
 }
 
+/* Note the fault of the frame: in a process of its own, since a device outlives no fork. */
+static int note_fault(struct reduce *r)
+{
+	const pid_t pid = start_process();
+	uint64_t call = 0;
+	char note[PATH_MAX];
+	FILE *in;
+	int code;
+
+	note_path(r, note);
+	if (!pid)
+		_exit(-r->note_fault(r->path, r->reference ? r->reference : r->path, r->frame, note));
+	code = pid < 0 ? -pid : finish(pid, time(NULL) + MOST_SECONDS);
+	if (code)
+		return code > 0 && code <= -ERR_SYSTEM ? -code : err_report(ERR_SYSTEM, r->path, "the frame's fault was not found: its process ended with %d", code);
+	in = fopen(note, "r");
+	if (!in || fscanf(in, "%" SCNu64, &call) != 1)
+		code = err_report(ERR_SYSTEM, note, "cannot be read");
+	if (in)
+		fclose(in);
+	while (r->fault < r->n && r->calls[r->fault].number != call)
+		r->fault++;
+	return code ? code : r->fault < r->n ? 0 : err_report(ERR_INPUT, r->path, "has no call %" PRIu64, call);
+}
+
 /* What the command says of the whole recording, twice. */
 static int find_fault(struct reduce *r)
 {
 	const time_t begin = time(NULL);
 	uint8_t *const all[2] = { NULL, NULL };
-	int codes[2], err;
+	int codes[2], err = r->when ? 0 : note_fault(r);
 
-	r->limit_s = r->limit_s ? r->limit_s : 24 * 3600;
-	err = run_all(r, all, 1, codes);
+	r->limit_s = r->limit_s ? r->limit_s : MOST_SECONDS;
+	if (!err)
+		err = run_all(r, all, 1, codes);
 	if (!err)
 		err = run_all(r, all + 1, 1, codes + 1);
 	if (err)
 		return err;
+	if (!r->when && !(codes[0] == 1 && codes[1] == 1))
+		return err_report(ERR_USAGE, r->path, "frame %" PRIu64 " shows its fault once, and not again in a copy", r->frame);
 	if (codes[0] == 0)
 		return err_report(ERR_USAGE, r->path, "the command ends with exit code 0 on the whole recording: there is nothing to look for");
 	if (codes[0] != codes[1] || codes[0] < 0 || codes[0] == 127)
 		return err_report(ERR_USAGE, r->path, "the command ends with exit code %d, then with %d on the same recording", codes[0], codes[1]);
 	r->code = codes[0];
-	if (r->limit_s == 24 * 3600)
+	if (r->limit_s == MOST_SECONDS)
 		r->limit_s = (unsigned)(10 + 5 * (time(NULL) - begin));
 	return 0;
 }
@@ -337,6 +420,7 @@ static int reduce(struct reduce *r)
 {
 	const char *tmp = getenv("TMPDIR");
 	const time_t begin = time(NULL);
+	char still[64] = "the fault is still there";
 	uint64_t bytes = 0;
 	int err = read_calls(r);
 
@@ -352,9 +436,11 @@ static int reduce(struct reduce *r)
 	folder_remove(r->folder);
 	if (!err)
 		err = write_calls(r, NULL, r->new, &bytes);
+	if (!err && r->when)
+		snprintf(still, sizeof(still), "the command ends with exit code %d", r->code);
 	if (!err)
-		printf("%s: %zu of %zu calls, %" PRIu64 " bytes; the command ends with exit code %d; %" PRIu64 " trials in %ld s\n", r->new,
-		       count(r->kept, r->n), r->n, bytes, r->code, r->trials, (long)(time(NULL) - begin));
+		printf("%s: %zu of %zu calls, %" PRIu64 " bytes; %s; %" PRIu64 " trials in %ld s\n", r->new, count(r->kept, r->n), r->n, bytes, still,
+		       r->trials, (long)(time(NULL) - begin));
 	return err;
 }
 
@@ -362,7 +448,9 @@ static int reduce(struct reduce *r)
 
 static const struct options_row rows[] = {
 	{ "when", 'w', "COMMAND", "a command of the shell that fails on the recording $TRACE; it runs in a folder of its own, which goes afterwards",
-	  options_text, AT(when), .is_required = 1 },
+	  options_text, AT(when) },
+	{ "frame", 'f', "N", "instead: the fault of a frame, which fails its gates in mode gl", options_frame, AT(frame) },
+	{ "ref", 0, "REF", "what the frame is compared with, as for 'relume diff' (default: TRACE's own reference frames)", options_text, AT(reference) },
 	{ "output", 'o', "FILE", "the recording to write; it appears when it is whole", options_text, AT(new), .is_required = 1 },
 	{ "jobs", 'j', "N", "commands that run at once (default: one for each core)", options_number, AT(at_once), .most = MOST_AT_ONCE },
 	{ "timeout", 0, "S", "seconds after which a command counts as passed (default: ten, and five times what the whole recording takes)",
@@ -372,25 +460,32 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "reduce",
 	.head = "usage: relume reduce TRACE --when COMMAND -o NEW\n"
+	        "       relume reduce TRACE --frame N [--ref REF] -o NEW\n"
 	        "\n"
 	        "Find the smallest recording with which a command still fails: it leaves out frames, then draws, then calls, as long as COMMAND\n"
 	        "ends with the same exit code as on TRACE. NEW runs in apitrace's tools as TRACE does. No call of it can be left out alone.\n"
+	        "\n"
+	        "Of a frame that fails its gates it takes the draw that is to blame: this draw must go on to show the same colours at the\n"
+	        "sixteen pixels that are worst. What makes a program's picture wrong stays. Where relume itself is wrong about a call, its\n"
+	        "picture may not need that call; a command that draws with a real OpenGL as well keeps it.\n"
 	        "\n"
 	        "What a command may ask: does the last frame still look different on Mesa?\n"
 	        "\n"
 	        "    relume reduce x.trace -o small.trace --when 'relume raster \"$TRACE\" -o r.####.png &&\n"
 	        "        relume render \"$TRACE\" --mode gl --aov gl -o g.####.exr && relume diff r.####.png g.####.exr'\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exit codes: 0 done, 2 wrong usage or the command does not fail on TRACE, 3 TRACE cannot be read, 5 the system failed.\n",
-	.takes = "one trace, --when with a command and -o with the file to write", .least = 1, .most = 1,
+	.notes = "Exit codes: 0 done, 2 wrong usage or TRACE does not fail, 3 an input cannot be read, 5 the system failed.\n",
+	.takes = "one trace, --when with a command or --frame with a number, and -o with the file to write", .least = 1, .most = 1,
 };
 
-int reduce_main(int argc, char **argv)
+int reduce_main(int argc, char **argv, reduce_note *note, reduce_again *again)
 {
-	struct reduce r = { .path = NULL };
+	struct reduce r = { .frame = NO_FRAME, .note_fault = note, .again = again };
 	struct options_line line;
 	int err = options_parse(&table, argc, argv, &r, &line);
 
+	if (!err && ((r.when != NULL) == (r.frame != NO_FRAME) || (r.reference && r.when)))
+		err = options_misuse(&table);
 	if (!err) {
 		const long cores = sysconf(_SC_NPROCESSORS_ONLN);
 

@@ -3,7 +3,7 @@
 import sys
 import tempfile
 
-from helpers import RELUME, ROOT, SCRATCH, check, corpus, finish, must, pathlib, record, relume, run
+from helpers import RELUME, ROOT, SCRATCH, check, corpus, diff, finish, must, pathlib, record, relume, render, run
 
 sys.path.insert(0, str(ROOT / "tests/show"))
 from edit_trace import Trace  # noqa: E402
@@ -37,6 +37,24 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
     record(out / "pair.trace", corpus("two_triangles"), "--frames", 2)
     calls = reduce(out / "pair.trace", out / "triangles.trace", TWO)
     check(calls.count("glVertex2f") == 6 and len(calls) <= 12, f"what two triangles need: {calls}")
+
+    # A frame: one colour is wrong, of which the reference frames of before know nothing.
+    trace = Trace(out / "pair.trace")
+    colors = trace.find("glColor3f")
+    trace.change(colors[-1][1], 0.5)
+    trace.save(out / "colour.trace")
+    by_frame = ("reduce", out / "colour.trace", "-o", out / "frame.trace", "-f", 1, "--ref", out / "pair.ref")
+    done = must(relume(*by_frame, timeout=100))
+    calls = must(relume("dump", out / "frame.trace")).stdout
+    check("is still there" in done.stdout and "glBegin" in done.stderr, f"tells the fault: {done.stdout} {done.stderr}")
+    check(calls.count("glVertex2f") == 3 and calls.count("glColor3f") == 1 and calls.count("0.5") >= 1, f"what a wrong colour needs: {calls}")
+    frame_files = render(out / "frame.trace", out / "frame", "--mode", "gl", "--aov", "gl,id")
+    check(len(frame_files) == 1, f"one frame is left: {frame_files}")
+    code, score = diff(out / "pair.ref", frame_files[0], "-f", 0)
+    check(code == 1 and score["frames"][0]["blame"], f"which fails still: {score['frames'][0]['outcome']}")
+    for wrong, why in (((*by_frame, "--when", "false"), "both"), (by_frame[:4], "neither"), ((*by_frame[:5], 7, *by_frame[6:]), "no such frame"),
+                       (("reduce", out / "pair.trace", *by_frame[2:6]), "a frame that passes")):
+        check(relume(*wrong).returncode == 2, why)
 
     done = relume("reduce", out / "whole.trace", "-o", out / "none.trace", "--when", ERROR)
     check(done.returncode == 2 and "nothing to look for" in done.stderr, f"a command that passes: {done.stderr}")

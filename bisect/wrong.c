@@ -1,0 +1,217 @@
+#include "bisect/wrong.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "base/folder.h"
+#include "diff/pictures/set.h"
+#include "diff/report/pictures.h"
+#include "diff/score/gates.h"
+#include "diff/score/picture.h"
+#include "diff/score/score.h"
+#include "render/supply.h"
+#include "replay/replay.h"
+#include "scene/release.h"
+#include "scene/scene.h"
+
+/* What one frame shows. All zero is empty. */
+struct sighted {
+	struct image image;
+	struct score_picture shown; /* of the image */
+	struct scene *scene;
+};
+
+static void free_sighted(struct sighted *v)
+{
+	score_picture_free(&v->shown);
+	image_free(&v->image);
+	if (v->scene)
+		scene_release(&v->scene);
+}
+
+/* Execute a trace up to a frame. @return 0, ERR_USAGE (not reported: there is no such frame), or ERR_* (reported) */
+static int play(struct replay *rp, uint64_t frame, struct scene **scene)
+{
+	int rc = 1;
+
+	for (uint64_t f = 0; f <= frame && rc == 1; f++)
+		rc = replay_next_frame(rp, f == frame, scene);
+	return rc == 1 ? 0 : rc ? rc : ERR_USAGE;
+}
+
+static int see(const char *trace, uint64_t frame, struct sighted *v)
+{
+	const struct tracer_options options = { .mode = TRACER_GL, .samples = 1, .aov = "gl,id,layers" };
+	struct replay *rp = NULL;
+	struct device *dev = NULL;
+	struct tracer *tracer = NULL;
+	struct supply supply = { .parent = NULL };
+	char folder[4096];
+	int err = replay_open(&rp, trace);
+
+	if (!err)
+		err = device_open(NULL, 0, &dev);
+	if (!err && folder_cached("kernels", folder, sizeof(folder)))
+		device_keep_programs(dev, folder, 0);
+	if (!err)
+		err = tracer_create(&tracer, dev);
+	if (!err) {
+		supply.parent = dev;
+		replay_set_supplier(rp, supply_picture, &supply);
+		err = play(rp, frame, &v->scene);
+	}
+	if (!err)
+		err = tracer_render(tracer, v->scene, &options, &v->image);
+	if (!err)
+		err = score_picture_from_image(&v->image, "gl", &v->shown);
+	supply_free(&supply);
+	tracer_destroy(&tracer);
+	if (dev)
+		device_close(&dev);
+	replay_close(&rp);
+	return err;
+}
+
+/* The call of what a pixel shows; UINT64_MAX: of nothing. */
+static uint64_t call_at(const struct sighted *v, size_t pixel)
+{
+	const float id = v->shown.id ? v->shown.id[pixel] : 0;
+
+	return id >= 1 && id <= (float)v->scene->n_draws && v->scene->draws ? v->scene->draws[(uint32_t)id].call_number : UINT64_MAX;
+}
+
+/* --- The note: the call and the frame's size, then a line for each pixel with its codes ---------------------------------------- */
+
+enum { MOST_PIXELS = 16 };
+
+/* The pixels of a call that are furthest from the reference, worst first. @return how many */
+static unsigned find_worst(const struct sighted *v, const struct score_picture *ref, uint64_t call, size_t worst[MOST_PIXELS])
+{
+	int off[MOST_PIXELS];
+	unsigned n = 0;
+
+	for (size_t i = 0; i < (size_t)ref->width * ref->height; i++) {
+		const int d = score_code_difference(v->shown.rgb + 3 * i, ref->rgb + 3 * i);
+		unsigned at;
+
+		if (d <= SCORE_CODES || (n == MOST_PIXELS && d <= off[n - 1]) || call_at(v, i) != call)
+			continue;
+		for (at = n < MOST_PIXELS ? n++ : n - 1; at > 0 && off[at - 1] < d; at--) {
+			off[at] = off[at - 1];
+			worst[at] = worst[at - 1];
+		}
+		off[at] = d;
+		worst[at] = i;
+	}
+	return n;
+}
+
+static int write_note(const struct sighted *v, const struct score_picture *ref, uint64_t call, const char *path, unsigned *n)
+{
+	size_t worst[MOST_PIXELS];
+	FILE *out = fopen(path, "w");
+
+	if (!out)
+		return err_report(ERR_SYSTEM, path, "cannot be written");
+	*n = find_worst(v, ref, call, worst);
+	fprintf(out, "%" PRIu64 " %u %u\n", call, v->shown.width, v->shown.height);
+	for (unsigned i = 0; i < *n; i++) {
+		const uint8_t *c = v->shown.rgb + 3 * worst[i];
+
+		fprintf(out, "%zu %u %u %u\n", worst[i], c[0], c[1], c[2]);
+	}
+	return ferror(out) | fclose(out) ? err_report(ERR_SYSTEM, path, "cannot be written") : 0;
+}
+
+int wrong_again(const char *note, const char *trace, uint64_t frame, uint64_t call)
+{
+	struct sighted v = { .scene = NULL };
+	FILE *in = fopen(note, "r");
+	uint64_t was;
+	unsigned width, height, c[3];
+	size_t i;
+	int err = in && fscanf(in, "%" SCNu64 " %u %u", &was, &width, &height) == 3 ? 0 : err_report(ERR_SYSTEM, note, "cannot be read"), same = 0;
+
+	if (!err)
+		err = see(trace, frame, &v);
+	if (!err)
+		same = v.shown.width == width && v.shown.height == height;
+	while (same && fscanf(in, "%zu %u %u %u", &i, &c[0], &c[1], &c[2]) == 4) {
+		const uint8_t *shown = v.shown.rgb + 3 * i;
+
+		same = call_at(&v, i) == call && shown[0] == c[0] && shown[1] == c[1] && shown[2] == c[2];
+	}
+	free_sighted(&v);
+	if (in)
+		fclose(in);
+	return err == ERR_USAGE ? 0 : err ? err : same;
+}
+
+/* --- The fault ------------------------------------------------------------------------------------------------------------ */
+
+static void tell(const struct score *s, const struct scene_draw *draw)
+{
+	fprintf(stderr, "frame %" PRIu64 " fails", s->frame);
+	for (int g = 0; g < N_GATES; g++)
+		if (s->gates[g].state == SCORE_FAILED)
+			fprintf(stderr, " %s", score_gates[g].name);
+	fprintf(stderr, "; %s (call %" PRIu64 ") is to blame for %" PRIu64 " pixels\n", draw->call, draw->call_number, s->blame[0].pixels);
+}
+
+static int judge(const struct sighted *v, const struct score_picture *ref, uint64_t frame, const char *trace, const char *note)
+{
+	static const struct score_options options = { .channel = "gl" };
+	struct score score = { .frame = frame };
+	uint32_t draw;
+	unsigned pixels = 0;
+	int err;
+
+	if (ref->width != v->shown.width || ref->height != v->shown.height)
+		return err_report(ERR_USAGE, trace, "frame %" PRIu64 " and its reference have different sizes", frame);
+	err = score_frame(ref, &v->image, frame, &options, NULL, &score);
+	if (err)
+		return err;
+	if (score.outcome == SCORE_FRAME_PASSED)
+		return err_report(ERR_USAGE, trace, "frame %" PRIu64 " passes all gates: there is nothing to look for", frame);
+	draw = score.n_blame ? score.blame[0].draw : 0;
+	if (!draw || draw > v->scene->n_draws)
+		return err_report(ERR_USAGE, trace, "frame %" PRIu64 " fails, but no draw is to blame; say what to look for with --when", frame);
+	err = write_note(v, ref, v->scene->draws[draw].call_number, note, &pixels);
+	if (!err && !pixels)
+		err = err_report(ERR_USAGE, trace, "frame %" PRIu64 " fails by its depth or shapes alone; say what to look for with --when", frame);
+	if (!err)
+		tell(&score, &v->scene->draws[draw]);
+	return err;
+}
+
+int wrong_note(const char *trace, const char *reference, uint64_t frame, const char *note)
+{
+	struct set ref = { .name = NULL };
+	struct image image = { .width = 0 };
+	struct score_picture picture = { .width = 0 };
+	struct sighted v = { .scene = NULL };
+	const struct set_entry *entry;
+	int err = set_open(reference, &ref);
+
+	if (!err) {
+		entry = ref.is_single ? ref.entries : set_find(&ref, frame);
+		err = entry ? set_read(&ref, entry, &image) : err_report(ERR_USAGE, ref.name, "has no frame %" PRIu64, frame);
+	}
+	if (!err)
+		err = picture_take_reference(&image, NULL, &picture);
+	if (!err) {
+		err = see(trace, frame, &v);
+		if (err == ERR_USAGE)
+			err_report(err, trace, "has no frame %" PRIu64, frame);
+	}
+	if (!err)
+		err = judge(&v, &picture, frame, trace, note);
+	free_sighted(&v);
+	score_picture_free(&picture);
+	image_free(&image);
+	set_free(&ref);
+	return err;
+}
