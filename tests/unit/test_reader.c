@@ -375,6 +375,30 @@ START_TEST(test_hash)
 }
 END_TEST
 
+/* A place behind the end, as an index of a longer recording names it. */
+START_TEST(test_place_behind)
+{
+	static uint8_t file[8 * 32768];
+	struct bytes b = { .n = 0 };
+	struct trace_place place = { .piece = UINT64_MAX };
+	struct trace_reader *r;
+	const struct call *c;
+
+	put_header(&b);
+	put_numbers(&b);
+	write_file(file, pack_snappy(&b, 100, file));
+	ck_assert_int_eq(trace_reader_open(&r, path_of("trace"), NULL), 0);
+	ck_assert_int_eq(trace_reader_place(r, &place), 1);
+	place.offset = b.n + 1;
+	ck_assert_int_eq(trace_reader_seek(r, &place, NULL, 0), ERR_INPUT);
+	while (trace_reader_next(r, &c) == 1)
+		;
+	ck_assert_int_eq(trace_reader_seek(r, &place, NULL, 0), ERR_INPUT);
+	trace_reader_close(&r);
+	unlink(path_of("trace"));
+}
+END_TEST
+
 START_TEST(test_gzip)
 {
 	struct bytes b = { .n = 0 };
@@ -527,6 +551,7 @@ int main(void)
 	tcase_add_test(tcase, test_numbers);
 	tcase_add_test(tcase, test_numbers_over_pieces);
 	tcase_add_test(tcase, test_hash);
+	tcase_add_test(tcase, test_place_behind);
 	tcase_add_test(tcase, test_gzip);
 	tcase_add_test(tcase, test_cut);
 	tcase_add_test(tcase, test_damaged_chunk);
