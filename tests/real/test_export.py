@@ -10,6 +10,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from glb import Glb  # noqa: E402
 from helpers import ROOT, SCRATCH, check, finish, must, relume  # noqa: E402
 
+sys.path.insert(0, str(ROOT / "tests/show"))
+from edit_trace import Trace  # noqa: E402
+
 COLOR = 7
 
 
@@ -66,6 +69,24 @@ for trace, frame in ((ROOT / "tests/golden/cornell.trace", 1), (ROOT / "tests/go
         want /= sum(a * math.sqrt(d2) ** k for k, a in enumerate(told["attenuation"]))
         got = light["intensity"] / d2 / math.pi
         check(light["type"] == "point" and abs(got - want) < 0.01 * want, f"{trace.stem}: luminance {got} and not {want}")
+
+
+def turns(corners):
+    """Triangles as sets of corners in their sense."""
+    triangles = [[tuple(round(c, 4) for c in corner) for corner in corners[i:i + 3]] for i in range(0, len(corners), 3)]
+    return sorted(min(t[k:] + t[:k] for k in range(3)) for t in triangles)
+
+
+# A turn mirrors nothing: by 60 degrees about y, where the diagonal of the matrix alone has another sign.
+turned = Trace(ROOT / "tests/golden/two_triangles.trace")
+for rotate in turned.find("glRotatef"):
+    for at, value in ((0, 60.0), (2, 1.0), (3, 0.0)):
+        turned.change(rotate[at], value)
+turned.save(SCRATCH / "turned.trace")
+must(relume("export", SCRATCH / "turned.trace", "-f", 1, "-o", SCRATCH / "turned.glb"))
+exported = Glb(SCRATCH / "turned.glb").triangles_eye()
+expected = expected_eye(json.loads(must(relume("scene", SCRATCH / "turned.trace", "-f", 1, "--json", "--vertices")).stdout))
+check(expected and all(turns(exported[name]) == turns(corners) for name, corners in expected.items()), f"the sense of turned triangles: {exported} {expected}")
 
 done = relume("export", ROOT / "tests/golden/cornell.trace", "-f", 99999, "-o", SCRATCH / "none.glb")
 check(done.returncode == 2 and "no frame 99999" in done.stderr, f"a frame that is not there: {done.returncode} {done.stderr}")
