@@ -201,6 +201,27 @@ START_TEST(test_srgb_as_it_is)
 }
 END_TEST
 
+/* Generated levels of encoded colours are means of light; alpha is none. */
+START_TEST(test_srgb_levels)
+{
+	static const uint8_t half[16] = { 255, 255, 255, 255, 0, 0, 0, 0, 255, 255, 255, 255, 0, 0, 0, 0 };
+	struct gl gl = begin();
+	struct scene *s;
+
+	gl_call(&gl, "glTexParameteri", "eei", GL_TEXTURE_2D, GL_GENERATE_MIPMAP, 1);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(half), half);
+	draw(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->textures[0]->n_levels, 2);
+	for (unsigned c = 0; c < 4; c++)
+		ck_assert_int_le(abs(s->textures[0]->texels[16 + c] - (c < 3 ? 188 : 128)), 1);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* An image of one block as the scene shows it. */
 static struct scene *show_block(struct gl *gl, uint32_t internal, int width, int height, size_t n, const void *block)
 {
@@ -387,5 +408,5 @@ START_TEST(test_swizzle_and_border)
 }
 END_TEST
 
-GL_TESTS("formats", test_texels, test_numbers, test_copy_image, test_rgtc, test_other_images, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_small_depth_stencil,
+GL_TESTS("formats", test_texels, test_numbers, test_copy_image, test_rgtc, test_other_images, test_skipped_images, test_srgb_as_it_is, test_srgb_levels, test_s3tc, test_fxt1, test_packed_depth_stencil, test_small_depth_stencil,
 	test_swizzle_and_border)
