@@ -35,6 +35,7 @@ static __thread struct {
 	int in_primitive;      /* between Begin and End, where no call of ours may come */
 	int unswapped;         /* the frame that ends does so without a swap */
 	int drawn, primitives; /* since the last frame: anything at all, anything but clears */
+	int viewport[2];       /* size of the last one that reached beyond the window */
 } self __attribute__((tls_model("initial-exec")));
 
 /* Frames */
@@ -45,19 +46,27 @@ static int may_be_read(void)
 	return reference_wanted(writer_frames()) || (threads > 1 && reference_wanted(0));
 }
 
+static void mark_size(struct drawable *d, int width, int height)
+{
+	char text[64];
+
+	if (width <= 0 || height <= 0 || (width == d->marked_width && height == d->marked_height && d->marked_epoch == writer_epoch()))
+		return;
+	snprintf(text, sizeof(text), "relume:drawable %d %d", width, height);
+	marker_write(text);
+	d->marked_width = width;
+	d->marked_height = height;
+	d->marked_epoch = writer_epoch();
+	self.viewport[0] = 0; /* what was beyond it may be within */
+}
+
 static void frame_end(struct drawable *d, int width, int height)
 {
 	char text[64];
 
 	if (skip_active())
 		return;
-	if ((width != d->marked_width || height != d->marked_height || d->marked_epoch != writer_epoch()) && width > 0 && height > 0) {
-		snprintf(text, sizeof(text), "relume:drawable %d %d", width, height);
-		marker_write(text);
-		d->marked_width = width;
-		d->marked_height = height;
-		d->marked_epoch = writer_epoch();
-	}
+	mark_size(d, width, height);
 	snprintf(text, sizeof(text), "relume:time %llu", (unsigned long long)clock_ns());
 	marker_write(text);
 	if (d->id == self.target.id && context_current() && may_be_read())
@@ -113,6 +122,21 @@ static void frame_end_current(void)
 	if (p)
 		writer_frame_call_end(p);
 	frame_ended();
+}
+
+void frame_viewport(int x, int y, int width, int height)
+{
+	struct drawable *d = self.target.id && writer_active() && !skip_active() ? drawable_find(self.target.id) : NULL;
+	int saved = errno;
+
+	drawable_may_have_changed();
+	if (!d || !d->width || (width == self.viewport[0] && height == self.viewport[1]) || ((int64_t)x + width <= d->width && (int64_t)y + height <= d->height))
+		return;
+	drawable_ask(d, &self.target, 1);
+	mark_size(d, d->width, d->height);
+	self.viewport[0] = width;
+	self.viewport[1] = height;
+	errno = saved;
 }
 
 void frame_primitive_begins(void)

@@ -12,6 +12,12 @@ void frame_end_glx(void *display, unsigned long drawable);
 void frame_end_egl(void *display, void *surface);
 void frame_ended(void);
 
+/**
+ * The program has set a viewport. One that reaches beyond the window as it was: has the window grown? What is drawn from here on is then
+ * seen. It is asked once for a size: some programs' viewports are always larger than their window.
+ */
+void frame_viewport(int x, int y, int width, int height);
+
 void frame_primitive_begins(void);
 void frame_primitive_ended(void);
 void frame_drawn(void);
