@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/time.h>
 #include <sys/wait.h>
@@ -233,6 +234,25 @@ static int make_stats(char *path, size_t size, struct recorder_stats **out)
 	return 0;
 }
 
+/*
+ * 1 where the file that execvp finds brings rights of its own (set-user-ID, set-group-ID: Debian's games of old do, for their scores).
+ * The loader preloads nothing for such a program.
+ */
+static int has_rights_of_its_own(const char *program)
+{
+	const char *end, *dir = strchr(program, '/') ? "" : getenv("PATH");
+	char path[PATH_MAX];
+	struct stat st;
+
+	for (; dir; dir = *end ? end + 1 : NULL) {
+		end = strchrnul(dir, ':');
+		snprintf(path, sizeof(path), "%.*s%s%s", (int)(end - dir), dir, end > dir ? "/" : "", program);
+		if (access(path, X_OK) == 0 && stat(path, &st) == 0 && S_ISREG(st.st_mode))
+			return (st.st_mode & (S_ISUID | S_ISGID)) != 0;
+	}
+	return 0;
+}
+
 static void set_or_unset(const char *name, const char *value)
 {
 	if (value)
@@ -321,9 +341,11 @@ static int wait_for_child(const struct recorder_stats *stats)
 static int run_program(const struct options *o, const char *recorder, const char *stats_path, const struct recorder_stats *stats)
 {
 	struct sigaction action = { .sa_handler = forward }, old[N_FORWARDED];
-	int pipe_fds[2], error = 0, status = 0;
+	int pipe_fds[2], error = 0, status = 0, no_new_rights = has_rights_of_its_own(o->program[0]);
 	pid_t watcher = -1;
 
+	if (no_new_rights)
+		err_warn(o->program[0], "runs without the rights of its file's owner or group: with them it cannot be recorded");
 	if (pipe2(pipe_fds, O_CLOEXEC))
 		return -1;
 	/* Signals wait until the child has put the old handlers back and we know its number. */
@@ -338,6 +360,8 @@ static int run_program(const struct options *o, const char *recorder, const char
 			sigaction(forwarded[i], &old[i], NULL);
 		sigprocmask(SIG_SETMASK, &before, NULL);
 		set_environment(o, recorder, stats_path);
+		if (no_new_rights)
+			prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
 		execvp(o->program[0], o->program);
 		error = errno;
 		if (write(pipe_fds[1], &error, sizeof(error)) < 0)

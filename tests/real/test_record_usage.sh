@@ -39,6 +39,15 @@ expect 0 "no OpenGL call" -o "$TMPDIR/x.trace" -- true
 expect 7 "no OpenGL call" -o "$TMPDIR/x.trace" -- sh -c 'exit 7'
 expect 143 "no OpenGL call" -o "$TMPDIR/x.trace" -- sh -c 'kill -TERM $$'
 expect 3 "no OpenGL call" -o "$TMPDIR/x.trace" --env WORD=three -- sh -c '[ "$WORD" = three ] && exit 3'
+# A program whose file has a group of its own: the loader preloads nothing where it runs with that group.
+group=$(id -G | tr ' ' '\n' | grep -vx "$(id -g)" | head -n 1)
+[ "$(id -u)" = 0 ] && group=60
+cp "$(command -v env)" "$TMPDIR/owned"
+if [ -n "$group" ] && chgrp "$group" "$TMPDIR/owned" && chmod g+s "$TMPDIR/owned"; then
+	expect 0 "without the rights of its file" -o "$TMPDIR/x.trace" -- "$TMPDIR/owned"
+	expect 0 "LD_PRELOAD=.*librelume" -o "$TMPDIR/x.trace" -- "$TMPDIR/owned"
+	(PATH="$TMPDIR:$PATH" && expect 0 "without the rights of its file" -o "$TMPDIR/x.trace" -- owned && exit $bad) || bad=1
+fi
 if [ -e "$TMPDIR/x.trace" ]; then
 	echo "a program without OpenGL left a trace"
 	bad=1
