@@ -104,6 +104,10 @@ struct scene_stencil {
 	uint32_t fail, zfail, zpass; /* GL tokens */
 };
 
+/* What a drawable of floats holds: floats, or in all of its colours halves, of which drawing cuts off what they have no room for. Bits: both is floats. */
+#define SCENE_FLOATS 1u
+#define SCENE_HALVES 2u
+
 /* Everything GL looks at for a fragment or vertex of this draw, but for matrices, view and current attributes. */
 struct scene_material {
 	/* lighting, GL 2.1 sec. 2.14 */
@@ -162,7 +166,7 @@ struct scene_material {
 	float blend_color[4];
 	uint32_t logic_op;   /* 0: off; else GL token */
 	uint32_t color_mask; /* bits: 1 red, 2 green, 4 blue, 8 alpha */
-	uint32_t floats;     /* 1: into a drawable of floats: nothing is rounded to 8 bits */
+	uint32_t floats;     /* SCENE_FLOATS or SCENE_HALVES: into a drawable of such, and nothing is rounded to 8 bits; 0 */
 	uint32_t unclamped;  /* bits: colours that may leave [0,1] (ARB_color_buffer_float): 1 of fragments, 2 of vertices */
 
 	struct scene_surface surface;
@@ -256,7 +260,7 @@ struct scene_clear {
 	uint32_t stencil;
 	uint32_t color_mask;   /* as in the material */
 	uint32_t stencil_mask; /* write mask */
-	uint32_t floats;       /* as in the material: the colour may be beyond [0,1] */
+	uint32_t floats;       /* not 0: as in the material: the colour may be beyond [0,1] */
 };
 
 enum { /* bits of scene_mesh.attributes; SCENE_HAS_TEXCOORD << unit, SCENE_HAS_GENERIC << (number - 1) */
@@ -338,7 +342,7 @@ struct scene {
 	uint32_t width, height; /* of the drawable; the frame's picture */
 	uint32_t depth_bits, stencil_bits, alpha_bits; /* of the drawable */
 	uint32_t samples; /* of a pixel; 0 counts as 1, more as SCENE_SAMPLES. Where they are: tracer/frame/trace.c */
-	uint32_t floats;  /* 1: its colours are floats (ARB_color_buffer_float) */
+	uint32_t floats;  /* not 0: its colours are floats (ARB_color_buffer_float) */
 	uint32_t output;  /* which of the colours of programs that draw to several buffers it shows, from 0 (scene_program.data) */
 	uint32_t samples_from_below; /* 1: their rows count from the bottom, as llvmpipe has it in framebuffer objects */
 

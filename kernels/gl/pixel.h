@@ -114,8 +114,22 @@ static inline float pixel_nudge(float x)
 	return M_ABS(rest) > 0.46f ? (code + (rest > 0.0f ? 0.46f : -0.46f)) / 255.0f : x;
 }
 
-/* The colour that the frame buffer gets from a source over a destination; the mask is the caller's. */
-static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
+/* A number as llvmpipe (22.3.6) stores it in a half: what there is no room for is cut off, not rounded. */
+static inline float pixel_half(float x)
+{
+	const uint32_t bits = M_BITS(x), size = bits & 0x7fffffffu;
+	uint32_t cut = size & ~0x1fffu;
+
+	if (size >= 0x7f800000u) /* no numbers */
+		return x;
+	if (size >= 0x477fe000u)
+		cut = 0x477fe000u; /* the largest */
+	else if (size < 0x38800000u) /* in steps of 2^-24 */
+		cut = M_BITS((float)(uint32_t)(M_FLOAT(size) * 16777216.0f) / 16777216.0f);
+	return M_FLOAT((bits & 0x80000000u) | cut);
+}
+
+static inline struct vec4 pixel_blended(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
 {
 	if (!m->blend && !m->logic_op)
 		return s;
@@ -126,6 +140,13 @@ static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, st
 		return v4(pixel_logic(m->logic_op, s.x, d.x), pixel_logic(m->logic_op, s.y, d.y),
 		          pixel_logic(m->logic_op, s.z, d.z), pixel_logic(m->logic_op, s.w, d.w));
 	return blend_colors(m, s, d);
+}
+
+/* The colour that the frame buffer gets from a source over a destination; the mask is the caller's. */
+static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
+{
+	s = pixel_blended(m, s, d);
+	return m->floats == SCENE_HALVES ? v4(pixel_half(s.x), pixel_half(s.y), pixel_half(s.z), pixel_half(s.w)) : s;
 }
 
 /*

@@ -439,6 +439,9 @@ static void floats(void)
 	glEnable(GL_BLEND);
 	glBlendFunc(GL_ONE, GL_ONE);
 	panel(8, 8, 16, 0.25f, 0.25f, 0.5f, 0);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	for (int k = 0; k < 400; k++) /* what each stores is cut off to a half: that adds up */
+		panel(0, 0, 8, 0.9f, 0.4f, 0.7f, 0.005f);
 	glDisable(GL_BLEND);
 	glGenTextures(1, &copy);
 	glBindTexture(GL_TEXTURE_2D, copy);

@@ -110,7 +110,7 @@ int gls_attachments_describe(const struct gls_share *share, const struct gls_att
 			s->samples = t.renderbuffer->samples;
 		if (i < DEPTH) {
 			s->alpha_bits |= has_alpha(gls_base_format(t.format)) ? 8 : 0;
-			s->floats |= gls_format_is_float(t.format);
+			s->floats |= gls_format_floats(t.format);
 		}
 		else if (i == DEPTH)
 			s->depth_bits = gls_format_depth_bits(t.format);
@@ -239,7 +239,7 @@ static struct scene_picture *content_of(struct gls_exec *x, const struct target 
 
 	if (!r->content)
 		r->content = gls_picture_make(x, &(struct gls_picture_form){ r->width, r->height, 24, 8, r->samples,
-		                                                             gls_format_is_float(r->internal_format) });
+		                                                             gls_format_floats(r->internal_format) });
 	return held_by(t);
 }
 

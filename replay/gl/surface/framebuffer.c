@@ -379,7 +379,7 @@ static void storage(struct gls_exec *x, struct gls_state *st, uint32_t format, i
 		gls_error(x, st, r ? GL_INVALID_VALUE : GL_INVALID_OPERATION);
 		return;
 	}
-	if (samples > 1 && gls_format_is_float(format))
+	if (samples > 1 && gls_format_floats(format))
 		gls_unsupported(x, "floats of several samples a pixel: their means are clamped");
 	update_sharing(x, st->share, &(struct gls_attachment){ .renderbuffer = st->renderbuffer }, NULL);
 	gls_picture_release(r->content);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "scene/scene.h"
 
 /*
  * What Mesa stores of each format. Formats of 8 bits a channel or more keep 8 here. Of smaller ones, llvmpipe has R3_G3_B2 to RGB5_A1
@@ -145,11 +146,11 @@ static void expand(uint32_t base, const float color[4], float out[4])
 		out[0] = color[0];
 }
 
-uint32_t gls_format_is_float(uint32_t internal_format)
+uint32_t gls_format_floats(uint32_t internal_format)
 {
 	const struct gls_format *f = gls_format_find(internal_format);
 
-	return f && f->numbers >= GLS_FLOAT;
+	return !f || f->numbers < GLS_FLOAT ? 0 : f->numbers == GLS_HALF ? SCENE_HALVES : SCENE_FLOATS;
 }
 
 uint32_t gls_texel_bytes(uint32_t internal_format)

@@ -36,8 +36,8 @@ uint32_t gls_base_format(uint32_t internal_format);
 /** Depth and stencil bits of a surface that such a texture or renderbuffer is attached to. */
 uint32_t gls_format_depth_bits(uint32_t internal_format);
 uint32_t gls_format_stencil_bits(uint32_t internal_format);
-/** 1: a surface that such a texture or renderbuffer is attached to holds floats. */
-uint32_t gls_format_is_float(uint32_t internal_format);
+/** What a surface holds that such a texture or renderbuffer is attached to: SCENE_FLOATS, SCENE_HALVES or 0, codes. */
+uint32_t gls_format_floats(uint32_t internal_format);
 /** Bytes of a texel: 4, or 16 where it is four floats. */
 uint32_t gls_texel_bytes(uint32_t internal_format);
 /** A colour as a texel, rounded to what the format can hold, expanded as sampling does (table 3.20). */
