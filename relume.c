@@ -10,6 +10,7 @@
 #include "bisect/wrong.h"
 #include "diff/diff.h"
 #include "replay/draw_names.h"
+#include "replay/verbs/reduce.h"
 
 /* diff/ opens no replay: replay/ tells it what draws were. */
 static int diff_with_names(int argc, char **argv)
