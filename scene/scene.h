@@ -129,7 +129,8 @@ struct scene_material {
 
 	/* fog, GL 2.1 sec. 3.10 */
 	uint32_t fog;
-	uint32_t fog_mode, fog_coord_source; /* GL tokens */
+	uint32_t fog_mode; /* GL token */
+	uint32_t fog_coord_source; /* GL_FOG_COORD, or how far from the viewer: GL_EYE_PLANE_ABSOLUTE_NV, GL_EYE_PLANE, GL_EYE_RADIAL_NV */
 	float fog_density, fog_start, fog_end, fog_color[4];
 
 	/* rasterization, GL 2.1 sec. 3.3 - 3.5 */

@@ -85,7 +85,7 @@ static inline void hook_vertex(const struct hook_intersect_arguments *a, uint32_
 	v3_store(out->normal, normal);
 	a->windows[g->vertex_first + number].w_inv = 0.0f; /* no place: point_shows_front goes by clip space */
 	vertex_store_colors(t, g, m, number, out);
-	out->fog_coord = M_ABS(eye.z);
+	out->fog_coord = vertex_fog_distance(m->fog_coord_source, eye);
 	out->size[0] = out->size[1] = 0.0f;
 	for (uint32_t i = 0u; i < m->unit_count; i++)
 		v4_store(a->made_coords + (g->texcoord_first + number * m->unit_count + i) * 4u,

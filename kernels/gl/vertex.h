@@ -63,6 +63,14 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 	return lit;
 }
 
+/* How far fog lies before a vertex in eye space (NV_fog_distance); squares add up as Mesa's dot products do. */
+static inline float vertex_fog_distance(uint32_t source, struct vec4 eye)
+{
+	if (source == GL_EYE_RADIAL_NV)
+		return M_SQRT(eye.z * eye.z + eye.y * eye.y + eye.x * eye.x);
+	return source == GL_EYE_PLANE ? eye.z : M_ABS(eye.z);
+}
+
 /* Both sides' colours of a vertex that has its place and its normal. m: its material */
 static inline void vertex_store_colors(const struct tables *t, GLOBAL const struct geometry *g, GLOBAL const struct scene_material *m, uint32_t v,
                                        GLOBAL struct shaded_vertex *out)
@@ -154,7 +162,7 @@ static inline void vertex_item(const struct vertex_arguments *a, uint32_t item)
 	a->windows[item] = clip_window(view, clip, (float)a->height);
 
 	vertex_store_colors(t, g, m, v, out);
-	out->fog_coord = m->fog_coord_source == GL_FOG_COORD ? tables_fog_coord(t, g, v) : M_ABS(eye.z);
+	out->fog_coord = m->fog_coord_source == GL_FOG_COORD ? tables_fog_coord(t, g, v) : vertex_fog_distance(m->fog_coord_source, eye);
 	out->size[0] = vertex_point_size(m, eye);
 	out->size[1] = 0.0f;
 

@@ -94,7 +94,7 @@ uint32_t made_add_material(struct made *made, float diffuse)
 	m->front_face = GL_CCW;
 	m->polygon_mode_front = m->polygon_mode_back = GL_FILL;
 	m->polygon_stipple = SCENE_NONE;
-	m->fog_coord_source = GL_FRAGMENT_DEPTH;
+	m->fog_coord_source = GL_EYE_PLANE_ABSOLUTE_NV;
 	m->line_width = m->point_size = 1;
 	m->point_size_max = 64;
 	m->point_attenuation[0] = 1;

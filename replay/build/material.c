@@ -409,7 +409,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.color_sum = a->fog.color_sum;
 	m.fog = a->fog.enabled;
 	m.fog_mode = a->fog.mode;
-	m.fog_coord_source = a->fog.coord_source;
+	m.fog_coord_source = a->fog.coord_source == GL_FOG_COORD ? GL_FOG_COORD : a->fog.distance_mode;
 	m.fog_density = a->fog.density;
 	m.fog_start = a->fog.start;
 	m.fog_end = a->fog.end;

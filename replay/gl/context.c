@@ -97,7 +97,7 @@ static void init_attribs(struct gls_attribs *a)
 	a->transform.matrix_mode = GL_MODELVIEW;
 	a->viewport.depth_range[1] = 1;
 	init_lighting(&a->lighting);
-	a->fog = (struct gls_fog){ .mode = GL_EXP, .coord_source = GL_FRAGMENT_DEPTH, .density = 1, .end = 1 };
+	a->fog = (struct gls_fog){ .mode = GL_EXP, .coord_source = GL_FRAGMENT_DEPTH, .distance_mode = GL_EYE_PLANE_ABSOLUTE_NV, .density = 1, .end = 1 };
 	a->point = (struct gls_point){ .size = 1, .size_max = 255, .fade_threshold = 1, .attenuation = { 1 },
 	                               .sprite_origin = GL_UPPER_LEFT };
 	a->line = (struct gls_line){ .width = 1, .stipple_pattern = 0xffff, .stipple_factor = 1 };

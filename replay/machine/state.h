@@ -72,7 +72,7 @@ struct gls_lighting {
 
 /* Table 6.8, fog. */
 struct gls_fog {
-	uint32_t enabled, mode, coord_source, color_sum;
+	uint32_t enabled, mode, coord_source, distance_mode, color_sum;
 	float density, start, end, color[4], index;
 };
 

@@ -9,7 +9,7 @@ from helpers import AS_SHOWN, SCRATCH, check, check_alone, check_same_pictures, 
 
 PROGRAMS = {
     "light": ("attenuation", "spots", "terms", "shininess", "sides", "normals", "many lights", "flat shading"),
-    "fog": ("modes", "colours", "lit", "points, lines, rectangles"),
+    "fog": ("modes", "colours", "lit", "points, lines, rectangles", "distances"),
     "texture": ("environments", "combiner functions", "combiner operands", "generated coordinates"),
     "fragment": ("blend factors", "more blend factors", "blend equations", "tests", "stencil", "stencil of two sides", "user planes"),
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "what rectangles go through",

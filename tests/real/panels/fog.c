@@ -46,6 +46,18 @@ static void mode(int i)
 	fog_color(0.2f, 0.4f, texture ? 0.9f : 0.1f, 0.5f);
 }
 
+/* How far from the viewer fog is measured (NV_fog_distance); half of the slope lies to his side. */
+static void distance(int i)
+{
+	static const GLenum distances[3] = { GL_EYE_RADIAL_NV, GL_EYE_PLANE, GL_EYE_PLANE_ABSOLUTE_NV };
+	const int d = choose(&i, 3), aside = choose(&i, 2);
+
+	mode(i);
+	glFogi(GL_FOG_COORD_SRC, GL_FRAGMENT_DEPTH);
+	glFogi(GL_FOG_DISTANCE_MODE_NV, (GLint)distances[d]);
+	glTranslatef(aside ? 0.8f : 0, 0, 0);
+}
+
 /* Colours of the fog that leave [0, 1]; orthographic projections; alpha, which fog leaves alone. */
 static void colored(int i)
 {
@@ -131,7 +143,7 @@ static void draw_other(int i)
 
 int main(void)
 {
-	static const struct table tables[] = { { 96, mode, draw_slope }, { 48, colored, draw_slope }, { 72, lit, draw_lit }, { 48, other, draw_other } };
+	static const struct table tables[] = { { 96, mode, draw_slope }, { 48, colored, draw_slope }, { 72, lit, draw_lit }, { 48, other, draw_other }, { 72, distance, draw_slope } };
 
 	DRAW_TABLES(tables, NULL);
 	return 0;
