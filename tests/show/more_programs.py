@@ -109,7 +109,7 @@ TABLE = (
     (GAMES, "projectl", "projectl", ("projectl", "-nosound", "-window"), {"keys": ("wait 8", "key z", "wait 2", "key z", "wait 2", "key z", "keydown z"), "seconds": 18}),
     (GAMES, "enemylines3", "enemylines3", ("enemylines3", "-noaudio", "-width", "640", "-height", "480"), {"keys": ("wait 4", *hold("Return", "Return", "Return"))}),
     (GAMES, "enemylines7", "enemylines7", ("enemylines7", "-noaudio", "-width", "640", "-height", "480"), {"keys": ("wait 4", *hold("Return", "Return", "Return"))}),
-    (GAMES, "blockout2", "blockout2", ("blockout2",), {"keys": ("wait 5", *hold("Return", "Return", "Return", "Left", "space"))}),
+    (GAMES, "blockout2", "blockout2", ("blockout2",), {"keys": ("wait 5", *hold("Return", "Return", "Return", "Left", "space")), "ref_every": 5, "seconds": 11}),
     (GAMES, "brutalchess", "brutalchess", ("brutalchess",), {"ref_every": 5, "keys": ("wait 8", "drag 300 400 350 400")}),
     (GAMES, "briquolo", "briquolo", ("briquolo", "-w"), {"keys": ("wait 5", *hold("Return", "Down", "Down", "Return"), "click 400 300")}),
     (GAMES, "dreamchess", "dreamchess", ("dreamchess", "-W640", "-H480"), {"keys": ("wait 5", *hold("Return", "Return", "Return"))}),
@@ -130,7 +130,7 @@ TABLE = (
     (GAMES, "extremetuxracer", "extremetuxracer", ("etr",), {"keys": ("wait 6", *hold("Return", "Return", "Return", "Return", "Return"), "keydown Up"), "seconds": 24}),
     (SCIENCE, "achilles", "achilles", ("achilles",), {"ref_every": 300}),
     (SCIENCE, "antennavis", "antennavis", ("antennavis",), {"ref_every": 1, "keys": TURN}),
-    (SCIENCE, "drawxtl", "drawxtl", ("sh", "-c", "cp /usr/share/doc/drawxtl/examples/bucky.str . && exec drawxtl bucky.str"), {"ref_every": 20, "keys": TURN}),
+    (SCIENCE, "drawxtl", "drawxtl", ("sh", "-c", "cp /usr/share/doc/drawxtl/examples/bucky.str . && exec drawxtl bucky.str"), {"ref_every": 10, "keys": ("wait 3", *TURN), "seconds": 18}),
     (SCIENCE, "gdis", "gdis xmakemol-gl", ("gdis", C60), {"ref_every": 1, "keys": TURN}),
     (SCIENCE, "v-sim", "v-sim xmakemol-gl", ("v_sim", C60), {"ref_every": 1, "keys": TURN}),
     (SCIENCE, "evolver", "evolver-ogl", ("evolver-ogl-d", "cube.fe"), {"ref_every": 1, "files": (("cube.fe", CUBE),)}),
@@ -140,7 +140,7 @@ TABLE = (
     (GAMES, "teeworlds", "teeworlds teeworlds-server", ("sh", "-c", "teeworlds-server & exec teeworlds 'gfx_fullscreen 0' 'gfx_screen_width 640' 'gfx_screen_height 480' 'connect 127.0.0.1'"), {"keys": ("wait 8", "keydown d")}),
     (DESKTOP, "dosbox", "dosbox", ("dosbox", "-conf", "dos.conf"), {"files": (("dos.conf", DOS),), "keys": ("wait 5", "type ver", "key Return", "type dir", "key Return"), "ref_every": 8}),
     (GAMES, "supertux", "supertux", ("supertux2", "--window", "-g", "640x480", "/usr/share/games/supertux2/levels/world1/above_arctic_skies.stl"), {"keys": ("wait 8", *hold("Return"), "keydown Right"), "seconds": 18}),
-    (GAMES, "torcs", "torcs", ("torcs",), {"keys": ("wait 9", *(6 * (*hold("Return"), "wait 2")), "keydown Up"), "seconds": 40}),
+    (GAMES, "torcs", "torcs", ("torcs",), {"keys": ("wait 9", *(6 * (*hold("Return"), "wait 2")), "keydown Up"), "seconds": 45, "ref_every": 2}),
     (GAMES, "opencity", "opencity", ("opencity",), {"keys": ("wait 6", "click 300 300"), "seconds": 16}),
     (TEACHING, "kubrick", "kubrick", ("kubrick",), {"ref_every": 1, "keys": TURN}),
     (TEACHING, "golly", "golly", ("golly", "/usr/share/golly/Patterns/Life/Breeders/breeder.lif"), {"ref_every": 1, "keys": ("wait 5", *hold("Return"))}),
@@ -159,8 +159,7 @@ TABLE = (
     (DESKTOP, "projectM", "projectm-sdl", ("projectMSDL",), {"ref_every": 5}),
     (GAMES, "pipewalker", "pipewalker", ("pipewalker",), {"ref_every": 1, "keys": ("wait 4", "click 150 200", "wait 1", "click 250 300", "wait 1", "click 300 200")}),
     (GAMES, "dsda-doom", "dsda-doom freedoom", ("dsda-doom", "-iwad", FREEDOOM, "-warp", "1", "1", *DOOM), {"keys": ("wait 6", "keydown Up", "wait 2", "keydown Left")}),
-    (GAMES, "glob2", "glob2", ("glob2",), {"keys": TURN}),
-    (DESKTOP, "glxheads", "mesa-utils", ("glxheads",), {}),
+    (DESKTOP, "glxheads", "mesa-utils", ("glxheads",), {"ref_every": 500, "seconds": 8}),
 )
 
 
