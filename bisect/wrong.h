@@ -1,8 +1,8 @@
 /*
- * A fault that a frame's gates find: a draw whose pixels show other colours than the reference has.
+ * A fault that a frame's gates find: a draw that shows other colours than the reference has.
  *
- * It is the same fault in another recording where the same call shows the same wrong colours at the same pixels, of which the worst are
- * looked at, whatever else the frame lacks.
+ * Another recording has the same fault where the same call shows the same wrong colours at the same pixels, whatever else the frame lacks.
+ * The worst pixels alone are looked at.
  */
 #pragma once
 

@@ -9,17 +9,17 @@ import os
 import shutil
 
 import replayed
+import wine
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_gates, corpus, diff, finish, frames_of, must, on_display, record, relume, render, run, skip
 
 FRAMES = 10
-PROGRAMS = {"two_triangles": ("--animate", "camera"), "spheres": ("--animate", "camera"), "tricks": ("zfail",), "wgl": ()}
 
 if not (BUILD / "windows/wgl.exe").exists() or not shutil.which("wine"):
     skip("'make windows' has not been run: no programs of Windows")
 
-os.environ.update(WINEPREFIX=str(SCRATCH / "wine"), WINEDEBUG="-all", WINEDLLOVERRIDES="mscoree=;mshtml=", WINEARCH="win64")
+os.environ.update(wine.environment(SCRATCH / "wine"))
 must(on_display("wineboot", "-i"))
-for name, options in PROGRAMS.items():
+for name, options in {**wine.PROGRAMS, "wgl": ()}.items():
     trace, frames = SCRATCH / f"{name}.trace", ("--frames", FRAMES) if options else ()
     record(trace, "wine", BUILD / f"windows/{name}.exe", *options, *frames)
     info = json.loads(must(relume("info", "--json", trace)).stdout)

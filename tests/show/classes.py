@@ -14,22 +14,24 @@ import subprocess
 import sys
 import tempfile
 
-from display import need_display
-from scoring import Line, Scorer, summarize
-from table import Shown
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests/real"))
+import wine  # noqa: E402
+from display import need_display  # noqa: E402
+from scoring import Line, Scorer, summarize  # noqa: E402
+from table import Shown  # noqa: E402
 
 FRAMES, MORE_FRAMES, ROUNDS = 10, 300, 5
 GATES = ("V", "R1", "R2", "R3", "R4", "R5", "P")
-PROGRAMS = (("two_triangles", "--animate", "camera"), ("spheres", "--animate", "camera"), ("tricks", "zfail"))
 
 
 def kinds(build):
     """(kind, name, command that --frames N may follow, gates that can be measured)"""
-    for name, *options in PROGRAMS:
+    for name, options in wine.PROGRAMS.items():
         yield "Wine", name, ["wine", build / f"windows/{name}.exe", *options], GATES
     for name in ("shapes", "fixed", "sprites"):
         yield "OpenGL ES 1", name, [build / f"corpus/es/{name}"], tuple(g for g in GATES if g != "R5")
-    for name, *options in PROGRAMS:
+    for name, options in wine.PROGRAMS.items():
         yield "32 bits", name, [build / f"i386/{name}", *options], GATES
 
 
@@ -76,7 +78,7 @@ def main(build):
     build = pathlib.Path(build).resolve()
     shown = Shown(build, "reach")
     with tempfile.TemporaryDirectory() as prefix:
-        os.environ.update(WINEPREFIX=prefix, WINEDEBUG="-all", WINEDLLOVERRIDES="mscoree=;mshtml=", WINEARCH="win64")
+        os.environ.update(wine.environment(prefix))
         if shutil.which("wineboot"):
             subprocess.run(["wineboot", "-i"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
         for kind, name, command, gates in kinds(build):
