@@ -520,6 +520,14 @@ static void add_undrawn(struct pipeline_state *state, const struct tracer *trace
 	pthread_mutex_unlock(&state->lock);
 }
 
+static void drop_picture(struct picture **picture)
+{
+	if (*picture)
+		image_free(&(*picture)->img);
+	free(*picture);
+	*picture = NULL;
+}
+
 /* Make one picture. @return 1; 0: the device has failed, and this worker ends. *tracer may be NULL afterwards */
 static int work_on(struct worker *w, struct tracer **tracer, struct shot *shot)
 {
@@ -532,7 +540,7 @@ static int work_on(struct worker *w, struct tracer **tracer, struct shot *shot)
 	else if (!watch_is_over(state->p->watch))
 		outcome = trace(w, *tracer, shot, picture);
 	if (outcome == BROKEN) {
-		free(picture);
+		drop_picture(&picture);
 		retire(state, shot);
 		return 0;
 	}
@@ -548,9 +556,7 @@ static int work_on(struct worker *w, struct tracer **tracer, struct shot *shot)
 		if (start_tracer(w, tracer))
 			fail(state, ERR_SYSTEM);
 	}
-	if (picture)
-		image_free(&picture->img);
-	free(picture);
+	drop_picture(&picture);
 	land(state);
 	return 1;
 }
@@ -633,8 +639,7 @@ static void *write_all(void *arg)
 			note(state, picture->frame, "done", picture->seconds);
 		else if (!state->err)
 			fail(state, err);
-		image_free(&picture->img);
-		free(picture);
+		drop_picture(&picture);
 		land(state);
 	}
 	return NULL;

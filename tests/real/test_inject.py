@@ -11,6 +11,12 @@ import inject  # noqa: E402
 
 MOST = 7  # of each class
 
+
+def last_mallocs(counts, most):
+    """Those of a picture that is traced: what is told of it goes into its attributes."""
+    return [f"malloc:{counts['malloc'] - i}" for i in range(most)]
+
+
 with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
     inputs = pathlib.Path(folder)
     inject.prepare(BUILD, inputs)
@@ -22,6 +28,8 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
         check(n > 10, f"{case.name}: {n} points")
         for what in wrong:
             check(False, what)
+    n, wrong = inject.try_case(trial, next(case for case in inject.CASES if case.name == "render"), 20, 2, last_mallocs)
+    check(n == 20 and not wrong, f"render: {wrong}")
     for verb in (["info"], ["scene", "-f", "0"], ["dump"]):
         with open("/dev/full", "w") as full:
             done = subprocess.run([trial.relume, *verb, inputs / "x.trace"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)

@@ -131,8 +131,8 @@ def points_of(counts, most):
                 yield f"{name}:{at}+"
 
 
-def try_case(trial, case, most, workers):
-    """(points tried, [what is wrong])"""
+def try_case(trial, case, most, workers, points_of=points_of):
+    """(points tried, [what is wrong]). points_of: which ones, of counts"""
     count = trial.inputs / f"{case.name}.count"
     trial.run(case)  # what is kept for later runs is there now
     good = trial.run(case, count=count)
