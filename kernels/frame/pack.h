@@ -342,24 +342,23 @@ WIDE_VECTORS static inline void pack_place_part(const struct clip_polygon *polyg
 	}
 }
 
-/* Texture coordinates of one unit: those of the vertices of a lane's triangle become those of its part's corners in all lanes of the part. */
-WIDE_VECTORS static inline void pack_cut_texcoord(const struct clip_polygon *polygon, uint lane, packi lanes, const struct pack *p,
-                                                  packf (*texcoord)[4])
+/* Four numbers of the vertices of a lane's triangle become those of its part's corners in all lanes of the part. */
+WIDE_VECTORS static inline void pack_cut_row(const struct clip_polygon *polygon, uint lane, packi lanes, const struct pack *p, packf (*row)[4])
 {
 	struct vec4 pool[3 + CLIP_MAX_CUTS];
 
 	for (uint k = 0; k < 3; k++)
-		pool[k] = v4(LANE(texcoord[k][0], float, lane), LANE(texcoord[k][1], float, lane), LANE(texcoord[k][2], float, lane),
-		             LANE(texcoord[k][3], float, lane));
+		pool[k] = v4(LANE(row[k][0], float, lane), LANE(row[k][1], float, lane), LANE(row[k][2], float, lane),
+		             LANE(row[k][3], float, lane));
 	for (uint k = 0; k < polygon->cuts.n; k++)
 		pool[3 + k] = v4_mix(pool[polygon->cuts.from[k]], pool[polygon->cuts.to[k]], polygon->cuts.t[k]);
 	for (uint k = 0; k < 3; k++) {
 		const struct vec4 c = pool[pack_corner(polygon, p->part[lane], k)->number];
 
-		texcoord[k][0] = select(texcoord[k][0], (packf)(c.x), lanes);
-		texcoord[k][1] = select(texcoord[k][1], (packf)(c.y), lanes);
-		texcoord[k][2] = select(texcoord[k][2], (packf)(c.z), lanes);
-		texcoord[k][3] = select(texcoord[k][3], (packf)(c.w), lanes);
+		row[k][0] = select(row[k][0], (packf)(c.x), lanes);
+		row[k][1] = select(row[k][1], (packf)(c.y), lanes);
+		row[k][2] = select(row[k][2], (packf)(c.z), lanes);
+		row[k][3] = select(row[k][3], (packf)(c.w), lanes);
 	}
 }
 

@@ -291,15 +291,39 @@ WIDE_VECTORS static inline void pack_weights_at(const struct tables *t, const st
 		weight[i] *= sum;
 }
 
-/* As program_texcoords. */
-WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                                                     struct pack_kept *kept, uint inputs, struct pack_run *run)
+/* Pixels as planes see them: from clip_origin, y from the top; w there. */
+struct pack_places {
+	packf x, y, w;
+};
+
+WIDE_VECTORS static inline struct pack_places pack_places(const struct pack *p)
 {
 	const float middle = 0.5f - clip_origin(p->view);
-	const packf x = convert_float16(p->x) + middle, y = convert_float16(p->row) + middle;
-	const packu first = pack_texcoord_first(&a->tables, list, p->material, lanes);
 	const struct pack_plane w_inv = pack_plane_through(&p->edges, p->w_inv);
-	const packf w = 1.0f / pack_plane_at(&w_inv, x, y);
+	struct pack_places at;
+
+	at.x = convert_float16(p->x) + middle;
+	at.y = convert_float16(p->row) + middle;
+	at.w = 1.0f / pack_plane_at(&w_inv, at.x, at.y);
+	return at;
+}
+
+/* As program_set_by_planes, of numbers n to m. row: the corners' */
+WIDE_VECTORS static inline void pack_set_by_planes(const struct pack *p, const struct pack_places *at, packf (*row)[4], int n, int m, packf *to)
+{
+	for (int c = n; c <= m; c++) {
+		const packf over_w[3] = { row[0][c] * p->w_inv[0], row[1][c] * p->w_inv[1], row[2][c] * p->w_inv[2] };
+		const struct pack_plane plane = pack_plane_through(&p->edges, over_w);
+
+		to[c - n] = pack_plane_at(&plane, at->x, at->y) * at->w;
+	}
+}
+
+/* As program_texcoords. */
+WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
+                                                     struct pack_kept *kept, uint inputs, const struct pack_places *at, struct pack_run *run)
+{
+	const packu first = pack_texcoord_first(&a->tables, list, p->material, lanes);
 
 	for (uint i = 0; i < p->material->unit_count; i++) {
 		const uint unit = a->tables.units[p->material->unit_first + i].unit;
@@ -308,12 +332,7 @@ WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_argument
 		if (!(inputs >> (SCENE_INPUT_TEXCOORD + unit) & 1))
 			continue;
 		pack_texcoords(a, list, p, lanes, first, i, kept, texcoord);
-		for (int c = 0; c < 4; c++) {
-			const packf over_w[3] = { texcoord[0][c] * p->w_inv[0], texcoord[1][c] * p->w_inv[1], texcoord[2][c] * p->w_inv[2] };
-			const struct pack_plane plane = pack_plane_through(&p->edges, over_w);
-
-			run->registers[4 * (SCENE_INPUT_TEXCOORD + unit) + c] = pack_plane_at(&plane, x, y) * w;
-		}
+		pack_set_by_planes(p, at, texcoord, 0, 3, &run->registers[4 * (SCENE_INPUT_TEXCOORD + unit)]);
 	}
 }
 
@@ -338,9 +357,9 @@ WIDE_VECTORS static inline void pack_input_position(const struct tables *t, cons
 	to[3] = 1.0f / pack_weighted(t, p, PACK_CLIP, 3);
 }
 
-/* Colours and fog, as in program_inputs. own_color, own_secondary: of the lanes that are fragments */
-WIDE_VECTORS static inline void pack_input_colors(const struct tables *t, const struct pack *p, packi is_own, const struct pack_color *own_color,
-                                                  const struct pack_color *own_secondary, struct pack_run *run)
+/* As program_colors_by_weights. own_color, own_secondary: of the lanes that are fragments */
+WIDE_VECTORS static inline void pack_colors_by_weights(const struct tables *t, const struct pack *p, packi is_own, const struct pack_color *own_color,
+                                                       const struct pack_color *own_secondary, struct pack_run *run)
 {
 	const struct pack_color color = pack_between(t, p, PACK_COLOR), secondary = pack_between(t, p, PACK_SECONDARY);
 
@@ -349,9 +368,32 @@ WIDE_VECTORS static inline void pack_input_colors(const struct tables *t, const 
 		run->registers[4 * SCENE_INPUT_SECONDARY + i] = select(secondary.c[i], own_secondary->c[i], is_own);
 		run->registers[4 * SCENE_INPUT_FOG + i] = i == 3 ? 1.0f : 0.0f;
 	}
-	if (p->material->lighting)
-		run->registers[4 * SCENE_INPUT_SECONDARY + 3] = 1.0f;
 	run->registers[4 * SCENE_INPUT_FOG] = pack_weighted(t, p, PACK_NORMAL, 3);
+}
+
+/* As program_colors_by_planes. */
+WIDE_VECTORS static inline void pack_colors_by_planes(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
+                                                      struct pack_kept *kept, uint inputs, const struct pack_places *at, struct pack_run *run)
+{
+	const packu side = as_uint16(pack_side(p) & 1);
+
+	for (uint input = SCENE_INPUT_COLOR; input <= SCENE_INPUT_FOG; input++) {
+		const packu four = input == SCENE_INPUT_COLOR ? PACK_COLOR + side : input == SCENE_INPUT_SECONDARY ? PACK_SECONDARY + side : (packu)(PACK_NORMAL);
+		packf *to = &run->registers[4 * input], row[3][4];
+
+		if (!(inputs >> input & 1))
+			continue;
+		for (int k = 0; k < 3; k++)
+			pack_vertex(&a->tables, p, k, four, row[k]);
+		if (input != SCENE_INPUT_FOG && p->material->shade_model == GL_FLAT) {
+			for (int i = 0; i < 4; i++)
+				to[i] = row[2][i];
+			continue;
+		}
+		pack_cut_rows(a, list, p, lanes, kept, row);
+		pack_set_by_planes(p, at, row, input == SCENE_INPUT_FOG ? 3 : 0, 3, to);
+	}
+	run->registers[4 * SCENE_INPUT_FOG + 3] = 1.0f;
 }
 
 /* Lanes become pixels of their fragments' quads, but for the fragments themselves. */
@@ -440,18 +482,24 @@ static inline void pack_run_program(const struct shade_arguments *a, const struc
 	const packi is_own = pack_mask(own);
 	struct pack_run *run = &runs->fragments;
 	struct pack_color color, secondary;
+	struct pack_places at;
 
 	pack_begin(a, list, p, program, own, run);
-	if (colors)
+	if (colors && a->n_slots)
 		pack_lit(a, list, p, own, kept, &runs->vertices, &color, &secondary);
 	if (program->head->across)
 		pack_spread(&a->tables, a->height, is_own, p);
-	if (colors)
-		pack_input_colors(&a->tables, p, is_own, &color, &secondary, run);
+	at = pack_places(p);
+	if (colors && a->n_slots)
+		pack_colors_by_weights(&a->tables, p, is_own, &color, &secondary, run);
+	else if (colors)
+		pack_colors_by_planes(a, list, p, run->lanes, kept, inputs, &at, run);
+	if (colors && p->material->lighting)
+		run->registers[4 * SCENE_INPUT_SECONDARY + 3] = 1.0f;
 	if (inputs >> SCENE_INPUT_POSITION & 1)
 		pack_input_position(&a->tables, p, a->height, run);
 	run->registers[4 * SCENE_INPUT_FACE] = pack_truth(p->front);
-	pack_input_texcoords(a, list, p, run->lanes, kept, inputs, run);
+	pack_input_texcoords(a, list, p, run->lanes, kept, inputs, &at, run);
 	pack_execute(&a->tables, p, program, run);
 	program_note_ended(a->programs + (p->material->fragment_program - 1), run->ended);
 	for (int i = 0; i < 4; i++) {

@@ -174,18 +174,25 @@ WIDE_VECTORS static inline packf pack_fog(const struct tables *t, const struct p
 	return pack_clamp01((m->fog_end - c) / (m->fog_end - m->fog_start));
 }
 
+/* The lanes' vertices' numbers become those of their parts' corners. row: [3][4] */
+WIDE_VECTORS static inline void pack_cut_rows(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
+                                              struct pack_kept *kept, packf (*row)[4])
+{
+	for (uint left = lanes & pack_bits(p->cut), same; left; left &= ~same) {
+		const uint lane = popcount((left & -left) - 1);
+
+		same = pack_same_part(list, p, left);
+		pack_cut_row(pack_polygon(a, list, p, lane, kept), lane, pack_mask(same), p, row);
+	}
+}
+
 /* Texture coordinates of the material's unit i at the corners. first: pack_texcoord_first; texcoord: [3][4] */
 WIDE_VECTORS static inline void pack_texcoords(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
                                                packu first, uint i, struct pack_kept *kept, packf (*texcoord)[4])
 {
 	for (int k = 0; k < 3; k++)
 		pack_row(a->tables.texcoords, p, first + p->number[k] * p->material->unit_count + i, texcoord[k]);
-	for (uint left = lanes & pack_bits(p->cut), same; left; left &= ~same) {
-		const uint lane = popcount((left & -left) - 1);
-
-		same = pack_same_part(list, p, left);
-		pack_cut_texcoord(pack_polygon(a, list, p, lane, kept), lane, pack_mask(same), p, texcoord);
-	}
+	pack_cut_rows(a, list, p, lanes, kept, texcoord);
 }
 
 WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint lanes,

@@ -24,21 +24,19 @@ static inline struct vec4 point_texcoord(const struct tables *t, const struct po
 	return c;
 }
 
-/* Texture coordinates of a fragment's triangle, divided by w: linear in the window. */
+/* Texture coordinates of a fragment's triangle, or other four numbers of its vertices, divided by w: linear in the window. */
 struct point_planes {
 	struct clip_plane s, t, r, q, w_inv;
 };
 
-/* As llvmpipe finds them, last bits and all: nearest filtering shows these where a texel's border runs along pixel centres. */
-static inline void point_texcoord_planes(const struct tables *t, const struct point *p, uint32_t i, const struct clip_setup *setup,
-                                         struct point_planes *planes)
+/*
+ * As llvmpipe finds them, last bits and all: nearest filtering shows these where a texel's border runs along pixel centres.
+ * pool: begins with the vertices' numbers; receives those of corners that cuts have made
+ */
+static inline void point_planes_between(struct vec4 *pool, const struct clip_setup *setup, struct point_planes *planes)
 {
-	uint32_t count = p->material->unit_count, first = p->geometry->texcoord_first;
-	struct vec4 pool[3 + CLIP_MAX_CUTS];
 	float over_w[4][3];
 
-	for (uint32_t k = 0u; k < 3u; k++)
-		pool[k] = v4_load(t->texcoords + (first + p->number[k] * count + i) * 4u);
 	for (uint32_t k = 0u; k < setup->cuts.n; k++)
 		pool[3u + k] = v4_mix(pool[setup->cuts.from[k]], pool[setup->cuts.to[k]], setup->cuts.t[k]);
 	for (int k = 0; k < 3; k++) {
@@ -56,8 +54,19 @@ static inline void point_texcoord_planes(const struct tables *t, const struct po
 	planes->w_inv = setup->w_inv;
 }
 
-/* Texture coordinates at any pixel. x, y: from clip_origin, y from the top */
-static inline struct vec4 point_texcoord_at(const struct point_planes *planes, float x, float y)
+static inline void point_texcoord_planes(const struct tables *t, const struct point *p, uint32_t i, const struct clip_setup *setup,
+                                         struct point_planes *planes)
+{
+	uint32_t count = p->material->unit_count, first = p->geometry->texcoord_first;
+	struct vec4 pool[3 + CLIP_MAX_CUTS];
+
+	for (uint32_t k = 0u; k < 3u; k++)
+		pool[k] = v4_load(t->texcoords + (first + p->number[k] * count + i) * 4u);
+	point_planes_between(pool, setup, planes);
+}
+
+/* The numbers at any pixel. x, y: from clip_origin, y from the top */
+static inline struct vec4 point_planes_at(const struct point_planes *planes, float x, float y)
 {
 	float w = 1.0f / clip_plane_at(&planes->w_inv, x, y);
 
@@ -147,7 +156,7 @@ static inline struct vec4 point_unit_coord(const struct tables *t, const struct 
 			w->kept->have_planes = 1;
 		}
 	}
-	return point_texcoord_at(planes, (float)w->x + quad->middle, (float)(w->height - 1u - w->row) + quad->middle);
+	return point_planes_at(planes, (float)w->x + quad->middle, (float)(w->height - 1u - w->row) + quad->middle);
 }
 
 /* Their slopes. planes: as above */
@@ -164,9 +173,9 @@ static inline struct texture_slope point_unit_slope(const struct tables *t, cons
 	if (keeps && w->kept->quad[slot] == number)
 		return w->kept->slope[slot];
 	if (w->setup) {
-		slope = texture_slope(image, point_texcoord_at(planes, x + quad->middle, y + quad->middle),
-		                      point_texcoord_at(planes, right + quad->middle, y + quad->middle),
-		                      point_texcoord_at(planes, x + quad->middle, below + quad->middle));
+		slope = texture_slope(image, point_planes_at(planes, x + quad->middle, y + quad->middle),
+		                      point_planes_at(planes, right + quad->middle, y + quad->middle),
+		                      point_planes_at(planes, x + quad->middle, below + quad->middle));
 		if (keeps) {
 			w->kept->quad[slot] = number;
 			w->kept->slope[slot] = slope;

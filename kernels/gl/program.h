@@ -35,6 +35,14 @@ static inline struct point program_neighbour(const struct program_fragment *f, c
 	return p;
 }
 
+static inline void program_set_by_planes(struct program_fragment *f, uint32_t input, const struct point_planes *planes, const struct point_quad *quad)
+{
+	for (uint32_t k = 0u; k < 4u; k++)
+		if (program_computes(f, k))
+			program_set(&f->run, 4u * input, k,
+			            point_planes_at(planes, quad->x + (float)(k & 1u) + quad->middle, quad->y + (float)(k >> 1u) + quad->middle));
+}
+
 /* Texture coordinates of the material's unit i. */
 static inline void program_texcoord(struct program_fragment *f, uint32_t unit, uint32_t i, const struct point_quad *quad)
 {
@@ -51,10 +59,7 @@ static inline void program_texcoord(struct program_fragment *f, uint32_t unit, u
 		return;
 	}
 	point_texcoord_planes(t, &f->p, i, f->window.setup, &planes);
-	for (uint32_t k = 0u; k < 4u; k++)
-		if (program_computes(f, k))
-			program_set(&f->run, 4u * (SCENE_INPUT_TEXCOORD + unit), k,
-			            point_texcoord_at(&planes, quad->x + (float)(k & 1u) + quad->middle, quad->y + (float)(k >> 1u) + quad->middle));
+	program_set_by_planes(f, SCENE_INPUT_TEXCOORD + unit, &planes, quad);
 }
 
 static inline void program_texcoords(struct program_fragment *f, uint32_t inputs, const struct point_quad *quad)
@@ -78,6 +83,52 @@ static inline void program_position(struct program_fragment *f, const struct poi
 	}
 }
 
+/* Colours by way of the fragment's own, which lights may have dimmed. */
+static inline void program_colors_by_weights(struct program_fragment *f, const struct lit *lit, const struct point_quad *quad)
+{
+	for (uint32_t k = 0u; k < 4u; k++) {
+		const struct point p = program_neighbour(f, quad, k);
+		struct lit here;
+
+		if (!program_computes(f, k))
+			continue;
+		here = k == f->own ? *lit : point_lit_from_vertices(&p);
+		program_set(&f->run, 4u * SCENE_INPUT_COLOR, k, here.color);
+		program_set(&f->run, 4u * SCENE_INPUT_SECONDARY, k, here.secondary);
+		program_set(&f->run, 4u * SCENE_INPUT_FOG, k,
+		            v4(p.vertex[0]->fog_coord * p.weight[0] + p.vertex[1]->fog_coord * p.weight[1] + p.vertex[2]->fog_coord * p.weight[2],
+		               0.0f, 0.0f, 1.0f));
+	}
+}
+
+/* Colours to llvmpipe's last bits: depth may be made of them. Under flat shading (sec. 2.14.7) the last vertex's as they are. */
+static inline void program_colors_by_planes(struct program_fragment *f, uint32_t inputs, const struct point_quad *quad)
+{
+	const int side = point_side(&f->p);
+
+	for (uint32_t input = SCENE_INPUT_COLOR; input <= SCENE_INPUT_FOG; input++) {
+		struct vec4 pool[3 + CLIP_MAX_CUTS];
+		struct point_planes planes;
+
+		if (!(inputs >> input & 1u))
+			continue;
+		for (uint32_t k = 0u; k < 3u; k++) {
+			GLOBAL const struct shaded_vertex *v = f->p.vertex[k];
+
+			pool[k] = input == SCENE_INPUT_COLOR ? v4_load(v->color[side]) :
+			          input == SCENE_INPUT_SECONDARY ? v4_load(v->secondary[side]) : v4(v->fog_coord, 0.0f, 0.0f, 0.0f);
+		}
+		if (input != SCENE_INPUT_FOG && f->p.material->shade_model == GL_FLAT) {
+			for (uint32_t k = 0u; k < 4u; k++)
+				program_set(&f->run, 4u * input, k, pool[2]);
+			continue;
+		}
+		point_planes_between(pool, f->window.setup, &planes);
+		program_set_by_planes(f, input, &planes, quad);
+	}
+	f->run.registers[4u * SCENE_INPUT_FOG + 3u] = program_splat(1.0f);
+}
+
 /* lit: the fragment's own colours */
 static inline void program_inputs(struct program_fragment *f, uint32_t inputs, const struct lit *lit, float depth)
 {
@@ -90,21 +141,14 @@ static inline void program_inputs(struct program_fragment *f, uint32_t inputs, c
 	if (inputs >> SCENE_INPUT_POSITION & 1u)
 		program_position(f, &quad, depth);
 	f->run.registers[4u * SCENE_INPUT_FACE] = program_splat(f->p.front ? 1.0f : 0.0f);
-	for (uint32_t k = 0u; k < 4u && inputs & (1u << SCENE_INPUT_COLOR | 1u << SCENE_INPUT_SECONDARY | 1u << SCENE_INPUT_FOG); k++) {
-		const struct point p = program_neighbour(f, &quad, k);
-		struct lit here;
-
-		if (!program_computes(f, k))
-			continue;
-		here = k == f->own ? *lit : point_lit_from_vertices(&p);
-		if (p.material->lighting)
-			here.secondary.w = 1.0f; /* as Mesa's fixed function leaves it */
-		program_set(&f->run, 4u * SCENE_INPUT_COLOR, k, here.color);
-		program_set(&f->run, 4u * SCENE_INPUT_SECONDARY, k, here.secondary);
-		program_set(&f->run, 4u * SCENE_INPUT_FOG, k,
-		            v4(p.vertex[0]->fog_coord * p.weight[0] + p.vertex[1]->fog_coord * p.weight[1] + p.vertex[2]->fog_coord * p.weight[2],
-		               0.0f, 0.0f, 1.0f));
-	}
+	if (!(inputs & (1u << SCENE_INPUT_COLOR | 1u << SCENE_INPUT_SECONDARY | 1u << SCENE_INPUT_FOG)))
+		return;
+	if (f->window.setup && !f->a->n_slots && !(f->p.geometry->flags & GEOMETRY_PIXELS))
+		program_colors_by_planes(f, inputs, &quad);
+	else
+		program_colors_by_weights(f, lit, &quad);
+	if (f->p.material->lighting)
+		f->run.registers[4u * SCENE_INPUT_SECONDARY + 3u] = program_splat(1.0f); /* as Mesa's fixed function leaves it */
 }
 
 /* --- Fragments ----------------------------------------------------------------------------------------------------- */
