@@ -232,9 +232,10 @@ int gls_quads_turn(const struct gls_state *st, const float *position, const uint
 {
 	static const unsigned corners[4] = { 0, 1, 2, 4 }; /* of the six indices of its two triangles */
 	const struct gls_attribs *a = &st->a;
+	const int is_flat = a->lighting.shade_model == GL_FLAT && (st->program || !a->programs.fragment); /* programs in assembly know no flat colours */
 	float mvp[16];
 
-	if (a->lighting.shade_model != GL_SMOOTH || a->polygon.mode[0] != GL_FILL || a->polygon.mode[1] != GL_FILL ||
+	if (is_flat || a->polygon.mode[0] != GL_FILL || a->polygon.mode[1] != GL_FILL ||
 	    a->transform.clip_plane_mask)
 		return 0;
 	mat4_mul(mvp, st->projection.matrices[st->projection.depth], st->modelview.matrices[st->modelview.depth]);

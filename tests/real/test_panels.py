@@ -14,7 +14,7 @@ PROGRAMS = {
     "fragment": ("blend factors", "more blend factors", "blend equations", "tests", "stencil", "stencil of two sides", "user planes"),
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "what rectangles go through",
               "transfer to textures", "indices to textures"),
-    "program": ("instructions", "bindings", "textures", "fragments"),
+    "program": ("instructions", "bindings", "textures", "fragments", "last bits"),
     "vertex_program": ("instructions", "bindings", "addresses", "results", "attributes", "uses", "extremes"),
     "shader": ("functions", "statements", "state", "textures", "vertices", "scenes", "several buffers"),
 }
@@ -29,10 +29,12 @@ def check_kernels(trace, number):
         check(score["frames"][0]["failing_pixels"] == 0, f"frame {number} with {kernels[1]}: {score['frames'][0]['failing_pixels']} pixels fail")
 
 
+OTHER_KERNELS = {"vertex_program": "5", "program": "4"}  # a program's frame: depths that are not the projection's, last bits
+
 for name, frames in PROGRAMS.items():
     trace, _ = check_same_pictures(f"panels/{name}", frames)
     if "program" in name or name == "shader": # objects are in the index
         check_alone(trace, 1, 3)
-    if name == "vertex_program": # depths that are not the projection's
-        check_kernels(trace, "5")
+    if name in OTHER_KERNELS:
+        check_kernels(trace, OTHER_KERNELS[name])
 finish()

@@ -152,10 +152,29 @@ static void draw_fragments(int i)
 	glEnd();
 }
 
+/* What is interpolated, to the last bit: smooth and flat, whole and cut where it reaches behind the viewer, of both sides. */
+static void last_bits(int i)
+{
+	static const char *const names[4] = { "fragment.color", "fragment.color.secondary", "fragment.fogcoord", "fragment.texcoord[1]" };
+	const char *name = names[choose(&i, 4)];
+	const int flat = choose(&i, 2), cut = choose(&i, 2), away = choose(&i, 2);
+	char text[128];
+
+	glFogi(GL_FOG_COORD_SRC, GL_FOG_COORD);
+	glShadeModel(flat ? GL_FLAT : GL_SMOOTH);
+	if (cut)
+		glScalef(1, 1, -3);
+	if (away)
+		glScalef(-1, 1, 1);
+	snprintf(text, sizeof(text), "TEMP r; MUL r, %s, 65536; MUL r, r, 4; FRC result.color, r;", name);
+	shade(text);
+}
+
 int main(void)
 {
 	static const struct table tables[] = {
 		{ 120, instruction, draw_square }, { 48, binding, draw_square }, { 64, texture, draw_textured }, { 128, fragment, draw_fragments },
+		{ 32, last_bits, draw_square },
 	};
 
 	DRAW_TABLES(tables, make_images);
