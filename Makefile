@@ -110,15 +110,17 @@ I386_OBJ := $(patsubst $(BUILD)/recorder/%,$(BUILD)/i386/%,$(RECORDER_OBJ))
 LIBRELUMES := $(BUILD)/lib/i386-linux-gnu/librelume.so $(BUILD)/lib/x86_64-linux-gnu/librelume.so
 i386: $(LIBRELUMES) $(addprefix $(BUILD)/i386/,windows two_triangles spheres tricks)
 
-# Packages of both architectures have one version. Nothing that is installed may go for that: apt then says what is in the way.
+# Packages of both architectures have one version: where the newest is not there for both (an archive's index may be behind), that of the
+# release itself. Nothing that is installed may go for that: apt then says what is in the way.
 $(BUILD)/deps.i386: Makefile
 	@mkdir -p $(@D)
 	@if [ "$$(dpkg-query -W -f '$${db:Status-Status}\n' $(DEPS_i386) 2>/dev/null | grep -cx installed)" != $(words $(DEPS_i386)) ]; then \
 		echo "installing from Debian, i386 added: $(DEPS_i386) (see $@.log)"; \
 		[ "$$(id -u)" = 0 ] || sudo=sudo; \
 		had=$$(dpkg --print-foreign-architectures | grep -cx i386); \
-		{ $$sudo dpkg --add-architecture i386 && $$sudo apt-get -q update && \
-			DEBIAN_FRONTEND=noninteractive $$sudo apt-get -q -y --no-remove --no-install-recommends install $(DEPS_i386); } \
+		export DEBIAN_FRONTEND=noninteractive; \
+		install="$$sudo apt-get -q -y --no-remove --no-install-recommends install $(DEPS_i386)"; \
+		{ $$sudo dpkg --add-architecture i386 && { $$sudo apt-get -q update; $$install || $$install -t $$(. /etc/os-release; echo $$VERSION_CODENAME); }; } \
 			>$@.log 2>&1 || { tail -n 20 $@.log; [ $$had = 1 ] || $$sudo dpkg --remove-architecture i386; exit 1; }; \
 	fi
 	@touch $@
@@ -235,7 +237,8 @@ $(BUILD)/flags: FORCE | $(BUILD)/deps
 
 deps: $(BUILD)/deps
 
-# What only one proof target needs stands in DEPS_NAME and is installed by $(BUILD)/deps.NAME.
+# What only one proof target needs stands in DEPS_NAME and is installed by $(BUILD)/deps.NAME. An index that cannot be read stops nothing
+# whose packages are known.
 define INSTALL
 	@mkdir -p $(@D)
 	@missing=$$(printf '%s\n' $(1) | grep -vxF "$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(1) \
@@ -244,7 +247,7 @@ define INSTALL
 		echo "installing from Debian:" $$missing "(see $@.log)"; \
 		[ "$$(id -u)" = 0 ] || sudo=sudo; \
 		export DEBIAN_FRONTEND=noninteractive; \
-		{ $$sudo apt-get -q update && $$sudo apt-get -q -y -o DPkg::Lock::Timeout=300 --no-install-recommends install $$missing; } \
+		{ $$sudo apt-get -q update; $$sudo apt-get -q -y -o DPkg::Lock::Timeout=300 --no-install-recommends install $$missing; } \
 			>$@.log 2>&1 || { tail -n 20 $@.log; exit 1; }; \
 	fi
 	@touch $@
