@@ -18,62 +18,28 @@ void mat4_mul(float out[16], const float a[16], const float b[16])
 	memcpy(out, product, sizeof(product));
 }
 
-void mat4_rotation(float out[16], float angle_deg, float x, float y, float z)
+#define real float
+#define SUM(name) void mat4_##name
+#include "base/mat4_sums.h"
+#undef real
+#undef SUM
+#define real long double
+#define SUM(name) static void x87_##name
+#include "base/mat4_sums.h"
+
+static void x87_mul(float out[16], const float a[16], const float b[16])
 {
-	const float angle = (float)(angle_deg * M_PI / 180.0);
-	const float s = sinf(angle), c = cosf(angle), one_c = 1.0f - c;
-	const float length = sqrtf(x * x + y * y + z * z);
-	const int turned = (x != 0) + (y != 0) + (z != 0);
+	float product[16];
 
-	memcpy(out, mat4_identity, 16 * sizeof(float));
-	if (turned == 1) { /* about an axis: the other entries are 0 and 1 to the last bit, however short the vector */
-		const int axis = x != 0 ? 0 : y != 0 ? 1 : 2, i = (axis + 1) % 3, j = (axis + 2) % 3;
-		const float sine = x + y + z < 0 ? -s : s;
-
-		out[5 * i] = out[5 * j] = c;
-		out[4 * i + j] = sine;
-		out[4 * j + i] = -sine;
-		return;
-	}
-	if (length <= 1.0e-4f)
-		return;
-	x /= length;
-	y /= length;
-	z /= length;
-	out[0] = one_c * (x * x) + c;
-	out[4] = one_c * (x * y) - z * s;
-	out[8] = one_c * (z * x) + y * s;
-	out[1] = one_c * (x * y) + z * s;
-	out[5] = one_c * (y * y) + c;
-	out[9] = one_c * (y * z) - x * s;
-	out[2] = one_c * (z * x) - y * s;
-	out[6] = one_c * (y * z) + x * s;
-	out[10] = one_c * (z * z) + c;
+	for (int column = 0; column < 16; column += 4)
+		x87_transform(product + column, a, b + column);
+	memcpy(out, product, sizeof(product));
 }
 
-void mat4_frustum(float out[16], float left, float right, float bottom, float top, float near, float far)
-{
-	memset(out, 0, 16 * sizeof(float));
-	out[0] = 2 * near / (right - left);
-	out[5] = 2 * near / (top - bottom);
-	out[8] = (right + left) / (right - left);
-	out[9] = (top + bottom) / (top - bottom);
-	out[10] = -(far + near) / (far - near);
-	out[11] = -1;
-	out[14] = -(2 * far * near) / (far - near);
-}
-
-void mat4_ortho(float out[16], float left, float right, float bottom, float top, float near, float far)
-{
-	memset(out, 0, 16 * sizeof(float));
-	out[0] = 2 / (right - left);
-	out[5] = 2 / (top - bottom);
-	out[10] = -2 / (far - near);
-	out[12] = -(right + left) / (right - left);
-	out[13] = -(top + bottom) / (top - bottom);
-	out[14] = -(far + near) / (far - near);
-	out[15] = 1;
-}
+const struct mat4_sums mat4_sums[2] = {
+	{ mat4_mul, mat4_transform, mat4_transform_plane, mat4_rotation, mat4_translate, mat4_frustum, mat4_ortho },
+	{ x87_mul, x87_transform, x87_transform_plane, x87_rotation, x87_translate, x87_frustum, x87_ortho },
+};
 
 void mat4_transpose(float out[16], const float m[16])
 {
@@ -120,29 +86,10 @@ int mat4_invert(float out[16], const float m[16])
 	return 1;
 }
 
-void mat4_transform(float out[4], const float m[16], const float v[4])
-{
-	float p[4];
-
-	for (int r = 0; r < 4; r++)
-		p[r] = m[r] * v[0] + m[r + 4] * v[1] + m[r + 8] * v[2] + m[r + 12] * v[3];
-	memcpy(out, p, sizeof(p));
-}
-
 void mat4_turn(float out[3], const float m[16], const float v[3])
 {
 	float turned[4];
 
 	mat4_transform(turned, m, (const float[4]){ v[0], v[1], v[2], 0 });
 	memcpy(out, turned, 3 * sizeof(*out));
-}
-
-void mat4_transform_plane(float out[4], const float plane[4], const float inverse[16])
-{
-	float p[4];
-
-	for (int c = 0; c < 4; c++)
-		p[c] = plane[0] * inverse[4 * c] + plane[1] * inverse[4 * c + 1] + plane[2] * inverse[4 * c + 2] +
-		       plane[3] * inverse[4 * c + 3];
-	memcpy(out, p, sizeof(p));
 }

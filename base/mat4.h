@@ -1,6 +1,6 @@
 /*
  * 4x4 matrices: float[16], column-major, column vectors, p' = M p. All arithmetic is in float and in Mesa's order, so products
- * agree with Mesa's to the last bit where that is possible.
+ * agree with Mesa's to the last bit where that is possible: with those of its libraries of 64 bits, or, by mat4_sums, of 32.
  */
 #pragma once
 
@@ -14,6 +14,8 @@ void mat4_mul(float out[16], const float a[16], const float b[16]);
  * exact zeros and ones.
  */
 void mat4_rotation(float out[16], float angle_deg, float x, float y, float z);
+/** m = m T. */
+void mat4_translate(float m[16], float tx, float ty, float tz);
 void mat4_frustum(float out[16], float left, float right, float bottom, float top, float near, float far);
 void mat4_ortho(float out[16], float left, float right, float bottom, float top, float near, float far);
 void mat4_transpose(float out[16], const float m[16]);
@@ -29,3 +31,17 @@ void mat4_turn(float out[3], const float m[16], const float v[3]);
 
 /** out = v M: with the inverse matrix, how a plane equation is transformed (sec. 2.12). */
 void mat4_transform_plane(float out[4], const float plane[4], const float inverse[16]);
+
+/** The functions of these names, by how the C code of a GL library sums. */
+struct mat4_sums {
+	void (*mul)(float out[16], const float a[16], const float b[16]);
+	void (*transform)(float out[4], const float m[16], const float v[4]);
+	void (*transform_plane)(float out[4], const float plane[4], const float inverse[16]);
+	void (*rotation)(float out[16], float angle_deg, float x, float y, float z);
+	void (*translate)(float m[16], float tx, float ty, float tz);
+	void (*frustum)(float out[16], float left, float right, float bottom, float top, float near, float far);
+	void (*ortho)(float out[16], float left, float right, float bottom, float top, float near, float far);
+};
+
+/** [0]: each operation is rounded to float. [1]: in the x87's registers, rounded where a number is stored: libraries of 32 bits. */
+extern const struct mat4_sums mat4_sums[2];

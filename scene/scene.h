@@ -219,6 +219,7 @@ struct scene_view {
 	int32_t scissor[4];   /* x y w h, pixels, already cut to the target; the whole target where the test is off */
 	uint32_t target;      /* 0: the window. Others: scene.targets (render to texture) */
 	uint32_t space;       /* views with the same number share their eye space: secondary rays see all of it */
+	uint32_t x87;         /* 1: GL multiplied the projection and the modelview matrix as mat4_sums[1] does (base/mat4.h) */
 };
 
 /* One mesh at one place in one draw. */

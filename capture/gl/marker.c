@@ -3,6 +3,7 @@
 
 #include <GL/gl.h>
 #include <GL/glext.h>
+#include <float.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -60,4 +61,6 @@ void marker_write_bits(void)
 	         !context_has(HAS_DESKTOP) || context_get(GL_DOUBLEBUFFER) != 0);
 	context_errors_after();
 	marker_write(text);
+	if (FLT_EVAL_METHOD == 2) /* built for the processors that this distribution builds its GL library for, too */
+		marker_write("relume:x87");
 }

@@ -78,6 +78,7 @@ uint32_t gls_frame_view(const struct gls_surface *surface, const struct gls_stat
 	}
 	gls_scissor_of(surface, &a->scissor, view.scissor);
 	view.space = space_of(f, &view);
+	view.x87 = st->x87;
 	return gls_intern(&f->views, &s->views, &s->n_views, &f->room.views, &view, sizeof(view));
 }
 

@@ -71,7 +71,7 @@ static void fill_matrix(const struct gls_state *st, const struct program_constan
 
 	memcpy(m, stack->matrices[stack->depth], sizeof(m));
 	if (c->index == PROGRAM_MVP)
-		mat4_mul(m, st->projection.matrices[st->projection.depth], st->modelview.matrices[st->modelview.depth]);
+		gls_sums(st)->mul(m, st->projection.matrices[st->projection.depth], st->modelview.matrices[st->modelview.depth]);
 	if (c->part & PROGRAM_INVERTED) {
 		mat4_invert(other, m);
 		memcpy(m, other, sizeof(m));

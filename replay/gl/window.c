@@ -170,6 +170,8 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		x->time_ns = strtoull(text + 12, NULL, 10);
 	if (strcmp(text, "relume:kdtree") == 0)
 		st->kd_tree = 1;
+	if (strcmp(text, "relume:x87") == 0)
+		st->x87 = 1;
 	/* One comes with every frame of some programs, and sscanf measures the text before it looks at it. */
 	if (strncmp(text, "relume:bits", 11) == 0 &&
 	    sscanf(text, "relume:bits %u %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples, &two_buffers) >= 3 &&

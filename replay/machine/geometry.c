@@ -238,7 +238,7 @@ int gls_quads_turn(const struct gls_state *st, const float *position, const uint
 	if (is_flat || a->polygon.mode[0] != GL_FILL || a->polygon.mode[1] != GL_FILL ||
 	    a->transform.clip_plane_mask)
 		return 0;
-	mat4_mul(mvp, st->projection.matrices[st->projection.depth], st->modelview.matrices[st->modelview.depth]);
+	gls_sums(st)->mul(mvp, st->projection.matrices[st->projection.depth], st->modelview.matrices[st->modelview.depth]);
 	for (uint32_t i = 0; i < 2 * n_primitives; i++) {
 		float c[4];
 

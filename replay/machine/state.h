@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "scene/scene.h"
+#include "base/mat4.h"
 #include "base/table.h"
 
 #define GLS_MAX_UNITS SCENE_MAX_UNITS
@@ -312,6 +313,7 @@ struct gls_state {
 	uint64_t drawable, read_drawable;
 	uint32_t ever_current;
 	uint32_t alpha_bits, depth_bits, stencil_bits, samples, double_buffered;
+	uint32_t x87;  /* 1: the GL library's own code sums as mat4_sums[1] does */
 	uint32_t srgb; /* 1: it can hold sRGB colours (which matters to accum.c alone: nothing here converts else) */
 };
 
@@ -333,6 +335,12 @@ static inline struct gls_unit *gls_active_unit(struct gls_state *st)
 }
 
 /** The stack that matrix commands change. */
+/** How the GL library that was recorded sums where it calculates with matrices. */
+static inline const struct mat4_sums *gls_sums(const struct gls_state *st)
+{
+	return &mat4_sums[st->x87];
+}
+
 struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
 
 /** 1 for FRONT, BACK and FRONT_AND_BACK. */

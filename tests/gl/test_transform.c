@@ -155,4 +155,33 @@ START_TEST(test_inverse)
 }
 END_TEST
 
-GL_TESTS("transform", test_products, test_projections, test_stacks, test_eye_space, test_views, test_drawable, test_inverse)
+/* Sums that each operation rounds to float lose two small terms, one after the other; the x87 rounds their sum once. */
+START_TEST(test_sums)
+{
+	const float small = 0x1p-24f, sum[] = { 1, 1 + 0x1p-23f };
+	const float m[16] = { 1, 0, 0, 0, small, 1, 0, 0, small, 0, 1, 0, 0, 0, 0, 1 }, ones[16] = { 1, 1, 1 };
+	const float depth[] = { -0x1.07a4ep0f, -0x1.07a4dep0f }; /* -(far + near) / (far - near), worked out with rational numbers */
+
+	for (int x87 = 0; x87 < 2; x87++) {
+		struct gl gl = gl_open();
+
+		if (x87)
+			gl_call(&gl, "glStringMarkerGREMEDY", "is", 0, "relume:x87");
+		gl_call(&gl, "glLoadMatrixf", "F", 16, m);
+		gl_call(&gl, "glMultMatrixf", "F", 16, ones);
+		ck_assert_float_eq(modelview(&gl)[0], sum[x87]);
+		gl_call(&gl, "glLoadMatrixf", "F", 16, m);
+		gl_call(&gl, "glTranslatef", "fff", 1.0, 1.0, 1.0);
+		ck_assert_float_eq(modelview(&gl)[12], sum[x87]);
+		gl_call(&gl, "glLoadMatrixf", "F", 16, m);
+		gl_call(&gl, "glLightfv", "eeF", GL_LIGHT0, GL_POSITION, 4, ones);
+		ck_assert_float_eq(gl_state(&gl)->a.lighting.lights[0].value.position_eye[0], sum[x87]);
+		gl_call(&gl, "glLoadIdentity", "");
+		gl_call(&gl, "glFrustum", "dddddd", -1.0, 1.0, -1.0, 1.0, (double)5.1f, (double)346.7f);
+		ck_assert_float_eq(modelview(&gl)[10], depth[x87]);
+		gl_close(&gl);
+	}
+}
+END_TEST
+
+GL_TESTS("transform", test_products, test_projections, test_stacks, test_eye_space, test_views, test_drawable, test_inverse, test_sums)

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """
 Programs of 32 bits (`make i386`): recorded by the recorder of their class, whether started by themselves or by a program of 64 bits, and
-every picture as they showed it.
+every picture as they showed it, be it calculated in the x87's registers.
 """
-from helpers import AS_SHOWN, BUILD, SCRATCH, check, diff, finish, record, render, skip
+import wine
+from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_gates, diff, finish, record, render, skip
 
 FRAMES = 10
 PROGRAM = BUILD / "i386/windows"
@@ -22,4 +23,9 @@ for name, command in (("alone", [PROGRAM]), ("child", ["/bin/sh", "-c", f"{PROGR
     sizes = [(f["width"], f["height"]) for f in score["frames"]]
     check(sizes == [(48, 48), (80, 80)] * 5, f"{name}: sizes: {sizes}")
     check(all(f["gates"]["R5"]["state"] == "passed" for f in score["frames"]), f"{name}: depth")
+for name, options in wine.PROGRAMS.items():
+    trace = SCRATCH / f"{name}.trace"
+    record(trace, BUILD / "i386" / name, *options, "--frames", FRAMES)
+    render(trace, SCRATCH / name, *AS_SHOWN)
+    check_gates(diff(trace, SCRATCH / name)[1], FRAMES, name)
 finish()

@@ -269,7 +269,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	struct geometry *g = &p->geometries[p->n_instances];
 
 	p->shapes[p->n_instances] = shape;
-	mat4_mul(g->clip_from_obj, scene->views[from->view].projection, from->modelview);
+	mat4_sums[scene->views[from->view].x87].mul(g->clip_from_obj, scene->views[from->view].projection, from->modelview);
 	memcpy(g->eye_from_obj, from->modelview, sizeof(g->eye_from_obj));
 	normal_matrix(from->modelview, m->rescale_normal && !m->normalize, g->normal_matrix);
 	prepare_layout(mesh, 0, g);

@@ -58,7 +58,7 @@ static void set_texcoords(struct gls_state *st, struct vec4 obj, struct vec4 eye
 			gen.gen_mode[k] = unit->gen_enabled >> k & 1 ? gen.gen_mode[k] : 0;
 			v[k] = vertex_generate(&gen, k, current[k], obj, eye, u, normal);
 		}
-		mat4_transform(st->a.current.raster_texcoord[i], st->texture[i].matrices[st->texture[i].depth], v);
+		gls_sums(st)->transform(st->a.current.raster_texcoord[i], st->texture[i].matrices[st->texture[i].depth], v);
 	}
 }
 
@@ -103,8 +103,8 @@ static void raster_pos(struct gls_state *st, const float obj[4])
 	float eye[4], clip[4];
 	struct vec3 normal;
 
-	mat4_transform(eye, st->modelview.matrices[st->modelview.depth], obj);
-	mat4_transform(clip, st->projection.matrices[st->projection.depth], eye);
+	gls_sums(st)->transform(eye, st->modelview.matrices[st->modelview.depth], obj);
+	gls_sums(st)->transform(clip, st->projection.matrices[st->projection.depth], eye);
 	c->raster_valid = !is_clipped(st, eye, clip);
 	if (!c->raster_valid)
 		return;

@@ -31,7 +31,7 @@ GLS_FAMILY(glLight, STATE)
 	case GL_AMBIENT: memcpy(light->ambient, v, 16); break;
 	case GL_DIFFUSE: memcpy(light->diffuse, v, 16); break;
 	case GL_SPECULAR: memcpy(light->specular, v, 16); break;
-	case GL_POSITION: mat4_transform(light->position_eye, modelview, v); break;
+	case GL_POSITION: gls_sums(st)->transform(light->position_eye, modelview, v); break;
 	case GL_SPOT_DIRECTION: /* the upper left 3x3 */
 		for (int r = 0; r < 3; r++)
 			light->spot_direction_eye[r] = modelview[r] * v[0] + modelview[4 + r] * v[1] + modelview[8 + r] * v[2];

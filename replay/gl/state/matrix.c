@@ -25,7 +25,7 @@ static void multiply(struct gls_state *st, const float m[16])
 {
 	float *top = change_matrix(st);
 
-	mat4_mul(top, top, m);
+	gls_sums(st)->mul(top, top, m);
 }
 
 /* 16 numbers; missing ones leave the identity's. */
@@ -96,11 +96,7 @@ GLS_FAMILY(glMultTransposeMatrix, MATRIX)
 
 GLS_FAMILY(glTranslate, MATRIX, TRANSFORM)
 {
-	const float tx = arg_f(c, 0), ty = arg_f(c, 1), tz = arg_f(c, 2);
-	float *m = change_matrix(st);
-
-	for (int r = 0; r < 4; r++)
-		m[12 + r] = m[r] * tx + m[4 + r] * ty + m[8 + r] * tz + m[12 + r];
+	gls_sums(st)->translate(change_matrix(st), arg_f(c, 0), arg_f(c, 1), arg_f(c, 2));
 }
 
 GLS_FAMILY(glScale, MATRIX, TRANSFORM)
@@ -119,7 +115,7 @@ GLS_FAMILY(glRotate, MATRIX, TRANSFORM)
 
 	if (arg_f(c, 0) == 0)
 		return;
-	mat4_rotation(m, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3));
+	gls_sums(st)->rotation(m, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3));
 	multiply(st, m);
 }
 
@@ -133,7 +129,7 @@ static void project(struct gls_exec *x, struct gls_state *st, const struct call 
 		v[i] = arg_d(c, i);
 	if (gls_refuses(x, st, (perspective && (v[4] <= 0 || v[5] <= 0)) || v[4] == v[5] || v[0] == v[1] || v[2] == v[3], GL_INVALID_VALUE))
 		return;
-	(perspective ? mat4_frustum : mat4_ortho)(m, (float)v[0], (float)v[1], (float)v[2], (float)v[3], (float)v[4], (float)v[5]);
+	(perspective ? gls_sums(st)->frustum : gls_sums(st)->ortho)(m, (float)v[0], (float)v[1], (float)v[2], (float)v[3], (float)v[4], (float)v[5]);
 	multiply(st, m);
 }
 
@@ -175,5 +171,5 @@ GLS_HANDLER(glClipPlane, STATE)
 		return;
 	arg_floats(c, 1, equation, 4);
 	mat4_invert(inverse, st->modelview.matrices[st->modelview.depth]);
-	mat4_transform_plane(st->a.transform.clip_plane_eye[plane], equation, inverse);
+	gls_sums(st)->transform_plane(st->a.transform.clip_plane_eye[plane], equation, inverse);
 }

@@ -87,7 +87,7 @@ static void set_generation(struct gls_exec *x, struct gls_state *st, const struc
 		break;
 	case GL_EYE_PLANE:
 		mat4_invert(inverse, st->modelview.matrices[st->modelview.depth]);
-		mat4_transform_plane(e->gen_eye_plane[coord], v, inverse);
+		gls_sums(st)->transform_plane(e->gen_eye_plane[coord], v, inverse);
 		break;
 	default:
 		gls_error(x, st, GL_INVALID_ENUM);
