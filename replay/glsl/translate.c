@@ -6,6 +6,7 @@
 #include "base/err.h"
 #include "replay/glsl/expression.h"
 #include "replay/glsl/links.h"
+#include "replay/glsl/roots.h"
 #include "replay/glsl/state.h"
 #include "replay/glsl/statement.h"
 
@@ -164,6 +165,8 @@ static void finish(struct glsl_writer *w)
 		copy_front(w, "gl_BackColor", SCENE_RESULT_BACK_COLOR, SCENE_RESULT_COLOR);
 		copy_front(w, "gl_BackSecondaryColor", SCENE_RESULT_BACK_SECONDARY, SCENE_RESULT_SECONDARY);
 	}
+	if (!w->err)
+		w->err = glsl_square_roots(code);
 	glsl_prune(code, w->uniforms->n_values / 4, is_vertex ? N_SCENE_VERTEX_INPUTS : N_SCENE_INPUTS);
 	name_lights(w);
 	if (is_vertex) {

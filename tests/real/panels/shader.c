@@ -124,6 +124,8 @@ static const char *const statements[][2] = {
 	{ "", "vec3 w[3]; w[0] = a.xyz; w[1] = b.xyz; w[2] = p.xyz; int k = int(mod(p.x * 5.0, 3.0)); r = vec4(w[k], w[k][k]);" },
 	{ "", "mat3 m = mat3(1.0); int k = int(mod(p.x * 5.0, 3.0)); m[k] = a.xyz; m[2][k] = 0.3; r.xyz = m * b.xyz;" },
 	{ "", "r[int(mod(p.x * 7.0, 4.0))] = 0.9;" }, { "", "int i = 3; r.x = float(i++) * 0.2; r.y = float(i--) * 0.2; r.z = float(++i) * 0.1; r.w = float(--i) * 0.1;" },
+	{ "", "vec2 d = 400.0 * a.xy; d = vec2(length(d), length(d + b.yx)); vec2 e = d; r.xy = fract(e * d); d.x = length(b) * 400.0; r.z = fract(d.x * d.x);" }, /* last bits */
+	{ "", "float d = length(a), e = d; r = vec4(fract(d * 262144.0), fract(e * d * 262144.0), fract(dot(a, a) * 262144.0), 1.0);" },
 	{ "", "float x, y; y = a.x * 0.5; x = y; r = vec4(x, y, x, y * 0.3);" },
 	{ "", "vec2 x[2], y[2]; x[0] = y[0] = a.xy; x[1] = y[1] = b.xy; y[0].x = 0.4; r = vec4(x == y, x != y, x[0].x, y[1].y);" },
 	{ "#define Q(x) x + x + x + x\n", "r = Q(Q(Q(Q(a * 0.002)))) - (b * 0.2 + p * (0.1 + a));" },
