@@ -28,9 +28,10 @@
 #include "replay/machine/commands.h"
 #include "replay/trace/reader.h"
 #include "replay/trace/trace_out.h"
+#include "replay/verbs/parts.h"
 #include "replay/verbs/shrink.h"
 
-enum { MOST_AT_ONCE = 64, MOST_NESTED = 256, ALWAYS = 0, MOST_SECONDS = 24 * 3600 };
+enum { MOST_AT_ONCE = 64, MOST_NESTED = 256, ALWAYS = 0, MOST_SECONDS = 24 * 3600, MOST_UNITS = 1 << 30 };
 #define NO_FRAME UINT64_MAX
 
 /* What is left out as one. */
@@ -39,9 +40,10 @@ enum level {
 	DRAWS,  /* a draw; all from a Begin to its End */
 	BLOCKS, /* a display list; what draws in one; pairs; any other call */
 	CALLS,  /* calls between Begin and End, and in display lists, too */
+	PARTS,  /* of calls that stay: primitives, texels (parts.h) */
 	N_LEVELS
 };
-static const char *const level_names[N_LEVELS] = { "frames", "draws", "blocks", "calls" };
+static const char *const level_names[N_LEVELS] = { "frames", "draws", "blocks", "calls", "primitives and images" };
 
 /* Of one call of the recording. */
 struct place {
@@ -49,6 +51,7 @@ struct place {
 	int32_t command; /* in gls_commands, or -1 */
 	uint32_t frame;
 	uint32_t begin, list, pair; /* the call, counted from 1, that begins what it is in or ends; 0: none */
+	uint32_t parts;  /* parts_count */
 };
 
 struct reduce {
@@ -59,12 +62,19 @@ struct reduce {
 	reduce_note *note_fault;
 	reduce_again *again;
 	size_t fault;             /* place of its call */
+	struct planted {
+		uint64_t frame, call; /* of the fault's first call, in what was written last */
+		size_t calls;         /* how many it has become */
+	} planted;
 	unsigned at_once, limit_s;
 	struct place *calls; /* [n] */
 	size_t n, room;
 	uint8_t *kept;       /* [n] */
-	uint32_t *unit;      /* [n]: what a call is left out with at this level, counted from 1; ALWAYS: it is not left out */
+	uint32_t *unit;      /* [n]: what a call is left out with at this level, or (PARTS) its first part, counted from 1; ALWAYS: it stays */
+	enum level level;
+	uint8_t *parts;      /* units of PARTS, once they are known; NULL: calls are whole */
 	char folder[PATH_MAX - 64];
+	uint64_t written;    /* calls of what was written last */
 	int code;            /* of the command, on the whole recording; of a trial that has the fault */
 	uint64_t trials;
 };
@@ -120,7 +130,8 @@ static int read_calls(struct reduce *r)
 		rc = MEMORY_GROW(r->calls, r->room, r->n + 1);
 		if (rc)
 			break;
-		r->calls[r->n++] = (struct place){ .number = call->number, .command = call->sig->command, .frame = frame };
+		r->calls[r->n++] = (struct place){ .number = call->number, .command = call->sig->command, .frame = frame,
+		                                   .parts = (uint32_t)parts_count(call) };
 		place_call(r, open, call->sig->name);
 		frame += ends_frame(&r->calls[r->n - 1]);
 	}
@@ -134,16 +145,25 @@ static int read_calls(struct reduce *r)
 	return rc;
 }
 
-/* in: units; NULL: all that is kept */
-static int is_in(const struct reduce *r, const uint8_t *in, size_t i)
+/* The parts of a call that stay. NULL: it is whole, or left out */
+static const uint8_t *parts_in(const struct reduce *r, const uint8_t *in, size_t i)
 {
-	return r->kept[i] && (!in || r->unit[i] == ALWAYS || in[r->unit[i] - 1]);
+	return in && r->level == PARTS && r->unit[i] != ALWAYS ? in + (r->unit[i] - 1) : NULL;
 }
 
-/* Write the recording, but for calls of units that are not in. */
-static int write_calls(const struct reduce *r, const uint8_t *in, const char *path, uint64_t *bytes)
+/* in: units; NULL: all that is kept. @return how many calls a call becomes: 0 or 1, or, of a draw that lacks primitives, any number */
+static size_t becomes(const struct reduce *r, const uint8_t *in, size_t i, const struct call *call)
+{
+	const uint8_t *parts = parts_in(r, in, i);
+
+	return parts ? parts_calls(call, parts) : r->kept[i] && (!in || r->unit[i] == ALWAYS || in[r->unit[i] - 1]);
+}
+
+/* Write the recording, but for calls of units that are not in. Notes where the fault's call is in it. */
+static int write_calls(struct reduce *r, const uint8_t *in, const char *path, uint64_t *bytes)
 {
 	struct trace_reader *reader = NULL;
+	uint64_t frame = 0, written = 0;
 	struct trace_out *out = NULL;
 	const struct call *call;
 	int rc = trace_reader_open(&reader, r->path, gls_command_find);
@@ -151,12 +171,22 @@ static int write_calls(const struct reduce *r, const uint8_t *in, const char *pa
 	if (!rc)
 		rc = trace_out_open(&out, path, r->path, reader);
 	for (size_t i = 0; i < r->n && !rc; i++) {
+		const uint8_t *parts = parts_in(r, in, i);
+		size_t n;
+
 		rc = trace_reader_next(reader, &call);
-		if (rc != 1)
+		if (rc != 1) {
 			rc = rc ? rc : err_report(ERR_INPUT, r->path, "has changed while it was read");
-		else
-			rc = is_in(r, in, i) ? trace_out_call(out, call) : 0;
+			break;
+		}
+		n = becomes(r, in, i, call);
+		if (i == r->fault)
+			r->planted = (struct planted){ frame, written, n };
+		written += n;
+		frame += n && ends_frame(&r->calls[i]);
+		rc = !n ? 0 : parts ? parts_write(out, call, parts) : trace_out_call(out, call);
 	}
+	r->written = written;
 	if (!rc)
 		rc = trace_out_finish(&out, bytes);
 	trace_out_drop(&out);
@@ -176,21 +206,13 @@ static void note_path(const struct reduce *r, char out[PATH_MAX])
 	snprintf(out, PATH_MAX, "%s/fault", r->folder);
 }
 
-/* Has a trial's recording the fault? @return as reduce_again */
-static int ask(const struct reduce *r, const uint8_t *in, const char *trace)
+/* Has the trial's recording that was written last the fault? A draw in several pieces is not looked at. @return as reduce_again */
+static int ask(const struct reduce *r, const char *trace)
 {
-	uint64_t call = 0, frame = 0;
 	char note[PATH_MAX];
 
-	if (!is_in(r, in, r->fault))
-		return 0;
-	for (size_t i = 0; i < r->fault; i++)
-		if (is_in(r, in, i)) {
-			call++;
-			frame += (uint64_t)ends_frame(&r->calls[i]);
-		}
 	note_path(r, note);
-	return r->again(note, trace, frame, call);
+	return r->planted.calls == 1 ? r->again(note, trace, r->planted.frame, r->planted.call) : 0;
 }
 
 /* @return a process that ends with this one; 0 within it; ERR_SYSTEM (reported) */
@@ -207,8 +229,8 @@ static pid_t start_process(void)
 	return pid;
 }
 
-/* Start the command, or the search for the fault, on a trial's recording. @return its process; below 0: ERR_SYSTEM (reported) */
-static pid_t start(const struct reduce *r, const uint8_t *in, size_t i)
+/* Start the command, or the search for the fault, on the trial's recording that was written last. @return its process; below 0: ERR_SYSTEM (reported) */
+static pid_t start(const struct reduce *r, size_t i)
 {
 	char trace[PATH_MAX], folder[PATH_MAX];
 	const pid_t pid = start_process();
@@ -222,7 +244,7 @@ static pid_t start(const struct reduce *r, const uint8_t *in, size_t i)
 	dup2(quiet, STDOUT_FILENO);
 	dup2(quiet, STDERR_FILENO);
 	if (!r->when)
-		_exit(ask(r, in, trace) == 1);
+		_exit(ask(r, trace) == 1);
 	setenv("TRACE", trace, 1);
 	trial_path(r, i, "", folder);
 	if (chdir(folder))
@@ -270,7 +292,7 @@ static int run_all(struct reduce *r, uint8_t *const *sets, size_t n, int *codes)
 		trial_path(r, started, "/x.trace", path);
 		if (!err)
 			err = write_calls(r, sets[started], path, NULL);
-		pids[started] = err ? err : start(r, sets[started], started);
+		pids[started] = err ? err : start(r, started);
 		err = pids[started] < 0 ? ERR_SYSTEM : err;
 	}
 	for (size_t i = 0; i < started; i++) {
@@ -358,7 +380,8 @@ static uint32_t name_of(const struct reduce *r, size_t i, enum level level)
 	case FRAMES: return draws(p) && !p->list ? p->frame + 1 : ALWAYS;
 	case DRAWS: return p->list || !draws(p) ? ALWAYS : p->begin ? p->begin : (uint32_t)i + 1;
 	case BLOCKS: return p->list ? p->list : p->begin ? p->begin : p->pair ? p->pair : (uint32_t)i + 1;
-	default: return p->pair ? p->pair : (uint32_t)i + 1;
+	case CALLS: return p->pair ? p->pair : (uint32_t)i + 1;
+	default: return p->parts ? (uint32_t)i + 1 : ALWAYS;
 	}
 }
 
@@ -376,10 +399,12 @@ static size_t number_units(struct reduce *r, enum level level)
 		const uint32_t name = name_of(r, i, level);
 
 		r->unit[i] = ALWAYS;
-		if (!r->kept[i] || name == ALWAYS)
+		if (!r->kept[i] || name == ALWAYS || n > MOST_UNITS)
 			continue;
-		if (!numbers[name])
-			numbers[name] = (uint32_t)++n;
+		if (!numbers[name]) {
+			numbers[name] = (uint32_t)n + 1;
+			n += level == PARTS ? r->calls[i].parts : 1;
+		}
 		r->unit[i] = numbers[name];
 	}
 	free(numbers);
@@ -401,16 +426,19 @@ static int reduce_level(struct reduce *r, enum level level)
 	uint8_t *in = n < SIZE_MAX ? malloc(n + 1) : NULL;
 	int err = in ? 0 : ERR_SYSTEM;
 
+	r->level = level;
 	if (!err) {
 		memset(in, 1, n);
 		err = shrink(in, n, r->at_once, test, r);
 	}
-	for (size_t i = 0; i < r->n && !err; i++)
+	for (size_t i = 0; i < r->n && !err && level < PARTS; i++)
 		r->kept[i] = r->kept[i] && (r->unit[i] == ALWAYS || in[r->unit[i] - 1]);
 	if (!err)
-		fprintf(stderr, "%s: %zu of %zu needed, %zu calls are left; %" PRIu64 " trials\n", level_names[level], count(in, n), n,
-		        count(r->kept, r->n), r->trials);
-	free(in);
+		fprintf(stderr, "%s: %zu of %zu needed; %" PRIu64 " trials\n", level_names[level], count(in, n), n, r->trials);
+	if (level == PARTS)
+		r->parts = in;
+	else
+		free(in);
 	return err;
 }
 
@@ -435,11 +463,11 @@ static int reduce(struct reduce *r)
 		err = reduce_level(r, (enum level)level);
 	folder_remove(r->folder);
 	if (!err)
-		err = write_calls(r, NULL, r->new, &bytes);
+		err = write_calls(r, r->parts, r->new, &bytes);
 	if (!err && r->when)
 		snprintf(still, sizeof(still), "the command ends with exit code %d", r->code);
 	if (!err)
-		printf("%s: %zu of %zu calls, %" PRIu64 " bytes; %s; %" PRIu64 " trials in %ld s\n", r->new, count(r->kept, r->n), r->n, bytes, still,
+		printf("%s: %" PRIu64 " of %zu calls, %" PRIu64 " bytes; %s; %" PRIu64 " trials in %ld s\n", r->new, r->written, r->n, bytes, still,
 		       r->trials, (long)(time(NULL) - begin));
 	return err;
 }
@@ -462,8 +490,9 @@ static const struct options_table table = {
 	.head = "usage: relume reduce TRACE --when COMMAND -o NEW\n"
 	        "       relume reduce TRACE --frame N [--ref REF] -o NEW\n"
 	        "\n"
-	        "Find the smallest recording with which a command still fails: it leaves out frames, then draws, then calls, as long as COMMAND\n"
-	        "ends with the same exit code as on TRACE. NEW runs in apitrace's tools as TRACE does. No call of it can be left out alone.\n"
+	        "Find the smallest recording with which a command still fails: it leaves out frames, then draws, calls, primitives of draws from\n"
+	        "arrays and texels of images, as long as COMMAND ends with the same exit code as on TRACE. NEW runs in apitrace's tools as TRACE\n"
+	        "does. No call of it can be left out alone.\n"
 	        "\n"
 	        "Of a frame that fails its gates it takes the draw that is to blame: this draw must go on to show the same colours at the\n"
 	        "sixteen pixels that are worst. What makes a program's picture wrong stays. Where relume itself is wrong about a call, its\n"
@@ -496,5 +525,6 @@ int reduce_main(int argc, char **argv, reduce_note *note, reduce_again *again)
 	free(r.calls);
 	free(r.kept);
 	free(r.unit);
+	free(r.parts);
 	return err > 0 ? 0 : -err;
 }

@@ -9,6 +9,7 @@ sys.path.insert(0, str(ROOT / "tests/show"))
 from edit_trace import Trace  # noqa: E402
 
 ERROR = f"'{RELUME}' info --json \"$TRACE\" >info.json || exit 9; ! grep -q INVALID_ENUM info.json"
+PART = f"'{RELUME}' scene \"$TRACE\" -f 0 >scene.txt || exit 9; ! {{ grep -q 'glDrawElements' scene.txt && '{RELUME}' dump \"$TRACE\" | grep -q 'glTexImage2D'; }}"
 TWO = f"'{RELUME}' scene \"$TRACE\" -f 0 >scene.txt || exit 9; ! grep -q '2 triangles of mesh' scene.txt"
 
 
@@ -33,6 +34,11 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
     check(calls.count("glEnable") == 1 and len(calls) <= 3, f"what an error needs: {calls}")
     reduce(out / "error.trace", out / "alone.trace", ERROR, "--jobs", 1)
     check((out / "small.trace").read_bytes() == (out / "alone.trace").read_bytes(), "the same whatever runs at once")
+
+    done = reduce(out / "whole.trace", out / "part.trace", PART)
+    dump = must(relume("dump", out / "part.trace")).stdout
+    check(done.count("glDrawElements") == 1 and "count = 3," in dump and "indices = blob(6)" in dump, f"a triangle of twelve: {dump}")
+    check(done.count("glTexImage2D") == 1 and "pixels = NULL" in dump, f"an image without its texels: {dump}")
 
     record(out / "pair.trace", corpus("two_triangles"), "--frames", 2)
     calls = reduce(out / "pair.trace", out / "triangles.trace", TWO)
