@@ -4,6 +4,9 @@
  * The tile's rays go through the trees as one frustum against eight boxes at once, nearest child first. Of the tile's nearest
  * fragments the farthest cuts the frustum off. Triangles of leaves wait until there are sixteen, and are then set up at once
  * (kernels/camera/batch.h). Each is then drawn block by block, four rows of four pixels at once: small triangles meet few blocks.
+ *
+ * Columns that go on from an earlier launch are often deep. Their tiles first list all faces, and draw them in draw order until no pixel
+ * has room: a face that comes too early or too late is not set up.
  */
 #include "kernels/camera/batch.h"
 #include "kernels/camera/camera.h"
@@ -21,21 +24,34 @@
 #define BLOCK_X (PACK_LANES & 3)
 #define BLOCK_Y (PACK_LANES >> 2)
 
-/* The state of a block. NEAREST: the nearest fragment, of depth NO_DEPTH where there is none. COLUMN: how many fragments so far. */
+/*
+ * The state of a block. NEAREST: the nearest fragment, of depth NO_DEPTH where there is none. COLUMN: how many fragments so far, the least
+ * order number that counts (SCENE_NONE where pixels do not), and that of the last fragment of a full column, SCENE_NONE of another.
+ */
 #define NO_DEPTH 2.0f
 struct camera_pack {
 	packu order, instance, primitive;
 	packf b1, b2, depth, steps; /* steps: depth in steps of 2^-24, as it is compared */
 	packi counts;
+	packu first, last;
+};
+
+/* Faces of a tile to be drawn in draw order: a heap, the least order number on top; the lower half of a key says where the face stands. */
+#define LISTED_FULL 512
+struct listed {
+	int is_used, is_drawn; /* a part of them has been drawn already: later ones may come before them */
+	uint n, least;         /* order numbers below the least do not count */
+	ulong key[LISTED_FULL];
+	uint instance[LISTED_FULL], place[LISTED_FULL]; /* place: eight times the block of faces, and its lane */
 };
 
 /*
- * Triangles that wait, by their numbers in the mesh. The first sixteen are drawn when sixteen more have come: the vertices of the
- * later ones are prefetched meanwhile.
+ * Triangles that wait, of instances of the same flags. vertex: in the frame. The first sixteen are drawn when sixteen more have come: the
+ * vertices of the later ones are prefetched meanwhile.
  */
 #define PENDING_FULL 32
 struct pending {
-	uint n, primitive[PENDING_FULL + 8], vertex[3][PENDING_FULL + 8];
+	uint n, flags, instance[PENDING_FULL + 8], primitive[PENDING_FULL + 8], vertex[3][PENDING_FULL + 8];
 };
 
 struct tile {
@@ -45,7 +61,6 @@ struct tile {
 	__global const struct face8 *faces;
 	__global const struct window_vertex *window;
 	__global const float *clip;
-	__global const uint *after;
 	__global struct fragment *fragments;
 	uint width, height, mode, first_pixel;
 	int x, y;      /* the first pixel */
@@ -56,6 +71,7 @@ struct tile {
 	struct batch_far far;
 	float z_far;   /* in normalised device coordinates: nothing behind it matters */
 	struct pending pending;
+	struct listed listed; /* COLUMN */
 	struct camera_pack packs[TILE_BLOCKS][TILE_BLOCKS];
 };
 
@@ -99,17 +115,18 @@ static inline size_t place_of(const struct tile *t, int x, int y)
 
 WIDE_VECTORS static inline void keep_in_columns(struct tile *t, int x, int y, packi covered, packf b1, packf b2, packf depth, struct candidate c)
 {
-	for (int lane = 0; lane < 16; lane++) {
+	struct camera_pack *p = &t->packs[y][x];
+
+	for (uint lanes = pack_bits(covered); lanes; lanes &= lanes - 1) {
+		const int lane = (int)popcount((lanes & -lanes) - 1);
 		const size_t pixel = place_of(t, BLOCK * x + lane % BLOCK, BLOCK * y + lane / BLOCK);
 		__global struct fragment *column = t->fragments + pixel * CAMERA_COLUMN_MAX;
-		int *count = (int *)&t->packs[y][x].counts + lane, place = *count;
+		int *count = (int *)&p->counts + lane, place = *count;
 
-		if (!LANE_INT(covered, lane) || c.order < t->after[pixel])
-			continue;
 		while (place > 0 && column[place - 1].order > c.order)
 			place--;
 		/* A triangle may lie in several leaves. */
-		if (place == CAMERA_COLUMN_MAX || (place > 0 && column[place - 1].order == c.order))
+		if (place > 0 && column[place - 1].order == c.order)
 			continue;
 		if (*count < CAMERA_COLUMN_MAX)
 			++*count;
@@ -121,6 +138,8 @@ WIDE_VECTORS static inline void keep_in_columns(struct tile *t, int x, int y, pa
 		column[place].b1 = LANE_FLOAT(b1, lane);
 		column[place].b2 = LANE_FLOAT(b2, lane);
 		column[place].depth = LANE_FLOAT(depth, lane);
+		if (*count == CAMERA_COLUMN_MAX)
+			((uint *)&p->last)[lane] = column[CAMERA_COLUMN_MAX - 1].order;
 	}
 }
 
@@ -204,6 +223,10 @@ WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s
 	struct camera_pack *p = &t->packs[y][x];
 	packf depth, b1, b2;
 
+	if (t->mode == CAMERA_COLUMN)
+		covered &= (c.order >= p->first) & (c.order < p->last);
+	if (!any_pack(covered))
+		return;
 	b1 = weight_at(s, lane, 0, x, y, at[1]);
 	b2 = weight_at(s, lane, 1, x, y, at[2]);
 	if (exact)
@@ -281,9 +304,8 @@ static inline void draw_clipped(struct tile *t, uint flags, const uint *vertex, 
 }
 
 /* The first sixteen pending faces, or as many as there are. */
-WIDE_VECTORS static inline void draw_pending(struct tile *t, uint index)
+WIDE_VECTORS static inline void draw_pending(struct tile *t)
 {
-	__global const struct instance *instance = &t->instances[index];
 	struct pending *pending = &t->pending;
 	const uint n = min(pending->n, 16u);
 	const packi there = PACK_LANES < (int)n;
@@ -294,42 +316,142 @@ WIDE_VECTORS static inline void draw_pending(struct tile *t, uint index)
 	uint clipped;
 
 	for (int i = 0; i < 3; i++)
-		vertex[i] = instance->vertex_first + select((packu)(pending->vertex[i][0]), vload16(0, pending->vertex[i]), there);
-	t->changed = 1;
+		vertex[i] = select((packu)(pending->vertex[i][0]), vload16(0, pending->vertex[i]), there);
+	t->changed = t->mode != CAMERA_COLUMN;
 	placed = batch_load(t->view, (float)t->height, t->window, t->clip, vertex, &v);
 	clipped = pack_bits(there & ~placed);
-	for (uint lanes = batch_set_up(t->view, t->height, t->x, t->y, instance->flags, &v, there & placed, &t->far, &batch); lanes;
+	for (uint lanes = batch_set_up(t->view, t->height, t->x, t->y, pending->flags, &v, there & placed, &t->far, &batch); lanes;
 	     lanes &= lanes - 1) {
-		const uint lane = popcount((lanes & -lanes) - 1), primitive = pending->primitive[lane];
-		const struct candidate c = { instance->primitive_first + primitive, index, primitive };
+		const uint lane = popcount((lanes & -lanes) - 1), primitive = pending->primitive[lane], index = pending->instance[lane];
+		const struct candidate c = { t->instances[index].primitive_first + primitive, index, primitive };
 
 		draw_triangle(t, &batch, lane, 0, c);
 	}
 	for (; clipped; clipped &= clipped - 1) {
-		const uint lane = popcount((clipped & -clipped) - 1), primitive = pending->primitive[lane];
-		const struct candidate c = { instance->primitive_first + primitive, index, primitive | FRAGMENT_PERSPECTIVE };
+		const uint lane = popcount((clipped & -clipped) - 1), primitive = pending->primitive[lane], index = pending->instance[lane];
+		const struct candidate c = { t->instances[index].primitive_first + primitive, index, primitive | FRAGMENT_PERSPECTIVE };
 		const uint corner[3] = { LANE_INT(vertex[0], lane), LANE_INT(vertex[1], lane), LANE_INT(vertex[2], lane) };
 
-		draw_clipped(t, instance->flags, corner, c);
+		draw_clipped(t, pending->flags, corner, c);
 	}
 	pending->n -= n;
 	for (uint k = 0; 8 * k < pending->n; k++) {
+		vstore8(vload8(k + 2, pending->instance), k, pending->instance);
 		vstore8(vload8(k + 2, pending->primitive), k, pending->primitive);
 		for (int i = 0; i < 3; i++)
 			vstore8(vload8(k + 2, pending->vertex[i]), k, pending->vertex[i]);
 	}
 }
 
-/* A block of faces of an instance waits now; the first sixteen are drawn where that is enough. */
-static inline void add_faces(struct tile *t, uint index, __global const struct face8 *faces)
+/* --- faces in draw order --- */
+
+/* Whether pixels that take fragments now have room in their columns. */
+WIDE_VECTORS static inline int has_room(const struct tile *t)
+{
+	packi room = 0;
+
+	for (int y = 0; y < TILE_BLOCKS; y++)
+		for (int x = 0; x < TILE_BLOCKS; x++) {
+			const struct camera_pack *p = &t->packs[y][x];
+
+			room |= (p->first != SCENE_NONE) & (p->counts < CAMERA_COLUMN_MAX) & ~(t->off_x[x] | t->off_y[y]);
+		}
+	return any_pack(room);
+}
+
+/* Move a key of the heap down to where it belongs. */
+static inline void sink(struct listed *l, uint at)
+{
+	const ulong key = l->key[at];
+
+	for (uint child = 2 * at + 1; child < l->n; child = 2 * at + 1) {
+		child += child + 1 < l->n && l->key[child + 1] < l->key[child];
+		if (l->key[child] >= key)
+			break;
+		l->key[at] = l->key[child];
+		at = child;
+	}
+	l->key[at] = key;
+}
+
+/* Up to sixteen of the list's first faces wait now, of instances of the same flags. A face may lie in several leaves, and is taken once. */
+static inline void take_listed(struct tile *t)
+{
+	struct pending *pending = &t->pending;
+	struct listed *l = &t->listed;
+	uint last = SCENE_NONE;
+
+	while (l->n && pending->n < 16) {
+		const uint order = (uint)(l->key[0] >> 32), entry = (uint)l->key[0], index = l->instance[entry], lane = l->place[entry] % 8;
+		__global const struct face8 *faces = &t->faces[l->place[entry] / 8];
+		__global const struct instance *instance = &t->instances[index];
+
+		if (pending->n && instance->flags != pending->flags)
+			return;
+		if (order != last) {
+			pending->flags = instance->flags;
+			pending->instance[pending->n] = index;
+			pending->primitive[pending->n] = faces->primitive[lane];
+			for (int i = 0; i < 3; i++)
+				pending->vertex[i][pending->n] = instance->vertex_first + faces->vertex[i][lane];
+			pending->n++;
+		}
+		last = order;
+		l->key[0] = l->key[--l->n];
+		sink(l, 0);
+	}
+}
+
+/* Draw the list, as far as it can come into columns. What is drawn later may come before. */
+static inline void draw_listed(struct tile *t)
+{
+	struct listed *l = &t->listed;
+
+	for (uint i = l->n / 2; i-- > 0;)
+		sink(l, i);
+	while (l->n && (l->is_drawn || has_room(t))) {
+		take_listed(t);
+		draw_pending(t);
+	}
+	l->is_drawn = 1;
+	l->n = 0;
+}
+
+/* A block of faces of an instance for the list. place: among all blocks */
+static inline void list_faces(struct tile *t, uint index, uint place)
+{
+	const uint first = t->instances[index].primitive_first;
+	__global const struct face8 *faces = &t->faces[place];
+	struct listed *l = &t->listed;
+
+	if (l->n + 8 > LISTED_FULL)
+		draw_listed(t);
+	for (uint lane = 0; lane < 8; lane++) {
+		if (faces->primitive[lane] == SCENE_NONE || first + faces->primitive[lane] < l->least)
+			continue;
+		l->key[l->n] = (ulong)(first + faces->primitive[lane]) << 32 | l->n;
+		l->instance[l->n] = index;
+		l->place[l->n++] = 8 * place + lane;
+	}
+}
+
+/* A block of faces of an instance waits now, or is listed; the first sixteen are drawn where that is enough. place: among all blocks */
+static inline void add_faces(struct tile *t, uint index, uint place)
 {
 	const uint vertex_first = t->instances[index].vertex_first;
+	__global const struct face8 *faces = &t->faces[place];
 	struct pending *pending = &t->pending;
 	const uint n = pending->n;
 
+	if (t->listed.is_used) {
+		list_faces(t, index, place);
+		return;
+	}
+	pending->flags = t->instances[index].flags;
+	vstore8((uint8)(index), 0, pending->instance + n);
 	vstore8(vload8(0, faces->primitive), 0, pending->primitive + n);
 	for (int i = 0; i < 3; i++)
-		vstore8(vload8(0, faces->vertex[i]), 0, pending->vertex[i] + n);
+		vstore8(vertex_first + vload8(0, faces->vertex[i]), 0, pending->vertex[i] + n);
 	for (int i = 0; i < 3; i++)
 		for (int lane = 0; lane < 8; lane++) {
 			const size_t vertex = vertex_first + faces->vertex[i][lane];
@@ -339,7 +461,7 @@ static inline void add_faces(struct tile *t, uint index, __global const struct f
 		}
 	pending->n = n + popcount(lane_bits(vload8(0, faces->primitive) != SCENE_NONE));
 	if (pending->n >= PENDING_FULL)
-		draw_pending(t, index);
+		draw_pending(t);
 }
 
 /* --- traversal --- */
@@ -445,15 +567,15 @@ static inline void tile_walk_blas(struct tile *t, uint index)
 		} else {
 			/* A leaf's faces are on their way for as long as another leaf's are added. */
 			for (uint i = 0; i < leaf.count; i++)
-				add_faces(t, index, &faces[leaf.child + i]);
+				add_faces(t, index, instance->triangle8_first + leaf.child + i);
 			leaf = entry;
 		}
 		if (!depth) {
 			for (uint i = 0; i < leaf.count; i++)
-				add_faces(t, index, &faces[leaf.child + i]);
+				add_faces(t, index, instance->triangle8_first + leaf.child + i);
 			leaf.count = 0;
 			while (t->pending.n)
-				draw_pending(t, index);
+				draw_pending(t);
 		}
 		if (t->changed) {
 			const float before = t->z_far;
@@ -518,11 +640,11 @@ static inline void walk_screen(struct tile *t, uint index)
 			if (node->count[lane] == 0)
 				stack[depth++] = node->child[lane];
 			for (uint i = 0; i < node->count[lane]; i++)
-				add_faces(t, index, &t->faces[instance->triangle8_first + node->child[lane] + i]);
+				add_faces(t, index, instance->triangle8_first + node->child[lane] + i);
 		}
 	}
 	while (t->pending.n)
-		draw_pending(t, index);
+		draw_pending(t);
 }
 
 /* Pixels of the tile between places x0 and x1, y0 and y1 take fragments from now on. */
@@ -645,6 +767,41 @@ static inline void store_tile(const struct tile *t, __global uint *counts)
 				}
 }
 
+/* Of a block's pixels, the least order numbers that count. after: of pixels, as camera.h has it */
+static inline packu columns_begin(const struct tile *t, int x, int y, __global const uint *after)
+{
+	packu first = SCENE_NONE;
+
+	for (int lane = 0; lane < 16; lane++) {
+		const int px = BLOCK * x + lane % BLOCK, py = BLOCK * y + lane / BLOCK;
+
+		if (px >= t->open.x0 && px < t->open.x1 && py >= t->open.y0 && py < t->open.y1)
+			((uint *)&first)[lane] = after[place_of(t, px, py)];
+	}
+	return first;
+}
+
+static inline void clear_columns(struct tile *t, __global const uint *after)
+{
+	packu least = SCENE_NONE;
+
+	for (int y = 0; y < TILE_BLOCKS; y++)
+		for (int x = 0; x < TILE_BLOCKS; x++) {
+			struct camera_pack *p = &t->packs[y][x];
+
+			p->first = columns_begin(t, x, y, after);
+			p->last = SCENE_NONE;
+			p->counts = 0;
+			least = min(least, p->first);
+		}
+	t->listed.least = SCENE_NONE;
+	for (int lane = 0; lane < 16; lane++)
+		t->listed.least = min(t->listed.least, ((const uint *)&least)[lane]);
+	t->listed.is_used = t->listed.least > 0;
+	t->listed.is_drawn = 0;
+	t->listed.n = 0;
+}
+
 WIDE_VECTORS static inline void clear_tile(struct tile *t)
 {
 	const float row = clip_from_origin(t->view, (int)t->height - 1 - t->y, -t->view->sample[1]);
@@ -667,10 +824,7 @@ WIDE_VECTORS static inline void clear_tile(struct tile *t)
 			p->depth = select((packf)(0), (packf)(NO_DEPTH),
 			                  (BLOCK_X + BLOCK * x >= t->open.x0) & (BLOCK_X + BLOCK * x < t->open.x1) &
 			                  (BLOCK_Y + BLOCK * y >= t->open.y0) & (BLOCK_Y + BLOCK * y < t->open.y1));
-			if (t->mode == CAMERA_COLUMN)
-				p->counts = 0;
-			else
-				p->steps = NO_DEPTH * 16777216.0f;
+			p->steps = NO_DEPTH * 16777216.0f;
 		}
 }
 
@@ -681,6 +835,7 @@ KERNEL_OF(float16) void camera_packet(KERNEL_ARGUMENTS(camera_packet))
 	const struct camera_rectangle r = rectangle;
 	const uint item = (uint)get_global_id(0);
 	struct tile t;
+	int is_done;
 
 	if (item >= camera_packet_items(r))
 		return;
@@ -690,7 +845,6 @@ KERNEL_OF(float16) void camera_packet(KERNEL_ARGUMENTS(camera_packet))
 	t.faces = triangles;
 	t.window = window;
 	t.clip = clip;
-	t.after = after;
 	t.fragments = fragments;
 	t.width = width;
 	t.height = height;
@@ -703,13 +857,21 @@ KERNEL_OF(float16) void camera_packet(KERNEL_ARGUMENTS(camera_packet))
 	t.open.x1 = min(r.x1 - t.x, CAMERA_TILE);
 	t.open.y1 = min(r.y1 - t.y, CAMERA_TILE);
 	clear_tile(&t);
-	if (view->tlas_count) {
+	t.listed.is_used = 0;
+	if (mode == CAMERA_COLUMN)
+		clear_columns(&t, after);
+	is_done = t.listed.is_used && t.listed.least == SCENE_NONE;
+	if (view->tlas_count && !is_done) {
 		open_pixels(&t, fmax((float)r.x0, viewport[0]), fmax((float)r.y0, viewport[1]),
 		            fmin((float)r.x1, viewport[0] + viewport[2]), fmin((float)r.y1, viewport[1] + viewport[3]));
 		tile_walk_top(&t, top + view->tlas_first, instance_list);
+		if (t.listed.is_used)
+			draw_listed(&t);
 	}
 	open_pixels(&t, (float)r.x0, (float)r.y0, (float)r.x1, (float)r.y1);
-	for (uint i = 0; i < view->screen_count; i++)
+	for (uint i = 0; i < view->screen_count && !is_done; i++)
 		walk_screen(&t, view->screen_first + i);
+	if (t.listed.is_used)
+		draw_listed(&t);
 	store_tile(&t, counts);
 }

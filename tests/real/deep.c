@@ -1,0 +1,87 @@
+/*
+ * Deep blending: pixels under far more fragments than a camera kernel finds at once, slices of a texture of three dimensions for the most
+ * part. Recorded by test_deep.py.
+ */
+#include "tests/trace/window.h"
+
+#define SIZE 16
+#define SLICES 60
+
+static void make_volume(GLsizei n, GLint filter, GLint wrap)
+{
+	static GLubyte texels[SIZE * SIZE * SIZE][4];
+
+	srand(1);
+	for (size_t i = 0; i < sizeof(texels); i++)
+		texels[i / 4][i % 4] = (GLubyte)(rand() >> 8 & (i % 4 == 3 ? 31 : 255));
+	glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, n, SIZE, n, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+	glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, filter);
+	glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, filter);
+	for (GLenum axis = 0; axis < 3; axis++)
+		glTexParameteri(GL_TEXTURE_3D, axis == 2 ? GL_TEXTURE_WRAP_R : GL_TEXTURE_WRAP_S + axis, wrap);
+	glEnable(GL_TEXTURE_3D);
+}
+
+static void slice(float z)
+{
+	for (int i = 0; i < 4; i++) {
+		const float x = i == 1 || i == 2, y = i > 1;
+
+		glTexCoord3f(1.5f * x - 0.25f, 1.5f * y - 0.25f, 1.5f * z - 0.25f);
+		glVertex3f(1.6f * x - 0.8f, 1.6f * y - 0.8f, 1.6f * z - 0.8f);
+	}
+}
+
+/* Slices of a cube, turned a little and seen in perspective. */
+static void slices(int backwards, int at_once)
+{
+	glPushMatrix();
+	glFrustum(-0.5, 0.5, -0.5, 0.5, 1, 9);
+	glTranslatef(0, 0, -2.6f);
+	glRotatef(20, 1, 2, 0);
+	if (at_once)
+		glBegin(GL_QUADS);
+	for (int i = 0; i < SLICES; i++) {
+		if (!at_once)
+			glBegin(GL_QUADS);
+		slice(((backwards ? SLICES - 1 - i : i) + 0.5f) / SLICES);
+		if (!at_once)
+			glEnd();
+	}
+	if (at_once)
+		glEnd();
+	glPopMatrix();
+}
+
+/* More triangles than a tile lists at once, some of them lines. */
+static void heap(void)
+{
+	glDisable(GL_TEXTURE_3D);
+	srand(2);
+	for (int part = 0; part < 3; part++) {
+		glBegin(part == 1 ? GL_LINES : GL_TRIANGLES);
+		for (int i = 0; i < 900; i++) {
+			glColor4f((float)(rand() & 15) / 15, (float)(rand() & 15) / 15, (float)part / 2, 0.1f);
+			glVertex3f((float)(rand() & 255) / 128 - 1, (float)(rand() & 255) / 128 - 1, (float)(rand() & 255) / 128 - 1);
+		}
+		glEnd();
+	}
+	glColor4f(1, 1, 1, 1);
+}
+
+int main(void)
+{
+	open_window();
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	for (int frame = 0; frame < 6; frame++) {
+		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+		make_volume(frame == 2 ? 12 : SIZE, frame == 4 ? GL_NEAREST : GL_LINEAR, frame == 3 ? GL_CLAMP_TO_EDGE : GL_REPEAT);
+		if (frame == 5)
+			heap();
+		else
+			slices(frame & 1, frame > 1);
+		end_frame();
+	}
+	return 0;
+}
