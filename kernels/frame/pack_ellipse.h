@@ -129,7 +129,7 @@ WIDE_VECTORS static inline packi pack_ellipse(const struct tables *tables, __glo
 
 /* Samples of a unit that is filtered anisotropically: one level a lane. */
 WIDE_VECTORS static inline void pack_anisotropic(const struct tables *t, __global const struct texture_image *image,
-                                                 __global const struct scene_unit *unit, const struct pack_slope *slope, packf s, packf r,
+                                                 __global const struct scene_unit *unit, const struct pack_slope *slope, const packf *c,
                                                  packi lanes, packf *out)
 {
 	const int nearest = unit->min_filter == GL_NEAREST_MIPMAP_NEAREST || unit->min_filter == GL_LINEAR_MIPMAP_NEAREST;
@@ -141,10 +141,10 @@ WIDE_VECTORS static inline void pack_anisotropic(const struct tables *t, __globa
 	if (unit->min_filter != GL_LINEAR)
 		level = convert_int16(fmin(fmax(pack_floor(nearest ? lod + 0.5f : lod), (packf)(0)), (packf)((float)image->n_levels - 1.0f)));
 	l = pack_level(image, level);
-	whole = pack_footprint(&l, slope, level, s, r, lanes, &at);
+	whole = pack_footprint(&l, slope, level, c[0], c[1], lanes, &at);
 	whole &= pack_ellipse(t, unit, &l, &at, out);
 	if (any_pack(lanes & ~whole)) {
-		const packu texel = pack_level_8(t, unit, &l, s, r);
+		const packu texel = pack_level_8(t, unit, &l, c);
 
 		for (int i = 0; i < 4; i++)
 			out[i] = select(convert_float16(texel >> (packu)(8 * i) & 255) * (1.0f / 255.0f), out[i], whole);

@@ -99,15 +99,14 @@ WIDE_VECTORS static inline void pack_texture_hits(const struct tables *t, const 
 				c[j] += texcoord[j] * p->weight[k];
 		}
 		over = 1.0f / c[3];
+		for (int j = 0; j < 3; j++)
+			c[j] *= over;
 		if (unit->mag_filter == GL_NEAREST) {
-			const packu at = as_uint16(pack_wrap_nearest(unit->wrap_t, c[1] * over, (int)image->height) * (int)image->width +
-			                           pack_wrap_nearest(unit->wrap_s, c[0] * over, (int)image->width));
-
-			texel = pack_texels(t->texels + image->level_first[0], at);
+			texel = pack_nearest(t, unit, c);
 		} else {
 			const struct pack_level l = pack_level(image, 0);
 
-			texel = pack_level_8(t, unit, &l, c[0] * over, c[1] * over);
+			texel = pack_level_8(t, unit, &l, c);
 		}
 		for (int j = 0; j < 4; j++)
 			out->sample[i][j] = convert_float16(texel >> (packu)(8 * j) & 255) * (1.0f / 255.0f);

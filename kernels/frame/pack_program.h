@@ -179,7 +179,7 @@ static inline void pack_look_up(const struct tables *t, const struct pack *p, __
 
 	if (place != SCENE_NONE && pack_knows_texture(t, unit) &&
 	    !(texture_needs_slope(t, unit) && in->c & (SCENE_TEXTURE_BIASED | SCENE_TEXTURE_LEVEL))) {
-		const packf s = at[0] * (1.0f / q), r = at[1] * (1.0f / q);
+		const packf over = 1.0f / q, at_q[3] = { at[0] * over, at[1] * over, at[2] * over }, s = at_q[0], r = at_q[1];
 		const float width = (float)t->textures[unit->texture].width, height = (float)t->textures[unit->texture].height;
 		struct pack_slope slope;
 
@@ -187,7 +187,7 @@ static inline void pack_look_up(const struct tables *t, const struct pack *p, __
 		slope.right_t = (r.s111155559999dddd - r.s000044448888cccc) * height;
 		slope.down_s = (s.s22226666aaaaeeee - s.s000044448888cccc) * width;
 		slope.down_t = (r.s22226666aaaaeeee - r.s000044448888cccc) * height;
-		pack_sample_at(t, unit, s, r, &slope, -1, out);
+		pack_sample_at(t, unit, at_q, &slope, -1, out);
 	} else if (place != SCENE_NONE) {
 		for (uint lane = 0; lane < PACK_SIZE; lane++) {
 			struct vec4 quad[4], sample;

@@ -3,25 +3,21 @@
 
 #include "kernels/frame/pack_ellipse.h"
 
-/* A unit's texture at coordinates s and r. slope: where texture_needs_slope. lanes, out: as of pack_sample */
-WIDE_VECTORS static inline void pack_sample_at(const struct tables *tables, __global const struct scene_unit *unit, packf s, packf r,
+/* A unit's texture at coordinates s, t and r. slope: where texture_needs_slope. lanes, out: as of pack_sample */
+WIDE_VECTORS static inline void pack_sample_at(const struct tables *tables, __global const struct scene_unit *unit, const packf *c,
                                                const struct pack_slope *slope, packi lanes, packf *out)
 {
 	__global const struct texture_image *image = &tables->textures[unit->texture];
 	packu texel;
 
 	if (unit->min_filter != GL_NEAREST && texture_is_anisotropic(tables, unit)) {
-		pack_anisotropic(tables, image, unit, slope, s, r, lanes, out);
+		pack_anisotropic(tables, image, unit, slope, c, lanes, out);
 		return;
 	}
-	if (unit->min_filter == GL_NEAREST) {
-		const packu at = as_uint16(pack_wrap_nearest(unit->wrap_t, r, (int)image->height) * (int)image->width +
-		                           pack_wrap_nearest(unit->wrap_s, s, (int)image->width));
-
-		texel = pack_texels(tables->texels + image->level_first[0], at);
-	} else {
-		texel = pack_filter(tables, image, unit, unit->min_filter != unit->mag_filter ? pack_lod(unit, slope, 0) : (packf)(0), s, r);
-	}
+	if (unit->min_filter == GL_NEAREST)
+		texel = pack_nearest(tables, unit, c);
+	else
+		texel = pack_filter(tables, image, unit, unit->min_filter != unit->mag_filter ? pack_lod(unit, slope, 0) : (packf)(0), c);
 	for (int i = 0; i < 4; i++)
 		out[i] = convert_float16(texel >> (packu)(8 * i) & 255) * (1.0f / 255.0f);
 }
@@ -42,20 +38,19 @@ WIDE_VECTORS static inline void pack_sample(const struct tables *tables, __globa
 	const packf px = convert_float16(x) + middle, py = convert_float16(row) + middle;
 	struct pack_coords coords;
 	struct pack_slope slope;
-	packf over_w[3], s, t;
+	const int n = image->target == GL_TEXTURE_3D ? 3 : 2;
+	packf over_w[3], c[3];
 
 	coords.w_inv = pack_plane_through(edges, w_inv);
-	for (int k = 0; k < 3; k++)
-		over_w[k] = texcoord[k][0] * w_inv[k];
-	coords.s = pack_plane_through(edges, over_w);
-	for (int k = 0; k < 3; k++)
-		over_w[k] = texcoord[k][1] * w_inv[k];
-	coords.t = pack_plane_through(edges, over_w);
-	for (int k = 0; k < 3; k++)
-		over_w[k] = texcoord[k][3] * w_inv[k];
-	coords.q = pack_plane_through(edges, over_w);
-	pack_coords_at(&coords, px, py, &s, &t);
+	for (int i = 0; i < 4; i++) {
+		if (i >= n && i != 3)
+			continue;
+		for (int k = 0; k < 3; k++)
+			over_w[k] = texcoord[k][i] * w_inv[k];
+		coords.plane[i] = pack_plane_through(edges, over_w);
+	}
+	pack_coords_at(&coords, px, py, n, c);
 	if (texture_needs_slope(tables, unit))
 		pack_slope_of(image, &coords, x, row, middle, &slope);
-	pack_sample_at(tables, unit, s, t, &slope, lanes, out);
+	pack_sample_at(tables, unit, c, &slope, lanes, out);
 }

@@ -2,8 +2,8 @@
  * Planes over sixteen triangles at once, a lane each, and samples of one texture there: as kernels/gl/clip.h and texture.h have them for
  * one, in the same order of operations. OpenCL C only.
  *
- * The textures are those that most programs use (pack_knows_texture): images of two dimensions and four bytes a texel, without a border,
- * repeated or clamped to their edge.
+ * The textures are those that most programs use (pack_knows_texture): images of four bytes a texel, without a border, repeated or clamped
+ * to their edge; of two dimensions, or of three and one level.
  */
 #pragma once
 
@@ -95,7 +95,9 @@ static inline int pack_knows_texture(const struct tables *t, __global const stru
 	const int linear = unit->mag_filter == GL_LINEAR && (unit->min_filter == GL_LINEAR || unit->min_filter == GL_LINEAR_MIPMAP_NEAREST ||
 	                                                     unit->min_filter == GL_LINEAR_MIPMAP_LINEAR);
 
-	return image->target == GL_TEXTURE_2D && image->base_format != GL_DEPTH_COMPONENT && !image->border && image->words == 1 &&
+	if (image->target == GL_TEXTURE_3D ? !texture_wrap_is_plain(unit->wrap_r) || texture_needs_slope(t, unit) : image->target != GL_TEXTURE_2D)
+		return 0;
+	return image->base_format != GL_DEPTH_COMPONENT && !image->border && image->words == 1 &&
 	       texture_wrap_is_plain(unit->wrap_s) && texture_wrap_is_plain(unit->wrap_t) && !unit->swizzle &&
 	       (nearest || linear || (unit->max_anisotropy > 1.0f && unit->min_filter != GL_NEAREST));
 }
@@ -175,19 +177,40 @@ WIDE_VECTORS static inline packu pack_texels(__global const uint *texels, packu 
 	return out;
 }
 
-/* As texture_level_8 in two dimensions. */
+/* As texture_level_8. c: coordinates s and t, and r of an image of three dimensions */
 WIDE_VECTORS static inline packu pack_level_8(const struct tables *t, __global const struct scene_unit *unit, const struct pack_level *l,
-                                              packf s, packf r)
+                                              const packf *c)
 {
-	packi x0, x1, y0, y1;
-	packu wx, wy, row0, row1;
+	__global const struct texture_image *image = &t->textures[unit->texture];
+	const packi slice = l->width * l->height;
+	packi x0, x1, y0, y1, z[2] = { 0, 0 };
+	packu wx, wy, wz = 0, sum = 0;
 
-	pack_wrap_8(unit->wrap_s, s, l->width, &x0, &x1, &wx);
-	pack_wrap_8(unit->wrap_t, r, l->height, &y0, &y1, &wy);
-	row0 = l->first + as_uint16(y0 * l->width);
-	row1 = l->first + as_uint16(y1 * l->width);
-	return pack_mix_8(pack_mix_8(pack_texels(t->texels, row0 + as_uint16(x0)), pack_texels(t->texels, row0 + as_uint16(x1)), wx),
-	                  pack_mix_8(pack_texels(t->texels, row1 + as_uint16(x0)), pack_texels(t->texels, row1 + as_uint16(x1)), wx), wy);
+	pack_wrap_8(unit->wrap_s, c[0], l->width, &x0, &x1, &wx);
+	pack_wrap_8(unit->wrap_t, c[1], l->height, &y0, &y1, &wy);
+	if (image->target == GL_TEXTURE_3D)
+		pack_wrap_8(unit->wrap_r, c[2], (packi)((int)image->depth), &z[0], &z[1], &wz);
+	for (int k = 0; k < (image->target == GL_TEXTURE_3D ? 2 : 1); k++) {
+		const packu row0 = l->first + as_uint16(z[k] * slice + y0 * l->width), row1 = l->first + as_uint16(z[k] * slice + y1 * l->width);
+		const packu texel =
+			pack_mix_8(pack_mix_8(pack_texels(t->texels, row0 + as_uint16(x0)), pack_texels(t->texels, row0 + as_uint16(x1)), wx),
+		                   pack_mix_8(pack_texels(t->texels, row1 + as_uint16(x0)), pack_texels(t->texels, row1 + as_uint16(x1)), wx), wy);
+
+		sum = k == 0 ? texel : pack_mix_8(sum, texel, wz);
+	}
+	return sum;
+}
+
+/* The nearest texels of level 0. c: as of pack_level_8 */
+WIDE_VECTORS static inline packu pack_nearest(const struct tables *t, __global const struct scene_unit *unit, const packf *c)
+{
+	__global const struct texture_image *image = &t->textures[unit->texture];
+	packi row = pack_wrap_nearest(unit->wrap_t, c[1], (int)image->height);
+
+	if (image->target == GL_TEXTURE_3D)
+		row += pack_wrap_nearest(unit->wrap_r, c[2], (int)image->depth) * (int)image->height;
+	return pack_texels(t->texels + image->level_first[0],
+	                   as_uint16(row * (int)image->width + pack_wrap_nearest(unit->wrap_s, c[0], (int)image->width)));
 }
 
 /* As texture_half_log2. */
@@ -200,17 +223,18 @@ WIDE_VECTORS static inline packf pack_half_log2(packf rho2)
 	return select((packf)(-100), select((packf)(100), between, rho2 < 1.0e30f), rho2 > 1.0e-30f);
 }
 
-/* Planes of texture coordinates s, t and q over w. */
+/* Planes of texture coordinates s, t, r and q over w. */
 struct pack_coords {
-	struct pack_plane s, t, q, w_inv;
+	struct pack_plane plane[4], w_inv;
 };
 
-WIDE_VECTORS static inline void pack_coords_at(const struct pack_coords *c, packf x, packf y, packf *s, packf *t)
+/* out: so many of s, t and r, divided by q */
+WIDE_VECTORS static inline void pack_coords_at(const struct pack_coords *c, packf x, packf y, int n, packf *out)
 {
-	const packf w = 1.0f / pack_plane_at(&c->w_inv, x, y), q = 1.0f / (pack_plane_at(&c->q, x, y) * w);
+	const packf w = 1.0f / pack_plane_at(&c->w_inv, x, y), q = 1.0f / (pack_plane_at(&c->plane[3], x, y) * w);
 
-	*s = pack_plane_at(&c->s, x, y) * w * q;
-	*t = pack_plane_at(&c->t, x, y) * w * q;
+	for (int i = 0; i < n; i++)
+		out[i] = pack_plane_at(&c->plane[i], x, y) * w * q;
 }
 
 /* As struct texture_slope, of two coordinates. */
@@ -223,15 +247,15 @@ WIDE_VECTORS static inline void pack_slope_of(__global const struct texture_imag
                                               float middle, struct pack_slope *slope)
 {
 	const packf left = convert_float16(x & ~1), top = convert_float16(row & ~1);
-	packf s, t, right_s, right_t, down_s, down_t;
+	packf at[2], right[2], down[2];
 
-	pack_coords_at(coords, left + middle, top + middle, &s, &t);
-	pack_coords_at(coords, left + 1.0f + middle, top + middle, &right_s, &right_t);
-	pack_coords_at(coords, left + middle, top + 1.0f + middle, &down_s, &down_t);
-	slope->right_s = (right_s - s) * (float)image->width;
-	slope->right_t = (right_t - t) * (float)image->height;
-	slope->down_s = (down_s - s) * (float)image->width;
-	slope->down_t = (down_t - t) * (float)image->height;
+	pack_coords_at(coords, left + middle, top + middle, 2, at);
+	pack_coords_at(coords, left + 1.0f + middle, top + middle, 2, right);
+	pack_coords_at(coords, left + middle, top + 1.0f + middle, 2, down);
+	slope->right_s = (right[0] - at[0]) * (float)image->width;
+	slope->right_t = (right[1] - at[1]) * (float)image->height;
+	slope->down_s = (down[0] - at[0]) * (float)image->width;
+	slope->down_t = (down[1] - at[1]) * (float)image->height;
 }
 
 /* As texture_lod. */
@@ -246,9 +270,9 @@ WIDE_VECTORS static inline packf pack_lod(__global const struct scene_unit *unit
 	return fmin(fmax(pack_half_log2(rho2) + unit->lod_bias, (packf)(unit->min_lod)), (packf)(unit->max_lod));
 }
 
-/* Linear filtering: one or two levels a lane. */
+/* Linear filtering: one or two levels a lane. c: as of pack_level_8 */
 WIDE_VECTORS static inline packu pack_filter(const struct tables *t, __global const struct texture_image *image,
-                                             __global const struct scene_unit *unit, packf lod, packf s, packf r)
+                                             __global const struct scene_unit *unit, packf lod, const packf *c)
 {
 	const packi last = (int)image->n_levels - 1;
 	packi fine = 0, smaller = unit->min_filter != GL_LINEAR ? lod > 0.0f : (packi)(0), both;
@@ -262,7 +286,7 @@ WIDE_VECTORS static inline packu pack_filter(const struct tables *t, __global co
 		fine = select((packi)(0), convert_int16(level), smaller);
 	}
 	l = pack_level(image, fine);
-	texel = pack_level_8(t, unit, &l, s, r);
+	texel = pack_level_8(t, unit, &l, c);
 	if (unit->min_filter != GL_LINEAR_MIPMAP_LINEAR || !any_pack(smaller))
 		return texel;
 	part = fmin(lod, convert_float16(last)) - level;
@@ -270,5 +294,5 @@ WIDE_VECTORS static inline packu pack_filter(const struct tables *t, __global co
 	if (!any_pack(both))
 		return texel;
 	l = pack_level(image, fine - both);
-	return select(texel, pack_mix_8(texel, pack_level_8(t, unit, &l, s, r), convert_uint16(select((packf)(0), part, both) * 256.0f)), both);
+	return select(texel, pack_mix_8(texel, pack_level_8(t, unit, &l, c), convert_uint16(select((packf)(0), part, both) * 256.0f)), both);
 }
