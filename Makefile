@@ -51,7 +51,7 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libgles-dev libwayland-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
 	check clang xvfb weston xfonts-base mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
-	fonts-dejavu-core python3-numpy python3-jsonschema openimageio-tools xdotool pkg-config zsh fish man-db \
+	fonts-dejavu-core python3-clang-14 python3-numpy python3-jsonschema openimageio-tools xdotool pkg-config zsh fish man-db \
 	slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge parallel oclgrind
 
 DEPS_deb := debhelper dpkg-dev fakeroot lintian
@@ -305,7 +305,8 @@ HOST_TESTS := $(addprefix $(BUILD)/tests/check/test_,rays camera shade compose)
 
 # With ONLY, what other tests need is left alone.
 HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny $(BUILD)/tests/fuzz/drive $(HOST_TESTS)
-check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(HELPERS) $(addprefix $(BUILD)/tests/bench/,hits build queries)
+BUILT_FOR_TESTS := $(HELPERS) $(addprefix $(BUILD)/tests/bench/,hits build queries)
+check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(BUILT_FOR_TESTS)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
 DEPS_demo := ffmpeg
@@ -322,7 +323,6 @@ picture: all $(BUILD)/deps.picture
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
 SCRIPTS := bisect crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms sandbox sanitize seek \
 	film soak sweep sweep-record thesis
-SCRIPT_reach := classes# reach.py is of show-tests
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := crashes frames mutants replay
 SHOWS += $(SCRIPTS:%=show-%)
@@ -436,9 +436,10 @@ show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 show-programs: all $(HELPERS) $(CORPUS) $(BUILD)/tests/bench/translate $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) -B tests/show/stages.py $(BUILD) $(ONLY)
 
-# Not part of `make show`: faults put into our own sources, one at a time, and the tests run: hours. It goes on where it was stopped.
+# Not part of `make show`: faults put into our own sources, each behind a switch, and the tests run: hours. It goes on where it was stopped.
 TESTS_SECONDS ?=
-show-tests: all $(HELPERS)
+test-programs: all $(TESTS) $(BUILT_FOR_TESTS)
+show-tests: all
 	@$(PYTHON) -B tests/show/tests.py $(BUILD) $(ONLY:%=--only %) $(TESTS_SECONDS:%=--seconds %)
 
 # Not part of `make show`: needs root, and minutes.
@@ -529,7 +530,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: picture all i386 windows deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-programs show-tests show-fresh \
+.PHONY: picture all i386 windows deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-programs test-programs show-tests show-fresh \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(GLSL_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \

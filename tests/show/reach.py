@@ -1,89 +1,91 @@
-"""Which lines of our sources each test runs: gcov's counts of a build of its own, kept for as long as no source changes.
+#!/usr/bin/python3
+"""tests/show/reach.py BUILD (as `make show-reach`): programs that are not of OpenGL, X and 64 bits: three of each kind.
 
-Counts are written where a process ends by itself. One that a signal ends tells nothing, nor do kernels on an OpenCL device: of kernels/ only
-their C twins count. What a verb may not write while it is confined is written there all the same: in this build nothing is confined.
+Each is recorded for ten frames with reference frames, rendered in mode gl and scored by all gates. Then recording's cost: processor time of the
+program and its threads, start included, recorded without reference frames over bare, in turn, the median of the ratios. Programs of 32 bits need
+`make i386` first: where that has not been run, their lines say so, and fail.
 """
-import bisect
-import hashlib
-import json
 import os
 import pathlib
+import resource
+import shutil
+import statistics
 import subprocess
+import sys
+import tempfile
 
-FLAGS = ("CFLAGS=-O1 -g --coverage", "CXXFLAGS=-O1 -g --coverage", "LDFLAGS=--coverage")
-CONFINES = ("base/options.c", "\tif (no_sandbox)\n", "\tif (no_sandbox || 1)\n")
-AT_ONCE = 40  # files of counts for one gcov
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests/real"))
+import wine  # noqa: E402
+from display import need_display  # noqa: E402
+from scoring import Line, Scorer, summarize  # noqa: E402
+from table import Shown  # noqa: E402
 
-
-def prepare(root):
-    """Let verbs of a tree write counts."""
-    path, was, now = root / CONFINES[0], *CONFINES[1:]
-    text = path.read_text()
-    if text.count(was) + text.count(now) != 1:
-        raise SystemExit(f"{CONFINES[0]} confines in another way: see tests/show/reach.py")
-    if was in text:
-        path.write_text(text.replace(was, now))
+FRAMES, MORE_FRAMES, ROUNDS = 10, 300, 5
+GATES = ("V", "R1", "R2", "R3", "R4", "R5", "P")
 
 
-class Lines:
-    """Of one source: functions as (first, last), lines with counts, and those that ran."""
-
-    def __init__(self, functions=(), counted=(), ran=()):
-        self.functions, self.counted, self.ran = set(map(tuple, functions)), set(counted), set(ran)
-
-    def kept(self):
-        return [sorted(self.functions), sorted(self.counted), sorted(self.ran)]
-
-    def ran_at(self, line):
-        """A line of a statement that goes on counts as its first one; what is in no function, a table or a macro, as any line of the file."""
-        inside = [f for f in self.functions if f[0] <= line <= f[1]]
-        if not inside:
-            return bool(self.ran)
-        first, counted = max(inside)[0], sorted(self.counted)
-        at = bisect.bisect_right(counted, line) - 1
-        return bool(self.ran & {line}) or (counted[at] in self.ran if at >= 0 and counted[at] >= first else first in self.ran)
+def kinds(build):
+    """(kind, name, command that --frames N may follow, gates that can be measured)"""
+    for name, options in wine.PROGRAMS.items():
+        yield "Wine", name, ["wine", build / f"windows/{name}.exe", *options], GATES
+    for name in ("shapes", "fixed", "sprites"):
+        yield "OpenGL ES 1", name, [build / f"corpus/es/{name}"], tuple(g for g in GATES if g != "R5")
+    for name, options in wine.PROGRAMS.items():
+        yield "32 bits", name, [build / f"i386/{name}", *options], GATES
 
 
-class Reach:
-    def __init__(self, folder, clone, sources):
-        """clone: a tree that was prepared and built with FLAGS. sources: paths below its root that are of interest."""
-        self.clone, self.sources, self.known = clone, set(sources), {}
-        digest = hashlib.sha256()
-        for name in sorted(self.sources):
-            digest.update(name.encode() + b"\0" + (clone.root / name).read_bytes())
-        self.kept = folder / f"reach-{digest.hexdigest()[:12]}"
-        self.kept.mkdir(parents=True, exist_ok=True)
+def spent_s(command):
+    """Processor time of a command that succeeds, and of its children."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
-    def counts(self):
-        """{source: Lines} of all counts in the build."""
-        found, files = {}, sorted(str(p.relative_to(self.clone.root)) for p in self.clone.build.rglob("*.gcda"))
-        for at in range(0, len(files), AT_ONCE):
-            done = subprocess.run(["gcov", "--json-format", "--stdout", *files[at:at + AT_ONCE]], cwd=self.clone.root, capture_output=True, text=True, check=False)
-            for part in filter(None, done.stdout.splitlines()):
-                for file in json.loads(part)["files"]:
-                    name = os.path.relpath(self.clone.root / file["file"], self.clone.root)
-                    if name in self.sources:
-                        lines = found.setdefault(name, Lines())
-                        lines.functions |= {(f["start_line"], f["end_line"]) for f in file["functions"]}
-                        lines.counted |= {line["line_number"] for line in file["lines"]}
-                        lines.ran |= {line["line_number"] for line in file["lines"] if line["count"]}
-        return found
 
-    def of(self, test):
-        """What a test runs, {source: Lines}; None where it fails in this build, so that nobody knows. The first time the test is run."""
-        path = self.kept / (test.name.replace("/", "-") + ".json")
-        if test.name not in self.known:
-            if not path.exists():
-                for old in self.clone.build.rglob("*.gcda"):
-                    old.unlink()
-                passed, seconds = self.clone.test(test)
-                lines = {name: found.kept() for name, found in self.counts().items() if found.ran} if passed else None
-                path.write_text(json.dumps({"seconds": seconds, "lines": lines}))
-            lines = json.loads(path.read_text())["lines"]
-            self.known[test.name] = lines and {name: Lines(*kept) for name, kept in lines.items()}
-        return self.known[test.name]
+def score(relume, work, command, gates):
+    """Frames that pass, and which gates do not."""
+    trace = work / "ten.trace"
+    scorer = Scorer(relume, work, work / "log")
+    if scorer.run(relume, "record", "-o", trace, "--ref", "color,depth", "--", *command, "--frames", FRAMES)[0]:
+        return Line("")
+    rendered, _, _ = scorer.render(trace, list(range(FRAMES)), "gl")
+    return summarize(Line(""), scorer.diff(trace.with_suffix(".ref"), rendered, False), gates)
 
-    def reaches(self, test, source, line):
-        """Whether a test runs a line, as far as is known."""
-        lines = self.of(test)
-        return lines is None or source in lines and lines[source].ran_at(line)
+
+def cost(relume, work, command):
+    command = [*command, "--frames", str(MORE_FRAMES)]
+    recorded = [relume, "record", "-o", work / "more.trace", "--", *command]
+    pairs = [(spent_s(recorded), spent_s(command)) for _ in range(ROUNDS)]
+    return statistics.median(ours / bare for ours, bare in pairs), statistics.median(bare for _, bare in pairs)
+
+
+def show(shown, build, kind, name, command, gates):
+    if not pathlib.Path(command[1] if command[0] == "wine" else command[0]).exists():
+        shown.row(f"{kind}: {name}", "not built: 'make i386' has not been run here, or cannot", f"{FRAMES} of {FRAMES} frames", False)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        work = pathlib.Path(folder)
+        line = score(build / "relume", work, command, gates)
+        shown.row(f"{kind}: {name}", f"{line.passed} of {FRAMES} frames pass {', '.join(gates)}" + (f" ({line.missed})" if line.missed else ""),
+                  f"{FRAMES} of {FRAMES} frames", line.passed == FRAMES)
+        ratio, bare = cost(build / "relume", work, command)
+        shown.row(f"{kind}: {name}: recorded over bare", f"{ratio:.2f} times the processor time ({bare:.2f} s for {MORE_FRAMES} frames)", None, None)
+
+
+def main(build):
+    need_display()
+    build = pathlib.Path(build).resolve()
+    shown = Shown(build, "reach")
+    with tempfile.TemporaryDirectory() as prefix:
+        os.environ.update(wine.environment(prefix))
+        if shutil.which("wineboot"):
+            subprocess.run(["wineboot", "-i"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+        for kind, name, command, gates in kinds(build):
+            show(shown, build, kind, name, command, gates)
+        subprocess.run(["wineserver", "-k"], check=False)
+    return shown.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))

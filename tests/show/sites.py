@@ -100,7 +100,7 @@ def of_text(path, text):
             yield Site(path, "comparison", token.start(), token.end(), COMPARISONS[word])
         elif word == "if" and i + 1 < len(tokens) and tokens[i + 1][0] == "(":
             first, last = tokens[i + 1].end(), tokens[closing(tokens, i + 1)].start()
-            yield Site(path, "branch", first, last, f"0 && ({text[first:last]})")
+            yield Site(path, "branch", first, last, f"({text[first:last]}) && 0")
         elif token.lastgroup == "name" and word not in WORDS and i + 1 < len(tokens) and tokens[i + 1][0] == "(":
             for begin, end in arguments(tokens, i + 1):
                 first, last = tokens[begin].start(), tokens[end - 1].end()

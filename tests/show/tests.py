@@ -1,22 +1,26 @@
 #!/usr/bin/python3
-"""tests/show/tests.py BUILD [--only WHAT] [--count N] [--seconds S] [--most S] [--again] (as `make show-tests`): which faults `make check` notices.
+"""tests/show/tests.py BUILD [--only FOLDER] [--count N] [--seconds S] [--most S] (as `make show-tests`): which faults `make check` notices.
 
-Mutants of our own sources, drawn by their names' digests (sites.py) in turn from each folder and of each kind: nobody picks places. One
-that compiles to the same objects is no fault. All others are built, one after the other, in a clone of this tree, and those tests of
-`make check` that run its line (reach.py) until one fails; likely ones first: those named like the file, those of its folder, those that noticed
-others of the folder, quick ones. Kernels run on devices, where nobody counts lines: all tests are theirs. A test counts only where it passes in a
-second clone that nobody changed.
+Mutants of our own sources, drawn by their names' digests (sites.py) in turn from each folder and of each kind: nobody picks places. All
+are compiled into one build of a clone of this tree, each behind a switch (schemata.py). One run of the tests tells which mutants each test could
+notice: it works something out that the mutant would work out otherwise. Each mutant then runs with those tests, quick ones and those that noticed others first,
+until one fails; a hang ends by a limit of processor time. A test that fails without a mutant, too, does not count.
 
-Verdicts are kept in BUILD/show/tests/verdicts.json: a campaign may be stopped at any time, and goes on. What is left passed all tests that
-run it (or --most seconds of them); tests/show/left.txt gives reasons.
+Kernels share their text with their C twins, so that both would be wrong alike: their mutants run where the twins are the device, and kernels/ref's
+beside a device. What is for devices alone (*.cl, packs) and what is no expression (tables, sizes) is not tried. LEFT_OUT are tests that read
+sources, start a farm, a browser or Wine, or take long; so are those that measure time or need more than SLOW_S of processor time.
+
+All is kept in BUILD/show/tests: a campaign may be stopped at any time, and goes on. Of a time that is given, half is for the first run of tests. A
+verdict holds while its source and its test stand; what was left meets tests that are new. tests/show/left.txt gives reasons.
 """
 import argparse
+import hashlib
 import json
 import os
 import pathlib
-import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -24,247 +28,225 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(ROOT / "tests/show"), str(ROOT / "tests")]
-import reach  # noqa: E402
 import run as runner  # noqa: E402
+import schemata  # noqa: E402
 import sites  # noqa: E402
 from table import Shown  # noqa: E402
 
-SEED, BAR = 1, 0.95
-FOLDERS = {"kernels": ("kernels/*.h", "kernels/*/*.h", "kernels/*/*.cl", "kernels/ref/*.c"), "replay": ("replay/**/*.c",), "tracer": ("tracer/**/*.c",),
-           "capture": ("capture/**/*.c",), "diff": ("diff/**/*.c",), "look": ("look/**/*.c",), "scene": ("scene/*.c",), "film": ("film/*.c",)}
-# Where a folder's own tests are; parts of names, likely ones first.
-ROOMS = {"kernels": "golden/ real/test_panels check/test_shade check/test_camera check/ truth/ real/test_glass",
-         "replay": "real/test_panels gl/ real/test_textures real/test_shapes trace/ real/test_index fuzz/",
-         "tracer": "golden/ unit/test_accel unit/test_blas unit/test_image unit/test_pack real/test_batch unit/test_device truth/ check/",
-         "capture": "trace/ real/test_record real/test_mapped unit/test_sizes", "diff": "unit/test_gates unit/test_metrics unit/test_diff unit/test_flip real/test_approve real/test_ci",
-         "look": "look/ unit/test_tricks unit/test_backdrop unit/test_known truth/test_look real/test_harm", "scene": "real/test_export gl/ unit/test_layout",
-         "film": "real/test_film real/test_display real/test_denoise"}
-LEFT_OUT = ("unit/test_house", "harness/")  # they read sources
-# How kernels are compiled to see whether they are the same.
-KERNEL = ["clang", "-x", "cl", "-cl-std=CL1.2", "-D__OPENCL_VERSION__=120", "-Xclang", "-finclude-default-header", "-w", "-O1", "-march=native", "-I", ".", "-I", "build/gen",
-          "-S", "-emit-llvm"]
-# What a test is thought to take before it was run, seconds of processor time.
-UNKNOWN_S = {".c": 1, ".sh": 10, ".py": 30}
+SEED, BAR, SLOW_S = 1, 0.95, 20
+FOLDERS = {"kernels": ("kernels/*.h", "kernels/camera/*.h", "kernels/gl/*.h", "kernels/frame/[!p]*.h", "kernels/frame/p[!a]*.h", "kernels/ref/*.c"), "replay": ("replay/**/*.c",),
+           "tracer": ("tracer/**/*.c",), "capture": ("capture/**/*.c",), "diff": ("diff/**/*.c",)}
+LEFT_OUT = ("unit/test_house", "harness/", "farm/", "real/test_page", "real/test_wine", "real/test_i386", "real/test_crash", "real/test_hooks", "real/test_inject")
+QUICK = ("unit/", "gl/", "trace/", "fuzz/")
+FLAGS = ["CFLAGS=-O1 -g0 -w -fno-delete-null-pointer-checks", "CXXFLAGS=-O1 -g0 -w"]  # what a call promises of its arguments makes no mutant vanish
+# Where mutants of shared text run: in a build whose device is the twins, unless a test names one.
+TWINS = ("tracer/device/device.c", "\treturn choice && strcmp", '\treturn !choice ? getenv("RELUME_TWINS") != NULL : strcmp')
+TWINS_TESTS = ("golden/", "truth/", "look/", "real/test_panels", "real/test_textures", "real/test_shapes", "real/test_glass", "real/test_vertices", "real/test_samples", "unit/test_device")
+
+
+def digest(*parts):
+    return hashlib.sha256("\0".join(map(str, parts)).encode()).hexdigest()[:16]
 
 
 def spent_s():
-    """Processor time of all that ran for us."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
-class Clone:
-    """A copy of this tree with a build of its own."""
-
-    def __init__(self, folder, build, flags=()):
-        self.root, self.build, self.flags = folder, folder / "build", flags
-        if not self.build.exists() and not flags:
-            shutil.copytree(build, self.build, symlinks=True, ignore=lambda at, names: ["show", "pocl-cache", "cache"])
-        self.restore()
-
-    def restore(self):
-        """As the tree is now; what is the same stays, and is not built again."""
-        tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, text=True, check=True).stdout.split("\0")[:-1]
-        for name in tracked:
-            here, there = ROOT / name, self.root / name
-            if not here.exists():
-                continue
-            if not there.exists():
-                there.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(here, there)
-            elif there.read_bytes() != here.read_bytes():
-                shutil.copyfile(here, there)  # and is newer than what was made from it
-        known = set(tracked)
-        for folder in {pathlib.Path(name).parts[0] for name in tracked if "/" in name}:
-            for there in (self.root / folder).rglob("*"):
-                if there.is_file() and str(there.relative_to(self.root)) not in known and "__pycache__" not in there.parts:
-                    there.unlink()
-
-    def make(self, *targets):
-        """Whether make does it."""
-        done = subprocess.run(["make", "-j2", "-C", self.root, "BUILD=build", *self.flags, *targets], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                              env={**os.environ, "MAKELEVEL": "0"}, check=False)
-        return done.returncode == 0
-
-    def test(self, test):
-        """(whether it passes, seconds of processor time)"""
-        begin = spent_s()
-        if test.command.suffix:
-            passed = self.make("check", f"ONLY={test.name}")
-        else:  # what other tests need is not linked anew for it
-            here = runner.Test(self.root / "tests" / f"{test.name}.c", self.build)
-            passed = self.make(f"build/tests/{test.name}") and runner.run(here, self.build)[1] == 0
-        return passed, spent_s() - begin
-
-
-class Campaign:
-    def __init__(self, folder, build, most):
-        folder.mkdir(parents=True, exist_ok=True)
-        os.environ["POCL_CACHE_DIR"] = str(folder / "pocl-cache")  # both clones' and all tests'
-        self.kept, self.most, self.kernel_code = folder / "verdicts.json", most, {}
-        kept = json.loads(self.kept.read_text()) if self.kept.exists() else {}
-        self.verdicts, self.times = kept.get("verdicts", {}), kept.get("times", {})
-        self.base, self.clone = Clone(folder / "base", build), Clone(folder / "mutant", build)
-        self.tests = [t for t in runner.find_tests(self.base.build, []) if not any(part in t.name for part in LEFT_OUT)]
-        self.texts = {t.name: next((ROOT / "tests").glob(f"{t.name}.*")).read_text(errors="replace") for t in self.tests}
-        counting = Clone(folder / "counting", build, reach.FLAGS)
-        reach.prepare(counting.root)
-        for clone in (self.base, self.clone, counting):
-            if not clone.make("all"):
-                sys.exit(f"what nobody changed does not build: {clone.root}")
-        self.reach = reach.Reach(folder, counting, sources())
-
-    def save(self):
-        part = self.kept.with_suffix(".part")
-        part.write_text(json.dumps({"verdicts": self.verdicts, "times": self.times}, indent=1))
-        part.replace(self.kept)
-
-    def likely_first(self, site, folder):
-        stem = re.sub(r"_(packet|single|wide)$", "", pathlib.Path(site.path).stem)
-        words = [word for word in stem.split("_") if len(word) > 3]
-        noticed = {}
-        for verdict in self.verdicts.values():
-            if verdict["verdict"] == "noticed" and verdict["folder"] == folder:
-                noticed[verdict["by"]] = noticed.get(verdict["by"], 0) + (5 if verdict["path"] == site.path else 1)
-
-        def worth(test):
-            seconds = self.times.get(test.name, UNKNOWN_S[test.command.suffix or ".c"])
-            return (1 + 20 * (stem in test.name) + 3 * sum(word in self.texts[test.name] for word in words) +
-                    next((40 / (1 + at) for at, part in enumerate(ROOMS[folder].split()) if part in test.name), 0) + 10 * noticed.get(test.name, 0)) / (3 + seconds)
-        return sorted(self.tests, key=worth, reverse=True)
-
-    def same_objects(self, since):
-        """Whether all that was made anew is as in the clone that nobody changed."""
-        def code(path):
-            stripped = path.with_suffix(".stripped")
-            subprocess.run(["objcopy", "--strip-debug", path, stripped], check=True)
-            data = stripped.read_bytes()
-            stripped.unlink()
-            return data
-        made = [p for p in self.clone.build.rglob("*.o") if p.stat().st_mtime >= since and p.name != "kernels.o"]
-        return all(code(p) == code(self.base.build / p.relative_to(self.clone.build)) for p in made)
-
-    def kernels(self, site):
-        """What the mutant makes of the kernels: None does not compile, True the same code, False other code."""
-        def code(clone, file):
-            done = subprocess.run([*KERNEL, "-o", "-", file], cwd=clone.root, capture_output=True, text=True, check=False)
-            return done.stdout if done.returncode == 0 else None
-        files = [site.path] if site.path.endswith(".cl") else sorted(str(p.relative_to(ROOT)) for p in ROOT.glob("kernels/*/*.cl"))
-        for file in files:
-            if file not in self.kernel_code:
-                self.kernel_code[file] = code(self.base, file) or sys.exit(f"clang does not compile {file}")
-            mutant = code(self.clone, file)
-            if mutant != self.kernel_code[file]:
-                return None if mutant is None else False
-        return True
-
-    def judge(self, site, folder):
-        since, begin = time.time() - 0.01, spent_s()
-        path = self.clone.root / site.path
-        text = path.read_text()
-        path.write_text(text[:site.begin] + site.instead + text[site.end:])
-        shutil.rmtree(self.clone.build / "tests/cache", ignore_errors=True)
-        verdict = {"folder": folder, "path": site.path, "told": site.told(), "by": None}
-        try:
-            if not self.clone.make("all"):
-                return {**verdict, "verdict": "does not compile"}
-            if self.same_objects(since):
-                kernels = self.kernels(site) if folder == "kernels" else True
-                if kernels is not False:
-                    return {**verdict, "verdict": "equivalent" if kernels else "does not compile"}
-            n = 0
-            for test in self.likely_first(site, folder):
-                if spent_s() - begin > self.most:
-                    return {**verdict, "verdict": "left", "why": f"{n} tests that run it pass, {self.most} s"}
-                before = spent_s()
-                runs_it = folder == "kernels" or self.reach.reaches(test, site.path, site.line)
-                begin += spent_s() - before  # counting is for all mutants
-                if not runs_it:
-                    continue
-                n += 1
-                passed, seconds = self.clone.test(test)
-                if passed:
-                    self.times[test.name] = 0.7 * self.times.get(test.name, seconds) + 0.3 * seconds
-                elif self.base.test(test)[0]:
-                    return {**verdict, "verdict": "noticed", "by": test.name, "after": n - 1, "seconds": round(spent_s() - begin)}
-            return {**verdict, "verdict": "left", "why": f"all {n} tests that run it pass"}
-        finally:
-            path.write_text(text)
-
-
-def sources(folders=FOLDERS):
-    """Names of the sources of folders, in order."""
-    return sorted({str(p.relative_to(ROOT)) for folder in folders for pattern in FOLDERS[folder] for p in ROOT.glob(pattern)})
+def sources(folder):
+    return sorted({str(p.relative_to(ROOT)) for pattern in FOLDERS[folder] for p in ROOT.glob(pattern)})
 
 
 def drawn():
-    """Sites in turn: folder by folder, kind by kind, the lowest names first."""
-    queues = {}
+    """Sites in turn: kind by kind, folder by folder, the lowest names first."""
+    queues = {(kind, folder): [] for kind in sites.KINDS for folder in FOLDERS}
     for folder in FOLDERS:
-        for path in sources((folder,)):
+        for path in sources(folder):
             for site in sites.find(ROOT, path, SEED):
-                queues.setdefault((site.kind, folder), []).append(site)
-    queues = {key: sorted(queue, key=lambda s: s.id, reverse=True) for key, queue in queues.items()}
-    while any(queues.values()):
-        for kind in sites.KINDS:
-            for folder in FOLDERS:
-                if queues.get((kind, folder)):
-                    yield folder, queues[kind, folder]
+                site.folder = folder
+                queues[site.kind, folder].append(site)
+    queues = [sorted(queue, key=lambda s: s.id, reverse=True) for queue in queues.values()]
+    while any(queues):
+        for queue in filter(None, queues):
+            yield queue.pop()
 
 
-def campaign(options):
-    """Verdicts by name, of what is wanted, in the order of the draw."""
-    todo = Campaign(options.build.resolve() / "show/tests", options.build.resolve(), options.most)
-    end, tried, faults = time.monotonic() + options.seconds, {}, 0
-    for folder, queue in drawn():
-        while queue:  # until one of this folder and kind is a fault
-            site = queue.pop()
-            if options.only and options.only not in (folder, site.id) and options.only not in site.path:
-                continue
-            verdict = todo.verdicts.get(site.id)
-            if not verdict or options.again and verdict["verdict"] == "left":
+class Mutants:
+    """The clone with all mutants in one build."""
+
+    def __init__(self, folder, build, count):
+        self.root, self.build = folder / "clone", folder / "clone/build"
+        # Some cannot be switched: a third more are drawn.
+        draw = drawn()
+        sites_drawn = [next(draw) for _ in range(count * 4 // 3)]
+        paths = sorted({site.path for site in sites_drawn})
+        of = digest(*(site.id for site in sites_drawn), *((ROOT / path).read_text() for path in (*paths, "tests/show/schemata.py")))
+        planted = folder / "planted.json"
+        kept = json.loads(planted.read_text()) if planted.exists() else {}
+        if kept.get("of") != of:
+            parser, kept = schemata.Parser(ROOT, build), {"of": of, "texts": {}, "names": {}}
+            for path in paths:
+                here = [site for site in sites_drawn if site.path == path]
+                kept["texts"][path], found = schemata.plant(parser, path, here, 1 + max(kept["names"], default=0))
+                kept["names"].update({number: site.id for number, site in found.items()})
+            planted.write_text(json.dumps(kept))
+        texts, by_name = kept["texts"], {site.id: site for site in sites_drawn}
+        self.by_number = {int(number): by_name[name] for number, name in kept["names"].items()}
+        texts[TWINS[0]] = texts.get(TWINS[0], (ROOT / TWINS[0]).read_text()).replace(*TWINS[1:])
+        if TWINS[2] not in texts[TWINS[0]]:
+            sys.exit(f"{TWINS[0]} chooses devices in another way: see tests/show/tests.py")
+        self.write(build, texts)
+        if subprocess.run(["make", "-C", self.root, "BUILD=build", *FLAGS, "test-programs"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                          env={**os.environ, "MAKELEVEL": "0"}, check=False).returncode:
+            sys.exit(f"the mutants do not build: {self.root}")
+        self.digest = of
+
+    def write(self, build, texts):
+        """The tree as it is now, with these texts; what is the same stays, and is not built again."""
+        if not self.build.exists():
+            shutil.copytree(build / "gen", self.build / "gen", copy_function=shutil.copy2)
+        tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "-co", "--exclude-standard"], capture_output=True, text=True, check=True).stdout.split("\0")[:-1]
+        changed = False
+        for name in tracked:
+            here, there = ROOT / name, self.root / name
+            if here.is_file():
+                there.parent.mkdir(parents=True, exist_ok=True)
+                now = texts[name].encode() if name in texts else here.read_bytes()
+                if not there.exists() or there.read_bytes() != now:
+                    there.write_bytes(now)
+                    shutil.copymode(here, there)
+                    changed = True
+        if changed:
+            shutil.copyfile(build / "gen/kernels.c", self.build / "gen/kernels.c")  # devices keep what was
+
+    def test(self, test, limit_s, **env):
+        """(whether it passes, seconds of processor time). A process of it that needs more than limit_s is ended."""
+        shutil.rmtree(self.build / "tests/cache", ignore_errors=True)  # what another mutant left
+        begin, was = spent_s(), {name: os.environ.get(name) for name in env}
+        soft, hard = resource.getrlimit(resource.RLIMIT_CPU)
+        os.environ.update(env)
+        resource.setrlimit(resource.RLIMIT_CPU, (int(limit_s), hard))
+        try:
+            good, bad, _, _ = runner.run(test, self.build)
+        finally:
+            resource.setrlimit(resource.RLIMIT_CPU, (soft, hard))
+            for name, value in was.items():
+                os.environ.pop(name) if value is None else os.environ.update({name: value})
+        return bad == 0 and good > 0, spent_s() - begin
+
+
+class Campaign:
+    def __init__(self, folder, build, count, most):
+        folder.mkdir(parents=True, exist_ok=True)
+        os.environ["POCL_CACHE_DIR"] = str(build / "tests/pocl-cache")
+        self.mutants, self.most, self.file = Mutants(folder, build, count), most, folder / "verdicts.json"
+        self.tests = [t for t in runner.find_tests(self.mutants.build, []) if not t.serial and not any(part in t.name for part in LEFT_OUT)]
+        self.texts = {t.name: digest(*(p.read_text(errors="replace") for p in (ROOT / "tests").glob(f"{t.name}.*"))) for t in self.tests}
+        kept = json.loads(self.file.read_text()) if self.file.exists() else {}
+        self.verdicts, self.map = kept.get("verdicts", {}), kept.get("map", {}) if kept.get("of") == self.mutants.digest else {}
+        self.flaky = set()
+
+    def save(self):
+        part = self.file.with_suffix(".part")
+        part.write_text(json.dumps({"of": self.mutants.digest, "verdicts": self.verdicts, "map": self.map}, indent=1))
+        part.replace(self.file)
+
+    def way(self, site):
+        return "twins" if site.folder == "kernels" and not site.path.startswith("kernels/ref/") else "device"
+
+    def env(self, way):
+        return {"RELUME_TWINS": "1"} if way == "twins" else {}
+
+    def see(self, end):
+        """Run each test once, until a time: which mutants it could notice."""
+        path = self.file.with_name("seen")
+        for way in ("device", "twins"):
+            for test in sorted(self.tests, key=lambda t: (not t.name.startswith(QUICK), t.command.suffix)):
+                key, of = f"{way} {test.name}", self.texts[test.name]
+                if self.map.get(key, {}).get("of") == of or way == "twins" and not any(part in test.name for part in TWINS_TESTS):
+                    continue
                 if time.monotonic() > end:
-                    return tried
-                verdict = todo.verdicts[site.id] = todo.judge(site, folder)
-                todo.save()
-                print(f"{verdict['verdict']:10}  {site.id}  {verdict['told']}  {verdict['by'] or verdict.get('why', '')}", flush=True)
-            tried[site.id] = verdict
-            if verdict["verdict"] in ("noticed", "left"):
-                faults += 1
-                break
-        if faults == options.count:
-            break
-    return tried
+                    print(f"{key} and those after it were not run yet")
+                    break
+                path.write_bytes(bytes(1 + max(self.mutants.by_number)))
+                passed, seconds = self.mutants.test(test, SLOW_S, RELUME_MUTANTS=str(path), **self.env(way))
+                seen = path.read_bytes()
+                self.map[key] = {"of": of, "passed": passed, "seconds": round(seconds, 2), "reached": [n for n, what in enumerate(seen) if what],
+                                 "told": [n for n, what in enumerate(seen) if what & 2]}
+                self.save()
 
+    def tell(self):
+        left_out = sorted(key for key, seen in self.map.items() if not seen["passed"])
+        print(f"{len(self.map) - len(left_out)} runs of tests, {sum(seen['seconds'] for seen in self.map.values()):.0f} s of processor time; skipped, over {SLOW_S} s, or failing "
+              f"without a mutant: {', '.join(left_out) or 'none'}", flush=True)
 
-def reasons():
-    path = ROOT / "tests/show/left.txt"
-    return dict(line.split(" ", 1) for line in path.read_text().splitlines() if line and line[0] != "#") if path.exists() else {}
+    def likely_first(self, site, able, way):
+        noticed = {}
+        for known in self.verdicts.values():
+            if known["by"]:
+                noticed[known["by"]] = noticed.get(known["by"], 0) + (5 if known["path"] == site.path else 1)
+        return sorted(able, key=lambda t: (0.2 + self.map[f"{way} {t.name}"]["seconds"]) / (1 + noticed.get(t.name, 0)))
+
+    def judge(self, number, site):
+        """The verdict of a mutant. Tests that passed before are not run again."""
+        way, begin, before = self.way(site), spent_s(), self.verdicts.get(site.id)
+        of = digest((ROOT / site.path).read_text())
+        if before and before["of"] == of and before["by"] and before["text"] == self.texts.get(before["by"]):
+            return before
+        passed = before["passed"] if before and before["of"] == of else {}
+        verdict = {"folder": site.folder, "path": site.path, "told": site.told(), "of": of, "by": None, "passed": passed}
+        seen = {t.name: self.map[f"{way} {t.name}"] for t in self.tests if f"{way} {t.name}" in self.map}
+        able = [t for t in self.tests if t.name in seen and seen[t.name]["passed"] and number in seen[t.name]["told"] and t.name not in self.flaky]
+        if not able:
+            return {**verdict, "why": "what no test can tell from what was" if any(number in s["reached"] for s in seen.values()) else "no test runs it"}
+        for test in self.likely_first(site, able, way):
+            if passed.get(test.name) == self.texts[test.name]:
+                continue
+            if spent_s() - begin > self.most:
+                return {**verdict, "why": f"{len(passed)} of {len(able)} tests that could tell it pass, {self.most:.0f} s"}
+            limit_s = 5 + 5 * seen[test.name]["seconds"]
+            if self.mutants.test(test, limit_s, RELUME_MUTANT=str(number), **self.env(way))[0]:
+                passed[test.name] = self.texts[test.name]
+            elif self.mutants.test(test, limit_s, **self.env(way))[0]:
+                return {**verdict, "by": test.name, "text": self.texts[test.name], "seconds": round(spent_s() - begin, 1)}
+            else:
+                self.flaky.add(test.name)
+        return {**verdict, "why": f"all {len(able)} tests that could tell it pass"}
 
 
 def main(options):
-    tried = campaign(options)
-    why, shown = reasons(), Shown(options.build, "tests")
+    signal.signal(signal.SIGXCPU, lambda *_: None)  # limits are for tests
+    build = options.build.resolve()
+    todo, end = Campaign(build / "show/tests", build, options.count, options.most), time.monotonic() + options.seconds
+    todo.see(end - options.seconds / 2)
+    todo.tell()
+    tried = {}
+    for number, site in sorted(todo.mutants.by_number.items(), key=lambda item: item[1].id):
+        if options.only in (None, site.folder) and (time.monotonic() < end or site.id in todo.verdicts):
+            tried[site.id] = verdict = todo.verdicts[site.id] if time.monotonic() > end else todo.judge(number, site)
+            if verdict != todo.verdicts.get(site.id):
+                todo.verdicts[site.id] = verdict
+                todo.save()
+                print(f"{'noticed' if verdict['by'] else 'left':7}  {site.id}  {verdict['told']}  {verdict['by'] or verdict['why']}", flush=True)
+    reasons = dict(line.split(" ", 1) for line in (ROOT / "tests/show/left.txt").read_text().splitlines() if line and line[0] != "#")
+    shown = Shown(options.build, "tests")
     for name, verdict in tried.items():
-        if verdict["verdict"] == "left":
-            print(f"left: {name} {verdict['told']} ({verdict['why']}): {why.get(name, 'no reason known')}")
+        if not verdict["by"]:
+            print(f"left: {name} {verdict['told']} ({verdict['why']}): {reasons.get(name, 'no reason known')}")
     for folder in (*FOLDERS, "all"):
         of = [v for v in tried.values() if folder in ("all", v["folder"])]
-        n = {what: sum(v["verdict"] == what for v in of) for what in ("equivalent", "noticed", "left")}
-        faults = n["noticed"] + n["left"]
-        if faults:
-            share = n["noticed"] / faults
-            shown.row(f"{folder}: {faults} mutants, {n['equivalent']} more made the same code", f"{n['noticed']} noticed, {n['left']} left: {100 * share:.1f} %",
-                      f"{100 * BAR:.0f} %" if folder == "all" else None, share >= BAR if folder == "all" else None)
+        noticed = sum(v["by"] is not None for v in of)
+        if of:
+            shown.row(f"{folder}: {len(of)} mutants", f"{noticed} noticed, {len(of) - noticed} left: {100 * noticed / len(of):.1f} %",
+                      f"{100 * BAR:.0f} %" if folder == "all" else None, noticed >= BAR * len(of) if folder == "all" else None)
     return shown.finish()
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--only", help="a folder, a part of a file's path, or a mutant's name")
-    parser.add_argument("--count", type=int, default=200, help="mutants that are faults (200)")
-    parser.add_argument("--seconds", type=float, default=float("inf"), help="begin no more after this time")
-    parser.add_argument("--most", type=float, default=1800, help="seconds of processor time for a mutant (1800)")
-    parser.add_argument("--again", action="store_true", help="those that were left, too")
+    parser.add_argument("--only", help="a folder")
+    parser.add_argument("--count", type=int, default=200, help="about so many mutants")
+    parser.add_argument("--seconds", type=float, default=1e9, help="by the clock; then it stops, and goes on the next time")
+    parser.add_argument("--most", type=float, default=120, help="seconds of processor time for a mutant")
     sys.exit(main(parser.parse_args()))
