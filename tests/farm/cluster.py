@@ -168,7 +168,15 @@ class Cluster:
         return None if done.returncode else [line.split() for line in done.stdout.splitlines()]
 
     def wait_empty(self, seconds):
-        self._wait(lambda: self.queue() == [], seconds, "jobs are left in the queue")
+        """Nothing waits or runs, at two looks: one alone could fall between two states of a task."""
+        self._wait(lambda: self.queue() == [] and not time.sleep(0.5) and self.queue() == [], seconds, "jobs are left in the queue")
+
+    def story(self, job):
+        """What became of a job's tasks, for a test that failed: Slurm's words and the end of each log."""
+        states = self.run("scontrol", "-o", "show", "job").stdout
+        logs = "".join(f"--- {log.name}\n{log.read_text(errors='replace')[-1500:]}\n" for log in sorted((pathlib.Path(job) / "log").glob("*")))
+        nodes = "".join(f"--- {name}\n{(self.folder / f'{name}.log').read_text(errors='replace')[-1500:]}\n" for name in self.daemons)
+        return f"{states}\n{logs}{nodes}"
 
     def below(self, name=None):
         """Processes below this cluster's daemons and the step daemons whose slurmd was killed: [(pid, command)]."""
