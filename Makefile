@@ -32,7 +32,7 @@ RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/for
 	$(patsubst %,$(BUILD)/recorder/gen/%.o,$(RECORDER_GEN))
 VISUAL_SRC := replay/verbs/visual.c
 REPLAY_SRC := $(filter-out $(VISUAL_SRC),$(wildcard replay/*.c replay/*/*.c replay/*/*/*.c))
-COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base bisect capture capture/format film query scene scene/repair look look/camera look/study kernels/ref tracer/* render render/bench render/check farm)) \
+COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base bisect capture capture/format film query scene scene/repair look look/* kernels/ref tracer/* render render/bench render/check farm)) \
 	$(wildcard diff/*.c diff/*/*.c)
 COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c $(BUILD)/gen/page.c
 
@@ -453,7 +453,7 @@ FUZZ_SECONDS ?= 3600
 FUZZ_CC ?= clang
 FUZZ_CXX ?= clang++
 FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
-FUZZ_SRC := $(filter-out tracer/image/oiio_load.c,$(wildcard $(patsubst %,%/*.c,base capture/format scene look farm $(addprefix diff/,rules baseline score pictures) \
+FUZZ_SRC := $(filter-out tracer/image/oiio_load.c,$(wildcard $(patsubst %,%/*.c,base capture/format scene look look/apply farm $(addprefix diff/,rules baseline score pictures) \
 	$(addprefix tracer/,image device) kernels/ref))) $(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(filter-out replay/glsl/load.c,$(REPLAY_SRC)) render/stamp.c \
 	$(addprefix capture/write/,pages.c values.c) $(addprefix tests/fuzz/,calls.c stream.c target.c)
 FUZZ_GEN := $(patsubst $(BUILD)/%.c,$(BUILD)/fuzz/objects/%.o,$(filter-out %/page.c,$(COMMAND_GEN)) $(BUILD)/gen/fuzz_commands.c) $(BUILD)/fuzz/objects/gen/enums.o

@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "gl_tokens.h"
 #include "look/blockers.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/rules.h"
 #include "look/solid.h"
 #include "look/world.h"
@@ -58,7 +58,7 @@ static int can_move(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];
 
-	if (!solid_is(s, in) || m->clip_plane_mask || look_is_parallel(&s->views[in->view]))
+	if (!solid_is(s, in) || m->clip_plane_mask || drawn_in_parallel(&s->views[in->view]))
 		return 0;
 	for (uint32_t i = 0; i < m->unit_count; i++)
 		for (int c = 0; c < 4; c++)
@@ -234,7 +234,7 @@ static int find_main_view(struct adding *a)
 		uint32_t n = 0;
 
 		for (uint32_t i = 0; i < s->n_instances; i++)
-			n += s->instances[i].view == v && solid_is(s, &s->instances[i]) && !look_is_parallel(&s->views[v]);
+			n += s->instances[i].view == v && solid_is(s, &s->instances[i]) && !drawn_in_parallel(&s->views[v]);
 		if (n > most) {
 			most = n;
 			a->main_view = v;

@@ -11,7 +11,7 @@
 #include "look/camera/camera.h"
 #include "look/camera/programs.h"
 #include "look/camera/viewpoint.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "scene/skies.h"
 
 /* Of a sky's box: how far from its middle the viewer may be, and how flat it may be. */
@@ -45,7 +45,7 @@ static int is_of_world(const struct making *m, const struct scene_view *view)
 {
 	const struct scene_view *main_view = &m->scene->views[m->viewpoint.main_view];
 
-	return view->target == 0 && view->space == main_view->space && look_is_parallel(view) == m->viewpoint.was_parallel &&
+	return view->target == 0 && view->space == main_view->space && drawn_in_parallel(view) == m->viewpoint.was_parallel &&
 	       (!m->viewpoint.was_parallel || shows_as_much(m, view));
 }
 
@@ -115,7 +115,7 @@ static enum fate fate_of(struct making *m, uint32_t i, uint32_t first_of_world)
 	if (in->rectangle || view->target || view->space != main_view->space)
 		return LEFT_OUT;
 	if (!is_of_world(m, view))
-		return look_is_parallel(view) && i < first_of_world ? STAYS : LEFT_OUT;
+		return drawn_in_parallel(view) && i < first_of_world ? STAYS : LEFT_OUT;
 	if (programs_place(m->scene, in) && !programs_can_move(m->scene, in)) {
 		m->without++;
 		return LEFT_OUT;

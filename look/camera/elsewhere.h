@@ -27,7 +27,7 @@ struct elsewhere {
 };
 
 /**
- * @param scene   under its rules (look/look.h)
+ * @param scene   under its rules (look/apply/apply.h)
  * @param look    its world counts; NULL: none
  * @param number  of a turntable's picture
  * @param out     elsewhere_release before the scene is released

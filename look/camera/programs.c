@@ -5,7 +5,7 @@
 
 #include "base/err.h"
 #include "base/mat4.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "scene/program.h"
 
 enum { COLUMNS = 5, MOVING = COLUMNS }; /* of the function, the last one added as it is; instructions: one for each of the others, and one that sets the position */
@@ -31,7 +31,7 @@ static int find_eye(const struct scene_view *view, float eye[COLUMNS][4])
 	float inverse[16], across[16], back[16];
 
 	memset(eye, 0, COLUMNS * sizeof(*eye));
-	if (look_is_parallel(view)) {
+	if (drawn_in_parallel(view)) {
 		if (!mat4_invert(inverse, m) || memcmp(m, mat4_identity, sizeof(mat4_identity)) == 0)
 			return 0;
 		for (int c = 0; c < 4; c++)

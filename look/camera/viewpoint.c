@@ -6,7 +6,7 @@
 #include "base/err.h"
 #include "base/mat4.h"
 #include "look/camera/camera.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/rules.h"
 #include "look/solid.h"
 #include "look/world.h"
@@ -129,7 +129,7 @@ static void find_recorded(const struct scene_view *view, float eye_from_recorded
 	subtract(far, near, forward);
 	subtract(above, near, up);
 	mat4_transform(center, inverse, (const float[4]){ 0, 0, 1, 0 }); /* all lines of sight meet there */
-	for (int k = 0; k < 3 && !look_is_parallel(view); k++)
+	for (int k = 0; k < 3 && !drawn_in_parallel(view); k++)
 		near[k] = center[k] / center[3];
 	if (!isfinite(near[0] + near[1] + near[2]) || !stand(near, forward, up, eye_from_recorded, from_eye))
 		memcpy(eye_from_recorded, mat4_identity, 16 * sizeof(*eye_from_recorded));
@@ -268,7 +268,7 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 	mat4_turn(moved, out->camera_from_eye, out->eye_from_recorded + 12);
 	for (int i = 0; i < 3; i++)
 		out->sky_from_eye[12 + i] = 0.0f - moved[i];
-	out->was_parallel = look_is_parallel(&scene->views[out->main_view]);
+	out->was_parallel = drawn_in_parallel(&scene->views[out->main_view]);
 	out->is_parallel = k->kind ? strcmp(k->kind, "orthographic") == 0 : k->height ? 1 : k->field_of_view ? 0 : out->was_parallel;
 	out->distance = find_distance(k, &stance, middle);
 	out->aspect = k->size ? (float)k->size[0] / (float)k->size[1] :

@@ -6,7 +6,7 @@
 #include "base/err.h"
 #include "base/memory.h"
 #include "gl_tokens.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/modelview.h"
 #include "look/solid.h"
 #include "look/study/matrix.h"
@@ -26,7 +26,7 @@ static int may_be_baked(const struct scene *s, const struct scene_instance *in)
 	const struct scene_unit *unit = m->unit_count ? &s->units[m->unit_first] : NULL;
 
 	if (!solid_is(s, in) || m->lighting || m->blend || m->stencil_test || m->program || m->shade_model == GL_FLAT || m->unit_count > 1 ||
-	    look_is_parallel(&s->views[in->view]) || modelview_kind_of(in->modelview) != MODELVIEW_PLAIN)
+	    drawn_in_parallel(&s->views[in->view]) || modelview_kind_of(in->modelview) != MODELVIEW_PLAIN)
 		return 0;
 	return s->meshes[in->mesh]->color && (!unit || (unit->env_mode == GL_MODULATE && !unit->gen_mode[0]));
 }

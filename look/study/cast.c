@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/solid.h"
 #include "look/study/box.h"
 #include "look/study/matrix.h"
@@ -138,7 +138,7 @@ static int has_thing(const struct scene *s, const struct scene_instance *in, con
 		double at[4] = { 0, 0, 0, 1 }, out[4];
 
 		if (!solid_is(s, thing) || has_texture(s, thing, u->texture) || s->views[thing->view].space != s->views[in->view].space ||
-		    look_is_parallel(&s->views[thing->view]))
+		    drawn_in_parallel(&s->views[thing->view]))
 			continue;
 		find_middle(s, thing, at);
 		matrix_transform(out, all, at);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/modelview.h"
 #include "look/plane.h"
 #include "look/study/face.h"
@@ -121,7 +121,7 @@ static int may_be_floor(const struct scene *s, const struct scene_instance *in)
 	const struct scene_texture *t = m->unit_count == 1 ? s->textures[s->units[m->unit_first].texture] : NULL;
 
 	return t && !t->floats && t->texels && !t->border && !m->lighting && !m->program && !m->stencil_test && !in->rectangle && m->color_mask & 7 &&
-	       s->views[in->view].target == 0 && !look_is_parallel(&s->views[in->view]) && mesh->kind == SCENE_TRIANGLES &&
+	       s->views[in->view].target == 0 && !drawn_in_parallel(&s->views[in->view]) && mesh->kind == SCENE_TRIANGLES &&
 	       mesh->primitive_count <= MOST_TRIANGLES && modelview_kind_of(in->modelview) == MODELVIEW_PLAIN;
 }
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/study/laid.h"
 #include "look/study/layer.h"
 
@@ -26,8 +26,8 @@ static uint64_t state_of(const struct scene *s, const struct scene_instance *in)
 	uint64_t state = m->unit_count * STATE_UNITS;
 
 	state |= (m->lighting ? STATE_LIT : 0) | (m->blend ? STATE_BLENDED : 0) | (m->alpha_test ? STATE_ALPHA : 0);
-	state |= (m->depth_test ? STATE_DEPTH : 0) | (m->stencil_test ? STATE_STENCIL : 0) | (look_multiplies(m) ? STATE_MULTIPLIES : 0);
-	return state | (look_is_parallel(&s->views[in->view]) ? STATE_PARALLEL : 0);
+	state |= (m->depth_test ? STATE_DEPTH : 0) | (m->stencil_test ? STATE_STENCIL : 0) | (drawn_multiplies(m) ? STATE_MULTIPLIES : 0);
+	return state | (drawn_in_parallel(&s->views[in->view]) ? STATE_PARALLEL : 0);
 }
 
 static uint64_t key_of(const uint64_t hash[2], uint32_t by)
@@ -131,7 +131,7 @@ int kinds_add(struct kinds *k, const struct scene *s)
 		err = list_candidates(k, s, layers, laid);
 	}
 	for (uint32_t i = 0; i < s->n_instances && !err; i++)
-		asked[i] = laid[i] != LAID_NOT || (!laid_may_be(s, i) && !look_is_parallel(&s->views[s->instances[i].view]));
+		asked[i] = laid[i] != LAID_NOT || (!laid_may_be(s, i) && !drawn_in_parallel(&s->views[s->instances[i].view]));
 	if (!err)
 		err = laid_find(s, laid);
 	for (uint32_t i = 0; i < s->n_instances && !err; i++)

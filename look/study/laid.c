@@ -5,7 +5,7 @@
 
 #include "base/err.h"
 #include "gl_tokens.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/modelview.h"
 #include "look/solid.h"
 #include "look/study/box.h"
@@ -52,7 +52,7 @@ int laid_may_be(const struct scene *s, uint32_t instance)
 	const int is_offset = m->polygon_offset & 4 && (m->polygon_offset_factor < 0 || m->polygon_offset_units < 0);
 
 	return mesh->kind == SCENE_TRIANGLES && mesh->primitive_count && mesh->primitive_count <= MOST_TRIANGLES && !in->rectangle &&
-	       s->views[in->view].target == 0 && !look_is_parallel(&s->views[in->view]) && m->color_mask & 7 &&
+	       s->views[in->view].target == 0 && !drawn_in_parallel(&s->views[in->view]) && m->color_mask & 7 &&
 	       (!m->depth_test || !m->depth_write || is_offset) && modelview_kind_of(in->modelview) == MODELVIEW_PLAIN;
 }
 
@@ -248,12 +248,12 @@ static int darkens(const struct scene *s, const struct scene_instance *in)
 
 	if (!m->blend || m->blend_equation_rgb != GL_FUNC_ADD)
 		return 0;
-	if (look_multiplies(m) && m->unit_count)
+	if (drawn_multiplies(m) && m->unit_count)
 		return has_white_edge(s->textures[s->units[m->unit_first + m->unit_count - 1].texture]);
 	if (m->blend_src_rgb == GL_ZERO)
 		return m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA || m->blend_dst_rgb == GL_SRC_ALPHA || m->blend_dst_rgb == GL_SRC_COLOR ||
 		       m->blend_dst_rgb == GL_ONE_MINUS_SRC_COLOR;
-	return look_multiplies(m) || (m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA && is_black(s, in));
+	return drawn_multiplies(m) || (m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA && is_black(s, in));
 }
 
 /* 1 where two balls are neither far larger nor far smaller than each other. */
@@ -311,7 +311,7 @@ static enum laid find_one(const struct scene *s, const struct ball *balls, uint3
 	if (ground.instance == SCENE_NONE || is_pass(s, balls, instance))
 		return LAID_NOT;
 	if (!darkens(s, &s->instances[instance]) || !has_thing(s, balls, instance, &ground))
-		return look_multiplies(m) ? LAID_NOT : LAID_DECAL; /* lightmaps multiply, too */
+		return drawn_multiplies(m) ? LAID_NOT : LAID_DECAL; /* lightmaps multiply, too */
 	below = &s->materials[s->instances[ground.instance].material];
 	return below->lighting && below->light_count ? LAID_LIT_SHADOW : LAID_SHADOW;
 }

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/modelview.h"
 #include "look/solid.h"
 #include "look/study/box.h"
@@ -37,7 +37,7 @@ static int is_from_origin(const struct scene_view *view)
 
 static int is_world(const struct scene *s, const struct scene_instance *in)
 {
-	return solid_is(s, in) && !look_is_parallel(&s->views[in->view]);
+	return solid_is(s, in) && !drawn_in_parallel(&s->views[in->view]);
 }
 
 /* How far off the point of a triangle is that is nearest to the origin. */
@@ -179,7 +179,7 @@ void layer_find(const struct scene *s, uint8_t *out)
 
 		if (!is_painted(s, in) || is_in_world(s, in, end))
 			continue;
-		if (look_is_parallel(&s->views[in->view])) {
+		if (drawn_in_parallel(&s->views[in->view])) {
 			out[i] = covers_window(s, in) ? LAYER_SKY : LAYER_WORLD;
 		} else if (is_from_origin(&s->views[in->view]) && is_about(s, in, &box)) {
 			out[i] = LAYER_UNKNOWN;

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "gl_tokens.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/modelview.h"
 #include "look/study/matrix.h"
 
@@ -13,7 +13,7 @@ enum { MOST_TEXELS = 400000, MOST_TRIANGLES = 500000 };
 
 int lightmaps_is_pass(const struct scene_material *m)
 {
-	return look_multiplies(m) && !m->depth_write && m->depth_test && m->unit_count == 1 && !m->lighting;
+	return drawn_multiplies(m) && !m->depth_write && m->depth_test && m->unit_count == 1 && !m->lighting;
 }
 
 /* The unit with light as its texture; NULL: none. */

@@ -7,7 +7,7 @@
 #include <xxhash.h>
 
 #include "base/memory.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/study/box.h"
 #include "look/study/matrix.h"
 
@@ -172,7 +172,7 @@ static void choose_camera(const struct motion *m, struct vote *votes, size_t n, 
 
 static int is_parallel(const struct scene *s, uint32_t i)
 {
-	return look_is_parallel(&s->views[s->instances[i].view]);
+	return drawn_in_parallel(&s->views[s->instances[i].view]);
 }
 
 /* Each thing that was drawn before and is drawn again votes. Large ones count more, up to a bound: a far plane is no world. What is drawn in

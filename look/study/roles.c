@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/study/face.h"
 #include "look/study/matrix.h"
 
@@ -136,7 +136,7 @@ static void note_hud(struct roles *r, const struct scene *s)
 	for (uint32_t i = 0; i < s->n_instances; i++) {
 		const struct scene_material *m = &s->materials[s->instances[i].material];
 		const struct scene_view *view = &s->views[s->instances[i].view];
-		const int is_flat = look_is_parallel(view);
+		const int is_flat = drawn_in_parallel(view);
 
 		if (view->target || s->instances[i].rectangle || m->stencil_test)
 			continue;
@@ -186,7 +186,7 @@ int roles_add(struct roles *r, const struct scene *scene, const struct motion *m
 			continue;
 		matrix_from_floats(eye, scene->instances[i].modelview);
 		note_thing(r, motion, motion->of_instance[i], eye, back, walked);
-		r->things[motion->of_instance[i]].is_flat |= (uint32_t)look_is_parallel(&scene->views[scene->instances[i].view]);
+		r->things[motion->of_instance[i]].is_flat |= (uint32_t)drawn_in_parallel(&scene->views[scene->instances[i].view]);
 		note_texture(r, scene, &scene->instances[i], eye, motion->n_frames);
 	}
 	note_hud(r, scene);

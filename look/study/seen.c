@@ -4,7 +4,7 @@
 
 #include "base/err.h"
 #include "base/memory.h"
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/modelview.h"
 #include "look/solid.h"
 
@@ -15,7 +15,7 @@ enum { MOST_FRAMES = 32 };
 static int is_world(const struct scene *s, const struct scene_instance *in)
 {
 	return solid_is(s, in) && !s->materials[in->material].stencil_test && modelview_kind_of(in->modelview) == MODELVIEW_PLAIN &&
-	       !look_is_parallel(&s->views[in->view]);
+	       !drawn_in_parallel(&s->views[in->view]);
 }
 
 int seen_add(struct seen *seen, const struct scene *scene, const struct motion *motion)

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "look/look.h"
+#include "look/drawn.h"
 #include "look/solid.h"
 #include "look/study/box.h"
 #include "look/study/matrix.h"
@@ -113,7 +113,7 @@ void studio_add(struct studio *s, const struct scene *scene, const uint8_t *laye
 		double eye[16];
 
 		has_sky |= layers[i] != 0;
-		if (!solid_is(scene, in) || look_is_parallel(&scene->views[in->view]))
+		if (!solid_is(scene, in) || drawn_in_parallel(&scene->views[in->view]))
 			continue;
 		matrix_from_floats(eye, in->modelview);
 		one = box_of(scene->meshes[in->mesh], eye);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/progress.h"
-#include "look/look.h"
+#include "look/apply/apply.h"
 #include "replay/replay.h"
 
 /* One line of the table: means of n runs. */

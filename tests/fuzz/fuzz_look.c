@@ -1,7 +1,8 @@
 /* Rules about materials and lights, applied to a frame. */
 #include <stdlib.h>
 
-#include "look/look.h"
+#include "look/apply/apply.h"
+#include "look/apply/tell.h"
 #include "look/rules.h"
 #include "replay/replay.h"
 #include "scene/release.h"

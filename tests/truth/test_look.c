@@ -8,7 +8,7 @@
 #include "tests/case.h"
 #include "tests/said.h"
 #include "tests/truth/scenes.h"
-#include "look/look.h"
+#include "look/apply/apply.h"
 #include "look/rules.h"
 
 #define SIZE 32

@@ -1,6 +1,6 @@
 /* What is spared as a blocker of light (look/spare.h), and what is not: shares of a surface that lie in shadow. */
 #include "base/err.h"
-#include "look/look.h"
+#include "look/apply/apply.h"
 #include "look/rules.h"
 #include "tests/case.h"
 #include "tests/truth/scenes.h"

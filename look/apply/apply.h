@@ -20,17 +20,3 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 int look_spares(const struct look *look);
 
 void look_release(struct scene *changed);
-
-/**
- * Tell of each role that rules give in a frame, one line of text each, for the reader of a report: "surface", its role, confidence, draw
- * numbers ("3-7,12", cut off where they are too many) and why, with tabs between them. Of a light: "light", and its place in eye space.
- * @param tell  called for each; ends the telling where it returns an error
- * @return 0, tell's error, or ERR_SYSTEM (reported)
- */
-int look_tell(const struct look *look, const struct scene *scene, int (*tell)(void *user, const char *text), void *user);
-
-/** 1 where a view shows its space in parallel projection. */
-int look_is_parallel(const struct scene_view *view);
-
-/** 1 where a draw multiplies what is there by its own colour. */
-int look_multiplies(const struct scene_material *m);
