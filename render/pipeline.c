@@ -11,12 +11,10 @@
 #include "base/folder.h"
 #include "base/queue.h"
 #include "look/apply/apply.h"
-#include "look/apply/tell.h"
 #include "look/camera/camera.h"
-#include "look/camera/elsewhere.h"
-#include "look/unseen.h"
 #include "render/cryptomatte.h"
-#include "render/preview.h"
+#include "render/earlier.h"
+#include "render/picture.h"
 #include "render/programs.h"
 #include "render/supply.h"
 #include "render/vectors.h"
@@ -57,14 +55,7 @@ struct pipeline_state {
 	uint64_t idle_bytes;  /* memory before the first frame */
 	pthread_cond_t landed;
 	int begun; /* a picture was handed out */
-	/* For motion vectors: the frame that was decoded last, and those before frames that are handed out. */
-	struct vectors_frame *last;
-	uint64_t last_number;
-	struct earlier {
-		struct vectors_frame *before;
-		uint64_t frame; /* that it comes before */
-		struct earlier *next;
-	} *earlier;
+	struct earlier earlier; /* for motion vectors */
 };
 
 struct worker {
@@ -187,76 +178,10 @@ static int is_there(const struct pipeline_state *state, uint64_t frame)
 	       stamp_check(&state->p->stamp, settings_recorded_frame(state->p->settings, frame), path) == STAMP_SAME;
 }
 
-/* Note where everything is in a frame, for the one after it. */
-static int note_last(struct pipeline_state *state, const struct scene *scene)
-{
-	vectors_free(&state->last);
-	state->last = vectors_note(scene);
-	state->last_number = scene->frame;
-	return state->last ? 0 : ERR_SYSTEM;
-}
-
-/* Decode the frame before one, unless it was the last, and keep what is to be known of it. @return 1; 0: there is none; ERR_* */
-static int note_earlier(struct pipeline_state *state, uint64_t frame)
-{
-	struct earlier *e;
-	struct scene *scene = NULL;
-	int more = 1;
-
-	if (frame && (!state->last || state->last_number + 1 != frame)) {
-		more = replay_seek(state->p->replay, frame - 1);
-		if (more == 1)
-			more = replay_next_frame(state->p->replay, 1, &scene);
-		if (more == 1 && note_last(state, scene))
-			more = ERR_SYSTEM;
-		scene_release(&scene);
-	}
-	e = more == 1 ? malloc(sizeof(*e)) : NULL;
-	if (!e)
-		return more == 1 ? err_report(ERR_SYSTEM, NULL, "out of memory") : more;
-	e->before = frame ? state->last : NULL;
-	e->frame = frame;
-	if (frame)
-		state->last = NULL;
-	pthread_mutex_lock(&state->lock);
-	e->next = state->earlier;
-	state->earlier = e;
-	pthread_mutex_unlock(&state->lock);
-	return 1;
-}
-
-/* What is known of the frame before one; stays until drop_earlier. */
-static const struct vectors_frame *earlier_of(struct pipeline_state *state, uint64_t frame)
-{
-	struct earlier *e;
-
-	pthread_mutex_lock(&state->lock);
-	for (e = state->earlier; e && e->frame != frame;)
-		e = e->next;
-	pthread_mutex_unlock(&state->lock);
-	return e ? e->before : NULL;
-}
-
-static void drop_earlier(struct pipeline_state *state, uint64_t frame)
-{
-	struct earlier **at, *e;
-
-	pthread_mutex_lock(&state->lock);
-	for (at = &state->earlier; *at && (*at)->frame != frame;)
-		at = &(*at)->next;
-	e = *at;
-	if (e)
-		*at = e->next;
-	pthread_mutex_unlock(&state->lock);
-	if (e)
-		vectors_free(&e->before);
-	free(e);
-}
-
 /* Replay up to a frame. @return 1; 0: the recording ends before it; ERR_* */
 static int go_to(struct pipeline_state *state, uint64_t frame)
 {
-	const int more = state->p->settings->motion ? note_earlier(state, frame) : 1;
+	const int more = state->p->settings->motion ? earlier_decode(&state->earlier, state->p->replay, frame) : 1;
 
 	return more == 1 ? replay_seek(state->p->replay, frame) : more;
 }
@@ -274,7 +199,7 @@ static int take_scene(struct pipeline_state *state, struct shared_scene **out)
 	if (state->turned)
 		return 1;
 	more = replay_next_frame(state->p->replay, 1, &shared->scene);
-	if (more == 1 && state->p->settings->motion && note_last(state, shared->scene))
+	if (more == 1 && state->p->settings->motion && earlier_note(&state->earlier, shared->scene))
 		more = ERR_SYSTEM;
 	if (more == 1 && camera_pictures(state->p->settings->camera)) {
 		shared->users++;
@@ -336,94 +261,6 @@ static int start_tracer(const struct worker *w, struct tracer **out)
 	return err;
 }
 
-/* What gate N (diff/score/harm.c) wants to know of a frame. changed: the scene under the rules */
-static int tell_harm(const struct spare *found, const struct scene *scene, const struct scene *changed, struct image *img)
-{
-	char *lights = spare_tell_lights(found), *cards = spare_tell_cards(found, scene), *left_out = spare_tell_left_out(changed);
-	int err = lights && cards && left_out ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
-
-	if (!err && *lights)
-		err = image_set_attribute(img, "relume:lights", "%s", lights);
-	if (!err && *cards)
-		err = image_set_attribute(img, "relume:cards", "%s", cards);
-	if (!err && *left_out)
-		err = image_set_attribute(img, "relume:left-out", "%s", left_out);
-	if (!err && scene->untraced_draw)
-		err = image_set_attribute(img, "relume:targets", "%u", scene->untraced_draw);
-	free(lights);
-	free(cards);
-	free(left_out);
-	return err;
-}
-
-/* What the report's page of roles and lights shows (diff/report/roles.h): an attribute each. */
-struct telling {
-	struct image *img;
-	unsigned n;
-};
-
-static int tell_role(void *user, const char *text)
-{
-	struct telling *t = user;
-	char name[32];
-
-	snprintf(name, sizeof(name), "relume:rule.%u", t->n++);
-	return image_set_attribute(t->img, name, "%s", text);
-}
-
-/* A scene traced as its camera sees it, the recorded one or another. */
-static int trace_seen(const struct settings *settings, struct tracer *tracer, const struct scene *scene, uint64_t number,
-                      const struct tracer_options *options, struct image *img)
-{
-	struct elsewhere elsewhere;
-	int err;
-
-	if (!settings->camera)
-		return tracer_render(tracer, scene, options, img);
-	err = elsewhere_make(settings->camera, settings->look, scene, (uint32_t)number, &elsewhere);
-	if (err)
-		return err;
-	err = tracer_render(tracer, &elsewhere.scene, options, img);
-	if (!err)
-		err = image_set_attribute(img, "relume:camera", "%s", elsewhere.told);
-	if (!err && elsewhere.without)
-		err_warn(settings->camera->path, "frame %llu: %u draws are left out: programs place their vertices, and nothing says where that is from elsewhere",
-		         (unsigned long long)scene->frame, elsewhere.without);
-	elsewhere_release(&elsewhere);
-	return err;
-}
-
-/* The scene as the rules change it, traced. number: of the picture */
-static int render_scene(const struct settings *settings, struct tracer *tracer, const struct scene *scene, uint64_t number, struct image *img)
-{
-	struct preview preview = { settings, number };
-	struct tracer_options options = settings->tracer;
-	struct scene whole = { .instances = NULL }, changed = { .instances = NULL };
-	struct spare found = { .bits = NULL };
-	int err;
-
-	options.preview = settings->preview ? preview_show : NULL;
-	options.preview_user = &preview;
-	if (options.mode == TRACER_GL)
-		return trace_seen(settings, tracer, scene, number, &options, img);
-	err = unseen_add(settings->look, scene, &whole);
-	if (!err)
-		err = look_apply(settings->look, whole.instances ? &whole : scene, &changed, &found);
-	if (!err)
-		err = trace_seen(settings, tracer, &changed, number, &options, img);
-	if (!err)
-		err = settings_denoise(settings, img);
-	if (!err)
-		err = tell_harm(&found, scene, &changed, img);
-	if (!err && settings->look)
-		err = look_tell(settings->look, scene, tell_role, &(struct telling){ img, 0 });
-	if (changed.instances)
-		look_release(&changed);
-	spare_free(&found);
-	unseen_release(&whole);
-	return err;
-}
-
 /* Threads for packing a picture: its share of the cores among the frames under way. */
 static unsigned packer_count(struct pipeline_state *state)
 {
@@ -459,13 +296,13 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 	watch_begin(w->state->p->watch, w->seat, shot->number);
 	/* some need the whole planes */
 	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion || settings->caustics || settings->denoise ? 0 : packer_count(w->state);
-	err = render_scene(settings, tracer, scene, shot->number, &picture->img);
+	err = picture_render(settings, tracer, scene, shot->number, &picture->img);
 	if (!err && !w->state->turned)
 		err = tell_time(scene, &picture->img);
 	if (!err)
 		err = programs_tell(scene, &picture->img);
 	if (!err && settings->motion)
-		err = vectors_add(scene, earlier_of(w->state, scene->frame), &picture->img);
+		err = vectors_add(scene, earlier_of(&w->state->earlier, scene->frame), &picture->img);
 	if (!err && settings->cryptomatte)
 		err = cryptomatte_add(scene, &picture->img);
 	late = watch_end(w->state->p->watch, w->seat);
@@ -545,7 +382,7 @@ static int work_on(struct worker *w, struct tracer **tracer, struct shot *shot)
 		retire(state, shot);
 		return 0;
 	}
-	drop_earlier(state, shot->number);
+	earlier_drop(&state->earlier, shot->number);
 	drop_shot(&shot);
 	w->done += outcome == TRACED;
 	if (outcome == TRACED && queue_put(&state->pictures, picture))
@@ -697,9 +534,6 @@ static int start_and_join(struct pipeline_state *state, struct worker *workers, 
 	for (struct shot *shot; (shot = queue_take(&state->shots));)
 		drop_shot(&shot); /* every worker was gone */
 	leave_scene(&state->turned);
-	while (state->earlier)
-		drop_earlier(state, state->earlier->frame);
-	vectors_free(&state->last);
 	queue_close(&state->pictures);
 	for (unsigned i = 0; i < n_writers; i++)
 		pthread_join(writers[i], NULL);
@@ -721,6 +555,7 @@ int pipeline_run(struct pipeline *p)
 
 	pthread_mutex_init(&state.lock, NULL);
 	pthread_cond_init(&state.landed, NULL);
+	earlier_init(&state.earlier);
 	if (!err)
 		err = queue_init(&state.shots, n, n);
 	if (!err)
@@ -745,6 +580,7 @@ int pipeline_run(struct pipeline *p)
 			device_close(&workers[i].dev);
 	queue_free(&state.shots);
 	queue_free(&state.pictures);
+	earlier_free(&state.earlier);
 	pthread_cond_destroy(&state.landed);
 	pthread_mutex_destroy(&state.lock);
 	free(workers);
