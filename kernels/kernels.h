@@ -197,6 +197,8 @@ typedef float element_float;
 	OUT(dome_place, places) AND()       /* [n]; read as well */ \
 	OUT(ray, looks) AND()               /* [sample][n] */ \
 	IN(float, factors) AND()            /* as dome_light leaves them: plain_shadow alone */ \
+	IN(uint, counts) AND() VALUE(uint, n_looks) AND() /* these and the next two: layered, layered_shadow alone; which do without rectangle */ \
+	VALUE(uint, columns) AND() VALUE(uint, asking) AND() /* a bit for each look at columns, and whose fragments ask lights */ \
 	OUT(half, halves) AND() OUT(float, floats)
 
 /* Rays to lights and into the surroundings: kernels/frame/shadow.h. */
@@ -526,6 +528,8 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(plain, plain)                 /* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
 	X(plain_dome, plain)            /* in place of plain where light comes from all around: a block's rays, to lights and into the surroundings */ \
 	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
+	X(layered, plain)               /* as plain, of several looks */ \
+	X(layered_shadow, plain)        /* as plain_shadow */ \
 	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \
 	X(compose_packet, compose)      /* the same, FRAME_ROW pixels of COMPOSE_ROWS rows a work item (CPUs) */ \
 	X(hook_ray, hook_ray)           /* one pixel a work item: its first ray by a hook */ \

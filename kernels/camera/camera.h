@@ -13,7 +13,8 @@
  * Screen instances (view.screen_first ..) are tested at the pixel centre as a point, whatever the projection.
  *
  * Pixels are numbered y * width + x, y from the bottom. Buffers of pixels begin with number first_pixel: a band of the frame's rows has
- * its own. Pixels outside of the rectangle are not touched. It lies within the view's (camera_rectangle).
+ * its own. Where it stands further on in them, first_pixel is less by that, modulo 2^32. Pixels outside of the rectangle are not touched.
+ * It lies within the view's (camera_rectangle).
  *
  * CAMERA_NEAREST_*: fragments[pixel] is the fragment of least window depth, in steps of 2^-24 (24-bit depth buffer). Of equals the
  * first in draw order counts with LESS, the last with LEQUAL. order is SCENE_NONE where there is none.

@@ -110,7 +110,7 @@ WIDE_VECTORS static inline void keep_nearest(const struct tile *t, struct camera
 /* Where a pixel of the tile stands in the buffers. */
 static inline size_t place_of(const struct tile *t, int x, int y)
 {
-	return (size_t)(t->y + y) * t->width + (size_t)(t->x + x) - t->first_pixel;
+	return (uint)(t->y + y) * t->width + (uint)(t->x + x) - t->first_pixel;
 }
 
 WIDE_VECTORS static inline void keep_in_columns(struct tile *t, int x, int y, packi covered, packf b1, packf b2, packf depth, struct candidate c)

@@ -4,6 +4,12 @@
  */
 #include "kernels/frame/plain_row.h"
 
+/* A row of sixteen pixels on its way. */
+struct shown_row {
+	struct plain_row at;
+	struct pack_pixels pixels;
+};
+
 /* What is kept from one fragment to the next. */
 struct plain_kept {
 	struct pack_kept pack;
@@ -42,21 +48,20 @@ WIDE_VECTORS static inline packi shows(const struct plain_arguments *a, __global
 }
 
 /* Colours of lanes that show. */
-WIDE_VECTORS static inline void put_colors(struct pack_pixels *to, const struct pack *p, const struct pack_color *gl,
-                                           const struct pack_color *shadowed, const struct pack_color *direct, packi show)
+WIDE_VECTORS static inline void put_colors(struct pack_pixels *to, const struct pack *p, const struct plain_colors *c, packi show)
 {
 	for (int i = 0; i < 3; i++) {
-		pack_put(&to->gl[i], gl->c[i], show);
-		pack_put(&to->shadowed[i], shadowed->c[i], show);
-		pack_put(&to->direct[i], direct->c[i], show);
+		pack_put(&to->gl[i], c->gl.c[i], show);
+		pack_put(&to->shadowed[i], c->shadowed.c[i], show);
+		pack_put(&to->direct[i], c->direct.c[i], show);
 	}
-	pack_put(&to->gl[3], gl->c[3], show);
+	pack_put(&to->gl[3], c->gl.c[3], show);
 	pack_put(&to->drawn, (packf)(1), show);
 	pack_put(&to->depth, p->depth, show);
 }
 
 /* Where they are, and their draws. */
-static inline void put_surface(const struct plain_arguments *a, struct plain_row *row, const struct pack *p, const struct pack_surface *s,
+static inline void put_surface(const struct plain_arguments *a, struct shown_row *row, const struct pack *p, const struct pack_surface *s,
                                packi show)
 {
 	struct pack_pixels *to = &row->pixels;
@@ -66,86 +71,49 @@ static inline void put_surface(const struct plain_arguments *a, struct plain_row
 	for (uint lanes = a->request.float_plane[COMPOSE_ID] != SCENE_NONE ? pack_bits(show) : 0; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 
-		LANE(to->id, float, lane) = (float)stage_draw(&a->tables, row->list.instance[lane], row->list.primitive[lane]);
-	}
-}
-
-/* A colour of n numbers that plain_program has left for some lanes. from: the first lane's, in its struct shaded */
-static inline void take_color(__global const float *from, int n, uint lanes, struct pack_color *to)
-{
-	const uint step = sizeof(struct shaded) / sizeof(float);
-
-	for (uint left = lanes; left; left &= left - 1) {
-		const uint lane = popcount((left & -left) - 1);
-
-		for (int i = 0; i < n; i++)
-			LANE(to->c[i], float, lane) = from[lane * step + i];
+		LANE(to->id, float, lane) = (float)stage_draw(&a->tables, row->at.list.instance[lane], row->at.list.primitive[lane]);
 	}
 }
 
 /* Fragments of one material. s: with visibility where lights have been asked. @return those that are done */
-static inline uint shade_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct plain_row *row, uint lanes,
+static inline uint shade_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lanes,
                                struct pack_kept *kept)
 {
 	const struct tables *t = &a->tables;
-	__global const struct geometry *g = &t->geometries[row->list.instance[popcount((lanes & -lanes) - 1)]];
-	struct pack_color lit, secondary, color, shadowed, direct;
-	struct pack_texturing texturing;
+	__global const struct geometry *g = &t->geometries[row->at.list.instance[popcount((lanes & -lanes) - 1)]];
+	struct plain_colors colors;
 	struct pack_surface surface;
 	struct pack *p = &kept->last;
 	const int sends = a->n_slots && !s->n_slots;
-	packu lights = 0;
+	packu lights;
 	packi show;
 
 	p->material = &t->materials[g->material];
 	p->view = &a->views[g->view];
-	lanes = pack_place(s, &row->list, lanes, 1, kept, p);
+	lanes = pack_place(s, &row->at.list, lanes, 1, kept, p);
 	if (!lanes)
 		return 0;
 	show = pack_mask(lanes) & shows(a, p->material, p->depth);
-	pack_texture(s, &row->list, p, lanes, kept, &texturing);
-	pack_lit_from_vertices(t, p, &lit, &secondary);
-	if (p->material->fragment_program) {
-		take_color(a->shaded[row->base].gl, 4, lanes, &color);
-	} else {
-		color = pack_finish(t, p, &texturing, &lit, &secondary);
+	plain_shade(a, s, &row->at, lanes, kept, &lights, &colors);
+	put_colors(&row->pixels, p, &colors, show);
+	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE)
 		for (int i = 0; i < 3; i++)
-			color.c[i] = pack_nudge(color.c[i]);
-	}
-	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE) {
-		const struct pack_color albedo = pack_albedo(t, &row->list, p, lanes, &texturing, &lit);
-
-		for (int i = 0; i < 3; i++)
-			pack_put(&row->pixels.albedo[i], albedo.c[i], show);
-	}
-	shadowed = color;
-	if (stage_is_by_program(s, p->material, g->flags)) {
-		take_color(a->shaded[row->base].shadowed, 3, lanes & row->dimmed, &shadowed);
-	} else if (lanes & row->dimmed && !p->material->surface.relit) {
-		pack_between_relit(s, &row->list, p, lanes & row->dimmed, kept, &lit, &secondary);
-		lit = pack_finish(t, p, &texturing, &lit, &secondary);
-		for (int i = 0; i < 3; i++)
-			shadowed.c[i] = select(color.c[i], pack_nudge(lit.c[i]), pack_mask(row->dimmed));
-	}
-	if (sends)
-		lights = pack_lights(t, p);
-	direct = pack_direct(s, &row->list, p, lanes, &texturing, &shadowed, &lights);
-	put_colors(&row->pixels, p, &color, &shadowed, &direct, show);
+			pack_put(&row->pixels.albedo[i], colors.albedo.c[i], show);
 	if (pack_wants_surface(&a->request) || sends)
 		pack_surface(t, p, &surface);
 	put_surface(a, row, p, &surface, show);
 	if (sends)
-		plain_send_rays(a, row, p, &surface, lights, lanes);
+		plain_send_rays(a, &row->at, p, &surface, lights, lanes);
 	return lanes;
 }
 
 /* --- One by one ------------------------------------------------------------------------------------------------------ */
 
 /* A fragment as it is shaded, to its lane. */
-static inline void put_one(const struct plain_arguments *a, struct plain_row *row, uint lane)
+static inline void put_one(const struct plain_arguments *a, struct shown_row *row, uint lane)
 {
-	__global const struct shaded *s = &a->shaded[row->base + lane];
-	const struct fragment f = a->fragments[row->base + lane];
+	__global const struct shaded *s = &a->shaded[row->at.base + lane];
+	const struct fragment f = a->fragments[row->at.base + lane];
 	const uint steps = pixel_depth_steps(s->depth, pixel_depth_bits(a->bits));
 	struct pack_pixels *to = &row->pixels;
 
@@ -165,17 +133,17 @@ static inline void put_one(const struct plain_arguments *a, struct plain_row *ro
 	LANE(to->id, float, lane) = (float)stage_draw(&a->tables, f.instance, f.primitive);
 }
 
-static inline void shade_one(const struct plain_arguments *a, const struct shade_arguments *s, struct plain_row *row, uint lane,
+static inline void shade_one(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lane,
                              struct plain_kept *kept)
 {
-	const uint item = row->base + lane;
-	__global const struct geometry *g = &a->tables.geometries[row->list.instance[lane]];
+	const uint item = row->at.base + lane;
+	__global const struct geometry *g = &a->tables.geometries[row->at.list.instance[lane]];
 	const int is_done = stage_is_by_program(s, &a->tables.materials[g->material], g->flags);
 	const struct shadow_ray_arguments r = plain_rays(a);
 
 	if (!s->n_slots && !is_done) {
-		a->fragments[item] = plain_fragment(a, row->x + lane, row->y);
-		a->pixels[item] = row->list.pixel[lane];
+		a->fragments[item] = plain_fragment(a, row->at.x + lane, row->at.y);
+		a->pixels[item] = row->at.list.pixel[lane];
 	}
 	if (!is_done)
 		shade_item(s, item, 0, &kept->one);
@@ -186,14 +154,14 @@ static inline void shade_one(const struct plain_arguments *a, const struct shade
 
 /* --- Rows ------------------------------------------------------------------------------------------------------------ */
 
-static inline void shade_row(const struct plain_arguments *a, const struct shade_arguments *s, struct plain_row *row, uint lanes,
+static inline void shade_row(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lanes,
                              struct plain_kept *kept)
 {
 	__global const struct scene_material *m;
 	uint material;
 
 	while (lanes) {
-		const uint bit = lanes & -lanes, same = pack_same_kind(&a->tables, &row->list, lanes, &material);
+		const uint bit = lanes & -lanes, same = pack_same_kind(&a->tables, &row->at.list, lanes, &material);
 		uint done = 0;
 
 		m = &a->tables.materials[material];
@@ -229,10 +197,10 @@ WIDE_VECTORS static inline void light_row(const struct plain_arguments *a, struc
 }
 
 /* is_lit: from all around */
-static inline void compose_row(const struct plain_arguments *a, struct plain_row *row, int is_lit, const struct pack_planes *to)
+static inline void compose_row(const struct plain_arguments *a, struct shown_row *row, int is_lit, const struct pack_planes *to)
 {
 	if (is_lit)
-		light_row(a, &row->pixels, row->base);
+		light_row(a, &row->pixels, row->at.base);
 	for (int i = 0; i < 3; i++)
 		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
 	pack_compose(&row->pixels, to);
@@ -242,21 +210,21 @@ static inline void compose_row(const struct plain_arguments *a, struct plain_row
 static inline void do_block(const struct plain_arguments *a, const struct shade_arguments *s, uint item)
 {
 	struct plain_kept kept;
-	struct plain_row row;
+	struct shown_row row;
 	const int is_in_dome = a->dome.reach > 0;
 	uint empty = SCENE_NONE; /* where a row without fragments stands in the planes */
 
 	pack_keep_nothing(&kept.pack);
 	for (uint k = 0; k < PLAIN_ROWS; k++) {
-		const uint lanes = plain_load_row(a, s->n_slots, item, k, &row);
+		const uint lanes = plain_load_row(a, s->n_slots, item, k, &row.at);
 		struct pack_planes to;
 
-		for (uint i = 0; i < PACK_SIZE * a->n_slots && !s->n_slots && row.base != SCENE_NONE; i++)
+		for (uint i = 0; i < PACK_SIZE * a->n_slots && !s->n_slots && row.at.base != SCENE_NONE; i++)
 			if (!(lanes >> i % PACK_SIZE & 1))
-				stage_no_ray(&a->rays[i / PACK_SIZE * a->n + row.base + i % PACK_SIZE]);
-		if (row.y >= a->request.height || (s->n_slots && !row.dimmed && !is_in_dome))
+				stage_no_ray(&a->rays[i / PACK_SIZE * a->n + row.at.base + i % PACK_SIZE]);
+		if (row.at.y >= a->request.height || (s->n_slots && !row.at.dimmed && !is_in_dome))
 			continue;
-		to = pack_planes_of(&a->request, a->halves, a->floats, row.x, row.y);
+		to = pack_planes_of(&a->request, a->halves, a->floats, row.at.x, row.at.y);
 		if (!lanes && empty != SCENE_NONE) {
 			pack_compose_again(empty, &to);
 			continue;

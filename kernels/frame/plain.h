@@ -14,6 +14,7 @@
  */
 #pragma once
 
+#include "kernels/camera/camera.h"
 #include "kernels/frame/shadow.h"
 
 /** How many blocks stand side by side. */
@@ -32,6 +33,24 @@ static inline uint32_t plain_base(uint32_t place, uint32_t y)
 static inline uint32_t plain_place(GLOBAL const uint32_t *blocks, uint32_t width, uint32_t x, uint32_t y)
 {
 	return blocks[y / PLAIN_ROWS * plain_columns(width) + x / PLAIN_WIDTH];
+}
+
+/*
+ * layered, layered_shadow: frames of several looks, each at one segment's fragments: one a pixel, or columns of up to CAMERA_COLUMN_MAX that
+ * are drawn one over the other. A block has so many places as are most fragments of a pixel in it, look by look.
+ */
+#define PLAIN_LOOKS 8u   /* at most */
+#define PLAIN_LAYERS 16u /* fragments over each other, at most */
+
+static inline uint32_t plain_slots(uint32_t columns, uint32_t look)
+{
+	return columns >> look & 1u ? CAMERA_COLUMN_MAX : 1u;
+}
+
+/* Where the counts of a look begin, and by the number of its slots its fragments: no two looks' overlap. n_pixels: of the band */
+static inline uint32_t plain_look_first(uint32_t columns, uint32_t look, uint32_t n_pixels)
+{
+	return look * n_pixels * (CAMERA_COLUMN_MAX / plain_slots(columns, look));
 }
 
 /* How many blocks a band has. */

@@ -6,12 +6,16 @@
 #include "kernels/frame/pack_shade.h"
 #include "kernels/frame/plain.h"
 
-/* A row of sixteen pixels on its way. */
+/* Sixteen fragments of a row, one a pixel. */
 struct plain_row {
 	struct pack_list list;
-	struct pack_pixels pixels;
 	uint x, y, base; /* of the first pixel in the band; of its place among the rays, SCENE_NONE where the block has none */
 	uint dimmed;     /* a bit for each fragment that a light does not reach whole */
+};
+
+/* Their colours. */
+struct plain_colors {
+	struct pack_color gl, shadowed, direct, albedo; /* albedo: where it is asked for */
 };
 
 /* Whether packs know all that a material asks for; what they do not goes one by one. */
@@ -60,6 +64,20 @@ static inline uint load_row(const struct plain_arguments *a, struct plain_row *r
 	return lanes;
 }
 
+/* A bit for each fragment of a row that a light does not reach whole. base: its place among the rays; lanes: those that are there */
+static inline uint plain_dimmed(const struct plain_arguments *a, uint base, uint lanes)
+{
+	uint dimmed = 0;
+
+	for (uint left = lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+
+		if (stage_dimmed(a->visibility, a->n_slots, a->n, base + lane))
+			dimmed |= 1u << lane;
+	}
+	return dimmed;
+}
+
 /*
  * Row k of a block, but for its pixels.
  * n_slots: of lights whose visibility is there; 0: nothing is dimmed
@@ -74,13 +92,60 @@ static inline uint plain_load_row(const struct plain_arguments *a, uint n_slots,
 	row->base = plain_base(a->blocks[block], k);
 	row->dimmed = 0;
 	lanes = row->base != SCENE_NONE && row->y < a->request.height ? load_row(a, row) : 0;
-	for (uint left = n_slots ? lanes : 0; left; left &= left - 1) {
+	if (n_slots)
+		row->dimmed = plain_dimmed(a, row->base, lanes);
+	return lanes;
+}
+
+/* A colour of n numbers that plain_program has left for some lanes. from: the first lane's, in its struct shaded */
+static inline void plain_take_color(__global const float *from, int n, uint lanes, struct pack_color *to)
+{
+	const uint step = sizeof(struct shaded) / sizeof(float);
+
+	for (uint left = lanes; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 
-		if (stage_dimmed(a->visibility, n_slots, a->n, row->base + lane))
-			row->dimmed |= 1u << lane;
+		for (int i = 0; i < n; i++)
+			LANE(to->c[i], float, lane) = from[lane * step + i];
 	}
-	return lanes;
+}
+
+/*
+ * Colours of fragments of one material, which kept->last has placed.
+ * s: with visibility where lights have been asked
+ * lights: receives a bit for each that lights them
+ */
+static inline void plain_shade(const struct plain_arguments *a, const struct shade_arguments *s, const struct plain_row *row, uint lanes,
+                               struct pack_kept *kept, packu *lights, struct plain_colors *out)
+{
+	const struct tables *t = &a->tables;
+	struct pack *p = &kept->last;
+	__global const struct geometry *g = &t->geometries[row->list.instance[popcount((lanes & -lanes) - 1)]];
+	struct pack_texturing texturing;
+	struct pack_color lit, secondary;
+
+	pack_texture(s, &row->list, p, lanes, kept, &texturing);
+	pack_lit_from_vertices(t, p, &lit, &secondary);
+	if (p->material->fragment_program) {
+		plain_take_color(a->shaded[row->base].gl, 4, lanes, &out->gl);
+	} else {
+		out->gl = pack_finish(t, p, &texturing, &lit, &secondary);
+		for (int i = 0; i < 3; i++)
+			out->gl.c[i] = pack_nudge(out->gl.c[i]);
+	}
+	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE)
+		out->albedo = pack_albedo(t, &row->list, p, lanes, &texturing, &lit);
+	out->shadowed = out->gl;
+	if (stage_is_by_program(s, p->material, g->flags)) {
+		plain_take_color(a->shaded[row->base].shadowed, 3, lanes & row->dimmed, &out->shadowed);
+	} else if (lanes & row->dimmed && !p->material->surface.relit) {
+		pack_between_relit(s, &row->list, p, lanes & row->dimmed, kept, &lit, &secondary);
+		lit = pack_finish(t, p, &texturing, &lit, &secondary);
+		for (int i = 0; i < 3; i++)
+			out->shadowed.c[i] = select(out->gl.c[i], pack_nudge(lit.c[i]), pack_mask(row->dimmed));
+	}
+	*lights = a->n_slots && !s->n_slots ? pack_lights(t, p) : (packu)(0);
+	out->direct = pack_direct(s, &row->list, p, lanes, &texturing, &out->shadowed, lights);
 }
 
 /* Rays to the lights that light them. lights: a bit for each that does */

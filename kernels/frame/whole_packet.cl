@@ -3,6 +3,7 @@
  */
 #include "kernels/camera/camera_packet.cl"
 #include "kernels/frame/compose_packet.cl"
+#include "kernels/frame/layered.cl"
 #include "kernels/frame/plain.cl"
 #include "kernels/frame/resolve.cl"
 #include "kernels/frame/resolve_packet.cl"

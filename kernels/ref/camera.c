@@ -52,7 +52,7 @@ struct pixel {
 /* Where a pixel stands in the buffers. */
 static size_t place_of(const struct args *args, int32_t x, int32_t y)
 {
-	return (size_t)y * args->width + (size_t)x - args->first_pixel;
+	return (uint32_t)y * args->width + (uint32_t)x - args->first_pixel;
 }
 
 /* --- fragments --- */

@@ -1,4 +1,4 @@
-/* C twins of kernels/frame/plain.cl: a pixel after the other through the steps that frames which are not plain take. */
+/* C twins of kernels/frame/plain.cl and layered.cl: a pixel after the other through the steps that frames which are not plain take. */
 #include "kernels/frame/plain.h"
 
 #include "kernels/frame/compose.h"
@@ -97,7 +97,62 @@ static void look_from_pixel(const struct plain_arguments *a, const struct shade_
 	dome_find_item(&d, item);
 }
 
-/* Each pixel of blocks first .. last-1 by one of the three above. */
+/* Of the pixels of a block, the most fragments that one has in a look. x, y: a pixel of it */
+static uint32_t most_of_block(const struct plain_arguments *a, uint32_t look, uint32_t x, uint32_t y)
+{
+	const uint32_t *counts = a->counts + plain_look_first(a->columns, look, a->width * a->request.height);
+	const uint32_t x0 = x - x % PLAIN_WIDTH, y0 = y - y % PLAIN_ROWS;
+	uint32_t most = 0;
+
+	for (y = y0; y < y0 + PLAIN_ROWS && y < a->request.height; y++)
+		for (x = x0; x < x0 + PLAIN_WIDTH && x < a->width; x++)
+			most = counts[y * a->width + x] > most ? counts[y * a->width + x] : most;
+	return most;
+}
+
+/* A fragment of a look: its colour, its rays, and through the per-fragment operations. */
+static void draw_fragment(const struct plain_arguments *a, const struct shade_arguments *s, struct fragment f, uint32_t number, uint32_t item, int asks,
+                          struct frame_pixel *pixel)
+{
+	const struct shadow_ray_arguments rays = plain_rays(a);
+	struct shadow_kept shadow_kept;
+	struct setup_kept kept;
+
+	if (!s->n_slots) {
+		a->fragments[item] = f;
+		a->pixels[item] = a->first_pixel + number;
+	}
+	if (!s->n_slots || asks)
+		shade_item(s, item, 0, &kept);
+	for (uint32_t slot = 0; slot < a->n_slots && asks && !s->n_slots; slot++)
+		shadow_ray_item(&rays, slot * a->n + item, 0, &shadow_kept);
+	pixel_draw(&a->tables.materials[a->tables.geometries[f.instance].material], &a->shaded[item], &a->fragments[item],
+	           stage_draw(&a->tables, f.instance, f.primitive), pixel, a->bits);
+}
+
+/* do_pixel where there are several looks. item: its place in the block's first layer */
+static void draw_layers(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+{
+	const int is_there = x < a->width && y < a->request.height;
+	const uint32_t number = y * a->width + x;
+	struct frame_pixel pixel = *a->cleared;
+
+	for (uint32_t look = 0; look < a->n_looks && item != SCENE_NONE; look++) {
+		const uint32_t first = plain_look_first(a->columns, look, a->width * a->request.height) + number, slots = plain_slots(a->columns, look);
+		const uint32_t most = most_of_block(a, look, x, y), n = is_there ? a->counts[first] : 0;
+
+		for (uint32_t i = 0; i < most; i++, item += PLAIN_WIDTH * PLAIN_ROWS) {
+			for (uint32_t slot = 0; slot < a->n_slots && !s->n_slots; slot++)
+				stage_no_ray(&a->rays[slot * a->n + item]);
+			if (i < n)
+				draw_fragment(a, s, a->sparse[first * slots + i], number, item, a->asking >> look & 1, &pixel);
+		}
+	}
+	if (is_there)
+		compose_pixel(a, x, y, &pixel);
+}
+
+/* Each pixel of blocks first .. last-1 by one of those above. */
 static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last,
                       void (*one)(const struct plain_arguments *, const struct shade_arguments *, uint32_t, uint32_t, uint32_t))
 {
@@ -121,6 +176,16 @@ void plain_c(const struct plain_arguments *a, size_t first, size_t last)
 void plain_shadow_c(const struct plain_arguments *a, size_t first, size_t last)
 {
 	do_blocks(a, a->n_slots, first, last, do_pixel);
+}
+
+void layered_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_blocks(a, 0, first, last, draw_layers);
+}
+
+void layered_shadow_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_blocks(a, a->n_slots, first, last, draw_layers);
 }
 
 void plain_program_c(const struct plain_arguments *a, size_t first, size_t last)

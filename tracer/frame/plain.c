@@ -25,17 +25,29 @@ static int is_lit_simply(const struct job *job)
 	return 1;
 }
 
+/* Whether the picture is cleared whole, and never again. */
+static int is_cleared_once(const struct job *job)
+{
+	struct scene_clear clear;
+	uint32_t n = 0;
+
+	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
+		n += job->prepared.segments[i].clear_count;
+	return segment_whole_clear(job, &clear) == n;
+}
+
+int plain_is_simple(const struct job *job)
+{
+	return !job->options->hook && device_family(job->tr->dev) == FAMILY_PACKETS && job->image && job->n_passes == 1 && job->n_samples == 1 &&
+	       !job->scene->start && !job->scene->needs_previous && is_lit_simply(job) && is_cleared_once(job);
+}
+
 int plain_suits(const struct job *job)
 {
 	const struct prepared *p = &job->prepared;
 	const struct segment *segment = p->segments;
-	struct scene_clear clear;
 
-	if (job->options->hook || device_family(job->tr->dev) != FAMILY_PACKETS || !job->image || job->n_passes > 1 || job->n_samples > 1 ||
-	    job->scene->start || job->scene->needs_previous || !is_lit_simply(job))
-		return 0;
-	if (!dome_suits_plain(job) || p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN ||
-	    segment_whole_clear(job, &clear) != segment->clear_count)
+	if (!plain_is_simple(job) || !dome_suits_plain(job) || p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN)
 		return 0;
 	for (uint32_t i = 0; i < segment->instance_count; i++) {
 		const struct scene_material *m = &job->scene->materials[p->instances[segment->instance_first + i].material];
@@ -75,8 +87,7 @@ static int place_blocks(struct job *job, struct camera_rectangle r, uint32_t *n)
 	return err ? err : frame_upload(tr, blocks, tr->first, blocks);
 }
 
-/* What kernels leave for n fragments and their rays. */
-static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
+int plain_reserve(struct job *job, uint32_t n, uint32_t n_slots)
 {
 	struct tracer *tr = job->tr;
 	int err = frame_reserve(tr, fragments, n);
@@ -90,8 +101,7 @@ static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
 	return err ? err : secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
 }
 
-/* The planes that shadows change. */
-static struct compose_request shadow_request(struct compose_request r)
+struct compose_request plain_shadow_request(struct compose_request r)
 {
 	for (uint32_t i = 0; i < N_COMPOSE_HALVES; i++)
 		if (!(i < COMPOSE_BEAUTY + 3 || (i >= COMPOSE_SHADOW && i < COMPOSE_REFLECT)))
@@ -100,8 +110,8 @@ static struct compose_request shadow_request(struct compose_request r)
 	return r;
 }
 
-static struct plain_launch launch_of(const struct job *job, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
-                                     uint32_t samples, const struct compose_request *request)
+struct plain_launch plain_launch_of(const struct job *job, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
+                                    const struct compose_request *request)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	const struct scene_dome none = { .reach = 0 };
@@ -111,9 +121,21 @@ static struct plain_launch launch_of(const struct job *job, struct camera_rectan
 	               .first_pixel = frame_first_pixel(job), .bits = job->bits, .cleared = b->cleared, .request = *request,
 	               .visibility = b->visibility, .n_slots = n_slots, .blocks = b->blocks, .n = n, .fragments = b->fragments, .pixels = b->pixels,
 	               .shaded = b->shaded, .rays = b->rays, .programs = b->programs,
-	               .dome = samples ? job->scene->dome : none, .directions = samples ? b->dome_directions : b->visibility,
-	               .samples = samples, .places = b->dome_places, .looks = samples ? b->dome_rays : b->rays,
-	               .factors = samples ? b->dome_factors : b->visibility, .halves = b->halves, .floats = b->floats);
+	               .dome = none, .directions = b->visibility, .samples = 0, .places = b->dome_places, .looks = b->rays,
+	               .factors = b->visibility, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .halves = b->halves, .floats = b->floats);
+}
+
+/* The same where it comes, from so many looks around. */
+static struct plain_launch in_dome(const struct job *job, struct plain_launch a, uint32_t samples)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+
+	a.dome = job->scene->dome;
+	a.directions = b->dome_directions;
+	a.samples = samples;
+	a.looks = b->dome_rays;
+	a.factors = b->dome_factors;
+	return a;
 }
 
 /* Colours by programs, for plain without lights that have been asked (0) or for plain_shadow. */
@@ -139,7 +161,7 @@ static int draw_lit(struct job *job, const struct accel_space *space, struct pla
 		err = run_programs(job, a, blocks, n_slots);
 	if (err || !n_slots)
 		return err;
-	a.request = shadow_request(a.request);
+	a.request = plain_shadow_request(a.request);
 	return launch_plain_shadow(job->tr->dev, blocks, &a);
 }
 
@@ -172,16 +194,16 @@ int plain_band(struct job *job)
 	if (!err)
 		err = compose_reserve(job, &request);
 	if (!err && r.x0 < r.x1)
-		err = segment_trace_camera(job, segment, r);
+		err = segment_trace_camera(job, segment, r, 0);
 	if (!err)
 		err = place_blocks(job, segment_in_buffers(job, r), &n);
 	if (!err)
-		err = reserve(job, n, n_slots);
+		err = plain_reserve(job, n, n_slots);
 	if (!err && space && dome_is_there(job))
 		err = dome_prepare_plain(job, n, &samples);
 	if (err)
 		return err;
-	a = launch_of(job, r, n, n_slots, samples, &request);
-	err = samples ? draw_in_dome(job, space, a, blocks) : draw_lit(job, space, a, blocks);
+	a = plain_launch_of(job, r, n, n_slots, &request);
+	err = samples ? draw_in_dome(job, space, in_dome(job, a, samples), blocks) : draw_lit(job, space, a, blocks);
 	return err ? err : compose_fetch(job, &request, job->image);
 }

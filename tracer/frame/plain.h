@@ -11,3 +11,18 @@ int plain_suits(const struct job *job);
 
 /** Draw the band into job->image. @return 0 or ERR_SYSTEM (reported) */
 int plain_band(struct job *job);
+
+/* --- For layered.c, which draws in the same way ---------------------------------------------------------------------- */
+
+/** What both ways ask of a frame: a CPU, one pass into an image from nothing, cleared before all, lights without a size, no mirrors. */
+int plain_is_simple(const struct job *job);
+
+/** Room for what kernels leave for n fragments and their rays to n_slots lights. */
+int plain_reserve(struct job *job, uint32_t n, uint32_t n_slots);
+
+/** The arguments of both without light from all around. r: of the band */
+struct plain_launch plain_launch_of(const struct job *job, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
+                                    const struct compose_request *request);
+
+/** The planes that shadows change. */
+struct compose_request plain_shadow_request(struct compose_request r);

@@ -146,14 +146,14 @@ int segment_clear_all(struct job *job, uint32_t *n_done)
 	return late ? segment_clear_one(job) : run_clear(job, &clear);
 }
 
-int segment_trace_camera(struct job *job, const struct segment *segment, struct camera_rectangle r)
+int segment_trace_camera(struct job *job, const struct segment *segment, struct camera_rectangle r, uint32_t first)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 
 	return traverse_camera(tr->dev, traverse_families[device_family(tr->dev)].camera, &tr->trees, r,
 	                       LAUNCH(camera_pass, .view_index = segment->view, .views = b->views, .width = job->width,
-	                              .height = job->height, .rectangle = r, .first_pixel = frame_first_pixel(job),
+	                              .height = job->height, .rectangle = r, .first_pixel = frame_first_pixel(job) - first,
 	                              .mode = segment->mode, .window = b->windows, .clip = b->clips,
 	                              .after = b->after, .fragments = b->sparse, .counts = b->counts));
 }
@@ -302,7 +302,7 @@ static int run_draws(struct job *job, const struct segment *segment)
 	if (!err)
 		err = segment_reserve(job, slots);
 	while (more && !err) {
-		err = segment_trace_camera(job, segment, r);
+		err = segment_trace_camera(job, segment, r, 0);
 		if (!err)
 			err = place_fragments(job, r, slots, &n_list, &more);
 		if (err || n_list == 0)

@@ -15,6 +15,7 @@
 #include "tracer/frame/hook_objects.h"
 #include "tracer/frame/hook_rays.h"
 #include "tracer/frame/hooks.h"
+#include "tracer/frame/layered.h"
 #include "tracer/frame/noise.h"
 #include "tracer/frame/photons.h"
 #include "tracer/frame/picture.h"
@@ -163,10 +164,15 @@ static int begin_band(struct job *job, uint32_t *n_cleared)
 static int trace_band(struct job *job)
 {
 	uint32_t n_cleared;
-	int err;
+	int err, drawn;
 
 	if (plain_suits(job))
 		return plain_band(job);
+	if (layered_suits(job)) {
+		err = layered_band(job, &drawn);
+		if (err || drawn)
+			return err;
+	}
 	err = reserve_pixels(job);
 	if (!err)
 		err = begin_band(job, &n_cleared);

@@ -1,0 +1,17 @@
+/*
+ * Frames on CPUs that are like plain ones (plain.h) but for their draws: of several segments, blended, tested for alpha, not tested for
+ * depth. The camera looks at all segments first; then two kernels draw all fragments of a pixel one over the other (kernels/frame/layered.cl).
+ */
+#pragma once
+
+#include "tracer/frame/frame.h"
+
+/** Whether this pass of the frame is so. Needs job->prepared. */
+int layered_suits(const struct job *job);
+
+/**
+ * Draw the band into job->image.
+ * @param drawn  receives 0 where too many fragments lie over each other: nothing has been drawn
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int layered_band(struct job *job, int *drawn);
