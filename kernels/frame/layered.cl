@@ -11,7 +11,8 @@ struct layer {
 	struct plain_row at;
 	struct plain_colors colors; /* of those that are shaded */
 	packf depth;
-	uint there, drawn, shaded, covered; /* drawn: all tests passed; covered: by a later one */
+	struct pack pack;                   /* of those in `placed`, of one material */
+	uint there, placed, drawn, shaded, covered; /* drawn: all tests passed; covered: by a later one */
 	uint from, slots;                   /* of the first pixel's fragment in a->sparse; how far the next one's is from it */
 	int asks;                           /* lights, of those that are drawn */
 };
@@ -117,7 +118,7 @@ static inline uint load_layers(const struct plain_arguments *a, uint n_slots, co
 			layer->from = (plain_look_first(a->columns, look, n_pixels) + y * a->width + b->x) * slots + i;
 			layer->asks = a->n_slots && a->asking >> look & 1;
 			layer->there = pack_bits(counts > i);
-			layer->drawn = layer->shaded = layer->covered = 0;
+			layer->placed = layer->drawn = layer->shaded = layer->covered = 0;
 			load_layer(a, layer);
 			layer->at.dimmed = n_slots && layer->asks ? plain_dimmed(a, layer->at.base, layer->there) : 0;
 			dimmed |= layer->at.dimmed;
@@ -199,7 +200,7 @@ static inline void put_layer_surface(const struct plain_arguments *a, struct lay
 		pack_put_surface(&a->tables, &kept->last, s, shows, &row->pixels);
 }
 
-/* Places of fragments of one material. @return those that are done */
+/* Places of fragments of one material, into kept->last. @return those that are done */
 static inline uint place_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct layer *layer, uint lanes,
                                struct pack_kept *kept)
 {
@@ -235,7 +236,10 @@ static inline uint shade_layer_lanes(const struct plain_arguments *a, const stru
 	packu lights;
 	uint left;
 
-	lanes = place_lanes(a, s, layer, lanes, kept);
+	if (lanes & ~layer->placed)
+		lanes = place_lanes(a, s, layer, lanes, kept);
+	else
+		kept->last = layer->pack;
 	if (!lanes)
 		return 0;
 	plain_shade(a, s, &layer->at, lanes, kept, &lights, &colors);
@@ -311,6 +315,10 @@ static inline void test_layer(const struct plain_arguments *a, const struct shad
 			done = place_lanes(a, s, layer, same, &kept->pack);
 			if (done)
 				test_lanes(a, row, i, m, done);
+			if (done && !layer->placed) {
+				layer->pack = kept->pack.last;
+				layer->placed = done;
+			}
 		}
 		if (!(done & bit)) {
 			shade_layer_alone(a, s, row, i, popcount(bit - 1), kept);

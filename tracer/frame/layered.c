@@ -50,12 +50,21 @@ int layered_suits(const struct job *job)
 	const struct prepared *p = &job->prepared;
 
 	if (!plain_is_simple(job) || dome_is_there(job) || p->has_mirrors || p->has_fragment_programs || p->has_vertex_programs ||
-	    job->n_pixels > 0xffffffffu / (PLAIN_LOOKS * CAMERA_COLUMN_MAX) || !has_one_space(job))
+	    !has_one_space(job))
 		return 0;
 	for (uint32_t i = 0; i < p->n_instances; i++)
 		if (!is_known(job, &job->scene->materials[p->instances[i].material]))
 			return 0;
 	return 1;
+}
+
+int layered_has_columns(const struct job *job)
+{
+	int columns = 0;
+
+	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
+		columns |= job->prepared.segments[i].mode == CAMERA_COLUMN;
+	return columns && layered_suits(job);
 }
 
 /* --- Looks --------------------------------------------------------------------------------------------------------- */
@@ -224,8 +233,13 @@ int layered_band(struct job *job, int *drawn)
 	struct looks looks = { .n = 0 };
 	struct compose_request request;
 	uint32_t n;
+	int err;
+
+	*drawn = job->n_pixels <= 0xffffffffu / (PLAIN_LOOKS * CAMERA_COLUMN_MAX);
+	if (!*drawn)
+		return 0;
 	/* As in plain_band. */
-	int err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
+	err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
 
 	if (!err)
 		err = look_around(job, &looks, drawn);

@@ -9,9 +9,12 @@
 /** Whether this pass of the frame is so. Needs job->prepared. */
 int layered_suits(const struct job *job);
 
+/** Whether it is so, and a pixel may have many fragments. */
+int layered_has_columns(const struct job *job);
+
 /**
  * Draw the band into job->image.
- * @param drawn  receives 0 where too many fragments lie over each other: nothing has been drawn
+ * @param drawn  receives 0 where too many fragments lie over each other, or the band has too many pixels: nothing has been drawn
  * @return 0 or ERR_SYSTEM (reported)
  */
 int layered_band(struct job *job, int *drawn);

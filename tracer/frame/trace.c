@@ -131,15 +131,17 @@ static void count_undrawn(struct job *job)
 }
 
 /*
- * Rows of a band: whole tiles, and on a CPU so few that what is known of their pixels stays in its caches. GPUs want many pixels at
- * once.
+ * Rows of a band: whole tiles, and on a CPU so few that what is known of their pixels stays in its caches; a column may be eight fragments.
+ * GPUs want many pixels at once.
  */
 #define BAND_PIXELS_CPU 65536u
+#define BAND_PIXELS_COLUMNS 16384u
 #define BAND_PIXELS_GPU 2097152u
 
 static uint32_t rows_of_band(const struct job *job)
 {
-	const uint32_t pixels = device_family(job->tr->dev) == FAMILY_PACKETS || job->objects.n ? BAND_PIXELS_CPU : BAND_PIXELS_GPU;
+	const uint32_t pixels = layered_has_columns(job) ? BAND_PIXELS_COLUMNS :
+	                        device_family(job->tr->dev) == FAMILY_PACKETS || job->objects.n ? BAND_PIXELS_CPU : BAND_PIXELS_GPU;
 	uint32_t rows = job->options->band_rows ? job->options->band_rows : pixels / job->width;
 
 	if (job->tr->most_rows && rows > job->tr->most_rows)
