@@ -175,6 +175,16 @@ typedef float element_float;
 	VALUE(uint, n) AND()                /* pixels */ \
 	OUT(half, halves) AND() OUT(float, floats)
 
+/* What frames of several looks have in addition. */
+#define ARGUMENTS_layers(IN, OUT, VALUE, GROUP, AND) \
+	IN(uint, counts) AND()              /* where plain_look_first says */ \
+	VALUE(uint, n_looks) AND() \
+	VALUE(uint, columns) AND() VALUE(uint, asking) AND() /* a bit for each look at columns, and whose fragments send rays */ \
+	VALUE(uint, mirrors) AND()          /* 1: light leaves fragments that mirror or let it through. 0: the rest are any buffers */ \
+	OUT(uint, leaving) AND()            /* [n / PLAIN_WIDTH]: a bit for each such fragment that shows; from layered, read by the others */ \
+	IN(uint, list_first) AND()          /* [n / PLAIN_WIDTH]: where these stand in the next three; layered_shadow, layered_mirror */ \
+	OUT(fragment, list) AND() OUT(uint, list_pixels) AND() OUT(shaded, list_shaded) /* from layered_shadow, for the kernels of paths */
+
 /* Plain frames: kernels/frame/plain.h. */
 #define ARGUMENTS_plain(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() \
@@ -197,8 +207,7 @@ typedef float element_float;
 	OUT(dome_place, places) AND()       /* [n]; read as well */ \
 	OUT(ray, looks) AND()               /* [sample][n] */ \
 	IN(float, factors) AND()            /* as dome_light leaves them: plain_shadow alone */ \
-	IN(uint, counts) AND() VALUE(uint, n_looks) AND() /* these and the next two: layered, layered_shadow alone; which do without rectangle */ \
-	VALUE(uint, columns) AND() VALUE(uint, asking) AND() /* a bit for each look at columns, and whose fragments ask lights */ \
+	GROUP(layers, layers) AND()         /* layered, layered_shadow and layered_mirror alone, which do without rectangle */ \
 	OUT(half, halves) AND() OUT(float, floats)
 
 /* Rays to lights and into the surroundings: kernels/frame/shadow.h. */
@@ -404,7 +413,7 @@ typedef float element_float;
 	VALUE(uint, place_first)
 
 /* X(list): lists that are part of others, and those of kernels. */
-#define KERNEL_GROUPS(X) X(tables) X(camera_pass) X(emission) X(hook_trees)
+#define KERNEL_GROUPS(X) X(tables) X(layers) X(camera_pass) X(emission) X(hook_trees)
 #define KERNEL_LISTS(X) \
 	X(camera_packet) X(camera_wide) X(camera_compressed) X(occlude_wide) X(occlude_binary) X(occlude_compressed) \
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) X(query_sphere) \
@@ -529,7 +538,8 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(plain_dome, plain)            /* in place of plain where light comes from all around: a block's rays, to lights and into the surroundings */ \
 	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
 	X(layered, plain)               /* as plain, of several looks */ \
-	X(layered_shadow, plain)        /* as plain_shadow */ \
+	X(layered_shadow, plain)        /* as plain_shadow; and fragments that light leaves, into a list */ \
+	X(layered_mirror, plain)        /* planes of pixels where these are, with what their paths found */ \
 	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \
 	X(compose_packet, compose)      /* the same, FRAME_ROW pixels of COMPOSE_ROWS rows a work item (CPUs) */ \
 	X(hook_ray, hook_ray)           /* one pixel a work item: its first ray by a hook */ \

@@ -1,30 +1,10 @@
 /*
- * layered, layered_shadow: see kernels/frame/plain.h. All fragments of a row of sixteen pixels go through the per-fragment operations in draw
- * order, layer by layer: the first of each pixel, the second of each, and so on. Depth tests come before colours, and colours are found from
- * the last layer to the first: a fragment that fails, or that a later one covers whole, is not shaded, and sends no rays.
+ * layered, layered_shadow, layered_mirror: see kernels/frame/plain.h. All fragments of a row of sixteen pixels go through the per-fragment
+ * operations in draw order, layer by layer: the first of each pixel, the second of each, and so on. Depth tests come before colours, and
+ * colours are found from the last layer to the first: a fragment that fails, or that a later one covers whole, is not shaded, and sends no
+ * rays. Rows that light leaves are composed by layered_mirror alone.
  */
-#include "kernels/frame/pack_blend.h"
-#include "kernels/frame/plain_row.h"
-
-/* One fragment of each pixel. Lanes a bit each. */
-struct layer {
-	struct plain_row at;
-	struct plain_colors colors; /* of those that are shaded */
-	packf depth;
-	struct pack pack;                   /* of those in `placed`, of one material */
-	uint there, placed, drawn, shaded, covered; /* drawn: all tests passed; covered: by a later one */
-	uint from, slots;                   /* of the first pixel's fragment in a->sparse; how far the next one's is from it */
-	int asks;                           /* lights, of those that are drawn */
-};
-
-/* A row of sixteen pixels on its way. */
-struct layered_row {
-	struct layer layers[PLAIN_LAYERS];
-	struct pack_pixels pixels;
-	packu depth;         /* as the depth buffer has it */
-	packu last, surface; /* the layers of the last fragment that was drawn, and of the one whose surface shows; SCENE_NONE: there is none */
-	uint n;
-};
+#include "kernels/frame/layer.h"
 
 /* What is kept from one fragment to the next. */
 struct layered_kept {
@@ -33,163 +13,11 @@ struct layered_kept {
 	struct shadow_kept ray;
 };
 
-/* --- Loading ------------------------------------------------------------------------------------------------------- */
-
-/* How many fragments each pixel of a row has in a look. */
-static inline packu load_counts(const struct plain_arguments *a, uint look, uint x, uint y)
-{
-	__global const uint *counts = a->counts + plain_look_first(a->columns, look, a->width * a->request.height) + y * a->width + x;
-	packu n = 0;
-
-	if (x + PACK_SIZE <= a->width)
-		return *(__global const pack_loose_uints *)counts;
-	for (uint lane = 0; lane < a->width - x; lane++)
-		LANE(n, uint, lane) = counts[lane];
-	return n;
-}
-
-static inline uint most_of(packu n)
-{
-	uint most = 0;
-
-	for (uint lane = 0; lane < PACK_SIZE; lane++)
-		most = max(most, LANE(n, uint, lane));
-	return most;
-}
-
-/* Where the layers of a block lie. */
-struct layered_block {
-	uint x, y; /* its first pixel */
-	uint place, most[PLAIN_LOOKS], n; /* of its first layer; how many a look has; all of them */
-};
-
-static inline void load_block(const struct plain_arguments *a, uint item, struct layered_block *b)
-{
-	b->x = item % plain_columns(a->width) * PLAIN_WIDTH;
-	b->y = item / plain_columns(a->width) * PLAIN_ROWS;
-	b->place = a->blocks[item];
-	b->n = 0;
-	for (uint look = 0; look < a->n_looks && b->place != SCENE_NONE; look++) {
-		packu counts = 0;
-
-		for (uint y = b->y; y < min(b->y + PLAIN_ROWS, a->request.height); y++)
-			counts = max(counts, load_counts(a, look, b->x, y));
-		b->n += b->most[look] = most_of(counts);
-	}
-}
-
-/* Fragments of a layer, from records to rows. Lanes beyond the picture's row repeat its last pixel. */
-WIDE_VECTORS static inline void load_layer(const struct plain_arguments *a, struct layer *layer)
-{
-	__global const float *words = (__global const float *)(a->sparse + layer->from);
-	const packu lane = as_uint16(PACK_LANES), place = min(lane, a->width - 1 - layer->at.x) * layer->slots * 6;
-	struct pack_list *list = &layer->at.list;
-	packf first[4], last[4];
-
-	pack_gather_from(words, place, first);
-	pack_gather_from(words, place + 2, last);
-	*(pack_loose_uints *)list->item = layer->at.base + lane;
-	*(pack_loose_uints *)list->pixel = a->first_pixel + layer->at.y * a->width + layer->at.x + lane;
-	*(pack_loose_uints *)list->instance = as_uint16(first[1]);
-	*(pack_loose_uints *)list->primitive = as_uint16(first[2]);
-	*(pack_loose_floats *)list->b1 = first[3];
-	*(pack_loose_floats *)list->b2 = last[2];
-	*(pack_loose_floats *)list->depth = last[3];
-}
-
-/* The layers of a row. n_slots: of lights whose visibility is there. @return whether any fragment is dimmed */
-static inline uint load_layers(const struct plain_arguments *a, uint n_slots, const struct layered_block *b, uint y, struct layered_row *row)
-{
-	const uint n_pixels = a->width * a->request.height;
-	uint dimmed = 0, place = b->place;
-
-	row->n = 0;
-	for (uint look = 0; look < a->n_looks && b->n; place += b->most[look++]) {
-		const packu counts = load_counts(a, look, b->x, y);
-		const uint slots = plain_slots(a->columns, look), n = most_of(counts);
-
-		for (uint i = 0; i < n; i++) {
-			struct layer *layer = &row->layers[row->n++];
-
-			layer->at.x = b->x;
-			layer->at.y = y;
-			layer->at.base = plain_base(place + i, y);
-			layer->slots = slots;
-			layer->from = (plain_look_first(a->columns, look, n_pixels) + y * a->width + b->x) * slots + i;
-			layer->asks = a->n_slots && a->asking >> look & 1;
-			layer->there = pack_bits(counts > i);
-			layer->placed = layer->drawn = layer->shaded = layer->covered = 0;
-			load_layer(a, layer);
-			layer->at.dimmed = n_slots && layer->asks ? plain_dimmed(a, layer->at.base, layer->there) : 0;
-			dimmed |= layer->at.dimmed;
-		}
-	}
-	return dimmed;
-}
-
-/* Where the rays of a block's row lie, there are none so far. */
-static inline void send_none(const struct plain_arguments *a, const struct layered_block *b, uint y)
-{
-	for (uint i = 0; i < b->n * a->n_slots; i++)
-		for (uint lane = 0; lane < PACK_SIZE; lane++)
-			stage_no_ray(&a->rays[i / b->n * a->n + plain_base(b->place + i % b->n, y) + lane]);
-}
-
-/* All pixels as they were cleared. */
-WIDE_VECTORS static inline void clear_pixels(__global const struct frame_pixel *cleared, struct layered_row *row)
-{
-	struct pack_pixels *p = &row->pixels;
-
-	for (int i = 0; i < 3; i++) {
-		p->gl[i] = cleared->gl[i];
-		p->shadowed[i] = cleared->shadowed[i];
-		p->direct[i] = cleared->direct[i];
-		p->albedo[i] = p->normal[i] = p->position[i] = 0.0f;
-	}
-	p->gl[3] = cleared->gl[3];
-	p->depth = cleared->depth_exact;
-	p->drawn = p->id = p->layers = 0.0f;
-	row->depth = cleared->depth;
-	row->last = row->surface = SCENE_NONE;
-}
-
-/* --- Tests --------------------------------------------------------------------------------------------------------- */
-
-/* As pixel_tests and pixel_mark: fragments of layer i, of one material, whose depths are known, and colours where it tests alpha. */
-WIDE_VECTORS static inline void test_lanes(const struct plain_arguments *a, struct layered_row *row, uint i, __global const struct scene_material *m,
-                                           uint lanes)
-{
-	const uint bits = pixel_depth_bits(a->bits);
-	struct layer *layer = &row->layers[i];
-	const packu steps = pack_depth_steps(layer->depth, bits);
-	packi pass = pack_mask(lanes), shows;
-
-	if (m->alpha_test)
-		pass &= pack_compare(m->alpha_func, pack_code(layer->colors.gl.c[3]), (packu)(blend_round(m->alpha_ref)));
-	if (m->depth_test && bits) {
-		pass &= pack_compare(m->depth_func, steps, row->depth);
-		if (m->depth_write) {
-			row->depth = select(row->depth, steps, pass);
-			pack_put(&row->pixels.depth, layer->depth, pass);
-		}
-	}
-	if (!(m->color_mask & 15))
-		return;
-	layer->drawn |= pack_bits(pass);
-	row->last = select(row->last, (packu)(i), pass);
-	if (m->blend)
-		row->pixels.layers += select((packf)(0), (packf)(1), pass);
-	else if ((m->color_mask & 7) == 7)
-		pack_put(&row->pixels.layers, (packf)(0), pass);
-	shows = !m->blend || m->depth_write ? pass : pass & (row->surface == SCENE_NONE);
-	row->surface = select(row->surface, (packu)(i), shows);
-}
-
 /* --- Colours ------------------------------------------------------------------------------------------------------- */
 
 /* What shows of fragments of layer i that kept->last has placed beside their colours. */
-static inline void put_layer_surface(const struct plain_arguments *a, struct layered_row *row, uint i, uint lanes, const struct pack_surface *s,
-                               const struct pack_kept *kept)
+static inline void put_layer_surface(const struct plain_arguments *a, struct layered_row *row, uint i, uint lanes,
+                                     const struct pack_surface *s, const struct pack_kept *kept)
 {
 	const packi shows = pack_mask(lanes) & (row->surface == i);
 
@@ -225,12 +53,95 @@ WIDE_VECTORS static inline void keep_colors(const struct plain_colors *from, pac
 	}
 }
 
+/* --- Light that leaves --------------------------------------------------------------------------------------------- */
+
+/* Where a fragment that light leaves stands in the list. */
+static inline uint place_in_list(const struct plain_arguments *a, const struct layer *layer, uint lane)
+{
+	return a->layers.list_first[layer->at.base / PACK_SIZE] + popcount(layer->leaves & ((1u << lane) - 1));
+}
+
+/* A fragment that light leaves, into the list; f, direct: as it is shaded. */
+static inline void list_one(const struct plain_arguments *a, const struct layer *layer, uint lane, struct fragment f, struct vec3 direct)
+{
+	const uint place = place_in_list(a, layer, lane);
+	__global struct shaded *to = &a->layers.list_shaded[place];
+
+	a->layers.list[place] = f;
+	a->layers.list_pixels[place] = layer->at.list.pixel[lane];
+	stage_store_direct(to, direct);
+	to->flags = SHADED_THERE;
+}
+
+/* What its paths found. */
+static inline void take_one(const struct plain_arguments *a, struct layer *layer, uint lane)
+{
+	__global const struct shaded *from = &a->layers.list_shaded[place_in_list(a, layer, lane)];
+
+	for (uint c = 0; c < 3; c++) {
+		LANE(layer->mirrored[c], float, lane) = from->mirrored[c];
+		LANE(layer->beauty[c], float, lane) = from->beauty[c];
+	}
+}
+
+/* Either, for fragments that kept->last has placed and that have their colours. */
+static inline void follow_lanes(const struct plain_arguments *a, uint step, struct layer *layer, uint lanes, const struct pack *p)
+{
+	const struct pack_list *list = &layer->at.list;
+
+	for (int c = 0; c < 3 && step == PLAIN_MIRROR; c++) {
+		pack_put(&layer->mirrored[c], layer->colors.direct.c[c], pack_mask(lanes));
+		pack_put(&layer->beauty[c], layer->colors.direct.c[c], pack_mask(lanes));
+	}
+	for (uint left = lanes & layer->leaves; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+		const struct pack_color *direct = &layer->colors.direct;
+		struct fragment f;
+
+		if (step == PLAIN_MIRROR) {
+			take_one(a, layer, lane);
+			continue;
+		}
+		f.order = 0;
+		f.instance = list->instance[lane];
+		f.primitive = list->primitive[lane];
+		f.b1 = LANE(p->b1, const float, lane);
+		f.b2 = LANE(p->b2, const float, lane);
+		f.depth = LANE(p->depth, const float, lane);
+		list_one(a, layer, lane, f, v3(LANE(direct->c[0], const float, lane), LANE(direct->c[1], const float, lane),
+		                               LANE(direct->c[2], const float, lane)));
+	}
+}
+
+/* Which fragments of a row light leaves: those that show. @return whether any */
+static inline uint find_leaves(const struct plain_arguments *a, struct layered_row *row)
+{
+	uint all = 0;
+
+	for (uint i = 0; i < row->n && a->layers.mirrors; i++) {
+		struct layer *layer = &row->layers[i];
+
+		for (uint left = row->step == PLAIN_FIRST && layer->follows ? layer->drawn & ~layer->covered : 0; left; left &= left - 1) {
+			__global const struct scene_material *m = stage_material(&a->tables, layer->at.list.instance[popcount((left & -left) - 1)]);
+
+			if (m->surface.reflect > 0.0f || m->surface.transmit > 0.0f)
+				layer->leaves |= left & -left;
+		}
+		if (row->step == PLAIN_FIRST)
+			a->layers.leaving[layer->at.base / PACK_SIZE] = layer->leaves;
+		all |= layer->leaves;
+	}
+	return all;
+}
+
+/* --- Fragments ----------------------------------------------------------------------------------------------------- */
+
 /* Colours of fragments of one material in layer i. tests: they have not been tested yet. @return those that are done */
-static inline uint shade_layer_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row, uint i, uint lanes,
-                               int tests, struct pack_kept *kept)
+static inline uint shade_layer_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row, uint i,
+                                     uint lanes, int tests, struct pack_kept *kept)
 {
 	struct layer *layer = &row->layers[i];
-	const int sends = layer->asks && !s->n_slots;
+	const int sends = layer->asks && row->step == PLAIN_FIRST;
 	struct plain_colors colors;
 	struct pack_surface surface;
 	packu lights;
@@ -245,6 +156,7 @@ static inline uint shade_layer_lanes(const struct plain_arguments *a, const stru
 	plain_shade(a, s, &layer->at, lanes, kept, &lights, &colors);
 	keep_colors(&colors, pack_mask(lanes), &layer->colors);
 	layer->shaded |= lanes;
+	follow_lanes(a, row->step, layer, lanes, &kept->last);
 	if (tests)
 		test_lanes(a, row, i, kept->last.material, lanes);
 	left = lanes & layer->drawn;
@@ -259,8 +171,8 @@ static inline uint shade_layer_lanes(const struct plain_arguments *a, const stru
 }
 
 /* A fragment that packs do not know, all that is to be done of it. */
-static inline void shade_layer_alone(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row, uint i, uint lane,
-                             struct layered_kept *kept)
+static inline void shade_layer_alone(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row, uint i,
+                                     uint lane, struct layered_kept *kept)
 {
 	struct layer *layer = &row->layers[i];
 	const uint item = layer->at.base + lane;
@@ -268,25 +180,30 @@ static inline void shade_layer_alone(const struct plain_arguments *a, const stru
 	const struct shadow_ray_arguments r = plain_rays(a);
 	struct fragment f;
 
-	if (!s->n_slots) {
+	if (row->step == PLAIN_FIRST) {
 		a->fragments[item] = a->sparse[layer->from + lane * layer->slots];
 		a->pixels[item] = layer->at.list.pixel[lane];
 	}
-	if (!s->n_slots || layer->asks)
+	if (row->step == PLAIN_FIRST || layer->asks)
 		shade_item(s, item, 0, &kept->one);
-	for (uint slot = 0; slot < a->n_slots && layer->asks && !s->n_slots; slot++)
+	for (uint slot = 0; slot < a->n_slots && layer->asks && row->step == PLAIN_FIRST; slot++)
 		shadow_ray_item(&r, slot * a->n + item, 0, &kept->ray);
-	if (!(shaded->flags & SHADED_THERE))
+	if (!(shaded->flags & SHADED_THERE) || shaded->flags & SHADED_STENCIL)
 		return;
 	for (uint c = 0; c < 3; c++) {
 		LANE(layer->colors.gl.c[c], float, lane) = shaded->gl[c];
 		LANE(layer->colors.shadowed.c[c], float, lane) = shaded->shadowed[c];
 		LANE(layer->colors.direct.c[c], float, lane) = shaded->direct[c];
+		LANE(layer->mirrored[c], float, lane) = LANE(layer->beauty[c], float, lane) = shaded->direct[c];
 	}
 	LANE(layer->colors.gl.c[3], float, lane) = shaded->gl[3];
 	LANE(layer->depth, float, lane) = shaded->depth;
 	layer->shaded |= 1u << lane;
 	f = a->fragments[item];
+	if (layer->leaves >> lane & 1 && row->step == PLAIN_SHADOW)
+		list_one(a, layer, lane, f, v3_load(shaded->direct));
+	if (layer->leaves >> lane & 1 && row->step == PLAIN_MIRROR)
+		take_one(a, layer, lane);
 	test_lanes(a, row, i, stage_material(&a->tables, f.instance), 1u << lane);
 	if (LANE(row->surface, uint, lane) != i)
 		return;
@@ -353,52 +270,6 @@ static inline uint shade_layer(const struct plain_arguments *a, const struct sha
 	return covered | covers;
 }
 
-/* One channel of a part of the colours over the same part of the pixels. */
-WIDE_VECTORS static inline void draw_channel(__global const struct scene_material *m, int channel, packf source, packu s_alpha, packu d_alpha, int opaque,
-                                             packi lanes, packf *to)
-{
-	if (m->color_mask >> channel & 1)
-		pack_put(to, m->blend && !opaque ? pack_blend(m, channel, source, s_alpha, *to, d_alpha) : source, lanes);
-}
-
-/* As pixel_colors, for fragments of one material. Where no light is dimmed all parts are the same. */
-WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __global const struct scene_material *m, const struct plain_colors *c,
-                                           packi lanes, struct pack_pixels *p)
-{
-	const packu s_alpha = pack_code(c->gl.c[3]), d_alpha = pixel_alpha_bits(a->bits) ? pack_code(p->gl[3]) : (packu)(255);
-	const int solid = (m->surface.hidden & SCENE_SOLID) != 0, left_out = (m->surface.hidden & SCENE_LEFT_OUT) != 0;
-
-	for (int i = 0; i < 3; i++) {
-		const packi gl = as_int16(p->gl[i]), own = as_int16(c->gl.c[i]);
-		const packi differ = (gl ^ as_int16(p->shadowed[i])) | (gl ^ as_int16(p->direct[i])) | (own ^ as_int16(c->shadowed.c[i])) |
-		                     (own ^ as_int16(c->direct.c[i]));
-		const int same = !solid && !left_out && !any_pack((differ != 0) & lanes);
-
-		draw_channel(m, i, c->gl.c[i], s_alpha, d_alpha, 0, lanes, &p->gl[i]);
-		if (same) {
-			pack_put(&p->shadowed[i], p->gl[i], lanes);
-			pack_put(&p->direct[i], p->gl[i], lanes);
-			continue;
-		}
-		draw_channel(m, i, c->shadowed.c[i], s_alpha, d_alpha, 0, lanes, &p->shadowed[i]);
-		if (!left_out)
-			draw_channel(m, i, c->direct.c[i], s_alpha, d_alpha, solid, lanes, &p->direct[i]);
-	}
-	if (m->color_mask & 8)
-		pack_put(&p->gl[3], m->blend ? pack_blend(m, 3, c->gl.c[3], s_alpha, convert_float16(as_int16(d_alpha)) / 255.0f, d_alpha) : c->gl.c[3], lanes);
-}
-
-static inline void draw_layer(const struct plain_arguments *a, const struct layer *layer, struct pack_pixels *p)
-{
-	uint material;
-
-	for (uint lanes = layer->drawn & ~layer->covered, same; lanes; lanes &= ~same) {
-		same = pack_same_kind(&a->tables, &layer->at.list, lanes, &material);
-		same = same ? same : lanes & -lanes;
-		draw_lanes(a, &a->tables.materials[material], &layer->colors, pack_mask(same), p);
-	}
-}
-
 /* Which draws pixels show. */
 static inline void put_draws(const struct plain_arguments *a, struct layered_row *row)
 {
@@ -413,10 +284,11 @@ static inline void put_draws(const struct plain_arguments *a, struct layered_row
 	}
 }
 
-/* From layers to planes. */
+/* From layers to planes; where light leaves the row, only in the step that knows what became of it. */
 static inline void draw_row(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row, struct layered_kept *kept,
                             const struct pack_planes *to)
 {
+	const int is_mirrored = row->step == PLAIN_MIRROR;
 	uint covered = 0;
 
 	clear_pixels(a->cleared, row);
@@ -424,16 +296,18 @@ static inline void draw_row(const struct plain_arguments *a, const struct shade_
 		test_layer(a, s, row, i, kept);
 	for (uint i = row->n; i-- > 0 && row->n > 1;)
 		covered = shade_layer(a, s, row, i, covered, kept);
+	if (find_leaves(a, row) && !is_mirrored)
+		return;
 	for (uint i = 0; i < row->n; i++)
-		draw_layer(a, &row->layers[i], &row->pixels);
+		draw_layer(a, &row->layers[i], is_mirrored, &row->pixels);
 	put_draws(a, row);
-	for (int i = 0; i < 3; i++)
+	for (int i = 0; i < 3 && !is_mirrored; i++)
 		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
 	pack_compose(&row->pixels, to);
 }
 
 /* s: with visibility where lights have been asked */
-static inline void do_layered_block(const struct plain_arguments *a, const struct shade_arguments *s, uint item)
+static inline void do_layered_block(const struct plain_arguments *a, const struct shade_arguments *s, uint step, uint item)
 {
 	struct layered_kept kept;
 	struct layered_row row;
@@ -442,12 +316,13 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 
 	load_block(a, item, &b);
 	pack_keep_nothing(&kept.pack);
+	row.step = step;
 	for (uint y = b.y; y < b.y + PLAIN_ROWS; y++) {
 		struct pack_planes to;
 
-		if (!s->n_slots)
+		if (step == PLAIN_FIRST)
 			send_none(a, &b, y);
-		if (y >= a->request.height || (!load_layers(a, s->n_slots, &b, y, &row) && s->n_slots))
+		if (y >= a->request.height || !load_layers(a, &b, y, &row))
 			continue;
 		to = pack_planes_of(&a->request, a->halves, a->floats, b.x, y);
 		if (!row.n && empty != SCENE_NONE) {
@@ -466,7 +341,7 @@ KERNEL_OF(float16) void layered(KERNEL_ARGUMENTS(plain))
 	const struct shade_arguments s = plain_shading(&a, 0);
 
 	if ((uint)get_global_id(0) < plain_blocks(width, request.height))
-		do_layered_block(&a, &s, (uint)get_global_id(0));
+		do_layered_block(&a, &s, PLAIN_FIRST, (uint)get_global_id(0));
 }
 
 KERNEL_OF(float16) void layered_shadow(KERNEL_ARGUMENTS(plain))
@@ -475,5 +350,14 @@ KERNEL_OF(float16) void layered_shadow(KERNEL_ARGUMENTS(plain))
 	const struct shade_arguments s = plain_shading(&a, n_slots);
 
 	if ((uint)get_global_id(0) < plain_blocks(width, request.height))
-		do_layered_block(&a, &s, (uint)get_global_id(0));
+		do_layered_block(&a, &s, PLAIN_SHADOW, (uint)get_global_id(0));
+}
+
+KERNEL_OF(float16) void layered_mirror(KERNEL_ARGUMENTS(plain))
+{
+	const struct plain_arguments a = KERNEL_STRUCT(plain);
+	const struct shade_arguments s = plain_shading(&a, n_slots);
+
+	if ((uint)get_global_id(0) < plain_blocks(width, request.height))
+		do_layered_block(&a, &s, PLAIN_MIRROR, (uint)get_global_id(0));
 }

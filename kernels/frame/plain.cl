@@ -2,6 +2,7 @@
  * plain, plain_shadow: see kernels/frame/plain.h. A row of sixteen pixels at once, its fragments material by material
  * (kernels/frame/pack_shade.h); those that packs do not know one by one.
  */
+#include "kernels/frame/pack_blend.h"
 #include "kernels/frame/plain_row.h"
 
 /* A row of sixteen pixels on its way. */
@@ -36,15 +37,7 @@ WIDE_VECTORS static inline void clear_row(__global const struct frame_pixel *cle
 /* Which fragments show: those before what was cleared. */
 WIDE_VECTORS static inline packi shows(const struct plain_arguments *a, __global const struct scene_material *m, packf depth)
 {
-	const uint bits = pixel_depth_bits(a->bits);
-	const packu before = a->cleared->depth;
-	packu steps;
-
-	if (bits > 24)
-		steps = select((packu)(0xffffffffu), convert_uint16(select((packf)(0), depth, depth < 1.0f) * 2147483648.0f) << 1, depth < 1.0f);
-	else
-		steps = convert_uint16(pack_round(depth * (float)pixel_bits_mask(bits)));
-	return m->depth_func == GL_LEQUAL ? steps <= before : steps < before;
+	return pack_compare(m->depth_func, pack_depth_steps(depth, pixel_depth_bits(a->bits)), (packu)(a->cleared->depth));
 }
 
 /* Colours of lanes that show. */

@@ -36,11 +36,20 @@ static inline uint32_t plain_place(GLOBAL const uint32_t *blocks, uint32_t width
 }
 
 /*
- * layered, layered_shadow: frames of several looks, each at one segment's fragments: one a pixel, or columns of up to CAMERA_COLUMN_MAX that
- * are drawn one over the other. A block has so many places as are most fragments of a pixel in it, look by look.
+ * layered, layered_shadow, layered_mirror: frames of several looks, each at one segment's fragments: one a pixel, or columns of up to
+ * CAMERA_COLUMN_MAX. All are drawn one over the other, in draw order, blended and tested. What shade, resolve and compose do one after the other
+ * comes out, to the bit. A block has as many places as a pixel in it has fragments at most, look by look.
+ *
+ * layered makes all planes without shadows and mirrors, and sends rays to lights. layered_shadow makes planes again where a light is dimmed, and
+ * lists the fragments that mirror or let light through. layered_mirror makes the planes of rows where these are, with what their paths found.
  */
 #define PLAIN_LOOKS 8u   /* at most */
 #define PLAIN_LAYERS 16u /* fragments over each other, at most */
+
+/* The three steps. */
+#define PLAIN_FIRST 0u
+#define PLAIN_SHADOW 1u
+#define PLAIN_MIRROR 2u
 
 static inline uint32_t plain_slots(uint32_t columns, uint32_t look)
 {

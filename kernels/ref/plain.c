@@ -100,7 +100,7 @@ static void look_from_pixel(const struct plain_arguments *a, const struct shade_
 /* Of the pixels of a block, the most fragments that one has in a look. x, y: a pixel of it */
 static uint32_t most_of_block(const struct plain_arguments *a, uint32_t look, uint32_t x, uint32_t y)
 {
-	const uint32_t *counts = a->counts + plain_look_first(a->columns, look, a->width * a->request.height);
+	const uint32_t *counts = a->layers.counts + plain_look_first(a->layers.columns, look, a->width * a->request.height);
 	const uint32_t x0 = x - x % PLAIN_WIDTH, y0 = y - y % PLAIN_ROWS;
 	uint32_t most = 0;
 
@@ -110,46 +110,99 @@ static uint32_t most_of_block(const struct plain_arguments *a, uint32_t look, ui
 	return most;
 }
 
+/* Where a fragment that light leaves stands in the list; SCENE_NONE: light leaves it not. */
+static uint32_t place_in_list(const struct plain_arguments *a, uint32_t item)
+{
+	const uint32_t leaving = a->layers.mirrors ? a->layers.leaving[item / PLAIN_WIDTH] : 0;
+	uint32_t place;
+
+	if (!(leaving >> item % PLAIN_WIDTH & 1))
+		return SCENE_NONE;
+	place = a->layers.list_first[item / PLAIN_WIDTH];
+	for (uint32_t i = 0; i < item % PLAIN_WIDTH; i++)
+		place += leaving >> i & 1;
+	return place;
+}
+
+/* A fragment as it is shaded, into that list; or what its paths found out of it. */
+static void follow(const struct plain_arguments *a, uint32_t step, uint32_t item)
+{
+	const uint32_t place = step == PLAIN_FIRST ? SCENE_NONE : place_in_list(a, item);
+
+	if (place == SCENE_NONE)
+		return;
+	if (step == PLAIN_MIRROR) {
+		v3_store(a->shaded[item].mirrored, v3_load(a->layers.list_shaded[place].mirrored));
+		v3_store(a->shaded[item].beauty, v3_load(a->layers.list_shaded[place].beauty));
+		return;
+	}
+	a->layers.list[place] = a->fragments[item];
+	a->layers.list_pixels[place] = a->pixels[item];
+	a->layers.list_shaded[place] = a->shaded[item];
+}
+
 /* A fragment of a look: its colour, its rays, and through the per-fragment operations. */
-static void draw_fragment(const struct plain_arguments *a, const struct shade_arguments *s, struct fragment f, uint32_t number, uint32_t item, int asks,
+static void draw_fragment(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t step, uint32_t item, int asks,
                           struct frame_pixel *pixel)
 {
 	const struct shadow_ray_arguments rays = plain_rays(a);
+	const struct fragment *f = &a->fragments[item];
+	const struct scene_material *m = &a->tables.materials[a->tables.geometries[f->instance].material];
 	struct shadow_kept shadow_kept;
 	struct setup_kept kept;
 
-	if (!s->n_slots) {
-		a->fragments[item] = f;
-		a->pixels[item] = a->first_pixel + number;
-	}
-	if (!s->n_slots || asks)
+	if (step == PLAIN_FIRST || asks)
 		shade_item(s, item, 0, &kept);
-	for (uint32_t slot = 0; slot < a->n_slots && asks && !s->n_slots; slot++)
+	for (uint32_t slot = 0; slot < a->n_slots && asks && step == PLAIN_FIRST; slot++)
 		shadow_ray_item(&rays, slot * a->n + item, 0, &shadow_kept);
-	pixel_draw(&a->tables.materials[a->tables.geometries[f.instance].material], &a->shaded[item], &a->fragments[item],
-	           stage_draw(&a->tables, f.instance, f.primitive), pixel, a->bits);
+	follow(a, step, item);
+	pixel_draw(m, &a->shaded[item], f, stage_draw(&a->tables, f->instance, f->primitive), pixel, a->bits);
+	if (step == PLAIN_FIRST && a->layers.mirrors && asks && a->shaded[item].flags & SHADED_DRAWN && (m->surface.reflect > 0 || m->surface.transmit > 0))
+		a->layers.leaving[item / PLAIN_WIDTH] |= 1u << item % PLAIN_WIDTH;
 }
 
 /* do_pixel where there are several looks. item: its place in the block's first layer */
-static void draw_layers(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+static void draw_layers(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t step, uint32_t x, uint32_t y, uint32_t item)
 {
 	const int is_there = x < a->width && y < a->request.height;
 	const uint32_t number = y * a->width + x;
 	struct frame_pixel pixel = *a->cleared;
 
-	for (uint32_t look = 0; look < a->n_looks && item != SCENE_NONE; look++) {
-		const uint32_t first = plain_look_first(a->columns, look, a->width * a->request.height) + number, slots = plain_slots(a->columns, look);
-		const uint32_t most = most_of_block(a, look, x, y), n = is_there ? a->counts[first] : 0;
+	for (uint32_t look = 0; look < a->layers.n_looks && item != SCENE_NONE; look++) {
+		const uint32_t first = plain_look_first(a->layers.columns, look, a->width * a->request.height) + number;
+		const uint32_t slots = plain_slots(a->layers.columns, look), most = most_of_block(a, look, x, y);
 
 		for (uint32_t i = 0; i < most; i++, item += PLAIN_WIDTH * PLAIN_ROWS) {
-			for (uint32_t slot = 0; slot < a->n_slots && !s->n_slots; slot++)
+			for (uint32_t slot = 0; slot < a->n_slots && step == PLAIN_FIRST; slot++)
 				stage_no_ray(&a->rays[slot * a->n + item]);
-			if (i < n)
-				draw_fragment(a, s, a->sparse[first * slots + i], number, item, a->asking >> look & 1, &pixel);
+			if (step == PLAIN_FIRST && a->layers.mirrors && item % PLAIN_WIDTH == 0)
+				a->layers.leaving[item / PLAIN_WIDTH] = 0;
+			if (!is_there || i >= a->layers.counts[first])
+				continue;
+			if (step == PLAIN_FIRST) {
+				a->fragments[item] = a->sparse[first * slots + i];
+				a->pixels[item] = a->first_pixel + number;
+			}
+			draw_fragment(a, s, step, item, a->layers.asking >> look & 1, &pixel);
 		}
 	}
 	if (is_there)
 		compose_pixel(a, x, y, &pixel);
+}
+
+static void draw_layers_first(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+{
+	draw_layers(a, s, PLAIN_FIRST, x, y, item);
+}
+
+static void draw_layers_shadow(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+{
+	draw_layers(a, s, PLAIN_SHADOW, x, y, item);
+}
+
+static void draw_layers_mirror(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+{
+	draw_layers(a, s, PLAIN_MIRROR, x, y, item);
 }
 
 /* Each pixel of blocks first .. last-1 by one of those above. */
@@ -180,12 +233,17 @@ void plain_shadow_c(const struct plain_arguments *a, size_t first, size_t last)
 
 void layered_c(const struct plain_arguments *a, size_t first, size_t last)
 {
-	do_blocks(a, 0, first, last, draw_layers);
+	do_blocks(a, 0, first, last, draw_layers_first);
 }
 
 void layered_shadow_c(const struct plain_arguments *a, size_t first, size_t last)
 {
-	do_blocks(a, a->n_slots, first, last, draw_layers);
+	do_blocks(a, a->n_slots, first, last, draw_layers_shadow);
+}
+
+void layered_mirror_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_blocks(a, a->n_slots, first, last, draw_layers_mirror);
 }
 
 void plain_program_c(const struct plain_arguments *a, size_t first, size_t last)

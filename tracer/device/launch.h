@@ -44,8 +44,8 @@ KERNEL_LISTS(LAUNCH_STRUCT)
 #define LAUNCH(list, ...) (&(const struct list##_launch){ __VA_ARGS__ } + 0 * LAUNCH_CHECK(list, LAUNCH_COUNT(__VA_ARGS__)))
 #define LAUNCH_CHECK(list, n) \
 	sizeof(struct { int unused; _Static_assert((n) == LAUNCH_COUNT_##list, "an argument of this kernel is missing or too many"); })
-#define LAUNCH_COUNT(...) LAUNCH_COUNTED(__VA_ARGS__, 32, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, 19, 18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)
-#define LAUNCH_COUNTED(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, a1, a2, a3, a4, a5, a6, count, ...) count
+#define LAUNCH_COUNT(...) LAUNCH_COUNTED(__VA_ARGS__, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, 19, 18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)
+#define LAUNCH_COUNTED(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, a1, a2, a3, a4, count, ...) count
 
 /**
  * Queue a kernel; kernels of a device run one after the other, in the order queued.

@@ -1,7 +1,9 @@
 #include "tracer/frame/layered.h"
 
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/err.h"
 #include "kernels/camera/camera.h"
 #include "kernels/frame/plain.h"
 #include "kernels/gl/pixel.h"
@@ -11,17 +13,18 @@
 #include "tracer/frame/secondary.h"
 #include "tracer/frame/segment.h"
 
-/* The looks at a band: plain_launch.n_looks, columns and asking, and the space that rays to lights go through. */
+/* The looks at a band: layers_launch.n_looks, columns and asking, and the space that rays to lights go through. */
 struct looks {
-	uint32_t n, columns, asking;
-	const struct accel_space *space;
+	uint32_t n, most; /* most: that there is room for */
+	uint32_t columns, asking;
+	const struct accel_space *space, *sky; /* sky: what rays see that hit nothing */
 };
 
 /* Whether kernels know all that a material asks of the frame buffer. */
 static int is_known(const struct job *job, const struct scene_material *m)
 {
 	return !(m->stencil_test && pixel_stencil_bits(job->bits)) && !m->logic_op && !m->floats && !m->samples_off && !m->alpha_to_coverage &&
-	       !m->alpha_to_one && !(m->surface.transmit > 0 && m->blend);
+	       !m->alpha_to_one && !(m->surface.transmit > 0 && m->blend && !plain_has_mirrors(job));
 }
 
 static const struct accel_space *space_of(const struct job *job, const struct segment *segment)
@@ -49,7 +52,7 @@ int layered_suits(const struct job *job)
 {
 	const struct prepared *p = &job->prepared;
 
-	if (!plain_is_simple(job) || dome_is_there(job) || p->has_mirrors || p->has_fragment_programs || p->has_vertex_programs ||
+	if (!plain_is_simple(job) || dome_is_there(job) || p->has_fragment_programs || p->has_vertex_programs ||
 	    !has_one_space(job))
 		return 0;
 	for (uint32_t i = 0; i < p->n_instances; i++)
@@ -69,8 +72,8 @@ int layered_has_columns(const struct job *job)
 
 /* --- Looks --------------------------------------------------------------------------------------------------------- */
 
-/* Room for one look more, and nothing in it. */
-static int reserve_look(struct job *job, const struct looks *looks)
+/* A look's counts are 0 outside of its rectangle. */
+static int clear_look(struct job *job, const struct looks *looks)
 {
 	struct tracer *tr = job->tr;
 	const uint32_t first = plain_look_first(looks->columns, looks->n, job->n_pixels);
@@ -80,13 +83,19 @@ static int reserve_look(struct job *job, const struct looks *looks)
 	return device_write(tr->dev, tr->buffers.counts.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
 }
 
-/* Room for all that there may be. */
-static int reserve(struct job *job)
+/* Room for one look at each segment, and one where a column goes on. */
+static int reserve_looks(struct job *job, struct looks *looks)
 {
 	struct tracer *tr = job->tr;
-	const size_t n = (size_t)PLAIN_LOOKS * job->n_pixels;
-	int err = frame_reserve(tr, counts, n * CAMERA_COLUMN_MAX);
+	size_t n;
+	int err;
 
+	looks->most = layered_has_columns(job);
+	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
+		looks->most += job->prepared.segments[i].view != SCENE_NONE;
+	looks->most = looks->most < PLAIN_LOOKS ? looks->most : PLAIN_LOOKS;
+	n = (size_t)looks->most * job->n_pixels;
+	err = frame_reserve(tr, counts, n * CAMERA_COLUMN_MAX);
 	if (!err)
 		err = frame_reserve(tr, after, n);
 	return err ? err : frame_reserve(tr, sparse, n * CAMERA_COLUMN_MAX);
@@ -142,17 +151,18 @@ static int look_at(struct job *job, const struct segment *segment, struct looks 
 	while (more && !err) {
 		uint32_t first;
 
-		*drawn = looks->n < PLAIN_LOOKS;
+		*drawn = looks->n < looks->most;
 		if (!*drawn)
 			return 0;
 		looks->columns |= is_column << looks->n;
 		looks->asking |= (space != NULL) << looks->n;
 		looks->space = space ? space : looks->space;
+		looks->sky = space ? secondary_space(job, segment->view, 1) : looks->sky;
 		first = plain_look_first(looks->columns, looks->n, job->n_pixels);
 		if (is_column)
 			err = device_write(tr->dev, tr->buffers.after.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
 		if (!err)
-			err = reserve_look(job, looks);
+			err = clear_look(job, looks);
 		if (!err)
 			err = segment_trace_camera(job, segment, r, first);
 		if (!err)
@@ -171,7 +181,7 @@ static int look_around(struct job *job, struct looks *looks, int *drawn)
 	int err = frame_reserve_counts(job);
 
 	if (!err)
-		err = reserve(job);
+		err = reserve_looks(job, looks);
 	if (!err)
 		memset(job->tr->first, 0, plain_blocks(job->width, job->n_rows) * sizeof(*job->tr->first));
 	*drawn = 1;
@@ -198,46 +208,127 @@ static int place_blocks(struct job *job, uint32_t *n)
 		job->tr->first[i] = layers ? next : SCENE_NONE;
 		next += layers;
 	}
-	*n = (next ? next : 1) * PLAIN_WIDTH * PLAIN_ROWS;
+	*n = next * PLAIN_WIDTH * PLAIN_ROWS;
 	return 1;
 }
 
 /* --- Drawing ------------------------------------------------------------------------------------------------------- */
 
-/* All planes without shadows, and rays to lights; then what shadows change. */
-static int draw(struct job *job, const struct looks *looks, uint32_t n, struct compose_request *request)
+/* What kernels leave for n fragments and their rays. */
+static int reserve_places(struct job *job, uint32_t n, uint32_t n_slots)
+{
+	struct tracer *tr = job->tr;
+	int err;
+
+	if ((err = frame_reserve(tr, alone_fragments, n)) || (err = frame_reserve(tr, alone_pixels, n)) || (err = frame_reserve(tr, alone_shaded, n)) ||
+	    (err = frame_reserve(tr, leaving, n / PLAIN_WIDTH)) || (err = frame_reserve(tr, leaving_first, n / PLAIN_WIDTH)) ||
+	    (err = frame_reserve(tr, fragments, 1)) || (err = frame_reserve(tr, pixels, 1)) || (err = frame_reserve(tr, shaded, 1)) ||
+	    (err = frame_reserve(tr, dome_places, 1)))
+		return err;
+	return secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
+}
+
+static struct plain_launch launch_of(const struct job *job, const struct looks *looks, uint32_t n, uint32_t n_slots,
+                                     const struct compose_request *request)
 {
 	static const struct camera_rectangle nowhere;
-	const uint32_t blocks = plain_blocks(job->width, job->n_rows), n_slots = looks->space ? job->prepared.n_light_slots : 0;
+	const struct frame_buffers *b = &job->tr->buffers;
+	struct plain_launch a = plain_launch_of(job, nowhere, n, n_slots, request);
+
+	a.fragments = b->alone_fragments;
+	a.pixels = b->alone_pixels;
+	a.shaded = b->alone_shaded;
+	a.layers = *LAUNCH(layers, .counts = b->counts, .n_looks = looks->n, .columns = looks->columns, .asking = looks->asking,
+	                   .mirrors = looks->space && plain_has_mirrors(job), .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
+	                   .list_pixels = b->pixels, .list_shaded = b->shaded);
+	return a;
+}
+
+/* Give fragments that light leaves their places in the list, of n of all. n_list: receives how many they are */
+static int place_leaving(struct job *job, uint32_t n, uint32_t *n_list)
+{
+	struct tracer *tr = job->tr;
+	const uint32_t rows = n / PLAIN_WIDTH;
+	uint32_t *first = malloc(rows * sizeof(*first));
+	const void *mapped;
+	int err;
+
+	*n_list = 0;
+	if (!first)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u rows of pixels", rows);
+	err = device_map(tr->dev, tr->buffers.leaving.buffer, rows * sizeof(*first), &mapped);
+	for (uint32_t i = 0; i < rows && !err; i++) {
+		first[i] = *n_list;
+		for (uint32_t left = ((const uint32_t *)mapped)[i]; left; left &= left - 1)
+			++*n_list;
+	}
+	if (!err)
+		err = device_unmap(tr->dev, tr->buffers.leaving.buffer, mapped);
+	if (!err)
+		err = frame_upload(tr, leaving_first, first, rows);
+	free(first);
+	if (!err && *n_list)
+		err = frame_reserve(tr, fragments, *n_list);
+	if (!err && *n_list)
+		err = frame_reserve(tr, pixels, *n_list);
+	return err || !*n_list ? err : frame_reserve(tr, shaded, *n_list);
+}
+
+/* Paths from the list; then all planes where these are. The visibility of lights is kept: rays of paths have their own. */
+static int follow(struct job *job, const struct looks *looks, struct plain_launch a, uint32_t n_list)
+{
+	struct frame_buffers *b = &job->tr->buffers;
+	const union buffer_float visibility = b->visibility;
+	int err;
+
+	b->visibility = b->kept_visibility;
+	b->kept_visibility = visibility;
+	err = secondary_paths(job, looks->space, looks->sky, n_list);
+	if (err)
+		return err;
+	a = launch_of(job, looks, a.n, a.n_slots, &a.request);
+	a.visibility = visibility;
+	return launch_layered_mirror(job->tr->dev, plain_blocks(job->width, job->n_rows), &a);
+}
+
+/* All planes without shadows and mirrors, and rays to lights; then what these change. */
+static int draw(struct job *job, const struct looks *looks, uint32_t n, const struct compose_request *request)
+{
+	const uint32_t blocks = plain_blocks(job->width, job->n_rows), n_slots = looks->space && n ? job->prepared.n_light_slots : 0;
+	uint32_t n_list = 0;
 	struct plain_launch a;
-	int err = plain_reserve(job, n, n_slots);
+	int err = reserve_places(job, n, n_slots);
 
 	if (err)
 		return err;
-	a = plain_launch_of(job, nowhere, n, n_slots, request);
-	a.n_looks = looks->n;
-	a.columns = looks->columns;
-	a.asking = looks->asking;
+	a = launch_of(job, looks, n, n_slots, request);
 	err = launch_layered(job->tr->dev, blocks, &a);
-	if (err || !n_slots)
+	if (!err && n_slots)
+		err = secondary_ask(job, looks->space, 1, a.rays, n * n_slots);
+	if (!err && n && a.layers.mirrors)
+		err = place_leaving(job, n, &n_list);
+	if (err || !(n_slots || n_list))
 		return err;
-	err = secondary_ask(job, looks->space, 1, a.rays, n * n_slots);
-	if (err)
-		return err;
+	a = launch_of(job, looks, n, n_slots, request);
 	a.request = plain_shadow_request(a.request);
-	return launch_layered_shadow(job->tr->dev, blocks, &a);
+	err = launch_layered_shadow(job->tr->dev, blocks, &a);
+	a.request = *request;
+	return err || !n_list ? err : follow(job, looks, a, n_list);
 }
 
 int layered_band(struct job *job, int *drawn)
 {
 	struct looks looks = { .n = 0 };
 	struct compose_request request;
+	struct scene_clear clear;
 	uint32_t n;
 	int err;
 
 	*drawn = job->n_pixels <= 0xffffffffu / (PLAIN_LOOKS * CAMERA_COLUMN_MAX);
 	if (!*drawn)
 		return 0;
+	segment_whole_clear(job, &clear);
+	memcpy(job->background, clear.color, sizeof(job->background));
 	/* As in plain_band. */
 	err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
 

@@ -9,15 +9,14 @@
 #include "tracer/frame/secondary.h"
 #include "tracer/frame/segment.h"
 
-/* Whether shadows and mirrors are followed, and there are lights of a size among the first. */
+/* Whether shadows and mirrors alone are followed, to lights without a size. */
 static int is_lit_simply(const struct job *job)
 {
 	const struct scene *scene = job->scene;
 
 	if (job->options->mode == TRACER_GL)
 		return 1;
-	if (job->options->mode != TRACER_WHITTED || secondary_transport(job->options) != TRANSPORT_GL ||
-	    (job->prepared.has_mirrors && job->options->depth))
+	if (job->options->mode != TRACER_WHITTED || secondary_transport(job->options) != TRANSPORT_GL)
 		return 0;
 	for (uint32_t i = 0; i < scene->n_lights; i++)
 		if (scene->lights[i].radius > 0)
@@ -42,12 +41,18 @@ int plain_is_simple(const struct job *job)
 	       !job->scene->start && !job->scene->needs_previous && is_lit_simply(job) && is_cleared_once(job);
 }
 
+int plain_has_mirrors(const struct job *job)
+{
+	return job->options->mode == TRACER_WHITTED && job->prepared.has_mirrors && job->options->depth;
+}
+
 int plain_suits(const struct job *job)
 {
 	const struct prepared *p = &job->prepared;
 	const struct segment *segment = p->segments;
 
-	if (!plain_is_simple(job) || !dome_suits_plain(job) || p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN)
+	if (!plain_is_simple(job) || plain_has_mirrors(job) || !dome_suits_plain(job) || p->n_segments != 1 || segment->view == SCENE_NONE ||
+	    segment->mode == CAMERA_COLUMN)
 		return 0;
 	for (uint32_t i = 0; i < segment->instance_count; i++) {
 		const struct scene_material *m = &job->scene->materials[p->instances[segment->instance_first + i].material];
@@ -87,7 +92,8 @@ static int place_blocks(struct job *job, struct camera_rectangle r, uint32_t *n)
 	return err ? err : frame_upload(tr, blocks, tr->first, blocks);
 }
 
-int plain_reserve(struct job *job, uint32_t n, uint32_t n_slots)
+/* What kernels leave for n fragments and their rays. */
+static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
 {
 	struct tracer *tr = job->tr;
 	int err = frame_reserve(tr, fragments, n);
@@ -115,6 +121,8 @@ struct plain_launch plain_launch_of(const struct job *job, struct camera_rectang
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	const struct scene_dome none = { .reach = 0 };
+	const struct layers_launch *one = LAUNCH(layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .mirrors = 0, .leaving = b->counts,
+	                                         .list_first = b->counts, .list = b->fragments, .list_pixels = b->pixels, .list_shaded = b->shaded);
 
 	return *LAUNCH(plain, .tables = frame_tables(job->tr), .views = b->views, .windows = b->windows, .sparse = b->sparse,
 	               .rectangle = segment_in_buffers(job, r), .width = job->width, .height = job->height,
@@ -122,7 +130,7 @@ struct plain_launch plain_launch_of(const struct job *job, struct camera_rectang
 	               .visibility = b->visibility, .n_slots = n_slots, .blocks = b->blocks, .n = n, .fragments = b->fragments, .pixels = b->pixels,
 	               .shaded = b->shaded, .rays = b->rays, .programs = b->programs,
 	               .dome = none, .directions = b->visibility, .samples = 0, .places = b->dome_places, .looks = b->rays,
-	               .factors = b->visibility, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .halves = b->halves, .floats = b->floats);
+	               .factors = b->visibility, .layers = *one, .halves = b->halves, .floats = b->floats);
 }
 
 /* The same where it comes, from so many looks around. */
@@ -198,7 +206,7 @@ int plain_band(struct job *job)
 	if (!err)
 		err = place_blocks(job, segment_in_buffers(job, r), &n);
 	if (!err)
-		err = plain_reserve(job, n, n_slots);
+		err = reserve(job, n, n_slots);
 	if (!err && space && dome_is_there(job))
 		err = dome_prepare_plain(job, n, &samples);
 	if (err)

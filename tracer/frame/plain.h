@@ -14,11 +14,11 @@ int plain_band(struct job *job);
 
 /* --- For layered.c, which draws in the same way ---------------------------------------------------------------------- */
 
-/** What both ways ask of a frame: a CPU, one pass into an image from nothing, cleared before all, lights without a size, no mirrors. */
+/** What both ways ask of a frame: a CPU, one pass into an image from nothing, cleared before all, lights without a size. */
 int plain_is_simple(const struct job *job);
 
-/** Room for what kernels leave for n fragments and their rays to n_slots lights. */
-int plain_reserve(struct job *job, uint32_t n, uint32_t n_slots);
+/** Whether light leaves surfaces that mirror or let it through. */
+int plain_has_mirrors(const struct job *job);
 
 /** The arguments of both without light from all around. r: of the band */
 struct plain_launch plain_launch_of(const struct job *job, struct camera_rectangle r, uint32_t n, uint32_t n_slots,

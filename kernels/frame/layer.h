@@ -1,0 +1,257 @@
+/*
+ * Fragments of a row of sixteen pixels, layer by layer (kernels/frame/layered.cl): how they are loaded, tested, and drawn over each other.
+ * OpenCL C only.
+ */
+#pragma once
+
+#include "kernels/frame/pack_blend.h"
+#include "kernels/frame/plain_row.h"
+
+/* One fragment of each pixel. Lanes a bit each. */
+struct layer {
+	struct plain_row at;
+	struct plain_colors colors;   /* of those that are shaded */
+	packf mirrored[3], beauty[3]; /* the same, of PLAIN_MIRROR */
+	packf depth;
+	struct pack pack; /* of those in `placed`, of one material */
+	uint there, placed, drawn, shaded, covered; /* drawn: all tests passed; covered: by a later one */
+	uint leaves;        /* light leaves these */
+	uint from, slots;   /* of the first pixel's fragment in a->sparse; how far the next one's is from it */
+	int asks, follows;  /* its fragments may send rays to lights; paths */
+};
+
+/* A row of sixteen pixels on its way. */
+struct layered_row {
+	struct layer layers[PLAIN_LAYERS];
+	struct pack_pixels pixels;
+	packu depth;         /* as the depth buffer has it */
+	uint step;           /* PLAIN_* */
+	packu last, surface; /* the layers of the last fragment that was drawn, and of the one whose surface shows; SCENE_NONE: there is none */
+	uint n;
+};
+
+/* --- Loading ------------------------------------------------------------------------------------------------------- */
+
+/* How many fragments each pixel of a row has in a look. */
+static inline packu load_counts(const struct plain_arguments *a, uint look, uint x, uint y)
+{
+	__global const uint *counts = a->layers.counts + plain_look_first(a->layers.columns, look, a->width * a->request.height) + y * a->width + x;
+	packu n = 0;
+
+	if (x + PACK_SIZE <= a->width)
+		return *(__global const pack_loose_uints *)counts;
+	for (uint lane = 0; lane < a->width - x; lane++)
+		LANE(n, uint, lane) = counts[lane];
+	return n;
+}
+
+static inline uint most_of(packu n)
+{
+	uint most = 0;
+
+	for (uint lane = 0; lane < PACK_SIZE; lane++)
+		most = max(most, LANE(n, uint, lane));
+	return most;
+}
+
+/* Where the layers of a block lie. */
+struct layered_block {
+	uint x, y; /* its first pixel */
+	uint place, most[PLAIN_LOOKS], n; /* of its first layer; how many a look has; all of them */
+};
+
+static inline void load_block(const struct plain_arguments *a, uint item, struct layered_block *b)
+{
+	b->x = item % plain_columns(a->width) * PLAIN_WIDTH;
+	b->y = item / plain_columns(a->width) * PLAIN_ROWS;
+	b->place = a->blocks[item];
+	b->n = 0;
+	for (uint look = 0; look < a->layers.n_looks && b->place != SCENE_NONE; look++) {
+		packu counts = 0;
+
+		for (uint y = b->y; y < min(b->y + PLAIN_ROWS, a->request.height); y++)
+			counts = max(counts, load_counts(a, look, b->x, y));
+		b->n += b->most[look] = most_of(counts);
+	}
+}
+
+/* Fragments of a layer, from records to rows. Lanes beyond the picture's row repeat its last pixel. */
+WIDE_VECTORS static inline void load_layer(const struct plain_arguments *a, struct layer *layer)
+{
+	__global const float *words = (__global const float *)(a->sparse + layer->from);
+	const packu lane = as_uint16(PACK_LANES), place = min(lane, a->width - 1 - layer->at.x) * layer->slots * 6;
+	struct pack_list *list = &layer->at.list;
+	packf first[4], last[4];
+
+	pack_gather_from(words, place, first);
+	pack_gather_from(words, place + 2, last);
+	*(pack_loose_uints *)list->item = layer->at.base + lane;
+	*(pack_loose_uints *)list->pixel = a->first_pixel + layer->at.y * a->width + layer->at.x + lane;
+	*(pack_loose_uints *)list->instance = as_uint16(first[1]);
+	*(pack_loose_uints *)list->primitive = as_uint16(first[2]);
+	*(pack_loose_floats *)list->b1 = first[3];
+	*(pack_loose_floats *)list->b2 = last[2];
+	*(pack_loose_floats *)list->depth = last[3];
+}
+
+/* The layers of a row. row: with its step. @return whether this step changes any */
+static inline uint load_layers(const struct plain_arguments *a, const struct layered_block *b, uint y, struct layered_row *row)
+{
+	const uint n_pixels = a->width * a->request.height;
+	uint changed = row->step == PLAIN_FIRST, place = b->place;
+
+	row->n = 0;
+	for (uint look = 0; look < a->layers.n_looks && b->n; place += b->most[look++]) {
+		const packu counts = load_counts(a, look, b->x, y);
+		const uint slots = plain_slots(a->layers.columns, look), n = most_of(counts);
+
+		for (uint i = 0; i < n; i++) {
+			struct layer *layer = &row->layers[row->n++];
+
+			layer->at.x = b->x;
+			layer->at.y = y;
+			layer->at.base = plain_base(place + i, y);
+			layer->slots = slots;
+			layer->from = (plain_look_first(a->layers.columns, look, n_pixels) + y * a->width + b->x) * slots + i;
+			layer->follows = a->layers.asking >> look & 1;
+			layer->asks = layer->follows && a->n_slots;
+			layer->there = pack_bits(counts > i);
+			layer->placed = layer->drawn = layer->shaded = layer->covered = 0;
+			load_layer(a, layer);
+			layer->at.dimmed = row->step != PLAIN_FIRST && layer->asks ? plain_dimmed(a, layer->at.base, layer->there) : 0;
+			layer->leaves = row->step != PLAIN_FIRST && a->layers.mirrors ? a->layers.leaving[layer->at.base / PACK_SIZE] : 0;
+			changed |= layer->leaves | (row->step == PLAIN_SHADOW ? layer->at.dimmed : 0);
+		}
+	}
+	return changed;
+}
+
+/* Where the rays of a block's row lie, there are none so far, and no light leaves it. */
+static inline void send_none(const struct plain_arguments *a, const struct layered_block *b, uint y)
+{
+	for (uint i = 0; i < b->n && a->layers.mirrors; i++)
+		a->layers.leaving[plain_base(b->place + i, y) / PACK_SIZE] = 0;
+	for (uint i = 0; i < b->n * a->n_slots; i++)
+		for (uint lane = 0; lane < PACK_SIZE; lane++)
+			stage_no_ray(&a->rays[i / b->n * a->n + plain_base(b->place + i % b->n, y) + lane]);
+}
+
+/* All pixels as they were cleared. */
+WIDE_VECTORS static inline void clear_pixels(__global const struct frame_pixel *cleared, struct layered_row *row)
+{
+	struct pack_pixels *p = &row->pixels;
+
+	for (int i = 0; i < 3; i++) {
+		p->gl[i] = cleared->gl[i];
+		p->shadowed[i] = cleared->shadowed[i];
+		p->direct[i] = cleared->direct[i];
+		p->mirrored[i] = cleared->mirrored[i];
+		p->beauty[i] = cleared->beauty[i];
+		p->albedo[i] = p->normal[i] = p->position[i] = 0.0f;
+	}
+	p->gl[3] = cleared->gl[3];
+	p->depth = cleared->depth_exact;
+	p->drawn = p->id = p->layers = 0.0f;
+	row->depth = cleared->depth;
+	row->last = row->surface = SCENE_NONE;
+}
+
+/* --- Tests --------------------------------------------------------------------------------------------------------- */
+
+/* As pixel_tests and pixel_mark: fragments of layer i, of one material, whose depths are known, and colours where it tests alpha. */
+WIDE_VECTORS static inline void test_lanes(const struct plain_arguments *a, struct layered_row *row, uint i, __global const struct scene_material *m,
+                                           uint lanes)
+{
+	const uint bits = pixel_depth_bits(a->bits);
+	struct layer *layer = &row->layers[i];
+	const packu steps = pack_depth_steps(layer->depth, bits);
+	packi pass = pack_mask(lanes), shows;
+
+	if (m->alpha_test)
+		pass &= pack_compare(m->alpha_func, pack_code(layer->colors.gl.c[3]), (packu)(blend_round(m->alpha_ref)));
+	if (m->depth_test && bits) {
+		pass &= pack_compare(m->depth_func, steps, row->depth);
+		if (m->depth_write) {
+			row->depth = select(row->depth, steps, pass);
+			pack_put(&row->pixels.depth, layer->depth, pass);
+		}
+	}
+	if (!(m->color_mask & 15))
+		return;
+	layer->drawn |= pack_bits(pass);
+	row->last = select(row->last, (packu)(i), pass);
+	if (m->blend)
+		row->pixels.layers += select((packf)(0), (packf)(1), pass);
+	else if ((m->color_mask & 7) == 7)
+		pack_put(&row->pixels.layers, (packf)(0), pass);
+	shows = !m->blend || m->depth_write ? pass : pass & (row->surface == SCENE_NONE);
+	row->surface = select(row->surface, (packu)(i), shows);
+}
+
+/* --- Drawing ------------------------------------------------------------------------------------------------------- */
+
+/* One channel of a part of the colours over the same part of the pixels. */
+WIDE_VECTORS static inline void draw_channel(__global const struct scene_material *m, int channel, packf source, packu s_alpha,
+                                             packu d_alpha, int opaque, packi lanes, packf *to)
+{
+	if (m->color_mask >> channel & 1)
+		pack_put(to, m->blend && !opaque ? pack_blend(m, channel, source, s_alpha, *to, d_alpha) : source, lanes);
+}
+
+/* Whether a channel of some lanes is the same in all parts of the pixels, and of the fragments. */
+WIDE_VECTORS static inline int is_same(const struct layer *layer, const struct pack_pixels *p, int i, int is_mirrored, packi lanes)
+{
+	const packi gl = as_int16(p->gl[i]), own = as_int16(layer->colors.gl.c[i]);
+	packi differ = (gl ^ as_int16(p->shadowed[i])) | (gl ^ as_int16(p->direct[i])) | (own ^ as_int16(layer->colors.shadowed.c[i])) |
+	               (own ^ as_int16(layer->colors.direct.c[i]));
+
+	if (is_mirrored)
+		differ |= (gl ^ as_int16(p->mirrored[i])) | (gl ^ as_int16(p->beauty[i])) | (own ^ as_int16(layer->mirrored[i])) |
+		          (own ^ as_int16(layer->beauty[i]));
+	return !any_pack((differ != 0) & lanes);
+}
+
+/* As pixel_colors, for fragments of one material. is_mirrored: mirrored and beauty are not what direct is */
+WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __global const struct scene_material *m, const struct layer *layer,
+                                           int is_mirrored, packi lanes, struct pack_pixels *p)
+{
+	const struct plain_colors *c = &layer->colors;
+	const packu s_alpha = pack_code(c->gl.c[3]), d_alpha = pixel_alpha_bits(a->bits) ? pack_code(p->gl[3]) : (packu)(255);
+	const int solid = (m->surface.hidden & SCENE_SOLID) != 0, left_out = (m->surface.hidden & SCENE_LEFT_OUT) != 0;
+	const int special = solid | left_out | (is_mirrored && m->surface.transmit > 0.0f);
+
+	for (int i = 0; i < 3; i++) {
+		const int same = !special && is_same(layer, p, i, is_mirrored, lanes);
+
+		draw_channel(m, i, c->gl.c[i], s_alpha, d_alpha, 0, lanes, &p->gl[i]);
+		if (same) {
+			pack_put(&p->shadowed[i], p->gl[i], lanes);
+			pack_put(&p->direct[i], p->gl[i], lanes);
+			pack_put(&p->mirrored[i], p->gl[i], lanes);
+			pack_put(&p->beauty[i], p->gl[i], lanes);
+			continue;
+		}
+		draw_channel(m, i, c->shadowed.c[i], s_alpha, d_alpha, 0, lanes, &p->shadowed[i]);
+		if (left_out)
+			continue;
+		draw_channel(m, i, c->direct.c[i], s_alpha, d_alpha, solid, lanes, &p->direct[i]);
+		if (!is_mirrored)
+			continue;
+		draw_channel(m, i, layer->mirrored[i], s_alpha, d_alpha, solid, lanes, &p->mirrored[i]);
+		draw_channel(m, i, layer->beauty[i], s_alpha, d_alpha, solid || m->surface.transmit > 0.0f, lanes, &p->beauty[i]);
+	}
+	if (!pixel_alpha_bits(a->bits) && m->blend)
+		pack_put(&p->gl[3], (packf)(1), m->color_mask & 8 ? lanes : (packi)(0));
+	draw_channel(m, 3, c->gl.c[3], s_alpha, d_alpha, 0, lanes, &p->gl[3]);
+}
+
+static inline void draw_layer(const struct plain_arguments *a, const struct layer *layer, int is_mirrored, struct pack_pixels *p)
+{
+	uint material;
+
+	for (uint lanes = layer->drawn & ~layer->covered, same; lanes; lanes &= ~same) {
+		same = pack_same_kind(&a->tables, &layer->at.list, lanes, &material);
+		same = same ? same : lanes & -lanes;
+		draw_lanes(a, &a->tables.materials[material], layer, is_mirrored, pack_mask(same), p);
+	}
+}
