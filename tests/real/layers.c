@@ -1,0 +1,97 @@
+/*
+ * Frames of several looks (kernels/frame/plain.h): walls over each other in a lit room, blended by all factors, tested for alpha and depth by
+ * all functions, written in part; and a second projection over them. Recorded by test_layers.py.
+ */
+#include "tests/trace/window.h"
+
+static const GLenum factors[] = { GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR, GL_SRC_ALPHA,
+	GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA, GL_CONSTANT_COLOR, GL_ONE_MINUS_CONSTANT_COLOR, GL_CONSTANT_ALPHA,
+	GL_ONE_MINUS_CONSTANT_ALPHA, GL_SRC_ALPHA_SATURATE };
+static const GLenum equations[] = { GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX };
+
+static int below(int n)
+{
+	return (rand() >> 4) % n;
+}
+
+static float number(void)
+{
+	return (float)below(1001) / 1000;
+}
+
+static GLenum factor(int n)
+{
+	return factors[below(n)];
+}
+
+/* How a wall goes into the frame buffer. kind: of the frame */
+static void choose(int kind)
+{
+	const int usual = below(3) == 0;
+
+	glColor4f(number(), number(), number(), below(3) ? number() : 1);
+	(below(4) ? glEnable : glDisable)(GL_BLEND);
+	glBlendColor(number(), number(), number(), number());
+	glBlendFuncSeparate(usual ? GL_SRC_ALPHA : factor(15), usual ? GL_ONE_MINUS_SRC_ALPHA : factor(14), usual ? GL_SRC_ALPHA : factor(15),
+	                    usual ? GL_ONE_MINUS_SRC_ALPHA : factor(14));
+	glBlendEquationSeparate(equations[usual ? 0 : below(5)], equations[usual ? 0 : below(5)]);
+	(kind > 0 && below(3) == 0 ? glEnable : glDisable)(GL_ALPHA_TEST);
+	glAlphaFunc(GL_NEVER + (GLenum)below(8), number());
+	(below(4) ? glEnable : glDisable)(GL_DEPTH_TEST);
+	glDepthFunc(kind > 1 ? GL_NEVER + (GLenum)below(8) : below(2) ? GL_LESS : GL_LEQUAL);
+	glDepthMask(below(3) != 0);
+	glColorMask(below(6) != 0, below(6) != 0, below(6) != 0, below(6) != 0);
+	(below(4) ? glEnable : glDisable)(GL_LIGHTING);
+}
+
+static void wall(void)
+{
+	const float x = 3 * number() - 2, y = 3 * number() - 2, z = -2 - 3 * number(), turn = number() - 0.5f;
+
+	glBegin(GL_QUADS);
+	for (int i = 0; i < 4; i++) {
+		const float right = i == 1 || i == 2 ? 1.5f : 0, up = i > 1 ? 1.5f : 0;
+
+		glNormal3f(-turn, 0, 1);
+		glVertex3f(x + right, y + up, z + turn * right);
+	}
+	glEnd();
+}
+
+static void project(int perspective)
+{
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	if (perspective)
+		glFrustum(-0.6, 0.6, -0.6, 0.6, 1, 9);
+	else
+		glOrtho(-3, 3, -3, 3, 1, 9);
+	glMatrixMode(GL_MODELVIEW);
+}
+
+int main(void)
+{
+	static const float place[] = { 1, 2, 1, 1 };
+
+	window_size[0] = 75; /* rows end within sixteen pixels */
+	window_size[1] = 53;
+	open_window();
+	glEnable(GL_LIGHT0);
+	glEnable(GL_COLOR_MATERIAL);
+	glLightfv(GL_LIGHT0, GL_POSITION, place);
+	glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, 1);
+	for (int frame = 0; frame < 4; frame++) {
+		srand(5 + (unsigned)frame);
+		glColorMask(1, 1, 1, 1);
+		glDepthMask(1);
+		glClearColor(0.2f, 0.3f, 0.5f, 0.5f);
+		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+		for (int i = 0; i < (frame == 3 ? 50 : 14); i++) {
+			project(i < 10 || frame == 3);
+			choose(frame);
+			wall();
+		}
+		end_frame();
+	}
+	return 0;
+}
