@@ -273,6 +273,12 @@ enum { /* bits of scene_mesh.attributes; SCENE_HAS_TEXCOORD << unit, SCENE_HAS_G
 
 #ifndef __OPENCL_VERSION__
 
+/*
+ * Of a primitive's edge flags. CONTINUES: a line stipple does not start anew, the primitive belongs to the strip, quad or polygon of the one drawn
+ * before it. EARLIER: drawn as lines or points it comes before the primitive in front of it, as Mesa has the halves of quad strips.
+ */
+enum { SCENE_CONTINUES = 8, SCENE_EARLIER = 16 };
+
 enum scene_primitive { SCENE_POINTS = 1, SCENE_LINES = 2, SCENE_TRIANGLES = 3 }; /* = vertices per primitive */
 
 /*
@@ -296,7 +302,7 @@ struct scene_mesh {
 	const struct scene_face (*face)[2];      /* [vertex] front and back, or NULL: those of the instance's material */
 	const uint32_t *index;                   /* [primitive][kind] */
 	const uint32_t *primitive_draw;          /* [primitive], to be added to instance.draw; NULL: all 0 */
-	const uint8_t *edge_flags;               /* [primitive], bit i: edge from vertex i to i+1 is drawn; NULL: all */
+	const uint8_t *edge_flags;               /* [primitive], bit i: edge from vertex i to i+1 is drawn; SCENE_CONTINUES ..; NULL: all 7 */
 };
 
 /*

@@ -34,7 +34,7 @@ static unsigned attribute_width(unsigned attribute)
 
 static XXH128_hash_t hash_of(const struct gls_geometry *g)
 {
-	const uint32_t head[] = { g->kind, g->varying, g->n_vertices, g->n_primitives, g->n_draws > 1, g->edges_hidden };
+	const uint32_t head[] = { g->kind, g->varying, g->n_vertices, g->n_primitives, g->n_draws > 1, g->edges_told };
 	XXH3_state_t hash;
 
 	XXH3_128bits_reset(&hash);
@@ -48,7 +48,7 @@ static XXH128_hash_t hash_of(const struct gls_geometry *g)
 	XXH3_128bits_update(&hash, g->index, (size_t)g->n_primitives * g->kind * 4);
 	if (g->n_draws > 1)
 		XXH3_128bits_update(&hash, g->primitive_draw, (size_t)g->n_primitives * 4);
-	if (g->edges_hidden)
+	if (g->edges_told)
 		XXH3_128bits_update(&hash, g->edge_flags, g->n_primitives);
 	return XXH3_128bits_digest(&hash);
 }
@@ -64,7 +64,7 @@ static struct gls_mesh *build(const struct gls_geometry *g, XXH128_hash_t hash)
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
 		bytes += g->varying >> a & 1 ? n * attribute_width(a) * sizeof(float) : 0;
 	bytes += g->varying & SCENE_HAS_FACE ? n * sizeof(*g->face) : 0;
-	bytes += (g->n_draws > 1 ? p * 4 : 0) + (g->edges_hidden ? p : 0);
+	bytes += (g->n_draws > 1 ? p * 4 : 0) + (g->edges_told ? p : 0);
 	bytes = (bytes + 63) & ~(size_t)63;
 	m = aligned_alloc(64, bytes);
 	if (!m)
@@ -111,7 +111,7 @@ static struct gls_mesh *build(const struct gls_geometry *g, XXH128_hash_t hash)
 		mesh->primitive_draw = memcpy(at, g->primitive_draw, p * 4);
 		at += p * 4;
 	}
-	if (g->edges_hidden)
+	if (g->edges_told)
 		mesh->edge_flags = memcpy(at, g->edge_flags, p);
 	return m;
 }

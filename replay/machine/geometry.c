@@ -12,7 +12,7 @@
 void gls_geometry_clear(struct gls_geometry *g)
 {
 	g->n_vertices = g->n_primitives = g->n_draws = g->begin_vertex = 0;
-	g->varying = g->touched = g->edges_hidden = g->quads = 0;
+	g->varying = g->touched = g->edges_told = g->quads = 0;
 }
 
 void gls_geometry_free(struct gls_geometry *g)
@@ -114,18 +114,20 @@ static void put_point(const struct cutter *c, uint32_t i)
 	g->primitive_draw[g->n_primitives++] = g->n_draws;
 }
 
-static void put_line(const struct cutter *c, uint32_t i, uint32_t j)
+/* edges: 0 or SCENE_CONTINUES */
+static void put_line(const struct cutter *c, uint32_t i, uint32_t j, unsigned edges)
 {
 	struct gls_geometry *g = c->g;
 	uint32_t *index = g->index + 2 * (size_t)g->n_primitives;
 
 	index[0] = vertex_of(c, i);
 	index[1] = vertex_of(c, j);
-	g->edge_flags[g->n_primitives] = 3;
+	g->edge_flags[g->n_primitives] = (uint8_t)(3 | edges);
+	g->edges_told |= edges;
 	g->primitive_draw[g->n_primitives++] = g->n_draws;
 }
 
-/* edges: bit n is set if the edge from vertex n to the next belongs to the primitive. */
+/* edges: bit n is set if the edge from vertex n to the next belongs to the primitive; SCENE_CONTINUES */
 static void put_triangle(const struct cutter *c, uint32_t i, uint32_t j, uint32_t k, unsigned edges)
 {
 	struct gls_geometry *g = c->g;
@@ -135,7 +137,7 @@ static void put_triangle(const struct cutter *c, uint32_t i, uint32_t j, uint32_
 	index[1] = vertex_of(c, j);
 	index[2] = vertex_of(c, k);
 	g->edge_flags[g->n_primitives] = (uint8_t)edges;
-	g->edges_hidden |= edges != 7;
+	g->edges_told |= edges != 7;
 	g->primitive_draw[g->n_primitives++] = g->n_draws;
 }
 
@@ -170,14 +172,14 @@ int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint
 		break;
 	case GL_LINES:
 		for (i = 0; i + 1 < count; i += 2)
-			put_line(&c, i, i + 1);
+			put_line(&c, i, i + 1, 0);
 		break;
 	case GL_LINE_STRIP:
 	case GL_LINE_LOOP:
 		for (i = 0; i + 1 < count; i++)
-			put_line(&c, i, i + 1);
+			put_line(&c, i, i + 1, i ? SCENE_CONTINUES : 0);
 		if (mode == GL_LINE_LOOP && count > 1)
-			put_line(&c, count - 1, 0);
+			put_line(&c, count - 1, 0, SCENE_CONTINUES);
 		break;
 	case GL_TRIANGLES:
 		for (i = 0; i + 2 < count; i += 3)
@@ -196,19 +198,19 @@ int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint
 	case GL_QUADS: /* llvmpipe has quads follow the last vertex in any case */
 		for (i = 0; i + 3 < count; i += 4) {
 			put_triangle(&c, i, i + 1, i + 3, flags(&c, i, i + 1, i + 3, 1 | 4));
-			put_triangle(&c, i + 1, i + 2, i + 3, flags(&c, i + 1, i + 2, i + 3, 1 | 2));
+			put_triangle(&c, i + 1, i + 2, i + 3, flags(&c, i + 1, i + 2, i + 3, 1 | 2) | SCENE_CONTINUES);
 		}
 		break;
 	case GL_QUAD_STRIP:
 		for (i = 3; i < count; i += 2) {
-			put_triangle(&c, i - 3, i - 2, i, 1 | 2);
-			put_triangle(&c, i - 1, i - 3, i, 1 | 4);
+			put_triangle(&c, i - 3, i - 2, i, 1 | 2 | SCENE_CONTINUES);
+			put_triangle(&c, i - 1, i - 3, i, 1 | 4 | SCENE_EARLIER);
 		}
 		break;
 	case GL_POLYGON: /* its first vertex is the provoking one, so each triangle ends with it */
 		for (i = 2; i < count; i++) {
 			unsigned edges = 1u | (i == count - 1 ? 2u : 0) | (i == 2 ? 4u : 0);
-			put_triangle(&c, i - 1, i, 0, flags(&c, i - 1, i, 0, edges));
+			put_triangle(&c, i - 1, i, 0, flags(&c, i - 1, i, 0, edges) | (i > 2 ? SCENE_CONTINUES : 0));
 		}
 		break;
 	}
@@ -224,7 +226,7 @@ void gls_geometry_turn_quads(struct gls_geometry *g)
 		memcpy(index, (uint32_t[6]){ a, b, c, a, c, d }, 6 * sizeof(*index));
 		/* they were a-b, (b-d), d-a and b-c, c-d, (d-b); they are a-b, b-c, (c-a) and (a-c), c-d, d-a */
 		g->edge_flags[i] = (uint8_t)((first & 1) | (second & 1) << 1);
-		g->edge_flags[i + 1] = (uint8_t)((second & 2) | (first & 4));
+		g->edge_flags[i + 1] = (uint8_t)((second & (2 | SCENE_CONTINUES)) | (first & 4));
 	}
 }
 

@@ -21,7 +21,7 @@ struct gls_geometry {
 	uint32_t n_primitives, room_primitives;
 	uint32_t n_draws;        /* Begin..End pairs so far */
 	uint32_t begin_vertex;   /* first vertex of the open Begin */
-	uint32_t edges_hidden;   /* any edge flag is off */
+	uint32_t edges_told;     /* any edge flag is off, or any primitive continues another */
 	uint32_t quads;          /* 1: all primitives come from GL_QUADS */
 	uint32_t touched;        /* attributes that may differ from `constant` by now: 1 << attribute */
 	float constant[N_GLS_ATTRIBUTES][4]; /* values of attributes that do not vary */

@@ -101,9 +101,9 @@ START_TEST(test_edges)
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(s->n_instances, 3);
 	/* 0 1 3: 0-1 and 3-0; 1 2 3: 1-2 and 2-3 */
-	ck_assert_mem_eq(s->meshes[s->instances[0].mesh]->edge_flags, ((uint8_t[]){ 1 | 4, 1 | 2 }), 2);
+	ck_assert_mem_eq(s->meshes[s->instances[0].mesh]->edge_flags, ((uint8_t[]){ 1 | 4, 1 | 2 | SCENE_CONTINUES }), 2);
 	/* 1 2 0: 1-2 is off, 0-1 is on (the flag of 0 begins that edge); 2 3 0: 2-3 and 3-0 */
-	ck_assert_mem_eq(s->meshes[s->instances[1].mesh]->edge_flags, ((uint8_t[]){ 4, 1 | 2 }), 2);
+	ck_assert_mem_eq(s->meshes[s->instances[1].mesh]->edge_flags, ((uint8_t[]){ 4, 1 | 2 | SCENE_CONTINUES }), 2);
 	ck_assert_ptr_null(s->meshes[s->instances[2].mesh]->edge_flags);
 	scene_release(&s);
 	gl_close(&gl);
@@ -272,7 +272,7 @@ START_TEST(test_turned_quads)
 		mesh = s->meshes[s->instances[s->n_instances - 1].mesh];
 		ck_assert_mem_eq(mesh->index, how == 0 ? turned : not_turned, sizeof(turned));
 		ck_assert_uint_eq(mesh->edge_flags[0], how == 0 ? 3 : 5);
-		ck_assert_uint_eq(mesh->edge_flags[1], how == 0 ? 6 : 3);
+		ck_assert_uint_eq(mesh->edge_flags[1], SCENE_CONTINUES | (how == 0 ? 6 : 3));
 		scene_release(&s);
 		gl_close(&gl);
 	}

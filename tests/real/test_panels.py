@@ -12,6 +12,7 @@ PROGRAMS = {
     "fog": ("modes", "colours", "lit", "points, lines, rectangles", "distances"),
     "texture": ("environments", "combiner functions", "combiner operands", "generated coordinates"),
     "fragment": ("blend factors", "more blend factors", "blend equations", "tests", "stencil", "stencil of two sides", "user planes"),
+    "line": ("strips", "kinds", "cut", "shared corners", "unfilled polygons", "edge flags"),
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "what rectangles go through",
               "transfer to textures", "indices to textures"),
     "program": ("instructions", "bindings", "textures", "fragments", "last bits"),

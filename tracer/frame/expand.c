@@ -44,12 +44,11 @@ static int is_front(const struct expand_input *in, const uint32_t *index)
 	return (det > 0) == (in->material->front_face == GL_CCW);
 }
 
-static int polygon_of_mesh(const struct expand_input *in, struct expanded *out, uint32_t primitive, uint32_t draw,
-                          struct expand_stipple *stipple)
+static int polygon_of_mesh(const struct expand_input *in, struct expanded *out, uint32_t primitive, uint32_t draw)
 {
 	const uint32_t *index = in->mesh->index + 3 * (size_t)primitive;
 	uint32_t flags = in->mesh->edge_flags ? in->mesh->edge_flags[primitive] : 7;
-	int front = is_front(in, index), side = in->material->two_side && !front, err = 0, n;
+	int front = is_front(in, index), side = in->material->two_side && !front, err = 0, n, cut;
 	struct expand_end e[EXPAND_CORNERS];
 	float offset;
 
@@ -62,30 +61,36 @@ static int polygon_of_mesh(const struct expand_input *in, struct expanded *out, 
 	if (in->material->shade_model == GL_FLAT)
 		for (int i = 0; i < 2; i++)
 			expand_take_color(&e[i], &e[2]);
+	cut = expand_is_cut(in, e);
 	n = expand_clip_triangle(in, e);
 	offset = n ? polygon_offset(in, e) : 0;
-	for (int i = 0; i < n && !err; i++) {
+	/* Mesa (22.3.6) starts the pattern anew with each triangle that planes cut, and draws the lines of whole ones from their last side on. */
+	if (n && (cut || !(flags & SCENE_CONTINUES)))
+		*in->dashed = 0;
+	for (int k = 0; k < n && !err; k++) {
+		int i = cut || in->shape != PREPARED_LINES ? k : (k + n - 1) % n;
 		struct expand_end a = e[i], b = e[(i + 1) % n];
 
 		if (a.edge)
-			err = in->shape == PREPARED_LINES ? expand_edge(in, out, &a, &b, offset, draw, stipple) :
+			err = in->shape == PREPARED_LINES ? expand_edge(in, out, &a, &b, offset, draw) :
 			                                    expand_corner(in, out, a, offset, draw);
 	}
 	return err;
 }
 
-static int line_of_mesh(const struct expand_input *in, struct expanded *out, uint32_t primitive, uint32_t draw,
-                       struct expand_stipple *stipple)
+static int line_of_mesh(const struct expand_input *in, struct expanded *out, uint32_t primitive, uint32_t draw)
 {
 	const uint32_t *index = in->mesh->index + 2 * (size_t)primitive;
 	struct expand_end a = expand_load_end(in, index[0], 0), b = expand_load_end(in, index[1], 0);
 
-	/* A line that starts where the last one ended continues a strip. */
-	if (primitive == 0 || index[0] != index[-1])
-		stipple->counter = 0;
 	if (in->material->shade_model == GL_FLAT)
 		expand_take_color(in->material->first_provokes ? &b : &a, in->material->first_provokes ? &a : &b);
-	return expand_line(in, out, &a, &b, 0, draw, stipple);
+	if (!expand_clip_line(in, &a, &b))
+		return 0;
+	/* Where a strip's first line cannot be seen, Mesa does not start the pattern anew. */
+	if (!in->mesh->edge_flags || !(in->mesh->edge_flags[primitive] & SCENE_CONTINUES))
+		*in->dashed = 0;
+	return expand_edge(in, out, &a, &b, 0, draw);
 }
 
 static void make_mesh(struct expanded *e)
@@ -104,23 +109,32 @@ static void make_mesh(struct expanded *e)
 	e->mesh.hash[1] = hash.high64;
 }
 
+/* The i-th primitive in drawing order. Flags may come from a damaged index. */
+static uint32_t primitive_of(const struct scene_mesh *mesh, uint32_t i)
+{
+	const uint8_t *flags = mesh->edge_flags;
+
+	if (!flags)
+		return i;
+	if (i > 0 && flags[i] & SCENE_EARLIER)
+		return i - 1;
+	return i + 1 < mesh->primitive_count && flags[i + 1] & SCENE_EARLIER ? i + 1 : i;
+}
+
 int expand_primitives(const struct expand_input *in, struct expanded *out)
 {
-	struct expand_stipple stipple = { in->material->line_stipple ? in->material->line_stipple & 0xffff : 0xffff,
-		                   in->material->line_stipple >> 16, 0 };
 	int err = expand_reserve_quad(in, out);
 
-	if (stipple.factor == 0)
-		stipple.factor = 1;
-	for (uint32_t i = 0; i < in->mesh->primitive_count && !err; i++) {
+	for (uint32_t k = 0; k < in->mesh->primitive_count && !err; k++) {
+		uint32_t i = primitive_of(in->mesh, k);
 		uint32_t draw = in->mesh->primitive_draw ? in->mesh->primitive_draw[i] : 0;
 
 		if (in->rectangles)
 			err = expand_rectangle(in, out, in->mesh->index[i], draw);
 		else if (in->mesh->kind == SCENE_TRIANGLES)
-			err = polygon_of_mesh(in, out, i, draw, &stipple);
+			err = polygon_of_mesh(in, out, i, draw);
 		else if (in->mesh->kind == SCENE_LINES)
-			err = line_of_mesh(in, out, i, draw, &stipple);
+			err = line_of_mesh(in, out, i, draw);
 		else
 			err = expand_point(in, out, expand_load_end(in, in->mesh->index[i], 0), 0, draw);
 	}

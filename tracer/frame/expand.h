@@ -21,6 +21,7 @@ struct expand_input {
 	uint32_t from_below; /* scene.samples_from_below */
 	const struct shaded_vertex *vertices; /* [mesh vertices] */
 	const float (*texcoords)[4];          /* [mesh vertices][unit_count] */
+	float *dashed; /* pixels since a line stipple started anew: goes on from one instance to the next, as in Mesa's draw module */
 };
 
 /* What became of them: four vertices and two triangles a quad. */

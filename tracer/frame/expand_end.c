@@ -29,21 +29,6 @@ static void mix_floats(const float *a, const float *b, float wa, float wb, float
 		out[i] = a[i] * wa + b[i] * wb;
 }
 
-/* Attributes wa a + wb b. The place in the window is still a's. */
-static struct expand_end mix_ends(const struct expand_end *a, const struct expand_end *b, float wa, float wb)
-{
-	struct expand_end e = *a;
-
-	mix_floats(a->v.clip, b->v.clip, wa, wb, e.v.clip, 4);
-	mix_floats(a->v.eye, b->v.eye, wa, wb, e.v.eye, 4);
-	mix_floats(&a->v.color[0][0], &b->v.color[0][0], wa, wb, &e.v.color[0][0], 8);
-	mix_floats(&a->v.secondary[0][0], &b->v.secondary[0][0], wa, wb, &e.v.secondary[0][0], 8);
-	mix_floats(a->v.normal, b->v.normal, wa, wb, e.v.normal, 3);
-	mix_floats(&a->v.fog_coord, &b->v.fog_coord, wa, wb, &e.v.fog_coord, 1);
-	mix_floats(&a->texcoord[0][0], &b->texcoord[0][0], wa, wb, &e.texcoord[0][0], SCENE_MAX_UNITS * 4);
-	return e;
-}
-
 /* As in the vertex stage, but not snapped. Mesa's clipper projects the ends that it makes without fused operations. */
 static float scale_and_move(float scale, float x, float move, int fused)
 {
@@ -75,16 +60,21 @@ static void move_floats(float *from, const float *to, float t, size_t n)
 		from[i] += t * (to[i] - from[i]);
 }
 
-/* Move an end towards another, in Mesa's order of operations. */
-static void move_end(struct expand_end *e, const struct expand_end *to, float t)
+/* Move what is interpolated towards another end's, in Mesa's order of operations. */
+static void move_attributes(struct expand_end *e, const struct expand_end *to, float t)
 {
-	move_floats(e->v.clip, to->v.clip, t, 4);
-	move_floats(e->v.eye, to->v.eye, t, 4);
 	move_floats(&e->v.color[0][0], &to->v.color[0][0], t, 8);
 	move_floats(&e->v.secondary[0][0], &to->v.secondary[0][0], t, 8);
 	move_floats(e->v.normal, to->v.normal, t, 3);
 	move_floats(&e->v.fog_coord, &to->v.fog_coord, t, 1);
 	move_floats(&e->texcoord[0][0], &to->texcoord[0][0], t, SCENE_MAX_UNITS * 4);
+}
+
+static void move_end(struct expand_end *e, const struct expand_end *to, float t)
+{
+	move_floats(e->v.clip, to->v.clip, t, 4);
+	move_floats(e->v.eye, to->v.eye, t, 4);
+	move_attributes(e, to, t);
 	e->cut = 1;
 }
 
@@ -163,6 +153,14 @@ static int cut_polygon(const struct expand_input *in, struct expand_end *corners
 	return left;
 }
 
+int expand_is_cut(const struct expand_input *in, const struct expand_end corners[3])
+{
+	for (int i = 0; i < 3 * EXPAND_PLANES; i++)
+		if (expand_plane_distance(in, &corners[i % 3], i / 3) < 0)
+			return 1;
+	return 0;
+}
+
 int expand_clip_triangle(const struct expand_input *in, struct expand_end corners[EXPAND_CORNERS])
 {
 	static const int order[EXPAND_VOLUME_PLANES] = { 3, 2, 5, 4, 0, 1 }; /* Mesa's */
@@ -176,14 +174,15 @@ int expand_clip_triangle(const struct expand_input *in, struct expand_end corner
 struct expand_end expand_line_point(const struct expand_end *a, const struct expand_end *b, float s)
 {
 	float w_inv = a->w_inv + (b->w_inv - a->w_inv) * s, w;
-	struct expand_end e;
+	struct expand_end e = *a;
 
 	if (!(w_inv > 0)) { /* beyond an end, and beyond the eye */
 		s = s < 0.5f ? 0 : 1;
 		w_inv = s > 0 ? b->w_inv : a->w_inv;
 	}
+	move_attributes(&e, b, s);
 	w = 1 / w_inv;
-	e = mix_ends(a, b, (1 - s) * a->w_inv * w, s * b->w_inv * w);
+	mix_floats(a->v.eye, b->v.eye, (1 - s) * a->w_inv * w, s * b->w_inv * w, e.v.eye, 4);
 	e.x = a->x + (b->x - a->x) * s;
 	e.y = a->y + (b->y - a->y) * s;
 	e.z = a->z + (b->z - a->z) * s;

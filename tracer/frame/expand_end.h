@@ -35,6 +35,9 @@ int expand_clip_line(const struct expand_input *in, struct expand_end *a, struct
 /* Corners that a triangle may have when all planes have cut it. */
 enum { EXPAND_CORNERS = 3 + EXPAND_PLANES };
 
+/** 1 if a corner of a triangle lies beyond a plane. */
+int expand_is_cut(const struct expand_input *in, const struct expand_end corners[3]);
+
 /**
  * Cut a triangle to what can be seen. Of the edges that the planes make, those along the program's own are drawn, those along the view
  * volume's are not: Mesa (22.3.6) has it so, GL 2.1 sec. 3.5.4 draws none of either.
@@ -43,5 +46,5 @@ enum { EXPAND_CORNERS = 3 + EXPAND_PLANES };
  */
 int expand_clip_triangle(const struct expand_input *in, struct expand_end corners[EXPAND_CORNERS]);
 
-/** The point at share s of a projected line: attributes over w are linear in the window. */
+/** The point at share s of a projected line. Mesa (22.3.6) has attributes linear in the window where it cuts lines into dashes. */
 struct expand_end expand_line_point(const struct expand_end *a, const struct expand_end *b, float s);

@@ -195,9 +195,9 @@ static int add_dash(const struct expand_input *in, struct expanded *out, const s
 	return 0;
 }
 
-int expand_edge(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
-                uint32_t draw, struct expand_stipple *stipple)
+int expand_edge(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset, uint32_t draw)
 {
+	const uint32_t pattern = in->material->line_stipple & 0xffff, factor = in->material->line_stipple >> 16;
 	float length;
 	uint32_t start = 0, n;
 	int err = 0;
@@ -206,13 +206,13 @@ int expand_edge(const struct expand_input *in, struct expanded *out, struct expa
 	expand_project(in, b);
 	a->z = fminf(fmaxf(a->z + offset, 0), 1);
 	b->z = fminf(fmaxf(b->z + offset, 0), 1);
-	if (stipple->pattern == 0xffff)
+	if (!factor)
 		return add_dash(in, out, a, b, draw);
 	length = in->material->multisample || in->material->line_smooth ?
 	                 sqrtf((b->x - a->x) * (b->x - a->x) + (b->y - a->y) * (b->y - a->y)) : fmaxf(fabsf(b->x - a->x), fabsf(b->y - a->y));
-	n = (uint32_t)ceilf(length);
+	n = isfinite(length) ? (uint32_t)ceilf(length) : 0;
 	for (uint32_t i = 0; i <= n && !err; i++) {
-		int on = i < n && stipple->pattern >> (stipple->counter / stipple->factor & 15) & 1;
+		int on = i < n && pattern >> (((uint32_t)*in->dashed + i) / factor & 15) & 1;
 
 		if (!on && i > start) {
 			struct expand_end from = expand_line_point(a, b, (float)start / length);
@@ -221,13 +221,7 @@ int expand_edge(const struct expand_input *in, struct expanded *out, struct expa
 			err = add_dash(in, out, &from, &to, draw);
 		}
 		start = on ? start : i + 1;
-		stipple->counter += i < n;
 	}
+	*in->dashed += (float)n;
 	return err;
-}
-
-int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
-                uint32_t draw, struct expand_stipple *stipple)
-{
-	return expand_clip_line(in, a, b) ? expand_edge(in, out, a, b, offset, draw, stipple) : 0;
 }

@@ -6,21 +6,10 @@
 
 #include "tracer/frame/expand_end.h"
 
-/* A line stipple. */
-struct expand_stipple {
-	uint32_t pattern, factor;
-	uint32_t counter; /* pixels so far along a strip */
-};
-
 /**
- * Clip a line, project it, and add what its stipple leaves.
+ * Project a line that has been clipped, and add what its stipple leaves. in->dashed moves on by its length.
  * @param a, b    its ends; changed
  * @param offset  added to the depth of both ends
  * @return 0 or ERR_SYSTEM (reported)
  */
-int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
-                uint32_t draw, struct expand_stipple *stipple);
-
-/** As expand_line for a polygon's edge, which has been clipped with its polygon. */
-int expand_edge(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
-                uint32_t draw, struct expand_stipple *stipple);
+int expand_edge(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset, uint32_t draw);

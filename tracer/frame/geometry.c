@@ -65,7 +65,7 @@ static int upload_vertex_stage(struct job *job)
 /* --- Lines and points ---------------------------------------------------------------------------------------------- */
 
 /* Expand one instance's lines or points from what the vertex stage made of their vertices. */
-static int expand_instance(struct job *job, uint32_t i)
+static int expand_instance(struct job *job, uint32_t i, float *dashed)
 {
 	const struct scene *scene = job->scene;
 	const struct prepared *p = &job->prepared;
@@ -78,7 +78,7 @@ static int expand_instance(struct job *job, uint32_t i)
 		                   .material = m, .units = scene->units + m->unit_first, .view = &p->views[g->view],
 		                   .shape = p->shapes[i], .cull = p->culls[i], .width = job->width, .height = job->height,
 		                   .depth_bits = scene->depth_bits, .from_below = scene->samples_from_below, .vertices = vertices,
-		                   .texcoords = (const float (*)[4])texcoords };
+		                   .texcoords = (const float (*)[4])texcoords, .dashed = dashed };
 	uint32_t first = scene->instances[p->instances[i].scene_instance].rectangle;
 	int err = 0;
 
@@ -160,12 +160,13 @@ static int expand_all(struct job *job)
 {
 	struct prepared *p = &job->prepared;
 	uint32_t n_vertices = 0, n_texcoords = 0;
+	float dashed = 0;
 	int err = 0;
 
 	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
 		if (p->shapes[i] == PREPARED_FILLED)
 			continue;
-		err = expand_instance(job, i);
+		err = expand_instance(job, i, &dashed);
 		n_vertices += job->expanded[i].n_vertices;
 		n_texcoords += job->expanded[i].n_texcoords;
 	}
