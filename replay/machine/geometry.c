@@ -217,6 +217,35 @@ int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint
 	return 0;
 }
 
+/* Where the draw that begins with this primitive ends. is_loop: its last line leads back to its first vertex */
+static uint32_t end_of_draw(const struct gls_geometry *g, uint32_t first, int *is_loop)
+{
+	uint32_t end = first + 1;
+
+	while (end < g->n_primitives && g->primitive_draw[end] == g->primitive_draw[first])
+		end++;
+	*is_loop = end > first + 1 && g->index[2 * (size_t)end - 1] == g->index[2 * (size_t)first];
+	return end;
+}
+
+void gls_geometry_part_strips(struct gls_geometry *g)
+{
+	int after_lines = 0, is_loop, next_is_loop = 1;
+
+	g->edges_told = 0;
+	for (uint32_t first = 0, end; first < g->n_primitives; first = end) {
+		end = end_of_draw(g, first, &is_loop);
+		if (end < g->n_primitives)
+			end_of_draw(g, end, &next_is_loop);
+		for (uint32_t i = first; i < end; i++) {
+			if (!is_loop && (after_lines || (end < g->n_primitives && !next_is_loop)))
+				g->edge_flags[i] &= (uint8_t)~SCENE_CONTINUES;
+			g->edges_told |= g->edge_flags[i] & SCENE_CONTINUES;
+		}
+		after_lines = !is_loop;
+	}
+}
+
 void gls_geometry_turn_quads(struct gls_geometry *g)
 {
 	for (uint32_t i = 0; i + 1 < g->n_primitives; i += 2) {

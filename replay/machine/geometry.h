@@ -52,6 +52,11 @@ int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint
  */
 void gls_geometry_turn_quads(struct gls_geometry *g);
 /**
+ * Make lines of line strips that stand beside other strips or lines, each of which starts a stipple anew. The geometry holds nothing but lines,
+ * which come from a list: Mesa (22.3.6) has them so.
+ */
+void gls_geometry_part_strips(struct gls_geometry *g);
+/**
  * 1 if quads are cut the other way under this state.
  * @param index  [n_primitives][3], as gls_geometry_cut makes them of GL_QUADS: vertices of quads that are not whole do not count
  */

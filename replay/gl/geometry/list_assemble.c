@@ -96,6 +96,8 @@ static int keep_batch(struct gls_exec *x, struct gls_exec *assembler, struct gls
 		gls_out_of_memory(x, 2 * N_GLS_ATTRIBUTES * sizeof(*op.before_values));
 		return ERR_SYSTEM;
 	}
+	if (g->kind == SCENE_LINES)
+		gls_geometry_part_strips(g);
 	op.mesh = gls_geometry_mesh(x, g);
 	return x->failed ? x->failed : gls_list_append_mesh(x, list, &op);
 }

@@ -8,7 +8,7 @@
 
 enum { CORNERS = 12 };
 
-enum way { IMMEDIATE, LIST, ARRAYS, ELEMENTS, N_WAYS };
+enum way { IMMEDIATE, LIST, ARRAYS, ELEMENTS, N_WAYS, TWO_IN_LIST = N_WAYS, N_STRIP_WAYS };
 
 static float corners[CORNERS][3];
 static int n_corners;
@@ -61,11 +61,13 @@ static void draw_corners(enum way way, GLenum mode)
 
 	if (way == IMMEDIATE) {
 		in_between(mode, 0, n_corners);
-	} else if (way == LIST) {
+	} else if (way == LIST || way == TWO_IN_LIST) {
 		GLuint list = glGenLists(1);
 
 		glNewList(list, GL_COMPILE);
 		in_between(mode, 0, n_corners);
+		if (way == TWO_IN_LIST)
+			in_between(mode, 1, n_corners - 1);
 		glEndList();
 		glCallList(list);
 		glDeleteLists(list, 1);
@@ -99,7 +101,7 @@ static void strips(int i)
 	int factor;
 
 	mode = modes[choose(&i, 3)];
-	way = (enum way)choose(&i, N_WAYS);
+	way = (enum way)choose(&i, N_STRIP_WAYS);
 	factor = choose(&i, 2);
 	pattern(factor ? 3 : 1, choose(&i, 4));
 	zigzag(6, 0.9f, (unsigned)i);
@@ -209,7 +211,7 @@ static void draw_edges(int i)
 
 int main(void)
 {
-	static const struct table tables[] = { { 96, strips, draw_strip }, { 108, kinds, draw_strip }, { 96, cut, draw_strip }, { 24, shared, draw_shared },
+	static const struct table tables[] = { { 120, strips, draw_strip }, { 108, kinds, draw_strip }, { 96, cut, draw_strip }, { 24, shared, draw_shared },
 		                                { 192, unfilled, draw_strip }, { 96, edges, draw_edges } };
 
 	DRAW_TABLES(tables, NULL);
