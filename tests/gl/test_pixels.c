@@ -214,19 +214,4 @@ START_TEST(test_read_into_buffer)
 }
 END_TEST
 
-/* A plain image that the driver compresses is not the same afterwards: counted. */
-START_TEST(test_compression)
-{
-	struct gl gl = gl_open();
-	uint8_t texels[64] = { 0 };
-
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGB, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texels), texels);
-	ck_assert_uint_eq(gl_unsupported(&gl), 0);
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-	        sizeof(texels), texels);
-	ck_assert_uint_eq(gl_unsupported(&gl), 1);
-	gl_close(&gl);
-}
-END_TEST
-
-GL_TESTS("pixels", test_read_into_buffer, test_compression, test_no_numbers, test_pixel_buffer, test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)
+GL_TESTS("pixels", test_read_into_buffer, test_no_numbers, test_pixel_buffer, test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)

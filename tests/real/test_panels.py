@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-# limit: 300 s
+# limit: 400 s
 """
 The modes, functions, operands and terms of the specification's chapters, a panel each, are drawn as Mesa draws them: tests/real/panels/.
 Not among them: the colour maps of glDrawPixels (those of glTexImage2D are), and zooms of glCopyPixels that put a pixel's centre on an edge
@@ -13,6 +13,7 @@ PROGRAMS = {
     "texture": ("environments", "combiner functions", "combiner operands", "generated coordinates"),
     "fragment": ("blend factors", "more blend factors", "blend equations", "tests", "stencil", "stencil of two sides", "user planes"),
     "line": ("strips", "kinds", "cut", "shared corners", "unfilled polygons", "edge flags"),
+    "compression": ("plain images", "their alpha", "parts", "levels", "alpha of levels", "copies of the screen"),
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "what rectangles go through",
               "transfer to textures", "indices to textures"),
     "program": ("instructions", "bindings", "textures", "fragments", "last bits"),

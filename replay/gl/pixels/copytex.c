@@ -6,6 +6,7 @@
 #include "replay/gl/surface/screen.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/mipmap.h"
+#include "replay/gl/texture/texcompress.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/gl/texture/transfer.h"
@@ -47,6 +48,9 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 			if (stencil)
 				stencil[to] = p->stencil[from];
 		}
+	if (format && format->s3tc)
+		gls_recompress(format, (uint32_t)c->size[0], (uint32_t)c->size[1], l->width,
+		               l->texels + l->texel_bytes * (size_t)((c->to[2] * l->height + c->to[1]) * l->width + c->to[0]));
 }
 
 /* Make a part hold the place of a copy, beside what it holds already. */

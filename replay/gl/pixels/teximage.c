@@ -54,13 +54,15 @@ static struct gls_pixels pixels_of(const struct gls_exec *x, struct gls_state *s
 	return p;
 }
 
-/* Mesa compresses plain images for such formats. We keep as many bits of each texel (texformat.h): near, and not the same. */
-static void tell_compression(struct gls_exec *x, const struct gls_level *l)
+/* Plain pixels as the format's texels. @return as gls_unpack_pixels */
+static int unpack_image(struct gls_exec *x, const struct gls_state *st, const struct gls_pixels *p, uint32_t internal_format, uint8_t *texels)
 {
-	const struct gls_format *format = gls_format_find(l->internal_format);
+	const struct gls_format *format = gls_format_find(internal_format);
+	const int rc = gls_unpack_pixels(x, st, p, internal_format, texels);
 
-	if (format && format->s3tc)
-		gls_unsupported(x, "the compression of plain images: texels are cut to its bits one by one");
+	for (uint32_t z = 0; rc != -1 && format && format->s3tc && z < (p->depth ? p->depth : 1); z++)
+		gls_recompress(format, p->width, p->height, p->width, texels + 4 * (size_t)z * p->width * p->height);
+	return rc;
 }
 
 GLS_FAMILY(glTexImage, STATE)
@@ -75,10 +77,8 @@ GLS_FAMILY(glTexImage, STATE)
 	if (!l)
 		return;
 	p = pixels_of(x, st, c, 4 + n_dims, n_dims, (const int64_t[3]){ l->width, l->height, l->depth });
-	if (p.data && gls_unpack_pixels(x, st, &p, l->internal_format, l->texels) == -2)
+	if (p.data && unpack_image(x, st, &p, l->internal_format, l->texels) == -2)
 		gls_unsupported(x, "pixels beyond what the recording holds");
-	if (p.data)
-		tell_compression(x, l);
 	if (p.data && gls_level_stencil(l) && p.format == GL_DEPTH_STENCIL)
 		gls_unpack_stencil(&p, gls_level_stencil(l));
 	gls_texture_level_changed(x, t, face, arg_i(c, 1));
@@ -118,9 +118,8 @@ GLS_FAMILY(glTexSubImage, STATE)
 	p = pixels_of(x, st, c, 2 + 2 * n_dims, n_dims, size);
 	if (!p.data || !size[0] || !size[1] || !size[2])
 		return;
-	tell_compression(x, l);
 	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * l->texel_bytes);
-	if (!texels || gls_unpack_pixels(x, st, &p, l->internal_format, texels) == -1)
+	if (!texels || unpack_image(x, st, &p, l->internal_format, texels) == -1)
 		return;
 	place(l, l->texels, l->texel_bytes, at, size, texels);
 	if (gls_level_stencil(l) && p.format == GL_DEPTH_STENCIL) {

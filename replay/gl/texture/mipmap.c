@@ -10,6 +10,7 @@
 
 #include "gl_tokens.h"
 #include "replay/gl/texture/level.h"
+#include "replay/gl/texture/texcompress.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/errors.h"
@@ -164,6 +165,11 @@ static void generate_level(const struct gls_level *from, struct gls_level *to, c
 	}
 }
 
+static void recompress(struct gls_level *l, uint32_t z, const struct gls_format *format)
+{
+	gls_recompress(format, l->width, l->height, l->width, l->texels + l->texel_bytes * (size_t)z * l->width * l->height);
+}
+
 void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned face)
 {
 	struct gls_level *from = t->parameters.base_level < GLS_MAX_LEVELS ? &t->levels[face][t->parameters.base_level] : NULL;
@@ -199,6 +205,10 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 		generate_level(from, to, format, format->srgb ? linear : NULL);
 		from = to;
 	}
+	/* Compressed at last: each level was the mean of one that was not. */
+	for (uint32_t l = t->parameters.base_level + 1; format && format->s3tc && from >= &t->levels[face][l]; l++)
+		for (uint32_t z = 0; z < t->levels[face][l].depth; z++)
+			recompress(&t->levels[face][l], z, format);
 }
 
 void gls_texture_level_changed(struct gls_exec *x, struct gls_texture *t, unsigned face, int64_t level)

@@ -29,10 +29,10 @@ static unsigned wide(unsigned value, unsigned bits)
 	return (value << (8 - bits) | value >> (2 * bits - 8)) & 255;
 }
 
-/* Between two numbers, part / of on the way, as llvmpipe interpolates: in 1/256, rounded down. */
+/* Between two numbers, part / of on the way, as llvmpipe interpolates: by 255ths over 256, rounded down. */
 static int between(int a, int b, int part, int of)
 {
-	return a + (((b - a) * (part * 256 / of)) >> 8);
+	return a + (((b - a) * (part * 255 / of)) >> 8);
 }
 
 static struct rgba third(struct rgba a, struct rgba b, int part)
@@ -94,23 +94,13 @@ static int channel(const uint8_t *block, unsigned i, int is_signed)
 	return code == 6 ? (is_signed ? -127 : 0) : is_signed ? 127 : 255;
 }
 
-static void s3tc_block(uint32_t format, const uint8_t *block, uint8_t out[16][4])
+static void s3tc_block(enum s3tc_kind kind, const uint8_t *block, uint8_t out[16][4])
 {
-	switch (format) {
-	case GL_COMPRESSED_RGB_S3TC_DXT1_EXT:
-	case GL_COMPRESSED_SRGB_S3TC_DXT1_EXT:
-		s3tc_colors(block, 0, 0, out);
-		return;
-	case GL_COMPRESSED_RGBA_S3TC_DXT1_EXT:
-	case GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT1_EXT:
-		s3tc_colors(block, 1, 0, out);
-		return;
-	default:
-		s3tc_colors(block + 8, 0, 1, out);
-	}
-	for (unsigned i = 0; i < 16; i++)
-		out[i][3] = (uint8_t)(format == GL_COMPRESSED_RGBA_S3TC_DXT3_EXT || format == GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT3_EXT ?
-		                      wide(bits_at(block, 4 * i, 4), 4) : (unsigned)channel(block, i, 0));
+	const int has_alpha = kind == S3TC_BITS || kind == S3TC_LEVELS;
+
+	s3tc_colors(block + 8 * has_alpha, kind == S3TC_RGBA, has_alpha, out);
+	for (unsigned i = 0; i < 16 && has_alpha; i++)
+		out[i][3] = (uint8_t)(kind == S3TC_BITS ? wide(bits_at(block, 4 * i, 4), 4) : (unsigned)channel(block, i, 0));
 }
 
 /* ---- FXT1: 8x4 texels, the left half's sixteen first ---- */
@@ -220,7 +210,7 @@ int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, co
 			if (fxt1)
 				fxt1_block(internal_format, data, texels);
 			else if (!is_rgtc(f->base))
-				s3tc_block(internal_format, data, texels);
+				s3tc_block(f->s3tc, data, texels);
 			for (uint32_t i = 0; i < 4 * side; i++) {
 				uint8_t *to = out + bytes * ((size_t)(y + i / side) * width + x + i % side);
 
@@ -233,4 +223,20 @@ int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, co
 			}
 		}
 	return 0;
+}
+
+void gls_recompress(const struct gls_format *f, uint32_t width, uint32_t height, uint32_t row, uint8_t *texels)
+{
+	for (uint32_t y = 0; y < height && f->s3tc; y += 4)
+		for (uint32_t x = 0; x < width; x += 4) {
+			struct s3tc_texels t = { width - x < 4 ? width - x : 4, height - y < 4 ? height - y : 4, { { { 0 } } } };
+			uint8_t block[16], left[16][4];
+
+			for (uint32_t i = 0; i < t.height; i++)
+				memcpy(t.rgba[i], texels + 4 * ((size_t)(y + i) * row + x), 4 * t.width);
+			s3tc_encode(f->s3tc, &t, block);
+			s3tc_block(f->s3tc, block, left);
+			for (uint32_t i = 0; i < t.height; i++)
+				memcpy(texels + 4 * ((size_t)(y + i) * row + x), left[4 * i], 4 * t.width);
+		}
 }

@@ -4,6 +4,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "replay/gl/texture/texformat.h"
+
 /**
  * A compressed 2D image as texels of its internal format.
  * @param n    bytes of data
@@ -11,3 +13,9 @@
  * @return 0; -1: too few bytes, or not a format of these
  */
 int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n, uint8_t *out);
+
+/**
+ * Leave of a plain 2D image of 8 bits a channel what Mesa's compression leaves; of formats that are not compressed, all.
+ * @param row  texels from one row to the next
+ */
+void gls_recompress(const struct gls_format *f, uint32_t width, uint32_t height, uint32_t row, uint8_t *texels);

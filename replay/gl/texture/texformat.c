@@ -66,26 +66,26 @@ static const struct gls_format formats[] = {
 	FORMAT(GL_RGB32F, GL_RGB, .numbers = GLS_FLOAT), FORMAT(GL_R11F_G11F_B10F, GL_RGB, .numbers = GLS_11F),
 	FORMAT(GL_RGB9_E5, GL_RGB, .numbers = GLS_9E5), FORMAT(GL_RGB_SNORM, GL_RGB, .numbers = GLS_SNORM8),
 	FORMAT(GL_RGB8_SNORM, GL_RGB, .numbers = GLS_SNORM8), FORMAT(GL_RGB16_SNORM, GL_RGB, .numbers = GLS_SNORM16),
-	FORMAT(GL_COMPRESSED_RGB, GL_RGB, .s3tc = 1),
-	FORMAT(GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_RGB, .block_bytes = 8, .s3tc = 1),
+	FORMAT(GL_COMPRESSED_RGB, GL_RGB, .s3tc = S3TC_RGB),
+	FORMAT(GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_RGB, .block_bytes = 8, .s3tc = S3TC_RGB),
 	FORMAT(GL_COMPRESSED_RGB_FXT1_3DFX, GL_RGB, .block_bytes = 16), FORMAT(GL_SRGB, GL_RGB, .srgb = 1),
-	FORMAT(GL_SRGB8, GL_RGB, .srgb = 1), FORMAT(GL_COMPRESSED_SRGB, GL_RGB, .srgb = 1, .s3tc = 1),
-	FORMAT(GL_COMPRESSED_SRGB_S3TC_DXT1_EXT, GL_RGB, .srgb = 1, .block_bytes = 8, .s3tc = 1),
+	FORMAT(GL_SRGB8, GL_RGB, .srgb = 1), FORMAT(GL_COMPRESSED_SRGB, GL_RGB, .srgb = 1, .s3tc = S3TC_RGB),
+	FORMAT(GL_COMPRESSED_SRGB_S3TC_DXT1_EXT, GL_RGB, .srgb = 1, .block_bytes = 8, .s3tc = S3TC_RGB),
 	FORMAT(GL_RGBA, GL_RGBA), FORMAT(GL_RGBA2, GL_RGBA, .bits = { 4, 4, 4, 4 }),
 	FORMAT(GL_RGBA4, GL_RGBA, .bits = { 4, 4, 4, 4 }), FORMAT(GL_RGB5_A1, GL_RGBA, .bits = { 5, 5, 5, 1 }),
 	FORMAT(GL_RGBA8, GL_RGBA), FORMAT(GL_RGB10_A2, GL_RGBA, .bits = { 0, 0, 0, 2 }), FORMAT(GL_RGBA12, GL_RGBA),
 	FORMAT(GL_RGBA16, GL_RGBA), FORMAT(GL_RGBA16F, GL_RGBA, .numbers = GLS_HALF),
 	FORMAT(GL_RGBA32F, GL_RGBA, .numbers = GLS_FLOAT), FORMAT(GL_RGBA_SNORM, GL_RGBA, .numbers = GLS_SNORM8),
 	FORMAT(GL_RGBA8_SNORM, GL_RGBA, .numbers = GLS_SNORM8), FORMAT(GL_RGBA16_SNORM, GL_RGBA, .numbers = GLS_SNORM16),
-	FORMAT(GL_COMPRESSED_RGBA, GL_RGBA, .s3tc = 1),
-	FORMAT(GL_COMPRESSED_RGBA_S3TC_DXT1_EXT, GL_RGBA, .bits = { 0, 0, 0, 1 }, .block_bytes = 8, .s3tc = 1),
-	FORMAT(GL_COMPRESSED_RGBA_S3TC_DXT3_EXT, GL_RGBA, .bits = { 0, 0, 0, 4 }, .block_bytes = 16, .s3tc = 1),
-	FORMAT(GL_COMPRESSED_RGBA_S3TC_DXT5_EXT, GL_RGBA, .block_bytes = 16, .s3tc = 1),
+	FORMAT(GL_COMPRESSED_RGBA, GL_RGBA, .s3tc = S3TC_LEVELS),
+	FORMAT(GL_COMPRESSED_RGBA_S3TC_DXT1_EXT, GL_RGBA, .block_bytes = 8, .s3tc = S3TC_RGBA),
+	FORMAT(GL_COMPRESSED_RGBA_S3TC_DXT3_EXT, GL_RGBA, .block_bytes = 16, .s3tc = S3TC_BITS),
+	FORMAT(GL_COMPRESSED_RGBA_S3TC_DXT5_EXT, GL_RGBA, .block_bytes = 16, .s3tc = S3TC_LEVELS),
 	FORMAT(GL_COMPRESSED_RGBA_FXT1_3DFX, GL_RGBA, .block_bytes = 16), FORMAT(GL_SRGB_ALPHA, GL_RGBA, .srgb = 1),
-	FORMAT(GL_SRGB8_ALPHA8, GL_RGBA, .srgb = 1), FORMAT(GL_COMPRESSED_SRGB_ALPHA, GL_RGBA, .srgb = 1, .s3tc = 1),
-	FORMAT(GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT1_EXT, GL_RGBA, .bits = { 0, 0, 0, 1 }, .srgb = 1, .block_bytes = 8, .s3tc = 1),
-	FORMAT(GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT3_EXT, GL_RGBA, .bits = { 0, 0, 0, 4 }, .srgb = 1, .block_bytes = 16, .s3tc = 1),
-	FORMAT(GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT, GL_RGBA, .srgb = 1, .block_bytes = 16, .s3tc = 1),
+	FORMAT(GL_SRGB8_ALPHA8, GL_RGBA, .srgb = 1), FORMAT(GL_COMPRESSED_SRGB_ALPHA, GL_RGBA, .srgb = 1, .s3tc = S3TC_LEVELS),
+	FORMAT(GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT1_EXT, GL_RGBA, .srgb = 1, .block_bytes = 8, .s3tc = S3TC_RGBA),
+	FORMAT(GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT3_EXT, GL_RGBA, .srgb = 1, .block_bytes = 16, .s3tc = S3TC_BITS),
+	FORMAT(GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT, GL_RGBA, .srgb = 1, .block_bytes = 16, .s3tc = S3TC_LEVELS),
 	FORMAT(GL_COMPRESSED_RGBA_BPTC_UNORM, GL_RGBA), FORMAT(GL_COMPRESSED_SRGB_ALPHA_BPTC_UNORM, GL_RGBA, .srgb = 1),
 	FORMAT(GL_COMPRESSED_RGB_BPTC_SIGNED_FLOAT, GL_RGB), FORMAT(GL_COMPRESSED_RGB_BPTC_UNSIGNED_FLOAT, GL_RGB),
 	FORMAT(GL_COMPRESSED_RED_RGTC1, GL_RED, .block_bytes = 8),
@@ -235,11 +235,6 @@ void gls_format_store_bytes(const struct gls_format *f, const float rgba[4], uin
 	expand(f->base, rgba, v);
 	for (unsigned i = 0; i < 4; i++)
 		out[i] = f->bits[i] ? coarse(v[i], f->bits[i]) : gls_byte(v[i]);
-	if (f->s3tc) {
-		out[0] = (uint8_t)((out[0] & 0xf8) | out[0] >> 5);
-		out[1] = (uint8_t)((out[1] & 0xfc) | out[1] >> 6);
-		out[2] = (uint8_t)((out[2] & 0xf8) | out[2] >> 5);
-	}
 }
 
 void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t *out)

@@ -6,6 +6,8 @@
 
 #include <stdint.h>
 
+#include "replay/gl/texture/s3tc.h"
+
 /* A number in [0,1] as 8 bits. */
 static inline uint8_t gls_byte(float value)
 {
@@ -20,9 +22,7 @@ struct gls_format {
 	uint8_t bits[4];      /* of R G B A (L and I: of R) where fewer than 8 are stored; 0: 8 */
 	uint8_t srgb;         /* 1: colours are encoded as sRGB says, and sampled in linear light */
 	uint8_t block_bytes;  /* of 4x4 texels (8x4 of FXT1) in client memory where it is compressed; else 0 */
-	/* 1: Mesa compresses plain pixels to S3TC. A block of one colour then keeps 5, 6 and 5 bits of it, cut off and not rounded.
-	   Every texel here keeps as much; nothing else of that compression is done */
-	uint8_t s3tc;
+	uint8_t s3tc;         /* enum s3tc_kind: what its blocks are, and what Mesa compresses plain images to */
 	uint8_t numbers; /* enum gls_numbers */
 };
 

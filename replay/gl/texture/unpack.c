@@ -372,7 +372,7 @@ static int describe(struct unpacking *u)
 	u->step = to->numbers ? 16 : 4;
 	u->transfers = gls_transfer_changes_colors(u->st);
 	u->is_plain = (p->type == GL_UNSIGNED_BYTE || (p->type == GL_FLOAT && !p->store->swap_bytes)) && !u->transfers &&
-	              !u->is_depth && !to->bits[0] && !to->bits[3] && !to->s3tc && !to->numbers;
+	              !u->is_depth && !to->bits[0] && !to->bits[3] && !to->numbers;
 	if (u->is_plain)
 		places_of(u->from, to->base, u->place);
 	return 1;
