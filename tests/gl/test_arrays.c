@@ -44,6 +44,39 @@ START_TEST(test_client_arrays)
 }
 END_TEST
 
+/* Integers as numbers in [-1,1]: of signed types the two lowest are both -1 and 0 is 0, where single calls know no 0 (measured on Mesa 22.3.6). */
+START_TEST(test_normalized)
+{
+	static const int8_t bytes[4] = { 100, -100, 0, -128 };
+	static const int16_t shorts[4] = { 20000, -20000, 0, -32768 };
+	static const int32_t ints[4] = { 1500000000, -1500000000, 0, INT32_MIN };
+	static const uint32_t packed = 300 | (0x3ff & -300) << 10 | 2u << 30;
+	static const uint8_t unsigned_bytes[4] = { 100, 155, 0, 255 };
+	static const struct { uint32_t type; size_t n; const void *values; float first, last; } table[] = {
+		{ GL_BYTE, 4, bytes, 100 * (1 / 127.0f), -1 }, { GL_SHORT, 8, shorts, 20000 * (1 / 32767.0f), -1 },
+		{ GL_INT, 16, ints, 1.5e9f * (1 / 2147483647.0f), -1 }, { GL_INT_2_10_10_10_REV, 4, &packed, 300 * (1 / 511.0f), -1 },
+		{ GL_UNSIGNED_BYTE, 4, unsigned_bytes, 100 * (1 / 255.0f), 1 } };
+	struct gl gl = gl_open();
+
+	client_arrays(&gl);
+	for (size_t i = 0; i < sizeof(table) / sizeof(*table); i++) {
+		struct scene *s;
+		const float *color;
+
+		gl_call(&gl, "glColorPointer", "ieib", 4, table[i].type, 0, table[i].n, table[i].values);
+		gl_call(&gl, "glDrawArrays", "eii", GL_POINTS, 0, 1);
+		s = gl_swap(&gl);
+		color = s->meshes[s->instances[0].mesh]->color;
+		ck_assert(color[0] == table[i].first); /* to the last bit */
+		ck_assert(color[1] == (table[i].type == GL_UNSIGNED_BYTE ? 155 * (1 / 255.0f) : -table[i].first));
+		ck_assert(color[2] == 0 && color[3] == table[i].last);
+		scene_release(&s);
+	}
+	gl_call(&gl, "glDisableClientState", "e", GL_COLOR_ARRAY);
+	gl_close(&gl);
+}
+END_TEST
+
 /* Buffers: interleaved, strides and offsets, indices in a buffer, new contents, mapped memory. */
 START_TEST(test_buffers)
 {
@@ -441,5 +474,5 @@ START_TEST(test_instances)
 }
 END_TEST
 
-GL_TESTS("arrays", test_modes, test_instances, test_mapped_again, test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_array_element_bgra, test_interleaved,
+GL_TESTS("arrays", test_modes, test_instances, test_mapped_again, test_restart, test_copy_buffer, test_client_arrays, test_normalized, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_array_element_bgra, test_interleaved,
          test_errors_and_shortness, test_vertex_array_objects)

@@ -46,6 +46,17 @@ uint64_t gls_source_count(const struct gls_source *s)
 	return s->stride ? (s->n - s->element) / s->stride + 1 : UINT32_MAX;
 }
 
+/*
+ * An integer of an array as a number in [-1,1], as Mesa (22.3.6) fetches it: multiplied, where single calls divide, and the two lowest of a signed
+ * type are both -1 (OpenGL 4.2 sec. 2.3.4), where single calls have the odd numbers of OpenGL 2.1 table 2.9.
+ */
+static float normal(float value, float most)
+{
+	const float v = value * (1 / most);
+
+	return v < -1 ? -1 : v;
+}
+
 static float read_component(const uint8_t *p, uint32_t type, uint32_t normalized)
 {
 	int8_t i8;
@@ -59,18 +70,18 @@ static float read_component(const uint8_t *p, uint32_t type, uint32_t normalized
 	switch (type) {
 	case GL_BYTE:
 		memcpy(&i8, p, 1);
-		return normalized ? (2.0f * i8 + 1) / 255.0f : i8;
+		return normalized ? normal(i8, 127) : i8;
 	case GL_UNSIGNED_BYTE:
-		return normalized ? *p / 255.0f : *p;
+		return normalized ? normal(*p, 255) : *p;
 	case GL_SHORT:
 		memcpy(&i16, p, 2);
-		return normalized ? (2.0f * i16 + 1) / 65535.0f : i16;
+		return normalized ? normal(i16, 32767) : i16;
 	case GL_UNSIGNED_SHORT:
 		memcpy(&u16, p, 2);
-		return normalized ? u16 / 65535.0f : u16;
+		return normalized ? normal(u16, 65535) : u16;
 	case GL_INT:
 		memcpy(&i32, p, 4);
-		return normalized ? norm_int(i32) : (float)i32;
+		return normalized ? normal((float)i32, 2147483647) : (float)i32;
 	case GL_UNSIGNED_INT:
 		memcpy(&u32, p, 4);
 		return normalized ? (float)(u32 / 4294967295.0) : (float)u32;
@@ -109,7 +120,9 @@ void gls_source_read(const struct gls_source *s, uint64_t i, float out[4])
 	}
 	if (gls_is_packed(array->type)) {
 		memcpy(&packed, p, sizeof(packed));
-		gls_unpack_packed(packed, array->type, array->normalized, out);
+		gls_unpack_packed(packed, array->type, 0, out);
+		for (unsigned k = 0; k < n && array->normalized; k++)
+			out[k] = normal(out[k], (float)((1 << ((k < 3 ? 10 : 2) - (array->type == GL_INT_2_10_10_10_REV))) - 1));
 		for (unsigned k = n; k < 4; k++)
 			out[k] = k == 3;
 	}

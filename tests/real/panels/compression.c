@@ -101,6 +101,7 @@ static void copied(int i)
 
 	image(choose(&i, N_IMAGES));
 	glTexImage2D(GL_TEXTURE_2D, 0, formats[format], SIDE, SIDE, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+	glDisable(GL_TEXTURE_2D);
 	glRasterPos2f(-1, -1);
 	glDrawPixels(SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 }
@@ -139,6 +140,7 @@ static void draw_copied(int i)
 	const int x = i % ACROSS * PANEL, y = i / ACROSS * PANEL;
 
 	glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, x, y, SIDE, SIDE);
+	glEnable(GL_TEXTURE_2D);
 	square();
 }
 
