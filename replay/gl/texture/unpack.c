@@ -10,6 +10,7 @@
 #include "capture/format/sizes.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/transfer.h"
+#include "replay/gl/texture/ycbcr.h"
 #include "replay/machine/args.h"
 #include "replay/machine/buffer.h"
 #include "replay/machine/errors.h"
@@ -352,15 +353,31 @@ struct unpacking {
 	int transfers, is_depth;
 	int is_plain;                /* 1: components only change places: */
 	uint8_t place[4];
+	int ycbcr;                   /* 1: brightness is the byte `low` of each two */
+	unsigned low;
 };
+
+/* Pixels of brightness, two and two with one colour (MESA_ycbcr_texture), which no transfer changes. @return 0: no type of these */
+static int describe_ycbcr(struct unpacking *u)
+{
+	const uint32_t type = u->p->type;
+
+	u->group = 2;
+	u->step = 4;
+	u->ycbcr = 1;
+	u->low = !((type == GL_UNSIGNED_SHORT_8_8_REV_MESA) ^ (u->p->store->swap_bytes != 0));
+	return u->to->token == GL_YCBCR_MESA && (type == GL_UNSIGNED_SHORT_8_8_MESA || type == GL_UNSIGNED_SHORT_8_8_REV_MESA);
+}
 
 /* @return 0: no format and type that this file knows */
 static int describe(struct unpacking *u)
 {
 	const struct gls_pixels *p = u->p;
 	const struct gls_format *to = u->to;
-	int is_packed_depth = p->type == GL_UNSIGNED_INT_24_8 || p->type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV;
+	const int is_packed_depth = p->type == GL_UNSIGNED_INT_24_8 || p->type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV;
 
+	if (p->format == GL_YCBCR_MESA)
+		return describe_ycbcr(u);
 	u->from = find_format(p->format);
 	u->packed = find_packed(p->type);
 	u->component = plain_bytes(p->type);
@@ -410,6 +427,10 @@ static int unpack_row(const struct unpacking *u, size_t at, uint8_t *out)
 	size_t n = u->p->n;
 	int rc = 0;
 
+	for (uint32_t i = 0; u->ycbcr && i < u->p->width; i++)
+		rc |= gls_ycbcr_texel(u->p->data + (at < n ? at : n), at < n ? n - at : 0, i, u->low, out + 4 * i);
+	if (u->ycbcr)
+		return rc;
 	if (u->is_plain && at <= n && u->group * u->p->width <= n - at) {
 		(u->p->type == GL_FLOAT ? unpack_floats : unpack_bytes)(u->p->data + at, u->from->n, u->p->width, u->place, out);
 		return 0;

@@ -1,6 +1,6 @@
 /*
  * Plain images in formats that Mesa compresses as it takes them (EXT_texture_compression_s3tc; the generic formats of OpenGL 2.1 sec. 3.8.1):
- * a texel a pixel, so that each block shows what was kept of it.
+ * a texel a pixel, so that each block shows what was kept of it. And those that come with less than a colour a texel.
  */
 #include "panels.h"
 
@@ -106,6 +106,24 @@ static void copied(int i)
 	glDrawPixels(SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 }
 
+/* Brightness, two and two with one colour (MESA_ycbcr_texture): both orders, swapped, filtered, of odd sizes, a part given anew. */
+static void ycbcr(int i)
+{
+	static const GLenum types[2] = { GL_UNSIGNED_SHORT_8_8_MESA, GL_UNSIGNED_SHORT_8_8_REV_MESA };
+	const GLenum type = types[choose(&i, 2)];
+	const int swap = choose(&i, 2), linear = choose(&i, 2), part = choose(&i, 2), small = choose(&i, 2);
+
+	image(i % 5);
+	glPixelStorei(GL_UNPACK_SWAP_BYTES, swap);
+	glPixelStorei(GL_UNPACK_ROW_LENGTH, 2 * SIDE);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, linear ? GL_LINEAR : GL_NEAREST);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_YCBCR_MESA, small ? 6 : SIDE, small ? 5 : SIDE, 0, GL_YCBCR_MESA, type, texels);
+	if (part)
+		glTexSubImage2D(GL_TEXTURE_2D, 0, 2, 1, 4, 3, GL_YCBCR_MESA, type, texels[3]);
+	glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+	glPixelStorei(GL_UNPACK_SWAP_BYTES, 0);
+}
+
 static void square(void)
 {
 	glBegin(GL_QUADS);
@@ -146,8 +164,9 @@ static void draw_copied(int i)
 
 int main(void)
 {
-	static const struct table tables[] = { { 96, whole, draw_colors }, { 96, whole, draw_alpha }, { 192, parts, draw_colors }, { 96, levels, draw_colors },
-		                                { 96, levels, draw_alpha }, { 96, copied, draw_copied } };
+	static const struct table tables[] = { { 96, whole, draw_colors }, { 96, whole, draw_alpha }, { 192, parts, draw_colors },
+		                                { 96, levels, draw_colors }, { 96, levels, draw_alpha }, { 96, copied, draw_copied },
+		                                { 160, ycbcr, draw_colors } };
 
 	DRAW_TABLES(tables, NULL);
 	return 0;
