@@ -1,20 +1,21 @@
 /*
  * Deep blending: pixels under far more fragments than a camera kernel finds at once, slices of a texture of three dimensions for the most
- * part. Recorded by test_deep.py.
+ * part. Recorded by test_deep.py. With a number: so many frames of 256 slices that fill 512 x 512 pixels, for show-reach.
  */
 #include "tests/trace/window.h"
 
 #define SIZE 16
+#define BIG 64
 #define SLICES 60
 
 static void make_volume(GLsizei n, GLint filter, GLint wrap)
 {
-	static GLubyte texels[SIZE * SIZE * SIZE][4];
+	static GLubyte texels[BIG * BIG * BIG][4];
 
 	srand(1);
 	for (size_t i = 0; i < sizeof(texels); i++)
 		texels[i / 4][i % 4] = (GLubyte)(rand() >> 8 & (i % 4 == 3 ? 31 : 255));
-	glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, n, SIZE, n, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+	glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, n, n > SIZE ? n : SIZE, n, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 	glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, filter);
 	glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, filter);
 	for (GLenum axis = 0; axis < 3; axis++)
@@ -69,8 +70,32 @@ static void heap(void)
 	glColor4f(1, 1, 1, 1);
 }
 
-int main(void)
+static void show_full(int frames)
 {
+	window_size[0] = window_size[1] = 512;
+	open_window();
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	make_volume(BIG, GL_LINEAR, GL_REPEAT);
+	glScalef(1.25f, 1.25f, 1);
+	for (int frame = 0; frame < frames; frame++) {
+		glClear(GL_COLOR_BUFFER_BIT);
+		for (int i = 0; i < 256; i++) {
+			glBegin(GL_QUADS);
+			slice(((float)i + 0.5f) / 256);
+			glEnd();
+		}
+		end_frame();
+	}
+	glFinish();
+}
+
+int main(int argc, char **argv)
+{
+	if (argc > 1) {
+		show_full(atoi(argv[1]));
+		return 0;
+	}
 	open_window();
 	glEnable(GL_BLEND);
 	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
