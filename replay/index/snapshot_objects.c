@@ -201,7 +201,8 @@ static void put_program(struct saver *s, void *value)
 	const struct gls_program *p = value;
 
 	bytes_put(s->out, &p->target, sizeof(p->target));
-	bytes_put(s->out, p->local, sizeof(p->local));
+	bytes_put_u64(s->out, p->n_locals);
+	bytes_put(s->out, p->local, p->n_locals * sizeof(*p->local));
 	bytes_put_u64(s->out, p->source != NULL);
 	saver_blob(s, p->source, p->source ? p->source_bytes : 0);
 }
@@ -215,12 +216,19 @@ static void *get_program(struct loader *l)
 {
 	struct gls_program *p = loader_alloc(l, sizeof(*p));
 	uint8_t *text;
+	uint64_t n_locals;
 	size_t n;
 
 	if (!p)
 		return NULL;
 	cursor_copy(&l->in, &p->target, sizeof(p->target));
-	cursor_copy(&l->in, p->local, sizeof(p->local));
+	n_locals = loader_count(l, sizeof(*p->local));
+	if (n_locals > GLS_MAX_PROGRAM_LOCALS)
+		l->in.failed = 1;
+	else if (gls_program_reserve(p, (uint32_t)n_locals))
+		l->err = ERR_SYSTEM;
+	else
+		cursor_copy(&l->in, p->local, n_locals * sizeof(*p->local));
 	if (cursor_u64(&l->in)) {
 		text = loader_blob(l, &n);
 		if (!loader_is_bad(l) && gls_program_set(p, text ? (const char *)text : "", text ? n : 0))
@@ -235,7 +243,7 @@ static void *get_program(struct loader *l)
 	return NULL;
 }
 
-static const struct snapshot_table programs = { "program", sizeof(((struct gls_program *)0)->local), put_program, get_program, drop_program };
+static const struct snapshot_table programs = { "program", sizeof(((struct gls_program *)0)->target) + 16, put_program, get_program, drop_program };
 
 /* ---- all that contexts share ---- */
 

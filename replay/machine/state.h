@@ -19,7 +19,8 @@
 #define GLS_MAX_MATRICES 32
 #define GLS_MAX_TEXTURE_MATRICES 10
 #define GLS_MAX_ATTRIB_DEPTH 16
-#define GLS_MAX_PROGRAM_PARAMETERS 256
+#define GLS_MAX_PROGRAM_PARAMETERS 256 /* of a context, for each target */
+#define GLS_MAX_PROGRAM_LOCALS 2048    /* of a program in assembly, as llvmpipe has them */
 #define GLS_MAX_PROGRAM_MATRICES 8
 
 /* Vertex attributes; the conventional ones are those of scene_current. */

@@ -231,16 +231,16 @@ static uint32_t element(struct arb_parser *p, const struct program_constant *c)
 
 uint32_t arb_take_binding(struct arb_parser *p, int in_array)
 {
-	struct program_constant bound[GLS_MAX_PROGRAM_PARAMETERS];
+	struct program_constant *bound = p->bound;
 	struct arb_words *w = &p->words;
 	uint32_t n = 1;
 
 	if (arb_takes_name(w, "state")) {
 		arb_expect(w, '.');
-		n = arb_state(w, p->is_vertex, bound, GLS_MAX_PROGRAM_PARAMETERS);
+		n = arb_state(w, p->is_vertex, bound, ARB_MAX_ELEMENTS);
 	} else if (arb_takes_name(w, "program")) {
 		arb_expect(w, '.');
-		n = arb_parameters(w, bound, GLS_MAX_PROGRAM_PARAMETERS);
+		n = arb_parameters(w, bound, ARB_MAX_ELEMENTS);
 	} else {
 		take_literal(w, &bound[0]);
 	}

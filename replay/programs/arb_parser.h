@@ -20,6 +20,7 @@ struct arb_parser {
 	struct emitter emitter;
 	struct arb_symbol symbols[ARB_MAX_SYMBOLS];
 	uint32_t elements[ARB_MAX_ELEMENTS]; /* numbers of constants; an array's follow each other */
+	struct program_constant bound[ARB_MAX_ELEMENTS]; /* those of one binding */
 	uint32_t n_symbols, n_elements;
 	uint32_t fetched[3], n_fetched;      /* where an instruction's operands are that an address has found */
 	uint32_t numbered, named;            /* bits: attributes of vertices that are called by number, 1 << it; by name, as inputs */

@@ -217,7 +217,7 @@ uint32_t arb_parameters(struct arb_words *w, struct program_constant *to, uint32
 
 	if (source == PROGRAM_LOCAL && !arb_takes_name(w, "local"))
 		arb_fail(w, arb_bad_grammar);
-	n = take_range(w, GLS_MAX_PROGRAM_PARAMETERS, &first);
+	n = take_range(w, source == PROGRAM_ENV ? GLS_MAX_PROGRAM_PARAMETERS : GLS_MAX_PROGRAM_LOCALS, &first);
 	if (n > room) {
 		arb_fail(w, arb_bad_grammar);
 		return 0;

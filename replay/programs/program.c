@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "gl_tokens.h"
 #include "replay/machine/errors.h"
 #include "replay/programs/arb.h"
@@ -14,7 +15,30 @@ void gls_program_free(struct gls_program *p)
 {
 	program_code_free(&p->code);
 	free(p->source);
+	free(p->local);
 	free(p);
+}
+
+int gls_program_reserve(struct gls_program *p, uint32_t n)
+{
+	if (n <= p->n_locals)
+		return 0;
+	if (memory_resize(&p->local, n, sizeof(*p->local)))
+		return ERR_SYSTEM;
+	memset(p->local + p->n_locals, 0, (n - p->n_locals) * sizeof(*p->local));
+	p->n_locals = n;
+	return 0;
+}
+
+/* How many parameters of its own a program reads at most. */
+static uint32_t locals_of(const struct program_code *code)
+{
+	uint32_t n = 0;
+
+	for (uint32_t i = 0; i < code->n_constants; i++)
+		if (code->constants[i].source == PROGRAM_LOCAL && code->constants[i].index >= n)
+			n = code->constants[i].index + 1;
+	return n;
 }
 
 int gls_program_set(struct gls_program *p, const char *text, size_t n)
@@ -29,6 +53,8 @@ int gls_program_set(struct gls_program *p, const char *text, size_t n)
 	memcpy(source, text, n);
 	source[n] = 0;
 	err = program_translate_arb(source, n, p->target == GL_VERTEX_PROGRAM_ARB, &code, &why);
+	if (!err)
+		err = gls_program_reserve(p, locals_of(&code));
 	refused = !err && (why == arb_bad_grammar || why == arb_too_much);
 	if (err || why)
 		program_code_free(&code);

@@ -13,7 +13,8 @@ struct gls_program {
 	uint32_t target; /* GL token */
 	char *source;    /* owned, as the program gave it; NULL: it has given none */
 	size_t source_bytes;
-	float local[GLS_MAX_PROGRAM_PARAMETERS][4];
+	float (*local)[4]; /* owned: n_locals, at least as many as its code reads; those beyond are 0 */
+	uint32_t n_locals;
 	struct program_code code; /* empty where there is a reason */
 	const char *why;          /* what stands in the way of running it; a static string, NULL: nothing */
 };
@@ -25,6 +26,9 @@ void gls_program_free(struct gls_program *p);
  * @return 0; 1: the text is wrong, which is an error; a good one before it stays, as in Mesa (22.3.6); or ERR_SYSTEM (reported)
  */
 int gls_program_set(struct gls_program *p, const char *text, size_t n);
+
+/** Have room for n parameters. @return 0, or ERR_SYSTEM (reported) */
+int gls_program_reserve(struct gls_program *p, uint32_t n);
 
 /** Where an object stands in gls_share.programs; those that nobody has named are one of each target. */
 static inline uint64_t gls_program_key(uint32_t target, uint32_t name)

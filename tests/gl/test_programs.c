@@ -57,6 +57,36 @@ START_TEST(test_objects)
 }
 END_TEST
 
+/* A program has 2048 parameters of its own, those of no call 0; arrays may hold them all but one. */
+START_TEST(test_many_parameters)
+{
+	static const float four[2][4] = { { 1, 2, 3, 4 }, { 5, 6, 7, 8 } };
+	struct gl gl = gl_open();
+	const struct scene_program *head;
+	const float *constants;
+	struct scene *s;
+
+	set_text_of(&gl, GL_VERTEX_PROGRAM_ARB, 1, "!!ARBvp1.0 PARAM p[2047] = { program.local[0..2046] }; MOV result.color, p[2046]; MOV result.position, p[7]; END");
+	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
+	gl_call(&gl, "glProgramLocalParameters4fvEXT", "euiF", GL_VERTEX_PROGRAM_ARB, 2046u, 2, 8, four);
+	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
+	ck_assert_floats(4, bound_to_vertices(&gl)->local[2047], 5, 6, 7, 8);
+	gl_call(&gl, "glProgramLocalParameters4fvEXT", "euiF", GL_VERTEX_PROGRAM_ARB, 2047u, 2, 8, four);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	gl_call(&gl, "glProgramLocalParameter4fvARB", "euF", GL_VERTEX_PROGRAM_ARB, 2048u, 4, four);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	gl_call(&gl, "glEnable", "e", GL_VERTEX_PROGRAM_ARB);
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	s = gl_swap(&gl);
+	head = vertex_program_of(s, 0);
+	constants = (const float *)((const struct scene_instruction *)(head + 1) + head->n_instructions);
+	ck_assert_floats(4, constants + 4 * 2046, 1, 2, 3, 4);
+	ck_assert_floats(4, constants + 4 * 7, 0, 0, 0, 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* A draw takes the program along, with its constants as they are then; equal ones are there once. */
 START_TEST(test_scene)
 {
@@ -342,4 +372,4 @@ START_TEST(test_damaged_texts)
 }
 END_TEST
 
-GL_TESTS("programs", test_objects, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_no_text, test_wrong_texts, test_damaged_texts)
+GL_TESTS("programs", test_objects, test_many_parameters, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_no_text, test_wrong_texts, test_damaged_texts)

@@ -1,6 +1,7 @@
 /* Checkpoints that were damaged: numbers that are places in arrays are refused (replay/index/snapshot.h). */
 #include "replay/index/snapshot.h"
 #include "base/bytes.h"
+#include "replay/programs/program.h"
 #include "tests/gl/gl.h"
 
 static int keep_none(void *user, const uint64_t name[2], const void *data, size_t n)
@@ -65,10 +66,41 @@ START_TEST(units_with_other_numbers)
 }
 END_TEST
 
+/* A program's parameters, of which there are as many as were set. */
+START_TEST(parameters_of_programs)
+{
+	static const float four[4] = { 0.123f, 0.456f, 0.789f, 0.321f };
+	struct gl gl = gl_open(), other = { 0 };
+	const struct gls_program *p;
+	struct bytes saved = { 0 };
+	uint8_t *at;
+
+	gl_call(&gl, "glBindProgramARB", "eu", GL_VERTEX_PROGRAM_ARB, 5u);
+	gl_call(&gl, "glProgramLocalParameter4fvARB", "euF", GL_VERTEX_PROGRAM_ARB, 1020u, 4, four);
+	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
+	ck_assert_int_eq(snapshot_save(gl.x, &blobs, &saved), 0);
+	ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
+	ck_assert_int_eq(snapshot_load(other.x, &blobs, saved.data, saved.n), 0);
+	p = gls_program_bound(gl_state(&other), GL_VERTEX_PROGRAM_ARB);
+	ck_assert_uint_eq(p->n_locals, 1021);
+	ck_assert_floats(4, p->local[1020], four[0], four[1], four[2], four[3]);
+	ck_assert_floats(4, p->local[1019], 0, 0, 0, 0);
+	gls_exec_destroy(&other.x);
+	at = memmem(saved.data, saved.n, four, sizeof(four));
+	ck_assert_ptr_nonnull(at);
+	at -= 1020 * sizeof(four) + 8;
+	memcpy(at, &(uint64_t){ GLS_MAX_PROGRAM_LOCALS + 1 }, 8);
+	ck_assert_int_ne(load(&saved), 0);
+	free(saved.data);
+	gl_close(&gl);
+}
+END_TEST
+
 int main(void)
 {
 	TCase *tcase = tcase_create("snapshots");
 
 	tcase_add_test(tcase, units_with_other_numbers);
+	tcase_add_test(tcase, parameters_of_programs);
 	return run_case(tcase, "snapshots");
 }

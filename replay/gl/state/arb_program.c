@@ -76,65 +76,64 @@ GLS_HANDLER(glProgramStringARB, OBJECT)
 	gls_refuses(x, st, refused > 0, GL_INVALID_OPERATION);
 }
 
-/* Four numbers for a parameter, as floats of their own or as an array. */
-static void set_parameter(struct gls_exec *x, struct gls_state *st, const struct call *c, float (*parameters)[4])
+/* The parameters of a target that a call sets, n from number `first` on. @return the first; NULL: none */
+static float (*env_of(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t n))[4]
 {
-	const uint32_t index = arg_u(c, 1);
+	const uint32_t target = arg_u(c, 0), first = arg_u(c, 1);
 
-	if (gls_refuses(x, st, index >= GLS_MAX_PROGRAM_PARAMETERS, GL_INVALID_VALUE))
-		return;
-	if (c->n_args > 3)
-		for (unsigned i = 0; i < 4; i++)
-			parameters[index][i] = arg_f(c, 2 + i);
-	else
-		arg_floats(c, 2, parameters[index], 4);
+	if (gls_refuses(x, st, !is_target(target), GL_INVALID_ENUM) ||
+	    gls_refuses(x, st, first > GLS_MAX_PROGRAM_PARAMETERS || n > GLS_MAX_PROGRAM_PARAMETERS - first, GL_INVALID_VALUE))
+		return NULL;
+	return &st->program_env[target == GL_VERTEX_PROGRAM_ARB][first];
 }
 
-static void set_env(struct gls_exec *x, struct gls_state *st, const struct call *c)
+static float (*local_of(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t n))[4]
 {
-	if (!gls_refuses(x, st, !is_target(arg_u(c, 0)), GL_INVALID_ENUM))
-		set_parameter(x, st, c, st->program_env[arg_u(c, 0) == GL_VERTEX_PROGRAM_ARB]);
-}
-
-static void set_local(struct gls_exec *x, struct gls_state *st, const struct call *c)
-{
+	const uint32_t target = arg_u(c, 0), first = arg_u(c, 1);
 	struct gls_program *p;
 
-	if (gls_refuses(x, st, !is_target(arg_u(c, 0)), GL_INVALID_ENUM))
-		return;
-	p = bound(x, st, arg_u(c, 0));
-	if (p)
-		set_parameter(x, st, c, p->local);
+	if (gls_refuses(x, st, !is_target(target), GL_INVALID_ENUM) ||
+	    gls_refuses(x, st, first > GLS_MAX_PROGRAM_LOCALS || n > GLS_MAX_PROGRAM_LOCALS - first, GL_INVALID_VALUE))
+		return NULL;
+	p = bound(x, st, target);
+	if (p && gls_program_reserve(p, first + n)) {
+		gls_fail(x);
+		return NULL;
+	}
+	return p ? &p->local[first] : NULL;
+}
+
+/* Four numbers for a parameter, as floats of their own or as an array. */
+static void set_parameter(const struct call *c, float (*parameter)[4])
+{
+	for (unsigned i = 0; parameter && c->n_args > 3 && i < 4; i++)
+		(*parameter)[i] = arg_f(c, 2 + i);
+	if (parameter && c->n_args <= 3)
+		arg_floats(c, 2, *parameter, 4);
 }
 
 /* EXT_gpu_program_parameters: so many, four numbers each. */
-static void set_parameters(struct gls_exec *x, struct gls_state *st, const struct call *c, float (*parameters)[4])
-{
-	const uint32_t index = arg_u(c, 1), n = arg_u(c, 2);
+typedef float (*parameters_of(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t n))[4];
 
-	if (!gls_refuses(x, st, arg_i(c, 2) <= 0 || index > GLS_MAX_PROGRAM_PARAMETERS || n > GLS_MAX_PROGRAM_PARAMETERS - index, GL_INVALID_VALUE))
-		arg_floats(c, 3, parameters[index], 4 * n);
+static void set_parameters(struct gls_exec *x, struct gls_state *st, const struct call *c, parameters_of *of)
+{
+	float (*parameters)[4];
+
+	if (gls_refuses(x, st, arg_i(c, 2) <= 0, GL_INVALID_VALUE))
+		return;
+	parameters = of(x, st, c, arg_u(c, 2));
+	if (parameters)
+		arg_floats(c, 3, parameters[0], 4 * arg_u(c, 2));
 }
 
-GLS_HANDLER(glProgramEnvParameters4fvEXT, STATE)
-{
-	if (!gls_refuses(x, st, !is_target(arg_u(c, 0)), GL_INVALID_ENUM))
-		set_parameters(x, st, c, st->program_env[arg_u(c, 0) == GL_VERTEX_PROGRAM_ARB]);
-}
+GLS_HANDLER(glProgramEnvParameters4fvEXT, STATE) { set_parameters(x, st, c, env_of); }
+GLS_HANDLER(glProgramLocalParameters4fvEXT, STATE) { set_parameters(x, st, c, local_of); }
 
-GLS_HANDLER(glProgramLocalParameters4fvEXT, STATE)
-{
-	struct gls_program *p;
-
-	if (!gls_refuses(x, st, !is_target(arg_u(c, 0)), GL_INVALID_ENUM) && (p = bound(x, st, arg_u(c, 0))))
-		set_parameters(x, st, c, p->local);
-}
-
-GLS_HANDLER(glProgramEnvParameter4fARB, STATE) { set_env(x, st, c); }
-GLS_HANDLER(glProgramEnvParameter4fvARB, STATE) { set_env(x, st, c); }
-GLS_HANDLER(glProgramEnvParameter4dARB, STATE) { set_env(x, st, c); }
-GLS_HANDLER(glProgramEnvParameter4dvARB, STATE) { set_env(x, st, c); }
-GLS_HANDLER(glProgramLocalParameter4fARB, STATE) { set_local(x, st, c); }
-GLS_HANDLER(glProgramLocalParameter4fvARB, STATE) { set_local(x, st, c); }
-GLS_HANDLER(glProgramLocalParameter4dARB, STATE) { set_local(x, st, c); }
-GLS_HANDLER(glProgramLocalParameter4dvARB, STATE) { set_local(x, st, c); }
+GLS_HANDLER(glProgramEnvParameter4fARB, STATE) { set_parameter(c, env_of(x, st, c, 1)); }
+GLS_HANDLER(glProgramEnvParameter4fvARB, STATE) { set_parameter(c, env_of(x, st, c, 1)); }
+GLS_HANDLER(glProgramEnvParameter4dARB, STATE) { set_parameter(c, env_of(x, st, c, 1)); }
+GLS_HANDLER(glProgramEnvParameter4dvARB, STATE) { set_parameter(c, env_of(x, st, c, 1)); }
+GLS_HANDLER(glProgramLocalParameter4fARB, STATE) { set_parameter(c, local_of(x, st, c, 1)); }
+GLS_HANDLER(glProgramLocalParameter4fvARB, STATE) { set_parameter(c, local_of(x, st, c, 1)); }
+GLS_HANDLER(glProgramLocalParameter4dARB, STATE) { set_parameter(c, local_of(x, st, c, 1)); }
+GLS_HANDLER(glProgramLocalParameter4dvARB, STATE) { set_parameter(c, local_of(x, st, c, 1)); }
