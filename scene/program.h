@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 
 #define SCENE_PROGRAM_REGISTERS 512u     /* at most */
-#define SCENE_PROGRAM_INSTRUCTIONS 16384u /* at most */
+#define SCENE_PROGRAM_INSTRUCTIONS 65536u /* at most; fewer than SCENE_PROGRAM_STEPS */
 #define SCENE_PROGRAM_CONSTANT 0x10000u  /* added to a constant's number where an operand is one */
 #define SCENE_PROGRAM_STEPS 0x40000u     /* instructions in loops that a fragment or vertex runs at most; then its program ends */
 

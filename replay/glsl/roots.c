@@ -5,6 +5,8 @@
 
 #include "base/err.h"
 
+#define MAX_SEARCHED 16384 /* instructions: the search takes the square of them, 0.2 s then */
+
 static int is_jump(const struct scene_instruction *in)
 {
 	return in->operation == SCENE_OP_JUMP || in->operation == SCENE_OP_JUMP_NONE;
@@ -141,9 +143,13 @@ static int square(struct program_code *code, uint32_t at, uint32_t root)
 
 int glsl_square_roots(struct program_code *code)
 {
-	uint8_t *targets = malloc(SCENE_PROGRAM_INSTRUCTIONS + 1);
-	int err = targets ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+	uint8_t *targets;
+	int err;
 
+	if (code->n_instructions > MAX_SEARCHED)
+		return 0;
+	targets = malloc(SCENE_PROGRAM_INSTRUCTIONS + 1);
+	err = targets ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err)
 		note_targets(code, targets);
 	for (uint32_t i = 0; !err && i < code->n_instructions; i++) {

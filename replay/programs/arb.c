@@ -207,7 +207,7 @@ int program_translate_arb(const char *text, size_t n, int is_vertex, struct prog
 	if (!p->words.why)
 		take_program(p);
 	if (p->emitter.err == ERR_INPUT)
-		arb_fail(&p->words, "an ARB program has more than 16384 instructions");
+		arb_fail(&p->words, "an ARB program has more instructions than are done");
 	*why = p->words.why;
 	err = p->emitter.err == ERR_SYSTEM ? ERR_SYSTEM : 0;
 	free(p);

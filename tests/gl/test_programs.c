@@ -87,6 +87,31 @@ START_TEST(test_many_parameters)
 }
 END_TEST
 
+/* A long program is translated (piglit's has 12,293 instructions of this kind, three of ours each); one that is far too long is refused. */
+START_TEST(test_long_texts)
+{
+	static const char head[] = "!!ARBfp1.0 TEMP r; MOV r, 0;", step[] = "ADD r,r.wxyz,.5;", end[] = "MOV result.color, r; END";
+	static const uint32_t steps[] = { 12293, 30000 };
+	char *text = malloc(sizeof(head) + steps[1] * sizeof(step) + sizeof(end));
+	struct gl gl = gl_open();
+
+	ck_assert_ptr_nonnull(text);
+	for (unsigned i = 0; i < 2; i++) {
+		char *at = stpcpy(text, head);
+
+		for (uint32_t k = 0; k < steps[i]; k++)
+			at = stpcpy(at, step);
+		strcpy(at, end);
+		set_text(&gl, i + 1, text);
+		ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
+		ck_assert_uint_eq(bound(&gl)->why != NULL, i);
+	}
+	ck_assert_ptr_nonnull(strstr(bound(&gl)->why, "more instructions"));
+	free(text);
+	gl_close(&gl);
+}
+END_TEST
+
 /* A draw takes the program along, with its constants as they are then; equal ones are there once. */
 START_TEST(test_scene)
 {
@@ -372,4 +397,4 @@ START_TEST(test_damaged_texts)
 }
 END_TEST
 
-GL_TESTS("programs", test_objects, test_many_parameters, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_no_text, test_wrong_texts, test_damaged_texts)
+GL_TESTS("programs", test_objects, test_many_parameters, test_long_texts, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_no_text, test_wrong_texts, test_damaged_texts)
