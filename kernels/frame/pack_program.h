@@ -5,6 +5,7 @@
  */
 #pragma once
 
+#include "kernels/frame/pack_function.h"
 #include "kernels/frame/pack_shade.h"
 #include "kernels/frame/pack_surface.h"
 #include "kernels/gl/program.h"
@@ -31,16 +32,6 @@ WIDE_VECTORS static inline packf pack_operand(const struct pack_run *run, const 
 	return negate ? v * -1.0f : v;
 }
 
-/* Lane by lane: PoCL's functions of sixteen numbers round otherwise than those of one, by what the other fifteen are. */
-static inline packf pack_one_by_one(uint operation, packf a)
-{
-	packf out;
-
-	for (uint lane = 0; lane < PACK_SIZE; lane++)
-		LANE(out, float, lane) = program_number(operation, LANE(a, const float, lane), 0.0f);
-	return out;
-}
-
 WIDE_VECTORS static inline packf pack_truth(packi a)
 {
 	return select((packf)(0), (packf)(1), a);
@@ -55,7 +46,10 @@ WIDE_VECTORS static inline packf pack_result(uint operation, packf a, packf b, p
 	case SCENE_OP_FRACTION: return a - floor(a);
 	case SCENE_OP_RECIPROCAL: return 1.0f / a;
 	case SCENE_OP_INVERSE_ROOT: return 1.0f / sqrt(fabs(a));
-	case SCENE_OP_LOG2: return log2(a);
+	case SCENE_OP_EXP2: return pack_function_exp2(a);
+	case SCENE_OP_LOG2: return pack_function_log2(a);
+	case SCENE_OP_SINE: return pack_function_turn(a, 0);
+	case SCENE_OP_COSINE: return pack_function_turn(a, 1);
 	case SCENE_OP_SQUARE_ROOT: return sqrt(a);
 	case SCENE_OP_TRUNCATE: return select(floor(a), -floor(-a), a < 0.0f);
 	case SCENE_OP_ROUND: return rint(a);
@@ -67,7 +61,7 @@ WIDE_VECTORS static inline packf pack_result(uint operation, packf a, packf b, p
 	case SCENE_OP_MAXIMUM: return fmax(a, b);
 	case SCENE_OP_LESS: return pack_truth(a < b);
 	case SCENE_OP_GREATER_EQUAL: return pack_truth(a >= b);
-	case SCENE_OP_POWER: return pow(a, b);
+	case SCENE_OP_POWER: return pack_function_power(a, b);
 	case SCENE_OP_DIVIDE: return a / b;
 	case SCENE_OP_EQUAL: return pack_truth(a == b);
 	case SCENE_OP_NOT_EQUAL: return pack_truth(a != b);
@@ -76,7 +70,7 @@ WIDE_VECTORS static inline packf pack_result(uint operation, packf a, packf b, p
 	case SCENE_OP_MAD: return a * b + c;
 	case SCENE_OP_SELECT: return select(c, b, a < 0.0f);
 	case SCENE_OP_CHOOSE: return select(c, b, a != 0.0f);
-	default: return pack_one_by_one(operation, a);
+	default: return a;
 	}
 }
 

@@ -5,14 +5,13 @@
 #pragma once
 
 #include "kernels/common.h"
+#include "kernels/gl/functions.h"
 #include "scene/program.h"
 
 #ifdef __OPENCL_VERSION__
-#define M_LOG2(x) log2(x)
 #define M_ROUND(x) rint(x)
 #define M_STORE_ONE(place) (void)atomic_xchg((volatile __global uint *)(place), 1u)
 #else
-#define M_LOG2(x) log2f(x)
 #define M_ROUND(x) rintf(x)
 #define M_STORE_ONE(place) __atomic_store_n(place, 1u, __ATOMIC_RELAXED)
 #endif
@@ -141,15 +140,15 @@ static inline float program_number(uint32_t operation, float a, float b)
 	case SCENE_OP_FRACTION: return a - M_FLOOR(a);
 	case SCENE_OP_RECIPROCAL: return 1.0f / a;
 	case SCENE_OP_INVERSE_ROOT: return 1.0f / M_SQRT(M_ABS(a));
-	case SCENE_OP_EXP2: return M_EXP2(a);
-	case SCENE_OP_LOG2: return M_LOG2(a);
-	case SCENE_OP_SINE: return M_SIN(a);
-	case SCENE_OP_COSINE: return M_COS(a);
+	case SCENE_OP_EXP2: return function_exp2(a);
+	case SCENE_OP_LOG2: return function_log2(a);
+	case SCENE_OP_SINE: return function_turn(a, 0u);
+	case SCENE_OP_COSINE: return function_turn(a, 1u);
 	case SCENE_OP_MINIMUM: return M_MIN(a, b);
 	case SCENE_OP_MAXIMUM: return M_MAX(a, b);
 	case SCENE_OP_LESS: return a < b ? 1.0f : 0.0f;
 	case SCENE_OP_GREATER_EQUAL: return a >= b ? 1.0f : 0.0f;
-	case SCENE_OP_POWER: return M_POW(a, b);
+	case SCENE_OP_POWER: return function_power(a, b);
 	case SCENE_OP_SQUARE_ROOT: return M_SQRT(a);
 	case SCENE_OP_TRUNCATE: return a < 0.0f ? -M_FLOOR(-a) : M_FLOOR(a);
 	case SCENE_OP_ROUND: return M_ROUND(a);

@@ -88,6 +88,9 @@ static const char *const functions[] = {
 	"vec4(float(int(a.x * 7.0) / 2), float(7 / int(1.0 + p.x)), float(int(a.y * 9.0) * 2 - 3), 0.5)", "vec4(floor(a) == floor(b), floor(a.xy) != floor(b.xy), a.x == a.x, false)",
 	"float(true) * a", "clamp(p, 0.3, 1.0) * sign(b)",
 	"fract(a / p * 1048576.0)", "fract(smoothstep(-0.5, 1.6, a) * 1048576.0)", /* to the last bit */
+	"fract(sin(a * 9.0) * 1048576.0)", "fract(cos(a * 9.0) * 1048576.0)", "fract(sin(a * 70000.0) * 1048576.0)", "fract(tan(a) * 1048576.0)",
+	"fract(exp2(a * 3.0) * 1048576.0)", "fract(exp(a) * 1048576.0)", "fract(log2(p) * 1048576.0)", "fract(log(p) * 1048576.0)",
+	"fract(pow(p, b) * 1048576.0)",
 };
 
 static void function(int i)
