@@ -178,7 +178,7 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 		goto fail;
 	if (f->last != st || st->dirty & GLS_DIRTY_VIEW)
 		f->view = gls_frame_view(target->surface, st, e);
-	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || e->attribs->lighting.color_material || st->a.programs.fragment || st->a.programs.vertex || st->program)
+	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || e->attribs->lighting.color_material || st->a.programs.fragment || st->a.programs.vertex || st->a.programs.ati || st->program)
 		f->material = gls_frame_material(x, target, st, e);
 	f->last = st;
 	instance = &s->instances[s->n_instances];

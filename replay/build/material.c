@@ -210,7 +210,7 @@ static uint32_t fill_units(struct gls_exec *x, struct gls_frame *f, struct gls_s
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
 		const struct gls_unit *unit = &e->attribs->texturing.units[u];
 		const float *matrix = e->in_window ? mat4_identity : st->texture[u].matrices[st->texture[u].depth];
-		const int of_fragments = program ? (int)program_target(program, u) - 1 : enabled_target(unit);
+		const int of_fragments = program && !(program->code->enabled >> u & 1) ? (int)program_target(program, u) - 1 : enabled_target(unit);
 		const int target = of_fragments >= 0 || !vertices ? of_fragments : (int)program_target(vertices, u) - 1;
 		const int counts = target > of_fragments || (program && (target >= 0 || program->code->inputs >> (SCENE_INPUT_TEXCOORD + u) & 1));
 
@@ -420,7 +420,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	fill_fragment_state(a, target, &m);
 	fill_multisample(&a->multisample, target->surface, &m);
 	m.surface = st->surface;
-	m.program = st->program || st->a.programs.vertex || st->a.programs.fragment;
+	m.program = runs_fragments || st->program || st->a.programs.vertex || st->a.programs.fragment;
 	if (runs_fragments) {
 		if (!st->program)
 			m.shade_model = GL_SMOOTH; /* as Mesa (22.3.6) has it for colours of programs in assembly, whatever ShadeModel says */

@@ -174,9 +174,9 @@ struct gls_evaluator {
 	int32_t grid1_segments, grid2_segments[2];
 };
 
-/* What switches ARB programs on (ARB_vertex_program, table X.6), and what those of vertices may say. */
+/* What switches programs on (ARB_vertex_program, table X.6; ATI_fragment_shader), and what those of vertices may say. */
 struct gls_programs {
-	uint32_t vertex, fragment, point_size, two_side;
+	uint32_t vertex, fragment, point_size, two_side, ati;
 };
 
 struct gls_hint {
@@ -297,7 +297,9 @@ struct gls_state {
 	uint32_t render_mode; /* GL_RENDER, GL_SELECT, GL_FEEDBACK */
 	uint32_t rasterizer_discard; /* GL 3.0 sec. 3.1: nothing is drawn, nor cleared */
 	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
-	uint32_t program, arb_vertex, arb_fragment;
+	uint32_t program, arb_vertex, arb_fragment, ati_fragment;
+	uint32_t ati_open;        /* 1: between Begin and EndFragmentShaderATI */
+	float ati_constants[8][4]; /* of fragment shaders that do not set their own */
 	float program_env[2][GLS_MAX_PROGRAM_PARAMETERS][4]; /* of ARB programs: fragments', vertices' */
 	struct gls_matrix_stack program_matrix[GLS_MAX_PROGRAM_MATRICES];
 	uint32_t draw_framebuffer, read_framebuffer, renderbuffer;

@@ -9,6 +9,7 @@
 #include "replay/machine/errors.h"
 #include "replay/programs/arb.h"
 #include "replay/programs/arb_words.h"
+#include "replay/programs/ati.h"
 #include "replay/programs/stages.h"
 
 void gls_program_free(struct gls_program *p)
@@ -52,7 +53,8 @@ int gls_program_set(struct gls_program *p, const char *text, size_t n)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for a program of %zu bytes", n);
 	memcpy(source, text, n);
 	source[n] = 0;
-	err = program_translate_arb(source, n, p->target == GL_VERTEX_PROGRAM_ARB, &code, &why);
+	err = p->target == GL_FRAGMENT_SHADER_ATI ? program_translate_ati((const struct ati_call *)(void *)source, n, &code, &why) :
+	                                           program_translate_arb(source, n, p->target == GL_VERTEX_PROGRAM_ARB, &code, &why);
 	if (!err)
 		err = gls_program_reserve(p, locals_of(&code));
 	refused = !err && (why == arb_bad_grammar || why == arb_too_much);
@@ -73,7 +75,9 @@ int gls_program_set(struct gls_program *p, const char *text, size_t n)
 
 struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t target)
 {
-	return table_find(&st->share->programs, gls_program_key(target, target == GL_VERTEX_PROGRAM_ARB ? st->arb_vertex : st->arb_fragment));
+	const uint32_t name = target == GL_FRAGMENT_SHADER_ATI ? st->ati_fragment : target == GL_VERTEX_PROGRAM_ARB ? st->arb_vertex : st->arb_fragment;
+
+	return table_find(&st->share->programs, gls_program_key(target, name));
 }
 
 static const char *lack_of(const struct gls_state *st, uint32_t target)
@@ -106,12 +110,24 @@ static const char *lack_of_shaders(const struct gls_state *st)
 	                                                                                        NULL;
 }
 
-/* What stands in the way of the programs in assembly that are current. */
+/* 1 where an ATI fragment shader takes the place of fixed function: a program in assembly comes before it, and one without calls is none. */
+static int is_by_ati(const struct gls_state *st)
+{
+	const struct gls_program *p = st->a.programs.ati && !st->a.programs.fragment && !st->ati_open ? gls_program_bound(st, GL_FRAGMENT_SHADER_ATI) : NULL;
+
+	return p && p->source;
+}
+
+/* What stands in the way of the programs in assembly, or of ATI's, that are current. */
 static const char *lack_of_assembly(const struct gls_state *st)
 {
 	const char *lack = st->a.programs.vertex ? lack_of(st, GL_VERTEX_PROGRAM_ARB) : NULL;
 
-	return !lack && st->a.programs.fragment ? lack_of(st, GL_FRAGMENT_PROGRAM_ARB) : lack;
+	if (!lack && st->a.programs.fragment)
+		return lack_of(st, GL_FRAGMENT_PROGRAM_ARB);
+	if (lack || !is_by_ati(st))
+		return lack;
+	return st->a.fog.enabled ? "draws by an ATI fragment shader have fog" : lack_of(st, GL_FRAGMENT_SHADER_ATI);
 }
 
 static int has_text(const struct gls_state *st, uint32_t target)
@@ -154,19 +170,27 @@ unsigned gls_program_current(const struct gls_state *st, uint64_t keys[SCENE_DRA
 		keys[n++] = (uint64_t)GL_VERTEX_PROGRAM_ARB << 32 | st->arb_vertex;
 	if (st->a.programs.fragment)
 		keys[n++] = (uint64_t)GL_FRAGMENT_PROGRAM_ARB << 32 | st->arb_fragment;
+	if (is_by_ati(st))
+		keys[n++] = (uint64_t)GL_FRAGMENT_SHADER_ATI << 32 | st->ati_fragment;
 	return n;
 }
 
 const char *gls_program_kind(uint64_t key)
 {
-	return key >> 32 == 0 ? "program object" : key >> 32 == GL_VERTEX_PROGRAM_ARB ? "vertex program" : "fragment program";
+	switch (key >> 32) {
+	case 0: return "program object";
+	case GL_VERTEX_PROGRAM_ARB: return "vertex program";
+	case GL_FRAGMENT_SHADER_ATI: return "ATI fragment shader";
+	default: return "fragment program";
+	}
 }
 
 static int runs(const struct gls_state *st, uint32_t target, struct program_stage *stage)
 {
 	const struct gls_program *p = gls_program_bound(st, target);
 
-	*stage = (struct program_stage){ &p->code, st->program_env[target == GL_VERTEX_PROGRAM_ARB], p->local };
+	*stage = (struct program_stage){ &p->code, target == GL_FRAGMENT_SHADER_ATI ? st->ati_constants : st->program_env[target == GL_VERTEX_PROGRAM_ARB],
+		                         p->local };
 	return 1;
 }
 
@@ -191,5 +215,7 @@ int gls_program_runs_fragments(const struct gls_state *st, struct program_stage 
 {
 	if (st->program)
 		return runs_shaders(st, GLS_FRAGMENT_STAGE, stage);
-	return st->a.programs.fragment && !lack_of_assembly(st) && runs(st, GL_FRAGMENT_PROGRAM_ARB, stage);
+	if (!(st->a.programs.fragment || is_by_ati(st)) || lack_of_assembly(st))
+		return 0;
+	return runs(st, st->a.programs.fragment ? GL_FRAGMENT_PROGRAM_ARB : GL_FRAGMENT_SHADER_ATI, stage);
 }

@@ -1,9 +1,10 @@
-/* Program objects of ARB_fragment_program and ARB_vertex_program, as the state keeps them. */
+/* Program objects of ARB_fragment_program, ARB_vertex_program and ATI_fragment_shader, as the state keeps them. */
 #pragma once
 
 #include <stddef.h>
 #include <stdint.h>
 
+#include "gl_tokens.h"
 #include "replay/programs/code.h"
 #include "replay/machine/state.h"
 
@@ -11,7 +12,7 @@ struct gls_exec;
 
 struct gls_program {
 	uint32_t target; /* GL token */
-	char *source;    /* owned, as the program gave it; NULL: it has given none */
+	char *source;    /* owned, as the program gave it; NULL: it has given none. GL_FRAGMENT_SHADER_ATI: struct ati_call, one behind the other */
 	size_t source_bytes;
 	float (*local)[4]; /* owned: n_locals, at least as many as its code reads; those beyond are 0 */
 	uint32_t n_locals;
@@ -30,10 +31,10 @@ int gls_program_set(struct gls_program *p, const char *text, size_t n);
 /** Have room for n parameters. @return 0, or ERR_SYSTEM (reported) */
 int gls_program_reserve(struct gls_program *p, uint32_t n);
 
-/** Where an object stands in gls_share.programs; those that nobody has named are one of each target. */
+/** Where an object stands in gls_share.programs; those that nobody has named are one of each target. ATI's have names of their own. */
 static inline uint64_t gls_program_key(uint32_t target, uint32_t name)
 {
-	return name ? name : (uint64_t)target << 32;
+	return name && target != GL_FRAGMENT_SHADER_ATI ? name : (uint64_t)target << 32 | name;
 }
 
 /** The object bound to a target; NULL: there is none of this name. */

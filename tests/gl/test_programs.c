@@ -1,4 +1,5 @@
 /* Programs in assembly (ARB_vertex_program, ARB_fragment_program): objects, what is translated, what a draw's scene holds of it. */
+#include "replay/programs/ati.h"
 #include "replay/programs/program.h"
 #include "scene/program.h"
 #include "tests/gl/gl.h"
@@ -30,6 +31,33 @@ static const struct scene_program *vertex_program_of(const struct scene *s, uint
 
 	ck_assert_uint_ne(program, 0);
 	return (const struct scene_program *)(s->programs + program - 1);
+}
+
+/* No instruction may name a register or a constant that is not there. */
+static void check_bounds(const struct gls_program *p)
+{
+	const uint32_t first = p->target == GL_VERTEX_PROGRAM_ARB ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR; /* what may be written */
+
+	for (uint32_t i = 0; i < p->code.n_instructions; i++) {
+		const struct scene_instruction *in = &p->code.instructions[i];
+		if (in->operation == SCENE_OP_FETCH) {
+			const uint32_t numbers = (in->c >> 16) * (in->c & 0xffff);
+
+			ck_assert(in->a >= SCENE_PROGRAM_CONSTANT && in->a - SCENE_PROGRAM_CONSTANT + numbers <= 4 * p->code.n_constants);
+			ck_assert(in->n <= (in->c & 0xffff) && in->b < p->code.n_registers && in->to >= first && in->to + in->n <= p->code.n_registers);
+			continue;
+		}
+		const uint32_t operands[3] = { in->a, in->b, in->c }, taken = in->operation == SCENE_OP_TEXTURE || in->operation < SCENE_OP_ADD ||
+		                                                              in->operation == SCENE_OP_KILL ? 1 : in->operation < SCENE_OP_MAD ? 2 : 3;
+		const uint32_t n = in->operation == SCENE_OP_TEXTURE ? 4 : in->n;
+
+		ck_assert_uint_lt(in->operation, N_SCENE_OPERATIONS);
+		ck_assert(in->operation == SCENE_OP_KILL || (in->to >= first && in->to + n <= p->code.n_registers));
+		for (uint32_t k = 0; k < taken; k++)
+			ck_assert(operands[k] >= SCENE_PROGRAM_CONSTANT ? operands[k] - SCENE_PROGRAM_CONSTANT + n <= 4 * p->code.n_constants + (in->flags >> k & 1 ? 0 : n) :
+			                                                  operands[k] + (in->flags >> k & 1 ? n : 1) <= p->code.n_registers);
+	}
+	ck_assert_uint_le(p->code.n_registers, SCENE_PROGRAM_REGISTERS);
 }
 
 /* A name belongs to the target that it was first bound to; parameters are the object's or the context's. */
@@ -109,6 +137,93 @@ START_TEST(test_long_texts)
 	ck_assert_ptr_nonnull(strstr(bound(&gl)->why, "more instructions"));
 	free(text);
 	gl_close(&gl);
+}
+END_TEST
+
+/* ATI's shaders: made between Begin and End, of what is called there; constants of their own before the context's; names of their own. */
+START_TEST(test_ati)
+{
+	static const float own[4] = { 1, 2, 3, 4 }, shared[4] = { 5, 6, 7, 8 };
+	struct gl gl = gl_open();
+	const struct gls_program *p;
+	const struct scene_program *head;
+	const float *constants;
+	struct scene *s;
+
+	gl_call(&gl, "glColorFragmentOp1ATI", "eeuueuu", GL_MOV_ATI, GL_REG_0_ATI, 0u, 0u, GL_CON_0_ATI, 0u, 0u);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION); /* no Begin */
+	set_text(&gl, 7, "!!ARBfp1.0 MOV result.color, fragment.color; END");
+	gl_call(&gl, "glBindFragmentShaderATI", "u", 7u);
+	gl_call(&gl, "glEnable", "e", GL_FRAGMENT_SHADER_ATI);
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0); /* without calls it is none */
+	gl_call(&gl, "glBeginFragmentShaderATI", "");
+	gl_call(&gl, "glBeginFragmentShaderATI", "");
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	gl_call(&gl, "glBindFragmentShaderATI", "u", 8u);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	gl_call(&gl, "glSampleMapATI", "eee", GL_REG_1_ATI, GL_TEXTURE0, GL_SWIZZLE_STR_ATI);
+	gl_call(&gl, "glColorFragmentOp3ATI", "eeuueuueuueuu", GL_MAD_ATI, GL_REG_0_ATI, 0u, 0u, GL_REG_1_ATI, 0u, 0u, GL_CON_1_ATI, 0u, 0u, GL_CON_0_ATI, 0u, 0u);
+	gl_call(&gl, "glSetFragmentShaderConstantATI", "eF", GL_CON_1_ATI, 4, own);
+	gl_call(&gl, "glEndFragmentShaderATI", "");
+	gl_call(&gl, "glEndFragmentShaderATI", "");
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	gl_call(&gl, "glSetFragmentShaderConstantATI", "eF", GL_CON_0_ATI, 4, shared);
+	gl_call(&gl, "glSetFragmentShaderConstantATI", "eF", GL_CON_0_ATI + 8, 4, shared);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	p = gls_program_bound(gl_state(&gl), GL_FRAGMENT_SHADER_ATI);
+	ck_assert_msg(!p->why, "%s", p->why ? p->why : "");
+	ck_assert_uint_eq(p->code.enabled, 2);
+	ck_assert_uint_eq(p->code.inputs, 1u << SCENE_INPUT_TEXCOORD);
+	check_bounds(p);
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	gl_call(&gl, "glEnable", "e", GL_FRAGMENT_PROGRAM_ARB); /* comes before it */
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	gl_call(&gl, "glDisable", "e", GL_FRAGMENT_PROGRAM_ARB);
+	gl_call(&gl, "glEnable", "e", GL_FOG);
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0); /* not done */
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 4);
+	ck_assert_uint_eq(s->materials[s->instances[0].material].fragment_program, 0);
+	head = (const struct scene_program *)(s->programs + s->materials[s->instances[1].material].fragment_program - 1);
+	constants = (const float *)((const struct scene_instruction *)(head + 1) + head->n_instructions);
+	ck_assert_ptr_nonnull(memmem(constants, head->n_constants * 4, own, sizeof(own)));
+	ck_assert_ptr_nonnull(memmem(constants, head->n_constants * 4, shared, sizeof(shared)));
+	ck_assert_uint_ne(s->materials[s->instances[2].material].fragment_program, s->materials[s->instances[1].material].fragment_program);
+	ck_assert_uint_eq(s->materials[s->instances[3].material].fragment_program, 0);
+	ck_assert_uint_eq(gl.x->counts.programs, 1);
+	scene_release(&s);
+	gl_call(&gl, "glDeleteFragmentShaderATI", "u", 7u);
+	ck_assert_ptr_nonnull(bound(&gl)); /* the program in assembly of this name */
+	gl_close(&gl);
+}
+END_TEST
+
+/* Calls with any tokens: refused or translated, never beyond what is there. */
+START_TEST(test_damaged_ati)
+{
+	static const uint32_t tokens[] = { GL_REG_0_ATI, GL_REG_5_ATI, GL_REG_5_ATI + 1, GL_CON_0_ATI, GL_CON_7_ATI, GL_ZERO, GL_ONE, GL_PRIMARY_COLOR_ARB,
+		GL_SECONDARY_INTERPOLATOR_ATI, GL_RED, GL_ALPHA, GL_MOV_ATI, GL_MAD_ATI, GL_DOT2_ADD_ATI, GL_LERP_ATI, GL_SWIZZLE_STR_ATI, GL_SWIZZLE_STQ_DQ_ATI,
+		GL_TEXTURE0, GL_TEXTURE7, GL_TEXTURE8, 2, 3, 15, UINT32_MAX };
+	uint32_t seed = 1, translated = 0;
+
+	for (int i = 0; i < 20000; i++) {
+		struct gls_program p = { .target = GL_FRAGMENT_SHADER_ATI };
+		struct ati_call calls[4];
+
+		for (size_t k = 0; k < sizeof(calls) / 4; k++)
+			((uint32_t *)calls)[k] = tokens[((seed = seed * 1664525 + 1013904223) >> 8) % (sizeof(tokens) / sizeof(tokens[0]))];
+		for (unsigned k = 0; k < 4; k++) {
+			calls[k].kind = (seed = seed * 1664525 + 1013904223) >> 8 & 7;
+			calls[k].n_arguments = seed >> 16 & 3;
+			if (seed >> 24 & 7) /* likely ones */
+				calls[k].to = GL_REG_0_ATI + (seed >> 20 & 3);
+		}
+		ck_assert_int_eq(program_translate_ati(calls, sizeof(calls) - (unsigned)(i & 1), &p.code, &p.why), 0);
+		translated += !p.why;
+		check_bounds(&p);
+		program_code_free(&p.code);
+	}
+	ck_assert_uint_gt(translated, 100);
 }
 END_TEST
 
@@ -318,33 +433,6 @@ START_TEST(test_wrong_texts)
 }
 END_TEST
 
-/* No instruction may name a register or a constant that is not there. */
-static void check_bounds(const struct gls_program *p)
-{
-	const uint32_t first = p->target == GL_VERTEX_PROGRAM_ARB ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR; /* what may be written */
-
-	for (uint32_t i = 0; i < p->code.n_instructions; i++) {
-		const struct scene_instruction *in = &p->code.instructions[i];
-		if (in->operation == SCENE_OP_FETCH) {
-			const uint32_t numbers = (in->c >> 16) * (in->c & 0xffff);
-
-			ck_assert(in->a >= SCENE_PROGRAM_CONSTANT && in->a - SCENE_PROGRAM_CONSTANT + numbers <= 4 * p->code.n_constants);
-			ck_assert(in->n <= (in->c & 0xffff) && in->b < p->code.n_registers && in->to >= first && in->to + in->n <= p->code.n_registers);
-			continue;
-		}
-		const uint32_t operands[3] = { in->a, in->b, in->c }, taken = in->operation == SCENE_OP_TEXTURE || in->operation < SCENE_OP_ADD ||
-		                                                              in->operation == SCENE_OP_KILL ? 1 : in->operation < SCENE_OP_MAD ? 2 : 3;
-		const uint32_t n = in->operation == SCENE_OP_TEXTURE ? 4 : in->n;
-
-		ck_assert_uint_lt(in->operation, N_SCENE_OPERATIONS);
-		ck_assert(in->operation == SCENE_OP_KILL || (in->to >= first && in->to + n <= p->code.n_registers));
-		for (uint32_t k = 0; k < taken; k++)
-			ck_assert(operands[k] >= SCENE_PROGRAM_CONSTANT ? operands[k] - SCENE_PROGRAM_CONSTANT + n <= 4 * p->code.n_constants + (in->flags >> k & 1 ? 0 : n) :
-			                                                  operands[k] + (in->flags >> k & 1 ? n : 1) <= p->code.n_registers);
-	}
-	ck_assert_uint_le(p->code.n_registers, SCENE_PROGRAM_REGISTERS);
-}
-
 /* A text with letters changed, left out and doubled. */
 static void check_damaged(struct gl *gl, uint32_t target, const char *text, size_t length)
 {
@@ -397,4 +485,4 @@ START_TEST(test_damaged_texts)
 }
 END_TEST
 
-GL_TESTS("programs", test_objects, test_many_parameters, test_long_texts, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_no_text, test_wrong_texts, test_damaged_texts)
+GL_TESTS("programs", test_objects, test_ati, test_damaged_ati, test_many_parameters, test_long_texts, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_no_text, test_wrong_texts, test_damaged_texts)

@@ -35,7 +35,7 @@ OTHER_KERNELS = {"vertex_program": "5", "program": "4"}  # a program's frame: de
 
 for name, frames in PROGRAMS.items():
     trace, _ = check_same_pictures(f"panels/{name}", frames)
-    if "program" in name or name == "shader": # objects are in the index
+    if "program" in name or "shader" in name: # objects are in the index
         check_alone(trace, 1, 3)
     if name in OTHER_KERNELS:
         check_kernels(trace, OTHER_KERNELS[name])

@@ -2,7 +2,7 @@
 """tests/show/stages.py BUILD [panels|piglit|glsl|cost|compile|glsl-all|real...] (`make show-programs`): vertices and fragments by programs, beside Mesa and beside fixed function.
 
 panels: tests/real/panels of programs, each instruction, binding, option and way in a panel, ten frames: those that pass all gates.
-piglit: its tests of ARB_vertex_program and ARB_fragment_program: the last frame of each that passes on Mesa is scored, R1 to R3. Recordings
+piglit: its tests of ARB_vertex_program, ARB_fragment_program and ATI_fragment_shader: the last frame of each that passes on Mesa is scored, R1 to R3. Recordings
 lie in BUILD/show/stages, every outcome in BUILD/show/stages-*.tsv.
 glsl: the same of its shaders of GLSL 1.10 and 1.20 in the compatibility profile, one of ten; glsl-all, which has to be named: all 3,287.
 compile: from a pair of shaders' text to instructions.
@@ -24,11 +24,11 @@ import piglit
 import programs
 import sweep
 
-GROUPS = re.compile(r"spec@arb_(vertex|fragment)_program(_shadow)?@")
+GROUPS = re.compile(r"spec@(arb_(vertex|fragment)_program(_shadow)?|ati_fragment_shader)@")
 LISTS = (("opengl", "gl"), ("shader", "shader"))
 GLSL_VERSIONS = ("1.1", "1.2")
 GLSL_EVERY = 10
-PANELS = ("program", "vertex_program", "shader")
+PANELS = ("program", "vertex_program", "ati_shader", "shader")
 WAYS = {"fixed": "fixed function", "vertex": "a vertex program", "fragment": "a fragment program", "glsl": "GLSL, per pixel"}
 PANEL_FRAMES = 10
 FRAMES = 8
@@ -91,7 +91,7 @@ def score_tests(build, folder, tests, title):
 
 
 def score_piglit(build, base):
-    return score_tests(build, base / "piglit", piglit.find_tests((), GROUPS, LISTS), "ARB programs")
+    return score_tests(build, base / "piglit", piglit.find_tests((), GROUPS, LISTS), "ARB programs and ATI fragment shaders")
 
 
 def score_glsl(build, base, every=GLSL_EVERY):

@@ -32,7 +32,7 @@ static const struct { uint32_t cap, offset; } capabilities[] = {
 	CAPABILITY(POLYGON_SMOOTH, polygon.smooth), CAPABILITY(POLYGON_STIPPLE, polygon.stipple),
 	CAPABILITY(STENCIL_TEST_TWO_SIDE_EXT, stencil.two_side), CAPABILITY(VERTEX_PROGRAM_ARB, programs.vertex),
 	CAPABILITY(FRAGMENT_PROGRAM_ARB, programs.fragment), CAPABILITY(VERTEX_PROGRAM_POINT_SIZE, programs.point_size),
-	CAPABILITY(VERTEX_PROGRAM_TWO_SIDE, programs.two_side),
+	CAPABILITY(VERTEX_PROGRAM_TWO_SIDE, programs.two_side), CAPABILITY(FRAGMENT_SHADER_ATI, programs.ati),
 #undef CAPABILITY
 };
 #define N_CAPABILITIES (sizeof(capabilities) / sizeof(capabilities[0]))

@@ -25,7 +25,7 @@ static const struct gls_texture *texture_of(struct gls_exec *x, struct gls_state
 	uint32_t unit = GLS_MAX_UNITS;
 
 	if (!gls_program_runs_fragments(st, &stage))
-		return !st->program && !st->a.programs.vertex && !st->a.programs.fragment && texturing->units[0].enabled >> GLS_TEXTURE_2D & 1 ?
+		return !st->program && !st->a.programs.vertex && !st->a.programs.fragment && !st->a.programs.ati && texturing->units[0].enabled >> GLS_TEXTURE_2D & 1 ?
 		       gls_texture_bound(x, st, 0, GLS_TEXTURE_2D) : NULL;
 	for (uint32_t u = 0; u < GLS_MAX_UNITS; u++)
 		if (program_target(&stage, u)) {
