@@ -433,7 +433,8 @@ show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
 
 # The same of its tests of ARB programs and of GLSL, panels of ours, what programs cost; ONLY=real: programs of other people.
-show-programs: all $(HELPERS) $(CORPUS) $(BUILD)/tests/bench/translate $(BUILD)/deps.piglit
+DEPS_real := xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx openscenegraph openscad mm3d meshlab avogadro pymol minetest minetest-data openarena
+show-programs: all $(HELPERS) $(CORPUS) $(BUILD)/tests/bench/translate $(BUILD)/deps.piglit $(if $(filter real,$(ONLY)),$(BUILD)/deps.real)
 	@tests/xvfb.sh $(PYTHON) -B tests/show/stages.py $(BUILD) $(ONLY)
 
 # Not part of `make show`: faults put into our own sources, each behind a switch, and the tests run: hours. It goes on where it was stopped.
