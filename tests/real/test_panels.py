@@ -17,6 +17,7 @@ PROGRAMS = {
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "what rectangles go through",
               "transfer to textures", "indices to textures"),
     "program": ("instructions", "bindings", "textures", "fragments", "last bits"),
+    "ati_shader": ("instructions", "arguments", "destinations", "sources", "textures"),
     "vertex_program": ("instructions", "bindings", "addresses", "results", "attributes", "uses", "extremes"),
     "shader": ("functions", "statements", "state", "textures", "vertices", "scenes", "several buffers"),
 }
