@@ -201,7 +201,7 @@ static inline void fragment_weights(struct fragment f, float w_inv0, float w_inv
 struct shaded_vertex {
 	float clip[4];
 	float eye[4];          /* homogeneous; w is 1 unless the modelview is projective */
-	float color[2][4];     /* front and back side, clamped */
+	float color[2][4];     /* front and back side, clamped; [1] is the clip vertex where clip_by_program says so */
 	float secondary[2][4]; /* rgb after which "color sum" asks; [3] unused */
 	float normal[3];       /* eye space, normalised only where GL does */
 	float fog_coord;

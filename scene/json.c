@@ -96,7 +96,7 @@ static const struct field material_fields[] = {
 	FIELD(material, point_sprite), FIELD(material, point_attenuation), FIELD(material, point_size_min),
 	FIELD(material, point_size_max), FIELD(material, point_fade_threshold), FIELD(material, multisample),
 	FIELD(material, samples_off), FIELD(material, alpha_to_coverage), FIELD(material, alpha_to_one),
-	FIELD(material, clip_plane_mask), FIELD(material, clip_plane_eye), FIELD(material, alpha_test),
+	FIELD(material, clip_plane_mask), FIELD(material, clip_plane_eye), FIELD(material, clip_by_program), FIELD(material, alpha_test),
 	FIELD(material, alpha_func), FIELD(material, alpha_ref), FIELD(material, stencil_test),
 	FIELD(material, stencil_front), FIELD(material, stencil_back), FIELD(material, depth_test),
 	FIELD(material, depth_func), FIELD(material, depth_write), FIELD(material, blend),

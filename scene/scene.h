@@ -154,6 +154,7 @@ struct scene_material {
 	/* user clip planes in eye space (sec. 2.12): mask of enabled ones */
 	uint32_t clip_plane_mask;
 	float clip_plane_eye[SCENE_MAX_CLIP_PLANES][4];
+	uint32_t clip_by_program; /* 1: they clip by what the vertex program says (SCENE_RESULT_CLIP_VERTEX), where faces have one colour alone */
 
 	/* per-fragment operations, GL 2.1 sec. 4.1 (scissor: see the view) */
 	uint32_t alpha_test, alpha_func; /* GL token */

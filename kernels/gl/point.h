@@ -218,6 +218,12 @@ static inline struct vec3 point_ray_origin(const float *of_point, const struct p
 	return v3_add(at, v3_scale(n, size));
 }
 
+/* The place of vertex k by which clip planes clip, in eye space. */
+static inline struct vec4 point_clip_place(const struct point *p, uint32_t k)
+{
+	return v4_load(p->material->clip_by_program ? p->vertex[k]->color[1] : p->vertex[k]->eye);
+}
+
 /* 1 where a user clip plane (sec. 2.12) cuts the point away. */
 static inline int point_clipped(const struct point *p)
 {
@@ -228,9 +234,8 @@ static inline int point_clipped(const struct point *p)
 		if (!(p->material->clip_plane_mask >> i & 1u))
 			continue;
 		plane = v4_load(p->material->clip_plane_eye[i]);
-		d = v4_dot(plane, v4_load(p->vertex[0]->eye)) * p->weight[0] +
-		    v4_dot(plane, v4_load(p->vertex[1]->eye)) * p->weight[1] +
-		    v4_dot(plane, v4_load(p->vertex[2]->eye)) * p->weight[2];
+		d = v4_dot(plane, point_clip_place(p, 0u)) * p->weight[0] + v4_dot(plane, point_clip_place(p, 1u)) * p->weight[1] +
+		    v4_dot(plane, point_clip_place(p, 2u)) * p->weight[2];
 		if (d < 0.0f)
 			return 1;
 	}

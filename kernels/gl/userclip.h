@@ -20,7 +20,7 @@ static inline struct userclip_plane userclip_plane(const struct point *p, uint32
 	struct userclip_plane out;
 
 	for (uint32_t k = 0u; k < 3u; k++)
-		out.d[k] = v4_dot(plane, v4_load(p->vertex[k]->eye));
+		out.d[k] = v4_dot(plane, point_clip_place(p, k));
 	return out;
 }
 

@@ -130,7 +130,7 @@ static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL 
 	}
 	out->lit[0] = out->lit[1] = vertex_lights(&a->tables, m, out);
 	v4_store(out->color[0], vertex_result_color(run, m, SCENE_RESULT_COLOR, k));
-	v4_store(out->color[1], vertex_result_color(run, m, SCENE_RESULT_BACK_COLOR, k));
+	v4_store(out->color[1], m->clip_by_program ? vertex_result(run, SCENE_RESULT_CLIP_VERTEX, k) : vertex_result_color(run, m, SCENE_RESULT_BACK_COLOR, k));
 	v4_store(out->secondary[0], vertex_result_color(run, m, SCENE_RESULT_SECONDARY, k));
 	v4_store(out->secondary[1], vertex_result_color(run, m, SCENE_RESULT_BACK_SECONDARY, k));
 	out->fog_coord = vertex_result(run, SCENE_RESULT_FOG, k).x;

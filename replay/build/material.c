@@ -432,6 +432,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 		m.vertex_program = gls_program_build(f, st, a, &vertices, lights);
 		if (!m.vertex_program)
 			return SCENE_NONE;
+		m.clip_by_program = m.clip_plane_mask && !m.two_side && vertices.code->outputs >> SCENE_RESULT_CLIP_VERTEX & 1;
 	}
 	return gls_intern(&f->materials, &s->materials, &s->n_materials, &f->room.materials, &m, sizeof(m));
 }

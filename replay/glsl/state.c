@@ -133,6 +133,7 @@ static const struct place {
 	{ "gl_BackColor", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_BACK_COLOR },
 	{ "gl_BackSecondaryColor", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_BACK_SECONDARY },
 	{ "gl_FogFragCoord", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_FOG }, { "gl_PointSize", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_POINT_SIZE },
+	{ "gl_ClipVertex", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_CLIP_VERTEX },
 	{ "gl_TexCoord", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_TEXCOORD },
 };
 
@@ -172,8 +173,6 @@ struct glsl_value glsl_builtin(struct glsl_writer *w, const struct glsl_symbol *
 	}
 	if (place != GLSL_NONE)
 		return glsl_row(w, s->type, place);
-	if (strcmp(name, "gl_ClipVertex") == 0) /* not done (program_code.clips): planes clip by the position */
-		return glsl_fresh(w, s->type);
 	if (strcmp(name, "gl_FragData") == 0)
 		return data(w, s);
 	if (strcmp(name, "gl_NormalScale") == 0)

@@ -173,8 +173,9 @@ static void finish(struct glsl_writer *w)
 		code->outputs = (1u << N_SCENE_VERTEX_OUTPUTS) - 1;
 		if (keeps_place(w->tree, "gl_Position", "gl_ModelViewProjectionMatrix"))
 			code->outputs &= ~(1u << SCENE_RESULT_POSITION);
-		code->clips = is_written(w, "gl_ClipVertex") && (code->outputs >> SCENE_RESULT_POSITION & 1 ||
-		                                                 !keeps_place(w->tree, "gl_ClipVertex", "gl_ModelViewMatrix"));
+		if (!is_written(w, "gl_ClipVertex") ||
+		    (!(code->outputs >> SCENE_RESULT_POSITION & 1) && keeps_place(w->tree, "gl_ClipVertex", "gl_ModelViewMatrix")))
+			code->outputs &= ~(1u << SCENE_RESULT_CLIP_VERTEX);
 		if (!is_written(w, "gl_PointSize"))
 			code->outputs &= ~(1u << SCENE_RESULT_POINT_SIZE);
 	} else {

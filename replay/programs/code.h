@@ -68,7 +68,6 @@ struct program_code {
 	uint32_t n_instructions, n_constants, n_registers, n_lights;
 	uint32_t instruction_room, constant_room, light_room;
 	uint32_t inputs, kills, sets_depth, outputs, across, data, n_data; /* as in struct scene_program */
-	uint32_t clips;                     /* 1: it lets clip planes clip by another place than fixed function's, which is not done */
 	uint32_t targets[SCENE_MAX_UNITS];  /* 1 + enum gls_texture_target of what it samples of each unit; 0: nothing */
 	uint32_t enabled;                   /* bits: units of which it samples what fixed function would */
 	struct program_sampler samplers[PROGRAM_MAX_SAMPLERS]; /* where there are some, TEXTURE names one of them in place of its unit */

@@ -154,8 +154,8 @@ const char *gls_program_lack(const struct gls_state *st)
 	lack = st->program ? lack_of_shaders(st) : lack_of_assembly(st);
 	if (lack || !st->program)
 		return lack;
-	return st->a.transform.clip_plane_mask && linked(st)->code[GLS_VERTEX_STAGE].clips ? "a shader sets gl_ClipVertex, by which clip planes do not clip" :
-	                                                                                    NULL;
+	return st->a.programs.two_side && st->a.transform.clip_plane_mask && linked(st)->code[GLS_VERTEX_STAGE].outputs >> SCENE_RESULT_CLIP_VERTEX & 1 ?
+	       "a shader sets gl_ClipVertex and colours of both sides: clip planes do not clip by it" : NULL;
 }
 
 unsigned gls_program_current(const struct gls_state *st, uint64_t keys[SCENE_DRAW_PROGRAMS])

@@ -149,10 +149,10 @@ START_TEST(test_reasons)
 }
 END_TEST
 
-/* A place to clip by that is not fixed function's counts as missing while planes are enabled; its shader runs all the same. */
+/* Planes clip by a place that is not fixed function's; with colours of both sides that counts as missing. The shader runs all the same. */
 START_TEST(test_clip_vertex)
 {
-	static const struct { const char *text; uint32_t missing; } texts[] = {
+	static const struct { const char *text; uint32_t own; } texts[] = {
 		{ "void main() { gl_Position = ftransform(); gl_ClipVertex = gl_ModelViewMatrix * gl_Vertex; }", 0 },
 		{ "void main() { gl_Position = ftransform(); }", 0 },
 		{ "void main() { gl_Position = ftransform(); gl_ClipVertex = gl_Vertex; }", 1 },
@@ -175,13 +175,21 @@ START_TEST(test_clip_vertex)
 		ck_assert_uint_eq(gl.x->counts.programs, before);
 		gl_call(&gl, "glEnable", "e", GL_CLIP_PLANE0);
 		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+		ck_assert_uint_eq(gl.x->counts.programs, before);
+		gl_call(&gl, "glEnable", "e", GL_VERTEX_PROGRAM_TWO_SIDE);
+		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+		gl_call(&gl, "glDisable", "e", GL_VERTEX_PROGRAM_TWO_SIDE);
 		gl_call(&gl, "glDisable", "e", GL_CLIP_PLANE0);
-		ck_assert_uint_eq(gl.x->counts.programs - before, texts[i].missing);
+		ck_assert_uint_eq(gl.x->counts.programs - before, texts[i].own);
 	}
 	s = gl_swap(&gl);
-	ck_assert_uint_eq(s->n_instances, 2 * sizeof(texts) / sizeof(texts[0]));
-	for (uint32_t i = 0; i < s->n_instances; i++)
-		ck_assert(s->materials[s->instances[i].material].vertex_program);
+	ck_assert_uint_eq(s->n_instances, 3 * sizeof(texts) / sizeof(texts[0]));
+	for (uint32_t i = 0; i < s->n_instances; i++) {
+		const struct scene_material *m = &s->materials[s->instances[i].material];
+
+		ck_assert(m->vertex_program);
+		ck_assert_uint_eq(m->clip_by_program, i % 3 == 1 ? texts[i / 3].own : 0);
+	}
 	scene_release(&s);
 	gl_close(&gl);
 }

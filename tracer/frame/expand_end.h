@@ -8,6 +8,7 @@
 /* A vertex: attributes, and its place in the window, y down as llvmpipe counts. */
 struct expand_end {
 	struct shaded_vertex v;
+	float clip_place[4]; /* by which clip planes clip, in eye space */
 	float texcoord[SCENE_MAX_UNITS][4];
 	float x, y, z, w_inv;
 	int cut;  /* clipping made it */

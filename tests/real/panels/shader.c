@@ -271,11 +271,14 @@ static const char *const vertices[][2] = { /* of vertices, of fragments; NULL: f
 	{ "varying float c; void main() { c = gl_FrontMaterial.diffuse.r; gl_Position = vec4(gl_Vertex.xy * 0.8, 0.2, 1.0); }", "varying float c; void main() { gl_FragColor = vec4(c, 0.4, 0.7, 1.0); }" },
 	{ "void main() { gl_Position = ftransform(); gl_FrontColor = gl_Color; gl_TexCoord[0] = gl_TextureMatrix[0] * gl_MultiTexCoord0; }", "uniform sampler2D t; void main() { gl_FragColor = texture2D(t, gl_TexCoord[0].st) * gl_Color; }" },
 	{ "void main() { vec4 v = gl_Vertex; v.w = 12.0; gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = gl_Color; gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
+	{ "void main() { gl_Position = ftransform(); gl_ClipVertex = gl_ModelViewMatrix * gl_Vertex.yxzw; gl_FrontColor = gl_Color; gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
+	{ "void main() { gl_Position = ftransform(); gl_ClipVertex = vec4(gl_Vertex.xy * 1.3 - 0.2, -gl_Vertex.x, 1.0 + 0.4 * gl_Vertex.y); }", "void main() { gl_FragColor = vec4(0.3, 0.6, 0.9, 1.0); }" },
 	{ "void main() { vec4 v = gl_Vertex; v.xyw *= 0.4; gl_Position = gl_ModelViewProjectionMatrix * v; gl_Position.z *= 0.1; gl_FrontColor = gl_Color; gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
 };
 
 static void vertex(int i)
 {
+	static const double planes[2][4] = { { 0.6, 0.8, 0.1, 0.4 }, { -0.9, 0.2, 0, 0.7 } };
 	float bones[48] = { 0 };
 
 	for (int k = 0; k < 3; k++)
@@ -287,6 +290,13 @@ static void vertex(int i)
 		glFrontFace(GL_CW);
 		glEnable(GL_VERTEX_PROGRAM_TWO_SIDE);
 		glShadeModel(GL_FLAT);
+	}
+	if (strstr(vertices[i % (int)COUNT(vertices)][0], "gl_ClipVertex")) {
+		glDisable(GL_VERTEX_PROGRAM_TWO_SIDE);
+		for (int k = 0; k < 2; k++) {
+			glClipPlane(GL_CLIP_PLANE0 + (GLenum)k, planes[k]);
+			glEnable(GL_CLIP_PLANE0 + (GLenum)k);
+		}
 	}
 	glEnable(GL_TEXTURE_2D);
 	glBindTexture(GL_TEXTURE_2D, images[0]);
