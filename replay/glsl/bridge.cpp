@@ -410,6 +410,10 @@ TBuiltInResource limits()
 	return r;
 }
 
+/* AMD_shader_trinary_minmax, which glslang has from GLSL 4.50 on, Mesa (22.3.6) in all versions. A preamble may hold nothing but macros. */
+const char trinary[] = "#define min3(a, b, c) min(min(a, b), c)\n#define max3(a, b, c) max(max(a, b), c)\n"
+		       "#define mid3(a, b, c) max(min(a, b), min(max(a, b), c))\n";
+
 void parse(const char *const *texts, uint32_t n, EShLanguage stage, struct glsl_tree *tree)
 {
 	const EShMessages messages = EShMessages(EShMsgRelaxedErrors | EShMsgSuppressWarnings);
@@ -421,6 +425,8 @@ void parse(const char *const *texts, uint32_t n, EShLanguage stage, struct glsl_
 	for (uint32_t i = 0; i < n; i++) {
 		shaders.push_back(std::make_unique<TShader>(stage));
 		shaders.back()->setStrings(&texts[i], 1);
+		if (std::strstr(texts[i], "GL_AMD_shader_trinary_minmax"))
+			shaders.back()->setPreamble(trinary);
 		if (!shaders.back()->parse(&resources, 110, ENoProfile, false, false, messages))
 			throw refused{ "a shader does not compile here" };
 		program.addShader(shaders.back().get());

@@ -87,6 +87,7 @@ static const char *const functions[] = {
 	"a.x > 0.0 ? a : b", "vec4(a.x > b.x && a.y > b.y, a.x > b.x || a.y > b.y, a.x > b.x ^^ a.y > b.y, !(a.x > b.x))",
 	"vec4(float(int(a.x * 7.0) / 2), float(7 / int(1.0 + p.x)), float(int(a.y * 9.0) * 2 - 3), 0.5)", "vec4(floor(a) == floor(b), floor(a.xy) != floor(b.xy), a.x == a.x, false)",
 	"float(true) * a", "clamp(p, 0.3, 1.0) * sign(b)",
+	"min3(a, b, p - 0.5)", "max3(a, b, p - 0.5)", "mid3(a, b, p - 0.5)", "vec4(mid3(a.x, b.x, 0.3), min3(a.xy, b.xy, p.xy), max3(a.z, b.z, 0.2))",
 	"fract(a / p * 1048576.0)", "fract(smoothstep(-0.5, 1.6, a) * 1048576.0)", /* to the last bit */
 	"fract(sin(a * 9.0) * 1048576.0)", "fract(cos(a * 9.0) * 1048576.0)", "fract(sin(a * 70000.0) * 1048576.0)", "fract(tan(a) * 1048576.0)",
 	"fract(exp2(a * 3.0) * 1048576.0)", "fract(exp(a) * 1048576.0)", "fract(log2(p) * 1048576.0)", "fract(log(p) * 1048576.0)",
@@ -98,7 +99,8 @@ static void function(int i)
 	char text[1024];
 
 	snprintf(text, sizeof(text),
-	         "void main() { vec4 a = gl_TexCoord[0], b = gl_TexCoord[1], p = abs(a) + 0.1; vec4 r = vec4(%s); gl_FragColor = r * 0.25 + vec4(0.4, 0.5, 0.45, 0.5); }",
+	         "%svoid main() { vec4 a = gl_TexCoord[0], b = gl_TexCoord[1], p = abs(a) + 0.1; vec4 r = vec4(%s); gl_FragColor = r * 0.25 + vec4(0.4, 0.5, 0.45, 0.5); }",
+	         strstr(functions[i], "min3") || strstr(functions[i], "max3") || strstr(functions[i], "mid3") ? "#extension GL_AMD_shader_trinary_minmax : require\n" : "",
 	         functions[i]);
 	glActiveTexture(GL_TEXTURE0);
 	shade(NULL, text);
