@@ -4,7 +4,8 @@
 Mutants of our own sources, drawn by their names' digests (sites.py) in turn from each folder and of each kind: nobody picks places. All
 are compiled into one build of a clone of this tree, each behind a switch (schemata.py). One run of the tests tells which mutants each test could
 notice: it works something out that the mutant would work out otherwise. Each mutant then runs with those tests, quick ones and those that noticed others first,
-until one fails; a hang ends by a limit of processor time. A test that fails without a mutant, too, does not count.
+until one fails; a hang ends by a limit of processor time. It must fail with the mutant twice, and pass without it in between: a test that
+fails now and then, or is skipped, does not count.
 
 Kernels share their text with their C twins, so that both would be wrong alike: their mutants run where the twins are the device, and kernels/ref's
 beside a device. What is for devices alone (*.cl, packs) and what is no expression (tables, sizes) is not tried. LEFT_OUT are tests that read
@@ -34,6 +35,7 @@ import sites  # noqa: E402
 from table import Shown  # noqa: E402
 
 SEED, BAR, SLOW_S = 1, 0.95, 20
+PASSED, FAILED, SKIPPED = range(3)
 FOLDERS = {"kernels": ("kernels/*.h", "kernels/camera/*.h", "kernels/gl/*.h", "kernels/frame/[!p]*.h", "kernels/frame/p[!a]*.h", "kernels/ref/*.c"), "replay": ("replay/**/*.c",),
            "tracer": ("tracer/**/*.c",), "capture": ("capture/**/*.c",), "diff": ("diff/**/*.c",)}
 LEFT_OUT = ("unit/test_house", "harness/", "farm/", "real/test_page", "real/test_wine", "real/test_i386", "real/test_crash", "real/test_hooks", "real/test_inject")
@@ -55,6 +57,12 @@ def spent_s():
 
 def sources(folder):
     return sorted({str(p.relative_to(ROOT)) for pattern in FOLDERS[folder] for p in ROOT.glob(pattern)})
+
+
+def texts_of(test):
+    """A test's own sources: those of its name, and of the program or the folder that it records (test_panels: panels/)."""
+    own = test.name.replace("/test_", "/")
+    return [p for pattern in (f"{test.name}.*", f"{own}.[ch]", f"{own}/*.[ch]") for p in sorted((ROOT / "tests").glob(pattern))]
 
 
 def drawn():
@@ -120,7 +128,7 @@ class Mutants:
             shutil.copyfile(build / "gen/kernels.c", self.build / "gen/kernels.c")  # devices keep what was
 
     def test(self, test, limit_s, **env):
-        """(whether it passes, seconds of processor time). A process of it that needs more than limit_s is ended."""
+        """(PASSED, FAILED or SKIPPED, seconds of processor time). A process of it that needs more than limit_s is ended."""
         shutil.rmtree(self.build / "tests/cache", ignore_errors=True)  # what another mutant left
         begin, was = spent_s(), {name: os.environ.get(name) for name in env}
         soft, hard = resource.getrlimit(resource.RLIMIT_CPU)
@@ -132,7 +140,7 @@ class Mutants:
             resource.setrlimit(resource.RLIMIT_CPU, (soft, hard))
             for name, value in was.items():
                 os.environ.pop(name) if value is None else os.environ.update({name: value})
-        return bad == 0 and good > 0, spent_s() - begin
+        return FAILED if bad else PASSED if good else SKIPPED, spent_s() - begin
 
 
 class Campaign:
@@ -141,7 +149,7 @@ class Campaign:
         os.environ["POCL_CACHE_DIR"] = str(build / "tests/pocl-cache")
         self.mutants, self.most, self.file = Mutants(folder, build, count), most, folder / "verdicts.json"
         self.tests = [t for t in runner.find_tests(self.mutants.build, []) if not t.serial and not any(part in t.name for part in LEFT_OUT)]
-        self.texts = {t.name: digest(*(p.read_text(errors="replace") for p in (ROOT / "tests").glob(f"{t.name}.*"))) for t in self.tests}
+        self.texts = {t.name: digest(*(p.read_text(errors="replace") for p in texts_of(t))) for t in self.tests}
         kept = json.loads(self.file.read_text()) if self.file.exists() else {}
         self.verdicts, self.map = kept.get("verdicts", {}), kept.get("map", {}) if kept.get("of") == self.mutants.digest else {}
         self.flaky = set()
@@ -169,9 +177,9 @@ class Campaign:
                     print(f"{key} and those after it were not run yet")
                     break
                 path.write_bytes(bytes(1 + max(self.mutants.by_number)))
-                passed, seconds = self.mutants.test(test, SLOW_S, RELUME_MUTANTS=str(path), **self.env(way))
+                outcome, seconds = self.mutants.test(test, SLOW_S, RELUME_MUTANTS=str(path), **self.env(way))
                 seen = path.read_bytes()
-                self.map[key] = {"of": of, "passed": passed, "seconds": round(seconds, 2), "reached": [n for n, what in enumerate(seen) if what],
+                self.map[key] = {"of": of, "passed": outcome == PASSED, "seconds": round(seconds, 2), "reached": [n for n, what in enumerate(seen) if what],
                                  "told": [n for n, what in enumerate(seen) if what & 2]}
                 self.save()
 
@@ -205,9 +213,12 @@ class Campaign:
             if spent_s() - begin > self.most:
                 return {**verdict, "why": f"{len(passed)} of {len(able)} tests that could tell it pass, {self.most:.0f} s"}
             limit_s = 5 + 5 * seen[test.name]["seconds"]
-            if self.mutants.test(test, limit_s, RELUME_MUTANT=str(number), **self.env(way))[0]:
+            mutated = {"RELUME_MUTANT": str(number), **self.env(way)}
+            if self.mutants.test(test, limit_s, **mutated)[0] != FAILED:
                 passed[test.name] = self.texts[test.name]
-            elif self.mutants.test(test, limit_s, **self.env(way))[0]:
+            elif self.mutants.test(test, limit_s, **self.env(way))[0] != PASSED:
+                self.flaky.add(test.name)
+            elif self.mutants.test(test, limit_s, **mutated)[0] == FAILED:
                 return {**verdict, "by": test.name, "text": self.texts[test.name], "seconds": round(spent_s() - begin, 1)}
             else:
                 self.flaky.add(test.name)
