@@ -363,6 +363,31 @@ START_TEST(test_fxt1)
 	t = s->textures[0]->texels;
 	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 127, 255, 0, 0, 0, 0, 0, 0, 255, 255 }), 12);
 	scene_release(&s);
+	/* Without it, in thirds; bits 125 and 126 are the lowest ones of green, of the first colour turned by the first code's high bit */
+	memset(block, 0, 16);
+	block[15] = 0x80 | 0x40;
+	block[8] = 31;
+	block[11] = 0x3e | 0xc0; /* the left half's second is red; the right half's first, at 94, is blue */
+	block[12] = 0x07;
+	block[0] = 1 << 2 | 2 << 4 | 3 << 6;
+	block[4] = 2;
+	s = show_block(&gl, GL_COMPRESSED_RGB_FXT1_3DFX, 8, 4, 16, block);
+	t = s->textures[0]->texels;
+	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 255, 85, 0, 170, 255, 170, 0, 85, 255, 255, 0, 0, 255, 0, 3, 85, 255 }), 20);
+	scene_release(&s);
+	/* CC_ALPHA in thirds: from the first colour on the left, the third on the right, to the second */
+	memset(block, 0, 16);
+	block[15] = 0x70;
+	block[13] = 0xe0;
+	block[14] = 0x03;
+	block[8] = 31;
+	block[11] = 0x3e;
+	block[0] = 1 << 2 | 2 << 4 | 3 << 6;
+	block[4] = 3;
+	s = show_block(&gl, GL_COMPRESSED_RGBA_FXT1_3DFX, 8, 4, 16, block);
+	t = s->textures[0]->texels;
+	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 255, 85, 0, 170, 170, 170, 0, 85, 85, 255, 0, 0, 0, 255, 0, 0, 0, 0, 0, 0, 0 }), 24);
+	scene_release(&s);
 	gl_close(&gl);
 }
 END_TEST

@@ -264,4 +264,84 @@ START_TEST(test_borders_only)
 }
 END_TEST
 
-GL_TESTS("textures", test_borders_only, test_pushed_parameters, test_samplers, test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_largest, test_texgen)
+/* Borders (sec. 3.8.1) lie around each dimension that a texture has. */
+START_TEST(test_borders)
+{
+	static const uint8_t texels[64] = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20 };
+	static const uint32_t targets[3] = { GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D };
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glPixelStorei", "ei", GL_UNPACK_ALIGNMENT, 1);
+	for (unsigned i = 0; i < 3; i++) {
+		gl_call(&gl, "glEnable", "e", targets[i]);
+		gl_call(&gl, "glTexParameteri", "eee", targets[i], GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+		if (i == 0)
+			gl_call(&gl, "glTexImage1D", "eieiieeb", targets[i], 0, GL_ALPHA, 6, 1, GL_ALPHA, GL_UNSIGNED_BYTE, (size_t)6, texels);
+		else if (i == 1)
+			gl_call(&gl, "glTexImage2D", "eieiiieeb", targets[i], 0, GL_ALPHA, 4, 3, 1, GL_ALPHA, GL_UNSIGNED_BYTE, (size_t)12, texels);
+		else
+			gl_call(&gl, "glTexImage3D", "eieiiiieeb", targets[i], 0, GL_ALPHA, 3, 4, 4, 1, GL_ALPHA, GL_UNSIGNED_BYTE, (size_t)48, texels);
+		draw(&gl);
+	}
+	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_textures, 3);
+	for (unsigned i = 0; i < 3; i++) {
+		static const uint32_t sizes[3][3] = { { 4, 1, 1 }, { 2, 1, 1 }, { 1, 2, 2 } }, bytes[3] = { 6, 12, 48 };
+		const struct scene_texture *t = s->textures[i];
+
+		ck_assert_uint_eq(t->width, sizes[i][0]);
+		ck_assert_uint_eq(t->height, sizes[i][1]);
+		ck_assert_uint_eq(t->depth, sizes[i][2]);
+		ck_assert_uint_eq(t->border, 1);
+		ck_assert_uint_eq(t->n_bytes, 4 * bytes[i]);
+		ck_assert_uint_eq(t->texels[4 * 5 + 3], 6);
+	}
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Generated levels of three dimensions are means of eight texels (sec. 3.8.8), of each kind of format that is averaged in a way of its own. */
+START_TEST(test_levels_of_volumes)
+{
+	static const uint32_t formats[] = { GL_RGBA8, GL_RGBA32F, GL_RGB9_E5, GL_LUMINANCE8 };
+	static const float wanted[4] = { 11, 19, 43, 51 };
+	float texels[32];
+
+	for (unsigned i = 0; i < 32; i++) { /* 4 by 2 by 4 */
+		const unsigned x = i % 4, y = i / 4 % 2, z = i / 8;
+
+		texels[i] = (float)(4 * x + 2 * y + 16 * z) / 255;
+	}
+	for (unsigned f = 0; f < sizeof(formats) / sizeof(formats[0]); f++) {
+		const float scale = formats[f] == GL_RGBA32F || formats[f] == GL_RGB9_E5 ? 255 : 1;
+		struct gl gl = gl_open();
+		float scaled[32];
+		struct scene *s;
+
+		for (unsigned i = 0; i < 32; i++)
+			scaled[i] = texels[i] * scale;
+		gl_call(&gl, "glEnable", "e", GL_TEXTURE_3D);
+		gl_call(&gl, "glTexParameteri", "eei", GL_TEXTURE_3D, GL_GENERATE_MIPMAP, 1);
+		gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+		gl_call(&gl, "glTexImage3D", "eieiiiieeb", GL_TEXTURE_3D, 0, formats[f], 4, 2, 4, 0, GL_RED, GL_FLOAT, sizeof(scaled), scaled);
+		draw(&gl);
+		s = gl_swap(&gl);
+		ck_assert_uint_eq(s->textures[0]->n_levels, 3);
+		for (unsigned i = 0; i < 4; i++) {
+			const uint8_t *t = s->textures[0]->texels + (s->textures[0]->floats ? 16 : 4) * (32 + i);
+			float first = *t;
+
+			if (s->textures[0]->floats)
+				memcpy(&first, t, sizeof(first));
+			ck_assert_msg(fabsf(first - wanted[i]) < 1e-3f, "format %#x, texel %u: %g, not %g", formats[f], i, first, wanted[i]);
+		}
+		scene_release(&s);
+		gl_close(&gl);
+	}
+}
+END_TEST
+
+GL_TESTS("textures", test_borders, test_levels_of_volumes, test_borders_only, test_pushed_parameters, test_samplers, test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_largest, test_texgen)
