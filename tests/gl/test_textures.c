@@ -307,31 +307,28 @@ END_TEST
 START_TEST(test_levels_of_volumes)
 {
 	static const uint32_t formats[] = { GL_RGBA8, GL_RGBA32F, GL_RGB9_E5, GL_LUMINANCE8 };
-	static const float wanted[4] = { 11, 19, 43, 51 };
-	float texels[32];
+	static const float wanted[8] = { 28, 36, 32, 40, 92, 100, 96, 104 };
+	float texels[64];
 
-	for (unsigned i = 0; i < 32; i++) { /* 4 by 2 by 4 */
-		const unsigned x = i % 4, y = i / 4 % 2, z = i / 8;
-
-		texels[i] = (float)(4 * x + 2 * y + 16 * z) / 255;
-	}
+	for (unsigned i = 0; i < 64; i++)
+		texels[i] = (float)(4 * (i % 4) + 2 * (i / 4 % 4) + 32 * (i / 16) + 9) / 255;
 	for (unsigned f = 0; f < sizeof(formats) / sizeof(formats[0]); f++) {
 		const float scale = formats[f] == GL_RGBA32F || formats[f] == GL_RGB9_E5 ? 255 : 1;
 		struct gl gl = gl_open();
-		float scaled[32];
+		float scaled[64];
 		struct scene *s;
 
-		for (unsigned i = 0; i < 32; i++)
+		for (unsigned i = 0; i < 64; i++)
 			scaled[i] = texels[i] * scale;
 		gl_call(&gl, "glEnable", "e", GL_TEXTURE_3D);
 		gl_call(&gl, "glTexParameteri", "eei", GL_TEXTURE_3D, GL_GENERATE_MIPMAP, 1);
 		gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
-		gl_call(&gl, "glTexImage3D", "eieiiiieeb", GL_TEXTURE_3D, 0, formats[f], 4, 2, 4, 0, GL_RED, GL_FLOAT, sizeof(scaled), scaled);
+		gl_call(&gl, "glTexImage3D", "eieiiiieeb", GL_TEXTURE_3D, 0, formats[f], 4, 4, 4, 0, GL_RED, GL_FLOAT, sizeof(scaled), scaled);
 		draw(&gl);
 		s = gl_swap(&gl);
 		ck_assert_uint_eq(s->textures[0]->n_levels, 3);
-		for (unsigned i = 0; i < 4; i++) {
-			const uint8_t *t = s->textures[0]->texels + (s->textures[0]->floats ? 16 : 4) * (32 + i);
+		for (unsigned i = 0; i < 8; i++) {
+			const uint8_t *t = s->textures[0]->texels + (s->textures[0]->floats ? 16 : 4) * (64 + i);
 			float first = *t;
 
 			if (s->textures[0]->floats)
