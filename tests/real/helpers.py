@@ -19,10 +19,12 @@ _results = []
 
 
 def check(good, what):
-    """Count one check; say what was wrong where it failed."""
+    """Count one check; say what was wrong where it failed, and leave where RELUME_FIRST_FAILURE is set."""
     _results.append(bool(good))
     if not good:
         print(f"wrong: {what}", flush=True)
+        if "RELUME_FIRST_FAILURE" in os.environ:
+            finish()
     return bool(good)
 
 

@@ -4,8 +4,8 @@
 Mutants of our own sources, drawn by their names' digests (sites.py) in turn from each folder and of each kind: nobody picks places. All
 are compiled into one build of a clone of this tree, each behind a switch (schemata.py). One run of the tests tells which mutants each test could
 notice: it works something out that the mutant would work out otherwise. Each mutant then runs with those tests, quick ones and those that noticed others first,
-until one fails; a hang ends by a limit of processor time. It must fail with the mutant twice, and pass without it in between: a test that
-fails now and then, or is skipped, does not count.
+until one fails; a hang ends by a limit of processor time. It must fail with the mutant twice, and pass without it: one that fails now and
+then, or is skipped, does not count.
 
 Kernels share their text with their C twins, so that both would be wrong alike: their mutants run where the twins are the device, and kernels/ref's
 beside a device. What is for devices alone (*.cl, packs) and what is no expression (tables, sizes) is not tried. LEFT_OUT are tests that read
@@ -152,7 +152,7 @@ class Campaign:
         self.texts = {t.name: digest(*(p.read_text(errors="replace") for p in texts_of(t))) for t in self.tests}
         kept = json.loads(self.file.read_text()) if self.file.exists() else {}
         self.verdicts, self.map = kept.get("verdicts", {}), kept.get("map", {}) if kept.get("of") == self.mutants.digest else {}
-        self.flaky = set()
+        self.flaky, self.sure = set(), {}
 
     def save(self):
         part = self.file.with_suffix(".part")
@@ -195,6 +195,12 @@ class Campaign:
                 noticed[known["by"]] = noticed.get(known["by"], 0) + (5 if known["path"] == site.path else 1)
         return sorted(able, key=lambda t: (0.2 + self.map[f"{way} {t.name}"]["seconds"]) / (1 + noticed.get(t.name, 0)))
 
+    def is_sure(self, test, way, limit_s):
+        """Whether a test passes without a mutant: asked once in a campaign."""
+        if (way, test.name) not in self.sure:
+            self.sure[way, test.name] = self.mutants.test(test, limit_s, **self.env(way))[0] == PASSED
+        return self.sure[way, test.name]
+
     def judge(self, number, site):
         """The verdict of a mutant. Tests that passed before are not run again."""
         way, begin, before = self.way(site), spent_s(), self.verdicts.get(site.id)
@@ -213,10 +219,10 @@ class Campaign:
             if spent_s() - begin > self.most:
                 return {**verdict, "why": f"{len(passed)} of {len(able)} tests that could tell it pass, {self.most:.0f} s"}
             limit_s = 5 + 5 * seen[test.name]["seconds"]
-            mutated = {"RELUME_MUTANT": str(number), **self.env(way)}
+            mutated = {"RELUME_MUTANT": str(number), "RELUME_FIRST_FAILURE": "1", **self.env(way)}
             if self.mutants.test(test, limit_s, **mutated)[0] != FAILED:
                 passed[test.name] = self.texts[test.name]
-            elif self.mutants.test(test, limit_s, **self.env(way))[0] != PASSED:
+            elif not self.is_sure(test, way, limit_s):
                 self.flaky.add(test.name)
             elif self.mutants.test(test, limit_s, **mutated)[0] == FAILED:
                 return {**verdict, "by": test.name, "text": self.texts[test.name], "seconds": round(spent_s() - begin, 1)}
