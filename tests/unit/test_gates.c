@@ -199,18 +199,20 @@ START_TEST(good_frame_passes_every_gate)
 			ck_assert_msg(state((enum score_gate_id)g) == SCORE_PASSED, "%s", score_gates[g].name);
 	ck_assert_double_eq(score.fidelity, 1);
 	ck_assert_double_eq(score.gates[GATE_P].value[0], 0);
+	ck_assert_double_eq(score.gates[GATE_R4].value[0], 1);
+	ck_assert_double_eq(score.gates[GATE_R4].value[1], 0);
 	ck_assert_double_gt(score.info.beauty_flip, 0);
 	ck_assert_double_gt(score.info.effect_share[EFFECT_SHADOW], 0.05);
 }
 END_TEST
 
-START_TEST(half_channels_pass)
+/* What halves hold: 11 bits; stored as such, or as floats that hold no more. */
+static void check_halves(int full_float)
 {
-	/* what a half holds: 11 bits */
 	for (size_t c = 0; c < traced.n_channels; c++) {
 		if (strcmp(traced.channels[c].name, "gl.depth") == 0 || strcmp(traced.channels[c].name, "id") == 0)
 			continue;
-		traced.channels[c].full_float = 0;
+		traced.channels[c].full_float = full_float;
 		for (int i = 0; i < N; i++) {
 			int exponent;
 			float m = frexpf(traced.channels[c].values[i], &exponent);
@@ -219,6 +221,13 @@ START_TEST(half_channels_pass)
 		}
 	}
 	expect_all_passed();
+}
+
+START_TEST(half_channels_pass)
+{
+	check_halves(0);
+	remake_traced(&all);
+	check_halves(1);
 }
 END_TEST
 
@@ -361,6 +370,7 @@ START_TEST(missing_draw)
 	remake_traced(&d);
 	expect_failed(GATE_R3);
 	ck_assert_int_eq(state(GATE_R4), SCORE_FAILED);
+	ck_assert_double_eq(score.gates[GATE_R4].value[1], 12 * 8);
 }
 END_TEST
 
@@ -495,6 +505,7 @@ START_TEST(effects_within_their_range)
 {
 	options.ranges[0] = (struct score_range){ EFFECT_SHADOW, 0.01, 0.5 };
 	options.ranges[1] = (struct score_range){ EFFECT_REFRACT, NAN, 0 };
+	options.ranges[2] = (struct score_range){ EFFECT_SHADOW, 0.9, 1 }; /* not asked for */
 	options.n_ranges = 2;
 	expect_all_passed();
 	ck_assert_int_eq(state(GATE_E3), SCORE_PASSED);
@@ -706,6 +717,11 @@ START_TEST(burnt_out)
 	ck_assert_int_eq(harm_of_light(0.6f, 0.1f, 0.3f, on_box), SCORE_PASSED); /* brighter, and no channel is full */
 	ck_assert_int_eq(harm_of_light(0.5f, 0.5f, 0.5f, on_box), SCORE_FAILED); /* grey ends in white */
 	ck_assert_int_eq(harm_of_light(1, 1, 0.5f, on_box), SCORE_PASSED);       /* it was white */
+	for (int by = 15; by <= 16; by++) { /* codes that one sees at once */
+		const float dark = image_linear_from_display((float)(253 - by) / 255), light = image_linear_from_display(253.0f / 255);
+
+		ck_assert_int_eq(harm_of_light(dark, dark, light - dark, on_box), by == 16 ? SCORE_FAILED : SCORE_PASSED);
+	}
 }
 END_TEST
 
