@@ -1,4 +1,6 @@
 /* Programs of GLSL (GL 2.1 sec. 2.15): objects, locations, uniforms, what a draw's scene holds of them. */
+#include <stdio.h>
+
 #include "replay/glsl/object.h"
 #include "replay/programs/program.h"
 #include "scene/program.h"
@@ -239,6 +241,40 @@ START_TEST(test_attributes)
 }
 END_TEST
 
+/* How many rows of texture coordinates the fragment stage of a program reads, where the vertex stage writes vec2 a, vec4 b, vec3 c[2]. */
+static int rows_read(uint32_t name, const char *declared, const char *color)
+{
+	static const char vertex[] = "varying vec2 a; varying vec4 b; varying vec3 c[2];\n"
+				     "void main() { a = gl_Vertex.xy; b = gl_Color; c[0] = c[1] = gl_Normal; gl_Position = ftransform(); }";
+	struct gl gl = gl_open();
+	char fragment[256];
+	const struct gls_shader *p;
+	uint32_t inputs;
+
+	snprintf(fragment, sizeof(fragment), "%s void main() { gl_FragColor = %s; }", declared, color);
+	make_shader(&gl, 200, GL_VERTEX_SHADER, vertex);
+	make_shader(&gl, 201, GL_FRAGMENT_SHADER, fragment);
+	gl_answered(&gl, name, "glCreateProgram", "");
+	gl_call(&gl, "glAttachShader", "uu", name, 200u);
+	gl_call(&gl, "glAttachShader", "uu", name, 201u);
+	gl_call(&gl, "glLinkProgram", "u", name);
+	p = object(&gl, name);
+	ck_assert_msg(!p->stages.why, "%s: %s", fragment, p->stages.why);
+	inputs = p->stages.code[GLSL_FRAGMENT_STAGE].inputs >> SCENE_INPUT_TEXCOORD;
+	gl_close(&gl);
+	return __builtin_popcount(inputs);
+}
+
+/* Varyings of one name and size are the same in both stages (sec. 2.15.3). */
+START_TEST(test_varyings)
+{
+	ck_assert_int_eq(rows_read(1, "", "gl_Color"), 0);
+	ck_assert_int_eq(rows_read(1, "varying vec2 a;", "a.xyxy"), 1);
+	ck_assert_int_eq(rows_read(1, "varying vec4 b;", "b"), 1);
+	ck_assert_int_eq(rows_read(1, "varying vec3 c[2];", "vec4(c[0].x, c[1].z, 0.0, 1.0)"), 2);
+}
+END_TEST
+
 /* From GLSL 1.50 on the vertex stage's results are members of a block. */
 START_TEST(test_results_in_blocks)
 {
@@ -266,4 +302,4 @@ START_TEST(test_results_in_blocks)
 }
 END_TEST
 
-GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_clip_vertex, test_unlinked, test_attributes, test_results_in_blocks)
+GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_clip_vertex, test_unlinked, test_attributes, test_varyings, test_results_in_blocks)

@@ -56,6 +56,9 @@ class Dumps(unittest.TestCase):
     def test_arrays(self):
         self.compare("arrays")
 
+    def test_ranges_of_elements(self):
+        self.compare("ranges")
+
     def test_pixels(self):
         self.compare("pixels")
 
@@ -101,4 +104,4 @@ if __name__ == "__main__":
     if len(sys.argv) >= 3 and sys.argv[1] == "--print":
         print(*dump(*sys.argv[2:]), sep="\n")
     else:
-        unittest.main()
+        unittest.main(failfast="RELUME_FIRST_FAILURE" in os.environ)

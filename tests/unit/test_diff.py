@@ -47,6 +47,34 @@ def write_png(path, rows):
                      chunk(b"IDAT", zlib.compress(b"".join(b"\0" + r for r in rows))) + chunk(b"IEND", b""))
 
 
+def read_png(path):
+    """RGB rows of a PNG file of 8 bits without interlacing, whatever its filters."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IHDR":
+            width, _, *form = struct.unpack(">IIBBBBB", data[at + 8:at + 21])
+            assert form == [8, 2, 0, 0, 0], form
+        packed += data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
+        at += size + 12
+    raw, rows, above = zlib.decompress(packed), [], bytes(3 * width)
+    for start in range(0, len(raw), 3 * width + 1):
+        row = bytearray(raw[start + 1:start + 1 + 3 * width])
+        for i in range(len(row)):
+            left, up, corner = (row[i - 3], above[i], above[i - 3]) if i >= 3 else (0, above[i], 0)
+            nearest = min((left, up, corner), key=lambda v: abs(left + up - corner - v))
+            row[i] = (row[i] + (0, left, up, (left + up) // 2, nearest)[raw[start]]) % 256
+        rows.append(bytes(row))
+        above = row
+    return rows
+
+
+def places(rows, wanted):
+    """Where a picture is found within another one: (x, y)."""
+    return [(at.start() // 3, y) for y in range(len(rows) - len(wanted) + 1) for at in re.finditer(re.escape(wanted[0]), rows[y])
+            if all(rows[y + k][at.start():at.start() + len(row)] == row for k, row in enumerate(wanted))]
+
+
 def snappy(data):
     """A raw Snappy block of literals only."""
     out, n = bytearray(), len(data)
@@ -218,7 +246,15 @@ class Diff(unittest.TestCase):
             self.assertTrue(json.loads(block)["thumbnail"].startswith("data:image/png;base64,"))
         self.assertEqual(page.count('"flip": "data:image/png;base64,'), 4)
         self.assertLess(page.index('id="p3"'), page.index('id="p1"'))  # failed first
-        self.assertTrue((out / "sheet.png").read_bytes().startswith(b"\x89PNG"))
+        sheet = read_png(out / "sheet.png")  # a row for each frame, what failed first: reference, compared picture, ...
+        (left, top), = places(sheet, picture(3))
+        (x, y), = places(sheet, picture(9))
+        self.assertEqual(y, top)
+        self.assertGreaterEqual(x, left + WIDTH)
+        below = [places(sheet, picture(n)) for n in (1, 2, 4)]
+        self.assertEqual([(at[0][0], at[1][0]) for at in below], [(left, x)] * 3)
+        self.assertEqual(len({at[0][1] for at in below} | {top}), 4)
+        self.assertGreater(min(at[0][1] for at in below), top)
 
     def config(self, text):
         path = self.dir / "c.yaml"
@@ -315,6 +351,7 @@ class Diff(unittest.TestCase):
                            ("rules:\n- bars: [{gate: R1, figure: 3, fail: 1}]\n", "has 1 figure")):
             done = self.diff(self.ref, self.traced, *self.config(text), expect=3)
             self.assertIn(said, done.stderr)
+            self.assertIn(str(self.dir), done.stderr, "names the file")
 
     def test_first_wrong_frame(self):
         write_png(self.traced / "b.3.png", picture(9))
@@ -350,7 +387,7 @@ class Diff(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    program = unittest.main(exit=False)
+    program = unittest.main(exit=False, failfast="RELUME_FIRST_FAILURE" in os.environ)
     failed = len(program.result.failures) + len(program.result.errors)
     # counted as libcheck counts, for the runner
     print(f"{100 if not failed else 0}%: Checks: {program.result.testsRun}, Failures: {failed}, Errors: 0")
