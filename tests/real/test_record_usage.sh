@@ -32,6 +32,8 @@ expect 2 "--frame-end takes" --frame-end sometimes -- true
 expect 2 "number of bytes" --max-size 5X -- true
 expect 2 "number of bytes" --max-size 0 -- true
 expect 2 "number of bytes" --max-size 99999999999999999999G -- true
+expect 2 "'' is no name for a trace" -o "" -- true
+expect 2 "is no name for a trace" -o "$TMPDIR/" -- true
 expect 5 "cannot write" -o "$TMPDIR/no/such/folder.trace" -- true
 expect 5 "is no file" -o "$TMPDIR" -- true
 expect 5 "cannot start" -o "$TMPDIR/x.trace" -- "$TMPDIR/no-such-program"

@@ -1,0 +1,43 @@
+#!/usr/bin/python3
+"""What relume record says of a program that draws, once and in its words: files that cannot be made, shaders, no frames."""
+from helpers import BUILD, RELUME, SCRATCH, check, finish, must, on_display
+
+PROGRAM = BUILD / "tests/trace/frames"  # ten frames
+
+
+def told(name, *program, options=(), code=0):
+    done = on_display(RELUME, "record", "-o", SCRATCH / name, *options, "--", *program)
+    check(done.returncode == code, f"{name}: exit code {done.returncode}, not {code}: {done.stderr}")
+    return done.stderr
+
+
+def times(text, words, wanted, what):
+    check(text.count(words) == wanted, f"{what}: \"{words}\" {text.count(words)} times, not {wanted}, in: {text}")
+
+
+said = told("plain.trace", PROGRAM)
+times(said, "plain.trace: 10 frames, ", 1, "a program of ten frames")
+times(said, "relume: ", 1, "one line")
+
+# Reference frames cannot be written: the recording goes on, and the reason is said once.
+(SCRATCH / "folder.ref").mkdir()
+said = told("folder.trace", PROGRAM, options=("--ref", "color"))
+times(said, "folder.trace: 10 frames, ", 1, "without reference frames")
+times(said, "folder.ref: cannot open: Is a directory; no more reference frames, the program goes on", 1, "a folder in its place")
+times(said, "no more reference frames", 1, "said once")
+
+# The trace's folder goes away before the program's first call: the program draws all the same.
+(SCRATCH / "gone").mkdir()
+said = told("gone/x.trace", "sh", "-c", f"rmdir {SCRATCH}/gone && exec {PROGRAM}", code=5)
+times(said, "cannot create: No such file or directory", 1, "a folder that went away")
+check(not (SCRATCH / "gone").exists(), "nothing is made there")
+
+said = told("programs.trace", BUILD / "tests/real/panels/program", options=("--max-frames", "1"))
+times(said, "the program uses shaders or programs", 1, "a program with programs")
+said = told("fixed.trace", PROGRAM, options=("--max-frames", "1"))
+times(said, "shaders or programs", 0, "a program without programs")
+
+said = told("none.trace", PROGRAM, options=("--frames", "50-60"))
+times(said, "none of the program's 10 frames was one to be recorded", 1, "frames that do not come")
+must(on_display(PROGRAM))
+finish()
