@@ -113,6 +113,20 @@ START_TEST(test_reads_back_what_was_written)
 }
 END_TEST
 
+/* Other first bytes are none of such a file's, whatever comes after them. */
+START_TEST(test_other_files)
+{
+	for (size_t at = 0; at < 8; at++) {
+		struct ref_file ref = { 0 };
+
+		make_file();
+		file[at] ^= 1;
+		write_file(file_bytes);
+		ck_assert_int_eq(ref_open(&ref, path), ERR_INPUT);
+	}
+}
+END_TEST
+
 START_TEST(test_cut_at_any_byte_keeps_whole_records)
 {
 	make_file();
@@ -277,6 +291,7 @@ int main(void)
 		return 1;
 	close(fd);
 	tcase_add_test(tcase, test_reads_back_what_was_written);
+	tcase_add_test(tcase, test_other_files);
 	tcase_add_test(tcase, test_cut_at_any_byte_keeps_whole_records);
 	tcase_add_test(tcase, test_changes_read_back);
 	tcase_add_test(tcase, test_bases_that_lie_are_refused);
