@@ -8,6 +8,7 @@
 
 #include "base/err.h"
 #include "tests/case.h"
+#include "tests/said.h"
 #include "tracer/image/exr_pack.h"
 #include "tracer/image/image.h"
 
@@ -237,6 +238,21 @@ START_TEST(test_cut_file)
 }
 END_TEST
 
+/* A picture that no memory can hold is refused in its words, and keeps the channels that it has. */
+START_TEST(test_no_memory)
+{
+	struct image img = { .width = 0x7fffffff, .height = 0x7fffffff };
+	struct said said = said_begin();
+	const int none = !image_add_channel(&img, "R", 1) && !image_add_halves(&img, "G");
+	char text[512];
+
+	said_end(&said, text, sizeof(text));
+	ck_assert(none && img.n_channels == 0);
+	ck_assert_msg(strstr(text, "out of memory for channel R of 2147483647 x 2147483647 pixels"), "%s", text);
+	image_free(&img);
+}
+END_TEST
+
 START_TEST(test_refuses)
 {
 	struct image img = make_image(4, 4), back = { 0 };
@@ -277,6 +293,7 @@ int main(void)
 	tcase_add_test(tests, test_bands);
 	tcase_add_test(tests, test_half_rounds_to_nearest_even);
 	tcase_add_test(tests, test_cut_file);
+	tcase_add_test(tests, test_no_memory);
 	tcase_add_test(tests, test_refuses);
 	tcase_add_test(tests, test_encoding);
 	failed = run_case(tests, "image");
