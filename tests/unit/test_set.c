@@ -10,6 +10,8 @@
 #include "base/err.h"
 #include "capture/format/ref_pack.h"
 #include "diff/pictures/set.h"
+#include "diff/report/pictures.h"
+#include "diff/score/picture.h"
 #include "tests/case.h"
 #include "tests/said.h"
 
@@ -181,6 +183,34 @@ START_TEST(test_records)
 }
 END_TEST
 
+/* The layer that a reference is compared by: one that is asked for, else what OpenGL drew, else the beauty. */
+START_TEST(test_reference_layers)
+{
+	static const char *const asked[] = { NULL, NULL, "albedo", "none" };
+	static const int codes[] = { 51, 102, 153, 51 };
+
+	for (int i = 0; i < 4; i++) {
+		struct image img = { .width = 2, .height = 1 };
+		struct score_picture picture = { 0 };
+
+		for (int c = 0; c < 9; c++) {
+			char name[16];
+			float *plane;
+
+			snprintf(name, sizeof(name), "%s%c", c < 3 ? "gl." : c < 6 ? "" : "albedo.", "RGB"[c % 3]);
+			plane = i == 1 && c < 3 ? NULL : image_add_channel(&img, name, 1);
+			for (int k = 0; plane && k < 2; k++)
+				plane[k] = (float)(c < 3 ? 51 : c < 6 ? 102 : 153) / 255;
+		}
+		image_set_attribute(&img, "relume:encoding", "display");
+		ck_assert_int_eq(picture_take_reference(&img, asked[i], &picture), 0);
+		ck_assert_msg(picture.rgb[0] == codes[i], "asked for %s: %d, not %d", asked[i] ? asked[i] : "none", picture.rgb[0], codes[i]);
+		score_picture_free(&picture);
+		image_free(&img);
+	}
+}
+END_TEST
+
 int main(void)
 {
 	Suite *suite = suite_create("set");
@@ -196,6 +226,7 @@ int main(void)
 	tcase_add_test(tcase, test_single);
 	tcase_add_test(tcase, test_traces);
 	tcase_add_test(tcase, test_records);
+	tcase_add_test(tcase, test_reference_layers);
 	suite_add_tcase(suite, tcase);
 	runner = srunner_create(suite);
 	srunner_set_fork_status(runner, CK_NOFORK); /* as test_foreign's */
