@@ -274,7 +274,9 @@ START_TEST(test_levels)
 	for (int k = -20; k <= 20; k++)
 		ck_assert_float_eq(texture_half_log2(ldexpf(1, 2 * k)), (float)k);
 	ck_assert_float_eq(texture_half_log2(1.5f), 0.25f);
-	ck_assert_float_eq(texture_half_log2(0), -100);
+	ck_assert_float_eq(texture_half_log2(0), -100); /* what is less than 1e-30 is as good as nothing */
+	ck_assert_float_eq(texture_half_log2(0.99e-30f), -100);
+	ck_assert_float_eq_tol(texture_half_log2(1.01e-30f), -49.8f, 0.1f);
 	ck_assert_float_eq(texture_half_log2(INFINITY), 100);
 	ck_assert_float_eq(texture_lod(&unit, &slope, 0), 3);
 	ck_assert_float_eq(texture_lod(&unit, &slope, 1), 1); /* the short axis, 2 texels: the long one is not over four times as long */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "kernels/gl/stages.h"
+#include "kernels/gl/userclip.h"
 #include "kernels/gl/vertex_program.h"
 #include "tests/case.h"
 
@@ -259,6 +260,34 @@ START_TEST(test_clip_planes)
 }
 END_TEST
 
+/* What a plane leaves of a polygon: cut sides have a new corner; of one that crosses the plane more often than a polygon can, as many as there is room for. */
+START_TEST(test_cut_polygons)
+{
+	const struct userclip_plane plane = { { 1, -1, -1 } };
+	const struct view view = { .viewport = { 0, 0, 64, 64 }, .depth_range = { 0, 1 } };
+	struct clip_corner in[USERCLIP_CORNERS], out[USERCLIP_CORNERS + 1];
+
+	for (uint32_t i = 0; i < USERCLIP_CORNERS; i++)
+		in[i] = (struct clip_corner){ .clip = v4(0, 0, 0, 1), .number = i, .b1 = i & 1 ? 1 : 0 };
+	out[USERCLIP_CORNERS].number = 77;
+	ck_assert_uint_eq(userclip_by(&view, 64, &plane, in, USERCLIP_CORNERS, out), USERCLIP_CORNERS);
+	ck_assert_uint_eq(out[USERCLIP_CORNERS].number, 77);
+	ck_assert_uint_eq(userclip_by(&view, 64, &plane, in, 2, out), 3); /* one inside, two cuts */
+	ck_assert_uint_eq(out[0].number, 0);
+	for (uint32_t i = 0; i < 3; i++)
+		in[i].b1 = 0.25f;
+	ck_assert_uint_eq(userclip_by(&view, 64, &plane, in, 3, out), 3);
+	in[1].b1 = 0.75f;
+	ck_assert_uint_eq(userclip_by(&view, 64, &plane, in, 3, out), 4);
+	ck_assert(out[0].number == 0 && out[3].number == 2);
+	ck_assert_float_eq_tol(out[1].b1, 0.5f, ALMOST);
+	ck_assert_float_eq_tol(out[2].b1, 0.5f, ALMOST);
+	for (uint32_t i = 0; i < 3; i++)
+		in[i].b1 = 0.75f;
+	ck_assert_uint_eq(userclip_by(&view, 64, &plane, in, 3, out), 0);
+}
+END_TEST
+
 /* The side that shows is that of the places in the window, however far away; of clip space where one of them has none. */
 START_TEST(test_sides_of_triangles)
 {
@@ -325,6 +354,7 @@ int main(void)
 	tcase_add_test(tcase, test_inputs);
 	tcase_add_test(tcase, test_normals);
 	tcase_add_test(tcase, test_clip_planes);
+	tcase_add_test(tcase, test_cut_polygons);
 	tcase_add_test(tcase, test_sides_of_triangles);
 	tcase_add_test(tcase, test_lit_by_programs);
 	tcase_add_test(tcase, test_undrawn);
