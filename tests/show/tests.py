@@ -8,8 +8,9 @@ until one fails; a hang ends by a limit of processor time. It must fail with the
 then, or is skipped, does not count.
 
 Kernels share their text with their C twins, so that both would be wrong alike: their mutants run where the twins are the device, and kernels/ref's
-beside a device. What is for devices alone (*.cl, packs) and what is no expression (tables, sizes) is not tried. LEFT_OUT are tests that read
-sources, start a farm, a browser or Wine, or take long; so are those that measure time or need more than SLOW_S of processor time.
+beside a device. What is for devices alone (*.cl, packs, the text around hooks, which is compiled when one is there) and what is no expression
+(tables, sizes) is not tried. LEFT_OUT are tests that read sources, start a farm, a browser or Wine, or take long; so are those that measure
+time or need more than SLOW_S of processor time.
 
 All is kept in BUILD/show/tests: a campaign may be stopped at any time, and goes on. Of a time that is given, half is for the first run of tests. A
 verdict holds while its source and its test stand; what was left meets tests that are new. tests/show/left.txt gives reasons.
@@ -41,6 +42,7 @@ FOLDERS = {"kernels": ("kernels/*.h", "kernels/camera/*.h", "kernels/gl/*.h", "k
 LEFT_OUT = ("unit/test_house", "harness/", "farm/", "real/test_page", "real/test_wine", "real/test_i386", "real/test_crash", "real/test_hooks", "real/test_inject")
 QUICK = ("unit/", "gl/", "trace/", "fuzz/")
 FLAGS = ["CFLAGS=-O1 -g0 -w -fno-delete-null-pointer-checks", "CXXFLAGS=-O1 -g0 -w"]  # what a call promises of its arguments makes no mutant vanish
+HOOK_TEXT = "kernels/frame/hook"
 # Where mutants of shared text run: in a build whose device is the twins, unless a test names one.
 TWINS = ("tracer/device/device.c", "\treturn choice && strcmp", '\treturn !choice ? getenv("RELUME_TWINS") != NULL : strcmp')
 TWINS_TESTS = ("golden/", "truth/", "look/", "real/test_panels", "real/test_textures", "real/test_shapes", "real/test_glass", "real/test_vertices", "real/test_samples", "unit/test_device")
@@ -239,7 +241,7 @@ def main(options):
     todo.tell()
     tried = {}
     for number, site in sorted(todo.mutants.by_number.items(), key=lambda item: item[1].id):
-        if options.only in (None, site.folder) and (time.monotonic() < end or site.id in todo.verdicts):
+        if options.only in (None, site.folder) and not site.path.startswith(HOOK_TEXT) and (time.monotonic() < end or site.id in todo.verdicts):
             tried[site.id] = verdict = todo.verdicts[site.id] if time.monotonic() > end else todo.judge(number, site)
             if verdict != todo.verdicts.get(site.id):
                 todo.verdicts[site.id] = verdict
@@ -256,6 +258,9 @@ def main(options):
         if of:
             shown.row(f"{folder}: {len(of)} mutants", f"{noticed} noticed, {len(of) - noticed} left: {100 * noticed / len(of):.1f} %",
                       f"{100 * BAR:.0f} %" if folder == "all" else None, noticed >= BAR * len(of) if folder == "all" else None)
+    told = len(tried) - sum(not verdict["by"] and name in reasons for name, verdict in tried.items())
+    if told:
+        shown.row(f"without {len(tried) - told} that change no result (left.txt)", f"{noticed} of {told}: {100 * noticed / told:.1f} %", None, None)
     return shown.finish()
 
 
