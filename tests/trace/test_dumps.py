@@ -59,6 +59,9 @@ class Dumps(unittest.TestCase):
     def test_ranges_of_elements(self):
         self.compare("ranges")
 
+    def test_mappings_that_end(self):
+        self.compare("mapped")
+
     def test_pixels(self):
         self.compare("pixels")
 
