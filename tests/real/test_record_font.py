@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # limit: 200 s
 """Text by glXUseXFont, for which readers of a trace have no X server's font: glretrace's pictures and ours show what the program did."""
+import re
+
 from helpers import BUILD, SCRATCH, check, diff, finish, must, on_display, record, relume, render, run
 
 FRAMES = 5
@@ -17,5 +19,6 @@ for frame in score["frames"]:
 info = must(relume("info", trace)).stdout
 check("every call is executed" in info, f"nothing of it is unhandled: {info}")
 dump = run("apitrace", "dump", "--color=never", trace).stdout
+check(re.search(r"glXUseXFont\(font = \d+, first = 0, count = 256, list = 1000\)", dump), "the call itself, as the program made it")
 check(dump.count("glBitmap(") == 512, f"{dump.count('glBitmap(')} bitmaps of 512 characters")
 finish()

@@ -53,17 +53,15 @@ int main(void)
 	glCallList(list);
 	fan(0.75f);
 
-	/* From here on vertices depend on an edge flag set outside of their run. */
-	glEdgeFlag(GL_FALSE);
-	fan(0.25f);
-	end_frame();
-
 	/* The program takes one of the names that are for such lists: no more are made. */
-	glEdgeFlag(GL_TRUE);
 	glNewList(0xF00001, GL_COMPILE);
 	glEndList();
 	fan(0.5f);
 	fan(0.5f);
+
+	/* From here on vertices depend on an edge flag set outside of their run. */
+	glEdgeFlag(GL_FALSE);
+	fan(0.25f);
 	expect(glGetError() == GL_NO_ERROR, "no error");
 	end_frame();
 	return 0;

@@ -92,6 +92,12 @@ class Dumps(unittest.TestCase):
     def test_runs(self):
         self.compare("runs")
 
+    def test_what_frames_that_are_left_out_leave(self):
+        got = dump("runs", "--frames", "2-2")
+        fan = ["glBegin(mode = GL_TRIANGLE_FAN)", "glColor3f(red = 0.25, green = 0.9166667, blue = 0)", "glEnd()"]  # of twelve colours the last
+        at = got.index(fan[0])
+        self.assertEqual(got[at:at + 3], fan)
+
     def test_threads(self):
         """Two threads draw at once: every call of both is there, whole, in each thread's order."""
         got = dump("threads")
