@@ -139,6 +139,53 @@ START_TEST(test_nothing_left)
 }
 END_TEST
 
+/* With samples, a line that is less than a pixel is drawn where its rectangle reaches over the left or lower border of one, whatever its direction. */
+START_TEST(test_short_lines)
+{
+	uint32_t seed = 1, drawn = 0, tried = 0;
+
+	for (int i = 0; i < 4000; i++) {
+		float r[4], box[2][2] = { { 1e9f, -1e9f }, { 1e9f, -1e9f } }, dx, dy, length;
+		struct drawn d;
+		int near = 0, wanted;
+
+		for (int k = 0; k < 4; k++) {
+			seed = seed * 1664525u + 1013904223u;
+			r[k] = (float)(seed >> 8) / 16777216.0f;
+		}
+		dx = 0.5f * (r[2] - 0.5f);
+		dy = 0.5f * (r[3] - 0.5f);
+		length = hypotf(dx, dy);
+		if (length < 0.02f)
+			continue;
+		for (int k = 0; k < 4; k++) {
+			const float along = k & 1, side = k & 2 ? 0.5f : -0.5f;
+			const float at[2] = { 20 + r[0] + along * dx - side * dy / length, 20 + r[1] + along * dy + side * dx / length };
+
+			for (int c = 0; c < 2; c++) {
+				box[c][0] = fminf(box[c][0], at[c]);
+				box[c][1] = fmaxf(box[c][1], at[c]);
+				near |= fabsf(at[c] - rintf(at[c])) < 0.02f; /* snapped to 1/256 */
+			}
+		}
+		if (near)
+			continue;
+		wanted = ceilf(box[0][1]) > ceilf(box[0][0]) && floorf(box[1][1]) > floorf(box[1][0]);
+		begin(&d, SCENE_LINES, PREPARED_LINES);
+		d.mesh.primitive_count = 1;
+		d.material.multisample = 1;
+		place(&d, 0, 20 + r[0], 20 + r[1], 0);
+		place(&d, 1, 20 + r[0] + dx, 20 + r[1] + dy, 0);
+		ck_assert_int_eq(expand_primitives(&d.in, &d.out), 0);
+		tried++;
+		drawn += d.out.n_primitives != 0;
+		ck_assert_msg((d.out.n_primitives != 0) == wanted, "line %d, of %g %g by %g %g", i, r[0], r[1], dx, dy);
+		expanded_free(&d.out);
+	}
+	ck_assert(tried > 1000 && drawn > 100 && drawn < tried);
+}
+END_TEST
+
 /* Dashes: runs of the pattern's bits, each repeated by the factor, from the line's first end on; a strip goes on with them. */
 START_TEST(test_stipples)
 {
@@ -245,6 +292,7 @@ int main(void)
 
 	tcase_add_test(tcase, test_lines);
 	tcase_add_test(tcase, test_nothing_left);
+	tcase_add_test(tcase, test_short_lines);
 	tcase_add_test(tcase, test_stipples);
 	tcase_add_test(tcase, test_outlines);
 	tcase_add_test(tcase, test_points);
