@@ -326,6 +326,34 @@ START_TEST(test_lit_by_programs)
 }
 END_TEST
 
+/* Lights that rays go to: those that light the vertices, or the point where it is lit anew, in mode path all that stand before it. */
+START_TEST(test_asked_lights)
+{
+	struct scene_light lights[4];
+	struct world w;
+	struct point p;
+
+	begin(&w, 0);
+	p = point_of(&w);
+	for (int i = 0; i < 4; i++) {
+		lights[i] = w.light;
+		lights[i].diffuse[0] = lights[i].diffuse[1] = lights[i].diffuse[2] = i == 2;
+	}
+	lights[1].radius = -1;          /* nothing stops it */
+	lights[3].position_eye[2] = -1; /* behind */
+	w.tables.lights = lights;
+	w.material.lighting = 1;
+	w.material.light_count = 4;
+	ck_assert_uint_eq(stage_lights(&w.tables, &p, TRANSPORT_GL, 16), 16);
+	ck_assert_uint_eq(stage_lights(&w.tables, &p, TRANSPORT_DIFFUSE, 16), 16);
+	ck_assert_uint_eq(stage_lights(&w.tables, &p, TRANSPORT_RELIGHT, 16), 16 | 4);
+	ck_assert_uint_eq(stage_lights(&w.tables, &p, TRANSPORT_PATH, 16), 1 | 4);
+	ck_assert_uint_eq(stage_lights(&w.tables, &p, TRANSPORT_LINEAR, 16), 1 | 4);
+	w.material.surface.hidden = SCENE_UNSHADED;
+	ck_assert_uint_eq(stage_lights(&w.tables, &p, TRANSPORT_PATH, 16), 0);
+}
+END_TEST
+
 /* Pixels of a line that are none of those drawn: before the first column or row, behind the last row. */
 START_TEST(test_undrawn)
 {
@@ -357,6 +385,7 @@ int main(void)
 	tcase_add_test(tcase, test_cut_polygons);
 	tcase_add_test(tcase, test_sides_of_triangles);
 	tcase_add_test(tcase, test_lit_by_programs);
+	tcase_add_test(tcase, test_asked_lights);
 	tcase_add_test(tcase, test_undrawn);
 	return run_case(tcase, "vertex formulas");
 }
