@@ -1,4 +1,6 @@
 /* Programs in assembly (ARB_vertex_program, ARB_fragment_program): objects, what is translated, what a draw's scene holds of it. */
+#include <stdio.h>
+
 #include "replay/programs/ati.h"
 #include "replay/programs/program.h"
 #include "scene/program.h"
@@ -307,6 +309,40 @@ START_TEST(test_vertices)
 }
 END_TEST
 
+/* Instructions of a bound vertex program that negate an operand. */
+static unsigned negations(struct gl *gl, const char *instruction)
+{
+	const struct gls_program *p;
+	unsigned n = 0;
+	char text[128];
+
+	snprintf(text, sizeof(text), "!!ARBvp1.0 TEMP r; %s; MOV result.position, r; END", instruction);
+	set_text_of(gl, GL_VERTEX_PROGRAM_ARB, 1, text);
+	p = bound_to_vertices(gl);
+	ck_assert_msg(!p->why, "%s: %s", text, p->why ? p->why : "");
+	for (uint32_t i = 0; i < p->code.n_instructions; i++)
+		n += (p->code.instructions[i].flags & (SCENE_NEGATE_A | SCENE_NEGATE_B | SCENE_NEGATE_C)) != 0;
+	return n;
+}
+
+/* A minus before an operand counts, of one number as of four. */
+START_TEST(test_negated)
+{
+	static const char *const operations[] = { "MOV r, %sr", "ABS r, %sr", "FLR r, %sr", "RCP r, %sr.y", "RSQ r, %sr.y", "EX2 r, %sr.y", "EXP r, %sr.y", "LG2 r, %sr.y", "LOG r, %sr.y",
+		                                  "POW r, %sr.x, r.y", "POW r, r.x, %sr.y", "ADD r, r, %sr", "MUL r, %sr, r", "MAD r, r, %sr, r", "MAD r, r, r, %sr", "DP3 r, %sr, r", "MIN r, r, %sr" };
+	struct gl gl = gl_open();
+
+	for (size_t i = 0; i < sizeof(operations) / sizeof(operations[0]); i++) {
+		char with[64], without[64];
+
+		snprintf(with, sizeof(with), operations[i], "-");
+		snprintf(without, sizeof(without), operations[i], "");
+		ck_assert_msg(negations(&gl, with) > negations(&gl, without), "%s: nothing is negated", with);
+	}
+	gl_close(&gl);
+}
+END_TEST
+
 /* Arrays of attributes count where a program draws; attribute 0 comes before the conventional one. */
 START_TEST(test_vertex_arrays)
 {
@@ -485,4 +521,4 @@ START_TEST(test_damaged_texts)
 }
 END_TEST
 
-GL_TESTS("programs", test_objects, test_ati, test_damaged_ati, test_many_parameters, test_long_texts, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_no_text, test_wrong_texts, test_damaged_texts)
+GL_TESTS("programs", test_objects, test_ati, test_damaged_ati, test_many_parameters, test_long_texts, test_scene, test_vertices, test_negated, test_vertex_arrays, test_enables, test_reasons, test_no_text, test_wrong_texts, test_damaged_texts)
