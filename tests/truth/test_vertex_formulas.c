@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels/gl/program.h"
 #include "kernels/gl/stages.h"
 #include "kernels/gl/userclip.h"
 #include "kernels/gl/vertex_program.h"
@@ -238,6 +239,32 @@ START_TEST(test_normals)
 }
 END_TEST
 
+/* The other pixels of a quad see the same triangle, each at its own middle; the fragment's own pixel sees it as it is. */
+START_TEST(test_neighbours)
+{
+	static const float corners[3][2] = { { -1, -1 }, { 1, -1 }, { -1, 1 } };
+	const struct point_quad quad = { .x = 10, .y = 20 };
+	struct world w;
+
+	begin(&w, 0);
+	for (uint32_t own = 0; own < 4; own++) {
+		struct program_fragment f = { .own = own };
+
+		f.p = point_of(&w);
+		f.window.view = &w.view;
+		f.window.height = 64;
+		for (uint32_t i = 0; i < 3; i++)
+			memcpy(w.shaded[i].clip, (float[4]){ corners[i][0], corners[i][1], 0, 1 }, 16);
+		for (uint32_t k = 0; k < 4; k++) {
+			const struct point p = program_neighbour(&f, &quad, k);
+			const float x = (10.5f + (float)(k & 1)) / 64, y = 1 - (20.5f + (float)(k >> 1)) / 64;
+
+			check_floats(p.weight, k == own ? f.p.weight : (float[3]){ 1 - x - y, x, y }, 3, "weights");
+		}
+	}
+}
+END_TEST
+
 /* Planes of the program's cut away what lies behind one of those that are enabled. */
 START_TEST(test_clip_planes)
 {
@@ -381,6 +408,7 @@ int main(void)
 	tcase_add_test(tcase, test_sides);
 	tcase_add_test(tcase, test_inputs);
 	tcase_add_test(tcase, test_normals);
+	tcase_add_test(tcase, test_neighbours);
 	tcase_add_test(tcase, test_clip_planes);
 	tcase_add_test(tcase, test_cut_polygons);
 	tcase_add_test(tcase, test_sides_of_triangles);

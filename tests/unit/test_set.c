@@ -211,6 +211,35 @@ START_TEST(test_reference_layers)
 }
 END_TEST
 
+/* Effects that show nothing have no picture on the page; other layers have, whatever they show. */
+START_TEST(test_effect_layers)
+{
+	for (int shows = 0; shows < 2; shows++) {
+		struct picture_frame frame = { .image = { .width = 2, .height = 2 } };
+		uint32_t width, height;
+		uint8_t *rgb;
+
+		for (int c = 0; c < 9; c++) {
+			char name[16];
+			float *plane;
+
+			snprintf(name, sizeof(name), "%s%c", c < 3 ? "shadow." : c < 6 ? "" : "gl.", "RGB"[c % 3]);
+			plane = image_add_channel(&frame.image, name, 1);
+			for (int k = 0; k < 4; k++)
+				plane[k] = c == 1 && k == 3 && shows ? 0.25f : 1;
+		}
+		ck_assert_int_eq(picture_make(&frame, PICTURE_SHADOW, &rgb, &width, &height), 0);
+		ck_assert_msg(!rgb == !shows, "a shadow that %s", shows ? "shows has no picture" : "shows nothing has one");
+		ck_assert(!rgb || (rgb[0] == 255 && rgb[10] < 255 && rgb[9] == 255));
+		free(rgb);
+		ck_assert_int_eq(picture_make(&frame, PICTURE_BEAUTY, &rgb, &width, &height), 0);
+		ck_assert(rgb && width == 2 && height == 2);
+		free(rgb);
+		image_free(&frame.image);
+	}
+}
+END_TEST
+
 int main(void)
 {
 	Suite *suite = suite_create("set");
@@ -227,6 +256,7 @@ int main(void)
 	tcase_add_test(tcase, test_traces);
 	tcase_add_test(tcase, test_records);
 	tcase_add_test(tcase, test_reference_layers);
+	tcase_add_test(tcase, test_effect_layers);
 	suite_add_tcase(suite, tcase);
 	runner = srunner_create(suite);
 	srunner_set_fork_status(runner, CK_NOFORK); /* as test_foreign's */
