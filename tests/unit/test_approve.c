@@ -6,20 +6,13 @@
 
 #include "base/verbs.h"
 #include "diff/baseline/baseline.h"
-#include "tests/case.h"
+#include "tests/alone.h"
 #include "tests/said.h"
 #include "tracer/image/image.h"
 
-static char scratch[] = "/tmp/relume_approve.XXXXXX";
-
-/* Each test in a folder of its own. */
 static void setup(void)
 {
-	char own[] = "XXXXXX";
-
-	ck_assert_int_eq(chdir(scratch), 0);
-	ck_assert_ptr_nonnull(mkdtemp(own));
-	ck_assert_int_eq(chdir(own), 0);
+	alone_enter();
 	ck_assert_int_eq(mkdir("traced", 0777), 0);
 }
 
@@ -136,24 +129,11 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("approve");
 	TCase *tcase = tcase_create("approve");
-	SRunner *runner;
-	char command[64];
-	int failed;
 
-	if (!mkdtemp(scratch))
-		return 1;
 	tcase_add_checked_fixture(tcase, setup, NULL);
 	tcase_add_test(tcase, test_order);
 	tcase_add_test(tcase, test_files);
 	tcase_add_test(tcase, test_other_folders);
-	suite_add_tcase(suite, tcase);
-	runner = srunner_create(suite);
-	srunner_set_fork_status(runner, CK_NOFORK); /* as test_foreign's */
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	snprintf(command, sizeof(command), "rm -rf %s", scratch);
-	return system(command) || failed;
+	return run_alone_in_folders(tcase, "approve");
 }

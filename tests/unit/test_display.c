@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "tests/case.h"
+#include "tests/alone.h"
 #include "tracer/image/display.h"
 
 enum { SIDE = 16 };
@@ -81,18 +81,9 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("display");
 	TCase *tcase = tcase_create("display");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_test(tcase, test_dither);
 	tcase_add_test(tcase, test_white);
-	suite_add_tcase(suite, tcase);
-	runner = srunner_create(suite);
-	srunner_set_fork_status(runner, CK_NOFORK); /* as test_foreign's */
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_alone(tcase, "display");
 }

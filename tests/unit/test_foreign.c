@@ -1,5 +1,4 @@
 /* Pictures read in a process of their own: as in this one, and whatever becomes of that process. */
-#include <check.h>
 #include <dirent.h>
 #include <pthread.h>
 #include <signal.h>
@@ -12,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "tests/alone.h"
 #include "tracer/image/display.h"
 #include "tracer/image/foreign.h"
 #include "tracer/image/oiio.h"
@@ -190,10 +190,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("foreign");
 	TCase *tests = tcase_create("foreign");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_checked_fixture(tests, setup, teardown);
 	tcase_add_test(tests, as_here);
@@ -201,11 +198,5 @@ int main(void)
 	tcase_add_test(tests, server_ended);
 	tcase_add_test(tests, not_a_picture);
 	tcase_add_test(tests, many_at_once);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_set_fork_status(runner, CK_NOFORK); /* a library behind OpenImageIO waits at exit for a thread that a fork does not have */
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_alone(tests, "foreign");
 }

@@ -12,20 +12,8 @@
 #include "diff/pictures/set.h"
 #include "diff/report/pictures.h"
 #include "diff/score/picture.h"
-#include "tests/case.h"
+#include "tests/alone.h"
 #include "tests/said.h"
-
-static char scratch[] = "/tmp/relume_set.XXXXXX";
-
-/* Each test in a folder of its own. */
-static void setup(void)
-{
-	char own[] = "XXXXXX";
-
-	ck_assert_int_eq(chdir(scratch), 0);
-	ck_assert_ptr_nonnull(mkdtemp(own));
-	ck_assert_int_eq(chdir(own), 0);
-}
 
 /* The frames of a set are these, in order. */
 static void check_set(const char *where, size_t n, const uint64_t frames[])
@@ -242,27 +230,14 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("set");
 	TCase *tcase = tcase_create("set");
-	SRunner *runner;
-	char command[64];
-	int failed;
 
-	if (!mkdtemp(scratch))
-		return 1;
-	tcase_add_checked_fixture(tcase, setup, NULL);
+	tcase_add_checked_fixture(tcase, alone_enter, NULL);
 	tcase_add_test(tcase, test_folders);
 	tcase_add_test(tcase, test_single);
 	tcase_add_test(tcase, test_traces);
 	tcase_add_test(tcase, test_records);
 	tcase_add_test(tcase, test_reference_layers);
 	tcase_add_test(tcase, test_effect_layers);
-	suite_add_tcase(suite, tcase);
-	runner = srunner_create(suite);
-	srunner_set_fork_status(runner, CK_NOFORK); /* as test_foreign's */
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	snprintf(command, sizeof(command), "rm -rf %s", scratch);
-	return system(command) || failed;
+	return run_alone_in_folders(tcase, "set");
 }
