@@ -423,7 +423,7 @@ static uint64_t reference_bytes(const char *trace)
 	struct stat st;
 
 	name_beside(path, sizeof(path), trace, ".ref");
-	return stat(path, &st) == 0 ? (uint64_t)st.st_size : 0;
+	return stat(path, &st) == 0 && S_ISREG(st.st_mode) ? (uint64_t)st.st_size : 0;
 }
 
 /* One line for each process that drew, then the commands that were not recorded. */

@@ -25,6 +25,7 @@ said = told("folder.trace", PROGRAM, options=("--ref", "color"))
 times(said, "folder.trace: 10 frames, ", 1, "without reference frames")
 times(said, "folder.ref: cannot open: Is a directory; no more reference frames, the program goes on", 1, "a folder in its place")
 times(said, "no more reference frames", 1, "said once")
+times(said, "bytes of reference frames", 0, "there are none")
 
 # The trace's folder goes away before the program's first call: the program draws all the same.
 (SCRATCH / "gone").mkdir()
