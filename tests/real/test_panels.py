@@ -15,10 +15,11 @@ PROGRAMS = {
     "texture": ("environments", "combiner functions", "combiner operands", "generated coordinates"),
     "fragment": ("blend factors", "more blend factors", "blend equations", "tests", "stencil", "stencil of two sides", "user planes"),
     "line": ("strips", "kinds", "cut", "shared corners", "unfilled polygons", "edge flags"),
-    "compression": ("plain images", "their alpha", "parts", "levels", "alpha of levels", "copies of the screen"),
+    "compression": ("plain images", "their alpha", "parts", "levels", "alpha of levels", "copies of the screen", "YCbCr"),
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "what rectangles go through",
               "transfer to textures", "indices to textures"),
     "program": ("instructions", "bindings", "textures", "fragments", "last bits"),
+    "ati_shader": ("instructions", "arguments", "destinations", "sources", "textures"),
     "vertex_program": ("instructions", "bindings", "addresses", "results", "attributes", "uses", "extremes"),
     "shader": ("functions", "statements", "state", "textures", "vertices", "scenes", "several buffers"),
 }

@@ -8,6 +8,7 @@ struct expand_end expand_load_end(const struct expand_input *in, uint32_t v, int
 	struct expand_end e = { .v = in->vertices[v] };
 	uint32_t units = in->material->unit_count;
 
+	memcpy(e.clip_place, in->material->clip_by_program ? e.v.color[1] : e.v.eye, sizeof(e.clip_place));
 	memcpy(e.v.color[0], in->vertices[v].color[side], sizeof(e.v.color[0]));
 	memcpy(e.v.color[1], in->vertices[v].color[side], sizeof(e.v.color[1]));
 	memcpy(e.v.secondary[0], in->vertices[v].secondary[side], sizeof(e.v.secondary[0]));
@@ -74,19 +75,20 @@ static void move_end(struct expand_end *e, const struct expand_end *to, float t)
 {
 	move_floats(e->v.clip, to->v.clip, t, 4);
 	move_floats(e->v.eye, to->v.eye, t, 4);
+	move_floats(e->clip_place, to->clip_place, t, 4);
 	move_attributes(e, to, t);
 	e->cut = 1;
 }
 
 float expand_plane_distance(const struct expand_input *in, const struct expand_end *e, int plane)
 {
-	const float *p, *eye = e->v.eye;
+	const float *p, *at = e->clip_place;
 
 	if (plane < EXPAND_VOLUME_PLANES)
 		return clip_distance(e->v.clip, plane);
 	plane -= EXPAND_VOLUME_PLANES;
 	p = in->material->clip_plane_eye[plane];
-	return in->material->clip_plane_mask >> plane & 1 ? p[0] * eye[0] + p[1] * eye[1] + p[2] * eye[2] + p[3] * eye[3] : 0;
+	return in->material->clip_plane_mask >> plane & 1 ? p[0] * at[0] + p[1] * at[1] + p[2] * at[2] + p[3] * at[3] : 0;
 }
 
 int expand_clip_line(const struct expand_input *in, struct expand_end *a, struct expand_end *b)
