@@ -29,12 +29,12 @@ static uint8_t *put(uint8_t *p, uint32_t type, double value)
 	}
 }
 
-/* Places are what they are, in every type that there is; colours of integers stand for [0,1] or [-1,1]. */
+/* Places are what they are, in every type that there is; colours of integers stand for [0,1] or [-1,1], of which 0 is one in arrays (gls_geometry). */
 START_TEST(test_arrays)
 {
 	/* of each type the number that is 1, one in between, and what that is */
 	static const double colors[N_TYPES][3] = {
-		{ 127, 25, 51.0 / 255 }, { 255, 51, 0.2 }, { 32767, -1, -1.0 / 65535 }, { 65535, 13107, 0.2 }, { 2147483647, 1073741823, 0.5 },
+		{ 127, 25, 25.0 / 127 }, { 255, 51, 0.2 }, { 32767, -1, -1.0 / 32767 }, { 65535, 13107, 0.2 }, { 2147483647, 1073741823, 0.5 },
 		{ 4294967295, 858993459, 0.2 }, { 1, 0.25, 0.25 }, { 1, 0.125, 0.125 }, { 1, 0.5, 0.5 }, { 1, 0.75, 0.75 },
 	};
 

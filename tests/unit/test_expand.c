@@ -19,6 +19,7 @@ struct drawn {
 	struct scene_material material;
 	struct view view;
 	struct expand_input in;
+	float dashed;
 	struct expanded out;
 };
 
@@ -46,7 +47,7 @@ static void begin(struct drawn *d, enum scene_primitive kind, enum prepared_shap
 	d->material = (struct scene_material){ .shade_model = GL_SMOOTH, .front_face = GL_CCW, .line_width = 1, .point_attenuation = { 1, 0, 0 } };
 	d->view = (struct view){ .viewport = { 0, 0, SIDE, SIDE }, .depth_range = { 0, 1 } };
 	d->in = (struct expand_input){ .mesh = &d->mesh, .material = &d->material, .view = &d->view, .shape = shape, .width = SIDE, .height = SIDE, .depth_bits = 24,
-		                       .vertices = d->vertices };
+		                       .vertices = d->vertices, .dashed = &d->dashed };
 }
 
 static void expand(struct drawn *d, uint32_t quads)
@@ -189,6 +190,7 @@ END_TEST
 /* Dashes: runs of the pattern's bits, each repeated by the factor, from the line's first end on; a strip goes on with them. */
 START_TEST(test_stipples)
 {
+	static const uint8_t goes_on[2] = { 0, SCENE_CONTINUES };
 	struct drawn d;
 
 	begin(&d, SCENE_LINES, PREPARED_LINES);
@@ -205,13 +207,16 @@ START_TEST(test_stipples)
 	ck_assert_float_eq_tol(d.out.vertices[4].color[0][0], 26.0f / SIDE, 1e-3f);
 	d.index[1] = d.index[2] = 1; /* 10 to 35, and down to 20 */
 	d.index[3] = 3;
+	expand(&d, 4);
+	check_box(&d, 2, 34.5f, 34, 35.5f, 38); /* lines start anew, though they share a corner */
+	d.mesh.edge_flags = goes_on;
 	expand(&d, 3);
 	check_box(&d, 2, 34.5f, 27, 35.5f, 31); /* 25 are used up: 7 and 2 are off, then 4 are on */
 	expanded_free(&d.out);
 }
 END_TEST
 
-/* Edges of a polygon: those that the program drew; flat ones have the last corner's colour; a polygon offset moves their depth. */
+/* Edges of a polygon, the last one first as in Mesa: those that the program drew; flat ones have the last corner's colour; a polygon offset moves their depth. */
 START_TEST(test_outlines)
 {
 	static const uint8_t flags[] = { 5 };
@@ -222,8 +227,8 @@ START_TEST(test_outlines)
 	place(&d, 1, 50, 10, 0);
 	place(&d, 2, 10, 40, 0);
 	expand(&d, 3);
-	check_box(&d, 0, 10, 9.5f, 50, 10.5f);
-	check_box(&d, 2, 9.5f, 10, 10.5f, 40);
+	check_box(&d, 0, 9.5f, 10, 10.5f, 40);
+	check_box(&d, 1, 10, 9.5f, 50, 10.5f);
 	ck_assert_float_eq(d.out.vertices[0].color[0][0], 10.0f / SIDE);
 	d.material.shade_model = GL_FLAT;
 	expand(&d, 3);
