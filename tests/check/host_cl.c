@@ -18,7 +18,7 @@
 #include <unistd.h>
 #include <xmmintrin.h>
 
-#define MAX_ARGUMENTS 40
+#define MAX_ARGUMENTS 64
 #define GUARD_BYTES 4096
 #define ALIGNMENT 128 /* CL_DEVICE_MEM_BASE_ADDR_ALIGN at least: of a long16 */
 #define FLUSH_TO_ZERO 0x8040u
