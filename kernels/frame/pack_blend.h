@@ -68,6 +68,20 @@ WIDE_VECTORS static inline packu pack_blend_multiply(packu a, packu b)
 	return (ab + (ab >> 8) + 128) >> 8;
 }
 
+/* As blend_equation. */
+WIDE_VECTORS static inline packu pack_blend_equation(uint equation, packu s, packu fs, packu d, packu fd)
+{
+	const packu a = pack_blend_multiply(s, fs), b = pack_blend_multiply(d, fd);
+
+	switch (equation) {
+	case GL_FUNC_SUBTRACT: return max(a, b) - b;
+	case GL_FUNC_REVERSE_SUBTRACT: return max(a, b) - a;
+	case GL_MIN: return min(s, d);
+	case GL_MAX: return max(s, d);
+	default: return min(a + b, (packu)(255));
+	}
+}
+
 /* One channel of blend_colors. */
 WIDE_VECTORS static inline packf pack_blend(__global const struct scene_material *m, int channel, packf source, packu s_alpha,
                                             packf destination, packu d_alpha)
@@ -75,17 +89,8 @@ WIDE_VECTORS static inline packf pack_blend(__global const struct scene_material
 	const packu s = pack_code(source), d = pack_code(destination);
 	const packu fs = pack_blend_factor(m, channel == 3 ? m->blend_src_alpha : m->blend_src_rgb, channel, s, s_alpha, d, d_alpha);
 	const packu fd = pack_blend_factor(m, channel == 3 ? m->blend_dst_alpha : m->blend_dst_rgb, channel, s, s_alpha, d, d_alpha);
-	const packu a = pack_blend_multiply(s, fs), b = pack_blend_multiply(d, fd);
-	packu out;
 
-	switch (channel == 3 ? m->blend_equation_alpha : m->blend_equation_rgb) {
-	case GL_FUNC_SUBTRACT: out = max(a, b) - b; break;
-	case GL_FUNC_REVERSE_SUBTRACT: out = max(a, b) - a; break;
-	case GL_MIN: out = min(s, d); break;
-	case GL_MAX: out = max(s, d); break;
-	default: out = min(a + b, (packu)(255)); break;
-	}
-	return convert_float16(as_int16(out)) / 255.0f;
+	return convert_float16(as_int16(pack_blend_equation(channel == 3 ? m->blend_equation_alpha : m->blend_equation_rgb, s, fs, d, fd))) / 255.0f;
 }
 
 /* When nothing is left of a destination that is blended by a pair of factors: 0 never, 1 ever, 2 where the source's alpha is 1. */

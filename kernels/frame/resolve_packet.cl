@@ -4,6 +4,7 @@
  *
  * Lanes stand as struct shaded and struct frame_pixel begin: GL's colour and alpha, then red, green and blue of the four further parts.
  */
+#include "kernels/frame/pack_blend.h"
 #include "kernels/frame/pack_texture.h"
 #include "kernels/gl/stages.h"
 
@@ -15,17 +16,11 @@
 /* With the alignment of its elements. */
 typedef float16 loose_floats __attribute__((aligned(4)));
 
-/* As blend_round. */
-WIDE_VECTORS static inline packu codes_of(packf x)
-{
-	return as_uint16(convert_int16(pack_round(pack_clamp01(x) * 255.0f)));
-}
-
 /* As blend_factor. */
 WIDE_VECTORS static inline packu factor_of(__global const struct scene_material *m, uint factor, packu s, packu d)
 {
-	const packu own = codes_of((packf)(vload4(0, m->blend_color), vload4(0, m->blend_color), vload4(0, m->blend_color),
-	                                        vload4(0, m->blend_color)));
+	const packu own = pack_code((packf)(vload4(0, m->blend_color), vload4(0, m->blend_color), vload4(0, m->blend_color),
+	                                    vload4(0, m->blend_color)));
 
 	switch (factor) {
 	case GL_ZERO: return 0;
@@ -46,36 +41,14 @@ WIDE_VECTORS static inline packu factor_of(__global const struct scene_material 
 	}
 }
 
-/* As blend_multiply. */
-WIDE_VECTORS static inline packu multiply(packu a, packu b)
-{
-	const packu ab = a * b;
-
-	return (ab + (ab >> 8) + 128) >> 8;
-}
-
-/* As blend_equation. */
-WIDE_VECTORS static inline packu equate(uint equation, packu s, packu fs, packu d, packu fd)
-{
-	const packu a = multiply(s, fs), b = multiply(d, fd);
-
-	switch (equation) {
-	case GL_FUNC_SUBTRACT: return max(a, b) - b;
-	case GL_FUNC_REVERSE_SUBTRACT: return max(a, b) - a;
-	case GL_MIN: return min(s, d);
-	case GL_MAX: return max(s, d);
-	default: return min(a + b, (packu)(255));
-	}
-}
-
 /* As blend_colors. */
 WIDE_VECTORS static inline packf blend(__global const struct scene_material *m, packf source, packf destination)
 {
-	const packu s = codes_of(source), d = codes_of(destination);
-	packu out = equate(m->blend_equation_rgb, s, factor_of(m, m->blend_src_rgb, s, d), d, factor_of(m, m->blend_dst_rgb, s, d));
+	const packu s = pack_code(source), d = pack_code(destination);
+	packu out = pack_blend_equation(m->blend_equation_rgb, s, factor_of(m, m->blend_src_rgb, s, d), d, factor_of(m, m->blend_dst_rgb, s, d));
 
 	if (m->blend_equation_alpha != m->blend_equation_rgb || m->blend_src_alpha != m->blend_src_rgb || m->blend_dst_alpha != m->blend_dst_rgb)
-		out.s3 = equate(m->blend_equation_alpha, s, factor_of(m, m->blend_src_alpha, s, d), d, factor_of(m, m->blend_dst_alpha, s, d)).s3;
+		out.s3 = pack_blend_equation(m->blend_equation_alpha, s, factor_of(m, m->blend_src_alpha, s, d), d, factor_of(m, m->blend_dst_alpha, s, d)).s3;
 	return convert_float16(as_int16(out)) / 255.0f;
 }
 
