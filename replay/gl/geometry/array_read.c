@@ -81,7 +81,7 @@ static float read_component(const uint8_t *p, uint32_t type, uint32_t normalized
 		return normalized ? normal(u16, 65535) : u16;
 	case GL_INT:
 		memcpy(&i32, p, 4);
-		return normalized ? normal((float)i32, 2147483647) : (float)i32;
+		return normalized ? normal((float)i32, (float)INT32_MAX) : (float)i32;
 	case GL_UNSIGNED_INT:
 		memcpy(&u32, p, 4);
 		return normalized ? (float)(u32 / 4294967295.0) : (float)u32;
