@@ -133,7 +133,7 @@ struct plain_launch plain_launch_of(const struct job *job, struct camera_rectang
 	               .factors = b->visibility, .layers = *one, .halves = b->halves, .floats = b->floats);
 }
 
-/* The same where it comes, from so many looks around. */
+/* The same launch where light comes from all around, asked of so many directions. */
 static struct plain_launch in_dome(const struct job *job, struct plain_launch a, uint32_t samples)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
