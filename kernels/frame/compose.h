@@ -188,23 +188,28 @@ static inline void compose_colors(struct compose_pixel *p, const struct compose_
 		p->halves[COMPOSE_BEAUTY + c] = p->color[COLOR_GL + c];
 }
 
+/* Numbers as they are stored, to a place in the planes. */
+static inline void compose_store(const struct compose_pixel *p, const struct compose_request *r, uint32_t at, GLOBAL uint16_t *halves, GLOBAL float *floats)
+{
+	for (uint32_t i = 0u; i < N_COMPOSE_HALVES; i++)
+		if (r->half_plane[i] != SCENE_NONE)
+			halves[r->half_plane[i] * r->width * r->height + at] = (uint16_t)compose_half(p->halves[i]);
+	for (uint32_t i = 0u; i < N_COMPOSE_FLOATS; i++)
+		if (r->float_plane[i] != SCENE_NONE)
+			floats[r->float_plane[i] * r->width * r->height + at] = p->floats[i];
+}
+
 /*
  * A pixel, by its number in the band, to a place in the planes. a->sums: what add_pass left of the parts of all passes but this one; not looked at where
  * there is but one.
  */
 static inline void compose_one(const struct compose_arguments *a, GLOBAL const struct frame_pixel *pixel, uint32_t number, uint32_t at)
 {
-	const struct compose_request *r = &a->request;
 	struct compose_pixel p;
 
 	compose_load(a, pixel, number, &p);
-	compose_colors(&p, r);
-	for (uint32_t i = 0u; i < N_COMPOSE_HALVES; i++)
-		if (r->half_plane[i] != SCENE_NONE)
-			a->halves[r->half_plane[i] * r->width * r->height + at] = (uint16_t)compose_half(p.halves[i]);
-	for (uint32_t i = 0u; i < N_COMPOSE_FLOATS; i++)
-		if (r->float_plane[i] != SCENE_NONE)
-			a->floats[r->float_plane[i] * r->width * r->height + at] = p.floats[i];
+	compose_colors(&p, &a->request);
+	compose_store(&p, &a->request, at, a->halves, a->floats);
 }
 
 /** Work items of compose_packet for a band of so many rows. */

@@ -1,4 +1,4 @@
-/* C twins of kernels/frame/plain.cl and layered.cl: a pixel after the other through the steps that frames which are not plain take. */
+/* C twins of kernels/frame/plain.cl, plain_single.cl and layered.cl: a pixel after the other through the steps that frames which are not plain take. */
 #include "kernels/frame/plain.h"
 
 #include "kernels/frame/compose.h"
@@ -205,20 +205,26 @@ static void draw_layers_mirror(const struct plain_arguments *a, const struct sha
 	draw_layers(a, s, PLAIN_MIRROR, x, y, item);
 }
 
-/* Each pixel of blocks first .. last-1 by one of those above. */
-static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last,
-                      void (*one)(const struct plain_arguments *, const struct shade_arguments *, uint32_t, uint32_t, uint32_t))
+typedef void one_pixel(const struct plain_arguments *, const struct shade_arguments *, uint32_t, uint32_t, uint32_t);
+
+/* Pixels first .. last-1 by one of those above, block by block. */
+static void do_pixels(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last, one_pixel *one)
 {
 	const struct shade_arguments s = plain_shading(a, n_slots);
-	const uint32_t columns = plain_columns(a->width);
+	const uint32_t columns = plain_columns(a->width), blocks = plain_blocks(a->width, a->request.height);
 
-	for (size_t block = first; block < last && block < plain_blocks(a->width, a->request.height); block++)
-		for (uint32_t i = 0; i < PLAIN_WIDTH * PLAIN_ROWS; i++) {
-			const uint32_t x = (uint32_t)block % columns * PLAIN_WIDTH + i % PLAIN_WIDTH;
-			const uint32_t y = (uint32_t)block / columns * PLAIN_ROWS + i / PLAIN_WIDTH, base = plain_base(a->blocks[block], y);
+	for (size_t pixel = first; pixel < last && pixel < (size_t)blocks * PLAIN_WIDTH * PLAIN_ROWS; pixel++) {
+		const uint32_t block = (uint32_t)pixel / (PLAIN_WIDTH * PLAIN_ROWS), i = (uint32_t)pixel % (PLAIN_WIDTH * PLAIN_ROWS);
+		const uint32_t x = block % columns * PLAIN_WIDTH + i % PLAIN_WIDTH;
+		const uint32_t y = block / columns * PLAIN_ROWS + i / PLAIN_WIDTH, base = plain_base(a->blocks[block], y);
 
-			one(a, &s, x, y, base == SCENE_NONE ? base : base + i % PLAIN_WIDTH);
-		}
+		one(a, &s, x, y, base == SCENE_NONE ? base : base + i % PLAIN_WIDTH);
+	}
+}
+
+static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last, one_pixel *one)
+{
+	do_pixels(a, n_slots, first * PLAIN_WIDTH * PLAIN_ROWS, last * PLAIN_WIDTH * PLAIN_ROWS, one);
 }
 
 void plain_c(const struct plain_arguments *a, size_t first, size_t last)
@@ -229,6 +235,16 @@ void plain_c(const struct plain_arguments *a, size_t first, size_t last)
 void plain_shadow_c(const struct plain_arguments *a, size_t first, size_t last)
 {
 	do_blocks(a, a->n_slots, first, last, do_pixel);
+}
+
+void plain_single_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_pixels(a, 0, first, last, do_pixel);
+}
+
+void plain_shadow_single_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_pixels(a, a->n_slots, first, last, do_pixel);
 }
 
 void layered_c(const struct plain_arguments *a, size_t first, size_t last)

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Plain frames go through packets in one step (kernels/frame/plain.h), those of several looks in two or three: all leave the files of other
-kernels, byte by byte; with rules that have rays to lights start on flat faces, and in light from all around, too."""
+"""Plain frames go through packets in one step (kernels/frame/plain.h), those of several looks in two or three; kernels of one pixel a work item
+know plain ones without programs. All leave the same files, byte by byte; with rules that have rays to lights start on flat faces, and in
+light from all around, too."""
 import json
 
 from helpers import SCRATCH, check, corpus, finish, must, record, relume, render
@@ -24,6 +25,12 @@ PROGRAMS = {  # and the kernel that their frames go through
 }
 
 IN_DOME = ("box", "arena", "blocks")
+ONE_BY_ONE = ("box", "arena", "blocks")  # known to kernels of one pixel a work item
+
+
+def stages(trace, *options):
+    return {row["what"] for row in json.loads(must(relume("bench", trace, "--repeat", 1, "--json", *options)).stdout)["spent"]}
+
 
 for name, (kernel, (program, *options)) in PROGRAMS.items():
     trace = SCRATCH / f"{name}.trace"
@@ -32,8 +39,11 @@ for name, (kernel, (program, *options)) in PROGRAMS.items():
     if name in IN_DOME:
         ways["dome"] = ("plain_dome", ("--look", DOME))
     for stage, rules in (way for how, way in ways.items() if how != "flat"):
-        stages = {row["what"] for row in json.loads(must(relume("bench", trace, "--repeat", 1, "--json", *rules)).stdout)["spent"]}
-        check(stage in stages and "resolve_packet" not in stages, f"{name} {rules}: goes through {sorted(stages)}")
+        through = stages(trace, *rules)
+        check(stage in through and "resolve_packet" not in through, f"{name} {rules}: goes through {sorted(through)}")
+    through = stages(trace, "--kernels", "binary")
+    one = ("plain_single", "plain_shadow_single") if name in ONE_BY_ONE else ("shade", "resolve", "compose")
+    check(all(stage in through for stage in one), f"{name}, one pixel a work item: goes through {sorted(through)}")
     default = None
     for how, (_, rules) in ways.items():
         pictures = [render(trace, SCRATCH / f"{name}-{how}-{kernels}", "--kernels", kernels, *rules)[0].read_bytes()

@@ -37,8 +37,21 @@ static int is_cleared_once(const struct job *job)
 
 int plain_is_simple(const struct job *job)
 {
-	return !job->options->hook && device_family(job->tr->dev) == FAMILY_PACKETS && job->image && job->n_passes == 1 && job->n_samples == 1 &&
+	return !job->options->hook && job->image && job->n_passes == 1 && job->n_samples == 1 &&
 	       !job->scene->start && !job->scene->needs_previous && is_lit_simply(job) && is_cleared_once(job);
+}
+
+static int in_packets(const struct job *job)
+{
+	return device_family(job->tr->dev) == FAMILY_PACKETS;
+}
+
+/* Kernels of one pixel a work item know neither light from all around nor programs. */
+static int is_known(const struct job *job)
+{
+	if (in_packets(job))
+		return dome_suits_plain(job);
+	return !dome_is_there(job) && !job->prepared.has_fragment_programs && !job->prepared.has_vertex_programs;
 }
 
 int plain_has_mirrors(const struct job *job)
@@ -51,7 +64,7 @@ int plain_suits(const struct job *job)
 	const struct prepared *p = &job->prepared;
 	const struct segment *segment = p->segments;
 
-	if (!plain_is_simple(job) || plain_has_mirrors(job) || !dome_suits_plain(job) || p->n_segments != 1 || segment->view == SCENE_NONE ||
+	if (!plain_is_simple(job) || plain_has_mirrors(job) || !is_known(job) || p->n_segments != 1 || segment->view == SCENE_NONE ||
 	    segment->mode == CAMERA_COLUMN)
 		return 0;
 	for (uint32_t i = 0; i < segment->instance_count; i++) {
@@ -76,7 +89,7 @@ static int has_fragment(const struct job *job, struct camera_rectangle r, uint32
 	return n != 0;
 }
 
-/* Give each block that has fragments its place. r: where they may be, counted from the band's first row; n: receives the pixels of these blocks */
+/* Give each block that has fragments its place; all blocks, where nobody waits for the camera to end. r: where they may be, counted from the band's first row; n: receives the pixels of these blocks */
 static int place_blocks(struct job *job, struct camera_rectangle r, uint32_t *n)
 {
 	struct tracer *tr = job->tr;
@@ -84,10 +97,10 @@ static int place_blocks(struct job *job, struct camera_rectangle r, uint32_t *n)
 	int err = frame_reserve_counts(job);
 	uint32_t next = 0;
 
-	if (!err && r.x0 < r.x1)
+	if (!err && in_packets(job) && r.x0 < r.x1)
 		err = device_read(tr->dev, tr->buffers.counts.buffer, 0, tr->counts, job->n_pixels * sizeof(*tr->counts));
 	for (uint32_t i = 0; i < blocks && !err; i++)
-		tr->first[i] = has_fragment(job, r, i % columns * PLAIN_WIDTH, i / columns * PLAIN_ROWS) ? next++ : SCENE_NONE;
+		tr->first[i] = !in_packets(job) || has_fragment(job, r, i % columns * PLAIN_WIDTH, i / columns * PLAIN_ROWS) ? next++ : SCENE_NONE;
 	*n = (next ? next : 1) * PLAIN_WIDTH * PLAIN_ROWS;
 	return err ? err : frame_upload(tr, blocks, tr->first, blocks);
 }
@@ -155,6 +168,16 @@ static int run_programs(struct job *job, struct plain_launch a, uint32_t blocks,
 	return launch_plain_program(job->tr->dev, blocks, &a);
 }
 
+static int run_plain(const struct job *job, const struct plain_launch *a, uint32_t blocks)
+{
+	return in_packets(job) ? launch_plain(job->tr->dev, blocks, a) : launch_plain_single(job->tr->dev, a->n, a);
+}
+
+static int run_plain_shadow(const struct job *job, const struct plain_launch *a, uint32_t blocks)
+{
+	return in_packets(job) ? launch_plain_shadow(job->tr->dev, blocks, a) : launch_plain_shadow_single(job->tr->dev, a->n, a);
+}
+
 /* All but what light from elsewhere does, and rays to lights; then what it does. */
 static int draw_lit(struct job *job, const struct accel_space *space, struct plain_launch a, uint32_t blocks)
 {
@@ -162,7 +185,7 @@ static int draw_lit(struct job *job, const struct accel_space *space, struct pla
 	int err = run_programs(job, a, blocks, 0);
 
 	if (!err)
-		err = launch_plain(job->tr->dev, blocks, &a);
+		err = run_plain(job, &a, blocks);
 	if (!err && n_slots)
 		err = secondary_ask(job, space, 1, a.rays, a.n * n_slots);
 	if (!err && n_slots)
@@ -170,7 +193,7 @@ static int draw_lit(struct job *job, const struct accel_space *space, struct pla
 	if (err || !n_slots)
 		return err;
 	a.request = plain_shadow_request(a.request);
-	return launch_plain_shadow(job->tr->dev, blocks, &a);
+	return run_plain_shadow(job, &a, blocks);
 }
 
 /* The same where light comes from all around, too: all planes at the end. */

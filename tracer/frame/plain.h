@@ -1,5 +1,5 @@
 /*
- * Plain frames on CPUs: cleared and drawn once, each pixel its nearest fragment, no mirrors. From camera rays to channels in two kernels
+ * Plain frames: cleared and drawn once, each pixel its nearest fragment, no mirrors. From camera rays to channels in two kernels
  * (kernels/frame/plain.h), with rays to lights between them.
  */
 #pragma once
@@ -14,7 +14,7 @@ int plain_band(struct job *job);
 
 /* --- For layered.c, which draws in the same way ---------------------------------------------------------------------- */
 
-/** What both ways ask of a frame: a CPU, one pass into an image from nothing, cleared before all, lights without a size. */
+/** What both ways ask of a frame: one pass into an image from nothing, cleared before all, lights without a size. */
 int plain_is_simple(const struct job *job);
 
 /** Whether light leaves surfaces that mirror or let it through. */

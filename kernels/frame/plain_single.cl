@@ -1,0 +1,149 @@
+/*
+ * plain_single, plain_shadow_single: see kernels/frame/plain.h. One pixel a work item, for devices that run many work items in step.
+ */
+#include "kernels/frame/compose.h"
+#include "kernels/frame/plain.h"
+
+/* Where a pixel lies in the band, and where what is kept of it stands. */
+struct plain_spot {
+	uint x, y, place;
+};
+
+static inline struct plain_spot spot_of(const struct plain_arguments *a, uint item)
+{
+	const uint block = item / (PLAIN_WIDTH * PLAIN_ROWS), within = item % (PLAIN_WIDTH * PLAIN_ROWS), columns = plain_columns(a->width);
+	struct plain_spot at;
+
+	at.x = block % columns * PLAIN_WIDTH + within % PLAIN_WIDTH;
+	at.y = block / columns * PLAIN_ROWS + within / PLAIN_WIDTH;
+	at.place = plain_base(a->blocks[block], at.y) + within % PLAIN_WIDTH;
+	return at;
+}
+
+static inline int is_outside(const struct plain_arguments *a, const struct plain_spot *at)
+{
+	return at->x >= a->width || at->y >= a->request.height;
+}
+
+/* --- From a fragment to the planes ----------------------------------------------------------------------------------- */
+
+/* A colour without mirrors. */
+static inline void put_colors(struct compose_pixel *p, __global const float *gl, __global const float *shadowed, __global const float *direct)
+{
+	for (uint c = 0; c < 3; c++) {
+		p->display[COLOR_GL + c] = gl[c];
+		p->display[COLOR_SHADOWED + c] = shadowed[c];
+		p->display[COLOR_DIRECT + c] = p->display[COLOR_MIRRORED + c] = p->display[COLOR_BEAUTY + c] = direct[c];
+	}
+	p->halves[COMPOSE_GL + 3] = gl[3];
+}
+
+static inline void put_place(struct compose_pixel *p, struct vec3 normal, struct vec3 position)
+{
+	p->halves[COMPOSE_NORMAL] = normal.x;
+	p->halves[COMPOSE_NORMAL + 1] = normal.y;
+	p->halves[COMPOSE_NORMAL + 2] = normal.z;
+	p->floats[COMPOSE_Z] = -position.z;
+	p->floats[COMPOSE_POSITION] = position.x;
+	p->floats[COMPOSE_POSITION + 1] = position.y;
+	p->floats[COMPOSE_POSITION + 2] = position.z;
+}
+
+static inline void put_cleared(__global const struct frame_pixel *cleared, struct compose_pixel *p)
+{
+	put_colors(p, cleared->gl, cleared->shadowed, cleared->direct);
+	put_place(p, v3(0, 0, 0), v3(0, 0, 0));
+	for (uint c = 0; c < 3; c++)
+		p->display[COLOR_ALBEDO + c] = 0;
+	p->halves[COMPOSE_BEAUTY + 3] = 0;
+	p->floats[COMPOSE_DEPTH] = cleared->depth_exact;
+	p->floats[COMPOSE_ID] = p->floats[COMPOSE_LAYERS] = 0;
+}
+
+static inline void put_fragment(const struct plain_arguments *a, const struct fragment *f, __global const struct shaded *s, struct compose_pixel *p)
+{
+	struct vec3 normal, position;
+
+	put_colors(p, s->gl, s->shadowed, s->direct);
+	compose_surface(&a->tables, a->windows, f, &normal, &position);
+	put_place(p, normal, position);
+	for (uint c = 0; c < 3; c++)
+		p->display[COLOR_ALBEDO + c] = s->albedo[c];
+	p->halves[COMPOSE_BEAUTY + 3] = 1;
+	p->floats[COMPOSE_DEPTH] = s->depth;
+	p->floats[COMPOSE_ID] = (float)stage_draw(&a->tables, f->instance, f->primitive);
+}
+
+/* Whether a fragment that is shaded lies before what was cleared. */
+static inline int shows(const struct plain_arguments *a, const struct fragment *f, __global const struct shaded *s)
+{
+	const uint steps = pixel_depth_steps(s->depth, pixel_depth_bits(a->bits));
+
+	return s->flags & SHADED_THERE && pixel_compare(stage_material(&a->tables, f->instance)->depth_func, steps, a->cleared->depth);
+}
+
+static inline void compose_pixel(const struct plain_arguments *a, const struct plain_spot *at, int is_there)
+{
+	struct compose_pixel p;
+
+	put_cleared(a->cleared, &p);
+	if (is_there) {
+		const struct fragment f = a->fragments[at->place];
+
+		if (shows(a, &f, &a->shaded[at->place]))
+			put_fragment(a, &f, &a->shaded[at->place], &p);
+	}
+	compose_colors(&p, &a->request);
+	compose_store(&p, &a->request, compose_at(&a->request, at->y * a->width + at->x), a->halves, a->floats);
+}
+
+/* --- Steps ----------------------------------------------------------------------------------------------------------- */
+
+/* A fragment's colour, or none; and its rays to lights. s: without visibility */
+static inline void shade_pixel(const struct plain_arguments *a, const struct shade_arguments *s, const struct plain_spot *at, int is_there)
+{
+	const struct shadow_ray_arguments rays = plain_rays(a);
+	struct setup_kept kept;
+	struct shadow_kept ray_kept;
+
+	if (is_there) {
+		a->fragments[at->place] = plain_fragment(a, at->x, at->y);
+		a->pixels[at->place] = a->first_pixel + at->y * a->width + at->x;
+		shade_item(s, at->place, 0, &kept);
+	}
+	for (uint slot = 0; slot < a->n_slots; slot++) {
+		if (is_there)
+			shadow_ray_item(&rays, slot * a->n + at->place, 0, &ray_kept);
+		else
+			stage_no_ray(&a->rays[slot * a->n + at->place]);
+	}
+}
+
+KERNEL_OF(float4) void plain_single(KERNEL_ARGUMENTS(plain))
+{
+	const struct plain_arguments a = KERNEL_STRUCT(plain);
+	const struct shade_arguments s = plain_shading(&a, 0);
+	const struct plain_spot at = spot_of(&a, (uint)get_global_id(0));
+	int is_there;
+
+	if (get_global_id(0) >= n)
+		return;
+	is_there = !is_outside(&a, &at) && plain_fragment(&a, at.x, at.y).order != SCENE_NONE;
+	shade_pixel(&a, &s, &at, is_there);
+	if (!is_outside(&a, &at))
+		compose_pixel(&a, &at, is_there);
+}
+
+KERNEL_OF(float4) void plain_shadow_single(KERNEL_ARGUMENTS(plain))
+{
+	const struct plain_arguments a = KERNEL_STRUCT(plain);
+	const struct shade_arguments s = plain_shading(&a, n_slots);
+	const struct plain_spot at = spot_of(&a, (uint)get_global_id(0));
+	struct setup_kept kept;
+
+	if (get_global_id(0) >= n || is_outside(&a, &at) || plain_fragment(&a, at.x, at.y).order == SCENE_NONE ||
+	    !stage_dimmed(visibility, n_slots, n, at.place))
+		return;
+	shade_item(&s, at.place, 0, &kept);
+	compose_pixel(&a, &at, 1);
+}
