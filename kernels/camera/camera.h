@@ -26,7 +26,7 @@
  *
  * Window vertices with a place lie within +-2^23 (32768 pixels).
  *
- * Work items: camera_packet_items() tiles of 32 x 32 pixels, or for the others camera_wide_items() pixels, of the rectangle. Tiles
+ * Work items: camera_packet_items() tiles of 32 x 32 pixels, or for the others camera_wide_items() pixels in blocks, of the rectangle. Tiles
  * have their places in the frame: a rectangle that ends within one takes part of it.
  */
 #pragma once
@@ -82,7 +82,34 @@ static inline int32_t camera_packet_y(struct camera_rectangle r, uint32_t item)
 	return (r.y0 / CAMERA_TILE + (int32_t)(item / camera_packet_columns(r))) * CAMERA_TILE;
 }
 
+/* A rectangle's pixels in blocks, so that work items that run in step look the same way. */
+#define CAMERA_WIDE_WIDTH 8u
+#define CAMERA_WIDE_HEIGHT 4u
+
+static inline uint32_t camera_wide_columns(struct camera_rectangle r)
+{
+	return ((uint32_t)(r.x1 - r.x0) + CAMERA_WIDE_WIDTH - 1u) / CAMERA_WIDE_WIDTH;
+}
+
+/** How many work items a rectangle takes: all pixels of its blocks. */
 static inline uint32_t camera_wide_items(struct camera_rectangle r)
 {
-	return (uint32_t)(r.x1 - r.x0) * (uint32_t)(r.y1 - r.y0);
+	const uint32_t rows = ((uint32_t)(r.y1 - r.y0) + CAMERA_WIDE_HEIGHT - 1u) / CAMERA_WIDE_HEIGHT;
+
+	return camera_wide_columns(r) * rows * CAMERA_WIDE_WIDTH * CAMERA_WIDE_HEIGHT;
+}
+
+/** A work item's pixel, which may lie beyond the rectangle's last column, or beyond its last row. r: not empty */
+static inline int32_t camera_wide_x(struct camera_rectangle r, uint32_t item)
+{
+	const uint32_t block = item / (CAMERA_WIDE_WIDTH * CAMERA_WIDE_HEIGHT);
+
+	return r.x0 + (int32_t)(block % camera_wide_columns(r) * CAMERA_WIDE_WIDTH + item % CAMERA_WIDE_WIDTH);
+}
+
+static inline int32_t camera_wide_y(struct camera_rectangle r, uint32_t item)
+{
+	const uint32_t block = item / (CAMERA_WIDE_WIDTH * CAMERA_WIDE_HEIGHT);
+
+	return r.y0 + (int32_t)(block / camera_wide_columns(r) * CAMERA_WIDE_HEIGHT + item / CAMERA_WIDE_WIDTH % CAMERA_WIDE_HEIGHT);
 }

@@ -2,10 +2,9 @@
  * camera_wide, camera_compressed: one pixel a work item, for devices that run many work items in step. See kernels/camera/camera.h.
  */
 #include "kernels/camera/camera.h"
-#include "kernels/rays/compressed.h"
 #include "kernels/camera/coverage.h"
 #include "kernels/kernels.h"
-#include "kernels/rays/walk.h"
+#include "kernels/rays/compressed_node.h"
 
 /* A pixel on its way. */
 struct pixel {
@@ -168,47 +167,50 @@ static inline int is_below(float2 lo, float2 hi, float2 at, float pad)
 	return all(at >= lo - pad) && all(at <= hi + pad);
 }
 
-/*
- * Nodes in the order of the ray's octant, about from front to back, as in kernels/rays/rays_single.cl. is_screen: o is where the view looks in the
- * window, a point.
- */
-static inline void pixel_walk_compressed(struct pixel *p, uint index, struct vec3 o, struct vec3 inverse, int is_screen)
+/* The pixel's ray as nodes of 80 bytes are met by it: with boxes widened by pad, from its start on. */
+static inline struct walk compressed_ray(struct vec3 o, struct vec3 d, float pad)
+{
+	struct walk w;
+
+	w.ox = o.x, w.oy = o.y, w.oz = o.z;
+	w.dx = d.x, w.dy = d.y, w.dz = d.z;
+	w.t_min = 0;
+	prepare(&w);
+	w.near_x -= pad * fabs(w.ix), w.near_y -= pad * fabs(w.iy), w.near_z -= pad * fabs(w.iz);
+	w.far_x += pad * fabs(w.far_ix), w.far_y += pad * fabs(w.far_iy), w.far_z += pad * fabs(w.far_iz);
+	return w;
+}
+
+/* Nodes in the order of the ray's octant, about from front to back, as in kernels/rays/rays_single.cl. is_screen: the ray's end is w's */
+static inline void pixel_walk_compressed(struct pixel *p, uint index, struct walk *w, int is_screen)
 {
 	__global const struct instance *instance = &p->instances[index];
-	const uint octant = (inverse.x < 0 ? 0u : 1u) | (inverse.y < 0 ? 0u : 2u) | (inverse.z < 0 ? 0u : 4u);
-	uint2 stack[NODE8C_MAX_DEPTH], group = (uint2)(0, 0); /* a node, and which of its nodes are still to be walked */
-	uint depth = 0;
+	__global const struct node8c *nodes = p->compressed + instance->node8c_first;
+	__global const struct triangle *triangles = p->triangles + instance->triangle8c_first;
+	const uint octant = (w->ix < 0 ? 0u : 1u) | (w->iy < 0 ? 0u : 2u) | (w->iz < 0 ? 0u : 4u);
+	uint2 stack[NODE8C_MAX_DEPTH]; /* as in walk_compressed */
+	uint depth = 0, child = 0;
 
 	for (;;) {
-		__global const struct node8c *node = &p->compressed[instance->node8c_first + group.x];
-		uint near, first;
+		uint bits, near, slot;
+		uint2 first, group;
 
-		for (uint i = 8; i-- > 0;) {
-			const uint slot = i ^ octant;
-			float lo[3], hi[3], enter;
-			uint count;
-
-			if (!node8c_box(node, slot, lo, hi))
-				continue;
-			if (is_screen ? !is_below((float2)(lo[0], lo[1]), (float2)(hi[0], hi[1]), (float2)(o.x, o.y), instance->pad) :
-			                !pixel_meets_box(v3(lo[0], lo[1], lo[2]), v3(hi[0], hi[1], hi[2]), o, inverse, instance->pad, p->t_max, &enter))
-				continue;
-			count = node8c_child(node, slot, &first);
-			group.y |= count ? 0u : 1u << i;
-			for (uint k = 0; k < count; k++)
-				try_triangle(p, index, instance, &p->triangles[instance->triangle8c_first + first + k]);
-		}
-		if (!group.y) {
+		w->hit.t = is_screen ? w->hit.t : p->t_max;
+		group.y = meet_compressed(w, octant, &nodes[child], &bits, &first);
+		group.x = first.x;
+		for (; bits; bits &= bits - 1)
+			try_triangle(p, index, instance, &triangles[first.y + popcount((bits & -bits) - 1)]);
+		if (!(group.y & 255u)) {
 			if (depth == 0)
 				return;
 			group = stack[--depth];
 		}
-		near = 31 - clz(group.y);
+		near = 31 - clz(group.y & 255u);
+		slot = near ^ octant;
 		group.y &= ~(1u << near);
-		if (group.y)
+		if (group.y & 255u)
 			stack[depth++] = group;
-		node8c_child(&p->compressed[instance->node8c_first + group.x], near ^ octant, &first);
-		group = (uint2)(first, 0);
+		child = group.x + popcount(group.y >> 8 & ((1u << slot) - 1u));
 	}
 }
 
@@ -217,12 +219,15 @@ INLINED void walk_blas(struct pixel *p, uint index, int is_compressed)
 	__global const float *m = p->instances[index].obj_from_eye;
 	const struct vec3 r0 = v3_load(m), r1 = v3_load(m + 4), r2 = v3_load(m + 8);
 	const struct vec3 o = v3(v3_dot(r0, p->o) + m[3], v3_dot(r1, p->o) + m[7], v3_dot(r2, p->o) + m[11]);
-	const struct vec3 inverse = invert_all(v3(v3_dot(r0, p->d), v3_dot(r1, p->d), v3_dot(r2, p->d)));
+	const struct vec3 d = v3(v3_dot(r0, p->d), v3_dot(r1, p->d), v3_dot(r2, p->d));
 
-	if (is_compressed)
-		pixel_walk_compressed(p, index, o, inverse, 0);
-	else
-		pixel_walk_binary(p, index, o, inverse);
+	if (is_compressed) {
+		struct walk w = compressed_ray(o, d, p->instances[index].pad);
+
+		pixel_walk_compressed(p, index, &w, 0);
+	} else {
+		pixel_walk_binary(p, index, o, invert_all(d));
+	}
 }
 
 INLINED void walk_top(struct pixel *p, int is_compressed, __global const struct node2 *top,
@@ -274,15 +279,23 @@ static inline void walk_screen_binary(struct pixel *p, uint index, float2 at)
 	}
 }
 
-/* Geometry in window space: where the view looks is a point. */
+/* Where the view looks in the window is a point, of any depth. */
+static inline void walk_screen_compressed(struct pixel *p, uint index, float2 at)
+{
+	struct walk w = compressed_ray(v3(at.x, at.y, 0), v3(0, 0, 1), p->instances[index].pad);
+
+	w.t_min = -1e30f;
+	w.hit.t = 1e30f;
+	pixel_walk_compressed(p, index, &w, 1);
+}
+
+/* Geometry in window space. */
 INLINED void walk_screen(struct pixel *p, uint index, int is_compressed)
 {
-	const float2 at = pixel_spot(p);
-
 	if (is_compressed)
-		pixel_walk_compressed(p, index, v3(at.x, at.y, 0), v3(1, 1, 1), 1);
+		walk_screen_compressed(p, index, pixel_spot(p));
 	else
-		walk_screen_binary(p, index, at);
+		walk_screen_binary(p, index, pixel_spot(p));
 }
 
 /* 0 where the pixel has no ray: outside of the viewport, or the projection has no inverse. */
@@ -314,18 +327,18 @@ INLINED void do_pixel(int is_compressed, struct pixel *p, const struct camera_pa
 {
 	__global const struct view *view = &pass->views[pass->view_index];
 	const struct camera_rectangle r = pass->rectangle;
-	const uint item = (uint)get_global_id(0), columns = (uint)(r.x1 - r.x0);
+	const uint item = (uint)get_global_id(0);
 	uint pixel;
 
-	if (item >= camera_wide_items(r))
+	p->x = camera_wide_x(r, item);
+	p->y = camera_wide_y(r, item);
+	if (p->x >= r.x1 || p->y >= r.y1)
 		return;
 	p->view = view;
 	p->window = pass->window;
 	p->clip = pass->clip;
 	p->mode = pass->mode;
 	p->height = pass->height;
-	p->x = r.x0 + (int)(item % columns);
-	p->y = r.y0 + (int)(item / columns);
 	pixel = (uint)p->y * pass->width + (uint)p->x - pass->first_pixel;
 	p->after = p->mode == CAMERA_COLUMN ? pass->after[pixel] : 0;
 	p->out = pass->fragments + (p->mode == CAMERA_COLUMN ? (size_t)pixel * CAMERA_COLUMN_MAX : pixel);

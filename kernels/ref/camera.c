@@ -498,10 +498,13 @@ void camera_packet_c(const struct camera_packet_arguments *from, size_t first, s
 static void do_pixels(const struct args *a, size_t first, size_t last)
 {
 	const struct camera_rectangle r = a->rectangle;
-	const size_t columns = (size_t)(r.x1 - r.x0);
 
-	for (size_t item = first; item < last && item < camera_wide_items(r); item++)
-		do_pixel(a, r.x0 + (int32_t)(item % columns), r.y0 + (int32_t)(item / columns));
+	for (size_t item = first; item < last && item < camera_wide_items(r); item++) {
+		const int32_t x = camera_wide_x(r, (uint32_t)item), y = camera_wide_y(r, (uint32_t)item);
+
+		if (x < r.x1 && y < r.y1)
+			do_pixel(a, x, y);
+	}
 }
 
 void camera_wide_c(const struct camera_wide_arguments *from, size_t first, size_t last)
