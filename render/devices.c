@@ -44,8 +44,8 @@ static const struct options_table table = {
 	        "A device runs the family that suits its type, until --check has found out which are right there and which of these is\n"
 	        "the fastest. That counts until the driver or Relume's kernels change. Run it once on a new machine or driver: it takes\n"
 	        "a minute or two, as every kernel is compiled. Each family has a process of its own, so that a driver that crashes or\n"
-	        "hangs stops nothing. The table: compile is what compiling took of all kernels, frame a picture of 480 x 360 once all\n"
-	        "is compiled.\n",
+	        "hangs stops nothing. Packets are for CPUs, and passed over elsewhere. The table: compile is what compiling took of all\n"
+	        "kernels, frame a picture of 480 x 360 once all is compiled.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes of --check: 0 all families are right on all devices, 1 one is not, 5 on some device none is: there\n"
 	         "'relume render' takes no --device but 'reference'.\n",
@@ -76,7 +76,7 @@ static const char *name_of_family(int family)
 
 static void print_family(struct json *j, const struct known *k, int family, int check)
 {
-	static const char *const words[N_OUTCOME_STATES] = { "right", "wrong", "failed", "late" };
+	static const char *const words[N_OUTCOME_STATES] = { "right", "wrong", "failed", "late", "passed over" };
 	const struct outcome_family *f = &k->outcome.families[family];
 
 	json_begin(j, '{');
@@ -150,17 +150,38 @@ static void print_row(const struct known *k, int family)
 
 /* --- Checking ------------------------------------------------------------------------------------------------------ */
 
+/* Packets compute in vectors: what is no CPU takes minutes to compile them, and cannot gain by them. */
+static int is_for(const struct device_description *device, enum device_family family)
+{
+	return device->type == DEVICE_CPU || family != FAMILY_PACKETS;
+}
+
+static int check_one(const struct asked *o, const struct check_truth *truth, struct known *k, enum device_family family)
+{
+	int err = 0;
+
+	if (is_for(k->device, family)) {
+		err = check_family(truth, k->number, family, o->seconds ? o->seconds : DEFAULT_SECONDS, &k->checked[family]);
+	} else {
+		k->checked[family].all.state = OUTCOME_PASSED_OVER;
+		for (int i = 0; i < N_CHECK_SCENES; i++)
+			k->checked[family].scenes[i].state = -1;
+	}
+	k->outcome.families[family] = k->checked[family].all;
+	if (!err && !o->json)
+		print_row(k, family);
+	return err;
+}
+
 /* Check a device, and keep the outcome. @return 0; ERR_FAILED: a family is not right; ERR_SYSTEM (reported): none is, or nothing was found out */
 static int check_device(const struct asked *o, const struct check_truth *truth, const char *folder, struct known *k)
 {
-	int err = 0, n_right = 0;
+	int err = 0, n_right = 0, n_sound = 0; /* sound: right or passed over */
 
 	for (int i = 0; i < N_DEVICE_FAMILIES && !err; i++) {
-		err = check_family(truth, k->number, (enum device_family)i, o->seconds ? o->seconds : DEFAULT_SECONDS, &k->checked[i]);
-		k->outcome.families[i] = k->checked[i].all;
+		err = check_one(o, truth, k, (enum device_family)i);
 		n_right += k->outcome.families[i].state == OUTCOME_RIGHT;
-		if (!err && !o->json)
-			print_row(k, i);
+		n_sound += k->outcome.families[i].state == OUTCOME_RIGHT || k->outcome.families[i].state == OUTCOME_PASSED_OVER;
 	}
 	if (err)
 		return err;
@@ -170,7 +191,7 @@ static int check_device(const struct asked *o, const struct check_truth *truth, 
 	if (n_right == 0)
 		return err_report(ERR_SYSTEM, k->device->name, "no kernels are right on this device: render with another --device, or with "
 		                  "--device reference (slow)");
-	return n_right < N_DEVICE_FAMILIES ? ERR_FAILED : 0;
+	return n_sound < N_DEVICE_FAMILIES ? ERR_FAILED : 0;
 }
 
 /* List or check devices `first` to `last` - 1. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/folder.h"
 #include "base/options.h"
 #include "base/verbs.h"
 #include "look/rules.h"
@@ -180,6 +181,7 @@ int bench_main(int argc, char **argv)
 	struct options o = { .models = "../shared/models", .repeats = 5, .family = -1 };
 	struct device *dev = NULL;
 	struct bench *b = NULL;
+	char folder[4096];
 	int err = parse(argc, argv, &o);
 
 	if (err) {
@@ -189,6 +191,8 @@ int bench_main(int argc, char **argv)
 	err = device_open(o.device, o.threads, &dev);
 	if (!err && o.family >= 0)
 		device_choose_family(dev, (enum device_family)o.family);
+	if (!err && folder_cached("kernels", folder, sizeof(folder)))
+		device_keep_programs(dev, folder, 0);
 	if (!err && !o.trace)
 		err = bench_create(dev, o.models, 1600, 1200, &b);
 	if (!err && o.trace)

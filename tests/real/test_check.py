@@ -51,6 +51,12 @@ for vendor in (pathlib.Path(name) for name in os.environ.get("RELUME_VENDORS", "
                 check(state == "right", f"{device['name']}, {family['kernels']}, {scene}: {state}")
             check(family["frame_ms"] > 0 and family["compile_s"] >= 0, f"{device['name']}, {family['kernels']}: times {family}")
 
+# --- A device of another type: packets are passed over, and the rest is right.
+as_gpu = SCRATCH / "as-gpu"
+code, (device,), said = checked(as_gpu, fake(AS_TYPE="gpu"))
+check(code == 0 and not said and states(device) == {"packets": "passed over", "binary": "right", "compressed": "right"}, f"as a GPU: {code}, {device}, {said}")
+check(set(device["families"][0]["scenes"].values()) == {"not tried"}, f"packets on a GPU: {device['families'][0]}")
+
 # --- What render makes of it, on PoCL.
 trace = SCRATCH / "two.trace"
 record(trace, corpus("two_triangles"), "--frames", "1", options=())
@@ -70,6 +76,9 @@ def said_once(done, *words):
 
 done, want = render(SCRATCH / "nothing")
 check(done.returncode == 0 and not done.stderr, f"without an outcome: {done.stderr}")
+
+done, found = render(as_gpu, "--kernels", "packets", env=fake(AS_TYPE="gpu"))
+check(done.returncode == 0 and found == want and not done.stderr, f"packets on a GPU all the same: {done.stderr}")
 
 # The family that suits a CPU loses lanes: another one is taken, and render says so once; the pictures are the same.
 LOST = fake(EDIT="(uint)(lanes >> i) & 1u|(uint)(lanes >> i) & i & 1u")

@@ -87,7 +87,7 @@ int outcome_fastest(const struct outcome *outcome)
 
 const char *outcome_words(const struct outcome_family *family, char *text, size_t size)
 {
-	static const char *const words[N_OUTCOME_STATES] = { "right", "wrong", "failed", "not done in time" };
+	static const char *const words[N_OUTCOME_STATES] = { "right", "wrong", "failed", "not done in time", "not for this kind of device" };
 
 	snprintf(text, size, family->where[0] ? "%s: %s" : "%s", words[family->state], family->where);
 	return text;
@@ -106,7 +106,7 @@ int outcome_choose(struct device *dev, int asked, const char *folder)
 		return 0;
 	outcome_words(&outcome.families[preferred], text, sizeof(text));
 	if (asked >= 0) {
-		if (outcome.families[asked].state != OUTCOME_RIGHT)
+		if (outcome.families[asked].state != OUTCOME_RIGHT && outcome.families[asked].state != OUTCOME_PASSED_OVER)
 			err_warn(device_name(dev), "--kernels %s is not right here, by 'relume devices --check' (%s)",
 			         device_family_names[asked], text);
 		return 0;

@@ -15,6 +15,7 @@ enum outcome_state {
 	OUTCOME_WRONG,  /* it draws something else than the C twins */
 	OUTCOME_FAILED, /* it ends in an error, or the driver ends the process */
 	OUTCOME_LATE,   /* it was not done in time */
+	OUTCOME_PASSED_OVER, /* it is not for such devices */
 	N_OUTCOME_STATES
 };
 
