@@ -537,8 +537,11 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(plain, plain)                 /* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
 	X(plain_dome, plain)            /* in place of plain where light comes from all around: a block's rays, to lights and into the surroundings */ \
 	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
-	X(plain_single, plain)          /* as plain, one pixel a work item, where each block has the place of its number (GPUs) */ \
-	X(plain_shadow_single, plain)   /* as plain_shadow, the same */ \
+	X(plain_color, plain)           /* the first of plain's steps where each block has the place of its number, one pixel a work item (GPUs): its colour */ \
+	X(plain_ask, plain)             /* the second, one ray a work item, n a slot */ \
+	X(plain_show, plain)            /* the third, one pixel a work item: its planes */ \
+	X(plain_color_dimmed, plain)    /* plain_shadow's two steps, the same */ \
+	X(plain_show_dimmed, plain) \
 	X(layered, plain)               /* as plain, of several looks */ \
 	X(layered_shadow, plain)        /* as plain_shadow; and fragments that light leaves, into a list */ \
 	X(layered_mirror, plain)        /* planes of pixels where these are, with what their paths found */ \

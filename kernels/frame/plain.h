@@ -9,6 +9,9 @@
  *
  * plain_program runs before each of them where programs have a say: it leaves their fragments' colours in a->shaded.
  *
+ * GPUs do the same in steps: plain_color, plain_ask and plain_show in place of plain; plain_color_dimmed and plain_show_dimmed in place of
+ * plain_shadow. They know neither light from all around nor programs.
+ *
  * Rays, and what is kept of fragments that are shaded one by one, stand block by block: PLAIN_WIDTH pixels of PLAIN_ROWS rows of the band
  * a work item.
  */

@@ -35,6 +35,15 @@ static void shade_fixed(const struct plain_arguments *a, const struct shade_argu
 	shade_item(s, item, 0, &kept);
 }
 
+/* A fragment as it is shaded, to its pixel. */
+static void draw_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, uint32_t item, struct frame_pixel *pixel)
+{
+	const struct fragment f = plain_fragment(a, x, y);
+
+	pixel_draw(&a->tables.materials[a->tables.geometries[f.instance].material], &a->shaded[item], &a->fragments[item],
+	           stage_draw(&a->tables, f.instance, f.primitive), pixel, a->bits);
+}
+
 /* s: with visibility where lights have been asked */
 static void do_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
 {
@@ -55,8 +64,7 @@ static void do_pixel(const struct plain_arguments *a, const struct shade_argumen
 			shadow_ray_item(&rays, slot * a->n + item, 0, &shadow_kept);
 		if (is_in_dome)
 			dome_apply(&a->shaded[item], v3(a->factors[item], a->factors[a->n + item], a->factors[2 * a->n + item]));
-		pixel_draw(&a->tables.materials[a->tables.geometries[f.instance].material], &a->shaded[item], &a->fragments[item],
-		           stage_draw(&a->tables, f.instance, f.primitive), &pixel, a->bits);
+		draw_pixel(a, x, y, item, &pixel);
 	}
 	compose_pixel(a, x, y, &pixel);
 }
@@ -205,20 +213,55 @@ static void draw_layers_mirror(const struct plain_arguments *a, const struct sha
 	draw_layers(a, s, PLAIN_MIRROR, x, y, item);
 }
 
+/* The steps of do_pixel, each by itself, of fragments without programs. */
+static int has_fragment(const struct plain_arguments *a, uint32_t x, uint32_t y)
+{
+	return x < a->width && y < a->request.height && plain_fragment(a, x, y).order != SCENE_NONE;
+}
+
+static void color_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+{
+	if (has_fragment(a, x, y))
+		shade_fixed(a, s, x, y, item);
+}
+
+static void show_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+{
+	struct frame_pixel pixel = *a->cleared;
+
+	if (x >= a->width || y >= a->request.height ||
+	    (s->n_slots && (!has_fragment(a, x, y) || !stage_dimmed(a->visibility, a->n_slots, a->n, item))))
+		return;
+	if (has_fragment(a, x, y))
+		draw_pixel(a, x, y, item, &pixel);
+	compose_pixel(a, x, y, &pixel);
+}
+
 typedef void one_pixel(const struct plain_arguments *, const struct shade_arguments *, uint32_t, uint32_t, uint32_t);
+
+/* A pixel by its number, block by block. */
+struct plain_at {
+	uint32_t block, x, y, within; /* within: its number in the block's row */
+};
+
+static struct plain_at place_of(const struct plain_arguments *a, size_t number)
+{
+	const uint32_t columns = plain_columns(a->width), block = (uint32_t)(number / (PLAIN_WIDTH * PLAIN_ROWS)), i = number % (PLAIN_WIDTH * PLAIN_ROWS);
+
+	return (struct plain_at){ block, block % columns * PLAIN_WIDTH + i % PLAIN_WIDTH, block / columns * PLAIN_ROWS + i / PLAIN_WIDTH, i % PLAIN_WIDTH };
+}
 
 /* Pixels first .. last-1 by one of those above, block by block. */
 static void do_pixels(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last, one_pixel *one)
 {
 	const struct shade_arguments s = plain_shading(a, n_slots);
-	const uint32_t columns = plain_columns(a->width), blocks = plain_blocks(a->width, a->request.height);
+	const size_t pixels = (size_t)plain_blocks(a->width, a->request.height) * PLAIN_WIDTH * PLAIN_ROWS;
 
-	for (size_t pixel = first; pixel < last && pixel < (size_t)blocks * PLAIN_WIDTH * PLAIN_ROWS; pixel++) {
-		const uint32_t block = (uint32_t)pixel / (PLAIN_WIDTH * PLAIN_ROWS), i = (uint32_t)pixel % (PLAIN_WIDTH * PLAIN_ROWS);
-		const uint32_t x = block % columns * PLAIN_WIDTH + i % PLAIN_WIDTH;
-		const uint32_t y = block / columns * PLAIN_ROWS + i / PLAIN_WIDTH, base = plain_base(a->blocks[block], y);
+	for (size_t pixel = first; pixel < last && pixel < pixels; pixel++) {
+		const struct plain_at at = place_of(a, pixel);
+		const uint32_t base = plain_base(a->blocks[at.block], at.y);
 
-		one(a, &s, x, y, base == SCENE_NONE ? base : base + i % PLAIN_WIDTH);
+		one(a, &s, at.x, at.y, base == SCENE_NONE ? base : base + at.within);
 	}
 }
 
@@ -237,14 +280,39 @@ void plain_shadow_c(const struct plain_arguments *a, size_t first, size_t last)
 	do_blocks(a, a->n_slots, first, last, do_pixel);
 }
 
-void plain_single_c(const struct plain_arguments *a, size_t first, size_t last)
+void plain_color_c(const struct plain_arguments *a, size_t first, size_t last)
 {
-	do_pixels(a, 0, first, last, do_pixel);
+	do_pixels(a, 0, first, last, color_pixel);
 }
 
-void plain_shadow_single_c(const struct plain_arguments *a, size_t first, size_t last)
+void plain_ask_c(const struct plain_arguments *a, size_t first, size_t last)
 {
-	do_pixels(a, a->n_slots, first, last, do_pixel);
+	const struct shadow_ray_arguments rays = plain_rays(a);
+	struct shadow_kept kept;
+
+	for (size_t item = first; item < last && item < rays.n_rays; item++) {
+		const struct plain_at at = place_of(a, item % a->n);
+
+		if (has_fragment(a, at.x, at.y))
+			shadow_ray_item(&rays, (uint32_t)item, 0, &kept);
+		else
+			stage_no_ray(&a->rays[item]);
+	}
+}
+
+void plain_show_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_pixels(a, 0, first, last, show_pixel);
+}
+
+void plain_color_dimmed_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_pixels(a, a->n_slots, first, last, color_pixel);
+}
+
+void plain_show_dimmed_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_pixels(a, a->n_slots, first, last, show_pixel);
 }
 
 void layered_c(const struct plain_arguments *a, size_t first, size_t last)

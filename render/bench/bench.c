@@ -128,9 +128,16 @@ static int measure(struct bench *b, struct figure *f, size_t repeats)
 	return err;
 }
 
+/* Kernels in vectors of eight and more, which compilers for GPUs take minutes for. */
+static int is_in_vectors(enum kernel kernel)
+{
+	return kernel == KERNEL_camera_packet || kernel == KERNEL_occlude_packet || kernel == KERNEL_occlude_wide || kernel == KERNEL_intersect_packet ||
+	       kernel == KERNEL_intersect_wide;
+}
+
 #define FIGURE(rays, kernel, kind) { rays, #kernel, KERNEL_##kernel, kind, 0 }
 
-/* All kernels on the scene of our own. */
+/* All kernels on the scene of our own; those in vectors on CPUs alone. */
 static int measure_all(struct bench *b, size_t repeats, int json)
 {
 	struct figure figures[] = {
@@ -154,9 +161,13 @@ static int measure_all(struct bench *b, size_t repeats, int json)
 		FIGURE("incoherent, nearest hit", intersect_binary, BENCH_AMBIENT),
 		FIGURE("incoherent, nearest hit", intersect_compressed, BENCH_AMBIENT),
 	};
-	const size_t n = sizeof(figures) / sizeof(figures[0]);
+	const struct device_description *device = device_describe(b->dev);
+	size_t n = 0;
 	int err = 0;
 
+	for (size_t i = 0; i < sizeof(figures) / sizeof(figures[0]); i++)
+		if (!device || device->type == DEVICE_CPU || !is_in_vectors(figures[i].kernel))
+			figures[n++] = figures[i];
 	for (size_t i = 0; i < n && !err; i++)
 		err = measure(b, &figures[i], repeats);
 	if (err)

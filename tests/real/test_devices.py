@@ -46,6 +46,10 @@ for kind, family in (("cpu", "packets"), ("gpu", "compressed"), ("accelerator", 
         check(files(SCRATCH / f"{kind}-{choice}").keys() == whole.keys(), f"--device {choice}: frames")
     other = {n for n, data in files(SCRATCH / f"{kind}-{kind}").items() if data != whole[n]}
     check(not other, f"a device of type {kind} leaves other files: {other}")
+done = must(relume("bench", "--models", "", "--repeat", 1, "--json", env=fake(AS_TYPE="gpu"), timeout=150))
+measured = {figure["kernel"] for figure in json.loads(done.stdout)["figures"]}
+check("camera_compressed" in measured and not measured & {"camera_packet", "occlude_packet", "occlude_wide", "intersect_packet", "intersect_wide"},
+      f"bench on a GPU: {sorted(measured)}")
 for d in devices():
     check(d["memory_bytes"] >= d["buffer_bytes"] > 0 and d["width"] in (1, 4, 8, 16) and d["units"] > 0, f"what a device has: {d}")
 for choice in ("gpu", "accelerator", "77", "no such name"):

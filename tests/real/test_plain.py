@@ -42,7 +42,7 @@ for name, (kernel, (program, *options)) in PROGRAMS.items():
         through = stages(trace, *rules)
         check(stage in through and "resolve_packet" not in through, f"{name} {rules}: goes through {sorted(through)}")
     through = stages(trace, "--kernels", "binary")
-    one = ("plain_single", "plain_shadow_single") if name in ONE_BY_ONE else ("shade", "resolve", "compose")
+    one = ("plain_color", "plain_ask", "plain_show", "plain_color_dimmed", "plain_show_dimmed") if name in ONE_BY_ONE else ("shade", "resolve", "compose")
     check(all(stage in through for stage in one), f"{name}, one pixel a work item: goes through {sorted(through)}")
     default = None
     for how, (_, rules) in ways.items():
@@ -51,4 +51,8 @@ for name, (kernel, (program, *options)) in PROGRAMS.items():
         check(pictures[0] == pictures[1], f"{name}, {how}: packets leave another file than binary")
         check(pictures[0] != default, f"{name}: rules change nothing")
         default = pictures[0]
+    if name in ONE_BY_ONE:
+        pictures = [render(trace, SCRATCH / f"{name}-twins-{kernels}", "--device", "reference", "--kernels", kernels)[0].read_bytes()
+                    for kernels in ("packets", "binary")]
+        check(pictures[0] == pictures[1], f"{name}: the twins of packets leave another file than those of binary")
 finish()

@@ -168,14 +168,29 @@ static int run_programs(struct job *job, struct plain_launch a, uint32_t blocks,
 	return launch_plain_program(job->tr->dev, blocks, &a);
 }
 
+/* plain and plain_shadow, or their steps. */
 static int run_plain(const struct job *job, const struct plain_launch *a, uint32_t blocks)
 {
-	return in_packets(job) ? launch_plain(job->tr->dev, blocks, a) : launch_plain_single(job->tr->dev, a->n, a);
+	struct device *dev = job->tr->dev;
+	int err;
+
+	if (in_packets(job))
+		return launch_plain(dev, blocks, a);
+	err = launch_plain_color(dev, a->n, a);
+	if (!err)
+		err = launch_plain_ask(dev, (size_t)a->n * a->n_slots, a);
+	return err ? err : launch_plain_show(dev, a->n, a);
 }
 
 static int run_plain_shadow(const struct job *job, const struct plain_launch *a, uint32_t blocks)
 {
-	return in_packets(job) ? launch_plain_shadow(job->tr->dev, blocks, a) : launch_plain_shadow_single(job->tr->dev, a->n, a);
+	struct device *dev = job->tr->dev;
+	int err;
+
+	if (in_packets(job))
+		return launch_plain_shadow(dev, blocks, a);
+	err = launch_plain_color_dimmed(dev, a->n, a);
+	return err ? err : launch_plain_show_dimmed(dev, a->n, a);
 }
 
 /* All but what light from elsewhere does, and rays to lights; then what it does. */
