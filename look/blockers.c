@@ -11,6 +11,7 @@
 /* Of eye space's coordinates: rays are found in boxes that their triangles lie in by this much. */
 #define MARGIN 1e-4f
 #define CLUSTER 32u /* triangles that share a box; neighbours in a mesh mostly lie side by side */
+#define GROUP 32u   /* clusters that share one */
 
 struct box {
 	float low[3], high[3];
@@ -18,8 +19,8 @@ struct box {
 
 struct blockers {
 	const struct scene *scene;
-	struct box *boxes;       /* of clusters, mesh after mesh */
-	uint32_t *first;         /* [mesh]: its first cluster; SCENE_NONE: not yet made */
+	struct box *boxes;       /* mesh after mesh: of its clusters, then of its groups of clusters */
+	uint32_t *first;         /* [mesh]: its first box; SCENE_NONE: it has none */
 	float (*eye_inverse)[16]; /* [instance]: from eye to object space */
 	struct box *around;      /* [instance]: in eye space, of those that block */
 	uint8_t *blocks;         /* [instance] */
@@ -52,30 +53,62 @@ static uint32_t cluster_count(const struct scene_mesh *mesh)
 	return (mesh->primitive_count + CLUSTER - 1) / CLUSTER;
 }
 
-static void box_cluster(const struct scene_mesh *mesh, uint32_t cluster, struct box *out)
+static uint32_t group_count(const struct scene_mesh *mesh)
 {
-	for (int k = 0; k < 3; k++) {
-		out->low[k] = INFINITY;
-		out->high[k] = -INFINITY;
-	}
-	for (uint32_t i = cluster * CLUSTER; i < (cluster + 1) * CLUSTER && i < mesh->primitive_count; i++)
-		for (unsigned c = 0; c < 3; c++)
-			for (int k = 0; k < 3; k++) {
-				float x = blockers_corner(mesh, i, c)[k];
-
-				out->low[k] = x < out->low[k] ? x : out->low[k];
-				out->high[k] = x > out->high[k] ? x : out->high[k];
-			}
+	return (cluster_count(mesh) + GROUP - 1) / GROUP;
 }
 
-/* A box in eye space around all clusters of an instance, a little wider than they are. */
+static const struct box nowhere = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+
+/* Widen a box to hold a place between low and high. */
+static void widen(struct box *box, const float low[3], const float high[3])
+{
+	for (int k = 0; k < 3; k++) {
+		box->low[k] = low[k] < box->low[k] ? low[k] : box->low[k];
+		box->high[k] = high[k] > box->high[k] ? high[k] : box->high[k];
+	}
+}
+
+/* Four numbers of each corner, though three count: compilers make one instruction of four. */
+__attribute__((optimize("O3")))
+static struct box box_cluster(const struct scene_mesh *mesh, uint32_t cluster)
+{
+	float low[4] = { INFINITY, INFINITY, INFINITY, INFINITY }, high[4] = { -INFINITY, -INFINITY, -INFINITY, -INFINITY };
+
+	for (uint32_t i = cluster * CLUSTER; i < (cluster + 1) * CLUSTER && i < mesh->primitive_count; i++)
+		for (unsigned c = 0; c < 3; c++) {
+			const float *corner = mesh->position + 4 * (size_t)mesh->index[3 * (size_t)i + c];
+
+			for (int k = 0; k < 4; k++) {
+				low[k] = corner[k] < low[k] ? corner[k] : low[k];
+				high[k] = corner[k] > high[k] ? corner[k] : high[k];
+			}
+		}
+	return (struct box){ { low[0], low[1], low[2] }, { high[0], high[1], high[2] } };
+}
+
+/* All boxes of a mesh. */
+static void box_mesh(const struct scene_mesh *mesh, struct box *boxes)
+{
+	const uint32_t n = cluster_count(mesh);
+
+	for (uint32_t i = 0; i < group_count(mesh); i++)
+		boxes[n + i] = nowhere;
+	for (uint32_t i = 0; i < n; i++) {
+		boxes[i] = box_cluster(mesh, i);
+		widen(&boxes[n + i / GROUP], boxes[i].low, boxes[i].high);
+	}
+}
+
+/* A box in eye space around all groups of an instance, a little wider than they are. */
 static struct box box_around(const struct blockers *b, const struct scene_instance *in)
 {
-	struct box out = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+	const struct scene_mesh *mesh = b->scene->meshes[in->mesh];
+	struct box out = nowhere;
 	float far = 0;
 
-	for (uint32_t i = 0; i < cluster_count(b->scene->meshes[in->mesh]); i++) {
-		const struct box *box = &b->boxes[b->first[in->mesh] + i];
+	for (uint32_t i = 0; i < group_count(mesh); i++) {
+		const struct box *box = &b->boxes[b->first[in->mesh] + cluster_count(mesh) + i];
 
 		for (unsigned c = 0; c < 8; c++) {
 			const float corner[4] = { c & 1 ? box->high[0] : box->low[0], c & 2 ? box->high[1] : box->low[1], c & 4 ? box->high[2] : box->low[2], 1 };
@@ -113,14 +146,14 @@ static int make_boxes(struct blockers *b)
 		if (!b->blocks[i] || b->first[in->mesh] != SCENE_NONE)
 			continue;
 		b->first[in->mesh] = (uint32_t)n;
-		n += cluster_count(s->meshes[in->mesh]);
+		n += cluster_count(s->meshes[in->mesh]) + group_count(s->meshes[in->mesh]);
 	}
 	b->boxes = malloc((n + 1) * sizeof(*b->boxes));
 	if (!b->boxes)
 		return ERR_SYSTEM;
 	for (uint32_t i = 0; i < s->n_meshes; i++)
-		for (uint32_t k = 0; b->first[i] != SCENE_NONE && k < cluster_count(s->meshes[i]); k++)
-			box_cluster(s->meshes[i], k, &b->boxes[b->first[i] + k]);
+		if (b->first[i] != SCENE_NONE)
+			box_mesh(s->meshes[i], &b->boxes[b->first[i]]);
 	for (uint32_t i = 0; i < s->n_instances; i++)
 		if (b->blocks[i])
 			b->around[i] = box_around(b, &s->instances[i]);
@@ -266,13 +299,24 @@ static enum blocker_side side_shown(const struct blockers *b, const struct scene
 	return sum < 0 ? BLOCKER_LIT_SIDE : BLOCKER_BACK;
 }
 
+/* The first cluster from k on that is in a group which the line meets; a line meets a group where it meets one of its clusters. */
+static uint32_t next_cluster(const struct line *r, const struct box *groups, uint32_t k, uint32_t n)
+{
+	while (k % GROUP == 0 && k < n && !meets_box(r, &groups[k / GROUP]))
+		k += GROUP;
+	return k;
+}
+
 static unsigned meet_instance(const struct blockers *b, uint32_t i, const struct line *r, struct blocker_hit *out, unsigned n)
 {
 	const struct scene_instance *in = &b->scene->instances[i];
 	const struct scene_mesh *mesh = b->scene->meshes[in->mesh];
+	const struct box *boxes = &b->boxes[b->first[in->mesh]];
+	const uint32_t n_clusters = cluster_count(mesh);
 
-	for (uint32_t k = 0; k < cluster_count(mesh) && n < BLOCKERS_MOST; k++) {
-		if (!meets_box(r, &b->boxes[b->first[in->mesh] + k]))
+	for (uint32_t k = next_cluster(r, boxes + n_clusters, 0, n_clusters); k < n_clusters && n < BLOCKERS_MOST;
+	     k = next_cluster(r, boxes + n_clusters, k + 1, n_clusters)) {
+		if (!meets_box(r, &boxes[k]))
 			continue;
 		for (uint32_t p = k * CLUSTER; p < (k + 1) * CLUSTER && p < mesh->primitive_count && n < BLOCKERS_MOST; p++) {
 			float t = meet_triangle(r, blockers_corner(mesh, p, 0), blockers_corner(mesh, p, 1), blockers_corner(mesh, p, 2));
