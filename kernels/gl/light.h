@@ -112,9 +112,12 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 		if (n_l > 0.0f && strength > 0.0f) {
 			struct vec3 half_way = v3_normalize(v3_add(to_light, to_viewer));
 			float n_h = M_MAX(v3_dot(normal, half_way), 0.0f);
-			float shine = face->shininess == 0.0f ? 1.0f : M_POW(n_h, face->shininess);
 			struct vec4 matte = v4_scale(v4_mul(diffuse, v4_load(light->diffuse)), n_l * strength);
-			struct vec4 gloss = v4_scale(v4_mul(specular, v4_load(light->specular)), shine * strength);
+			struct vec4 gloss = v4_mul(specular, v4_load(light->specular));
+			int is_black = gloss.x == 0.0f && gloss.y == 0.0f && gloss.z == 0.0f && n_h <= 1.0f; /* whatever the power, which is a number */
+			float shine = face->shininess == 0.0f || is_black ? 1.0f : M_POW(n_h, face->shininess);
+
+			gloss = v4_scale(gloss, shine * strength);
 
 			if (light->radius >= 0.0f && matte.x + matte.y + matte.z + gloss.x + gloss.y + gloss.z > 0.0f)
 				out.lights |= 1u << i;
