@@ -156,14 +156,17 @@ WIDE_VECTORS static inline void load_paths(const struct shade_hit_arguments *a, 
 	vstore16((packu)(0), 0, way->branches.count);
 }
 
-/* What the bodies that paths come through leave of them. */
+/* What the bodies that paths come through leave of them; clear ones leave all. */
 static inline void absorb(const struct tables *t, const struct pack_points *q, struct way *way)
 {
 	for (uint left = q->lanes & pack_bits(way->branches.medium != SCENE_NONE); left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
-		const struct vec3 rest = glass_absorb(&t->materials[LANE(way->branches.medium, uint, lane)],
-		                                      LANE(q->t, const float, lane) - LANE(q->t_min, const float, lane));
+		__global const struct scene_material *m = &t->materials[LANE(way->branches.medium, uint, lane)];
+		struct vec3 rest;
 
+		if (m->surface.absorb[0] == 0.0f && m->surface.absorb[1] == 0.0f && m->surface.absorb[2] == 0.0f)
+			continue;
+		rest = glass_absorb(m, LANE(q->t, const float, lane) - LANE(q->t_min, const float, lane));
 		LANE(way->weight.x, float, lane) *= rest.x;
 		LANE(way->weight.y, float, lane) *= rest.y;
 		LANE(way->weight.z, float, lane) *= rest.z;

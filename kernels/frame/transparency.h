@@ -88,19 +88,29 @@ static inline float transparency_of_stipple(const struct tables *t, uint32_t sti
 	return 1.0f - (float)drawn / 1024.0f;
 }
 
+/* 1 where nothing that a ray to a light meets of a material can let it pass. */
+static inline int transparency_is_none(GLOBAL const struct scene_material *m)
+{
+	return !m->alpha_test && !m->blend && !(m->surface.transmit > 0.0f) && !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE &&
+	       !(m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_FILM | SCENE_STOPS_NO_SUN | SCENE_ONE_SIDED));
+}
+
 /*
  * Transmittance of the surface that a ray hit; 1 where it casts no shadow. to_lights: 1: the ray goes to a light, 0: it looks around
  */
 static inline struct vec3 transparency_of_hit(const struct tables *t, const struct hit *hit, GLOBAL const struct ray *ray, uint32_t to_lights)
 {
 	struct vec3 d = v3_load(ray->d), none = v3(0.0f, 0.0f, 0.0f), all = v3(1.0f, 1.0f, 1.0f), pass;
-	struct point p = point_from_hit(t, hit, d);
-	GLOBAL const struct scene_material *m = p.material;
+	GLOBAL const struct scene_material *m = &t->materials[t->geometries[hit->instance].material];
+	struct vec4 color = v4(0.0f, 0.0f, 0.0f, 0.0f);
 	struct texturing texturing;
-	struct lit lit;
-	struct vec4 color;
 	float cosine, beyond;
+	struct point p;
+	struct lit lit;
 
+	if (transparency_is_none(m))
+		return none;
+	p = point_from_hit(t, hit, d);
 	if (m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_FILM) || (to_lights && transparency_is_spared(&p, d, ray->t_max > 1.0f)))
 		return all;
 	if (m->polygon_stipple != SCENE_NONE && !m->blend && !m->alpha_test && !m->clip_plane_mask)
@@ -108,8 +118,10 @@ static inline struct vec3 transparency_of_hit(const struct tables *t, const stru
 	if (!m->alpha_test && !m->blend && !(m->surface.transmit > 0.0f) && !m->clip_plane_mask)
 		return none;
 	point_texture(t, &p, (const struct point_window *)0, &texturing);
-	lit = point_lit_from_vertices(&p);
-	color = point_finish(t, &p, &texturing, &lit);
+	if (m->alpha_test || m->blend) {
+		lit = point_lit_from_vertices(&p);
+		color = point_finish(t, &p, &texturing, &lit);
+	}
 	if (transparency_is_hole(&p, color.w))
 		return all;
 	if (m->surface.transmit > 0.0f) {
