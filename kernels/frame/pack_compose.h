@@ -230,8 +230,20 @@ WIDE_VECTORS static inline void pack_compose_color(const struct pack_pixels *p, 
 		pack_compose_channel(p, nudged, first, exact, c, to);
 	else
 		pack_compose_gl(exact, c, to);
-	if (to->request->half_plane[COMPOSE_ALBEDO + c] != SCENE_NONE)
-		pack_store_half(to, COMPOSE_ALBEDO + c, to->request->display ? p->albedo[c] : pack_linear(p->albedo[c]));
+}
+
+WIDE_VECTORS static inline void pack_compose_albedo(const struct pack_pixels *p, const struct pack_planes *to)
+{
+	packf albedo[3];
+
+	if (to->request->half_plane[COMPOSE_ALBEDO] == SCENE_NONE)
+		return;
+	for (int c = 0; c < 3; c++)
+		albedo[c] = p->albedo[c];
+	if (!to->request->display)
+		pack_linear3(albedo);
+	for (int c = 0; c < 3; c++)
+		pack_store_half(to, COMPOSE_ALBEDO + c, albedo[c]);
 }
 
 /* All planes. */
@@ -248,6 +260,7 @@ WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, const 
 		pack_linear3(exact);
 	for (int c = 0; c < 3; c++)
 		pack_compose_color(p, nudged[c], first[c], exact[c], c, to);
+	pack_compose_albedo(p, to);
 	pack_store_half(to, COMPOSE_BEAUTY + 3, p->drawn);
 	pack_store_half(to, COMPOSE_GL + 3, p->gl[3]);
 	for (int i = 0; i < 3; i++) {
