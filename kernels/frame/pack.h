@@ -102,10 +102,12 @@ static inline int pack_knows_geometry(__global const struct geometry *g)
 /* Those of some lanes that a pack can take with the first of them. material: receives that one's */
 static inline uint pack_same_kind(const struct tables *t, const struct pack_list *list, uint lanes, uint *material)
 {
-	uint same = 0;
+	const uint first = list->instance[popcount((lanes & -lanes) - 1)];
+	const uint others = lanes & pack_bits(*(const pack_loose_uints *)list->instance != first);
+	uint same = pack_knows_geometry(&t->geometries[first]) ? lanes & ~others : 0;
 
-	*material = t->geometries[list->instance[popcount((lanes & -lanes) - 1)]].material;
-	for (uint left = lanes; left; left &= left - 1) {
+	*material = t->geometries[first].material;
+	for (uint left = others; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 		__global const struct geometry *g = &t->geometries[list->instance[lane]];
 
