@@ -28,6 +28,7 @@ struct layered_row {
 	uint step;           /* PLAIN_* */
 	packu last, surface; /* the layers of the last fragment that was drawn, and of the one whose surface shows; SCENE_NONE: there is none */
 	uint n;
+	int is_mirrored; /* mirrored and beauty are not what direct is */
 };
 
 /* --- Loading ------------------------------------------------------------------------------------------------------- */
@@ -153,7 +154,43 @@ WIDE_VECTORS static inline void clear_pixels(__global const struct frame_pixel *
 	p->depth = cleared->depth_exact;
 	p->drawn = p->id = p->layers = 0.0f;
 	row->depth = cleared->depth;
+}
+
+/* What is kept of a row's pixels from round to round. */
+struct layered_kept_row {
+	struct pack_pixels pixels;
+	packu depth, shows; /* shows: 1 where a surface does */
+};
+
+#define KEPT_PACKS (sizeof(struct layered_kept_row) / sizeof(packf)) /* PLAIN_KEPT, that is */
+
+WIDE_VECTORS static inline void begin_pixels(const struct plain_arguments *a, uint x, uint y, struct layered_row *row)
+{
+	__global const float *from = a->layers.before + plain_kept(a->width, x, y);
+	struct layered_kept_row before;
+
 	row->last = row->surface = SCENE_NONE;
+	if (a->layers.round & PLAIN_BEGINS) {
+		clear_pixels(a->cleared, row);
+		return;
+	}
+	for (uint i = 0; i < KEPT_PACKS; i++)
+		((packf *)&before)[i] = ((__global const pack_loose_floats *)from)[i];
+	row->pixels = before.pixels;
+	row->depth = before.depth;
+	row->surface -= before.shows; /* no layer of this round */
+}
+
+WIDE_VECTORS static inline void keep_pixels(const struct plain_arguments *a, uint x, uint y, const struct layered_row *row)
+{
+	__global float *to = a->layers.after + plain_kept(a->width, x, y);
+	struct layered_kept_row after;
+
+	after.pixels = row->pixels;
+	after.depth = row->depth;
+	after.shows = select((packu)(1), (packu)(0), row->surface == SCENE_NONE);
+	for (uint i = 0; i < KEPT_PACKS; i++)
+		((__global pack_loose_floats *)to)[i] = ((const packf *)&after)[i];
 }
 
 /* --- Tests --------------------------------------------------------------------------------------------------------- */
@@ -211,7 +248,7 @@ WIDE_VECTORS static inline int is_same(const struct layer *layer, const struct p
 	return !any_pack((differ != 0) & lanes);
 }
 
-/* As pixel_colors, for fragments of one material. is_mirrored: mirrored and beauty are not what direct is */
+/* As pixel_colors, for fragments of one material. is_mirrored: as of struct layered_row */
 WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __global const struct scene_material *m, const struct layer *layer,
                                            int is_mirrored, packi lanes, struct pack_pixels *p)
 {

@@ -85,11 +85,12 @@ static inline void take_one(const struct plain_arguments *a, struct layer *layer
 }
 
 /* Either, for fragments that kept->last has placed and that have their colours. */
-static inline void follow_lanes(const struct plain_arguments *a, uint step, struct layer *layer, uint lanes, const struct pack *p)
+static inline void follow_lanes(const struct plain_arguments *a, const struct layered_row *row, struct layer *layer, uint lanes,
+                                const struct pack *p)
 {
 	const struct pack_list *list = &layer->at.list;
 
-	for (int c = 0; c < 3 && step == PLAIN_MIRROR; c++) {
+	for (int c = 0; c < 3 && row->is_mirrored; c++) {
 		pack_put(&layer->mirrored[c], layer->colors.direct.c[c], pack_mask(lanes));
 		pack_put(&layer->beauty[c], layer->colors.direct.c[c], pack_mask(lanes));
 	}
@@ -98,7 +99,7 @@ static inline void follow_lanes(const struct plain_arguments *a, uint step, stru
 		const struct pack_color *direct = &layer->colors.direct;
 		struct fragment f;
 
-		if (step == PLAIN_MIRROR) {
+		if (row->step == PLAIN_MIRROR) {
 			take_one(a, layer, lane);
 			continue;
 		}
@@ -156,7 +157,7 @@ static inline uint shade_layer_lanes(const struct plain_arguments *a, const stru
 	plain_shade(a, s, &layer->at, lanes, kept, &lights, &colors);
 	keep_colors(&colors, pack_mask(lanes), &layer->colors);
 	layer->shaded |= lanes;
-	follow_lanes(a, row->step, layer, lanes, &kept->last);
+	follow_lanes(a, row, layer, lanes, &kept->last);
 	if (tests)
 		test_lanes(a, row, i, kept->last.material, lanes);
 	left = lanes & layer->drawn;
@@ -275,7 +276,7 @@ static inline void put_draws(const struct plain_arguments *a, struct layered_row
 {
 	const packi drawn = row->last != SCENE_NONE;
 
-	row->pixels.drawn = select((packf)(0), (packf)(1), drawn);
+	pack_put(&row->pixels.drawn, (packf)(1), drawn);
 	for (uint lanes = a->request.float_plane[COMPOSE_ID] != SCENE_NONE ? pack_bits(drawn) : 0; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		const struct pack_list *list = &row->layers[LANE(row->last, const uint, lane)].at.list;
@@ -284,26 +285,28 @@ static inline void put_draws(const struct plain_arguments *a, struct layered_row
 	}
 }
 
-/* From layers to planes; where light leaves the row, only in the step that knows what became of it. */
-static inline void draw_row(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row, struct layered_kept *kept,
-                            const struct pack_planes *to)
+/* From layers to planes or to the next round; where light leaves the row, only in the step that knows what became of it. */
+static inline void draw_row(const struct plain_arguments *a, const struct shade_arguments *s, uint x, uint y, struct layered_row *row,
+                            struct layered_kept *kept, const struct pack_planes *to)
 {
-	const int is_mirrored = row->step == PLAIN_MIRROR;
 	uint covered = 0;
 
-	clear_pixels(a->cleared, row);
+	begin_pixels(a, x, y, row);
 	for (uint i = 0; i < row->n; i++)
 		test_layer(a, s, row, i, kept);
 	for (uint i = row->n; i-- > 0 && row->n > 1;)
 		covered = shade_layer(a, s, row, i, covered, kept);
-	if (find_leaves(a, row) && !is_mirrored)
+	if (find_leaves(a, row) && row->step != PLAIN_MIRROR)
 		return;
 	for (uint i = 0; i < row->n; i++)
-		draw_layer(a, &row->layers[i], is_mirrored, &row->pixels);
+		draw_layer(a, &row->layers[i], row->is_mirrored, &row->pixels);
 	put_draws(a, row);
-	for (int i = 0; i < 3 && !is_mirrored; i++)
+	for (int i = 0; i < 3 && !row->is_mirrored; i++)
 		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
-	pack_compose(&row->pixels, to);
+	if (a->layers.round & PLAIN_ENDS)
+		pack_compose(&row->pixels, to);
+	else
+		keep_pixels(a, x, y, row);
 }
 
 /* s: with visibility where lights have been asked */
@@ -317,6 +320,7 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 	load_block(a, item, &b);
 	pack_keep_nothing(&kept.pack);
 	row.step = step;
+	row.is_mirrored = step == PLAIN_MIRROR || (a->layers.mirrors && !(a->layers.round & PLAIN_BEGINS));
 	for (uint y = b.y; y < b.y + PLAIN_ROWS; y++) {
 		struct pack_planes to;
 
@@ -329,8 +333,8 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 			pack_compose_again(empty, &to);
 			continue;
 		}
-		draw_row(a, s, &row, &kept, &to);
-		if (!row.n && to.n == PACK_SIZE)
+		draw_row(a, s, b.x, y, &row, &kept, &to);
+		if (!row.n && to.n == PACK_SIZE && a->layers.round == (PLAIN_BEGINS | PLAIN_ENDS))
 			empty = to.at;
 	}
 }

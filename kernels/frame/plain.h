@@ -45,9 +45,17 @@ static inline uint32_t plain_place(GLOBAL const uint32_t *blocks, uint32_t width
  *
  * layered makes all planes without shadows and mirrors, and sends rays to lights. layered_shadow makes planes again where a light is dimmed, and
  * lists the fragments that mirror or let light through. layered_mirror makes the planes of rows where these are, with what their paths found.
+ *
+ * Where more fragments lie over each other than a work item keeps, they come in rounds of looks: all but the last leave pixels for the next in
+ * place of planes. The kernels and their twins keep pixels each in a layout of their own.
  */
-#define PLAIN_LOOKS 8u   /* at most */
-#define PLAIN_LAYERS 16u /* fragments over each other, at most */
+#define PLAIN_LOOKS 8u   /* of a round, at most */
+#define PLAIN_LAYERS 16u /* fragments of a round over each other, at most */
+#define PLAIN_KEPT 31u   /* numbers that are kept of a pixel */
+
+/* What a round is: bits. */
+#define PLAIN_BEGINS 1u /* the first: pixels are as they were cleared */
+#define PLAIN_ENDS 2u   /* the last: planes are made */
 
 /* The three steps. */
 #define PLAIN_FIRST 0u
@@ -63,6 +71,12 @@ static inline uint32_t plain_slots(uint32_t columns, uint32_t look)
 static inline uint32_t plain_look_first(uint32_t columns, uint32_t look, uint32_t n_pixels)
 {
 	return look * n_pixels * (CAMERA_COLUMN_MAX / plain_slots(columns, look));
+}
+
+/* Where pixels of a row are kept; x: a multiple of PLAIN_WIDTH. */
+static inline uint32_t plain_kept(uint32_t width, uint32_t x, uint32_t y)
+{
+	return (y * plain_columns(width) * PLAIN_WIDTH + x) * PLAIN_KEPT;
 }
 
 /* How many blocks a band has. */

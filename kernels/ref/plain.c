@@ -1,6 +1,8 @@
 /* C twins of kernels/frame/plain.cl, plain_single.cl and layered.cl: a pixel after the other through the steps that frames which are not plain take. */
 #include "kernels/frame/plain.h"
 
+#include <string.h>
+
 #include "kernels/frame/compose.h"
 #include "kernels/frame/dome.h"
 #include "kernels/gl/program.h"
@@ -169,13 +171,36 @@ static void draw_fragment(const struct plain_arguments *a, const struct shade_ar
 		a->layers.leaving[item / PLAIN_WIDTH] |= 1u << item % PLAIN_WIDTH;
 }
 
+/* A pixel as the last round left it, or as it was cleared. */
+static struct frame_pixel begin_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y)
+{
+	struct frame_pixel pixel = *a->cleared;
+
+	if (!(a->layers.round & PLAIN_BEGINS))
+		memcpy(&pixel, a->layers.before + plain_kept(a->width, 0, y) + x * PLAIN_KEPT, sizeof(pixel));
+	return pixel;
+}
+
+/* Keep it for the next one, or compose it. */
+static void end_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, const struct frame_pixel *pixel)
+{
+	if (a->layers.round & PLAIN_ENDS)
+		compose_pixel(a, x, y, pixel);
+	else
+		memcpy(a->layers.after + plain_kept(a->width, 0, y) + x * PLAIN_KEPT, pixel, sizeof(*pixel));
+}
+
+_Static_assert(sizeof(struct frame_pixel) == PLAIN_KEPT * sizeof(float), "what is kept of a pixel");
+
 /* do_pixel where there are several looks. item: its place in the block's first layer */
 static void draw_layers(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t step, uint32_t x, uint32_t y, uint32_t item)
 {
 	const int is_there = x < a->width && y < a->request.height;
 	const uint32_t number = y * a->width + x;
-	struct frame_pixel pixel = *a->cleared;
+	struct frame_pixel pixel;
 
+	if (is_there)
+		pixel = begin_pixel(a, x, y);
 	for (uint32_t look = 0; look < a->layers.n_looks && item != SCENE_NONE; look++) {
 		const uint32_t first = plain_look_first(a->layers.columns, look, a->width * a->request.height) + number;
 		const uint32_t slots = plain_slots(a->layers.columns, look), most = most_of_block(a, look, x, y);
@@ -195,7 +220,7 @@ static void draw_layers(const struct plain_arguments *a, const struct shade_argu
 		}
 	}
 	if (is_there)
-		compose_pixel(a, x, y, &pixel);
+		end_pixel(a, x, y, &pixel);
 }
 
 static void draw_layers_first(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
 """Frames of several looks go through packets in two or three steps (kernels/frame/layered.cl), others stage by stage: what tests/real/layers.c
-draws leaves the files of other kernels and of the twins, byte by byte; in shadow, with mirrors and glass by rules, and too deep for layers."""
+draws leaves the files of other kernels and of the twins, byte by byte; in shadow, with mirrors and glass by rules, and in several rounds
+(frame 3)."""
 import json
 
 from helpers import BUILD, SCRATCH, check, finish, must, record, relume, render
@@ -19,8 +20,9 @@ DEVICES = {"": {"packets": (), "one thread": ("--threads", 1), "binary": ("--ker
 
 record(TRACE, BUILD / "tests/real/layers", options=())
 for how, (kernel, rules, options) in WAYS.items():
-    stages = {row["what"] for row in json.loads(must(relume("bench", TRACE, "--repeat", 1, "--json", *rules)).stdout)["spent"]}
-    check(kernel in stages and "resolve_packet" not in stages, f"{how}: goes through {sorted(stages)}")
+    for frame in 0, FRAMES - 1:
+        stages = {row["what"] for row in json.loads(must(relume("bench", TRACE, "--repeat", 1, "--json", "-f", frame, *rules)).stdout)["spent"]}
+        check(kernel in stages and "resolve_packet" not in stages, f"{how}, frame {frame}: goes through {sorted(stages)}")
     for device, ways in DEVICES.items():
         on = ("--device", device) if device else ()
         pictures = {way: render(TRACE, SCRATCH / f"{how}-{device}-{way}".replace(" ", "_"), *on, *more, *options, *rules)

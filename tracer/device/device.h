@@ -27,7 +27,7 @@ struct device_arg {
 	const void *value;                  /* of `bytes` bytes, copied at the launch */
 	size_t bytes;
 };
-#define DEVICE_MAX_ARGS 50
+#define DEVICE_MAX_ARGS 56
 
 struct device;
 struct device_buffer; /* memory on one device */

@@ -13,11 +13,14 @@
 #include "tracer/frame/secondary.h"
 #include "tracer/frame/segment.h"
 
-/* The looks at a band: layers_launch.n_looks, columns and asking, and the space that rays to lights go through. */
+/* A round of looks at a band: layers_launch.n_looks, columns and asking, and the space that rays to lights go through. */
 struct looks {
 	uint32_t n, most; /* most: that there is room for */
+	uint32_t layers;  /* of the block that has the most */
 	uint32_t columns, asking;
 	const struct accel_space *space, *sky; /* sky: what rays see that hit nothing */
+	uint32_t next; /* the segment that is looked at next: again, if its columns go on; tracer.counts has where */
+	int goes_on;
 };
 
 /* Whether kernels know all that a material asks of the frame buffer. */
@@ -61,6 +64,11 @@ int layered_suits(const struct job *job)
 	return 1;
 }
 
+uint32_t layered_most_pixels(void)
+{
+	return 0xffffffffu / (PLAIN_LOOKS * CAMERA_COLUMN_MAX);
+}
+
 int layered_has_columns(const struct job *job)
 {
 	int columns = 0;
@@ -101,23 +109,24 @@ static int reserve_looks(struct job *job, struct looks *looks)
 	return err ? err : frame_reserve(tr, sparse, n * CAMERA_COLUMN_MAX);
 }
 
-/* Add a look's counts, in tracer.counts, to the layers of blocks, in tracer.first. @return 1 where a pixel has `full` */
-static int add_layers(struct job *job, uint32_t full)
+/* Add a look's counts, in tracer.counts, to the layers of blocks, in tracer.first. @return the most of a pixel */
+static uint32_t add_layers(struct job *job, struct looks *looks)
 {
 	const uint32_t columns = plain_columns(job->width);
-	int is_full = 0;
+	uint32_t most_of_all = 0;
 
 	for (uint32_t y0 = 0; y0 < job->n_rows; y0 += PLAIN_ROWS)
 		for (uint32_t x0 = 0; x0 < job->width; x0 += PLAIN_WIDTH) {
-			uint32_t most = 0;
+			uint32_t *layers = &job->tr->first[y0 / PLAIN_ROWS * columns + x0 / PLAIN_WIDTH], most = 0;
 
 			for (uint32_t y = y0; y < y0 + PLAIN_ROWS && y < job->n_rows; y++)
 				for (uint32_t x = x0; x < x0 + PLAIN_WIDTH && x < job->width; x++)
 					most = job->tr->counts[y * job->width + x] > most ? job->tr->counts[y * job->width + x] : most;
-			job->tr->first[y0 / PLAIN_ROWS * columns + x0 / PLAIN_WIDTH] += most;
-			is_full |= most == full;
+			*layers += most;
+			looks->layers = *layers > looks->layers ? *layers : looks->layers;
+			most_of_all = most > most_of_all ? most : most_of_all;
 		}
-	return is_full;
+	return most_of_all;
 }
 
 /* Where columns go on that the last look filled; tracer.counts has its counts. */
@@ -137,65 +146,64 @@ static int go_on(struct job *job, const struct looks *looks)
 	return device_unmap(tr->dev, tr->buffers.sparse.buffer, mapped);
 }
 
-/* Look at a segment, as often as its columns ask for. drawn: receives 0 where there are too many */
-static int look_at(struct job *job, const struct segment *segment, struct looks *looks, int *drawn)
+/* One look at a rectangle of a segment. */
+static int look_at(struct job *job, const struct segment *segment, struct camera_rectangle r, struct looks *looks)
 {
 	struct tracer *tr = job->tr;
-	const struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
 	const struct accel_space *space = space_of(job, segment);
 	const uint32_t is_column = segment->mode == CAMERA_COLUMN;
 	const size_t bytes = job->n_pixels * sizeof(*tr->counts);
-	int err = 0, more = r.x0 < r.x1;
+	uint32_t first;
+	int err = 0;
 
-	memset(tr->counts, 0, bytes); /* columns begin with the first fragment */
-	while (more && !err) {
-		uint32_t first;
-
-		*drawn = looks->n < looks->most;
-		if (!*drawn)
-			return 0;
-		looks->columns |= is_column << looks->n;
-		looks->asking |= (space != NULL) << looks->n;
-		looks->space = space ? space : looks->space;
-		looks->sky = space ? secondary_space(job, segment->view, 1) : looks->sky;
-		first = plain_look_first(looks->columns, looks->n, job->n_pixels);
-		if (is_column)
-			err = device_write(tr->dev, tr->buffers.after.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
-		if (!err)
-			err = clear_look(job, looks);
-		if (!err)
-			err = segment_trace_camera(job, segment, r, first);
-		if (!err)
-			err = device_read(tr->dev, tr->buffers.counts.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
-		looks->n++;
-		more = !err && add_layers(job, CAMERA_COLUMN_MAX) && is_column;
-		if (more)
-			err = go_on(job, looks);
-	}
-	return err;
+	looks->columns |= is_column << looks->n;
+	looks->asking |= (space != NULL) << looks->n;
+	looks->space = space ? space : looks->space;
+	looks->sky = space ? secondary_space(job, segment->view, 1) : looks->sky;
+	first = plain_look_first(looks->columns, looks->n, job->n_pixels);
+	if (!looks->goes_on)
+		memset(tr->counts, 0, bytes); /* columns begin with the first fragment */
+	if (is_column)
+		err = device_write(tr->dev, tr->buffers.after.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
+	if (!err)
+		err = clear_look(job, looks);
+	if (!err)
+		err = segment_trace_camera(job, segment, r, first);
+	if (!err)
+		err = device_read(tr->dev, tr->buffers.counts.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
+	looks->n++;
+	looks->goes_on = !err && add_layers(job, looks) == CAMERA_COLUMN_MAX && is_column;
+	return looks->goes_on ? go_on(job, looks) : err;
 }
 
-/* All looks; the layers of blocks in tracer.first. */
-static int look_around(struct job *job, struct looks *looks, int *drawn)
+/* So many looks as a round takes; the layers of blocks in tracer.first. */
+static int look_around(struct job *job, struct looks *looks)
 {
-	int err = frame_reserve_counts(job);
+	const struct prepared *p = &job->prepared;
+	int err = 0;
 
-	if (!err)
-		err = reserve_looks(job, looks);
-	if (!err)
-		memset(job->tr->first, 0, plain_blocks(job->width, job->n_rows) * sizeof(*job->tr->first));
-	*drawn = 1;
-	for (uint32_t i = 0; i < job->prepared.n_segments && !err && *drawn; i++) {
-		const struct segment *segment = &job->prepared.segments[i];
+	looks->n = looks->layers = looks->columns = looks->asking = 0;
+	looks->space = looks->sky = NULL;
+	memset(job->tr->first, 0, plain_blocks(job->width, job->n_rows) * sizeof(*job->tr->first));
+	while (!err && looks->next < p->n_segments) {
+		const struct segment *segment = &p->segments[looks->next];
+		const uint32_t slots = segment->mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1;
 
-		if (segment->view != SCENE_NONE && segment->instance_count)
-			err = look_at(job, segment, looks, drawn);
+		if (segment->view != SCENE_NONE && segment->instance_count) {
+			const struct camera_rectangle r = segment_rectangle(job, p->views[segment->view].scissor);
+
+			if (looks->n == looks->most || looks->layers + slots > PLAIN_LAYERS)
+				return 0;
+			if (r.x0 < r.x1)
+				err = look_at(job, segment, r, looks);
+		}
+		looks->next += !looks->goes_on;
 	}
 	return err;
 }
 
-/* Give blocks with fragments their places, one a layer. n: receives the pixels of all of them. @return 0: a block has too many layers */
-static int place_blocks(struct job *job, uint32_t *n)
+/* Give blocks with fragments their places, one a layer. @return the pixels of all of them */
+static uint32_t place_blocks(struct job *job)
 {
 	const uint32_t blocks = plain_blocks(job->width, job->n_rows);
 	uint32_t next = 0;
@@ -203,13 +211,10 @@ static int place_blocks(struct job *job, uint32_t *n)
 	for (uint32_t i = 0; i < blocks; i++) {
 		const uint32_t layers = job->tr->first[i];
 
-		if (layers > PLAIN_LAYERS)
-			return 0;
 		job->tr->first[i] = layers ? next : SCENE_NONE;
 		next += layers;
 	}
-	*n = next * PLAIN_WIDTH * PLAIN_ROWS;
-	return 1;
+	return next * PLAIN_WIDTH * PLAIN_ROWS;
 }
 
 /* --- Drawing ------------------------------------------------------------------------------------------------------- */
@@ -228,7 +233,8 @@ static int reserve_places(struct job *job, uint32_t n, uint32_t n_slots)
 	return secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
 }
 
-static struct plain_launch launch_of(const struct job *job, const struct looks *looks, uint32_t n, uint32_t n_slots,
+/* round: PLAIN_BEGINS, PLAIN_ENDS */
+static struct plain_launch launch_of(const struct job *job, const struct looks *looks, uint32_t round, uint32_t n, uint32_t n_slots,
                                      const struct compose_request *request)
 {
 	static const struct camera_rectangle nowhere;
@@ -239,7 +245,7 @@ static struct plain_launch launch_of(const struct job *job, const struct looks *
 	a.pixels = b->alone_pixels;
 	a.shaded = b->alone_shaded;
 	a.layers = *LAUNCH(layers, .counts = b->counts, .n_looks = looks->n, .columns = looks->columns, .asking = looks->asking,
-	                   .mirrors = looks->space && plain_has_mirrors(job), .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
+	                   .round = round, .before = b->kept_pixels, .after = b->next_pixels, .mirrors = looks->space && plain_has_mirrors(job), .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
 	                   .list_pixels = b->pixels, .list_shaded = b->shaded);
 	return a;
 }
@@ -286,13 +292,13 @@ static int follow(struct job *job, const struct looks *looks, struct plain_launc
 	err = secondary_paths(job, looks->space, looks->sky, n_list);
 	if (err)
 		return err;
-	a = launch_of(job, looks, a.n, a.n_slots, &a.request);
+	a = launch_of(job, looks, a.layers.round, a.n, a.n_slots, &a.request);
 	a.visibility = visibility;
 	return launch_layered_mirror(job->tr->dev, plain_blocks(job->width, job->n_rows), &a);
 }
 
 /* All planes without shadows and mirrors, and rays to lights; then what these change. */
-static int draw(struct job *job, const struct looks *looks, uint32_t n, const struct compose_request *request)
+static int draw(struct job *job, const struct looks *looks, uint32_t round, uint32_t n, const struct compose_request *request)
 {
 	const uint32_t blocks = plain_blocks(job->width, job->n_rows), n_slots = looks->space && n ? job->prepared.n_light_slots : 0;
 	uint32_t n_list = 0;
@@ -301,7 +307,7 @@ static int draw(struct job *job, const struct looks *looks, uint32_t n, const st
 
 	if (err)
 		return err;
-	a = launch_of(job, looks, n, n_slots, request);
+	a = launch_of(job, looks, round, n, n_slots, request);
 	err = launch_layered(job->tr->dev, blocks, &a);
 	if (!err && n_slots)
 		err = secondary_ask(job, looks->space, 1, a.rays, n * n_slots);
@@ -309,38 +315,64 @@ static int draw(struct job *job, const struct looks *looks, uint32_t n, const st
 		err = place_leaving(job, n, &n_list);
 	if (err || !(n_slots || n_list))
 		return err;
-	a = launch_of(job, looks, n, n_slots, request);
-	a.request = plain_shadow_request(a.request);
+	a = launch_of(job, looks, round, n, n_slots, request);
+	if (round & PLAIN_ENDS) /* others hand on all of a pixel */
+		a.request = plain_shadow_request(a.request);
 	err = launch_layered_shadow(job->tr->dev, blocks, &a);
 	a.request = *request;
 	return err || !n_list ? err : follow(job, looks, a, n_list);
 }
 
-int layered_band(struct job *job, int *drawn)
+/* Room for what a round leaves for the next, where there are several. */
+static int reserve_kept(struct job *job, int is_only)
 {
-	struct looks looks = { .n = 0 };
+	const size_t n = is_only ? 1 : (size_t)plain_columns(job->width) * PLAIN_WIDTH * job->n_rows * PLAIN_KEPT;
+	int err = frame_reserve(job->tr, kept_pixels, n);
+
+	return err ? err : frame_reserve(job->tr, next_pixels, n);
+}
+
+/* A round of looks, as many as there is room for, and what they have found drawn. is_first: of the band. is_last: receives whether it was the last */
+static int draw_round(struct job *job, struct looks *looks, int is_first, int *is_last, const struct compose_request *request)
+{
+	struct frame_buffers *b = &job->tr->buffers;
+	union buffer_float kept;
+	uint32_t n;
+	int err = look_around(job, looks);
+
+	if (err)
+		return err;
+	*is_last = looks->next == job->prepared.n_segments;
+	n = place_blocks(job);
+	err = frame_upload(job->tr, blocks, job->tr->first, plain_blocks(job->width, job->n_rows));
+	if (!err)
+		err = reserve_kept(job, is_first && *is_last);
+	if (!err)
+		err = draw(job, looks, (is_first ? PLAIN_BEGINS : 0) | (*is_last ? PLAIN_ENDS : 0), n, request);
+	kept = b->next_pixels;
+	b->next_pixels = b->kept_pixels;
+	b->kept_pixels = kept;
+	return err;
+}
+
+int layered_band(struct job *job)
+{
+	struct looks looks = { .next = 0 };
 	struct compose_request request;
 	struct scene_clear clear;
-	uint32_t n;
-	int err;
+	int err, is_last = 0;
 
-	*drawn = job->n_pixels <= 0xffffffffu / (PLAIN_LOOKS * CAMERA_COLUMN_MAX);
-	if (!*drawn)
-		return 0;
 	segment_whole_clear(job, &clear);
 	memcpy(job->background, clear.color, sizeof(job->background));
 	/* As in plain_band. */
 	err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
-
 	if (!err)
-		err = look_around(job, &looks, drawn);
-	*drawn = *drawn && (err || place_blocks(job, &n));
-	if (err || !*drawn)
-		return err;
-	err = frame_upload(job->tr, blocks, job->tr->first, plain_blocks(job->width, job->n_rows));
+		err = frame_reserve_counts(job);
+	if (!err)
+		err = reserve_looks(job, &looks);
 	if (!err)
 		err = compose_reserve(job, &request);
-	if (!err)
-		err = draw(job, &looks, n, &request);
+	for (int is_first = 1; !err && !is_last; is_first = 0)
+		err = draw_round(job, &looks, is_first, &is_last, &request);
 	return err ? err : compose_fetch(job, &request, job->image);
 }

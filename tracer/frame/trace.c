@@ -146,6 +146,8 @@ static uint32_t rows_of_band(const struct job *job)
 
 	if (job->tr->most_rows && rows > job->tr->most_rows)
 		rows = job->tr->most_rows;
+	if (rows > layered_most_pixels() / job->width)
+		rows = layered_most_pixels() / job->width;
 	return rows < CAMERA_TILE ? CAMERA_TILE : rows / CAMERA_TILE * CAMERA_TILE;
 }
 
@@ -166,15 +168,12 @@ static int begin_band(struct job *job, uint32_t *n_cleared)
 static int trace_band(struct job *job)
 {
 	uint32_t n_cleared;
-	int err, drawn;
+	int err;
 
 	if (plain_suits(job))
 		return plain_band(job);
-	if (layered_suits(job)) {
-		err = layered_band(job, &drawn);
-		if (err || drawn)
-			return err;
-	}
+	if (layered_suits(job))
+		return layered_band(job);
 	err = reserve_pixels(job);
 	if (!err)
 		err = begin_band(job, &n_cleared);
