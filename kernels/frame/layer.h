@@ -29,6 +29,7 @@ struct layered_row {
 	packu last, surface; /* the layers of the last fragment that was drawn, and of the one whose surface shows; SCENE_NONE: there is none */
 	uint n;
 	int is_mirrored; /* mirrored and beauty are not what direct is */
+	int at_once;     /* layers are shaded and drawn as they are tested: nothing of the row before was covered */
 };
 
 /* --- Loading ------------------------------------------------------------------------------------------------------- */

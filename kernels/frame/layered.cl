@@ -2,7 +2,7 @@
  * layered, layered_shadow, layered_mirror: see kernels/frame/plain.h. All fragments of a row of sixteen pixels go through the per-fragment
  * operations in draw order, layer by layer: the first of each pixel, the second of each, and so on. Depth tests come before colours, and
  * colours are found from the last layer to the first: a fragment that fails, or that a later one covers whole, is not shaded, and sends no
- * rays. Rows that light leaves are composed by layered_mirror alone.
+ * rays. Rows that light leaves are composed by layered_mirror alone. Where none of the row before was covered, layers are drawn as they are tested.
  */
 #include "kernels/frame/layer.h"
 
@@ -150,7 +150,7 @@ static inline uint shade_layer_lanes(const struct plain_arguments *a, const stru
 
 	if (lanes & ~layer->placed)
 		lanes = place_lanes(a, s, layer, lanes, kept);
-	else
+	else if (!row->at_once)
 		kept->last = layer->pack;
 	if (!lanes)
 		return 0;
@@ -233,7 +233,11 @@ static inline void test_layer(const struct plain_arguments *a, const struct shad
 			done = place_lanes(a, s, layer, same, &kept->pack);
 			if (done)
 				test_lanes(a, row, i, m, done);
-			if (done && !layer->placed) {
+			if (done && row->at_once) {
+				layer->placed = done;
+				if (layer->drawn & done)
+					shade_layer_lanes(a, s, row, i, layer->drawn & done, 0, &kept->pack);
+			} else if (done && !layer->placed) {
 				layer->pack = kept->pack.last;
 				layer->placed = done;
 			}
@@ -289,17 +293,23 @@ static inline void put_draws(const struct plain_arguments *a, struct layered_row
 static inline void draw_row(const struct plain_arguments *a, const struct shade_arguments *s, uint x, uint y, struct layered_row *row,
                             struct layered_kept *kept, const struct pack_planes *to)
 {
-	uint covered = 0;
+	uint covered = 0, spared = 0;
 
 	begin_pixels(a, x, y, row);
-	for (uint i = 0; i < row->n; i++)
+	for (uint i = 0; i < row->n; i++) {
 		test_layer(a, s, row, i, kept);
-	for (uint i = row->n; i-- > 0 && row->n > 1;)
+		if (row->at_once)
+			draw_layer(a, &row->layers[i], row->is_mirrored, &row->pixels);
+	}
+	for (uint i = row->at_once ? 0 : row->n; i-- > 0 && row->n > 1;) {
 		covered = shade_layer(a, s, row, i, covered, kept);
+		spared |= row->layers[i].drawn & ~row->layers[i].shaded;
+	}
 	if (find_leaves(a, row) && row->step != PLAIN_MIRROR)
 		return;
-	for (uint i = 0; i < row->n; i++)
+	for (uint i = 0; i < row->n && !row->at_once; i++)
 		draw_layer(a, &row->layers[i], row->is_mirrored, &row->pixels);
+	row->at_once |= !spared && row->n > 1 && !a->layers.mirrors;
 	put_draws(a, row);
 	for (int i = 0; i < 3 && !row->is_mirrored; i++)
 		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
@@ -320,6 +330,7 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 	load_block(a, item, &b);
 	pack_keep_nothing(&kept.pack);
 	row.step = step;
+	row.at_once = 0;
 	row.is_mirrored = step == PLAIN_MIRROR || (a->layers.mirrors && !(a->layers.round & PLAIN_BEGINS));
 	for (uint y = b.y; y < b.y + PLAIN_ROWS; y++) {
 		struct pack_planes to;

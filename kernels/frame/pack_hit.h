@@ -83,7 +83,7 @@ WIDE_VECTORS static inline void pack_texture_hits(const struct tables *t, const 
                                                   struct pack_texturing *out)
 {
 	__global const struct scene_material *m = p->material;
-	const packu first = pack_texcoord_first(t, list, m, lanes);
+	const packu first = pack_texcoord_first(t, list, m, lanes, p->uniform);
 
 	for (uint i = 0; i < m->unit_count; i++) {
 		__global const struct scene_unit *unit = &t->units[m->unit_first + i];

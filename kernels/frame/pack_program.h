@@ -317,7 +317,7 @@ WIDE_VECTORS static inline void pack_set_by_planes(const struct pack *p, const s
 WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
                                                      struct pack_kept *kept, uint inputs, const struct pack_places *at, struct pack_run *run)
 {
-	const packu first = pack_texcoord_first(&a->tables, list, p->material, lanes);
+	const packu first = pack_texcoord_first(&a->tables, list, p->material, lanes, p->uniform);
 
 	for (uint i = 0; i < p->material->unit_count; i++) {
 		const uint unit = a->tables.units[p->material->unit_first + i].unit;

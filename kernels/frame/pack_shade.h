@@ -147,11 +147,14 @@ struct pack_texturing {
 	packf fog;
 };
 
-/* Where the texture coordinates of the lanes' meshes start. */
-static inline packu pack_texcoord_first(const struct tables *t, const struct pack_list *list, __global const struct scene_material *m, uint lanes)
+/* Where the texture coordinates of the lanes' meshes start. is_uniform: all lie in the same triangle */
+static inline packu pack_texcoord_first(const struct tables *t, const struct pack_list *list, __global const struct scene_material *m, uint lanes,
+                                        int is_uniform)
 {
 	packu first = 0;
 
+	if (is_uniform)
+		return t->geometries[list->instance[popcount((lanes & -lanes) - 1)]].texcoord_first;
 	for (uint lane = 0; lane < PACK_SIZE && m->unit_count; lane++) {
 		const uint from = lanes >> lane & 1 ? lane : popcount((lanes & -lanes) - 1);
 
@@ -201,7 +204,7 @@ WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, co
 	const struct tables *t = &a->tables;
 	__global const struct scene_material *m = p->material;
 	const float middle = 0.5f - clip_origin(p->view);
-	const packu first = pack_texcoord_first(t, list, m, lanes);
+	const packu first = pack_texcoord_first(t, list, m, lanes, p->uniform);
 
 	for (uint i = 0; i < m->unit_count; i++) {
 		packf texcoord[3][4];

@@ -112,7 +112,8 @@ WIDE_VECTORS static inline struct pack_level pack_level(__global const struct te
 {
 	struct pack_level out;
 
-	for (uint lane = 0; lane < 16; lane++)
+	out.first = image->level_first[0];
+	for (uint lane = 0; lane < 16 && any_pack(level != 0); lane++)
 		((uint *)&out.first)[lane] = image->level_first[((const int *)&level)[lane]];
 	out.width = max((packi)((int)image->width) >> level, 1);
 	out.height = max((packi)((int)image->height) >> level, 1);
