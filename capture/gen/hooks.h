@@ -11,6 +11,7 @@
 #include "capture/format/sizes.h"
 #include "capture/gl/context.h"
 #include "capture/gl/current.h"
+#include "capture/gl/bound.h"
 #include "capture/gl/drawable.h"
 #include "capture/gl/font.h"
 #include "capture/gl/frame.h"

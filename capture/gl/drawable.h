@@ -26,6 +26,7 @@ struct drawable_target {
 /** Drawable number `id`, made at need; it stays. NULL: no memory. */
 struct drawable *drawable_find(uintptr_t id);
 
+/** window: of X, or its pixmap */
 void drawable_is_window(unsigned long glx_window, unsigned long window);
 void drawable_is_pbuffer(void *display, unsigned long pbuffer);
 void drawable_may_have_changed(void);

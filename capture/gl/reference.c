@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -134,15 +135,28 @@ static int draws_to_front(void)
 	return buffer == GL_FRONT || buffer == GL_FRONT_LEFT || buffer == GL_LEFT || buffer == GL_FRONT_AND_BACK;
 }
 
+/* Why a frame gets no pixels, the first time. */
+static void say_unread(int has_size)
+{
+	static atomic_int said[2];
+
+	if (!said[has_size]++)
+		report_say(has_size ? "a frame ends while a display list is made; such frames get no reference frames" :
+		                      "a frame ends in what is neither a window nor a pixmap, or in one that is gone; such frames get no reference frames");
+}
+
 void reference_read(int width, int height, int unswapped)
 {
 	struct reading_state state = { 0 };
-	int saved = errno, list = context_has(HAS_FIXED_FUNCTION) ? context_get(GL_LIST_INDEX) : 0;
+	int saved = errno, list = context_has(HAS_FIXED_FUNCTION) ? context_get(GL_LIST_INDEX) : 0, has_size = width > 0 && height > 0;
 	uint8_t *pixels;
 
 	/* A list that is being compiled would take the selection of the buffer. */
-	if (list || width <= 0 || height <= 0)
+	if (list || !has_size) {
+		say_unread(has_size);
+		errno = saved;
 		return;
+	}
 	pthread_mutex_lock(&r.lock);
 	if (make_ready())
 		goto done;
