@@ -5,6 +5,7 @@
 #include <string.h>
 
 static _Thread_local int *shared;
+static const char *before = ""; /* each line */
 
 /* Memory that is short for one thing is short for all that comes of it: one line says so. */
 static int is_said(const char *fmt)
@@ -21,9 +22,14 @@ static void print_line(const char *kind, const char *where, const char *fmt, va_
 	vsnprintf(text, sizeof(text), fmt, args);
 	/* One call, so that lines of several threads and processes do not mix. */
 	if (where)
-		fprintf(stderr, "relume: %s%s: %s\n", kind, where, text);
+		fprintf(stderr, "%srelume: %s%s: %s\n", before, kind, where, text);
 	else
-		fprintf(stderr, "relume: %s%s\n", kind, text);
+		fprintf(stderr, "%srelume: %s%s\n", before, kind, text);
+}
+
+void err_clear_bar(int stands)
+{
+	before = stands ? "\r\033[K" : "";
 }
 
 int err_report(int code, const char *where, const char *fmt, ...)

@@ -32,5 +32,8 @@ int err_report(int code, const char *where, const char *fmt, ...) __attribute__(
  */
 void err_share(int *said);
 
+/** From now on a bar stands in the last line of standard error (1), or no more (0): lines take its place, and it is drawn again. */
+void err_clear_bar(int stands);
+
 /** Print "relume: WHERE: warning: TEXT": the user should know, and the work goes on. */
 void err_warn(const char *where, const char *fmt, ...) __attribute__((format(printf, 2, 3)));

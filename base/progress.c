@@ -8,6 +8,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/err.h"
+
 static double seconds_of(clockid_t clock)
 {
 	struct timespec now;
@@ -48,7 +50,8 @@ void progress_begin_style(struct progress *p, const char *verb, uint64_t total, 
 {
 	if (style == PROGRESS_AUTO)
 		style = isatty(STDERR_FILENO) ? PROGRESS_BAR : PROGRESS_LINES;
-	*p = (struct progress){ .verb = verb, .total = total, .style = style, .start_s = progress_clock_s() };
+	*p = (struct progress){ .verb = verb, .total = total, .style = style, .start_s = progress_clock_s(), .replayed = UINT64_MAX };
+	err_clear_bar(style == PROGRESS_BAR);
 	if (style == PROGRESS_JSON) {
 		printf("{\"event\": \"begin\", \"verb\": \"%s\", \"total\": %" PRIu64 "}\n", verb, total);
 		fflush(stdout);
@@ -60,9 +63,19 @@ void progress_begin(struct progress *p, const char *verb, uint64_t total)
 	progress_begin_style(p, verb, total, PROGRESS_AUTO);
 }
 
+enum { WIDTH = 30 };
+
+static void fill_bar(char bar[WIDTH + 1], uint64_t done, uint64_t total)
+{
+	const size_t filled = (size_t)(WIDTH * done / total);
+
+	memset(bar, '.', WIDTH);
+	memset(bar, '#', filled);
+	bar[WIDTH] = '\0';
+}
+
 static void draw_bar(const struct progress *p, uint64_t frame)
 {
-	enum { WIDTH = 30 };
 	double elapsed = progress_clock_s() - p->start_s;
 	/* Skipped frames cost next to nothing; what is left is counted by those that were worked on. */
 	double rate = elapsed > 0 ? (double)(p->done - p->skipped) / elapsed : 0;
@@ -73,11 +86,8 @@ static void draw_bar(const struct progress *p, uint64_t frame)
 		return;
 	}
 	uint64_t done = p->done < p->total ? p->done : p->total;
-	size_t filled = (size_t)(WIDTH * done / p->total);
 
-	memset(bar, '.', WIDTH);
-	memset(bar, '#', filled);
-	bar[WIDTH] = '\0';
+	fill_bar(bar, done, p->total);
 	fprintf(stderr, "\r\033[K%s [%s] %" PRIu64 "/%" PRIu64 "  %.1f frames/s  %.0f s left", p->verb, bar, done,
 	        p->total, rate, rate > 0 ? (double)(p->total - done) / rate : 0.0);
 }
@@ -100,6 +110,37 @@ void progress_start(const struct progress *p, uint64_t frame, double seconds)
 		return;
 	printf("{\"event\": \"start\", \"frame\": %" PRIu64 ", \"seconds\": %.4f}\n", frame, seconds);
 	fflush(stdout);
+}
+
+/* Seconds between what is told of a replay. */
+static double replay_interval_s(const struct progress *p)
+{
+	return p->style == PROGRESS_BAR ? 0.1 : p->style == PROGRESS_JSON ? 1 : 10;
+}
+
+void progress_replay(struct progress *p, uint64_t frame, uint64_t played, uint64_t of, const char *why)
+{
+	const double now = progress_clock_s();
+	char bar[WIDTH + 1];
+
+	if (p->replayed != frame) {
+		p->replayed = frame;
+		p->told_s = why && p->style == PROGRESS_BAR ? 0 : now;
+	}
+	if (of == 0 || now - p->told_s < replay_interval_s(p) || p->style == PROGRESS_NONE)
+		return;
+	p->told_s = now;
+	if (p->style == PROGRESS_BAR) {
+		fill_bar(bar, played < of ? played : of, of);
+		fprintf(stderr, "\r\033[Kreplaying [%s] %" PRIu64 "/%" PRIu64 "  before frame %" PRIu64 "%s%s", bar, played, of, frame, why ? ": " : "",
+		        why ? why : "");
+	} else if (p->style == PROGRESS_JSON) {
+		printf("{\"event\": \"replay\", \"frame\": %" PRIu64 ", \"played\": %" PRIu64 ", \"of\": %" PRIu64 "}\n", frame, played, of);
+		fflush(stdout);
+	} else {
+		fprintf(stderr, "replayed %" PRIu64 " of %" PRIu64 " frames before frame %" PRIu64 "%s%s\n", played, of, frame, why ? ": " : "",
+		        why ? why : "");
+	}
 }
 
 static void note_slow(struct progress *p, uint64_t frame, double seconds)
@@ -137,6 +178,7 @@ void progress_end(struct progress *p)
 {
 	if (p->style == PROGRESS_BAR)
 		fputs("\r\033[K", stderr);
+	err_clear_bar(0);
 	if (p->style == PROGRESS_JSON) {
 		printf("{\"event\": \"end\", \"done\": %" PRIu64 ", \"skipped\": %" PRIu64 ", \"failed\": %" PRIu64
 		       ", \"seconds\": %.3f, \"peak_memory_bytes\": %" PRIu64 "}\n", p->done, p->skipped, p->failed,

@@ -4,10 +4,12 @@
  *
  *     {"event": "begin", "verb": "rendered", "total": 500}
  *     {"event": "start", "frame": 12, "seconds": 0.05}
+ *     {"event": "replay", "frame": 12, "played": 7, "of": 12}
  *     {"event": "frame", "frame": 12, "state": "done", "seconds": 0.123, "done": 3, "total": 500}
  *     {"event": "end", "done": 500, "seconds": 61.2, "peak_memory_bytes": 536870912}
  *
- * A state is "done", "skipped" (there already) or "failed"; total is 0 where it is not known.
+ * A state is "done", "skipped" (there already) or "failed"; total is 0 where it is not known. "replay" tells every second how many frames have
+ * been played that frame 12 depends on or follows.
  */
 #pragma once
 
@@ -23,6 +25,8 @@ struct progress {
 	uint64_t done, skipped, failed; /* done: includes skipped and failed */
 	enum progress_style style;      /* never AUTO once begun */
 	double start_s;
+	uint64_t replayed; /* progress_replay's last frame, and when it has told of it, or was called for it first */
+	double told_s;
 	struct { uint64_t frame; double seconds; } slowest[PROGRESS_SLOWEST]; /* slowest first; seconds 0: none */
 };
 
@@ -40,6 +44,12 @@ void progress_step(struct progress *p, uint64_t frame, const char *text);
 
 /** Work on the first frame begins, `seconds` after the command started. Printed in JSON only. */
 void progress_start(const struct progress *p, uint64_t frame, double seconds);
+
+/**
+ * So many of the frames before one have been played that are no work of the run. A bar shows it at once, lines tell it every ten seconds.
+ * @param why  what the frame needs of them; NULL: they are on the way
+ */
+void progress_replay(struct progress *p, uint64_t frame, uint64_t played, uint64_t of, const char *why);
 
 /** As progress_step, with a state ("done", "skipped", "failed") and the seconds that the frame took. */
 void progress_frame(struct progress *p, uint64_t frame, const char *state, double seconds);

@@ -34,6 +34,7 @@ struct shared_scene {
 struct shot {
 	struct shared_scene *of;
 	uint64_t number; /* in file names: the frame's, or the turntable's picture's */
+	double replay_s; /* that playing the recording up to it has taken */
 };
 
 /* What the threads of one pipeline share. */
@@ -119,6 +120,15 @@ static void note(struct pipeline_state *state, uint64_t frame, const char *outco
 {
 	pthread_mutex_lock(&state->lock);
 	progress_frame(state->p->progress, frame, outcome, seconds);
+	pthread_mutex_unlock(&state->lock);
+}
+
+static void tell_replay(void *user, uint64_t frame, uint64_t played, uint64_t of, const char *why)
+{
+	struct pipeline_state *state = user;
+
+	pthread_mutex_lock(&state->lock);
+	progress_replay(state->p->progress, frame, played, of, why);
 	pthread_mutex_unlock(&state->lock);
 }
 
@@ -211,16 +221,21 @@ static int take_scene(struct pipeline_state *state, struct shared_scene **out)
 /* Hand out a picture to be made. @return 1; 0: the recording ends before its frame; ERR_* */
 static int hand_out(struct pipeline_state *state, uint64_t number)
 {
+	double start = progress_clock_s(), seconds;
 	int more = state->turned ? 1 : go_to(state, settings_recorded_frame(state->p->settings, number));
 	struct shot *shot;
 
 	if (more != 1)
 		return more;
+	seconds = progress_clock_s() - start;
 	wait_for_memory(state);
+	start = progress_clock_s();
 	shot = calloc(1, sizeof(*shot));
 	if (shot)
 		shot->number = number;
 	more = shot ? take_scene(state, &shot->of) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (more == 1)
+		shot->replay_s = seconds + progress_clock_s() - start;
 	if (more == 1 && !state->begun++)
 		progress_start(state->p->progress, number, progress_clock_s() - state->p->start_s);
 	if (more == 1 && call_worker(state))
@@ -306,7 +321,7 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 	if (!err && settings->cryptomatte)
 		err = cryptomatte_add(scene, &picture->img);
 	late = watch_end(w->state->p->watch, w->seat);
-	picture->seconds = progress_clock_s() - start;
+	picture->seconds = shot->replay_s + progress_clock_s() - start;
 	if (!err)
 		return TRACED;
 	if (watch_is_over(w->state->p->watch))
@@ -566,11 +581,13 @@ int pipeline_run(struct pipeline *p)
 		err = seat_workers(&state, workers, n);
 	supply.cache = state.cache;
 	replay_set_supplier(p->replay, supply_picture, &supply);
+	replay_set_tell(p->replay, tell_replay, &state);
 	if (!look_spares(p->settings->look))
 		replay_keep_targets(p->replay);
 	if (!err)
 		err = start_and_join(&state, workers, n);
 	replay_set_supplier(p->replay, NULL, NULL);
+	replay_set_tell(p->replay, NULL, NULL);
 	supply_free(&supply);
 	blas_cache_destroy(&state.cache);
 	for (size_t i = 0; workers && p->shares && i < n; i++)

@@ -7,6 +7,7 @@
 #include "base/err.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "capture/format/call.h"
 #include "gl_tokens.h"
 #include "replay/gl/dispatch.h"
@@ -65,6 +66,12 @@ void replay_close(struct replay **rp)
 void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user)
 {
 	player_set_supplier(&rp->player, supply, user);
+}
+
+void replay_set_tell(struct replay *rp, replay_tell *tell, void *user)
+{
+	rp->player.tell = tell;
+	rp->player.tell_user = user;
 }
 
 void replay_keep_targets(struct replay *rp)
@@ -130,13 +137,18 @@ static int jump(struct replay *rp, uint64_t frame)
 int replay_seek(struct replay *rp, uint64_t frame)
 {
 	struct scene *none;
+	uint64_t from;
 	int rc = 0;
 
 	if (frame < rp->player.exec->frame || frame > rp->player.exec->frame + FEW_FRAMES)
 		rc = jump(rp, frame);
 	rc = rc ? rc : 1;
-	while (rc == 1 && rp->player.exec->frame < frame)
+	from = rp->player.exec->frame;
+	rp->player.told_s = progress_clock_s();
+	while (rc == 1 && rp->player.exec->frame < frame) {
 		rc = replay_next_frame(rp, 0, &none);
+		player_tell(&rp->player, from, frame);
+	}
 	return rc;
 }
 

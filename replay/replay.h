@@ -12,6 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "replay/play/tell.h"
 #include "scene/scene.h"
 
 struct replay;
@@ -61,6 +62,9 @@ int replay_one_frame(const char *path, uint64_t frame, struct scene **scene);
  * but right.
  */
 void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user);
+
+/** Name who is told how far frames before the one that is wanted have been played; it is called in the replay's thread, after each of them. */
+void replay_set_tell(struct replay *rp, replay_tell *tell, void *user);
 
 /**
  * Leave pictures of framebuffer objects that cover the window what they are. Without this, scenes hold what drew them: OpenGL's pixels are

@@ -117,6 +117,7 @@ static int rewind_and_build(struct player *p)
 {
 	int rc, fronts = p->exec->feedback.fronts;
 
+	p->why = p->exec->feedback.rewind_why;
 	gls_exec_destroy(&p->exec);
 	trace_reader_close(&p->reader);
 	rc = trace_reader_open(&p->reader, p->path, gls_command_find);
@@ -132,10 +133,21 @@ static int rewind_and_build(struct player *p)
 	return 1;
 }
 
+void player_tell(struct player *p, uint64_t from, uint64_t to)
+{
+	const uint64_t played = p->exec->frame - from;
+
+	if (p->tell) {
+		p->tell(p->tell_user, to, played, to - from, p->why);
+	} else if (progress_clock_s() - p->told_s > TELL_S) {
+		p->told_s = progress_clock_s();
+		err_warn(p->path, "played %" PRIu64 " of the %" PRIu64 " frames before frame %" PRIu64, played, to - from, to);
+	}
+}
+
 int player_next_frame(struct player *p, int want, struct scene **scene)
 {
 	uint64_t frame = p->exec->frame;
-	double told = progress_clock_s();
 	int rc;
 
 	*scene = NULL;
@@ -144,13 +156,11 @@ int player_next_frame(struct player *p, int want, struct scene **scene)
 	for (int i = 0; i < 2 && rc == 1 && p->exec->feedback.rewind; i++) {
 		if (i == 0)
 			tell_rewind(p, frame);
+		p->told_s = progress_clock_s();
 		rc = rewind_and_build(p);
 		while (rc == 1 && !p->exec->feedback.rewind && p->exec->frame <= frame) {
 			rc = player_try_frame(p, want && p->exec->frame == frame, scene);
-			if (progress_clock_s() - told > TELL_S) {
-				err_warn(p->path, "played %" PRIu64 " of the %" PRIu64 " frames before frame %" PRIu64, p->exec->frame, frame, frame);
-				told = progress_clock_s();
-			}
+			player_tell(p, 0, frame);
 		}
 	}
 	return rc;

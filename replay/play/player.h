@@ -7,6 +7,7 @@
 #pragma once
 
 #include "replay/machine/machine.h"
+#include "replay/play/tell.h"
 #include "replay/trace/reader.h"
 
 /* All zero: closed. */
@@ -18,6 +19,10 @@ struct player {
 	void *supply_user;
 	int keeps_targets; /* as in gls_feedback */
 	int build_all; /* 1: some frame needs pixels of earlier ones; all are built */
+	const char *why; /* which ones it needs, a static string; NULL: none does */
+	replay_tell *tell;
+	void *tell_user;
+	double told_s;
 };
 
 /** @return 0, ERR_INPUT or ERR_SYSTEM (reported); the player is closed then */
@@ -42,6 +47,9 @@ int player_try_frame(struct player *p, int want, struct scene **scene);
  * @return 1; 0 at the end; ERR_INPUT or ERR_SYSTEM (reported)
  */
 int player_step(struct player *p, const struct call **call);
+
+/** Tell how far frames from `from` to `to` have been played: by `tell`, or every ten seconds as a warning where there is none. */
+void player_tell(struct player *p, uint64_t from, uint64_t to);
 
 /** Go on with another state machine, which the player then owns. What was counted so far goes on being counted. */
 void player_use(struct player *p, struct gls_exec *x);

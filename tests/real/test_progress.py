@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""A bar on a terminal, one plain line per frame elsewhere."""
+"""A bar on a terminal, one plain line per frame elsewhere; where frames need others before them, what is replayed, why, and in whose time."""
+import json
 import os
 import pty
 import re
 import subprocess
 
-from helpers import RELUME, SCRATCH, check, corpus, finish, must, record, relume
+from helpers import BUILD, RELUME, SCRATCH, check, corpus, finish, must, record, relume
 
 
 def on_terminal(command):
@@ -43,4 +44,18 @@ code, shown = on_terminal(command)
 check(code == 0, f"exit code {code} on a terminal")
 check(re.search(r"\r\x1b\[Krendered \[#*\.*\] 3/3 .*frames/s.*left", shown), f"a bar on a terminal: {shown!r}")
 check("rendered frame 0" not in shown, "no plain lines on a terminal")
+
+# A frame that shows what frames before it drew.
+trace, frame = SCRATCH / "front.trace", 13
+record(trace, BUILD / "tests/real/front", options=("--frame-end", "flush"))
+command = [RELUME, "render", str(trace), "-f", str(frame), "-o", str(SCRATCH / "front.####.exr")]
+why = r"what they drew is not cleared, and shows"
+done = must(relume(*command[1:], "--progress", "json"))
+check(re.search(rf"frame {frame} needs the pixels of frames before it \({why}, found at call \d+, .*playing them from frame 0", done.stderr),
+      f"a line says why: {done.stderr}")
+events = {event["event"]: event for event in map(json.loads, done.stdout.splitlines())}
+check(events["frame"]["seconds"] > 0.5 * events["end"]["seconds"], f"the frame's time counts those that were replayed for it: {events}")
+code, shown = on_terminal(command)
+check(code == 0 and re.search(rf"\r\x1b\[Krelume: warning: .*{why}.*\r\n\r\x1b\[Kreplaying \[#*\.*\] 1/{frame}  before frame {frame}: {why}", shown),
+      f"a bar of what is replayed: {shown!r}")
 finish()

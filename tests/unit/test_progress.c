@@ -54,6 +54,31 @@ START_TEST(test_lines)
 }
 END_TEST
 
+/* Ten seconds pass between lines; frames of another one begin anew. */
+static void run_replay(void)
+{
+	struct progress p;
+
+	progress_begin(&p, "rendered", 2);
+	progress_replay(&p, 40, 1, 30, "they show");
+	p.told_s -= 9;
+	progress_replay(&p, 40, 10, 30, "they show");
+	p.told_s -= 1.5;
+	progress_replay(&p, 40, 11, 30, "they show");
+	progress_replay(&p, 40, 12, 30, "they show");
+	progress_replay(&p, 50, 1, 9, NULL);
+	p.told_s -= 11;
+	progress_replay(&p, 50, 2, 9, NULL);
+	progress_end(&p);
+}
+
+START_TEST(test_replay)
+{
+	capture_stderr(run_replay);
+	ck_assert_str_eq(captured, "replayed 11 of 30 frames before frame 40: they show\nreplayed 2 of 9 frames before frame 50\n");
+}
+END_TEST
+
 START_TEST(test_reports)
 {
 	capture_stderr(report_lines);
@@ -68,6 +93,7 @@ int main(void)
 	TCase *tcase = tcase_create("progress");
 
 	tcase_add_test(tcase, test_lines);
+	tcase_add_test(tcase, test_replay);
 	tcase_add_test(tcase, test_reports);
 	return run_case(tcase, "progress");
 }
