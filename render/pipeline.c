@@ -12,6 +12,7 @@
 #include "base/queue.h"
 #include "look/apply/apply.h"
 #include "look/camera/camera.h"
+#include "render/alike.h"
 #include "render/cryptomatte.h"
 #include "render/earlier.h"
 #include "render/picture.h"
@@ -57,6 +58,7 @@ struct pipeline_state {
 	pthread_cond_t landed;
 	int begun; /* a picture was handed out */
 	struct earlier earlier; /* for motion vectors */
+	struct alike alike;     /* why frames failed; under the lock */
 };
 
 struct worker {
@@ -120,6 +122,15 @@ static void note(struct pipeline_state *state, uint64_t frame, const char *outco
 {
 	pthread_mutex_lock(&state->lock);
 	progress_frame(state->p->progress, frame, outcome, seconds);
+	pthread_mutex_unlock(&state->lock);
+}
+
+/* A frame fails, and the run goes on. */
+static void note_failed(struct pipeline_state *state, uint64_t frame, double seconds, const char *why)
+{
+	pthread_mutex_lock(&state->lock);
+	alike_note(&state->alike, frame, why);
+	progress_frame(state->p->progress, frame, "failed", seconds);
 	pthread_mutex_unlock(&state->lock);
 }
 
@@ -303,9 +314,10 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 
 	picture->frame = shot->number;
 	if (!scene->width || !scene->height) { /* no device can do that: the others go on */
-		err_report(ERR_SYSTEM, NULL, "frame %llu: %u x %u pixels cannot be rendered", (unsigned long long)scene->frame, scene->width,
-		           scene->height);
-		note(w->state, shot->number, "failed", 0);
+		char why[64];
+
+		snprintf(why, sizeof(why), "%u x %u pixels cannot be rendered", scene->width, scene->height);
+		note_failed(w->state, shot->number, 0, why);
 		return EMPTY;
 	}
 	watch_begin(w->state->p->watch, w->seat, shot->number);
@@ -336,9 +348,10 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 /* A frame ran out of time: the run goes on, and fails in the end. */
 static void give_up(struct pipeline_state *state, const struct picture *picture)
 {
-	err_report(ERR_SYSTEM, NULL, "frame %llu: given up after %.1f s (--timeout-per-frame)",
-	           (unsigned long long)picture->frame, picture->seconds);
-	note(state, picture->frame, "failed", picture->seconds);
+	char why[64];
+
+	snprintf(why, sizeof(why), "given up after %g s (--timeout-per-frame)", state->p->settings->frame_s);
+	note_failed(state, picture->frame, picture->seconds, why);
 }
 
 /* The device failed: others take the picture, or the run ends. */
@@ -552,6 +565,7 @@ static int start_and_join(struct pipeline_state *state, struct worker *workers, 
 	queue_close(&state->pictures);
 	for (unsigned i = 0; i < n_writers; i++)
 		pthread_join(writers[i], NULL);
+	alike_end(&state->alike);
 	if (!state->err && state->p->progress->failed)
 		state->err = ERR_SYSTEM;
 	return state->err;
