@@ -233,7 +233,7 @@ struct gls_context *gls_context_create(struct gls_exec *x, uint64_t handle, uint
 		gls_out_of_memory(x, sizeof(*ctx));
 		return NULL;
 	}
-	ctx->handle = handle;
+	ctx->handle = ctx->state.handle = handle;
 	ctx->share_handle = share;
 	ctx->api = api;
 	if (config)

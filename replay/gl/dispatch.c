@@ -18,6 +18,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/fixed.h"
 #include "replay/machine/machine.h"
+#include "replay/programs/program.h"
 
 #define MAX_THREADS 65536
 
@@ -43,6 +44,8 @@ static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command,
 		if (rules[k->kind] & STALE)
 			st->dirty |= GLS_DIRTY_ALL;
 	}
+	if (k->kind == GLS_KIND_ARRAY || k->role == GLS_ROLE_BEGIN || k->role == GLS_ROLE_CALL_LIST)
+		gls_program_draws(st);
 	gls_handlers[command](x, st, c);
 }
 

@@ -6,6 +6,7 @@
 #include "base/err.h"
 #include "base/memory.h"
 #include "gl_tokens.h"
+#include "replay/programs/held.h"
 
 static void drop_texts(struct gls_shader *s)
 {
@@ -29,6 +30,7 @@ void gls_shader_free(struct gls_shader *s)
 	free(s->attributes);
 	for (unsigned stage = 0; stage < N_GLS_STAGES; stage++)
 		program_code_free(&s->stages.code[stage]);
+	gls_held_free(&s->stages);
 	glsl_uniforms_free(&s->uniforms);
 	table_free(&s->locations);
 	free(s);
@@ -92,7 +94,10 @@ int gls_shader_translate(struct gls_shader *program, int keeps)
 	if (program->other_stages)
 		program->stages.why = "a program has shaders of another stage than vertices and fragments";
 	program->stages.linked = 1;
+	program->stages.links += !keeps;
+	gls_held_free(&program->stages);
 	program->stages.uniforms = (const float (*)[4])program->uniforms.values;
+	program->stages.n_uniforms = (program->uniforms.n_values + 3) / 4;
 	for (unsigned stage = 0; stage < N_GLS_STAGES; stage++)
 		program->stages.runs[stage] = program->n_texts[stage] != 0;
 	return err;
@@ -136,22 +141,29 @@ int gls_shader_locate_uniform(struct gls_shader *program, const char *name, uint
 	return err;
 }
 
-void gls_shader_set_uniform(struct gls_shader *program, uint32_t location, const float *values, uint32_t count, uint32_t rows, uint32_t columns,
-                            int transposed)
+int gls_shader_set_uniform(struct gls_shader *program, uint32_t location, const float *values, uint32_t count, uint32_t rows, uint32_t columns,
+                           int transposed, int only_asks, struct gls_uniform_change *change)
 {
 	const uint64_t found = (uintptr_t)table_find(&program->locations, location);
 	const uint32_t element = (uint32_t)(found - 1), n = rows * (columns ? columns : 1);
 	const struct glsl_uniform *u;
+	int changes = 0;
 
 	if (!found || (found - 1) >> 32 >= program->uniforms.n)
-		return;
+		return 0;
 	u = &program->uniforms.list[(found - 1) >> 32];
 	if (u->rows != rows || u->columns != columns || element >= u->length)
-		return;
-	for (uint32_t i = 0; i < count && i < u->length - element; i++)
+		return 0;
+	count = count < u->length - element ? count : u->length - element;
+	*change = (struct gls_uniform_change){ u->first + element * n, count * n };
+	for (uint32_t i = 0; i < count; i++)
 		for (uint32_t k = 0; k < n; k++) {
-			const float v = values[i * n + (transposed ? k % rows * columns + k / rows : k)];
+			const float given = values[i * n + (transposed ? k % rows * columns + k / rows : k)], v = u->kind == GLSL_BOOL ? given != 0 : given;
+			float *to = &program->uniforms.values[change->first + i * n + k];
 
-			program->uniforms.values[u->first + (element + i) * n + k] = u->kind == GLSL_BOOL ? v != 0 : v;
+			changes |= memcmp(to, &v, sizeof(v)) != 0;
+			if (!only_asks)
+				*to = v;
 		}
+	return changes;
 }

@@ -47,10 +47,18 @@ int gls_shader_locate_attribute(struct gls_shader *program, const char *name, ui
 /** The location that the program was told of a uniform. @return 0 or ERR_SYSTEM (reported) */
 int gls_shader_locate_uniform(struct gls_shader *program, const char *name, uint32_t location);
 
+/* Numbers of a program's uniforms. */
+struct gls_uniform_change {
+	uint32_t first, n;
+};
+
 /**
  * Set `count` values in a row of what has a location.
  * @param rows, columns  of each; columns 0: a vector
  * @param transposed     1: a matrix that is given by rows
+ * @param only_asks      1: set nothing
+ * @param change         receives which numbers these are, where there are any
+ * @return 1 where they change
  */
-void gls_shader_set_uniform(struct gls_shader *program, uint32_t location, const float *values, uint32_t count, uint32_t rows, uint32_t columns,
-                            int transposed);
+int gls_shader_set_uniform(struct gls_shader *program, uint32_t location, const float *values, uint32_t count, uint32_t rows, uint32_t columns,
+                           int transposed, int only_asks, struct gls_uniform_change *change);

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "gl_tokens.h"
 #include "replay/index/snapshot_parts.h"
+#include "replay/programs/held.h"
 
 /* A text, or that there is none. */
 static void put_text(struct saver *s, const char *text)
@@ -31,7 +32,7 @@ static char *get_text(struct loader *l)
 static void put_shader(struct saver *s, void *value)
 {
 	const struct gls_shader *sh = value;
-	const uint32_t head[] = { sh->type, sh->deleted, sh->uses, sh->stages.linked, sh->other_stages };
+	const uint32_t head[] = { sh->type, sh->deleted, sh->uses, sh->stages.linked, sh->other_stages, sh->stages.links };
 
 	bytes_put(s->out, head, sizeof(head));
 	put_text(s, sh->source);
@@ -50,6 +51,29 @@ static void put_shader(struct saver *s, void *value)
 	}
 	saver_table(s, &sh->locations, &snapshot_numbers);
 	saver_blob(s, sh->uniforms.values, sh->uniforms.n_values * sizeof(float));
+	bytes_put_u64(s->out, sh->stages.n_held);
+	for (uint32_t i = 0; i < sh->stages.n_held; i++) {
+		bytes_put_u64(s->out, sh->stages.held[i].context);
+		bytes_put_u64(s->out, sh->stages.held[i].stage);
+		saver_blob(s, sh->stages.held[i].values, sh->stages.n_uniforms * sizeof(*sh->stages.held->values));
+	}
+}
+
+/* What contexts hold of its uniforms. */
+static void get_held(struct loader *l, struct gls_shader *sh)
+{
+	for (uint64_t n = loader_count(l, 24); n && !loader_is_bad(l); n--) {
+		const uint64_t context = cursor_u64(&l->in), stage = cursor_u64(&l->in);
+		size_t bytes;
+		uint8_t *values = loader_blob(l, &bytes);
+
+		if (loader_is_bad(l) || stage >= N_GLS_STAGES || bytes != sh->stages.n_uniforms * sizeof(*sh->stages.held->values) ||
+		    gls_held_keep(&sh->stages, context, (enum gls_stage)stage) || !sh->stages.n_held)
+			l->in.failed = 1;
+		else
+			memcpy(sh->stages.held[sh->stages.n_held - 1].values, values, bytes);
+		free(values);
+	}
 }
 
 static void get_attributes(struct loader *l, struct gls_shader *sh)
@@ -91,6 +115,7 @@ static void get_program(struct loader *l, struct gls_shader *sh)
 	if (values && n == sh->uniforms.n_values * sizeof(float))
 		memcpy(sh->uniforms.values, values, n);
 	free(values);
+	get_held(l, sh);
 }
 
 static void drop_shader(void *shader)
@@ -101,7 +126,7 @@ static void drop_shader(void *shader)
 static void *get_shader(struct loader *l)
 {
 	struct gls_shader *sh = loader_alloc(l, sizeof(*sh));
-	uint32_t head[5] = { 0 };
+	uint32_t head[6] = { 0 }, links;
 
 	if (!sh)
 		return NULL;
@@ -111,6 +136,7 @@ static void *get_shader(struct loader *l)
 	sh->uses = head[2];
 	sh->stages.linked = head[3];
 	sh->other_stages = head[4];
+	links = head[5];
 	sh->source = get_text(l);
 	sh->compiled = get_text(l);
 	sh->n_attached = (uint32_t)loader_count(l, sizeof(*sh->attached));
@@ -119,13 +145,14 @@ static void *get_shader(struct loader *l)
 	if (!loader_is_bad(l))
 		cursor_copy(&l->in, sh->attached, sh->n_attached * sizeof(*sh->attached));
 	get_program(l, sh);
+	sh->stages.links = links;
 	if (!loader_is_bad(l))
 		return sh;
 	gls_shader_free(sh);
 	return NULL;
 }
 
-static const struct snapshot_table how = { "shader", 5 * sizeof(uint32_t), put_shader, get_shader, drop_shader };
+static const struct snapshot_table how = { "shader", 6 * sizeof(uint32_t), put_shader, get_shader, drop_shader };
 
 void snapshot_put_shaders(struct saver *s, const struct table *shaders)
 {

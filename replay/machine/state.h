@@ -312,6 +312,9 @@ struct gls_state {
 	struct gls_list *list;
 	uint32_t list_name, list_mode;
 
+	uint64_t handle; /* of the context */
+	uint32_t drawn_program[2], drawn_links[2]; /* by enum gls_stage: the program object that ran at the last draw, 0: none; as of struct gls_stages */
+
 	/* drawable */
 	uint64_t drawable, read_drawable;
 	uint32_t ever_current;

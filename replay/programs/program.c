@@ -10,7 +10,7 @@
 #include "replay/programs/arb.h"
 #include "replay/programs/arb_words.h"
 #include "replay/programs/ati.h"
-#include "replay/programs/stages.h"
+#include "replay/programs/held.h"
 
 void gls_program_free(struct gls_program *p)
 {
@@ -200,8 +200,24 @@ static int runs_shaders(const struct gls_state *st, enum gls_stage which, struct
 
 	if (!p || !p->runs[which] || lack_of_shaders(st))
 		return 0;
-	*stage = (struct program_stage){ &p->code[which], st->program_env[0], p->uniforms };
+	*stage = (struct program_stage){ &p->code[which], st->program_env[0], gls_held_values(p, st->handle, which) };
 	return 1;
+}
+
+void gls_program_draws(struct gls_state *st)
+{
+	struct gls_stages *p = st->program ? table_find(&st->share->shaders, st->program) : NULL;
+
+	for (unsigned stage = 0; stage < N_GLS_STAGES; stage++) {
+		const uint32_t program = p && p->linked && p->runs[stage] ? st->program : 0, links = program ? p->links : 0;
+
+		if (program == st->drawn_program[stage] && links == st->drawn_links[stage])
+			continue;
+		st->drawn_program[stage] = program;
+		st->drawn_links[stage] = links;
+		if (program)
+			gls_held_drop(p, st->handle, stage);
+	}
 }
 
 int gls_program_runs_vertices(const struct gls_state *st, struct program_stage *stage)

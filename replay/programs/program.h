@@ -58,6 +58,9 @@ unsigned gls_program_current(const struct gls_state *st, uint64_t keys[SCENE_DRA
 /** What such a number is of, in words: a static string. */
 const char *gls_program_kind(uint64_t key);
 
+/** A draw comes: note which program object runs. */
+void gls_program_draws(struct gls_state *st);
+
 /** The programs that run a stage of what is drawn now. @return 1; 0: fixed function runs it */
 int gls_program_runs_vertices(const struct gls_state *st, struct program_stage *stage);
 int gls_program_runs_fragments(const struct gls_state *st, struct program_stage *stage);

@@ -11,6 +11,7 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 #include "replay/glsl/object.h"
+#include "replay/programs/held.h"
 #include "replay/programs/program.h"
 
 /* A shader, or a program; NULL: there is none of this name. */
@@ -219,12 +220,25 @@ GLS_HANDLER(glGetUniformLocation, NOW)
 
 /* --- Uniforms ----------------------------------------------------------------------------------------------------------- */
 
+/* What other contexts that drew with the program last hold; they do not look at what is set here. */
+static void let_others_hold(struct gls_exec *x, const struct gls_state *st, struct gls_stages *p)
+{
+	for (size_t i = 0; i < x->n_contexts; i++) {
+		const struct gls_state *other = &x->contexts[i]->state;
+
+		for (unsigned stage = 0; stage < N_GLS_STAGES && other != st && other->share == st->share; stage++)
+			if (other->drawn_program[stage] == st->program && other->drawn_links[stage] == p->links && gls_held_keep(p, other->handle, stage))
+				gls_fail(x);
+	}
+}
+
 /* Arguments: the location, then numbers from `first` on, or how many values and an array there. */
 static void set_uniform(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t first, uint32_t count, uint32_t rows,
                         uint32_t columns, int transposed)
 {
 	struct gls_shader *program = find(st, st->program, 1);
 	const uint32_t each = rows * (columns ? columns : 1);
+	struct gls_uniform_change change;
 	float *values;
 	unsigned n;
 
@@ -238,7 +252,13 @@ static void set_uniform(struct gls_exec *x, struct gls_state *st, const struct c
 	else
 		for (n = 0; n < each && n < 4; n++)
 			values[n] = arg_f(c, first + n);
-	gls_shader_set_uniform(program, arg_u(c, 0), values, n / each, rows, columns, transposed);
+	if (!gls_shader_set_uniform(program, arg_u(c, 0), values, n / each, rows, columns, transposed, 1, &change))
+		return;
+	let_others_hold(x, st, &program->stages);
+	gls_shader_set_uniform(program, arg_u(c, 0), values, n / each, rows, columns, transposed, 0, &change);
+	for (unsigned stage = 0; stage < N_GLS_STAGES; stage++)
+		if (gls_held_reads(&program->stages, stage, change.first, change.n))
+			gls_held_drop(&program->stages, st->handle, stage);
 }
 
 GLS_FAMILY(glUniform, STATE)
