@@ -128,10 +128,13 @@ static inline struct vec4 vertex_texcoord(const struct tables *t, GLOBAL const s
 	return vertex_generated(unit, tables_texcoord(t, g, v, unit->unit), obj, eye, n);
 }
 
-/* Size of a point after attenuation (sec. 3.3), before it is rounded to pixels. */
+/*
+ * Size of a point after attenuation (sec. 3.3), before it is rounded to pixels. The distance is the depth alone, as Mesa has it (22.3.6,
+ * build_atten_pointsize).
+ */
 static inline float vertex_point_size(GLOBAL const struct scene_material *m, struct vec4 eye)
 {
-	float d = M_SQRT(eye.x * eye.x + eye.y * eye.y + eye.z * eye.z);
+	float d = M_ABS(eye.z);
 	float fade = m->point_attenuation[0] + d * (m->point_attenuation[1] + d * m->point_attenuation[2]);
 	float size = m->point_size;
 

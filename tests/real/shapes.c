@@ -162,6 +162,40 @@ static void points(void)
 	glDisable(GL_LIGHT1);
 }
 
+/* Sprites that get smaller with their distance, far from where the eye looks. */
+static void far_sprites(void)
+{
+	static const float fade[3] = { 0, 0, 1 }, whole[3] = { 1, 0, 0 };
+	GLubyte texels[16][16][4];
+
+	for (int i = 0; i < 16 * 16; i++)
+		for (int k = 0; k < 4; k++)
+			texels[i / 16][i % 16][k] = (GLubyte)((15 - abs(2 * (i % 16) - 15)) * (15 - abs(2 * (i / 16) - 15)));
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 16, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+	glEnable(GL_TEXTURE_2D);
+	glEnable(GL_POINT_SPRITE);
+	glTexEnvi(GL_POINT_SPRITE, GL_COORD_REPLACE, 1);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE);
+	glDisable(GL_DEPTH_TEST);
+	glPointParameterfv(GL_POINT_DISTANCE_ATTENUATION, fade);
+	glPointSize(24);
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glFrustum(-1.6, 1.6, -1.2, 1.2, 1, 10);
+	glBegin(GL_POINTS);
+	for (int i = 0; i < 35; i++) {
+		glColor4f(1, 0.2f * (float)(i % 5), 0.1f * (float)(i % 7), 0.8f);
+		glVertex3f(0.97f * (float)(i % 7 - 3), 0.93f * (float)(i / 7 - 2), -2 - 0.03f * (float)i);
+	}
+	glEnd();
+	glPointParameterfv(GL_POINT_DISTANCE_ATTENUATION, whole);
+	glDisable(GL_POINT_SPRITE);
+	glDisable(GL_TEXTURE_2D);
+	glDisable(GL_BLEND);
+}
+
 /* A surface of Bezier's, lit by normals of its own, and its net (GL 2.1 sec. 5.1). */
 static void evaluated(void)
 {
@@ -226,7 +260,7 @@ static void incomplete_quads(void)
 int main(void)
 {
 	static void (*const frames[])(void) = { spokes, net, smooth_net, smooth_dots, coplanar, materials, points, evaluated,
-		                                       incomplete_quads };
+		                                       incomplete_quads, far_sprites };
 
 	open_window();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
