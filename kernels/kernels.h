@@ -180,7 +180,7 @@ typedef float element_float;
 	IN(uint, counts) AND()              /* where plain_look_first says */ \
 	VALUE(uint, n_looks) AND() \
 	VALUE(uint, columns) AND() VALUE(uint, asking) AND() /* a bit for each look at columns, and whose fragments send rays */ \
-	VALUE(uint, round) AND()            /* PLAIN_BEGINS, PLAIN_ENDS */ \
+	VALUE(uint, round) AND()            /* PLAIN_BEGINS and the like */ \
 	IN(float, before) AND() OUT(float, after) AND() /* [PLAIN_KEPT] a pixel, row by row of blocks: as the last round left it; for the next */ \
 	VALUE(uint, mirrors) AND()          /* 1: light leaves fragments that mirror or let it through. 0: the rest are any buffers */ \
 	OUT(uint, leaving) AND()            /* [n / PLAIN_WIDTH]: a bit for each such fragment that shows; from layered, read by the others */ \

@@ -331,7 +331,7 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 	pack_keep_nothing(&kept.pack);
 	row.step = step;
 	row.at_once = 0;
-	row.is_mirrored = step == PLAIN_MIRROR || (a->layers.mirrors && !(a->layers.round & PLAIN_BEGINS));
+	row.is_mirrored = step == PLAIN_MIRROR || (a->layers.round & PLAIN_MIRRORED) != 0;
 	for (uint y = b.y; y < b.y + PLAIN_ROWS; y++) {
 		struct pack_planes to;
 
@@ -345,7 +345,7 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 			continue;
 		}
 		draw_row(a, s, b.x, y, &row, &kept, &to);
-		if (!row.n && to.n == PACK_SIZE && a->layers.round == (PLAIN_BEGINS | PLAIN_ENDS))
+		if (!row.n && to.n == PACK_SIZE && (a->layers.round & PLAIN_BEGINS) && (a->layers.round & PLAIN_ENDS))
 			empty = to.at;
 	}
 }

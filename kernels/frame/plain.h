@@ -56,6 +56,7 @@ static inline uint32_t plain_place(GLOBAL const uint32_t *blocks, uint32_t width
 /* What a round is: bits. */
 #define PLAIN_BEGINS 1u /* the first: pixels are as they were cleared */
 #define PLAIN_ENDS 2u   /* the last: planes are made */
+#define PLAIN_MIRRORED 4u /* light may have left fragments of an earlier one */
 
 /* The three steps. */
 #define PLAIN_FIRST 0u

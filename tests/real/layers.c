@@ -80,15 +80,19 @@ int main(void)
 	glEnable(GL_COLOR_MATERIAL);
 	glLightfv(GL_LIGHT0, GL_POSITION, place);
 	glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, 1);
-	for (int frame = 0; frame < 4; frame++) {
+	for (int frame = 0; frame < 5; frame++) {
 		srand(5 + (unsigned)frame);
 		glColorMask(1, 1, 1, 1);
 		glDepthMask(1);
 		glClearColor(0.2f, 0.3f, 0.5f, 0.5f);
 		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-		for (int i = 0; i < (frame == 3 ? 50 : 14); i++) {
-			project(i < 10 || frame == 3);
+		for (int i = 0; i < (frame > 2 ? 50 : 14); i++) {
+			project(i < (frame == 4 ? 25 : 10) || frame == 3);
 			choose(frame);
+			if (frame == 4 && i >= 25) { /* what lies over all, which rays do not see */
+				glDisable(GL_DEPTH_TEST);
+				glDisable(GL_LIGHTING);
+			}
 			wall();
 		}
 		end_frame();

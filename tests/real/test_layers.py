@@ -2,7 +2,7 @@
 # limit: 300 s
 """Frames of several looks go through packets in two or three steps (kernels/frame/layered.cl), others stage by stage: what tests/real/layers.c
 draws leaves the files of other kernels and of the twins, byte by byte; in shadow, with mirrors and glass by rules, and in several rounds
-(frame 3)."""
+(frames 3 and 4)."""
 import json
 
 from helpers import BUILD, SCRATCH, check, finish, must, record, relume, render
@@ -11,7 +11,7 @@ RULES = {name: SCRATCH / f"{name}.yaml" for name in ("reflect", "transmit")}
 for name, file in RULES.items():
     file.write_text(f"surfaces:\n  - {{ match: {{ lit: yes }}, {name}: 0.3 }}\n")
 TRACE = SCRATCH / "layers.trace"
-FRAMES = 4
+FRAMES = 5
 WAYS = {"as shown": ("layered", (), ("--mode", "gl")), "shadows": ("layered_shadow", (), ()),
         "mirrors": ("layered_mirror", ("--look", RULES["reflect"]), ("--depth", 1)),
         "glass": ("layered_mirror", ("--look", RULES["transmit"]), ("--depth", 1))}

@@ -233,7 +233,7 @@ static int reserve_places(struct job *job, uint32_t n, uint32_t n_slots)
 	return secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
 }
 
-/* round: PLAIN_BEGINS, PLAIN_ENDS */
+/* round: PLAIN_BEGINS and the like */
 static struct plain_launch launch_of(const struct job *job, const struct looks *looks, uint32_t round, uint32_t n, uint32_t n_slots,
                                      const struct compose_request *request)
 {
@@ -245,7 +245,8 @@ static struct plain_launch launch_of(const struct job *job, const struct looks *
 	a.pixels = b->alone_pixels;
 	a.shaded = b->alone_shaded;
 	a.layers = *LAUNCH(layers, .counts = b->counts, .n_looks = looks->n, .columns = looks->columns, .asking = looks->asking,
-	                   .round = round, .before = b->kept_pixels, .after = b->next_pixels, .mirrors = looks->space && plain_has_mirrors(job), .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
+	                   .round = round, .before = b->kept_pixels, .after = b->next_pixels, .mirrors = looks->space && plain_has_mirrors(job),
+	                   .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
 	                   .list_pixels = b->pixels, .list_shaded = b->shaded);
 	return a;
 }
@@ -337,18 +338,19 @@ static int draw_round(struct job *job, struct looks *looks, int is_first, int *i
 {
 	struct frame_buffers *b = &job->tr->buffers;
 	union buffer_float kept;
-	uint32_t n;
+	uint32_t n, round = is_first ? PLAIN_BEGINS : plain_has_mirrors(job) ? PLAIN_MIRRORED : 0;
 	int err = look_around(job, looks);
 
 	if (err)
 		return err;
 	*is_last = looks->next == job->prepared.n_segments;
+	round |= *is_last ? PLAIN_ENDS : 0;
 	n = place_blocks(job);
 	err = frame_upload(job->tr, blocks, job->tr->first, plain_blocks(job->width, job->n_rows));
 	if (!err)
 		err = reserve_kept(job, is_first && *is_last);
 	if (!err)
-		err = draw(job, looks, (is_first ? PLAIN_BEGINS : 0) | (*is_last ? PLAIN_ENDS : 0), n, request);
+		err = draw(job, looks, round, n, request);
 	kept = b->next_pixels;
 	b->next_pixels = b->kept_pixels;
 	b->kept_pixels = kept;
