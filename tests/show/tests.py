@@ -12,8 +12,9 @@ beside a device. What is for devices alone (*.cl, packs, the text around hooks, 
 (tables, sizes) is not tried. LEFT_OUT are tests that read sources, start a farm, a browser or Wine, or take long; so are those that measure
 time or need more than SLOW_S of processor time.
 
-All is kept in BUILD/show/tests: a campaign may be stopped at any time, and goes on. Of a time that is given, half is for the first run of tests. A
-verdict holds while its source and its test stand; what was left meets tests that are new. tests/show/left.txt gives reasons.
+All is kept in BUILD/show/tests: a campaign may be stopped at any time, and goes on. Of a time that is given, half is for the first run of tests, which
+holds while the test and the places of mutants stand. A verdict holds while its source and its test stand; what was left meets tests that are new.
+tests/show/left.txt gives reasons.
 """
 import argparse
 import hashlib
@@ -39,7 +40,7 @@ SEED, BAR, SLOW_S = 1, 0.95, 20
 PASSED, FAILED, SKIPPED = range(3)
 FOLDERS = {"kernels": ("kernels/*.h", "kernels/camera/*.h", "kernels/gl/*.h", "kernels/frame/[!p]*.h", "kernels/frame/p[!a]*.h", "kernels/ref/*.c"), "replay": ("replay/**/*.c",),
            "tracer": ("tracer/**/*.c",), "capture": ("capture/**/*.c",), "diff": ("diff/**/*.c",)}
-LEFT_OUT = ("unit/test_house", "harness/", "farm/", "real/test_page", "real/test_wine", "real/test_i386", "real/test_crash", "real/test_hooks", "real/test_inject")
+LEFT_OUT = ("unit/test_house", "harness/", "farm/", "real/test_page", "real/test_wine", "real/test_i386", "real/test_crash", "real/test_hooks", "unit/test_schemata")
 QUICK = ("unit/", "gl/", "trace/", "fuzz/")
 FLAGS = ["CFLAGS=-O1 -g0 -w -fno-delete-null-pointer-checks", "CXXFLAGS=-O1 -g0 -w"]  # what a call promises of its arguments makes no mutant vanish
 HOOK_TEXT = "kernels/frame/hook"
@@ -109,7 +110,7 @@ class Mutants:
         if subprocess.run(["make", "-C", self.root, "BUILD=build", *FLAGS, "test-programs"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                           env={**os.environ, "MAKELEVEL": "0"}, check=False).returncode:
             sys.exit(f"the mutants do not build: {self.root}")
-        self.digest = of
+        self.digest = digest(*(f"{number} {site.id}" for number, site in sorted(self.by_number.items())))
 
     def write(self, build, texts):
         """The tree as it is now, with these texts; what is the same stays, and is not built again."""
@@ -117,6 +118,9 @@ class Mutants:
             shutil.copytree(build / "gen", self.build / "gen", copy_function=shutil.copy2)
         tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "-co", "--exclude-standard"], capture_output=True, text=True, check=True).stdout.split("\0")[:-1]
         changed = False
+        for path in self.root.rglob("*") if self.root.exists() else ():
+            if path.is_file() and self.build not in path.parents and not (ROOT / path.relative_to(self.root)).is_file():
+                path.unlink()  # the Makefile would build it
         for name in tracked:
             here, there = ROOT / name, self.root / name
             if here.is_file():
