@@ -68,7 +68,7 @@ END_TEST
 /* Under the middle of a disk of radius r at height h a plane is open by h^2 / (r^2 + h^2). */
 START_TEST(test_openness_under_disk)
 {
-	enum { SEGMENTS = 96 };
+	enum { SEGMENTS = 96, SIDE = 16 };
 	static const float heights[] = { 0.7f, 1.5f, 4 };
 	float (*position)[3] = calloc(3 * SEGMENTS, sizeof(*position)), (*normal)[3] = calloc(3 * SEGMENTS, sizeof(*normal));
 
@@ -88,19 +88,19 @@ START_TEST(test_openness_under_disk)
 				position[3 * s + k][2] = -10 + h;
 				normal[3 * s + k][2] = -1;
 			}
-		made_init(&t, SIZE, SIZE, 0);
+		made_init(&t, SIDE, SIDE, 0);
 		t.view.projection[0] = t.view.projection[5] = 20; /* a tenth of a unit across */
 		options.rays = 1024;
 		matte = made_add_material(&t, 1);
 		made_add_square(&t, matte, (float[3]){ 0, 0, -10 }, right, up, 1, 1);
 		made_add_triangles(&t, matte, (const float (*)[3])position, (const float (*)[3])normal, 3 * SEGMENTS);
 		truth_render_with(&t, &options, &img);
-		ck_assert_float_eq_tol(truth_at(&img, "R", SIZE / 2, SIZE / 2), h * h / (r * r + h * h), 0.005f);
+		ck_assert_float_eq_tol(truth_at(&img, "R", SIDE / 2, SIDE / 2), h * h / (r * r + h * h), 0.005f);
 		truth_check_closure(&img);
 		image_free(&img);
 		options.reach = h * 0.9f; /* nothing within reach */
 		truth_render_with(&t, &options, &img);
-		ck_assert_float_eq(truth_at(&img, "R", SIZE / 2, SIZE / 2), 1);
+		ck_assert_float_eq(truth_at(&img, "R", SIDE / 2, SIDE / 2), 1);
 		image_free(&img);
 		made_free(&t);
 	}
