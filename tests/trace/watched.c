@@ -1,11 +1,22 @@
 /*
  * Client arrays that stay the same for long and then change in every way that memory can change: by a store, from another
  * thread, by the kernel, by being given back, by being mapped anew, and in a child, whose memory is its own. Recorded and
- * replayed, the pictures must be the program's. Run by tests/real/test_record_arrays.sh.
+ * replayed, the pictures must be the program's. With an argument the kernel is an older one, which cannot tell of stores: the program's
+ * descriptors are the same afterwards. Run by tests/real/test_record_arrays.sh.
  */
+#include <dirent.h>
+#include <errno.h>
 #include <fcntl.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <linux/userfaultfd.h>
 #include <pthread.h>
+#include <stddef.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -100,8 +111,47 @@ static void change(int what)
 	}
 }
 
-int main(void)
+/* Before Linux 6.7 UFFDIO_API fails where stores are to be told without faults. */
+static void use_older_kernel(void)
 {
+	struct sock_filter rules[] = {
+		BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr)),
+		BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_ioctl, 0, 3),
+		BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, args[1])),
+		BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (unsigned)UFFDIO_API, 0, 1),
+		BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EINVAL),
+		BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+	};
+	struct sock_fprog program = { sizeof(rules) / sizeof(rules[0]), rules };
+
+	expect(prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0, "a filter of system calls");
+}
+
+/* Descriptors of this process by which memory is watched. */
+static int count_watching(void)
+{
+	DIR *folder = opendir("/proc/self/fd");
+	int n = 0;
+
+	expect(folder != NULL, "/proc/self/fd");
+	for (struct dirent *e; (e = readdir(folder));) {
+		char to[256] = "";
+
+		if (readlinkat(dirfd(folder), e->d_name, to, sizeof(to) - 1) > 0)
+			n += strstr(to, "userfaultfd") || strstr(to, "/pagemap");
+	}
+	closedir(folder);
+	return n;
+}
+
+int main(int argc, char **argv)
+{
+	struct stat input, same;
+
+	(void)argv;
+	expect(fstat(0, &input) == 0, "standard input");
+	if (argc > 1)
+		use_older_kernel();
 	open_window();
 	map_anew(0);
 	glEnableClientState(GL_VERTEX_ARRAY);
@@ -116,6 +166,8 @@ int main(void)
 			glDrawArrays(GL_TRIANGLES, i * CORNERS / DRAWS, CORNERS / DRAWS);
 		}
 		expect(glGetError() == GL_NO_ERROR, "no error");
+		expect(fstat(0, &same) == 0 && same.st_dev == input.st_dev && same.st_ino == input.st_ino, "standard input is what it was");
+		expect(argc == 1 || count_watching() == 0, "what cannot be used is closed");
 		end_frame();
 	}
 	return 0;
