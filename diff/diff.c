@@ -245,7 +245,7 @@ static int write_all(const struct options *o, const struct output_run *run, stru
 	if (!err && o->markdown)
 		err = markdown_write(run, o->report, o->markdown);
 	if (!err && !(o->json && strcmp(o->json, "-") == 0))
-		output_table(run, stdout);
+		err = output_table(run, stdout);
 	if (!err && o->annotations)
 		output_annotations(run, o->json && strcmp(o->json, "-") == 0 ? stderr : stdout);
 	return err;

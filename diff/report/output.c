@@ -124,8 +124,8 @@ static int compare_names(const void *a, const void *b)
 	return strverscmp(((const struct score_program *)a)->name, ((const struct score_program *)b)->name);
 }
 
-/* A line for each of the application's own programs: pixels of all frames. */
-static void print_programs(const struct output_run *run, FILE *out)
+/* A line for each of the application's own programs: pixels of all frames. @return 0 or ERR_SYSTEM (reported) */
+static int print_programs(const struct output_run *run, FILE *out)
 {
 	struct score_program *all;
 	size_t n = 0;
@@ -133,12 +133,10 @@ static void print_programs(const struct output_run *run, FILE *out)
 	for (size_t i = 0; i < run->n_scores; i++)
 		n += run->scores[i].n_programs;
 	if (!n)
-		return;
+		return 0;
 	all = malloc(n * sizeof(*all));
-	if (!all) {
-		err_report(ERR_SYSTEM, NULL, "out of memory");
-		return;
-	}
+	if (!all)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	n = 0;
 	for (size_t i = 0; i < run->n_scores; i++) {
 		memcpy(all + n, run->scores[i].programs, run->scores[i].n_programs * sizeof(*all));
@@ -155,6 +153,7 @@ static void print_programs(const struct output_run *run, FILE *out)
 		fprintf(out, "%s: %.3f %% of %" PRIu64 " px\n", sum.name, 100 * (1 - (double)sum.failing / (double)sum.pixels), sum.pixels);
 	}
 	free(all);
+	return 0;
 }
 
 /* One line: counts by outcome and the worst frame. */
@@ -226,8 +225,10 @@ static int add_row(struct rows *rows, const struct output_run *run, const struct
 
 	if (row)
 		print_row(run, s, row);
-	if (!row || fclose(row) != 0)
+	if (!row || fclose(row) != 0) {
+		free(text);
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	}
 	if (rows->text && s->outcome != SCORE_FRAME_PASSED && s->frame == rows->last + 1 && strcmp(text, rows->text) == 0) {
 		rows->last = s->frame;
 		free(text);
@@ -238,22 +239,20 @@ static int add_row(struct rows *rows, const struct output_run *run, const struct
 	return 0;
 }
 
-void output_table(const struct output_run *run, FILE *out)
+int output_table(const struct output_run *run, FILE *out)
 {
 	size_t *order = malloc((run->n_scores ? run->n_scores : 1) * sizeof(*order));
 	struct rows rows = { .text = NULL };
+	int err = 0;
 
-	if (!order) {
-		err_report(ERR_SYSTEM, NULL, "out of memory");
-		return;
-	}
+	if (!order)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	order_scores(run, order);
 	fprintf(out, "%7s %-10s %9s", "frame", "outcome", "fidelity");
 	print_columns(NULL, out);
 	fprintf(out, " %9s\n", "beauty");
-	for (size_t i = 0; i < run->n_scores; i++)
-		if (add_row(&rows, run, &run->scores[order[i]], out))
-			break;
+	for (size_t i = 0; i < run->n_scores && !err; i++)
+		err = add_row(&rows, run, &run->scores[order[i]], out);
 	end_rows(&rows, out);
 	free(order);
 
@@ -273,8 +272,10 @@ void output_table(const struct output_run *run, FILE *out)
 			fprintf(out, "R4 %s: %s\n", score_gates[GATE_R4].title, s->gates[GATE_R4].note);
 		break;
 	}
-	print_programs(run, out);
+	if (!err)
+		err = print_programs(run, out);
 	print_summary(run, out);
+	return err;
 }
 
 /* JSON. */

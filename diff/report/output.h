@@ -32,8 +32,11 @@ void output_gate_text(const struct score *s, enum score_gate_id id, char *out, s
 /** "draw 12, glDrawElements (call 345), list 3, texture 0123..., in the approved frame", NUL-terminated. */
 void output_blame_text(const struct score_blame *b, char *out, size_t size);
 
-/** The table: a line for each frame, those that did not pass first, with failing figures beside their bars; then a summary. */
-void output_table(const struct output_run *run, FILE *out);
+/**
+ * The table: a line for each frame, those that did not pass first, with failing figures beside their bars; then a summary.
+ * @return 0, or ERR_SYSTEM (reported): there was no memory for all of it
+ */
+int output_table(const struct output_run *run, FILE *out);
 
 /**
  * JSON: every figure and bar. Numbers that were not measured or are infinite are null.
