@@ -1,7 +1,7 @@
 /*
  * Preloaded. Makes one call of the system fail: INJECT="CLASS:N" the Nth of a class (from 1) that the command or the recorder makes itself,
- * "CLASS:N+" that one and all after it. What libraries do for themselves is left alone. INJECT_COUNT names a file that receives a line
- * "CLASS COUNT" for each class as the process ends.
+ * "CLASS:N+" that one and all after it, "CLASS@N" the first one from the Nth place in the code that makes such calls, "CLASS@N+" all
+ * from there. What libraries do for themselves is left alone. INJECT_COUNT names a file that receives lines "CLASS COUNT" and "CLASS@ PLACES" for each class as the process ends.
  *
  * Memory is taken from the next library that has it: LeakSanitizer's, if that is preloaded after this one. INJECT_SPARED holds its
  * suppressions, since a confined command cannot read them from a file.
@@ -28,7 +28,9 @@ static const int errors[N_CLASSES] = { ENOMEM, EIO, ENOSPC, ENOMEM, EMFILE, EAGA
 static atomic_ulong counts[N_CLASSES];
 static enum class failing = N_CLASSES;
 static unsigned long from;
-static int and_on, count_fd = -1;
+static int and_on, by_place, count_fd = -1;
+enum { MOST_PLACES = 1024 };
+static atomic_uintptr_t places[N_CLASSES][MOST_PLACES]; /* in the order of their first calls */
 static uintptr_t ranges[4][2];
 static int n_ranges;
 
@@ -73,9 +75,10 @@ static void begin(void)
 		count_fd = open(path, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
 	dl_iterate_phdr(take_range, &first);
 	for (int c = 0; text && c < N_CLASSES; c++)
-		if (strncmp(text, names[c], strlen(names[c])) == 0 && text[strlen(names[c])] == ':') {
+		if (strncmp(text, names[c], strlen(names[c])) == 0 && strchr(":@", text[strlen(names[c])])) {
 			char *end;
 
+			by_place = text[strlen(names[c])] == '@';
 			from = strtoul(text + strlen(names[c]) + 1, &end, 10);
 			and_on = *end == '+';
 			failing = (enum class)c;
@@ -88,23 +91,44 @@ static void end(void)
 	char text[64];
 
 	for (int c = 0; count_fd >= 0 && n_ranges && c < N_CLASSES; c++) {
-		const int n = snprintf(text, sizeof(text), "%s %lu\n", names[c], atomic_load(&counts[c]));
+		int n_places = 0, n;
 
+		while (n_places < MOST_PLACES && atomic_load(&places[c][n_places]))
+			n_places++;
+		n = snprintf(text, sizeof(text), "%s %lu\n%s@ %d\n", names[c], atomic_load(&counts[c]), names[c], n_places);
 		if (write(count_fd, text, (size_t)n) != n)
 			return;
 	}
+}
+
+/* The number of a place, by the order of their first calls. is_first: whether this is its first one */
+static unsigned long number_place(enum class class, uintptr_t at, int *is_first)
+{
+	for (unsigned long i = 0; i < MOST_PLACES; i++) {
+		uintptr_t other = 0;
+
+		*is_first = atomic_compare_exchange_strong(&places[class][i], &other, at);
+		if (*is_first || other == at)
+			return i + 1;
+	}
+	return 0;
 }
 
 /* Does this call fail? by: where it returns to */
 static int fails(enum class class, const void *by)
 {
 	const uintptr_t at = (uintptr_t)by;
-	unsigned long number = 0;
+	unsigned long number = 0, place = 0;
+	int is_first = 0;
 
 	for (int i = 0; i < n_ranges; i++)
-		if (at >= ranges[i][0] && at < ranges[i][1])
+		if (at >= ranges[i][0] && at < ranges[i][1]) {
 			number = atomic_fetch_add(&counts[class], 1) + 1;
-	if (!number || class != failing || !(number == from || (and_on && number > from)))
+			place = number_place(class, at, &is_first);
+		}
+	if (!number || class != failing)
+		return 0;
+	if (by_place ? place != from || !(and_on || is_first) : number != from && !(and_on && number > from))
 		return 0;
 	errno = errors[class];
 	return 1;
