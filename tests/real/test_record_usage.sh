@@ -41,6 +41,15 @@ expect 0 "no OpenGL call" -o "$TMPDIR/x.trace" -- true
 expect 7 "no OpenGL call" -o "$TMPDIR/x.trace" -- sh -c 'exit 7'
 expect 143 "no OpenGL call" -o "$TMPDIR/x.trace" -- sh -c 'kill -TERM $$'
 expect 3 "no OpenGL call" -o "$TMPDIR/x.trace" --env WORD=three -- sh -c '[ "$WORD" = three ] && exit 3'
+# A signal that comes when the program has ended is nobody's: neither the recorder nor others of its process group are sent it.
+trap 'echo "a signal for the recorder reached others"; bad=1' USR1
+LD_PRELOAD="$RELUME_BUILD/tests/real/signal_shim.so" timeout --foreground 20 "$RELUME" record -o "$TMPDIR/x.trace" -- sh -c 'exit 7' >"$TMPDIR/out" 2>&1
+got=$?
+if [ $got -ne 7 ]; then
+	echo "a signal as the program has ended: exit code $got, expected 7"
+	bad=1
+fi
+trap - USR1
 # A program whose file has a group of its own: the loader preloads nothing where it runs with that group.
 group=$(id -G | tr ' ' '\n' | grep -vx "$(id -g)" | head -n 1)
 [ "$(id -u)" = 0 ] && group=60
