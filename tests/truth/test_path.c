@@ -121,6 +121,56 @@ static double square_part(double half, double height)
 	return 4 * a / b * atan(a / b) / M_PI;
 }
 
+/* The part of what a point at the origin sees above it (z) that a polygon fills, all of it above (J. H. Lambert, "Photometria", 1760). */
+static double polygon_part(const double (*corner)[3], int n)
+{
+	double sum = 0;
+
+	for (int i = 0; i < n; i++) {
+		const double *a = corner[i], *b = corner[(i + 1) % n];
+		const double cross[3] = { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+		const double sine = sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
+
+		sum += atan2(sine, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * cross[2] / sine;
+	}
+	return fabs(sum) / (2 * M_PI);
+}
+
+/* A sheet that a square beside it lights at an angle; one behind it lights its other side, and this one neither more nor less. */
+START_TEST(test_squares_beside_and_behind)
+{
+	enum { SIDE = 8 };
+	static const float x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 }, z[3] = { 0, 0, 1 };
+	static const double beside[4][3] = { { 4, -1.5, 0.5 }, { 4, 1.5, 0.5 }, { 4, 1.5, 3.5 }, { 4, -1.5, 3.5 } }; /* from the sheet's middle */
+	const float albedo = 0.8f, e = 0.9f, truth = albedo * e * (float)polygon_part(beside, 4);
+
+	for (int is_behind = 0; is_behind < 2; is_behind++) {
+		struct tracer_options options = options_of(64);
+		double sum = 0;
+		uint32_t lamp;
+		struct image img;
+		struct made t;
+
+		made_init(&t, SIDE, SIDE, 0);
+		t.view.projection[0] = t.view.projection[5] = 20; /* a tenth of a unit across */
+		made_add_square(&t, made_add_material(&t, albedo), (float[3]){ 0, 0, -10 }, x, y, 3, 1);
+		lamp = made_add_material(&t, 0);
+		glow(&t, lamp, e);
+		made_add_square(&t, lamp, (float[3]){ 4, 0, -8 }, y, z, 1.5f, 1);
+		if (is_behind)
+			made_add_square(&t, lamp, (float[3]){ 0.5f, 0, -12 }, x, y, 1, 1);
+		options.depth = 1;
+		truth_render_with(&t, &options, &img);
+		for (uint32_t i = 0; i < SIDE * SIDE; i++)
+			sum += (double)truth_at(&img, "R", i % SIDE, i / SIDE) / (SIDE * SIDE);
+		ck_assert_double_eq_tol(sum, (double)truth, 0.01 * (double)truth);
+		truth_check_closure(&img);
+		image_free(&img);
+		made_free(&t);
+	}
+}
+END_TEST
+
 /* A floor under a square that glows, far and near, by its own material and by a rule, in OpenGL's numbers and in linear light. */
 START_TEST(test_square_over_floor)
 {
@@ -223,6 +273,7 @@ int main(void)
 	tcase_set_timeout(tests, 180);
 	tcase_add_test(tests, test_integrating_sphere);
 	tcase_add_test(tests, test_furnace_with_mirror);
+	tcase_add_test(tests, test_squares_beside_and_behind);
 	tcase_add_test(tests, test_square_over_floor);
 	tcase_add_test(tests, test_sphere_over_floor);
 	tcase_add_test(tests, test_clamp);
