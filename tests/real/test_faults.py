@@ -5,7 +5,7 @@ variations pass."""
 import pathlib
 import sys
 
-from helpers import BUILD, ROOT, SCRATCH, check, finish
+from helpers import BUILD, ROOT, SCRATCH, check, diff, finish
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tests/show"))
@@ -27,6 +27,10 @@ for name, gates, draw, what in faults.FAULTS:
     caught, named, failed, first = faults.judge_fault(code, frame, gates, draw)
     check(caught, f"{name}: {failed} failed, not {' or '.join(gates)}")
     check(named, f"{name}: {first} is blamed, not {draw}")
+    if name == "the shadows are gone":  # beside the recording itself, which has names: the floor is the draw with its texture
+        _, score = diff(suite.trace, folder / "s.####.exr", "-f", faults.FRAME, "--baseline", suite.base)
+        blamed = score["frames"][0]["blame"][0]
+        check(blamed["draw"] == draw and blamed.get("call") == "glBegin" and "texture" in blamed, f"{name}: {blamed}")
 check(not chosen, f"no such fault: {chosen}")
 for name, vary in faults.HARMLESS:
     if name not in ("1 thread", "other last bits", "a clock that is ignored"):
