@@ -12,6 +12,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import shutil
 import sys
 import tempfile
@@ -86,6 +87,7 @@ for what, env in SMALL.items():
                  "peer": "", "passed": done.returncode == 0 and same})
 # Too little for the smallest band; work items so slow that any launch is killed.
 for what, env, words in (("100 KB of memory", {"AS_MEMORY": "100000"}, "are needed on this device, which has 0"),
+                         ("2 MiB of memory", {"AS_MEMORY": str(2 << 20)}, "are needed on this device, which has 2"),
                          ("buffers of 2 KB", {"AS_BUFFER": "2000"}, "makes none of more than 0"),
                          ("launches of 100 work items", {"MOST_ITEMS": "100"}, "CL_OUT_OF_RESOURCES"),
                          ("a watchdog that kills all", {"ITEM_NS": "1000000000"}, "CL_INVALID_COMMAND_QUEUE")):
@@ -93,6 +95,8 @@ for what, env, words in (("100 KB of memory", {"AS_MEMORY": "100000"}, "are need
     done = render(scene, folder, fake(AS_TYPE="gpu", **env), *FRAMES)
     check(done.returncode == 5 and len(lines_of(done)) == 1 and words in done.stderr, f"{what}: exit code {done.returncode}: {done.stderr}")
     check(not files(SCRATCH / folder), f"{what}: something was written: {list(files(SCRATCH / folder))}")
+    needed = re.search(r"(\d+) MiB are needed on this device, which has (\d+)", done.stderr)
+    check(not needed or int(needed[1]) > int(needed[2]), f"{what}: more is needed than there is: {done.stderr}")
 
 # --- Every call of OpenCL that may fail: a device in this process, which starts quickly ------------------------------
 
