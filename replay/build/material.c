@@ -35,7 +35,7 @@ void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *sciss
 	out[3] = (int32_t)(y1 > y0 ? y1 - y0 : 0);
 }
 
-/* Views with equal viewport rectangles share their eye space (scene.h). */
+/* Views with equal viewport rectangles share their eye space (scene.h). SCENE_NONE: out of memory (reported) */
 static uint32_t space_of(struct gls_frame *f, const struct scene_view *view)
 {
 	uint64_t key = XXH3_64bits(view->viewport, sizeof(view->viewport));
@@ -44,7 +44,7 @@ static uint32_t space_of(struct gls_frame *f, const struct scene_view *view)
 	if (!found) {
 		found = f->spaces.n + 1;
 		if (table_set(&f->spaces, key, (void *)found))
-			return 0;
+			return SCENE_NONE;
 	}
 	return (uint32_t)(found - 1);
 }
@@ -79,6 +79,8 @@ uint32_t gls_frame_view(const struct gls_surface *surface, const struct gls_stat
 	gls_scissor_of(surface, &a->scissor, view.scissor);
 	view.space = space_of(f, &view);
 	view.x87 = st->x87;
+	if (view.space == SCENE_NONE)
+		return SCENE_NONE;
 	return gls_intern(&f->views, &s->views, &s->n_views, &f->room.views, &view, sizeof(view));
 }
 

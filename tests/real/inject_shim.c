@@ -1,7 +1,8 @@
 /*
  * Preloaded. Makes one call of the system fail: INJECT="CLASS:N" the Nth of a class (from 1) that the command or the recorder makes itself,
- * "CLASS:N+" that one and all after it, "CLASS@N" the first one from the Nth place in the code that makes such calls, "CLASS@N+" all
- * from there. What libraries do for themselves is left alone. INJECT_COUNT names a file that receives lines "CLASS COUNT" and "CLASS@ PLACES" for each class as the process ends.
+ * "CLASS:N+" that one and all after it, "CLASS@N:M" the Mth one from the Nth place in the code that makes such calls, "CLASS@N+" all
+ * from there. What libraries do for themselves is left alone. INJECT_COUNT names a file that receives lines "CLASS COUNT" and "CLASS@N COUNT"
+ * for each class and place as the process ends.
  *
  * Memory is taken from the next library that has it: LeakSanitizer's, if that is preloaded after this one. INJECT_SPARED holds its
  * suppressions, since a confined command cannot read them from a file.
@@ -27,10 +28,11 @@ static const int errors[N_CLASSES] = { ENOMEM, EIO, ENOSPC, ENOMEM, EMFILE, EAGA
 
 static atomic_ulong counts[N_CLASSES];
 static enum class failing = N_CLASSES;
-static unsigned long from;
+static unsigned long from, from_there = 1;
 static int and_on, by_place, count_fd = -1;
 enum { MOST_PLACES = 1024 };
 static atomic_uintptr_t places[N_CLASSES][MOST_PLACES]; /* in the order of their first calls */
+static atomic_ulong place_counts[N_CLASSES][MOST_PLACES];
 static uintptr_t ranges[4][2];
 static int n_ranges;
 
@@ -80,6 +82,8 @@ static void begin(void)
 
 			by_place = text[strlen(names[c])] == '@';
 			from = strtoul(text + strlen(names[c]) + 1, &end, 10);
+			if (by_place && *end == ':')
+				from_there = strtoul(end + 1, &end, 10);
 			and_on = *end == '+';
 			failing = (enum class)c;
 		}
@@ -91,25 +95,25 @@ static void end(void)
 	char text[64];
 
 	for (int c = 0; count_fd >= 0 && n_ranges && c < N_CLASSES; c++) {
-		int n_places = 0, n;
+		int n = snprintf(text, sizeof(text), "%s %lu\n", names[c], atomic_load(&counts[c])), ok = write(count_fd, text, (size_t)n) == n;
 
-		while (n_places < MOST_PLACES && atomic_load(&places[c][n_places]))
-			n_places++;
-		n = snprintf(text, sizeof(text), "%s %lu\n%s@ %d\n", names[c], atomic_load(&counts[c]), names[c], n_places);
-		if (write(count_fd, text, (size_t)n) != n)
-			return;
+		for (int i = 0; ok && i < MOST_PLACES && atomic_load(&places[c][i]); i++) {
+			n = snprintf(text, sizeof(text), "%s@%d %lu\n", names[c], i + 1, atomic_load(&place_counts[c][i]));
+			ok = write(count_fd, text, (size_t)n) == n;
+		}
 	}
 }
 
-/* The number of a place, by the order of their first calls. is_first: whether this is its first one */
-static unsigned long number_place(enum class class, uintptr_t at, int *is_first)
+/* The number of a place, by the order of their first calls. nth: receives which of its own this is */
+static unsigned long number_place(enum class class, uintptr_t at, unsigned long *nth)
 {
 	for (unsigned long i = 0; i < MOST_PLACES; i++) {
 		uintptr_t other = 0;
 
-		*is_first = atomic_compare_exchange_strong(&places[class][i], &other, at);
-		if (*is_first || other == at)
+		if (atomic_compare_exchange_strong(&places[class][i], &other, at) || other == at) {
+			*nth = atomic_fetch_add(&place_counts[class][i], 1) + 1;
 			return i + 1;
+		}
 	}
 	return 0;
 }
@@ -118,17 +122,16 @@ static unsigned long number_place(enum class class, uintptr_t at, int *is_first)
 static int fails(enum class class, const void *by)
 {
 	const uintptr_t at = (uintptr_t)by;
-	unsigned long number = 0, place = 0;
-	int is_first = 0;
+	unsigned long number = 0, place = 0, nth = 0;
 
 	for (int i = 0; i < n_ranges; i++)
 		if (at >= ranges[i][0] && at < ranges[i][1]) {
 			number = atomic_fetch_add(&counts[class], 1) + 1;
-			place = number_place(class, at, &is_first);
+			place = number_place(class, at, &nth);
 		}
 	if (!number || class != failing)
 		return 0;
-	if (by_place ? place != from || !(and_on || is_first) : number != from && !(and_on && number > from))
+	if (by_place ? place != from || (!and_on && nth != from_there) : number != from && !(and_on && number > from))
 		return 0;
 	errno = errors[class];
 	return 1;

@@ -20,7 +20,8 @@ def last_mallocs(counts, most):
 
 def last_places(counts, most):
     """The same, and always."""
-    return [f"malloc@{counts['malloc@'] - i}+" for i in range(most)]
+    n = len(inject.places_counts(counts, "malloc"))
+    return [f"malloc@{n - i}+" for i in range(most)]
 
 
 def malloc_places(counts, most):
