@@ -1,8 +1,10 @@
 /* struct image and its OpenEXR form: what is written is what is read, byte for byte the same twice, or not at all. */
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -253,6 +255,32 @@ START_TEST(test_no_memory)
 }
 END_TEST
 
+/* A disk that is full after so many bytes: one line that says why, and no file. */
+START_TEST(test_full_disk)
+{
+	static const rlim_t most[] = { 500, 20000 }; /* the line that is said takes some, too */
+
+	signal(SIGXFSZ, SIG_IGN);
+	for (int i = 0; i < 2; i++) {
+		const struct rlimit limit = { most[i], RLIM_INFINITY }, none = { RLIM_INFINITY, RLIM_INFINITY };
+		struct image img = make_image(200, 200);
+		struct said said = said_begin();
+		char text[512], *end;
+		int err;
+
+		setrlimit(RLIMIT_FSIZE, &limit);
+		err = image_write_exr(&img, in_folder("full.exr"));
+		setrlimit(RLIMIT_FSIZE, &none);
+		said_end(&said, text, sizeof(text));
+		ck_assert_int_eq(err, ERR_SYSTEM);
+		end = strchr(text, '\n');
+		ck_assert_msg(end && !end[1] && strstr(text, "full.exr: cannot be written: "), "after %d bytes: %s", (int)most[i], text);
+		ck_assert_int_eq(file_size(in_folder("full.exr")), -1);
+		image_free(&img);
+	}
+}
+END_TEST
+
 START_TEST(test_refuses)
 {
 	struct image img = make_image(4, 4), back = { 0 };
@@ -294,6 +322,7 @@ int main(void)
 	tcase_add_test(tests, test_half_rounds_to_nearest_even);
 	tcase_add_test(tests, test_cut_file);
 	tcase_add_test(tests, test_no_memory);
+	tcase_add_test(tests, test_full_disk);
 	tcase_add_test(tests, test_refuses);
 	tcase_add_test(tests, test_encoding);
 	failed = run_case(tests, "image");
