@@ -1,7 +1,10 @@
-/* Text by glXUseXFont: the X server's characters, made into lists while the unpack state is one that no bitmap of theirs has. */
+/*
+ * Text by glXUseXFont: the X server's characters, made into lists while the unpack state is one that no bitmap of theirs has. An argument
+ * names a folder with a font "tall", whose A is taller than what is recorded of a character, and whose B is a box.
+ */
 #include "window.h"
 
-enum { FRAMES = 5, BASE = 1000, CURSORS = 3000 };
+enum { FRAMES = 5, BASE = 1000, CURSORS = 3000, TALL = 5000 };
 
 static void use_font(const char *name, int first, int count, int base)
 {
@@ -18,7 +21,23 @@ static void write_text(int x, int y, int base, const char *text)
 	glCallLists((int)strlen(text), GL_UNSIGNED_BYTE, text);
 }
 
-int main(void)
+static void use_tall_font(char *folder)
+{
+	char **path, *longer[64];
+	int n;
+
+	path = XGetFontPath(display, &n);
+	expect(n < 64, "a font path");
+	memcpy(longer, path, (size_t)n * sizeof(*path));
+	longer[n] = folder;
+	XSetFontPath(display, longer, n + 1);
+	use_font("tall", 'A', 2, TALL);
+	expect(glIsList(TALL) && glIsList(TALL + 1), "lists of tall characters");
+	XSetFontPath(display, path, n);
+	XFreeFontPath(path);
+}
+
+int main(int argc, char **argv)
 {
 	float at[4];
 
@@ -31,6 +50,8 @@ int main(void)
 	use_font("fixed", 0, 256, BASE);
 	use_font("cursor", 0, 256, CURSORS); /* characters of many sizes, left and below of where they stand; the last do not exist */
 	expect(glIsList(BASE) && glIsList(CURSORS + 255) && !glIsList(BASE + 256), "a list for each character");
+	if (argc > 1)
+		use_tall_font(argv[1]);
 	glGetError(); /* Mesa's own, for characters without pixels */
 	for (int frame = 0; frame < FRAMES; frame++) {
 		glClearColor(0, 0, 0.1f * (float)frame, 1);
@@ -41,6 +62,8 @@ int main(void)
 		write_text(12, 12 + frame, CURSORS, "\x02\x44\xFF\x3A");
 		glGetFloatv(GL_CURRENT_RASTER_POSITION, at);
 		expect(at[0] > 12, "text moves the raster position");
+		if (argc > 1)
+			write_text(40, 2 + frame, TALL, "\x01"); /* B; there is no picture of A to be replayed */
 		end_frame();
 	}
 	expect(glGetError() == GL_NO_ERROR, "no error");
