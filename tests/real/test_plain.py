@@ -2,9 +2,10 @@
 # limit: 300 s
 """Plain frames go through packets in one step (kernels/frame/plain.h), those of several looks in two or three; kernels of one pixel a work item
 know plain ones without programs. All leave the same files, byte by byte; with rules that have rays to lights start on flat faces, and in
-light from all around, too. There programs take other ways."""
+light from all around, too. There programs take other ways, and the C twins show the same."""
 import json
 
+import exr
 from helpers import SCRATCH, check, corpus, finish, must, record, relume, render
 
 FLAT = SCRATCH / "flat.yaml"
@@ -51,6 +52,11 @@ for name, (kernel, (program, *options)) in PROGRAMS.items():
         check(pictures[0] == pictures[1], f"{name}, {how}: packets leave another file than binary")
         check(pictures[0] != default, f"{name}: rules change nothing")
         default = pictures[0]
+        if how == "dome":
+            render(trace, SCRATCH / f"{name}-twins", "--device", "reference", *rules)
+            twins, packets = (exr.Image(next((SCRATCH / folder).iterdir())).planes for folder in (f"{name}-twins", f"{name}-dome-packets"))
+            odd = sum(abs(a - b) > 1e-3 for c in "RGB" for rows in zip(twins[c], packets[c]) for a, b in zip(*rows))
+            check(odd < 20, f"{name}: {odd} numbers of the C twins are others")
     if name in ONE_BY_ONE:
         pictures = [render(trace, SCRATCH / f"{name}-twins-{kernels}", "--device", "reference", "--kernels", kernels)[0].read_bytes()
                     for kernels in ("packets", "binary")]
