@@ -130,6 +130,57 @@ START_TEST(test_mirror)
 }
 END_TEST
 
+/* Part of a disk of radius 1 that lies on the side x < a. */
+static double disk_part(double a)
+{
+	a = fmin(fmax(a, -1), 1);
+	return 0.5 + (asin(a) + a * sqrt(1 - a * a)) / M_PI;
+}
+
+/*
+ * The same mirror, but low, and a light of some size: above and below lies a penumbra, in which a part of the light is seen in the mirror.
+ * Another mirror comes first, and sends its light away: each has numbers of its own, and each photon its place on the light and its
+ * direction.
+ */
+START_TEST(test_penumbra_of_a_mirror)
+{
+	static const double to[3] = { 0.6, 0, 0.8 }, on[3] = { -0.8, 0, 0.6 };
+	const double half = 0.7, radius = 1.4, near = 15, far = 35;
+	const float up[3] = { 0, (float)half / 3, 0 };
+	const struct tracer_options options = options_of(1u << 19);
+	double n[3], light[3], size = 0;
+	uint32_t mirror;
+	struct image img;
+	struct made t;
+
+	for (int i = 0; i < 3; i++) {
+		n[i] = on[i] - to[i];
+		size += n[i] * n[i];
+		light[i] = to[i] * near + on[i] * far + (i == 2 ? WALL : 0);
+	}
+	for (int i = 0; i < 3; i++)
+		n[i] /= sqrt(size);
+	begin(&t, (float)light[0], (float)light[1], (float)light[2], 1);
+	t.lights[0].radius = (float)radius;
+	mirror = add_material(&t, 0.7f, 0);
+	made_add_square(&t, mirror, (float[3]){ (float)light[0], 30, (float)light[2] }, (float[3]){ 0.7f, -0.7f, 0 }, (float[3]){ 0, 0, 1 }, 3, 1);
+	made_add_square(&t, mirror, (float[3]){ (float)(to[0] * near), 0, (float)(WALL + to[2] * near) }, (float[3]){ (float)n[2], 0, (float)-n[0] }, up, 3, 4);
+	truth_render_with(&t, &options, &img);
+	for (uint32_t y = 0; y < SIZE; y++) {
+		const double ought = disk_part((half - fabs(wall_at(y)) * far / (near + far)) / (radius * near / (near + far)));
+		double is = 0, whole = 0;
+
+		for (uint32_t x = 0; x < SIZE; x++) {
+			is += (double)truth_at(&img, "caustics.G", x, y);
+			whole += (double)truth_at(&img, "caustics.G", x, SIZE / 2);
+		}
+		ck_assert_double_eq_tol(is / whole, ought, 0.06); /* the penumbra is 10 rows; photons are counted around a place */
+	}
+	image_free(&img);
+	made_free(&t);
+}
+END_TEST
+
 /* --- A glass ball ---------------------------------------------------------------------------------------------------- */
 
 /*
@@ -312,6 +363,7 @@ int main(void)
 	tcase_set_timeout(tests, 180);
 	tcase_add_test(tests, test_plate);
 	tcase_add_test(tests, test_mirror);
+	tcase_add_test(tests, test_penumbra_of_a_mirror);
 	tcase_add_test(tests, test_ball);
 	return run_case(tests, "caustics");
 }
