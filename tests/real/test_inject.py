@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# limit: 300 s
 """A few calls of the system fail in turn: the command does without them, or ends with one line (all of them: make show-inject)."""
 import subprocess
 import sys
