@@ -11,7 +11,7 @@
 #include "base/part.h"
 #include "base/progress.h"
 
-#define LOOK_MS 50
+#define LOOK_S 0.05
 #define END_S 20.0 /* from the first signal to the hard end; also for a device that does not come back from a late frame */
 
 struct seat {
@@ -112,10 +112,18 @@ static void look_at_memory(struct watch *w)
 	end_now(-ERR_SYSTEM);
 }
 
+/* From one look to the next: so short that a frame is given up when its time is over, and not much later. */
+static struct timespec interval(const struct watch *w)
+{
+	const double part = w->frame_s > 0 ? w->frame_s / 4 : LOOK_S, least = 1e-3;
+
+	return (struct timespec){ 0, (long)(1e9 * (part > LOOK_S ? LOOK_S : part < least ? least : part)) };
+}
+
 static void *look(void *arg)
 {
 	struct watch *w = arg;
-	const struct timespec wait = { 0, LOOK_MS * 1000000L };
+	const struct timespec wait = interval(w);
 
 	while (!atomic_load(&w->done)) {
 		int number = sigtimedwait(&w->signals, NULL, &wait);
