@@ -123,8 +123,9 @@ void progress_replay(struct progress *p, uint64_t frame, uint64_t played, uint64
 	const double now = progress_clock_s();
 	char bar[WIDTH + 1];
 
-	if (p->replayed != frame) {
+	if (p->replayed != frame || p->why != why) {
 		p->replayed = frame;
+		p->why = why;
 		p->told_s = why && p->style == PROGRESS_BAR ? 0 : now;
 	}
 	if (of == 0 || now - p->told_s < replay_interval_s(p) || p->style == PROGRESS_NONE)

@@ -25,8 +25,9 @@ struct progress {
 	uint64_t done, skipped, failed; /* done: includes skipped and failed */
 	enum progress_style style;      /* never AUTO once begun */
 	double start_s;
-	uint64_t replayed; /* progress_replay's last frame, and when it has told of it, or was called for it first */
-	double told_s;
+	uint64_t replayed;       /* progress_replay's last frame */
+	const char *why;         /* and what it needed; borrowed */
+	double told_s;           /* when it has told of both, or was called for them first */
 	struct { uint64_t frame; double seconds; } slowest[PROGRESS_SLOWEST]; /* slowest first; seconds 0: none */
 };
 
@@ -47,7 +48,7 @@ void progress_start(const struct progress *p, uint64_t frame, double seconds);
 
 /**
  * So many of the frames before one have been played that are no work of the run. A bar shows it at once, lines tell it every ten seconds.
- * @param why  what the frame needs of them; NULL: they are on the way
+ * @param why  what the frame needs of them, borrowed until the next call; NULL: they are on the way
  */
 void progress_replay(struct progress *p, uint64_t frame, uint64_t played, uint64_t of, const char *why);
 
