@@ -89,7 +89,7 @@ static int run_compose(struct job *job, const struct compose_request *r)
 	                                        .cleared = b->cleared, .drawn = b->drawn, .sums = b->sums, .first_pixel = frame_first_pixel(job), .request = *r, .n = job->n_pixels, .halves = b->halves,
 	                                        .floats = b->floats);
 
-	if (device_family(tr->dev) == FAMILY_PACKETS && !r->radiant)
+	if (frame_in_packets(job) && !r->radiant)
 		return launch_compose_packet(tr->dev, compose_items(job->width, job->n_rows), a);
 	return launch_compose(tr->dev, job->n_pixels, a);
 }

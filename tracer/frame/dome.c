@@ -40,7 +40,7 @@ static int find(struct job *job, uint32_t samples, uint32_t n)
 		       .pixels = b->pixels, .width = job->width, .shaded = b->shaded, .dome = job->scene->dome, .directions = b->dome_directions,
 		       .samples = samples, .n = n, .places = b->dome_places, .rays = b->rays);
 
-	if (device_family(tr->dev) == FAMILY_PACKETS)
+	if (frame_in_packets(job))
 		return launch_dome_find_packet(tr->dev, (n + SHADE_PACKET - 1) / SHADE_PACKET, a);
 	return launch_dome_find(tr->dev, n, a);
 }
@@ -75,7 +75,7 @@ static int light(struct job *job, struct camera_rectangle rectangle, uint32_t in
 		       .rectangle = rectangle, .width = job->width, .first_pixel = frame_first_pixel(job), .dome = job->scene->dome,
 		       .in_blocks = in_blocks, .blocks = in_blocks ? b->blocks : b->counts, .n = n, .shaded = b->shaded, .factors = in_blocks ? b->dome_factors : b->dome_sums);
 
-	if (device_family(tr->dev) == FAMILY_PACKETS)
+	if (frame_in_packets(job))
 		return launch_dome_light_packet(tr->dev, dome_columns(job->width) * ((job->n_rows + CAMERA_TILE - 1) / CAMERA_TILE), a);
 	return launch_dome_light(tr->dev, n, a);
 }

@@ -24,6 +24,11 @@ union buffer_frame_pixel *frame_sample(const struct job *job, uint32_t sample)
 	return job->n_samples == 1 ? &job->tr->buffers.frame : &job->tr->buffers.samples[sample];
 }
 
+int frame_in_packets(const struct job *job)
+{
+	return device_family(job->tr->dev) == FAMILY_PACKETS;
+}
+
 int frame_reserve_counts(struct job *job)
 {
 	struct tracer *tr = job->tr;

@@ -104,6 +104,9 @@ struct tables_launch frame_tables(const struct tracer *tr);
 /** The number of the band's first pixel in the frame. */
 uint32_t frame_first_pixel(const struct job *job);
 
+/** Whether kernels take packets of rays and of fragments; else one a work item. */
+int frame_in_packets(const struct job *job);
+
 /** The buffer of one of the pixels' samples; where they have but one, the frame itself. */
 union buffer_frame_pixel *frame_sample(const struct job *job, uint32_t sample);
 

@@ -55,7 +55,7 @@ int layered_suits(const struct job *job)
 {
 	const struct prepared *p = &job->prepared;
 
-	if (device_family(job->tr->dev) != FAMILY_PACKETS || !plain_is_simple(job) || dome_is_there(job) || p->has_fragment_programs || p->has_vertex_programs ||
+	if (!frame_in_packets(job) || !plain_is_simple(job) || dome_is_there(job) || p->has_fragment_programs || p->has_vertex_programs ||
 	    !has_one_space(job))
 		return 0;
 	for (uint32_t i = 0; i < p->n_instances; i++)

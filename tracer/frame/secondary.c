@@ -229,7 +229,7 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 			       .sample = job->pass * samples + i, .frame = frame_number(job), .n = n, .n_rays = n_rays,
 			       .rays = b->rays);
 
-		if (device_family(tr->dev) == FAMILY_PACKETS)
+		if (frame_in_packets(job))
 			err = launch_shadow_ray_packet(tr->dev, packs(n_rays), a);
 		else
 			err = launch_shadow_ray(tr->dev, n_rays, a);
@@ -246,7 +246,7 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 	const struct frame_buffers *b = &tr->buffers;
 	const struct emission_launch emission = emitters_of(job, space);
 	const uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4, all = n_rays + (emission.n_emitters ? n : 0);
-	const int packets = device_family(tr->dev) == FAMILY_PACKETS;
+	const int packets = frame_in_packets(job);
 	int err = secondary_reserve_rays(job, all);
 
 	if (!err)
@@ -330,7 +330,7 @@ static int leave(struct job *job, const struct list *list, const struct accel_sp
 	           .pixels = b->pixels, .width = job->width, .transport = transport, .sample = job->pass, .frame = frame_number(job),
 	           .emission = emitters_of(job, space), .visibility = b->visibility, .n = n, .shaded = b->shaded,
 	           .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
-	return device_family(tr->dev) == FAMILY_PACKETS ? launch_leave_packet(tr->dev, packs(n), a) : launch_leave(tr->dev, n, a);
+	return frame_in_packets(job) ? launch_leave_packet(tr->dev, packs(n), a) : launch_leave(tr->dev, n, a);
 }
 
 static int look_at_sky(struct job *job, const struct accel_space *sky, uint32_t n)
@@ -366,7 +366,7 @@ static int shade_hits(struct job *job, const struct list *list, const struct acc
 	           .transport = transport, .sample = job->pass, .frame = frame_number(job), .emission = emitters_of(job, space),
 	           .depth = job->options->depth, .most = job->options->clamp, .background = b->background, .shaded = b->shaded,
 	           .n = n, .radiance = b->radiance, .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
-	return device_family(tr->dev) == FAMILY_PACKETS ? launch_shade_hit_packet(tr->dev, packs(n), a) : launch_shade_hit(tr->dev, n, a);
+	return frame_in_packets(job) ? launch_shade_hit_packet(tr->dev, packs(n), a) : launch_shade_hit(tr->dev, n, a);
 }
 
 int secondary_follow(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t slots, uint32_t n, int see)

@@ -117,7 +117,7 @@ static int clears_late(const struct job *job, uint32_t n_cleared)
 
 	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
 		n += job->prepared.segments[i].clear_count;
-	return device_family(job->tr->dev) == FAMILY_PACKETS && job->image && job->n_passes == 1 && job->n_samples == 1 &&
+	return frame_in_packets(job) && job->image && job->n_passes == 1 && job->n_samples == 1 &&
 	       secondary_transport(job->options) != TRANSPORT_LINEAR && n == n_cleared &&
 	       !hooks_has(job, HOOK_RAY_GENERATION | HOOK_INTERSECTION);
 }
@@ -126,7 +126,7 @@ int segment_say_drawn(struct job *job, int drawn)
 {
 	const uint32_t rows = frame_columns(job->width) * job->n_rows;
 
-	if (device_family(job->tr->dev) != FAMILY_PACKETS)
+	if (!frame_in_packets(job))
 		return 0;
 	memset(job->tr->counts, drawn ? 0xff : 0, rows * sizeof(*job->tr->counts));
 	return frame_upload(job->tr, drawn, job->tr->counts, rows);
@@ -229,7 +229,7 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 		       .pixels = b->pixels, .width = job->width, .height = job->height, .bits = job->bits, .visibility = b->visibility,
 		       .n_slots = slots, .transport = transport, .albedo = albedo, .n = n, .programs = b->programs, .output = job->scene->output,
 		       .shaded = b->shaded);
-	const int in_packets = device_family(tr->dev) == FAMILY_PACKETS;
+	const int in_packets = frame_in_packets(job);
 	const uint32_t packets = (n + SHADE_PACKET - 1) / SHADE_PACKET;
 	int err = in_packets ? launch_shade_packet(tr->dev, packets, a) : launch_shade(tr->dev, n, a);
 
@@ -242,7 +242,7 @@ static int run_resolve(struct job *job, struct camera_rectangle r)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	const int packets = device_family(tr->dev) == FAMILY_PACKETS;
+	const int packets = frame_in_packets(job);
 	const uint32_t n = packets ? frame_columns(job->width) * (uint32_t)(r.y1 - r.y0) : rectangle_area(r);
 	const struct resolve_launch *a =
 		LAUNCH(resolve, .tables = frame_tables(tr), .fragments = b->fragments, .shaded = b->shaded, .first = b->first, .counts = b->counts,

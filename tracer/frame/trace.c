@@ -141,7 +141,7 @@ static void count_undrawn(struct job *job)
 static uint32_t rows_of_band(const struct job *job)
 {
 	const uint32_t pixels = layered_has_columns(job) ? BAND_PIXELS_COLUMNS :
-	                        device_family(job->tr->dev) == FAMILY_PACKETS || job->objects.n ? BAND_PIXELS_CPU : BAND_PIXELS_GPU;
+	                        frame_in_packets(job) || job->objects.n ? BAND_PIXELS_CPU : BAND_PIXELS_GPU;
 	uint32_t rows = job->options->band_rows ? job->options->band_rows : pixels / job->width;
 
 	if (job->tr->most_rows && rows > job->tr->most_rows)
