@@ -199,7 +199,7 @@ typedef float element_float;
 	VALUE(compose_request, request) AND() /* request.height: rows of the band */ \
 	IN(float, visibility) AND()         /* [slot][n][3]; plain: any buffer */ \
 	VALUE(uint, n_slots) AND()          /* of lights that are asked; 0: none. plain_program before plain: 0 */ \
-	IN(uint, blocks) AND()              /* per block: which place it has; SCENE_NONE: none, it has no fragments */ \
+	IN(uint, blocks) AND()              /* per block: which place it has; SCENE_NONE: none, it has no fragments. GPUs: any buffer, its number is its place */ \
 	VALUE(uint, n) AND()                /* places of rays a slot: the pixels of blocks that have one */ \
 	OUT(fragment, fragments) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() /* [n]: of what is shaded one by one or by programs; read as well */ \
 	OUT(ray, rays) AND()                /* [slot][n] */ \

@@ -150,7 +150,7 @@ static void print_row(const struct known *k, int family)
 
 /* --- Checking ------------------------------------------------------------------------------------------------------ */
 
-/* Packets compute in vectors: what is no CPU takes minutes to compile them, and cannot gain by them. */
+/* Packets compute in vectors: compilers for GPUs take minutes for them, and GPUs gain nothing by them. */
 static int is_for(const struct device_description *device, enum device_family family)
 {
 	return device->type == DEVICE_CPU || family != FAMILY_PACKETS;

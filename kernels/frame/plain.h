@@ -98,6 +98,33 @@ static inline struct fragment plain_fragment(const struct plain_arguments *a, ui
 	return a->sparse[y * a->width + x];
 }
 
+/* Where a pixel lies in the band, by its number: block by block. It may be beyond the last column or row. */
+static inline uint32_t plain_x(uint32_t width, uint32_t number)
+{
+	return number / (PLAIN_WIDTH * PLAIN_ROWS) % plain_columns(width) * PLAIN_WIDTH + number % PLAIN_WIDTH;
+}
+
+static inline uint32_t plain_y(uint32_t width, uint32_t number)
+{
+	return number / (PLAIN_WIDTH * PLAIN_ROWS) / plain_columns(width) * PLAIN_ROWS + number / PLAIN_WIDTH % PLAIN_ROWS;
+}
+
+static inline int plain_is_outside(const struct plain_arguments *a, uint32_t x, uint32_t y)
+{
+	return x >= a->width || y >= a->request.height;
+}
+
+static inline int plain_has_fragment(const struct plain_arguments *a, uint32_t x, uint32_t y)
+{
+	return !plain_is_outside(a, x, y) && plain_fragment(a, x, y).order != SCENE_NONE;
+}
+
+/* Whether a light does not reach a pixel's fragment whole. item: its place */
+static inline int plain_is_dimmed(const struct plain_arguments *a, uint32_t x, uint32_t y, uint32_t item)
+{
+	return plain_has_fragment(a, x, y) && stage_dimmed(a->visibility, a->n_slots, a->n, item);
+}
+
 /* What shade_item takes, for fragments of a->fragments. n_slots: 0, or with visibility */
 static inline struct shade_arguments plain_shading(const struct plain_arguments *a, uint32_t n_slots)
 {

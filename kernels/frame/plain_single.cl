@@ -6,25 +6,19 @@
 #include "kernels/frame/compose.h"
 #include "kernels/frame/plain.h"
 
-/* Where a pixel lies in the band, and where what is kept of it stands: each block has the place of its number. */
+/* Where a pixel lies in the band, and its number, where what is kept of it stands. */
 struct plain_spot {
-	uint x, y, place;
+	uint x, y, item;
 };
 
 static inline struct plain_spot spot_of(const struct plain_arguments *a, uint item)
 {
-	const uint block = item / (PLAIN_WIDTH * PLAIN_ROWS), within = item % (PLAIN_WIDTH * PLAIN_ROWS), columns = plain_columns(a->width);
 	struct plain_spot at;
 
-	at.x = block % columns * PLAIN_WIDTH + within % PLAIN_WIDTH;
-	at.y = block / columns * PLAIN_ROWS + within / PLAIN_WIDTH;
-	at.place = item;
+	at.x = plain_x(a->width, item);
+	at.y = plain_y(a->width, item);
+	at.item = item;
 	return at;
-}
-
-static inline int is_outside(const struct plain_arguments *a, const struct plain_spot *at)
-{
-	return at->x >= a->width || at->y >= a->request.height;
 }
 
 /* --- From a fragment to the planes ----------------------------------------------------------------------------------- */
@@ -90,28 +84,16 @@ static inline void compose_pixel(const struct plain_arguments *a, const struct p
 
 	put_cleared(a->cleared, &p);
 	if (is_there) {
-		const struct fragment f = a->fragments[at->place];
+		const struct fragment f = a->fragments[at->item];
 
-		if (shows(a, &f, &a->shaded[at->place]))
-			put_fragment(a, &f, &a->shaded[at->place], &p);
+		if (shows(a, &f, &a->shaded[at->item]))
+			put_fragment(a, &f, &a->shaded[at->item], &p);
 	}
 	compose_colors(&p, &a->request);
 	compose_store(&p, &a->request, compose_at(&a->request, at->y * a->width + at->x), a->halves, a->floats);
 }
 
 /* --- Kernels --------------------------------------------------------------------------------------------------------- */
-
-/* Whether a pixel of the picture has a fragment. */
-static inline int has_fragment(const struct plain_arguments *a, const struct plain_spot *at)
-{
-	return !is_outside(a, at) && plain_fragment(a, at->x, at->y).order != SCENE_NONE;
-}
-
-/* Whether a light does not reach a pixel's fragment whole. */
-static inline int is_dimmed(const struct plain_arguments *a, const struct plain_spot *at)
-{
-	return has_fragment(a, at) && stage_dimmed(a->visibility, a->n_slots, a->n, at->place);
-}
 
 KERNEL_OF(float4) void plain_color(KERNEL_ARGUMENTS(plain))
 {
@@ -120,11 +102,11 @@ KERNEL_OF(float4) void plain_color(KERNEL_ARGUMENTS(plain))
 	const struct plain_spot at = spot_of(&a, (uint)get_global_id(0));
 	struct setup_kept kept;
 
-	if (get_global_id(0) >= n || !has_fragment(&a, &at))
+	if (get_global_id(0) >= n || !plain_has_fragment(&a, at.x, at.y))
 		return;
-	a.fragments[at.place] = plain_fragment(&a, at.x, at.y);
-	a.pixels[at.place] = a.first_pixel + at.y * a.width + at.x;
-	shade_item(&s, at.place, 0, &kept);
+	a.fragments[at.item] = plain_fragment(&a, at.x, at.y);
+	a.pixels[at.item] = a.first_pixel + at.y * a.width + at.x;
+	shade_item(&s, at.item, 0, &kept);
 }
 
 KERNEL_OF(float4) void plain_ask(KERNEL_ARGUMENTS(plain))
@@ -137,7 +119,7 @@ KERNEL_OF(float4) void plain_ask(KERNEL_ARGUMENTS(plain))
 
 	if (item >= to.n_rays)
 		return;
-	if (has_fragment(&a, &at))
+	if (plain_has_fragment(&a, at.x, at.y))
 		shadow_ray_item(&to, item, 0, &kept);
 	else
 		stage_no_ray(&a.rays[item]);
@@ -148,8 +130,8 @@ KERNEL_OF(float4) void plain_show(KERNEL_ARGUMENTS(plain))
 	const struct plain_arguments a = KERNEL_STRUCT(plain);
 	const struct plain_spot at = spot_of(&a, (uint)get_global_id(0));
 
-	if (get_global_id(0) < n && !is_outside(&a, &at))
-		compose_pixel(&a, &at, has_fragment(&a, &at));
+	if (get_global_id(0) < n && !plain_is_outside(&a, at.x, at.y))
+		compose_pixel(&a, &at, plain_has_fragment(&a, at.x, at.y));
 }
 
 KERNEL_OF(float4) void plain_color_dimmed(KERNEL_ARGUMENTS(plain))
@@ -159,8 +141,8 @@ KERNEL_OF(float4) void plain_color_dimmed(KERNEL_ARGUMENTS(plain))
 	const struct plain_spot at = spot_of(&a, (uint)get_global_id(0));
 	struct setup_kept kept;
 
-	if (get_global_id(0) < n && is_dimmed(&a, &at))
-		shade_item(&s, at.place, 0, &kept);
+	if (get_global_id(0) < n && plain_is_dimmed(&a, at.x, at.y, at.item))
+		shade_item(&s, at.item, 0, &kept);
 }
 
 KERNEL_OF(float4) void plain_show_dimmed(KERNEL_ARGUMENTS(plain))
@@ -168,6 +150,6 @@ KERNEL_OF(float4) void plain_show_dimmed(KERNEL_ARGUMENTS(plain))
 	const struct plain_arguments a = KERNEL_STRUCT(plain);
 	const struct plain_spot at = spot_of(&a, (uint)get_global_id(0));
 
-	if (get_global_id(0) < n && is_dimmed(&a, &at))
+	if (get_global_id(0) < n && plain_is_dimmed(&a, at.x, at.y, at.item))
 		compose_pixel(&a, &at, 1);
 }

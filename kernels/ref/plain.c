@@ -239,14 +239,9 @@ static void draw_layers_mirror(const struct plain_arguments *a, const struct sha
 }
 
 /* The steps of do_pixel, each by itself, of fragments without programs. */
-static int has_fragment(const struct plain_arguments *a, uint32_t x, uint32_t y)
-{
-	return x < a->width && y < a->request.height && plain_fragment(a, x, y).order != SCENE_NONE;
-}
-
 static void color_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
 {
-	if (has_fragment(a, x, y))
+	if (plain_has_fragment(a, x, y))
 		shade_fixed(a, s, x, y, item);
 }
 
@@ -254,45 +249,36 @@ static void show_pixel(const struct plain_arguments *a, const struct shade_argum
 {
 	struct frame_pixel pixel = *a->cleared;
 
-	if (x >= a->width || y >= a->request.height ||
-	    (s->n_slots && (!has_fragment(a, x, y) || !stage_dimmed(a->visibility, a->n_slots, a->n, item))))
+	if (plain_is_outside(a, x, y) || (s->n_slots && !plain_is_dimmed(a, x, y, item)))
 		return;
-	if (has_fragment(a, x, y))
+	if (plain_has_fragment(a, x, y))
 		draw_pixel(a, x, y, item, &pixel);
 	compose_pixel(a, x, y, &pixel);
 }
 
 typedef void one_pixel(const struct plain_arguments *, const struct shade_arguments *, uint32_t, uint32_t, uint32_t);
 
-/* A pixel by its number, block by block. */
-struct plain_at {
-	uint32_t block, x, y, within; /* within: its number in the block's row */
-};
-
-static struct plain_at place_of(const struct plain_arguments *a, size_t number)
+/* Each pixel of blocks first .. last-1 by one of those above. */
+static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last, one_pixel *one)
 {
-	const uint32_t columns = plain_columns(a->width), block = (uint32_t)(number / (PLAIN_WIDTH * PLAIN_ROWS)), i = number % (PLAIN_WIDTH * PLAIN_ROWS);
+	const struct shade_arguments s = plain_shading(a, n_slots);
 
-	return (struct plain_at){ block, block % columns * PLAIN_WIDTH + i % PLAIN_WIDTH, block / columns * PLAIN_ROWS + i / PLAIN_WIDTH, i % PLAIN_WIDTH };
+	for (size_t block = first; block < last && block < plain_blocks(a->width, a->request.height); block++)
+		for (uint32_t i = 0; i < PLAIN_WIDTH * PLAIN_ROWS; i++) {
+			const uint32_t number = (uint32_t)block * PLAIN_WIDTH * PLAIN_ROWS + i, y = plain_y(a->width, number);
+			const uint32_t base = plain_base(a->blocks[block], y);
+
+			one(a, &s, plain_x(a->width, number), y, base == SCENE_NONE ? base : base + i % PLAIN_WIDTH);
+		}
 }
 
-/* Pixels first .. last-1 by one of those above, block by block. */
+/* Pixels first .. last-1 by one of the steps; each has the place of its number. */
 static void do_pixels(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last, one_pixel *one)
 {
 	const struct shade_arguments s = plain_shading(a, n_slots);
-	const size_t pixels = (size_t)plain_blocks(a->width, a->request.height) * PLAIN_WIDTH * PLAIN_ROWS;
 
-	for (size_t pixel = first; pixel < last && pixel < pixels; pixel++) {
-		const struct plain_at at = place_of(a, pixel);
-		const uint32_t base = plain_base(a->blocks[at.block], at.y);
-
-		one(a, &s, at.x, at.y, base == SCENE_NONE ? base : base + at.within);
-	}
-}
-
-static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last, one_pixel *one)
-{
-	do_pixels(a, n_slots, first * PLAIN_WIDTH * PLAIN_ROWS, last * PLAIN_WIDTH * PLAIN_ROWS, one);
+	for (size_t item = first; item < last && item < a->n; item++)
+		one(a, &s, plain_x(a->width, (uint32_t)item), plain_y(a->width, (uint32_t)item), (uint32_t)item);
 }
 
 void plain_c(const struct plain_arguments *a, size_t first, size_t last)
@@ -316,9 +302,9 @@ void plain_ask_c(const struct plain_arguments *a, size_t first, size_t last)
 	struct shadow_kept kept;
 
 	for (size_t item = first; item < last && item < rays.n_rays; item++) {
-		const struct plain_at at = place_of(a, item % a->n);
+		const uint32_t number = (uint32_t)item % a->n;
 
-		if (has_fragment(a, at.x, at.y))
+		if (plain_has_fragment(a, plain_x(a->width, number), plain_y(a->width, number)))
 			shadow_ray_item(&rays, (uint32_t)item, 0, &kept);
 		else
 			stage_no_ray(&a->rays[item]);

@@ -41,15 +41,10 @@ int plain_is_simple(const struct job *job)
 	       !job->scene->start && !job->scene->needs_previous && is_lit_simply(job) && is_cleared_once(job);
 }
 
-static int in_packets(const struct job *job)
-{
-	return device_family(job->tr->dev) == FAMILY_PACKETS;
-}
-
 /* Kernels of one pixel a work item know neither light from all around nor programs. */
 static int is_known(const struct job *job)
 {
-	if (in_packets(job))
+	if (frame_in_packets(job))
 		return dome_suits_plain(job);
 	return !dome_is_there(job) && !job->prepared.has_fragment_programs && !job->prepared.has_vertex_programs;
 }
@@ -89,7 +84,7 @@ static int has_fragment(const struct job *job, struct camera_rectangle r, uint32
 	return n != 0;
 }
 
-/* Give each block that has fragments its place; all blocks, where nobody waits for the camera to end. r: where they may be, counted from the band's first row; n: receives the pixels of these blocks */
+/* Give each block that has fragments its place. r: where they may be, counted from the band's first row; n: receives the pixels of these blocks */
 static int place_blocks(struct job *job, struct camera_rectangle r, uint32_t *n)
 {
 	struct tracer *tr = job->tr;
@@ -97,10 +92,10 @@ static int place_blocks(struct job *job, struct camera_rectangle r, uint32_t *n)
 	int err = frame_reserve_counts(job);
 	uint32_t next = 0;
 
-	if (!err && in_packets(job) && r.x0 < r.x1)
+	if (!err && r.x0 < r.x1)
 		err = device_read(tr->dev, tr->buffers.counts.buffer, 0, tr->counts, job->n_pixels * sizeof(*tr->counts));
 	for (uint32_t i = 0; i < blocks && !err; i++)
-		tr->first[i] = !in_packets(job) || has_fragment(job, r, i % columns * PLAIN_WIDTH, i / columns * PLAIN_ROWS) ? next++ : SCENE_NONE;
+		tr->first[i] = has_fragment(job, r, i % columns * PLAIN_WIDTH, i / columns * PLAIN_ROWS) ? next++ : SCENE_NONE;
 	*n = (next ? next : 1) * PLAIN_WIDTH * PLAIN_ROWS;
 	return err ? err : frame_upload(tr, blocks, tr->first, blocks);
 }
@@ -175,7 +170,7 @@ static int run_plain(const struct job *job, const struct plain_launch *a, uint32
 	struct device *dev = job->tr->dev;
 	int err;
 
-	if (in_packets(job))
+	if (frame_in_packets(job))
 		return launch_plain(dev, blocks, a);
 	err = launch_plain_color(dev, a->n, a);
 	if (!err)
@@ -188,7 +183,7 @@ static int run_plain_shadow(const struct job *job, const struct plain_launch *a,
 	struct device *dev = job->tr->dev;
 	int err;
 
-	if (in_packets(job))
+	if (frame_in_packets(job))
 		return launch_plain_shadow(dev, blocks, a);
 	err = launch_plain_color_dimmed(dev, a->n, a);
 	return err ? err : launch_plain_show_dimmed(dev, a->n, a);
@@ -242,8 +237,10 @@ int plain_band(struct job *job)
 		err = compose_reserve(job, &request);
 	if (!err && r.x0 < r.x1)
 		err = segment_trace_camera(job, segment, r, 0);
+	/* Kernels of one pixel a work item have places for all: nobody waits for the camera to end. */
+	n = blocks * PLAIN_WIDTH * PLAIN_ROWS;
 	if (!err)
-		err = place_blocks(job, segment_in_buffers(job, r), &n);
+		err = frame_in_packets(job) ? place_blocks(job, segment_in_buffers(job, r), &n) : frame_reserve(job->tr, blocks, 1);
 	if (!err)
 		err = reserve(job, n, n_slots);
 	if (!err && space && dome_is_there(job))
