@@ -11,6 +11,7 @@ struct drawable {
 	uint64_t asked_ns;
 	int marked_width, marked_height; /* as trace number `marked_epoch` has them (writer_epoch) */
 	unsigned marked_epoch;
+	int held_width, held_height; /* of its buffers, when its last frame ended */
 };
 
 enum drawable_system { DRAWABLE_NONE, DRAWABLE_GLX, DRAWABLE_EGL, DRAWABLE_OSMESA };

@@ -12,6 +12,7 @@
 
 #include "capture/gl/context.h"
 #include "capture/gl/marker.h"
+#include "capture/gl/reading.h"
 #include "capture/gl/reference.h"
 #include "capture/gl/restore.h"
 #include "capture/gl/skip.h"
@@ -60,12 +61,33 @@ static void mark_size(struct drawable *d, int width, int height)
 	self.viewport[0] = 0; /* what was beyond it may be within */
 }
 
+/*
+ * Mesa's software rasterizer gives a window's buffers its new size with the first draw after a swap (22.3.6): a frame that has begun before
+ * keeps the old one. Asked of the driver where the window has another size than the buffers had.
+ */
+static void held_size(struct drawable *d, int *width, int *height)
+{
+	struct reading_state state = { 0 };
+
+	if (*width <= 0 || *height <= 0 || (*width == d->held_width && *height == d->held_height) || d->id != self.target.id || !context_current() ||
+	    (context_has(HAS_FIXED_FUNCTION) && context_get(GL_LIST_INDEX)))
+		return;
+	context_errors_before();
+	reading_begin(&state);
+	reading_held(width, height);
+	reading_end(&state);
+	context_errors_after();
+	d->held_width = *width;
+	d->held_height = *height;
+}
+
 static void frame_end(struct drawable *d, int width, int height)
 {
 	char text[64];
 
 	if (skip_active())
 		return;
+	held_size(d, &width, &height);
 	mark_size(d, width, height);
 	snprintf(text, sizeof(text), "relume:time %llu", (unsigned long long)clock_ns());
 	marker_write(text);
@@ -130,7 +152,7 @@ void frame_viewport(int x, int y, int width, int height)
 	int saved = errno;
 
 	drawable_may_have_changed();
-	if (!d || !d->width || (width == self.viewport[0] && height == self.viewport[1]) || ((int64_t)x + width <= d->width && (int64_t)y + height <= d->height))
+	if (!d || !d->width || (width == self.viewport[0] && height == self.viewport[1]) || ((int64_t)x + width <= d->marked_width && (int64_t)y + height <= d->marked_height))
 		return;
 	drawable_ask(d, &self.target, 1);
 	mark_size(d, d->width, d->height);

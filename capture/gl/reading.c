@@ -3,6 +3,7 @@
 
 #include <GL/gl.h>
 #include <GL/glext.h>
+#include <stdint.h>
 
 #include "capture/gl/context.h"
 #include "real.h"
@@ -119,4 +120,35 @@ void reading_colors(int width, int height, void *pixels)
 		read_resolved(width, height, pixels);
 	else
 		real_glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+}
+
+/* 1 where the buffers have a pixel there: the same is read over any two values. */
+static int has_pixel(int x, int y)
+{
+	uint32_t pixel[2] = { 0, ~0u };
+
+	for (int i = 0; i < 2; i++)
+		real_glReadPixels(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, &pixel[i]);
+	return pixel[0] == pixel[1];
+}
+
+void reading_held(int *width, int *height)
+{
+	int *sides[2] = { width, height };
+
+	if (has_pixel(*width - 1, *height - 1) || !has_pixel(0, 0))
+		return;
+	for (int side = 0; side < 2; side++) {
+		int least = 1, most = *sides[side];
+
+		while (least < most) {
+			const int middle = most - (most - least) / 2;
+
+			if (has_pixel(side ? 0 : middle - 1, side ? middle - 1 : 0))
+				least = middle;
+			else
+				most = middle - 1;
+		}
+		*sides[side] = least;
+	}
 }

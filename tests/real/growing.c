@@ -1,5 +1,12 @@
-/* A window that grows, shrinks and grows between frames, each drawn whole at the size that it has then. Recorded by test_record_growing.py. */
+/* A window that grows, shrinks and grows between frames, each drawn whole at the size that it has then, and once within one. Recorded by
+   test_record_growing.py. */
 #include "tests/trace/window.h"
+
+static void resize(int width, int height)
+{
+	XResizeWindow(display, window, (unsigned)width, (unsigned)height);
+	XSync(display, False);
+}
 
 static void draw(int width, int height)
 {
@@ -17,9 +24,12 @@ int main(void)
 	open_window();
 	glClearColor(0, 0.3f, 0.6f, 1);
 	for (size_t i = 0; i < sizeof(sizes) / sizeof(sizes[0]); i++) {
-		XResizeWindow(display, window, (unsigned)sizes[i][0], (unsigned)sizes[i][1]);
-		XSync(display, False);
+		resize(sizes[i][0], sizes[i][1]);
 		draw(sizes[i][0], sizes[i][1]);
 	}
+	glClear(GL_COLOR_BUFFER_BIT); /* by which Mesa gives this frame the size that the window still has */
+	resize(110, 140);
+	draw(110, 140);
+	draw(110, 140);
 	return 0;
 }
