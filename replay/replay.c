@@ -1,6 +1,7 @@
 #include "replay/replay.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +20,10 @@
 #include "replay/programs/program.h"
 #include "scene/release.h"
 
-#define FEW_FRAMES 8 /* a way so short is executed, without the index */
+#define FEW_FRAMES 8    /* a way so short is executed, without the index */
+#define FIRST_BACK 16   /* frames that are built before one that needs their pixels, and how much longer the way is where they do not do */
+#define LONGER_BACK 8
+#define ALL_BACK UINT64_MAX
 
 struct replay {
 	struct player player;
@@ -31,6 +35,7 @@ struct replay {
 	int lacks_counts; /* 1: some were left out, as memory was short */
 	struct replay_context *contexts;
 	struct index *index; /* once it was needed */
+	uint64_t back;       /* so many frames before a wanted one are built where player.build_all is set */
 };
 
 int replay_open(struct replay **out, const char *path)
@@ -79,11 +84,6 @@ void replay_keep_targets(struct replay *rp)
 	player_keep_targets(&rp->player);
 }
 
-int replay_next_frame(struct replay *rp, int want, struct scene **scene)
-{
-	return player_next_frame(&rp->player, want, scene);
-}
-
 static int have_index(struct replay *rp, enum index_mode mode)
 {
 	return rp->index ? 0 : index_open(&rp->index, rp->player.path, rp->hash, mode, NULL);
@@ -111,27 +111,83 @@ static int begin_at(struct replay *rp, uint64_t checkpoint)
 	return checkpoint ? restore(rp, checkpoint) : player_start_again(&rp->player);
 }
 
-/* Go to the last checkpoint before a frame, unless that leads back. */
-static int jump(struct replay *rp, uint64_t frame)
+/* Go to the last checkpoint before a frame. may_stay: not where that leads back */
+static int jump(struct replay *rp, uint64_t frame, int may_stay)
 {
-	uint64_t checkpoint;
-	int rc, backwards = frame < rp->player.exec->frame;
+	int rc = frame ? have_index(rp, INDEX_KEEP) : 0;
+	uint64_t checkpoint = rc || !frame ? 0 : index_checkpoint(rp->index, frame);
 
-	if (rp->player.build_all) /* no frame may be left out */
-		return backwards ? player_start_again(&rp->player) : 0;
-	rc = have_index(rp, INDEX_KEEP);
-	if (rc)
+	if (rc || (may_stay && checkpoint <= rp->player.exec->frame))
 		return rc;
-	checkpoint = index_checkpoint(rp->index, frame);
-	if (!backwards && checkpoint <= rp->player.exec->frame)
-		return 0;
 	rc = begin_at(rp, checkpoint);
-	if (rc != ERR_INPUT)
+	if (rc != ERR_INPUT || !frame)
 		return rc;
 	/* The index is damaged in a part that opening it does not read. */
 	index_close(&rp->index);
 	rc = have_index(rp, INDEX_FORCE);
 	return rc ? rc : begin_at(rp, index_checkpoint(rp->index, frame));
+}
+
+/* Where to begin for a frame: at it, or where what it shows may be from. */
+static uint64_t beginning_of(const struct replay *rp, uint64_t frame)
+{
+	return !rp->player.build_all ? frame : frame > rp->back ? frame - rp->back : 0;
+}
+
+/* Why a frame takes so long, and what it waits for. */
+static void tell_back(const struct player *p, uint64_t frame, const struct gls_feedback *found)
+{
+	err_warn(p->path, "frame %" PRIu64 " needs the pixels of frames before it (%s, found at call %" PRIu64 ", %s); playing them from frame %" PRIu64,
+	         frame, found->rewind_why, found->rewind_call, gls_commands[found->rewind_command].name, p->exec->frame);
+}
+
+/* Build all up to a frame, from where the player is now. As replay_next_frame */
+static int play_again(struct player *p, uint64_t frame, int want, const struct gls_feedback *found, struct scene **scene)
+{
+	const uint64_t from = p->exec->frame;
+	int rc = 1;
+
+	tell_back(p, frame, found);
+	p->told_s = progress_clock_s();
+	while (rc == 1 && !p->exec->feedback.rewind && p->exec->frame <= frame) {
+		rc = player_try_frame(p, want && p->exec->frame == frame, scene);
+		player_tell(p, from, frame);
+	}
+	return rc;
+}
+
+/*
+ * A frame needs pixels of skipped ones: build those before it, ever more of them until what it shows is known. From the trace's beginning
+ * a second time where only the first one finds out that the program looks at front buffers.
+ */
+static int go_back(struct replay *rp, uint64_t frame, int want, struct scene **scene)
+{
+	struct player *p = &rp->player;
+	struct gls_feedback found;
+	int rc = 1;
+
+	for (int whole = 0; rc == 1 && p->exec->feedback.rewind && whole < 2; whole += rp->back == ALL_BACK) {
+		rp->back = !p->build_all ? FIRST_BACK : rp->back > frame / LONGER_BACK ? ALL_BACK : rp->back * LONGER_BACK;
+		if (rp->back >= frame)
+			rp->back = ALL_BACK;
+		found = p->exec->feedback;
+		p->why = found.rewind_why;
+		p->build_all = 1;
+		rc = jump(rp, beginning_of(rp, frame), 0);
+		if (!rc)
+			rc = play_again(p, frame, want, &found, scene);
+	}
+	return rc;
+}
+
+int replay_next_frame(struct replay *rp, int want, struct scene **scene)
+{
+	const uint64_t frame = rp->player.exec->frame;
+	int rc;
+
+	*scene = NULL;
+	rc = player_try_frame(&rp->player, want, scene);
+	return rc == 1 && rp->player.exec->feedback.rewind ? go_back(rp, frame, want, scene) : rc;
 }
 
 int replay_seek(struct replay *rp, uint64_t frame)
@@ -141,7 +197,7 @@ int replay_seek(struct replay *rp, uint64_t frame)
 	int rc = 0;
 
 	if (frame < rp->player.exec->frame || frame > rp->player.exec->frame + FEW_FRAMES)
-		rc = jump(rp, frame);
+		rc = jump(rp, beginning_of(rp, frame), frame >= rp->player.exec->frame);
 	rc = rc ? rc : 1;
 	from = rp->player.exec->frame;
 	rp->player.told_s = progress_clock_s();

@@ -58,7 +58,7 @@ int replay_one_frame(const char *path, uint64_t frame, struct scene **scene);
 /**
  * Name who renders what the recorded program needs back as pixels (screen copies, framebuffer objects, frames that are not cleared).
  * replay_next_frame calls it, in its own thread. Without a supplier such operations are counted (replay_unsupported). With one, a
- * wanted frame that needs pixels of skipped frames makes the replay start again from the beginning and build every frame: slow,
+ * wanted frame that needs pixels of skipped frames makes the replay go back, as far as it takes, and build every frame from there: slow,
  * but right.
  */
 void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user);

@@ -176,7 +176,7 @@ static int scan(struct index *index, struct player *p)
 	struct scene *none;
 	int rc;
 
-	while ((rc = player_next_frame(p, 0, &none)) == 1) {
+	while ((rc = player_try_frame(p, 0, &none)) == 1) {
 		rc = add_frame(index, p);
 		if (!rc)
 			rc = note_lacks(index, p->exec, &programs);

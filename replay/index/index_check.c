@@ -36,7 +36,7 @@ static int run_to(struct player *p, uint64_t frame)
 	int rc = 1;
 
 	while (rc == 1 && p->exec->frame < frame)
-		rc = player_next_frame(p, 0, &none);
+		rc = player_try_frame(p, 0, &none);
 	return rc == 1 ? 0 : rc ? rc : ERR_INPUT;
 }
 

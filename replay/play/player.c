@@ -103,36 +103,6 @@ int player_step(struct player *p, const struct call **call)
 	return x->failed ? x->failed : 1;
 }
 
-/* Why a frame takes so long, and what it waits for. */
-static void tell_rewind(const struct player *p, uint64_t frame)
-{
-	const struct gls_feedback *f = &p->exec->feedback;
-
-	err_warn(p->path, "frame %" PRIu64 " needs the pixels of frames before it (%s, found at call %" PRIu64 ", %s); playing them from frame 0",
-	         frame, f->rewind_why, f->rewind_call, gls_commands[f->rewind_command].name);
-}
-
-/* Start again, and build every frame. */
-static int rewind_and_build(struct player *p)
-{
-	int rc, fronts = p->exec->feedback.fronts;
-
-	p->why = p->exec->feedback.rewind_why;
-	gls_exec_destroy(&p->exec);
-	trace_reader_close(&p->reader);
-	rc = trace_reader_open(&p->reader, p->path, gls_command_find);
-	if (!rc)
-		rc = gls_exec_create(&p->exec, p->path);
-	if (rc)
-		return rc;
-	p->exec->feedback.supply = p->supply;
-	p->exec->feedback.supply_user = p->supply_user;
-	p->exec->feedback.keeps_targets = p->keeps_targets;
-	p->exec->feedback.fronts = fronts;
-	p->build_all = 1;
-	return 1;
-}
-
 void player_tell(struct player *p, uint64_t from, uint64_t to)
 {
 	const uint64_t played = p->exec->frame - from;
@@ -143,27 +113,6 @@ void player_tell(struct player *p, uint64_t from, uint64_t to)
 		p->told_s = progress_clock_s();
 		err_warn(p->path, "played %" PRIu64 " of the %" PRIu64 " frames before frame %" PRIu64, played, to - from, to);
 	}
-}
-
-int player_next_frame(struct player *p, int want, struct scene **scene)
-{
-	uint64_t frame = p->exec->frame;
-	int rc;
-
-	*scene = NULL;
-	rc = player_try_frame(p, want, scene);
-	/* A second time where only the first replay finds out that the program looks at front buffers. */
-	for (int i = 0; i < 2 && rc == 1 && p->exec->feedback.rewind; i++) {
-		if (i == 0)
-			tell_rewind(p, frame);
-		p->told_s = progress_clock_s();
-		rc = rewind_and_build(p);
-		while (rc == 1 && !p->exec->feedback.rewind && p->exec->frame <= frame) {
-			rc = player_try_frame(p, want && p->exec->frame == frame, scene);
-			player_tell(p, 0, frame);
-		}
-	}
-	return rc;
 }
 
 void player_use(struct player *p, struct gls_exec *x)

@@ -18,7 +18,7 @@ struct player {
 	scene_supply *supply; /* NULL: nobody makes pixels */
 	void *supply_user;
 	int keeps_targets; /* as in gls_feedback */
-	int build_all; /* 1: some frame needs pixels of earlier ones; all are built */
+	int build_all; /* 1: some frame needs pixels of earlier ones; all that are played are built */
 	const char *why; /* which ones it needs, a static string; NULL: none does */
 	replay_tell *tell;
 	void *tell_user;
@@ -35,10 +35,7 @@ void player_set_supplier(struct player *p, scene_supply *supply, void *user);
 /** replay_keep_targets. */
 void player_keep_targets(struct player *p);
 
-/** As replay_next_frame. */
-int player_next_frame(struct player *p, int want, struct scene **scene);
-
-/** The same, but a frame that needs pixels of skipped frames is left: 1 is returned and exec->feedback.rewind is set. */
+/** As replay_next_frame, but a frame that needs pixels of skipped frames is left: 1 is returned and exec->feedback.rewind is set. */
 int player_try_frame(struct player *p, int want, struct scene **scene);
 
 /**
