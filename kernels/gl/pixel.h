@@ -290,6 +290,18 @@ static inline void pixel_colors(GLOBAL const struct scene_material *m, GLOBAL co
 		pixel->gl[3] = gl.w;
 }
 
+/* 1 where a fragment leaves nothing of the colours that were there: over black, grey and white it gives the same. */
+static inline int pixel_replaces(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s)
+{
+	const struct vec4 source = v4(s->gl[0], s->gl[1], s->gl[2], m->alpha_to_one ? 1.0f : s->gl[3]);
+	struct vec4 over[3];
+
+	for (int i = 0; i < 3; i++)
+		over[i] = pixel_source(m, source, v4(0.5f * (float)i, 0.5f * (float)i, 0.5f * (float)i, 0.5f * (float)i));
+	return over[0].x == over[1].x && over[1].x == over[2].x && over[0].y == over[1].y && over[1].y == over[2].y && over[0].z == over[1].z &&
+	       over[1].z == over[2].z;
+}
+
 /* What else a pixel keeps of a fragment that reaches its colours. `draw`: its draw number */
 static inline void pixel_mark(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s, GLOBAL const struct fragment *f,
                               uint32_t draw, GLOBAL struct frame_pixel *pixel)
@@ -297,10 +309,10 @@ static inline void pixel_mark(GLOBAL const struct scene_material *m, GLOBAL cons
 	pixel->id = draw;
 	if (m->blend && !m->logic_op)
 		pixel->layers++;
-	else if ((m->color_mask & 7u) == 7u && !m->logic_op) {
+	else if ((m->color_mask & 7u) == 7u && !m->logic_op)
 		pixel->layers = 0u;
+	if (pixel->unknown & PIXEL_UNKNOWN_COLOR && (m->color_mask & 7u) == 7u && pixel_replaces(m, s))
 		pixel->unknown &= ~PIXEL_UNKNOWN_COLOR;
-	}
 	/* A blended film without depth is no surface, unless there is nothing else. */
 	if (!m->blend || m->depth_write || pixel->surface.order == SCENE_NONE) {
 		pixel->surface = *f;

@@ -29,7 +29,7 @@ extern const char gls_needs_renderer[];
 /** What it says of draws by shaders or programs. */
 extern const char gls_programs[];
 
-/** The frame needs pixels of skipped frames: the replay starts again (gls_feedback). why: what shows them, a static string. */
+/** The frame needs pixels of skipped frames: the replay goes back (gls_feedback). why: what shows them, a static string. */
 void gls_rewind(struct gls_exec *x, const char *why);
 
 /** Scratch memory of n bytes, valid until the next call of this; NULL: out of memory (reported). */

@@ -68,7 +68,7 @@ struct gls_feedback {
 	int fronts;        /* 1: something reads front buffers */
 	int missing;       /* 1: some texture lacks pixels that were drawn in skipped frames */
 	int shows_through; /* 1: some frame showed what was there before it */
-	int rewind;        /* 1: a frame needs pixels of skipped frames: the replay must build all frames from the start */
+	int rewind;        /* 1: a frame needs pixels of skipped frames: the replay must build those before it */
 	const char *rewind_why; /* what it needs them for; a static string */
 	uint32_t rewind_command; /* the call that found out */
 	uint64_t rewind_call;    /* its number */

@@ -1,7 +1,7 @@
 /*
  * Frames that depend on nothing earlier, though no clear covers the window or a texture is copied in parts: two views with a clear each;
  * a corner that becomes a texture before the rest is cleared; a texture larger than what is copied to it; opaque squares over all
- * of the window. The last two frames do depend on earlier ones. Recorded by test_parts.py.
+ * of the window, and such that are blended. The last three frames do depend on earlier ones. Recorded by test_parts.py.
  */
 #include "tests/trace/window.h"
 
@@ -61,17 +61,26 @@ static void corner(int frame, int copied)
 	glDisable(GL_TEXTURE_2D);
 }
 
-static void tiles(int frame)
+/* With an alpha of 1, or of less, where they are blended */
+static void tiles(int frame, float alpha)
 {
 	glClear(GL_DEPTH_BUFFER_BIT);
 	glDisable(GL_DEPTH_TEST);
 	for (int i = 0; i < 16; i++) {
 		float x = (float)(i % 4) / 2 - 1, y = (float)(i / 4) / 2 - 1;
 
-		glColor3f((float)i / 16, 0.1f * (float)frame, 0.6f);
+		glColor4f((float)i / 16, 0.1f * (float)frame, 0.6f, alpha);
 		square(x, y, x + 0.5f, y + 0.5f, 0);
 	}
 	glEnable(GL_DEPTH_TEST);
+}
+
+static void blended_tiles(int frame, float alpha)
+{
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	tiles(frame, alpha);
+	glDisable(GL_BLEND);
 }
 
 int main(void)
@@ -84,17 +93,21 @@ int main(void)
 	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, 64, 64, 0, GL_RGB, GL_UNSIGNED_BYTE, grey);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-	for (int frame = 0; frame < 8; frame++) {
+	for (int frame = 0; frame < 11; frame++) {
 		if (frame < 2)
 			two_views(frame, SIZE / 2);
 		else if (frame < 4)
 			corner(frame, 48);
 		else if (frame < 6)
-			tiles(frame);
-		else if (frame == 6)
+			tiles(frame, 1);
+		else if (frame < 8)
+			blended_tiles(frame, 1);
+		else if (frame == 8)
 			two_views(frame, SIZE / 2 - 1); /* a column is left from before */
-		else
+		else if (frame == 9)
 			corner(frame, 32); /* so is some of the texture */
+		else
+			blended_tiles(frame, 0.9f); /* so is a little of all */
 		end_frame();
 	}
 	return 0;

@@ -3,7 +3,7 @@
  *
  * A frame may show what the one before left. A surface therefore keeps what it held before its events: as a picture where one was
  * made, else as the scene that would make it. After skipped frames nobody knows it. A frame that turns out to need it sets
- * x->feedback.rewind; replay.c then starts again and builds every frame.
+ * x->feedback.rewind; replay.c then goes back and builds the frames before it.
  */
 #include "replay/gl/surface/surface.h"
 
