@@ -5,7 +5,8 @@
  * time: a point's light in frames before and after, followed by motion vectors, where surface and brightness are the same. Then over the
  * picture: five passes of an a-trous wavelet whose steps double (H. Dammertz et al., "Edge-Avoiding A-Trous Wavelet Transform for fast
  * Global Illumination Filtering", 2010), guided by normals, depth and the variance that is left (C. Schied et al., "Spatiotemporal
- * Variance-Guided Filtering", 2017), which neighbours tell (noise_about in filter.c). All in C on this processor: the same frames give the same bytes, whatever the number of threads.
+ * Variance-Guided Filtering", 2017), which neighbours tell
+ * (filter_guess.h). All in C on this processor: the same frames give the same bytes, whatever the number of threads.
  */
 #pragma once
 
