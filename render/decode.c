@@ -1,0 +1,116 @@
+#include "render/decode.h"
+
+#include <stdlib.h>
+#include <time.h>
+
+#include "base/err.h"
+#include "look/camera/camera.h"
+#include "render/work.h"
+
+#define ENOUGH_BYTES ((uint64_t)1200 << 20) /* a third frame is not begun where it would take more, whatever --jobs says */
+
+/* Whether memory is short for another frame. A limit lets the first go alone, to see what it takes. */
+static int is_crowded(const struct pipeline_state *state)
+{
+	const uint64_t limit = state->p->settings->memory_bytes, most = limit ? limit : ENOUGH_BYTES;
+
+	return state->in_flight >= (limit ? 1 : 2) &&
+	       (!state->frame_bytes || state->idle_bytes + state->frame_bytes * (state->in_flight + 1) > most);
+}
+
+static void wait_for_memory(struct pipeline_state *state)
+{
+	pthread_mutex_lock(&state->lock);
+	while (is_crowded(state) && !watch_is_over(state->p->watch)) {
+		struct timespec until;
+
+		clock_gettime(CLOCK_REALTIME, &until);
+		until.tv_sec++; /* notice a signal within a second */
+		pthread_cond_timedwait(&state->landed, &state->lock, &until);
+	}
+	state->in_flight++;
+	pthread_mutex_unlock(&state->lock);
+}
+
+static int is_there(const struct pipeline_state *state, uint64_t frame)
+{
+	char path[PIPELINE_PATH_BYTES];
+
+	return state->p->settings->skip_existing && !frame_pattern_expand(state->p->settings->output, frame, path, sizeof(path)) &&
+	       stamp_check(&state->p->stamp, settings_recorded_frame(state->p->settings, frame), path) == STAMP_SAME;
+}
+
+/* Replay up to a frame. @return 1; 0: the recording ends before it; ERR_* */
+static int go_to(struct pipeline_state *state, uint64_t frame)
+{
+	const int more = state->p->settings->motion ? earlier_decode(&state->earlier, state->p->replay, frame) : 1;
+
+	return more == 1 ? replay_seek(state->p->replay, frame) : more;
+}
+
+/* The scene of the next frame, or the one that all pictures of a turntable are made of. @return 1; 0: the recording has ended; ERR_* */
+static int take_scene(struct pipeline_state *state, struct shared_scene **out)
+{
+	struct shared_scene *shared = state->turned ? state->turned : calloc(1, sizeof(*shared));
+	int more = 1;
+
+	if (!shared)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	shared->users++;
+	*out = shared;
+	if (state->turned)
+		return 1;
+	more = replay_next_frame(state->p->replay, 1, &shared->scene);
+	if (more == 1 && state->p->settings->motion && earlier_note(&state->earlier, shared->scene))
+		more = ERR_SYSTEM;
+	if (more == 1 && camera_pictures(state->p->settings->camera)) {
+		shared->users++;
+		state->turned = shared;
+	}
+	return more;
+}
+
+/* Hand out a picture to be made. @return 1; 0: the recording ends before its frame; ERR_* */
+static int hand_out(struct pipeline_state *state, uint64_t number)
+{
+	double start = progress_clock_s(), seconds;
+	int more = state->turned ? 1 : go_to(state, settings_recorded_frame(state->p->settings, number));
+	struct shot *shot;
+
+	if (more != 1)
+		return more;
+	seconds = progress_clock_s() - start;
+	wait_for_memory(state);
+	start = progress_clock_s();
+	shot = calloc(1, sizeof(*shot));
+	if (shot)
+		shot->number = number;
+	more = shot ? take_scene(state, &shot->of) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (more == 1)
+		shot->replay_s = seconds + progress_clock_s() - start;
+	if (more == 1 && !state->begun++)
+		progress_start(state->p->progress, number, progress_clock_s() - state->p->start_s);
+	if (more == 1 && pipeline_call_worker(state))
+		more = ERR_SYSTEM;
+	if (more == 1 && queue_put(&state->shots, shot))
+		return 1;
+	pipeline_drop_shot(&shot);
+	pipeline_land(state);
+	return more;
+}
+
+int pipeline_decode(struct pipeline_state *state)
+{
+	const struct frame_list *frames = &state->p->settings->frames;
+	uint64_t frame = 0;
+	int more = 1;
+
+	for (; more == 1 && frame_list_next(frames, frame, &frame) && frame < state->p->end && !watch_is_over(state->p->watch);
+	     frame++) {
+		if (is_there(state, frame))
+			pipeline_note(state, frame, "skipped", 0);
+		else
+			more = hand_out(state, frame);
+	}
+	return more < 0 ? more : 0;
+}

@@ -1,0 +1,69 @@
+#include "render/pipeline_state.h"
+
+#include <stdlib.h>
+
+#include "scene/release.h"
+
+void pipeline_fail(struct pipeline_state *state, int err)
+{
+	pthread_mutex_lock(&state->lock);
+	if (!state->err)
+		state->err = err;
+	pthread_mutex_unlock(&state->lock);
+	watch_give_up(state->p->watch);
+	queue_close(&state->shots);
+}
+
+void pipeline_leave_scene(struct shared_scene **shared)
+{
+	struct shared_scene *s = *shared;
+
+	*shared = NULL;
+	if (!s || atomic_fetch_sub(&s->users, 1) != 1)
+		return;
+	scene_release(&s->scene);
+	free(s);
+}
+
+void pipeline_drop_shot(struct shot **shot)
+{
+	if (*shot)
+		pipeline_leave_scene(&(*shot)->of);
+	free(*shot);
+	*shot = NULL;
+}
+
+void pipeline_land(struct pipeline_state *state)
+{
+	uint64_t now = watch_memory();
+
+	pthread_mutex_lock(&state->lock);
+	if (now > state->idle_bytes && (now - state->idle_bytes) / state->in_flight > state->frame_bytes)
+		state->frame_bytes = (now - state->idle_bytes) / state->in_flight;
+	state->in_flight--;
+	pthread_cond_broadcast(&state->landed);
+	pthread_mutex_unlock(&state->lock);
+}
+
+void pipeline_note(struct pipeline_state *state, uint64_t frame, const char *outcome, double seconds)
+{
+	pthread_mutex_lock(&state->lock);
+	progress_frame(state->p->progress, frame, outcome, seconds);
+	pthread_mutex_unlock(&state->lock);
+}
+
+void pipeline_note_failed(struct pipeline_state *state, uint64_t frame, double seconds, const char *why)
+{
+	pthread_mutex_lock(&state->lock);
+	alike_note(&state->alike, frame, why);
+	progress_frame(state->p->progress, frame, "failed", seconds);
+	pthread_mutex_unlock(&state->lock);
+}
+
+void pipeline_drop_picture(struct picture **picture)
+{
+	if (*picture)
+		image_free(&(*picture)->img);
+	free(*picture);
+	*picture = NULL;
+}

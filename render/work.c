@@ -1,0 +1,205 @@
+#include "render/work.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "render/cryptomatte.h"
+#include "render/picture.h"
+#include "render/programs.h"
+#include "render/vectors.h"
+
+enum outcome { TRACED, LATE, EMPTY, STOPPED, BROKEN };
+
+static int start_tracer(const struct worker *w, struct tracer **out)
+{
+	int err = tracer_create(out, w->dev);
+
+	if (!err)
+		tracer_share(*out, w->state->cache);
+	return err;
+}
+
+/* Threads for packing a picture: its share of the cores among the frames under way. */
+static unsigned packer_count(struct pipeline_state *state)
+{
+	const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+	unsigned in_flight;
+
+	pthread_mutex_lock(&state->lock);
+	in_flight = state->in_flight;
+	pthread_mutex_unlock(&state->lock);
+	return cores > (long)in_flight ? (unsigned)cores / in_flight : 1;
+}
+
+/* When the program showed the frame, as relume film wants to know. */
+static int tell_time(const struct scene *scene, struct image *img)
+{
+	return scene->time_ns ? image_set_attribute(img, "relume:time", "%llu", (unsigned long long)scene->time_ns) : 0;
+}
+
+static enum outcome trace(struct worker *w, struct tracer *tracer, const struct shot *shot, struct picture *picture)
+{
+	const struct scene *scene = shot->of->scene;
+	const struct settings *settings = w->state->p->settings;
+	double start = progress_clock_s();
+	int err, late;
+
+	picture->frame = shot->number;
+	if (!scene->width || !scene->height) { /* no device can do that: the others go on */
+		char why[64];
+
+		snprintf(why, sizeof(why), "%u x %u pixels cannot be rendered", scene->width, scene->height);
+		pipeline_note_failed(w->state, shot->number, 0, why);
+		return EMPTY;
+	}
+	watch_begin(w->state->p->watch, w->seat, shot->number);
+	/* some need the whole planes */
+	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion || settings->caustics || settings->denoise ? 0 : packer_count(w->state);
+	err = picture_render(settings, tracer, scene, shot->number, &picture->img);
+	if (!err && !w->state->turned)
+		err = tell_time(scene, &picture->img);
+	if (!err)
+		err = programs_tell(scene, &picture->img);
+	if (!err && settings->motion)
+		err = vectors_add(scene, earlier_of(&w->state->earlier, scene->frame), &picture->img);
+	if (!err && settings->cryptomatte)
+		err = cryptomatte_add(scene, &picture->img);
+	late = watch_end(w->state->p->watch, w->seat);
+	picture->seconds = shot->replay_s + progress_clock_s() - start;
+	if (!err)
+		return TRACED;
+	if (watch_is_over(w->state->p->watch))
+		return STOPPED;
+	if (err == ERR_INPUT) { /* the camera's file is not for this frame; others may do */
+		pipeline_note(w->state, shot->number, "failed", picture->seconds);
+		return EMPTY;
+	}
+	return late ? LATE : BROKEN;
+}
+
+/* A frame ran out of time: the run goes on, and fails in the end. */
+static void give_up(struct pipeline_state *state, const struct picture *picture)
+{
+	char why[64];
+
+	snprintf(why, sizeof(why), "given up after %g s (--timeout-per-frame)", state->p->settings->frame_s);
+	pipeline_note_failed(state, picture->frame, picture->seconds, why);
+}
+
+static void *work(void *arg);
+
+int pipeline_call_worker(struct pipeline_state *state)
+{
+	int err = 0;
+
+	pthread_mutex_lock(&state->lock);
+	state->untraced++;
+	if (state->n_started < state->n_seats && state->at_work < state->untraced) {
+		struct worker *w = &state->seats[state->n_started];
+
+		if (pthread_create(&w->thread, NULL, work, w) == 0) {
+			state->n_started++;
+			state->at_work++;
+		} else if (state->at_work == 0) {
+			err = err_report(ERR_SYSTEM, NULL, "no thread can be started");
+		}
+	}
+	pthread_mutex_unlock(&state->lock);
+	return err;
+}
+
+/* The device failed: others take the picture, or the run ends. */
+static void retire(struct pipeline_state *state, struct shot *shot)
+{
+	unsigned left;
+
+	pthread_mutex_lock(&state->lock);
+	left = --state->workers;
+	state->at_work--;
+	pthread_mutex_unlock(&state->lock);
+	if (left) {
+		err_warn(NULL, "frame %llu goes to another device or queue; this one is not used again",
+		         (unsigned long long)shot->number);
+		queue_put_back(&state->shots, shot);
+		if (pipeline_call_worker(state))
+			pipeline_fail(state, ERR_SYSTEM);
+		return;
+	}
+	pipeline_fail(state, ERR_SYSTEM);
+	pipeline_drop_shot(&shot);
+	pipeline_land(state);
+}
+
+static void add_undrawn(struct pipeline_state *state, const struct tracer *tracer)
+{
+	const struct tracer_undrawn *u = tracer_undrawn(tracer);
+
+	pthread_mutex_lock(&state->lock);
+	state->p->undrawn.targets += u->targets;
+	state->p->undrawn.ended += u->ended;
+	pthread_mutex_unlock(&state->lock);
+}
+
+/* Make one picture. @return 1; 0: the device has failed, and this worker ends. *tracer may be NULL afterwards */
+static int work_on(struct worker *w, struct tracer **tracer, struct shot *shot)
+{
+	struct pipeline_state *state = w->state;
+	struct picture *picture = calloc(1, sizeof(*picture));
+	enum outcome outcome = STOPPED;
+
+	if (!picture)
+		pipeline_fail(state, err_report(ERR_SYSTEM, NULL, "out of memory"));
+	else if (!watch_is_over(state->p->watch))
+		outcome = trace(w, *tracer, shot, picture);
+	if (outcome == BROKEN) {
+		pipeline_drop_picture(&picture);
+		retire(state, shot);
+		return 0;
+	}
+	earlier_drop(&state->earlier, shot->number);
+	pipeline_drop_shot(&shot);
+	w->done += outcome == TRACED;
+	if (outcome == TRACED && queue_put(&state->pictures, picture))
+		return 1;
+	if (outcome == LATE) {
+		give_up(state, picture);
+		add_undrawn(state, *tracer);
+		tracer_destroy(tracer);
+		if (start_tracer(w, tracer))
+			pipeline_fail(state, ERR_SYSTEM);
+	}
+	pipeline_drop_picture(&picture);
+	pipeline_land(state);
+	return 1;
+}
+
+static void *work(void *arg)
+{
+	struct worker *w = arg;
+	struct pipeline_state *state = w->state;
+	struct tracer *tracer = NULL;
+	struct shot *shot;
+	unsigned left = 1;
+	int sound = 1;
+
+	if (start_tracer(w, &tracer))
+		pipeline_fail(state, ERR_SYSTEM);
+	while (tracer && sound && (shot = queue_take(&state->shots))) {
+		sound = work_on(w, &tracer, shot);
+		pthread_mutex_lock(&state->lock);
+		state->untraced--;
+		pthread_mutex_unlock(&state->lock);
+	}
+	if (tracer)
+		add_undrawn(state, tracer);
+	tracer_destroy(&tracer);
+	pthread_mutex_lock(&state->lock);
+	if (sound)
+		left = --state->workers;
+	pthread_mutex_unlock(&state->lock);
+	if (!left)
+		queue_close(&state->shots); /* nobody would take them */
+	return NULL;
+}
