@@ -136,7 +136,10 @@ static double polygon_part(const double (*corner)[3], int n)
 	return fabs(sum) / (2 * M_PI);
 }
 
-/* A sheet that a square beside it lights at an angle; one behind it lights its other side, and this one neither more nor less. */
+/*
+ * A sheet that a square beside it lights at an angle, wherever its mesh has its origin, be it a corner; one behind it lights its other side, and this one
+ * neither more nor less.
+ */
 START_TEST(test_squares_beside_and_behind)
 {
 	enum { SIDE = 8 };
@@ -144,7 +147,8 @@ START_TEST(test_squares_beside_and_behind)
 	static const double beside[4][3] = { { 4, -1.5, 0.5 }, { 4, 1.5, 0.5 }, { 4, 1.5, 3.5 }, { 4, -1.5, 3.5 } }; /* from the sheet's middle */
 	const float albedo = 0.8f, e = 0.9f, truth = albedo * e * (float)polygon_part(beside, 4);
 
-	for (int is_behind = 0; is_behind < 2; is_behind++) {
+	for (int i = 0; i < 4; i++) {
+		const int is_behind = i % 2, is_moved = i / 2;
 		struct tracer_options options = options_of(64);
 		double sum = 0;
 		uint32_t lamp;
@@ -156,13 +160,15 @@ START_TEST(test_squares_beside_and_behind)
 		made_add_square(&t, made_add_material(&t, albedo), (float[3]){ 0, 0, -10 }, x, y, 3, 1);
 		lamp = made_add_material(&t, 0);
 		glow(&t, lamp, e);
-		made_add_square(&t, lamp, (float[3]){ 4, 0, -8 }, y, z, 1.5f, 1);
+		made_add_square(&t, lamp, is_moved ? (float[3]){ 0, 1.5f, 1.5f } : (float[3]){ 4, 0, -8 }, y, z, 1.5f, 1);
+		for (int k = 0; k < 3 && is_moved; k++)
+			t.instances[1].modelview[12 + k] = (float[3]){ 4, -1.5f, -9.5f }[k];
 		if (is_behind)
 			made_add_square(&t, lamp, (float[3]){ 0.5f, 0, -12 }, x, y, 1, 1);
 		options.depth = 1;
 		truth_render_with(&t, &options, &img);
-		for (uint32_t i = 0; i < SIDE * SIDE; i++)
-			sum += (double)truth_at(&img, "R", i % SIDE, i / SIDE) / (SIDE * SIDE);
+		for (uint32_t at = 0; at < SIDE * SIDE; at++)
+			sum += (double)truth_at(&img, "R", at % SIDE, at / SIDE) / (SIDE * SIDE);
 		ck_assert_double_eq_tol(sum, (double)truth, 0.01 * (double)truth);
 		truth_check_closure(&img);
 		image_free(&img);
