@@ -212,6 +212,14 @@ typedef float element_float;
 	GROUP(layers, layers) AND()         /* layered, layered_shadow and layered_mirror alone, which do without rectangle */ \
 	OUT(half, halves) AND() OUT(float, floats)
 
+/* Plain frames without rays: the camera's and their planes. */
+#define ARGUMENTS_plain_whole(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_camera_packet(IN, OUT, VALUE, GROUP, AND) AND() /* fragments and counts: the twin alone leaves them; as of a band of request.height rows */ \
+	GROUP(tables, tables) AND() VALUE(uint, bits) AND() \
+	IN(frame_pixel, cleared) AND() VALUE(compose_request, request) AND() /* as in plain */ \
+	OUT(fragment, alone) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() /* [pixels of the band]: of what is shaded one by one; read as well */ \
+	OUT(half, halves) AND() OUT(float, floats)
+
 /* Rays to lights and into the surroundings: kernels/frame/shadow.h. */
 #define ARGUMENTS_shadow_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
@@ -421,7 +429,7 @@ typedef float element_float;
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) X(query_sphere) \
 	X(vertex) X(vertex_program) X(window) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
-	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
+	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(plain_whole) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
 	HOOK_LISTS(X)
 
 /* Kernels for hooks. Each has a kernel of its name; KERNEL_ITEMS is its body. */
@@ -537,6 +545,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(add_pass, add_pass)           /* one pixel a work item: a pass of several to their sum */ \
 	X(plain_program, plain)         /* before either of the next two, where programs are: colours by them */ \
 	X(plain, plain)                 /* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
+	X(plain_whole, plain_whole)     /* in place of camera_packet and plain where no rays are sent: a tile of CAMERA_TILE x CAMERA_TILE pixels a work item (CPUs) */ \
 	X(plain_dome, plain)            /* in place of plain where light comes from all around: a block's rays, to lights and into the surroundings */ \
 	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
 	X(plain_color, plain)           /* the first of plain's steps where each block has the place of its number, one pixel a work item (GPUs): its colour */ \

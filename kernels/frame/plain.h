@@ -1,5 +1,5 @@
 /*
- * plain, plain_shadow, plain_program: frames that are cleared and drawn once, each pixel showing its nearest fragment as it is: no blending, no mirrors,
+ * plain, plain_shadow, plain_whole, plain_program: frames that are cleared and drawn once, each pixel showing its nearest fragment as it is: no blending, no mirrors,
  * no pixels from before. Their pixels go from what the camera found to the planes of the picture in one step.
  *
  * plain makes all planes without shadows, and a ray to each light that a fragment wants. plain_shadow makes planes again where a light
@@ -8,6 +8,8 @@
  * Where light comes from all around (kernels/frame/dome.h), plain_dome sends all rays, and plain_shadow makes all planes.
  *
  * plain_program runs before each of them where programs have a say: it leaves their fragments' colours in a->shaded.
+ *
+ * plain_whole does without rays, and looks for the fragments, too: camera_packet and plain in one.
  *
  * GPUs do the same in steps: plain_color, plain_ask and plain_show in place of plain; plain_color_dimmed and plain_show_dimmed in place of
  * plain_shadow. They know neither light from all around nor programs.

@@ -97,6 +97,20 @@ static inline uint plain_load_row(const struct plain_arguments *a, uint n_slots,
 	return lanes;
 }
 
+/* The fragment of a lane. */
+static inline struct fragment plain_row_fragment(const struct plain_row *row, uint lane)
+{
+	struct fragment f;
+
+	f.order = 0;
+	f.instance = row->list.instance[lane];
+	f.primitive = row->list.primitive[lane];
+	f.b1 = row->list.b1[lane];
+	f.b2 = row->list.b2[lane];
+	f.depth = row->list.depth[lane];
+	return f;
+}
+
 /* A colour of n numbers that plain_program has left for some lanes. from: the first lane's, in its struct shaded */
 static inline void plain_take_color(__global const float *from, int n, uint lanes, struct pack_color *to)
 {

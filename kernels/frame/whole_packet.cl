@@ -5,6 +5,7 @@
 #include "kernels/frame/compose_packet.cl"
 #include "kernels/frame/layered.cl"
 #include "kernels/frame/plain.cl"
+#include "kernels/frame/plain_whole.cl"
 #include "kernels/frame/resolve.cl"
 #include "kernels/frame/resolve_packet.cl"
 #include "kernels/frame/shade_packet.cl"

@@ -350,3 +350,39 @@ void plain_dome_c(const struct plain_arguments *a, size_t first, size_t last)
 {
 	do_blocks(a, 0, first, last, look_from_pixel);
 }
+
+/* The rectangle that two have in common; it may be empty. */
+static struct camera_rectangle both_of(struct camera_rectangle a, struct camera_rectangle b)
+{
+	struct camera_rectangle r = { a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1, a.y1 < b.y1 ? a.y1 : b.y1 };
+
+	if (r.x1 < r.x0 || r.y1 < r.y0)
+		r = (struct camera_rectangle){ 0, 0, 0, 0 };
+	return r;
+}
+
+void plain_whole_c(const struct plain_whole_arguments *a, size_t first, size_t last)
+{
+	const int32_t low = (int32_t)(a->pass.first_pixel / a->pass.width), width = (int32_t)a->pass.width;
+	const struct camera_rectangle r = a->pass.rectangle, band = { 0, low, width, low + (int32_t)a->request.height };
+	const struct plain_arguments p = {
+		.tables = a->tables, .views = a->pass.views, .windows = a->pass.window, .sparse = a->pass.fragments,
+		.rectangle = { r.x0, r.y0 - low, r.x1, r.y1 - low }, .width = a->pass.width, .height = a->pass.height,
+		.first_pixel = a->pass.first_pixel, .bits = a->bits, .cleared = a->cleared, .request = a->request,
+		.n = a->pass.width * a->request.height, .fragments = a->alone, .pixels = a->pixels, .shaded = a->shaded,
+		.halves = a->halves, .floats = a->floats,
+	};
+	const struct shade_arguments s = plain_shading(&p, 0);
+
+	for (size_t item = first; item < last && item < camera_packet_items(band); item++) {
+		const int32_t x = camera_packet_x(band, (uint32_t)item), y = camera_packet_y(band, (uint32_t)item);
+		const struct camera_rectangle tile = both_of(band, (struct camera_rectangle){ x, y, x + CAMERA_TILE, y + CAMERA_TILE });
+		struct camera_packet_arguments camera = { a->pass, a->instances, a->top, a->instance_list, a->nodes, a->triangles };
+
+		camera.pass.rectangle = both_of(tile, r);
+		camera_packet_c(&camera, 0, camera_packet_items(camera.pass.rectangle));
+		for (int32_t row = tile.y0 - low; row < tile.y1 - low; row++)
+			for (int32_t column = tile.x0; column < tile.x1; column++)
+				do_pixel(&p, &s, (uint32_t)column, (uint32_t)row, (uint32_t)(row * width + column));
+	}
+}

@@ -219,24 +219,33 @@ static int draw_in_dome(struct job *job, const struct accel_space *space, struct
 	return err ? err : launch_plain_shadow(job->tr->dev, blocks, &a);
 }
 
-int plain_band(struct job *job)
+/* Without rays: what the camera finds goes into the planes at once. r: where the view's pixels are */
+static int draw_whole(struct job *job, struct camera_rectangle r, const struct compose_request *request)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+	const struct traverse_trees *t = &job->tr->trees;
+	const struct camera_rectangle band = { 0, (int32_t)job->row_first, (int32_t)job->width, (int32_t)(job->row_first + job->n_rows) };
+	int err = reserve(job, job->n_pixels, 0);
+
+	if (err)
+		return err;
+	return launch_plain_whole(job->tr->dev, camera_packet_items(band),
+	                          LAUNCH(plain_whole, .pass = segment_camera_pass(job, job->prepared.segments, r, 0), .instances = t->instances, .top = t->top2,
+	                                 .instance_list = t->instance_list, .nodes = t->nodes8, .triangles = t->faces8, .tables = frame_tables(job->tr),
+	                                 .bits = job->bits, .cleared = b->cleared, .request = *request, .alone = b->fragments,
+	                                 .pixels = b->pixels, .shaded = b->shaded, .halves = b->halves, .floats = b->floats));
+}
+
+/* In steps: the camera, then all that rays and programs have a say in. */
+static int draw_in_steps(struct job *job, const struct accel_space *space, struct camera_rectangle r, uint32_t n_slots,
+                         const struct compose_request *request)
 {
 	const struct segment *segment = job->prepared.segments;
-	const struct accel_space *space = job->options->mode == TRACER_GL ? NULL : secondary_space(job, segment->view, 0);
-	const struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
-	const uint32_t blocks = plain_blocks(job->width, job->n_rows), n_slots = space ? job->prepared.n_light_slots : 0;
-	struct compose_request request;
+	const uint32_t blocks = plain_blocks(job->width, job->n_rows);
 	uint32_t n, samples = 0; /* places of pixels; looks around of each */
 	struct plain_launch a;
-	/* The top band comes first; a device that lacks memory may have given all away since. */
-	int err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
+	int err = r.x0 < r.x1 ? segment_trace_camera(job, segment, r, 0) : 0;
 
-	if (!err)
-		err = segment_reserve(job, 1);
-	if (!err)
-		err = compose_reserve(job, &request);
-	if (!err && r.x0 < r.x1)
-		err = segment_trace_camera(job, segment, r, 0);
 	/* Kernels of one pixel a work item have places for all: nobody waits for the camera to end. */
 	n = blocks * PLAIN_WIDTH * PLAIN_ROWS;
 	if (!err)
@@ -247,7 +256,26 @@ int plain_band(struct job *job)
 		err = dome_prepare_plain(job, n, &samples);
 	if (err)
 		return err;
-	a = plain_launch_of(job, r, n, n_slots, &request);
-	err = samples ? draw_in_dome(job, space, in_dome(job, a, samples), blocks) : draw_lit(job, space, a, blocks);
+	a = plain_launch_of(job, r, n, n_slots, request);
+	return samples ? draw_in_dome(job, space, in_dome(job, a, samples), blocks) : draw_lit(job, space, a, blocks);
+}
+
+int plain_band(struct job *job)
+{
+	const struct segment *segment = job->prepared.segments;
+	const struct accel_space *space = job->options->mode == TRACER_GL ? NULL : secondary_space(job, segment->view, 0);
+	const struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
+	const uint32_t n_slots = space ? job->prepared.n_light_slots : 0;
+	const int is_whole = frame_in_packets(job) && !n_slots && !(space && dome_is_there(job)) && !job->prepared.has_fragment_programs;
+	struct compose_request request;
+	/* The top band comes first; a device that lacks memory may have given all away since. */
+	int err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
+
+	if (!err)
+		err = segment_reserve(job, 1);
+	if (!err)
+		err = compose_reserve(job, &request);
+	if (!err)
+		err = is_whole ? draw_whole(job, r, &request) : draw_in_steps(job, space, r, n_slots, &request);
 	return err ? err : compose_fetch(job, &request, job->image);
 }

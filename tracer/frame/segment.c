@@ -146,16 +146,20 @@ int segment_clear_all(struct job *job, uint32_t *n_done)
 	return late ? segment_clear_one(job) : run_clear(job, &clear);
 }
 
+struct camera_pass_launch segment_camera_pass(const struct job *job, const struct segment *segment, struct camera_rectangle r, uint32_t first)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+
+	return *LAUNCH(camera_pass, .view_index = segment->view, .views = b->views, .width = job->width, .height = job->height, .rectangle = r,
+	               .first_pixel = frame_first_pixel(job) - first, .mode = segment->mode, .window = b->windows, .clip = b->clips,
+	               .after = b->after, .fragments = b->sparse, .counts = b->counts);
+}
+
 int segment_trace_camera(struct job *job, const struct segment *segment, struct camera_rectangle r, uint32_t first)
 {
-	struct tracer *tr = job->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	const struct camera_pass_launch pass = segment_camera_pass(job, segment, r, first);
 
-	return traverse_camera(tr->dev, traverse_families[device_family(tr->dev)].camera, &tr->trees, r,
-	                       LAUNCH(camera_pass, .view_index = segment->view, .views = b->views, .width = job->width,
-	                              .height = job->height, .rectangle = r, .first_pixel = frame_first_pixel(job) - first,
-	                              .mode = segment->mode, .window = b->windows, .clip = b->clips,
-	                              .after = b->after, .fragments = b->sparse, .counts = b->counts));
+	return traverse_camera(job->tr->dev, traverse_families[device_family(job->tr->dev)].camera, &job->tr->trees, r, &pass);
 }
 
 /* Pixels across of the blocks that the list goes by: what one work item takes of their rays (RAYS_PER_ITEM) should stay together. */

@@ -16,7 +16,8 @@ struct camera_rectangle segment_in_buffers(const struct job *job, struct camera_
 /** Make room for what the camera finds in the band: `slots` fragments a pixel. */
 int segment_reserve(struct job *job, uint32_t slots);
 
-/** Trace a segment's camera rays, those of a rectangle of the band, into buffers.sparse and buffers.counts. first: of the band's pixels there */
+/** What the camera is asked for of a segment: a rectangle of the band, into buffers.sparse and buffers.counts. first: of the band's pixels there; and ask it */
+struct camera_pass_launch segment_camera_pass(const struct job *job, const struct segment *segment, struct camera_rectangle r, uint32_t first);
 int segment_trace_camera(struct job *job, const struct segment *segment, struct camera_rectangle r, uint32_t first);
 
 /** The clears of the whole picture that the first segment begins with, as one. @return how many they are */

@@ -1,0 +1,220 @@
+/*
+ * A row of sixteen pixels of a plain frame (kernels/frame/plain.h) at once, from fragments to planes, material by material (kernels/frame/pack_shade.h);
+ * fragments that packs do not know go one by one. OpenCL C only.
+ */
+#pragma once
+
+#include "kernels/frame/pack_blend.h"
+#include "kernels/frame/plain_row.h"
+
+/* A row of sixteen pixels on its way. */
+struct shown_row {
+	struct plain_row at;
+	struct pack_pixels pixels;
+};
+
+/* What is kept from one fragment to the next. */
+struct plain_kept {
+	struct pack_kept pack;
+	struct setup_kept one;
+	struct shadow_kept ray;
+};
+
+/* All pixels as they were cleared. */
+WIDE_VECTORS static inline void clear_row(__global const struct frame_pixel *cleared, struct pack_pixels *p)
+{
+	for (int i = 0; i < 3; i++) {
+		p->gl[i] = cleared->gl[i];
+		p->shadowed[i] = cleared->shadowed[i];
+		p->direct[i] = cleared->direct[i];
+		p->albedo[i] = p->normal[i] = p->position[i] = 0.0f;
+	}
+	p->gl[3] = cleared->gl[3];
+	p->depth = cleared->depth_exact;
+	p->drawn = p->id = p->layers = 0.0f;
+}
+
+/* --- Sixteen at once ------------------------------------------------------------------------------------------------- */
+
+/* Which fragments show: those before what was cleared. */
+WIDE_VECTORS static inline packi shows(const struct plain_arguments *a, __global const struct scene_material *m, packf depth)
+{
+	return pack_compare(m->depth_func, pack_depth_steps(depth, pixel_depth_bits(a->bits)), (packu)(a->cleared->depth));
+}
+
+/* Colours of lanes that show. */
+WIDE_VECTORS static inline void put_colors(struct pack_pixels *to, const struct pack *p, const struct plain_colors *c, packi show)
+{
+	for (int i = 0; i < 3; i++) {
+		pack_put(&to->gl[i], c->gl.c[i], show);
+		pack_put(&to->shadowed[i], c->shadowed.c[i], show);
+		pack_put(&to->direct[i], c->direct.c[i], show);
+	}
+	pack_put(&to->gl[3], c->gl.c[3], show);
+	pack_put(&to->drawn, (packf)(1), show);
+	pack_put(&to->depth, p->depth, show);
+}
+
+/* Where they are, and their draws. */
+static inline void put_surface(const struct plain_arguments *a, struct shown_row *row, const struct pack *p, const struct pack_surface *s,
+                               packi show)
+{
+	struct pack_pixels *to = &row->pixels;
+
+	if (pack_wants_surface(&a->request))
+		pack_put_surface(&a->tables, p, s, show, to);
+	for (uint lanes = a->request.float_plane[COMPOSE_ID] != SCENE_NONE ? pack_bits(show) : 0; lanes; lanes &= lanes - 1) {
+		const uint lane = popcount((lanes & -lanes) - 1);
+
+		LANE(to->id, float, lane) = (float)stage_draw(&a->tables, row->at.list.instance[lane], row->at.list.primitive[lane]);
+	}
+}
+
+/* Fragments of one material. s: with visibility where lights have been asked. @return those that are done */
+static inline uint shade_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lanes,
+                               struct pack_kept *kept)
+{
+	const struct tables *t = &a->tables;
+	__global const struct geometry *g = &t->geometries[row->at.list.instance[popcount((lanes & -lanes) - 1)]];
+	struct plain_colors colors;
+	struct pack_surface surface;
+	struct pack *p = &kept->last;
+	const int sends = a->n_slots && !s->n_slots;
+	packu lights;
+	packi show;
+
+	p->material = &t->materials[g->material];
+	p->view = &a->views[g->view];
+	lanes = pack_place(s, &row->at.list, lanes, 1, kept, p);
+	if (!lanes)
+		return 0;
+	show = pack_mask(lanes) & shows(a, p->material, p->depth);
+	plain_shade(a, s, &row->at, lanes, kept, &lights, &colors);
+	put_colors(&row->pixels, p, &colors, show);
+	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE)
+		for (int i = 0; i < 3; i++)
+			pack_put(&row->pixels.albedo[i], colors.albedo.c[i], show);
+	if (pack_wants_surface(&a->request) || sends)
+		pack_surface(t, p, &surface);
+	put_surface(a, row, p, &surface, show);
+	if (sends)
+		plain_send_rays(a, &row->at, p, &surface, lights, lanes);
+	return lanes;
+}
+
+/* --- One by one ------------------------------------------------------------------------------------------------------ */
+
+/* A fragment as it is shaded, to its lane. */
+static inline void put_one(const struct plain_arguments *a, struct shown_row *row, uint lane)
+{
+	__global const struct shaded *s = &a->shaded[row->at.base + lane];
+	const struct fragment f = a->fragments[row->at.base + lane];
+	const uint steps = pixel_depth_steps(s->depth, pixel_depth_bits(a->bits));
+	struct pack_pixels *to = &row->pixels;
+
+	if (!(s->flags & SHADED_THERE) ||
+	    !pixel_compare(a->tables.materials[a->tables.geometries[f.instance].material].depth_func, steps, a->cleared->depth))
+		return;
+	for (uint i = 0; i < 3; i++) {
+		LANE(to->gl[i], float, lane) = s->gl[i];
+		LANE(to->shadowed[i], float, lane) = s->shadowed[i];
+		LANE(to->direct[i], float, lane) = s->direct[i];
+		LANE(to->albedo[i], float, lane) = s->albedo[i];
+	}
+	pack_put_one(&a->tables, a->windows, &f, lane, to);
+	LANE(to->gl[3], float, lane) = s->gl[3];
+	LANE(to->drawn, float, lane) = 1;
+	LANE(to->depth, float, lane) = s->depth;
+	LANE(to->id, float, lane) = (float)stage_draw(&a->tables, f.instance, f.primitive);
+}
+
+static inline void shade_one(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lane,
+                             struct plain_kept *kept)
+{
+	const uint item = row->at.base + lane;
+	__global const struct geometry *g = &a->tables.geometries[row->at.list.instance[lane]];
+	const int is_done = stage_is_by_program(s, &a->tables.materials[g->material], g->flags);
+	const struct shadow_ray_arguments r = plain_rays(a);
+
+	if (!s->n_slots && !is_done) {
+		a->fragments[item] = plain_row_fragment(&row->at, lane);
+		a->pixels[item] = row->at.list.pixel[lane];
+	}
+	if (!is_done)
+		shade_item(s, item, 0, &kept->one);
+	for (uint slot = 0; slot < a->n_slots && !s->n_slots; slot++)
+		shadow_ray_item(&r, slot * a->n + item, 0, &kept->ray);
+	put_one(a, row, lane);
+}
+
+/* --- Rows ------------------------------------------------------------------------------------------------------------ */
+
+static inline void shade_row(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lanes,
+                             struct plain_kept *kept)
+{
+	__global const struct scene_material *m;
+	uint material;
+
+	while (lanes) {
+		const uint bit = lanes & -lanes, same = pack_same_kind(&a->tables, &row->at.list, lanes, &material);
+		uint done = 0;
+
+		m = &a->tables.materials[material];
+		if (same & bit && plain_knows(s, m))
+			done = shade_lanes(a, s, row, same, &kept->pack);
+		if (!(done & bit)) {
+			shade_one(a, s, row, popcount(bit - 1), kept);
+			done |= bit;
+		}
+		lanes &= ~done;
+	}
+}
+
+/* As dome_apply, to what is drawn of a row. */
+WIDE_VECTORS static inline void light_row(const struct plain_arguments *a, struct pack_pixels *p, uint base)
+{
+	const packi drawn = p->drawn > 0.0f;
+	packf factor[3], lit[3], was, brightest, share;
+
+	for (uint c = 0; c < 3; c++) {
+		factor[c] = select((packf)(1), *(__global const pack_loose_floats *)(a->factors + c * a->n + base), drawn);
+		lit[c] = p->direct[c] * factor[c];
+	}
+	was = fmax(fmax(p->direct[0], p->direct[1]), p->direct[2]);
+	brightest = fmax(fmax(lit[0], lit[1]), lit[2]);
+	share = fmax(was, 1.0f) / brightest;
+	for (uint c = 0; c < 3; c++) {
+		const packf f = select(factor[c], factor[c] * share, brightest > 1.0f);
+
+		p->shadowed[c] *= fmin(f, 1.0f);
+		p->direct[c] += p->direct[c] * (f - 1.0f);
+	}
+}
+
+/* Where a row without fragments stands in the planes; SCENE_NONE: nowhere yet. */
+struct plain_empty {
+	uint at;
+};
+
+/*
+ * A row that plain_row has been loaded for. s: what packs and shade_item take, with visibility where lights have been asked
+ * lanes: a bit for each pixel that has a fragment
+ * is_lit: from all around
+ */
+static inline void plain_show_row(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lanes, int is_lit,
+                                  const struct pack_planes *to, struct plain_kept *kept, struct plain_empty *empty)
+{
+	if (!lanes && empty->at != SCENE_NONE) {
+		pack_compose_again(empty->at, to);
+		return;
+	}
+	clear_row(a->cleared, &row->pixels);
+	shade_row(a, s, row, lanes, kept);
+	if (is_lit && lanes)
+		light_row(a, &row->pixels, row->at.base);
+	for (int i = 0; i < 3; i++)
+		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
+	pack_compose(&row->pixels, to);
+	if (!lanes && to->n == PACK_SIZE)
+		empty->at = to->at;
+}
