@@ -10,6 +10,7 @@
 
 #include "base/err.h"
 #include "base/part.h"
+#include "tracer/image/exr_out.h"
 #include "tracer/image/exr_zip.h"
 #include "tracer/image/image.h"
 #include "tracer/image/pack.h"
@@ -138,30 +139,41 @@ static exr_result_t write_chunks(exr_context_t file, const struct pack *pack)
 	return rc;
 }
 
-/* Write a packed picture under a temporary name. */
-static int write_file(const struct image *img, const struct pack *pack, const char *temporary, const char *path)
+static exr_result_t write_part(exr_context_t file, const struct image *img, const struct pack *pack)
 {
-	exr_context_initializer_t setup = context_setup();
-	exr_context_t file = NULL;
-	exr_result_t rc, closed;
+	exr_result_t rc = define_part(file, img, pack);
 
-	errno = 0;
-	rc = exr_start_write(&file, temporary, EXR_WRITE_FILE_DIRECTLY, &setup);
-	if (rc != EXR_ERR_SUCCESS)
-		return err_report(ERR_SYSTEM, path, "cannot be written: %s", errno ? strerror(errno) : reason(rc));
-	rc = define_part(file, img, pack);
 	if (rc == EXR_ERR_SUCCESS)
 		rc = write_attributes(file, img);
 	if (rc == EXR_ERR_SUCCESS)
 		rc = exr_write_header(file);
-	if (rc == EXR_ERR_SUCCESS)
-		rc = write_chunks(file, pack);
-	if (rc != EXR_ERR_SUCCESS)
-		err_report(ERR_SYSTEM, path, "cannot be written: %s", reason(rc));
-	closed = exr_finish(&file);
-	if (rc == EXR_ERR_SUCCESS && closed != EXR_ERR_SUCCESS)
-		err_report(ERR_SYSTEM, path, "cannot be written: %s", reason(closed));
-	return rc == EXR_ERR_SUCCESS && closed == EXR_ERR_SUCCESS ? 0 : ERR_SYSTEM;
+	return rc == EXR_ERR_SUCCESS ? write_chunks(file, pack) : rc;
+}
+
+/* Write a packed picture under a temporary name. */
+static int write_file(const struct image *img, const struct pack *pack, const char *temporary, const char *path)
+{
+	exr_context_initializer_t setup = context_setup();
+	struct exr_out *out = malloc(sizeof(*out));
+	exr_context_t file = NULL;
+	exr_result_t rc = EXR_ERR_SUCCESS, closed;
+	int err = 0;
+
+	if (!out)
+		return err_report(ERR_SYSTEM, path, "out of memory");
+	if (exr_out_open(out, temporary, &setup)) {
+		err = err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(out->reason));
+	} else {
+		rc = exr_start_write(&file, temporary, EXR_WRITE_FILE_DIRECTLY, &setup);
+		if (rc == EXR_ERR_SUCCESS)
+			rc = write_part(file, img, pack);
+		closed = file ? exr_finish(&file) : EXR_ERR_SUCCESS;
+		rc = rc == EXR_ERR_SUCCESS ? closed : rc;
+		if (exr_out_close(out) || rc != EXR_ERR_SUCCESS)
+			err = err_report(ERR_SYSTEM, path, "cannot be written: %s", out->reason ? strerror(out->reason) : reason(rc));
+	}
+	free(out);
+	return err;
 }
 
 int image_write_exr(const struct image *img, const char *path)
