@@ -204,7 +204,7 @@ struct plain_empty {
 static inline void plain_show_row(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lanes, int is_lit,
                                   const struct pack_planes *to, struct plain_kept *kept, struct plain_empty *empty)
 {
-	if (!lanes && empty->at != SCENE_NONE) {
+	if (!lanes && empty->at != SCENE_NONE && to->n == PACK_SIZE) {
 		pack_compose_again(empty->at, to);
 		return;
 	}

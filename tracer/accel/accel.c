@@ -176,15 +176,18 @@ static void move_down(struct accel *accel, struct placed_blas *placed, size_t en
 	}
 }
 
-/* Are BLASes that were not used for a while more than their share? */
-static int much_is_unused(const struct accel *accel)
+/* Are BLASes that were not used for a while more than their share? n_baked: receives how many were baked for the last frame */
+static int much_is_unused(const struct accel *accel, size_t *n_baked)
 {
 	const struct accel_cache *cache = accel->cache;
 	size_t unused = 0;
 
-	for (size_t i = 0; i < cache->n; i++)
+	*n_baked = 0;
+	for (size_t i = 0; i < cache->n; i++) {
 		if (cache->entries[i].last_use + KEEP_FRAMES < cache->frame)
 			unused += cache->entries[i].blas.n[BLAS_TRIANGLES];
+		*n_baked += cache->entries[i].baked != 0;
+	}
 	return (double)unused > UNUSED_SHARE * (double)accel->n_triangles;
 }
 
@@ -192,8 +195,11 @@ static int much_is_unused(const struct accel *accel)
 static int drop_unused(struct accel *accel)
 {
 	struct accel_cache *cache = accel->cache;
-	const int drop = much_is_unused(accel);
-	size_t n = 0, ends[N_BLAS_PARTS] = { 0 };
+	size_t n = 0, n_baked, ends[N_BLAS_PARTS] = { 0 };
+	const int drop = much_is_unused(accel, &n_baked);
+
+	if (!drop && !n_baked)
+		return 0;
 
 	for (size_t i = 0; i < cache->n; i++) {
 		struct placed_blas b = cache->entries[i];

@@ -219,6 +219,13 @@ static int draw_in_dome(struct job *job, const struct accel_space *space, struct
 	return err ? err : launch_plain_shadow(job->tr->dev, blocks, &a);
 }
 
+/* Whether one kernel does all of a plain frame: there are no rays but the camera's, nor programs of fragments. */
+static int is_whole(const struct job *job)
+{
+	return frame_in_packets(job) && !job->prepared.has_fragment_programs &&
+	       (job->options->mode == TRACER_GL || !(job->prepared.n_light_slots || dome_is_there(job)));
+}
+
 /* Without rays: what the camera finds goes into the planes at once. r: where the view's pixels are */
 static int draw_whole(struct job *job, struct camera_rectangle r, const struct compose_request *request)
 {
@@ -266,7 +273,6 @@ int plain_band(struct job *job)
 	const struct accel_space *space = job->options->mode == TRACER_GL ? NULL : secondary_space(job, segment->view, 0);
 	const struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
 	const uint32_t n_slots = space ? job->prepared.n_light_slots : 0;
-	const int is_whole = frame_in_packets(job) && !n_slots && !(space && dome_is_there(job)) && !job->prepared.has_fragment_programs;
 	struct compose_request request;
 	/* The top band comes first; a device that lacks memory may have given all away since. */
 	int err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
@@ -276,6 +282,6 @@ int plain_band(struct job *job)
 	if (!err)
 		err = compose_reserve(job, &request);
 	if (!err)
-		err = is_whole ? draw_whole(job, r, &request) : draw_in_steps(job, space, r, n_slots, &request);
+		err = is_whole(job) ? draw_whole(job, r, &request) : draw_in_steps(job, space, r, n_slots, &request);
 	return err ? err : compose_fetch(job, &request, job->image);
 }
