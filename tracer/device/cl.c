@@ -3,16 +3,14 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
+#include <string.h>
 
 #include "base/err.h"
 #include "tracer/device/cl_error.h"
 #include "tracer/device/cl_launch.h"
+#include "tracer/device/cl_list.h"
 #include "tracer/device/cl_program.h"
 #include "kernels/embed.h"
-
-#define MAX_PLATFORMS 16
-#define MAX_DEVICES 64
 
 /*
  * Work items in a group. A driver runs a group's items in a loop: small groups cost a call each, large ones leave cores
@@ -20,6 +18,10 @@
  */
 #define GROUP_CPU 8
 #define GROUP_GPU 64
+
+/* Small writes that a CPU is not waited for: each wait puts a thread to sleep and wakes another. */
+#define STAGE_BYTES ((size_t)1 << 20)
+#define STAGE_MOST ((size_t)1 << 16) /* of one write */
 
 /* What all that were shared from one device have in common. */
 struct cl_common {
@@ -41,6 +43,8 @@ struct cl_device {
 	struct cl_pace paces[N_KERNELS]; /* where it is no CPU */
 	int cpu;
 	enum device_family family;
+	char *staged;    /* [STAGE_BYTES] of a CPU: small writes on their way; NULL: none yet */
+	size_t n_staged; /* bytes that may not have been written yet */
 	char lack[160]; /* what the last ERR_MEMORY was about */
 };
 
@@ -48,119 +52,6 @@ struct cl_buffer {
 	cl_mem mem;
 	size_t bytes;
 };
-
-/*
- * PoCL learns cores and memory from hwloc, and hwloc from /sys; in a chroot or container without it PoCL 3.1 ends the
- * process ("Not enough memory to run on this device"). There, hwloc is told what sysconf knows.
- */
-static void describe_machine(void)
-{
-	long cores = sysconf(_SC_NPROCESSORS_ONLN), pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
-	char text[96];
-
-	if (access("/sys/devices/system/cpu", F_OK) == 0 || cores < 1 || pages < 1 || page_bytes < 1)
-		return;
-	snprintf(text, sizeof(text), "numa:1(memory=%lld) core:%ld pu:1", (long long)pages * page_bytes, cores);
-	setenv("HWLOC_SYNTHETIC", text, 0);
-}
-
-/* Every device of every platform, in the drivers' order. */
-static int find_devices(cl_device_id ids[MAX_DEVICES], size_t *n)
-{
-	cl_platform_id platforms[MAX_PLATFORMS];
-	cl_uint n_platforms = 0, n_found;
-	cl_int code, said = CL_SUCCESS; /* the last refusal of a platform */
-
-	describe_machine();
-	code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &n_platforms);
-
-	*n = 0;
-	if (code != CL_SUCCESS)
-		n_platforms = 0;
-	if (n_platforms > MAX_PLATFORMS)
-		n_platforms = MAX_PLATFORMS;
-	for (cl_uint i = 0; i < n_platforms; i++) {
-		n_found = 0;
-		code = clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR,
-		                      (cl_uint)(MAX_DEVICES - *n), ids + *n, &n_found);
-		if (code == CL_SUCCESS)
-			*n = *n + n_found < MAX_DEVICES ? *n + n_found : MAX_DEVICES;
-		else
-			said = code;
-	}
-	if (*n == 0 && n_platforms)
-		return err_report(ERR_SYSTEM, "OpenCL",
-		                  "%u drivers are installed, and none has a device here (%s); repair them, or use --device reference (slow)",
-		                  n_platforms, cl_error_name(said));
-	if (*n == 0)
-		return err_report(ERR_SYSTEM, "OpenCL",
-		                  "there is no driver here (%s); install the Debian package pocl-opencl-icd (CPU) or your "
-		                  "GPU's OpenCL driver, or use --device reference (slow)", cl_error_name(code));
-	return 0;
-}
-
-static uint64_t device_bytes(cl_device_id id, cl_device_info what)
-{
-	cl_ulong bytes = 0;
-
-	clGetDeviceInfo(id, what, sizeof(bytes), &bytes, NULL);
-	return bytes;
-}
-
-static enum device_type type_of(cl_device_id id)
-{
-	cl_device_type type = 0;
-
-	clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof(type), &type, NULL);
-	return type & CL_DEVICE_TYPE_CPU ? DEVICE_CPU : type & CL_DEVICE_TYPE_GPU ? DEVICE_GPU : DEVICE_ACCELERATOR;
-}
-
-/* Vectors of a CPU; of a GPU what runs in step, which two vendors tell (cl_nv_device_attribute_query, cl_amd_device_attribute_query). */
-static unsigned width_of(cl_device_id id)
-{
-	const cl_device_info of_gpu[] = { 0x4003 /* WARP_SIZE_NV */, 0x4043 /* WAVEFRONT_WIDTH_AMD */ };
-	cl_uint width = 0;
-
-	for (size_t i = 0; type_of(id) != DEVICE_CPU && i < sizeof(of_gpu) / sizeof(of_gpu[0]); i++)
-		if (clGetDeviceInfo(id, of_gpu[i], sizeof(width), &width, NULL) == CL_SUCCESS && width)
-			return width;
-	width = 0;
-	if (type_of(id) == DEVICE_CPU)
-		clGetDeviceInfo(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof(width), &width, NULL);
-	return width;
-}
-
-int cl_list(struct device_description **out, size_t *n)
-{
-	cl_device_id ids[MAX_DEVICES];
-	struct device_description *list;
-	int err = find_devices(ids, n);
-
-	if (err)
-		return err;
-	list = calloc(*n, sizeof(*list));
-	if (!list)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	for (size_t i = 0; i < *n; i++) {
-		cl_platform_id platform = NULL;
-		cl_uint units = 0;
-
-		clGetDeviceInfo(ids[i], CL_DEVICE_NAME, sizeof(list[i].name) - 1, list[i].name, NULL);
-		clGetDeviceInfo(ids[i], CL_DRIVER_VERSION, sizeof(list[i].driver) - 1, list[i].driver, NULL);
-		clGetDeviceInfo(ids[i], CL_DEVICE_VERSION, sizeof(list[i].version) - 1, list[i].version, NULL);
-		clGetDeviceInfo(ids[i], CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(units), &units, NULL);
-		clGetDeviceInfo(ids[i], CL_DEVICE_PLATFORM, sizeof(platform), &platform, NULL);
-		if (platform)
-			clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof(list[i].platform) - 1, list[i].platform, NULL);
-		list[i].type = type_of(ids[i]);
-		list[i].units = units;
-		list[i].width = width_of(ids[i]);
-		list[i].memory_bytes = device_bytes(ids[i], CL_DEVICE_GLOBAL_MEM_SIZE);
-		list[i].buffer_bytes = device_bytes(ids[i], CL_DEVICE_MAX_MEM_ALLOC_SIZE);
-	}
-	*out = list;
-	return 0;
-}
 
 /* A sub-device of so many units, so that a run uses no more cores than it was given. */
 static int limit_threads(struct cl_common *dev, int cpu, unsigned threads)
@@ -229,12 +120,12 @@ static int open_queue(struct cl_device *dev)
 
 int cl_open(size_t number, unsigned threads, struct cl_device **out)
 {
-	cl_device_id ids[MAX_DEVICES];
+	cl_device_id ids[CL_LIST_MOST];
 	struct cl_device *dev = NULL;
 	struct cl_common *common;
 	cl_int code;
 	size_t n;
-	int err = find_devices(ids, &n);
+	int err = cl_list_find(ids, &n);
 
 	if (err)
 		return err;
@@ -249,9 +140,9 @@ int cl_open(size_t number, unsigned threads, struct cl_device **out)
 		goto fail;
 	}
 	common->root = common->id = ids[number];
-	dev->cpu = type_of(common->root) == DEVICE_CPU;
-	common->memory_bytes = device_bytes(common->root, CL_DEVICE_GLOBAL_MEM_SIZE);
-	common->buffer_bytes = device_bytes(common->root, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
+	dev->cpu = cl_list_type(common->root) == DEVICE_CPU;
+	common->memory_bytes = cl_list_bytes(common->root, CL_DEVICE_GLOBAL_MEM_SIZE);
+	common->buffer_bytes = cl_list_bytes(common->root, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
 	err = limit_threads(common, dev->cpu, threads);
 	if (err)
 		goto fail;
@@ -307,8 +198,11 @@ void cl_close(struct cl_device **dev)
 		if (d->kernels[i])
 			clReleaseKernel(d->kernels[i]);
 	}
+	if (d->queue && d->n_staged)
+		clFinish(d->queue);
 	if (d->queue)
 		clReleaseCommandQueue(d->queue);
+	free(d->staged);
 	release_common(d->common);
 	free(d);
 }
@@ -398,37 +292,65 @@ void cl_release(struct cl_device *dev, struct cl_buffer **buffer)
 	*buffer = NULL;
 }
 
+/* All that was queued is done. */
+static int note_done(struct cl_device *dev, cl_int code, const char *what)
+{
+	if (code != CL_SUCCESS)
+		return cl_report(&dev->common->said, code, what);
+	dev->n_staged = 0;
+	return 0;
+}
+
+/* A copy of what is to be written, which stays until all is done. NULL: it is too much, or no CPU writes it */
+static const void *stage(struct cl_device *dev, const void *data, size_t bytes)
+{
+	char *copy;
+
+	if (!dev->cpu || bytes > STAGE_MOST || bytes > STAGE_BYTES - dev->n_staged)
+		return NULL;
+	if (!dev->staged)
+		dev->staged = malloc(STAGE_BYTES);
+	if (!dev->staged)
+		return NULL;
+	copy = memcpy(dev->staged + dev->n_staged, data, bytes);
+	dev->n_staged += bytes;
+	return copy;
+}
+
 int cl_write(struct cl_device *dev, struct cl_buffer *buffer, size_t offset, const void *data, size_t bytes)
 {
+	const void *later;
 	cl_int code;
 
 	if (bytes == 0)
 		return 0;
-	code = clEnqueueWriteBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL);
+	later = stage(dev, data, bytes);
+	code = clEnqueueWriteBuffer(dev->queue, buffer->mem, later ? CL_FALSE : CL_TRUE, offset, bytes, later ? later : data, 0, NULL, NULL);
 	if (code == CL_MEM_OBJECT_ALLOCATION_FAILURE)
 		return lack_or_report(dev, code, "writing a buffer");
-	return code == CL_SUCCESS ? 0 : cl_report(&dev->common->said, code, "writing a buffer");
+	if (code == CL_SUCCESS && later)
+		return 0;
+	return note_done(dev, code, "writing a buffer");
 }
 
 int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset, void *data, size_t bytes)
 {
-	cl_int code;
-
 	if (bytes == 0)
 		return 0;
-	code = clEnqueueReadBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL);
-	return code == CL_SUCCESS ? 0 : cl_report(&dev->common->said, code, "reading a buffer");
+	return note_done(dev, clEnqueueReadBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL), "reading a buffer");
 }
 
-int cl_map(struct cl_device *dev, const struct cl_buffer *buffer, size_t bytes, const void **out)
+int cl_map(struct cl_device *dev, const struct cl_buffer *buffer, size_t bytes, int wait, const void **out)
 {
 	cl_int code;
 
 	*out = NULL;
 	if (bytes == 0)
 		return 0;
-	*out = clEnqueueMapBuffer(dev->queue, buffer->mem, CL_TRUE, CL_MAP_READ, 0, bytes, 0, NULL, NULL, &code);
-	return *out ? 0 : cl_report(&dev->common->said, code, "mapping a buffer");
+	*out = clEnqueueMapBuffer(dev->queue, buffer->mem, wait ? CL_TRUE : CL_FALSE, CL_MAP_READ, 0, bytes, 0, NULL, NULL, &code);
+	if (*out && !wait)
+		return 0;
+	return note_done(dev, code, "mapping a buffer");
 }
 
 int cl_unmap(struct cl_device *dev, const struct cl_buffer *buffer, const void *mapped)
@@ -440,9 +362,7 @@ int cl_unmap(struct cl_device *dev, const struct cl_buffer *buffer, const void *
 
 int cl_finish(struct cl_device *dev)
 {
-	cl_int code = clFinish(dev->queue);
-
-	return code == CL_SUCCESS ? 0 : cl_report(&dev->common->said, code, "clFinish");
+	return note_done(dev, clFinish(dev->queue), "clFinish");
 }
 
 static int build_program(struct cl_common *c, size_t file)

@@ -1,5 +1,5 @@
 /*
- * OpenCL 1.2 behind tracer/device/device.h: cl.c and cl_program.c make all clXxx calls of the project. For device.c alone.
+ * OpenCL 1.2 behind tracer/device/device.h: cl.c, cl_list.c and cl_program.c make all clXxx calls of the project. For device.c alone.
  */
 #pragma once
 
@@ -38,7 +38,7 @@ int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes);
 void cl_release(struct cl_device *dev, struct cl_buffer **buffer);
 int cl_write(struct cl_device *dev, struct cl_buffer *buffer, size_t offset, const void *data, size_t bytes);
 int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset, void *data, size_t bytes);
-int cl_map(struct cl_device *dev, const struct cl_buffer *buffer, size_t bytes, const void **out);
+int cl_map(struct cl_device *dev, const struct cl_buffer *buffer, size_t bytes, int wait, const void **out);
 int cl_unmap(struct cl_device *dev, const struct cl_buffer *buffer, const void *mapped);
 int cl_finish(struct cl_device *dev);
 

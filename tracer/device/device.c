@@ -402,7 +402,7 @@ int device_read(struct device *dev, const struct device_buffer *buffer, size_t o
 	return err;
 }
 
-int device_map(struct device *dev, const struct device_buffer *buffer, size_t bytes, const void **out)
+int device_map(struct device *dev, const struct device_buffer *buffer, size_t bytes, int wait, const void **out)
 {
 	struct device_spent begun = begin(dev);
 	int err = 0;
@@ -410,7 +410,7 @@ int device_map(struct device *dev, const struct device_buffer *buffer, size_t by
 	if (device_is_interrupted(dev))
 		return ERR_SYSTEM;
 	if (dev->cl)
-		err = cl_map(dev->cl, buffer->cl, bytes, out);
+		err = cl_map(dev->cl, buffer->cl, bytes, wait, out);
 	else
 		*out = buffer->memory;
 	if (dev->profile)

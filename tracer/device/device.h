@@ -151,7 +151,7 @@ int device_reserve(struct device *dev, struct device_buffer **buffer, size_t byt
 void device_release(struct device *dev, struct device_buffer **buffer);
 
 /**
- * Copy into or out of a buffer; both return when the bytes have been copied and all earlier kernels are done.
+ * Copy into or out of a buffer, after all earlier kernels. What is written may be changed at once; what is read is there.
  * @return 0, ERR_MEMORY (of device_write) or ERR_SYSTEM (reported)
  */
 int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes);
@@ -160,9 +160,10 @@ int device_read(struct device *dev, const struct device_buffer *buffer, size_t o
 /**
  * Look at the first bytes of a buffer, all earlier kernels done; on a CPU without a copy. No kernel may write to it until
  * device_unmap.
+ * @param wait  0: it may not be there before a later call that waits
  * @return 0 or ERR_SYSTEM (reported; nothing is mapped)
  */
-int device_map(struct device *dev, const struct device_buffer *buffer, size_t bytes, const void **out);
+int device_map(struct device *dev, const struct device_buffer *buffer, size_t bytes, int wait, const void **out);
 int device_unmap(struct device *dev, const struct device_buffer *buffer, const void *mapped);
 
 /** Reserve for so many bytes and write them to the buffer's start. */

@@ -173,10 +173,10 @@ int compose_fetch(struct job *job, const struct compose_request *request, struct
 	int err, unmapped;
 
 	request_of(job, &n_halves, &n_floats);
-	err = device_map(job->tr->dev, b->halves.buffer, job->n_pixels * n_halves * sizeof(uint16_t), &halves);
+	err = device_map(job->tr->dev, b->floats.buffer, job->n_pixels * n_floats * sizeof(float), 0, &floats); /* the next one waits for both */
 	if (err)
 		return err;
-	err = device_map(job->tr->dev, b->floats.buffer, job->n_pixels * n_floats * sizeof(float), &floats);
+	err = device_map(job->tr->dev, b->halves.buffer, job->n_pixels * n_halves * sizeof(uint16_t), 1, &halves);
 	if (!err) {
 		for (size_t i = 0; i < N_CHANNELS; i++) {
 			const struct channel *c = &channels[i];
@@ -186,10 +186,10 @@ int compose_fetch(struct job *job, const struct compose_request *request, struct
 				                        (const void *)((const uint16_t *)halves + request->half_plane[c->plane] * (size_t)job->n_pixels);
 		}
 		err = image_take_rows(img, planes, job->n_rows);
-		unmapped = device_unmap(job->tr->dev, b->floats.buffer, floats);
+		unmapped = device_unmap(job->tr->dev, b->halves.buffer, halves);
 		err = err ? err : unmapped;
 	}
-	unmapped = device_unmap(job->tr->dev, b->halves.buffer, halves);
+	unmapped = device_unmap(job->tr->dev, b->floats.buffer, floats);
 	return err ? err : unmapped;
 }
 

@@ -136,7 +136,7 @@ static int go_on(struct job *job, const struct looks *looks)
 	const uint32_t from = plain_look_first(looks->columns, looks->n - 1, job->n_pixels);
 	const struct fragment *sparse;
 	const void *mapped;
-	int err = device_map(tr->dev, tr->buffers.sparse.buffer, ((size_t)from + job->n_pixels) * CAMERA_COLUMN_MAX * sizeof(*sparse), &mapped);
+	int err = device_map(tr->dev, tr->buffers.sparse.buffer, ((size_t)from + job->n_pixels) * CAMERA_COLUMN_MAX * sizeof(*sparse), 1, &mapped);
 
 	if (err)
 		return err;
@@ -263,7 +263,7 @@ static int place_leaving(struct job *job, uint32_t n, uint32_t *n_list)
 	*n_list = 0;
 	if (!first)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for %u rows of pixels", rows);
-	err = device_map(tr->dev, tr->buffers.leaving.buffer, rows * sizeof(*first), &mapped);
+	err = device_map(tr->dev, tr->buffers.leaving.buffer, rows * sizeof(*first), 1, &mapped);
 	for (uint32_t i = 0; i < rows && !err; i++) {
 		first[i] = *n_list;
 		for (uint32_t left = ((const uint32_t *)mapped)[i]; left; left &= left - 1)

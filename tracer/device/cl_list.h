@@ -1,0 +1,17 @@
+/* Which OpenCL devices there are. For cl.c alone; cl_list() is in cl.h. */
+#pragma once
+
+#include <CL/cl.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "tracer/device/device.h"
+
+#define CL_LIST_MOST 64
+
+/** Every device of every platform, in the drivers' order. @return 0 or ERR_SYSTEM (reported: there is none) */
+int cl_list_find(cl_device_id ids[CL_LIST_MOST], size_t *n);
+
+/** A device's CL_DEVICE_GLOBAL_MEM_SIZE or the like; and its kind. */
+uint64_t cl_list_bytes(cl_device_id id, cl_device_info what);
+enum device_type cl_list_type(cl_device_id id);
