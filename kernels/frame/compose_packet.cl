@@ -93,6 +93,7 @@ static inline void compose_drawn_row(const struct compose_arguments *a, uint x, 
 	/* Lanes beyond the row repeat its last pixel. */
 	const packu place = y * a->request.width + min(x + as_uint16(PACK_LANES), a->request.width - 1);
 	struct pack_pixels pixels;
+	struct pack_encoded encoded;
 	struct pack_list list;
 	const uint lanes = load_pixels(drawn ? a->frame : a->cleared, drawn ? place : (packu)(0), &pixels, &list);
 
@@ -100,7 +101,8 @@ static inline void compose_drawn_row(const struct compose_arguments *a, uint x, 
 		add_sums(a->sums, a->first_pixel + place, (float)a->request.n_passes, &pixels);
 	if (pack_wants_surface(&a->request))
 		find_surfaces(a, &list, lanes, &pixels);
-	pack_compose(&pixels, to);
+	encoded.known = 0;
+	pack_compose(&pixels, to, &encoded);
 }
 
 KERNEL_OF(float16) void compose_packet(KERNEL_ARGUMENTS(compose))

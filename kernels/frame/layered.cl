@@ -8,6 +8,7 @@
 
 /* What is kept from one fragment to the next. */
 struct layered_kept {
+	struct pack_encoded encoded;
 	struct pack_kept pack;
 	struct setup_kept one;
 	struct shadow_kept ray;
@@ -314,7 +315,7 @@ static inline void draw_row(const struct plain_arguments *a, const struct shade_
 	for (int i = 0; i < 3 && !row->is_mirrored; i++)
 		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
 	if (a->layers.round & PLAIN_ENDS)
-		pack_compose(&row->pixels, to);
+		pack_compose(&row->pixels, to, &kept->encoded);
 	else
 		keep_pixels(a, x, y, row);
 }
@@ -329,6 +330,7 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 
 	load_block(a, item, &b);
 	pack_keep_nothing(&kept.pack);
+	kept.encoded.known = 0;
 	row.step = step;
 	row.at_once = 0;
 	row.is_mirrored = step == PLAIN_MIRROR || (a->layers.round & PLAIN_MIRRORED) != 0;

@@ -246,18 +246,37 @@ WIDE_VECTORS static inline void pack_compose_albedo(const struct pack_pixels *p,
 		pack_store_half(to, COMPOSE_ALBEDO + c, albedo[c]);
 }
 
-/* All planes. */
-WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, const struct pack_planes *to)
-{
-	packf nudged[3], first[3], exact[3];
+/* The colours that were encoded last, and what became of them: rows of one colour are many. */
+struct pack_encoded {
+	int known; /* 0: nothing yet */
+	packf gl[3], nudged[3], first[3], exact[3];
+};
 
+/* Encode a row's colours, if they are not those that were encoded last. */
+WIDE_VECTORS static inline void pack_encode_row(const struct pack_pixels *p, const struct compose_request *r, struct pack_encoded *last)
+{
+	const packi differ = (as_int16(p->gl[0]) ^ as_int16(last->gl[0])) | (as_int16(p->gl[1]) ^ as_int16(last->gl[1])) |
+	                     (as_int16(p->gl[2]) ^ as_int16(last->gl[2]));
+
+	if (last->known && !r->normals && !any_pack(differ != 0))
+		return;
+	last->known = 1;
 	for (int c = 0; c < 3; c++) {
-		nudged[c] = pack_nudged(p->gl[c]);
-		first[c] = to->request->normals ? select((packf)(0), p->normal[c] * 0.5f + 0.5f, p->drawn > 0.0f) : nudged[c];
-		exact[c] = first[c];
+		last->gl[c] = p->gl[c];
+		last->nudged[c] = pack_nudged(p->gl[c]);
+		last->first[c] = r->normals ? select((packf)(0), p->normal[c] * 0.5f + 0.5f, p->drawn > 0.0f) : last->nudged[c];
+		last->exact[c] = last->first[c];
 	}
-	if (!to->request->display)
-		pack_linear3(exact);
+	if (!r->display)
+		pack_linear3(last->exact);
+}
+
+/* All planes. last: of the row before, or not known */
+WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, const struct pack_planes *to, struct pack_encoded *last)
+{
+	const packf *nudged = last->nudged, *first = last->first, *exact = last->exact;
+
+	pack_encode_row(p, to->request, last);
 	for (int c = 0; c < 3; c++)
 		pack_compose_color(p, nudged[c], first[c], exact[c], c, to);
 	pack_compose_albedo(p, to);

@@ -10,6 +10,7 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 	struct shown_row row;
 
 	pack_keep_nothing(&kept.pack);
+	kept.encoded.known = 0;
 	for (uint k = 0; k < PLAIN_ROWS; k++) {
 		const uint lanes = plain_load_row(a, s->n_slots, item, k, &row.at);
 		struct pack_planes to;

@@ -18,6 +18,7 @@ struct plain_kept {
 	struct pack_kept pack;
 	struct setup_kept one;
 	struct shadow_kept ray;
+	struct pack_encoded encoded;
 };
 
 /* All pixels as they were cleared. */
@@ -214,7 +215,7 @@ static inline void plain_show_row(const struct plain_arguments *a, const struct 
 		light_row(a, &row->pixels, row->at.base);
 	for (int i = 0; i < 3; i++)
 		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
-	pack_compose(&row->pixels, to);
+	pack_compose(&row->pixels, to, &kept->encoded);
 	if (!lanes && to->n == PACK_SIZE)
 		empty->at = to->at;
 }

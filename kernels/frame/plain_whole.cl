@@ -92,6 +92,7 @@ KERNEL_OF(float16) void plain_whole(KERNEL_ARGUMENTS(plain_whole))
 	if (is_seen)
 		tile_draw(&camera, &t);
 	pack_keep_nothing(&kept.plain.pack);
+	kept.plain.encoded.known = 0;
 	kept.empty.at = SCENE_NONE;
 	for (int y = 0; y < TILE_BLOCKS; y++)
 		for (int x = 0; x < TILE_BLOCKS; x += ROW_BLOCKS)
