@@ -9,6 +9,7 @@
 /* X(NAME, word, mode) */
 #define CHECK_SCENES(X) \
 	X(OPAQUE, opaque, TRACER_WHITTED)   /* lights, textures, fog, lines, points, flat shading, shadows, lamps of rules */ \
+	X(GL, gl, TRACER_GL)               /* the same without rays but the camera's */ \
 	X(BLENDED, blended, TRACER_WHITTED) /* films in any order, holes by the alpha test */ \
 	X(STENCIL, stencil, TRACER_WHITTED) /* a window of stencil values, and a shadow volume */ \
 	X(MIRROR, mirror, TRACER_WHITTED)   /* a floor and a ball that mirror each other */ \

@@ -9,7 +9,7 @@ import pathlib
 from helpers import BUILD, RELUME, SCRATCH, check, corpus, finish, must, record, relume, run
 
 FAMILIES = ["packets", "binary", "compressed"]
-SCENES = ["opaque", "blended", "stencil", "mirror", "glass", "ao", "path", "linear"]
+SCENES = ["opaque", "gl", "blended", "stencil", "mirror", "glass", "ao", "path", "linear"]
 # Kernels are compiled once for all tests.
 ENV = dict(os.environ, POCL_KERNEL_CACHE="1")
 
