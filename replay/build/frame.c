@@ -31,8 +31,10 @@ static uint32_t mesh_slot(struct gls_exec *x, struct gls_frame *f, struct gls_me
 	mesh->used_frame = x->frame;
 	if (mesh->slot_frame == f->serial)
 		return mesh->slot;
-	if (MEMORY_GROW(s->meshes, f->room.meshes, s->n_meshes + 1))
+	if (MEMORY_GROW(s->meshes, f->room.meshes, s->n_meshes + 1)) {
+		gls_fail(x);
 		return SCENE_NONE;
+	}
 	atomic_fetch_add(&mesh->refs, 1);
 	s->meshes[s->n_meshes] = &mesh->mesh;
 	mesh->slot = s->n_meshes++;
@@ -144,20 +146,21 @@ static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 	free_frame(old);
 }
 
-/* Make a frame's last instance a rectangle. @return 0: out of memory */
-static int add_rectangle(struct gls_exec *x, struct gls_frame *f, const struct gls_event *e)
+/* Make a frame's last instance a rectangle. */
+static void add_rectangle(struct gls_exec *x, struct gls_frame *f, const struct gls_event *e)
 {
 	struct scene *s = f->out;
 	struct scene_rectangle *r;
 
-	if (MEMORY_GROW(s->rectangles, f->room.rectangles, s->n_rectangles + 1))
-		return 0;
+	if (MEMORY_GROW(s->rectangles, f->room.rectangles, s->n_rectangles + 1)) {
+		gls_fail(x);
+		return;
+	}
 	r = &s->rectangles[s->n_rectangles];
 	*r = *e->rectangle;
 	r->texture = gls_frame_texture(x, f, e->image);
 	s->instances[s->n_instances].rectangle = ++s->n_rectangles;
 	f->last = NULL;
-	return 1;
 }
 
 int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e)
@@ -177,7 +180,7 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 	    MEMORY_GROW(s->instances, f->room.instances, s->n_instances + 1))
 		goto fail;
 	if (f->last != st || st->dirty & GLS_DIRTY_VIEW)
-		f->view = gls_frame_view(target->surface, st, e);
+		f->view = gls_frame_view(x, target->surface, st, e);
 	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || e->attribs->lighting.color_material || st->a.programs.fragment || st->a.programs.vertex || st->a.programs.ati || st->program)
 		f->material = gls_frame_material(x, target, st, e);
 	f->last = st;
@@ -186,16 +189,16 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 	instance->mesh = mesh_slot(x, f, mesh);
 	instance->view = f->view;
 	instance->material = f->material;
-	if (instance->mesh == SCENE_NONE || instance->view == SCENE_NONE || instance->material == SCENE_NONE)
+	if (x->failed)
 		goto fail;
-	instance->current = gls_frame_current(f, &mesh->mesh, &s->materials[f->material], values);
-	if (instance->current == SCENE_NONE)
-		goto fail;
+	instance->current = gls_frame_current(x, f, &mesh->mesh, &s->materials[f->material], values);
 	instance->draw = first_draw;
 	instance->first_primitive = f->next_primitive;
 	memcpy(instance->modelview, e->in_window ? mat4_identity : st->modelview.matrices[st->modelview.depth], 64);
 	f->next_primitive += mesh->mesh.primitive_count;
-	if (e->rectangle && !add_rectangle(x, f, e))
+	if (e->rectangle)
+		add_rectangle(x, f, e);
+	if (x->failed)
 		goto fail;
 	s->n_instances++;
 	s->kd_tree |= st->kd_tree;

@@ -6,6 +6,7 @@
 
 #include "base/err.h"
 #include "base/memory.h"
+#include "replay/machine/errors.h"
 #include "scene/scene.h"
 
 /* Make room for as many items as wanted. @return 0 or ERR_SYSTEM (reported) */
@@ -16,12 +17,12 @@ static int make_room(void *array, uint32_t *room, uint32_t wanted, size_t size)
 	return wanted > *room ? ERR_SYSTEM : 0;
 }
 
-uint32_t gls_intern(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value, size_t size)
+uint32_t gls_intern(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value, size_t size)
 {
-	return gls_intern_array(t, array, n, room, value, 1, size);
+	return gls_intern_array(x, t, array, n, room, value, 1, size);
 }
 
-uint32_t gls_intern_array(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *values, uint32_t count,
+uint32_t gls_intern_array(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room, const void *values, uint32_t count,
                            size_t size)
 {
 	uint64_t hash = XXH3_64bits_withSeed(values, count * size, count - 1);
@@ -33,8 +34,10 @@ uint32_t gls_intern_array(struct table *t, void *array, uint32_t *n, uint32_t *r
 	for (; (found = (uintptr_t)table_find(t, hash)); hash++)
 		if (*n - (found - 1) >= count && memcmp(*p + (found - 1) * size, values, count * size) == 0)
 			return (uint32_t)(found - 1);
-	if (make_room(array, room, *n + count, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1)))
+	if (make_room(array, room, *n + count, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1))) {
+		gls_fail(x);
 		return SCENE_NONE;
+	}
 	memcpy(*p + *n * size, values, count * size);
 	*n += count;
 	return *n - count;

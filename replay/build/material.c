@@ -35,8 +35,8 @@ void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *sciss
 	out[3] = (int32_t)(y1 > y0 ? y1 - y0 : 0);
 }
 
-/* Views with equal viewport rectangles share their eye space (scene.h). SCENE_NONE: out of memory (reported) */
-static uint32_t space_of(struct gls_frame *f, const struct scene_view *view)
+/* Views with equal viewport rectangles share their eye space (scene.h). */
+static uint32_t space_of(struct gls_exec *x, struct gls_frame *f, const struct scene_view *view)
 {
 	uint64_t key = XXH3_64bits(view->viewport, sizeof(view->viewport));
 	uintptr_t found = (uintptr_t)table_find(&f->spaces, key);
@@ -44,7 +44,7 @@ static uint32_t space_of(struct gls_frame *f, const struct scene_view *view)
 	if (!found) {
 		found = f->spaces.n + 1;
 		if (table_set(&f->spaces, key, (void *)found))
-			return SCENE_NONE;
+			gls_fail(x);
 	}
 	return (uint32_t)(found - 1);
 }
@@ -61,7 +61,7 @@ static void fill_window_view(const struct gls_surface *surface, struct scene_vie
 	view->depth_range[1] = 1;
 }
 
-uint32_t gls_frame_view(const struct gls_surface *surface, const struct gls_state *st, const struct gls_event *e)
+uint32_t gls_frame_view(struct gls_exec *x, const struct gls_surface *surface, const struct gls_state *st, const struct gls_event *e)
 {
 	const struct gls_attribs *a = e->attribs;
 	struct gls_frame *f = surface->frame;
@@ -77,11 +77,9 @@ uint32_t gls_frame_view(const struct gls_surface *surface, const struct gls_stat
 		memcpy(view.depth_range, a->viewport.depth_range, 8);
 	}
 	gls_scissor_of(surface, &a->scissor, view.scissor);
-	view.space = space_of(f, &view);
+	view.space = space_of(x, f, &view);
 	view.x87 = st->x87;
-	if (view.space == SCENE_NONE)
-		return SCENE_NONE;
-	return gls_intern(&f->views, &s->views, &s->n_views, &f->room.views, &view, sizeof(view));
+	return gls_intern(x, &f->views, &s->views, &s->n_views, &f->room.views, &view, sizeof(view));
 }
 
 /* The enabled target of highest precedence (sec. 3.8.15): cube map, 3D, rectangle, 2D, 1D. */
@@ -103,8 +101,10 @@ uint32_t gls_frame_texture(struct gls_exec *x, struct gls_frame *f, struct gls_t
 	image->used_frame = x->frame;
 	if (image->slot_frame == f->serial)
 		return image->slot;
-	if (MEMORY_GROW(s->textures, f->room.textures, s->n_textures + 1))
+	if (MEMORY_GROW(s->textures, f->room.textures, s->n_textures + 1)) {
+		gls_fail(x);
 		return SCENE_NONE;
+	}
 	atomic_fetch_add(&image->refs, 1);
 	s->textures[s->n_textures] = &image->texture;
 	image->slot = s->n_textures++;
@@ -147,8 +147,6 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	f->out->shows_earlier |= missing && missing <= x->frame;
 	*out = unit->value;
 	out->texture = gls_frame_texture(x, f, image);
-	if (out->texture == SCENE_NONE)
-		return 0;
 	out->wrap_s = p->wrap_s;
 	out->wrap_t = p->wrap_t;
 	out->wrap_r = p->wrap_r;
@@ -180,23 +178,21 @@ static void pass_by(struct scene_unit *unit)
 /*
  * A program samples black from a unit that has no texture, or no complete one. What
  * stands in for the program where it does not run passes the unit by.
- * @return 1; 0: out of memory (reported)
  */
-static int fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls_unit *unit, const float *matrix, struct scene_unit *out)
+static void fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls_unit *unit, const float *matrix, struct scene_unit *out)
 {
 	static const uint8_t black[4] = { 0, 0, 0, 255 };
 	struct gls_texture_image *image = gls_texture_image_find(x, 1, 1, sizeof(black), black);
 
-	if (!image)
-		return 0;
 	*out = unit->value;
+	if (!image)
+		return;
 	out->texture = gls_frame_texture(x, f, image);
 	gls_texture_image_release(image);
 	out->wrap_s = out->wrap_t = out->wrap_r = GL_REPEAT;
 	out->min_filter = out->mag_filter = GL_NEAREST;
 	pass_by(out);
 	fill_coordinates(unit, matrix, out);
-	return out->texture != SCENE_NONE;
 }
 
 /*
@@ -216,8 +212,11 @@ static uint32_t fill_units(struct gls_exec *x, struct gls_frame *f, struct gls_s
 		const int target = of_fragments >= 0 || !vertices ? of_fragments : (int)program_target(vertices, u) - 1;
 		const int counts = target > of_fragments || (program && (target >= 0 || program->code->inputs >> (SCENE_INPUT_TEXCOORD + u) & 1));
 
-		if (!fill_unit(x, f, st, unit, target, matrix, &units[n]) && !(counts && fill_black(x, f, unit, matrix, &units[n])))
-			continue;
+		if (!fill_unit(x, f, st, unit, target, matrix, &units[n])) {
+			if (!counts)
+				continue;
+			fill_black(x, f, unit, matrix, &units[n]);
+		}
 		if (!program && target > of_fragments)
 			pass_by(&units[n]);
 		n++;
@@ -247,7 +246,7 @@ static uint32_t unclamped_by(const struct gls_attribs *a, const struct gls_surfa
 }
 
 /* which: 1 << number */
-static uint32_t fill_lights(struct gls_frame *f, const struct gls_lighting *l, uint32_t which, uint32_t *count)
+static uint32_t fill_lights(struct gls_exec *x, struct gls_frame *f, const struct gls_lighting *l, uint32_t which, uint32_t *count)
 {
 	struct scene *s = f->out;
 	struct scene_light lights[GLS_MAX_LIGHTS];
@@ -256,7 +255,7 @@ static uint32_t fill_lights(struct gls_frame *f, const struct gls_lighting *l, u
 	for (unsigned i = 0; i < GLS_MAX_LIGHTS; i++)
 		if (which >> i & 1)
 			lights[(*count)++] = l->lights[i].value;
-	return gls_intern_array(&f->lights, &s->lights, &s->n_lights, &f->room.lights, lights, *count, sizeof(lights[0]));
+	return gls_intern_array(x, &f->lights, &s->lights, &s->n_lights, &f->room.lights, lights, *count, sizeof(lights[0]));
 }
 
 static uint32_t enabled_lights(const struct gls_lighting *l)
@@ -268,13 +267,13 @@ static uint32_t enabled_lights(const struct gls_lighting *l)
 	return lights;
 }
 
-static uint32_t fill_stipple(struct gls_frame *f, const struct gls_attribs *a)
+static uint32_t fill_stipple(struct gls_exec *x, struct gls_frame *f, const struct gls_attribs *a)
 {
 	struct scene *s = f->out;
 
 	if (!a->polygon.stipple)
 		return SCENE_NONE;
-	return gls_intern(&f->stipples, &s->stipples, &s->n_stipples, &f->room.stipples, a->polygon_stipple,
+	return gls_intern(x, &f->stipples, &s->stipples, &s->n_stipples, &f->room.stipples, a->polygon_stipple,
 	              sizeof(a->polygon_stipple));
 }
 
@@ -400,7 +399,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	lights = runs_vertices ? program_lights(vertices.code) | (runs_fragments ? program_lights(fragments.code) : 0) :
 	                         m.lighting ? enabled_lights(&a->lighting) : 0;
 	if (lights)
-		m.light_first = fill_lights(f, &a->lighting, lights, &m.light_count);
+		m.light_first = fill_lights(x, f, &a->lighting, lights, &m.light_count);
 	m.normalize = a->transform.normalize;
 	m.rescale_normal = a->transform.rescale_normal;
 	m.shade_model = a->lighting.shade_model;
@@ -408,7 +407,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.unit_count = fill_units(x, f, st, e, runs_fragments ? &fragments : NULL, runs_vertices ? &vertices : NULL, units);
 	for (unsigned i = 0; i < m.unit_count; i++)
 		gls_color_of(units[i].env_color, units[i].env_color, unclamped & 1);
-	m.unit_first = gls_intern_array(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
+	m.unit_first = gls_intern_array(x, &f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
 	m.color_sum = a->fog.color_sum;
 	m.fog = a->fog.enabled;
 	m.fog_mode = a->fog.mode;
@@ -418,7 +417,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.fog_end = a->fog.end;
 	gls_color_of(m.fog_color, a->fog.color, unclamped & 1);
 	fill_raster_state(a, &m);
-	m.polygon_stipple = fill_stipple(f, a);
+	m.polygon_stipple = fill_stipple(x, f, a);
 	fill_fragment_state(a, target, &m);
 	fill_multisample(&a->multisample, target->surface, &m);
 	m.surface = st->surface;
@@ -426,22 +425,18 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	if (runs_fragments) {
 		if (!st->program)
 			m.shade_model = GL_SMOOTH; /* as Mesa (22.3.6) has it for colours of programs in assembly, whatever ShadeModel says */
-		m.fragment_program = gls_program_build(f, st, a, &fragments, lights);
-		if (!m.fragment_program)
-			return SCENE_NONE;
+		m.fragment_program = gls_program_build(x, f, st, a, &fragments, lights);
 	}
 	if (runs_vertices) {
-		m.vertex_program = gls_program_build(f, st, a, &vertices, lights);
-		if (!m.vertex_program)
-			return SCENE_NONE;
+		m.vertex_program = gls_program_build(x, f, st, a, &vertices, lights);
 		m.clip_by_program = m.clip_plane_mask && !m.two_side && vertices.code->outputs >> SCENE_RESULT_CLIP_VERTEX & 1;
 	}
-	return gls_intern(&f->materials, &s->materials, &s->n_materials, &f->room.materials, &m, sizeof(m));
+	return gls_intern(x, &f->materials, &s->materials, &s->n_materials, &f->room.materials, &m, sizeof(m));
 }
 
 /* Attributes of the mesh, and those that nothing looks at, get GL's initial values, so that more currents are equal. */
-uint32_t gls_frame_current(struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m,
-                             const float (*values)[4])
+uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m,
+                           const float (*values)[4])
 {
 	static const float white[4] = { 1, 1, 1, 1 }, up[4] = { 0, 0, 1, 0 }, origin[4] = { 0, 0, 0, 1 };
 	struct scene *s = f->out;
@@ -464,5 +459,5 @@ uint32_t gls_frame_current(struct gls_frame *f, const struct scene_mesh *mesh, c
 		memcpy(current.generics[i], inputs >> (SCENE_VERTEX_GENERIC + i) & 1 && !(varying >> (GLS_ATTR_GENERIC + i) & 1) ?
 		       values[GLS_ATTR_GENERIC + i] : origin, 16);
 	current.fog_coord = varying & SCENE_HAS_FOG_COORD ? 0 : values[GLS_ATTR_FOG_COORD][0];
-	return gls_intern(&f->currents, &s->currents, &s->n_currents, &f->room.currents, &current, sizeof(current));
+	return gls_intern(x, &f->currents, &s->currents, &s->n_currents, &f->room.currents, &current, sizeof(current));
 }

@@ -1,6 +1,6 @@
 /*
- * What a draw saw: state copied into the scene under construction, equal things once. Indices are those of the scene's arrays;
- * SCENE_NONE stands for out of memory (reported).
+ * What a draw saw: state copied into the scene under construction, equal things once. Indices are those of the scene's arrays, and
+ * mean nothing where memory was short (gls_fail).
  */
 #pragma once
 
@@ -28,11 +28,11 @@ struct gls_frame {
 };
 
 /** Projection, viewport and scissor. */
-uint32_t gls_frame_view(const struct gls_surface *surface, const struct gls_state *st, const struct gls_event *e);
+uint32_t gls_frame_view(struct gls_exec *x, const struct gls_surface *surface, const struct gls_state *st, const struct gls_event *e);
 /** Everything else that the fragments of a draw depend on, with units and lights. */
 uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e);
 /** Attributes that the mesh does not have and the material looks at. */
-uint32_t gls_frame_current(struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m, const float (*values)[4]);
+uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m, const float (*values)[4]);
 /** The place of an image in the scene. */
 uint32_t gls_frame_texture(struct gls_exec *x, struct gls_frame *f, struct gls_texture_image *image);
 

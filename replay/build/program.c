@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/err.h"
 #include "base/mat4.h"
 #include "gl_tokens.h"
 #include "replay/build/intern.h"
 #include "replay/build/material.h"
+#include "replay/machine/errors.h"
 #include "replay/programs/code.h"
 
 static void set_four(float out[4], const float *from)
@@ -167,7 +167,7 @@ static void name_units(const struct program_stage *stage, struct scene_instructi
 			instructions[i].b = program_unit_of(stage, instructions[i].b);
 }
 
-uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage,
+uint32_t gls_program_build(struct gls_exec *x, struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage,
                            uint32_t lights)
 {
 	const struct program_code *code = stage->code;
@@ -180,7 +180,7 @@ uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, cons
 	uint32_t *words = malloc(n * 4), place;
 
 	if (!words) {
-		err_report(ERR_SYSTEM, NULL, "out of memory for a program");
+		gls_out_of_memory(x, n * 4);
 		return 0;
 	}
 	memcpy(words, &head, sizeof(head));
@@ -201,7 +201,7 @@ uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, cons
 		fill(st, a, stage, &code->constants[i], four);
 		memcpy((char *)words + sizeof(head) + instruction_bytes + light_bytes + 16 * i, four, sizeof(four));
 	}
-	place = gls_intern_array(&f->programs, &f->out->programs, &f->out->n_programs, &f->room.programs, words, (uint32_t)n, 4);
+	place = gls_intern_array(x, &f->programs, &f->out->programs, &f->out->n_programs, &f->room.programs, words, (uint32_t)n, 4);
 	free(words);
 	return place == SCENE_NONE ? 0 : place + 1;
 }

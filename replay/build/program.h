@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 struct gls_attribs;
+struct gls_exec;
 struct gls_frame;
 struct program_stage;
 struct gls_state;
@@ -11,7 +12,7 @@ struct gls_state;
 /**
  * Put a stage's program into the scene of a frame, with its constants as they are now.
  * @param lights  1 << number of each in the material's list
- * @return 1 + where it begins in scene.programs; 0: out of memory (reported)
+ * @return 1 + where it begins in scene.programs; 0: out of memory (gls_fail)
  */
-uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage,
+uint32_t gls_program_build(struct gls_exec *x, struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage,
                            uint32_t lights);

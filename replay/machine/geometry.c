@@ -8,6 +8,7 @@
 #include "base/err.h"
 #include "base/mat4.h"
 #include "base/memory.h"
+#include "replay/machine/errors.h"
 
 void gls_geometry_clear(struct gls_geometry *g)
 {
@@ -28,7 +29,8 @@ void gls_geometry_free(struct gls_geometry *g)
 	memset(g, 0, sizeof(*g));
 }
 
-int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n_primitives)
+/* Room for vertices and primitives. @return 0 or ERR_SYSTEM (reported) */
+static int make_room(struct gls_geometry *g, uint32_t n_vertices, uint32_t n_primitives)
 {
 	if (n_vertices > 0x10000000u || n_primitives > 0x10000000u)
 		return err_report(ERR_SYSTEM, NULL, "a draw of %u vertices is more than can be held", n_vertices);
@@ -61,20 +63,37 @@ int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n
 	return 0;
 }
 
-int gls_geometry_vary(struct gls_geometry *g, unsigned attribute)
+int gls_geometry_reserve(struct gls_exec *x, struct gls_geometry *g, uint32_t n_vertices, uint32_t n_primitives)
 {
-	g->varying |= 1u << attribute;
-	if (gls_geometry_reserve(g, 0, 0))
+	const int rc = make_room(g, n_vertices, n_primitives);
+
+	if (rc)
+		gls_fail(x);
+	return rc;
+}
+
+/* Let something vary, if there is room for it. bit: of g->varying */
+static int vary(struct gls_exec *x, struct gls_geometry *g, uint32_t bit)
+{
+	g->varying |= bit;
+	if (gls_geometry_reserve(x, g, 0, 0) == 0)
+		return 0;
+	g->varying &= ~bit;
+	return ERR_SYSTEM;
+}
+
+int gls_geometry_vary(struct gls_exec *x, struct gls_geometry *g, unsigned attribute)
+{
+	if (vary(x, g, 1u << attribute))
 		return ERR_SYSTEM;
 	for (uint32_t i = 0; i < g->n_vertices; i++)
 		memcpy(g->attribute[attribute] + 4 * (size_t)i, g->constant[attribute], 16);
 	return 0;
 }
 
-int gls_geometry_vary_face(struct gls_geometry *g, const struct scene_face face[2])
+int gls_geometry_vary_face(struct gls_exec *x, struct gls_geometry *g, const struct scene_face face[2])
 {
-	g->varying |= SCENE_HAS_FACE;
-	if (gls_geometry_reserve(g, 0, 0))
+	if (vary(x, g, SCENE_HAS_FACE))
 		return ERR_SYSTEM;
 	for (uint32_t i = 0; i < g->n_vertices; i++)
 		memcpy(g->face[i], face, sizeof(*g->face));
@@ -158,12 +177,12 @@ static void put_provoked(const struct cutter *c, uint32_t i, uint32_t j, uint32_
 		put_triangle(c, i, j, k, edges);
 }
 
-int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements, int first_provokes)
+int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements, int first_provokes)
 {
 	const struct cutter c = { g, elements, first };
 	uint32_t i;
 
-	if (gls_geometry_reserve(g, 0, count ? count : 1))
+	if (gls_geometry_reserve(x, g, 0, count ? count : 1))
 		return ERR_SYSTEM;
 	switch (mode) {
 	case GL_POINTS:

@@ -6,6 +6,8 @@
 #include "replay/machine/state.h"
 #include "scene/scene.h"
 
+struct gls_exec;
+
 #define GLS_MAX_PENDING_VERTICES (1u << 20)
 
 /* Collected vertices. Arrays grow, and are kept when the vertices are forgotten. */
@@ -30,12 +32,16 @@ struct gls_geometry {
 /** Forget all vertices. */
 void gls_geometry_clear(struct gls_geometry *g);
 void gls_geometry_free(struct gls_geometry *g);
-/** Make room for more vertices with the varying attributes, and for more primitives. @return 0 or ERR_SYSTEM (reported) */
-int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n_primitives);
-/** Make an attribute vary: vertices so far get `constant`. @return 0 or ERR_SYSTEM (reported) */
-int gls_geometry_vary(struct gls_geometry *g, unsigned attribute);
-/** Make the material vary: vertices so far get `face`, front and back. @return 0 or ERR_SYSTEM (reported) */
-int gls_geometry_vary_face(struct gls_geometry *g, const struct scene_face face[2]);
+/*
+ * What follows returns 0, or ERR_SYSTEM (reported) where memory is short: the replay ends after this call (gls_fail). All that is
+ * collected keeps its arrays, and what varies has one.
+ */
+/** Make room for more vertices with the varying attributes, and for more primitives. */
+int gls_geometry_reserve(struct gls_exec *x, struct gls_geometry *g, uint32_t n_vertices, uint32_t n_primitives);
+/** Make an attribute vary: vertices so far get `constant`. */
+int gls_geometry_vary(struct gls_exec *x, struct gls_geometry *g, unsigned attribute);
+/** Make the material vary: vertices so far get `face`, front and back. */
+int gls_geometry_vary_face(struct gls_exec *x, struct gls_geometry *g, const struct scene_face face[2]);
 /** What a primitive mode is cut into: SCENE_TRIANGLES, LINES or POINTS; 0: GL has no such mode. */
 enum scene_primitive gls_mode_kind(uint32_t mode);
 /**
@@ -43,9 +49,8 @@ enum scene_primitive gls_mode_kind(uint32_t mode);
  * @param elements  [count] vertex numbers, NULL: first .. first + count - 1
  * @param first_provokes  1: separate triangles, strips and fans follow FIRST_VERTEX_CONVENTION (ARB_provoking_vertex). Lines have a
  *                  direction: whoever draws them decides
- * @return 0 or ERR_SYSTEM (reported)
  */
-int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements, int first_provokes);
+int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements, int first_provokes);
 /**
  * Cut quads the other way, from the first to the third vertex. The geometry holds nothing but quads. llvmpipe does so with quads that
  * come without indices (hence not from lists), are shaded smoothly and need no clipping.

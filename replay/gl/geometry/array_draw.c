@@ -22,10 +22,8 @@
 static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls_geometry *g, const struct gls_sources *s,
                       uint64_t element)
 {
-	if (g->n_vertices == g->room_vertices && gls_geometry_reserve(g, 1, 0)) {
-		gls_fail(x);
+	if (g->n_vertices == g->room_vertices && gls_geometry_reserve(x, g, 1, 0))
 		return ERR_SYSTEM;
-	}
 	gls_source_read(&s->vertex, element, g->position + 4 * (size_t)g->n_vertices);
 	for (uint32_t present = s->present; present; present &= present - 1) {
 		unsigned a = (unsigned)__builtin_ctz(present);
@@ -52,14 +50,14 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 	gls_geometry_clear(g);
 	g->kind = gls_mode_kind(mode);
 	g->varying = s->present;
-	if (gls_geometry_reserve(g, elements ? 1 : count, 0))
-		goto fail;
+	if (gls_geometry_reserve(x, g, elements ? 1 : count, 0))
+		return ERR_SYSTEM;
 	if (!elements) {
 		for (uint32_t i = 0; i < count; i++)
 			if (add_vertex(x, st, g, s, (uint64_t)first + i))
 				return ERR_SYSTEM;
-		if (gls_geometry_cut(g, mode, 0, count, NULL, (int)st->a.lighting.first_provokes))
-			goto fail;
+		if (gls_geometry_cut(x, g, mode, 0, count, NULL, (int)st->a.lighting.first_provokes))
+			return ERR_SYSTEM;
 		g->n_draws = 1;
 		return 0;
 	}
@@ -86,13 +84,10 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 		}
 		cut[i] = *slot;
 	}
-	if (gls_geometry_cut(g, mode, 0, count, cut, (int)st->a.lighting.first_provokes))
-		goto fail;
+	if (gls_geometry_cut(x, g, mode, 0, count, cut, (int)st->a.lighting.first_provokes))
+		return ERR_SYSTEM;
 	g->n_draws = 1;
 	return 0;
-fail:
-	gls_fail(x);
-	return ERR_SYSTEM;
 }
 
 /* point_size: in place of the state's; below 0: the state's own */

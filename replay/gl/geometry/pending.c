@@ -56,19 +56,19 @@ void gls_before_material(struct gls_exec *x, struct gls_state *st)
 
 	if (!st->begin_mode && g->n_vertices)
 		gls_flush(x);
-	else if (g->n_vertices && !(g->varying & SCENE_HAS_FACE) && gls_geometry_vary_face(g, st->a.lighting.face))
-		gls_fail(x);
+	else if (g->n_vertices && !(g->varying & SCENE_HAS_FACE))
+		gls_geometry_vary_face(x, g, st->a.lighting.face);
 	st->dirty |= GLS_DIRTY_MATERIAL;
 }
 
 /* ---- vertices ---- */
 
 /* From now on, store an attribute per vertex if it changed since the last vertex. */
-static int take_touched(struct gls_geometry *g, const struct gls_state *st)
+static int take_touched(struct gls_exec *x, struct gls_geometry *g, const struct gls_state *st)
 {
 	for (uint32_t left = g->touched & ~g->varying; left; left &= left - 1) {
 		unsigned a = (unsigned)__builtin_ctz(left);
-		if (memcmp(g->constant[a], st->a.current.attribute[a], 16) != 0 && gls_geometry_vary(g, a))
+		if (memcmp(g->constant[a], st->a.current.attribute[a], 16) != 0 && gls_geometry_vary(x, g, a))
 			return ERR_SYSTEM;
 	}
 	g->touched = 0;
@@ -84,14 +84,11 @@ static void add_vertex(struct gls_exec *x, const struct gls_state *st, const flo
 		memcpy(g->constant, st->a.current.attribute, sizeof(g->constant));
 		g->touched = 0;
 		g->varying = 0;
-	} else if (g->touched && take_touched(g, st)) {
-		gls_fail(x);
+	} else if (g->touched && take_touched(x, g, st)) {
 		return;
 	}
-	if (at == g->room_vertices && gls_geometry_reserve(g, 1, 0)) {
-		gls_fail(x);
+	if (at == g->room_vertices && gls_geometry_reserve(x, g, 1, 0))
 		return;
-	}
 	memcpy(g->position + 4 * (size_t)at, position, 16);
 	if (g->varying & SCENE_HAS_FACE)
 		memcpy(g->face[at], st->a.lighting.face, sizeof(*g->face));
@@ -155,8 +152,7 @@ static void cut_primitives(struct gls_exec *x, const struct gls_state *st)
 {
 	struct gls_geometry *g = &x->pending.geometry;
 
-	if (gls_geometry_cut(g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL, (int)st->a.lighting.first_provokes))
-		gls_fail(x);
+	gls_geometry_cut(x, g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL, (int)st->a.lighting.first_provokes);
 }
 
 void gls_end(struct gls_exec *x, struct gls_state *st)

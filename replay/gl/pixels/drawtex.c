@@ -78,10 +78,8 @@ static struct gls_mesh *make_rectangle(struct gls_exec *x, struct gls_state *st,
 	gls_geometry_clear(g);
 	g->kind = SCENE_TRIANGLES;
 	g->varying = textured_units(x, st);
-	if (gls_geometry_reserve(g, 4, 2)) {
-		gls_fail(x);
+	if (gls_geometry_reserve(x, g, 4, 2))
 		return NULL;
-	}
 	for (int corner = 0; corner < 4; corner++) {
 		const int right = corner == 1 || corner == 2, top = corner >= 2;
 
@@ -90,7 +88,7 @@ static struct gls_mesh *make_rectangle(struct gls_exec *x, struct gls_state *st,
 		set_coordinates(x, st, g, right, top);
 		g->edge[g->n_vertices++] = 1;
 	}
-	if (!gls_geometry_cut(g, GL_TRIANGLE_FAN, 0, 4, NULL, 0)) {
+	if (!gls_geometry_cut(x, g, GL_TRIANGLE_FAN, 0, 4, NULL, 0)) {
 		g->n_draws = 1;
 		mesh = gls_geometry_mesh(x, g);
 	}

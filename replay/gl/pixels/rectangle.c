@@ -19,12 +19,12 @@ static struct gls_mesh *point_at(struct gls_exec *x, float left, float low, floa
 
 	gls_geometry_clear(g);
 	g->kind = SCENE_POINTS;
-	if (gls_geometry_reserve(g, 1, 1))
+	if (gls_geometry_reserve(x, g, 1, 1))
 		return NULL;
 	memcpy(g->position, (float[4]){ left, low, depth, 1 }, 16);
 	g->edge[0] = 1;
 	g->n_vertices = 1;
-	if (!gls_geometry_cut(g, GL_POINTS, 0, 1, NULL, 0)) {
+	if (!gls_geometry_cut(x, g, GL_POINTS, 0, 1, NULL, 0)) {
 		g->n_draws = 1;
 		mesh = gls_geometry_mesh(x, g);
 	}
