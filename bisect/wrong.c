@@ -145,6 +145,8 @@ int wrong_again(const char *note, const char *trace, uint64_t frame, uint64_t ca
 		same = call_at(&v, i) == call && shown[0] == c[0] && shown[1] == c[1] && shown[2] == c[2];
 	}
 	free_sighted(&v);
+	if (in && ferror(in) && !err)
+		err = err_report(ERR_SYSTEM, note, "cannot be read");
 	if (in)
 		fclose(in);
 	return err == ERR_USAGE ? 0 : err ? err : same;

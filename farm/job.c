@@ -222,6 +222,10 @@ static char *read_arguments(const char *path, size_t *size)
 	if (file && fseek(file, 0, SEEK_END) == 0 && (n = ftell(file)) > 0 && (text = calloc((size_t)n + 1, 1))) {
 		rewind(file);
 		*size = fread(text, 1, (size_t)n, file);
+		if (ferror(file)) {
+			free(text);
+			text = NULL;
+		}
 	}
 	if (file)
 		fclose(file);

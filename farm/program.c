@@ -44,7 +44,11 @@ static int read_all(int fd, char **out)
 
 		if (n < 0 && errno == EINTR)
 			continue;
-		if (n <= 0)
+		if (n < 0) {
+			free(text);
+			return err_report(ERR_SYSTEM, NULL, "what a program says cannot be read: %s", strerror(errno));
+		}
+		if (n == 0)
 			break;
 		size += (size_t)n;
 	}

@@ -1,5 +1,6 @@
 #include "farm/slurm.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,6 +27,7 @@ static int read_numbers(const struct farm_job *job, uint64_t **out, size_t *n)
 	char path[PATH_MAX + 16], array[32], report[32];
 	uint64_t *numbers = NULL;
 	FILE *file;
+	int err = 0;
 
 	*out = NULL;
 	*n = 0;
@@ -35,18 +37,22 @@ static int read_numbers(const struct farm_job *job, uint64_t **out, size_t *n)
 		uint64_t *grown = realloc(numbers, (*n + 2) * sizeof(*grown));
 
 		if (!grown) {
-			fclose(file);
-			free(numbers);
-			return err_report(ERR_SYSTEM, NULL, "out of memory");
+			err = err_report(ERR_SYSTEM, NULL, "out of memory");
+			break;
 		}
 		numbers = grown;
 		numbers[(*n)++] = strtoull(array, NULL, 10); /* "-" is none */
 		numbers[(*n)++] = strtoull(report, NULL, 10);
 	}
+	if (file && ferror(file))
+		err = err_report(ERR_SYSTEM, path, "cannot be read: %s", strerror(errno));
 	if (file)
 		fclose(file);
-	*out = numbers;
-	return 0;
+	if (err)
+		free(numbers);
+	else
+		*out = numbers;
+	return err;
 }
 
 int slurm_read(const struct farm_job *job, struct slurm_queue *out)

@@ -472,9 +472,10 @@ char *spare_tell_lights(const struct spare *spare)
 
 		fprintf(out, "%s%.9g %.9g %.9g %.9g", i ? "," : "", (double)p[0], (double)p[1], (double)p[2], (double)p[3]);
 	}
-	if (out)
-		fclose(out);
-	return text;
+	if (out && fclose(out) == 0)
+		return text;
+	free(text);
+	return NULL;
 }
 
 static int is_card(const void *user, const struct scene *scene, uint32_t i)

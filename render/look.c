@@ -88,7 +88,7 @@ int look_study(const char *trace, const struct frame_list *frames, struct look *
 	int err = memory ? study_trace(trace, frames, &study) : err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	if (!err)
-		study_write(study, trace, memory);
+		err = study_write(study, trace, memory);
 	if (memory && fclose(memory))
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err)
@@ -119,8 +119,8 @@ static int write_rules(const struct study *study, const char *trace, const char 
 		err = part_open(&file, path);
 	if (err)
 		return err;
-	study_write(study, trace, file.stream);
-	return part_close(&file, 0);
+	err = study_write(study, trace, file.stream);
+	return part_close(&file, err);
 }
 
 int look_main(int argc, char **argv)

@@ -56,13 +56,19 @@ int programs_tell(const struct scene *scene, struct image *img)
 		return err;
 	}
 	out = open_memstream(&text, &size);
-	for (size_t i = 0; i < seen.n && out; i++) {
+	for (size_t i = 0; i < seen.n && out && !err; i++) {
 		char *draws = scene_draw_list(scene, is_run_by, &seen.list[i]);
 
-		fprintf(out, "%s%s %u=%s", i ? ";" : "", seen.list[i].kind, seen.list[i].name, draws ? draws : "");
+		if (draws)
+			fprintf(out, "%s%s %u=%s", i ? ";" : "", seen.list[i].kind, seen.list[i].name, draws);
+		else
+			err = ERR_SYSTEM;
 		free(draws);
 	}
-	err = out && fclose(out) == 0 ? image_set_attribute(img, "relume:programs", "%s", text) : err_report(ERR_SYSTEM, NULL, "out of memory for programs");
+	if (!out || fclose(out) || err)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory for programs");
+	else
+		err = image_set_attribute(img, "relume:programs", "%s", text);
 	free(text);
 	free(seen.list);
 	return err;

@@ -264,13 +264,16 @@ static int hash_file(XXH3_state_t *state, const char *path)
 	FILE *file = fopen(path, "rb");
 	char piece[4096];
 	size_t n;
+	int err = 0;
 
 	if (!file)
 		return err_report(ERR_INPUT, path, "%s", strerror(errno));
 	while ((n = fread(piece, 1, sizeof(piece), file)))
 		XXH3_128bits_update(state, piece, n);
+	if (ferror(file))
+		err = err_report(ERR_SYSTEM, path, "cannot be read: %s", strerror(errno));
 	fclose(file);
-	return 0;
+	return err;
 }
 
 static int name_settings(struct settings *s, const struct options_line *line)

@@ -1,6 +1,7 @@
 #include "scene/draw_list.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 char *scene_draw_list(const struct scene *scene, scene_draw_chooser *is, const void *user)
 {
@@ -24,7 +25,8 @@ char *scene_draw_list(const struct scene *scene, scene_draw_chooser *is, const v
 		first = next > first ? first : start;
 		next = end > start ? end : start + 1;
 	}
-	if (out)
-		fclose(out);
-	return text;
+	if (out && fclose(out) == 0)
+		return text;
+	free(text);
+	return NULL;
 }

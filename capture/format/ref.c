@@ -27,6 +27,11 @@ static int add_entry(struct ref_file *ref, const struct ref_entry *entry)
 	return 0;
 }
 
+static int unreadable(const struct ref_file *ref, int code)
+{
+	return err_report(code, ref->path, "cannot be read: %s", strerror(errno));
+}
+
 /* Reads records up to the last whole one; a cut is no error. */
 static int list_records(struct ref_file *ref, uint64_t file_bytes)
 {
@@ -38,7 +43,7 @@ static int list_records(struct ref_file *ref, uint64_t file_bytes)
 		struct ref_entry entry;
 
 		if (fseeko(ref->stream, (off_t)at, SEEK_SET) || fread(&head, sizeof(head), 1, ref->stream) != 1)
-			return err_report(ERR_INPUT, ref->path, "cannot read: %s", strerror(errno));
+			return unreadable(ref, ERR_INPUT);
 		at += sizeof(head);
 		entry = (struct ref_entry){ (enum ref_kind)(head.kind & ~REF_CHANGED), head.width, head.height, head.frame, at, head.packed_bytes,
 		                            (head.kind & REF_CHANGED) != 0 };
@@ -81,11 +86,11 @@ int ref_open(struct ref_file *ref, const char *path)
 		goto fail;
 	}
 	if (fread(magic, sizeof(magic), 1, ref->stream) != 1 || !ref_begins(magic)) {
-		rc = err_report(ERR_INPUT, path, "not a file of reference frames");
+		rc = ferror(ref->stream) ? unreadable(ref, ERR_INPUT) : err_report(ERR_INPUT, path, "not a file of reference frames");
 		goto fail;
 	}
 	if (fseeko(ref->stream, 0, SEEK_END) || (end = ftello(ref->stream)) < 0) {
-		rc = err_report(ERR_INPUT, path, "cannot read: %s", strerror(errno));
+		rc = unreadable(ref, ERR_INPUT);
 		goto fail;
 	}
 	rc = list_records(ref, (uint64_t)end);
@@ -128,26 +133,28 @@ const struct ref_entry *ref_find(const struct ref_file *ref, enum ref_kind kind,
 	return NULL;
 }
 
-/** pread, whole. @return 1, or 0 where the file has less or cannot be read */
-static int read_at(int fd, uint64_t offset, char *out, size_t n)
+static int damaged(const struct ref_file *ref, const struct ref_entry *entry)
 {
+	return err_report(ERR_INPUT, ref->path, "the reference of frame %llu is damaged", (unsigned long long)entry->frame);
+}
+
+/* pread, whole, for a record. @return 0, ERR_INPUT (the file has less) or ERR_SYSTEM (a disk that fails is no damage), reported */
+static int read_at(const struct ref_file *ref, const struct ref_entry *entry, uint64_t offset, void *to, size_t n)
+{
+	char *out = to;
+
 	while (n) {
-		ssize_t got = pread(fd, out, n, (off_t)offset);
+		ssize_t got = pread(fileno(ref->stream), out, n, (off_t)offset);
 
 		if (got < 0 && errno == EINTR)
 			continue;
 		if (got <= 0)
-			return 0;
+			return got ? unreadable(ref, ERR_SYSTEM) : damaged(ref, entry);
 		out += got;
 		offset += (uint64_t)got;
 		n -= (size_t)got;
 	}
-	return 1;
-}
-
-static int damaged(const struct ref_file *ref, const struct ref_entry *entry)
-{
-	return err_report(ERR_INPUT, ref->path, "the reference of frame %llu is damaged", (unsigned long long)entry->frame);
+	return 0;
 }
 
 /*
@@ -160,16 +167,13 @@ static int add_block(const struct ref_file *ref, const struct ref_entry *entry, 
 	char *packed = malloc(packed_bytes ? packed_bytes : 1);
 	uint8_t *bytes = NULL;
 	size_t unpacked = 0;
-	int rc = 0;
+	int rc = packed ? read_at(ref, entry, offset, packed, packed_bytes) : err_report(ERR_SYSTEM, ref->path, "out of memory");
 
-	if (!packed)
-		rc = err_report(ERR_SYSTEM, ref->path, "out of memory");
-	else if (!read_at(fileno(ref->stream), offset, packed, packed_bytes) ||
-	         snappy_uncompressed_length(packed, packed_bytes, &unpacked) != SNAPPY_OK || unpacked != 4 * n)
+	if (!rc && (snappy_uncompressed_length(packed, packed_bytes, &unpacked) != SNAPPY_OK || unpacked != 4 * n))
 		rc = damaged(ref, entry);
-	else if (!(bytes = malloc(4 * n)) || !(*out = *out ? *out : calloc(n, sizeof(**out))))
+	else if (!rc && (!(bytes = malloc(4 * n)) || !(*out = *out ? *out : calloc(n, sizeof(**out)))))
 		rc = err_report(ERR_SYSTEM, ref->path, "out of memory");
-	else if (snappy_uncompress(packed, packed_bytes, (char *)bytes, &unpacked) != SNAPPY_OK)
+	else if (!rc && snappy_uncompress(packed, packed_bytes, (char *)bytes, &unpacked) != SNAPPY_OK)
 		rc = damaged(ref, entry);
 	for (size_t i = 0; i < n && !rc; i++) {
 		uint32_t whole;
@@ -182,15 +186,18 @@ static int add_block(const struct ref_file *ref, const struct ref_entry *entry, 
 	return rc;
 }
 
-/* The record that a changed one builds on. @return 0, or ERR_INPUT (reported) */
+/* The record that a changed one builds on. @return 0, ERR_INPUT or ERR_SYSTEM (reported) */
 static int find_base(const struct ref_file *ref, struct ref_entry *entry)
 {
-	const int fd = fileno(ref->stream);
 	struct ref_head head;
 	uint64_t base;
+	int rc = entry->packed_bytes < sizeof(base) ? damaged(ref, entry) : read_at(ref, entry, entry->offset, &base, sizeof(base));
 
-	if (entry->packed_bytes < sizeof(base) || !read_at(fd, entry->offset, (char *)&base, sizeof(base)) || base >= entry->offset ||
-	    !read_at(fd, base, (char *)&head, sizeof(head)) || (head.kind & ~REF_CHANGED) != (uint32_t)entry->kind || head.width != entry->width ||
+	if (!rc)
+		rc = base >= entry->offset ? damaged(ref, entry) : read_at(ref, entry, base, &head, sizeof(head));
+	if (rc)
+		return rc;
+	if ((head.kind & ~REF_CHANGED) != (uint32_t)entry->kind || head.width != entry->width ||
 	    head.height != entry->height || head.packed_bytes > entry->offset - base)
 		return damaged(ref, entry);
 	entry->offset = base + sizeof(head);

@@ -52,7 +52,7 @@ int ref_begins(const void *head);
 /**
  * Open a reference file and list its records (pixels are not read yet).
  * @param ref  all zero; filled on success; close with ref_close
- * @return 0, ERR_INPUT (reported: missing, or not such a file) or ERR_SYSTEM (reported)
+ * @return 0, ERR_INPUT (reported: missing, unreadable, or not such a file) or ERR_SYSTEM (reported)
  */
 int ref_open(struct ref_file *ref, const char *path);
 void ref_close(struct ref_file *ref);
@@ -63,7 +63,7 @@ const struct ref_entry *ref_find(const struct ref_file *ref, enum ref_kind kind,
 /**
  * Read one record's pixels. Several threads may do so at once.
  * @param out  receives a buffer of width * height * 4 bytes (RGBA8, or float), bottom row first; caller frees with free()
- * @return 0, ERR_INPUT (reported: the block does not decode to that size) or ERR_SYSTEM (reported)
+ * @return 0, ERR_INPUT (reported: the block does not decode to that size) or ERR_SYSTEM (reported: it cannot be read, or memory is short)
  */
 int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **out);
 

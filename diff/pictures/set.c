@@ -194,29 +194,25 @@ static int open_trace(struct set *set, const char *trace)
 	return err ? err : open_ref(set, path);
 }
 
-/** The first bytes of a file. @return 0: it has not so many */
+/** The first bytes of a file, zeros where it has not so many. @return 0, or ERR_SYSTEM (reported): it cannot be read */
 static int read_head(const char *path, uint8_t head[8])
 {
 	FILE *f = fopen(path, "rb");
-	size_t n = f ? fread(head, 1, 8, f) : 0;
+	int err = 0;
 
+	memset(head, 0, 8);
+	if (f && fread(head, 1, 8, f) != 8 && ferror(f))
+		err = err_report(ERR_SYSTEM, path, "cannot be read: %s", strerror(errno));
 	if (f)
 		fclose(f);
-	return n == 8;
-}
-
-/** A file is a reference file by its first bytes, whatever its name. */
-static int is_ref(const char *path)
-{
-	uint8_t head[8];
-
-	return read_head(path, head) && ref_begins(head);
+	return err;
 }
 
 int set_open(const char *where, struct set *out)
 {
 	struct stat st;
 	uint64_t frame = 0;
+	uint8_t head[8];
 	int err;
 
 	out->name = strdup(where);
@@ -229,7 +225,9 @@ int set_open(const char *where, struct set *out)
 			err = err_report(ERR_INPUT, where, "%s", strerror(errno));
 	} else if (S_ISDIR(st.st_mode)) {
 		err = open_folder(out, where, NULL);
-	} else if (is_ref(where)) {
+	} else if ((err = read_head(where, head))) {
+		/* nothing is known of it */
+	} else if (ref_begins(head)) { /* whatever its name */
 		err = open_ref(out, where);
 	} else if (strcasecmp(extension_of(where), "ref") == 0) {
 		err = err_report(ERR_INPUT, where, "not a file of reference frames");
@@ -300,11 +298,13 @@ fail:
 static int read_picture(const char *path, struct image *img)
 {
 	uint8_t head[8];
-	const int is_exr = read_head(path, head) && memcmp(head, "\x76\x2f\x31\x01", 4) == 0;
+	int err = read_head(path, head);
+	const int is_exr = memcmp(head, "\x76\x2f\x31\x01", 4) == 0;
 	/* Version field, bits 9, 11 and 12: it is tiled, deep or of several parts, which image.h does not read. */
 	const int is_plain = is_exr && (head[5] & 0x1a) == 0;
-	int err = 0;
 
+	if (err)
+		return err;
 	if (strcasecmp(extension_of(path), "exr") == 0 && (is_plain || !is_exr))
 		return image_read_exr(img, path);
 	if (is_exr)

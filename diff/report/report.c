@@ -193,8 +193,7 @@ static int write_pictures(const struct pictures *p, const struct score *s, int w
 	fputs("}</script>\n", out);
 fail:
 	picture_frame_free(&frame);
-	/* a frame that cannot be read has been scored as such: the page goes on without its pictures */
-	return err == ERR_INPUT && !output_is_compared(s) ? 0 : err;
+	return err;
 }
 
 /** All others than samples, and what is beyond the budget, have a thumbnail. */
@@ -211,6 +210,8 @@ static int write_all_pictures(const struct output_run *run, struct set *ref, str
 	uint64_t n_passed = run->counts[SCORE_FRAME_PASSED], seen = 0;
 	int err;
 
+	if (!run->reference) /* there are figures, and nothing to show a picture beside */
+		return 0;
 	p.scores = calloc(run->n_scores + 1, sizeof(*p.scores));
 	p.is_sample = calloc(run->n_scores + 1, sizeof(*p.is_sample));
 	if (!p.scores || !p.is_sample) {
@@ -244,6 +245,7 @@ static int write_film(const char *path, FILE *out)
 	uint8_t piece[3 * 4096]; /* whole groups of base64 */
 	FILE *film = fopen(path, "rb");
 	size_t got;
+	int err = 0;
 
 	if (!film)
 		return err_report(ERR_INPUT, path, "%s", strerror(errno));
@@ -251,8 +253,10 @@ static int write_film(const char *path, FILE *out)
 	while ((got = fread(piece, 1, sizeof(piece), film)))
 		write_base64(piece, got, out);
 	fputs("\"</script>\n", out);
+	if (ferror(film))
+		err = err_report(ERR_SYSTEM, path, "cannot be read: %s", strerror(errno));
 	fclose(film);
-	return 0;
+	return err;
 }
 
 static int write_page(const struct output_run *run, struct set *ref, struct set *traced, const char *path)
@@ -285,7 +289,7 @@ int report_write(const struct output_run *run, struct set *ref, struct set *trac
 	if (err)
 		return err;
 	for (size_t i = 0; i < run->n_scores; i++)
-		compared |= output_is_compared(&run->scores[i]);
+		compared |= run->reference && output_is_compared(&run->scores[i]);
 	if (snprintf(path, sizeof(path), "%s/index.html", dir) >= (int)sizeof(path))
 		return err_report(ERR_SYSTEM, dir, "the name is too long");
 	err = write_page(run, ref, traced, path);

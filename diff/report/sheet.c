@@ -114,7 +114,7 @@ static int draw_row(struct sheet *sheet, size_t row, const struct score *s, cons
 		free(rgb);
 	}
 	picture_frame_free(&frame);
-	return err == ERR_INPUT ? 0 : err;
+	return err;
 }
 
 int sheet_write(const struct output_run *run, struct set *ref, struct set *traced, const char *path)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/err.h"
 #include "look/apply/apply.h"
 #include "look/apply/lights.h"
 #include "look/apply/match.h"
@@ -43,17 +44,20 @@ static int is_with_role(const void *user, const struct scene *scene, uint32_t i)
 	return has_role(w->a, &scene->instances[i], w->role);
 }
 
-/* The draws of a role, as ranges, as many as there is room for. */
-static void list_draws(const struct applying *a, const char *role, char out[TOLD_DRAWS])
+/* The draws of a role, as ranges, as many as there is room for. @return 0 or ERR_SYSTEM (reported) */
+static int list_draws(const struct applying *a, const char *role, char out[TOLD_DRAWS])
 {
 	char *all = scene_draw_list(a->scene, is_with_role, &(struct with_role){ a, role });
 	size_t n = all ? strcspn(all, ",") : 0;
 
-	while (all && all[n] && n < TOLD_DRAWS - 24)
+	if (!all)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	while (all[n] && n < TOLD_DRAWS - 24)
 		n += 1 + strcspn(all + n + 1, ",");
-	memcpy(out, all ? all : "", n);
+	memcpy(out, all, n);
 	out[n] = 0;
 	free(all);
+	return 0;
 }
 
 static int tell_one(const char *kind, const struct rule_reason *r, const char *what, int (*tell)(void *user, const char *text), void *user)
@@ -73,8 +77,8 @@ static int tell_surfaces(const struct applying *a, int (*tell)(void *user, const
 
 		if (!a->rules->surfaces[k].reason.role || is_told(a->rules, k))
 			continue;
-		list_draws(a, a->rules->surfaces[k].reason.role, draws);
-		if (draws[0])
+		err = list_draws(a, a->rules->surfaces[k].reason.role, draws);
+		if (!err && draws[0])
 			err = tell_one("surface", &a->rules->surfaces[k].reason, draws, tell, user);
 	}
 	return err;

@@ -50,10 +50,10 @@ static void note_hash(struct motion_thing *t, const uint64_t hash[2])
 /*
  * The thing that an instance is: what has its mesh, its handedness, and is as often drawn before it in the frame. A mirrored copy is
  * another one.
- * @return its index; SCENE_NONE: none, there are too many, or out of memory
+ * out: receives its index; SCENE_NONE: none, there are too many.  @return 0 or ERR_SYSTEM (reported)
  */
-static uint32_t find_thing(struct motion *m, struct table *counts, const struct scene *s, const struct scene_instance *in,
-                           const double eye[16])
+static int find_thing(struct motion *m, struct table *counts, const struct scene *s, const struct scene_instance *in, const double eye[16],
+                      uint32_t *out)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	const XXH128_hash_t points = hash_points(mesh);
@@ -61,22 +61,26 @@ static uint32_t find_thing(struct motion *m, struct table *counts, const struct 
 	uintptr_t before = (uintptr_t)table_find(counts, key), found;
 	struct box box;
 
+	*out = SCENE_NONE;
 	if (table_set(counts, key, (void *)(before + 1)))
-		return SCENE_NONE;
+		return ERR_SYSTEM;
 	parts[3] = before;
 	key = XXH3_64bits(parts, sizeof(parts));
 	found = (uintptr_t)table_find(&m->by_key, key);
 	if (found) {
 		note_hash(&m->things[found - 1], mesh->hash);
-		return (uint32_t)(found - 1);
+		*out = (uint32_t)(found - 1);
+		return 0;
 	}
-	if (m->n_things >= MOTION_MAX_THINGS || MEMORY_GROW(m->things, m->room_things, m->n_things + 1) ||
-	    table_set(&m->by_key, key, (void *)(m->n_things + 1)))
-		return SCENE_NONE;
+	if (m->n_things >= MOTION_MAX_THINGS)
+		return 0;
+	if (MEMORY_GROW(m->things, m->room_things, m->n_things + 1) || table_set(&m->by_key, key, (void *)(m->n_things + 1)))
+		return ERR_SYSTEM;
 	m->things[m->n_things] = (struct motion_thing){ .mesh = { mesh->hash[0], mesh->hash[1] } };
 	box = box_of(mesh, matrix_identity);
 	m->things[m->n_things].size = box_measure(&box, m->things[m->n_things].middle);
-	return (uint32_t)m->n_things++;
+	*out = (uint32_t)m->n_things++;
+	return 0;
 }
 
 /* --- The camera --------------------------------------------------------------------------------------------------------- */
@@ -268,8 +272,9 @@ static int note_shape(struct motion *m, const struct scene_mesh *mesh)
 static int place_things(struct motion *m, const struct scene *s)
 {
 	struct table counts = { .n = 0 };
+	int err = 0;
 
-	for (uint32_t i = 0; i < s->n_instances; i++) {
+	for (uint32_t i = 0; i < s->n_instances && !err; i++) {
 		const struct scene_instance *in = &s->instances[i];
 		double eye[16], inverse[16];
 
@@ -277,12 +282,12 @@ static int place_things(struct motion *m, const struct scene *s)
 		matrix_from_floats(eye, in->modelview);
 		if (s->meshes[in->mesh]->kind != SCENE_TRIANGLES || in->rectangle || s->views[in->view].target || !matrix_invert(inverse, eye))
 			continue;
-		m->of_instance[i] = find_thing(m, &counts, s, in, eye);
+		err = find_thing(m, &counts, s, in, eye, &m->of_instance[i]);
 		if (m->of_instance[i] != SCENE_NONE)
 			m->things[m->of_instance[i]].votes = (uint32_t)is_deep(s, in);
 	}
 	table_free(&counts);
-	return 0;
+	return err;
 }
 
 int motion_add(struct motion *m, const struct scene *scene)
@@ -299,8 +304,9 @@ int motion_add(struct motion *m, const struct scene *scene)
 		return ERR_SYSTEM;
 	}
 	memcpy(camera.eye_from_world, m->n_frames ? motion_now(m)->eye_from_world : matrix_identity, sizeof(camera.eye_from_world));
-	place_things(m, scene);
-	choose_camera(m, votes, collect_votes(m, scene, votes), &camera);
+	err = place_things(m, scene);
+	if (!err)
+		choose_camera(m, votes, collect_votes(m, scene, votes), &camera);
 	free(votes);
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++) {
 		double eye[16];

@@ -34,6 +34,8 @@ struct solving {
 	struct sample *samples;
 	size_t n, step; /* a search looks at each step-th sample */
 	const struct occluders *walls;
+	unsigned n_walls; /* of the samples */
+	double (*sums)[7]; /* [n_walls] room for find_seeds: weight, place, normal */
 	struct solved *out;
 };
 
@@ -203,13 +205,11 @@ static double spread_of(const struct solving *s, unsigned which)
 /* Walls with the most rest: a light stands before them. Fills places to begin at. @return how many */
 static unsigned find_seeds(const struct solving *s, double scale, double seeds[][3], unsigned most)
 {
-	unsigned n = 0, n_walls = 0;
-	double (*sum)[7]; /* weight, place, normal */
+	double (*const sum)[7] = s->sums;
+	unsigned n = 0;
 
-	for (size_t i = 0; i < s->n; i++)
-		n_walls = s->samples[i].wall >= n_walls ? s->samples[i].wall + 1 : n_walls;
-	sum = calloc(n_walls + 1, sizeof(*sum));
-	for (size_t i = 0; i < s->n && sum; i++) {
+	memset(sum, 0, s->n_walls * sizeof(*sum));
+	for (size_t i = 0; i < s->n; i++) {
 		const struct sample *x = &s->samples[i];
 		double weight = fmax(0, x->rest[0]) + fmax(0, x->rest[1]) + fmax(0, x->rest[2]);
 
@@ -220,10 +220,10 @@ static unsigned find_seeds(const struct solving *s, double scale, double seeds[]
 			sum[x->wall][4 + k] += weight * x->normal[k];
 		}
 	}
-	for (unsigned wall = 0; wall < SEEDS && sum && n_walls; wall++) {
+	for (unsigned wall = 0; wall < SEEDS && s->n_walls; wall++) {
 		unsigned best = 0;
 
-		for (unsigned i = 0; i < n_walls; i++)
+		for (unsigned i = 0; i < s->n_walls; i++)
 			best = sum[i][0] > sum[best][0] ? i : best;
 		if (!(sum[best][0] > 0))
 			break;
@@ -232,7 +232,6 @@ static unsigned find_seeds(const struct solving *s, double scale, double seeds[]
 				seeds[n][k] = sum[best][1 + k] / sum[best][0] + height * sum[best][4 + k] / sum[best][0];
 		sum[best][0] = 0;
 	}
-	free(sum);
 	return n;
 }
 
@@ -405,9 +404,13 @@ int solve_lights(struct lightmaps *maps, struct solved *out)
 	int err = occluders_build(&maps->walls);
 
 	*out = (struct solved){ .n = 0 };
+	for (size_t i = 0; i < maps->n; i += every)
+		s.n_walls = maps->texels[i].wall >= s.n_walls ? maps->texels[i].wall + 1 : s.n_walls;
 	s.samples = calloc(maps->n / every + 1, sizeof(*s.samples));
-	if (!s.samples || !sees || err) {
+	s.sums = malloc((s.n_walls + (size_t)1) * sizeof(*s.sums));
+	if (!s.samples || !s.sums || !sees || err) {
 		free(s.samples);
+		free(s.sums);
 		free(sees);
 		return err ? err : err_report(ERR_SYSTEM, NULL, "out of memory");
 	}
@@ -436,6 +439,7 @@ int solve_lights(struct lightmaps *maps, struct solved *out)
 	out->residual = residual_of(&s);
 	out->texels = s.n;
 	free(s.samples);
+	free(s.sums);
 	free(sees);
 	return 0;
 }

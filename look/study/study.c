@@ -106,11 +106,12 @@ int study_add(struct study *study, const struct scene *scene)
 		err = spared_add(&study->spared, scene);
 	if (!err)
 		err = seen_add(&study->seen, scene, &study->motion);
-	if (!err)
+	if (!err) {
 		dome_add(&study->dome, scene, &study->motion, study->roles.kinds.layers);
-	studio_add(&study->studio, scene, study->roles.kinds.layers);
-	note_gloss(study, scene);
-	cast_add(&study->cast, scene);
+		studio_add(&study->studio, scene, study->roles.kinds.layers);
+		note_gloss(study, scene);
+		cast_add(&study->cast, scene);
+	}
 	if (!err)
 		err = sun_add(&study->sun, scene, &study->motion, study->roles.kinds.layers);
 	if (!err)
@@ -137,12 +138,12 @@ static void find_shining(const struct study *study, double up[3], int *is_sunny,
 	*has_lamps = is_dark && lamps_count(&study->lamps, &study->motion);
 }
 
-void study_write(const struct study *study, const char *trace, FILE *out)
+int study_write(const struct study *study, const char *trace, FILE *out)
 {
 	const struct motion *m = &study->motion;
 	const struct lightmaps *maps = study->lightmaps.n ? &study->lightmaps : &study->baked;
 	double up[3];
-	int is_sunny, has_lamps, shines, is_studio;
+	int is_sunny, has_lamps, shines, is_studio, err;
 
 	find_shining(study, up, &is_sunny, &has_lamps);
 	shines = is_sunny || has_lamps;
@@ -167,7 +168,7 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	floors_write(&study->floors, out);
 	if (shines)
 		lamps_write_surfaces(&study->lamps, m, out);
-	seen_write(&study->seen, m, out);
+	err = seen_write(&study->seen, m, out);
 	findings_write_lights(&study->tricks, maps, &study->solved, shines || is_studio, out);
 	if (shines)
 		sun_write_ambient(&study->sun, is_sunny ? up : NULL, out);
@@ -181,4 +182,5 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 		dome_write(&study->dome, out);
 	write_gloss(study, out);
 	world_write(m, out);
+	return err;
 }

@@ -32,5 +32,6 @@ int study_finish(struct study *study);
 /**
  * Write the rules, each with its role, its confidence and why.
  * @param trace  the recording's name, for the file's reader
+ * @return 0 or ERR_SYSTEM (reported)
  */
-void study_write(const struct study *study, const char *trace, FILE *out);
+int study_write(const struct study *study, const char *trace, FILE *out);

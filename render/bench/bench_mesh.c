@@ -1,3 +1,4 @@
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -92,6 +93,8 @@ static int add_obj(struct growing *g, const char *folder, const char *name)
 		return ERR_INPUT;
 	while (!err && fgets(line, sizeof(line), file))
 		err = add_obj_line(g, line, base);
+	if (!err && ferror(file))
+		err = err_report(ERR_SYSTEM, path, "cannot be read: %s", strerror(errno));
 	fclose(file);
 	return !err && g->mesh->n_triangles == before ? ERR_INPUT : err;
 }

@@ -72,12 +72,22 @@ static const char *foreign_kind(const uint8_t *head, size_t n)
 	return NULL;
 }
 
+/* Read the file's next bytes; fewer: it ends. @return 0, or ERR_SYSTEM (reported): a disk that fails is no end, and no damage either */
+static int read_file(struct container *c, void *to, size_t most, size_t *n)
+{
+	*n = fread(to, 1, most, c->file);
+	return ferror(c->file) ? err_report(ERR_SYSTEM, c->path, "cannot be read: %s", strerror(errno)) : 0;
+}
+
 static int detect(struct container *c)
 {
 	uint8_t head[16];
-	size_t n = fread(head, 1, sizeof(head), c->file);
-	const char *foreign = foreign_kind(head, n);
+	const char *foreign;
+	size_t n;
 
+	if (read_file(c, head, sizeof(head), &n))
+		return ERR_SYSTEM;
+	foreign = foreign_kind(head, n);
 	if (n == 0)
 		return err_report(ERR_INPUT, c->path, "the file is empty; nothing was recorded into it");
 	if (foreign)
@@ -203,22 +213,24 @@ static size_t unpack_cut_block(const uint8_t *in, size_t n, uint8_t *out, size_t
 	return made;
 }
 
-/* Have n bytes of the file at packed + at. @return as many as there are, or n; 0 with *rc set: out of memory */
+/* Have n bytes of the file at packed + at. @return as many as there are, or n; 0 with *rc set: ERR_SYSTEM (reported) */
 static size_t have(struct container *c, size_t n, int *rc)
 {
-	size_t left = c->end - c->at;
+	size_t left = c->end - c->at, got;
 
 	if (left >= n)
 		return n;
-	if (reserve(&c->packed, &c->packed_room, n > READ_BYTES ? n : READ_BYTES)) {
-		*rc = ERR_SYSTEM;
+	*rc = reserve(&c->packed, &c->packed_room, n > READ_BYTES ? n : READ_BYTES);
+	if (*rc)
 		return 0;
-	}
 	memmove(c->packed, c->packed + c->at, left);
 	c->at = 0;
-	c->end = left + fread(c->packed + left, 1, c->packed_room - left, c->file);
+	*rc = read_file(c, c->packed + left, c->packed_room - left, &got);
+	c->end = left + got;
+	if (*rc)
+		return 0;
 	if (c->hash)
-		XXH3_128bits_update(c->hash, c->packed + left, c->end - left);
+		XXH3_128bits_update(c->hash, c->packed + left, got);
 	return c->end < n ? c->end : n;
 }
 
@@ -291,13 +303,14 @@ static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
 	return rc < 0 ? rc : made > 0;
 }
 
-/* Refill a stream decoder's input. @return bytes read */
-static size_t read_packed(struct container *c)
+/* Refill a stream decoder's input. @return 0, or ERR_SYSTEM (reported) */
+static int read_packed(struct container *c, size_t *got)
 {
-	size_t got = fread(c->packed, 1, PIECE_BYTES, c->file);
+	const int rc = read_file(c, c->packed, PIECE_BYTES, got);
 
-	c->offset += got;
-	return got;
+	c->offset += *got;
+	c->cut = !*got;
+	return rc;
 }
 
 static int next_gzip(struct container *c, const uint8_t **data, size_t *size)
@@ -309,12 +322,14 @@ static int next_gzip(struct container *c, const uint8_t **data, size_t *size)
 	z->avail_out = PIECE_BYTES;
 	while (z->avail_out && rc != Z_STREAM_END) {
 		if (z->avail_in == 0) {
-			z->next_in = c->packed;
-			z->avail_in = (uInt)read_packed(c);
-			if (z->avail_in == 0) {
-				c->cut = 1;
+			size_t got;
+
+			if (read_packed(c, &got))
+				return ERR_SYSTEM;
+			if (c->cut)
 				break;
-			}
+			z->next_in = c->packed;
+			z->avail_in = (uInt)got;
 		}
 		rc = inflate(z, Z_NO_FLUSH);
 		if (rc != Z_OK && rc != Z_STREAM_END && z->avail_out < PIECE_BYTES)
@@ -339,11 +354,10 @@ static int next_brotli(struct container *c, const uint8_t **data, size_t *size)
 		if (c->brotli_left == 0 && rc == BROTLI_DECODER_RESULT_NEEDS_MORE_INPUT &&
 		    !BrotliDecoderHasMoreOutput(c->brotli)) {
 			c->brotli_next = c->packed;
-			c->brotli_left = read_packed(c);
-			if (c->brotli_left == 0) {
-				c->cut = 1;
+			if (read_packed(c, &c->brotli_left))
+				return ERR_SYSTEM;
+			if (c->cut)
 				break;
-			}
 		}
 		rc = BrotliDecoderDecompressStream(c->brotli, &c->brotli_left, &c->brotli_next, &room, &out, NULL);
 		if (rc == BROTLI_DECODER_RESULT_ERROR && room < PIECE_BYTES)

@@ -184,7 +184,7 @@ int doubles_drop_backs(struct shape *s)
 		struct triple *list = list_triples(s, &marks, &n);
 		struct around *around = calloc(3 * s->n_faces + 1, sizeof(*around));
 
-		err = list && around ? count_around(s, around) : ERR_SYSTEM;
+		err = list && around ? count_around(s, around) : err_report(ERR_SYSTEM, NULL, "out of memory");
 		marked = err ? 0 : mark_backs(list, n, around, marks);
 		if (marked)
 			shape_drop(s, marks);

@@ -2,7 +2,7 @@
  * Preloaded. Makes one call of the system fail: INJECT="CLASS:N" the Nth of a class (from 1) that the command or the recorder makes itself,
  * "CLASS:N+" that one and all after it, "CLASS@N:M" the Mth one from the Nth place in the code that makes such calls, "CLASS@N+" all
  * from there. What libraries do for themselves is left alone. INJECT_COUNT names a file that receives lines "CLASS COUNT" and "CLASS@N COUNT"
- * for each class and place as the process ends.
+ * for each class and place as a process ends.
  *
  * Memory is taken from the next library that has it: LeakSanitizer's, if that is preloaded after this one. INJECT_SPARED holds its
  * suppressions, since a confined command cannot read them from a file.
@@ -102,6 +102,14 @@ static void end(void)
 			ok = write(count_fd, text, (size_t)n) == n;
 		}
 	}
+}
+
+/* A process that was forked ends so. */
+void _exit(int code)
+{
+	end();
+	((__typeof__(&_exit))dlsym(RTLD_NEXT, "_exit"))(code);
+	__builtin_unreachable();
 }
 
 /* The number of a place, by the order of their first calls. nth: receives which of its own this is */

@@ -42,6 +42,8 @@ check(found == ["passed"] * 3, f"the same frames: {found}")
 check(all("approved hash" in f["gates"]["B"]["note"] for f in frames), "the fast path")
 found, frames = outcomes(0, "--baseline", base, out)
 check(found == ["passed"] * 3 and frames[0]["gates"]["R1"]["state"] == "not measured", "without a reference")
+found, _ = outcomes(0, "--baseline", base, "--report", SCRATCH / "page", out)
+check(found == ["passed"] * 3 and (SCRATCH / "page/index.html").exists(), f"a page without references: {found}")
 
 # Other pixels of the same device: a failure; approving them says what changed.
 shutil.copy(out / "c.0001.exr", SCRATCH / "kept.exr")

@@ -10,6 +10,7 @@ import argparse
 import concurrent.futures
 import fnmatch
 import hashlib
+import itertools
 import os
 import pathlib
 import shutil
@@ -67,37 +68,51 @@ class Trial:
         self.build, self.relume, self.shim, self.inputs = build.resolve(), (build / "relume").resolve(), (build / "tests/real/inject_shim.so").resolve(), inputs
         self.spared = (ROOT / "tests/lsan.supp").read_text()
 
-    def run(self, case, inject=None, count=None, cache=None):
-        """(exit code, stdout, stderr, {file: digest}, names of other files)"""
+    def run(self, case, inject=None, cache=None):
+        """(exit code, stdout, stderr, {file: digest}, names of other files, counts of calls)"""
         with tempfile.TemporaryDirectory(dir=self.inputs) as folder:
-            work = pathlib.Path(folder)
+            work, count = pathlib.Path(folder), pathlib.Path(f"{folder}.count")
             shutil.copy2(self.inputs / "x.trace", work)
             if case.name != "index":
                 shutil.copy2(self.inputs / "x.trace.index", work)
             words = {"@trace": "x.trace", "@programs": "../programs.trace", "@frames": "../frames", "@ref": "../x.ref"}
             env = {**runner.environment(self.build, folder), "XDG_CACHE_HOME": str(cache or self.inputs / "cache"),
                    "LD_PRELOAD": " ".join(str(p) for p in (self.shim, leak_sanitizer()) if p), "INJECT_SPARED": self.spared,
-                   "LSAN_OPTIONS": "exitcode=0:print_suppressions=0", "SOURCE_DATE_EPOCH": "1000000000"}
+                   "LSAN_OPTIONS": "exitcode=0:print_suppressions=0", "SOURCE_DATE_EPOCH": "1000000000", "INJECT_COUNT": str(count)}
             if inject:
                 env["INJECT"] = inject
-            if count:
-                env["INJECT_COUNT"] = str(count)
             try:
                 done = subprocess.run([self.relume, *(words.get(w, w) for w in case.command)], cwd=work, env=env, stdin=subprocess.DEVNULL,
                                       capture_output=True, timeout=LIMIT_S, check=False)
             except subprocess.TimeoutExpired:
-                return None, b"", b"", {}, []
+                return None, b"", b"", {}, [], {}
             files = {str(p.relative_to(work)): p for p in work.rglob("*") if p.is_file()}
             made = {name for pattern in case.made for name in fnmatch.filter(files, pattern)}
             known = {"x.trace", "x.trace.index", "report/sheet.png", *made}
-            return done.returncode, done.stdout, done.stderr, {n: digest(files[n]) for n in made}, sorted(set(files) - known)
+            counts = counts_of(count) if count.exists() else {}
+            count.unlink(missing_ok=True)
+            return done.returncode, done.stdout, done.stderr, {n: digest(files[n]) for n in made}, sorted(set(files) - known), counts
 
-    def wrong(self, case, good, inject):
-        """What is wrong where a call fails; None: nothing."""
-        code, out, err, made, others = self.run(case, inject)
+    def wrong(self, case, good, points):
+        """What is wrong at "CLASS:N", and at "CLASS:N+": [None: nothing]. Where the first run made no call after its Nth, it was both."""
+        found, calls = [], None
+        for point in points:
+            name, _, n = point.partition(":")
+            if found and n == f"{calls}+":
+                found.append(found[-1])
+            else:
+                done = self.run(case, point)
+                found.append(self.judge(case, good, point, *done[:5]))
+                calls = done[5].get(name)
+        return found
+
+    @staticmethod
+    def judge(case, good, inject, code, out, err, made, others):
         said = [line for line in err.decode(errors="replace").splitlines() if line.startswith("relume:") and " warning: " not in line]
         if code is None:
             return "hangs"
+        if b"LeakSanitizer:DEADLYSIGNAL" in err:
+            return f"crashes: {err.decode(errors='replace')[:900]}"
         if code not in (good[0], 3, 5):
             return f"exit code {code}: {err.decode(errors='replace')[-300:]}"
         if b"detected memory leaks" in err:
@@ -153,14 +168,14 @@ def places_counts(counts, name):
 
 def try_case(trial, case, most, workers, points_of=points_of):
     """(points tried, [what is wrong]). points_of: which ones, of counts"""
-    count = trial.inputs / f"{case.name}.count"
     trial.run(case)  # what is kept for later runs is there now
-    good = trial.run(case, count=count)
+    good = trial.run(case)
     if good[0] != 0 or len(good[3]) != len(case.made):
         return 0, [f"{case.name} does not work: {good}"]
-    points = list(points_of(counts_of(count), most))
+    points = list(points_of(good[5], most))
+    groups = [list(group) for _, group in itertools.groupby(points, key=lambda point: point.rstrip("+"))]
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
-        found = list(pool.map(lambda point: trial.wrong(case, good, point), points))
+        found = sum(pool.map(lambda group: trial.wrong(case, good, group), groups), [])
     wrong = [f"{case.name} {point}: {what}" for point, what in zip(points, found) if what]
     again = trial.run(case)
     if again[0] != good[0] or again[3] != good[3]:

@@ -67,14 +67,18 @@ static int read_text(const char *path, char **out)
 {
 	FILE *file = fopen(path, "rb");
 	size_t n;
+	int failed;
 
 	*out = file ? calloc(1, MOST_BYTES + 1) : NULL;
 	if (!file)
 		return err_report(ERR_INPUT, path, "%s", strerror(errno));
 	n = *out ? fread(*out, 1, MOST_BYTES, file) : 0;
+	failed = ferror(file) ? errno : 0;
 	fclose(file);
 	if (!*out)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (failed)
+		return err_report(ERR_SYSTEM, path, "cannot be read: %s", strerror(failed));
 	if (n == MOST_BYTES || strlen(*out) != n)
 		return err_report(ERR_INPUT, path, "is no text of less than a megabyte");
 	return 0;
