@@ -36,19 +36,20 @@ static void made_current(int ok, const struct drawable_target *target, void *con
 		marker_write_bits();
 }
 
-void current_made_glx(int ok, void *display, unsigned long drawable, void *context)
+void current_made_glx(int ok, void *display, unsigned long drawable, unsigned long read, void *context)
 {
-	made_current(ok, &(struct drawable_target){ .system = DRAWABLE_GLX, .display = display, .id = drawable }, context);
+	made_current(ok, &(struct drawable_target){ .system = DRAWABLE_GLX, .display = display, .id = drawable, .reads_other = read != drawable }, context);
 }
 
-void current_made_egl(unsigned ok, void *display, void *surface, void *context)
+void current_made_egl(unsigned ok, void *display, void *surface, void *read, void *context)
 {
-	made_current(ok != 0, &(struct drawable_target){ .system = DRAWABLE_EGL, .display = display, .id = (uintptr_t)surface }, context);
+	made_current(ok != 0, &(struct drawable_target){ .system = DRAWABLE_EGL, .display = display, .id = (uintptr_t)surface, .reads_other = read != surface },
+	             context);
 }
 
 void current_made_osmesa(unsigned ok, void *context, int width, int height)
 {
-	struct drawable_target target = { DRAWABLE_OSMESA, NULL, (uintptr_t)context, width, height };
+	struct drawable_target target = { DRAWABLE_OSMESA, NULL, (uintptr_t)context, 0, width, height };
 
 	if (ok)
 		resolve_prefer_osmesa();

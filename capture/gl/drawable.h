@@ -21,6 +21,7 @@ struct drawable_target {
 	enum drawable_system system;
 	void *display;
 	uintptr_t id;
+	int reads_other;   /* 1: pixels are read from another drawable (GLX 1.3, EGL) */
 	int width, height; /* OSMesa's, which has no drawables */
 };
 

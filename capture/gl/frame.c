@@ -69,8 +69,8 @@ static void held_size(struct drawable *d, int *width, int *height)
 {
 	struct reading_state state = { 0 };
 
-	if (*width <= 0 || *height <= 0 || (*width == d->held_width && *height == d->held_height) || d->id != self.target.id || !context_current() ||
-	    (context_has(HAS_FIXED_FUNCTION) && context_get(GL_LIST_INDEX)))
+	if (*width <= 0 || *height <= 0 || (*width == d->held_width && *height == d->held_height) || d->id != self.target.id ||
+	    self.target.reads_other || !context_current() || (context_has(HAS_FIXED_FUNCTION) && context_get(GL_LIST_INDEX)))
 		return;
 	context_errors_before();
 	reading_begin(&state);
@@ -92,7 +92,7 @@ static void frame_end(struct drawable *d, int width, int height)
 	snprintf(text, sizeof(text), "relume:time %llu", (unsigned long long)clock_ns());
 	marker_write(text);
 	if (d->id == self.target.id && context_current() && may_be_read())
-		reference_read(width, height, self.unswapped);
+		reference_read(self.target.reads_other ? 0 : width, height, self.unswapped);
 	writer_note_window(d->id);
 	writer_frame_ends();
 }

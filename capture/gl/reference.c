@@ -142,7 +142,7 @@ static void say_unread(int has_size)
 
 	if (!said[has_size]++)
 		report_say(has_size ? "a frame ends while a display list is made; such frames get no reference frames" :
-		                      "a frame ends in what is neither a window nor a pixmap, or in one that is gone; such frames get no reference frames");
+		                      "a frame ends in what is neither a window nor a pixmap, or in one that is gone, or with another one to read from; such frames get no reference frames");
 }
 
 void reference_read(int width, int height, int unswapped)
