@@ -1,4 +1,4 @@
-/* Over the picture: passes whose steps double. */
+/* Passes over the picture, whose steps double. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Over time: the same points in frames before and after. */
+/* The same points in frames before and after. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
