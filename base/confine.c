@@ -220,6 +220,17 @@ static void grant_linker(struct sandbox *s)
 		grant(s, programs[i], LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_READ_FILE);
 }
 
+/* Where NVIDIA's driver keeps machine code, which it makes of what is kept of kernels: 20 s each time where it may not. It asks for no XDG_CACHE_HOME. */
+static void grant_nvidia(struct sandbox *s)
+{
+	const char *said = getenv("CUDA_CACHE_PATH"), *home = getenv("HOME");
+	char path[PATH_MAX];
+
+	if (access("/dev/nvidiactl", F_OK) == 0 &&
+	    snprintf(path, sizeof(path), "%s%s", said && *said ? said : home ? home : "", said && *said ? "" : "/.nv") < (int)sizeof(path))
+		grant_made(s, path, 1);
+}
+
 static void grant_devices(struct sandbox *s)
 {
 	static const char *const patterns[] = { "/dev/nvidia*", "/dev/dri", "/dev/kfd", "/dev/shm", "/dev/accel" };
@@ -239,7 +250,7 @@ static void grant_devices(struct sandbox *s)
 	grant_cache(s, "POCL_CACHE_DIR", "pocl", 1);
 	grant_cache(s, "NEO_CACHE_DIR", "neo_compiler_cache", 0);
 	grant_cache(s, "MESA_SHADER_CACHE_DIR", "mesa_shader_cache", 0);
-	grant_cache(s, "CUDA_CACHE_PATH", "../.nv", 0);
+	grant_nvidia(s);
 	grant_linker(s);
 }
 
