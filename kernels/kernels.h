@@ -414,13 +414,9 @@ typedef float element_float;
 
 /* Prefix sums: kernels/frame/scan.h. */
 #define ARGUMENTS_scan_sum(IN, OUT, VALUE, GROUP, AND) \
-	IN(uint, counts) AND() VALUE(uint, count_first) AND() VALUE(uint, n) AND() OUT(uint, sums) AND() \
-	VALUE(uint, sum_first)
+	IN(uint, counts) AND() VALUE(uint, n) AND() VALUE(uint, full) AND() OUT(uint, sums)
 #define ARGUMENTS_scan_place(IN, OUT, VALUE, GROUP, AND) \
-	IN(uint, counts) AND() VALUE(uint, count_first) AND() VALUE(uint, n) AND() IN(uint, before) AND() \
-	VALUE(uint, before_first) AND() \
-	OUT(uint, places) AND()             /* may be counts */ \
-	VALUE(uint, place_first)
+	IN(uint, counts) AND() VALUE(uint, n) AND() IN(uint, before) AND() OUT(uint, places)
 
 /* X(list): lists that are part of others, and those of kernels. */
 #define KERNEL_GROUPS(X) X(tables) X(layers) X(camera_pass) X(emission) X(hook_trees)

@@ -5,13 +5,15 @@
 __kernel void scan_sum(KERNEL_ARGUMENTS(scan_sum))
 {
 	const uint i = (uint)get_global_id(0);
-	uint sum = 0;
+	uint sum = 0, is_full = 0;
 
 	if (i >= SCAN_ITEMS(n))
 		return;
-	for (uint k = i * SCAN_CHUNK; k < min(n, (i + 1) * SCAN_CHUNK); k++)
-		sum += counts[count_first + k];
-	sums[sum_first + i] = sum;
+	for (uint k = i * SCAN_CHUNK; k < min(n, (i + 1) * SCAN_CHUNK); k++) {
+		sum += counts[k];
+		is_full |= counts[k] == full;
+	}
+	sums[i] = sum | (is_full ? SCAN_FULL : 0);
 }
 
 __kernel void scan_place(KERNEL_ARGUMENTS(scan_place))
@@ -21,11 +23,9 @@ __kernel void scan_place(KERNEL_ARGUMENTS(scan_place))
 
 	if (i >= SCAN_ITEMS(n))
 		return;
-	at = before[before_first + i];
+	at = before[i];
 	for (uint k = i * SCAN_CHUNK; k < min(n, (i + 1) * SCAN_CHUNK); k++) {
-		const uint count = counts[count_first + k];
-
-		places[place_first + k] = at;
-		at += count;
+		places[k] = at;
+		at += counts[k];
 	}
 }

@@ -17,6 +17,7 @@ static void check_scan(struct device *dev, uint32_t n, int kind)
 {
 	union buffer_uint from = { NULL }, places = { NULL }, scratch = { NULL };
 	uint32_t total = 7, want = 0;
+	int is_full = 0;
 
 	for (uint32_t i = 0; i < n; i++) /* none, one or none, any, all from the last */
 		counts[i] = kind == 0 ? 0 : kind == 1 ? i * 2654435761u >> 31 : kind == 2 ? i * 2654435761u >> 20 : i == n - 1;
@@ -25,7 +26,10 @@ static void check_scan(struct device *dev, uint32_t n, int kind)
 	ck_assert_int_eq(launch_reserve(dev, places, sizeof(got) / sizeof(got[0])), 0);
 	ck_assert_int_eq(device_write(dev, from.buffer, 0, counts, n * sizeof(*counts)), 0);
 	ck_assert_int_eq(device_write(dev, places.buffer, 0, got, sizeof(got)), 0);
-	ck_assert_int_eq(scan_counts(dev, from, n, &places, &scratch, &total), 0);
+	ck_assert_int_eq(scan_counts(dev, &(const struct scan_list){ from, n, n ? counts[n / 2] : 1, &places, &scratch }, &total, &is_full), 0);
+	ck_assert_int_eq(is_full, n != 0);
+	ck_assert_int_eq(scan_counts(dev, &(const struct scan_list){ from, n, 0x7fffffff, &places, &scratch }, &total, &is_full), 0);
+	ck_assert_int_eq(is_full, 0);
 	ck_assert_int_eq(device_read(dev, places.buffer, 0, got, sizeof(got)), 0);
 	for (uint32_t i = 0; i < n; i++) {
 		if (total)

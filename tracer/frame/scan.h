@@ -5,13 +5,19 @@
 
 #include "tracer/device/launch.h"
 
+/** How many results each of n items has. Buffers are kept by the caller, from one list to the next. */
+struct scan_list {
+	union buffer_uint counts;            /* uint[n]; together less than 2^31 */
+	uint32_t n;
+	uint32_t full;                       /* a count that is looked for; SCENE_NONE: none is */
+	union buffer_uint *places, *scratch; /* made large enough; nothing else is kept in scratch */
+};
+
 /**
- * Places of n items' results in a dense list, in the items' order.
- * @param counts   uint[n]: how many results each item has; together less than 2^32
- * @param places   made large enough; receives uint[n]. Not `counts`
- * @param scratch  a buffer that nothing else is kept in
- * @param total    receives how many results there are; places are written only where there are some
+ * Places of items' results in a dense list, in the items' order.
+ * @param list     its places receive uint[n], where there are any results; they are not its counts
+ * @param total    receives how many results there are
+ * @param is_full  receives whether any count is list->full; NULL: nobody asks
  * @return 0 or ERR_SYSTEM (reported)
  */
-int scan_counts(struct device *dev, union buffer_uint counts, uint32_t n, union buffer_uint *places, union buffer_uint *scratch,
-                uint32_t *total);
+int scan_counts(struct device *dev, const struct scan_list *list, uint32_t *total, int *is_full);

@@ -104,7 +104,7 @@ static int place(struct job *job, union buffer_uint counts, uint32_t n, uint32_t
 {
 	struct tracer *tr = job->tr;
 
-	return scan_counts(tr->dev, counts, n, &tr->buffers.places, &tr->buffers.scan, total);
+	return scan_counts(tr->dev, &(const struct scan_list){ counts, n, SCENE_NONE, &tr->buffers.places, &tr->buffers.scan }, total, NULL);
 }
 
 /* What came of a list's n paths, up to `slots` each, becomes the list. */

@@ -8,6 +8,7 @@
 #include "tracer/frame/compose.h"
 #include "tracer/frame/dome.h"
 #include "tracer/frame/hooks.h"
+#include "tracer/frame/scan.h"
 #include "tracer/frame/secondary.h"
 
 struct camera_rectangle segment_rectangle(const struct job *job, const int32_t scissor[4])
@@ -203,6 +204,25 @@ static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t 
 	return err ? err : frame_upload(tr, first, tr->first, job->n_pixels);
 }
 
+/*
+ * The same in the order of pixels, by the device itself, where a work item takes one fragment and all pixels count: then neither their counts nor
+ * their places go over to the host.
+ */
+static int place_on_device(struct job *job, uint32_t slots, uint32_t *n_list, int *more)
+{
+	struct frame_buffers *b = &job->tr->buffers;
+	const struct scan_list list = { b->counts, job->n_pixels, slots > 1 ? slots : SCENE_NONE, &b->first, &b->scan };
+
+	return scan_counts(job->tr->dev, &list, n_list, more);
+}
+
+/* Whether a rectangle is all of the band. */
+static int is_band(const struct job *job, struct camera_rectangle r)
+{
+	r = segment_in_buffers(job, r);
+	return r.x0 == 0 && r.y0 == 0 && r.x1 == (int32_t)job->width && r.y1 == (int32_t)job->n_rows;
+}
+
 static int run_gather(struct job *job, struct camera_rectangle r, uint32_t slots, uint32_t n_list)
 {
 	struct tracer *tr = job->tr;
@@ -301,14 +321,16 @@ static int run_draws(struct job *job, const struct segment *segment)
 
 	if (!more)
 		return 0;
-	memset(tr->counts, 0, job->n_pixels * sizeof(*tr->counts));
-	err = frame_upload(tr, after, tr->counts, job->n_pixels);
-	if (!err)
-		err = segment_reserve(job, slots);
+	err = segment_reserve(job, slots);
+	if (!err && slots > 1) { /* columns begin with the first fragment */
+		memset(tr->counts, 0, job->n_pixels * sizeof(*tr->counts));
+		err = frame_upload(tr, after, tr->counts, job->n_pixels);
+	}
 	while (more && !err) {
 		err = segment_trace_camera(job, segment, r, 0);
 		if (!err)
-			err = place_fragments(job, r, slots, &n_list, &more);
+			err = frame_in_packets(job) || job->pass || !is_band(job, r) ? place_fragments(job, r, slots, &n_list, &more) :
+			                                                               place_on_device(job, slots, &n_list, &more);
 		if (err || n_list == 0)
 			break;
 		err = run_gather(job, r, slots, n_list);
