@@ -122,12 +122,16 @@ static inline void pack_light_rays(const struct pack *p, const struct pack_surfa
 	const struct pack_vec straight = positional ? pack_sub(to, pack_place_at(s, p->weight)) : to;
 	const struct pack_vec o = pack_curve_origin(curve, s, p->weight, to, positional, straight, back);
 	const struct pack_vec d = positional ? pack_sub(to, o) : to;
+	packf from[4], way[4];
 
-	for (; lanes; lanes &= lanes - 1) {
-		const uint lane = popcount((lanes & -lanes) - 1);
-		const float8 ray = (float8)(LANE(o.x, float, lane), LANE(o.y, float, lane), LANE(o.z, float, lane), 0,
-		                            LANE(d.x, float, lane), LANE(d.y, float, lane), LANE(d.z, float, lane), positional ? 1.0f : 1.0e30f);
+	pack_turn_rows(o.x, o.y, o.z, (packf)(0), from);
+	pack_turn_rows(d.x, d.y, d.z, (packf)(positional ? 1.0f : 1.0e30f), way);
+	for (uint lane = 0; lane < PACK_SIZE; lane++) {
+		__global gather_loose *ray = (__global gather_loose *)(rays + place[lane]);
 
-		vstore8(ray, place[lane], (__global float *)rays);
+		if (!(lanes >> lane & 1))
+			continue;
+		ray[0] = LANE(from[lane % 4], float4, lane / 4);
+		ray[1] = LANE(way[lane % 4], float4, lane / 4);
 	}
 }

@@ -1,4 +1,4 @@
-/* Entries of a table for sixteen lanes at once, turned into rows. OpenCL C only. */
+/* Entries of a table for sixteen lanes at once, turned into rows, and back. OpenCL C only. */
 #pragma once
 
 #include "kernels/rays/lanes.h"
@@ -33,6 +33,20 @@ INLINED float4 gather_four(__global const float *at)
 	return *(__global const gather_loose *)at;
 }
 
+/*
+ * Four numbers of sixteen lanes, from rows to lanes or back: a lane's, as a quarter, are those of lane 4 q + k in quarter q of the kth. Turned
+ * twice they are as they were.
+ */
+WIDE_VECTORS INLINED void pack_turn_rows(packf a, packf b, packf c, packf d, packf *turned)
+{
+	const packf ab = GATHER_LOW(a, b), cd = GATHER_LOW(c, d), ab_high = GATHER_HIGH(a, b), cd_high = GATHER_HIGH(c, d);
+
+	turned[0] = GATHER_FIRST_PAIRS(ab, cd);
+	turned[1] = GATHER_SECOND_PAIRS(ab, cd);
+	turned[2] = GATHER_FIRST_PAIRS(ab_high, cd_high);
+	turned[3] = GATHER_SECOND_PAIRS(ab_high, cd_high);
+}
+
 /* Four numbers from each of sixteen places on, turned into rows. */
 WIDE_VECTORS INLINED void pack_gather_from(__global const float *table, packu place, packf *row)
 {
@@ -40,12 +54,8 @@ WIDE_VECTORS INLINED void pack_gather_from(__global const float *table, packu pl
 	const packf b = (packf)(gather_four(table + place.s1), gather_four(table + place.s5), gather_four(table + place.s9), gather_four(table + place.sd));
 	const packf c = (packf)(gather_four(table + place.s2), gather_four(table + place.s6), gather_four(table + place.sa), gather_four(table + place.se));
 	const packf d = (packf)(gather_four(table + place.s3), gather_four(table + place.s7), gather_four(table + place.sb), gather_four(table + place.sf));
-	const packf ab = GATHER_LOW(a, b), cd = GATHER_LOW(c, d), ab_high = GATHER_HIGH(a, b), cd_high = GATHER_HIGH(c, d);
 
-	row[0] = GATHER_FIRST_PAIRS(ab, cd);
-	row[1] = GATHER_SECOND_PAIRS(ab, cd);
-	row[2] = GATHER_FIRST_PAIRS(ab_high, cd_high);
-	row[3] = GATHER_SECOND_PAIRS(ab_high, cd_high);
+	pack_turn_rows(a, b, c, d, row);
 }
 
 /* Sixteen of a table's entries of four numbers. */
