@@ -128,6 +128,34 @@ START_TEST(test_thin_sheet_shades_nothing_of_itself)
 }
 END_TEST
 
+/* In mode path a surface that shines behind a wall lights nothing of the side that is seen, whichever way its corners' normals lean. */
+START_TEST(test_lamp_behind_lights_nothing)
+{
+	static const float wall[3][3] = { { -4, -4, -6 }, { 4, -4, -6 }, { 0, 6, -6 } };
+	static const float lean[3][2] = { { 0, 1 }, { 0.95f, 0.3f }, { 0.95f, -0.3f } }; /* x and z */
+
+	for (int i = 0; i < 3; i++) {
+		const float normals[3][3] = { { lean[i][0], 0, lean[i][1] }, { lean[i][0], 0, lean[i][1] }, { lean[i][0], 0, lean[i][1] } };
+		const struct tracer_options options = { .mode = TRACER_PATH, .display = 1, .depth = 1, .rays = 16 };
+		uint32_t lamp;
+		struct image img;
+		struct made t;
+
+		made_init(&t, SIZE, SIZE, 0.3f);
+		made_add_triangles(&t, made_add_material(&t, 0.8f), wall, normals, 3);
+		lamp = made_add_material(&t, 0);
+		for (int c = 0; c < 3; c++)
+			t.materials[lamp].surface.emission[c] = 0.5f;
+		made_add_square(&t, lamp, (float[3]){ 2, 0, -8 }, (float[3]){ 1, 0, 0 }, (float[3]){ 0, 1, 0 }, 1, 1);
+		truth_render_with(&t, &options, &img);
+		for (uint32_t at = 0; at < SIZE * SIZE; at++)
+			ck_assert_float_eq(truth_at(&img, "R", at % SIZE, at / SIZE), 0);
+		image_free(&img);
+		made_free(&t);
+	}
+}
+END_TEST
+
 int main(void)
 {
 	TCase *tests = tcase_create("terminator");
@@ -136,5 +164,6 @@ int main(void)
 	tcase_add_test(tests, test_round_shape_shades_nothing_of_itself);
 	tcase_add_test(tests, test_others_shade_it_alike_at_any_scale);
 	tcase_add_test(tests, test_thin_sheet_shades_nothing_of_itself);
+	tcase_add_test(tests, test_lamp_behind_lights_nothing);
 	return run_case(tests, "terminator");
 }
