@@ -14,7 +14,7 @@
 	X(ray) X(hit) X(path) X(fragment) X(shaded) X(frame_pixel) X(view) X(instance) X(geometry) X(texture_image) \
 	X(scene_material) X(scene_light) X(scene_unit) X(scene_current) X(shaded_vertex) X(window_vertex) \
 	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8) X(dome_place) X(emitter) \
-	X(photon) X(query_point) X(query_nearest) X(query_body) X(query_contact) X(hook_answer) X(hook_object)
+	X(layer_clear) X(photon) X(query_point) X(query_nearest) X(query_body) X(query_contact) X(hook_answer) X(hook_object)
 
 /* Types by one word each, for lists of arguments alone. Some structs stand in no buffer but are passed by value. */
 #define KERNEL_ELEMENT(word) typedef struct word element_##word;
@@ -181,6 +181,7 @@ typedef float element_float;
 	VALUE(uint, n_looks) AND() \
 	VALUE(uint, columns) AND() VALUE(uint, asking) AND() /* a bit for each look at columns, and whose fragments send rays */ \
 	VALUE(uint, round) AND()            /* PLAIN_BEGINS and the like */ \
+	IN(layer_clear, clears) AND() VALUE(uint, n_clears) AND() /* in order; of this round */ \
 	IN(float, before) AND() OUT(float, after) AND() /* [PLAIN_KEPT] a pixel, row by row of blocks: as the last round left it; for the next */ \
 	VALUE(uint, mirrors) AND()          /* 1: light leaves fragments that mirror or let it through. 0: the rest are any buffers */ \
 	OUT(uint, leaving) AND()            /* [n / PLAIN_WIDTH]: a bit for each such fragment that shows; from layered, read by the others */ \

@@ -382,6 +382,15 @@ struct camera_rectangle {
 	int32_t x0, y0, x1, y1;
 };
 
+/* A clear of depth between looks (kernels/frame/plain.h): a rectangle of the band. */
+struct layer_clear {
+	uint32_t look; /* before this one */
+	int32_t x0, y0, x1, y1;
+	uint32_t depth; /* as the depth buffer has it */
+	float depth_exact;
+};
+SHARED_SIZE(struct layer_clear, 28);
+
 /* One pixel of the frame while it is being drawn. */
 struct frame_pixel {
 	float gl[4], shadowed[3], direct[3], mirrored[3], beauty[3]; /* as in struct shaded */

@@ -16,7 +16,7 @@ struct layer {
 	struct pack pack; /* of those in `placed`, of one material */
 	uint there, placed, drawn, shaded, covered; /* drawn: all tests passed; covered: by a later one */
 	uint leaves;        /* light leaves these */
-	uint from, slots;   /* of the first pixel's fragment in a->sparse; how far the next one's is from it */
+	uint look, from, slots; /* of the first pixel's fragment in a->sparse; how far the next one's is from it */
 	int asks, follows;  /* its fragments may send rays to lights; paths */
 };
 
@@ -110,6 +110,7 @@ static inline uint load_layers(const struct plain_arguments *a, const struct lay
 		for (uint i = 0; i < n; i++) {
 			struct layer *layer = &row->layers[row->n++];
 
+			layer->look = look;
 			layer->at.x = b->x;
 			layer->at.y = y;
 			layer->at.base = plain_base(place + i, y);
@@ -192,6 +193,23 @@ WIDE_VECTORS static inline void keep_pixels(const struct plain_arguments *a, uin
 	after.shows = select((packu)(1), (packu)(0), row->surface == SCENE_NONE);
 	for (uint i = 0; i < KEPT_PACKS; i++)
 		((__global pack_loose_floats *)to)[i] = ((const packf *)&after)[i];
+}
+
+/* --- Clears -------------------------------------------------------------------------------------------------------- */
+
+/* Clears of depth before a look, from number `next` on. x, y: of the row. @return the number of the first that is left */
+WIDE_VECTORS static inline uint clear_before(const struct plain_arguments *a, uint look, uint next, uint x, uint y, struct layered_row *row)
+{
+	const packi column = as_int16((packu)(x) + as_uint16(PACK_LANES));
+
+	for (; next < a->layers.n_clears && a->layers.clears[next].look <= look; next++) {
+		__global const struct layer_clear *c = &a->layers.clears[next];
+		const packi lanes = (int)y >= c->y0 && (int)y < c->y1 ? (column >= c->x0) & (column < c->x1) : (packi)(0);
+
+		row->depth = select(row->depth, (packu)(c->depth), lanes);
+		pack_put(&row->pixels.depth, (packf)(c->depth_exact), lanes);
+	}
+	return next;
 }
 
 /* --- Tests --------------------------------------------------------------------------------------------------------- */

@@ -294,14 +294,16 @@ static inline void put_draws(const struct plain_arguments *a, struct layered_row
 static inline void draw_row(const struct plain_arguments *a, const struct shade_arguments *s, uint x, uint y, struct layered_row *row,
                             struct layered_kept *kept, const struct pack_planes *to)
 {
-	uint covered = 0, spared = 0;
+	uint covered = 0, spared = 0, clear = 0;
 
 	begin_pixels(a, x, y, row);
 	for (uint i = 0; i < row->n; i++) {
+		clear = clear_before(a, row->layers[i].look, clear, x, y, row);
 		test_layer(a, s, row, i, kept);
 		if (row->at_once)
 			draw_layer(a, &row->layers[i], row->is_mirrored, &row->pixels);
 	}
+	clear_before(a, SCENE_NONE, clear, x, y, row);
 	for (uint i = row->at_once ? 0 : row->n; i-- > 0 && row->n > 1;) {
 		covered = shade_layer(a, s, row, i, covered, kept);
 		spared |= row->layers[i].drawn & ~row->layers[i].shaded;
@@ -347,7 +349,7 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 			continue;
 		}
 		draw_row(a, s, b.x, y, &row, &kept, &to);
-		if (!row.n && to.n == PACK_SIZE && (a->layers.round & PLAIN_BEGINS) && (a->layers.round & PLAIN_ENDS))
+		if (!row.n && to.n == PACK_SIZE && !a->layers.n_clears && (a->layers.round & PLAIN_BEGINS) && (a->layers.round & PLAIN_ENDS))
 			empty = to.at;
 	}
 }

@@ -192,12 +192,27 @@ static void end_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, c
 
 _Static_assert(sizeof(struct frame_pixel) == PLAIN_KEPT * sizeof(float), "what is kept of a pixel");
 
+/* Clears of depth before a look, from number `next` on. @return the number of the first that is left */
+static uint32_t clear_before(const struct plain_arguments *a, uint32_t look, uint32_t next, uint32_t x, uint32_t y, struct frame_pixel *pixel)
+{
+	for (; next < a->layers.n_clears && a->layers.clears[next].look <= look; next++) {
+		const struct layer_clear *c = &a->layers.clears[next];
+
+		if ((int32_t)x < c->x0 || (int32_t)x >= c->x1 || (int32_t)y < c->y0 || (int32_t)y >= c->y1)
+			continue;
+		pixel->depth = c->depth;
+		pixel->depth_exact = c->depth_exact;
+	}
+	return next;
+}
+
 /* do_pixel where there are several looks. item: its place in the block's first layer */
 static void draw_layers(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t step, uint32_t x, uint32_t y, uint32_t item)
 {
 	const int is_there = x < a->width && y < a->request.height;
 	const uint32_t number = y * a->width + x;
 	struct frame_pixel pixel;
+	uint32_t clear = 0;
 
 	if (is_there)
 		pixel = begin_pixel(a, x, y);
@@ -205,6 +220,8 @@ static void draw_layers(const struct plain_arguments *a, const struct shade_argu
 		const uint32_t first = plain_look_first(a->layers.columns, look, a->width * a->request.height) + number;
 		const uint32_t slots = plain_slots(a->layers.columns, look), most = most_of_block(a, look, x, y);
 
+		if (is_there)
+			clear = clear_before(a, look, clear, x, y, &pixel);
 		for (uint32_t i = 0; i < most; i++, item += PLAIN_WIDTH * PLAIN_ROWS) {
 			for (uint32_t slot = 0; slot < a->n_slots && step == PLAIN_FIRST; slot++)
 				stage_no_ray(&a->rays[slot * a->n + item]);
@@ -219,8 +236,10 @@ static void draw_layers(const struct plain_arguments *a, const struct shade_argu
 			draw_fragment(a, s, step, item, a->layers.asking >> look & 1, &pixel);
 		}
 	}
-	if (is_there)
-		end_pixel(a, x, y, &pixel);
+	if (!is_there)
+		return;
+	clear_before(a, SCENE_NONE, clear, x, y, &pixel);
+	end_pixel(a, x, y, &pixel);
 }
 
 static void draw_layers_first(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)

@@ -21,6 +21,9 @@ struct looks {
 	const struct accel_space *space, *sky; /* sky: what rays see that hit nothing */
 	uint32_t next; /* the segment that is looked at next: again, if its columns go on; tracer.counts has where */
 	int goes_on;
+	struct layer_clear *clears; /* room for all of the frame */
+	uint32_t n_clears, cleared; /* of this round; clears of segments before are done */
+	uint32_t skipped;           /* of the first segment's, which all pixels begin with */
 };
 
 /* Whether kernels know all that a material asks of the frame buffer. */
@@ -51,11 +54,27 @@ static int has_one_space(const struct job *job)
 	return 1;
 }
 
+/* Whether what is cleared later on is depth alone; the frame's stencil is never looked at. */
+static int is_cleared_simply(const struct job *job)
+{
+	struct scene_clear clear;
+	uint32_t first = segment_whole_clear(job, &clear);
+
+	for (uint32_t i = 0; i < job->prepared.n_segments; i++, first = 0) {
+		const struct segment *segment = &job->prepared.segments[i];
+
+		for (uint32_t k = first; k < segment->clear_count; k++)
+			if (job->scene->clears[segment->clear_first + k].target == 0 && job->scene->clears[segment->clear_first + k].buffers & 1)
+				return 0;
+	}
+	return 1;
+}
+
 int layered_suits(const struct job *job)
 {
 	const struct prepared *p = &job->prepared;
 
-	if (!frame_in_packets(job) || !plain_is_simple(job) || dome_is_there(job) || p->has_fragment_programs || p->has_vertex_programs ||
+	if (!frame_in_packets(job) || !plain_is_simple(job) || !is_cleared_simply(job) || dome_is_there(job) || p->has_fragment_programs || p->has_vertex_programs ||
 	    !has_one_space(job))
 		return 0;
 	for (uint32_t i = 0; i < p->n_instances; i++)
@@ -176,13 +195,29 @@ static int look_at(struct job *job, const struct segment *segment, struct camera
 	return looks->goes_on ? go_on(job, looks) : err;
 }
 
+/* The clears of a segment, before the next look. */
+static void clear_segment(const struct job *job, const struct segment *segment, struct looks *looks)
+{
+	const uint32_t bits = pixel_depth_bits(job->bits);
+
+	for (uint32_t i = looks->cleared ? 0 : looks->skipped; i < segment->clear_count; i++) {
+		const struct scene_clear *clear = &job->scene->clears[segment->clear_first + i];
+		const struct camera_rectangle r = segment_in_buffers(job, segment_rectangle(job, clear->scissor));
+
+		if (clear->target == 0 && clear->buffers & 2)
+			looks->clears[looks->n_clears++] = (struct layer_clear){ looks->n, r.x0, r.y0, r.x1, r.y1, pixel_depth_steps(clear->depth, bits),
+			                                                         clamp01(clear->depth) };
+	}
+	looks->cleared++;
+}
+
 /* So many looks as a round takes; the layers of blocks in tracer.first. */
 static int look_around(struct job *job, struct looks *looks)
 {
 	const struct prepared *p = &job->prepared;
 	int err = 0;
 
-	looks->n = looks->layers = looks->columns = looks->asking = 0;
+	looks->n = looks->layers = looks->columns = looks->asking = looks->n_clears = 0;
 	looks->space = looks->sky = NULL;
 	memset(job->tr->first, 0, plain_blocks(job->width, job->n_rows) * sizeof(*job->tr->first));
 	while (!err && looks->next < p->n_segments) {
@@ -194,8 +229,12 @@ static int look_around(struct job *job, struct looks *looks)
 
 			if (looks->n == looks->most || looks->layers + slots > PLAIN_LAYERS)
 				return 0;
+			if (looks->cleared == looks->next)
+				clear_segment(job, segment, looks);
 			if (r.x0 < r.x1)
 				err = look_at(job, segment, r, looks);
+		} else if (looks->cleared == looks->next) {
+			clear_segment(job, segment, looks);
 		}
 		looks->next += !looks->goes_on;
 	}
@@ -245,7 +284,7 @@ static struct plain_launch launch_of(const struct job *job, const struct looks *
 	a.pixels = b->alone_pixels;
 	a.shaded = b->alone_shaded;
 	a.layers = *LAUNCH(layers, .counts = b->counts, .n_looks = looks->n, .columns = looks->columns, .asking = looks->asking,
-	                   .round = round, .before = b->kept_pixels, .after = b->next_pixels, .mirrors = looks->space && plain_has_mirrors(job),
+	                   .round = round, .clears = b->layer_clears, .n_clears = looks->n_clears, .before = b->kept_pixels, .after = b->next_pixels, .mirrors = looks->space && plain_has_mirrors(job),
 	                   .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
 	                   .list_pixels = b->pixels, .list_shaded = b->shaded);
 	return a;
@@ -306,6 +345,8 @@ static int draw(struct job *job, const struct looks *looks, uint32_t round, uint
 	struct plain_launch a;
 	int err = reserve_places(job, n, n_slots);
 
+	if (!err)
+		err = frame_upload(job->tr, layer_clears, looks->clears, looks->n_clears + 1);
 	if (err)
 		return err;
 	a = launch_of(job, looks, round, n, n_slots, request);
@@ -357,24 +398,33 @@ static int draw_round(struct job *job, struct looks *looks, int is_first, int *i
 	return err;
 }
 
-int layered_band(struct job *job)
+/* looks: with room for clears */
+static int draw_band(struct job *job, struct looks *looks)
 {
-	struct looks looks = { .next = 0 };
 	struct compose_request request;
 	struct scene_clear clear;
 	int err, is_last = 0;
 
-	segment_whole_clear(job, &clear);
+	looks->skipped = segment_whole_clear(job, &clear);
 	memcpy(job->background, clear.color, sizeof(job->background));
 	/* As in plain_band. */
 	err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
 	if (!err)
 		err = frame_reserve_counts(job);
 	if (!err)
-		err = reserve_looks(job, &looks);
+		err = reserve_looks(job, looks);
 	if (!err)
 		err = compose_reserve(job, &request);
 	for (int is_first = 1; !err && !is_last; is_first = 0)
-		err = draw_round(job, &looks, is_first, &is_last, &request);
+		err = draw_round(job, looks, is_first, &is_last, &request);
 	return err ? err : compose_fetch(job, &request, job->image);
+}
+
+int layered_band(struct job *job)
+{
+	struct looks looks = { .clears = calloc(job->scene->n_clears + (size_t)1, sizeof(*looks.clears)) };
+	int err = looks.clears ? draw_band(job, &looks) : err_report(ERR_SYSTEM, NULL, "out of memory for %u clears", job->scene->n_clears);
+
+	free(looks.clears);
+	return err;
 }

@@ -38,7 +38,7 @@ static int is_cleared_once(const struct job *job)
 int plain_is_simple(const struct job *job)
 {
 	return !job->options->hook && job->image && job->n_passes == 1 && job->n_samples == 1 &&
-	       !job->scene->start && !job->scene->needs_previous && is_lit_simply(job) && is_cleared_once(job);
+	       !job->scene->start && !job->scene->needs_previous && is_lit_simply(job);
 }
 
 /* Kernels of one pixel a work item know neither light from all around nor programs. */
@@ -59,7 +59,7 @@ int plain_suits(const struct job *job)
 	const struct prepared *p = &job->prepared;
 	const struct segment *segment = p->segments;
 
-	if (!plain_is_simple(job) || plain_has_mirrors(job) || !is_known(job) || p->n_segments != 1 || segment->view == SCENE_NONE ||
+	if (!plain_is_simple(job) || !is_cleared_once(job) || plain_has_mirrors(job) || !is_known(job) || p->n_segments != 1 || segment->view == SCENE_NONE ||
 	    segment->mode == CAMERA_COLUMN)
 		return 0;
 	for (uint32_t i = 0; i < segment->instance_count; i++) {
@@ -112,6 +112,8 @@ static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
 		err = frame_reserve(tr, shaded, n);
 	if (!err)
 		err = frame_reserve(tr, dome_places, 1);
+	if (!err)
+		err = frame_reserve(tr, layer_clears, 1);
 	return err ? err : secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
 }
 
@@ -129,7 +131,7 @@ struct plain_launch plain_launch_of(const struct job *job, struct camera_rectang
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	const struct scene_dome none = { .reach = 0 };
-	const struct layers_launch *one = LAUNCH(layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .round = 0, .before = b->visibility,
+	const struct layers_launch *one = LAUNCH(layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .round = 0, .clears = b->layer_clears, .n_clears = 0, .before = b->visibility,
 	                                         .after = b->visibility, .mirrors = 0, .leaving = b->counts,
 	                                         .list_first = b->counts, .list = b->fragments, .list_pixels = b->pixels, .list_shaded = b->shaded);
 
