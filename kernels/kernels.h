@@ -214,6 +214,10 @@ typedef float element_float;
 	OUT(half, halves) AND() OUT(float, floats)
 
 /* Plain frames without rays: the camera's and their planes. */
+/* A picture from before as a round of looks takes it over. */
+#define ARGUMENTS_layered_start(IN, OUT, VALUE, GROUP, AND) \
+	IN(frame_pixel, start) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() /* of the band */ \
+	OUT(float, kept)                    /* as layers.before */
 #define ARGUMENTS_plain_whole(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_camera_packet(IN, OUT, VALUE, GROUP, AND) AND() /* fragments and counts: the twin alone leaves them; as of a band of request.height rows */ \
 	GROUP(tables, tables) AND() VALUE(uint, bits) AND() \
@@ -426,7 +430,7 @@ typedef float element_float;
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) X(query_sphere) \
 	X(vertex) X(vertex_program) X(window) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
-	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(plain_whole) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
+	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(layered_start) X(plain_whole) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
 	HOOK_LISTS(X)
 
 /* Kernels for hooks. Each has a kernel of its name; KERNEL_ITEMS is its body. */
@@ -550,6 +554,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(plain_show, plain)            /* the third, one pixel a work item: its planes */ \
 	X(plain_color_dimmed, plain)    /* plain_shadow's two steps, the same */ \
 	X(plain_show_dimmed, plain) \
+	X(layered_start, layered_start) /* before the next, where frames begin with a picture: PLAIN_WIDTH pixels of a row a work item */ \
 	X(layered, plain)               /* as plain, of several looks */ \
 	X(layered_shadow, plain)        /* as plain_shadow; and fragments that light leaves, into a list */ \
 	X(layered_mirror, plain)        /* planes of pixels where these are, with what their paths found */ \

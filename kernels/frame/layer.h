@@ -183,16 +183,20 @@ WIDE_VECTORS static inline void begin_pixels(const struct plain_arguments *a, ui
 	row->surface -= before.shows; /* no layer of this round */
 }
 
+WIDE_VECTORS static inline void store_kept(__global float *to, const struct layered_kept_row *row)
+{
+	for (uint i = 0; i < KEPT_PACKS; i++)
+		((__global pack_loose_floats *)to)[i] = ((const packf *)row)[i];
+}
+
 WIDE_VECTORS static inline void keep_pixels(const struct plain_arguments *a, uint x, uint y, const struct layered_row *row)
 {
-	__global float *to = a->layers.after + plain_kept(a->width, x, y);
 	struct layered_kept_row after;
 
 	after.pixels = row->pixels;
 	after.depth = row->depth;
 	after.shows = select((packu)(1), (packu)(0), row->surface == SCENE_NONE);
-	for (uint i = 0; i < KEPT_PACKS; i++)
-		((__global pack_loose_floats *)to)[i] = ((const packf *)&after)[i];
+	store_kept(a->layers.after + plain_kept(a->width, x, y), &after);
 }
 
 /* --- Clears -------------------------------------------------------------------------------------------------------- */

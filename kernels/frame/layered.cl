@@ -354,6 +354,37 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 	}
 }
 
+/* A pixel from before, to a lane. */
+static inline void keep_start(__global const struct frame_pixel *p, uint lane, struct layered_kept_row *to)
+{
+	for (uint c = 0; c < 3; c++) {
+		LANE(to->pixels.gl[c], float, lane) = p->gl[c];
+		LANE(to->pixels.shadowed[c], float, lane) = p->shadowed[c];
+		LANE(to->pixels.direct[c], float, lane) = p->direct[c];
+		LANE(to->pixels.mirrored[c], float, lane) = p->mirrored[c];
+		LANE(to->pixels.beauty[c], float, lane) = p->beauty[c];
+		LANE(to->pixels.albedo[c], float, lane) = LANE(to->pixels.normal[c], float, lane) = LANE(to->pixels.position[c], float, lane) = 0;
+	}
+	LANE(to->pixels.gl[3], float, lane) = p->gl[3];
+	LANE(to->pixels.drawn, float, lane) = 1;
+	LANE(to->pixels.depth, float, lane) = p->depth_exact;
+	LANE(to->pixels.id, float, lane) = LANE(to->pixels.layers, float, lane) = 0;
+	LANE(to->depth, uint, lane) = p->depth;
+	LANE(to->shows, uint, lane) = 0;
+}
+
+KERNEL_OF(float16) void layered_start(KERNEL_ARGUMENTS(layered_start))
+{
+	const uint item = (uint)get_global_id(0), x = item % plain_columns(width) * PLAIN_WIDTH, y = item / plain_columns(width);
+	struct layered_kept_row row;
+
+	if (y >= height)
+		return;
+	for (uint lane = 0; lane < PACK_SIZE; lane++)
+		keep_start(&start[y * width + min(x + lane, width - 1)], lane, &row);
+	store_kept(kept + plain_kept(width, x, y), &row);
+}
+
 KERNEL_OF(float16) void layered(KERNEL_ARGUMENTS(plain))
 {
 	const struct plain_arguments a = KERNEL_STRUCT(plain);

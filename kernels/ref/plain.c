@@ -345,6 +345,16 @@ void plain_show_dimmed_c(const struct plain_arguments *a, size_t first, size_t l
 	do_pixels(a, a->n_slots, first, last, show_pixel);
 }
 
+void layered_start_c(const struct layered_start_arguments *a, size_t first, size_t last)
+{
+	for (size_t item = first; item < last && item < (size_t)plain_columns(a->width) * a->height; item++) {
+		const uint32_t x = (uint32_t)item % plain_columns(a->width) * PLAIN_WIDTH, y = (uint32_t)item / plain_columns(a->width);
+
+		for (uint32_t i = x; i < x + PLAIN_WIDTH && i < a->width; i++)
+			memcpy(a->kept + plain_kept(a->width, 0, y) + i * PLAIN_KEPT, &a->start[y * a->width + i], sizeof(*a->start));
+	}
+}
+
 void layered_c(const struct plain_arguments *a, size_t first, size_t last)
 {
 	do_blocks(a, 0, first, last, draw_layers_first);

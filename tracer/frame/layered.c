@@ -9,6 +9,7 @@
 #include "kernels/gl/pixel.h"
 #include "tracer/frame/compose.h"
 #include "tracer/frame/dome.h"
+#include "tracer/frame/picture.h"
 #include "tracer/frame/plain.h"
 #include "tracer/frame/secondary.h"
 #include "tracer/frame/segment.h"
@@ -54,11 +55,19 @@ static int has_one_space(const struct job *job)
 	return 1;
 }
 
+/* How many of the first segment's clears all pixels begin with. */
+static uint32_t cleared_first(const struct job *job, struct scene_clear *clear)
+{
+	const uint32_t n = segment_whole_clear(job, clear);
+
+	return job->scene->start ? 0 : n;
+}
+
 /* Whether what is cleared later on is depth alone; the frame's stencil is never looked at. */
 static int is_cleared_simply(const struct job *job)
 {
 	struct scene_clear clear;
-	uint32_t first = segment_whole_clear(job, &clear);
+	uint32_t first = cleared_first(job, &clear);
 
 	for (uint32_t i = 0; i < job->prepared.n_segments; i++, first = 0) {
 		const struct segment *segment = &job->prepared.segments[i];
@@ -74,7 +83,7 @@ int layered_suits(const struct job *job)
 {
 	const struct prepared *p = &job->prepared;
 
-	if (!frame_in_packets(job) || !plain_is_simple(job) || !is_cleared_simply(job) || dome_is_there(job) || p->has_fragment_programs || p->has_vertex_programs ||
+	if (!frame_in_packets(job) || !plain_is_simple(job) || (job->scene->needs_previous && !job->scene->start) || !is_cleared_simply(job) || dome_is_there(job) || p->has_fragment_programs || p->has_vertex_programs ||
 	    !has_one_space(job))
 		return 0;
 	for (uint32_t i = 0; i < p->n_instances; i++)
@@ -374,12 +383,25 @@ static int reserve_kept(struct job *job, int is_only)
 	return err ? err : frame_reserve(job->tr, next_pixels, n);
 }
 
+/* The picture that the frame begins with becomes what a round has left. */
+static int keep_start(struct job *job)
+{
+	struct frame_buffers *b = &job->tr->buffers;
+	int err = frame_reserve(job->tr, frame, job->n_pixels);
+
+	if (!err)
+		err = picture_upload_start(job);
+	return err ? err : launch_layered_start(job->tr->dev, (size_t)plain_columns(job->width) * job->n_rows,
+	                                        LAUNCH(layered_start, .start = b->frame, .width = job->width, .height = job->n_rows,
+	                                               .kept = b->kept_pixels));
+}
+
 /* A round of looks, as many as there is room for, and what they have found drawn. is_first: of the band. is_last: receives whether it was the last */
 static int draw_round(struct job *job, struct looks *looks, int is_first, int *is_last, const struct compose_request *request)
 {
 	struct frame_buffers *b = &job->tr->buffers;
 	union buffer_float kept;
-	uint32_t n, round = is_first ? PLAIN_BEGINS : plain_has_mirrors(job) ? PLAIN_MIRRORED : 0;
+	uint32_t n, round = !is_first ? plain_has_mirrors(job) ? PLAIN_MIRRORED : 0 : job->scene->start ? 0 : PLAIN_BEGINS;
 	int err = look_around(job, looks);
 
 	if (err)
@@ -389,7 +411,9 @@ static int draw_round(struct job *job, struct looks *looks, int is_first, int *i
 	n = place_blocks(job);
 	err = frame_upload(job->tr, blocks, job->tr->first, plain_blocks(job->width, job->n_rows));
 	if (!err)
-		err = reserve_kept(job, is_first && *is_last);
+		err = reserve_kept(job, is_first && *is_last && !job->scene->start);
+	if (!err && is_first && job->scene->start)
+		err = keep_start(job);
 	if (!err)
 		err = draw(job, looks, round, n, request);
 	kept = b->next_pixels;
@@ -405,8 +429,10 @@ static int draw_band(struct job *job, struct looks *looks)
 	struct scene_clear clear;
 	int err, is_last = 0;
 
-	looks->skipped = segment_whole_clear(job, &clear);
-	memcpy(job->background, clear.color, sizeof(job->background));
+	looks->skipped = cleared_first(job, &clear);
+	memset(job->background, 0, sizeof(job->background));
+	if (!job->scene->start)
+		memcpy(job->background, clear.color, sizeof(job->background));
 	/* As in plain_band. */
 	err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
 	if (!err)
