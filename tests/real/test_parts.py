@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Frames that need no earlier ones are rendered without them, and those that do say so: tests/real/parts.c."""
+"""Frames that need no earlier ones are rendered without them, and those that do say so: tests/real/parts.c. Those that begin with a picture are the
+same whether they are drawn layer by layer (packets) or segment by segment."""
 from helpers import AS_SHOWN, SCRATCH, check, check_alone, check_same_pictures, finish, must, relume
 
 FRAMES = ("two views", "two views again", "a corner copied", "a corner copied again", "tiles", "tiles again", "blended tiles",
@@ -10,4 +11,11 @@ for frame in range(1, len(FRAMES)):
     told = f"frame {frame} needs the pixels of frames before it" in done.stderr
     check(told == (frame >= 8), f"{FRAMES[frame]}: said to need earlier frames: {told}: {done.stderr}")
     check_alone(trace, frame)
+for device in ((), ("--device", "reference")):
+    ways = []
+    for kernels in ("packets", "binary"):
+        folder = SCRATCH / f"{kernels}{len(device)}"
+        must(relume("render", trace, "-f", f"0-{len(FRAMES) - 1}", "-o", folder / "####.exr", "--kernels", kernels, *device))
+        ways.append([file.read_bytes() for file in sorted(folder.iterdir())])
+    check(len(ways[0]) == len(FRAMES) and ways[0] == ways[1], f"{device}: packets leave other files than binary")
 finish()

@@ -23,6 +23,7 @@ PROGRAMS = {  # and the kernel that their frames go through
     "glsl": ("plain", ["phong", "--size", "201x150", "--by", "glsl"]),
     "spheres": ("layered", ["spheres", "--size", "320x240"]),
     "still_life": ("layered", ["still_life", "--size", "320x240"]),
+    "courtyard": ("layered", ["courtyard", "--size", "320x240"]),  # clears its depth again
 }
 
 IN_DOME = {"box": "plain_dome", "arena": "plain_dome", "blocks": "plain_dome", "vertex": "dome_light_packet", "fragment": "dome_light_packet"}
