@@ -454,7 +454,7 @@ FUZZ_SECONDS ?= 3600
 FUZZ_CC ?= clang
 FUZZ_CXX ?= clang++
 FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
-FUZZ_SRC := $(filter-out tracer/image/oiio_load.c,$(wildcard $(patsubst %,%/*.c,base capture/format scene look look/apply farm $(addprefix diff/,rules baseline score pictures) \
+FUZZ_SRC := $(filter-out tracer/image/oiio_load.c,$(wildcard $(patsubst %,%/*.c,base capture/format scene scene/repair look look/apply farm $(addprefix diff/,rules baseline score pictures) \
 	$(addprefix tracer/,image device) kernels/ref))) $(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(filter-out replay/glsl/load.c,$(REPLAY_SRC)) render/stamp.c \
 	$(addprefix capture/write/,pages.c values.c) $(addprefix tests/fuzz/,calls.c stream.c target.c)
 FUZZ_GEN := $(patsubst $(BUILD)/%.c,$(BUILD)/fuzz/objects/%.o,$(filter-out %/page.c,$(COMMAND_GEN)) $(BUILD)/gen/fuzz_commands.c) $(BUILD)/fuzz/objects/gen/enums.o
