@@ -123,7 +123,7 @@ static int copy_scene(struct applying *a)
 	out->instances = malloc((copies * n + 1) * sizeof(*out->instances));
 	out->materials = malloc((scene->n_materials + copies * n + 2) * sizeof(*out->materials));
 	out->views = malloc((2 * scene->n_views + (size_t)1) * sizeof(*out->views));
-	out->lights = malloc((scene->n_lights + (a->lights_change ? SCENE_MAX_LIGHTS * (n + 1) : 1)) * sizeof(*out->lights));
+	out->lights = malloc((scene->n_lights + SCENE_MAX_LIGHTS * (n + 1)) * sizeof(*out->lights)); /* untouched, it is no memory */
 	out->meshes = malloc((scene->n_meshes + copies * n + 1) * sizeof(*out->meshes));
 	if (!out->instances || !out->materials || !out->views || !out->lights || !out->meshes || !out->parameters) {
 		out->n_meshes = 0;

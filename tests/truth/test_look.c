@@ -1,4 +1,5 @@
 /* Rules (look/rules.h): files that are wrong, what rules match, and what they make of a picture. */
+#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -104,6 +105,25 @@ START_TEST(test_matches)
 		look_release(&changed);
 		rules_free(&look);
 	}
+	made_free(&t);
+}
+END_TEST
+
+/* A lightmap's place is taken by OpenGL's own lights where no rule is about lights: each surface has room for its own list of them. */
+START_TEST(test_lightmap_under_own_lights)
+{
+	struct scene_draw draws[5];
+	struct look *look;
+	struct scene changed;
+	struct made t;
+
+	make_squares(&t, draws);
+	ck_assert_msg(load("surfaces:\n- match: { lit: yes }\n  lightmap: 1\n", &look) == 0, "%s", said);
+	ck_assert_int_eq(look_apply(look, &t.scene, &changed, NULL), 0);
+	ck_assert_uint_eq(changed.n_lights, t.scene.n_lights + 2);
+	ck_assert_uint_ge(malloc_usable_size((void *)changed.lights) / sizeof(*changed.lights), changed.n_lights);
+	look_release(&changed);
+	rules_free(&look);
 	made_free(&t);
 }
 END_TEST
@@ -224,6 +244,7 @@ int main(void)
 	tcase_set_timeout(tests, 60);
 	tcase_add_test(tests, test_wrong_files);
 	tcase_add_test(tests, test_matches);
+	tcase_add_test(tests, test_lightmap_under_own_lights);
 	tcase_add_test(tests, test_lights);
 	tcase_add_test(tests, test_light_that_nothing_stops);
 	tcase_add_test(tests, test_light_of_an_object);
