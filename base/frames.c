@@ -8,6 +8,8 @@
 #include "base/err.h"
 #include "base/memory.h"
 
+#define MOST_STEPS 100000000 /* about a second */
+
 static int compare_first(const void *a, const void *b)
 {
 	const struct frame_range *x = a, *y = b;
@@ -49,7 +51,53 @@ static int parse_range(const char **p, struct frame_range *r)
 		if (!parse_number(p, &r->step) || r->step == 0)
 			return 0;
 	}
+	if (r->first == r->last)
+		r->step = 1;
 	return 1;
+}
+
+/* Join ranges of every frame that overlap. */
+static void join(struct frame_list *list)
+{
+	struct frame_range *whole = NULL; /* the last one kept */
+	size_t kept = 0;
+
+	for (size_t i = 0; i < list->n_ranges; i++) {
+		struct frame_range r = list->ranges[i];
+
+		if (r.step == 1 && whole && r.first <= whole->last) {
+			whole->last = r.last > whole->last ? r.last : whole->last;
+			continue;
+		}
+		list->ranges[kept] = r;
+		whole = r.step == 1 ? &list->ranges[kept] : whole;
+		kept++;
+	}
+	list->n_ranges = kept;
+}
+
+/** 1 where no two ranges can hold the same frame, so that counts add up. */
+static int is_disjoint(const struct frame_list *list)
+{
+	for (size_t i = 1; i < list->n_ranges; i++)
+		if (list->ranges[i].first <= list->ranges[i - 1].last)
+			return 0;
+	return 1;
+}
+
+/* 1 where counting the frames, one by one over all ranges, takes too long. */
+static int is_too_long(const struct frame_list *list)
+{
+	uint64_t left = MOST_STEPS / list->n_ranges;
+
+	for (size_t i = 0; i < list->n_ranges; i++) {
+		uint64_t steps = (list->ranges[i].last - list->ranges[i].first) / list->ranges[i].step;
+
+		if (steps >= left)
+			return 1;
+		left -= steps + 1;
+	}
+	return 0;
 }
 
 int frame_list_parse(const char *text, struct frame_list *out)
@@ -73,6 +121,11 @@ int frame_list_parse(const char *text, struct frame_list *out)
 		p++;
 	}
 	qsort(list.ranges, list.n_ranges, sizeof(*list.ranges), compare_first);
+	join(&list);
+	if (!is_disjoint(&list) && is_too_long(&list)) {
+		frame_list_free(&list);
+		return err_report(ERR_USAGE, NULL, "'%s' names too many frames in ranges that overlap; write ranges that do not", text);
+	}
 	*out = list;
 	return 0;
 }
@@ -147,15 +200,6 @@ int frame_list_next(const struct frame_list *list, uint64_t from, uint64_t *fram
 	return found;
 }
 
-/** 1 where no two ranges can hold the same frame, so that counts add up. */
-static int is_disjoint(const struct frame_list *list)
-{
-	for (size_t i = 1; i < list->n_ranges; i++)
-		if (list->ranges[i].first <= list->ranges[i - 1].last)
-			return 0;
-	return 1;
-}
-
 uint64_t frame_list_count(const struct frame_list *list, uint64_t end)
 {
 	uint64_t count = 0;
@@ -219,11 +263,31 @@ static uint64_t frame_of_rank(const struct frame_list *list, uint64_t rank)
 	return frame;
 }
 
+/** How many frames the first i of n parts hold: total * i / n without overflow. */
+static uint64_t frames_before(uint64_t total, uint64_t i, uint64_t n)
+{
+	return total / n * i + total % n * i / n;
+}
+
+uint64_t frame_list_part_of(const struct frame_list *list, uint64_t end, uint64_t frame, uint64_t n)
+{
+	uint64_t total = frame_list_count(list, end), rank = frame_list_count(list, frame), low = 1, high = n;
+
+	while (low < high) {
+		uint64_t middle = low + (high - low) / 2;
+
+		if (rank < frames_before(total, middle, n))
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	return low;
+}
+
 int frame_list_chunk(struct frame_list *list, uint64_t end, uint64_t i, uint64_t n)
 {
 	uint64_t total = frame_list_count(list, end), first, last;
-	/* total * i / n without overflow */
-	uint64_t from = total / n * (i - 1) + total % n * (i - 1) / n, to = total / n * i + total % n * i / n;
+	uint64_t from = frames_before(total, i - 1, n), to = frames_before(total, i, n);
 	size_t kept = 0;
 
 	if (from == to)

@@ -16,7 +16,7 @@ struct frame_range {
 };
 
 struct frame_list {
-	struct frame_range *ranges; /* owned; sorted by first */
+	struct frame_range *ranges; /* owned; sorted by first; those that overlap name few enough frames to count them one by one */
 	size_t n_ranges;            /* 0: every frame */
 };
 
@@ -54,6 +54,9 @@ int frame_chunk_parse(const char *text, uint64_t *i, uint64_t *n);
  * @return 0; 1 where this part holds no frame (the list is unchanged); ERR_SYSTEM (reported)
  */
 int frame_list_chunk(struct frame_list *list, uint64_t end, uint64_t i, uint64_t n);
+
+/** Which of the n parts, from 1, a frame of the list is in. */
+uint64_t frame_list_part_of(const struct frame_list *list, uint64_t end, uint64_t frame, uint64_t n);
 
 /** 1 where the pattern has a placeholder for the frame number. */
 int frame_pattern_has_number(const char *pattern);

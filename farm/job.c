@@ -173,8 +173,8 @@ int farm_job_parse(int argc, char **argv, struct farm_job *out)
 		err = err_report(ERR_USAGE, NULL, "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})", out->output);
 	if (err)
 		return err;
-	out->n_frames = frame_list_count(&out->frames, frame_list_last(&out->frames) + 1);
-	out->n_tasks = (out->n_frames + out->chunk - 1) / out->chunk;
+	out->n_frames = frame_list_count(&out->frames, UINT64_MAX);
+	out->n_tasks = out->n_frames / out->chunk + (out->n_frames % out->chunk != 0);
 	if (out->n_tasks > MAX_TASKS)
 		return err_report(ERR_USAGE, NULL, "%" PRIu64 " tasks are more than anybody has nodes for; a larger --chunk makes fewer",
 		                  out->n_tasks);
@@ -266,23 +266,5 @@ int farm_job_load(const char *folder, struct farm_job *out)
 
 uint64_t farm_job_task_of(const struct farm_job *job, uint64_t frame)
 {
-	/* As frame_list_chunk cuts: parts as equal as can be, in order. */
-	uint64_t low = 1, high = job->n_tasks;
-
-	if (!frame_list_contains(&job->frames, frame))
-		return 0;
-	while (low < high) {
-		uint64_t middle = low + (high - low) / 2;
-		struct frame_list part = { 0 };
-		int rc = frame_list_parse(job->frames_text, &part);
-
-		if (!rc)
-			rc = frame_list_chunk(&part, UINT64_MAX, middle, job->n_tasks);
-		if (rc || frame <= frame_list_last(&part))
-			high = middle;
-		else
-			low = middle + 1;
-		frame_list_free(&part);
-	}
-	return low;
+	return frame_list_contains(&job->frames, frame) ? frame_list_part_of(&job->frames, UINT64_MAX, frame, job->n_tasks) : 0;
 }

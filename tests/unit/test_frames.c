@@ -100,6 +100,43 @@ START_TEST(test_last_and_count)
 }
 END_TEST
 
+/* A number mistyped names more frames than anybody counts one by one. */
+START_TEST(test_overlapping_ranges)
+{
+	struct frame_list list = { 0 };
+
+	ck_assert_int_eq(frame_list_parse("1-5555500000000065,88,80-90,5555500000000060-5555500000000070", &list), 0);
+	ck_assert_uint_eq(frame_list_count(&list, UINT64_MAX), 5555500000000070);
+	ck_assert_uint_eq(frame_list_part_of(&list, UINT64_MAX, 5555500000000070, 1000), 1000);
+	frame_list_free(&list);
+	ck_assert_str_eq(frames_of("0-2,2-4,4,1,7-8x3", 10), "0 1 2 3 4 7");
+	ck_assert_int_eq(frame_list_parse("0-4000000000x2,0-4000000000x3", &list), ERR_USAGE);
+	ck_assert_int_eq(frame_list_parse("0-18446744073709551615x2,5-18446744073709551615", &list), ERR_USAGE);
+	ck_assert_ptr_null(list.ranges);
+}
+END_TEST
+
+/* A frame's part is the one that holds it. */
+START_TEST(test_parts_of_frames)
+{
+	static const char *const texts[] = { "3-40", "0-30x3,40-60", "1-6,2-8x2,8", "5,7" };
+
+	for (size_t t = 0; t < sizeof(texts) / sizeof(texts[0]); t++)
+		for (uint64_t n = 1; n < 9; n++)
+			for (uint64_t i = 1; i <= n; i++) {
+				struct frame_list whole = { 0 }, part = { 0 };
+				uint64_t frame = 0;
+
+				ck_assert(!frame_list_parse(texts[t], &whole) && !frame_list_parse(texts[t], &part));
+				if (frame_list_chunk(&part, UINT64_MAX, i, n) == 0)
+					for (; frame_list_next(&part, frame, &frame); frame++)
+						ck_assert_uint_eq(frame_list_part_of(&whole, UINT64_MAX, frame, n), i);
+				frame_list_free(&whole);
+				frame_list_free(&part);
+			}
+}
+END_TEST
+
 static const char *expanded(const char *pattern, uint64_t frame)
 {
 	static char out[64];
@@ -144,6 +181,8 @@ int main(void)
 	tcase_add_test(tcase, test_not_ranges);
 	tcase_add_test(tcase, test_chunks);
 	tcase_add_test(tcase, test_last_and_count);
+	tcase_add_test(tcase, test_overlapping_ranges);
+	tcase_add_test(tcase, test_parts_of_frames);
 	tcase_add_test(tcase, test_patterns);
 	tcase_add_test(tcase, test_pattern_too_long);
 	return run_case(tcase, "frames");
