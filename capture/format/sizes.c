@@ -103,25 +103,28 @@ long image_pixel_bytes(unsigned format, unsigned type)
 
 long image_bytes(const struct pixel_layout *layout, const struct pixel_box *box)
 {
-	long bits = box->type == GL_BITMAP ? components(box->format) : 8 * image_pixel_bytes(box->format, box->type);
-	long pixels = layout->row_length > 0 ? layout->row_length : box->width;
-	long rows = box->dims > 2 && layout->image_height > 0 ? layout->image_height : box->height;
-	long row_bytes, skipped_bytes, last_bytes;
+	long long bits = box->type == GL_BITMAP ? components(box->format) : 8 * image_pixel_bytes(box->format, box->type);
+	long long pixels = layout->row_length > 0 ? layout->row_length : box->width;
+	long long rows = box->dims > 2 && layout->image_height > 0 ? layout->image_height : box->height;
+	long long row_bytes, lines, last_bytes, bytes;
+	long out;
 
 	if (box->width <= 0 || box->height <= 0 || box->depth <= 0 || bits <= 0 || layout->alignment < 1 || layout->skip_pixels < 0 ||
 	    layout->skip_rows < 0 || layout->skip_images < 0)
 		return 0;
 	row_bytes = (pixels * bits + 7) / 8;
 	row_bytes = (row_bytes + layout->alignment - 1) / layout->alignment * layout->alignment;
-	skipped_bytes = (box->dims > 1 ? layout->skip_rows * row_bytes : 0) +
-	                (box->dims > 2 ? layout->skip_images * rows * row_bytes : 0);
-	last_bytes = ((layout->skip_pixels + (long)box->width) * bits + 7) / 8;
-	return skipped_bytes + ((box->depth - 1L) * rows + box->height - 1L) * row_bytes + last_bytes;
+	/* Below 2^63, as two products of ints are. Their bytes need not be. */
+	lines = (box->dims > 1 ? layout->skip_rows : 0) + (box->dims > 2 ? layout->skip_images * rows : 0) + (box->depth - 1) * rows + box->height - 1;
+	last_bytes = ((layout->skip_pixels + (long long)box->width) * bits + 7) / 8;
+	return __builtin_mul_overflow(lines, row_bytes, &bytes) || __builtin_add_overflow(bytes, last_bytes, &out) ? 0 : out;
 }
 
 long call_lists_bytes(int n, unsigned type)
 {
-	return n > 0 ? n * type_bytes(type) : 0;
+	long out;
+
+	return n > 0 && !__builtin_mul_overflow(n, type_bytes(type), &out) ? out : 0;
 }
 
 long clear_buffer_count(unsigned buffer)
@@ -146,15 +149,15 @@ static long map_components(unsigned target)
 
 long map1_count(unsigned target, int stride, int order)
 {
-	long n = map_components(target);
+	long n = map_components(target), out;
 
-	return n && order > 0 && stride >= n ? (order - 1L) * stride + n : 0;
+	return n && order > 0 && stride >= n && !__builtin_add_overflow((order - 1LL) * stride, n, &out) ? out : 0;
 }
 
 long map2_count(unsigned target, int ustride, int uorder, int vstride, int vorder)
 {
-	long n = map_components(target);
+	long n = map_components(target), out;
 
-	return n && uorder > 0 && vorder > 0 && ustride >= n && vstride >= n ?
-	       (uorder - 1L) * ustride + (vorder - 1L) * vstride + n : 0;
+	return n && uorder > 0 && vorder > 0 && ustride >= n && vstride >= n &&
+	       !__builtin_add_overflow((uorder - 1LL) * ustride + (vorder - 1LL) * vstride, n, &out) ? out : 0;
 }

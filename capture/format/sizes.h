@@ -1,6 +1,6 @@
 /*
  * How much memory an argument points to: a function for each form that Khronos' registry leaves open (COMPSIZE). They call no GL
- * and know no state, so the recorder, the replay and the tests share them.
+ * and know no state, so the recorder, the replay and the tests share them. What would be more than a long holds is 0, as nonsense is.
  */
 #pragma once
 

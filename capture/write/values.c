@@ -123,10 +123,25 @@ uint8_t *put_memory(uint8_t *p, const void *data, size_t bytes)
 	return put_room(p);
 }
 
+/* A longer array or blob that does not end in the program's memory has garbage for a length, and would fill the disk with zeros: nothing is put. */
+enum { LONG_ARRAY = 256, LONG_BLOB = 65536 };
+
+static int has_end(const void *at, long n, size_t size)
+{
+	uintptr_t end;
+	size_t bytes;
+	char last;
+
+	return !__builtin_mul_overflow((size_t)n, size, &bytes) && !__builtin_add_overflow((uintptr_t)at, bytes, &end) &&
+	       !pages_read(&last, (const void *)(end - 1), 1);
+}
+
 static uint8_t *put_sized(uint8_t *p, unsigned tag, const void *data, long bytes)
 {
 	if (!data)
 		return put_null(p);
+	if (bytes > LONG_BLOB && !has_end(data, bytes, 1))
+		bytes = 0;
 	*p++ = (uint8_t)tag;
 	p = put_varint(p, bytes > 0 ? (uint64_t)bytes : 0);
 	return put_memory(p, data, bytes > 0 ? (size_t)bytes : 0);
@@ -216,14 +231,6 @@ static int may_be_mapped(const void *at)
 	return (uintptr_t)at >= 0x10000 && (uint64_t)(uintptr_t)at >> 56 == 0;
 }
 
-/* Elements to put; 0 where there is no end of a long array: its length is garbage, and would fill the disk with zeros. */
-static long elements_count(const void *array, long n, size_t size)
-{
-	char last;
-
-	return n > PIECE && pages_read(&last, (const char *)array + ((size_t)n * size - 1), 1) ? 0 : n;
-}
-
 /* n elements: where they are, or a copy in `piece`. @param all  elements of the array */
 static const void *elements(void *piece, const void *from, long n, size_t size, long all)
 {
@@ -241,7 +248,7 @@ static const void *elements(void *piece, const void *from, long n, size_t size, 
                                                                                                                               \
 		if (!array)                                                                                                   \
 			return put_null(p);                                                                                   \
-		n = elements_count(array, n, sizeof(piece[0]));                                                               \
+		n = n > LONG_ARRAY && !has_end(array, n, sizeof(piece[0])) ? 0 : n;                                           \
 		p = put_array_head(p, n);                                                                                     \
 		for (long at = 0; at < n; at += PIECE) {                                                                      \
 			const long part = n - at < PIECE ? n - at : PIECE;                                                    \

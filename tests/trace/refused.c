@@ -1,6 +1,7 @@
 /* Calls that GL refuses may point anywhere: the recorder must not look there as if it were safe. */
 #include "window.h"
 
+#include <limits.h>
 #include <sys/mman.h>
 
 #define PAGE 4096
@@ -19,6 +20,10 @@ static void pass_arrays(void)
 	expect(glGetError() == GL_INVALID_VALUE, "no map is so long");
 	glPixelMapfv(GL_PIXEL_MAP_R_TO_R, 1 << 20, (const float *)pages);
 	expect(glGetError() == GL_INVALID_VALUE, "nor where there is something");
+	glMap2f(GL_MAP2_VERTEX_3, 0, 1, INT_MAX, INT_MAX, 0, 1, 1 << 30, 7, (const float *)pages); /* 2^64 + 20 bytes */
+	expect(glGetError() == GL_INVALID_VALUE, "no map is of so high an order");
+	glTexImage2D(GL_TEXTURE_1D, 0, GL_RGBA, 1 << 30, 1 << 29, 0, GL_RGBA, GL_UNSIGNED_BYTE, pages);
+	expect(glGetError() == GL_INVALID_ENUM, "no target for two dimensions");
 	glPixelMapusv(GL_PIXEL_MAP_I_TO_R, 20, end);
 	expect(glGetError() == GL_INVALID_VALUE, "20 is no power of two");
 	glUniform4fv(-1, 1, nowhere);

@@ -1,6 +1,7 @@
 /* Sizes of what arguments point to: pixel rectangles under every part of the unpack state, evaluator maps, lists, vectors. */
 #include <GL/gl.h>
 #include <GL/glext.h>
+#include <limits.h>
 
 #include "capture/format/sizes.h"
 #include "tests/case.h"
@@ -61,6 +62,20 @@ START_TEST(test_nonsense_is_nothing)
 }
 END_TEST
 
+/* Texels skipped by images, rows and pixels of two thousand millions each: no memory holds them. */
+START_TEST(test_more_than_memory_is_nothing)
+{
+	const struct pixel_layout far = { .image_height = INT_MAX, .skip_images = INT_MAX, .alignment = 1 };
+	const struct pixel_layout wide = { .row_length = INT_MAX, .skip_rows = INT_MAX, .skip_pixels = INT_MAX, .alignment = 1 };
+
+	ck_assert_int_eq(image_bytes(&far, &(struct pixel_box){ 3, GL_RGBA, GL_UNSIGNED_BYTE, 4, 1, 1 }), 0);
+	ck_assert_int_eq(image_bytes(&far, &(struct pixel_box){ 3, GL_RGBA, GL_UNSIGNED_BYTE, INT_MAX, 1, INT_MAX }), 0);
+	ck_assert_int_eq(image_bytes(&wide, &(struct pixel_box){ 2, GL_RGBA, GL_FLOAT, 1, 1, 1 }), 0);
+	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 3, GL_RGBA, GL_UNSIGNED_BYTE, INT_MAX, INT_MAX, INT_MAX }), 0);
+	ck_assert_int_eq(map2_count(GL_MAP2_VERTEX_4, INT_MAX, INT_MAX, INT_MAX, INT_MAX), 2LL * (INT_MAX - 1) * INT_MAX + 4);
+}
+END_TEST
+
 START_TEST(test_lists_maps_and_vectors)
 {
 	ck_assert_int_eq(call_lists_bytes(5, GL_3_BYTES), 15);
@@ -90,6 +105,7 @@ int main(void)
 	tcase_add_test(tcase, test_layout_reaches_where_gl_reads);
 	tcase_add_test(tcase, test_packed_pixels);
 	tcase_add_test(tcase, test_nonsense_is_nothing);
+	tcase_add_test(tcase, test_more_than_memory_is_nothing);
 	tcase_add_test(tcase, test_lists_maps_and_vectors);
 	return run_case(tcase, "sizes");
 }
