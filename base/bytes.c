@@ -51,10 +51,10 @@ uint64_t cursor_u64(struct cursor *c)
 
 void cursor_copy(struct cursor *c, void *out, size_t n)
 {
-	const void *at = cursor_get(c, n);
+	const void *at = n ? cursor_get(c, n) : NULL;
 
 	if (at)
 		memcpy(out, at, n);
-	else
+	else if (n)
 		memset(out, 0, n);
 }

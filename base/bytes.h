@@ -36,5 +36,5 @@ struct cursor {
 /** The next n bytes, or NULL. Borrowed. */
 const void *cursor_get(struct cursor *c, uint64_t n);
 uint64_t cursor_u64(struct cursor *c);
-/** Copy the next n bytes; all 0 where they are not there. */
+/** Copy the next n bytes; all 0 where they are not there. With n = 0, out may be NULL. */
 void cursor_copy(struct cursor *c, void *out, size_t n);

@@ -42,7 +42,7 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 	gls_shown_end(x, st, drawn);
 	n = added ? gls_program_current(st, keys) : 0;
 	for (unsigned i = 0; i < n; i++)
-		if (table_set(&x->counts.program_draws, keys[i], (char *)table_find(&x->counts.program_draws, keys[i]) + 1))
+		if (table_set(&x->counts.program_draws, keys[i], (void *)((uintptr_t)table_find(&x->counts.program_draws, keys[i]) + 1)))
 			gls_fail(x);
 	if (added && (lack = gls_program_lack(st))) {
 		x->counts.programs++;
