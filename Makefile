@@ -284,7 +284,7 @@ $(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/tracer/image/oiio_load
 $(BUILD)/tests/fuzz/test_stream: $(BUILD)/tests/fuzz/stream.o
 $(BUILD)/tests/fuzz/test_calls $(BUILD)/tests/fuzz/test_pictures $(BUILD)/tests/fuzz/test_stream: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter-out $(NOT_LINKED),$(filter %.a,$^)) $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
 
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c tests/check/host_cl.c) \
@@ -484,7 +484,8 @@ $(BUILD)/fuzz/parts.a: $(FUZZ_OBJ)
 $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%): $(BUILD)/fuzz/%: $(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.o $(BUILD)/fuzz/parts.a
 	$(Q)$(FUZZ_CXX) -fsanitize=fuzzer,address,undefined -pthread -o $@ $^ $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS)
 
-# The same targets in one program, without libFuzzer: what was kept, and mutants. Each is named anew for that.
+# The same targets in one program, without libFuzzer: what was kept, and mutants. Each is named anew for that. Of the command it has what they have:
+# it does not link where FUZZ_SRC lacks something.
 DRIVE_OBJ := $(patsubst %,$(BUILD)/tests/fuzz/targets/%.o,$(filter-out calls replay,$(FUZZ_TARGETS)))
 $(BUILD)/tests/fuzz/targets/%.o: tests/fuzz/fuzz_%.c $(BUILD)/flags | $(GENERATED_H)
 	@mkdir -p $(@D)
@@ -493,6 +494,11 @@ $(BUILD)/tests/fuzz/targets/recorder.o: | $(BUILD)/recorder/gen/stamp
 
 $(BUILD)/tests/fuzz/drive: $(DRIVE_OBJ) $(BUILD)/tests/fuzz/target.o $(addprefix $(BUILD)/recorder/,capture/write/pages.o capture/write/values.o gen/tables/enums.o)
 $(BUILD)/tests/fuzz/drive $(BUILD)/tests/fuzz/make_seeds: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
+$(BUILD)/tests/fuzz/drive: $(BUILD)/tests/fuzz/parts.a
+$(BUILD)/tests/fuzz/drive: private NOT_LINKED := $(BUILD)/parts.a
+$(BUILD)/tests/fuzz/parts.a: Makefile $(patsubst $(BUILD)/fuzz/objects/%,$(BUILD)/%,$(filter-out %/gen/enums.o $(BUILD)/fuzz/objects/capture/write/% $(BUILD)/fuzz/objects/tests/%,$(FUZZ_OBJ)))
+	@rm -f $@
+	$(Q)$(AR) rcs $@ $(filter %.o,$^)
 
 $(BUILD)/gen/fuzz_commands.c: tests/fuzz/gen_commands.py replay/gen.py capture/gen/registry.py $(REPLAY_SRC) | $(GENERATED_H)
 	$(Q)$(PYTHON) -B $< $@ $(sort $(REPLAY_SRC))
