@@ -35,17 +35,18 @@ static size_t copy(void *to, const void *from, size_t bytes)
 
 size_t pages_read(void *to, const void *from, size_t bytes)
 {
+	const uintptr_t at = (uintptr_t)from; /* garbage may end beyond the last address */
 	size_t done = 0, lost = 0;
 	int saved = errno;
 
 	while (done < bytes) {
 		size_t page;
 
-		done += copy((char *)to + done, (const char *)from + done, bytes - done);
+		done += copy((char *)to + done, (const void *)(at + done), bytes - done);
 		if (done == bytes)
 			break;
 		/* The page at `done` is not there: zeros, and on with the next one. */
-		page = PAGE - (((uintptr_t)from + done) & (PAGE - 1));
+		page = PAGE - ((at + done) & (PAGE - 1));
 		if (page > bytes - done)
 			page = bytes - done;
 		memset((char *)to + done, 0, page);

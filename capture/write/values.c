@@ -107,14 +107,14 @@ uint8_t *put_bool32(uint8_t *p, unsigned v)
 
 uint8_t *put_memory(uint8_t *p, const void *data, size_t bytes)
 {
-	const uint8_t *from = data;
+	uintptr_t from = (uintptr_t)data;
 
 	while (bytes) {
 		size_t n = (size_t)(recording.end - p);
 
 		if (n > bytes)
 			n = bytes;
-		pages_read(p, from, n);
+		pages_read(p, (const void *)from, n);
 		p += n;
 		from += n;
 		bytes -= n;
@@ -198,9 +198,9 @@ uint8_t *put_strings(uint8_t *p, const char *const *strings, long count, const i
 		const char *text;
 		int length = -1;
 
-		pages_read(&text, strings + i, sizeof(text));
+		pages_read(&text, (const void *)((uintptr_t)strings + (size_t)i * sizeof(text)), sizeof(text));
 		if (lengths)
-			pages_read(&length, lengths + i, sizeof(length));
+			pages_read(&length, (const void *)((uintptr_t)lengths + (size_t)i * sizeof(length)), sizeof(length));
 		p = put_string(p, text, length > MAX_TEXT ? 0 : length);
 	}
 	return p;

@@ -98,7 +98,7 @@ def record(build, folder):
         if program.is_dir() or "." in program.name or program.name.startswith("test_"):
             continue
         subprocess.run(["timeout", "5", build / "relume", "record", "-o", folder / f"{program.name}.trace", "--ref", "color,depth", "--", program,
-                        "--frames", "2"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+                        "--frames", "2"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
 
 
 def pictures(build, traces, out):
