@@ -58,8 +58,9 @@ def unpacked(folder, target):
 
 
 def environment(target, **more):
-    leaks = int(target != "oiio")  # OpenImageIO's readers leak
-    return dict(os.environ, ASAN_OPTIONS=f"allocator_may_return_null=1:detect_leaks={leaks}", UBSAN_OPTIONS="print_stacktrace=1", **more)
+    free = int(target != "oiio")  # its readers leak, and its sandbox lets no symbolizer start, which ends the process
+    return dict(os.environ, ASAN_OPTIONS=f"allocator_may_return_null=1:detect_leaks={free}:symbolize={free}",
+                UBSAN_OPTIONS=f"print_stacktrace=1:symbolize={free}", **more)
 
 
 def load(path):
