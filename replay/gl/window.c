@@ -189,7 +189,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		st->dirty |= GLS_DIRTY_ALL;
 	}
 	if (strncmp(text, "relume:drawable", 15) != 0 || sscanf(text, "relume:drawable %u %u", &width, &height) != 2 ||
-	    width > 65536 || height > 65536)
+	    width > GLS_MAX_DRAWABLE || height > GLS_MAX_DRAWABLE)
 		return;
 	drawable = gls_drawable_of(x, st->drawable);
 	if (drawable)

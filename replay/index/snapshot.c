@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 #include "replay/gl/context.h"
+#include "replay/gl/surface/drawable.h"
 #include "replay/index/snapshot_objects.h"
 #include "replay/index/snapshot_state.h"
 
@@ -28,6 +29,8 @@ static void *get_drawable(struct loader *l)
 		return NULL;
 	d->width = (uint32_t)cursor_u64(&l->in);
 	d->height = (uint32_t)cursor_u64(&l->in);
+	if (d->width > GLS_MAX_DRAWABLE || d->height > GLS_MAX_DRAWABLE)
+		l->in.failed = 1;
 	d->fixed = (int)cursor_u64(&l->in);
 	d->accum_missing = cursor_u64(&l->in) != 0;
 	d->front.is_front = 1;

@@ -96,11 +96,32 @@ START_TEST(parameters_of_programs)
 }
 END_TEST
 
+/* A window's size, of which pictures are made. */
+START_TEST(sizes_of_windows)
+{
+	static const uint64_t size[2] = { 1234, 567 };
+	struct gl gl = gl_open();
+	struct bytes saved = { 0 };
+	uint8_t *at;
+
+	gl_call(&gl, "glStringMarkerGREMEDY", "is", 0, "relume:drawable 1234 567");
+	ck_assert_int_eq(snapshot_save(gl.x, &blobs, &saved), 0);
+	ck_assert_int_eq(load(&saved), 0);
+	at = memmem(saved.data, saved.n, size, sizeof(size));
+	ck_assert_ptr_nonnull(at);
+	memcpy(at + 8, &(uint64_t){ 1u << 31 }, 8);
+	ck_assert_int_ne(load(&saved), 0);
+	free(saved.data);
+	gl_close(&gl);
+}
+END_TEST
+
 int main(void)
 {
 	TCase *tcase = tcase_create("snapshots");
 
 	tcase_add_test(tcase, units_with_other_numbers);
 	tcase_add_test(tcase, parameters_of_programs);
+	tcase_add_test(tcase, sizes_of_windows);
 	return run_case(tcase, "snapshots");
 }

@@ -5,6 +5,8 @@
 
 #include "replay/build/frame.h"
 
+#define GLS_MAX_DRAWABLE 65536 /* pixels of a side */
+
 /* A window or pbuffer as far as the trace tells. */
 struct gls_drawable {
 	uint32_t width, height;
