@@ -213,11 +213,12 @@ typedef float element_float;
 	GROUP(layers, layers) AND()         /* layered, layered_shadow and layered_mirror alone, which do without rectangle */ \
 	OUT(half, halves) AND() OUT(float, floats)
 
-/* Plain frames without rays: the camera's and their planes. */
 /* A picture from before as a round of looks takes it over. */
 #define ARGUMENTS_layered_start(IN, OUT, VALUE, GROUP, AND) \
 	IN(frame_pixel, start) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() /* of the band */ \
 	OUT(float, kept)                    /* as layers.before */
+
+/* Plain frames without rays: the camera's and their planes. */
 #define ARGUMENTS_plain_whole(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_camera_packet(IN, OUT, VALUE, GROUP, AND) AND() /* fragments and counts: the twin alone leaves them; as of a band of request.height rows */ \
 	GROUP(tables, tables) AND() VALUE(uint, bits) AND() \

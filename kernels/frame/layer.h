@@ -16,7 +16,8 @@ struct layer {
 	struct pack pack; /* of those in `placed`, of one material */
 	uint there, placed, drawn, shaded, covered; /* drawn: all tests passed; covered: by a later one */
 	uint leaves;        /* light leaves these */
-	uint look, from, slots; /* of the first pixel's fragment in a->sparse; how far the next one's is from it */
+	uint look;          /* that found its fragments */
+	uint from, slots;   /* of the first pixel's fragment in a->sparse; how far the next one's is from it */
 	int asks, follows;  /* its fragments may send rays to lights; paths */
 };
 

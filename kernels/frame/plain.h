@@ -49,7 +49,8 @@ static inline uint32_t plain_place(GLOBAL const uint32_t *blocks, uint32_t width
  * lists the fragments that mirror or let light through. layered_mirror makes the planes of rows where these are, with what their paths found.
  *
  * Where more fragments lie over each other than a work item keeps, they come in rounds of looks: all but the last leave pixels for the next in
- * place of planes. A frame that begins with a picture goes on from where layered_start has left that. The kernels and their twins keep pixels each in a layout of their own.
+ * place of planes. A frame that begins with a picture goes on from where layered_start has left that. The kernels and their twins keep
+ * pixels each in a layout of their own.
  */
 #define PLAIN_LOOKS 8u   /* of a round, at most */
 #define PLAIN_LAYERS 16u /* fragments of a round over each other, at most */

@@ -96,7 +96,7 @@ START_TEST(parameters_of_programs)
 }
 END_TEST
 
-/* A window's size, of which pictures are made. */
+/* Pictures are made of a window's size: one that is too large is refused. */
 START_TEST(sizes_of_windows)
 {
 	static const uint64_t size[2] = { 1234, 567 };

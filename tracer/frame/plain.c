@@ -58,8 +58,8 @@ int plain_suits(const struct job *job)
 	const struct prepared *p = &job->prepared;
 	const struct segment *segment = p->segments;
 
-	if (!plain_is_simple(job) || job->scene->start || job->scene->needs_previous || !is_cleared_once(job) || plain_has_mirrors(job) || !is_known(job) || p->n_segments != 1 || segment->view == SCENE_NONE ||
-	    segment->mode == CAMERA_COLUMN)
+	if (!plain_is_simple(job) || job->scene->start || job->scene->needs_previous || !is_cleared_once(job) || plain_has_mirrors(job) ||
+	    !is_known(job) || p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN)
 		return 0;
 	for (uint32_t i = 0; i < segment->instance_count; i++) {
 		const struct scene_material *m = &job->scene->materials[p->instances[segment->instance_first + i].material];
@@ -130,7 +130,8 @@ struct plain_launch plain_launch_of(const struct job *job, struct camera_rectang
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	const struct scene_dome none = { .reach = 0 };
-	const struct layers_launch *one = LAUNCH(layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .round = 0, .clears = b->layer_clears, .n_clears = 0, .before = b->visibility,
+	const struct layers_launch *one = LAUNCH(layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .round = 0,
+	                                         .clears = b->layer_clears, .n_clears = 0, .before = b->visibility,
 	                                         .after = b->visibility, .mirrors = 0, .leaving = b->counts,
 	                                         .list_first = b->counts, .list = b->fragments, .list_pixels = b->pixels, .list_shaded = b->shaded);
 
