@@ -9,7 +9,6 @@ import json
 import os
 import pathlib
 import random
-import resource
 import shutil
 import subprocess
 import sys
@@ -21,6 +20,7 @@ TRACES, COMMANDS, OTHERS = 20_000, 1_000, 5_000
 VERBS = 7       # of tests/fuzz/fuzz_verbs.c
 SEED = 1
 AT_ONCE = 10   # damaged pictures
+LONGEST_S = 10
 
 PROGRAMS = {
     "two_triangles": ["corpus/two_triangles", "--frames", "6"],
@@ -55,10 +55,18 @@ def drive(build, folder, target, count, parts):
     return done.stdout.count(": input ") if done.returncode in (0, 1) else count
 
 
+def compare_once(build, good, bad, mutate):
+    """Exit code and seconds of one `relume diff`."""
+    begin = time.monotonic()
+    code = subprocess.run([build / "relume", "diff", good, bad], check=False, preexec_fn=mutate.limit_memory, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL).returncode
+    return code, time.monotonic() - begin
+
+
 def compare(build, folder, count, parts, mutate):
     """
-    How many of so many damaged pictures break `relume diff`, which reads each in a process of its own: exit code 0 (as it was), 1 or 3, within 10 s of
-    processor time and 2 GiB for ten of them at once.
+    How many of so many damaged pictures break `relume diff`, which reads each in a process of its own: exit code 0 (as it was), 1 or 3, within 10 s and
+    2 GiB for ten of them at once. By the clock: what those processes use goes into nobody's sums. Another try tells a hang from a machine that was busy.
     """
     endings = (ROOT / "tests/fuzz/fuzz_oiio.c").read_text().partition("endings[] = {")[2].partition("}")[0].replace('"', "").replace(" ", "").split(",")
     by_ending = {ending: [part[1:] for part in parts if endings[part[0] % len(endings)] == ending] for ending in endings}
@@ -75,13 +83,13 @@ def compare(build, folder, count, parts, mutate):
         bad.mkdir()
         for i in range(AT_ONCE):
             (bad / f"x.{i:04}.{ending}").write_bytes(mutate.damage(rng.choice(by_ending[ending]), rng))
-        begin = resource.getrusage(resource.RUSAGE_CHILDREN)
-        code = subprocess.run([build / "relume", "diff", good, bad], check=False, preexec_fn=mutate.limit_memory, stdout=subprocess.DEVNULL,
-                              stderr=subprocess.DEVNULL).returncode
-        end = resource.getrusage(resource.RUSAGE_CHILDREN)
-        if code not in (0, 1, 3) or end.ru_utime + end.ru_stime - begin.ru_utime - begin.ru_stime > 10:
+        code, seconds = compare_once(build, good, bad, mutate)
+        if seconds > LONGEST_S:
+            code, again = compare_once(build, good, bad, mutate)
+            seconds = min(seconds, again)
+        if code not in (0, 1, 3) or seconds > LONGEST_S:
             broken += 1
-            print(f"{bad.rename(folder / f'pictures.crash-{first}')}: exit code {code}", flush=True)
+            print(f"{bad.rename(folder / f'pictures.crash-{first}')}: exit code {code}, {seconds:.1f} s", flush=True)
     return broken
 
 

@@ -144,6 +144,30 @@ START_TEST(server_ended)
 }
 END_TEST
 
+/* In a program that begins with it: main. @return its exit status */
+static int read_anew(const char *path)
+{
+	const pid_t process = fork();
+	int status;
+
+	if (process == 0)
+		_exit(execl("/proc/self/exe", "test_foreign", path, NULL));
+	return waitpid(process, &status, 0) == process ? status : -1;
+}
+
+/* TIFF's reader takes the locks of these threads: none may be held where the server starts. */
+START_TEST(started_often)
+{
+	char command[200];
+
+	snprintf(command, sizeof(command), "oiiotool %s/good.png --compression zip -o %s/strips.tif", folder, folder);
+	ck_assert_int_eq(system(command), 0);
+	for (int i = 0; i < 30; i++)
+		ck_assert_int_eq(read_anew(path_of("strips.tif")), 0);
+	unlink(path_of("strips.tif"));
+}
+END_TEST
+
 START_TEST(not_a_picture)
 {
 	struct image img = { 0 };
@@ -188,14 +212,21 @@ START_TEST(many_at_once)
 }
 END_TEST
 
-int main(void)
+int main(int argc, char **argv)
 {
 	TCase *tests = tcase_create("foreign");
+	struct image img = { 0 };
+
+	if (argc > 1) {
+		alarm(10);
+		return -foreign_read(&img, argv[1]);
+	}
 
 	tcase_add_checked_fixture(tests, setup, teardown);
 	tcase_add_test(tests, as_here);
 	tcase_add_test(tests, reader_ended);
 	tcase_add_test(tests, server_ended);
+	tcase_add_test(tests, started_often);
 	tcase_add_test(tests, not_a_picture);
 	tcase_add_test(tests, many_at_once);
 	return run_alone(tests, "foreign");

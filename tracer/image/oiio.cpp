@@ -228,13 +228,13 @@ pid_t oiio_fork(void)
 
 	in_use.lock();
 	const int n_threads = pool->size();
-	pool->resize(0); /* a child has none of these threads, and would wait for them */
+	pool->~thread_pool(); /* ends its threads and waits for them: a child would have none of them, but the locks that they held */
 	const pid_t process = fork();
+	new (pool) OIIO::thread_pool(process ? n_threads : 0);
 	if (process == 0) {
 		new (&in_use) std::shared_mutex; /* it knows its owner by a number that is another one here */
 		return 0;
 	}
-	pool->resize(n_threads);
 	in_use.unlock();
 	if (process < 0)
 		err_report(ERR_SYSTEM, nullptr, "no process to read pictures in: %s", strerror(errno));
