@@ -218,6 +218,12 @@ typedef float element_float;
 	IN(frame_pixel, start) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() /* of the band */ \
 	OUT(float, kept)                    /* as layers.before */
 
+/* What the last round has left, as GL's frame buffer has it. */
+#define ARGUMENTS_layered_picture(IN, OUT, VALUE, GROUP, AND) \
+	IN(float, kept) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() /* as before; of the band */ \
+	OUT(uint, colors) AND() OUT(uint, depths) AND() /* per pixel: red from the lowest byte on; in the buffer's steps, of which 24 bits count */ \
+	OUT(uint, unknown)                  /* [PLAIN_WIDTH pixels of a row]: a bit for each whose colour is not known */
+
 /* Plain frames without rays: the camera's and their planes. */
 #define ARGUMENTS_plain_whole(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_camera_packet(IN, OUT, VALUE, GROUP, AND) AND() /* fragments and counts: the twin alone leaves them; as of a band of request.height rows */ \
@@ -431,7 +437,7 @@ typedef float element_float;
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) X(query_sphere) \
 	X(vertex) X(vertex_program) X(window) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
-	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(layered_start) X(plain_whole) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
+	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(layered_start) X(layered_picture) X(plain_whole) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
 	HOOK_LISTS(X)
 
 /* Kernels for hooks. Each has a kernel of its name; KERNEL_ITEMS is its body. */
@@ -559,6 +565,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(layered, plain)               /* as plain, of several looks */ \
 	X(layered_shadow, plain)        /* as plain_shadow; and fragments that light leaves, into a list */ \
 	X(layered_mirror, plain)        /* planes of pixels where these are, with what their paths found */ \
+	X(layered_picture, layered_picture) /* after the last round, where a picture is asked for in place of planes: PLAIN_WIDTH pixels of a row a work item */ \
 	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \
 	X(compose_packet, compose)      /* the same, FRAME_ROW pixels of COMPOSE_ROWS rows a work item (CPUs) */ \
 	X(hook_ray, hook_ray)           /* one pixel a work item: its first ray by a hook */ \

@@ -29,6 +29,7 @@ struct layered_row {
 	uint step;           /* PLAIN_* */
 	packu last, surface; /* the layers of the last fragment that was drawn, and of the one whose surface shows; SCENE_NONE: there is none */
 	uint n;
+	uint unknown;    /* a bit for each pixel whose colours from before the frame are not known, and show */
 	int is_mirrored; /* mirrored and beauty are not what direct is */
 	int at_once;     /* layers are shaded and drawn as they are tested: nothing of the row before was covered */
 };
@@ -162,26 +163,32 @@ WIDE_VECTORS static inline void clear_pixels(__global const struct frame_pixel *
 /* What is kept of a row's pixels from round to round. */
 struct layered_kept_row {
 	struct pack_pixels pixels;
-	packu depth, shows; /* shows: 1 where a surface does */
+	packu depth, shows; /* shows: 1 where a surface does, and 2 where colours from before do that are not known */
 };
 
 #define KEPT_PACKS (sizeof(struct layered_kept_row) / sizeof(packf)) /* PLAIN_KEPT, that is */
 
+WIDE_VECTORS static inline void load_kept(__global const float *from, struct layered_kept_row *row)
+{
+	for (uint i = 0; i < KEPT_PACKS; i++)
+		((packf *)row)[i] = ((__global const pack_loose_floats *)from)[i];
+}
+
 WIDE_VECTORS static inline void begin_pixels(const struct plain_arguments *a, uint x, uint y, struct layered_row *row)
 {
-	__global const float *from = a->layers.before + plain_kept(a->width, x, y);
 	struct layered_kept_row before;
 
 	row->last = row->surface = SCENE_NONE;
+	row->unknown = a->layers.round & PLAIN_UNKNOWN ? (1u << PACK_SIZE) - 1 : 0;
 	if (a->layers.round & PLAIN_BEGINS) {
 		clear_pixels(a->cleared, row);
 		return;
 	}
-	for (uint i = 0; i < KEPT_PACKS; i++)
-		((packf *)&before)[i] = ((__global const pack_loose_floats *)from)[i];
+	load_kept(a->layers.before + plain_kept(a->width, x, y), &before);
 	row->pixels = before.pixels;
 	row->depth = before.depth;
-	row->surface -= before.shows; /* no layer of this round */
+	row->surface -= before.shows & 1; /* no layer of this round */
+	row->unknown = pack_bits((before.shows & 2) != 0);
 }
 
 WIDE_VECTORS static inline void store_kept(__global float *to, const struct layered_kept_row *row)
@@ -196,7 +203,7 @@ WIDE_VECTORS static inline void keep_pixels(const struct plain_arguments *a, uin
 
 	after.pixels = row->pixels;
 	after.depth = row->depth;
-	after.shows = select((packu)(1), (packu)(0), row->surface == SCENE_NONE);
+	after.shows = select((packu)(1), (packu)(0), row->surface == SCENE_NONE) | select((packu)(0), (packu)(2), pack_mask(row->unknown));
 	store_kept(a->layers.after + plain_kept(a->width, x, y), &after);
 }
 
@@ -306,13 +313,30 @@ WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __gl
 	draw_channel(m, 3, c->gl.c[3], s_alpha, d_alpha, 0, lanes, &p->gl[3]);
 }
 
-static inline void draw_layer(const struct plain_arguments *a, const struct layer *layer, int is_mirrored, struct pack_pixels *p)
+/* As pixel_replaces. */
+WIDE_VECTORS static inline packi replaces(__global const struct scene_material *m, const struct plain_colors *c)
+{
+	const packu alpha = pack_code(c->gl.c[3]);
+	packi same = -1;
+
+	for (int i = 0; i < 3 && m->blend; i++) {
+		const packf over = pack_blend(m, i, c->gl.c[i], alpha, (packf)(0), (packu)(0));
+
+		same &= over == pack_blend(m, i, c->gl.c[i], alpha, (packf)(0.5f), (packu)(128)) &
+		        over == pack_blend(m, i, c->gl.c[i], alpha, (packf)(1), (packu)(255));
+	}
+	return (m->color_mask & 7) == 7 ? same : (packi)(0);
+}
+
+static inline void draw_layer(const struct plain_arguments *a, const struct layer *layer, struct layered_row *row)
 {
 	uint material;
 
 	for (uint lanes = layer->drawn & ~layer->covered, same; lanes; lanes &= ~same) {
 		same = pack_same_kind(&a->tables, &layer->at.list, lanes, &material);
 		same = same ? same : lanes & -lanes;
-		draw_lanes(a, &a->tables.materials[material], layer, is_mirrored, pack_mask(same), p);
+		if (row->unknown & same)
+			row->unknown &= ~(same & pack_bits(replaces(&a->tables.materials[material], &layer->colors)));
+		draw_lanes(a, &a->tables.materials[material], layer, row->is_mirrored, pack_mask(same), &row->pixels);
 	}
 }

@@ -1,5 +1,5 @@
 /*
- * layered, layered_shadow, layered_mirror: see kernels/frame/plain.h. All fragments of a row of sixteen pixels go through the per-fragment
+ * layered, layered_shadow, layered_mirror, layered_start, layered_picture: see kernels/frame/plain.h. All fragments of a row of sixteen pixels go through the per-fragment
  * operations in draw order, layer by layer: the first of each pixel, the second of each, and so on. Depth tests come before colours, and
  * colours are found from the last layer to the first: a fragment that fails, or that a later one covers whole, is not shaded, and sends no
  * rays. Rows that light leaves are composed by layered_mirror alone. Where none of the row before was covered, layers are drawn as they are tested.
@@ -301,7 +301,7 @@ static inline void draw_row(const struct plain_arguments *a, const struct shade_
 		clear = clear_before(a, row->layers[i].look, clear, x, y, row);
 		test_layer(a, s, row, i, kept);
 		if (row->at_once)
-			draw_layer(a, &row->layers[i], row->is_mirrored, &row->pixels);
+			draw_layer(a, &row->layers[i], row);
 	}
 	clear_before(a, SCENE_NONE, clear, x, y, row);
 	for (uint i = row->at_once ? 0 : row->n; i-- > 0 && row->n > 1;) {
@@ -311,7 +311,7 @@ static inline void draw_row(const struct plain_arguments *a, const struct shade_
 	if (find_leaves(a, row) && row->step != PLAIN_MIRROR)
 		return;
 	for (uint i = 0; i < row->n && !row->at_once; i++)
-		draw_layer(a, &row->layers[i], row->is_mirrored, &row->pixels);
+		draw_layer(a, &row->layers[i], row);
 	row->at_once |= !spared && row->n > 1 && !a->layers.mirrors;
 	put_draws(a, row);
 	for (int i = 0; i < 3 && !row->is_mirrored; i++)
@@ -383,6 +383,37 @@ KERNEL_OF(float16) void layered_start(KERNEL_ARGUMENTS(layered_start))
 	for (uint lane = 0; lane < PACK_SIZE; lane++)
 		keep_start(&start[y * width + min(x + lane, width - 1)], lane, &row);
 	store_kept(kept + plain_kept(width, x, y), &row);
+}
+
+/* A row's pixels as GL's frame buffer rounds them. */
+WIDE_VECTORS static inline packu frame_colors(const struct pack_pixels *p, uint alpha_bits)
+{
+	const packu alpha = alpha_bits ? pack_code(p->gl[3]) : (packu)(255);
+
+	return pack_code(p->gl[0]) | pack_code(p->gl[1]) << 8 | pack_code(p->gl[2]) << 16 | alpha << 24;
+}
+
+KERNEL_OF(float16) void layered_picture(KERNEL_ARGUMENTS(layered_picture))
+{
+	const uint item = (uint)get_global_id(0), x = item % plain_columns(width) * PLAIN_WIDTH, y = item / plain_columns(width);
+	struct layered_kept_row row;
+	packu code, depth;
+
+	if (y >= height)
+		return;
+	load_kept(kept + plain_kept(width, x, y), &row);
+	code = frame_colors(&row.pixels, pixel_alpha_bits(bits));
+	depth = pixel_depth_bits(bits) > 24 ? row.depth >> 8 : row.depth;
+	unknown[item] = pack_bits((row.shows & 2) != 0) & (width - x < PLAIN_WIDTH ? (1u << (width - x)) - 1 : 0xffffu);
+	if (x + PLAIN_WIDTH <= width) {
+		*(__global pack_loose_uints *)&colors[y * width + x] = code;
+		*(__global pack_loose_uints *)&depths[y * width + x] = depth;
+		return;
+	}
+	for (uint lane = 0; lane < width - x; lane++) {
+		colors[y * width + x + lane] = LANE(code, const uint, lane);
+		depths[y * width + x + lane] = LANE(depth, const uint, lane);
+	}
 }
 
 KERNEL_OF(float16) void layered(KERNEL_ARGUMENTS(plain))

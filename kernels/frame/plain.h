@@ -49,8 +49,9 @@ static inline uint32_t plain_place(GLOBAL const uint32_t *blocks, uint32_t width
  * lists the fragments that mirror or let light through. layered_mirror makes the planes of rows where these are, with what their paths found.
  *
  * Where more fragments lie over each other than a work item keeps, they come in rounds of looks: all but the last leave pixels for the next in
- * place of planes. A frame that begins with a picture goes on from where layered_start has left that. The kernels and their twins keep
- * pixels each in a layout of their own.
+ * place of planes. A frame that begins with a picture goes on from where layered_start has left that. Where a picture as GL's frame buffer
+ * has it is asked for, no round makes planes: layered_picture takes what the last has left. The kernels and their twins keep pixels each in a
+ * layout of their own.
  */
 #define PLAIN_LOOKS 8u   /* of a round, at most */
 #define PLAIN_LAYERS 16u /* fragments of a round over each other, at most */
@@ -60,6 +61,7 @@ static inline uint32_t plain_place(GLOBAL const uint32_t *blocks, uint32_t width
 #define PLAIN_BEGINS 1u /* the first: pixels are as they were cleared */
 #define PLAIN_ENDS 2u   /* the last: planes are made */
 #define PLAIN_MIRRORED 4u /* light may have left fragments of an earlier one */
+#define PLAIN_UNKNOWN 8u  /* of one that begins: what colours were there before is not known */
 
 /* The three steps. */
 #define PLAIN_FIRST 0u

@@ -176,6 +176,8 @@ static struct frame_pixel begin_pixel(const struct plain_arguments *a, uint32_t 
 {
 	struct frame_pixel pixel = *a->cleared;
 
+	if (a->layers.round & PLAIN_UNKNOWN)
+		pixel.unknown = PIXEL_UNKNOWN_COLOR;
 	if (!(a->layers.round & PLAIN_BEGINS))
 		memcpy(&pixel, a->layers.before + plain_kept(a->width, 0, y) + x * PLAIN_KEPT, sizeof(pixel));
 	return pixel;
@@ -352,6 +354,31 @@ void layered_start_c(const struct layered_start_arguments *a, size_t first, size
 
 		for (uint32_t i = x; i < x + PLAIN_WIDTH && i < a->width; i++)
 			memcpy(a->kept + plain_kept(a->width, 0, y) + i * PLAIN_KEPT, &a->start[y * a->width + i], sizeof(*a->start));
+	}
+}
+
+/* A pixel as GL's frame buffer rounds it. @return 1: its colour is not known */
+static uint32_t picture_pixel(const struct layered_picture_arguments *a, uint32_t x, uint32_t y)
+{
+	const uint32_t i = y * a->width + x;
+	struct frame_pixel p;
+
+	memcpy(&p, a->kept + plain_kept(a->width, 0, y) + x * PLAIN_KEPT, sizeof(p));
+	a->colors[i] = pixel_alpha_bits(a->bits) ? blend_round(p.gl[3]) << 24 : 0xff000000u;
+	for (uint32_t c = 0; c < 3; c++)
+		a->colors[i] |= blend_round(p.gl[c]) << 8 * c;
+	a->depths[i] = pixel_depth_bits(a->bits) > 24 ? p.depth >> 8 : p.depth;
+	return (p.unknown & PIXEL_UNKNOWN_COLOR) != 0;
+}
+
+void layered_picture_c(const struct layered_picture_arguments *a, size_t first, size_t last)
+{
+	for (size_t item = first; item < last && item < (size_t)plain_columns(a->width) * a->height; item++) {
+		const uint32_t x = (uint32_t)item % plain_columns(a->width) * PLAIN_WIDTH, y = (uint32_t)item / plain_columns(a->width);
+
+		a->unknown[item] = 0;
+		for (uint32_t i = 0; i < PLAIN_WIDTH && x + i < a->width; i++)
+			a->unknown[item] |= picture_pixel(a, x + i, y) << i;
 	}
 }
 

@@ -1,6 +1,7 @@
 /*
  * Frames of several looks (kernels/frame/plain.h): walls over each other in a lit room, blended by all factors, tested for alpha and depth by
- * all functions, written in part; and a second projection over them. Recorded by test_layers.py.
+ * all functions, written in part; and a second projection over them. From frame 5 on colours are not cleared: a sky covers what was there
+ * before, or it shows; frame 8 copies what it has drawn so far. Recorded by test_layers.py.
  */
 #include "tests/trace/window.h"
 
@@ -69,6 +70,32 @@ static void project(int perspective)
 	glMatrixMode(GL_MODELVIEW);
 }
 
+/* All of the window in one colour, by a blending that leaves nothing of what was there. */
+static void sky(void)
+{
+	glDisable(GL_DEPTH_TEST);
+	glDisable(GL_LIGHTING);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_ONE, GL_ZERO);
+	glBlendEquation(GL_FUNC_ADD);
+	glColor4f(0.4f, 0.6f, 0.8f, 0.5f);
+	glRectf(-3, -3, 3, 3);
+}
+
+/* What is there so far as a texture, on a wall. */
+static void copy(void)
+{
+	glDisable(GL_BLEND);
+	glEnable(GL_TEXTURE_2D);
+	glEnable(GL_TEXTURE_GEN_S);
+	glEnable(GL_TEXTURE_GEN_T);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+	glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 0, 0, 64, 32, 0);
+	wall();
+	glDisable(GL_TEXTURE_2D);
+}
+
 int main(void)
 {
 	static const float place[] = { 1, 2, 1, 1 };
@@ -80,12 +107,17 @@ int main(void)
 	glEnable(GL_COLOR_MATERIAL);
 	glLightfv(GL_LIGHT0, GL_POSITION, place);
 	glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, 1);
-	for (int frame = 0; frame < 5; frame++) {
+	for (int frame = 0; frame < 9; frame++) {
 		srand(5 + (unsigned)frame);
 		glColorMask(1, 1, 1, 1);
 		glDepthMask(1);
 		glClearColor(0.2f, 0.3f, 0.5f, 0.5f);
-		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+		glClear(GL_DEPTH_BUFFER_BIT | (frame < 5 ? GL_COLOR_BUFFER_BIT : 0));
+		project(0);
+		glTranslatef(0, 0, -2);
+		if (frame == 5 || frame == 8)
+			sky();
+		glLoadIdentity();
 		for (int i = 0; i < (frame > 2 ? 50 : 14); i++) {
 			project(i < (frame == 4 ? 25 : 10) || frame == 3);
 			choose(frame);
@@ -94,6 +126,8 @@ int main(void)
 				glDisable(GL_LIGHTING);
 			}
 			wall();
+			if (frame == 8 && i % 10 == 5)
+				copy();
 		}
 		end_frame();
 	}

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
 """Frames of several looks go through packets in two or three steps (kernels/frame/layered.cl), others stage by stage: what tests/real/layers.c
-draws leaves the files of other kernels and of the twins, byte by byte; in shadow, with mirrors and glass by rules, and in several rounds
-(frames 3 and 4)."""
+draws leaves the files of other kernels and of the twins, byte by byte; in shadow, with mirrors and glass by rules, in several rounds
+(frames 3 and 4), and with pictures that replay asks for (from frame 5 on)."""
 import json
 
 from helpers import BUILD, SCRATCH, check, finish, must, record, relume, render
@@ -11,7 +11,7 @@ RULES = {name: SCRATCH / f"{name}.yaml" for name in ("reflect", "transmit")}
 for name, file in RULES.items():
     file.write_text(f"surfaces:\n  - {{ match: {{ lit: yes }}, {name}: 0.3 }}\n")
 TRACE = SCRATCH / "layers.trace"
-FRAMES = 5
+FRAMES = 9
 WAYS = {"as shown": ("layered", (), ("--mode", "gl")), "shadows": ("layered_shadow", (), ()),
         "mirrors": ("layered_mirror", ("--look", RULES["reflect"]), ("--depth", 1)),
         "glass": ("layered_mirror", ("--look", RULES["transmit"]), ("--depth", 1))}
@@ -20,7 +20,7 @@ DEVICES = {"": {"packets": (), "one thread": ("--threads", 1), "binary": ("--ker
 
 record(TRACE, BUILD / "tests/real/layers", options=())
 for how, (kernel, rules, options) in WAYS.items():
-    for frame in 0, FRAMES - 1:
+    for frame in 0, 4:
         stages = {row["what"] for row in json.loads(must(relume("bench", TRACE, "--repeat", 1, "--json", "-f", frame, *rules)).stdout)["spent"]}
         check(kernel in stages and "resolve_packet" not in stages, f"{how}, frame {frame}: goes through {sorted(stages)}")
     for device, ways in DEVICES.items():

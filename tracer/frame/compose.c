@@ -59,7 +59,7 @@ int compose_asks(const struct tracer_options *options, const char *group)
 	return has_group(options->mode == TRACER_NORMALS ? "Z,N,P,albedo,id" : options->aov, group);
 }
 
-/* Which planes are wanted, one behind the other. @param halves, floats  receive how many */
+/* Which planes are wanted, one behind the other; of a picture (job.picture) none. @param halves, floats  receive how many */
 static struct compose_request request_of(const struct job *job, uint32_t *halves, uint32_t *floats)
 {
 	const struct tracer_options *options = job->options;
@@ -71,7 +71,7 @@ static struct compose_request request_of(const struct job *job, uint32_t *halves
 	memset(r.float_plane, 0xff, sizeof(r.float_plane));
 	*halves = *floats = 0;
 	for (size_t i = 0; i < N_CHANNELS; i++) {
-		if (!compose_asks(options, channels[i].group))
+		if (!job->image || !compose_asks(options, channels[i].group))
 			continue;
 		if (channels[i].full)
 			r.float_plane[channels[i].plane] = (*floats)++;

@@ -63,8 +63,8 @@ static uint32_t cleared_first(const struct job *job, struct scene_clear *clear)
 	return job->scene->start ? 0 : n;
 }
 
-/* Whether what is cleared later on is depth alone; the frame's stencil is never looked at. */
-static int is_cleared_simply(const struct job *job)
+/* Whether what is cleared later on is none of these buffers, as a Clear names them. */
+static int keeps_uncleared(const struct job *job, uint32_t buffers)
 {
 	struct scene_clear clear;
 	uint32_t first = cleared_first(job, &clear);
@@ -73,18 +73,51 @@ static int is_cleared_simply(const struct job *job)
 		const struct segment *segment = &job->prepared.segments[i];
 
 		for (uint32_t k = first; k < segment->clear_count; k++)
-			if (job->scene->clears[segment->clear_first + k].target == 0 && job->scene->clears[segment->clear_first + k].buffers & 1)
+			if (job->scene->clears[segment->clear_first + k].target == 0 && job->scene->clears[segment->clear_first + k].buffers & buffers)
 				return 0;
 	}
 	return 1;
+}
+
+/* Which buffers all pixels begin with. */
+static uint32_t cleared_buffers(const struct job *job)
+{
+	struct scene_clear clear;
+	const uint32_t n = cleared_first(job, &clear);
+	uint32_t buffers = 0;
+
+	for (uint32_t i = 0; i < n; i++)
+		buffers |= job->scene->clears[job->prepared.segments[0].clear_first + i].buffers;
+	return buffers;
+}
+
+/* Whether colours from before the frame may show that nobody knows. */
+static int is_unknown(const struct job *job)
+{
+	return job->scene->needs_previous && !job->scene->start && !(cleared_buffers(job) & 1);
+}
+
+/* Of a picture: whether a colour is all that is not known of its pixels, and its stencil is what it was at first. */
+static int suits_picture(const struct job *job)
+{
+	const struct scene *scene = job->scene;
+
+	if (job->picture->colors || job->picture->samples || (scene->needs_previous && !scene->start && !(cleared_buffers(job) & 2)))
+		return 0;
+	for (uint32_t i = 0; i < scene->n_rectangles && scene->stencil_bits; i++)
+		if (scene->rectangles[i].kind == SCENE_STENCIL_PIXELS)
+			return 0;
+	return !scene->stencil_bits || keeps_uncleared(job, 4);
 }
 
 int layered_suits(const struct job *job)
 {
 	const struct prepared *p = &job->prepared;
 
-	if (!frame_in_packets(job) || !plain_is_simple(job) || (job->scene->needs_previous && !job->scene->start) || !is_cleared_simply(job) || dome_is_there(job) || p->has_fragment_programs || p->has_vertex_programs ||
-	    !has_one_space(job))
+	if (!frame_in_packets(job) || !plain_is_simple(job) || !keeps_uncleared(job, 1) || dome_is_there(job) || p->has_fragment_programs ||
+	    p->has_vertex_programs || !has_one_space(job))
+		return 0;
+	if (job->image ? job->scene->needs_previous && !job->scene->start : !suits_picture(job))
 		return 0;
 	for (uint32_t i = 0; i < p->n_instances; i++)
 		if (!is_known(job, &job->scene->materials[p->instances[i].material]))
@@ -396,22 +429,30 @@ static int keep_start(struct job *job)
 	                                               .kept = b->kept_pixels));
 }
 
+/* What a round is, apart from the last. */
+static uint32_t round_of(const struct job *job, int is_first)
+{
+	if (!is_first)
+		return plain_has_mirrors(job) ? PLAIN_MIRRORED : 0;
+	return job->scene->start ? 0 : PLAIN_BEGINS | (is_unknown(job) ? PLAIN_UNKNOWN : 0);
+}
+
 /* A round of looks, as many as there is room for, and what they have found drawn. is_first: of the band. is_last: receives whether it was the last */
 static int draw_round(struct job *job, struct looks *looks, int is_first, int *is_last, const struct compose_request *request)
 {
 	struct frame_buffers *b = &job->tr->buffers;
 	union buffer_float kept;
-	uint32_t n, round = !is_first ? plain_has_mirrors(job) ? PLAIN_MIRRORED : 0 : job->scene->start ? 0 : PLAIN_BEGINS;
+	uint32_t n, round = round_of(job, is_first);
 	int err = look_around(job, looks);
 
 	if (err)
 		return err;
 	*is_last = looks->next == job->prepared.n_segments;
-	round |= *is_last ? PLAIN_ENDS : 0;
+	round |= *is_last && job->image ? PLAIN_ENDS : 0;
 	n = place_blocks(job);
 	err = frame_upload(job->tr, blocks, job->tr->first, plain_blocks(job->width, job->n_rows));
 	if (!err)
-		err = reserve_kept(job, is_first && *is_last && !job->scene->start);
+		err = reserve_kept(job, is_first && *is_last && job->image && !job->scene->start);
 	if (!err && is_first && job->scene->start)
 		err = keep_start(job);
 	if (!err)
@@ -443,7 +484,9 @@ static int draw_band(struct job *job, struct looks *looks)
 		err = compose_reserve(job, &request);
 	for (int is_first = 1; !err && !is_last; is_first = 0)
 		err = draw_round(job, looks, is_first, &is_last, &request);
-	return err ? err : compose_fetch(job, &request, job->image);
+	if (err)
+		return err;
+	return job->image ? compose_fetch(job, &request, job->image) : picture_take_band(job, clear.stencil);
 }
 
 int layered_band(struct job *job)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "kernels/frame/plain.h"
 #include "kernels/gl/pixel.h"
 
 /* The band's pixels as a picture has them; NULL: not known. */
@@ -84,5 +85,52 @@ int picture_read_band(const struct job *job, struct scene_picture *picture)
 	for (uint32_t i = 0; i < SCENE_SAMPLES && picture->samples && job->scene->samples > 1 && !err; i++)
 		err = read_pixels(job, job->tr->buffers.samples[i], pixels, &picture->samples[i]);
 	free(pixels);
+	return err;
+}
+
+/* The band's planes of one word a pixel. */
+static int take_words(const struct job *job, const struct device_buffer *buffer, void *out)
+{
+	return device_read(job->tr->dev, buffer, 0, out, job->n_pixels * sizeof(uint32_t));
+}
+
+static int count_unknown(struct job *job, uint32_t n_rows_of_pixels)
+{
+	const void *mapped;
+	int err = device_map(job->tr->dev, job->tr->buffers.unknown.buffer, n_rows_of_pixels * sizeof(uint32_t), 1, &mapped);
+
+	if (err)
+		return err;
+	for (uint32_t i = 0; i < n_rows_of_pixels; i++)
+		job->picture->unknown += (uint32_t)__builtin_popcount(((const uint32_t *)mapped)[i]);
+	return device_unmap(job->tr->dev, job->tr->buffers.unknown.buffer, mapped);
+}
+
+int picture_take_band(struct job *job, uint32_t stencil)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct scene *scene = job->scene;
+	const size_t first = frame_first_pixel(job);
+	const uint32_t rows = plain_columns(job->width) * job->n_rows;
+	int err = frame_reserve(tr, colors, job->n_pixels);
+
+	if (!err)
+		err = frame_reserve(tr, depths, job->n_pixels);
+	if (!err)
+		err = frame_reserve(tr, unknown, rows);
+	if (!err)
+		err = launch_layered_picture(tr->dev, rows, LAUNCH(layered_picture, .kept = b->kept_pixels, .width = job->width, .height = job->n_rows,
+		                                                   .bits = job->bits, .colors = b->colors, .depths = b->depths, .unknown = b->unknown));
+	if (!err)
+		err = take_words(job, b->colors.buffer, job->picture->rgba + 4 * first);
+	if (!err)
+		err = take_words(job, b->depths.buffer, job->picture->depth + first);
+	if (!err)
+		err = count_unknown(job, rows);
+	if (scene->start)
+		memcpy(job->picture->stencil + first, scene->start->stencil + first, job->n_pixels);
+	else
+		memset(job->picture->stencil + first, (int)(stencil & pixel_bits_mask(pixel_stencil_bits(job->bits))), job->n_pixels);
 	return err;
 }

@@ -6,5 +6,12 @@
 /** Put the band's pixels on the device that were there before the scene, or say that they are not known. @return 0 or ERR_SYSTEM (reported) */
 int picture_upload_start(struct job *job);
 
-/** What was drawn of the band. @param picture  as for tracer_render_picture; `unknown` counts on @return 0 or ERR_SYSTEM (reported) */
+/** What was drawn of the band into buffers.frame. @param picture  as for tracer_render_picture; `unknown` counts on @return 0 or ERR_SYSTEM (reported) */
 int picture_read_band(const struct job *job, struct scene_picture *picture);
+
+/**
+ * What was drawn of the band into buffers.kept_pixels, into job->picture, whose `unknown` counts on.
+ * @param stencil  where the scene begins with no picture, what the stencil buffer was cleared to
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int picture_take_band(struct job *job, uint32_t stencil);

@@ -37,7 +37,7 @@ static int is_cleared_once(const struct job *job)
 
 int plain_is_simple(const struct job *job)
 {
-	return !job->options->hook && job->image && job->n_passes == 1 && job->n_samples == 1 && is_lit_simply(job);
+	return !job->options->hook && job->n_passes == 1 && job->n_samples == 1 && is_lit_simply(job);
 }
 
 /* Kernels of one pixel a work item know neither light from all around nor programs. */
@@ -58,7 +58,7 @@ int plain_suits(const struct job *job)
 	const struct prepared *p = &job->prepared;
 	const struct segment *segment = p->segments;
 
-	if (!plain_is_simple(job) || job->scene->start || job->scene->needs_previous || !is_cleared_once(job) || plain_has_mirrors(job) ||
+	if (!job->image || !plain_is_simple(job) || job->scene->start || job->scene->needs_previous || !is_cleared_once(job) || plain_has_mirrors(job) ||
 	    !is_known(job) || p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN)
 		return 0;
 	for (uint32_t i = 0; i < segment->instance_count; i++) {

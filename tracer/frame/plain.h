@@ -14,7 +14,7 @@ int plain_band(struct job *job);
 
 /* --- For layered.c, which draws in the same way ---------------------------------------------------------------------- */
 
-/** What both ways ask of a frame: one pass into an image, lights without a size. */
+/** What both ways ask of a frame: one pass, lights without a size. */
 int plain_is_simple(const struct job *job);
 
 /** Whether light leaves surfaces that mirror or let it through. */
