@@ -116,6 +116,8 @@ GLS_HANDLER(glBlitFramebuffer, OBJECT)
 	between = arg_u(c, 9) == GL_LINEAR && (fabsf(b.zoom[0]) != 1 || fabsf(b.zoom[1]) != 1);
 	drawn = between ? NULL : gls_shown_by_blit(x, st);
 	p = gls_read_screen(x, st, NULL);
+	if (p && (!p->width || !p->height))
+		p = NULL; /* there is nothing to copy */
 	if (p && mask & GL_COLOR_BUFFER_BIT && between)
 		blit_between(x, st, &b, gls_color_pixels(x, st), p);
 	else if (p && mask & GL_COLOR_BUFFER_BIT)
