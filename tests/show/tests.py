@@ -9,7 +9,7 @@ then, or is skipped, does not count.
 
 Kernels share their text with their C twins, so that both would be wrong alike: their mutants run where the twins are the device, and kernels/ref's
 beside a device. What is for devices alone (*.cl, packs, the text around hooks, which is compiled when one is there) and what is no expression
-(tables, sizes) is not tried. LEFT_OUT are tests that read sources, start a farm, a browser or Wine, or take long; so are those that measure
+(tables, sizes) is not tried. LEFT_OUT are tests that read sources, build the tree anew, start a farm, a browser or Wine, or take long; so are those that measure
 time or need more than SLOW_S of processor time.
 
 All is kept in BUILD/show/tests: a campaign may be stopped at any time, and goes on. Of a time that is given, half is for the first run of tests, which
@@ -40,7 +40,7 @@ SEED, BAR, SLOW_S = 1, 0.95, 20
 PASSED, FAILED, SKIPPED = range(3)
 FOLDERS = {"kernels": ("kernels/*.h", "kernels/camera/*.h", "kernels/gl/*.h", "kernels/frame/[!p]*.h", "kernels/frame/p[!a]*.h", "kernels/ref/*.c"), "replay": ("replay/**/*.c",),
            "tracer": ("tracer/**/*.c",), "capture": ("capture/**/*.c",), "diff": ("diff/**/*.c",)}
-LEFT_OUT = ("unit/test_house", "harness/", "farm/", "real/test_page", "real/test_wine", "real/test_i386", "real/test_crash", "real/test_hooks", "unit/test_schemata")
+LEFT_OUT = ("unit/test_house", "harness/", "farm/", "real/test_page", "real/test_wine", "real/test_i386", "real/test_install", "real/test_crash", "real/test_hooks", "unit/test_schemata")
 QUICK = ("unit/", "gl/", "trace/", "fuzz/")
 FLAGS = ["CFLAGS=-O1 -g0 -w -fno-delete-null-pointer-checks", "CXXFLAGS=-O1 -g0 -w"]  # what a call promises of its arguments makes no mutant vanish
 HOOK_TEXT = "kernels/frame/hook"
