@@ -215,12 +215,13 @@ typedef float element_float;
 
 /* A picture from before as a round of looks takes it over. */
 #define ARGUMENTS_layered_start(IN, OUT, VALUE, GROUP, AND) \
-	IN(frame_pixel, start) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() /* of the band */ \
+	IN(uint, colors) AND() IN(uint, depths) AND() /* as layered_picture leaves them */ \
+	VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() /* of the band */ \
 	OUT(float, kept)                    /* as layers.before */
 
 /* What the last round has left, as GL's frame buffer has it. */
 #define ARGUMENTS_layered_picture(IN, OUT, VALUE, GROUP, AND) \
-	IN(float, kept) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() /* as before; of the band */ \
+	IN(float, kept) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() /* as in layered_start */ \
 	OUT(uint, colors) AND() OUT(uint, depths) AND() /* per pixel: red from the lowest byte on; in the buffer's steps, of which 24 bits count */ \
 	OUT(uint, unknown)                  /* [PLAIN_WIDTH pixels of a row]: a bit for each whose colour is not known */
 

@@ -354,23 +354,35 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 	}
 }
 
-/* A pixel from before, to a lane. */
-static inline void keep_start(__global const struct frame_pixel *p, uint lane, struct layered_kept_row *to)
+/* A word of each pixel of a row; of what lies beyond its end the last one's. */
+static inline packu load_words(__global const uint *row, uint x, uint width)
 {
+	packu words;
+
+	if (x + PLAIN_WIDTH <= width)
+		return *(__global const pack_loose_uints *)&row[x];
+	for (uint lane = 0; lane < PACK_SIZE; lane++)
+		LANE(words, uint, lane) = row[min(x + lane, width - 1)];
+	return words;
+}
+
+/* A row's pixels from GL's frame buffer. */
+WIDE_VECTORS static inline void keep_start(packu color, packu depth, uint depth_bits, struct layered_kept_row *to)
+{
+	struct pack_pixels *p = &to->pixels;
+	const uint far = pixel_bits_mask(depth_bits);
+
+	for (uint c = 0; c < 4; c++)
+		p->gl[c] = convert_float16(as_int16(color >> 8 * c & 255)) / 255.0f;
 	for (uint c = 0; c < 3; c++) {
-		LANE(to->pixels.gl[c], float, lane) = p->gl[c];
-		LANE(to->pixels.shadowed[c], float, lane) = p->shadowed[c];
-		LANE(to->pixels.direct[c], float, lane) = p->direct[c];
-		LANE(to->pixels.mirrored[c], float, lane) = p->mirrored[c];
-		LANE(to->pixels.beauty[c], float, lane) = p->beauty[c];
-		LANE(to->pixels.albedo[c], float, lane) = LANE(to->pixels.normal[c], float, lane) = LANE(to->pixels.position[c], float, lane) = 0;
+		p->shadowed[c] = p->direct[c] = p->mirrored[c] = p->beauty[c] = p->gl[c];
+		p->albedo[c] = p->normal[c] = p->position[c] = 0;
 	}
-	LANE(to->pixels.gl[3], float, lane) = p->gl[3];
-	LANE(to->pixels.drawn, float, lane) = 1;
-	LANE(to->pixels.depth, float, lane) = p->depth_exact;
-	LANE(to->pixels.id, float, lane) = LANE(to->pixels.layers, float, lane) = 0;
-	LANE(to->depth, uint, lane) = p->depth;
-	LANE(to->shows, uint, lane) = 0;
+	to->depth = depth_bits > 24 ? depth << 8 | depth >> 16 : depth;
+	p->depth = far ? convert_float16(to->depth) / (float)far : 1;
+	p->drawn = 1;
+	p->id = p->layers = 0;
+	to->shows = 0;
 }
 
 KERNEL_OF(float16) void layered_start(KERNEL_ARGUMENTS(layered_start))
@@ -380,8 +392,7 @@ KERNEL_OF(float16) void layered_start(KERNEL_ARGUMENTS(layered_start))
 
 	if (y >= height)
 		return;
-	for (uint lane = 0; lane < PACK_SIZE; lane++)
-		keep_start(&start[y * width + min(x + lane, width - 1)], lane, &row);
+	keep_start(load_words(colors + y * width, x, width), load_words(depths + y * width, x, width), pixel_depth_bits(bits), &row);
 	store_kept(kept + plain_kept(width, x, y), &row);
 }
 

@@ -347,13 +347,33 @@ void plain_show_dimmed_c(const struct plain_arguments *a, size_t first, size_t l
 	do_pixels(a, a->n_slots, first, last, show_pixel);
 }
 
+/* A pixel from GL's frame buffer. */
+static struct frame_pixel start_pixel(const struct layered_start_arguments *a, uint32_t i)
+{
+	const uint32_t bits = pixel_depth_bits(a->bits), far = pixel_bits_mask(bits);
+	struct frame_pixel p = { .surface = { .order = SCENE_NONE }, .unknown = PIXEL_BEFORE };
+
+	for (int c = 0; c < 4; c++)
+		p.gl[c] = (float)(a->colors[i] >> 8 * c & 255) / 255.0f;
+	memcpy(p.shadowed, p.gl, sizeof(p.shadowed));
+	memcpy(p.direct, p.gl, sizeof(p.direct));
+	memcpy(p.mirrored, p.gl, sizeof(p.mirrored));
+	memcpy(p.beauty, p.gl, sizeof(p.beauty));
+	p.depth = bits > 24 ? a->depths[i] << 8 | a->depths[i] >> 16 : a->depths[i];
+	p.depth_exact = far ? (float)p.depth / (float)far : 1;
+	return p;
+}
+
 void layered_start_c(const struct layered_start_arguments *a, size_t first, size_t last)
 {
 	for (size_t item = first; item < last && item < (size_t)plain_columns(a->width) * a->height; item++) {
 		const uint32_t x = (uint32_t)item % plain_columns(a->width) * PLAIN_WIDTH, y = (uint32_t)item / plain_columns(a->width);
 
-		for (uint32_t i = x; i < x + PLAIN_WIDTH && i < a->width; i++)
-			memcpy(a->kept + plain_kept(a->width, 0, y) + i * PLAIN_KEPT, &a->start[y * a->width + i], sizeof(*a->start));
+		for (uint32_t i = x; i < x + PLAIN_WIDTH && i < a->width; i++) {
+			const struct frame_pixel p = start_pixel(a, y * a->width + i);
+
+			memcpy(a->kept + plain_kept(a->width, 0, y) + i * PLAIN_KEPT, &p, sizeof(p));
+		}
 	}
 }
 

@@ -117,7 +117,8 @@ int layered_suits(const struct job *job)
 	if (!frame_in_packets(job) || !plain_is_simple(job) || !keeps_uncleared(job, 1) || dome_is_there(job) || p->has_fragment_programs ||
 	    p->has_vertex_programs || !has_one_space(job))
 		return 0;
-	if (job->image ? job->scene->needs_previous && !job->scene->start : !suits_picture(job))
+	if ((job->scene->start && job->scene->start->colors) ||
+	    (job->image ? job->scene->needs_previous && !job->scene->start : !suits_picture(job)))
 		return 0;
 	for (uint32_t i = 0; i < p->n_instances; i++)
 		if (!is_known(job, &job->scene->materials[p->instances[i].material]))
@@ -419,14 +420,18 @@ static int reserve_kept(struct job *job, int is_only)
 /* The picture that the frame begins with becomes what a round has left. */
 static int keep_start(struct job *job)
 {
-	struct frame_buffers *b = &job->tr->buffers;
-	int err = frame_reserve(job->tr, frame, job->n_pixels);
+	const struct scene_picture *start = job->scene->start;
+	const struct frame_buffers *b = &job->tr->buffers;
+	const size_t first = frame_first_pixel(job);
+	int err = frame_reserve(job->tr, colors, job->n_pixels);
 
 	if (!err)
-		err = picture_upload_start(job);
+		err = device_write(job->tr->dev, b->colors.buffer, 0, start->rgba + 4 * first, job->n_pixels * sizeof(uint32_t));
+	if (!err)
+		err = frame_upload(job->tr, depths, start->depth + first, job->n_pixels);
 	return err ? err : launch_layered_start(job->tr->dev, (size_t)plain_columns(job->width) * job->n_rows,
-	                                        LAUNCH(layered_start, .start = b->frame, .width = job->width, .height = job->n_rows,
-	                                               .kept = b->kept_pixels));
+	                                        LAUNCH(layered_start, .colors = b->colors, .depths = b->depths, .width = job->width,
+	                                               .height = job->n_rows, .bits = job->bits, .kept = b->kept_pixels));
 }
 
 /* What a round is, apart from the last. */
