@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -144,13 +145,13 @@ START_TEST(server_ended)
 }
 END_TEST
 
-/* In a program that begins with it: main. @return its exit status */
-static int read_anew(const char *path)
+/* In a program that begins with it: main. most_bytes: of its memory @return its status, as waitpid has it */
+static int read_anew(const char *path, rlim_t most_bytes)
 {
 	const pid_t process = fork();
 	int status;
 
-	if (process == 0)
+	if (process == 0 && setrlimit(RLIMIT_AS, &(struct rlimit){ most_bytes, most_bytes }) == 0)
 		_exit(execl("/proc/self/exe", "test_foreign", path, NULL));
 	return waitpid(process, &status, 0) == process ? status : -1;
 }
@@ -163,8 +164,35 @@ START_TEST(started_often)
 	snprintf(command, sizeof(command), "oiiotool %s/good.png --compression zip -o %s/strips.tif", folder, folder);
 	ck_assert_int_eq(system(command), 0);
 	for (int i = 0; i < 30; i++)
-		ck_assert_int_eq(read_anew(path_of("strips.tif")), 0);
+		ck_assert_int_eq(read_anew(path_of("strips.tif"), RLIM_INFINITY), 0);
 	unlink(path_of("strips.tif"));
+}
+END_TEST
+
+/* Write 16383 x 16383 into the head of a baseline JPEG (ITU T.81 B.2.2). @return whether it has one */
+static int claim_much(const char *path)
+{
+	FILE *file = fopen(path, "r+b");
+	int last = 0, c;
+
+	while ((c = fgetc(file)) != EOF && !(last == 0xff && c == 0xc0))
+		last = c;
+	if (c != EOF && fseek(file, 3, SEEK_CUR) == 0)
+		fwrite("\x3f\xff\x3f\xff", 1, 4, file);
+	fclose(file);
+	return c != EOF;
+}
+
+/* A picture that memory does not hold is no reason to end: others are read. */
+START_TEST(claims_too_much)
+{
+	char command[200];
+
+	snprintf(command, sizeof(command), "oiiotool %s/good.png -o %s/large.jpg", folder, folder);
+	ck_assert_int_eq(system(command), 0);
+	ck_assert(claim_much(path_of("large.jpg")));
+	ck_assert_int_eq(read_anew(path_of("large.jpg"), (rlim_t)2 << 30), -ERR_INPUT << 8);
+	unlink(path_of("large.jpg"));
 }
 END_TEST
 
@@ -227,6 +255,7 @@ int main(int argc, char **argv)
 	tcase_add_test(tests, reader_ended);
 	tcase_add_test(tests, server_ended);
 	tcase_add_test(tests, started_often);
+	tcase_add_test(tests, claims_too_much);
 	tcase_add_test(tests, not_a_picture);
 	tcase_add_test(tests, many_at_once);
 	return run_alone(tests, "foreign");

@@ -62,6 +62,15 @@ struct channel {
 	int from;
 };
 
+/** Whether memory holds the channels of one part: a head claims what it likes, and too much of it is its file's defect. */
+bool has_room(const OIIO::ImageSpec &spec)
+{
+	void *volatile planes = calloc(size_t(spec.width) * size_t(spec.height), sizeof(float) * size_t(std::max(spec.nchannels, 3)));
+
+	free(planes);
+	return planes != nullptr;
+}
+
 /** Channels of one part, all 0 yet; `prefix` (a part's name and a dot, or nothing) goes before their names. */
 int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &prefix, std::vector<channel> &out, const char *path)
 {
@@ -180,6 +189,8 @@ int read_image(struct image *img, const char *path)
 			return err_report(ERR_INPUT, path, "part %d is deep: several samples a pixel are no picture yet", part);
 		if (spec.width != first.width || spec.height != first.height)
 			return err_report(ERR_INPUT, path, "part %d is of another size than the first one", part);
+		if (!has_room(spec))
+			return err_report(ERR_INPUT, path, "%d x %d pixels of %d channels take more memory than there is", spec.width, spec.height, spec.nchannels);
 		img->width = uint32_t(spec.width);
 		img->height = uint32_t(spec.height);
 		std::vector<channel> channels;
