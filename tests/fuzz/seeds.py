@@ -91,14 +91,31 @@ def read_pack(path):
     return parts
 
 
+VERBS = 7  # of fuzz_verbs.c
+SCENE = 1  # the one of them that builds all of a frame
+
+
 def record(build, folder):
-    """Recordings of programs of ours, two frames each, with what they showed."""
+    """Recordings of programs of ours, two frames each (panels: all), with what they showed."""
     folder.mkdir(parents=True, exist_ok=True)
-    for program in [*(build / "corpus").iterdir(), *(build / "tests/real").glob("*")]:
+    for program in [*(build / "corpus").iterdir(), *(build / "tests/real").glob("*"), *(build / "tests/real/panels").iterdir()]:
         if program.is_dir() or "." in program.name or program.name.startswith("test_"):
             continue
         subprocess.run(["timeout", "5", build / "relume", "record", "-o", folder / f"{program.name}.trace", "--ref", "color,depth", "--", program,
                         "--frames", "2"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+
+
+def cut_panels(build, folder):
+    """Recordings of panels, whose calls are more varied than any other program's, a frame each: short ones are changed more often."""
+    cut = folder / "cut"
+    cut.mkdir(exist_ok=True)
+    for program in (build / "tests/real/panels").glob("*.d"):
+        trace = folder / f"{program.stem}.trace"
+        for frame in range(12):
+            if trace.exists() and subprocess.run([build / "relume", "trim", trace, "-f", str(frame), "-o", cut / f"{trace.stem}.{frame}.trace"], check=False,
+                                                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode:
+                break
+    return sorted(cut.glob("*.trace"))
 
 
 def pictures(build, traces, out):
@@ -146,8 +163,8 @@ def make_seeds(build, folder):
         path.mkdir(parents=True, exist_ok=True)
     traces = folder / "traces"
     record(build, traces)
-    golden = list((ROOT / "tests/golden").glob("*.trace"))
-    for trace in [*golden, *traces.glob("*.trace")]:
+    golden, panels = list((ROOT / "tests/golden").glob("*.trace")), cut_panels(build, traces)
+    for trace in [*golden, *traces.glob("*.trace"), *panels]:
         data = trace.read_bytes()
         try:
             stream = unpack(data, 1 << 16)[:1 << 16]
@@ -156,12 +173,14 @@ def make_seeds(build, folder):
         (out["replay"] / trace.stem).write_bytes(stream)
         if len(data) <= 1 << 16:
             (out["container"] / trace.stem).write_bytes(data)
-            (out["verbs"] / trace.stem).write_bytes(bytes([len(data) % 7]) + data)
+            (out["verbs"] / trace.stem).write_bytes(bytes([len(data) % VERBS]) + data)
+        if trace in panels:
+            (out["verbs"] / f"{trace.stem}.scene").write_bytes(bytes([SCENE]) + data)
     for number, trace in enumerate(golden):
         stream = bytes(unpack(trace.read_bytes()))
         (out["container"] / f"{trace.stem}.gz").write_bytes(gzip.compress(stream))
         subprocess.run(["brotli", "-f", "-o", out["container"] / f"{trace.stem}.br", "-"], input=stream, check=False) if pathlib.Path("/usr/bin/brotli").exists() else None
-        for verb in range(7):
+        for verb in range(VERBS):
             (out["verbs"] / f"{trace.stem}.{verb}").write_bytes(bytes([verb]) + trace.read_bytes())
         subprocess.run([build / "tests/fuzz/make_seeds", "index", trace, out["index"] / str(number)], check=False)
     subprocess.run([build / "tests/fuzz/make_seeds", "snapshot", out["snapshot"]], check=False)
