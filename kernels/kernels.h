@@ -183,6 +183,7 @@ typedef float element_float;
 	VALUE(uint, round) AND()            /* PLAIN_BEGINS and the like */ \
 	IN(layer_clear, clears) AND() VALUE(uint, n_clears) AND() /* in order; of this round */ \
 	IN(float, before) AND() OUT(float, after) AND() /* [PLAIN_KEPT] a pixel, row by row of blocks: as the last round left it; for the next */ \
+	OUT(uint, unknown) AND()            /* as of layered_picture, from the round that ends */ \
 	VALUE(uint, mirrors) AND()          /* 1: light leaves fragments that mirror or let it through. 0: the rest are any buffers */ \
 	OUT(uint, leaving) AND()            /* [n / PLAIN_WIDTH]: a bit for each such fragment that shows; from layered, read by the others */ \
 	IN(uint, list_first) AND()          /* [n / PLAIN_WIDTH]: where these stand in the next three; layered_shadow, layered_mirror */ \

@@ -102,6 +102,7 @@ int pipeline_run(struct pipeline *p)
 		err = seat_workers(&state, workers, n);
 	supply.cache = state.cache;
 	replay_set_supplier(p->replay, supply_picture, &supply);
+	replay_leave_starts(p->replay);
 	replay_set_tell(p->replay, tell_replay, &state);
 	if (!look_spares(p->settings->look))
 		replay_keep_targets(p->replay);

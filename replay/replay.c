@@ -84,6 +84,11 @@ void replay_keep_targets(struct replay *rp)
 	player_keep_targets(&rp->player);
 }
 
+void replay_leave_starts(struct replay *rp)
+{
+	player_leave_starts(&rp->player);
+}
+
 static int have_index(struct replay *rp, enum index_mode mode)
 {
 	return rp->index ? 0 : index_open(&rp->index, rp->player.path, rp->hash, mode, NULL);

@@ -73,6 +73,12 @@ void replay_set_tell(struct replay *rp, replay_tell *tell, void *user);
 void replay_keep_targets(struct replay *rp);
 
 /**
+ * Leave what a frame begins with to who renders it, where perhaps nothing of it shows (scene/before.h). Without this the supplier renders
+ * the frame once more to find out. Call it where all frames are rendered, before the first.
+ */
+void replay_leave_starts(struct replay *rp);
+
+/**
  * Do the frames up to and including `last` need pixels of frames that were skipped? Builds them without rendering: a frame that does
  * not clear the screen counts as one that shows what was there before. Afterwards the replay can only be closed.
  * @return 1 they do; 0 they do not; ERR_* (reported)

@@ -384,7 +384,8 @@ struct scene {
 	uint32_t keeps_depth; /* 1: depth may be that of frames before; what looks at it sets needs_previous, too */
 	uint32_t untraced_draw; /* a draw that shows a framebuffer object's lit picture, of which the scene was left out; 0: none */
 	uint32_t shows_earlier; /* 1: a texture lacks what an earlier frame drew to it, as nothing renders during this replay */
-	const struct scene_picture *start; /* what was there before the first event; NULL: all 0, or not known */
+	const struct scene_picture *start; /* what was there before the first event; NULL: all 0, not known, or not made */
+	struct scene_before *before;       /* whose picture would be `start`, where that is not made (before.h); else NULL */
 
 	/* What became of each draw number: the call's name and number in the trace, for blame. [n_draws + 1], 0 unused */
 	struct scene_draw {
@@ -401,7 +402,7 @@ struct scene {
 };
 
 /**
- * Makes pixels of a scene for who needs them back: what GL itself drew, from scene->start on where that is there.
+ * Makes pixels of a scene for who needs them back: what GL itself drew, from what it begins with on where that is there.
  * @param scene    part of a frame, or a whole one; borrowed
  * @param picture  of the scene's size, arrays there and undefined; to be filled
  * @return 0 or ERR_* (reported)

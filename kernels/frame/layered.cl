@@ -276,6 +276,12 @@ static inline uint shade_layer(const struct plain_arguments *a, const struct sha
 	return covered | covers;
 }
 
+/* Which lanes of a row of sixteen pixels lie within the picture. */
+static inline uint lanes_there(uint x, uint width)
+{
+	return width - x < PLAIN_WIDTH ? (1u << (width - x)) - 1 : 0xffffu;
+}
+
 /* Which draws pixels show. */
 static inline void put_draws(const struct plain_arguments *a, struct layered_row *row)
 {
@@ -316,10 +322,12 @@ static inline void draw_row(const struct plain_arguments *a, const struct shade_
 	put_draws(a, row);
 	for (int i = 0; i < 3 && !row->is_mirrored; i++)
 		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
-	if (a->layers.round & PLAIN_ENDS)
-		pack_compose(&row->pixels, to, &kept->encoded);
-	else
+	if (!(a->layers.round & PLAIN_ENDS)) {
 		keep_pixels(a, x, y, row);
+		return;
+	}
+	pack_compose(&row->pixels, to, &kept->encoded);
+	a->layers.unknown[y * plain_columns(a->width) + x / PLAIN_WIDTH] = row->unknown & lanes_there(x, a->width);
 }
 
 /* s: with visibility where lights have been asked */
@@ -349,7 +357,8 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 			continue;
 		}
 		draw_row(a, s, b.x, y, &row, &kept, &to);
-		if (!row.n && to.n == PACK_SIZE && !a->layers.n_clears && (a->layers.round & PLAIN_BEGINS) && (a->layers.round & PLAIN_ENDS))
+		if (!row.n && to.n == PACK_SIZE && !a->layers.n_clears &&
+		    (a->layers.round & (PLAIN_BEGINS | PLAIN_ENDS | PLAIN_UNKNOWN)) == (PLAIN_BEGINS | PLAIN_ENDS))
 			empty = to.at;
 	}
 }
@@ -415,7 +424,7 @@ KERNEL_OF(float16) void layered_picture(KERNEL_ARGUMENTS(layered_picture))
 	load_kept(kept + plain_kept(width, x, y), &row);
 	code = frame_colors(&row.pixels, pixel_alpha_bits(bits));
 	depth = pixel_depth_bits(bits) > 24 ? row.depth >> 8 : row.depth;
-	unknown[item] = pack_bits((row.shows & 2) != 0) & (width - x < PLAIN_WIDTH ? (1u << (width - x)) - 1 : 0xffffu);
+	unknown[item] = pack_bits((row.shows & 2) != 0) & lanes_there(x, width);
 	if (x + PLAIN_WIDTH <= width) {
 		*(__global pack_loose_uints *)&colors[y * width + x] = code;
 		*(__global pack_loose_uints *)&depths[y * width + x] = depth;

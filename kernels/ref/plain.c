@@ -183,13 +183,17 @@ static struct frame_pixel begin_pixel(const struct plain_arguments *a, uint32_t 
 	return pixel;
 }
 
-/* Keep it for the next one, or compose it. */
+/* Keep it for the next one, or compose it and say whether its colour is known. */
 static void end_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, const struct frame_pixel *pixel)
 {
-	if (a->layers.round & PLAIN_ENDS)
-		compose_pixel(a, x, y, pixel);
-	else
+	uint32_t *unknown = &a->layers.unknown[y * plain_columns(a->width) + x / PLAIN_WIDTH];
+
+	if (!(a->layers.round & PLAIN_ENDS)) {
 		memcpy(a->layers.after + plain_kept(a->width, 0, y) + x * PLAIN_KEPT, pixel, sizeof(*pixel));
+		return;
+	}
+	compose_pixel(a, x, y, pixel);
+	*unknown = (x % PLAIN_WIDTH ? *unknown : 0) | (pixel->unknown & PIXEL_UNKNOWN_COLOR) << x % PLAIN_WIDTH;
 }
 
 _Static_assert(sizeof(struct frame_pixel) == PLAIN_KEPT * sizeof(float), "what is kept of a pixel");

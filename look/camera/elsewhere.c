@@ -319,6 +319,7 @@ int elsewhere_make(const struct camera *camera, const struct look *look, const s
 		out->scene.height = camera->keys->size ? camera->keys->size[1] : scene->height;
 		out->scene.needs_previous = out->scene.keeps_depth = 0;
 		out->scene.start = NULL;
+		out->scene.before = NULL;
 		out->without = m.without;
 		tell(&m.viewpoint, number, camera_pictures(camera), out->told, sizeof(out->told));
 	}

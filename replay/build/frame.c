@@ -16,6 +16,7 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/programs/program.h"
+#include "scene/before.h"
 #include "scene/release.h"
 
 /* The caller of replay_next_frame and surfaces hold references. */
@@ -281,6 +282,7 @@ static void release_reference(struct scene *s)
 	for (uint32_t i = 0; i < s->n_textures; i++)
 		gls_texture_image_release((struct gls_texture_image *)(uintptr_t)s->textures[i]);
 	gls_picture_release((struct gls_picture *)(uintptr_t)s->start);
+	scene_before_free(&s->before);
 	free(s->instances);
 	free(s->materials);
 	free(s->units);

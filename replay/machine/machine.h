@@ -65,6 +65,7 @@ struct gls_feedback {
 	scene_supply *supply; /* NULL: nobody makes pixels */
 	void *supply_user;
 	int keeps_targets; /* 1: pictures of framebuffer objects stay pictures (surface/shown.h) */
+	int leaves_starts; /* 1: who renders frames makes what they begin with (scene/before.h) */
 	int fronts;        /* 1: something reads front buffers */
 	int missing;       /* 1: some texture lacks pixels that were drawn in skipped frames */
 	int shows_through; /* 1: some frame showed what was there before it */

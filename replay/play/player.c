@@ -46,6 +46,11 @@ void player_keep_targets(struct player *p)
 	p->exec->feedback.keeps_targets = p->keeps_targets = 1;
 }
 
+void player_leave_starts(struct player *p)
+{
+	p->exec->feedback.leaves_starts = p->leaves_starts = 1;
+}
+
 int player_try_frame(struct player *p, int want, struct scene **scene)
 {
 	struct gls_exec *x = p->exec;
@@ -121,6 +126,7 @@ void player_use(struct player *p, struct gls_exec *x)
 	x->feedback.supply = p->supply;
 	x->feedback.supply_user = p->supply_user;
 	x->feedback.keeps_targets = p->keeps_targets;
+	x->feedback.leaves_starts = p->leaves_starts;
 	x->feedback.fronts = p->exec->feedback.fronts;
 	gls_exec_destroy(&p->exec);
 	p->exec = x;

@@ -17,7 +17,7 @@ struct player {
 	struct gls_exec *exec;
 	scene_supply *supply; /* NULL: nobody makes pixels */
 	void *supply_user;
-	int keeps_targets; /* as in gls_feedback */
+	int keeps_targets, leaves_starts; /* as in gls_feedback */
 	int build_all; /* 1: some frame needs pixels of earlier ones; all that are played are built */
 	const char *why; /* which ones it needs, a static string; NULL: none does */
 	replay_tell *tell;
@@ -34,6 +34,9 @@ void player_set_supplier(struct player *p, scene_supply *supply, void *user);
 
 /** replay_keep_targets. */
 void player_keep_targets(struct player *p);
+
+/** replay_leave_starts. */
+void player_leave_starts(struct player *p);
 
 /** As replay_next_frame, but a frame that needs pixels of skipped frames is left: 1 is returned and exec->feedback.rewind is set. */
 int player_try_frame(struct player *p, int want, struct scene **scene);

@@ -1,6 +1,7 @@
 /* Pixels that feed back (GL 2.1 sec. 3.8.2, 4.2, 4.3): who asks for which pixels, and what becomes of them. */
 #include "tests/gl/gl.h"
 #include "replay/gl/surface/frames.h"
+#include "scene/before.h"
 
 /* A supplier that paints every picture in one colour, and remembers what it was asked. */
 struct painter {
@@ -291,6 +292,96 @@ START_TEST(test_clears_of_parts)
 }
 END_TEST
 
+/* A frame that clears no colours, whose scene is to be released. asked: pictures that were rendered for it */
+static struct scene *uncleared(struct gl *gl, struct painter *p, uint32_t asked)
+{
+	struct scene *s;
+
+	p->asked = 0;
+	gl_call(gl, "glClear", "m", GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+	triangle(gl);
+	s = gl_swap(gl);
+	ck_assert_uint_eq(p->asked, asked);
+	return s;
+}
+
+/* What frames begin with is left to who renders them, who says whether it shows: then it is rendered for them. */
+START_TEST(test_starts_are_left)
+{
+	struct painter p = { { 9, 9, 9, 9 }, 1, 0, 0, 0 };
+	struct gl gl = open_deep(&p);
+	struct scene *frames[4];
+
+	gl.x->feedback.leaves_starts = 1;
+	gl_call(&gl, "glClear", "m", ALL);
+	frames[0] = gl_swap(&gl);
+	for (int i = 1; i < 4; i++) {
+		frames[i] = uncleared(&gl, &p, 0);
+		ck_assert_ptr_null(frames[i]->start);
+		ck_assert_ptr_eq(scene_before_use(frames[i]->before), frames[i - 1]);
+		scene_before_done(frames[i]->before);
+		ck_assert_uint_eq(scene_before_held(frames[i]->before), (unsigned)i);
+	}
+	scene_before_settle(frames[2]->before, 0);
+	ck_assert_ptr_null(scene_before_use(frames[2]->before));
+	ck_assert_uint_eq(scene_before_held(frames[3]->before), 1);
+	scene_before_settle(frames[3]->before, 1);
+	for (int i = 0; i < 4; i++)
+		scene_release(&frames[i]);
+	frames[0] = uncleared(&gl, &p, 1);
+	ck_assert_ptr_null(frames[0]->before);
+	ck_assert_ptr_nonnull(frames[0]->start);
+	scene_release(&frames[0]);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Where nobody renders them, few are held. */
+START_TEST(test_few_are_held)
+{
+	struct painter p = { { 9, 9, 9, 9 }, 0, 0, 0, 0 };
+	struct gl gl = open_deep(&p);
+	unsigned most = 0, n_left = 0;
+
+	gl.x->feedback.leaves_starts = 1;
+	gl_call(&gl, "glClear", "m", ALL);
+	for (int i = 0; i < 100; i++) {
+		struct scene *s = gl_swap(&gl);
+		const unsigned held = scene_before_held(s->before);
+
+		most = held > most ? held : most;
+		n_left += held > 0;
+		scene_release(&s);
+		gl_call(&gl, "glClear", "m", GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+		triangle(&gl);
+	}
+	ck_assert_uint_gt(n_left, 80);
+	ck_assert_uint_le(most, 32);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Depths from before that tests looked at may not be known: such frames begin with a picture. */
+START_TEST(test_looked_at_is_not_left)
+{
+	struct painter p = { { 9, 9, 9, 9 }, 1, 0, 0, 0 };
+	struct gl gl = open_deep(&p);
+	struct scene *s;
+
+	gl.x->feedback.leaves_starts = 1;
+	gl_call(&gl, "glClear", "m", ALL);
+	s = gl_swap(&gl);
+	scene_release(&s);
+	gl_call(&gl, "glEnable", "e", GL_DEPTH_TEST);
+	triangle(&gl);
+	s = gl_swap(&gl);
+	ck_assert_ptr_null(s->before);
+	ck_assert_ptr_nonnull(s->start);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* A part that was cleared is read: the rest may be anything. What is read beside it may not, and neither may depth that tests looked at. */
 START_TEST(test_parts_are_read)
 {
@@ -486,4 +577,5 @@ END_TEST
 
 GL_TESTS("feedback", test_clear_drops_what_it_covers, test_clear_that_leaves_something, test_clear_keeps_stencil,
          test_clear_after_reading, test_rasterizer_discard, test_copy_tex_image, test_copy_tex_sub_image, test_previous_frame, test_skipped_frames, test_drawables,
-         test_no_supplier, test_clears_of_parts, test_parts_are_read, test_part_of_texture, test_skipped_depth)
+         test_no_supplier, test_clears_of_parts, test_parts_are_read, test_part_of_texture, test_skipped_depth,
+         test_starts_are_left, test_few_are_held, test_looked_at_is_not_left)

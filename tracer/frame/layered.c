@@ -110,6 +110,14 @@ static int suits_picture(const struct job *job)
 	return !scene->stencil_bits || keeps_uncleared(job, 4);
 }
 
+/* Of an image: whether all is known of its pixels, or a colour that may be made later is all that is not. */
+static int suits_image(const struct job *job)
+{
+	const struct scene *scene = job->scene;
+
+	return !scene->needs_previous || scene->start || (scene->before && cleared_buffers(job) & 2);
+}
+
 int layered_suits(const struct job *job)
 {
 	const struct prepared *p = &job->prepared;
@@ -117,8 +125,7 @@ int layered_suits(const struct job *job)
 	if (!frame_in_packets(job) || !plain_is_simple(job) || !keeps_uncleared(job, 1) || dome_is_there(job) || p->has_fragment_programs ||
 	    p->has_vertex_programs || !has_one_space(job))
 		return 0;
-	if ((job->scene->start && job->scene->start->colors) ||
-	    (job->image ? job->scene->needs_previous && !job->scene->start : !suits_picture(job)))
+	if ((job->scene->start && job->scene->start->colors) || !(job->image ? suits_image(job) : suits_picture(job)))
 		return 0;
 	for (uint32_t i = 0; i < p->n_instances; i++)
 		if (!is_known(job, &job->scene->materials[p->instances[i].material]))
@@ -327,7 +334,8 @@ static struct plain_launch launch_of(const struct job *job, const struct looks *
 	a.pixels = b->alone_pixels;
 	a.shaded = b->alone_shaded;
 	a.layers = *LAUNCH(layers, .counts = b->counts, .n_looks = looks->n, .columns = looks->columns, .asking = looks->asking,
-	                   .round = round, .clears = b->layer_clears, .n_clears = looks->n_clears, .before = b->kept_pixels, .after = b->next_pixels, .mirrors = looks->space && plain_has_mirrors(job),
+	                   .round = round, .clears = b->layer_clears, .n_clears = looks->n_clears, .before = b->kept_pixels, .after = b->next_pixels,
+	                   .unknown = b->unknown, .mirrors = looks->space && plain_has_mirrors(job),
 	                   .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
 	                   .list_pixels = b->pixels, .list_shaded = b->shaded);
 	return a;
@@ -487,11 +495,16 @@ static int draw_band(struct job *job, struct looks *looks)
 		err = reserve_looks(job, looks);
 	if (!err)
 		err = compose_reserve(job, &request);
+	if (!err)
+		err = frame_reserve(job->tr, unknown, plain_columns(job->width) * job->n_rows);
 	for (int is_first = 1; !err && !is_last; is_first = 0)
 		err = draw_round(job, looks, is_first, &is_last, &request);
 	if (err)
 		return err;
-	return job->image ? compose_fetch(job, &request, job->image) : picture_take_band(job, clear.stencil);
+	if (!job->image)
+		return picture_take_band(job, clear.stencil);
+	err = compose_fetch(job, &request, job->image);
+	return err || !is_unknown(job) ? err : picture_count_rows(job);
 }
 
 int layered_band(struct job *job)

@@ -69,7 +69,6 @@ static int read_pixels(const struct job *job, union buffer_frame_pixel from, str
 			picture->colors[4 * i + 3] = 1;
 		picture->depth[i] = scene->depth_bits > 24 ? p->depth >> 8 : p->depth; /* pictures have 24 at most */
 		picture->stencil[i] = (uint8_t)p->stencil;
-		picture->unknown += (p->unknown & (PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_TEST)) != 0;
 	}
 	return err;
 }
@@ -94,16 +93,36 @@ static int take_words(const struct job *job, const struct device_buffer *buffer,
 	return device_read(job->tr->dev, buffer, 0, out, job->n_pixels * sizeof(uint32_t));
 }
 
-static int count_unknown(struct job *job, uint32_t n_rows_of_pixels)
+int picture_count_rows(struct job *job)
 {
+	const uint32_t n = plain_columns(job->width) * job->n_rows;
 	const void *mapped;
-	int err = device_map(job->tr->dev, job->tr->buffers.unknown.buffer, n_rows_of_pixels * sizeof(uint32_t), 1, &mapped);
+	int err = device_map(job->tr->dev, job->tr->buffers.unknown.buffer, n * sizeof(uint32_t), 1, &mapped);
 
 	if (err)
 		return err;
-	for (uint32_t i = 0; i < n_rows_of_pixels; i++)
-		job->picture->unknown += (uint32_t)__builtin_popcount(((const uint32_t *)mapped)[i]);
+	for (uint32_t i = 0; i < n; i++)
+		job->unknown += (uint32_t)__builtin_popcount(((const uint32_t *)mapped)[i]);
 	return device_unmap(job->tr->dev, job->tr->buffers.unknown.buffer, mapped);
+}
+
+static int is_unknown(const struct frame_pixel *p)
+{
+	return (p->unknown & (PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_TEST)) != 0;
+}
+
+int picture_count_band(struct job *job)
+{
+	const struct frame_pixel *pixels;
+	const void *mapped;
+	int err = device_map(job->tr->dev, job->tr->buffers.frame.buffer, job->n_pixels * sizeof(*pixels), 1, &mapped);
+
+	if (err)
+		return err;
+	pixels = mapped;
+	for (uint32_t i = 0; i < job->n_pixels; i++)
+		job->unknown += (uint32_t)is_unknown(&pixels[i]);
+	return device_unmap(job->tr->dev, job->tr->buffers.frame.buffer, mapped);
 }
 
 int picture_take_band(struct job *job, uint32_t stencil)
@@ -118,8 +137,6 @@ int picture_take_band(struct job *job, uint32_t stencil)
 	if (!err)
 		err = frame_reserve(tr, depths, job->n_pixels);
 	if (!err)
-		err = frame_reserve(tr, unknown, rows);
-	if (!err)
 		err = launch_layered_picture(tr->dev, rows, LAUNCH(layered_picture, .kept = b->kept_pixels, .width = job->width, .height = job->n_rows,
 		                                                   .bits = job->bits, .colors = b->colors, .depths = b->depths, .unknown = b->unknown));
 	if (!err)
@@ -127,7 +144,7 @@ int picture_take_band(struct job *job, uint32_t stencil)
 	if (!err)
 		err = take_words(job, b->depths.buffer, job->picture->depth + first);
 	if (!err)
-		err = count_unknown(job, rows);
+		err = picture_count_rows(job);
 	if (scene->start)
 		memcpy(job->picture->stencil + first, scene->start->stencil + first, job->n_pixels);
 	else

@@ -20,7 +20,7 @@ static void copy_planes(struct scene_picture *to, const struct scene_picture *fr
 	to->unknown = from->unknown;
 }
 
-static void free_picture(struct scene_picture *p)
+void picture_free(struct scene_picture *p)
 {
 	for (int i = 0; p && p->samples && i < SCENE_SAMPLES; i++) {
 		free(p->samples[i].rgba);
@@ -38,28 +38,33 @@ static void free_picture(struct scene_picture *p)
 	free(p);
 }
 
-/* Room for the planes that `like` has. @return 0: out of memory */
-static int reserve_planes(struct scene_picture *p, const struct scene_picture *like, size_t n)
+/* Room for the planes of a scene's picture. @return 0: out of memory */
+static int reserve_planes(const struct scene *scene, struct scene_picture *p)
 {
+	const size_t n = (size_t)scene->width * scene->height;
+
+	p->width = scene->width;
+	p->height = scene->height;
+	p->depth_bits = scene->depth_bits > 24 ? 24 : scene->depth_bits;
 	p->rgba = malloc(4 * n);
 	p->depth = malloc(n * sizeof(*p->depth));
 	p->stencil = malloc(n);
-	p->colors = like->colors ? malloc(4 * n * sizeof(*p->colors)) : NULL;
-	return p->rgba && p->depth && p->stencil && (p->colors || !like->colors);
+	p->colors = scene->floats ? malloc(4 * n * sizeof(*p->colors)) : NULL;
+	return p->rgba && p->depth && p->stencil && (p->colors || !scene->floats);
 }
 
-static struct scene_picture *make_picture(const struct scene_picture *like, size_t n)
+struct scene_picture *picture_blank(const struct scene *scene)
 {
 	struct scene_picture *p = calloc(1, sizeof(*p));
-	int enough = p && reserve_planes(p, like, n);
+	int enough = p && reserve_planes(scene, p);
 
-	if (enough && like->samples)
+	if (enough && scene->samples > 1)
 		enough = (p->samples = calloc(SCENE_SAMPLES, sizeof(*p->samples))) != NULL;
 	for (int i = 0; enough && p->samples && i < SCENE_SAMPLES; i++)
-		enough = reserve_planes(&p->samples[i], &like->samples[i], n);
+		enough = reserve_planes(scene, &p->samples[i]);
 	if (enough)
 		return p;
-	free_picture(p);
+	picture_free(p);
 	return NULL;
 }
 
@@ -70,7 +75,7 @@ void picture_keep(struct picture_kept *kept, const struct scene *scene, const st
 	picture_kept_free(kept);
 	if (!scene->serial)
 		return;
-	kept->picture = make_picture(picture, n);
+	kept->picture = picture_blank(scene);
 	if (!kept->picture)
 		return;
 	copy_planes(kept->picture, picture, n);
@@ -96,6 +101,6 @@ int picture_recall(const struct picture_kept *kept, const struct scene *scene, s
 
 void picture_kept_free(struct picture_kept *kept)
 {
-	free_picture(kept->picture);
+	picture_free(kept->picture);
 	*kept = (struct picture_kept){ .picture = NULL };
 }

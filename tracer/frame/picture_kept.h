@@ -1,4 +1,4 @@
-/* The picture that was drawn last: the scene that asks next is often the same. */
+/* Pictures that the tracer holds itself. The one that was drawn last is kept: the scene that asks next is often the same. */
 #pragma once
 
 #include "scene/scene.h"
@@ -7,6 +7,12 @@ struct picture_kept {
 	uint64_t serial, events; /* of its scene; serial 0: there is none */
 	struct scene_picture *picture;
 };
+
+/** A scene's picture, not drawn yet. @return NULL: out of memory */
+struct scene_picture *picture_blank(const struct scene *scene);
+
+/** NULL is allowed. */
+void picture_free(struct scene_picture *picture);
 
 /** Keep a copy of a scene's picture in place of what was kept. Where memory is short, nothing is kept. */
 void picture_keep(struct picture_kept *kept, const struct scene *scene, const struct scene_picture *picture);

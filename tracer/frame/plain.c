@@ -132,7 +132,7 @@ struct plain_launch plain_launch_of(const struct job *job, struct camera_rectang
 	const struct scene_dome none = { .reach = 0 };
 	const struct layers_launch *one = LAUNCH(layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .round = 0,
 	                                         .clears = b->layer_clears, .n_clears = 0, .before = b->visibility,
-	                                         .after = b->visibility, .mirrors = 0, .leaving = b->counts,
+	                                         .after = b->visibility, .unknown = b->counts, .mirrors = 0, .leaving = b->counts,
 	                                         .list_first = b->counts, .list = b->fragments, .list_pixels = b->pixels, .list_shaded = b->shaded);
 
 	return *LAUNCH(plain, .tables = frame_tables(job->tr), .views = b->views, .windows = b->windows, .sparse = b->sparse,

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "kernels/camera/camera.h"
 #include "kernels/frame/sample.h"
+#include "scene/before.h"
 #include "tracer/frame/compose.h"
 #include "tracer/frame/emitters.h"
 #include "tracer/frame/ended.h"
@@ -193,6 +194,10 @@ static int trace_band(struct job *job)
 		err = segment_add_pass(job, job->is_first);
 		return err == ERR_MEMORY ? device_report_lack(job->tr->dev) : err;
 	}
+	if (!job->scene->start && job->scene->needs_previous)
+		err = picture_count_band(job);
+	if (err)
+		return err;
 	return job->image ? compose_band(job, job->image) : picture_read_band(job, job->picture);
 }
 
@@ -293,28 +298,76 @@ static int check_size(const struct scene *scene)
 	                  (unsigned long long)scene->frame, scene->width, scene->height);
 }
 
-int tracer_render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture)
+/* From scene->start on. */
+static int draw_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture)
 {
 	const struct tracer_options options = { .mode = TRACER_GL };
 	struct job job = { .tr = tracer, .scene = scene, .options = &options, .width = scene->width, .height = scene->height,
 		           .n_passes = 1, .picture = picture };
 	int err = check_size(scene);
 
-	/* The frame that was rendered last is often the one that the next begins with. */
-	if (err || picture_recall(&tracer->drawn, scene, picture))
+	if (err)
 		return err;
 	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
-	picture->unknown = 0;
-	for (int i = 0; i < SCENE_SAMPLES && picture->samples; i++)
-		picture->samples[i].unknown = 0;
 	err = trace_pass(&job);
 	if (!err)
 		err = ended_count(&job, NULL);
 	forget_frame(&job);
 	count_undrawn(&job);
+	picture->unknown = (uint32_t)job.unknown;
+	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
+}
+
+/* --- What frames begin with ---------------------------------------------------------------------------------------- */
+
+/* A scene whose start was made here. */
+struct begun {
+	struct scene scene;
+	struct scene_picture *start;
+};
+
+/* Let a scene begin with what the one before it shows. begun: to be freed by end_begun */
+static int begin_with_before(struct tracer *tracer, const struct scene *scene, struct begun *begun)
+{
+	const struct scene *before = scene_before_use(scene->before);
+	int err = 0;
+
+	*begun = (struct begun){ .scene = *scene, .start = before ? picture_blank(before) : NULL };
+	begun->scene.start = begun->start;
+	begun->scene.before = NULL;
+	if (before)
+		err = begun->start ? tracer_render_picture(tracer, before, begun->start) :
+		                     err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", before->width, before->height);
+	scene_before_done(scene->before);
+	return err;
+}
+
+static void end_begun(struct begun *begun)
+{
+	picture_free(begun->start);
+}
+
+int tracer_render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture)
+{
+	struct begun begun;
+	int err;
+
+	/* The frame that was rendered last is often the one that the next begins with. */
+	if (picture_recall(&tracer->drawn, scene, picture))
+		return 0;
+	err = draw_picture(tracer, scene, picture);
+	if (!err && scene->before) {
+		scene_before_settle(scene->before, picture->unknown != 0);
+		if (picture->unknown) {
+			err = begin_with_before(tracer, scene, &begun);
+			if (!err)
+				err = draw_picture(tracer, &begun.scene, picture);
+			end_begun(&begun);
+		}
+	}
 	if (!err)
 		picture_keep(&tracer->drawn, scene, picture);
-	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
+	return err;
 }
 
 /* --- Samples ------------------------------------------------------------------------------------------------------- */
@@ -400,8 +453,8 @@ static int sum_passes(struct job *job)
 	return err;
 }
 
-int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
-                  struct image *img)
+/* From scene->start on. unknown: receives how many pixels show something from before that is not there */
+static int draw_image(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options, struct image *img, uint64_t *unknown)
 {
 	struct tracer_options known = *options;
 	struct job job = { .tr = tracer, .scene = scene, .options = &known, .width = scene->width, .height = scene->height,
@@ -425,7 +478,48 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 	if (!err && job.n_passes < options->samples)
 		err = image_set_attribute(img, "relume:samples", "%u", job.n_passes);
 	count_undrawn(&job);
+	*unknown = job.unknown;
 	if (err)
 		image_free(img);
 	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
+}
+
+/* How many pixels show something from before a scene that is not made yet. */
+static int count_unknown(struct tracer *tracer, const struct scene *scene, uint64_t *unknown)
+{
+	struct scene_picture *picture = picture_blank(scene);
+	int err = picture ? draw_picture(tracer, scene, picture) : err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", scene->width, scene->height);
+
+	if (!err)
+		*unknown = picture->unknown;
+	picture_free(picture);
+	return err;
+}
+
+int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
+                  struct image *img)
+{
+	const struct tracer_undrawn undrawn = tracer->undrawn;
+	const int is_quick = options->samples <= 1 && !options->photons; /* it is not worth a look beforehand */
+	uint64_t unknown = 0;
+	struct begun begun;
+	int err = 0;
+
+	if (scene->before && !is_quick)
+		err = count_unknown(tracer, scene, &unknown);
+	if (!err && !unknown)
+		err = draw_image(tracer, scene, options, img, &unknown);
+	if (err || !scene->before)
+		return err;
+	scene_before_settle(scene->before, unknown != 0);
+	if (!unknown)
+		return 0;
+	if (is_quick)
+		image_free(img);
+	err = begin_with_before(tracer, scene, &begun);
+	tracer->undrawn = undrawn;
+	if (!err)
+		err = draw_image(tracer, &begun.scene, options, img, &unknown);
+	end_begun(&begun);
+	return err;
 }

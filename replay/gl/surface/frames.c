@@ -32,7 +32,7 @@ static struct gls_surface *shown(struct gls_exec *x, struct gls_drawable *d)
 struct scene *gls_frame_finish(struct gls_exec *x)
 {
 	struct gls_drawable *d = swapped(x);
-	struct scene *s = d ? gls_surface_end(x, shown(x, d)) : NULL;
+	struct scene *s = d ? gls_surface_end(x, shown(x, d), 1) : NULL;
 
 	if (s && !x->unswapped)
 		gls_front_swapped(d);
@@ -41,7 +41,7 @@ struct scene *gls_frame_finish(struct gls_exec *x)
 
 static void end_deferred(struct gls_exec *x, struct gls_surface *surface)
 {
-	struct scene *s = surface->deferred ? gls_surface_end(x, surface) : NULL;
+	struct scene *s = surface->deferred ? gls_surface_end(x, surface, 0) : NULL;
 
 	scene_release(&s);
 }

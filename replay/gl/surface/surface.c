@@ -11,6 +11,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
+#include "scene/before.h"
 #include "scene/program.h"
 #include "scene/release.h"
 
@@ -79,12 +80,24 @@ static void check_size(struct gls_surface *surface, struct scene *s)
 	}
 }
 
+#define MOST_HELD 16u /* scenes in a row, should nobody render them */
+
+/* Leave what a scene begins with to who renders it, where only colours of it may show. @return 0: it cannot be */
+static int leave_start(const struct gls_surface *surface, struct scene *s)
+{
+	if (!surface->before || gls_frame_looked(surface) & 6 || scene_before_held(surface->before->before) >= MOST_HELD)
+		return 0;
+	s->before = scene_before_make(gls_scene_reference(surface->before));
+	return s->before != NULL;
+}
+
 /*
  * Give a surface's scene what was there before it, where that shows through.
+ * @param leaves    whether that may be left to who renders it
  * @param snapshot  receives a reference to what the scene shows, if that had to be rendered to find out; else NULL
  * @return 1: the scene is whole; 0: it is not, and cannot be made so now
  */
-static int find_start(struct gls_exec *x, struct gls_surface *surface, struct scene *s, struct gls_picture **snapshot)
+static int find_start(struct gls_exec *x, struct gls_surface *surface, struct scene *s, int leaves, struct gls_picture **snapshot)
 {
 	*snapshot = NULL;
 	check_size(surface, s);
@@ -96,8 +109,11 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 		return 1;
 	if (!surface->picture) {
 		/* Perhaps nothing shows through: a sky covers it all. Depth that it leaves goes on, though, where it is there. */
-		int try = s->n_instances && !(surface->before && (x->feedback.shows_through || s->keeps_depth));
+		const int showed = surface->before && scene_before_shows(surface->before->before);
+		const int try = s->n_instances && !(surface->before && ((x->feedback.shows_through |= showed) || s->keeps_depth));
 
+		if (try && leaves && leave_start(surface, s))
+			return 1;
 		if (try && !(*snapshot = render(x, s)))
 			return 0;
 		if (*snapshot && !(*snapshot)->picture.unknown) {
@@ -148,7 +164,7 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 		return &kept->picture;
 	/* What was there before need not be made where it is not looked at. */
 	in_part = s->needs_previous && !s->start && !surface->picture && (surface->before || surface->skipped) && gls_frame_knows(surface, area);
-	if (!in_part && !find_start(x, surface, s, &snapshot))
+	if (!in_part && !find_start(x, surface, s, 0, &snapshot))
 		return NULL;
 	if (!snapshot)
 		snapshot = s->start && !gls_frame_events(surface) ? gls_picture_reference((struct gls_picture *)(uintptr_t)s->start) :
@@ -186,13 +202,13 @@ int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct 
 	return 1;
 }
 
-struct scene *gls_surface_end(struct gls_exec *x, struct gls_surface *surface)
+struct scene *gls_surface_end(struct gls_exec *x, struct gls_surface *surface, int is_shown)
 {
 	struct gls_picture *snapshot = NULL;
 	struct scene *s = gls_frame_scene(x, surface);
 	uint32_t lacks;
 
-	if (!s || (x->feedback.supply && !find_start(x, surface, s, &snapshot)))
+	if (!s || (x->feedback.supply && !find_start(x, surface, s, is_shown && x->feedback.leaves_starts, &snapshot)))
 		return NULL;
 	s = gls_frame_take(x, surface);
 	lacks = (surface->skipped ? 6u : surface->lacks) & kept_by(s);

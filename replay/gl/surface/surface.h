@@ -20,8 +20,12 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
  */
 int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct gls_picture *picture);
 
-/** End the surface's scene: what comes next begins from what it shows. @return a reference for the caller; NULL: as gls_surface_read */
-struct scene *gls_surface_end(struct gls_exec *x, struct gls_surface *surface);
+/**
+ * End the surface's scene: what comes next begins from what it shows.
+ * @param is_shown  whether it is handed out as a frame
+ * @return a reference for the caller; NULL: as gls_surface_read
+ */
+struct scene *gls_surface_end(struct gls_exec *x, struct gls_surface *surface, int is_shown);
 
 /** Make `to`, which holds nothing, begin from what `from` begins from. */
 void gls_surface_share(struct gls_surface *to, const struct gls_surface *from);
