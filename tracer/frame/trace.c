@@ -326,7 +326,7 @@ struct begun {
 	struct scene_picture *start;
 };
 
-/* Let a scene begin with what the one before it shows. begun: to be freed by end_begun */
+/* Let a scene begin with what the one before it shows. begun->start: to be freed, whatever is returned */
 static int begin_with_before(struct tracer *tracer, const struct scene *scene, struct begun *begun)
 {
 	const struct scene *before = scene_before_use(scene->before);
@@ -340,11 +340,6 @@ static int begin_with_before(struct tracer *tracer, const struct scene *scene, s
 		                     err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", before->width, before->height);
 	scene_before_done(scene->before);
 	return err;
-}
-
-static void end_begun(struct begun *begun)
-{
-	picture_free(begun->start);
 }
 
 int tracer_render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture)
@@ -362,7 +357,7 @@ int tracer_render_picture(struct tracer *tracer, const struct scene *scene, stru
 			err = begin_with_before(tracer, scene, &begun);
 			if (!err)
 				err = draw_picture(tracer, &begun.scene, picture);
-			end_begun(&begun);
+			picture_free(begun.start);
 		}
 	}
 	if (!err)
@@ -520,6 +515,6 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 	tracer->undrawn = undrawn;
 	if (!err)
 		err = draw_image(tracer, &begun.scene, options, img, &unknown);
-	end_begun(&begun);
+	picture_free(begun.start);
 	return err;
 }
