@@ -170,7 +170,7 @@ static void load_depth(const struct target *t, struct scene_picture *p)
 
 			if (t->level) {
 				memcpy(&value, t->level->texels + 4 * (t->first + from), 4);
-				*to = (uint32_t)rintf(value * steps);
+				*to = (uint32_t)rintf(fminf(fmaxf(value, 0), 1) * steps); /* they may be floats of any value */
 			} else if (held_by(t)) {
 				*to = held_by(t)->depth[from];
 			}
