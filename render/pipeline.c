@@ -1,9 +1,11 @@
 #include "render/pipeline.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/folder.h"
 #include "look/apply/apply.h"
 #include "render/decode.h"
 #include "render/supply.h"
@@ -78,6 +80,17 @@ static int start_and_join(struct pipeline_state *state, struct worker *workers, 
 	return state->err;
 }
 
+/* In the cache: pixels of frames that others begin with. What hooks of a user draw is theirs. */
+static int keep_pixels(struct pipeline *p)
+{
+	const struct settings *s = p->settings;
+	char folder[PATH_MAX];
+
+	if (s->no_cache || s->hook || (!s->cache && !folder_cached("pixels", folder, sizeof(folder))))
+		return 0;
+	return replay_keep_pixels(p->replay, s->cache ? s->cache : folder, device_name(p->devices[0]));
+}
+
 int pipeline_run(struct pipeline *p)
 {
 	struct pipeline_state state = { .p = p };
@@ -103,6 +116,8 @@ int pipeline_run(struct pipeline *p)
 	supply.cache = state.cache;
 	replay_set_supplier(p->replay, supply_picture, &supply);
 	replay_leave_starts(p->replay);
+	if (!err)
+		err = keep_pixels(p);
 	replay_set_tell(p->replay, tell_replay, &state);
 	if (!look_spares(p->settings->look))
 		replay_keep_targets(p->replay);

@@ -230,8 +230,8 @@ static const struct options_row rows[] = {
 	  options_number, AT(jobs), .most = 64, .kind = RUN },
 	{ "limit-memory", 0, "M", "memory to stay within, as 800M or 4G: fewer frames are in flight; a single frame that needs "
 	  "more ends the run", options_bytes, AT(memory_bytes), .kind = RUN },
-	{ "cache", 0, "DIR", "where trees of large meshes, compiled kernels and what 'relume devices --check' found are kept for other "
-	  "runs; processes and machines may share it (default: relume/trees, kernels and devices in $XDG_CACHE_HOME, or in ~/.cache; "
+	{ "cache", 0, "DIR", "where trees of large meshes, compiled kernels, what 'relume devices --check' found and pixels that later frames begin with are "
+	  "kept for other runs; processes and machines may share it (default: relume/trees, kernels, devices and pixels in $XDG_CACHE_HOME, or in ~/.cache; "
 	  "PoCL keeps kernels itself)",
 	  take_folder, AT(cache), .kind = RUN, .use = CONFINE_FILLS },
 	{ "cache-size", 0, "M", "what that folder may hold: unused trees go first (default 2G)", options_bytes, AT(cache_bytes), .kind = RUN },

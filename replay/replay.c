@@ -14,6 +14,7 @@
 #include "replay/gl/dispatch.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/index/index_build.h"
+#include "replay/index/pixels.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/play/player.h"
@@ -24,6 +25,7 @@
 #define FIRST_BACK 16   /* frames that are built before one that needs their pixels, and how much longer the way is where they do not do */
 #define LONGER_BACK 8
 #define ALL_BACK UINT64_MAX
+#define PIXELS_EVERY 32 /* of the frames that are built on the way one is kept (index/pixels.h) */
 
 struct replay {
 	struct player player;
@@ -35,6 +37,7 @@ struct replay {
 	int lacks_counts; /* 1: some were left out, as memory was short */
 	struct replay_context *contexts;
 	struct index *index; /* once it was needed */
+	struct pixels pixels;
 	uint64_t back;       /* so many frames before a wanted one are built where player.build_all is set */
 };
 
@@ -64,6 +67,7 @@ void replay_close(struct replay **rp)
 	free((*rp)->counts);
 	free((*rp)->programs);
 	free((*rp)->contexts);
+	free((*rp)->pixels.folder);
 	free(*rp);
 	*rp = NULL;
 }
@@ -71,6 +75,13 @@ void replay_close(struct replay **rp)
 void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user)
 {
 	player_set_supplier(&rp->player, supply, user);
+}
+
+int replay_keep_pixels(struct replay *rp, const char *folder, const char *device)
+{
+	free(rp->pixels.folder);
+	rp->pixels = (struct pixels){ rp->player.path, rp->hash, strdup(folder), pixels_maker(device) };
+	return rp->pixels.folder ? 0 : err_report(ERR_SYSTEM, folder, "out of memory");
 }
 
 void replay_set_tell(struct replay *rp, replay_tell *tell, void *user)
@@ -94,14 +105,15 @@ static int have_index(struct replay *rp, enum index_mode mode)
 	return rp->index ? 0 : index_open(&rp->index, rp->player.path, rp->hash, mode, NULL);
 }
 
-static int restore(struct replay *rp, uint64_t checkpoint)
+/* has_pixels: the checkpoint is one of pixels.h */
+static int restore(struct replay *rp, uint64_t checkpoint, int has_pixels)
 {
 	struct gls_exec *x;
 	int rc = gls_exec_create(&x, rp->player.path);
 
 	if (rc)
 		return rc;
-	rc = index_restore(rp->index, checkpoint, rp->player.reader, x);
+	rc = has_pixels ? pixels_restore(&rp->pixels, checkpoint, rp->player.reader, x) : index_restore(rp->index, checkpoint, rp->player.reader, x);
 	if (!rc) {
 		player_use(&rp->player, x);
 		return 0;
@@ -113,7 +125,7 @@ static int restore(struct replay *rp, uint64_t checkpoint)
 /* Begin at the checkpoint of a frame, or (0) at the beginning of the trace. */
 static int begin_at(struct replay *rp, uint64_t checkpoint)
 {
-	return checkpoint ? restore(rp, checkpoint) : player_start_again(&rp->player);
+	return checkpoint ? restore(rp, checkpoint, 0) : player_start_again(&rp->player);
 }
 
 /* Go to the last checkpoint before a frame. may_stay: not where that leads back */
@@ -146,9 +158,18 @@ static void tell_back(const struct player *p, uint64_t frame, const struct gls_f
 	         frame, found->rewind_why, found->rewind_call, gls_commands[found->rewind_command].name, p->exec->frame);
 }
 
-/* Build all up to a frame, from where the player is now. As replay_next_frame */
-static int play_again(struct player *p, uint64_t frame, int want, const struct gls_feedback *found, struct scene **scene)
+/* Keep pixels now and then, between frames that are built on the way to another. @return 1 or ERR_SYSTEM (reported) */
+static int keep_pixels(struct replay *rp)
 {
+	struct gls_exec *x = rp->player.exec;
+
+	return rp->player.build_all && !x->feedback.rewind && x->frame % PIXELS_EVERY == 0 && pixels_keep(&rp->pixels, rp->player.reader, x) ? ERR_SYSTEM : 1;
+}
+
+/* Build all up to a frame, from where the player is now, and keep pixels on the way. As replay_next_frame */
+static int play_again(struct replay *rp, uint64_t frame, int want, const struct gls_feedback *found, struct scene **scene)
+{
+	struct player *p = &rp->player;
 	const uint64_t from = p->exec->frame;
 	int rc = 1;
 
@@ -156,9 +177,23 @@ static int play_again(struct player *p, uint64_t frame, int want, const struct g
 	p->told_s = progress_clock_s();
 	while (rc == 1 && !p->exec->feedback.rewind && p->exec->frame <= frame) {
 		rc = player_try_frame(p, want && p->exec->frame == frame, scene);
+		if (rc == 1 && p->exec->frame <= frame)
+			rc = keep_pixels(rp);
 		player_tell(p, from, frame);
 	}
 	return rc;
+}
+
+/* Go to the last pixels before a frame that lie no farther back than what else is begun with, nor than the player is. @return 1; 0: there are none */
+static int jump_to_pixels(struct replay *rp, uint64_t frame)
+{
+	const struct gls_exec *x = rp->player.exec;
+	uint64_t begin = beginning_of(rp, frame), kept;
+
+	if (x->feedback.fronts || !pixels_find(&rp->pixels, frame, &kept))
+		return 0;
+	begin = begin && have_index(rp, INDEX_KEEP) == 0 ? index_checkpoint(rp->index, begin) : 0;
+	return kept >= begin && (kept > x->frame || x->frame > frame || x->feedback.rewind) && restore(rp, kept, 1) == 0;
 }
 
 /*
@@ -169,7 +204,7 @@ static int go_back(struct replay *rp, uint64_t frame, int want, struct scene **s
 {
 	struct player *p = &rp->player;
 	struct gls_feedback found;
-	int rc = 1;
+	int rc = 1, tried = 0;
 
 	for (int whole = 0; rc == 1 && p->exec->feedback.rewind && whole < 2; whole += rp->back == ALL_BACK) {
 		rp->back = !p->build_all ? FIRST_BACK : rp->back > frame / LONGER_BACK ? ALL_BACK : rp->back * LONGER_BACK;
@@ -178,9 +213,14 @@ static int go_back(struct replay *rp, uint64_t frame, int want, struct scene **s
 		found = p->exec->feedback;
 		p->why = found.rewind_why;
 		p->build_all = 1;
-		rc = jump(rp, beginning_of(rp, frame), 0);
+		if (!tried && jump_to_pixels(rp, frame)) {
+			tried = 1; /* another try would end as this one */
+			rc = 0;
+		} else {
+			rc = jump(rp, beginning_of(rp, frame), 0);
+		}
 		if (!rc)
-			rc = play_again(p, frame, want, &found, scene);
+			rc = play_again(rp, frame, want, &found, scene);
 	}
 	return rc;
 }
@@ -199,15 +239,18 @@ int replay_seek(struct replay *rp, uint64_t frame)
 {
 	struct scene *none;
 	uint64_t from;
+	const int is_near = frame >= rp->player.exec->frame && frame <= rp->player.exec->frame + FEW_FRAMES;
 	int rc = 0;
 
-	if (frame < rp->player.exec->frame || frame > rp->player.exec->frame + FEW_FRAMES)
+	if (!is_near && !(rp->player.build_all && jump_to_pixels(rp, frame)))
 		rc = jump(rp, beginning_of(rp, frame), frame >= rp->player.exec->frame);
 	rc = rc ? rc : 1;
 	from = rp->player.exec->frame;
 	rp->player.told_s = progress_clock_s();
 	while (rc == 1 && rp->player.exec->frame < frame) {
 		rc = replay_next_frame(rp, 0, &none);
+		if (rc == 1)
+			rc = keep_pixels(rp);
 		player_tell(&rp->player, from, frame);
 	}
 	return rc;

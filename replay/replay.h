@@ -63,6 +63,14 @@ int replay_one_frame(const char *path, uint64_t frame, struct scene **scene);
  */
 void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user);
 
+/**
+ * Keep pixels that were rendered to go back, and begin with those that are there (replay/index/pixels.h).
+ * @param folder  for their files; made on first use
+ * @param device  the supplier's: another one's pixels may differ
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int replay_keep_pixels(struct replay *rp, const char *folder, const char *device);
+
 /** Name who is told how far frames before the one that is wanted have been played; it is called in the replay's thread, after each of them. */
 void replay_set_tell(struct replay *rp, replay_tell *tell, void *user);
 

@@ -107,7 +107,7 @@ done:
 	return (uint8_t *)data;
 }
 
-static int open_file(struct index *index, const char *path)
+int index_open_file(struct index *index, const char *path)
 {
 	FILE *file = fopen(path, "rb");
 	struct index_header found;
@@ -153,7 +153,7 @@ int index_load(struct index *index)
 	char path[PATH_MAX];
 
 	for (int cached = 0; cached < 2; cached++) {
-		if (index_place(index, cached, path) && open_file(index, path))
+		if (index_place(index, cached, path) && index_open_file(index, path))
 			return 1;
 		forget(index);
 	}

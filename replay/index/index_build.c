@@ -25,20 +25,19 @@
 
 /* ---- checkpoints ---- */
 
-/* Add a checkpoint if it is worth its bytes (index_build.h). */
-static int add_checkpoint(struct index *index, struct player *p)
+int index_add_checkpoint(struct index *index, struct trace_reader *reader, struct gls_exec *x, uint64_t most,
+                         int (*save)(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out))
 {
 	struct snapshot_blobs blobs = index_blobs(index);
-	struct index_checkpoint c = { .frame = p->exec->frame };
-	uint64_t most = trace_reader_offset(p->reader) + ALWAYS_BYTES;
+	struct index_checkpoint c = { .frame = x->frame };
 	struct bytes state = { .n = 0 };
 	int rc;
 
 	index->added = 0;
-	index->most = most > index->end ? most - index->end : 0;
-	if (!trace_reader_place(p->reader, &c.place))
+	index->most = most;
+	if (!trace_reader_place(reader, &c.place))
 		return 0;
-	rc = snapshot_save(p->exec, &blobs, &state);
+	rc = save(x, &blobs, &state);
 	if (rc == 0) {
 		hash_bytes(state.data, state.n, c.name);
 		c.bytes = state.n;
@@ -54,6 +53,14 @@ static int add_checkpoint(struct index *index, struct player *p)
 	index_drop_staged(index);
 	free(state.data);
 	return rc < 0 ? rc : 0;
+}
+
+/* Add a checkpoint if it is worth its bytes (index_build.h). */
+static int add_checkpoint(struct index *index, struct player *p)
+{
+	const uint64_t most = trace_reader_offset(p->reader) + ALWAYS_BYTES;
+
+	return index_add_checkpoint(index, p->reader, p->exec, most > index->end ? most - index->end : 0, snapshot_save);
 }
 
 static int add_frame(struct index *index, struct player *p)
@@ -218,7 +225,7 @@ static void put_toc(const struct index *index, struct bytes *out)
 	bytes_put(out, index->signatures, index->n_signatures);
 }
 
-static int write_toc(struct index *index)
+int index_write_toc(struct index *index)
 {
 	struct index_header *h = &index->header;
 	struct bytes toc = { .n = 0 };
@@ -297,7 +304,7 @@ static int make(struct index *index, struct player *fresh)
 	if (!rc)
 		rc = trace_reader_hash_end(p->reader, index->header.whole_hash);
 	if (!rc && index->file)
-		rc = write_toc(index);
+		rc = index_write_toc(index);
 	player_close(&own);
 	index->build_s = progress_clock_s() - start;
 	if (kept && (rc || !index->file)) {

@@ -75,6 +75,20 @@ void index_lose_file(struct index *index);
 /** Frames to differences (sign -1), which are small numbers that pack well, and back (1). */
 void index_undelta(struct index_frame *frames, size_t n, int sign);
 
+/** Open the file of an index that knows nothing yet. @return 1; 0: there is none, or it is stale or damaged (said) */
+int index_open_file(struct index *index, const char *path);
+
+/**
+ * Add a checkpoint of the state as it is, where that does not take more than so many bytes.
+ * @param save  snapshot_save or snapshot_save_pixels
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int index_add_checkpoint(struct index *index, struct trace_reader *reader, struct gls_exec *x, uint64_t most,
+                         int (*save)(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out));
+
+/** Write the table of contents and the header; then the file is whole. @return 0 or ERR_SYSTEM (reported). A file that is lost is no error */
+int index_write_toc(struct index *index);
+
 /* ---- blobs ---- */
 
 /** Blobs of snapshots: put stages them. */

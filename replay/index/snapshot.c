@@ -7,7 +7,10 @@
 #include "replay/gl/context.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/index/snapshot_objects.h"
+#include "replay/index/snapshot_pixels.h"
 #include "replay/index/snapshot_state.h"
+
+enum { IS_MISSING = 1, HAS_PIXELS = 2 }; /* flags of a snapshot */
 
 /* ---- drawables ---- */
 
@@ -19,6 +22,10 @@ static void put_drawable(struct saver *s, void *value)
 	bytes_put_u64(s->out, d->height);
 	bytes_put_u64(s->out, (uint64_t)d->fixed);
 	bytes_put_u64(s->out, d->accum_missing || d->accum);
+	if (s->has_pixels) {
+		bytes_put_u64(s->out, (uint64_t)d->surface.skipped);
+		snapshot_put_picture(s, d->surface.picture);
+	}
 }
 
 static void *get_drawable(struct loader *l)
@@ -35,10 +42,22 @@ static void *get_drawable(struct loader *l)
 	d->accum_missing = cursor_u64(&l->in) != 0;
 	d->front.is_front = 1;
 	d->surface.skipped = d->front.skipped = 1; /* as after any frame that was not built: gls_frame_skip */
+	if (l->has_pixels) {
+		d->surface.skipped = cursor_u64(&l->in) != 0;
+		d->surface.picture = snapshot_get_picture(l);
+	}
 	return d;
 }
 
-static const struct snapshot_table drawables = { NULL, 40, put_drawable, get_drawable, free };
+static void drop_drawable(void *value)
+{
+	struct gls_drawable *d = value;
+
+	gls_picture_release(d->surface.picture);
+	free(d);
+}
+
+static const struct snapshot_table drawables = { NULL, 40, put_drawable, get_drawable, drop_drawable };
 
 /* ---- saving ---- */
 
@@ -100,7 +119,7 @@ static int save(struct saver *s)
 	bytes_put_u64(out, x->caches.versions);
 	bytes_put_u64(out, x->thread);
 	bytes_put_u64(out, x->egl_api);
-	bytes_put_u64(out, (uint64_t)x->feedback.missing);
+	bytes_put_u64(out, (x->feedback.missing ? IS_MISSING : 0) | (s->has_pixels ? HAS_PIXELS : 0));
 	bytes_put_u64(out, x->n_contexts);
 	for (size_t i = 0; i < x->n_contexts; i++)
 		put_context(s, i);
@@ -120,6 +139,13 @@ static int save(struct saver *s)
 int snapshot_save(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out)
 {
 	struct saver s = { .x = x, .blobs = blobs, .out = out, .wanted = SIZE_MAX };
+
+	return save(&s);
+}
+
+int snapshot_save_pixels(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out)
+{
+	struct saver s = { .x = x, .blobs = blobs, .out = out, .has_pixels = 1, .wanted = SIZE_MAX };
 
 	return save(&s);
 }
@@ -222,15 +248,17 @@ static void get_threads(struct loader *l)
 
 int snapshot_load(struct gls_exec *x, const struct snapshot_blobs *blobs, const uint8_t *data, size_t n)
 {
-	struct loader l = { x, blobs, { data, data + n, 0 }, 0 };
-	uint64_t count;
+	struct loader l = { .x = x, .blobs = blobs, .in = { data, data + n, 0 } };
+	uint64_t count, flags;
 
 	x->frame = cursor_u64(&l.in);
 	x->n_calls = cursor_u64(&l.in);
 	x->caches.versions = cursor_u64(&l.in);
 	x->thread = cursor_u64(&l.in);
 	x->egl_api = (uint32_t)cursor_u64(&l.in);
-	x->feedback.missing = cursor_u64(&l.in) != 0;
+	flags = cursor_u64(&l.in);
+	x->feedback.missing = (flags & IS_MISSING) != 0;
+	l.has_pixels = (flags & HAS_PIXELS) != 0;
 	count = loader_count(&l, sizeof(struct gls_state));
 	free(x->contexts);
 	x->contexts = loader_alloc(&l, (count + 1) * sizeof(*x->contexts));

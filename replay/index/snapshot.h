@@ -38,6 +38,9 @@ extern const struct snapshot_blobs snapshot_no_blobs;
  */
 int snapshot_save(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out);
 
+/** The same with the pixels of drawables and renderbuffers, after gls_frame_settle. Without them all that was drawn counts as skipped. */
+int snapshot_save_pixels(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out);
+
 /** What the byte at a place of a snapshot of this state belongs to ("state of context 0, byte 812"). A static string. */
 const char *snapshot_place(struct gls_exec *x, size_t at);
 

@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/index/snapshot_lists.h"
+#include "replay/index/snapshot_pixels.h"
 #include "replay/index/snapshot_shaders.h"
 
 /* ---- textures ---- */
@@ -175,6 +176,8 @@ static void put_renderbuffer(struct saver *s, void *value)
 
 	raw.content = NULL;
 	bytes_put(s->out, &raw, sizeof(raw));
+	if (s->has_pixels)
+		snapshot_put_picture(s, ((const struct gls_renderbuffer *)value)->content);
 }
 
 static void *get_renderbuffer(struct loader *l)
@@ -184,14 +187,20 @@ static void *get_renderbuffer(struct loader *l)
 	if (!r)
 		return NULL;
 	cursor_copy(&l->in, r, sizeof(*r));
-	r->content = NULL;
-	if (r->width > 16384 || r->height > 16384)
+	r->content = l->has_pixels ? snapshot_get_picture(l) : NULL;
+	if (r->width > 16384 || r->height > 16384 ||
+	    (r->content && (r->content->picture.width != r->width || r->content->picture.height != r->height)))
 		l->in.failed = 1;
 	return r;
 }
 
+static void drop_renderbuffer(void *renderbuffer)
+{
+	gls_renderbuffer_free(renderbuffer);
+}
+
 static const struct snapshot_table renderbuffers = {
-	"renderbuffer", sizeof(struct gls_renderbuffer), put_renderbuffer, get_renderbuffer, free
+	"renderbuffer", sizeof(struct gls_renderbuffer), put_renderbuffer, get_renderbuffer, drop_renderbuffer
 };
 
 /* ---- programs: their texts are translated again ---- */

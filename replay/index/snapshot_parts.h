@@ -22,6 +22,7 @@ struct saver {
 	const struct snapshot_blobs *blobs;
 	struct bytes *out;
 	uint64_t held; /* bytes of all blobs so far */
+	int has_pixels; /* snapshot_save_pixels */
 	int err;
 	size_t wanted; /* snapshot_place: the byte that is asked about, SIZE_MAX else */
 	char place[96];
@@ -40,6 +41,7 @@ struct loader {
 	struct gls_exec *x;
 	const struct snapshot_blobs *blobs;
 	struct cursor in;
+	int has_pixels;
 	int err; /* ERR_SYSTEM: no memory (reported) */
 };
 

@@ -12,6 +12,7 @@
 #include "replay/gl/dispatch.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
+#include "replay/gl/surface/frames.h"
 #include "replay/index/snapshot.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/surface/frames.h"
@@ -282,7 +283,7 @@ static uint8_t *get(void *user, const uint64_t name[2], size_t n)
 }
 
 /* Saved, loaded and saved again. @return 0 the same bytes, or nothing that can be saved; 1 other bytes, which is told */
-static int check_snapshot(struct gls_exec *x)
+static int check_saved(struct gls_exec *x, int (*save)(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out))
 {
 	struct blob *kept = NULL;
 	struct snapshot_blobs blobs = { .put = put, .get = get, .user = &kept };
@@ -290,9 +291,9 @@ static int check_snapshot(struct gls_exec *x)
 	struct gls_exec *other = NULL;
 	int differ = 0;
 
-	if (!snapshot_save(x, &blobs, &saved)) {
+	if (!save(x, &blobs, &saved)) {
 		differ = gls_exec_create(&other, "calls") || snapshot_load(other, &blobs, saved.data, saved.n) ||
-		         snapshot_save(other, &blobs, &again) || again.n != saved.n || memcmp(again.data, saved.data, saved.n) != 0;
+		         save(other, &blobs, &again) || again.n != saved.n || memcmp(again.data, saved.data, saved.n) != 0;
 		for (size_t at = 0; differ && at < saved.n && at < again.n; at++)
 			if (saved.data[at] != again.data[at]) {
 				fprintf(stderr, "a snapshot that was loaded differs from what was saved: %s\n", snapshot_place(x, at));
@@ -308,6 +309,12 @@ static int check_snapshot(struct gls_exec *x)
 		kept = next;
 	}
 	return differ;
+}
+
+/* With what was drawn as well, where it can be saved. */
+static int check_snapshot(struct gls_exec *x)
+{
+	return check_saved(x, snapshot_save) || (gls_frame_settle(x) && check_saved(x, snapshot_save_pixels));
 }
 
 /* What replay.c does where a frame begins. */

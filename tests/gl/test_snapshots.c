@@ -1,6 +1,9 @@
 /* Checkpoints that were damaged: numbers that are places in arrays are refused (replay/index/snapshot.h). */
 #include "replay/index/snapshot.h"
 #include "base/bytes.h"
+#include "replay/gl/surface/drawable.h"
+#include "replay/gl/surface/frames.h"
+#include "replay/gl/surface/framebuffer.h"
 #include "replay/programs/program.h"
 #include "tests/gl/gl.h"
 
@@ -116,6 +119,121 @@ START_TEST(sizes_of_windows)
 }
 END_TEST
 
+/* Blobs in memory. */
+struct store {
+	struct {
+		uint64_t name[2];
+		uint8_t *data;
+		size_t n;
+	} blobs[64];
+	int n;
+};
+
+static int keep(void *user, const uint64_t name[2], const void *data, size_t n)
+{
+	struct store *s = user;
+
+	for (int i = 0; i < s->n; i++)
+		if (memcmp(s->blobs[i].name, name, 16) == 0)
+			return 0;
+	ck_assert_int_lt(s->n, 64);
+	memcpy(s->blobs[s->n].name, name, 16);
+	s->blobs[s->n].data = memcpy(malloc(n + 1), data, n);
+	s->blobs[s->n++].n = n;
+	return 0;
+}
+
+static uint8_t *find_kept(void *user, const uint64_t name[2], size_t n)
+{
+	struct store *s = user;
+
+	for (int i = 0; i < s->n; i++)
+		if (memcmp(s->blobs[i].name, name, 16) == 0 && s->blobs[i].n == n)
+			return memcpy(malloc(n + 1), s->blobs[i].data, n);
+	return NULL;
+}
+
+/* Each pixel another colour. */
+static int paint(void *user, const struct scene *scene, struct scene_picture *picture)
+{
+	const uint32_t n = scene->width * scene->height;
+
+	(void)user;
+	for (uint32_t i = 0; i < n; i++) {
+		memcpy(picture->rgba + 4 * i, &i, 4);
+		picture->depth[i] = i;
+		picture->stencil[i] = (uint8_t)i;
+	}
+	return 0;
+}
+
+static struct gls_surface *window(struct gl *gl)
+{
+	return &((struct gls_drawable *)gls_drawable_of(gl->x, 7))->surface;
+}
+
+/* A window and a renderbuffer, with what was drawn to them. Its planes are of its size. */
+START_TEST(pixels)
+{
+	struct store store = { 0 };
+	const struct snapshot_blobs in_memory = { .put = keep, .get = find_kept, .user = &store };
+	struct gl gl = gl_open(), other = { 0 };
+	const struct gls_renderbuffer *r;
+	struct bytes saved = { 0 };
+	uint32_t size;
+
+	gl.x->feedback.supply = paint;
+	gl.x->want = 1;
+	gl_call(&gl, "glStringMarkerGREMEDY", "is", 0, "relume:drawable 16 8");
+	gl_call(&gl, "glBindRenderbufferEXT", "eu", GL_RENDERBUFFER_EXT, 3u);
+	gl_call(&gl, "glRenderbufferStorageEXT", "eeii", GL_RENDERBUFFER_EXT, GL_RGBA8, 16, 8);
+	gl_call(&gl, "glBindFramebufferEXT", "eu", GL_FRAMEBUFFER_EXT, 4u);
+	gl_call(&gl, "glFramebufferRenderbufferEXT", "eeeu", GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_RENDERBUFFER_EXT, 3u);
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
+	ck_assert_int_eq(gls_frame_settle(gl.x), 0); /* it waits */
+	gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_RGBA, 0, 0, 16, 8, 0);
+	gl_call(&gl, "glBindFramebufferEXT", "eu", GL_FRAMEBUFFER_EXT, 0u);
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
+	ck_assert_int_eq(gls_frame_settle(gl.x), 0); /* the frame goes on */
+	gl_call(&gl, "glXSwapBuffers", "pu", (uint64_t)1, 7u);
+	gls_frame_defer(gl.x);
+	ck_assert_int_eq(gls_frame_settle(gl.x), 1);
+	ck_assert_int_eq(snapshot_save_pixels(gl.x, &in_memory, &saved), 0);
+	ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
+	ck_assert_int_eq(snapshot_load(other.x, &in_memory, saved.data, saved.n), 0);
+	ck_assert_int_eq(window(&other)->skipped, 0);
+	ck_assert_mem_eq(window(&other)->picture->picture.depth, window(&gl)->picture->picture.depth, 16 * 8 * 4);
+	memcpy(&size, window(&other)->picture->picture.rgba + 4 * 77, 4);
+	ck_assert_uint_eq(size, 77);
+	r = table_find(&gl_state(&other)->share->renderbuffers, 3);
+	ck_assert_ptr_nonnull(r->content);
+	memcpy(&size, r->content->picture.rgba + 4 * 77, 4);
+	ck_assert_uint_eq(size, 77);
+	gls_exec_destroy(&other.x);
+	for (int i = 0; i < store.n; i++) { /* each plane is asked for */
+		const size_t n = store.blobs[i].n;
+
+		store.blobs[i].n--;
+		ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
+		ck_assert_int_ne(snapshot_load(other.x, &in_memory, saved.data, saved.n), 0);
+		gls_exec_destroy(&other.x);
+		store.blobs[i].n = n;
+	}
+	/* Without them it counts as skipped. */
+	free(saved.data);
+	saved = (struct bytes){ 0 };
+	ck_assert_int_eq(snapshot_save(gl.x, &in_memory, &saved), 0);
+	ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
+	ck_assert_int_eq(snapshot_load(other.x, &in_memory, saved.data, saved.n), 0);
+	ck_assert_int_eq(window(&other)->skipped, 1);
+	gls_exec_destroy(&other.x);
+	for (int i = 0; i < store.n; i++)
+		free(store.blobs[i].data);
+	free(saved.data);
+	gl_close(&gl);
+}
+END_TEST
+
 int main(void)
 {
 	TCase *tcase = tcase_create("snapshots");
@@ -123,5 +241,6 @@ int main(void)
 	tcase_add_test(tcase, units_with_other_numbers);
 	tcase_add_test(tcase, parameters_of_programs);
 	tcase_add_test(tcase, sizes_of_windows);
+	tcase_add_test(tcase, pixels);
 	return run_case(tcase, "snapshots");
 }

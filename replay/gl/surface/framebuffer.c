@@ -220,6 +220,17 @@ void gls_framebuffer_skip(struct gls_exec *x, struct gls_state *st)
 	gls_attachments_store(x, st->share, fb->attached, 1u << DEPTH | 1u << STENCIL | drawn_colors(fb), NULL);
 }
 
+int gls_framebuffers_wait(const struct gls_share *share)
+{
+	for (size_t i = 0; i < share->framebuffers.room; i++) {
+		const struct gls_framebuffer *fb = share->framebuffers.entries[i].value;
+
+		if (fb && gls_frame_events(&fb->surface))
+			return 1;
+	}
+	return 0;
+}
+
 /* ---- objects ---- */
 
 void gls_framebuffer_free(struct gls_framebuffer *fb)

@@ -42,5 +42,8 @@ void gls_units_update(struct gls_exec *x, struct gls_state *st, const struct gls
  */
 struct gls_frame *gls_framebuffer_take_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t texture, uint32_t name);
 
+/** Whether events of some object are not in its attachments yet. */
+int gls_framebuffers_wait(const struct gls_share *share);
+
 void gls_framebuffer_free(struct gls_framebuffer *fb);
 void gls_renderbuffer_free(struct gls_renderbuffer *r);

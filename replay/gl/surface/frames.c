@@ -73,6 +73,25 @@ void gls_frame_end_deferred(struct gls_exec *x)
 	}
 }
 
+int gls_frame_settle(struct gls_exec *x)
+{
+	int settled = x->feedback.supply && !x->feedback.fronts;
+
+	for (size_t i = 0; i < x->n_contexts && settled; i++)
+		settled = !gls_framebuffers_wait(x->contexts[i]->state.share);
+	for (size_t i = 0; i < x->drawables.room && settled; i++) {
+		struct gls_drawable *d = x->drawables.entries[i].value;
+
+		if (!d)
+			continue;
+		settled = !d->parted && !d->accum && !d->accum_missing && !gls_surface_is_unknown(x, &d->surface);
+		if (settled)
+			end_deferred(x, &d->surface);
+		settled = settled && gls_surface_settle(x, &d->surface);
+	}
+	return settled && !x->failed && !x->feedback.rewind;
+}
+
 void gls_frame_skip(struct gls_exec *x)
 {
 	for (size_t i = 0; i < x->n_contexts; i++)

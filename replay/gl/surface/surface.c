@@ -80,6 +80,33 @@ static void check_size(struct gls_surface *surface, struct scene *s)
 	}
 }
 
+/* What a surface began with, from the scene that shows it. @return 0: it cannot be had */
+static int make_picture(struct gls_exec *x, struct gls_surface *surface)
+{
+	surface->picture = render(x, surface->before);
+	scene_release(&surface->before);
+	if (surface->picture)
+		surface->picture->lacks |= surface->lacks;
+	return surface->picture != NULL;
+}
+
+int gls_surface_is_unknown(struct gls_exec *x, struct gls_surface *surface)
+{
+	struct scene *s = surface->skipped && surface->frame ? gls_frame_scene(x, surface) : NULL;
+	struct gls_picture *p = s && s->needs_previous && !x->failed ? render(x, s) : NULL;
+	const int is_unknown = s && s->needs_previous && (!p || p->picture.unknown);
+
+	if (p && !is_unknown)
+		gls_frame_all_known(surface);
+	gls_picture_release(p);
+	return is_unknown;
+}
+
+int gls_surface_settle(struct gls_exec *x, struct gls_surface *surface)
+{
+	return !gls_frame_events(surface) && (!surface->before || make_picture(x, surface));
+}
+
 #define MOST_HELD 16u /* scenes in a row, should nobody render them */
 
 /* Leave what a scene begins with to who renders it, where only colours of it may show. @return 0: it cannot be */
@@ -129,11 +156,8 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 			x->feedback.fronts |= surface->is_front;
 			return 0;
 		}
-		surface->picture = render(x, surface->before);
-		scene_release(&surface->before);
-		if (!surface->picture)
+		if (!make_picture(x, surface))
 			return 0;
-		surface->picture->lacks |= surface->lacks;
 	}
 	s->start = &gls_picture_reference(surface->picture)->picture;
 	if (surface->picture->lacks & gls_frame_looked(surface)) {

@@ -27,6 +27,15 @@ int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct 
  */
 struct scene *gls_surface_end(struct gls_exec *x, struct gls_surface *surface, int is_shown);
 
+/** Whether events of a surface show what skipped frames drew; they are rendered to find out. */
+int gls_surface_is_unknown(struct gls_exec *x, struct gls_surface *surface);
+
+/**
+ * Let a surface that has no events hold what it began with as a picture, if that is known.
+ * @return 1; 0: a frame goes on, or x->failed
+ */
+int gls_surface_settle(struct gls_exec *x, struct gls_surface *surface);
+
 /** Make `to`, which holds nothing, begin from what `from` begins from. */
 void gls_surface_share(struct gls_surface *to, const struct gls_surface *from);
 

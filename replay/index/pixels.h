@@ -1,0 +1,27 @@
+/*
+ * Checkpoints with pixels. A frame that shows what earlier ones drew costs all frames back to where that is known. Who has played them
+ * leaves what they drew: each checkpoint is an index with nothing else, TRACE-MAKER-FRAME.index in a folder for such files. What is missing or
+ * damaged costs time alone.
+ */
+#pragma once
+
+#include "replay/machine/machine.h"
+#include "replay/trace/reader.h"
+
+struct pixels {
+	const char *path, *trace; /* of the trace; hash_name of it. Borrowed */
+	char *folder;             /* made on first use; NULL: nothing is kept, and nothing found */
+	uint64_t maker;           /* of the pixels */
+};
+
+/** The maker of pixels that this build makes on a device. */
+uint64_t pixels_maker(const char *device);
+
+/** The last frame up to `frame` that has a checkpoint. @return 1; 0: none has */
+int pixels_find(const struct pixels *p, uint64_t frame, uint64_t *found);
+
+/** As index_restore; a checkpoint that cannot be read is removed. */
+int pixels_restore(const struct pixels *p, uint64_t frame, struct trace_reader *reader, struct gls_exec *x);
+
+/** Keep one after a frame that was built, where all pixels are known, and room is. @return 0 or ERR_SYSTEM (reported) */
+int pixels_keep(const struct pixels *p, struct trace_reader *reader, struct gls_exec *x);
