@@ -1,5 +1,6 @@
 /* What is drawn to (GL 2.1 sec. 4, GLX 1.4 sec. 3.3.3, GL 3.0 sec. 4.4): how many bits it has, framebuffer objects. */
 #include "tests/gl/gl.h"
+#include "replay/gl/surface/drawable.h"
 #include "replay/gl/surface/frames.h"
 
 static void triangle(struct gl *gl)
@@ -344,5 +345,28 @@ START_TEST(test_accum)
 }
 END_TEST
 
+/* Cleared to 0 as a whole, the accumulation buffer takes no memory; in part, or to other values, it does. */
+START_TEST(test_accum_cleared)
+{
+	static const struct { double value; int scissor, is_there; } clears[] = { { 0, 0, 0 }, { 0.5, 0, 1 }, { 0, 1, 1 }, { 0, 0, 0 }, { 0, 1, 1 } };
+	struct gl gl = gl_open();
+	const struct gls_drawable *d = gls_drawable_of(gl.x, 7);
+
+	gl.x->want = 1;
+	for (size_t i = 0; i < sizeof(clears) / sizeof(clears[0]); i++) {
+		gl_call(&gl, clears[i].scissor ? "glEnable" : "glDisable", "e", GL_SCISSOR_TEST);
+		gl_call(&gl, "glScissor", "iiii", 0, 0, 5, 5);
+		gl_call(&gl, "glClearAccum", "ffff", 0.0, 0.0, clears[i].value, 0.0);
+		gl_call(&gl, "glClear", "m", GL_ACCUM_BUFFER_BIT);
+		ck_assert_msg((d->accum != NULL) == clears[i].is_there, "clear %zu", i);
+		if (clears[i].value > 0)
+			ck_assert_int_eq(d->accum[4 * (d->width * d->height - 1) + 2], 16383);
+		else if (d->accum)
+			ck_assert_int_eq(d->accum[2], 0);
+	}
+	gl_close(&gl);
+}
+END_TEST
+
 GL_TESTS("targets", test_bits_of_visuals, test_bits_of_marker, test_samples, test_render_to_texture, test_object_keeps, test_renderbuffers,
-         test_blit, test_object_skipped, test_accum)
+         test_blit, test_object_skipped, test_accum, test_accum_cleared)

@@ -25,13 +25,30 @@ struct area {
 	int64_t x0, y0, x1, y1;
 };
 
-/* The drawable, with a buffer of its present size. area: what the scissor leaves of it. NULL: none, or out of memory */
-static struct gls_drawable *open_buffer(struct gls_exec *x, struct gls_state *st, struct area *area)
+/* The drawable. area: what the scissor leaves of it. NULL: none, or out of memory */
+static struct gls_drawable *drawable_of(struct gls_exec *x, struct gls_state *st, struct area *area)
 {
 	struct gls_drawable *d = st->draw_framebuffer ? NULL : gls_drawable_of(x, st->drawable);
 	const int32_t *r = st->a.scissor.rect;
 
 	if (!d || !d->width || !d->height)
+		return NULL;
+	*area = (struct area){ 0, 0, d->width, d->height };
+	if (!st->a.scissor.enabled)
+		return d;
+	area->x0 = r[0] > 0 ? r[0] : 0;
+	area->y0 = r[1] > 0 ? r[1] : 0;
+	area->x1 = (int64_t)r[0] + r[2] < area->x1 ? (int64_t)r[0] + r[2] : area->x1;
+	area->y1 = (int64_t)r[1] + r[3] < area->y1 ? (int64_t)r[1] + r[3] : area->y1;
+	return d;
+}
+
+/* The same, with a buffer of its present size. */
+static struct gls_drawable *open_buffer(struct gls_exec *x, struct gls_state *st, struct area *area)
+{
+	struct gls_drawable *d = drawable_of(x, st, area);
+
+	if (!d)
 		return NULL;
 	if (!d->accum || d->accum_width != d->width || d->accum_height != d->height) {
 		free(d->accum);
@@ -43,13 +60,6 @@ static struct gls_drawable *open_buffer(struct gls_exec *x, struct gls_state *st
 		d->accum_width = d->width;
 		d->accum_height = d->height;
 	}
-	*area = (struct area){ 0, 0, d->width, d->height };
-	if (!st->a.scissor.enabled)
-		return d;
-	area->x0 = r[0] > 0 ? r[0] : 0;
-	area->y0 = r[1] > 0 ? r[1] : 0;
-	area->x1 = (int64_t)r[0] + r[2] < area->x1 ? (int64_t)r[0] + r[2] : area->x1;
-	area->y1 = (int64_t)r[1] + r[3] < area->y1 ? (int64_t)r[1] + r[3] : area->y1;
 	return d;
 }
 
@@ -153,16 +163,24 @@ void gls_accum_clear(struct gls_exec *x, struct gls_state *st)
 	struct gls_drawable *d = NULL;
 	struct area area;
 	struct change to = { 0 };
+	int is_zero = 1;
 
 	if (!gls_renders(st))
 		return;
 	if (!x->want && !st->draw_framebuffer && (d = gls_drawable_of(x, st->drawable)))
 		d->accum_missing = 1;
-	if (!x->want || !(d = open_buffer(x, st, &area)))
+	if (!x->want || !(d = drawable_of(x, st, &area)))
 		return;
-	for (unsigned i = 0; i < 4; i++)
+	for (unsigned i = 0; i < 4; i++) {
 		to.offset[i] = (float)clamp16(st->a.accum.clear[i] * ONE);
-	change_area(st, d, &area, &to, NULL);
+		is_zero &= to.offset[i] == 0;
+	}
 	if (is_whole(d, &area))
 		d->accum_missing = 0;
+	if (is_whole(d, &area) && is_zero) { /* most programs clear it and never use it */
+		free(d->accum);
+		d->accum = NULL;
+	} else if (open_buffer(x, st, &area)) {
+		change_area(st, d, &area, &to, NULL);
+	}
 }
