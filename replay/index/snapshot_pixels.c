@@ -18,11 +18,12 @@ static void put_planes(struct saver *s, const struct scene_picture *p)
 
 void snapshot_put_picture(struct saver *s, const struct gls_picture *picture)
 {
-	const struct scene_picture *p = &picture->picture;
+	const struct scene_picture *p;
 
 	bytes_put_u64(s->out, picture != NULL);
 	if (!picture)
 		return;
+	p = &picture->picture;
 	bytes_put_u64(s->out, p->width);
 	bytes_put_u64(s->out, p->height);
 	bytes_put_u64(s->out, p->depth_bits);
