@@ -347,7 +347,7 @@ struct scene_parameter {
 
 struct scene {
 	uint64_t frame;         /* number in the trace, from 0 */
-	uint64_t serial;        /* different for each scene of a replay; one that grows keeps it */
+	uint64_t serial;        /* different for each scene of a process; one that grows keeps it */
 	uint32_t width, height; /* of the drawable; the frame's picture */
 	uint32_t depth_bits, stencil_bits, alpha_bits; /* of the drawable */
 	uint32_t samples; /* of a pixel; 0 counts as 1, more as SCENE_SAMPLES. Where they are: tracer/frame/trace.c */

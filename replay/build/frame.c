@@ -299,6 +299,14 @@ static void release_reference(struct scene *s)
 	free(s);
 }
 
+/* Of scenes, whichever state machine makes them: a replay that goes back has another one, and the same supplier (picture_recall). */
+static uint64_t next_serial(void)
+{
+	static atomic_ullong last;
+
+	return atomic_fetch_add(&last, 1) + 1;
+}
+
 static struct gls_frame *make_frame(struct gls_exec *x)
 {
 	struct gls_frame *f = calloc(1, sizeof(*f));
@@ -311,7 +319,7 @@ static struct gls_frame *make_frame(struct gls_exec *x)
 	f->out = &scene->scene;
 	scene = NULL;
 	f->next_draw = 1;
-	f->serial = ++x->serial;
+	f->serial = next_serial();
 	if (MEMORY_GROW(f->out->draws, f->room.draws, 1u))
 		goto fail;
 	f->out->draws[0] = (struct scene_draw){ .call = "" };
@@ -374,9 +382,9 @@ void gls_frame_all_known(struct gls_surface *surface)
 	surface->frame->known.whole |= 1;
 }
 
-void gls_frame_renew(struct gls_exec *x, struct gls_surface *surface)
+void gls_frame_renew(struct gls_surface *surface)
 {
-	surface->frame->serial = ++x->serial;
+	surface->frame->serial = next_serial();
 }
 
 uint64_t gls_frame_events(const struct gls_surface *surface)

@@ -86,7 +86,7 @@ uint32_t gls_frame_looked(const struct gls_surface *surface);
 /** Nothing from before the events shows any more. */
 void gls_frame_all_known(struct gls_surface *surface);
 /** Give the scene another serial number: what was rendered of it is not looked for. */
-void gls_frame_renew(struct gls_exec *x, struct gls_surface *surface);
+void gls_frame_renew(struct gls_surface *surface);
 /** How many events there are. */
 uint64_t gls_frame_events(const struct gls_surface *surface);
 /** 1 where its events alone tell the pixels of an area (NULL: of everything). The surface must have a frame. */

@@ -109,7 +109,6 @@ struct gls_exec {
 	uint64_t repeated, repeated_frame; /* work that calls multiplied in that frame (gls_is_beyond_measure) */
 	uint64_t swapped;             /* drawable of the swap that ended the frame */
 	int unswapped;                /* 1: it ended without a swap */
-	uint64_t serial;              /* of the last scene begun */
 
 	gls_dispatcher *dispatch;     /* how handlers reach gl/dispatch.c, which stands above them; `command` is then what was run */
 	struct gls_exec *assembler;   /* the machine in which lists are assembled (list_assemble.h); NULL: none yet */

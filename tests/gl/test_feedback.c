@@ -336,6 +336,24 @@ START_TEST(test_starts_are_left)
 }
 END_TEST
 
+/* The scenes of two state machines are told apart: a replay that goes back begins another one, with the same supplier. */
+START_TEST(test_serials)
+{
+	struct gl a = gl_open(), b = gl_open();
+	struct scene *of_a, *of_b;
+
+	gl_call(&a, "glClear", "m", GL_COLOR_BUFFER_BIT);
+	of_a = gl_swap(&a);
+	gl_call(&b, "glClear", "m", GL_COLOR_BUFFER_BIT);
+	of_b = gl_swap(&b);
+	ck_assert_uint_ne(of_a->serial, of_b->serial);
+	scene_release(&of_a);
+	scene_release(&of_b);
+	gl_close(&a);
+	gl_close(&b);
+}
+END_TEST
+
 /* Where nobody renders them, few are held. */
 START_TEST(test_few_are_held)
 {
@@ -578,4 +596,4 @@ END_TEST
 GL_TESTS("feedback", test_clear_drops_what_it_covers, test_clear_that_leaves_something, test_clear_keeps_stencil,
          test_clear_after_reading, test_rasterizer_discard, test_copy_tex_image, test_copy_tex_sub_image, test_previous_frame, test_skipped_frames, test_drawables,
          test_no_supplier, test_clears_of_parts, test_parts_are_read, test_part_of_texture, test_skipped_depth,
-         test_starts_are_left, test_few_are_held, test_looked_at_is_not_left)
+         test_serials, test_starts_are_left, test_few_are_held, test_looked_at_is_not_left)

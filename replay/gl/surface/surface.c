@@ -220,7 +220,7 @@ int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct 
 	if (s->start)
 		gls_picture_release((struct gls_picture *)(uintptr_t)s->start);
 	s->start = NULL;
-	gls_frame_renew(x, surface);
+	gls_frame_renew(surface);
 	forget(surface);
 	surface->picture = picture;
 	return 1;
