@@ -68,8 +68,11 @@ int pixels_restore(const struct pixels *p, uint64_t frame, struct trace_reader *
 {
 	struct index *index = NULL;
 	char path[PATH_MAX];
-	int rc = path_of(p, frame, path) ? index_create(&index, p->path, p->trace) : ERR_INPUT;
+	int rc;
 
+	if (!path_of(p, frame, path))
+		return ERR_INPUT;
+	rc = index_create(&index, p->path, p->trace);
 	if (!rc)
 		rc = index_open_file(index, path) ? index_restore(index, frame, reader, x) : ERR_INPUT;
 	index_close(&index);

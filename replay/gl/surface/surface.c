@@ -118,6 +118,15 @@ static int leave_start(const struct gls_surface *surface, struct scene *s)
 	return s->before != NULL;
 }
 
+/* Whether perhaps nothing from before shows: a sky covers it all. Depth that it leaves goes on, though, where it is there. */
+static int may_cover_all(struct gls_exec *x, const struct gls_surface *surface, const struct scene *s)
+{
+	if (!surface->before)
+		return s->n_instances != 0;
+	x->feedback.shows_through |= scene_before_shows(surface->before->before);
+	return s->n_instances && !x->feedback.shows_through && !s->keeps_depth;
+}
+
 /*
  * Give a surface's scene what was there before it, where that shows through.
  * @param leaves    whether that may be left to who renders it
@@ -135,9 +144,7 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 	if (!s->needs_previous || s->start || (!surface->picture && !surface->before && !surface->skipped))
 		return 1;
 	if (!surface->picture) {
-		/* Perhaps nothing shows through: a sky covers it all. Depth that it leaves goes on, though, where it is there. */
-		const int showed = surface->before && scene_before_shows(surface->before->before);
-		const int try = s->n_instances && !(surface->before && ((x->feedback.shows_through |= showed) || s->keeps_depth));
+		const int try = may_cover_all(x, surface, s);
 
 		if (try && leaves && leave_start(surface, s))
 			return 1;
