@@ -28,7 +28,7 @@ from seeds import make_seeds, read_pack  # noqa: E402
 SLICE_S = 240  # at most: what was found before is read first
 LONGEST = {"calls": 16384, "verbs": 250_000, "snapshot": 200_000, "index": 150_000, "exr": 100_000, "oiio": 100_000, "ref": 100_000}
 SMALL = {"calls": 2048, "snapshot": 60_000, "index": 100_000}  # what is kept is smaller
-EDGES_ALONE = ("-set_cover_merge=1", "-use_counters=0")  # of calls, how often each is passed would be thousands of sequences
+EDGES_ALONE = ("-set_cover_merge=1", "-use_counters=0")  # how often each is passed would be thousands of inputs
 TIMEOUT_S = 30  # by the clock, of a process that gives way to all others
 
 
@@ -137,7 +137,7 @@ def keep(build, targets):
         for i, path in enumerate([*(folder / f"found_{target}").glob("*"), *(folder / f"seeds_{target}").glob("*")]):
             if path.is_file() and path.stat().st_size <= most:
                 shutil.copy(path, small / str(i))
-        subprocess.run([folder / target, "-merge=1", *(EDGES_ALONE if target == "calls" else ()), "-close_fd_mask=3", out, unpacked(folder, target), small],
+        subprocess.run([folder / target, "-merge=1", *EDGES_ALONE, "-close_fd_mask=3", out, unpacked(folder, target), small],
                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False, env=environment(target, FUZZ_FREE="1"))
         parts = kept_of(target) + [path.read_bytes() for path in out.iterdir() if path.stat().st_size <= most]
         if target == "replay":
