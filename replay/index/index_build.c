@@ -256,19 +256,10 @@ done:
 	return index->file ? rc : 0;
 }
 
-/* An unfinished file to write into. @return 1, with its name and the final one; 0: none can be written there */
-static int begin_file(struct index *index, int cached, char path[PATH_MAX], char part[PATH_MAX])
+int index_begin_file(struct index *index, const char *path, char part[PATH_MAX])
 {
 	const struct index_header empty = { .layout = 0 };
-	char folder[PATH_MAX];
-	struct stat info;
 
-	if (!index_place(index, cached, path))
-		return 0;
-	if (cached && (!folder_cached("", folder, sizeof(folder)) || folder_try(folder)))
-		return 0;
-	if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
-		return 0;
 	if (part_begin(path, part, PATH_MAX))
 		return 0;
 	index->file = fopen(part, "w+b");
@@ -281,6 +272,21 @@ static int begin_file(struct index *index, int cached, char path[PATH_MAX], char
 	index->file = NULL;
 	part_drop(part);
 	return 0;
+}
+
+/* The same beside the trace, or in the cache folder. path: receives the final name */
+static int begin_file(struct index *index, int cached, char path[PATH_MAX], char part[PATH_MAX])
+{
+	char folder[PATH_MAX];
+	struct stat info;
+
+	if (!index_place(index, cached, path))
+		return 0;
+	if (cached && (!folder_cached("", folder, sizeof(folder)) || folder_try(folder)))
+		return 0;
+	if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
+		return 0;
+	return index_begin_file(index, path, part);
 }
 
 /* fresh: a player to scan with, or NULL */

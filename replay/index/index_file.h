@@ -78,6 +78,9 @@ void index_undelta(struct index_frame *frames, size_t n, int sign);
 /** Open the file of an index that knows nothing yet. @return 1; 0: there is none, or it is stale or damaged (said) */
 int index_open_file(struct index *index, const char *path);
 
+/** Begin an unfinished file (base/part.h) to write into. @param part  receives its name @return 1; 0: none can be written there */
+int index_begin_file(struct index *index, const char *path, char part[PATH_MAX]);
+
 /**
  * Add a checkpoint of the state as it is, where that does not take more than so many bytes.
  * @param save  snapshot_save or snapshot_save_pixels

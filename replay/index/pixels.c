@@ -1,7 +1,6 @@
 #include "replay/index/pixels.h"
 
 #include <dirent.h>
-#include <fnmatch.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,13 +10,15 @@
 
 #include "base/err.h"
 #include "base/folder.h"
+#include "base/folder_bound.h"
 #include "base/hash.h"
 #include "base/part.h"
 #include "replay/gl/surface/frames.h"
 #include "replay/index/index_file.h"
 
-#define MOST_BYTES ((uint64_t)256 << 20) /* of a checkpoint; */
-#define MOST_ALL ((uint64_t)1 << 30)     /* and of all, of which the oldest go */
+#define NAMES "*-*-*.index"               /* as path_of makes them */
+#define MOST_BYTES ((uint64_t)256 << 20) /* of a checkpoint */
+#define MOST_ALL ((uint64_t)1 << 30)     /* of all */
 
 uint64_t pixels_maker(const char *device)
 {
@@ -29,7 +30,7 @@ uint64_t pixels_maker(const char *device)
 	stat("/proc/self/exe", &own);
 	n = snprintf(text, sizeof(text), "%lld %lld.%ld %s", (long long)own.st_size, (long long)own.st_mtim.tv_sec, own.st_mtim.tv_nsec, device);
 	hash_bytes(text, (size_t)n < sizeof(text) ? (size_t)n : sizeof(text), maker);
-	return maker[0] + !maker[0];
+	return maker[0];
 }
 
 /* @return 0: the path is too long */
@@ -83,43 +84,11 @@ int pixels_restore(const struct pixels *p, uint64_t frame, struct trace_reader *
 
 /* --- Keeping ---------------------------------------------------------------------------------------------------------- */
 
-/* Make room: the oldest files go. */
-static void prune(const char *folder)
-{
-	for (;;) {
-		char path[PATH_MAX], oldest[PATH_MAX] = "";
-		struct timespec first = { 0 };
-		uint64_t bytes = 0;
-		struct stat info;
-		DIR *all = opendir(folder);
-
-		for (struct dirent *e; all && (e = readdir(all));) {
-			if (fnmatch("*-*-*.index", e->d_name, 0) || snprintf(path, sizeof(path), "%s/%s", folder, e->d_name) >= (int)sizeof(path) ||
-			    stat(path, &info))
-				continue;
-			bytes += (uint64_t)info.st_size;
-			if (*oldest && (info.st_mtim.tv_sec > first.tv_sec || (info.st_mtim.tv_sec == first.tv_sec && info.st_mtim.tv_nsec >= first.tv_nsec)))
-				continue;
-			first = info.st_mtim;
-			memcpy(oldest, path, sizeof(oldest));
-		}
-		if (all)
-			closedir(all);
-		if (bytes <= MOST_ALL || !*oldest || unlink(oldest))
-			return;
-	}
-}
-
-/* index: with its file, which is empty. @return 0; 1: not worth its bytes; ERR_SYSTEM (reported) */
+/* index: with its file, which is begun. @return 0; 1: not worth its bytes, or the file is lost; ERR_SYSTEM (reported) */
 static int write_index(struct index *index, struct trace_reader *reader, struct gls_exec *x)
 {
-	const struct index_header empty = { .layout = 0 };
-	int rc;
+	int rc = index_add_checkpoint(index, reader, x, MOST_BYTES, snapshot_save_pixels);
 
-	if (fwrite(&empty, sizeof(empty), 1, index->file) != 1)
-		return 1;
-	index->end = sizeof(empty);
-	rc = index_add_checkpoint(index, reader, x, MOST_BYTES, snapshot_save_pixels);
 	if (!rc && (!index->file || !index->n_checkpoints))
 		return 1;
 	if (!rc)
@@ -137,17 +106,16 @@ int pixels_keep(const struct pixels *p, struct trace_reader *reader, struct gls_
 
 	if (!p->folder || !path_of(p, x->frame, path) || access(path, F_OK) == 0 || folder_try(p->folder))
 		return 0;
-	if (!gls_frame_settle(x) || part_begin(path, part, sizeof(part)))
+	if (!gls_frame_settle(x))
 		return x->failed;
 	rc = index_create(&index, p->path, p->trace);
-	if (!rc && !(index->file = fopen(part, "w+b")))
-		rc = 1;
-	if (!rc)
+	if (!rc && index_begin_file(index, path, part)) {
 		rc = write_index(index, reader, x);
-	if (rc || rename(part, path))
-		unlink(part);
-	part_drop(part);
+		if (!rc)
+			rename(part, path);
+		part_drop(part);
+	}
 	index_close(&index);
-	prune(p->folder);
+	folder_keep_bound(p->folder, NAMES, MOST_ALL, MOST_ALL);
 	return rc < 0 ? rc : 0;
 }

@@ -1,6 +1,5 @@
 #include "tracer/accel/blas_store.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -14,9 +13,9 @@
 #include "base/bytes.h"
 #include "base/err.h"
 #include "base/folder.h"
+#include "base/folder_bound.h"
 #include "base/hash.h"
 #include "base/kept.h"
-#include "base/memory.h"
 #include "base/part.h"
 #include "tracer/accel/tree.h"
 
@@ -128,73 +127,13 @@ int blas_store_load(struct blas_store *store, const struct blas_store_key *key, 
 
 /* --- Keeping the bound --------------------------------------------------------------------------------------------- */
 
-struct kept {
-	struct timespec used;
-	uint64_t bytes;
-	char name[96];
-};
-
-static int compare_kept(const void *a, const void *b)
-{
-	const struct kept *x = a, *y = b;
-
-	if (x->used.tv_sec != y->used.tv_sec)
-		return x->used.tv_sec < y->used.tv_sec ? -1 : 1;
-	return (x->used.tv_nsec > y->used.tv_nsec) - (x->used.tv_nsec < y->used.tv_nsec);
-}
-
-static int is_tree(const char *name)
-{
-	const size_t n = strlen(name), end = strlen(SUFFIX);
-
-	return n > end && n < sizeof(((struct kept *)0)->name) && strcmp(name + n - end, SUFFIX) == 0;
-}
-
-/* List the files of the folder. @return how many, in an array that the caller frees; 0 also where memory is short (reported) */
-static size_t list_kept(DIR *dir, struct kept **out)
-{
-	size_t n = 0, room = 0;
-	struct dirent *entry;
-
-	*out = NULL;
-	while ((entry = readdir(dir))) {
-		struct stat info;
-
-		if (!is_tree(entry->d_name) || fstatat(dirfd(dir), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) || !S_ISREG(info.st_mode))
-			continue;
-		if (MEMORY_GROW(*out, room, n + 1))
-			return 0;
-		(*out)[n].used = info.st_mtim;
-		(*out)[n].bytes = (uint64_t)info.st_size;
-		memcpy((*out)[n++].name, entry->d_name, strlen(entry->d_name) + 1);
-	}
-	return n;
-}
-
-/* Count the folder; where it exceeds its bound, remove the files unused for longest. Others may do so at the same time. */
+/* Count the folder; where it exceeds its bound, trees unused for longest go. */
 static void keep_bound(struct blas_store *store)
 {
-	DIR *dir = opendir(store->folder);
-	uint64_t bytes = 0;
-	struct kept *kept;
-	size_t n;
-
-	if (!dir)
+	if (!folder_keep_bound(store->folder, "?*" SUFFIX, store->most, FULL_SHARE(store->most)))
 		return;
-	n = list_kept(dir, &kept);
-	for (size_t i = 0; i < n; i++)
-		bytes += kept[i].bytes;
-	if (bytes > store->most) {
-		qsort(kept, n, sizeof(*kept), compare_kept);
-		for (size_t i = 0; i < n && bytes > FULL_SHARE(store->most); i++) {
-			unlinkat(dirfd(dir), kept[i].name, 0);
-			bytes -= kept[i].bytes;
-		}
-	}
 	store->added = 0;
 	store->counted = 1;
-	free(kept);
-	closedir(dir);
 }
 
 /* --- Writing ------------------------------------------------------------------------------------------------------- */
