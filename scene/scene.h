@@ -385,7 +385,7 @@ struct scene {
 	uint32_t untraced_draw; /* a draw that shows a framebuffer object's lit picture, of which the scene was left out; 0: none */
 	uint32_t shows_earlier; /* 1: a texture lacks what an earlier frame drew to it, as nothing renders during this replay */
 	const struct scene_picture *start; /* what was there before the first event; NULL: all 0, not known, or not made */
-	struct scene_before *before;       /* whose picture would be `start`, where that is not made (before.h); else NULL */
+	struct scene_before *before;       /* the scene that shows `start`, which is not made yet (before.h); NULL: there is none */
 
 	/* What became of each draw number: the call's name and number in the trace, for blame. [n_draws + 1], 0 unused */
 	struct scene_draw {

@@ -182,6 +182,21 @@ static inline uint32_t pixel_alpha_bits(uint32_t bits)
 	return bits >> 16 & 255u;
 }
 
+/* A pixel as GL's frame buffer held it; the rest of it is 0. depth: in the buffer's steps, of which 24 bits count */
+static inline void pixel_start(struct frame_pixel *pixel, const float gl[4], uint32_t depth, uint32_t bits)
+{
+	const uint32_t depth_bits = pixel_depth_bits(bits), far = pixel_bits_mask(depth_bits);
+
+	for (uint32_t c = 0u; c < 4u; c++)
+		pixel->gl[c] = gl[c];
+	for (uint32_t c = 0u; c < 3u; c++)
+		pixel->shadowed[c] = pixel->direct[c] = pixel->mirrored[c] = pixel->beauty[c] = gl[c];
+	pixel->depth = depth_bits > 24u ? depth << 8 | depth >> 16 : depth;
+	pixel->depth_exact = far ? (float)pixel->depth / (float)far : 1.0f;
+	pixel->surface.order = SCENE_NONE;
+	pixel->unknown = PIXEL_BEFORE;
+}
+
 /* Tests of sec. 4.1.4 to 4.1.6, and their changes to stencil and depth buffer. @return 1: the fragment is drawn */
 static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
                               GLOBAL struct frame_pixel *pixel, uint32_t bits)

@@ -354,17 +354,12 @@ void plain_show_dimmed_c(const struct plain_arguments *a, size_t first, size_t l
 /* A pixel from GL's frame buffer. */
 static struct frame_pixel start_pixel(const struct layered_start_arguments *a, uint32_t i)
 {
-	const uint32_t bits = pixel_depth_bits(a->bits), far = pixel_bits_mask(bits);
-	struct frame_pixel p = { .surface = { .order = SCENE_NONE }, .unknown = PIXEL_BEFORE };
+	struct frame_pixel p = { .id = 0 };
+	float gl[4];
 
 	for (int c = 0; c < 4; c++)
-		p.gl[c] = (float)(a->colors[i] >> 8 * c & 255) / 255.0f;
-	memcpy(p.shadowed, p.gl, sizeof(p.shadowed));
-	memcpy(p.direct, p.gl, sizeof(p.direct));
-	memcpy(p.mirrored, p.gl, sizeof(p.mirrored));
-	memcpy(p.beauty, p.gl, sizeof(p.beauty));
-	p.depth = bits > 24 ? a->depths[i] << 8 | a->depths[i] >> 16 : a->depths[i];
-	p.depth_exact = far ? (float)p.depth / (float)far : 1;
+		gl[c] = (float)(a->colors[i] >> 8 * c & 255) / 255.0f;
+	pixel_start(&p, gl, a->depths[i], a->bits);
 	return p;
 }
 

@@ -292,7 +292,7 @@ START_TEST(test_clears_of_parts)
 }
 END_TEST
 
-/* A frame that clears no colours, whose scene is to be released. asked: pictures that were rendered for it */
+/* The scene of a frame that clears no colours; release it. asked: pictures that were rendered for it */
 static struct scene *uncleared(struct gl *gl, struct painter *p, uint32_t asked)
 {
 	struct scene *s;

@@ -90,7 +90,7 @@ struct job {
 	uint32_t is_first;       /* of the passes that are summed up: there are no sums yet */
 	uint32_t is_placed;      /* state, vertices and trees of the pass before are on the device: only the picture is to be moved */
 	uint32_t turn;           /* which pixels take part in the other passes (sample_takes_part) */
-	uint64_t unknown;               /* pixels so far that show, or whose tests looked at, something from before the scene that it does not hold */
+	uint64_t unknown;               /* pixels so far that show or tested what was there before the scene and is not known */
 	struct image *image;            /* receive the bands of the last pass: one of the two, the other is NULL */
 	struct scene_picture *picture;
 };

@@ -11,24 +11,18 @@
 /* The band's pixels as a picture has them; NULL: not known. */
 static void start_pixels(const struct job *job, const struct scene_picture *start, struct frame_pixel *pixels)
 {
-	uint32_t depth_bits = pixel_depth_bits(job->bits), far = pixel_bits_mask(depth_bits);
-
 	memset(pixels, 0, job->n_pixels * sizeof(*pixels));
 	for (uint32_t k = 0; k < job->n_pixels; k++) {
 		struct frame_pixel *p = &pixels[k];
 		const size_t i = frame_first_pixel(job) + (size_t)k;
+		float gl[4] = { 0 };
 
-		p->surface.order = SCENE_NONE;
-		p->unknown = start ? PIXEL_BEFORE : PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_DEPTH | PIXEL_UNKNOWN_STENCIL;
 		for (int c = 0; c < 4 && start; c++)
-			p->gl[c] = start->colors ? start->colors[4 * i + (size_t)c] : (float)start->rgba[4 * i + (size_t)c] / 255.0f;
-		memcpy(p->shadowed, p->gl, sizeof(p->shadowed));
-		memcpy(p->direct, p->gl, sizeof(p->direct));
-		memcpy(p->mirrored, p->gl, sizeof(p->mirrored));
-		memcpy(p->beauty, p->gl, sizeof(p->beauty));
-		p->depth = !start ? 0 : depth_bits > 24 ? start->depth[i] << 8 | start->depth[i] >> 16 : start->depth[i];
-		p->depth_exact = far ? (float)p->depth / (float)far : 1;
+			gl[c] = start->colors ? start->colors[4 * i + (size_t)c] : (float)start->rgba[4 * i + (size_t)c] / 255.0f;
+		pixel_start(p, gl, start ? start->depth[i] : 0, job->bits);
 		p->stencil = start ? start->stencil[i] : 0;
+		if (!start)
+			p->unknown = PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_DEPTH | PIXEL_UNKNOWN_STENCIL;
 	}
 }
 

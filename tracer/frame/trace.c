@@ -320,7 +320,7 @@ static int draw_picture(struct tracer *tracer, const struct scene *scene, struct
 
 /* --- What frames begin with ---------------------------------------------------------------------------------------- */
 
-/* A scene whose start was made here. */
+/* A scene, and its start that was made here. */
 struct begun {
 	struct scene scene;
 	struct scene_picture *start;
