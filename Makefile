@@ -495,6 +495,7 @@ $(BUILD)/tests/fuzz/targets/recorder.o: | $(BUILD)/recorder/gen/stamp
 $(BUILD)/tests/fuzz/drive: $(DRIVE_OBJ) $(BUILD)/tests/fuzz/target.o $(addprefix $(BUILD)/recorder/,capture/write/pages.o capture/write/values.o gen/tables/enums.o)
 $(BUILD)/tests/fuzz/drive $(BUILD)/tests/fuzz/make_seeds: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
 $(BUILD)/tests/fuzz/drive: $(BUILD)/tests/fuzz/parts.a
+$(BUILD)/tests/fuzz/drive: $(BUILD)/tests/fuzz/stream.o
 $(BUILD)/tests/fuzz/drive: private NOT_LINKED := $(BUILD)/parts.a
 $(BUILD)/tests/fuzz/parts.a: Makefile $(patsubst $(BUILD)/fuzz/objects/%,$(BUILD)/%,$(filter-out %/gen/enums.o $(BUILD)/fuzz/objects/capture/write/% $(BUILD)/fuzz/objects/tests/%,$(FUZZ_OBJ)))
 	@rm -f $@

@@ -1,23 +1,23 @@
 #include "tests/fuzz/calls.h"
-#include "scene/release.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bytes.h"
 #include "base/err.h"
-#include "gl_tokens.h"
 #include "capture/format/call.h"
-#include "replay/gl/dispatch.h"
-#include "replay/machine/commands.h"
-#include "replay/machine/machine.h"
-#include "replay/gl/surface/frames.h"
-#include "replay/index/snapshot.h"
+#include "gl_tokens.h"
 #include "replay/build/mesh.h"
+#include "replay/gl/dispatch.h"
 #include "replay/gl/surface/frames.h"
 #include "replay/gl/texture/image.h"
-#include "base/bytes.h"
+#include "replay/index/snapshot.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/machine.h"
+#include "replay/trace/reader.h"
+#include "scene/release.h"
 
 #define MAX_FRAMES 8
 #define MAX_ITEMS 256
@@ -91,13 +91,17 @@ void calls_invent(unsigned *state, uint8_t *slot, const uint8_t *near)
 	set_command(slot, &calls_commands[i]);
 }
 
-/* What the calls' values point to. */
+/* What the calls' values point to, and who takes the calls. */
 struct calls {
+	int (*take)(void *user, const struct call *call); /* not 0: no more of them */
+	void *user;
 	struct trace_value args[CALLS_MAX_PARAMS], items[CALLS_MAX_PARAMS][MAX_ITEMS];
 	uint8_t blob[CALLS_MAX_PARAMS][MAX_BLOB];
 	struct call_sig sig;
 	struct call call; /* as a reader's, it is there until the next one */
 };
+
+static const struct trace_values_sig NAMELESS = { 0 }; /* of enums and bitmasks */
 
 static int64_t int_of(uint32_t v)
 {
@@ -137,12 +141,12 @@ static struct trace_value scalar_of(char letter, uint32_t v, const struct calls_
 
 	if (is_token(letter, v, group))
 		return letter == 'f' || letter == 'd' ? (struct trace_value){ .type = TRACE_FLOAT, .f = (float)token_of(v, group) }
-		                                      : (struct trace_value){ .type = TRACE_ENUM, .i = token_of(v, group) };
+		                                      : (struct trace_value){ .type = TRACE_ENUM, .sig = &NAMELESS, .i = token_of(v, group) };
 	switch (letter) {
 	case 'e':
-		return (struct trace_value){ .type = TRACE_ENUM, .i = token_of(v, group) };
+		return (struct trace_value){ .type = TRACE_ENUM, .sig = &NAMELESS, .i = token_of(v, group) };
 	case 'm':
-		return (struct trace_value){ .type = TRACE_BITMASK, .u = token_of(v, group) | (v & 1 ? token_of(v >> 1, group) : 0) };
+		return (struct trace_value){ .type = TRACE_BITMASK, .sig = &NAMELESS, .u = token_of(v, group) | (v & 1 ? token_of(v >> 1, group) : 0) };
 	case 'f':
 		return (struct trace_value){ .type = TRACE_FLOAT, .f = float_of(v) };
 	case 'd':
@@ -212,7 +216,7 @@ static struct trace_value program_of(uint32_t v)
 	return (struct trace_value){ .type = TRACE_STRING, .count = strlen(text), .str = text };
 }
 
-static int execute(struct gls_exec *x, struct calls *c, uint64_t number, const uint8_t *slot)
+static int play(struct calls *c, uint64_t number, const uint8_t *slot)
 {
 	const struct calls_command *command = command_at(slot);
 	uint32_t n = 0;
@@ -225,27 +229,32 @@ static int execute(struct gls_exec *x, struct calls *c, uint64_t number, const u
 	c->sig = (struct call_sig){ .name = command->name, .command = gls_command_find(command->name), .n_args = n };
 	c->call = (struct call){ .number = number, .sig = &c->sig, .args = c->args, .n_args = n,
 		                 .ret = { .type = TRACE_OPAQUE, .u = (uint64_t)(slot[CALLS_SLOT - 1] & 3) << 4 } };
-	return gls_exec_call(x, &c->call);
+	return c->take(c->user, &c->call);
 }
 
-static int call(struct gls_exec *x, struct calls *c, const char *name, struct trace_value ret, uint32_t n, const struct trace_value *args)
+static int call(struct calls *c, const char *name, struct trace_value ret, uint32_t n, const struct trace_value *args)
 {
 	memcpy(c->args, args, n * sizeof(*args));
 	c->sig = (struct call_sig){ .name = name, .command = gls_command_find(name), .n_args = n };
 	c->call = (struct call){ .sig = &c->sig, .args = c->args, .n_args = n, .ret = ret };
-	return gls_exec_call(x, &c->call);
+	return c->take(c->user, &c->call);
 }
 
 static const struct trace_value NONE = { .type = TRACE_NONE }, ZERO = { .type = TRACE_NULL },
                                 CONTEXT = { .type = TRACE_OPAQUE, .u = 0x10 }, WINDOW = { .type = TRACE_UINT, .u = 7 },
                                 SIZE = { .type = TRACE_UINT, .u = 64 };
 
-static int make_current(struct gls_exec *x, struct calls *c)
+static int make_current(struct calls *c)
 {
-	return call(x, c, "glXCreateContext", CONTEXT, 4, (struct trace_value[]){ CONTEXT, ZERO, ZERO, WINDOW }) ||
-	       call(x, c, "glXMakeCurrent", NONE, 3, (struct trace_value[]){ CONTEXT, WINDOW, CONTEXT }) ||
-	       call(x, c, "glViewport", NONE, 4, (struct trace_value[]){ ZERO, ZERO, SIZE, SIZE }) ||
-	       call(x, c, "glScissor", NONE, 4, (struct trace_value[]){ ZERO, ZERO, SIZE, SIZE });
+	return call(c, "glXCreateContext", CONTEXT, 4, (struct trace_value[]){ CONTEXT, ZERO, ZERO, WINDOW }) ||
+	       call(c, "glXMakeCurrent", NONE, 3, (struct trace_value[]){ CONTEXT, WINDOW, CONTEXT }) ||
+	       call(c, "glViewport", NONE, 4, (struct trace_value[]){ ZERO, ZERO, SIZE, SIZE }) ||
+	       call(c, "glScissor", NONE, 4, (struct trace_value[]){ ZERO, ZERO, SIZE, SIZE });
+}
+
+static int swap(struct calls *c)
+{
+	return call(c, "glXSwapBuffers", NONE, 2, (struct trace_value[]){ CONTEXT, WINDOW });
 }
 
 /* Blobs of a snapshot, one after the other. Nothing but zeros, such as a texture that nobody filled, takes no room. */
@@ -311,8 +320,7 @@ static int check_saved(struct gls_exec *x, int (*save)(struct gls_exec *x, const
 	return differ;
 }
 
-/* With what was drawn as well, where it can be saved. */
-static int check_snapshot(struct gls_exec *x)
+int calls_check_snapshot(struct gls_exec *x)
 {
 	return check_saved(x, snapshot_save) || (gls_frame_settle(x) && check_saved(x, snapshot_save_pixels));
 }
@@ -342,7 +350,7 @@ static int end_frame(struct gls_exec *x, const struct calls_painter *painter)
 	x->frame++;
 	gls_mesh_cache_trim(x);
 	gls_image_cache_trim(x);
-	return x->failed || x->feedback.rewind ? 0 : check_snapshot(x);
+	return x->failed || x->feedback.rewind ? 0 : calls_check_snapshot(x);
 }
 
 static void fill_grey(const struct scene *scene, struct scene_picture *p)
@@ -380,14 +388,14 @@ static int run(struct gls_exec *x, struct calls *c, const uint8_t *data, size_t 
 	int wrong = 0;
 
 	for (size_t at = 0; at + CALLS_SLOT <= size && x->frame - first < MAX_FRAMES && !wrong; at += CALLS_SLOT) {
-		if (execute(x, c, at / CALLS_SLOT, data + at) || x->failed || x->feedback.rewind)
+		if (play(c, at / CALLS_SLOT, data + at) || x->failed || x->feedback.rewind)
 			break;
 		if (x->frame_ended) {
 			wrong = end_frame(x, painter);
 			begin_frame(x, size, painter);
 		}
 	}
-	if (!x->failed && !x->feedback.rewind && !wrong && !call(x, c, "glXSwapBuffers", NONE, 2, (struct trace_value[]){ CONTEXT, WINDOW }))
+	if (!x->failed && !x->feedback.rewind && !wrong && !swap(c))
 		wrong = end_frame(x, painter);
 	return wrong;
 }
@@ -399,15 +407,32 @@ static void begin(struct gls_exec *x, size_t size, const struct calls_painter *p
 	x->feedback.supply_user = painter ? painter->user : NULL;
 }
 
-int calls_run(const uint8_t *data, size_t size, const struct calls_painter *painter)
+static int execute(void *x, const struct call *call)
+{
+	return gls_exec_call(x, call);
+}
+
+/* @return NULL without memory; to be freed with free() */
+static struct calls *create(int (*take)(void *user, const struct call *call), void *user)
 {
 	struct calls *c = calloc(1, sizeof(*c));
+
+	if (c) {
+		c->take = take;
+		c->user = user;
+	}
+	return c;
+}
+
+int calls_run(const uint8_t *data, size_t size, const struct calls_painter *painter)
+{
 	struct gls_exec *x = NULL;
+	struct calls *c = gls_exec_create(&x, "calls") ? NULL : create(execute, x);
 	int wrong = 0;
 
-	if (c && !gls_exec_create(&x, "calls")) {
+	if (c) {
 		begin(x, size, painter);
-		if (!make_current(x, c))
+		if (!make_current(c))
 			wrong = run(x, c, data, size, painter);
 	}
 	gls_exec_destroy(&x);
@@ -417,17 +442,17 @@ int calls_run(const uint8_t *data, size_t size, const struct calls_painter *pain
 
 void calls_begin(struct gls_exec *x)
 {
-	struct calls *c = calloc(1, sizeof(*c));
+	struct calls *c = create(execute, x);
 
 	if (c)
-		make_current(x, c);
+		make_current(c);
 	x->call = NULL;
 	free(c);
 }
 
 void calls_go_on(struct gls_exec *x, const uint8_t *data, size_t size, const struct calls_painter *painter)
 {
-	struct calls *c = calloc(1, sizeof(*c));
+	struct calls *c = create(execute, x);
 
 	if (c) {
 		begin(x, size, painter);
@@ -435,4 +460,19 @@ void calls_go_on(struct gls_exec *x, const uint8_t *data, size_t size, const str
 	}
 	x->call = NULL;
 	free(c);
+}
+
+int calls_each(const uint8_t *data, size_t size, int (*take)(void *user, const struct call *call), void *user)
+{
+	struct calls *c = create(take, user);
+	int rc = c ? make_current(c) : ERR_SYSTEM;
+
+	for (size_t at = 0; at + CALLS_SLOT <= size && !rc; at += CALLS_SLOT)
+		rc = play(c, at / CALLS_SLOT, data + at);
+	if (!rc)
+		rc = swap(c);
+	if (!rc)
+		rc = swap(c);
+	free(c);
+	return rc;
 }

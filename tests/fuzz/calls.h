@@ -13,6 +13,7 @@
 
 #include "replay/replay.h"
 
+struct call;
 struct gls_exec;
 
 #define CALLS_MAX_PARAMS 15
@@ -69,8 +70,21 @@ extern const struct calls_painter calls_grey;
  */
 int calls_run(const uint8_t *data, size_t size, const struct calls_painter *painter);
 
+/**
+ * Save a state, load it and save it again; with what was drawn as well, where it can be saved.
+ * @return 0 the same bytes, or nothing that can be saved; 1 other bytes, which is told
+ */
+int calls_check_snapshot(struct gls_exec *x);
+
 /** What stands before the calls of calls_run: a context is current. */
 void calls_begin(struct gls_exec *x);
 
 /** Execute more calls in a state machine that is there, and build its scenes. */
 void calls_go_on(struct gls_exec *x, const uint8_t *data, size_t size, const struct calls_painter *painter);
+
+/**
+ * Hand over the calls of a sequence, one by one: those of calls_begin first, and a swap at the end. The last frame is shown twice.
+ * @param take  gets calls that are there until the next one; not 0: no more of them
+ * @return 0, what take returned, or ERR_SYSTEM: no memory
+ */
+int calls_each(const uint8_t *data, size_t size, int (*take)(void *user, const struct call *call), void *user);

@@ -1,6 +1,7 @@
 /*
- * The verbs that read a recording, whole and in one process: the low bits of the first byte choose one. The rest is the trace's file; where the
- * first byte's highest bit is set it is the logical stream in it. What they write goes into a folder of this process.
+ * The verbs that read a recording, whole and in one process, and what replays that go back do with it: the low bits of the first byte choose
+ * one. The rest is the trace's file; where the first byte's highest bit is set it is the logical stream in it, and most changes are to its
+ * calls (stream.h). What they write goes into a folder of this process.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,9 +9,37 @@
 #include <unistd.h>
 
 #include "base/verbs.h"
+#include "replay/play/player.h"
+#include "scene/release.h"
+#include "tests/fuzz/calls.h"
+#include "tests/fuzz/stream.h"
 #include "tests/fuzz/target.h"
 
 #define MOST_WORDS 12
+#define MOST_FRAMES 8
+#define STREAM 128 /* of the first byte */
+
+size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size) __attribute__((weak)); /* drive.c has none */
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
+
+/* Scenes of most frames, with pixels that have little to do with them; after each the state is saved, loaded and saved again. */
+static int states_main(int argc, char **argv)
+{
+	struct player p;
+	struct scene *scene = NULL;
+	int wrong = 0;
+
+	if (player_open(&p, argv[argc - 1]))
+		return 3;
+	player_set_supplier(&p, calls_grey.supply, calls_grey.user);
+	for (int i = 0; i < MOST_FRAMES && !wrong && player_try_frame(&p, i % 4 != 2, &scene) == 1 && !p.exec->feedback.rewind; i++) {
+		scene_release(&scene);
+		wrong = calls_check_snapshot(p.exec);
+	}
+	scene_release(&scene);
+	player_close(&p);
+	return wrong;
+}
 
 static const struct verb {
 	int (*main)(int argc, char **argv);
@@ -23,6 +52,9 @@ static const struct verb {
 	{ trim_main, { "trim", "--no-sandbox", "-f", "1", "-o", "OUT.trace", "IN" } },
 	{ export_main, { "export", "--no-sandbox", "-f", "0", "-o", "OUT.glb", "IN" } },
 	{ index_main, { "index", "--check", "--no-sandbox", "IN" } },
+	{ info_main, { "info", "--no-sandbox", "IN" } },
+	{ scene_main, { "scene", "-f", "0", "--no-sandbox", "IN" } },
+	{ states_main, { "states", "IN" } },
 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -34,8 +66,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
 	if (!target_take(&data, &size, &which, 1))
 		return 0;
-	verb = &verbs[which % 128 % (sizeof(verbs) / sizeof(verbs[0]))];
-	if (which & 128)
+	verb = &verbs[which % STREAM % (sizeof(verbs) / sizeof(verbs[0]))];
+	if (which & STREAM)
 		packed = target_pack(data, size, &size);
 	target_write("in.trace", packed ? packed : data, size, in);
 	free(packed);
@@ -53,4 +85,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	snprintf(out, sizeof(out), "%s.index", in);
 	unlink(out);
 	return 0;
+}
+
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed)
+{
+	uint8_t *out = size > 1 && data[0] & STREAM && calls_draw(&seed, 8) ? malloc(max_size) : NULL;
+	size_t n = out ? stream_change(data + 1, size - 1, NULL, 0, out, max_size - 1, &seed) : 0;
+
+	if (n)
+		memcpy(data + 1, out, n);
+	free(out);
+	return n ? 1 + n : LLVMFuzzerMutate(data, size, max_size);
 }

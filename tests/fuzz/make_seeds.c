@@ -1,6 +1,7 @@
 /*
  * make_seeds index TRACE FILE: the input of fuzz_index.c for an index of the trace with a checkpoint at each frame.
  * make_seeds snapshot FOLDER: inputs of fuzz_snapshot.c: states that some of the kept sequences of calls lead to.
+ * make_seeds traces FOLDER: the kept sequences of calls as recordings.
  * make_seeds tree FILE: the input of fuzz_tree.c for a tree of 64 triangles.
  */
 #include <stdio.h>
@@ -12,14 +13,17 @@
 #include "replay/gl/surface/frames.h"
 #include "replay/index/index_file.h"
 #include "replay/index/snapshot.h"
+#include "replay/trace/trace_out.h"
 #include "tests/fuzz/calls.h"
 #include "tests/fuzz/snapshot.h"
 #include "tracer/accel/tree.h"
 
 #define KEPT "tests/fuzz/kept_calls"
+#define LIKE "tests/golden/two_triangles.trace" /* whose properties traces have */
 #define LARGEST 65536
 #define EVERY 24 /* sequence of the kept ones */
 #define MOST_CHECKPOINTS 3
+#define MOST_SIGS 2048
 
 static void must(int good, const char *what)
 {
@@ -118,6 +122,71 @@ static void make_index(const char *path, const char *to)
 	write_file(to, &all);
 }
 
+/* --- Sequences of calls ---------------------------------------------------------------------------------------------- */
+
+/* The next of the kept sequences. @return its bytes, which are there until the next one; NULL: there is none */
+static const uint8_t *next_kept(FILE *file, uint32_t *size)
+{
+	static uint8_t calls[LARGEST];
+
+	if (fread(size, sizeof(*size), 1, file) != 1)
+		return NULL;
+	must(*size <= LARGEST && fread(calls, 1, *size, file) == *size, KEPT);
+	return calls;
+}
+
+static FILE *open_kept(void)
+{
+	FILE *file = fopen(KEPT, "rb");
+
+	must(file != NULL, KEPT);
+	return file;
+}
+
+/* What is written, and the signatures of its calls, which trace_out.h knows by their addresses. */
+struct written {
+	struct trace_out *out;
+	struct call_sig sigs[MOST_SIGS];
+	size_t n_sigs;
+};
+
+static int write_call(void *user, const struct call *call)
+{
+	static const char *const names[CALLS_MAX_PARAMS] = { "a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m", "n", "o" };
+	struct written *written = user;
+	struct call again = *call;
+	size_t i = 0;
+
+	while (i < written->n_sigs && strcmp(written->sigs[i].name, call->sig->name) != 0)
+		i++;
+	if (i == written->n_sigs) {
+		must(i < MOST_SIGS, "signatures");
+		written->sigs[written->n_sigs++] = (struct call_sig){ .name = call->sig->name, .n_args = call->sig->n_args, .arg_names = (const char **)(uintptr_t)names };
+	}
+	again.sig = &written->sigs[i];
+	return trace_out_call(written->out, &again);
+}
+
+static void make_traces(const char *folder)
+{
+	FILE *file = open_kept();
+	struct trace_reader *from = NULL;
+	const uint8_t *calls;
+	uint32_t size;
+
+	must(!trace_reader_open(&from, LIKE, gls_command_find), LIKE);
+	for (int i = 0; (calls = next_kept(file, &size)); i++) {
+		struct written written = { .n_sigs = 0 };
+		char path[4096];
+
+		snprintf(path, sizeof(path), "%s/calls.%d.trace", folder, i);
+		must(!trace_out_open(&written.out, path, LIKE, from) && !calls_each(calls, size, write_call, &written) &&
+		     !trace_out_finish(&written.out, NULL), path);
+	}
+	trace_reader_close(&from);
+	fclose(file);
+}
+
 /* --- Snapshots ------------------------------------------------------------------------------------------------------ */
 
 static void put_record(struct bytes *out, const uint64_t name[2], const void *data, size_t n)
@@ -137,19 +206,17 @@ static int put_behind(void *user, const uint64_t name[2], const void *data, size
 
 static void make_snapshots(const char *folder)
 {
-	static uint8_t calls[LARGEST];
 	static const uint64_t none[2] = { 0, 0 }, last[2] = { UINT64_MAX, UINT64_MAX };
-	FILE *file = fopen(KEPT, "rb");
+	FILE *file = open_kept();
+	const uint8_t *calls;
 	uint32_t size;
 
-	must(file != NULL, KEPT);
-	for (int i = 0; fread(&size, sizeof(size), 1, file) == 1; i++) {
+	for (int i = 0; (calls = next_kept(file, &size)); i++) {
 		struct bytes state = { 0 }, blobs = { 0 }, all = { 0 };
 		const struct snapshot_blobs put = { .put = put_behind, .user = &blobs };
 		struct gls_exec *x = NULL;
 		char path[4096];
 
-		must(size <= LARGEST && fread(calls, 1, size, file) == size, KEPT);
 		if (i % EVERY)
 			continue;
 		must(!gls_exec_create(&x, "seeds"), "a state machine");
@@ -211,6 +278,8 @@ int main(int argc, char **argv)
 		make_index(argv[2], argv[3]);
 	else if (argc == 3 && strcmp(argv[1], "snapshot") == 0)
 		make_snapshots(argv[2]);
+	else if (argc == 3 && strcmp(argv[1], "traces") == 0)
+		make_traces(argv[2]);
 	else if (argc == 3 && strcmp(argv[1], "tree") == 0)
 		make_tree(argv[2]);
 	else

@@ -91,8 +91,9 @@ def read_pack(path):
     return parts
 
 
-VERBS = 7  # of fuzz_verbs.c
-SCENE = 1  # the one of them that builds all of a frame
+VERBS = 10  # of fuzz_verbs.c
+SCENE, STATES = 1, 9  # those of them that build all of a frame, and of all frames
+STREAM = 128  # of the same byte: no container around the stream
 
 
 def record(build, folder):
@@ -116,6 +117,18 @@ def cut_panels(build, folder):
                                                  stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode:
                 break
     return sorted(cut.glob("*.trace"))
+
+
+def sequences(build, traces, out):
+    """What is kept of `calls`, as recordings."""
+    folder = traces / "calls"
+    folder.mkdir(exist_ok=True)
+    subprocess.run([build / "tests/fuzz/make_seeds", "traces", folder], check=False)
+    for number, trace in enumerate(sorted(folder.iterdir())):
+        stream = bytes(unpack(trace.read_bytes(), 1 << 16)[:1 << 16])
+        (out["replay"] / trace.stem).write_bytes(stream)
+        for verb in (STATES, number % STATES):
+            (out["verbs"] / f"{trace.stem}.{verb}").write_bytes(bytes([STREAM | verb]) + stream)
 
 
 def pictures(build, traces, out):
@@ -164,6 +177,7 @@ def make_seeds(build, folder):
     traces = folder / "traces"
     record(build, traces)
     golden, panels = list((ROOT / "tests/golden").glob("*.trace")), cut_panels(build, traces)
+    sequences(build, traces, out)
     for trace in [*golden, *traces.glob("*.trace"), *panels]:
         data = trace.read_bytes()
         try:
@@ -175,7 +189,8 @@ def make_seeds(build, folder):
             (out["container"] / trace.stem).write_bytes(data)
             (out["verbs"] / trace.stem).write_bytes(bytes([len(data) % VERBS]) + data)
         if trace in panels:
-            (out["verbs"] / f"{trace.stem}.scene").write_bytes(bytes([SCENE]) + data)
+            for verb in (SCENE, STATES):
+                (out["verbs"] / f"{trace.stem}.{verb}").write_bytes(bytes([verb]) + data)
     for number, trace in enumerate(golden):
         stream = bytes(unpack(trace.read_bytes()))
         (out["container"] / f"{trace.stem}.gz").write_bytes(gzip.compress(stream))

@@ -17,7 +17,6 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 HEAD = 100_000  # bytes of the unpacked stream: a frame or more of each
 TRACES, COMMANDS, OTHERS = 20_000, 1_000, 5_000
-VERBS = 7       # of tests/fuzz/fuzz_verbs.c
 SEED = 1
 AT_ONCE = 10   # damaged pictures
 LONGEST_S = 10
@@ -115,8 +114,8 @@ def main(build):
     for seed, trace in enumerate(traces):
         row(f"{trace.stem}, by info and scene of the command", share, lambda trace=trace, seed=seed: mutate.main(trace, share, seed, HEAD))
     count = TRACES - share * len(traces)
-    parts = [bytes([128 + verb]) + stream for stream in streams for verb in range(VERBS)]
-    row(f"{len(traces)} recordings, by {VERBS} verbs", count, lambda: drive(build, folder, "verbs", count, parts))
+    parts = [bytes([seeds.STREAM | verb]) + stream for stream in streams for verb in range(seeds.VERBS)]
+    row(f"{len(traces)} recordings, by {seeds.VERBS} verbs", count, lambda: drive(build, folder, "verbs", count, parts))
     seeds.make_seeds(build, build / "fuzz")
     for target in sorted(path.stem[5:] for path in (ROOT / "tests/fuzz").glob("fuzz_*.c")):
         parts = [path.read_bytes() for path in sorted((build / f"fuzz/seeds_{target}").glob("*"))] + seeds.read_pack(ROOT / f"tests/fuzz/kept_{target}")
