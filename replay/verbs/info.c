@@ -138,7 +138,8 @@ static void print_text(struct replay *rp, const char *path, size_t limit, const 
 	if (n == n_rendered)
 		puts("\nevery call is executed");
 	print_counts("not done yet", counts, n - n_rendered, (size_t)-1);
-	print_counts("done by 'relume render' alone", counts + (n - n_rendered), n_rendered, (size_t)-1);
+	if (n_rendered)
+		print_counts("done by 'relume render' alone", counts + (n - n_rendered), n_rendered, (size_t)-1);
 	n = replay_gl_errors(rp, &counts);
 	print_counts("GL errors that the program made", counts, n, (size_t)-1);
 }
