@@ -174,6 +174,7 @@ void watch_stop(struct watch **w)
 	if (!*w)
 		return;
 	atomic_store(&(*w)->done, 1);
+	pthread_kill((*w)->thread, SIGTERM); /* wakes it, and means nothing to it now */
 	pthread_join((*w)->thread, NULL);
 	while (sigtimedwait(&(*w)->signals, NULL, &none) > 0)
 		;
