@@ -2,6 +2,7 @@
  * make_seeds index TRACE FILE: the input of fuzz_index.c for an index of the trace with a checkpoint at each frame.
  * make_seeds snapshot FOLDER: inputs of fuzz_snapshot.c: states that some of the kept sequences of calls lead to.
  * make_seeds traces FOLDER: the kept sequences of calls as recordings.
+ * make_seeds programs FOLDER: recordings that show a drawn texture by each kept shader and assembly program.
  * make_seeds tree FILE: the input of fuzz_tree.c for a tree of 64 triangles.
  */
 #include <stdio.h>
@@ -9,8 +10,10 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "gl_tokens.h"
 #include "replay/gl/dispatch.h"
 #include "replay/gl/surface/frames.h"
+#include "replay/glsl/translate.h"
 #include "replay/index/index_file.h"
 #include "replay/index/snapshot.h"
 #include "replay/trace/trace_out.h"
@@ -18,7 +21,7 @@
 #include "tests/fuzz/snapshot.h"
 #include "tracer/accel/tree.h"
 
-#define KEPT "tests/fuzz/kept_calls"
+#define KEPT "tests/fuzz/kept_"
 #define LIKE "tests/golden/two_triangles.trace" /* whose properties traces have */
 #define LARGEST 65536
 #define EVERY 24 /* sequence of the kept ones */
@@ -124,22 +127,26 @@ static void make_index(const char *path, const char *to)
 
 /* --- Sequences of calls ---------------------------------------------------------------------------------------------- */
 
-/* The next of the kept sequences. @return its bytes, which are there until the next one; NULL: there is none */
+/* The next of the kept inputs. @return its bytes, which are there until the next one, and a zero; NULL: there is none */
 static const uint8_t *next_kept(FILE *file, uint32_t *size)
 {
-	static uint8_t calls[LARGEST];
+	static uint8_t input[LARGEST + 1];
 
 	if (fread(size, sizeof(*size), 1, file) != 1)
 		return NULL;
-	must(*size <= LARGEST && fread(calls, 1, *size, file) == *size, KEPT);
-	return calls;
+	must(*size <= LARGEST && fread(input, 1, *size, file) == *size, KEPT);
+	input[*size] = 0;
+	return input;
 }
 
-static FILE *open_kept(void)
+static FILE *open_kept(const char *target)
 {
-	FILE *file = fopen(KEPT, "rb");
+	char path[64];
+	FILE *file;
 
-	must(file != NULL, KEPT);
+	snprintf(path, sizeof(path), KEPT "%s", target);
+	file = fopen(path, "rb");
+	must(file != NULL, path);
 	return file;
 }
 
@@ -167,24 +174,134 @@ static int write_call(void *user, const struct call *call)
 	return trace_out_call(written->out, &again);
 }
 
-static void make_traces(const char *folder)
+/* A recording of what `say` hands to write_call. */
+static void make_trace(const char *folder, const char *target, int number, const uint8_t *input, uint32_t size,
+                       int (*say)(struct written *written, const uint8_t *input, uint32_t size))
 {
-	FILE *file = open_kept();
+	struct written written = { .n_sigs = 0 };
 	struct trace_reader *from = NULL;
-	const uint8_t *calls;
+	char path[4096];
+
+	snprintf(path, sizeof(path), "%s/%s.%d.trace", folder, target, number);
+	must(!trace_reader_open(&from, LIKE, gls_command_find) && !trace_out_open(&written.out, path, LIKE, from) && !say(&written, input, size) &&
+	     !trace_out_finish(&written.out, NULL), path);
+	trace_reader_close(&from);
+}
+
+static void make_traces(const char *folder, const char *target, int (*say)(struct written *written, const uint8_t *input, uint32_t size))
+{
+	FILE *file = open_kept(target);
+	const uint8_t *input;
 	uint32_t size;
 
-	must(!trace_reader_open(&from, LIKE, gls_command_find), LIKE);
-	for (int i = 0; (calls = next_kept(file, &size)); i++) {
-		struct written written = { .n_sigs = 0 };
-		char path[4096];
-
-		snprintf(path, sizeof(path), "%s/calls.%d.trace", folder, i);
-		must(!trace_out_open(&written.out, path, LIKE, from) && !calls_each(calls, size, write_call, &written) &&
-		     !trace_out_finish(&written.out, NULL), path);
-	}
-	trace_reader_close(&from);
+	for (int i = 0; (input = next_kept(file, &size)); i++)
+		make_trace(folder, target, i, input, size, say);
 	fclose(file);
+}
+
+static int say_calls(struct written *written, const uint8_t *input, uint32_t size)
+{
+	return calls_each(input, size, write_call, written);
+}
+
+/* --- Programs ------------------------------------------------------------------------------------------------------- */
+
+#define U(v) { .type = TRACE_UINT, .u = (uint64_t)(v) }
+#define F(v) { .type = TRACE_FLOAT, .f = (v) }
+#define P(v) { .type = TRACE_OPAQUE, .u = (v) }
+#define NOTHING { .type = TRACE_NULL }
+#define SIDE 64
+
+struct said {
+	const char *name;
+	uint32_t n_args;
+	struct trace_value args[9], ret;
+};
+
+static int say(struct written *written, const struct said *said, size_t n)
+{
+	int rc = 0;
+
+	for (size_t i = 0; i < n && !rc; i++) {
+		const struct call_sig sig = { .name = said[i].name, .n_args = said[i].n_args };
+
+		rc = write_call(written, &(struct call){ .sig = &sig, .n_args = sig.n_args, .args = said[i].args, .ret = said[i].ret });
+	}
+	return rc;
+}
+
+#define SAY(written, said) say(written, said, sizeof(said) / sizeof((said)[0]))
+
+/* A window, and a texture of its size that is drawn to. */
+static int say_target(struct written *written)
+{
+	static const struct said said[] = {
+		{ "glXCreateContext", 4, { P(16), NOTHING, NOTHING, U(1) }, P(16) },
+		{ "glXMakeCurrent", 3, { P(16), U(7), P(16) }, U(1) },
+		{ "glViewport", 4, { U(0), U(0), U(SIDE), U(SIDE) }, { 0 } },
+		{ "glBindTexture", 2, { U(GL_TEXTURE_2D), U(1) }, { 0 } },
+		{ "glTexParameteri", 3, { U(GL_TEXTURE_2D), U(GL_TEXTURE_MIN_FILTER), U(GL_NEAREST) }, { 0 } },
+		{ "glTexImage2D", 9, { U(GL_TEXTURE_2D), U(0), U(GL_RGBA), U(SIDE), U(SIDE), U(0), U(GL_RGBA), U(GL_UNSIGNED_BYTE), NOTHING }, { 0 } },
+		{ "glBindFramebuffer", 2, { U(GL_FRAMEBUFFER), U(1) }, { 0 } },
+		{ "glFramebufferTexture2D", 5, { U(GL_FRAMEBUFFER), U(GL_COLOR_ATTACHMENT0), U(GL_TEXTURE_2D), U(1), U(0) }, { 0 } },
+		{ "glClear", 1, { U(GL_COLOR_BUFFER_BIT) }, { 0 } },
+		{ "glRectf", 4, { F(-0.5f), F(-0.5f), F(0.5f), F(0.5f) }, { 0 } },
+		{ "glBindFramebuffer", 2, { U(GL_FRAMEBUFFER), U(0) }, { 0 } },
+		{ "glEnable", 1, { U(GL_TEXTURE_2D) }, { 0 } },
+	};
+
+	return SAY(written, said);
+}
+
+/* The texture over all of the window, twice. */
+static int say_shown(struct written *written)
+{
+	static const struct said said[] = {
+		{ "glBegin", 1, { U(GL_QUADS) }, { 0 } },
+		{ "glTexCoord2f", 2, { F(0), F(0) }, { 0 } }, { "glVertex2f", 2, { F(-1), F(-1) }, { 0 } },
+		{ "glTexCoord2f", 2, { F(1), F(0) }, { 0 } }, { "glVertex2f", 2, { F(1), F(-1) }, { 0 } },
+		{ "glTexCoord2f", 2, { F(1), F(1) }, { 0 } }, { "glVertex2f", 2, { F(1), F(1) }, { 0 } },
+		{ "glTexCoord2f", 2, { F(0), F(1) }, { 0 } }, { "glVertex2f", 2, { F(-1), F(1) }, { 0 } },
+		{ "glEnd", 0, { { 0 } }, { 0 } },
+		{ "glXSwapBuffers", 2, { P(16), U(7) }, { 0 } },
+	};
+
+	return SAY(written, said) || SAY(written, said);
+}
+
+/* fuzz_glsl.c's input */
+static int say_shader(struct written *written, const uint8_t *input, uint32_t size)
+{
+	const char *text = size ? (const char *)input + 1 : "";
+	const struct trace_value string = { .type = TRACE_STRING, .count = strlen(text), .str = text };
+	const struct trace_value texts = { .type = TRACE_ARRAY, .count = 1, .items = &string };
+	const int is_vertex = size && (input[0] & 1) == GLSL_VERTEX_STAGE;
+	const struct said said[] = {
+		{ "glCreateShader", 1, { U(is_vertex ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER) }, U(1) },
+		{ "glShaderSource", 4, { U(1), U(1), texts, NOTHING }, { 0 } },
+		{ "glCompileShader", 1, { U(1) }, { 0 } },
+		{ "glCreateProgram", 0, { { 0 } }, U(2) },
+		{ "glAttachShader", 2, { U(2), U(1) }, { 0 } },
+		{ "glLinkProgram", 1, { U(2) }, { 0 } },
+		{ "glUseProgram", 1, { U(2) }, { 0 } },
+	};
+
+	return say_target(written) || SAY(written, said) || say_shown(written);
+}
+
+/* fuzz_arb.c's input */
+static int say_assembly(struct written *written, const uint8_t *input, uint32_t size)
+{
+	const char *text = size ? (const char *)input + 1 : "";
+	const struct trace_value string = { .type = TRACE_STRING, .count = strlen(text), .str = text };
+	const unsigned target = size && input[0] & 1 ? GL_VERTEX_PROGRAM_ARB : GL_FRAGMENT_PROGRAM_ARB;
+	const struct said said[] = {
+		{ "glEnable", 1, { U(target) }, { 0 } },
+		{ "glBindProgramARB", 2, { U(target), U(1) }, { 0 } },
+		{ "glProgramStringARB", 4, { U(target), U(GL_PROGRAM_FORMAT_ASCII_ARB), U(strlen(text)), string }, { 0 } },
+	};
+
+	return say_target(written) || SAY(written, said) || say_shown(written);
 }
 
 /* --- Snapshots ------------------------------------------------------------------------------------------------------ */
@@ -207,7 +324,7 @@ static int put_behind(void *user, const uint64_t name[2], const void *data, size
 static void make_snapshots(const char *folder)
 {
 	static const uint64_t none[2] = { 0, 0 }, last[2] = { UINT64_MAX, UINT64_MAX };
-	FILE *file = open_kept();
+	FILE *file = open_kept("calls");
 	const uint8_t *calls;
 	uint32_t size;
 
@@ -279,7 +396,11 @@ int main(int argc, char **argv)
 	else if (argc == 3 && strcmp(argv[1], "snapshot") == 0)
 		make_snapshots(argv[2]);
 	else if (argc == 3 && strcmp(argv[1], "traces") == 0)
-		make_traces(argv[2]);
+		make_traces(argv[2], "calls", say_calls);
+	else if (argc == 3 && strcmp(argv[1], "programs") == 0) {
+		make_traces(argv[2], "glsl", say_shader);
+		make_traces(argv[2], "arb", say_assembly);
+	}
 	else if (argc == 3 && strcmp(argv[1], "tree") == 0)
 		make_tree(argv[2]);
 	else

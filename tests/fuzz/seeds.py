@@ -119,11 +119,12 @@ def cut_panels(build, folder):
     return sorted(cut.glob("*.trace"))
 
 
-def sequences(build, traces, out):
-    """What is kept of `calls`, as recordings."""
-    folder = traces / "calls"
+def made_traces(build, traces, out):
+    """What is kept of `calls`, `glsl` and `arb`, as recordings."""
+    folder = traces / "made"
     folder.mkdir(exist_ok=True)
-    subprocess.run([build / "tests/fuzz/make_seeds", "traces", folder], check=False)
+    for what in ("traces", "programs"):
+        subprocess.run([build / "tests/fuzz/make_seeds", what, folder], check=False)
     for number, trace in enumerate(sorted(folder.iterdir())):
         stream = bytes(unpack(trace.read_bytes(), 1 << 16)[:1 << 16])
         (out["replay"] / trace.stem).write_bytes(stream)
@@ -177,7 +178,7 @@ def make_seeds(build, folder):
     traces = folder / "traces"
     record(build, traces)
     golden, panels = list((ROOT / "tests/golden").glob("*.trace")), cut_panels(build, traces)
-    sequences(build, traces, out)
+    made_traces(build, traces, out)
     for trace in [*golden, *traces.glob("*.trace"), *panels]:
         data = trace.read_bytes()
         try:

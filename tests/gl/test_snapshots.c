@@ -153,6 +153,38 @@ static uint8_t *find_kept(void *user, const uint64_t name[2], size_t n)
 	return NULL;
 }
 
+static void drop(struct store *s)
+{
+	for (int i = 0; i < s->n; i++)
+		free(s->blobs[i].data);
+}
+
+/* A program that has no text but one that is refused. */
+START_TEST(refused_programs)
+{
+	static const char text[] = "!!ARBvp1.0";
+	struct store store = { 0 };
+	const struct snapshot_blobs in_memory = { .put = keep, .get = find_kept, .user = &store };
+	struct gl gl = gl_open(), other = { 0 };
+	const struct gls_program *p;
+	struct bytes saved = { 0 };
+
+	gl_call(&gl, "glBindProgramARB", "eu", GL_VERTEX_PROGRAM_ARB, 5u);
+	gl_call(&gl, "glProgramStringARB", "eeus", GL_VERTEX_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB, (unsigned)strlen(text), text);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	ck_assert_int_eq(snapshot_save(gl.x, &in_memory, &saved), 0);
+	ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
+	ck_assert_int_eq(snapshot_load(other.x, &in_memory, saved.data, saved.n), 0);
+	p = gls_program_bound(gl_state(&other), GL_VERTEX_PROGRAM_ARB);
+	ck_assert_uint_eq(p->source_bytes, strlen(text));
+	ck_assert_str_eq(p->why, gls_program_bound(gl_state(&gl), GL_VERTEX_PROGRAM_ARB)->why);
+	gls_exec_destroy(&other.x);
+	drop(&store);
+	free(saved.data);
+	gl_close(&gl);
+}
+END_TEST
+
 /* Each pixel another colour. */
 static int paint(void *user, const struct scene *scene, struct scene_picture *picture)
 {
@@ -227,8 +259,7 @@ START_TEST(pixels)
 	ck_assert_int_eq(snapshot_load(other.x, &in_memory, saved.data, saved.n), 0);
 	ck_assert_int_eq(window(&other)->skipped, 1);
 	gls_exec_destroy(&other.x);
-	for (int i = 0; i < store.n; i++)
-		free(store.blobs[i].data);
+	drop(&store);
 	free(saved.data);
 	gl_close(&gl);
 }
@@ -241,6 +272,7 @@ int main(void)
 	tcase_add_test(tcase, units_with_other_numbers);
 	tcase_add_test(tcase, parameters_of_programs);
 	tcase_add_test(tcase, sizes_of_windows);
+	tcase_add_test(tcase, refused_programs);
 	tcase_add_test(tcase, pixels);
 	return run_case(tcase, "snapshots");
 }
