@@ -22,7 +22,7 @@
 #include "tracer/accel/tree.h"
 
 #define KEPT "tests/fuzz/kept_"
-#define LIKE "tests/golden/two_triangles.trace" /* whose properties traces have */
+#define LIKE "tests/golden/two_triangles.trace" /* traces have its properties */
 #define LARGEST 65536
 #define EVERY 24 /* sequence of the kept ones */
 #define MOST_CHECKPOINTS 3
@@ -400,8 +400,7 @@ int main(int argc, char **argv)
 	else if (argc == 3 && strcmp(argv[1], "programs") == 0) {
 		make_traces(argv[2], "glsl", say_shader);
 		make_traces(argv[2], "arb", say_assembly);
-	}
-	else if (argc == 3 && strcmp(argv[1], "tree") == 0)
+	} else if (argc == 3 && strcmp(argv[1], "tree") == 0)
 		make_tree(argv[2]);
 	else
 		return 2;
