@@ -1,13 +1,15 @@
 #!/usr/bin/python3
 """tests/show/overhead.py BUILD (as `make show-overhead`): what recording costs, side by side with `apitrace trace`.
 
-Runs tests/bench/static_scene in its four ways and glxgears (unsynchronised) bare, under our recorder and under apitrace, in
-turn, several times; takes the best time of each, so that other work on the machine counts as little as possible. The processor
-time of the program and its threads, which other work disturbs less, is given for information.
+Runs tests/bench/static_scene in its four ways and glxgears (unsynchronised) bare and under our recorder, in pairs that begin with
+the one and with the other in turn, and some of the pairs beside a run under apitrace. A figure is the median of what the runs of a
+pair, which other work on the machine slows alike, are to each other. The processor time of the program and its threads is given for
+information.
 """
 import json
 import os
 import pathlib
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -15,7 +17,7 @@ import tempfile
 from display import need_display
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-ROUNDS, PEER_ROUNDS = 9, 3
+ROUNDS, PEER_ROUNDS = 27, 9
 GEARS_FRAMES = 1000
 TIME_BARS = {"immediate": 1.5, "arrays": 1.1, "elements": 1.1, "changing": None, "glxgears": 1.1}  # None: the peer's
 STATIC_BYTES_BAR = 50  # apitrace's trace is at least so many times as large
@@ -38,22 +40,24 @@ def command_of(build, how):
 def measure(build, how, folder):
     program, environment = command_of(build, how), dict(os.environ, SHIM_FRAMES=str(GEARS_FRAMES))
     ours, theirs = folder / "ours.trace", folder / "theirs.trace"
-    times = {"bare": [], "ours": [], "apitrace": []}
+    commands = {"bare": program, "ours": [str(build / "relume"), "record", "-o", str(ours), "--", *program],
+                "apitrace": ["apitrace", "trace", "-o", str(theirs), *program]}
+    ratios = {"ours": [], "apitrace": []}
     for n in range(ROUNDS):
-        times["bare"].append(frame_ms(program, environment))
-        times["ours"].append(frame_ms([str(build / "relume"), "record", "-o", str(ours), "--", *program], environment))
+        who = ["bare", "ours"] if n % 2 == 0 else ["ours", "bare"]
         if n < PEER_ROUNDS:
             theirs.unlink(missing_ok=True)
-            times["apitrace"].append(frame_ms(["apitrace", "trace", "-o", str(theirs), *program], environment))
-    best = {who: min(clock for clock, _ in values) for who, values in times.items()}
-    used = {who: min(used for _, used in values) for who, values in times.items()}
-    ratio, peer = best["ours"] / best["bare"], best["apitrace"] / best["bare"]
+            who.append("apitrace")
+        run = {name: frame_ms(commands[name], environment) for name in who}
+        for name in run.keys() & ratios.keys():
+            ratios[name].append([recorded / bare for recorded, bare in zip(run[name], run["bare"])])
+    (ratio, used), (peer, peer_used) = ([statistics.median(column) for column in zip(*ratios[name])] for name in ratios)
     bar = TIME_BARS[how] or peer
     what = how if how == "glxgears" else f"10,000 triangles, {how}"
     yield {"what": f"{what}: frame time over bare", "figure": f"{ratio:.2f}x", "bar": f"{bar:.2f}x", "peer": f"apitrace {peer:.2f}x",
            "passed": ratio <= bar}
-    yield {"what": f"{what}: processor time over bare", "figure": f"{used['ours'] / used['bare']:.2f}x", "bar": None,
-           "peer": f"apitrace {used['apitrace'] / used['bare']:.2f}x", "passed": None}
+    yield {"what": f"{what}: processor time over bare", "figure": f"{used:.2f}x", "bar": None,
+           "peer": f"apitrace {peer_used:.2f}x", "passed": None}
     if how in BYTES_BARS:
         times_smaller = theirs.stat().st_size / ours.stat().st_size
         yield {"what": f"{what}: trace", "figure": f"1/{times_smaller:.3f} of the peer's", "bar": f"1/{BYTES_BARS[how]}",
