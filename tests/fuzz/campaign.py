@@ -29,7 +29,7 @@ SLICE_S = 900  # at most: what was found before is read first, which takes minut
 LONGEST = {"calls": 16384, "verbs": 250_000, "snapshot": 200_000, "index": 150_000, "exr": 100_000, "oiio": 100_000, "ref": 100_000}
 SMALL = {"calls": 2048, "snapshot": 60_000, "index": 100_000}  # what is kept is smaller
 EDGES_ALONE = ("-set_cover_merge=1", "-use_counters=0")  # how often each is passed would be thousands of inputs
-TIMEOUT_S = 30  # by the clock, of a process that gives way to all others
+TIMEOUT_S = 60  # by the clock, of a process that gives way to all others
 
 
 def all_targets():
