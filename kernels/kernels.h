@@ -514,7 +514,8 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(query_box, query_box)         /* one moving box a work item: what it meets first */ \
 	X(query_sphere, query_sphere)   /* the same, a sphere */ \
 	X(vertex, vertex)               /* GL's vertex stage: one vertex of one instance a work item */ \
-	X(vertex_program, vertex_program) /* after it, where vertex programs are: four vertices of an instance a work item */ \
+	X(vertex_packet, vertex)        /* the same, VERTEX_PACKET consecutive vertices a work item (CPUs) */ \
+	X(vertex_program, vertex_program) /* after either, where vertex programs are: four vertices of an instance a work item */ \
 	X(window, window)               /* one vertex a work item: its place in a window that has moved */ \
 	X(gather, gather)               /* one pixel a work item: its fragments into one dense list */ \
 	X(shade, shade)                 /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \

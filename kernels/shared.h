@@ -459,6 +459,9 @@ static inline uint32_t frame_columns(uint32_t width)
 #define SHADE_PACKET 64u
 #define SHADE_TRIANGLES 8u
 
+/* Vertices of a work item of vertex_packet. */
+#define VERTEX_PACKET 256u
+
 /* Pixels of a work item of plain and plain_shadow: columns, rows. */
 #define PLAIN_WIDTH 16u
 #define PLAIN_ROWS 4u

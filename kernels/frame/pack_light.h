@@ -162,33 +162,44 @@ static inline void pack_own_color(__global const float *front, __global const fl
 		out[i] = select(select((packf)(front[i]), (packf)(back[i]), side), vertex->c[i], tracked);
 }
 
-/* Of what OpenGL lights. out: receives the light that no light sends, too */
-static inline void pack_lit_matter(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
-                                   struct pack_matter *matter, struct pack_color *out)
+/*
+ * The material of a side under white light. side: all ones for the back; current: the points' current colours
+ * matter: receives all but place, normal and viewer; out: the light that no light sends
+ */
+static inline void pack_material(__global const struct scene_material *m, packi side, const struct pack_color *current, struct pack_matter *matter,
+                                 struct pack_color *out)
 {
-	__global const struct scene_material *m = p->material;
-	const packi side = pack_side(p), back = m->color_material == GL_BACK ? (packi)(-1) : (packi)(0);
+	const packi back = m->color_material == GL_BACK ? (packi)(-1) : (packi)(0);
 	const packi front = m->color_material == GL_FRONT ? (packi)(-1) : (packi)(0);
 	const packi tracks = m->color_material == GL_FRONT_AND_BACK ? (packi)(-1) : select(front, back, side), none = 0;
 	const uint mode = m->color_material ? m->color_material_mode : 0;
-	struct pack_color current;
 	packf emission[4];
-	struct pack_vec n;
 
-	for (int i = 0; i < 4; i++)
-		current.c[i] = 0.0f;
-	if (mode)
-		current = pack_current_color(t, list, p, lanes);
-	pack_own_color(m->front.ambient, m->back.ambient, side, mode == GL_AMBIENT || mode == GL_AMBIENT_AND_DIFFUSE ? tracks : none, &current,
+	pack_own_color(m->front.ambient, m->back.ambient, side, mode == GL_AMBIENT || mode == GL_AMBIENT_AND_DIFFUSE ? tracks : none, current,
 	               matter->ambient);
-	pack_own_color(m->front.diffuse, m->back.diffuse, side, mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE ? tracks : none, &current,
+	pack_own_color(m->front.diffuse, m->back.diffuse, side, mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE ? tracks : none, current,
 	               matter->diffuse);
-	pack_own_color(m->front.specular, m->back.specular, side, mode == GL_SPECULAR ? tracks : none, &current, matter->specular);
-	pack_own_color(m->front.emission, m->back.emission, side, mode == GL_EMISSION ? tracks : none, &current, emission);
+	pack_own_color(m->front.specular, m->back.specular, side, mode == GL_SPECULAR ? tracks : none, current, matter->specular);
+	pack_own_color(m->front.emission, m->back.emission, side, mode == GL_EMISSION ? tracks : none, current, emission);
 	for (int i = 0; i < 4; i++)
 		out->c[i] = emission[i] + matter->ambient[i] * m->light_model_ambient[i];
 	matter->shininess = select((packf)(m->front.shininess), (packf)(m->back.shininess), side);
 	matter->has_gloss = (matter->specular[0] != 0.0f) | (matter->specular[1] != 0.0f) | (matter->specular[2] != 0.0f);
+}
+
+/* Of what OpenGL lights. out: receives the light that no light sends, too */
+static inline void pack_lit_matter(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
+                                   struct pack_matter *matter, struct pack_color *out)
+{
+	const packi side = pack_side(p);
+	struct pack_color current;
+	struct pack_vec n;
+
+	for (int i = 0; i < 4; i++)
+		current.c[i] = 0.0f;
+	if (p->material->color_material && p->material->color_material_mode)
+		current = pack_current_color(t, list, p, lanes);
+	pack_material(p->material, side, &current, matter, out);
 	n = pack_vertex_normals(t, p);
 	matter->normal = pack_choose(n, pack_scale(n, (packf)(-1)), side);
 }
@@ -208,6 +219,27 @@ static inline void pack_unlit_matter(const struct tables *t, const struct pack_l
 	matter->normal = pack_normal(t, p, s);
 }
 
+/* Before the first light. m: of its points */
+static inline void pack_light_begin(__global const struct scene_material *m, struct pack_matter *matter, struct pack_lit_here *out)
+{
+	matter->to_viewer = pack_vec((packf)(0), (packf)(0), (packf)(1));
+	if (m->local_viewer)
+		matter->to_viewer = pack_normalize(pack_scale(matter->at, (packf)(-1)));
+	for (int i = 0; i < 4; i++)
+		out->secondary.c[i] = 0.0f;
+	out->lights = 0;
+}
+
+/* After the last one. */
+static inline void pack_light_end(const struct pack_matter *matter, struct pack_lit_here *out)
+{
+	out->color.c[3] = matter->diffuse[3];
+	for (int i = 0; i < 4; i++) {
+		out->color.c[i] = pack_clamp01(out->color.c[i]);
+		out->secondary.c[i] = pack_clamp01(out->secondary.c[i]);
+	}
+}
+
 /*
  * As point_lit_here, for surfaces that rules light anew (scene_surface.relit).
  * a: tables, and the visibility of the lights where there are n_slots
@@ -224,21 +256,12 @@ static inline void pack_lit_here(const struct shade_arguments *a, const struct p
 	else
 		pack_unlit_matter(t, list, p, s, lanes, &matter, &out->color);
 	matter.at = pack_place_at(s, p->weight);
-	matter.to_viewer = pack_vec((packf)(0), (packf)(0), (packf)(1));
-	if (m->local_viewer)
-		matter.to_viewer = pack_normalize(pack_scale(matter.at, (packf)(-1)));
-	for (int i = 0; i < 4; i++)
-		out->secondary.c[i] = 0.0f;
-	out->lights = 0;
+	pack_light_begin(m, &matter, out);
 	for (uint i = 0; i < m->surface.light_count; i++) {
 		packf share[3];
 
 		pack_seen(a, list, lanes, i, share);
 		pack_add_light(&matter, &t->lights[m->surface.light_first + i], lanes, share, (packu)(1u << i), m->separate_specular, out);
 	}
-	out->color.c[3] = matter.diffuse[3];
-	for (int i = 0; i < 4; i++) {
-		out->color.c[i] = pack_clamp01(out->color.c[i]);
-		out->secondary.c[i] = pack_clamp01(out->secondary.c[i]);
-	}
+	pack_light_end(&matter, out);
 }

@@ -11,5 +11,6 @@
 #include "kernels/frame/shade_packet.cl"
 #include "kernels/frame/shadow.cl"
 #include "kernels/frame/shadow_packet.cl"
-#include "kernels/frame/vertex.cl"
+#include "kernels/frame/vertex_packet.cl"
+#include "kernels/frame/window.cl"
 #include "kernels/rays/rays_packet.cl"

@@ -6,4 +6,5 @@
 #include "kernels/frame/shade.cl"
 #include "kernels/frame/shadow.cl"
 #include "kernels/frame/vertex.cl"
+#include "kernels/frame/window.cl"
 #include "kernels/rays/rays_single.cl"

@@ -21,6 +21,7 @@ static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra
 	struct prepared *p = &job->prepared;
 	const struct frame_buffers *b = &tr->buffers;
 	size_t n = (size_t)p->n_vertices + extra_vertices + hook_objects_vertices(job), coords = (size_t)p->n_texcoords + extra_texcoords;
+	const struct vertex_launch *a;
 	int err = frame_reserve(tr, vertices, n);
 
 	job->objects.vertex_first = p->n_vertices + extra_vertices;
@@ -33,10 +34,10 @@ static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra
 		err = frame_reserve(tr, texcoords, 4 * (coords + hook_objects_texcoords(job)));
 	if (err)
 		return err;
-	err = launch_vertex(tr->dev, p->n_vertices,
-	                    LAUNCH(vertex, .tables = frame_tables(tr), .views = b->views, .owners = b->owners, .height = job->height,
-	                           .n = p->n_vertices, .shaded = b->vertices, .windows = b->windows, .clips = b->clips,
-	                           .coords = b->texcoords));
+	a = LAUNCH(vertex, .tables = frame_tables(tr), .views = b->views, .owners = b->owners, .height = job->height, .n = p->n_vertices,
+	           .shaded = b->vertices, .windows = b->windows, .clips = b->clips, .coords = b->texcoords);
+	err = frame_in_packets(job) ? launch_vertex_packet(tr->dev, (p->n_vertices + VERTEX_PACKET - 1) / VERTEX_PACKET, a) :
+	                              launch_vertex(tr->dev, p->n_vertices, a);
 	if (err || !p->has_vertex_programs)
 		return err;
 	return launch_vertex_program(tr->dev, p->n_vertices,

@@ -169,13 +169,13 @@ void prepare_fill_indices(const void *object, uint32_t *words)
 static float box_pad(const float (*positions)[4], uint32_t n, const float clip_from_box[16], const struct instance *instance,
                      const struct view *view)
 {
-	float lo[3] = { INFINITY, INFINITY, INFINITY }, hi[3] = { -INFINITY, -INFINITY, -INFINITY };
+	float lo[4] = { INFINITY, INFINITY, INFINITY, INFINITY }, hi[4] = { -INFINITY, -INFINITY, -INFINITY, -INFINITY };
 	float farthest = 0, size = 0, eye = 0, shrink = 0;
 
 	for (uint32_t v = 0; v < n; v++)
-		for (int a = 0; a < 3; a++) {
-			lo[a] = fminf(lo[a], positions[v][a]);
-			hi[a] = fmaxf(hi[a], positions[v][a]);
+		for (int a = 0; a < 4; a++) { /* one instruction each, where fminf is a call */
+			lo[a] = positions[v][a] < lo[a] ? positions[v][a] : lo[a];
+			hi[a] = positions[v][a] > hi[a] ? positions[v][a] : hi[a];
 		}
 	for (int corner = 0; corner < 8; corner++) {
 		float at[3], w = clip_from_box[15];
