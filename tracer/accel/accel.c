@@ -19,6 +19,7 @@
 #define REFIT_COST 1.25
 /* An unused BLAS stays for so many frames, and longer while such ones are at most this share: closing a gap moves all that follows. */
 #define KEEP_FRAMES 16
+#define KEEP_SMALL_FRAMES 2 /* of fewer than SHARE_TRIANGLES, which are soon made again */
 #define UNUSED_SHARE 0.5
 
 /* Each worker makes smaller BLASes for itself: that is as quick as waiting. */
@@ -176,6 +177,11 @@ static void move_down(struct accel *accel, struct placed_blas *placed, size_t en
 	}
 }
 
+static int is_unused(const struct accel_cache *cache, const struct placed_blas *b)
+{
+	return b->last_use + (b->blas.n[BLAS_TRIANGLES] < SHARE_TRIANGLES ? KEEP_SMALL_FRAMES : KEEP_FRAMES) < cache->frame;
+}
+
 /* Are BLASes that were not used for a while more than their share? n_baked: receives how many were baked for the last frame */
 static int much_is_unused(const struct accel *accel, size_t *n_baked)
 {
@@ -184,7 +190,7 @@ static int much_is_unused(const struct accel *accel, size_t *n_baked)
 
 	*n_baked = 0;
 	for (size_t i = 0; i < cache->n; i++) {
-		if (cache->entries[i].last_use + KEEP_FRAMES < cache->frame)
+		if (is_unused(cache, &cache->entries[i]))
 			unused += cache->entries[i].blas.n[BLAS_TRIANGLES];
 		*n_baked += cache->entries[i].baked != 0;
 	}
@@ -204,7 +210,7 @@ static int drop_unused(struct accel *accel)
 	for (size_t i = 0; i < cache->n; i++) {
 		struct placed_blas b = cache->entries[i];
 
-		if (b.baked || (drop && b.last_use + KEEP_FRAMES < cache->frame))
+		if (b.baked || (drop && is_unused(cache, &b)))
 			continue;
 		move_down(accel, &b, ends);
 		cache->entries[n++] = b;
