@@ -81,12 +81,9 @@ WIDE_VECTORS static inline packi pack_row_of_ellipse(const struct pack_footprint
 /* The Gaussian at places of an ellipse, 0 beyond it. */
 WIDE_VECTORS static inline packf pack_gauss(packf q, packi there)
 {
-	const packi place = convert_int16(select((packf)(0), q, there & (q > 0.0f)));
-	packf out;
+	const packu place = as_uint16(convert_int16(select((packf)(0), q, there & (q > 0.0f))));
 
-	for (uint lane = 0; lane < 16; lane++)
-		((float *)&out)[lane] = gauss_weight[((const int *)&place)[lane]];
-	return select((packf)(0), out, there);
+	return select((packf)(0), as_float16(PACK_WORDS(gauss_weight, place)), there);
 }
 
 /*

@@ -171,11 +171,7 @@ WIDE_VECTORS static inline packu pack_mix_8(packu a, packu b, packu weight)
 
 WIDE_VECTORS static inline packu pack_texels(__global const uint *texels, packu place)
 {
-	packu out;
-
-	for (uint lane = 0; lane < 16; lane++)
-		((uint *)&out)[lane] = texels[((const uint *)&place)[lane]];
-	return out;
+	return PACK_WORDS(texels, place);
 }
 
 /* As texture_level_8. c: coordinates s and t, and r of an image of three dimensions */

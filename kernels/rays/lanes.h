@@ -139,6 +139,26 @@ WIDE_VECTORS static inline packf pack_pick(packf table, packi index)
 #endif
 }
 
+/*
+ * Words of a table in any address space at sixteen places, lane by lane. Places are below 2^31. The language has no such thing, and LLVM 15
+ * makes loads and moves of a loop.
+ */
+#if LANES_OWN(__builtin_ia32_gathersiv16si) && defined(__AVX512F__)
+#define PACK_WORDS(table, place) \
+	as_uint16(__builtin_ia32_gathersiv16si((packi)(0), (const void *)(size_t)(table), as_int16(place), (ushort)0xffff, 4))
+#elif LANES_OWN(__builtin_ia32_gatherd_d256) && defined(__AVX2__)
+#define PACK_EIGHT_WORDS(table, place) \
+	__builtin_ia32_gatherd_d256((int8)(0), (const int *)(size_t)(table), as_int8(place), (int8)(-1), 4)
+#define PACK_WORDS(table, place) as_uint16((packi)(PACK_EIGHT_WORDS(table, (place).lo), PACK_EIGHT_WORDS(table, (place).hi)))
+#else
+#define PACK_WORD(table, place, lane) as_uint((table)[(place).lane])
+#define PACK_FOUR_WORDS(table, place, a, b, c, d) \
+	PACK_WORD(table, place, a), PACK_WORD(table, place, b), PACK_WORD(table, place, c), PACK_WORD(table, place, d)
+#define PACK_WORDS(table, place) \
+	(packu)(PACK_FOUR_WORDS(table, place, s0, s1, s2, s3), PACK_FOUR_WORDS(table, place, s4, s5, s6, s7), \
+	        PACK_FOUR_WORDS(table, place, s8, s9, sa, sb), PACK_FOUR_WORDS(table, place, sc, sd, se, sf))
+#endif
+
 static inline packf pack_min(packf x, packf y)
 {
 	return select(y, x, x < y);
