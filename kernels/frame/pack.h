@@ -162,28 +162,26 @@ WIDE_VECTORS static inline int pack_is_in(const struct pack_list *list, uint lan
 }
 
 /* The lanes' triangles. Lanes that are not asked for repeat the first that is. */
-static inline void pack_load_triangles(const struct tables *t, const struct pack_list *list, uint lanes, struct pack *p)
+WIDE_VECTORS static inline void pack_load_triangles(const struct tables *t, const struct pack_list *list, uint lanes, struct pack *p)
 {
-	const uint first = popcount((lanes & -lanes) - 1);
+	const uint first = popcount((lanes & -lanes) - 1), step = sizeof(struct geometry) / sizeof(uint);
+	const packi asked = pack_mask(lanes);
+	const packu instance = select((packu)(list->instance[first]), *(const pack_loose_uints *)list->instance, asked);
+	const packu primitive = select((packu)(list->primitive[first]), *(const pack_loose_uints *)list->primitive, asked);
+	__global const struct geometry *g = &t->geometries[list->instance[first]];
+	packu index = g->index, vertex = g->vertex_first;
 
-	p->uniform = pack_is_in(list, lanes, list->instance[first], list->primitive[first]);
-	for (uint lane = 0; lane < (p->uniform ? 1 : PACK_SIZE); lane++) {
-		const uint from = lanes >> lane & 1 ? lane : first, primitive = list->primitive[from];
-		__global const struct geometry *g = &t->geometries[list->instance[from]];
-		__global const uint *index = t->indices + g->index + 3 * (primitive & ~FRAGMENT_PERSPECTIVE);
-
-		for (uint k = 0; k < 3; k++) {
-			LANE(p->number[k], uint, lane) = index[k];
-			LANE(p->vertex[k], uint, lane) = g->vertex_first + index[k];
-		}
-		LANE(p->cut, int, lane) = primitive & FRAGMENT_PERSPECTIVE ? -1 : 0;
+	p->uniform = !any_pack((instance != instance.s0) | (primitive != primitive.s0));
+	p->cut = (primitive & FRAGMENT_PERSPECTIVE) != 0;
+	if (any_pack(instance != instance.s0)) {
+		index = PACK_WORDS(&t->geometries->index, instance * step);
+		vertex = PACK_WORDS(&t->geometries->vertex_first, instance * step);
 	}
-	for (uint k = 0; k < 3 && p->uniform; k++) {
-		p->number[k] = p->number[k].s0;
-		p->vertex[k] = p->vertex[k].s0;
+	index += 3 * (primitive & ~FRAGMENT_PERSPECTIVE);
+	for (uint k = 0; k < 3; k++) {
+		p->number[k] = p->uniform ? (packu)(t->indices[index.s0 + k]) : PACK_WORDS(t->indices, index + k);
+		p->vertex[k] = vertex + p->number[k];
 	}
-	if (p->uniform)
-		p->cut = p->cut.s0;
 }
 
 /* And their pixels. */
