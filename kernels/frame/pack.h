@@ -301,14 +301,34 @@ static inline const struct clip_polygon *pack_polygon(const struct shade_argumen
 	return &cut->polygon;
 }
 
-/* The part of a polygon that covers a lane's pixel, by its second corner; polygon->n: none does. */
-static inline uint pack_part(const struct shade_arguments *a, const struct clip_polygon *polygon, uint lane, const struct pack *p)
+/* As clip_inside. x, y: where the lanes look, 1/256 pixel from the bottom */
+WIDE_VECTORS static inline packi pack_inside(struct window_vertex a, struct window_vertex b, int sign, packi x, packi y)
 {
-	const struct clip_spot at = clip_spot(p->view, LANE(p->x, const int, lane), (int)a->height - 1 - LANE(p->row, const int, lane));
-	uint part = 2;
+	const int dx = sign * (b.x - a.x), dy = sign * (b.y - a.y), has_edge = dy < 0 || (dy == 0 && dx > 0);
+	const long16 e = convert_long16(y - a.y) * (long)dx - convert_long16(x - a.x) * (long)dy;
 
-	while (part < polygon->n && !clip_covers(polygon->corner[part - 1].window, polygon->corner[part].window, polygon->corner[0].window, at))
-		part++;
+	return convert_int16(e > (long)(has_edge ? -1 : 0));
+}
+
+/* As clip_covers. */
+WIDE_VECTORS static inline packi pack_covers_part(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, packi x, packi y)
+{
+	const clip_area area = (clip_area)(v1.x - v0.x) * (v2.y - v0.y) - (clip_area)(v2.x - v0.x) * (v1.y - v0.y);
+	const int sign = area > 0 ? 1 : -1;
+
+	if (area == 0)
+		return 0;
+	return pack_inside(v0, v1, sign, x, y) & pack_inside(v1, v2, sign, x, y) & pack_inside(v2, v0, sign, x, y);
+}
+
+/* The part of a polygon that covers the lanes' pixels, by its second corner; polygon->n: none does. */
+WIDE_VECTORS static inline packu pack_part(const struct shade_arguments *a, const struct clip_polygon *polygon, const struct pack *p)
+{
+	const packi x = p->x * 256 + 128 + p->view->sample[0], y = ((int)a->height - 1 - p->row) * 256 + 128 + p->view->sample[1];
+	packu part = polygon->n;
+
+	for (uint k = polygon->n; k-- > 2;) /* the first of several */
+		part = select(part, (packu)(k), pack_covers_part(polygon->corner[k - 1].window, polygon->corner[k].window, polygon->corner[0].window, x, y));
 	return part;
 }
 
@@ -318,13 +338,18 @@ static inline const struct clip_corner *pack_corner(const struct clip_polygon *p
 	return &polygon->corner[k == 2 ? 0 : part - 1 + k];
 }
 
+/* The lanes that lie in the same triangle as one of them. */
+WIDE_VECTORS static inline uint pack_in_triangle(const struct pack_list *list, uint lane)
+{
+	return pack_bits((vload16(0, list->primitive) == list->primitive[lane]) & (vload16(0, list->instance) == list->instance[lane]));
+}
+
 /* Those of some lanes that lie in the same part of the same triangle as the first of them. */
 WIDE_VECTORS static inline uint pack_same_part(const struct pack_list *list, const struct pack *p, uint lanes)
 {
 	const uint lane = popcount((lanes & -lanes) - 1);
 
-	return lanes & pack_bits((vload16(0, list->primitive) == list->primitive[lane]) & (vload16(0, list->instance) == list->instance[lane]) &
-	                         (vload16(0, p->part) == p->part[lane]));
+	return lanes & pack_in_triangle(list, lane) & pack_bits(vload16(0, p->part) == p->part[lane]);
 }
 
 /* The corners of a part, in place of those of the lanes' triangle. */
@@ -442,20 +467,17 @@ static inline uint pack_find(const struct shade_arguments *a, const struct pack_
 	for (int k = 0; k < 3; k++)
 		p->corner1[k] = p->corner2[k] = 0.0f;
 	*(pack_loose_uints *)p->part = 0;
-	for (uint left = lanes & pack_bits(p->cut); left; left &= left - 1) {
-		const uint lane = popcount((left & -left) - 1);
-
-		p->part[lane] = pack_part(a, pack_polygon(a, list, p, lane, kept), lane, p);
-	}
 	for (uint left = lanes & pack_bits(p->cut), same; left; left &= ~same) {
 		const uint lane = popcount((left & -left) - 1);
 		const struct clip_polygon *polygon = pack_polygon(a, list, p, lane, kept);
+		const packu part = pack_part(a, polygon, p);
 
-		same = pack_same_part(list, p, left);
-		if (p->part[lane] < polygon->n)
-			pack_place_part(polygon, p->part[lane], pack_mask(same), p);
-		else
-			lanes &= ~same;
+		same = left & pack_in_triangle(list, lane);
+		*(pack_loose_uints *)p->part = select(*(const pack_loose_uints *)p->part, part, pack_mask(same));
+		for (uint k = 2; k < polygon->n; k++)
+			if (same & pack_bits(part == k))
+				pack_place_part(polygon, k, pack_mask(same) & (part == k), p);
+		lanes &= ~(same & pack_bits(part >= polygon->n));
 	}
 	pack_edges_of(p->px, p->py, &p->edges);
 	return lanes;
