@@ -9,7 +9,7 @@
 struct vertex_pack {
 	__global const struct geometry *g;
 	__global const struct scene_material *m;
-	uint first, v; /* of the first one: in the frame, in the mesh */
+	uint v; /* of the first one, in the mesh */
 	packf obj[4], eye[4], clip[4];
 	struct pack_vec normal;
 	packf length2; /* of the normal, before it is made 1 */
@@ -210,7 +210,7 @@ WIDE_VECTORS static inline int do_pack(const struct vertex_arguments *a, uint fi
 	const struct tables *t = &a->tables;
 	const uint step = sizeof(struct shaded_vertex) / 4;
 	__global struct shaded_vertex *out = &a->shaded[first];
-	struct vertex_pack p = { .g = g, .m = &t->materials[g->material], .first = first, .v = first - g->vertex_first };
+	struct vertex_pack p = { .g = g, .m = &t->materials[g->material], .v = first - g->vertex_first };
 	packf fog, size;
 
 	load_normals(t, &p);
