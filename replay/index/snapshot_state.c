@@ -178,7 +178,7 @@ static int state_fits(const struct gls_state *raw, const struct gls_state *made)
 	for (unsigned i = 0; i < N_GLS_PIXEL_MAPS; i++)
 		fits &= raw->pixel_maps[i].size <= GLS_MAX_PIXEL_MAP;
 	return fits && raw->attrib_depth <= GLS_MAX_ATTRIB_DEPTH && raw->client_depth <= GLS_MAX_ATTRIB_DEPTH &&
-	       attribs_fit(&raw->a) && client_fits(&raw->client) && !raw->begin_mode;
+	       attribs_fit(&raw->a) && client_fits(&raw->client) && !raw->begin_mode && raw->x87 <= 1;
 }
 
 void snapshot_get_state(struct loader *l, struct gls_state *st)

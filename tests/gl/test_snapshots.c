@@ -99,6 +99,29 @@ START_TEST(parameters_of_programs)
 }
 END_TEST
 
+/* How the library that was recorded sums is one of two ways. */
+START_TEST(ways_to_sum)
+{
+	static const float four[4] = { 0.123f, 0.456f, 0.789f, 0.321f };
+	struct gl gl = gl_open();
+	struct bytes saved = { 0 };
+	uint8_t *at;
+
+	gl_call(&gl, "glProgramEnvParameter4fvARB", "euF", GL_VERTEX_PROGRAM_ARB, 0u, 4, four);
+	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
+	ck_assert_int_eq(snapshot_save(gl.x, &blobs, &saved), 0);
+	at = memmem(saved.data, saved.n, four, sizeof(four));
+	ck_assert_ptr_nonnull(at);
+	at += offsetof(struct gls_state, x87) - offsetof(struct gls_state, program_env[1]);
+	for (uint32_t way = 0; way < 4; way++) {
+		memcpy(at, &way, sizeof(way));
+		ck_assert_int_eq(load(&saved) == 0, way < 2);
+	}
+	free(saved.data);
+	gl_close(&gl);
+}
+END_TEST
+
 /* Pictures are made of a window's size: one that is too large is refused. */
 START_TEST(sizes_of_windows)
 {
@@ -271,6 +294,7 @@ int main(void)
 
 	tcase_add_test(tcase, units_with_other_numbers);
 	tcase_add_test(tcase, parameters_of_programs);
+	tcase_add_test(tcase, ways_to_sum);
 	tcase_add_test(tcase, sizes_of_windows);
 	tcase_add_test(tcase, refused_programs);
 	tcase_add_test(tcase, pixels);
