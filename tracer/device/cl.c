@@ -41,7 +41,8 @@ struct cl_device {
 	cl_command_queue queue;
 	cl_kernel kernels[N_KERNELS]; /* of its own: arguments are part of a kernel object */
 	struct cl_pace paces[N_KERNELS]; /* where it is no CPU */
-	int cpu;
+	unsigned char widened[N_KERNELS]; /* where it is PoCL's: cl_launch_wide */
+	int cpu, pocl;
 	enum device_family family;
 	char *staged;    /* [STAGE_BYTES] of a CPU: small writes on their way; NULL: none yet */
 	size_t n_staged; /* bytes that may not have been written yet */
@@ -141,6 +142,7 @@ int cl_open(size_t number, unsigned threads, struct cl_device **out)
 	}
 	common->root = common->id = ids[number];
 	dev->cpu = cl_list_type(common->root) == DEVICE_CPU;
+	dev->pocl = dev->cpu && cl_program_is_pocl(common->root);
 	common->memory_bytes = cl_list_bytes(common->root, CL_DEVICE_GLOBAL_MEM_SIZE);
 	common->buffer_bytes = cl_list_bytes(common->root, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
 	err = limit_threads(common, dev->cpu, threads);
@@ -173,6 +175,7 @@ int cl_share(struct cl_device *dev, struct cl_device **out)
 	pthread_mutex_unlock(&dev->common->lock);
 	other->common = dev->common;
 	other->cpu = dev->cpu;
+	other->pocl = dev->pocl;
 	other->family = dev->family;
 	err = open_queue(other);
 	if (err)
@@ -435,7 +438,8 @@ int cl_run(struct cl_device *dev, enum kernel kernel, size_t n_items, const stru
 			return cl_report(&dev->common->said, code, what);
 		}
 	}
-	code = cl_launch(dev->queue, dev->kernels[kernel], n_items, dev->cpu ? GROUP_CPU : GROUP_GPU, dev->cpu ? NULL : &dev->paces[kernel]);
+	code = dev->pocl ? cl_launch_wide(dev->queue, dev->kernels[kernel], n_items, GROUP_CPU, &dev->widened[kernel]) :
+	                   cl_launch(dev->queue, dev->kernels[kernel], n_items, dev->cpu ? GROUP_CPU : GROUP_GPU, dev->cpu ? NULL : &dev->paces[kernel]);
 	if (code != CL_SUCCESS) {
 		snprintf(what, sizeof(what), "kernel %s", kernel_entries[kernel].name);
 		return lack_or_report(dev, code, what);

@@ -5,6 +5,10 @@
 #define LEAST_ITEMS ((size_t)1 << 8)
 #define MOST_GROWTH 8
 
+#define WIDTH ((size_t)65528) /* of the narrowest launches: below 65535 PoCL compiles for small ones */
+#define WIDER 8               /* times as wide, with groups as many times as large */
+#define MOST_GROUP 4096
+
 static void forget(struct cl_pace *pace)
 {
 	if (pace->measured)
@@ -67,4 +71,22 @@ cl_int cl_launch(cl_command_queue queue, cl_kernel kernel, size_t n_items, size_
 		}
 	}
 	return code;
+}
+
+cl_int cl_launch_wide(cl_command_queue queue, cl_kernel kernel, size_t n_items, size_t group, unsigned char *widened)
+{
+	const size_t first = 0;
+	size_t widest = WIDTH / group * group, global;
+	unsigned char this_wide = 1;
+
+	while (n_items > widest && group * WIDER <= MOST_GROUP) {
+		group *= WIDER;
+		widest *= WIDER;
+		this_wide = (unsigned char)(this_wide << 1);
+	}
+	global = (n_items + group - 1) / group * group;
+	if (!(*widened & this_wide) && global < widest)
+		global = widest;
+	*widened |= this_wide;
+	return clEnqueueNDRangeKernel(queue, kernel, 1, &first, &global, &group, 0, NULL, NULL);
 }

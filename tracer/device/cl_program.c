@@ -57,7 +57,7 @@ static void platform_text(cl_device_id device, cl_platform_info what, char *text
 		clGetPlatformInfo(platform, what, size - 1, text, NULL);
 }
 
-static int is_pocl(cl_device_id device)
+int cl_program_is_pocl(cl_device_id device)
 {
 	char platform[128];
 
@@ -68,7 +68,7 @@ static int is_pocl(cl_device_id device)
 void cl_program_keep(cl_device_id device, const char *folder, int always, struct cl_keeping *keeping)
 {
 	keeping->folder[0] = '\0';
-	if (!always && is_pocl(device))
+	if (!always && cl_program_is_pocl(device))
 		return;
 	if (snprintf(keeping->folder, sizeof(keeping->folder), "%s", folder) >= (int)sizeof(keeping->folder))
 		keeping->folder[0] = '\0';
@@ -240,7 +240,7 @@ size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum
 		[FAMILY_PACKETS] = "kernels/frame/whole_packet.cl", [FAMILY_BINARY] = "kernels/frame/whole_single.cl",
 		[FAMILY_COMPRESSED] = "kernels/frame/whole_single.cl",
 	};
-	const char *whole = !keeping->folder[0] && is_pocl(device) ? gathered[family] : NULL;
+	const char *whole = !keeping->folder[0] && cl_program_is_pocl(device) ? gathered[family] : NULL;
 	size_t file = n_kernel_files;
 
 	for (size_t i = 0; i < n_kernel_places; i++) {

@@ -16,6 +16,8 @@ struct cl_keeping {
 	unsigned found;             /* programs that came from there */
 };
 
+int cl_program_is_pocl(cl_device_id device);
+
 /**
  * Keep programs from now on. PoCL does that itself, and is left to it unless `always`.
  * @param folder  copied; made when the first program is kept; ignored when its name is too long
