@@ -11,6 +11,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "tests/check/on_devices.h"
 #include "tracer/accel/accel.h"
 #include "tracer/device/device.h"
 
@@ -170,12 +171,3 @@ static inline void random_scene_free(struct random_scene *s)
 	free(s);
 }
 
-/* A buffer with these bytes. */
-static inline struct device_buffer *make_buffer(struct device *dev, const void *data, size_t bytes)
-{
-	struct device_buffer *buffer = NULL;
-
-	ck_assert_int_eq(device_reserve(dev, &buffer, bytes), 0);
-	ck_assert_int_eq(device_write(dev, buffer, 0, data, bytes), 0);
-	return buffer;
-}

@@ -10,6 +10,7 @@
 #include "kernels/gl/tables.h"
 #include "kernels/frame/compose.h"
 #include "tests/case.h"
+#include "tests/check/on_devices.h"
 #include "tracer/device/launch.h"
 
 #define WIDTH 21u
@@ -83,15 +84,6 @@ static void fill(struct content *c)
 		c->vertices[i].eye[3] = 1;
 		c->windows[i] = (struct window_vertex){ i == 1 ? 2560 : 0, i == 2 ? 2560 : 0, 0.5f, 1 + (float)i };
 	}
-}
-
-static struct device_buffer *make_buffer(struct device *dev, const void *data, size_t bytes)
-{
-	struct device_buffer *b = NULL;
-
-	ck_assert_int_eq(device_reserve(dev, &b, bytes), 0);
-	ck_assert_int_eq(device_write(dev, b, 0, data, bytes), 0);
-	return b;
 }
 
 /* Rows to which nobody drew. */

@@ -9,6 +9,7 @@
 #include "gl_tokens.h"
 #include "kernels/gl/tables.h"
 #include "tests/case.h"
+#include "tests/check/on_devices.h"
 #include "tracer/device/launch.h"
 
 #define WIDTH 70u /* rows end within a row of FRAME_ROW */
@@ -134,15 +135,6 @@ static void fill(struct content *c)
 			c->frame[i] = c->cleared;
 }
 
-static struct device_buffer *make_buffer(struct device *dev, const void *data, size_t bytes)
-{
-	struct device_buffer *b = NULL;
-
-	ck_assert_int_eq(device_reserve(dev, &b, bytes), 0);
-	ck_assert_int_eq(device_write(dev, b, 0, data, bytes), 0);
-	return b;
-}
-
 /* Pixels that are still to be cleared, as memory that nobody wrote: `from` receives them. */
 static void forget_cleared(const struct content *c, struct frame_pixel *from)
 {
@@ -196,11 +188,12 @@ static void run(struct device *dev, const struct content *c, uint32_t bits, int 
 		device_release(dev, &b[i]);
 }
 
-static void check_device(const char *name, const struct content *c, struct result *one, struct result *packet)
+static void check_device(struct device *dev, void *user)
 {
-	struct device *dev = NULL;
+	const struct content *c = user;
+	struct result *one = malloc(sizeof(*one)), *packet = malloc(sizeof(*packet));
 
-	ck_assert_int_eq(device_open(name, 1, &dev), 0);
+	ck_assert(one && packet);
 	for (uint32_t alpha_bits = 0; alpha_bits <= 8; alpha_bits += 8) {
 		run(dev, c, 24 | 8u << 8 | alpha_bits << 16, 0, one);
 		forget_cleared(c, packet->frame);
@@ -210,30 +203,18 @@ static void check_device(const char *name, const struct content *c, struct resul
 			ck_assert_msg(memcmp(&one->frame[i], &packet->frame[i], sizeof(one->frame[i])) == 0, "pixel %u differs on %s", i, device_name(dev));
 		ck_assert(memcmp(one->shaded, packet->shaded, sizeof(one->shaded)) == 0);
 	}
-	device_close(&dev);
+	free(one);
+	free(packet);
 }
 
 START_TEST(test_packet_and_single)
 {
 	struct content *c = malloc(sizeof(*c));
-	struct result *one = malloc(sizeof(*one)), *packet = malloc(sizeof(*packet));
-	struct device_description *devices = NULL;
-	size_t n = 0;
 
-	ck_assert(c && one && packet);
+	ck_assert_ptr_nonnull(c);
 	fill(c);
-	check_device("reference", c, one, packet);
-	device_list(&devices, &n);
-	for (size_t d = 0; d < n; d++) {
-		char number[24];
-
-		snprintf(number, sizeof(number), "%zu", d);
-		check_device(number, c, one, packet);
-	}
-	free(devices);
+	on_each_device(check_device, c);
 	free(c);
-	free(one);
-	free(packet);
 }
 END_TEST
 

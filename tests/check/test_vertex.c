@@ -10,6 +10,7 @@
 #include "gl_tokens.h"
 #include "kernels/gl/tables.h"
 #include "tests/case.h"
+#include "tests/check/on_devices.h"
 #include "tracer/device/launch.h"
 
 #define MESHES 400u
@@ -201,15 +202,6 @@ static void fill(struct content *c)
 		fill_geometry(c, i, &at);
 }
 
-static struct device_buffer *make_buffer(struct device *dev, const void *data, size_t bytes)
-{
-	struct device_buffer *b = NULL;
-
-	ck_assert_int_eq(device_reserve(dev, &b, bytes), 0);
-	ck_assert_int_eq(device_write(dev, b, 0, data, bytes), 0);
-	return b;
-}
-
 static void run(struct device *dev, const struct content *c, int packet, struct result *out)
 {
 	struct device_buffer *b[] = {
@@ -251,12 +243,13 @@ static void check_words(const char *device, const char *what, const void *one, c
 	}
 }
 
-static void check_device(const char *name, const struct content *c, struct result *one, struct result *packet)
+static void check_device(struct device *dev, void *user)
 {
-	struct device *dev = NULL;
+	const struct content *c = user;
+	struct result *one = malloc(sizeof(*one)), *packet = malloc(sizeof(*packet));
 	uint32_t there = 0, lit = 0;
 
-	ck_assert_int_eq(device_open(name, 1, &dev), 0);
+	ck_assert(one && packet);
 	memset(one, 0xee, sizeof(*one));
 	memset(packet, 0xee, sizeof(*packet));
 	run(dev, c, 0, one);
@@ -270,30 +263,18 @@ static void check_device(const char *name, const struct content *c, struct resul
 	check_words(device_name(dev), "window vertex", one->windows, packet->windows, sizeof(one->windows), sizeof(one->windows[0]));
 	check_words(device_name(dev), "clip vertex", one->clips, packet->clips, sizeof(one->clips), sizeof(one->clips[0]));
 	check_words(device_name(dev), "coordinate", one->coords, packet->coords, sizeof(one->coords), sizeof(one->coords[0]));
-	device_close(&dev);
+	free(one);
+	free(packet);
 }
 
 START_TEST(test_packet_and_single)
 {
 	struct content *c = malloc(sizeof(*c));
-	struct result *one = malloc(sizeof(*one)), *packet = malloc(sizeof(*packet));
-	struct device_description *devices = NULL;
-	size_t n = 0;
 
-	ck_assert(c && one && packet);
+	ck_assert_ptr_nonnull(c);
 	fill(c);
-	check_device("reference", c, one, packet);
-	device_list(&devices, &n);
-	for (size_t d = 0; d < n; d++) {
-		char number[24];
-
-		snprintf(number, sizeof(number), "%zu", d);
-		check_device(number, c, one, packet);
-	}
-	free(devices);
+	on_each_device(check_device, c);
 	free(c);
-	free(one);
-	free(packet);
 }
 END_TEST
 
