@@ -2,7 +2,6 @@
  * resolve_packet against resolve on each device and on the twins, bit by bit: fragments by chance, of materials with all factors,
  * equations and masks, over pixels of chance. Some rows of pixels are still to be cleared, which resolve_packet does before it draws.
  */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -3,7 +3,6 @@
  * matrices and normals by chance.
  */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
