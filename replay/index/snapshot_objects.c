@@ -73,8 +73,8 @@ static void *get_texture(struct loader *l)
 			continue;
 		level->texels = loader_blob(l, &n);
 		level->texel_bytes = gls_texel_bytes(level->internal_format);
-		if (n != level->bytes || level->width > 65536 || level->height > 65536 || level->depth > 65536 ||
-		    (uint64_t)level->width * level->height * level->depth > n / level->texel_bytes)
+		if (n != level->bytes || !gls_format_find(level->internal_format) || level->width > 65536 || level->height > 65536 ||
+		    level->depth > 65536 || (uint64_t)level->width * level->height * level->depth > n / level->texel_bytes)
 			l->in.failed = 1;
 	}
 	if (!loader_is_bad(l) && t->target <= N_GLS_TEXTURE_TARGETS)

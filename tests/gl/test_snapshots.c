@@ -182,6 +182,35 @@ static void drop(struct store *s)
 		free(s->blobs[i].data);
 }
 
+/* What a texture's texels are is one of the formats that there are. */
+START_TEST(formats_of_levels)
+{
+	const uint32_t level[] = { 3, 5, 1, 0, GL_RGBA8 };
+	const uint8_t texels[3 * 5 * 4] = { 0 };
+	struct store store = { 0 };
+	const struct snapshot_blobs in_memory = { .put = keep, .get = find_kept, .user = &store };
+	struct gl gl = gl_open();
+	struct bytes saved = { 0 };
+	uint8_t *at;
+
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGBA8, 3, 5, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+	ck_assert_int_eq(snapshot_save(gl.x, &in_memory, &saved), 0);
+	at = memmem(saved.data, saved.n, level, sizeof(level));
+	ck_assert_ptr_nonnull(at);
+	for (uint32_t i = 0; i < 2; i++) {
+		struct gl other = { 0 };
+
+		ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
+		ck_assert_int_eq(snapshot_load(other.x, &in_memory, saved.data, saved.n) == 0, i == 0);
+		gls_exec_destroy(&other.x);
+		memcpy(at + 16, &(uint32_t){ GL_TEXTURE_2D }, 4);
+	}
+	drop(&store);
+	free(saved.data);
+	gl_close(&gl);
+}
+END_TEST
+
 /* A program that has no text but one that is refused. */
 START_TEST(refused_programs)
 {
@@ -296,6 +325,7 @@ int main(void)
 	tcase_add_test(tcase, parameters_of_programs);
 	tcase_add_test(tcase, ways_to_sum);
 	tcase_add_test(tcase, sizes_of_windows);
+	tcase_add_test(tcase, formats_of_levels);
 	tcase_add_test(tcase, refused_programs);
 	tcase_add_test(tcase, pixels);
 	return run_case(tcase, "snapshots");
