@@ -381,6 +381,7 @@ struct scene {
 	uint64_t time_ns; /* when the program ended the frame, by a clock that never runs backwards; 0: the recording does not tell */
 	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where nothing covers it */
 	uint32_t needs_previous;
+	uint32_t is_first; /* 1: there was nothing before it: black, depth 0 and stencil 0 are what shows through */
 	uint32_t keeps_depth; /* 1: depth may be that of frames before; what looks at it sets needs_previous, too */
 	uint32_t untraced_draw; /* a draw that shows a framebuffer object's lit picture, of which the scene was left out; 0: none */
 	uint32_t shows_earlier; /* 1: a texture lacks what an earlier frame drew to it, as nothing renders during this replay */

@@ -359,6 +359,7 @@ static void describe(struct gls_exec *x, const struct gls_surface *surface, stru
 	s->floats = surface->floats;
 	s->samples_from_below = surface->samples_from_below;
 	s->needs_previous = f->looked || !(f->known.whole & 1);
+	s->is_first = !surface->picture && !surface->before && !surface->skipped;
 	s->keeps_depth = s->depth_bits && x->st && x->st->depth_used && !(f->known.whole & 2);
 }
 

@@ -1,6 +1,6 @@
 /*
  * Pictures of what calls in any order with any values draw (calls.h): kernels and C twins stay in one piece, and agree to the
- * last bit.
+ * last bit. Pictures that calls read go on from the one read before, and show what the whole scene does.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -9,10 +9,12 @@
 #include "tests/fuzz/calls.h"
 #include "tests/fuzz/kept.h"
 #include "render/supply.h"
+#include "tracer/frame/picture_kept.h"
 
-#define N_PARTS 8
+#define N_PARTS 13
 #define N_RANDOM 8
 #define CALLS_A_RUN 200
+#define MOST_TWICE 32 /* instances of scenes that are drawn once more as a whole */
 
 enum { TWIN, KERNELS, N_DEVICES };
 
@@ -21,7 +23,7 @@ static uint8_t bytes[KEPT_LARGEST];
 struct painter {
 	struct device *dev[N_DEVICES];
 	struct tracer *tracer[N_DEVICES];
-	struct supply supply;
+	struct supply supply, whole;
 	const char *what; /* is painted */
 	int number, part;
 	unsigned n_drawn;
@@ -51,9 +53,30 @@ static void paint(void *user, const struct scene *scene)
 	p->n_drawn++;
 }
 
+/* Draw a scene as if it were another that has not been drawn before, and look for the same picture. */
+static void compare_whole(struct painter *p, const struct scene *scene, const struct scene_picture *picture)
+{
+	const size_t n = (size_t)scene->width * scene->height;
+	struct scene other = *scene;
+	struct scene_picture *whole = picture_blank(scene);
+
+	other.serial = 0;
+	ck_assert_ptr_nonnull(whole);
+	ck_assert_int_eq(supply_picture(&p->whole, &other, whole), 0);
+	ck_assert_msg(!memcmp(whole->rgba, picture->rgba, 4 * n) && !memcmp(whole->depth, picture->depth, n * sizeof(*whole->depth)) &&
+	              !memcmp(whole->stencil, picture->stencil, n) && (!whole->colors || !memcmp(whole->colors, picture->colors, 4 * n * sizeof(float))),
+	              "%s %d of part %d: what was drawn over a picture differs from the whole", p->what, p->number, p->part);
+	picture_free(whole);
+}
+
 static int supply(void *user, const struct scene *scene, struct scene_picture *picture)
 {
-	return supply_picture(&((struct painter *)user)->supply, scene, picture);
+	struct painter *p = user;
+	int err = supply_picture(&p->supply, scene, picture);
+
+	if (!err && !scene->before && scene->n_instances <= MOST_TWICE)
+		compare_whole(p, scene, picture);
+	return err;
 }
 
 static void open_painter(struct painter *p, int part)
@@ -63,13 +86,14 @@ static void open_painter(struct painter *p, int part)
 	ck_assert_int_eq(device_open(NULL, 1, &p->dev[KERNELS]), 0);
 	for (int i = 0; i < N_DEVICES; i++)
 		ck_assert_int_eq(tracer_create(&p->tracer[i], p->dev[i]), 0);
-	p->supply.parent = p->dev[TWIN];
+	p->supply.parent = p->whole.parent = p->dev[TWIN];
 }
 
 static void close_painter(struct painter *p)
 {
 	ck_assert_uint_gt(p->n_drawn, 10);
 	supply_free(&p->supply);
+	supply_free(&p->whole);
 	for (int i = 0; i < N_DEVICES; i++) {
 		tracer_destroy(&p->tracer[i]);
 		device_close(&p->dev[i]);

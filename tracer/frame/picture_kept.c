@@ -3,12 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Changes whenever a scene shows something else. */
-static uint64_t events_of(const struct scene *scene)
-{
-	return 2 * ((uint64_t)scene->n_instances + scene->n_clears) + (scene->start != NULL);
-}
-
 /* A picture's planes from another of the same size; `to` has at least those that `from` has. */
 static void copy_planes(struct scene_picture *to, const struct scene_picture *from, size_t n)
 {
@@ -68,6 +62,12 @@ struct scene_picture *picture_blank(const struct scene *scene)
 	return NULL;
 }
 
+/* Whether all is known that a scene shows. */
+static int is_whole(const struct scene *scene)
+{
+	return scene->start || !scene->needs_previous || scene->is_first;
+}
+
 void picture_keep(struct picture_kept *kept, const struct scene *scene, const struct scene_picture *picture)
 {
 	size_t n = (size_t)scene->width * scene->height;
@@ -82,7 +82,19 @@ void picture_keep(struct picture_kept *kept, const struct scene *scene, const st
 	for (int i = 0; i < SCENE_SAMPLES && picture->samples; i++)
 		copy_planes(&kept->picture->samples[i], &picture->samples[i], n);
 	kept->serial = scene->serial;
-	kept->events = events_of(scene);
+	kept->n_instances = scene->n_instances;
+	kept->n_clears = scene->n_clears;
+	kept->is_start_there = scene->start != NULL;
+	kept->is_whole = is_whole(scene);
+}
+
+/* Whether what is kept is of this scene, which may have grown since; and so may its window. */
+static int is_of(const struct picture_kept *kept, const struct scene *scene)
+{
+	const struct scene_picture *p = kept->picture;
+
+	return p && kept->serial == scene->serial && kept->is_start_there == (scene->start != NULL) && p->width == scene->width &&
+	       p->height == scene->height;
 }
 
 int picture_recall(const struct picture_kept *kept, const struct scene *scene, struct scene_picture *picture)
@@ -90,13 +102,36 @@ int picture_recall(const struct picture_kept *kept, const struct scene *scene, s
 	size_t n = (size_t)scene->width * scene->height;
 	const struct scene_picture *p = kept->picture;
 
-	if (!p || kept->serial != scene->serial || kept->events != events_of(scene) || (picture->colors && !p->colors) ||
-	    (picture->samples && !p->samples))
+	if (!is_of(kept, scene) || kept->n_instances != scene->n_instances || kept->n_clears != scene->n_clears ||
+	    (picture->colors && !p->colors) || (picture->samples && !p->samples))
 		return 0;
 	copy_planes(picture, p, n);
 	for (int i = 0; i < SCENE_SAMPLES && picture->samples; i++)
 		copy_planes(&picture->samples[i], &p->samples[i], n);
 	return 1;
+}
+
+int picture_rest(const struct picture_kept *kept, const struct scene *scene, struct scene *rest)
+{
+	const struct scene_picture *p = kept->picture;
+	const uint32_t n_clears = scene->n_clears - kept->n_clears;
+
+	/* Pictures have 24 bits of depth at most. */
+	if (!is_of(kept, scene) || !kept->is_whole || !is_whole(scene) || scene->depth_bits > 24 || kept->n_instances > scene->n_instances ||
+	    kept->n_clears > scene->n_clears)
+		return 0;
+	*rest = *scene;
+	rest->instances += kept->n_instances;
+	rest->n_instances -= kept->n_instances;
+	rest->clears = malloc((n_clears + (size_t)1) * sizeof(*rest->clears));
+	rest->n_clears = n_clears;
+	rest->start = p;
+	rest->needs_previous = 1;
+	for (uint32_t i = 0; i < n_clears && rest->clears; i++) {
+		rest->clears[i] = scene->clears[kept->n_clears + i];
+		rest->clears[i].before_instance -= kept->n_instances;
+	}
+	return rest->clears != NULL;
 }
 
 void picture_kept_free(struct picture_kept *kept)

@@ -4,7 +4,10 @@
 #include "scene/scene.h"
 
 struct picture_kept {
-	uint64_t serial, events; /* of its scene; serial 0: there is none */
+	uint64_t serial; /* of its scene; 0: there is none */
+	uint32_t n_instances, n_clears; /* that the scene had */
+	int is_start_there;
+	int is_whole; /* 1: all is known that it shows */
 	struct scene_picture *picture;
 };
 
@@ -19,5 +22,13 @@ void picture_keep(struct picture_kept *kept, const struct scene *scene, const st
 
 /** @return 1 where this scene's picture is kept; `picture` is filled then */
 int picture_recall(const struct picture_kept *kept, const struct scene *scene, struct scene_picture *picture);
+
+/**
+ * What was added to a scene since its picture was kept, as a scene that begins with that picture. A frame of n draws, each of which
+ * copies pixels, would otherwise be drawn n times over.
+ * @param rest  receives a scene that borrows all arrays but its clears, which free() takes
+ * @return 0: no picture of it is kept that the rest can be drawn over
+ */
+int picture_rest(const struct picture_kept *kept, const struct scene *scene, struct scene *rest);
 
 void picture_kept_free(struct picture_kept *kept);

@@ -345,12 +345,18 @@ static int begin_with_before(struct tracer *tracer, const struct scene *scene, s
 int tracer_render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture)
 {
 	struct begun begun;
+	struct scene rest;
 	int err;
 
 	/* The frame that was rendered last is often the one that the next begins with. */
 	if (picture_recall(&tracer->drawn, scene, picture))
 		return 0;
-	err = draw_picture(tracer, scene, picture);
+	if (!scene->before && picture_rest(&tracer->drawn, scene, &rest)) {
+		err = draw_picture(tracer, &rest, picture);
+		free(rest.clears);
+	} else {
+		err = draw_picture(tracer, scene, picture);
+	}
 	if (!err && scene->before) {
 		scene_before_settle(scene->before, picture->unknown != 0);
 		if (picture->unknown) {
