@@ -153,12 +153,10 @@ static inline uint pack_next(struct pack_left *left, uint *item)
 
 /* --- Loading ------------------------------------------------------------------------------------------------------- */
 
-/* Whether some lanes lie in one triangle. */
-WIDE_VECTORS static inline int pack_is_in(const struct pack_list *list, uint lanes, uint instance, uint primitive)
+/* The lanes that lie in a triangle. */
+WIDE_VECTORS static inline uint pack_in_triangle(const struct pack_list *list, uint instance, uint primitive)
 {
-	const packi differ = (*(const pack_loose_uints *)list->primitive != primitive) | (*(const pack_loose_uints *)list->instance != instance);
-
-	return !(lanes & pack_bits(differ));
+	return pack_bits((*(const pack_loose_uints *)list->primitive == primitive) & (*(const pack_loose_uints *)list->instance == instance));
 }
 
 /* The lanes' triangles. Lanes that are not asked for repeat the first that is. */
@@ -338,18 +336,12 @@ static inline const struct clip_corner *pack_corner(const struct clip_polygon *p
 	return &polygon->corner[k == 2 ? 0 : part - 1 + k];
 }
 
-/* The lanes that lie in the same triangle as one of them. */
-WIDE_VECTORS static inline uint pack_in_triangle(const struct pack_list *list, uint lane)
-{
-	return pack_bits((vload16(0, list->primitive) == list->primitive[lane]) & (vload16(0, list->instance) == list->instance[lane]));
-}
-
 /* Those of some lanes that lie in the same part of the same triangle as the first of them. */
 WIDE_VECTORS static inline uint pack_same_part(const struct pack_list *list, const struct pack *p, uint lanes)
 {
 	const uint lane = popcount((lanes & -lanes) - 1);
 
-	return lanes & pack_in_triangle(list, lane) & pack_bits(vload16(0, p->part) == p->part[lane]);
+	return lanes & pack_in_triangle(list, list->instance[lane], list->primitive[lane]) & pack_bits(vload16(0, p->part) == p->part[lane]);
 }
 
 /* The corners of a part, in place of those of the lanes' triangle. */
@@ -472,7 +464,7 @@ static inline uint pack_find(const struct shade_arguments *a, const struct pack_
 		const struct clip_polygon *polygon = pack_polygon(a, list, p, lane, kept);
 		const packu part = pack_part(a, polygon, p);
 
-		same = left & pack_in_triangle(list, lane);
+		same = left & pack_in_triangle(list, list->instance[lane], list->primitive[lane]);
 		*(pack_loose_uints *)p->part = select(*(const pack_loose_uints *)p->part, part, pack_mask(same));
 		for (uint k = 2; k < polygon->n; k++)
 			if (same & pack_bits(part == k))
@@ -492,7 +484,7 @@ static inline uint pack_place(const struct shade_arguments *a, const struct pack
                               struct pack *p)
 {
 	const uint first = popcount((lanes & -lanes) - 1);
-	const int is_known = p->primitive != SCENE_NONE && pack_is_in(list, lanes, p->instance, p->primitive);
+	const int is_known = p->primitive != SCENE_NONE && !(lanes & ~pack_in_triangle(list, p->instance, p->primitive));
 
 	pack_load_pixels(a->width, a->height, list, p);
 	if (!is_known) {

@@ -78,6 +78,7 @@ cl_int cl_launch_wide(cl_command_queue queue, cl_kernel kernel, size_t n_items, 
 	const size_t first = 0;
 	size_t widest = WIDTH / group * group, global;
 	unsigned char this_wide = 1;
+	cl_int code;
 
 	while (n_items > widest && group * WIDER <= MOST_GROUP) {
 		group *= WIDER;
@@ -87,6 +88,8 @@ cl_int cl_launch_wide(cl_command_queue queue, cl_kernel kernel, size_t n_items, 
 	global = (n_items + group - 1) / group * group;
 	if (!(*widened & this_wide) && global < widest)
 		global = widest;
-	*widened |= this_wide;
-	return clEnqueueNDRangeKernel(queue, kernel, 1, &first, &global, &group, 0, NULL, NULL);
+	code = clEnqueueNDRangeKernel(queue, kernel, 1, &first, &global, &group, 0, NULL, NULL);
+	if (code == CL_SUCCESS)
+		*widened |= this_wide;
+	return code;
 }
