@@ -18,6 +18,7 @@ void frame_ended(void);
  */
 void frame_viewport(int x, int y, int width, int height);
 
+/** A list that is called in between may hold the End. Where it does not, the program's own call there is the same error as ours. */
 void frame_primitive_begins(void);
 void frame_primitive_ended(void);
 void frame_drawn(void);

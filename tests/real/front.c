@@ -143,9 +143,30 @@ static void alone(void)
 	glDrawBuffer(GL_BACK);
 }
 
+/* A flush after a primitive that a display list ends. */
+static void ended_by_list(void)
+{
+	const GLuint list = glGenLists(1);
+
+	glNewList(list, GL_COMPILE);
+	glVertex2i(10, 40);
+	glEnd();
+	glEndList();
+	glDrawBuffer(GL_FRONT);
+	clear(0.3f, 0, 0.5f);
+	glColor3f(1, 1, 0.4f);
+	glBegin(GL_QUADS);
+	glVertex2i(10, 10);
+	glVertex2i(50, 10);
+	glVertex2i(50, 40);
+	glCallList(list);
+	glFlush();
+	glDrawBuffer(GL_BACK);
+}
+
 int main(void)
 {
-	static void (*const steps[])(void) = { back, band, hides, hidden, both, listed, copied, alone, back };
+	static void (*const steps[])(void) = { back, band, hides, hidden, both, listed, copied, alone, ended_by_list, back };
 
 	open_window();
 	glMatrixMode(GL_PROJECTION);

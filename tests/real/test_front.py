@@ -3,7 +3,7 @@
 from helpers import check_alone, check_same_pictures, finish
 
 FRAMES = ("back", "band", "second band", "hides", "hidden", "after hidden", "hidden by an earlier frame", "front of both", "back of both", "front of listed",
-          "back of listed", "copied", "alone", "alone again", "back again")
+          "back of listed", "copied", "alone", "alone again", "ended by a list", "back again")
 trace, _ = check_same_pictures("front", FRAMES, "--frame-end", "flush")
 # what the front buffer had before, whose frames are not asked for
 for frame in (2, 4, 6, 7, 11, 13):
