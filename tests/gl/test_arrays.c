@@ -387,7 +387,7 @@ START_TEST(test_empty_buffers)
 	ck_assert_uint_eq(gl_error(&gl), 0);
 	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_UNSIGNED_BYTE, (uint64_t)0);
 	ck_assert_uint_eq(gl_unsupported(&gl), 1);
-	gl_call(&gl, "glBufferData", "epp", GL_ARRAY_BUFFER, (uint64_t)1 << 31, (uint64_t)0); /* more than anybody fills */
+	gl_call(&gl, "glBufferData", "eppe", GL_ARRAY_BUFFER, (uint64_t)1 << 31, (uint64_t)0, GL_STATIC_DRAW); /* more than anybody fills */
 	ck_assert_uint_eq(gl_unsupported(&gl), 2);
 	gl_close(&gl);
 }
@@ -400,7 +400,7 @@ START_TEST(test_mapped_again)
 
 	for (unsigned name = 3; name < 5; name++) {
 		gl_call(&gl, "glBindBuffer", "eu", GL_ARRAY_BUFFER, name);
-		gl_call(&gl, "glBufferData", "eip", GL_ARRAY_BUFFER, 16, (uint64_t)0);
+		gl_call(&gl, "glBufferData", "eipe", GL_ARRAY_BUFFER, 16, (uint64_t)0, GL_STATIC_DRAW);
 		gl_call_address(&gl, 0x7000, "glMapBuffer", "ee", GL_ARRAY_BUFFER, GL_WRITE_ONLY);
 		gl_call_address(&gl, 0x8000, "glMapBuffer", "ee", GL_ARRAY_BUFFER, GL_WRITE_ONLY);
 		ck_assert_uint_eq(gl.x->maps.n, 1);

@@ -131,7 +131,17 @@ static void set_data(struct gls_exec *x, struct gls_state *st, const struct call
 	b->version = ++x->caches.versions;
 }
 
-GLS_HANDLER(glBufferData, CLIENT) { set_data(x, st, c); }
+/* GL_STREAM_DRAW to GL_DYNAMIC_COPY, three of every four. */
+static int is_usage(uint32_t usage)
+{
+	return usage >= GL_STREAM_DRAW && usage <= GL_DYNAMIC_COPY && (usage - GL_STREAM_DRAW) % 4 < 3;
+}
+
+GLS_HANDLER(glBufferData, CLIENT)
+{
+	if (!gls_refuses(x, st, !is_usage(arg_u(c, 3)), GL_INVALID_ENUM))
+		set_data(x, st, c);
+}
 GLS_HANDLER(glBufferStorage, CLIENT) { set_data(x, st, c); }
 
 static void write_buffer(struct gls_exec *x, struct gls_buffer *b, uint64_t offset, const uint8_t *bytes, size_t n)

@@ -111,6 +111,10 @@ GLS_HANDLER(glBlitFramebuffer, OBJECT)
 	struct gls_frame *drawn;
 	int between;
 
+	if (gls_refuses(x, st, mask & ~(uint32_t)(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT), GL_INVALID_VALUE) ||
+	    gls_refuses(x, st, arg_u(c, 9) != GL_NEAREST && arg_u(c, 9) != GL_LINEAR, GL_INVALID_ENUM) ||
+	    gls_refuses(x, st, arg_u(c, 9) == GL_LINEAR && mask & (GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT), GL_INVALID_OPERATION))
+		return;
 	if (!find_span(c, 0, &b) || !find_span(c, 1, &b) || !x->want)
 		return;
 	between = arg_u(c, 9) == GL_LINEAR && (fabsf(b.zoom[0]) != 1 || fabsf(b.zoom[1]) != 1);

@@ -4,6 +4,7 @@
 #include "gl_tokens.h"
 #include "replay/gl/pixels/teximage.h"
 #include "replay/gl/surface/screen.h"
+#include "replay/gl/texture/legal.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/mipmap.h"
 #include "replay/gl/texture/texcompress.h"
@@ -117,8 +118,14 @@ GLS_FAMILY(glCopyTexImage, STATE)
 	unsigned face, n_dims = gls_commands[x->command].suffix.n;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	const struct gls_level_form form = { arg_u(c, 2), arg_i(c, 5), n_dims > 1 ? arg_i(c, 6) : 1, 1, arg_i(c, n_dims > 1 ? 7 : 6) };
-	struct gls_level *l = t ? gls_texture_specify(x, st, t, face, arg_i(c, 1), &form) : NULL;
+	const uint32_t wrong = gls_image_error(arg_u(c, 0), form.internal_format, arg_i(c, 1), (int64_t[2]){ form.width, form.height }, form.border);
+	struct gls_level *l;
 
+	/* Numbers of components are for TexImage alone. */
+	if (!t || gls_refuses(x, st, !gls_takes_target(n_dims, arg_u(c, 0)) || (form.internal_format >= 1 && form.internal_format <= 4), GL_INVALID_ENUM) ||
+	    gls_refuses(x, st, wrong != 0, wrong))
+		return;
+	l = gls_texture_specify(x, st, t, face, arg_i(c, 1), &form);
 	if (l) /* the border is read, too: the given corner is its corner */
 		copy_screen(x, st, t, face, arg_i(c, 1),
 		            &(struct copy){ { arg_i32(c, 3), arg_i32(c, 4) }, { l->width, l->height }, { 0 } });

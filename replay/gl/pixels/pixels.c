@@ -5,6 +5,7 @@
 #include "gl_tokens.h"
 #include "replay/gl/pixels/rectangle.h"
 #include "replay/gl/surface/screen.h"
+#include "replay/gl/texture/legal.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/transfer.h"
 #include "replay/gl/texture/unpack.h"
@@ -83,11 +84,14 @@ GLS_HANDLER(glDrawPixels, STATE)
 	struct gls_pixels p = { .format = arg_u(c, 2), .type = arg_u(c, 3), .width = arg_u(c, 0), .height = arg_u(c, 1),
 		                .store = gls_client_store(x, st), .drawn = 1 };
 	int indices = p.format == GL_COLOR_INDEX || p.format == GL_STENCIL_INDEX, rc;
-	uint32_t kind = kind_of(p.format);
+	uint32_t kind = kind_of(p.format), wrong;
 	struct gls_rectangle r;
 	uint8_t *texels, *stencil;
 
 	if (gls_refuses(x, st, arg_i(c, 0) < 0 || arg_i(c, 1) < 0, GL_INVALID_VALUE))
+		return;
+	wrong = gls_pixels_error(p.format, p.type);
+	if (gls_refuses(x, st, wrong != 0, wrong))
 		return;
 	p.data = gls_pixel_source(st, c, 4, &p.n);
 	if (!p.data || !is_drawable(x, st, p.width, p.height))
@@ -151,7 +155,8 @@ GLS_HANDLER(glCopyPixels, STATE)
 	uint8_t *texels;
 	size_t bytes;
 
-	if (gls_refuses(x, st, arg_i(c, 2) < 0 || arg_i(c, 3) < 0, GL_INVALID_VALUE))
+	if (gls_refuses(x, st, arg_i(c, 2) < 0 || arg_i(c, 3) < 0, GL_INVALID_VALUE) ||
+	    gls_refuses(x, st, arg_u(c, 4) != GL_COLOR && arg_u(c, 4) != GL_DEPTH && arg_u(c, 4) != GL_STENCIL && arg_u(c, 4) != GL_DEPTH_STENCIL, GL_INVALID_ENUM))
 		return;
 	if (!is_drawable(x, st, width, height))
 		return;

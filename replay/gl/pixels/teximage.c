@@ -5,6 +5,7 @@
 
 #include "gl_tokens.h"
 #include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/texture/legal.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/mipmap.h"
 #include "replay/gl/texture/palette.h"
@@ -65,15 +66,28 @@ static int unpack_image(struct gls_exec *x, const struct gls_state *st, const st
 	return rc;
 }
 
+/* Whether a TexImage with such pixels is refused. */
+static int refuses_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims, const struct gls_level_form *form)
+{
+	const uint32_t format = arg_u(c, 4 + n_dims), wrong = gls_pixels_error(format, arg_u(c, 5 + n_dims)),
+		       image = gls_image_error(arg_u(c, 0), form->internal_format, arg_i(c, 1), (int64_t[2]){ form->width, form->height }, form->border);
+
+	return gls_refuses(x, st, !gls_takes_target(n_dims, arg_u(c, 0)), GL_INVALID_ENUM) || gls_refuses(x, st, wrong != 0, wrong) ||
+	       gls_refuses(x, st, image != 0, image) || gls_refuses(x, st, !gls_formats_agree(form->internal_format, format), GL_INVALID_OPERATION);
+}
+
 GLS_FAMILY(glTexImage, STATE)
 {
 	const unsigned n_dims = gls_commands[x->command].suffix.n;
 	unsigned face;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	const struct gls_level_form form = form_of(c, n_dims);
-	struct gls_level *l = t ? gls_texture_specify(x, st, t, face, arg_i(c, 1), &form) : NULL;
+	struct gls_level *l;
 	struct gls_pixels p;
 
+	if (!t || refuses_image(x, st, c, n_dims, &form))
+		return;
+	l = gls_texture_specify(x, st, t, face, arg_i(c, 1), &form);
 	if (!l)
 		return;
 	p = pixels_of(x, st, c, 4 + n_dims, n_dims, (const int64_t[3]){ l->width, l->height, l->depth });
@@ -102,8 +116,9 @@ GLS_FAMILY(glTexSubImage, STATE)
 	int64_t at[3] = { 0 }, size[3] = { 1, 1, 1 };
 	struct gls_pixels p;
 	uint8_t *texels;
+	uint32_t wrong;
 
-	if (!l)
+	if (!l || gls_refuses(x, st, !gls_takes_target(n_dims, arg_u(c, 0)), GL_INVALID_ENUM))
 		return;
 	if (gls_refuses(x, st, !l->texels, GL_INVALID_OPERATION))
 		return;
@@ -116,6 +131,10 @@ GLS_FAMILY(glTexSubImage, STATE)
 			return;
 	}
 	p = pixels_of(x, st, c, 2 + 2 * n_dims, n_dims, size);
+	wrong = gls_pixels_error(p.format, p.type);
+	if (gls_refuses(x, st, wrong != 0, wrong) ||
+	    gls_refuses(x, st, !gls_formats_agree(l->internal_format, p.format) || !gls_part_is_whole(l, at, size), GL_INVALID_OPERATION))
+		return;
 	if (!p.data || !size[0] || !size[1] || !size[2])
 		return;
 	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * l->texel_bytes);
@@ -153,8 +172,9 @@ static void compressed_image(struct gls_exec *x, struct gls_state *st, const str
 	struct gls_level *l;
 	size_t n;
 	const uint8_t *pixels = gls_pixel_source(st, c, n_dims + 5, &n);
+	const uint32_t wrong = gls_compressed_error(form.internal_format, (int64_t[3]){ form.width, form.height, form.depth }, form.border, arg_i(c, 4 + n_dims));
 
-	if (!t)
+	if (!t || gls_refuses(x, st, wrong != 0, wrong))
 		return;
 	l = gls_texture_specify(x, st, t, face, arg_i(c, 1), &form);
 	if (l && pixels)
@@ -235,7 +255,7 @@ GLS_FAMILY(glCompressedTexSubImage, STATE)
 		at[i] = arg_i32(c, 2 + i);
 		size[i] = arg_i32(c, 2 + n_dims + i);
 	}
-	if (gls_refuses(x, st, !l->texels || l->internal_format != arg_u(c, 2 + 2 * n_dims), GL_INVALID_OPERATION))
+	if (gls_refuses(x, st, !l->texels || l->internal_format != arg_u(c, 2 + 2 * n_dims) || !gls_part_is_whole(l, at, size), GL_INVALID_OPERATION))
 		return;
 	for (unsigned i = 0; i < 3; i++)
 		if (at[i] < 0 || size[i] < 0 || at[i] + size[i] > (i == 0 ? l->width : i == 1 ? l->height : l->depth)) {
@@ -365,7 +385,7 @@ GLS_HANDLER(glGenerateMipmap, STATE)
 	unsigned face;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), 0, &face);
 
-	if (!t)
+	if (!t || gls_refuses(x, st, arg_u(c, 0) == GL_TEXTURE_RECTANGLE, GL_INVALID_ENUM))
 		return;
 	for (face = 0; face < (t->target == GLS_TEXTURE_CUBE ? 6u : 1u); face++)
 		gls_texture_generate_mipmaps(x, t, face);

@@ -71,8 +71,10 @@ static void stencil_op(struct gls_exec *x, struct gls_state *st, uint32_t face, 
 	}
 }
 
-static void stencil_mask(struct gls_state *st, uint32_t face, uint32_t mask)
+static void stencil_mask(struct gls_exec *x, struct gls_state *st, uint32_t face, uint32_t mask)
 {
+	if (gls_refuses(x, st, !gls_is_face(face), GL_INVALID_ENUM))
+		return;
 	for (unsigned side = 0; side < 2; side++)
 		if (changes_side(st, side, face))
 			st->a.stencil.side[side].write_mask = mask;
@@ -82,8 +84,8 @@ GLS_HANDLER(glStencilFunc, STATE) { stencil_func(x, st, GL_FRONT_AND_BACK, arg_u
 GLS_HANDLER(glStencilFuncSeparate, STATE) { stencil_func(x, st, arg_u(c, 0), arg_u(c, 1), arg_u(c, 2), arg_u(c, 3)); }
 GLS_HANDLER(glStencilOp, STATE) { stencil_op(x, st, GL_FRONT_AND_BACK, arg_u(c, 0), arg_u(c, 1), arg_u(c, 2)); }
 GLS_HANDLER(glStencilOpSeparate, STATE) { stencil_op(x, st, arg_u(c, 0), arg_u(c, 1), arg_u(c, 2), arg_u(c, 3)); }
-GLS_HANDLER(glStencilMask, STATE) { stencil_mask(st, GL_FRONT_AND_BACK, arg_u(c, 0)); }
-GLS_HANDLER(glStencilMaskSeparate, STATE) { stencil_mask(st, arg_u(c, 0), arg_u(c, 1)); }
+GLS_HANDLER(glStencilMask, STATE) { stencil_mask(x, st, GL_FRONT_AND_BACK, arg_u(c, 0)); }
+GLS_HANDLER(glStencilMaskSeparate, STATE) { stencil_mask(x, st, arg_u(c, 0), arg_u(c, 1)); }
 GLS_HANDLER(glActiveStencilFaceEXT, STATE) { st->a.stencil.active_face = arg_u(c, 0); }
 
 /* ---- depth, sec. 4.1.6 ---- */
@@ -177,10 +179,21 @@ GLS_HANDLER(glColorMask, STATE)
 
 /* ---- which buffer, and clearing (sec. 4.2) ---- */
 
+/* Buffers of windows are none of framebuffer objects, nor the other way round. */
+static int refuses_buffer(struct gls_exec *x, struct gls_state *st, uint32_t buffer, uint32_t framebuffer)
+{
+	const int is_attachment = buffer >= GL_COLOR_ATTACHMENT0 && buffer < GL_COLOR_ATTACHMENT0 + 32;
+	const int is_window = buffer >= GL_FRONT_LEFT && buffer <= GL_AUX3;
+
+	return gls_refuses(x, st, framebuffer ? is_window : is_attachment, GL_INVALID_OPERATION);
+}
+
 GLS_HANDLER(glDrawBuffer, STATE)
 {
 	uint32_t buffer = arg_u(c, 0);
 
+	if (refuses_buffer(x, st, buffer, st->draw_framebuffer))
+		return;
 	st->a.color.also_drawn = 0;
 	switch (buffer) {
 	case GL_FRONT: case GL_FRONT_LEFT: case GL_BACK: case GL_BACK_LEFT: case GL_LEFT: case GL_FRONT_AND_BACK:
@@ -202,7 +215,24 @@ GLS_HANDLER(glDrawBuffer, STATE)
 	}
 }
 
-GLS_HANDLER(glReadBuffer, STATE) { st->a.pixel.read_buffer = arg_u(c, 0); }
+GLS_HANDLER(glReadBuffer, STATE)
+{
+	const uint32_t buffer = arg_u(c, 0);
+
+	if (refuses_buffer(x, st, buffer, st->read_framebuffer))
+		return;
+	switch (buffer) {
+	case GL_FRONT_RIGHT: case GL_BACK_RIGHT: case GL_RIGHT: case GL_AUX0: case GL_AUX1: case GL_AUX2: case GL_AUX3:
+		gls_error(x, st, GL_INVALID_OPERATION);
+		break;
+	case GL_FRONT: case GL_FRONT_LEFT: case GL_BACK: case GL_BACK_LEFT: case GL_LEFT: case GL_NONE:
+		st->a.pixel.read_buffer = buffer;
+		break;
+	default:
+		if (!gls_refuses(x, st, buffer < GL_COLOR_ATTACHMENT0 || buffer >= GL_COLOR_ATTACHMENT0 + 32, GL_INVALID_ENUM))
+			st->a.pixel.read_buffer = buffer;
+	}
+}
 
 GLS_HANDLER(glClearColor, STATE) { read_color(c, st->a.color.clear); }
 GLS_HANDLER(glClearDepth, STATE) { st->a.depth.clear = arg_clamped(c, 0); }

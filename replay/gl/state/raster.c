@@ -33,7 +33,8 @@ GLS_FAMILY(glPointParameter, STATE)
 		memcpy(point->attenuation, v, sizeof(v));
 		break;
 	case GL_POINT_SPRITE_COORD_ORIGIN:
-		point->sprite_origin = token_of_float(v[0]);
+		if (!gls_refuses(x, st, token_of_float(v[0]) != GL_UPPER_LEFT && token_of_float(v[0]) != GL_LOWER_LEFT, GL_INVALID_VALUE))
+			point->sprite_origin = token_of_float(v[0]);
 		break;
 	default:
 		gls_error(x, st, GL_INVALID_ENUM);

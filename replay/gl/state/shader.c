@@ -85,7 +85,8 @@ static void use_program(struct gls_exec *x, struct gls_state *st, uint32_t progr
 	const char *lack;
 	const struct gls_shader *old = before != program ? find(st, before, 1) : NULL;
 
-	if (gls_refuses(x, st, used && !used->stages.linked, GL_INVALID_OPERATION))
+	if (gls_refuses(x, st, program && !table_find(&st->share->shaders, program), GL_INVALID_VALUE) ||
+	    gls_refuses(x, st, used && !used->stages.linked, GL_INVALID_OPERATION))
 		return;
 	st->program = program;
 	lack = program ? gls_program_lack(st) : NULL;

@@ -328,6 +328,8 @@ static void attach(struct gls_exec *x, struct gls_state *st, const struct call *
 	struct gls_attachment kept = { 0 }; /* texture 0 detaches, whatever its level is */
 	int color = gls_attachment_color(point);
 
+	if (gls_refuses(x, st, color < 0 && point != GL_DEPTH_ATTACHMENT && point != GL_STENCIL_ATTACHMENT && point != GL_DEPTH_STENCIL_ATTACHMENT, GL_INVALID_ENUM))
+		return;
 	if (gls_refuses(x, st, !fb || (a->texture && (!t || a->level >= GLS_MAX_LEVELS)), GL_INVALID_OPERATION))
 		return;
 	if (!x->want)
@@ -348,9 +350,12 @@ static void attach(struct gls_exec *x, struct gls_state *st, const struct call *
 GLS_FAMILY(glFramebufferTexture, OBJECT)
 {
 	uint32_t layer = gls_commands[x->command].suffix.n == 3 ? arg_u(c, 5) : 0;
+	const struct gls_texture *t = arg_u(c, 3) ? table_find(&st->share->textures, arg_u(c, 3)) : NULL;
 	unsigned face = 0;
+	const int target = gls_texture_target_of(arg_u(c, 2), &face);
 
-	if (!gls_refuses(x, st, arg_u(c, 3) && gls_texture_target_of(arg_u(c, 2), &face) < 0, GL_INVALID_ENUM))
+	if (!gls_refuses(x, st, arg_u(c, 3) && target < 0, GL_INVALID_ENUM) && !gls_refuses(x, st, t && (int)t->target != target, GL_INVALID_OPERATION) &&
+	    !gls_refuses(x, st, t && arg_i32(c, 4) < 0, GL_INVALID_VALUE))
 		attach(x, st, c, &(struct gls_attachment){ arg_u(c, 3), 0, face, arg_u(c, 4), layer });
 }
 
@@ -360,15 +365,19 @@ GLS_HANDLER(glFramebufferTextureLayer, OBJECT)
 }
 GLS_HANDLER(glFramebufferRenderbuffer, OBJECT) { attach(x, st, c, &(struct gls_attachment){ .renderbuffer = arg_u(c, 3) }); }
 
-static void bind_renderbuffer(struct gls_exec *x, struct gls_state *st, uint32_t name)
+static void bind_renderbuffer(struct gls_exec *x, struct gls_state *st, const struct call *c)
 {
+	const uint32_t name = arg_u(c, 1);
+
+	if (gls_refuses(x, st, arg_u(c, 0) != GL_RENDERBUFFER, GL_INVALID_ENUM))
+		return;
 	st->renderbuffer = name;
 	if (name && !table_find(&st->share->renderbuffers, name))
 		gls_object_create(x, &st->share->renderbuffers, name, sizeof(struct gls_renderbuffer));
 }
 
-GLS_HANDLER(glBindRenderbuffer, NOW) { bind_renderbuffer(x, st, arg_u(c, 1)); }
-GLS_HANDLER(glBindRenderbufferEXT, NOW) { bind_renderbuffer(x, st, arg_u(c, 1)); }
+GLS_HANDLER(glBindRenderbuffer, NOW) { bind_renderbuffer(x, st, c); }
+GLS_HANDLER(glBindRenderbufferEXT, NOW) { bind_renderbuffer(x, st, c); }
 
 GLS_HANDLER(glDeleteRenderbuffers, OBJECT)
 {

@@ -10,6 +10,45 @@
 
 /* ---- environments, sec. 3.8.13 ---- */
 
+static int is_source(uint32_t token)
+{
+	return token == GL_TEXTURE || token == GL_CONSTANT || token == GL_PRIMARY_COLOR || token == GL_PREVIOUS || token == GL_ZERO || token == GL_ONE ||
+	       (token >= GL_TEXTURE0 && token < GL_TEXTURE0 + SCENE_MAX_UNITS);
+}
+
+static int is_alpha_operand(uint32_t token)
+{
+	return token == GL_SRC_ALPHA || token == GL_ONE_MINUS_SRC_ALPHA;
+}
+
+static int is_rgb_operand(uint32_t token)
+{
+	return is_alpha_operand(token) || token == GL_SRC_COLOR || token == GL_ONE_MINUS_SRC_COLOR;
+}
+
+static int is_alpha_combiner(uint32_t token)
+{
+	switch (token) {
+	case GL_REPLACE: case GL_MODULATE: case GL_ADD: case GL_ADD_SIGNED: case GL_INTERPOLATE: case GL_SUBTRACT: case GL_MODULATE_ADD_ATI:
+	case GL_MODULATE_SIGNED_ADD_ATI: case GL_MODULATE_SUBTRACT_ATI:
+		return 1;
+	default:
+		return 0;
+	}
+}
+
+static int is_rgb_combiner(uint32_t token)
+{
+	return is_alpha_combiner(token) || token == GL_DOT3_RGB || token == GL_DOT3_RGBA || token == GL_DOT3_RGB_EXT || token == GL_DOT3_RGBA_EXT;
+}
+
+/* One of a combiner's tokens. */
+static void set_token(struct gls_exec *x, struct gls_state *st, uint32_t *to, uint32_t token, int (*allows)(uint32_t token))
+{
+	if (!gls_refuses(x, st, !allows(token), GL_INVALID_ENUM))
+		*to = token;
+}
+
 GLS_FAMILY(glTexEnv, STATE)
 {
 	struct gls_unit *unit = gls_active_unit(st);
@@ -24,18 +63,19 @@ GLS_FAMILY(glTexEnv, STATE)
 		return;
 	}
 	if (target == GL_POINT_SPRITE && pname == GL_COORD_REPLACE) {
-		e->coord_replace = v[0] != 0;
+		if (!gls_refuses(x, st, v[0] != 0 && v[0] != 1, GL_INVALID_VALUE))
+			e->coord_replace = v[0] != 0;
 		return;
 	}
 	if (gls_refuses(x, st, target != GL_TEXTURE_ENV, GL_INVALID_ENUM))
 		return;
-	const struct { uint32_t first, *tokens; } operands[] = {
-		{ GL_SOURCE0_RGB, e->source_rgb }, { GL_SOURCE0_ALPHA, e->source_alpha },
-		{ GL_OPERAND0_RGB, e->operand_rgb }, { GL_OPERAND0_ALPHA, e->operand_alpha },
+	const struct { uint32_t first, *tokens; int (*allows)(uint32_t token); } operands[] = {
+		{ GL_SOURCE0_RGB, e->source_rgb, is_source }, { GL_SOURCE0_ALPHA, e->source_alpha, is_source },
+		{ GL_OPERAND0_RGB, e->operand_rgb, is_rgb_operand }, { GL_OPERAND0_ALPHA, e->operand_alpha, is_alpha_operand },
 	};
 	for (unsigned i = 0; i < 4; i++)
 		if (pname >= operands[i].first && pname < operands[i].first + 4) {
-			operands[i].tokens[pname - operands[i].first] = token;
+			set_token(x, st, &operands[i].tokens[pname - operands[i].first], token, operands[i].allows);
 			return;
 		}
 	switch (pname) {
@@ -50,8 +90,8 @@ GLS_FAMILY(glTexEnv, STATE)
 		e->env_mode = token;
 		break;
 	case GL_TEXTURE_ENV_COLOR: arg_color(x, c, 2, e->env_color); break;
-	case GL_COMBINE_RGB: e->combine_rgb = token; break;
-	case GL_COMBINE_ALPHA: e->combine_alpha = token; break;
+	case GL_COMBINE_RGB: set_token(x, st, &e->combine_rgb, token, is_rgb_combiner); break;
+	case GL_COMBINE_ALPHA: set_token(x, st, &e->combine_alpha, token, is_alpha_combiner); break;
 	case GL_RGB_SCALE:
 	case GL_ALPHA_SCALE:
 		if (gls_refuses(x, st, v[0] != 1 && v[0] != 2 && v[0] != 4, GL_INVALID_VALUE))

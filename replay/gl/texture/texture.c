@@ -204,6 +204,23 @@ static int is_swizzle(const struct gls_texture *t __attribute__((unused)), float
 	return token == GL_ZERO || token == GL_ONE || (token >= GL_RED && token <= GL_ALPHA);
 }
 
+static int is_compare_mode(const struct gls_texture *t __attribute__((unused)), float value)
+{
+	return token_of_float(value) == GL_NONE || token_of_float(value) == GL_COMPARE_R_TO_TEXTURE;
+}
+
+static int is_compare_func(const struct gls_texture *t __attribute__((unused)), float value)
+{
+	return token_of_float(value) >= GL_NEVER && token_of_float(value) <= GL_ALWAYS;
+}
+
+static int is_depth_mode(const struct gls_texture *t __attribute__((unused)), float value)
+{
+	uint32_t mode = token_of_float(value);
+
+	return mode == GL_LUMINANCE || mode == GL_INTENSITY || mode == GL_ALPHA || mode == GL_RED;
+}
+
 static int is_not_negative(const struct gls_texture *t __attribute__((unused)), float value)
 {
 	return !(value < 0);
@@ -240,9 +257,9 @@ static const struct parameter *find_parameter(uint32_t name)
 		{ GL_TEXTURE_MAX_LEVEL, TOKEN, AT(max_level), is_not_negative, GL_INVALID_VALUE, 1 },
 		{ GL_TEXTURE_LOD_BIAS, FLOAT, AT(lod_bias), NULL, 0, 0 },
 		{ GL_GENERATE_MIPMAP, BOOLEAN, AT(generate_mipmap), NULL, 0, 0 },
-		{ GL_TEXTURE_COMPARE_MODE, TOKEN, AT(compare_mode), NULL, 0, 0 },
-		{ GL_TEXTURE_COMPARE_FUNC, TOKEN, AT(compare_func), NULL, 0, 0 },
-		{ GL_DEPTH_TEXTURE_MODE, TOKEN, AT(depth_mode), NULL, 0, 0 },
+		{ GL_TEXTURE_COMPARE_MODE, TOKEN, AT(compare_mode), is_compare_mode, GL_INVALID_ENUM, 0 },
+		{ GL_TEXTURE_COMPARE_FUNC, TOKEN, AT(compare_func), is_compare_func, GL_INVALID_ENUM, 0 },
+		{ GL_DEPTH_TEXTURE_MODE, TOKEN, AT(depth_mode), is_depth_mode, GL_INVALID_ENUM, 0 },
 		{ GL_TEXTURE_SRGB_DECODE_EXT, TOKEN, AT(srgb_decode), NULL, 0, 1 },
 		{ GL_TEXTURE_SWIZZLE_R, TOKEN, AT(swizzle[0]), is_swizzle, GL_INVALID_ENUM, 0 },
 		{ GL_TEXTURE_SWIZZLE_G, TOKEN, AT(swizzle[1]), is_swizzle, GL_INVALID_ENUM, 0 },

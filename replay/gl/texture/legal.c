@@ -1,0 +1,165 @@
+#include "replay/gl/texture/legal.h"
+
+#include <stddef.h>
+
+#include "gl_tokens.h"
+#include "replay/gl/texture/level.h"
+#include "replay/gl/texture/texformat.h"
+
+static int is_index(uint32_t format)
+{
+	return format == GL_COLOR_INDEX || format == GL_STENCIL_INDEX;
+}
+
+/* EXT_texture_integer's: fixed function cannot show them, and they are not looked at further. */
+static int is_integer(uint32_t format)
+{
+	return (format >= GL_RED_INTEGER && format <= GL_BGRA_INTEGER) || format == GL_RG_INTEGER ||
+	       (format >= GL_LUMINANCE_INTEGER_EXT && format <= GL_LUMINANCE_ALPHA_INTEGER_EXT);
+}
+
+static int has_four(uint32_t format)
+{
+	return format == GL_RGBA || format == GL_BGRA || format == GL_ABGR_EXT;
+}
+
+static int is_rgb(uint32_t format)
+{
+	return format == GL_RGB;
+}
+
+static int is_rgb_or_four(uint32_t format)
+{
+	return format == GL_RGB || has_four(format);
+}
+
+static int is_depth_stencil(uint32_t format)
+{
+	return format == GL_DEPTH_STENCIL;
+}
+
+static int is_ycbcr(uint32_t format)
+{
+	return format == GL_YCBCR_MESA;
+}
+
+/* Whether a format goes with a packed type. NULL: the type is none */
+static int (*packed_with(uint32_t type))(uint32_t format)
+{
+	switch (type) {
+	case GL_UNSIGNED_BYTE_3_3_2: case GL_UNSIGNED_BYTE_2_3_3_REV: case GL_UNSIGNED_SHORT_5_6_5: case GL_UNSIGNED_SHORT_5_6_5_REV:
+	case GL_UNSIGNED_INT_10F_11F_11F_REV: case GL_UNSIGNED_INT_5_9_9_9_REV:
+		return is_rgb;
+	case GL_UNSIGNED_SHORT_4_4_4_4: case GL_UNSIGNED_SHORT_4_4_4_4_REV: case GL_UNSIGNED_SHORT_5_5_5_1:
+	case GL_UNSIGNED_SHORT_1_5_5_5_REV: case GL_UNSIGNED_INT_8_8_8_8: case GL_UNSIGNED_INT_8_8_8_8_REV: case GL_UNSIGNED_INT_10_10_10_2:
+		return has_four;
+	case GL_UNSIGNED_INT_2_10_10_10_REV:
+		return is_rgb_or_four;
+	case GL_UNSIGNED_INT_24_8: case GL_FLOAT_32_UNSIGNED_INT_24_8_REV:
+		return is_depth_stencil;
+	case GL_UNSIGNED_SHORT_8_8_MESA: case GL_UNSIGNED_SHORT_8_8_REV_MESA:
+		return is_ycbcr;
+	default:
+		return NULL;
+	}
+}
+
+static int is_plain(uint32_t type)
+{
+	return (type >= GL_BYTE && type <= GL_FLOAT) || type == GL_HALF_FLOAT || type == GL_HALF_FLOAT_OES;
+}
+
+static int is_format(uint32_t format)
+{
+	switch (format) {
+	case GL_COLOR_INDEX: case GL_STENCIL_INDEX: case GL_DEPTH_COMPONENT: case GL_RED: case GL_GREEN: case GL_BLUE: case GL_ALPHA:
+	case GL_RG: case GL_RGB: case GL_BGR: case GL_RGBA: case GL_BGRA: case GL_ABGR_EXT: case GL_LUMINANCE: case GL_LUMINANCE_ALPHA:
+	case GL_DEPTH_STENCIL: case GL_YCBCR_MESA:
+		return 1;
+	default:
+		return 0;
+	}
+}
+
+uint32_t gls_pixels_error(uint32_t format, uint32_t type)
+{
+	int (*const allows)(uint32_t format) = packed_with(type);
+
+	if (is_integer(format))
+		return 0;
+	if (!is_format(format) || (type == GL_BITMAP && !is_index(format)) || (!allows && !is_plain(type) && type != GL_BITMAP))
+		return GL_INVALID_ENUM;
+	if (allows)
+		return allows(format) ? 0 : GL_INVALID_OPERATION;
+	return format == GL_DEPTH_STENCIL || format == GL_YCBCR_MESA ? GL_INVALID_ENUM : 0;
+}
+
+static int has_depth(uint32_t format)
+{
+	return format == GL_DEPTH_COMPONENT || format == GL_DEPTH_STENCIL;
+}
+
+int gls_formats_agree(uint32_t internal_format, uint32_t format)
+{
+	const uint32_t base = gls_base_format(internal_format);
+
+	if (!base || is_integer(format) || format == GL_YCBCR_MESA || base == GL_STENCIL_INDEX)
+		return 1;
+	return has_depth(base) ? has_depth(format) : !has_depth(format) && format != GL_STENCIL_INDEX;
+}
+
+int gls_takes_target(unsigned n_dims, uint32_t target)
+{
+	const int is_face = target >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && target <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z;
+
+	if (n_dims == 1)
+		return target == GL_TEXTURE_1D;
+	if (n_dims == 2)
+		return target == GL_TEXTURE_2D || target == GL_TEXTURE_RECTANGLE || target == GL_TEXTURE_1D_ARRAY || is_face;
+	return target == GL_TEXTURE_3D || target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY;
+}
+
+uint32_t gls_image_error(uint32_t target, uint32_t internal_format, int64_t level, const int64_t size[2], int64_t border)
+{
+	const uint32_t base = gls_base_format(internal_format);
+	const int is_face = target >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && target <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z;
+
+	/* 1 to 4 are numbers of components; tokens begin at GL_COLOR_INDEX. */
+	if ((internal_format - 1u > 3u && internal_format < GL_COLOR_INDEX) || (is_face && size[0] != size[1]) ||
+	    (target == GL_TEXTURE_RECTANGLE && (level || border)))
+		return GL_INVALID_VALUE;
+	return target == GL_TEXTURE_3D && has_depth(base) ? GL_INVALID_OPERATION : 0;
+}
+
+/* Sides of a compressed format's blocks. */
+static int64_t block_width(const struct gls_format *f)
+{
+	return f->token == GL_COMPRESSED_RGB_FXT1_3DFX || f->token == GL_COMPRESSED_RGBA_FXT1_3DFX ? 8 : 4;
+}
+
+uint32_t gls_compressed_error(uint32_t internal_format, const int64_t size[3], int64_t border, int64_t n_bytes)
+{
+	const struct gls_format *f = gls_format_find(internal_format);
+	int64_t across;
+
+	if (!f)
+		return 0; /* counted where it is read */
+	if (!f->block_bytes)
+		return GL_INVALID_ENUM;
+	across = block_width(f);
+	if (n_bytes != (size[0] + across - 1) / across * ((size[1] + 3) / 4) * size[2] * f->block_bytes)
+		return GL_INVALID_VALUE;
+	return border ? GL_INVALID_OPERATION : 0;
+}
+
+int gls_part_is_whole(const struct gls_level *l, const int64_t at[2], const int64_t size[2])
+{
+	const struct gls_format *f = gls_format_find(l->internal_format);
+	int64_t across;
+
+	if (!f || !f->block_bytes)
+		return 1;
+	across = block_width(f);
+	return at[0] % across == 0 && at[1] % 4 == 0 && (size[0] % across == 0 || at[0] + size[0] == l->width) &&
+	       (size[1] % 4 == 0 || at[1] + size[1] == l->height);
+}
