@@ -188,18 +188,23 @@ static inline struct vec3 stage_relit(const struct tables *t, const struct point
 /*
  * Share of the pixel that a smooth line or point covers (sec. 3.3.1, 3.4.2 leave the filter open), as Mesa's draw module has it
  * (22.3): ramps one pixel wide across the line's sides and ends, interpolated with perspective like any attribute; of a
- * point all pixels whose centres its circle holds.
+ * point all pixels whose centres its circle holds. Its rim's ramp goes on inside, where it is more than 1, and the rim itself has none:
+ * alphas grow towards the middle.
  */
 static inline float stage_coverage(const struct point *p)
 {
 	struct vec4 c;
+	float apart;
 
 	if (!(p->geometry->flags & (GEOMETRY_SMOOTH_LINE | GEOMETRY_SMOOTH_POINT)))
 		return 1.0f;
 	c = point_mix(p, v4_load(p->vertex[0]->color[1]), v4_load(p->vertex[1]->color[1]), v4_load(p->vertex[2]->color[1]));
 	if (p->geometry->flags & GEOMETRY_SMOOTH_LINE)
 		return clamp01(c.y - M_ABS(c.x)) * clamp01(c.w - M_ABS(c.z));
-	return c.x * c.x + c.y * c.y <= 1.0f ? 1.0f : 0.0f;
+	apart = c.x * c.x + c.y * c.y;
+	if (!(apart <= 1.0f))
+		return 0.0f;
+	return apart < c.z ? (1.0f - apart) / (1.0f - c.z) : 1.0f;
 }
 
 /* A pixel rectangle's extent along one axis: a place in the window (y from the top) and the texel there, at either end. */

@@ -8,14 +8,14 @@
 
 static void add_smooth_point(const struct expand_input *in, struct expanded *out, const struct expand_end *e, uint32_t draw)
 {
-	const float *fade = in->material->point_attenuation, size = e->v.size[0];
+	const float *fade = in->material->point_attenuation, size = fmaxf(e->v.size[0], 1);
 	int attenuated = fade[0] != 1 || fade[1] != 0 || fade[2] != 0;
-	float radius = !attenuated && size <= 2 ? 1 : 0.5f * size;
+	float radius = !attenuated && size <= 2 ? 1 : 0.5f * size, rim = 1 - 2 / radius + 1 / radius / radius; /* where it begins, squared */
 
 	for (int k = 0; k < 4; k++) {
 		float x = k == 1 || k == 2 ? 1 : -1, y = k >= 2 ? 1 : -1;
 
-		expand_add_smooth_corner(in, out, e, e->x + x * radius, e->y + y * radius, (float[4]){ x, y, 0, 0 });
+		expand_add_smooth_corner(in, out, e, e->x + x * radius, e->y + y * radius, (float[4]){ x, y, rim, 0 });
 	}
 	expand_add_triangles(in, out, draw);
 }

@@ -202,11 +202,43 @@ static void clipped(int i)
 	glPointSize(3);
 }
 
+/* What reaches in front of the near plane, of which an edge lies on it; in lines and points, too. */
+static void nearby(int i)
+{
+	const int mode = choose(&i, 3), tilt = choose(&i, 8), turn = choose(&i, 3);
+
+	glTranslatef(0, 0, 1.2f);
+	glRotatef(50 * (float)turn, 0.2f, 1, 0.4f);
+	glRotatef(25 + 15 * (float)tilt, 1, 0.3f, 0.1f);
+	glScalef(1.7f, 1.7f, 1.7f);
+	glPolygonMode(GL_FRONT_AND_BACK, mode == 0 ? GL_FILL : mode == 1 ? GL_LINE : GL_POINT);
+	glLineWidth(tilt & 1 ? 3 : 1);
+	glPointSize(3);
+}
+
+/* Alphas at the reference, and one code beside it. */
+static void at_reference(int i)
+{
+	static const int codes[8] = { 1, 2, 77, 102, 127, 128, 204, 254 };
+	const int comparison = choose(&i, 8), code = codes[choose(&i, 8)], beside = choose(&i, 3) - 1;
+
+	glEnable(GL_ALPHA_TEST);
+	glAlphaFunc(comparisons[comparison], (float)code / 255.0f);
+	glColor4ub(240, 200, 60, (GLubyte)(code + beside));
+}
+
+static void draw_plain(int i)
+{
+	(void)i;
+	glRectf(-0.8f, -0.8f, 0.8f, 0.8f);
+}
+
 int main(void)
 {
 	static const struct table tables[] = {
 		{ 180, factor_low, draw_blended }, { 180, factor_high, draw_blended }, { 100, equation, draw_equation }, { 128, test, draw_squares },
 		{ 192, stencil, draw_stencilled }, { 64, sided, draw_sided },          { 72, clipped, draw_squares },
+		{ 72, nearby, draw_squares },          { 192, at_reference, draw_plain },
 	};
 
 	DRAW_TABLES(tables, NULL);

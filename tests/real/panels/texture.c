@@ -1,11 +1,14 @@
 /*
  * Environments, combiners and generated coordinates (OpenGL 2.1 sec. 2.11.4, 3.8): a square that leans away, textured by one or two units.
  */
+#include <math.h>
+
 #include "panels.h"
 
 enum { FORMATS = 6 };
 static const GLenum formats[FORMATS] = { GL_ALPHA, GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_INTENSITY, GL_RGB, GL_RGBA };
-static GLuint textures[FORMATS];
+static GLuint textures[FORMATS], cube_map;
+static float turned, reach; /* what the cube map's panels look at: degrees, and how far beside that */
 
 static void fill(unsigned char *texels, unsigned n, unsigned seed)
 {
@@ -25,6 +28,13 @@ static void prepare(void)
 		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, f % 2 ? GL_NEAREST : GL_LINEAR);
 		glTexImage2D(GL_TEXTURE_2D, 0, (GLint)formats[f], 8, 8, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 	}
+	glGenTextures(1, &cube_map);
+	glBindTexture(GL_TEXTURE_CUBE_MAP, cube_map);
+	for (unsigned face = 0; face < 6; face++)
+		for (int level = 0; level < 4; level++) {
+			fill(texels, sizeof(texels), 9000 + 100 * face + (unsigned)level);
+			glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGBA, 8 >> level, 8 >> level, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+		}
 }
 
 static void unit(unsigned u, unsigned f)
@@ -156,10 +166,39 @@ static void draw_generated(int i)
 	glMatrixMode(GL_MODELVIEW);
 }
 
+/* Each filter of a cube map; beside each other one where there are levels. Larger and smaller than its texels. */
+static void cube(int i)
+{
+	static const GLint filters[6] = { GL_NEAREST, GL_LINEAR, GL_NEAREST_MIPMAP_NEAREST, GL_LINEAR_MIPMAP_NEAREST, GL_NEAREST_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_LINEAR };
+	const int smaller = choose(&i, 6), other = choose(&i, 2), larger = smaller < 2 ? smaller : other, turn = choose(&i, 4), far = choose(&i, 3);
+
+	glEnable(GL_TEXTURE_CUBE_MAP);
+	glBindTexture(GL_TEXTURE_CUBE_MAP, cube_map);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, filters[smaller]);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, filters[larger]);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+	turned = 35 * (float)turn + 20;
+	reach = 0.3f + (float)far;
+}
+
+static void draw_cube(int i)
+{
+	(void)i;
+	glBegin(GL_QUADS);
+	for (int k = 0; k < 4; k++) {
+		const float u = k == 1 || k == 2 ? 1.0f : -1.0f, v = k >= 2 ? 1.0f : -1.0f, s = sinf(turned / 57.3f), c = cosf(turned / 57.3f);
+
+		glTexCoord3f(reach * u * c + s, reach * v, c - reach * u * s);
+		glVertex3f(u, v, -0.3f * v);
+	}
+	glEnd();
+}
+
 int main(void)
 {
 	static const struct table tables[] = {
 		{ 180, environment, draw_square }, { 180, function, draw_square }, { 144, operand, draw_square }, { 120, generated, draw_generated },
+		{ 144, cube, draw_cube },
 	};
 
 	DRAW_TABLES(tables, prepare);
