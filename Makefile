@@ -151,19 +151,45 @@ $(BUILD)/i386/%: corpus/%.c corpus/program.h | $(BUILD)/deps.i386
 	@mkdir -p $(@D)
 	$(Q)$(CC) -m32 -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -o $@ $< -l:libglut.so.3.12 -l:libGLU.so.1 -l:libGL.so.1 -lm
 
-# Programs of Windows, for Wine: corpus programs as they are, and one of their own kind of windows.
-DEPS_windows := gcc-mingw-w64-x86-64 wine wine64
+# Programs of Windows, for Wine: corpus programs as they are, also of 32 bits, and one of their own kind of windows.
+DEPS_windows := gcc-mingw-w64-x86-64 gcc-mingw-w64-i686 libz-mingw-w64 wine wine64
 WINDOWS := $(addprefix $(BUILD)/windows/,two_triangles.exe spheres.exe tricks.exe wgl.exe)
-MINGW = x86_64-w64-mingw32-gcc -std=gnu11 $(WARNINGS) -O2 -ffp-contract=off
-windows: $(WINDOWS)
+WINE32 := $(BUILD)/wine32/usr/lib/wine/wine
+WINDOWS32 := $(foreach p,two_triangles spheres tricks,$(BUILD)/windows32/$p.exe $(BUILD)/i386/sse/$p) $(WINE32)
+MINGW = -w64-mingw32-gcc -std=gnu11 $(WARNINGS) -O2 -ffp-contract=off
+windows: $(WINDOWS) $(WINDOWS32)
 
 $(BUILD)/windows/wgl.exe: tests/real/wgl.c | $(BUILD)/deps.windows
 	@mkdir -p $(@D)
-	$(Q)$(MINGW) -o $@ $< -lopengl32 -lgdi32
+	$(Q)x86_64$(MINGW) -o $@ $< -lopengl32 -lgdi32
 
 $(BUILD)/windows/%.exe: corpus/%.c corpus/program.h corpus/windows/GL/glut.h | $(BUILD)/deps.windows
 	@mkdir -p $(@D)
-	$(Q)$(MINGW) -Icorpus/windows -o $@ $< -lglu32 -lopengl32 -lgdi32
+	$(Q)x86_64$(MINGW) -Icorpus/windows -o $@ $< -lglu32 -lopengl32 -lgdi32
+
+# Windows' programs of 32 bits have twins on Linux, for Mesa's pixels of 32 bits are not those of 64. Both calculate by SSE: the x87 rounds to
+# other widths in each of the two systems.
+SSE := -msse2 -mfpmath=sse
+$(BUILD)/i386/sse/%: corpus/%.c corpus/program.h | $(BUILD)/deps.i386
+	@mkdir -p $(@D)
+	$(Q)$(CC) -m32 $(SSE) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -o $@ $< -l:libglut.so.3.12 -l:libGLU.so.1 -l:libGL.so.1 -lm
+
+$(BUILD)/windows32/%.exe: corpus/%.c corpus/program.h corpus/windows/GL/glut.h | $(BUILD)/deps.windows
+	@mkdir -p $(@D)
+	$(Q)i686$(MINGW) $(SSE) -Icorpus/windows -o $@ $< -lglu32 -lopengl32 -lgdi32
+
+# Wine for both classes, in a folder: Debian's wine32 is unpacked, not installed, for half of i386 comes with it, in the versions that this
+# system has of the same packages, which an archive may lack. It has the version of the wine64 that it starts, and no fonts: with FreeType
+# of i386 it waits for ever in NtGdiOpenDCW, recorded or not.
+$(WINE32): | $(BUILD)/deps.windows $(BUILD)/deps.i386
+	$(Q)rm -rf $(BUILD)/wine32 $(BUILD)/wine32.new && mkdir -p $(BUILD)/wine32.new
+	$(Q)version=$$(dpkg-query -W -f '$${Version}' wine64) && cd $(BUILD)/wine32.new && \
+		{ apt-get -q download wine32:i386=$$version libwine:i386=$$version >download.log 2>&1 || { cat download.log; exit 1; }; } && \
+		for package in *.deb; do dpkg -x $$package . && rm $$package || exit 1; done
+	$(Q)cp /usr/lib/wine/wine64 $(BUILD)/wine32.new/usr/lib/wine
+	$(Q)cp /usr/lib/x86_64-linux-gnu/wine/i386-windows/zlib1.dll $(BUILD)/wine32.new/usr/lib/i386-linux-gnu/wine/i386-windows
+	$(Q)mkdir $(BUILD)/wine32.new/usr/lib/x86_64-linux-gnu && ln -s /usr/lib/x86_64-linux-gnu/wine $(BUILD)/wine32.new/usr/lib/x86_64-linux-gnu/wine
+	$(Q)mv $(BUILD)/wine32.new $(BUILD)/wine32
 
 # The recorder alone with a sanitizer, for the threads test: it then needs a program that brings the sanitizer's runtime.
 SANITIZED_CFLAGS = -std=c11 $(WARNINGS) -O1 -g -fPIC -pthread -fvisibility=hidden -fno-omit-frame-pointer -I$(BUILD)/recorder/gen

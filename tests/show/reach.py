@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/reach.py BUILD (as `make show-reach`): programs that are not of OpenGL, X and 64 bits: three of each kind.
+"""tests/show/reach.py BUILD (as `make show-reach`): programs that are not of OpenGL, X and 64 bits: three of each kind, one of
+Windows of 32 bits.
 
 Each is recorded for ten frames with reference frames, rendered in mode gl and scored by all gates. Then recording's cost: processor time of the
 program and its threads, start included, recorded without reference frames over bare, in turn, the median of the ratios. Programs of 32 bits need
-`make i386` first: where that has not been run, their lines say so, and fail. At last, what many blended fragments a pixel cost beside llvmpipe.
+`make i386 windows` first: where that has not been run, their lines say so, and fail. At last, what many blended fragments a pixel cost beside
+llvmpipe.
 """
 import os
 import pathlib
@@ -30,6 +32,7 @@ def kinds(build):
     """(kind, name, command that --frames N may follow, gates that can be measured)"""
     for name, options in wine.PROGRAMS.items():
         yield "Wine", name, ["wine", build / f"windows/{name}.exe", *options], GATES
+    yield "Wine, 32 bits", "tricks", [wine.loader(build), build / "windows32/tricks.exe", *wine.PROGRAMS["tricks"]], GATES
     for name in ("shapes", "fixed", "sprites"):
         yield "OpenGL ES 1", name, [build / f"corpus/es/{name}"], tuple(g for g in GATES if g != "R5")
     for name, options in wine.PROGRAMS.items():
@@ -62,8 +65,8 @@ def cost(relume, work, command):
 
 
 def show(shown, build, kind, name, command, gates):
-    if not pathlib.Path(command[1] if command[0] == "wine" else command[0]).exists():
-        shown.row(f"{kind}: {name}", "not built: 'make i386' has not been run here, or cannot", f"{FRAMES} of {FRAMES} frames", False)
+    if not pathlib.Path(command[1] if kind.startswith("Wine") else command[0]).exists():
+        shown.row(f"{kind}: {name}", "not built: 'make i386 windows' has not been run here, or cannot", f"{FRAMES} of {FRAMES} frames", False)
         return
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
@@ -102,7 +105,7 @@ def main(build):
     with tempfile.TemporaryDirectory() as prefix:
         os.environ.update(wine.environment(prefix))
         if shutil.which("wineboot"):
-            subprocess.run(["wineboot", "-i"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+            subprocess.run([wine.loader(build), "wineboot", "-i"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
         for kind, name, command, gates in kinds(build):
             show(shown, build, kind, name, command, gates)
         show_deep(shown, build)
