@@ -12,6 +12,7 @@ place() {
 		rm -f "$root/$3"
 		# Folders that are ours alone go when they are empty.
 		case $3 in
+		lib/relume/lib/*) rmdir "$root/${3%/*}" "$root/lib/relume/lib" 2>/dev/null || : ;;
 		lib/relume/* | share/relume/* | share/doc/relume/*) rmdir "$root/${3%/*}" 2>/dev/null || : ;;
 		esac
 		return
@@ -28,6 +29,12 @@ sed "s|@PREFIX@|$prefix|; s|@VERSION@|$version|" packaging/relume-rays.pc.in >"$
 place 755 "$build/relume" bin/relume
 place 644 "$build/visual/libGL.so.1" lib/relume/visual/libGL.so.1 # before its neighbours, whose folder goes with the last of them
 place 644 "$build/librelume.so" lib/relume/librelume.so
+# The recorder for programs of 32 bits, where `make i386` has built it: the loader then picks between two folders (capture/record.c).
+i386=lib/i386-linux-gnu/librelume.so
+if [ "$verb" = uninstall ] || [ -e "$build/$i386" ]; then
+	place 644 "$build/$i386" "lib/relume/$i386"
+	place 644 "$build/librelume.so" lib/relume/lib/x86_64-linux-gnu/librelume.so
+fi
 place 644 "$build/relume-oiio.so" lib/relume/relume-oiio.so
 place 644 "$build/relume-glsl.so" lib/relume/relume-glsl.so
 place 644 "$build/librelume-rays.so" lib/relume/librelume-rays.so

@@ -25,7 +25,15 @@ done = must(on_display(relume, "record", "-o", SCRATCH / "gears.trace", "--quit-
 check("3 frames" in done.stderr, f"the installed command records: {done.stderr}")
 maps = run(relume, "record", "-o", SCRATCH / "cat.trace", "--", "cat", "/proc/self/maps").stdout
 found = set(re.findall(r"/\S.*librelume\.so", maps))
-check(found == {str(PREFIX / "lib/relume/librelume.so")}, f"its recorder is the installed one: {found}")
+with_i386 = (BUILD / "lib/i386-linux-gnu/librelume.so").exists()
+recorders = {bits: PREFIX / "lib/relume" / (f"lib/{bits}-linux-gnu" if with_i386 else "") / "librelume.so" for bits in ("x86_64", "i386")}
+check(found == {str(recorders["x86_64"])}, f"its recorder is the installed one: {found}")
+if with_i386:
+    check(recorders["i386"].read_bytes()[4] == 1, "the recorder for programs of 32 bits is installed, and is of their class")
+    done = must(on_display(relume, "record", "-o", SCRATCH / "i386.trace", "--", BUILD / "i386/two_triangles", "--frames", "3"))
+    check("3 frames" in done.stderr and "preloaded" not in done.stderr, f"the installed command records a program of 32 bits: {done.stderr}")
+else:
+    check(not (PREFIX / "lib/relume/lib").exists(), "no folder for the recorders of two classes where there is one")
 must(run(relume, "render", SCRATCH / "gears.trace", "-f", "2", "-o", SCRATCH / "gears.####.exr"))
 check((SCRATCH / "gears.0002.exr").exists(), "the installed command renders")
 done = run(relume, "diff", "--report", SCRATCH / "report", SCRATCH / "gears.0002.exr", SCRATCH / "gears.0002.exr")
