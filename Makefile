@@ -104,7 +104,7 @@ $(BUILD)/librelume.so: $(RECORDER_OBJ) capture/gen/exports.map
 		-o $@ $(RECORDER_OBJ) -l:libsnappy.a -ldl -pthread
 
 # The recorder for programs of 32 bits, beside the other one where the loader looks for either (capture/record.c).
-DEPS_i386 := gcc-multilib g++-multilib libsnappy-dev:i386 libx11-6:i386 libgl1:i386 libgl1-mesa-dri:i386 libglu1-mesa:i386 libglut3.12:i386
+DEPS_i386 := gcc-multilib g++-multilib libsnappy-dev:i386 libx11-6:i386 libgl1:i386 libgl1-mesa-dri:i386 libglu1-mesa:i386 libglut3.12:i386 mesa-utils-bin:i386
 I386_CFLAGS = $(filter-out $(SANFLAGS),$(ALL_CFLAGS)) -m32 -D_FILE_OFFSET_BITS=64 -Wno-psabi -I$(BUILD)/recorder/gen -fvisibility=hidden
 I386_OBJ := $(patsubst $(BUILD)/recorder/%,$(BUILD)/i386/%,$(RECORDER_OBJ))
 LIBRELUMES := $(BUILD)/lib/i386-linux-gnu/librelume.so $(BUILD)/lib/x86_64-linux-gnu/librelume.so

@@ -8,6 +8,7 @@ from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_gates, diff, finish, 
 
 FRAMES = 10
 PROGRAM = BUILD / "i386/windows"
+GEARS = "glxgears.i386-linux-gnu"
 
 if not (BUILD / "lib/i386-linux-gnu/librelume.so").exists() or not PROGRAM.exists():
     skip("'make i386' has not been run: no recorder for programs of 32 bits")
@@ -31,4 +32,9 @@ for name, options in wine.PROGRAMS.items():
     record(trace, BUILD / "i386" / name, *options, "--frames", FRAMES)
     render(trace, SCRATCH / name, *AS_SHOWN)
     check_gates(diff(trace, SCRATCH / name)[1], FRAMES, name)
+# A program of Debian.
+trace = SCRATCH / "glxgears.trace"
+record(trace, GEARS, options=("--ref", "color,depth", "--quit-after", str(FRAMES)))
+render(trace, SCRATCH / "glxgears", *AS_SHOWN)
+check_gates(diff(trace, SCRATCH / "glxgears")[1], FRAMES, "glxgears")
 finish()
