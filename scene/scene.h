@@ -384,7 +384,7 @@ struct scene {
 	uint32_t is_first; /* 1: there was nothing before it: black, depth 0 and stencil 0 are what shows through */
 	uint32_t keeps_depth; /* 1: depth may be that of frames before; what looks at it sets needs_previous, too */
 	uint32_t untraced_draw; /* a draw that shows a framebuffer object's lit picture, of which the scene was left out; 0: none */
-	uint32_t shows_earlier; /* 1: a texture lacks what an earlier frame drew to it, as nothing renders during this replay */
+	uint32_t shows_earlier; /* 1: a texture or buffer lacks what an earlier frame drew, as nothing renders during this replay */
 	const struct scene_picture *start; /* what was there before the first event; NULL: all 0, not known, or not made */
 	struct scene_before *before;       /* the scene that shows `start`, which is not made yet (before.h); NULL: there is none */
 

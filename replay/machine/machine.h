@@ -68,6 +68,7 @@ struct gls_feedback {
 	int leaves_starts; /* 1: who renders frames makes what they begin with (scene/before.h) */
 	int fronts;        /* 1: something reads front buffers */
 	int missing;       /* 1: some texture lacks pixels that were drawn in skipped frames */
+	int shows_earlier; /* 1: the frame used a buffer that lacks what an earlier frame read into it */
 	int shows_through; /* 1: some frame showed what was there before it */
 	int rewind;        /* 1: a frame needs pixels of skipped frames: the replay must build those before it */
 	const char *rewind_why; /* what it needs them for; a static string */

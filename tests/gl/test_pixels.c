@@ -1,5 +1,8 @@
-/* Raster position, bitmaps, pixel rectangles, pixel maps (GL 2.1 sec. 2.13, 3.6, 3.7, 4.3.3): calls in, rectangles out. */
+/* Raster position, bitmaps, pixel rectangles, pixel maps, pixels read into buffers (GL 2.1 sec. 2.13, 3.6, 3.7, 4.3): calls in, rectangles
+ * and bytes out. */
 #include "tests/gl/gl.h"
+#include "replay/gl/texture/texture.h"
+#include "replay/machine/buffer.h"
 
 static struct gl open_plain(void)
 {
@@ -196,22 +199,195 @@ START_TEST(test_no_numbers)
 }
 END_TEST
 
-/* What is read into a buffer object is data of later calls; what is read into the program's memory is not our affair. */
-START_TEST(test_read_into_buffer)
+/* A supplier whose every pixel is the same: 10 20 200 100, in the middle of depth, with stencil 7. */
+static int paint(void *user, const struct scene *scene, struct scene_picture *picture)
 {
-	struct gl gl = gl_open();
-	uint8_t bytes[64] = { 0 };
+	(void)user;
+	for (size_t i = 0; i < (size_t)scene->width * scene->height; i++) {
+		memcpy(picture->rgba + 4 * i, (const uint8_t[4]){ 10, 20, 200, 100 }, 4);
+		picture->depth[i] = 0x800000;
+		picture->stencil[i] = 7;
+	}
+	picture->unknown = 0;
+	return 0;
+}
 
-	gl_call(&gl, "glReadPixels", "iiiieep", 0, 0, 4, 4, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0x1000);
-	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0x1000);
-	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+enum { ROOM = 96 };
+
+/* A buffer of bytes 0xee, bound to be read into. */
+static struct gl open_buffer(int renders)
+{
+	struct gl gl = open_plain();
+	uint8_t bytes[ROOM];
+
+	memset(bytes, 0xee, sizeof(bytes));
+	gl.x->feedback.supply = renders ? paint : NULL;
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
 	gl_call(&gl, "glBindBuffer", "eu", GL_PIXEL_PACK_BUFFER, 5u);
-	gl_call(&gl, "glBufferData", "eibe", GL_PIXEL_PACK_BUFFER, 64, sizeof(bytes), bytes, GL_STREAM_READ);
-	gl_call(&gl, "glReadPixels", "iiiieep", 0, 0, 4, 4, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
-	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
-	ck_assert_uint_eq(gl_unsupported(&gl), 2);
+	gl_call(&gl, "glBufferData", "eibe", GL_PIXEL_PACK_BUFFER, ROOM, sizeof(bytes), bytes, GL_STREAM_READ);
+	return gl;
+}
+
+static const struct gls_buffer *buffer_of(struct gl *gl)
+{
+	return gls_buffer_find(gl_state(gl), 5);
+}
+
+static void read_pixels(struct gl *gl, int width, int height, uint32_t format, uint32_t type, uint64_t offset)
+{
+	gl_call(gl, "glReadPixels", "iiiieep", 0, 0, width, height, format, type, offset);
+}
+
+/* Sec. 4.3.2: each format and type as Mesa has it; luminance is a sum. */
+START_TEST(test_read_formats)
+{
+	static const struct { uint32_t format, type; uint8_t n, bytes[16]; } all[] = {
+		{ GL_RGBA, GL_UNSIGNED_BYTE, 4, { 10, 20, 200, 100 } },
+		{ GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, 4, { 200, 20, 10, 100 } },
+		{ GL_ABGR_EXT, GL_UNSIGNED_BYTE, 4, { 100, 200, 20, 10 } },
+		{ GL_RG, GL_UNSIGNED_SHORT, 4, { 10, 10, 20, 20 } },
+		{ GL_BLUE, GL_BYTE, 1, { 100 } },
+		{ GL_BLUE, GL_UNSIGNED_INT, 4, { 200, 200, 200, 200 } },
+		{ GL_LUMINANCE, GL_UNSIGNED_BYTE, 1, { 230 } },
+		{ GL_LUMINANCE_ALPHA, GL_UNSIGNED_BYTE, 2, { 230, 100 } },
+		{ GL_RGB, GL_UNSIGNED_SHORT_5_6_5, 2, { 0xb8, 0x08 } },
+		{ GL_ALPHA, GL_FLOAT, 4, { 0xc9, 0xc8, 0xc8, 0x3e } },
+		{ GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, 2, { 0x00, 0x80 } },
+		{ GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4, { 0x80, 0x00, 0x00, 0x80 } },
+		{ GL_DEPTH_COMPONENT, GL_FLOAT, 4, { 0x01, 0x00, 0x00, 0x3f } },
+		{ GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1, { 7 } },
+		{ GL_STENCIL_INDEX, GL_FLOAT, 4, { 0, 0, 0xe0, 0x40 } },
+		{ GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, 4, { 7, 0, 0, 0x80 } },
+	};
+	struct gl gl = open_buffer(1);
+
+	for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); i++) {
+		read_pixels(&gl, 1, 1, all[i].format, all[i].type, 0);
+		ck_assert_msg(!memcmp(buffer_of(&gl)->data, all[i].bytes, all[i].n), "format %x, type %x", all[i].format, all[i].type);
+	}
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	read_pixels(&gl, 1, 1, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 0);
+	ck_assert_uint_eq(gl_unsupported(&gl), 1);
 	gl_close(&gl);
 }
 END_TEST
 
-GL_TESTS("pixels", test_read_into_buffer, test_no_numbers, test_pixel_buffer, test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)
+/* Sec. 4.3.2, table 4.5: rows, alignment, swapped bytes, and the state of pixel transfer; what is between rows stays. */
+START_TEST(test_read_storage)
+{
+	struct gl gl = open_buffer(1);
+	const uint8_t *data;
+
+	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_ROW_LENGTH, 3);
+	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_SKIP_ROWS, 1);
+	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_SKIP_PIXELS, 1);
+	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_ALIGNMENT, 8);
+	read_pixels(&gl, 2, 2, GL_RGB, GL_UNSIGNED_BYTE, 1); /* rows of 9 bytes begin 16 apart: at 1 + 16 + 3 */
+	data = buffer_of(&gl)->data;
+	ck_assert_mem_eq(data + 19, ((uint8_t[8]){ 0xee, 10, 20, 200, 10, 20, 200, 0xee }), 8);
+	ck_assert_mem_eq(data + 35, ((uint8_t[8]){ 0xee, 10, 20, 200, 10, 20, 200, 0xee }), 8);
+	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_ROW_LENGTH, 0);
+	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_SKIP_ROWS, 0);
+	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_SKIP_PIXELS, 0);
+	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_SWAP_BYTES, 1);
+	gl_call(&gl, "glPixelTransferf", "ef", GL_RED_SCALE, 2.0);
+	read_pixels(&gl, 1, 1, GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1, 0);
+	ck_assert_mem_eq(data, ((uint8_t[2]){ 0x10, 0xb0 }), 2);
+	gl_call(&gl, "glReadPixels", "iiiieep", -1, 63, 2, 2, GL_GREEN, GL_UNSIGNED_BYTE, (uint64_t)64); /* but for one, off the screen */
+	ck_assert_mem_eq(data + 64, ((uint8_t[10]){ 0xee, 20, 0xee, 0xee, 0xee, 0xee, 0xee, 0xee, 0xee, 0xee }), 10);
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	gl_close(&gl);
+}
+END_TEST
+
+/* ARB_pixel_buffer_object: beyond the buffer's end, or at odd places, nothing is written, however large the numbers. */
+START_TEST(test_read_beyond)
+{
+	static const struct { int width, height; uint32_t type; uint64_t offset; } wrong[] = {
+		{ 5, 5, GL_UNSIGNED_BYTE, 0 }, { 4, 6, GL_UNSIGNED_BYTE, 1 }, { 1, 1, GL_UNSIGNED_BYTE, UINT64_MAX - 3 }, { 1, 1, GL_FLOAT, 2 },
+		{ INT32_MAX, INT32_MAX, GL_FLOAT, 0 }, { 1, INT32_MAX, GL_UNSIGNED_BYTE, 0 }, { INT32_MAX, 1, GL_UNSIGNED_BYTE, 0 },
+	};
+	struct gl gl = open_buffer(1);
+
+	for (size_t i = 0; i < sizeof(wrong) / sizeof(wrong[0]); i++) {
+		read_pixels(&gl, wrong[i].width, wrong[i].height, GL_RGBA, wrong[i].type, wrong[i].offset);
+		ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	}
+	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_SKIP_ROWS, 1 << 24);
+	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_ROW_LENGTH, 1 << 24);
+	read_pixels(&gl, 1, 1, GL_RGBA, GL_FLOAT, 0);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	read_pixels(&gl, -1, 1, GL_RGBA, GL_FLOAT, 0);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	for (size_t i = 0; i < ROOM; i++)
+		ck_assert_uint_eq(buffer_of(&gl)->data[i], 0xee);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Sec. 6.1.4: texels as table 6.1 has them, without pixel transfer. */
+START_TEST(test_read_texels)
+{
+	static const uint8_t texels[8] = { 10, 20, 200, 100, 255, 0, 51, 1 };
+	struct gl gl = open_buffer(0);
+	const uint8_t *data = buffer_of(&gl)->data;
+
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGBA, 2, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+	gl_call(&gl, "glPixelTransferf", "ef", GL_RED_SCALE, 0.5);
+	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_BGRA, GL_UNSIGNED_BYTE, (uint64_t)4);
+	ck_assert_mem_eq(data + 4, ((uint8_t[8]){ 200, 20, 10, 100, 51, 0, 255, 1 }), 8);
+	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_LUMINANCE, GL_UNSIGNED_BYTE, (uint64_t)0);
+	ck_assert_mem_eq(data, ((uint8_t[2]){ 10, 255 }), 2);
+	gl_call(&gl, "glPixelTransferf", "ef", GL_RED_SCALE, 1.0);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_LUMINANCE_ALPHA, 2, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	ck_assert_mem_eq(data, ((uint8_t[8]){ 10, 0, 0, 100, 255, 0, 0, 1 }), 8);
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, (uint64_t)0);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)(ROOM - 4));
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	gl_call(&gl, "glGetCompressedTexImage", "eip", GL_TEXTURE_2D, 0, (uint64_t)0);
+	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	gl_close(&gl);
+}
+END_TEST
+
+/* In the program's memory they are not our affair; where nobody renders, or in skipped frames, they are missing until all are written. */
+START_TEST(test_read_missing)
+{
+	uint8_t bytes[ROOM] = { 0 };
+	struct gl gl = open_buffer(0);
+
+	read_pixels(&gl, 2, 2, GL_RGBA, GL_UNSIGNED_BYTE, 8);
+	ck_assert_uint_eq(gl_unsupported(&gl), 1); /* needs a renderer */
+	ck_assert_uint_eq(buffer_of(&gl)->missing, 1);
+	gl_call(&gl, "glBufferSubData", "eiib", GL_PIXEL_PACK_BUFFER, 9, 15, (size_t)15, bytes);
+	ck_assert_uint_eq(buffer_of(&gl)->missing, 1);
+	gl_call(&gl, "glBufferSubData", "eiib", GL_PIXEL_PACK_BUFFER, 8, 16, (size_t)16, bytes);
+	ck_assert_uint_eq(buffer_of(&gl)->missing, 0);
+	gl.x->feedback.supply = paint;
+	gl.x->want = 0;
+	read_pixels(&gl, 2, 2, GL_RGBA, GL_UNSIGNED_BYTE, 8);
+	gl_call(&gl, "glBindBuffer", "eu", GL_PIXEL_UNPACK_BUFFER, 5);
+	gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)8);
+	ck_assert_uint_eq(gls_texture_missing(gls_texture_bound(gl.x, gl_state(&gl), 0, GLS_TEXTURE_2D)), 1);
+	ck_assert_int_eq(gl.x->feedback.rewind, 0);
+	gl.x->want = 1;
+	gl_call(&gl, "glDrawPixels", "iieep", 2, 2, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)8);
+	ck_assert_int_eq(gl.x->feedback.rewind, 1);
+	read_pixels(&gl, 2, 2, GL_RGBA, GL_UNSIGNED_BYTE, 8);
+	ck_assert_uint_eq(buffer_of(&gl)->missing, 0);
+	gl_call(&gl, "glTexSubImage2D", "eiiiiieep", GL_TEXTURE_2D, 0, 0, 0, 2, 2, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)8);
+	ck_assert_uint_eq(gls_texture_missing(gls_texture_bound(gl.x, gl_state(&gl), 0, GLS_TEXTURE_2D)), 0);
+	gl_call(&gl, "glBindBuffer", "eu", GL_PIXEL_PACK_BUFFER, 0u);
+	read_pixels(&gl, 4, 4, GL_RGBA, GL_UNSIGNED_BYTE, 0x1000);
+	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0x1000);
+	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("pixels", test_read_formats, test_read_storage, test_read_beyond, test_read_texels, test_read_missing, test_no_numbers, test_pixel_buffer, test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)

@@ -259,6 +259,10 @@ void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, 
 		offset = (uint64_t)gls_value_int(indices);
 		bytes = offset < b->bytes ? b->data + offset : NULL;
 		n = bytes ? b->bytes - offset : 0;
+		if (st->list)
+			gls_buffer_keep(x, b);
+		else
+			gls_buffer_lacks(x, b);
 	}
 	if (!bytes || n / size < (uint64_t)count) {
 		gls_unsupported(x, "indices that the recording does not hold");
@@ -359,7 +363,7 @@ GLS_HANDLER(glArrayElement, CLIENT)
 
 	/* Without positions it sets the current values only. */
 	has_vertex = st->client.arrays[GLS_ARRAY_VERTEX].enabled || st->client.arrays[GLS_ARRAY_GENERIC0].enabled;
-	if (has_vertex ? !gls_sources_open(x, st, &s) : !gls_sources_open_attributes(st, &s))
+	if (has_vertex ? !gls_sources_open(x, st, &s) : !gls_sources_open_attributes(x, st, &s))
 		return;
 	args[1] = (struct trace_value){ .type = TRACE_ARRAY, .count = 4, .items = numbers };
 	for (unsigned a = 0; a <= N_GLS_ATTRIBUTES; a++) {

@@ -22,7 +22,7 @@ static unsigned components(const struct gls_array *array)
 	return array->size == GL_BGRA ? 4 : array->size < 1 || array->size > 4 ? 0 : (unsigned)array->size;
 }
 
-static int gls_source_open(struct gls_state *st, const struct gls_array *array, struct gls_source *s)
+static int gls_source_open(struct gls_exec *x, struct gls_state *st, const struct gls_array *array, struct gls_source *s)
 {
 	struct gls_buffer *b = gls_buffer_find(st, array->buffer);
 
@@ -37,6 +37,10 @@ static int gls_source_open(struct gls_state *st, const struct gls_array *array, 
 		s->bytes = b->data + array->offset;
 		s->n = b->bytes - array->offset;
 		s->version = b->version;
+		if (st->list)
+			gls_buffer_keep(x, b);
+		else
+			gls_buffer_lacks(x, b);
 	}
 	return s->element && s->bytes && s->n >= s->element;
 }
@@ -135,14 +139,14 @@ void gls_source_read(const struct gls_source *s, uint64_t i, float out[4])
 	}
 }
 
-uint32_t gls_sources_open_attributes(struct gls_state *st, struct gls_sources *s)
+uint32_t gls_sources_open_attributes(struct gls_exec *x, struct gls_state *st, struct gls_sources *s)
 {
 	const struct gls_array *arrays = st->client.arrays;
 	const unsigned n = st->a.programs.vertex || st->program || st->list ? N_GLS_ATTRIBUTES : GLS_ATTR_GENERIC;
 
 	memset(s, 0, sizeof(*s));
 	for (unsigned a = 0; a < n; a++)
-		if (arrays[a].enabled && gls_source_open(st, &arrays[a], &s->attributes[a]))
+		if (arrays[a].enabled && gls_source_open(x, st, &arrays[a], &s->attributes[a]))
 			s->present |= 1u << a;
 	return s->present;
 }
@@ -152,18 +156,18 @@ int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_source
 	const struct gls_array *arrays = st->client.arrays;
 	const struct gls_array *vertex = &arrays[arrays[GLS_ARRAY_GENERIC0].enabled ? GLS_ARRAY_GENERIC0 : GLS_ARRAY_VERTEX];
 
-	gls_sources_open_attributes(st, s);
+	gls_sources_open_attributes(x, st, s);
 	if (!vertex->enabled) {
 		if (st->program || st->a.programs.vertex)
 			gls_unsupported(x, "draws whose positions only a program can find");
 		return 0; /* nothing is drawn without it (sec. 2.8) */
 	}
-	if (!gls_source_open(st, vertex, &s->vertex)) {
+	if (!gls_source_open(x, st, vertex, &s->vertex)) {
 		gls_unsupported(x, "arrays whose contents the recording does not hold");
 		return 0;
 	}
-	s->has_sizes = arrays[GLS_ARRAY_POINT_SIZE].enabled && gls_source_open(st, &arrays[GLS_ARRAY_POINT_SIZE], &s->size);
-	s->has_edges = arrays[GLS_ARRAY_EDGE_FLAG].enabled && gls_source_open(st, &arrays[GLS_ARRAY_EDGE_FLAG], &s->edge);
+	s->has_sizes = arrays[GLS_ARRAY_POINT_SIZE].enabled && gls_source_open(x, st, &arrays[GLS_ARRAY_POINT_SIZE], &s->size);
+	s->has_edges = arrays[GLS_ARRAY_EDGE_FLAG].enabled && gls_source_open(x, st, &arrays[GLS_ARRAY_EDGE_FLAG], &s->edge);
 	return 1;
 }
 

@@ -31,7 +31,7 @@ uint64_t gls_source_count(const struct gls_source *s);
 void gls_source_read(const struct gls_source *s, uint64_t i, float out[4]);
 
 /** Those of vertex programs only where one draws, or a list is made. @return the attributes that come from arrays, as in gls_geometry.varying */
-uint32_t gls_sources_open_attributes(struct gls_state *st, struct gls_sources *s);
+uint32_t gls_sources_open_attributes(struct gls_exec *x, struct gls_state *st, struct gls_sources *s);
 /** Positions and edge flags too. @return 1; 0: there is nothing to draw from (counted) */
 int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_sources *s);
 /** A hash of all that a draw's mesh depends on. elements: a hash of the indices, or the first vertex. */

@@ -128,7 +128,7 @@ static void set_data(struct gls_exec *x, struct gls_state *st, const struct call
 	free(b->data);
 	b->data = data;
 	b->bytes = (size_t)size;
-	b->version = ++x->caches.versions;
+	gls_buffer_fill(x, b, 0, SIZE_MAX);
 }
 
 /* GL_STREAM_DRAW to GL_DYNAMIC_COPY, three of every four. */
@@ -148,8 +148,9 @@ static void write_buffer(struct gls_exec *x, struct gls_buffer *b, uint64_t offs
 {
 	if (!bytes || offset >= b->bytes)
 		return;
-	memcpy(b->data + offset, bytes, n < b->bytes - offset ? n : b->bytes - offset);
-	b->version = ++x->caches.versions;
+	n = n < b->bytes - offset ? n : b->bytes - offset;
+	memcpy(b->data + offset, bytes, n);
+	gls_buffer_fill(x, b, offset, offset + n);
 }
 
 GLS_HANDLER(glBufferSubData, CLIENT)
@@ -180,6 +181,8 @@ GLS_HANDLER(glCopyBufferSubData, CLIENT)
 	}
 	if (n)
 		write_buffer(x, to, (uint64_t)write, from->data + read, (size_t)n);
+	if (n && from->missing && read < (int64_t)from->missing_to && read + n > (int64_t)from->missing_from)
+		gls_buffer_lose(x, to, (size_t)write, (size_t)(write + n), from->missing);
 }
 
 static void map_buffer(struct gls_exec *x, struct gls_buffer *b, const struct call *c, uint64_t offset, uint64_t n)

@@ -64,6 +64,7 @@ static const uint8_t *find_commands(struct gls_exec *x, struct gls_state *st, co
 
 		found = offset < b->bytes ? b->data + offset : NULL;
 		n = found ? b->bytes - offset : 0;
+		gls_buffer_lacks(x, b);
 	}
 	if (found && n >= bytes)
 		return found;

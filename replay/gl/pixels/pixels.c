@@ -27,6 +27,7 @@ GLS_HANDLER(glBitmap, STATE)
 		return;
 	p.data = gls_pixel_source(st, c, 6, &p.n);
 	if (p.data && p.width && p.height && p.width <= GLS_MAX_RECTANGLE && p.height <= GLS_MAX_RECTANGLE && x->want) {
+		gls_pixel_missing(x, st, c, 6);
 		texels = gls_scratch(x, (size_t)p.width * p.height * 4);
 		for (uint32_t i = 0; texels && i < p.width * p.height; i++)
 			memset(texels + 4 * (size_t)i, gls_unpack_bit(&p, i % p.width, i / p.width) ? 255 : 0, 4);
@@ -96,6 +97,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 	p.data = gls_pixel_source(st, c, 4, &p.n);
 	if (!p.data || !is_drawable(x, st, p.width, p.height))
 		return;
+	gls_pixel_missing(x, st, c, 4);
 	if (kind == SCENE_COLOR_PIXELS && !indices)
 		kind = gls_color_pixels(x, st);
 	texels = gls_scratch(x, (size_t)p.width * p.height * (kind == SCENE_FLOAT_PIXELS ? 16 : 5));

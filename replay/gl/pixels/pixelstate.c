@@ -5,6 +5,7 @@
 #include "gl_tokens.h"
 #include "replay/gl/texture/unpack.h"
 #include "replay/machine/args.h"
+#include "replay/machine/buffer.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
@@ -109,6 +110,8 @@ GLS_FAMILY(glPixelMap, STATE)
 		return;
 	memset(m, 0, sizeof(*m));
 	m->size = size;
+	if (gls_client_store(x, st)->buffer)
+		gls_buffer_keep(x, gls_buffer_find(st, st->client.unpack.buffer));
 	if (gls_client_store(x, st)->buffer ? buffered(st, c, size, type, m->values) : arg_floats(c, 2, m->values, size) < size)
 		gls_unsupported(x, "pixel maps beyond what the recording holds");
 	for (uint32_t i = 0; i < size && !indices && type != GLS_SUFFIX_F; i++)

@@ -76,6 +76,22 @@ static int refuses_image(struct gls_exec *x, struct gls_state *st, const struct 
 	       gls_refuses(x, st, image != 0, image) || gls_refuses(x, st, !gls_formats_agree(form->internal_format, format), GL_INVALID_OPERATION);
 }
 
+/* A level's texels came of a command's bytes (argument i), all of them where it is whole: it misses what those miss. */
+static void take_missing(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned i, struct gls_level *l, int whole)
+{
+	const uint32_t missing = gls_pixel_missing(x, st, c, i);
+
+	if (missing || (whole && l->missing))
+		gls_level_lose(l, missing);
+	x->feedback.missing |= missing != 0;
+}
+
+/* 1 where a part is all of a level. */
+static int is_whole(const struct gls_level *l, const int64_t size[3])
+{
+	return size[0] == l->width && size[1] == l->height && size[2] == l->depth;
+}
+
 GLS_FAMILY(glTexImage, STATE)
 {
 	const unsigned n_dims = gls_commands[x->command].suffix.n;
@@ -95,6 +111,7 @@ GLS_FAMILY(glTexImage, STATE)
 		gls_unsupported(x, "pixels beyond what the recording holds");
 	if (p.data && gls_level_stencil(l) && p.format == GL_DEPTH_STENCIL)
 		gls_unpack_stencil(&p, gls_level_stencil(l));
+	take_missing(x, st, c, 6 + n_dims, l, 0);
 	gls_texture_level_changed(x, t, face, arg_i(c, 1));
 }
 
@@ -145,6 +162,7 @@ GLS_FAMILY(glTexSubImage, STATE)
 		gls_unpack_stencil(&p, texels);
 		place(l, gls_level_stencil(l), 1, at, size, texels);
 	}
+	take_missing(x, st, c, 4 + 2 * n_dims, l, is_whole(l, size));
 	gls_texture_changed(t);
 	gls_texture_level_changed(x, t, face, arg_i(c, 1));
 }
@@ -177,6 +195,8 @@ static void compressed_image(struct gls_exec *x, struct gls_state *st, const str
 	if (!t || gls_refuses(x, st, wrong != 0, wrong))
 		return;
 	l = gls_texture_specify(x, st, t, face, arg_i(c, 1), &form);
+	if (l)
+		take_missing(x, st, c, n_dims + 5, l, 0);
 	if (l && pixels)
 		unpack_compressed(x, l->internal_format, (int64_t[3]){ l->width, l->height, l->depth }, pixels, n, l->texels);
 	if (l)
@@ -217,6 +237,7 @@ static void paletted_images(struct gls_exec *x, struct gls_state *st, const stru
 
 		if (!l)
 			return;
+		take_missing(x, st, c, 7, l, 0);
 		if (data)
 			load_paletted(x, st, palette, l, data, n, first);
 		gls_texture_level_changed(x, t, face, level);
@@ -267,6 +288,7 @@ GLS_FAMILY(glCompressedTexSubImage, STATE)
 	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * l->texel_bytes);
 	if (texels && !unpack_compressed(x, l->internal_format, size, pixels, n, texels))
 		place(l, l->texels, l->texel_bytes, at, size, texels);
+	take_missing(x, st, c, 4 + 2 * n_dims, l, is_whole(l, size));
 	gls_texture_changed(t);
 	gls_texture_level_changed(x, t, face, arg_i(c, 1));
 }

@@ -5,6 +5,7 @@
 #include "gl_tokens.h"
 #include "replay/gl/texture/unpack.h"
 #include "replay/machine/args.h"
+#include "replay/machine/buffer.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
@@ -103,6 +104,8 @@ GLS_HANDLER(glPolygonStipple, STATE)
 
 	for (unsigned i = 0; i < 128 && blob && n_blob >= 128; i++, n = 128)
 		bytes[i] = blob[i];
+	if (blob && arg(c, 0)->type != TRACE_BLOB)
+		gls_buffer_keep(x, gls_buffer_find(st, st->client.unpack.buffer));
 	if (n < 128) {
 		gls_unsupported(x, "stipples beyond what the recording holds");
 		return;

@@ -34,6 +34,9 @@ struct scene *gls_frame_finish(struct gls_exec *x)
 	struct gls_drawable *d = swapped(x);
 	struct scene *s = d ? gls_surface_end(x, shown(x, d), 1) : NULL;
 
+	if (s)
+		s->shows_earlier |= (uint32_t)x->feedback.shows_earlier;
+	x->feedback.shows_earlier = 0;
 	if (s && !x->unswapped)
 		gls_front_swapped(d);
 	return s;

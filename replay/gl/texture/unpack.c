@@ -7,7 +7,7 @@
 #include "base/half.h"
 #include "base/norm.h"
 #include "capture/format/call.h"
-#include "capture/format/sizes.h"
+#include "replay/gl/texture/clientformat.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/transfer.h"
 #include "replay/gl/texture/ycbcr.h"
@@ -15,68 +15,6 @@
 #include "replay/machine/buffer.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
-
-/* ---- client formats, tables 3.5 and 3.6 ---- */
-
-/* What each component of a pixel is: 0 .. 3 R G B A, 4 luminance (all of RGB), 5 depth. */
-struct format {
-	uint32_t token;
-	unsigned n;
-	uint8_t to[4];
-};
-
-static const struct format *find_format(uint32_t token)
-{
-	static const struct format formats[] = {
-		{ GL_RED, 1, { 0 } },         { GL_GREEN, 1, { 1 } },        { GL_BLUE, 1, { 2 } },
-		{ GL_ALPHA, 1, { 3 } },       { GL_RGB, 3, { 0, 1, 2 } },    { GL_BGR, 3, { 2, 1, 0 } },
-		{ GL_RGBA, 4, { 0, 1, 2, 3 } }, { GL_BGRA, 4, { 2, 1, 0, 3 } }, { GL_ABGR_EXT, 4, { 3, 2, 1, 0 } },
-		{ GL_LUMINANCE, 1, { 4 } },   { GL_LUMINANCE_ALPHA, 2, { 4, 3 } }, { GL_DEPTH_COMPONENT, 1, { 5 } },
-		{ GL_RG, 2, { 0, 1 } },       { GL_DEPTH_STENCIL, 1, { 5 } },
-	};
-
-	for (size_t i = 0; i < sizeof(formats) / sizeof(formats[0]); i++)
-		if (formats[i].token == token)
-			return &formats[i];
-	return NULL;
-}
-
-/* Packed types (table 3.8): how many bits each component has. The first one has the highest bits unless they are reversed. */
-struct packed {
-	uint32_t token;
-	unsigned bytes, n, bits[4], reversed;
-};
-
-static const struct packed *find_packed(uint32_t token)
-{
-	static const struct packed types[] = {
-		{ GL_UNSIGNED_BYTE_3_3_2, 1, 3, { 3, 3, 2 }, 0 },
-		{ GL_UNSIGNED_BYTE_2_3_3_REV, 1, 3, { 3, 3, 2 }, 1 },
-		{ GL_UNSIGNED_SHORT_5_6_5, 2, 3, { 5, 6, 5 }, 0 },
-		{ GL_UNSIGNED_SHORT_5_6_5_REV, 2, 3, { 5, 6, 5 }, 1 },
-		{ GL_UNSIGNED_SHORT_4_4_4_4, 2, 4, { 4, 4, 4, 4 }, 0 },
-		{ GL_UNSIGNED_SHORT_4_4_4_4_REV, 2, 4, { 4, 4, 4, 4 }, 1 },
-		{ GL_UNSIGNED_SHORT_5_5_5_1, 2, 4, { 5, 5, 5, 1 }, 0 },
-		{ GL_UNSIGNED_SHORT_1_5_5_5_REV, 2, 4, { 5, 5, 5, 1 }, 1 },
-		{ GL_UNSIGNED_INT_8_8_8_8, 4, 4, { 8, 8, 8, 8 }, 0 },
-		{ GL_UNSIGNED_INT_8_8_8_8_REV, 4, 4, { 8, 8, 8, 8 }, 1 },
-		{ GL_UNSIGNED_INT_10_10_10_2, 4, 4, { 10, 10, 10, 2 }, 0 },
-		{ GL_UNSIGNED_INT_2_10_10_10_REV, 4, 4, { 10, 10, 10, 2 }, 1 },
-	};
-
-	for (size_t i = 0; i < sizeof(types) / sizeof(types[0]); i++)
-		if (types[i].token == token)
-			return &types[i];
-	return NULL;
-}
-
-/* Bytes of a component, or of packed depth and stencil; 0: no such type. */
-static size_t plain_bytes(uint32_t type)
-{
-	int is_depth = type == GL_UNSIGNED_INT_24_8 || type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV;
-
-	return type <= GL_FLOAT || type == GL_HALF_FLOAT || is_depth ? (size_t)type_bytes(type) : 0;
-}
 
 static uint32_t load(const uint8_t *p, size_t n, int swap)
 {
@@ -90,7 +28,7 @@ static uint32_t load(const uint8_t *p, size_t n, int swap)
 /* One component as a float (table 2.9); of packed depth and stencil the depth. */
 static float plain_component(const uint8_t *p, uint32_t type, int swap)
 {
-	size_t bytes = plain_bytes(type);
+	size_t bytes = gls_component_bytes(type);
 	uint32_t u = load(p, bytes < 4 ? bytes : 4, swap);
 	float f;
 
@@ -117,7 +55,7 @@ static float plain_component(const uint8_t *p, uint32_t type, int swap)
 	}
 }
 
-static void packed_components(const uint8_t *p, const struct packed *t, int swap, float out[4])
+static void packed_components(const uint8_t *p, const struct gls_packed *t, int swap, float out[4])
 {
 	uint32_t word = load(p, t->bytes, swap);
 	unsigned shift = t->reversed ? 0 : 8 * t->bytes;
@@ -178,11 +116,16 @@ int gls_unpack_bit(const struct gls_pixels *p, uint32_t x, uint32_t y)
 	return at < p->n && p->data[at] >> (s->lsb_first ? bit & 7 : 7 - (bit & 7)) & 1;
 }
 
+uint32_t gls_pixel_missing(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned i)
+{
+	return arg(c, i)->type == TRACE_BLOB ? 0 : gls_buffer_lacks(x, gls_buffer_find(st, st->client.unpack.buffer));
+}
+
 /* ---- stencil values and indices ---- */
 
 void gls_unpack_stencil(const struct gls_pixels *p, uint8_t *out)
 {
-	size_t group = plain_bytes(p->type);
+	size_t group = gls_component_bytes(p->type);
 
 	for (uint32_t y = 0; y < p->height * (p->depth ? p->depth : 1); y++)
 		for (uint32_t x = 0; x < p->width; x++) {
@@ -213,7 +156,7 @@ static uint32_t index_at(const struct gls_state *st, const struct gls_pixels *p,
 
 int gls_unpack_indices(const struct gls_state *st, const struct gls_pixels *p, uint8_t *out)
 {
-	size_t size = plain_bytes(p->type);
+	size_t size = gls_component_bytes(p->type);
 
 	if (p->type == GL_HALF_FLOAT || p->type == GL_UNSIGNED_INT_24_8 || p->type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV ||
 	    (p->type != GL_BITMAP && !size))
@@ -239,7 +182,7 @@ int gls_unpack_indices(const struct gls_state *st, const struct gls_pixels *p, u
  */
 enum { ZERO_BYTE = 4, FULL_BYTE };
 
-static void places_of(const struct format *f, uint32_t base, uint8_t place[4])
+static void places_of(const struct gls_client_format *f, uint32_t base, uint8_t place[4])
 {
 	place[0] = place[1] = place[2] = ZERO_BYTE;
 	place[3] = FULL_BYTE;
@@ -345,8 +288,8 @@ static void unpack_bytes(const uint8_t *from, unsigned n, uint32_t width, const 
 struct unpacking {
 	const struct gls_state *st;
 	const struct gls_pixels *p;
-	const struct format *from;
-	const struct packed *packed; /* NULL: each component has bytes of its own */
+	const struct gls_client_format *from;
+	const struct gls_packed *packed; /* NULL: each component has bytes of its own */
 	size_t component, group;     /* bytes of a component, of a pixel */
 	const struct gls_format *to;
 	size_t step;                 /* bytes of a texel */
@@ -378,9 +321,9 @@ static int describe(struct unpacking *u)
 
 	if (p->format == GL_YCBCR_MESA)
 		return describe_ycbcr(u);
-	u->from = find_format(p->format);
-	u->packed = find_packed(p->type);
-	u->component = plain_bytes(p->type);
+	u->from = gls_client_format_find(p->format);
+	u->packed = gls_packed_find(p->type);
+	u->component = gls_component_bytes(p->type);
 	u->is_depth = to->base == GL_DEPTH_COMPONENT;
 	if (!u->from || (!u->component && !u->packed) || u->is_depth != (u->from->to[0] == 5) ||
 	    (u->packed && u->packed->n != u->from->n) || (p->format == GL_DEPTH_STENCIL) != is_packed_depth)
@@ -397,7 +340,7 @@ static int describe(struct unpacking *u)
 
 static void unpack_texel(const struct unpacking *u, const uint8_t *data, uint8_t *out)
 {
-	const struct format *f = u->from;
+	const struct gls_client_format *f = u->from;
 	float rgba[4] = { 0, 0, 0, 1 }, v[4];
 
 	if (u->packed)

@@ -26,6 +26,9 @@ struct gls_pixels {
 /** The bytes of a pixel argument: client memory, or a place in the bound unpack buffer. NULL: there are none. */
 const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsigned i, size_t *n);
 
+/** Whether those bytes are in a buffer that lacks pixels read into it (gls_buffer_lacks). @return its `missing` */
+uint32_t gls_pixel_missing(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned i);
+
 /**
  * Client pixels to texels, through pixel transfer.
  *
