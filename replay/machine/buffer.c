@@ -40,3 +40,11 @@ void gls_buffer_keep(struct gls_exec *x, const struct gls_buffer *b)
 	else
 		gls_unsupported(x, "state made of pixels read into a buffer object");
 }
+
+void gls_buffer_draws(struct gls_exec *x, const struct gls_state *st, const struct gls_buffer *b)
+{
+	if (st->list)
+		gls_buffer_keep(x, b);
+	else
+		gls_buffer_lacks(x, b);
+}

@@ -34,6 +34,9 @@ uint32_t gls_buffer_lacks(struct gls_exec *x, const struct gls_buffer *b);
 /** The same where state that frames to come use is made of it: the replay goes back in any frame, and else the call is counted as not done. */
 void gls_buffer_keep(struct gls_exec *x, const struct gls_buffer *b);
 
+/** A draw looks at a buffer, for a list if one is being made: what of the two above that asks for. */
+void gls_buffer_draws(struct gls_exec *x, const struct gls_state *st, const struct gls_buffer *b);
+
 /** NULL: there is none of this name. */
 static inline struct gls_buffer *gls_buffer_find(struct gls_state *st, uint32_t name)
 {

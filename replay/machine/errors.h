@@ -20,6 +20,12 @@ static inline bool gls_refuses(struct gls_exec *x, struct gls_state *st, bool wr
 	return wrong;
 }
 
+/** The same with what a table or a rule says: 0 is no error. @return whether there is one */
+static inline bool gls_refuses_by(struct gls_exec *x, struct gls_state *st, uint32_t error)
+{
+	return gls_refuses(x, st, error != 0, error);
+}
+
 /** Count the current call as not done. why: the part that is missing, a static string. */
 void gls_unsupported(struct gls_exec *x, const char *why);
 

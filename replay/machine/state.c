@@ -23,6 +23,11 @@ int gls_is_face(uint32_t token)
 	return token == GL_FRONT || token == GL_BACK || token == GL_FRONT_AND_BACK;
 }
 
+int gls_is_compare_func(uint32_t token)
+{
+	return token >= GL_NEVER && token <= GL_ALWAYS;
+}
+
 unsigned gls_face_colors(uint32_t parameter)
 {
 	switch (parameter) {

@@ -351,6 +351,8 @@ struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
 
 /** 1 for FRONT, BACK and FRONT_AND_BACK. */
 int gls_is_face(uint32_t token);
+/** 1 for NEVER to ALWAYS. */
+int gls_is_compare_func(uint32_t token);
 enum { GLS_AMBIENT = 1, GLS_DIFFUSE = 2, GLS_SPECULAR = 4, GLS_EMISSION = 8 };
 /** Colours of a face that a material parameter names. @return 0: none */
 unsigned gls_face_colors(uint32_t parameter);

@@ -1,5 +1,5 @@
 /*
- * Pixels that are read into buffer objects and drawn from there, one thing a frame: colours, luminance, depths, packed types, rows with
+ * Pixels are read into buffer objects and drawn from there, one kind a frame: colours, luminance, depths, packed types, rows with
  * gaps, texels, colours of vertices, and pixels of the frame before. Recorded by test_readbacks.py.
  */
 #include "tests/trace/window.h"

@@ -259,10 +259,7 @@ void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, 
 		offset = (uint64_t)gls_value_int(indices);
 		bytes = offset < b->bytes ? b->data + offset : NULL;
 		n = bytes ? b->bytes - offset : 0;
-		if (st->list)
-			gls_buffer_keep(x, b);
-		else
-			gls_buffer_lacks(x, b);
+		gls_buffer_draws(x, st, b);
 	}
 	if (!bytes || n / size < (uint64_t)count) {
 		gls_unsupported(x, "indices that the recording does not hold");

@@ -37,10 +37,7 @@ static int gls_source_open(struct gls_exec *x, struct gls_state *st, const struc
 		s->bytes = b->data + array->offset;
 		s->n = b->bytes - array->offset;
 		s->version = b->version;
-		if (st->list)
-			gls_buffer_keep(x, b);
-		else
-			gls_buffer_lacks(x, b);
+		gls_buffer_draws(x, st, b);
 	}
 	return s->element && s->bytes && s->n >= s->element;
 }

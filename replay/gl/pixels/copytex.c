@@ -123,7 +123,7 @@ GLS_FAMILY(glCopyTexImage, STATE)
 
 	/* Numbers of components are for TexImage alone. */
 	if (!t || gls_refuses(x, st, !gls_takes_target(n_dims, arg_u(c, 0)) || (form.internal_format >= 1 && form.internal_format <= 4), GL_INVALID_ENUM) ||
-	    gls_refuses(x, st, wrong != 0, wrong))
+	    gls_refuses_by(x, st, wrong))
 		return;
 	l = gls_texture_specify(x, st, t, face, arg_i(c, 1), &form);
 	if (l) /* the border is read, too: the given corner is its corner */

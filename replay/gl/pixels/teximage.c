@@ -72,8 +72,8 @@ static int refuses_image(struct gls_exec *x, struct gls_state *st, const struct 
 	const uint32_t format = arg_u(c, 4 + n_dims), wrong = gls_pixels_error(format, arg_u(c, 5 + n_dims)),
 		       image = gls_image_error(arg_u(c, 0), form->internal_format, arg_i(c, 1), (int64_t[2]){ form->width, form->height }, form->border);
 
-	return gls_refuses(x, st, !gls_takes_target(n_dims, arg_u(c, 0)), GL_INVALID_ENUM) || gls_refuses(x, st, wrong != 0, wrong) ||
-	       gls_refuses(x, st, image != 0, image) || gls_refuses(x, st, !gls_formats_agree(form->internal_format, format), GL_INVALID_OPERATION);
+	return gls_refuses(x, st, !gls_takes_target(n_dims, arg_u(c, 0)), GL_INVALID_ENUM) || gls_refuses_by(x, st, wrong) ||
+	       gls_refuses_by(x, st, image) || gls_refuses(x, st, !gls_formats_agree(form->internal_format, format), GL_INVALID_OPERATION);
 }
 
 /* A level's texels came of a command's bytes (argument i), all of them where it is whole: it misses what those miss. */
@@ -149,7 +149,7 @@ GLS_FAMILY(glTexSubImage, STATE)
 	}
 	p = pixels_of(x, st, c, 2 + 2 * n_dims, n_dims, size);
 	wrong = gls_pixels_error(p.format, p.type);
-	if (gls_refuses(x, st, wrong != 0, wrong) ||
+	if (gls_refuses_by(x, st, wrong) ||
 	    gls_refuses(x, st, !gls_formats_agree(l->internal_format, p.format) || !gls_part_is_whole(l, at, size), GL_INVALID_OPERATION))
 		return;
 	if (!p.data || !size[0] || !size[1] || !size[2])
@@ -192,7 +192,7 @@ static void compressed_image(struct gls_exec *x, struct gls_state *st, const str
 	const uint8_t *pixels = gls_pixel_source(st, c, n_dims + 5, &n);
 	const uint32_t wrong = gls_compressed_error(form.internal_format, (int64_t[3]){ form.width, form.height, form.depth }, form.border, arg_i(c, 4 + n_dims));
 
-	if (!t || gls_refuses(x, st, wrong != 0, wrong))
+	if (!t || gls_refuses_by(x, st, wrong))
 		return;
 	l = gls_texture_specify(x, st, t, face, arg_i(c, 1), &form);
 	if (l)

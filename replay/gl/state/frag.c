@@ -6,11 +6,6 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
 
-static int is_compare_func(uint32_t func)
-{
-	return func >= GL_NEVER && func <= GL_ALWAYS;
-}
-
 GLS_HANDLER(glScissor, STATE)
 {
 	if (gls_refuses(x, st, arg_i(c, 2) < 0 || arg_i(c, 3) < 0, GL_INVALID_VALUE))
@@ -21,7 +16,7 @@ GLS_HANDLER(glScissor, STATE)
 
 GLS_HANDLER(glAlphaFunc, STATE)
 {
-	if (gls_refuses(x, st, !is_compare_func(arg_u(c, 0)), GL_INVALID_ENUM))
+	if (gls_refuses(x, st, !gls_is_compare_func(arg_u(c, 0)), GL_INVALID_ENUM))
 		return;
 	st->a.color.alpha_func = arg_u(c, 0);
 	st->a.color.alpha_ref = arg_f(c, 1);
@@ -46,7 +41,7 @@ static int changes_side(const struct gls_state *st, unsigned side, uint32_t face
 static void stencil_func(struct gls_exec *x, struct gls_state *st, uint32_t face, uint32_t func, uint32_t ref,
                          uint32_t mask)
 {
-	if (gls_refuses(x, st, !is_compare_func(func) || !gls_is_face(face), GL_INVALID_ENUM))
+	if (gls_refuses(x, st, !gls_is_compare_func(func) || !gls_is_face(face), GL_INVALID_ENUM))
 		return;
 	for (unsigned side = 0; side < 2; side++) {
 		if (!changes_side(st, side, face))
@@ -92,7 +87,7 @@ GLS_HANDLER(glActiveStencilFaceEXT, STATE) { st->a.stencil.active_face = arg_u(c
 
 GLS_HANDLER(glDepthFunc, STATE)
 {
-	if (!gls_refuses(x, st, !is_compare_func(arg_u(c, 0)), GL_INVALID_ENUM))
+	if (!gls_refuses(x, st, !gls_is_compare_func(arg_u(c, 0)), GL_INVALID_ENUM))
 		st->a.depth.func = arg_u(c, 0);
 }
 
@@ -179,59 +174,34 @@ GLS_HANDLER(glColorMask, STATE)
 
 /* ---- which buffer, and clearing (sec. 4.2) ---- */
 
-/* Buffers of windows are none of framebuffer objects, nor the other way round. */
+/*
+ * Buffers of windows are none of framebuffer objects, nor the other way round. Windows have neither right nor auxiliary buffers here, as on
+ * nearly every machine.
+ */
 static int refuses_buffer(struct gls_exec *x, struct gls_state *st, uint32_t buffer, uint32_t framebuffer)
 {
 	const int is_attachment = buffer >= GL_COLOR_ATTACHMENT0 && buffer < GL_COLOR_ATTACHMENT0 + 32;
 	const int is_window = buffer >= GL_FRONT_LEFT && buffer <= GL_AUX3;
+	const int is_absent = buffer == GL_FRONT_RIGHT || buffer == GL_BACK_RIGHT || buffer == GL_RIGHT || (buffer >= GL_AUX0 && buffer <= GL_AUX3);
 
-	return gls_refuses(x, st, framebuffer ? is_window : is_attachment, GL_INVALID_OPERATION);
+	return gls_refuses(x, st, !is_attachment && !is_window && buffer != GL_NONE, GL_INVALID_ENUM) ||
+	       gls_refuses(x, st, framebuffer ? is_window : is_attachment || is_absent, GL_INVALID_OPERATION);
 }
 
 GLS_HANDLER(glDrawBuffer, STATE)
 {
-	uint32_t buffer = arg_u(c, 0);
-
-	if (refuses_buffer(x, st, buffer, st->draw_framebuffer))
+	if (refuses_buffer(x, st, arg_u(c, 0), st->draw_framebuffer))
 		return;
 	st->a.color.also_drawn = 0;
-	switch (buffer) {
-	case GL_FRONT: case GL_FRONT_LEFT: case GL_BACK: case GL_BACK_LEFT: case GL_LEFT: case GL_FRONT_AND_BACK:
-	case GL_NONE:
-		st->a.color.draw_buffer = buffer;
-		break;
-	case GL_FRONT_RIGHT:
-	case GL_BACK_RIGHT:
-	case GL_RIGHT: /* no stereo here, as on nearly every machine */
-		gls_error(x, st, GL_INVALID_OPERATION);
-		break;
-	default:
-		if (buffer >= GL_COLOR_ATTACHMENT0 && buffer < GL_COLOR_ATTACHMENT0 + 32)
-			st->a.color.draw_buffer = buffer;
-		else if (buffer >= GL_AUX0 && buffer <= GL_AUX3)
-			gls_error(x, st, GL_INVALID_OPERATION);
-		else
-			gls_error(x, st, GL_INVALID_ENUM);
-	}
+	st->a.color.draw_buffer = arg_u(c, 0);
 }
 
 GLS_HANDLER(glReadBuffer, STATE)
 {
 	const uint32_t buffer = arg_u(c, 0);
 
-	if (refuses_buffer(x, st, buffer, st->read_framebuffer))
-		return;
-	switch (buffer) {
-	case GL_FRONT_RIGHT: case GL_BACK_RIGHT: case GL_RIGHT: case GL_AUX0: case GL_AUX1: case GL_AUX2: case GL_AUX3:
-		gls_error(x, st, GL_INVALID_OPERATION);
-		break;
-	case GL_FRONT: case GL_FRONT_LEFT: case GL_BACK: case GL_BACK_LEFT: case GL_LEFT: case GL_NONE:
+	if (!gls_refuses(x, st, buffer == GL_FRONT_AND_BACK, GL_INVALID_ENUM) && !refuses_buffer(x, st, buffer, st->read_framebuffer))
 		st->a.pixel.read_buffer = buffer;
-		break;
-	default:
-		if (!gls_refuses(x, st, buffer < GL_COLOR_ATTACHMENT0 || buffer >= GL_COLOR_ATTACHMENT0 + 32, GL_INVALID_ENUM))
-			st->a.pixel.read_buffer = buffer;
-	}
 }
 
 GLS_HANDLER(glClearColor, STATE) { read_color(c, st->a.color.clear); }

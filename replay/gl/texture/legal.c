@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "gl_tokens.h"
+#include "replay/gl/texture/clientformat.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/texformat.h"
 
@@ -18,49 +19,33 @@ static int is_integer(uint32_t format)
 	       (format >= GL_LUMINANCE_INTEGER_EXT && format <= GL_LUMINANCE_ALPHA_INTEGER_EXT);
 }
 
-static int has_four(uint32_t format)
-{
-	return format == GL_RGBA || format == GL_BGRA || format == GL_ABGR_EXT;
-}
-
-static int is_rgb(uint32_t format)
-{
-	return format == GL_RGB;
-}
-
-static int is_rgb_or_four(uint32_t format)
-{
-	return format == GL_RGB || has_four(format);
-}
-
-static int is_depth_stencil(uint32_t format)
-{
-	return format == GL_DEPTH_STENCIL;
-}
-
-static int is_ycbcr(uint32_t format)
-{
-	return format == GL_YCBCR_MESA;
-}
-
-/* Whether a format goes with a packed type. NULL: the type is none */
-static int (*packed_with(uint32_t type))(uint32_t format)
+/* Types that hold a pixel in one word. */
+static int is_packed(uint32_t type)
 {
 	switch (type) {
-	case GL_UNSIGNED_BYTE_3_3_2: case GL_UNSIGNED_BYTE_2_3_3_REV: case GL_UNSIGNED_SHORT_5_6_5: case GL_UNSIGNED_SHORT_5_6_5_REV:
+	case GL_UNSIGNED_INT_24_8: case GL_FLOAT_32_UNSIGNED_INT_24_8_REV: case GL_UNSIGNED_SHORT_8_8_MESA: case GL_UNSIGNED_SHORT_8_8_REV_MESA:
 	case GL_UNSIGNED_INT_10F_11F_11F_REV: case GL_UNSIGNED_INT_5_9_9_9_REV:
-		return is_rgb;
-	case GL_UNSIGNED_SHORT_4_4_4_4: case GL_UNSIGNED_SHORT_4_4_4_4_REV: case GL_UNSIGNED_SHORT_5_5_5_1:
-	case GL_UNSIGNED_SHORT_1_5_5_5_REV: case GL_UNSIGNED_INT_8_8_8_8: case GL_UNSIGNED_INT_8_8_8_8_REV: case GL_UNSIGNED_INT_10_10_10_2:
-		return has_four;
-	case GL_UNSIGNED_INT_2_10_10_10_REV:
-		return is_rgb_or_four;
-	case GL_UNSIGNED_INT_24_8: case GL_FLOAT_32_UNSIGNED_INT_24_8_REV:
-		return is_depth_stencil;
-	case GL_UNSIGNED_SHORT_8_8_MESA: case GL_UNSIGNED_SHORT_8_8_REV_MESA:
-		return is_ycbcr;
+		return 1;
 	default:
-		return NULL;
+		return gls_packed_find(type) != NULL;
+	}
+}
+
+/* Whether pixels of a format can be of a packed type. */
+static int goes_with(uint32_t format, uint32_t type)
+{
+	const struct gls_client_format *f = gls_client_format_find(format);
+	const struct gls_packed *packed = gls_packed_find(type);
+
+	switch (type) {
+	case GL_UNSIGNED_INT_24_8: case GL_FLOAT_32_UNSIGNED_INT_24_8_REV:
+		return format == GL_DEPTH_STENCIL;
+	case GL_UNSIGNED_SHORT_8_8_MESA: case GL_UNSIGNED_SHORT_8_8_REV_MESA:
+		return format == GL_YCBCR_MESA;
+	case GL_UNSIGNED_INT_2_10_10_10_REV: /* of RGB, too, and the two bits are nothing */
+		return format == GL_RGB || (f && f->n == 4);
+	default:
+		return packed && packed->n == 4 ? f && f->n == 4 : format == GL_RGB;
 	}
 }
 
@@ -71,26 +56,17 @@ static int is_plain(uint32_t type)
 
 static int is_format(uint32_t format)
 {
-	switch (format) {
-	case GL_COLOR_INDEX: case GL_STENCIL_INDEX: case GL_DEPTH_COMPONENT: case GL_RED: case GL_GREEN: case GL_BLUE: case GL_ALPHA:
-	case GL_RG: case GL_RGB: case GL_BGR: case GL_RGBA: case GL_BGRA: case GL_ABGR_EXT: case GL_LUMINANCE: case GL_LUMINANCE_ALPHA:
-	case GL_DEPTH_STENCIL: case GL_YCBCR_MESA:
-		return 1;
-	default:
-		return 0;
-	}
+	return gls_client_format_find(format) || is_index(format) || format == GL_YCBCR_MESA;
 }
 
 uint32_t gls_pixels_error(uint32_t format, uint32_t type)
 {
-	int (*const allows)(uint32_t format) = packed_with(type);
-
 	if (is_integer(format))
 		return 0;
-	if (!is_format(format) || (type == GL_BITMAP && !is_index(format)) || (!allows && !is_plain(type) && type != GL_BITMAP))
+	if (!is_format(format) || (type == GL_BITMAP && !is_index(format)) || (!is_packed(type) && !is_plain(type) && type != GL_BITMAP))
 		return GL_INVALID_ENUM;
-	if (allows)
-		return allows(format) ? 0 : GL_INVALID_OPERATION;
+	if (is_packed(type))
+		return goes_with(format, type) ? 0 : GL_INVALID_OPERATION;
 	return format == GL_DEPTH_STENCIL || format == GL_YCBCR_MESA ? GL_INVALID_ENUM : 0;
 }
 
@@ -108,33 +84,29 @@ int gls_formats_agree(uint32_t internal_format, uint32_t format)
 	return has_depth(base) ? has_depth(format) : !has_depth(format) && format != GL_STENCIL_INDEX;
 }
 
+static int is_face(uint32_t target)
+{
+	return target >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && target <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z;
+}
+
 int gls_takes_target(unsigned n_dims, uint32_t target)
 {
-	const int is_face = target >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && target <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z;
-
 	if (n_dims == 1)
 		return target == GL_TEXTURE_1D;
 	if (n_dims == 2)
-		return target == GL_TEXTURE_2D || target == GL_TEXTURE_RECTANGLE || target == GL_TEXTURE_1D_ARRAY || is_face;
+		return target == GL_TEXTURE_2D || target == GL_TEXTURE_RECTANGLE || target == GL_TEXTURE_1D_ARRAY || is_face(target);
 	return target == GL_TEXTURE_3D || target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY;
 }
 
 uint32_t gls_image_error(uint32_t target, uint32_t internal_format, int64_t level, const int64_t size[2], int64_t border)
 {
 	const uint32_t base = gls_base_format(internal_format);
-	const int is_face = target >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && target <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z;
 
 	/* 1 to 4 are numbers of components; tokens begin at GL_COLOR_INDEX. */
-	if ((internal_format - 1u > 3u && internal_format < GL_COLOR_INDEX) || (is_face && size[0] != size[1]) ||
+	if ((internal_format - 1u > 3u && internal_format < GL_COLOR_INDEX) || (is_face(target) && size[0] != size[1]) ||
 	    (target == GL_TEXTURE_RECTANGLE && (level || border)))
 		return GL_INVALID_VALUE;
 	return target == GL_TEXTURE_3D && has_depth(base) ? GL_INVALID_OPERATION : 0;
-}
-
-/* Sides of a compressed format's blocks. */
-static int64_t block_width(const struct gls_format *f)
-{
-	return f->token == GL_COMPRESSED_RGB_FXT1_3DFX || f->token == GL_COMPRESSED_RGBA_FXT1_3DFX ? 8 : 4;
 }
 
 uint32_t gls_compressed_error(uint32_t internal_format, const int64_t size[3], int64_t border, int64_t n_bytes)
@@ -146,7 +118,7 @@ uint32_t gls_compressed_error(uint32_t internal_format, const int64_t size[3], i
 		return 0; /* counted where it is read */
 	if (!f->block_bytes)
 		return GL_INVALID_ENUM;
-	across = block_width(f);
+	across = gls_block_width(f);
 	if (n_bytes != (size[0] + across - 1) / across * ((size[1] + 3) / 4) * size[2] * f->block_bytes)
 		return GL_INVALID_VALUE;
 	return border ? GL_INVALID_OPERATION : 0;
@@ -159,7 +131,7 @@ int gls_part_is_whole(const struct gls_level *l, const int64_t at[2], const int6
 
 	if (!f || !f->block_bytes)
 		return 1;
-	across = block_width(f);
+	across = gls_block_width(f);
 	return at[0] % across == 0 && at[1] % 4 == 0 && (size[0] % across == 0 || at[0] + size[0] == l->width) &&
 	       (size[1] % 4 == 0 || at[1] + size[1] == l->height);
 }

@@ -1,10 +1,10 @@
 #include "replay/gl/texture/pack.h"
 
+#include <half.h>
 #include <math.h>
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "base/half.h"
 #include "replay/machine/state.h"
 
 /* ---- where pixels lie ---- */
@@ -84,7 +84,7 @@ static void pack_component(const struct gls_packing *p, float v, int bytes, uint
 		store_float(p, v, to);
 		return;
 	case GL_HALF_FLOAT:
-		store(p, half_of_float(v), 2, to);
+		store(p, imath_float_to_half(v), 2, to);
 		return;
 	case GL_INT:
 	case GL_UNSIGNED_INT:
@@ -160,7 +160,7 @@ void gls_pack_depth(const struct gls_packing *p, float depth, uint32_t steps, ui
 		store(p, (bits == 24 ? steps : (uint32_t)((double)depth * 16777215.0)) << 8 | stencil, 4, to);
 		return;
 	case GL_HALF_FLOAT:
-		store(p, half_of_float(depth), 2, to);
+		store(p, imath_float_to_half(depth), 2, to);
 		return;
 	case GL_FLOAT_32_UNSIGNED_INT_24_8_REV:
 		store(p, stencil, 4, to + 4);

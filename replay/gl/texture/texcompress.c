@@ -198,16 +198,14 @@ static void rgtc_texel(const struct gls_format *f, const uint8_t *block, unsigne
 int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n, uint8_t *out)
 {
 	const struct gls_format *f = gls_format_find(internal_format);
-	int fxt1 = internal_format == GL_COMPRESSED_RGB_FXT1_3DFX || internal_format == GL_COMPRESSED_RGBA_FXT1_3DFX;
-	uint32_t side = fxt1 ? 8 : 4, columns = (width + side - 1) / side;
-	uint32_t bytes = gls_texel_bytes(internal_format);
+	const uint32_t side = f ? gls_block_width(f) : 4, columns = (width + side - 1) / side, bytes = gls_texel_bytes(internal_format);
 	uint8_t texels[32][4];
 
 	if (!f || !f->block_bytes || n / f->block_bytes / (columns + !columns) < (height + 3) / 4)
 		return -1;
 	for (uint32_t y = 0; y < height; y += 4)
 		for (uint32_t x = 0; x < width; x += side, data += f->block_bytes) {
-			if (fxt1)
+			if (side == 8)
 				fxt1_block(internal_format, data, texels);
 			else if (!is_rgtc(f->base))
 				s3tc_block(f->s3tc, data, texels);

@@ -112,6 +112,11 @@ const struct gls_format *gls_format_find(uint32_t internal_format)
 	return NULL;
 }
 
+uint32_t gls_block_width(const struct gls_format *f)
+{
+	return f->token == GL_COMPRESSED_RGB_FXT1_3DFX || f->token == GL_COMPRESSED_RGBA_FXT1_3DFX ? 8 : 4;
+}
+
 uint32_t gls_base_format(uint32_t internal_format)
 {
 	const struct gls_format *f = gls_format_find(internal_format);

@@ -31,6 +31,8 @@ enum gls_numbers { GLS_BYTES, GLS_SNORM8, GLS_SNORM16, GLS_FLOAT, GLS_HALF, GLS_
 
 /** NULL: fixed function could sample no such format. */
 const struct gls_format *gls_format_find(uint32_t internal_format);
+/** How wide a compressed format's blocks are, texels; all are 4 high. */
+uint32_t gls_block_width(const struct gls_format *f);
 /** Base format of an internal format, 0: none. */
 uint32_t gls_base_format(uint32_t internal_format);
 /** Depth and stencil bits of a surface that such a texture or renderbuffer is attached to. */

@@ -211,7 +211,7 @@ static int is_compare_mode(const struct gls_texture *t __attribute__((unused)), 
 
 static int is_compare_func(const struct gls_texture *t __attribute__((unused)), float value)
 {
-	return token_of_float(value) >= GL_NEVER && token_of_float(value) <= GL_ALWAYS;
+	return gls_is_compare_func(token_of_float(value));
 }
 
 static int is_depth_mode(const struct gls_texture *t __attribute__((unused)), float value)
