@@ -285,6 +285,8 @@ START_TEST(test_s3tc)
 	scene_release(&s);
 	gl_call(&gl, "glCompressedTexImage2D", "eieiiiib", GL_TEXTURE_2D, 0, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 8, 8, 0, 8, (size_t)8, four);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE); /* too few blocks */
+	gl_call(&gl, "glCompressedTexImage3D", "eieiiiiib", GL_TEXTURE_3D, 0, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, INT32_MAX, INT32_MAX, INT32_MAX, 0, 8, (size_t)8, four);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE); /* so many that counting them exceeds 64 bits */
 	gl_close(&gl);
 }
 END_TEST

@@ -109,6 +109,9 @@ uint32_t gls_image_error(uint32_t target, uint32_t internal_format, int64_t leve
 	return target == GL_TEXTURE_3D && has_depth(base) ? GL_INVALID_OPERATION : 0;
 }
 
+/* No image of this side can be made; sides below it make no sum that 64 bits cannot hold. */
+#define MOST_SIDE ((int64_t)1 << 19)
+
 uint32_t gls_compressed_error(uint32_t internal_format, const int64_t size[3], int64_t border, int64_t n_bytes)
 {
 	const struct gls_format *f = gls_format_find(internal_format);
@@ -118,6 +121,9 @@ uint32_t gls_compressed_error(uint32_t internal_format, const int64_t size[3], i
 		return 0; /* counted where it is read */
 	if (!f->block_bytes)
 		return GL_INVALID_ENUM;
+	for (unsigned i = 0; i < 3; i++)
+		if (size[i] < 0 || size[i] > MOST_SIDE)
+			return GL_INVALID_VALUE;
 	across = gls_block_width(f);
 	if (n_bytes != (size[0] + across - 1) / across * ((size[1] + 3) / 4) * size[2] * f->block_bytes)
 		return GL_INVALID_VALUE;
