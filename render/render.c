@@ -235,7 +235,8 @@ static int render(struct settings *s)
 	if (!err && !s->dry_run && s->tracer.mode != TRACER_GL)
 		err = look_fetch_unseen(p.replay, s->look);
 	if (!err) {
-		p.stamp = (struct stamp){ replay_trace_hash(p.replay), s->hash };
+		p.stamp = (struct stamp){ .trace = replay_trace_hash(p.replay), .settings = s->hash };
+		snprintf(p.stamp.program, sizeof(p.stamp.program), "%s", replay_program(p.replay)); /* the replay's own goes where it goes back */
 		p.end = x.end;
 		err = s->dry_run ? rehearse(s, &p.stamp, x.total) : render_frames(&p, x.total, &missing);
 	}

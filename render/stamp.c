@@ -11,8 +11,11 @@
 
 int stamp_image(const struct stamp *stamp, struct image *img)
 {
+	const char *slash = strrchr(stamp->program, '/');
 	int err = image_set_attribute(img, "relume:trace", "%s", stamp->trace);
 
+	if (!err && stamp->program[0])
+		err = image_set_attribute(img, "relume:program", "%s", slash ? slash + 1 : stamp->program);
 	if (!err)
 		err = image_set_attribute(img, "relume:settings", "%s", stamp->settings);
 	return err ? err : image_set_attribute(img, "relume:version", "%s", RELUME_VERSION);

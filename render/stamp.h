@@ -7,9 +7,10 @@
 
 struct stamp {
 	const char *trace, *settings; /* hashes, borrowed */
+	char program[256];            /* recorded, a path of which the name is written; may be empty */
 };
 
-/** Write trace, settings and version into a picture (relume:trace, relume:settings, relume:version). @return 0 or ERR_SYSTEM */
+/** Write where it comes from into a picture (relume:trace, relume:program, relume:settings, relume:version). @return 0 or ERR_SYSTEM */
 int stamp_image(const struct stamp *stamp, struct image *img);
 
 enum stamp_state { STAMP_MISSING, STAMP_DAMAGED, STAMP_OTHER, STAMP_SAME };

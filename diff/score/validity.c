@@ -15,6 +15,7 @@ int gate_validity(struct gate_frame *f)
 	const struct image *img = f->img;
 	const size_t n = (size_t)img->width * img->height;
 	const char *number = image_attribute(img, "relume:frame"), *recording = image_attribute(img, "relume:trace");
+	const char *program = image_attribute(img, "relume:program");
 	const char *odd_channel = NULL;
 	const float *planes[3];
 	uint64_t odd = 0;
@@ -35,8 +36,8 @@ int gate_validity(struct gate_frame *f)
 		gate_note(f, GATE_V, "first in channel %s", odd_channel);
 
 	if (recording && ref->recording && ref->recording[0] && strcmp(recording, ref->recording) != 0) {
-		gate_fail(f, GATE_V, "made from another recording: one of hash %.8s, and the reference's is %.8s (relume info)", recording,
-		          ref->recording);
+		gate_fail(f, GATE_V, "made from another recording: one%s%.60s of hash %.8s, and the reference's is %.8s (relume info)",
+		          program ? " of " : "", program ? program : "", recording, ref->recording);
 	} else if (image_attribute(img, "relume:camera")) {
 		gate_fail(f, GATE_V, "made with --camera: the reference shows another view (camera %.100s)", image_attribute(img, "relume:camera"));
 	} else if (img->width != ref->width || img->height != ref->height) {

@@ -7,7 +7,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-	const struct stamp stamp = { "0123456789abcdef0123456789abcdef", "0123456789abcdef" };
+	const struct stamp stamp = { "0123456789abcdef0123456789abcdef", "0123456789abcdef", "/a/program" };
 	struct image img = { 0 };
 	char path[32];
 	int file = target_file(data, size, path);

@@ -224,6 +224,10 @@ class Diff(unittest.TestCase):
             done = self.diff(self.dir / "t.trace", frame, expect=1)
             self.assertEqual("made from another recording" in done.stdout, said, done.stdout)
             self.assertIn("failed (V)", done.stderr)
+        (self.dir / "out").mkdir()
+        subprocess.run([RELUME, "render", "--mode", "gl", golden / "two_triangles.trace", "-o", self.dir / "out" / "####.exr"], check=True)
+        (self.dir / "t.trace").write_bytes((golden / "cornell.trace").read_bytes())
+        self.assertIn("another recording: one of two_triangles of hash", self.diff(self.dir / "t.trace", self.dir / "out", expect=1).stdout)
 
     def test_junit(self):
         write_png(self.traced / "b.3.png", picture(9))

@@ -135,7 +135,7 @@ int display_codes(const struct display *display, const struct image *img, const 
 
 static void describe(const struct image *img, char *text, size_t size)
 {
-	static const char *const names[] = { "relume:frame", "relume:trace", "relume:settings", "relume:version", "relume:device" };
+	static const char *const names[] = { "relume:frame", "relume:trace", "relume:program", "relume:settings", "relume:version", "relume:device" };
 	size_t n = 0;
 
 	text[0] = '\0';
