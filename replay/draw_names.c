@@ -2,11 +2,20 @@
 
 #include <xxhash.h>
 
+#include "gl_tokens.h"
 #include "replay/replay.h"
 #include "scene/release.h"
 #include "scene/scene.h"
 
-/* What the scene tells of a draw: program object, and the texels of its first texture. */
+/* Where references that Mesa (22.3.6) made depart from OpenGL. */
+static const char *known_of(const struct scene_material *m)
+{
+	if (m->lighting && m->two_side && m->color_material == GL_BACK)
+		return "Mesa 22 leaves green and blue of back sides unknown whose colours alone are the vertices'";
+	return NULL;
+}
+
+/* What the scene tells of a draw: program object, the texels of its first texture, and what is known of it. */
 static void describe_draw(const struct scene *scene, struct draw_name *name)
 {
 	const struct scene_instance *found = NULL;
@@ -19,6 +28,7 @@ static void describe_draw(const struct scene *scene, struct draw_name *name)
 		return;
 	m = &scene->materials[found->material];
 	name->has_program = m->program != 0;
+	name->known = known_of(m);
 	if (m->unit_count) {
 		const struct scene_texture *t = scene->textures[scene->units[m->unit_first].texture];
 

@@ -16,6 +16,7 @@ struct draw_name {
 	int has_program;      /* 1: it used a program object */
 	uint32_t list;        /* display list that it came from; 0: none */
 	uint64_t texture;     /* XXH64 of the texels of its first texture unit; 0: none */
+	const char *known;    /* where Mesa is known to depart from OpenGL there, a static string; NULL: nowhere */
 };
 
 /**

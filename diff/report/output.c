@@ -57,7 +57,9 @@ void output_blame_text(const struct score_blame *b, char *out, size_t size)
 	if (b->draw && b->name.texture && n < size)
 		n += (size_t)snprintf(out + n, size - n, ", texture %016" PRIx64, b->name.texture);
 	if (b->is_approved && n < size)
-		snprintf(out + n, size - n, ", in the approved frame,");
+		n += (size_t)snprintf(out + n, size - n, ", in the approved frame,");
+	if (b->draw && b->name.known && n < size)
+		snprintf(out + n, size - n, " (known: %s)", b->name.known);
 }
 
 int output_is_compared(const struct score *s)
@@ -340,6 +342,8 @@ static void json_blame(const struct score_blame *by, FILE *out)
 		fprintf(out, ", \"list\": %u", by->name.list);
 	if (by->name.call && by->name.texture)
 		fprintf(out, ", \"texture\": \"%016" PRIx64 "\"", by->name.texture);
+	if (by->name.call && by->name.known)
+		fprintf(out, ", \"known\": \"%s\"", by->name.known);
 	fputc('}', out);
 }
 
