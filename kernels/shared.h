@@ -434,15 +434,16 @@ SHARED_SIZE(struct frame_pixel, 124);
 
 /* What the kernel compose is to make of the frame. */
 struct compose_request {
-	uint32_t half_plane[N_COMPOSE_HALVES];  /* where a plane stands in the buffer of halves, in planes; SCENE_NONE: not wanted */
+	uint32_t half_plane[N_COMPOSE_HALVES];  /* where a plane begins in the buffer of halves; SCENE_NONE: not wanted */
 	uint32_t float_plane[N_COMPOSE_FLOATS]; /* in the buffer of floats */
+	uint32_t n_halves, n_floats; /* planes in each: they stand one behind the other */
 	uint32_t width, height; /* of the planes */
 	uint32_t n_passes; /* the parts are means of so many */
 	uint32_t display;  /* 1: GL's own numbers, 0: linear light */
 	uint32_t normals;  /* 1: the beauty shows normals as colours */
 	uint32_t radiant;  /* 1: means of passes are those of linear light */
 };
-SHARED_SIZE(struct compose_request, 156);
+SHARED_SIZE(struct compose_request, 164);
 
 /* Pixels of a row that a work item of resolve_packet takes; and rows of them that one of compose_packet does. */
 #define FRAME_ROW 16u

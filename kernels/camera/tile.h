@@ -65,6 +65,7 @@ struct tile {
 	struct camera_rectangle open; /* pixels of the tile that count, from its first one */
 	packi off_x[TILE_BLOCKS], off_y[TILE_BLOCKS]; /* all ones where a pixel takes no fragments now */
 	packf plane_x[TILE_BLOCKS], plane_y[TILE_BLOCKS]; /* where a view looks in the pixels, as planes count */
+	int is_drawn;  /* a fragment may have come */
 	int changed;   /* a nearest fragment may have been replaced since far and z_far were set */
 	struct batch_far far;
 	float z_far;   /* in normalised device coordinates: nothing behind it matters */
@@ -326,6 +327,7 @@ WIDE_VECTORS static inline void draw_pending(struct tile *t)
 
 	for (int i = 0; i < 3; i++)
 		vertex[i] = select((packu)(pending->vertex[i][0]), vload16(0, pending->vertex[i]), there);
+	t->is_drawn = 1;
 	t->changed = t->mode != CAMERA_COLUMN;
 	placed = batch_load(t->view, (float)t->height, t->window, t->clip, vertex, &v);
 	clipped = pack_bits(there & ~placed);

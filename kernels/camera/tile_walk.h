@@ -234,7 +234,7 @@ WIDE_VECTORS static inline void clear_tile(struct tile *t)
 {
 	const float row = clip_from_origin(t->view, (int)t->height - 1 - t->y, -t->view->sample[1]);
 
-	t->changed = 0;
+	t->is_drawn = t->changed = 0;
 	t->z_far = 1;
 	t->far.cells = t->far.all = NO_DEPTH;
 	t->pending.n = 0;

@@ -193,10 +193,10 @@ static inline void compose_store(const struct compose_pixel *p, const struct com
 {
 	for (uint32_t i = 0u; i < N_COMPOSE_HALVES; i++)
 		if (r->half_plane[i] != SCENE_NONE)
-			halves[r->half_plane[i] * r->width * r->height + at] = (uint16_t)compose_half(p->halves[i]);
+			halves[r->half_plane[i] + at] = (uint16_t)compose_half(p->halves[i]);
 	for (uint32_t i = 0u; i < N_COMPOSE_FLOATS; i++)
 		if (r->float_plane[i] != SCENE_NONE)
-			floats[r->float_plane[i] * r->width * r->height + at] = p->floats[i];
+			floats[r->float_plane[i] + at] = p->floats[i];
 }
 
 /*

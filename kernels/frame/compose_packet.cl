@@ -102,7 +102,7 @@ static inline void compose_drawn_row(const struct compose_arguments *a, uint x, 
 	if (pack_wants_surface(&a->request))
 		find_surfaces(a, &list, lanes, &pixels);
 	encoded.known = 0;
-	pack_compose(&pixels, to, &encoded);
+	pack_compose(&pixels, 0, to, &encoded);
 }
 
 KERNEL_OF(float16) void compose_packet(KERNEL_ARGUMENTS(compose))

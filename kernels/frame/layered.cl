@@ -156,6 +156,8 @@ static inline uint shade_layer_lanes(const struct plain_arguments *a, const stru
 	if (!lanes)
 		return 0;
 	plain_shade(a, s, &layer->at, lanes, kept, &lights, &colors);
+	if (colors.is_gl)
+		colors.shadowed = colors.direct = colors.gl;
 	keep_colors(&colors, pack_mask(lanes), &layer->colors);
 	layer->shaded |= lanes;
 	follow_lanes(a, row, layer, lanes, &kept->last);
@@ -326,7 +328,7 @@ static inline void draw_row(const struct plain_arguments *a, const struct shade_
 		keep_pixels(a, x, y, row);
 		return;
 	}
-	pack_compose(&row->pixels, to, &kept->encoded);
+	pack_compose(&row->pixels, 0, to, &kept->encoded);
 	a->layers.unknown[y * plain_columns(a->width) + x / PLAIN_WIDTH] = row->unknown & lanes_there(x, a->width);
 }
 

@@ -139,7 +139,7 @@ static inline void pack_put_one(const struct tables *t, __global const struct wi
 
 WIDE_VECTORS static inline void pack_store_half(const struct pack_planes *to, uint plane, packf x)
 {
-	__global ushort *out = to->halves + to->request->half_plane[plane] * to->request->width * to->request->height + to->at;
+	__global ushort *out = to->halves + to->request->half_plane[plane] + to->at;
 	ushort16 value;
 
 	if (to->request->half_plane[plane] == SCENE_NONE)
@@ -153,7 +153,7 @@ WIDE_VECTORS static inline void pack_store_half(const struct pack_planes *to, ui
 
 WIDE_VECTORS static inline void pack_store_float(const struct pack_planes *to, uint plane, packf x)
 {
-	__global float *out = to->floats + to->request->float_plane[plane] * to->request->width * to->request->height + to->at;
+	__global float *out = to->floats + to->request->float_plane[plane] + to->at;
 
 	if (to->request->float_plane[plane] == SCENE_NONE)
 		return;
@@ -271,13 +271,19 @@ WIDE_VECTORS static inline void pack_encode_row(const struct pack_pixels *p, con
 		pack_linear3(last->exact);
 }
 
-/* All planes. last: of the row before, or not known */
-WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, const struct pack_planes *to, struct pack_encoded *last)
+/*
+ * All planes.
+ * is_gl: no effect has a part in any of them, and the colours after p->gl are not there: they would be the same numbers
+ * last: of the row before, or not known
+ */
+WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, int is_gl, const struct pack_planes *to, struct pack_encoded *last)
 {
 	const packf *nudged = last->nudged, *first = last->first, *exact = last->exact;
 
 	pack_encode_row(p, to->request, last);
-	for (int c = 0; c < 3; c++)
+	for (int c = 0; c < 3 && is_gl; c++)
+		pack_compose_gl(exact[c], c, to);
+	for (int c = 0; c < 3 && !is_gl; c++)
 		pack_compose_color(p, nudged[c], first[c], exact[c], c, to);
 	pack_compose_albedo(p, to);
 	pack_store_half(to, COMPOSE_BEAUTY + 3, p->drawn);
@@ -298,16 +304,14 @@ WIDE_VECTORS static inline void pack_compose_again(uint from, const struct pack_
 	const struct compose_request *r = to->request;
 	const uint size = r->width * r->height;
 
-	for (uint i = 0; i < N_COMPOSE_HALVES; i++) {
-		__global ushort *plane = to->halves + r->half_plane[i] * size;
+	for (uint i = 0; i < r->n_halves; i++) {
+		__global ushort *plane = to->halves + i * size;
 
-		if (r->half_plane[i] != SCENE_NONE)
-			*(__global pack_loose_halves *)(plane + to->at) = *(__global const pack_loose_halves *)(plane + from);
+		*(__global pack_loose_halves *)(plane + to->at) = *(__global const pack_loose_halves *)(plane + from);
 	}
-	for (uint i = 0; i < N_COMPOSE_FLOATS; i++) {
-		__global float *plane = to->floats + r->float_plane[i] * size;
+	for (uint i = 0; i < r->n_floats; i++) {
+		__global float *plane = to->floats + i * size;
 
-		if (r->float_plane[i] != SCENE_NONE)
-			*(__global pack_loose_floats *)(plane + to->at) = *(__global const pack_loose_floats *)(plane + from);
+		*(__global pack_loose_floats *)(plane + to->at) = *(__global const pack_loose_floats *)(plane + from);
 	}
 }

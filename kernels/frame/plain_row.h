@@ -16,6 +16,7 @@ struct plain_row {
 /* Their colours. */
 struct plain_colors {
 	struct pack_color gl, shadowed, direct, albedo; /* albedo: where it is asked for */
+	int is_gl;                                      /* 1: shadowed and direct are gl, and not there */
 };
 
 /* Whether packs know all that a material asks for; what they do not goes one by one. */
@@ -124,6 +125,14 @@ static inline void plain_take_color(__global const float *from, int n, uint lane
 	}
 }
 
+/* Whether rules add no light to a material's colours (kernels/frame/pack_shade.h, pack_direct). */
+static inline int plain_adds_nothing(__global const struct scene_material *m)
+{
+	__global const float *e = m->surface.emission;
+
+	return !m->surface.relit && e[0] == 0.0f && e[1] == 0.0f && e[2] == 0.0f;
+}
+
 /*
  * Colours of fragments of one material, which kept->last has placed.
  * s: with visibility where lights have been asked
@@ -149,6 +158,10 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 	}
 	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE)
 		out->albedo = pack_albedo(t, &row->list, p, lanes, &texturing, &lit);
+	*lights = a->n_slots && !s->n_slots ? pack_lights(t, p) : (packu)(0);
+	out->is_gl = !(lanes & row->dimmed) && !stage_is_by_program(s, p->material, g->flags) && plain_adds_nothing(p->material);
+	if (out->is_gl)
+		return;
 	out->shadowed = out->gl;
 	if (stage_is_by_program(s, p->material, g->flags)) {
 		plain_take_color(a->shaded[row->base].shadowed, 3, lanes & row->dimmed, &out->shadowed);
@@ -158,7 +171,6 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 		for (int i = 0; i < 3; i++)
 			out->shadowed.c[i] = select(out->gl.c[i], pack_nudge(lit.c[i]), pack_mask(row->dimmed));
 	}
-	*lights = a->n_slots && !s->n_slots ? pack_lights(t, p) : (packu)(0);
 	out->direct = pack_direct(s, &row->list, p, lanes, &texturing, &out->shadowed, lights);
 }
 

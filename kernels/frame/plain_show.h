@@ -11,6 +11,7 @@
 struct shown_row {
 	struct plain_row at;
 	struct pack_pixels pixels;
+	int is_gl; /* 1: the pixels' colours after gl are not there: they would be the same numbers */
 };
 
 /* What is kept from one fragment to the next. */
@@ -21,13 +22,24 @@ struct plain_kept {
 	struct pack_encoded encoded;
 };
 
-/* All pixels as they were cleared. */
-WIDE_VECTORS static inline void clear_row(__global const struct frame_pixel *cleared, struct pack_pixels *p)
+/* Colours after gl are there from now on. */
+WIDE_VECTORS static inline void spread_gl(struct shown_row *row)
 {
+	struct pack_pixels *p = &row->pixels;
+
+	for (int i = 0; i < 3 && row->is_gl; i++)
+		p->shadowed[i] = p->direct[i] = p->gl[i];
+	row->is_gl = 0;
+}
+
+/* All pixels as they were cleared. */
+WIDE_VECTORS static inline void clear_row(__global const struct frame_pixel *cleared, struct shown_row *row)
+{
+	struct pack_pixels *p = &row->pixels;
+
+	row->is_gl = 1;
 	for (int i = 0; i < 3; i++) {
 		p->gl[i] = cleared->gl[i];
-		p->shadowed[i] = cleared->shadowed[i];
-		p->direct[i] = cleared->direct[i];
 		p->albedo[i] = p->normal[i] = p->position[i] = 0.0f;
 	}
 	p->gl[3] = cleared->gl[3];
@@ -44,12 +56,18 @@ WIDE_VECTORS static inline packi shows(const struct plain_arguments *a, __global
 }
 
 /* Colours of lanes that show. */
-WIDE_VECTORS static inline void put_colors(struct pack_pixels *to, const struct pack *p, const struct plain_colors *c, packi show)
+WIDE_VECTORS static inline void put_colors(struct shown_row *row, const struct pack *p, const struct plain_colors *c, packi show)
 {
+	struct pack_pixels *to = &row->pixels;
+
+	if (!c->is_gl)
+		spread_gl(row);
 	for (int i = 0; i < 3; i++) {
 		pack_put(&to->gl[i], c->gl.c[i], show);
-		pack_put(&to->shadowed[i], c->shadowed.c[i], show);
-		pack_put(&to->direct[i], c->direct.c[i], show);
+		if (row->is_gl)
+			continue;
+		pack_put(&to->shadowed[i], c->is_gl ? c->gl.c[i] : c->shadowed.c[i], show);
+		pack_put(&to->direct[i], c->is_gl ? c->gl.c[i] : c->direct.c[i], show);
 	}
 	pack_put(&to->gl[3], c->gl.c[3], show);
 	pack_put(&to->drawn, (packf)(1), show);
@@ -91,7 +109,7 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 		return 0;
 	show = pack_mask(lanes) & shows(a, p->material, p->depth);
 	plain_shade(a, s, &row->at, lanes, kept, &lights, &colors);
-	put_colors(&row->pixels, p, &colors, show);
+	put_colors(row, p, &colors, show);
 	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE)
 		for (int i = 0; i < 3; i++)
 			pack_put(&row->pixels.albedo[i], colors.albedo.c[i], show);
@@ -116,6 +134,7 @@ static inline void put_one(const struct plain_arguments *a, struct shown_row *ro
 	if (!(s->flags & SHADED_THERE) ||
 	    !pixel_compare(a->tables.materials[a->tables.geometries[f.instance].material].depth_func, steps, a->cleared->depth))
 		return;
+	spread_gl(row);
 	for (uint i = 0; i < 3; i++) {
 		LANE(to->gl[i], float, lane) = s->gl[i];
 		LANE(to->shadowed[i], float, lane) = s->shadowed[i];
@@ -192,6 +211,21 @@ WIDE_VECTORS static inline void light_row(const struct plain_arguments *a, struc
 	}
 }
 
+/* What its colours are at last. */
+WIDE_VECTORS static inline void finish_row(const struct plain_arguments *a, struct shown_row *row, uint lanes, int is_lit)
+{
+	struct pack_pixels *p = &row->pixels;
+	const packi odd = (p->gl[0] != p->gl[0]) | (p->gl[1] != p->gl[1]) | (p->gl[2] != p->gl[2]);
+
+	is_lit = is_lit && lanes;
+	if (is_lit || a->request.normals || any_pack(odd))
+		spread_gl(row);
+	if (is_lit)
+		light_row(a, p, row->at.base);
+	for (int i = 0; i < 3 && !row->is_gl; i++)
+		p->mirrored[i] = p->beauty[i] = p->direct[i];
+}
+
 /* Where a row without fragments stands in the planes; SCENE_NONE: nowhere yet. */
 struct plain_empty {
 	uint at;
@@ -209,13 +243,10 @@ static inline void plain_show_row(const struct plain_arguments *a, const struct 
 		pack_compose_again(empty->at, to);
 		return;
 	}
-	clear_row(a->cleared, &row->pixels);
+	clear_row(a->cleared, row);
 	shade_row(a, s, row, lanes, kept);
-	if (is_lit && lanes)
-		light_row(a, &row->pixels, row->at.base);
-	for (int i = 0; i < 3; i++)
-		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
-	pack_compose(&row->pixels, to, &kept->encoded);
+	finish_row(a, row, lanes, is_lit);
+	pack_compose(&row->pixels, row->is_gl, to, &kept->encoded);
 	if (!lanes && to->n == PACK_SIZE)
 		empty->at = to->at;
 }

@@ -89,8 +89,10 @@ KERNEL_OF(float16) void plain_whole(KERNEL_ARGUMENTS(plain_whole))
 	t.x = camera_packet_x(band, item);
 	t.y = camera_packet_y(band, item);
 	is_seen = t.x < rectangle.x1 && t.x + CAMERA_TILE > rectangle.x0 && t.y < rectangle.y1 && t.y + CAMERA_TILE > rectangle.y0;
-	if (is_seen)
+	if (is_seen) {
 		tile_draw(&camera, &t);
+		is_seen = t.is_drawn;
+	}
 	pack_keep_nothing(&kept.plain.pack);
 	kept.plain.encoded.known = 0;
 	kept.empty.at = SCENE_NONE;

@@ -168,12 +168,11 @@ START_TEST(test_packets_and_twins)
 	for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
 		struct compose_request r = { .width = WIDTH, .height = HEIGHT, .n_passes = cases[i].n_passes,
 			                     .display = cases[i].display, .normals = cases[i].normals };
-		uint32_t halves = 0;
 
 		for (uint32_t k = 0; k < N_COMPOSE_HALVES; k++)
-			r.half_plane[k] = k == cases[i].without ? SCENE_NONE : halves++;
+			r.half_plane[k] = k == cases[i].without ? SCENE_NONE : r.n_halves++ * WIDTH * HEIGHT;
 		for (uint32_t k = 0; k < N_COMPOSE_FLOATS; k++)
-			r.float_plane[k] = k;
+			r.float_plane[k] = r.n_floats++ * WIDTH * HEIGHT;
 		run(reference, c, &r, 0, twin);
 		run(reference, c, &r, 1, packets);
 		ck_assert_msg(memcmp(twin, packets, sizeof(*twin)) == 0, "the twins differ in case %zu", i);

@@ -59,8 +59,8 @@ int compose_asks(const struct tracer_options *options, const char *group)
 	return has_group(options->mode == TRACER_NORMALS ? "Z,N,P,albedo,id" : options->aov, group);
 }
 
-/* Which planes are wanted, one behind the other; of a picture (job.picture) none. @param halves, floats  receive how many */
-static struct compose_request request_of(const struct job *job, uint32_t *halves, uint32_t *floats)
+/* Which planes are wanted, one behind the other; of a picture (job.picture) none. */
+static struct compose_request request_of(const struct job *job)
 {
 	const struct tracer_options *options = job->options;
 	struct compose_request r = { .width = job->width, .height = job->n_rows, .n_passes = job->n_passes,
@@ -69,14 +69,13 @@ static struct compose_request request_of(const struct job *job, uint32_t *halves
 
 	memset(r.half_plane, 0xff, sizeof(r.half_plane));
 	memset(r.float_plane, 0xff, sizeof(r.float_plane));
-	*halves = *floats = 0;
 	for (size_t i = 0; i < N_CHANNELS; i++) {
 		if (!job->image || !compose_asks(options, channels[i].group))
 			continue;
 		if (channels[i].full)
-			r.float_plane[channels[i].plane] = (*floats)++;
+			r.float_plane[channels[i].plane] = r.n_floats++ * job->n_pixels;
 		else
-			r.half_plane[channels[i].plane] = (*halves)++;
+			r.half_plane[channels[i].plane] = r.n_halves++ * job->n_pixels;
 	}
 	return r;
 }
@@ -156,34 +155,31 @@ int compose_start(const struct job *job, struct image *img)
 
 int compose_reserve(struct job *job, struct compose_request *request)
 {
-	uint32_t halves, floats;
 	int err;
 
-	*request = request_of(job, &halves, &floats);
-	err = frame_reserve(job->tr, halves, (size_t)halves * job->n_pixels);
-	return err ? err : frame_reserve(job->tr, floats, (size_t)floats * job->n_pixels);
+	*request = request_of(job);
+	err = frame_reserve(job->tr, halves, (size_t)request->n_halves * job->n_pixels);
+	return err ? err : frame_reserve(job->tr, floats, (size_t)request->n_floats * job->n_pixels);
 }
 
 int compose_fetch(struct job *job, const struct compose_request *request, struct image *img)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	const void *halves, *floats, *planes[N_CHANNELS];
-	uint32_t n_halves, n_floats;
 	size_t n = 0;
 	int err, unmapped;
 
-	request_of(job, &n_halves, &n_floats);
-	err = device_map(job->tr->dev, b->floats.buffer, job->n_pixels * n_floats * sizeof(float), 0, &floats); /* the next one waits for both */
+	err = device_map(job->tr->dev, b->floats.buffer, job->n_pixels * request->n_floats * sizeof(float), 0, &floats); /* the next one waits for both */
 	if (err)
 		return err;
-	err = device_map(job->tr->dev, b->halves.buffer, job->n_pixels * n_halves * sizeof(uint16_t), 1, &halves);
+	err = device_map(job->tr->dev, b->halves.buffer, job->n_pixels * request->n_halves * sizeof(uint16_t), 1, &halves);
 	if (!err) {
 		for (size_t i = 0; i < N_CHANNELS; i++) {
 			const struct channel *c = &channels[i];
 
 			if (compose_asks(job->options, c->group))
-				planes[n++] = c->full ? (const void *)((const float *)floats + request->float_plane[c->plane] * (size_t)job->n_pixels) :
-				                        (const void *)((const uint16_t *)halves + request->half_plane[c->plane] * (size_t)job->n_pixels);
+				planes[n++] = c->full ? (const void *)((const float *)floats + request->float_plane[c->plane]) :
+				                        (const void *)((const uint16_t *)halves + request->half_plane[c->plane]);
 		}
 		err = image_take_rows(img, planes, job->n_rows);
 		unmapped = device_unmap(job->tr->dev, b->halves.buffer, halves);
