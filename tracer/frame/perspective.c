@@ -22,6 +22,8 @@ struct found {
 	int perspective; /* 0: the view has a perspective already, or something in it is not displaced */
 	float least_w, most_w; /* those above 0 */
 	double factor[2];      /* of x and y; 0: not known */
+	double sums[5];        /* of 1, w, w w, z and z w of all clip positions, each by the square of its larger number of the two */
+	int is_bent;           /* depths are not linear in w */
 	uint32_t vertices;     /* of the mesh that they are of */
 };
 
@@ -115,6 +117,20 @@ static int read_clips(const struct job *job, uint32_t i, float (**clip)[4])
 	return device_read(job->tr->dev, job->tr->buffers.clips.buffer, g->vertex_first * sizeof(**clip), *clip, g->vertex_count * sizeof(**clip));
 }
 
+/* Sums by which depths are found as numbers that are linear in w. */
+static void add_depth(const float clip[4], double sums[5])
+{
+	const double z = (double)clip[2], w = (double)clip[3], largest = fmax(fabs(z), fabs(w)), share = 1 / (largest * largest);
+
+	if (!(largest > 0 && largest < (double)MOST_W))
+		return;
+	sums[0] += share;
+	sums[1] += share * w;
+	sums[2] += share * w * w;
+	sums[3] += share * z;
+	sums[4] += share * z * w;
+}
+
 static int look_at(const struct job *job, uint32_t i, struct found *f)
 {
 	const struct prepared *p = &job->prepared;
@@ -123,28 +139,42 @@ static int look_at(const struct job *job, uint32_t i, struct found *f)
 	float (*clip)[4];
 	int err = read_clips(job, i, &clip);
 
-	for (uint32_t v = 0; v < g->vertex_count && !err; v++)
+	for (uint32_t v = 0; v < g->vertex_count && !err; v++) {
+		add_depth(clip[v], f->sums);
 		if (clip[v][3] > 0 && clip[v][3] < MOST_W) {
 			f->least_w = fminf(f->least_w, clip[v][3]);
 			f->most_w = fmaxf(f->most_w, clip[v][3]);
 		}
+	}
 	if (!err)
 		find_factors(mesh, (const float (*)[4])clip, f);
 	free(clip);
 	return err;
 }
 
+/*
+ * Depths that are linear in w and grow with it are the projection's: they cut off what is nearer than the program's own plane, and what lies
+ * behind what is drawn. Of others it has none; from the eye on all is there, and columns tell what lies before what (perspective_check_depths).
+ */
+static void make_depths(const struct found *f, float out[16])
+{
+	const double *s = f->sums, all = s[0] * s[2] - s[1] * s[1];
+	const double slope = (s[0] * s[4] - s[1] * s[3]) / all, first = (s[2] * s[3] - s[1] * s[4]) / all;
+	const int grows = all > 0 && slope > -1 && first < 0 && !f->is_bent;
+
+	out[10] = grows ? (float)-slope : -1;
+	out[14] = grows ? (float)first : -1e-6f * f->least_w;
+}
+
 static void make_projection(const struct scene_view *view, const struct found *f, float out[16])
 {
-	const float near = fmaxf(0.5f * f->least_w, 1e-4f * f->most_w), far = 2 * f->most_w;
 	const double width = view->viewport[2], height = view->viewport[3];
 
 	memset(out, 0, 16 * sizeof(*out));
 	out[0] = (float)(f->vertices ? f->factor[0] : USUAL_FACTOR * height / width);
 	out[5] = (float)(f->vertices ? f->factor[1] : USUAL_FACTOR);
-	out[10] = -(far + near) / (far - near);
 	out[11] = -1;
-	out[14] = -2 * far * near / (far - near);
+	make_depths(f, out);
 }
 
 /* Which views of the scene are drawn in by programs alone, and have no perspective. */
@@ -163,10 +193,65 @@ static void find_views(const struct job *job, struct found *found)
 			prepare_is_displaced(s, &s->instances[p->instances[i].scene_instance]);
 }
 
-int perspective_find(struct job *job, int *changed)
+/* 1 where a clip position's depth is not the one that the projection gives what has its x, y and w. */
+static int has_own_depth(const struct view *view, const float clip[4])
+{
+	const float *m = view->projection;
+	const struct vec4 at = v4_load(clip), eye = vertex_eye_from_clip(view, at);
+	const float depth = m[2] * eye.x + m[6] * eye.y + m[10] * eye.z + m[14] * eye.w;
+	const float largest = fmaxf(fmaxf(fabsf(at.x), fabsf(at.y)), fmaxf(fabsf(at.z), fabsf(at.w)));
+
+	return !(fabsf(depth - at.z) <= MOST_ROUNDING * largest);
+}
+
+/* *own: set where a prepared instance has such a depth */
+static int look_at_depths(const struct job *job, uint32_t i, int *own)
+{
+	const struct prepared *p = &job->prepared;
+	const struct geometry *g = &p->geometries[i];
+	const struct scene_instance *from = &job->scene->instances[p->instances[i].scene_instance];
+	const struct view *view = &p->views[g->view];
+	float (*clip)[4];
+	int err;
+
+	if (!prepare_is_displaced(job->scene, from))
+		return 0;
+	err = read_clips(job, i, &clip);
+	for (uint32_t v = 0; v < g->vertex_count && !err && !*own; v++)
+		*own = has_own_depth(view, clip[v]);
+	free(clip);
+	return err;
+}
+
+/* Whether a view is given a perspective. */
+static int is_given(const struct found *f)
+{
+	return f->perspective && f->most_w > 1.001f * f->least_w;
+}
+
+/* @return whether any is given */
+static int give_projections(struct job *job, const struct found *found)
 {
 	const struct scene *s = job->scene;
 	struct prepared *p = &job->prepared;
+	int given = 0;
+
+	for (uint32_t i = 0; i < p->n_instances; i++) {
+		const uint32_t from = s->instances[p->instances[i].scene_instance].view, to = p->geometries[i].view;
+
+		if (!is_given(&found[from]))
+			continue;
+		make_projection(&s->views[from], &found[from], p->views[to].projection);
+		memcpy(p->scene_views[to].projection, p->views[to].projection, sizeof(p->views[to].projection));
+		given |= mat4_invert(p->views[to].inverse, p->views[to].projection);
+	}
+	return given;
+}
+
+int perspective_find(struct job *job, int *changed)
+{
+	const struct scene *s = job->scene;
+	const struct prepared *p = &job->prepared;
 	struct found *found = calloc((size_t)s->n_views + 1, sizeof(*found));
 	int err = 0;
 
@@ -180,46 +265,17 @@ int perspective_find(struct job *job, int *changed)
 		if (f->perspective)
 			err = look_at(job, i, f);
 	}
-	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
-		const uint32_t from = s->instances[p->instances[i].scene_instance].view, to = p->geometries[i].view;
+	if (!err)
+		*changed = give_projections(job, found);
+	for (uint32_t i = 0; i < p->n_instances && !err && *changed; i++) {
+		struct found *f = &found[s->instances[p->instances[i].scene_instance].view];
 
-		if (!found[from].perspective || !(found[from].most_w > 1.001f * found[from].least_w))
-			continue;
-		make_projection(&s->views[from], &found[from], p->views[to].projection);
-		memcpy(p->scene_views[to].projection, p->views[to].projection, sizeof(p->views[to].projection));
-		*changed |= mat4_invert(p->views[to].inverse, p->views[to].projection);
+		if (is_given(f))
+			err = look_at_depths(job, i, &f->is_bent);
 	}
+	if (!err && *changed)
+		give_projections(job, found);
 	free(found);
-	return err;
-}
-
-/* 1 where a clip position's depth is not the one that the projection gives what has its x, y and w. */
-static int has_own_depth(const struct view *view, const float clip[4])
-{
-	const float *m = view->projection;
-	const struct vec4 at = v4_load(clip), eye = vertex_eye_from_clip(view, at);
-	const float depth = m[2] * eye.x + m[6] * eye.y + m[10] * eye.z + m[14] * eye.w;
-	const float largest = fmaxf(fmaxf(fabsf(at.x), fabsf(at.y)), fmaxf(fabsf(at.z), fabsf(at.w)));
-
-	return !(fabsf(depth - at.z) <= MOST_ROUNDING * largest);
-}
-
-/* *own: set where a prepared instance has such a depth; a view that was given its perspective has made-up depths, and does not count */
-static int look_at_depths(const struct job *job, uint32_t i, int *own)
-{
-	const struct prepared *p = &job->prepared;
-	const struct geometry *g = &p->geometries[i];
-	const struct scene_instance *from = &job->scene->instances[p->instances[i].scene_instance];
-	const struct view *view = &p->views[g->view];
-	float (*clip)[4];
-	int err;
-
-	if (!prepare_is_displaced(job->scene, from) || memcmp(view->projection, job->scene->views[from->view].projection, sizeof(view->projection)) != 0)
-		return 0;
-	err = read_clips(job, i, &clip);
-	for (uint32_t v = 0; v < g->vertex_count && !err && !*own; v++)
-		*own = has_own_depth(view, clip[v]);
-	free(clip);
 	return err;
 }
 
