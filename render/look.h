@@ -16,7 +16,8 @@ int look_study(const char *trace, const struct frame_list *frames, struct look *
 
 /**
  * Fetch the scenes that rules `unseen` name; a frame that is not there is left out.
- * @param look  NULL: nothing to do
+ * @param replay  with who renders for it (replay_set_supplier): without, pixels that these frames read back would be missing in later ones
+ * @param look    NULL: nothing to do
  * @return 0 or ERR_* (reported)
  */
 int look_fetch_unseen(struct replay *replay, struct look *look);

@@ -8,6 +8,7 @@
 #include "base/folder.h"
 #include "look/apply/apply.h"
 #include "render/decode.h"
+#include "render/look.h"
 #include "render/supply.h"
 #include "render/write.h"
 
@@ -121,6 +122,8 @@ int pipeline_run(struct pipeline *p)
 	replay_set_tell(p->replay, tell_replay, &state);
 	if (!look_spares(p->settings->look))
 		replay_keep_targets(p->replay);
+	if (!err && p->settings->tracer.mode != TRACER_GL)
+		err = look_fetch_unseen(p->replay, p->settings->look);
 	if (!err)
 		err = start_and_join(&state, workers, n);
 	replay_set_supplier(p->replay, NULL, NULL);

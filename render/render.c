@@ -232,8 +232,6 @@ static int render(struct settings *s)
 		err = list_pictures(s, &x);
 	if (!err && s->look_auto && !s->dry_run)
 		err = look_study(s->trace, &(struct frame_list){ .n_ranges = 0 }, &s->look);
-	if (!err && !s->dry_run && s->tracer.mode != TRACER_GL)
-		err = look_fetch_unseen(p.replay, s->look);
 	if (!err) {
 		p.stamp = (struct stamp){ .trace = replay_trace_hash(p.replay), .settings = s->hash };
 		snprintf(p.stamp.program, sizeof(p.stamp.program), "%s", replay_program(p.replay)); /* the replay's own goes where it goes back */

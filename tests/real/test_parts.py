@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Frames that need no earlier ones are rendered without them, and those that do say so: tests/real/parts.c. Those that begin with a picture are the
 same whether they are drawn layer by layer (packets) or segment by segment."""
-from helpers import AS_SHOWN, SCRATCH, check, check_alone, check_same_pictures, finish, must, relume
+from exr import Image
+from helpers import AS_SHOWN, SCRATCH, check, check_alone, check_same_pictures, finish, must, relume, render
 
 FRAMES = ("two views", "two views again", "a corner copied", "a corner copied again", "tiles", "tiles again", "blended tiles",
           "blended tiles again", "two views and a gap", "less of a corner copied", "tiles that let something through")
@@ -11,6 +12,14 @@ for frame in range(1, len(FRAMES)):
     told = f"frame {frame} needs the pixels of frames before it" in done.stderr
     check(told == (frame >= 8), f"{FRAMES[frame]}: said to need earlier frames: {told}: {done.stderr}")
     check_alone(trace, frame)
+
+# Frames that rules of the world name are played before: what they draw and copy is there for later ones.
+rules = SCRATCH / "unseen.look.yaml"
+for frame in range(8, len(FRAMES)):
+    rules.write_text(f"world:\n  - mesh: 00\n    at: [{', '.join('1' if i % 5 == 0 else '0' for i in range(16))}]\nunseen:\n  - frame: {frame - 1}\n    draws: 0\n")
+    plain, ruled = (Image(render(trace, SCRATCH / name, "-f", frame, "--aov", "gl", *look)[0], ["gl.R", "gl.G", "gl.B"]).planes
+                    for name, look in (("plain", ()), ("ruled", ("--look", rules))))
+    check(plain == ruled, f"{FRAMES[frame]}: rules that name the frame before change OpenGL's picture")
 for device in ((), ("--device", "reference")):
     ways = []
     for kernels in ("packets", "binary"):
