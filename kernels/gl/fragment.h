@@ -163,9 +163,10 @@ static inline struct vec4 point_unit_coord(const struct tables *t, const struct 
 static inline struct texture_slope point_unit_slope(const struct tables *t, const struct point *p, uint32_t i,
                                                     const struct point_window *w, struct point_quad *quad, const struct point_planes *planes)
 {
-	GLOBAL const struct texture_image *image = &t->textures[t->units[p->material->unit_first + i].texture];
+	GLOBAL const struct scene_unit *unit = &t->units[p->material->unit_first + i];
+	GLOBAL const struct texture_image *image = &t->textures[unit->texture];
 	const uint32_t number = (uint32_t)quad->y << 16 | (uint32_t)quad->x, slot = w->x / 2u % POINT_KEPT_QUADS;
-	const int own = image->target == GL_TEXTURE_CUBE_MAP, keeps = w->kept && i == 0u && w->setup && !own;
+	const int own = texture_has_own_slopes(t, unit), keeps = w->kept && i == 0u && w->setup && !own;
 	const float x = own ? (float)w->x : quad->x, right = x + (own && w->x & 1u ? -1.0f : 1.0f);
 	const float y = own ? (float)(w->height - 1u - w->row) : quad->y, below = y + (own && (w->height - 1u - w->row) & 1u ? -1.0f : 1.0f);
 	struct texture_slope slope;

@@ -43,7 +43,7 @@ static inline void program_bias(struct texture_slope *slope, float bias)
 static inline struct vec4 program_texel(const struct tables *t, GLOBAL const struct scene_unit *unit, uint32_t flags, const struct vec4 *quad,
                                         uint32_t k, float level)
 {
-	const uint32_t at = t->textures[unit->texture].target == GL_TEXTURE_CUBE_MAP ? k : 0u;
+	const uint32_t at = texture_has_own_slopes(t, unit) ? k : 0u;
 	struct texture_slope slope;
 
 	if (!texture_needs_slope(t, unit))

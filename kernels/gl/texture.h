@@ -341,6 +341,14 @@ static inline int texture_needs_slope(const struct tables *t, GLOBAL const struc
 	return unit->min_filter != unit->mag_filter || texture_is_anisotropic(t, unit);
 }
 
+/* 1 where each pixel has slopes of its own, as llvmpipe (22.3.6) has it: on a cube of several levels. Else a quad shares its upper left pixel's. */
+static inline int texture_has_own_slopes(const struct tables *t, GLOBAL const struct scene_unit *unit)
+{
+	GLOBAL const struct texture_image *image = &t->textures[unit->texture];
+
+	return image->target == GL_TEXTURE_CUBE_MAP && image->n_levels > 1u && unit->min_filter != GL_NEAREST && unit->min_filter != GL_LINEAR;
+}
+
 /* A step of a direction on its face, in texels: the quotient rule. */
 static inline struct vec4 texture_cube_slope(struct vec4 c, struct vec4 step, float size)
 {
@@ -353,7 +361,7 @@ static inline struct vec4 texture_cube_slope(struct vec4 c, struct vec4 step, fl
 
 /*
  * Slopes from the coordinates at a pixel of a 2x2 quad and at its neighbours there, before division by q. llvmpipe takes them
- * once for each quad, at its upper left pixel; on a cube each pixel has its own, of its own face, row and column.
+ * once for each quad, at its upper left pixel, but for texture_has_own_slopes: there each pixel has those of its own face, row and column.
  *
  * @param right  the pixel beside it, below: the one below or above it
  */

@@ -166,11 +166,11 @@ static void draw_generated(int i)
 	glMatrixMode(GL_MODELVIEW);
 }
 
-/* Each filter of a cube map; beside each other one where there are levels. Larger and smaller than its texels. */
+/* Each filter of a cube map beside each other one, larger and smaller than its texels. */
 static void cube(int i)
 {
 	static const GLint filters[6] = { GL_NEAREST, GL_LINEAR, GL_NEAREST_MIPMAP_NEAREST, GL_LINEAR_MIPMAP_NEAREST, GL_NEAREST_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_LINEAR };
-	const int smaller = choose(&i, 6), other = choose(&i, 2), larger = smaller < 2 ? smaller : other, turn = choose(&i, 4), far = choose(&i, 3);
+	const int smaller = choose(&i, 6), larger = choose(&i, 2), turn = choose(&i, 4), far = choose(&i, 3);
 
 	glEnable(GL_TEXTURE_CUBE_MAP);
 	glBindTexture(GL_TEXTURE_CUBE_MAP, cube_map);
