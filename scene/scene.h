@@ -250,7 +250,9 @@ struct scene_rectangle {
 	uint32_t texture; /* scene.textures: one level, rows from the first (m = 0) on */
 	uint32_t width, height;
 	float zoom[2];    /* pixels of the window a pixel of the rectangle; may be negative */
+	uint32_t from_top; /* 1: rows are counted from the last. Rounds otherwise where a zoom puts the middle of a pixel on the border of two rows */
 };
+#define SCENE_FROM_TOP 8u /* added to the kind of such a rectangle in its corners' colours */
 
 /* A Clear: an event between draws (GL 2.1 sec. 4.2.3). */
 struct scene_clear {

@@ -235,14 +235,17 @@ static inline struct stage_extent stage_extent_of(const struct point *p, uint32_
  * The texel that one axis of a rectangle has at a pixel, in the order of operations that llvmpipe (22.3.6) has for a texture's coordinate:
  * zooms often put the middle of a pixel on the border of two texels.
  * @param base    the end at which its plane of coordinates stands on the axis
+ * @param turned  texels are counted from the last
  * @param across  the rectangle's size along the other axis, signed from its base
  */
-static inline float stage_texel(const struct stage_extent *e, int base, float across, uint32_t pixel, uint32_t n)
+static inline float stage_texel(const struct stage_extent *e, int base, int turned, float across, uint32_t pixel, uint32_t n)
 {
-	const float from = e->texel[base] / (float)n, step = from - e->texel[!base] / (float)n, size = e->place[base] - e->place[!base];
-	const float along = step * (across * (1.0f / (size * across)));
+	const float first = e->texel[base] / (float)n, other = e->texel[!base] / (float)n, size = e->place[base] - e->place[!base];
+	const float from = turned ? 1.0f - first : first, along = (turned ? other - first : first - other) * (across * (1.0f / (size * across)));
+	const float texel = M_FLOOR(M_FMA(along, (float)pixel, from - along * (e->place[base] - 0.5f)) * (float)n);
+	const float within = M_MIN(M_MAX(texel, 0.0f), (float)(n - 1u));
 
-	return M_MIN(M_MAX(M_FLOOR(M_FMA(along, (float)pixel, from - along * (e->place[base] - 0.5f)) * (float)n), 0.0f), (float)(n - 1u));
+	return turned ? (float)(n - 1u) - within : within;
 }
 
 /*
@@ -253,6 +256,7 @@ static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, c
 {
 	const struct stage_extent columns = stage_extent_of(p, 0u), rows = stage_extent_of(p, 1u);
 	GLOBAL const struct texture_image *image = &t->textures[(uint32_t)(p->vertex[0]->color[1][2] + 0.5f)];
+	const uint32_t told = (uint32_t)(p->vertex[0]->color[1][3] + 0.5f);
 	const int mirrored = (columns.place[1] > columns.place[0]) == (rows.place[1] > rows.place[0]);
 	int high = 0, at_column = !mirrored, at_row;
 	float column, row;
@@ -260,9 +264,9 @@ static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, c
 	for (uint32_t i = 0u; i < 3u; i++)
 		high += p->vertex[i]->color[1][1] == rows.texel[1];
 	at_row = mirrored || high == 2;
-	column = stage_texel(&columns, at_column, rows.place[!at_row] - rows.place[at_row], x, image->width);
-	row = stage_texel(&rows, at_row, columns.place[at_column] - columns.place[!at_column], y, image->height);
-	*kind = (uint32_t)(p->vertex[0]->color[1][3] + 0.5f);
+	column = stage_texel(&columns, at_column, 0, rows.place[!at_row] - rows.place[at_row], x, image->width);
+	row = stage_texel(&rows, at_row, (told & SCENE_FROM_TOP) != 0u, columns.place[at_column] - columns.place[!at_column], y, image->height);
+	*kind = told & ~SCENE_FROM_TOP;
 	return t->texels + image->level_first[0] + ((uint32_t)row * image->width + (uint32_t)column) * image->words;
 }
 

@@ -2,8 +2,7 @@
 # limit: 400 s
 """
 The modes, functions, operands and terms of the specification's chapters, a panel each, are drawn as Mesa draws them: tests/real/panels/.
-Not among them: the colour maps of glDrawPixels (those of glTexImage2D are), and zooms of glCopyPixels that put a pixel's centre on an edge
-between two. Run with names of programs: those alone.
+Not among them: the colour maps of glDrawPixels (those of glTexImage2D are). Run with names of programs: those alone.
 """
 import sys
 

@@ -111,7 +111,7 @@ int expand_rectangle(const struct expand_input *in, struct expanded *out, uint32
 
 		expand_add_smooth_corner(in, out, &e, through_clip(x[right], in->width, (float)in->width * 0.5f),
 		                         through_clip(y[high], in->height, (float)in->height * -0.5f),
-		                         (float[4]){ column[right], row[high], (float)r->texture, (float)r->kind });
+		                         (float[4]){ column[right], row[high], (float)r->texture, (float)(r->kind + (r->from_top ? SCENE_FROM_TOP : 0)) });
 	}
 	expand_add_triangles(in, out, draw);
 	return 0;

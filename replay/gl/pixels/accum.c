@@ -119,7 +119,7 @@ static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls
 		}
 	if (texels)
 		gls_copy_rectangle(x, st, &(struct gls_rectangle){ SCENE_COLOR_PIXELS, width, height, (float)a->x0, (float)a->y0, { 1, 1 },
-		                                                   texels }, st->a.color.mask);
+		                                                   texels, 0 }, st->a.color.mask);
 }
 
 GLS_HANDLER(glAccum, STATE)

@@ -34,7 +34,7 @@ GLS_HANDLER(glBitmap, STATE)
 		/* The lower left corner is rounded down to whole pixels; Mesa adds a little first, against rounding errors. */
 		if (texels)
 			gls_draw_rectangle(x, st, &(struct gls_rectangle){ SCENE_BITMAP, p.width, p.height, floorf(at[0] + 0.0001f - arg_f(c, 2)),
-			                                                   floorf(at[1] + 0.0001f - arg_f(c, 3)), { 1, 1 }, texels });
+			                                                   floorf(at[1] + 0.0001f - arg_f(c, 3)), { 1, 1 }, texels, 0 });
 	}
 	at[0] += arg_f(c, 4);
 	at[1] += arg_f(c, 5);
@@ -46,7 +46,7 @@ static struct gls_rectangle at_raster_position(const struct gls_state *st, uint3
 {
 	const float *at = st->a.current.raster_position, *zoom = st->a.pixel.zoom;
 
-	return (struct gls_rectangle){ kind, width, height, rintf(at[0]), rintf(at[1]), { zoom[0], zoom[1] }, texels };
+	return (struct gls_rectangle){ kind, width, height, rintf(at[0]), rintf(at[1]), { zoom[0], zoom[1] }, texels, 0 };
 }
 
 /*
@@ -185,5 +185,6 @@ GLS_HANDLER(glCopyPixels, STATE)
 	for (uint32_t i = 0; i < width * height; i++)
 		copy_texel(st, p, kind, x0 + i % width, y0 + i / width, texels + bytes * i);
 	r = at_raster_position(st, kind, width, height, texels);
+	r.from_top = !st->read_framebuffer; /* Mesa (22.3.6) keeps a window's rows from the top */
 	gls_draw_rectangle(x, st, &r);
 }

@@ -36,7 +36,7 @@ static struct gls_mesh *point_at(struct gls_exec *x, float left, float low, floa
 static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rectangle *r, struct gls_attribs *a)
 {
 	const struct scene_rectangle rectangle = { .kind = r->kind, .width = r->width, .height = r->height,
-		                                   .zoom = { r->zoom[0], r->zoom[1] } };
+		                                   .zoom = { r->zoom[0], r->zoom[1] }, .from_top = r->from_top };
 	const struct gls_current *c = &a->current;
 	struct gls_texture_image *image;
 	struct gls_mesh *mesh;

@@ -14,6 +14,7 @@ struct gls_rectangle {
 	float left, low;        /* window coordinates of the first pixel's outer corner */
 	float zoom[2];          /* pixels of the window for one of these */
 	const uint8_t *texels;  /* [height][width], 4 bytes each, or 4 floats of SCENE_FLOAT_PIXELS; borrowed */
+	uint32_t from_top;      /* as in struct scene_rectangle */
 };
 
 /** Draw with the raster position's colours, texture coordinates and distance; what else fragments go through is the state's. */

@@ -3,6 +3,8 @@
  */
 #include "panels.h"
 
+#include <math.h>
+
 enum { SIDE = 6 };
 static unsigned char all_bytes[4 * 4 * SIDE * SIDE + PANELS], *bytes; /* bytes: of this panel, as Mesa keeps what it drew by its place */
 
@@ -179,15 +181,19 @@ static void draw_indexed_texture(int i)
 /* Zooms of any size and sign, from places off the pixels' corners. */
 static void draw_zoomed(int i)
 {
-	static const float drawn[6] = { 1, 0.5f, 2.5f, -0.5f, -1.5f, 3 }, copied[6] = { 1, 0.6f, 2.2f, -1, -1.6f, 3 };
-	const int x = choose(&i, 6), y = choose(&i, 6), copy = choose(&i, 2);
-	const float *zooms = copy ? copied : drawn;
+	static const float zooms[8] = { 1, 0.5f, 2.5f, -0.5f, -1.5f, 3, 0.6f, -1 };
+	const int x = choose(&i, 8), y = choose(&i, 8), copy = choose(&i, 2);
+	GLfloat from[4];
 
-	place(0, 0);
+	place(-0.97f, -0.97f);
+	glGetFloatv(GL_CURRENT_RASTER_POSITION, from);
+	glPixelZoom(1, 1);
+	if (copy)
+		glDrawPixels(SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, bytes);
 	glRasterPos3f(zooms[x] > 0 ? -0.77f : 0.77f, zooms[y] > 0 ? -0.61f : 0.83f, 0);
 	glPixelZoom(zooms[x], zooms[y]);
 	if (copy)
-		glCopyPixels(3, 2, 7, 5, GL_COLOR);
+		glCopyPixels((GLint)rintf(from[0]), (GLint)rintf(from[1]), SIDE - x / 4, SIDE - y / 4, GL_COLOR);
 	else
 		glDrawPixels(SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, bytes);
 }
@@ -282,7 +288,7 @@ int main(void)
 {
 	static const struct table tables[] = {
 		{ 66, format, draw_format },     { 48, format, draw_packed },   { 96, format, draw_stored }, { 16, transfer, draw_transferred },
-		{ 30, indexed, draw_indexed }, { 72, format, draw_zoomed }, { 16, format, draw_depths }, { 24, through, draw_through }, { 24, transfer, draw_transferred_texture },
+		{ 30, indexed, draw_indexed }, { 128, format, draw_zoomed }, { 16, format, draw_depths }, { 24, through, draw_through }, { 24, transfer, draw_transferred_texture },
 		{ 30, indexed, draw_indexed_texture },
 	};
 
