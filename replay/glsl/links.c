@@ -65,9 +65,9 @@ static struct glsl_value attribute(struct glsl_writer *w, const struct glsl_symb
 {
 	const struct glsl_type *t = glsl_type_of(w, s->type);
 	struct glsl_value v = glsl_value_of(w, s->type, t->numbers);
-	uint32_t location = GLSL_NONE, rows = t->rows ? t->rows : 1;
+	uint32_t location = s->location, rows = t->rows ? t->rows : 1; /* what the text says goes before what is bound */
 
-	for (uint32_t i = 0; i < w->links->n_attributes; i++)
+	for (uint32_t i = 0; i < w->links->n_attributes && s->location == GLSL_NONE; i++)
 		if (strcmp(w->links->attributes[i].name, w->tree->names + s->name) == 0)
 			location = w->links->attributes[i].location;
 	if (location > SCENE_MAX_GENERICS || location + (v.n + rows - 1) / rows > SCENE_MAX_GENERICS + 1)

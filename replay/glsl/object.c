@@ -75,6 +75,25 @@ int gls_shader_add_text(struct gls_shader *program, uint32_t type, const char *t
 	return 0;
 }
 
+static int set_location(struct gls_shader *program, uint64_t location, uint64_t number, uint32_t element)
+{
+	return table_set(&program->locations, location, (void *)(uintptr_t)((number << 32 | element) + 1));
+}
+
+/* Locations that the texts give. */
+static int set_given_locations(struct gls_shader *program)
+{
+	int err = 0;
+
+	for (uint32_t i = 0; i < program->uniforms.n; i++) {
+		const struct glsl_uniform *u = &program->uniforms.list[i];
+
+		for (uint32_t element = 0; element < u->length && u->location != GLSL_NONE && !err; element++)
+			err = set_location(program, (uint64_t)u->location + element, i, element);
+	}
+	return err;
+}
+
 int gls_shader_translate(struct gls_shader *program, int keeps)
 {
 	const struct glsl_sources sources = { { (const char *const *)program->texts[0], (const char *const *)program->texts[1] },
@@ -86,6 +105,8 @@ int gls_shader_translate(struct gls_shader *program, int keeps)
 		program_code_free(&program->stages.code[stage]);
 	memset(&program->uniforms, 0, sizeof(program->uniforms));
 	err = glsl_translate(&sources, program->stages.code, &program->uniforms, &program->stages.why);
+	if (!err)
+		err = set_given_locations(program);
 	if (keeps && before.n_values == program->uniforms.n_values && before.n_values)
 		memcpy(program->uniforms.values, before.values, before.n_values * sizeof(float));
 	glsl_uniforms_free(&before);
@@ -119,11 +140,6 @@ int gls_shader_locate_attribute(struct gls_shader *program, const char *name, ui
 	}
 	program->attributes[program->n_attributes++] = (struct glsl_attribute){ copy, location };
 	return 0;
-}
-
-static int set_location(struct gls_shader *program, uint64_t location, uint64_t number, uint32_t element)
-{
-	return table_set(&program->locations, location, (void *)(uintptr_t)((number << 32 | element) + 1));
 }
 
 int gls_shader_locate_uniform(struct gls_shader *program, const char *name, uint32_t location)

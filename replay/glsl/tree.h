@@ -41,6 +41,8 @@ struct glsl_symbol {
 	uint32_t storage;  /* enum glsl_storage */
 	uint32_t first;    /* of the numbers that it begins with, in glsl_tree.numbers; GLSL_NONE: none */
 	uint32_t flat, straight; /* 1: an input that is not interpolated, or as straight lines in the window */
+	uint32_t location;       /* of an input or a uniform, by its `layout`; GLSL_NONE: the text does not say */
+	uint32_t binding;        /* of a sampler: the unit that it begins with; GLSL_NONE: the text does not say */
 };
 
 /* X(enumerator): what a node does with its children, in their order. */

@@ -14,6 +14,7 @@ struct naming {
 	struct glsl_uniforms *u;
 	const struct glsl_tree *tree;
 	const char *why;
+	uint32_t location; /* of the next one; GLSL_NONE: the text does not say */
 	char name[MAX_NAME];
 };
 
@@ -31,7 +32,8 @@ static int add_one(struct naming *n, const struct glsl_type *t, uint32_t length,
 		free(name);
 		return err_report(ERR_SYSTEM, NULL, "out of memory for uniforms");
 	}
-	u->list[u->n++] = (struct glsl_uniform){ name, t->kind, t->rows, t->columns, t->texture, length, first };
+	u->list[u->n++] = (struct glsl_uniform){ name, t->kind, t->rows, t->columns, t->texture, length, first, n->location };
+	n->location += n->location != GLSL_NONE ? length : 0;
 	return 0;
 }
 
@@ -85,8 +87,11 @@ static int add_root(struct naming *n, const struct glsl_symbol *s)
 	memset(u->values + first, 0, padded * sizeof(float));
 	if (s->first != GLSL_NONE && s->first + numbers <= n->tree->n_numbers)
 		memcpy(u->values + first, n->tree->numbers + s->first, numbers * sizeof(float));
+	for (uint32_t i = 0; i < numbers && s->binding != GLSL_NONE; i++) /* an array's samplers have units in a row */
+		u->values[first + i] = (float)(s->binding + i);
 	u->n_values += padded;
 	strcpy(n->name, name);
+	n->location = s->location;
 	return add_parts(n, s->type, first);
 }
 

@@ -21,6 +21,7 @@ struct glsl_uniform {
 	uint32_t kind, rows, columns, texture; /* as of struct glsl_type */
 	uint32_t length;  /* of an array; else 1 */
 	uint32_t first;   /* number */
+	uint32_t location; /* of its first element, as the text gives it; GLSL_NONE: it does not */
 };
 
 /* One as the text declares it. */

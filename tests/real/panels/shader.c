@@ -263,6 +263,9 @@ static const char *const vertices[][2] = { /* of vertices, of fragments; NULL: f
 	{ "varying vec3 n; void main() { n = gl_NormalMatrix * gl_Normal; gl_Position = ftransform(); }",
 	  "varying vec3 n; void main() { float d = dot(normalize(n), normalize(vec3(0.3, 0.4, 1.0))); gl_FragColor = d > 0.95 ? vec4(1.0, 0.5, 0.5, 1.0) : d > 0.8 ? vec4(0.6, 0.3, 0.3, 1.0) : vec4(0.4, 0.2, 0.2, 1.0); }" },
 	{ "attribute vec4 bound; varying vec4 c; void main() { c = bound; gl_Position = ftransform(); }", "varying vec4 c; void main() { gl_FragColor = c; }" },
+	{ "#version 330 compatibility\nlayout(location = 3) in vec4 given; out vec4 c; void main() { c = given; gl_Position = ftransform(); }",
+	  "#version 330 compatibility\n#extension GL_ARB_explicit_uniform_location : require\n#extension GL_ARB_shading_language_420pack : require\n"
+	  "layout(location = 5) uniform vec4 tints[2]; layout(binding = 1) uniform sampler2D s; in vec4 c; void main() { gl_FragColor = c * tints[1] + texture(s, c.xy) * tints[0]; }" },
 	{ "uniform mat4 bones[3]; void main() { int k = int(gl_MultiTexCoord2.x + 1.2); vec4 v = mix(gl_Vertex, bones[k] * gl_Vertex, 0.7); gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = gl_Color; gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
 	{ "varying vec2 t[3]; varying float f; void main() { for (int i = 0; i < 3; i++) t[i] = gl_MultiTexCoord0.xy * float(i + 1); f = gl_Vertex.z; gl_TexCoord[2] = gl_MultiTexCoord1; gl_Position = ftransform(); }",
 	  "varying vec2 t[3]; varying float f; void main() { gl_FragColor = vec4(t[0].x, t[1].y, t[2].x + f, 1.0) * 0.3 + 0.4 + gl_TexCoord[2] * 0.1; }" },
@@ -304,6 +307,10 @@ static void vertex(int i)
 	glBindTexture(GL_TEXTURE_2D, images[0]);
 	shade(vertices[i % (int)COUNT(vertices)][0], vertices[i % (int)COUNT(vertices)][1]);
 	glUniformMatrix4fv(glGetUniformLocation(current, "bones"), 3, GL_FALSE, bones);
+	if (strstr(vertices[i % (int)COUNT(vertices)][0], "given")) {
+		glUniform4f(5, 0.5f, 0.4f, 0.3f, 1);
+		glUniform4f(6, 0.6f, 0.3f, 0.5f, 1);
+	}
 	glVertexAttrib4f(3, 0.3f, 0.8f, 0.4f, 1);
 }
 
