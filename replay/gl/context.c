@@ -88,6 +88,7 @@ static void init_attribs(struct gls_attribs *a)
 	}
 	for (unsigned i = 0; i < SCENE_MAX_GENERICS; i++)
 		a->current.attribute[GLS_ATTR_GENERIC + i][3] = 1;
+	a->current.generic0[3] = 1;
 	a->current.edge_flag = 1;
 	a->current.index = 1;
 	a->current.raster_position[3] = 1;

@@ -231,7 +231,7 @@ private:
 		symbols.push_back({ add_name(s.getName().c_str()), type_of(s.getType()), storage_of(q),
 		                    s.getConstArray().empty() ? GLSL_NONE : add_numbers(s.getConstArray()), uint32_t(q.flat),
 		                    uint32_t(q.nopersp), q.hasLocation() ? uint32_t(q.layoutLocation) : GLSL_NONE,
-		                    q.hasBinding() ? uint32_t(q.layoutBinding) : GLSL_NONE });
+		                    q.hasBinding() ? uint32_t(q.layoutBinding) : GLSL_NONE, uint32_t(s.getId()) });
 		return symbol_of[s.getId()] = uint32_t(symbols.size() - 1);
 	}
 
@@ -280,7 +280,7 @@ private:
 
 		if (found != member_of.end())
 			return add(GLSL_SYMBOL, type, {}, found->second);
-		symbols.push_back({ add_name(name), type, uint32_t(GLSL_OUTPUT), GLSL_NONE, 0, 0, GLSL_NONE, GLSL_NONE });
+		symbols.push_back({ add_name(name), type, uint32_t(GLSL_OUTPUT), GLSL_NONE, 0, 0, GLSL_NONE, GLSL_NONE, 0 });
 		member_of[name] = uint32_t(symbols.size() - 1);
 		return add(GLSL_SYMBOL, type, {}, member_of[name]);
 	}

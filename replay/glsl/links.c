@@ -61,17 +61,86 @@ void glsl_links_place(struct glsl_links *links, const struct glsl_tree *tree, co
 	}
 }
 
+#define N_LOCATIONS (SCENE_MAX_GENERICS + 1)
+
+/* How many locations an attribute takes. */
+static uint32_t slots_of(const struct glsl_tree *tree, const struct glsl_symbol *s)
+{
+	const struct glsl_type *t = &tree->types[s->type];
+	const uint32_t rows = t->rows ? t->rows : 1;
+
+	return t->numbers / rows + (t->numbers % rows != 0);
+}
+
+/* Bits of locations; 0: there are not so many. */
+static uint32_t slot_bits(uint32_t location, uint32_t slots)
+{
+	return location < N_LOCATIONS && slots <= N_LOCATIONS - location ? ((1u << slots) - 1) << location : 0;
+}
+
+static int is_attribute(const struct glsl_tree *tree, uint32_t symbol)
+{
+	return tree->symbols[symbol].storage == GLSL_INPUT && strncmp(name_of(tree, symbol), "gl_", 3) != 0;
+}
+
+/* The largest attribute without a location, of these the first in the text; GLSL_NONE: all have one. */
+static uint32_t next_unplaced(const struct glsl_writer *w, const uint8_t *used)
+{
+	const struct glsl_tree *tree = w->tree;
+	uint32_t best = GLSL_NONE;
+
+	for (uint32_t i = 0; i < tree->n_symbols; i++) {
+		const struct glsl_symbol *s = &tree->symbols[i], *b = best == GLSL_NONE ? NULL : &tree->symbols[best];
+
+		if (!used[i] || !is_attribute(tree, i) || w->links->locations[i] != GLSL_NONE)
+			continue;
+		if (!b || slots_of(tree, s) > slots_of(tree, b) || (slots_of(tree, s) == slots_of(tree, b) && s->declared < b->declared))
+			best = i;
+	}
+	return best;
+}
+
+void glsl_links_locate(struct glsl_writer *w, const uint8_t *used)
+{
+	const struct glsl_tree *tree = w->tree;
+	struct glsl_links *links = w->links;
+	uint32_t taken = 0, next;
+
+	links->locations = glsl_alloc(w, tree->n_symbols * sizeof(*links->locations));
+	for (uint32_t i = 0; i < tree->n_nodes; i++)
+		taken |= tree->nodes[i].operation == GLSL_FTRANSFORM;
+	for (uint32_t i = 0; i < tree->n_symbols && links->locations; i++) {
+		uint32_t *location = &links->locations[i];
+
+		*location = tree->symbols[i].location;
+		taken |= used[i] && strcmp(name_of(tree, i), "gl_Vertex") == 0;
+		for (uint32_t k = 0; k < links->n_attributes && *location == GLSL_NONE && is_attribute(tree, i); k++)
+			if (strcmp(links->attributes[k].name, name_of(tree, i)) == 0)
+				*location = links->attributes[k].location;
+		if (used[i] && is_attribute(tree, i) && *location != GLSL_NONE)
+			taken |= slot_bits(*location, slots_of(tree, &tree->symbols[i]));
+	}
+	while (links->locations && (next = next_unplaced(w, used)) != GLSL_NONE) {
+		const uint32_t slots = slots_of(tree, &tree->symbols[next]);
+		uint32_t at = 0;
+
+		while (slot_bits(at, slots) & taken)
+			at++;
+		if (!slot_bits(at, slots))
+			return; /* no machine has linked it */
+		links->locations[next] = at;
+		taken |= slot_bits(at, slots);
+	}
+}
+
 static struct glsl_value attribute(struct glsl_writer *w, const struct glsl_symbol *s)
 {
 	const struct glsl_type *t = glsl_type_of(w, s->type);
 	struct glsl_value v = glsl_value_of(w, s->type, t->numbers);
-	uint32_t location = s->location, rows = t->rows ? t->rows : 1; /* what the text says goes before what is bound */
+	const uint32_t location = w->links->locations[s - w->tree->symbols], rows = t->rows ? t->rows : 1;
 
-	for (uint32_t i = 0; i < w->links->n_attributes && s->location == GLSL_NONE; i++)
-		if (strcmp(w->links->attributes[i].name, w->tree->names + s->name) == 0)
-			location = w->links->attributes[i].location;
-	if (location > SCENE_MAX_GENERICS || location + (v.n + rows - 1) / rows > SCENE_MAX_GENERICS + 1)
-		return glsl_row(w, s->type, glsl_registers(w, v.n)); /* the program has never asked where it is: nothing sets it */
+	if (!slot_bits(location, slots_of(w->tree, s)))
+		return glsl_row(w, s->type, glsl_registers(w, v.n)); /* no machine has linked it: nothing sets it */
 	for (uint32_t i = 0; i < v.n && v.at; i++) {
 		const uint32_t at = location + i / rows;
 

@@ -74,6 +74,8 @@ static void place_all(struct glsl_writer *w)
 		return;
 	walk(w, w->tree->root, reached, used);
 	walk(w, w->tree->functions[w->tree->main].body, reached, used);
+	if (w->stage == GLSL_VERTEX_STAGE)
+		glsl_links_locate(w, used);
 	for (uint32_t i = 0; i < w->tree->n_symbols && !glsl_stopped(w); i++)
 		if (used[i] && w->tree->symbols[i].storage != GLSL_LOCAL && w->tree->symbols[i].storage < GLSL_IN)
 			glsl_variable(w, i);

@@ -43,6 +43,7 @@ struct glsl_symbol {
 	uint32_t flat, straight; /* 1: an input that is not interpolated, or as straight lines in the window */
 	uint32_t location;       /* of an input or a uniform, by its `layout`; GLSL_NONE: the text does not say */
 	uint32_t binding;        /* of a sampler: the unit that it begins with; GLSL_NONE: the text does not say */
+	uint32_t declared;       /* ascends in the order of the text */
 };
 
 /* X(enumerator): what a node does with its children, in their order. */

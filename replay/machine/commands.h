@@ -33,6 +33,7 @@ enum gls_role {
 	GLS_ROLE_NONE,
 	GLS_ROLE_BEGIN, GLS_ROLE_END,
 	GLS_ROLE_EDGE_FLAG,
+	GLS_ROLE_VERTEX_ATTRIB, /* arguments: number, value */
 	GLS_ROLE_MATERIAL,      /* arguments: face, parameter, value */
 	GLS_ROLE_BIND_TEXTURE,
 	GLS_ROLE_CALL_LIST,

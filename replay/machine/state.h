@@ -34,6 +34,7 @@ enum gls_attribute {
 /* Tables 6.5, 6.6: current values. attribute[][4]: normal uses 3, the fog coordinate 1. */
 struct gls_current {
 	float attribute[N_GLS_ATTRIBUTES][4];
+	float generic0[4]; /* what VertexAttrib sets of attribute 0 outside Begin and End, where it is no vertex */
 	uint32_t edge_flag;
 	float index;
 	/* current raster position (sec. 2.13) */

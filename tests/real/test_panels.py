@@ -22,7 +22,7 @@ PROGRAMS = {
     "program": ("instructions", "bindings", "textures", "fragments", "last bits"),
     "ati_shader": ("instructions", "arguments", "destinations", "sources", "textures"),
     "vertex_program": ("instructions", "bindings", "addresses", "results", "attributes", "uses", "extremes"),
-    "shader": ("functions", "statements", "state", "textures", "vertices", "scenes", "several buffers"),
+    "shader": ("functions", "statements", "state", "textures", "vertices", "places", "scenes", "several buffers"),
 }
 
 

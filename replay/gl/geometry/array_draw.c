@@ -45,7 +45,7 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 {
 	struct gls_geometry *g = &x->scratch.geometry;
 	uint32_t lo = UINT32_MAX, hi = 0, *number, *cut;
-	uint64_t n = gls_source_count(&s->vertex);
+	uint64_t n = gls_sources_count(s);
 
 	gls_geometry_clear(g);
 	g->kind = gls_mode_kind(mode);
@@ -169,7 +169,7 @@ static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32
 		return;
 	if (!count || !gls_sources_open(x, st, &s))
 		return;
-	if (!elements && (uint64_t)first + count > gls_source_count(&s.vertex)) {
+	if (!elements && (uint64_t)first + count > gls_sources_count(&s)) {
 		gls_unsupported(x, "draws beyond the end of an array");
 		return;
 	}

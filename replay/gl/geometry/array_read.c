@@ -42,9 +42,32 @@ static int gls_source_open(struct gls_exec *x, struct gls_state *st, const struc
 	return s->element && s->bytes && s->n >= s->element;
 }
 
-uint64_t gls_source_count(const struct gls_source *s)
+/* Four floats for every vertex; they are not copied. */
+static struct gls_source constant_source(const float value[4])
+{
+	static const struct gls_array array = { .enabled = 1, .size = 4, .type = GL_FLOAT };
+
+	return (struct gls_source){ .bytes = (const uint8_t *)value, .n = 4 * sizeof(float), .element = 4 * sizeof(float),
+	                            .version = XXH3_64bits(value, 4 * sizeof(float)), .array = &array };
+}
+
+static uint64_t source_count(const struct gls_source *s)
 {
 	return s->stride ? (s->n - s->element) / s->stride + 1 : UINT32_MAX;
+}
+
+uint64_t gls_sources_count(const struct gls_sources *s)
+{
+	uint64_t most = 0;
+
+	if (s->vertex.stride)
+		return source_count(&s->vertex);
+	for (uint32_t present = s->present; present; present &= present - 1) {
+		const uint64_t n = source_count(&s->attributes[__builtin_ctz(present)]);
+
+		most = n > most ? n : most;
+	}
+	return most;
 }
 
 /*
@@ -112,7 +135,7 @@ void gls_source_read(const struct gls_source *s, uint64_t i, float out[4])
 
 	out[0] = out[1] = out[2] = 0;
 	out[3] = 1;
-	if (i >= gls_source_count(s))
+	if (i >= source_count(s))
 		return;
 	p = s->bytes + i * s->stride;
 	if (array->type == GL_FLOAT) {
@@ -155,11 +178,14 @@ int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_source
 
 	gls_sources_open_attributes(x, st, s);
 	if (!vertex->enabled) {
-		if (st->program || st->a.programs.vertex)
-			gls_unsupported(x, "draws whose positions only a program can find");
-		return 0; /* nothing is drawn without it (sec. 2.8) */
-	}
-	if (!gls_source_open(x, st, vertex, &s->vertex)) {
+		if (!st->program && !st->a.programs.vertex)
+			return 0; /* nothing is drawn without it (sec. 2.8) */
+		if (!s->present) {
+			gls_unsupported(x, "draws without arrays");
+			return 0;
+		}
+		s->vertex = constant_source(st->a.current.generic0); /* a program finds positions elsewhere */
+	} else if (!gls_source_open(x, st, vertex, &s->vertex)) {
 		gls_unsupported(x, "arrays whose contents the recording does not hold");
 		return 0;
 	}

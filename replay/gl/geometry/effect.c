@@ -54,7 +54,7 @@ static enum action action_of(const struct gls_op *op)
 	static const uint8_t known[] = {
 		[GLS_ROLE_TRANSFORM] = CHANGE, [GLS_ROLE_CALL_LIST] = CALL, [GLS_ROLE_BIND_TEXTURE] = BIND, [GLS_ROLE_PUSH_MATRIX] = PUSH,
 		[GLS_ROLE_POP_MATRIX] = POP, [GLS_ROLE_SELECT] = LEAVE, [GLS_ROLE_EDGE_FLAG] = LEAVE, [GLS_ROLE_BEGIN] = LEAVE,
-		[GLS_ROLE_END] = LEAVE, [GLS_ROLE_MATERIAL] = KEEP,
+		[GLS_ROLE_END] = LEAVE, [GLS_ROLE_MATERIAL] = KEEP, [GLS_ROLE_VERTEX_ATTRIB] = PASS,
 	};
 	const struct gls_command *k = &gls_commands[op->command];
 

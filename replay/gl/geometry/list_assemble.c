@@ -32,6 +32,8 @@ static int fits_batch(const struct gls_exec *assembler, const struct gls_op *op)
 
 	if (op->form == GLS_OP_MESH || k->role == GLS_ROLE_EDGE_FLAG)
 		return 0;
+	if (k->role == GLS_ROLE_VERTEX_ATTRIB && !open && (op->form != GLS_OP_CALL || !op->n || gls_value_int(&op->args[0]) == 0))
+		return 0; /* meshes do not set it */
 	if (k->kind == GLS_KIND_VERTEX)
 		return 1;
 	if (gls_op_is(op, GLS_ROLE_END))

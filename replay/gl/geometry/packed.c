@@ -75,8 +75,7 @@ GLS_FAMILY(glVertexP, VERTEX)
 		gls_vertex(x, st, value);
 }
 
-/* Generic attribute 0 is the vertex, the others are for vertex programs. */
-GLS_FAMILY(glVertexAttribP, VERTEX)
+GLS_FAMILY(glVertexAttribP, VERTEX, VERTEX_ATTRIB)
 {
 	float value[4];
 

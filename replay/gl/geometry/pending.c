@@ -117,8 +117,10 @@ void gls_set_generic(struct gls_exec *x, struct gls_state *st, uint32_t number, 
 		return;
 	if (number)
 		gls_set_attribute(x, st, GLS_ATTR_GENERIC + number - 1, value);
-	else
+	else if (st->begin_mode)
 		gls_vertex(x, st, value);
+	else
+		memcpy(st->a.current.generic0, value, sizeof(st->a.current.generic0));
 }
 
 /* ---- Begin and End ---- */

@@ -107,12 +107,12 @@ GLS_FAMILY(glVertex, VERTEX)
 	gls_vertex(x, st, value);
 }
 
-/* Generic attribute 0 is the vertex (sec. 2.7). The others are for vertex programs. */
-GLS_FAMILY(glVertexAttrib, VERTEX)
+/* Generic attribute 0 is the vertex between Begin and End (sec. 2.7). The others are for vertex programs, and so is it elsewhere. */
+GLS_FAMILY(glVertexAttrib, VERTEX, VERTEX_ATTRIB)
 {
 	float value[4];
 
-	if (arg_u(c, 0) == 0 && !gls_takes_vertices(x, st))
+	if (arg_u(c, 0) == 0 && st->begin_mode && !x->want)
 		return;
 	read_components(x, c, 1, gls_commands[x->command].suffix.normalized, value);
 	gls_set_generic(x, st, arg_u(c, 0), value);

@@ -320,6 +320,50 @@ static void draw_vertices(int i)
 	glDisable(GL_VERTEX_PROGRAM_TWO_SIDE);
 }
 
+/* --- Attributes that nobody tells the place of -------------------------------------------------------------------------- */
+
+static const struct { const char *text; GLuint place, constants[3]; } unplaced[] = { /* where Mesa puts them */
+	{ "attribute vec4 tint; attribute vec3 place; attribute vec2 more; varying vec4 c; void main() { c = more.xyxy * 0.4 + tint; gl_Position = gl_ModelViewProjectionMatrix * vec4(place, 1.0); }",
+	  1, { 0, 2, 5 } },
+	{ "attribute vec2 small; attribute mat2 wide; attribute vec3 place; attribute vec4 never; varying vec4 c; void unused() { c = never; } void main() { c = vec4(wide * small, wide[0]) + 0.2; gl_Position = gl_ModelViewProjectionMatrix * vec4(place, 1.0); }",
+	  3, { 0, 1, 2 } },
+	{ "attribute vec4 bound; attribute vec4 b, a; varying vec4 c; void main() { c = a * 0.5 + b * 0.3 + bound; gl_Position = ftransform(); }", 0, { 1, 2, 3 } },
+	{ "attribute vec4 b, a; varying vec4 c; void main() { c = a * 0.5 + b * 0.3; gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex; }", 0, { 1, 2, 3 } },
+};
+
+static void unplace(int i)
+{
+	shade(unplaced[i / 3].text, "varying vec4 c; void main() { gl_FragColor = c; }");
+}
+
+/* In the order of the arrays, by indices, and with constants from a list. */
+static void draw_unplaced(int i)
+{
+	static const float corners[4][3] = { { -0.9f, -0.8f, 0 }, { 0.9f, -0.7f, 0.1f }, { 0.7f, 0.8f, 0.3f }, { -0.8f, 0.7f, -0.2f } };
+	static const GLubyte order[4] = { 2, 3, 0, 1 };
+	const GLuint place = unplaced[i / 3].place, list = i % 3 == 2 ? glGenLists(1) : 0;
+
+	if (list)
+		glNewList(list, GL_COMPILE);
+	for (int k = 0; k < 3; k++)
+		glVertexAttrib4f(unplaced[i / 3].constants[k], 0.3f + 0.2f * (float)k, 0.9f - 0.3f * (float)k, k == 1 ? 0.1f : 0.5f, 1);
+	if (list) {
+		glEndList();
+		glCallList(list);
+		glDeleteLists(list, 1);
+	}
+	glEnableVertexAttribArray(place);
+	glVertexAttribPointer(place, 3, GL_FLOAT, GL_FALSE, 0, corners);
+	if (i % 3 == 1)
+		glDrawElements(GL_QUADS, 4, GL_UNSIGNED_BYTE, order);
+	else
+		glDrawArrays(GL_QUADS, 0, 4);
+	glDisableVertexAttribArray(place);
+	glVertexAttrib4f(0, 0, 0, 0, 1);
+	glUseProgram(0);
+	glDeleteProgram(current);
+}
+
 /* --- What programs were written for ------------------------------------------------------------------------------------ */
 
 #define EYE "varying vec3 e; varying vec2 t; void main() { vec3 v = vec3(gl_ModelViewMatrix * gl_Vertex), n = gl_NormalMatrix * vec3(0.0, 0.0, 1.0), " \
@@ -501,7 +545,7 @@ int main(void)
 {
 	static const struct table tables[] = {
 		{ COUNT(functions), function, draw }, { COUNT(statements), statement, draw }, { 2 * COUNT(states), state, draw },
-		{ COUNT(textures), texture, draw }, { 2 * COUNT(vertices), vertex, draw_vertices },
+		{ COUNT(textures), texture, draw }, { 2 * COUNT(vertices), vertex, draw_vertices }, { 3 * COUNT(unplaced), unplace, draw_unplaced },
 		{ COUNT(scenes), scene, draw_scene }, { 2 * COUNT(targets), several, draw_several },
 	};
 
