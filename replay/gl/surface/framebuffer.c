@@ -46,18 +46,19 @@ static uint32_t drawn_colors(const struct gls_framebuffer *fb)
 /*
  * Render the events, and write the result to the attachments. Fixed function sends the same fragments to all colours (GL 2.1 sec.
  * 3.11.2), shaders may send others. Where these, or what was there before, show, the events are rendered once for each colour. Depth and
- * stencil are the same each time.
+ * stencil are the same each time. Where there are no colours, nobody looks at what they were before.
  */
 static void update_colors(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
 	struct gls_surface *s = &fb->surface;
 	uint32_t left = drawn_colors(fb), others = 1u << DEPTH | 1u << STENCIL;
 	int color = left ? __builtin_ctz(left) : -1, loads = x->want && x->feedback.supply, shows = 1;
+	const struct gls_area depths = { { 0, 0, (int32_t)s->width, (int32_t)s->height }, (s->depth_bits ? 2u : 0) | (s->stencil_bits ? 4u : 0) };
 	const struct scene_picture *p = NULL;
 
 	if (loads && !(s->picture = gls_attachments_load(x, share, fb->attached, color, s)))
 		s->skipped = 1;
-	p = gls_surface_read(x, s, NULL);
+	p = gls_surface_read(x, s, left ? NULL : &depths);
 	for (left &= left - 1; left && p; left &= left - 1) {
 		struct gls_picture *next;
 
