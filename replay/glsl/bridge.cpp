@@ -285,10 +285,24 @@ private:
 		return add(GLSL_SYMBOL, type, {}, member_of[name]);
 	}
 
+	/* (A B) v is A (B v), however many matrices there are, as in Mesa (22.3.6). */
+	uint32_t times_vector(TIntermTyped &matrix, uint32_t vector, const TType &type)
+	{
+		TIntermBinary *product = matrix.getAsBinaryNode();
+
+		if (!product || product->getOp() != EOpMatrixTimesMatrix)
+			return add(GLSL_MATRIX_TIMES_VECTOR, type_of(type), { flatten(&matrix), vector });
+		TIntermTyped &right = *product->getRight();
+
+		return times_vector(*product->getLeft(), times_vector(right, vector, TType(EbtFloat, EvqTemporary, right.getType().getMatrixRows())), type);
+	}
+
 	uint32_t flatten_binary(TIntermBinary &b)
 	{
 		if (b.getOp() == EOpIndexDirectStruct && b.getLeft()->getBasicType() == EbtBlock)
 			return of_block(b);
+		if (b.getOp() == EOpMatrixTimesVector)
+			return times_vector(*b.getLeft(), flatten(b.getRight()), b.getType());
 		const uint32_t left = flatten(b.getLeft()), type = type_of(b.getType());
 
 		if (b.getOp() == EOpIndexDirectStruct)

@@ -91,7 +91,9 @@ static const char *const functions[] = {
 	"fract(a / p * 1048576.0)", "fract(smoothstep(-0.5, 1.6, a) * 1048576.0)", /* to the last bit */
 	"fract(sin(a * 9.0) * 1048576.0)", "fract(cos(a * 9.0) * 1048576.0)", "fract(sin(a * 70000.0) * 1048576.0)", "fract(tan(a) * 1048576.0)",
 	"fract(exp2(a * 3.0) * 1048576.0)", "fract(exp(a) * 1048576.0)", "fract(log2(p) * 1048576.0)", "fract(log(p) * 1048576.0)",
-	"fract(pow(p, b) * 1048576.0)",
+	"fract(pow(p, b) * 1048576.0)", "fract(mat4(a, b, p, a) * mat4(b, a, b, p) * p * 65536.0)", "fract(mat4(b, p, b, a) * mat4(b, a, b, p) * mat4(p, a, p, b) * vec4(0.3, 0.7, 0.9, 0.4) * 65536.0)",
+	"fract(mat4(a, b, p, a) * (mat4(b, a, b, p) * p) * 65536.0)",
+	"fract(p * mat4(b, a, b, p) * mat4(a, b, p, a) * 65536.0)", "fract((mat4(a, b, p, a) * 0.3) * p * 65536.0)",
 };
 
 static void function(int i)
@@ -131,6 +133,7 @@ static const char *const statements[][2] = {
 	{ "", "r[int(mod(p.x * 7.0, 4.0))] = 0.9;" }, { "", "int i = 3; r.x = float(i++) * 0.2; r.y = float(i--) * 0.2; r.z = float(++i) * 0.1; r.w = float(--i) * 0.1;" },
 	{ "", "vec2 d = 400.0 * a.xy; d = vec2(length(d), length(d + b.yx)); vec2 e = d; r.xy = fract(e * d); d.x = length(b) * 400.0; r.z = fract(d.x * d.x);" }, /* last bits */
 	{ "", "float d = length(a), e = d; r = vec4(fract(d * 262144.0), fract(e * d * 262144.0), fract(dot(a, a) * 262144.0), 1.0);" },
+	{ "", "r = fract(mat2x4(a, b) * mat3x2(b.xy, p.xy, a.xy) * vec3(0.3, 0.7, 0.9) * 65536.0);" },
 	{ "", "float x, y; y = a.x * 0.5; x = y; r = vec4(x, y, x, y * 0.3);" },
 	{ "", "vec2 x[2], y[2]; x[0] = y[0] = a.xy; x[1] = y[1] = b.xy; y[0].x = 0.4; r = vec4(x == y, x != y, x[0].x, y[1].y);" },
 	{ "#define Q(x) x + x + x + x\n", "r = Q(Q(Q(Q(a * 0.002)))) - (b * 0.2 + p * (0.1 + a));" },
