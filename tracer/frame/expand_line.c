@@ -83,6 +83,8 @@ static void add_line(const struct expand_input *in, struct expanded *out, const 
 		x[i] = expand_snap(ends[i]->x + (steep ? across : along));
 		y[i] = expand_snap(ends[i]->y + (steep ? along : across));
 	}
+	if ((steep ? y[1] > y[0] : x[1] > x[0]) != (d_major > 0))
+		return; /* its ends have passed each other: llvmpipe's planes leave nothing of it */
 	for (int k = 0; k < 4; k++) {
 		int i = k == 1 || k == 2;
 		int32_t side = k < 2 ? -half : half;

@@ -209,10 +209,43 @@ static void draw_edges(int i)
 	glEdgeFlag(GL_TRUE);
 }
 
+/* Chains of lines shorter than a pixel, whose ends lie beside a pixel's centre, nearer than places are told apart. */
+static void short_chain(int i)
+{
+	const int by = choose(&i, 8), length = choose(&i, 3), beside = choose(&i, 2), width = choose(&i, 2);
+	const float angle = 0.7853982f * (float)by + 0.4f, step = 0.16f * (float)(1 + length), off = beside ? 0.0014f : -0.0014f;
+
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glOrtho(0, PANEL, 0, PANEL, -1, 1);
+	glMatrixMode(GL_MODELVIEW);
+	glLoadIdentity();
+	glLineWidth(width ? 5 : 1);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_ONE, GL_ONE);
+	glColor3f(0.3f, 0.2f, 0.25f);
+	n_corners = CORNERS;
+	for (int k = 0; k < CORNERS; k++) {
+		corners[k][0] = 10.5f + off + step * (float)(k - 5) * cosf(angle);
+		corners[k][1] = 9.5f - off + step * (float)(k - 5) * sinf(angle);
+		corners[k][2] = 0;
+	}
+}
+
+static void draw_chain(int i)
+{
+	(void)i;
+	glBegin(GL_LINE_STRIP);
+	for (int k = 0; k < CORNERS; k++)
+		glVertex3fv(corners[k]);
+	glEnd();
+	glDisable(GL_BLEND);
+}
+
 int main(void)
 {
 	static const struct table tables[] = { { 120, strips, draw_strip }, { 108, kinds, draw_strip }, { 96, cut, draw_strip }, { 24, shared, draw_shared },
-		                                { 192, unfilled, draw_strip }, { 96, edges, draw_edges } };
+		                                { 192, unfilled, draw_strip }, { 96, edges, draw_edges }, { 96, short_chain, draw_chain } };
 
 	DRAW_TABLES(tables, NULL);
 	return 0;
