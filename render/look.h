@@ -1,4 +1,4 @@
-/* Studying a recording: it is replayed without pixels, frame by frame, into look/study. */
+/* Studying a recording: it is replayed without pixels, frame by frame, into look/study; what its rules name is fetched with them. */
 #pragma once
 
 #include "base/frames.h"

@@ -75,9 +75,16 @@ int gls_shader_add_text(struct gls_shader *program, uint32_t type, const char *t
 	return 0;
 }
 
-static int set_location(struct gls_shader *program, uint64_t location, uint64_t number, uint32_t element)
+/* Give a uniform's element its location, and those after it the next ones, as Mesa does, where nothing has these. */
+static int set_locations(struct gls_shader *program, uint64_t location, uint64_t number, uint32_t element)
 {
-	return table_set(&program->locations, location, (void *)(uintptr_t)((number << 32 | element) + 1));
+	const uint32_t first = element;
+	int err = 0;
+
+	for (; element < program->uniforms.list[number].length && !err; element++, location++)
+		if (element == first || !table_find(&program->locations, location))
+			err = table_set(&program->locations, location, (void *)(uintptr_t)((number << 32 | element) + 1));
+	return err;
 }
 
 /* Locations that the texts give. */
@@ -85,12 +92,9 @@ static int set_given_locations(struct gls_shader *program)
 {
 	int err = 0;
 
-	for (uint32_t i = 0; i < program->uniforms.n; i++) {
-		const struct glsl_uniform *u = &program->uniforms.list[i];
-
-		for (uint32_t element = 0; element < u->length && u->location != GLSL_NONE && !err; element++)
-			err = set_location(program, (uint64_t)u->location + element, i, element);
-	}
+	for (uint32_t i = 0; i < program->uniforms.n && !err; i++)
+		if (program->uniforms.list[i].location != GLSL_NONE)
+			err = set_locations(program, program->uniforms.list[i].location, i, 0);
 	return err;
 }
 
@@ -146,15 +150,8 @@ int gls_shader_locate_uniform(struct gls_shader *program, const char *name, uint
 {
 	uint32_t element;
 	const struct glsl_uniform *u = glsl_uniforms_named(&program->uniforms, name, &element);
-	int err = 0;
 
-	if (!u)
-		return 0;
-	err = set_location(program, location, (uint64_t)(u - program->uniforms.list), element);
-	for (uint32_t i = element + 1; i < u->length && !err; i++) /* Mesa gives an array's elements locations in a row */
-		if (!table_find(&program->locations, location + i - element))
-			err = set_location(program, location + i - element, (uint64_t)(u - program->uniforms.list), i);
-	return err;
+	return u ? set_locations(program, location, (uint64_t)(u - program->uniforms.list), element) : 0;
 }
 
 int gls_shader_set_uniform(struct gls_shader *program, uint32_t location, const float *values, uint32_t count, uint32_t rows, uint32_t columns,

@@ -16,7 +16,7 @@ PROGRAMS = {
                  "alpha at the reference"),
     "line": ("strips", "kinds", "cut", "shared corners", "unfilled polygons", "edge flags", "short ones"),
     "compression": ("plain images", "their alpha", "parts", "levels", "alpha of levels", "copies of the screen", "YCbCr"),
-    "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "what rectangles go through",
+    "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "copies of these", "what rectangles go through",
               "transfer to textures", "indices to textures"),
     "point": ("attenuated",),
     "program": ("instructions", "bindings", "textures", "fragments", "last bits"),

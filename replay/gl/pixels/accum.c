@@ -20,6 +20,7 @@
 #include "replay/machine/machine.h"
 
 #define ONE 32767.0f
+#define PIXELS_A_REPEAT 256 /* that count as much as an operation of a list (gls_is_beyond_measure) */
 
 struct area {
 	int64_t x0, y0, x1, y1;
@@ -87,18 +88,22 @@ struct change {
 };
 
 /* p: the colours, or NULL */
-static void change_area(const struct gls_state *st, struct gls_drawable *d, const struct area *a, const struct change *by,
+static void change_area(struct gls_exec *x, const struct gls_state *st, struct gls_drawable *d, const struct area *a, const struct change *by,
                         const struct scene_picture *p)
 {
-	for (int64_t y = a->y0; y < a->y1; y++)
-		for (int64_t x = a->x0; x < a->x1; x++) {
-			size_t at = 4 * ((size_t)y * d->accum_width + (size_t)x);
+	const int64_t width = a->x1 > a->x0 ? a->x1 - a->x0 : 0, height = a->y1 > a->y0 ? a->y1 - a->y0 : 0;
+
+	if (x->list_depth && gls_is_beyond_measure(x, (uint64_t)(width * height) / PIXELS_A_REPEAT, "lists that accumulate without end"))
+		return;
+	for (int64_t row = a->y0; row < a->y1; row++)
+		for (int64_t column = a->x0; column < a->x1; column++) {
+			size_t at = 4 * ((size_t)row * d->accum_width + (size_t)column);
 
 			for (unsigned c = 0; c < 4; c++) {
 				float v = (float)clamp16((float)d->accum[at + c] * by->scale) + by->offset[c];
 
-				if (p && x < p->width && y < p->height)
-					v += (float)clamp16(value_of(st, p->rgba[4 * ((size_t)y * p->width + (size_t)x) + c], c) * by->factor * ONE);
+				if (p && column < p->width && row < p->height)
+					v += (float)clamp16(value_of(st, p->rgba[4 * ((size_t)row * p->width + (size_t)column) + c], c) * by->factor * ONE);
 				d->accum[at + c] = clamp16(v);
 			}
 		}
@@ -118,8 +123,8 @@ static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls
 			texels[4 * (size_t)y * width + i] = (uint8_t)((st->srgb && i % 4 < 3 ? gls_srgb_from_linear(v) : v) * 255 + 0.5f);
 		}
 	if (texels)
-		gls_copy_rectangle(x, st, &(struct gls_rectangle){ SCENE_COLOR_PIXELS, width, height, (float)a->x0, (float)a->y0, { 1, 1 },
-		                                                   texels, 0 }, st->a.color.mask);
+		gls_copy_rectangle(x, st, &(struct gls_rectangle){ .kind = SCENE_COLOR_PIXELS, .width = width, .height = height, .left = (float)a->x0,
+		                                                   .low = (float)a->y0, .zoom = { 1, 1 }, .texels = texels }, st->a.color.mask);
 }
 
 GLS_HANDLER(glAccum, STATE)
@@ -151,11 +156,11 @@ GLS_HANDLER(glAccum, STATE)
 	else if (op == GL_RETURN)
 		give_back(x, st, d, &area, value);
 	else if (op == GL_ADD)
-		change_area(st, d, &area, &(struct change){ 1, { every, every, every, every }, 0 }, NULL);
+		change_area(x, st, d, &area, &(struct change){ 1, { every, every, every, every }, 0 }, NULL);
 	else if (op == GL_MULT)
-		change_area(st, d, &area, &(struct change){ .scale = value }, NULL);
+		change_area(x, st, d, &area, &(struct change){ .scale = value }, NULL);
 	else
-		change_area(st, d, &area, &(struct change){ .scale = op == GL_ACCUM, .factor = value }, p);
+		change_area(x, st, d, &area, &(struct change){ .scale = op == GL_ACCUM, .factor = value }, p);
 }
 
 void gls_accum_clear(struct gls_exec *x, struct gls_state *st)
@@ -181,6 +186,6 @@ void gls_accum_clear(struct gls_exec *x, struct gls_state *st)
 		free(d->accum);
 		d->accum = NULL;
 	} else if (open_buffer(x, st, &area)) {
-		change_area(st, d, &area, &to, NULL);
+		change_area(x, st, d, &area, &to, NULL);
 	}
 }

@@ -41,8 +41,8 @@ static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit
 		                           kind == SCENE_DEPTH_PIXELS ? (const void *)&depth : (const void *)&stencil, bytes);
 	}
 	if (texels)
-		gls_copy_rectangle(x, st, &(struct gls_rectangle){ kind, width, height, b->corner[0], b->corner[1], { b->zoom[0], b->zoom[1] }, texels, 0 },
-		                   15);
+		gls_copy_rectangle(x, st, &(struct gls_rectangle){ .kind = kind, .width = width, .height = height, .left = b->corner[0], .low = b->corner[1],
+		                                                   .zoom = { b->zoom[0], b->zoom[1] }, .texels = texels }, 15);
 }
 
 /* What two neighbours hold of a point, whose pixels have their middles at halves: the lower one, and the share of the upper one. */
@@ -81,7 +81,8 @@ static void blit_between(struct gls_exec *x, struct gls_state *st, const struct 
 			texels[4 * i + c] = (uint8_t)lrintf(255 * fminf(fmaxf(mixed[c], 0), 1));
 	}
 	if (texels)
-		gls_copy_rectangle(x, st, &(struct gls_rectangle){ kind, width, height, corner[0], corner[1], { 1, 1 }, texels, 0 }, 15);
+		gls_copy_rectangle(x, st, &(struct gls_rectangle){ .kind = kind, .width = width, .height = height, .left = corner[0], .low = corner[1],
+		                                                   .zoom = { 1, 1 }, .texels = texels }, 15);
 }
 
 /*

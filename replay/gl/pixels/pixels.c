@@ -33,20 +33,22 @@ GLS_HANDLER(glBitmap, STATE)
 			memset(texels + 4 * (size_t)i, gls_unpack_bit(&p, i % p.width, i / p.width) ? 255 : 0, 4);
 		/* The lower left corner is rounded down to whole pixels; Mesa adds a little first, against rounding errors. */
 		if (texels)
-			gls_draw_rectangle(x, st, &(struct gls_rectangle){ SCENE_BITMAP, p.width, p.height, floorf(at[0] + 0.0001f - arg_f(c, 2)),
-			                                                   floorf(at[1] + 0.0001f - arg_f(c, 3)), { 1, 1 }, texels, 0 });
+			gls_draw_rectangle(x, st, &(struct gls_rectangle){ .kind = SCENE_BITMAP, .width = p.width, .height = p.height,
+			                                                   .left = floorf(at[0] + 0.0001f - arg_f(c, 2)),
+			                                                   .low = floorf(at[1] + 0.0001f - arg_f(c, 3)), .zoom = { 1, 1 }, .texels = texels });
 	}
 	at[0] += arg_f(c, 4);
 	at[1] += arg_f(c, 5);
 }
 
-/* Pixels drawn at the raster position, with PixelZoom. */
+/* Pixels drawn at the raster position, with PixelZoom. copied: from what is read, whose rows Mesa (22.3.6) keeps from the top if it is a window */
 static struct gls_rectangle at_raster_position(const struct gls_state *st, uint32_t kind, uint32_t width, uint32_t height,
-                                               const uint8_t *texels)
+                                               const uint8_t *texels, int copied)
 {
 	const float *at = st->a.current.raster_position, *zoom = st->a.pixel.zoom;
 
-	return (struct gls_rectangle){ kind, width, height, rintf(at[0]), rintf(at[1]), { zoom[0], zoom[1] }, texels, 0 };
+	return (struct gls_rectangle){ .kind = kind, .width = width, .height = height, .left = rintf(at[0]), .low = rintf(at[1]),
+		                       .zoom = { zoom[0], zoom[1] }, .texels = texels, .from_top = copied && !st->read_framebuffer };
 }
 
 /*
@@ -54,9 +56,9 @@ static struct gls_rectangle at_raster_position(const struct gls_state *st, uint3
  * @param texels  depths; stencil values are put in their place
  */
 static void draw_depth_stencil(struct gls_exec *x, struct gls_state *st, uint32_t width, uint32_t height, uint8_t *texels,
-                               const uint8_t *stencil)
+                               const uint8_t *stencil, int copied)
 {
-	struct gls_rectangle r = at_raster_position(st, SCENE_DEPTH_PIXELS, width, height, texels);
+	struct gls_rectangle r = at_raster_position(st, SCENE_DEPTH_PIXELS, width, height, texels, copied);
 
 	gls_draw_depths(x, st, &r);
 	for (size_t i = 0; i < (size_t)width * height; i++) {
@@ -108,7 +110,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 		if (gls_unpack_pixels(x, st, &p, GL_DEPTH_COMPONENT, texels) == -1)
 			return;
 		gls_unpack_stencil(&p, stencil);
-		draw_depth_stencil(x, st, p.width, p.height, texels, stencil);
+		draw_depth_stencil(x, st, p.width, p.height, texels, stencil, 0);
 		return;
 	}
 	if (!indices || gls_unpack_indices(st, &p, texels)) {
@@ -119,7 +121,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 		if (rc == -1 || (rc == -2 && p.store->buffer))
 			return;
 	}
-	r = at_raster_position(st, kind, p.width, p.height, texels);
+	r = at_raster_position(st, kind, p.width, p.height, texels, 0);
 	gls_draw_rectangle(x, st, &r);
 }
 
@@ -179,12 +181,11 @@ GLS_HANDLER(glCopyPixels, STATE)
 			copy_texel(st, p, SCENE_STENCIL_PIXELS, x0 + i % width, y0 + i / width, value);
 			stencil[i] = value[0];
 		}
-		draw_depth_stencil(x, st, width, height, texels, stencil);
+		draw_depth_stencil(x, st, width, height, texels, stencil, 1);
 		return;
 	}
 	for (uint32_t i = 0; i < width * height; i++)
 		copy_texel(st, p, kind, x0 + i % width, y0 + i / width, texels + bytes * i);
-	r = at_raster_position(st, kind, width, height, texels);
-	r.from_top = !st->read_framebuffer; /* Mesa (22.3.6) keeps a window's rows from the top */
+	r = at_raster_position(st, kind, width, height, texels, 1);
 	gls_draw_rectangle(x, st, &r);
 }

@@ -198,6 +198,50 @@ static void draw_zoomed(int i)
 		glDrawPixels(SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, bytes);
 }
 
+/* What lies in the depth or the stencil buffer, shown by what passes. */
+static void show_passing(void)
+{
+	glColorMask(1, 1, 1, 1);
+	glDepthFunc(GL_LESS);
+	for (int k = 0; k < 5; k++) {
+		glStencilFunc(GL_LESS, 51 * k, 0xff);
+		glColor3f(0.2f * (float)k, 0.9f - 0.2f * (float)k, 0.4f);
+		glBegin(GL_QUADS);
+		for (int c = 0; c < 4; c++)
+			glVertex3f(c == 1 || c == 2 ? 2.0f : -2.0f, c >= 2 ? 2.0f : -2.0f, 1.1f - 0.7f * (float)k);
+		glEnd();
+	}
+}
+
+/* Depths, stencils and both, copied and zoomed. */
+static void draw_copied_depths(int i)
+{
+	static const float zooms[8] = { 1, 0.5f, 2.5f, -0.5f, -1.5f, 3, 0.6f, -1 };
+	static const GLenum kinds[3] = { GL_DEPTH, GL_STENCIL, GL_DEPTH_STENCIL };
+	const int x = choose(&i, 8), y = choose(&i, 8), kind = choose(&i, 3), shows_stencil = kind == 1 || (kind == 2 && x & 1);
+	float values[SIDE * SIDE];
+	GLfloat from[4];
+
+	for (unsigned k = 0; k < SIDE * SIDE; k++)
+		values[k] = noise(k + 400);
+	place(-0.97f, -0.97f);
+	glGetFloatv(GL_CURRENT_RASTER_POSITION, from);
+	glPixelZoom(1, 1);
+	glEnable(GL_DEPTH_TEST);
+	glDepthFunc(GL_ALWAYS);
+	glColorMask(0, 0, 0, 0);
+	glDrawPixels(SIDE, SIDE, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, bytes);
+	glDrawPixels(SIDE, SIDE, GL_DEPTH_COMPONENT, GL_FLOAT, values);
+	glRasterPos3f(zooms[x] > 0 ? -0.77f : 0.77f, zooms[y] > 0 ? -0.61f : 0.83f, 0);
+	glPixelZoom(zooms[x], zooms[y]);
+	glCopyPixels((GLint)rintf(from[0]), (GLint)rintf(from[1]), SIDE - x / 4, SIDE - y / 4, kinds[kind]);
+	if (shows_stencil) {
+		glDisable(GL_DEPTH_TEST);
+		glEnable(GL_STENCIL_TEST);
+	}
+	show_passing();
+}
+
 /* Depths and stencils: drawn, then shown by what passes. */
 static void draw_depths(int i)
 {
@@ -222,16 +266,7 @@ static void draw_depths(int i)
 		glDrawPixels(SIDE, SIDE, GL_DEPTH_COMPONENT, GL_UNSIGNED_BYTE, bytes);
 	else
 		glDrawPixels(SIDE, SIDE, GL_DEPTH_COMPONENT, GL_FLOAT, values);
-	glColorMask(1, 1, 1, 1);
-	glDepthFunc(GL_LESS);
-	for (int k = 0; k < 5; k++) {
-		glStencilFunc(GL_LESS, 51 * k, 0xff);
-		glColor3f(0.2f * (float)k, 0.9f - 0.2f * (float)k, 0.4f);
-		glBegin(GL_QUADS);
-		for (int c = 0; c < 4; c++)
-			glVertex3f(c == 1 || c == 2 ? 2.0f : -2.0f, c >= 2 ? 2.0f : -2.0f, 1.1f - 0.7f * (float)k);
-		glEnd();
-	}
+	show_passing();
 }
 
 /* What rectangles go through: textures, lights that lit the raster position, tests, the sum of colours. */
@@ -288,7 +323,7 @@ int main(void)
 {
 	static const struct table tables[] = {
 		{ 66, format, draw_format },     { 48, format, draw_packed },   { 96, format, draw_stored }, { 16, transfer, draw_transferred },
-		{ 30, indexed, draw_indexed }, { 128, format, draw_zoomed }, { 16, format, draw_depths }, { 24, through, draw_through }, { 24, transfer, draw_transferred_texture },
+		{ 30, indexed, draw_indexed }, { 128, format, draw_zoomed }, { 16, format, draw_depths }, { 192, format, draw_copied_depths }, { 24, through, draw_through }, { 24, transfer, draw_transferred_texture },
 		{ 30, indexed, draw_indexed_texture },
 	};
 
