@@ -1,5 +1,6 @@
 #include "replay/glsl/tree.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -24,6 +25,7 @@ using namespace glslang;
 /* Deep enough for any shader that people write; the stack holds it. */
 constexpr int MAX_DEPTH = 400;
 constexpr size_t MAX_NODES = 200000, MAX_NUMBERS = 65536;
+constexpr size_t MOST_STATEMENTS = 64; /* between a product and its use: texts can be long */
 
 /* What a shader that is refused says. */
 struct refused {
@@ -66,6 +68,116 @@ const std::map<TOperator, glsl_operator> ASSIGNED = {
 	{ EOpModAssign, GLSL_MODULO },
 };
 
+/* --- Products of matrices that variables hold ---------------------------------------------------------------------------- */
+
+using Products = std::map<long long, TIntermTyped *>; /* by the variable's number */
+
+TIntermBinary *as_product(TIntermNode *node)
+{
+	TIntermBinary *b = node ? node->getAsBinaryNode() : nullptr;
+
+	return b && b->getOp() == EOpMatrixTimesMatrix ? b : nullptr;
+}
+
+/* How often each symbol is named, and what else a part of a text does. */
+struct Survey : TIntermTraverser {
+	std::map<long long, unsigned> named;
+	std::vector<long long> written, factors; /* what stands left of an assignment; matrices in products, and before vectors */
+	bool is_straight = true; /* it neither branches nor calls */
+
+	void visitSymbol(TIntermSymbol *s) override { named[s->getId()]++; }
+	bool visitBinary(TVisit, TIntermBinary *b) override
+	{
+		TIntermTyped *left = b->getLeft();
+
+		for (TIntermTyped *factor : { left, b->getRight() })
+			if ((b->getOp() == EOpMatrixTimesMatrix || (b->getOp() == EOpMatrixTimesVector && factor == left)) && factor->getAsSymbolNode())
+				factors.push_back(factor->getAsSymbolNode()->getId());
+		while (b->modifiesState() && left->getAsBinaryNode())
+			left = left->getAsBinaryNode()->getLeft();
+		if (b->modifiesState() && left->getAsSymbolNode())
+			written.push_back(left->getAsSymbolNode()->getId());
+		return true;
+	}
+	bool bends(bool here)
+	{
+		is_straight = is_straight && !here;
+		return true;
+	}
+	bool visitUnary(TVisit, TIntermUnary *u) override { return bends(u->modifiesState()); }
+	bool visitAggregate(TVisit, TIntermAggregate *a) override { return bends(a->getOp() == EOpFunctionCall); }
+	bool visitSelection(TVisit, TIntermSelection *) override { return bends(true); }
+	bool visitLoop(TVisit, TIntermLoop *) override { return bends(true); }
+	bool visitSwitch(TVisit, TIntermSwitch *) override { return bends(true); }
+	bool visitBranch(TVisit, TIntermBranch *) override { return bends(true); }
+};
+
+/*
+ * Variables that stand for a product without effects: set once, and named once more, as a factor, in a statement that follows straight, with
+ * nothing of the product changed by then. Mesa (22.3.6) puts the product there, and does it from a vector on.
+ */
+struct ProductFinder : TIntermTraverser {
+	const std::map<long long, unsigned> named;
+	Products products;
+
+	explicit ProductFinder(const std::map<long long, unsigned> &n) : named(n) {}
+
+	static bool holds(const std::vector<long long> &list, long long number) { return std::find(list.begin(), list.end(), number) != list.end(); }
+
+	bool is_used_straight(const TIntermSequence &statements, size_t next, long long variable, TIntermBinary &product) const
+	{
+		Survey parts;
+
+		product.traverse(&parts);
+		if (!parts.is_straight || !parts.written.empty())
+			return false;
+		for (size_t end = std::min(next + MOST_STATEMENTS, statements.size()); next < end; next++) {
+			Survey statement;
+
+			statements[next]->traverse(&statement);
+			if (!statement.is_straight || std::any_of(statement.written.begin(), statement.written.end(), [&](long long w) { return parts.named.count(w); }))
+				return false;
+			if (statement.named.count(variable))
+				return holds(statement.factors, variable);
+		}
+		return false;
+	}
+	static bool is_list(const TIntermAggregate &a) { return a.getOp() == EOpSequence || a.getOp() == EOpScope; }
+
+	/* Statements one after the other, those of blocks and of declarations among them. */
+	static void list(const TIntermSequence &sequence, TIntermSequence &statements)
+	{
+		for (TIntermNode *node : sequence) {
+			TIntermAggregate *a = node ? node->getAsAggregate() : nullptr;
+
+			if (a && is_list(*a))
+				list(a->getSequence(), statements);
+			else if (node)
+				statements.push_back(node);
+		}
+	}
+	void find(const TIntermSequence &statements)
+	{
+		for (size_t i = 0; i < statements.size(); i++) {
+			TIntermBinary *set = statements[i]->getAsBinaryNode(), *product = set && set->getOp() == EOpAssign ? as_product(set->getRight()) : nullptr;
+			TIntermSymbol *to = product ? set->getLeft()->getAsSymbolNode() : nullptr;
+
+			if (to && to->getQualifier().storage == EvqTemporary && named.at(to->getId()) == 2 && is_used_straight(statements, i + 1, to->getId(), *product))
+				products[to->getId()] = product;
+		}
+	}
+	bool visitAggregate(TVisit, TIntermAggregate *a) override
+	{
+		TIntermSequence statements;
+
+		if (a->getOp() != EOpFunction && !is_list(*a))
+			return true;
+		list(a->getSequence(), statements);
+		find(statements);
+		return true;
+	}
+};
+
 class Flattener {
 public:
 	std::vector<glsl_type> types;
@@ -76,6 +188,18 @@ public:
 	std::vector<uint32_t> children;
 	std::vector<float> numbers;
 	std::string names;
+
+	uint32_t flatten_all(TIntermNode *root)
+	{
+		Survey all;
+
+		root->traverse(&all);
+		ProductFinder finder(all.named);
+
+		root->traverse(&finder);
+		products = finder.products;
+		return flatten(root);
+	}
 
 	uint32_t flatten(TIntermNode *node)
 	{
@@ -99,6 +223,7 @@ public:
 
 private:
 	int depth = 0;
+	Products products;
 	std::map<long long, uint32_t> symbol_of;
 	std::map<std::string, uint32_t> function_of, member_of;
 	std::map<std::vector<uint32_t>, uint32_t> type_numbers;
@@ -288,9 +413,10 @@ private:
 	/* (A B) v is A (B v), however many matrices there are, as in Mesa (22.3.6). */
 	uint32_t times_vector(TIntermTyped &matrix, uint32_t vector, const TType &type)
 	{
-		TIntermBinary *product = matrix.getAsBinaryNode();
+		const auto held = matrix.getAsSymbolNode() ? products.find(matrix.getAsSymbolNode()->getId()) : products.end();
+		TIntermBinary *product = as_product(held == products.end() ? &matrix : held->second);
 
-		if (!product || product->getOp() != EOpMatrixTimesMatrix)
+		if (!product)
 			return add(GLSL_MATRIX_TIMES_VECTOR, type_of(type), { flatten(&matrix), vector });
 		TIntermTyped &right = *product->getRight();
 
@@ -301,6 +427,8 @@ private:
 	{
 		if (b.getOp() == EOpIndexDirectStruct && b.getLeft()->getBasicType() == EbtBlock)
 			return of_block(b);
+		if (b.getOp() == EOpAssign && b.getLeft()->getAsSymbolNode() && products.count(b.getLeft()->getAsSymbolNode()->getId()))
+			return add(GLSL_SEQUENCE, type_of(TType(EbtVoid)), {});
 		if (b.getOp() == EOpMatrixTimesVector)
 			return times_vector(*b.getLeft(), flatten(b.getRight()), b.getType());
 		const uint32_t left = flatten(b.getLeft()), type = type_of(b.getType());
@@ -351,7 +479,7 @@ private:
 		const uint32_t nothing = type_of(TType(EbtVoid));
 
 		if (TIntermSymbol *s = node->getAsSymbolNode())
-			return add(GLSL_SYMBOL, type_of(s->getType()), {}, symbol(*s));
+			return products.count(s->getId()) ? flatten(products[s->getId()]) : add(GLSL_SYMBOL, type_of(s->getType()), {}, symbol(*s));
 		if (TIntermConstantUnion *c = node->getAsConstantUnion())
 			return add(GLSL_NUMBERS, type_of(c->getType()), {}, add_numbers(c->getConstArray()));
 		if (TIntermBinary *b = node->getAsBinaryNode())
@@ -452,7 +580,7 @@ void parse(const char *const *texts, uint32_t n, EShLanguage stage, struct glsl_
 
 	if (!intermediate || !intermediate->getTreeRoot())
 		throw refused{ "a shader is empty" };
-	tree->root = flat.flatten(intermediate->getTreeRoot());
+	tree->root = flat.flatten_all(intermediate->getTreeRoot());
 	tree->main = flat.function("main(");
 	COPY(tree, flat, types);
 	COPY(tree, flat, members);

@@ -134,6 +134,9 @@ static const char *const statements[][2] = {
 	{ "", "vec2 d = 400.0 * a.xy; d = vec2(length(d), length(d + b.yx)); vec2 e = d; r.xy = fract(e * d); d.x = length(b) * 400.0; r.z = fract(d.x * d.x);" }, /* last bits */
 	{ "", "float d = length(a), e = d; r = vec4(fract(d * 262144.0), fract(e * d * 262144.0), fract(dot(a, a) * 262144.0), 1.0);" },
 	{ "", "r = fract(mat2x4(a, b) * mat3x2(b.xy, p.xy, a.xy) * vec3(0.3, 0.7, 0.9) * 65536.0);" },
+	{ "", "mat4 m = mat4(a, b, p, a) * mat4(b, a, b, p); r = fract(m * vec4(0.3, 0.7, 0.9, 0.4) * 65536.0);" },
+	{ "", "mat4 m = mat4(a, b, p, a) * mat4(b, a, b, p), n = m * mat4(p, a, p, b); vec4 x = n * vec4(0.3, 0.7, 0.9, 0.4); r = fract(x * 65536.0);" },
+	{ "", "if (a.x > 0.1) { mat4 m = mat4(a, b, p, a) * mat4(b, a, b, p); r = fract(m * vec4(0.3, 0.7, 0.9, 0.4) * 65536.0); }" },
 	{ "", "float x, y; y = a.x * 0.5; x = y; r = vec4(x, y, x, y * 0.3);" },
 	{ "", "vec2 x[2], y[2]; x[0] = y[0] = a.xy; x[1] = y[1] = b.xy; y[0].x = 0.4; r = vec4(x == y, x != y, x[0].x, y[1].y);" },
 	{ "#define Q(x) x + x + x + x\n", "r = Q(Q(Q(Q(a * 0.002)))) - (b * 0.2 + p * (0.1 + a));" },
