@@ -104,7 +104,7 @@ END_TEST
 
 /* A supplier that paints every picture in one colour, and remembers what it was asked. */
 struct painter {
-	uint32_t asked, n_instances, width, height, depth_bits, alpha_bits, had_start;
+	uint32_t asked, n_instances, width, height, depth_bits, alpha_bits, had_start, unknown; /* unknown: what pictures have */
 	uint8_t start[4];
 };
 
@@ -126,7 +126,7 @@ static int paint(void *user, const struct scene *s, struct scene_picture *pictur
 		picture->depth[i] = (1u << picture->depth_bits) - 1;
 		picture->stencil[i] = 3;
 	}
-	picture->unknown = 0;
+	picture->unknown = p->unknown;
 	return 0;
 }
 
@@ -294,6 +294,33 @@ START_TEST(test_object_skipped)
 }
 END_TEST
 
+/* Where an object has no colours, depths that are cleared are all that somebody can look at. */
+START_TEST(test_depths_skipped)
+{
+	for (int cleared = 0; cleared < 2; cleared++) {
+		struct painter p = { .unknown = 1 };
+		struct gl gl = open_object(&p, GL_RGBA);
+
+		gl_call(&gl, "glFramebufferTexture2D", "eeeii", GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+		gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, 16, 8, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, (uint64_t)0);
+		gl_call(&gl, "glFramebufferTexture2D", "eeeii", GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 5, 0);
+		gl_call(&gl, "glDrawBuffer", "e", GL_NONE);
+		gl_call(&gl, "glEnable", "e", GL_DEPTH_TEST);
+		gl.x->want = 0;
+		triangle(&gl);
+		gls_frame_skip(gl.x);
+		gl.x->want = 1;
+		if (cleared)
+			gl_call(&gl, "glClear", "m", GL_DEPTH_BUFFER_BIT);
+		triangle(&gl);
+		show(&gl);
+		ck_assert_uint_eq(p.asked, 1);
+		ck_assert_int_eq(gl.x->feedback.rewind, !cleared);
+		gl_close(&gl);
+	}
+}
+END_TEST
+
 /* Accum (sec. 4.2.4): sums of what the screen shows, given back as pixels under scissor and mask. */
 START_TEST(test_accum)
 {
@@ -369,4 +396,4 @@ START_TEST(test_accum_cleared)
 END_TEST
 
 GL_TESTS("targets", test_bits_of_visuals, test_bits_of_marker, test_samples, test_render_to_texture, test_object_keeps, test_renderbuffers,
-         test_blit, test_object_skipped, test_accum, test_accum_cleared)
+         test_blit, test_object_skipped, test_depths_skipped, test_accum, test_accum_cleared)
