@@ -7,6 +7,12 @@ static const char *name_of(const struct glsl_tree *tree, uint32_t symbol)
 	return tree->names + tree->symbols[symbol].name;
 }
 
+/* An input that the text declares: of the vertex stage an attribute, of the fragment stage a varying. */
+static int is_declared_input(const struct glsl_tree *tree, uint32_t symbol)
+{
+	return tree->symbols[symbol].storage == GLSL_INPUT && strncmp(name_of(tree, symbol), "gl_", 3) != 0;
+}
+
 /* Bits of the numbers of gl_TexCoord that a tree names. */
 static uint32_t coordinates_of(const struct glsl_tree *tree)
 {
@@ -40,7 +46,7 @@ void glsl_links_place(struct glsl_links *links, const struct glsl_tree *tree, co
 		const uint32_t n = tree->types[s->type].numbers;
 		uint32_t found = 0;
 
-		if (s->storage != GLSL_INPUT || strncmp(name_of(tree, i), "gl_", 3) == 0)
+		if (!is_declared_input(tree, i))
 			continue;
 		if (s->flat || s->straight)
 			*why = "a shader has inputs that are not interpolated in perspective";
@@ -78,11 +84,6 @@ static uint32_t slot_bits(uint32_t location, uint32_t slots)
 	return location < N_LOCATIONS && slots <= N_LOCATIONS - location ? ((1u << slots) - 1) << location : 0;
 }
 
-static int is_attribute(const struct glsl_tree *tree, uint32_t symbol)
-{
-	return tree->symbols[symbol].storage == GLSL_INPUT && strncmp(name_of(tree, symbol), "gl_", 3) != 0;
-}
-
 /* The largest attribute without a location, of these the first in the text; GLSL_NONE: all have one. */
 static uint32_t next_unplaced(const struct glsl_writer *w, const uint8_t *used)
 {
@@ -92,7 +93,7 @@ static uint32_t next_unplaced(const struct glsl_writer *w, const uint8_t *used)
 	for (uint32_t i = 0; i < tree->n_symbols; i++) {
 		const struct glsl_symbol *s = &tree->symbols[i], *b = best == GLSL_NONE ? NULL : &tree->symbols[best];
 
-		if (!used[i] || !is_attribute(tree, i) || w->links->locations[i] != GLSL_NONE)
+		if (!used[i] || !is_declared_input(tree, i) || w->links->locations[i] != GLSL_NONE)
 			continue;
 		if (!b || slots_of(tree, s) > slots_of(tree, b) || (slots_of(tree, s) == slots_of(tree, b) && s->declared < b->declared))
 			best = i;
@@ -114,10 +115,10 @@ void glsl_links_locate(struct glsl_writer *w, const uint8_t *used)
 
 		*location = tree->symbols[i].location;
 		taken |= used[i] && strcmp(name_of(tree, i), "gl_Vertex") == 0;
-		for (uint32_t k = 0; k < links->n_attributes && *location == GLSL_NONE && is_attribute(tree, i); k++)
+		for (uint32_t k = 0; k < links->n_attributes && *location == GLSL_NONE && is_declared_input(tree, i); k++)
 			if (strcmp(links->attributes[k].name, name_of(tree, i)) == 0)
 				*location = links->attributes[k].location;
-		if (used[i] && is_attribute(tree, i) && *location != GLSL_NONE)
+		if (used[i] && is_declared_input(tree, i) && *location != GLSL_NONE)
 			taken |= slot_bits(*location, slots_of(tree, &tree->symbols[i]));
 	}
 	while (links->locations && (next = next_unplaced(w, used)) != GLSL_NONE) {

@@ -15,7 +15,7 @@ void gls_flush(struct gls_exec *x);
 
 /** Set a current attribute. */
 void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4]);
-/** Set a generic attribute (sec. 2.7): 0 is a vertex. A number that there is none of is the program's error. */
+/** Set a generic attribute (sec. 2.7): 0 is a vertex where a Begin is open. A number that there is none of is the program's error. */
 void gls_set_generic(struct gls_exec *x, struct gls_state *st, uint32_t number, const float value[4]);
 /** 0: nothing draws a vertex that comes now: no Begin is open (undefined, sec. 2.6.3; Mesa draws nothing), or no frame is wanted. */
 int gls_takes_vertices(const struct gls_exec *x, const struct gls_state *st);

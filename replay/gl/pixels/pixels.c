@@ -41,7 +41,7 @@ GLS_HANDLER(glBitmap, STATE)
 	at[1] += arg_f(c, 5);
 }
 
-/* Pixels drawn at the raster position, with PixelZoom. copied: from what is read, whose rows Mesa (22.3.6) keeps from the top if it is a window */
+/* Pixels drawn at the raster position, with PixelZoom. copied: they come from what is read; Mesa (22.3.6) keeps a window's rows from the top */
 static struct gls_rectangle at_raster_position(const struct gls_state *st, uint32_t kind, uint32_t width, uint32_t height,
                                                const uint8_t *texels, int copied)
 {

@@ -209,7 +209,7 @@ static void draw_edges(int i)
 	glEdgeFlag(GL_TRUE);
 }
 
-/* Chains of lines shorter than a pixel, whose ends lie beside a pixel's centre, nearer than places are told apart. */
+/* Chains of lines shorter than a pixel: one end lies beside a pixel's centre, nearer than llvmpipe tells places apart. */
 static void short_chain(int i)
 {
 	const int by = choose(&i, 8), length = choose(&i, 3), beside = choose(&i, 2), width = choose(&i, 2);

@@ -178,10 +178,11 @@ static void draw_indexed_texture(int i)
 	draw_uploaded(GL_COLOR_INDEX, i % 2 ? GL_UNSIGNED_BYTE : GL_UNSIGNED_SHORT);
 }
 
+static const float zooms[8] = { 1, 0.5f, 2.5f, -0.5f, -1.5f, 3, 0.6f, -1 };
+
 /* Zooms of any size and sign, from places off the pixels' corners. */
 static void draw_zoomed(int i)
 {
-	static const float zooms[8] = { 1, 0.5f, 2.5f, -0.5f, -1.5f, 3, 0.6f, -1 };
 	const int x = choose(&i, 8), y = choose(&i, 8), copy = choose(&i, 2);
 	GLfloat from[4];
 
@@ -216,7 +217,6 @@ static void show_passing(void)
 /* Depths, stencils and both, copied and zoomed. */
 static void draw_copied_depths(int i)
 {
-	static const float zooms[8] = { 1, 0.5f, 2.5f, -0.5f, -1.5f, 3, 0.6f, -1 };
 	static const GLenum kinds[3] = { GL_DEPTH, GL_STENCIL, GL_DEPTH_STENCIL };
 	const int x = choose(&i, 8), y = choose(&i, 8), kind = choose(&i, 3), shows_stencil = kind == 1 || (kind == 2 && x & 1);
 	float values[SIDE * SIDE];

@@ -56,12 +56,17 @@ static void shade(const char *vertices, const char *fragments)
 	glUseProgram(current);
 }
 
+static void drop_program(void)
+{
+	glUseProgram(0);
+	glDeleteProgram(current);
+}
+
 /* The square that all programs are tried on. */
 static void draw(int i)
 {
 	draw_square(i);
-	glUseProgram(0);
-	glDeleteProgram(current);
+	drop_program();
 }
 
 /* --- Functions ---------------------------------------------------------------------------------------------------------- */
@@ -366,8 +371,7 @@ static void draw_unplaced(int i)
 		glDrawArrays(GL_QUADS, 0, 4);
 	glDisableVertexAttribArray(place);
 	glVertexAttrib4f(0, 0, 0, 0, 1);
-	glUseProgram(0);
-	glDeleteProgram(current);
+	drop_program();
 }
 
 /* --- What programs were written for ------------------------------------------------------------------------------------ */
