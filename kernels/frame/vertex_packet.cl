@@ -12,7 +12,7 @@ struct vertex_pack {
 	uint v; /* of the first one, in the mesh */
 	packf obj[4], eye[4], clip[4];
 	struct pack_vec normal;
-	packf length2; /* of the normal, before it is made 1 */
+	packf length2, longest; /* of the normal and its coordinates, before it is made 1 */
 };
 
 /* --- Numbers --------------------------------------------------------------------------------------------------------- */
@@ -63,6 +63,7 @@ WIDE_VECTORS static inline void load_normals(const struct tables *t, struct vert
 	p->normal = pack_vec(r[0] * n[1] + r[1] * n[2] + r[2] * n[3], r[4] * n[1] + r[5] * n[2] + r[6] * n[3],
 	                     r[8] * n[1] + r[9] * n[2] + r[10] * n[3]);
 	p->length2 = pack_dot(p->normal, p->normal);
+	p->longest = fmax(fmax(fabs(p->normal.x), fabs(p->normal.y)), fabs(p->normal.z));
 	if (p->m->normalize)
 		p->normal = pack_normalize(p->normal);
 }
@@ -214,7 +215,7 @@ WIDE_VECTORS static inline int do_pack(const struct vertex_arguments *a, uint fi
 	packf fog, size;
 
 	load_normals(t, &p);
-	if (any_pack(~((p.length2 == 0.0f) | ((p.length2 >= 1.17549435e-38f) & (p.length2 < INFINITY)))))
+	if (any_pack(~((p.longest < 1.17549435e-38f) | ((p.length2 >= 1.17549435e-38f) & (p.length2 < INFINITY)))))
 		return 0;
 	load_fours(t->attributes + g->position + p.v * 4, 4, p.obj);
 	transform(g->eye_from_obj, p.obj, p.eye);

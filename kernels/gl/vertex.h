@@ -8,18 +8,23 @@
 #include "kernels/gl/light.h"
 #include "kernels/gl/tables.h"
 
+/* Mesa's vertex programs know no denormal numbers. */
+static inline float vertex_flush(float a)
+{
+	return M_ABS(a) < 1.17549435e-38f ? 0.0f : a;
+}
+
 static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLOBAL const struct scene_material *m,
                                             struct vec3 n)
 {
 	GLOBAL const float *r = g->normal_matrix;
 	struct vec3 eye = v3(r[0] * n.x + r[1] * n.y + r[2] * n.z, r[4] * n.x + r[5] * n.y + r[6] * n.z,
 	                     r[8] * n.x + r[9] * n.y + r[10] * n.z);
+	struct vec3 flushed = v3(vertex_flush(eye.x), vertex_flush(eye.y), vertex_flush(eye.z));
 
-	float length2 = v3_dot(eye, eye);
-
-	/* Mesa's vertex programs know no denormal numbers: so short a normal has length 0, and becomes infinite. */
-	if (m->normalize && length2 > 0.0f && length2 < 1.17549435e-38f)
-		return v3(eye.x * M_FLOAT(0x7f800000u), eye.y * M_FLOAT(0x7f800000u), eye.z * M_FLOAT(0x7f800000u));
+	/* A normal too short to square has length 0 there, and becomes infinite. */
+	if (m->normalize && vertex_flush(v3_dot(eye, eye)) == 0.0f && (flushed.x != 0.0f || flushed.y != 0.0f || flushed.z != 0.0f))
+		return v3_scale(flushed, M_FLOAT(0x7f800000u));
 	return m->normalize ? v3_normalize(eye) : eye;
 }
 

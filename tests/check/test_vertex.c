@@ -155,7 +155,7 @@ static uint32_t fill_attributes(struct content *c, struct geometry *g, uint32_t 
 		c->attributes[from + i] = i % 4 == 3 ? 1 : next_below(200) ? between(-0.6f, 0.6f) : next_number();
 	if (next_below(2)) /* short and long normals */
 		for (uint32_t i = g->normal; i < g->color; i++)
-			c->attributes[i] *= g->vertex_count % 3 ? 300 : 1e-20f;
+			c->attributes[i] *= (float[]){ 1e-20f, 300, 1e-30f }[g->vertex_count % 3];
 	return at;
 }
 

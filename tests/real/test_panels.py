@@ -9,7 +9,7 @@ import sys
 from helpers import AS_SHOWN, SCRATCH, check, check_alone, check_same_pictures, diff, finish, render
 
 PROGRAMS = {
-    "light": ("attenuation", "spots", "terms", "shininess", "sides", "normals", "many lights", "flat shading"),
+    "light": ("attenuation", "spots", "terms", "shininess", "sides", "normals", "many lights", "flat shading", "short normals"),
     "fog": ("modes", "colours", "lit", "points, lines, rectangles", "distances"),
     "texture": ("environments", "combiner functions", "combiner operands", "generated coordinates", "cube maps"),
     "fragment": ("blend factors", "more blend factors", "blend equations", "tests", "stencil", "stencil of two sides", "user planes", "near plane",

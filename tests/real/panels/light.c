@@ -168,6 +168,14 @@ static void draw_normal(int i)
 	cap(1, i / 48 % 2 ? 1 : 0.6f);
 }
 
+/* So short that a float does not hold their squares, or not whole. */
+static void draw_short_normal(int i)
+{
+	static const float lengths[4] = { 1e-17f, 3e-21f, 1e-30f, 3e-39f };
+
+	cap(1, lengths[i / 48 % 4]);
+}
+
 /* All lights there are, each of another kind. */
 static void many(int i)
 {
@@ -216,6 +224,7 @@ int main(void)
 	static const struct table tables[] = {
 		{ 192, attenuation, draw_cap }, { 180, spot, draw_cap },      { 96, term, draw_cap },  { 64, shininess, draw_cap },
 		{ 120, side, draw_side },       { 96, normal, draw_normal }, { 192, many, draw_cap }, { 36, flat, draw_flat },
+		{ 192, normal, draw_short_normal },
 	};
 
 	DRAW_TABLES(tables, NULL);
