@@ -29,6 +29,7 @@ SLICE_S = 900  # at most: what was found before is read first, which takes minut
 LONGEST = {"calls": 16384, "verbs": 250_000, "snapshot": 200_000, "index": 150_000, "exr": 100_000, "oiio": 100_000, "ref": 100_000}
 SMALL = {"calls": 2048, "snapshot": 60_000, "index": 100_000}  # what is kept is smaller
 EDGES_ALONE = ("-set_cover_merge=1", "-use_counters=0")  # how often each is passed would be thousands of inputs
+MOST_MB = {"replay": 8192}  # windows of 16384 x 16384 pixels take what they take
 TIMEOUT_S = 60  # by the clock, of a process that gives way to all others
 
 
@@ -90,7 +91,7 @@ def slice_of(folder, target, seconds):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     log = folder / f"{target}.log"
     with open(log, "w") as out:
-        done = subprocess.run([program, f"-max_total_time={seconds}", f"-timeout={TIMEOUT_S}", "-rss_limit_mb=2048", "-malloc_limit_mb=6000",
+        done = subprocess.run([program, f"-max_total_time={seconds}", f"-timeout={TIMEOUT_S}", f"-rss_limit_mb={MOST_MB.get(target, 2048)}", "-malloc_limit_mb=6000",
                                f"-max_len={LONGEST.get(target, 65536)}", "-close_fd_mask=3", "-print_final_stats=1", f"-artifact_prefix={folder}/{target}-",
                                found, folder / f"kept_{target}", folder / f"seeds_{target}"],
                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=out, check=False, env=environment(target, TMPDIR=str(work)))

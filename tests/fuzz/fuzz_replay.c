@@ -1,6 +1,6 @@
 /*
  * libFuzzer's target for reader and state machine: the input is a trace's logical stream (see capture/format/trace.md), put into a
- * Snappy container and replayed with the scenes of its first frames, or of every other one. Links no tracer: a frame that needs pixels goes without.
+ * Snappy container and replayed with the scenes of its first frames, or of every other one. Links no tracer: whoever needs pixels gets grey ones.
  * Most changes are to its calls (stream.h), the others to its bytes.
  */
 #include <stdint.h>
@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/err.h"
 #include "replay/replay.h"
 #include "scene/release.h"
 #include "tests/fuzz/calls.h"
@@ -15,11 +16,17 @@
 #include "tests/fuzz/target.h"
 
 #define MAX_FRAMES 8
+#define MOST_PIXELS (1u << 20) /* of a picture: larger ones cannot be had, which takes less time than to fill them */
 
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size);
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
 size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out, size_t max_size,
                                  unsigned seed);
+
+static int supply(void *user, const struct scene *scene, struct scene_picture *picture)
+{
+	return (uint64_t)scene->width * scene->height > MOST_PIXELS ? ERR_SYSTEM : calls_grey.supply(user, scene, picture);
+}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -31,9 +38,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	int file = target_file(trace, n, path);
 
 	free(trace);
-	if (!replay_open(&rp, path))
+	if (!replay_open(&rp, path)) {
+		replay_set_supplier(rp, supply, calls_grey.user);
 		for (int i = 0; i < MAX_FRAMES && replay_next_frame(rp, size % 4 || i % 2, &scene) == 1; i++)
 			scene_release(&scene);
+	}
 	replay_close(&rp);
 	close(file);
 	return 0;
