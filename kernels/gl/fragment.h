@@ -93,15 +93,83 @@ static inline void point_keep_nothing(struct point_kept *kept)
 		kept->quad[i] = SCENE_NONE;
 }
 
-/* Object-space weights of the triangle's plane at any window position (clip-space edge functions: nothing to clip). */
-static inline void point_weights_at(const struct point *p, GLOBAL const struct view *view, float x_win, float y_win,
-                                    float *weight)
+/* A line by its ends, which its corners carry (tracer/frame/expand_line.c): x, y from the top, depth, 1 at the second one. */
+struct point_line {
+	struct vec4 a, b;
+	int second[3]; /* corners at the second end */
+	float dx, dy, one_over_area;
+};
+
+/*
+ * Attributes change along the line's longer axis only, in llvmpipe's order of operations, and go on beyond its ends. Under multisampling all
+ * of the line's direction counts; llvmpipe then takes the ends half a pixel off, but not the places that it asks for.
+ */
+static inline void point_line_of(const struct point *p, GLOBAL const struct view *view, struct point_line *l)
 {
-	struct vec3 at = v3(2.0f * (x_win - view->viewport[0]) / view->viewport[2] - 1.0f,
-	                    2.0f * (y_win - view->viewport[1]) / view->viewport[3] - 1.0f, 1.0f);
+	float dx, dy;
+
+	l->a = l->b = v4_load(p->vertex[0]->color[1]);
+	for (int i = 0; i < 3; i++) {
+		const struct vec4 c = v4_load(p->vertex[i]->color[1]);
+
+		l->second[i] = c.w > 0.5f;
+		if (l->second[i])
+			l->b = c;
+		else
+			l->a = c;
+	}
+	dx = l->a.x - l->b.x;
+	dy = l->a.y - l->b.y;
+	l->one_over_area = 1.0f / (dx * dx + dy * dy);
+	if (view->sample[0] | view->sample[1]) {
+		/* as it is */
+	} else if (M_ABS(dx) >= M_ABS(dy)) {
+		dx *= 1.0f + (dy / dx) * (dy / dx);
+		dy = 0.0f;
+	} else {
+		dy *= 1.0f + (dx / dy) * (dx / dy);
+		dx = 0.0f;
+	}
+	l->dx = dx;
+	l->dy = dy;
+}
+
+/* Weights at any place, in the window: the second end's share goes to one of its corners. x, y: from clip_origin, y from the top */
+static inline void point_line_weights(const struct point_line *l, float x, float y, struct fragment *f)
+{
+	float share = -(l->dx * l->one_over_area * (x - (l->a.x - 0.5f)) + l->dy * l->one_over_area * (y - (l->a.y - 0.5f)));
+
+	f->b1 = f->b2 = 0.0f;
+	if (l->second[0])
+		share = 1.0f - share;
+	if (l->second[1] == l->second[0])
+		f->b2 = share;
+	else
+		f->b1 = share;
+}
+
+/*
+ * Object-space weights at the middle of any pixel: of the triangle's plane (clip-space edge functions: nothing to clip), or of a line.
+ * x, y: the pixel, y from the top
+ */
+static inline void point_weights_at(const struct point *p, GLOBAL const struct view *view, float x, float y, uint32_t height, float *weight)
+{
+	struct vec3 at = v3(2.0f * (x + 0.5f - view->viewport[0]) / view->viewport[2] - 1.0f,
+	                    2.0f * ((float)height - (y + 0.5f) - view->viewport[1]) / view->viewport[3] - 1.0f, 1.0f);
 	struct vec3 a = point_clip_xyw(p, 0), b = point_clip_xyw(p, 1), c = point_clip_xyw(p, 2);
 	float sum;
 
+	if (p->geometry->flags & GEOMETRY_LINE) {
+		const float middle = 0.5f - clip_origin(view);
+		struct fragment f;
+		struct point_line l;
+
+		f.primitive = 0u;
+		point_line_of(p, view, &l);
+		point_line_weights(&l, x + middle, y + middle, &f);
+		fragment_weights(f, 1.0f / a.z, 1.0f / b.z, 1.0f / c.z, weight);
+		return;
+	}
 	weight[0] = v3_dot(v3_cross(b, c), at);
 	weight[1] = v3_dot(v3_cross(c, a), at);
 	weight[2] = v3_dot(v3_cross(a, b), at);
@@ -184,9 +252,9 @@ static inline struct texture_slope point_unit_slope(const struct tables *t, cons
 		return slope;
 	}
 	if (own || !quad->have_weights) {
-		point_weights_at(p, w->view, x + 0.5f, (float)w->height - (y + 0.5f), quad->weight[0]);
-		point_weights_at(p, w->view, right + 0.5f, (float)w->height - (y + 0.5f), quad->weight[1]);
-		point_weights_at(p, w->view, x + 0.5f, (float)w->height - (below + 0.5f), quad->weight[2]);
+		point_weights_at(p, w->view, x, y, w->height, quad->weight[0]);
+		point_weights_at(p, w->view, right, y, w->height, quad->weight[1]);
+		point_weights_at(p, w->view, x, below, w->height, quad->weight[2]);
 		quad->have_weights = !own;
 	}
 	return texture_slope(image, point_texcoord(t, p, i, quad->weight[0]), point_texcoord(t, p, i, quad->weight[1]),

@@ -30,8 +30,7 @@ static inline struct point program_neighbour(const struct program_fragment *f, c
 	struct point p = f->p;
 
 	if (k != f->own)
-		point_weights_at(&p, f->window.view, quad->x + (float)(k & 1u) + 0.5f,
-		                 (float)f->window.height - (quad->y + (float)(k >> 1u) + 0.5f), p.weight);
+		point_weights_at(&p, f->window.view, quad->x + (float)(k & 1u), quad->y + (float)(k >> 1u), f->window.height, p.weight);
 	return p;
 }
 

@@ -25,22 +25,14 @@ static inline float setup_offset(GLOBAL const struct scene_material *m, const st
 	return m->polygon_offset_units * setup_step(bits) + slope * m->polygon_offset_factor;
 }
 
-/*
- * A fragment of a line: attributes change along the line's longer axis only, in llvmpipe's order of operations, and go on beyond its
- * ends. The triangle's corners are the ends themselves: the second end's share goes to one of its corners. Other fragments stay
- * as they are. y from the top.
- * Under multisampling all of the line's direction counts; llvmpipe then takes the ends half a pixel off, but not the places that it
- * asks for.
- */
+/* A fragment of a line: its depth and the weights of its attributes. Other fragments stay as they are. y from the top. */
 static inline void setup_line(const struct tables *t, GLOBAL const struct view *views, uint32_t pixel_x, uint32_t pixel_y,
                               struct fragment *f)
 {
 	GLOBAL const struct view *view;
-	float x, y, middle_x, middle_y;
+	struct point_line l;
 	struct point p;
-	struct vec4 a, b, c;
-	int second[3];
-	float dx, dy, one_over_area, along_x, along_y, share;
+	float x, y, along_x, along_y;
 
 	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
 	if (!(p.geometry->flags & GEOMETRY_LINE))
@@ -48,40 +40,11 @@ static inline void setup_line(const struct tables *t, GLOBAL const struct view *
 	view = &views[p.geometry->view];
 	x = clip_from_origin(view, (int32_t)pixel_x, view->sample[0]);
 	y = clip_from_origin(view, (int32_t)pixel_y, -view->sample[1]);
-	middle_x = clip_from_origin(view, (int32_t)pixel_x, 0);
-	middle_y = clip_from_origin(view, (int32_t)pixel_y, 0);
-	a = b = v4_load(p.vertex[0]->color[1]);
-	for (int i = 0; i < 3; i++) {
-		c = v4_load(p.vertex[i]->color[1]);
-		second[i] = c.w > 0.5f;
-		if (second[i])
-			b = c;
-		else
-			a = c;
-	}
-	dx = a.x - b.x;
-	dy = a.y - b.y;
-	one_over_area = 1.0f / (dx * dx + dy * dy);
-	if (view->sample[0] | view->sample[1]) {
-		/* as it is */
-	} else if (M_ABS(dx) >= M_ABS(dy)) {
-		dx *= 1.0f + (dy / dx) * (dy / dx);
-		dy = 0.0f;
-	} else {
-		dy *= 1.0f + (dx / dy) * (dx / dy);
-		dx = 0.0f;
-	}
-	along_x = (a.z - b.z) * dx * one_over_area;
-	along_y = (a.z - b.z) * dy * one_over_area;
-	f->depth = clamp01(M_FMA(along_y, y, M_FMA(along_x, x, a.z - (along_x * (a.x - 0.5f) + along_y * (a.y - 0.5f)))));
-	share = -(dx * one_over_area * (middle_x - (a.x - 0.5f)) + dy * one_over_area * (middle_y - (a.y - 0.5f)));
-	f->b1 = f->b2 = 0.0f;
-	if (second[0])
-		share = 1.0f - share;
-	if (second[1] == second[0])
-		f->b2 = share;
-	else
-		f->b1 = share;
+	point_line_of(&p, view, &l);
+	along_x = (l.a.z - l.b.z) * l.dx * l.one_over_area;
+	along_y = (l.a.z - l.b.z) * l.dy * l.one_over_area;
+	f->depth = clamp01(M_FMA(along_y, y, M_FMA(along_x, x, l.a.z - (along_x * (l.a.x - 0.5f) + along_y * (l.a.y - 0.5f)))));
+	point_line_weights(&l, clip_from_origin(view, (int32_t)pixel_x, 0), clip_from_origin(view, (int32_t)pixel_y, 0), f);
 }
 
 /*

@@ -14,7 +14,7 @@ PROGRAMS = {
     "texture": ("environments", "combiner functions", "combiner operands", "generated coordinates", "cube maps"),
     "fragment": ("blend factors", "more blend factors", "blend equations", "tests", "stencil", "stencil of two sides", "user planes", "near plane",
                  "alpha at the reference"),
-    "line": ("strips", "kinds", "cut", "shared corners", "unfilled polygons", "edge flags", "short ones"),
+    "line": ("strips", "kinds", "cut", "shared corners", "unfilled polygons", "edge flags", "short ones", "textured"),
     "compression": ("plain images", "their alpha", "parts", "levels", "alpha of levels", "copies of the screen", "YCbCr"),
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "copies of these", "what rectangles go through",
               "transfer to textures", "indices to textures"),

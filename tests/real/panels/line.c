@@ -242,11 +242,58 @@ static void draw_chain(int i)
 	glDisable(GL_BLEND);
 }
 
+/* Lines through an image with levels of detail, coarse and fine, near and far, by fixed function and by a program. */
+static void textured(int i)
+{
+	static const GLenum filters[4] = { GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_NEAREST, GL_NEAREST_MIPMAP_LINEAR };
+	const int width = choose(&i, 3), filter = choose(&i, 4);
+
+	glEnable(GL_TEXTURE_2D);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, (GLint)filters[filter]);
+	glLineWidth(1 + (float)width);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_ONE, GL_ONE);
+	if (i / 8 % 2)
+		glEnable(GL_FRAGMENT_PROGRAM_ARB);
+}
+
+static void draw_textured(int i)
+{
+	static const float reach[4] = { 0.2f, 0.7f, 2.5f, 9 };
+	const float s = reach[i / 12 % 4];
+
+	zigzag(6, 0.9f, (unsigned)i);
+	glBegin(i / 48 % 2 ? GL_LINES : GL_LINE_STRIP);
+	for (int k = 0; k < 6; k++) {
+		color_of(k);
+		glTexCoord2f(s * noise((unsigned)(i * 6 + k)), s * noise((unsigned)(i * 6 + k + 4000)));
+		glVertex3fv(corners[k]);
+	}
+	glEnd();
+}
+
+static void make_image_and_program(void)
+{
+	enum { SIDE = 64 };
+	static GLubyte texels[SIDE * SIDE];
+	static const char text[] = "!!ARBfp1.0\nTEMP t;\nTEX t, fragment.texcoord[0], texture[0], 2D;\nMUL result.color, t, fragment.color;\nEND\n";
+
+	glProgramStringARB(GL_FRAGMENT_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB, (GLsizei)strlen(text), text);
+
+	for (int level = 0, side = SIDE; side; level++, side /= 2) {
+		for (int k = 0; k < side * side; k++)
+			texels[k] = (GLubyte)(255 * noise((unsigned)(k + 9000 * level)));
+		glTexImage2D(GL_TEXTURE_2D, level, GL_LUMINANCE, side, side, 0, GL_LUMINANCE, GL_UNSIGNED_BYTE, texels);
+	}
+}
+
 int main(void)
 {
 	static const struct table tables[] = { { 120, strips, draw_strip }, { 108, kinds, draw_strip }, { 96, cut, draw_strip }, { 24, shared, draw_shared },
-		                                { 192, unfilled, draw_strip }, { 96, edges, draw_edges }, { 96, short_chain, draw_chain } };
+		                                { 192, unfilled, draw_strip }, { 96, edges, draw_edges }, { 96, short_chain, draw_chain },
+		                                { 192, textured, draw_textured } };
 
-	DRAW_TABLES(tables, NULL);
+	DRAW_TABLES(tables, make_image_and_program);
 	return 0;
 }
