@@ -10,7 +10,7 @@
 #define LARGE_PAGE ((uintptr_t)2 << 20)
 #define HEAP_BYTES (64 << 20)   /* that is asked for at once; addresses, and no memory until it is touched */
 #define KEEP_BYTES (256 << 20)  /* free at the heap's end, beyond which it is given back */
-#define MAPPED_BYTES (16 << 20) /* from which on a block has pages of its own */
+#define MAPPED_BYTES ((size_t)16 << 20) /* from which on a block has pages of its own */
 
 int memory_resize(void *array, size_t n, size_t item_bytes)
 {
@@ -32,12 +32,22 @@ size_t memory_grow(void *array, size_t room, size_t wanted, size_t item_bytes)
 	return memory_resize(array, more, item_bytes) ? room : more;
 }
 
+void memory_widen_heap(void)
+{
+	void *volatile blocks[2]; /* so that the compiler does not see that they come to nothing */
+
+	for (int i = 0; i < 2; i++)
+		blocks[i] = malloc(MAPPED_BYTES - ((size_t)1 << 20)); /* more would have pages of its own */
+	for (int i = 0; i < 2; i++)
+		free(blocks[i]);
+}
+
 void memory_use_large_pages(void)
 {
 	void *volatile block; /* so that the compiler does not see that it comes to nothing */
 	uintptr_t begin = ((uintptr_t)sbrk(0) + LARGE_PAGE - 1) & ~(LARGE_PAGE - 1), end;
 
-	mallopt(M_MMAP_THRESHOLD, MAPPED_BYTES);
+	mallopt(M_MMAP_THRESHOLD, (int)MAPPED_BYTES);
 	mallopt(M_TRIM_THRESHOLD, KEEP_BYTES);
 	mallopt(M_TOP_PAD, HEAP_BYTES);
 	block = malloc(1 << 20); /* more than there is: the heap grows */

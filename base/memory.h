@@ -28,3 +28,9 @@ size_t memory_grow(void *array, size_t room, size_t wanted, size_t item_bytes);
  * system refuses.
  */
 void memory_use_large_pages(void);
+
+/**
+ * Give the calling thread's heap room for tens of MiB: glibc asks the system for each 4 KiB that a heap grows by, but the first thread's.
+ * For threads that take much in small blocks, when they begin.
+ */
+void memory_widen_heap(void);

@@ -63,6 +63,8 @@ static inline float common_float(uint32_t bits)
 }
 #endif
 
+#define LEAST_NORMAL 1.17549435e-38f /* below it floats are denormal */
+
 struct vec3 {
 	float x, y, z;
 };

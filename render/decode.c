@@ -70,13 +70,23 @@ static int take_scene(struct pipeline_state *state, struct shared_scene **out)
 	return more;
 }
 
+/* Have programs ready when the first scene is. */
+static void prepare_devices(const struct pipeline *p)
+{
+	for (size_t i = 0; i < p->n_devices; i++)
+		device_build_early(p->devices[i]);
+}
+
 /* Hand out a picture to be made. @return 1; 0: the recording ends before its frame; ERR_* */
 static int hand_out(struct pipeline_state *state, uint64_t number)
 {
 	double start = progress_clock_s(), seconds;
-	int more = state->turned ? 1 : go_to(state, settings_recorded_frame(state->p->settings, number));
 	struct shot *shot;
+	int more;
 
+	if (!state->begun)
+		prepare_devices(state->p);
+	more = state->turned ? 1 : go_to(state, settings_recorded_frame(state->p->settings, number));
 	if (more != 1)
 		return more;
 	seconds = progress_clock_s() - start;

@@ -208,6 +208,8 @@ static int render_frames(struct pipeline *p, uint64_t total, struct missing *mis
 	report_display(p);
 	display_destroy(&p->display);
 	report(p, missing);
+	for (size_t i = 0; i < p->n_devices; i++)
+		device_leave_programs(p->devices[i]);
 	device_close_list(&p->devices, &p->n_devices);
 	return err;
 }

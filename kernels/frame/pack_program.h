@@ -261,7 +261,7 @@ static inline void pack_lit(const struct shade_arguments *a, const struct pack_l
 	}
 }
 
-/* As point_weights_at, at the lanes' pixels. */
+/* As point_weights_at of triangles, at the lanes' pixels. */
 WIDE_VECTORS static inline void pack_weights_at(const struct tables *t, const struct pack *p, uint height, packf *weight)
 {
 	const packf x = convert_float16(p->x) + 0.5f, y = (float)height - (convert_float16(p->row) + 0.5f);

@@ -12,7 +12,7 @@ struct vertex_pack {
 	uint v; /* of the first one, in the mesh */
 	packf obj[4], eye[4], clip[4];
 	struct pack_vec normal;
-	packf length2, longest; /* of the normal and its coordinates, before it is made 1 */
+	packf length2; /* of the normal, before it is made 1 */
 };
 
 /* --- Numbers --------------------------------------------------------------------------------------------------------- */
@@ -50,11 +50,11 @@ WIDE_VECTORS static inline void transform(__global const float *m, const packf *
 
 /* --- Places ---------------------------------------------------------------------------------------------------------- */
 
-/* As vertex_eye_normal, but for normals that are too short to square. */
-WIDE_VECTORS static inline void load_normals(const struct tables *t, struct vertex_pack *p)
+/* As vertex_eye_normal, in the lanes that it returns: those whose normals are not too short to square, or too long. */
+WIDE_VECTORS static inline packi load_normals(const struct tables *t, struct vertex_pack *p)
 {
 	__global const float *r = p->g->normal_matrix, *current = t->currents[p->g->current].normal;
-	packf n[4];
+	packf n[4], longest;
 
 	for (int i = 0; i < 3; i++)
 		n[1 + i] = current[i];
@@ -63,9 +63,10 @@ WIDE_VECTORS static inline void load_normals(const struct tables *t, struct vert
 	p->normal = pack_vec(r[0] * n[1] + r[1] * n[2] + r[2] * n[3], r[4] * n[1] + r[5] * n[2] + r[6] * n[3],
 	                     r[8] * n[1] + r[9] * n[2] + r[10] * n[3]);
 	p->length2 = pack_dot(p->normal, p->normal);
-	p->longest = fmax(fmax(fabs(p->normal.x), fabs(p->normal.y)), fabs(p->normal.z));
+	longest = fmax(fmax(fabs(p->normal.x), fabs(p->normal.y)), fabs(p->normal.z));
 	if (p->m->normalize)
 		p->normal = pack_normalize(p->normal);
+	return (longest < LEAST_NORMAL) | ((p->length2 >= LEAST_NORMAL) & (p->length2 < INFINITY));
 }
 
 /* As clip_outside: whether it lies beyond any plane. */
@@ -214,8 +215,7 @@ WIDE_VECTORS static inline int do_pack(const struct vertex_arguments *a, uint fi
 	struct vertex_pack p = { .g = g, .m = &t->materials[g->material], .v = first - g->vertex_first };
 	packf fog, size;
 
-	load_normals(t, &p);
-	if (any_pack(~((p.longest < 1.17549435e-38f) | ((p.length2 >= 1.17549435e-38f) & (p.length2 < INFINITY)))))
+	if (any_pack(~load_normals(t, &p)))
 		return 0;
 	load_fours(t->attributes + g->position + p.v * 4, 4, p.obj);
 	transform(g->eye_from_obj, p.obj, p.eye);

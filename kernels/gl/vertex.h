@@ -11,7 +11,7 @@
 /* Mesa's vertex programs know no denormal numbers. */
 static inline float vertex_flush(float a)
 {
-	return M_ABS(a) < 1.17549435e-38f ? 0.0f : a;
+	return M_ABS(a) < LEAST_NORMAL ? 0.0f : a;
 }
 
 static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLOBAL const struct scene_material *m,

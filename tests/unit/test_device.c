@@ -1,5 +1,6 @@
 /* Devices: what a shared one has in common with its parent, what a profile counts, and what is kept of compiled kernels. */
 #include <dirent.h>
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,18 +66,14 @@ START_TEST(test_profile)
 }
 END_TEST
 
-/* Sum two lights' shadows with a device that keeps programs in a folder. @return how many came from there */
-static unsigned run_kept(const char *folder, int always)
+/* Sum two lights' shadows. */
+static void run_kernel(struct device *dev)
 {
 	const uint32_t flags[2] = { 0, 1 }, n = 2;
 	union buffer_uint occluded = { NULL };
 	union buffer_float visibility = { NULL };
-	struct device *dev = NULL;
 	float out[6];
-	unsigned found;
 
-	ck_assert_int_eq(device_open("0", 0, &dev), 0);
-	device_keep_programs(dev, folder, always);
 	ck_assert_int_eq(launch_upload(dev, occluded, flags, n), 0);
 	ck_assert_int_eq(launch_reserve(dev, visibility, 3 * n), 0);
 	ck_assert_int_eq(launch_shadow_sum(dev, n, LAUNCH(shadow_sum, .occluded = occluded, .weight = 0.25f, .first = 1, .n = n,
@@ -84,9 +81,20 @@ static unsigned run_kept(const char *folder, int always)
 	ck_assert_int_eq(device_read(dev, visibility.buffer, 0, out, sizeof(out)), 0);
 	ck_assert_float_eq(out[0], 0.25f);
 	ck_assert_float_eq(out[3], 0);
-	found = device_programs_found(dev);
 	device_release(dev, &occluded.buffer);
 	device_release(dev, &visibility.buffer);
+}
+
+/* With a device that keeps programs in a folder. @return how many came from there */
+static unsigned run_kept(const char *folder, int always)
+{
+	struct device *dev = NULL;
+	unsigned found;
+
+	ck_assert_int_eq(device_open("0", 0, &dev), 0);
+	device_keep_programs(dev, folder, always);
+	run_kernel(dev);
+	found = device_programs_found(dev);
 	device_close(&dev);
 	return found;
 }
@@ -197,6 +205,68 @@ START_TEST(test_programs_are_shared)
 }
 END_TEST
 
+/* Whoever asks for a kernel meanwhile waits; nobody has to, and what is left behind is in nobody's way. */
+START_TEST(test_program_is_built_early)
+{
+	for (int run = 0; run < 4; run++) {
+		struct device *dev = NULL, *other = NULL;
+
+		ck_assert_int_eq(device_open("0", 0, &dev), 0);
+		ck_assert_int_eq(device_share(dev, &other), 0);
+		device_build_early(dev);
+		device_build_early(other);
+		if (run & 1) {
+			run_kernel(other);
+			run_kernel(dev);
+		}
+		if (run & 2)
+			device_leave_programs(dev);
+		device_close(&dev);
+		device_close(&other);
+	}
+}
+END_TEST
+
+/* Threads of this process that may not run on all the cores that it may use. */
+static int count_pinned(const cpu_set_t *all)
+{
+	DIR *folder = opendir("/proc/self/task");
+	struct dirent *entry;
+	cpu_set_t cores;
+	int n = 0;
+
+	ck_assert_ptr_nonnull(folder);
+	while ((entry = readdir(folder)))
+		n += entry->d_name[0] != '.' && sched_getaffinity(atoi(entry->d_name), sizeof(cores), &cores) == 0 && !CPU_EQUAL(&cores, all);
+	closedir(folder);
+	return n;
+}
+
+/* A core for each thread of PoCL: only where the process may use all cores (not 1), is asked to (not 2), and there are as many (not 3). */
+START_TEST(test_threads_stay_on_cores)
+{
+	const int n = (int)sysconf(_SC_NPROCESSORS_ONLN);
+	struct device *dev = NULL;
+	char threads[16];
+	cpu_set_t cores;
+	int last = CPU_SETSIZE - 1;
+
+	ck_assert_int_eq(sched_getaffinity(0, sizeof(cores), &cores), 0);
+	while (!CPU_ISSET(last, &cores))
+		last--;
+	if (_i == 1 && n > 1)
+		CPU_CLR(last, &cores);
+	ck_assert_int_eq(sched_setaffinity(0, sizeof(cores), &cores), 0);
+	snprintf(threads, sizeof(threads), "%d", n + 3);
+	if (_i == 3)
+		setenv("POCL_MAX_PTHREAD_COUNT", threads, 1);
+	ck_assert_int_eq(device_open("0", _i == 2, &dev), 0);
+	ck_assert_int_eq(count_pinned(&cores), _i == 0 && n > 1 && CPU_COUNT(&cores) == n ? n : 0);
+	run_kernel(dev);
+	device_close(&dev);
+}
+END_TEST
+
 int main(void)
 {
 	TCase *tests = tcase_create("device");
@@ -205,5 +275,7 @@ int main(void)
 	tcase_add_test(tests, test_profile);
 	tcase_add_test(tests, test_programs_are_kept);
 	tcase_add_test(tests, test_programs_are_shared);
+	tcase_add_test(tests, test_program_is_built_early);
+	tcase_add_loop_test(tests, test_threads_stay_on_cores, 0, 4);
 	return run_case(tests, "device");
 }

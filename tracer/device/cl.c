@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "tracer/device/cl_error.h"
 #include "tracer/device/cl_launch.h"
 #include "tracer/device/cl_list.h"
@@ -29,8 +30,12 @@ struct cl_common {
 	unsigned refs;
 	cl_device_id root, id; /* id: root, or a sub-device of it */
 	cl_context context;
+	pthread_mutex_t programs_lock; /* of all programs, for as long as one is built */
 	cl_program *programs; /* [n_kernel_files], NULL: not built yet */
+	pthread_t builder;
+	size_t built_early; /* the file whose program the builder makes; n_kernel_files: there is no builder */
 	struct cl_keeping keeping;
+	struct cl_common *left; /* by devices before: cl_leave_programs */
 	const struct hook *hook; /* or NULL */
 	int said; /* cl_report */
 	uint64_t memory_bytes, buffer_bytes, used_bytes; /* of the device in all, of one buffer at most, of all buffers now */
@@ -54,6 +59,10 @@ struct cl_buffer {
 	size_t bytes;
 };
 
+/* Until the process ends. */
+static struct cl_common *all_left;
+static pthread_mutex_t left_lock = PTHREAD_MUTEX_INITIALIZER;
+
 /* A sub-device of so many units, so that a run uses no more cores than it was given. */
 static int limit_threads(struct cl_common *dev, int cpu, unsigned threads)
 {
@@ -72,6 +81,13 @@ static int limit_threads(struct cl_common *dev, int cpu, unsigned threads)
 	return cl_report(&dev->said, code, "this device cannot be limited to fewer threads");
 }
 
+static void join_builder(struct cl_common *c)
+{
+	if (c->built_early < n_kernel_files)
+		pthread_join(c->builder, NULL);
+	c->built_early = n_kernel_files;
+}
+
 static void release_common(struct cl_common *c)
 {
 	unsigned refs;
@@ -83,6 +99,7 @@ static void release_common(struct cl_common *c)
 	pthread_mutex_unlock(&c->lock);
 	if (refs)
 		return;
+	join_builder(c);
 	for (size_t i = 0; c->programs && i < n_kernel_files; i++)
 		if (c->programs[i])
 			clReleaseProgram(c->programs[i]);
@@ -91,6 +108,7 @@ static void release_common(struct cl_common *c)
 		clReleaseContext(c->context);
 	if (c->id != c->root)
 		clReleaseDevice(c->id);
+	pthread_mutex_destroy(&c->programs_lock);
 	pthread_mutex_destroy(&c->lock);
 	free(c);
 }
@@ -107,6 +125,8 @@ static struct cl_common *create_common(void)
 		return NULL;
 	}
 	pthread_mutex_init(&c->lock, NULL);
+	pthread_mutex_init(&c->programs_lock, NULL);
+	c->built_early = n_kernel_files;
 	c->refs = 1;
 	return c;
 }
@@ -375,25 +395,61 @@ static int build_program(struct cl_common *c, size_t file)
 
 void cl_take_hook(struct cl_device *dev, const struct hook *hook)
 {
-	pthread_mutex_lock(&dev->common->lock);
+	pthread_mutex_lock(&dev->common->programs_lock);
 	dev->common->hook = hook;
-	pthread_mutex_unlock(&dev->common->lock);
+	pthread_mutex_unlock(&dev->common->programs_lock);
 }
 
 void cl_keep_programs(struct cl_device *dev, const char *folder, int always)
 {
-	pthread_mutex_lock(&dev->common->lock);
+	pthread_mutex_lock(&dev->common->programs_lock);
 	cl_program_keep(dev->common->root, folder, always, &dev->common->keeping);
-	pthread_mutex_unlock(&dev->common->lock);
+	pthread_mutex_unlock(&dev->common->programs_lock);
+}
+
+static void *build_early(void *arg)
+{
+	struct cl_common *c = arg;
+
+	memory_widen_heap();
+	pthread_mutex_lock(&c->programs_lock);
+	build_program(c, c->built_early); /* where that fails, so does what needs it */
+	pthread_mutex_unlock(&c->programs_lock);
+	return NULL;
+}
+
+void cl_build_early(struct cl_device *dev)
+{
+	struct cl_common *c = dev->common;
+
+	if (c->built_early < n_kernel_files)
+		return;
+	c->built_early = cl_program_gathered(c->root, &c->keeping, dev->family);
+	if (c->built_early < n_kernel_files && pthread_create(&c->builder, NULL, build_early, c))
+		c->built_early = n_kernel_files;
+}
+
+void cl_leave_programs(struct cl_device *dev)
+{
+	struct cl_common *c = dev->common;
+
+	join_builder(c);
+	pthread_mutex_lock(&c->lock);
+	c->refs++;
+	pthread_mutex_unlock(&c->lock);
+	pthread_mutex_lock(&left_lock);
+	c->left = all_left;
+	all_left = c;
+	pthread_mutex_unlock(&left_lock);
 }
 
 unsigned cl_programs_found(struct cl_device *dev)
 {
 	unsigned n;
 
-	pthread_mutex_lock(&dev->common->lock);
+	pthread_mutex_lock(&dev->common->programs_lock);
 	n = dev->common->keeping.found;
-	pthread_mutex_unlock(&dev->common->lock);
+	pthread_mutex_unlock(&dev->common->programs_lock);
 	return n;
 }
 
@@ -406,9 +462,9 @@ static int make_kernel(struct cl_device *dev, enum kernel kernel)
 
 	if (file == n_kernel_files)
 		return err_report(ERR_SYSTEM, "OpenCL", "there is no kernel %s in this build", name);
-	pthread_mutex_lock(&dev->common->lock);
+	pthread_mutex_lock(&dev->common->programs_lock);
 	err = build_program(dev->common, file);
-	pthread_mutex_unlock(&dev->common->lock);
+	pthread_mutex_unlock(&dev->common->programs_lock);
 	if (err)
 		return err;
 	dev->kernels[kernel] = clCreateKernel(dev->common->programs[file], name, &code);

@@ -27,12 +27,12 @@ int cl_share(struct cl_device *dev, struct cl_device **out);
 /** The kernels that will run most: it decides which of them are compiled together. */
 void cl_choose_family(struct cl_device *dev, enum device_family family);
 
-/* As device_keep_programs and device_programs_found. */
+/* As their namesakes in device.h. */
 void cl_take_hook(struct cl_device *dev, const struct hook *hook);
 void cl_keep_programs(struct cl_device *dev, const char *folder, int always);
+void cl_build_early(struct cl_device *dev);
+void cl_leave_programs(struct cl_device *dev);
 unsigned cl_programs_found(struct cl_device *dev);
-
-/* As their namesakes in device.h. */
 int cl_report_lack(struct cl_device *dev);
 int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes);
 void cl_release(struct cl_device *dev, struct cl_buffer **buffer);

@@ -234,22 +234,32 @@ static int build_program(cl_context context, cl_device_id device, const struct k
 	return err;
 }
 
-size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum device_family family, const char *kernel)
+size_t cl_program_gathered(cl_device_id device, const struct cl_keeping *keeping, enum device_family family)
 {
 	static const char *const gathered[N_DEVICE_FAMILIES] = {
 		[FAMILY_PACKETS] = "kernels/frame/whole_packet.cl", [FAMILY_BINARY] = "kernels/frame/whole_single.cl",
 		[FAMILY_COMPRESSED] = "kernels/frame/whole_single.cl",
 	};
 	const char *whole = !keeping->folder[0] && cl_program_is_pocl(device) ? gathered[family] : NULL;
+	size_t file = 0;
+
+	while (file < n_kernel_files && !(whole && strcmp(kernel_files[file].name, whole) == 0))
+		file++;
+	return file;
+}
+
+size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum device_family family, const char *kernel)
+{
+	const size_t whole = cl_program_gathered(device, keeping, family);
 	size_t file = n_kernel_files;
 
 	for (size_t i = 0; i < n_kernel_places; i++) {
-		const struct kernel_file *next = &kernel_files[kernel_places[i].file];
+		const size_t next = kernel_places[i].file;
 
 		if (strcmp(kernel_places[i].kernel, kernel) != 0)
 			continue;
-		if (next->gathers ? whole && strcmp(next->name, whole) == 0 : file == n_kernel_files)
-			file = kernel_places[i].file;
+		if (kernel_files[next].gathers ? next == whole : file == n_kernel_files)
+			file = next;
 	}
 	return file;
 }

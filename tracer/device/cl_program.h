@@ -24,6 +24,9 @@ int cl_program_is_pocl(cl_device_id device);
  */
 void cl_program_keep(cl_device_id device, const char *folder, int always, struct cl_keeping *keeping);
 
+/** The file whose program nearly all kernels of a family come from; n_kernel_files where there is none. */
+size_t cl_program_gathered(cl_device_id device, const struct cl_keeping *keeping, enum device_family family);
+
 /**
  * The file whose program a kernel should come from. PoCL wants few programs: it preprocesses each in every run, for 40 ms, unless it is
  * kept here. Others compile all kernels of a program at once, and want only those that a run needs.

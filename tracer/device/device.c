@@ -13,6 +13,7 @@
 
 #include "base/err.h"
 #include "tracer/device/cl.h"
+#include "tracer/device/cl_pin.h"
 #include "tracer/hook/hook.h"
 
 #define MAX_THREADS 64
@@ -96,9 +97,15 @@ int device_find(const struct device_description *list, size_t n, const char *cho
 static int open_cl(struct device *dev, const char *choice, unsigned threads)
 {
 	struct device_description *list = NULL;
+	struct cl_pin pin;
 	size_t n, number;
-	int err = cl_list(&list, &n);
+	int err;
 
+	if (threads == 0)
+		cl_pin_begin(&pin);
+	err = cl_list(&list, &n); /* the first loads the drivers */
+	if (threads == 0)
+		cl_pin_end(&pin);
 	if (err)
 		return err;
 	err = device_find(list, n, choice, &number);
@@ -272,6 +279,18 @@ void device_keep_programs(struct device *dev, const char *folder, int always)
 {
 	if (dev->cl)
 		cl_keep_programs(dev->cl, folder, always);
+}
+
+void device_build_early(struct device *dev)
+{
+	if (dev->cl)
+		cl_build_early(dev->cl);
+}
+
+void device_leave_programs(struct device *dev)
+{
+	if (dev->cl)
+		cl_leave_programs(dev->cl);
 }
 
 int device_take_hook(struct device *dev, const struct hook *hook)

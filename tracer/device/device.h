@@ -119,6 +119,18 @@ extern const char *const device_family_names[N_DEVICE_FAMILIES + 1]; /* ended by
  */
 void device_keep_programs(struct device *dev, const char *folder, int always);
 
+/**
+ * Build the program that most frames' kernels come from, where there is one, on a thread of its own: PoCL takes 0.1 s to load what it
+ * compiled before. Call it after device_choose_family, device_keep_programs and device_take_hook; only the first call counts.
+ */
+void device_build_early(struct device *dev);
+
+/**
+ * Leave what was compiled to the process's end, also when the device is closed: PoCL takes 20 ms to take a program apart. Call it once,
+ * where no other device is opened afterwards.
+ */
+void device_leave_programs(struct device *dev);
+
 struct hook;
 
 /** 1 where device_open would open the reference device. choice: or NULL */
