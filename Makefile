@@ -64,7 +64,7 @@ all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/r
 
 # Snappy and its C++ inside, as in the recorder: the loader takes a third of a start to find the symbols of C++.
 $(BUILD)/relume: $(COMMAND_OBJ)
-	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -static-libstdc++ -static-libgcc -o $@ $^ $(LIBS:-lsnappy=-l:libsnappy.a)
+	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) $(if $(SAN),,-static-libstdc++ -static-libgcc) -o $@ $^ $(LIBS:-lsnappy=-l:libsnappy.a)
 
 # The same without its main function, for other programs: query/relume-rays.h.
 RAYS_OBJ := $(filter-out $(BUILD)/relume.o,$(COMMAND_OBJ))
