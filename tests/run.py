@@ -15,6 +15,7 @@ import concurrent.futures
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -77,8 +78,11 @@ def environment(build, tmp):
     env.setdefault("POCL_CACHE_DIR", str(build / "tests" / "pocl-cache"))
     # Trees and indices go where they harm nobody, and last from one run to the next.
     env["XDG_CACHE_HOME"] = str(build / "tests" / "cache")
-    # Leaks of Mesa, PoCL and the like are not ours.
-    env.setdefault("LSAN_OPTIONS", f"suppressions={ROOT / 'tests' / 'lsan.supp'}:print_suppressions=0")
+    # Leaks of Mesa, PoCL and the like are not ours. The list lies where a command in its sandbox may read it.
+    shutil.copy(ROOT / "tests" / "lsan.supp", build)
+    env.setdefault("LSAN_OPTIONS", f"suppressions={build / 'lsan.supp'}:print_suppressions=0")
+    # Some tests load libraries before all others.
+    env.setdefault("ASAN_OPTIONS", "verify_asan_link_order=0")
     # OpenImageIO brings OpenBLAS, whose threads confuse the leak check of forked tests.
     env.setdefault("OPENBLAS_NUM_THREADS", "1")
     env.setdefault("UBSAN_OPTIONS", "print_stacktrace=1")
