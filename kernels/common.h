@@ -27,6 +27,7 @@
 #define M_BITS(x) as_uint(x)
 #define M_FLOAT(x) as_float(x)
 #else
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -62,8 +63,6 @@ static inline float common_float(uint32_t bits)
 	return x;
 }
 #endif
-
-#define LEAST_NORMAL 1.17549435e-38f /* below it floats are denormal */
 
 struct vec3 {
 	float x, y, z;

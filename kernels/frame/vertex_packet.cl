@@ -66,7 +66,7 @@ WIDE_VECTORS static inline packi load_normals(const struct tables *t, struct ver
 	longest = fmax(fmax(fabs(p->normal.x), fabs(p->normal.y)), fabs(p->normal.z));
 	if (p->m->normalize)
 		p->normal = pack_normalize(p->normal);
-	return (longest < LEAST_NORMAL) | ((p->length2 >= LEAST_NORMAL) & (p->length2 < INFINITY));
+	return (longest < FLT_MIN) | ((p->length2 >= FLT_MIN) & (p->length2 < INFINITY));
 }
 
 /* As clip_outside: whether it lies beyond any plane. */

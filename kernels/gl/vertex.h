@@ -8,10 +8,10 @@
 #include "kernels/gl/light.h"
 #include "kernels/gl/tables.h"
 
-/* Mesa's vertex programs know no denormal numbers. */
+/* Mesa's vertex programs know no denormal numbers: those below FLT_MIN. */
 static inline float vertex_flush(float a)
 {
-	return M_ABS(a) < LEAST_NORMAL ? 0.0f : a;
+	return M_ABS(a) < FLT_MIN ? 0.0f : a;
 }
 
 static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLOBAL const struct scene_material *m,
