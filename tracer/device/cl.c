@@ -34,6 +34,7 @@ struct cl_common {
 	cl_program *programs; /* [n_kernel_files], NULL: not built yet */
 	pthread_t builder;
 	size_t built_early; /* the file whose program the builder makes; n_kernel_files: there is no builder */
+	int early_err;      /* what came of it, until somebody wants it */
 	struct cl_keeping keeping;
 	struct cl_common *left; /* by devices before: cl_leave_programs */
 	const struct hook *hook; /* or NULL */
@@ -388,8 +389,15 @@ int cl_finish(struct cl_device *dev)
 	return note_done(dev, clFinish(dev->queue), "clFinish");
 }
 
+/* What the builder has reported is its first taker's failure; others try again. */
 static int build_program(struct cl_common *c, size_t file)
 {
+	if (file == c->built_early && c->early_err) {
+		const int err = c->early_err;
+
+		c->early_err = 0;
+		return err;
+	}
 	return c->programs[file] ? 0 : cl_program_make(c->context, c->id, file, c->hook, &c->keeping, &c->said, &c->programs[file]);
 }
 
@@ -413,7 +421,7 @@ static void *build_early(void *arg)
 
 	memory_widen_heap();
 	pthread_mutex_lock(&c->programs_lock);
-	build_program(c, c->built_early); /* where that fails, so does what needs it */
+	c->early_err = build_program(c, c->built_early);
 	pthread_mutex_unlock(&c->programs_lock);
 	return NULL;
 }
