@@ -78,8 +78,7 @@ def environment(build, tmp):
     env.setdefault("POCL_CACHE_DIR", str(build / "tests" / "pocl-cache"))
     # Trees and indices go where they harm nobody, and last from one run to the next.
     env["XDG_CACHE_HOME"] = str(build / "tests" / "cache")
-    # Leaks of Mesa, PoCL and the like are not ours. The list lies where a command in its sandbox may read it.
-    shutil.copy(ROOT / "tests" / "lsan.supp", build)
+    # Leaks of Mesa, PoCL and the like are not ours.
     env.setdefault("LSAN_OPTIONS", f"suppressions={build / 'lsan.supp'}:print_suppressions=0")
     # Some tests load libraries before all others.
     env.setdefault("ASAN_OPTIONS", "verify_asan_link_order=0")
@@ -130,6 +129,7 @@ def main(argv):
         sys.exit(__doc__)
     build = pathlib.Path(argv[1]).resolve()
     tests = find_tests(build, argv[2:])
+    shutil.copy(ROOT / "tests" / "lsan.supp", build)  # where a command in its sandbox may read it
     passed = failed = skipped = 0
     reasons = []
 

@@ -39,7 +39,9 @@ void cl_pin_end(const struct cl_pin *pin)
 	for (size_t i = 0; i < now.n; i++)
 		if (!is_among(pin, now.threads[i]))
 			now.threads[n++] = now.threads[i];
-	for (size_t i = 0; i < n && n == (size_t)CPU_COUNT(&all); i++, core++) {
+	if (n != (size_t)CPU_COUNT(&all))
+		return;
+	for (size_t i = 0; i < n; i++, core++) {
 		while (!CPU_ISSET(core, &all))
 			core++;
 		CPU_ZERO(&one);
