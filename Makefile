@@ -1,7 +1,8 @@
 # Relume. Everything made lands in $(BUILD). `make demo` and `make check` are all the set-up there is.
-#   make deps               install the Debian packages that are missing
-#   make demo               record, ray trace and score a real program
-#   make check              all tests; ONLY="part of a name" runs some
+#   make                    build; says which packages are missing, installs nothing
+#   make demo               install what this needs; record, ray trace and score a real program
+#   make check              install what tests need, run all of them on all cores; ONLY="part of a name" runs some
+#   make deps               install the Debian packages of both; make deps-GROUP: of one group of packaging/deps.txt
 #   make bench              the traversal kernels beside Embree's
 #   make show               all figures beside their bars
 #   make install            into PREFIX (/usr/local), below DESTDIR; make uninstall takes it away again
@@ -11,6 +12,14 @@
 #   BUILD=DIR               build elsewhere
 SAN ?=
 BUILD ?= build$(if $(SAN),/san)
+# Tests use all cores unless -j says otherwise.
+ifneq ($(filter check,$(MAKECMDGOALS)),)
+MAKEFLAGS += -j$(shell nproc)
+endif
+# Groups of packages (packaging/deps.txt): what must be there, and what these goals install.
+HAVE := $(BUILD)/have.$(if $(filter core,$(MAKECMDGOALS)),core,build)
+INSTALLING := $(if $(filter bench check deps fuzz fuzz-keep golden-update show show-% test-programs,$(MAKECMDGOALS)),check) \
+	$(filter deb picture,$(MAKECMDGOALS))
 PYTHON := /usr/bin/python3
 Q := $(if $(V),,@)
 # A machine may carry a python of its own in PATH; the generators need only Debian's.
@@ -23,7 +32,7 @@ CPPFLAGS += -I. -I$(BUILD)/gen -isystem /usr/include/OpenEXR -isystem /usr/inclu
 ALL_CFLAGS := -std=c11 $(WARNINGS) -Werror=override-init -Werror=incompatible-pointer-types -ffp-contract=off -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)
 ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXXFLAGS)
 LIBS_OIIO := -Wl,--as-needed -lOpenImageIO -lOpenImageIO_Util -lstdc++
-LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -lz -ldeflate -lisal -lxxhash -lcyaml -lseccomp -ldl -lm -pthread
+LIBS := -Wl,--as-needed -lOpenEXRCore -lOpenCL -lsnappy -lpng -lbrotlidec -lz -ldeflate -lisal -lxxhash -lcyaml -lseccomp -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
 RECORDER_SRC := $(wildcard capture/gen/*.c capture/client/*.c capture/gl/*.c capture/write/*.c)
@@ -45,22 +54,14 @@ OIIO_OBJ := $(addprefix $(BUILD)/,$(addprefix tracer/image/,oiio.o heads.o image
 LIBS_GLSL := -Wl,--as-needed -Wl,--start-group -l:libglslang.a -l:libMachineIndependent.a -l:libGenericCodeGen.a -l:libOGLCompiler.a -l:libOSDependent.a -Wl,--end-group
 GLSL_OBJ := $(BUILD)/replay/glsl/bridge.o $(BUILD)/base/err.o
 
-# What must be installed: to build, to run, to test.
-DEPS := gcc g++ libc6-dev python3 khronos-api \
-	libsnappy-dev libbrotli-dev zlib1g-dev libdeflate-dev libisal-dev glslang-dev libxxhash-dev libopenexr-dev libopenimageio-dev libpng-dev libcyaml-dev libseccomp-dev \
-	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libgles-dev libwayland-dev libosmesa6-dev libx11-dev \
-	pocl-opencl-icd apitrace \
-	check clang xvfb weston xfonts-base mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
-	fonts-dejavu-core python3-clang-14 python3-numpy python3-jsonschema openimageio-tools xdotool pkg-config zsh fish man-db \
-	slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge parallel oclgrind
-
-DEPS_deb := debhelper dpkg-dev fakeroot lintian
-
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c corpus/wayland/*.c)) $(BUILD)/corpus/rooms
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c tests/bench/translate.c tests/fuzz/drive.c tests/fuzz/make_seeds.c)
 
-all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/relume-oiio.so $(BUILD)/relume-glsl.so $(BUILD)/visual/libGL.so.1 $(CORPUS)
+all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/relume-oiio.so $(BUILD)/relume-glsl.so $(BUILD)/visual/libGL.so.1
+
+# What `make demo` needs of it.
+core: $(BUILD)/relume $(BUILD)/librelume.so
 
 # Snappy and its C++ inside, as in the recorder: the loader takes a third of a start to find the symbols of C++.
 $(BUILD)/relume: $(COMMAND_OBJ)
@@ -112,7 +113,7 @@ i386: $(LIBRELUMES) $(addprefix $(BUILD)/i386/,windows two_triangles spheres tri
 
 # Packages of both architectures have one version: where the newest is not there for both (an archive's index may be behind), that of the
 # release itself. Nothing that is installed may go for that: apt then says what is in the way.
-$(BUILD)/deps.i386: Makefile
+$(BUILD)/deps.i386: Makefile | $(HAVE)
 	@mkdir -p $(@D)
 	@if [ "$$(dpkg-query -W -f '$${db:Status-Status}\n' $(DEPS_i386) 2>/dev/null | grep -cx installed)" != $(words $(DEPS_i386)) ]; then \
 		echo "installing from Debian, i386 added: $(DEPS_i386) (see $@.log)"; \
@@ -152,7 +153,6 @@ $(BUILD)/i386/%: corpus/%.c corpus/program.h | $(BUILD)/deps.i386
 	$(Q)$(CC) -m32 -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -o $@ $< -l:libglut.so.3.12 -l:libGLU.so.1 -l:libGL.so.1 -lm
 
 # Programs of Windows, for Wine: corpus programs as they are, also of 32 bits, and one of their own kind of windows.
-DEPS_windows := gcc-mingw-w64-x86-64 gcc-mingw-w64-i686 libz-mingw-w64 wine wine64
 WINDOWS := $(addprefix $(BUILD)/windows/,two_triangles.exe spheres.exe tricks.exe wgl.exe)
 WINE32 := $(BUILD)/wine32/usr/lib/wine/wine
 WINDOWS32 := $(foreach p,two_triangles spheres tricks,$(BUILD)/windows32/$p.exe $(BUILD)/i386/sse/$p) $(WINE32)
@@ -203,12 +203,10 @@ $(BUILD)/sanitized/%/threads: tests/trace/threads.c tests/trace/window.h
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O1 -g -fsanitize=$* -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -o $@ $< -lGL -lX11 -ldl -lm -pthread
 
-$(BUILD)/recorder/gen/stamp: capture/gen/gen.py capture/gen/registry.py capture/gen/overlay.txt | $(BUILD)/deps
-	@mkdir -p $(@D)
-	$(Q)$(PYTHON) -B capture/gen/gen.py capture/gen/overlay.txt $(@D)
-	@touch $@
-
-$(patsubst %,$(BUILD)/recorder/gen/%.c,$(RECORDER_GEN)): $(BUILD)/recorder/gen/stamp ;
+$(BUILD)/recorder/gen/stamp $(RECORDER_GEN:%=$(BUILD)/recorder/gen/%.c) &: capture/gen/gen.py capture/gen/registry.py capture/gen/overlay.txt | $(HAVE)
+	@mkdir -p $(BUILD)/recorder/gen
+	$(Q)$(PYTHON) -B capture/gen/gen.py capture/gen/overlay.txt $(BUILD)/recorder/gen
+	@touch $(BUILD)/recorder/gen/stamp
 
 $(BUILD)/recorder/gen/%.o: $(BUILD)/recorder/gen/%.c $(BUILD)/flags
 	$(Q)$(CC) $(CPPFLAGS) $(RECORDER_CFLAGS) -O2 -g0 -c -o $@ $<
@@ -220,7 +218,7 @@ $(BUILD)/recorder/%.o: %.c $(BUILD)/recorder/gen/stamp $(BUILD)/flags
 # Generated headers come before whatever includes them; the .d files know the rest.
 GENERATED_H := $(BUILD)/gen/gl_tokens.h $(BUILD)/gen/layout.h
 $(COMMAND_OBJ) $(TESTS:=.o): | $(GENERATED_H)
-$(GENERATED_H): | $(BUILD)/deps
+$(GENERATED_H): | $(HAVE)
 
 $(BUILD)/gen/gl_tokens.h: replay/gen.py capture/gen/registry.py
 	@mkdir -p $(@D)
@@ -230,7 +228,7 @@ $(BUILD)/gen/gl_tokens.h: replay/gen.py capture/gen/registry.py
 LAYOUT := replay/index/layout
 $(BUILD)/gen/layout.h: $(LAYOUT).py $(LAYOUT).txt $(BUILD)/gen/gl_tokens.h
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(CPPFLAGS) -std=c11 -E -P -MD -MP -MF $(@:.h=.dep) -MT $@ -include replay/index/snapshot_parts.h -x c /dev/null | \
+	$(Q)$(CC) $(CPPFLAGS) -std=c11 -E -P -MD -MP -MF $(@:.h=.dep) -MT $@ -include replay/index/snapshot_parts.h -x c - </dev/null | \
 		$(PYTHON) -B $(LAYOUT).py $(LAYOUT).txt $@
 -include $(BUILD)/gen/layout.dep
 
@@ -255,35 +253,33 @@ $(BUILD)/gen/page.c: diff/report/page.html
 	$(Q)(echo '#include "diff/report/report.h"'; echo 'const char report_page[] ='; \
 		sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $<; echo ';') >$@
 
-# Rebuilt when flags change. Nothing is compiled before what it needs is installed.
-$(BUILD)/flags: FORCE | $(BUILD)/deps
+# Rebuilt when flags change.
+FLAGS := $(CC) $(CPPFLAGS) $(ALL_CFLAGS) $(CXX) $(ALL_CXXFLAGS)
+ifneq ($(file <$(BUILD)/flags),$(FLAGS))
+$(BUILD)/flags: FORCE
+endif
+$(BUILD)/flags: | $(HAVE)
 	@mkdir -p $(@D)
-	@echo '$(CC) $(CPPFLAGS) $(ALL_CFLAGS) $(CXX) $(ALL_CXXFLAGS)' | cmp -s - $@ || \
-		echo '$(CC) $(CPPFLAGS) $(ALL_CFLAGS) $(CXX) $(ALL_CXXFLAGS)' >$@
+	@echo '$(FLAGS)' >$@
 
-deps: $(BUILD)/deps
-
-# What only one proof target needs stands in DEPS_NAME and is installed by $(BUILD)/deps.NAME. An index that cannot be read stops nothing
-# whose packages are known.
-define INSTALL
+# Nothing is compiled before the packages that it needs are there. `make` only says which are missing; INSTALLING goals install them first.
+$(HAVE): $(BUILD)/have.%: packaging/deps.txt | $(INSTALLING:%=$(BUILD)/deps.%)
 	@mkdir -p $(@D)
-	@missing=$$(printf '%s\n' $(1) | grep -vxF "$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(1) \
-		2>/dev/null | sed -n 's/^installed //p')"); \
-	if [ -n "$$missing" ]; then \
-		echo "installing from Debian:" $$missing "(see $@.log)"; \
-		[ "$$(id -u)" = 0 ] || sudo=sudo; \
-		export DEBIAN_FRONTEND=noninteractive; \
-		{ $$sudo apt-get -q update; $$sudo apt-get -q -y -o DPkg::Lock::Timeout=300 --no-install-recommends install $$missing; } \
-			>$@.log 2>&1 || { tail -n 20 $@.log; exit 1; }; \
-	fi
+	@packaging/deps.sh need $*
 	@touch $@
-endef
 
-$(BUILD)/deps: Makefile
-	$(call INSTALL,$(DEPS))
+deps: $(BUILD)/deps.deps
+deps-%: $(BUILD)/deps.% ;
 
-$(BUILD)/deps.%: Makefile
-	$(call INSTALL,$(DEPS_$*))
+$(BUILD)/deps.%: packaging/deps.txt
+	@mkdir -p $(@D)
+	@packaging/deps.sh install $* 2>$@.log || { tail -n 20 $@.log; exit 1; }
+	@touch $@
+
+# Programs that Debian has, beside those of the group.
+$(BUILD)/deps.sweep $(BUILD)/deps.sweep-record: $(BUILD)/deps.%: packaging/deps.txt tests/show/more_programs.py | $(BUILD)/deps.check
+	@packaging/deps.sh install $* -- $$($(PYTHON) -B tests/show/more_programs.py) 2>$@.log || { tail -n 20 $@.log; exit 1; }
+	@touch $@
 
 $(BUILD)/corpus/%: corpus/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -310,7 +306,9 @@ $(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/tracer/image/oiio_load
 $(BUILD)/tests/fuzz/test_stream: $(BUILD)/tests/fuzz/stream.o
 $(BUILD)/tests/fuzz/test_calls $(BUILD)/tests/fuzz/test_pictures $(BUILD)/tests/fuzz/test_stream: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter-out $(NOT_LINKED),$(filter %.a,$^)) $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter-out $(NOT_LINKED),$(filter %.a,$^)) $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS) $(LIBS_$(@F)) -lcheck -lsubunit -lm
+
+LIBS_test_blend := -lEGL -lGL
 
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c tests/check/host_cl.c) \
@@ -332,20 +330,18 @@ HOST_TESTS := $(addprefix $(BUILD)/tests/check/test_,rays camera shade compose)
 # With ONLY, what other tests need is left alone.
 HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny $(BUILD)/tests/fuzz/drive $(HOST_TESTS)
 BUILT_FOR_TESTS := $(HELPERS) $(addprefix $(BUILD)/tests/bench/,hits build queries)
-check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(BUILT_FOR_TESTS)
+check: all pages $(CORPUS) $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(BUILT_FOR_TESTS)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
-DEPS_demo := ffmpeg
 demo:
 	@corpus/demo.sh $(BUILD)
 
 # The picture at the head of README.md.
-DEPS_picture := ffmpeg
-picture: all $(BUILD)/deps.picture
+picture: all $(CORPUS)
 	@corpus/picture.sh $(BUILD)
 
-# Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
-# must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
+# Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. Group NAME of
+# packaging/deps.txt is what it alone needs installed, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
 SCRIPTS := bisect crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms sandbox sanitize seek \
 	film soak sweep sweep-record thesis
@@ -356,25 +352,6 @@ SHOWS += $(SCRIPTS:%=show-%)
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
 
-DEPS_parity := xdotool inventor-clients inventor-data inventor-demo billard-gl gltron neverball openarena crrcsim rss-glx \
-	xscreensaver-gl xscreensaver-gl-extra
-DEPS_sweep = xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx inventor-clients inventor-data inventor-demo openscenegraph \
-	geomview g3dviewer openscad mm3d meshlab avogadro pymol minetest minetest-data $(shell $(PYTHON) -B tests/show/more_programs.py)
-DEPS_sweep-record = $(DEPS_sweep)
-DEPS_crashes := extremetuxracer foobillardplus
-DEPS_cryptomatte := blender python3-numpy
-DEPS_devices := python3-venv oclgrind mesa-opencl-icd mesa-utils neverball xdotool xscreensaver-gl
-DEPS_film := ffmpeg chromium
-DEPS_export := blender python3-numpy
-DEPS_hooks := python3-numpy oclgrind
-DEPS_look := python3-yaml
-DEPS_metrics := python3-venv
-DEPS_oclgrind := oclgrind valgrind
-DEPS_page := chromium
-DEPS_path := blender python3-numpy
-DEPS_sandbox := strace
-DEPS_relit := extremetuxracer $(DEPS_parity)
-DEPS_thesis := povray blender python3-numpy
 NEEDS_devices = $(HELPERS) $(BUILD)/show/devices/intel/ready
 NEEDS_frames := $(BUILD)/tests/bench/frame_rays
 NEEDS_inject = $(HELPERS)
@@ -390,7 +367,7 @@ NEEDS_soak = $(HELPERS)
 NEEDS_sanitize := $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so $(BUILD)/sanitized/$s/threads)
 
 .SECONDEXPANSION:
-$(SCRIPTS:%=show-%): show-%: all $$(NEEDS_$$*) $$(if $$(DEPS_$$*),$(BUILD)/deps.$$*)
+$(SCRIPTS:%=show-%): show-%: all $$(CORPUS) $$(NEEDS_$$*) $(BUILD)/deps.$$*
 	@$(if $(filter $*,$(ON_SCREEN)),tests/xvfb.sh) $(PYTHON) -B tests/show/$(or $(SCRIPT_$*),$(subst -,_,$*)).py $(BUILD) $(ONLY:%=--only %)
 
 # What the house looks like: circles, sizes, repetitions.
@@ -406,7 +383,7 @@ $(addprefix $(BUILD)/tests/bench/,embree.o frame_rays.o): private ALL_CFLAGS += 
 $(BUILD)/tests/bench/build: $(BUILD)/tests/bench/embree_build.o
 $(BUILD)/tests/bench/queries: $(BUILD)/tests/bench/brute.o
 $(BENCHES): %: %.o $(BUILD)/parts.a
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS)
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(BUILD)/parts.a -l$$(test -e /usr/include/embree4 && echo embree4 || echo embree3) $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS)
 
 bench: $(BUILD)/tests/bench/embree
 	@$< --models $(MODELS) --json $(BUILD)/bench.json --command "make bench"
@@ -434,7 +411,6 @@ $(BUILD)/show/devices/intel/ready: | $(BUILD)/deps.devices
 	@touch $@
 
 SHOWS += show-denoise
-DEPS_denoise := python3-venv
 $(BUILD)/show/denoise/venv/ready: | $(BUILD)/deps.denoise
 	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q flip-evaluator==1.7 pyoidn==2.5.1.0
 	@touch $@
@@ -454,13 +430,11 @@ show-device-faults show-batch-faults: show-%: all $(HELPERS)
 	@tests/xvfb.sh $(PYTHON) tests/real/test_$(subst -,_,$*).py $(BUILD)
 
 # Not part of `make show`: piglit is 2 GB large, and each takes a quarter of an hour or more.
-DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
 
 # The same of its tests of ARB programs and of GLSL, panels of ours, what programs cost; ONLY=real: programs of other people.
-DEPS_real := xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx openscenegraph openscad mm3d meshlab avogadro pymol minetest minetest-data openarena
-show-programs: all $(HELPERS) $(CORPUS) $(BUILD)/tests/bench/translate $(BUILD)/deps.piglit $(if $(filter real,$(ONLY)),$(BUILD)/deps.real)
+show-programs: all $(HELPERS) $(CORPUS) $(BUILD)/tests/bench/translate $(BUILD)/deps.piglit $(if $(filter real,$(ONLY)),$(BUILD)/deps.programs)
 	@tests/xvfb.sh $(PYTHON) -B tests/show/stages.py $(BUILD) $(ONLY)
 
 # Not part of `make show`: faults put into our own sources, each behind a switch, and the tests run: hours. It goes on where it was stopped.
@@ -470,12 +444,10 @@ show-tests: all
 	@$(PYTHON) -B tests/show/tests.py $(BUILD) $(ONLY:%=--only %) $(TESTS_SECONDS:%=--seconds %)
 
 # Not part of `make show`: needs root, and minutes.
-DEPS_fresh := debootstrap
 show-fresh: $(BUILD)/deps.fresh
 	@tests/fresh.sh $(BUILD)
 
 # libFuzzer under sanitizers, a target for each reader: tests/fuzz/fuzz_NAME.c. What they find worth keeping goes into tests/fuzz/kept*.
-DEPS_fuzz := clang libclang-rt-14-dev
 FUZZ_SECONDS ?= 3600
 FUZZ_CC ?= clang
 FUZZ_CXX ?= clang++
@@ -557,7 +529,7 @@ install: all pages
 uninstall: pages
 	$(Q)packaging/install.sh uninstall '$(BUILD)' '$(PREFIX)' '$(DESTDIR)'
 
-deb: $(BUILD)/deps $(BUILD)/deps.deb
+deb: $(BUILD)/deps.deb
 	@packaging/deb.sh '$(BUILD)'
 
 clean:

@@ -11,7 +11,7 @@
  * clock on the wall; the ratio by processor time stands beside, for machines that have other work to do.
  * With --bars: exit code 0 where all kinds of rays reach their bars on both scenes, 1 where they do not.
  */
-#include <embree3/rtcore.h>
+#include "tests/bench/rtcore.h"
 #include <math.h>
 #include <pthread.h>
 #include <pmmintrin.h>
@@ -72,7 +72,7 @@ static inline void camera_direction(const struct bench *b, size_t i, float d[3])
 	d[2] = -1;
 }
 
-static void camera_1(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)
+static void camera_1(struct pass *p, struct peer_query *query, size_t first, size_t last)
 {
 	for (size_t i = first; i < last; i++) {
 		struct RTCRayHit r = { .ray = { .tnear = 0.1f, .tfar = 1e30f, .mask = ~0u }, .hit = { .geomID = ~0u } };
@@ -81,13 +81,13 @@ static void camera_1(struct pass *p, struct RTCIntersectContext *context, size_t
 		camera_direction(p->peer->bench, i, d);
 		r.ray.dir_x = d[0], r.ray.dir_y = d[1], r.ray.dir_z = d[2];
 		r.hit.instID[0] = ~0u;
-		rtcIntersect1(p->peer->scene, context, &r);
+		peer_intersect(p->peer->scene, query, &r);
 		p->hits[i] = (struct hit){ r.ray.tfar, r.hit.u, r.hit.v, r.hit.geomID, r.hit.primID };
 	}
 }
 
 #define CAMERA_N(N)                                                                                                    \
-	static void camera_##N(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)         \
+	static void camera_##N(struct pass *p, struct peer_query *query, size_t first, size_t last)         \
 	{                                                                                                              \
 		_Alignas(64) int valid[N];                                                                             \
 		for (int k = 0; k < N; k++)                                                                            \
@@ -103,7 +103,7 @@ static void camera_1(struct pass *p, struct RTCIntersectContext *context, size_t
 				r.ray.mask[k] = ~0u, r.ray.id[k] = r.ray.flags[k] = 0;                                 \
 				r.hit.geomID[k] = r.hit.instID[0][k] = ~0u;                                            \
 			}                                                                                              \
-			rtcIntersect##N(valid, p->peer->scene, context, &r);                                           \
+			PEER_INTERSECT(N, valid, p->peer->scene, query, &r);                                           \
 			for (int k = 0; k < N; k++)                                                                    \
 				p->hits[i + (size_t)k] = (struct hit){ r.ray.tfar[k], r.hit.u[k], r.hit.v[k],          \
 					                               r.hit.geomID[k], r.hit.primID[k] };             \
@@ -113,7 +113,7 @@ CAMERA_N(4)
 CAMERA_N(8)
 CAMERA_N(16)
 
-static void camera_1m(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)
+static void camera_1m(struct pass *p, struct peer_query *query, size_t first, size_t last)
 {
 	struct RTCRayHit r[256];
 
@@ -128,21 +128,21 @@ static void camera_1m(struct pass *p, struct RTCIntersectContext *context, size_
 			r[k].ray.dir_x = d[0], r[k].ray.dir_y = d[1], r[k].ray.dir_z = d[2];
 			r[k].hit.instID[0] = ~0u;
 		}
-		rtcIntersect1M(p->peer->scene, context, r, (unsigned)n, sizeof(*r));
+		peer_intersect_stream(p->peer->scene, query, r, (unsigned)n, sizeof(*r));
 		for (size_t k = 0; k < n; k++)
 			p->hits[i + k] = (struct hit){ r[k].ray.tfar, r[k].hit.u, r[k].hit.v, r[k].hit.geomID, r[k].hit.primID };
 	}
 }
 
 #define OCCLUDE_N(N)                                                                                                   \
-	static size_t occlude_##N(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)      \
+	static size_t occlude_##N(struct pass *p, struct peer_query *query, size_t first, size_t last)      \
 	{                                                                                                              \
 		struct RTCRay##N *rays = p->laid_out;                                                                  \
 		_Alignas(64) int valid[N];                                                                             \
 		for (int k = 0; k < N; k++)                                                                            \
 			valid[k] = -1;                                                                                 \
 		for (size_t i = first; i < last; i += N)                                                               \
-			rtcOccluded##N(valid, p->peer->scene, context, &rays[i / N]);                                  \
+			PEER_OCCLUDED(N, valid, p->peer->scene, query, &rays[i / N]);                                  \
 		return 0;                                                                                              \
 	}                                                                                                              \
 	static void lay_out_##N(const struct ray *rays, size_t n, void *out)                                           \
@@ -165,19 +165,19 @@ OCCLUDE_N(4)
 OCCLUDE_N(8)
 OCCLUDE_N(16)
 
-static void occlude_1(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)
+static void occlude_1(struct pass *p, struct peer_query *query, size_t first, size_t last)
 {
 	struct RTCRay *rays = p->laid_out;
 
 	for (size_t i = first; i < last; i++)
-		rtcOccluded1(p->peer->scene, context, &rays[i]);
+		peer_occluded(p->peer->scene, query, &rays[i]);
 }
 
-static void occlude_1m(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)
+static void occlude_1m(struct pass *p, struct peer_query *query, size_t first, size_t last)
 {
 	struct RTCRay *rays = p->laid_out;
 
-	rtcOccluded1M(p->peer->scene, context, &rays[first], (unsigned)(last - first), sizeof(*rays));
+	peer_occluded_stream(p->peer->scene, query, &rays[first], (unsigned)(last - first), sizeof(*rays));
 }
 
 static void lay_out_1(const struct ray *rays, size_t n, void *out)
@@ -221,44 +221,42 @@ static float far_of(const struct pass *p, size_t i)
 	}
 }
 
-static void do_task(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)
+static void do_task(struct pass *p, struct peer_query *query, size_t first, size_t last)
 {
 	const int camera = p->work == WORK_CAMERA;
 
 	switch (p->call) {
 	case CALL_1:
-		camera ? camera_1(p, context, first, last) : occlude_1(p, context, first, last);
+		camera ? camera_1(p, query, first, last) : occlude_1(p, query, first, last);
 		break;
 	case CALL_4:
-		camera ? camera_4(p, context, first, last) : (void)occlude_4(p, context, first, last);
+		camera ? camera_4(p, query, first, last) : (void)occlude_4(p, query, first, last);
 		break;
 	case CALL_8:
-		camera ? camera_8(p, context, first, last) : (void)occlude_8(p, context, first, last);
+		camera ? camera_8(p, query, first, last) : (void)occlude_8(p, query, first, last);
 		break;
 	case CALL_16:
-		camera ? camera_16(p, context, first, last) : (void)occlude_16(p, context, first, last);
+		camera ? camera_16(p, query, first, last) : (void)occlude_16(p, query, first, last);
 		break;
 	default:
-		camera ? camera_1m(p, context, first, last) : occlude_1m(p, context, first, last);
+		camera ? camera_1m(p, query, first, last) : occlude_1m(p, query, first, last);
 	}
 }
 
 static void *run_thread(void *arg)
 {
 	struct pass *p = arg;
-	struct RTCIntersectContext context;
+	struct peer_query query;
 
 	_MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
 	_MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-	rtcInitIntersectContext(&context);
-	context.flags = p->work == WORK_AMBIENT ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT
-	                                        : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+	peer_query_init(&query, p->work != WORK_AMBIENT);
 	for (;;) {
 		const size_t first = atomic_fetch_add(&p->next, TASK_RAYS);
 
 		if (first >= p->n)
 			return NULL;
-		do_task(p, &context, first, first + TASK_RAYS < p->n ? first + TASK_RAYS : p->n);
+		do_task(p, &query, first, first + TASK_RAYS < p->n ? first + TASK_RAYS : p->n);
 	}
 }
 

@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <embree3/rtcore.h>
+#include "tests/bench/rtcore.h"
 
 #include "render/bench/bench.h"
 

@@ -7,7 +7,7 @@
  * from what it hits one to each light that the surface faces. Both are laid out beforehand in packets of 4, 8 and 16 and as a stream;
  * the fastest counts. Prints processor milliseconds on one thread, medians: camera, shadow, and how many rays each are.
  */
-#include <embree3/rtcore.h>
+#include "tests/bench/rtcore.h"
 #include <math.h>
 #include <pmmintrin.h>
 #include <stdio.h>
@@ -46,30 +46,30 @@ enum { CALL_4, CALL_8, CALL_16, CALL_STREAM, N_CALLS };
 				packet[k * N] = from[k];                                                               \
 		}                                                                                                      \
 	}                                                                                                              \
-	static void trace_##N(RTCScene scene, struct RTCIntersectContext *context, const struct rays *rays, void *laid_out) \
+	static void trace_##N(RTCScene scene, struct peer_query *query, const struct rays *rays, void *laid_out) \
 	{                                                                                                              \
 		struct RTCRayHit##N *packets = laid_out;                                                               \
 		_Alignas(64) int valid[N];                                                                             \
 		memset(valid, 0xff, sizeof(valid));                                                                    \
 		for (size_t i = 0; i < rays->n / N; i++)                                                               \
 			if (rays->shadow)                                                                              \
-				rtcOccluded##N(valid, scene, context, &packets[i].ray);                                \
+				PEER_OCCLUDED(N, valid, scene, query, &packets[i].ray);                                \
 			else                                                                                           \
-				rtcIntersect##N(valid, scene, context, &packets[i]);                                   \
+				PEER_INTERSECT(N, valid, scene, query, &packets[i]);                                   \
 	}
 TRACE_N(4)
 TRACE_N(8)
 TRACE_N(16)
 
-static void trace_stream(RTCScene scene, struct RTCIntersectContext *context, const struct rays *rays, struct RTCRayHit *r)
+static void trace_stream(RTCScene scene, struct peer_query *query, const struct rays *rays, struct RTCRayHit *r)
 {
 	for (size_t i = 0; i < rays->n; i += STREAM) {
 		const unsigned n = (unsigned)(rays->n - i < STREAM ? rays->n - i : STREAM);
 
 		if (rays->shadow)
-			rtcOccluded1M(scene, context, &r[i].ray, n, sizeof(*r));
+			peer_occluded_stream(scene, query, &r[i].ray, n, sizeof(*r));
 		else
-			rtcIntersect1M(scene, context, &r[i], n, sizeof(*r));
+			peer_intersect_stream(scene, query, &r[i], n, sizeof(*r));
 	}
 }
 
@@ -83,11 +83,10 @@ static double cpu_clock_ms(void)
 
 static double trace_once(RTCScene scene, const struct rays *rays, int call, void *laid_out)
 {
-	struct RTCIntersectContext context;
+	struct peer_query query;
 	double begin;
 
-	rtcInitIntersectContext(&context);
-	context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+	peer_query_init(&query, 1);
 	switch (call) {
 	case CALL_4:
 		lay_out_4(rays, laid_out);
@@ -104,16 +103,16 @@ static double trace_once(RTCScene scene, const struct rays *rays, int call, void
 	begin = cpu_clock_ms();
 	switch (call) {
 	case CALL_4:
-		trace_4(scene, &context, rays, laid_out);
+		trace_4(scene, &query, rays, laid_out);
 		break;
 	case CALL_8:
-		trace_8(scene, &context, rays, laid_out);
+		trace_8(scene, &query, rays, laid_out);
 		break;
 	case CALL_16:
-		trace_16(scene, &context, rays, laid_out);
+		trace_16(scene, &query, rays, laid_out);
 		break;
 	default:
-		trace_stream(scene, &context, rays, laid_out);
+		trace_stream(scene, &query, rays, laid_out);
 	}
 	return cpu_clock_ms() - begin;
 }
@@ -218,15 +217,15 @@ static void add_shadow_rays(const struct scene *scene, const struct RTCRayHit *h
 
 static void make_shadow_rays(const struct scene *scene, RTCScene tree, const struct rays *camera, struct rays *rays)
 {
-	struct RTCIntersectContext context;
+	struct peer_query query;
 
 	rays->shadow = 1;
 	rays->r = calloc(camera->n * (scene->n_lights + (size_t)1) + 16, sizeof(*rays->r));
-	rtcInitIntersectContext(&context);
+	peer_query_init(&query, 0);
 	for (size_t i = 0; i < camera->n; i++) {
 		struct RTCRayHit hit = camera->r[i];
 
-		rtcIntersect1(tree, &context, &hit);
+		peer_intersect(tree, &query, &hit);
 		add_shadow_rays(scene, &hit, rays);
 	}
 	rays->n -= rays->n % 16;

@@ -21,7 +21,7 @@
  *   wrong            everything else: the side that lacks a sure, nearer hit or has a sure miss
  * Exit code 0 where ours is never wrong.
  */
-#include <embree3/rtcore.h>
+#include "tests/bench/rtcore.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -195,13 +195,13 @@ static void open_peer(RTCDevice peer, struct world *w)
 
 static uint32_t trace_peer(const struct world *w, const struct ray *ray)
 {
-	struct RTCIntersectContext context;
+	struct peer_query query;
 	struct RTCRayHit r = { .ray = { .org_x = ray->o[0], .org_y = ray->o[1], .org_z = ray->o[2], .dir_x = ray->d[0],
 		                        .dir_y = ray->d[1], .dir_z = ray->d[2], .tnear = ray->t_min, .tfar = ray->t_max, .mask = ~0u },
 		               .hit = { .geomID = RTC_INVALID_GEOMETRY_ID } };
 
-	rtcInitIntersectContext(&context);
-	rtcIntersect1(w->peer, &context, &r);
+	peer_query_init(&query, 0);
+	peer_intersect(w->peer, &query, &r);
 	return r.hit.geomID == RTC_INVALID_GEOMETRY_ID ? SCENE_NONE : r.hit.primID;
 }
 

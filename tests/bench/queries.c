@@ -9,7 +9,7 @@
  * for each thread of ours; medians of five, by the clock on the wall, alternating.
  * Exit code 0 where no answer is wrong.
  */
-#include <embree3/rtcore.h>
+#include "tests/bench/rtcore.h"
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -214,11 +214,10 @@ static void *trace_share(void *user)
 	struct peer *p = user;
 
 	for (uint32_t i = p->first; i < p->last; i += 256) {
-		struct RTCIntersectContext context;
+		struct peer_query query;
 
-		rtcInitIntersectContext(&context);
-		context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-		rtcIntersect1M(p->scene, &context, &p->rays[i], p->last - i < 256 ? p->last - i : 256, sizeof(*p->rays));
+		peer_query_init(&query, 0);
+		peer_intersect_stream(p->scene, &query, &p->rays[i], p->last - i < 256 ? p->last - i : 256, sizeof(*p->rays));
 	}
 	return NULL;
 }

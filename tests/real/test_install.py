@@ -12,10 +12,15 @@ PLACE = SCRATCH / "place"
 PREFIX = PLACE / "usr"
 
 
-def make(target):
-    return run("make", "-C", ROOT, "--no-print-directory", target, f"BUILD={os.path.relpath(BUILD, ROOT)}", "PREFIX=/usr", f"DESTDIR={PLACE}")
+def make(target, *options):
+    return run("make", "-C", ROOT, "--no-print-directory", *options, target, f"BUILD={os.path.relpath(BUILD, ROOT)}", "PREFIX=/usr", f"DESTDIR={PLACE}")
 
 
+# Other tests use what is built while this one runs: nothing may be built again. A second `make` has nothing to do.
+for target in "all", "pages":
+    again = make(target, "-n").stdout
+    if not check("Nothing to be done" in again, f"make {target} would build again: {again[:1000]}"):
+        finish()
 must(make("install"))
 relume = PREFIX / "bin/relume"
 version = re.search(r'RELUME_VERSION "(.*)"', (ROOT / "base/version.h").read_text())[1]
