@@ -18,7 +18,7 @@ MAKEFLAGS += -j$(shell nproc)
 endif
 # Groups of packages (packaging/deps.txt): what must be there, and what these goals install.
 HAVE := $(BUILD)/have.$(if $(filter core,$(MAKECMDGOALS)),core,build)
-INSTALLING := $(if $(filter bench check deps fuzz fuzz-keep golden-update show show-% test-programs,$(MAKECMDGOALS)),check) \
+INSTALLING := $(if $(filter-out show-suites,$(filter bench check deps fuzz fuzz-keep golden-update show show-% test-programs,$(MAKECMDGOALS))),check) \
 	$(filter deb picture,$(MAKECMDGOALS))
 PYTHON := /usr/bin/python3
 Q := $(if $(V),,@)
@@ -443,9 +443,10 @@ test-programs: all $(TESTS) $(BUILT_FOR_TESTS)
 show-tests: all
 	@$(PYTHON) -B tests/show/tests.py $(BUILD) $(ONLY:%=--only %) $(TESTS_SECONDS:%=--seconds %)
 
-# Not part of `make show`: needs root, and minutes.
-show-fresh: $(BUILD)/deps.fresh
-	@tests/fresh.sh $(BUILD)
+# Not part of `make show`: README's commands in bare chroots of Debian's releases. Needs root, and most of an hour for each; SUITE=NAME for one.
+SUITE ?=
+show-suites: $(BUILD)/deps.suites
+	@$(PYTHON) -B tests/show/suites.py $(BUILD) $(SUITE:%=--only %)
 
 # libFuzzer under sanitizers, a target for each reader: tests/fuzz/fuzz_NAME.c. What they find worth keeping goes into tests/fuzz/kept*.
 FUZZ_SECONDS ?= 3600
@@ -536,7 +537,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: picture all i386 windows deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-programs test-programs show-tests show-fresh \
+.PHONY: picture all i386 windows deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-programs test-programs show-tests show-suites \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(GLSL_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
