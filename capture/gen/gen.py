@@ -60,6 +60,8 @@ class Overlay:
         elif word == "header":
             file, _, names = rest.partition(" ")
             self.header(number, file, self.pattern(number, names.strip()))
+        elif word == "command":
+            self.commands.update([registry.read_prototype(rest) or self.fail(number, "command needs a prototype")])
         elif word in self.STATEMENTS:
             patterns, more = self.STATEMENTS[word]
             fields = rest.split(None, patterns) if more else [rest, ""]

@@ -76,11 +76,19 @@ def read_header(file_name):
     """{name: Command} of a header's prototypes: "EGLAPI EGLint EGLAPIENTRY eglGetError (void);"."""
     with open(f"/usr/include/{file_name}", encoding="utf-8") as stream:
         text = re.sub(r"/\*.*?\*/", " ", stream.read(), flags=re.S)
-    commands = {}
-    for result, name, params in re.findall(r"\b(?:EGL|GL)API\s+([^;()]+?)\s*\b\w*APIENTRY\s+(\w+)\s*\(([^;]*?)\)\s*;", text):
-        declared = [re.fullmatch(r"\s*(.+?)(\w+)\s*", part, re.S) for part in params.split(",") if part.strip() != "void"]
-        commands[name] = Command(name, _plain(result), [Param(match[2], _plain(match[1])) for match in declared])
-    return commands
+    return dict(map(_prototype, re.findall(r"\b(?:EGL|GL)API\s+([^;()]+?)\s*\b\w*APIENTRY\s+(\w+)\s*\(([^;]*?)\)\s*;", text)))
+
+
+def read_prototype(text):
+    """name, Command of one prototype: "void *OSMesaCreateContext(GLenum format, void *sharelist)". None: it is no prototype."""
+    match = re.fullmatch(r"(.+?)\s*\b(\w+)\((.*)\)", text)
+    return match and _prototype(match.groups())
+
+
+def _prototype(parts):
+    result, name, params = parts
+    declared = [re.fullmatch(r"\s*(.+?)(\w+)\s*", part, re.S) for part in params.split(",") if part.strip() != "void"]
+    return name, Command(name, _plain(result), [Param(match[2], _plain(match[1])) for match in declared])
 
 
 @dataclass
