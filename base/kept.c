@@ -10,7 +10,7 @@
 #include "base/folder.h"
 #include "base/part.h"
 
-static const char magic[8] = "relume\002\n"; /* its end shows files that were sent as text */
+static const char magic[8] = { 'r', 'e', 'l', 'u', 'm', 'e', 2, '\n' }; /* the end shows files that were sent as text */
 
 struct header {
 	char magic[8];

@@ -293,7 +293,11 @@ static exr_result_t read_chunk(exr_context_t file, const struct image *img, exr_
 
 static exr_result_t read_chunks(exr_context_t file, const struct image *img, int32_t y_first)
 {
+	/* OpenEXR 3.4 initializes its size alone, which GCC warns about. */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 	exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
+#pragma GCC diagnostic pop
 	struct exr_zip zip = { 0 };
 	int32_t rows = 1;
 	exr_result_t rc = exr_get_scanlines_per_chunk(file, 0, &rows);
