@@ -39,8 +39,14 @@ struct streams {
 	uint8_t last_even, last_odd; /* the bytes before */
 };
 
+#ifdef __x86_64__
+#define FOR_WIDTHS __attribute__((target_clones("avx2", "default"), optimize("O3")))
+#else
+#define FOR_WIDTHS /* vectors are part of the processor's own base */
+#endif
+
 /* Append pairs of bytes. */
-__attribute__((target_clones("avx2", "default"), optimize("O3")))
+FOR_WIDTHS
 static void split(struct streams *s, const uint16_t *restrict in, size_t n)
 {
 	uint8_t *restrict even = s->even, *restrict odd = s->odd;
