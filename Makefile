@@ -50,15 +50,11 @@ COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 # The bridge to OpenImageIO, which the command loads when a picture needs it, and what of the command it calls.
 OIIO_OBJ := $(addprefix $(BUILD)/,$(addprefix tracer/image/,oiio.o heads.o image.o pack.o exr_pack.o) base/err.o base/memory.o)
 
-# The same for glslang, which the command loads when a recording has GLSL.
-LIBS_GLSL := -Wl,--as-needed -Wl,--start-group -l:libglslang.a -l:libMachineIndependent.a -l:libGenericCodeGen.a -l:libOGLCompiler.a -l:libOSDependent.a -Wl,--end-group
-GLSL_OBJ := $(BUILD)/replay/glsl/bridge.o $(BUILD)/base/err.o
-
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c corpus/wayland/*.c)) $(BUILD)/corpus/rooms
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c tests/bench/translate.c tests/fuzz/drive.c tests/fuzz/make_seeds.c)
 
-all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/relume-oiio.so $(BUILD)/relume-glsl.so $(BUILD)/visual/libGL.so.1
+all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/relume-oiio.so $(BUILD)/visual/libGL.so.1
 
 # What `make demo` needs of it.
 core: $(BUILD)/relume $(BUILD)/librelume.so
@@ -83,13 +79,6 @@ $(BUILD)/%.o: %.cpp $(BUILD)/flags
 
 $(BUILD)/relume-oiio.so: $(OIIO_OBJ)
 	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -shared -Wl,-Bsymbolic -o $@ $^ $(LIBS_OIIO) $(LIBS)
-
-$(BUILD)/relume-glsl.so: $(GLSL_OBJ)
-	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -shared -Wl,-Bsymbolic -Wl,--exclude-libs,ALL -o $@ $^ $(LIBS_GLSL) $(LIBS)
-
-# glslang comes without the tables of types that this check wants.
-$(BUILD)/replay/glsl/bridge.o: private ALL_CXXFLAGS += $(if $(SAN),-fno-sanitize=vptr)
-$(BUILD)/fuzz/objects/replay/glsl/bridge.o: private FUZZ_CFLAGS += -fno-sanitize=vptr
 
 # Stands before libGL, under its name, for glretrace.
 $(BUILD)/visual/libGL.so.1: $(VISUAL_SRC) $(BUILD)/flags
@@ -298,15 +287,14 @@ $(BUILD)/corpus/rooms: $(wildcard corpus/rooms/*.[ch]) corpus/program.h $(BUILD)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -o $@ $(filter %.c,$^) -lglut -lGLU -lGL -lm
 
 # Tests are linked with everything of the command but its main function, and with the bridge itself.
-$(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/tracer/image/oiio_load.o $(BUILD)/replay/glsl/load.o,$(COMMAND_OBJ)) $(BUILD)/tracer/image/oiio.o \
-		$(BUILD)/replay/glsl/bridge.o
+$(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/tracer/image/oiio_load.o,$(COMMAND_OBJ)) $(BUILD)/tracer/image/oiio.o
 	@rm -f $@
 	$(Q)$(AR) rcs $@ $^
 
 $(BUILD)/tests/fuzz/test_stream: $(BUILD)/tests/fuzz/stream.o
 $(BUILD)/tests/fuzz/test_calls $(BUILD)/tests/fuzz/test_pictures $(BUILD)/tests/fuzz/test_stream: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter-out $(NOT_LINKED),$(filter %.a,$^)) $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS) $(LIBS_$(@F)) -lcheck -lsubunit -lm
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter-out $(NOT_LINKED),$(filter %.a,$^)) $(LIBS_OIIO) $(LIBS) $(LIBS_$(@F)) -lcheck -lsubunit -lm
 
 LIBS_test_blend := -lEGL -lGL
 
@@ -383,7 +371,7 @@ $(addprefix $(BUILD)/tests/bench/,embree.o frame_rays.o): private ALL_CFLAGS += 
 $(BUILD)/tests/bench/build: $(BUILD)/tests/bench/embree_build.o
 $(BUILD)/tests/bench/queries: $(BUILD)/tests/bench/brute.o
 $(BENCHES): %: %.o $(BUILD)/parts.a
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(BUILD)/parts.a -l$$(test -e /usr/include/embree4 && echo embree4 || echo embree3) $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS)
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(BUILD)/parts.a -l$$(test -e /usr/include/embree4 && echo embree4 || echo embree3) $(LIBS_OIIO) $(LIBS)
 
 bench: $(BUILD)/tests/bench/embree
 	@$< --models $(MODELS) --json $(BUILD)/bench.json --command "make bench"
@@ -454,10 +442,10 @@ FUZZ_CC ?= clang
 FUZZ_CXX ?= clang++
 FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_SRC := $(filter-out tracer/image/oiio_load.c,$(wildcard $(patsubst %,%/*.c,base capture/format scene scene/repair look look/apply farm $(addprefix diff/,rules baseline score pictures) \
-	$(addprefix tracer/,image device) kernels/ref))) $(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(filter-out replay/glsl/load.c,$(REPLAY_SRC)) render/stamp.c \
+	$(addprefix tracer/,image device) kernels/ref))) $(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(REPLAY_SRC) render/stamp.c \
 	$(addprefix capture/write/,pages.c values.c) $(addprefix tests/fuzz/,calls.c stream.c target.c)
 FUZZ_GEN := $(patsubst $(BUILD)/%.c,$(BUILD)/fuzz/objects/%.o,$(filter-out %/page.c,$(COMMAND_GEN)) $(BUILD)/gen/fuzz_commands.c) $(BUILD)/fuzz/objects/gen/enums.o
-FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/tracer/image/oiio.o $(BUILD)/fuzz/objects/replay/glsl/bridge.o $(FUZZ_GEN)
+FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/tracer/image/oiio.o $(FUZZ_GEN)
 FUZZ_SAN := -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 FUZZ_CFLAGS := $(CPPFLAGS) -I$(BUILD)/recorder/gen -O1 -g -ffp-contract=off -pthread -MMD -MP $(FUZZ_SAN)
 $(BUILD)/fuzz/objects/%.o: %.c | $(GENERATED_H) $(BUILD)/deps.fuzz
@@ -481,7 +469,7 @@ $(BUILD)/fuzz/parts.a: $(FUZZ_OBJ)
 	$(Q)$(AR) rcs $@ $^
 
 $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%): $(BUILD)/fuzz/%: $(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.o $(BUILD)/fuzz/parts.a
-	$(Q)$(FUZZ_CXX) -fsanitize=fuzzer,address,undefined -pthread -o $@ $^ $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS)
+	$(Q)$(FUZZ_CXX) -fsanitize=fuzzer,address,undefined -pthread -o $@ $^ $(LIBS_OIIO) $(LIBS)
 
 # The same targets in one program, without libFuzzer: what was kept, and mutants. Each is named anew for that. Of the command it has what they have:
 # it does not link where FUZZ_SRC lacks something.
@@ -540,5 +528,5 @@ FORCE:
 .PHONY: picture all i386 windows deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-programs test-programs show-tests show-suites \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
--include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(GLSL_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
+-include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
 	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(DRIVE_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)

@@ -4,7 +4,6 @@
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/err.h"
@@ -19,14 +18,6 @@ static struct {
 	const char *recording;
 	struct limits limits;
 } watched;
-
-/* What limits_read was told. */
-static struct {
-	pthread_mutex_t lock;
-	const char *what; /* NULL: nothing is read */
-	clockid_t clock;  /* its thread's */
-	double end_s, most_s;
-} text = { .lock = PTHREAD_MUTEX_INITIALIZER };
 
 struct limits limits_of_reader(uint64_t recording_bytes)
 {
@@ -59,24 +50,6 @@ static void end_now(void)
 	_exit(-ERR_SYSTEM);
 }
 
-static double seconds_of(clockid_t clock)
-{
-	struct timespec now = { 0 };
-
-	clock_gettime(clock, &now);
-	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static void look_at_text(void)
-{
-	pthread_mutex_lock(&text.lock);
-	if (text.what && seconds_of(text.clock) > text.end_s) {
-		err_report(ERR_SYSTEM, watched.recording, "%s takes more than %g s of processor time to read; --no-sandbox lifts this limit", text.what, text.most_s);
-		end_now();
-	}
-	pthread_mutex_unlock(&text.lock);
-}
-
 static void *look(void *unused)
 {
 	const struct limits *l = &watched.limits;
@@ -93,7 +66,6 @@ static void *look(void *unused)
 			           l->processor_s);
 			end_now();
 		}
-		look_at_text();
 		nanosleep(&wait, NULL);
 	}
 	return unused;
@@ -116,13 +88,4 @@ void limits_begin(const char *recording, const struct limits *limits)
 		pthread_attr_destroy(&attr);
 	}
 	pthread_sigmask(SIG_SETMASK, &before, NULL);
-}
-
-void limits_read(const char *what, double most_s)
-{
-	pthread_mutex_lock(&text.lock);
-	text.what = what && pthread_getcpuclockid(pthread_self(), &text.clock) == 0 ? what : NULL;
-	text.most_s = most_s;
-	text.end_s = text.what ? seconds_of(text.clock) + most_s : 0;
-	pthread_mutex_unlock(&text.lock);
 }

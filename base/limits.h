@@ -26,10 +26,3 @@ struct limits limits_of_tracer(uint64_t recording_bytes);
  * @param recording  named by the line; borrowed
  */
 void limits_begin(const char *recording, const struct limits *limits);
-
-/**
- * Text of the recording is now read by others' code, which has no limit of its own: more than most_s of this thread's processor time ends the
- * process likewise. NULL: that is done. One thread at a time; without limits_begin nothing is watched.
- * @param what  named by the line; borrowed until it is done
- */
-void limits_read(const char *what, double most_s);

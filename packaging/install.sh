@@ -36,7 +36,6 @@ if [ "$verb" = uninstall ] || [ -e "$build/$i386" ]; then
 	place 644 "$build/librelume.so" lib/relume/lib/x86_64-linux-gnu/librelume.so
 fi
 place 644 "$build/relume-oiio.so" lib/relume/relume-oiio.so
-place 644 "$build/relume-glsl.so" lib/relume/relume-glsl.so
 place 644 "$build/librelume-rays.so" lib/relume/librelume-rays.so
 place 644 capture/relume.h include/relume.h
 place 644 query/relume-rays.h include/relume-rays.h

@@ -186,6 +186,9 @@ void gls_exec_destroy(struct gls_exec **exec)
 	free(x->counts.errors);
 	free(x->counts.why);
 	free(x->counts.error_code);
+	for (uint32_t i = 0; i < x->counts.n_reasons; i++)
+		free(x->counts.reasons[i]);
+	free(x->counts.reasons);
 	free(x);
 	*exec = NULL;
 }

@@ -108,7 +108,7 @@ int gls_shader_translate(struct gls_shader *program, int keeps)
 	for (unsigned stage = 0; stage < N_GLS_STAGES; stage++)
 		program_code_free(&program->stages.code[stage]);
 	memset(&program->uniforms, 0, sizeof(program->uniforms));
-	err = glsl_translate(&sources, program->stages.code, &program->uniforms, &program->stages.why);
+	err = glsl_translate(&sources, program->stages.code, &program->uniforms, program->message, &program->stages.why);
 	if (!err)
 		err = set_given_locations(program);
 	if (keeps && before.n_values == program->uniforms.n_values && before.n_values)

@@ -23,6 +23,7 @@ struct gls_shader {
 	struct glsl_attribute *attributes; /* owned, names too */
 	uint32_t n_attributes, attribute_room;
 	struct glsl_uniforms uniforms;
+	char message[GLSL_MESSAGE]; /* stages.why, where that names a line */
 	struct table locations; /* what the program was told -> 1 + (number in uniforms.list << 32 | element) */
 	uint32_t other_stages;  /* 1: with shaders of neither stage */
 };

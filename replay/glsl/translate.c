@@ -6,6 +6,7 @@
 #include "base/err.h"
 #include "replay/glsl/expression.h"
 #include "replay/glsl/links.h"
+#include "replay/glsl/parse/parse.h"
 #include "replay/glsl/roots.h"
 #include "replay/glsl/state.h"
 #include "replay/glsl/statement.h"
@@ -215,7 +216,8 @@ static int write_stage(struct glsl_writer *w, const char **why)
 	return w->err;
 }
 
-int glsl_translate(const struct glsl_sources *sources, struct program_code code[2], struct glsl_uniforms *uniforms, const char **why)
+int glsl_translate(const struct glsl_sources *sources, struct program_code code[2], struct glsl_uniforms *uniforms, char *message,
+		   const char **why)
 {
 	struct glsl_links *links = calloc(1, sizeof(*links));
 	struct glsl_writer *w = calloc(1, sizeof(*w));
@@ -231,7 +233,7 @@ int glsl_translate(const struct glsl_sources *sources, struct program_code code[
 		if (n > MAX_SOURCE)
 			*why = "a shader is longer than is done";
 		else if (sources->n_texts[stage])
-			err = glsl_parse(sources->texts[stage], sources->n_texts[stage], stage, &trees[stage], why);
+			err = glsl_parse(sources->texts[stage], sources->n_texts[stage], stage, &trees[stage], message, why);
 		if (!err && !*why && sources->n_texts[stage])
 			err = glsl_uniforms_add(uniforms, &trees[stage], why);
 		if (!err && !*why && sources->n_texts[stage])

@@ -4,7 +4,7 @@
 #include <stdint.h>
 
 #include "replay/programs/code.h"
-#include "replay/glsl/tree.h"
+#include "replay/glsl/parse/tree.h"
 #include "replay/glsl/uniforms.h"
 
 /* What is linked. A stage without texts is fixed function's. */
@@ -18,7 +18,9 @@ struct glsl_sources {
 /**
  * @param code      [2], by enum glsl_stage, all zero; to be freed with program_code_free whatever is returned
  * @param uniforms  all zero; to be freed likewise. Their first values are those of the text
- * @param why       receives NULL, or what stands in the way: a static string
+ * @param message   [GLSL_MESSAGE] room for a reason
+ * @param why       receives NULL, or what stands in the way: a static string, or `message`
  * @return 0, also where *why is set, or ERR_SYSTEM (reported)
  */
-int glsl_translate(const struct glsl_sources *sources, struct program_code code[2], struct glsl_uniforms *uniforms, const char **why);
+int glsl_translate(const struct glsl_sources *sources, struct program_code code[2], struct glsl_uniforms *uniforms, char *message,
+		   const char **why);

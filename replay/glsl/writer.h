@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 #include "replay/programs/code.h"
-#include "replay/glsl/tree.h"
+#include "replay/glsl/parse/tree.h"
 #include "replay/glsl/uniforms.h"
 
 struct glsl_value {

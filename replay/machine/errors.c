@@ -1,14 +1,17 @@
 #include "replay/machine/errors.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "capture/format/call.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
 
 #define REPEATED (1u << 16)
 #define REPEATED_A_CALL 128
+#define MOST_REASONS 64
 
 const char gls_needs_renderer[] = "needs pixels that were drawn: only a renderer has them";
 const char gls_programs[] = "programs: drawn as fixed function";
@@ -18,6 +21,22 @@ void gls_error(struct gls_exec *x, struct gls_state *st, uint32_t error)
 	gls_set_error(st, error);
 	x->counts.errors[x->command]++;
 	x->counts.error_code[x->command] = error;
+}
+
+const char *gls_reason(struct gls_exec *x, const char *why)
+{
+	struct gls_counts *counts = &x->counts;
+	char *copy = NULL;
+
+	for (uint32_t i = counts->n_reasons; i-- > 0;)
+		if (strcmp(counts->reasons[i], why) == 0)
+			return counts->reasons[i];
+	if (counts->n_reasons < MOST_REASONS && MEMORY_GROW(counts->reasons, counts->reason_room, counts->n_reasons + 1) == 0)
+		copy = strdup(why);
+	if (!copy)
+		return "a program's shaders do not compile here";
+	counts->reasons[counts->n_reasons++] = copy;
+	return copy;
 }
 
 void gls_unsupported(struct gls_exec *x, const char *why)

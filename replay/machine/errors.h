@@ -26,7 +26,10 @@ static inline bool gls_refuses_by(struct gls_exec *x, struct gls_state *st, uint
 	return gls_refuses(x, st, error != 0, error);
 }
 
-/** Count the current call as not done. why: the part that is missing, a static string. */
+/** A program's reason, as a string that lives as long as what is counted: the program may be linked again, or go. */
+const char *gls_reason(struct gls_exec *x, const char *why);
+
+/** Count the current call as not done. why: the part that is missing; lives as long as what is counted. */
 void gls_unsupported(struct gls_exec *x, const char *why);
 
 /** What gls_unsupported says of calls that need pixels where nothing renders. */

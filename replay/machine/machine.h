@@ -29,7 +29,9 @@ struct gls_counts {
 	uint64_t programs;                      /* draws by one that is not run */
 	struct table program_draws;             /* gls_program_current -> draws, of all that are used */
 	uint64_t programs_used;                 /* calls that make a program object current that is not run */
-	const char *programs_why;               /* what stood in the way of the last one; a static string */
+	const char *programs_why;               /* what stood in the way of the last one; lives as long as these */
+	char **reasons;                         /* owned: what programs said that may be gone by now */
+	uint32_t n_reasons, reason_room;
 	uint64_t window;                        /* of the first frame */
 	int several_windows;                    /* 1: another frame ended in another one */
 };

@@ -17,7 +17,7 @@ struct gls_held {
 struct gls_stages {
 	uint32_t linked;          /* 1: it was */
 	uint32_t links;           /* how often */
-	const char *why;          /* what stands in the way of running it; a static string, NULL: nothing */
+	const char *why;          /* what stands in the way of running it, until it is linked again; NULL: nothing */
 	uint32_t runs[N_GLS_STAGES]; /* 1: it has such shaders; else fixed function runs the stage */
 	struct program_code code[N_GLS_STAGES];
 	const float (*uniforms)[4]; /* borrowed; parameters of both, as of struct program_stage.local */

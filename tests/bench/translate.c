@@ -43,9 +43,10 @@ int main(void)
 		struct program_code code[2] = { 0 };
 		struct glsl_uniforms uniforms = { 0 };
 		const char *why = NULL;
+		char message[GLSL_MESSAGE];
 		const double begin = processor_ms();
 
-		if (glsl_translate(&sources, code, &uniforms, &why) || why) {
+		if (glsl_translate(&sources, code, &uniforms, message, &why) || why) {
 			fprintf(stderr, "translate: %s\n", why ? why : "failed");
 			return 1;
 		}

@@ -14,6 +14,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	const uint32_t stage = size ? data[0] & 1 : 0;
 	char *text = malloc(size + 1);
 	const char *const texts[1] = { text }, *why;
+	char message[GLSL_MESSAGE];
 
 	if (!text)
 		return 0;
@@ -22,7 +23,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	text[size ? size - 1 : 0] = 0;
 	sources.texts[stage] = texts;
 	sources.n_texts[stage] = 1;
-	if (!glsl_translate(&sources, code, &uniforms, &why) && !why)
+	if (!glsl_translate(&sources, code, &uniforms, message, &why) && !why)
 		code_check(&code[stage], stage == GLSL_VERTEX_STAGE ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR, code[stage].n_samplers);
 	for (unsigned i = 0; i < 2; i++)
 		program_code_free(&code[i]);

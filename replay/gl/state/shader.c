@@ -92,7 +92,7 @@ static void use_program(struct gls_exec *x, struct gls_state *st, uint32_t progr
 	lack = program ? gls_program_lack(st) : NULL;
 	if (lack) {
 		x->counts.programs_used++;
-		x->counts.programs_why = lack;
+		x->counts.programs_why = gls_reason(x, lack);
 	}
 	if (old && old->deleted)
 		delete(st, before);

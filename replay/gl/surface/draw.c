@@ -46,7 +46,7 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 			gls_fail(x);
 	if (added && (lack = gls_program_lack(st))) {
 		x->counts.programs++;
-		gls_unsupported(x, lack);
+		gls_unsupported(x, gls_reason(x, lack));
 	}
 }
 

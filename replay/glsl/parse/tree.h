@@ -1,17 +1,11 @@
-/*
- * A GLSL shader as its parser understood it, in plain C: types, symbols and nodes in flat arrays. The one bridge to glslang (bridge.cpp), in
- * relume-glsl.so, fills it; nothing else includes glslang's headers. The library is loaded when the first shader is linked.
- */
+/* A GLSL shader as its parser understood it: types, symbols and nodes in flat arrays. parse.h fills it. */
 #pragma once
 
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 #define GLSL_NONE UINT32_MAX
+#define GLSL_MESSAGE 120 /* bytes of a reason that names a line */
 
 enum glsl_kind { GLSL_VOID, GLSL_FLOAT, GLSL_INT, GLSL_UINT, GLSL_BOOL, GLSL_SAMPLER, GLSL_ARRAY, GLSL_STRUCT };
 enum glsl_texture { GLSL_TEXTURE_1D, GLSL_TEXTURE_2D, GLSL_TEXTURE_3D, GLSL_TEXTURE_CUBE, GLSL_TEXTURE_RECTANGLE, GLSL_TEXTURE_OTHER };
@@ -103,17 +97,4 @@ struct glsl_tree {
 
 enum glsl_stage { GLSL_VERTEX_STAGE, GLSL_FRAGMENT_STAGE };
 
-/**
- * Parse the texts of a stage.
- * @param texts  n of them, each a shader object's
- * @param tree   all zero; filled, and to be freed with glsl_tree_free whatever is returned
- * @param why    receives NULL, or what stands in the way: a static string
- * @return 0, also where *why is set, or ERR_SYSTEM (reported)
- */
-int glsl_parse(const char *const *texts, uint32_t n, enum glsl_stage stage, struct glsl_tree *tree, const char **why);
-
 void glsl_tree_free(struct glsl_tree *tree);
-
-#ifdef __cplusplus
-}
-#endif

@@ -1,4 +1,4 @@
-#include "replay/glsl/tree.h"
+#include "replay/glsl/parse/tree.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,0 +1,285 @@
+#include "replay/glsl/parse/declaration.h"
+
+#include <string.h>
+
+#include "replay/glsl/parse/convert.h"
+#include "replay/glsl/parse/expression.h"
+#include "replay/glsl/parse/keywords.h"
+#include "replay/glsl/parse/parser.h"
+#include "replay/glsl/parse/scope.h"
+
+/* --- Types -------------------------------------------------------------------------------------------------------------- */
+
+struct members {
+	struct parse_member *at;
+	uint32_t n, room;
+};
+
+/* Up to '}'. */
+static void read_members(struct parse *p, struct members *list)
+{
+	do {
+		const struct parse_type *type;
+
+		parse_qualifiers(p);
+		type = parse_specifier(p);
+		if (type->kind == GLSL_VOID)
+			parse_error(p, "a member is void");
+		do {
+			struct parse_name *name = parse_identifier(p);
+			const struct parse_type *own = parse_array_lengths(p, type);
+
+			for (uint32_t i = 0; i < list->n; i++)
+				if (list->at[i].name == name)
+					parse_error(p, "there are two members '%s'", name->text);
+			if (list->n >= PARSE_MAX_NUMBERS / 16)
+				parse_refuse(p, "a shader has a structure with more members than are done");
+			list->at = parse_grow(p, list->at, list->n, &list->room, sizeof(*list->at));
+			list->at[list->n++] = (struct parse_member){ name, own };
+		} while (parse_accept(p, ','));
+		parse_expect(p, ';');
+	} while (!parse_accept(p, '}'));
+}
+
+/* Behind `struct`. */
+static const struct parse_type *read_structure(struct parse *p)
+{
+	struct parse_name *name = parse_is_sign(&p->now, '{') ? parse_name(p, "", 0) : parse_identifier(p);
+	struct members members = { 0 };
+	const struct parse_type *type;
+
+	parse_enter(p);
+	parse_expect(p, '{');
+	read_members(p, &members);
+	for (uint32_t i = 0; i < members.n; i++)
+		if (members.at[i].type->kind == GLSL_ARRAY && !members.at[i].type->length)
+			parse_error(p, "the member '%s' has no length", members.at[i].name->text);
+	type = parse_type_structure(p, name, members.at, members.n);
+	if (name->n)
+		parse_bind(p, name, NULL, type);
+	parse_leave(p);
+	return type;
+}
+
+const struct parse_type *parse_specifier(struct parse *p)
+{
+	const struct parse_type *type = parse_accept_word(p, PARSE_STRUCT) ? read_structure(p) : parse_named_type(p);
+
+	if (!type)
+		parse_unexpected(p);
+	if (parse_is_sign(&p->now, '[') && p->version < 120)
+		parse_unexpected(p);
+	return parse_array_lengths(p, type);
+}
+
+bool parse_begins_declaration(struct parse *p)
+{
+	const uint32_t keyword = parse_keyword(p, &p->now);
+
+	if (keyword == PARSE_CONST || keyword == PARSE_STRUCT || keyword == PARSE_LOWP || keyword == PARSE_INVARIANT || keyword == PARSE_PRECISE ||
+	    (keyword >= PARSE_ATTRIBUTE && keyword <= PARSE_INOUT))
+		return true;
+	if (!parse_names_type(p, &p->now))
+		return false;
+	return keyword == PARSE_UNSIGNED || !parse_is_sign(parse_peek(p), '(');
+}
+
+/* --- Variables ---------------------------------------------------------------------------------------------------------- */
+
+/* An array without a length, or the language's own variable, is declared again. */
+static void redeclare(struct parse *p, struct parse_symbol *s, const struct parse_qualifiers *q, const struct parse_type *type,
+		      enum glsl_storage storage)
+{
+	const bool gets_length = type->kind == GLSL_ARRAY && s->type->kind == GLSL_ARRAY && !s->type->length && type->element == s->type->element;
+	const bool reads_again = s->is_built_in && q->is_varying && s->storage == GLSL_INPUT;
+
+	if ((type != s->type && !gets_length) || (storage != s->storage && !(s->is_built_in && (storage == GLSL_GLOBAL || reads_again))))
+		parse_error(p, "'%s' is declared otherwise already", s->name->text);
+	if (type == s->type && !s->is_built_in && !(type->kind == GLSL_ARRAY && !type->length))
+		parse_error(p, "'%s' is declared twice", s->name->text);
+	if (gets_length && type->length && type->length < s->length)
+		parse_error(p, "'%s' is indexed beyond its length", s->name->text);
+	if (gets_length && type->length)
+		s->type = type;
+	if (s->is_built_in && (q->flat || q->straight))
+		parse_refuse(p, "a shader has inputs that are not interpolated in perspective");
+}
+
+/* What another unit of the stage calls so. */
+static struct parse_symbol *shared_symbol(struct parse *p, struct parse_symbol *s, const struct parse_type *type, enum glsl_storage storage)
+{
+	const bool are_arrays = type->kind == GLSL_ARRAY && s->type->kind == GLSL_ARRAY && type->element == s->type->element;
+
+	if (storage != s->storage || (type != s->type && !(are_arrays && (!type->length || !s->type->length))))
+		parse_link_error(p, "'%s' is declared in two ways", s->name->text);
+	if (are_arrays && type->length)
+		s->type = type;
+	if (s->type->kind == GLSL_ARRAY && s->type->length && s->type->length < s->length)
+		parse_link_error(p, "'%s' is indexed beyond its length", s->name->text);
+	return s;
+}
+
+static struct parse_symbol *declare(struct parse *p, struct parse_name *name, const struct parse_qualifiers *q, const struct parse_type *type,
+				    enum glsl_storage storage)
+{
+	const struct parse_binding *before = name->binding;
+	const bool is_global = p->scope <= 1;
+	struct parse_symbol *s = NULL;
+
+	if (is_global && before && before->symbol && (before->scope == p->scope || before->symbol->is_built_in)) {
+		redeclare(p, before->symbol, q, type, storage);
+		return before->symbol;
+	}
+	if (is_global && storage != GLSL_CONSTANT_VALUE && name->global)
+		s = shared_symbol(p, name->global, type, storage);
+	if (!s)
+		s = parse_symbol(p, name, type, storage);
+	if (is_global && storage != GLSL_CONSTANT_VALUE)
+		name->global = s;
+	s->flat |= q->flat;
+	s->straight |= q->straight;
+	s->location = q->location != GLSL_NONE ? q->location : s->location;
+	s->binding = q->binding != GLSL_NONE ? q->binding : s->binding;
+	return s;
+}
+
+static void check_type(struct parse *p, const struct parse_name *name, const struct parse_qualifiers *q, const struct parse_type *type,
+		       enum glsl_storage storage)
+{
+	if (type->kind == GLSL_VOID)
+		parse_error(p, "'%s' is void", name->text);
+	if (type->holds_sampler && storage != GLSL_UNIFORM)
+		parse_error(p, "the sampler '%s' is no uniform", name->text);
+	for (const struct parse_type *t = type->kind == GLSL_ARRAY ? type->element : NULL; t && t->kind == GLSL_ARRAY; t = t->element)
+		if (!t->length)
+			parse_error(p, "'%s' has an inner array without a length", name->text);
+	parse_check_link(p, q, storage, type);
+}
+
+/* @return what sets a variable when the shader runs; NULL: nothing needs to */
+static struct parse_node *initialize(struct parse *p, struct parse_symbol *s, struct parse_node *value)
+{
+	struct parse_node *node;
+
+	if (s->type->kind == GLSL_ARRAY && !s->type->length && value->type->kind == GLSL_ARRAY && value->type->element == s->type->element)
+		s->type = value->type;
+	if (s->type->kind == GLSL_ARRAY && p->version < 120)
+		parse_error(p, "an array has a value from its declaration on, which needs GLSL 1.20");
+	value = parse_convert_to(p, value, s->type);
+	if (s->storage == GLSL_UNIFORM || s->storage == GLSL_CONSTANT_VALUE) {
+		if (parse_is_constant(value)) {
+			s->numbers = value->numbers;
+			return NULL;
+		}
+		if (s->storage == GLSL_UNIFORM || p->scope <= 1 || !parse_has(p, 420, PARSE_PACK))
+			parse_error(p, "'%s' has no constant value", s->name->text);
+		s->storage = GLSL_LOCAL;
+		s->is_fixed = true;
+	}
+	node = parse_node(p, GLSL_ASSIGN, s->type, 2, parse_node_symbol(p, s), value);
+	node->value = GLSL_ASSIGN;
+	return node;
+}
+
+static enum glsl_storage storage_of(struct parse *p, const struct parse_qualifiers *q)
+{
+	if (p->scope <= 1)
+		return parse_global_storage(p, q);
+	if (q->is_attribute || q->is_uniform || q->is_varying || q->is_in || q->is_out || q->flat || q->smooth || q->straight)
+		parse_error(p, "a variable in a function has a kind of storage that is none of functions");
+	return q->is_const ? GLSL_CONSTANT_VALUE : GLSL_LOCAL;
+}
+
+/* One variable, from behind its name on. */
+static void read_variable(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *type, struct parse_name *name,
+			  struct parse_nodes *list)
+{
+	const enum glsl_storage storage = storage_of(p, q);
+	struct parse_symbol *s;
+	struct parse_node *value = NULL, *node;
+
+	type = parse_array_lengths(p, type);
+	check_type(p, name, q, type, storage);
+	s = declare(p, name, q, type, storage);
+	if (parse_accept(p, '=')) {
+		if (storage == GLSL_INPUT || storage == GLSL_OUTPUT || (storage == GLSL_UNIFORM && p->version < 120))
+			parse_error(p, "'%s' cannot have a value from its declaration on", name->text);
+		if (parse_is_sign(&p->now, '{'))
+			parse_refuse(p, "a shader has lists of values in braces, which are not done");
+		value = parse_assignment(p); /* in which the name is still what it was */
+	} else if (storage == GLSL_CONSTANT_VALUE) {
+		parse_error(p, "the constant '%s' has no value", name->text);
+	}
+	node = value ? initialize(p, s, value) : NULL;
+	if (!name->binding || (name->binding->symbol != s))
+		parse_bind(p, name, s, NULL);
+	if (node)
+		parse_nodes_add(p, list, node);
+}
+
+void parse_variables(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *type, struct parse_name *first,
+		     struct parse_nodes *list)
+{
+	read_variable(p, q, type, first, list);
+	while (parse_accept(p, ','))
+		read_variable(p, q, type, parse_identifier(p), list);
+	parse_expect(p, ';');
+}
+
+void parse_local_declaration(struct parse *p, struct parse_nodes *list)
+{
+	const struct parse_qualifiers q = parse_qualifiers(p);
+	const struct parse_type *type = parse_specifier(p);
+
+	if (parse_accept(p, ';'))
+		return;
+	parse_variables(p, &q, type, parse_identifier(p), list);
+}
+
+struct parse_node *parse_condition_variable(struct parse *p)
+{
+	const struct parse_qualifiers q = parse_qualifiers(p);
+	const struct parse_type *type = parse_specifier(p);
+	struct parse_nodes list = { 0 };
+	struct parse_name *name = parse_identifier(p);
+
+	if (!parse_is_sign(&p->now, '=') || q.is_const)
+		parse_unexpected(p);
+	read_variable(p, &q, type, name, &list);
+	return list.at[0];
+}
+
+/* --- Others ------------------------------------------------------------------------------------------------------------- */
+
+void parse_block(struct parse *p, const struct parse_qualifiers *q)
+{
+	struct parse_name *name = parse_identifier(p);
+	const bool is_own = strcmp(name->text, "gl_PerVertex") == 0;
+	struct members members = { 0 };
+	struct parse_symbol *s;
+
+	if (!parse_has(p, q->is_uniform ? 140 : 150, q->is_uniform ? PARSE_BLOCKS : 0))
+		parse_error(p, "blocks need GLSL 1.40 or 1.50");
+	parse_expect(p, '{');
+	read_members(p, &members);
+	if (parse_accept(p, ';')) {
+		for (uint32_t i = 0; i < members.n && !is_own; i++) {
+			s = parse_symbol(p, members.at[i].name, members.at[i].type, parse_global_storage(p, q));
+			s->is_block = true;
+			parse_bind(p, s->name, s, NULL);
+		}
+		return;
+	}
+	name = parse_identifier(p);
+	s = parse_symbol(p, name, parse_array_lengths(p, parse_type(p, GLSL_FLOAT, 1, 0)), parse_global_storage(p, q));
+	s->is_block = true;
+	parse_bind(p, name, s, NULL);
+	parse_expect(p, ';');
+}
+
+void parse_precision(struct parse *p)
+{
+	if (!parse_accept_word(p, PARSE_LOWP) || !parse_named_type(p))
+		parse_unexpected(p);
+	parse_expect(p, ';');
+}

@@ -1,0 +1,165 @@
+#include "replay/glsl/parse/unit.h"
+
+#include "replay/glsl/parse/declaration.h"
+#include "replay/glsl/parse/directive.h"
+#include "replay/glsl/parse/expression.h"
+#include "replay/glsl/parse/functions.h"
+#include "replay/glsl/parse/keywords.h"
+#include "replay/glsl/parse/parser.h"
+#include "replay/glsl/parse/prelude.h"
+#include "replay/glsl/parse/scope.h"
+#include "replay/glsl/parse/statement.h"
+
+/* --- Functions ---------------------------------------------------------------------------------------------------------- */
+
+struct parameters {
+	struct parse_symbol **at;
+	uint32_t n, room;
+};
+
+static struct parse_symbol *read_parameter(struct parse *p)
+{
+	const struct parse_qualifiers q = parse_qualifiers(p);
+	const enum glsl_storage storage = parse_parameter_storage(p, &q);
+	const struct parse_type *type = parse_specifier(p);
+	struct parse_name *name = parse_is_sign(&p->now, ',') || parse_is_sign(&p->now, ')') || parse_is_sign(&p->now, '[') ? parse_name(p, "", 0) :
+																	   parse_identifier(p);
+	struct parse_symbol *s;
+
+	type = parse_array_lengths(p, type);
+	if (type->kind == GLSL_VOID || (type->kind == GLSL_ARRAY && !type->length) || (type->holds_sampler && storage != GLSL_IN))
+		parse_error(p, "a parameter is of type %s", parse_type_text(p, type));
+	s = parse_symbol(p, name, type, storage);
+	s->is_fixed = q.is_const || type->holds_sampler;
+	return s;
+}
+
+/* Behind '(', up to ')'. */
+static struct parameters read_parameters(struct parse *p)
+{
+	struct parameters list = { 0 };
+
+	if (parse_is_word(&p->now, "void") && parse_is_sign(parse_peek(p), ')'))
+		parse_advance(p);
+	if (parse_accept(p, ')'))
+		return list;
+	do {
+		list.at = parse_grow(p, list.at, list.n, &list.room, sizeof(*list.at));
+		list.at[list.n++] = read_parameter(p);
+	} while (parse_accept(p, ','));
+	parse_expect(p, ')');
+	return list;
+}
+
+static void read_body(struct parse *p, struct parse_function *f)
+{
+	struct parse_node *place = parse_node(p, GLSL_CALL, f->result, 0);
+
+	parse_scope_open(p);
+	for (uint32_t i = 0; i < f->n; i++)
+		if (f->parameters[i]->name->n)
+			parse_bind(p, f->parameters[i]->name, f->parameters[i], NULL);
+	p->inside = f;
+	f->body = parse_statements(p);
+	p->inside = NULL;
+	parse_scope_close(p);
+	place->function = f;
+	parse_nodes_add(p, p->root, place);
+}
+
+/* Behind the name and '('. */
+static void read_function(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *result, struct parse_name *name)
+{
+	const struct parameters list = read_parameters(p);
+	const bool defines = parse_is_sign(&p->now, '{');
+	struct parse_function *f;
+
+	if (q->is_const || q->is_in || q->is_out || q->is_uniform || q->is_attribute || q->is_varying)
+		parse_error(p, "the function '%s' has a kind of storage", name->text);
+	if (result->holds_sampler || (result->kind == GLSL_ARRAY && (!result->length || p->version < 120)))
+		parse_error(p, "'%s' returns %s", name->text, parse_type_text(p, result));
+	f = parse_declare_function(p, name, result, list.at, list.n, defines);
+	if (!parse_accept(p, '{'))
+		parse_expect(p, ';');
+	else
+		read_body(p, f);
+}
+
+/* --- All declarations --------------------------------------------------------------------------------------------------- */
+
+/* invariant NAME, NAME; */
+static void read_invariant(struct parse *p)
+{
+	do {
+		const struct parse_name *name = parse_identifier(p);
+
+		if (!name->binding || !name->binding->symbol)
+			parse_error(p, "'%s' is not declared", name->text);
+	} while (parse_accept(p, ','));
+	parse_expect(p, ';');
+}
+
+static void read_declaration(struct parse *p)
+{
+	struct parse_qualifiers q;
+	const struct parse_type *type;
+	struct parse_name *name;
+
+	if (parse_accept(p, ';'))
+		return;
+	if (parse_accept_word(p, PARSE_PRECISION)) {
+		parse_precision(p);
+		return;
+	}
+	q = parse_qualifiers(p);
+	if (q.any && parse_accept(p, ';'))
+		return;
+	if (q.any && p->now.kind == PARSE_NAME && !parse_names_type(p, &p->now) && parse_keyword(p, &p->now) != PARSE_STRUCT) {
+		if (parse_is_sign(parse_peek(p), '{'))
+			parse_block(p, &q);
+		else
+			read_invariant(p);
+		return;
+	}
+	type = parse_specifier(p);
+	if (parse_accept(p, ';'))
+		return;
+	name = parse_identifier(p);
+	if (parse_accept(p, '('))
+		read_function(p, &q, type, name);
+	else
+		parse_variables(p, &q, type, name, p->root);
+}
+
+static void read_all(struct parse *p)
+{
+	parse_advance(p);
+	while (p->now.kind != PARSE_END)
+		read_declaration(p);
+}
+
+void parse_unit(struct parse *p, const char *text)
+{
+	struct parse_place begin;
+
+	p->n_units++;
+	p->has_next = false;
+	parse_scope_reset(p);
+	parse_directive_begin(p, text);
+	begin = p->place;
+	p->is_prelude = true;
+	for (unsigned i = 0; i < parse_prelude_parts; i++) {
+		const char *part = parse_prelude(p, i);
+
+		if (part) {
+			p->place = (struct parse_place){ part, 1, true };
+			read_all(p);
+		}
+	}
+	p->is_prelude = false;
+	p->place = begin;
+	p->line = 0;
+	parse_scope_open(p);
+	read_all(p);
+	parse_scope_close(p);
+}
