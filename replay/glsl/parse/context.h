@@ -98,6 +98,8 @@ struct parse {
 	struct parse_function *functions, *inside; /* all, the last one first; the one whose body is read */
 	struct parse_nodes *root;    /* what runs before main */
 	uint32_t loops, switches;
+	bool assigns_color;          /* something assigns an output of fragments that the text itself declares */
+	bool returns;                /* the function that is read has a return */
 };
 
 /** n bytes, all zero. */

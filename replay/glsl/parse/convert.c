@@ -4,12 +4,14 @@
 
 void parse_need_place(struct parse *p, const struct parse_node *node)
 {
-	const struct parse_symbol *s = parse_node_root(node);
+	struct parse_symbol *s = parse_node_root(node);
 
 	if (!s)
 		parse_error(p, "what is assigned is no variable");
 	if (s->is_fixed || s->storage == GLSL_UNIFORM || s->storage == GLSL_INPUT || s->storage == GLSL_CONSTANT_VALUE)
 		parse_error(p, "'%s' cannot be assigned", s->name->text);
+	s->is_assigned = true;
+	p->assigns_color |= p->stage == GLSL_FRAGMENT_STAGE && s->storage == GLSL_OUTPUT && !s->is_built_in;
 	for (; node->operation != GLSL_SYMBOL; node = node->children[0])
 		for (uint32_t i = 0; node->operation == GLSL_SWIZZLE && i < node->type->rows; i++)
 			for (uint32_t k = 0; k < i; k++)
@@ -21,7 +23,7 @@ bool parse_may_convert(const struct parse *p, const struct parse_type *from, con
 {
 	if (from == to)
 		return true;
-	if (p->version < 120 || from->kind > GLSL_BOOL || to->kind > GLSL_BOOL || from->rows != to->rows || from->columns != to->columns)
+	if (p->version < 120 || p->is_es || from->kind > GLSL_BOOL || to->kind > GLSL_BOOL || from->rows != to->rows || from->columns != to->columns)
 		return false;
 	if (to->kind == GLSL_UINT)
 		return from->kind == GLSL_INT && parse_has(p, 400, PARSE_GPU_SHADER5);

@@ -6,83 +6,9 @@
 #include "replay/glsl/parse/expression.h"
 #include "replay/glsl/parse/keywords.h"
 #include "replay/glsl/parse/parser.h"
+#include "replay/glsl/parse/prototype.h"
 #include "replay/glsl/parse/scope.h"
-
-/* --- Types -------------------------------------------------------------------------------------------------------------- */
-
-struct members {
-	struct parse_member *at;
-	uint32_t n, room;
-};
-
-/* Up to '}'. */
-static void read_members(struct parse *p, struct members *list)
-{
-	do {
-		const struct parse_type *type;
-
-		parse_qualifiers(p);
-		type = parse_specifier(p);
-		if (type->kind == GLSL_VOID)
-			parse_error(p, "a member is void");
-		do {
-			struct parse_name *name = parse_identifier(p);
-			const struct parse_type *own = parse_array_lengths(p, type);
-
-			for (uint32_t i = 0; i < list->n; i++)
-				if (list->at[i].name == name)
-					parse_error(p, "there are two members '%s'", name->text);
-			if (list->n >= PARSE_MAX_NUMBERS / 16)
-				parse_refuse(p, "a shader has a structure with more members than are done");
-			list->at = parse_grow(p, list->at, list->n, &list->room, sizeof(*list->at));
-			list->at[list->n++] = (struct parse_member){ name, own };
-		} while (parse_accept(p, ','));
-		parse_expect(p, ';');
-	} while (!parse_accept(p, '}'));
-}
-
-/* Behind `struct`. */
-static const struct parse_type *read_structure(struct parse *p)
-{
-	struct parse_name *name = parse_is_sign(&p->now, '{') ? parse_name(p, "", 0) : parse_identifier(p);
-	struct members members = { 0 };
-	const struct parse_type *type;
-
-	parse_enter(p);
-	parse_expect(p, '{');
-	read_members(p, &members);
-	for (uint32_t i = 0; i < members.n; i++)
-		if (members.at[i].type->kind == GLSL_ARRAY && !members.at[i].type->length)
-			parse_error(p, "the member '%s' has no length", members.at[i].name->text);
-	type = parse_type_structure(p, name, members.at, members.n);
-	if (name->n)
-		parse_bind(p, name, NULL, type);
-	parse_leave(p);
-	return type;
-}
-
-const struct parse_type *parse_specifier(struct parse *p)
-{
-	const struct parse_type *type = parse_accept_word(p, PARSE_STRUCT) ? read_structure(p) : parse_named_type(p);
-
-	if (!type)
-		parse_unexpected(p);
-	if (parse_is_sign(&p->now, '[') && p->version < 120)
-		parse_unexpected(p);
-	return parse_array_lengths(p, type);
-}
-
-bool parse_begins_declaration(struct parse *p)
-{
-	const uint32_t keyword = parse_keyword(p, &p->now);
-
-	if (keyword == PARSE_CONST || keyword == PARSE_STRUCT || keyword == PARSE_LOWP || keyword == PARSE_INVARIANT || keyword == PARSE_PRECISE ||
-	    (keyword >= PARSE_ATTRIBUTE && keyword <= PARSE_INOUT))
-		return true;
-	if (!parse_names_type(p, &p->now))
-		return false;
-	return keyword == PARSE_UNSIGNED || !parse_is_sign(parse_peek(p), '(');
-}
+#include "replay/glsl/parse/specifier.h"
 
 /* --- Variables ---------------------------------------------------------------------------------------------------------- */
 
@@ -91,14 +17,13 @@ static void redeclare(struct parse *p, struct parse_symbol *s, const struct pars
 		      enum glsl_storage storage)
 {
 	const bool gets_length = type->kind == GLSL_ARRAY && s->type->kind == GLSL_ARRAY && !s->type->length && type->element == s->type->element;
-	const bool reads_again = s->is_built_in && q->is_varying && s->storage == GLSL_INPUT;
 
-	if ((type != s->type && !gets_length) || (storage != s->storage && !(s->is_built_in && (storage == GLSL_GLOBAL || reads_again))))
+	if ((type != s->type && !gets_length) || storage != s->storage)
 		parse_error(p, "'%s' is declared otherwise already", s->name->text);
 	if (type == s->type && !s->is_built_in && !(type->kind == GLSL_ARRAY && !type->length))
 		parse_error(p, "'%s' is declared twice", s->name->text);
-	if (gets_length && type->length && type->length < s->length)
-		parse_error(p, "'%s' is indexed beyond its length", s->name->text);
+	if (gets_length && type->length && (type->length < s->length || (strcmp(s->name->text, "gl_TexCoord") == 0 && type->length > 8)))
+		parse_error(p, "'%s' is indexed beyond its length, or longer than it can be", s->name->text);
 	if (gets_length && type->length)
 		s->type = type;
 	if (s->is_built_in && (q->flat || q->straight))
@@ -126,7 +51,7 @@ static struct parse_symbol *declare(struct parse *p, struct parse_name *name, co
 	const bool is_global = p->scope <= 1;
 	struct parse_symbol *s = NULL;
 
-	if (is_global && before && before->symbol && (before->scope == p->scope || before->symbol->is_built_in)) {
+	if (before && before->symbol && (before->scope == p->scope || (is_global && before->symbol->is_built_in))) {
 		redeclare(p, before->symbol, q, type, storage);
 		return before->symbol;
 	}
@@ -230,10 +155,17 @@ void parse_local_declaration(struct parse *p, struct parse_nodes *list)
 {
 	const struct parse_qualifiers q = parse_qualifiers(p);
 	const struct parse_type *type = parse_specifier(p);
+	struct parse_name *name;
 
 	if (parse_accept(p, ';'))
 		return;
-	parse_variables(p, &q, type, parse_identifier(p), list);
+	name = parse_identifier(p);
+	if (p->version >= 120 || !parse_accept(p, '(')) {
+		parse_variables(p, &q, type, name, list);
+		return;
+	}
+	parse_prototype(p, &q, type, name); /* GLSL 1.10 has them in functions, too */
+	parse_expect(p, ';');
 }
 
 struct parse_node *parse_condition_variable(struct parse *p)
@@ -255,13 +187,13 @@ void parse_block(struct parse *p, const struct parse_qualifiers *q)
 {
 	struct parse_name *name = parse_identifier(p);
 	const bool is_own = strcmp(name->text, "gl_PerVertex") == 0;
-	struct members members = { 0 };
+	struct parse_members members = { 0 };
 	struct parse_symbol *s;
 
 	if (!parse_has(p, q->is_uniform ? 140 : 150, q->is_uniform ? PARSE_BLOCKS : 0))
 		parse_error(p, "blocks need GLSL 1.40 or 1.50");
 	parse_expect(p, '{');
-	read_members(p, &members);
+	parse_members(p, true, &members);
 	if (parse_accept(p, ';')) {
 		for (uint32_t i = 0; i < members.n && !is_own; i++) {
 			s = parse_symbol(p, members.at[i].name, members.at[i].type, parse_global_storage(p, q));

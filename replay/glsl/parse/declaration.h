@@ -1,13 +1,7 @@
-/* Declarations of variables, structures and blocks (GLSL 1.50 sec. 4). */
+/* Declarations of variables and blocks (GLSL 1.50 sec. 4). */
 #pragma once
 
 #include "replay/glsl/parse/qualifiers.h"
-
-/** A type with its brackets, which may declare a structure. Ends where the token begins none. */
-const struct parse_type *parse_specifier(struct parse *p);
-
-/** Whether the token that is looked at begins a declaration, in a function. */
-bool parse_begins_declaration(struct parse *p);
 
 /** Variables behind their type, up to ';'. @param list  receives what gives them their values. first: the first one's name */
 void parse_variables(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *type, struct parse_name *first,

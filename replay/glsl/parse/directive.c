@@ -36,7 +36,7 @@ static const struct {
 	{ "GL_AMD_vertex_shader_viewport_index", PARSE_PLAIN_EXTENSION }, { "GL_ARB_viewport_array", PARSE_PLAIN_EXTENSION },
 	{ "GL_ARB_cull_distance", PARSE_PLAIN_EXTENSION }, { "GL_ARB_vertex_attrib_64bit", PARSE_PLAIN_EXTENSION },
 	{ "GL_ARB_gpu_shader_fp64", PARSE_PLAIN_EXTENSION }, { "GL_MESA_shader_integer_functions", PARSE_GPU_SHADER5 },
-	{ "GL_EXT_separate_shader_objects", PARSE_LOCATIONS }, { "GL_KHR_blend_equation_advanced", PARSE_PLAIN_EXTENSION },
+	{ "GL_OES_standard_derivatives", PARSE_PLAIN_EXTENSION }, { "GL_EXT_separate_shader_objects", PARSE_LOCATIONS }, { "GL_KHR_blend_equation_advanced", PARSE_PLAIN_EXTENSION },
 };
 
 /* A directive's other tokens. */
@@ -77,10 +77,9 @@ static void set_version(struct parse *p, const struct parse_token *tokens, uint3
 	if (!is_known || (version >= 300 && version < 330) != es || n > 2 || (n == 2 && version < 150) ||
 	    (n == 2 && !es && !parse_is_word(&tokens[1], "core") && !parse_is_word(&tokens[1], "compatibility")))
 		parse_error(p, "'#version' names none that is known");
-	if (es || version == 100)
-		parse_refuse(p, "a shader is of OpenGL ES, whose shaders are not done");
 	p->version = version;
-	p->is_core = version >= 150 && !(n == 2 && parse_is_word(&tokens[1], "compatibility"));
+	p->is_es = es || version == 100;
+	p->is_core = p->is_es || (version >= 150 && !(n == 2 && parse_is_word(&tokens[1], "compatibility")));
 }
 
 static void set_extension(struct parse *p, const struct parse_token *tokens, uint32_t n)
@@ -221,7 +220,7 @@ void parse_directive_begin(struct parse *p, const char *text)
 	p->place = (struct parse_place){ parse_lines(p, text), 1, true };
 	p->version = 110;
 	p->extensions = 0;
-	p->is_core = false;
+	p->is_core = p->is_es = false;
 	p->conditions = NULL;
 	p->input = NULL;
 	p->read = parse_directive_read;
@@ -241,7 +240,9 @@ void parse_directive_begin(struct parse *p, const char *text)
 	parse_macro_set(p, "__LINE__", 0);
 	parse_macro_set(p, "__FILE__", 0);
 	parse_macro_set(p, "__VERSION__", p->version);
-	if (p->version >= 150)
+	if (p->is_es)
+		parse_macro_set(p, "GL_ES", 1);
+	else if (p->version >= 150)
 		parse_macro_set(p, p->is_core ? "GL_core_profile" : "GL_compatibility_profile", 1);
 	for (unsigned i = 0; i < sizeof(extensions) / sizeof(extensions[0]); i++)
 		parse_macro_set(p, extensions[i].name, 1);

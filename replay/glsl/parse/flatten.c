@@ -247,6 +247,13 @@ static struct parse_function *main_of(struct parse *p)
 	return main;
 }
 
+static bool is_assigned(struct parse *p, const char *name)
+{
+	const struct parse_symbol *s = parse_name(p, name, (uint32_t)strlen(name))->global;
+
+	return s && s->is_assigned;
+}
+
 static void *owned(struct parse *p, const void *from, size_t n)
 {
 	void *to = malloc(n + 1);
@@ -269,6 +276,8 @@ void parse_flatten(struct parse *p, struct glsl_tree *tree)
 
 	f->p = p;
 	parse_check_calls(p);
+	if (is_assigned(p, "gl_FragColor") + is_assigned(p, "gl_FragData") + p->assigns_color > 1)
+		parse_link_error(p, "colours are assigned by names of two kinds");
 	parse_find_products(p);
 	f->tree.main = function_of(f, main_of(p));
 	for (uint32_t i = 0; i < p->root->n; i++)

@@ -122,6 +122,14 @@ static float dot(const double *a, const double *b, uint32_t n)
 	return sum;
 }
 
+static void refract(const double *i, const double *n, float eta, uint32_t size, double *to)
+{
+	const float d = dot(n, i, size), k = 1 - eta * eta * (1 - d * d), factor = eta * d + sqrtf(fmaxf(k, 0));
+
+	for (uint32_t c = 0; c < size; c++)
+		to[c] = k < 0 ? 0 : eta * (float)i[c] - factor * (float)n[c];
+}
+
 /* @return false: the function is none of geometry's */
 static bool of_vectors(enum glsl_operator operation, double *to, const struct parse_nodes *arguments)
 {
@@ -158,8 +166,37 @@ static bool of_vectors(enum glsl_operator operation, double *to, const struct pa
 		for (uint32_t i = 0; i < n; i++)
 			to[i] = (float)a[i] - factor * (float)b[i];
 		return true;
+	case GLSL_REFRACT: refract(a, b, (float)c[0], n, to); return true;
 	default: return false;
 	}
+}
+
+/* Of the rows and columns that are left in bits; m: n x n. */
+static float determinant(const double *m, uint32_t n, uint32_t rows, uint32_t columns)
+{
+	uint32_t column = 0;
+	float sum = 0, sign = 1;
+
+	while (!(columns >> column & 1))
+		column++;
+	for (uint32_t row = 0; row < n; row++)
+		if (rows >> row & 1) {
+			const uint32_t left = columns & ~(1u << column);
+
+			sum += sign * (float)m[column * n + row] * (left ? determinant(m, n, rows & ~(1u << row), left) : 1);
+			sign = -sign;
+		}
+	return sum;
+}
+
+static void invert(const struct parse_node *m, double *to)
+{
+	const uint32_t n = m->type->rows, all = (1u << n) - 1;
+	const float whole = determinant(m->numbers, n, all, all);
+
+	for (uint32_t c = 0; c < n; c++)
+		for (uint32_t r = 0; r < n; r++)
+			to[c * n + r] = ((c + r) & 1 ? -1 : 1) * determinant(m->numbers, n, all & ~(1u << c), all & ~(1u << r)) / whole;
 }
 
 static void transpose(const struct parse_node *m, double *to)
@@ -167,6 +204,28 @@ static void transpose(const struct parse_node *m, double *to)
 	for (uint32_t c = 0; c < m->type->columns; c++)
 		for (uint32_t r = 0; r < m->type->rows; r++)
 			to[r * m->type->columns + c] = m->numbers[c * m->type->rows + r];
+}
+
+static void outer_product(const struct parse_node *c, const struct parse_node *r, double *to)
+{
+	for (uint32_t i = 0; i < c->type->rows * r->type->rows; i++)
+		to[i] = (float)c->numbers[i % c->type->rows] * (float)r->numbers[i / c->type->rows];
+}
+
+/* @return false: the function is none of matrices' */
+static bool of_matrices(enum glsl_operator operation, double *to, const struct parse_nodes *arguments)
+{
+	const struct parse_node *m = arguments->at[0];
+
+	switch (operation) {
+	case GLSL_TRANSPOSE: transpose(m, to); return true;
+	case GLSL_INVERSE: invert(m, to); return true;
+	case GLSL_OUTER_PRODUCT: outer_product(m, arguments->at[1], to); return true;
+	case GLSL_DETERMINANT:
+		to[0] = determinant(m->numbers, m->type->rows, (1u << m->type->rows) - 1, (1u << m->type->rows) - 1);
+		return true;
+	default: return false;
+	}
 }
 
 static bool any_or_all(const struct parse_node *v, bool all)
@@ -181,8 +240,7 @@ static bool any_or_all(const struct parse_node *v, bool all)
 
 static bool is_left(enum glsl_operator operation)
 {
-	return operation == GLSL_REFRACT || operation == GLSL_OUTER_PRODUCT || operation == GLSL_DETERMINANT || operation == GLSL_INVERSE ||
-	       operation == GLSL_FTRANSFORM || operation == GLSL_NOISE || operation == GLSL_OTHER || operation >= GLSL_TEXTURE;
+	return operation == GLSL_FTRANSFORM || operation == GLSL_NOISE || operation >= GLSL_TEXTURE;
 }
 
 struct parse_node *parse_fold_call(struct parse *p, enum glsl_operator operation, const struct parse_type *type, const struct parse_nodes *arguments)
@@ -194,11 +252,9 @@ struct parse_node *parse_fold_call(struct parse *p, enum glsl_operator operation
 	if ((operation >= GLSL_ADD && operation <= GLSL_AND && operation != GLSL_MODULO) || operation == GLSL_NOT)
 		return parse_fold(p, operation, PARSE_NO_BITS, type, arguments->at[0], arguments->n > 1 ? arguments->at[1] : NULL);
 	numbers = parse_alloc(p, type->numbers * sizeof(*numbers));
-	if (operation == GLSL_TRANSPOSE)
-		transpose(arguments->at[0], numbers);
-	else if (operation == GLSL_ANY || operation == GLSL_ALL)
+	if (operation == GLSL_ANY || operation == GLSL_ALL)
 		numbers[0] = any_or_all(arguments->at[0], operation == GLSL_ALL);
-	else if (!of_vectors(operation, numbers, arguments))
+	else if (!of_vectors(operation, numbers, arguments) && !of_matrices(operation, numbers, arguments))
 		for (uint32_t i = 0; i < type->numbers; i++) {
 			double part[3] = { 0 };
 

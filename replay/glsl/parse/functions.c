@@ -41,9 +41,9 @@ struct parse_function *parse_declare_function(struct parse *p, struct parse_name
 {
 	struct parse_function *f = find(p, name, parameters, n);
 
-	if (p->scope != 1)
+	if (p->scope != 1 && (p->version >= 120 || defines))
 		parse_error(p, "a function is declared inside another one");
-	if (strncmp(name->text, "gl_", 3) == 0 || (name->binding && name->binding->scope == 1))
+	if (strncmp(name->text, "gl_", 3) == 0 || (p->version >= 120 && name->binding && name->binding->scope == 1))
 		parse_error(p, "'%s' cannot be a function's name", name->text);
 	if (strcmp(name->text, "main") == 0 && (n || result->kind != GLSL_VOID))
 		parse_error(p, "main has parameters or returns a value");
@@ -51,7 +51,7 @@ struct parse_function *parse_declare_function(struct parse *p, struct parse_name
 	if (f->result != result)
 		parse_error(p, "'%s' is declared with another type already", name->text);
 	for (uint32_t i = 0; i < n; i++)
-		if (f->parameters[i]->storage != parameters[i]->storage)
+		if (f->parameters[i]->storage != parameters[i]->storage || f->parameters[i]->is_fixed != parameters[i]->is_fixed)
 			parse_error(p, "'%s' is declared with other parameters already", name->text);
 	if (defines && f->body) {
 		if (f->unit == p->n_units)
@@ -162,7 +162,7 @@ struct parse_node *parse_call(struct parse *p, struct parse_name *name, const st
 {
 	struct parse_node *node = NULL;
 
-	if (name->binding)
+	if (name->binding && p->version >= 120)
 		parse_error(p, "'%s' is no function", name->text);
 	if (name->functions) { /* which hide the language's own */
 		struct parse_function *f = choose(p, name, arguments);

@@ -122,7 +122,7 @@ static struct parse_literal float_literal(struct parse *p, const struct parse_to
 	const float value = strtof(text, &end);
 
 	if (strcmp(end, "f") == 0 || strcmp(end, "F") == 0)
-		end += parse_has(p, 120, 0);
+		end++;
 	if (*end)
 		parse_error(p, "'%.*s' is no number", (int)token->n, token->text);
 	return (struct parse_literal){ GLSL_FLOAT, value };

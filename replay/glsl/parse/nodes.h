@@ -23,6 +23,7 @@ struct parse_symbol {
 	uint32_t location, binding;  /* GLSL_NONE: the text does not say */
 	uint32_t declared, length;   /* length: of an array without one, as far as it is indexed */
 	bool flat, straight, is_fixed, is_built_in, is_block; /* is_fixed: nothing may assign it */
+	bool is_assigned;            /* something does */
 	uint32_t number;             /* 1 + that in the tree; 0: none yet */
 	uint32_t named;              /* products.c: how often */
 	struct parse_node *product;  /* products.c: what goes in its place */

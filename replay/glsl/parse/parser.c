@@ -70,6 +70,8 @@ uint32_t parse_keyword(const struct parse *p, const struct parse_token *token)
 					     parse_has(p, type.version, PARSE_GPU_SHADER4) ? keyword : PARSE_NO_KEYWORD;
 	if (keyword == PARSE_LAYOUT)
 		return parse_has(p, 140, PARSE_LOCATIONS | PARSE_PACK | PARSE_COORD_LAYOUT | PARSE_BLOCKS) ? keyword : PARSE_NO_KEYWORD;
+	if (p->is_es && (keyword == PARSE_PRECISION || keyword == PARSE_LOWP || keyword == PARSE_INVARIANT))
+		return keyword;
 	return parse_has(p, parse_keyword_version(keyword), keyword == PARSE_FLAT ? PARSE_GPU_SHADER4 : 0) ? keyword : PARSE_NO_KEYWORD;
 }
 

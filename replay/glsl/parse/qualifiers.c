@@ -79,7 +79,9 @@ struct parse_qualifiers parse_qualifiers(struct parse *p)
 			parse_advance(p);
 			read_layout(p, &q);
 			continue;
-		default: return q;
+		default:
+			q.any_storage = q.is_const || q.is_attribute || q.is_uniform || q.is_varying || q.is_in || q.is_out;
+			return q;
 		}
 		if (twice || (to && *to))
 			parse_error(p, "'%s' stands here twice", p->now.name->text);
@@ -98,6 +100,10 @@ enum glsl_storage parse_global_storage(struct parse *p, const struct parse_quali
 		parse_error(p, "a variable has several kinds of storage");
 	if ((q->is_in || q->is_out) && !parse_has(p, 130, 0))
 		parse_error(p, "'in' and 'out' outside of functions need GLSL 1.30");
+	if (q->location != GLSL_NONE && !q->is_uniform && !(is_vertex ? q->is_in || q->is_attribute : q->is_out))
+		parse_refuse(p, "a shader has locations of what goes from stage to stage, which are not done");
+	if (q->is_invariant && !(q->is_varying || (is_vertex ? q->is_out : q->is_in || q->is_out)))
+		parse_error(p, "a variable that is not handed on is invariant");
 	if (q->is_attribute && !is_vertex)
 		parse_error(p, "a shader of fragments has attributes");
 	if (q->is_const)
@@ -134,6 +140,6 @@ void parse_check_link(struct parse *p, const struct parse_qualifiers *q, enum gl
 		parse_error(p, "%s cannot be handed to or from a stage", parse_type_text(p, type));
 	if (storage == GLSL_INPUT && p->stage == GLSL_VERTEX_STAGE && (kind == GLSL_STRUCT || (type->kind == GLSL_ARRAY && p->version < 130)))
 		parse_error(p, "an attribute is of type %s", parse_type_text(p, type));
-	if (storage == GLSL_INPUT && p->stage == GLSL_FRAGMENT_STAGE && (kind == GLSL_INT || kind == GLSL_UINT) && !q->flat)
+	if (storage == GLSL_INPUT && p->stage == GLSL_FRAGMENT_STAGE && type->holds_whole && !q->flat)
 		parse_error(p, "whole numbers reach a shader of fragments flat alone");
 }

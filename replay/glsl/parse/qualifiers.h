@@ -4,7 +4,7 @@
 #include "replay/glsl/parse/nodes.h"
 
 struct parse_qualifiers {
-	bool any;
+	bool any, any_storage; /* any_storage: of the next six */
 	bool is_const, is_attribute, is_uniform, is_varying, is_in, is_out, is_invariant;
 	bool flat, straight, smooth, centroid;
 	uint32_t location, binding; /* GLSL_NONE: none is given */

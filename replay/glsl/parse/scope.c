@@ -32,7 +32,7 @@ void parse_bind(struct parse *p, struct parse_name *name, struct parse_symbol *s
 
 	if (!p->is_prelude && strncmp(name->text, "gl_", 3) == 0)
 		parse_error(p, "'%s' is a name that the language keeps", name->text);
-	if ((name->binding && name->binding->scope == p->scope) || (p->scope == 1 && name->functions))
+	if ((name->binding && name->binding->scope == p->scope) || (p->scope == 1 && p->version >= 120 && name->functions))
 		parse_error(p, "'%s' is declared twice", name->text);
 	b = parse_alloc(p, sizeof(*b));
 	*b = (struct parse_binding){ name->binding, p->bound, name, p->scope, symbol, type };

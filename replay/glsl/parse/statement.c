@@ -8,6 +8,9 @@
 #include "replay/glsl/parse/operators.h"
 #include "replay/glsl/parse/parser.h"
 #include "replay/glsl/parse/scope.h"
+#include "replay/glsl/parse/specifier.h"
+
+#define MOST_COMPARED 4096 /* labels of a switch */
 
 static struct parse_node *statement(struct parse *p);
 
@@ -138,6 +141,16 @@ static struct parse_node *read_label(struct parse *p, bool is_case, const struct
 	return of_type_void(p, is_case ? GLSL_CASE : GLSL_DEFAULT, is_case, value, NULL, NULL);
 }
 
+/* The last label is of a value that no other one has. */
+static void check_label(struct parse *p, const struct parse_nodes *list)
+{
+	const struct parse_node *last = list->at[list->n - 1];
+
+	for (uint32_t i = 0; last->operation == GLSL_CASE && i + 1 < list->n && i < MOST_COMPARED; i++)
+		if (list->at[i]->operation == GLSL_CASE && list->at[i]->children[0]->numbers[0] == last->children[0]->numbers[0])
+			parse_error(p, "a switch has two cases of one value");
+}
+
 static struct parse_node *read_switch(struct parse *p)
 {
 	struct parse_nodes list = { 0 };
@@ -160,6 +173,7 @@ static struct parse_node *read_switch(struct parse *p)
 				parse_error(p, "a switch has two defaults");
 			has_default |= !is_case;
 			parse_nodes_add(p, &list, read_label(p, is_case, value->type));
+			check_label(p, &list);
 		} else if (!list.n) {
 			parse_error(p, "a switch begins without a case");
 		} else {
@@ -183,6 +197,7 @@ static struct parse_node *read_return(struct parse *p)
 	} else if (type->kind != GLSL_VOID) {
 		parse_error(p, "'%s' returns a value, and here it does not", p->inside->name->text);
 	}
+	p->returns = true;
 	parse_expect(p, ';');
 	return of_type_void(p, GLSL_RETURN, 1, value, NULL, NULL);
 }

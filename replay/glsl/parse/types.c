@@ -29,7 +29,8 @@ static const struct parse_type *intern(struct parse *p, const struct parse_type 
 
 const struct parse_type *parse_type(struct parse *p, enum glsl_kind kind, uint32_t rows, uint32_t columns)
 {
-	return intern(p, &(struct parse_type){ .kind = kind, .rows = rows, .columns = columns, .numbers = rows * (columns ? columns : 1) });
+	return intern(p, &(struct parse_type){ .kind = kind, .rows = rows, .columns = columns, .numbers = rows * (columns ? columns : 1),
+					       .holds_whole = kind == GLSL_INT || kind == GLSL_UINT });
 }
 
 const struct parse_type *parse_type_sampler(struct parse *p, uint32_t texture)
@@ -42,7 +43,8 @@ const struct parse_type *parse_type_array(struct parse *p, const struct parse_ty
 	if (length > PARSE_MAX_NUMBERS)
 		parse_refuse(p, "a shader has a larger array than is done");
 	return intern(p, &(struct parse_type){ .kind = GLSL_ARRAY, .length = length, .element = element, .numbers = length * element->numbers,
-					       .depth = element->depth + 1, .holds_sampler = element->holds_sampler, .holds_array = true });
+					       .depth = element->depth + 1, .holds_sampler = element->holds_sampler, .holds_array = true,
+					       .holds_whole = element->holds_whole });
 }
 
 const struct parse_type *parse_type_structure(struct parse *p, struct parse_name *name, const struct parse_member *members, uint32_t n)
@@ -68,6 +70,7 @@ const struct parse_type *parse_type_structure(struct parse *p, struct parse_name
 		t.depth = members[i].type->depth >= t.depth ? members[i].type->depth + 1 : t.depth;
 		t.holds_sampler |= members[i].type->holds_sampler;
 		t.holds_array |= members[i].type->holds_array;
+		t.holds_whole |= members[i].type->holds_whole;
 		if (t.numbers > PARSE_MAX_NUMBERS)
 			parse_refuse(p, "a shader has a larger array than is done");
 	}

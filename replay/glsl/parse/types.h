@@ -26,7 +26,7 @@ struct parse_type {
 	uint32_t *number;        /* 1 + that in the tree; 0: none yet */
 	const struct parse_type *element;
 	struct parse_structure *structure;
-	bool holds_sampler, holds_array;
+	bool holds_sampler, holds_array, holds_whole; /* holds_whole: int or uint */
 };
 
 const struct parse_type *parse_type(struct parse *p, enum glsl_kind kind, uint32_t rows, uint32_t columns);

@@ -7,49 +7,12 @@
 #include "replay/glsl/parse/keywords.h"
 #include "replay/glsl/parse/parser.h"
 #include "replay/glsl/parse/prelude.h"
+#include "replay/glsl/parse/prototype.h"
 #include "replay/glsl/parse/scope.h"
+#include "replay/glsl/parse/specifier.h"
 #include "replay/glsl/parse/statement.h"
 
 /* --- Functions ---------------------------------------------------------------------------------------------------------- */
-
-struct parameters {
-	struct parse_symbol **at;
-	uint32_t n, room;
-};
-
-static struct parse_symbol *read_parameter(struct parse *p)
-{
-	const struct parse_qualifiers q = parse_qualifiers(p);
-	const enum glsl_storage storage = parse_parameter_storage(p, &q);
-	const struct parse_type *type = parse_specifier(p);
-	struct parse_name *name = parse_is_sign(&p->now, ',') || parse_is_sign(&p->now, ')') || parse_is_sign(&p->now, '[') ? parse_name(p, "", 0) :
-																	   parse_identifier(p);
-	struct parse_symbol *s;
-
-	type = parse_array_lengths(p, type);
-	if (type->kind == GLSL_VOID || (type->kind == GLSL_ARRAY && !type->length) || (type->holds_sampler && storage != GLSL_IN))
-		parse_error(p, "a parameter is of type %s", parse_type_text(p, type));
-	s = parse_symbol(p, name, type, storage);
-	s->is_fixed = q.is_const || type->holds_sampler;
-	return s;
-}
-
-/* Behind '(', up to ')'. */
-static struct parameters read_parameters(struct parse *p)
-{
-	struct parameters list = { 0 };
-
-	if (parse_is_word(&p->now, "void") && parse_is_sign(parse_peek(p), ')'))
-		parse_advance(p);
-	if (parse_accept(p, ')'))
-		return list;
-	do {
-		list.at = parse_grow(p, list.at, list.n, &list.room, sizeof(*list.at));
-		list.at[list.n++] = read_parameter(p);
-	} while (parse_accept(p, ','));
-	parse_expect(p, ')');
-	return list;
-}
 
 static void read_body(struct parse *p, struct parse_function *f)
 {
@@ -60,7 +23,10 @@ static void read_body(struct parse *p, struct parse_function *f)
 		if (f->parameters[i]->name->n)
 			parse_bind(p, f->parameters[i]->name, f->parameters[i], NULL);
 	p->inside = f;
+	p->returns = false;
 	f->body = parse_statements(p);
+	if (f->result->kind != GLSL_VOID && !p->returns)
+		parse_error(p, "'%s' does not return a value", f->name->text);
 	p->inside = NULL;
 	parse_scope_close(p);
 	place->function = f;
@@ -70,15 +36,8 @@ static void read_body(struct parse *p, struct parse_function *f)
 /* Behind the name and '('. */
 static void read_function(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *result, struct parse_name *name)
 {
-	const struct parameters list = read_parameters(p);
-	const bool defines = parse_is_sign(&p->now, '{');
-	struct parse_function *f;
+	struct parse_function *f = parse_prototype(p, q, result, name);
 
-	if (q->is_const || q->is_in || q->is_out || q->is_uniform || q->is_attribute || q->is_varying)
-		parse_error(p, "the function '%s' has a kind of storage", name->text);
-	if (result->holds_sampler || (result->kind == GLSL_ARRAY && (!result->length || p->version < 120)))
-		parse_error(p, "'%s' returns %s", name->text, parse_type_text(p, result));
-	f = parse_declare_function(p, name, result, list.at, list.n, defines);
 	if (!parse_accept(p, '{'))
 		parse_expect(p, ';');
 	else
@@ -93,8 +52,12 @@ static void read_invariant(struct parse *p)
 	do {
 		const struct parse_name *name = parse_identifier(p);
 
-		if (!name->binding || !name->binding->symbol)
+		const struct parse_symbol *s = name->binding ? name->binding->symbol : NULL;
+
+		if (!s)
 			parse_error(p, "'%s' is not declared", name->text);
+		if (s->storage != GLSL_OUTPUT && !(s->storage == GLSL_INPUT && p->stage == GLSL_FRAGMENT_STAGE))
+			parse_error(p, "'%s' is not handed from stage to stage", name->text);
 	} while (parse_accept(p, ','));
 	parse_expect(p, ';');
 }
