@@ -3,9 +3,9 @@
 
 #include <stdint.h>
 
-#include "replay/programs/code.h"
-#include "replay/glsl/parse/tree.h"
+#include "replay/glsl/tree/tree.h"
 #include "replay/glsl/uniforms.h"
+#include "replay/programs/code.h"
 
 /* What is linked. A stage without texts is fixed function's. */
 struct glsl_sources {

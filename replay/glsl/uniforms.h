@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "replay/glsl/parse/tree.h"
+#include "replay/glsl/tree/tree.h"
 
 /* A generic attribute of the vertex stage, as the program has bound it or was told. */
 struct glsl_attribute {

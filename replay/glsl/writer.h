@@ -10,9 +10,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "replay/programs/code.h"
-#include "replay/glsl/parse/tree.h"
+#include "replay/glsl/tree/tree.h"
 #include "replay/glsl/uniforms.h"
+#include "replay/programs/code.h"
 
 struct glsl_value {
 	uint32_t type; /* in the tree */

@@ -130,7 +130,7 @@ def score_cost(build, base):
 
 
 def score_compile(build, base):
-    """Each run is a process in which glslang has to prepare itself."""
+    """Each run is a process: the first pair of shaders finds cold memory."""
     took = [[float(ms) for ms in must(build / "tests/bench/translate").split()] for _ in range(RUNS)]
     return [{"what": f"a pair of shaders, text to instructions, {what}", "figure": f"{median:.2f} ms", "bar": f"{bar} ms", "peer": None,
              "passed": median <= bar}

@@ -2,27 +2,31 @@
 
 #include <string.h>
 
-#include "replay/glsl/parse/convert.h"
+#include "replay/glsl/meaning/convert.h"
+#include "replay/glsl/meaning/scope.h"
 #include "replay/glsl/parse/expression.h"
-#include "replay/glsl/parse/keywords.h"
 #include "replay/glsl/parse/parser.h"
 #include "replay/glsl/parse/prototype.h"
-#include "replay/glsl/parse/scope.h"
 #include "replay/glsl/parse/specifier.h"
+#include "replay/glsl/text/keywords.h"
 
-/* --- Variables ---------------------------------------------------------------------------------------------------------- */
+/* --- Variables ---------------------------------------------------------------------------------------------------- */
 
 /* An array without a length, or the language's own variable, is declared again. */
-static void redeclare(struct parse *p, struct parse_symbol *s, const struct parse_qualifiers *q, const struct parse_type *type,
-		      enum glsl_storage storage)
+static void redeclare(struct parse *p, struct parse_symbol *s, const struct parse_qualifiers *q,
+                      const struct parse_type *type, enum glsl_storage storage)
 {
-	const bool gets_length = type->kind == GLSL_ARRAY && s->type->kind == GLSL_ARRAY && !s->type->length && type->element == s->type->element;
+	const bool gets_length = type->kind == GLSL_ARRAY && s->type->kind == GLSL_ARRAY && !s->type->length &&
+	                         type->element == s->type->element;
 
+	if (!s->is_built_in && !(type->kind == GLSL_ARRAY && s->type->kind == GLSL_ARRAY))
+		parse_error(p, "'%s' is declared twice", s->name->text);
 	if ((type != s->type && !gets_length) || storage != s->storage)
 		parse_error(p, "'%s' is declared otherwise already", s->name->text);
 	if (type == s->type && !s->is_built_in && !(type->kind == GLSL_ARRAY && !type->length))
 		parse_error(p, "'%s' is declared twice", s->name->text);
-	if (gets_length && type->length && (type->length < s->length || (strcmp(s->name->text, "gl_TexCoord") == 0 && type->length > 8)))
+	if (gets_length && type->length &&
+	    (type->length < s->length || (strcmp(s->name->text, "gl_TexCoord") == 0 && type->length > 8)))
 		parse_error(p, "'%s' is indexed beyond its length, or longer than it can be", s->name->text);
 	if (gets_length && type->length)
 		s->type = type;
@@ -31,9 +35,11 @@ static void redeclare(struct parse *p, struct parse_symbol *s, const struct pars
 }
 
 /* What another unit of the stage calls so. */
-static struct parse_symbol *shared_symbol(struct parse *p, struct parse_symbol *s, const struct parse_type *type, enum glsl_storage storage)
+static struct parse_symbol *shared_symbol(struct parse *p, struct parse_symbol *s, const struct parse_type *type,
+                                          enum glsl_storage storage)
 {
-	const bool are_arrays = type->kind == GLSL_ARRAY && s->type->kind == GLSL_ARRAY && type->element == s->type->element;
+	const bool are_arrays = type->kind == GLSL_ARRAY && s->type->kind == GLSL_ARRAY &&
+	                        type->element == s->type->element;
 
 	if (storage != s->storage || (type != s->type && !(are_arrays && (!type->length || !s->type->length))))
 		parse_link_error(p, "'%s' is declared in two ways", s->name->text);
@@ -44,8 +50,8 @@ static struct parse_symbol *shared_symbol(struct parse *p, struct parse_symbol *
 	return s;
 }
 
-static struct parse_symbol *declare(struct parse *p, struct parse_name *name, const struct parse_qualifiers *q, const struct parse_type *type,
-				    enum glsl_storage storage)
+static struct parse_symbol *declare(struct parse *p, struct parse_name *name, const struct parse_qualifiers *q,
+                                    const struct parse_type *type, enum glsl_storage storage)
 {
 	const struct parse_binding *before = name->binding;
 	const bool is_global = p->scope <= 1;
@@ -68,14 +74,15 @@ static struct parse_symbol *declare(struct parse *p, struct parse_name *name, co
 	return s;
 }
 
-static void check_type(struct parse *p, const struct parse_name *name, const struct parse_qualifiers *q, const struct parse_type *type,
-		       enum glsl_storage storage)
+static void check_type(struct parse *p, const struct parse_name *name, const struct parse_qualifiers *q,
+                       const struct parse_type *type, enum glsl_storage storage)
 {
 	if (type->kind == GLSL_VOID)
 		parse_error(p, "'%s' is void", name->text);
 	if (type->holds_sampler && storage != GLSL_UNIFORM)
 		parse_error(p, "the sampler '%s' is no uniform", name->text);
-	for (const struct parse_type *t = type->kind == GLSL_ARRAY ? type->element : NULL; t && t->kind == GLSL_ARRAY; t = t->element)
+	for (const struct parse_type *t = type->kind == GLSL_ARRAY ? type->element : NULL; t && t->kind == GLSL_ARRAY;
+	     t = t->element)
 		if (!t->length)
 			parse_error(p, "'%s' has an inner array without a length", name->text);
 	parse_check_link(p, q, storage, type);
@@ -86,7 +93,8 @@ static struct parse_node *initialize(struct parse *p, struct parse_symbol *s, st
 {
 	struct parse_node *node;
 
-	if (s->type->kind == GLSL_ARRAY && !s->type->length && value->type->kind == GLSL_ARRAY && value->type->element == s->type->element)
+	if (s->type->kind == GLSL_ARRAY && !s->type->length && value->type->kind == GLSL_ARRAY &&
+	    value->type->element == s->type->element)
 		s->type = value->type;
 	if (s->type->kind == GLSL_ARRAY && p->version < 120)
 		parse_error(p, "an array has a value from its declaration on, which needs GLSL 1.20");
@@ -110,14 +118,15 @@ static enum glsl_storage storage_of(struct parse *p, const struct parse_qualifie
 {
 	if (p->scope <= 1)
 		return parse_global_storage(p, q);
-	if (q->is_attribute || q->is_uniform || q->is_varying || q->is_in || q->is_out || q->flat || q->smooth || q->straight)
+	if (q->is_attribute || q->is_uniform || q->is_varying || q->is_in || q->is_out || q->flat || q->smooth ||
+	    q->straight)
 		parse_error(p, "a variable in a function has a kind of storage that is none of functions");
 	return q->is_const ? GLSL_CONSTANT_VALUE : GLSL_LOCAL;
 }
 
 /* One variable, from behind its name on. */
-static void read_variable(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *type, struct parse_name *name,
-			  struct parse_nodes *list)
+static void read_variable(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *type,
+                          struct parse_name *name, struct parse_nodes *list)
 {
 	const enum glsl_storage storage = storage_of(p, q);
 	struct parse_symbol *s;
@@ -142,8 +151,8 @@ static void read_variable(struct parse *p, const struct parse_qualifiers *q, con
 		parse_nodes_add(p, list, node);
 }
 
-void parse_variables(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *type, struct parse_name *first,
-		     struct parse_nodes *list)
+void parse_variables(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *type,
+                     struct parse_name *first, struct parse_nodes *list)
 {
 	read_variable(p, q, type, first, list);
 	while (parse_accept(p, ','))
@@ -181,7 +190,7 @@ struct parse_node *parse_condition_variable(struct parse *p)
 	return list.at[0];
 }
 
-/* --- Others ------------------------------------------------------------------------------------------------------------- */
+/* --- Others ------------------------------------------------------------------------------------------------------- */
 
 void parse_block(struct parse *p, const struct parse_qualifiers *q)
 {

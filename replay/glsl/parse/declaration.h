@@ -3,9 +3,10 @@
 
 #include "replay/glsl/parse/qualifiers.h"
 
-/** Variables behind their type, up to ';'. @param list  receives what gives them their values. first: the first one's name */
-void parse_variables(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *type, struct parse_name *first,
-		     struct parse_nodes *list);
+/** Variables behind their type, up to ';'. @param list  receives what gives them their values. first: the first one's
+ * name */
+void parse_variables(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *type,
+                     struct parse_name *first, struct parse_nodes *list);
 
 /** A declaration in a function. */
 void parse_local_declaration(struct parse *p, struct parse_nodes *list);

@@ -1,15 +1,15 @@
 #include "replay/glsl/parse/expression.h"
 
-#include "replay/glsl/parse/access.h"
-#include "replay/glsl/parse/construct.h"
-#include "replay/glsl/parse/functions.h"
-#include "replay/glsl/parse/keywords.h"
-#include "replay/glsl/parse/operators.h"
+#include "replay/glsl/meaning/access.h"
+#include "replay/glsl/meaning/construct.h"
+#include "replay/glsl/meaning/functions.h"
+#include "replay/glsl/meaning/operators.h"
+#include "replay/glsl/meaning/scope.h"
 #include "replay/glsl/parse/parser.h"
-#include "replay/glsl/parse/scope.h"
-#include "replay/glsl/parse/type_names.h"
+#include "replay/glsl/text/keywords.h"
+#include "replay/glsl/text/type_names.h"
 
-/* --- Types -------------------------------------------------------------------------------------------------------------- */
+/* --- Types -------------------------------------------------------------------------------------------------------- */
 
 bool parse_names_type(const struct parse *p, const struct parse_token *token)
 {
@@ -37,14 +37,16 @@ const struct parse_type *parse_named_type(struct parse *p)
 	}
 	if (name->keyword != PARSE_TYPE_NAME || !parse_type_name(name->text, &found))
 		return name->binding->type;
-	return found.kind == GLSL_SAMPLER ? parse_type_sampler(p, found.texture) : parse_type(p, found.kind, found.rows, found.columns);
+	return found.kind == GLSL_SAMPLER ? parse_type_sampler(p, found.texture) :
+	                                    parse_type(p, found.kind, found.rows, found.columns);
 }
 
 uint32_t parse_constant_length(struct parse *p)
 {
 	const struct parse_node *node = parse_assignment(p);
 
-	if (!parse_is_constant(node) || !parse_type_is_scalar(node->type) || (node->type->kind != GLSL_INT && node->type->kind != GLSL_UINT))
+	if (!parse_is_constant(node) || !parse_type_is_scalar(node->type) ||
+	    (node->type->kind != GLSL_INT && node->type->kind != GLSL_UINT))
 		parse_error(p, "an array's length is no constant whole number");
 	if (!(node->numbers[0] > 0))
 		parse_error(p, "an array's length is not above 0");
@@ -71,14 +73,15 @@ const struct parse_type *parse_array_lengths(struct parse *p, const struct parse
 	return parse_type_array(p, type, length);
 }
 
-/* --- Operands ----------------------------------------------------------------------------------------------------------- */
+/* --- Operands ----------------------------------------------------------------------------------------------------- */
 
 /* Behind '(', up to ')'. */
 static struct parse_nodes arguments_of(struct parse *p)
 {
 	struct parse_nodes list = { 0 };
 
-	if (parse_keyword(p, &p->now) == PARSE_TYPE_NAME && parse_is_word(&p->now, "void") && parse_is_sign(parse_peek(p), ')'))
+	if (parse_keyword(p, &p->now) == PARSE_TYPE_NAME && parse_is_word(&p->now, "void") &&
+	    parse_is_sign(parse_peek(p), ')'))
 		parse_advance(p);
 	if (parse_accept(p, ')'))
 		return list;
@@ -174,7 +177,7 @@ static struct parse_node *postfix(struct parse *p)
 	}
 }
 
-/* --- Operators ---------------------------------------------------------------------------------------------------------- */
+/* --- Operators ---------------------------------------------------------------------------------------------------- */
 
 static struct parse_node *unary(struct parse *p)
 {
@@ -184,7 +187,8 @@ static struct parse_node *unary(struct parse *p)
 	parse_enter(p);
 	if (sign == PARSE_SIGN2('+', '+') || sign == PARSE_SIGN2('-', '-')) {
 		parse_advance(p);
-		node = parse_increment(p, sign == PARSE_SIGN2('+', '+') ? GLSL_PRE_INCREMENT : GLSL_PRE_DECREMENT, unary(p));
+		node = parse_increment(p, sign == PARSE_SIGN2('+', '+') ? GLSL_PRE_INCREMENT : GLSL_PRE_DECREMENT,
+		                       unary(p));
 	} else if (sign == '+' || sign == '-' || sign == '!' || sign == '~') {
 		parse_advance(p);
 		node = parse_operate_before(p, sign, unary(p));
@@ -199,11 +203,19 @@ static struct parse_node *unary(struct parse *p)
 static uint32_t strength(const struct parse_token *token)
 {
 	switch (token->kind == PARSE_SIGN ? token->sign : 0) {
-	case '*': case '/': case '%': return 11;
-	case '+': case '-': return 10;
-	case PARSE_SIGN2('<', '<'): case PARSE_SIGN2('>', '>'): return 9;
-	case '<': case '>': case PARSE_SIGN2('<', '='): case PARSE_SIGN2('>', '='): return 8;
-	case PARSE_SIGN2('=', '='): case PARSE_SIGN2('!', '='): return 7;
+	case '*':
+	case '/':
+	case '%': return 11;
+	case '+':
+	case '-': return 10;
+	case PARSE_SIGN2('<', '<'):
+	case PARSE_SIGN2('>', '>'): return 9;
+	case '<':
+	case '>':
+	case PARSE_SIGN2('<', '='):
+	case PARSE_SIGN2('>', '='): return 8;
+	case PARSE_SIGN2('=', '='):
+	case PARSE_SIGN2('!', '='): return 7;
 	case '&': return 6;
 	case '^': return 5;
 	case '|': return 4;
@@ -246,9 +258,17 @@ static uint32_t operator_of(uint32_t sign)
 
 static bool assigns(const struct parse_token *token)
 {
-	static const uint32_t signs[] = { '=', PARSE_SIGN2('+', '='), PARSE_SIGN2('-', '='), PARSE_SIGN2('*', '='), PARSE_SIGN2('/', '='),
-					  PARSE_SIGN2('%', '='), PARSE_SIGN2('&', '='), PARSE_SIGN2('|', '='), PARSE_SIGN2('^', '='),
-					  PARSE_SIGN3('<', '<', '='), PARSE_SIGN3('>', '>', '=') };
+	static const uint32_t signs[] = { '=',
+		                          PARSE_SIGN2('+', '='),
+		                          PARSE_SIGN2('-', '='),
+		                          PARSE_SIGN2('*', '='),
+		                          PARSE_SIGN2('/', '='),
+		                          PARSE_SIGN2('%', '='),
+		                          PARSE_SIGN2('&', '='),
+		                          PARSE_SIGN2('|', '='),
+		                          PARSE_SIGN2('^', '='),
+		                          PARSE_SIGN3('<', '<', '='),
+		                          PARSE_SIGN3('>', '>', '=') };
 
 	for (unsigned i = 0; token->kind == PARSE_SIGN && i < sizeof(signs) / sizeof(signs[0]); i++)
 		if (token->sign == signs[i])

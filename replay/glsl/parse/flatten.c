@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "replay/glsl/parse/functions.h"
+#include "replay/glsl/meaning/functions.h"
 #include "replay/glsl/parse/products.h"
-#include "replay/glsl/parse/type_names.h"
+#include "replay/glsl/text/type_names.h"
 
 #define MAX_NODES 200000
 #define N_KEPT 256
@@ -27,7 +27,8 @@ struct flat {
 };
 
 /* Room behind a list of the tree. */
-#define GROW(f, list, room) ((f)->tree.list = parse_grow((f)->p, (f)->tree.list, (f)->tree.n_##list, &(f)->room, sizeof(*(f)->tree.list)))
+#define GROW(f, list, room)                                                                                            \
+	((f)->tree.list = parse_grow((f)->p, (f)->tree.list, (f)->tree.n_##list, &(f)->room, sizeof(*(f)->tree.list)))
 
 static uint32_t flatten(struct flat *f, struct parse_node *node);
 
@@ -42,7 +43,7 @@ static uint32_t add_name(struct flat *f, const struct parse_name *name)
 	return at;
 }
 
-/* --- Types -------------------------------------------------------------------------------------------------------------- */
+/* --- Types -------------------------------------------------------------------------------------------------------- */
 
 static uint32_t type_of(struct flat *f, const struct parse_type *type);
 
@@ -61,7 +62,11 @@ static uint32_t add_members(struct flat *f, const struct parse_structure *s)
 
 static uint32_t type_of(struct flat *f, const struct parse_type *type)
 {
-	struct glsl_type t = { .kind = type->kind, .rows = type->rows, .columns = type->columns, .numbers = type->numbers, .length = type->length };
+	struct glsl_type t = { .kind = type->kind,
+		               .rows = type->rows,
+		               .columns = type->columns,
+		               .numbers = type->numbers,
+		               .length = type->length };
 	const uint32_t dimension = type->texture & PARSE_DIMENSION;
 
 	if (*type->number)
@@ -73,14 +78,16 @@ static uint32_t type_of(struct flat *f, const struct parse_type *type)
 		t.first = add_members(f, type->structure);
 	}
 	if (type->kind == GLSL_SAMPLER)
-		t.texture = type->texture & (PARSE_LAYERED | PARSE_INT_TEXTURE | PARSE_UINT_TEXTURE) ? GLSL_TEXTURE_OTHER : dimension;
+		t.texture = type->texture & (PARSE_LAYERED | PARSE_INT_TEXTURE | PARSE_UINT_TEXTURE) ?
+		                    GLSL_TEXTURE_OTHER :
+		                    dimension;
 	GROW(f, types, type_room);
 	f->tree.types[f->tree.n_types++] = t;
 	*type->number = f->tree.n_types;
 	return *type->number - 1;
 }
 
-/* --- Symbols and numbers ------------------------------------------------------------------------------------------------ */
+/* --- Symbols and numbers ------------------------------------------------------------------------------------------ */
 
 static uint32_t add_numbers(struct flat *f, const double *numbers, uint32_t n)
 {
@@ -113,8 +120,14 @@ static const struct parse_type *whole_type(struct flat *f, const struct parse_sy
 static uint32_t symbol_of(struct flat *f, struct parse_symbol *s)
 {
 	const struct parse_type *type = whole_type(f, s);
-	struct glsl_symbol made = { .type = type_of(f, type), .storage = s->storage, .first = GLSL_NONE, .flat = s->flat, .straight = s->straight,
-				    .location = s->location, .binding = s->binding, .declared = s->declared };
+	struct glsl_symbol made = { .type = type_of(f, type),
+		                    .storage = s->storage,
+		                    .first = GLSL_NONE,
+		                    .flat = s->flat,
+		                    .straight = s->straight,
+		                    .location = s->location,
+		                    .binding = s->binding,
+		                    .declared = s->declared };
 
 	if (s->number)
 		return s->number - 1;
@@ -127,9 +140,10 @@ static uint32_t symbol_of(struct flat *f, struct parse_symbol *s)
 	return s->number - 1;
 }
 
-/* --- Nodes -------------------------------------------------------------------------------------------------------------- */
+/* --- Nodes -------------------------------------------------------------------------------------------------------- */
 
-static uint32_t add(struct flat *f, enum glsl_operator operation, uint32_t type, const uint32_t *children, uint32_t n, uint32_t value)
+static uint32_t add(struct flat *f, enum glsl_operator operation, uint32_t type, const uint32_t *children, uint32_t n,
+                    uint32_t value)
 {
 	const uint32_t first = f->tree.n_children;
 
@@ -148,8 +162,9 @@ static uint32_t function_of(struct flat *f, struct parse_function *function)
 {
 	if (!function->number) {
 		GROW(f, functions, function_room);
-		f->tree.functions[f->tree.n_functions++] =
-			(struct glsl_function){ .name = add_name(f, function->name), .type = type_of(f, function->result), .body = GLSL_NONE };
+		f->tree.functions[f->tree.n_functions++] = (struct glsl_function){ .name = add_name(f, function->name),
+			                                                           .type = type_of(f, function->result),
+			                                                           .body = GLSL_NONE };
 		function->number = f->tree.n_functions;
 	}
 	return function->number - 1;
@@ -158,7 +173,9 @@ static uint32_t function_of(struct flat *f, struct parse_function *function)
 /* (A B) v is A (B v), however many matrices there are, as in Mesa (22.3.6). */
 static uint32_t times_vector(struct flat *f, struct parse_node *matrix, uint32_t vector, const struct parse_type *type)
 {
-	struct parse_node *product = matrix->operation == GLSL_SYMBOL && matrix->symbol->product ? matrix->symbol->product : matrix;
+	struct parse_node *product = matrix->operation == GLSL_SYMBOL && matrix->symbol->product ?
+	                                     matrix->symbol->product :
+	                                     matrix;
 	uint32_t both[2], made;
 
 	if (++f->depth > PARSE_MAX_DEPTH)
@@ -168,7 +185,8 @@ static uint32_t times_vector(struct flat *f, struct parse_node *matrix, uint32_t
 		both[1] = vector;
 		made = add(f, GLSL_MATRIX_TIMES_VECTOR, type_of(f, type), both, 2, 0);
 	} else {
-		vector = times_vector(f, product->children[1], vector, parse_type(f->p, GLSL_FLOAT, product->children[1]->type->rows, 0));
+		vector = times_vector(f, product->children[1], vector,
+		                      parse_type(f->p, GLSL_FLOAT, product->children[1]->type->rows, 0));
 		made = times_vector(f, product->children[0], vector, type);
 	}
 	f->depth--;
@@ -188,7 +206,8 @@ static uint32_t flatten_children(struct flat *f, struct parse_node *node)
 
 	for (uint32_t i = 0; i < node->n; i++) {
 		struct parse_node *child = node->children[i];
-		const bool is_array = child && child->operation == GLSL_SYMBOL && child->type->kind == GLSL_ARRAY && !child->type->length;
+		const bool is_array = child && child->operation == GLSL_SYMBOL && child->type->kind == GLSL_ARRAY &&
+		                      !child->type->length;
 
 		if (is_array && node->operation != GLSL_INDEX && !child->symbol->type->length)
 			parse_refuse(f->p, "a shader uses an array without a length as a whole");
@@ -210,8 +229,10 @@ static uint32_t flatten(struct flat *f, struct parse_node *node)
 	else if (node->operation == GLSL_SYMBOL)
 		made = flatten_symbol(f, node->symbol);
 	else if (node->operation == GLSL_NUMBERS)
-		made = add(f, GLSL_NUMBERS, type_of(f, node->type), NULL, 0, add_numbers(f, node->numbers, node->type->numbers));
-	else if (node->operation == GLSL_ASSIGN && node->children[0]->operation == GLSL_SYMBOL && node->children[0]->symbol->product)
+		made = add(f, GLSL_NUMBERS, type_of(f, node->type), NULL, 0,
+		           add_numbers(f, node->numbers, node->type->numbers));
+	else if (node->operation == GLSL_ASSIGN && node->children[0]->operation == GLSL_SYMBOL &&
+	         node->children[0]->symbol->product)
 		made = add(f, GLSL_SEQUENCE, type_of(f, parse_type(f->p, GLSL_VOID, 0, 0)), NULL, 0, 0);
 	else if (node->operation == GLSL_MATRIX_TIMES_VECTOR)
 		made = times_vector(f, node->children[0], flatten(f, node->children[1]), node->type);
@@ -236,7 +257,7 @@ static void flatten_function(struct flat *f, struct parse_function *function)
 	f->tree.functions[number].body = body;
 }
 
-/* --- All of it ---------------------------------------------------------------------------------------------------------- */
+/* --- All of it ---------------------------------------------------------------------------------------------------- */
 
 static struct parse_function *main_of(struct parse *p)
 {
@@ -267,7 +288,9 @@ static void *owned(struct parse *p, const void *from, size_t n)
 	return to;
 }
 
-#define OWN(p, to, from, list) ((to)->n_##list = (from)->n_##list, (to)->list = owned(p, (from)->list, (from)->n_##list * sizeof(*(from)->list)))
+#define OWN(p, to, from, list)                                                                                         \
+	((to)->n_##list = (from)->n_##list,                                                                            \
+	 (to)->list = owned(p, (from)->list, (from)->n_##list * sizeof(*(from)->list)))
 
 void parse_flatten(struct parse *p, struct glsl_tree *tree)
 {

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "replay/glsl/meaning/nodes.h"
 #include "replay/glsl/parse/flatten.h"
-#include "replay/glsl/parse/nodes.h"
 #include "replay/glsl/parse/unit.h"
 
 /* What may end early is a function of its own: no variable of it is needed afterwards. */
@@ -17,7 +17,8 @@ static void read_all(struct parse *p, const char *const *texts, uint32_t n, stru
 	parse_flatten(p, tree);
 }
 
-int glsl_parse(const char *const *texts, uint32_t n, enum glsl_stage stage, struct glsl_tree *tree, char *message, const char **why)
+int glsl_parse(const char *const *texts, uint32_t n, enum glsl_stage stage, struct glsl_tree *tree, char *message,
+               const char **why)
 {
 	struct parse *p = calloc(1, sizeof(*p));
 	int err;

@@ -1,7 +1,7 @@
 /* The front end: texts of a stage become a tree. */
 #pragma once
 
-#include "replay/glsl/parse/tree.h"
+#include "replay/glsl/tree/tree.h"
 
 /**
  * Parse the texts of a stage.
@@ -11,4 +11,5 @@
  * @param why      receives NULL, or what stands in the way: a static string, or `message`
  * @return 0, also where *why is set, or ERR_SYSTEM (reported)
  */
-int glsl_parse(const char *const *texts, uint32_t n, enum glsl_stage stage, struct glsl_tree *tree, char *message, const char **why);
+int glsl_parse(const char *const *texts, uint32_t n, enum glsl_stage stage, struct glsl_tree *tree, char *message,
+               const char **why);

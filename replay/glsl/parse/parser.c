@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#include "replay/glsl/parse/keywords.h"
-#include "replay/glsl/parse/macro.h"
-#include "replay/glsl/parse/type_names.h"
+#include "replay/glsl/text/keywords.h"
+#include "replay/glsl/text/macro.h"
+#include "replay/glsl/text/type_names.h"
 
 void parse_advance(struct parse *p)
 {
@@ -67,12 +67,17 @@ uint32_t parse_keyword(const struct parse *p, const struct parse_token *token)
 		return keyword;
 	if (keyword == PARSE_TYPE_NAME && parse_type_name(token->name->text, &type))
 		return type.version <= 120 ? (p->version >= type.version ? keyword : PARSE_NO_KEYWORD) :
-					     parse_has(p, type.version, PARSE_GPU_SHADER4) ? keyword : PARSE_NO_KEYWORD;
+		       parse_has(p, type.version, PARSE_GPU_SHADER4) ? keyword :
+		                                                       PARSE_NO_KEYWORD;
 	if (keyword == PARSE_LAYOUT)
-		return parse_has(p, 140, PARSE_LOCATIONS | PARSE_PACK | PARSE_COORD_LAYOUT | PARSE_BLOCKS) ? keyword : PARSE_NO_KEYWORD;
+		return parse_has(p, 140, PARSE_LOCATIONS | PARSE_PACK | PARSE_COORD_LAYOUT | PARSE_BLOCKS) ?
+		               keyword :
+		               PARSE_NO_KEYWORD;
 	if (p->is_es && (keyword == PARSE_PRECISION || keyword == PARSE_LOWP || keyword == PARSE_INVARIANT))
 		return keyword;
-	return parse_has(p, parse_keyword_version(keyword), keyword == PARSE_FLAT ? PARSE_GPU_SHADER4 : 0) ? keyword : PARSE_NO_KEYWORD;
+	return parse_has(p, parse_keyword_version(keyword), keyword == PARSE_FLAT ? PARSE_GPU_SHADER4 : 0) ?
+	               keyword :
+	               PARSE_NO_KEYWORD;
 }
 
 struct parse_name *parse_identifier(struct parse *p)

@@ -1,8 +1,8 @@
 /* Tokens as the grammar takes them, macros expanded: one is looked at, and sometimes the one behind it. */
 #pragma once
 
-#include "replay/glsl/parse/lexer.h"
-#include "replay/glsl/parse/types.h"
+#include "replay/glsl/meaning/types.h"
+#include "replay/glsl/text/lexer.h"
 
 /** Go on to the next token. */
 void parse_advance(struct parse *p);

@@ -1,7 +1,7 @@
 /* Names that the language declares itself (GLSL 1.50 sec. 7), in its own words. */
 #pragma once
 
-#include "replay/glsl/parse/context.h"
+#include "replay/glsl/text/context.h"
 
 extern const unsigned parse_prelude_parts;
 

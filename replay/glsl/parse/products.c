@@ -1,6 +1,6 @@
 #include "replay/glsl/parse/products.h"
 
-#include "replay/glsl/parse/functions.h"
+#include "replay/glsl/meaning/functions.h"
 
 #define MOST_STATEMENTS 64 /* between a product and its use: texts can be long */
 #define MAX_NODES 200000
@@ -31,7 +31,7 @@ static bool is_straight(const struct parse_node *node)
 {
 	const enum glsl_operator operation = node ? node->operation : GLSL_SEQUENCE;
 	bool straight = operation != GLSL_CALL && !(operation >= GLSL_SELECTION && operation <= GLSL_DISCARD) &&
-			!(operation >= GLSL_POST_INCREMENT && operation <= GLSL_PRE_DECREMENT);
+	                !(operation >= GLSL_POST_INCREMENT && operation <= GLSL_PRE_DECREMENT);
 
 	for (uint32_t i = 0; node && straight && i < node->n; i++)
 		straight = is_straight(node->children[i]);
@@ -59,14 +59,16 @@ static bool is_factor(const struct parse_node *node, const struct parse_symbol *
 	bool found = false;
 
 	for (uint32_t i = 0; node && i < node->n && i < 2; i++)
-		found |= (node->operation == GLSL_MATRIX_TIMES_MATRIX || (node->operation == GLSL_MATRIX_TIMES_VECTOR && i == 0)) &&
-			 node->children[i]->operation == GLSL_SYMBOL && node->children[i]->symbol == s;
+		found |= (node->operation == GLSL_MATRIX_TIMES_MATRIX ||
+		          (node->operation == GLSL_MATRIX_TIMES_VECTOR && i == 0)) &&
+		         node->children[i]->operation == GLSL_SYMBOL && node->children[i]->symbol == s;
 	for (uint32_t i = 0; node && !found && i < node->n; i++)
 		found = is_factor(node->children[i], s);
 	return found;
 }
 
-static bool is_used_straight(const struct parse_nodes *statements, uint32_t next, const struct parse_symbol *s, const struct parse_node *product)
+static bool is_used_straight(const struct parse_nodes *statements, uint32_t next, const struct parse_symbol *s,
+                             const struct parse_node *product)
 {
 	if (!is_straight(product) || writes(product, NULL))
 		return false;
@@ -105,11 +107,12 @@ static void find(struct parse *p, const struct parse_node *node)
 	list(p, node, &statements);
 	for (uint32_t i = 0; i < statements.n; i++) {
 		const struct parse_node *set = statements.at[i];
-		const bool is_set = set->operation == GLSL_ASSIGN && set->value == GLSL_ASSIGN && set->children[0]->operation == GLSL_SYMBOL;
+		const bool is_set = set->operation == GLSL_ASSIGN && set->value == GLSL_ASSIGN &&
+		                    set->children[0]->operation == GLSL_SYMBOL;
 		struct parse_symbol *s = is_set ? set->children[0]->symbol : NULL;
 
-		if (s && set->children[1]->operation == GLSL_MATRIX_TIMES_MATRIX && s->storage == GLSL_LOCAL && s->named == 2 &&
-		    is_used_straight(&statements, i + 1, s, set->children[1]))
+		if (s && set->children[1]->operation == GLSL_MATRIX_TIMES_MATRIX && s->storage == GLSL_LOCAL &&
+		    s->named == 2 && is_used_straight(&statements, i + 1, s, set->children[1]))
 			s->product = set->children[1];
 		find(p, set);
 	}

@@ -1,8 +1,8 @@
 #include "replay/glsl/parse/prototype.h"
 
+#include "replay/glsl/meaning/scope.h"
 #include "replay/glsl/parse/expression.h"
 #include "replay/glsl/parse/parser.h"
-#include "replay/glsl/parse/scope.h"
 #include "replay/glsl/parse/specifier.h"
 
 struct parameters {
@@ -15,12 +15,15 @@ static struct parse_symbol *read_parameter(struct parse *p)
 	const struct parse_qualifiers q = parse_qualifiers(p);
 	const enum glsl_storage storage = parse_parameter_storage(p, &q);
 	const struct parse_type *type = parse_specifier(p);
-	struct parse_name *name = parse_is_sign(&p->now, ',') || parse_is_sign(&p->now, ')') || parse_is_sign(&p->now, '[') ? parse_name(p, "", 0) :
-																	   parse_identifier(p);
+	struct parse_name *name = parse_is_sign(&p->now, ',') || parse_is_sign(&p->now, ')') ||
+	                                          parse_is_sign(&p->now, '[') ?
+	                                  parse_name(p, "", 0) :
+	                                  parse_identifier(p);
 	struct parse_symbol *s;
 
 	type = parse_array_lengths(p, type);
-	if (type->kind == GLSL_VOID || (type->kind == GLSL_ARRAY && !type->length) || (type->holds_sampler && storage != GLSL_IN))
+	if (type->kind == GLSL_VOID || (type->kind == GLSL_ARRAY && !type->length) ||
+	    (type->holds_sampler && storage != GLSL_IN))
 		parse_error(p, "a parameter is of type %s", parse_type_text(p, type));
 	s = parse_symbol(p, name, type, storage);
 	s->is_fixed = q.is_const || type->holds_sampler;
@@ -44,7 +47,8 @@ static struct parameters read_parameters(struct parse *p)
 	return list;
 }
 
-struct parse_function *parse_prototype(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *result, struct parse_name *name)
+struct parse_function *parse_prototype(struct parse *p, const struct parse_qualifiers *q,
+                                       const struct parse_type *result, struct parse_name *name)
 {
 	const struct parameters list = read_parameters(p);
 

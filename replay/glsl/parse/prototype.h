@@ -1,8 +1,9 @@
 /* Functions' heads (GLSL 1.20 sec. 6.1). */
 #pragma once
 
-#include "replay/glsl/parse/functions.h"
+#include "replay/glsl/meaning/functions.h"
 #include "replay/glsl/parse/qualifiers.h"
 
 /** Read a function's parameters, behind its name and '(' and up to ')', and declare it. */
-struct parse_function *parse_prototype(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *result, struct parse_name *name);
+struct parse_function *parse_prototype(struct parse *p, const struct parse_qualifiers *q,
+                                       const struct parse_type *result, struct parse_name *name);

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "replay/glsl/parse/expression.h"
-#include "replay/glsl/parse/keywords.h"
 #include "replay/glsl/parse/parser.h"
+#include "replay/glsl/text/keywords.h"
 
 static uint32_t layout_number(struct parse *p)
 {
@@ -12,8 +12,8 @@ static uint32_t layout_number(struct parse *p)
 
 	parse_expect(p, '=');
 	node = parse_assignment(p);
-	if (!parse_is_constant(node) || node->type->kind != GLSL_INT || !parse_type_is_scalar(node->type) || node->numbers[0] < 0 ||
-	    node->numbers[0] > PARSE_MAX_NUMBERS)
+	if (!parse_is_constant(node) || node->type->kind != GLSL_INT || !parse_type_is_scalar(node->type) ||
+	    node->numbers[0] < 0 || node->numbers[0] > PARSE_MAX_NUMBERS)
 		parse_error(p, "a layout has a number that is not done");
 	return (uint32_t)node->numbers[0];
 }
@@ -21,8 +21,10 @@ static uint32_t layout_number(struct parse *p)
 /* Behind `layout`. */
 static void read_layout(struct parse *p, struct parse_qualifiers *q)
 {
-	static const char *const harmless[] = { "std140", "shared", "packed", "row_major", "column_major", "early_fragment_tests", "depth_any",
-						"depth_greater", "depth_less", "depth_unchanged" };
+	static const char *const harmless[] = { "std140",         "shared",        "packed",
+		                                "row_major",      "column_major",  "early_fragment_tests",
+		                                "depth_any",      "depth_greater", "depth_less",
+		                                "depth_unchanged" };
 
 	parse_expect(p, '(');
 	do {
@@ -38,7 +40,8 @@ static void read_layout(struct parse *p, struct parse_qualifiers *q)
 			q->location = layout_number(p);
 		else if (parse_is_word(&word, "binding"))
 			q->binding = layout_number(p);
-		else if (parse_is_word(&word, "index") || parse_is_word(&word, "offset") || parse_is_word(&word, "component"))
+		else if (parse_is_word(&word, "index") || parse_is_word(&word, "offset") ||
+		         parse_is_word(&word, "component"))
 			layout_number(p);
 		else {
 			for (unsigned i = 0; i < sizeof(harmless) / sizeof(harmless[0]); i++)
@@ -80,7 +83,8 @@ struct parse_qualifiers parse_qualifiers(struct parse *p)
 			read_layout(p, &q);
 			continue;
 		default:
-			q.any_storage = q.is_const || q.is_attribute || q.is_uniform || q.is_varying || q.is_in || q.is_out;
+			q.any_storage = q.is_const || q.is_attribute || q.is_uniform || q.is_varying || q.is_in ||
+			                q.is_out;
 			return q;
 		}
 		if (twice || (to && *to))
@@ -130,15 +134,18 @@ static enum glsl_kind kind_inside(const struct parse_type *type)
 	return type->kind;
 }
 
-void parse_check_link(struct parse *p, const struct parse_qualifiers *q, enum glsl_storage storage, const struct parse_type *type)
+void parse_check_link(struct parse *p, const struct parse_qualifiers *q, enum glsl_storage storage,
+                      const struct parse_type *type)
 {
 	const enum glsl_kind kind = kind_inside(type);
 
 	if ((storage != GLSL_INPUT && storage != GLSL_OUTPUT) || p->is_prelude)
 		return;
-	if (type->holds_sampler || kind == GLSL_BOOL || (kind != GLSL_FLOAT && p->version < 130 && !(p->extensions & PARSE_GPU_SHADER4)))
+	if (type->holds_sampler || kind == GLSL_BOOL ||
+	    (kind != GLSL_FLOAT && p->version < 130 && !(p->extensions & PARSE_GPU_SHADER4)))
 		parse_error(p, "%s cannot be handed to or from a stage", parse_type_text(p, type));
-	if (storage == GLSL_INPUT && p->stage == GLSL_VERTEX_STAGE && (kind == GLSL_STRUCT || (type->kind == GLSL_ARRAY && p->version < 130)))
+	if (storage == GLSL_INPUT && p->stage == GLSL_VERTEX_STAGE &&
+	    (kind == GLSL_STRUCT || (type->kind == GLSL_ARRAY && p->version < 130)))
 		parse_error(p, "an attribute is of type %s", parse_type_text(p, type));
 	if (storage == GLSL_INPUT && p->stage == GLSL_FRAGMENT_STAGE && type->holds_whole && !q->flat)
 		parse_error(p, "whole numbers reach a shader of fragments flat alone");

@@ -1,7 +1,7 @@
 /* What stands before a type (GLSL 1.50 sec. 4.3 to 4.7). */
 #pragma once
 
-#include "replay/glsl/parse/nodes.h"
+#include "replay/glsl/meaning/nodes.h"
 
 struct parse_qualifiers {
 	bool any, any_storage; /* any_storage: of the next six */
@@ -19,4 +19,5 @@ enum glsl_storage parse_global_storage(struct parse *p, const struct parse_quali
 enum glsl_storage parse_parameter_storage(struct parse *p, const struct parse_qualifiers *q);
 
 /** End where a type cannot be handed from stage to stage, or to the first one. */
-void parse_check_link(struct parse *p, const struct parse_qualifiers *q, enum glsl_storage storage, const struct parse_type *type);
+void parse_check_link(struct parse *p, const struct parse_qualifiers *q, enum glsl_storage storage,
+                      const struct parse_type *type);

@@ -1,9 +1,9 @@
 #include "replay/glsl/parse/specifier.h"
 
+#include "replay/glsl/meaning/scope.h"
 #include "replay/glsl/parse/expression.h"
-#include "replay/glsl/parse/keywords.h"
 #include "replay/glsl/parse/parser.h"
-#include "replay/glsl/parse/scope.h"
+#include "replay/glsl/text/keywords.h"
 
 void parse_members(struct parse *p, bool is_block, struct parse_members *list)
 {
@@ -67,8 +67,8 @@ bool parse_begins_declaration(struct parse *p)
 {
 	const uint32_t keyword = parse_keyword(p, &p->now);
 
-	if (keyword == PARSE_CONST || keyword == PARSE_STRUCT || keyword == PARSE_LOWP || keyword == PARSE_INVARIANT || keyword == PARSE_PRECISE ||
-	    (keyword >= PARSE_ATTRIBUTE && keyword <= PARSE_INOUT))
+	if (keyword == PARSE_CONST || keyword == PARSE_STRUCT || keyword == PARSE_LOWP || keyword == PARSE_INVARIANT ||
+	    keyword == PARSE_PRECISE || (keyword >= PARSE_ATTRIBUTE && keyword <= PARSE_INOUT))
 		return true;
 	if (!parse_names_type(p, &p->now))
 		return false;

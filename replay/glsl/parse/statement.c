@@ -1,14 +1,14 @@
 #include "replay/glsl/parse/statement.h"
 
-#include "replay/glsl/parse/convert.h"
+#include "replay/glsl/meaning/convert.h"
+#include "replay/glsl/meaning/functions.h"
+#include "replay/glsl/meaning/operators.h"
+#include "replay/glsl/meaning/scope.h"
 #include "replay/glsl/parse/declaration.h"
 #include "replay/glsl/parse/expression.h"
-#include "replay/glsl/parse/functions.h"
-#include "replay/glsl/parse/keywords.h"
-#include "replay/glsl/parse/operators.h"
 #include "replay/glsl/parse/parser.h"
-#include "replay/glsl/parse/scope.h"
 #include "replay/glsl/parse/specifier.h"
+#include "replay/glsl/text/keywords.h"
 
 #define MOST_COMPARED 4096 /* labels of a switch */
 
@@ -19,8 +19,8 @@ static struct parse_node *sequence(struct parse *p, const struct parse_nodes *li
 	return parse_node_of(p, GLSL_SEQUENCE, parse_type(p, GLSL_VOID, 0, 0), list);
 }
 
-static struct parse_node *of_type_void(struct parse *p, enum glsl_operator operation, uint32_t n, struct parse_node *a, struct parse_node *b,
-				       struct parse_node *c)
+static struct parse_node *of_type_void(struct parse *p, enum glsl_operator operation, uint32_t n, struct parse_node *a,
+                                       struct parse_node *b, struct parse_node *c)
 {
 	return parse_node(p, operation, parse_type(p, GLSL_VOID, 0, 0), n, a, b, c);
 }
@@ -49,7 +49,8 @@ static struct parse_node *loop_body(struct parse *p)
 
 static struct parse_node *condition(struct parse *p, bool may_declare)
 {
-	struct parse_node *node = may_declare && parse_begins_declaration(p) ? parse_condition_variable(p) : parse_expression(p);
+	struct parse_node *node = may_declare && parse_begins_declaration(p) ? parse_condition_variable(p) :
+	                                                                       parse_expression(p);
 
 	parse_need_bool(p, node);
 	return node;
@@ -68,7 +69,8 @@ static struct parse_node *read_if(struct parse *p)
 	return of_type_void(p, GLSL_SELECTION, 3, test, yes, no);
 }
 
-static struct parse_node *read_loop(struct parse *p, struct parse_node *test, struct parse_node *body, struct parse_node *terminal, bool tests_first)
+static struct parse_node *read_loop(struct parse *p, struct parse_node *test, struct parse_node *body,
+                                    struct parse_node *terminal, bool tests_first)
 {
 	struct parse_node *node = of_type_void(p, GLSL_LOOP, 3, test, body, terminal);
 
@@ -133,7 +135,8 @@ static struct parse_node *read_label(struct parse *p, bool is_case, const struct
 {
 	struct parse_node *value = is_case ? parse_expression(p) : NULL;
 
-	if (value && (!parse_is_constant(value) || !parse_type_is_scalar(value->type) || (value->type->kind != GLSL_INT && value->type->kind != GLSL_UINT)))
+	if (value && (!parse_is_constant(value) || !parse_type_is_scalar(value->type) ||
+	              (value->type->kind != GLSL_INT && value->type->kind != GLSL_UINT)))
 		parse_error(p, "a case is no constant whole number");
 	if (value)
 		value = parse_convert(p, value, type->kind);
@@ -147,7 +150,8 @@ static void check_label(struct parse *p, const struct parse_nodes *list)
 	const struct parse_node *last = list->at[list->n - 1];
 
 	for (uint32_t i = 0; last->operation == GLSL_CASE && i + 1 < list->n && i < MOST_COMPARED; i++)
-		if (list->at[i]->operation == GLSL_CASE && list->at[i]->children[0]->numbers[0] == last->children[0]->numbers[0])
+		if (list->at[i]->operation == GLSL_CASE &&
+		    list->at[i]->children[0]->numbers[0] == last->children[0]->numbers[0])
 			parse_error(p, "a switch has two cases of one value");
 }
 

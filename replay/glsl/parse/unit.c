@@ -1,18 +1,18 @@
 #include "replay/glsl/parse/unit.h"
 
+#include "replay/glsl/meaning/functions.h"
+#include "replay/glsl/meaning/scope.h"
 #include "replay/glsl/parse/declaration.h"
-#include "replay/glsl/parse/directive.h"
 #include "replay/glsl/parse/expression.h"
-#include "replay/glsl/parse/functions.h"
-#include "replay/glsl/parse/keywords.h"
 #include "replay/glsl/parse/parser.h"
 #include "replay/glsl/parse/prelude.h"
 #include "replay/glsl/parse/prototype.h"
-#include "replay/glsl/parse/scope.h"
 #include "replay/glsl/parse/specifier.h"
 #include "replay/glsl/parse/statement.h"
+#include "replay/glsl/text/directive.h"
+#include "replay/glsl/text/keywords.h"
 
-/* --- Functions ---------------------------------------------------------------------------------------------------------- */
+/* --- Functions ---------------------------------------------------------------------------------------------------- */
 
 static void read_body(struct parse *p, struct parse_function *f)
 {
@@ -34,7 +34,8 @@ static void read_body(struct parse *p, struct parse_function *f)
 }
 
 /* Behind the name and '('. */
-static void read_function(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *result, struct parse_name *name)
+static void read_function(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *result,
+                          struct parse_name *name)
 {
 	struct parse_function *f = parse_prototype(p, q, result, name);
 
@@ -44,7 +45,7 @@ static void read_function(struct parse *p, const struct parse_qualifiers *q, con
 		read_body(p, f);
 }
 
-/* --- All declarations --------------------------------------------------------------------------------------------------- */
+/* --- All declarations --------------------------------------------------------------------------------------------- */
 
 /* invariant NAME, NAME; */
 static void read_invariant(struct parse *p)
@@ -77,7 +78,8 @@ static void read_declaration(struct parse *p)
 	q = parse_qualifiers(p);
 	if (q.any && parse_accept(p, ';'))
 		return;
-	if (q.any && p->now.kind == PARSE_NAME && !parse_names_type(p, &p->now) && parse_keyword(p, &p->now) != PARSE_STRUCT) {
+	if (q.any && p->now.kind == PARSE_NAME && !parse_names_type(p, &p->now) &&
+	    parse_keyword(p, &p->now) != PARSE_STRUCT) {
 		if (parse_is_sign(parse_peek(p), '{'))
 			parse_block(p, &q);
 		else

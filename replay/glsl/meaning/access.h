@@ -1,0 +1,13 @@
+/* Parts of values: elements, members, components. */
+#pragma once
+
+#include "replay/glsl/meaning/nodes.h"
+
+/** of[index] */
+struct parse_node *parse_index(struct parse *p, struct parse_node *of, struct parse_node *index);
+
+/** of.name: a member, or components */
+struct parse_node *parse_member(struct parse *p, struct parse_node *of, const struct parse_name *name);
+
+/** of.length() */
+struct parse_node *parse_length(struct parse *p, const struct parse_node *of);

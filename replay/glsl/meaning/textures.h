@@ -1,0 +1,10 @@
+/* Functions that sample textures (GLSL 1.20 sec. 8.7, GLSL 1.50 sec. 8.7): their names say most. */
+#pragma once
+
+#include "replay/glsl/meaning/nodes.h"
+
+/** Whether the language has such a function of this name here. */
+bool parse_is_texture_call(const struct parse *p, const char *name);
+
+/** A call. @return NULL: the function does not take these arguments */
+struct parse_node *parse_texture_call(struct parse *p, const char *name, const struct parse_nodes *arguments);

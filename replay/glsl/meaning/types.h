@@ -1,0 +1,52 @@
+/* Types: one object of each, so that equal types are equal pointers. */
+#pragma once
+
+#include "replay/glsl/text/context.h"
+
+struct parse_member {
+	struct parse_name *name;
+	const struct parse_type *type;
+};
+
+/* One of these for each name with members of these names and types, whichever unit and scope it is in. */
+struct parse_structure {
+	struct parse_structure *next;
+	struct parse_name *name;
+	uint32_t n;
+	struct parse_member *members;
+};
+
+struct parse_type {
+	struct parse_type *next;
+	enum glsl_kind kind;
+	uint32_t rows, columns;  /* as of struct glsl_type */
+	uint32_t texture;        /* with the bits of type_names.h */
+	uint32_t length;         /* of an array; 0: the text has not said it yet */
+	uint32_t depth, numbers; /* depth: how far arrays and structures nest */
+	uint32_t *number;        /* 1 + that in the tree; 0: none yet */
+	const struct parse_type *element;
+	struct parse_structure *structure;
+	bool holds_sampler, holds_array, holds_whole; /* holds_whole: int or uint */
+};
+
+const struct parse_type *parse_type(struct parse *p, enum glsl_kind kind, uint32_t rows, uint32_t columns);
+const struct parse_type *parse_type_sampler(struct parse *p, uint32_t texture);
+const struct parse_type *parse_type_array(struct parse *p, const struct parse_type *element, uint32_t length);
+const struct parse_type *parse_type_structure(struct parse *p, struct parse_name *name,
+                                              const struct parse_member *members, uint32_t n);
+
+static inline bool parse_type_is_number(const struct parse_type *t)
+{
+	return t->kind == GLSL_FLOAT || t->kind == GLSL_INT || t->kind == GLSL_UINT;
+}
+static inline bool parse_type_is_scalar(const struct parse_type *t)
+{
+	return t->kind >= GLSL_FLOAT && t->kind <= GLSL_BOOL && t->rows == 1 && !t->columns;
+}
+static inline bool parse_type_is_vector(const struct parse_type *t)
+{
+	return t->kind >= GLSL_FLOAT && t->kind <= GLSL_BOOL && t->rows > 1 && !t->columns;
+}
+
+/** How a message names a type: text that lives as long as the stage. */
+const char *parse_type_text(struct parse *p, const struct parse_type *t);
