@@ -174,9 +174,7 @@ WIDE_VECTORS static inline packf pack_encode(const struct compose_request *r, pa
 /* The part that one step adds to a sum, as compose_channel has it. display, before: after and before the step, not encoded */
 WIDE_VECTORS static inline packf pack_part_of(packf display, packf before, packf color, packf sum)
 {
-	const packi differ = display != before;
-
-	return any_pack(differ) ? select((packf)(0), pack_rounded(color - sum), differ) : (packf)(0);
+	return select((packf)(0), pack_rounded(color - sum), display != before);
 }
 
 /* A channel that no effect has a part in: GL's own colour alone. exact: it, encoded */

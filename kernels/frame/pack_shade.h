@@ -310,10 +310,12 @@ static inline packu pack_radiant_lights(const struct tables *t, const struct pac
 
 	for (uint i = 0; i < count && pack_takes_light(m); i++) {
 		struct pack_vec to_light;
-		const packf strength = pack_strength(&light[i], at, &to_light);
+		packf strength;
 
-		if (light[i].radius >= 0.0f)
-			lights |= select((packu)(0), (packu)(1u << i), (strength > 0.0f) & (pack_dot(n, to_light) > 0.0f));
+		if (!(light[i].radius >= 0.0f))
+			continue;
+		strength = pack_strength(&light[i], at, &to_light);
+		lights |= select((packu)(0), (packu)(1u << i), (strength > 0.0f) & (pack_dot(n, to_light) > 0.0f));
 	}
 	return lights;
 }

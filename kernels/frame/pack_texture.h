@@ -180,22 +180,22 @@ WIDE_VECTORS static inline packu pack_level_8(const struct tables *t, __global c
 {
 	__global const struct texture_image *image = &t->textures[unit->texture];
 	const packi slice = l->width * l->height;
+	const int n = image->target == GL_TEXTURE_3D ? 2 : 1;
 	packi x0, x1, y0, y1, z[2] = { 0, 0 };
-	packu wx, wy, wz = 0, sum = 0;
+	packu wx, wy, wz = 0, texel[2];
 
 	pack_wrap_8(unit->wrap_s, c[0], l->width, &x0, &x1, &wx);
 	pack_wrap_8(unit->wrap_t, c[1], l->height, &y0, &y1, &wy);
-	if (image->target == GL_TEXTURE_3D)
+	if (n == 2)
 		pack_wrap_8(unit->wrap_r, c[2], (packi)((int)image->depth), &z[0], &z[1], &wz);
-	for (int k = 0; k < (image->target == GL_TEXTURE_3D ? 2 : 1); k++) {
+	for (int k = 0; k < n; k++) {
 		const packu row0 = l->first + as_uint16(z[k] * slice + y0 * l->width), row1 = l->first + as_uint16(z[k] * slice + y1 * l->width);
-		const packu texel =
+
+		texel[k] =
 			pack_mix_8(pack_mix_8(pack_texels(t->texels, row0 + as_uint16(x0)), pack_texels(t->texels, row0 + as_uint16(x1)), wx),
 		                   pack_mix_8(pack_texels(t->texels, row1 + as_uint16(x0)), pack_texels(t->texels, row1 + as_uint16(x1)), wx), wy);
-
-		sum = k == 0 ? texel : pack_mix_8(sum, texel, wz);
 	}
-	return sum;
+	return n == 2 ? pack_mix_8(texel[0], texel[1], wz) : texel[0];
 }
 
 /* The nearest texels of level 0. c: as of pack_level_8 */
