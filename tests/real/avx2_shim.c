@@ -1,48 +1,95 @@
 /*
- * A processor without AVX-512: preloaded, it has PoCL's LLVM 15 answer that this machine is a Haswell, so that PoCL compiles kernels as
- * it does there. POCL_CACHE_DIR must be another one than PoCL uses otherwise: its cache knows kernels by the machine.
+ * A processor without AVX-512: preloaded, it shows a program no more of this one than a Haswell has, so that PoCL compiles kernels as on a
+ * Haswell, whichever LLVM it has inside. The processor faults on CPUID (arch_prctl(2), ARCH_SET_CPUID), and a handler answers instead.
+ * A processor that cannot do that ends the program with code 77. Give PoCL a POCL_CACHE_DIR apart: 3.1 tells kernels' processors apart by
+ * their name alone.
  */
+#include <asm/prctl.h>
+#include <cpuid.h>
 #include <dlfcn.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <string.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <sys/syscall.h>
+#include <ucontext.h>
+#include <unistd.h>
 
-/* llvm::StringRef */
-struct text {
-	const char *data;
-	size_t length;
-};
+#define HASWELL 0x306c3u /* its family, model and stepping: Intel's manual, volume 2, CPUID leaf 1 */
 
-/* llvm::StringMap<bool>: buckets that are empty, hold what was erased, or point to an entry; the key stands `item_bytes` into it. */
-struct entry {
-	size_t key_length;
-	bool value;
-};
-struct map {
-	struct entry **buckets;
-	unsigned n_buckets, n_items, n_erased, item_bytes;
-};
+/* Bits of leaf 7 that say AVX-512 or what grew out of it. */
+#define LEAF7_EBX (1u << 16 | 1u << 17 | 1u << 21 | 1u << 26 | 1u << 27 | 1u << 28 | 1u << 30 | 1u << 31)
+#define LEAF7_ECX (1u << 1 | 1u << 6 | 1u << 11 | 1u << 12 | 1u << 14)
+#define LEAF7_EDX (1u << 2 | 1u << 3 | 1u << 8 | 1u << 23)
+#define LEAF7_1_EAX (1u << 5)
+#define LEAF7_1_EDX (1u << 19)
 
-struct text _ZN4llvm3sys14getHostCPUNameEv(void);
-bool _ZN4llvm3sys18getHostCPUFeaturesERNS_9StringMapIbNS_15MallocAllocatorEEE(struct map *features);
+static struct sigaction others; /* what other faults do */
 
-struct text _ZN4llvm3sys14getHostCPUNameEv(void)
+typedef int set_function(int, const struct sigaction *, struct sigaction *);
+
+static int set_action(int number, const struct sigaction *action, struct sigaction *before)
 {
-	return (struct text){ "haswell", 7 };
+	return ((set_function *)dlsym(RTLD_NEXT, "sigaction"))(number, action, before);
 }
 
-bool _ZN4llvm3sys18getHostCPUFeaturesERNS_9StringMapIbNS_15MallocAllocatorEEE(struct map *features)
+/* LLVM has a handler of its own while it writes files. */
+int sigaction(int number, const struct sigaction *action, struct sigaction *before)
 {
-	void *llvm = dlopen("libLLVM-15.so.1", RTLD_LAZY | RTLD_NOLOAD);
-	bool (*real)(struct map *) = (bool (*)(struct map *))dlsym(llvm, "_ZN4llvm3sys18getHostCPUFeaturesERNS_9StringMapIbNS_15MallocAllocatorEEE");
-	const bool known = real(features);
+	const struct sigaction was = others;
 
-	for (unsigned i = 0; i < features->n_buckets; i++) {
-		struct entry *e = features->buckets[i];
+	if (number != SIGSEGV)
+		return set_action(number, action, before);
+	if (action)
+		others = *action;
+	if (before)
+		*before = was;
+	return 0;
+}
 
-		/* Erased: all but the lowest bits set. */
-		if (e && (size_t)e < (size_t)-16 && strncmp((const char *)e + features->item_bytes, "avx512", 6) == 0)
-			e->value = false;
+static void answer(uint32_t leaf, uint32_t part, uint32_t out[4])
+{
+	syscall(SYS_arch_prctl, ARCH_SET_CPUID, 1);
+	__cpuid_count(leaf, part, out[0], out[1], out[2], out[3]);
+	syscall(SYS_arch_prctl, ARCH_SET_CPUID, 0);
+	if (leaf == 1)
+		out[0] = HASWELL;
+	if (leaf == 7 && part == 0) {
+		out[1] &= ~LEAF7_EBX;
+		out[2] &= ~LEAF7_ECX;
+		out[3] &= ~LEAF7_EDX;
 	}
-	return known;
+	if (leaf == 7 && part == 1) {
+		out[0] &= ~LEAF7_1_EAX;
+		out[3] &= ~LEAF7_1_EDX;
+	}
+}
+
+static void on_fault(int number, siginfo_t *info, void *context)
+{
+	greg_t *registers = ((ucontext_t *)context)->uc_mcontext.gregs;
+	const unsigned char *at = (const unsigned char *)registers[REG_RIP];
+	uint32_t out[4];
+
+	/* A fault at an address is another one; code at the end of a page is not read past it. */
+	if (info->si_code != SI_KERNEL || at[0] != 0x0f || at[1] != 0xa2) {
+		set_action(number, &others, NULL);
+		return;
+	}
+	answer((uint32_t)registers[REG_RAX], (uint32_t)registers[REG_RCX], out);
+	registers[REG_RAX] = out[0];
+	registers[REG_RBX] = out[1];
+	registers[REG_RCX] = out[2];
+	registers[REG_RDX] = out[3];
+	registers[REG_RIP] += 2;
+}
+
+__attribute__((constructor)) static void hide(void)
+{
+	const struct sigaction ours = { .sa_sigaction = on_fault, .sa_flags = SA_SIGINFO | SA_NODEFER };
+
+	set_action(SIGSEGV, &ours, &others);
+	if (syscall(SYS_arch_prctl, ARCH_SET_CPUID, 0)) {
+		fputs("avx2_shim: this processor cannot hide AVX-512 (no cpuid_fault in /proc/cpuinfo)\n", stderr);
+		_exit(77);
+	}
 }
