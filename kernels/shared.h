@@ -221,6 +221,8 @@ SHARED_SIZE(struct shaded_vertex, 128);
  */
 #define GEOMETRY_SMOOTH_LINE 2u
 #define GEOMETRY_SMOOTH_POINT 4u
+/* Smooth lines of which a pixel is covered no more than they are long. */
+#define GEOMETRY_LENGTH_COVERS 32u
 /* Bitmaps and pixel rectangles: color[1] holds the pixel's column and row, the texture's number, and the kind (SCENE_BITMAP ..). */
 #define GEOMETRY_PIXELS 8u
 /*

@@ -355,6 +355,7 @@ struct scene {
 	uint32_t samples; /* of a pixel; 0 counts as 1, more as SCENE_SAMPLES. Where they are: tracer/frame/trace.c */
 	uint32_t floats;  /* not 0: its colours are floats (ARB_color_buffer_float) */
 	uint32_t output;  /* which of the colours of programs that draw to several buffers it shows, from 0 (scene_program.data) */
+	uint32_t mesa;    /* enum scene_mesa: what the Mesa that drew the reference does otherwise than 22.3 */
 	uint32_t samples_from_below; /* 1: their rows count from the bottom, as llvmpipe has it in framebuffer objects */
 
 	/* Flat arrays, owned by the scene. */

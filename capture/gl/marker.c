@@ -10,6 +10,7 @@
 #include "capture/gl/context.h"
 #include "capture/relume.h"
 #include "capture/write/fake.h"
+#include "real.h"
 #include "tables/commands.h"
 
 #define SHOWN __attribute__((visibility("default")))
@@ -51,6 +52,18 @@ void relume_build_kd_tree(void)
 	marker_write("relume:kdtree");
 }
 
+/* Which GL draws: versions of Mesa differ in what the specification leaves open (scene/mesa.h). */
+static void marker_write_gl(void)
+{
+	const char *version = (const char *)real_glGetString(GL_VERSION), *renderer = (const char *)real_glGetString(GL_RENDERER);
+	char text[192];
+
+	if (!version || !renderer)
+		return;
+	snprintf(text, sizeof(text), "relume:gl %s, %s", version, renderer);
+	marker_write(text);
+}
+
 void marker_write_bits(void)
 {
 	char text[64];
@@ -61,6 +74,7 @@ void marker_write_bits(void)
 	         !context_has(HAS_DESKTOP) || context_get(GL_DOUBLEBUFFER) != 0);
 	context_errors_after();
 	marker_write(text);
+	marker_write_gl();
 	if (FLT_EVAL_METHOD == 2) /* built for the processors that this distribution builds its GL library for, too */
 		marker_write("relume:x87");
 }

@@ -6,5 +6,5 @@
 
 void marker_write(const char *text);
 
-/** A context was made current for the first time: how many bits a pixel of its drawable has. */
+/** A context was made current for the first time: how many bits a pixel of its drawable has, and which GL draws. */
 void marker_write_bits(void);

@@ -199,8 +199,11 @@ static inline float stage_coverage(const struct point *p)
 	if (!(p->geometry->flags & (GEOMETRY_SMOOTH_LINE | GEOMETRY_SMOOTH_POINT)))
 		return 1.0f;
 	c = point_mix(p, v4_load(p->vertex[0]->color[1]), v4_load(p->vertex[1]->color[1]), v4_load(p->vertex[2]->color[1]));
-	if (p->geometry->flags & GEOMETRY_SMOOTH_LINE)
-		return clamp01(c.y - M_ABS(c.x)) * clamp01(c.w - M_ABS(c.z));
+	if (p->geometry->flags & GEOMETRY_SMOOTH_LINE) {
+		const float along = clamp01(c.w - M_ABS(c.z)), length = c.w * 2.0f - 1.0f;
+
+		return clamp01(c.y - M_ABS(c.x)) * (p->geometry->flags & GEOMETRY_LENGTH_COVERS && length < along ? length : along);
+	}
 	apart = c.x * c.x + c.y * c.y;
 	if (!(apart <= 1.0f))
 		return 0.0f;

@@ -357,6 +357,7 @@ static void describe(struct gls_exec *x, const struct gls_surface *surface, stru
 	s->alpha_bits = surface->alpha_bits;
 	s->samples = surface->samples;
 	s->floats = surface->floats;
+	s->mesa = x->st ? x->st->mesa : 0;
 	s->samples_from_below = surface->samples_from_below;
 	s->needs_previous = f->looked || !(f->known.whole & 1);
 	s->is_first = !surface->picture && !surface->before && !surface->skipped;

@@ -12,6 +12,7 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
+#include "scene/mesa.h"
 
 static void set_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable, uint64_t read)
 {
@@ -155,7 +156,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 {
 	const struct trace_value *v = arg(c, 1);
 	struct gls_drawable *drawable;
-	char text[128];
+	char text[192];
 	unsigned width, height, alpha, depth, stencil, srgb = 0, samples = 0, two_buffers = 1;
 	size_t n;
 
@@ -172,6 +173,8 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		st->kd_tree = 1;
 	if (strcmp(text, "relume:x87") == 0)
 		st->x87 = 1;
+	if (strncmp(text, "relume:gl ", 10) == 0)
+		st->mesa = scene_mesa_of(text + 10);
 	/* One comes with every frame of some programs, and sscanf measures the text before it looks at it. */
 	if (strncmp(text, "relume:bits", 11) == 0 &&
 	    sscanf(text, "relume:bits %u %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples, &two_buffers) >= 3 &&

@@ -321,6 +321,7 @@ struct gls_state {
 	uint32_t ever_current;
 	uint32_t alpha_bits, depth_bits, stencil_bits, samples, double_buffered;
 	uint32_t x87;  /* 1: the GL library's own code sums as mat4_sums[1] does */
+	uint32_t mesa; /* enum scene_mesa: what the Mesa that was recorded does otherwise than 22.3 */
 	uint32_t srgb; /* 1: it can hold sRGB colours (which matters to accum.c alone: nothing here converts else) */
 };
 

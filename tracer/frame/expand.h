@@ -18,7 +18,7 @@ struct expand_input {
 	const struct scene_rectangle *rectangles; /* [mesh vertices]; NULL: it draws no bitmaps or pixel rectangles */
 	uint32_t cull; /* INSTANCE_CULL_*: faces of polygons not drawn in this shape */
 	uint32_t width, height, depth_bits;
-	uint32_t from_below; /* scene.samples_from_below */
+	uint32_t from_below, mesa; /* scene.samples_from_below and .mesa */
 	const struct shaded_vertex *vertices; /* [mesh vertices] */
 	const float (*texcoords)[4];          /* [mesh vertices][unit_count] */
 	float *dashed; /* pixels since a line stipple started anew: goes on from one instance to the next, as in Mesa's draw module */

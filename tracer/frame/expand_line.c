@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "scene/mesa.h"
 #include "tracer/frame/expand_quad.h"
 
 /* Where a coordinate lies in its pixel, from the centre. */
@@ -39,11 +40,13 @@ static int draws_end(float major, float minor, float edge, float d_major, float 
 }
 
 /* How far to move an end along the major axis: the quad must cover the pixel's centre exactly if the line draws the end's pixel. */
-static float end_shift(float x, float y, float d_major, float d_minor, int first, int steep)
+static float end_shift(const struct expand_input *in, float x, float y, float d_major, float d_minor, int first, int steep)
 {
 	float at[2] = { from_centre(x), from_centre(y) }, major = at[steep], minor = at[!steep];
 	float edge = steep ? x - floorf(x) : y - floorf(y);
-	int covers = first ? !same_way(major, d_major, !steep) : same_way(major, d_major, steep) || major == 0;
+	/* Mesa 22.3 has a second end right beside a centre cover it in any direction. */
+	int passes = steep ? (major >= 0) == (d_major > 0) : (major > 0) == (d_major > 0);
+	int covers = first ? !passes : passes || (major == 0 && !(in->mesa & SCENE_MESA_LINE_ENDS));
 
 	if (!first && minor == -0.5f && d_minor > 0)
 		minor = 0.5f;
@@ -73,15 +76,15 @@ static void add_line(const struct expand_input *in, struct expanded *out, const 
 	int steep = !(fabsf(dx) >= fabsf(dy));
 	float d_major = steep ? dy : dx, d_minor = steep ? dx : dy;
 	const struct expand_end *ends[2] = { a, b };
-	int32_t half = (int32_t)(width + 0.5f) * 128, x[2], y[2];
+	int32_t half = expand_round(in, width) * 128, x[2], y[2];
 
 	if (d_major == 0)
 		return;
 	for (int i = 0; i < 2; i++) {
-		float along = end_shift(ends[i]->x, ends[i]->y, d_major, d_minor, i == 0, steep), across = along * (d_minor / d_major);
+		float along = end_shift(in, ends[i]->x, ends[i]->y, d_major, d_minor, i == 0, steep), across = along * (d_minor / d_major);
 
-		x[i] = expand_snap(ends[i]->x + (steep ? across : along));
-		y[i] = expand_snap(ends[i]->y + (steep ? along : across));
+		x[i] = expand_snap(in, ends[i]->x + (steep ? across : along));
+		y[i] = expand_snap(in, ends[i]->y + (steep ? along : across));
 	}
 	if ((steep ? y[1] > y[0] : x[1] > x[0]) != (d_major > 0))
 		return; /* its ends have passed each other: llvmpipe's planes leave nothing of it */
@@ -96,11 +99,9 @@ static void add_line(const struct expand_input *in, struct expanded *out, const 
 }
 
 /* As expand_snap, for pixels with samples: counted from their corner. */
-static int32_t snap_sampled(float pixels)
+static int32_t snap_sampled(const struct expand_input *in, float pixels)
 {
-	float x = pixels * 256;
-
-	return (int32_t)(x >= 0 ? x + 0.5f : x - 0.5f);
+	return expand_round(in, pixels * 256);
 }
 
 /* Pixels along one axis that llvmpipe (22.3.6) draws of a line's rectangle; it rounds both ends of the range up. */
@@ -132,7 +133,7 @@ static void add_line_rectangle(const struct expand_input *in, struct expanded *o
 {
 	float dx = a->x - b->x, dy = a->y - b->y, area = dx * dx + dy * dy;
 	float scale = fmaxf(in->material->line_width, 1) * 0.5f / sqrtf(area), drawn[3] = { 0, -EVERYWHERE, EVERYWHERE };
-	int32_t side_x = snap_sampled(-dy * scale), side_y = snap_sampled(dx * scale), x[4], y[4], row[4];
+	int32_t side_x = snap_sampled(in, -dy * scale), side_y = snap_sampled(in, dx * scale), x[4], y[4], row[4];
 	struct extent columns, rows;
 
 	if (!(area > 0))
@@ -141,8 +142,8 @@ static void add_line_rectangle(const struct expand_input *in, struct expanded *o
 		const struct expand_end *e = k == 1 || k == 2 ? b : a;
 		int32_t side = k < 2 ? -1 : 1;
 
-		x[k] = snap_sampled(e->x) + side * side_x;
-		y[k] = snap_sampled(e->y) + side * side_y;
+		x[k] = snap_sampled(in, e->x) + side * side_x;
+		y[k] = snap_sampled(in, e->y) + side * side_y;
 		row[k] = in->from_below ? (int32_t)in->height * 256 - y[k] : y[k];
 	}
 	columns = extent_of(x, 0);
@@ -159,19 +160,33 @@ static void add_line_rectangle(const struct expand_input *in, struct expanded *o
 	expand_add_triangles(in, out, draw);
 }
 
-/* A smooth line as Mesa's draw module (22.3) makes it: longer by half a pixel at each end, wider by half a pixel a side. */
+/*
+ * Half the length of a smooth line's quad, for its coverage, and the line's direction. Not divided by the length in Mesa 22.3: lines drawn back over
+ * themselves show the last bits, and one of no length lies flat. In 25.0 that one is gone.
+ */
+static float turn_smooth_line(const struct expand_input *in, float *dx, float *dy)
+{
+	float length = sqrtf(*dx * *dx + *dy * *dy), angle = atan2f(*dy, *dx);
+
+	if (in->mesa & SCENE_MESA_SMOOTH_LINES) {
+		*dx /= length;
+		*dy /= length;
+		return length > 0 ? 0.5f * length + 0.5f : -1;
+	}
+	*dx = cosf(angle);
+	*dy = sinf(angle);
+	return length < 1 ? length : 0.5f * length + 0.5f;
+}
+
+/* A smooth line as Mesa's draw module makes it: longer by half a pixel at each end, wider by half a pixel a side. */
 static void add_smooth_line(const struct expand_input *in, struct expanded *out, const struct expand_end *a, const struct expand_end *b,
                             uint32_t draw)
 {
-	float dx = b->x - a->x, dy = b->y - a->y, length = sqrtf(dx * dx + dy * dy);
-	float half_length = length < 1 ? length : 0.5f * length + 0.5f;
-	float half = in->material->line_width <= 1 ? 1 : 0.5f * in->material->line_width + 0.5f, angle = atan2f(dy, dx);
+	float dx = b->x - a->x, dy = b->y - a->y, half_length = turn_smooth_line(in, &dx, &dy);
+	float half = in->material->line_width <= 1 ? 1 : 0.5f * in->material->line_width + 0.5f;
 
-	if (!(length >= 0))
+	if (!(half_length >= 0))
 		return;
-	/* Not divided by the length: lines drawn back over themselves show the last bits, and one of no length lies flat. */
-	dx = cosf(angle);
-	dy = sinf(angle);
 	/* Cut the quad along the same diagonal as Mesa: where w varies along the line, the two ways to cut it differ. */
 	for (int k = 0; k < 4; k++) {
 		const struct expand_end *e = k >= 2 ? b : a;

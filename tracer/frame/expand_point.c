@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "scene/mesa.h"
 #include "tracer/frame/expand_quad.h"
 
 static void add_smooth_point(const struct expand_input *in, struct expanded *out, const struct expand_end *e, uint32_t draw)
@@ -23,16 +24,17 @@ static void add_smooth_point(const struct expand_input *in, struct expanded *out
 static void add_point(const struct expand_input *in, struct expanded *out, const struct expand_end *e, uint32_t draw)
 {
 	const struct scene_material *m = in->material;
-	int32_t width = (int32_t)fmaxf(e->v.size[0] * 256 + 0.5f, 256), x = expand_snap(e->x) - width / 2, y = expand_snap(e->y) - width / 2;
-	/* Under multisampling llvmpipe has a sprite's middle half a pixel off. */
-	float off = m->multisample ? 128 / (float)width : 0;
+	int32_t rounded = expand_round(in, e->v.size[0] * 256), width = rounded > 256 ? rounded : 256;
+	int32_t x = expand_snap(in, e->x) - width / 2, y = expand_snap(in, e->y) - width / 2;
+	/* Under multisampling Mesa 22.3 has a sprite's middle half a pixel off. */
+	float off = m->multisample && !(in->mesa & SCENE_MESA_SPRITES) ? 128 / (float)width : 0;
 
 	/* Without sprites and multisampling, points are whole pixels (sec. 3.3.1), their width and place rounded as llvmpipe does. */
 	if (!m->point_sprite && !m->point_smooth && !m->multisample) {
 		int32_t pixels = (width + 127) >> 8, middle = pixels & 1 ? 0 : 128;
 
-		x = (((expand_snap(e->x) + middle) >> 8) - pixels / 2) * 256;
-		y = (((expand_snap(e->y) - 1 + middle) >> 8) - pixels / 2) * 256; /* a place on an edge belongs to the pixel above */
+		x = (((expand_snap(in, e->x) + middle) >> 8) - pixels / 2) * 256;
+		y = (((expand_snap(in, e->y) - 1 + middle) >> 8) - pixels / 2) * 256; /* a place on an edge belongs to the pixel above */
 		width = pixels * 256;
 	}
 	for (int k = 0; k < 4; k++) {

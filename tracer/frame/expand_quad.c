@@ -1,9 +1,11 @@
 #include "tracer/frame/expand_quad.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "gl_tokens.h"
+#include "scene/mesa.h"
 
 int expand_reserve_quad(const struct expand_input *in, struct expanded *out)
 {
@@ -23,11 +25,16 @@ int expand_reserve_quad(const struct expand_input *in, struct expanded *out)
 	return 0;
 }
 
-int32_t expand_snap(float pixels)
+int32_t expand_round(const struct expand_input *in, float x)
 {
-	float x = (pixels - 0.5f) * 256;
+	if (in->mesa & SCENE_MESA_ROUNDS_TO_EVEN)
+		return (int32_t)rintf(x);
+	return (int32_t)(x >= 0 ? x + 0.5f : x - 0.5f);
+}
 
-	return (int32_t)(x >= 0 ? x + 0.5f : x - 0.5f) + 128;
+int32_t expand_snap(const struct expand_input *in, float pixels)
+{
+	return expand_round(in, (pixels - 0.5f) * 256) + 128;
 }
 
 void expand_add_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int32_t x, int32_t y)
@@ -81,7 +88,7 @@ void expand_add_smooth_corner(const struct expand_input *in, struct expanded *ou
 	const float *v = in->view->viewport;
 	float w = 1 / e->w_inv;
 
-	expand_add_corner(in, out, e, expand_snap(x), expand_snap(y));
+	expand_add_corner(in, out, e, expand_snap(in, x), expand_snap(in, y));
 	vertex->clip[0] = (2 * (x - v[0]) / v[2] - 1) * w;
 	vertex->clip[1] = (2 * ((float)in->height - y - v[1]) / v[3] - 1) * w;
 	vertex->size[0] = x;

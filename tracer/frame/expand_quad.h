@@ -9,8 +9,11 @@
 /** Room for another quad. @return 0 or ERR_SYSTEM (reported) */
 int expand_reserve_quad(const struct expand_input *in, struct expanded *out);
 
-/** 1/256 pixel from the pixel corner, halves as llvmpipe rounds those of lines and points: a centre is 0 for it. */
-int32_t expand_snap(float pixels);
+/** The nearest whole number; halves as llvmpipe rounds those of lines and points. */
+int32_t expand_round(const struct expand_input *in, float x);
+
+/** 1/256 pixel from the pixel corner, rounded so: a centre is 0 for llvmpipe. */
+int32_t expand_snap(const struct expand_input *in, float pixels);
 
 /** Add a corner of a quad. x, y: in 1/256 pixel, y down. */
 void expand_add_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int32_t x, int32_t y);

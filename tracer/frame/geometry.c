@@ -7,6 +7,7 @@
 #include "base/err.h"
 #include "base/mat4.h"
 #include "base/memory.h"
+#include "scene/mesa.h"
 #include "tracer/frame/expand.h"
 #include "tracer/frame/hook_objects.h"
 #include "tracer/frame/perspective.h"
@@ -78,7 +79,8 @@ static int expand_instance(struct job *job, uint32_t i, float *dashed)
 	struct expand_input in = { .mesh = scene->meshes[scene->instances[p->instances[i].scene_instance].mesh],
 		                   .material = m, .units = scene->units + m->unit_first, .view = &p->views[g->view],
 		                   .shape = p->shapes[i], .cull = p->culls[i], .width = job->width, .height = job->height,
-		                   .depth_bits = scene->depth_bits, .from_below = scene->samples_from_below, .vertices = vertices,
+		                   .depth_bits = scene->depth_bits, .from_below = scene->samples_from_below, .mesa = scene->mesa,
+		                   .vertices = vertices,
 		                   .texcoords = (const float (*)[4])texcoords, .dashed = dashed };
 	uint32_t first = scene->instances[p->instances[i].scene_instance].rectangle;
 	int err = 0;
@@ -113,6 +115,13 @@ static int write_clips(struct tracer *tr, uint32_t first, const struct expanded 
 	return err;
 }
 
+static uint32_t flags_of_lines(const struct scene *scene, const struct scene_material *m)
+{
+	if (!m->line_smooth)
+		return GEOMETRY_LINE;
+	return GEOMETRY_SMOOTH_LINE | (scene->mesa & SCENE_MESA_SMOOTH_LINES ? GEOMETRY_LENGTH_COVERS : 0);
+}
+
 /* Put the new vertices behind the frame's own, where there is room. */
 static int upload_expanded(struct job *job)
 {
@@ -132,7 +141,7 @@ static int upload_expanded(struct job *job)
 		if (job->scene->instances[p->instances[i].scene_instance].rectangle)
 			g->flags |= GEOMETRY_PIXELS;
 		if (p->shapes[i] == PREPARED_LINES)
-			g->flags |= job->scene->materials[g->material].line_smooth ? GEOMETRY_SMOOTH_LINE : GEOMETRY_LINE;
+			g->flags |= flags_of_lines(job->scene, &job->scene->materials[g->material]);
 		if (p->shapes[i] == PREPARED_POINTS && job->scene->materials[g->material].point_smooth &&
 		    !job->scene->materials[g->material].point_sprite)
 			g->flags |= GEOMETRY_SMOOTH_POINT;

@@ -1,0 +1,26 @@
+/*
+ * The Mesa that drew what a recording's reference shows. The specification leaves much of drawing open, and llvmpipe decides some of it
+ * otherwise from one version to the next. Relume draws as 22.3 does, but for the differences that are listed here.
+ */
+#pragma once
+
+#include <stdint.h>
+
+/** Differences from Mesa 22.3, as bits. */
+enum scene_mesa {
+	/* 23.2: at an end right beside a pixel's centre, which pixel the quad of a line covers is known exactly */
+	SCENE_MESA_LINE_ENDS = 1,
+	/* 25.0: places and widths of lines and points that lie half way are rounded to even numbers, not away from 0 */
+	SCENE_MESA_ROUNDS_TO_EVEN = 2,
+	/* 25.0: the middle of a point sprite is its middle under multisampling, too */
+	SCENE_MESA_SPRITES = 4,
+	/* 25.0: smooth lines are turned without angles, and cover no more than their length where they are short */
+	SCENE_MESA_SMOOTH_LINES = 8,
+};
+
+/**
+ * The differences of the GL that calls itself so.
+ * @param gl  its version and renderer, as glGetString gives them: "4.5 (Compatibility Profile) Mesa 25.0.7, llvmpipe (...)"
+ * @return bits of enum scene_mesa; 0 for 22.3, for older ones, and where it is not Mesa's llvmpipe
+ */
+uint32_t scene_mesa_of(const char *gl);
