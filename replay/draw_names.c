@@ -4,12 +4,17 @@
 
 #include "gl_tokens.h"
 #include "replay/replay.h"
+#include "scene/mesa.h"
 #include "scene/release.h"
 #include "scene/scene.h"
 
-/* Where references that Mesa (22.3.6) made depart from OpenGL. */
-static const char *known_of(const struct scene_material *m)
+/* Where references that Mesa made depart from OpenGL. */
+static const char *known_of(const struct scene *scene, const struct scene_instance *drawn)
 {
+	const struct scene_material *m = &scene->materials[drawn->material];
+
+	if (scene->mesa & SCENE_MESA_BITMAPS && m->fog && drawn->rectangle && scene->rectangles[drawn->rectangle - 1].kind == SCENE_BITMAP)
+		return "Mesa 25 draws bitmaps late, with the fog that is set then";
 	if (m->lighting && m->two_side && m->color_material == GL_BACK)
 		return "Mesa 22 leaves green and blue of back sides unknown whose colours alone are the vertices'";
 	return NULL;
@@ -28,7 +33,7 @@ static void describe_draw(const struct scene *scene, struct draw_name *name)
 		return;
 	m = &scene->materials[found->material];
 	name->has_program = m->program != 0;
-	name->known = known_of(m);
+	name->known = known_of(scene, found);
 	if (m->unit_count) {
 		const struct scene_texture *t = scene->textures[scene->units[m->unit_first].texture];
 

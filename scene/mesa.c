@@ -13,6 +13,8 @@ uint32_t scene_mesa_of(const char *gl)
 		{ 25, 0, SCENE_MESA_ROUNDS_TO_EVEN },
 		{ 25, 0, SCENE_MESA_SPRITES },
 		{ 25, 0, SCENE_MESA_SMOOTH_LINES },
+		{ 25, 0, SCENE_MESA_BITMAPS },
+		{ 25, 0, SCENE_MESA_FLAT_PROGRAMS },
 	};
 	const char *mesa = strstr(gl, "Mesa ");
 	unsigned major, minor;

@@ -16,6 +16,10 @@ enum scene_mesa {
 	SCENE_MESA_SPRITES = 4,
 	/* 25.0: smooth lines are turned without angles, and cover no more than their length where they are short */
 	SCENE_MESA_SMOOTH_LINES = 8,
+	/* 25.0: bitmaps are drawn by the program of their own time, with the current secondary colour and the parameters of fog of later on */
+	SCENE_MESA_BITMAPS = 16,
+	/* 25.0: ShadeModel holds for the colours that fragment programs in assembly read, too */
+	SCENE_MESA_FLAT_PROGRAMS = 32,
 };
 
 /**

@@ -16,6 +16,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/programs/program.h"
+#include "scene/mesa.h"
 #include "scene/program.h"
 
 void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *scissor, int32_t out[4])
@@ -423,8 +424,8 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.surface = st->surface;
 	m.program = runs_fragments || st->program || st->a.programs.vertex || st->a.programs.fragment;
 	if (runs_fragments) {
-		if (!st->program)
-			m.shade_model = GL_SMOOTH; /* as Mesa (22.3.6) has it for colours of programs in assembly, whatever ShadeModel says */
+		if (!st->program && !(st->mesa & SCENE_MESA_FLAT_PROGRAMS))
+			m.shade_model = GL_SMOOTH;
 		m.fragment_program = gls_program_build(x, f, st, a, &fragments, lights);
 	}
 	if (runs_vertices) {

@@ -9,7 +9,8 @@
 #include "replay/build/intern.h"
 #include "replay/build/material.h"
 #include "replay/machine/errors.h"
-#include "replay/programs/code.h"
+#include "replay/programs/program.h"
+#include "scene/mesa.h"
 
 static void set_four(float out[4], const float *from)
 {
@@ -204,4 +205,16 @@ uint32_t gls_program_build(struct gls_exec *x, struct gls_frame *f, const struct
 	place = gls_intern_array(x, &f->programs, &f->out->programs, &f->out->n_programs, &f->room.programs, words, (uint32_t)n, 4);
 	free(words);
 	return place == SCENE_NONE ? 0 : place + 1;
+}
+
+int gls_shades_flat(const struct gls_state *st)
+{
+	struct program_stage fragments;
+
+	if (st->a.lighting.shade_model != GL_FLAT)
+		return 0;
+	if (st->program || !st->a.programs.fragment)
+		return 1;
+	return st->mesa & SCENE_MESA_FLAT_PROGRAMS && gls_program_runs_fragments(st, &fragments) &&
+	       fragments.code->inputs & (1u << SCENE_INPUT_COLOR | 1u << SCENE_INPUT_SECONDARY);
 }

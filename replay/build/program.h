@@ -9,6 +9,9 @@ struct gls_frame;
 struct program_stage;
 struct gls_state;
 
+/** 1 where what is drawn is shaded flat. Programs in assembly know no flat colours before Mesa 25.0, and only those that read colours do then. */
+int gls_shades_flat(const struct gls_state *st);
+
 /**
  * Put a stage's program into the scene of a frame, with its constants as they are now.
  * @param lights  1 << number of each in the material's list

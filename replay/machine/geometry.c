@@ -278,11 +278,10 @@ void gls_geometry_turn_quads(struct gls_geometry *g)
 	}
 }
 
-int gls_quads_turn(const struct gls_state *st, const float *position, const uint32_t *index, uint32_t n_primitives)
+int gls_quads_turn(const struct gls_state *st, int is_flat, const float *position, const uint32_t *index, uint32_t n_primitives)
 {
 	static const unsigned corners[4] = { 0, 1, 2, 4 }; /* of the six indices of its two triangles */
 	const struct gls_attribs *a = &st->a;
-	const int is_flat = a->lighting.shade_model == GL_FLAT && (st->program || !a->programs.fragment); /* programs in assembly know no flat colours */
 	float mvp[16];
 
 	if (is_flat || a->polygon.mode[0] != GL_FILL || a->polygon.mode[1] != GL_FILL ||

@@ -63,6 +63,7 @@ void gls_geometry_turn_quads(struct gls_geometry *g);
 void gls_geometry_part_strips(struct gls_geometry *g);
 /**
  * 1 if quads are cut the other way under this state.
+ * @param is_flat  1: they are shaded flat (replay/build/program.h)
  * @param index  [n_primitives][3], as gls_geometry_cut makes them of GL_QUADS: vertices of quads that are not whole do not count
  */
-int gls_quads_turn(const struct gls_state *st, const float *position, const uint32_t *index, uint32_t n_primitives);
+int gls_quads_turn(const struct gls_state *st, int is_flat, const float *position, const uint32_t *index, uint32_t n_primitives);

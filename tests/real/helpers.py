@@ -119,7 +119,8 @@ def check_same_pictures(name, frames, *options):
     check(len(files) == len(frames), f"{name}: {len(files)} frames of {len(frames)}")
     _, score = diff(trace, frames_of(trace))
     for frame, what in zip(score["frames"], frames):
-        check(frame["failing_pixels"] == 0, f"{name}: {what}: {frame['failing_pixels']} pixels fail")
+        known = sum(b["pixels"] for b in frame.get("blame", ()) if "known" in b) # of the Mesa at hand: replay/draw_names.c
+        check(frame["failing_pixels"] == known, f"{name}: {what}: {frame['failing_pixels']} pixels fail, of which {known} are known")
     return trace, score
 
 

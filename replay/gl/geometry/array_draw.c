@@ -10,6 +10,7 @@
 #include "base/err.h"
 #include "capture/format/call.h"
 #include "replay/build/mesh.h"
+#include "replay/build/program.h"
 #include "replay/gl/geometry/array_read.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/surface/draw.h"
@@ -180,7 +181,7 @@ static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32
 	key = gls_sources_key(st, &s, mode, elements ? identity : first, (uint64_t)count << 1 | (elements != NULL));
 	mesh = find_mesh(x, st, &s, mode, first, count, elements, 0, key);
 	if (mesh && mode == GL_QUADS && !elements && !st->list &&
-	    gls_quads_turn(st, mesh->mesh.position, mesh->mesh.index, mesh->mesh.primitive_count))
+	    gls_quads_turn(st, gls_shades_flat(st), mesh->mesh.position, mesh->mesh.index, mesh->mesh.primitive_count))
 		mesh = find_mesh(x, st, &s, mode, first, count, elements, 1, ~key);
 	if (mesh)
 		put(x, st, mesh, -1);

@@ -6,6 +6,7 @@
 #include "base/err.h"
 #include "capture/format/call.h"
 #include "replay/build/mesh.h"
+#include "replay/build/program.h"
 #include "replay/gl/surface/draw.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
@@ -17,7 +18,7 @@ void gls_flush(struct gls_exec *x)
 	uint32_t list = x->drawn_list;
 
 	if (g->n_primitives && x->st) {
-		if (g->quads && !x->pending.list && gls_quads_turn(x->st, g->position, g->index, g->n_primitives))
+		if (g->quads && !x->pending.list && gls_quads_turn(x->st, gls_shades_flat(x->st), g->position, g->index, g->n_primitives))
 			gls_geometry_turn_quads(g);
 		mesh = gls_geometry_mesh(x, g);
 		x->drawn_list = x->pending.list;

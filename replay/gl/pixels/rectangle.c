@@ -10,6 +10,7 @@
 #include "replay/gl/surface/draw.h"
 #include "replay/gl/texture/image.h"
 #include "replay/machine/machine.h"
+#include "scene/mesa.h"
 
 /* A mesh of one point. @return a reference; NULL: out of memory (reported) */
 static struct gls_mesh *point_at(struct gls_exec *x, float left, float low, float depth)
@@ -41,6 +42,8 @@ static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rect
 	struct gls_texture_image *image;
 	struct gls_mesh *mesh;
 	float values[N_GLS_ATTRIBUTES][4];
+	/* Mesa 22.3 adds no secondary colours; 25.0 adds the current one to bitmaps, not the raster position's. */
+	const uint32_t sums = r->kind == SCENE_BITMAP && st->mesa & SCENE_MESA_BITMAPS;
 
 	if (!x->want || !r->width || !r->height)
 		return;
@@ -48,11 +51,12 @@ static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rect
 	mesh = image ? point_at(x, r->left, r->low, c->raster_position[2]) : NULL;
 	memcpy(values, c->attribute, sizeof(values));
 	memcpy(values[GLS_ATTR_COLOR], c->raster_color, 16);
-	memcpy(values[GLS_ATTR_SECONDARY], c->raster_secondary, 16);
+	if (!sums)
+		memcpy(values[GLS_ATTR_SECONDARY], c->raster_secondary, 16);
 	memcpy(values[GLS_ATTR_TEXCOORD], c->raster_texcoord, sizeof(c->raster_texcoord));
 	values[GLS_ATTR_FOG_COORD][0] = 0; /* Mesa (22.3.6) has the fog at the viewer, other than sec. 3.10 and 2.13 say */
 	/* What a vertex would go through has been gone through. */
-	a->fog.color_sum = 0; /* nor does Mesa add secondary colours */
+	a->fog.color_sum &= sums;
 	a->lighting.enabled = a->lighting.color_material = 0;
 	a->lighting.shade_model = GL_SMOOTH;
 	a->fog.coord_source = GL_FOG_COORD;
