@@ -93,7 +93,7 @@ static const struct options_row rows[] = {
 	{ "max-size", 0, "BYTES", "end the recording after the first frame that makes the trace this large (K, M and G count 1024, 1024^2, "
 	  "1024^3); the program goes on", options_bytes, AT(max_bytes) },
 	{ "no-children", 0, NULL, "record only this process, not those that it starts", options_flag, AT(no_children) },
-	{ "quit-after", 0, "N", "end the recording and the program after N frames, and exit with 0", take_count, AT(quit_after) },
+	{ "quit-after", 0, "N", "end the recording and the program after N frames, or when nothing more can be recorded; exit with 0", take_count, AT(quit_after) },
 	{ "env", 0, "NAME=VALUE", "set a variable for the program; may be repeated", take_variable, .at = 0 },
 };
 
@@ -106,7 +106,9 @@ static const struct options_table table = {
 	        "SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGUSR1 are passed on to the program. SIGUSR2 switches recording off and on\n"
 	        "again at the end of a frame. What the program makes and sets meanwhile is kept, so what follows is complete.\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exits with the program's code; 2: wrong usage, 5: the program cannot be started or nothing can be written.\n",
+	.notes = "Exits with the program's code; 2: wrong usage, 5: the program cannot be started, or the recording or its reference\n"
+	         "frames stopped early, as on a full disk. The recording is whole up to there, and the program keeps running; with\n"
+	         "--quit-after it ends.\n",
 	.most = -1,
 	.stops = 1,
 };
@@ -441,8 +443,11 @@ static void print_summary(const struct recorder_stats *stats)
 
 		fprintf(stderr, "relume: %s: %" PRIu64 " frames, %" PRIu64 " calls, %" PRIu64 " bytes, ", p->path, p->frames, p->calls, p->bytes);
 		if (references)
-			fprintf(stderr, "%" PRIu64 " bytes of reference frames, ", references);
-		fprintf(stderr, "%" PRIu64 " calls not recorded\n", i == 0 ? unknown : 0);
+			fprintf(stderr, "%" PRIu64 " bytes of reference frames%s, ", references, p->lost_references ? " (stopped early)" : "");
+		if (p->failed)
+			fprintf(stderr, "stopped early: %s\n", strerror(p->failed));
+		else
+			fprintf(stderr, "%" PRIu64 " calls not recorded\n", i == 0 ? unknown : 0);
 		if (p->frames == 0)
 			explain_no_frame(p);
 		explain_needs(p);
@@ -451,6 +456,17 @@ static void print_summary(const struct recorder_stats *stats)
 		fprintf(stderr, "relume: not recorded: %s, %" PRIu64 " calls\n", stats->unknown[i].name, stats->unknown[i].calls);
 	if (n == 0)
 		err_warn(NULL, "the program made no OpenGL call that could be recorded");
+}
+
+/* As ERR_*. A recording that is cut short counts for more than how the program ended: it keeps running, and may well end in success. */
+static int exit_code(const struct recorder_stats *stats, int status)
+{
+	for (uint32_t i = 0; i < at_most(stats->n_processes, STATS_MAX_PROCESSES); i++)
+		if (stats->processes[i].failed || stats->processes[i].lost_references)
+			return ERR_SYSTEM;
+	if (was_told_to_quit(stats))
+		return 0; /* however it took the signal */
+	return WIFSIGNALED(status) ? -(128 + WTERMSIG(status)) : -WEXITSTATUS(status);
 }
 
 int record_main(int argc, char **argv)
@@ -474,15 +490,7 @@ int record_main(int argc, char **argv)
 		goto done;
 	}
 	print_summary(stats);
-	for (uint32_t i = 0; i < at_most(stats->n_processes, STATS_MAX_PROCESSES); i++)
-		if (stats->processes[i].failed)
-			rc = ERR_SYSTEM;
-	if (was_told_to_quit(stats))
-		status = 0; /* however it took the signal */
-	if (WIFSIGNALED(status))
-		rc = -(128 + WTERMSIG(status));
-	else if (WEXITSTATUS(status))
-		rc = -WEXITSTATUS(status);
+	rc = exit_code(stats, status);
 done:
 	munmap(stats, sizeof(*stats));
 	return -rc;

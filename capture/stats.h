@@ -20,7 +20,8 @@ struct stats_process {
 	_Atomic int32_t failed; /* errno of what ended the recording early; 0: nothing did */
 	_Atomic int32_t programs; /* 1: it made shaders or programs current */
 	_Atomic int32_t windows;  /* 1: its frames are of one window; 2: of several */
-	_Atomic int32_t quit;   /* 1: it ended the program after the frames asked for */
+	_Atomic int32_t quit;   /* 1: it ended the program: after the frames asked for, or as nothing more can be recorded */
+	_Atomic int32_t lost_references; /* 1: reference frames ended early */
 	_Atomic uint64_t ends[N_FRAME_TRIGGERS]; /* frames so far, recorded or not (swap); calls that would have ended the first one */
 };
 
@@ -35,4 +36,4 @@ struct recorder_stats {
 	struct stats_process processes[STATS_MAX_PROCESSES];
 	struct stats_unknown unknown[STATS_MAX_UNKNOWN];
 };
-_Static_assert(sizeof(struct stats_process) == 1104 && sizeof(struct stats_unknown) == 72, "the same in programs of 32 bits");
+_Static_assert(sizeof(struct stats_process) == 1112 && sizeof(struct stats_unknown) == 72, "the same in programs of 32 bits");

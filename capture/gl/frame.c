@@ -182,6 +182,17 @@ void frame_cleared(unsigned buffers)
 	self.drawn = 1;
 }
 
+/* Nothing more will be recorded: a program that runs for its recording alone (--quit-after) ends. */
+static void quit(void)
+{
+	static atomic_int quits;
+
+	if (!wish.quit_after || quits++)
+		return;
+	writer_note_quit();
+	kill(getpid(), SIGTERM);
+}
+
 void frame_may_end(enum frame_trigger trigger, int truth)
 {
 	int saved = errno, wanted = trigger == wish.trigger;
@@ -191,6 +202,8 @@ void frame_may_end(enum frame_trigger trigger, int truth)
 		wanted |= wish.trigger == FRAME_SWAP && self.target.system == DRAWABLE_OSMESA;
 		writer_flush_sometimes();
 	}
+	if (wanted && writer_has_failed())
+		quit();
 	if (truth && (trigger == FRAME_CLEAR ? self.primitives : self.drawn) && !self.in_primitive &&
 	    (wanted || writer_frames() == 0) && context_current() && writer_active()) {
 		if (writer_frames() == 0)
@@ -229,35 +242,36 @@ __attribute__((constructor)) static void read_wishes(void)
 	for (unsigned i = 0; trigger && i < N_FRAME_TRIGGERS; i++)
 		if (strcmp(trigger, names[i]) == 0)
 			wish.trigger = (enum frame_trigger)i;
+	if (wish.quit_after)
+		writer_will_quit();
 	if (!is_wanted(0))
 		skip_begin();
+}
+
+static void end_recording(void)
+{
+	writer_end();
+	quit();
 }
 
 /* A frame is in the trace: end what was to end after it. */
 static void frame_recorded(uint64_t frames)
 {
-	if ((wish.max_frames && frames >= wish.max_frames) || (wish.quit_after && frames >= wish.quit_after))
-		writer_end();
-	if (wish.max_bytes && writer_bytes() >= wish.max_bytes) {
-		writer_end();
-		report_say("the trace has reached its largest size after %llu frames; recording ends, the program goes on",
-		           (unsigned long long)frames);
-	}
-	if (wish.quit_after && frames >= wish.quit_after) {
-		writer_note_quit();
-		kill(getpid(), SIGTERM);
+	if ((wish.max_frames && frames >= wish.max_frames) || (wish.quit_after && frames >= wish.quit_after)) {
+		end_recording();
+	} else if (wish.max_bytes && writer_bytes() >= wish.max_bytes) {
+		report_say("the trace has reached its largest size after %llu frames; recording ends, the program %s",
+		           (unsigned long long)frames, wish.quit_after ? "as well (--quit-after)" : "goes on");
+		end_recording();
 	}
 }
 
-void frame_ended(void)
+static void end_frame(void)
 {
 	uint64_t frames, next;
 	const struct drawable_target *t = &self.target;
 	struct drawable *d;
 
-	self.drawn = self.primitives = self.in_primitive = 0;
-	if (!writer_active())
-		return;
 	next = ++program_frames;
 	writer_note_end(FRAME_SWAP);
 	frames = writer_frame_ended();
@@ -265,7 +279,7 @@ void frame_ended(void)
 	if (frames)
 		frame_recorded(frames);
 	if (next > wish.last)
-		writer_end();
+		end_recording();
 	if (is_wanted(next) == !skip_active() || !writer_active())
 		return;
 	if (skip_active()) {
@@ -275,4 +289,13 @@ void frame_ended(void)
 	} else {
 		skip_begin();
 	}
+}
+
+void frame_ended(void)
+{
+	self.drawn = self.primitives = self.in_primitive = 0;
+	if (writer_active())
+		end_frame();
+	if (writer_has_failed())
+		quit();
 }

@@ -66,8 +66,12 @@ int reference_wanted(uint64_t frame)
 
 static void fail(const char *what, int error)
 {
+	char reason[128];
+
 	r.failed = 1;
-	report_say("%s: %s: %s; no more reference frames, the program goes on", r.path, what, strerror(error));
+	writer_note_lost_references();
+	sink_explain(reason, sizeof(reason), what, error);
+	report_say("%s: %s: no more reference frames; the recording goes on without them", r.path, reason);
 }
 
 /* Opens the file for each record: a program may close descriptors that are not its own. */

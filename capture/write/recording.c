@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "capture/stats.h"
 #include "capture/write/report.h"
@@ -11,19 +10,22 @@
 
 struct recording recording;
 
-/* End the recording, once, where the file has failed. */
+/* End the recording, once, where the file has failed. The figures are of the file: what was lost does not count. */
 static void look_for_errors(void)
 {
 	struct sink_state sink = sink_state();
+	char reason[128];
 
 	recording.process->bytes = sink.bytes;
-	recording.process->calls = recording.n_calls;
+	recording.process->calls = sink.content.calls;
+	recording.process->frames = sink.content.frames;
 	if (!sink.error || recording.state == RECORDING_ENDED)
 		return;
 	recording.state = RECORDING_ENDED;
 	recording.process->failed = sink.error;
-	report_say("%s: %s: %s; recording ends after frame %llu, the program goes on", sink.path, sink.what, strerror(sink.error),
-	           (unsigned long long)recording.n_frames);
+	sink_explain(reason, sizeof(reason), sink.what, sink.error);
+	report_say("%s: %s: recording stopped after %llu frame%s; %s", sink.path, reason, (unsigned long long)sink.content.frames,
+	           sink.content.frames == 1 ? "" : "s", recording.quits ? "the program ends as well (--quit-after)" : "the program keeps running");
 }
 
 void recording_open(const char *name)
@@ -42,7 +44,9 @@ uint8_t *recording_spill(uint8_t *p, int now)
 	int saved = errno;
 
 	if (recording.state == RECORDING_ON) {
-		recording.chunk = now ? sink_write(bytes) : sink_hand_over(bytes);
+		struct sink_content content = { recording.n_frames, recording.n_calls };
+
+		recording.chunk = now ? sink_write(bytes, content) : sink_hand_over(bytes, content);
 		recording.end = recording.chunk + SINK_CHUNK;
 		look_for_errors();
 	}

@@ -17,6 +17,7 @@ extern struct recording {
 	uint64_t n_calls;
 	_Atomic uint64_t n_frames;
 	struct stats_process *process; /* never NULL once recording */
+	int quits; /* 1: the program ends with the recording, also where that fails */
 } recording __attribute__((visibility("hidden")));
 
 /** Create the trace and a row of figures for it. The state says whether it worked. */

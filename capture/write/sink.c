@@ -25,6 +25,7 @@ enum { N_CHUNKS = 8, AT_ONCE = 16 << 10, LOW_FD = 100, MAX_PROCESSES = 10000, ST
 static struct {
 	uint8_t *chunks[N_CHUNKS];
 	size_t used[N_CHUNKS];
+	struct sink_content contents[N_CHUNKS];
 	_Atomic uint32_t handed, written; /* chunks so far; those between wait for the thread. Both are futexes */
 	_Atomic int waiting;              /* somebody waits for `written` */
 	_Atomic pid_t thread;             /* 0: there is none */
@@ -35,7 +36,7 @@ static struct {
 	int fd;
 	dev_t device;
 	ino_t inode;
-	_Atomic uint64_t bytes;
+	_Atomic uint64_t bytes, frames, calls;
 	_Atomic int error;
 	const char *what;
 	char path[STATS_PATH_BYTES];
@@ -71,6 +72,17 @@ static int own_file(void)
 	}
 	sink.fd = fd;
 	return 0;
+}
+
+void sink_explain(char *out, size_t size, const char *what, int error)
+{
+	const char *plain = error == ENOSPC ? "disk full" : error == EDQUOT ? "disk quota exceeded" :
+	                    error == EFBIG ? "file size limit reached" : NULL;
+
+	if (plain)
+		snprintf(out, size, "%s", plain);
+	else
+		snprintf(out, size, "%s: %s", what, strerror(error));
 }
 
 int sink_pwrite(int fd, const void *data, size_t bytes, uint64_t offset)
@@ -119,7 +131,7 @@ static void append(size_t packed)
 		sink.bytes += packed + 4;
 }
 
-static void pack(const uint8_t *chunk, size_t bytes)
+static void pack(const uint8_t *chunk, size_t bytes, struct sink_content content)
 {
 	size_t packed = snappy_max_compressed_length(SINK_CHUNK);
 
@@ -129,6 +141,10 @@ static void pack(const uint8_t *chunk, size_t bytes)
 		fail(EINVAL, "cannot pack");
 	else
 		append(packed);
+	if (!sink.error) {
+		sink.frames = content.frames;
+		sink.calls = content.calls;
+	}
 }
 
 static int create_file(const char *name)
@@ -175,7 +191,7 @@ static void take_one(void)
 {
 	uint32_t n = sink.written;
 
-	pack(sink.chunks[n % N_CHUNKS], sink.used[n % N_CHUNKS]);
+	pack(sink.chunks[n % N_CHUNKS], sink.used[n % N_CHUNKS], sink.contents[n % N_CHUNKS]);
 	sink.written = n + 1;
 	if (sink.waiting)
 		futex(&sink.written, FUTEX_WAKE, INT_MAX, NULL);
@@ -236,7 +252,7 @@ static void wait_for_thread(uint32_t at_most)
 
 /* The caller */
 
-static uint8_t *hand_over(size_t bytes, int now)
+static uint8_t *hand_over(size_t bytes, struct sink_content content, int now)
 {
 	uint32_t n = sink.handed;
 	int idle = n == sink.written;
@@ -245,32 +261,33 @@ static uint8_t *hand_over(size_t bytes, int now)
 		if (now)
 			wait_for_thread(0);
 		if (bytes && n == sink.written)
-			pack(sink.chunks[n % N_CHUNKS], bytes);
+			pack(sink.chunks[n % N_CHUNKS], bytes, content);
 		return sink.chunks[n % N_CHUNKS];
 	}
 	sink.used[n % N_CHUNKS] = bytes;
+	sink.contents[n % N_CHUNKS] = content;
 	sink.handed = n + 1;
 	futex(&sink.handed, FUTEX_WAKE, 1, NULL);
 	wait_for_thread(now ? 0 : N_CHUNKS - 2);
 	return sink.chunks[(n + 1) % N_CHUNKS];
 }
 
-uint8_t *sink_hand_over(size_t bytes)
+uint8_t *sink_hand_over(size_t bytes, struct sink_content content)
 {
 	int saved = errno;
 	uint8_t *next;
 
 	if (!sink.tried && bytes > AT_ONCE)
 		start_thread();
-	next = hand_over(bytes, 0);
+	next = hand_over(bytes, content, 0);
 	errno = saved;
 	return next;
 }
 
-uint8_t *sink_write(size_t bytes)
+uint8_t *sink_write(size_t bytes, struct sink_content content)
 {
 	int saved = errno;
-	uint8_t *next = hand_over(bytes, 1);
+	uint8_t *next = hand_over(bytes, content, 1);
 
 	errno = saved;
 	return next;
@@ -278,7 +295,7 @@ uint8_t *sink_write(size_t bytes)
 
 struct sink_state sink_state(void)
 {
-	return (struct sink_state){ sink.path, sink.error, sink.what, sink.bytes };
+	return (struct sink_state){ sink.path, sink.error, sink.what, sink.bytes, { sink.frames, sink.calls } };
 }
 
 uint8_t *sink_open(const char *name)
@@ -304,7 +321,7 @@ void sink_leave(void)
 		close(sink.fd);
 	sink.fd = -1;
 	sink.path[0] = '\0';
-	sink.bytes = 0;
+	sink.bytes = sink.frames = sink.calls = 0;
 	sink.error = 0;
 	sink.thread = 0;
 	sink.tried = 0;

@@ -6,7 +6,7 @@
  * longer. Little data is packed and written on the spot: waking a thread would take longer.
  *
  * One caller at a time (the writer's lock). The first error ends all writing, and what is not whole in the file is cut off. Every
- * function keeps errno.
+ * function keeps errno. Nothing here maps a file: a full file system is an error of pwrite, never a SIGBUS.
  */
 #pragma once
 
@@ -15,11 +15,17 @@
 
 enum { SINK_CHUNK = 1 << 20 };
 
+/* The recording up to some byte: frames that ended, calls that began. */
+struct sink_content {
+	uint64_t frames, calls;
+};
+
 struct sink_state {
 	const char *path;  /* "" before there is a file */
 	int error;         /* errno of what went wrong; 0: nothing */
 	const char *what;  /* in words */
 	uint64_t bytes;    /* in the file */
+	struct sink_content content; /* the same */
 };
 
 /**
@@ -28,11 +34,15 @@ struct sink_state {
  */
 uint8_t *sink_open(const char *name);
 
-/** The first `bytes` of the chunk are complete. Returns the chunk to fill next. */
-uint8_t *sink_hand_over(size_t bytes);
+/**
+ * The first `bytes` of the chunk are complete.
+ * @param content  of the recording up to the last of them
+ * @return the chunk to fill next
+ */
+uint8_t *sink_hand_over(size_t bytes, struct sink_content content);
 
 /** As sink_hand_over, and all is in the file when it returns. */
-uint8_t *sink_write(size_t bytes);
+uint8_t *sink_write(size_t bytes, struct sink_content content);
 
 struct sink_state sink_state(void);
 
@@ -44,3 +54,6 @@ void sink_leave(void);
  * @return 0 or an errno; part of the data may be in the file then
  */
 int sink_pwrite(int fd, const void *data, size_t bytes, uint64_t offset);
+
+/** Why a file cannot go on, as users say it: "disk full", or "cannot write: Input/output error". */
+void sink_explain(char *out, size_t size, const char *what, int error);

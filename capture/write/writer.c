@@ -293,8 +293,6 @@ uint64_t writer_frame_ended(void)
 	if (!p)
 		return 0;
 	p = recording_spill(p, 1);
-	if (recording.state == RECORDING_ON)
-		recording.process->frames = recording.n_frames; /* counted once they cannot be lost */
 	flushed_ns = clock_ns();
 	end(p);
 	return frame;
@@ -355,6 +353,22 @@ void writer_note_quit(void)
 		recording.process->quit = 1;
 }
 
+void writer_will_quit(void)
+{
+	recording.quits = 1;
+}
+
+int writer_has_failed(void)
+{
+	return recording.process && recording.process->failed;
+}
+
+void writer_note_lost_references(void)
+{
+	if (recording.process)
+		recording.process->lost_references = 1;
+}
+
 int writer_sidecar(char *out, size_t size, const char *suffix)
 {
 	const char *path = sink_state().path;
@@ -376,7 +390,7 @@ static void lock_for_child(void)
 {
 	lock_take();
 	if (recording.state == RECORDING_ON)
-		sink_write(0);
+		sink_write(0, (struct sink_content){ 0 });
 }
 
 /* A child gets a trace of its own with its first call; what is unwritten stays the parent's. */

@@ -84,6 +84,14 @@ void writer_note_program(void);
 /** The recorder ended the program as it was told to: the command reports success. */
 void writer_note_quit(void);
 
+/** The program ends with the recording (--quit-after): an error that ends the recording says so. */
+void writer_will_quit(void);
+
+/** 1 where an error has ended the recording. */
+int writer_has_failed(void);
+/** An error has ended the reference frames. */
+void writer_note_lost_references(void);
+
 /**
  * Path of a file beside this process' trace, with .trace replaced by `suffix` (".ref").
  * @return 0, or -1 where there is no trace or it does not fit

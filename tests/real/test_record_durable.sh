@@ -62,7 +62,7 @@ wait $recorder 2>/dev/null
 code=$(cat "$TMPDIR/code")
 [ "$(cat "$TMPDIR/frames")" -eq 1200 ] || fail "the program ended with its recording (file size limit)"
 [ $code -eq 5 ] || fail "exit code $code where the recording ended early"
-[ "$(grep -c 'recording ends' "$TMPDIR/log")" -eq 1 ] || fail "the end of the recording was not said once"
+[ "$(grep -c 'limit reached: recording stopped' "$TMPDIR/log")" -eq 1 ] || fail "the end of the recording was not said once"
 got=$(frames_of "$TMPDIR/limit.trace")
 [ "$got" -ge "$(said "$TMPDIR/log")" ] && [ "$got" -gt 0 ] || fail "file size limit: $got frames in the trace"
 
