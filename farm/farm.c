@@ -8,72 +8,14 @@
 
 #include "base/err.h"
 #include "base/verbs.h"
+#include "farm/census.h"
 #include "farm/job.h"
-#include "farm/program.h"
+#include "farm/running.h"
 #include "farm/script.h"
 #include "farm/slurm.h"
+#include "farm/status.h"
 
-/* --- What the frames say ------------------------------------------------------------------------------------------ */
-
-struct census {
-	uint64_t whole, missing, damaged, outdated;
-	unsigned char *needs; /* [n_tasks + 1]: whether the task of that number has a frame to render; owned */
-};
-
-/* "frame 7: out/gears.0007.exr: leave", as `relume render --dry-run` says it. */
-static void count_line(const struct farm_job *job, const char *line, struct census *c)
-{
-	uint64_t frame = 0;
-	const char *verdict = line;
-
-	if (sscanf(line, "frame %" SCNu64 ":", &frame) != 1)
-		return;
-	for (const char *p = line; (p = strstr(p, ": ")); p += 2)
-		verdict = p + 2;
-	if (strcmp(verdict, "leave") == 0) {
-		c->whole++;
-		return;
-	}
-	if (strstr(verdict, "damaged"))
-		c->damaged++;
-	else if (strstr(verdict, "otherwise"))
-		c->outdated++;
-	else
-		c->missing++;
-	c->needs[farm_job_task_of(job, frame)] = 1;
-}
-
-/* Which frames are whole? This is also the check of everything that a task will be told. */
-static int take_census(const struct farm_job *job, struct census *out)
-{
-	char **argv = calloc((size_t)job->n_render + 12, sizeof(*argv)), *text = NULL;
-	int n = 0, rc;
-
-	*out = (struct census){ .needs = calloc(job->n_tasks + 1, 1) };
-	if (!argv || !out->needs) {
-		free(argv);
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	}
-	argv[n++] = (char *)job->relume;
-	argv[n++] = "render";
-	for (int i = 0; i < job->n_render; i++)
-		argv[n++] = job->render[i];
-	argv[n++] = "-f";
-	argv[n++] = (char *)job->frames_text;
-	argv[n++] = "-o";
-	argv[n++] = (char *)job->output;
-	argv[n++] = "--skip-existing";
-	argv[n++] = "--dry-run";
-	argv[n++] = "--";
-	argv[n++] = (char *)job->trace;
-	rc = program_read(argv, &text);
-	for (char *line = rc == 0 ? strtok(text, "\n") : NULL; line; line = strtok(NULL, "\n"))
-		count_line(job, line, out);
-	free(text);
-	free(argv);
-	/* It has said what is wrong. */
-	return rc <= 0 ? rc : rc <= -ERR_SYSTEM ? -rc : ERR_SYSTEM;
-}
+enum { DEFAULT_INTERVAL_S = 10, MOST_INTERVAL_S = 86400 };
 
 /* Tasks as "3,17,40-42" or "none"; the caller's. */
 static char *list_tasks(const struct farm_job *job, const struct census *c)
@@ -99,8 +41,6 @@ static char *list_tasks(const struct farm_job *job, const struct census *c)
 	return text;
 }
 
-/* --- The verbs ----------------------------------------------------------------------------------------------------- */
-
 /* Becomes the script; returns only where it cannot. */
 static int run_script(const struct farm_job *job, const char *tasks)
 {
@@ -122,16 +62,20 @@ static int submit(int argc, char **argv)
 	if (!err && job.engine != FARM_LOCAL && job.engine != FARM_SLURM)
 		err = err_report(ERR_USAGE, NULL, "--for belongs to 'relume farm script'");
 	if (!err)
-		err = take_census(&job, &census);
+		err = census_take(&job, &census);
 	if (!err && job.engine == FARM_SLURM)
 		err = slurm_check_size(&job);
+	if (!err)
+		err = running_claim(&job, job.replace);
 	if (!err)
 		err = farm_job_save(&job);
 	if (!err)
 		err = farm_script_save(&job);
+	if (!err && census.counts[CENSUS_OUTDATED])
+		printf("%" PRIu64 " frames that were rendered with other settings are rendered again\n", census.counts[CENSUS_OUTDATED]);
 	if (!err)
 		err = run_script(&job, NULL);
-	free(census.needs);
+	census_free(&census);
 	farm_job_free(&job);
 	return err;
 }
@@ -151,32 +95,6 @@ static int script(int argc, char **argv)
 	return err;
 }
 
-static int status(struct farm_job *job)
-{
-	struct census census;
-	struct slurm_queue queue = { 0 };
-	char path[PATH_MAX + 32];
-	int err = take_census(job, &census);
-
-	if (!err && job->engine == FARM_SLURM)
-		err = slurm_read(job, &queue);
-	if (err)
-		goto done;
-	printf("frames %" PRIu64 " of %" PRIu64 " whole, %" PRIu64 " missing, %" PRIu64 " damaged, %" PRIu64 " made otherwise\n",
-	       census.whole, job->n_frames, census.missing, census.damaged, census.outdated);
-	if (job->engine == FARM_SLURM)
-		printf("tasks %" PRIu64 " running, %" PRIu64 " waiting; report %s\n", queue.running, queue.waiting,
-		       queue.report ? "waiting or running" : "not in the queue");
-	snprintf(path, sizeof(path), "%s/report/index.html", job->folder);
-	if (access(path, R_OK) == 0)
-		printf("page %s\n", path);
-	err = census.whole == job->n_frames ? 0 : ERR_FAILED;
-done:
-	slurm_free(&queue);
-	free(census.needs);
-	return err;
-}
-
 static int retry(struct farm_job *job)
 {
 	struct census census = { 0 };
@@ -188,7 +106,7 @@ static int retry(struct farm_job *job)
 	if (!err)
 		err = slurm_release(&queue);
 	if (!err)
-		err = take_census(job, &census);
+		err = census_take(job, &census);
 	/* What waits or runs is in good hands. */
 	for (uint64_t i = 1; !err && i <= job->n_tasks; i++)
 		if (queue.holds && queue.holds[i])
@@ -203,7 +121,7 @@ static int retry(struct farm_job *job)
 		err = run_script(job, job->engine == FARM_SLURM ? tasks : NULL);
 	free(tasks);
 	slurm_free(&queue);
-	free(census.needs);
+	census_free(&census);
 	return err;
 }
 
@@ -214,27 +132,44 @@ static int cancel(struct farm_job *job)
 	return slurm_cancel(job);
 }
 
+/* "--watch" or "--watch=N". @return seconds, 0 where `word` is neither */
+static unsigned watch_interval(const char *word)
+{
+	unsigned long n = DEFAULT_INTERVAL_S;
+	char *end = "";
+
+	if (strncmp(word, "--watch", 7) != 0)
+		return 0;
+	if (word[7] == '=' && word[8] >= '0' && word[8] <= '9')
+		n = strtoul(word + 8, &end, 10);
+	else if (word[7])
+		return 0;
+	return *end || n > MOST_INTERVAL_S ? 0 : (unsigned)n;
+}
+
 static int with_job(int argc, char **argv, int (*verb)(struct farm_job *))
 {
 	struct farm_job job = { 0 };
+	unsigned interval_s = argc == 3 && !verb ? watch_interval(argv[1]) : 0;
+	const char *folder = argc > 1 ? argv[argc - 1] : "-";
 	int err;
 
-	if (argc != 2 || argv[1][0] == '-')
-		return err_report(ERR_USAGE, NULL, "relume farm %s takes the FOLDER that submit printed", argv[0]);
-	err = farm_job_load(argv[1], &job);
+	if (argc != (interval_s ? 3 : 2) || folder[0] == '-')
+		return err_report(ERR_USAGE, NULL, "relume farm %s takes %sthe FOLDER that submit printed", argv[0], verb ? "" : "[--watch[=SECONDS]] and ");
+	err = farm_job_load(folder, &job);
 	if (!err)
-		err = verb(&job);
+		err = verb ? verb(&job) : status_print(&job, interval_s);
 	farm_job_free(&job);
 	return err;
 }
 
-/* What stands behind `relume farm`: the words of a new job, or the folder of one. */
+/* What stands behind `relume farm`: the words of a new job, or the folder of one; of neither is status. */
 static const struct {
 	const char *name;
 	int (*with_words)(int argc, char **argv);
 	int (*with_job)(struct farm_job *job);
 } verbs[] = {
-	{ "submit", submit, NULL }, { "script", script, NULL }, { "status", NULL, status }, { "retry", NULL, retry }, { "cancel", NULL, cancel },
+	{ "submit", submit, NULL }, { "script", script, NULL }, { "status", NULL, NULL }, { "retry", NULL, retry }, { "cancel", NULL, cancel },
 };
 
 int farm_main(int argc, char **argv)

@@ -50,6 +50,10 @@ static const struct options_row rows[] = {
 	{ "gres", 0, "LIST", "what each task needs of a node, as gpu:1", options_text, .at = offsetof(struct farm_job, gres) },
 	{ "sbatch", 0, "OPTION", "one more option of sbatch, as --sbatch=--partition=night; may be repeated", add_sbatch, .at = 0 },
 	{ "local", 0, NULL, "on this machine, even where Slurm is installed", options_flag, .at = offsetof(struct farm_job, is_local) },
+	{ "replace", 0, NULL, "cancel the Slurm job that still renders to the same PATTERN, instead of refusing", options_flag,
+	  .at = offsetof(struct farm_job, replace) },
+	{ "at-end", 0, "COMMAND", "run COMMAND by the shell when all is done, with RELUME_FARM, the job's folder, and RELUME_CODE, 0 where "
+	  "all frames are whole and passed", options_text, .at = offsetof(struct farm_job, at_end) },
 	{ "for", 0, "ENGINE", "slurm, parallel or make", options_word, .at = offsetof(struct farm_job, asked_engine), .words = farm_engine_names },
 };
 
@@ -57,15 +61,19 @@ const struct options_table farm_options = {
 	.verb = "farm",
 	.head = "usage: relume farm submit TRACE -f FRAMES -o PATTERN [OPTIONS] [-- RENDER-OPTIONS]\n"
 	        "       relume farm script --for ENGINE TRACE -f FRAMES -o PATTERN [OPTIONS] [-- RENDER-OPTIONS]\n"
-	        "       relume farm status|retry|cancel FOLDER\n"
+	        "       relume farm status [--watch[=SECONDS]] FOLDER\n"
+	        "       relume farm retry|cancel FOLDER\n"
 	        "\n"
 	        "Render frames on many machines, as an array job of Slurm; all on this one where Slurm is not installed.\n"
 	        "Every machine must see the trace and the frames under the same names.\n"
 	        "\n"
 	        "submit  starts an array job that renders, then a job that scores and writes a page; prints their numbers and the\n"
-	        "        job's FOLDER, which lies beside the frames: out/gears.farm for out/gears.####.exr\n"
+	        "        job's FOLDER, which lies beside the frames: out/gears.farm for out/gears.####.exr. Refuses while an\n"
+	        "        earlier job renders there\n"
 	        "script  prints what submit would run, for slurm, parallel (GNU parallel) or make; its head says how to use it\n"
-	        "status  says how many frames are whole and what waits and runs; exits with 1 while frames are missing\n"
+	        "status  says which frames are whole, what waits and runs, how fast, and which tasks failed, why and where their\n"
+	        "        logs are; exits with 1 while frames are missing. With --watch it goes on until nothing waits or runs, a\n"
+	        "        line each 10 SECONDS\n"
 	        "retry   renders frames that are missing or damaged and that no task waits or runs for, and scores again\n"
 	        "cancel  ends what waits and runs; frames that are whole stay\n",
 	OPTIONS_ROWS(rows),
@@ -127,6 +135,38 @@ static const char *recorded_reference(const struct farm_job *job)
 	return job->trace;
 }
 
+/* The value of an option of `relume render`, the last one; NULL where it is not given. */
+static const char *render_option(const struct farm_job *job, const char *option)
+{
+	const size_t n = strlen(option);
+	const char *value = NULL;
+
+	for (int i = 0; i < job->n_render; i++) {
+		const char *word = job->render[i];
+
+		if (strncmp(word, option, n) == 0 && word[n] == '=')
+			value = word + n + 1;
+		else if (strcmp(word, option) == 0 && i + 1 < job->n_render)
+			value = job->render[i + 1];
+	}
+	return value;
+}
+
+/* Only channels gl.*, from the recorded camera, can be held against what the program showed. NULL: they are there. */
+static const char *why_unscored(const struct farm_job *job)
+{
+	const size_t n = strlen(job->output);
+	const char *aov = render_option(job, "--aov");
+
+	if (n < 4 || strcmp(job->output + n - 4, ".exr") != 0)
+		return "only .exr holds the channels gl.* that can be";
+	if (aov && !strstr(aov, "gl"))
+		return "--aov leaves out the channels gl.* that could be";
+	if (render_option(job, "--camera"))
+		return "--camera shows what the program did not";
+	return NULL;
+}
+
 static int parse_words(struct farm_job *job)
 {
 	struct options_line line;
@@ -178,8 +218,10 @@ int farm_job_parse(int argc, char **argv, struct farm_job *out)
 	if (out->n_tasks > MAX_TASKS)
 		return err_report(ERR_USAGE, NULL, "%" PRIu64 " tasks are more than anybody has nodes for; a larger --chunk makes fewer",
 		                  out->n_tasks);
-	if (!out->reference)
-		out->reference = recorded_reference(out);
+	if (!out->reference && (out->reference = recorded_reference(out)) && (out->unscored = why_unscored(out)))
+		out->reference = NULL;
+	if (out->at_end && out->asked_engine == FARM_MAKE)
+		return err_report(ERR_USAGE, NULL, "--at-end does not go with --for make: put the command behind make's, as in 'make -f FILE; COMMAND'");
 	err = name_folder(out);
 	return err ? err : find_places(out);
 }

@@ -5,11 +5,11 @@
  *
  *     arguments   the working directory and the words of `relume farm submit`, each ended by NUL: the only state
  *     job.sh      the script that the engine runs, made from them (script.h)
- *     slurm       the numbers of its Slurm jobs, one line for each submission: array job, report job or "-"
+ *     slurm       the numbers of its Slurm jobs, one line for each submission and retry: array job, report job or "-"
  *     lock/, log/ of each task; report/, scores.json
  *
  * Progress is never written down. The frames show what is done (`relume render --skip-existing --dry-run`), and Slurm knows what
- * waits and runs. Nothing here can disagree with them.
+ * waits and runs. Nothing here can disagree with them. Logs are asked only why a frame is missing.
  */
 #pragma once
 
@@ -25,6 +25,8 @@ struct farm_job {
 	/* As typed; borrowed from `words`. Relative names start at `directory`. */
 	const char *trace, *output, *frames_text;
 	const char *reference; /* what the report scores against; NULL: nothing is scored */
+	const char *unscored;  /* why the recorded reference frames are not used; NULL: they are, or there are none */
+	const char *at_end;    /* a command of the shell that runs when all is done; NULL */
 	const char *gres;      /* generic resources a task asks Slurm for, or NULL */
 	const char **sbatch;   /* owned array of n_sbatch further options of sbatch */
 	int n_sbatch;
@@ -33,6 +35,7 @@ struct farm_job {
 
 	uint64_t chunk;        /* frames in a task, at most */
 	int is_local;          /* 1: --local */
+	int replace;           /* 1: --replace */
 	int asked_engine;      /* what --for names, an enum farm_engine; -1: nothing */
 
 	enum farm_engine engine;

@@ -57,7 +57,7 @@ static int read_all(int fd, char **out)
 	return 0;
 }
 
-int program_read(char *const *argv, char **out)
+int program_read(char *const *argv, int quiet, char **out)
 {
 	posix_spawn_file_actions_t actions;
 	int pipe_fds[2], status = 0, err;
@@ -68,6 +68,8 @@ int program_read(char *const *argv, char **out)
 		return err_report(ERR_SYSTEM, argv[0], "%s", strerror(errno));
 	posix_spawn_file_actions_init(&actions);
 	posix_spawn_file_actions_adddup2(&actions, pipe_fds[1], STDOUT_FILENO);
+	if (quiet)
+		posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
 	err = posix_spawnp(&pid, argv[0], &actions, NULL, argv, environ);
 	posix_spawn_file_actions_destroy(&actions);
 	close(pipe_fds[1]);

@@ -48,12 +48,26 @@ static void put_render(const struct farm_job *job, FILE *out, const char *task)
 	put_word(job, out, job->trace);
 }
 
+static void put_unscored(const struct farm_job *job, FILE *out)
+{
+	char text[120];
+
+	snprintf(text, sizeof(text), "nothing is scored: %s", job->unscored ? job->unscored : "there are no reference frames");
+	put_word(job, out, text);
+}
+
 static void put_report(const struct farm_job *job, FILE *out)
 {
 	char path[PATH_MAX + 16];
 
+	if (!job->reference && job->engine == FARM_SLURM) { /* there for the command at the end alone */
+		put_word(job, out, job->relume);
+		put_option(job, out, "farm status", job->folder);
+		return;
+	}
 	if (!job->reference) {
-		fputs("echo 'no references: nothing is scored'", out);
+		fputs("echo ", out);
+		put_unscored(job, out);
 		return;
 	}
 	put_word(job, out, job->relume);
@@ -96,24 +110,72 @@ static void put_functions(const struct farm_job *job, FILE *out)
 	      "mkdir -p \"$job/lock\" \"$job/log\" || exit 5\n"
 	      "\n"
 	      "# One process a task: an engine may start a task again while a machine that it gave up still works on it.\n"
+	      "# `relume farm status` reads from the log how it ended. A signal reaches the renderer as well, which ends.\n"
 	      "task() {\n"
-	      "\texec flock -F \"$job/lock/$1\" ", out);
+	      "\ttrap : TERM INT HUP\n"
+	      "\techo \"farm: task $1 begins on ${SLURMD_NODENAME-this machine}\"\n"
+	      "\tflock -F \"$job/lock/$1\" ", out);
 	put_render(job, out, "\"$1\"");
-	fputs("\n}\n\nreport() {\n\t", out);
+	fputs("\n"
+	      "\tset -- \"$1\" $?\n"
+	      "\techo \"farm: task $1 ends with $2\"\n"
+	      "\texit \"$2\"\n"
+	      "}\n\nreport() {\n\t", out);
 	put_report(job, out);
-	fputs("\n}\n\n", out);
+	fputs("\n}\n\n# What is to be done with exit code $1, which tells whether all is well.\nat_end() {\n\t", out);
+	if (job->at_end) {
+		fputs("RELUME_FARM=$job RELUME_CODE=$1 sh -c ", out);
+		put_word(job, out, job->at_end);
+		fputs("\n\t", out);
+	}
+	fputs("exit \"$1\"\n}\n\n", out);
+}
+
+/* A run of all frames on this machine holds a lock to its end, and names itself in it. */
+static void put_claim(FILE *out)
+{
+	fputs("exec 9<>\"$job/lock/run\" || exit 5\n"
+	      "if ! flock -n 9; then\n"
+	      "\tread -r other <&9\n"
+	      "\techo \"relume: $job: process $other still renders there: wait for it or end it\" >&2\n"
+	      "\texit 2\n"
+	      "fi\n"
+	      "echo $$ >&9\n", out);
 }
 
 static void put_case(FILE *out)
 {
 	fputs("case ${1-} in\n"
 	      "task) task \"${2-${SLURM_ARRAY_TASK_ID-}}\" ;;\n"
-	      "report) report; exit ;;\n"
+	      "report)\n"
+	      "\techo 'farm: the report begins'\n"
+	      "\treport\n"
+	      "\tset -- $?\n"
+	      "\techo \"farm: the report ends with $1\"\n"
+	      "\tat_end \"$1\" ;;\n"
 	      "esac\n", out);
 }
 
 /* The worse of two exit codes tells: frames first. */
-static const char both[] = "rendered=$?\nreport && exit \"$rendered\"\nreported=$?\n[ \"$rendered\" = 0 ] || exit \"$rendered\"\nexit \"$reported\"\n";
+static const char both[] = "report\nreported=$?\n[ \"$rendered\" = 0 ] || reported=$rendered\nat_end \"$reported\"\n";
+
+/*
+ * Behind a command: go on when it has ended. Whoever ends the script, by the number in lock/run, ends the command as well. A terminal's
+ * SIGINT reaches both.
+ */
+static const char wait_for_it[] =
+	" &\n"
+	"child=$!\n"
+	"trap 'kill -TERM \"$child\"' TERM HUP\n"
+	"trap : INT\n"
+	"wait \"$child\"\n"
+	"rendered=$?\n"
+	"while kill -0 \"$child\" 2>&-; do\n"
+	"\twait \"$child\"\n"
+	"\trendered=$?\n"
+	"done\n"
+	"trap - TERM HUP INT\n"
+	"[ \"$rendered\" -lt 128 ] || exit \"$rendered\"\n";
 
 static void put_local(const struct farm_job *job, FILE *out)
 {
@@ -122,8 +184,9 @@ static void put_local(const struct farm_job *job, FILE *out)
 	fputs("#   sh FILE           render and score all, here\n", out);
 	put_functions(job, out);
 	put_case(out);
+	put_claim(out);
 	put_render(job, out, NULL);
-	fputc('\n', out);
+	fputs(wait_for_it, out);
 	fputs(both, out);
 }
 
@@ -134,7 +197,9 @@ static void put_parallel(const struct farm_job *job, FILE *out)
 	fputs("#   sh FILE [OPTIONS] render and score all; OPTIONS go to parallel, as -j 4 or --sshlogin HOST\n", out);
 	put_functions(job, out);
 	put_case(out);
-	fprintf(out, "seq 1 %" PRIu64 " | parallel -q \"$@\" sh \"$self\" task {}\n", job->n_tasks);
+	put_claim(out);
+	fprintf(out, "seq 1 %" PRIu64 " | parallel -q \"$@\" sh \"$self\" task {}", job->n_tasks);
+	fputs(wait_for_it, out);
 	fputs(both, out);
 }
 
@@ -182,14 +247,17 @@ static void put_slurm(const struct farm_job *job, FILE *out)
 	      "\tafter=--dependency=afterany:$array\n"
 	      "\techo \"render $array, tasks $tasks\"\n"
 	      "fi\n", out);
-	if (job->reference) {
+	if (!job->reference) {
+		fputs("echo ", out);
+		put_unscored(job, out);
+		fputc('\n', out);
+	}
+	if (job->reference || job->at_end) {
 		fputs("report=$(", out);
 		put_sbatch(job, out, "report");
 		fputs(" $after \"$self\" report) || { [ \"$array\" = - ] || echo \"$array -\" >>\"$job/slurm\"; exit 5; }\n"
-		      "report=${report%%;*}\n"
-		      "echo \"report $report\"\n", out);
-	} else {
-		fputs("echo 'no references: nothing is scored'\n", out);
+		      "report=${report%%;*}\n", out);
+		fprintf(out, "echo \"%s $report\"\n", job->reference ? "report" : "at the end");
 	}
 	fputs("echo \"$array $report\" >>\"$job/slurm\"\n", out);
 }

@@ -11,7 +11,7 @@
 
 static int ask(char *const *argv, char **out)
 {
-	int rc = program_read(argv, out);
+	int rc = program_read(argv, 0, out);
 
 	if (rc > 0) {
 		free(*out);
@@ -80,11 +80,13 @@ int slurm_read(const struct farm_job *job, struct slurm_queue *out)
 
 			if (numbers[i] != number || number == 0)
 				continue;
+			out->number = number;
 			if (i % 2) {
 				out->report = 1;
-			} else if (index <= job->n_tasks) {
-				out->holds[index] = 1;
+			} else {
 				*(strcmp(state, "PENDING") == 0 ? &out->waiting : &out->running) += 1;
+				if (index <= job->n_tasks)
+					out->holds[index] = 1;
 				if (strstr(reason, "requeued_held"))
 					used += (size_t)snprintf(out->failed_starts + used, room - used, "%s%" PRIu64 "_%" PRIu64,
 					                         used ? "," : "", number, index);
@@ -93,6 +95,85 @@ int slurm_read(const struct farm_job *job, struct slurm_queue *out)
 		}
 	}
 	free(text);
+	free(numbers);
+	return err;
+}
+
+/* --- How tasks ended ------------------------------------------------------------------------------------------------- */
+
+static int keep_end(const struct farm_job *job, char **words, uint64_t task, const char *state, int signal)
+{
+	char text[64];
+
+	if (task > job->n_tasks || strcmp(state, "COMPLETED") == 0 || strcmp(state, "RUNNING") == 0 || strcmp(state, "PENDING") == 0)
+		return 0;
+	if (signal)
+		snprintf(text, sizeof(text), "%s, signal %d", state, signal);
+	else
+		snprintf(text, sizeof(text), "%s", state);
+	free(words[task]); /* later submissions come later */
+	words[task] = strdup(text);
+	return words[task] ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+}
+
+/* "12_3|OUT_OF_MEMORY|0:125"; a cancelled one is "CANCELLED by 1000". */
+static int read_accounting(const struct farm_job *job, char *line, char **words)
+{
+	uint64_t number, task;
+	char state[32];
+	int signal;
+
+	if (sscanf(line, "%" SCNu64 "_%" SCNu64 "|%31[A-Z_]%*[^|]|%*d:%d", &number, &task, state, &signal) == 4 ||
+	    sscanf(line, "%" SCNu64 "_%" SCNu64 "|%31[A-Z_]|%*d:%d", &number, &task, state, &signal) == 4)
+		return keep_end(job, words, task, state, signal);
+	return 0;
+}
+
+/* "JobId=13 ArrayJobId=12 ArrayTaskId=3 ... JobState=OUT_OF_MEMORY ... ExitCode=0:125 ..." */
+static int read_controller(const struct farm_job *job, char *line, char **words)
+{
+	const char *task = strstr(line, " ArrayTaskId="), *state = strstr(line, " JobState="), *code = strstr(line, " ExitCode=");
+	char word[32];
+	int signal = 0;
+
+	if (!task || !state || sscanf(state, " JobState=%31[A-Z_]", word) != 1)
+		return 0;
+	if (code)
+		sscanf(code, " ExitCode=%*d:%d", &signal);
+	return keep_end(job, words, strtoull(task + strlen(" ArrayTaskId="), NULL, 10), word, signal);
+}
+
+int slurm_read_ends(const struct farm_job *job, char ***words)
+{
+	uint64_t *numbers;
+	size_t n = 0;
+	int err = read_numbers(job, &numbers, &n);
+
+	*words = NULL;
+	if (err)
+		return err;
+	*words = calloc(job->n_tasks + 1, sizeof(**words));
+	if (!*words)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (size_t i = 0; i < n && !err; i += 2) {
+		char number[24], *text = NULL;
+		char *sacct[] = { "sacct", "-n", "-P", "-X", "--format=JobID,State,ExitCode", "-j", number, NULL };
+		char *scontrol[] = { "scontrol", "-o", "show", "job", number, NULL };
+		int has_accounting;
+
+		if (!numbers[i])
+			continue;
+		snprintf(number, sizeof(number), "%" PRIu64, numbers[i]);
+		has_accounting = program_exists("sacct") && program_read(sacct, 1, &text) == 0 && text && *text;
+		if (!has_accounting) {
+			free(text);
+			text = NULL;
+			program_read(scontrol, 1, &text); /* it forgets jobs after a while: then nobody knows */
+		}
+		for (char *line = text ? strtok(text, "\n") : NULL; line && !err; line = strtok(NULL, "\n"))
+			err = has_accounting ? read_accounting(job, line, *words) : read_controller(job, line, *words);
+		free(text);
+	}
 	free(numbers);
 	return err;
 }

@@ -1,0 +1,121 @@
+#include "farm/census.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/err.h"
+#include "base/memory.h"
+#include "farm/program.h"
+
+/* "frame 7: out/gears.0007.exr: leave", as `relume render --dry-run` says it. */
+static int count_line(const struct farm_job *job, const char *line, struct census *c, size_t *room)
+{
+	enum census_verdict found = CENSUS_MISSING;
+	uint64_t frame = 0;
+	const char *verdict = line;
+
+	if (sscanf(line, "frame %" SCNu64 ":", &frame) != 1)
+		return 0;
+	for (const char *p = line; (p = strstr(p, ": ")); p += 2)
+		verdict = p + 2;
+	if (strcmp(verdict, "leave") == 0) {
+		c->whole++;
+		return 0;
+	}
+	if (strstr(verdict, "damaged"))
+		found = CENSUS_DAMAGED;
+	else if (strstr(verdict, "otherwise"))
+		found = CENSUS_OUTDATED;
+	if (MEMORY_GROW(c->wanting, *room, c->n_wanting + 1))
+		return ERR_SYSTEM;
+	c->wanting[c->n_wanting++] = (struct census_frame){ frame, found };
+	c->counts[found]++;
+	c->needs[farm_job_task_of(job, frame)] = 1;
+	return 0;
+}
+
+int census_take(const struct farm_job *job, struct census *out)
+{
+	char **argv = calloc((size_t)job->n_render + 12, sizeof(*argv)), *text = NULL;
+	size_t room = 0;
+	int n = 0, rc;
+
+	*out = (struct census){ .needs = calloc(job->n_tasks + 1, 1), .taken = time(NULL) };
+	if (!argv || !out->needs) {
+		free(argv);
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	}
+	argv[n++] = (char *)job->relume;
+	argv[n++] = "render";
+	for (int i = 0; i < job->n_render; i++)
+		argv[n++] = job->render[i];
+	argv[n++] = "-f";
+	argv[n++] = (char *)job->frames_text;
+	argv[n++] = "-o";
+	argv[n++] = (char *)job->output;
+	argv[n++] = "--skip-existing";
+	argv[n++] = "--dry-run";
+	argv[n++] = "--";
+	argv[n++] = (char *)job->trace;
+	rc = program_read(argv, 0, &text);
+	/* It has said what is wrong. */
+	rc = rc <= 0 ? rc : rc <= -ERR_SYSTEM ? -rc : ERR_SYSTEM;
+	for (char *line = rc == 0 ? strtok(text, "\n") : NULL; line && !rc; line = strtok(NULL, "\n"))
+		rc = count_line(job, line, out, &room);
+	free(text);
+	free(argv);
+	return rc;
+}
+
+void census_free(struct census *c)
+{
+	free(c->wanting);
+	free(c->needs);
+	*c = (struct census){ 0 };
+}
+
+/* When a frame's file was written; 0: there is none. */
+static double written(const struct farm_job *job, uint64_t frame)
+{
+	char path[PATH_MAX];
+	struct stat st;
+
+	if (frame_pattern_expand(job->output, frame, path, sizeof(path)) || stat(path, &st))
+		return 0;
+	return (double)st.st_mtim.tv_sec + 1e-9 * (double)st.st_mtim.tv_nsec;
+}
+
+uint64_t census_landed(const struct farm_job *job, const struct census *c)
+{
+	uint64_t n = 0;
+
+	for (size_t i = 0; i < c->n_wanting; i++)
+		n += written(job, c->wanting[i].frame) >= (double)c->taken;
+	return n;
+}
+
+double census_rate(const struct farm_job *job)
+{
+	char path[PATH_MAX + 16];
+	double first = 0, last = 0, at;
+	uint64_t frame = 0, n = 0;
+	struct stat script;
+
+	/* It is written anew by each submission and each retry. */
+	snprintf(path, sizeof(path), "%s/job.sh", job->folder);
+	if (stat(path, &script))
+		return 0;
+	for (uint64_t from = 0; frame_list_next(&job->frames, from, &frame); from = frame + 1) {
+		at = written(job, frame);
+		if (at < (double)script.st_mtim.tv_sec)
+			continue;
+		first = !n || at < first ? at : first;
+		last = at > last ? at : last;
+		n++;
+	}
+	return n > 1 && last > first ? (double)(n - 1) / (last - first) : 0;
+}
