@@ -18,10 +18,14 @@
 #include "base/err.h"
 #include "base/options.h"
 #include "base/verbs.h"
+#include "capture/executable.h"
 #include "capture/key.h"
+#include "capture/sidecar.h"
 #include "capture/stats.h"
+#include "capture/summary.h"
+#include "capture/watching.h"
 
-enum { MAX_NUMBER_BYTES = 24, PATIENCE_S = 5 };
+enum { MAX_NUMBER_BYTES = 24, TICKS_A_SECOND = 4, PATIENCE_S = 5, INHERITED_FD = 200 };
 
 struct options {
 	char trace[STATS_PATH_BYTES]; /* absolute: the program may change its directory */
@@ -106,9 +110,9 @@ static const struct options_table table = {
 	        "SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGUSR1 are passed on to the program. SIGUSR2 switches recording off and on\n"
 	        "again at the end of a frame. What the program makes and sets meanwhile is kept, so what follows is complete.\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exits with the program's code; 2: wrong usage, 5: the program cannot be started, or the recording or its reference\n"
-	         "frames stopped early, as on a full disk. The recording is whole up to there, and the program keeps running; with\n"
-	         "--quit-after it ends.\n",
+	.notes = "Exits with the program's code; 2: wrong usage, 5: the program cannot be started, or called no OpenGL and did not\n"
+	         "fail itself, or the recording or its reference frames stopped early, as on a full disk. The recording is whole\n"
+	         "up to there, and the program keeps running; with --quit-after it ends.\n",
 	.most = -1,
 	.stops = 1,
 };
@@ -180,16 +184,6 @@ static int find_recorder(char *out, size_t size)
 	return rc;
 }
 
-/* The name of a sidecar, or of a further process' trace. */
-static void name_beside(char *out, size_t size, const char *trace, const char *suffix)
-{
-	size_t stem = strlen(trace);
-
-	if (stem > 6 && strcmp(trace + stem - 6, ".trace") == 0)
-		stem -= 6;
-	snprintf(out, size, "%.*s%s", (int)stem, trace, suffix);
-}
-
 /* Remove an earlier recording, and find out before the start whether the folder can be written. */
 static int clear_output(const struct options *o)
 {
@@ -206,52 +200,37 @@ static int clear_output(const struct options *o)
 		return err_report(ERR_SYSTEM, o->trace, "cannot write: %s", strerror(errno));
 	close(fd);
 	unlink(o->trace);
-	name_beside(path, sizeof(path), o->trace, ".ref");
+	sidecar_name(path, sizeof(path), o->trace, ".ref");
 	unlink(path);
 	for (int i = 1;; i++) { /* further processes of an earlier recording */
 		char suffix[32];
 
 		snprintf(suffix, sizeof(suffix), ".%d.ref", i);
-		name_beside(path, sizeof(path), o->trace, suffix);
+		sidecar_name(path, sizeof(path), o->trace, suffix);
 		unlink(path);
 		snprintf(suffix, sizeof(suffix), ".%d.trace", i);
-		name_beside(path, sizeof(path), o->trace, suffix);
+		sidecar_name(path, sizeof(path), o->trace, suffix);
 		if (unlink(path))
 			return 0;
 	}
 }
 
 /* The figures lie in a nameless file, which the program opens through our process. Nothing is left behind. */
-static int make_stats(char *path, size_t size, struct recorder_stats **out)
+struct figures {
+	struct recorder_stats *stats;
+	int fd;
+};
+
+static int make_figures(struct figures *out)
 {
 	void (*old)(int) = signal(SIGXFSZ, SIG_IGN);
-	int fd = memfd_create("relume", MFD_CLOEXEC), rc = fd < 0 || ftruncate(fd, sizeof(**out));
+	int rc = (out->fd = memfd_create("relume", MFD_CLOEXEC)) < 0 || ftruncate(out->fd, sizeof(*out->stats));
 
 	if (!rc)
-		*out = mmap(NULL, sizeof(**out), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+		out->stats = mmap(NULL, sizeof(*out->stats), PROT_READ | PROT_WRITE, MAP_SHARED, out->fd, 0);
 	signal(SIGXFSZ, old);
-	if (rc || *out == MAP_FAILED)
+	if (rc || out->stats == MAP_FAILED)
 		return err_report(ERR_SYSTEM, NULL, "cannot map memory for the figures: %s", strerror(errno));
-	snprintf(path, size, "/proc/%d/fd/%d", (int)getpid(), fd);
-	return 0;
-}
-
-/*
- * 1 where the file that execvp finds brings rights of its own (set-user-ID, set-group-ID: Debian's games of old do, for their scores).
- * The loader preloads nothing for such a program.
- */
-static int has_rights_of_its_own(const char *program)
-{
-	const char *end, *dir = strchr(program, '/') ? "" : getenv("PATH");
-	char path[PATH_MAX];
-	struct stat st;
-
-	for (; dir; dir = *end ? end + 1 : NULL) {
-		end = strchrnul(dir, ':');
-		snprintf(path, sizeof(path), "%.*s%s%s", (int)(end - dir), dir, end > dir ? "/" : "", program);
-		if (access(path, X_OK) == 0 && stat(path, &st) == 0 && S_ISREG(st.st_mode))
-			return (st.st_mode & (S_ISUID | S_ISGID)) != 0;
-	}
 	return 0;
 }
 
@@ -272,15 +251,18 @@ static void set_number(const char *name, uint64_t value)
 }
 
 /* In the child, before it becomes the program. */
-static void set_environment(const struct options *o, const char *recorder, const char *stats_path)
+static void set_environment(const struct options *o, const char *recorder, int figures)
 {
 	const char *others = getenv("LD_PRELOAD");
-	char preload[2 * PATH_MAX];
+	char preload[2 * PATH_MAX], path[64];
+	int inherited = fcntl(figures, F_DUPFD, INHERITED_FD); /* a user namespace of its own (unshare -r) may not look into our process */
 
 	snprintf(preload, sizeof(preload), "%s%s%s", recorder, others && *others ? ":" : "", others ? others : "");
 	setenv("LD_PRELOAD", preload, 1);
 	setenv("RELUME_TRACE", o->trace, 1);
-	setenv("RELUME_STATS", stats_path, 1);
+	snprintf(path, sizeof(path), "/proc/%d/fd/%d", (int)getppid(), figures);
+	setenv("RELUME_STATS", path, 1);
+	set_number("RELUME_STATS_FD", inherited > 0 ? (uint64_t)inherited : 0);
 	set_or_unset("RELUME_REF", o->ref);
 	set_or_unset("RELUME_REF_EVERY", o->ref_every);
 	if (o->ref_exact)
@@ -311,39 +293,37 @@ static void forward(int signal)
 static const int forwarded[] = { SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2 };
 enum { N_FORWARDED = sizeof(forwarded) / sizeof(forwarded[0]) };
 
-static uint32_t at_most(uint32_t n, uint32_t limit)
-{
-	return n < limit ? n : limit;
-}
-
 /* 1 where a recorder has told its program to end. */
 static int was_told_to_quit(const struct recorder_stats *stats)
 {
-	for (uint32_t i = 0; i < at_most(stats->n_processes, STATS_MAX_PROCESSES); i++)
+	for (uint32_t i = 0; i < stats_processes(stats); i++)
 		if (stats->processes[i].quit)
 			return 1;
 	return 0;
 }
 
-/* Wait for the program; kill it some time after it was told to quit. */
-static int wait_for_child(const struct recorder_stats *stats)
+/* Wait for the program, and look at it while it draws nothing; kill it some time after it was told to quit. */
+static int wait_for_child(const struct recorder_stats *stats, struct watching *watching)
 {
-	struct itimerval every_second = { { 1, 0 }, { 1, 0 } }, off = { { 0, 0 }, { 0, 0 } };
-	int status = 0, seconds = 0;
+	struct itimerval tick = { { 0, 1000000 / TICKS_A_SECOND }, { 0, 1000000 / TICKS_A_SECOND } }, off = { { 0, 0 }, { 0, 0 } };
+	int status = 0, ticks = 0;
 
-	setitimer(ITIMER_REAL, &every_second, NULL);
+	setitimer(ITIMER_REAL, &tick, NULL);
 	while (waitpid((pid_t)child_pid, &status, 0) < 0 && errno == EINTR)
-		if (was_told_to_quit(stats) && ++seconds == PATIENCE_S)
+		if (!stats->n_processes)
+			watching_look((pid_t)child_pid, watching);
+		else if (was_told_to_quit(stats) && ++ticks == PATIENCE_S * TICKS_A_SECOND)
 			kill((pid_t)child_pid, SIGKILL);
 	setitimer(ITIMER_REAL, &off, NULL);
 	return status;
 }
 
 /* Returns the program's wait status, or -1 with errno where it cannot be started. */
-static int run_program(const struct options *o, const char *recorder, const char *stats_path, const struct recorder_stats *stats)
+static int run_program(const struct options *o, const char *recorder, const struct figures *figures, struct watching *watching)
 {
 	struct sigaction action = { .sa_handler = forward }, old[N_FORWARDED];
-	int pipe_fds[2], error = 0, status = 0, no_new_rights = has_rights_of_its_own(o->program[0]);
+	char file[PATH_MAX];
+	int pipe_fds[2], error = 0, status = 0, no_new_rights = executable_find(o->program[0], file, sizeof(file)) && executable_has_rights(file);
 	pid_t watcher = -1;
 
 	if (no_new_rights)
@@ -361,7 +341,7 @@ static int run_program(const struct options *o, const char *recorder, const char
 		for (int i = 0; i < N_FORWARDED; i++)
 			sigaction(forwarded[i], &old[i], NULL);
 		sigprocmask(SIG_SETMASK, &before, NULL);
-		set_environment(o, recorder, stats_path);
+		set_environment(o, recorder, figures->fd);
 		if (no_new_rights)
 			prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
 		execvp(o->program[0], o->program);
@@ -381,7 +361,7 @@ static int run_program(const struct options *o, const char *recorder, const char
 	close(pipe_fds[0]);
 	if (!error && o->start_key)
 		watcher = key_watch(o->start_key, SIGUSR2);
-	status = wait_for_child(stats);
+	status = wait_for_child(figures->stats, watching);
 	child_pid = 0;
 	key_forget(watcher);
 	for (int i = 0; i < N_FORWARDED; i++)
@@ -390,78 +370,10 @@ static int run_program(const struct options *o, const char *recorder, const char
 	return error ? -1 : status;
 }
 
-/* Why a recording has no frame, and what gives it some. */
-static void explain_no_frame(const struct stats_process *p)
-{
-	static const char *const names[] = FRAME_TRIGGER_NAMES;
-	static const enum frame_trigger order[] = { FRAME_FLUSH, FRAME_FINISH, FRAME_READPIXELS, FRAME_CLEAR };
-
-	if (p->ends[FRAME_SWAP]) {
-		err_warn(p->path, "none of the program's %" PRIu64 " frames was one to be recorded", p->ends[FRAME_SWAP]);
-		return;
-	}
-	for (size_t i = 0; i < sizeof(order) / sizeof(order[0]); i++)
-		if (p->ends[order[i]]) {
-			err_warn(p->path, "the program swapped no buffers, so there is no frame; record it with --frame-end %s, which ends %"
-			         PRIu64, names[order[i]], p->ends[order[i]]);
-			return;
-		}
-	err_warn(p->path, p->calls ? "the program swapped no buffers, so there is no frame" : "the program drew nothing");
-}
-
-/* What a renderer will have to do with a recording. */
-static void explain_needs(const struct stats_process *p)
-{
-	if (p->programs)
-		err_warn(p->path, "the program uses shaders or programs; 'relume info' tells which of their draws are rendered as fixed function");
-	if (p->windows > 1)
-		err_warn(p->path, "its frames are of several windows, in the order of their swaps");
-}
-
-/* The bytes of the reference frames beside a trace; 0: there are none. */
-static uint64_t reference_bytes(const char *trace)
-{
-	char path[PATH_MAX];
-	struct stat st;
-
-	name_beside(path, sizeof(path), trace, ".ref");
-	return stat(path, &st) == 0 && S_ISREG(st.st_mode) ? (uint64_t)st.st_size : 0;
-}
-
-/* One line for each process that drew, then the commands that were not recorded. */
-static void print_summary(const struct recorder_stats *stats)
-{
-	uint32_t n = at_most(stats->n_processes, STATS_MAX_PROCESSES);
-	uint32_t n_unknown = at_most(stats->n_unknown, STATS_MAX_UNKNOWN);
-	uint64_t unknown = 0;
-
-	for (uint32_t i = 0; i < n_unknown; i++)
-		unknown += stats->unknown[i].calls;
-	for (uint32_t i = 0; i < n; i++) {
-		const struct stats_process *p = &stats->processes[i];
-		const uint64_t references = reference_bytes(p->path);
-
-		fprintf(stderr, "relume: %s: %" PRIu64 " frames, %" PRIu64 " calls, %" PRIu64 " bytes, ", p->path, p->frames, p->calls, p->bytes);
-		if (references)
-			fprintf(stderr, "%" PRIu64 " bytes of reference frames%s, ", references, p->lost_references ? " (stopped early)" : "");
-		if (p->failed)
-			fprintf(stderr, "stopped early: %s\n", strerror(p->failed));
-		else
-			fprintf(stderr, "%" PRIu64 " calls not recorded\n", i == 0 ? unknown : 0);
-		if (p->frames == 0)
-			explain_no_frame(p);
-		explain_needs(p);
-	}
-	for (uint32_t i = 0; i < n_unknown; i++)
-		fprintf(stderr, "relume: not recorded: %s, %" PRIu64 " calls\n", stats->unknown[i].name, stats->unknown[i].calls);
-	if (n == 0)
-		err_warn(NULL, "the program made no OpenGL call that could be recorded");
-}
-
 /* As ERR_*. A recording that is cut short counts for more than how the program ended: it keeps running, and may well end in success. */
 static int exit_code(const struct recorder_stats *stats, int status)
 {
-	for (uint32_t i = 0; i < at_most(stats->n_processes, STATS_MAX_PROCESSES); i++)
+	for (uint32_t i = 0; i < stats_processes(stats); i++)
 		if (stats->processes[i].failed || stats->processes[i].lost_references)
 			return ERR_SYSTEM;
 	if (was_told_to_quit(stats))
@@ -469,29 +381,54 @@ static int exit_code(const struct recorder_stats *stats, int status)
 	return WIFSIGNALED(status) ? -(128 + WTERMSIG(status)) : -WEXITSTATUS(status);
 }
 
+/* A program of 32 bits whose recorder was not built: the loader would complain in its own words, and record nothing. */
+static int check_class(const char *program, const char *recorder)
+{
+	char path[PATH_MAX];
+
+	if (strstr(recorder, "/$LIB/") || !executable_find(program, path, sizeof(path)) || executable_kind(path) != EXECUTABLE_32)
+		return 0;
+	return err_report(ERR_SYSTEM, program, "is a program of 32 bits, and only the recorder for 64 is here; 'make i386' builds the other one");
+}
+
+/* No recorder has reported. As exit_code, but never success where there is no recording. */
+static int explain_nothing(const struct options *o, const struct recorder_stats *stats, const struct watching *watching, int status)
+{
+	const int code = exit_code(stats, status);
+	struct stat st;
+
+	if (stat(o->trace, &st) || !st.st_size) {
+		summary_explain_nothing(o->program[0], stats, watching);
+		return code ? code : ERR_SYSTEM;
+	}
+	err_warn(o->trace, "was recorded, but a sandbox kept the figures; 'relume info' shows what it holds");
+	return o->quit_after && (code == -128 - SIGTERM) ? 0 : code; /* so the recorder ends a program */
+}
+
 int record_main(int argc, char **argv)
 {
 	struct options o = { 0 };
-	struct recorder_stats *stats = MAP_FAILED;
-	char recorder[PATH_MAX], stats_path[64];
+	struct figures figures = { MAP_FAILED, -1 };
+	struct watching watching = { 0 };
+	char recorder[PATH_MAX];
 	int status, rc = parse(argc, argv, &o);
 
 	if (rc)
 		return rc > 0 ? 0 : -rc;
 	if (o.start_key && (rc = key_check(o.start_key)))
 		return -rc;
-	if ((rc = find_recorder(recorder, sizeof(recorder))) || (rc = clear_output(&o)) ||
-	    (rc = make_stats(stats_path, sizeof(stats_path), &stats)))
+	if ((rc = find_recorder(recorder, sizeof(recorder))) || (rc = check_class(o.program[0], recorder)) || (rc = clear_output(&o)) ||
+	    (rc = make_figures(&figures)))
 		return -rc;
-	shared = stats;
-	status = run_program(&o, recorder, stats_path, stats);
+	shared = figures.stats;
+	status = run_program(&o, recorder, &figures, &watching);
 	if (status < 0) {
 		rc = err_report(ERR_SYSTEM, o.program[0], "cannot start: %s", strerror(errno));
 		goto done;
 	}
-	print_summary(stats);
-	rc = exit_code(stats, status);
+	summary_print(figures.stats);
+	rc = figures.stats->n_processes ? exit_code(figures.stats, status) : explain_nothing(&o, figures.stats, &watching, status);
 done:
-	munmap(stats, sizeof(*stats));
+	munmap(figures.stats, sizeof(*figures.stats));
 	return -rc;
 }

@@ -34,6 +34,7 @@ static void made_current(int ok, const struct drawable_target *target, void *con
 	drawable_make_size_known();
 	if (context_has(HAS_CONVENTIONAL))
 		marker_write_bits();
+	writer_note_context(context_has(HAS_DESKTOP) && !context_has(HAS_FIXED_FUNCTION));
 }
 
 void current_made_glx(int ok, void *display, unsigned long drawable, unsigned long read, void *context)

@@ -3,8 +3,10 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <link.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -34,12 +36,22 @@ void report_say(const char *fmt, ...)
 	errno = saved;
 }
 
-void report_open(const char *path)
+/* The command's memory file under its number: only such a file has seals. */
+static int inherited(const char *descriptor)
+{
+	int fd = descriptor ? atoi(descriptor) : -1;
+
+	return fd > STDERR_FILENO && fcntl(fd, F_GET_SEALS) >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : -1;
+}
+
+void report_open(const char *path, const char *descriptor)
 {
 	int fd = open(path, O_RDWR | O_CLOEXEC);
 	struct stat st;
 	void *p;
 
+	if (fd < 0)
+		fd = inherited(descriptor);
 	if (fd < 0)
 		return;
 	if (fstat(fd, &st) == 0 && (size_t)st.st_size >= sizeof(*stats)) {
@@ -47,6 +59,23 @@ void report_open(const char *path)
 		stats = p == MAP_FAILED ? NULL : p;
 	}
 	close(fd);
+	if (stats)
+		stats->seen |= SEEN_RECORDER;
+}
+
+static int look_at_library(struct dl_phdr_info *info, size_t size, void *nothing)
+{
+	(void)size;
+	(void)nothing;
+	stats->seen |= stats_library(info->dlpi_name);
+	return 0;
+}
+
+/* A program that made no call: which libraries did it have? */
+__attribute__((destructor)) static void report_libraries(void)
+{
+	if (stats)
+		dl_iterate_phdr(look_at_library, NULL);
 }
 
 struct stats_process *report_new_process(void)

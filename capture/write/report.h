@@ -6,8 +6,12 @@ struct stats_process;
 /** Say something on standard error: "relume: ...". Keeps errno. */
 void report_say(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 
-/** Map the figures from the file at `path`. Without this, or where it fails, figures are kept where nobody reads them. */
-void report_open(const char *path);
+/**
+ * Map the figures from the file at `path`, or, where a sandbox hides that, from the descriptor that the command left open. Without this,
+ * or where it fails, figures are kept where nobody reads them.
+ * @param descriptor  its number, as text; NULL: there is none
+ */
+void report_open(const char *path, const char *descriptor);
 
 /** Figures of a new process. Never NULL. */
 struct stats_process *report_new_process(void);

@@ -347,6 +347,12 @@ void writer_note_program(void)
 		recording.process->programs = 1;
 }
 
+void writer_note_context(int is_core)
+{
+	if (recording.process && recording.process->contexts < 1 + is_core)
+		recording.process->contexts = 1 + is_core;
+}
+
 void writer_note_quit(void)
 {
 	if (recording.process)
@@ -427,7 +433,7 @@ __attribute__((constructor)) static void writer_start(void)
 	} else {
 		strcpy(wanted_path, path);
 		if (figures)
-			report_open(figures);
+			report_open(figures, getenv("RELUME_STATS_FD"));
 		pthread_atfork(lock_for_child, lock_leave, start_child);
 	}
 	errno = saved;

@@ -81,6 +81,9 @@ void writer_note_window(uintptr_t drawable);
 /** A shader or program that the program makes current. */
 void writer_note_program(void);
 
+/** A context is current; `is_core`: one of a core profile. */
+void writer_note_context(int is_core);
+
 /** The recorder ended the program as it was told to: the command reports success. */
 void writer_note_quit(void);
 

@@ -34,9 +34,9 @@ times(said, "cannot create: No such file or directory", 1, "a folder that went a
 check(not (SCRATCH / "gone").exists(), "nothing is made there")
 
 said = told("programs.trace", BUILD / "tests/real/panels/program", options=("--max-frames", "1"))
-times(said, "the program uses shaders or programs", 1, "a program with programs")
+times(said, "the program uses shaders", 1, "a program with programs")
 said = told("fixed.trace", PROGRAM, options=("--max-frames", "1"))
-times(said, "shaders or programs", 0, "a program without programs")
+times(said, "the program uses shaders", 0, "a program without programs")
 
 said = told("none.trace", PROGRAM, options=("--frames", "50-60"))
 times(said, "none of the program's 10 frames was one to be recorded", 1, "frames that do not come")

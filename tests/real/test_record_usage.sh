@@ -37,10 +37,10 @@ expect 2 "is no name for a trace" -o "$TMPDIR/" -- true
 expect 5 "cannot write" -o "$TMPDIR/no/such/folder.trace" -- true
 expect 5 "is no file" -o "$TMPDIR" -- true
 expect 5 "cannot start" -o "$TMPDIR/x.trace" -- "$TMPDIR/no-such-program"
-expect 0 "no OpenGL call" -o "$TMPDIR/x.trace" -- true
-expect 7 "no OpenGL call" -o "$TMPDIR/x.trace" -- sh -c 'exit 7'
-expect 143 "no OpenGL call" -o "$TMPDIR/x.trace" -- sh -c 'kill -TERM $$'
-expect 3 "no OpenGL call" -o "$TMPDIR/x.trace" --env WORD=three -- sh -c '[ "$WORD" = three ] && exit 3'
+expect 5 "true: nothing was recorded: the program loaded no OpenGL" -o "$TMPDIR/x.trace" -- true
+expect 7 "nothing was recorded: the program loaded no OpenGL" -o "$TMPDIR/x.trace" -- sh -c 'exit 7'
+expect 143 "nothing was recorded: the program loaded no OpenGL" -o "$TMPDIR/x.trace" -- sh -c 'kill -TERM $$'
+expect 3 "nothing was recorded: the program loaded no OpenGL" -o "$TMPDIR/x.trace" --env WORD=three -- sh -c '[ "$WORD" = three ] && exit 3'
 # A signal that comes when the program has ended is nobody's: neither the recorder nor others of its process group are sent it.
 trap 'echo "a signal for the recorder reached others"; bad=1' USR1
 LD_PRELOAD="$RELUME_BUILD/tests/real/signal_shim.so" timeout --foreground 20 "$RELUME" record -o "$TMPDIR/x.trace" -- sh -c 'exit 7' >"$TMPDIR/out" 2>&1
@@ -55,9 +55,9 @@ group=$(id -G | tr ' ' '\n' | grep -vx "$(id -g)" | head -n 1)
 [ "$(id -u)" = 0 ] && group=60
 cp "$(command -v env)" "$TMPDIR/owned"
 if [ -n "$group" ] && chgrp "$group" "$TMPDIR/owned" && chmod g+s "$TMPDIR/owned"; then
-	expect 0 "without the rights of its file" -o "$TMPDIR/x.trace" -- "$TMPDIR/owned"
-	expect 0 "LD_PRELOAD=.*librelume" -o "$TMPDIR/x.trace" -- "$TMPDIR/owned"
-	(PATH="$TMPDIR:$PATH" && expect 0 "without the rights of its file" -o "$TMPDIR/x.trace" -- owned && exit $bad) || bad=1
+	expect 5 "without the rights of its file" -o "$TMPDIR/x.trace" -- "$TMPDIR/owned"
+	expect 5 "LD_PRELOAD=.*librelume" -o "$TMPDIR/x.trace" -- "$TMPDIR/owned"
+	(PATH="$TMPDIR:$PATH" && expect 5 "without the rights of its file" -o "$TMPDIR/x.trace" -- owned && exit $bad) || bad=1
 fi
 if [ -e "$TMPDIR/x.trace" ]; then
 	echo "a program without OpenGL left a trace"
