@@ -17,6 +17,6 @@ for what, was, now in (("colours", colors, pictures["odd"][0]), ("depths", depth
 (SCRATCH / "taken.ref").mkdir()
 done = on_display(RELUME, "record", "-o", SCRATCH / "taken.trace", "--ref", "color", "--", program)
 said = [line for line in done.stderr.splitlines() if "no more reference frames" in line]
-check(done.returncode == 0 and len(said) == 1 and "Is a directory" in said[0], f"a folder in their place: {done.returncode}, {done.stderr}")
+check(done.returncode == 5 and len(said) == 1 and "Is a directory" in said[0], f"a folder in their place: {done.returncode}, {done.stderr}")
 must(relume("info", SCRATCH / "taken.trace"))
 finish()
