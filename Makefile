@@ -431,9 +431,10 @@ test-programs: all $(TESTS) $(BUILT_FOR_TESTS)
 show-tests: all
 	@$(PYTHON) -B tests/show/tests.py $(BUILD) $(ONLY:%=--only %) $(TESTS_SECONDS:%=--seconds %)
 
-# Not part of `make show`: README's commands in bare chroots of Debian's releases. Needs root, and most of an hour for each; SUITE=NAME for one.
+# Not part of `make show`: README's commands in bare chroots of Debian's releases, and arm64 under qemu-user.
+# Needs root, and most of an hour for each; SUITE=NAME for one.
 SUITE ?=
-show-suites: $(BUILD)/deps.suites
+show-suites: $(BUILD)/deps.suites $(if $(filter-out arm64,$(SUITE)),,all)
 	@$(PYTHON) -B tests/show/suites.py $(BUILD) $(SUITE:%=--only %)
 
 # libFuzzer under sanitizers, a target for each reader: tests/fuzz/fuzz_NAME.c. What they find worth keeping goes into tests/fuzz/kept*.
