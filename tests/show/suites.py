@@ -1,14 +1,16 @@
 #!/usr/bin/python3
-"""tests/show/suites.py BUILD [--only SUITE] (as `make show-suites SUITE=...`): README's two commands on the releases that we support, and arm64.
+"""tests/show/suites.py BUILD [--only SUITE] (as `make show-suites SUITE=...`): README's commands on the releases that we
+support.
 
-For each suite debootstrap makes a chroot of its minimal variant with only `make` added (BUILD/suites/SUITE.bare, kept between runs). In a
-copy of it (BUILD/suites/SUITE, left for a look) `make demo` runs twice and `make check` once, as root, in a clone of what is committed.
-The second demo must install and compile nothing.
+For each suite debootstrap makes a chroot of its minimal variant with only `make` added (BUILD/suites/SUITE.bare, kept
+between runs). In a copy of it (BUILD/suites/SUITE, left for a look) `make demo` runs twice and `make check` once, as
+root, in a clone of what is committed. The second demo must install and compile nothing.
 
-The suite `arm64` cross-compiles for 64-bit ARM on bookworm, runs tests of unit/, gl/ and check/ under qemu-user, and renders a recording
-that was made on x86 with the reference device of both: all channels must have the same bytes.
+The suite `arm64` cross-compiles for 64-bit ARM on bookworm, runs tests of unit/, gl/ and check/ under qemu-user, and
+renders recordings that were made on x86 with the reference device of both: all channels must have the same bytes.
 
-Needs root, debootstrap, 10 GB below BUILD, and most of an hour for each suite. SUITES_MIRROR names another mirror of Debian.
+Needs root, debootstrap, 10 GB below BUILD, and most of an hour for each suite. SUITES_MIRROR names another mirror of
+Debian.
 """
 import argparse
 import os
@@ -25,27 +27,40 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 DEMO_FRAMES = 60
 # The share of tests that must pass; 1: none may fail. Testing is a canary: it changes every day.
 SUITES = {"bookworm": 1.0, "trixie": 1.0, "testing": 0.95}
-VERSIONS = {"GCC": "gcc", "PoCL": "libpocl2-common|libpocl2t64|libpocl2|pocl-opencl-icd", "Mesa": "libgl1-mesa-dri", "OpenEXR": "libopenexr-dev",
-            "OpenImageIO": "libopenimageio-dev", "Embree": "libembree-dev", "Python": "python3", "apitrace": "apitrace", "clang": "clang"}
+VERSIONS = {
+    "GCC": "gcc",
+    "PoCL": "pocl-opencl-icd",
+    "Mesa": "libgl1-mesa-dri",
+    "OpenEXR": "libopenexr-dev",
+    "OpenImageIO": "libopenimageio-dev",
+    "Embree": "libembree-dev",
+    "Python": "python3",
+    "apitrace": "apitrace",
+    "clang": "clang",
+}
 
 CROSS = "CC=aarch64-linux-gnu-gcc CXX=aarch64-linux-gnu-g++ AR=aarch64-linux-gnu-ar BUILD=build/arm64"
 CROSS_PACKAGES = "gcc-aarch64-linux-gnu g++-aarch64-linux-gnu qemu-user-static git python3-jsonschema python3-numpy"
 # Libraries are those of arm64; compilers and tools run here.
 INSTALL_CROSS = f"""
 dpkg --add-architecture arm64 && apt-get -q update &&
-cd relume && libraries=$(packaging/deps.sh list build -- check | grep -E '^lib|-dev$|^check$' | grep -vE '^libc6-dev$|headers' | sed 's/$/:arm64/') &&
-apt-get -q -y --no-install-recommends install gcc g++ python3 khronos-api opencl-headers libc6-dev {CROSS_PACKAGES} $libraries
+cd relume && libraries=$(packaging/deps.sh list build -- check | grep -E '^lib|-dev$|^check$' | grep -vE '^libc6-dev$' |
+                         sed 's/$/:arm64/') &&
+apt-get -q -y --no-install-recommends install gcc g++ python3 khronos-api opencl-headers libc6-dev \\
+    {CROSS_PACKAGES} $libraries
 """
 # The kernel starts programs of arm64 by qemu; the entry goes with the mount namespace's end or by hand.
 BINFMT = """
 mount -t binfmt_misc binfmt_misc /proc/sys/fs/binfmt_misc
-[ -e /proc/sys/fs/binfmt_misc/qemu-aarch64 ] || cat /usr/lib/binfmt.d/qemu-aarch64.conf >/proc/sys/fs/binfmt_misc/register
+[ -e /proc/sys/fs/binfmt_misc/qemu-aarch64 ] ||
+	cat /usr/lib/binfmt.d/qemu-aarch64.conf >/proc/sys/fs/binfmt_misc/register
 """
 GOLDEN = ("cornell", "two_triangles")
 
 # Mounts and processes end with their namespaces, whatever becomes of this script.
 INSIDE = """
-mount --rbind --make-rslave /dev "$0/dev" && mount --rbind --make-rslave /sys "$0/sys" && mount -t proc proc "$0/proc" &&
+mount --rbind --make-rslave /dev "$0/dev" && mount --rbind --make-rslave /sys "$0/sys" &&
+mount -t proc proc "$0/proc" &&
 exec chroot "$0" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -c "cd /root && $1"
 """
 
@@ -60,8 +75,24 @@ class Suite:
         """Run a shell command in the chroot; return (exit code, seconds, what it printed)."""
         begin = time.monotonic()
         with open(self.logs / f"{log}.log", "w+", encoding="utf-8", errors="replace") as out:
-            code = subprocess.run(["unshare", "--mount", "--pid", "--fork", "--kill-child", "sh", "-c", INSIDE, str(self.root), command],
-                                  stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, check=False).returncode
+            code = subprocess.run(
+                [
+                    "unshare",
+                    "--mount",
+                    "--pid",
+                    "--fork",
+                    "--kill-child",
+                    "sh",
+                    "-c",
+                    INSIDE,
+                    str(self.root),
+                    command,
+                ],
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                check=False,
+            ).returncode
             out.seek(0)
             return code, time.monotonic() - begin, out.read()
 
@@ -72,7 +103,12 @@ class Suite:
         shutil.rmtree(partial, ignore_errors=True)
         mirror = [os.environ["SUITES_MIRROR"]] if "SUITES_MIRROR" in os.environ else []
         with open(self.logs / "debootstrap.log", "w", encoding="utf-8") as out:
-            subprocess.run(["debootstrap", "--variant=minbase", "--include=make", self.release, partial, *mirror], stdout=out, stderr=out, check=True)
+            subprocess.run(
+                ["debootstrap", "--variant=minbase", "--include=make", self.release, partial, *mirror],
+                stdout=out,
+                stderr=out,
+                check=True,
+            )
         # A mirror of a suite that changes every day may be behind.
         (partial / "etc/apt/apt.conf.d/90-behind").write_text('Acquire::Check-Valid-Until "false";\n')
         partial.rename(self.bare)
@@ -95,7 +131,9 @@ class Suite:
     def versions(self):
         found = []
         for what, names in VERSIONS.items():
-            out = self.run("versions", f"dpkg-query -W -f '${{db:Status-Status}} ${{Version}}\\n' {names.replace('|', ' ')} 2>/dev/null")[2]
+            out = self.run(
+                "versions", f"dpkg-query -W -f '${{db:Status-Status}} ${{Version}}\\n' {names} 2>/dev/null"
+            )[2]
             version = re.search(r"^installed (?:\d+:)?([0-9.]*[0-9])", out, re.M)
             found.append(f"{what} {version[1] if version else '-'}")
         return ", ".join(found)
@@ -109,18 +147,25 @@ def seconds_of(stage, printed):
 def show_demo(suite, shown):
     before = suite.packages()
     code, seconds, printed = suite.run("demo", "cd relume && make demo")
-    passed = re.search(r"(\d+) of (\d+)", printed[printed.rfind("\nscore"):])
+    passed = re.search(r"(\d+) of (\d+)", printed[printed.rfind("\nscore") :])
     frames = f"{passed[1]} of {passed[2]} frames" if passed else "no frames scored"
-    shown.row(f"{suite.name}: make demo", f"{frames}, exit code {code}, {seconds:.0f} s, of which {seconds_of('install', printed)} s install "
-              f"{suite.packages() - before} packages", f"{DEMO_FRAMES} of {DEMO_FRAMES}, exit code 0",
-              code == 0 and frames == f"{DEMO_FRAMES} of {DEMO_FRAMES} frames")
+    shown.row(
+        f"{suite.name}: make demo",
+        f"{frames}, exit code {code}, {seconds:.0f} s, of which {seconds_of('install', printed)} s install "
+        f"{suite.packages() - before} packages",
+        f"{DEMO_FRAMES} of {DEMO_FRAMES}, exit code 0",
+        code == 0 and frames == f"{DEMO_FRAMES} of {DEMO_FRAMES} frames",
+    )
     first = printed.split("\n", 1)[0]
     shown.row(f"{suite.name}: its first line", first, "one of ours", first.startswith("install"))
     code, seconds, printed = suite.run("demo-again", "cd relume && make demo")
     compiled = re.search(r"^build .* (\d+) files compiled$", printed, re.M)
-    shown.row(f"{suite.name}: make demo again", f"exit code {code}, {compiled[1] if compiled else '?'} files compiled",
-              "exit code 0, installs nothing, compiles 0 files",
-              code == 0 and "nothing, all is there" in printed and bool(compiled) and compiled[1] == "0")
+    shown.row(
+        f"{suite.name}: make demo again",
+        f"exit code {code}, {compiled[1] if compiled else '?'} files compiled",
+        "exit code 0, installs nothing, compiles 0 files",
+        code == 0 and "nothing, all is there" in printed and bool(compiled) and compiled[1] == "0",
+    )
 
 
 def say_tests(printed):
@@ -135,24 +180,36 @@ def show_check(suite, least, shown):
     counted = re.findall(r"^(\d+) passed, (\d+) failed, (\d+) skipped$", printed, re.M)
     passed, failed, skipped = map(int, counted[-1]) if counted else (0, 1, 0)
     good = (code == 0 and failed == 0) if least == 1 else passed >= least * (passed + failed)
-    shown.row(f"{suite.name}: make check", f"{passed} passed, {failed} failed, {skipped} skipped, {seconds / 60:.0f} min",
-              "0 failed" if least == 1 else f"{least:.0%} pass", good and passed > 0, suite.versions())
+    shown.row(
+        f"{suite.name}: make check",
+        f"{passed} passed, {failed} failed, {skipped} skipped, {seconds / 60:.0f} min",
+        "0 failed" if least == 1 else f"{least:.0%} pass",
+        good and passed > 0,
+        suite.versions(),
+    )
     say_tests(printed)
 
 
 def pixels(path):
     """The digest of all channels' bytes. Those of the file are others: ISA-L finds other matches on arm64."""
-    printed = subprocess.run(["oiiotool", "--hash", "--info", "-v", path], capture_output=True, text=True, check=False).stdout
+    printed = subprocess.run(
+        ["oiiotool", "--hash", "--info", "-v", path], capture_output=True, text=True, check=False
+    ).stdout
     found = re.search(r"SHA-1: (\w+)", printed)
     return found[1] if found else None
 
 
 def same_pixels(suite, build, name):
-    """Whether a frame has the same bytes in all channels, rendered by the reference devices of this build and of the chroot's."""
+    """Whether the reference devices of this build and of the chroot's render a frame to the same bytes in all channels."""
     ours, theirs = suite.logs / f"{name}.exr", suite.root / f"root/{name}.exr"
     options = "-f 1 --device reference"
-    subprocess.run([build / "relume", "render", ROOT / f"tests/golden/{name}.trace", *options.split(), "-o", ours], check=True)
-    suite.run(f"render-{name}", BINFMT + f"cd relume && build/arm64/relume render tests/golden/{name}.trace {options} -o /root/{name}.exr")
+    subprocess.run(
+        [build / "relume", "render", ROOT / f"tests/golden/{name}.trace", *options.split(), "-o", ours], check=True
+    )
+    suite.run(
+        f"render-{name}",
+        BINFMT + f"cd relume && build/arm64/relume render tests/golden/{name}.trace {options} -o /root/{name}.exr",
+    )
     return theirs.exists() and pixels(ours) is not None and pixels(ours) == pixels(theirs)
 
 
@@ -160,18 +217,41 @@ def show_arm64(suite, build, shown):
     code = suite.run("install", INSTALL_CROSS)[0]
     shown.row("arm64: packages", f"exit code {code}", "exit code 0", code == 0)
     tests = "$(ls tests/unit/test_*.c tests/gl/test_*.c tests/check/test_*.c | sed 's|^|build/arm64/|; s|\\.c$||')"
-    code, seconds, printed = suite.run("build", f"cd relume && mkdir -p build/arm64 && touch build/arm64/have.build && "
-                                       f"make -j$(nproc) {CROSS} all {tests}")
+    code, seconds, printed = suite.run(
+        "build",
+        f"cd relume && mkdir -p build/arm64 && touch build/arm64/have.build && "
+        f"make -j$(nproc) {CROSS} all {tests}",
+    )
     warnings = printed.count("warning:")
-    shown.row("arm64: make, with the tests", f"exit code {code}, {warnings} warnings, {seconds / 60:.0f} min", "exit code 0, no warnings",
-              code == 0 and not warnings, suite.versions())
-    printed = suite.run("check", BINFMT + "cd relume && python3 tests/run.py build/arm64 unit/test_ gl/test_ check/test_")[2]
+    shown.row(
+        "arm64: make, with the tests",
+        f"exit code {code}, {warnings} warnings, {seconds / 60:.0f} min",
+        "exit code 0, no warnings",
+        code == 0 and not warnings,
+        suite.versions(),
+    )
+    printed = suite.run(
+        "check", BINFMT + "cd relume && python3 tests/run.py build/arm64 unit/test_ gl/test_ check/test_"
+    )[2]
     counted = re.findall(r"^(\d+) passed, (\d+) failed, (\d+) skipped$", printed, re.M)
-    shown.row("arm64: tests of unit, gl and check, by qemu-user", ", ".join(" ".join(pair) for pair in zip(
-        counted[-1], ("passed", "failed", "skipped"))) if counted else "not run", "0 failed", bool(counted) and counted[-1][1] == "0")
+    shown.row(
+        "arm64: tests of unit, gl and check, by qemu-user",
+        (
+            ", ".join(" ".join(pair) for pair in zip(counted[-1], ("passed", "failed", "skipped")))
+            if counted
+            else "not run"
+        ),
+        "0 failed",
+        bool(counted) and counted[-1][1] == "0",
+    )
     say_tests(printed)
     same = [name for name in GOLDEN if same_pixels(suite, build, name)]
-    shown.row("arm64: recordings that the reference device renders to the channels of x86, byte for byte", f"{len(same)} of {len(GOLDEN)}", f"{len(GOLDEN)}", len(same) == len(GOLDEN))
+    shown.row(
+        "arm64: recordings that the reference device renders to the channels of x86, byte for byte",
+        f"{len(same)} of {len(GOLDEN)}",
+        f"{len(GOLDEN)}",
+        len(same) == len(GOLDEN),
+    )
 
 
 def main():
