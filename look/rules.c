@@ -7,6 +7,7 @@
 #include "base/config.h"
 #include "base/err.h"
 #include "look/modelview.h"
+#include "look/matched.h"
 #include "look/repaired.h"
 #include "look/spare.h"
 #include "scene/release.h"
@@ -284,6 +285,8 @@ static int finish(const char *path, int err, void *rules, struct look **out)
 	}
 	look->rules = rules;
 	err = check_all(path, look);
+	if (!err)
+		err = matched_create(path, look->rules->surfaces_count, &look->matched);
 	if (err)
 		rules_free(&look);
 	*out = look;
@@ -318,6 +321,7 @@ void rules_free(struct look **look)
 		frame_list_free(&l->unseen[i].draws);
 		scene_release(&l->unseen[i].scene);
 	}
+	matched_destroy(&l->matched);
 	repaired_destroy(&l->repaired);
 	free(l->draws);
 	free(l->unseen);

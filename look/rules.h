@@ -195,6 +195,7 @@ struct scene;
 
 struct look {
 	struct rules *rules;
+	struct matched *matched; /* what rules matched so far (look/matched.h) */
 	struct repaired *repaired; /* meshes (look/repaired.h); NULL: no rule repairs any */
 	struct frame_list *draws; /* [surfaces_count] */
 	struct unseen {

@@ -9,6 +9,8 @@
 #include "base/part.h"
 #include "base/verbs.h"
 #include "look/camera/camera.h"
+#include "look/join.h"
+#include "look/matched.h"
 #include "render/look.h"
 #include "render/pipeline.h"
 #include "scene/program.h"
@@ -206,11 +208,26 @@ static int render_frames(struct pipeline *p, uint64_t total, struct missing *mis
 		fprintf(stderr, "  device %zu: %llu frames (%s)\n", i, (unsigned long long)p->shares[i], device_name(p->devices[i]));
 	free(p->shares);
 	report_display(p);
+	matched_report(s->look, s->progress == PROGRESS_NONE);
 	display_destroy(&p->display);
 	report(p, missing);
 	for (size_t i = 0; i < p->n_devices; i++)
 		device_leave_programs(p->devices[i]);
 	device_close_list(&p->devices, &p->n_devices);
+	return err;
+}
+
+/* --look auto, between the files that were named before and behind it. */
+static int look_from_study(struct settings *s)
+{
+	struct look *found = NULL;
+	int err = look_study(s->trace, &(struct frame_list){ .n_ranges = 0 }, &found);
+
+	if (!err)
+		err = rules_join(&s->look, &found);
+	if (!err)
+		err = rules_join(&s->look, &s->look_after);
+	rules_free(&found);
 	return err;
 }
 
@@ -233,7 +250,7 @@ static int render(struct settings *s)
 	if (!err && camera_pictures(s->camera))
 		err = list_pictures(s, &x);
 	if (!err && s->look_auto && !s->dry_run)
-		err = look_study(s->trace, &(struct frame_list){ .n_ranges = 0 }, &s->look);
+		err = look_from_study(s);
 	if (!err) {
 		p.stamp = (struct stamp){ .trace = replay_trace_hash(p.replay), .settings = s->hash };
 		snprintf(p.stamp.program, sizeof(p.stamp.program), "%s", replay_program(p.replay)); /* the replay's own goes where it goes back */

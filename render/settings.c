@@ -11,6 +11,7 @@
 #include "film/filter.h"
 #include "film/oidn.h"
 #include "look/camera/camera.h"
+#include "look/join.h"
 #include "look/rules.h"
 #include "tracer/accel/builders.h"
 #include "tracer/hook/host.h"
@@ -101,12 +102,21 @@ static int take_seconds(const struct options_row *row, const char *value, void *
 static int take_look(const struct options_row *row, const char *value, void *out)
 {
 	struct settings *s = out;
-	struct look **look = &s->look;
+	struct look *more = NULL;
+	int err;
 
-	(void)row;
-	rules_free(look);
-	s->look_auto = strcmp(value, "auto") == 0;
-	return s->look_auto ? 0 : rules_load(value, look);
+	if (s->n_looks == SETTINGS_MOST_LOOKS)
+		return err_report(ERR_USAGE, NULL, "--%s: at most %d of them", row->name, SETTINGS_MOST_LOOKS);
+	s->looks[s->n_looks++] = value;
+	if (strcmp(value, "auto") == 0) {
+		s->look_auto = 1;
+		return 0;
+	}
+	err = rules_load(value, &more);
+	if (!err)
+		err = rules_join(s->look_auto ? &s->look_after : &s->look, &more);
+	rules_free(&more);
+	return err;
 }
 
 static int take_hook(const struct options_row *row, const char *value, void *out)
@@ -201,7 +211,7 @@ static const struct options_row rows[] = {
 	  "bright dots, and takes their light; 0: no bound (default 10)", options_real, AT(tracer.clamp), .low = 0, .high = 1e30 },
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
 	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, which flat faces are meant round (crease), which meshes have cracks (repair), lights added, moved, off or with a "
-	  "size (look/rules.h shows all keys); \"auto\": those that relume look finds", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
+	  "size (look/rules.h shows all keys); \"auto\": those that relume look finds; several apply in order, later rules count", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	{ "hook", 0, "FILE", "OpenCL C whose functions take the place of stages: ray_generation (other cameras), bounds and intersection (other shapes; "
 	  "modes whitted and path), any_hit, closest_hit, miss, light (modes whitted, diffuse and path). 'relume hook --check' tries them; "
 	  "hooks/README.md explains them", take_hook, .at = 0,
@@ -276,6 +286,14 @@ static int hash_file(XXH3_state_t *state, const char *path)
 	return err;
 }
 
+static int hash_value(XXH3_state_t *state, const struct options_row *row, const char *value)
+{
+	if (row->kind == PICTURE_FILE && strcmp(value, "auto") != 0)
+		return hash_file(state, value);
+	XXH3_128bits_update(state, value, strlen(value) + 1);
+	return 0;
+}
+
 static int name_settings(struct settings *s, const struct options_line *line)
 {
 	XXH3_state_t *state = XXH3_createState();
@@ -286,13 +304,13 @@ static int name_settings(struct settings *s, const struct options_line *line)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	XXH3_128bits_reset(state);
 	for (size_t i = 0; i < table.n_rows && !err; i++) {
+		const int is_look = rows[i].set == take_look;
+
 		if (!line->given[i] || rows[i].kind == RUN)
 			continue;
 		XXH3_128bits_update(state, rows[i].name, strlen(rows[i].name) + 1);
-		if (rows[i].kind == PICTURE_FILE && strcmp(line->given[i], "auto") != 0)
-			err = hash_file(state, line->given[i]);
-		else
-			XXH3_128bits_update(state, line->given[i], strlen(line->given[i]) + 1);
+		for (unsigned k = 0; k < (is_look ? s->n_looks : 1) && !err; k++)
+			err = hash_value(state, &rows[i], is_look ? s->looks[k] : line->given[i]);
 	}
 	hash = XXH3_128bits_digest(state);
 	snprintf(s->hash, sizeof(s->hash), "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
@@ -450,6 +468,7 @@ void settings_free(struct settings *s)
 {
 	frame_list_free(&s->frames);
 	rules_free(&s->look);
+	rules_free(&s->look_after);
 	camera_free(&s->camera);
 	hook_free(&s->hook);
 	free(s->aov);

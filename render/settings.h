@@ -11,6 +11,8 @@
 #include "tracer/frame/trace.h"
 #include "tracer/image/display.h"
 
+enum { SETTINGS_MOST_LOOKS = 16 };
+
 struct settings {
 	const char *trace, *output, *device;
 	unsigned threads, jobs; /* 0: as the machine has */
@@ -24,7 +26,10 @@ struct settings {
 	const char *cache;      /* folder for trees of meshes and compiled kernels; NULL: the user's */
 	int no_cache;
 	uint64_t cache_bytes;   /* what it may hold; 0: BLAS_STORE_BYTES */
-	struct look *look;
+	struct look *look;       /* rules of all --look, in order; those of "auto" when the recording has been studied */
+	struct look *look_after; /* of files behind "auto", until then */
+	const char *looks[SETTINGS_MOST_LOOKS]; /* as typed */
+	unsigned n_looks;
 	struct hook *hook;      /* owned; NULL: none */
 	int look_auto;          /* 1: the rules are what a study of the recording finds */
 	struct camera *camera;  /* owned; NULL: the recorded one */

@@ -10,6 +10,7 @@
 #include "look/apply/surface.h"
 #include "look/film.h"
 #include "look/gloss.h"
+#include "look/matched.h"
 #include "look/solid.h"
 
 static void add_parameters(struct scene *out, const struct parameter_rule *list, uint32_t n)
@@ -54,8 +55,10 @@ static void set_surface(const struct applying *a, uint32_t i, struct scene_mater
 	if (sky_lights && solid_is(a->scene, in))
 		m->surface.hidden |= SCENE_DOME_LIT;
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
-		if (match_applies(a, in, k))
+		if (match_applies(a, in, k)) {
 			surface_set(&m->surface, &rules->surfaces[k], a->spare != NULL);
+			a->matched[k]++;
+		}
 }
 
 /* Whether the tracer lights the surface anew, and what its vertices or texels then hold of light. */
@@ -186,6 +189,8 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 		if (err)
 			look_release(out);
 	}
+	if (!err && look && a.rules == look->rules)
+		matched_add(look->matched, a.matched);
 	match_end(&a);
 	if (found)
 		*found = spare;

@@ -18,6 +18,7 @@ struct applying {
 	int knows_world;
 	int has_mirror;           /* pictures in mirrors may be left out */
 	uint8_t *in_plane;        /* [instances][surfaces]: whether a rule's plane holds an instance, 1 no, 2 yes; 0: not asked yet */
+	uint32_t *matched;        /* [surfaces]: draws that each rule matched */
 	int lights_change;        /* bits: 1 of what OpenGL does not light, 2 of what it lights, 4 where a unit holds a shadow, 8 where faces look round */
 };
 

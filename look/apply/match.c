@@ -119,7 +119,8 @@ int match_begin(struct applying *a)
 		a->lights_change = 0;
 	}
 	a->in_plane = calloc(a->scene->n_instances + (size_t)1, a->rules->surfaces_count + (size_t)1);
-	if (!a->in_plane)
+	a->matched = calloc(a->rules->surfaces_count + (size_t)1, sizeof(*a->matched));
+	if (!a->in_plane || !a->matched)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	a->has_mirror = has_mirror(a);
 	return 0;
@@ -128,5 +129,7 @@ int match_begin(struct applying *a)
 void match_end(struct applying *a)
 {
 	free(a->in_plane);
+	free(a->matched);
 	a->in_plane = NULL;
+	a->matched = NULL;
 }
