@@ -16,6 +16,7 @@
 
 #include "base/beside.h"
 #include "base/err.h"
+#include "base/folder.h"
 #include "base/options.h"
 #include "base/verbs.h"
 #include "capture/executable.h"
@@ -49,16 +50,20 @@ static int take_count(const struct options_row *row, const char *text, void *out
 	return options_text(row, text, out);
 }
 
-/* "A-B" or "A-", cut in two where it stands in argv. */
+/* "A", or "A-B" or "A-", cut in two where it stands in argv. */
 static int take_frames(const struct options_row *row, const char *text, void *out)
 {
 	size_t digits = strspn(text, "0123456789"), more = text[digits] == '-' ? strspn(text + digits + 1, "0123456789") : 0;
 	const char *last = text + digits + 1;
 	struct options *o = out;
 
+	if (digits && digits < MAX_NUMBER_BYTES - 4 && !text[digits]) {
+		o->first_frame = o->last_frame = text;
+		return 0;
+	}
 	if (!digits || digits >= MAX_NUMBER_BYTES - 4 || more >= MAX_NUMBER_BYTES - 4 || text[digits] != '-' || last[more] ||
 	    (more && strtoull(last, NULL, 10) < strtoull(text, NULL, 10)))
-		return err_report(ERR_USAGE, NULL, "--%s takes the first and the last frame as in 10-19, or 10-, not '%s'", row->name, text);
+		return err_report(ERR_USAGE, NULL, "--%s takes one frame, or the first and the last, as in 7, 10-19 or 10-, not '%s'", row->name, text);
 	((char *)text)[digits] = '\0';
 	o->first_frame = text;
 	o->last_frame = more ? last : NULL;
@@ -86,7 +91,7 @@ static const struct options_row rows[] = {
 	{ "ref-every", 0, "N", "only every Nth frame of these", take_count, AT(ref_every) },
 	{ "ref-exact", 0, NULL, "switch off Mesa llvmpipe's quick rasterizer (LP_PERF=no_rast_linear): in windows without depth its colours "
 	  "are off by up to 2/255; the program shows the exact ones, too", options_flag, AT(ref_exact) },
-	{ "frames", 0, "A-B", "record only the program's frames A to B, counted from 0 (\"A-\": to the end); the trace begins with all "
+	{ "frames", 0, "A-B", "record only the program's frames A to B, counted from 0 (\"A-\": to the end; \"A\": that one); the trace begins with all "
 	  "that they need and numbers them from 0; the program goes on", take_frames, .at = 0 },
 	{ "paused", 0, NULL, "begin with recording switched off", options_flag, AT(paused) },
 	{ "start-key", 0, "KEY", "the same; KEY switches as SIGUSR2 does (F9, Pause, r, ...: a name of X)", options_text, AT(start_key) },
@@ -193,6 +198,8 @@ static int clear_output(const struct options *o)
 
 	if (stat(o->trace, &st) == 0 && !S_ISREG(st.st_mode))
 		return err_report(ERR_SYSTEM, o->trace, "is there and is no file");
+	if (folder_make_for(o->trace))
+		return ERR_SYSTEM;
 	if (unlink(o->trace) && errno != ENOENT)
 		return err_report(ERR_SYSTEM, o->trace, "cannot replace: %s", strerror(errno));
 	fd = open(o->trace, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -81,7 +81,7 @@ else
 fi
 
 # Nowhere to write: known before the program starts.
-"$RELUME" record -o "$TMPDIR/nowhere/x.trace" -- touch "$TMPDIR/started" 2>"$TMPDIR/log"
+"$RELUME" record -o /proc/nowhere/x.trace -- touch "$TMPDIR/started" 2>"$TMPDIR/log"
 [ $? -eq 5 ] || fail "exit code for an unwritable output"
 [ "$(wc -l <"$TMPDIR/log")" -eq 1 ] || fail "more or less than one line for an unwritable output"
 [ ! -e "$TMPDIR/started" ] || fail "the program was started all the same"

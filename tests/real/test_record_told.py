@@ -40,5 +40,7 @@ times(said, "the program uses shaders", 0, "a program without programs")
 
 said = told("none.trace", PROGRAM, options=("--frames", "50-60"))
 times(said, "none of the program's 10 frames was one to be recorded", 1, "frames that do not come")
+said = told("one.trace", PROGRAM, options=("--frames", "5"))
+times(said, "one.trace: 1 frames, ", 1, "one frame")
 must(on_display(PROGRAM))
 finish()

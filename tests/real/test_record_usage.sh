@@ -23,7 +23,7 @@ expect 2 "takes a number of frames" --quit-after 0 -- true
 expect 2 "takes a number of frames" --max-frames 1x -- true
 expect 2 "takes a number of frames" --ref-every -3 -- true
 expect 2 "NAME=VALUE" --env =x -- true
-expect 2 "--frames takes" --frames 10 -- true
+expect 2 "--frames takes" --frames 10x -- true
 expect 2 "--frames takes" --frames 9-3 -- true
 expect 2 "--frames takes" --frames -3 -- true
 expect 5 "no X display" --start-key F9 --env DISPLAY= -- true
@@ -34,7 +34,9 @@ expect 2 "number of bytes" --max-size 0 -- true
 expect 2 "number of bytes" --max-size 99999999999999999999G -- true
 expect 2 "'' is no name for a trace" -o "" -- true
 expect 2 "is no name for a trace" -o "$TMPDIR/" -- true
-expect 5 "cannot write" -o "$TMPDIR/no/such/folder.trace" -- true
+expect 5 "No such file" -o /proc/no/such/folder.trace -- true
+expect 5 "loaded no OpenGL" -o "$TMPDIR/made/for/it.trace" -- true
+[ -d "$TMPDIR/made/for" ] || { echo "the trace's folder was not made"; bad=1; }
 expect 5 "is no file" -o "$TMPDIR" -- true
 expect 5 "cannot start" -o "$TMPDIR/x.trace" -- "$TMPDIR/no-such-program"
 expect 5 "true: nothing was recorded: the program loaded no OpenGL" -o "$TMPDIR/x.trace" -- true
