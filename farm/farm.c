@@ -72,7 +72,7 @@ static int submit(int argc, char **argv)
 	if (!err)
 		err = farm_script_save(&job);
 	if (!err && census.counts[CENSUS_OUTDATED])
-		printf("%" PRIu64 " frames that were rendered with other settings are rendered again\n", census.counts[CENSUS_OUTDATED]);
+		printf("%" PRIu64 " frames of other settings are rendered again\n", census.counts[CENSUS_OUTDATED]);
 	if (!err)
 		err = run_script(&job, NULL);
 	census_free(&census);

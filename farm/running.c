@@ -50,7 +50,7 @@ static int read_slurm(const struct farm_job *job, uint64_t *number, char *text, 
 
 	*number = queue.number;
 	if (queue.running + queue.waiting)
-		snprintf(text, size, "%" PRIu64 " tasks running, %" PRIu64 " waiting", queue.running, queue.waiting);
+		snprintf(text, size, "%" PRIu64 " task%s running, %" PRIu64 " waiting", queue.running, queue.running == 1 ? "" : "s", queue.waiting);
 	else
 		snprintf(text, size, "its report waits or runs");
 	slurm_free(&queue);

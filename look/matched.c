@@ -110,10 +110,10 @@ void matched_report(const struct look *look, int quiet)
 		if (lines++ == MOST_LINES)
 			fprintf(stderr, "  and more rules\n");
 		else if (c->draws)
-			fprintf(stderr, "  %s: rule %" PRIu32 " matches %" PRIu64 " draws in %" PRIu64 " of %" PRIu64 " frames\n", c->file, c->rule, c->draws,
-			        c->frames, m->frames);
+			fprintf(stderr, "  %s: rule %" PRIu32 " matches %" PRIu64 " draw%s in %" PRIu64 " of %" PRIu64 " frame%s\n", c->file, c->rule, c->draws,
+			        c->draws == 1 ? "" : "s", c->frames, m->frames, m->frames == 1 ? "" : "s");
 		else
-			err_warn(c->file, "surfaces, rule %" PRIu32 " matches nothing in any of %" PRIu64 " frames; 'relume scene --json' shows hashes and draws",
-			         c->rule, m->frames);
+			err_warn(c->file, "surfaces, rule %" PRIu32 " matches nothing in %" PRIu64 " frame%s; 'relume scene --json' shows hashes and draws",
+			         c->rule, m->frames, m->frames == 1 ? "" : "s");
 	}
 }

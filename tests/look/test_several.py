@@ -60,7 +60,7 @@ check(same(rendered("behind", mirror, dull, "auto")[0], auto), "and auto comes w
 
 # A mistyped hash.
 _, said = rendered("typed", typed)
-check(said.count(f"relume: warning: {typed}: surfaces, rule 1 matches nothing in any of 2 frames; 'relume scene --json' shows hashes and draws\n") == 1 and
+check(said.count(f"relume: warning: {typed}: surfaces, rule 1 matches nothing in 2 frames; 'relume scene --json' shows hashes and draws\n") == 1 and
       f"{typed}: rule 2 matches " in said, f"a rule that matches nothing: {said}")
 _, said = rendered("quiet", typed, options=("--progress", "none"))
 check("rule 1 matches nothing" in said and "rule 2" not in said, f"--progress none leaves warnings: {said}")
