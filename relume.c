@@ -108,7 +108,7 @@ int main(int argc, char **argv)
 		return -ERR_USAGE;
 	}
 	wants_help = strcmp(argv[1], "help") == 0;
-	if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || (wants_help && argc == 2)) {
+	if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || (wants_help && (argc == 2 || strcmp(argv[2], "help") == 0))) {
 		print_help(stdout);
 		return 0;
 	}

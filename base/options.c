@@ -281,6 +281,8 @@ int options_number(const struct options_row *row, const char *value, void *out)
 
 	errno = 0;
 	number = strtoul(value, &end, 10);
+	if (!errno && end != value && !*end && *value != '-' && number < row->least)
+		return err_report(ERR_USAGE, NULL, "--%s takes a number from %u to %u, not '%s'", row->name, row->least, row->most, value);
 	if (errno || end == value || *end || *value == '-' || number > row->most)
 		return err_report(ERR_USAGE, NULL, "--%s takes a number up to %u, not '%s'", row->name, row->most, value);
 	*(unsigned *)out = (unsigned)number;

@@ -32,7 +32,7 @@ struct options_row {
 	 */
 	int (*set)(const struct options_row *row, const char *value, void *out);
 	size_t at;
-	unsigned most;            /* options_number: the largest value */
+	unsigned least, most;     /* options_number: the smallest and the largest value */
 	float low, high;          /* options_real: the least and the largest value */
 	const char *const *words; /* options_word, options_text: what may be said, ended by NULL */
 	int is_required;

@@ -175,7 +175,7 @@ static void report_display(const struct pipeline *p)
 {
 	const struct display_options *o = &p->settings->display;
 
-	if (p->pixels && p->settings->progress != PROGRESS_NONE)
+	if (p->pixels && p->bright && p->settings->progress != PROGRESS_NONE)
 		fprintf(stderr, "  exposure %+g stops, white at %g; %.2g %% of the pixels are brighter\n", (double)o->exposure, (double)o->white,
 		        100 * (double)p->bright / (double)p->pixels);
 }

@@ -194,10 +194,10 @@ static const struct options_row rows[] = {
 	  "gl is enough for scratch frames); with cryptomatte, which draw, mesh and texture a pixel shows, as compositors read it; with motion, by how many "
 	  "pixels right and down what a pixel shows has moved since the frame before; with caustics, the light that mirrors and glass send to matte "
 	  "surfaces (modes whitted, diffuse and path; no part of R G B)", take_aov, .at = 0 },
-	{ "photons", 0, "N", "how many find --aov caustics (default 1048576)", options_number, AT(photons), .most = 1u << 30 },
+	{ "photons", 0, "N", "how many find --aov caustics (default 1048576)", options_number, AT(photons), .least = 1, .most = 1u << 30 },
 	{ "depth", 0, "N", "bounces at most (default 4)", options_number, AT(tracer.depth), .most = 64 },
 	{ "samples", 0, "N", "samples of a pixel, each spread differently; the pixel is their mean (default 1); gl, Z, N, P, albedo "
-	  "and id stay those of pixel centres", options_number, AT(tracer.samples), .most = MOST_SAMPLES },
+	  "and id stay those of pixel centres", options_number, AT(tracer.samples), .least = 1, .most = MOST_SAMPLES },
 	{ "noise", 0, "X", "stop sampling a frame once its noise, the root mean square of its pixels' standard errors over the mean brightness, "
 	  "is at most X, as 0.02; --samples is the most (then 65536 by default)", options_real, AT(tracer.noise), .low = 0, .high = 1e30 },
 	{ "time", 0, "S", "begin no sample of a frame that would end later than S seconds after its first; one there is always. How many they are is in "
@@ -206,7 +206,7 @@ static const struct options_row rows[] = {
 	  options_flag, AT(denoise) },
 	{ "oidn", 0, NULL, "--denoise by Intel's Open Image Denoise 2, where it is installed", options_flag, AT(oidn) },
 	{ "rays", 0, "N", "rays of a sample: to each light that has a radius, and around each point in the ao modes (default 16)",
-	  options_number, AT(tracer.rays), .most = 4096 },
+	  options_number, AT(tracer.rays), .least = 1, .most = 4096 },
 	{ "clamp", 0, "X", "mode path: no bounce brings a sample more than X times white, but for one in a mirror or glass: that spares "
 	  "bright dots, and takes their light; 0: no bound (default 10)", options_real, AT(tracer.clamp), .low = 0, .high = 1e30 },
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },

@@ -1,5 +1,6 @@
 #include "scene/gltf_parts.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -402,7 +403,7 @@ int gltf_write(FILE *out, const char *where, const struct scene *scene, struct g
 	}
 	if (fwrite((const uint32_t[]){ 0x46546c67, 2, (uint32_t)total }, 12, 1, out) != 1 ||
 	    !write_chunk(out, 0x4e4f534a, text, n_text, ' ') || !write_chunk(out, 0x004e4942, g.bytes, g.n_bytes, 0))
-		rc = err_report(ERR_SYSTEM, where, "cannot be written");
+		rc = err_report(ERR_SYSTEM, where, "cannot be written: %s", strerror(errno));
 done:
 	free(text);
 	gltf_free(&g);

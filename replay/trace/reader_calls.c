@@ -268,7 +268,7 @@ static struct reader_call *end_of_calls(struct trace_reader *r)
 		r->ended = 1;
 		r->cut |= container_is_cut(r->container);
 		if (r->cut)
-			err_warn(r->path, "the file is cut short after call %llu; frames before it are whole",
+			err_warn(r->path, "the file is cut short after call %llu; frames before it are whole, and 'relume repair' saves them",
 			         (unsigned long long)r->next_number);
 	}
 	for (size_t i = 0; i < r->n_pending; i++)

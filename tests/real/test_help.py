@@ -9,6 +9,7 @@ verbs = re.findall(r"^  (\w+) ", overview.stdout, re.M)
 check(overview.returncode == 0 and not overview.stderr, "help goes to standard output and exits with 0")
 check({"record", "info", "index", "dump", "scene", "render", "raster", "diff", "devices", "bench"} <= set(verbs),
       f"help lists the verbs: {verbs}")
+check(relume("help", "help").stdout == overview.stdout, "help of help is help")
 check(relume().returncode == 2, "no verb is wrong usage")
 check(relume("paint").returncode == 2, "an unknown verb is wrong usage")
 near, far = relume("rendr"), relume("paint")
@@ -16,6 +17,8 @@ check("there is no verb 'rendr', but render;" in near.stderr and "but" not in fa
 version = relume("--version")
 check(version.returncode == 0 and re.fullmatch(r"relume \d+\.\d+\n", version.stdout), f"--version: {version.stdout}")
 for words, said in ((("render", "--frmes", "1"), "render has no option '--frmes', but --frames;"), (("render", "--zzz"), "render has no option '--zzz';"),
+                    (("render", "--samples", "0"), "--samples takes a number from 1 to "),
+                    (("render", "--rays", "0"), "--rays takes a number from 1 to "),
                     (("render", "-y"), "render has no option '-y';"), (("render", "--frames"), "render: --frames takes a value;"),
                     (("render", "-f"), "render: -f takes a value;"), (("render", "--no-cache=2"), "render: --no-cache takes no value"),
                     (("render", "--no-cache", "-yq"), "render has no option '-y';")):

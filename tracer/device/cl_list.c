@@ -50,8 +50,8 @@ int cl_list_find(cl_device_id ids[CL_LIST_MOST], size_t *n)
 	}
 	if (*n == 0 && n_platforms)
 		return err_report(ERR_SYSTEM, "OpenCL",
-		                  "%u drivers are installed, and none has a device here (%s); repair them, or use --device reference (slow)",
-		                  n_platforms, cl_error_name(said));
+		                  "%u driver%s installed, without a device here (%s); repair %s, or use --device reference (slow)",
+		                  n_platforms, n_platforms == 1 ? " is" : "s are", cl_error_name(said), n_platforms == 1 ? "it" : "them");
 	if (*n == 0)
 		return err_report(ERR_SYSTEM, "OpenCL",
 		                  "there is no driver here (%s); install the Debian package pocl-opencl-icd (CPU) or your "
