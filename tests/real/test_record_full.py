@@ -62,7 +62,7 @@ check(done.returncode == 5 and done.stderr.count("ref.ref: disk full: no more re
       ": 40 frames, " in done.stderr and " bytes of reference frames (stopped early), 0 calls not recorded" in done.stderr,
       f"reference frames: exit code {done.returncode}: {done.stderr[-600:]}")
 frames = SCRATCH / "ref.frames"
-must(relume("render", trace, "-f", "0-2", "--mode", "gl", "-o", frames / "ref.####.exr"))
+must(relume("render", trace, "-f", "0-2", "--mode", "gl", "--device", "reference", "-o", frames / "ref.####.exr"))
 scored = relume("diff", trace, frames, "-f", "0-2")
 check(scored.returncode == 0 and "3 frames" in scored.stdout, f"what is there of them is whole: {scored.returncode}: {scored.stdout}{scored.stderr}")
 
