@@ -59,7 +59,8 @@ enum executable_kind executable_kind(const char *path)
 		return kind;
 	if (read(fd, &head, sizeof(head)) >= (ssize_t)sizeof(head.of_32) && memcmp(head.of_64.e_ident, ELFMAG, SELFMAG) == 0) {
 		is_64 = head.of_64.e_ident[EI_CLASS] == ELFCLASS64;
-		if (!has_interpreter(fd, is_64, is_64 ? head.of_64.e_phoff : head.of_32.e_phoff, is_64 ? head.of_64.e_phnum : head.of_32.e_phnum))
+		if (!has_interpreter(fd, is_64, is_64 ? head.of_64.e_phoff : head.of_32.e_phoff,
+		                     is_64 ? head.of_64.e_phnum : head.of_32.e_phnum))
 			kind = EXECUTABLE_STATIC;
 		else
 			kind = is_64 || sizeof(void *) == 4 ? EXECUTABLE_NATIVE : EXECUTABLE_32;

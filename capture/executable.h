@@ -15,5 +15,8 @@ int executable_find(const char *name, char *out, size_t size);
 
 enum executable_kind executable_kind(const char *path);
 
-/** 1 where the file brings rights of its own (set-user-ID, set-group-ID: old games do, for their scores): the loader preloads nothing into it. */
+/**
+ * 1 where the file brings rights of its own (set-user-ID, set-group-ID): the loader preloads nothing into it. Old games do, for
+ * their scores.
+ */
 int executable_has_rights(const char *path);

@@ -8,7 +8,10 @@
 
 enum { MOST_DEEP = 32 }; /* generations */
 
-/* SEEN_* of the files that a process has mapped; 0 as well where it has ended or belongs to somebody else. *mapped: whether it maps any. */
+/*
+ * SEEN_* of the files that a process has mapped; 0 as well where it has ended or belongs to somebody else.
+ * *mapped: whether its loader has done its work.
+ */
 static unsigned read_maps(pid_t pid, int *mapped)
 {
 	char path[64], *line = NULL;
@@ -26,7 +29,7 @@ static unsigned read_maps(pid_t pid, int *mapped)
 			continue;
 		name[strcspn(name, "\n")] = '\0';
 		seen |= stats_library(name);
-		*mapped |= strstr(name, "/libc.so") != NULL; /* its loader has done its work */
+		*mapped |= strstr(name, "/libc.so") != NULL;
 	}
 	free(line);
 	if (file)

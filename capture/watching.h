@@ -7,7 +7,7 @@
 
 struct watching {
 	unsigned seen;          /* SEEN_* of all processes (stats.h) */
-	pid_t stranger;         /* the first process without a recorder, one with OpenGL or Vulkan before others; 0: there is none */
+	pid_t stranger;         /* a process without a recorder, one with OpenGL or Vulkan before others; 0: there is none */
 	unsigned stranger_seen; /* its SEEN_* */
 	enum executable_kind kind;
 	char name[64];

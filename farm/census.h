@@ -5,7 +5,7 @@
 
 #include "farm/job.h"
 
-enum census_verdict { CENSUS_MISSING, CENSUS_DAMAGED, CENSUS_OUTDATED, N_CENSUS_VERDICTS }; /* outdated: rendered with other settings */
+enum census_verdict { CENSUS_MISSING, CENSUS_DAMAGED, CENSUS_OUTDATED, N_CENSUS_VERDICTS }; /* OUTDATED: of other settings */
 
 struct census_frame {
 	uint64_t frame;
@@ -20,7 +20,7 @@ struct census {
 	time_t taken;
 };
 
-/** Look at every frame. Checks everything that a task will be given as well. @return 0 or ERR_* (reported); free in any case */
+/** Look at every frame, and check all that tasks will be given. @return 0 or ERR_* (reported); free in any case */
 int census_take(const struct farm_job *job, struct census *out);
 void census_free(struct census *census);
 

@@ -10,5 +10,5 @@
  */
 int running_claim(const struct farm_job *job, int replace);
 
-/** The process, here or on another machine, that runs the job's script without Slurm: "4711". @return 1, or 0 where there is none */
+/** The process that runs the job's script without Slurm, as "4711". @return 1, or 0 where there is none */
 int running_process(const struct farm_job *job, char *out, size_t size);

@@ -26,8 +26,9 @@ int slurm_release(const struct slurm_queue *queue);
 int slurm_cancel(const struct farm_job *job);
 
 /**
- * How Slurm says that tasks ended: by its accounting, or, where there is none, by what the controller still remembers (MinJobAge).
- * @param words  [n_tasks + 1] texts as "OUT_OF_MEMORY" or "FAILED, signal 9"; NULL where Slurm does not know. Each and the array are the caller's
+ * How tasks ended, by Slurm's accounting; where there is none, by what the controller still remembers (MinJobAge).
+ * @param words  [n_tasks + 1] texts as "OUT_OF_MEMORY" or "FAILED, signal 9"; NULL where Slurm does not know. Each text and the
+ *               array are the caller's
  * @return 0 or ERR_SYSTEM (reported)
  */
 int slurm_read_ends(const struct farm_job *job, char ***words);

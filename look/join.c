@@ -26,7 +26,15 @@ static int move(void *to, uint32_t *n_to, void *more, uint32_t *n_more, size_t b
 }
 
 /* The later counts; the other one goes with the rules that are freed. */
-#define LATER(member) 	do { 		if (more->member) { 			const void *earlier = to->member; 			to->member = more->member; 			memcpy(&more->member, &earlier, sizeof(earlier)); 		} 	} while (0)
+#define LATER(member) \
+	do { \
+		const void *earlier = to->member; \
+\
+		if (more->member) { \
+			to->member = more->member; \
+			memcpy(&more->member, &earlier, sizeof(earlier)); \
+		} \
+	} while (0)
 
 static void take_single(struct rules *to, struct rules *more)
 {
@@ -70,7 +78,8 @@ int rules_join(struct look **into, struct look **from)
 	if (!err)
 		err = MOVE(to->rules->world, to->rules->world_count, more->rules->world, more->rules->world_count);
 	if (!err)
-		err = MOVE(to->rules->parameters, to->rules->parameters_count, more->rules->parameters, more->rules->parameters_count);
+		err = MOVE(to->rules->parameters, to->rules->parameters_count, more->rules->parameters,
+		           more->rules->parameters_count);
 	if (err)
 		return err;
 	take_single(to->rules, more->rules);

@@ -10,15 +10,15 @@ struct matched; /* counts of all rules for surfaces; threads may share it */
 int matched_create(const char *name, uint32_t n_rules, struct matched **out);
 void matched_destroy(struct matched **matched);
 
-/** Those of a file whose rules come behind. @return 0, and `more` is freed; or ERR_SYSTEM (reported), and nothing is changed */
+/** Add the rules of a later file. @return 0, and `more` is freed; or ERR_SYSTEM (reported), and nothing is changed */
 int matched_append(struct matched *to, struct matched **more);
 
 /** A frame's counts. @param draws  [rules]: how many draws each rule matched */
 void matched_add(struct matched *matched, const uint32_t *draws);
 
 /**
- * Say once, on standard error, what each rule of a file matched; warn of those that matched nothing in any frame. Says nothing of
- * frames that no rule was applied to, and of rules that nobody wrote (`--look auto`).
+ * Say on standard error what each rule of a file matched, and warn of those that matched nothing. Silent about rules that nobody
+ * wrote (`--look auto`), and where no frame was under the rules.
  * @param quiet  1: warnings alone
  */
 void matched_report(const struct look *look, int quiet);
