@@ -5,16 +5,21 @@
 #pragma once
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "tests/trace/window.h"
 
 enum { PANEL = 20, ACROSS = 16, DOWN = 12, PANELS = ACROSS * DOWN };
 
-/** A table: how many rows it has, what sets the state of row i, and what is drawn then in a square from -1 to 1. */
+/**
+ * A table: how many rows it has, what sets the state of row i, and what is drawn then in a square from -1 to 1; the extension without which it
+ * is left out (NULL: none).
+ */
 struct table {
 	int n;
 	void (*set)(int i);
 	void (*draw)(int i);
+	const char *needs;
 };
 
 /* A table that is one product of choices: the choice of `count` at this place, as i is used up. */
@@ -82,6 +87,10 @@ static inline void draw_tables(const struct table *tables, size_t n, void (*prep
 	if (prepare)
 		prepare();
 	for (size_t i = 0; i < n || i < most; i++) {
+		const char *needs = tables[i % n].needs;
+
+		if (needs && !strstr((const char *)glGetString(GL_EXTENSIONS), needs))
+			continue;
 		draw_table(&tables[i % n], (int)(i / n));
 		end_frame();
 	}
