@@ -3,9 +3,11 @@
  * what they carry, what is left of them. The last bits, which are llvmpipe's, are compared by real/test_shapes.
  */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "scene/mesa.h"
 #include "tests/case.h"
 #include "tracer/frame/expand.h"
 
@@ -291,6 +293,55 @@ START_TEST(test_points)
 }
 END_TEST
 
+/* As later versions of Mesa have them: ends right on a pixel's centre; widths and places that lie half way; sprites; smooth lines of next to no length. */
+START_TEST(test_versions_of_mesa)
+{
+	struct scene_unit unit = { .coord_replace = 1 };
+	static const float texcoords[4][4];
+	struct drawn d;
+
+	begin(&d, SCENE_LINES, PREPARED_LINES);
+	d.mesh.primitive_count = 1;
+	place(&d, 0, 10.25f, 20.5f, 0);
+	place(&d, 1, 20.5f, 20.5f, 0);
+	for (int after = 0; after < 2; after++) {
+		d.in.mesa = after ? SCENE_MESA_LINE_ENDS : 0;
+		expand(&d, 1);
+		ck_assert_int_eq(d.out.windows[1].x, after ? 20 * 256 + 128 : 20 * 256);
+		d.material.line_width = 2.5f;
+		d.in.mesa = after ? SCENE_MESA_ROUNDS_TO_EVEN : 0;
+		expand(&d, 1);
+		ck_assert_int_eq(abs(d.out.windows[3].y - d.out.windows[0].y), after ? 2 * 256 : 3 * 256);
+		d.material.line_width = 1;
+	}
+	d.material.line_smooth = 1;
+	place(&d, 1, 10.5f, 20.5f, 0);
+	for (int after = 0; after < 2; after++) {
+		d.in.mesa = after ? SCENE_MESA_SMOOTH_LINES : 0;
+		expand(&d, 1);
+		ck_assert_float_eq_tol(d.out.vertices[0].color[1][3], after ? 0.625f : 0.25f, 1e-4f);
+	}
+	place(&d, 1, 10.25f, 20.5f, 0);
+	expand(&d, 0);
+	d.in.mesa = 0;
+	expand(&d, 1);
+	expanded_free(&d.out);
+
+	begin(&d, SCENE_POINTS, PREPARED_POINTS);
+	place(&d, 0, 20, 30, 0);
+	d.material.multisample = d.material.point_sprite = 1;
+	d.material.unit_count = 1;
+	d.in.units = &unit;
+	d.in.texcoords = texcoords;
+	for (int after = 0; after < 2; after++) {
+		d.in.mesa = after ? SCENE_MESA_SPRITES : 0;
+		expand(&d, 1);
+		ck_assert_float_eq(d.out.texcoords[0][0], after ? 0 : 0.125f);
+	}
+	expanded_free(&d.out);
+}
+END_TEST
+
 int main(void)
 {
 	TCase *tcase = tcase_create("expand");
@@ -301,5 +352,6 @@ int main(void)
 	tcase_add_test(tcase, test_stipples);
 	tcase_add_test(tcase, test_outlines);
 	tcase_add_test(tcase, test_points);
+	tcase_add_test(tcase, test_versions_of_mesa);
 	return run_case(tcase, "expand");
 }
