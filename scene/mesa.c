@@ -15,6 +15,7 @@ uint32_t scene_mesa_of(const char *gl)
 		{ 25, 0, SCENE_MESA_SMOOTH_LINES },
 		{ 25, 0, SCENE_MESA_BITMAPS },
 		{ 25, 0, SCENE_MESA_FLAT_PROGRAMS },
+		{ 25, 0, SCENE_MESA_BACK_COLORS },
 	};
 	const char *mesa = strstr(gl, "Mesa ");
 	unsigned major, minor;

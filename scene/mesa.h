@@ -20,6 +20,8 @@ enum scene_mesa {
 	SCENE_MESA_BITMAPS = 16,
 	/* 25.0: ShadeModel holds for the colours that fragment programs in assembly read, too */
 	SCENE_MESA_FLAT_PROGRAMS = 32,
+	/* 25.0: colours of back sides alone that are the vertices' are theirs */
+	SCENE_MESA_BACK_COLORS = 64,
 };
 
 /**

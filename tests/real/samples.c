@@ -490,6 +490,7 @@ int main(void)
 
 	window_size[0] = WIDTH;
 	window_size[1] = HEIGHT;
+	window_kind = "four samples a pixel";
 	open_window_of(attributes);
 	glGetIntegerv(GL_SAMPLES, &samples);
 	expect(samples == 4, "the window has four samples a pixel");

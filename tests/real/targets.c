@@ -537,6 +537,7 @@ int main(void)
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, GLX_ACCUM_RED_SIZE, 1,
 		             GLX_ACCUM_GREEN_SIZE, 1, GLX_ACCUM_BLUE_SIZE, 1, GLX_ACCUM_ALPHA_SIZE, 1, None };
 
+	window_kind = "an accumulation buffer";
 	open_window_of(attributes);
 	make_objects();
 	draw_frames(frames, sizeof(frames) / sizeof(frames[0]), reset);

@@ -12,6 +12,7 @@
 static Display *display;
 static Window window;
 static unsigned window_size[2] = { 64, 48 };
+static const char *window_kind = "a plain one"; /* what not every GL has of it: Mesa 25 has neither samples nor accumulation buffers */
 
 static inline void open_window_of(int *attributes)
 {
@@ -19,8 +20,13 @@ static inline void open_window_of(int *attributes)
 	XVisualInfo *visual;
 
 	display = XOpenDisplay(NULL);
-	if (!display || !(visual = glXChooseVisual(display, DefaultScreen(display), attributes)))
+	if (!display)
 		exit(1);
+	visual = glXChooseVisual(display, DefaultScreen(display), attributes);
+	if (!visual) {
+		fprintf(stderr, "skipped: this GL has no such window: %s\n", window_kind);
+		exit(77);
+	}
 	set.colormap = XCreateColormap(display, DefaultRootWindow(display), visual->visual, AllocNone);
 	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, window_size[0], window_size[1], 0, visual->depth, InputOutput, visual->visual,
 	                       CWColormap, &set);
