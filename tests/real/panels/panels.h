@@ -11,16 +11,15 @@
 
 enum { PANEL = 20, ACROSS = 16, DOWN = 12, PANELS = ACROSS * DOWN };
 
-/**
- * A table: how many rows it has, what sets the state of row i, and what is drawn then in a square from -1 to 1; the extension without which it
- * is left out (NULL: none).
- */
+/** A table: how many rows it has, what sets the state of row i, and what is drawn then in a square from -1 to 1. */
 struct table {
 	int n;
 	void (*set)(int i);
 	void (*draw)(int i);
-	const char *needs;
 };
+
+/** The extension without which a program's last table is left out; NULL: it needs none. */
+static const char *last_needs;
 
 /* A table that is one product of choices: the choice of `count` at this place, as i is used up. */
 static inline int choose(int *i, int count)
@@ -86,11 +85,9 @@ static inline void draw_tables(const struct table *tables, size_t n, void (*prep
 	open_window_of(attributes);
 	if (prepare)
 		prepare();
+	if (last_needs && !strstr((const char *)glGetString(GL_EXTENSIONS), last_needs))
+		n--;
 	for (size_t i = 0; i < n || i < most; i++) {
-		const char *needs = tables[i % n].needs;
-
-		if (needs && !strstr((const char *)glGetString(GL_EXTENSIONS), needs))
-			continue;
 		draw_table(&tables[i % n], (int)(i / n));
 		end_frame();
 	}
