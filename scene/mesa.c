@@ -1,21 +1,23 @@
 #include "scene/mesa.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
 uint32_t scene_mesa_of(const char *gl)
 {
 	static const struct {
-		unsigned major, minor;
+		unsigned since, until; /* 100 * major + minor */
 		enum scene_mesa difference;
-	} since[] = {
-		{ 23, 2, SCENE_MESA_LINE_ENDS },
-		{ 25, 0, SCENE_MESA_ROUNDS_TO_EVEN },
-		{ 25, 0, SCENE_MESA_SPRITES },
-		{ 25, 0, SCENE_MESA_SMOOTH_LINES },
-		{ 25, 0, SCENE_MESA_BITMAPS },
-		{ 25, 0, SCENE_MESA_FLAT_PROGRAMS },
-		{ 25, 0, SCENE_MESA_BACK_COLORS },
+	} table[] = {
+		{ 2302, UINT_MAX, SCENE_MESA_LINE_ENDS },
+		{ 2500, UINT_MAX, SCENE_MESA_ROUNDS_TO_EVEN },
+		{ 2500, UINT_MAX, SCENE_MESA_SPRITES },
+		{ 2500, UINT_MAX, SCENE_MESA_SMOOTH_LINES },
+		{ 2500, 2600, SCENE_MESA_BITMAP_SUMS },
+		{ 2500, UINT_MAX, SCENE_MESA_FLAT_PROGRAMS },
+		{ 2500, UINT_MAX, SCENE_MESA_BACK_COLORS },
+		{ 2500, UINT_MAX, SCENE_MESA_LATE_BITMAPS },
 	};
 	const char *mesa = strstr(gl, "Mesa ");
 	unsigned major, minor;
@@ -23,8 +25,10 @@ uint32_t scene_mesa_of(const char *gl)
 
 	if (!mesa || !strstr(gl, "llvmpipe") || sscanf(mesa, "Mesa %u.%u", &major, &minor) != 2)
 		return 0;
-	for (size_t i = 0; i < sizeof(since) / sizeof(since[0]); i++)
-		if (major > since[i].major || (major == since[i].major && minor >= since[i].minor))
-			differences |= since[i].difference;
+	if (major > 9999 || minor > 99)
+		return 0;
+	for (size_t i = 0; i < sizeof(table) / sizeof(table[0]); i++)
+		if (100 * major + minor >= table[i].since && 100 * major + minor < table[i].until)
+			differences |= table[i].difference;
 	return differences;
 }

@@ -16,12 +16,14 @@ enum scene_mesa {
 	SCENE_MESA_SPRITES = 4,
 	/* 25.0: smooth lines are turned without angles, and cover no more than their length where they are short */
 	SCENE_MESA_SMOOTH_LINES = 8,
-	/* 25.0: bitmaps are drawn by the program of their own time, with the current secondary colour and the parameters of fog of later on */
-	SCENE_MESA_BITMAPS = 16,
+	/* 25.0, no more in 26.1: COLOR_SUM adds the current secondary colour to bitmaps */
+	SCENE_MESA_BITMAP_SUMS = 16,
 	/* 25.0: ShadeModel holds for the colours that fragment programs in assembly read, too */
 	SCENE_MESA_FLAT_PROGRAMS = 32,
 	/* 25.0: colours of back sides alone that are the vertices' are theirs */
 	SCENE_MESA_BACK_COLORS = 64,
+	/* 25.0: bitmaps are drawn late, with the parameters that fog has then; not followed, but known (replay/draw_names.c) */
+	SCENE_MESA_LATE_BITMAPS = 128,
 };
 
 /**

@@ -42,8 +42,8 @@ static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rect
 	struct gls_texture_image *image;
 	struct gls_mesh *mesh;
 	float values[N_GLS_ATTRIBUTES][4];
-	/* Mesa 22.3 adds no secondary colours; 25.0 adds the current one to bitmaps, not the raster position's. */
-	const uint32_t sums = r->kind == SCENE_BITMAP && st->mesa & SCENE_MESA_BITMAPS;
+	/* Mesa 22.3 adds no secondary colours; 25 adds the current one to bitmaps, not the raster position's. */
+	const uint32_t sums = r->kind == SCENE_BITMAP && st->mesa & SCENE_MESA_BITMAP_SUMS;
 
 	if (!x->want || !r->width || !r->height)
 		return;
