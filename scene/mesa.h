@@ -1,6 +1,7 @@
 /*
- * The Mesa that drew what a recording's reference shows. The specification leaves much of drawing open, and llvmpipe decides some of it
- * otherwise from one version to the next. Relume draws as 22.3 does, but for the differences that are listed here.
+ * The Mesa that drew what a recording's reference shows. The specification leaves much of drawing open, and llvmpipe
+ * decides some of it otherwise from one version to the next. Relume draws as 22.3 does, but for the differences that
+ * are listed here.
  */
 #pragma once
 
@@ -10,7 +11,7 @@
 enum scene_mesa {
 	/* 23.2: at an end right beside a pixel's centre, which pixel the quad of a line covers is known exactly */
 	SCENE_MESA_LINE_ENDS = 1,
-	/* 25.0: places and widths of lines and points that lie half way are rounded to even numbers, not away from 0 */
+	/* 25.0: places and widths of lines and points that lie half way are rounded to even numbers */
 	SCENE_MESA_ROUNDS_TO_EVEN = 2,
 	/* 25.0: the middle of a point sprite is its middle under multisampling, too */
 	SCENE_MESA_SPRITES = 4,
@@ -22,13 +23,14 @@ enum scene_mesa {
 	SCENE_MESA_FLAT_PROGRAMS = 32,
 	/* 25.0: colours of back sides alone that are the vertices' are theirs */
 	SCENE_MESA_BACK_COLORS = 64,
-	/* 25.0: bitmaps are drawn late, with the parameters that fog has then; not followed, but known (replay/draw_names.c) */
+	/* 25.0: bitmaps are drawn late, with the fog that is set then: known, not followed (replay/draw_names.c) */
 	SCENE_MESA_LATE_BITMAPS = 128,
 };
 
 /**
  * The differences of the GL that calls itself so.
- * @param gl  its version and renderer, as glGetString gives them: "4.5 (Compatibility Profile) Mesa 25.0.7, llvmpipe (...)"
+ * @param gl  its version and renderer, as glGetString gives them:
+ *            "4.5 (Compatibility Profile) Mesa 25.0.7, llvmpipe (...)"
  * @return bits of enum scene_mesa; 0 for 22.3, for older ones, and where it is not Mesa's llvmpipe
  */
 uint32_t scene_mesa_of(const char *gl);

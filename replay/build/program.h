@@ -9,7 +9,10 @@ struct gls_frame;
 struct program_stage;
 struct gls_state;
 
-/** 1 where what is drawn is shaded flat. Programs in assembly know no flat colours before Mesa 25.0, and only those that read colours do then. */
+/**
+ * 1 where what is drawn is shaded flat. Programs in assembly know no flat colours before Mesa 25.0, and only those that
+ * read colours do then.
+ */
 int gls_shades_flat(const struct gls_state *st);
 
 /**

@@ -42,7 +42,7 @@ static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rect
 	struct gls_texture_image *image;
 	struct gls_mesh *mesh;
 	float values[N_GLS_ATTRIBUTES][4];
-	/* Mesa 22.3 adds no secondary colours; 25 adds the current one to bitmaps, not the raster position's. */
+	/* Mesa 25 adds the current secondary colour to bitmaps, others add none. */
 	const uint32_t sums = r->kind == SCENE_BITMAP && st->mesa & SCENE_MESA_BITMAP_SUMS;
 
 	if (!x->want || !r->width || !r->height)
