@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <xxhash.h>
 
 static _Thread_local int *shared;
 static const char *before = ""; /* each line */
@@ -15,16 +16,46 @@ static int is_said(const char *fmt)
 	return strstr(fmt, "out of memory") && __atomic_exchange_n(&said, 1, __ATOMIC_RELAXED);
 }
 
+static struct err_lines *lines; /* or NULL */
+static uint32_t process;
+
+/* Whether an earlier process has printed a line; note that this one does. */
+static int is_old(const char *where, const char *text)
+{
+	const uint64_t hash = XXH3_64bits_withSeed(text, strlen(text), where ? XXH3_64bits(where, strlen(where)) : 0);
+	const size_t n = lines ? sizeof(lines->said) / sizeof(lines->said[0]) : 0;
+
+	for (size_t i = 0; i < n; i++) {
+		uint64_t none = 0;
+
+		if (__atomic_compare_exchange_n(&lines->said[i].hash, &none, hash, 0, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+			lines->said[i].process = process;
+			return 0;
+		}
+		if (none == hash)
+			return lines->said[i].process < process;
+	}
+	return 0;
+}
+
 static void print_line(const char *kind, const char *where, const char *fmt, va_list args)
 {
 	char text[1024];
 
 	vsnprintf(text, sizeof(text), fmt, args);
+	if (is_old(where, text))
+		return;
 	/* One call, so that lines of several threads and processes do not mix. */
 	if (where)
 		fprintf(stderr, "%srelume: %s%s: %s\n", before, kind, where, text);
 	else
 		fprintf(stderr, "%srelume: %s%s\n", before, kind, text);
+}
+
+void err_carry_on(struct err_lines *of, uint32_t number)
+{
+	lines = of;
+	process = number;
 }
 
 void err_clear_bar(int stands)

@@ -6,6 +6,8 @@
  */
 #pragma once
 
+#include <stdint.h>
+
 enum {
 	ERR_FAILED   = -1, /* compared, and the comparison failed */
 	ERR_USAGE    = -2, /* wrong usage: options, ranges, names */
@@ -34,6 +36,14 @@ void err_share(int *said);
 
 /** From now on a bar stands in the last line of standard error (1), or no more (0): lines take its place, and it is drawn again. */
 void err_clear_bar(int stands);
+
+/* Lines that processes have printed which do the same work one after the other, in memory that they share; all 0 at first. */
+struct err_lines {
+	struct { uint64_t hash; uint32_t process; } said[1024];
+};
+
+/** From now on, lines that an earlier one of these processes has printed are not printed again. @param process  counts from 1 on */
+void err_carry_on(struct err_lines *lines, uint32_t process);
 
 /** Print "relume: WHERE: warning: TEXT": the user should know, and the work goes on. */
 void err_warn(const char *where, const char *fmt, ...) __attribute__((format(printf, 2, 3)));

@@ -110,8 +110,8 @@ void part_drop_all(void)
 			unlink(parts[i]);
 }
 
-/* Is "FINAL.HOST-PID-N.part" of this host, and the process gone? */
-static int is_orphan(const char *name, const char *host)
+/* The process of "FINAL.HOST-PID-N.part" where it is of this host; else 0. */
+static long process_of(const char *name, const char *host)
 {
 	const char *end = strstr(name, ".part"), *dash, *at;
 	size_t n = strlen(host);
@@ -127,10 +127,18 @@ static int is_orphan(const char *name, const char *host)
 	if (at <= name || (size_t)(at - name) < n + 1 || strncmp(at - n, host, n) != 0 || at[-(long)n - 1] != '.')
 		return 0;
 	pid = strtol(at + 1, &rest, 10);
-	return rest == dash && pid > 0 && kill((pid_t)pid, 0) != 0 && errno == ESRCH;
+	return rest == dash && pid > 0 ? pid : 0;
 }
 
-void part_sweep(const char *path)
+/* Whether a file that a process made is to go. gone: a process that has ended; 0: it is not known */
+static int is_left_over(const struct stat *info, long process, long gone)
+{
+	if (!process || gone)
+		return process && process == gone;
+	return kill((pid_t)process, 0) != 0 && errno == ESRCH && info->st_mtime + STALE_S < time(NULL);
+}
+
+static void sweep(const char *path, long gone)
 {
 	const char *slash = strrchr(path, '/');
 	char folder[PATH_MAX], host[64];
@@ -144,8 +152,17 @@ void part_sweep(const char *path)
 	if (!dir)
 		return;
 	while ((entry = readdir(dir)))
-		if (is_orphan(entry->d_name, host) && fstatat(dirfd(dir), entry->d_name, &info, 0) == 0 &&
-		    info.st_mtime + STALE_S < time(NULL))
+		if (fstatat(dirfd(dir), entry->d_name, &info, 0) == 0 && is_left_over(&info, process_of(entry->d_name, host), gone))
 			unlinkat(dirfd(dir), entry->d_name, 0);
 	closedir(dir);
+}
+
+void part_sweep(const char *path)
+{
+	sweep(path, 0);
+}
+
+void part_sweep_of(const char *path, long process)
+{
+	sweep(path, process);
 }

@@ -42,6 +42,9 @@ void part_drop(const char *part);
 /** Remove all unfinished files of this process, which is about to end. No other part_* call may be running, or run later. */
 void part_drop_all(void);
 
+/** Remove what a process of this machine that has ended left in a file's folder. */
+void part_sweep_of(const char *path, long process);
+
 /**
  * Remove what killed processes of this machine left in a file's folder: files of no running process, untouched for a minute (the
  * process may run unseen in another container).

@@ -58,6 +58,11 @@ void progress_begin_style(struct progress *p, const char *verb, uint64_t total, 
 	}
 }
 
+void progress_go_on(const struct progress *p)
+{
+	err_clear_bar(p->style == PROGRESS_BAR);
+}
+
 void progress_begin(struct progress *p, const char *verb, uint64_t total)
 {
 	progress_begin_style(p, verb, total, PROGRESS_AUTO);

@@ -37,6 +37,9 @@ void progress_begin(struct progress *p, const char *verb, uint64_t total);
 /** The same in a style asked for; PROGRESS_AUTO picks bar or lines. */
 void progress_begin_style(struct progress *p, const char *verb, uint64_t total, enum progress_style style);
 
+/** Go on in another process, which finds the progress in memory that both share. */
+void progress_go_on(const struct progress *p);
+
 /** The style that a word names ("bar", "lines", "json", "none", "auto"), or -1. */
 int progress_style_of(const char *word);
 
