@@ -48,6 +48,16 @@ static int go_to(struct pipeline_state *state, uint64_t frame)
 	return more == 1 ? replay_seek(state->p->replay, frame) : more;
 }
 
+/* What replay has met so far is known, should this process end before the report. */
+static void note_lacks(const struct pipeline *p)
+{
+	const struct replay_count *counts;
+	const size_t n = replay_unsupported(p->replay, &counts);
+
+	for (size_t i = 0; i < n; i++)
+		p->carried->lacks |= !replay_is_rendered(&counts[i]);
+}
+
 /* The scene of the next frame, or the one that all pictures of a turntable are made of. @return 1; 0: the recording has ended; ERR_* */
 static int take_scene(struct pipeline_state *state, struct shared_scene **out)
 {
@@ -61,6 +71,7 @@ static int take_scene(struct pipeline_state *state, struct shared_scene **out)
 	if (state->turned)
 		return 1;
 	more = replay_next_frame(state->p->replay, 1, &shared->scene);
+	note_lacks(state->p);
 	if (more == 1 && state->p->settings->motion && earlier_note(&state->earlier, shared->scene))
 		more = ERR_SYSTEM;
 	if (more == 1 && camera_pictures(state->p->settings->camera)) {
@@ -84,6 +95,7 @@ static int hand_out(struct pipeline_state *state, uint64_t number)
 	struct shot *shot;
 	int more;
 
+	state->decoded = number;
 	if (!state->begun)
 		prepare_devices(state->p);
 	more = state->turned ? 1 : go_to(state, settings_recorded_frame(state->p->settings, number));
@@ -98,8 +110,8 @@ static int hand_out(struct pipeline_state *state, uint64_t number)
 	more = shot ? take_scene(state, &shot->of) : err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (more == 1)
 		shot->replay_s = seconds + progress_clock_s() - start;
-	if (more == 1 && !state->begun++)
-		progress_start(state->p->progress, number, progress_clock_s() - state->p->start_s);
+	if (more == 1 && !state->begun++ && state->p->carried->guard.attempt <= 1)
+		progress_start(&state->p->carried->progress, number, progress_clock_s() - state->p->start_s);
 	if (more == 1 && pipeline_call_worker(state))
 		more = ERR_SYSTEM;
 	if (more == 1 && queue_put(&state->shots, shot))
@@ -109,14 +121,27 @@ static int hand_out(struct pipeline_state *state, uint64_t number)
 	return more;
 }
 
+/* The frame that a driver failed on, so that another family tries it before all others; UINT64_MAX: none. Motion wants frames in their order. */
+static uint64_t first_of(const struct pipeline *p)
+{
+	const int64_t first = p->carried->first;
+
+	return first < 0 || p->settings->motion || carried_is_done(p->carried, (uint64_t)first) ? UINT64_MAX : (uint64_t)first;
+}
+
 int pipeline_decode(struct pipeline_state *state)
 {
 	const struct frame_list *frames = &state->p->settings->frames;
+	const uint64_t first = first_of(state->p);
 	uint64_t frame = 0;
 	int more = 1;
 
+	if (first != UINT64_MAX)
+		more = hand_out(state, first);
 	for (; more == 1 && frame_list_next(frames, frame, &frame) && frame < state->p->end && !watch_is_over(state->p->watch);
 	     frame++) {
+		if (carried_is_done(state->p->carried, frame) || frame == first)
+			continue;
 		if (is_there(state, frame))
 			pipeline_note(state, frame, "skipped", 0);
 		else

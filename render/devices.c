@@ -44,7 +44,8 @@ static const struct options_table table = {
 	        "A device runs the family that suits its type, until --check has found out which are right there and which of these is\n"
 	        "the fastest. That counts until the driver or Relume's kernels change. Run it once on a new machine or driver: it takes\n"
 	        "a minute or two, as every kernel is compiled. Each family has a process of its own, so that a driver that crashes or\n"
-	        "hangs stops nothing. Packets are for CPUs, and passed over elsewhere. The table: compile is what compiling took of all\n"
+	        "hangs stops nothing. Where one does so while 'relume render' runs, that is remembered, too, until the next --check, and\n"
+	        "the list names it. Packets are for CPUs, and passed over elsewhere. The table: compile is what compiling took of all\n"
 	        "kernels, frame a picture of 480 x 360 once all is compiled.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes of --check: 0 all families are right on all devices, 1 one is not, 5 on some device none is: there\n"
@@ -64,7 +65,7 @@ struct known {
 /* The family that it renders with; -1: none is right. */
 static int family_of(const struct known *k)
 {
-	return k->is_known ? outcome_fastest(&k->outcome) : (int)device_type_family(k->device->type);
+	return k->is_known ? outcome_best(&k->outcome, device_type_family(k->device->type)) : (int)device_type_family(k->device->type);
 }
 
 static const char *name_of_family(int family)
@@ -76,12 +77,13 @@ static const char *name_of_family(int family)
 
 static void print_family(struct json *j, const struct known *k, int family, int check)
 {
-	static const char *const words[N_OUTCOME_STATES] = { "right", "wrong", "failed", "late", "passed over" };
+	static const char *const words[N_OUTCOME_STATES] = { "not tried", "right", "wrong", "failed", "late", "passed over" };
 	const struct outcome_family *f = &k->outcome.families[family];
 
 	json_begin(j, '{');
 	json_key_string(j, "kernels", device_family_names[family]);
 	json_key_string(j, "state", words[f->state]);
+	json_key_string(j, "where", f->where);
 	json_key_float(j, "compile_s", f->compile_s);
 	json_key_float(j, "frame_ms", 1e3 * f->frame_s);
 	if (check) {
@@ -121,21 +123,38 @@ static void print_json(struct json *j, const struct known *k, int check)
 	json_end(j, '}');
 }
 
+/* Why it runs its family. */
+static const char *say_why(const struct known *k, char *text, size_t size)
+{
+	const struct outcome_family *f = k->outcome.families;
+	char words[160];
+
+	text[0] = '\0';
+	for (int i = N_DEVICE_FAMILIES - 1; i >= 0 && k->is_known; i--)
+		if (f[i].state == OUTCOME_FAILED || f[i].state == OUTCOME_LATE)
+			snprintf(text, size, ", as %s %s", device_family_names[i], outcome_words(&f[i], words, sizeof(words)));
+	for (int i = 0; i < N_DEVICE_FAMILIES && k->is_known; i++)
+		if (f[i].state == OUTCOME_RIGHT)
+			snprintf(text, size, ", as checked");
+	return text;
+}
+
 /* --- As text ------------------------------------------------------------------------------------------------------- */
 
 static void print_line(const struct known *k)
 {
 	const struct device_description *d = k->device;
+	char why[224];
 
 	printf("%zu  %s  %s, %u units of width %u, %llu MiB, kernels: %s%s  (%s %s)\n", k->number, device_type_name(d->type), d->name,
 	       d->units, d->width, (unsigned long long)(d->memory_bytes >> 20), name_of_family(family_of(k)),
-	       k->is_known ? ", as checked" : "", d->platform, d->driver);
+	       say_why(k, why, sizeof(why)), d->platform, d->driver);
 }
 
 static void print_row(const struct known *k, int family)
 {
 	const struct check_result *r = &k->checked[family];
-	char text[96], frame[32] = "-";
+	char text[160], frame[32] = "-";
 
 	if (r->all.frame_s > 0)
 		snprintf(frame, sizeof(frame), "%.1f ms", 1e3 * r->all.frame_s);

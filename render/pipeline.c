@@ -19,7 +19,7 @@ static void tell_replay(void *user, uint64_t frame, uint64_t played, uint64_t of
 	struct pipeline_state *state = user;
 
 	pthread_mutex_lock(&state->lock);
-	progress_replay(state->p->progress, frame, played, of, why);
+	progress_replay(&state->p->carried->progress, frame, played, of, why);
 	pthread_mutex_unlock(&state->lock);
 }
 
@@ -76,7 +76,7 @@ static int start_and_join(struct pipeline_state *state, struct worker *workers, 
 	for (unsigned i = 0; i < n_writers; i++)
 		pthread_join(writers[i], NULL);
 	alike_end(&state->alike);
-	if (!state->err && state->p->progress->failed)
+	if (!state->err && state->p->carried->progress.failed)
 		state->err = ERR_SYSTEM;
 	return state->err;
 }
@@ -115,6 +115,7 @@ int pipeline_run(struct pipeline *p)
 	if (!err)
 		err = seat_workers(&state, workers, n);
 	supply.cache = state.cache;
+	supply.number = &state.decoded;
 	replay_set_supplier(p->replay, supply_picture, &supply);
 	replay_leave_starts(p->replay);
 	if (!err)

@@ -11,8 +11,8 @@
  */
 #pragma once
 
-#include "base/progress.h"
 #include "replay/replay.h"
+#include "render/carried.h"
 #include "render/settings.h"
 #include "render/stamp.h"
 #include "render/watch.h"
@@ -27,11 +27,11 @@ struct pipeline {
 	uint64_t end;            /* frames of the recording */
 	double start_s;          /* when the run began (progress_clock_s) */
 	struct stamp stamp;
-	struct progress *progress;
+	struct carried *carried; /* filled in: what was done, for this process or the next */
 	uint64_t *shares;        /* [n_devices], filled in: frames that each traced; the caller frees it */
 	struct display *display; /* how display pictures are made; NULL: the files are OpenEXR */
-	uint64_t pixels, bright; /* filled in: of display pictures, and how many of these are brighter than white */
-	struct tracer_undrawn undrawn; /* filled in: what the scenes had that is not drawn */
+	const char *outcomes;    /* folder of what is known of devices' families; NULL: none */
+	const char *remembered;  /* the same for this run's faults; NULL also where a user's text may be to blame */
 };
 
 /**

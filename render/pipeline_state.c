@@ -48,7 +48,8 @@ void pipeline_land(struct pipeline_state *state)
 void pipeline_note(struct pipeline_state *state, uint64_t frame, const char *outcome, double seconds)
 {
 	pthread_mutex_lock(&state->lock);
-	progress_frame(state->p->progress, frame, outcome, seconds);
+	carried_set_done(state->p->carried, frame);
+	progress_frame(&state->p->carried->progress, frame, outcome, seconds);
 	pthread_mutex_unlock(&state->lock);
 }
 
@@ -56,7 +57,8 @@ void pipeline_note_failed(struct pipeline_state *state, uint64_t frame, double s
 {
 	pthread_mutex_lock(&state->lock);
 	alike_note(&state->alike, frame, why);
-	progress_frame(state->p->progress, frame, "failed", seconds);
+	carried_set_done(state->p->carried, frame);
+	progress_frame(&state->p->carried->progress, frame, "failed", seconds);
 	pthread_mutex_unlock(&state->lock);
 }
 

@@ -35,6 +35,7 @@ struct pipeline_state {
 	int writer_said;      /* a writer has reported its failure */
 	struct worker *seats; /* [n_seats]; started as pictures need them */
 	size_t n_seats, n_started;
+	uint64_t decoded;     /* the frame that is, by its number in file names */
 	unsigned workers;     /* neither ended nor failed, started or not */
 	unsigned at_work;     /* of these, started */
 	unsigned untraced;    /* pictures handed out and not yet traced */
@@ -51,6 +52,7 @@ struct worker {
 	struct pipeline_state *state;
 	struct device *dev;
 	uint64_t done; /* frames that it traced */
+	struct tracer_undrawn undrawn; /* that its tracer had counted after the last frame */
 	int seat;
 	pthread_t thread;
 };

@@ -11,6 +11,7 @@
 #include "look/camera/camera.h"
 #include "look/join.h"
 #include "look/matched.h"
+#include "render/check/apart.h"
 #include "render/look.h"
 #include "render/pipeline.h"
 #include "scene/program.h"
@@ -138,7 +139,7 @@ static int is_foretold(const struct missing *m, const char *command)
 /* Afterwards: what only drawing has shown. */
 static void report(const struct pipeline *p, struct missing *m)
 {
-	const struct tracer_undrawn *u = &p->undrawn;
+	const struct tracer_undrawn *u = &p->carried->undrawn;
 	const char *trace = p->settings->trace;
 	const struct replay_count *counts;
 	size_t n = replay_unsupported(p->replay, &counts), said = 0;
@@ -149,7 +150,7 @@ static void report(const struct pipeline *p, struct missing *m)
 			err_warn(trace, "%s, %llu times: %s", counts[i].name, (unsigned long long)counts[i].count,
 			         counts[i].why ? counts[i].why : "not done yet");
 	}
-	m->any |= u->targets != 0 || u->ended != 0;
+	m->any |= p->carried->lacks || u->targets != 0 || u->ended != 0;
 	if (u->ended)
 		err_warn(trace, "ended: programs of %llu draws, after %u instructions in loops; what they drew is wrong (frames say which: relume:ended)",
 		         (unsigned long long)u->ended, SCENE_PROGRAM_STEPS);
@@ -157,12 +158,17 @@ static void report(const struct pipeline *p, struct missing *m)
 		err_warn(trace, "not drawn yet: %llu draws to other targets than the window", (unsigned long long)u->targets);
 }
 
-static int prepare_device(const struct settings *s, struct device *dev)
+static int prepare_device(struct pipeline *p, struct device *dev)
 {
+	const struct settings *s = p->settings;
+	struct carried *c = p->carried;
 	char folder[4096];
-	const char *kept = s->no_cache ? NULL : s->cache ? s->cache : folder_cached("devices", folder, sizeof(folder)) ? folder : NULL;
-	int err = outcome_choose(dev, s->family, kept);
+	int err;
 
+	outcome_remember_builds(dev, p->remembered, &c->run);
+	if (outcome_is_hopeless(dev, s->family, p->outcomes, &c->run))
+		carried_blame_frame(c);
+	err = outcome_choose(dev, s->family, p->outcomes, &c->run);
 	if (!s->no_cache && s->cache)
 		device_keep_programs(dev, s->cache, 0);
 	else if (!s->no_cache && folder_cached("kernels", folder, sizeof(folder)))
@@ -175,35 +181,63 @@ static void report_display(const struct pipeline *p)
 {
 	const struct display_options *o = &p->settings->display;
 
-	if (p->pixels && p->bright && p->settings->progress != PROGRESS_NONE)
+	if (p->carried->pixels && p->carried->bright && p->settings->progress != PROGRESS_NONE)
 		fprintf(stderr, "  exposure %+g stops, white at %g; %.2g %% of the pixels are brighter\n", (double)o->exposure, (double)o->white,
-		        100 * (double)p->bright / (double)p->pixels);
+		        100 * (double)p->carried->bright / (double)p->carried->pixels);
+}
+
+/* Open and prepare all devices. */
+static int open_devices(struct pipeline *p)
+{
+	const struct settings *s = p->settings;
+	struct carried *c = p->carried;
+	int err = carried_take_fault(c);
+
+	if (!err)
+		err = device_open_list(s->device, s->threads, &p->devices, &p->n_devices);
+	for (size_t i = 0; i < p->n_devices && !err; i++)
+		err = prepare_device(p, p->devices[i]);
+	if (err)
+		device_close_list(&p->devices, &p->n_devices);
+	return err;
+}
+
+/* What killed processes have left. */
+static void sweep(const struct settings *s, long gone)
+{
+	part_sweep(s->output);
+	if (gone)
+		part_sweep_of(s->output, gone);
+	if (s->preview)
+		part_sweep(s->preview);
+	if (s->preview && gone)
+		part_sweep_of(s->preview, gone);
 }
 
 static int render_frames(struct pipeline *p, uint64_t total, struct missing *missing)
 {
 	const struct settings *s = p->settings;
-	struct progress progress;
-	int err = device_open_list(s->device, s->threads, &p->devices, &p->n_devices);
+	struct progress *progress = &p->carried->progress;
+	int err;
 
-	for (size_t i = 0; i < p->n_devices && !err; i++)
-		err = prepare_device(s, p->devices[i]);
+	sweep(s, (long)p->carried->guard.gone);
+	err = open_devices(p);
 	if (!err && s->kind != DISPLAY_EXR)
 		err = display_create(&s->display, &p->display);
 	if (err) {
 		device_close_list(&p->devices, &p->n_devices);
 		return err;
 	}
-	p->progress = &progress;
-	p->jobs = s->jobs ? s->jobs : default_jobs();
-	part_sweep(s->output);
-	if (s->preview)
-		part_sweep(s->preview);
-	progress_begin_style(&progress, "rendered", total, s->progress);
+	p->jobs = p->carried->one_by_one ? 1 : s->jobs ? s->jobs : default_jobs();
+	if (p->carried->has_begun)
+		progress_go_on(progress);
+	else
+		progress_begin_style(progress, "rendered", total, s->progress);
+	p->carried->has_begun = 1;
 	err = pipeline_run(p);
-	progress_end(&progress);
-	if (!err || progress.failed)
-		progress_summary(&progress);
+	progress_end(progress);
+	if (!err || progress->failed)
+		progress_summary(progress);
 	for (size_t i = 0; i < p->n_devices && p->n_devices > 1 && p->shares && s->progress != PROGRESS_NONE; i++)
 		fprintf(stderr, "  device %zu: %llu frames (%s)\n", i, (unsigned long long)p->shares[i], device_name(p->devices[i]));
 	free(p->shares);
@@ -231,15 +265,21 @@ static int look_from_study(struct settings *s)
 	return err;
 }
 
-static int render(struct settings *s)
+static int render(struct settings *s, struct carried *carried)
 {
-	struct pipeline p = { .settings = s, .start_s = progress_clock_s() };
+	struct pipeline p = { .settings = s, .carried = carried, .start_s = progress_clock_s() };
 	struct extent x = { .total = 0 };
 	struct missing missing = { .n = 0 };
-	int err = watch_start(&p.watch, s->frame_s, s->memory_bytes), number = 0;
+	char outcomes[4096];
+	int err = settings_confine(s), number = 0;
 
+	if (!err)
+		err = watch_start(&p.watch, &carried->guard, &(struct watch_limits){ s->frame_s, s->driver_s, s->memory_bytes });
 	if (err)
 		return err;
+	if (!s->no_cache)
+		p.outcomes = s->cache ? s->cache : folder_cached("devices", outcomes, sizeof(outcomes)) ? outcomes : NULL;
+	p.remembered = s->hook ? NULL : p.outcomes;
 	err = replay_open(&p.replay, s->trace);
 	if (!err && !s->no_cache)
 		err = blas_store_open(s->cache, s->cache_bytes ? s->cache_bytes : BLAS_STORE_BYTES, &s->tracer.store);
@@ -273,13 +313,40 @@ static int render(struct settings *s)
 	return number ? -(128 + number) : err;
 }
 
+/* In the run's worker process. */
+struct task {
+	struct settings settings;
+	struct carried *carried;
+};
+
+static int work(void *user)
+{
+	struct task *task = user;
+	int err;
+
+	if (task->carried->guard.attempt) {
+		fault_begin(&task->carried->guard.journal, task->settings.family < 0);
+		err_carry_on(&task->carried->lines, task->carried->guard.attempt);
+	}
+	err = render(&task->settings, task->carried);
+	fault_end();
+	settings_free(&task->settings);
+	return -err;
+}
+
 int render_main(int argc, char **argv)
 {
-	struct settings s = { .trace = NULL };
-	int err = settings_parse(&s, argc, argv);
+	struct task task = { .carried = NULL };
+	int err = settings_parse(&task.settings, argc, argv);
 
 	if (!err)
-		err = render(&s);
-	settings_free(&s);
-	return err == 1 ? 0 : -err;
+		task.carried = apart_alloc(sizeof(*task.carried));
+	if (err || !task.carried) {
+		settings_free(&task.settings);
+		return err == 1 ? 0 : err ? -err : -ERR_SYSTEM;
+	}
+	/* Where no driver is called, nothing need be watched. */
+	if (task.settings.dry_run || device_is_reference(task.settings.device))
+		return work(&task);
+	return guard_run(&task.carried->guard, work, &task);
 }

@@ -161,6 +161,9 @@ static int take_progress(const struct options_row *row, const char *value, void 
 	return 0;
 }
 
+/* As of 'relume devices --check'. Compilers of OpenCL take 20 s for a program, and several times that on slow machines. */
+#define DRIVER_S 300
+
 /* Of a pixel; the default where sampling may stop earlier. */
 #define MOST_SAMPLES 65536
 
@@ -248,6 +251,8 @@ static const struct options_row rows[] = {
 	{ "no-cache", 0, NULL, "use no cache", options_flag, AT(no_cache), .kind = RUN },
 	{ "timeout-per-frame", 0, "S", "give up a frame after so many seconds and go on with the next",
 	  take_seconds, AT(frame_s), .kind = RUN },
+	{ "timeout-driver", 0, "S", "a call of OpenCL that has taken S seconds (default 300) counts as hung where it used as much processor time to compile, or "
+	  "the process used none for a fifth of S; the run goes on with another family of kernels", take_seconds, AT(driver_s), .kind = RUN },
 	{ "progress", 0, "WORD", "bar, lines, json (on standard output) or none (default: bar on a terminal, else lines)",
 	  take_progress, AT(progress), .kind = RUN },
 	{ OPTIONS_NO_SANDBOX, .kind = RUN },
@@ -261,6 +266,9 @@ static const struct options_table table = {
 	OPTIONS_ROWS(rows),
 	.notes = "Files appear whole or not at all. SIGINT and SIGTERM finish the files being written, drop the frames being traced and end\n"
 	         "with exit code 130 or 143; the same command with --skip-existing goes on from there.\n"
+	         "An OpenCL driver that crashes, hangs (--timeout-driver) or refuses a program costs a line: the frames go to the next family of\n"
+	         "kernels, in a new process, and later runs with this driver and these kernels take that one at once ('relume devices' names\n"
+	         "it, 'relume devices --check' looks again). A frame that no family can draw fails alone. --kernels takes no other family.\n"
 	         "Exit codes: 0 every frame is there, 2 wrong usage, 3 the trace cannot be read, 5 a device, the disk or the system\n"
 	         "failed, or a frame was given up, 6 every frame is there, but draws that Relume does not do are missing,\n"
 	         "130 SIGINT, 143 SIGTERM.\n",
@@ -415,16 +423,16 @@ static int choose_kind(struct settings *s)
 
 int settings_parse(struct settings *s, int argc, char **argv)
 {
-	struct options_line line;
 	int err;
 
+	s->driver_s = DRIVER_S;
 	s->tracer.depth = 4;
 	s->tracer.clamp = 10;
 	s->family = -1;
-	err = options_parse(&table, argc, argv, s, &line);
+	err = options_parse(&table, argc, argv, s, &s->line);
 	if (err)
 		return err;
-	s->trace = line.words[0];
+	s->trace = s->line.words[0];
 	if (!frame_pattern_has_number(s->output) && (camera_pictures(s->camera) ||
 	    !(s->frames.n_ranges == 1 && s->frames.ranges[0].first == s->frames.ranges[0].last)))
 		return err_report(ERR_USAGE, NULL, "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})",
@@ -441,15 +449,18 @@ int settings_parse(struct settings *s, int argc, char **argv)
 		err = check_camera(s);
 	if (!err && s->denoise)
 		err = check_denoised(s);
-	if (!err && s->oidn)
-		err = oidn_open();
 	if (!err)
 		err = check_preview(s);
 	if (!err)
-		err = name_settings(s, &line);
-	if (!err)
-		err = options_confine(&table, &line, CONFINE_TRACER, NULL);
+		err = name_settings(s, &s->line);
 	return err;
+}
+
+int settings_confine(const struct settings *s)
+{
+	int err = s->oidn ? oidn_open() : 0;
+
+	return err ? err : options_confine(&table, &s->line, CONFINE_TRACER, NULL);
 }
 
 uint64_t settings_recorded_frame(const struct settings *s, uint64_t number)

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "base/frames.h"
+#include "base/options.h"
 #include "base/progress.h"
 #include "tracer/frame/trace.h"
 #include "tracer/image/display.h"
@@ -22,6 +23,7 @@ struct settings {
 	int skip_existing, dry_run, allow_incomplete;
 	uint64_t memory_bytes;  /* 0: no limit */
 	double frame_s;         /* 0: no limit */
+	double driver_s;        /* of a call of OpenCL */
 	enum progress_style progress;
 	const char *cache;      /* folder for trees of meshes and compiled kernels; NULL: the user's */
 	int no_cache;
@@ -45,6 +47,7 @@ struct settings {
 	int cryptomatte;                /* 1: channels that render/cryptomatte.h adds */
 	enum display_kind kind;         /* of the files */
 	struct display_options display; /* of display pictures */
+	struct options_line line; /* for settings_confine */
 	char hash[33]; /* of everything that decides about pictures but the trace and the version; explicit defaults count */
 };
 
@@ -54,6 +57,9 @@ struct settings {
  * @return 0; 1 where help was printed; ERR_USAGE, ERR_INPUT or ERR_SYSTEM (reported)
  */
 int settings_parse(struct settings *s, int argc, char **argv);
+
+/** Open what is needed beside the recording, and give up all rights but those that the command line asks for. @return 0 or ERR_SYSTEM (reported) */
+int settings_confine(const struct settings *s);
 void settings_free(struct settings *s);
 
 /** The frame of the recording that a picture shows: its own, or that of a turntable. */

@@ -9,6 +9,8 @@ int supply_picture(void *user, const struct scene *scene, struct scene_picture *
 		err = device_share(supply->parent, &supply->dev);
 	if (!err && !supply->tracer)
 		err = tracer_create(&supply->tracer, supply->dev);
+	if (!err && supply->number)
+		device_set_frame(supply->dev, *supply->number);
 	if (!err)
 		tracer_share(supply->tracer, supply->cache);
 	return err ? err : tracer_render_picture(supply->tracer, scene, picture);

@@ -10,6 +10,7 @@
 #include "base/err.h"
 #include "base/part.h"
 #include "base/progress.h"
+#include "render/guard.h"
 
 #define LOOK_S 0.05
 #define END_S 20.0 /* from the first signal to the hard end; also for a device that does not come back from a late frame */
@@ -26,8 +27,10 @@ struct watch {
 	pthread_mutex_t lock;
 	struct seat seats[WATCH_MAX_SEATS];
 	int n_seats;
-	double frame_s, signal_s;
-	uint64_t memory_bytes;
+	const struct guard *guard;
+	struct watch_limits limits;
+	double signal_s;
+	unsigned direct, passed_on; /* signals that came here, and that the parent had and passed on: mostly the same ones */
 	sigset_t signals, before;
 	atomic_int signal, over, done;
 };
@@ -59,8 +62,14 @@ static void break_off_all(struct watch *w)
 	pthread_mutex_unlock(&w->lock);
 }
 
-static void take_signal(struct watch *w, int number)
+static void take_signal(struct watch *w, const siginfo_t *info)
 {
+	const unsigned before = w->direct > w->passed_on ? w->direct : w->passed_on;
+	const int number = info->si_signo;
+
+	*(guard_is_passed_on(w->guard, info->si_code) ? &w->passed_on : &w->direct) += 1;
+	if (w->direct <= before && w->passed_on <= before)
+		return;
 	if (atomic_load(&w->signal))
 		end_now(128 + number);
 	w->signal_s = progress_clock_s();
@@ -77,11 +86,12 @@ static void look_at_times(struct watch *w)
 	for (int i = 0; i < w->n_seats; i++) {
 		struct seat *s = &w->seats[i];
 
-		if (s->start_s == 0 || now - s->start_s < w->frame_s)
+		if (s->start_s == 0 || now - s->start_s < w->limits.frame_s)
 			continue;
-		if (s->late && now - s->start_s > w->frame_s + END_S) {
-			err_report(ERR_SYSTEM, NULL, "frame %llu: the device does not come back; the run ends",
-			           (unsigned long long)s->frame);
+		if (s->late && now - s->start_s > w->limits.frame_s + END_S) {
+			if (!w->guard->attempt || !fault_hang())
+				err_report(ERR_SYSTEM, NULL, "frame %llu: the device does not come back; the run ends",
+				           (unsigned long long)s->frame);
 			end_now(-ERR_SYSTEM);
 		}
 		s->late = 1;
@@ -96,7 +106,7 @@ static void look_at_memory(struct watch *w)
 	uint64_t frame = 0, now = watch_memory();
 	int n = 0;
 
-	if (now <= w->memory_bytes)
+	if (now <= w->limits.memory_bytes)
 		return;
 	pthread_mutex_lock(&w->lock);
 	for (int i = 0; i < w->n_seats; i++)
@@ -108,14 +118,14 @@ static void look_at_memory(struct watch *w)
 	if (n != 1)
 		return;
 	err_report(ERR_SYSTEM, NULL, "frame %llu: takes %llu MiB, more than --limit-memory allows (%llu MiB); the run ends",
-	           (unsigned long long)frame, (unsigned long long)(now >> 20), (unsigned long long)(w->memory_bytes >> 20));
+	           (unsigned long long)frame, (unsigned long long)(now >> 20), (unsigned long long)(w->limits.memory_bytes >> 20));
 	end_now(-ERR_SYSTEM);
 }
 
 /* From one look to the next: so short that a frame is given up when its time is over, and not much later. */
 static struct timespec interval(const struct watch *w)
 {
-	const double part = w->frame_s > 0 ? w->frame_s / 4 : LOOK_S, least = 1e-3;
+	const double part = w->limits.frame_s > 0 ? w->limits.frame_s / 4 : LOOK_S, least = 1e-3;
 
 	return (struct timespec){ 0, (long)(1e9 * (part > LOOK_S ? LOOK_S : part < least ? least : part)) };
 }
@@ -124,32 +134,39 @@ static void *look(void *arg)
 {
 	struct watch *w = arg;
 	const struct timespec wait = interval(w);
+	double before_s = progress_clock_s();
 
 	while (!atomic_load(&w->done)) {
-		int number = sigtimedwait(&w->signals, NULL, &wait);
+		siginfo_t info;
+		int number = sigtimedwait(&w->signals, &info, &wait);
+		const double now_s = progress_clock_s(), passed_s = now_s - before_s;
+
+		before_s = now_s;
 
 		if (atomic_load(&w->done))
 			break;
 		if (number > 0)
-			take_signal(w, number);
+			take_signal(w, &info);
 		if (atomic_load(&w->signal) && progress_clock_s() - w->signal_s > END_S)
 			end_now(128 + atomic_load(&w->signal));
-		if (w->frame_s > 0)
+		if (w->limits.driver_s > 0 && fault_look(w->limits.driver_s, passed_s < 2 * LOOK_S ? passed_s : 2 * LOOK_S))
+			end_now(-ERR_SYSTEM);
+		if (w->limits.frame_s > 0)
 			look_at_times(w);
-		if (w->memory_bytes)
+		if (w->limits.memory_bytes)
 			look_at_memory(w);
 	}
 	return NULL;
 }
 
-int watch_start(struct watch **out, double frame_s, uint64_t memory_bytes)
+int watch_start(struct watch **out, const struct guard *guard, const struct watch_limits *limits)
 {
 	struct watch *w = calloc(1, sizeof(*w));
 
 	if (!w)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	w->frame_s = frame_s;
-	w->memory_bytes = memory_bytes;
+	w->guard = guard;
+	w->limits = *limits;
 	pthread_mutex_init(&w->lock, NULL);
 	sigemptyset(&w->signals);
 	sigaddset(&w->signals, SIGINT);

@@ -1,9 +1,11 @@
 /*
- * What may end a frame, or the run, from outside: signals, the time limit of a frame, the memory limit. One thread watches
+ * What may end a frame, or the run, from outside: signals, the limits of time and memory. One thread watches
  * for all of them and interrupts devices (device_interrupt). A worker whose device was interrupted asks here why.
  *
  * The first SIGINT or SIGTERM stops the run: frames on devices are interrupted. A second one, or twenty seconds without an
  * end, removes unfinished files and ends the process at once, with 128 + the signal's number.
+ *
+ * A call of a driver that hangs ends the process, too; its parent starts another one (guard.h).
  */
 #pragma once
 
@@ -16,13 +18,20 @@
 
 struct watch;
 
+struct guard;
+
+struct watch_limits {
+	double frame_s;        /* seconds that a frame may take, 0: any */
+	double driver_s;       /* that a call of an OpenCL driver may take (fault_look), 0: any */
+	uint64_t memory_bytes; /* that the process may take while a single frame is under way, 0: any */
+};
+
 /**
  * Start watching. Blocks both signals in the calling thread; threads started later inherit that: call it first.
- * @param frame_s       seconds that a frame may take, 0: any
- * @param memory_bytes  memory that the process may take while a single frame is under way, 0: any
+ * @param guard  of this process: its parent passes signals on
  * @return 0 or ERR_SYSTEM (reported)
  */
-int watch_start(struct watch **out, double frame_s, uint64_t memory_bytes);
+int watch_start(struct watch **out, const struct guard *guard, const struct watch_limits *limits);
 
 /** Stop watching. Signals that came are not delivered again. */
 void watch_stop(struct watch **w);

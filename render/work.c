@@ -10,7 +10,7 @@
 #include "render/programs.h"
 #include "render/vectors.h"
 
-enum outcome { TRACED, LATE, EMPTY, STOPPED, BROKEN };
+enum frame_end { TRACED, LATE, EMPTY, STOPPED, BROKEN };
 
 static int start_tracer(const struct worker *w, struct tracer **out)
 {
@@ -39,7 +39,7 @@ static int tell_time(const struct scene *scene, struct image *img)
 	return scene->time_ns ? image_set_attribute(img, "relume:time", "%llu", (unsigned long long)scene->time_ns) : 0;
 }
 
-static enum outcome trace(struct worker *w, struct tracer *tracer, const struct shot *shot, struct picture *picture)
+static enum frame_end trace(struct worker *w, struct tracer *tracer, const struct shot *shot, struct picture *picture)
 {
 	const struct scene *scene = shot->of->scene;
 	const struct settings *settings = w->state->p->settings;
@@ -54,6 +54,7 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 		pipeline_note_failed(w->state, shot->number, 0, why);
 		return EMPTY;
 	}
+	device_set_frame(w->dev, shot->number);
 	watch_begin(w->state->p->watch, w->seat, shot->number);
 	/* some need the whole planes */
 	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion || settings->caustics || settings->denoise ? 0 : packer_count(w->state);
@@ -132,14 +133,22 @@ static void retire(struct pipeline_state *state, struct shot *shot)
 	pipeline_land(state);
 }
 
-static void add_undrawn(struct pipeline_state *state, const struct tracer *tracer)
+/* A frame was tried: add what its tracer counted. Where it is the first after a fault, the family that took over is right. */
+static void note_frame(struct worker *w, const struct tracer *tracer, int is_traced)
 {
 	const struct tracer_undrawn *u = tracer_undrawn(tracer);
+	struct carried *c = w->state->p->carried;
+	int is_first;
 
-	pthread_mutex_lock(&state->lock);
-	state->p->undrawn.targets += u->targets;
-	state->p->undrawn.ended += u->ended;
-	pthread_mutex_unlock(&state->lock);
+	pthread_mutex_lock(&w->state->lock);
+	c->undrawn.targets += u->targets - w->undrawn.targets;
+	c->undrawn.ended += u->ended - w->undrawn.ended;
+	c->made += (uint64_t)is_traced;
+	is_first = is_traced && carried_confirms(c, w->dev);
+	pthread_mutex_unlock(&w->state->lock);
+	w->undrawn = *u;
+	if (is_first)
+		outcome_confirm(w->dev, w->state->p->remembered, &c->run);
 }
 
 /* Make one picture. @return 1; 0: the device has failed, and this worker ends. *tracer may be NULL afterwards */
@@ -147,7 +156,7 @@ static int work_on(struct worker *w, struct tracer **tracer, struct shot *shot)
 {
 	struct pipeline_state *state = w->state;
 	struct picture *picture = calloc(1, sizeof(*picture));
-	enum outcome outcome = STOPPED;
+	enum frame_end outcome = STOPPED;
 
 	if (!picture)
 		pipeline_fail(state, err_report(ERR_SYSTEM, NULL, "out of memory"));
@@ -160,13 +169,14 @@ static int work_on(struct worker *w, struct tracer **tracer, struct shot *shot)
 	}
 	earlier_drop(&state->earlier, shot->number);
 	pipeline_drop_shot(&shot);
+	note_frame(w, *tracer, outcome == TRACED);
 	w->done += outcome == TRACED;
 	if (outcome == TRACED && queue_put(&state->pictures, picture))
 		return 1;
 	if (outcome == LATE) {
 		give_up(state, picture);
-		add_undrawn(state, *tracer);
 		tracer_destroy(tracer);
+		w->undrawn = (struct tracer_undrawn){ 0 };
 		if (start_tracer(w, tracer))
 			pipeline_fail(state, ERR_SYSTEM);
 	}
@@ -192,8 +202,6 @@ static void *work(void *arg)
 		state->untraced--;
 		pthread_mutex_unlock(&state->lock);
 	}
-	if (tracer)
-		add_undrawn(state, tracer);
 	tracer_destroy(&tracer);
 	pthread_mutex_lock(&state->lock);
 	if (sound)

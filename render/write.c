@@ -9,8 +9,8 @@ static int write_display(struct pipeline_state *state, const struct image *img, 
 	int err = display_write(state->p->display, img, path, &bright);
 
 	pthread_mutex_lock(&state->lock);
-	state->p->pixels += (uint64_t)img->width * img->height;
-	state->p->bright += bright;
+	state->p->carried->pixels += (uint64_t)img->width * img->height;
+	state->p->carried->bright += bright;
 	pthread_mutex_unlock(&state->lock);
 	return err;
 }

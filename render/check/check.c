@@ -134,6 +134,7 @@ struct drawing {
 	const struct check_truth *truth;
 	size_t device;
 	enum device_family family;
+	struct fault_journal journal;
 	volatile int at; /* the scene that is being drawn; N_CHECK_SCENES: the frame to measure */
 	struct check_result result;
 };
@@ -195,6 +196,7 @@ static void draw_apart(void *user)
 	double small_s = 0;
 	int err;
 
+	fault_begin(&d->journal, 0);
 	setenv("POCL_KERNEL_CACHE", "0", 0);
 	snprintf(number, sizeof(number), "%zu", d->device);
 	err = world ? device_open(number, 0, &dev) : err_report(ERR_SYSTEM, NULL, "out of memory");
@@ -218,9 +220,10 @@ static void draw_apart(void *user)
 	free(world);
 }
 
-/* Sum the scenes up: the first state that is not right, and the names of all scenes that are not. */
-static void sum_up(struct check_result *r)
+/* Sum the scenes up: the first state that is not right, the names of all scenes that are not, and the driver's fault. */
+static void sum_up(struct check_result *r, const struct fault *fault)
 {
+	char text[160];
 	size_t at = 0;
 
 	r->all.state = OUTCOME_RIGHT;
@@ -231,6 +234,8 @@ static void sum_up(struct check_result *r)
 			r->all.state = (uint32_t)r->scenes[i].state;
 		at += (size_t)snprintf(r->all.where + at, sizeof(r->all.where) - at, at ? ", %s" : "%s", check_scene_names[i]);
 	}
+	if (fault->kind != FAULT_NONE)
+		snprintf(r->all.where + at, sizeof(r->all.where) - at, ": %s", fault_words(fault, text, sizeof(text)));
 }
 
 int check_family(const struct check_truth *truth, size_t device, enum device_family family, double seconds, struct check_result *out)
@@ -249,7 +254,7 @@ int check_family(const struct check_truth *truth, size_t device, enum device_fam
 	if (end != APART_DONE || d->result.scenes[0].state < 0) /* it ended, or did not even open the device */
 		d->result.scenes[d->at < N_CHECK_SCENES ? d->at : CHECK_OPAQUE].state = end == APART_LATE ? OUTCOME_LATE : OUTCOME_FAILED;
 	*out = d->result;
-	sum_up(out);
+	sum_up(out, &d->journal.fault);
 	apart_free(d, sizeof(*d));
 	return 0;
 }

@@ -35,7 +35,7 @@ static void begin(void)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-	char folder[4096], text[96];
+	char folder[4096], text[160];
 	struct outcome outcome;
 	uint8_t how;
 	FILE *out;
@@ -54,7 +54,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	}
 	snprintf(folder, sizeof(folder), "%s/devices", target_folder());
 	if (outcome_read(folder, &device, &outcome)) {
-		outcome_fastest(&outcome);
+		outcome_best(&outcome, FAMILY_PACKETS);
 		for (int i = 0; i < N_DEVICE_FAMILIES; i++)
 			outcome_words(&outcome.families[i], text, sizeof(text));
 	}

@@ -8,6 +8,11 @@
  *   EDIT=THIS|THAT   compiles kernels that have THAT where their text has THIS
  *   DIE=WORD         ends the process when such a kernel is to run
  *   HANG=WORD        never returns when such a kernel is to run
+ *   FAULT=HOW,WHERE,WORD,N  the N-th (from 1) call of a kind goes wrong in this process. WHERE: build (of programs whose text has WORD),
+ *                    create or launch (of kernels whose name has it), thread (as launch, in a thread of the driver's own). HOW: abort,
+ *                    segv, exit, hang, spin (hangs and computes), code (returns an error that OpenCL does not have). Several with ';'
+ *   FAULT_MET=FILE   gets a line for each of these
+ *   FAULT_WITH=WORD  only in processes that have made a kernel whose name has this
  *   SLOW_BUILD=1     compiles for a second and a half longer
  *   AS_TYPE=gpu      says that it is a GPU (accelerator: one of these)
  *   AS_PLATFORM=NAME, AS_DRIVER=VERSION  says so
@@ -19,6 +24,8 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -120,7 +127,6 @@ CODE(clEnqueueUnmapMemObject, (cl_command_queue q, cl_mem m, void *mapped, cl_ui
 OBJECT(void *, clEnqueueMapBuffer,
        (cl_command_queue q, cl_mem m, cl_bool wait, cl_map_flags how, size_t at, size_t size, cl_uint n, const cl_event *events, cl_event *event, cl_int *code),
        q, m, wait, how, at, size, n, events, event)
-OBJECT(cl_kernel, clCreateKernel, (cl_program p, const char *name, cl_int *code), p, name)
 
 /* --- Calls that a device answers otherwise ------------------------------------------------------------------------- */
 
@@ -131,6 +137,85 @@ static int is_named(const char *variable, cl_kernel kernel)
 	char name[128] = "";
 
 	return word && clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof(name) - 1, name, NULL) == CL_SUCCESS && strstr(name, word);
+}
+
+/* --- FAULT ------------------------------------------------------------------------------------------------------------- */
+
+#define MOST_FAULTS 8
+#define RUBBISH (-12345)
+
+static atomic_int has_kernel; /* of FAULT_WITH */
+static int met_file = -1;     /* of FAULT_MET */
+static atomic_long met[MOST_FAULTS];
+
+/* Before a sandbox is there. */
+__attribute__((constructor)) static void open_met(void)
+{
+	if (getenv("FAULT_MET"))
+		met_file = open(getenv("FAULT_MET"), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+}
+
+/* Goes wrong. @return what the call returns */
+static cl_int go_wrong(const char *how)
+{
+	static int *volatile nowhere;
+
+	if (met_file >= 0)
+		dprintf(met_file, "%s\n", how);
+
+	if (strcmp(how, "abort") == 0)
+		abort();
+	if (strcmp(how, "segv") == 0)
+		*nowhere = 0;
+	if (strcmp(how, "exit") == 0)
+		exit(1);
+	while (strcmp(how, "hang") == 0)
+		pause();
+	while (strcmp(how, "spin") == 0)
+		;
+	return RUBBISH;
+}
+
+static void *go_wrong_apart(void *how)
+{
+	go_wrong(how);
+	return NULL;
+}
+
+/* A call of a kind, on something with a name or text. */
+static cl_int meet(const char *where, const char *text)
+{
+	const char *all = getenv("FAULT");
+	char how[16], at[16], word[64];
+	pthread_t thread;
+
+	for (int i = 0; all && i < MOST_FAULTS; i++, all = strchr(all, ';') ? strchr(all, ';') + 1 : NULL) {
+		long n = 1;
+		int is_apart;
+
+		word[0] = '\0';
+		if (sscanf(all, "%15[^,;],%15[^,;],%63[^,;],%ld", how, at, word, &n) < 3)
+			sscanf(all, "%15[^,;],%15[^,;],,%ld", how, at, &n);
+		is_apart = strcmp(at, "thread") == 0;
+		if (strcmp(is_apart ? "launch" : at, where) != 0 || !strstr(text, word) || atomic_fetch_add(&met[i], 1) + 1 != n ||
+		    (getenv("FAULT_WITH") && !atomic_load(&has_kernel)))
+			continue;
+		if (!is_apart)
+			return go_wrong(how);
+		pthread_create(&thread, NULL, go_wrong_apart, strdup(how));
+		pause();
+	}
+	return CL_SUCCESS;
+}
+
+cl_kernel clCreateKernel(cl_program program, const char *name, cl_int *code)
+{
+	*code = fate("clCreateKernel");
+	if (getenv("FAULT_WITH") && strstr(name, getenv("FAULT_WITH")))
+		atomic_store(&has_kernel, 1);
+	if (!*code)
+		*code = meet("create", name);
+	return *code ? NULL : REAL(clCreateKernel)(program, name, code);
 }
 
 /* The last launches that somebody measures. */
@@ -145,11 +230,14 @@ cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint 
                               const size_t *global, const size_t *local, cl_uint n, const cl_event *wait, cl_event *event)
 {
 	cl_int code = is_chosen(queue) ? fate("clEnqueueNDRangeKernel") : CL_SUCCESS;
+	char name[128] = "";
 
 	if (is_named("DIE", kernel))
 		abort();
 	while (is_named("HANG", kernel))
 		pause();
+	if (!code && getenv("FAULT") && clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof(name) - 1, name, NULL) == CL_SUCCESS)
+		code = meet("launch", name);
 	if (code)
 		return code;
 	if (getenv("MOST_ITEMS") && *global > number("MOST_ITEMS"))
@@ -241,8 +329,11 @@ cl_program clCreateProgramWithSource(cl_context context, cl_uint n, const char *
 cl_int clBuildProgram(cl_program program, cl_uint n, const cl_device_id *devices, const char *options,
                       void(CL_CALLBACK *notify)(cl_program, void *), void *user)
 {
-	const cl_int code = fate("clBuildProgram");
+	static char text[4 << 20];
+	cl_int code = fate("clBuildProgram");
 
+	if (getenv("FAULT") && REAL(clGetProgramInfo)(program, CL_PROGRAM_SOURCE, sizeof(text) - 1, text, NULL) == CL_SUCCESS && !code)
+		code = meet("build", text);
 	if (getenv("SLOW_BUILD"))
 		nanosleep(&(struct timespec){ 1, 500000000 }, NULL);
 	return code ? code : REAL(clBuildProgram)(program, n, devices, options, notify, user);

@@ -11,6 +11,7 @@
 #include "tracer/device/cl_launch.h"
 #include "tracer/device/cl_list.h"
 #include "tracer/device/cl_program.h"
+#include "tracer/device/fault.h"
 #include "kernels/embed.h"
 
 /*
@@ -35,6 +36,7 @@ struct cl_common {
 	pthread_t builder;
 	size_t built_early; /* the file whose program the builder makes; n_kernel_files: there is no builder */
 	int early_err;      /* what came of it, until somebody wants it */
+	struct fault_place *early; /* where the builder is at work */
 	struct cl_keeping keeping;
 	struct cl_common *left; /* by devices before: cl_leave_programs */
 	const struct hook *hook; /* or NULL */
@@ -44,6 +46,7 @@ struct cl_common {
 
 struct cl_device {
 	struct cl_common *common;
+	struct fault_place *place; /* or NULL */
 	cl_command_queue queue;
 	cl_kernel kernels[N_KERNELS]; /* of its own: arguments are part of a kernel object */
 	struct cl_pace paces[N_KERNELS]; /* where it is no CPU */
@@ -86,6 +89,7 @@ static void join_builder(struct cl_common *c)
 {
 	if (c->built_early < n_kernel_files)
 		pthread_join(c->builder, NULL);
+	fault_close(&c->early);
 	c->built_early = n_kernel_files;
 }
 
@@ -140,7 +144,7 @@ static int open_queue(struct cl_device *dev)
 	return dev->queue ? 0 : cl_report(&dev->common->said, code, "clCreateCommandQueue");
 }
 
-int cl_open(size_t number, unsigned threads, struct cl_device **out)
+int cl_open(size_t number, unsigned threads, struct fault_place *place, struct cl_device **out)
 {
 	cl_device_id ids[CL_LIST_MOST];
 	struct cl_device *dev = NULL;
@@ -156,6 +160,7 @@ int cl_open(size_t number, unsigned threads, struct cl_device **out)
 	dev = calloc(1, sizeof(*dev));
 	if (!dev)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	dev->place = place;
 	common = dev->common = create_common();
 	if (!common) {
 		err = ERR_SYSTEM;
@@ -184,7 +189,7 @@ fail:
 	return err;
 }
 
-int cl_share(struct cl_device *dev, struct cl_device **out)
+int cl_share(struct cl_device *dev, struct fault_place *place, struct cl_device **out)
 {
 	struct cl_device *other = calloc(1, sizeof(*other));
 	int err;
@@ -195,6 +200,7 @@ int cl_share(struct cl_device *dev, struct cl_device **out)
 	dev->common->refs++;
 	pthread_mutex_unlock(&dev->common->lock);
 	other->common = dev->common;
+	other->place = place;
 	other->cpu = dev->cpu;
 	other->pocl = dev->pocl;
 	other->family = dev->family;
@@ -322,6 +328,7 @@ static int note_done(struct cl_device *dev, cl_int code, const char *what)
 	if (code != CL_SUCCESS)
 		return cl_report(&dev->common->said, code, what);
 	dev->n_staged = 0;
+	fault_done(dev->place);
 	return 0;
 }
 
@@ -390,7 +397,7 @@ int cl_finish(struct cl_device *dev)
 }
 
 /* What the builder has reported is its first taker's failure; others try again. */
-static int build_program(struct cl_common *c, size_t file)
+static int build_program(struct cl_common *c, size_t file, struct fault_place *place)
 {
 	if (file == c->built_early && c->early_err) {
 		const int err = c->early_err;
@@ -398,7 +405,7 @@ static int build_program(struct cl_common *c, size_t file)
 		c->early_err = 0;
 		return err;
 	}
-	return c->programs[file] ? 0 : cl_program_make(c->context, c->id, file, c->hook, &c->keeping, &c->said, &c->programs[file]);
+	return c->programs[file] ? 0 : cl_program_make(c->context, c->id, file, c->hook, &c->keeping, place, &c->said, &c->programs[file]);
 }
 
 void cl_take_hook(struct cl_device *dev, const struct hook *hook)
@@ -421,20 +428,27 @@ static void *build_early(void *arg)
 
 	memory_widen_heap();
 	pthread_mutex_lock(&c->programs_lock);
-	c->early_err = build_program(c, c->built_early);
+	fault_enter(c->early);
+	c->early_err = fault_leave(c->early, build_program(c, c->built_early, c->early));
 	pthread_mutex_unlock(&c->programs_lock);
 	return NULL;
 }
 
-void cl_build_early(struct cl_device *dev)
+void cl_build_early(struct cl_device *dev, struct fault_place *place)
 {
 	struct cl_common *c = dev->common;
 
-	if (c->built_early < n_kernel_files)
+	if (c->built_early == n_kernel_files)
+		c->built_early = cl_program_gathered(c->root, &c->keeping, dev->family);
+	if (c->built_early == n_kernel_files || c->early) {
+		fault_close(&place);
 		return;
-	c->built_early = cl_program_gathered(c->root, &c->keeping, dev->family);
-	if (c->built_early < n_kernel_files && pthread_create(&c->builder, NULL, build_early, c))
+	}
+	c->early = place;
+	if (pthread_create(&c->builder, NULL, build_early, c)) {
 		c->built_early = n_kernel_files;
+		fault_close(&c->early);
+	}
 }
 
 void cl_leave_programs(struct cl_device *dev)
@@ -471,12 +485,17 @@ static int make_kernel(struct cl_device *dev, enum kernel kernel)
 	if (file == n_kernel_files)
 		return err_report(ERR_SYSTEM, "OpenCL", "there is no kernel %s in this build", name);
 	pthread_mutex_lock(&dev->common->programs_lock);
-	err = build_program(dev->common, file);
+	err = build_program(dev->common, file, dev->place);
 	pthread_mutex_unlock(&dev->common->programs_lock);
 	if (err)
 		return err;
+	fault_build(dev->place, name);
 	dev->kernels[kernel] = clCreateKernel(dev->common->programs[file], name, &code);
-	return dev->kernels[kernel] ? 0 : cl_report(&dev->common->said, code, name);
+	fault_build(dev->place, NULL);
+	if (dev->kernels[kernel])
+		return 0;
+	fault_refuse(dev->place, code, 1, name);
+	return cl_report(&dev->common->said, code, name);
 }
 
 int cl_run(struct cl_device *dev, enum kernel kernel, size_t n_items, const struct cl_arg *args, size_t n_args)
@@ -502,9 +521,12 @@ int cl_run(struct cl_device *dev, enum kernel kernel, size_t n_items, const stru
 			return cl_report(&dev->common->said, code, what);
 		}
 	}
+	fault_launch(dev->place, kernel);
 	code = dev->pocl ? cl_launch_wide(dev->queue, dev->kernels[kernel], n_items, GROUP_CPU, &dev->widened[kernel]) :
 	                   cl_launch(dev->queue, dev->kernels[kernel], n_items, dev->cpu ? GROUP_CPU : GROUP_GPU, dev->cpu ? NULL : &dev->paces[kernel]);
 	if (code != CL_SUCCESS) {
+		if (!cl_error_exists(code))
+			fault_refuse(dev->place, code, 0, kernel_entries[kernel].name);
 		snprintf(what, sizeof(what), "kernel %s", kernel_entries[kernel].name);
 		return lack_or_report(dev, code, what);
 	}

@@ -112,6 +112,7 @@ int cl_list(struct device_description **out, size_t *n)
 		clGetDeviceInfo(ids[i], CL_DEVICE_PLATFORM, sizeof(platform), &platform, NULL);
 		if (platform)
 			clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof(list[i].platform) - 1, list[i].platform, NULL);
+		list[i].number = (unsigned)i;
 		list[i].type = cl_list_type(ids[i]);
 		list[i].units = units;
 		list[i].width = width_of(ids[i]);

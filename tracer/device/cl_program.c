@@ -12,10 +12,14 @@
 #include "base/kept.h"
 #include "kernels/embed.h"
 #include "tracer/device/cl_error.h"
+#include "tracer/device/fault.h"
 #include "tracer/hook/hook.h"
 
 /* In front of every program. The C twins are compiled without contraction too, so that both decide the same. */
 static const char prelude[] = "#pragma OPENCL FP_CONTRACT OFF\n";
+
+/* No program is larger: the driver returns rubbish for its size. */
+#define MOST_BINARY ((size_t)1 << 30)
 
 /* To be raised where the same text is to be compiled otherwise. */
 #define PROGRAM_VERSION 1
@@ -142,7 +146,7 @@ static void leave_program(cl_program program, const char *path, const uint64_t k
 	size_t n = 0;
 	int failed = 0;
 
-	if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof(n), &n, NULL) != CL_SUCCESS || n == 0)
+	if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof(n), &n, NULL) != CL_SUCCESS || n == 0 || n > MOST_BINARY)
 		return;
 	bytes = malloc(n);
 	if (bytes && clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof(bytes), &bytes, NULL) == CL_SUCCESS)
@@ -212,8 +216,8 @@ static cl_int compile(cl_program program, cl_device_id device, const char *name)
 	return code;
 }
 
-static int build_program(cl_context context, cl_device_id device, const struct kernel_file *kernels, struct around around, int *said,
-                         cl_program *out)
+static int build_program(cl_context context, cl_device_id device, const struct kernel_file *kernels, struct around around,
+                         struct fault_place *place, int *said, cl_program *out)
 {
 	const char *texts[] = { prelude, around.before, kernels->text, around.after };
 	cl_int code;
@@ -225,6 +229,8 @@ static int build_program(cl_context context, cl_device_id device, const struct k
 	code = compile(*out, device, kernels->name);
 	if (code == CL_SUCCESS)
 		return 0;
+	if (!*around.after)
+		fault_refuse(place, code, 1, kernels->name);
 	if (code == CL_BUILD_PROGRAM_FAILURE)
 		err = report_build_log(*out, device, around.name, *around.after != '\0');
 	else
@@ -264,26 +270,28 @@ size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum
 	return file;
 }
 
-int cl_program_make(cl_context context, cl_device_id device, size_t file, const struct hook *hook, struct cl_keeping *keeping, int *said,
-                    cl_program *out)
+int cl_program_make(cl_context context, cl_device_id device, size_t file, const struct hook *hook, struct cl_keeping *keeping,
+                    struct fault_place *place, int *said, cl_program *out)
 {
 	const struct kernel_file *kernels = &kernel_files[file];
 	const struct around around = around_of(kernels, hook);
 	char path[PATH_MAX];
 	uint64_t key[2];
-	int err;
+	int err = 0;
 
 	*out = NULL;
+	fault_build(place, around.name);
 	if (keeping->folder[0]) {
 		name_program(device, kernels, around, keeping, path, key);
 		*out = find_program(context, device, path, key);
 	}
 	if (*out) {
 		keeping->found++;
-		return 0;
+	} else {
+		err = build_program(context, device, kernels, around, place, said, out);
+		if (!err && keeping->folder[0])
+			leave_program(*out, path, key, keeping);
 	}
-	err = build_program(context, device, kernels, around, said, out);
-	if (!err && keeping->folder[0])
-		leave_program(*out, path, key, keeping);
+	fault_build(place, NULL);
 	return err;
 }

@@ -10,6 +10,8 @@
 
 #include "tracer/device/device.h"
 
+struct fault_place;
+
 /* Where programs are kept. All zero: nowhere. */
 struct cl_keeping {
 	char folder[PATH_MAX - 96]; /* "": nowhere */
@@ -40,9 +42,10 @@ size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum
  * @param file     in kernel_files (kernels/embed.h)
  * @param hook     kernels that call hooks need its text; NULL: there is none
  * @param keeping  where it may lie, and is left; where it cannot be written one warning says so, and no more is kept
+ * @param place    where this thread is at work (fault.h), or NULL. A refusal may end the process (fault_refuse)
  * @param said     as for cl_report
  * @param out      to be released by the caller
  * @return 0, ERR_INPUT where it is the hook that does not compile, or ERR_SYSTEM (reported, after the compiler's own words)
  */
-int cl_program_make(cl_context context, cl_device_id device, size_t file, const struct hook *hook, struct cl_keeping *keeping, int *said,
-                    cl_program *out);
+int cl_program_make(cl_context context, cl_device_id device, size_t file, const struct hook *hook, struct cl_keeping *keeping,
+                    struct fault_place *place, int *said, cl_program *out);

@@ -14,12 +14,14 @@
 #include "base/err.h"
 #include "tracer/device/cl.h"
 #include "tracer/device/cl_pin.h"
+#include "tracer/device/fault.h"
 #include "tracer/hook/hook.h"
 
 #define MAX_THREADS 64
 
 struct device {
 	struct cl_device *cl; /* NULL: the reference device */
+	struct fault_place *place; /* or NULL */
 	unsigned threads;     /* of the reference device */
 	const struct hook *hook; /* its; or NULL */
 	enum device_family family;
@@ -34,6 +36,9 @@ struct device_buffer {
 	void *memory;         /* of the reference device */
 	size_t bytes;
 };
+
+/* A call of the driver, for a device that is at work or for none. */
+#define IN_DRIVER(place, call) (fault_enter(place), fault_leave(place, call))
 
 int device_list(struct device_description **out, size_t *n)
 {
@@ -97,20 +102,26 @@ int device_find(const struct device_description *list, size_t n, const char *cho
 static int open_cl(struct device *dev, const char *choice, unsigned threads)
 {
 	struct device_description *list = NULL;
+	struct fault_place *listing = fault_open(-1);
 	struct cl_pin pin;
 	size_t n, number;
 	int err;
 
 	if (threads == 0)
 		cl_pin_begin(&pin);
-	err = cl_list(&list, &n); /* the first loads the drivers */
+	err = IN_DRIVER(listing, cl_list(&list, &n)); /* the first loads the drivers */
+	fault_arm();
+	fault_close(&listing);
 	if (threads == 0)
 		cl_pin_end(&pin);
 	if (err)
 		return err;
 	err = device_find(list, n, choice, &number);
-	if (!err)
-		err = cl_open(number, threads, &dev->cl);
+	if (!err) {
+		dev->place = fault_open((int)number);
+		fault_set_family(dev->place, (int)device_type_family(list[number].type));
+		err = IN_DRIVER(dev->place, cl_open(number, threads, dev->place, &dev->cl));
+	}
 	if (!err) {
 		dev->description = list[number];
 		device_choose_family(dev, device_type_family(list[number].type));
@@ -149,6 +160,7 @@ int device_open(const char *choice, unsigned threads, struct device **out)
 	else
 		err = open_cl(dev, choice, threads);
 	if (err) {
+		fault_close(&dev->place);
 		free(dev);
 		return err;
 	}
@@ -158,8 +170,12 @@ int device_open(const char *choice, unsigned threads, struct device **out)
 
 void device_close(struct device **dev)
 {
-	if (*dev && (*dev)->cl)
+	if (*dev && (*dev)->cl) {
+		fault_enter((*dev)->place);
 		cl_close(&(*dev)->cl);
+		fault_leave((*dev)->place, 0);
+		fault_close(&(*dev)->place);
+	}
 	free(*dev);
 	*dev = NULL;
 }
@@ -223,9 +239,13 @@ int device_share(struct device *dev, struct device **out)
 	other->family = dev->family;
 	other->description = dev->description;
 	memcpy(other->name, dev->name, sizeof(other->name));
-	if (dev->cl)
-		err = cl_share(dev->cl, &other->cl);
+	if (dev->cl) {
+		other->place = fault_open((int)dev->description.number);
+		fault_set_family(other->place, (int)dev->family);
+		err = IN_DRIVER(other->place, cl_share(dev->cl, other->place, &other->cl));
+	}
 	if (err) {
+		fault_close(&other->place);
 		free(other);
 		return err;
 	}
@@ -258,6 +278,11 @@ const struct device_description *device_describe(const struct device *dev)
 	return dev->cl ? &dev->description : NULL;
 }
 
+void device_set_frame(struct device *dev, uint64_t frame)
+{
+	fault_set_frame(dev->place, (int64_t)frame);
+}
+
 enum device_family device_family(const struct device *dev)
 {
 	return dev->family;
@@ -266,6 +291,7 @@ enum device_family device_family(const struct device *dev)
 void device_choose_family(struct device *dev, enum device_family family)
 {
 	dev->family = family;
+	fault_set_family(dev->place, (int)family);
 	if (dev->cl)
 		cl_choose_family(dev->cl, family);
 }
@@ -283,8 +309,11 @@ void device_keep_programs(struct device *dev, const char *folder, int always)
 
 void device_build_early(struct device *dev)
 {
+	struct fault_place *place = dev->cl ? fault_open((int)dev->description.number) : NULL;
+
+	fault_set_family(place, (int)dev->family);
 	if (dev->cl)
-		cl_build_early(dev->cl);
+		cl_build_early(dev->cl, place);
 }
 
 void device_leave_programs(struct device *dev)
@@ -327,7 +356,7 @@ int device_reserve(struct device *dev, struct device_buffer **buffer, size_t byt
 	if (!b)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (dev->cl)
-		return cl_reserve(dev->cl, &b->cl, bytes);
+		return IN_DRIVER(dev->place, cl_reserve(dev->cl, &b->cl, bytes));
 	if (b->bytes >= bytes)
 		return 0;
 	free(b->memory);
@@ -397,7 +426,7 @@ int device_write(struct device *dev, struct device_buffer *buffer, size_t offset
 	if (device_is_interrupted(dev))
 		return ERR_SYSTEM;
 	if (dev->cl)
-		err = cl_write(dev->cl, buffer->cl, offset, data, bytes);
+		err = IN_DRIVER(dev->place, cl_write(dev->cl, buffer->cl, offset, data, bytes));
 	else if (bytes)
 		memcpy((char *)buffer->memory + offset, data, bytes);
 	if (dev->profile)
@@ -413,7 +442,7 @@ int device_read(struct device *dev, const struct device_buffer *buffer, size_t o
 	if (device_is_interrupted(dev))
 		return ERR_SYSTEM;
 	if (dev->cl)
-		err = cl_read(dev->cl, buffer->cl, offset, data, bytes);
+		err = IN_DRIVER(dev->place, cl_read(dev->cl, buffer->cl, offset, data, bytes));
 	else if (bytes)
 		memcpy(data, (const char *)buffer->memory + offset, bytes);
 	if (dev->profile)
@@ -429,7 +458,7 @@ int device_map(struct device *dev, const struct device_buffer *buffer, size_t by
 	if (device_is_interrupted(dev))
 		return ERR_SYSTEM;
 	if (dev->cl)
-		err = cl_map(dev->cl, buffer->cl, bytes, wait, out);
+		err = IN_DRIVER(dev->place, cl_map(dev->cl, buffer->cl, bytes, wait, out));
 	else
 		*out = buffer->memory;
 	if (dev->profile)
@@ -439,7 +468,7 @@ int device_map(struct device *dev, const struct device_buffer *buffer, size_t by
 
 int device_unmap(struct device *dev, const struct device_buffer *buffer, const void *mapped)
 {
-	return dev->cl ? cl_unmap(dev->cl, buffer->cl, mapped) : 0;
+	return dev->cl ? IN_DRIVER(dev->place, cl_unmap(dev->cl, buffer->cl, mapped)) : 0;
 }
 
 int device_upload(struct device *dev, struct device_buffer **buffer, const void *data, size_t bytes)
@@ -507,7 +536,7 @@ static int run_cl(struct device *dev, enum kernel kernel, size_t n_items, const 
 
 	for (size_t i = 0; i < n_args; i++)
 		cl_args[i] = (struct cl_arg){ args[i].buffer ? args[i].buffer->cl : NULL, args[i].value, args[i].bytes };
-	return cl_run(dev->cl, kernel, n_items, cl_args, n_args);
+	return IN_DRIVER(dev->place, cl_run(dev->cl, kernel, n_items, cl_args, n_args));
 }
 
 int device_run(struct device *dev, enum kernel kernel, size_t n_items, const struct device_arg *args, size_t n_args)
@@ -530,5 +559,5 @@ int device_run(struct device *dev, enum kernel kernel, size_t n_items, const str
 
 int device_finish(struct device *dev)
 {
-	return dev->cl ? cl_finish(dev->cl) : 0;
+	return dev->cl ? IN_DRIVER(dev->place, cl_finish(dev->cl)) : 0;
 }

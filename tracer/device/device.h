@@ -36,6 +36,7 @@ enum device_type { DEVICE_CPU, DEVICE_GPU, DEVICE_ACCELERATOR, N_DEVICE_TYPES };
 
 /* An OpenCL device as `relume devices` lists it; its place in the list is the number device_open takes. */
 struct device_description {
+	unsigned number; /* its place in the list */
 	char name[128], platform[64], driver[64], version[128]; /* version: of OpenCL, and what the driver says beside it */
 	enum device_type type;
 	unsigned units;
@@ -100,6 +101,9 @@ int device_is_interrupted(const struct device *dev);
 
 /** The device's name and driver version in one line, for people and for EXR attributes. Borrowed. */
 const char *device_name(const struct device *dev);
+
+/** The frame that is drawn next: a fault of the driver names it (fault.h). */
+void device_set_frame(struct device *dev, uint64_t frame);
 
 /** The device as it is listed; NULL: the reference device. Borrowed. */
 const struct device_description *device_describe(const struct device *dev);
