@@ -9,6 +9,7 @@
 #include "render/supply.h"
 #include "replay/replay.h"
 #include "scene/release.h"
+#include "tracer/device/outcome.h"
 #include "tracer/image/display.h"
 
 enum { PNG_LEVEL = 6, MOST_NAME = 4096 };
@@ -30,6 +31,8 @@ static int open_eyes(struct eyes *e, const char *good, const char *bad, const ch
 		err = replay_open(&e->replays[BAD], bad);
 	if (!err)
 		err = device_open(device, 0, &e->dev);
+	if (!err)
+		err = outcome_choose_known(e->dev);
 	if (!err && folder_cached("kernels", folder, sizeof(folder)))
 		device_keep_programs(e->dev, folder, 0);
 	if (!err)

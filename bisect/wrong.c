@@ -16,6 +16,7 @@
 #include "replay/replay.h"
 #include "scene/release.h"
 #include "scene/scene.h"
+#include "tracer/device/outcome.h"
 
 /* What one frame shows. All zero is empty. */
 struct sighted {
@@ -54,6 +55,8 @@ static int see(const char *trace, uint64_t frame, struct sighted *v)
 
 	if (!err)
 		err = device_open(NULL, 0, &dev);
+	if (!err)
+		err = outcome_choose_known(dev);
 	if (!err && folder_cached("kernels", folder, sizeof(folder)))
 		device_keep_programs(dev, folder, 0);
 	if (!err)

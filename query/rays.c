@@ -10,6 +10,7 @@
 #include "query/soup.h"
 #include "replay/replay.h"
 #include "scene/release.h"
+#include "tracer/device/outcome.h"
 #include "tracer/frame/traverse.h"
 
 #define BATCH 262144u /* queries of a launch; fewer where a ray has many hits */
@@ -83,6 +84,8 @@ static int open_soup(struct query_soup *soup, const char *device, struct relume_
 	r->soup = *soup;
 	*soup = (struct query_soup){ NULL };
 	err = device_open(device, 0, &r->dev);
+	if (!err)
+		err = outcome_choose_known(r->dev);
 	if (!err)
 		err = accel_create(&r->accel);
 	if (!err && r->soup.n_triangles)

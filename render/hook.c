@@ -8,6 +8,7 @@
 #include "base/verbs.h"
 #include "render/check/apart.h"
 #include "render/check/check_scene.h"
+#include "tracer/device/outcome.h"
 #include "tracer/hook/host.h"
 
 #define WIDTH 48u
@@ -101,6 +102,8 @@ static void try_apart(void *user)
 	err = options_confine(&table, t->line, CONFINE_TRACER, NULL); /* here: who waits must be able to end this process */
 	if (!err)
 		err = device_open(t->device, 0, &dev);
+	if (!err)
+		err = outcome_choose_known(dev);
 	if (!err)
 		err = device_take_hook(dev, t->hook);
 	if (!err)
