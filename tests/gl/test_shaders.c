@@ -151,6 +151,38 @@ START_TEST(test_reasons)
 }
 END_TEST
 
+/* A reason names the line, and what was counted with it keeps it when the program is linked again or goes. */
+START_TEST(test_reasons_stay)
+{
+	static const char first[] = "void main() {\n\ngl_FragColor = nothing; }", second[] = "void main() { gl_FragColor = other; }";
+	struct gl gl = gl_open();
+	const struct gls_shader *p = make_program(&gl, 1, first);
+	const char *counted;
+
+	ck_assert_str_eq(p->stages.why, "a shader does not compile here: line 3: 'nothing' is not declared");
+	counted = gl.x->counts.programs_why;
+	ck_assert_str_eq(counted, p->stages.why);
+	gl_call(&gl, "glShaderSource", "uuSp", 101u, 1u, second, (uint64_t)0);
+	gl_call(&gl, "glCompileShader", "u", 101u);
+	gl_call(&gl, "glLinkProgram", "u", 1u);
+	ck_assert_str_eq(p->stages.why, "a shader does not compile here: line 1: 'other' is not declared");
+	ck_assert_str_eq(counted, "a shader does not compile here: line 3: 'nothing' is not declared");
+	gl_call(&gl, "glUseProgram", "u", 0u);
+	gl_call(&gl, "glDeleteProgram", "u", 1u);
+	ck_assert_str_eq(gl.x->counts.programs_why, "a shader does not compile here: line 3: 'nothing' is not declared");
+	for (uint32_t i = 300; i < 500; i += 2) { /* more than are kept: the rest share one */
+		char text[64];
+
+		snprintf(text, sizeof(text), "void main() { gl_FragColor = n%u; }", i);
+		make_program(&gl, i, text);
+		ck_assert_ptr_nonnull(strstr(gl.x->counts.programs_why, "compile here"));
+	}
+	ck_assert_uint_lt(gl.x->counts.n_reasons, 100);
+	ck_assert_str_eq(counted, "a shader does not compile here: line 3: 'nothing' is not declared");
+	gl_close(&gl);
+}
+END_TEST
+
 /* Planes clip by a place that is not fixed function's; with colours of both sides that counts as missing. The shader runs all the same. */
 START_TEST(test_clip_vertex)
 {
@@ -302,4 +334,4 @@ START_TEST(test_results_in_blocks)
 }
 END_TEST
 
-GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_clip_vertex, test_unlinked, test_attributes, test_varyings, test_results_in_blocks)
+GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_reasons_stay, test_clip_vertex, test_unlinked, test_attributes, test_varyings, test_results_in_blocks)
