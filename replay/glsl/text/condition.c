@@ -161,6 +161,8 @@ int32_t parse_condition(struct parse *p, const struct parse_token *tokens, uint3
 
 	list = parse_macro_expand(p, list.at, list.n);
 	list = without_defined(p, list.at, list.n);
+	if (!list.n)
+		parse_error(p, "a condition lacks a number");
 	r.at = list.at;
 	r.end = list.at + list.n;
 	value = level(&r, 1);

@@ -112,7 +112,7 @@ static void push(struct parse *p, const struct parse_token *tokens, uint32_t n, 
 {
 	struct parse_input *input = parse_alloc(p, sizeof(*input));
 
-	*input = (struct parse_input){ p->input, tokens, tokens + n, macro, stops };
+	*input = (struct parse_input){ p->input, tokens, n ? tokens + n : tokens, macro, stops };
 	if (macro)
 		macro->busy = true;
 	p->input = input;
