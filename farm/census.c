@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 
 #include "base/err.h"
+#include "base/program.h"
 #include "base/memory.h"
-#include "farm/program.h"
 
 /* "frame 7: out/gears.0007.exr: leave", as `relume render --dry-run` says it. */
 static int count_line(const struct farm_job *job, const char *line, struct census *c, size_t *room)

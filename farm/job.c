@@ -10,7 +10,7 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/part.h"
-#include "farm/program.h"
+#include "base/program.h"
 
 #define DEFAULT_CHUNK 50
 #define MAX_TASKS 1000000

@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/program.h"
 #include "base/folder.h"
-#include "farm/program.h"
 #include "farm/slurm.h"
 
 enum { PATIENCE_S = 120, LOOKS_A_SECOND = 2 };

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "farm/program.h"
+#include "base/program.h"
 
 static int ask(char *const *argv, char **out)
 {

@@ -1,4 +1,4 @@
-#include "farm/program.h"
+#include "base/program.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,19 +16,32 @@
 
 extern char **environ;
 
-int program_exists(const char *name)
+static int is_executable(const char *path)
 {
-	const char *path = getenv("PATH");
-	char file[PATH_MAX];
+	struct stat info;
 
-	for (const char *p = path ? path : "/usr/bin:/bin"; *p;) {
-		size_t n = strcspn(p, ":");
+	return access(path, X_OK) == 0 && stat(path, &info) == 0 && S_ISREG(info.st_mode);
+}
 
-		if (snprintf(file, sizeof(file), "%.*s/%s", (int)n, p, name) < (int)sizeof(file) && access(file, X_OK) == 0)
+int program_find(const char *name, char *out, size_t size)
+{
+	const char *path = strchr(name, '/') ? "" : getenv("PATH"), *end;
+
+	for (path = path ? path : "/usr/bin:/bin"; path && *name; path = *end ? end + 1 : NULL) {
+		end = strchrnul(path, ':');
+		const int n = snprintf(out, size, "%.*s%s%s", (int)(end - path), path, end > path ? "/" : "", name);
+
+		if (n < (int)size && is_executable(out))
 			return 1;
-		p += n + (p[n] == ':');
 	}
 	return 0;
+}
+
+int program_exists(const char *name)
+{
+	char path[PATH_MAX];
+
+	return program_find(name, path, sizeof(path));
 }
 
 static int read_all(int fd, char **out)
@@ -57,10 +71,19 @@ static int read_all(int fd, char **out)
 	return 0;
 }
 
+static int wait_for(pid_t pid)
+{
+	int status = 0;
+
+	while (waitpid(pid, &status, 0) < 0 && errno == EINTR)
+		;
+	return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
 int program_read(char *const *argv, int quiet, char **out)
 {
 	posix_spawn_file_actions_t actions;
-	int pipe_fds[2], status = 0, err;
+	int pipe_fds[2], code, err;
 	pid_t pid;
 
 	*out = NULL;
@@ -79,9 +102,18 @@ int program_read(char *const *argv, int quiet, char **out)
 	}
 	err = read_all(pipe_fds[0], out);
 	close(pipe_fds[0]);
-	while (waitpid(pid, &status, 0) < 0 && errno == EINTR)
-		;
+	code = wait_for(pid);
+	return err ? err : code;
+}
+
+int program_run(char *const *argv)
+{
+	pid_t pid;
+	int err;
+
+	fflush(stdout);
+	err = posix_spawnp(&pid, argv[0], NULL, NULL, argv, environ);
 	if (err)
-		return err;
-	return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+		return err_report(ERR_SYSTEM, argv[0], "cannot start: %s", strerror(err));
+	return wait_for(pid);
 }
