@@ -27,7 +27,7 @@ struct options {
 	const char *reference, *traced, *report, *film, *json, *junit, *config, *baseline;
 	const char *markdown, *quarantine;
 	unsigned expires;
-	int annotations;
+	int annotations, all;
 	struct frame_list frames;
 	struct score_options score;
 };
@@ -74,8 +74,10 @@ static int want_yee(const struct options_row *row, const char *value, void *out)
 }
 
 static const struct options_row rows[] = {
-	{ "frames", 'f', "LIST", "frames that must be there and pass, as in 10-60 or 1-500x5 (default: all of both sets)",
+	{ "frames", 'f', "LIST", "frames that must be there and pass, as in 10-60 or 1-500x5 (default: those of TRACED)",
 	  options_frames, .at = offsetof(struct options, frames) },
+	{ "all", 0, NULL, "every frame that REF, TRACED or the approved frames have must be there and pass; with --frames: "
+	  "each of these that one has", options_flag, .at = offsetof(struct options, all) },
 	{ "channel", 0, "LAYER", "what to compare with the reference: gl (default where there is one), beauty, albedo, ...",
 	  options_text, .at = offsetof(struct options, score.channel) },
 	{ "effects", 0, "E=LO:HI", "gate E3: effect E (shadow, relight, reflect, refract, any) must touch LO to HI per cent of the "
@@ -251,7 +253,7 @@ static int write_all(const struct options *o, const struct output_run *run, stru
 	return err;
 }
 
-/* --- Several runs ------------------------------------------------------------------------------------------------------ */
+/* --- Several runs ----------------------------------------------------------------------------------------------- */
 
 static int tell_runs(const struct options *o, const struct runs *r, const struct runs_frame *frames)
 {
@@ -321,7 +323,7 @@ static int compare_runs(struct options *o, const struct options_line *line)
 	for (size_t i = 0; i < r.n; i++)
 		all[i + 1] = &sets[i];
 	if (!err)
-		err = scoring_list(all, r.n + 1, &none, &o->frames, &frames, &r.n_frames);
+		err = scoring_list(all, r.n + 1, &none, &(struct scoring_asked){ &o->frames, 1 }, &frames, &r.n_frames);
 	if (!err) {
 		name_run(ref.trace ? ref.trace : ref.name, name, sizeof(name));
 		r.match = ref.trace || ref.ref.stream ? name : NULL;
@@ -339,7 +341,25 @@ static int compare_runs(struct options *o, const struct options_line *line)
 	return err;
 }
 
-/* --- The verb ---------------------------------------------------------------------------------------------------------- */
+/* Which frames are compared, and how many more there would be with --all. */
+static int list_frames(const struct options *o, const struct set *ref, const struct set *traced,
+                       const struct baseline *baseline, uint64_t **frames, struct output_run *run)
+{
+	const struct set *const sets[] = { ref, traced };
+	const struct scoring_asked asked = { &o->frames, o->all };
+	uint64_t *all = NULL;
+	size_t n_all = 0;
+	int err = scoring_list(sets, 2, baseline, &asked, frames, &run->n_scores);
+
+	if (!err && !o->all && !o->frames.n_ranges)
+		err = scoring_list(sets, 2, baseline, &(struct scoring_asked){ &o->frames, 1 }, &all, &n_all);
+	if (!err && all)
+		run->n_unmatched = n_all - run->n_scores;
+	free(all);
+	return err;
+}
+
+/* --- The verb --------------------------------------------------------------------------------------------------- */
 
 int diff_main(int argc, char **argv, draw_namer *namer)
 {
@@ -365,7 +385,7 @@ int diff_main(int argc, char **argv, draw_namer *namer)
 	err = open_all(&o, &line, &ref, &traced, &baseline, &settings);
 	if (err)
 		goto fail;
-	err = scoring_list((const struct set *[]){ &ref, &traced }, 2, &baseline, &o.frames, &frames, &run.n_scores);
+	err = list_frames(&o, &ref, &traced, &baseline, &frames, &run);
 	if (err)
 		goto fail;
 	run.scores = calloc(run.n_scores, sizeof(*run.scores));

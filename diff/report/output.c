@@ -178,6 +178,9 @@ static void print_summary(const struct output_run *run, FILE *out)
 	if (first_wrong(run))
 		fprintf(out, "; first wrong frame %" PRIu64, first_wrong(run)->frame);
 	fputc('\n', out);
+	if (run->n_unmatched)
+		fprintf(out, "not compared: %" PRIu64 " frame%s that the reference or the baseline has, and TRACED has not; --all "
+		        "demands %s\n", run->n_unmatched, run->n_unmatched == 1 ? "" : "s", run->n_unmatched == 1 ? "it" : "them");
 }
 
 /* What the table says of a frame, but for its number. */

@@ -20,6 +20,7 @@ struct output_run {
 	struct score *scores;           /* sorted by frame */
 	size_t n_scores;
 	uint64_t counts[N_SCORE_OUTCOMES];
+	uint64_t n_unmatched;           /* frames without a traced one, which nobody asked for: they decide nothing */
 	double seconds;
 };
 

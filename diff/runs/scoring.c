@@ -22,42 +22,62 @@ static int compare_frames(const void *a, const void *b)
 	return (x > y) - (x < y);
 }
 
-int scoring_list(const struct set *const *sets, size_t n_sets, const struct baseline *baseline, const struct frame_list *asked, uint64_t **out,
-                 size_t *n_out)
-{
-	uint64_t n_asked = asked->n_ranges && frame_list_last(asked) < MAX_ASKED
-		? frame_list_count(asked, frame_list_last(asked) + 1) : 0;
-	size_t n = 0, unique = 0, most = 0;
+/* A list of frames in the making. */
+struct gathered {
+	const struct frame_list *asked;
 	uint64_t *frames;
+	size_t n;
+};
+
+static void gather(struct gathered *g, uint64_t frame)
+{
+	if (frame_list_contains(g->asked, frame))
+		g->frames[g->n++] = frame;
+}
+
+static size_t sort_unique(uint64_t *frames, size_t n)
+{
+	size_t unique = 0;
+
+	qsort(frames, n, sizeof(*frames), compare_frames);
+	for (size_t i = 0; i < n; i++)
+		if (i == 0 || frames[i] != frames[i - 1])
+			frames[unique++] = frames[i];
+	return unique;
+}
+
+int scoring_list(const struct set *const *sets, size_t n_sets, const struct baseline *baseline, const struct scoring_asked *asked,
+                 uint64_t **out, size_t *n_out)
+{
+	const int is_named = asked->frames->n_ranges && !asked->all;
+	/* Of an open range, those that are there are meant. */
+	const int is_closed = is_named && frame_list_last(asked->frames) < MAX_ASKED;
+	const uint64_t last = is_closed ? frame_list_last(asked->frames) + 1 : 0;
+	const int everywhere = asked->all || (is_named && !last);
+	struct gathered g = { .asked = asked->frames };
+	size_t most = (size_t)last + 1;
 
 	for (size_t v = 0; v < baseline->n_variants; v++)
 		most += baseline->variants[v]->n_frames;
 	for (size_t s = 0; s < n_sets; s++)
 		most += sets[s]->n_entries;
-	frames = calloc(most + n_asked + 1, sizeof(*frames));
-	if (!frames)
+	g.frames = calloc(most, sizeof(*g.frames));
+	if (!g.frames)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	for (size_t s = 0; s < n_sets; s++)
+	for (size_t s = everywhere ? 0 : n_sets - 1; s < n_sets; s++)
 		for (size_t i = 0; i < sets[s]->n_entries; i++)
-			if (frame_list_contains(asked, sets[s]->entries[i].frame))
-				frames[n++] = sets[s]->entries[i].frame;
-	for (size_t v = 0; v < baseline->n_variants; v++)
+			gather(&g, sets[s]->entries[i].frame);
+	for (size_t v = 0; everywhere && v < baseline->n_variants; v++)
 		for (uint32_t i = 0; i < baseline->variants[v]->n_frames; i++)
-			if (frame_list_contains(asked, baseline->variants[v]->frames[i].frame))
-				frames[n++] = baseline->variants[v]->frames[i].frame;
-	for (uint64_t f = 0; n_asked && f <= frame_list_last(asked); f++)
-		if (frame_list_contains(asked, f))
-			frames[n++] = f;
-	qsort(frames, n, sizeof(*frames), compare_frames);
-	for (size_t i = 0; i < n; i++)
-		if (i == 0 || frames[i] != frames[i - 1])
-			frames[unique++] = frames[i];
-	if (unique == 0) {
-		free(frames);
+			gather(&g, baseline->variants[v]->frames[i].frame);
+	for (uint64_t f = 0; f < last; f++)
+		gather(&g, f);
+	*n_out = sort_unique(g.frames, g.n);
+	if (*n_out == 0) {
+		free(g.frames);
 		return err_report(ERR_USAGE, NULL, "none of the frames asked for is in %s or %s", sets[0]->name, sets[n_sets - 1]->name);
 	}
-	*out = frames;
-	*n_out = unique;
+	*out = g.frames;
 	return 0;
 }
 

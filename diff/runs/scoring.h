@@ -13,13 +13,19 @@ struct scoring {
 	const struct output_run *run;
 };
 
+/* Which frames to score. */
+struct scoring_asked {
+	const struct frame_list *frames; /* -f; empty: none is named */
+	int all; /* 1: of those, or where none is named of all, each that any set or the baseline has */
+};
+
 /**
- * All frames to score: of those asked for, the ones in any set or in the baseline, and those asked for by number that none has.
+ * The frames to score. Without `all` those that are named, and where none is, those of the last set.
  * @param out, n_out  receive them in order; free with free()
  * @return 0, ERR_USAGE (reported: none) or ERR_SYSTEM (reported)
  */
-int scoring_list(const struct set *const *sets, size_t n_sets, const struct baseline *baseline, const struct frame_list *asked, uint64_t **out,
-                 size_t *n_out);
+int scoring_list(const struct set *const *sets, size_t n_sets, const struct baseline *baseline, const struct scoring_asked *asked,
+                 uint64_t **out, size_t *n_out);
 
 /**
  * Score an image that is there, against a reference, an approved frame, or both.

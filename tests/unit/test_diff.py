@@ -162,7 +162,10 @@ class Diff(unittest.TestCase):
 
     def test_missing_and_extra_frames(self):
         (self.traced / "b.2.png").unlink()
-        self.assertEqual(self.outcomes(self.ref, self.traced, expect=1)[2], "missing")
+        self.assertEqual(self.outcomes(self.ref, self.traced, "--all", expect=1)[2], "missing")
+        self.assertEqual(self.outcomes(self.ref, self.traced, "--all", "-f", "2-9", expect=1), {2: "missing", 3: "passed", 4: "passed"})
+        self.assertIn("not compared: 1 frame that the reference", self.diff(self.ref, self.traced, expect=0).stdout)
+        self.assertEqual(list(self.outcomes(self.ref, self.traced / "b.3.png", expect=0)), [3])
         self.diff(self.ref, self.traced, "-f", "3-4", expect=0)
         self.assertEqual(self.outcomes(self.ref, self.traced, "-f", "3-6", expect=1)[6], "missing")
         write_png(self.traced / "b.2.png", picture(2))
@@ -360,7 +363,7 @@ class Diff(unittest.TestCase):
     def test_first_wrong_frame(self):
         write_png(self.traced / "b.3.png", picture(9))
         (self.traced / "b.4.png").unlink()
-        done = self.diff(self.ref, self.traced, "--annotations", expect=1)
+        done = self.diff(self.ref, self.traced, "--all", "--annotations", expect=1)
         self.assertIn("first wrong frame 3", done.stdout)
         self.assertEqual(len(re.findall("^::error ", done.stdout, re.M)), 2)
 
