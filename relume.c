@@ -46,6 +46,7 @@ static const struct verb {
 	{ "denoise", denoise_main, "take the noise out of rendered frames" },
 	{ "film", film_main, "make a film of rendered frames, beside what the program showed" },
 	{ "approve", approve_main, "make traced frames the baseline that later ones are compared with" },
+	{ "ci", ci_main, "record programs, render what they drew, and gate the frames" },
 	{ "farm", farm_main, "render on many machines, by array jobs of Slurm or by scripts" },
 	{ "devices", devices_main, "list the OpenCL devices" },
 	{ "hook", hook_main, "try functions of your own for stages of the ray tracer" },

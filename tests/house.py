@@ -20,7 +20,7 @@ import re
 import subprocess
 import sys
 
-STAGES = ("base", "bisect", "capture", "diff", "farm", "film", "kernels", "look", "query", "render", "replay", "scene", "tracer")
+STAGES = ("base", "bisect", "capture", "ci", "diff", "farm", "film", "kernels", "look", "query", "render", "replay", "scene", "tracer")
 SOURCES = (".c", ".h", ".inc", ".cl", ".cpp")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 SHOWN = re.compile(r"^    ([\w./]+) +-> +([\w./ ]+)$", re.M)

@@ -1,17 +1,23 @@
 #!/usr/bin/python3
-# limit: 400 s
-"""The recipe for continuous integration, on glxgears and on a program of the corpus: new, approved, unchanged, changed."""
+# limit: 600 s
+"""relume ci, on glxgears, on a program of the corpus and on a viewer of its own: new, approved, unchanged, changed; whatever changes is recorded."""
 import os
+import re
+import shutil
 import xml.etree.ElementTree
 
-from helpers import RELUME, ROOT, SCRATCH, check, corpus, finish, must, relume, run
+from helpers import RELUME, ROOT, SCRATCH, check, corpus, finish, must, on_display, relume, run
 
 KEPT, APPROVED = SCRATCH / "ci", SCRATCH / "approved"
+NOTHING = "recorded nothing"
 
 
-def ci(name, *program):
-    return run(ROOT / "tests/xvfb.sh", ROOT / "corpus/ci.sh", "-n", name, "-f", "3", "-k", KEPT, "-b", APPROVED, "--", *program,
-               env=dict(os.environ, RELUME=RELUME), timeout=300)
+def ci(name, *words, frames=3):
+    return on_display(RELUME, "ci", "--when-changed", "-n", name, "-f", frames, "-k", KEPT, "-b", APPROVED, *words, timeout=300, cwd=SCRATCH)
+
+
+def said(done):
+    return f"exit code {done.returncode}\n{done.stdout}{done.stderr}"
 
 
 def kept(name):
@@ -19,22 +25,179 @@ def kept(name):
     return (KEPT / name / "report/index.html").exists(), len(cases), sum(c.find("failure") is not None for c in cases)
 
 
-for name, program in (("glxgears", ["glxgears"]), ("box", [corpus("cornell"), "--frames", "3"])):
-    done = ci(name, *program)
-    check(done.returncode == 4, f"{name}: frames that nobody approved: exit code {done.returncode}\n{done.stdout}{done.stderr}")
-    check(kept(name)[:2] == (True, 3), f"{name}: page and results are kept: {kept(name)}")
-    must(relume("approve", "--reason", "first", KEPT / name / "frames", APPROVED / name))
-    before = {f: f.stat().st_mtime_ns for f in (KEPT / name).rglob("*.exr")}
-    done = ci(name, *program)
-    check(done.returncode == 0, f"{name}: approved: exit code {done.returncode}\n{done.stdout}{done.stderr}")
-    check("record   nothing" in done.stdout, f"{name}: nothing is recorded where nothing changed")
-    check(len(before) == 3 and before == {f: f.stat().st_mtime_ns for f in (KEPT / name).rglob("*.exr")},
-          f"{name}: nothing is rendered where nothing changed")
+def approve(name):
+    must(relume("approve", "--reason", "right", KEPT / name / "frames", APPROVED / name))
 
-done = ci("box", corpus("cornell"), "--frames", "3", "--mirror")
-check(done.returncode == 1, f"a changed picture fails: exit code {done.returncode}\n{done.stdout}{done.stderr}")
-page, cases, failures = kept("box")
-check(page and cases == 3 and failures == 3, f"and the page and results tell: {page}, {failures} of {cases}")
-done = ci("box", "no-such-program")
-check(done.returncode == 5 and "no program" in done.stderr, f"no such program: {done.returncode}, {done.stderr}")
+
+def test_programs():
+    """The way of a program: nobody has approved it; approved; the same; another picture; gone."""
+    for name, program in (("glxgears", ["glxgears"]), ("box", [corpus("cornell"), "--frames", "3"])):
+        done = ci(name, "--", *program)
+        check(done.returncode == 4, f"{name}: frames that nobody approved: {said(done)}")
+        check(kept(name)[:2] == (True, 3), f"{name}: page and results are kept: {kept(name)}")
+        approve(name)
+        before = {f: f.stat().st_mtime_ns for f in (KEPT / name).rglob("*.exr")}
+        done = ci(name, "--", *program)
+        check(done.returncode == 0, f"{name}: approved: {said(done)}")
+        check(NOTHING in done.stdout, f"{name}: nothing is recorded where nothing changed")
+        check(len(before) == 3 and before == {f: f.stat().st_mtime_ns for f in (KEPT / name).rglob("*.exr")},
+              f"{name}: nothing is rendered where nothing changed")
+    done = ci("box", "--", corpus("cornell"), "--frames", "3", "--mirror")
+    check(done.returncode == 1, f"a changed picture fails: {said(done)}")
+    page, cases, failures = kept("box")
+    check(page and cases == 3 and failures == 3, f"and the page and results tell: {page}, {failures} of {cases}")
+    done = ci("box", "--", "no-such-program")
+    check(done.returncode == 5 and "no program 'no-such-program'" in done.stderr, f"no such program: {said(done)}")
+    error = xml.etree.ElementTree.parse(KEPT / "box/junit.xml").getroot().find(".//error")
+    check(not (KEPT / "box/report").exists() and error is not None, "the page of an earlier run is gone; the results tell of the error")
+    done = ci("box", "--", "false")
+    check(done.returncode == 5 and "ended with exit code 1" in done.stderr, f"a program that fails: {said(done)}")
+    done = ci("box", "--", "true")
+    check(done.returncode == 5 and "nothing was recorded" in done.stderr, f"a program without pictures: {said(done)}")
+
+
+# --- Whatever changes is recorded ---------------------------------------------------------------------------------------
+
+def build_shape(facing):
+    must(run("cc", "-shared", "-fPIC", f"-DFACING={facing}", "-o", SCRATCH / "libshape.so", ROOT / "tests/real/ci_shape.c"))
+
+
+def build_viewer(shine):
+    must(run("cc", f"-DSHINE={shine}", "-o", SCRATCH / "viewer", ROOT / "tests/real/ci_viewer.c", f"-L{SCRATCH}", "-lshape", f"-Wl,-rpath,{SCRATCH}",
+             "-lglut", "-lGL", "-lm"))
+
+
+def write(name, text):
+    (SCRATCH / name).write_text(text)
+
+
+VIEWER = ("--", "./viewer", "model.obj", "3")
+MODEL, OTHER = "-1 -1 1 -1 0 1\n", "-1 -1 1 -1 0 0.5\n"
+# What changes, how, and back again; options that it takes for both.
+CHANGES = {
+    "the file that its argument names": (lambda: write("model.obj", OTHER), lambda: write("model.obj", MODEL), ()),
+    "a library that it links": (lambda: build_shape(-1), lambda: build_shape(1), ()),
+    "the program": (lambda: build_viewer(0.9), lambda: build_viewer(0), ()),
+    "a file that --data names": (lambda: write("hidden.dat", "0.5\n"), lambda: write("hidden.dat", "1\n"), ("--data", "hidden.dat")),
+    "a folder that --data names": (lambda: write("data/new", "1\n"), lambda: (SCRATCH / "data/new").unlink(), ("--data", "data")),
+}
+
+
+def test_changes():
+    """Each thing that is watched is touched, alone: recorded again, and the pictures tell; back again: the approved pictures. Nothing touched: nothing recorded."""
+    (SCRATCH / "data/deep").mkdir(parents=True)
+    write("data/deep/file", "1\n")
+    for _, back, _ in CHANGES.values():
+        if back is not CHANGES["a folder that --data names"][1]:
+            back()
+    ci("viewer", *VIEWER)
+    approve("viewer")
+    for what, (change, back, options) in CHANGES.items():
+        ci("viewer", *options, *VIEWER)
+        done = ci("viewer", *options, *VIEWER)
+        check(done.returncode == 0 and NOTHING in done.stdout, f"{what}: nothing touched: {said(done)}")
+        change()
+        done = ci("viewer", *options, *VIEWER)
+        changes_picture = "folder" not in what
+        check(NOTHING not in done.stdout and done.returncode == changes_picture, f"{what} has changed: {said(done)}")
+        back()
+        done = ci("viewer", *options, *VIEWER)
+        check(NOTHING not in done.stdout and done.returncode == 0, f"{what}: back again: {said(done)}")
+    done = ci("viewer", "--env", "VIEWER_GREEN=0.9", *VIEWER)
+    check(NOTHING not in done.stdout and done.returncode == 1, f"a variable: {said(done)}")
+    done = ci("viewer", "--env", "VIEWER_GREEN=0.8", *VIEWER)
+    check("environment: " in done.stdout and done.returncode == 1, f"its value: {said(done)}")
+    write("copy.obj", MODEL)
+    done = ci("viewer", "--", "./viewer", "copy.obj", "3")
+    check(NOTHING not in done.stdout and done.returncode == 0, f"another argument: {said(done)}")
+    done = on_display(RELUME, "ci", "-n", "viewer", "-f", "3", "-k", KEPT, "-b", APPROVED, "--", "./viewer", "copy.obj", "3", timeout=300, cwd=SCRATCH)
+    check("record 3 frames" in done.stdout and done.returncode == 0, f"by default it records always: {said(done)}")
+    (KEPT / "viewer/viewer.trace").unlink()
+    done = ci("viewer", "--", "./viewer", "copy.obj", "3")
+    check(NOTHING not in done.stdout and done.returncode == 0, f"the recording is gone: {said(done)}")
+    done = ci("viewer", "--data", "no-such.dat", *VIEWER)
+    check(done.returncode == 3 and "no-such.dat: is neither a file nor a folder" in done.stderr, f"--data of nothing: {said(done)}")
+
+
+def test_opened():
+    """What the program opens, as strace lists it, is watched, or said not to be."""
+    if not shutil.which("strace"):
+        print("no strace here: what a program opens is not listed")
+        return
+    must(on_display("strace", "-f", "-e", "trace=open,openat,execve", "-o", SCRATCH / "opened", "./viewer", "model.obj", "3", cwd=SCRATCH))
+    succeeded = re.findall(r'(?:openat\(AT_FDCWD, |open\(|execve\()"([^"]+)".* = \d+$', (SCRATCH / "opened").read_text(), re.M)
+    opened = {os.path.realpath(SCRATCH / path) for path in succeeded}
+    opened = {path for path in opened if os.path.isfile(path) and not path.startswith(("/proc", "/sys", "/dev"))}
+    done = ci("viewer", *VIEWER)
+    lines = (KEPT / "viewer/inputs").read_text()
+    watched = {os.path.realpath(SCRATCH / path) for path in re.findall(r'^file \w+ "(.*)"$', lines, re.M)}
+    ours = {os.path.realpath(SCRATCH / name) for name in ("viewer", "libshape.so", "model.obj")}
+    check(ours <= opened & watched, f"what it opens and is watched: {ours - opened}, {ours - watched}")
+    check(os.path.realpath(SCRATCH / "hidden.dat") in opened - watched, "strace lists the file that nothing names")
+    check(f"watched: {len(watched)} files" in done.stdout and "what the program opens beyond these is not watched: name it with --data" in done.stdout,
+          f"the other {len(opened - watched)} files are said not to be watched: {said(done)}")
+    unnamed = {path for path in opened - watched if path.startswith(str(SCRATCH))}
+    done = ci("viewer", *(word for path in sorted(unnamed) for word in ("--data", path)), *VIEWER)
+    check(f"watched: {len(watched) + len(unnamed)} files" in done.stdout and NOTHING not in done.stdout, f"named, they are watched: {said(done)}")
+    done = ci("viewer", "--", "./viewer", "model.obj", "3", "data")
+    check("folders that its arguments name (data)" in done.stdout, f"a folder among the arguments is named: {said(done)}")
+    done = ci("viewer", "--", "env", "VIEWER_GREEN=0.9", "./viewer", "model.obj", "3")
+    check("libshape.so" in (KEPT / "viewer/inputs").read_text(), f"libraries of a program among the arguments are watched: {said(done)}")
+
+
+def test_frames():
+    """Fewer frames than before: none of the old ones is left to approve or is missing; fewer than approved because the program ends early: they are."""
+    check(ci("viewer", "--", "./viewer", "model.obj", "12", frames=12).returncode == 4, "12 frames: 9 are new")
+    approve("viewer")
+    done = ci("viewer", "--", "./viewer", "model.obj", "12", frames=8)
+    left = sorted(path.name for path in (KEPT / "viewer/frames").glob("*.exr"))
+    check(done.returncode == 0 and left == [f"viewer.{i:04}.exr" for i in range(8)], f"8 of 12: {left}: {said(done)}")
+    done = ci("viewer", "--", "./viewer", "model.obj", "5", frames=8)
+    check(done.returncode == 1 and done.stdout.count(" missing") >= 1 and kept("viewer")[1:] == (8, 3), f"it ends after 5 of 8: {said(done)}")
+
+
+def test_file():
+    """All programs of relume-ci.yaml in one run; one of them by name; what is wrong in the file is named with its line."""
+    write("relume-ci.yaml", f"""baseline: approved2
+programs:
+- name: one
+  command: [./viewer, model.obj, "3"]
+  frames: 2
+- name: two
+  command: [./viewer, model.obj, "3"]
+  frames: 2
+  environment: [VIEWER_GREEN=0.7]
+  data: [hidden.dat]
+""")
+    def all_of_file(*words):
+        return on_display(RELUME, "ci", "--when-changed", *words, timeout=300, cwd=SCRATCH)
+    done = all_of_file()
+    check(done.returncode == 4 and "one: not approved yet\ntwo: not approved yet\n" in done.stdout, f"a file of two: {said(done)}")
+    for name in ("one", "two"):
+        must(relume("approve", KEPT / name / "frames", SCRATCH / "approved2" / name))
+    done = all_of_file()
+    check(done.returncode == 0 and done.stdout.count(NOTHING) == 2 and "one: passed\ntwo: passed\n" in done.stdout, f"approved: {said(done)}")
+    write("hidden.dat", "0.7\n")
+    done = all_of_file()
+    check(done.returncode == 1 and done.stdout.count(NOTHING) == 1 and "one: passed\ntwo: failed" in done.stdout, f"data of the second: {said(done)}")
+    write("relume-ci.yaml", (SCRATCH / "relume-ci.yaml").read_text().replace("0.7", "0.6"))
+    done = all_of_file("-n", "two")
+    check(done.returncode == 1 and "environment: " in done.stdout and "one:" not in done.stdout, f"only the second, its variable: {said(done)}")
+    check(all_of_file("-n", "three").returncode == 2, "a name that the file lacks")
+    check(all_of_file("--data", "x").returncode == 2, "options of a program without one")
+    for text, said_of_it in (("programs:\n- name: a\n  comand: [x]\n", "line 3"), ("programs:\n- {name: a/b, command: [x]}\n", "'a/b' cannot be the name"),
+                             ("programs:\n- {command: [x]}\n- {command: [y/x]}\n", "two programs are called 'x'"),
+                             ("programs:\n- {command: [x], environment: [A]}\n", "not NAME=VALUE")):
+        write("relume-ci.yaml", text)
+        done = all_of_file()
+        check(done.returncode == 3 and said_of_it in done.stderr and done.stderr.count("\n") == 1, f"{text!r}: {said(done)}")
+    (SCRATCH / "relume-ci.yaml").unlink()
+    check(all_of_file().returncode == 3, "no file")
+
+
+test_programs()
+test_changes()
+test_opened()
+test_frames()
+test_file()
 finish()

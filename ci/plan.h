@@ -1,0 +1,50 @@
+/*
+ * Which programs `relume ci` records: one of the command line, or those of a file (relume-ci.yaml):
+ *
+ *     baseline: approved                     # default; --baseline overrules it
+ *     programs:
+ *     - name: viewer                         # the folder of its results; default: the program's name
+ *       command: [./viewer, model.obj]
+ *       frames: 20                           # default 10
+ *       environment: [LIBGL_ALWAYS_SOFTWARE=1]
+ *       data: [textures, shaders/phong.vert] # files and folders that it reads besides those that its command names
+ *       config: viewer-diff.yaml             # tolerances, masks and flaky frames, as in 'relume diff --config'
+ *
+ * Paths count from the folder in which `relume ci` runs. An unknown key is an error, reported with its line.
+ */
+#pragma once
+
+#include <stdint.h>
+
+enum { CI_FRAMES = 10, CI_MOST_FRAMES = 1000000 };
+
+struct ci_program {
+	char *name;
+	char **command;     /* the program and its arguments */
+	char **environment; /* NAME=VALUE */
+	char **data;
+	char *config;       /* NULL: none */
+	uint32_t frames;    /* 0 in a file: left out */
+	uint32_t n_command, n_environment, n_data;
+};
+
+struct ci_plan {
+	char *baseline; /* NULL: left out */
+	struct ci_program *programs;
+	uint32_t n_programs;
+};
+
+/**
+ * Read a file, and fill in what it leaves out.
+ * @param out  free with ci_plan_free
+ * @return 0, ERR_INPUT (reported, with the line) or ERR_SYSTEM (reported)
+ */
+int ci_plan_read(const char *path, struct ci_plan **out);
+void ci_plan_free(struct ci_plan **plan);
+
+/**
+ * Check a program, and name it after its command where it has no name: a name becomes a folder, and part of a glob.
+ * @param where  the file, for messages; NULL: the command line
+ * @return 0 or ERR_USAGE, with a file ERR_INPUT (reported)
+ */
+int ci_program_check(struct ci_program *program, const char *where);
