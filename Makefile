@@ -237,10 +237,10 @@ $(BUILD)/gen/kernels.c: kernels/embed.py $(KERNELS) $(HOST_TEXTS) | $(GENERATED_
 -include $(BUILD)/gen/kernels.dep
 
 # The report's page, as one string of C.
-$(BUILD)/gen/page.c: diff/report/page.html
+$(BUILD)/gen/page.c: diff/report/page.html diff/report/page.js
 	@mkdir -p $(@D)
 	$(Q)(echo '#include "diff/report/report.h"'; echo 'const char report_page[] ='; \
-		sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $<; echo ';') >$@
+		sed -e '/^\/\*SCRIPT\*\/$$/{r diff/report/page.js' -e 'd}' $< | sed 's/[\\"]/\\&/g; s/.*/"&\\n"/'; echo ';') >$@
 
 # Rebuilt when flags change.
 FLAGS := $(CC) $(CPPFLAGS) $(ALL_CFLAGS) $(CXX) $(ALL_CXXFLAGS)

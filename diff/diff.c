@@ -234,12 +234,13 @@ static int open_all(struct options *o, const struct options_line *line, struct s
 	return err;
 }
 
-static int write_all(const struct options *o, const struct output_run *run, struct set *ref, struct set *traced)
+static int write_all(const struct options *o, const struct picture_sources *from)
 {
+	const struct output_run *run = from->run;
 	int err = 0;
 
 	if (o->report)
-		err = report_write(run, ref, traced, o->report);
+		err = report_write(from, o->report);
 	if (!err && o->json)
 		err = output_json(run, o->json);
 	if (!err && o->junit)
@@ -408,7 +409,7 @@ int diff_main(int argc, char **argv, draw_namer *namer)
 	if (!err && ref.trace)
 		err = name_blamed_draws(ref.trace, namer, &run);
 	if (!err)
-		err = write_all(&o, &run, &ref, &traced);
+		err = write_all(&o, &(struct picture_sources){ &run, &ref, &traced, &baseline });
 	code = exit_code(&run);
 fail:
 	free(run.scores);

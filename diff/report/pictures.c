@@ -10,7 +10,7 @@
 #define DIFFERENCE_GAIN 8
 
 const char *const picture_names[N_PICTURES] = {
-	"reference", "compared", "beauty", "difference", "flip", "failing", "shadow", "relight", "reflect", "refract", "albedo",
+	"approved", "change", "changed", "reference", "compared", "beauty", "difference", "flip", "failing", "shadow", "relight", "reflect", "refract", "albedo",
 	"normal", "depth", "id",
 };
 
@@ -24,23 +24,12 @@ int picture_take_reference(const struct image *img, const char *channel, struct 
 	return err;
 }
 
-int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, const struct output_run *run,
-                       struct picture_frame *out)
+/* The reference and what is compared with it. */
+static int take_reference(struct picture_frame *out)
 {
-	const struct set_entry *r = set_find(ref, frame), *t = set_find(traced, frame);
-	const char *channel;
-	int err = r && t ? 0 : ERR_INPUT;
+	const char *channel = out->settings.options.channel;
+	int err = picture_take_reference(&out->ref_image, channel, &out->ref);
 
-	if (!err)
-		err = set_read(ref, r, &out->ref_image);
-	if (!err)
-		err = set_read(traced, t, &out->image);
-	if (!err)
-		err = score_rules_for_frame(run->settings, run->name, frame, run->options,
-		                            (uint32_t[]){ out->ref_image.width, out->ref_image.height }, &out->settings);
-	channel = out->settings.options.channel;
-	if (!err)
-		err = picture_take_reference(&out->ref_image, channel, &out->ref);
 	if (!err)
 		err = score_picture_from_image(&out->image, channel ? channel : "gl", &out->compared);
 	if (err == ERR_INPUT && out->ref.rgb && !channel) {
@@ -53,8 +42,32 @@ int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, cons
 	return err;
 }
 
+int picture_frame_read(const struct picture_sources *from, uint64_t frame, struct picture_frame *out)
+{
+	const struct output_run *run = from->run;
+	const struct set_entry *r = set_find(from->ref, frame), *t = set_find(from->traced, frame);
+	int err = t && (r || from->baseline->dir) ? 0 : ERR_INPUT;
+	const struct image *sized = r ? &out->ref_image : &out->image;
+
+	if (!err && r)
+		err = set_read(from->ref, r, &out->ref_image);
+	if (!err)
+		err = set_read(from->traced, t, &out->image);
+	if (!err)
+		err = score_rules_for_frame(run->settings, run->name, frame, run->options,
+		                            (uint32_t[]){ sized->width, sized->height }, &out->settings);
+	out->ref.width = sized->width;
+	out->ref.height = sized->height;
+	if (!err && r)
+		err = take_reference(out);
+	if (!err && from->baseline->dir)
+		err = change_find(from->baseline, &out->image, frame, out->settings.ignore, &out->change);
+	return err;
+}
+
 void picture_frame_free(struct picture_frame *frame)
 {
+	change_free(&frame->change);
 	score_maps_free(&frame->maps);
 	score_rules_frame_free(&frame->settings);
 	score_picture_free(&frame->compared);
@@ -71,12 +84,24 @@ static int is_one_color(const uint8_t *rgb, size_t n)
 	return 1;
 }
 
-static void fill_difference(const struct picture_frame *f, uint8_t *rgb, size_t n)
+static void fill_difference(const struct score_picture *a, const struct score_picture *b, uint8_t *rgb, size_t n)
 {
 	for (size_t i = 0; i < 3 * n; i++) {
-		int d = DIFFERENCE_GAIN * abs(f->ref.rgb[i] - f->compared.rgb[i]);
+		int d = DIFFERENCE_GAIN * abs(a->rgb[i] - b->rgb[i]);
 
 		rgb[i] = (uint8_t)(d < 255 ? d : 255);
+	}
+}
+
+/* Red where something is marked, over a dimmed picture in grey: red things in it are not marked. */
+static void fill_marked(const struct score_picture *under, const uint8_t *marked, uint8_t *rgb, size_t n)
+{
+	for (size_t i = 0; i < n; i++) {
+		const uint8_t *from = under->rgb + 3 * i;
+
+		memset(rgb + 3 * i, (from[0] + 2 * from[1] + from[2]) / 12, 3);
+		if (marked[i])
+			memcpy(rgb + 3 * i, (uint8_t[]){ 255, 40, 30 }, 3);
 	}
 }
 
@@ -95,14 +120,10 @@ static int fill_flip(const struct picture_frame *f, uint8_t *rgb, size_t n)
 
 static void fill_failing(const struct picture_frame *f, uint8_t *rgb, size_t n)
 {
-	for (size_t i = 0; i < n; i++) {
-		for (int c = 0; c < 3; c++)
-			rgb[3 * i + (size_t)c] = f->ref.rgb[3 * i + (size_t)c] / 3;
-		if (f->maps.band[i])
+	fill_marked(&f->ref, f->maps.failing, rgb, n);
+	for (size_t i = 0; i < n; i++)
+		if (f->maps.band[i] && !f->maps.failing[i])
 			rgb[3 * i + 2] = (uint8_t)(rgb[3 * i + 2] + 110);
-		if (f->maps.failing[i])
-			memcpy(rgb + 3 * i, (uint8_t[]){ 255, 40, 30 }, 3);
-	}
 }
 
 static void fill_normal(const float *const planes[3], uint8_t *rgb, size_t n)
@@ -161,10 +182,14 @@ static int make_layer(const struct picture_frame *f, const char *layer, int effe
 	return 0;
 }
 
-static int make_copy(const struct score_picture *picture, uint8_t **rgb)
+static int make_copy(const struct score_picture *picture, uint8_t **rgb, uint32_t *width, uint32_t *height)
 {
 	const size_t n = (size_t)picture->width * picture->height;
 
+	if (!picture->rgb)
+		return 0;
+	*width = picture->width;
+	*height = picture->height;
 	*rgb = malloc(n ? 3 * n : 1);
 	if (!*rgb)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
@@ -181,7 +206,9 @@ static int make_map(const struct picture_frame *f, enum picture_kind kind, uint8
 	uint8_t *out;
 	int err = 0;
 
-	if ((kind <= PICTURE_FAILING && !f->maps.failing) || (kind == PICTURE_DEPTH && !f->compared.depth) ||
+	const int is_of_change = kind == PICTURE_CHANGE || kind == PICTURE_CHANGED;
+
+	if ((is_of_change && !f->change.off) || (!is_of_change && kind <= PICTURE_FAILING && !f->maps.failing) || (kind == PICTURE_DEPTH && !f->compared.depth) ||
 	    (kind == PICTURE_ID && !f->compared.id) ||
 	    (kind == PICTURE_NORMAL && !(normal[0] && normal[1] && normal[2])))
 		return 0;
@@ -189,7 +216,9 @@ static int make_map(const struct picture_frame *f, enum picture_kind kind, uint8
 	if (!out)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	switch (kind) {
-	case PICTURE_DIFFERENCE: fill_difference(f, out, n); break;
+	case PICTURE_CHANGE: fill_difference(&f->change.was, &f->change.now, out, n); break;
+	case PICTURE_CHANGED: fill_marked(&f->change.was, f->change.off, out, n); break;
+	case PICTURE_DIFFERENCE: fill_difference(&f->ref, &f->compared, out, n); break;
 	case PICTURE_FLIP: err = fill_flip(f, out, n); break;
 	case PICTURE_FAILING: fill_failing(f, out, n); break;
 	case PICTURE_NORMAL: fill_normal(normal, out, n); break;
@@ -211,11 +240,9 @@ int picture_make(const struct picture_frame *f, enum picture_kind kind, uint8_t 
 	*width = f->image.width;
 	*height = f->image.height;
 	switch (kind) {
-	case PICTURE_REFERENCE:
-		*width = f->ref.width;
-		*height = f->ref.height;
-		return make_copy(&f->ref, rgb);
-	case PICTURE_COMPARED: return make_copy(&f->compared, rgb);
+	case PICTURE_APPROVED: return make_copy(&f->change.was, rgb, width, height);
+	case PICTURE_REFERENCE: return make_copy(&f->ref, rgb, width, height);
+	case PICTURE_COMPARED: return make_copy(&f->compared, rgb, width, height);
 	case PICTURE_BEAUTY: return f->is_beauty ? 0 : make_layer(f, "beauty", 0, rgb);
 	case PICTURE_SHADOW: return make_layer(f, "shadow", 1, rgb);
 	case PICTURE_RELIGHT: return make_layer(f, "relight", 1, rgb);

@@ -3,12 +3,17 @@
  */
 #pragma once
 
+#include "diff/baseline/baseline.h"
+#include "diff/report/change.h"
 #include "diff/report/output.h"
 #include "diff/score/maps.h"
 #include "diff/pictures/set.h"
 #include "diff/rules/rules.h"
 
 enum picture_kind {
+	PICTURE_APPROVED,   /* the beauty that was approved, where it is stored and the frame is another one now */
+	PICTURE_CHANGE,     /* the beauty against it, per channel, 8 times */
+	PICTURE_CHANGED,    /* red: not as approved (gate B), over a dimmed approved frame */
 	PICTURE_REFERENCE,  /* as recorded */
 	PICTURE_COMPARED,   /* the compared layer: gl, or what --channel names */
 	PICTURE_BEAUTY,
@@ -25,23 +30,29 @@ enum picture_kind {
 /** Short names, for file and programs: "reference", "compared", "beauty", ... */
 extern const char *const picture_names[N_PICTURES];
 
+/* What a report shows. */
+struct picture_sources {
+	const struct output_run *run; /* for what is compared and ignored */
+	struct set *ref, *traced;     /* ref: without frames where there are only approved ones */
+	const struct baseline *baseline; /* dir NULL: none */
+};
+
 /* One frame, with all that its pictures are made of. */
 struct picture_frame {
 	struct image ref_image, image;
-	struct score_picture ref, compared;
-	struct score_maps maps; /* empty where the sizes differ */
+	struct score_picture ref, compared; /* rgb NULL where there is no reference; ref has a size even so */
+	struct score_maps maps; /* empty where the sizes differ, or there is no reference */
+	struct change change;
 	struct score_rules_frame settings;
 	int is_beauty;          /* 1: there is no gl; the beauty was compared, and makes one picture, not two */
 };
 
 /**
- * Read one frame of both sets.
- * @param run      for what is compared and ignored
- * @param out      all zero; free with picture_frame_free, also on failure
+ * Read one frame of all that there is.
+ * @param out  all zero; free with picture_frame_free, also on failure
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */
-int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, const struct output_run *run,
-                       struct picture_frame *out);
+int picture_frame_read(const struct picture_sources *from, uint64_t frame, struct picture_frame *out);
 void picture_frame_free(struct picture_frame *frame);
 
 /** The reference as it is compared: layer `channel` if it has it, else gl, else its plain colours. */

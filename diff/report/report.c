@@ -59,52 +59,86 @@ static int write_picture(const char *name, uint8_t *rgb, uint32_t width, uint32_
 	return 0;
 }
 
-/** What a blamed draw did: its surroundings in the reference, in the traced frame, and what fails, side by side. */
-static int write_blame(const struct picture_frame *frame, const struct score_blame *blame, unsigned number, FILE *out,
-                       size_t *used)
+/*
+ * Where a window of a box shows most marked pixels: a box of scattered ones may be empty nearly everywhere.
+ * @param corner  the box's first pixel; receives the window's
+ */
+static void place_window(const uint8_t *marked, uint32_t width, const uint32_t box[2], const uint32_t size[2], uint32_t corner[2])
+{
+	enum { STEP = BLAME_SIZE / 4 };
+	const uint32_t first[2] = { corner[0], corner[1] };
+	uint64_t most = 0;
+
+	for (uint32_t y = first[1]; y + size[1] <= first[1] + box[1]; y += STEP)
+		for (uint32_t x = first[0]; x + size[0] <= first[0] + box[0]; x += STEP) {
+			uint64_t count = 0;
+
+			for (uint32_t v = y; v < y + size[1]; v++)
+				for (uint32_t u = x; u < x + size[0]; u++)
+					count += marked[(size_t)v * width + u];
+			if (count > most) {
+				most = count;
+				corner[0] = x;
+				corner[1] = y;
+			}
+		}
+}
+
+/* Three pictures of a blamed draw's surroundings, side by side: before, now, and what fails. */
+static int write_blame(const struct picture_frame *frame, const struct score *s, unsigned number, FILE *out, size_t *used)
 {
 	enum { MARGIN = 12, GAP = 4, SIDES = 3 };
-	static const enum picture_kind kinds[SIDES] = { PICTURE_REFERENCE, PICTURE_COMPARED, PICTURE_FAILING };
-	const uint32_t x0 = blame->x0 > MARGIN ? blame->x0 - MARGIN : 0, y0 = blame->y0 > MARGIN ? blame->y0 - MARGIN : 0;
-	uint32_t w = blame->x1 + MARGIN + 1 - x0, h = blame->y1 + MARGIN + 1 - y0;
+	static const enum picture_kind sides[2][SIDES] = { { PICTURE_REFERENCE, PICTURE_COMPARED, PICTURE_FAILING },
+	                                                   { PICTURE_APPROVED, PICTURE_BEAUTY, PICTURE_CHANGED } };
+	const struct score_blame *blame = &s->blame[number];
+	const int is_of_change = s->gates[GATE_B].state == SCORE_FAILED && frame->change.off;
+	const uint8_t *marked = is_of_change ? frame->change.off : frame->maps.failing;
+	uint32_t corner[2] = { blame->x0 > MARGIN ? blame->x0 - MARGIN : 0, blame->y0 > MARGIN ? blame->y0 - MARGIN : 0 };
+	uint32_t box[2] = { blame->x1 + MARGIN + 1 - corner[0], blame->y1 + MARGIN + 1 - corner[1] }, size[2], width;
 	uint8_t *out_rgb;
 	char name[16];
 
-	w = x0 + w > frame->ref.width ? frame->ref.width - x0 : w;
-	h = y0 + h > frame->ref.height ? frame->ref.height - y0 : h;
-	w = w < BLAME_SIZE ? w : BLAME_SIZE;
-	h = h < BLAME_SIZE ? h : BLAME_SIZE;
+	if (!marked)
+		return 0;
+	for (int k = 0; k < 2; k++) {
+		const uint32_t room = (k ? frame->ref.height : frame->ref.width) - corner[k];
 
-	const uint32_t width = SIDES * w + (SIDES - 1) * GAP;
-
-	out_rgb = calloc((size_t)width * h, 3);
+		box[k] = box[k] < room ? box[k] : room;
+		size[k] = box[k] < BLAME_SIZE ? box[k] : BLAME_SIZE;
+	}
+	place_window(marked, frame->ref.width, box, size, corner);
+	width = SIDES * size[0] + (SIDES - 1) * GAP;
+	out_rgb = calloc((size_t)width * size[1], 3);
 	if (!out_rgb)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (uint32_t k = 0; k < SIDES; k++) {
 		uint32_t full_width, full_height;
 		uint8_t *rgb;
-		int err = picture_make(frame, kinds[k], &rgb, &full_width, &full_height);
+		int err = picture_make(frame, sides[is_of_change][k], &rgb, &full_width, &full_height);
 
 		if (err) {
 			free(out_rgb);
 			return err;
 		}
-		for (uint32_t y = 0; rgb && y < h; y++)
-			memcpy(out_rgb + 3 * ((size_t)y * width + k * (w + GAP)), rgb + 3 * ((size_t)(y0 + y) * full_width + x0),
-			       3 * (size_t)w);
+		for (uint32_t y = 0; rgb && y < size[1]; y++)
+			memcpy(out_rgb + 3 * ((size_t)y * width + k * (size[0] + GAP)),
+			       rgb + 3 * ((size_t)(corner[1] + y) * full_width + corner[0]), 3 * (size_t)size[0]);
 		free(rgb);
 	}
 	snprintf(name, sizeof(name), "blame %u", number);
-	return write_picture(name, out_rgb, width, h, out, used);
+	return write_picture(name, out_rgb, width, size[1], out, used);
 }
 
-/** The compared layer, small, for the list. */
+/* The frame as it is now, small, for the list: the beauty where it is not the approved one, else what was compared. */
 static int write_thumbnail(const struct picture_frame *frame, FILE *out, size_t *used)
 {
-	const uint32_t width = frame->compared.width, height = frame->compared.height;
+	const struct score_picture *shown = frame->change.off || !frame->compared.rgb ? &frame->change.now : &frame->compared;
+	const uint32_t width = shown->width, height = shown->height;
 	const uint32_t step = width / THUMBNAIL > 1 ? width / THUMBNAIL : 1, w = width / step, h = height / step;
-	uint8_t *rgb = malloc(3 * (size_t)w * h + 1);
+	uint8_t *rgb = shown->rgb ? malloc(3 * (size_t)w * h + 1) : NULL;
 
+	if (!shown->rgb)
+		return 0;
 	if (!rgb)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (uint32_t y = 0; y < h; y++)
@@ -114,7 +148,7 @@ static int write_thumbnail(const struct picture_frame *frame, FILE *out, size_t 
 
 				for (uint32_t v = 0; v < step; v++)
 					for (uint32_t u = 0; u < step; u++)
-						sum += frame->compared.rgb[3 * ((size_t)(y * step + v) * width + x * step + u) + c];
+						sum += shown->rgb[3 * ((size_t)(y * step + v) * width + x * step + u) + c];
 				rgb[3 * ((size_t)y * w + x) + c] = (uint8_t)((sum + step * step / 2) / (step * step));
 			}
 	return write_picture("thumbnail", rgb, w, h, out, used);
@@ -157,8 +191,7 @@ static int write_roles(const struct picture_frame *frame, FILE *out, size_t *use
 
 /* The frames with pictures on the page: those that did not pass come first. */
 struct pictures {
-	const struct output_run *run;
-	struct set *ref, *traced;
+	const struct picture_sources *from;
 	const struct score **scores;
 	uint8_t *is_sample; /* 1: to be shown whole; of frames that passed, a few, evenly spread */
 	size_t n;
@@ -171,7 +204,7 @@ struct pictures {
 static int write_pictures(const struct pictures *p, const struct score *s, int whole, FILE *out, size_t *used)
 {
 	struct picture_frame frame = { 0 };
-	int err = picture_frame_read(p->ref, p->traced, s->frame, p->run, &frame);
+	int err = picture_frame_read(p->from, s->frame, &frame);
 
 	*used = 0;
 	if (err)
@@ -186,8 +219,8 @@ static int write_pictures(const struct pictures *p, const struct score *s, int w
 		if (!err && rgb)
 			err = write_picture(picture_names[kind], rgb, width, height, out, used);
 	}
-	for (unsigned b = 0; whole && !err && frame.maps.failing && b < s->n_blame && b < BLAMED; b++)
-		err = write_blame(&frame, &s->blame[b], b, out, used);
+	for (unsigned b = 0; whole && !err && b < s->n_blame && b < BLAMED; b++)
+		err = write_blame(&frame, s, b, out, used);
 	if (whole && !err)
 		err = write_roles(&frame, out, used);
 	fputs("}</script>\n", out);
@@ -204,13 +237,20 @@ static int make_pictures(void *context, size_t i, size_t spent, FILE *out, size_
 	return write_pictures(p, p->scores[i], p->is_sample[i] && spent < PICTURE_BUDGET, out, cost);
 }
 
-static int write_all_pictures(const struct output_run *run, struct set *ref, struct set *traced, FILE *out)
+/* Without a reference and without approved frames there are figures, and nothing to show a picture beside. */
+static int has_pictures(const struct output_run *run)
 {
-	struct pictures p = { .run = run, .ref = ref, .traced = traced };
+	return run->reference || run->baseline;
+}
+
+static int write_all_pictures(const struct picture_sources *from, FILE *out)
+{
+	const struct output_run *run = from->run;
+	struct pictures p = { .from = from };
 	uint64_t n_passed = run->counts[SCORE_FRAME_PASSED], seen = 0;
 	int err;
 
-	if (!run->reference) /* there are figures, and nothing to show a picture beside */
+	if (!has_pictures(run))
 		return 0;
 	p.scores = calloc(run->n_scores + 1, sizeof(*p.scores));
 	p.is_sample = calloc(run->n_scores + 1, sizeof(*p.is_sample));
@@ -259,8 +299,9 @@ static int write_film(const char *path, FILE *out)
 	return err;
 }
 
-static int write_page(const struct output_run *run, struct set *ref, struct set *traced, const char *path)
+static int write_page(const struct picture_sources *from, const char *path)
 {
+	const struct output_run *run = from->run;
 	const char *marker = strstr(report_page, DATA_MARKER), *place = strstr(marker, PICTURES_MARKER), *rest;
 	struct part_file file;
 	int err = part_open(&file, path);
@@ -273,15 +314,16 @@ static int write_page(const struct output_run *run, struct set *ref, struct set 
 	fputs(";\n", file.stream);
 	rest = marker + strlen(DATA_MARKER);
 	fwrite(rest, 1, (size_t)(place - rest), file.stream);
-	err = write_all_pictures(run, ref, traced, file.stream);
+	err = write_all_pictures(from, file.stream);
 	if (!err && run->film)
 		err = write_film(run->film, file.stream);
 	fputs(place + strlen(PICTURES_MARKER), file.stream);
 	return part_close(&file, err);
 }
 
-int report_write(const struct output_run *run, struct set *ref, struct set *traced, const char *dir)
+int report_write(const struct picture_sources *from, const char *dir)
 {
+	const struct output_run *run = from->run;
 	char path[PATH_MAX];
 	int compared = 0;
 	int err = folder_make(dir);
@@ -289,13 +331,13 @@ int report_write(const struct output_run *run, struct set *ref, struct set *trac
 	if (err)
 		return err;
 	for (size_t i = 0; i < run->n_scores; i++)
-		compared |= run->reference && output_is_compared(&run->scores[i]);
+		compared |= has_pictures(run) && output_is_compared(&run->scores[i]);
 	if (snprintf(path, sizeof(path), "%s/index.html", dir) >= (int)sizeof(path))
 		return err_report(ERR_SYSTEM, dir, "the name is too long");
-	err = write_page(run, ref, traced, path);
+	err = write_page(from, path);
 	if (err || !compared)
 		return err;
 	if (snprintf(path, sizeof(path), "%s/sheet.png", dir) >= (int)sizeof(path))
 		return err_report(ERR_SYSTEM, dir, "the name is too long");
-	return sheet_write(run, ref, traced, path);
+	return sheet_write(from, path);
 }

@@ -1,4 +1,7 @@
-/* The contact sheet: one row for each of a few frames, one column for each picture, labels above. */
+/*
+ * The contact sheet: one row for each of a few frames, one column for each picture, labels above. With a baseline, the approved
+ * frame, what it is now and the difference come first; the reference's columns follow where one of the frames differs from it.
+ */
 #include "diff/report/report.h"
 
 #include <inttypes.h>
@@ -10,12 +13,14 @@
 #include "tracer/image/display.h"
 #include "tracer/image/oiio.h"
 
-enum { COLUMNS = 4, MAX_ROWS = 4, GAP = 8, LABEL = 22, LETTERS = 13, MAX_CELL = 640 };
+enum { MAX_COLUMNS = 7, MAX_ROWS = 4, GAP = 8, LABEL = 22, LETTERS = 13, MAX_CELL = 640 };
 
-static const enum picture_kind columns[COLUMNS] = { PICTURE_REFERENCE, PICTURE_COMPARED, PICTURE_BEAUTY,
-                                                    PICTURE_DIFFERENCE };
+static const enum picture_kind of_change[] = { PICTURE_APPROVED, PICTURE_BEAUTY, PICTURE_CHANGE };
+static const enum picture_kind of_reference[] = { PICTURE_REFERENCE, PICTURE_COMPARED, PICTURE_BEAUTY, PICTURE_DIFFERENCE };
 
 struct sheet {
+	enum picture_kind columns[MAX_COLUMNS];
+	int n_columns;
 	uint8_t *rgb;
 	uint32_t width, height;       /* of the sheet */
 	uint32_t cell_w, cell_h;      /* of one picture in it */
@@ -85,42 +90,82 @@ static size_t choose_frames(const struct output_run *run, const struct score *ou
 	return n;
 }
 
-static int draw_row(struct sheet *sheet, size_t row, const struct score *s, const struct output_run *run,
-                    struct set *ref, struct set *traced)
+static int fails_beside(const struct score *s, int reference)
+{
+	for (int g = 0; g < N_GATES; g++)
+		if (s->gates[g].state == SCORE_FAILED && (reference ? g != GATE_B : g == GATE_B))
+			return 1;
+	return 0;
+}
+
+static void choose_columns(const struct output_run *run, const struct score *const *rows, size_t n_rows, struct sheet *sheet)
+{
+	int shows_reference = !run->baseline;
+
+	for (size_t i = 0; i < n_rows; i++)
+		shows_reference |= run->reference && fails_beside(rows[i], 1);
+	for (size_t c = 0; run->baseline && c < sizeof(of_change) / sizeof(of_change[0]); c++)
+		sheet->columns[sheet->n_columns++] = of_change[c];
+	for (size_t c = 0; shows_reference && c < sizeof(of_reference) / sizeof(of_reference[0]); c++)
+		if (!run->baseline || of_reference[c] != PICTURE_BEAUTY)
+			sheet->columns[sheet->n_columns++] = of_reference[c];
+}
+
+/* A cell's label. @return 1 where it says that something failed */
+static int label(const struct sheet *sheet, int column, const struct score *s, const struct picture_frame *frame, char *out, size_t size)
+{
+	const enum picture_kind kind = sheet->columns[column];
+	const int is_of_change = sheet->columns[0] == PICTURE_APPROVED, failed = fails_beside(s, kind == PICTURE_DIFFERENCE);
+	const char *name = picture_names[kind];
+
+	if (kind == PICTURE_APPROVED)
+		name = frame->change.was.rgb ? "approved" : s->gates[GATE_B].state == SCORE_NOT_MEASURED ? "nothing approved" : "as approved";
+	else if (kind == PICTURE_REFERENCE)
+		name = "raster";
+	else if (kind == PICTURE_COMPARED)
+		name = s->layer;
+	else if (kind == PICTURE_BEAUTY && is_of_change)
+		name = "now";
+	if (kind == PICTURE_CHANGE)
+		snprintf(out, size, "difference x 8: %s", failed ? "changed" : "as approved");
+	else if (kind == PICTURE_DIFFERENCE)
+		snprintf(out, size, "difference x 8: %s, %.2f %%", failed ? "failed" : score_outcome_names[s->outcome], 100 * s->fidelity);
+	else if (column == 0)
+		snprintf(out, size, "%s, frame %" PRIu64, name, s->frame);
+	else
+		snprintf(out, size, "%s", name);
+	return failed && (kind == PICTURE_CHANGE || kind == PICTURE_DIFFERENCE);
+}
+
+static int draw_row(struct sheet *sheet, size_t row, const struct score *s, const struct picture_sources *from)
 {
 	struct picture_frame frame = { 0 };
 	uint32_t top = GAP + (uint32_t)row * (sheet->cell_h + LABEL + GAP);
-	int err = picture_frame_read(ref, traced, s->frame, run, &frame);
+	int err = picture_frame_read(from, s->frame, &frame);
 
-	for (int c = 0; !err && c < COLUMNS; c++) {
+	for (int c = 0; !err && c < sheet->n_columns; c++) {
 		uint32_t left = GAP + (uint32_t)c * (sheet->cell_w + GAP), width, height;
-		const char *name = columns[c] == PICTURE_REFERENCE ? "raster"
-			: columns[c] == PICTURE_COMPARED ? s->layer : picture_names[columns[c]];
 		char text[96];
 		uint8_t *rgb;
+		int warns;
 
-		err = picture_make(&frame, columns[c], &rgb, &width, &height);
-		if (err || !rgb)
+		err = picture_make(&frame, sheet->columns[c], &rgb, &width, &height);
+		if (err || (!rgb && c > 0))
 			continue;
-		if (c == 0)
-			snprintf(text, sizeof(text), "%s, frame %" PRIu64, name, s->frame);
-		else if (columns[c] == PICTURE_DIFFERENCE)
-			snprintf(text, sizeof(text), "difference x 8: %s, %.2f %%", score_outcome_names[s->outcome],
-			         100 * s->fidelity);
-		else
-			snprintf(text, sizeof(text), "%s", name);
-		draw_text(sheet, left, top, text, columns[c] == PICTURE_DIFFERENCE && s->outcome == SCORE_FRAME_FAILED);
-		draw_picture(sheet, left, top + LABEL, rgb, width, height);
+		warns = label(sheet, c, s, &frame, text, sizeof(text));
+		draw_text(sheet, left, top, text, warns);
+		if (rgb)
+			draw_picture(sheet, left, top + LABEL, rgb, width, height);
 		free(rgb);
 	}
 	picture_frame_free(&frame);
 	return err;
 }
 
-int sheet_write(const struct output_run *run, struct set *ref, struct set *traced, const char *path)
+int sheet_write(const struct picture_sources *from, const char *path)
 {
 	const struct score *rows[MAX_ROWS];
-	const size_t n_rows = choose_frames(run, rows);
+	const size_t n_rows = choose_frames(from->run, rows);
 	struct sheet sheet = { .cell_w = 1, .cell_h = 1 };
 	int err = 0;
 
@@ -132,14 +177,15 @@ int sheet_write(const struct output_run *run, struct set *ref, struct set *trace
 		sheet.cell_w = w > sheet.cell_w ? w : sheet.cell_w;
 		sheet.cell_h = h > sheet.cell_h ? h : sheet.cell_h;
 	}
-	sheet.width = GAP + COLUMNS * (sheet.cell_w + GAP);
+	choose_columns(from->run, rows, n_rows, &sheet);
+	sheet.width = GAP + (uint32_t)sheet.n_columns * (sheet.cell_w + GAP);
 	sheet.height = GAP + (uint32_t)n_rows * (sheet.cell_h + LABEL + GAP);
 	sheet.rgb = malloc(3 * (size_t)sheet.width * sheet.height);
 	if (!sheet.rgb)
 		return err_report(ERR_SYSTEM, path, "out of memory");
 	memset(sheet.rgb, 40, 3 * (size_t)sheet.width * sheet.height);
 	for (size_t i = 0; !err && i < n_rows; i++)
-		err = draw_row(&sheet, i, rows[i], run, ref, traced);
+		err = draw_row(&sheet, i, rows[i], from);
 	if (!err)
 		err = display_save(&(struct oiio_pixels){ sheet.rgb, sheet.width, sheet.height }, &(struct oiio_coding){ "png", .level = 6 }, path);
 	free(sheet.rgb);

@@ -1,10 +1,13 @@
 /* Gate B: the traced frame against the one that was approved. */
-#include "diff/score/measures.h"
+#include "diff/score/approved.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 
+#include "base/err.h"
 #include "diff/score/flip.h"
+#include "diff/score/measures.h"
 #include "diff/score/picture.h"
 
 #define OFF_RELATIVE 0x1p-9  /* as far as a half can be off by two roundings */
@@ -20,18 +23,58 @@ static int is_off(float a, float b)
 	return !(fabs((double)a - (double)b) <= OFF_RELATIVE * size + OFF_ABSOLUTE);
 }
 
+void approved_mark(const struct image *now, const struct image *was, uint8_t *off)
+{
+	const size_t n = (size_t)now->width * now->height;
+	const float *now_rgb[3], *was_rgb[3];
+
+	for (size_t l = 0; l < sizeof(layers) / sizeof(layers[0]); l++)
+		if (score_find_layer(now, layers[l], now_rgb) && score_find_layer(was, layers[l], was_rgb))
+			for (size_t i = 0; i < n; i++)
+				for (int c = 0; c < 3; c++)
+					off[i] |= is_off(now_rgb[c][i], was_rgb[c][i]);
+}
+
+/* The figures, where both have colours. *n_off: pixels that differ. */
+static int measure_colors(struct gate_frame *f, const struct image *was, uint64_t *n_off)
+{
+	const struct image *img = f->img;
+	const size_t n = (size_t)img->width * img->height;
+	const float *now_rgb[3], *was_rgb[3];
+	uint64_t count = 0;
+	double flip = 0;
+	uint8_t *off;
+	int err;
+
+	if (!score_find_layer(img, "beauty", now_rgb) || !score_find_layer(was, "beauty", was_rgb))
+		return 0;
+	off = calloc(n ? n : 1, 1);
+	if (!off)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	approved_mark(img, was, off);
+	for (size_t i = 0; i < n; i++) {
+		const int is_compared = !score_ignores(f->ref, i);
+
+		count += is_compared;
+		*n_off += is_compared && off[i];
+		f->blamed[i] |= is_compared && off[i];
+	}
+	free(off);
+	err = flip_compare_hdr(was_rgb, now_rgb, img->width, img->height, NULL, &flip);
+	if (!err) {
+		gate_measure(f, GATE_B, 0, 100 * (double)*n_off / fmax(1, (double)count));
+		gate_measure(f, GATE_B, 1, flip);
+	}
+	return err;
+}
+
 int gate_baseline(struct gate_frame *f)
 {
-	const struct score_picture *ref = f->ref;
 	const struct image *img = f->img;
 	const struct score_approved *approved = f->approved;
-	uint8_t *blamed = f->blamed;
-	const size_t n = (size_t)img->width * img->height;
 	const struct image *was = approved ? approved->image : NULL;
-	const float *now_rgb[3], *was_rgb[3];
-	uint64_t off = 0, count = 0;
-	double flip = 0;
-	int err = 0;
+	uint64_t off = 0;
+	int err;
 
 	if (!approved) {
 		gate_note(f, GATE_B, "no approved frame");
@@ -51,26 +94,9 @@ int gate_baseline(struct gate_frame *f)
 		gate_fail(f, GATE_B, "size %u x %u, approved %u x %u", img->width, img->height, was->width, was->height);
 		return 0;
 	}
-	if (was && score_find_layer(img, "beauty", now_rgb) && score_find_layer(was, "beauty", was_rgb)) {
-		for (size_t l = 0; l < sizeof(layers) / sizeof(layers[0]); l++)
-			if (score_find_layer(img, layers[l], now_rgb) && score_find_layer(was, layers[l], was_rgb))
-				for (size_t i = 0; i < n; i++)
-					for (int c = 0; c < 3; c++)
-						if (is_off(now_rgb[c][i], was_rgb[c][i]) && !score_ignores(ref, i))
-							blamed[i] |= 2;
-		for (size_t i = 0; i < n; i++) {
-			count += !score_ignores(ref, i);
-			off += blamed[i] >> 1;
-			blamed[i] = blamed[i] != 0;
-		}
-		score_find_layer(img, "beauty", now_rgb);
-		score_find_layer(was, "beauty", was_rgb);
-		err = flip_compare_hdr(was_rgb, now_rgb, img->width, img->height, NULL, &flip);
-		if (err)
-			return err;
-		gate_measure(f, GATE_B, 0, 100 * (double)off / fmax(1, (double)count));
-		gate_measure(f, GATE_B, 1, flip);
-	}
+	err = was ? measure_colors(f, was, &off) : 0;
+	if (err)
+		return err;
 	if (!approved->same_channels) {
 		gate_fail(f, GATE_B, "the channels are not the approved ones: %.90s", approved->changed);
 	} else if (approved->same_device) {

@@ -36,3 +36,22 @@ def operate(work, report, at=""):
     text = text.replace("<body>", "<body><script>window.wrong = []; addEventListener('error', e => wrong.push(e.message));</script>", 1)
     page.write_text(text.replace("</body>", f"<script>{(HERE / 'operate.js').read_text()}</script></body>"))
     return said(work, f"{page}{at}")
+
+
+def narrow(work, report, width):
+    """How wide a report's page is on a screen of `width` pixels, in each of its views: in a frame, as no window of the browser is so narrow."""
+    page, around = report / "narrow.html", report / "around.html"
+    script = """<script>
+addEventListener("load", () => setTimeout(() => {
+	const found = {};
+	for (const mode of ["side", "blink", "swipe", "all"]) {
+		state.mode = mode;
+		show_frame();
+		found[mode] = [innerWidth, document.documentElement.scrollWidth];
+	}
+	console.log("FOUND" + JSON.stringify(found) + "DNUOF");
+}, 300));
+</script></body>"""
+    page.write_text((report / "index.html").read_text().replace("</body>", script))
+    around.write_text(f'<iframe src="narrow.html" style="width: {width}px; height: 800px; border: 0"></iframe>')
+    return said(work, around)

@@ -22,6 +22,10 @@ async function operate()
 
 	/* What is there at once. */
 	found.opened = now();
+	found.shown_at_first = [list.children.length, control("outcome").value];
+	found.title = document.title;
+	found.verdicts = [...document.querySelectorAll("#verdicts li")].map(node => node.className + ": " + node.textContent);
+	change(control("outcome"), "");
 	found.frames = list.children.length;
 	found.order = [...list.children].slice(0, 3).map(item => item.frame.frame);
 	found.about = $("about").textContent.replace(/^.* against /, "").replace(/, .*/, "");
@@ -35,7 +39,7 @@ async function operate()
 	found.heading = document.querySelector("#frame h2").textContent;
 	const selected = document.querySelector("[aria-selected=true]").getBoundingClientRect(), room = list.getBoundingClientRect();
 	found.in_sight = selected.top >= room.top - 1 && selected.bottom <= room.bottom + 1;
-	found.row = [...list.children[0].children].slice(1).map(node => node.textContent).join("|");
+	found.row = [...list.children[0].children].slice(2).map(node => node.textContent).join("|");
 	found.gates = document.querySelectorAll("#frame table")[0].rows.length;
 	found.gate = [...document.querySelectorAll("#frame tr")].map(row => [...row.cells].map(cell => cell.textContent)).find(row => row[0] === "R1").slice(2, 5).join("|");
 	found.approve = [...document.querySelectorAll("#frame code")].pop().textContent.replace(/ \S*$/, "").replace(/ \/\S*/g, "");
@@ -43,7 +47,7 @@ async function operate()
 
 	/* Going from frame to frame. */
 	list.children[0].click(); found.clicked = [now(), location.hash, [...list.children].filter(item => item.getAttribute("aria-selected") === "true").length];
-	await wait(200); found.thumbnails = [list.children[0], list.lastChild].map(item => item.firstChild.src.slice(0, 11));
+	await wait(200); found.thumbnails = [list.children[0], list.lastChild].map(item => item.querySelector("img").src.slice(0, 11));
 	key("k"); found.before_first = now();
 	key("j"); found.next = now();
 	key("ArrowDown"); found.after = now();
@@ -56,8 +60,9 @@ async function operate()
 	key("/"); found.focus = document.activeElement.id;
 	$("filter").blur();
 	found.by_number = [type(String(list.lastChild.frame.frame)), list.children[0].frame.frame];
-	found.by_gate = [type(" r1 "), type("R1"), type("r")];
-	key("j"); key("j"); type("R1"); list.children[0].click(); key("j"); found.among_filtered = now();
+	const gate = failed_gates(frames[0])[0];
+	found.by_gate = [type(` ${gate.toLowerCase()} `), type(gate), type("r")];
+	key("j"); key("j"); type(gate); list.children[0].click(); key("j"); found.among_filtered = now();
 	found.by_draw = type("draw 1");
 	found.nothing = type("no such thing");
 	found.all_again = type("");
@@ -65,6 +70,18 @@ async function operate()
 	change(control("outcome"), "failed"); found.failed = list.children.length;
 	found.both = type("1");
 	change(control("outcome"), ""); type("");
+
+	/* Frames to approve: by box, by key, all that are shown; a second time drops them. */
+	const chosen = () => $("chosen").textContent.replace(/ \S* \S*$/, "");
+	const marked = () => [...list.children].filter(item => item.getAttribute("aria-checked") === "true").length;
+	found.nothing_chosen = [chosen(), $("copy").disabled];
+	list.children[0].click();
+	list.children[1].querySelector(".box").click(); found.chosen = [chosen(), now() === list.children[0].frame.frame, $("copy").disabled];
+	key("x"); found.chosen_by_key = [chosen(), marked()];
+	key("x"); $("choose").click(); found.chosen_all = [marked() === list.children.length, chosen().replace(/.* /, "")];
+	change(control("outcome"), "passed"); $("choose").click(); change(control("outcome"), "");
+	found.dropped = marked();
+	$("choose").click(); $("choose").click(); found.chosen_none = chosen();
 
 	/* Views. */
 	list.children[0].click();
@@ -77,7 +94,8 @@ async function operate()
 	key("3"); await wait(100); found.swipe = [names(), captions_shown()[0], images()[1].style.clipPath];
 	const layers = document.querySelector(".swipe"), width = layers.getBoundingClientRect().width;
 	found.wide = [width / images()[0].width, getComputedStyle(images()[1]).position];
-	move(layers, width / 4, 2); found.swiped = [images()[1].style.clipPath, +document.querySelector("figure > input").value];
+	found.line = [document.querySelector(".swipe .line").style.left, document.querySelector(".swipe .line").getBoundingClientRect().height > 0];
+	move(layers, width / 4, 2); found.line_moved = document.querySelector(".swipe .line").style.left; found.swiped = [images()[1].style.clipPath, +document.querySelector("figure > input").value];
 	const slider = document.querySelector("figure > input");
 	slider.value = 80; slider.dispatchEvent(new Event("input")); found.slid = images()[1].style.clipPath;
 	change(control("picture b"), found.all[found.all.length - 1]); found.other = [names(), control("picture b").value];
