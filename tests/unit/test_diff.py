@@ -332,8 +332,11 @@ class Diff(unittest.TestCase):
             self.diff("--markdown", self.dir / "sum.md", "--report", self.dir / "report", self.ref, self.traced, expect=1)
         text = (self.dir / "sum.md").read_text()
         self.assertEqual(text.count("### relume diff"), 2)
-        self.assertIn(f"3 passed, 1 failed of 4 frames; [page]({self.dir}/report/index.html)", text)
-        self.assertRegex(text, r"\| 2 \| failed \| \*\*R1\*\* interior pixels")
+        self.assertIn(f"3 passed, 1 failed of 4 frames; [page]({self.dir}/report/index.html), [contact sheet]({self.dir}/report/sheet.png)", text)
+        self.assertRegex(text, r"\| 2 \| failed \| not as the program showed it: \*\*R1\*\* interior pixels")
+        write_png(self.traced / "b.3.png", picture(30))
+        self.diff("--markdown", self.dir / "two.md", self.ref, self.traced, expect=1)
+        self.assertEqual(len(re.findall(r"^\| 2-3 \| failed .* \(frame 3, the worst\) \|  \|$", (self.dir / "two.md").read_text(), re.M)), 1)
 
     def test_flaky(self):
         write_png(self.traced / "b.2.png", drifted(picture(2)))

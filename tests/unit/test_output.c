@@ -141,27 +141,38 @@ static char *markdown_of(const struct output_run *run)
 	return text;
 }
 
-/* Twenty frames at most, and how many more there are. */
+/* Twenty rows at most, and how many more frames there are; frames in a row that failed the same gates are one row. */
 START_TEST(test_markdown)
 {
 	struct output_run run = run_of(40);
 	char *text = markdown_of(&run);
 
-	check_says(text, "### relume diff: a\n\n40 passed of 40 frames; [page](page/index.html)\n", 1);
-	check_says(text, "| frame |", 0);
+	check_says(text, "### relume diff: a\n\n40 passed of 40 frames; [page](page/index.html), [contact sheet](page/sheet.png)\n", 1);
+	check_says(text, "| frames |", 0);
 	free(text);
 	for (size_t i = 3; i < 23; i++)
-		fail_frame(&run, i, 8);
+		fail_frame(&run, i, i == 9 ? 12 : 8);
 	text = markdown_of(&run);
-	check_says(text, "| frame | outcome |", 1);
-	check_says(text, " | failed | **R3** pixels over 32/255 8 px (bar \\<= 4 px) |  |\n", 20);
+	check_says(text, "| frames | outcome |", 1);
+	check_says(text, "\n| 13-32 | failed | not as the program showed it: **R3** pixels over 32/255 12 px (bar \\<= 4 px) (frame 19, the worst) |  |\n", 1);
 	check_says(text, "more", 0);
 	free(text);
-	for (size_t i = 23; i < 26; i++)
+	run = run_of(60);
+	for (size_t i = 0; i < 46; i += 2)
 		fail_frame(&run, i, 8);
 	text = markdown_of(&run);
 	check_says(text, "| failed |", 20);
 	check_says(text, "\nand 3 more\n", 1);
+	free(text);
+	run = run_of(2);
+	run.baseline = "approved";
+	fail_frame(&run, 0, 8);
+	scores[0].gates[GATE_B].state = SCORE_FAILED;
+	scores[0].gates[GATE_B].bar[0] = 0.01;
+	scores[0].gates[GATE_B].value[0] = 5;
+	text = markdown_of(&run);
+	check_says(text, "[approved, now and difference](page/sheet.png)", 1);
+	check_says(text, "(bar \\<= 4 px)<br>not as approved: **B** pixels off from the approved frame 5 % (bar \\<= 0.01 %)", 1);
 	free(text);
 }
 END_TEST
