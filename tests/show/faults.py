@@ -403,7 +403,8 @@ class Suite:
     def score(self, reference, file, more=(), baseline=True):
         """One frame as --json has it, and the exit code. Gate V knows frames of a changed trace where the trace names the reference."""
         options = ("--baseline", self.base) if baseline else ()
-        done = self.run(self.relume, "diff", reference.with_suffix(".ref"), file.parent / "s.####.exr", "-f", FRAME, "--json", "-", *options, *more,
+        frames = reference.with_suffix(".ref") if reference.suffix == ".trace" else reference
+        done = self.run(self.relume, "diff", frames, file.parent / "s.####.exr", "-f", FRAME, "--json", "-", *options, *more,
                         check=False)
         frame, = json.loads(done.stdout)["frames"]
         return done.returncode, frame
@@ -546,5 +547,5 @@ def main(build, *parts):
 
 
 if __name__ == "__main__":
-    assert len(FAULTS) == 40 and len(HARMLESS) == 20
+    assert len(FAULTS) >= 40 and len(HARMLESS) >= 20
     sys.exit(main(*sys.argv[1:]))
