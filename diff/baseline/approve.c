@@ -1,7 +1,9 @@
 /* relume approve: make traced frames the ones that later frames are compared with. */
 #include "base/verbs.h"
 
+#include <errno.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <pwd.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +14,7 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/frames.h"
+#include "base/memory.h"
 #include "base/options.h"
 #include "base/part.h"
 #include "diff/baseline/baseline.h"
@@ -63,12 +66,23 @@ static void format_day(char *out, size_t size)
 	strftime(out, size, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &day));
 }
 
+/* A file of the baseline that changes. */
+struct planned {
+	const char *from; /* the frame to copy; borrowed */
+	char *to;         /* where; NULL: nowhere */
+	char *part;       /* the copy, while not all are made; NULL: none */
+	char *old;        /* an approved frame that goes, as the new one has another name or is not stored; NULL: none */
+};
+
 /* A variant in the making: what is approved already, and what is new. Strings are owned. */
 struct update {
 	const struct options *options;
 	char *folder;
 	struct baseline_variant variant; /* its texts are borrowed, its frames owned */
 	uint32_t n_new, n_changed, n_same;
+	struct planned *planned; /* owned, with its names */
+	size_t n_planned, room;
+	FILE *said;              /* what is printed once all is done */
 };
 
 static void free_update(struct update *u)
@@ -78,6 +92,12 @@ static void free_update(struct update *u)
 		free(u->variant.frames[i].channels);
 	}
 	free(u->variant.frames);
+	for (size_t i = 0; i < u->n_planned; i++) {
+		free(u->planned[i].to);
+		free(u->planned[i].part);
+		free(u->planned[i].old);
+	}
+	free(u->planned);
 	free(u->folder);
 }
 
@@ -111,8 +131,8 @@ static void print_change(const struct update *u, const struct baseline_frame *ol
 	char path[4096];
 
 	snprintf(path, sizeof(path), "%s/%s", u->folder, old->file ? old->file : "");
-	if (!old->file || image_read_exr(&image, path) != 0) {
-		puts("only hashes were approved");
+	if (!old->file || set_read_picture(path, &image) != 0) {
+		fputs("only hashes were approved\n", u->said);
 		return;
 	}
 	if (score_picture_from_image(&image, "beauty", &was) == 0 && score_picture_from_image(img, "beauty", &now) == 0 &&
@@ -127,41 +147,98 @@ static void print_change(const struct update *u, const struct baseline_frame *ol
 			count += d > 0;
 			worst = d > worst ? d : worst;
 		}
-		printf("%zu of %zu pixels show it, by %d/255 at most\n", count, n, worst);
+		fprintf(u->said, "%zu of %zu pixels show it, by %d/255 at most\n", count, n, worst);
 	} else {
-		puts("another size, or no colours");
+		fputs("another size, or no colours\n", u->said);
 	}
 	score_picture_free(&was);
 	score_picture_free(&now);
 	image_free(&image);
 }
 
-/** Copy a file; the copy appears when it is whole. */
+/* --- Files: all or none -------------------------------------------------------------------------------------------- */
+
+/* @param to  a name for an unfinished file */
 static int copy_file(const char *from, const char *to)
 {
-	struct part_file file;
-	FILE *in = fopen(from, "rb");
+	FILE *in = fopen(from, "rb"), *out = fopen(to, "wb");
 	char block[65536];
 	size_t n;
-	int err;
+	int err = in && out ? 0 : err_report(in ? ERR_SYSTEM : ERR_INPUT, in ? to : from, "%s", strerror(errno));
 
-	if (!in)
-		return err_report(ERR_INPUT, from, "cannot be read");
-	err = part_open(&file, to);
-	if (!err) {
-		while ((n = fread(block, 1, sizeof(block), in)) > 0)
-			fwrite(block, 1, n, file.stream);
-		err = part_close(&file, ferror(in) ? err_report(ERR_INPUT, from, "cannot be read whole") : 0);
-	}
-	fclose(in);
+	while (!err && (n = fread(block, 1, sizeof(block), in)) > 0)
+		if (fwrite(block, 1, n, out) < n)
+			err = err_report(ERR_SYSTEM, to, "cannot be written: %s", strerror(errno));
+	if (!err && ferror(in))
+		err = err_report(ERR_INPUT, from, "cannot be read whole");
+	if (in)
+		fclose(in);
+	if (out && fclose(out) && !err)
+		err = err_report(ERR_SYSTEM, to, "cannot be written: %s", strerror(errno));
 	return err;
 }
+
+/* FOLDER/NAME; NULL without memory, and where there is no name. */
+static char *path_of(const char *folder, const char *name)
+{
+	char *path = NULL;
+
+	return name && asprintf(&path, "%s/%s", folder, name) >= 0 ? path : NULL;
+}
+
+static int plan(struct update *u, const char *from, const char *name, const char *old)
+{
+	const int goes = old && !(name && strcmp(name, old) == 0);
+	struct planned *p;
+
+	if (MEMORY_GROW(u->planned, u->room, u->n_planned + 1))
+		return ERR_SYSTEM;
+	p = &u->planned[u->n_planned++];
+	*p = (struct planned){ .from = from, .to = path_of(u->folder, name), .old = path_of(u->folder, goes ? old : NULL) };
+	return (name && !p->to) || (goes && !p->old) ? err_report(ERR_SYSTEM, u->folder, "out of memory") : 0;
+}
+
+/* Copy a frame under a name for an unfinished file. */
+static int copy_frame(struct planned *p)
+{
+	char part[PATH_MAX + 128];
+	int err = part_begin(p->to, part, sizeof(part));
+
+	if (!err && !(p->part = strdup(part)))
+		err = err_report(ERR_SYSTEM, p->to, "out of memory");
+	return err ? err : copy_file(p->from, p->part);
+}
+
+/* Copy all that is new under other names; only when all of it is there, it takes its place. */
+static int carry_out(struct update *u)
+{
+	const int failed = folder_try_early(u->folder, 0);
+	int err = failed ? err_report(ERR_SYSTEM, u->folder, "%s", strerror(failed)) : 0;
+
+	for (size_t i = 0; !err && i < u->n_planned; i++)
+		err = u->planned[i].to ? copy_frame(&u->planned[i]) : 0;
+	for (size_t i = 0; i < u->n_planned; i++) {
+		if (u->planned[i].part && err)
+			part_drop(u->planned[i].part);
+		else if (u->planned[i].part)
+			err = part_finish(u->planned[i].part, u->planned[i].to);
+	}
+	if (!err)
+		err = baseline_write(u->folder, &u->variant);
+	for (size_t i = 0; !err && i < u->n_planned; i++)
+		if (u->planned[i].old)
+			unlink(u->planned[i].old);
+	return err;
+}
+
+/* --- Frames -------------------------------------------------------------------------------------------------------- */
 
 static int approve_frame(struct update *u, const struct set_entry *entry, const struct image *img, char *channels)
 {
 	struct baseline_frame *f = baseline_find(&u->variant, entry->frame), *grown;
-	char name[64], path[4200];
-	int same = f && strcmp(f->channels, channels) == 0 && !!f->file == !u->options->hashes;
+	const char *extension = strrchr(entry->path, '.');
+	char name[64], *old;
+	int err, same = f && strcmp(f->channels, channels) == 0 && !!f->file == !u->options->hashes;
 
 	if (same) {
 		u->n_same++;
@@ -169,14 +246,14 @@ static int approve_frame(struct update *u, const struct set_entry *entry, const 
 		return 0;
 	}
 	if (f && strcmp(f->channels, channels) == 0) {
-		printf("frame %" PRIu64 ": %s\n", entry->frame, f->file ? "keeps only its hashes" : "is stored, too");
+		fprintf(u->said, "frame %" PRIu64 ": %s\n", entry->frame, f->file ? "keeps only its hashes" : "is stored, too");
 		u->n_changed++;
 	} else if (f) {
-		printf("frame %" PRIu64 ": changed: ", entry->frame);
+		fprintf(u->said, "frame %" PRIu64 ": changed: ", entry->frame);
 		print_change(u, f, img);
 		u->n_changed++;
 	} else {
-		printf("frame %" PRIu64 ": new\n", entry->frame);
+		fprintf(u->said, "frame %" PRIu64 ": new\n", entry->frame);
 		u->n_new++;
 		grown = realloc(u->variant.frames, (u->variant.n_frames + 1) * sizeof(*grown));
 		if (!grown) {
@@ -196,18 +273,13 @@ static int approve_frame(struct update *u, const struct set_entry *entry, const 
 	f->channels = channels;
 	f->width = img->width;
 	f->height = img->height;
-	snprintf(name, sizeof(name), "frame.%04" PRIu64 ".exr", entry->frame);
-	snprintf(path, sizeof(path), "%s/%s", u->folder, name);
-	if (u->options->hashes) {
-		if (f->file && !u->options->dry_run)
-			unlink(path);
-		free(f->file);
-		f->file = NULL;
-		return 0;
-	}
-	if (!f->file && !(f->file = strdup(name)))
-		return err_report(ERR_SYSTEM, u->folder, "out of memory");
-	return u->options->dry_run ? 0 : copy_file(entry->path, path);
+	snprintf(name, sizeof(name), "frame.%04" PRIu64 "%.16s", entry->frame, extension ? extension : "");
+	old = f->file;
+	f->file = u->options->hashes ? NULL : strdup(name);
+	err = !u->options->hashes && !f->file ? err_report(ERR_SYSTEM, u->folder, "out of memory")
+		: plan(u, entry->path, f->file, old);
+	free(old);
+	return err;
 }
 
 static const char *attribute_or(const struct image *img, const char *name, const char *otherwise)
@@ -220,9 +292,11 @@ static const char *attribute_or(const struct image *img, const char *name, const
 /** The first frame gives device and provenance; all others must come from the same device and trace. */
 static int approve_all(const struct options *o, struct set *set, const struct baseline *b)
 {
-	struct update u = { .options = o };
+	size_t n_text;
+	char *text = NULL;
+	struct update u = { .options = o, .said = open_memstream(&text, &n_text) };
 	char device[256] = "", trace[256] = "", version[256] = "", settings[600] = "", day[32];
-	int err = 0;
+	int err = u.said ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	for (size_t i = 0; !err && i < set->n_entries; i++) {
 		const struct set_entry *entry = &set->entries[i];
@@ -244,8 +318,6 @@ static int approve_all(const struct options *o, struct set *set, const struct ba
 			snprintf(settings, sizeof(settings), "%s, encoding %s, channels %s", attribute_or(&img, "relume:settings", "?"),
 			         attribute_or(&img, "relume:encoding", "linear"), attribute_or(&img, "relume:aov", "all"));
 			err = begin_update(&u, b, device);
-			if (!err && !o->dry_run)
-				err = folder_make(u.folder);
 		}
 		if (!err && (strcmp(device, image_attribute(&img, "relume:device")) != 0 ||
 		             strcmp(trace, attribute_or(&img, "relume:trace", "")) != 0))
@@ -267,11 +339,16 @@ static int approve_all(const struct options *o, struct set *set, const struct ba
 		u.variant.approved_by = (char *)user_name(o->by);
 		u.variant.approved_at = day;
 		u.variant.reason = (char *)(o->reason ? o->reason : "");
-		printf("%s: %u new, %u changed, %u as approved before%s\n", u.folder, u.n_new, u.n_changed, u.n_same,
-		       o->dry_run ? "; nothing was written" : "");
+		fprintf(u.said, "%s: %u new, %u changed, %u as approved before%s\n", u.folder, u.n_new, u.n_changed, u.n_same,
+		        o->dry_run ? "; nothing was written" : "");
 		if (!o->dry_run && u.n_new + u.n_changed > 0)
-			err = baseline_write(u.folder, &u.variant);
+			err = carry_out(&u);
 	}
+	if (u.said && fclose(u.said) && !err)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!err)
+		fputs(text, stdout);
+	free(text);
 	free_update(&u);
 	return err;
 }

@@ -14,6 +14,7 @@
 #include "base/err.h"
 #include "base/json.h"
 #include "base/part.h"
+#include "diff/pictures/set.h"
 
 static const cyaml_schema_field_t frame_fields[] = {
 	CYAML_FIELD_UINT("frame", CYAML_FLAG_DEFAULT, struct baseline_frame, frame),
@@ -238,7 +239,7 @@ int baseline_look_up(const struct baseline *b, const struct image *img, uint64_t
 	if (snprintf(path, sizeof(path), "%s/%s", b->folders[chosen], f->file) >= (int)sizeof(path))
 		return err_report(ERR_INPUT, b->folders[chosen], "the name is too long");
 	out->image = was;
-	return image_read_exr(was, path);
+	return set_read_picture(path, was);
 }
 
 /** Text between double quotes, as YAML has it. */

@@ -294,8 +294,7 @@ fail:
 	return ERR_SYSTEM;
 }
 
-/** A picture of any kind, by the first bytes of its file. */
-static int read_picture(const char *path, struct image *img)
+int set_read_picture(const char *path, struct image *img)
 {
 	uint8_t head[8];
 	int err = read_head(path, head);
@@ -317,7 +316,7 @@ int set_read(const struct set *set, const struct set_entry *entry, struct image 
 	int err;
 
 	if (entry->path)
-		return read_picture(entry->path, img);
+		return set_read_picture(entry->path, img);
 	err = add_record(set, REF_COLOR, entry->frame, img);
 	if (!err)
 		err = add_record(set, REF_DEPTH, entry->frame, img);

@@ -46,3 +46,6 @@ const struct set_entry *set_find(const struct set *set, uint64_t frame);
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */
 int set_read(const struct set *set, const struct set_entry *entry, struct image *img);
+
+/** Read a picture of any kind, by the first bytes of its file. @return as set_read */
+int set_read_picture(const char *path, struct image *img);

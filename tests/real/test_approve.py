@@ -66,8 +66,37 @@ found, frames = outcomes(0, trace, SCRATCH / "twins", "--baseline", base)
 check(all("approved hash" in f["gates"]["B"]["note"] for f in frames), "its own hashes now")
 
 (out / "c.0002.exr").unlink()
-found, _ = outcomes(1, "--baseline", base, out)
+found, _ = outcomes(0, "--baseline", base, out)
+check(found == ["passed", "passed"], f"only what is there is scored: {found}")
+found, _ = outcomes(1, "--baseline", base, "--all", out)
 check(found == ["passed", "passed", "missing"], f"an approved frame without a traced one: {found}")
+
+# All or nothing: what cannot be approved is the last of them.
+half, mixed = SCRATCH / "half", SCRATCH / "mixed"
+mixed.mkdir()
+shutil.copy(out / "c.0000.exr", mixed / "a.0000.exr")
+record(SCRATCH / "o.trace", corpus("two_triangles"), "--frames", "2")
+render(SCRATCH / "o.trace", SCRATCH / "other")
+shutil.copy(SCRATCH / "other" / "o.0001.exr", mixed / "o.0001.exr")
+done = relume("approve", mixed, half)
+check(done.returncode == 2 and "another device or trace" in done.stderr and not half.exists() and not done.stdout, f"two series: {done.stdout}{done.stderr}")
+before = {path: path.read_bytes() for path in base.rglob("*") if path.is_file()}
+render(trace, SCRATCH / "gl01", "--mode", "gl", "-f", "0,1")
+(SCRATCH / "gl01" / "c.0002.exr").write_bytes(b"\x76\x2f\x31\x01 no frame")
+done = relume("approve", SCRATCH / "gl01", base)
+check(done.returncode == 3 and before == {path: path.read_bytes() for path in base.rglob("*") if path.is_file()}, f"a damaged frame: {done.stdout}{done.stderr}")
+
+# Pictures are approved as what they are.
+must(relume("render", trace, "-o", SCRATCH / "png" / "c.####.png"))
+approve(SCRATCH / "png", SCRATCH / "base_png")
+stored = sorted(path.name for path in (SCRATCH / "base_png").glob("*/frame.*"))
+check(stored == [f"frame.{i:04}.png" for i in range(3)], f"PNG frames are stored as PNG: {stored}")
+check(all(path.read_bytes()[:4] == b"\x89PNG" for path in (SCRATCH / "base_png").glob("*/frame.*")), "and are PNG files")
+found, _ = outcomes(0, "--baseline", SCRATCH / "base_png", SCRATCH / "png")
+check(found == ["passed"] * 3, f"and are compared: {found}")
+shutil.copy(SCRATCH / "png" / "c.0000.png", SCRATCH / "png" / "c.0001.png")
+found, frames = outcomes(1, "--baseline", SCRATCH / "base_png", "--report", SCRATCH / "page_png", SCRATCH / "png")
+check(found[1] == "failed" and '"approved": "data:image/png' in (SCRATCH / "page_png/index.html").read_text(), f"another PNG fails, and the page shows both: {found}")
 
 sheet.write_text(sheet.read_text().replace("version: 1", "version: one"))
 done = relume("diff", trace, out, "--baseline", base)
