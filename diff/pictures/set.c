@@ -14,6 +14,7 @@
 #include "base/frames.h"
 #include "base/hash.h"
 #include "tracer/image/foreign.h"
+#include "tracer/image/place.h"
 
 void set_free(struct set *set)
 {
@@ -304,11 +305,15 @@ int set_read_picture(const char *path, struct image *img)
 
 	if (err)
 		return err;
-	if (strcasecmp(extension_of(path), "exr") == 0 && (is_plain || !is_exr))
-		return image_read_exr(img, path);
-	if (is_exr)
-		err = image_check_exr(path);
-	return err ? err : foreign_read(img, path);
+	if (strcasecmp(extension_of(path), "exr") == 0 && (is_plain || !is_exr) && !(is_exr && image_exr_is_dwa(path)))
+		err = image_read_exr(img, path);
+	else if (!is_exr || (err = image_check_exr(path)) == 0)
+		err = foreign_read(img, path);
+	if (!err)
+		err = image_place(img, path);
+	if (err)
+		image_free(img);
+	return err;
 }
 
 int set_read(const struct set *set, const struct set_entry *entry, struct image *img)

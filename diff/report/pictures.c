@@ -56,6 +56,10 @@ int picture_frame_read(const struct picture_sources *from, uint64_t frame, struc
 	if (!err)
 		err = score_rules_for_frame(run->settings, run->name, frame, run->options,
 		                            (uint32_t[]){ sized->width, sized->height }, &out->settings);
+	if (!err)
+		err = score_rules_ignore_outside(&out->settings, sized->outside, (size_t)sized->width * sized->height);
+	if (!err && sized->width == out->image.width && sized->height == out->image.height)
+		err = score_rules_ignore_outside(&out->settings, out->image.outside, (size_t)sized->width * sized->height);
 	out->ref.width = sized->width;
 	out->ref.height = sized->height;
 	if (!err && r)

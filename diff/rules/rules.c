@@ -469,6 +469,15 @@ void score_rules_visit(const struct score_rules *settings, const char *name, uin
 	}
 }
 
+int score_rules_ignore_outside(struct score_rules_frame *frame, const uint8_t *outside, size_t n_pixels)
+{
+	if (outside && !frame->ignore && !(frame->ignore = calloc(n_pixels ? n_pixels : 1, 1)))
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (size_t i = 0; outside && i < n_pixels; i++)
+		frame->ignore[i] |= outside[i];
+	return 0;
+}
+
 void score_rules_frame_free(struct score_rules_frame *frame)
 {
 	free(frame->ignore);

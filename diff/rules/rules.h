@@ -59,4 +59,12 @@ const char *score_rules_baseline(const struct score_rules *settings);
  */
 int score_rules_for_frame(const struct score_rules *settings, const char *name, uint64_t frame,
                           const struct score_options *base, const uint32_t size[2], struct score_rules_frame *out);
+
+/**
+ * Ignore pixels that a picture's file does not have.
+ * @param outside  [height][width]: 1 there; NULL: none
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int score_rules_ignore_outside(struct score_rules_frame *frame, const uint8_t *outside, size_t n_pixels);
+
 void score_rules_frame_free(struct score_rules_frame *frame);

@@ -122,6 +122,10 @@ int scoring_image(const struct scoring *w, uint64_t frame, struct score_picture 
 	int err = score_rules_for_frame(run->settings, run->name, frame, run->options,
 	                                (uint32_t[]){ picture->width, picture->height }, &settings);
 
+	if (!err)
+		err = score_rules_ignore_outside(&settings, picture->outside, (size_t)picture->width * picture->height);
+	if (!err && image->width == picture->width && image->height == picture->height)
+		err = score_rules_ignore_outside(&settings, image->outside, (size_t)image->width * image->height);
 	picture->ignore = settings.ignore;
 	picture->recording = w->ref->trace_hash;
 	if (!err && w->baseline->dir)

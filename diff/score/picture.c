@@ -62,6 +62,7 @@ int score_picture_from_image(const struct image *img, const char *layer, struct 
 	out->depth = image_attribute(img, "relume:unknown") ? NULL : image_channel(img, "gl.depth");
 	out->id = image_channel(img, "id");
 	out->layers = image_channel(img, "layers");
+	out->outside = img->outside;
 	return 0;
 }
 

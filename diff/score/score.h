@@ -115,6 +115,7 @@ struct score_picture {
 	const float *depth;    /* window depth, [0,1] */
 	const float *id;       /* draw number, 0: none */
 	const float *layers;   /* number of blended layers on the pixel */
+	const uint8_t *outside; /* 1 where its file has no pixel; borrowed */
 	const uint8_t *ignore; /* of a reference: 1 where nothing is compared (a clock, a version number); borrowed */
 	const char *recording; /* of a reference: hash of the trace that it belongs to, NULL or "" where none is known; borrowed */
 };

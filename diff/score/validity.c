@@ -50,6 +50,8 @@ int gate_validity(struct gate_frame *f)
 		gate_fail(f, GATE_V, "the file says that it is frame %.20s, not %" PRIu64, number, f->score->frame);
 	} else if (n == 0) {
 		gate_fail(f, GATE_V, "the picture is empty");
+	} else if (ref->ignore && !memchr(ref->ignore, 0, n)) {
+		gate_fail(f, GATE_V, "every pixel is ignored, or shown by one side only");
 	}
 	for (size_t i = 0; i < f->options->n_channels; i++) {
 		if (image_channel(img, f->options->channels[i]))

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-# limit: 300 s
+# limit: 600 s
 """relume approve: provenance, what it prints, and what relume diff makes of approved frames."""
 import os
 import re

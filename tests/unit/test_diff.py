@@ -172,6 +172,24 @@ class Diff(unittest.TestCase):
         write_png(self.traced / "b.7.png", picture(7))
         self.assertEqual(self.outcomes(self.ref, self.traced, expect=4)[7], "extra")
 
+    def test_windows_of_exr(self):
+        """A picture is its display window: moved data fail, cropped data are compared where they are, overscan is left out, DWA is read."""
+        for name, edit in (("base", []), ("shift", ["--origin", "+5+3"]), ("crop", ["--crop", "20x21+20+10"]), ("dwaa", ["--compression", "dwaa:1"]),
+                           ("dwab", ["--compression", "dwab:1"]), ("piz", ["--compression", "piz"])):
+            (self.dir / name).mkdir()
+            subprocess.run(["oiiotool", self.ref / "a.0003.png", *edit, "-d", "float", "-o", self.dir / name / "f.3.exr"], check=True)
+        (self.dir / "over").mkdir()
+        subprocess.run(["oiiotool", self.ref / "a.0003.png", "--create", f"{WIDTH + 8}x{HEIGHT + 6}", "3", "--origin", "-4-3", "--paste", "+0+0", "--fullsize",
+                        f"{WIDTH}x{HEIGHT}+0+0", "-d", "float", "-o", self.dir / "over" / "f.3.exr"], check=True)
+        for name, wanted in (("base", "passed"), ("shift", "failed"), ("crop", "passed"), ("dwaa", "passed"), ("dwab", "passed"), ("piz", "passed"), ("over", "passed")):
+            for pair in ((self.dir / "base", self.dir / name), (self.dir / name, self.dir / "base")):
+                self.assertEqual(self.outcomes(*pair, "--report", self.dir / "page", expect=int(wanted == "failed")), {3: wanted}, name)
+        damaged = bytearray((self.dir / "crop" / "f.3.exr").read_bytes())
+        at = damaged.index(b"displayWindow\0box2i\0") + len(b"displayWindow\0box2i\0") + 4
+        damaged[at:at + 16] = struct.pack("<4i", 1000, 1000, 1047, 1039)
+        (self.dir / "crop" / "f.3.exr").write_bytes(damaged)
+        self.assertIn("shows nothing of its display window", self.diff(self.dir / "base", self.dir / "crop", expect=3).stderr)
+
     def test_other_size_fails(self):
         write_png(self.traced / "b.1.png", picture(1, WIDTH + 1))
         done = self.diff(self.ref, self.traced, expect=1)

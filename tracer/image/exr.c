@@ -321,6 +321,35 @@ int image_check_exr(const char *path)
 	return 0;
 }
 
+int image_exr_is_dwa(const char *path)
+{
+	exr_context_initializer_t setup = context_setup();
+	exr_compression_t compression;
+	exr_context_t file = NULL;
+	int is_dwa;
+
+	if (exr_start_read(&file, path, &setup) != EXR_ERR_SUCCESS)
+		return 0;
+	is_dwa = exr_get_compression(file, 0, &compression) == EXR_ERR_SUCCESS &&
+		(compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB);
+	exr_finish(&file);
+	return is_dwa;
+}
+
+/* Where the data lies, for place.h. @return 0 or ERR_SYSTEM (reported) */
+static int read_windows(exr_context_t file, struct image *img)
+{
+	exr_attr_box2i_t data, display;
+
+	if (exr_get_data_window(file, 0, &data) != EXR_ERR_SUCCESS || exr_get_display_window(file, 0, &display) != EXR_ERR_SUCCESS)
+		return 0;
+	if (memcmp(&data, &display, sizeof(data)) == 0)
+		return image_attribute(img, "relume:window") ? image_set_attribute(img, "relume:window", "%s", "") : 0;
+	return image_set_attribute(img, "relume:window", "%lld %lld %lld %lld", (long long)data.min.x - display.min.x,
+	                           (long long)data.min.y - display.min.y, (long long)display.max.x - display.min.x + 1,
+	                           (long long)display.max.y - display.min.y + 1);
+}
+
 int image_read_exr(struct image *img, const char *path)
 {
 	exr_context_initializer_t setup = context_setup();
@@ -342,6 +371,8 @@ int image_read_exr(struct image *img, const char *path)
 	result = read_layout(file, img, path, &y_first);
 	if (!result)
 		result = read_attributes(file, img);
+	if (!result)
+		result = read_windows(file, img);
 	if (!result) {
 		rc = read_chunks(file, img, y_first);
 		if (rc == EXR_ERR_OUT_OF_MEMORY)

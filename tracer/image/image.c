@@ -29,6 +29,7 @@ void image_free(struct image *img)
 	for (size_t i = 0; i < img->n_attributes; i++)
 		free(img->attributes[i].text);
 	free(img->attributes);
+	free(img->outside);
 	memset(img, 0, sizeof(*img));
 }
 

@@ -34,6 +34,7 @@ struct image {
 	size_t n_channels;
 	struct image_attribute *attributes; /* owned; relume:trace, relume:frame, relume:device, ... */
 	size_t n_attributes;
+	uint8_t *outside; /* owned; [height][width]: 1 where its file has no pixel (place.h); NULL: nowhere */
 };
 
 /** Free everything; the struct is empty (all zero) afterwards. */
@@ -89,6 +90,9 @@ int image_read_exr(struct image *img, const char *path);
  * @return 0, or ERR_INPUT (reported)
  */
 int image_check_exr(const char *path);
+
+/** 1 where a file is compressed by DWAA or DWAB, which OpenEXRCore 3.1.5 cannot expand and OpenImageIO can. */
+int image_exr_is_dwa(const char *path);
 
 /** sRGB's transfer function (IEC 61966-2-1): display-referred [0,1] to linear light and back; an odd function, also beyond [0,1]. */
 float image_linear_from_display(float display);

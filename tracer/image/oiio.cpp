@@ -200,7 +200,13 @@ int read_image(struct image *img, const char *path)
 		if (err)
 			return err;
 	}
-	return add_attributes(img, first);
+	if (int err = add_attributes(img, first))
+		return err;
+	/* Where the data lies, for place.h. */
+	if (first.x == first.full_x && first.y == first.full_y && first.width == first.full_width && first.height == first.full_height)
+		return 0;
+	return image_set_attribute(img, "relume:window", "%d %d %d %d", first.x - first.full_x, first.y - first.full_y, first.full_width,
+	                           first.full_height);
 }
 
 int encode(const struct oiio_pixels *pixels, const struct oiio_coding *coding, uint8_t **out, size_t *out_bytes)

@@ -20,7 +20,7 @@ extern "C" {
 pid_t oiio_fork(void);
 
 /**
- * Read any image OpenImageIO knows, in this process (foreign.h does it in one of its own): first level, data window only. OpenEXR gives all its parts, each part's name as the layer of
+ * Read any image OpenImageIO knows, in this process (foreign.h does it in one of its own): first level, data window only (place.h tells where it lies). OpenEXR gives all its parts, each part's name as the layer of
  * its channels; other formats give their first picture.
  *
  * @param img  empty; filled on success: channels R G B and A where there are any, others by their own names; a grey
