@@ -16,8 +16,8 @@ BUILD ?= build$(if $(SAN),/san)
 ifneq ($(filter check,$(MAKECMDGOALS)),)
 MAKEFLAGS += -j$(shell nproc)
 endif
-# Groups of packages (packaging/deps.txt): what must be there, and what these goals install.
-HAVE := $(BUILD)/have.$(if $(filter core,$(MAKECMDGOALS)),core,build)
+# Exists once all packages are there that a build needs; and the groups of packages (packaging/deps.txt) that goals install.
+HAVE := $(BUILD)/have
 INSTALLING := $(if $(filter-out show-suites,$(filter bench check deps fuzz fuzz-keep golden-update show show-% test-programs,$(MAKECMDGOALS))),check) \
 	$(filter deb picture,$(MAKECMDGOALS))
 PYTHON := /usr/bin/python3
@@ -55,9 +55,6 @@ CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c corpus/w
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c tests/bench/translate.c tests/fuzz/drive.c tests/fuzz/make_seeds.c)
 
 all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/relume-oiio.so $(BUILD)/visual/libGL.so.1
-
-# What `make demo` needs of it.
-core: $(BUILD)/relume $(BUILD)/librelume.so
 
 # Snappy and its C++ inside, as in the recorder: the loader takes a third of a start to find the symbols of C++.
 $(BUILD)/relume: $(COMMAND_OBJ)
@@ -252,9 +249,9 @@ $(BUILD)/flags: | $(HAVE)
 	@echo '$(FLAGS)' >$@
 
 # Nothing is compiled before the packages that it needs are there. `make` only says which are missing; INSTALLING goals install them first.
-$(HAVE): $(BUILD)/have.%: packaging/deps.txt | $(INSTALLING:%=$(BUILD)/deps.%)
+$(HAVE): packaging/deps.txt | $(INSTALLING:%=$(BUILD)/deps.%)
 	@mkdir -p $(@D)
-	@packaging/deps.sh need $*
+	@packaging/deps.sh need build
 	@touch $@
 
 deps: $(BUILD)/deps.deps
@@ -528,6 +525,7 @@ clean:
 FORCE:
 .PHONY: picture all i386 windows deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-programs test-programs show-tests show-suites \
 	golden-update clean FORCE
-.SECONDARY: # keep the objects of tests
+# Objects are kept, also those that only a pattern names.
+.PRECIOUS: $(BUILD)/%.o
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
 	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(DRIVE_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)

@@ -33,7 +33,7 @@ mkdir -p "$out/log" "$out/frames"
 stage install "$make" --no-print-directory deps-demo BUILD="$build"
 sed -n 's/^installing://p' "$out/log/install" | tr -s ' ' '\n' | awk 'NF { n++ } END { print n ? n " packages and what they need" : "nothing, all is there" }'
 touch "$out/log/begun"
-stage build "$make" --no-print-directory -j"$(nproc)" core BUILD="$build"
+stage build "$make" --no-print-directory -j"$(nproc)" all BUILD="$build"
 echo "$(find "$build" -name '*.o' -newer "$out/log/begun" | wc -l) files compiled"
 stage record tests/xvfb.sh "$build/relume" record -o "$out/glxgears.trace" --ref color,depth --quit-after $frames -- glxgears
 echo "$frames frames of glxgears, with reference colour and depth"

@@ -219,7 +219,7 @@ def show_arm64(suite, build, shown):
     tests = "$(ls tests/unit/test_*.c tests/gl/test_*.c tests/check/test_*.c | sed 's|^|build/arm64/|; s|\\.c$||')"
     code, seconds, printed = suite.run(
         "build",
-        f"cd relume && mkdir -p build/arm64 && touch build/arm64/have.build && "
+        f"cd relume && mkdir -p build/arm64 && touch build/arm64/have && "
         f"make -j$(nproc) {CROSS} all {tests}",
     )
     warnings = printed.count("warning:")
