@@ -2,8 +2,7 @@
 # packaging/deps.sh list|need|install GROUP... [-- PACKAGE...]
 #
 #   list      print the packages of groups (packaging/deps.txt), as this release names them
-#   need      install nothing: exit with 0 where all is installed, else say what is missing and how to install it, and
-# exit with 1
+#   need      install nothing; where packages are missing, say which, and how to install them, and exit with 1
 #   install   install what is missing, with sudo where this is not root
 #
 # Needs a POSIX shell, awk, and apt. Where there is no dpkg, `need` passes: the compiler then names what it lacks.

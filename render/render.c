@@ -331,7 +331,7 @@ static int work(void *user)
 	err = render(&task->settings, task->carried);
 	fault_end();
 	settings_free(&task->settings);
-	return -err;
+	return err == 1 ? 0 : -err; /* 1: nothing to do */
 }
 
 int render_main(int argc, char **argv)
