@@ -5,6 +5,7 @@
 import json
 import os
 import pathlib
+import re
 
 from helpers import BUILD, RELUME, SCRATCH, check, corpus, finish, must, record, relume, run
 
@@ -114,7 +115,8 @@ check(done.returncode == 0 and found and not done.stderr, f"another driver: {don
 kept.write_bytes(b"")
 code, (device,), said = checked(lost, fake(DIE="compressed", HANG="occlude_packet"), "--timeout", "60")
 check(code == 1 and states(device) == {"packets": "late", "binary": "right", "compressed": "failed"}, f"one crashes, one hangs: {code}, {device}")
-check("SIGABRT in camera_compressed" in device["families"][2]["where"], f"the kernel that crashes is named: {device['families'][2]}")
+# Beside it stand kernels that were launched with it, if any: the driver may have been at work on these.
+check(re.search(r"SIGABRT in .*camera_compressed", device["families"][2]["where"]), f"the kernel that crashes is named: {device['families'][2]}")
 check(device["kernels"] == "binary", f"one crashes, one hangs, and the device runs {device['kernels']}")
 check(len(list(lost.glob("*.outcome"))) == 1 and kept.read_bytes() != b"", "a damaged outcome is written again")
 done, found = render(lost)

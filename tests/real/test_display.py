@@ -39,13 +39,15 @@ def files(folder):
 
 # Within one code of oiiotool's, at any exposure and white; JPEG within what its compression costs.
 render("exr", "-f", "0", ending="exr")
+brightest = codes(out / "exr/s.0000.exr").max() / 255
 for exposure, white in ((0, 1), (1.5, 1), (2, 4), (-1, 16)):
     said = render(f"curve{exposure}_{white}", "-f", "0", "--exposure", exposure, "--white", white)
     ours, theirs = numpy.rint(codes(out / f"curve{exposure}_{white}/s.0000.png")), codes(out / "exr/s.0000.exr", *curve(exposure, white))
     apart = numpy.abs(ours - numpy.rint(theirs))
     check(apart.max() <= 1, f"exposure {exposure}, white {white}: at most {apart.max()} codes from oiiotool's")
     check(numpy.abs((ours - theirs).mean()) < 0.03, f"dither is no shift: {(ours - theirs).mean()}")
-    check(f"exposure {exposure:+g} stops, white at {white:g}; " in said, f"the log tells it: {said}")
+    clips = brightest * 2.0 ** exposure > white
+    check((f"exposure {exposure:+g} stops, white at {white:g}; " in said) == clips, f"the log says what lies above white ({clips}): {said}")
 plain = codes(out / "curve0_1/s.0000.png")
 check(numpy.abs(plain - codes(out / "curve1.5_1/s.0000.png")).max() > 40, "exposure changes the picture")
 render("jpeg", "-f", "0", ending="jpg")
