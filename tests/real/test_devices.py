@@ -74,7 +74,7 @@ for name, words in (("AS_MEMORY", "are needed on this device, which has 2"), ("A
 # No driver, and one without a device, are told apart.
 (SCRATCH / "vendors").mkdir()
 for name, env, words in (("no driver", {"OCL_ICD_VENDORS": str(SCRATCH / "vendors")}, "there is no driver here (CL_PLATFORM_NOT_FOUND)"),
-                         ("no device", {"POCL_DEVICES": "none"}, "none has a device here (CL_DEVICE_NOT_FOUND)")):
+                         ("no device", {"POCL_DEVICES": "none"}, "1 driver is installed, without a device here (CL_DEVICE_NOT_FOUND)")):
     done = render("none", "-f", "0", env=dict(os.environ, **env))
     check(done.returncode == 5 and words in done.stderr, f"{name}: exit code {done.returncode}, {done.stderr}")
     check(not files(SCRATCH / "none"), f"{name}: something was written")
