@@ -147,8 +147,8 @@ def seconds_of(stage, printed):
 def show_demo(suite, shown):
     before = suite.packages()
     code, seconds, printed = suite.run("demo", "cd relume && make demo")
-    passed = re.search(r"(\d+) of (\d+)", printed[printed.rfind("\nscore") :])
-    frames = f"{passed[1]} of {passed[2]} frames" if passed else "no frames scored"
+    scored = re.search(r"^score .* (\d+) frames: (\d+) passed", printed, re.M)
+    frames = f"{scored[2]} of {scored[1]} frames" if scored else "no frames scored"
     shown.row(
         f"{suite.name}: make demo",
         f"{frames}, exit code {code}, {seconds:.0f} s, of which {seconds_of('install', printed)} s install "
