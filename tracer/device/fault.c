@@ -208,7 +208,8 @@ static const struct fault_place *find_busy(unsigned least)
 	return best;
 }
 
-extern const char __executable_start[], etext[]; /* the linker's: where this program's text is */
+/* The linker's: where the text of this program, or of this library, is. */
+extern const char __ehdr_start[] __attribute__((visibility("hidden"))), etext[] __attribute__((visibility("hidden")));
 
 __attribute__((noinline)) static int is_own_thread(void)
 {
@@ -216,7 +217,7 @@ __attribute__((noinline)) static int is_own_thread(void)
 	const int n = backtrace(frames, MOST_FRAMES), own = 2; /* the innermost are this function and the handler */
 
 	for (int i = own; i < n; i++)
-		if ((const char *)frames[i] >= __executable_start && (const char *)frames[i] < etext)
+		if ((const char *)frames[i] >= __ehdr_start && (const char *)frames[i] < etext)
 			return 1;
 	return n == MOST_FRAMES; /* the end of the stack is not known */
 }
