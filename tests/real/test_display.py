@@ -2,8 +2,8 @@
 """Display pictures: PNG beside oiiotool's conversion of the OpenEXR file by the same curve; the same bytes whatever runs at once."""
 import numpy
 
-from exr import Image
-from helpers import SCRATCH, check, corpus, diff, finish, must, record, relume, run
+from codes import codes
+from helpers import SCRATCH, check, corpus, diff, finish, must, record, relume
 
 trace = SCRATCH / "still.trace"
 out = SCRATCH / "out"
@@ -14,14 +14,6 @@ def render(folder, *options, ending="png", code=0):
     done = relume("render", trace, "-o", out / folder / f"s.####.{ending}", *options)
     check(done.returncode == code, f"render {options}: exit code {done.returncode} and not {code}: {done.stderr}")
     return done.stderr
-
-
-def codes(picture, *steps):
-    """A picture as codes of 8 bits with their fractions, by oiiotool."""
-    raw = SCRATCH / "codes.exr"
-    must(run("oiiotool", picture, "--ch", "R,G,B", *steps, "-d", "float", "--compression", "none", "-o", raw))
-    picture = Image(raw)
-    return 255 * numpy.array([picture.planes[c] for c in "RGB"])
 
 
 def curve(exposure, white):

@@ -7,6 +7,7 @@ import os
 
 import numpy
 
+from codes import whole_codes
 from helpers import SCRATCH, check, corpus, finish, must, record, relume, run
 
 bin_dir = SCRATCH / "bin"
@@ -46,17 +47,9 @@ def film(name, *options, of=frames, code=0, env=fake):
     return numpy.frombuffer(data, numpy.uint8).reshape(-1, height, width, 3), int(rate)
 
 
-def codes(picture):
-    raw = SCRATCH / "codes.ppm"
-    must(run("oiiotool", picture, "--ch", "R,G,B", "-d", "uint8", "-o", raw))
-    _, size, _, data = raw.read_bytes().split(b"\n", 3)
-    width, height = map(int, size.split())
-    return numpy.frombuffer(data, numpy.uint8).reshape(height, width, 3)
-
-
 # Side by side: what the program showed, and the display picture that render makes.
 must(relume("raster", trace, "-f", "1", "-o", SCRATCH / "raster.####.png"))
-shown, traced = codes(SCRATCH / "raster.0001.png"), codes(pngs / "s.0001.png")
+shown, traced = whole_codes(SCRATCH / "raster.0001.png"), whole_codes(pngs / "s.0001.png")
 height, width, _ = shown.shape
 pictures, rate = film("plain.webm", "--fps", "25", "--no-labels")
 check(rate == 25 and pictures.shape == (4, height, 2 * width + 4, 3), f"four pictures at 25 a second: {rate}, {pictures.shape}")

@@ -10,7 +10,8 @@ import re
 import shutil
 import sys
 
-from helpers import ROOT, SCRATCH, check, corpus, finish, must, record, relume, render, run, skip
+from codes import whole_codes
+from helpers import ROOT, SCRATCH, check, corpus, finish, must, record, relume, render, skip
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tests/show"))
@@ -84,17 +85,10 @@ check(told[1] == "passed: As the program showed it, fidelity 100 %.", f"and whic
 page = (SCRATCH / "changed/index.html").read_text()
 
 
-def read_png(path):
-    must(run("oiiotool", path, "-o", SCRATCH / "one.ppm"))
-    data = (SCRATCH / "one.ppm").read_bytes()
-    width, height, at = (lambda m: (int(m[1]), int(m[2]), m.end()))(re.match(rb"P6\s(\d+) (\d+)\s255\s", data))
-    return numpy.frombuffer(data, "u1", offset=at).reshape(height, width, 3).astype(int)
-
-
 def picture_of(frame, name):
     block = json.loads(re.search(rf'id="p{frame}">(.*?)</script>', page, re.S)[1])
     (SCRATCH / "one.png").write_bytes(base64.b64decode(block[name].partition(",")[2]))
-    return read_png(SCRATCH / "one.png")
+    return whole_codes(SCRATCH / "one.png").astype(int)
 
 
 change, marks = picture_of(1, "change"), picture_of(1, "changed")
@@ -104,7 +98,7 @@ check((change[PATCH][:, :, 0] > 100).all() and change[red == 0].max() == 0, "the
 check((abs(picture_of(1, "approved") - picture_of(1, "beauty")).max(2) > 0).sum() == 400, "the approved frame is another one")
 check((picture_of(1, "blame 0") == (255, 40, 30)).all(2).any(), "the blamed draw's picture shows the failing pixels")
 check("approved" not in re.search(r'id="p0">(.*?)</script>', page, re.S)[1], "a frame that is as approved needs no second picture")
-sheet = read_png(SCRATCH / "changed/sheet.png")
+sheet = whole_codes(SCRATCH / "changed/sheet.png").astype(int)
 check(sheet.shape[1] == 8 + 3 * (96 + 8), f"the sheet's columns are approved, now, difference: {sheet.shape}")
 text = (SCRATCH / "changed.md").read_text()
 check("| 1-2 | failed | not as approved: " in text, f"Markdown says which comparison failed, once for both frames:\n{text}")
