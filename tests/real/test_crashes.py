@@ -183,5 +183,6 @@ parent, worker = start_hung()
 os.kill(worker, signal.SIGSEGV)
 found, said = ended(parent)
 check(found == -signal.SIGSEGV and not said, f"a signal from elsewhere ends the run, and blames nobody: {found}, {said}")
-check(not list((SCRATCH / "hung-cache").glob("*.outcome")) and not list((SCRATCH / "hung").glob("*")), "and nothing is left or remembered")
+left = [*(SCRATCH / "hung-cache").glob("*.outcome"), *(SCRATCH / "hung").glob("*")]
+check(not left, f"and nothing is left or remembered: {left}")
 finish()

@@ -301,8 +301,9 @@ void fault_refuse(struct fault_place *place, int code, int is_build, const char 
 {
 	const int is_short = code == CL_DEVICE_NOT_AVAILABLE || code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
 	                     code == CL_OUT_OF_HOST_MEMORY;
+	const int is_lost = code == CL_INVALID_COMMAND_QUEUE || code == CL_INVALID_CONTEXT || code == CL_INVALID_DEVICE;
 
-	if (!state.is_watched || !state.refusals || !place || (is_build && is_short))
+	if (!state.is_watched || !state.refusals || !place || (is_build && (is_short || is_lost)))
 		return;
 	fault_build(place, is_build ? what : NULL);
 	note(place, FAULT_REFUSED, code);

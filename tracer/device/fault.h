@@ -104,7 +104,7 @@ void fault_end(void);
 
 /**
  * The driver refuses a program or kernel: note it, and end the process with exit code 5. Returns where refusals do not end it, and where the
- * driver says of a build (is_build) that it is short of something.
+ * driver says of a build (is_build) that it is short of something, or that the device is lost.
  */
 void fault_refuse(struct fault_place *place, int code, int is_build, const char *what);
 
