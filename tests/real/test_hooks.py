@@ -2,12 +2,11 @@
 # limit: 300 s
 """Hooks: functions of a user's own at stages of the tracer, on real OpenCL; and what becomes of wrong ones."""
 import pathlib
-import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import exr  # noqa: E402
-from helpers import RELUME, ROOT, SCRATCH, check, finish, must, relume  # noqa: E402
+from helpers import ROOT, SCRATCH, check, finish, must, relume  # noqa: E402
 
 CORNELL = ROOT / "tests/golden/cornell.trace"
 MIRRORS = SCRATCH / "mirrors.look.yaml"
@@ -107,8 +106,4 @@ check(done.returncode != 0 and "member.cl:4:" in done.stderr and not (SCRATCH / 
 endless = hook("endless", CLOSEST % "\tvolatile int i = 0;\n\n\twhile (i >= 0)\n\t\ti = (i + 1) % 7;\n\treturn relume_go_on();")
 done = relume("hook", "--check", "--seconds", 15, endless)
 check(done.returncode == 3 and "endless loop" in done.stderr, f"an endless loop: {done.returncode}, {done.stderr}")
-beyond = hook("beyond", CLOSEST % "\tvolatile float table[4];\n\n\tfor (int i = 0; i < 4 + (int)hit.front; i++)\n\t\ttable[i] = hit.color.x;\n\treturn relume_go_on();")
-done = subprocess.run(["oclgrind", "--build-options", "-cl-opt-disable -D LANES_PORTABLE", "--max-errors", "2", RELUME, "hook", "--check", "--seconds", "100", beyond],
-                      capture_output=True, text=True, timeout=110)
-check("Invalid write of size 4" in done.stdout + done.stderr and "At line 6" in done.stdout + done.stderr, f"out of bounds: {(done.stdout + done.stderr)[:600]}")
 finish()
