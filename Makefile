@@ -192,7 +192,7 @@ $(BUILD)/sanitized/%/threads: tests/trace/threads.c tests/trace/window.h
 $(BUILD)/recorder/gen/stamp $(RECORDER_GEN:%=$(BUILD)/recorder/gen/%.c) &: capture/gen/gen.py capture/gen/registry.py capture/gen/overlay.txt | $(HAVE)
 	@mkdir -p $(BUILD)/recorder/gen
 	$(Q)$(PYTHON) -B capture/gen/gen.py capture/gen/overlay.txt $(BUILD)/recorder/gen
-	@touch $(BUILD)/recorder/gen/stamp
+	@touch $(BUILD)/recorder/gen/stamp $(RECORDER_GEN:%=$(BUILD)/recorder/gen/%.c)
 
 $(BUILD)/recorder/gen/%.o: $(BUILD)/recorder/gen/%.c $(BUILD)/flags
 	$(Q)$(CC) $(CPPFLAGS) $(RECORDER_CFLAGS) -O2 -g0 -c -o $@ $<
