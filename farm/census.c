@@ -78,15 +78,19 @@ void census_free(struct census *c)
 	*c = (struct census){ 0 };
 }
 
-/* When a frame's file was written; 0: there is none. */
+/* When a file was written; 0: there is none. */
+static double changed(const char *path)
+{
+	struct stat st;
+
+	return stat(path, &st) ? 0 : (double)st.st_mtim.tv_sec + 1e-9 * (double)st.st_mtim.tv_nsec;
+}
+
 static double written(const struct farm_job *job, uint64_t frame)
 {
 	char path[PATH_MAX];
-	struct stat st;
 
-	if (frame_pattern_expand(job->output, frame, path, sizeof(path)) || stat(path, &st))
-		return 0;
-	return (double)st.st_mtim.tv_sec + 1e-9 * (double)st.st_mtim.tv_nsec;
+	return frame_pattern_expand(job->output, frame, path, sizeof(path)) ? 0 : changed(path);
 }
 
 uint64_t census_landed(const struct farm_job *job, const struct census *c)
@@ -98,24 +102,33 @@ uint64_t census_landed(const struct farm_job *job, const struct census *c)
 	return n;
 }
 
+/* When the first task of the last submission began: job.sh is written anew by each, and touches a lock in each task. */
+static double began(const struct farm_job *job)
+{
+	char path[PATH_MAX + 48];
+	double submitted, first = 0;
+
+	snprintf(path, sizeof(path), "%s/job.sh", job->folder);
+	submitted = changed(path);
+	for (uint64_t i = 1; submitted > 0 && i <= job->n_tasks; i++) {
+		snprintf(path, sizeof(path), "%s/lock/%" PRIu64, job->folder, i);
+		double at = changed(path);
+		if (at >= submitted && (first == 0 || at < first))
+			first = at;
+	}
+	return first > 0 ? first : submitted;
+}
+
 double census_rate(const struct farm_job *job)
 {
-	char path[PATH_MAX + 16];
-	double first = 0, last = 0, at;
+	const double start = began(job);
+	double last = start;
 	uint64_t frame = 0, n = 0;
-	struct stat script;
 
-	/* It is written anew by each submission and each retry. */
-	snprintf(path, sizeof(path), "%s/job.sh", job->folder);
-	if (stat(path, &script))
-		return 0;
-	for (uint64_t from = 0; frame_list_next(&job->frames, from, &frame); from = frame + 1) {
-		at = written(job, frame);
-		if (at < (double)script.st_mtim.tv_sec)
-			continue;
-		first = !n || at < first ? at : first;
+	for (uint64_t from = 0; start > 0 && frame_list_next(&job->frames, from, &frame); from = frame + 1) {
+		const double at = written(job, frame);
+		n += at >= start;
 		last = at > last ? at : last;
-		n++;
 	}
-	return n > 1 && last > first ? (double)(n - 1) / (last - first) : 0;
+	return last > start ? (double)n / (last - start) : 0;
 }

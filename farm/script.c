@@ -114,6 +114,7 @@ static void put_functions(const struct farm_job *job, FILE *out)
 	      "task() {\n"
 	      "\ttrap : TERM INT HUP\n"
 	      "\techo \"farm: task $1 begins on ${SLURMD_NODENAME-this machine}\"\n"
+	      "\ttouch \"$job/lock/$1\"\n"
 	      "\tflock -F \"$job/lock/$1\" ", out);
 	put_render(job, out, "\"$1\"");
 	fputs("\n"

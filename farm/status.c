@@ -43,7 +43,7 @@ static void print_rate(const struct farm_job *job, const struct work *work, uint
 
 	if (rate <= 0)
 		return;
-	printf("; %.3g frames a minute, about ", 60 * rate);
+	printf("; %.*f frames a minute, about ", 60 * rate < 10 ? 1 : 0, 60 * rate);
 	if (seconds < 90)
 		printf("%.0f s left", seconds);
 	else if (seconds < 90 * 60)

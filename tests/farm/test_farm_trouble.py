@@ -77,6 +77,7 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
 
     # Two jobs for the same frames.
     folder, pattern, job = place("twice")
+    submitted = time.time()
     number = re.search(r"^render (\d+),", must(farm("submit", *words(pattern, 4, render=SLOW))).stdout, re.M)[1]
     until(lambda: list(folder.glob("*.exr")), "the first frame")
     second = farm("submit", *words(pattern, 4))
@@ -90,6 +91,8 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
     told = farm("status", job)
     check(re.search(r"^tasks [12] running, [0-4] waiting; report waiting or running; [\d.]+ frames a minute, about \d+ (s|min) left$", told.stdout, re.M),
           f"rate and time left: {told.stdout}")
+    told_rate, landed, took = re.search(r"; ([\d.]+) frames a minute", told.stdout), len(list(folder.glob("*.exr"))), time.time() - submitted
+    check(told_rate and float(told_rate[1]) >= 0.9 * 60 * 3 / took, f"at least what landed since the submission, {landed} in {took:.1f} s: {told.stdout}")
     wanting = re.search(r"^missing: frames (.*)$", told.stdout, re.M)
     check(wanting and all(re.fullmatch(r"\d+(-\d+)?", part) for part in wanting[1].split(",")), f"the frames that are missing: {told.stdout}")
     done = must(farm("submit", *words(pattern, 4, "--replace"), timeout=150))
@@ -106,14 +109,22 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
     killed = {}
 
     def kill_task(task, everything):
-        """Kill the renderer of a task, or all of its processes."""
+        """Kill the renderer of a task, or all of its processes: stopped first, so that none sees another's end."""
+        ours = []
+        renders = False
         for pid, command in cluster.below():
             try:
                 environment = pathlib.Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
             except OSError:
                 continue
             if f"SLURM_ARRAY_TASK_ID={task}".encode() in environment and command != "slurmstepd" and (everything or command == "relume"):
-                os.kill(pid, signal.SIGKILL)
+                ours.append(pid)
+                renders |= command == "relume"
+        if not renders:
+            return  # its script has not said yet that it begins
+        for sign in (signal.SIGSTOP, signal.SIGKILL):
+            for pid in ours:
+                os.kill(pid, sign)
                 killed[task] = True
 
     until(lambda: kill_task(3, False) or 3 in killed, "task 3 runs")
