@@ -179,21 +179,19 @@ class Cluster:
         return f"{states}\n{logs}{nodes}"
 
     def below(self, name=None):
-        """Processes below this cluster's daemons and the step daemons whose slurmd was killed: [(pid, command)]."""
+        """Processes below this cluster's daemons and the step daemons that left them: [(pid, command)]."""
         table = parents()
-        ours = {d.pid for d in self.daemons.values()}
-        # A slurmstepd leaves its slurmd's process tree; its environment and open log name our folder.
-        for pid, (_, command) in table.items():
-            if command == "slurmstepd" and self._is_ours(pid):
-                ours.add(pid)
-        found = set(ours)
-        while True:
-            more = {p for p, (parent, _) in table.items() if parent in found} - found
-            if not more:
-                break
-            found |= more
         daemons = {d.pid for d in self.daemons.values()}
-        return [(p, table[p][1]) for p in found - daemons if p in table and name in (None, table[p][1])]
+
+        def with_children(found):
+            more = {p for p, (parent, _) in table.items() if parent in found} - found
+            return with_children(found | more) if more else found
+
+        # A slurmstepd leaves its slurmd's process tree when that is killed (in Slurm 24 at once), and writes its title
+        # over its environment: its task's environment tells whose it is.
+        strays = {p for p in table.keys() - with_children({os.getpid()}) if self._is_ours(p)}
+        steps = {table[p][0] for p in strays if table.get(table[p][0], (0, ""))[1] == "slurmstepd"}
+        return [(p, table[p][1]) for p in with_children(daemons | strays | steps) - daemons if name in (None, table[p][1])]
 
     def _is_ours(self, pid):
         try:
