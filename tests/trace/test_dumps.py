@@ -2,7 +2,8 @@
 """Small GL programs, recorded and dumped by apitrace, compared with what they should give.
 
 NAME.c beside this file is the program, NAME.ref.txt its calls as `apitrace dump` prints them, without call numbers. Each
-line of it must come in this order; <name> matches anything, "..." any number of lines. Run with --print NAME [OPTIONS of relume record] to see a dump.
+line of it must come in this order; <name> matches anything, <=name> a number that is the same wherever it stands, "..." any
+number of lines. Run with --print NAME [OPTIONS of relume record] to see a dump.
 """
 import os
 import pathlib
@@ -18,13 +19,19 @@ BUILD = pathlib.Path(os.environ.get("RELUME_BUILD", ROOT / "build"))
 RELUME = os.environ.get("RELUME", BUILD / "relume")
 
 
+def run(*command):
+    done = subprocess.run([ROOT / "tests" / "xvfb.sh", *command], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
 def dump(name, *options):
-    """The calls of a program under the recorder, as a list of lines without numbers."""
+    """The calls of a program under the recorder, as a list of lines without numbers. It prints what it does without."""
+    program = BUILD / "tests" / "trace" / name
     with tempfile.TemporaryDirectory() as folder:
         trace = pathlib.Path(folder, "x.trace")
-        run = subprocess.run([ROOT / "tests" / "xvfb.sh", RELUME, "record", "-o", trace, *options, "--",
-                              BUILD / "tests" / "trace" / name], capture_output=True, text=True, check=False)
-        assert run.returncode == 0, run.stdout + run.stderr
+        printed = run(RELUME, "record", "-o", trace, *options, "--", program)
+        assert printed == run(program), printed
         read = subprocess.run(["apitrace", "dump", "--color=never", "--verbose", trace], capture_output=True, text=True,
                               check=True)
         assert not read.stderr, read.stderr
@@ -32,25 +39,35 @@ def dump(name, *options):
     return [line for line in lines if line and not line.startswith("//")]
 
 
-def matcher(line):
-    return re.compile("".join(".*" if re.fullmatch(r"<\w+>", part) else re.escape(part)
-                              for part in re.split(r"(<\w+>)", line)))
+def matcher(line, numbers):
+    """@param numbers  {name: what it was}"""
+    text = ""
+    for part in re.split(r"(<=?\w+>)", line):
+        name = part[2:-1] if part.startswith("<=") else None
+        if name and name not in numbers and f"(?P<{name}>" not in text:
+            text += rf"(?P<{name}>\d+)"
+        elif name:
+            text += numbers.get(name, f"(?P={name})")
+        else:
+            text += ".*" if re.fullmatch(r"<\w+>", part) else re.escape(part)
+    return re.compile(text)
 
 
 class Dumps(unittest.TestCase):
     def compare(self, name, *options):
         got = dump(name, *options)
-        at, anywhere = 0, True
+        at, anywhere, numbers = 0, True, {}
         for number, line in enumerate((HERE / f"{name}.ref.txt").read_text().splitlines(), 1):
             if line == "...":
                 anywhere = True
                 continue
-            pattern = matcher(line)
+            pattern = matcher(line, numbers)
             here = at
             while anywhere and here < len(got) and not pattern.fullmatch(got[here]):
                 here += 1
             self.assertTrue(here < len(got) and pattern.fullmatch(got[here]),
                             f"{name}.ref.txt:{number}: {line}\nnot found; the dump goes on with\n" + "\n".join(got[at:at + 5]))
+            numbers |= pattern.fullmatch(got[here]).groupdict()
             at, anywhere = here + 1, False
 
     def test_arrays(self):
