@@ -64,11 +64,16 @@ def on_display(*args, **more):
     return run(ROOT / "tests/xvfb.sh", *args, **more)
 
 
-def record(trace, *program, options=("--ref", "color,depth")):
-    """Record a program on a display of its own. Where it says that this machine's GL cannot run it (exit code 77), the test is skipped."""
+def record(trace, *program, options=("--ref", "color,depth"), optional=False):
+    """Record a program on a display of its own. Where it says that this machine's GL cannot run it (exit code 77), the test is
+    skipped; where it is optional, None is returned instead."""
     done = on_display(RELUME, "record", "-o", trace, *options, "--", *program)
-    if done.returncode == 77 and False not in _results:
-        skip(next((line for line in done.stderr.splitlines() if line.startswith("skipped: ")), "the program cannot run here").removeprefix("skipped: "))
+    if done.returncode == 77 and (optional or False not in _results):
+        why = next((line for line in done.stderr.splitlines() if line.startswith("skipped: ")), "the program cannot run here")
+        if not optional:
+            skip(why.removeprefix("skipped: "))
+        print(f"{trace.name}: {why}")
+        return None
     return must(done)
 
 

@@ -115,6 +115,8 @@ int main(int argc, char **argv)
 	int bits = argc > 1 ? atoi(argv[1]) : 24;
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, bits, None };
 
+	if (bits > 24)
+		window_kind = "a depth buffer of more than 24 bits";
 	open_window_of(attributes);
 	glEnable(GL_DEPTH_TEST);
 	glClearColor(0.3f, 0.9f, 0.7f, 0);

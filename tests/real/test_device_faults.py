@@ -21,7 +21,7 @@ if len(sys.argv) > 1:
     os.environ["RELUME_BUILD"] = str(pathlib.Path(sys.argv[1]).resolve())
     os.environ.setdefault("TMPDIR", tempfile.mkdtemp(prefix="relume-device-faults-"))
 
-from helpers import BUILD, ROOT, SCRATCH, check, finish, must, record, relume  # noqa: E402
+from helpers import BUILD, ROOT, SCRATCH, check, corpus, finish, must, record, relume  # noqa: E402
 import exr  # noqa: E402
 
 sys.dont_write_bytecode = True
@@ -54,7 +54,7 @@ def render(trace, name, env, *options):
 # --- Little memory, and a watchdog: PoCL underneath ------------------------------------------------------------------
 
 scene = SCRATCH / "scene.trace"
-record(scene, BUILD / "tests/real/samples", options=())
+record(scene, corpus("still_life"), "--frames", "2", options=())
 
 
 def fake(**more):

@@ -10,7 +10,7 @@ import exr
 from helpers import BUILD, SCRATCH, check, finish, must, record, relume
 
 trace = SCRATCH / "kept.trace"
-record(trace, BUILD / "tests/real/samples", options=())
+record(trace, BUILD / "tests/real/shapes", options=())
 seed = random.randrange(1 << 32)
 chance = random.Random(seed)
 

@@ -28,7 +28,8 @@ def display(linear):
 
 for bits in (24, 32):
     trace = SCRATCH / f"leaving{bits}.trace"
-    record(trace, BUILD / "tests/real/leaving", bits)
+    if not record(trace, BUILD / "tests/real/leaving", bits, optional=bits == 32):
+        continue
     files = render(trace, SCRATCH / f"frames{bits}", "--mode", "gl")
     _, score = diff(trace, SCRATCH / f"frames{bits}")
     check_gates(score, N_FRAMES, f"{bits} bits", skip=("R2", "R4", "P"))
