@@ -18,6 +18,7 @@ uint32_t scene_mesa_of(const char *gl)
 		{ 2500, UINT_MAX, SCENE_MESA_FLAT_PROGRAMS },
 		{ 2500, UINT_MAX, SCENE_MESA_BACK_COLORS },
 		{ 2500, UINT_MAX, SCENE_MESA_LATE_BITMAPS },
+		{ 2500, UINT_MAX, SCENE_MESA_PRODUCTS_ONCE },
 	};
 	const char *mesa = strstr(gl, "Mesa ");
 	unsigned major, minor;

@@ -25,6 +25,8 @@ enum scene_mesa {
 	SCENE_MESA_BACK_COLORS = 64,
 	/* 25.0: bitmaps are drawn late, with the fog that is set then: known, not followed (replay/draw_names.c) */
 	SCENE_MESA_LATE_BITMAPS = 128,
+	/* 25.0: GLSL's (A B C) v is (A B) (C v), and not A (B (C v)): products are taken apart once */
+	SCENE_MESA_PRODUCTS_ONCE = 256,
 };
 
 /**

@@ -26,6 +26,7 @@ struct gls_shader {
 	char message[GLSL_MESSAGE]; /* stages.why, where that names a line */
 	struct table locations; /* what the program was told -> 1 + (number in uniforms.list << 32 | element) */
 	uint32_t other_stages;  /* 1: with shaders of neither stage */
+	uint32_t mesa;          /* bits of enum scene_mesa, for the Mesa that linked it */
 };
 
 void gls_shader_free(struct gls_shader *s);

@@ -32,7 +32,7 @@ static char *get_text(struct loader *l)
 static void put_shader(struct saver *s, void *value)
 {
 	const struct gls_shader *sh = value;
-	const uint32_t head[] = { sh->type, sh->deleted, sh->uses, sh->stages.linked, sh->other_stages, sh->stages.links };
+	const uint32_t head[] = { sh->type, sh->deleted, sh->uses, sh->stages.linked, sh->other_stages, sh->stages.links, sh->mesa };
 
 	bytes_put(s->out, head, sizeof(head));
 	put_text(s, sh->source);
@@ -126,7 +126,7 @@ static void drop_shader(void *shader)
 static void *get_shader(struct loader *l)
 {
 	struct gls_shader *sh = loader_alloc(l, sizeof(*sh));
-	uint32_t head[6] = { 0 }, links;
+	uint32_t head[7] = { 0 }, links;
 
 	if (!sh)
 		return NULL;
@@ -137,6 +137,7 @@ static void *get_shader(struct loader *l)
 	sh->stages.linked = head[3];
 	sh->other_stages = head[4];
 	links = head[5];
+	sh->mesa = head[6];
 	sh->source = get_text(l);
 	sh->compiled = get_text(l);
 	sh->n_attached = (uint32_t)loader_count(l, sizeof(*sh->attached));
@@ -152,7 +153,7 @@ static void *get_shader(struct loader *l)
 	return NULL;
 }
 
-static const struct snapshot_table how = { "shader", 6 * sizeof(uint32_t), put_shader, get_shader, drop_shader };
+static const struct snapshot_table how = { "shader", 7 * sizeof(uint32_t), put_shader, get_shader, drop_shader };
 
 void snapshot_put_shaders(struct saver *s, const struct table *shaders)
 {

@@ -181,6 +181,7 @@ GLS_HANDLER(glLinkProgram, OBJECT)
 		if (s && s->compiled)
 			err = gls_shader_add_text(program, s->type, s->compiled);
 	}
+	program->mesa = st->mesa;
 	if (!err)
 		err = gls_shader_translate(program, 0);
 	if (err)

@@ -7,6 +7,7 @@
 #include "replay/glsl/meaning/functions.h"
 #include "replay/glsl/parse/products.h"
 #include "replay/glsl/text/type_names.h"
+#include "scene/mesa.h"
 
 #define MAX_NODES 200000
 #define N_KEPT 256
@@ -170,8 +171,9 @@ static uint32_t function_of(struct flat *f, struct parse_function *function)
 	return function->number - 1;
 }
 
-/* (A B) v is A (B v), however many matrices there are, as in Mesa (22.3.6). */
-static uint32_t times_vector(struct flat *f, struct parse_node *matrix, uint32_t vector, const struct parse_type *type)
+/* (A B) v is A (B v), as in Mesa: in 22.3.6 however many matrices there are, in 25.0.7 without a look at what that makes. */
+static uint32_t times_vector(struct flat *f, struct parse_node *matrix, uint32_t vector, const struct parse_type *type,
+                             bool is_taken_apart)
 {
 	struct parse_node *product = matrix->operation == GLSL_SYMBOL && matrix->symbol->product ?
 	                                     matrix->symbol->product :
@@ -180,14 +182,16 @@ static uint32_t times_vector(struct flat *f, struct parse_node *matrix, uint32_t
 
 	if (++f->depth > PARSE_MAX_DEPTH)
 		parse_refuse(f->p, "a shader nests deeper than is done");
-	if (product->operation != GLSL_MATRIX_TIMES_MATRIX) {
+	if (product->operation != GLSL_MATRIX_TIMES_MATRIX || !is_taken_apart) {
 		both[0] = flatten(f, matrix);
 		both[1] = vector;
 		made = add(f, GLSL_MATRIX_TIMES_VECTOR, type_of(f, type), both, 2, 0);
 	} else {
+		const bool again = !(f->p->mesa & SCENE_MESA_PRODUCTS_ONCE);
+
 		vector = times_vector(f, product->children[1], vector,
-		                      parse_type(f->p, GLSL_FLOAT, product->children[1]->type->rows, 0));
-		made = times_vector(f, product->children[0], vector, type);
+		                      parse_type(f->p, GLSL_FLOAT, product->children[1]->type->rows, 0), again);
+		made = times_vector(f, product->children[0], vector, type, again);
 	}
 	f->depth--;
 	return made;
@@ -235,7 +239,7 @@ static uint32_t flatten(struct flat *f, struct parse_node *node)
 	         node->children[0]->symbol->product)
 		made = add(f, GLSL_SEQUENCE, type_of(f, parse_type(f->p, GLSL_VOID, 0, 0)), NULL, 0, 0);
 	else if (node->operation == GLSL_MATRIX_TIMES_VECTOR)
-		made = times_vector(f, node->children[0], flatten(f, node->children[1]), node->type);
+		made = times_vector(f, node->children[0], flatten(f, node->children[1]), node->type, true);
 	else
 		made = flatten_children(f, node);
 	f->depth--;

@@ -6,10 +6,11 @@
 /**
  * Parse the texts of a stage.
  * @param texts    n of them, each a shader object's
+ * @param mesa     what the Mesa whose pictures are to be met does otherwise, as bits of enum scene_mesa
  * @param tree     all zero; filled, and to be freed with glsl_tree_free whatever is returned
  * @param message  [GLSL_MESSAGE] room for a reason
  * @param why      receives NULL, or what stands in the way: a static string, or `message`
  * @return 0, also where *why is set, or ERR_SYSTEM (reported)
  */
-int glsl_parse(const char *const *texts, uint32_t n, enum glsl_stage stage, struct glsl_tree *tree, char *message,
-               const char **why);
+int glsl_parse(const char *const *texts, uint32_t n, enum glsl_stage stage, uint32_t mesa, struct glsl_tree *tree,
+               char *message, const char **why);
