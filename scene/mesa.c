@@ -19,6 +19,8 @@ uint32_t scene_mesa_of(const char *gl)
 		{ 2500, UINT_MAX, SCENE_MESA_BACK_COLORS },
 		{ 2500, UINT_MAX, SCENE_MESA_LATE_BITMAPS },
 		{ 2500, UINT_MAX, SCENE_MESA_PRODUCTS_ONCE },
+		{ 2500, UINT_MAX, SCENE_MESA_ROUNDS_SMALL_FLOATS },
+		{ 2500, UINT_MAX, SCENE_MESA_LINEAR_MEANS },
 	};
 	const char *mesa = strstr(gl, "Mesa ");
 	unsigned major, minor;

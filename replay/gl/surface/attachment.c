@@ -259,7 +259,7 @@ static void store_color(struct gls_exec *x, const struct target *t, const struct
 			else if (content)
 				(format->numbers ? gls_format_store_bytes : gls_format_draw)(format, v, content->rgba + 4 * to);
 			if (content && content->colors)
-				gls_format_store(format, v, (uint8_t *)(content->colors + 4 * to));
+				gls_format_store(format, v, 0, (uint8_t *)(content->colors + 4 * to));
 		}
 }
 

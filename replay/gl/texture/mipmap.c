@@ -14,6 +14,8 @@
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "scene/mesa.h"
 
 struct tap {
 	uint32_t first, second;
@@ -103,14 +105,14 @@ static void halve(const struct gls_level *from, uint32_t w, uint32_t h, uint8_t 
 
 /*
  * Formats that Mesa cannot draw to it averages as they are stored, two by two texels. The last of an odd number of texels is left
- * out; integers are rounded down.
+ * out; integers are rounded down. In 25.0 colours that are encoded are averaged in linear light, as floats.
  */
 static int is_averaged(const struct gls_format *f)
 {
 	return (f->srgb && f->base != GL_RGB && f->base != GL_RGBA) || f->numbers == GLS_9E5 || f->block_bytes || f->s3tc;
 }
 
-static void average_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format)
+static void average_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format, const float *linear)
 {
 	const uint32_t n[3] = { from->width > to->width ? 2 : 1, from->height > to->height ? 2 : 1, from->depth > to->depth ? 2 : 1 };
 	const uint32_t count = n[0] * n[1] * n[2];
@@ -124,24 +126,27 @@ static void average_level(const struct gls_level *from, struct gls_level *to, co
 
 			gls_texel_load(from->texel_bytes, from->texels + from->texel_bytes * at, v);
 			for (unsigned c = 0; c < 4; c++)
-				sum[c] += v[c];
+				sum[c] += linear && c < 3 ? linear[(unsigned)(v[c] * 255 + 0.5f)] / 255 : v[c];
 		}
 		for (unsigned c = 0; c < 4; c++) {
 			v[c] = sum[c] / (float)count;
-			if (!format->numbers)
+			if (linear && c < 3)
+				v[c] = gls_srgb_from_linear(v[c]);
+			else if (!format->numbers && !linear)
 				v[c] = floorf(v[c] * 255 + 0.0625f) / 255; /* the mean of eight texels has eighths */
 		}
-		gls_format_store(format, v, to->texels + to->texel_bytes * i);
+		gls_format_store(format, v, 0, to->texels + to->texel_bytes * i);
 	}
 }
 
-/* linear: what bytes of encoded colours are in linear light, else NULL */
-static void generate_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format, const float *linear)
+/* linear: what bytes of encoded colours are in linear light, else NULL. has_linear_means: as SCENE_MESA_LINEAR_MEANS */
+static void generate_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format, const float *linear,
+                           int has_linear_means)
 {
 	int floats = to->base_format == GL_DEPTH_COMPONENT ? 1 : format->numbers ? 4 : 0;
 
 	if (is_averaged(format)) {
-		average_level(from, to, format);
+		average_level(from, to, format, has_linear_means && !format->block_bytes && !format->s3tc ? linear : NULL);
 		return;
 	}
 	if (!floats && !linear && !format->bits[0] && !format->bits[3] && from->width == 2 * to->width &&
@@ -202,7 +207,7 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 		to->depth = d;
 		to->texels = texels;
 		to->bytes = (size_t)w * h * d * to->texel_bytes;
-		generate_level(from, to, format, format->srgb ? linear : NULL);
+		generate_level(from, to, format, format->srgb ? linear : NULL, (x->st->mesa & SCENE_MESA_LINEAR_MEANS) != 0);
 		from = to;
 	}
 	/* Compressed at last: each level was the mean of one that was not. */

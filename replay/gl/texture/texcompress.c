@@ -192,7 +192,7 @@ static void rgtc_texel(const struct gls_format *f, const uint8_t *block, unsigne
 
 	if (f->block_bytes == 16)
 		v[f->base == GL_RG ? 1 : 3] = (float)channel(block + 8, i, is_signed) / most;
-	gls_format_store(f, v, out);
+	gls_format_store(f, v, 0, out);
 }
 
 int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n, uint8_t *out)

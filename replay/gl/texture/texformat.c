@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "scene/mesa.h"
 #include "scene/scene.h"
 
 /*
@@ -196,8 +197,9 @@ static float few_bits(float value, int bits, int rounds)
 }
 
 /* Numbers as a format holds them. EXT_packed_float and EXT_texture_shared_exponent leave the rounding open: it is Mesa's. */
-static void hold(uint32_t numbers, float v[4])
+static void hold(uint32_t numbers, uint32_t mesa, float v[4])
 {
+	const int rounds = (mesa & SCENE_MESA_ROUNDS_SMALL_FLOATS) != 0;
 	float steps = numbers == GLS_SNORM8 ? 127 : 32767, most = 0, step;
 
 	switch (numbers) {
@@ -216,7 +218,7 @@ static void hold(uint32_t numbers, float v[4])
 		for (unsigned i = 0; i < 3; i++) {
 			float largest = i < 2 ? 65024 : 64512;
 
-			v[i] = v[i] > 0 ? v[i] < largest ? few_bits(v[i], i < 2 ? 6 : 5, 0) : largest : 0;
+			v[i] = v[i] > 0 ? v[i] < largest ? few_bits(v[i], i < 2 ? 6 : 5, rounds) : largest : 0;
 		}
 		break;
 	case GLS_9E5:
@@ -242,7 +244,7 @@ void gls_format_store_bytes(const struct gls_format *f, const float rgba[4], uin
 		out[i] = f->bits[i] ? coarse(v[i], f->bits[i]) : gls_byte(v[i]);
 }
 
-void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t *out)
+void gls_format_store(const struct gls_format *f, const float rgba[4], uint32_t mesa, uint8_t *out)
 {
 	float v[4];
 
@@ -251,7 +253,7 @@ void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t *
 		return;
 	}
 	expand(f->base, rgba, v);
-	hold(f->numbers, v);
+	hold(f->numbers, mesa, v);
 	memcpy(out, v, sizeof(v));
 }
 
@@ -265,7 +267,7 @@ void gls_format_draw(const struct gls_format *f, const float rgba[4], uint8_t *o
 {
 	float v[4];
 
-	gls_format_store(f, rgba, out);
+	gls_format_store(f, rgba, 0, out);
 	expand(f->base, rgba, v);
 	for (unsigned i = 0; i < 4 && f->bits[0]; i++)
 		if (f->bits[i] && f->bits[i] != 4)

@@ -42,8 +42,11 @@ uint32_t gls_format_stencil_bits(uint32_t internal_format);
 uint32_t gls_format_floats(uint32_t internal_format);
 /** Bytes of a texel: 4, or 16 where it is four floats. */
 uint32_t gls_texel_bytes(uint32_t internal_format);
-/** A colour as a texel, rounded to what the format can hold, expanded as sampling does (table 3.20). */
-void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t *out);
+/**
+ * A colour as a texel, rounded to what the format can hold, expanded as sampling does (table 3.20).
+ * @param mesa  as the Mesa rounds what a program hands over: bits of enum scene_mesa; 0: what it made itself
+ */
+void gls_format_store(const struct gls_format *f, const float rgba[4], uint32_t mesa, uint8_t *out);
 /** The same of a colour that was drawn. */
 void gls_format_draw(const struct gls_format *f, const float rgba[4], uint8_t *out);
 /** The same as gls_format_store in four bytes, whatever the format. */

@@ -361,7 +361,7 @@ static void unpack_texel(const struct unpacking *u, const uint8_t *data, uint8_t
 	}
 	if (u->transfers)
 		gls_transfer_color(u->st, rgba);
-	gls_format_store(u->to, rgba, out);
+	gls_format_store(u->to, rgba, u->st->mesa, out);
 }
 
 /* @return 0, or -2: some bytes are not there */
@@ -399,7 +399,7 @@ static int unpack_color_indices(const struct gls_state *st, const struct gls_pix
 		float v[4];
 
 		gls_texel_load(4, out + 4 * i, v);
-		gls_format_store(to, v, out + (to->numbers ? 16 : 4) * i);
+		gls_format_store(to, v, st->mesa, out + (to->numbers ? 16 : 4) * i);
 	}
 	return 0;
 }
