@@ -26,7 +26,7 @@ struct gls_shader {
 	char message[GLSL_MESSAGE]; /* stages.why, where that names a line */
 	struct table locations; /* what the program was told -> 1 + (number in uniforms.list << 32 | element) */
 	uint32_t other_stages;  /* 1: with shaders of neither stage */
-	uint32_t mesa;          /* bits of enum scene_mesa, for the Mesa that linked it */
+	uint32_t products_once; /* 1: as of glsl_parse, when it was linked */
 };
 
 void gls_shader_free(struct gls_shader *s);

@@ -13,7 +13,7 @@ struct glsl_sources {
 	uint32_t n_texts[2];
 	const struct glsl_attribute *attributes;
 	uint32_t n_attributes;
-	uint32_t mesa; /* as of glsl_parse */
+	uint32_t products_once; /* 1: as of glsl_parse */
 };
 
 /**

@@ -32,7 +32,7 @@ static char *get_text(struct loader *l)
 static void put_shader(struct saver *s, void *value)
 {
 	const struct gls_shader *sh = value;
-	const uint32_t head[] = { sh->type, sh->deleted, sh->uses, sh->stages.linked, sh->other_stages, sh->stages.links, sh->mesa };
+	const uint32_t head[] = { sh->type, sh->deleted, sh->uses, sh->stages.linked, sh->other_stages, sh->stages.links, sh->products_once };
 
 	bytes_put(s->out, head, sizeof(head));
 	put_text(s, sh->source);
@@ -137,7 +137,7 @@ static void *get_shader(struct loader *l)
 	sh->stages.linked = head[3];
 	sh->other_stages = head[4];
 	links = head[5];
-	sh->mesa = head[6];
+	sh->products_once = head[6];
 	sh->source = get_text(l);
 	sh->compiled = get_text(l);
 	sh->n_attached = (uint32_t)loader_count(l, sizeof(*sh->attached));

@@ -22,7 +22,7 @@ static inline const char *why_of(enum glsl_stage stage, const char *const *texts
 	struct glsl_tree tree = { 0 };
 	const char *why;
 
-	ck_assert_int_eq(glsl_parse(texts, n, stage, 0, &tree, message, &why), 0);
+	ck_assert_int_eq(glsl_parse(texts, n, stage, false, &tree, message, &why), 0);
 	glsl_tree_free(&tree);
 	return why;
 }
@@ -53,7 +53,7 @@ static inline double value_in(const char *text)
 	const char *why;
 	double value = NAN;
 
-	ck_assert_int_eq(glsl_parse(&text, 1, GLSL_FRAGMENT_STAGE, 0, &tree, message, &why), 0);
+	ck_assert_int_eq(glsl_parse(&text, 1, GLSL_FRAGMENT_STAGE, false, &tree, message, &why), 0);
 	ck_assert_msg(!why, "%s\n%s", text, why);
 	for (uint32_t i = 0; i < tree.n_symbols; i++)
 		if (strcmp(tree.names + tree.symbols[i].name, "r") == 0 && tree.symbols[i].first != GLSL_NONE)

@@ -269,6 +269,51 @@ START_TEST(test_shared_nodes)
 }
 END_TEST
 
+/* How many nodes of an operation a text becomes. */
+static unsigned count_of(const char *text, bool once, enum glsl_operator operation)
+{
+	struct glsl_tree tree = { 0 };
+	const char *why;
+	unsigned n = 0;
+
+	ck_assert_int_eq(glsl_parse(&text, 1, GLSL_FRAGMENT_STAGE, once, &tree, message, &why), 0);
+	ck_assert_msg(!why, "%s\n%s", text, why);
+	for (uint32_t i = 0; i < tree.n_nodes; i++)
+		n += tree.nodes[i].operation == operation;
+	glsl_tree_free(&tree);
+	return n;
+}
+
+/* Each text: products of matrices, and of a matrix and a vector, taken apart until nothing is left, and once. */
+START_TEST(test_chains_of_products)
+{
+	static const struct {
+		const char *expression;
+		unsigned matrices[2], vectors[2];
+	} cases[] = {
+		{ "a * v", { 0, 0 }, { 1, 1 } },
+		{ "a * b * v", { 0, 0 }, { 2, 2 } },
+		{ "a * b * c * v", { 0, 1 }, { 3, 2 } },
+		{ "a * b * c * a * v", { 0, 2 }, { 4, 2 } },
+		{ "a * (b * c) * v", { 0, 1 }, { 3, 2 } },
+		{ "(a * b) * (c * a) * v", { 0, 2 }, { 4, 2 } },
+		{ "a * b * (c * a * v)", { 0, 0 }, { 4, 4 } },
+		{ "v * a * b * c", { 0, 0 }, { 0, 0 } },
+	};
+
+	for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++)
+		for (unsigned once = 0; once < 2; once++) {
+			char text[256];
+
+			snprintf(text, sizeof(text), "uniform mat4 a, b, c; uniform vec4 v; void main() { gl_FragColor = %s; }",
+			         cases[i].expression);
+			ck_assert_msg(count_of(text, once, GLSL_MATRIX_TIMES_MATRIX) == cases[i].matrices[once] &&
+			              count_of(text, once, GLSL_MATRIX_TIMES_VECTOR) == cases[i].vectors[once],
+			              "%s, %s", cases[i].expression, once ? "once" : "whole");
+		}
+}
+END_TEST
+
 int main(void)
 {
 	TCase *tcase = tcase_create("glsl_parse");
@@ -280,5 +325,6 @@ int main(void)
 	tcase_add_test(tcase, test_names);
 	tcase_add_test(tcase, test_units);
 	tcase_add_test(tcase, test_shared_nodes);
+	tcase_add_test(tcase, test_chains_of_products);
 	return run_case(tcase, "glsl_parse");
 }

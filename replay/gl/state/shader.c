@@ -13,6 +13,7 @@
 #include "replay/glsl/object.h"
 #include "replay/programs/held.h"
 #include "replay/programs/program.h"
+#include "scene/mesa.h"
 
 /* A shader, or a program; NULL: there is none of this name. */
 static struct gls_shader *find(const struct gls_state *st, uint32_t name, int wants_program)
@@ -181,7 +182,7 @@ GLS_HANDLER(glLinkProgram, OBJECT)
 		if (s && s->compiled)
 			err = gls_shader_add_text(program, s->type, s->compiled);
 	}
-	program->mesa = st->mesa;
+	program->products_once = (st->mesa & SCENE_MESA_PRODUCTS_ONCE) != 0;
 	if (!err)
 		err = gls_shader_translate(program, 0);
 	if (err)

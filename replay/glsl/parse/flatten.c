@@ -7,7 +7,6 @@
 #include "replay/glsl/meaning/functions.h"
 #include "replay/glsl/parse/products.h"
 #include "replay/glsl/text/type_names.h"
-#include "scene/mesa.h"
 
 #define MAX_NODES 200000
 #define N_KEPT 256
@@ -187,7 +186,7 @@ static uint32_t times_vector(struct flat *f, struct parse_node *matrix, uint32_t
 		both[1] = vector;
 		made = add(f, GLSL_MATRIX_TIMES_VECTOR, type_of(f, type), both, 2, 0);
 	} else {
-		const bool again = !(f->p->mesa & SCENE_MESA_PRODUCTS_ONCE);
+		const bool again = !f->p->products_once;
 
 		vector = times_vector(f, product->children[1], vector,
 		                      parse_type(f->p, GLSL_FLOAT, product->children[1]->type->rows, 0), again);

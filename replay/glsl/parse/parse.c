@@ -17,7 +17,7 @@ static void read_all(struct parse *p, const char *const *texts, uint32_t n, stru
 	parse_flatten(p, tree);
 }
 
-int glsl_parse(const char *const *texts, uint32_t n, enum glsl_stage stage, uint32_t mesa, struct glsl_tree *tree,
+int glsl_parse(const char *const *texts, uint32_t n, enum glsl_stage stage, bool once, struct glsl_tree *tree,
                char *message, const char **why)
 {
 	struct parse *p = calloc(1, sizeof(*p));
@@ -27,7 +27,7 @@ int glsl_parse(const char *const *texts, uint32_t n, enum glsl_stage stage, uint
 	if (!p)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for a shader");
 	p->stage = stage;
-	p->mesa = mesa;
+	p->products_once = once;
 	if (!setjmp(p->stop))
 		read_all(p, texts, n, tree);
 	if (p->why == p->message)

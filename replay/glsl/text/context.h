@@ -83,7 +83,7 @@ struct parse {
 	const char *why; /* a static string, or `message` */
 	char message[GLSL_MESSAGE];
 	enum glsl_stage stage;
-	uint32_t mesa; /* bits of enum scene_mesa */
+	bool products_once; /* as of glsl_parse */
 	struct parse_name *names[PARSE_NAMES];
 	struct parse_type *types[256];
 	uint32_t depth;
