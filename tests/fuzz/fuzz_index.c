@@ -36,7 +36,7 @@ static void make_trace(void)
 
 static void write_index(const uint8_t *toc, size_t n_toc, const uint8_t *blobs, size_t n_blobs)
 {
-	struct index_header head = { .magic = INDEX_MAGIC, .layout = snapshot_layout(), .trace_bytes = (uint64_t)info.st_size,
+	struct index_header head = { .layout = snapshot_layout(), .trace_bytes = (uint64_t)info.st_size,
 		                     .trace_mtime_ns = (uint64_t)info.st_mtim.tv_sec * 1000000000u + (uint64_t)info.st_mtim.tv_nsec,
 		                     .toc_offset = sizeof(head) + n_blobs, .toc_packed = n_toc, .toc_bytes = n_toc };
 	uint8_t *all = malloc(sizeof(head) + n_blobs + n_toc + 1);
@@ -44,6 +44,7 @@ static void write_index(const uint8_t *toc, size_t n_toc, const uint8_t *blobs, 
 
 	if (!all)
 		abort();
+	memcpy(head.magic, INDEX_MAGIC, sizeof(head.magic));
 	memcpy(head.trace_hash, hash, sizeof(head.trace_hash));
 	hash_bytes(toc, n_toc, head.toc_hash);
 	memcpy(all, &head, sizeof(head));

@@ -148,6 +148,19 @@ static void open_reference(struct device *dev, unsigned threads)
 	snprintf(dev->name, sizeof(dev->name), "reference (C)");
 }
 
+/*
+ * PoCL 7 runs its threads by TBB, and such a device has no parts (cl.c: limit_threads). It reads how many it may have
+ * when a process first asks for devices; PoCL 3 does not know the name.
+ */
+static void limit_pocl(unsigned threads)
+{
+	char text[16];
+
+	snprintf(text, sizeof(text), "%u", threads);
+	if (threads)
+		setenv("POCL_CPU_MAX_CU_COUNT", text, 1);
+}
+
 int device_open(const char *choice, unsigned threads, struct device **out)
 {
 	struct device *dev = calloc(1, sizeof(*dev));
@@ -155,6 +168,7 @@ int device_open(const char *choice, unsigned threads, struct device **out)
 
 	if (!dev)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	limit_pocl(threads);
 	if (device_is_reference(choice))
 		open_reference(dev, threads);
 	else
@@ -181,12 +195,13 @@ void device_close(struct device **dev)
 }
 
 /* "0,1,2" for every OpenCL device. @return to be freed, or NULL (reported) */
-static char *name_all(void)
+static char *name_all(unsigned threads)
 {
 	struct device_description *list = NULL;
 	size_t n, at = 0;
 	char *text;
 
+	limit_pocl(threads);
 	if (cl_list(&list, &n))
 		return NULL;
 	free(list);
@@ -200,7 +215,7 @@ static char *name_all(void)
 
 int device_open_list(const char *choices, unsigned threads, struct device ***out, size_t *n)
 {
-	char *text = !choices ? NULL : strcmp(choices, "all") == 0 ? name_all() : strdup(choices), *save = NULL;
+	char *text = !choices ? NULL : strcmp(choices, "all") == 0 ? name_all(threads) : strdup(choices), *save = NULL;
 	int err = choices && !text ? ERR_SYSTEM : 0;
 
 	*n = 0;
