@@ -86,6 +86,7 @@ static double changed(const char *path)
 	return stat(path, &st) ? 0 : (double)st.st_mtim.tv_sec + 1e-9 * (double)st.st_mtim.tv_nsec;
 }
 
+/* When a frame's file was written; 0: there is none. */
 static double written(const struct farm_job *job, uint64_t frame)
 {
 	char path[PATH_MAX];
@@ -106,13 +107,13 @@ uint64_t census_landed(const struct farm_job *job, const struct census *c)
 static double began(const struct farm_job *job)
 {
 	char path[PATH_MAX + 48];
-	double submitted, first = 0;
+	double submitted, first = 0, at;
 
 	snprintf(path, sizeof(path), "%s/job.sh", job->folder);
 	submitted = changed(path);
 	for (uint64_t i = 1; submitted > 0 && i <= job->n_tasks; i++) {
 		snprintf(path, sizeof(path), "%s/lock/%" PRIu64, job->folder, i);
-		double at = changed(path);
+		at = changed(path);
 		if (at >= submitted && (first == 0 || at < first))
 			first = at;
 	}
@@ -127,6 +128,7 @@ double census_rate(const struct farm_job *job)
 
 	for (uint64_t from = 0; start > 0 && frame_list_next(&job->frames, from, &frame); from = frame + 1) {
 		const double at = written(job, frame);
+
 		n += at >= start;
 		last = at > last ? at : last;
 	}

@@ -28,8 +28,8 @@ void census_free(struct census *census);
 uint64_t census_landed(const struct farm_job *job, const struct census *census);
 
 /**
- * How fast frames come: those written since the first task of the last submission began, by the times of their files. What a
- * task needs to start counts: several frames of one that land together say little of those to come.
+ * How fast frames come: those written since the first task of the last submission began, by the times of their files.
+ * What a task needs to start counts: several frames of one that land together say little of those to come.
  * @return frames a second; 0 where it cannot be known yet
  */
 double census_rate(const struct farm_job *job);

@@ -101,7 +101,8 @@ static int set_given_locations(struct gls_shader *program)
 int gls_shader_translate(struct gls_shader *program, int keeps)
 {
 	const struct glsl_sources sources = { { (const char *const *)program->texts[0], (const char *const *)program->texts[1] },
-		                              { program->n_texts[0], program->n_texts[1] }, program->attributes, program->n_attributes, program->products_once };
+		                              { program->n_texts[0], program->n_texts[1] }, program->attributes, program->n_attributes,
+		                              program->products_once };
 	struct glsl_uniforms before = program->uniforms;
 	int err;
 

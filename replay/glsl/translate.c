@@ -233,7 +233,8 @@ int glsl_translate(const struct glsl_sources *sources, struct program_code code[
 		if (n > MAX_SOURCE)
 			*why = "a shader is longer than is done";
 		else if (sources->n_texts[stage])
-			err = glsl_parse(sources->texts[stage], sources->n_texts[stage], stage, sources->products_once, &trees[stage], message, why);
+			err = glsl_parse(sources->texts[stage], sources->n_texts[stage], stage, sources->products_once,
+			                 &trees[stage], message, why);
 		if (!err && !*why && sources->n_texts[stage])
 			err = glsl_uniforms_add(uniforms, &trees[stage], why);
 		if (!err && !*why && sources->n_texts[stage])

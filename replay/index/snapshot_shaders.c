@@ -32,7 +32,8 @@ static char *get_text(struct loader *l)
 static void put_shader(struct saver *s, void *value)
 {
 	const struct gls_shader *sh = value;
-	const uint32_t head[] = { sh->type, sh->deleted, sh->uses, sh->stages.linked, sh->other_stages, sh->stages.links, sh->products_once };
+	const uint32_t head[] = { sh->type, sh->deleted, sh->uses, sh->stages.linked, sh->other_stages,
+		                  sh->stages.links, sh->products_once };
 
 	bytes_put(s->out, head, sizeof(head));
 	put_text(s, sh->source);

@@ -99,6 +99,19 @@ int device_find(const struct device_description *list, size_t n, const char *cho
 	return err_report(ERR_USAGE, NULL, "there is no device '%s'; 'relume devices' lists them", choice);
 }
 
+/*
+ * PoCL 7 runs its threads by TBB, and such a device has no parts (cl.c: limit_threads). It reads how many it may have
+ * when a process first asks for devices; PoCL 3 does not know the name.
+ */
+static void limit_pocl(unsigned threads)
+{
+	char text[16];
+
+	snprintf(text, sizeof(text), "%u", threads);
+	if (threads)
+		setenv("POCL_CPU_MAX_CU_COUNT", text, 1);
+}
+
 static int open_cl(struct device *dev, const char *choice, unsigned threads)
 {
 	struct device_description *list = NULL;
@@ -107,6 +120,7 @@ static int open_cl(struct device *dev, const char *choice, unsigned threads)
 	size_t n, number;
 	int err;
 
+	limit_pocl(threads);
 	if (threads == 0)
 		cl_pin_begin(&pin);
 	err = IN_DRIVER(listing, cl_list(&list, &n)); /* the first loads the drivers */
@@ -148,19 +162,6 @@ static void open_reference(struct device *dev, unsigned threads)
 	snprintf(dev->name, sizeof(dev->name), "reference (C)");
 }
 
-/*
- * PoCL 7 runs its threads by TBB, and such a device has no parts (cl.c: limit_threads). It reads how many it may have
- * when a process first asks for devices; PoCL 3 does not know the name.
- */
-static void limit_pocl(unsigned threads)
-{
-	char text[16];
-
-	snprintf(text, sizeof(text), "%u", threads);
-	if (threads)
-		setenv("POCL_CPU_MAX_CU_COUNT", text, 1);
-}
-
 int device_open(const char *choice, unsigned threads, struct device **out)
 {
 	struct device *dev = calloc(1, sizeof(*dev));
@@ -168,7 +169,6 @@ int device_open(const char *choice, unsigned threads, struct device **out)
 
 	if (!dev)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	limit_pocl(threads);
 	if (device_is_reference(choice))
 		open_reference(dev, threads);
 	else

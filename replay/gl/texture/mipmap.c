@@ -112,7 +112,8 @@ static int is_averaged(const struct gls_format *f)
 	return (f->srgb && f->base != GL_RGB && f->base != GL_RGBA) || f->numbers == GLS_9E5 || f->block_bytes || f->s3tc;
 }
 
-static void average_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format, const float *linear)
+static void average_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format,
+                          const float *linear)
 {
 	const uint32_t n[3] = { from->width > to->width ? 2 : 1, from->height > to->height ? 2 : 1, from->depth > to->depth ? 2 : 1 };
 	const uint32_t count = n[0] * n[1] * n[2];
@@ -140,13 +141,14 @@ static void average_level(const struct gls_level *from, struct gls_level *to, co
 }
 
 /* linear: what bytes of encoded colours are in linear light, else NULL. has_linear_means: as SCENE_MESA_LINEAR_MEANS */
-static void generate_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format, const float *linear,
-                           int has_linear_means)
+static void generate_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format,
+                           const float *linear, int has_linear_means)
 {
 	int floats = to->base_format == GL_DEPTH_COMPONENT ? 1 : format->numbers ? 4 : 0;
 
 	if (is_averaged(format)) {
-		average_level(from, to, format, has_linear_means && !format->block_bytes && !format->s3tc ? linear : NULL);
+		average_level(from, to, format,
+		              has_linear_means && !format->block_bytes && !format->s3tc ? linear : NULL);
 		return;
 	}
 	if (!floats && !linear && !format->bits[0] && !format->bits[3] && from->width == 2 * to->width &&
@@ -207,7 +209,8 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 		to->depth = d;
 		to->texels = texels;
 		to->bytes = (size_t)w * h * d * to->texel_bytes;
-		generate_level(from, to, format, format->srgb ? linear : NULL, (x->st->mesa & SCENE_MESA_LINEAR_MEANS) != 0);
+		generate_level(from, to, format, format->srgb ? linear : NULL,
+		               (x->st->mesa & SCENE_MESA_LINEAR_MEANS) != 0);
 		from = to;
 	}
 	/* Compressed at last: each level was the mean of one that was not. */
