@@ -6,6 +6,7 @@
 
 #include "base/err.h"
 #include "base/mat4.h"
+#include "base/optimize.h"
 #include "scene/backdrop.h"
 
 /* Of eye space's coordinates: rays are found in boxes that their triangles lie in by this much. */
@@ -70,7 +71,7 @@ static void widen(struct box *box, const float low[3], const float high[3])
 }
 
 /* Four numbers of each corner, though three count: compilers make one instruction of four. */
-__attribute__((optimize("O3")))
+OPTIMIZE("O3")
 static struct box box_cluster(const struct scene_mesh *mesh, uint32_t cluster)
 {
 	float low[4] = { INFINITY, INFINITY, INFINITY, INFINITY }, high[4] = { -INFINITY, -INFINITY, -INFINITY, -INFINITY };

@@ -7,7 +7,7 @@ leaves running is killed with it. Each test gets an empty TMPDIR, and finds the 
 
 A test that counts its checks as libcheck does ("100%: Checks: 5, Failures: 0, Errors: 0") counts as so many tests.
 Near the top of its source it may say, in a comment line of its own, "serial" (runs alone: it measures time) or
-"limit: 300 s" (default: 120 s).
+"limit: 300 s" (default: 120 s). TESTS_SLOWER=10 allows ten times as long, as on emulated processors.
 
 The last line is "N passed, N failed, N skipped". Exits with 1 where a test failed or none ran.
 """
@@ -22,6 +22,7 @@ import sys
 import tempfile
 
 DEFAULT_LIMIT_S = 120
+SLOWER = int(os.environ.get("TESTS_SLOWER", "1"))
 SKIPPED = 77
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TESTS = pathlib.Path(os.environ.get("RELUME_TESTS", ROOT / "tests"))
@@ -35,7 +36,7 @@ class Test:
         head = source.read_text(errors="replace")[:4000]
         self.serial = re.search(r"^[#/* \t]*serial[ */]*$", head, re.M) is not None
         limit = re.search(r"^[#/* \t]*limit: (\d+) s\b", head, re.M)
-        self.limit_s = int(limit.group(1)) if limit else DEFAULT_LIMIT_S
+        self.limit_s = SLOWER * (int(limit.group(1)) if limit else DEFAULT_LIMIT_S)
 
 
 def find_tests(build, parts):
@@ -63,7 +64,8 @@ def vendor_files():
 
 def environment(build, tmp):
     # Check's own limit of 4 s a test is for a machine that does nothing else.
-    env = dict(os.environ, RELUME=str(build / "relume"), RELUME_BUILD=str(build), TMPDIR=tmp, CK_DEFAULT_TIMEOUT="30")
+    env = dict(os.environ, RELUME=str(build / "relume"), RELUME_BUILD=str(build), TMPDIR=tmp, CK_DEFAULT_TIMEOUT="30",
+               CK_TIMEOUT_MULTIPLIER=str(SLOWER))
     # Where several implementations of OpenCL are installed tests mean PoCL, unless they take one of RELUME_VENDORS.
     files = vendor_files()
     env["RELUME_VENDORS"] = ":".join(map(str, files))

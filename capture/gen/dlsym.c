@@ -7,6 +7,7 @@
 #include <dlfcn.h>
 #include <string.h>
 
+#include "base/optimize.h"
 #include "capture/gl/resolve.h"
 #include "thunks.h"
 
@@ -68,7 +69,7 @@ static void *look_up_gl(void *handle, const char *name)
  * The real dlsym is left by a jump, so that it sees its caller and not us: with RTLD_NEXT the answer depends on it. The
  * optimizer does so at any level from -O2 on, which is asked for here whatever the rest is built with.
  */
-__attribute__((visibility("default"), optimize("O2"), RESOLVE_BEFORE_ALL)) void *dlsym(void *restrict handle, const char *restrict name)
+OPTIMIZE("O2") __attribute__((visibility("default"), RESOLVE_BEFORE_ALL)) void *dlsym(void *restrict handle, const char *restrict name)
 {
 	if (!resolve_real_dlsym)
 		resolve_dlsym();

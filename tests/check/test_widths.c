@@ -9,6 +9,7 @@
 
 #include "kernels/frame/scan.h"
 #include "tests/case.h"
+#include "tests/driver.h"
 #include "tracer/frame/scan.h"
 
 #define QUEUES 8
@@ -81,6 +82,8 @@ int main(void)
 {
 	TCase *tests = tcase_create("devices");
 
+	if (lacks_driver())
+		return SKIPPED;
 	tcase_set_timeout(tests, 240);
 	tcase_add_test(tests, widths_at_once);
 	return run_case(tests, "widths");

@@ -9,6 +9,9 @@ root, in a clone of what is committed. The second demo must install and compile 
 The suite `arm64` cross-compiles for 64-bit ARM on bookworm, runs tests of unit/, gl/ and check/ under qemu-user, and
 renders recordings that were made on x86 with the reference device of both: all channels must have the same bytes.
 
+The suite `container` builds packaging/Containerfile by buildah, on the bare chroot of bookworm as its base image, and
+renders in it.
+
 Needs root, debootstrap, 10 GB below BUILD, and most of an hour for each suite. SUITES_MIRROR names another mirror of
 Debian.
 """
@@ -68,7 +71,7 @@ exec chroot "$0" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin s
 class Suite:
     def __init__(self, folder, name):
         self.name, self.root, self.logs = name, folder / name, folder / f"{name}.logs"
-        self.release = "bookworm" if name == "arm64" else name
+        self.release = name if name in SUITES else "bookworm"
         self.bare = folder / f"{self.release}.bare"
 
     def run(self, log, command):
@@ -113,11 +116,14 @@ class Suite:
         (partial / "etc/apt/apt.conf.d/90-behind").write_text('Acquire::Check-Valid-Until "false";\n')
         partial.rename(self.bare)
 
-    def begin(self):
+    def clear(self):
         shutil.rmtree(self.logs, ignore_errors=True)
         self.logs.mkdir(parents=True)
         self.make_bare()
         subprocess.run(["rm", "-rf", "--one-file-system", self.root], check=True)
+
+    def begin(self):
+        self.clear()
         subprocess.run(["cp", "-a", "--reflink=auto", self.bare, self.root], check=True)
         shutil.copy("/etc/resolv.conf", self.root / "etc")
         subprocess.run(["git", "clone", "-q", ROOT, self.root / "root/relume"], check=True)
@@ -254,10 +260,42 @@ def show_arm64(suite, build, shown):
     )
 
 
+def show_container(suite, shown):
+    """buildah's layers are below suite.root; the bare chroot is the base, so that no registry is asked."""
+    clone = suite.root / "relume"
+    subprocess.run(["git", "clone", "-q", ROOT, clone], check=True)
+    store = ["buildah", "--root", suite.root / "layers", "--runroot", suite.root / "run"]
+    image, golden = "localhost/relume", f"{GOLDEN[0]}.trace"
+
+    def buildah(*command):
+        with open(suite.logs / "container.log", "a+", encoding="utf-8", errors="replace") as out:
+            begin = out.tell()
+            code = subprocess.run([*store, *command], stdout=out, stderr=out, check=False).returncode
+            out.seek(begin)
+            return code, out.read()
+
+    base = buildah("from", "scratch")[1].strip()
+    buildah("add", "-q", base, suite.bare, "/")
+    buildah("commit", "-q", "--rm", base, "localhost/bare")
+    begin = time.monotonic()
+    code, _ = buildah(
+        *"bud --isolation chroot --pull-never --build-arg BASE=localhost/bare -t".split(),
+        image,
+        "-f",
+        clone / "packaging/Containerfile",
+        clone,
+    )
+    shown.row("container: build", f"exit code {code}, {time.monotonic() - begin:.0f} s", "exit code 0", code == 0)
+    container = buildah("from", "--pull-never", image)[1].strip()
+    buildah("copy", container, clone / "tests/golden" / golden, "/work/")
+    code, printed = buildah("run", "--isolation", "chroot", container, "--", *f"relume render {golden} -f 1 -o a.exr".split())
+    shown.row("container: render", printed.strip().split("\n")[-1], "exit code 0", code == 0)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--only", choices=[*SUITES, "arm64"])
+    parser.add_argument("--only", choices=[*SUITES, "arm64", "container"])
     args = parser.parse_args()
     build = args.build.resolve()
     shown = Shown(build, "suites")
@@ -271,6 +309,10 @@ def main():
         suite = Suite(build / "suites", "arm64")
         suite.begin()
         show_arm64(suite, build, shown)
+    if args.only in (None, "container"):
+        suite = Suite(build / "suites", "container")
+        suite.clear()
+        show_container(suite, shown)
     sys.exit(shown.finish())
 
 

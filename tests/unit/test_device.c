@@ -10,6 +10,7 @@
 
 #include "kernels/shared.h"
 #include "tests/case.h"
+#include "tests/driver.h"
 #include "tracer/device/launch.h"
 
 /* A second queue that took the kernels for GPUs on a CPU would be several times slower, and nobody would see why. */
@@ -271,6 +272,8 @@ int main(void)
 {
 	TCase *tests = tcase_create("device");
 
+	if (lacks_driver())
+		return SKIPPED;
 	tcase_add_test(tests, test_shared_device_takes_the_same_kernels);
 	tcase_add_test(tests, test_profile);
 	tcase_add_test(tests, test_programs_are_kept);

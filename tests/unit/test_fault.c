@@ -9,6 +9,7 @@
 
 #include "render/check/apart.h"
 #include "tests/case.h"
+#include "tests/driver.h"
 #include "tracer/device/outcome.h"
 
 enum ending { IN_DRIVER, IN_BUILD, BETWEEN, EXITS_IN_DRIVER, EXITS_BETWEEN, ON_PURPOSE, IS_SENT, REFUSED, REFUSED_IN_VAIN, N_ENDINGS };
@@ -187,7 +188,8 @@ int main(void)
 	tcase_add_loop_test(tests, test_blame, 0, N_ENDINGS);
 	tcase_add_loop_test(tests, test_hangs, 0, 8);
 	tcase_add_loop_test(tests, test_best_family, 0, 7);
-	tcase_add_test(tests, test_remembered);
+	if (!lacks_driver())
+		tcase_add_test(tests, test_remembered);
 	tcase_set_timeout(tests, 60);
 	return run_case(tests, "fault");
 }

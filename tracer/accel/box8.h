@@ -128,10 +128,10 @@ static inline float box8_half_area(box8 b)
 static inline vec4 box8_half_areas(box8 a, box8 b, box8 c, box8 d)
 {
 	const vec4 p = box8_size(a), q = box8_size(b), r = box8_size(c), s = box8_size(d);
-	const vec4 pq = __builtin_shuffle(p, q, (ivec4){ 0, 4, 1, 5 }), rs = __builtin_shuffle(r, s, (ivec4){ 0, 4, 1, 5 });
-	const vec4 pq2 = __builtin_shuffle(p, q, (ivec4){ 2, 6, 2, 6 }), rs2 = __builtin_shuffle(r, s, (ivec4){ 2, 6, 2, 6 });
-	const vec4 x = __builtin_shuffle(pq, rs, (ivec4){ 0, 1, 4, 5 }), y = __builtin_shuffle(pq, rs, (ivec4){ 2, 3, 6, 7 });
-	const vec4 z = __builtin_shuffle(pq2, rs2, (ivec4){ 0, 1, 4, 5 });
+	const vec4 pq = __builtin_shufflevector(p, q, 0, 4, 1, 5), rs = __builtin_shufflevector(r, s, 0, 4, 1, 5);
+	const vec4 pq2 = __builtin_shufflevector(p, q, 2, 6, 2, 6), rs2 = __builtin_shufflevector(r, s, 2, 6, 2, 6);
+	const vec4 x = __builtin_shufflevector(pq, rs, 0, 1, 4, 5), y = __builtin_shufflevector(pq, rs, 2, 3, 6, 7);
+	const vec4 z = __builtin_shufflevector(pq2, rs2, 0, 1, 4, 5);
 
 	return x * y + y * z + z * x;
 }

@@ -9,6 +9,7 @@
 #include <xxhash.h>
 
 #include "base/err.h"
+#include "base/optimize.h"
 
 /*
  * How often symbols come, as far as their codes go: a difference of 0 stands at 128, and most matches are as short or as long as can be.
@@ -40,7 +41,7 @@ struct streams {
 };
 
 #ifdef __x86_64__
-#define FOR_WIDTHS __attribute__((target_clones("avx2", "default"), optimize("O3")))
+#define FOR_WIDTHS OPTIMIZE("O3") __attribute__((target_clones("avx2", "default")))
 #else
 #define FOR_WIDTHS /* vectors are part of the processor's own base */
 #endif

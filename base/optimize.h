@@ -1,0 +1,8 @@
+/* Functions that are compiled with more optimizing than the rest, where the compiler can: clang cannot. */
+#pragma once
+
+#ifdef __clang__
+#define OPTIMIZE(level)
+#else
+#define OPTIMIZE(level) __attribute__((optimize(level)))
+#endif
