@@ -33,9 +33,20 @@ static struct tap tap_at(uint32_t i, uint32_t size, uint32_t from, int exact)
 	return t;
 }
 
-static float mix(float a, float b, float weight)
+/*
+ * The same of a square that llvmpipe draws with floats, to the last bit: a mean may lie on a step of the format. The coordinate is a
+ * plane over one of two triangles, through the vertex that its set-up begins with. other: texels of the level the other way; far: that
+ * vertex lies where the coordinate is 1, else 0
+ */
+static struct tap tap_drawn(uint32_t i, uint32_t size, uint32_t other, uint32_t from, int far)
 {
-	return a + (b - a) * weight;
+	const float along = (float)other * (1.0f / ((float)size * (float)other));
+	const float origin = far ? 1.0f - along * ((float)size - 0.5f) : along * 0.5f;
+	const float at = fmaxf(fmaf(along, (float)i, origin) * (float)from - 0.5f, 0);
+	struct tap t = { (uint32_t)at, 0, at - floorf(at) };
+
+	t.second = t.first + 1 < from ? t.first + 1 : from - 1;
+	return t;
 }
 
 /* Texels as numbers: bytes of a colour (in linear light where they are encoded), its floats, or one depth. */
@@ -49,7 +60,7 @@ static void load_texel(const uint8_t *texel, int floats, const float *linear, fl
 static void mix_texels(float a[4], const float b[4], float weight, int round)
 {
 	for (unsigned k = 0; k < 4; k++)
-		a[k] = round ? floorf(mix(a[k], b[k], weight) + 0.5f) : mix(a[k], b[k], weight);
+		a[k] = round ? floorf(a[k] + (b[k] - a[k]) * weight + 0.5f) : fmaf(weight, b[k] - a[k], a[k]);
 }
 
 /* floats: how many a texel is, 0: it is bytes */
@@ -140,6 +151,17 @@ static void average_level(const struct gls_level *from, struct gls_level *to, co
 	}
 }
 
+/* The texels that a texel is a mean of, along each axis. The square's triangles meet along the diagonal from its first texel. */
+static void find_taps(const struct gls_level *from, const struct gls_level *to, int exact, uint32_t x, uint32_t y, uint32_t z,
+                      struct tap t[3])
+{
+	const int above = (2 * (uint64_t)x + 1) * to->height < (2 * (uint64_t)y + 1) * to->width;
+
+	t[0] = exact ? tap_drawn(x, to->width, to->height, from->width, 1) : tap_at(x, to->width, from->width, 0);
+	t[1] = exact ? tap_drawn(y, to->height, to->width, from->height, above) : tap_at(y, to->height, from->height, 0);
+	t[2] = tap_at(z, to->depth, from->depth, exact);
+}
+
 /* linear: what bytes of encoded colours are in linear light, else NULL. has_linear_means: as SCENE_MESA_LINEAR_MEANS */
 static void generate_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format,
                            const float *linear, int has_linear_means)
@@ -157,11 +179,12 @@ static void generate_level(const struct gls_level *from, struct gls_level *to, c
 		return;
 	}
 	for (size_t i = 0; i < gls_level_count(to); i++) {
-		struct tap t[3] = { tap_at((uint32_t)(i % to->width), to->width, from->width, floats || linear),
-			            tap_at((uint32_t)(i / to->width % to->height), to->height, from->height, floats || linear),
-			            tap_at((uint32_t)(i / to->width / to->height), to->depth, from->depth, floats || linear) };
+		const uint32_t x = (uint32_t)(i % to->width), y = (uint32_t)(i / to->width % to->height);
+		const uint32_t z = (uint32_t)(i / to->width / to->height);
+		struct tap t[3];
 		float v[4] = { 0 };
 
+		find_taps(from, to, floats || linear, x, y, z, t);
 		filter_texel(from, floats, linear, t, v);
 		for (unsigned k = 0; k < 4 && !floats; k++)
 			v[k] = linear && k < 3 ? gls_srgb_from_linear(v[k] / 255) : v[k] / 255;
