@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 #include "replay/glsl/expression.h"
+#include "replay/glsl/factors.h"
 #include "replay/glsl/links.h"
 #include "replay/glsl/parse/parse.h"
 #include "replay/glsl/roots.h"
@@ -170,6 +171,8 @@ static void finish(struct glsl_writer *w)
 	}
 	if (!w->err)
 		w->err = glsl_square_roots(code);
+	if (!w->err)
+		w->err = glsl_share_factors(code);
 	glsl_prune(code, w->uniforms->n_values / 4, is_vertex ? N_SCENE_VERTEX_INPUTS : N_SCENE_INPUTS);
 	name_lights(w);
 	if (is_vertex) {

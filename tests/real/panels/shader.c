@@ -99,6 +99,10 @@ static const char *const functions[] = {
 	"fract(pow(p, b) * 1048576.0)", "fract(mat4(a, b, p, a) * mat4(b, a, b, p) * p * 65536.0)", "fract(mat4(b, p, b, a) * mat4(b, a, b, p) * mat4(p, a, p, b) * vec4(0.3, 0.7, 0.9, 0.4) * 65536.0)",
 	"fract(mat4(a, b, p, a) * (mat4(b, a, b, p) * p) * 65536.0)",
 	"fract(p * mat4(b, a, b, p) * mat4(a, b, p, a) * 65536.0)", "fract((mat4(a, b, p, a) * 0.3) * p * 65536.0)",
+	/* products that are added and share a factor, and some that look like these */
+	"fract((a * b + a * p) * 1048576.0)", "fract((a.x * b + b * p) * 1048576.0)", "fract((a * b + p * a + a.wzyx * a) * 1048576.0)",
+	"fract((a * b + p * p + b * b) * 1048576.0)", "fract((a * b - a * p) * 1048576.0)", "fract((p * a - a * b) * 1048576.0)",
+	"fract(vec4(dot(a.xy, b.xx), dot(a.xyz, b.yzz), dot(a, b.xyyx), dot(p, p)) * 1048576.0)", "fract((a * 0.3 + b * 0.3) * 1048576.0)",
 };
 
 static void function(int i)
