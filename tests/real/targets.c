@@ -1,7 +1,7 @@
 /*
  * What is drawn to, one thing a frame: a window with alpha, whose stored alpha blends look at; textures and renderbuffers as
- * colour, depth and stencil, drawn with, copied and kept from frame to frame; sums in the accumulation buffer. Recorded by
- * test_targets.py.
+ * colour, depth and stencil, drawn with, copied and kept from frame to frame. Recorded by test_targets.py; sums.c has what takes an
+ * accumulation buffer.
  */
 #include "tests/trace/window.h"
 
@@ -271,34 +271,6 @@ static void scaled(void)
 	show(colors[0], 2, 34, 16, 16);
 }
 
-/* Loaded, scaled, added to, and given back through a scissor and a mask; sums are kept for the next frame. */
-static void sums(void)
-{
-	panel(4, 4, 30, 1, 0, 0.2f, 1);
-	glAccum(GL_LOAD, 0.4f);
-	glClear(GL_COLOR_BUFFER_BIT);
-	panel(14, 14, 30, 0, 1, 0.6f, 1);
-	glAccum(GL_ACCUM, 0.6f);
-	glEnable(GL_BLEND); /* which RETURN does not look at */
-	glBlendFunc(GL_ONE, GL_ONE);
-	glAccum(GL_RETURN, 1);
-	glDisable(GL_BLEND);
-	panel(48, 30, 12, 1, 0.8f, 0.2f, 1); /* over what came back */
-}
-
-static void more_sums(void)
-{
-	glAccum(GL_MULT, 0.5f);
-	glEnable(GL_SCISSOR_TEST);
-	glScissor(10, 10, 30, 100);
-	glAccum(GL_ADD, 0.2f);
-	glScissor(0, 0, 50, 40);
-	glColorMask(GL_TRUE, GL_TRUE, GL_FALSE, GL_TRUE);
-	glAccum(GL_RETURN, 1.5f);
-	glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-	glDisable(GL_SCISSOR_TEST);
-}
-
 /* Colours that one object has at a time, each with a past of its own: cleared together, drawn over with and without depth. */
 static void several(void)
 {
@@ -490,7 +462,7 @@ static void few_bits(void)
 	}
 }
 
-/* Selection and feedback leave all buffers as they are, but move the raster position; blits are no rendering. */
+/* Selection and feedback leave buffers as they are, but move the raster position; blits are no rendering. */
 static void not_rendered(void)
 {
 	static const unsigned char bits[8] = { 255, 129, 165, 129, 165, 153, 129, 255 };
@@ -499,8 +471,6 @@ static void not_rendered(void)
 	float numbers[256];
 
 	glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-	glClearAccum(0.8f, 0.2f, 0.4f, 1);
-	glClear(GL_ACCUM_BUFFER_BIT);
 	panel(2, 2, 12, 1, 0.6f, 0, 1);
 	glSelectBuffer(64, names);
 	glFeedbackBuffer(256, GL_3D_COLOR, numbers);
@@ -515,29 +485,19 @@ static void not_rendered(void)
 		glDrawPixels(2, 2, GL_RGB, GL_FLOAT, pixels);
 		glCopyPixels(2, 2, 8, 8, GL_COLOR);
 		glClearColor(0, 0, 0, 0);
-		glClearAccum(0, 0, 0, 0);
-		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_ACCUM_BUFFER_BIT);
-		glAccum(GL_MULT, 0.5f);
-		glAccum(GL_RETURN, 0.5f);
+		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 		glBlitFramebuffer(2, 2, 8, 8, 4 + 10 * i, 30, 10 + 10 * i, 36, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 		glRenderMode(GL_RENDER);
 		glBitmap(8, 8, 0, 0, 0, 0, bits);
 	}
-	glEnable(GL_SCISSOR_TEST);
-	glScissor(44, 24, 12, 12);
-	glAccum(GL_RETURN, 1);
-	glDisable(GL_SCISSOR_TEST);
 }
 
 int main(void)
 {
-	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, levels, layers, sums,
-		                              more_sums, several, floats, scaled,
+	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, levels, layers, several, floats, scaled,
 		                              few_bits, not_rendered };
-	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, GLX_ACCUM_RED_SIZE, 1,
-		             GLX_ACCUM_GREEN_SIZE, 1, GLX_ACCUM_BLUE_SIZE, 1, GLX_ACCUM_ALPHA_SIZE, 1, None };
+	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, None };
 
-	window_kind = "an accumulation buffer";
 	open_window_of(attributes);
 	make_objects();
 	draw_frames(frames, sizeof(frames) / sizeof(frames[0]), reset);
