@@ -31,6 +31,8 @@ enum scene_mesa {
 	SCENE_MESA_ROUNDS_SMALL_FLOATS = 512,
 	/* 25.0: levels of encoded luminance are means in linear light, and not of what is stored */
 	SCENE_MESA_LINEAR_MEANS = 1024,
+	/* 25.0: GL_MESA_ycbcr_texture is gone: llvmpipe samples no such format, and what names one is refused */
+	SCENE_MESA_LACKS_YCBCR = 2048,
 };
 
 /**

@@ -76,4 +76,24 @@ START_TEST(test_flat_programs)
 }
 END_TEST
 
-GL_TESTS("mesa", test_bitmaps, test_flat_programs)
+/* Textures of brightness with colours for each two: what names their format is refused, and the texture stays without an image. */
+START_TEST(test_ycbcr)
+{
+	static const uint8_t texels[8] = { 200, 90, 60, 160, 30, 90, 120, 160 };
+
+	for (int i = 0; i < 2; i++) {
+		struct gl gl = open_by(markers[i]);
+
+		gl_call(&gl, "glTexImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, GL_YCBCR_MESA, 2, 2, 0, GL_YCBCR_MESA, GL_UNSIGNED_SHORT_8_8_MESA,
+		        sizeof(texels), texels);
+		ck_assert_uint_eq(gl_error(&gl), i ? GL_INVALID_ENUM : 0);
+		gl_call(&gl, "glTexSubImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, 0, 0, 1, 1, GL_RGB, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+		ck_assert_uint_eq(gl_error(&gl), i ? GL_INVALID_OPERATION : 0);
+		gl_call(&gl, "glTexImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, GL_YCBCR_MESA, 1, 1, 0, GL_RGB, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+		ck_assert_uint_eq(gl_error(&gl), i ? GL_INVALID_VALUE : 0);
+		gl_close(&gl);
+	}
+}
+END_TEST
+
+GL_TESTS("mesa", test_bitmaps, test_flat_programs, test_ycbcr)

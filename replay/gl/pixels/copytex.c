@@ -118,7 +118,8 @@ GLS_FAMILY(glCopyTexImage, STATE)
 	unsigned face, n_dims = gls_commands[x->command].suffix.n;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	const struct gls_level_form form = { arg_u(c, 2), arg_i(c, 5), n_dims > 1 ? arg_i(c, 6) : 1, 1, arg_i(c, n_dims > 1 ? 7 : 6) };
-	const uint32_t wrong = gls_image_error(arg_u(c, 0), form.internal_format, arg_i(c, 1), (int64_t[2]){ form.width, form.height }, form.border);
+	const uint32_t wrong = gls_image_error(arg_u(c, 0), form.internal_format, arg_i(c, 1), (int64_t[2]){ form.width, form.height }, form.border,
+	                                       st->mesa);
 	struct gls_level *l;
 
 	/* Numbers of components are for TexImage alone. */

@@ -93,7 +93,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 
 	if (gls_refuses(x, st, arg_i(c, 0) < 0 || arg_i(c, 1) < 0, GL_INVALID_VALUE))
 		return;
-	wrong = gls_pixels_error(p.format, p.type);
+	wrong = gls_pixels_error(p.format, p.type, st->mesa);
 	if (gls_refuses_by(x, st, wrong))
 		return;
 	p.data = gls_pixel_source(st, c, 4, &p.n);

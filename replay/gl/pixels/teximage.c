@@ -69,8 +69,9 @@ static int unpack_image(struct gls_exec *x, const struct gls_state *st, const st
 /* Whether a TexImage with such pixels is refused. */
 static int refuses_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims, const struct gls_level_form *form)
 {
-	const uint32_t format = arg_u(c, 4 + n_dims), wrong = gls_pixels_error(format, arg_u(c, 5 + n_dims)),
-		       image = gls_image_error(arg_u(c, 0), form->internal_format, arg_i(c, 1), (int64_t[2]){ form->width, form->height }, form->border);
+	const uint32_t format = arg_u(c, 4 + n_dims), wrong = gls_pixels_error(format, arg_u(c, 5 + n_dims), st->mesa),
+		       image = gls_image_error(arg_u(c, 0), form->internal_format, arg_i(c, 1), (int64_t[2]){ form->width, form->height }, form->border,
+		                               st->mesa);
 
 	return gls_refuses(x, st, !gls_takes_target(n_dims, arg_u(c, 0)), GL_INVALID_ENUM) || gls_refuses_by(x, st, wrong) ||
 	       gls_refuses_by(x, st, image) || gls_refuses(x, st, !gls_formats_agree(form->internal_format, format), GL_INVALID_OPERATION);
@@ -148,7 +149,7 @@ GLS_FAMILY(glTexSubImage, STATE)
 			return;
 	}
 	p = pixels_of(x, st, c, 2 + 2 * n_dims, n_dims, size);
-	wrong = gls_pixels_error(p.format, p.type);
+	wrong = gls_pixels_error(p.format, p.type, st->mesa);
 	if (gls_refuses_by(x, st, wrong) ||
 	    gls_refuses(x, st, !gls_formats_agree(l->internal_format, p.format) || !gls_part_is_whole(l, at, size), GL_INVALID_OPERATION))
 		return;

@@ -6,6 +6,7 @@
 #include "replay/gl/texture/clientformat.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/texformat.h"
+#include "scene/mesa.h"
 
 static int is_index(uint32_t format)
 {
@@ -54,16 +55,17 @@ static int is_plain(uint32_t type)
 	return (type >= GL_BYTE && type <= GL_FLOAT) || type == GL_HALF_FLOAT || type == GL_HALF_FLOAT_OES;
 }
 
-static int is_format(uint32_t format)
+static int is_format(uint32_t format, uint32_t mesa)
 {
-	return gls_client_format_find(format) || is_index(format) || format == GL_YCBCR_MESA;
+	return gls_client_format_find(format) || is_index(format) ||
+	       (format == GL_YCBCR_MESA && !(mesa & SCENE_MESA_LACKS_YCBCR));
 }
 
-uint32_t gls_pixels_error(uint32_t format, uint32_t type)
+uint32_t gls_pixels_error(uint32_t format, uint32_t type, uint32_t mesa)
 {
 	if (is_integer(format))
 		return 0;
-	if (!is_format(format) || (type == GL_BITMAP && !is_index(format)) || (!is_packed(type) && !is_plain(type) && type != GL_BITMAP))
+	if (!is_format(format, mesa) || (type == GL_BITMAP && !is_index(format)) || (!is_packed(type) && !is_plain(type) && type != GL_BITMAP))
 		return GL_INVALID_ENUM;
 	if (is_packed(type))
 		return goes_with(format, type) ? 0 : GL_INVALID_OPERATION;
@@ -98,13 +100,15 @@ int gls_takes_target(unsigned n_dims, uint32_t target)
 	return target == GL_TEXTURE_3D || target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY;
 }
 
-uint32_t gls_image_error(uint32_t target, uint32_t internal_format, int64_t level, const int64_t size[2], int64_t border)
+uint32_t gls_image_error(uint32_t target, uint32_t internal_format, int64_t level, const int64_t size[2], int64_t border,
+                         uint32_t mesa)
 {
 	const uint32_t base = gls_base_format(internal_format);
 
 	/* 1 to 4 are numbers of components; tokens begin at GL_COLOR_INDEX. */
 	if ((internal_format - 1u > 3u && internal_format < GL_COLOR_INDEX) || (is_face(target) && size[0] != size[1]) ||
-	    (target == GL_TEXTURE_RECTANGLE && (level || border)))
+	    (target == GL_TEXTURE_RECTANGLE && (level || border)) ||
+	    (internal_format == GL_YCBCR_MESA && mesa & SCENE_MESA_LACKS_YCBCR))
 		return GL_INVALID_VALUE;
 	return target == GL_TEXTURE_3D && has_depth(base) ? GL_INVALID_OPERATION : 0;
 }
