@@ -7,7 +7,6 @@
 #include <dlfcn.h>
 #include <string.h>
 
-#include "base/optimize.h"
 #include "capture/gl/resolve.h"
 #include "thunks.h"
 
@@ -69,7 +68,10 @@ static void *look_up_gl(void *handle, const char *name)
  * The real dlsym is left by a jump, so that it sees its caller and not us: with RTLD_NEXT the answer depends on it. The
  * optimizer does so at any level from -O2 on, which is asked for here whatever the rest is built with.
  */
-OPTIMIZE("O2") __attribute__((visibility("default"), RESOLVE_BEFORE_ALL)) void *dlsym(void *restrict handle, const char *restrict name)
+#ifndef __clang__ /* which does so without being asked, but at -O0 */
+__attribute__((optimize("O2")))
+#endif
+__attribute__((visibility("default"), RESOLVE_BEFORE_ALL)) void *dlsym(void *restrict handle, const char *restrict name)
 {
 	if (!resolve_real_dlsym)
 		resolve_dlsym();
