@@ -44,7 +44,7 @@ VISUAL_SRC := replay/verbs/visual.c
 REPLAY_SRC := $(filter-out $(VISUAL_SRC),$(wildcard replay/*.c replay/*/*.c replay/*/*/*.c))
 COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base bisect capture capture/format ci film query scene scene/repair look look/* kernels/ref tracer/* render render/bench render/check farm)) \
 	$(wildcard diff/*.c diff/*/*.c)
-COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c $(BUILD)/gen/page.c
+COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c $(BUILD)/gen/page.c $(BUILD)/gen/manual.c
 
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
@@ -239,6 +239,12 @@ $(BUILD)/gen/page.c: diff/report/page.html diff/report/page.js
 	@mkdir -p $(@D)
 	$(Q)(echo '#include "diff/report/report.h"'; echo 'const char report_page[] ='; \
 		sed -e '/^\/\*SCRIPT\*\/$$/{r diff/report/page.js' -e 'd}' $< | sed 's/[\\"]/\\&/g; s/.*/"&\\n"/'; echo ';') >$@
+
+# Texts of `relume help` about files, and examples.
+$(BUILD)/gen/manual.c: packaging/manual.py | $(GENERATED_H)
+	@mkdir -p $(@D)
+	$(Q)$(PYTHON) -B $< $@ $(@:.c=.dep)
+-include $(BUILD)/gen/manual.dep
 
 # Rebuilt when flags change.
 FLAGS := $(CC) $(CPPFLAGS) $(ALL_CFLAGS) $(CXX) $(ALL_CXXFLAGS)
@@ -502,8 +508,8 @@ fuzz-keep: $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
 golden-update: all
 	@$(PYTHON) tests/golden/test_golden.py --update
 
-# Man pages and shell completion come from the command's own help texts.
-$(BUILD)/pages/stamp: packaging/pages.py $(BUILD)/relume
+# Man pages and shell completion come from the command's own help texts, and from those about files.
+$(BUILD)/pages/stamp: packaging/pages.py packaging/manual.py $(wildcard packaging/debian/changelog) $(BUILD)/relume
 	$(Q)rm -rf $(@D)
 	$(Q)$(PYTHON) -B packaging/pages.py $(BUILD)/relume $(@D)
 	@touch $@

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/manual.h"
 #include "base/memory.h"
 #include "base/nearest.h"
 #include "base/verbs.h"
@@ -65,6 +66,12 @@ static void print_help(FILE *out)
 		fprintf(out, "  %-9s %s\n", verbs[i].name, verbs[i].summary);
 	fputs("  help      this text, or 'relume help VERB' for a verb's own\n"
 	      "\n"
+	      "Formats of files, for 'relume help':\n"
+	      "\n",
+	      out);
+	for (const struct manual_text *format = manual_formats; format->name; format++)
+		fprintf(out, "  %-12s %s\n", format->name, format->summary);
+	fputs("\n"
 	      "relume --version prints the version.\n"
 	      "\n"
 	      "Exit codes: 0 done and passed, 1 compared and failed, 2 wrong usage, 3 input unreadable,\n"
@@ -80,12 +87,14 @@ static const struct verb *find_verb(const char *name)
 	return NULL;
 }
 
-static int refuse(const char *typed)
+static int refuse(const char *typed, int is_help)
 {
 	struct nearest nearest = { .typed = typed };
 
 	for (size_t i = 0; i < sizeof(verbs) / sizeof(verbs[0]); i++)
 		nearest_try(&nearest, verbs[i].name);
+	for (const struct manual_text *format = manual_formats; is_help && format->name; format++)
+		nearest_try(&nearest, format->name);
 	return err_report(ERR_USAGE, NULL, "there is no verb '%s'%s%s; 'relume help' lists them", typed,
 	                  nearest.word ? ", but " : "", nearest.word ? nearest.word : "");
 }
@@ -100,6 +109,7 @@ static int finish(int code)
 
 int main(int argc, char **argv)
 {
+	const struct manual_text *format;
 	const struct verb *verb;
 	int wants_help;
 
@@ -117,9 +127,14 @@ int main(int argc, char **argv)
 		printf("relume %s\n", RELUME_VERSION);
 		return 0;
 	}
+	format = wants_help ? manual_find(manual_formats, argv[2]) : NULL;
+	if (format) {
+		fputs(format->text, stdout);
+		return finish(0);
+	}
 	verb = find_verb(argv[wants_help ? 2 : 1]);
 	if (!verb)
-		return -refuse(argv[wants_help ? 2 : 1]);
+		return -refuse(argv[wants_help ? 2 : 1], wants_help);
 	if (wants_help)
 		return finish(verb->main(2, (char *[]){ argv[2], "--help", NULL }));
 	return finish(verb->main(argc - 1, argv + 1));

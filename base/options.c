@@ -10,6 +10,7 @@
 #include "base/err.h"
 #include "base/frames.h"
 #include "base/limits.h"
+#include "base/manual.h"
 #include "base/nearest.h"
 
 /* Help texts: names take up to NAME_COLUMNS, lines PAGE_COLUMNS. */
@@ -55,6 +56,7 @@ static void print_row(const struct options_row *row, int column, FILE *out)
 
 void options_print_help(const struct options_table *table, FILE *out)
 {
+	const struct manual_text *examples = manual_find(manual_examples, table->verb);
 	int column = format_name(&help_row, NULL, 0);
 
 	for (size_t i = 0; i < table->n_rows; i++) {
@@ -68,6 +70,8 @@ void options_print_help(const struct options_table *table, FILE *out)
 	print_row(&help_row, column + 2, out);
 	if (table->notes)
 		fprintf(out, "\n%s", table->notes);
+	if (examples)
+		fprintf(out, "\nExamples:\n%s", examples->text);
 }
 
 int options_misuse(const struct options_table *table)

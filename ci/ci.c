@@ -74,7 +74,7 @@ static const struct options_table table = {
 	        "       relume ci [OPTIONS]\n"
 	        "\n"
 	        "Record a program, render its frames, and gate each against what the program itself showed and against\n"
-	        "the approved frames. Without PROGRAM: all programs that relume-ci.yaml lists (ci/plan.h shows its keys).\n"
+	        "the approved frames. Without PROGRAM: all programs that relume-ci.yaml lists ('relume help ci-file' has its keys).\n"
 	        "\n"
 	        "The program needs a display; on a server: xvfb-run -a relume ci ...\n"
 	        "Frames that are whole and of the same recording, settings and version are not rendered again. DIR/NAME\n"

@@ -1,16 +1,25 @@
 /*
- * Which programs `relume ci` records: one of the command line, or those of a file (relume-ci.yaml):
+ * The programs that 'relume ci' records, where its command line names none: relume-ci.yaml, or --programs FILE.
+ * Paths count from the folder in which 'relume ci' runs. An unknown key is an error, reported with its line.
  *
- *     baseline: approved                     # default; --baseline overrules it
+ * KEYS
+ *     baseline: approved          # the folder of approved frames; --baseline overrules it; default approved
+ *     programs:                   # a list
+ *       - name: viewer            # the folder of its results; default: the program's name
+ *         command: [./viewer, model.obj] # the program and its arguments
+ *         frames: 20              # frames to record, from its first on; default 10
+ *         environment: [LIBGL_ALWAYS_SOFTWARE=1] # variables that are set for it
+ *         data: [textures, shaders/phong.vert] # files and folders that it reads, besides those that its command
+ *                                 # names; --when-changed watches them
+ *         config: viewer-diff.yaml # tolerances, masks and flaky frames ('relume help diff-file')
+ *
+ * EXAMPLES
+ *     # relume-ci.yaml: two programs
  *     programs:
- *     - name: viewer                         # the folder of its results; default: the program's name
- *       command: [./viewer, model.obj]
- *       frames: 20                           # default 10
- *       environment: [LIBGL_ALWAYS_SOFTWARE=1]
- *       data: [textures, shaders/phong.vert] # files and folders that it reads besides those that its command names
- *       config: viewer-diff.yaml             # tolerances, masks and flaky frames, as in 'relume diff --config'
+ *       - { command: [./game], frames: 3 }
+ *       - { name: glass, command: [./game, --glass], frames: 3 }
  *
- * Paths count from the folder in which `relume ci` runs. An unknown key is an error, reported with its line.
+ *     xvfb-run -a relume ci
  */
 #pragma once
 

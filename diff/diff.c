@@ -84,7 +84,7 @@ static const struct options_row rows[] = {
 	  "pixels; either may be left out; may be given several times", parse_effects, .at = offsetof(struct options, score) },
 	{ "baseline", 0, "DIR", "gate B: compare with the frames that 'relume approve' put there",
 	  options_text, .at = offsetof(struct options, baseline), .use = CONFINE_READS },
-	{ "config", 0, "FILE", "bars, masks, flaky frames (default: relume-diff.yaml where there is one)",
+	{ "config", 0, "FILE", "bars, masks, flaky frames (default: relume-diff.yaml where there is one); 'relume help diff-file' has its keys",
 	  options_text, .at = offsetof(struct options, config) },
 	{ "yee", 0, NULL, "measure Yee's metric as well, which is slow", want_yee, .at = offsetof(struct options, score) },
 	{ "report", 0, "DIR", "DIR/index.html, one file with all pictures in it, and DIR/sheet.png, a contact sheet",

@@ -13,6 +13,7 @@ place() {
 		# Folders that are ours alone go when they are empty.
 		case $3 in
 		lib/relume/lib/*) rmdir "$root/${3%/*}" "$root/lib/relume/lib" 2>/dev/null || : ;;
+		share/doc/relume/examples/*) rmdir "$root/${3%/*}" "$root/share/doc/relume/examples" "$root/share/doc/relume" 2>/dev/null || : ;;
 		lib/relume/* | share/relume/* | share/doc/relume/*) rmdir "$root/${3%/*}" 2>/dev/null || : ;;
 		esac
 		return
@@ -43,8 +44,14 @@ place 644 "$build/relume.pc" share/pkgconfig/relume.pc
 place 644 "$build/relume-rays.pc" share/pkgconfig/relume-rays.pc
 place 644 diff/score/score.schema.json share/relume/score.schema.json
 place 644 README.md share/doc/relume/README.md
-for page in "$build"/pages/man/*.1; do
-	place 644 "$page" "share/man/man1/${page##*/}"
+for page in "$build"/pages/man/*.[15]; do
+	place 644 "$page" "share/man/man${page##*.}/${page##*/}"
+done
+for example in hooks/*.cl hooks/*.yaml; do
+	place 644 "$example" "share/doc/relume/examples/$example"
+done
+for recipe in packaging/recipes/*; do
+	place 644 "$recipe" "share/doc/relume/examples/ci/${recipe##*/}"
 done
 place 644 "$build/pages/bash/relume" share/bash-completion/completions/relume
 place 644 "$build/pages/zsh/_relume" share/zsh/site-functions/_relume

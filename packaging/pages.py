@@ -1,19 +1,23 @@
 #!/usr/bin/python3
 """packaging/pages.py RELUME OUT: man pages and shell completion, made from what the command itself says.
 
-Reads `relume help` and every verb's --help; nothing here knows a verb or an option by name. Writes
+Reads `relume help` and every verb's --help; nothing here knows a verb or an option by name. Pages about formats of files
+come from the same texts as `relume help NAME-file` (manual.py). Writes
 
-    OUT/man/relume.1, OUT/man/relume-VERB.1
+    OUT/man/relume.1, OUT/man/relume-VERB.1, OUT/man/relume-NAME.5
     OUT/bash/relume, OUT/zsh/_relume, OUT/fish/relume.fish
 
-Same help texts, same bytes: no date but the one of SOURCE_DATE_EPOCH, where it is set.
+Same texts, same bytes: their day is SOURCE_DATE_EPOCH's, else that of the newest entry of Debian's changelog.
 """
 import datetime
+import email.utils
 import os
 import pathlib
 import re
 import subprocess
 import sys
+
+import manual
 
 OPTION = re.compile(r"^ {2,6}(?:-(?P<short>\w), )?--(?P<long>[a-z][\w-]*)(?: (?P<value>[A-Z][^ ]*))?(?: +(?P<text>.*))?$")
 VERB = re.compile(r"^  (\w+) +(.+)$", re.M)
@@ -49,16 +53,54 @@ class Help:
         self.blocks = [b for b in self.blocks if b[1]]
 
 
-
 def roff(text):
-    text = text.replace("\\", "\\e").replace("-", "\\-").replace("'", "\\(aq")
-    return "\\&" + text if text[:1] in ".'" else text
+    text = text.replace("\\", "\\e").replace("-", "\\-").replace("'", "\\(aq").replace("`", "\\(ga").replace("^", "\\(ha").replace("~", "\\(ti")
+    return "\\&" + text if text.startswith(".") else text
 
 
-def page(name, about, help, others):
-    day = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", 0)), datetime.timezone.utc)
-    out = [f'.TH {name.upper()} 1 "{day:%Y-%m-%d}" relume "User Commands"', ".SH NAME", f"{roff(name)} \\- {roff(about)}",
-           ".SH SYNOPSIS"]
+def day():
+    if "SOURCE_DATE_EPOCH" in os.environ:
+        return datetime.datetime.fromtimestamp(int(os.environ["SOURCE_DATE_EPOCH"]), datetime.timezone.utc)
+    log = (manual.ROOT / "packaging/debian/changelog").read_text()
+    return email.utils.parsedate_to_datetime(re.search(r"^ -- .*>  (.*)$", log, re.M)[1])
+
+
+def page(name, section, about, body, others):
+    """@param others  names of other pages, with their sections, as in "relume(1)"."""
+    group = {1: "User Commands", 5: "File Formats"}[section]
+    see = " ,\n".join(".BR \\%{} ({})".format(*re.fullmatch(r"(.*)\((\d)\)", roff(other)).groups()) for other in others)
+    body = [line for before, line in zip([None, *body], body) if line != ".PP" or not before.startswith((".SH", ".SS"))]
+    return "\n".join([f'.TH {name.upper()} {section} "{day():%Y-%m-%d}" relume "{group}"', ".SH NAME", f"{roff(name)} \\- {roff(about)}", *body,
+                      ".SH SEE ALSO", see]) + "\n"
+
+
+def as_typed(lines):
+    """Lines that are kept as they are."""
+    return [".PP", ".RS 4", ".nf", *(roff(line) for line in lines), ".fi", ".RE"]
+
+
+def examples_of(lines):
+    """Examples of a help text: "# ..." says what the commands below it do."""
+    out, commands = [], []
+    for line in [*(line.strip() for line in lines), "# "]:
+        if line.startswith("# "):
+            out += as_typed(commands) if commands else []
+            out += [".PP", roff(line[2:] + ("" if line[-1] in "?)" else ":"))] if line != "# " else []
+            commands = []
+        else:
+            commands.append(line)
+    return out
+
+
+def option_of(option):
+    names = [f"\\fB\\-{option['short']}\\fR"] if option["short"] else []
+    value = f" \\fI{roff(option['value'])}\\fR" if option["value"] else ""
+    names.append(f"\\fB\\-\\-{roff(option['long'])}\\fR{value}")
+    return [".TP", ", ".join(names), *(roff(t) for t in option["text"])]
+
+
+def body_of_help(help):
+    out = [".SH SYNOPSIS"]
     for line in help.usage:
         out += [".nf", f"\\fB{roff(line.split()[0])}\\fR {roff(' '.join(line.split()[1:]))}", ".fi"]
     out.append(".SH DESCRIPTION")
@@ -74,10 +116,10 @@ def page(name, about, help, others):
                 out.append(f".SS {roff(lines[0].rstrip(':'))}")
                 continue
             for option in lines:
-                names = [f"\\fB\\-{option['short']}\\fR"] if option["short"] else []
-                value = f" \\fI{roff(option['value'])}\\fR" if option["value"] else ""
-                names.append(f"\\fB\\-\\-{roff(option['long'])}\\fR{value}")
-                out += [".TP", ", ".join(names), *(roff(t) for t in option["text"])]
+                out += option_of(option)
+            continue
+        if lines[0] == "Examples:":
+            out += [".SH EXAMPLES", *examples_of(lines[1:])]
             continue
         if lines[0].startswith("Exit") and heading != "EXIT STATUS":
             out.append(".SH EXIT STATUS")
@@ -88,8 +130,45 @@ def page(name, about, help, others):
         # Columns are kept as they stand; running text is set anew.
         columns = any(re.search(r"^ |\S {2,}\S", line) for line in lines)
         out += [".PP", *([".nf"] if columns else []), *(roff(line) for line in lines), *([".fi"] if columns else [])]
-    out += [".SH SEE ALSO", ",\n".join(f".BR {roff(o)} (1)" for o in others).replace(",\n.BR", " ,\n.BR")]
-    return "\n".join(out) + "\n"
+    return out
+
+
+def keys_of(lines):
+    """Keys of a file and what they mean, those of a key below it and further in."""
+    out, depths = [], [0]
+    for line in lines:
+        code, _, text = re.fullmatch(r"(.*?)(\s*# (.*))?", line).groups()
+        if not code.strip():  # more about the key above
+            out.append(roff(text))
+            continue
+        depth = len(code) - len(code.lstrip())
+        while depth < depths[-1]:
+            out.append(".RE")
+            depths.pop()
+        if depth > depths[-1]:
+            out.append(".RS 4")
+            depths.append(depth)
+        out += [".TP", f"\\fB{roff(code.strip())}\\fR", *([roff(text)] if text else [])]
+    return out + [".RE"] * (len(depths) - 1)
+
+
+def body_of_format(blocks):
+    out = [".SH DESCRIPTION"]
+    for kind, content in blocks:
+        if kind == "heading":
+            out.append(f".SH {roff(content)}")
+        elif kind == "text":
+            out += [".PP", roff(content)]
+        elif kind == "list":
+            for term, words in content:
+                out += [".TP", f"\\fB{roff(term)}\\fR", roff(words)]
+        else:
+            out += keys_of(content) if kind == "keys" else as_typed(content)
+    return out
+
+
+def formats():
+    return {f"{form.name}-file": form.summary for form in manual.FORMATS}
 
 
 def takes_file(value):
@@ -121,8 +200,12 @@ _relume()
 {{
 	local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD-1]}} verb=${{COMP_WORDS[1]}} words=
 	COMPREPLY=()
-	if [ "$COMP_CWORD" = 1 ] || [ "$verb" = help ]; then
+	if [ "$COMP_CWORD" = 1 ]; then
 		mapfile -t COMPREPLY < <(compgen -W '{" ".join(verbs)} help' -- "$cur")
+		return
+	fi
+	if [ "$verb" = help ]; then
+		mapfile -t COMPREPLY < <(compgen -W '{" ".join([*verbs, *formats()])} help' -- "$cur")
 		return
 	fi
 	case "$verb:$prev" in
@@ -155,13 +238,19 @@ def zsh(verbs):
                 specs.append(quote(f"*{name}[{clean(short_text(option))}]{action}"))
         cases.append(f"\t{verb}) _arguments -s {' '.join(specs)} '*:file:_files' ;;")
     listed = " ".join(quote(f"{verb}:{clean(about)}") for verb, (about, _) in verbs.items())
+    formats_listed = " ".join(quote(f"{name}:{clean(summary)}") for name, summary in formats().items())
     return f"""#compdef relume
 # zsh completion of relume, made from its help texts.
 _relume()
 {{
 	local -a verbs=({listed} 'help:explain a verb')
-	if (( CURRENT == 2 )) || {{ [[ $words[2] = help ]] && (( CURRENT == 3 )) }}; then
+	local -a formats=({formats_listed})
+	if (( CURRENT == 2 )); then
 		_describe verb verbs
+		return
+	fi
+	if [[ $words[2] = help ]] && (( CURRENT == 3 )); then
+		_describe verb verbs -- formats
 		return
 	fi
 	local verb=$words[2]
@@ -183,7 +272,7 @@ def fish(verbs):
     for verb, (about, help) in {**verbs, "help": ("explain a verb", None)}.items():
         lines.append(f"complete -c relume -n __fish_use_subcommand -a {verb} -d {text(about)}")
         if not help:
-            lines.append(f"complete -c relume -n '__fish_seen_subcommand_from help' -a {text(' '.join(verbs))}")
+            lines.append(f"complete -c relume -n '__fish_seen_subcommand_from help' -a {text(' '.join([*verbs, *formats()]))}")
             continue
         seen = f"-n '__fish_seen_subcommand_from {verb}'"
         lines.append(f"complete -c relume {seen} -F")
@@ -202,11 +291,17 @@ def main(relume, out):
     verbs = {verb: (about, Help(ask(verb, "--help"))) for verb, about in VERB.findall(overview) if verb != "help"}
     if not verbs or not all(h.usage for _, h in verbs.values()):
         sys.exit("pages.py: the help text lists no verbs, or a verb says no usage")
-    pages = [f"relume-{v}" for v in verbs]
-    files = {"man/relume.1": page("relume", "ray trace what a legacy OpenGL program draws, from a recording", Help(overview),
-                                  pages)}
+    pages = {verb: f"relume-{verb}(1)" for verb in verbs}
+    file_pages = {form.name: f"relume-{form.name}(5)" for form in manual.FORMATS}
+    about = "ray trace what a legacy OpenGL program draws, from a recording"
+    files = {"man/relume.1": page("relume", 1, about, body_of_help(Help(overview)), [*pages.values(), *file_pages.values()])}
+    texts = {verb: ask("help", verb) for verb in verbs}
     for verb, (about, help) in verbs.items():
-        files[f"man/relume-{verb}.1"] = page(f"relume-{verb}", about, help, ["relume", *(p for p in pages if p[7:] != verb)])
+        others = [p for v, p in pages.items() if v != verb] + [p for name, p in file_pages.items() if f"{name}-file" in texts[verb]]
+        files[f"man/relume-{verb}.1"] = page(f"relume-{verb}", 1, about, body_of_help(help), ["relume(1)", *others])
+    for form in manual.FORMATS:
+        others = ["relume(1)", *(pages[verb] for verb in verbs if f"{form.name}-file" in texts[verb])]
+        files[f"man/relume-{form.name}.5"] = page(f"relume-{form.name}", 5, form.summary, body_of_format(manual.read(form.source)), others)
     files.update({"bash/relume": bash(verbs), "zsh/_relume": zsh(verbs), "fish/relume.fish": fish(verbs)})
     for name, content in files.items():
         path = pathlib.Path(out, name)

@@ -46,8 +46,8 @@ static const struct options_table table = {
 	         "  struct relume_request closest_hit(struct relume_hit, struct relume_parameters)     what a ray hit first\n"
 	         "  struct relume_request miss(struct relume_miss, struct relume_parameters)           a ray that hit nothing\n"
 	         "  struct relume_request light(struct relume_beam, struct relume_parameters)          how much of a light arrives\n"
-	         "hooks/README.md has the structs, and examples.\n"
-	         "Errors have the file's own lines. hooks/README.md tells how Oclgrind finds accesses out of bounds.\n"
+	         "'relume help hook-file' has the structs, how to find accesses out of bounds, and examples.\n"
+	         "Errors have the file's own lines.\n"
 	         "Exit codes: 0 it runs, 2 wrong usage, 3 it does not compile, does not end or ends the process, 5 the device failed.\n",
 	.takes = "--check and one FILE.cl", .least = 1, .most = 1, .words_use = CONFINE_READS,
 };

@@ -8,6 +8,7 @@
 #include "base/folder.h"
 #include "base/options.h"
 #include "base/part.h"
+#include "base/plural.h"
 #include "base/verbs.h"
 #include "look/rules.h"
 #include "look/study/study.h"
@@ -32,7 +33,7 @@ static const struct options_table table = {
 	.head = "usage: relume look TRACE [-f FRAMES] -o FILE\n"
 	        "\n"
 	        "Study a recording, and write rules for relume render --look: where the camera is, what stands still, what tricks stand for\n"
-	        "light, where lights are. Each rule has a confidence and a reason. Whoever edits the file has the last word.\n",
+	        "light, where lights are. Each rule has a confidence and a reason. Edit the file to overrule it: 'relume help look-file'.\n",
 	OPTIONS_ROWS(rows),
 	.takes = "one trace and -o FILE", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
@@ -47,8 +48,8 @@ static int play(struct replay *replay, const char *trace, const struct frame_lis
 		return err;
 	total = frame_list_count(frames, end);
 	if (!total)
-		return err_report(end ? ERR_USAGE : ERR_INPUT, trace, end ? "has %llu frames; none of those asked for is there" :
-		                  "holds no whole frame", (unsigned long long)end);
+		return err_report(end ? ERR_USAGE : ERR_INPUT, trace, end ? "has %llu frame%s; none of those asked for is there" :
+		                  "holds no whole frame", (unsigned long long)end, plural(end));
 	for (; more == 1 && !err && frame_list_next(frames, frame, &frame) && frame < end; frame++, i++) {
 		struct scene *scene = NULL;
 

@@ -214,14 +214,14 @@ static const struct options_row rows[] = {
 	  "bright dots, and takes their light; 0: no bound (default 10)", options_real, AT(tracer.clamp), .low = 0, .high = 1e30 },
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
 	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, which flat faces are meant round (crease), which meshes have cracks (repair), lights added, moved, off or with a "
-	  "size (look/rules.h shows all keys); \"auto\": those that relume look finds; several apply in order, later rules count", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
+	  "size ('relume help look-file' lists all keys); \"auto\": those that relume look finds; several apply in order, later rules count", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	{ "hook", 0, "FILE", "OpenCL C whose functions take the place of stages: ray_generation (other cameras), bounds and intersection (other shapes; "
 	  "modes whitted and path), any_hit, closest_hit, miss, light (modes whitted, diffuse and path). 'relume hook --check' tries them; "
-	  "hooks/README.md explains them", take_hook, .at = 0,
+	  "'relume help hook-file' explains them", take_hook, .at = 0,
 	  .kind = PICTURE_FILE, .use = CONFINE_READS },
 	{ "camera", 0, "FILE", "another camera, YAML: a recorded frame from elsewhere, in perspective or not, light and all things where they stand, or "
 	  "many pictures of one frame around it (turntable; -f names the frame, the pictures are numbered from 0). HUDs are left out. "
-	  "look/camera/camera.h shows all keys", take_camera, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
+	  "'relume help camera-file' lists all keys", take_camera, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND", "how trees of meshes are built: " TREE_BUILDERS(ACCEL_TEXT) "by default kd from where the program calls "
 	  "rtBuildKdTreeEXT, else bvh. What moves gets a binned one. The picture is the same",

@@ -1,8 +1,45 @@
 /*
- * relume-diff.yaml: how frames are compared, by recording and by frame. diff/rules/README.md shows its form.
+ * How 'relume diff' compares frames, by recording and by frame: relume-diff.yaml of the current folder, or --config
+ * FILE. A key that is left out keeps its default. An unknown key is an error, reported with its line. The report's
+ * page lists the gates.
  *
- * Every rule that matches applies, in the order of the file. A preset applies before the rule that names it, and a preset that it
- * inherits before that. Later bars win; lists of rectangles and channels add up.
+ * KEYS
+ *     baseline: approved          # the folder of 'relume approve', relative to this file
+ *     presets:                    # named settings, which rules apply
+ *       - name: loose             # the preset's name
+ *         inherits: strict        # a preset that is defined before it
+ *         codes: 3                # gates R1 and R2: the largest difference that passes, of 255
+ *         bars:                   # a gate's figure (1 is the first): beyond fail it fails, beyond warn it warns; on
+ *                                 # the good side of better it fails as well: a finding
+ *           - { gate: P, figure: 1, fail: 0.01, warn: 0.005, better: 0.0001 }
+ *         ignore: [{ x: 0, y: 0, width: 80, height: 20 }] # rectangles of pixels that do not count
+ *     rules:                      # a list; all that match apply, later bars win
+ *       - match: "gears*"         # the recording's name, with * and ?; left out: every recording
+ *         frames: 10-60           # left out: every frame
+ *         preset: loose           # applied before the rule's own keys, which are those of presets and
+ *         channel: gl             # the layer that is compared
+ *         channels: [shadow.R, id] # channels that must be there (gate V)
+ *         mask: mask.png          # a picture: where it is white, pixels do not count
+ *         effects: [{ effect: shadow, low: 1, high: 40 }] # gate E3: per cent of the pixels that the effect touches
+ *     flaky:                      # failures that are known to be noise. 'relume diff REF RUN RUN...' proposes
+ *                                 # entries, and names those that no run needed
+ *       - match: "gears*"         # the recording's name
+ *         frames: "17"            # which frames
+ *         gates: [R2]             # the gates that may fail
+ *         reason: "a driver's lines" # why
+ *         expires: 2027-01-31     # the last day on which the entry counts
+ *
+ * Every rule that matches applies, in the order of the file. A preset applies before the rule that names it, and one
+ * that it inherits before that. Later bars win; rectangles and channels add up.
+ *
+ * EXAMPLES
+ *     # relume-diff.yaml: a clock in a corner does not count, and 1 % of pixels may be off by more than 2 of 255
+ *     rules:
+ *       - match: "game*"
+ *         bars: [{ gate: R1, fail: 1 }]
+ *         ignore: [{ x: 0, y: 0, width: 80, height: 20 }]
+ *
+ *     relume diff --config relume-diff.yaml game.trace out/game.####.exr
  */
 #pragma once
 

@@ -1,24 +1,47 @@
 /*
- * A recorded frame from elsewhere: `relume render --camera FILE`.
+ * A camera for a recorded frame: relume render --camera FILE. Lights and all things stay where they are; HUDs are
+ * left out. Every key may be left out. An unknown key is an error, reported with its line.
  *
- *     kind: pinhole              # or orthographic; default: as the program looked
- *     space: eye                 # of places and directions here. eye: the recorded camera's, which stands at 0 0 0 and looks along -z, with y up.
- *                                # world: as the list `world` of a look file says (look/rules.h). Default eye
- *     place: [0, 0, 0]           # default: where the recorded camera stands
- *     look_at: [0, 0, -1]        # default: straight on, as the recorded camera looks
- *     up: [0, 1, 0]              # default: y
- *     field_of_view: 45          # of a pinhole: degrees from top to bottom
- *     height: 10                 # of an orthographic view: units from top to bottom
- *     near: 0.1                  # what of the line of sight is drawn, in units; by default what the program drew of it, and as much
- *     far: 100                   # more as the way to the place needs
- *     size: [640, 480]           # of the picture, pixels; default: the window's
- *     turntable:                 # one recorded frame becomes many pictures: the camera goes around a point from its place on, looks at it, and `up`
- *       about: [0, 0, -5]        # is the axis. Default: the middle of what the frame shows
- *       degrees: 360             # in all; above 0: against the clock, seen from above. Default 360
- *       frames: 48               # pictures, counted from 0. Default 48
+ * KEYS
+ *     kind: pinhole               # or orthographic; default: the program's own projection
+ *     space: eye                  # the space of places and directions below. eye: the recorded camera's, which
+ *                                 # stands at 0 0 0 and looks along -z, y up. world: the space that the list `world`
+ *                                 # of a look file describes ('relume help look-file'). Default eye
+ *     place: [0, 0, 0]            # where the camera stands; default: the recorded camera's place
+ *     look_at: [0, 0, -1]         # what it looks at; default: what the recorded camera looks at
+ *     up: [0, 1, 0]               # which way is up; default: y
+ *     field_of_view: 45           # for a pinhole: degrees from top to bottom
+ *     height: 10                  # for an orthographic view: units from top to bottom
+ *     near: 0.1                   # where drawing begins along the line of sight, in units. Default for near and
+ *                                 # far: what the program drew, and as much more as the way to the new place needs
+ *     far: 100                    # where it ends
+ *     size: [640, 480]            # the picture's size in pixels; default: the window's
+ *     turntable:                  # makes many pictures of one frame: from its place the camera goes around a point,
+ *                                 # looking at it, about the axis `up`
+ *       about: [0, 0, -5]         # the point; default: the middle of what the frame shows
+ *       degrees: 360              # how far; above 0: counterclockwise, seen from above. Default 360
+ *       frames: 48                # how many pictures, numbered from 0. Default 48
  *
- * Where the file gives neither kind nor field of view nor height, the program's own projection stays; where it gives another kind without
- * these, what is looked at (else the middle of what the frame shows) keeps its size.
+ * Without kind, field_of_view and height the program's own projection stays. With another kind but neither of the
+ * other two, what is looked at (else the middle of what the frame shows) keeps its size.
+ *
+ * Channels P and N of a rendered frame tell where a thing is, and which way is up.
+ *
+ * EXAMPLES
+ *     # turn.yaml: once around the middle of what the frame shows, up as the floor's normal says
+ *     up: [0, 0.9, 0.44]
+ *     turntable: { frames: 4 }
+ *
+ *     relume render game.trace -f 3 --camera turn.yaml -o turn.####.png
+ *
+ *     # plan.yaml: from above, without perspective
+ *     kind: orthographic
+ *     place: [0, 20, -5]
+ *     look_at: [0, 0, -5]
+ *     up: [0, 0, -1]
+ *     height: 12
+ *
+ *     relume render game.trace -f 3 --camera plan.yaml -o plan.png
  */
 #pragma once
 

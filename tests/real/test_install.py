@@ -6,6 +6,8 @@ import re
 import shutil
 import subprocess
 
+import yaml
+
 from helpers import BUILD, ROOT, SCRATCH, check, finish, must, on_display, run
 
 PLACE = SCRATCH / "place"
@@ -72,6 +74,27 @@ for verb, known in options.items():
     check(page.returncode == 0 and not page.stderr, f"man relume-{verb}: {page.stderr}")
     text = re.sub(r".\x08", "", page.stdout)
     check(all(o in text for o in known), f"man relume-{verb} says every option: {known - set(text.split())}")
+# A page about each format of a file, and in every page a day and examples.
+formats = re.findall(r"^  (\w+)-file ", run(relume, "help").stdout, re.M)
+pages = sorted((PREFIX / "share/man").rglob("*.[15]"))
+check(len(formats) >= 5 and {p.name for p in pages if p.suffix == ".5"} == {f"relume-{f}.5" for f in formats}, f"pages of section 5: {pages}")
+for source in pages:
+    page = run("man", "--warnings", "-P", "cat", "-l", source, env=dict(os.environ, MANWIDTH="80", LC_ALL="C.UTF-8"))
+    text = re.sub(r".\x08", "", page.stdout)
+    check(page.returncode == 0 and not page.stderr, f"man {source.name}: {page.stderr}")
+    check(source.stem == "relume" or "\nEXAMPLES\n" in text, f"man {source.name} has examples")
+    check(re.search(r"^relume +20[2-9]\d-\d\d-\d\d ", text, re.M), f"man {source.name} has a day of our days: {text[-200:]}")
+keys = run(relume, "help", "look-file").stdout
+shown = re.sub(r"\s+", " ", must(run("man", "-P", "cat", "-l", PREFIX / "share/man/man5/relume-look.5", env=dict(os.environ, MANWIDTH="300", LC_ALL="C.UTF-8"))).stdout)
+wanted = re.findall(r"^ {8,}(?:- )?(\w+):.* # ", keys, re.M)
+check(len(wanted) > 50 and all(f"{key}:" in shown for key in wanted), f"man 5 relume-look has every key: {[k for k in wanted if f'{k}:' not in shown]}")
+# The hooks and recipes that the pages speak of.
+examples = PREFIX / "share/doc/relume/examples"
+check((examples / "hooks/toon.cl").exists() and (examples / "hooks/car_paint.look.yaml").exists(), "example hooks are installed")
+must(run(relume, "hook", "--check", examples / "hooks/toon.cl", timeout=200))
+for recipe in ("github.yml", "gitlab-ci.yml"):
+    text = (examples / "ci" / recipe).read_text()
+    check(yaml.safe_load(text) and "relume ci" in text, f"the recipe {recipe} is YAML that runs relume ci")
 # The help texts themselves say every option that the verbs' tables have.
 tables = {f"--{name}" for folder in ("capture", "diff", "farm", "render", "replay") for source in (ROOT / folder).rglob("*.c")
           for name in re.findall(r"\{ \"([a-z][a-z-]+)\", (?:0|'\w'), (?:NULL|\"[^\"]+\"), \"", source.read_text())}
