@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/plural.h"
 
 static double seconds_of(clockid_t clock)
 {
@@ -202,8 +203,8 @@ void progress_summary(const struct progress *p)
 
 	if (p->style == PROGRESS_JSON || p->style == PROGRESS_NONE)
 		return;
-	n += (size_t)snprintf(text + n, sizeof(text) - n, "%s %" PRIu64 " frames in %.1f s (%.2f frames/s)", p->verb, worked,
-	                      elapsed, elapsed > 0 ? (double)worked / elapsed : 0.0);
+	n += (size_t)snprintf(text + n, sizeof(text) - n, "%s %" PRIu64 " frame%s in %.1f s (%.2f frames/s)", p->verb, worked,
+	                      plural(worked), elapsed, elapsed > 0 ? (double)worked / elapsed : 0.0);
 	if (p->skipped)
 		n += (size_t)snprintf(text + n, sizeof(text) - n, ", %" PRIu64 " were there already", p->skipped);
 	if (p->failed)

@@ -7,6 +7,7 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/part.h"
+#include "base/plural.h"
 
 static const char *const side_names[N_SIDES] = { "good", "bad" };
 
@@ -31,9 +32,9 @@ static void put_sight(const struct sight *s, FILE *out)
 		fprintf(out, "first picture that differs: frame %zu of good, %zu of bad: %" PRIu64 " of %" PRIu64 " pixels, by up to %u of 255\n",
 		        s->frame[GOOD], s->frame[BAD], s->differing, s->pixels, s->worst);
 	else if (s->left)
-		fprintf(out, "pictures: the same in the %zu frames that were compared; %zu more were not\n", s->looked, s->left);
+		fprintf(out, "pictures: the same in the %zu frame%s that were compared; %zu more were not\n", s->looked, plural(s->looked), s->left);
 	else
-		fprintf(out, "pictures: the same in all %zu frames from there on\n", s->looked);
+		fprintf(out, "pictures: the same in all %zu frame%s from there on\n", s->looked, plural(s->looked));
 }
 
 /* Lines of the state, each behind a prefix. */
@@ -56,7 +57,7 @@ static void put_parting(const struct parting *p, FILE *out)
 		fprintf(out, "%" PRIu64 " ", p->number[s]);
 		put(p->text[s], MOST_LINE, 0, out);
 		if (p->count[s] > 1)
-			fprintf(out, " and %zu calls more", p->count[s] - 1);
+			fprintf(out, " and %zu call%s more", p->count[s] - 1, plural(p->count[s] - 1));
 		fprintf(out, " (frame %zu)\n", p->frame[s]);
 	}
 	if (p->argument)
@@ -73,8 +74,8 @@ void page_table(const struct findings *f, FILE *out)
 	const struct partings *p = f->partings;
 
 	for (int s = 0; s < N_SIDES; s++)
-		fprintf(out, "%-4s  %s: %zu frames, %zu calls that count\n", side_names[s], f->recordings[s]->path, f->recordings[s]->n_ended,
-		        f->recordings[s]->n);
+		fprintf(out, "%-4s  %s: %zu frame%s, %zu calls that count\n", side_names[s], f->recordings[s]->path, f->recordings[s]->n_ended,
+		        plural(f->recordings[s]->n_ended), f->recordings[s]->n);
 	if (!p->n) {
 		fputs("they are the same\n", out);
 		return;
@@ -96,7 +97,7 @@ static void put_row(const struct parting *p, FILE *out)
 		fprintf(out, "<td>%zu</td><td>%" PRIu64 "</td><td><code>", p->frame[s], p->number[s]);
 		put(p->count[s] ? p->text[s] : "-", MOST_LINE, 1, out);
 		if (p->count[s] > 1)
-			fprintf(out, "</code> and %zu calls more<code>", p->count[s] - 1);
+			fprintf(out, "</code> and %zu call%s more<code>", p->count[s] - 1, plural(p->count[s] - 1));
 		fputs("</code></td>", out);
 	}
 	fputs("<td>", out);

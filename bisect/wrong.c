@@ -7,6 +7,7 @@
 
 #include "base/err.h"
 #include "base/folder.h"
+#include "base/plural.h"
 #include "diff/pictures/set.h"
 #include "diff/report/pictures.h"
 #include "diff/score/gates.h"
@@ -163,7 +164,8 @@ static void tell(const struct score *s, const struct scene_draw *draw)
 	for (int g = 0; g < N_GATES; g++)
 		if (s->gates[g].state == SCORE_FAILED)
 			fprintf(stderr, " %s", score_gates[g].name);
-	fprintf(stderr, "; %s (call %" PRIu64 ") is to blame for %" PRIu64 " pixels\n", draw->call, draw->call_number, s->blame[0].pixels);
+	fprintf(stderr, "; %s (call %" PRIu64 ") is to blame for %" PRIu64 " pixel%s\n", draw->call, draw->call_number, s->blame[0].pixels,
+	        plural(s->blame[0].pixels));
 }
 
 static int judge(const struct sighted *v, const struct score_picture *ref, uint64_t frame, const char *trace, const char *note)

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/plural.h"
 #include "capture/executable.h"
 #include "capture/sidecar.h"
 
@@ -21,7 +22,8 @@ static void explain_no_frame(const struct stats_process *p)
 	static const enum frame_trigger order[] = { FRAME_FLUSH, FRAME_FINISH, FRAME_READPIXELS, FRAME_CLEAR };
 
 	if (p->ends[FRAME_SWAP]) {
-		err_warn(p->path, "none of the program's %" PRIu64 " frames was one to be recorded", p->ends[FRAME_SWAP]);
+		err_warn(p->path, "the program ended after %" PRIu64 " frame%s, before the first that was to be recorded",
+		         p->ends[FRAME_SWAP], plural(p->ends[FRAME_SWAP]));
 		return;
 	}
 	for (size_t i = 0; i < sizeof(order) / sizeof(order[0]); i++)
@@ -70,19 +72,21 @@ void summary_print(const struct recorder_stats *stats)
 		const struct stats_process *p = &stats->processes[i];
 		const uint64_t references = reference_bytes(p->path);
 
-		fprintf(stderr, "relume: %s: %" PRIu64 " frames, %" PRIu64 " calls, %" PRIu64 " bytes, ", p->path, p->frames, p->calls, p->bytes);
+		fprintf(stderr, "relume: %s: %" PRIu64 " frame%s, %" PRIu64 " call%s, %" PRIu64 " bytes, ", p->path, p->frames,
+		        plural(p->frames), p->calls, plural(p->calls), p->bytes);
 		if (references)
 			fprintf(stderr, "%" PRIu64 " bytes of reference frames%s, ", references, p->lost_references ? " (stopped early)" : "");
 		if (p->failed)
 			fprintf(stderr, "stopped early: %s\n", strerror(p->failed));
 		else
-			fprintf(stderr, "%" PRIu64 " calls not recorded\n", i == 0 ? unknown : 0);
+			fprintf(stderr, "%" PRIu64 " call%s not recorded\n", i == 0 ? unknown : 0, plural(i == 0 ? unknown : 0));
 		if (p->frames == 0)
 			explain_no_frame(p);
 		explain_needs(p);
 	}
 	for (uint32_t i = 0; i < n_unknown; i++)
-		fprintf(stderr, "relume: not recorded: %s, %" PRIu64 " calls\n", stats->unknown[i].name, stats->unknown[i].calls);
+		fprintf(stderr, "relume: not recorded: %s, %" PRIu64 " call%s\n", stats->unknown[i].name, stats->unknown[i].calls,
+		        plural(stats->unknown[i].calls));
 }
 
 /* --- Nothing was recorded ------------------------------------------------------------------------------------------ */

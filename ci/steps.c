@@ -12,6 +12,7 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/part.h"
+#include "base/plural.h"
 #include "base/program.h"
 #include "ci/watched.h"
 
@@ -103,8 +104,8 @@ static int record(const struct steps *s)
 static void say_watched(const struct steps *s, const struct watched *w)
 {
 	say(s, "");
-	printf("watched: %zu files, listed in %s/inputs; what the program opens beyond these is not watched: "
-	       "name it with --data\n", w->n_files, s->out);
+	printf("watched: %zu file%s, listed in %s/inputs; what the program opens beyond these is not watched: "
+	       "name it with --data\n", w->n_files, plural(w->n_files), s->out);
 	if (w->not_watched[0]) {
 		say(s, "");
 		printf("not watched: folders that its arguments name (%s)\n", w->not_watched);
@@ -127,7 +128,7 @@ static int record_if_changed(const struct steps *s, const char *program)
 		say(s, "recorded nothing: all that is watched is the same\n");
 	} else if (!code) {
 		say(s, "record");
-		printf(s->run->when_changed ? " %u frames: %s\n" : " %u frames\n", s->program->frames, why);
+		printf(s->run->when_changed ? " %u frame%s: %s\n" : " %u frame%s\n", s->program->frames, plural(s->program->frames), why);
 		unlink(kept);
 		code = record(s);
 		if (!code)

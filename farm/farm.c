@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/plural.h"
 #include "base/verbs.h"
 #include "farm/census.h"
 #include "farm/job.h"
@@ -72,7 +73,8 @@ static int submit(int argc, char **argv)
 	if (!err)
 		err = farm_script_save(&job);
 	if (!err && census.counts[CENSUS_OUTDATED])
-		printf("%" PRIu64 " frames of other settings are rendered again\n", census.counts[CENSUS_OUTDATED]);
+		printf("rendered again, for other settings: %" PRIu64 " frame%s\n", census.counts[CENSUS_OUTDATED],
+		       plural(census.counts[CENSUS_OUTDATED]));
 	if (!err)
 		err = run_script(&job, NULL);
 	census_free(&census);

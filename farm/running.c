@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/plural.h"
 #include "base/program.h"
 #include "base/folder.h"
 #include "farm/slurm.h"
@@ -50,7 +51,7 @@ static int read_slurm(const struct farm_job *job, uint64_t *number, char *text, 
 
 	*number = queue.number;
 	if (queue.running + queue.waiting)
-		snprintf(text, size, "%" PRIu64 " task%s running, %" PRIu64 " waiting", queue.running, queue.running == 1 ? "" : "s", queue.waiting);
+		snprintf(text, size, "%" PRIu64 " task%s running, %" PRIu64 " waiting", queue.running, plural(queue.running), queue.waiting);
 	else
 		snprintf(text, size, "its report waits or runs");
 	slurm_free(&queue);

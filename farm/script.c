@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 #include "base/part.h"
+#include "base/plural.h"
 
 /* One word of a shell command. In a recipe of make every dollar is written twice. */
 static void put_word(const struct farm_job *job, FILE *out, const char *word)
@@ -93,7 +94,7 @@ static void put_head(const struct farm_job *job, FILE *out)
 	put_comment(out, job->frames_text);
 	fputs(" of ", out);
 	put_comment(out, job->trace);
-	fprintf(out, ", %" PRIu64 " in %" PRIu64 " tasks.\n", job->n_frames, job->n_tasks);
+	fprintf(out, ", %" PRIu64 " in %" PRIu64 " task%s.\n", job->n_frames, job->n_tasks, plural(job->n_tasks));
 }
 
 static void put_functions(const struct farm_job *job, FILE *out)

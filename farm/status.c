@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/plural.h"
 #include "farm/census.h"
 #include "farm/running.h"
 #include "farm/slurm.h"
@@ -61,7 +62,7 @@ static void print_frames(const struct census *c)
 
 		if (!c->counts[k])
 			continue;
-		printf("%s: frame%s ", words[k], c->counts[k] == 1 ? "" : "s");
+		printf("%s: frame%s ", words[k], plural(c->counts[k]));
 		for (size_t i = 0; i < c->n_wanting; i++)
 			if (c->wanting[i].verdict == (enum census_verdict)k)
 				spans_add(&spans, c->wanting[i].frame);
@@ -139,7 +140,7 @@ static int print_failed(const struct farm_job *job, const struct census *c, cons
 			err = print_failed_task(job, i, &story, ends[i]);
 	}
 	if (n > MOST_FAILED)
-		printf("and %" PRIu64 " more tasks that failed\n", n - MOST_FAILED);
+		printf("and %" PRIu64 " more failed task%s\n", n - MOST_FAILED, plural(n - MOST_FAILED));
 	if (n)
 		printf("'relume farm retry %s' renders what is missing\n", job->folder);
 	for (uint64_t i = 0; ends && i <= job->n_tasks; i++)

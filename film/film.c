@@ -10,6 +10,7 @@
 #include "base/frames.h"
 #include "base/options.h"
 #include "base/part.h"
+#include "base/plural.h"
 #include "base/progress.h"
 #include "base/verbs.h"
 #include "diff/pictures/set.h"
@@ -240,8 +241,8 @@ static int run(struct film *f)
 	err = encoder_close(&f->encoder, err);
 	progress_end(&progress);
 	if (!err)
-		fprintf(stderr, "%s: %" PRIu64 " frames, %.1f s, %u x %u\n", f->asked->output, total, (double)f->n_pictures / f->fps, f->picture.width,
-		        f->picture.height);
+		fprintf(stderr, "%s: %" PRIu64 " frame%s, %.1f s, %u x %u\n", f->asked->output, total, plural(total),
+		        (double)f->n_pictures / f->fps, f->picture.width, f->picture.height);
 	return err;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/err.h"
 #include "base/memory.h"
+#include "base/plural.h"
 #include "look/rules.h"
 
 enum { MOST_LINES = 20 };
@@ -111,9 +112,9 @@ void matched_report(const struct look *look, int quiet)
 			fprintf(stderr, "  and more rules\n");
 		else if (c->draws)
 			fprintf(stderr, "  %s: rule %" PRIu32 " matches %" PRIu64 " draw%s in %" PRIu64 " of %" PRIu64 " frame%s\n", c->file, c->rule, c->draws,
-			        c->draws == 1 ? "" : "s", c->frames, m->frames, m->frames == 1 ? "" : "s");
+			        plural(c->draws), c->frames, m->frames, plural(m->frames));
 		else
 			err_warn(c->file, "surfaces, rule %" PRIu32 " matches nothing in %" PRIu64 " frame%s; 'relume scene --json' shows hashes and draws",
-			         c->rule, m->frames, m->frames == 1 ? "" : "s");
+			         c->rule, m->frames, plural(m->frames));
 	}
 }

@@ -7,6 +7,7 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/part.h"
+#include "base/plural.h"
 #include "base/verbs.h"
 #include "look/camera/camera.h"
 #include "look/join.h"
@@ -36,8 +37,8 @@ static int choose_frames(struct settings *s, struct replay *replay, struct exten
 		return err;
 	x->short_of = damaged && frame_list_last(&s->frames) >= x->end;
 	if (s->frames.n_ranges && frame_list_last(&s->frames) >= x->end && !damaged)
-		return err_report(ERR_USAGE, s->trace, "has %llu frames, numbered from 0; frame %llu is not there",
-		                  (unsigned long long)x->end, (unsigned long long)frame_list_last(&s->frames));
+		return err_report(ERR_USAGE, s->trace, "has %llu frame%s, numbered from 0; frame %llu is not there",
+		                  (unsigned long long)x->end, plural(x->end), (unsigned long long)frame_list_last(&s->frames));
 	if (x->end == 0)
 		return err_report(ERR_INPUT, s->trace, "holds no whole frame");
 	if (s->n_chunks && !camera_pictures(s->camera))
@@ -123,7 +124,8 @@ static int foretell(const struct settings *s, struct replay *replay, uint64_t en
 		m->lacks[m->n++] = *l;
 	}
 	if (m->n > MAX_LINES)
-		err_warn(s->trace, "and %ld more commands that are not done yet ('relume info' lists them)", m->n - MAX_LINES);
+		err_warn(s->trace, "and %ld more command%s that Relume does not know ('relume info' lists them)", m->n - MAX_LINES,
+		         plural((uint64_t)(m->n - MAX_LINES)));
 	m->any = m->n > 0;
 	return n < 0 ? (int)n : 0;
 }
@@ -147,15 +149,16 @@ static void report(const struct pipeline *p, struct missing *m)
 	for (size_t i = 0; i < n; i++) {
 		m->any |= !replay_is_rendered(&counts[i]);
 		if (!is_foretold(m, counts[i].name) && said++ < MAX_LINES)
-			err_warn(trace, "%s, %llu times: %s", counts[i].name, (unsigned long long)counts[i].count,
+			err_warn(trace, "%s, %llu time%s: %s", counts[i].name, (unsigned long long)counts[i].count, plural(counts[i].count),
 			         counts[i].why ? counts[i].why : "not done yet");
 	}
 	m->any |= p->carried->lacks || u->targets != 0 || u->ended != 0;
 	if (u->ended)
-		err_warn(trace, "ended: programs of %llu draws, after %u instructions in loops; what they drew is wrong (frames say which: relume:ended)",
-		         (unsigned long long)u->ended, SCENE_PROGRAM_STEPS);
+		err_warn(trace, "ended: programs of %llu draw%s, after %u instructions in loops; what they drew is wrong (frames say which: relume:ended)",
+		         (unsigned long long)u->ended, plural(u->ended), SCENE_PROGRAM_STEPS);
 	if (u->targets)
-		err_warn(trace, "not drawn yet: %llu draws to other targets than the window", (unsigned long long)u->targets);
+		err_warn(trace, "not drawn yet: %llu draw%s to other targets than the window", (unsigned long long)u->targets,
+		         plural(u->targets));
 }
 
 static int prepare_device(struct pipeline *p, struct device *dev)
@@ -239,7 +242,8 @@ static int render_frames(struct pipeline *p, uint64_t total, struct missing *mis
 	if (!err || progress->failed)
 		progress_summary(progress);
 	for (size_t i = 0; i < p->n_devices && p->n_devices > 1 && p->shares && s->progress != PROGRESS_NONE; i++)
-		fprintf(stderr, "  device %zu: %llu frames (%s)\n", i, (unsigned long long)p->shares[i], device_name(p->devices[i]));
+		fprintf(stderr, "  device %zu: %llu frame%s (%s)\n", i, (unsigned long long)p->shares[i], plural(p->shares[i]),
+		        device_name(p->devices[i]));
 	free(p->shares);
 	report_display(p);
 	matched_report(s->look, s->progress == PROGRESS_NONE);

@@ -8,6 +8,7 @@
 #include "base/err.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/plural.h"
 #include "base/progress.h"
 #include "capture/format/call.h"
 #include "gl_tokens.h"
@@ -308,8 +309,8 @@ int replay_one_frame(const char *path, uint64_t frame, struct scene **scene)
 	if (rc == 1)
 		rc = replay_next_frame(rp, 1, scene);
 	if (rc == 0)
-		rc = err_report(ERR_USAGE, path, "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frames (0 to %" PRIu64 ")",
-		                frame, replay_frame(rp), replay_frame(rp) ? replay_frame(rp) - 1 : 0);
+		rc = err_report(ERR_USAGE, path, "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
+		                frame, replay_frame(rp), plural(replay_frame(rp)), replay_frame(rp) ? replay_frame(rp) - 1 : 0);
 	replay_close(&rp);
 	return rc < 0 ? rc : 0;
 }

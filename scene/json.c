@@ -3,6 +3,7 @@
 #include <inttypes.h>
 
 #include "base/json.h"
+#include "base/plural.h"
 
 static const char *kind_name(enum scene_primitive kind)
 {
@@ -25,17 +26,18 @@ void scene_write_text(FILE *out, const struct scene *s)
 {
 	uint32_t clear = 0;
 
-	fprintf(out, "frame %" PRIu64 ": %ux%u, %u instances, %u primitives, %u meshes, %u materials, %u views, %u textures%s\n",
-	        s->frame, s->width, s->height, s->n_instances, s->n_primitives, s->n_meshes, s->n_materials, s->n_views,
-	        s->n_textures, s->needs_previous ? ", shows pixels of an earlier frame" : "");
+	fprintf(out, "frame %" PRIu64 ": %ux%u, %u instance%s, %u primitive%s, %u mesh%s, %u material%s, %u view%s, %u texture%s%s\n",
+	        s->frame, s->width, s->height, s->n_instances, plural(s->n_instances), s->n_primitives, plural(s->n_primitives),
+	        s->n_meshes, s->n_meshes == 1 ? "" : "es", s->n_materials, plural(s->n_materials), s->n_views, plural(s->n_views),
+	        s->n_textures, plural(s->n_textures), s->needs_previous ? ", shows pixels of an earlier frame" : "");
 	for (uint32_t i = 0; i < s->n_instances; i++) {
 		const struct scene_instance *in = &s->instances[i];
 		const struct scene_mesh *m = s->meshes[in->mesh];
 		const struct scene_material *mat = &s->materials[in->material];
 		write_clears(out, s, &clear, i);
-		fprintf(out, "draw %u: %u %s of mesh %u, material %u (%s%u textures%s%s%s), view %u, %s at call %" PRIu64 "\n", in->draw,
+		fprintf(out, "draw %u: %u %s of mesh %u, material %u (%s%u texture%s%s%s%s), view %u, %s at call %" PRIu64 "\n", in->draw,
 		        m->primitive_count, kind_name(m->kind), in->mesh, in->material, mat->lighting ? "lit, " : "",
-		        mat->unit_count, mat->blend ? ", blended" : "", mat->alpha_test ? ", alpha test" : "",
+		        mat->unit_count, plural(mat->unit_count), mat->blend ? ", blended" : "", mat->alpha_test ? ", alpha test" : "",
 		        mat->depth_test ? "" : ", no depth test", in->view, s->draws[in->draw].call, s->draws[in->draw].call_number);
 	}
 	write_clears(out, s, &clear, s->n_instances);

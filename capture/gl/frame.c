@@ -260,8 +260,9 @@ static void frame_recorded(uint64_t frames)
 	if ((wish.max_frames && frames >= wish.max_frames) || (wish.quit_after && frames >= wish.quit_after)) {
 		end_recording();
 	} else if (wish.max_bytes && writer_bytes() >= wish.max_bytes) {
-		report_say("the trace has reached its largest size after %llu frames; recording ends, the program %s",
-		           (unsigned long long)frames, wish.quit_after ? "as well (--quit-after)" : "goes on");
+		report_say("the trace has reached its largest size after %llu frame%s; recording ends, the program %s",
+		           (unsigned long long)frames, frames == 1 ? "" : "s",
+		           wish.quit_after ? "as well (--quit-after)" : "goes on");
 		end_recording();
 	}
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/plural.h"
 #include "diff/score/gates.h"
 
 enum { MOST_GROUPS = 20, MOST_TEXT = 512 };
@@ -107,7 +108,7 @@ static void put_run(const struct output_run *run, const char *report, FILE *out)
 	for (int o = 0; o < N_SCORE_OUTCOMES; o++)
 		if (run->counts[o] || o == SCORE_FRAME_PASSED)
 			fprintf(out, "%s%" PRIu64 " %s", n++ ? ", " : "", run->counts[o], score_outcome_names[o]);
-	fprintf(out, " of %zu frame%s", run->n_scores, run->n_scores == 1 ? "" : "s");
+	fprintf(out, " of %zu frame%s", run->n_scores, plural(run->n_scores));
 	if (report)
 		fprintf(out, "; [page](%s/index.html), [%s](%s/sheet.png)", report,
 		        run->baseline ? "approved, now and difference" : "contact sheet", report);

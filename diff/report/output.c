@@ -9,6 +9,7 @@
 
 #include "base/err.h"
 #include "base/part.h"
+#include "base/plural.h"
 #include "diff/score/gates.h"
 
 /* Indices of scores: frames that did not pass come first; each part is in the order of frames. out has n_scores elements. */
@@ -102,7 +103,7 @@ static void print_failure(const struct score *s, FILE *out)
 		double share = 100 * (double)s->blame[b].pixels / (double)s->blamed_pixels;
 
 		output_blame_text(&s->blame[b], text, sizeof(text));
-		fprintf(out, "          %s holds %.3g %% of %" PRIu64 " failing pixels\n", text, share, s->blamed_pixels);
+		fprintf(out, "          %s holds %.3g %% of %" PRIu64 " failing pixel%s\n", text, share, s->blamed_pixels, plural(s->blamed_pixels));
 	}
 }
 
@@ -163,7 +164,7 @@ static void print_summary(const struct output_run *run, FILE *out)
 {
 	const struct score *worst = NULL;
 
-	fprintf(out, "%zu frame%s:", run->n_scores, run->n_scores == 1 ? "" : "s");
+	fprintf(out, "%zu frame%s:", run->n_scores, plural(run->n_scores));
 	for (int o = 0, n = 0; o < N_SCORE_OUTCOMES; o++)
 		if (run->counts[o] || o == SCORE_FRAME_PASSED)
 			fprintf(out, "%s %" PRIu64 " %s", n++ ? "," : "", run->counts[o], score_outcome_names[o]);
@@ -180,7 +181,7 @@ static void print_summary(const struct output_run *run, FILE *out)
 	fputc('\n', out);
 	if (run->n_unmatched)
 		fprintf(out, "not compared: %" PRIu64 " frame%s that the reference or the baseline has, and TRACED has not; --all "
-		        "demands %s\n", run->n_unmatched, run->n_unmatched == 1 ? "" : "s", run->n_unmatched == 1 ? "it" : "them");
+		        "demands %s\n", run->n_unmatched, plural(run->n_unmatched), run->n_unmatched == 1 ? "it" : "them");
 }
 
 /* What the table says of a frame, but for its number. */

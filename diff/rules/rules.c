@@ -10,6 +10,7 @@
 #include "base/config.h"
 #include "base/err.h"
 #include "base/frames.h"
+#include "base/plural.h"
 #include "diff/score/gates.h"
 #include "tracer/image/foreign.h"
 
@@ -190,7 +191,7 @@ static int check_rule(const struct score_rules *s, const struct yaml_rule *rule,
 
 		if (b->figure > (uint32_t)score_gates[b->gate].n_figures)
 			return err_report(ERR_INPUT, s->path, "gate %s has %d figure%s, not %u", score_gates[b->gate].name,
-			                  score_gates[b->gate].n_figures, score_gates[b->gate].n_figures == 1 ? "" : "s", b->figure);
+			                  score_gates[b->gate].n_figures, plural(score_gates[b->gate].n_figures), b->figure);
 		if (!b->fail && !b->warn && !b->better)
 			return err_report(ERR_INPUT, s->path, "a bar of gate %s says neither fail, warn nor better",
 			                  score_gates[b->gate].name);

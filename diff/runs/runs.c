@@ -7,6 +7,7 @@
 
 #include "base/err.h"
 #include "base/memory.h"
+#include "base/plural.h"
 #include "diff/report/pictures.h"
 #include "diff/score/gates.h"
 
@@ -149,9 +150,9 @@ void runs_table(const struct runs *r, const struct runs_frame *frames, FILE *out
 			fprintf(out, "; %" PRIu64 " within %u,%u to %u,%u", v->pixels, v->x0, v->y0, v->x1, v->y1);
 		fputc('\n', out);
 	}
-	fprintf(out, "%zu frames in %zu runs: %zu steady, %zu flaky (%.3g %%), %zu regression%s\n", r->n_frames, r->n, counts[RUNS_STEADY],
-	        counts[RUNS_FLAKY], 100 * (double)counts[RUNS_FLAKY] / (double)r->n_frames, counts[RUNS_REGRESSION],
-	        counts[RUNS_REGRESSION] == 1 ? "" : "s");
+	fprintf(out, "%zu frame%s in %zu runs: %zu steady, %zu flaky (%.3g %%), %zu regression%s\n", r->n_frames,
+	        plural(r->n_frames), r->n, counts[RUNS_STEADY], counts[RUNS_FLAKY], 100 * (double)counts[RUNS_FLAKY] / (double)r->n_frames, counts[RUNS_REGRESSION],
+	        plural(counts[RUNS_REGRESSION]));
 }
 
 /* The frames from `first` on that fail the same gates as it does, as a list; they are not asked for again. */

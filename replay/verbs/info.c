@@ -6,6 +6,7 @@
 #include "base/err.h"
 #include "base/memory.h"
 #include "base/options.h"
+#include "base/plural.h"
 #include "base/verbs.h"
 #include "base/json.h"
 #include "replay/replay.h"
@@ -36,7 +37,7 @@ static int add_frame(struct frame_ranges *r, uint64_t frame)
 
 static void print_ranges(const struct frame_ranges *r)
 {
-	printf("feedback    %" PRIu64 " frames may show what earlier ones drew:", r->frames);
+	printf("feedback    %" PRIu64 " frame%s may show what earlier ones drew:", r->frames, plural(r->frames));
 	for (size_t i = 0; i < r->n && i < TOP_CALLS; i++) {
 		printf("%s %" PRIu64, i ? "," : "", r->ranges[i][0]);
 		if (r->ranges[i][1] > r->ranges[i][0])
@@ -70,7 +71,8 @@ static const struct options_table table = {
 static void print_needs(const struct replay_needs *needs)
 {
 	if (needs->programs)
-		printf("shaders     %" PRIu64 " draws use shaders or programs that are not run: rendered as fixed function\n", needs->programs);
+		printf("shaders     rendered as fixed function: %" PRIu64 " draw%s by shaders or programs that are not run\n", needs->programs,
+		       plural(needs->programs));
 	if (needs->several_windows)
 		puts("windows     several: frames are in the order of their swaps");
 	if (needs->single_buffered)
@@ -123,8 +125,9 @@ static void print_text(struct replay *rp, const char *path, size_t limit, const 
 	printf("calls       %" PRIu64 "\n", replay_call_count(rp));
 	n = replay_contexts(rp, &contexts);
 	for (size_t i = 0; i < n; i++)
-		printf("context     0x%" PRIx64 ": %s, drawable %ux%u, %" PRIu64 " calls%s\n", contexts[i].handle, contexts[i].api,
-		       contexts[i].width, contexts[i].height, contexts[i].calls, contexts[i].shares ? ", shares objects" : "");
+		printf("context     0x%" PRIx64 ": %s, drawable %ux%u, %" PRIu64 " call%s%s\n", contexts[i].handle, contexts[i].api,
+		       contexts[i].width, contexts[i].height, contexts[i].calls, plural(contexts[i].calls),
+		       contexts[i].shares ? ", shares objects" : "");
 	if (earlier->n)
 		print_ranges(earlier);
 	needs = replay_needs(rp);

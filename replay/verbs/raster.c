@@ -2,6 +2,7 @@
  * relume raster: reference frames of a trace by a real OpenGL. apitrace's glretrace replays the trace and saves the back
  * buffer just before the calls that end the frames asked for; the replay says which calls these are.
  */
+#include "base/plural.h"
 #include "base/verbs.h"
 
 #include <errno.h>
@@ -121,7 +122,7 @@ static int find_frame_ends(const struct options *o, struct frame_ends *ends)
 		                 ? "the first frame alone cannot be had: it is not reliable"
 		                 : "the trace has none of the frames asked for");
 	if (!err && last != UINT64_MAX && replay_frame(rp) <= last)
-		err_warn(o->trace, "the trace has %" PRIu64 " frames", replay_frame(rp));
+		err_warn(o->trace, "the trace has %" PRIu64 " frame%s", replay_frame(rp), plural(replay_frame(rp)));
 	if (!err) {
 		find_visual(rp, ends);
 		ends->single_buffered = replay_needs(rp).single_buffered;

@@ -24,6 +24,7 @@
 #include "base/folder.h"
 #include "base/memory.h"
 #include "base/options.h"
+#include "base/plural.h"
 #include "base/verbs.h"
 #include "replay/machine/commands.h"
 #include "replay/trace/reader.h"
@@ -467,8 +468,8 @@ static int reduce(struct reduce *r)
 	if (!err && r->when)
 		snprintf(still, sizeof(still), "the command ends with exit code %d", r->code);
 	if (!err)
-		printf("%s: %" PRIu64 " of %zu calls, %" PRIu64 " bytes; %s; %" PRIu64 " trials in %ld s\n", r->new, r->written, r->n, bytes, still,
-		       r->trials, (long)(time(NULL) - begin));
+		printf("%s: %" PRIu64 " of %zu calls, %" PRIu64 " bytes; %s; %" PRIu64 " trial%s in %ld s\n", r->new, r->written, r->n, bytes, still,
+		       r->trials, plural(r->trials), (long)(time(NULL) - begin));
 	return err;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/err.h"
 #include "base/options.h"
+#include "base/plural.h"
 #include "base/verbs.h"
 #include "replay/machine/commands.h"
 #include "replay/trace/reader.h"
@@ -79,10 +80,11 @@ static int repair(const char *path, const char *new)
 		trace_reader_place(r, &end);
 		unread = trace_reader_size(r) - trace_reader_offset(r);
 		unfinished = end.number > saved.calls ? end.number - saved.calls : 0;
-		printf("kept  %" PRIu64 " calls, %" PRIu64 " frames, %" PRIu64 " bytes unpacked\n", saved.calls, saved.frames, saved.bytes);
-		printf("lost  %" PRIu64 " calls that had not returned, %" PRIu64 " bytes unpacked, and %" PRIu64 " of the file's %" PRIu64
+		printf("kept  %" PRIu64 " call%s, %" PRIu64 " frame%s, %" PRIu64 " bytes unpacked\n", saved.calls, plural(saved.calls),
+		       saved.frames, plural(saved.frames), saved.bytes);
+		printf("lost  %" PRIu64 " call%s that had not returned, %" PRIu64 " bytes unpacked, and %" PRIu64 " of the file's %" PRIu64
 		       " bytes that cannot be read\n",
-		       unfinished, end.offset - saved.bytes, unread, trace_reader_size(r));
+		       unfinished, plural(unfinished), end.offset - saved.bytes, unread, trace_reader_size(r));
 	}
 	trace_out_drop(&out);
 	trace_reader_close(&r);

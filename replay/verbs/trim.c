@@ -13,6 +13,7 @@
 #include "base/err.h"
 #include "base/frames.h"
 #include "base/options.h"
+#include "base/plural.h"
 #include "base/verbs.h"
 #include "capture/format/ref.h"
 #include "replay/verbs/early.h"
@@ -57,8 +58,8 @@ static int find_first(struct trim *t)
 	if (!rc && !frames)
 		rc = err_report(ERR_INPUT, t->path, "it has no frame that ends");
 	if (!rc && t->last >= frames)
-		rc = err_report(ERR_USAGE, t->path, "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frames (0 to %" PRIu64 ")",
-		                t->last, frames, frames - 1);
+		rc = err_report(ERR_USAGE, t->path, "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
+		                t->last, frames, plural(frames), frames - 1);
 	t->first = t->wanted;
 	while (!rc && (rc = needs_earlier(t, t->first)) == 1) {
 		t->first -= step < t->first ? step : t->first;

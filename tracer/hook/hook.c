@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/plural.h"
 
 #define MOST_BYTES (1u << 20)
 
@@ -118,11 +119,11 @@ static int read_parameter(struct hook *h, unsigned line, const char *text)
 	for (unsigned k = 0; k < p->words; k++, text = end) {
 		p->initial[k] = strtof(text, &end);
 		if (end == text)
-			return err_report(ERR_INPUT, h->path, "line %u: parameter %s takes %u number%s", line, p->name, p->words, p->words > 1 ? "s" : "");
+			return err_report(ERR_INPUT, h->path, "line %u: parameter %s takes %u number%s", line, p->name, p->words, plural(p->words));
 	}
 	if (text[strspn(text, " \t\r")] != '\n' && text[strspn(text, " \t\r")] != '\0')
 		return err_report(ERR_INPUT, h->path, "line %u: parameter %s takes %u number%s, and nothing behind", line, p->name, p->words,
-		                  p->words > 1 ? "s" : "");
+		                  plural(p->words));
 	h->words += p->words;
 	h->n_parameters++;
 	return 0;
@@ -169,7 +170,7 @@ int hook_check_parameters(const struct hook *hook, const struct scene_parameter 
 			return err_report(ERR_INPUT, hook->path, "has no parameter %s, which the rules set", list[k].name);
 		if (p->words != list[k].count)
 			return err_report(ERR_INPUT, hook->path, "parameter %s takes %u number%s; the rules give %u", p->name, p->words,
-			                  p->words > 1 ? "s" : "", list[k].count);
+			                  plural(p->words), list[k].count);
 	}
 	return 0;
 }
