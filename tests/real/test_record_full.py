@@ -32,7 +32,7 @@ def check_whole(what, done, trace, reason, after):
     check(done.returncode == 5, f"{what}: exit code {done.returncode}, not 5: {said[-600:]}")
     line = re.findall(rf"^relume: {re.escape(str(trace))}: {reason}: recording stopped after (\d+) frames?; {re.escape(after)}$", said, re.M)
     check(len(line) == 1 and said.count("recording stopped") == 1, f"{what}: said once, in its words: {said[-600:]}")
-    total = re.search(r": (\d+) frames, (\d+) calls, (\d+) bytes, .*stopped early: ", said)
+    total = re.search(r": (\d+) frames?, (\d+) calls?, (\d+) bytes, .*stopped early: ", said)
     info = must(relume("info", trace)).stdout
     held = {name: int(re.search(rf"^{name} +(\d+)", info, re.M)[1]) for name in ("frames", "calls")}
     check(total and line and {int(total[1]), int(line[0])} == {held["frames"]} and held["frames"] > 0 and int(total[2]) == held["calls"],

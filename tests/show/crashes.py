@@ -43,7 +43,7 @@ def play(relume, name, trace):
         child.kill()
         out, _ = child.communicate()
         alive = False
-    said = re.findall(r"^relume: .*: (\d+) frames, (\d+) calls, .*", out, re.M)
+    said = re.findall(r"^relume: .*: (\d+) frames?, (\d+) calls?, .*", out, re.M)
     return alive and child.returncode in (0, 143), [int(n) for n in said[0]] if said else [0, 0]
 
 

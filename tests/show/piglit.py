@@ -110,7 +110,7 @@ def campaign(build, tests, base):
             code, out = run([build / "relume", "record", "-o", work / "x.trace", "--frame-end", "readpixels", "--ref", "color,depth",
                              "--max-size", MAX_TRACE_BYTES, "--", *program], LIMIT_S * 2)
             row["recorded"] = verdict(code, out)
-            row["frames"] = max([int(n) for n in re.findall(r"x\.trace: (\d+) frames", out)] or [0])
+            row["frames"] = max([int(n) for n in re.findall(r"x\.trace: (\d+) frames?", out)] or [0])
             row["state"] = "same"
             if row["recorded"] != row["bare"]:
                 again = {verdict(*run(program, LIMIT_S)) for _ in range(2)} | {row["bare"]}

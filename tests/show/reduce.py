@@ -27,7 +27,7 @@ FAULTS = [("glxgears", "glShadeModel", 0), ("xss-queens", "glEnable", 0), ("xss-
           ("billard-gl", "glBlendFunc", 1), ("neverball", "glTexEnvi", 1)]
 PICTURES = {"wrong material": "glMaterialfv", "a light of another colour": "glLightfv", "an object is turned": "glRotatef"}
 WRONG, AT, MOST = 0x1234, 0.6, 50
-SAID = re.compile(r": (\d+) of (\d+) calls, .*; (\d+) trials in (\d+) s")
+SAID = re.compile(r": (\d+) of (\d+) calls, .*; (\d+) trials? in (\d+) s")
 
 
 def run(*args, codes=(0,)):

@@ -29,7 +29,7 @@ def reports(build, name, variant):
                           "--", folder / "threads"], cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
     text = run.stdout + run.stderr
     n = len(re.findall(r"(?:WARNING|ERROR): (?:Thread|Address)Sanitizer", text))
-    frames = re.search(r": (\d+) frames,", text)
+    frames = re.search(r": (\d+) frames?,", text)
     wanted = 11 if "--frames" in variant else 40
     well = run.returncode == 0 and frames and int(frames.group(1)) == wanted
     if n or not well:
