@@ -16,6 +16,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "base/caches.h"
 #include "base/err.h"
 #include "base/folder.h"
 
@@ -319,6 +320,8 @@ int confine_to(const struct confine_file *files, size_t n, enum confine_kind kin
 	char own[PATH_MAX];
 	int is_dry = 0, refuses;
 
+	if (kind == CONFINE_TRACER)
+		caches_find();
 	for (size_t i = 0; i < n; i++)
 		is_dry |= files[i].use == CONFINE_DRY;
 	if (begin(&s)) {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/caches.h"
 #include "base/err.h"
 #include "tracer/device/cl.h"
 #include "tracer/device/cl_error.h"
@@ -32,6 +33,7 @@ int cl_list_find(cl_device_id ids[CL_LIST_MOST], size_t *n)
 	cl_int code, said = CL_SUCCESS; /* the last refusal of a platform */
 
 	describe_machine();
+	caches_find();
 	code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &n_platforms);
 
 	*n = 0;
