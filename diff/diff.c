@@ -226,6 +226,8 @@ static int open_all(struct options *o, const struct options_line *line, struct s
 		err = set_open(o->reference, ref);
 	if (!err)
 		err = set_open(o->traced, traced);
+	if (!err && o->baseline && access(o->baseline, F_OK) != 0)
+		err_warn(o->baseline, "there is no such folder, so all frames are new; 'relume approve TRACED %s' makes it", o->baseline);
 	if (!err && o->baseline)
 		err = baseline_open(o->baseline, baseline);
 	/* Two single images are a pair whatever their numbers. */

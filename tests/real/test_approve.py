@@ -24,6 +24,10 @@ def outcomes(code, *args):
 
 found, frames = outcomes(4, trace, out, "--baseline", base)
 check(found == ["new"] * 3, f"nothing is approved yet: {found}")
+done = relume("diff", trace, out, "--baseline", base)
+said = [line for line in done.stderr.splitlines() if str(base) in line]
+check(done.returncode == 4 and len(said) == 1 and "there is no such folder" in said[0] and f"relume approve TRACED {base}" in said[0],
+      f"a baseline that is not there: {done.stderr}")
 text = approve(out, base, "-n")
 check(not base.exists() and "frame 1: new" in text and "nothing was written" in text, f"a dry run: {text}")
 env = dict(os.environ, SOURCE_DATE_EPOCH="1000000000")
