@@ -308,9 +308,11 @@ int replay_one_frame(const char *path, uint64_t frame, struct scene **scene)
 	rc = replay_seek(rp, frame);
 	if (rc == 1)
 		rc = replay_next_frame(rp, 1, scene);
-	if (rc == 0)
+	if (rc == 0 && replay_frame(rp) == 0)
+		rc = err_report(ERR_INPUT, path, "holds no whole frame");
+	else if (rc == 0)
 		rc = err_report(ERR_USAGE, path, "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
-		                frame, replay_frame(rp), plural(replay_frame(rp)), replay_frame(rp) ? replay_frame(rp) - 1 : 0);
+		                frame, replay_frame(rp), plural(replay_frame(rp)), replay_frame(rp) - 1);
 	replay_close(&rp);
 	return rc < 0 ? rc : 0;
 }

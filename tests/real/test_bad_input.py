@@ -97,6 +97,10 @@ for size in sorted({1, 2, 3, 6, 7, len(data) - 1, *(rng.randrange(len(data)) for
     done = relume("info", cut)
     check(done.returncode in (0, INPUT) and len(done.stderr.splitlines()) <= 1,
           f"info of the first {size} bytes: exit code {done.returncode}, {done.stderr}")
+cut.write_bytes(data[:len(data) // 8])
+done = relume("scene", cut)
+said = done.stderr.splitlines()
+check(done.returncode == INPUT and "relume repair" in said[0] and said[-1].endswith("holds no whole frame"), f"a recording without a frame: {said}")
 for size in (2, len(data) // 3, len(data) // 2, len(data) - 1):
     cut.write_bytes(data[:size])
     for verb, arguments in READERS.items():
