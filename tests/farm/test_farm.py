@@ -72,6 +72,13 @@ for engine, start in (("parallel", ["sh"]), ("make", ["make", "-k", "-j2", "-f"]
     check(digests(folder) == local, f"{engine}: the same frames")
     check((job / "report/index.html").exists(), f"{engine}: the page")
 
+# For nodes with GPUs: the tasks ask for them, the report does not.
+script = must(run(RELUME, "farm", "script", "--for", "slurm", *words(SCRATCH / "gpu" / f"{NAME}.####.exr", 9, "--gres", "gpu:1", "--sbatch=--partition=night"),
+                  cwd=SCRATCH)).stdout
+submits = re.findall(r"\bsbatch .*", script)
+check(len(submits) == 2 and all("--partition=night" in line for line in submits), f"both go to the partition: {submits}")
+check("--gres 'gpu:1'" in submits[0] and "--array" in submits[0] and "--gres" not in submits[1], f"tasks ask for GPUs: {submits}")
+
 missing = slurm.missing_programs()
 check(not missing, f"Slurm is installed: {missing}")
 with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
