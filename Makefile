@@ -52,7 +52,7 @@ COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 OIIO_OBJ := $(addprefix $(BUILD)/,$(addprefix tracer/image/,oiio.o heads.o image.o pack.o exr_pack.o) base/err.o base/memory.o)
 
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
-CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c corpus/wayland/*.c)) $(BUILD)/corpus/rooms
+CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c corpus/glx/*.c corpus/wayland/*.c)) $(BUILD)/corpus/rooms
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c tests/bench/translate.c tests/fuzz/drive.c tests/fuzz/make_seeds.c)
 
 all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/relume-oiio.so $(BUILD)/visual/libGL.so.1
@@ -282,6 +282,10 @@ $(BUILD)/corpus/es/%: corpus/es/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -MMD -MP -MF $@.d -MT $@ -o $@ $< -lEGL -lGLESv1_CM -lX11 -lm
 
+$(BUILD)/corpus/glx/%: corpus/glx/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -lm
+
 $(BUILD)/corpus/wayland/%: corpus/wayland/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -MMD -MP -MF $@.d -MT $@ -o $@ $< -lwayland-client -lwayland-egl -lEGL -lGL -lm
@@ -329,7 +333,7 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # The picture at the head of README.md.
-picture: all $(CORPUS)
+picture: all $(BUILD)/corpus/glx/marbles
 	@corpus/picture.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. Group NAME of

@@ -1,5 +1,5 @@
 #!/bin/sh
-# corpus/demo.sh BUILD (as `make demo`): record a real program, ray trace the recording, score it, say where to look.
+# corpus/demo.sh BUILD (as `make demo`): record marbles on a board, ray trace the recording, score it, say where to look.
 # Every stage prints what it did and how long it took; what it said in detail is in BUILD/demo/log.
 set -u
 cd "$(dirname "$0")/.." || exit 5
@@ -33,15 +33,15 @@ mkdir -p "$out/log" "$out/frames"
 stage install "$make" --no-print-directory deps-demo BUILD="$build"
 sed -n 's/^installing://p' "$out/log/install" | tr -s ' ' '\n' | awk 'NF { n++ } END { print n ? n " packages and what they need" : "nothing, all is there" }'
 touch "$out/log/begun"
-stage build "$make" --no-print-directory -j"$(nproc)" all BUILD="$build"
+stage build "$make" --no-print-directory -j"$(nproc)" all "$build/corpus/glx/marbles" BUILD="$build"
 echo "$(find "$build" -name '*.o' -newer "$out/log/begun" | wc -l) files compiled"
-stage record tests/xvfb.sh "$build/relume" record -o "$out/glxgears.trace" --ref color,depth --quit-after $frames -- glxgears
-echo "$frames frames of glxgears, with reference colour and depth"
-stage render "$build/relume" render "$out/glxgears.trace" -o "$out/frames/glxgears.####.exr"
+stage record tests/xvfb.sh "$build/relume" record -o "$out/marbles.trace" --ref color,depth --quit-after $frames -- "$build/corpus/glx/marbles" --size 400x300
+echo "$frames frames of marbles on a board, with reference colour and depth"
+stage render "$build/relume" render "$out/marbles.trace" --look corpus/glx/marbles.look.yaml --rays 8 -o "$out/frames/marbles.####.exr"
 echo "$(ls "$out/frames" | wc -l) frames ray traced to OpenEXR, on $("$build/relume" devices | head -n 1)"
-stage film "$build/relume" film "$out/frames" -o "$out/glxgears.webm" --caption glxgears
-echo "what OpenGL drew beside the traced frames, $(wc -c <"$out/glxgears.webm") bytes"
-stage score "$build/relume" diff "$out/glxgears.trace" "$out/frames" --report "$out/report" --film "$out/glxgears.webm"
+stage film "$build/relume" film "$out/frames" -o "$out/marbles.webm" --caption marbles
+echo "what OpenGL drew beside the traced frames, $(wc -c <"$out/marbles.webm") bytes"
+stage score "$build/relume" diff "$out/marbles.trace" "$out/frames" --report "$out/report" --film "$out/marbles.webm"
 echo "$(tail -n 1 "$out/log/score")"
 
 cat <<END
@@ -50,5 +50,6 @@ Raster frame, gl, beauty and difference side by side, and the film:
     $out/report/index.html
     $out/report/sheet.png
 The frames:
-    $out/frames/glxgears.0000.exr ...
+    $out/frames/marbles.0000.exr ...
+Another program: build/relume record --ref color,depth -- PROGRAM; build/relume help lists the rest.
 END

@@ -1,14 +1,14 @@
 #!/bin/sh
-# corpus/picture.sh BUILD (as `make picture`): the README's picture, corpus/picture.jpg: a Cornell box as OpenGL draws it, and ray traced
-# with a mirror for the red wall, glass, shadows, and light from wall to wall.
+# corpus/picture.sh BUILD (as `make picture`): the README's picture, corpus/picture.jpg: marbles as OpenGL draws them, and the same recording
+# ray traced with a mirror, glass and the soft shadows of a lamp with a size.
 set -eu
 cd "$(dirname "$0")/.."
 out=$1/picture
 
 rm -rf "$out"
 mkdir -p "$out"
-tests/xvfb.sh "$1/relume" record -o "$out/box.trace" --quit-after 1 -- "$1/corpus/cornell" --glass --mirror --size 400x400
-"$1/relume" render "$out/box.trace" -o "$out/frames/box.####.exr" --mode path --samples 128
-"$1/relume" film "$out/frames" -o "$out/box.webm"
-cp "$out/box.jpg" corpus/picture.jpg
+tests/xvfb.sh "$1/relume" record -o "$out/marbles.trace" --quit-after 21 -- "$1/corpus/glx/marbles" --size 400x300
+"$1/relume" render "$out/marbles.trace" -f 20 --look corpus/glx/marbles.look.yaml --samples 16 --rays 32 -o "$out/frames/marbles.####.exr"
+"$1/relume" film "$out/frames" -o "$out/marbles.webm"
+cp "$out/marbles.jpg" corpus/picture.jpg
 ls -l corpus/picture.jpg
