@@ -75,8 +75,11 @@ static void print_help(FILE *out)
 	      "relume --version prints the version.\n"
 	      "\n"
 	      "Exit codes: 0 done and passed, 1 compared and failed, 2 wrong usage, 3 input unreadable,\n"
-	      "4 baseline new or missing, 5 a device or the system failed, 6 rendered, but draws are missing.\n",
+	      "4 baseline new or missing, 5 a device or the system failed, 6 rendered, but draws are missing.\n"
+	      "\n"
+	      "Examples:\n",
 	      out);
+	fputs(manual_find(manual_examples, "relume")->text, out);
 }
 
 static const struct verb *find_verb(const char *name)
