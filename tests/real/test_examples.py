@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Examples of help texts and man pages: each names options that exist, and each that can runs, from top to bottom, on a recording.
 
-limit: 400 s
+limit: 600 s
 """
 import os
 import re
@@ -107,7 +107,7 @@ for verb, line in commands:
     if "broken.trace" in line:
         whole = (PLACE / "game.trace").read_bytes()
         (PLACE / "broken.trace").write_bytes(whole[:len(whole) * 2 // 3])
-    done = on_display("sh", "-c", line, cwd=PLACE, env=env)
+    done = on_display("sh", "-c", line, cwd=PLACE, env=env, timeout=300)
     check(done.returncode in (0, *ALSO.get(verb, ())), f"{line}: exit code {done.returncode}\n{done.stdout[-500:]}{done.stderr[-2000:]}")
     for written in re.findall(r"-o (\S+\.(?:png|trace|glb|exr|webm|mp4|yaml))", line):
         found = list(PLACE.glob(re.sub(r"#+", "*", written)))

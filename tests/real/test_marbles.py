@@ -7,7 +7,7 @@ from helpers import ROOT, SCRATCH, check, check_gates, corpus, diff, finish, mus
 LOOK = ROOT / "corpus/glx/marbles.look.yaml"
 trace = SCRATCH / "marbles.trace"
 record(trace, corpus("glx/marbles"), "--frames", "2", "--size", "200x150")
-done = must(relume("render", trace, "-f", "0", "--look", LOOK, "-o", SCRATCH / "shown.png"))
+done = must(relume("render", trace, "-f", "0", "--look", LOOK, "-o", SCRATCH / "shown.png", timeout=300))
 check("matches nothing" not in done.stderr, f"every rule matches: {done.stderr}")
 frames = render(trace, SCRATCH / "frames", "--look", LOOK, "--rays", "8")
 code, score = diff(trace, SCRATCH / "frames")
