@@ -3,6 +3,7 @@
 
 #include "kernels/camera/camera.h"
 #include "tests/case.h"
+#include "tests/driver.h"
 #include "tracer/frame/traverse.h"
 
 #define WIDTH 75 /* not a multiple of a tile */
@@ -396,9 +397,11 @@ int main(void)
 	choose_seed();
 	tcase_set_timeout(tests, 120);
 	tcase_set_timeout(devices, 120);
-	tcase_add_test(devices, kernels_agree_with_twins);
 	tcase_add_test(tests, boxes_lose_nothing);
 	tcase_add_test(tests, trees_change_nothing);
-	tcase_add_test(devices, shared_edges_belong_to_one);
+	if (!lacks_driver()) {
+		tcase_add_test(devices, kernels_agree_with_twins);
+		tcase_add_test(devices, shared_edges_belong_to_one);
+	}
 	return run_cases(tests, devices, "camera");
 }
