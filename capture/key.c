@@ -19,6 +19,7 @@ static struct {
 	int (*close_display)(void *);
 	unsigned long (*string_to_keysym)(const char *);
 	unsigned char (*keysym_to_keycode)(void *, unsigned long);
+	unsigned long (*keycode_to_keysym)(void *, unsigned, int, int);
 	int (*query_keymap)(void *, char *);
 } x;
 
@@ -32,27 +33,30 @@ static int find_x(void)
 	x.close_display = (int (*)(void *))dlsym(lib, "XCloseDisplay");
 	x.string_to_keysym = (unsigned long (*)(const char *))dlsym(lib, "XStringToKeysym");
 	x.keysym_to_keycode = (unsigned char (*)(void *, unsigned long))dlsym(lib, "XKeysymToKeycode");
+	x.keycode_to_keysym = (unsigned long (*)(void *, unsigned, int, int))dlsym(lib, "XkbKeycodeToKeysym");
 	x.query_keymap = (int (*)(void *, char *))dlsym(lib, "XQueryKeymap");
-	return x.open_display && x.close_display && x.string_to_keysym && x.keysym_to_keycode && x.query_keymap ? 0 : -1;
+	return x.open_display && x.close_display && x.string_to_keysym && x.keysym_to_keycode && x.keycode_to_keysym &&
+		x.query_keymap ? 0 : -1;
 }
 
-int key_check(const char *name)
+int key_find(const char *option, const char *name, struct key_code *out)
 {
 	unsigned long symbol;
 	void *display;
-	int code;
 
 	if (find_x())
-		return err_report(ERR_SYSTEM, NULL, "--start-key needs libX11.so.6");
+		return err_report(ERR_SYSTEM, NULL, "%s needs libX11.so.6", option);
 	symbol = x.string_to_keysym(name);
 	if (!symbol)
-		return err_report(ERR_USAGE, NULL, "--start-key: X knows no key '%s'; names are like F9, Pause, r", name);
+		return err_report(ERR_USAGE, NULL, "%s: X knows no key '%s'; names are like F9, Pause, r", option, name);
 	display = x.open_display(NULL);
 	if (!display)
-		return err_report(ERR_SYSTEM, NULL, "--start-key: no X display can be opened");
-	code = x.keysym_to_keycode(display, symbol);
+		return err_report(ERR_SYSTEM, NULL, "%s: no X display can be opened", option);
+	out->code = x.keysym_to_keycode(display, symbol);
+	out->state = x.keycode_to_keysym(display, (unsigned)out->code, 0, 0) != symbol &&
+		x.keycode_to_keysym(display, (unsigned)out->code, 0, 1) == symbol ? KEY_SHIFT : 0;
 	x.close_display(display);
-	return code ? 0 : err_report(ERR_USAGE, NULL, "--start-key: this keyboard has no key '%s'", name);
+	return out->code ? 0 : err_report(ERR_USAGE, NULL, "%s: this keyboard has no key '%s'", option, name);
 }
 
 static void watch(const char *name, int signal, pid_t whom)

@@ -1,18 +1,26 @@
 /*
- * A key that switches recording on and off. It reaches the program as well. A process of its own watches it, so the loss of the
- * display ends that process and nothing else.
+ * Keys of the keyboard at hand, by X's names, and the one that switches recording on and off. It reaches the program as well.
+ * A process of its own watches it, so the loss of the display ends that process and nothing else.
  */
 #pragma once
 
 #include <sys/types.h>
 
+enum { KEY_SHIFT = 1, KEY_CONTROL = 4, KEY_ALT = 8 }; /* ShiftMask, ControlMask, Mod1Mask of X */
+
+struct key_code {
+	int code;
+	unsigned state; /* KEY_SHIFT where the name is what the key gives with Shift: "A", "plus" */
+};
+
 /**
- * @param name  as X calls the key: "F9", "Pause", "r"
+ * @param option  for messages: "--start-key"
+ * @param name    as X calls the key: "F9", "Pause", "r"
  * @return 0, ERR_USAGE (reported: there is no such key) or ERR_SYSTEM (reported: no X library, no display)
  */
-int key_check(const char *name);
+int key_find(const char *option, const char *name, struct key_code *out);
 
-/** Start watching: each press sends `signal` to this process. Returns the watcher; -1 where it cannot be started. */
+/** Start watching a key that key_find has found: each press sends `signal` to this process. Returns the watcher; -1 where it cannot be started. */
 pid_t key_watch(const char *name, int signal);
 
 /** End the watcher and wait for its end; nothing for -1. */

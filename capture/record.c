@@ -21,6 +21,7 @@
 #include "base/verbs.h"
 #include "capture/executable.h"
 #include "capture/key.h"
+#include "capture/press.h"
 #include "capture/sidecar.h"
 #include "capture/stats.h"
 #include "capture/summary.h"
@@ -33,6 +34,8 @@ struct options {
 	const char *output, *ref, *ref_every, *max_frames, *quit_after, *frame_end;
 	uint64_t max_bytes;
 	const char *first_frame, *last_frame, *start_key;
+	struct press_list press;
+	char *press_plan; /* for the recorder; NULL: no keys */
 	int no_children, paused, ref_exact;
 	char **program;
 };
@@ -95,6 +98,8 @@ static const struct options_row rows[] = {
 	  "that they need and numbers them from 0; the program goes on", take_frames, .at = 0 },
 	{ "paused", 0, NULL, "begin with recording switched off", options_flag, AT(paused) },
 	{ "start-key", 0, "KEY", "the same; KEY switches as SIGUSR2 does (F9, Pause, r, ...: a name of X)", options_text, AT(start_key) },
+	{ "press", 0, "KEY@FRAME", "press a key of X's name once the frame before FRAME is shown, as in space@10, Control+s@5, or held as in "
+	  "Left@20-30; the program counts its frames from 0; may be repeated", press_take, AT(press) },
 	{ "frame-end", 0, "CALL", "what ends a frame besides a swap: flush, finish, clear (of the color buffer), or readpixels after "
 	  "something was drawn (swap: nothing else; with OSMesa, flush and finish); such a frame is the buffer that is drawn to, "
 	  "front or back", options_text, AT(frame_end), .words = frame_ends },
@@ -279,6 +284,7 @@ static void set_environment(const struct options *o, const char *recorder, int f
 	set_or_unset("RELUME_FRAME_END", o->frame_end);
 	set_or_unset("RELUME_FIRST_FRAME", o->first_frame);
 	set_or_unset("RELUME_LAST_FRAME", o->last_frame);
+	set_or_unset("RELUME_PRESS", o->press_plan);
 	set_or_unset("RELUME_PAUSED", o->paused ? "1" : NULL);
 	set_number("RELUME_MAX_SIZE", o->max_bytes);
 	set_number("RELUME_ONLY_PROCESS", o->no_children ? (uint64_t)getpid() : 0);
@@ -388,6 +394,17 @@ static int exit_code(const struct recorder_stats *stats, int status)
 	return WIFSIGNALED(status) ? -(128 + WTERMSIG(status)) : -WEXITSTATUS(status);
 }
 
+/* Keys that did not reach the program: the recording is of another run than the one asked for. */
+static int check_keys(const struct options *o, const struct recorder_stats *stats)
+{
+	if (stats->keys_lost)
+		return err_report(ERR_SYSTEM, o->program[0], "--press: %u of %zu keys were lost: its window takes no key events of X (it may use "
+		                  "Wayland, or XInput 2 alone)", stats->keys_lost, o->press.n);
+	return stats->keys_pressed >= o->press.n ? 0
+		: err_report(ERR_SYSTEM, o->program[0], "--press: %u of %zu keys were pressed; it ended before the frames of the others",
+		             stats->keys_pressed, o->press.n);
+}
+
 /* A program of 32 bits whose recorder was not built: the loader would complain in its own words, and record nothing. */
 static int check_class(const char *program, const char *recorder)
 {
@@ -412,30 +429,44 @@ static int explain_nothing(const struct options *o, const struct recorder_stats 
 	return o->quit_after && (code == -128 - SIGTERM) ? 0 : code; /* so the recorder ends a program */
 }
 
-int record_main(int argc, char **argv)
+static int record(int argc, char **argv, struct options *o)
 {
-	struct options o = { 0 };
 	struct figures figures = { MAP_FAILED, -1 };
 	struct watching watching = { 0 };
 	char recorder[PATH_MAX];
-	int status, rc = parse(argc, argv, &o);
+	struct key_code key;
+	int status, rc = parse(argc, argv, o);
 
 	if (rc)
 		return rc > 0 ? 0 : -rc;
-	if (o.start_key && (rc = key_check(o.start_key)))
+	if (o->start_key && (rc = key_find("--start-key", o->start_key, &key)))
 		return -rc;
-	if ((rc = find_recorder(recorder, sizeof(recorder))) || (rc = check_class(o.program[0], recorder)) || (rc = clear_output(&o)) ||
+	if ((rc = press_plan(&o->press, o->quit_after ? strtoull(o->quit_after, NULL, 10) : 0, &o->press_plan)))
+		return -rc;
+	if ((rc = find_recorder(recorder, sizeof(recorder))) || (rc = check_class(o->program[0], recorder)) || (rc = clear_output(o)) ||
 	    (rc = make_figures(&figures)))
 		return -rc;
 	shared = figures.stats;
-	status = run_program(&o, recorder, &figures, &watching);
+	status = run_program(o, recorder, &figures, &watching);
 	if (status < 0) {
-		rc = err_report(ERR_SYSTEM, o.program[0], "cannot start: %s", strerror(errno));
+		rc = err_report(ERR_SYSTEM, o->program[0], "cannot start: %s", strerror(errno));
 		goto done;
 	}
 	summary_print(figures.stats);
-	rc = figures.stats->n_processes ? exit_code(figures.stats, status) : explain_nothing(&o, figures.stats, &watching, status);
+	rc = figures.stats->n_processes ? exit_code(figures.stats, status) : explain_nothing(o, figures.stats, &watching, status);
+	if (!rc && o->press.n)
+		rc = check_keys(o, figures.stats);
 done:
 	munmap(figures.stats, sizeof(*figures.stats));
 	return -rc;
+}
+
+int record_main(int argc, char **argv)
+{
+	struct options o = { 0 };
+	const int code = record(argc, argv, &o);
+
+	press_free(&o.press);
+	free(o.press_plan);
+	return code;
 }

@@ -38,6 +38,7 @@ enum { SEEN_RECORDER = 1, SEEN_GL = 2, SEEN_VULKAN = 4 };
 struct recorder_stats {
 	_Atomic uint32_t seen;    /* SEEN_* */
 	_Atomic uint32_t toggles; /* how often the command was told to switch recording on or off */
+	_Atomic uint32_t keys_pressed, keys_lost; /* keys of --press that a window took, and that none did */
 	_Atomic uint32_t n_processes, n_unknown; /* may exceed the tables; what does not fit is lost */
 	struct stats_process processes[STATS_MAX_PROCESSES];
 	struct stats_unknown unknown[STATS_MAX_UNKNOWN];

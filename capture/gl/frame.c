@@ -12,6 +12,7 @@
 
 #include "capture/gl/context.h"
 #include "capture/gl/marker.h"
+#include "capture/gl/press.h"
 #include "capture/gl/reading.h"
 #include "capture/gl/reference.h"
 #include "capture/gl/restore.h"
@@ -239,6 +240,7 @@ __attribute__((constructor)) static void read_wishes(void)
 	wish.first = number_from("RELUME_FIRST_FRAME");
 	wish.last = getenv("RELUME_LAST_FRAME") ? number_from("RELUME_LAST_FRAME") : UINT64_MAX;
 	wish.paused = getenv("RELUME_PAUSED") != NULL;
+	press_begin(getenv("RELUME_PRESS"));
 	for (unsigned i = 0; trigger && i < N_FRAME_TRIGGERS; i++)
 		if (strcmp(trigger, names[i]) == 0)
 			wish.trigger = (enum frame_trigger)i;
@@ -281,6 +283,9 @@ static void end_frame(void)
 		frame_recorded(frames);
 	if (next > wish.last)
 		end_recording();
+	d = t->id ? drawable_find(t->id) : NULL;
+	if (d)
+		press_before(next, d->window);
 	if (is_wanted(next) == !skip_active() || !writer_active())
 		return;
 	if (skip_active()) {

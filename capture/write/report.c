@@ -108,3 +108,9 @@ unsigned report_toggles(void)
 {
 	return stats ? stats->toggles : 0;
 }
+
+void report_key(int is_taken)
+{
+	if (stats)
+		atomic_fetch_add(is_taken ? &stats->keys_pressed : &stats->keys_lost, 1);
+}

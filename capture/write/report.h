@@ -19,5 +19,8 @@ struct stats_process *report_new_process(void);
 /** Count a command that was passed through and not recorded. */
 void report_unknown(unsigned command);
 
+/** Count a key of `record --press`: one that a window took, or that none did. */
+void report_key(int is_taken);
+
 /** How often the command's signal or key switched recording on or off. */
 unsigned report_toggles(void);
