@@ -9,9 +9,14 @@
 #include "base/err.h"
 #include "base/memory.h"
 #include "base/options.h"
+#include "base/program.h"
 #include "base/verbs.h"
+#include "ci/jobs.h"
 #include "ci/plan.h"
+#include "ci/server.h"
 #include "ci/steps.h"
+
+enum { BISECT_SKIPS = 125 };
 
 struct texts {
 	char **at; /* owned; the texts are borrowed */
@@ -21,8 +26,9 @@ struct texts {
 struct asked {
 	const char *file, *kept, *baseline;
 	struct ci_program program; /* of the command line; its name may be that of one of the file */
-	struct texts environment, data;
-	int when_changed;
+	struct texts environment, press, data;
+	unsigned jobs; /* 0: as many as suit the machine */
+	int when_changed, own_displays, bisects;
 };
 
 static int take_text(const struct options_row *row, const char *value, void *out)
@@ -54,8 +60,10 @@ static const struct options_row rows[] = {
 	{ "frames", 'f', "N", "frames to record, from the program's first (default 10)", options_number,
 	  AT(program.frames), .most = CI_MOST_FRAMES },
 	{ "env", 0, "NAME=VALUE", "set a variable for the program; may be repeated", take_text, AT(environment) },
+	{ "press", 0, "KEY@FRAME", "press a key, which this frame is the first to show, as in 'relume record --press'; "
+	  "may be repeated", take_text, AT(press) },
 	{ "when-changed", 0, NULL, "record only where something watched has changed, and say what is watched: the program, "
-	  "the libraries that the loader lists, the files that its arguments name, --data, --env and --frames",
+	  "the libraries that the loader lists, the files that its arguments name, --data, --env, --press and --frames",
 	  options_flag, AT(when_changed) },
 	{ "data", 0, "FILE", "a file or a folder that the program reads besides; may be repeated", take_text,
 	  AT(data) },
@@ -65,6 +73,12 @@ static const struct options_row rows[] = {
 	  AT(baseline) },
 	{ "config", 0, "FILE", "tolerances, masks, flaky frames, as in 'relume diff --config'", options_text,
 	  AT(program.config) },
+	{ "jobs", 'j', "N", "programs to run at a time (default: one for each processor core); they share the display one "
+	  "after the other", options_number, AT(jobs), .least = 1, .most = CI_MOST_JOBS },
+	{ "xvfb", 0, NULL, "record each program on a display of its own (by xvfb-run), several at a time", options_flag,
+	  AT(own_displays) },
+	{ "bisect", 0, NULL, "for 'git bisect run relume ci --bisect': exit with 125, which skips a commit, where pictures "
+	  "could not be compared or nobody has approved them", options_flag, AT(bisects) },
 	{ "programs", 0, "FILE", "without PROGRAM: what to run (default: relume-ci.yaml)", options_text, AT(file) },
 };
 
@@ -76,10 +90,11 @@ static const struct options_table table = {
 	        "Record a program, render its frames, and gate each against what the program itself showed and against\n"
 	        "the approved frames. Without PROGRAM: all programs that relume-ci.yaml lists ('relume help ci-file' has its keys).\n"
 	        "\n"
-	        "The program needs a display; on a server: xvfb-run -a relume ci ...\n"
+	        "The program needs a display; on a server, --xvfb makes one.\n"
 	        "Frames that are whole and of the same recording, settings and version are not rendered again. DIR/NAME\n"
 	        "of --kept holds report/index.html, junit.xml, scores.json and summary.md, whatever the exit code. The\n"
-	        "summary goes to the file that GITHUB_STEP_SUMMARY names, where that is set.\n",
+	        "summary is added to the file that GITHUB_STEP_SUMMARY names, where that is set; where GITHUB_ACTIONS is\n"
+	        "true, frames are marked in the log (::error, ::warning).\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 all passed; 1 a picture changed or is missing; 2 wrong usage; 3 an input cannot be read;\n"
 	         "4 frames that nobody has approved yet; 5 a program is missing, ended with an error or showed nothing,\n"
@@ -108,29 +123,66 @@ static const char *verdict_of(int code)
 		: code == -ERR_BASELINE ? "not approved yet" : "could not be compared";
 }
 
+/* The programs of the file to run: those of one name, or all. The caller frees it. */
+static const struct ci_program **choose(const struct ci_plan *plan, const char *name, size_t *n)
+{
+	const struct ci_program **chosen = calloc(plan->n_programs, sizeof(*chosen));
+
+	*n = 0;
+	for (uint32_t i = 0; chosen && i < plan->n_programs; i++)
+		if (!name || strcmp(name, plan->programs[i].name) == 0)
+			chosen[(*n)++] = &plan->programs[i];
+	return chosen;
+}
+
+static void add_summary(const struct ci_run *run, const struct ci_program *program)
+{
+	char path[PATH_MAX];
+
+	if (snprintf(path, sizeof(path), "%s/%s/summary.md", run->kept, program->name) < (int)sizeof(path))
+		server_add_summary(path);
+}
+
+/* Programs share a display one after the other, which takes a lock where several run at a time. */
+static int run_programs(struct ci_run *run, const struct ci_program *const *programs, size_t n, size_t n_jobs)
+{
+	int *codes = calloc(n, sizeof(*codes)), code = 0, err;
+	const int share = n > 1 && n_jobs > 1 && !run->own_displays;
+	FILE *lock = share ? tmpfile() : NULL;
+
+	if (share && !lock)
+		n_jobs = 1;
+	run->display_lock = lock ? fileno(lock) : -1;
+	err = codes ? jobs_run(run, programs, n, n_jobs, codes) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (size_t i = 0; !err && i < n; i++) {
+		add_summary(run, programs[i]);
+		code = worse(code, codes[i]);
+		if (n > 1)
+			printf("%s: %s\n", programs[i]->name, verdict_of(codes[i]));
+	}
+	if (lock)
+		fclose(lock);
+	free(codes);
+	return err ? -err : code;
+}
+
 static int run_file(const struct asked *asked, struct ci_run *run)
 {
 	struct ci_plan *plan;
-	int err = ci_plan_read(asked->file, &plan), code = 0, *codes = NULL;
-	uint32_t n = 0;
+	const struct ci_program **chosen = NULL;
+	int err = ci_plan_read(asked->file, &plan), code = 0;
+	size_t n = 0;
 
-	if (!err && !(codes = calloc(plan->n_programs, sizeof(*codes))))
+	if (!err && !(chosen = choose(plan, asked->program.name, &n)))
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!err && n == 0)
+		err = err_report(ERR_USAGE, asked->file, "there is no program '%s'", asked->program.name);
 	if (!err && !run->baseline)
 		run->baseline = plan->baseline;
 	run->baseline = run->baseline ? run->baseline : "approved";
-	for (uint32_t i = 0; !err && i < plan->n_programs; i++) {
-		if (asked->program.name && strcmp(asked->program.name, plan->programs[i].name) != 0)
-			continue;
-		codes[i] = ci_run_program(run, &plan->programs[i]);
-		code = worse(code, codes[i]);
-		n++;
-	}
-	if (!err && n == 0)
-		err = err_report(ERR_USAGE, asked->file, "there is no program '%s'", asked->program.name);
-	for (uint32_t i = 0; !err && n > 1 && i < plan->n_programs; i++)
-		printf("%s: %s\n", plan->programs[i].name, verdict_of(codes[i]));
-	free(codes);
+	if (!err)
+		code = run_programs(run, chosen, n, asked->jobs ? asked->jobs : jobs_default());
+	free(chosen);
 	ci_plan_free(&plan);
 	return err ? -err : code;
 }
@@ -139,13 +191,18 @@ static int run_all(struct asked *asked, const struct options_line *line)
 {
 	struct ci_program *p = &asked->program;
 	char self[PATH_MAX] = "";
-	struct ci_run run = { self, asked->kept, asked->baseline, asked->when_changed };
+	struct ci_run run = {
+		.relume = self, .kept = asked->kept, .baseline = asked->baseline, .when_changed = asked->when_changed,
+		.own_displays = asked->own_displays,
+	};
 	int err;
 
 	if (readlink("/proc/self/exe", self, sizeof(self) - 1) < 0)
 		return -err_report(ERR_SYSTEM, NULL, "cannot find this command's own path: %s", strerror(errno));
-	if (!line->n_words && (p->frames || p->config || asked->environment.n || asked->data.n))
-		return -err_report(ERR_USAGE, NULL, "--frames, --config, --env and --data are for a PROGRAM; %s has its own",
+	if (run.own_displays && !program_exists("xvfb-run"))
+		return -err_report(ERR_SYSTEM, NULL, "--xvfb needs the program 'xvfb-run' (Debian's package xvfb)");
+	if (!line->n_words && (p->frames || p->config || asked->environment.n || asked->press.n || asked->data.n))
+		return -err_report(ERR_USAGE, NULL, "--frames, --config, --env, --press and --data are for a PROGRAM; %s has its own",
 		                   asked->file);
 	if (!line->n_words)
 		return run_file(asked, &run);
@@ -153,11 +210,13 @@ static int run_all(struct asked *asked, const struct options_line *line)
 	p->n_command = (uint32_t)line->n_words;
 	p->environment = asked->environment.at;
 	p->n_environment = (uint32_t)asked->environment.n;
+	p->press = asked->press.at;
+	p->n_press = (uint32_t)asked->press.n;
 	p->data = asked->data.at;
 	p->n_data = (uint32_t)asked->data.n;
 	run.baseline = run.baseline ? run.baseline : "approved";
 	err = ci_program_check(p, NULL);
-	return err ? -err : ci_run_program(&run, p);
+	return err ? -err : run_programs(&run, &(const struct ci_program *){ p }, 1, 1);
 }
 
 int ci_main(int argc, char **argv)
@@ -167,8 +226,11 @@ int ci_main(int argc, char **argv)
 	int err = options_parse(&table, argc, argv, &asked, &line);
 	int code = err ? err > 0 ? 0 : -err : run_all(&asked, &line);
 
+	if (asked.bisects && code && code != -ERR_FAILED)
+		code = BISECT_SKIPS;
 	free(asked.program.name);
 	free(asked.environment.at);
+	free(asked.press.at);
 	free(asked.data.at);
 	return code;
 }

@@ -15,7 +15,7 @@ static const cyaml_schema_value_t text = { CYAML_VALUE_STRING(CYAML_FLAG_POINTER
 
 static const cyaml_schema_field_t program_fields[] = {
 	TEXT(struct ci_program, name), TEXTS(command, CYAML_FLAG_POINTER, 1), TEXTS(environment, OPTIONAL, 0),
-	TEXTS(data, OPTIONAL, 0), TEXT(struct ci_program, config),
+	TEXTS(press, OPTIONAL, 0), TEXTS(data, OPTIONAL, 0), TEXT(struct ci_program, config),
 	CYAML_FIELD_UINT("frames", CYAML_FLAG_OPTIONAL, struct ci_program, frames), CYAML_FIELD_END
 };
 

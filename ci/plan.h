@@ -8,6 +8,7 @@
  *       - name: viewer            # the folder of its results; default: the program's name
  *         command: [./viewer, model.obj] # the program and its arguments
  *         frames: 20              # frames to record, from its first on; default 10
+ *         press: [space@10, Left@12-15] # keys, and the first frame that shows each ('relume record --press')
  *         environment: [LIBGL_ALWAYS_SOFTWARE=1] # variables that are set for it
  *         data: [textures, shaders/phong.vert] # files and folders that it reads, besides those that its command
  *                                 # names; --when-changed watches them
@@ -31,10 +32,11 @@ struct ci_program {
 	char *name;
 	char **command;     /* the program and its arguments */
 	char **environment; /* NAME=VALUE */
+	char **press;       /* KEY@FRAME */
 	char **data;
 	char *config;       /* NULL: none */
 	uint32_t frames;    /* 0 in a file: left out */
-	uint32_t n_command, n_environment, n_data;
+	uint32_t n_command, n_environment, n_press, n_data;
 };
 
 struct ci_plan {

@@ -2,6 +2,8 @@
 
 #include <ctype.h>
 #include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
@@ -14,6 +16,7 @@
 #include "base/part.h"
 #include "base/plural.h"
 #include "base/program.h"
+#include "ci/server.h"
 #include "ci/watched.h"
 
 enum { MOST_WORDS = 24 };
@@ -55,7 +58,15 @@ static void write_error(const struct steps *s, const char *step, int code)
 	char path[PATH_MAX];
 	struct part_file file;
 
-	if (access(path_in(s, "junit.xml", path), F_OK) == 0 || part_open(&file, path))
+	if (access(path_in(s, "junit.xml", path), F_OK) == 0)
+		return;
+	server_mark_failure(s->program, step, code);
+	if (!part_open(&file, path_in(s, "summary.md", path))) {
+		fprintf(file.stream, "### relume ci %s\n\n%s failed with exit code %d; the log says why\n\n",
+		        s->program->name, step, code);
+		part_close(&file, 0);
+	}
+	if (part_open(&file, path_in(s, "junit.xml", path)))
 		return;
 	fprintf(file.stream,
 	        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
@@ -68,31 +79,50 @@ static void write_error(const struct steps *s, const char *step, int code)
 
 /* --- Record ----------------------------------------------------------------------------------------------------- */
 
+/* Have the display for this process alone, or give it back. */
+static void hold_display(const struct steps *s, short type)
+{
+	struct flock lock = { .l_type = type, .l_whence = SEEK_SET };
+
+	while (s->run->display_lock >= 0 && fcntl(s->run->display_lock, F_SETLKW, &lock) && errno == EINTR)
+		;
+}
+
+static size_t put_words(char **argv, size_t n, const char *option, char *const *values, uint32_t n_values)
+{
+	for (uint32_t i = 0; i < n_values; i++) {
+		if (option)
+			argv[n++] = (char *)option;
+		argv[n++] = values[i];
+	}
+	return n;
+}
+
 static int record(const struct steps *s)
 {
 	const struct ci_program *p = s->program;
-	const size_t most = 2 * (size_t)p->n_environment + p->n_command + MOST_WORDS;
+	const size_t most = 2 * ((size_t)p->n_environment + p->n_press) + p->n_command + MOST_WORDS;
 	char **argv = calloc(most, sizeof(*argv)), frames[16];
-	char *const first[] = { (char *)s->run->relume, "record", "-o", (char *)s->trace, "--ref", "color,depth",
-	                        "--quit-after", frames, NULL };
+	char *display[] = { "xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -nolisten tcp" };
+	char *first[] = {
+		(char *)s->run->relume, "record", "-o", (char *)s->trace, "--ref", "color,depth", "--quit-after", frames,
+	};
 	size_t n = 0;
 	int code;
 
 	if (!argv)
 		return -err_report(ERR_SYSTEM, NULL, "out of memory");
 	snprintf(frames, sizeof(frames), "%u", p->frames);
-	while (first[n]) {
-		argv[n] = first[n];
-		n++;
-	}
-	for (uint32_t i = 0; i < p->n_environment; i++) {
-		argv[n++] = (char *)"--env";
-		argv[n++] = p->environment[i];
-	}
+	if (s->run->own_displays)
+		n = put_words(argv, n, NULL, display, sizeof(display) / sizeof(*display));
+	n = put_words(argv, n, NULL, first, sizeof(first) / sizeof(*first));
+	n = put_words(argv, n, "--env", p->environment, p->n_environment);
+	n = put_words(argv, n, "--press", p->press, p->n_press);
 	argv[n++] = (char *)"--";
-	for (uint32_t i = 0; i < p->n_command; i++)
-		argv[n++] = p->command[i];
+	put_words(argv, n, NULL, p->command, p->n_command);
+	hold_display(s, F_WRLCK);
 	code = program_run(argv);
+	hold_display(s, F_UNLCK);
 	free(argv);
 	if (code < 0)
 		return -code;
@@ -121,7 +151,11 @@ static int record_if_changed(const struct steps *s, const char *program)
 
 	path_in(s, "inputs", kept);
 	if (!code && s->run->when_changed) {
-		changed = watched_changed(&w, kept, why, sizeof(why)) || access(s->trace, R_OK) != 0;
+		changed = watched_changed(&w, kept, why, sizeof(why));
+		if (!changed && access(s->trace, R_OK) != 0) {
+			snprintf(why, sizeof(why), "its recording is gone");
+			changed = 1;
+		}
 		say_watched(s, &w);
 	}
 	if (!code && !changed) {
@@ -201,11 +235,11 @@ static int compare(const struct steps *s)
 {
 	char report[PATH_MAX], junit[PATH_MAX], scores[PATH_MAX], summary[PATH_MAX], frames[PATH_MAX];
 	char baseline[PATH_MAX], list[32];
-	const char *shown = getenv("GITHUB_STEP_SUMMARY"), *config = s->program->config;
+	const char *config = s->program->config;
 	char *argv[MOST_WORDS] = {
 		(char *)s->run->relume, "diff", "--all", "-f", list, "--baseline", baseline,
 		"--report", path_in(s, "report", report), "--junit", path_in(s, "junit.xml", junit), "--json", path_in(s, "scores.json", scores),
-		"--markdown", shown && *shown ? (char *)shown : path_in(s, "summary.md", summary),
+		"--markdown", path_in(s, "summary.md", summary),
 	};
 	size_t n = 0;
 	int code;
@@ -215,6 +249,8 @@ static int compare(const struct steps *s)
 	snprintf(baseline, sizeof(baseline), "%s/%s", s->run->baseline, s->program->name);
 	while (argv[n])
 		n++;
+	if (server_reads_commands())
+		argv[n++] = (char *)"--annotations";
 	if (config) {
 		argv[n++] = (char *)"--config";
 		argv[n++] = (char *)config;

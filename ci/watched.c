@@ -208,6 +208,8 @@ static int collect(struct collector *c, const char *program)
 		put(c, "command", p->command[i]);
 	for (uint32_t i = 0; i < p->n_environment; i++)
 		put(c, "environment", p->environment[i]);
+	for (uint32_t i = 0; i < p->n_press; i++)
+		put(c, "press", p->press[i]);
 	if (!err)
 		err = add_file(c, recorder);
 	if (!err)

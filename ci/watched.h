@@ -1,8 +1,8 @@
 /*
  * What a recording depends on, as far as it can be known without running the program: the recorder, the program, the
- * libraries that the loader lists for it, the files that its arguments name, those of `data`, the environment given, and
- * the number of frames. Files count by their content. A script's interpreter and a program among the arguments (of env,
- * wine, a wrapper) are followed likewise.
+ * libraries that the loader lists for it, the files that its arguments name, those of `data`, the environment and the
+ * keys given, and the number of frames. Files count by their content. A script's interpreter and a program among the
+ * arguments (of env, wine, a wrapper) are followed likewise.
  *
  * What the program opens beyond these (drivers, plug-ins, files named in other files) is not watched.
  */

@@ -1,6 +1,6 @@
 /*
  * A viewer as test_ci.py records it: what it draws depends on a file that its argument names, on one that nothing names, on a library
- * that it links, on a variable, and on itself (SHINE).
+ * that it links, on a variable, on itself (SHINE), and on key s, which makes things half as large.
  *
  *   cc -DSHINE=0 -o viewer tests/real/ci_viewer.c -L. -lshape -lglut -lGL -lm
  */
@@ -41,6 +41,14 @@ static void draw(void)
 	glutPostRedisplay();
 }
 
+static void take_key(unsigned char key, int x, int y)
+{
+	(void)x;
+	(void)y;
+	if (key == 's')
+		scale /= 2;
+}
+
 int main(int argc, char **argv)
 {
 	const char *green = getenv("VIEWER_GREEN");
@@ -59,5 +67,6 @@ int main(int argc, char **argv)
 	glEnable(GL_LIGHT0);
 	glMaterialfv(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE, color);
 	glutDisplayFunc(draw);
+	glutKeyboardFunc(take_key);
 	glutMainLoop();
 }

@@ -1,12 +1,19 @@
 #!/usr/bin/python3
-# limit: 600 s
+# limit: 900 s
 """relume ci, on glxgears, on a program of the corpus and on a viewer of its own: new, approved, unchanged, changed; whatever changes is recorded."""
 import os
 import re
+import random
 import shutil
+import sys
 import xml.etree.ElementTree
 
 from helpers import RELUME, ROOT, SCRATCH, check, corpus, finish, must, on_display, relume, run
+from servers import annotations, junit_faults
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tests/show"))
+import ci_touched  # noqa: E402
 
 KEPT, APPROVED = SCRATCH / "ci", SCRATCH / "approved"
 NOTHING = "recorded nothing"
@@ -145,6 +152,47 @@ def test_opened():
     check("libshape.so" in (KEPT / "viewer/inputs").read_text(), f"libraries of a program among the arguments are watched: {said(done)}")
 
 
+def test_touched():
+    """The short form of what show-ci does: a few of the files that a program opens are touched, alone; those are recorded that are watched."""
+    if not shutil.which("strace"):
+        print("no strace here: what a program opens is not touched")
+        return
+    folder = SCRATCH / "touched"
+    folder.mkdir()
+    for name in ("viewer", "libshape.so", "model.obj", "hidden.dat"):
+        shutil.copy(SCRATCH / name, folder)
+    (folder / "start").write_text('#!/bin/sh\nLD_LIBRARY_PATH="$PWD" exec ./viewer model.obj 1\n')
+    (folder / "start").chmod(0o755)
+    for command in (("./viewer", "model.obj", "1"), ("./start",)):
+        program = ci_touched.Touched(RELUME, folder, *command)
+        paths = [path for path in ci_touched.opened(command, folder) if program.can_touch(path)]
+        ours = [str(folder / name) for name in ("viewer", "model.obj", "hidden.dat")]
+        check(set(ours) <= set(paths), f"{command}: strace lists {paths}")
+        more = [path for path in paths if path not in ours]
+        for path in (None, *ours, *random.Random(1).sample(more, min(3, len(more)))):
+            wrong = program.verdict(path)
+            check(not wrong, f"{command}: {path} touched: {wrong}")
+        shutil.rmtree(program.kept)
+
+
+def test_press():
+    """Keys arrive at their frames, run after run, and count for what is watched."""
+    pressed = ("--press", "s@1", "--press", "s@2")
+    check(ci("keys", *pressed, *VIEWER).returncode == 4, "a program with keys")
+    approve("keys")
+    for _ in range(2):
+        done = ci("keys", *pressed, *VIEWER)
+        check(done.returncode == 0 and NOTHING in done.stdout, f"the same keys: {said(done)}")
+    (KEPT / "keys/keys.trace").unlink()
+    done = ci("keys", *pressed, *VIEWER)
+    check(done.returncode == 0 and "record 3 frames: its recording is gone" in done.stdout, f"recorded again, the same pictures: {said(done)}")
+    for other, n_wrong in ((("--press", "s@1"), 1), (("--press", "s@2"), 2), ((), 2)):
+        done = ci("keys", *other, *VIEWER)
+        check(done.returncode == 1 and 'press: "s@' in done.stdout and kept("keys")[1:] == (3, n_wrong), f"{other}: {kept('keys')}, {said(done)}")
+    done = ci("keys", "--press", "s@3", *VIEWER)
+    check(done.returncode == 5 and "the program ends after 3 frames" in done.stderr, f"a key after the last frame: {said(done)}")
+
+
 def test_frames():
     """Fewer frames than before: none of the old ones is left to approve or is missing; fewer than approved because the program ends early: they are."""
     check(ci("viewer", "--", "./viewer", "model.obj", "12", frames=12).returncode == 4, "12 frames: 9 are new")
@@ -154,6 +202,68 @@ def test_frames():
     check(done.returncode == 0 and left == [f"viewer.{i:04}.exr" for i in range(8)], f"8 of 12: {left}: {said(done)}")
     done = ci("viewer", "--", "./viewer", "model.obj", "5", frames=8)
     check(done.returncode == 1 and done.stdout.count(" missing") >= 1 and kept("viewer")[1:] == (8, 3), f"it ends after 5 of 8: {said(done)}")
+
+
+TIMED = """programs:
+- {name: a, command: [./timed, a, model.obj, "3"], frames: 2, press: [s@1]}
+- {name: b, command: [./timed, b, model.obj, "3"], frames: 2, environment: [VIEWER_GREEN=0.7]}
+- {name: c, command: [./timed, c, no-such.obj, "3"], frames: 2}
+- {name: d, command: ["false"], frames: 2}
+"""
+
+
+def in_turn(all_of_file):
+    """Whatever runs at a time, the lines of a program come together."""
+    done = all_of_file("--jobs", "4")
+    names = [line.split(":")[0] for line in done.stdout.splitlines() if line.startswith(("one:", "two:"))]
+    check(names == sorted(names[:-2]) + ["one", "two"], f"in turn: {said(done)}")
+
+
+def test_jobs():
+    """Several at a time: one after the other on a display, each with its own keys; what a server reads."""
+    write("hidden.dat", "1\n")
+    write("relume-ci.yaml", TIMED)
+    write("timed", '#!/bin/sh\necho "begin $1" >>times\nname=$1; shift; ./viewer "$@"; code=$?\nsleep 0.5; echo "end $name" >>times; exit $code\n')
+    (SCRATCH / "timed").chmod(0o755)
+    def server(*words, start=ROOT / "tests/xvfb.sh"):
+        for name in ("times", "step-summary"):
+            (SCRATCH / name).unlink(missing_ok=True)
+        return run(*((start,) if start else ()), RELUME, "ci", "-b", "approved3", *words, timeout=300, cwd=SCRATCH,
+                   env={**os.environ, "GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": str(SCRATCH / "step-summary"), "DISPLAY": ":none"})
+    done = server("-j", "4")
+    times = (SCRATCH / "times").read_text().splitlines()
+    check(done.returncode == 5 and len(times) == 6 and all(times[i][5:] == times[i + 1][3:] for i in (0, 2, 4)), f"one at a time on the display: {times}")
+    check("a: not approved yet\nb: not approved yet\nc: not approved yet\nd: could not be compared\n" in done.stdout, f"all of them: {said(done)}")
+    summaries = re.findall(r"^### .*", (SCRATCH / "step-summary").read_text(), re.M)
+    check(len(summaries) == 4 and [n for n in "abcd" if n in summaries["abcd".index(n)].split("relume")[1]] == list("abcd"), f"summaries in order: {summaries}")
+    marks = annotations(done.stdout)
+    check(("error", {"title": "relume ci d"}, "record failed with exit code 5; the log says why") in marks and len(marks) == 7, f"marks: {marks}")
+    reports = [KEPT / name / "junit.xml" for name in "abcd"]
+    check(not sum((junit_faults(path) for path in reports), []), f"reports: {[junit_faults(path) for path in reports]}")
+    for name in "abc":
+        must(relume("approve", KEPT / name / "frames", SCRATCH / "approved3" / name))
+    write("relume-ci.yaml", TIMED.replace("s@1", "s@2").replace("frames: 2", "frames: 3", 1))
+    done = server("-j", "4", "-n", "a")
+    check(done.returncode == 1 and {kind for kind, *_ in annotations(done.stdout)} == {"error"} and not junit_faults(KEPT / "a/junit.xml"),
+          f"pictures have changed: {said(done)}")
+    write("relume-ci.yaml", TIMED[:TIMED.index("- {name: d")])
+    if not shutil.which("xvfb-run"):
+        print("no xvfb-run here: displays of their own were not tried")
+        return
+    done = server("-j", "3", "--xvfb", start=None)
+    check(done.returncode == 0 and "a: passed\nb: passed\nc: passed\n" in done.stdout and not annotations(done.stdout), f"each on its display: {said(done)}")
+    done = run(RELUME, "ci", "--xvfb", "-n", "a", "-b", "approved3", cwd=SCRATCH, env={**os.environ, "PATH": "/nowhere"})
+    check(done.returncode == 5 and "--xvfb needs the program 'xvfb-run'" in done.stderr, f"no xvfb-run: {said(done)}")
+
+
+def test_bisect():
+    """What git bisect run reads: 125 where nothing can be told."""
+    (SCRATCH / "relume-ci.yaml").unlink(missing_ok=True)
+    check(ci("bisected", "--bisect", *VIEWER).returncode == 125, "--bisect, nobody has approved it")
+    approve("bisected")
+    for program, code in ((("--", "false"), 125), (("--", "no-such-program"), 125), (VIEWER, 0), (("--env", "VIEWER_GREEN=0.9", *VIEWER), 1)):
+        done = ci("bisected", "--bisect", *program)
+        check(done.returncode == code, f"--bisect {program}: {said(done)}")
 
 
 def test_file():
@@ -177,6 +287,7 @@ programs:
         must(relume("approve", KEPT / name / "frames", SCRATCH / "approved2" / name))
     done = all_of_file()
     check(done.returncode == 0 and done.stdout.count(NOTHING) == 2 and "one: passed\ntwo: passed\n" in done.stdout, f"approved: {said(done)}")
+    in_turn(all_of_file)
     write("hidden.dat", "0.7\n")
     done = all_of_file()
     check(done.returncode == 1 and done.stdout.count(NOTHING) == 1 and "one: passed\ntwo: failed" in done.stdout, f"data of the second: {said(done)}")
@@ -198,6 +309,10 @@ programs:
 test_programs()
 test_changes()
 test_opened()
+test_touched()
 test_frames()
+test_press()
 test_file()
+test_jobs()
+test_bisect()
 finish()

@@ -1,0 +1,116 @@
+#include "ci/jobs.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/err.h"
+
+struct job {
+	const char *name;
+	FILE *said; /* by all its processes */
+	pid_t pid;  /* 0: not started, or done */
+};
+
+size_t jobs_default(void)
+{
+	const long n = sysconf(_SC_NPROCESSORS_ONLN);
+
+	return n > 1 ? (size_t)n : 1;
+}
+
+static int start(const struct ci_run *run, const struct ci_program *program, struct job *job)
+{
+	job->name = program->name;
+	job->said = tmpfile();
+	if (!job->said)
+		return err_report(ERR_SYSTEM, program->name, "no temporary file for what it prints: %s", strerror(errno));
+	fflush(stdout);
+	job->pid = fork();
+	if (job->pid < 0)
+		return err_report(ERR_SYSTEM, program->name, "cannot start a process: %s", strerror(errno));
+	if (job->pid == 0) {
+		prctl(PR_SET_PDEATHSIG, SIGTERM);
+		if (dup2(fileno(job->said), STDOUT_FILENO) < 0 || dup2(fileno(job->said), STDERR_FILENO) < 0)
+			_exit(-ERR_SYSTEM);
+		const int code = ci_run_program(run, program);
+
+		fflush(stdout);
+		_exit(code);
+	}
+	return 0;
+}
+
+/* Wait for one of them. @return its number; n: none is running */
+static size_t wait_for_any(struct job *jobs, size_t n, int *codes)
+{
+	int status;
+	pid_t pid;
+
+	while ((pid = waitpid(-1, &status, 0)) < 0 && errno == EINTR)
+		;
+	for (size_t i = 0; pid > 0 && i < n; i++)
+		if (jobs[i].pid == pid) {
+			jobs[i].pid = 0;
+			codes[i] = WIFEXITED(status) ? WEXITSTATUS(status)
+				: -err_report(ERR_SYSTEM, jobs[i].name, "signal %d ended it", WTERMSIG(status));
+			return i;
+		}
+	return n;
+}
+
+static void print(struct job *job)
+{
+	char text[4096];
+	size_t n;
+
+	rewind(job->said);
+	while ((n = fread(text, 1, sizeof(text), job->said)) > 0)
+		fwrite(text, 1, n, stdout);
+	fflush(stdout);
+	fclose(job->said);
+	job->said = NULL;
+}
+
+static int run_several(const struct ci_run *run, const struct ci_program *const *programs, struct job *jobs, size_t n,
+                       size_t n_jobs, int *codes)
+{
+	size_t n_started = 0, n_running = 0, n_printed = 0;
+	int err = 0;
+
+	while (n_printed < n_started || (!err && n_started < n)) {
+		for (; !err && n_started < n && n_running < n_jobs; n_running += !err, n_started += !err)
+			err = start(run, programs[n_started], &jobs[n_started]);
+		if (n_running && wait_for_any(jobs, n_started, codes) < n_started)
+			n_running--;
+		for (; n_printed < n_started && !jobs[n_printed].pid; n_printed++)
+			print(&jobs[n_printed]);
+	}
+	return err;
+}
+
+int jobs_run(const struct ci_run *run, const struct ci_program *const *programs, size_t n, size_t n_jobs, int *codes)
+{
+	struct job *jobs;
+	int err;
+
+	if (n == 1 || n_jobs == 1) {
+		for (size_t i = 0; i < n; i++)
+			codes[i] = ci_run_program(run, programs[i]);
+		return 0;
+	}
+	jobs = calloc(n, sizeof(*jobs));
+	if (!jobs)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	err = run_several(run, programs, jobs, n, n_jobs, codes);
+	for (size_t i = 0; i < n; i++)
+		if (jobs[i].said)
+			fclose(jobs[i].said);
+	free(jobs);
+	return err;
+}
