@@ -339,15 +339,16 @@ picture: all $(BUILD)/corpus/glx/marbles
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. Group NAME of
 # packaging/deps.txt is what it alone needs installed, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := bisect crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject journeys kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms sandbox sanitize seek \
+SCRIPTS := bisect ci crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject journeys kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms sandbox sanitize seek \
 	film soak sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
-ON_SCREEN := crashes frames mutants replay
+ON_SCREEN := ci crashes frames mutants replay
 SHOWS += $(SCRIPTS:%=show-%)
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
 
+NEEDS_ci = $(HELPERS)
 NEEDS_devices = $(HELPERS) $(BUILD)/show/devices/intel/ready
 NEEDS_frames := $(BUILD)/tests/bench/frame_rays
 NEEDS_inject = $(HELPERS)

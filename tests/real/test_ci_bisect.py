@@ -1,0 +1,28 @@
+#!/usr/bin/python3
+# limit: 400 s
+"""The short form of `make show-ci`: git bisect finds a fault of a program and one of a renderer at their commits; a harmless change passes."""
+import sys
+
+from helpers import BUILD, ROOT, SCRATCH, check, finish, on_display
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tests/show"))
+import ci  # noqa: E402
+import faults  # noqa: E402
+
+if len(sys.argv) == 1:  # on a display, as `make show-ci` is
+    done = on_display(sys.executable, __file__, "here", timeout=390)
+    print(done.stdout, done.stderr, sep="")
+    sys.exit(done.returncode)
+(SCRATCH / "show").mkdir()
+for name in ("relume", "tests"):
+    (SCRATCH / name).symlink_to(BUILD / name)
+names = {fault[0] for fault in faults.FAULTS}
+check(ci.CHANGES.keys() <= names, f"changes of the source that are no faults: {ci.CHANGES.keys() - names}")
+repository = ci.Repository(SCRATCH)
+for name in ("a light of another colour", "one NaN in a normal"):
+    found = ci.fault(repository, name)
+    check(found == "changed", f"{name}: git bisect finds commit '{found}'")
+code = ci.harmless(repository, "other compression")
+check(code == 0, f"other compression: exit code {code}")
+finish()
