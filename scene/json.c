@@ -4,6 +4,7 @@
 
 #include "base/json.h"
 #include "base/plural.h"
+#include "scene/tokens.h"
 
 static const char *kind_name(enum scene_primitive kind)
 {
@@ -22,6 +23,45 @@ static void write_clears(FILE *out, const struct scene *s, uint32_t *next, uint3
 	}
 }
 
+/* The start of a hash, which names a mesh or texture in rules. */
+static unsigned start_of(const uint64_t hash[2])
+{
+	return (unsigned)(hash[1] >> 32);
+}
+
+static void write_textures(FILE *out, const struct scene *s, const struct scene_material *m)
+{
+	char format[TOKEN_NAME_BYTES], mode[TOKEN_NAME_BYTES];
+
+	for (uint32_t i = 0; i < m->unit_count; i++) {
+		const struct scene_unit *u = &s->units[m->unit_first + i];
+		const struct scene_texture *t = s->textures[u->texture];
+
+		fprintf(out, ", unit %u: texture %08x %ux%u %s %s", u->unit, start_of(t->hash), t->width, t->height, token_name(t->base_format, format),
+		        token_name(u->env_mode, mode));
+	}
+}
+
+static void write_blending(FILE *out, const struct scene_material *m)
+{
+	char from[TOKEN_NAME_BYTES], to[TOKEN_NAME_BYTES];
+
+	if (m->blend)
+		fprintf(out, ", blended %s %s", token_factor_name(m->blend_src_rgb, from), token_factor_name(m->blend_dst_rgb, to));
+}
+
+static void write_instance_text(FILE *out, const struct scene *s, const struct scene_instance *in)
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	const struct scene_material *m = &s->materials[in->material];
+
+	fprintf(out, "draw %u: %u %s of mesh %08x, %s at call %" PRIu64 ", view %u%s", in->draw, mesh->primitive_count, kind_name(mesh->kind),
+	        start_of(mesh->hash), s->draws[in->draw].call, s->draws[in->draw].call_number, in->view, m->lighting ? ", lit" : "");
+	write_textures(out, s, m);
+	write_blending(out, m);
+	fprintf(out, "%s%s\n", m->alpha_test ? ", alpha test" : "", m->depth_test ? "" : ", no depth test");
+}
+
 void scene_write_text(FILE *out, const struct scene *s)
 {
 	uint32_t clear = 0;
@@ -31,21 +71,16 @@ void scene_write_text(FILE *out, const struct scene *s)
 	        s->n_meshes, s->n_meshes == 1 ? "" : "es", s->n_materials, plural(s->n_materials), s->n_views, plural(s->n_views),
 	        s->n_textures, plural(s->n_textures), s->needs_previous ? ", shows pixels of an earlier frame" : "");
 	for (uint32_t i = 0; i < s->n_instances; i++) {
-		const struct scene_instance *in = &s->instances[i];
-		const struct scene_mesh *m = s->meshes[in->mesh];
-		const struct scene_material *mat = &s->materials[in->material];
 		write_clears(out, s, &clear, i);
-		fprintf(out, "draw %u: %u %s of mesh %u, material %u (%s%u texture%s%s%s%s), view %u, %s at call %" PRIu64 "\n", in->draw,
-		        m->primitive_count, kind_name(m->kind), in->mesh, in->material, mat->lighting ? "lit, " : "",
-		        mat->unit_count, plural(mat->unit_count), mat->blend ? ", blended" : "", mat->alpha_test ? ", alpha test" : "",
-		        mat->depth_test ? "" : ", no depth test", in->view, s->draws[in->draw].call, s->draws[in->draw].call_number);
+		write_instance_text(out, s, &s->instances[i]);
 	}
 	write_clears(out, s, &clear, s->n_instances);
 }
 
 /* ---- JSON: a row for each field, by its name ---- */
 
-enum kind { UINTS, INTS, FLOATS, FACE, STENCIL, SURFACE };
+/* FACTORS: tokens of which 0 and 1 are GL_ZERO and GL_ONE. */
+enum kind { UINTS, TOKENS, FACTORS, INTS, FLOATS, FACE, STENCIL, SURFACE };
 
 struct field {
 	const char *name;
@@ -64,6 +99,11 @@ struct field {
 	{ #member, KIND_OF(MEMBER(type, member)), IS_ARRAY(MEMBER(type, member)), offsetof(type, member), sizeof(MEMBER(type, member)) }
 #define FIELD(owner, member) ROW(struct scene_##owner, member)
 #define SCENE_FIELD(member) ROW(struct scene, member)
+/* Numbers that are GL tokens: only scene.h's comments tell. */
+#define TOKEN_ROW(owner, member, kind) \
+	{ #member, kind, IS_ARRAY(MEMBER(struct scene_##owner, member)), offsetof(struct scene_##owner, member), sizeof(MEMBER(struct scene_##owner, member)) }
+#define TOKEN(owner, member) TOKEN_ROW(owner, member, TOKENS)
+#define FACTOR(owner, member) TOKEN_ROW(owner, member, FACTORS)
 
 static const struct field face_fields[] = {
 	FIELD(face, ambient), FIELD(face, diffuse), FIELD(face, specular), FIELD(face, emission), FIELD(face, shininess),
@@ -71,8 +111,8 @@ static const struct field face_fields[] = {
 };
 
 static const struct field stencil_fields[] = {
-	FIELD(stencil, func), FIELD(stencil, ref), FIELD(stencil, compare_mask), FIELD(stencil, write_mask),
-	FIELD(stencil, fail), FIELD(stencil, zfail), FIELD(stencil, zpass),
+	TOKEN(stencil, func), FIELD(stencil, ref), FIELD(stencil, compare_mask), FIELD(stencil, write_mask),
+	FACTOR(stencil, fail), FACTOR(stencil, zfail), FACTOR(stencil, zpass),
 	{ 0 },
 };
 
@@ -85,13 +125,13 @@ static const struct field surface_fields[] = {
 static const struct field material_fields[] = {
 	FIELD(material, lighting), FIELD(material, light_first), FIELD(material, light_count),
 	FIELD(material, light_model_ambient), FIELD(material, local_viewer), FIELD(material, two_side),
-	FIELD(material, separate_specular), FIELD(material, front), FIELD(material, back), FIELD(material, color_material),
-	FIELD(material, color_material_mode), FIELD(material, normalize), FIELD(material, rescale_normal),
-	FIELD(material, shade_model), FIELD(material, first_provokes), FIELD(material, unit_first),
-	FIELD(material, unit_count), FIELD(material, color_sum), FIELD(material, fog), FIELD(material, fog_mode),
-	FIELD(material, fog_coord_source), FIELD(material, fog_density), FIELD(material, fog_start),
-	FIELD(material, fog_end), FIELD(material, fog_color), FIELD(material, cull_face), FIELD(material, front_face),
-	FIELD(material, polygon_mode_front), FIELD(material, polygon_mode_back), FIELD(material, polygon_offset),
+	FIELD(material, separate_specular), FIELD(material, front), FIELD(material, back), TOKEN(material, color_material),
+	TOKEN(material, color_material_mode), FIELD(material, normalize), FIELD(material, rescale_normal),
+	TOKEN(material, shade_model), FIELD(material, first_provokes), FIELD(material, unit_first),
+	FIELD(material, unit_count), FIELD(material, color_sum), FIELD(material, fog), TOKEN(material, fog_mode),
+	TOKEN(material, fog_coord_source), FIELD(material, fog_density), FIELD(material, fog_start),
+	FIELD(material, fog_end), FIELD(material, fog_color), TOKEN(material, cull_face), TOKEN(material, front_face),
+	TOKEN(material, polygon_mode_front), TOKEN(material, polygon_mode_back), FIELD(material, polygon_offset),
 	FIELD(material, polygon_offset_factor), FIELD(material, polygon_offset_units), FIELD(material, polygon_stipple),
 	FIELD(material, line_stipple), FIELD(material, line_width), FIELD(material, point_size),
 	FIELD(material, line_smooth), FIELD(material, point_smooth), FIELD(material, polygon_smooth),
@@ -99,24 +139,24 @@ static const struct field material_fields[] = {
 	FIELD(material, point_size_max), FIELD(material, point_fade_threshold), FIELD(material, multisample),
 	FIELD(material, samples_off), FIELD(material, alpha_to_coverage), FIELD(material, alpha_to_one),
 	FIELD(material, clip_plane_mask), FIELD(material, clip_plane_eye), FIELD(material, clip_by_program), FIELD(material, alpha_test),
-	FIELD(material, alpha_func), FIELD(material, alpha_ref), FIELD(material, stencil_test),
+	TOKEN(material, alpha_func), FIELD(material, alpha_ref), FIELD(material, stencil_test),
 	FIELD(material, stencil_front), FIELD(material, stencil_back), FIELD(material, depth_test),
-	FIELD(material, depth_func), FIELD(material, depth_write), FIELD(material, blend),
-	FIELD(material, blend_equation_rgb), FIELD(material, blend_equation_alpha), FIELD(material, blend_src_rgb),
-	FIELD(material, blend_dst_rgb), FIELD(material, blend_src_alpha), FIELD(material, blend_dst_alpha),
-	FIELD(material, blend_color), FIELD(material, logic_op), FIELD(material, color_mask), FIELD(material, surface),
+	TOKEN(material, depth_func), FIELD(material, depth_write), FIELD(material, blend),
+	TOKEN(material, blend_equation_rgb), TOKEN(material, blend_equation_alpha), FACTOR(material, blend_src_rgb),
+	FACTOR(material, blend_dst_rgb), FACTOR(material, blend_src_alpha), FACTOR(material, blend_dst_alpha),
+	FIELD(material, blend_color), TOKEN(material, logic_op), FIELD(material, color_mask), FIELD(material, surface),
 	FIELD(material, program), FIELD(material, fragment_program), FIELD(material, vertex_program),
 	{ 0 },
 };
 
 static const struct field unit_fields[] = {
-	FIELD(unit, unit), FIELD(unit, texture), FIELD(unit, wrap_s), FIELD(unit, wrap_t), FIELD(unit, wrap_r),
-	FIELD(unit, min_filter), FIELD(unit, mag_filter), FIELD(unit, border_color), FIELD(unit, lod_bias),
-	FIELD(unit, min_lod), FIELD(unit, max_lod), FIELD(unit, max_anisotropy), FIELD(unit, compare_mode),
-	FIELD(unit, compare_func), FIELD(unit, depth_mode), FIELD(unit, env_mode), FIELD(unit, env_color),
-	FIELD(unit, combine_rgb), FIELD(unit, combine_alpha), FIELD(unit, source_rgb), FIELD(unit, source_alpha),
-	FIELD(unit, operand_rgb), FIELD(unit, operand_alpha), FIELD(unit, scale_rgb), FIELD(unit, scale_alpha),
-	FIELD(unit, gen_mode), FIELD(unit, gen_object_plane), FIELD(unit, gen_eye_plane), FIELD(unit, matrix),
+	FIELD(unit, unit), FIELD(unit, texture), TOKEN(unit, wrap_s), TOKEN(unit, wrap_t), TOKEN(unit, wrap_r),
+	TOKEN(unit, min_filter), TOKEN(unit, mag_filter), FIELD(unit, border_color), FIELD(unit, lod_bias),
+	FIELD(unit, min_lod), FIELD(unit, max_lod), FIELD(unit, max_anisotropy), TOKEN(unit, compare_mode),
+	TOKEN(unit, compare_func), TOKEN(unit, depth_mode), TOKEN(unit, env_mode), FIELD(unit, env_color),
+	TOKEN(unit, combine_rgb), TOKEN(unit, combine_alpha), TOKEN(unit, source_rgb), TOKEN(unit, source_alpha),
+	TOKEN(unit, operand_rgb), TOKEN(unit, operand_alpha), FIELD(unit, scale_rgb), FIELD(unit, scale_alpha),
+	TOKEN(unit, gen_mode), FIELD(unit, gen_object_plane), FIELD(unit, gen_eye_plane), FIELD(unit, matrix),
 	FIELD(unit, coord_replace),
 	{ 0 },
 };
@@ -154,7 +194,7 @@ static const struct field clear_fields[] = {
 };
 
 static const struct field texture_fields[] = {
-	FIELD(texture, target), FIELD(texture, base_format), FIELD(texture, width), FIELD(texture, height),
+	TOKEN(texture, target), TOKEN(texture, base_format), FIELD(texture, width), FIELD(texture, height),
 	FIELD(texture, depth), FIELD(texture, n_levels), FIELD(texture, border), FIELD(texture, n_bytes),
 	{ 0 },
 };
@@ -168,6 +208,20 @@ static const struct field scene_fields[] = {
 
 static void write_object(struct json *j, const struct field *fields, const void *object);
 
+static void write_tokens(struct json *j, const struct field *f, const uint32_t *tokens)
+{
+	char text[TOKEN_NAME_BYTES];
+
+	if (f->is_array)
+		json_key_begin(j, f->name, '[');
+	else
+		json_key(j, f->name);
+	for (size_t i = 0; i < f->bytes / sizeof(*tokens); i++)
+		json_string(j, f->kind == FACTORS ? token_factor_name(tokens[i], text) : token_name(tokens[i], text));
+	if (f->is_array)
+		json_end(j, ']');
+}
+
 static void write_field(struct json *j, const struct field *f, const void *at)
 {
 	static const struct field *const inner[] = { [FACE] = face_fields, [STENCIL] = stencil_fields, [SURFACE] = surface_fields };
@@ -178,6 +232,8 @@ static void write_field(struct json *j, const struct field *f, const void *at)
 		write_object(j, inner[f->kind], at);
 	} else if (f->kind == FLOATS) {
 		f->is_array ? json_key_floats(j, f->name, at, n) : json_key_float(j, f->name, (double)*(const float *)at);
+	} else if (f->kind == TOKENS || f->kind == FACTORS) {
+		write_tokens(j, f, at);
 	} else if (f->kind == INTS) {
 		json_key_ints(j, f->name, at, n);
 	} else if (f->is_array) {

@@ -20,8 +20,8 @@ PRECISION, RECALL = 0.98, 0.9
 ROLES = {**{role: role for role in ("sky", "HUD", "particle", "view model", "planar shadow", "stencil mirror", "mirror", "decal", "blob shadow",
                                     "lightmap in a second unit", "lightmap pass")},
          "shadow volume (z-pass)": "shadow volume", "shadow volume (z-fail)": "shadow volume"}
-DST_COLOR, SRC_COLOR, ZERO = 0x0306, 0x0300, 0
-MAPPED = (0x2402, 0x8512) # GL_SPHERE_MAP, GL_REFLECTION_MAP
+DST_COLOR, SRC_COLOR, ZERO = "GL_DST_COLOR", "GL_SRC_COLOR", "GL_ZERO"
+MAPPED = ("GL_SPHERE_MAP", "GL_REFLECTION_MAP")
 
 
 def fullness(rows):
