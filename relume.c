@@ -52,6 +52,7 @@ static const struct verb {
 	{ "devices", devices_main, "list the OpenCL devices" },
 	{ "hook", hook_main, "try functions of your own for stages of the ray tracer" },
 	{ "query", query_main, "ask what rays hit, how far surfaces are, what moving bodies meet" },
+	{ "pick", pick_main, "say what a pixel of a frame shows, and write a rule for it" },
 	{ "bench", bench_main, "measure the tracer's kernels" },
 };
 

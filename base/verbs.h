@@ -20,6 +20,7 @@ int look_main(int argc, char **argv);    /* render/look.c */
 int render_main(int argc, char **argv);  /* render/render.c */
 int hook_main(int argc, char **argv);    /* render/hook.c */
 int query_main(int argc, char **argv);  /* query/query.c */
+int pick_main(int argc, char **argv);    /* render/pick.c */
 int ci_main(int argc, char **argv);      /* ci/ci.c */
 int farm_main(int argc, char **argv);    /* farm/farm.c */
 int devices_main(int argc, char **argv); /* render/devices.c */

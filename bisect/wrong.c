@@ -6,32 +6,25 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "base/folder.h"
 #include "base/plural.h"
 #include "diff/pictures/set.h"
 #include "diff/report/pictures.h"
 #include "diff/score/gates.h"
 #include "diff/score/picture.h"
 #include "diff/score/score.h"
-#include "render/supply.h"
-#include "replay/replay.h"
-#include "scene/release.h"
+#include "render/single.h"
 #include "scene/scene.h"
-#include "tracer/device/outcome.h"
 
 /* What one frame shows. All zero is empty. */
 struct sighted {
-	struct image image;
-	struct score_picture shown; /* of the image */
-	struct scene *scene;
+	struct single single;
+	struct score_picture shown; /* of its image */
 };
 
 static void free_sighted(struct sighted *v)
 {
 	score_picture_free(&v->shown);
-	image_free(&v->image);
-	if (v->scene)
-		scene_release(&v->scene);
+	single_free(&v->single);
 }
 
 /* Execute a trace up to a frame. @return 0, ERR_USAGE (not reported: there is no such frame), or ERR_* (reported) */
@@ -46,45 +39,21 @@ static int play(struct replay *rp, uint64_t frame, struct scene **scene)
 
 static int see(const char *trace, uint64_t frame, struct sighted *v)
 {
-	const struct tracer_options options = { .mode = TRACER_GL, .samples = 1, .aov = "gl,id,layers" };
-	struct replay *rp = NULL;
-	struct device *dev = NULL;
-	struct tracer *tracer = NULL;
-	struct supply supply = { .parent = NULL };
-	char folder[4096];
-	int err = replay_open(&rp, trace);
+	int err = single_open(trace, NULL, &v->single);
 
 	if (!err)
-		err = device_open(NULL, 0, &dev);
+		err = play(v->single.replay, frame, &v->single.scene);
 	if (!err)
-		err = outcome_choose_known(dev);
-	if (!err && folder_cached("kernels", folder, sizeof(folder)))
-		device_keep_programs(dev, folder, 0);
-	if (!err)
-		err = tracer_create(&tracer, dev);
-	if (!err) {
-		supply.parent = dev;
-		replay_set_supplier(rp, supply_picture, &supply);
-		err = play(rp, frame, &v->scene);
-	}
-	if (!err)
-		err = tracer_render(tracer, v->scene, &options, &v->image);
-	if (!err)
-		err = score_picture_from_image(&v->image, "gl", &v->shown);
-	supply_free(&supply);
-	tracer_destroy(&tracer);
-	if (dev)
-		device_close(&dev);
-	replay_close(&rp);
-	return err;
+		err = single_render(&v->single, "gl,id,layers");
+	return err ? err : score_picture_from_image(&v->single.image, "gl", &v->shown);
 }
 
 /* The call of what a pixel shows; UINT64_MAX: of nothing. */
 static uint64_t call_at(const struct sighted *v, size_t pixel)
 {
-	const float id = v->shown.id ? v->shown.id[pixel] : 0;
+	const uint32_t draw = single_draw_at(&v->single, pixel);
 
-	return id >= 1 && id <= (float)v->scene->n_draws && v->scene->draws ? v->scene->draws[(uint32_t)id].call_number : UINT64_MAX;
+	return draw ? v->single.scene->draws[draw].call_number : UINT64_MAX;
 }
 
 /* --- The note: the call and the frame's size, then a line for each pixel with its codes ---------------------------------------- */
@@ -132,7 +101,7 @@ static int write_note(const struct sighted *v, const struct score_picture *ref, 
 
 int wrong_again(const char *note, const char *trace, uint64_t frame, uint64_t call)
 {
-	struct sighted v = { .scene = NULL };
+	struct sighted v = { .shown = { .width = 0 } };
 	FILE *in = fopen(note, "r");
 	uint64_t was;
 	unsigned width, height, c[3];
@@ -178,19 +147,19 @@ static int judge(const struct sighted *v, const struct score_picture *ref, uint6
 
 	if (ref->width != v->shown.width || ref->height != v->shown.height)
 		return err_report(ERR_USAGE, trace, "frame %" PRIu64 " and its reference have different sizes", frame);
-	err = score_frame(ref, &v->image, frame, &options, NULL, &score);
+	err = score_frame(ref, &v->single.image, frame, &options, NULL, &score);
 	if (err)
 		return err;
 	if (score.outcome == SCORE_FRAME_PASSED)
 		return err_report(ERR_USAGE, trace, "frame %" PRIu64 " passes all gates: there is nothing to look for", frame);
 	draw = score.n_blame ? score.blame[0].draw : 0;
-	if (!draw || draw > v->scene->n_draws)
+	if (!draw || draw > v->single.scene->n_draws)
 		return err_report(ERR_USAGE, trace, "frame %" PRIu64 " fails, but no draw is to blame; say what to look for with --when", frame);
-	err = write_note(v, ref, v->scene->draws[draw].call_number, note, &pixels);
+	err = write_note(v, ref, v->single.scene->draws[draw].call_number, note, &pixels);
 	if (!err && !pixels)
 		err = err_report(ERR_USAGE, trace, "frame %" PRIu64 " fails by its depth or shapes alone; say what to look for with --when", frame);
 	if (!err)
-		tell(&score, &v->scene->draws[draw]);
+		tell(&score, &v->single.scene->draws[draw]);
 	return err;
 }
 
@@ -199,7 +168,7 @@ int wrong_note(const char *trace, const char *reference, uint64_t frame, const c
 	struct set ref = { .name = NULL };
 	struct image image = { .width = 0 };
 	struct score_picture picture = { .width = 0 };
-	struct sighted v = { .scene = NULL };
+	struct sighted v = { .shown = { .width = 0 } };
 	const struct set_entry *entry;
 	int err = set_open(reference, &ref);
 

@@ -298,14 +298,10 @@ int replay_frame_count(struct replay *rp, uint64_t *n, int *damaged)
 	return 0;
 }
 
-int replay_one_frame(const char *path, uint64_t frame, struct scene **scene)
+int replay_take_frame(struct replay *rp, const char *path, uint64_t frame, struct scene **scene)
 {
-	struct replay *rp = NULL;
-	int rc = replay_open(&rp, path);
+	int rc = replay_seek(rp, frame);
 
-	if (rc)
-		return rc;
-	rc = replay_seek(rp, frame);
 	if (rc == 1)
 		rc = replay_next_frame(rp, 1, scene);
 	if (rc == 0 && replay_frame(rp) == 0)
@@ -313,8 +309,19 @@ int replay_one_frame(const char *path, uint64_t frame, struct scene **scene)
 	else if (rc == 0)
 		rc = err_report(ERR_USAGE, path, "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
 		                frame, replay_frame(rp), plural(replay_frame(rp)), replay_frame(rp) - 1);
-	replay_close(&rp);
 	return rc < 0 ? rc : 0;
+}
+
+int replay_one_frame(const char *path, uint64_t frame, struct scene **scene)
+{
+	struct replay *rp = NULL;
+	int rc = replay_open(&rp, path);
+
+	if (rc)
+		return rc;
+	rc = replay_take_frame(rp, path, frame, scene);
+	replay_close(&rp);
+	return rc;
 }
 
 uint64_t replay_frame(const struct replay *rp)

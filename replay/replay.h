@@ -50,6 +50,13 @@ int replay_seek(struct replay *rp, uint64_t frame);
 int replay_frame_count(struct replay *rp, uint64_t *n, int *damaged);
 
 /**
+ * Go to a frame and build its scene.
+ * @param path  of the trace, for messages
+ * @return 0; ERR_USAGE (reported) where the trace has no such frame; else as replay_next_frame
+ */
+int replay_take_frame(struct replay *rp, const char *path, uint64_t frame, struct scene **scene);
+
+/**
  * Build the scene of one frame of a trace.
  * @return 0; ERR_USAGE (reported) where the trace has no such frame; else as replay_open and replay_next_frame
  */

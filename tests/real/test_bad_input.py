@@ -53,6 +53,7 @@ READERS = {
     "info": lambda t: ["info", t],
     "dump": lambda t: ["dump", t],
     "scene": lambda t: ["scene", t, "-f", "0"],
+    "pick": lambda t: ["pick", t, "-f", "0", "9,9"],
     "render": lambda t: ["render", t, "-o", WORK / "x.####.exr"],
     "raster": lambda t: ["raster", t, "-o", WORK / "x.####.png"],
     "diff": lambda t: ["diff", t, frames, "--report", WORK / "report"],
@@ -66,7 +67,7 @@ for verb, arguments in READERS.items():
         refused(relume(*arguments(path)), INPUT, f"{verb} of a {kind}")
     check(relume(verb).returncode == USAGE, f"{verb} of nothing")
 
-for verb in ("scene", "render"):
+for verb in ("scene", "pick", "render"):
     arguments = READERS[verb](good)
     arguments = [a for a in arguments if a not in ("-f", "0")]
     refused(relume(*arguments, "-f", "7"), USAGE, f"{verb} of a frame outside the trace")
