@@ -44,7 +44,7 @@ VISUAL_SRC := replay/verbs/visual.c
 REPLAY_SRC := $(filter-out $(VISUAL_SRC),$(wildcard replay/*.c replay/*/*.c replay/*/*/*.c))
 COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base bisect capture capture/format ci film query scene scene/repair look look/* kernels/ref tracer/* render render/bench render/check farm)) \
 	$(wildcard diff/*.c diff/*/*.c)
-COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c $(BUILD)/gen/page.c $(BUILD)/gen/manual.c
+COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c $(BUILD)/gen/page.c $(BUILD)/gen/manual.c $(BUILD)/gen/surfaces.c
 
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
@@ -245,6 +245,11 @@ $(BUILD)/gen/manual.c: packaging/manual.py | $(GENERATED_H)
 	@mkdir -p $(@D)
 	$(Q)$(PYTHON) -B $< $@ $(@:.c=.dep)
 -include $(BUILD)/gen/manual.dep
+
+# The page of relume look --sheet, as the report's.
+$(BUILD)/gen/surfaces.c: render/surfaces.html
+	@mkdir -p $(@D)
+	$(Q)(echo '#include "render/surfaces.h"'; echo 'const char surfaces_page[] ='; sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $<; echo ';') >$@
 
 # Rebuilt when flags change.
 FLAGS := $(CC) $(CPPFLAGS) $(ALL_CFLAGS) $(CXX) $(ALL_CXXFLAGS)
@@ -454,7 +459,7 @@ FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c)
 FUZZ_SRC := $(filter-out tracer/image/oiio_load.c,$(wildcard $(patsubst %,%/*.c,base capture/format scene scene/repair look look/apply farm $(addprefix diff/,rules baseline score pictures) \
 	$(addprefix tracer/,image device) kernels/ref))) $(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(REPLAY_SRC) render/stamp.c \
 	$(addprefix capture/write/,pages.c values.c) $(addprefix tests/fuzz/,calls.c stream.c target.c)
-FUZZ_GEN := $(patsubst $(BUILD)/%.c,$(BUILD)/fuzz/objects/%.o,$(filter-out %/page.c,$(COMMAND_GEN)) $(BUILD)/gen/fuzz_commands.c) $(BUILD)/fuzz/objects/gen/enums.o
+FUZZ_GEN := $(patsubst $(BUILD)/%.c,$(BUILD)/fuzz/objects/%.o,$(filter-out %/page.c %/surfaces.c,$(COMMAND_GEN)) $(BUILD)/gen/fuzz_commands.c) $(BUILD)/fuzz/objects/gen/enums.o
 FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/tracer/image/oiio.o $(FUZZ_GEN)
 FUZZ_SAN := -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 FUZZ_CFLAGS := $(CPPFLAGS) -I$(BUILD)/recorder/gen -O1 -g -ffp-contract=off -pthread -MMD -MP $(FUZZ_SAN)

@@ -64,6 +64,8 @@ void json_string(struct json *j, const char *text)
 
 		if (*p == '"' || *p == '\\')
 			fprintf(j->out, "\\%c", *p);
+		else if (*p == '<') /* may be within a page's script */
+			fputs("\\u003c", j->out);
 		else if (!n || unprintable(p, n))
 			fprintf(j->out, "\\u%04x", n ? unprintable(p, n) : *p);
 		else

@@ -12,30 +12,35 @@
 #include "base/verbs.h"
 #include "look/rules.h"
 #include "look/study/study.h"
-#include "replay/replay.h"
+#include "render/surfaces.h"
 #include "scene/release.h"
 
 struct asked {
 	struct frame_list frames;
-	const char *output;
+	const char *output, *sheet, *device;
 };
 
 static const struct options_row rows[] = {
 	{ "frames", 'f', "LIST", "frames to study, counted from 0: \"7\", \"1-500\", \"1-500x5\", with commas (default: all); of many "
 	  "only some, evenly spread", options_frames, .at = offsetof(struct asked, frames) },
-	{ "output", 'o', "FILE", "the rules, as NAME.look.yaml", options_text, .at = offsetof(struct asked, output), .is_required = 1,
-	  .use = CONFINE_MAKES },
+	{ "output", 'o', "FILE", "the rules, as NAME.look.yaml", options_text, .at = offsetof(struct asked, output), .use = CONFINE_MAKES },
+	{ "sheet", 0, "FILE.html", "a page that shows one frame, the first of --frames or the recording's middle one: point at a surface to see its draw, mesh, "
+	  "textures and material, and a rule for it; below are all textures and meshes. Without -o nothing is studied", options_text,
+	  .at = offsetof(struct asked, sheet), .use = CONFINE_MAKES },
+	{ "device", 'd', "DEVICE", "of --sheet: a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference (default: the first GPU, "
+	  "else CPU)", options_text, .at = offsetof(struct asked, device) },
 	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
 	.verb = "look",
 	.head = "usage: relume look TRACE [-f FRAMES] -o FILE\n"
+	        "       relume look TRACE [-f FRAME] --sheet FILE.html\n"
 	        "\n"
 	        "Study a recording, and write rules for relume render --look: where the camera is, what stands still, what tricks stand for\n"
 	        "light, where lights are. Each rule has a confidence and a reason. Edit the file to overrule it: 'relume help look-file'.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace and -o FILE", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
+	.takes = "one trace, and -o FILE or --sheet FILE.html", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
 
 /* Play the frames of a list, of too many every so often one, into a study. */
@@ -124,20 +129,64 @@ static int write_rules(const struct study *study, const char *trace, const char 
 	return part_close(&file, err);
 }
 
+/* The frame that a sheet shows: the first one asked for, or the middle of all. */
+static int choose_frame(struct replay *replay, const struct frame_list *frames, uint64_t *frame)
+{
+	uint64_t end;
+	int damaged, err = frames->n_ranges ? 0 : replay_frame_count(replay, &end, &damaged);
+
+	if (err)
+		return err;
+	if (frames->n_ranges)
+		frame_list_next(frames, 0, frame);
+	else
+		*frame = end / 2;
+	return 0;
+}
+
+static int write_sheet(const struct asked *asked, const char *trace)
+{
+	struct single single = { .scene = NULL };
+	uint64_t frame = 0;
+	int err = single_open(trace, asked->device, &single);
+
+	if (!err)
+		err = choose_frame(single.replay, &asked->frames, &frame);
+	if (!err)
+		err = replay_take_frame(single.replay, trace, frame, &single.scene);
+	if (!err)
+		err = single_render(&single, "gl,id");
+	if (!err)
+		err = surfaces_write(&single, trace, asked->sheet);
+	single_free(&single);
+	return err;
+}
+
+static int study_and_write(const struct asked *asked, const char *trace)
+{
+	struct study *study = NULL;
+	int err = study_trace(trace, &asked->frames, &study);
+
+	if (!err)
+		err = write_rules(study, trace, asked->output);
+	study_destroy(&study);
+	return err;
+}
+
 int look_main(int argc, char **argv)
 {
 	struct asked asked = { .output = NULL };
 	struct options_line line;
-	struct study *study = NULL;
 	int err = options_parse(&table, argc, argv, &asked, &line);
 
+	if (!err && !asked.output && !asked.sheet)
+		err = options_misuse(&table);
 	if (!err)
-		err = options_confine(&table, &line, CONFINE_READER, NULL);
-	if (!err)
-		err = study_trace(line.words[0], &asked.frames, &study);
-	if (!err)
-		err = write_rules(study, line.words[0], asked.output);
-	study_destroy(&study);
+		err = options_confine(&table, &line, asked.sheet ? CONFINE_TRACER : CONFINE_READER, NULL);
+	if (!err && asked.output)
+		err = study_and_write(&asked, line.words[0]);
+	if (!err && asked.sheet)
+		err = write_sheet(&asked, line.words[0]);
 	frame_list_free(&asked.frames);
 	return err > 0 ? 0 : -err;
 }

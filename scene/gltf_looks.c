@@ -1,42 +1,25 @@
 #include "scene/gltf_looks.h"
 
 #include <math.h>
-#include <png.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "gl_tokens.h"
-
-/* Four floats as a colour of four bytes. */
-static void clamp_texels(const struct scene_texture *t, size_t n, uint8_t *out)
-{
-	const float *v = (const float *)(const void *)t->texels;
-
-	for (size_t i = 0; i < 4 * n; i++)
-		out[i] = (uint8_t)(v[i] > 0 ? v[i] < 1 ? v[i] * 255 + 0.5f : 255 : 0);
-}
+#include "scene/png_pack.h"
 
 /* Level 0 as PNG. */
 static uint32_t put_image(struct gltf *g, const struct scene_texture *t)
 {
-	uint32_t w = t->width + 2 * t->border, piece;
-	size_t texels = (size_t)w * (t->height + 2 * t->border);
-	uint8_t *clamped = t->floats ? malloc(4 * texels) : NULL;
-	const uint8_t *first = (clamped ? clamped : t->texels) + 4 * ((size_t)t->border * w + t->border);
-	png_image png = { .version = PNG_IMAGE_VERSION, .width = t->width, .height = t->height, .format = PNG_FORMAT_RGBA };
-	png_alloc_size_t n = PNG_IMAGE_PNG_SIZE_MAX(png);
-	void *out = gltf_put_piece(g, n, 0, &piece);
-	int wrong;
+	uint32_t piece = SCENE_NONE;
+	uint8_t *png = NULL;
+	size_t n = 0;
+	void *out = png_pack_texture(t, &png, &n) ? NULL : gltf_put_piece(g, n, 0, &piece);
 
-	if (clamped)
-		clamp_texels(t, texels, clamped);
-	wrong = !out || (t->floats && !clamped) || !png_image_write_to_memory(&png, out, &n, 0, first, (png_int_32)(4 * w), NULL);
-	free(clamped);
-	if (wrong) {
+	if (out)
+		memcpy(out, png, n);
+	else
 		g->failed = 1;
-		return SCENE_NONE;
-	}
-	gltf_shrink_piece(g, piece, n);
+	free(png);
 	return piece;
 }
 

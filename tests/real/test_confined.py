@@ -17,7 +17,7 @@ VERBS = {
     "repair": ("repair", "x.trace", "-o", "mended/x.trace"), "look": ("look", "x.trace", "-o", "rules/x.look.yaml"),
     "render": ("render", "x.trace", "-f", 0, "-o", "frames/x.####.exr", "--progress", "none"),
     "diff": ("diff", "x.trace", "frames", "-f", 0, "--report", "report", "--json", "score/x.json"),
-    "bench": ("bench", "x.trace", "--repeat", 1), "pick": ("pick", "x.trace", "30,30"),
+    "bench": ("bench", "x.trace", "--repeat", 1), "pick": ("pick", "x.trace", "400,300"),
 }
 
 
