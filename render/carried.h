@@ -23,6 +23,8 @@ struct carried {
 	struct progress progress;
 	int has_begun;            /* so has the progress */
 	struct tracer_undrawn undrawn;
+	struct tracer_added added;
+	int has_dome;             /* 1: some frame was lit from all around */
 	int lacks;                /* 1: frames that were decoded lack something that only replay has shown */
 	uint64_t pixels, bright;  /* of display pictures, and how many of these are brighter than white */
 	struct err_lines lines;

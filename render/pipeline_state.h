@@ -53,6 +53,7 @@ struct worker {
 	struct device *dev;
 	uint64_t done; /* frames that it traced */
 	struct tracer_undrawn undrawn; /* that its tracer had counted after the last frame */
+	struct tracer_added added;     /* the same */
 	int seat;
 	pthread_t thread;
 };

@@ -15,6 +15,7 @@
 #include "render/check/apart.h"
 #include "render/look.h"
 #include "render/pipeline.h"
+#include "render/totals.h"
 #include "scene/program.h"
 #include "tracer/device/outcome.h"
 
@@ -179,16 +180,6 @@ static int prepare_device(struct pipeline *p, struct device *dev)
 	return err ? err : device_take_hook(dev, s->hook);
 }
 
-/* How display pictures came out. */
-static void report_display(const struct pipeline *p)
-{
-	const struct display_options *o = &p->settings->display;
-
-	if (p->carried->pixels && p->carried->bright && p->settings->progress != PROGRESS_NONE)
-		fprintf(stderr, "  exposure %+g stops, white at %g; %.2g %% of the pixels are brighter\n", (double)o->exposure, (double)o->white,
-		        100 * (double)p->carried->bright / (double)p->carried->pixels);
-}
-
 /* Open and prepare all devices. */
 static int open_devices(struct pipeline *p)
 {
@@ -245,7 +236,7 @@ static int render_frames(struct pipeline *p, uint64_t total, struct missing *mis
 		fprintf(stderr, "  device %zu: %llu frame%s (%s)\n", i, (unsigned long long)p->shares[i], plural(p->shares[i]),
 		        device_name(p->devices[i]));
 	free(p->shares);
-	report_display(p);
+	totals_print(s, p->carried);
 	matched_report(s->look, s->progress == PROGRESS_NONE);
 	display_destroy(&p->display);
 	report(p, missing);

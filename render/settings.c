@@ -427,6 +427,7 @@ int settings_parse(struct settings *s, int argc, char **argv)
 
 	s->driver_s = DRIVER_S;
 	s->tracer.depth = 4;
+	s->tracer.counts = 1;
 	s->tracer.clamp = 10;
 	s->family = -1;
 	err = options_parse(&table, argc, argv, s, &s->line);

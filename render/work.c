@@ -134,19 +134,23 @@ static void retire(struct pipeline_state *state, struct shot *shot)
 }
 
 /* A frame was tried: add what its tracer counted. Where it is the first after a fault, the family that took over is right. */
-static void note_frame(struct worker *w, const struct tracer *tracer, int is_traced)
+static void note_frame(struct worker *w, const struct tracer *tracer, int is_traced, int has_dome)
 {
 	const struct tracer_undrawn *u = tracer_undrawn(tracer);
+	const struct tracer_added *added = tracer_added(tracer);
 	struct carried *c = w->state->p->carried;
 	int is_first;
 
 	pthread_mutex_lock(&w->state->lock);
 	c->undrawn.targets += u->targets - w->undrawn.targets;
 	c->undrawn.ended += u->ended - w->undrawn.ended;
+	tracer_added_add(&c->added, added, &w->added);
+	c->has_dome |= has_dome;
 	c->made += (uint64_t)is_traced;
 	is_first = is_traced && carried_confirms(c, w->dev);
 	pthread_mutex_unlock(&w->state->lock);
 	w->undrawn = *u;
+	w->added = *added;
 	if (is_first)
 		outcome_confirm(w->dev, w->state->p->remembered, &c->run);
 }
@@ -169,7 +173,7 @@ static int work_on(struct worker *w, struct tracer **tracer, struct shot *shot)
 	}
 	earlier_drop(&state->earlier, shot->number);
 	pipeline_drop_shot(&shot);
-	note_frame(w, *tracer, outcome == TRACED);
+	note_frame(w, *tracer, outcome == TRACED, outcome == TRACED && image_attribute(&picture->img, "relume:dimmed"));
 	w->done += outcome == TRACED;
 	if (outcome == TRACED && queue_put(&state->pictures, picture))
 		return 1;
@@ -177,6 +181,7 @@ static int work_on(struct worker *w, struct tracer **tracer, struct shot *shot)
 		give_up(state, picture);
 		tracer_destroy(tracer);
 		w->undrawn = (struct tracer_undrawn){ 0 };
+		w->added = (struct tracer_added){ 0 };
 		if (start_tracer(w, tracer))
 			pipeline_fail(state, ERR_SYSTEM);
 	}

@@ -6,6 +6,7 @@
 #include "base/err.h"
 #include "kernels/frame/compose.h"
 #include "kernels/frame/dome.h"
+#include "tracer/frame/added.h"
 #include "tracer/frame/dome.h"
 #include "tracer/frame/secondary.h"
 
@@ -70,7 +71,7 @@ static struct compose_request request_of(const struct job *job)
 	memset(r.half_plane, 0xff, sizeof(r.half_plane));
 	memset(r.float_plane, 0xff, sizeof(r.float_plane));
 	for (size_t i = 0; i < N_CHANNELS; i++) {
-		if (!job->image || !compose_asks(options, channels[i].group))
+		if (!job->image || !(compose_asks(options, channels[i].group) || added_needs(job, channels[i].group)))
 			continue;
 		if (channels[i].full)
 			r.float_plane[channels[i].plane] = r.n_floats++ * job->n_pixels;
@@ -181,6 +182,7 @@ int compose_fetch(struct job *job, const struct compose_request *request, struct
 				planes[n++] = c->full ? (const void *)((const float *)floats + request->float_plane[c->plane]) :
 				                        (const void *)((const uint16_t *)halves + request->half_plane[c->plane]);
 		}
+		added_take(job, request, halves);
 		err = image_take_rows(img, planes, job->n_rows);
 		unmapped = device_unmap(job->tr->dev, b->halves.buffer, halves);
 		err = err ? err : unmapped;

@@ -51,6 +51,7 @@ struct tracer {
 	size_t n_counted;
 	uint32_t most_rows; /* of a band, as the device had too little memory for more; 0: no limit */
 	struct tracer_undrawn undrawn;
+	struct tracer_added added;
 	struct picture_kept drawn; /* the picture that was drawn last */
 };
 
@@ -90,6 +91,7 @@ struct job {
 	uint32_t is_first;       /* of the passes that are summed up: there are no sums yet */
 	uint32_t is_placed;      /* state, vertices and trees of the pass before are on the device: only the picture is to be moved */
 	uint32_t turn;           /* which pixels take part in the other passes (sample_takes_part) */
+	struct tracer_added added;      /* of the picture's bands so far */
 	uint64_t unknown;               /* pixels so far that show or tested what was there before the scene and is not known */
 	struct image *image;            /* receive the bands of the last pass: one of the two, the other is NULL */
 	struct scene_picture *picture;

@@ -480,7 +480,9 @@ static int draw_image(struct tracer *tracer, const struct scene *scene, const st
 		err = image_set_attribute(img, "relume:samples", "%u", job.n_passes);
 	count_undrawn(&job);
 	*unknown = job.unknown;
-	if (err)
+	if (!err)
+		tracer_added_add(&tracer->added, &job.added, &(struct tracer_added){ 0 });
+	else
 		image_free(img);
 	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
 }
@@ -501,6 +503,7 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
                   struct image *img)
 {
 	const struct tracer_undrawn undrawn = tracer->undrawn;
+	const struct tracer_added added = tracer->added;
 	const int is_quick = options->samples <= 1 && !options->photons; /* it is not worth a look beforehand */
 	uint64_t unknown = 0;
 	struct begun begun;
@@ -519,6 +522,7 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		image_free(img);
 	err = begin_with_before(tracer, scene, &begun);
 	tracer->undrawn = undrawn;
+	tracer->added = added;
 	if (!err)
 		err = draw_image(tracer, &begun.scene, options, img, &unknown);
 	picture_free(begun.start);

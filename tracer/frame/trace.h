@@ -45,6 +45,7 @@ struct tracer_options {
 	int relight;      /* 1: lit at each pixel (Phong), not between vertices */
 	const struct hook *hook; /* a user's functions at its stages, or NULL; the device has taken it (device_take_hook) */
 	unsigned photons; /* sent for channels caustics.*, whatever aov lists (photons.h); 0: there are none */
+	int counts;       /* 1: count what tracing adds (tracer_added) */
 	const char *aov;  /* channel groups to store, with commas ("gl,shadow,N"); NULL: all. R G B A always are */
 };
 
@@ -75,6 +76,20 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
  * @return 0 or ERR_SYSTEM (reported)
  */
 int tracer_render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture);
+
+/* What tracing adds to OpenGL's picture, by the channels that hold it. */
+enum tracer_part { TRACER_SHADOWS, TRACER_RELIGHT, TRACER_MIRRORS, TRACER_GLASS, N_TRACER_PARTS };
+
+/* Pixels so far that show it, of frames whose options counted them, in modes whitted, diffuse and path. */
+struct tracer_added {
+	uint64_t pixels;                /* in all */
+	uint64_t parts[N_TRACER_PARTS]; /* that show each part */
+	uint64_t changed;               /* any of them */
+};
+const struct tracer_added *tracer_added(const struct tracer *tracer);
+
+/** Add to a sum what has come between two moments. */
+void tracer_added_add(struct tracer_added *sum, const struct tracer_added *now, const struct tracer_added *before);
 
 /** What was met so far that the tracer does not draw; all 0 where everything is drawn. */
 struct tracer_undrawn {
