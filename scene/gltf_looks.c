@@ -40,20 +40,47 @@ static uint32_t put_sampled(struct gltf *g, const struct scene_unit *u)
 	return GLTF_PUSH(g, sampled, s);
 }
 
-const struct scene_unit *gltf_shown_unit(struct gltf *g, const struct scene_material *m)
+/* 1 where a unit lets its texture's colour through, not its alpha alone as for shadows and fades (GL 2.1 sec. 3.8.13). */
+static int shows_color(const struct scene_unit *u)
+{
+	const int n = u->combine_rgb == GL_REPLACE ? 1 : u->combine_rgb == GL_INTERPOLATE ? 3 : 2;
+
+	for (int i = 0; i < n && u->env_mode == GL_COMBINE; i++)
+		if (u->source_rgb[i] == GL_TEXTURE && (u->operand_rgb[i] == GL_SRC_COLOR || u->operand_rgb[i] == GL_ONE_MINUS_SRC_COLOR))
+			return 1;
+	return u->env_mode != GL_COMBINE;
+}
+
+/* How likely a texture is the surface's own colour; 0: it is not, or glTF cannot place it. */
+static int rank(const struct scene_texture *t, const struct scene_mesh *mesh, const struct scene_unit *u)
+{
+	const int has_colors = t->base_format == GL_RGB || t->base_format == GL_RGBA;
+	const int is_own = mesh->texcoord[u->unit] != NULL; /* else one texel colours all of it */
+
+	if ((t->target != GL_TEXTURE_2D && t->target != GL_TEXTURE_RECTANGLE) || t->base_format == GL_DEPTH_COMPONENT || u->gen_mode[0] || u->gen_mode[1] || !shows_color(u))
+		return 0;
+	return 1 + has_colors + 2 * is_own;
+}
+
+const struct scene_unit *gltf_shown_unit(struct gltf *g, const struct scene_material *m, const struct scene_mesh *mesh)
 {
 	const struct scene_unit *found = NULL;
+	int best = 0;
 
-	for (uint32_t i = 0; i < m->unit_count && !found; i++) {
+	for (uint32_t i = 0; i < m->unit_count; i++) {
 		const struct scene_unit *u = &g->s->units[m->unit_first + i];
-		uint32_t target = g->s->textures[u->texture]->target, depth = g->s->textures[u->texture]->base_format;
-		if ((target != GL_TEXTURE_2D && target != GL_TEXTURE_RECTANGLE) || depth == GL_DEPTH_COMPONENT)
-			continue;
-		if (u->gen_mode[0] || u->gen_mode[1])
-			g->losses->texgen++;
-		else
+		const int r = rank(g->s->textures[u->texture], mesh, u);
+
+		if (r > best) {
+			best = r;
 			found = u;
+		}
 	}
+	for (uint32_t i = 0; i < m->unit_count && !found; i++)
+		if (g->s->units[m->unit_first + i].gen_mode[0]) {
+			g->losses->texgen++;
+			break;
+		}
 	g->losses->more_units += m->unit_count > 1;
 	return found;
 }

@@ -3,8 +3,11 @@
 
 #include "scene/gltf_pieces.h"
 
-/** The unit that glTF can show: the first with a 2D image and coordinates of its own. NULL: none. */
-const struct scene_unit *gltf_shown_unit(struct gltf *g, const struct scene_material *m);
+/**
+ * The unit that glTF can show: with a 2D image, whose colour it lets through, and coordinates that are not generated. Of several one with
+ * coordinates for each vertex and a texture in colours, then the first. NULL: none.
+ */
+const struct scene_unit *gltf_shown_unit(struct gltf *g, const struct scene_material *m, const struct scene_mesh *mesh);
 
 /**
  * The number of a material's look; equal ones are one.

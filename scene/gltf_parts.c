@@ -204,7 +204,7 @@ static uint32_t put_part(struct gltf *g, uint32_t number)
 	for (uint32_t i = 0; i < g->n_parts; i++)
 		if (memcmp(&g->parts[i], &p, offsetof(struct gltf_part, position)) == 0)
 			return i;
-	unit = gltf_shown_unit(g, mat);
+	unit = gltf_shown_unit(g, mat, m);
 	p.position = put_positions(g, m, baked);
 	if (p.position == SCENE_NONE)
 		return SCENE_NONE;

@@ -1,5 +1,11 @@
 /* relume export: a frame as glTF 2.0. */
 
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/part.h"
@@ -53,6 +59,7 @@ static int write_file(const char *path, const struct scene *scene)
 {
 	struct gltf_losses losses;
 	struct part_file file;
+	struct stat info;
 	int rc = folder_make_for(path);
 
 	if (!rc)
@@ -62,7 +69,17 @@ static int write_file(const char *path, const struct scene *scene)
 	if (rc)
 		return rc;
 	report_losses(path, &losses);
+	if (stat(path, &info) == 0)
+		fprintf(stderr, "%s: frame %" PRIu64 ", %.2g MiB\n", path, scene->frame, (double)info.st_size / (1 << 20));
 	return 0;
+}
+
+/* The one kind of glTF that is written. */
+static int check_name(const char *path)
+{
+	const char *ending = strrchr(path, '.');
+
+	return ending && strcasecmp(ending, ".glb") == 0 ? 0 : err_report(ERR_USAGE, NULL, "'%s' names no binary glTF; end it in .glb", path);
 }
 
 int export_main(int argc, char **argv)
@@ -72,6 +89,8 @@ int export_main(int argc, char **argv)
 	struct scene *scene = NULL;
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
+	if (!rc)
+		rc = check_name(o.output);
 	if (!rc)
 		rc = options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)

@@ -4,11 +4,12 @@
 import json
 import math
 import pathlib
+import struct
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from glb import Glb  # noqa: E402
-from helpers import ROOT, SCRATCH, check, finish, must, relume  # noqa: E402
+from helpers import BUILD, ROOT, SCRATCH, check, finish, must, record, relume  # noqa: E402
 
 sys.path.insert(0, str(ROOT / "tests/show"))
 from edit_trace import Trace  # noqa: E402
@@ -91,4 +92,17 @@ check(expected and all(turns(exported[name]) == turns(corners) for name, corners
 done = relume("export", ROOT / "tests/golden/cornell.trace", "-f", 99999, "-o", SCRATCH / "none.glb")
 check(done.returncode == 2 and "no frame 99999" in done.stderr, f"a frame that is not there: {done.returncode} {done.stderr}")
 check(not list(SCRATCH.glob("none*")), "nothing is left of a failed export")
+
+# Of several textures the one in colours; what was written, and under which names.
+units = SCRATCH / "units.trace"
+record(units, BUILD / "tests/real/units", options=())
+for frame, wanted in ((0, (4, 4)), (1, (4, 4)), (2, None)):
+    file = SCRATCH / f"units{frame}.glb"
+    done = must(relume("export", units, "-f", frame, "-o", file))
+    glb = Glb(file)
+    sizes = [struct.unpack_from(">II", glb.bin, glb.json["bufferViews"][image["bufferView"]]["byteOffset"] + 16) for image in glb.json.get("images", [])]
+    check(sizes == ([wanted] if wanted else []), f"frame {frame}: the texture of {wanted} texels: {sizes}")
+    check(f"{file}: frame {frame}, " in done.stderr and "MiB" in done.stderr, f"what was written is said: {done.stderr}")
+done = relume("export", units, "-o", SCRATCH / "units.obj")
+check(done.returncode == 2 and ".glb" in done.stderr and not (SCRATCH / "units.obj").exists(), f"another ending: {done.returncode} {done.stderr}")
 finish()
