@@ -101,7 +101,8 @@ int filter_take(struct image *img, const char *where, struct filter_frame *f)
 			square += f->normal[i][c] * f->normal[i][c];
 		}
 		f->depth[i] = p.depth[i];
-		f->is_there[i] = square > 0.25f && isfinite(f->depth[i]) && isfinite(filter_brightness(f->light[i]) + filter_brightness(f->gloss[i]));
+		/* What lies in the viewer's own plane is no place that light reaches: a HUD, blended over another surface's light. */
+		f->is_there[i] = square > 0.25f && f->depth[i] > 0 && isfinite(f->depth[i]) && isfinite(filter_brightness(f->light[i]) + filter_brightness(f->gloss[i]));
 	}
 	return err;
 }
