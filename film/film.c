@@ -16,9 +16,9 @@
 #include "diff/pictures/set.h"
 #include "film/encoder.h"
 #include "film/layout.h"
+#include "film/rate.h"
 #include "tracer/image/display.h"
 
-#define FPS 30u       /* pictures a second, unless it is asked for; frames, too, where nobody knows how long they stood */
 #define LONGEST_S 2.0 /* that a frame stands: what a program did longer, like loading, is cut */
 #define POSTER_QUALITY 90
 
@@ -38,8 +38,8 @@ static const struct options_row rows[] = {
 	  "alternate: one after the other; traced or raster: one alone", options_word, .at = offsetof(struct asked, layout.kind), .words = layout_names },
 	{ "raster", 0, "REF", "what the program showed: a trace (NAME.ref beside it), a .ref file or images (default: channels gl.* of the frames)",
 	  options_text, .at = offsetof(struct asked, raster) },
-	{ "fps", 0, "N", "show N frames a second (default: each as long as the program showed it, at most 2 s; 30 a second where the frames do "
-	  "not tell)", options_number, .at = offsetof(struct asked, fps), .most = 240 },
+	{ "fps", 0, "N", "show N frames a second (default: each as long as the program showed it, but at least for one of the 30 or 60 pictures that a second "
+	  "has, and at most 2 s; 30 a second where the frames do not tell)", options_number, .at = offsetof(struct asked, fps), .most = 240 },
 	{ "caption", 0, "TEXT", "a line below the pictures", options_text, .at = offsetof(struct asked, layout.caption) },
 	{ "no-labels", 0, NULL, "do not say which picture is which", options_flag, .at = offsetof(struct asked, layout.no_labels) },
 	{ "exposure", 0, "STOPS", "the traced picture is brighter by so many stops (default 0)", options_real,
@@ -76,6 +76,8 @@ struct film {
 	uint8_t *raster_rgb, *traced_rgb;
 	uint64_t time_ns;                      /* when the program showed it; 0: not known */
 	double ends_s, lasts_s;                /* when it ends in the film; how long the last one stood */
+	double shown_s;                        /* how long the program showed all that stand longer here */
+	uint64_t n_slowed;                     /* how many these are */
 	int is_held;
 };
 
@@ -108,7 +110,6 @@ static int begin(struct film *f, const struct image *img)
 		return err;
 	f->width = img->width;
 	f->height = img->height;
-	f->fps = f->asked->fps ? f->asked->fps : FPS;
 	layout_size(&f->asked->layout, f->width, f->height, &f->picture.width, &f->picture.height);
 	bytes = (size_t)f->width * f->height * 3;
 	f->raster_rgb = malloc(bytes);
@@ -123,7 +124,8 @@ static int begin(struct film *f, const struct image *img)
 /* Show the frame that is held until `f->ends_s`. */
 static int show(struct film *f)
 {
-	const uint64_t end = (uint64_t)(f->ends_s * f->fps + 0.5);
+	const uint64_t rounded = (uint64_t)(f->ends_s * f->fps + 0.5);
+	const uint64_t end = rounded > f->n_pictures ? rounded : f->n_pictures + 1; /* each frame is seen */
 	int err = 0;
 
 	for (uint64_t first = f->n_pictures; f->n_pictures < end && !err; f->n_pictures++) {
@@ -141,7 +143,7 @@ static double duration(const struct film *f, uint64_t next_ns)
 		return 1.0 / f->asked->fps;
 	if (f->time_ns && next_ns > f->time_ns)
 		return fmin((double)(next_ns - f->time_ns) / 1e9, LONGEST_S);
-	return f->lasts_s > 0 ? f->lasts_s : 1.0 / FPS;
+	return f->lasts_s > 0 ? f->lasts_s : 1.0 / RATE_FPS;
 }
 
 /* The frame that is held has ended. */
@@ -150,6 +152,11 @@ static int let_go(struct film *f, uint64_t next_ns)
 	if (!f->is_held)
 		return 0;
 	f->lasts_s = duration(f, next_ns);
+	if (f->lasts_s < 0.99 / f->fps) {
+		f->shown_s += f->lasts_s;
+		f->n_slowed++;
+		f->lasts_s = 1.0 / f->fps;
+	}
 	f->ends_s += f->lasts_s;
 	return show(f);
 }
@@ -158,15 +165,14 @@ static int take_frame(struct film *f, const struct set_entry *entry)
 {
 	const enum layout_kind kind = f->asked->layout.kind;
 	const struct set_entry *other = f->asked->raster ? set_find(&f->raster, entry->frame) : entry;
-	const char *where = entry->path ? entry->path : f->traced.name, *time;
+	const char *where = entry->path ? entry->path : f->traced.name;
 	struct image img = { .width = 0 }, shown = { .width = 0 };
 	uint64_t time_ns;
 	int err = set_read(&f->traced, entry, &img);
 
 	if (!err && !f->encoder)
 		err = begin(f, &img);
-	time = err ? NULL : image_attribute(&img, "relume:time");
-	time_ns = time ? strtoull(time, NULL, 10) : 0;
+	time_ns = err ? 0 : rate_time_ns(&img);
 	if (!err)
 		err = let_go(f, time_ns);
 	if (!err && layout_wants_traced(kind))
@@ -223,6 +229,11 @@ static int run(struct film *f)
 
 	if (err)
 		return err;
+	f->fps = f->asked->fps;
+	if (!f->fps)
+		err = rate_choose(&f->traced, &f->asked->frames, &f->fps);
+	if (err)
+		return err;
 	part_sweep(f->asked->output);
 	progress_begin(&progress, "filmed", total);
 	for (size_t i = 0; i < f->traced.n_entries && !err; i++) {
@@ -243,6 +254,9 @@ static int run(struct film *f)
 	if (!err)
 		fprintf(stderr, "%s: %" PRIu64 " frame%s, %.1f s, %u x %u\n", f->asked->output, total, plural(total),
 		        (double)f->n_pictures / f->fps, f->picture.width, f->picture.height);
+	if (!err && f->n_slowed)
+		fprintf(stderr, "  the program showed %" PRIu64 " of these frames in %.2g s, faster than films go: each stands for one picture (--fps sets how many a second)\n",
+		        f->n_slowed, f->shown_s);
 	return err;
 }
 

@@ -1,0 +1,16 @@
+/* How many pictures a second a film has, unless that is asked for. */
+#pragma once
+
+#include "base/frames.h"
+#include "diff/pictures/set.h"
+
+enum { RATE_FPS = 30, RATE_FAST_FPS = 60 };
+
+/** When the program showed a frame; 0: its file does not tell. */
+uint64_t rate_time_ns(const struct image *img);
+
+/**
+ * RATE_FAST_FPS where the program mostly showed more than 45 frames a second, by a few of them from all over, else RATE_FPS.
+ * @return 0, ERR_INPUT or ERR_SYSTEM (reported)
+ */
+int rate_choose(struct set *frames, const struct frame_list *wanted, unsigned *fps);
