@@ -43,7 +43,9 @@ static int parse_range(const char **p, struct frame_range *r)
 	r->step = 1;
 	if (**p == '-') {
 		(*p)++;
-		if (!parse_number(p, &r->last) || r->last < r->first)
+		if (**p == '\0' || **p == ',' || **p == 'x')
+			r->last = UINT64_MAX; /* to the end */
+		else if (!parse_number(p, &r->last) || r->last < r->first)
 			return 0;
 	}
 	if (**p == 'x') {
@@ -112,7 +114,7 @@ int frame_list_parse(const char *text, struct frame_list *out)
 		}
 		if (!parse_range(&p, &list.ranges[list.n_ranges]) || (*p != ',' && *p != '\0')) {
 			frame_list_free(&list);
-			return err_report(ERR_USAGE, NULL, "'%s' is no frame range; write 7, 1-500, 1-500x5, "
+			return err_report(ERR_USAGE, NULL, "'%s' is no frame range; write 7, 1-500, 55-, 1-500x5, "
 			                  "or several with commas", text);
 		}
 		list.n_ranges++;
@@ -163,6 +165,19 @@ uint64_t frame_list_last(const struct frame_list *list)
 			last = end;
 	}
 	return last;
+}
+
+uint64_t frame_list_needed(const struct frame_list *list)
+{
+	uint64_t needed = 0;
+
+	for (size_t i = 0; i < list->n_ranges; i++) {
+		const struct frame_range *r = &list->ranges[i];
+		const uint64_t end = r->last == UINT64_MAX ? r->first : r->last - (r->last - r->first) % r->step;
+
+		needed = end > needed ? end : needed;
+	}
+	return needed;
 }
 
 /** The first frame of a range from `from` on. */

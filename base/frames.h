@@ -1,7 +1,7 @@
 /*
  * Frame ranges and file name patterns, as every verb takes them.
  *
- * A range list is "1-500", "1-500x5" (every fifth), "7", or several of these with commas. Frames count from 0, in the
+ * A range list is "1-500", "1-500x5" (every fifth), "7", "55-" (to the end), or several of these with commas. Frames count from 0, in the
  * order of the trace's frame ends.
  * A pattern holds the frame number as "####" (zero-padded to the number of #), "%04d", "$F4" ("$F" alone: no padding) or
  * "{frame}" (no padding).
@@ -34,6 +34,9 @@ int frame_list_contains(const struct frame_list *list, uint64_t frame);
 
 /** The last frame of the list; UINT64_MAX for an empty list. */
 uint64_t frame_list_last(const struct frame_list *list);
+
+/** The last frame that must be there for the list to be had: of a range without an end its first. 0 where all are asked for. */
+uint64_t frame_list_needed(const struct frame_list *list);
 
 /** Number of frames of the list below `end`. */
 uint64_t frame_list_count(const struct frame_list *list, uint64_t end);

@@ -211,6 +211,8 @@ int farm_job_parse(int argc, char **argv, struct farm_job *out)
 		err = frame_list_parse(out->frames_text, &out->frames);
 	if (!err && !frame_pattern_has_number(out->output))
 		err = err_report(ERR_USAGE, NULL, "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})", out->output);
+	if (!err && frame_list_last(&out->frames) == UINT64_MAX)
+		err = err_report(ERR_USAGE, NULL, "'%s' has no end; tasks need one, as in 55-499 ('relume info' counts frames)", out->frames_text);
 	if (err)
 		return err;
 	out->n_frames = frame_list_count(&out->frames, UINT64_MAX);

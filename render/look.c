@@ -21,7 +21,7 @@ struct asked {
 };
 
 static const struct options_row rows[] = {
-	{ "frames", 'f', "LIST", "frames to study, counted from 0: \"7\", \"1-500\", \"1-500x5\", with commas (default: all); of many "
+	{ "frames", 'f', "LIST", "frames to study, counted from 0: \"7\", \"1-500\", \"55-\" to the end, \"1-500x5\", with commas (default: all); of many "
 	  "only some, evenly spread", options_frames, .at = offsetof(struct asked, frames) },
 	{ "output", 'o', "FILE", "the rules, as NAME.look.yaml", options_text, .at = offsetof(struct asked, output), .use = CONFINE_MAKES },
 	{ "sheet", 0, "FILE.html", "a page that shows one frame, the first of --frames or the recording's middle one: point at a surface to see its draw, mesh, "

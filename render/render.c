@@ -36,12 +36,12 @@ static int choose_frames(struct settings *s, struct replay *replay, struct exten
 
 	if (err)
 		return err;
-	x->short_of = damaged && frame_list_last(&s->frames) >= x->end;
+	x->short_of = damaged && (!s->frames.n_ranges || frame_list_needed(&s->frames) >= x->end);
 	if (x->end == 0)
 		return err_report(ERR_INPUT, s->trace, "holds no whole frame");
-	if (s->frames.n_ranges && frame_list_last(&s->frames) >= x->end && !damaged)
+	if (s->frames.n_ranges && frame_list_needed(&s->frames) >= x->end && !damaged)
 		return err_report(ERR_USAGE, s->trace, "has %llu frame%s, numbered from 0; frame %llu is not there",
-		                  (unsigned long long)x->end, plural(x->end), (unsigned long long)frame_list_last(&s->frames));
+		                  (unsigned long long)x->end, plural(x->end), (unsigned long long)frame_list_needed(&s->frames));
 	if (s->n_chunks && !camera_pictures(s->camera))
 		err = frame_list_chunk(&s->frames, x->end, s->chunk, s->n_chunks);
 	x->total = frame_list_count(&s->frames, x->end);

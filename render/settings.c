@@ -174,7 +174,7 @@ static int take_progress(const struct options_row *row, const char *value, void 
 
 static const struct options_row rows[] = {
 	{ .help = "What:" },
-	{ "frames", 'f', "LIST", "frames, counted from 0: \"7\", \"1-500\", \"1-500x5\", with commas (default: all)",
+	{ "frames", 'f', "LIST", "frames, counted from 0: \"7\", \"1-500\", \"55-\" to the end, \"1-500x5\", with commas (default: all)",
 	  options_frames, AT(frames), .kind = RUN },
 	{ "chunk", 0, "I/N", "only the I-th of N parts of them, as for a task of a farm", take_chunk, .at = 0, .kind = RUN },
 	{ "output", 'o', "PATTERN", "file names: ####, %04d, $F4 or {frame} stand for the frame number; .exr holds all channels, .png and .jpg "

@@ -73,6 +73,11 @@ for verb in ("scene", "pick", "render"):
     refused(relume(*arguments, "-f", "7"), USAGE, f"{verb} of a frame outside the trace")
     refused(relume(*arguments, "-f", "1-x"), USAGE, f"{verb} of a range that is none")
 
+refused(relume("farm", "script", "--for", "make", good, "-f", "1-", "-o", WORK / "x.####.exr"), USAGE, "a farm's job without an end")
+listed = relume("render", good, "-f", "1-", "-o", WORK / "x.####.exr", "--dry-run")
+check(listed.returncode == 0 and [line.split(":")[0] for line in listed.stdout.splitlines()] == ["frame 1", "frame 2"], f"from 1 to the end: {listed.stdout}")
+refused(relume("render", good, "-f", "9-", "-o", WORK / "x.####.exr"), USAGE, "a range that begins behind the end")
+
 # A plain file where a folder should be: not even root can write below it.
 blocked = SCRATCH / "good.trace"
 refused(relume("render", good, "-o", blocked / "x.####.exr"), SYSTEM, "render into a file")

@@ -29,18 +29,39 @@ START_TEST(test_ranges)
 	ck_assert_str_eq(frames_of("0-9x3", 20), "0 3 6 9");
 	ck_assert_str_eq(frames_of("8,1-2,1-4x2", 10), "1 2 3 8");
 	ck_assert_str_eq(frames_of("18446744073709551615", 3), "");
+	ck_assert_str_eq(frames_of("7-", 10), "7 8 9");
+	ck_assert_str_eq(frames_of("5-x2,0", 10), "0 5 7 9");
+	ck_assert_str_eq(frames_of("2,8-,4-5", 10), "2 4 5 8 9");
 }
 END_TEST
 
 START_TEST(test_not_ranges)
 {
-	static const char *const bad[] = { "",     "x",   "-1", "1-",  "5-2", "1-5x", "1-5x0", "1,",
+	static const char *const bad[] = { "",     "x",   "-1", "-",  "5-2", "1-5x", "1-5x0", "1,",
 		                           ",1",   "1 2", "1;2", "1.5", "+1",  "1-2-3", "18446744073709551616" };
 	struct frame_list list = { 0 };
 
 	for (size_t i = 0; i < sizeof(bad) / sizeof(bad[0]); i++) {
 		ck_assert_msg(frame_list_parse(bad[i], &list) == ERR_USAGE, "'%s' was taken as a range", bad[i]);
 		ck_assert_ptr_null(list.ranges);
+	}
+}
+END_TEST
+
+/* What must be there, and how many there are of those that are. */
+START_TEST(test_open_ranges)
+{
+	static const struct { const char *text; uint64_t needed, of_20; } cases[] = {
+		{ "7", 7, 1 }, { "1-18", 18, 18 }, { "0-9x4", 8, 3 }, { "15-", 15, 5 }, { "3,15-x2", 15, 4 }, { "15-,17", 15, 5 }, { "25-", 25, 0 },
+	};
+
+	for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+		struct frame_list list = { 0 };
+
+		ck_assert_int_eq(frame_list_parse(cases[i].text, &list), 0);
+		ck_assert_msg(frame_list_needed(&list) == cases[i].needed, "%s", cases[i].text);
+		ck_assert_msg(frame_list_count(&list, 20) == cases[i].of_20, "%s", cases[i].text);
+		frame_list_free(&list);
 	}
 }
 END_TEST
@@ -179,6 +200,7 @@ int main(void)
 
 	tcase_add_test(tcase, test_ranges);
 	tcase_add_test(tcase, test_not_ranges);
+	tcase_add_test(tcase, test_open_ranges);
 	tcase_add_test(tcase, test_chunks);
 	tcase_add_test(tcase, test_last_and_count);
 	tcase_add_test(tcase, test_overlapping_ranges);
