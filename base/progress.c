@@ -80,9 +80,23 @@ static void fill_bar(char bar[WIDTH + 1], uint64_t done, uint64_t total)
 	bar[WIDTH] = '\0';
 }
 
+/*
+ * Seconds left, by the frames since the first one: that one waited for kernels. Frames of several workers come at once; a second shows more.
+ * @return below 0: not known yet
+ */
+static double seconds_left(const struct progress *p)
+{
+	const double since_s = progress_clock_s() - p->first_s;
+	const uint64_t worked = p->done - p->skipped;
+
+	if (p->done >= p->total)
+		return 0;
+	return p->first_s > 0 && worked > 1 && since_s >= 1 ? since_s / (double)(worked - 1) * (double)(p->total - p->done) : -1;
+}
+
 static void draw_bar(const struct progress *p, uint64_t frame)
 {
-	double elapsed = progress_clock_s() - p->start_s;
+	double elapsed = progress_clock_s() - p->start_s, left = seconds_left(p);
 	/* Skipped frames cost next to nothing; what is left is counted by those that were worked on. */
 	double rate = elapsed > 0 ? (double)(p->done - p->skipped) / elapsed : 0;
 	char bar[WIDTH + 1];
@@ -94,13 +108,16 @@ static void draw_bar(const struct progress *p, uint64_t frame)
 	uint64_t done = p->done < p->total ? p->done : p->total;
 
 	fill_bar(bar, done, p->total);
-	fprintf(stderr, "\r\033[K%s [%s] %" PRIu64 "/%" PRIu64 "  %.1f frames/s  %.0f s left", p->verb, bar, done,
-	        p->total, rate, rate > 0 ? (double)(p->total - done) / rate : 0.0);
+	fprintf(stderr, "\r\033[K%s [%s] %" PRIu64 "/%" PRIu64 "  %.1f frames/s", p->verb, bar, done, p->total, rate);
+	if (left >= 0)
+		fprintf(stderr, "  %.0f s left", left);
 }
 
 void progress_step(struct progress *p, uint64_t frame, const char *text)
 {
 	p->done++;
+	if (p->first_s == 0 && p->done > p->skipped)
+		p->first_s = progress_clock_s();
 	if (p->style == PROGRESS_BAR)
 		draw_bar(p, frame);
 	else if (p->style == PROGRESS_LINES && p->total)
@@ -118,8 +135,8 @@ void progress_start(const struct progress *p, uint64_t frame, double seconds)
 	fflush(stdout);
 }
 
-/* Seconds between what is told of a replay. */
-static double replay_interval_s(const struct progress *p)
+/* Seconds between what is told of a frame that is not done yet. */
+static double telling_interval_s(const struct progress *p)
 {
 	return p->style == PROGRESS_BAR ? 0.1 : p->style == PROGRESS_JSON ? 1 : 10;
 }
@@ -134,7 +151,7 @@ void progress_replay(struct progress *p, uint64_t frame, uint64_t played, uint64
 		p->why = why;
 		p->told_s = why && p->style == PROGRESS_BAR ? 0 : now;
 	}
-	if (of == 0 || now - p->told_s < replay_interval_s(p) || p->style == PROGRESS_NONE)
+	if (of == 0 || now - p->told_s < telling_interval_s(p) || p->style == PROGRESS_NONE)
 		return;
 	p->told_s = now;
 	if (p->style == PROGRESS_BAR) {
@@ -147,6 +164,28 @@ void progress_replay(struct progress *p, uint64_t frame, uint64_t played, uint64
 	} else {
 		fprintf(stderr, "replayed %" PRIu64 " of %" PRIu64 " frames before frame %" PRIu64 "%s%s\n", played, of, frame, why ? ": " : "",
 		        why ? why : "");
+	}
+}
+
+void progress_sample(struct progress *p, uint64_t frame, uint32_t done, uint32_t of)
+{
+	const double now = progress_clock_s();
+	char count[32];
+
+	if (p->sampled_s == 0)
+		p->sampled_s = now;
+	if (now - p->sampled_s < telling_interval_s(p) || p->style == PROGRESS_NONE)
+		return;
+	p->sampled_s = now;
+	snprintf(count, sizeof(count), of ? "%" PRIu32 " of %" PRIu32 : "%" PRIu32, done, of);
+	if (p->style == PROGRESS_BAR) {
+		draw_bar(p, frame);
+		fprintf(stderr, "  frame %" PRIu64 ": sample %s", frame, count);
+	} else if (p->style == PROGRESS_JSON) {
+		printf("{\"event\": \"sample\", \"frame\": %" PRIu64 ", \"done\": %" PRIu32 ", \"of\": %" PRIu32 "}\n", frame, done, of);
+		fflush(stdout);
+	} else {
+		fprintf(stderr, "frame %" PRIu64 ": sample %s\n", frame, count);
 	}
 }
 

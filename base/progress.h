@@ -5,11 +5,12 @@
  *     {"event": "begin", "verb": "rendered", "total": 500}
  *     {"event": "start", "frame": 12, "seconds": 0.05}
  *     {"event": "replay", "frame": 12, "played": 7, "of": 12}
+ *     {"event": "sample", "frame": 12, "done": 3, "of": 64}
  *     {"event": "frame", "frame": 12, "state": "done", "seconds": 0.123, "done": 3, "total": 500}
  *     {"event": "end", "done": 500, "seconds": 61.2, "peak_memory_bytes": 536870912}
  *
  * A state is "done", "skipped" (there already) or "failed"; total is 0 where it is not known. "replay" tells every second how many frames have
- * been played that frame 12 depends on or follows.
+ * been played that frame 12 depends on or follows, "sample" how many samples of it are there; `of` is 0 where time or noise decides.
  */
 #pragma once
 
@@ -28,6 +29,8 @@ struct progress {
 	uint64_t replayed;       /* progress_replay's last frame */
 	const char *why;         /* and what it needed; borrowed */
 	double told_s;           /* when it has told of both, or was called for them first */
+	double first_s;          /* when the first frame was done that was worked on; 0: none */
+	double sampled_s;        /* when progress_sample has told last, or was called first; 0: never */
 	struct { uint64_t frame; double seconds; } slowest[PROGRESS_SLOWEST]; /* slowest first; seconds 0: none */
 };
 
@@ -54,6 +57,12 @@ void progress_start(const struct progress *p, uint64_t frame, double seconds);
  * @param why  what the frame needs of them, borrowed until the next call; NULL: they are on the way
  */
 void progress_replay(struct progress *p, uint64_t frame, uint64_t played, uint64_t of, const char *why);
+
+/**
+ * So many samples of a frame under way are done. A bar shows it at once, lines tell it every ten seconds.
+ * @param of  how many it gets; 0: that shows in time
+ */
+void progress_sample(struct progress *p, uint64_t frame, uint32_t done, uint32_t of);
 
 /** As progress_step, with a state ("done", "skipped", "failed") and the seconds that the frame took. */
 void progress_frame(struct progress *p, uint64_t frame, const char *state, double seconds);

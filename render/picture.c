@@ -68,7 +68,8 @@ static int trace_seen(const struct settings *settings, struct tracer *tracer, co
 	return err;
 }
 
-int picture_render(const struct settings *settings, struct tracer *tracer, const struct scene *scene, uint64_t number, struct image *img)
+int picture_render(const struct settings *settings, struct tracer *tracer, const struct scene *scene, uint64_t number,
+                   const struct picture_listener *listener, struct image *img)
 {
 	struct preview preview = { settings, number };
 	struct tracer_options options = settings->tracer;
@@ -78,6 +79,8 @@ int picture_render(const struct settings *settings, struct tracer *tracer, const
 
 	options.preview = settings->preview ? preview_show : NULL;
 	options.preview_user = &preview;
+	options.sampled = listener->sampled;
+	options.sampled_user = listener->user;
 	if (options.mode == TRACER_GL)
 		return trace_seen(settings, tracer, scene, number, &options, img);
 	err = unseen_add(settings->look, scene, &whole);

@@ -5,10 +5,18 @@
 #include "scene/scene.h"
 #include "tracer/frame/trace.h"
 
+/* Told how many samples of a picture there are (tracer_options.sampled). */
+struct picture_listener {
+	void (*sampled)(void *user, uint32_t done, uint32_t of);
+	void *user;
+};
+
 /**
  * @param tracer  traces it; one picture at a time
  * @param number  the picture's: the frame's, or of a turntable
+ * @param listener  called in this thread
  * @param img     filled; image_free, also after an error
  * @return 0; ERR_INPUT: the camera's file is not for this frame; ERR_SYSTEM (reported)
  */
-int picture_render(const struct settings *settings, struct tracer *tracer, const struct scene *scene, uint64_t number, struct image *img);
+int picture_render(const struct settings *settings, struct tracer *tracer, const struct scene *scene, uint64_t number,
+                   const struct picture_listener *listener, struct image *img);

@@ -177,6 +177,8 @@ static int prepare_device(struct pipeline *p, struct device *dev)
 		device_keep_programs(dev, s->cache, 0);
 	else if (!s->no_cache && folder_cached("kernels", folder, sizeof(folder)))
 		device_keep_programs(dev, folder, 0);
+	if (s->progress != PROGRESS_NONE && s->progress != PROGRESS_JSON)
+		device_tell_compiling(dev);
 	return err ? err : device_take_hook(dev, s->hook);
 }
 
@@ -230,13 +232,14 @@ static int render_frames(struct pipeline *p, uint64_t total, struct missing *mis
 	p->carried->has_begun = 1;
 	err = pipeline_run(p);
 	progress_end(progress);
-	if (!err || progress->failed)
+	if (!err || progress->failed) {
 		progress_summary(progress);
+		totals_print(s, p->carried);
+	}
 	for (size_t i = 0; i < p->n_devices && p->n_devices > 1 && p->shares && s->progress != PROGRESS_NONE; i++)
 		fprintf(stderr, "  device %zu: %llu frame%s (%s)\n", i, (unsigned long long)p->shares[i], plural(p->shares[i]),
 		        device_name(p->devices[i]));
 	free(p->shares);
-	totals_print(s, p->carried);
 	matched_report(s->look, s->progress == PROGRESS_NONE);
 	display_destroy(&p->display);
 	report(p, missing);

@@ -39,10 +39,27 @@ static int tell_time(const struct scene *scene, struct image *img)
 	return scene->time_ns ? image_set_attribute(img, "relume:time", "%llu", (unsigned long long)scene->time_ns) : 0;
 }
 
+/* A frame that a worker samples. */
+struct sampled {
+	struct pipeline_state *state;
+	uint64_t frame;
+};
+
+static void note_sample(void *user, uint32_t done, uint32_t of)
+{
+	const struct sampled *s = user;
+
+	pthread_mutex_lock(&s->state->lock);
+	progress_sample(&s->state->p->carried->progress, s->frame, done, of);
+	pthread_mutex_unlock(&s->state->lock);
+}
+
 static enum frame_end trace(struct worker *w, struct tracer *tracer, const struct shot *shot, struct picture *picture)
 {
 	const struct scene *scene = shot->of->scene;
 	const struct settings *settings = w->state->p->settings;
+	struct sampled sampled = { w->state, shot->number };
+	const struct picture_listener listener = { note_sample, &sampled };
 	double start = progress_clock_s();
 	int err, late;
 
@@ -58,7 +75,7 @@ static enum frame_end trace(struct worker *w, struct tracer *tracer, const struc
 	watch_begin(w->state->p->watch, w->seat, shot->number);
 	/* some need the whole planes */
 	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion || settings->caustics || settings->denoise ? 0 : packer_count(w->state);
-	err = picture_render(settings, tracer, scene, shot->number, &picture->img);
+	err = picture_render(settings, tracer, scene, shot->number, &listener, &picture->img);
 	if (!err && !w->state->turned)
 		err = tell_time(scene, &picture->img);
 	if (!err)

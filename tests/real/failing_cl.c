@@ -13,7 +13,7 @@
  *                    segv, exit, hang, spin (hangs and computes), code (returns an error that OpenCL does not have). Several with ';'
  *   FAULT_MET=FILE   gets a line for each of these
  *   FAULT_WITH=WORD  only in processes that have made a kernel whose name has this
- *   SLOW_BUILD=1     compiles for a second and a half longer
+ *   SLOW_BUILD=N     compiles for so many seconds and a half longer
  *   AS_TYPE=gpu      says that it is a GPU (accelerator: one of these)
  *   AS_PLATFORM=NAME, AS_DRIVER=VERSION  says so
  *   AS_MEMORY=N      has so many bytes of memory
@@ -335,7 +335,7 @@ cl_int clBuildProgram(cl_program program, cl_uint n, const cl_device_id *devices
 	if (getenv("FAULT") && REAL(clGetProgramInfo)(program, CL_PROGRAM_SOURCE, sizeof(text) - 1, text, NULL) == CL_SUCCESS && !code)
 		code = meet("build", text);
 	if (getenv("SLOW_BUILD"))
-		nanosleep(&(struct timespec){ 1, 500000000 }, NULL);
+		nanosleep(&(struct timespec){ (time_t)number("SLOW_BUILD"), 500000000 }, NULL);
 	return code ? code : REAL(clBuildProgram)(program, n, devices, options, notify, user);
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-# limit: 200 s
+# limit: 300 s
 """Devices as `relume devices` lists them and --device names them; one that lacks memory; one of two that fails in the middle."""
 import json
 import os
@@ -62,7 +62,10 @@ done = subprocess.run([RELUME, "render", trace, "-f", "0", "-o", SCRATCH / "slow
                       stdin=subprocess.DEVNULL, timeout=150, check=False)
 os.close(end)
 said = os.read(terminal, 65536).decode()
-check(done.returncode == 0 and re.search(r"compiling kernels/\w+/\w+_packet.cl for this device", said), f"slow to compile: {said}")
+check(done.returncode == 0 and re.search(r"compiling kernels for this device, once: kernels/\w+/\w+_packet.cl", said), f"slow to compile: {said}")
+for style, lines in (("lines", 1), ("none", 0)): # once, where nobody sees a bar
+    done = relume("render", trace, "-f", "0", "-o", SCRATCH / "slow.#.exr", "--no-cache", "--mode", "gl", "--progress", style, env=fake(SLOW_BUILD="5"))
+    check(done.returncode == 0 and done.stderr.count("compiling kernels for this device, once") == lines, f"slow to compile, --progress {style}: {done.stderr}")
 
 # Memory that is not there is said before it is used, in one line.
 for name, words in (("AS_MEMORY", "are needed on this device, which has 2"), ("AS_BUFFER", "makes none of more than 2")):

@@ -1,6 +1,8 @@
 /* base/progress and base/err: what goes to standard error, off a terminal. (The bar: tests/real/test_progress.py.) */
 #include "base/progress.h"
 
+#include <string.h>
+
 #include "base/err.h"
 #include "tests/case.h"
 #include "tests/said.h"
@@ -79,6 +81,66 @@ START_TEST(test_replay)
 }
 END_TEST
 
+static void run_samples(void)
+{
+	struct progress p;
+
+	progress_begin(&p, "rendered", 2);
+	progress_sample(&p, 40, 1, 64);
+	p.sampled_s -= 9;
+	progress_sample(&p, 40, 2, 64);
+	p.sampled_s -= 1.5;
+	progress_sample(&p, 40, 3, 64);
+	progress_sample(&p, 40, 4, 64);
+	p.sampled_s -= 11;
+	progress_sample(&p, 41, 900, 0);
+	progress_end(&p);
+}
+
+START_TEST(test_samples)
+{
+	capture_stderr(run_samples);
+	ck_assert_str_eq(captured, "frame 40: sample 3 of 64\nframe 41: sample 900\n");
+}
+END_TEST
+
+/* Forty seconds of compiling, then ten frames a second. */
+static void run_bar(void)
+{
+	struct progress p;
+
+	progress_begin_style(&p, "rendered", 31, PROGRESS_BAR);
+	p.start_s -= 43;
+	progress_step(&p, 0, "");
+	fputc('\n', stderr);
+	progress_step(&p, 1, "");
+	fputc('\n', stderr);
+	p.first_s -= 2;
+	p.done = 20;
+	progress_step(&p, 20, "");
+	fputc('\n', stderr);
+	p.sampled_s = p.first_s;
+	progress_sample(&p, 21, 5, 8);
+	fputc('\n', stderr);
+	p.done = 30;
+	progress_step(&p, 30, "");
+	progress_end(&p);
+}
+
+/* What is left goes by the frames since the first, and is not told before they tell it. */
+START_TEST(test_time_left)
+{
+	const char *line = captured;
+
+	capture_stderr(run_bar);
+	for (int i = 0; i < 2; i++, line = strchr(line, '\n') + 1)
+		ck_assert_msg(memmem(line, (size_t)(strchr(line, '\n') - line), "left", 4) == NULL, "%s", captured);
+	ck_assert_msg(strstr(line, "21/31") && strstr(line, "  1 s left\n"), "%s", captured);
+	ck_assert_msg(strstr(line, "  1 s left  frame 21: sample 5 of 8\n"), "%s", captured);
+	ck_assert_msg(strstr(line, "31/31") && strstr(line, "  0 s left\r"), "%s", captured);
+}
+END_TEST
+
 START_TEST(test_reports)
 {
 	capture_stderr(report_lines);
@@ -94,6 +156,8 @@ int main(void)
 
 	tcase_add_test(tcase, test_lines);
 	tcase_add_test(tcase, test_replay);
+	tcase_add_test(tcase, test_samples);
+	tcase_add_test(tcase, test_time_left);
 	tcase_add_test(tcase, test_reports);
 	return run_case(tcase, "progress");
 }

@@ -422,6 +422,13 @@ void cl_keep_programs(struct cl_device *dev, const char *folder, int always)
 	pthread_mutex_unlock(&dev->common->programs_lock);
 }
 
+void cl_tell_compiling(struct cl_device *dev)
+{
+	pthread_mutex_lock(&dev->common->programs_lock);
+	dev->common->keeping.tells = 1;
+	pthread_mutex_unlock(&dev->common->programs_lock);
+}
+
 static void *build_early(void *arg)
 {
 	struct cl_common *c = arg;

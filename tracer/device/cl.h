@@ -35,6 +35,7 @@ void cl_build_early(struct cl_device *dev, struct fault_place *place);
 /* As their namesakes in device.h. */
 void cl_take_hook(struct cl_device *dev, const struct hook *hook);
 void cl_keep_programs(struct cl_device *dev, const char *folder, int always);
+void cl_tell_compiling(struct cl_device *dev);
 void cl_leave_programs(struct cl_device *dev);
 unsigned cl_programs_found(struct cl_device *dev);
 int cl_report_lack(struct cl_device *dev);

@@ -185,32 +185,40 @@ static int report_build_log(cl_program program, cl_device_id device, const char 
 struct waiting {
 	pthread_mutex_t lock;
 	pthread_cond_t changed;
-	int done;
+	int done, is_terminal;
 	const char *name;
+	struct cl_keeping *keeping;
 };
 
-/* Say after a second what takes so long, over a progress bar that may stand there. */
+#define TERMINAL_S 1
+#define LINES_S 5
+
+/* Say after some seconds what takes so long: on a terminal each program, over a progress bar that may stand there; else once. */
 static void *say_when_late(void *user)
 {
 	struct waiting *w = user;
 	struct timespec end;
 
 	clock_gettime(CLOCK_REALTIME, &end);
-	end.tv_sec++;
+	end.tv_sec += w->is_terminal ? TERMINAL_S : LINES_S;
 	pthread_mutex_lock(&w->lock);
 	while (!w->done && pthread_cond_timedwait(&w->changed, &w->lock, &end) == 0)
 		;
-	if (!w->done)
-		fprintf(stderr, "\r\033[Kcompiling %s for this device\n", w->name);
+	if (!w->done && w->is_terminal)
+		fprintf(stderr, "\r\033[Kcompiling kernels for this device, once: %s\n", w->name);
+	else if (!w->done)
+		fprintf(stderr, "compiling kernels for this device, once; this may take a minute\n");
+	if (!w->done && !w->is_terminal)
+		w->keeping->tells = 2;
 	pthread_mutex_unlock(&w->lock);
 	return NULL;
 }
 
-static cl_int compile(cl_program program, cl_device_id device, const char *name)
+static cl_int compile(cl_program program, cl_device_id device, const char *name, struct cl_keeping *keeping)
 {
-	struct waiting w = { PTHREAD_MUTEX_INITIALIZER, PTHREAD_COND_INITIALIZER, 0, name };
+	struct waiting w = { PTHREAD_MUTEX_INITIALIZER, PTHREAD_COND_INITIALIZER, 0, isatty(STDERR_FILENO), name, keeping };
 	pthread_t thread;
-	const int watched = isatty(STDERR_FILENO) && pthread_create(&thread, NULL, say_when_late, &w) == 0;
+	const int watched = (w.is_terminal || keeping->tells == 1) && pthread_create(&thread, NULL, say_when_late, &w) == 0;
 	const cl_int code = clBuildProgram(program, 1, &device, options_for(device), NULL, NULL);
 
 	if (!watched)
@@ -224,7 +232,7 @@ static cl_int compile(cl_program program, cl_device_id device, const char *name)
 }
 
 static int build_program(cl_context context, cl_device_id device, const struct kernel_file *kernels, struct around around,
-                         struct fault_place *place, int *said, cl_program *out)
+                         struct cl_keeping *keeping, struct fault_place *place, int *said, cl_program *out)
 {
 	const char *texts[] = { prelude, around.before, kernels->text, around.after };
 	cl_int code;
@@ -233,7 +241,7 @@ static int build_program(cl_context context, cl_device_id device, const struct k
 	*out = clCreateProgramWithSource(context, *around.after ? 4 : 3, texts, NULL, &code);
 	if (!*out)
 		return cl_report(said, code, kernels->name);
-	code = compile(*out, device, kernels->name);
+	code = compile(*out, device, kernels->name, keeping);
 	if (code == CL_SUCCESS)
 		return 0;
 	if (!*around.after)
@@ -295,7 +303,7 @@ int cl_program_make(cl_context context, cl_device_id device, size_t file, const 
 	if (*out) {
 		keeping->found++;
 	} else {
-		err = build_program(context, device, kernels, around, place, said, out);
+		err = build_program(context, device, kernels, around, keeping, place, said, out);
 		if (!err && keeping->folder[0])
 			leave_program(*out, path, key, keeping);
 	}

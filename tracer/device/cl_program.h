@@ -16,6 +16,7 @@ struct fault_place;
 struct cl_keeping {
 	char folder[PATH_MAX - 96]; /* "": nowhere */
 	unsigned found;             /* programs that came from there */
+	int tells;                  /* 1: one line says so where compiling takes long, outside a terminal, too; 2: it has */
 };
 
 int cl_program_is_pocl(cl_device_id device);

@@ -322,6 +322,12 @@ void device_keep_programs(struct device *dev, const char *folder, int always)
 		cl_keep_programs(dev->cl, folder, always);
 }
 
+void device_tell_compiling(struct device *dev)
+{
+	if (dev->cl)
+		cl_tell_compiling(dev->cl);
+}
+
 void device_build_early(struct device *dev)
 {
 	struct fault_place *place = dev->cl ? fault_open((int)dev->description.number) : NULL;

@@ -123,6 +123,9 @@ extern const char *const device_family_names[N_DEVICE_FAMILIES + 1]; /* ended by
  */
 void device_keep_programs(struct device *dev, const char *folder, int always);
 
+/** From now on, one line on standard error says so where compiling takes long, be that a terminal or not. On a terminal it always does. */
+void device_tell_compiling(struct device *dev);
+
 /**
  * Build the program that most frames' kernels come from, where there is one, on a thread of its own: PoCL takes 0.1 s to load what it
  * compiled before. Call it after device_choose_family, device_keep_programs and device_take_hook; only the first call counts.

@@ -446,6 +446,8 @@ static int sum_passes(struct job *job)
 		job->is_first = i == 1;
 		for (job->turn = is_path ? SAMPLE_TURNS : 0; job->turn < SAMPLE_TURNS + is_path && !err; job->turn++)
 			err = trace_pass(job);
+		if (!err && o->sampled)
+			o->sampled(o->sampled_user, i, o->seconds > 0 || o->noise > 0 ? 0 : n);
 		if (!err)
 			err = is_enough(job, &s, i, &enough);
 	}

@@ -35,6 +35,9 @@ struct tracer_options {
 	/* Where not NULL, shown a whole picture of the samples so far, now and then. @return 0, or ERR_* (reported), which ends the frame */
 	int (*preview)(void *user, struct image *img);
 	void *preview_user;
+	/* Where not NULL, told after each sample how many there are. of: 0 where time or noise decides */
+	void (*sampled)(void *user, uint32_t done, uint32_t of);
+	void *sampled_user;
 	unsigned rays;    /* rays to each light that has a size, and into the surroundings, a sample; 0 counts as 16 */
 	float clamp;      /* of mode path: the most light that a path may bring, but by one mirror or glass alone; 0: no bound */
 	float reach;      /* of openness, eye-space units; 0: without end */
