@@ -19,7 +19,8 @@ char *base64_url(const char *type, const uint8_t *bytes, size_t n)
 	to = text + sprintf(text, "data:%s;base64,", type);
 	for (size_t i = 0; i < n; i += 3) {
 		const size_t left = n - i;
-		const uint32_t group = (uint32_t)bytes[i] << 16 | (left > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0);
+		const uint32_t second = left > 1 ? bytes[i + 1] : 0, third = left > 2 ? bytes[i + 2] : 0;
+		const uint32_t group = (uint32_t)bytes[i] << 16 | second << 8 | third;
 
 		*to++ = digits[group >> 18];
 		*to++ = digits[group >> 12 & 63];

@@ -255,8 +255,8 @@ static int run(struct film *f)
 		fprintf(stderr, "%s: %" PRIu64 " frame%s, %.1f s, %u x %u\n", f->asked->output, total, plural(total),
 		        (double)f->n_pictures / f->fps, f->picture.width, f->picture.height);
 	if (!err && f->n_slowed)
-		fprintf(stderr, "  the program showed %" PRIu64 " of these frames in %.2g s, faster than films go: each stands for one picture (--fps sets how many a second)\n",
-		        f->n_slowed, f->shown_s);
+		fprintf(stderr, "  the program showed %" PRIu64 " of these frames in %.2g s, faster than films go: each stands for one picture "
+		        "(--fps sets how many a second)\n", f->n_slowed, f->shown_s);
 	return err;
 }
 

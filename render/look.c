@@ -24,11 +24,12 @@ static const struct options_row rows[] = {
 	{ "frames", 'f', "LIST", "frames to study, counted from 0: \"7\", \"1-500\", \"55-\" to the end, \"1-500x5\", with commas (default: all); of many "
 	  "only some, evenly spread", options_frames, .at = offsetof(struct asked, frames) },
 	{ "output", 'o', "FILE", "the rules, as NAME.look.yaml", options_text, .at = offsetof(struct asked, output), .use = CONFINE_MAKES },
-	{ "sheet", 0, "FILE.html", "a page that shows one frame, the first of --frames or the recording's middle one: point at a surface to see its draw, mesh, "
-	  "textures and material, and a rule for it; below are all textures and meshes. Without -o nothing is studied", options_text,
+	{ "sheet", 0, "FILE.html", "a page that shows one frame, the first of --frames or the recording's middle one: point at a "
+	  "surface to see its draw, mesh, textures and material, and a rule for it; below are all textures and meshes. "
+	  "Without -o nothing is studied", options_text,
 	  .at = offsetof(struct asked, sheet), .use = CONFINE_MAKES },
-	{ "device", 'd', "DEVICE", "of --sheet: a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference (default: the first GPU, "
-	  "else CPU)", options_text, .at = offsetof(struct asked, device) },
+	{ "device", 'd', "DEVICE", "of --sheet: a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference "
+	  "(default: the first GPU, else CPU)", options_text, .at = offsetof(struct asked, device) },
 	{ OPTIONS_NO_SANDBOX },
 };
 
