@@ -137,7 +137,7 @@ static void tell(const struct score *s, const struct scene_draw *draw)
 	        plural(s->blame[0].pixels));
 }
 
-static int judge(const struct sighted *v, const struct score_picture *ref, uint64_t frame, const char *trace, const char *note)
+static int judge(const struct sighted *v, struct score_picture *ref, uint64_t frame, const char *trace, const char *note)
 {
 	static const struct score_options options = { .channel = "gl" };
 	struct score score = { .frame = frame };

@@ -80,6 +80,8 @@ static const struct options_row rows[] = {
 	  "each of these that one has", options_flag, .at = offsetof(struct options, all) },
 	{ "channel", 0, "LAYER", "what to compare with the reference: gl (default where there is one), beauty, albedo, ...",
 	  options_text, .at = offsetof(struct options, score.channel) },
+	{ "ignore-alpha", 0, NULL, "leave alpha out, and compare colours as they are stored: else pictures of others are compared with colours "
+	  "multiplied by alpha, and one without alpha is opaque", options_flag, .at = offsetof(struct options, score.ignore_alpha) },
 	{ "effects", 0, "E=LO:HI", "gate E3: effect E (shadow, relight, reflect, refract, any) must touch LO to HI per cent of the "
 	  "pixels; either may be left out; may be given several times", parse_effects, .at = offsetof(struct options, score) },
 	{ "baseline", 0, "DIR", "gate B: compare with the frames that 'relume approve' put there",

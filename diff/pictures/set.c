@@ -327,6 +327,8 @@ int set_read(const struct set *set, const struct set_entry *entry, struct image 
 		err = add_record(set, REF_DEPTH, entry->frame, img);
 	if (!err)
 		err = image_set_attribute(img, "relume:encoding", "display");
+	if (!err)
+		err = image_set_attribute(img, "relume:record", "%s", set->name);
 	if (err)
 		image_free(img);
 	return err;

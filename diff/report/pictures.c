@@ -5,7 +5,7 @@
 
 #include "base/err.h"
 #include "diff/score/flip.h"
-#include "diff/score/picture.h"
+#include "diff/score/pair.h"
 
 #define DIFFERENCE_GAIN 8
 
@@ -37,6 +37,8 @@ static int take_reference(struct picture_frame *out)
 		err = score_picture_from_image(&out->image, "beauty", &out->compared);
 	}
 	out->ref.ignore = out->settings.ignore;
+	if (!err)
+		err = score_pair(&out->ref, &out->compared, out->settings.options.ignore_alpha);
 	if (!err && out->ref.width == out->compared.width && out->ref.height == out->compared.height)
 		err = score_make_maps(&out->ref, &out->compared, &out->settings.options, &out->maps);
 	return err;
@@ -90,10 +92,15 @@ static int is_one_color(const uint8_t *rgb, size_t n)
 
 static void fill_difference(const struct score_picture *a, const struct score_picture *b, uint8_t *rgb, size_t n)
 {
-	for (size_t i = 0; i < 3 * n; i++) {
-		int d = DIFFERENCE_GAIN * abs(a->rgb[i] - b->rgb[i]);
+	for (size_t i = 0; i < n; i++) {
+		const int alpha = score_alpha_difference(a, i, b, i);
 
-		rgb[i] = (uint8_t)(d < 255 ? d : 255);
+		for (size_t c = 3 * i; c < 3 * i + 3; c++) {
+			const int colour = score_code_at(a, c) - score_code_at(b, c);
+			const int d = DIFFERENCE_GAIN * (abs(colour) > alpha ? abs(colour) : alpha);
+
+			rgb[c] = (uint8_t)(d < 255 ? d : 255);
+		}
 	}
 }
 

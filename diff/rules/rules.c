@@ -2,6 +2,7 @@
 
 #include <fnmatch.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,6 +37,7 @@ struct yaml_rule {
 	char *match, *frames, *preset;
 	double codes;
 	char *channel, *mask;
+	bool ignore_alpha;
 	struct yaml_bar *bars;
 	struct yaml_effect *effects;
 	struct yaml_rectangle *ignore;
@@ -111,6 +113,7 @@ static const cyaml_schema_value_t gate_schema = {
 	CYAML_FIELD_FLOAT("codes", CYAML_FLAG_OPTIONAL, struct yaml_rule, codes), \
 	OPTIONAL_STRING("channel", struct yaml_rule, channel), \
 	OPTIONAL_STRING("mask", struct yaml_rule, mask), \
+	CYAML_FIELD_BOOL("ignore_alpha", CYAML_FLAG_OPTIONAL, struct yaml_rule, ignore_alpha), \
 	OPTIONAL_LIST("bars", struct yaml_rule, bars, &bar_schema), \
 	OPTIONAL_LIST("effects", struct yaml_rule, effects, &effect_schema), \
 	OPTIONAL_LIST("ignore", struct yaml_rule, ignore, &rectangle_schema), \
@@ -407,6 +410,7 @@ static int apply_rule(const struct score_rules *s, const struct yaml_rule *rule,
 	}
 	if (rule->codes > 0)
 		out->options.codes = rule->codes;
+	out->options.ignore_alpha |= rule->ignore_alpha;
 	if (rule->channel && !out->options.channel)
 		out->options.channel = rule->channel;
 	err = err ? err : apply_mask(s, mask, width, height, out);

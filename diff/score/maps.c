@@ -4,19 +4,20 @@
 #include <stdlib.h>
 
 #include "base/err.h"
-#include "diff/score/picture.h"
+#include "diff/score/pair.h"
 
 #define BAR_PER_LAYER 0.5    /* R1b: more for each blended layer */
 
 /** The smallest difference of one pixel of `a` to the 3x3 pixels around the same place in `b`. */
-static int nearest_difference(const uint8_t *a, const uint8_t *b, int width, int height, int x, int y)
+static int nearest_difference(const struct score_picture *a, const struct score_picture *b, int x, int y)
 {
-	const uint8_t *at = a + 3 * ((size_t)y * (size_t)width + (size_t)x);
+	const int width = (int)a->width, height = (int)a->height;
+	const size_t at = (size_t)y * a->width + (size_t)x;
 	int best = 255;
 
 	for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < height; v++) {
 		for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < width; u++) {
-			int d = score_code_difference(at, b + 3 * ((size_t)v * (size_t)width + (size_t)u));
+			int d = score_difference(a, at, b, (size_t)v * a->width + (size_t)u);
 
 			best = d < best ? d : best;
 		}
@@ -106,11 +107,11 @@ int score_make_maps(const struct score_picture *ref, const struct score_picture 
 				out->band[i] = 0;
 				continue;
 			}
-			int plain = score_code_difference(ref->rgb + 3 * i, traced->rgb + 3 * i), residual = plain;
+			int plain = score_difference(ref, i, traced, i), residual = plain;
 
 			if (plain > codes) {
-				int there = nearest_difference(traced->rgb, ref->rgb, width, height, x, y);
-				int back = nearest_difference(ref->rgb, traced->rgb, width, height, x, y);
+				int there = nearest_difference(traced, ref, x, y);
+				int back = nearest_difference(ref, traced, x, y);
 
 				residual = there > back ? there : back;
 			}

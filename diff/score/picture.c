@@ -14,9 +14,9 @@ uint8_t score_code_from_linear(float linear)
 	return (uint8_t)lrintf(255 * (display > 0 ? display < 1 ? display : 1 : 0));
 }
 
-static uint8_t code_from_display(float display)
+uint8_t score_code(float number, int is_display)
 {
-	return (uint8_t)lrintf(255 * (display > 0 ? display < 1 ? display : 1 : 0));
+	return is_display ? (uint8_t)lrintf(255 * (number > 0 ? number < 1 ? number : 1 : 0)) : score_code_from_linear(number);
 }
 
 static int is_display(const struct image *img)
@@ -26,20 +26,44 @@ static int is_display(const struct image *img)
 	return encoding && strcmp(encoding, "display") == 0;
 }
 
-int score_find_layer(const struct image *img, const char *layer, const float *planes[3])
+/* Channels NAME.X of a layer, or of the layer without a name; those of `suffixes` must all be there. */
+static int find_channels(const struct image *img, const char *layer, const char suffixes[3], const float *planes[3])
 {
 	for (int c = 0; c < 3; c++) {
 		char name[80];
 
-		if (strcmp(layer, "beauty") == 0)
-			snprintf(name, sizeof(name), "%c", "RGB"[c]);
-		else
-			snprintf(name, sizeof(name), "%s.%c", layer, "RGB"[c]);
+		snprintf(name, sizeof(name), "%s%s%c", layer, layer[0] ? "." : "", suffixes[c]);
 		planes[c] = image_channel(img, name);
 		if (!planes[c])
 			return 0;
 	}
 	return 1;
+}
+
+int score_find_layer(const struct image *img, const char *layer, const float *planes[3])
+{
+	static const char *const kinds[] = { "RGB", "XYZ", "rgb", "xyz", "YYY" };
+
+	if (strcmp(layer, "beauty") == 0)
+		return find_channels(img, "", "RGB", planes);
+	for (size_t k = 0; k < sizeof(kinds) / sizeof(kinds[0]); k++)
+		if (find_channels(img, layer, kinds[k], planes))
+			return 1;
+	planes[0] = planes[1] = planes[2] = image_channel(img, layer);
+	return planes[0] != NULL;
+}
+
+static struct score_numbers numbers_of(const struct image *img, const char *layer, const float *const planes[3])
+{
+	const char *alpha = image_attribute(img, "relume:alpha");
+	char name[80];
+
+	snprintf(name, sizeof(name), "%s%sA", strcmp(layer, "beauty") ? layer : "", strcmp(layer, "beauty") ? "." : "");
+	return (struct score_numbers){
+		.rgb = { planes[0], planes[1], planes[2] }, .alpha = image_channel(img, name), .is_display = is_display(img),
+		.is_straight = alpha && strcmp(alpha, "straight") == 0,
+		.is_frame = image_attribute(img, "relume:device") || image_attribute(img, "relume:record"),
+	};
 }
 
 int score_picture_from_image(const struct image *img, const char *layer, struct score_picture *out)
@@ -57,17 +81,19 @@ int score_picture_from_image(const struct image *img, const char *layer, struct 
 	out->height = img->height;
 	for (size_t i = 0; i < n; i++)
 		for (int c = 0; c < 3; c++)
-			out->rgb[3 * i + (size_t)c] = display ? code_from_display(planes[c][i])
-			                                      : score_code_from_linear(planes[c][i]);
+			out->rgb[3 * i + (size_t)c] = score_code(planes[c][i], display);
 	out->depth = image_attribute(img, "relume:unknown") ? NULL : image_channel(img, "gl.depth");
 	out->id = image_channel(img, "id");
 	out->layers = image_channel(img, "layers");
 	out->outside = img->outside;
+	out->numbers = numbers_of(img, layer, planes);
 	return 0;
 }
 
 void score_picture_free(struct score_picture *pic)
 {
 	free(pic->rgb);
+	free(pic->alpha);
+	free(pic->beyond);
 	*pic = (struct score_picture){ 0 };
 }

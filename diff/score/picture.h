@@ -8,7 +8,7 @@
 /**
  * Take a layer out of an image as display codes, and its depth ("gl.depth"), "id" and "layers" if there.
  *
- * @param layer  "gl" means gl.R gl.G gl.B; "beauty" means R G B
+ * @param layer  as score_find_layer
  * @param out    all zero; planes are borrowed from img; free with score_picture_free
  * @return 0, ERR_INPUT (not reported: no such layer) or ERR_SYSTEM (reported)
  */
@@ -18,7 +18,13 @@ void score_picture_free(struct score_picture *pic);
 /** One linear number as a display code; NaN gives 0, beyond [0,1] is clamped. */
 uint8_t score_code_from_linear(float linear);
 
-/** The planes of layer.R, layer.G, layer.B ("beauty": R, G, B); 0 where one is missing. */
+/** A number as a display code, where it is display-referred or linear. */
+uint8_t score_code(float number, int is_display);
+
+/**
+ * The planes of a layer: NAME.R, NAME.G and NAME.B ("beauty": R, G and B), or NAME.X, NAME.Y and NAME.Z; three times the same for NAME.Y
+ * alone and for a single channel of that name. @return 1, or 0: there is none
+ */
 int score_find_layer(const struct image *img, const char *layer, const float *planes[3]);
 
 /** Largest difference of three codes. */

@@ -9,6 +9,7 @@
 #include "diff/score/flip.h"
 #include "diff/score/measures.h"
 #include "diff/score/metrics.h"
+#include "diff/score/pair.h"
 #include "diff/score/picture.h"
 
 const char *const score_outcome_names[N_SCORE_OUTCOMES] = { "passed", "failed", "flaky", "new", "missing", "extra",
@@ -66,11 +67,13 @@ static int measure_info(const struct gate_frame *f)
 }
 
 /** What the gates on colour and effects count. */
-static int prepare(struct gate_frame *f)
+static int prepare(struct gate_frame *f, struct score_picture *ref)
 {
 	const size_t n = (size_t)f->ref->width * f->ref->height;
 	int err = score_picture_from_image(f->img, f->layer, &f->traced);
 
+	if (!err)
+		err = score_pair(ref, &f->traced, f->options->ignore_alpha);
 	f->blamed = calloc(n ? n : 1, 1);
 	if (!err && !f->blamed)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
@@ -88,9 +91,9 @@ static int prepare(struct gate_frame *f)
 }
 
 /** Everything that is measured on a valid frame. */
-static int measure_frame(struct gate_frame *f)
+static int measure_frame(struct gate_frame *f, struct score_picture *ref)
 {
-	int err = prepare(f);
+	int err = prepare(f, ref);
 
 	for (int g = GATE_V + 1; !err && g < N_GATES; g++) {
 		if (score_gates[g].needs_reference && !f->ref->rgb)
@@ -110,7 +113,7 @@ static int measure_frame(struct gate_frame *f)
 	return err;
 }
 
-int score_frame(const struct score_picture *ref, const struct image *img, uint64_t frame,
+int score_frame(struct score_picture *ref, const struct image *img, uint64_t frame,
                 const struct score_options *options, const struct score_approved *approved, struct score *out)
 {
 	const float *planes[3];
@@ -123,7 +126,7 @@ int score_frame(const struct score_picture *ref, const struct image *img, uint64
 	snprintf(out->layer, sizeof(out->layer), "%s", f.layer);
 	err = measures[GATE_V](&f);
 	if (!err && out->gates[GATE_V].state != SCORE_FAILED)
-		err = measure_frame(&f);
+		err = measure_frame(&f, ref);
 	else
 		for (int g = GATE_V + 1; g < N_GATES; g++)
 			gate_note(&f, (enum score_gate_id)g, "the frame is not valid");

@@ -8,6 +8,8 @@
  *
  * Conventions
  *   codes    display-referred numbers of 8 bits; linear channels go through sRGB's curve and are rounded half to even
+ *   alpha    of pictures of others: compared, with colours multiplied by it; pictures without it are opaque (pair.h)
+ *   range    between two linear pictures, values below 0 and above 1 have codes, too (pair.h); elsewhere they are clamped
  *   rows     the top row first, as in image.h
  *   edges    a pixel is in the edge band when one of its 8 neighbours has another id, or when window depth bends at it:
  *            |z[-1] - 2 z[0] + z[+1]| > SCORE_DEPTH_EPSILON + max(|z[+1] - z[0]|, |z[0] - z[-1]|) / 8 along x or y. A
@@ -108,10 +110,21 @@ struct score {
 	const char *flaky_reason; /* borrowed from the configuration; NULL where nothing is flaky */
 };
 
+/* What a picture's codes were made from, for pair.h; all borrowed. rgb NULL: not known. */
+struct score_numbers {
+	const float *rgb[3], *alpha; /* alpha NULL: the layer has none */
+	int is_display;  /* 1: display-referred numbers, 0: linear light */
+	int is_straight; /* 1: colours are not multiplied by alpha */
+	int is_frame;    /* 1: a frame of ours or its reference: a framebuffer, whose alpha nobody sees */
+};
+
 /* One side of a comparison. Planes are borrowed, NULL where the picture has none. */
 struct score_picture {
 	uint32_t width, height;
 	uint8_t *rgb;          /* [height][width][3], codes; owned */
+	uint8_t *alpha;        /* [height][width], codes; owned; NULL: not compared (pair.h) */
+	int16_t *beyond;       /* [height][width][3]: how far codes are below 0 or above 255; owned; NULL: none is (pair.h) */
+	struct score_numbers numbers;
 	const float *depth;    /* window depth, [0,1] */
 	const float *id;       /* draw number, 0: none */
 	const float *layers;   /* number of blended layers on the pixel */
@@ -153,6 +166,7 @@ struct score_options {
 	double codes;                 /* in place of SCORE_CODES; 0: that */
 	const char *const *channels;  /* borrowed; names of channels that must be there (V) */
 	size_t n_channels;
+	int ignore_alpha;             /* 1: alpha is not compared, and colours are compared as they are stored */
 	/* Yee's metric (oiio_compare_yee), which is slow; NULL: not wanted. Handed in: scoring does not know OpenImageIO. */
 	int (*yee)(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *count);
 	const char *channel; /* layer to compare: "gl", "beauty", or any; NULL: gl where there is one, else beauty */
@@ -161,12 +175,12 @@ struct score_options {
 /**
  * Score one traced frame.
  *
- * @param ref     the reference
+ * @param ref     the reference; its codes become those of the pair (pair.h)
  * @param img     the traced frame; any size and content
  * @param frame   number of the frame that `img` should be
  * @param approved  what gate B compares with; NULL: B is not measured
  * @param out     filled; outcome is PASSED or FAILED
  * @return 0 or ERR_SYSTEM (reported)
  */
-int score_frame(const struct score_picture *ref, const struct image *img, uint64_t frame,
+int score_frame(struct score_picture *ref, const struct image *img, uint64_t frame,
                 const struct score_options *options, const struct score_approved *approved, struct score *out);

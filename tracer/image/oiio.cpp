@@ -145,6 +145,8 @@ int add_attributes(struct image *img, const OIIO::ImageSpec &spec)
 	}
 	if (int err = add_description(img, spec.get_string_attribute("ImageDescription")))
 		return err;
+	if (spec.get_int_attribute("oiio:UnassociatedAlpha") && image_set_attribute(img, "relume:alpha", "straight") != 0)
+		return ERR_SYSTEM;
 	if (!image_attribute(img, "relume:encoding"))
 		return image_set_attribute(img, "relume:encoding", "%s", is_integer(spec.format) ? "display" : "linear");
 	return 0;
