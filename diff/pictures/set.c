@@ -50,8 +50,12 @@ static const char *extension_of(const char *path)
 
 static int is_image_name(const char *path)
 {
-	static const char *const known[] = { "exr", "png", "jpg", "jpeg", "tif", "tiff", "bmp", "tga", "ppm", "pgm",
-	                                     "hdr", "webp", "dpx" };
+	/* Formats of OpenImageIO that hold pictures; which of them it reads depends on how it was built. */
+	static const char *const known[] = {
+		"exr", "png", "jpg", "jpe", "jpeg", "tif", "tiff", "tx", "bmp", "dib", "tga", "tpic", "ppm", "pgm", "pbm", "pnm", "pfm",
+		"hdr", "rgbe", "webp", "dpx", "cin", "sgi", "rgb", "rgba", "bw", "int", "inta", "gif", "psd", "pdd", "psb", "jp2", "j2k", "j2c",
+		"dds", "iff", "rla", "pic", "fits", "heic", "heif", "avif", "jxl", "dcm", "zfile",
+	};
 
 	for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++)
 		if (strcasecmp(extension_of(path), known[i]) == 0)

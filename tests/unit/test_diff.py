@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -299,6 +300,13 @@ class Diff(unittest.TestCase):
         white = [bytes(3 * 5) + b"\xff" * (3 * 40) + bytes(3 * 3)] * HEIGHT
         write_png(self.dir / "m.png", white)
         self.diff(self.ref, self.traced, *self.config("rules:\n- mask: m.png\n"), expect=0)
+        shutil.copy(self.ref / "a.0003.png", self.traced / "b.3.png")
+        subprocess.run(["oiiotool", self.ref / "a.0002.png", "--ch", "R,G,B,A=0.5", "-o", self.traced / "b.2.png"], check=True)
+        self.diff(self.ref, self.traced, *self.config("rules:\n- ignore_alpha: no\n"), expect=1)
+        subprocess.run(["oiiotool", self.ref / "a.0002.png", "--ch", "R,G,B,A=0.5", "--attrib", "oiio:UnassociatedAlpha", "1", "-o", self.traced / "b.2.tif"],
+                       check=True)
+        (self.traced / "b.2.png").unlink()
+        self.diff(self.ref, self.traced, *self.config("rules:\n- {frames: 2, ignore_alpha: yes}\n"), expect=0)
 
     def test_bars(self):
         write_png(self.traced / "b.2.png", drifted(picture(2)))
