@@ -13,12 +13,15 @@
 #include "base/options.h"
 #include "base/part.h"
 #include "diff/baseline/baseline.h"
+#include "diff/report/junit.h"
 #include "diff/report/markdown.h"
 #include "diff/report/output.h"
 #include "diff/report/report.h"
+#include "diff/report/summary.h"
+#include "diff/report/table.h"
 #include "diff/runs/scoring.h"
 #include "diff/score/gates.h"
-#include "diff/pictures/set.h"
+#include "diff/pictures/match.h"
 #include "diff/rules/rules.h"
 #include "diff/runs/runs.h"
 #include "tracer/image/oiio.h"
@@ -27,7 +30,7 @@ struct options {
 	const char *reference, *traced, *report, *film, *json, *junit, *config, *baseline;
 	const char *markdown, *quarantine;
 	unsigned expires;
-	int annotations, all;
+	int annotations, all, table;
 	struct frame_list frames;
 	struct score_options score;
 };
@@ -93,9 +96,11 @@ static const struct options_row rows[] = {
 	  options_text, .at = offsetof(struct options, report), .use = CONFINE_FILLS },
 	{ "film", 0, "FILM", "a film of 'relume film' that the report's page plays; it becomes part of the page",
 	  options_text, .at = offsetof(struct options, film), .use = CONFINE_READS },
-	{ "json", 0, "FILE", "every figure and bar as JSON; - for standard output, instead of the table",
+	{ "table", 0, NULL, "the whole table: a line for each frame, a column for each gate, 170 columns (default: what failed, why, and what to do)",
+	  options_flag, .at = offsetof(struct options, table) },
+	{ "json", 0, "FILE", "every figure and bar as JSON; - for standard output, instead of what people read",
 	  options_text, .at = offsetof(struct options, json), .use = CONFINE_WRITES },
-	{ "junit", 0, "FILE", "JUnit XML, one case for each frame", options_text, .at = offsetof(struct options, junit), .use = CONFINE_WRITES },
+	{ "junit", 0, "FILE", "JUnit XML, one case for each frame, with the files to look at", options_text, .at = offsetof(struct options, junit), .use = CONFINE_WRITES },
 	{ "markdown", 0, "FILE", "a summary for a merge request, as Markdown; added to FILE where it is there",
 	  options_text, .at = offsetof(struct options, markdown), .use = CONFINE_WRITES },
 	{ "annotations", 0, NULL, "print workflow commands (::error, ::warning) that CI servers show beside a change",
@@ -118,6 +123,7 @@ static const struct options_table table = {
 	        "TRACED  images: those of 'relume render', or any; the gates of effects, depth and harm need its OpenEXR files\n"
 	        "        Images are a folder (the last number in a name is its frame), a pattern such as\n"
 	        "        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their colours.\n"
+	        "        Of two folders, pictures without a number, and those in their folders, are matched by path: login.png, dark/login.exr.\n"
 	        "RUN     the same frames once more. With several, frames whose failures are noise are told apart from regressions: of each pixel\n"
 	        "        the value nearest to REF between what the runs show is taken, and what still fails is a regression. REF may be\n"
 	        "        approved frames. Entries for `flaky:` of relume-diff.yaml are proposed, and what it allows needlessly is named.\n",
@@ -225,17 +231,26 @@ static int open_all(struct options *o, const struct options_line *line, struct s
 	if (!err)
 		err = options_confine(&table, line, CONFINE_SCORER, o->baseline);
 	if (!err && o->reference)
-		err = set_open(o->reference, ref);
+		err = set_open_named(o->reference, ref);
 	if (!err)
-		err = set_open(o->traced, traced);
+		err = set_open_named(o->traced, traced);
 	if (!err && o->baseline && access(o->baseline, F_OK) != 0)
 		err_warn(o->baseline, "there is no such folder, so all frames are new; 'relume approve TRACED %s' makes it", o->baseline);
 	if (!err && o->baseline)
 		err = baseline_open(o->baseline, baseline);
-	/* Two single images are a pair whatever their numbers. */
-	if (!err && ref->is_single && traced->is_single)
-		ref->entries[0].frame = traced->entries[0].frame;
 	return err;
+}
+
+static int match_all(const struct options *o, struct set *ref, struct set *traced)
+{
+	struct set *const sets[] = { ref, traced };
+
+	/* Two single images are a pair whatever their names. */
+	if (ref->is_single && traced->is_single) {
+		ref->entries[0].frame = traced->entries[0].frame;
+		return 0;
+	}
+	return set_match(sets, 2, o->baseline || !o->reference);
 }
 
 static int write_all(const struct options *o, const struct picture_sources *from)
@@ -248,11 +263,11 @@ static int write_all(const struct options *o, const struct picture_sources *from
 	if (!err && o->json)
 		err = output_json(run, o->json);
 	if (!err && o->junit)
-		err = output_junit(run, o->junit);
+		err = junit_write(run, o->junit);
 	if (!err && o->markdown)
 		err = markdown_write(run, o->report, o->markdown);
 	if (!err && !(o->json && strcmp(o->json, "-") == 0))
-		err = output_table(run, stdout);
+		err = o->table ? table_write(run, stdout) : summary_write(run, o->report, stdout);
 	if (!err && o->annotations)
 		output_annotations(run, o->json && strcmp(o->json, "-") == 0 ? stderr : stdout);
 	return err;
@@ -313,6 +328,7 @@ static int compare_runs(struct options *o, const struct options_line *line)
 	static const struct baseline none = { .dir = NULL };
 	struct set ref = { 0 }, sets[RUNS_MOST] = { { 0 } };
 	const struct set *all[RUNS_MOST + 1] = { &ref };
+	struct set *matched[RUNS_MOST + 1] = { &ref };
 	struct output_run scored[RUNS_MOST] = { { 0 } };
 	struct runs r = { .runs = scored, .n = (size_t)line->n_words - 1, .ref = &ref, .sets = sets };
 	struct baseline unused = { 0 };
@@ -324,7 +340,11 @@ static int compare_runs(struct options *o, const struct options_line *line)
 	o->traced = line->words[1];
 	err = open_all(o, line, &ref, &sets[0], &unused, &settings);
 	for (size_t i = 1; i < r.n && !err; i++)
-		err = set_open(line->words[i + 1], &sets[i]);
+		err = set_open_named(line->words[i + 1], &sets[i]);
+	for (size_t i = 0; i < r.n; i++)
+		matched[i + 1] = &sets[i];
+	if (!err)
+		err = set_match(matched, r.n + 1, 0);
 	for (size_t i = 0; i < r.n; i++)
 		all[i + 1] = &sets[i];
 	if (!err)
@@ -388,6 +408,8 @@ int diff_main(int argc, char **argv, draw_namer *namer)
 		return -err;
 	}
 	err = open_all(&o, &line, &ref, &traced, &baseline, &settings);
+	if (!err)
+		err = match_all(&o, &ref, &traced);
 	if (err)
 		goto fail;
 	err = list_frames(&o, &ref, &traced, &baseline, &frames, &run);
@@ -407,6 +429,8 @@ int diff_main(int argc, char **argv, draw_namer *namer)
 	run.command = command;
 	run.film = o.film;
 	run.options = &o.score;
+	run.ref = &ref;
+	run.set = &traced;
 	run.settings = settings;
 
 	err = scoring_all(&ref, &traced, &baseline, frames, &run);

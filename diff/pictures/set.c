@@ -18,8 +18,10 @@
 
 void set_free(struct set *set)
 {
-	for (size_t i = 0; i < set->n_entries; i++)
+	for (size_t i = 0; i < set->n_entries; i++) {
 		free(set->entries[i].path);
+		free(set->entries[i].name);
+	}
 	free(set->entries);
 	free(set->name);
 	free(set->trace);
@@ -37,7 +39,7 @@ static int add_entry(struct set *set, uint64_t frame, const char *path)
 		return ERR_SYSTEM;
 	if (path && !(copy = strdup(path)))
 		return err_report(ERR_SYSTEM, set->name, "out of memory");
-	set->entries[set->n_entries++] = (struct set_entry){ frame, copy };
+	set->entries[set->n_entries++] = (struct set_entry){ .frame = frame, .path = copy };
 	return 0;
 }
 
@@ -108,6 +110,18 @@ static int compare_entries(const void *a, const void *b)
 	return (x->frame > y->frame) - (x->frame < y->frame);
 }
 
+/** Give the last entry its name: what follows `skip` letters of its path, without the ending. */
+static int name_entry(struct set *set, size_t skip, int has_number)
+{
+	struct set_entry *entry = &set->entries[set->n_entries - 1];
+	const char *path = entry->path + skip;
+	const char *ending = extension_of(path);
+
+	entry->name = strndup(path, *ending ? (size_t)(ending - path) - 1 : strlen(path));
+	entry->has_number = has_number;
+	return entry->name ? 0 : err_report(ERR_SYSTEM, set->name, "out of memory");
+}
+
 static int sort_entries(struct set *set)
 {
 	if (set->n_entries == 0)
@@ -121,7 +135,7 @@ static int sort_entries(struct set *set)
 	return 0;
 }
 
-/** List the images of a folder; `pattern` NULL takes all that have a number. */
+/** List the images of a folder that a pattern names; NULL: that have a number. */
 static int open_folder(struct set *set, const char *folder, const char *pattern)
 {
 	DIR *dir = opendir(folder[0] ? folder : ".");
@@ -143,6 +157,48 @@ static int open_folder(struct set *set, const char *folder, const char *pattern)
 	}
 	closedir(dir);
 	return err ? err : sort_entries(set);
+}
+
+enum { MOST_DEPTH = 16 };
+
+/** List all images of a folder and of those in it, with their names. @param root  length of the set's own folder, its slash included */
+static int open_tree(struct set *set, const char *folder, size_t root, int depth)
+{
+	DIR *dir = opendir(folder);
+	int err = 0;
+
+	if (!dir)
+		return err_report(ERR_INPUT, folder, "%s", strerror(errno));
+	for (struct dirent *file; !err && (file = readdir(dir));) {
+		const char *slash = folder[strlen(folder) - 1] != '/' ? "/" : "";
+		char path[4096];
+		struct stat st;
+		uint64_t frame = 0;
+
+		if (file->d_name[0] == '.' || snprintf(path, sizeof(path), "%s%s%s", folder, slash, file->d_name) >= (int)sizeof(path))
+			continue;
+		if (stat(path, &st) == 0 && S_ISDIR(st.st_mode)) {
+			err = depth < MOST_DEPTH ? open_tree(set, path, root, depth + 1) : 0;
+		} else if (is_image_name(file->d_name)) {
+			const int has_number = depth == 0 && number_of_name(file->d_name, &frame);
+
+			err = add_entry(set, frame, path);
+			if (!err)
+				err = name_entry(set, root, has_number);
+		}
+	}
+	closedir(dir);
+	return err;
+}
+
+static int open_named(struct set *set, const char *folder)
+{
+	const size_t n = strlen(folder);
+	int err = open_tree(set, folder, n + (folder[n - 1] != '/'), 0);
+
+	if (!err && set->n_entries == 0)
+		err = err_report(ERR_INPUT, folder, "there is no picture in it");
+	return err;
 }
 
 static int open_pattern(struct set *set, const char *pattern)
@@ -213,7 +269,7 @@ static int read_head(const char *path, uint8_t head[8])
 	return err;
 }
 
-int set_open(const char *where, struct set *out)
+static int open_set(const char *where, int with_names, struct set *out)
 {
 	struct stat st;
 	uint64_t frame = 0;
@@ -229,7 +285,7 @@ int set_open(const char *where, struct set *out)
 		else
 			err = err_report(ERR_INPUT, where, "%s", strerror(errno));
 	} else if (S_ISDIR(st.st_mode)) {
-		err = open_folder(out, where, NULL);
+		err = with_names ? open_named(out, where) : open_folder(out, where, NULL);
 	} else if ((err = read_head(where, head))) {
 		/* nothing is known of it */
 	} else if (ref_begins(head)) { /* whatever its name */
@@ -239,15 +295,28 @@ int set_open(const char *where, struct set *out)
 	} else if (is_image_name(where)) {
 		const char *slash = strrchr(where, '/');
 
-		number_of_name(slash ? slash + 1 : where, &frame);
+		const int has_number = number_of_name(slash ? slash + 1 : where, &frame);
+
 		out->is_single = 1;
 		err = add_entry(out, frame, where);
+		if (!err && with_names)
+			err = name_entry(out, slash ? (size_t)(slash - where) + 1 : 0, has_number);
 	} else {
 		err = open_trace(out, where);
 	}
 	if (err)
 		set_free(out);
 	return err;
+}
+
+int set_open(const char *where, struct set *out)
+{
+	return open_set(where, 0, out);
+}
+
+int set_open_named(const char *where, struct set *out)
+{
+	return open_set(where, 1, out);
 }
 
 const struct set_entry *set_find(const struct set *set, uint64_t frame)

@@ -12,6 +12,8 @@
 struct set_entry {
 	uint64_t frame;
 	char *path; /* owned; NULL: record of the set's .ref file */
+	char *name; /* owned; of a set with names: its path within the set, without its ending. After set_match, of pictures matched by it alone */
+	int has_number; /* of a set with names: 1: `frame` is a number in the file's name */
 };
 
 struct set {
@@ -36,6 +38,11 @@ struct set {
  */
 int set_open(const char *where, struct set *out);
 void set_free(struct set *set);
+
+/**
+ * The same, for set_match: of a folder, all pictures in it and in its folders, also those without a number.
+ */
+int set_open_named(const char *where, struct set *out);
 
 /** The entry of a frame, or NULL. */
 const struct set_entry *set_find(const struct set *set, uint64_t frame);

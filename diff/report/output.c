@@ -9,19 +9,7 @@
 
 #include "base/err.h"
 #include "base/part.h"
-#include "base/plural.h"
 #include "diff/score/gates.h"
-
-/* Indices of scores: frames that did not pass come first; each part is in the order of frames. out has n_scores elements. */
-static void order_scores(const struct output_run *run, size_t *out)
-{
-	size_t n = 0;
-
-	for (int passed = 0; passed < 2; passed++)
-		for (size_t i = 0; i < run->n_scores; i++)
-			if ((run->scores[i].outcome == SCORE_FRAME_PASSED) == passed) /* what did not pass is of interest */
-				out[n++] = i;
-}
 
 void output_gate_text(const struct score *s, enum score_gate_id id, char *out, size_t size)
 {
@@ -43,6 +31,36 @@ void output_gate_text(const struct score *s, enum score_gate_id id, char *out, s
 	}
 	if (used < size && gate->note[0])
 		snprintf(out + used, size - used, "%s%s", used ? "; " : "", gate->note);
+}
+
+const char *output_file(const struct set *set, uint64_t frame)
+{
+	const struct set_entry *entry = set ? set_find(set, frame) : NULL;
+
+	return entry ? entry->path ? entry->path : set->name : NULL;
+}
+
+/* The name of a picture that is matched by it; NULL: it has a number. */
+static const char *name_of(const struct output_run *run, uint64_t frame)
+{
+	const struct set_entry *entry = run->set ? set_find(run->set, frame) : NULL;
+
+	if (!entry && run->ref)
+		entry = set_find(run->ref, frame);
+	return entry ? entry->name : NULL;
+}
+
+int output_is_named(const struct output_run *run, uint64_t frame)
+{
+	return name_of(run, frame) != NULL;
+}
+
+void output_name(const struct output_run *run, uint64_t frame, char *out, size_t size)
+{
+	if (name_of(run, frame))
+		snprintf(out, size, "%s", name_of(run, frame));
+	else
+		snprintf(out, size, "frame %" PRIu64, frame);
 }
 
 void output_blame_text(const struct score_blame *b, char *out, size_t size)
@@ -69,7 +87,7 @@ int output_is_compared(const struct score *s)
 		s->outcome == SCORE_FRAME_NEW;
 }
 
-static int has_warning(const struct score *s)
+int output_has_warning(const struct score *s)
 {
 	for (int g = 0; g < N_GATES; g++)
 		if (s->gates[g].state == SCORE_WARNED)
@@ -77,211 +95,12 @@ static int has_warning(const struct score *s)
 	return 0;
 }
 
-/* The first frame, by number, that failed or is missing; NULL where none did. */
-static const struct score *first_wrong(const struct output_run *run)
+const struct score *output_first_wrong(const struct output_run *run)
 {
 	for (size_t i = 0; i < run->n_scores; i++)
 		if (run->scores[i].outcome == SCORE_FRAME_FAILED || run->scores[i].outcome == SCORE_FRAME_MISSING)
 			return &run->scores[i];
 	return NULL;
-}
-
-static void print_failure(const struct score *s, FILE *out)
-{
-	char text[512];
-
-	for (int g = 0; g < N_GATES; g++) {
-		if (s->gates[g].state < SCORE_WARNED)
-			continue;
-		output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
-		fprintf(out, "          %-3s %s%s: %s\n", score_gates[g].name,
-		        s->gates[g].state == SCORE_WARNED ? "(warning) " : "", score_gates[g].title, text);
-	}
-	if (s->outcome == SCORE_FRAME_FLAKY)
-		fprintf(out, "          known to be flaky: %s\n", s->flaky_reason);
-	for (uint32_t b = 0; b < s->n_blame && b < 3; b++) {
-		double share = 100 * (double)s->blame[b].pixels / (double)s->blamed_pixels;
-
-		output_blame_text(&s->blame[b], text, sizeof(text));
-		fprintf(out, "          %s holds %.3g %% of %" PRIu64 " failing pixel%s\n", text, share, s->blamed_pixels, plural(s->blamed_pixels));
-	}
-}
-
-/** The figures that have a column: values, "-" where they were not measured, "!" behind them where the gate failed; or headings. */
-static void print_columns(const struct score *s, FILE *out)
-{
-	for (int g = 0; g < N_GATES; g++)
-		for (int f = 0; f < score_gates[g].n_figures; f++) {
-			const char *column = score_gates[g].figures[f].column;
-			char text[32] = "- ";
-
-			if (s && s->gates[g].state != SCORE_NOT_MEASURED)
-				snprintf(text, sizeof(text), "%.4g%c", s->gates[g].value[f], s->gates[g].state == SCORE_FAILED ? '!' : ' ');
-			if (column)
-				fprintf(out, " %9s", s ? text : column);
-		}
-}
-
-static int compare_names(const void *a, const void *b)
-{
-	return strverscmp(((const struct score_program *)a)->name, ((const struct score_program *)b)->name);
-}
-
-/* A line for each of the application's own programs: pixels of all frames. @return 0 or ERR_SYSTEM (reported) */
-static int print_programs(const struct output_run *run, FILE *out)
-{
-	struct score_program *all;
-	size_t n = 0;
-
-	for (size_t i = 0; i < run->n_scores; i++)
-		n += run->scores[i].n_programs;
-	if (!n)
-		return 0;
-	all = malloc(n * sizeof(*all));
-	if (!all)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	n = 0;
-	for (size_t i = 0; i < run->n_scores; i++) {
-		memcpy(all + n, run->scores[i].programs, run->scores[i].n_programs * sizeof(*all));
-		n += run->scores[i].n_programs;
-	}
-	qsort(all, n, sizeof(*all), compare_names);
-	for (size_t i = 0, end; i < n; i = end) {
-		struct score_program sum = all[i];
-
-		for (end = i + 1; end < n && strcmp(all[end].name, sum.name) == 0; end++) {
-			sum.pixels += all[end].pixels;
-			sum.failing += all[end].failing;
-		}
-		fprintf(out, "%s: %.3f %% of %" PRIu64 " px\n", sum.name, 100 * (1 - (double)sum.failing / (double)sum.pixels), sum.pixels);
-	}
-	free(all);
-	return 0;
-}
-
-/* One line: counts by outcome and the worst frame. */
-static void print_summary(const struct output_run *run, FILE *out)
-{
-	const struct score *worst = NULL;
-
-	fprintf(out, "%zu frame%s:", run->n_scores, plural(run->n_scores));
-	for (int o = 0, n = 0; o < N_SCORE_OUTCOMES; o++)
-		if (run->counts[o] || o == SCORE_FRAME_PASSED)
-			fprintf(out, "%s %" PRIu64 " %s", n++ ? "," : "", run->counts[o], score_outcome_names[o]);
-	for (size_t i = 0; i < run->n_scores; i++) {
-		const struct score *s = &run->scores[i];
-
-		if (output_is_compared(s) && (!worst || s->fidelity < worst->fidelity))
-			worst = s;
-	}
-	if (worst && run->reference)
-		fprintf(out, "; lowest fidelity %.3f %% (frame %" PRIu64 ")", 100 * worst->fidelity, worst->frame);
-	if (first_wrong(run))
-		fprintf(out, "; first wrong frame %" PRIu64, first_wrong(run)->frame);
-	fputc('\n', out);
-	if (run->n_unmatched)
-		fprintf(out, "not compared: %" PRIu64 " frame%s that the reference or the baseline has, and TRACED has not; --all "
-		        "demands %s\n", run->n_unmatched, plural(run->n_unmatched), run->n_unmatched == 1 ? "it" : "them");
-}
-
-/* What the table says of a frame, but for its number. */
-static void print_row(const struct output_run *run, const struct score *s, FILE *out)
-{
-	fprintf(out, " %-10s", score_outcome_names[s->outcome]);
-	if (output_is_compared(s)) {
-		if (run->reference)
-			fprintf(out, " %8.3f%%", 100 * s->fidelity);
-		else
-			fprintf(out, " %9s", "- ");
-		print_columns(s, out);
-		if (isnan(s->info.beauty_flip))
-			fprintf(out, " %9s", "- ");
-		else
-			fprintf(out, " %8.4g ", s->info.beauty_flip);
-	}
-	fputc('\n', out);
-	if (s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY || has_warning(s))
-		print_failure(s, out);
-}
-
-/* Frames in a row that failed alike. */
-struct rows {
-	uint64_t first, last;
-	char *text; /* NULL: none */
-};
-
-static void end_rows(struct rows *rows, FILE *out)
-{
-	char range[48];
-
-	if (!rows->text)
-		return;
-	snprintf(range, sizeof(range), rows->last > rows->first ? "%" PRIu64 "-%" PRIu64 : "%" PRIu64, rows->first, rows->last);
-	fprintf(out, "%7s%s", range, rows->text);
-	free(rows->text);
-	rows->text = NULL;
-}
-
-/* One row for frames that follow each other and fail with the same figures. Each frame that passed has its own. */
-static int add_row(struct rows *rows, const struct output_run *run, const struct score *s, FILE *out)
-{
-	size_t size;
-	char *text = NULL;
-	FILE *row = open_memstream(&text, &size);
-
-	if (row)
-		print_row(run, s, row);
-	if (!row || fclose(row) != 0) {
-		free(text);
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	}
-	if (rows->text && s->outcome != SCORE_FRAME_PASSED && s->frame == rows->last + 1 && strcmp(text, rows->text) == 0) {
-		rows->last = s->frame;
-		free(text);
-		return 0;
-	}
-	end_rows(rows, out);
-	*rows = (struct rows){ s->frame, s->frame, text };
-	return 0;
-}
-
-int output_table(const struct output_run *run, FILE *out)
-{
-	size_t *order = malloc((run->n_scores ? run->n_scores : 1) * sizeof(*order));
-	struct rows rows = { .text = NULL };
-	int err = 0;
-
-	if (!order)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	order_scores(run, order);
-	fprintf(out, "%7s %-10s %9s", "frame", "outcome", "fidelity");
-	print_columns(NULL, out);
-	fprintf(out, " %9s\n", "beauty");
-	for (size_t i = 0; i < run->n_scores && !err; i++)
-		err = add_row(&rows, run, &run->scores[order[i]], out);
-	end_rows(&rows, out);
-	free(order);
-
-	/* How it was measured: notes of the first frame that was compared, where gates were not measured or by other means. */
-	for (size_t i = 0; i < run->n_scores; i++) {
-		const struct score *s = &run->scores[i];
-
-		if (!output_is_compared(s))
-			continue;
-		if (s->gates[GATE_V].state != SCORE_PASSED)
-			continue;
-		for (int g = 0; g < N_GATES; g++)
-			if (s->gates[g].state == SCORE_NOT_MEASURED)
-				fprintf(out, "not measured: %s %s: %s\n", score_gates[g].name, score_gates[g].title,
-				        s->gates[g].note);
-		if (s->gates[GATE_R4].state != SCORE_NOT_MEASURED)
-			fprintf(out, "R4 %s: %s\n", score_gates[GATE_R4].title, s->gates[GATE_R4].note);
-		break;
-	}
-	if (!err)
-		err = print_programs(run, out);
-	print_summary(run, out);
-	return err;
 }
 
 /* JSON. */
@@ -351,10 +170,15 @@ static void json_blame(const struct score_blame *by, FILE *out)
 	fputc('}', out);
 }
 
-static void json_score(const struct score *s, FILE *out)
+static void json_score(const struct output_run *run, const struct score *s, FILE *out)
 {
 	fprintf(out, "    {\"frame\": %" PRIu64 ", \"outcome\": \"%s\", \"width\": %u, \"height\": %u, ", s->frame,
 	        score_outcome_names[s->outcome], s->width, s->height);
+	if (output_is_named(run, s->frame)) {
+		fputs("\"name\": ", out);
+		json_string(name_of(run, s->frame), out);
+		fputs(", ", out);
+	}
 	fputs("\"layer\": ", out);
 	json_string(s->layer, out);
 	fputs(", ", out);
@@ -410,15 +234,15 @@ void output_json_stream(const struct output_run *run, FILE *out)
 	fputs(", \"channel\": ", out);
 	json_string(run->options->channel ? run->options->channel : "", out);
 	fprintf(out, ", \"seconds\": %.3f,", run->seconds);
-	if (first_wrong(run))
-		fprintf(out, " \"first_wrong_frame\": %" PRIu64 ",", first_wrong(run)->frame);
+	if (output_first_wrong(run))
+		fprintf(out, " \"first_wrong_frame\": %" PRIu64 ",", output_first_wrong(run)->frame);
 	fputs("\n \"counts\": {", out);
 	for (int o = 0; o < N_SCORE_OUTCOMES; o++)
 		fprintf(out, "%s\"%s\": %" PRIu64, o ? ", " : "", score_outcome_names[o], run->counts[o]);
 	fputs("},\n \"frames\": [", out);
 	for (size_t i = 0; i < run->n_scores; i++) {
 		fputs(i ? ",\n" : "\n", out);
-		json_score(&run->scores[i], out);
+		json_score(run, &run->scores[i], out);
 	}
 	fputs("\n ]}\n", out);
 }
@@ -434,81 +258,6 @@ int output_json(const struct output_run *run, const char *path)
 	if (part_open(&file, path) != 0)
 		return ERR_SYSTEM;
 	output_json_stream(run, file.stream);
-	return part_close(&file, 0);
-}
-
-/* JUnit. */
-
-static void put_escaped(const char *text, FILE *out)
-{
-	for (const unsigned char *p = (const unsigned char *)text; *p; p++) {
-		switch (*p) {
-		case '&': fputs("&amp;", out); break;
-		case '<': fputs("&lt;", out); break;
-		case '>': fputs("&gt;", out); break;
-		case '"': fputs("&quot;", out); break;
-		default: fputc(*p < 0x20 ? ' ' : *p, out); /* other control characters are no XML at all */
-		}
-	}
-}
-
-static void junit_case(const struct score *s, FILE *out)
-{
-	fprintf(out, "    <testcase classname=\"relume.diff\" name=\"frame %" PRIu64 "\"", s->frame);
-	switch (s->outcome) {
-	case SCORE_FRAME_PASSED:
-		fputs("/>\n", out);
-		return;
-	case SCORE_FRAME_FAILED:
-		break;
-	case SCORE_FRAME_FLAKY:
-		fputs(">\n      <skipped message=\"", out);
-		put_escaped(s->flaky_reason, out);
-		fputs("\"/>\n    </testcase>\n", out);
-		return;
-	case SCORE_FRAME_UNREADABLE:
-		fputs(">\n      <error message=\"unreadable\"/>\n    </testcase>\n", out);
-		return;
-	default:
-		fprintf(out, ">\n      <failure message=\"%s\"/>\n    </testcase>\n",
-		        s->outcome == SCORE_FRAME_MISSING ? "there is no traced frame"
-		        : s->outcome == SCORE_FRAME_NEW ? "there is no approved frame" : "there is no reference");
-		return;
-	}
-	fputs(">\n      <failure message=\"", out);
-	for (int g = 0, n = 0; g < N_GATES; g++)
-		if (s->gates[g].state == SCORE_FAILED)
-			fprintf(out, "%s%s %s", n++ ? ", " : "", score_gates[g].name, score_gates[g].title);
-	fputs("\">", out);
-	for (int g = 0; g < N_GATES; g++) {
-		char text[512];
-
-		if (s->gates[g].state != SCORE_FAILED)
-			continue;
-		output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
-		fprintf(out, "%s ", score_gates[g].name);
-		put_escaped(text, out);
-		fputc('\n', out);
-	}
-	fputs("</failure>\n    </testcase>\n", out);
-}
-
-int output_junit(const struct output_run *run, const char *path)
-{
-	uint64_t errors = run->counts[SCORE_FRAME_UNREADABLE];
-	uint64_t skipped = run->counts[SCORE_FRAME_FLAKY];
-	uint64_t failures = run->n_scores - run->counts[SCORE_FRAME_PASSED] - errors - skipped;
-	struct part_file file;
-
-	if (part_open(&file, path) != 0)
-		return ERR_SYSTEM;
-	fprintf(file.stream, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"relume diff ");
-	put_escaped(run->traced, file.stream);
-	fprintf(file.stream, "\" tests=\"%zu\" failures=\"%" PRIu64 "\" errors=\"%" PRIu64 "\" skipped=\"%" PRIu64
-	        "\" time=\"%.3f\">\n", run->n_scores, failures, errors, skipped, run->seconds);
-	for (size_t i = 0; i < run->n_scores; i++)
-		junit_case(&run->scores[i], file.stream);
-	fputs("  </testsuite>\n</testsuites>\n", file.stream);
 	return part_close(&file, 0);
 }
 
@@ -529,6 +278,16 @@ static void annotation_text(const char *text, FILE *out)
 	}
 }
 
+/** The same as the value of a property: what separates properties is escaped, too. */
+static void annotation_property(const char *text, FILE *out)
+{
+	for (; *text; text++)
+		if (*text == ':' || *text == ',')
+			fprintf(out, "%%%02X", *text);
+		else
+			annotation_text((const char[]){ *text, 0 }, out);
+}
+
 void output_annotations(const struct output_run *run, FILE *out)
 {
 	for (size_t i = 0; i < run->n_scores; i++) {
@@ -536,10 +295,12 @@ void output_annotations(const struct output_run *run, FILE *out)
 		const char *kind = s->outcome == SCORE_FRAME_FLAKY || s->outcome == SCORE_FRAME_PASSED ? "warning" : "error";
 		char text[512];
 
-		if (s->outcome == SCORE_FRAME_PASSED && !has_warning(s))
+		if (s->outcome == SCORE_FRAME_PASSED && !output_has_warning(s))
 			continue;
-		fprintf(out, "::%s title=relume diff%%3A frame %" PRIu64 " %s::", kind, s->frame,
-		        s->outcome == SCORE_FRAME_PASSED ? "warns" : score_outcome_names[s->outcome]);
+		output_name(run, s->frame, text, sizeof(text));
+		fprintf(out, "::%s title=relume diff%%3A ", kind);
+		annotation_property(text, out);
+		fprintf(out, " %s::", s->outcome == SCORE_FRAME_PASSED ? "warns" : score_outcome_names[s->outcome]);
 		annotation_text(run->traced, out);
 		for (int g = 0; g < N_GATES; g++) {
 			if (s->gates[g].state < SCORE_WARNED)

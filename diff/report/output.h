@@ -1,16 +1,18 @@
 /*
- * The outcome of a comparison, for people (a table) and for machines (JSON, JUnit XML).
+ * The outcome of a comparison: what all its forms share (summary.h, table.h, junit.h, markdown.h), JSON, and workflow commands.
  */
 #pragma once
 
 #include <stdio.h>
 
-#include "diff/score/score.h"
+#include "diff/pictures/set.h"
 #include "diff/rules/rules.h"
+#include "diff/score/score.h"
 
 /* A whole comparison. */
 struct output_run {
 	const char *reference, *traced; /* as the user named them; reference NULL: only approved frames */
+	const struct set *ref, *set;    /* what is compared; NULL: not known */
 	const char *baseline;           /* folder of approved frames, NULL: none */
 	const char *name;               /* of the recording, as configurations match it */
 	const char *command;            /* the command line that made this */
@@ -30,14 +32,23 @@ int output_is_compared(const struct score *s);
 /** A gate's figures beside their bars, "interior pixels over 2/255: 0.31 % (bar 0.1 %)", NUL-terminated. */
 void output_gate_text(const struct score *s, enum score_gate_id id, char *out, size_t size);
 
+/** 1 where a picture was matched by its path: its number means nothing to people. */
+int output_is_named(const struct output_run *run, uint64_t frame);
+
+/** "frame 12", or the name of a picture without a number, NUL-terminated. */
+void output_name(const struct output_run *run, uint64_t frame, char *out, size_t size);
+
+/** The file of a frame in a set ("the frames in NAME.ref"); NULL: it has none. */
+const char *output_file(const struct set *set, uint64_t frame);
+
 /** "draw 12, glDrawElements (call 345), list 3, texture 0123..., in the approved frame", NUL-terminated. */
 void output_blame_text(const struct score_blame *b, char *out, size_t size);
 
-/**
- * The table: a line for each frame, those that did not pass first, with failing figures beside their bars; then a summary.
- * @return 0, or ERR_SYSTEM (reported): there was no memory for all of it
- */
-int output_table(const struct output_run *run, FILE *out);
+/** 1 where a gate of the frame warns. */
+int output_has_warning(const struct score *s);
+
+/** The first frame, by number, that failed or is missing; NULL where none did. */
+const struct score *output_first_wrong(const struct output_run *run);
 
 /**
  * JSON: every figure and bar. Numbers that were not measured or are infinite are null.
@@ -45,9 +56,6 @@ int output_table(const struct output_run *run, FILE *out);
  */
 int output_json(const struct output_run *run, const char *path);
 void output_json_stream(const struct output_run *run, FILE *out);
-
-/** JUnit XML: a suite with one case for each frame. @return 0 or ERR_SYSTEM (reported) */
-int output_junit(const struct output_run *run, const char *path);
 
 /** Workflow commands: one ::error line for each frame that did not pass, one ::warning line for each that warns. */
 void output_annotations(const struct output_run *run, FILE *out);

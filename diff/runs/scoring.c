@@ -176,20 +176,6 @@ static int score_one(struct work *w, uint64_t frame, struct score *out)
 	return err;
 }
 
-/** "failed (R4, R5), fidelity 99.912 %" */
-static void say_outcome(const struct score *s, int has_fidelity, char *text, size_t size)
-{
-	size_t n = (size_t)snprintf(text, size, "%s", score_outcome_names[s->outcome]), n_failed = 0;
-
-	for (int g = 0; g < N_GATES && n < size; g++)
-		if (s->gates[g].state == SCORE_FAILED)
-			n += (size_t)snprintf(text + n, size - n, "%s%s", n_failed++ ? ", " : " (", score_gates[g].name);
-	if (n < size)
-		n += (size_t)snprintf(text + n, size - n, "%s", n_failed ? ")" : "");
-	if (has_fidelity && n < size)
-		snprintf(text + n, size - n, ", fidelity %.3f %%", 100 * s->fidelity);
-}
-
 static void *score_frames(void *arg)
 {
 	struct work *w = arg;
@@ -198,17 +184,15 @@ static void *score_frames(void *arg)
 	while (!w->err && w->next < w->run->n_scores) {
 		size_t i = w->next++;
 		struct score *s = &w->run->scores[i];
-		char text[128];
 		int err;
 
 		pthread_mutex_unlock(&w->lock);
 		err = score_one(w, w->frames[i], s);
-		say_outcome(s, w->run->reference != NULL, text, sizeof(text));
 		pthread_mutex_lock(&w->lock);
 		if (err)
 			w->err = err;
 		w->run->counts[s->outcome]++;
-		progress_step(&w->progress, w->frames[i], text);
+		progress_step(&w->progress, w->frames[i], "");
 	}
 	pthread_mutex_unlock(&w->lock);
 	return NULL;
@@ -223,7 +207,8 @@ int scoring_all(struct set *ref, struct set *traced, const struct baseline *base
 	long cores = sysconf(_SC_NPROCESSORS_ONLN);
 	int n = 0;
 
-	progress_begin(&w.progress, "scored", run->n_scores);
+	/* frames take milliseconds, and what matters of them is said at the end */
+	progress_begin_style(&w.progress, "scored", run->n_scores, isatty(STDERR_FILENO) ? PROGRESS_BAR : PROGRESS_NONE);
 	/* this thread works, too; one that does not start is no loss but time */
 	while (n < MAX_THREADS && n + 1 < cores && (size_t)n + 1 < run->n_scores &&
 	       pthread_create(&threads[n], NULL, score_frames, &w) == 0)
