@@ -31,6 +31,16 @@ static int is_elsewhere(struct set *const *sets, size_t n_sets, size_t own, cons
 	return 0;
 }
 
+/* Has another set a picture that goes by that number? */
+static int is_wanted(struct set *const *sets, size_t n_sets, size_t own, uint64_t frame)
+{
+	for (size_t s = 0; s < n_sets; s++)
+		for (size_t i = 0; s != own && i < sets[s]->n_entries; i++)
+			if (sets[s]->entries[i].frame == frame && (sets[s]->entries[i].has_number || !sets[s]->entries[i].name))
+				return 1;
+	return 0;
+}
+
 /* The pictures of a number go by their names, in all sets. */
 static void forget_number(struct set *const *sets, size_t n_sets, uint64_t frame)
 {
@@ -40,7 +50,7 @@ static void forget_number(struct set *const *sets, size_t n_sets, uint64_t frame
 				sets[s]->entries[i].has_number = 0;
 }
 
-/* Numbers that two pictures of a set have. Their names tell them apart where other sets have these names. */
+/* Numbers that two pictures of a set have. Names tell them apart where other sets have these names, or nothing of that number. */
 static int find_doubles(struct set *const *sets, size_t n_sets, size_t own)
 {
 	struct set *set = sets[own];
@@ -51,7 +61,7 @@ static int find_doubles(struct set *const *sets, size_t n_sets, size_t own)
 
 		if (a->frame != b->frame || !a->has_number || !b->has_number)
 			continue;
-		if (!is_elsewhere(sets, n_sets, own, a->name) && !is_elsewhere(sets, n_sets, own, b->name))
+		if (is_wanted(sets, n_sets, own, a->frame) && !is_elsewhere(sets, n_sets, own, a->name) && !is_elsewhere(sets, n_sets, own, b->name))
 			return err_report(ERR_USAGE, set->name, "two images of frame %" PRIu64 ", %s and %s; name one series by a pattern such as "
 			                  "DIR/NAME.####.exr", a->frame, a->path, b->path);
 		forget_number(sets, n_sets, a->frame);

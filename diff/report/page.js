@@ -8,6 +8,16 @@ const make = (tag, properties = {}, ...children) => {
 };
 const per_cent = x => (100 * x).toFixed(x === 1 ? 0 : 3) + " %";
 const number = x => x === null ? "-" : Number(x.toPrecision(6)).toString();
+/* "frame 12", or the name of a picture that has no number. */
+const label = f => f.name || "frame " + f.frame;
+/* A table with a heading for people and one for each column; in a region that the keyboard can scroll. */
+function table_of(caption, columns, rows) {
+	const table = make("table", {}, make("caption", { textContent: caption }), make("tr", {}, ...columns.map(t => make("th", { textContent: t, scope: "col" }))), ...rows);
+	const region = make("div", { className: "scroll", tabIndex: 0 }, table);
+	region.setAttribute("role", "region");
+	region.setAttribute("aria-label", caption);
+	return region;
+}
 /* Pictures stand in blocks of their own, which cost nothing until they are read. */
 const read = f => { const block = $("p" + f.frame); return block ? JSON.parse(block.textContent) : null; };
 const have_pictures = f => f === state.frame ? state.pictures : null;
@@ -44,8 +54,7 @@ function show_header() {
 	const against = [run.reference, run.baseline && "approved frames in " + run.baseline].filter(x => x).join(" and ");
 	$("about").textContent = `${run.traced} against ${against}; ${run.frames.length} frames, ${run.seconds.toFixed(1)} s. ` +
 		("first_wrong_frame" in run ? `First wrong frame: ${run.first_wrong_frame}. ` : "") +
-		"All pictures of what did not pass are in this page (as long as they take no more than 64 MB), and of a sample of what " +
-		"passed. Keys: j k next and previous, x select, 1 2 3 4 5 view, + - zoom, / search.";
+		"All pictures of what did not pass are in this page (as long as they take no more than 64 MB), and of what passed up to 16 MB.";
 	$("command").textContent = run.command;
 	if (run.frames.some(f => f.programs))
 		$("chart").before(make("details", {}, make("summary", { textContent: "programs, over all frames" }), program_table(sum_programs(run.frames))));
@@ -74,7 +83,7 @@ function show_chart() {
 		const color = f.outcome === "passed" ? "var(--good)" : compared(f) || f.outcome === "missing" ? "var(--bad)" : "var(--odd)";
 		const bar = node("rect", { x: i * width, y: H - part * (H - 4), width: width * 0.86, height: part * (H - 4), fill: color,
 			"fill-opacity": compared(f) ? 0.75 : 0.25 },
-			`frame ${f.frame}: ${f.outcome}` + (compared(f) ? `, ${per_cent(level(f))}` : ""));
+			`${label(f)}: ${f.outcome}` + (compared(f) ? `, ${per_cent(level(f))}` : ""));
 		bar.style.cursor = "pointer";
 		bar.onclick = () => select(f);
 	});
@@ -98,12 +107,12 @@ const thumbnails = new IntersectionObserver(rows => {
 
 function show_list() {
 	const text = $("filter").value.trim().toLowerCase(), outcome = $("outcome").value;
-	state.shown = frames.filter(f => (!outcome || (outcome === NOT_PASSED ? f.outcome !== "passed" : f.outcome === outcome)) && (!text || String(f.frame).includes(text) ||
+	state.shown = frames.filter(f => (!outcome || (outcome === NOT_PASSED ? f.outcome !== "passed" : f.outcome === outcome)) && (!text || (f.name || String(f.frame)).toLowerCase().includes(text) ||
 		failed_gates(f).some(g => g.toLowerCase() === text) || f.blame.some(b => "draw " + b.draw === text)));
 	$("list").replaceChildren(...state.shown.map(f => {
 		const item = make("li", { id: "o" + f.frame, onclick: event => event.target.className === "box" ? choose([f]) : select(f) },
 			make("span", { className: "box", title: "select for approval (x)" }), make("img", { alt: "", width: 40, height: 30 }),
-			make("span", { textContent: f.frame }),
+			make("span", { textContent: f.name || f.frame, title: label(f) }),
 			make("span", { className: f.outcome, textContent: f.outcome + (warns(f) ? " (!)" : "") }),
 			make("span", { textContent: !compared(f) ? "" : (failed_gates(f).join(" ") || per_cent(level(f))) + (changed(f) ? ` ${changed(f).toPrecision(3)} %` : "") }));
 		item.setAttribute("role", "option");
@@ -144,7 +153,7 @@ const approve_command = numbers => `relume approve -f ${ranges_of(numbers)} ${wo
 
 /* Select frames for approval, or drop them where all of them are selected. */
 function choose(wanted) {
-	const can = wanted.filter(compared), drop = can.every(f => state.chosen.has(f.frame));
+	const can = wanted.filter(f => compared(f) && !f.name), drop = can.every(f => state.chosen.has(f.frame));
 	for (const f of can)
 		drop ? state.chosen.delete(f.frame) : state.chosen.add(f.frame);
 	show_chosen();
@@ -196,7 +205,8 @@ function show_pixel(event) {
 }
 
 function picture(name) {
-	const image = make("img", { src: state.pictures[name], alt: name, onmousemove: show_pixel });
+	const image = make("img", { src: state.pictures[name], alt: `${title_of(name)} of ${label(state.frame)}`, onmousemove: show_pixel });
+	image.dataset.name = name;
 	image.onload = () => { image.width = image.naturalWidth * state.zoom; image.height = image.naturalHeight * state.zoom; };
 	return image;
 }
@@ -219,14 +229,12 @@ const roles_of = have => Object.keys(have || {}).filter(name => name.startsWith(
 
 /* The page of roles and lights: what rules made of the frame, why, and how sure that is. */
 function show_roles() {
-	const table = make("table", {}, make("tr", {}, ...["", "role", "confidence", "why", "where: its draws, or what faces the light"].map(t => make("th", { textContent: t }))));
-	for (const i of roles_of(state.pictures)) {
+	$("views").append(table_of("roles and lights", ["kind", "role", "confidence", "why", "where: its draws, or what faces the light"], roles_of(state.pictures).map(i => {
 		const [kind, role, confidence, why] = state.pictures["told " + i];
-		table.append(make("tr", { className: "role" }, make("td", { textContent: kind }), make("td", { textContent: role }),
+		return make("tr", { className: "role" }, make("td", { textContent: kind }), make("td", { textContent: role }),
 			make("td", { className: "number", textContent: confidence }), make("td", { textContent: why }),
-			make("td", {}, state.pictures["role " + i] ? picture("role " + i) : "")));
-	}
-	$("views").append(table);
+			make("td", {}, state.pictures["role " + i] ? picture("role " + i) : ""));
+	})));
 }
 
 
@@ -261,7 +269,10 @@ function show_views() {
 			odd = !odd;
 		};
 		turn();
-		state.timer = setInterval(turn, 500);
+		if (matchMedia("(prefers-reduced-motion: reduce)").matches)
+			views.append(make("button", { textContent: "the other picture", onclick: turn }));
+		else
+			state.timer = setInterval(turn, 500);
 		views.append(make("figure", {}, title, place));
 	} else {
 		const [name_a, name_b] = pair(), a = picture(name_a), b = picture(name_b), line = make("div", { className: "line" });
@@ -297,10 +308,10 @@ function mode_button(mode, text) {
 }
 
 function gate_table(f) {
-	const table = make("table", {}, make("tr", {}, ...["gate", "", "measured", "bar", "state", "note"].map(t => make("th", { textContent: t }))));
+	const rows = [];
 	for (const [name, gate] of Object.entries(f.gates)) {
 		const figures = gate.figures.length ? gate.figures : [null];
-		figures.forEach((figure, i) => table.append(make("tr", {},
+		figures.forEach((figure, i) => rows.push(make("tr", {},
 			make("td", { textContent: i ? "" : name }),
 			make("td", { textContent: gate.title + (figure ? ": " + figure.name : "") }),
 			make("td", { className: "number", textContent: figure ? number(figure.value) + " " + figure.unit : "" }),
@@ -308,7 +319,7 @@ function gate_table(f) {
 			make("td", { className: gate.state === "not measured" ? "dim" : gate.state, textContent: i ? "" : gate.state }),
 			make("td", { className: "dim", textContent: i ? "" : gate.note }))));
 	}
-	return make("div", { className: "scroll" }, table);
+	return table_of("gates", ["gate", "what", "measured", "bar", "state", "note"], rows);
 }
 
 function sum_programs(frames) {
@@ -323,30 +334,25 @@ function sum_programs(frames) {
 }
 
 function program_table(programs) {
-	const table = make("table", {}, make("tr", {}, ...["the program's own", "pixels that pass", "of"].map(t => make("th", { textContent: t }))));
-	for (const p of programs)
-		table.append(make("tr", {}, make("td", { textContent: p.name }),
+	return table_of("programs", ["the program's own", "pixels that pass", "of"], programs.map(p =>
+		make("tr", {}, make("td", { textContent: p.name }),
 			make("td", { className: p.failing ? "number failed" : "number", textContent: per_cent(1 - p.failing / p.pixels) }),
-			make("td", { className: "number", textContent: p.pixels.toLocaleString("en") + " px" })));
-	return make("div", { className: "scroll" }, table);
+			make("td", { className: "number", textContent: p.pixels.toLocaleString("en") + " px" }))));
 }
 
 function blame_table(f) {
 	const sides = failed_of(f, of_baseline).length && state.pictures && state.pictures.changed ? "approved, now, changed" : "reference, traced, failing";
-	const table = make("table", {}, make("tr", {}, ...["draw", "call", "uses", "pixels", "share", sides].map(t =>
-		make("th", { textContent: t }))));
-	f.blame.forEach((b, i) => {
+	return table_of("draws to blame", ["draw", "call", "uses", "pixels", "share", sides], f.blame.map((b, i) => {
 		const source = state.pictures && state.pictures["blame " + i];
 		const uses = [b.list && "list " + b.list, b.texture && "texture " + b.texture, b.program && "a program object", b.approved && "in the approved frame",
 			b.known && "known: " + b.known];
-		table.append(make("tr", {}, make("td", { textContent: b.draw || "background" }),
+		return make("tr", {}, make("td", { textContent: b.draw || "background" }),
 			make("td", { textContent: b.call ? `${b.call} (call ${b.call_number})` : "" }),
 			make("td", { textContent: uses.filter(x => x).join(", ") }),
 			make("td", { className: "number", textContent: b.pixels }),
 			make("td", { className: "number", textContent: (100 * b.pixels / f.blamed_pixels).toPrecision(3) + " %" }),
-			make("td", {}, source ? make("img", { src: source, alt: "draw " + b.draw }) : "")));
-	});
-	return make("div", { className: "scroll" }, table);
+			make("td", {}, source ? make("img", { src: source, alt: `draw ${b.draw}: ${sides}` }) : ""));
+	}));
 }
 
 /* Which comparison failed: a line for each that was made. */
@@ -360,8 +366,8 @@ function verdicts(f) {
 			: f.gates.B.state === "not measured" ? ["new", "Not compared with the approved frame: " + f.gates.B.note]
 			: ["passed", "As approved."]);
 	if (run.reference)
-		lines.push(failed_of(f, of_reference).length ? ["failed", `Not as the program showed it: ${titles(of_reference)}; fidelity ${per_cent(f.fidelity)}`]
-			: ["passed", `As the program showed it, fidelity ${per_cent(f.fidelity)}.`]);
+		lines.push(failed_of(f, of_reference).length ? ["failed", `Not as the reference: ${titles(of_reference)}; fidelity ${per_cent(f.fidelity)}`]
+			: ["passed", `As the reference, fidelity ${per_cent(f.fidelity)}.`]);
 	if (failed_of(f, of_itself).length)
 		lines.push(["failed", "By itself: " + titles(of_itself)]);
 	return make("ul", { id: "verdicts" }, ...lines.map(([className, textContent]) => make("li", { className, textContent })));
@@ -376,14 +382,21 @@ function info_text(f) {
 		`CIEDE2000 p95 ${number(f.info.beauty_ciede_p95)}. ` + (share ? `Pixels touched by effects: ${share}.` : "");
 }
 
+function tools(...children) {
+	const node = make("div", { id: "tools" }, ...children);
+	node.setAttribute("role", "group");
+	node.setAttribute("aria-label", "view");
+	return node;
+}
+
 function show_frame() {
 	const f = state.frame, section = $("frame");
-	section.replaceChildren(make("h2", {}, `frame ${f.frame} `, make("span", { className: f.outcome, textContent: f.outcome }),
+	section.replaceChildren(make("h2", {}, label(f) + " ", make("span", { className: f.outcome, textContent: f.outcome }),
 		compared(f) && !run.baseline ? ` fidelity ${per_cent(f.fidelity)}` : ""));
 	if (compared(f))
 		section.append(verdicts(f));
 	if (layers_of(state.pictures).length)
-		section.append(make("div", { id: "tools" }, mode_button("side", "side by side"), mode_button("blink", "blink"),
+		section.append(tools(mode_button("side", "side by side"), mode_button("blink", "blink"),
 			mode_button("swipe", "swipe"), mode_button("all", "all channels"),
 			...(roles_of(state.pictures).length ? [mode_button("roles", "roles and lights")] : []), layer_select("a"), layer_select("b"),
 			make("label", {}, "zoom ", make("select", { onchange: event => { state.zoom = +event.target.value; show_views(); } },
@@ -397,7 +410,8 @@ function show_frame() {
 			section.append(blame_table(f));
 		if (f.programs)
 			section.append(program_table(f.programs));
-		section.append(make("p", {}, "To approve this frame: ", make("code", { textContent: approve_command([f.frame]) })));
+		if (!f.name)
+			section.append(make("p", {}, "To approve this frame: ", make("code", { textContent: approve_command([f.frame]) })));
 	}
 	show_views();
 }
@@ -413,6 +427,7 @@ function select(f) {
 	state.pictures = read(f);
 	planes.clear();
 	location.hash = f.frame;
+	$("told").textContent = `${label(f)}: ${f.outcome}`;
 	mark_selected();
 	show_frame();
 }
@@ -424,13 +439,15 @@ function step(by) {
 }
 
 document.addEventListener("keydown", event => {
-	if (event.target.tagName === "INPUT" || event.ctrlKey || event.altKey || event.metaKey)
+	if (["INPUT", "SELECT", "VIDEO"].includes(event.target.tagName) || event.ctrlKey || event.altKey || event.metaKey)
 		return;
 	const modes = { 1: "side", 2: "blink", 3: "swipe", 4: "all", 5: "roles" };
 	if (event.key === "j" || event.key === "ArrowDown") { step(1); event.preventDefault(); }
 	else if (event.key === "k" || event.key === "ArrowUp") { step(-1); event.preventDefault(); }
 	else if (modes[event.key]) { state.mode = modes[event.key]; show_frame(); }
 	else if (event.key === "x") choose([state.frame]);
+	else if (event.key === " " && event.target === $("list")) { choose([state.frame]); event.preventDefault(); }
+	else if (event.target === $("list") && (event.key === "Home" || event.key === "End")) { select(state.shown.at(event.key === "Home" ? 0 : -1)); event.preventDefault(); }
 	else if (event.key === "/") { $("filter").focus(); event.preventDefault(); }
 	else if (event.key === "+") { state.zoom = Math.min(8, state.zoom * 2); show_frame(); }
 	else if (event.key === "-") { state.zoom = Math.max(0.5, state.zoom / 2); show_frame(); }

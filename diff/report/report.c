@@ -21,6 +21,7 @@
 
 enum { PASSED_SAMPLE = 12, PNG_LEVEL = 6, THUMBNAIL = 80, BLAMED = 3, BLAME_SIZE = 200 };
 #define PICTURE_BUDGET ((size_t)64 << 20)
+#define PASSED_BUDGET ((size_t)16 << 20) /* of frames that passed, beyond the sample: pages stay quick to open */
 
 static void write_base64(const uint8_t *bytes, size_t n, FILE *out)
 {
@@ -193,7 +194,7 @@ static int write_roles(const struct picture_frame *frame, FILE *out, size_t *use
 struct pictures {
 	const struct picture_sources *from;
 	const struct score **scores;
-	uint8_t *is_sample; /* 1: to be shown whole; of frames that passed, a few, evenly spread */
+	size_t n_first; /* so many are shown first: all that did not pass, and of those that passed a few, evenly spread */
 	size_t n;
 };
 
@@ -229,12 +230,28 @@ fail:
 	return err;
 }
 
-/** All others than samples, and what is beyond the budget, have a thumbnail. */
+/** What is beyond the budget has a thumbnail. */
 static int make_pictures(void *context, size_t i, size_t spent, FILE *out, size_t *cost)
 {
 	const struct pictures *p = context;
 
-	return write_pictures(p, p->scores[i], p->is_sample[i] && spent < PICTURE_BUDGET, out, cost);
+	return write_pictures(p, p->scores[i], spent < (i < p->n_first ? PICTURE_BUDGET : PASSED_BUDGET), out, cost);
+}
+
+/* Frames that passed: a few evenly spread (is_sample), or all others. */
+static void add_passed(const struct output_run *run, int is_sample, struct pictures *p)
+{
+	const uint64_t n_passed = run->counts[SCORE_FRAME_PASSED];
+	uint64_t seen = 0;
+
+	for (size_t i = 0; i < run->n_scores; i++) {
+		if (run->scores[i].outcome != SCORE_FRAME_PASSED)
+			continue;
+		/* the k-th sample is taken at place k * n / SAMPLE */
+		if ((n_passed <= PASSED_SAMPLE || seen * PASSED_SAMPLE % n_passed < PASSED_SAMPLE) == is_sample)
+			p->scores[p->n++] = &run->scores[i];
+		seen++;
+	}
 }
 
 /* Without a reference and without approved frames there are figures, and nothing to show a picture beside. */
@@ -247,33 +264,21 @@ static int write_all_pictures(const struct picture_sources *from, FILE *out)
 {
 	const struct output_run *run = from->run;
 	struct pictures p = { .from = from };
-	uint64_t n_passed = run->counts[SCORE_FRAME_PASSED], seen = 0;
 	int err;
 
 	if (!has_pictures(run))
 		return 0;
 	p.scores = calloc(run->n_scores + 1, sizeof(*p.scores));
-	p.is_sample = calloc(run->n_scores + 1, sizeof(*p.is_sample));
-	if (!p.scores || !p.is_sample) {
-		err = err_report(ERR_SYSTEM, NULL, "out of memory");
-		goto fail;
-	}
+	if (!p.scores)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (size_t i = 0; i < run->n_scores; i++)
-		if (output_is_compared(&run->scores[i]) && run->scores[i].outcome != SCORE_FRAME_PASSED) {
-			p.is_sample[p.n] = 1;
+		if (output_is_compared(&run->scores[i]) && run->scores[i].outcome != SCORE_FRAME_PASSED)
 			p.scores[p.n++] = &run->scores[i];
-		}
-	for (size_t i = 0; i < run->n_scores; i++)
-		if (run->scores[i].outcome == SCORE_FRAME_PASSED) {
-			/* the k-th sample is taken at place k * n / SAMPLE */
-			p.is_sample[p.n] = n_passed <= PASSED_SAMPLE || seen * PASSED_SAMPLE % n_passed < PASSED_SAMPLE;
-			p.scores[p.n++] = &run->scores[i];
-			seen++;
-		}
+	add_passed(run, 1, &p);
+	p.n_first = p.n;
+	add_passed(run, 0, &p);
 	err = ordered_write(p.n, make_pictures, &p, out);
-fail:
 	free(p.scores);
-	free(p.is_sample);
 	return err;
 }
 

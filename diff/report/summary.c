@@ -54,6 +54,7 @@ static int print_programs(const struct output_run *run, FILE *out)
 static void print_counts(const struct output_run *run, FILE *out)
 {
 	const struct score *worst = NULL;
+	char name[256];
 
 	fprintf(out, "%zu frame%s:", run->n_scores, plural(run->n_scores));
 	for (int o = 0, n = 0; o < N_SCORE_OUTCOMES; o++)
@@ -65,10 +66,14 @@ static void print_counts(const struct output_run *run, FILE *out)
 		if (output_is_compared(s) && (!worst || s->fidelity < worst->fidelity))
 			worst = s;
 	}
-	if (worst && run->reference)
-		fprintf(out, "; lowest fidelity %.3f %% (frame %" PRIu64 ")", 100 * worst->fidelity, worst->frame);
-	if (output_first_wrong(run))
-		fprintf(out, "; first wrong frame %" PRIu64, output_first_wrong(run)->frame);
+	if (worst && run->reference) {
+		output_name(run, worst->frame, name, sizeof(name));
+		fprintf(out, "; lowest fidelity %.3f %% (%s)", 100 * worst->fidelity, name);
+	}
+	if (output_first_wrong(run)) {
+		output_name(run, output_first_wrong(run)->frame, name, sizeof(name));
+		fprintf(out, "; first wrong %s", name);
+	}
 	fputc('\n', out);
 	if (run->n_unmatched)
 		fprintf(out, "not compared: %" PRIu64 " frame%s that the reference or the baseline has, and TRACED has not; --all "

@@ -7,7 +7,7 @@ async function operate()
 	const wait = ms => new Promise(done => setTimeout(done, ms));
 	const key = (k, at = document, more = {}) => at.dispatchEvent(new KeyboardEvent("keydown", { key: k, bubbles: true, cancelable: true, ...more }));
 	const images = () => [...document.querySelectorAll("#views img")];
-	const names = () => images().map(image => image.alt);
+	const names = () => images().map(image => image.dataset.name);
 	const captions_shown = () => [...document.querySelectorAll("#views figcaption")].map(node => node.textContent);
 	const now = () => state.frame.frame;
 	const control = label => document.querySelector(`[aria-label='${label}']`);

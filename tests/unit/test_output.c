@@ -1,4 +1,4 @@
-/* What relume diff prints of scores: the table and its last line, the summary as Markdown (diff/report). */
+/* What relume diff prints of scores: the table and its last line, what people read, Markdown, JUnit XML (diff/report). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,8 +6,11 @@
 #include <unistd.h>
 
 #include "diff/report/markdown.h"
+#include "diff/report/junit.h"
 #include "diff/report/output.h"
-#include "tests/case.h"
+#include "diff/report/summary.h"
+#include "diff/report/table.h"
+#include "tests/alone.h"
 
 enum { MOST = 64 };
 
@@ -49,7 +52,7 @@ static char *table_of(const struct output_run *run)
 	char *text = NULL;
 	FILE *out = open_memstream(&text, &size);
 
-	output_table(run, out);
+	table_write(run, out);
 	ck_assert_int_eq(fclose(out), 0);
 	return text;
 }
@@ -127,6 +130,100 @@ START_TEST(test_not_measured)
 }
 END_TEST
 
+static char *summary_of(const struct output_run *run, const char *report)
+{
+	size_t size;
+	char *text = NULL;
+	FILE *out = open_memstream(&text, &size);
+
+	ck_assert_int_eq(summary_write(run, report, out), 0);
+	ck_assert_int_eq(fclose(out), 0);
+	return text;
+}
+
+/* 100 columns: what failed, alike together, by which comparison, and what to do; nothing of frames that passed. */
+START_TEST(test_summary)
+{
+	struct output_run run = run_of(30);
+	char *text = summary_of(&run, NULL);
+
+	ck_assert_str_eq(text, "30 frames: 30 passed; lowest fidelity 100.000 % (frame 10)\n");
+	free(text);
+	for (size_t i = 2; i < 6; i++)
+		fail_frame(&run, i, i == 4 ? 9 : 8);
+	scores[4].gates[GATE_B].state = SCORE_FAILED;
+	scores[4].gates[GATE_B].value[0] = 3;
+	memset(scores[4].gates[GATE_B].note, 'w', 130);
+	memcpy(scores[4].gates[GATE_B].note + 40, " and ", 5);
+	scores[20].outcome = SCORE_FRAME_EXTRA;
+	run.counts[SCORE_FRAME_EXTRA]++;
+	run.counts[SCORE_FRAME_PASSED]--;
+	run.baseline = "approved";
+	text = summary_of(&run, NULL);
+	check_says(text, "frames 12-13: failed, fidelity 92.000 % in the worst, frame 12\n  not as the reference\n    R3 gross errors: pixels over 32/255 8 px (bar <= 4 px)\n", 1);
+	check_says(text, "frame 14: failed, fidelity 91.000 %\n  not as the reference\n    R3 ", 1);
+	check_says(text, "  not as approved\n    B baseline: pixels off from the approved frame 3 %", 1);
+	check_says(text, "frame 30: extra: there is no reference for it\n", 1);
+	check_says(text, "Look at them: once more with --report DIR", 1);
+	check_says(text, "If they are right: relume approve -f 14 out approved\n", 1);
+	check_says(text, "\n30 frames: 25 passed, 4 failed, 1 extra; lowest fidelity 91.000 % (frame 14); first wrong frame 12\n", 1);
+	for (const char *line = text; *line; line += strcspn(line, "\n") + 1)
+		ck_assert_msg(strcspn(line, "\n") <= 100, "more than 100 columns: %.*s", (int)strcspn(line, "\n"), line);
+	free(text);
+	text = summary_of(&run, "page");
+	check_says(text, "Look at them: page/index.html\n", 1);
+	free(text);
+	run = run_of(60);
+	for (size_t i = 0; i < 60; i += 2)
+		fail_frame(&run, i, 8);
+	text = summary_of(&run, NULL);
+	check_says(text, "\nand 18 more frames (--table shows all)\n", 1);
+	free(text);
+}
+END_TEST
+
+static char *junit_of(const struct output_run *run)
+{
+	char path[] = "/tmp/relume-test-output-XXXXXX", *text = calloc(1, 1 << 16);
+	FILE *in;
+
+	close(mkstemp(path));
+	ck_assert_int_eq(junit_write(run, path), 0);
+	in = fopen(path, "r");
+	ck_assert(fread(text, 1, (1 << 16) - 1, in) > 0);
+	fclose(in);
+	unlink(path);
+	return text;
+}
+
+/* A case names the recording, the frame, the picture and the reference, and says in words which comparison failed. */
+START_TEST(test_junit)
+{
+	struct set_entry entries[2][3] = { { { .frame = 10, .path = "ref/a.10.png" }, { .frame = 11, .path = "ref/a.11.png" }, { .frame = 12, .path = "ref/log<in.png", .name = "log<in" } },
+	                                   { { .frame = 10, .path = "out/a.10.png" }, { .frame = 11, .path = "out/a.11.png" }, { .frame = 12, .path = "out/log<in.png", .name = "log<in" } } };
+	const struct set ref = { .entries = entries[0], .n_entries = 3 }, set = { .entries = entries[1], .n_entries = 3 };
+	struct output_run run = run_of(4);
+	char *text;
+
+	run.ref = &ref;
+	run.set = &set;
+	fail_frame(&run, 1, 8);
+	fail_frame(&run, 2, 9);
+	scores[3].outcome = SCORE_FRAME_MISSING;
+	run.counts[SCORE_FRAME_PASSED]--;
+	run.counts[SCORE_FRAME_MISSING]++;
+	text = junit_of(&run);
+	check_says(text, "<testsuite name=\"relume diff a\" tests=\"4\" failures=\"3\" errors=\"0\" skipped=\"0\"", 1);
+	check_says(text, "<property name=\"reference\" value=\"a.ref\"/>", 1);
+	check_says(text, "<testcase classname=\"a\" name=\"frame 10\" file=\"out/a.10.png\"/>", 1);
+	check_says(text, "<testcase classname=\"a\" name=\"log&lt;in\" file=\"out/log&lt;in.png\">", 1);
+	check_says(text, "<failure message=\"not as the reference: R3 gross errors: pixels over 32/255 8 px (bar &lt;= 4 px)\">", 1);
+	check_says(text, "\nrecording: a\npicture: out/a.11.png\nreference: ref/a.11.png\n</failure>", 1);
+	check_says(text, "<testcase classname=\"a\" name=\"frame 13\">\n      <failure message=\"there is no picture to compare\">", 1);
+	free(text);
+}
+END_TEST
+
 static char *markdown_of(const struct output_run *run)
 {
 	char path[] = "/tmp/relume-test-output-XXXXXX", *text = calloc(1, 1 << 16);
@@ -154,7 +251,7 @@ START_TEST(test_markdown)
 		fail_frame(&run, i, i == 9 ? 12 : 8);
 	text = markdown_of(&run);
 	check_says(text, "| frames | outcome |", 1);
-	check_says(text, "\n| 13-32 | failed | not as the program showed it: **R3** pixels over 32/255 12 px (bar \\<= 4 px) (frame 19, the worst) |  |\n", 1);
+	check_says(text, "\n| 13-32 | failed | not as the reference: **R3** pixels over 32/255 12 px (bar \\<= 4 px) (frame 19, the worst) |  |\n", 1);
 	check_says(text, "more", 0);
 	free(text);
 	run = run_of(60);
@@ -184,6 +281,8 @@ int main(void)
 	tcase_add_test(tcase, test_last_line);
 	tcase_add_test(tcase, test_rows);
 	tcase_add_test(tcase, test_not_measured);
+	tcase_add_test(tcase, test_summary);
+	tcase_add_test(tcase, test_junit);
 	tcase_add_test(tcase, test_markdown);
-	return run_case(tcase, "output");
+	return run_alone(tcase, "output");
 }
