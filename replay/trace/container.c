@@ -30,6 +30,7 @@ struct container {
 	int delivered; /* Brotli: some of it is read already */
 	uint8_t *packed, *unpacked;
 	size_t packed_room, unpacked_room;
+	uint64_t behind; /* bytes of the file behind the end of the trace */
 	size_t at, end; /* Snappy: bytes of `packed` that were read and not unpacked yet */
 	XXH3_state_t *hash; /* of all that was read of the file; NULL: nobody wants it, or it was not read in order */
 	z_stream gzip;
@@ -234,6 +235,18 @@ static size_t have(struct container *c, size_t n, int *rc)
 	return c->end < n ? c->end : n;
 }
 
+/* Is there another trace where a chunk should begin: the magic number, and a chunk? *rc as of have() */
+static int begins_trace(struct container *c, int *rc)
+{
+	const size_t got = have(c, 11, rc); /* a varint of 32 bits takes five */
+	const uint8_t *p = c->packed + c->at;
+	size_t unpacked;
+
+	return got == 11 && p[0] == 'a' && p[1] == 't' &&
+		(p[2] | (size_t)p[3] << 8 | (size_t)p[4] << 16 | (size_t)p[5] << 24) <= c->size - c->offset - 6 &&
+		snappy_uncompressed_length((const char *)p + 6, 5, &unpacked) == SNAPPY_OK && unpacked <= CHUNK_MAX_BYTES;
+}
+
 /*
  * Unpack the chunk at c->offset behind what is unpacked already.
  * @param made  bytes of that; counts up
@@ -254,6 +267,10 @@ static int add_chunk(struct container *c, size_t *made, const char **why)
 	length = head[0] | (size_t)head[1] << 8 | (size_t)head[2] << 16 | (size_t)head[3] << 24;
 	if (length == 0)
 		return 0;
+	if (length > c->size - c->offset - 4 && begins_trace(c, &rc)) {
+		c->behind = c->size - c->offset;
+		return rc;
+	}
 	if (length > c->size - c->offset - 4) {
 		c->cut = 1;
 		length = c->size - c->offset - 4;
@@ -287,7 +304,7 @@ static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
 {
 	const char *why = "";
 	size_t made = 0;
-	int rc;
+	int rc, failed = 0;
 
 	c->piece = c->offset;
 	do
@@ -298,6 +315,12 @@ static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
 	if (rc == ERR_INPUT && made) /* what stands before the damage; the next call meets it again */
 		return 1;
 	c->ended = rc <= 0 || c->cut;
+	if (rc == ERR_INPUT && begins_trace(c, &failed)) {
+		c->behind = c->size - c->offset;
+		return 0;
+	}
+	if (failed)
+		return failed;
 	if (rc == ERR_INPUT)
 		return err_report(ERR_INPUT, c->path, "damaged at byte %llu: %s", (unsigned long long)c->offset, why);
 	return rc < 0 ? rc : made > 0;
@@ -339,6 +362,7 @@ static int next_gzip(struct container *c, const uint8_t **data, size_t *size)
 			                  (unsigned long long)c->offset, z->msg ? z->msg : "no reason given");
 	}
 	c->ended = rc == Z_STREAM_END || c->cut;
+	c->behind = rc == Z_STREAM_END ? z->avail_in + (c->size - c->offset) : 0;
 	*data = c->unpacked;
 	*size = PIECE_BYTES - z->avail_out;
 	return *size > 0;
@@ -370,6 +394,7 @@ static int next_brotli(struct container *c, const uint8_t **data, size_t *size)
 			                  "before byte %llu", (unsigned long long)c->offset);
 	}
 	c->ended = rc == BROTLI_DECODER_RESULT_SUCCESS || c->cut;
+	c->behind = rc == BROTLI_DECODER_RESULT_SUCCESS ? c->brotli_left + (c->size - c->offset) : 0;
 	*data = c->unpacked;
 	*size = PIECE_BYTES - room;
 	c->delivered |= *size > 0;
@@ -413,6 +438,7 @@ int container_seek(struct container *c, uint64_t offset)
 	XXH3_freeState(c->hash);
 	c->hash = NULL;
 	c->cut = c->ended = 0;
+	c->behind = 0;
 	c->at = c->end = 0;
 	c->offset = offset;
 	if (fseeko(c->file, (off_t)offset, SEEK_SET))
@@ -450,6 +476,11 @@ int container_hash_end(struct container *c, uint64_t out[2])
 int container_is_cut(const struct container *c)
 {
 	return c->cut;
+}
+
+uint64_t container_behind(const struct container *c)
+{
+	return c->behind;
 }
 
 uint64_t container_offset(const struct container *c)

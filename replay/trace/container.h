@@ -31,6 +31,9 @@ int container_seek(struct container *c, uint64_t offset);
 /** 1: the file ended within a chunk or stream. What could be unpacked of it was delivered. */
 int container_is_cut(const struct container *c);
 
+/** Bytes of the file behind the end of the trace, once that is reached: another one follows. 0: none */
+uint64_t container_behind(const struct container *c);
+
 /**
  * Hash the file as hash_whole does. Snappy chunks that are read in order from now on are hashed on the way; hash_end reads the rest
  * of the file, or all of it where the container was sought or is of another kind. After hash_end nothing more is delivered.

@@ -172,6 +172,11 @@ uint64_t trace_reader_offset(const struct trace_reader *r)
 	return container_offset(r->container);
 }
 
+uint64_t trace_reader_behind(const struct trace_reader *r)
+{
+	return container_behind(r->container);
+}
+
 uint64_t trace_reader_size(const struct trace_reader *r)
 {
 	return container_size(r->container);

@@ -84,6 +84,7 @@ int trace_reader_hash_end(struct trace_reader *r, uint64_t out[2]);
 
 /** Bytes of the file read so far, and its size. */
 uint64_t trace_reader_offset(const struct trace_reader *r);
+uint64_t trace_reader_behind(const struct trace_reader *r); /* see container_behind */
 uint64_t trace_reader_size(const struct trace_reader *r);
 
 /** Name of an ENUM's value, or NULL where the signature has none. */

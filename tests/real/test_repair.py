@@ -104,6 +104,19 @@ cut.write_bytes(packed[:len(packed) * 2 // 3])
 lines = repaired(cut, "Brotli cut")
 check(len(lines) > len(whole) // 4 and lines == whole[:len(lines)], f"Brotli cut: {len(lines)} of {len(whole)} calls")
 
+# Another recording in the same file: the first one is kept, and a line says how many bytes follow.
+other = (ROOT / "tests/golden/two_triangles.trace").read_bytes()
+odd = b"at" + struct.pack("<I", 1 << 16) + b"\x80\x80\x04" + bytes((1 << 16) - 3)  # read as a chunk, it is shorter than the file
+for what, first, second in (("itself", data, data), ("another one", data, other), ("one that begins with a chunk of 64 KiB", data, odd),
+                            ("gzip", gzip.compress(stream), other), ("gzip in gzip", gzip.compress(stream), gzip.compress(bytes(unpack(other)))),
+                            ("Brotli", packed, other)):
+    cut.write_bytes(first + second)
+    check(repaired(cut, f"followed by {what}") == whole, f"followed by {what}: the first one is kept")
+    done = relume("repair", "-o", SCRATCH / "new.trace", cut)
+    check(f"left  {len(second)} bytes of another recording" in done.stdout and " 0 of the file's" in done.stdout, f"followed by {what}: {done.stdout}")
+    said = relume("info", cut).stderr
+    check(re.search(rf" {len(second)} bytes of another recording follow after call \d+,", said) and said.count("\n") == 1, f"followed by {what}: info: {said}")
+
 # Nothing to save, and wrong usage: one line, and no file.
 new = SCRATCH / "none.trace"
 for what, content in (("its first bytes", data[:2]), ("its header", data[:12]), ("no trace", b"\x89PNG" + bytes(100))):

@@ -52,6 +52,6 @@ check("missing, frames 0 to 9: glUseProgram: a shader samples texture units from
 check("draws are missing" in lines[-1], f"missing draws: {done.stderr}")
 done = relume("render", trace, "-o", to, "-f", "0-3", "--allow-incomplete", *AS_SHOWN)
 check(done.returncode == 0, f"--allow-incomplete: exit code {done.returncode}")
-done = relume("diff", SCRATCH / "windows.trace", SCRATCH / "frames", "-f", "0-14")
+done = relume("diff", SCRATCH / "windows.trace", SCRATCH / "frames", "-f", "0-14", "--table")
 check("  10-14 missing" in done.stdout and done.stdout.count("missing") == 2, f"five frames that are missing have one row: {done.stdout}")
 finish()
