@@ -13,7 +13,7 @@ const label = f => f.name || "frame " + f.frame;
 /* A table with a heading for people and one for each column; in a region that the keyboard can scroll. */
 function table_of(caption, columns, rows) {
 	const table = make("table", {}, make("caption", { textContent: caption }), make("tr", {}, ...columns.map(t => make("th", { textContent: t, scope: "col" }))), ...rows);
-	const region = make("div", { className: "scroll", tabIndex: 0 }, table);
+	const region = make("div", { className: "scroll " + caption.replaceAll(" ", "-"), tabIndex: 0 }, table);
 	region.setAttribute("role", "region");
 	region.setAttribute("aria-label", caption);
 	return region;
@@ -53,7 +53,7 @@ function show_header() {
 			$("counts").append(make("b", { className: name, textContent: count + " " + name }));
 	const against = [run.reference, run.baseline && "approved frames in " + run.baseline].filter(x => x).join(" and ");
 	$("about").textContent = `${run.traced} against ${against}; ${run.frames.length} frames, ${run.seconds.toFixed(1)} s. ` +
-		("first_wrong_frame" in run ? `First wrong frame: ${run.first_wrong_frame}. ` : "") +
+		("first_wrong_frame" in run ? `The first that is wrong: ${label(run.frames.find(f => f.frame === run.first_wrong_frame))}. ` : "") +
 		"All pictures of what did not pass are in this page (as long as they take no more than 64 MB), and of what passed up to 16 MB.";
 	$("command").textContent = run.command;
 	if (run.frames.some(f => f.programs))
@@ -88,8 +88,8 @@ function show_chart() {
 		bar.onclick = () => select(f);
 	});
 	svg.after(make("div", { className: "dim", textContent: (run.baseline ? "pixels that are as approved" : "") +
-		(run.baseline && run.reference ? ", or " : "") + (run.reference ? "fidelity (pixels that pass R1, R1b or R2)" : "") + (run.baseline && run.reference ? ", the lower of both," : "") + " over frames " +
-		`${shown[0].frame} to ${shown[shown.length - 1].frame}; the floor of the chart is ${100 * floor} %, its top 100 %` }));
+		(run.baseline && run.reference ? ", or " : "") + (run.reference ? "fidelity (pixels that pass R1, R1b or R2)" : "") + (run.baseline && run.reference ? ", the lower of both," : "") + " over " +
+		`${label(shown[0])} to ${label(shown[shown.length - 1])}; the floor of the chart is ${100 * floor} %, its top 100 %` }));
 }
 
 /* A row's thumbnail is read when the row is scrolled into sight. */

@@ -108,4 +108,12 @@ check("| 1-2 | failed | not as approved: " in text, f"Markdown says which compar
 for report in ("report", "changed"):
     found = browser.narrow(SCRATCH, SCRATCH / report, 390) or {}
     check(len(found) == 4 and all(inner == 390 >= wide for inner, wide in found.values()), f"{report} on a screen of 390 pixels: {found}")
+
+# --- For those who see little, hear the page, or use no mouse; and on paper -------------------------------------------------
+
+for scheme in ("light", "dark"):
+    found = browser.accessible(SCRATCH, SCRATCH / "changed", scheme) or {}
+    check(found.get("wrong") == [], f"accessible, {scheme}: {found}")
+found = browser.printed(SCRATCH, SCRATCH / "changed") or {}
+check(found == {"shown": sorted(["H1", "H2", "IMG", "TABLE", "chart", "verdicts"]), "wide": False, "back": "rgb(255, 255, 255)"}, f"printed: {found}")
 finish()

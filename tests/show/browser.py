@@ -38,6 +38,31 @@ def operate(work, report, at=""):
     return said(work, f"{page}{at}")
 
 
+def accessible(work, report, scheme="light"):
+    """What accessible.js finds wrong in a report's page under a colour scheme."""
+    page = report / "accessible.html"
+    text = (report / "index.html").read_text()
+    if scheme == "dark":  # as if the screen asked for it
+        text = text.replace("@media (prefers-color-scheme: dark)", "@media screen", 1)
+    page.write_text(text.replace("</body>", f"<script>{(HERE / 'accessible.js').read_text()}</script></body>"))
+    return said(work, page)
+
+
+def printed(work, report):
+    """What the page's print style leaves: names of the parts that are shown, and whether a picture or table is wider than the paper."""
+    page = report / "printed.html"
+    script = """<script>
+addEventListener("load", () => setTimeout(() => {
+	const shown = [...document.querySelectorAll("#side, #tools, #pixel, #keys, h1, h2, #chart, #views img, #verdicts, table")].filter(node => node.checkVisibility());
+	console.log("FOUND" + JSON.stringify({ shown: [...new Set(shown.map(node => node.id || node.tagName))].sort(), wide: document.documentElement.scrollWidth > document.documentElement.clientWidth,
+		back: getComputedStyle(document.body).backgroundColor }) + "DNUOF");
+}, 300));
+</script></body>"""
+    page.write_text((report / "index.html").read_text().replace("@media (prefers-color-scheme: dark)", "@media screen", 1)
+                    .replace("@media print", "@media screen", 1).replace("</body>", script))
+    return said(work, page)
+
+
 def narrow(work, report, width):
     """How wide a report's page is on a screen of `width` pixels, in each of its views: in a frame, as no window of the browser is so narrow."""
     page, around = report / "narrow.html", report / "around.html"
@@ -47,7 +72,8 @@ addEventListener("load", () => setTimeout(() => {
 	for (const mode of ["side", "blink", "swipe", "all"]) {
 		state.mode = mode;
 		show_frame();
-		found[mode] = [innerWidth, document.documentElement.scrollWidth];
+		const gates = document.querySelector(".gates");
+		found[mode] = [innerWidth, Math.max(document.documentElement.scrollWidth, innerWidth + gates.scrollWidth - gates.clientWidth)];
 	}
 	console.log("FOUND" + JSON.stringify(found) + "DNUOF");
 }, 300));
