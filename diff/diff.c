@@ -81,7 +81,8 @@ static const struct options_row rows[] = {
 	  options_frames, .at = offsetof(struct options, frames) },
 	{ "all", 0, NULL, "every frame that REF, TRACED or the approved frames have must be there and pass; with --frames: "
 	  "each of these that one has", options_flag, .at = offsetof(struct options, all) },
-	{ "channel", 0, "LAYER", "what to compare with the reference: gl (default where there is one), beauty, albedo, ...",
+	{ "channel", 0, "LAYER", "what to compare with the reference: gl (default where there is one), beauty, any layer by what its channels' names begin with "
+	  "(view.diffuse, N), or a single channel (Z)",
 	  options_text, .at = offsetof(struct options, score.channel) },
 	{ "ignore-alpha", 0, NULL, "leave alpha out, and compare colours as they are stored: else pictures of others are compared with colours "
 	  "multiplied by alpha, and one without alpha is opaque", options_flag, .at = offsetof(struct options, score.ignore_alpha) },

@@ -127,6 +127,17 @@ static int number_names(struct set *const *sets, size_t n_sets)
 	return 0;
 }
 
+/* A set of names alone, none of which is in another set, is not what was meant. */
+static int check_common(struct set *const *sets, size_t n_sets, size_t own)
+{
+	const struct set *set = sets[own];
+
+	for (size_t i = 0; i < set->n_entries; i++)
+		if (set->entries[i].has_number || is_elsewhere(sets, n_sets, own, set->entries[i].name))
+			return 0;
+	return err_report(ERR_INPUT, set->name, "there is no numbered image, and none whose path %s has", sets[own ? 0 : n_sets - 1]->name);
+}
+
 static int finish(struct set *set)
 {
 	qsort(set->entries, set->n_entries, sizeof(*set->entries), compare_numbers);
@@ -153,6 +164,8 @@ int set_match(struct set *const *sets, size_t n_sets, int only_numbers)
 		err = find_doubles(sets, n_sets, s);
 	for (size_t s = 0; s < n_sets && !err && only_numbers; s++)
 		err = sets[s]->n_entries ? drop_named(sets[s]) : 0;
+	for (size_t s = 0; s < n_sets && !err && !only_numbers; s++)
+		err = check_common(sets, n_sets, s);
 	if (!err && !only_numbers)
 		err = number_names(sets, n_sets);
 	for (size_t s = 0; s < n_sets && !err; s++)

@@ -17,9 +17,12 @@ const char *const picture_names[N_PICTURES] = {
 int picture_take_reference(const struct image *img, const char *channel, struct score_picture *out)
 {
 	const char *layers[] = { channel ? channel : "gl", "gl", "beauty" };
-	int err = ERR_INPUT;
+	int err = ERR_INPUT, has_layers = 0;
 
-	for (size_t i = 0; err == ERR_INPUT && i < sizeof(layers) / sizeof(layers[0]); i++)
+	for (size_t i = 0; channel && i < img->n_channels; i++)
+		has_layers |= strchr(img->channels[i].name, '.') != NULL;
+	/* in a picture of many layers, the one that is asked for is meant */
+	for (size_t i = 0; err == ERR_INPUT && i < sizeof(layers) / sizeof(layers[0]) - (size_t)has_layers; i++)
 		err = score_picture_from_image(img, layers[i], out);
 	return err;
 }

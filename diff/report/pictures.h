@@ -55,7 +55,7 @@ struct picture_frame {
 int picture_frame_read(const struct picture_sources *from, uint64_t frame, struct picture_frame *out);
 void picture_frame_free(struct picture_frame *frame);
 
-/** The reference as it is compared: layer `channel` if it has it, else gl, else its plain colours. */
+/** The reference as it is compared: layer `channel` if it has it, else gl, else its plain colours where these are all it has. */
 int picture_take_reference(const struct image *img, const char *channel, struct score_picture *out);
 
 /**

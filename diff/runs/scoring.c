@@ -159,7 +159,7 @@ static int score_one(struct work *w, uint64_t frame, struct score *out)
 	if (!err && r)
 		err = picture_take_reference(&ref_image, w->run->options->channel, &picture);
 	if (err == ERR_INPUT && ref_image.n_channels)
-		err_report(ERR_INPUT, r->path ? r->path : w->all.ref->name, "the reference has no colour channels");
+		err_report(ERR_INPUT, r->path ? r->path : w->all.ref->name, "the reference has no %s", w->run->options->channel ? "such layer (--channel)" : "colour channels");
 	if (!err)
 		err = set_read(w->all.traced, t, &image);
 	if (!err && !r)

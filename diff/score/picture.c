@@ -45,12 +45,29 @@ int score_find_layer(const struct image *img, const char *layer, const float *pl
 	static const char *const kinds[] = { "RGB", "XYZ", "rgb", "xyz", "YYY" };
 
 	if (strcmp(layer, "beauty") == 0)
-		return find_channels(img, "", "RGB", planes);
+		return find_channels(img, "", "RGB", planes) || find_channels(img, "", "YYY", planes);
 	for (size_t k = 0; k < sizeof(kinds) / sizeof(kinds[0]); k++)
 		if (find_channels(img, layer, kinds[k], planes))
 			return 1;
 	planes[0] = planes[1] = planes[2] = image_channel(img, layer);
 	return planes[0] != NULL;
+}
+
+void score_list_layers(const struct image *img, char *out, size_t size)
+{
+	size_t used = 0;
+
+	out[0] = '\0';
+	for (size_t i = 0; i < img->n_channels && used < size; i++) {
+		const char *name = img->channels[i].name, *dot = strrchr(name, '.');
+		const int n = dot ? (int)(dot - name) : (int)strlen(name);
+		int is_new = 1;
+
+		for (size_t k = 0; k < i; k++)
+			is_new &= strncmp(img->channels[k].name, name, (size_t)n + (dot != NULL)) != 0;
+		if (is_new)
+			used += (size_t)snprintf(out + used, size - used, "%s%.*s", used ? ", " : "", n, name);
+	}
 }
 
 static struct score_numbers numbers_of(const struct image *img, const char *layer, const float *const planes[3])

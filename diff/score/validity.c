@@ -18,6 +18,7 @@ int gate_validity(struct gate_frame *f)
 	const char *program = image_attribute(img, "relume:program");
 	const char *odd_channel = NULL;
 	const float *planes[3];
+	char layers[96];
 	uint64_t odd = 0;
 
 	for (size_t c = 0; c < img->n_channels; c++) {
@@ -43,7 +44,8 @@ int gate_validity(struct gate_frame *f)
 	} else if (img->width != ref->width || img->height != ref->height) {
 		gate_fail(f, GATE_V, "size %u x %u, but the reference is %u x %u", img->width, img->height, ref->width, ref->height);
 	} else if (!score_find_layer(img, f->layer, planes)) {
-		gate_fail(f, GATE_V, "there is no layer \"%s\"", f->layer);
+		score_list_layers(img, layers, sizeof(layers));
+		gate_fail(f, GATE_V, "there is no layer \"%.32s\", but %s (--channel)", f->layer, layers);
 	} else if (strcmp(f->layer, "gl") == 0 && !score_find_layer(img, "beauty", planes)) {
 		gate_fail(f, GATE_V, "a traced frame, but without channels R, G and B");
 	} else if (number && strtoull(number, NULL, 10) != f->score->frame) {

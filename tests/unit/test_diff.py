@@ -287,6 +287,8 @@ class Diff(unittest.TestCase):
         self.assertEqual({c.get("name") for c in xml.etree.ElementTree.parse(self.dir / "j.xml").iter("testcase") if len(c)}, {"login", "dark/menu.2", "dark/new"})
         self.assertIn('"name": "dark/new"', (self.dir / "page/index.html").read_text())
         self.assertEqual(self.outcomes(self.ref, self.traced / "dark/../login.png", expect=1), {9: "failed"})
+        write_png(self.dir / "other/new.png", picture(1))
+        self.assertIn("no numbered image, and none whose path", self.diff(self.ref, self.dir / "other", expect=3).stderr)
         # beside a file of reference frames there is nothing to compare them with, and that is said
         (self.dir / "t.ref").write_bytes(b"RELREF2\n" + b"".join(ref_color(n, picture(n)) for n in range(1, 5)))
         self.assertIn("login.png: has no number", self.diff(self.dir / "t.ref", self.traced, expect=0).stderr)

@@ -36,10 +36,10 @@ def write_png(path, codes, depth=8, level=6):
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows, level)) + chunk(b"IEND", b""))
 
 
-def write_exr(path, planes, at=(0, 0), shown=None):
+def write_exr(path, planes, at=(0, 0), shown=None, in_tile=False):
     """
     Planes {name: [height][width], half, float or uint32} as an OpenEXR file without compression. at: the first pixel of the data;
-    shown: x, y, width and height of the display window; None: that of the data.
+    shown: x, y, width and height of the display window; None: that of the data. in_tile: all of it is one tile.
     """
     types = {"uint32": 0, "float16": 1, "float32": 2}
     names = sorted(planes)
@@ -51,9 +51,13 @@ def write_exr(path, planes, at=(0, 0), shown=None):
               ("displayWindow", "box2i", struct.pack("<4i", x, y, x + w - 1, y + h - 1)), ("lineOrder", "lineOrder", b"\0"),
               ("pixelAspectRatio", "float", struct.pack("<f", 1)), ("screenWindowCenter", "v2f", bytes(8)),
               ("screenWindowWidth", "float", struct.pack("<f", 1)))
-    out = struct.pack("<II", 20000630, 2) + b"".join(f"{name}\0{kind}\0".encode() + struct.pack("<i", len(value)) + value
+    header += (("tiles", "tiledesc", struct.pack("<IIB", width, height, 0)),) if in_tile else ()
+    out = struct.pack("<II", 20000630, 0x202 if in_tile else 2) + b"".join(f"{name}\0{kind}\0".encode() + struct.pack("<i", len(value)) + value
                                                      for name, kind, value in header) + b"\0"
     lines = [b"".join(numpy.ascontiguousarray(planes[name][row]).tobytes() for name in names) for row in range(height)]
+    if in_tile:
+        path.write_bytes(out + struct.pack("<Q4iI", len(out) + 8, 0, 0, 0, 0, len(b"".join(lines))) + b"".join(lines))
+        return
     first = len(out) + 8 * height
     table = struct.pack(f"<{height}Q", *(first + row * (8 + len(lines[0])) for row in range(height)))
     path.write_bytes(out + table + b"".join(struct.pack("<ii", at[1] + row, len(line)) + line for row, line in enumerate(lines)))
@@ -102,6 +106,7 @@ def changed(values, patch, by):
     return out
 
 
+EXTRA_PART = ("--create", "20x10+5+6", "1", "--fullsize", f"{WIDTH}x{HEIGHT}+0+0", "--chnames", "extra.Y", "--attrib", "oiio:subimagename", "extra")
 PATCH = (slice(10, 30), slice(12, 34))
 Case = collections.namedtuple("Case", "name verdict write_a write_b")  # each writes to a path without its ending, and returns the whole
 
@@ -223,6 +228,7 @@ def of_light(seed):
             *((f"lossy, as {kind}", EITHER, base, by_oiio(exr(a, "f2"), "exr", "--compression", kind)) for kind in ("b44", "b44a", "dwaa:100", "dwab:100")),
             ("tiles", PASS, base, by_oiio(base, "exr", "--tile", "16", "16")),
             ("tiles, piz, numbers", PASS, exr(a, more=ids), by_oiio(exr(a, more=ids), "exr", "--tile", "32", "32", "--compression", "piz")),
+            ("grey as Y", PASS, exr(numpy.repeat(a[..., :1], 3, 2)), lambda path: write_exr(path.with_suffix(".exr"), {"Y": a[..., 0].astype("f4")})),
             ("an opaque alpha", PASS, base, exr(numpy.concatenate((a, numpy.ones((HEIGHT, WIDTH, 1))), 2))),
             ("alpha of a half", FAIL, base, exr(numpy.concatenate((a, numpy.full((HEIGHT, WIDTH, 1), 0.5)), 2))),
             ("a layer more", PASS, base, exr(a, more=planes_of(1 - a, prefix="other."))),
@@ -256,6 +262,8 @@ def of_layers(seed):
         return exr(a, more={**other, **{name: 0.5 * other[name] + 0.2 for name in names}})
     for option, names, others in (("view.diffuse", ["view.diffuse.G"], ["N.X", "Z"]), ("N", ["N.Z"], ["view.diffuse.R"]), ("Z", ["Z"], ["N.X"]),
                                   ("view.diffuse.R", ["view.diffuse.R"], ["view.diffuse.G"]), ("beauty", [], ["Z", "N.X"])):
+        parts = by_oiio(edited(), "exr", "--attrib", "oiio:subimagename", "main", *EXTRA_PART, "--siappend")
+        yield option, Case("a part more, of another data window", PASS, edited(), parts)
         yield option, Case("the others changed", PASS, edited(), edited(*others))
         if names:
             yield option, Case("it changed", FAIL, edited(), edited(*names))
@@ -264,6 +272,14 @@ def of_layers(seed):
 def drawn(relations):
     """The cases of all seeds; those that another program writes, which is slow, of one."""
     return [case for seed in SEEDS for case in relations(seed) if seed == SEEDS[0] or not getattr(case.write_b, "is_slow", False)]
+
+
+def of_numbers(seed):
+    """Unsigned integers, as the numbers of draws are, by both readers."""
+    ids = {"id": numpy.arange(HEIGHT * WIDTH, dtype="u4").reshape(HEIGHT, WIDTH)}
+    base = exr(light_of(codes_of(seed)), more=ids)
+    yield Case("in a tile", PASS, base, exr(light_of(codes_of(seed)), more=ids, in_tile=True))
+    yield Case("twice as large", FAIL, base, exr(light_of(codes_of(seed)), more={"id": 2 * ids["id"]}))
 
 
 class Relations(unittest.TestCase):
@@ -305,7 +321,8 @@ class Relations(unittest.TestCase):
 
     def test_layers(self):
         for option in ("view.diffuse", "N", "Z", "view.diffuse.R", "beauty"):
-            self.judge([case for seed in SEEDS for name, case in of_layers(seed) if name == option], "--channel", option)
+            self.judge(drawn(lambda seed: (case for name, case in of_layers(seed) if name == option)), "--channel", option)
+        self.judge(drawn(of_numbers), "--channel", "id")
 
 
 if __name__ == "__main__":

@@ -232,7 +232,7 @@ static int read_layout(exr_context_t file, struct image *img, const char *path, 
 		const exr_attr_chlist_entry_t *c = &channels->entries[i];
 
 		if (c->x_sampling != 1 || c->y_sampling != 1)
-			return err_report(ERR_INPUT, path, "channel %s is subsampled", c->name.str);
+			return err_report(ERR_INPUT, path, "is not supported: channel %s is subsampled", c->name.str);
 		if (c->name.length >= (int)sizeof(img->channels->name))
 			return err_report(ERR_INPUT, path, "channel name %s is too long", c->name.str);
 		if (!image_add_channel(img, c->name.str, c->pixel_type != EXR_PIXEL_HALF))
@@ -378,7 +378,7 @@ int image_read_exr(struct image *img, const char *path)
 		if (rc == EXR_ERR_OUT_OF_MEMORY)
 			result = err_report(ERR_SYSTEM, path, "out of memory");
 		else if (rc != EXR_ERR_SUCCESS)
-			result = err_report(ERR_INPUT, path, "is damaged: %s", reason(rc));
+			result = err_report(ERR_INPUT, path, "%s: %s", rc == EXR_ERR_FEATURE_NOT_IMPLEMENTED ? "is not supported" : "is damaged", reason(rc));
 	}
 	exr_finish(&file);
 	if (result)

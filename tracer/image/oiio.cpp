@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -60,23 +61,32 @@ int64_t most_pixels(const std::string &format, uint64_t bytes)
 struct channel {
 	float *plane;
 	int from;
+	bool is_number; /* an unsigned integer of OpenEXR, which stands for itself; OpenImageIO makes parts of the largest one of it */
+};
+
+/** Where all parts of a file lie together: each may have data of its own window in one display window. */
+struct windows {
+	int x, y, width, height;
+	int n_parts;
 };
 
 /** Whether memory holds the channels of one part: a head claims what it likes, and too much of it is its file's defect. */
-bool has_room(const OIIO::ImageSpec &spec)
+bool has_room(const windows &all, int n_channels)
 {
-	void *volatile planes = calloc(size_t(spec.width) * size_t(spec.height), sizeof(float) * size_t(std::max(spec.nchannels, 3)));
+	void *volatile planes = calloc(size_t(all.width) * size_t(all.height), sizeof(float) * size_t(std::max(n_channels, 3)));
 
 	free(planes);
 	return planes != nullptr;
 }
 
 /** Channels of one part, all 0 yet; `prefix` (a part's name and a dot, or nothing) goes before their names. */
-int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &prefix, std::vector<channel> &out, const char *path)
+int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &prefix, bool is_exr, std::vector<channel> &out, const char *path)
 {
 	const bool grey = prefix.empty() && spec.nchannels <= 2 && spec.channel_name(0) != "R";
 	const auto add = [&](const char *name, int from) {
-		out.push_back({ image_add_channel(img, name, spec.channelformat(grey ? 0 : from) != OIIO::TypeDesc::HALF), from });
+		const OIIO::TypeDesc type = spec.channelformat(from);
+
+		out.push_back({ image_add_channel(img, name, type != OIIO::TypeDesc::HALF), from, is_exr && type == OIIO::TypeDesc::UINT32 });
 		return out.back().plane != nullptr;
 	};
 
@@ -99,7 +109,7 @@ int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &
 }
 
 /** Pixels of one part, in strips: a file that ends early costs what it holds, not what its head claims. */
-int read_part(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, int part, const std::vector<channel> &channels, const char *path)
+int read_part(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, int part, const windows &all, const std::vector<channel> &channels, const char *path)
 {
 	const int rows = std::min(spec.tile_width ? std::max(spec.tile_height, 1) : STRIP_ROWS, spec.height), n = spec.nchannels;
 	const size_t width = size_t(spec.width);
@@ -114,8 +124,12 @@ int read_part(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, int part, const
 		if (!good)
 			return err_report(ERR_INPUT, path, "%s", in.geterror().c_str());
 		for (const channel &c : channels)
-			for (size_t i = 0; i < width * size_t(end - y); i++)
-				c.plane[size_t(y) * width + i] = strip[i * size_t(n) + size_t(c.from)];
+			for (size_t i = 0; i < width * size_t(end - y); i++) {
+				const float value = strip[i * size_t(n) + size_t(c.from)];
+				const size_t row = size_t(spec.y - all.y + y) + i / width;
+
+				c.plane[row * size_t(all.width) + size_t(spec.x - all.x) + i % width] = c.is_number ? rintf(value * 4294967295.0f) : value;
+			}
 	}
 	return 0;
 }
@@ -165,6 +179,37 @@ std::string prefix_of(const OIIO::ImageSpec &spec, int part)
 	return name + ".";
 }
 
+/** Look at the heads of all parts that are read. */
+int find_windows(OIIO::ImageInput &in, bool all_parts, int64_t most, windows &out, const char *path)
+{
+	const OIIO::ImageSpec first = in.spec();
+	int64_t x1 = int64_t(first.x) + first.width, y1 = int64_t(first.y) + first.height;
+
+	out = { first.x, first.y, 0, 0, 0 };
+	for (int part = 0; in.seek_subimage(part, 0) && (part == 0 || all_parts); part++) {
+		const OIIO::ImageSpec spec = in.spec();
+
+		if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > MAX_CHANNELS ||
+		    int64_t(spec.width) * spec.height > most)
+			return err_report(ERR_INPUT, path, "not a picture of sane size: %d x %d x %d, %d channels", spec.width,
+			                  spec.height, spec.depth, spec.nchannels);
+		if (spec.deep)
+			return err_report(ERR_INPUT, path, "is not supported: part %d is deep, and several samples a pixel are no picture yet", part);
+		if (spec.full_x != first.full_x || spec.full_y != first.full_y || spec.full_width != first.full_width || spec.full_height != first.full_height)
+			return err_report(ERR_INPUT, path, "is not supported: part %d has another display window than the first one", part);
+		out.x = std::min(out.x, spec.x);
+		out.y = std::min(out.y, spec.y);
+		x1 = std::max(x1, int64_t(spec.x) + spec.width);
+		y1 = std::max(y1, int64_t(spec.y) + spec.height);
+		out.n_parts++;
+	}
+	if ((x1 - out.x) * (y1 - out.y) > most || x1 - out.x > most || y1 - out.y > most)
+		return err_report(ERR_INPUT, path, "is not supported: its parts lie %lld x %lld pixels apart", (long long)(x1 - out.x), (long long)(y1 - out.y));
+	out.width = int(x1 - out.x);
+	out.height = int(y1 - out.y);
+	return in.seek_subimage(0, 0) ? 0 : err_report(ERR_INPUT, path, "%s", in.geterror().c_str());
+}
+
 int read_image(struct image *img, const char *path)
 {
 	OIIO::ImageSpec config;
@@ -180,34 +225,30 @@ int read_image(struct image *img, const char *path)
 	const int64_t most = most_pixels(in->format_name(), OIIO::Filesystem::file_size(path));
 	const bool all_parts = strcmp(in->format_name(), "openexr") == 0; /* pages of a TIFF are other pictures */
 
-	for (int part = 0; in->seek_subimage(part, 0) && (part == 0 || all_parts); part++) {
+	windows all;
+
+	if (int err = find_windows(*in, all_parts, most, all, path))
+		return err;
+	img->width = uint32_t(all.width);
+	img->height = uint32_t(all.height);
+	for (int part = 0; part < all.n_parts && in->seek_subimage(part, 0); part++) {
 		const OIIO::ImageSpec spec = in->spec();
 
-		if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > MAX_CHANNELS ||
-		    int64_t(spec.width) * spec.height > most)
-			return err_report(ERR_INPUT, path, "not a picture of sane size: %d x %d x %d, %d channels", spec.width,
-			                  spec.height, spec.depth, spec.nchannels);
-		if (spec.deep)
-			return err_report(ERR_INPUT, path, "part %d is deep: several samples a pixel are no picture yet", part);
-		if (spec.width != first.width || spec.height != first.height)
-			return err_report(ERR_INPUT, path, "part %d is of another size than the first one", part);
-		if (!has_room(spec))
-			return err_report(ERR_INPUT, path, "%d x %d pixels of %d channels take more memory than there is", spec.width, spec.height, spec.nchannels);
-		img->width = uint32_t(spec.width);
-		img->height = uint32_t(spec.height);
+		if (!has_room(all, spec.nchannels))
+			return err_report(ERR_INPUT, path, "%d x %d pixels of %d channels take more memory than there is", all.width, all.height, spec.nchannels);
 		std::vector<channel> channels;
-		int err = add_part(img, spec, prefix_of(spec, part), channels, path);
+		int err = add_part(img, spec, prefix_of(spec, part), all_parts, channels, path);
 		if (!err)
-			err = read_part(*in, spec, part, channels, path);
+			err = read_part(*in, spec, part, all, channels, path);
 		if (err)
 			return err;
 	}
 	if (int err = add_attributes(img, first))
 		return err;
 	/* Where the data lies, for place.h. */
-	if (first.x == first.full_x && first.y == first.full_y && first.width == first.full_width && first.height == first.full_height)
+	if (all.x == first.full_x && all.y == first.full_y && all.width == first.full_width && all.height == first.full_height)
 		return 0;
-	return image_set_attribute(img, "relume:window", "%d %d %d %d", first.x - first.full_x, first.y - first.full_y, first.full_width,
+	return image_set_attribute(img, "relume:window", "%d %d %d %d", all.x - first.full_x, all.y - first.full_y, first.full_width,
 	                           first.full_height);
 }
 

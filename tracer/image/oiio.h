@@ -20,8 +20,8 @@ extern "C" {
 pid_t oiio_fork(void);
 
 /**
- * Read any image OpenImageIO knows, in this process (foreign.h does it in one of its own): first level, data window only (place.h tells where it lies). OpenEXR gives all its parts, each part's name as the layer of
- * its channels; other formats give their first picture.
+ * Read any image OpenImageIO knows, in this process (foreign.h does it in one of its own): first level, data window only (place.h tells where it lies). OpenEXR gives all its parts,
+ * each with its data where they lie, each part's name as the layer of its channels, and its unsigned integers as they are; other formats give their first picture.
  *
  * @param img  empty; filled on success: channels R G B and A where there are any, others by their own names; a grey
  *             picture gives R, G and B alike. Integer formats come as numbers in [0,1] with attribute
