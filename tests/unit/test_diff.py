@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# limit: 240 s
 """relume diff as a command: sets of frames, exit codes, and what it writes."""
 import json
 import os
