@@ -50,7 +50,7 @@ static void forget_number(struct set *const *sets, size_t n_sets, uint64_t frame
 				sets[s]->entries[i].has_number = 0;
 }
 
-/* Numbers that two pictures of a set have. Names tell them apart where other sets have these names, or nothing of that number. */
+/* Numbers that two pictures of a set have. Names tell them apart where other sets have these, or nothing of that number. */
 static int find_doubles(struct set *const *sets, size_t n_sets, size_t own)
 {
 	struct set *set = sets[own];
@@ -61,9 +61,10 @@ static int find_doubles(struct set *const *sets, size_t n_sets, size_t own)
 
 		if (a->frame != b->frame || !a->has_number || !b->has_number)
 			continue;
-		if (is_wanted(sets, n_sets, own, a->frame) && !is_elsewhere(sets, n_sets, own, a->name) && !is_elsewhere(sets, n_sets, own, b->name))
-			return err_report(ERR_USAGE, set->name, "two images of frame %" PRIu64 ", %s and %s; name one series by a pattern such as "
-			                  "DIR/NAME.####.exr", a->frame, a->path, b->path);
+		if (is_wanted(sets, n_sets, own, a->frame) && !is_elsewhere(sets, n_sets, own, a->name) &&
+		    !is_elsewhere(sets, n_sets, own, b->name))
+			return err_report(ERR_USAGE, set->name, "two images of frame %" PRIu64 ", %s and %s; name one series by a "
+			                  "pattern such as DIR/NAME.####.exr", a->frame, a->path, b->path);
 		forget_number(sets, n_sets, a->frame);
 	}
 	return 0;
@@ -135,7 +136,8 @@ static int check_common(struct set *const *sets, size_t n_sets, size_t own)
 	for (size_t i = 0; i < set->n_entries; i++)
 		if (set->entries[i].has_number || is_elsewhere(sets, n_sets, own, set->entries[i].name))
 			return 0;
-	return err_report(ERR_INPUT, set->name, "there is no numbered image, and none whose path %s has", sets[own ? 0 : n_sets - 1]->name);
+	return err_report(ERR_INPUT, set->name, "there is no numbered image, and none whose path %s has",
+	                  sets[own ? 0 : n_sets - 1]->name);
 }
 
 static int finish(struct set *set)
