@@ -19,7 +19,7 @@
  *         preset: loose           # applied before the rule's own keys, which are those of presets and
  *         channel: gl             # the layer that is compared
  *         channels: [shadow.R, id] # channels that must be there (gate V)
- *         ignore_alpha: yes             # as --ignore-alpha
+ *         ignore_alpha: yes       # as --ignore-alpha
  *         mask: mask.png          # a picture: where it is white, pixels do not count
  *         effects: [{ effect: shadow, low: 1, high: 40 }] # gate E3: per cent of the pixels that the effect touches
  *     flaky:                      # failures that are known to be noise. 'relume diff REF RUN RUN...' proposes
