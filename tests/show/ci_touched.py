@@ -77,7 +77,7 @@ class Touched:
         return self.judge(path, said)
 
     def judge(self, path, said):
-        why = re.search(r"^p: record 1 frames: (.*)$", said, re.M)
+        why = re.search(r"^p: record 1 frames?: (.*)$", said, re.M)
         if path in self.watched:
             right = why and os.path.realpath(self.folder / why[1].removesuffix(" has changed")) == path
             return "" if right else f"is watched; said: {why[1] if why else said}"
