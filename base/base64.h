@@ -3,6 +3,10 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+
+/** Whole groups of three bytes may be followed by more. */
+void base64_write(const uint8_t *bytes, size_t n, FILE *out);
 
 /**
  * A data URL (RFC 2397).

@@ -20,7 +20,7 @@
  *       - { command: [./game], frames: 3 }
  *       - { name: glass, command: [./game, --glass], frames: 3 }
  *
- *     xvfb-run -a relume ci
+ *     relume ci --xvfb
  */
 #pragma once
 

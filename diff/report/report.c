@@ -7,6 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/base64.h"
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/part.h"
@@ -23,24 +24,10 @@ enum { PASSED_SAMPLE = 12, PNG_LEVEL = 6, THUMBNAIL = 80, BLAMED = 3, BLAME_SIZE
 #define PICTURE_BUDGET ((size_t)64 << 20)
 #define PASSED_BUDGET ((size_t)16 << 20) /* of frames that passed, beyond the sample: pages stay quick to open */
 
-static void write_base64(const uint8_t *bytes, size_t n, FILE *out)
-{
-	static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-	for (size_t i = 0; i < n; i += 3) {
-		uint32_t v = (uint32_t)bytes[i] << 16 | (i + 1 < n ? (uint32_t)bytes[i + 1] << 8 : 0) |
-			(i + 2 < n ? bytes[i + 2] : 0u);
-		char text[4] = { digits[v >> 18], digits[v >> 12 & 63], i + 1 < n ? digits[v >> 6 & 63] : '=',
-		                 i + 2 < n ? digits[v & 63] : '=' };
-
-		fwrite(text, 1, sizeof(text), out);
-	}
-}
-
 static void write_png(const char *name, const uint8_t *png, size_t bytes, FILE *out, size_t *used)
 {
 	fprintf(out, "%s\n\"%s\": \"data:image/png;base64,", *used ? "," : "", name);
-	write_base64(png, bytes, out);
+	base64_write(png, bytes, out);
 	fputs("\"", out);
 	*used += bytes / 3 * 4;
 }
@@ -296,7 +283,7 @@ static int write_film(const char *path, FILE *out)
 		return err_report(ERR_INPUT, path, "%s", strerror(errno));
 	fprintf(out, "<script type=\"application/json\" id=\"film\">\"data:video/%s;base64,", kind);
 	while ((got = fread(piece, 1, sizeof(piece), film)))
-		write_base64(piece, got, out);
+		base64_write(piece, got, out);
 	fputs("\"</script>\n", out);
 	if (ferror(film))
 		err = err_report(ERR_SYSTEM, path, "cannot be read: %s", strerror(errno));
