@@ -169,6 +169,8 @@ static int can_close(struct gate_frame *f, enum score_gate_id id)
 
 	if (!f->closure.has_layers)
 		gate_note(f, id, "the frame has no channels R and gl.R");
+	else if (f->closure.open && image_attribute(f->img, "relume:denoised"))
+		gate_note(f, id, "the beauty is denoised, so channels of effects do not add up to it");
 	else if (f->closure.open && left_out_effects(f->img, &left_out))
 		gate_note(f, id, "the frame was rendered without %s channels", left_out);
 	else

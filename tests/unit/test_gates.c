@@ -862,13 +862,16 @@ START_TEST(demanded_channels)
 }
 END_TEST
 
+/* 0: told not to write them; 1: the beauty was denoised. */
 START_TEST(left_out_effects_are_not_measured)
 {
+	static const char *const why[][2] = { { "relume:aov", "gl,reflect,relight,refract" }, { "relume:denoised", "1" } };
+
 	for (size_t c = 0; c < traced.n_channels; c++)
 		if (strncmp(traced.channels[c].name, "shadow", 6) == 0)
 			traced.channels[c].name[0] = 'x';
 	expect_failed(GATE_E1);
-	ck_assert_int_eq(image_set_attribute(&traced, "relume:aov", "gl,reflect,relight,refract"), 0);
+	ck_assert_int_eq(image_set_attribute(&traced, why[_i][0], "%s", why[_i][1]), 0);
 	expect_all_passed();
 	ck_assert_int_eq(state(GATE_E1), SCORE_NOT_MEASURED);
 	ck_assert_int_eq(state(GATE_E2), SCORE_NOT_MEASURED);
@@ -1046,7 +1049,7 @@ int main(void)
 	tcase_add_test(tests, warnings_and_improvements);
 	tcase_add_test(tests, ignored_pixels_do_not_count);
 	tcase_add_test(tests, demanded_channels);
-	tcase_add_test(tests, left_out_effects_are_not_measured);
+	tcase_add_loop_test(tests, left_out_effects_are_not_measured, 0, 2);
 	tcase_add_test(tests, baseline_by_hash);
 	tcase_add_test(tests, baseline_of_another_device);
 	tcase_add_test(tests, baseline_sees_lost_shadows_and_names_the_draw);
