@@ -251,7 +251,7 @@ class Diff(unittest.TestCase):
             self.assertEqual("made from another recording" in " ".join(done.stdout.split()), said, done.stdout)
             self.assertIn("    V validity: ", done.stdout)
         (self.dir / "out").mkdir()
-        subprocess.run([RELUME, "render", "--mode", "gl", golden / "two_triangles.trace", "-o", self.dir / "out" / "####.exr"], check=True)
+        subprocess.run([RELUME, "render", "--device", "reference", "--mode", "gl", golden / "two_triangles.trace", "-o", self.dir / "out" / "####.exr"], check=True)
         (self.dir / "t.trace").write_bytes((golden / "cornell.trace").read_bytes())
         done = self.diff(self.dir / "t.trace", self.dir / "out", expect=1)
         self.assertIn("another recording: one of two_triangles of hash", " ".join(done.stdout.split()))
