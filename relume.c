@@ -99,8 +99,8 @@ static int refuse(const char *typed, int is_help)
 		nearest_try(&nearest, verbs[i].name);
 	for (const struct manual_text *format = manual_formats; is_help && format->name; format++)
 		nearest_try(&nearest, format->name);
-	return err_report(ERR_USAGE, NULL, "there is no verb '%s'%s%s; 'relume help' lists them", typed,
-	                  nearest.word ? ", but " : "", nearest.word ? nearest.word : "");
+	return err_report(ERR_USAGE, NULL, "unknown %s '%s'%s%s%s; 'relume help' lists them", is_help ? "topic" : "command", typed,
+	                  nearest.word ? "; did you mean '" : "", nearest.word ? nearest.word : "", nearest.word ? "'?" : "");
 }
 
 /* What was printed may still be on its way: a full disk is told by the exit code. */

@@ -42,16 +42,16 @@ static int make_own(char *path, size_t size)
 void caches_find(void)
 {
 	const char *said = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-	char caches[PATH_MAX], own[PATH_MAX];
+	char caches[PATH_MAX] = "~/.cache", own[PATH_MAX];
 	int n = -1, failed;
 
 	if (said && *said)
 		n = snprintf(caches, sizeof(caches), "%s", said);
 	else if (home && *home)
 		n = snprintf(caches, sizeof(caches), "%s/.cache", home);
-	if (n < 0 || n >= (int)sizeof(caches))
+	if (n >= (int)sizeof(caches))
 		return;
-	failed = try_cache(caches, "relume");
+	failed = n < 0 ? ENOENT : try_cache(caches, "relume");
 	if (!failed && !getenv("POCL_CACHE_DIR"))
 		failed = try_cache(caches, "pocl");
 	if (!failed || !make_own(own, sizeof(own)))

@@ -6,7 +6,7 @@
 
 /**
  * Where relume/ or pocl/ in the user's cache folder ($XDG_CACHE_HOME, or ~/.cache) cannot be made or written, set XDG_CACHE_HOME to
- * a folder of this user's in $TMPDIR (or /tmp), which later runs find again, and say so in one line. Before the first thread,
+ * a folder of this user's in $TMPDIR (or /tmp), which later runs find again (unless another user has taken its name: then each run makes one), and say so in one line. Before the first thread,
  * and before files are confined. Does nothing the second time.
  */
 void caches_find(void);

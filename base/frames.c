@@ -159,7 +159,7 @@ uint64_t frame_list_last(const struct frame_list *list)
 		return UINT64_MAX;
 	for (size_t i = 0; i < list->n_ranges; i++) {
 		const struct frame_range *r = &list->ranges[i];
-		uint64_t end = r->last - (r->last - r->first) % r->step;
+		uint64_t end = r->last == UINT64_MAX ? r->last : r->last - (r->last - r->first) % r->step;
 
 		if (end > last)
 			last = end;

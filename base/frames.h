@@ -32,7 +32,7 @@ void frame_list_free(struct frame_list *list);
 /** 1 where the list holds the frame (an empty list holds every frame), 0 otherwise. */
 int frame_list_contains(const struct frame_list *list, uint64_t frame);
 
-/** The last frame of the list; UINT64_MAX for an empty list. */
+/** The last frame of the list; UINT64_MAX for an empty list, and for a range without an end. */
 uint64_t frame_list_last(const struct frame_list *list);
 
 /** The last frame that must be there for the list to be had: of a range without an end its first. 0 where all are asked for. */

@@ -401,7 +401,8 @@ static int check_keys(const struct options *o, const struct recorder_stats *stat
 		return err_report(ERR_SYSTEM, o->program[0], "--press: %u of %zu keys were lost: its window takes no key events of X (it may use "
 		                  "Wayland, or XInput 2 alone)", stats->keys_lost, o->press.n);
 	return stats->keys_pressed >= o->press.n ? 0
-		: err_report(ERR_SYSTEM, o->program[0], "--press: %u of %zu keys were pressed; it ended before the frames of the others",
+		: err_report(ERR_SYSTEM, o->program[0], "--press: %u of %zu keys were pressed: the program or the recording ended before "
+		             "the frames of the others",
 		             stats->keys_pressed, o->press.n);
 }
 
@@ -441,7 +442,9 @@ static int record(int argc, char **argv, struct options *o)
 		return rc > 0 ? 0 : -rc;
 	if (o->start_key && (rc = key_find("--start-key", o->start_key, &key)))
 		return -rc;
-	if ((rc = press_plan(&o->press, o->quit_after ? strtoull(o->quit_after, NULL, 10) : 0, &o->press_plan)))
+	/* Only a recording that begins with the program counts its frames. */
+	if ((rc = press_plan(&o->press, o->quit_after && !o->first_frame && !o->paused ? strtoull(o->quit_after, NULL, 10) : 0,
+	                     &o->press_plan)))
 		return -rc;
 	if ((rc = find_recorder(recorder, sizeof(recorder))) || (rc = check_class(o->program[0], recorder)) || (rc = clear_output(o)) ||
 	    (rc = make_figures(&figures)))

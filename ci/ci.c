@@ -1,6 +1,7 @@
 /* relume ci: record programs, render what they drew, and gate the frames: what a continuous integration runs. */
 #include <errno.h>
 #include <limits.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -224,9 +225,11 @@ int ci_main(int argc, char **argv)
 	struct asked asked = { .file = "relume-ci.yaml", .kept = "ci" };
 	struct options_line line;
 	int err = options_parse(&table, argc, argv, &asked, &line);
-	int code = err ? err > 0 ? 0 : -err : run_all(&asked, &line);
+	int code;
 
-	if (asked.bisects && code && code != -ERR_FAILED)
+	signal(SIGCHLD, SIG_DFL); /* ignored, it would leave no status */
+	code = err ? err > 0 ? 0 : -err : run_all(&asked, &line);
+	if (asked.bisects && !err && code && code != -ERR_FAILED)
 		code = BISECT_SKIPS;
 	free(asked.program.name);
 	free(asked.environment.at);

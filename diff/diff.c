@@ -312,7 +312,7 @@ static int score_runs(const struct options *o, struct runs *r, char **words, con
 
 		name_run(r->match ? r->ref->name : words[i], name, sizeof(names[i]));
 		*run = (struct output_run){ .reference = r->ref->name, .traced = words[i], .name = name, .command = "", .options = &o->score,
-			                    .settings = settings, .n_scores = r->n_frames };
+			                    .ref = r->ref, .set = &r->sets[i], .settings = settings, .n_scores = r->n_frames };
 		run->scores = calloc(r->n_frames + 1, sizeof(*run->scores));
 		err = run->scores ? scoring_all(r->ref, &r->sets[i], &none, r->frames, run) : err_report(ERR_SYSTEM, NULL, "out of memory");
 	}

@@ -32,7 +32,7 @@ static const struct options_table table = {
 	        "\n"
 	        "X,Y  the pixel, counted from 0 at the upper left corner, as programs that show pictures count them\n",
 	OPTIONS_ROWS(rows),
-	.notes = "The output is a file of rules: write it to FILE.yaml, change what the surface is made of (look/rules.h lists the keys), and\n"
+	.notes = "The output is a file of rules: write it to FILE.yaml, change what the surface is made of ('relume help look-file' lists them), and\n"
 	         "render with --look FILE.yaml. 'relume look --sheet' shows all surfaces of a frame at once.\n"
 	         "Exit codes: 0 done, 2 wrong usage, or nothing is drawn there, 3 the recording cannot be read, 5 the device or the system failed.\n",
 	.takes = "a trace and a pixel X,Y", .least = 2, .most = 2, .words_use = CONFINE_RECORDING,

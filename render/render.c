@@ -36,7 +36,7 @@ static int choose_frames(struct settings *s, struct replay *replay, struct exten
 
 	if (err)
 		return err;
-	x->short_of = damaged && (!s->frames.n_ranges || frame_list_needed(&s->frames) >= x->end);
+	x->short_of = damaged && frame_list_last(&s->frames) >= x->end;
 	if (x->end == 0)
 		return err_report(ERR_INPUT, s->trace, "holds no whole frame");
 	if (s->frames.n_ranges && frame_list_needed(&s->frames) >= x->end && !damaged)

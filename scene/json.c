@@ -154,7 +154,7 @@ static const struct field unit_fields[] = {
 	TOKEN(unit, min_filter), TOKEN(unit, mag_filter), FIELD(unit, border_color), FIELD(unit, lod_bias),
 	FIELD(unit, min_lod), FIELD(unit, max_lod), FIELD(unit, max_anisotropy), TOKEN(unit, compare_mode),
 	TOKEN(unit, compare_func), TOKEN(unit, depth_mode), TOKEN(unit, env_mode), FIELD(unit, env_color),
-	TOKEN(unit, combine_rgb), TOKEN(unit, combine_alpha), TOKEN(unit, source_rgb), TOKEN(unit, source_alpha),
+	TOKEN(unit, combine_rgb), TOKEN(unit, combine_alpha), FACTOR(unit, source_rgb), FACTOR(unit, source_alpha),
 	TOKEN(unit, operand_rgb), TOKEN(unit, operand_alpha), FIELD(unit, scale_rgb), FIELD(unit, scale_alpha),
 	TOKEN(unit, gen_mode), FIELD(unit, gen_object_plane), FIELD(unit, gen_eye_plane), FIELD(unit, matrix),
 	FIELD(unit, coord_replace),

@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <errno.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <xcb/xcb.h>
 
@@ -57,7 +58,7 @@ static xcb_window_t find_taker(xcb_connection_t *c, xcb_window_t window, xcb_win
 	return 0;
 }
 
-/* What is passed on has left the server once it answers a question asked after the answer to the event. */
+/* A second question makes sure that the server has passed the event on before the program draws. */
 static int send_key(xcb_connection_t *c, xcb_window_t window, xcb_window_t root, const unsigned long event[3])
 {
 	xcb_key_press_event_t key = {
@@ -94,17 +95,22 @@ static void send_due(xcb_connection_t *c, uint64_t frame, unsigned long window)
 
 void press_before(uint64_t frame, unsigned long window)
 {
+	static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* threads end frames at the same time */
 	const int saved = errno;
 	xcb_connection_t *c = NULL;
 
-	if (!next || !*next || strtoull(next, NULL, 10) > frame)
+	if (!next) /* set before the first thread */
 		return;
-	if (find_xcb() && xcb.connection_has_error(c = xcb.connect(NULL, NULL))) {
-		xcb.disconnect(c);
-		c = NULL;
+	pthread_mutex_lock(&lock);
+	if (*next && strtoull(next, NULL, 10) <= frame) {
+		if (find_xcb() && xcb.connection_has_error(c = xcb.connect(NULL, NULL))) {
+			xcb.disconnect(c);
+			c = NULL;
+		}
+		send_due(c, frame, window);
+		if (c)
+			xcb.disconnect(c);
 	}
-	send_due(c, frame, window);
-	if (c)
-		xcb.disconnect(c);
+	pthread_mutex_unlock(&lock);
 	errno = saved;
 }

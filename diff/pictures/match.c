@@ -61,8 +61,9 @@ static int find_doubles(struct set *const *sets, size_t n_sets, size_t own)
 
 		if (a->frame != b->frame || !a->has_number || !b->has_number)
 			continue;
-		if (is_wanted(sets, n_sets, own, a->frame) && !is_elsewhere(sets, n_sets, own, a->name) &&
-		    !is_elsewhere(sets, n_sets, own, b->name))
+		/* Alone, a set is compared with a baseline, which has numbers. */
+		if (n_sets == 1 || (is_wanted(sets, n_sets, own, a->frame) && !is_elsewhere(sets, n_sets, own, a->name) &&
+		                    !is_elsewhere(sets, n_sets, own, b->name)))
 			return err_report(ERR_USAGE, set->name, "two images of frame %" PRIu64 ", %s and %s; name one series by a "
 			                  "pattern such as DIR/NAME.####.exr", a->frame, a->path, b->path);
 		forget_number(sets, n_sets, a->frame);

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/err.h"
 #include "base/memory.h"
@@ -164,9 +165,13 @@ enum { MOST_DEPTH = 16 };
 /** List all images of a folder and of those in it, with their names. @param root  length of the set's own folder, its slash included */
 static int open_tree(struct set *set, const char *folder, size_t root, int depth)
 {
-	DIR *dir = opendir(folder);
+	char page[4096];
+	DIR *dir;
 	int err = 0;
 
+	if (depth && snprintf(page, sizeof(page), "%s/index.html", folder) < (int)sizeof(page) && access(page, F_OK) == 0)
+		return 0; /* a report of ours */
+	dir = opendir(folder);
 	if (!dir)
 		return err_report(ERR_INPUT, folder, "%s", strerror(errno));
 	for (struct dirent *file; !err && (file = readdir(dir));) {
@@ -178,7 +183,10 @@ static int open_tree(struct set *set, const char *folder, size_t root, int depth
 		if (file->d_name[0] == '.' || snprintf(path, sizeof(path), "%s%s%s", folder, slash, file->d_name) >= (int)sizeof(path))
 			continue;
 		if (stat(path, &st) == 0 && S_ISDIR(st.st_mode)) {
-			err = depth < MOST_DEPTH ? open_tree(set, path, root, depth + 1) : 0;
+			if (depth < MOST_DEPTH)
+				err = open_tree(set, path, root, depth + 1);
+			else
+				err_warn(path, "is too deep, and left out");
 		} else if (is_image_name(file->d_name)) {
 			const int has_number = depth == 0 && number_of_name(file->d_name, &frame);
 
@@ -393,8 +401,14 @@ int set_read(const struct set *set, const struct set_entry *entry, struct image 
 {
 	int err;
 
-	if (entry->path)
-		return set_read_picture(entry->path, img);
+	if (entry->path) {
+		err = set_read_picture(entry->path, img);
+		if (!err && entry->name && !entry->has_number) /* matched by its path: gate V asks for the number of the match */
+			err = image_set_attribute(img, "relume:frame", "%" PRIu64, entry->frame);
+		if (err)
+			image_free(img);
+		return err;
+	}
 	err = add_record(set, REF_COLOR, entry->frame, img);
 	if (!err)
 		err = add_record(set, REF_DEPTH, entry->frame, img);

@@ -147,7 +147,7 @@ static void put_heading(const struct output_run *run, const struct group *group,
 		snprintf(name, sizeof(name), "frames %" PRIu64 "-%" PRIu64, group->first, group->last);
 	n = (size_t)snprintf(text, sizeof(text), "%s: %s", name, outcome);
 	if (*reason_of(s))
-		n += (size_t)snprintf(text + n, sizeof(text) - n, ": %s", reason_of(s));
+		n += (size_t)snprintf(text + n, sizeof(text) - n, ": %.512s", reason_of(s));
 	if (output_is_compared(s) && run->reference)
 		n += (size_t)snprintf(text + n, sizeof(text) - n, ", fidelity %.3f %%", 100 * s->fidelity);
 	if (group->last > group->first && group->failed)

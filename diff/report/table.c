@@ -68,7 +68,7 @@ static void print_legend(FILE *out)
 
 			if (info->column)
 				fprintf(out, "  %-7s %s: %s, %s %g%s%s\n", info->column, score_gates[g].title, info->name,
-				        info->at_least ? "at least" : "at most", info->bar, info->unit[0] ? " " : "", info->unit);
+				        info->at_least ? "by default at least" : "by default at most", info->bar, info->unit[0] ? " " : "", info->unit);
 		}
 }
 

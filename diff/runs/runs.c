@@ -140,11 +140,16 @@ void runs_table(const struct runs *r, const struct runs_frame *frames, FILE *out
 	for (size_t i = 0; i < r->n_frames; i++) {
 		const struct runs_frame *f = &frames[i];
 		const struct composite_varying *v = &f->varying;
+		char name[256];
 
 		counts[f->verdict]++;
 		if (f->verdict == RUNS_STEADY)
 			continue;
-		fprintf(out, "%7" PRIu64 " %-11s %3u of %zu  ", f->frame, words[f->verdict], f->failing, r->n);
+		if (output_is_named(&r->runs[0], f->frame))
+			output_name(&r->runs[0], f->frame, name, sizeof(name));
+		else
+			snprintf(name, sizeof(name), "%" PRIu64, f->frame);
+		fprintf(out, "%7s %-11s %3u of %zu  ", name, words[f->verdict], f->failing, r->n);
 		put_gates(f, out);
 		if (v->pixels)
 			fprintf(out, "; %" PRIu64 " within %u,%u to %u,%u", v->pixels, v->x0, v->y0, v->x1, v->y1);
@@ -185,7 +190,8 @@ size_t runs_quarantine(const struct runs *r, const struct runs_frame *frames, un
 
 	strftime(day, sizeof(day), "%Y-%m-%d", gmtime(&end));
 	for (size_t i = 0; done && i < r->n_frames; i++)
-		done[i] = frames[i].verdict != RUNS_FLAKY || !frames[i].unknown_gates;
+		done[i] = frames[i].verdict != RUNS_FLAKY || !frames[i].unknown_gates ||
+			output_is_named(&r->runs[0], frames[i].frame); /* entries go by numbers, which these have none of */
 	for (size_t i = 0; done && i < r->n_frames; i++) {
 		const struct runs_frame *f = &frames[i];
 		const char *between = "";

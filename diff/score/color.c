@@ -26,7 +26,7 @@ void gate_count_colors(struct gate_frame *f)
 		c->count[kind]++;
 		c->failing[kind] += maps->failing[i];
 		if (maps->failing[i] && score_code_difference(f->ref->rgb + 3 * i, f->traced.rgb + 3 * i) <= score_allowed(f->options, &f->traced, i))
-			*(score_alpha_difference(f->ref, i, &f->traced, i) >= maps->difference[i] ? &c->by_alpha : &c->by_range) += 1;
+			*(score_alpha_difference(f->ref, i, &f->traced, i) >= maps->difference[i] ? &c->by_alpha[kind] : &c->by_range[kind]) += 1;
 		c->beyond += maps->difference[i] > score_allowed(f->options, &f->traced, i);
 		c->gross += maps->residual[i] > GROSS_CODES;
 		s->worst = maps->difference[i] > s->worst ? maps->difference[i] : s->worst;
@@ -47,11 +47,11 @@ static int measure_kind(struct gate_frame *f, enum score_gate_id id, int kind, c
 	}
 	gate_measure(f, id, 0, score_gates[id].figures[0].at_least ? 100 - share : share);
 	gate_note(f, id, "%" PRIu64 " of %" PRIu64 " %s", failing, n, pixels);
-	if (f->colors.by_alpha && failing)
-		gate_note(f, id, "%" PRIu64 " of %" PRIu64 " %s; %" PRIu64 " in alpha alone (--ignore-alpha)", failing, n, pixels, f->colors.by_alpha);
-	else if (f->colors.by_range && failing)
+	if (f->colors.by_alpha[kind] && failing)
+		gate_note(f, id, "%" PRIu64 " of %" PRIu64 " %s; %" PRIu64 " in alpha alone (--ignore-alpha)", failing, n, pixels, f->colors.by_alpha[kind]);
+	else if (f->colors.by_range[kind] && failing)
 		gate_note(f, id, "%" PRIu64 " of %" PRIu64 " %s; %" PRIu64 " by values over white or below black alone", failing, n, pixels,
-		          f->colors.by_range);
+		          f->colors.by_range[kind]);
 	return 0;
 }
 

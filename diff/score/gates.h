@@ -43,7 +43,7 @@ struct gate_frame {
 	/* Interior, blended and band pixels, as color.c counts them. */
 	struct gate_colors {
 		uint64_t count[3], failing[3], gross;
-		uint64_t by_alpha, by_range; /* of the failing ones: by alpha alone, and by values below black or over white alone */
+		uint64_t by_alpha[3], by_range[3]; /* of the failing ones, by kind: by alpha alone, and by values below black or over white alone */
 		uint64_t beyond; /* further off than R1 allows, edges not excused */
 	} colors;
 	/* Pixels where the channels do not add up, as effects.c counts them. */

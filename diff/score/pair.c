@@ -20,7 +20,9 @@ static int wide_code(float linear)
 
 static int is_alpha_compared(const struct score_numbers *a, const struct score_numbers *b)
 {
-	return (a->alpha && b->alpha) || ((a->alpha || b->alpha) && !a->is_frame && !b->is_frame);
+	if (a->is_frame != b->is_frame)
+		return 0; /* nobody sees a framebuffer's alpha: a screenshot need not have it */
+	return a->is_frame ? a->alpha && b->alpha : a->alpha || b->alpha;
 }
 
 static int has_beyond(const struct score_numbers *n, size_t pixels)

@@ -63,8 +63,11 @@ void score_list_layers(const struct image *img, char *out, size_t size)
 		const int n = dot ? (int)(dot - name) : (int)strlen(name);
 		int is_new = 1;
 
-		for (size_t k = 0; k < i; k++)
-			is_new &= strncmp(img->channels[k].name, name, (size_t)n + (dot != NULL)) != 0;
+		for (size_t k = 0; k < i; k++) {
+			const char *before = img->channels[k].name;
+
+			is_new &= strncmp(before, name, (size_t)n) != 0 || (before[n] && before[n] != '.');
+		}
 		if (is_new)
 			used += (size_t)snprintf(out + used, size - used, "%s%.*s", used ? ", " : "", n, name);
 	}

@@ -68,6 +68,6 @@ int alone_find(const struct scene *scene, uint32_t instance, char keys[ALONE_BYT
 		if (matched <= 1)
 			return matched < 0 ? matched : 0;
 	}
-	write_keys(scene, in, (has & ~LIST) | DRAWS, keys);
+	write_keys(scene, in, has | DRAWS, keys);
 	return matched - 1;
 }

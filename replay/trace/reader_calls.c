@@ -271,7 +271,7 @@ static struct reader_call *end_of_calls(struct trace_reader *r)
 			err_warn(r->path, "the file is cut short after call %llu; frames before it are whole, and 'relume repair' saves them",
 			         (unsigned long long)r->next_number);
 		else if (container_behind(r->container))
-			err_warn(r->path, "%llu bytes of another recording follow after call %llu, and are not read; 'relume repair' tells them apart",
+			err_warn(r->path, "%llu bytes follow the recording after call %llu, and are not read; 'relume repair' tells them apart",
 			         (unsigned long long)container_behind(r->container), (unsigned long long)r->next_number);
 	}
 	for (size_t i = 0; i < r->n_pending; i++)

@@ -57,6 +57,8 @@ static int find_first(struct trim *t)
 	replay_close(&rp);
 	if (!rc && !frames)
 		rc = err_report(ERR_INPUT, t->path, "it has no frame that ends");
+	if (!rc && t->last == UINT64_MAX && t->wanted != UINT64_MAX)
+		t->last = t->wanted < frames ? frames - 1 : t->wanted; /* to the end */
 	if (!rc && t->last >= frames)
 		rc = err_report(ERR_USAGE, t->path, "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
 		                t->last, frames, plural(frames), frames - 1);

@@ -5,6 +5,7 @@
 
 #include "kernels/frame/scan.h"
 #include "tests/case.h"
+#include "tests/driver.h"
 #include "tracer/frame/scan.h"
 
 #define MOST (SCAN_CHUNK * SCAN_CHUNK * SCAN_CHUNK + 3)
@@ -52,7 +53,8 @@ START_TEST(places_are_sums_of_counts)
 	size_t n_devices = 0;
 	char number[32];
 
-	device_list(&list, &n_devices);
+	if (!lacks_driver())
+		ck_assert_int_eq(device_list(&list, &n_devices), 0);
 	free(list);
 	for (size_t k = 0; k <= n_devices; k++) {
 		struct device *dev;

@@ -8,7 +8,7 @@ from journey import PLACE, begin, check, end, seen, share, typed
 begin("still_life", 3)
 typed("relume record -o game.trace -- ./game")
 scene = typed("relume scene -f 1 game.trace")
-sphere = re.search(r"^draw (\d+): .*at call \d+$", next(line for line in scene.splitlines() if "glCallList" in line), re.M)[1]
+sphere = re.search(r"^draw (\d+): .*, glCallList at call \d+", scene, re.M)[1]
 (PLACE / "my.yaml").write_text(f"""surfaces:
   - {{ match: {{ draws: "{sphere}" }}, reflect: 0.9 }}
 lights:

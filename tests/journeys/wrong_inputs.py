@@ -21,7 +21,7 @@ FILES = {
 
 # (what is typed behind "relume", exit code, what the line says)
 CASES = (
-    ("rendr game.trace -o x.png", USAGE, "but render"),
+    ("rendr game.trace -o x.png", USAGE, "did you mean 'render'"),
     ("help lok-file", USAGE, "look-file"),
     ("render game.trace", USAGE, "-o"),
     ("render -o x.png", USAGE, "one trace"),

@@ -13,7 +13,7 @@ check(relume("help", "help").stdout == overview.stdout, "help of help is help")
 check(relume().returncode == 2, "no verb is wrong usage")
 check(relume("paint").returncode == 2, "an unknown verb is wrong usage")
 near, far = relume("rendr"), relume("paint")
-check("there is no verb 'rendr', but render;" in near.stderr and "but" not in far.stderr, f"a verb that is near is named: {near.stderr}{far.stderr}")
+check("unknown command 'rendr'; did you mean 'render'?" in near.stderr and "did you mean" not in far.stderr, f"a verb that is near is named: {near.stderr}{far.stderr}")
 version = relume("--version")
 check(version.returncode == 0 and re.fullmatch(r"relume \d+\.\d+\n", version.stdout), f"--version: {version.stdout}")
 for words, said in ((("render", "--frmes", "1"), "render has no option '--frmes', but --frames;"), (("render", "--zzz"), "render has no option '--zzz';"),

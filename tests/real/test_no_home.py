@@ -29,6 +29,8 @@ check(stat.S_IMODE(caches.stat().st_mode) == 0o700, "which is this user's alone"
 bare = {k: v for k, v in env.items() if k != "POCL_CACHE_DIR"}
 done = must(run(RELUME, "devices", env=bare))
 check(len(done.stdout.splitlines()) >= 1 and len(said(done)) == 1, f"devices are listed: {done.stdout}{done.stderr}")
+done = must(run(RELUME, "devices", env={k: v for k, v in bare.items() if k != "HOME"}))
+check(len(done.stdout.splitlines()) >= 1 and len(said(done)) == 1 and str(caches) in said(done)[0], f"no home at all: {done.stdout}{done.stderr}")
 # A name that somebody else has taken, or could write to, is not used.
 os.chmod(caches, 0o777)
 done = must(run(RELUME, "devices", env=bare))

@@ -115,7 +115,7 @@ for what, first, second in (("itself", data, data), ("another one", data, other)
     done = relume("repair", "-o", SCRATCH / "new.trace", cut)
     check(f"left  {len(second)} bytes of another recording" in done.stdout and " 0 of the file's" in done.stdout, f"followed by {what}: {done.stdout}")
     said = relume("info", cut).stderr
-    check(re.search(rf" {len(second)} bytes of another recording follow after call \d+,", said) and said.count("\n") == 1, f"followed by {what}: info: {said}")
+    check(re.search(rf" {len(second)} bytes follow the recording after call \d+,", said) and said.count("\n") == 1, f"followed by {what}: info: {said}")
 
 # Nothing to save, and wrong usage: one line, and no file.
 new = SCRATCH / "none.trace"

@@ -118,6 +118,9 @@ START_TEST(test_last_and_count)
 	ck_assert_uint_eq(frame_list_count(&list, 100), 4);
 	ck_assert_uint_eq(frame_list_count(&list, 6), 2);
 	frame_list_free(&list);
+	ck_assert_int_eq(frame_list_parse("3,6-x10", &list), 0);
+	ck_assert_uint_eq(frame_list_last(&list), UINT64_MAX); /* whatever the step */
+	frame_list_free(&list);
 }
 END_TEST
 

@@ -203,7 +203,7 @@ int find_windows(OIIO::ImageInput &in, bool all_parts, int64_t most, windows &ou
 		y1 = std::max(y1, int64_t(spec.y) + spec.height);
 		out.n_parts++;
 	}
-	if ((x1 - out.x) * (y1 - out.y) > most || x1 - out.x > most || y1 - out.y > most)
+	if (x1 - out.x > most || y1 - out.y > most || (x1 - out.x) * (y1 - out.y) > most)
 		return err_report(ERR_INPUT, path, "is not supported: its parts lie %lld x %lld pixels apart", (long long)(x1 - out.x), (long long)(y1 - out.y));
 	out.width = int(x1 - out.x);
 	out.height = int(y1 - out.y);
