@@ -23,6 +23,8 @@ JUNIT = {
     "testsuites": ({"name": TEXT, "time": SECONDS, "tests": COUNT, "failures": COUNT, "errors": COUNT, "disabled": COUNT}, {"testsuite"}),
     "testsuite": ({"name*": TEXT, "tests*": COUNT, "failures": COUNT, "errors": COUNT, "skipped": COUNT, "disabled": COUNT, "time": SECONDS,
                    "timestamp": TEXT, "hostname": TEXT, "id": TEXT, "package": TEXT}, {"properties", "testcase", "system-out", "system-err"}),
+    "properties": ({}, {"property"}),
+    "property": ({"name*": TEXT, "value*": TEXT}, set()),
     "testcase": ({"name*": TEXT, "classname*": TEXT, "file": TEXT, "time": SECONDS, "assertions": COUNT, "status": TEXT},
                  {"skipped", "error", "failure", "system-out", "system-err"}),
     "failure": ({"message": TEXT, "type": TEXT}, set()),
