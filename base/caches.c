@@ -54,7 +54,7 @@ void caches_find(void)
 	failed = n < 0 ? ENOENT : try_cache(caches, "relume");
 	if (!failed && !getenv("POCL_CACHE_DIR"))
 		failed = try_cache(caches, "pocl");
-	if (!failed || !make_own(own, sizeof(own)))
+	if (!failed || failed == ENOMEM /* which says nothing of the folder */ || !make_own(own, sizeof(own)))
 		return;
 	err_warn(caches, "cannot be written (%s); caches are in %s instead: set XDG_CACHE_HOME to a folder that can be", strerror(failed), own);
 	setenv("XDG_CACHE_HOME", own, 1);
