@@ -41,21 +41,14 @@ static int make_own(char *path, size_t size)
 
 void caches_find(void)
 {
-	const char *said = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-	char caches[PATH_MAX] = "~/.cache", own[PATH_MAX];
-	int n = -1, failed;
+	char caches[PATH_MAX], own[PATH_MAX];
+	const int has_home = folder_caches(caches, sizeof(caches));
+	int failed = has_home ? try_cache(caches, "relume") : ENOENT;
 
-	if (said && *said)
-		n = snprintf(caches, sizeof(caches), "%s", said);
-	else if (home && *home)
-		n = snprintf(caches, sizeof(caches), "%s/.cache", home);
-	if (n >= (int)sizeof(caches))
-		return;
-	failed = n < 0 ? ENOENT : try_cache(caches, "relume");
 	if (!failed && !getenv("POCL_CACHE_DIR"))
 		failed = try_cache(caches, "pocl");
 	if (!failed || failed == ENOMEM /* which says nothing of the folder */ || !make_own(own, sizeof(own)))
 		return;
-	err_warn(caches, "cannot be written (%s); caches are in %s instead: set XDG_CACHE_HOME to a folder that can be", strerror(failed), own);
+	err_warn(has_home ? caches : "~/.cache", "cannot be written (%s); caches are in %s instead: set XDG_CACHE_HOME to a folder that can be", strerror(failed), own);
 	setenv("XDG_CACHE_HOME", own, 1);
 }

@@ -119,16 +119,23 @@ int folder_make_for(const char *file)
 	return folder_make(copy);
 }
 
-int folder_cached(const char *name, char *out, size_t size)
+int folder_caches(char *out, size_t size)
 {
-	const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+	const char *caches = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
 	int n = -1;
 
-	if (cache && *cache)
-		n = snprintf(out, size, "%s/relume/%s", cache, name);
+	if (caches && *caches)
+		n = snprintf(out, size, "%s", caches);
 	else if (home && *home)
-		n = snprintf(out, size, "%s/.cache/relume/%s", home, name);
+		n = snprintf(out, size, "%s/.cache", home);
 	return n > 0 && (size_t)n < size;
+}
+
+int folder_cached(const char *name, char *out, size_t size)
+{
+	char caches[PATH_MAX];
+
+	return folder_caches(caches, sizeof(caches)) && (size_t)snprintf(out, size, "%s/relume/%s", caches, name) < size;
 }
 
 static int remove_one(const char *path, const struct stat *st, int kind, struct FTW *at)

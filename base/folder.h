@@ -26,8 +26,13 @@ int folder_try_early(const char *path, int on_success);
 void folder_drop_early(void);
 
 /**
- * A path in the user's cache folder: $XDG_CACHE_HOME/relume/NAME, or ~/.cache/relume/NAME (XDG base directory
- * specification 0.8). It may not exist yet.
+ * The user's cache folder: $XDG_CACHE_HOME, or ~/.cache (XDG base directory specification 0.8). It may not exist yet.
+ * @return as of folder_cached
+ */
+int folder_caches(char *out, size_t size);
+
+/**
+ * A path in it: relume/NAME.
  * @return 1; 0 where the user has no such folder, or the path is too long
  */
 int folder_cached(const char *name, char *out, size_t size);

@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 #include "base/options.h"
+#include "base/plural.h"
 #include "base/verbs.h"
 #include "look/apply/alone.h"
 #include "render/single.h"
@@ -56,7 +57,7 @@ static int write_rule(const struct scene *scene, uint32_t instance)
 		return others;
 	if (others)
 		printf("# without `draws` the rule matches %d other%s of the same mesh and texture; draw numbers hold in this frame alone\n", others,
-		       others == 1 ? "" : "s");
+		       plural((uint64_t)others));
 	printf("surfaces:\n"
 	       "  - match: %s\n"
 	       "    reflect: 0.3\n", keys);

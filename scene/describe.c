@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 
+#include "base/plural.h"
 #include "scene/tokens.h"
 
 static void write_draw(FILE *out, const struct scene_draw *draw, uint32_t number)
@@ -20,7 +21,7 @@ static void write_mesh(FILE *out, const struct scene_mesh *m)
 	static const char *const kinds[] = { "", "point", "line", "triangle" };
 
 	fprintf(out, "mesh %016" PRIx64 "%016" PRIx64 ": %u %s%s%s%s\n", m->hash[1], m->hash[0], m->primitive_count, kinds[m->kind],
-	        m->primitive_count == 1 ? "" : "s", m->normal ? ", with normals" : "", m->color ? ", with colours" : "");
+	        plural(m->primitive_count), m->normal ? ", with normals" : "", m->color ? ", with colours" : "");
 }
 
 static void write_texture(FILE *out, const struct scene *s, const struct scene_unit *u)
@@ -46,7 +47,7 @@ static void write_lighting(FILE *out, const struct scene_material *m)
 		fprintf(out, "material: not lit");
 		return;
 	}
-	fprintf(out, "material: lit by %u light%s", m->light_count, m->light_count == 1 ? "" : "s");
+	fprintf(out, "material: lit by %u light%s", m->light_count, plural(m->light_count));
 	if (m->color_material)
 		fprintf(out, ", its colour from the vertices");
 	else

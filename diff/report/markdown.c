@@ -96,9 +96,11 @@ static void put_run(const struct output_run *run, const char *report, FILE *out)
 int markdown_write(const struct output_run *run, const char *report, const char *path)
 {
 	FILE *out = fopen(path, "a");
+	int failed;
 
 	if (!out)
 		return err_report(ERR_SYSTEM, path, "%s", strerror(errno));
 	put_run(run, report, out);
-	return !ferror(out) & (fclose(out) == 0) ? 0 : err_report(ERR_SYSTEM, path, "%s", strerror(errno));
+	failed = ferror(out);
+	return fclose(out) == 0 && !failed ? 0 : err_report(ERR_SYSTEM, path, "%s", strerror(errno));
 }
