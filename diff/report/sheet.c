@@ -4,7 +4,6 @@
  */
 #include "diff/report/report.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +12,7 @@
 #include "tracer/image/display.h"
 #include "tracer/image/oiio.h"
 
-enum { MAX_COLUMNS = 7, MAX_ROWS = 4, GAP = 8, LABEL = 22, LETTERS = 13, MAX_CELL = 640 };
+enum { MAX_COLUMNS = 7, MAX_ROWS = 4, GAP = 8, LABEL = 22, LETTERS = 13, MAX_CELL = 640, LABEL_SIZE = 160 };
 
 static const enum picture_kind of_change[] = { PICTURE_APPROVED, PICTURE_BEAUTY, PICTURE_CHANGE };
 static const enum picture_kind of_reference[] = { PICTURE_REFERENCE, PICTURE_COMPARED, PICTURE_BEAUTY, PICTURE_DIFFERENCE };
@@ -100,19 +99,22 @@ static int fails_beside(const struct score *s, int reference)
 
 static void choose_columns(const struct output_run *run, const struct score *const *rows, size_t n_rows, struct sheet *sheet)
 {
-	int shows_reference = !run->baseline;
+	int shows_reference = !run->baseline, shows_beauty = 0;
 
-	for (size_t i = 0; i < n_rows; i++)
+	for (size_t i = 0; i < n_rows; i++) {
 		shows_reference |= run->reference && fails_beside(rows[i], 1);
+		shows_beauty |= !run->baseline && strcmp(rows[i]->layer, "beauty") != 0; /* else it is what is compared, or there already */
+	}
 	for (size_t c = 0; run->baseline && c < sizeof(of_change) / sizeof(of_change[0]); c++)
 		sheet->columns[sheet->n_columns++] = of_change[c];
 	for (size_t c = 0; shows_reference && c < sizeof(of_reference) / sizeof(of_reference[0]); c++)
-		if (!run->baseline || of_reference[c] != PICTURE_BEAUTY)
+		if (shows_beauty || of_reference[c] != PICTURE_BEAUTY)
 			sheet->columns[sheet->n_columns++] = of_reference[c];
 }
 
-/* A cell's label. @return 1 where it says that something failed */
-static int label(const struct sheet *sheet, int column, const struct score *s, const struct picture_frame *frame, char *out, size_t size)
+/* A cell's label. @param picture  what the row is called @return 1 where it says that something failed */
+static int label(const struct sheet *sheet, int column, const struct score *s, const struct picture_frame *frame, const char *picture,
+                 char out[LABEL_SIZE])
 {
 	const enum picture_kind kind = sheet->columns[column];
 	const int is_of_change = sheet->columns[0] == PICTURE_APPROVED, failed = fails_beside(s, kind == PICTURE_DIFFERENCE);
@@ -127,13 +129,13 @@ static int label(const struct sheet *sheet, int column, const struct score *s, c
 	else if (kind == PICTURE_BEAUTY && is_of_change)
 		name = "now";
 	if (kind == PICTURE_CHANGE)
-		snprintf(out, size, "difference x 8: %s", failed ? "changed" : "as approved");
+		snprintf(out, LABEL_SIZE, "difference x 8: %s", failed ? "changed" : "as approved");
 	else if (kind == PICTURE_DIFFERENCE)
-		snprintf(out, size, "difference x 8: %s, %.2f %%", failed ? "failed" : score_outcome_names[s->outcome], 100 * s->fidelity);
+		snprintf(out, LABEL_SIZE, "difference x 8: %s, %.2f %%", failed ? "failed" : score_outcome_names[s->outcome], 100 * s->fidelity);
 	else if (column == 0)
-		snprintf(out, size, "%s, frame %" PRIu64, name, s->frame);
+		snprintf(out, LABEL_SIZE, "%s, %s", name, picture);
 	else
-		snprintf(out, size, "%s", name);
+		snprintf(out, LABEL_SIZE, "%s", name);
 	return failed && (kind == PICTURE_CHANGE || kind == PICTURE_DIFFERENCE);
 }
 
@@ -145,14 +147,15 @@ static int draw_row(struct sheet *sheet, size_t row, const struct score *s, cons
 
 	for (int c = 0; !err && c < sheet->n_columns; c++) {
 		uint32_t left = GAP + (uint32_t)c * (sheet->cell_w + GAP), width, height;
-		char text[96];
+		char picture[LABEL_SIZE / 2], text[LABEL_SIZE];
 		uint8_t *rgb;
 		int warns;
 
 		err = picture_make(&frame, sheet->columns[c], &rgb, &width, &height);
 		if (err || (!rgb && c > 0))
 			continue;
-		warns = label(sheet, c, s, &frame, text, sizeof(text));
+		output_name(from->run, s->frame, picture, sizeof(picture));
+		warns = label(sheet, c, s, &frame, picture, text);
 		draw_text(sheet, left, top, text, warns);
 		if (rgb)
 			draw_picture(sheet, left, top + LABEL, rgb, width, height);

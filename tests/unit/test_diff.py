@@ -318,6 +318,7 @@ class Diff(unittest.TestCase):
         self.assertEqual([(at[0][0], at[1][0]) for at in below], [(left, x)] * 3)
         self.assertEqual(len({at[0][1] for at in below} | {top}), 4)
         self.assertGreater(min(at[0][1] for at in below), top)
+        self.assertEqual(len(sheet[0]) // 3, left + 3 * (x - left), "columns: reference, compared picture, difference")
 
     def config(self, text):
         path = self.dir / "c.yaml"
