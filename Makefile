@@ -27,7 +27,7 @@ Q := $(if $(V),,@)
 CFLAGS ?= -O2 -g
 CXXFLAGS ?= -O2 -g
 # { NULL } is a whole initializer to GCC; clang would have it written out.
-WARNINGS := -Wall -Wextra $(if $(findstring clang,$(shell $(CC) --version)),-Wno-missing-field-initializers)
+WARNINGS := -Wall -Wextra $(if $(findstring clang,$(shell { $(CC) --version; } 2>/dev/null)),-Wno-missing-field-initializers)
 SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
 CPPFLAGS += -I. -I$(BUILD)/gen -isystem /usr/include/OpenEXR -isystem /usr/include/Imath -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120
 ALL_CFLAGS := -std=c11 $(WARNINGS) -Werror=override-init -Werror=incompatible-pointer-types -ffp-contract=off -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)

@@ -23,6 +23,13 @@ for target in "all", "pages":
     again = make(target, "-n").stdout
     if not check("Nothing to be done" in again, f"make {target} would build again: {again[:1000]}"):
         finish()
+# On a bare machine the first line is ours: without a compiler, and with no other program, make has nothing to say.
+tools = SCRATCH / "tools"
+tools.mkdir()
+for name in "make", "sh":
+    (tools / name).symlink_to(shutil.which(name))
+bare = run("make", "-C", ROOT, "--no-print-directory", "-n", "demo", f"BUILD={SCRATCH / 'bare'}", env={"PATH": str(tools)})
+check(bare.stdout.startswith("corpus/demo.sh ") and not bare.stderr, f"make demo on a bare machine says {bare.stdout}{bare.stderr}")
 must(make("install"))
 relume = PREFIX / "bin/relume"
 version = re.search(r'RELUME_VERSION "(.*)"', (ROOT / "base/version.h").read_text())[1]
