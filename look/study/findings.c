@@ -6,9 +6,9 @@
 static const char *const trick_names[] = { "planar shadow", "stencil mirror", "shadow volume (z-pass)", "shadow volume (z-fail)" };
 
 /* More draws that agree are more certain. */
-static double confidence_of(const struct trick_found *f)
+static double confidence_of(unsigned votes)
 {
-	return 1 - 0.5 / (1 + f->votes);
+	return 1 - 0.5 / (1 + votes);
 }
 
 static void write_plane(const struct trick_found *f, FILE *out)
@@ -43,15 +43,34 @@ static int is_replaced(const struct trick_found *f, const struct solved *s)
 	return f->has_opengl_light;
 }
 
-static void write_shadow(const struct trick_found *f, const struct solved *s, FILE *out)
+/* 1 where the rule of one finding is that of another: places of lights and planes are no part of it. */
+static int has_rule_of(const struct trick_found *a, const struct trick_found *b, const struct solved *s)
 {
-	int is_volume = f->kind != TRICK_PLANAR_SHADOW;
+	return a->kind == b->kind && a->stencil == b->stencil && is_replaced(a, s) == is_replaced(b, s);
+}
 
-	fprintf(out, "  - role: %s\n    confidence: %.2f\n", trick_names[f->kind], confidence_of(f));
-	fprintf(out, "    why: \"%u draws in %u frames %s one light; %s\"\n", f->votes, f->frames,
-	        is_volume ? "have edges that meet in" : "are flattened away from",
-	        is_replaced(f, s) ? "what they darken is lit from there, and traced shadows replace them" : "no light is known there, and so they stay");
-	if (!is_volume)
+/* The rule of a finding and of all later ones whose rule is the same. */
+static void write_shadow(const struct tricks *t, unsigned first, const struct solved *s, FILE *out)
+{
+	const struct trick_found *f = &t->found[first];
+	const int is_volume = f->kind != TRICK_PLANAR_SHADOW;
+	unsigned votes = 0, frames = 0, n = 0;
+
+	for (unsigned i = first; i < t->n; i++)
+		if (has_rule_of(&t->found[i], f, s) && !tricks_is_outvoted(t, i)) {
+			votes += t->found[i].votes;
+			frames = t->found[i].frames > frames ? t->found[i].frames : frames;
+			n++;
+		}
+	fprintf(out, "  - role: %s\n    confidence: %.2f\n", trick_names[f->kind], confidence_of(votes));
+	fprintf(out, "    why: \"%u draws in %u frames %s ", votes, frames, is_volume ? "have edges that meet in" : "are flattened away from");
+	if (n == 1)
+		fprintf(out, "one light; ");
+	else
+		fprintf(out, is_volume ? "%u lights; " : "one light each, %u planes and lights in all; ", n);
+	fprintf(out, "%s\"\n", is_replaced(f, s) ? "what they darken is lit from there, and traced shadows replace them" :
+	        "no light is known there, and so they stay");
+	if (!is_volume && n == 1)
 		write_plane(f, out);
 	fprintf(out, "    match: %s\n", is_volume || f->stencil ? "{ stencil_tested: yes, blended: yes, depth_tested: no }" : "{ modelview: singular, lit: no }");
 	if (is_replaced(f, s))
@@ -60,7 +79,7 @@ static void write_shadow(const struct trick_found *f, const struct solved *s, FI
 
 static void write_mirror(const struct trick_found *f, FILE *out)
 {
-	fprintf(out, "  - role: stencil mirror\n    confidence: %.2f\n", confidence_of(f));
+	fprintf(out, "  - role: stencil mirror\n    confidence: %.2f\n", confidence_of(f->votes));
 	fprintf(out, "    why: \"%u draws in %u frames are reflections of others in one plane; %s\"\n", f->votes, f->frames,
 	        f->shows > 0 ? "a blended surface lies in it" : "no blended surface lies in it, and so they stay");
 	write_plane(f, out);
@@ -69,7 +88,7 @@ static void write_mirror(const struct trick_found *f, FILE *out)
 		return;
 	fprintf(out, "    left_out: yes\n    shadows: no\n    mirrors: no\n");
 	fprintf(out, "  - role: mirror\n    confidence: %.2f\n    why: \"it is blended over its picture, of which %.0f %% show\"\n",
-	        confidence_of(f), 100 * f->shows);
+	        confidence_of(f->votes), 100 * f->shows);
 	write_plane(f, out);
 	fprintf(out, "    match: { in_plane: [%.7g, %.7g, %.7g, %.7g], blended: yes, stencil_tested: %s }\n", f->plane[0], f->plane[1], f->plane[2], f->plane[3],
 	        f->surface_stencil ? "yes" : "no");
@@ -78,7 +97,7 @@ static void write_mirror(const struct trick_found *f, FILE *out)
 
 static void write_light(const struct trick_found *f, FILE *out)
 {
-	fprintf(out, "  - role: light of a %s\n    confidence: %.2f\n", trick_names[f->kind], confidence_of(f));
+	fprintf(out, "  - role: light of a %s\n    confidence: %.2f\n", trick_names[f->kind], confidence_of(f->votes));
 	fprintf(out, "    why: \"%s\"\n", f->has_opengl_light ? "OpenGL has it too" : "how strong it is, nothing says");
 	fprintf(out, "    off: yes\n    space: world\n    position: [%.7g, %.7g, %.7g, %g]\n", f->light[0], f->light[1], f->light[2], f->light[3]);
 }
@@ -123,10 +142,14 @@ static void write_solved(const struct solved *s, const char *of, FILE *out)
 void findings_write_surfaces(const struct tricks *t, const struct lightmaps *maps, const struct solved *s, FILE *out)
 {
 	for (unsigned i = 0; i < t->n; i++) {
+		unsigned first = 0;
+
+		while (first < i && !(has_rule_of(&t->found[first], &t->found[i], s) && !tricks_is_outvoted(t, first)))
+			first++;
 		if (t->found[i].kind == TRICK_MIRROR)
 			write_mirror(&t->found[i], out);
-		else if (!tricks_is_outvoted(t, i))
-			write_shadow(&t->found[i], s, out);
+		else if (first == i && !tricks_is_outvoted(t, i))
+			write_shadow(t, i, s, out);
 	}
 	write_walls(maps, s, out);
 }

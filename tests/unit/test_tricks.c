@@ -1,5 +1,10 @@
 /* What frames' tricks agree on (look/study/tricks.h). */
 #include "look/study/tricks.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "look/study/findings.h"
 #include "tests/case.h"
 
 /* A viewer who walks around a mirror sees its plane turned; what is drawn beside it is another one. */
@@ -33,11 +38,38 @@ START_TEST(test_shadow_has_one_side)
 }
 END_TEST
 
+/* Shadows on several planes need one rule, since planes are no part of it; others need another. */
+START_TEST(test_one_rule_for_all_planes)
+{
+	struct tricks t = { .n = 0 };
+	struct lightmaps maps = { .n_units = 0 };
+	struct solved solved = { .n = 0 };
+	char *text = NULL;
+	size_t size;
+	FILE *out = open_memstream(&text, &size);
+
+	for (int i = 0; i < 5; i++)
+		tricks_note(&t, &(struct trick_found){ .kind = TRICK_PLANAR_SHADOW, .light = { 0, 5, 0, 1 }, .plane = { 0, 1, 0, i },
+		            .has_opengl_light = i != 4 }, 1);
+	findings_write_surfaces(&t, &maps, &solved, out);
+	fclose(out);
+	const char *first = strstr(text, "role:"), *second = first ? strstr(first + 1, "role:") : NULL;
+
+	ck_assert_ptr_nonnull(second);
+	ck_assert_ptr_null(strstr(second + 1, "role:"));
+	ck_assert_ptr_nonnull(strstr(text, "4 draws in 1 frames are flattened away from one light each, 4 planes and lights in all; "));
+	ck_assert(strstr(text, "left_out: yes") < second);
+	ck_assert_ptr_nonnull(strstr(second, "plane: [0, 1, 0, 4]"));
+	free(text);
+}
+END_TEST
+
 int main(void)
 {
 	TCase *tests = tcase_create("tricks");
 
 	tcase_add_test(tests, test_mirror_has_two_sides);
 	tcase_add_test(tests, test_shadow_has_one_side);
+	tcase_add_test(tests, test_one_rule_for_all_planes);
 	return run_case(tests, "tricks");
 }
