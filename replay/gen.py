@@ -9,7 +9,8 @@ A handler is a line GLS_HANDLER(glName, KIND) or GLS_HANDLER(glName, KIND, ROLE)
 all commands whose names are glName and a suffix (GL 2.1 sec. 2.3). A command without a handler takes that of the command that the
 registry calls its alias, or that of the command which does the same by another suffix (glFrustumfOES, glFrustumx: glFrustum); else the
 excuse that overlay.txt gives; else it is counted when met.
-The lines "draws" and "ends" of capture/gen/overlay.txt say which commands do nothing but draw, or end a frame.
+The lines "draws" and "ends" of capture/gen/overlay.txt say which commands do nothing but draw, or end a frame; its lines "arg" which
+arguments are pixels.
 """
 import re
 import sys
@@ -119,6 +120,26 @@ def read_drawing(path):
     return [(re.compile(line[1].strip()), "GLS_" + line[0].upper()) for line in words if line and line[0] in ("draws", "ends")]
 
 
+def read_pixels(path):
+    """[(pattern of commands, pattern of a parameter, what says how many bytes it points to)]"""
+    with open(path) as source:
+        rows = [re.match(r"arg\s+(\S+)\s+(\S+)\s+(image|unpack)\s+(.*)", line.split("#")[0]) for line in source]
+    return [(re.compile(row[1]), re.compile(row[2]), row[3], row[4].split()) for row in rows if row]
+
+
+def pixel_args(command, rows):
+    """struct gls_pixel_args of a command."""
+    places = {p.name: i for i, p in enumerate(command.params)} if command else {}
+    for names, params, kind, fields in reversed(rows):
+        at = next((i for name, i in places.items() if params.fullmatch(name)), None)
+        if at is None or not names.fullmatch(command.name):
+            continue
+        said = [places.get(field, -1) for field in fields]
+        numbers = [at, int(fields[0]), *said[1:]] if kind == "image" else [at, 0, -1, -1, said[1] if fields[0] == "blob" else -1, -1, -1]
+        return "{ " + ", ".join(map(str, numbers)) + " }"
+    return "{ -1, 0, -1, -1, -1, -1, -1 }"
+
+
 def table(out, what, overlay, capture_overlay, sources):
     commands = {}
     for file_name in ("gl.xml", "glx.xml"):
@@ -126,7 +147,7 @@ def table(out, what, overlay, capture_overlay, sources):
     excuses = read_overlay(overlay)
     functions = read_handlers(sources)
     handlers = handled(functions, commands)
-    drawing = read_drawing(capture_overlay)
+    drawing, pixels = read_drawing(capture_overlay), read_pixels(capture_overlay)
     both = sorted(excuses.keys() & handlers.keys())
     if both:
         sys.exit(f"{overlay}: {both[0]} is excused and handled")
@@ -156,7 +177,7 @@ def table(out, what, overlay, capture_overlay, sources):
         core = name in commands and any(re.fullmatch(r"GL_VERSION_(1_\d|2_[01])", v) for v in commands[name].versions)
         fields = [f'"{name}"', '"' + excuses[excuse].replace('"', '\\"') + '"' if excuse else "0", f"GLS_KIND_{kind}", f"GLS_ROLE_{role}",
                   str(int(core)), next((does for pattern, does in drawing if pattern.fullmatch(name)), "0"), suffix,
-                  str(fixed_mask(commands[name]) if handler and name in commands else 0)]
+                  str(fixed_mask(commands[name]) if handler and name in commands else 0), pixel_args(commands.get(name), pixels)]
         lines.append(f"\t{f'gls_{function}' if handler else '0'}," if what == "handlers" else "\t{ " + ", ".join(fields) + " },")
     lines.append("};")
     if what == "commands":

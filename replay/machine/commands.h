@@ -65,6 +65,13 @@ struct gls_suffix {
 	uint8_t array;      /* v: the values come as an array */
 };
 
+/* Where the arguments are that say which pixels, in client memory or in the bound unpack buffer, a command reads. */
+struct gls_pixel_args {
+	int8_t at;     /* the argument that points to them; -1: the command reads none */
+	int8_t dims;   /* 1 to 3; 0: they are no image, and `width` is the argument with their bytes */
+	int8_t format, type, width, height, depth; /* arguments; -1: GL_COLOR_INDEX, GL_BITMAP, an extent of 1, bytes that no argument says */
+};
+
 enum gls_drawing { GLS_DRAWS = 1, GLS_ENDS }; /* capture/gen/overlay.txt: does nothing but draw; ends a frame */
 
 struct gls_command {
@@ -76,6 +83,7 @@ struct gls_command {
 	uint16_t drawing;   /* enum gls_drawing, or 0 */
 	struct gls_suffix suffix;
 	uint16_t fixed;     /* bits of its arguments that are 16.16 fixed point; the handler takes floats (fixed.h) */
+	struct gls_pixel_args pixels;
 };
 extern const struct gls_command gls_commands[]; /* sorted by name */
 extern const unsigned n_gls_commands;

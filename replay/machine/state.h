@@ -262,7 +262,7 @@ struct gls_texture_parameters {
 	uint32_t swizzle[4], srgb_decode; /* GL tokens (EXT_texture_swizzle, EXT_texture_sRGB_decode) */
 };
 struct gls_saved_texture {
-	uint32_t there, name; /* there: 0 where nothing was ever set of the object */
+	uint32_t there, name; /* there: 0 where there was no object */
 	struct gls_texture_parameters parameters;
 };
 

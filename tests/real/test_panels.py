@@ -17,7 +17,7 @@ PROGRAMS = {
     "line": ("strips", "kinds", "cut", "shared corners", "unfilled polygons", "edge flags", "short ones", "textured"),
     "compression": ("plain images", "their alpha", "parts", "levels", "alpha of levels", "copies of the screen", "YCbCr"),
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "copies of these", "what rectangles go through",
-              "transfer to textures", "indices to textures"),
+              "transfer to textures", "indices to textures", "in lists"),
     "point": ("attenuated",),
     "program": ("instructions", "bindings", "textures", "fragments", "last bits"),
     "ati_shader": ("instructions", "arguments", "destinations", "sources", "textures"),

@@ -5,9 +5,15 @@
 
 #include "base/err.h"
 #include "capture/format/call.h"
+#include "capture/format/sizes.h"
+#include "gl_tokens.h"
 #include "replay/build/mesh.h"
+#include "replay/gl/texture/unpack.h"
+#include "replay/machine/args.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
+
+enum { MAX_ARGS = 16 }; /* of a command that reads pixels */
 
 static int all_floats(const struct trace_value *v, uint64_t n)
 {
@@ -86,7 +92,7 @@ int gls_list_keep(struct gls_list *list, struct gls_op *op, const struct call *c
 	for (uint32_t i = 0; i < c->n_args; i++) {
 		if (copy_value(&list->arena, &args[i], &c->args[i]))
 			return ERR_SYSTEM;
-		if (c->args[i].type != TRACE_BLOB || !unpack)
+		if ((c->args[i].type != TRACE_BLOB && (int)i != gls_commands[op->command].pixels.at) || !unpack)
 			continue;
 		op->unpack = kept = arena_alloc(&list->arena, sizeof(*kept));
 		if (!kept)
@@ -123,9 +129,56 @@ static int keep_call(struct gls_list *list, const struct call *c, uint32_t comma
 	return ERR_SYSTEM;
 }
 
+static int extent_of(const struct call *c, int8_t i)
+{
+	return i < 0 ? 1 : (int)arg_i(c, (unsigned)i);
+}
+
+/* Bytes of pixels that a command reads, at most. */
+static size_t pixel_bytes(const struct gls_pixel_args *a, const struct call *c, const struct gls_pixel_store *s)
+{
+	const struct pixel_box box = {
+		a->dims, a->format < 0 ? GL_COLOR_INDEX : arg_u(c, (unsigned)a->format), a->type < 0 ? GL_BITMAP : arg_u(c, (unsigned)a->type),
+		extent_of(c, a->width), extent_of(c, a->height), extent_of(c, a->depth),
+	};
+
+	if (a->dims)
+		return gls_pixel_bytes(s, &box);
+	return a->width < 0 ? SIZE_MAX : arg_u(c, (unsigned)a->width);
+}
+
+/*
+ * Pixels are read when the list is made, also those in a buffer (sec. 5.4, ARB_pixel_buffer_object): put them in the place of their offset.
+ * @param args  [MAX_ARGS]; receives the arguments
+ * @return 1 where the call reads a buffer
+ */
+static int take_pixels(struct gls_exec *x, struct gls_state *st, const struct call *c, const struct gls_pixel_args *a, struct trace_value *args)
+{
+	const unsigned at = (unsigned)a->at;
+	const uint8_t *data;
+	size_t n, wanted;
+
+	if (a->at < 0 || at >= c->n_args || c->n_args > MAX_ARGS || c->args[at].type == TRACE_BLOB || !st->client.unpack.buffer)
+		return 0;
+	gls_pixel_missing(x, st, c, at);
+	data = gls_pixel_source(st, c, at, &n);
+	wanted = pixel_bytes(a, c, &st->client.unpack);
+	memcpy(args, c->args, c->n_args * sizeof(*args));
+	args[at] = (struct trace_value){ .type = TRACE_BLOB, .count = n < wanted ? n : wanted, .blob = data ? data : (const uint8_t *)"" };
+	return 1;
+}
+
 int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t command)
 {
-	if (keep_call(st->list, c, command, &st->client.unpack) == 0)
+	struct gls_pixel_store unpack = st->client.unpack;
+	struct trace_value args[MAX_ARGS];
+	struct call with = *c;
+
+	if (take_pixels(x, st, c, &gls_commands[command].pixels, args)) {
+		with.args = args;
+		unpack.buffer = 0;
+	}
+	if (keep_call(st->list, &with, command, &unpack) == 0)
 		return 0;
 	gls_out_of_memory(x, sizeof(struct gls_op));
 	return ERR_SYSTEM;

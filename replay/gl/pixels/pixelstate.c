@@ -112,7 +112,7 @@ GLS_FAMILY(glPixelMap, STATE)
 	m->size = size;
 	if (gls_client_store(x, st)->buffer)
 		gls_buffer_keep(x, gls_buffer_find(st, st->client.unpack.buffer));
-	if (gls_client_store(x, st)->buffer ? buffered(st, c, size, type, m->values) : arg_floats(c, 2, m->values, size) < size)
+	if (gls_client_store(x, st)->buffer || arg(c, 2)->type == TRACE_BLOB ? buffered(st, c, size, type, m->values) : arg_floats(c, 2, m->values, size) < size)
 		gls_unsupported(x, "pixel maps beyond what the recording holds");
 	for (uint32_t i = 0; i < size && !indices && type != GLS_SUFFIX_F; i++)
 		m->values[i] /= type == GLS_SUFFIX_US ? 65535.0f : 4294967295.0f;

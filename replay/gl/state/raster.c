@@ -1,14 +1,20 @@
 /* Rasterization state: points, lines, polygons (GL 2.1 sec. 3.3 - 3.5). */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "capture/format/call.h"
+#include "capture/format/sizes.h"
 #include "gl_tokens.h"
 #include "replay/gl/texture/unpack.h"
 #include "replay/machine/args.h"
 #include "replay/machine/buffer.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
+
+enum { SIDE = 32 }; /* of a polygon stipple */
 
 GLS_HANDLER(glPointSize, STATE)
 {
@@ -94,25 +100,31 @@ GLS_HANDLER(glPolygonOffsetEXT, STATE) /* the bias is in units of depth, not of 
 	st->a.polygon.offset_units = arg_f(c, 1) * 16777215.0f;
 }
 
-/* 32 rows of 32 bits from row 0 (the lowest) up; bit 31 is the leftmost pixel (sec. 3.5.2). */
+/*
+ * 32 rows of 32 bits from row 0 (the lowest) up, unpacked as glDrawPixels unpacks bits; bit 31 becomes the leftmost pixel (sec. 3.5.2).
+ * Memory is recorded as numbers, a byte each.
+ */
 GLS_HANDLER(glPolygonStipple, STATE)
 {
-	uint32_t bytes[128];
-	size_t n_blob;
-	const uint8_t *blob = gls_pixel_source(st, c, 0, &n_blob);
-	unsigned n = arg_uints(c, 0, bytes, 128);
+	const struct pixel_box box = { 2, GL_COLOR_INDEX, GL_BITMAP, SIDE, SIDE, 1 };
+	struct gls_pixels p = { .width = SIDE, .height = SIDE, .store = gls_client_store(x, st) };
+	const size_t wanted = gls_pixel_bytes(p.store, &box);
+	uint8_t *numbers = arg(c, 0)->type == TRACE_ARRAY ? malloc(arg(c, 0)->count + 1) : NULL;
 
-	for (unsigned i = 0; i < 128 && blob && n_blob >= 128; i++, n = 128)
-		bytes[i] = blob[i];
-	if (blob && arg(c, 0)->type != TRACE_BLOB)
+	p.data = numbers ? numbers : gls_pixel_source(st, c, 0, &p.n);
+	p.n = numbers ? arg(c, 0)->count : p.n;
+	for (size_t i = 0; numbers && i < p.n; i++)
+		numbers[i] = (uint8_t)gls_value_int(&arg(c, 0)->items[i]);
+	if (p.data && !numbers && arg(c, 0)->type != TRACE_BLOB)
 		gls_buffer_keep(x, gls_buffer_find(st, st->client.unpack.buffer));
-	if (n < 128) {
+	if (!p.data || p.n < wanted)
 		gls_unsupported(x, "stipples beyond what the recording holds");
-		return;
+	for (uint32_t row = 0; row < SIDE && p.data && p.n >= wanted; row++) {
+		st->a.polygon_stipple[row] = 0;
+		for (uint32_t bit = 0; bit < SIDE; bit++)
+			st->a.polygon_stipple[row] |= (uint32_t)gls_unpack_bit(&p, bit, row) << (SIDE - 1 - bit);
 	}
-	for (unsigned row = 0; row < 32; row++)
-		st->a.polygon_stipple[row] = (bytes[4 * row] & 255) << 24 | (bytes[4 * row + 1] & 255) << 16 |
-		                             (bytes[4 * row + 2] & 255) << 8 | (bytes[4 * row + 3] & 255);
+	free(numbers);
 }
 
 GLS_HANDLER(glSampleCoverage, STATE)

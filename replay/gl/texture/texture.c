@@ -30,27 +30,30 @@ int gls_texture_target_of(uint32_t token, unsigned *face)
 
 /* ---- objects, sec. 3.8.12 ---- */
 
+/* Table 6.17 and its kin. */
+static struct gls_texture_parameters initial_parameters(uint32_t target)
+{
+	const int rectangle = target == GLS_TEXTURE_RECTANGLE;
+	const uint32_t wrap = rectangle ? GL_CLAMP_TO_EDGE : GL_REPEAT;
+
+	return (struct gls_texture_parameters){
+		.wrap_s = wrap, .wrap_t = wrap, .wrap_r = wrap,
+		.min_filter = rectangle ? GL_LINEAR : GL_NEAREST_MIPMAP_LINEAR, .mag_filter = GL_LINEAR,
+		.min_lod = -1000, .max_lod = 1000, .max_level = 1000, .max_anisotropy = 1, .priority = 1,
+		.compare_func = GL_LEQUAL, .depth_mode = GL_LUMINANCE, .swizzle = { GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA },
+		.srgb_decode = GL_DECODE_EXT,
+	};
+}
+
 static struct gls_texture *create(uint32_t name, uint32_t target)
 {
 	struct gls_texture *t = calloc(1, sizeof(*t));
-	int rectangle = target == GLS_TEXTURE_RECTANGLE;
 
 	if (!t)
 		return NULL;
 	t->name = name;
 	t->target = target;
-	t->parameters.wrap_s = t->parameters.wrap_t = t->parameters.wrap_r = rectangle ? GL_CLAMP_TO_EDGE : GL_REPEAT;
-	t->parameters.min_filter = rectangle ? GL_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
-	t->parameters.mag_filter = GL_LINEAR;
-	t->parameters.min_lod = -1000;
-	t->parameters.max_lod = 1000;
-	t->parameters.max_level = 1000;
-	t->parameters.max_anisotropy = 1;
-	t->parameters.priority = 1;
-	t->parameters.compare_func = GL_LEQUAL;
-	t->parameters.depth_mode = GL_LUMINANCE;
-	memcpy(t->parameters.swizzle, (uint32_t[]){ GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA }, sizeof(t->parameters.swizzle));
-	t->parameters.srgb_decode = GL_DECODE_EXT;
+	t->parameters = initial_parameters(target);
 	t->dirty = 1;
 	return t;
 }
@@ -96,8 +99,8 @@ void gls_texture_save_parameters(const struct gls_state *st, struct gls_saved_te
 			uint32_t name = st->a.texturing.units[u].bound[target];
 			const struct gls_texture *t = bound_if_any(st, name, target);
 
-			if (t)
-				saved[u][target] = (struct gls_saved_texture){ 1, name, t->parameters };
+			if (t || !name) /* nobody has asked for the default object yet: it has its initial state */
+				saved[u][target] = (struct gls_saved_texture){ 1, name, t ? t->parameters : initial_parameters(target) };
 		}
 }
 

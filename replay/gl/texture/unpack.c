@@ -7,6 +7,7 @@
 #include "base/half.h"
 #include "base/norm.h"
 #include "capture/format/call.h"
+#include "capture/format/sizes.h"
 #include "replay/gl/texture/clientformat.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/transfer.h"
@@ -71,6 +72,13 @@ static void packed_components(const uint8_t *p, const struct gls_packed *t, int 
 }
 
 /* ---- where pixels lie ---- */
+
+size_t gls_pixel_bytes(const struct gls_pixel_store *s, const struct pixel_box *box)
+{
+	const struct pixel_layout layout = { s->row_length, s->image_height, s->skip_rows, s->skip_pixels, s->skip_images, s->alignment };
+
+	return (size_t)image_bytes(&layout, box);
+}
 
 const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsigned i, size_t *n)
 {

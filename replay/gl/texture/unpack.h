@@ -12,6 +12,7 @@ struct call;
 struct gls_exec;
 struct gls_pixel_store;
 struct gls_state;
+struct pixel_box;
 
 /* Pixels as a command gives them. */
 struct gls_pixels {
@@ -22,6 +23,9 @@ struct gls_pixels {
 	const struct gls_pixel_store *store;  /* how they lie there; borrowed */
 	int drawn; /* by glDrawPixels: Mesa (22.3.6) neither shifts and offsets its indices nor scales and biases its depths of GL_FLOAT */
 };
+
+/** Bytes from a pixel pointer to the end of the last pixel that GL reads; 0 where there are none (capture/format/sizes.h). */
+size_t gls_pixel_bytes(const struct gls_pixel_store *store, const struct pixel_box *box);
 
 /** The bytes of a pixel argument: client memory, or a place in the bound unpack buffer. NULL: there are none. */
 const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsigned i, size_t *n);

@@ -319,12 +319,80 @@ static void draw_through(int i)
 	}
 }
 
+/* --- Display lists (sec. 5.4): pixels are read when the list is made, from client memory or from a bound buffer --- */
+
+static void give(int what, const unsigned char *pixels)
+{
+	switch (what) {
+	case 0: glDrawPixels(SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, pixels); break;
+	case 1: glBitmap(2 * SIDE, 2 * SIDE, 0, 0, 0, 0, pixels); break;
+	case 2: glPolygonStipple(pixels); break;
+	case 3: glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 8, 8, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels); break;
+	case 4: glTexSubImage2D(GL_TEXTURE_2D, 0, 1, 2, SIDE, 5, GL_RGB, GL_UNSIGNED_BYTE, pixels); break;
+	default: glPixelMapfv(GL_PIXEL_MAP_R_TO_R, 16, (const float *)(const void *)pixels); break;
+	}
+}
+
+static void draw_listed(int i)
+{
+	static const unsigned char nothing[sizeof(all_bytes)];
+	static const float map[16] = { 0.9f, 0.1f, 0.8f, 0.3f, 0.7f, 0, 1, 0.5f, 0.2f, 0.6f, 0.4f, 0.15f, 0.85f, 0.35f, 0.65f, 0.05f };
+	const int what = choose(&i, 6), in_buffer = choose(&i, 2) && what != 5; /* Mesa (22.3.6) takes a map's offset for a pointer */
+	const int is_laid_out = choose(&i, 2), twice = choose(&i, 2);
+	const size_t offset = what == 5 ? 8 : 3;
+	const unsigned char *from = what == 5 ? (const unsigned char *)map : all_bytes;
+	static unsigned char copy[2 * sizeof(all_bytes)];
+	GLuint buffer;
+
+	memcpy(copy + offset, from, what == 5 ? sizeof(map) : sizeof(all_bytes));
+	glGenBuffers(1, &buffer);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 8, 8, 0, GL_RGBA, GL_UNSIGNED_BYTE, all_bytes + 5);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	if (in_buffer) {
+		glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer);
+		glBufferData(GL_PIXEL_UNPACK_BUFFER, sizeof(copy), copy, GL_STREAM_DRAW);
+	}
+	glPixelStorei(GL_UNPACK_ROW_LENGTH, is_laid_out ? 33 : 0);
+	glPixelStorei(GL_UNPACK_SKIP_PIXELS, is_laid_out);
+	for (GLuint list = 1; list <= 1 + (GLuint)twice; list++) { /* the same pixels in two lists: the last one is called */
+		glNewList(list, GL_COMPILE);
+		give(what, in_buffer ? (const unsigned char *)offset : copy + offset);
+		glEndList();
+	}
+	if (in_buffer)
+		glBufferData(GL_PIXEL_UNPACK_BUFFER, sizeof(nothing), nothing, GL_STREAM_DRAW);
+	glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+	glPixelStorei(GL_UNPACK_SKIP_PIXELS, 0);
+	place(-0.7f, -0.7f);
+	glCallList(1 + (GLuint)twice);
+	glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+	glDeleteBuffers(1, &buffer);
+	glDeleteLists(1, 2);
+	glPixelTransferi(GL_MAP_COLOR, what == 5);
+	if (what == 5)
+		draw_uploaded(GL_RGBA, GL_UNSIGNED_BYTE);
+	glPixelTransferi(GL_MAP_COLOR, 0);
+	if (what < 2 || what == 5) {
+		reset_maps();
+		return;
+	}
+	glEnable(what == 2 ? GL_POLYGON_STIPPLE : GL_TEXTURE_2D);
+	glBegin(GL_QUADS);
+	for (int k = 0; k < 4; k++) {
+		const float x = k == 1 || k == 2, y = k > 1;
+
+		glTexCoord2f(x, y);
+		glVertex2f(2 * x - 1, 2 * y - 1);
+	}
+	glEnd();
+}
+
 int main(void)
 {
 	static const struct table tables[] = {
 		{ 66, format, draw_format },     { 48, format, draw_packed },   { 96, format, draw_stored }, { 16, transfer, draw_transferred },
 		{ 30, indexed, draw_indexed }, { 128, format, draw_zoomed }, { 16, format, draw_depths }, { 192, format, draw_copied_depths }, { 24, through, draw_through }, { 24, transfer, draw_transferred_texture },
-		{ 30, indexed, draw_indexed_texture },
+		{ 30, indexed, draw_indexed_texture }, { 48, format, draw_listed },
 	};
 
 	DRAW_TABLES(tables, prepare);
