@@ -8,7 +8,7 @@ usage: gen.py OUT tokens                                                every GL
 A handler is a line GLS_HANDLER(glName, KIND) or GLS_HANDLER(glName, KIND, ROLE) in a source of replay/. GLS_FAMILY(glName, ...) handles
 all commands whose names are glName and a suffix (GL 2.1 sec. 2.3). A command without a handler takes that of the command that the
 registry calls its alias, or that of the command which does the same by another suffix (glFrustumfOES, glFrustumx: glFrustum); else the
-excuse that overlay.txt gives; else it is counted when met.
+excuse that overlay.txt gives; else it is one that only asks; else it is counted when met.
 The lines "draws" and "ends" of capture/gen/overlay.txt say which commands do nothing but draw, or end a frame; its lines "arg" which
 arguments are pixels.
 """
@@ -99,10 +99,19 @@ def fixed_mask(command):
     return sum(1 << i for i, p in enumerate(command.params) if re.search(r"\bGL(fixed|clampx)\b", p.type))
 
 
+def types_of(command):
+    return [(p.type, p.pointer) for p in command.params]
+
+
 def same_by_suffix(name, commands):
-    """Commands that may do the same: without OES; with floats for fixed-point numbers; without the f that OpenGL ES 1 puts there."""
-    base = name.removesuffix("OES")
+    """
+    Commands that may do the same: without OES, or without EXT and ARB where parameters are the same (glGenTexturesEXT has another GLX
+    protocol, and so is no alias); with floats for fixed-point numbers; without the f that OpenGL ES 1 puts there.
+    """
+    base, core = name.removesuffix("OES"), re.sub("(EXT|ARB)$", "", name)
     names = [base]
+    if core != name and core in commands and name in commands and types_of(commands[core]) == types_of(commands[name]):
+        names.append(core)
     if name in commands and fixed_mask(commands[name]):
         stem, v = (base[:-2], "v") if base.endswith("xv") else (base[:-1], "")
         names += [stem + "f" + v, stem + v]
@@ -111,6 +120,16 @@ def same_by_suffix(name, commands):
     shape = [p.pointer for p in commands[name].params] if name in commands else None
     names += [n + "OES" for n in names[1:]]
     return [n for n in names if n != name and (n not in commands or [p.pointer for p in commands[n].params] == shape)]
+
+
+QUERY = re.compile(r"glX?(Get|Getn(?=Map|Uniform)|Is|Are|Query|Test)[A-Z]\w*")
+NAMES_FOR_LATER = re.compile(r"\w*(Location|Index|Handle|Id|Counter)([A-Z0-9]\w*)?")
+
+
+def only_asks(command):
+    """By its name, and by what it writes: `void *` may be a place in a buffer. Answers that later calls name things by are not enough."""
+    writes_bytes = any(p.pointer == 1 and re.match(r"(GL)?void\b", p.type) for p in command.params)
+    return bool(QUERY.fullmatch(command.name)) and not NAMES_FOR_LATER.fullmatch(command.name) and not writes_bytes
 
 
 def read_drawing(path):
@@ -173,9 +192,11 @@ def table(out, what, overlay, capture_overlay, sources):
     for name in names:
         handler = resolve(name, handlers)
         function, kind, role, suffix = handlers[handler] if handler else ("", "NONE", "NONE", NO_SUFFIX)
-        excuse = "" if handler else resolve(name, excuses)
+        reason = "" if handler else excuses.get(resolve(name, excuses), "")
+        if not handler and not reason and name in commands and only_asks(commands[name]):
+            reason = "a query"
         core = name in commands and any(re.fullmatch(r"GL_VERSION_(1_\d|2_[01])", v) for v in commands[name].versions)
-        fields = [f'"{name}"', '"' + excuses[excuse].replace('"', '\\"') + '"' if excuse else "0", f"GLS_KIND_{kind}", f"GLS_ROLE_{role}",
+        fields = [f'"{name}"', '"' + reason.replace('"', '\\"') + '"' if reason else "0", f"GLS_KIND_{kind}", f"GLS_ROLE_{role}",
                   str(int(core)), next((does for pattern, does in drawing if pattern.fullmatch(name)), "0"), suffix,
                   str(fixed_mask(commands[name]) if handler and name in commands else 0), pixel_args(commands.get(name), pixels)]
         lines.append(f"\t{f'gls_{function}' if handler else '0'}," if what == "handlers" else "\t{ " + ", ".join(fields) + " },")

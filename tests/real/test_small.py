@@ -1,0 +1,18 @@
+#!/usr/bin/python3
+"""
+Small programs of single calls and rare uses are drawn as Mesa draws them, and nothing of them is left out: tests/real/small/, where each says
+what it is about. Run with names of programs: those alone.
+"""
+import sys
+
+from helpers import check, check_same_pictures, finish, must, relume
+
+PROGRAMS = {
+    "asks": ("framebuffers", "shader objects", "texture objects of EXT", "one deleted"),
+}
+
+for name in sys.argv[1:] or PROGRAMS:
+    trace, _ = check_same_pictures(f"small/{name}", PROGRAMS[name])
+    done = must(relume("info", trace))
+    check("not done" not in done.stdout, f"{name}: nothing is left out: {done.stdout}")
+finish()
