@@ -202,6 +202,12 @@ static inline struct vec4 v4_clamp01(struct vec4 a)
 	return v4(clamp01(a.x), clamp01(a.y), clamp01(a.z), clamp01(a.w));
 }
 
+/* As llvmpipe clamps colours of vertices: a NaN becomes 1. */
+static inline struct vec4 v4_clamp_vertex(struct vec4 a)
+{
+	return v4_clamp01(v4(a.x < 1.0f ? a.x : 1.0f, a.y < 1.0f ? a.y : 1.0f, a.z < 1.0f ? a.z : 1.0f, a.w < 1.0f ? a.w : 1.0f));
+}
+
 /* Column-major matrix times column vector, summed column by column as Mesa's vertex programs do. */
 static inline struct vec4 m4_mul(GLOBAL const float *m, struct vec4 v)
 {

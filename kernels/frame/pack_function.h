@@ -42,5 +42,5 @@ WIDE_VECTORS static inline packf pack_function_log2(packf a)
 
 WIDE_VECTORS static inline packf pack_function_power(packf a, packf b)
 {
-	return select(pack_function_exp2(pack_function_log2(a) * b), (packf)(1.0f), b == 0.0f);
+	return select(pack_function_exp2(pack_function_log2(a) * b), (packf)(0.0f), (as_uint16(a) & 0x7f800000u) == 0u);
 }

@@ -132,6 +132,7 @@ static inline void pack_add_light(const struct pack_matter *m, __global const st
 		const packf n_h = fmax(pack_dot(m->normal, pack_normalize(pack_add(to_light, m->to_viewer))), (packf)(0));
 
 		shine = select((packf)(1), pow(n_h, m->shininess), m->shininess != 0.0f);
+		shine = select(shine, (packf)(0), n_h == 0.0f);
 	}
 	shine *= strength;
 	for (int i = 0; i < 4; i++)
@@ -235,8 +236,8 @@ static inline void pack_light_end(const struct pack_matter *matter, struct pack_
 {
 	out->color.c[3] = matter->diffuse[3];
 	for (int i = 0; i < 4; i++) {
-		out->color.c[i] = pack_clamp01(out->color.c[i]);
-		out->secondary.c[i] = pack_clamp01(out->secondary.c[i]);
+		out->color.c[i] = pack_clamp_vertex(out->color.c[i]);
+		out->secondary.c[i] = pack_clamp_vertex(out->secondary.c[i]);
 	}
 }
 

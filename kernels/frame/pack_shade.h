@@ -174,7 +174,7 @@ WIDE_VECTORS static inline packf pack_fog(const struct tables *t, const struct p
 	for (int k = 0; k < 3; k++)
 		pack_vertex(t, p, k, (packu)(PACK_NORMAL), v[k]);
 	c = v[0][3] * p->weight[0] + v[1][3] * p->weight[1] + v[2][3] * p->weight[2];
-	return pack_clamp01((m->fog_end - c) / (m->fog_end - m->fog_start));
+	return pack_clamp01(m->fog_end == m->fog_start ? c - m->fog_end : (m->fog_end - c) / (m->fog_end - m->fog_start));
 }
 
 /* The lanes' vertices' numbers become those of their parts' corners. row: [3][4] */

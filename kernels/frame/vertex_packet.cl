@@ -98,7 +98,7 @@ WIDE_VECTORS static inline void store_window(__global const struct view *view, c
 WIDE_VECTORS static inline void clamp_color(uint per_vertex, packf *c)
 {
 	for (int i = 0; i < 4; i++)
-		c[i] = pack_clamp01(per_vertex ? select((packf)(1), c[i], c[i] < 1.0f) : c[i]);
+		c[i] = per_vertex ? pack_clamp_vertex(c[i]) : pack_clamp01(c[i]);
 }
 
 /* As light_vertex. */

@@ -179,6 +179,7 @@ static inline void point_weights_at(const struct point *p, GLOBAL const struct v
 		weight[i] *= sum;
 }
 
+/* Sec. 3.10. Where linear fog has no length the specification says nothing: Mesa (22.3.6) has c - end. */
 static inline float point_fog(const struct point *p)
 {
 	GLOBAL const struct scene_material *m = p->material;
@@ -186,7 +187,7 @@ static inline float point_fog(const struct point *p)
 	          p->vertex[2]->fog_coord * p->weight[2];
 
 	if (m->fog_mode == GL_LINEAR)
-		return clamp01((m->fog_end - c) / (m->fog_end - m->fog_start));
+		return clamp01(m->fog_end == m->fog_start ? c - m->fog_end : (m->fog_end - c) / (m->fog_end - m->fog_start));
 	if (m->fog_mode == GL_EXP2)
 		return clamp01(M_EXP(-(m->fog_density * c) * (m->fog_density * c)));
 	return clamp01(M_EXP(-m->fog_density * c));

@@ -79,8 +79,8 @@ static inline float function_log2(float a)
 	return a < INFINITY ? M_FMA(y, M_FMA(odd, z, even), (float)((int)(exponent >> 23) - 127)) : a;
 }
 
-/* Anything to the power of 0 is 1, 0 as well: LIT asks for it. */
+/* 0 to any power is 0, to that of 0 as well; so is what is not normal, which the processor takes for 0 (lp_build_pow). */
 static inline float function_power(float a, float b)
 {
-	return b == 0.0f ? 1.0f : function_exp2(function_log2(a) * b);
+	return (M_BITS(a) & 0x7f800000u) == 0u ? 0.0f : function_exp2(function_log2(a) * b);
 }

@@ -45,6 +45,12 @@ static inline float light_spot(GLOBAL const struct scene_light *light, struct ve
 	return light->spot_exponent == 0.0f ? 1.0f : M_POW(along, light->spot_exponent);
 }
 
+/* A highlight's power. 0 to the power of 0 is left open; LIT has 0 in llvmpipe (lp_build_pow). */
+static inline float light_power(float n_h, float shininess)
+{
+	return n_h == 0.0f ? 0.0f : shininess == 0.0f ? 1.0f : M_POW(n_h, shininess);
+}
+
 /* Attenuation of a light at a place, spot factor included, and the unit vector towards it. */
 static inline float light_strength(GLOBAL const struct scene_light *light, struct vec3 at, struct vec3 *to_light)
 {
@@ -115,7 +121,7 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 			struct vec4 matte = v4_scale(v4_mul(diffuse, v4_load(light->diffuse)), n_l * strength);
 			struct vec4 gloss = v4_mul(specular, v4_load(light->specular));
 			int is_black = gloss.x == 0.0f && gloss.y == 0.0f && gloss.z == 0.0f && n_h <= 1.0f; /* whatever the power, which is a number */
-			float shine = face->shininess == 0.0f || is_black ? 1.0f : M_POW(n_h, face->shininess);
+			float shine = is_black ? 1.0f : light_power(n_h, face->shininess);
 
 			gloss = v4_scale(gloss, shine * strength);
 
@@ -136,7 +142,7 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 	}
 	primary.w = diffuse.w;
 	secondary.w = 0.0f;
-	out.color = m->unclamped & 2u ? primary : v4_clamp01(primary);
-	out.secondary = m->unclamped & 2u ? secondary : v4_clamp01(secondary);
+	out.color = m->unclamped & 2u ? primary : v4_clamp_vertex(primary);
+	out.secondary = m->unclamped & 2u ? secondary : v4_clamp_vertex(secondary);
 	return out;
 }

@@ -34,9 +34,7 @@ static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLO
  */
 static inline struct vec4 vertex_clamp(struct vec4 c, uint32_t per_vertex)
 {
-	if (per_vertex)
-		c = v4(c.x < 1.0f ? c.x : 1.0f, c.y < 1.0f ? c.y : 1.0f, c.z < 1.0f ? c.z : 1.0f, c.w < 1.0f ? c.w : 1.0f);
-	return v4_clamp01(c);
+	return per_vertex ? v4_clamp_vertex(c) : v4_clamp01(c);
 }
 
 /* One side's colour of a vertex; `seen` as in light_vertex. The fragment stage calls this again for shadows. */

@@ -88,7 +88,7 @@ static inline struct vec4 vertex_result_color(const struct program_run *run, GLO
 {
 	const struct vec4 color = vertex_result(run, output, k);
 
-	return m->unclamped & 2u ? color : v4_clamp01(color);
+	return m->unclamped & 2u ? color : v4_clamp_vertex(color);
 }
 
 /* Lights of the material's list that a program can light a vertex by: where it has a normal, those in front of it. */

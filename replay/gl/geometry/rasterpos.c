@@ -100,7 +100,7 @@ static void raster_pos(struct gls_state *st, const float obj[4])
 {
 	struct gls_current *c = &st->a.current;
 	const float *rect = st->a.viewport.rect, *range = st->a.viewport.depth_range;
-	float eye[4], clip[4];
+	float eye[4], clip[4], w_inverse;
 	struct vec3 normal;
 
 	gls_sums(st)->transform(eye, st->modelview.matrices[st->modelview.depth], obj);
@@ -108,9 +108,11 @@ static void raster_pos(struct gls_state *st, const float obj[4])
 	c->raster_valid = !is_clipped(st, eye, clip);
 	if (!c->raster_valid)
 		return;
+	/* In Mesa's order of operations (22.3.6, rastpos.c): pictures go to the pixel whose middle is nearest. */
+	w_inverse = 1 / clip[3];
 	for (unsigned i = 0; i < 2; i++)
-		c->raster_position[i] = rect[i] + rect[2 + i] * 0.5f * (clip[i] / clip[3] + 1);
-	c->raster_position[2] = (range[1] - range[0]) * 0.5f * (clip[2] / clip[3]) + (range[1] + range[0]) * 0.5f;
+		c->raster_position[i] = clip[i] * w_inverse * (0.5f * rect[2 + i]) + (0.5f * rect[2 + i] + rect[i]);
+	c->raster_position[2] = clip[2] * w_inverse * (0.5f * (range[1] - range[0])) + 0.5f * (range[1] + range[0]);
 	c->raster_position[3] = clip[3];
 	normal = eye_normal(st);
 	set_colors(st, v4_load(eye), normal);

@@ -47,7 +47,7 @@ static struct gls_rectangle at_raster_position(const struct gls_state *st, uint3
 {
 	const float *at = st->a.current.raster_position, *zoom = st->a.pixel.zoom;
 
-	return (struct gls_rectangle){ .kind = kind, .width = width, .height = height, .left = rintf(at[0]), .low = rintf(at[1]),
+	return (struct gls_rectangle){ .kind = kind, .width = width, .height = height, .left = roundf(at[0]), .low = roundf(at[1]),
 		                       .zoom = { zoom[0], zoom[1] }, .texels = texels, .from_top = copied && !st->read_framebuffer };
 }
 
