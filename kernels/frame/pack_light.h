@@ -18,6 +18,7 @@ struct pack_matter {
 	packf ambient[4], diffuse[4], specular[4], shininess;
 	struct pack_vec at, normal, to_viewer;
 	packi has_gloss;
+	__global const struct scene_material *material;
 };
 
 /* --- Colours ------------------------------------------------------------------------------------------------------- */
@@ -131,8 +132,8 @@ static inline void pack_add_light(const struct pack_matter *m, __global const st
 	if (lanes && any_pack(m->has_gloss)) {
 		const packf n_h = fmax(pack_dot(m->normal, pack_normalize(pack_add(to_light, m->to_viewer))), (packf)(0));
 
-		shine = select((packf)(1), pow(n_h, m->shininess), m->shininess != 0.0f);
-		shine = select(shine, (packf)(0), n_h == 0.0f);
+		shine = light_is_own_power(m->material, light) ? pow(n_l, n_l) :
+		                                                 select((packf)(1), pow(n_h, m->shininess), m->shininess != 0.0f);
 	}
 	shine *= strength;
 	for (int i = 0; i < 4; i++)
@@ -223,6 +224,7 @@ static inline void pack_unlit_matter(const struct tables *t, const struct pack_l
 /* Before the first light. m: of its points */
 static inline void pack_light_begin(__global const struct scene_material *m, struct pack_matter *matter, struct pack_lit_here *out)
 {
+	matter->material = m;
 	matter->to_viewer = pack_vec((packf)(0), (packf)(0), (packf)(1));
 	if (m->local_viewer)
 		matter->to_viewer = pack_normalize(pack_scale(matter->at, (packf)(-1)));

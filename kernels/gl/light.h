@@ -45,10 +45,24 @@ static inline float light_spot(GLOBAL const struct scene_light *light, struct ve
 	return light->spot_exponent == 0.0f ? 1.0f : M_POW(along, light->spot_exponent);
 }
 
-/* A highlight's power. 0 to the power of 0 is left open; LIT has 0 in llvmpipe (lp_build_pow). */
-static inline float light_power(float n_h, float shininess)
+/*
+ * 1 where Mesa (22.3.6, ffvertex_prog.c) raises the cosine to the light to its own power in place of a highlight's: no material's highlight has
+ * a power, and the light's strength differs from place to place.
+ */
+static inline int light_is_own_power(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *light)
 {
-	return n_h == 0.0f ? 0.0f : shininess == 0.0f ? 1.0f : M_POW(n_h, shininess);
+	GLOBAL const float *a = light->attenuation;
+
+	return m->front.shininess == 0.0f && (!m->two_side || m->back.shininess == 0.0f) && light->position_eye[3] != 0.0f &&
+	       (light->spot_cutoff_deg != 180.0f || a[0] != 1.0f || a[1] != 0.0f || a[2] != 0.0f);
+}
+
+/* A highlight, before strength and colours. */
+static inline float light_shine(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *light, float shininess, float n_h, float n_l)
+{
+	if (light_is_own_power(m, light))
+		return M_POW(n_l, n_l);
+	return shininess == 0.0f ? 1.0f : M_POW(n_h, shininess);
 }
 
 /* Attenuation of a light at a place, spot factor included, and the unit vector towards it. */
@@ -121,7 +135,7 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 			struct vec4 matte = v4_scale(v4_mul(diffuse, v4_load(light->diffuse)), n_l * strength);
 			struct vec4 gloss = v4_mul(specular, v4_load(light->specular));
 			int is_black = gloss.x == 0.0f && gloss.y == 0.0f && gloss.z == 0.0f && n_h <= 1.0f; /* whatever the power, which is a number */
-			float shine = is_black ? 1.0f : light_power(n_h, face->shininess);
+			float shine = is_black ? 1.0f : light_shine(m, light, face->shininess, n_h, n_l);
 
 			gloss = v4_scale(gloss, shine * strength);
 
