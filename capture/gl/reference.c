@@ -139,25 +139,42 @@ static int draws_to_front(void)
 	return buffer == GL_FRONT || buffer == GL_FRONT_LEFT || buffer == GL_LEFT || buffer == GL_FRONT_AND_BACK;
 }
 
-/* Why a frame gets no pixels, the first time. */
-static void say_unread(int has_size)
-{
-	static atomic_int said[2];
+enum unread { IS_READ, NO_SIZE, IN_LIST, IN_BEGIN };
 
-	if (!said[has_size]++)
-		report_say(has_size ? "a frame ends while a display list is made; such frames get no reference frames" :
-		                      "a frame ends in what is neither a window nor a pixmap, or in one that is gone, or with another one to read from; such frames get no reference frames");
+/* Why a frame cannot be read, if it cannot. */
+static enum unread why_unread(int width, int height)
+{
+	if (width <= 0 || height <= 0)
+		return NO_SIZE;
+	if (!context_has(HAS_FIXED_FUNCTION))
+		return IS_READ;
+	if (!context_get(GL_MATRIX_MODE)) /* never 0: between glBegin and glEnd nothing can be asked */
+		return IN_BEGIN;
+	return context_get(GL_LIST_INDEX) ? IN_LIST : IS_READ; /* a list that is being compiled would take the selection of the buffer */
+}
+
+/* The first time. */
+static void say_unread(enum unread why)
+{
+	static const char *const words[] = {
+		[NO_SIZE] = "in what is neither a window nor a pixmap, or in one that is gone, or with another one to read from",
+		[IN_LIST] = "while a display list is made", [IN_BEGIN] = "between glBegin and glEnd",
+	};
+	static atomic_int said[sizeof(words) / sizeof(words[0])];
+
+	if (!said[why]++)
+		report_say("a frame ends %s; such frames get no reference frames", words[why]);
 }
 
 void reference_read(int width, int height, int unswapped)
 {
 	struct reading_state state = { 0 };
-	int saved = errno, list = context_has(HAS_FIXED_FUNCTION) ? context_get(GL_LIST_INDEX) : 0, has_size = width > 0 && height > 0;
+	const int saved = errno;
+	const enum unread why = why_unread(width, height);
 	uint8_t *pixels;
 
-	/* A list that is being compiled would take the selection of the buffer. */
-	if (list || !has_size) {
-		say_unread(has_size);
+	if (why) {
+		say_unread(why);
 		errno = saved;
 		return;
 	}

@@ -6,7 +6,7 @@ what it is about. Run with names of programs: those alone.
 """
 import sys
 
-from helpers import check, check_same_pictures, finish, must, relume
+from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_same_pictures, diff, finish, must, record, relume, render
 
 PROGRAMS = {
     "asks": ("framebuffers", "shader objects", "texture objects of EXT", "one deleted"),
@@ -18,4 +18,14 @@ for name in sys.argv[1:] or PROGRAMS:
     trace, _ = check_same_pictures(f"small/{name}", PROGRAMS[name])
     done = must(relume("info", trace))
     check("not done" not in done.stdout, f"{name}: nothing is left out: {done.stdout}")
+
+if not sys.argv[1:]:
+    trace = SCRATCH / "unended.trace"
+    said = record(trace, BUILD / "tests/real/small/unended", options=("--ref", "color,depth")).stderr
+    for what in "between glBegin and glEnd", "while a display list is made":
+        check(f"a frame ends {what}; such frames get no reference frames" in said, f"the recorder says why frames lack pixels: {said}")
+    render(trace, SCRATCH / "unended", *AS_SHOWN)
+    _, score = diff(trace, SCRATCH / "unended")
+    outcomes = [frame["outcome"] for frame in score["frames"]]
+    check(outcomes == ["extra", "passed", "extra", "passed"], f"nothing stands for what could not be read: {outcomes}")
 finish()
