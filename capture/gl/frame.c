@@ -162,8 +162,26 @@ void frame_viewport(int x, int y, int width, int height)
 	errno = saved;
 }
 
+/* Before the first draw of a frame: with it a window's buffers get the size that the window has by then (held_size). */
+static void frame_begins(void)
+{
+	const struct drawable_target *t = &self.target;
+	struct drawable *d;
+	int saved = errno;
+
+	if (self.drawn || !t->id || (t->system != DRAWABLE_GLX && t->system != DRAWABLE_EGL) || !writer_active() || skip_active())
+		return;
+	d = drawable_find(t->id);
+	if (d) {
+		drawable_ask(d, t, may_be_read());
+		mark_size(d, d->width, d->height);
+	}
+	errno = saved;
+}
+
 void frame_primitive_begins(void)
 {
+	frame_begins();
 	self.in_primitive = self.drawn = self.primitives = 1;
 }
 
@@ -174,12 +192,14 @@ void frame_primitive_ended(void)
 
 void frame_drawn(void)
 {
+	frame_begins();
 	self.drawn = self.primitives = 1;
 }
 
 void frame_cleared(unsigned buffers)
 {
 	frame_may_end(FRAME_CLEAR, buffers & GL_COLOR_BUFFER_BIT);
+	frame_begins();
 	self.drawn = 1;
 }
 
