@@ -12,6 +12,8 @@ PROGRAMS = {
     "asks": ("framebuffers", "shader objects", "texture objects of EXT", "one deleted"),
     "open": ("a light that nothing attenuates", "a highlight without a power", "fog without length", "powers of programs", "logarithms",
              "powers of shaders", "places between pixels"),
+    "resized": ("as it was opened", "larger, without a viewport", "scissored clears", "pixels", "views of parts", "smaller", "another window",
+                "that one smaller"),
 }
 
 for name in sys.argv[1:] or PROGRAMS:
