@@ -82,7 +82,7 @@ struct glsl_value glsl_variable(struct glsl_writer *w, uint32_t symbol)
 		*v = glsl_fresh(w, s->type);
 	}
 	if (!v->at)
-		glsl_fail(w, "a shader has a variable that is not done");
+		glsl_fail_at(w, "a shader has the variable ", name, ", which is not done");
 	return *v;
 }
 

@@ -183,7 +183,7 @@ struct glsl_value glsl_builtin(struct glsl_writer *w, const struct glsl_symbol *
 	for (unsigned i = 0; i < sizeof(states) / sizeof(states[0]); i++)
 		if (strcmp(name, states[i].name) == 0)
 			return state(w, s, &states[i]);
-	glsl_fail(w, "a shader reads or writes a built-in name that is not done");
+	glsl_fail_at(w, "a shader reads or writes ", name, ", which is not done");
 	return (struct glsl_value){ 0 };
 }
 

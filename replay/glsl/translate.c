@@ -251,7 +251,7 @@ int glsl_translate(const struct glsl_sources *sources, struct program_code code[
 		links->attributes = sources->attributes;
 		links->n_attributes = sources->n_attributes;
 		*w = (struct glsl_writer){ .tree = &trees[stage], .code = &code[stage], .stage = stage, .uniforms = uniforms, .links = links,
-		                            .call = glsl_call, .choose = glsl_choose };
+		                            .message = message, .call = glsl_call, .choose = glsl_choose };
 		err = write_stage(w, why);
 	}
 	for (uint32_t stage = 0; stage < 2; stage++)

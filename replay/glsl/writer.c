@@ -1,3 +1,4 @@
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +12,14 @@ void glsl_fail(struct glsl_writer *w, const char *why)
 {
 	if (!glsl_stopped(w))
 		w->why = why;
+}
+
+void glsl_fail_at(struct glsl_writer *w, const char *before, const char *name, const char *after)
+{
+	if (glsl_stopped(w))
+		return;
+	snprintf(w->message, GLSL_MESSAGE, "%s%s%s", before, name, after);
+	w->why = w->message;
 }
 
 void *glsl_alloc(struct glsl_writer *w, size_t n)

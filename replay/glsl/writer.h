@@ -42,7 +42,8 @@ struct glsl_writer {
 	enum glsl_stage stage;
 	const struct glsl_uniforms *uniforms;
 	struct glsl_links *links;
-	const char *why; /* what stands in the way: a static string */
+	const char *why; /* what stands in the way: a static string, or `message` */
+	char *message;   /* [GLSL_MESSAGE] room for a reason that names something */
 	int err;         /* ERR_SYSTEM: out of memory (reported) */
 	uint32_t top;    /* first free register */
 	uint32_t barrier; /* instructions before this number are not changed any more: something jumps behind them, or they set variables */
@@ -63,6 +64,8 @@ struct glsl_writer {
 };
 
 void glsl_fail(struct glsl_writer *w, const char *why);
+/** The same with a name of the shader's: "a shader calls refract(), which is not done". @param before, after  of the name */
+void glsl_fail_at(struct glsl_writer *w, const char *before, const char *name, const char *after);
 static inline bool glsl_stopped(const struct glsl_writer *w)
 {
 	return w->why || w->err;

@@ -30,4 +30,8 @@ if not sys.argv[1:]:
     _, score = diff(trace, SCRATCH / "unended")
     outcomes = [frame["outcome"] for frame in score["frames"]]
     check(outcomes == ["extra", "passed", "extra", "passed"], f"nothing stands for what could not be read: {outcomes}")
+    trace = SCRATCH / "lacking.trace"
+    record(trace, BUILD / "tests/real/small/lacking", options=())
+    said = must(relume("info", trace)).stdout
+    check("glBegin: a shader reads or writes gl_ClipDistance, which is not done" in said, f"the draw and the name are told: {said}")
 finish()

@@ -15,16 +15,18 @@ void gls_flush(struct gls_exec *x)
 {
 	struct gls_geometry *g = &x->pending.geometry;
 	struct gls_mesh *mesh;
-	uint32_t list = x->drawn_list;
+	const uint32_t list = x->drawn_list, command = x->command;
 
 	if (g->n_primitives && x->st) {
 		if (g->quads && !x->pending.list && gls_quads_turn(x->st, gls_shades_flat(x->st), g->position, g->index, g->n_primitives))
 			gls_geometry_turn_quads(g);
 		mesh = gls_geometry_mesh(x, g);
 		x->drawn_list = x->pending.list;
+		x->command = x->pending.command; /* what cannot be drawn is a matter of what drew, not of the call that comes next */
 		if (mesh)
 			gls_draw_mesh(x, x->st, mesh, (const float (*)[4])g->constant, x->pending.command, x->pending.call);
 		x->drawn_list = list;
+		x->command = command;
 		gls_mesh_release(mesh);
 	}
 	gls_geometry_clear(g);
