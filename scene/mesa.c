@@ -27,7 +27,9 @@ uint32_t scene_mesa_of(const char *gl)
 	unsigned major, minor;
 	uint32_t differences = 0;
 
-	if (!mesa || !strstr(gl, "llvmpipe") || sscanf(mesa, "Mesa %u.%u", &major, &minor) != 2)
+	if (!mesa)
+		return *gl ? SCENE_MESA_IS_OTHER : 0;
+	if (!strstr(gl, "llvmpipe") || sscanf(mesa, "Mesa %u.%u", &major, &minor) != 2)
 		return 0;
 	if (major > 9999 || minor > 99)
 		return 0;

@@ -33,12 +33,14 @@ enum scene_mesa {
 	SCENE_MESA_LINEAR_MEANS = 1024,
 	/* 25.0: GL_MESA_ycbcr_texture is gone: llvmpipe samples no such format, and what names one is refused */
 	SCENE_MESA_LACKS_YCBCR = 2048,
+	/* another GL: it has what every Mesa lacks (glPolygonOffsetEXT) */
+	SCENE_MESA_IS_OTHER = 4096,
 };
 
 /**
  * The differences of the GL that calls itself so.
  * @param gl  its version and renderer, as glGetString gives them:
  *            "4.5 (Compatibility Profile) Mesa 25.0.7, llvmpipe (...)"
- * @return bits of enum scene_mesa; 0 for 22.3, for older ones, and where it is not Mesa's llvmpipe
+ * @return bits of enum scene_mesa; 0 for 22.3, for older ones, for Mesa without llvmpipe, and where nothing is said
  */
 uint32_t scene_mesa_of(const char *gl);

@@ -11,7 +11,7 @@ from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_same_pictures, diff, 
 PROGRAMS = {
     "asks": ("framebuffers", "shader objects", "texture objects of EXT", "one deleted"),
     "open": ("a light that nothing attenuates", "a highlight without a power", "fog without length", "powers of programs", "logarithms",
-             "powers of shaders", "places between pixels"),
+             "powers of shaders", "places between pixels", "an offset of EXT"),
     "resized": ("as it was opened", "larger, without a viewport", "scissored clears", "pixels", "views of parts", "smaller", "another window",
                 "that one smaller"),
 }

@@ -11,7 +11,7 @@ START_TEST(test_versions)
 		{ "OpenGL ES-CM 1.1 Mesa 25.0.7-2+deb13u1, llvmpipe (LLVM 19.1.7, 256 bits)", SCENE_MESA_LINE_ENDS | SCENE_MESA_BITMAP_SUMS, 0 },
 		{ "4.5 (Compatibility Profile) Mesa 26.1.6-1, llvmpipe (LLVM 21.1.8, 256 bits)", SCENE_MESA_LINE_ENDS | SCENE_MESA_SPRITES, SCENE_MESA_BITMAP_SUMS },
 		{ "4.5 (Compatibility Profile) Mesa 25.0.7, softpipe", 0, ~0u },
-		{ "4.6.0 NVIDIA 550.54.14, NVIDIA H200/PCIe/SSE2", 0, ~0u },
+		{ "4.6.0 NVIDIA 550.54.14, NVIDIA H200/PCIe/SSE2", SCENE_MESA_IS_OTHER, ~(uint32_t)SCENE_MESA_IS_OTHER },
 		{ "Mesa llvmpipe", 0, ~0u },
 		{ "", 0, ~0u },
 	};

@@ -13,6 +13,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
+#include "scene/mesa.h"
 
 enum { SIDE = 32 }; /* of a polygon stipple */
 
@@ -94,8 +95,11 @@ GLS_HANDLER(glPolygonOffset, STATE)
 	st->a.polygon.offset_units = arg_f(c, 1);
 }
 
-GLS_HANDLER(glPolygonOffsetEXT, STATE) /* the bias is in units of depth, not of its resolution */
+/* The bias is in units of depth, not of its resolution. Mesa's libGL has the name, and nothing behind it. */
+GLS_HANDLER(glPolygonOffsetEXT, STATE)
 {
+	if (!(st->mesa & SCENE_MESA_IS_OTHER))
+		return;
 	st->a.polygon.offset_factor = arg_f(c, 0);
 	st->a.polygon.offset_units = arg_f(c, 1) * 16777215.0f;
 }

@@ -142,11 +142,24 @@ static void places_between_pixels(void)
 	}
 }
 
+void glPolygonOffsetEXT(GLfloat factor, GLfloat bias);
+
+/* Mesa's library has the name alone. */
+static void offset_of_ext(void)
+{
+	glEnable(GL_DEPTH_TEST);
+	glEnable(GL_POLYGON_OFFSET_FILL);
+	glPolygonOffset(1, 2);
+	glPolygonOffsetEXT(0, -0.125f);
+	glColor3f(0.3f, 0.9f, 0.5f);
+	quad(-0.6f, 0.2f);
+}
+
 int main(void)
 {
 	static void (*const frames[])(void) = {
 		light_nothing_attenuates, highlight_without_power, fog_without_length, powers_of_programs, logarithms, powers_of_shaders,
-		places_between_pixels,
+		places_between_pixels, offset_of_ext,
 	};
 
 	open_window();
