@@ -9,6 +9,7 @@ import sys
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_same_pictures, diff, finish, must, record, relume, render
 
 PROGRAMS = {
+    "bare": ("lines", "a strip", "a wide loop", "points", "outlines"),
     "asks": ("framebuffers", "shader objects", "texture objects of EXT", "one deleted"),
     "open": ("a light that nothing attenuates", "a highlight without a power", "fog without length", "powers of programs", "logarithms",
              "powers of shaders", "places between pixels", "an offset of EXT"),

@@ -19,6 +19,11 @@ struct expand_input {
 	uint32_t cull; /* INSTANCE_CULL_*: faces of polygons not drawn in this shape */
 	uint32_t width, height, depth_bits;
 	uint32_t from_below, mesa; /* scene.samples_from_below and .mesa */
+	/*
+	 * 1: the view is cut at twice its width and height. llvmpipe does so where there is neither depth nor stencil buffer and colours are 8 bits
+	 * of one sample (lp_state_derived.c, 22.3.6 to 25.0): what is cut there begins at another place between two pixels.
+	 */
+	int guards;
 	const struct shaded_vertex *vertices; /* [mesh vertices] */
 	const float (*texcoords)[4];          /* [mesh vertices][unit_count] */
 	float *dashed; /* pixels since a line stipple started anew: goes on from one instance to the next, as in Mesa's draw module */

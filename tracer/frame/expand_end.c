@@ -47,10 +47,10 @@ void expand_project(const struct expand_input *in, struct expand_end *e)
 	e->z = scale_and_move((range[1] - range[0]) * 0.5f, c[2] * e->w_inv, (range[1] + range[0]) * 0.5f, fused);
 }
 
-/* Signed distances to the planes of the view volume: near, far, and four around. */
-static float clip_distance(const float *c, int plane)
+/* Signed distances to the planes of the view volume: near, far, and four around, which `guards` has twice as far from the middle. */
+static float clip_distance(const float *c, int plane, int guards)
 {
-	float side = plane & 1 ? -1 : 1;
+	const float side = (plane & 1 ? -1.0f : 1.0f) * (guards && plane >= 2 ? 0.5f : 1.0f);
 
 	return c[3] + side * c[plane < 2 ? 2 : (plane - 2) / 2];
 }
@@ -85,10 +85,17 @@ float expand_plane_distance(const struct expand_input *in, const struct expand_e
 	const float *p, *at = e->clip_place;
 
 	if (plane < EXPAND_VOLUME_PLANES)
-		return clip_distance(e->v.clip, plane);
+		return clip_distance(e->v.clip, plane, in->guards);
 	plane -= EXPAND_VOLUME_PLANES;
 	p = in->material->clip_plane_eye[plane];
 	return in->material->clip_plane_mask >> plane & 1 ? p[0] * at[0] + p[1] * at[1] + p[2] * at[2] + p[3] * at[3] : 0;
+}
+
+/* What the view does not hold goes through Mesa's clipper, and is projected by it, whether it is cut there or not. */
+static void pass_clipper(struct expand_end *e)
+{
+	for (int plane = 0; plane < EXPAND_VOLUME_PLANES; plane++)
+		e->cut |= clip_distance(e->v.clip, plane, 0) < 0;
 }
 
 int expand_clip_line(const struct expand_input *in, struct expand_end *a, struct expand_end *b)
@@ -112,6 +119,8 @@ int expand_clip_line(const struct expand_input *in, struct expand_end *a, struct
 		move_end(a, b, t_a);
 	if (t_b > 0)
 		move_end(b, &from, t_b);
+	pass_clipper(a);
+	pass_clipper(b);
 	return a->v.clip[3] > 0 && b->v.clip[3] > 0;
 }
 

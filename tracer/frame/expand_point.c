@@ -53,7 +53,10 @@ static void add_point(const struct expand_input *in, struct expanded *out, const
 int expand_point(const struct expand_input *in, struct expanded *out, struct expand_end e, float offset, uint32_t draw)
 {
 	for (int plane = 0; plane < EXPAND_PLANES; plane++) {
-		if (expand_plane_distance(in, &e, plane) < 0) /* their centre must lie in the view (sec. 2.12) */
+		const int is_around = plane >= 2 && plane < EXPAND_VOLUME_PLANES;
+
+		/* Their centre must lie in the view (sec. 2.12). */
+		if (!(is_around && in->guards) && expand_plane_distance(in, &e, plane) < 0)
 			return 0;
 	}
 	return e.v.clip[3] > 0 ? expand_corner(in, out, e, offset, draw) : 0;

@@ -80,6 +80,7 @@ static int expand_instance(struct job *job, uint32_t i, float *dashed)
 		                   .material = m, .units = scene->units + m->unit_first, .view = &p->views[g->view],
 		                   .shape = p->shapes[i], .cull = p->culls[i], .width = job->width, .height = job->height,
 		                   .depth_bits = scene->depth_bits, .from_below = scene->samples_from_below, .mesa = scene->mesa,
+		                   .guards = !scene->depth_bits && !scene->stencil_bits && !scene->floats && scene->samples <= 1,
 		                   .vertices = vertices,
 		                   .texcoords = (const float (*)[4])texcoords, .dashed = dashed };
 	uint32_t first = scene->instances[p->instances[i].scene_instance].rectangle;
