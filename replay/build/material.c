@@ -9,6 +9,7 @@
 #include "base/mat4.h"
 #include "base/memory.h"
 #include "replay/build/intern.h"
+#include "replay/build/mesh.h"
 #include "replay/build/program.h"
 #include "replay/gl/texture/image.h"
 #include "replay/gl/texture/texformat.h"
@@ -278,19 +279,22 @@ static uint32_t fill_stipple(struct gls_exec *x, struct gls_frame *f, const stru
 	              sizeof(a->polygon_stipple));
 }
 
-static void fill_lighting(const struct gls_lighting *l, const float color[4], struct scene_material *m)
+/* color: the current one, which vertices may have instead; covered: 1: they have none, and the material's own has come over it (waiting.h) */
+static void fill_lighting(const struct gls_lighting *l, const float color[4], int covered, struct scene_material *m)
 {
+	const int tracks = l->color_material && !covered;
+
 	memcpy(m->light_model_ambient, l->model_ambient, 16);
 	m->local_viewer = l->local_viewer;
 	m->two_side = l->enabled && l->two_side;
 	m->separate_specular = l->separate_specular;
 	m->front = l->face[0];
 	m->back = l->face[1];
-	if (l->color_material) {
+	if (tracks) {
 		gls_set_face_colors(&m->front, gls_tracked_colors(l, 0), color);
 		gls_set_face_colors(&m->back, gls_tracked_colors(l, 1), color);
 	}
-	m->color_material = l->color_material ? l->color_material_face : 0;
+	m->color_material = tracks ? l->color_material_face : 0;
 	m->color_material_mode = l->color_material_mode;
 }
 
@@ -394,7 +398,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 
 	memset(&m, 0, sizeof(m));
 	m.lighting = a->lighting.enabled;
-	fill_lighting(&a->lighting, e->values[GLS_ATTR_COLOR], &m);
+	fill_lighting(&a->lighting, e->values[GLS_ATTR_COLOR], st->waiting.covers && !st->waiting.colored && !e->mesh->mesh.color, &m);
 	if (runs_vertices)
 		fill_vertex_stage(st, vertices.code, &m);
 	lights = runs_vertices ? program_lights(vertices.code) | (runs_fragments ? program_lights(fragments.code) : 0) :

@@ -39,7 +39,7 @@ static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command,
 	if (rules[k->kind]) {
 		if (gls_refuses(x, st, st->begin_mode, GL_INVALID_OPERATION))
 			return;
-		if (rules[k->kind] & DRAW_PENDING && x->pending.geometry.n_vertices)
+		if (rules[k->kind] & DRAW_PENDING && (x->pending.geometry.n_vertices || st->waiting.stored))
 			gls_flush(x);
 		if (rules[k->kind] & STALE)
 			st->dirty |= GLS_DIRTY_ALL;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "scene/mesa.h"
 
 struct gls_matrix_stack *gls_current_stack(struct gls_state *st)
 {
@@ -55,4 +56,9 @@ void gls_set_face_colors(struct scene_face *face, unsigned colors, const float v
 		memcpy(face->specular, value, sizeof(face->specular));
 	if (colors & GLS_EMISSION)
 		memcpy(face->emission, value, sizeof(face->emission));
+}
+
+int gls_attributes_wait(const struct gls_state *st)
+{
+	return !(st->mesa & SCENE_MESA_IS_OTHER);
 }

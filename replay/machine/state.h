@@ -281,6 +281,18 @@ enum { GLS_DIRTY_MATERIAL = 1, GLS_DIRTY_VIEW = 2, GLS_DIRTY_ALL = 3 };
 
 struct gls_share;
 
+/* waiting.h */
+struct gls_waiting {
+	uint32_t set[2];         /* colours that glMaterial has set since the store was emptied: GLS_AMBIENT and so on, by side */
+	struct scene_face face[2];
+	uint32_t touched;        /* 1: an attribute was set since it was looked at */
+	uint32_t recolored;      /* 1: the current colour has become another one since then */
+	uint32_t stored;         /* 1: the next change of state empties it: there are vertices in it, or it was looked at */
+	uint32_t placed;         /* 1: there have been vertices since it was emptied, */
+	uint32_t colored;        /* which carry colours */
+	uint32_t covers;         /* 1: what waited has covered the colours that COLOR_MATERIAL had copied */
+};
+
 struct gls_state {
 	uint32_t error; /* first one since GetError; 0: none */
 	uint32_t dirty;
@@ -298,6 +310,7 @@ struct gls_state {
 	uint32_t render_mode; /* GL_RENDER, GL_SELECT, GL_FEEDBACK */
 	uint32_t rasterizer_discard; /* GL 3.0 sec. 3.1: nothing is drawn, nor cleared */
 	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
+	struct gls_waiting waiting;
 	uint32_t program, arb_vertex, arb_fragment, ati_fragment;
 	uint32_t ati_open;        /* 1: between Begin and EndFragmentShaderATI */
 	float ati_constants[8][4]; /* of fragment shaders that do not set their own */
@@ -355,6 +368,8 @@ struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
 int gls_is_face(uint32_t token);
 /** 1 for NEVER to ALWAYS. */
 int gls_is_compare_func(uint32_t token);
+/** 1 for Mesa, whose attributes wait between draws (gl/geometry/waiting.h). */
+int gls_attributes_wait(const struct gls_state *st);
 enum { GLS_AMBIENT = 1, GLS_DIFFUSE = 2, GLS_SPECULAR = 4, GLS_EMISSION = 8 };
 /** Colours of a face that a material parameter names. @return 0: none */
 unsigned gls_face_colors(uint32_t parameter);

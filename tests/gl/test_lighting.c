@@ -96,6 +96,13 @@ static unsigned with_red(const struct scene_face *face, float red)
 	       (face->emission[0] == red ? EMISSION : 0);
 }
 
+/* Attributes that wait become current with the next Begin (waiting.h). */
+static void draw_nothing(struct gl *gl)
+{
+	gl_call(gl, "glBegin", "e", GL_POINTS);
+	gl_call(gl, "glEnd", "");
+}
+
 /*
  * Sec. 2.14.3: colours of ColorMaterial's faces follow the current one from Enable on, and from a change of the mode on at once; what Material
  * says of them then is lost. They keep what they have when following ends.
@@ -122,6 +129,7 @@ START_TEST(test_color_material)
 		for (unsigned side = 0; side < 2; side++)
 			ck_assert_uint_eq(with_red(&have[side], 0.125f), colors[side]);
 		gl_call(&gl, "glColor3f", "fff", 0.375, 0.0, 0.0);
+		draw_nothing(&gl);
 		for (unsigned k = 0; k < 4; k++)
 			gl_call(&gl, "glMaterialfv", "eeF", GL_FRONT_AND_BACK, k == 3 ? GL_EMISSION : GL_AMBIENT + k, 4, (const float[4]){ 0.625f, 0, 0, 1 });
 		for (unsigned side = 0; side < 2; side++) {
@@ -147,6 +155,7 @@ START_TEST(test_color_material_changes)
 	gl_call(&gl, "glColorMaterial", "ee", GL_FRONT, GL_SPECULAR);
 	ck_assert_uint_eq(with_red(&have[0], 0.125f), SPECULAR);
 	gl_call(&gl, "glColor3f", "fff", 0.375, 0.0, 0.0);
+	draw_nothing(&gl);
 	ck_assert_uint_eq(with_red(&have[0], 0.375f), SPECULAR);
 	ck_assert_uint_eq(with_red(&have[1], 0.125f), EMISSION);
 	gl_call(&gl, "glColorMaterial", "ee", GL_LEFT, GL_SPECULAR);
@@ -154,6 +163,7 @@ START_TEST(test_color_material_changes)
 	gl_call(&gl, "glColorMaterial", "ee", GL_FRONT, GL_SHININESS);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
 	gl_call(&gl, "glColor3f", "fff", 0.625, 0.0, 0.0);
+	draw_nothing(&gl);
 	ck_assert_uint_eq(with_red(&have[0], 0.625f), SPECULAR);
 	gl_close(&gl);
 }

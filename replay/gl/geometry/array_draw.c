@@ -13,6 +13,7 @@
 #include "replay/build/program.h"
 #include "replay/gl/geometry/array_read.h"
 #include "replay/gl/geometry/list.h"
+#include "replay/gl/geometry/waiting.h"
 #include "replay/gl/surface/draw.h"
 #include "replay/machine/args.h"
 #include "replay/machine/buffer.h"
@@ -111,6 +112,7 @@ static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh,
 		st->dirty |= GLS_DIRTY_MATERIAL;
 		return;
 	}
+	gls_waiting_take(st, (int)st->waiting.stored);
 	gls_draw_mesh(x, st, mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
 }
 

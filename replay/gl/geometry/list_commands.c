@@ -9,6 +9,7 @@
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/geometry/list_assemble.h"
 #include "replay/gl/geometry/pending.h"
+#include "replay/gl/geometry/waiting.h"
 #include "replay/gl/surface/draw.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
@@ -27,6 +28,8 @@ GLS_HANDLER(glNewList, NOW)
 		return;
 	if (gls_refuses(x, st, st->list, GL_INVALID_OPERATION))
 		return;
+	if (!(c->flags & CALL_FAKE)) /* the recorder's own were no lists there */
+		gls_waiting_take(st, 0);
 	st->list = calloc(1, sizeof(*st->list));
 	if (!st->list) {
 		gls_out_of_memory(x, sizeof(*st->list));
@@ -52,6 +55,8 @@ GLS_HANDLER(glEndList, NOW)
 
 	if (gls_refuses(x, st, !list, GL_INVALID_OPERATION))
 		return;
+	if (!(c->flags & CALL_FAKE) && st->waiting.stored)
+		gls_waiting_take(st, 1);
 	st->list = NULL;
 	list = gls_list_assemble(x, list);
 	remove_list(st, st->list_name);
@@ -107,14 +112,18 @@ static void run_mesh(struct gls_exec *x, struct gls_state *st, const struct gls_
 	if (gls_refuses(x, st, st->begin_mode, GL_INVALID_OPERATION))
 		return;
 	gls_flush(x);
+	gls_waiting_take(st, (int)st->waiting.stored);
 	set_attributes(x, st, op->before, op->before_values);
 	if (!st->a.current.edge_flag && op->mesh)
 		gls_unsupported(x, "edge flags that are off when a list is called");
 	if (op->mesh && op->first_provokes != st->a.lighting.first_provokes && st->a.lighting.shade_model == GL_FLAT)
 		gls_unsupported(x, "lists made under another glProvokingVertex than they are called under");
+	st->waiting.colored = op->before >> GLS_ATTR_COLOR & 1;
 	if (op->mesh)
 		gls_draw_mesh(x, st, op->mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
+	st->waiting.colored = 0;
 	set_attributes(x, st, op->after, op->after_values);
+	gls_waiting_current(st);
 }
 
 static void call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
@@ -155,7 +164,27 @@ static void call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 		x->drawn_list = 0;
 }
 
-GLS_HANDLER(glCallList, INSIDE, CALL_LIST) { call_list(x, st, arg_u(c, 0)); }
+/* What waits is the same after a list whether its draws are run or left out (effect.h). */
+static void begin_lists(struct gls_state *st)
+{
+	if (st->begin_mode)
+		return;
+	gls_waiting_take(st, 0);
+	gls_waiting_take(st, (int)st->waiting.stored);
+}
+
+static void end_lists(struct gls_state *st)
+{
+	if (!st->begin_mode)
+		gls_waiting_current(st);
+}
+
+GLS_HANDLER(glCallList, INSIDE, CALL_LIST)
+{
+	begin_lists(st);
+	call_list(x, st, arg_u(c, 0));
+	end_lists(st);
+}
 
 /* Bytes of an element of CallLists (sec. 5.4); 0: no type. */
 static uint32_t element_value(uint32_t type, const uint8_t *p)
@@ -204,8 +233,10 @@ GLS_HANDLER(glCallLists, INSIDE)
 		gls_error(x, st, size ? GL_INVALID_VALUE : GL_INVALID_ENUM);
 		return;
 	}
+	begin_lists(st);
 	for (int64_t i = 0; i < n && bytes && (uint64_t)(i + 1) * size <= n_bytes; i++)
 		call_list(x, st, base + element_value(type, bytes + (size_t)i * size));
 	for (int64_t i = 0; i < n && items && (uint64_t)i < n_items; i++)
 		call_list(x, st, base + (uint32_t)gls_value_int(&items[i]));
+	end_lists(st);
 }

@@ -7,11 +7,12 @@
 #include "capture/format/call.h"
 #include "replay/build/mesh.h"
 #include "replay/build/program.h"
+#include "replay/gl/geometry/waiting.h"
 #include "replay/gl/surface/draw.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-void gls_flush(struct gls_exec *x)
+static void draw_pending(struct gls_exec *x)
 {
 	struct gls_geometry *g = &x->pending.geometry;
 	struct gls_mesh *mesh;
@@ -32,20 +33,24 @@ void gls_flush(struct gls_exec *x)
 	gls_geometry_clear(g);
 }
 
-/* ---- attributes ---- */
-
-void gls_color_changed(struct gls_state *st)
+void gls_flush(struct gls_exec *x)
 {
-	for (unsigned side = 0; side < 2; side++)
-		gls_set_face_colors(&st->a.lighting.face[side], gls_tracked_colors(&st->a.lighting, side), st->a.current.attribute[GLS_ATTR_COLOR]);
-	st->dirty |= GLS_DIRTY_MATERIAL;
+	draw_pending(x);
+	if (x->st && x->st->waiting.stored)
+		gls_waiting_take(x->st, 1);
 }
+
+/* ---- attributes ---- */
 
 void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4])
 {
-	memcpy(st->a.current.attribute[attribute], value, 16);
+	float *current = st->a.current.attribute[attribute];
+	const int is_color = attribute == GLS_ATTR_COLOR, recolors = is_color && memcmp(current, value, 16) != 0;
+
+	memcpy(current, value, 16);
 	x->pending.geometry.touched |= 1u << attribute;
-	if (attribute == GLS_ATTR_COLOR && st->a.lighting.color_material)
+	gls_waiting_touch(st, is_color, recolors);
+	if (is_color && st->a.lighting.color_material && !gls_attributes_wait(st))
 		gls_color_changed(st);
 }
 
@@ -58,7 +63,7 @@ void gls_before_material(struct gls_exec *x, struct gls_state *st)
 	struct gls_geometry *g = &x->pending.geometry;
 
 	if (!st->begin_mode && g->n_vertices)
-		gls_flush(x);
+		draw_pending(x);
 	else if (g->n_vertices && !(g->varying & SCENE_HAS_FACE))
 		gls_geometry_vary_face(x, g, st->a.lighting.face);
 	st->dirty |= GLS_DIRTY_MATERIAL;
@@ -132,7 +137,7 @@ void gls_begin(struct gls_exec *x, struct gls_state *st, uint32_t mode)
 {
 	struct gls_pending *p = &x->pending;
 	struct gls_geometry *g = &p->geometry;
-	enum scene_primitive kind = gls_mode_kind(mode);
+	const enum scene_primitive kind = gls_mode_kind(mode);
 
 	if (gls_refuses(x, st, st->begin_mode, GL_INVALID_OPERATION))
 		return;
@@ -140,7 +145,8 @@ void gls_begin(struct gls_exec *x, struct gls_state *st, uint32_t mode)
 		return;
 	if (g->n_vertices && (g->kind != kind || g->n_vertices > GLS_MAX_PENDING_VERTICES ||
 	                      (!p->mixes && g->quads != (mode == GL_QUADS))))
-		gls_flush(x);
+		draw_pending(x);
+	gls_waiting_begin(st);
 	g->kind = kind;
 	g->quads = mode == GL_QUADS;
 	g->begin_vertex = g->n_vertices;

@@ -28,7 +28,5 @@ void gls_end(struct gls_exec *x, struct gls_state *st);
 /** The primitive ends and another one of its kind begins (NV_primitive_restart). */
 void gls_restart(struct gls_exec *x, struct gls_state *st);
 
-/** The current colour has changed: tracked material parameters follow it (sec. 2.14.3). */
-void gls_color_changed(struct gls_state *st);
 /** A material parameter is about to change, perhaps between Begin and End. */
 void gls_before_material(struct gls_exec *x, struct gls_state *st);

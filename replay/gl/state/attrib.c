@@ -5,6 +5,7 @@
 #include "gl_tokens.h"
 #include "replay/gl/geometry/pending.h"
 #include "replay/gl/geometry/vertexarray.h"
+#include "replay/gl/geometry/waiting.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
@@ -152,12 +153,15 @@ static void enable(struct gls_exec *x, struct gls_state *st, uint32_t cap, int o
 			gls_error(x, st, GL_INVALID_ENUM);
 		return;
 	}
+	if (cap == GL_COLOR_MATERIAL && on != (int)*flag) {
+		gls_waiting_take(st, 0);
+		if (on)
+			gls_color_changed(st);
+	}
 	if (bit)
 		*flag = on ? *flag | bit : *flag & ~bit;
 	else
 		*flag = on != 0;
-	if (cap == GL_COLOR_MATERIAL && on)
-		gls_color_changed(st);
 	st->depth_used |= st->a.depth.enabled;
 }
 
@@ -208,6 +212,7 @@ GLS_HANDLER(glPushAttrib, STATE)
 
 	if (gls_refuses(x, st, st->attrib_depth == GLS_MAX_ATTRIB_DEPTH, GL_STACK_OVERFLOW))
 		return;
+	gls_waiting_take(st, 0);
 	saved = &st->attrib_stack[st->attrib_depth++];
 	saved->mask = arg_u(c, 0);
 	saved->attribs = st->a;

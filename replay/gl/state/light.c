@@ -5,6 +5,7 @@
 #include "base/mat4.h"
 #include "base/norm.h"
 #include "replay/gl/geometry/pending.h"
+#include "replay/gl/geometry/waiting.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
@@ -92,9 +93,14 @@ GLS_FAMILY(glMaterial, INSIDE, MATERIAL)
 		struct scene_face *f = &st->a.lighting.face[side];
 		if (face == (side ? GL_FRONT : GL_BACK))
 			continue;
-		gls_set_face_colors(f, st->a.lighting.color_material ? colors & ~gls_tracked_colors(&st->a.lighting, side) : colors, v);
-		if (pname == GL_SHININESS)
+		const unsigned free = st->a.lighting.color_material ? colors & ~gls_tracked_colors(&st->a.lighting, side) : colors;
+
+		gls_set_face_colors(f, free, v);
+		gls_waiting_set(st, side, free, v);
+		if (pname == GL_SHININESS) {
 			f->shininess = v[0];
+			gls_waiting_touch(st, 0, 0);
+		}
 	}
 	if (!colors && pname != GL_SHININESS && pname != GL_COLOR_INDEXES) /* colour index mode only */
 		gls_error(x, st, GL_INVALID_ENUM);
@@ -106,10 +112,14 @@ GLS_HANDLER(glColorMaterial, STATE)
 
 	if (gls_refuses(x, st, !gls_is_face(face) || !gls_face_colors(mode), GL_INVALID_ENUM))
 		return;
+	if (st->a.lighting.color_material_face == face && st->a.lighting.color_material_mode == mode)
+		return;
 	st->a.lighting.color_material_face = face;
 	st->a.lighting.color_material_mode = mode;
-	if (st->a.lighting.color_material)
+	if (st->a.lighting.color_material) {
+		gls_waiting_take(st, 0);
 		gls_color_changed(st);
+	}
 }
 
 GLS_HANDLER(glShadeModel, STATE)
