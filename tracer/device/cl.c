@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 #include <stdio.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -67,17 +68,26 @@ struct cl_buffer {
 static struct cl_common *all_left;
 static pthread_mutex_t left_lock = PTHREAD_MUTEX_INITIALIZER;
 
-/* A sub-device of so many units, so that a run uses no more cores than it was given. */
+/*
+ * A sub-device of so many units, so that a run uses no more cores than it was given. PoCL 7's processors have no sub-devices: the user is told.
+ */
 static int limit_threads(struct cl_common *dev, int cpu, unsigned threads)
 {
 	const cl_device_partition_property counts[] = { CL_DEVICE_PARTITION_BY_COUNTS, threads,
 		                                        CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0 };
-	cl_uint units = 0;
+	static atomic_int said;
+	cl_uint units = 0, parts = 0;
 	cl_int code;
 
 	clGetDeviceInfo(dev->root, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(units), &units, NULL);
 	if (!cpu || threads == 0 || threads >= units)
 		return 0;
+	clGetDeviceInfo(dev->root, CL_DEVICE_PARTITION_MAX_SUB_DEVICES, sizeof(parts), &parts, NULL);
+	if (parts < 1) {
+		if (!said++)
+			err_warn(NULL, "this device cannot be limited to %u of its %u threads, and uses all of them", threads, units);
+		return 0;
+	}
 	code = clCreateSubDevices(dev->root, counts, 1, &dev->id, NULL);
 	if (code == CL_SUCCESS)
 		return 0;
