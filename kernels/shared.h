@@ -246,8 +246,9 @@ struct geometry {
 	uint32_t vertex_count;
 	uint32_t texcoord_first; /* its first [4] in the frame's texture coordinates: unit_count of them each vertex */
 	uint32_t material, view, current, draw, flags;
+	float away; /* largest coordinate of object space's origin in eye space */
 };
-SHARED_SIZE(struct geometry, 284);
+SHARED_SIZE(struct geometry, 288);
 
 #define TEXTURE_MAX_LEVELS 16
 

@@ -73,7 +73,7 @@ WIDE_VECTORS static inline void pack_place_hits(const struct tables *t, __global
 	p->weight[1] = p->b1;
 	p->weight[2] = p->b2;
 	pack_surface(t, p, &q->surface);
-	pack_measure(&q->surface);
+	pack_measure(p, &q->surface);
 	behind = pack_dot(q->surface.plane, q->d) > 0.0f;
 	p->front = material->front_face == GL_CW ? behind : ~behind;
 }

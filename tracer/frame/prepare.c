@@ -259,6 +259,15 @@ int prepare_is_displaced(const struct scene *scene, const struct scene_instance 
 	return program && ((const struct scene_program *)(scene->programs + (program - 1)))->outputs >> SCENE_RESULT_POSITION & 1;
 }
 
+/* Largest coordinate of object space's origin in eye space; 0 where that is at infinity. */
+static float distance_of_origin(const float modelview[16])
+{
+	const float largest = fmaxf(fmaxf(fabsf(modelview[12]), fabsf(modelview[13])), fabsf(modelview[14]));
+	const float distance = largest / fabsf(modelview[15]);
+
+	return isfinite(distance) ? distance : 0;
+}
+
 static void add_instance(const struct scene *scene, struct prepared *p, struct segment *segment, uint32_t index,
                          enum prepared_shape shape, uint32_t cull)
 {
@@ -271,6 +280,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	p->shapes[p->n_instances] = shape;
 	mat4_sums[scene->views[from->view].x87].mul(g->clip_from_obj, scene->views[from->view].projection, from->modelview);
 	memcpy(g->eye_from_obj, from->modelview, sizeof(g->eye_from_obj));
+	g->away = distance_of_origin(from->modelview);
 	normal_matrix(from->modelview, m->rescale_normal && !m->normalize, g->normal_matrix);
 	prepare_layout(mesh, 0, g);
 	g->material = from->material;
