@@ -8,6 +8,7 @@
 #include "base/mat4.h"
 #include "gl_tokens.h"
 #include "kernels/camera/camera.h"
+#include "scene/depths.h"
 #include "scene/program.h"
 #include "scene/skies.h"
 
@@ -207,14 +208,15 @@ void prepare_pad(struct prepared *p, uint32_t i, const float (*positions)[4], ui
 	instance->pad = box_pad(positions, n, clip, instance, &p->views[g->view]);
 }
 
-static uint32_t instance_flags(const struct scene_material *m, enum prepared_shape shape)
+/* is_depth: it leaves depth alone, and is solid */
+static uint32_t instance_flags(const struct scene_material *m, enum prepared_shape shape, int is_depth)
 {
 	uint32_t flags = 0;
 	int draws_color = (m->color_mask & 7) != 0;
 
 	if (!m->blend && !m->alpha_test && !m->alpha_to_coverage && !m->logic_op && draws_color)
 		flags |= INSTANCE_OPAQUE;
-	if (m->depth_test && draws_color && shape == PREPARED_FILLED && 
+	if (m->depth_test && (draws_color || is_depth) && shape == PREPARED_FILLED &&
 	    (~m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_HIDDEN_FROM_MIRRORS)))
 		flags |= INSTANCE_SECONDARY;
 	if (m->cull_face == GL_FRONT || m->cull_face == GL_FRONT_AND_BACK)
@@ -294,7 +296,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	p->n_vertices += mesh->vertex_count;
 	p->n_texcoords += mesh->vertex_count * m->unit_count;
 
-	instance->flags = instance_flags(m, shape) | cull;
+	instance->flags = instance_flags(m, shape, p->depths[index]) | cull;
 	if (p->skies[index] && shape == PREPARED_FILLED)
 		instance->flags = (instance->flags & ~INSTANCE_SECONDARY) | INSTANCE_SKY;
 	instance->vertex_first = g->vertex_first;
@@ -476,9 +478,11 @@ int prepare_frame(const struct scene *scene, const float shift[2], struct prepar
 	out->views = calloc(most, sizeof(*out->views));
 	out->scene_views = calloc(most, sizeof(*out->scene_views));
 	out->skies = calloc(scene->n_instances + (size_t)1, sizeof(*out->skies));
+	out->depths = calloc(scene->n_instances + (size_t)1, sizeof(*out->depths));
 	if (!cuts || !out->segments || !out->instances || !out->geometries || !out->shapes || !out->culls || !out->views ||
-	    !out->scene_views || !out->skies || scene_find_skies(scene, out->skies) != 0)
+	    !out->scene_views || !out->skies || !out->depths || scene_find_skies(scene, out->skies) != 0)
 		goto fail;
+	scene_find_depths(scene, out->depths);
 	n_cuts = cut_scene(scene, cuts);
 	for (uint32_t r = 0; r < n_cuts; r++) {
 		struct segment *segment = &out->segments[out->n_segments++];
@@ -530,6 +534,7 @@ void prepared_free(struct prepared *p)
 	free(p->scene_views);
 	free(p->owner);
 	free(p->skies);
+	free(p->depths);
 	memset(p, 0, sizeof(*p));
 }
 
