@@ -8,6 +8,7 @@
 #include "base/mat4.h"
 #include "gl_tokens.h"
 #include "kernels/camera/camera.h"
+#include "scene/backdrop.h"
 #include "scene/depths.h"
 #include "scene/program.h"
 #include "scene/skies.h"
@@ -464,8 +465,39 @@ static int draws_to_window(const struct scene *scene, uint32_t instance)
 	return scene->views[scene->instances[instance].view].target == 0;
 }
 
+/*
+ * What is drawn on either side of a clear of the window's depth is never compared, and may not lie where it seems to: a
+ * sky of small models about the viewer, or a hand before the world. Neither stands in the other's light: they are
+ * layers, with an eye space each. A backdrop shares that of the world, whose rays find it where they miss.
+ */
+struct layers {
+	uint32_t backdrop, n;
+	int written; /* 1: something of the last one left depth */
+};
+
+/* The layer of what follows the clears of a cut. */
+static uint32_t layer_of(const struct scene *scene, const struct cut *cut, struct layers *layers)
+{
+	for (uint32_t i = cut->clear_first; i < cut->clear_first + cut->clear_count; i++) {
+		const struct scene_clear *clear = &scene->clears[i];
+
+		if (!(clear->buffers & 2) || !scene_clears_window(scene, clear) || !layers->written ||
+		    clear->before_instance <= layers->backdrop)
+			continue;
+		layers->n++;
+		layers->written = 0;
+	}
+	for (uint32_t i = cut->first; i < cut->end && !layers->written; i++) {
+		const struct scene_material *m = &scene->materials[scene->instances[i].material];
+
+		layers->written = m->depth_test && m->depth_write && draws_to_window(scene, i);
+	}
+	return layers->n;
+}
+
 int prepare_frame(const struct scene *scene, const float shift[2], struct prepared *out)
 {
+	struct layers layers = { .backdrop = scene_backdrop(scene) };
 	size_t most = 2 * (size_t)scene->n_instances + 1;
 	struct cut *cuts = malloc((scene->n_instances + (size_t)scene->n_clears + 1) * sizeof(*cuts));
 	uint32_t n_cuts;
@@ -486,6 +518,7 @@ int prepare_frame(const struct scene *scene, const float shift[2], struct prepar
 	n_cuts = cut_scene(scene, cuts);
 	for (uint32_t r = 0; r < n_cuts; r++) {
 		struct segment *segment = &out->segments[out->n_segments++];
+		const uint32_t layer = layer_of(scene, &cuts[r], &layers);
 
 		*segment = (struct segment){ .clear_first = cuts[r].clear_first, .clear_count = cuts[r].clear_count,
 			                     .view = SCENE_NONE, .mode = cuts[r].mode, .instance_first = out->n_instances };
@@ -494,6 +527,7 @@ int prepare_frame(const struct scene *scene, const float shift[2], struct prepar
 		segment->multisample = multisampled(scene, cuts[r].first);
 		segment->view = out->n_views;
 		out->scene_views[out->n_views] = scene->views[scene->instances[cuts[r].first].view];
+		out->scene_views[out->n_views].space += layer * scene->n_views;
 		make_view(&out->scene_views[out->n_views], shift, &out->views[out->n_views]);
 		out->n_views++;
 		for (int screen = 0; screen < 2; screen++)
