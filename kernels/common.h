@@ -138,6 +138,12 @@ static inline float v3_most(struct vec3 a)
 	return M_MAX(M_MAX(a.x, a.y), a.z);
 }
 
+/* The largest coordinate without its sign. */
+static inline float v3_extent(struct vec3 a)
+{
+	return M_MAX(M_MAX(M_ABS(a.x), M_ABS(a.y)), M_ABS(a.z));
+}
+
 static inline struct vec3 v3_scale(struct vec3 a, float s)
 {
 	return v3(a.x * s, a.y * s, a.z * s);

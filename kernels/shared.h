@@ -135,7 +135,7 @@ SHARED_SIZE(struct face8, 128);
 
 /* bits of instance.flags */
 #define INSTANCE_OPAQUE 1u       /* hides what lies behind it: nothing of the draw lets light through */
-#define INSTANCE_SECONDARY 2u    /* seen by secondary rays: depth-tested and writes colour */
+#define INSTANCE_SECONDARY 2u    /* met by secondary rays: depth-tested, and seen or solid (scene/depths.h) */
 #define INSTANCE_CULL_FRONT 4u   /* camera rays pass faces that are front in window space */
 #define INSTANCE_CULL_BACK 8u
 #define INSTANCE_FRONT_CW 16u    /* front faces run clockwise in window space */
@@ -246,8 +246,9 @@ struct geometry {
 	uint32_t vertex_count;
 	uint32_t texcoord_first; /* its first [4] in the frame's texture coordinates: unit_count of them each vertex */
 	uint32_t material, view, current, draw, flags;
+	float away; /* largest coordinate of object space's origin in eye space */
 };
-SHARED_SIZE(struct geometry, 284);
+SHARED_SIZE(struct geometry, 288);
 
 #define TEXTURE_MAX_LEVELS 16
 

@@ -8,6 +8,7 @@
 #include "base/mat4.h"
 #include "base/optimize.h"
 #include "scene/backdrop.h"
+#include "scene/depths.h"
 
 /* Of eye space's coordinates: rays are found in boxes that their triangles lie in by this much. */
 #define MARGIN 1e-4f
@@ -39,13 +40,15 @@ const float *blockers_normal(const struct scene *scene, const struct scene_insta
 	return mesh->normal ? mesh->normal + 3 * (size_t)mesh->index[3 * (size_t)primitive + corner] : scene->currents[in->current].normal;
 }
 
-int blockers_can(const struct scene *s, uint32_t instance)
+int blockers_can(const struct scene *s, uint32_t instance, int is_depth)
 {
 	const struct scene_instance *in = &s->instances[instance];
 	const struct scene_material *m = &s->materials[in->material];
 
+	if (!(m->color_mask & 7 || is_depth))
+		return 0;
 	return instance >= scene_backdrop(s) && s->meshes[in->mesh]->kind == SCENE_TRIANGLES && s->views[in->view].target == 0 && !in->rectangle && m->depth_test &&
-	       m->color_mask & 7 && (!m->blend || m->depth_write) && !m->alpha_test && !m->logic_op && !(m->surface.transmit > 0) &&
+	       (!m->blend || m->depth_write) && !m->alpha_test && !m->logic_op && !(m->surface.transmit > 0) &&
 	       !(m->surface.hidden & SCENE_HIDDEN_FROM_LIGHTS);
 }
 
@@ -140,10 +143,12 @@ static int make_boxes(struct blockers *b)
 
 	for (uint32_t i = 0; i < s->n_meshes; i++)
 		b->first[i] = SCENE_NONE;
+	scene_find_depths(s, b->blocks);
 	for (uint32_t i = 0; i < s->n_instances; i++) {
 		const struct scene_instance *in = &s->instances[i];
 
-		b->blocks[i] = (uint8_t)(blockers_can(s, i) && mat4_invert(b->eye_inverse[i], in->modelview));
+		b->blocks[i] = (uint8_t)(blockers_can(s, i, b->blocks[i]) &&
+		                         mat4_invert(b->eye_inverse[i], in->modelview));
 		if (!b->blocks[i] || b->first[in->mesh] != SCENE_NONE)
 			continue;
 		b->first[in->mesh] = (uint32_t)n;
@@ -171,7 +176,7 @@ int blockers_create(const struct scene *scene, struct blockers **out)
 	b->scene = scene;
 	b->first = malloc((scene->n_meshes + (size_t)1) * sizeof(*b->first));
 	b->eye_inverse = malloc((scene->n_instances + (size_t)1) * sizeof(*b->eye_inverse));
-	b->blocks = malloc(scene->n_instances + (size_t)1);
+	b->blocks = calloc(scene->n_instances + (size_t)1, sizeof(*b->blocks));
 	b->around = malloc((scene->n_instances + (size_t)1) * sizeof(*b->around));
 	if (b->first && b->eye_inverse && b->blocks && b->around && make_boxes(b) == 0)
 		return 0;

@@ -21,8 +21,8 @@ struct blocker_hit {
 
 struct blockers;
 
-/** 1 where an instance can block light, by what it is drawn with. */
-int blockers_can(const struct scene *scene, uint32_t instance);
+/** 1 where an instance can block light, by what it is drawn with. is_depth: what scene_find_depths says of it */
+int blockers_can(const struct scene *scene, uint32_t instance, int is_depth);
 
 /** @param scene  borrowed until blockers_destroy @return 0 or ERR_SYSTEM (reported) */
 int blockers_create(const struct scene *scene, struct blockers **out);

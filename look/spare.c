@@ -9,6 +9,7 @@
 #include "base/mat4.h"
 #include "look/blockers.h"
 #include "look/cards.h"
+#include "look/globes.h"
 #include "scene/draw_list.h"
 
 /* A light is shut out where it reaches less than this share of the area that it lights. A sun through a window reaches a few hundredths. */
@@ -277,6 +278,11 @@ static int find_enclosures(struct sparing *a)
 	float *stopped = malloc((n + 1) * sizeof(*stopped));
 	uint32_t *bits = malloc((n + 1) * sizeof(*bits));
 
+	for (uint32_t i = 0; i < a->out->n_lamps; i++) {
+		const struct spare_lamp *lamp = &a->out->lamps[i];
+
+		a->out->enclosures += globes_find(a->scene, a->blockers, lamp->position, lamp->space, a->out->bits);
+	}
 	for (uint32_t i = 0; stopped && bits && i < a->out->n_lamps; i++)
 		let_in(a, &a->out->lamps[i], stopped, bits);
 	free(stopped);

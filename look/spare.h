@@ -6,6 +6,7 @@
  *   enclosures   A light that reaches less than a tenth of what it lights is shut out. Surfaces that shut it out let through the light
  *                that comes from behind their lit side, which OpenGL lights no more than they show it; where that does not help,
  *                as walls are lit on both sides or have an outside as well, they let all light through that comes from beyond.
+ *   globes       A body around a lamp, which sees the side that is not shown, lets its light through (look/globes.h).
  *   backdrops    What OpenGL does not light stops no light at infinity, unless it stands within the lit world: a tree on a lit hill casts
  *                a shadow, the walls around a lit figure do not.
  *   cards        Crossed cut-out cards do not shade each other.

@@ -13,7 +13,8 @@ static const struct scene_mesh *seen_mesh(const struct scene *scene, const struc
 {
 	const struct scene_instance *instance = &scene->instances[p->instances[i].scene_instance];
 
-	if (!(p->instances[i].flags & INSTANCE_SECONDARY) || p->shapes[i] != PREPARED_FILLED || scene->views[instance->view].space != space)
+	if (!(p->instances[i].flags & INSTANCE_SECONDARY) || p->depths[p->instances[i].scene_instance] ||
+	    p->shapes[i] != PREPARED_FILLED || scene->views[instance->view].space != space)
 		return NULL;
 	return scene->meshes[instance->mesh];
 }

@@ -2,9 +2,10 @@
 
 #include "scene/scene.h"
 
-static int covers_window(const struct scene *s, const struct scene_clear *c)
+int scene_clears_window(const struct scene *s, const struct scene_clear *c)
 {
-	return c->scissor[0] <= 0 && c->scissor[1] <= 0 && c->scissor[0] + c->scissor[2] >= (int32_t)s->width &&
+	return c->target == 0 && c->scissor[0] <= 0 && c->scissor[1] <= 0 &&
+	       c->scissor[0] + c->scissor[2] >= (int32_t)s->width &&
 	       c->scissor[1] + c->scissor[3] >= (int32_t)s->height;
 }
 
@@ -15,7 +16,8 @@ uint32_t scene_backdrop(const struct scene *s)
 	for (uint32_t i = 0; i < s->n_clears; i++) {
 		const struct scene_clear *c = &s->clears[i];
 
-		if ((c->buffers & 3) == 2 && c->target == 0 && covers_window(s, c) && 2 * (uint64_t)c->before_instance < s->n_instances)
+		if ((c->buffers & 3) == 2 && scene_clears_window(s, c) &&
+		    2 * (uint64_t)c->before_instance < s->n_instances)
 			n = c->before_instance;
 	}
 	return n;

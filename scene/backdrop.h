@@ -4,6 +4,10 @@
 #include <stdint.h>
 
 struct scene;
+struct scene_clear;
+
+/** 1 where a clear reaches all of the window. */
+int scene_clears_window(const struct scene *scene, const struct scene_clear *clear);
 
 /**
  * How many of the first instances are a backdrop: they are followed by a clear of the window's depth that keeps the colours, and by more

@@ -107,7 +107,7 @@ static inline void find_lanes(const struct dome_find_arguments *a, const struct 
 	p.view = &a->views[g->view];
 	pack_locate(&a->tables, a->windows, a->width, 1, list, lanes, &p);
 	pack_surface(&a->tables, &p, &surface);
-	pack_measure(&surface);
+	pack_measure(&p, &surface);
 	look_around(a, &p, 1, &surface, &looks);
 	store_looks(a, list, lanes, &looks);
 }
@@ -179,7 +179,7 @@ static inline uint look_lanes(const struct plain_arguments *a, const struct shad
 	if (a->n_slots)
 		plain_send_rays(a, row, p, &surface, p->material->surface.relit ? here.lights : pack_lights(t, p), lanes);
 	else
-		pack_measure(&surface);
+		pack_measure(p, &surface);
 	if (!(p->material->surface.hidden & SCENE_DOME_LIT))
 		return lanes;
 	look_around(&d, p, a->height, &surface, &own);

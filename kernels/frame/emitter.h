@@ -17,7 +17,8 @@ static inline float emitter_strength(uint32_t transport, GLOBAL const struct sce
 	float most = v3_most(by_rule);
 
 	if (!(m->lighting || m->surface.relit) || m->blend || m->alpha_test || m->alpha_to_coverage || m->clip_plane_mask ||
-	    m->polygon_stipple != SCENE_NONE || m->polygon_mode_front != GL_FILL || m->polygon_mode_back != GL_FILL ||
+	    m->polygon_stipple != SCENE_NONE || !(m->color_mask & 7u) ||
+	    m->polygon_mode_front != GL_FILL || m->polygon_mode_back != GL_FILL ||
 	    m->surface.reflect > 0.0f || m->surface.transmit > 0.0f || m->surface.hidden & ~(SCENE_FACETED | SCENE_DOME_LIT))
 		return 0.0f;
 	if (m->lighting && !(attributes & SCENE_HAS_FACE))

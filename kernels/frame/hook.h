@@ -356,7 +356,8 @@ static inline void hook_hit_item(const struct hook_hit_arguments *a, uint32_t it
 	share = hook_share(a, item, &p, weight);
 	way.color = hook_given(a->radiance + item * 3u, share);
 	answer = hook_ask(&at, &way, hook_row(a->parameters, a->words, &p),
-	                  p.geometry->flags & GEOMETRY_EXPANDED || p.material->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS || p.material->alpha_test ||
+	                  p.geometry->flags & GEOMETRY_EXPANDED || transparency_is_unseen(p.material) ||
+	                  p.material->alpha_test ||
 	                  (p.material->blend && !(p.material->surface.hidden & SCENE_SOLID)) || point_clipped(&p));
 	if (answer.what & (RELUME_RAY | RELUME_IGNORE))
 		hook_obey(a, item, &p, &answer, weight);

@@ -34,6 +34,7 @@ struct pack {
 	packf vertex_w_inv[3];
 	struct pack_edges edges;
 	packf b1, b2, depth, weight[3];
+	packf away; /* as struct geometry */
 };
 
 /* What the fragments of a triangle that leaves the view volume share, kept for the next ones. */
@@ -171,7 +172,9 @@ WIDE_VECTORS static inline void pack_load_triangles(const struct tables *t, cons
 
 	p->uniform = !any_pack((instance != instance.s0) | (primitive != primitive.s0));
 	p->cut = (primitive & FRAGMENT_PERSPECTIVE) != 0;
+	p->away = g->away;
 	if (any_pack(instance != instance.s0)) {
+		p->away = as_float16(PACK_WORDS((__global const uint *)&t->geometries->away, instance * step));
 		index = PACK_WORDS(&t->geometries->index, instance * step);
 		vertex = PACK_WORDS(&t->geometries->vertex_first, instance * step);
 	}

@@ -28,7 +28,7 @@ static inline int pack_knows_leaving(const struct shade_arguments *s, __global c
 static inline int pack_knows_paths(const struct shade_arguments *s, __global const struct scene_material *m)
 {
 	return pack_knows_leaving(s, m) && !m->alpha_test && (!m->blend || m->surface.hidden & SCENE_SOLID) &&
-	       !(m->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS) &&
+	       !transparency_is_unseen(m) &&
 	       (m->surface.hidden & SCENE_NEAR_MIRROR || !(m->surface.roughness > 0.0f));
 }
 
@@ -36,7 +36,7 @@ static inline int pack_knows_paths(const struct shade_arguments *s, __global con
 static inline int pack_knows_bounces(const struct shade_arguments *s, __global const struct scene_material *m)
 {
 	return pack_is_plain(s, m) && pack_knows_rays(m) && !m->alpha_test && (!m->blend || m->surface.hidden & SCENE_SOLID) &&
-	       !(m->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS) && !(m->surface.reflect > 0.0f) && !(m->surface.transmit > 0.0f);
+	       !transparency_is_unseen(m) && !(m->surface.reflect > 0.0f) && !(m->surface.transmit > 0.0f);
 }
 
 /* --- Where they are ------------------------------------------------------------------------------------------------ */
@@ -73,7 +73,7 @@ WIDE_VECTORS static inline void pack_place_hits(const struct tables *t, __global
 	p->weight[1] = p->b1;
 	p->weight[2] = p->b2;
 	pack_surface(t, p, &q->surface);
-	pack_measure(&q->surface);
+	pack_measure(p, &q->surface);
 	behind = pack_dot(q->surface.plane, q->d) > 0.0f;
 	p->front = material->front_face == GL_CW ? behind : ~behind;
 }

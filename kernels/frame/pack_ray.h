@@ -12,7 +12,7 @@ WIDE_VECTORS static inline struct pack_vec pack_ray_origin(const packf *of_point
 {
 	const struct pack_vec n = pack_choose(s->plane, pack_scale(s->plane, (packf)(-1)), pack_dot(s->plane, towards) < 0.0f);
 	struct pack_vec at = pack_place_at(s, of_point);
-	const packf size = pack_max(pack_max(fabs(at.x), fabs(at.y)), fabs(at.z)) * 6.103515625e-5f;
+	const packf size = pack_max(pack_extent(at) * POINT_SNAPPING, s->rounding);
 	packf weight[3], sum = 0.0f;
 
 	for (int i = 0; i < 3; i++) {

@@ -70,7 +70,7 @@ WIDE_VECTORS static inline void pack_basis(struct pack_vec n, struct pack_vec *a
 /* The fragments' triangles in eye space, as struct point_plane. */
 struct pack_surface {
 	struct pack_vec corner[3], plane; /* plane: point_plane_normal */
-	packf length[3], area;            /* once pack_measure has found them */
+	packf length[3], area, rounding;  /* once pack_measure has found them */
 };
 
 WIDE_VECTORS static inline void pack_surface(const struct tables *t, const struct pack *p, struct pack_surface *out)
@@ -143,14 +143,23 @@ WIDE_VECTORS static inline struct pack_vec pack_view_direction(const struct pack
 	return pack_vec(far[0] * near[3] - near[0] * far[3], far[1] * near[3] - near[1] * far[3], far[2] * near[3] - near[2] * far[3]);
 }
 
-/* Lengths and area of the triangles. */
-WIDE_VECTORS static inline void pack_measure(struct pack_surface *s)
+/* As v3_extent. */
+WIDE_VECTORS static inline packf pack_extent(struct pack_vec a)
+{
+	return pack_max(pack_max(fabs(a.x), fabs(a.y)), fabs(a.z));
+}
+
+/* Lengths, area and rounding of the triangles. */
+WIDE_VECTORS static inline void pack_measure(const struct pack *p, struct pack_surface *s)
 {
 	const struct pack_vec edge[3] = { pack_sub(s->corner[2], s->corner[1]), pack_sub(s->corner[0], s->corner[2]),
 		                          pack_sub(s->corner[1], s->corner[0]) };
 	const struct pack_vec cross = pack_cross(edge[2], edge[0]);
+	packf reach;
 
 	s->area = sqrt(pack_dot(cross, cross));
 	for (int i = 0; i < 3; i++)
 		s->length[i] = sqrt(pack_dot(edge[i], edge[i]));
+	reach = pack_max(pack_max(pack_extent(s->corner[0]), pack_extent(s->corner[1])), pack_extent(s->corner[2]));
+	s->rounding = (reach + p->away) * POINT_ROUNDING;
 }

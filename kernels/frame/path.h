@@ -419,7 +419,7 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 	dimmed = stage_dimmed(a->visibility, a->n_slots, a->n, item);
 	point_texture(t, &p, (const struct point_window *)0, &texturing);
 	color = hit_color(t, &p, &texturing, a->transport, seen, dimmed);
-	if (p.material->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS || transparency_is_hole(&p, color.w)) {
+	if (transparency_is_unseen(p.material) || transparency_is_hole(&p, color.w)) {
 		branch_on(&b, &a->rays[item], hit.t, weight);
 		a->counts[item] = b.count;
 		return;

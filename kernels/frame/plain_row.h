@@ -182,7 +182,7 @@ static inline void plain_send_rays(const struct plain_arguments *a, const struct
 	const struct pack_vec back = pack_scale(pack_normalize(pack_view_direction(p, a->height)), (packf)(-1));
 	struct pack_curve curve;
 
-	pack_measure(s);
+	pack_measure(p, s);
 	pack_curve_of(&a->tables, p, s, &curve);
 	for (uint slot = 0; slot < a->n_slots; slot++) {
 		__global struct ray *rays = a->rays + slot * a->n;

@@ -324,7 +324,7 @@ static inline void leave_lanes(const struct leave_arguments *a, struct pack_poin
 	q->p.view = &a->views[a->tables.geometries[q->list.instance[0]].view];
 	pack_locate(&a->tables, a->windows, a->width, 1, &q->list, q->lanes, &q->p);
 	pack_surface(&a->tables, &q->p, &q->surface);
-	pack_measure(&q->surface);
+	pack_measure(&q->p, &q->surface);
 	q->d = pack_normalize(pack_view_direction(&q->p, 1));
 	q->back = pack_scale(pack_normalize(q->d), (packf)(-1));
 	pack_split_light(&a->tables, q, q->d, &split);

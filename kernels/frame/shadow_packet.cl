@@ -27,7 +27,7 @@ static inline void send_lanes(const struct shadow_ray_arguments *a, const struct
 	p.view = &a->views[a->tables.geometries[list->instance[popcount((lanes & -lanes) - 1)]].view];
 	pack_locate(&a->tables, a->windows, a->width, 1, list, lanes, &p);
 	pack_surface(&a->tables, &p, &surface);
-	pack_measure(&surface);
+	pack_measure(&p, &surface);
 	pack_curve_of(&a->tables, &p, &surface, &curve);
 	back = pack_scale(pack_normalize(pack_view_direction(&p, 1)), (packf)(-1));
 	pack_light_rays(&p, &surface, &curve, back, &pack_lights_of(&a->tables, m)[slot], lanes, list->item, rays);

@@ -54,6 +54,12 @@ static inline int glass_enters(const struct point *p)
 	return p->front || p->material->surface.hidden & SCENE_ENTERED;
 }
 
+/* 1 where rays that look for colours pass a surface: rules hide it, or it has none (scene/depths.h). */
+static inline int transparency_is_unseen(GLOBAL const struct scene_material *m)
+{
+	return m->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS || !(m->color_mask & 7u);
+}
+
 /* The colour of a surface that lets light through: half of it at each of the two surfaces of a body. */
 static inline struct vec3 glass_tint(const struct tables *t, const struct point *p, const struct texturing *texturing)
 {

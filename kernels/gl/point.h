@@ -147,12 +147,27 @@ static inline struct vec3 point_normal(const struct point *p)
 struct point_plane {
 	struct vec3 corner[3], normal; /* point_plane_normal */
 	float length[3], area;         /* of the edge opposite of each corner; of the parallelogram */
+	float rounding;                /* how far rounding moves a place on it: POINT_ROUNDING */
 };
+
+/*
+ * Roundings of a place, as a share of the numbers that it is made of: about sixteen of 2^-24. A vertex comes to eye
+ * space by a sum of four products, as large as the way to object space's origin (geometry.away). A point sums up three
+ * corners by weights, which are rounded, too. Its ray goes back to object space, and meets the triangle there by
+ * differences and products of corners and edges. (C. Waechter and N. Binder, "A Fast and Robust Method for Avoiding
+ * Self-Intersection", Ray Tracing Gems, 2019, ch. 6; M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering",
+ * 4th ed., section 6.8: the bounds are counted so.)
+ */
+#define POINT_ROUNDING 9.5367431640625e-7f /* 2^-20 */
+
+/* What snapping moves a pixel's point by, as a share of its distance. */
+#define POINT_SNAPPING 6.103515625e-5f /* 2^-14 */
 
 static inline struct point_plane point_plane_of(const struct point *p)
 {
 	struct point_plane plane;
 	struct vec3 edge[3], cross;
+	float reach;
 
 	for (int i = 0; i < 3; i++)
 		plane.corner[i] = point_corner(p, i);
@@ -164,6 +179,8 @@ static inline struct point_plane point_plane_of(const struct point *p)
 	plane.area = M_SQRT(v3_dot(cross, cross));
 	for (int i = 0; i < 3; i++)
 		plane.length[i] = M_SQRT(v3_dot(edge[i], edge[i]));
+	reach = M_MAX(M_MAX(v3_extent(plane.corner[0]), v3_extent(plane.corner[1])), v3_extent(plane.corner[2]));
+	plane.rounding = (reach + p->geometry->away) * POINT_ROUNDING;
 	return plane;
 }
 
@@ -193,10 +210,9 @@ static inline void point_inset_weights(const float *of_point, const struct point
 }
 
 /*
- * Where secondary rays from a point of a triangle start: off the plane, on the side of `towards`, by 2^-14 of the largest coordinate. Points are
- * interpolated in eye space while traversal works in object space; both err by a few units in the last place (2^-24) of
- * the coordinates' size, magnified by the matrices between them. 2^-14 leaves a thousandfold margin and stays below a
- * tenth of a pixel's footprint in common windows.
+ * Where secondary rays from a point of a triangle start: off the plane, on the side of `towards`, by what rounding does
+ * to the point (plane->rounding), and at least by POINT_SNAPPING of its largest coordinate, which stays below a tenth
+ * of a pixel's footprint in common windows.
  *
  * Coverage and depth go by vertices snapped to 1/256 pixel. So a pixel's point may lie a little outside its triangle, or behind
  * a wall that meets it: the ray would start behind the next wall, and a lit corner would show dark pixels. The point therefore
@@ -208,7 +224,7 @@ static inline struct vec3 point_ray_origin(const float *of_point, const struct p
                                            struct vec3 from)
 {
 	struct vec3 at = point_place(plane, of_point), n = plane->normal, back = v3_scale(v3_normalize(from), -1.0f);
-	float size = M_MAX(M_MAX(M_ABS(at.x), M_ABS(at.y)), M_ABS(at.z)) * 6.103515625e-5f, weight[3];
+	float size = M_MAX(v3_extent(at) * POINT_SNAPPING, plane->rounding), weight[3];
 
 	n = v3_dot(n, towards) < 0.0f ? v3_scale(n, -1.0f) : n;
 	point_inset_weights(of_point, plane, size, weight);

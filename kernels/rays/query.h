@@ -55,11 +55,6 @@ struct query {
 	uint32_t most, count;
 };
 
-static inline float query_extent(struct vec3 v)
-{
-	return M_MAX(M_MAX(M_ABS(v.x), M_ABS(v.y)), M_ABS(v.z));
-}
-
 /* 0 for NaN and what is too large, too. */
 static inline int query_is_finite(struct vec3 v)
 {
@@ -101,7 +96,7 @@ static inline void query_slab(float lo, float hi, float o, float inverse, float 
 static inline float query_bound(const struct query *q, uint32_t kind, GLOBAL const float *lo, GLOBAL const float *hi)
 {
 	const struct vec3 least = v3_load(lo), most = v3_load(hi);
-	const float pad = QUERY_PAD * (M_MAX(query_extent(least), query_extent(most)) + q->extent);
+	const float pad = QUERY_PAD * (M_MAX(v3_extent(least), v3_extent(most)) + q->extent);
 	float enter = q->t_min, leave = q->far;
 
 	if (least.x > most.x)
@@ -194,7 +189,8 @@ static inline void query_take_contact(struct query *q, float t, uint32_t primiti
 static inline void query_try_sphere(struct query *q, const struct query_triangle *triangle)
 {
 	const float touch = QUERY_TOUCH * (q->radius + q->extent), speed = M_SQRT(query_dot(q->d, q->d));
-	const float rounding = QUERY_ROUNDING * (query_extent(triangle->v0) + query_extent(triangle->e1) + query_extent(triangle->e2));
+	const float rounding = QUERY_ROUNDING *
+	                       (v3_extent(triangle->v0) + v3_extent(triangle->e1) + v3_extent(triangle->e2));
 	float t = 0.0f;
 
 	for (uint32_t i = 0; i < QUERY_STEPS && t <= q->far; i++) {
@@ -289,7 +285,7 @@ static inline void query_try_ray(struct query *q, const struct query_triangle *t
 	const float u = query_dot(s, p) * inverse, v = query_dot(q->d, r) * inverse, t = query_dot(triangle->e2, r) * inverse;
 
 	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= q->t_min && t <= q->far &&
-	    RAYS_FLAT * query_extent(triangle->e1) * query_extent(triangle->e2) * (query_extent(q->d) * M_ABS(inverse)) < 1)
+	    RAYS_FLAT * v3_extent(triangle->e1) * v3_extent(triangle->e2) * (v3_extent(q->d) * M_ABS(inverse)) < 1)
 		query_keep(q, t, u, v, triangle->primitive);
 }
 
@@ -362,7 +358,7 @@ static inline int query_start(struct query *q, GLOBAL const float *o, GLOBAL con
 	q->radius = 0;
 	q->t_min = 0;
 	q->far = 1;
-	q->extent = query_extent(q->o) + query_extent(q->d);
+	q->extent = v3_extent(q->o) + v3_extent(q->d);
 	q->at = q->o;
 	q->primitive = SCENE_NONE;
 	q->hits = 0;
@@ -379,7 +375,7 @@ static inline void query_all_item(const struct query_all_arguments *a, uint32_t 
 
 	q.t_min = ray->t_min;
 	q.far = ray->t_max;
-	q.extent = query_extent(q.o);
+	q.extent = v3_extent(q.o);
 	q.hits = a->hits + (size_t)i * a->most;
 	q.most = a->most;
 	if (is_finite && q.t_min <= q.far)
@@ -394,7 +390,7 @@ static inline void query_distance_item(const struct query_distance_arguments *a,
 	struct query q;
 	const int is_finite = query_start(&q, point->p, point->p);
 
-	q.extent = query_extent(q.o);
+	q.extent = v3_extent(q.o);
 	q.far = point->most * point->most;
 	if (is_finite && point->most >= 0.0f)
 		query_walk(&q, QUERY_DISTANCE, a->nodes, a->triangles);

@@ -4,9 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/err.h"
 #include "base/memory.h"
 #include "look/blockers.h"
 #include "look/spare.h"
+#include "scene/depths.h"
 
 enum { MOST_RULES = 256 };
 
@@ -51,19 +53,26 @@ static void count_votes(struct spared *s)
 int spared_add(struct spared *s, const struct scene *scene)
 {
 	struct spare found;
+	uint8_t *depths;
 	int err = spare_find(scene, 0, &found);
 
 	if (err || !found.n_lamps) {
 		spare_free(&found);
 		return err;
 	}
+	depths = calloc(scene->n_instances + (size_t)1, sizeof(*depths));
+	if (!depths) {
+		spare_free(&found);
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	}
+	scene_find_depths(scene, depths);
 	s->frames++;
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++) {
 		const struct scene_material *m = &scene->materials[scene->instances[i].material];
 		size_t mesh = 0, texture = 0;
 		const uint32_t spared = found.bits ? found.bits[i] & SPARE_BITS : 0, lit = m->lighting != 0;
 
-		if (!blockers_can(scene, i))
+		if (!blockers_can(scene, i, depths[i]))
 			continue;
 		s->any |= spared;
 		err = vote(s, scene->meshes[scene->instances[i].mesh]->hash, 0, lit, spared, &mesh);
@@ -73,6 +82,7 @@ int spared_add(struct spared *s, const struct scene *scene)
 			s->entries[mesh - 1].texture = texture;
 	}
 	count_votes(s);
+	free(depths);
 	spare_free(&found);
 	return err;
 }

@@ -73,6 +73,31 @@ START_TEST(test_closed_room_is_lit_from_outside)
 }
 END_TEST
 
+/* Its walls once more, in the depth buffer alone: they are solid, and spared as well. */
+START_TEST(test_depth_of_a_closed_room)
+{
+	struct made t;
+	uint32_t depth, n;
+	float once, twice;
+
+	build_room(&t, 0, 1);
+	once = dark_share(&t, NULL);
+	depth = made_add_material(&t, 0.7f);
+	t.materials[depth].lighting = 0;
+	t.materials[depth].color_mask = 0;
+	n = t.scene.n_instances;
+	for (uint32_t i = 0; i < n - 1; i++) { /* all but the table */
+		const uint32_t copy = made_add_square(&t, depth, (float[3]){ 0, 0, 0 }, x_axis, y_axis, 1, 1);
+
+		t.instances[copy].mesh = t.instances[i].mesh;
+	}
+	twice = dark_share(&t, NULL);
+	ck_assert_msg(fabsf(once - twice) < 0.02f, "%g of the floor is dark, %g with the walls' depth", (double)once, (double)twice);
+	ck_assert_float_eq(dark_share(&t, "spare: no\n"), 1);
+	made_free(&t);
+}
+END_TEST
+
 /* A roof over half a floor is no enclosure, whatever its sides are. */
 START_TEST(test_roof_shades)
 {
@@ -177,6 +202,7 @@ int main(void)
 
 	tcase_set_timeout(tests, 60);
 	tcase_add_test(tests, test_closed_room_is_lit_from_outside);
+	tcase_add_test(tests, test_depth_of_a_closed_room);
 	tcase_add_test(tests, test_roof_shades);
 	tcase_add_test(tests, test_unlit_walls);
 	tcase_add_test(tests, test_crossed_cards);

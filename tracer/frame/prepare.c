@@ -8,6 +8,8 @@
 #include "base/mat4.h"
 #include "gl_tokens.h"
 #include "kernels/camera/camera.h"
+#include "scene/backdrop.h"
+#include "scene/depths.h"
 #include "scene/program.h"
 #include "scene/skies.h"
 
@@ -207,14 +209,15 @@ void prepare_pad(struct prepared *p, uint32_t i, const float (*positions)[4], ui
 	instance->pad = box_pad(positions, n, clip, instance, &p->views[g->view]);
 }
 
-static uint32_t instance_flags(const struct scene_material *m, enum prepared_shape shape)
+/* is_depth: it leaves depth alone, and is solid */
+static uint32_t instance_flags(const struct scene_material *m, enum prepared_shape shape, int is_depth)
 {
 	uint32_t flags = 0;
 	int draws_color = (m->color_mask & 7) != 0;
 
 	if (!m->blend && !m->alpha_test && !m->alpha_to_coverage && !m->logic_op && draws_color)
 		flags |= INSTANCE_OPAQUE;
-	if (m->depth_test && draws_color && shape == PREPARED_FILLED && 
+	if (m->depth_test && (draws_color || is_depth) && shape == PREPARED_FILLED &&
 	    (~m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_HIDDEN_FROM_MIRRORS)))
 		flags |= INSTANCE_SECONDARY;
 	if (m->cull_face == GL_FRONT || m->cull_face == GL_FRONT_AND_BACK)
@@ -259,6 +262,15 @@ int prepare_is_displaced(const struct scene *scene, const struct scene_instance 
 	return program && ((const struct scene_program *)(scene->programs + (program - 1)))->outputs >> SCENE_RESULT_POSITION & 1;
 }
 
+/* Largest coordinate of object space's origin in eye space; 0 where that is at infinity. */
+static float distance_of_origin(const float modelview[16])
+{
+	const float largest = fmaxf(fmaxf(fabsf(modelview[12]), fabsf(modelview[13])), fabsf(modelview[14]));
+	const float distance = largest / fabsf(modelview[15]);
+
+	return isfinite(distance) ? distance : 0;
+}
+
 static void add_instance(const struct scene *scene, struct prepared *p, struct segment *segment, uint32_t index,
                          enum prepared_shape shape, uint32_t cull)
 {
@@ -271,6 +283,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	p->shapes[p->n_instances] = shape;
 	mat4_sums[scene->views[from->view].x87].mul(g->clip_from_obj, scene->views[from->view].projection, from->modelview);
 	memcpy(g->eye_from_obj, from->modelview, sizeof(g->eye_from_obj));
+	g->away = distance_of_origin(from->modelview);
 	normal_matrix(from->modelview, m->rescale_normal && !m->normalize, g->normal_matrix);
 	prepare_layout(mesh, 0, g);
 	g->material = from->material;
@@ -284,7 +297,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	p->n_vertices += mesh->vertex_count;
 	p->n_texcoords += mesh->vertex_count * m->unit_count;
 
-	instance->flags = instance_flags(m, shape) | cull;
+	instance->flags = instance_flags(m, shape, p->depths[index]) | cull;
 	if (p->skies[index] && shape == PREPARED_FILLED)
 		instance->flags = (instance->flags & ~INSTANCE_SECONDARY) | INSTANCE_SKY;
 	instance->vertex_first = g->vertex_first;
@@ -452,8 +465,39 @@ static int draws_to_window(const struct scene *scene, uint32_t instance)
 	return scene->views[scene->instances[instance].view].target == 0;
 }
 
+/*
+ * What is drawn on either side of a clear of the window's depth is never compared, and may not lie where it seems to: a
+ * sky of small models about the viewer, or a hand before the world. Neither stands in the other's light: they are
+ * layers, with an eye space each. A backdrop shares that of the world, whose rays find it where they miss.
+ */
+struct layers {
+	uint32_t backdrop, n;
+	int written; /* 1: something of the last one left depth */
+};
+
+/* The layer of what follows the clears of a cut. */
+static uint32_t layer_of(const struct scene *scene, const struct cut *cut, struct layers *layers)
+{
+	for (uint32_t i = cut->clear_first; i < cut->clear_first + cut->clear_count; i++) {
+		const struct scene_clear *clear = &scene->clears[i];
+
+		if (!(clear->buffers & 2) || !scene_clears_window(scene, clear) || !layers->written ||
+		    clear->before_instance <= layers->backdrop)
+			continue;
+		layers->n++;
+		layers->written = 0;
+	}
+	for (uint32_t i = cut->first; i < cut->end && !layers->written; i++) {
+		const struct scene_material *m = &scene->materials[scene->instances[i].material];
+
+		layers->written = m->depth_test && m->depth_write && draws_to_window(scene, i);
+	}
+	return layers->n;
+}
+
 int prepare_frame(const struct scene *scene, const float shift[2], struct prepared *out)
 {
+	struct layers layers = { .backdrop = scene_backdrop(scene) };
 	size_t most = 2 * (size_t)scene->n_instances + 1;
 	struct cut *cuts = malloc((scene->n_instances + (size_t)scene->n_clears + 1) * sizeof(*cuts));
 	uint32_t n_cuts;
@@ -466,12 +510,15 @@ int prepare_frame(const struct scene *scene, const float shift[2], struct prepar
 	out->views = calloc(most, sizeof(*out->views));
 	out->scene_views = calloc(most, sizeof(*out->scene_views));
 	out->skies = calloc(scene->n_instances + (size_t)1, sizeof(*out->skies));
+	out->depths = calloc(scene->n_instances + (size_t)1, sizeof(*out->depths));
 	if (!cuts || !out->segments || !out->instances || !out->geometries || !out->shapes || !out->culls || !out->views ||
-	    !out->scene_views || !out->skies || scene_find_skies(scene, out->skies) != 0)
+	    !out->scene_views || !out->skies || !out->depths || scene_find_skies(scene, out->skies) != 0)
 		goto fail;
+	scene_find_depths(scene, out->depths);
 	n_cuts = cut_scene(scene, cuts);
 	for (uint32_t r = 0; r < n_cuts; r++) {
 		struct segment *segment = &out->segments[out->n_segments++];
+		const uint32_t layer = layer_of(scene, &cuts[r], &layers);
 
 		*segment = (struct segment){ .clear_first = cuts[r].clear_first, .clear_count = cuts[r].clear_count,
 			                     .view = SCENE_NONE, .mode = cuts[r].mode, .instance_first = out->n_instances };
@@ -480,6 +527,7 @@ int prepare_frame(const struct scene *scene, const float shift[2], struct prepar
 		segment->multisample = multisampled(scene, cuts[r].first);
 		segment->view = out->n_views;
 		out->scene_views[out->n_views] = scene->views[scene->instances[cuts[r].first].view];
+		out->scene_views[out->n_views].space += layer * scene->n_views;
 		make_view(&out->scene_views[out->n_views], shift, &out->views[out->n_views]);
 		out->n_views++;
 		for (int screen = 0; screen < 2; screen++)
@@ -520,6 +568,7 @@ void prepared_free(struct prepared *p)
 	free(p->scene_views);
 	free(p->owner);
 	free(p->skies);
+	free(p->depths);
 	memset(p, 0, sizeof(*p));
 }
 

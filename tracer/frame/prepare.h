@@ -33,13 +33,14 @@ struct prepared {
 	uint32_t n_instances;
 
 	struct view *views;             /* [n_views], one a segment that draws */
-	struct scene_view *scene_views; /* the scene's, beside them */
+	struct scene_view *scene_views; /* the scene's, beside them; clears of the depth part eye spaces */
 	uint32_t n_views;
 
 	uint32_t n_vertices;  /* of all instances */
 	uint32_t n_texcoords; /* [4] each */
 	uint32_t *owner;      /* [n_vertices]: instance */
 	uint8_t *skies;       /* [scene's instances]: 1 where it is a sky */
+	uint8_t *depths;      /* the same: 1 where it is solid and shows no colour (scene/depths.h) */
 	uint32_t n_light_slots; /* most lights in any lit material */
 	int has_vertex_programs, has_fragment_programs;
 	int has_mirrors; /* a surface mirrors or lets light through */

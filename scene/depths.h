@@ -1,0 +1,19 @@
+/* Surfaces that a frame draws into the depth buffer alone. */
+#pragma once
+
+#include <stdint.h>
+
+struct scene;
+
+/**
+ * Find instances that write depth and no colour, and are solid: depth counts, not colour. A depth pre-pass, whose light
+ * comes in passes under GL_EQUAL, is one. Not solid are
+ *   - those whose depth a later clear of the whole window drops: what follows is not compared with them;
+ *   - those under a stencil test, and those that win without being nearest (a depth function other than GL_LESS and
+ *     GL_LEQUAL): masks and portals;
+ *   - those that the same geometry is then blended over by its alpha: a body that is seen through, but not its own
+ *     back.
+ *
+ * @param depths  [n_instances], all 0; receives 1 for each
+ */
+void scene_find_depths(const struct scene *scene, uint8_t *depths);
