@@ -311,6 +311,9 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 
 LIBS_test_blend := -lEGL -lGL
 
+# Tells recordings otherwise.
+$(BUILD)/tests/same/relations: $(BUILD)/tests/same/story.o
+
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c tests/check/host_cl.c) \
 	$(patsubst %,$(BUILD)/tests/%,real/back real/closer real/cracks real/deep real/depths real/elsewhere real/empty real/endless real/errors real/front real/greedy real/growing real/kdtree real/layers real/leaving real/linear real/moved real/multisampled real/objects real/parameters real/parting real/parts real/persistent real/pixels real/pixmaps real/projections real/readbacks real/samples real/shapes real/shared real/sums real/surfaces real/targets real/textures real/units real/vertices real/windows bench/static_scene) \
@@ -330,7 +333,7 @@ HOST_TESTS := $(addprefix $(BUILD)/tests/check/test_,rays camera shade compose)
 
 # With ONLY, what other tests need is left alone.
 HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny $(BUILD)/tests/fuzz/drive $(HOST_TESTS)
-BUILT_FOR_TESTS := $(HELPERS) $(addprefix $(BUILD)/tests/bench/,hits build queries)
+BUILT_FOR_TESTS := $(HELPERS) $(BUILD)/tests/same/relations $(addprefix $(BUILD)/tests/bench/,hits build queries)
 check: all pages $(CORPUS) $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(BUILT_FOR_TESTS)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 

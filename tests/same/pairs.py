@@ -1,0 +1,150 @@
+"""Pairs of recordings that tell the same scene, and what is demanded of their pictures.
+
+A frame of a recording is cut out (relume trim) and told otherwise (relations.c); `relume render` makes pictures of both. Compared are
+`gl.*`, GL's picture, and R G B, the traced one, in display numbers (--encoding display). Two pixels are the same where no channel is apart
+by more than TOLERANCE. Where a relation rounds numbers otherwise, edges may lie one pixel elsewhere: a pixel then differs where it lies
+outside of what the 3 x 3 pixels around it span in the other picture, and a share of ROUNDED may. Else not one pixel may differ.
+"""
+import pathlib
+import subprocess
+import sys
+
+import numpy
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests/show"))
+import exr_numpy as exr  # noqa: E402
+
+RUNS, ALL, PASSES, ROUNDS, SATURATES, COVERS, TRIPLES = (1 << i for i in range(7))
+TOLERANCE = 1.01 / 255
+PASSES_TOLERANCE = 4.01 / 255  # of light that is added: each pass is rounded
+ROUNDED = 1e-4
+COVERED = 0.1  # of the picture, by what a relation adds in sight
+PICTURES = {"gl": ("gl.R", "gl.G", "gl.B"), "traced": ("R", "G", "B")}
+TRIMMED = "trimmed"  # the frame cut out, beside the whole recording
+
+
+class Verdict:
+    """same: True, False, or None where the relation does not apply: then why."""
+
+    def __init__(self, same, why="", share=0.0, picture="", where=None, draw=None):
+        self.same, self.why, self.share, self.picture, self.where, self.draw = same, why, share, picture, where, draw
+
+    def __str__(self):
+        if self.same is not False or not self.picture:
+            return self.why or "same"
+        return f"{self.picture}: {100 * self.share:.3g} % of the pixels differ, first draw {self.draw} (pick -x {self.where[0]} -y {self.where[1]})"
+
+
+def run(*args):
+    return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", timeout=300, check=False)
+
+
+def read_relations(tool):
+    """{name: (base, flags, what)}, in order; base: a relation's name, "-" the recording itself, "" only a base for others."""
+    rows = [line.split("\t") for line in run(tool).stdout.splitlines()]
+    return {TRIMMED: ("-", 0, "the frame cut out by relume trim"), **{name: (base, int(flags), what) for name, base, flags, what in rows}}
+
+
+def around(plane, take):
+    """The least or greatest (take) of each pixel's 3 x 3 neighbours."""
+    padded = numpy.pad(plane, 1, mode="edge")
+    height, width = plane.shape
+    return take.reduce([padded[y:y + height, x:x + width] for y in range(3) for x in range(3)])
+
+
+def differing(ours, theirs, tolerance, rounds):
+    """Pixels that are not the same in both."""
+    bad = numpy.zeros(ours[0].shape, bool)
+    for a, b in zip(ours, theirs):
+        for p, q in ((a, b), (b, a)):
+            low, high = (around(q, numpy.minimum), around(q, numpy.maximum)) if rounds else (q, q)
+            bad |= ~((p >= low - tolerance) & (p <= high + tolerance))
+    return bad
+
+
+def compare(image, other, flags):
+    """The verdict on two pictures: image is the base's."""
+    tolerance = PASSES_TOLERANCE if flags & SATURATES else TOLERANCE
+    planes = {name: [[i.planes[c].astype("f4") for c in channels] for i in (image, other)] for name, channels in PICTURES.items()}
+    if flags & TRIPLES:
+        planes = {name: [pair[0], [plane[1::3, 1::3] for plane in pair[1]]] for name, pair in planes.items()}
+    if any(a.shape != b.shape for a, b in zip(*planes["gl"])):
+        return Verdict(False, "the pictures have different sizes")
+    left = numpy.ones(planes["gl"][0][0].shape, bool)
+    if flags & SATURATES:
+        left = around(numpy.maximum.reduce(planes["gl"][0]), numpy.maximum) < 1 - TOLERANCE
+    if flags & COVERS:
+        left = around(differing(*planes["gl"], tolerance, 0), numpy.maximum) == 0
+        if left.mean() < 1 - COVERED:
+            return Verdict(None, "what is added covers the picture")
+    for name, pair in planes.items():
+        bad = differing(*pair, tolerance, flags & ROUNDS) & left
+        if bad.mean() > (ROUNDED if flags & ROUNDS else 0):
+            draws = numpy.where(bad, image.planes["id"].astype("f8"), numpy.inf)
+            y, x = numpy.unravel_index(numpy.argmin(draws), draws.shape)
+            return Verdict(False, share=bad.mean(), picture=name, where=(int(x), int(y)), draw=int(draws[y, x]))
+    return Verdict(True)
+
+
+class Told:
+    """A frame of a recording, and how else it is told. Files go into a folder of its own."""
+
+    def __init__(self, build, trace, frame, folder):
+        self.build, self.trace, self.frame, self.folder = build, pathlib.Path(trace), frame, pathlib.Path(folder)
+        self.relations = read_relations(build / "tests/same/relations")
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self.images = {}
+        self.cut = self.folder / "cut.trace"
+        done = run(build / "relume", "trim", "-f", frame, "-o", self.cut, trace)
+        if done.returncode:
+            sys.exit(f"{trace}: {done.stderr}")
+        # Frames before it that it shows are kept.
+        self.cut_frame = int(done.stdout.rpartition("it is frame ")[2].split()[0]) if "it is frame " in done.stdout else 0
+
+    def render(self, trace, frame, name):
+        """The picture, or why there is none."""
+        path = self.folder / f"{name}.exr"
+        done = run(self.build / "relume", "render", trace, "-f", frame, "-o", path, "--encoding", "display", "--aov", "gl,id", "--progress", "none")
+        if done.returncode not in (0, 6):
+            return f"render exits with {done.returncode}: {done.stderr.strip().splitlines()[-1:]}"
+        image = exr.Image(path)
+        path.unlink()
+        return image
+
+    def tell(self, name):
+        """The picture of the frame as a relation tells it; a text: why there is none. Bases are kept."""
+        if name in self.images:
+            return self.images[name]
+        if name in ("-", TRIMMED):
+            image = self.render(self.trace if name == TRIMMED else self.cut, self.frame if name == TRIMMED else self.cut_frame, name)
+        else:
+            told = self.folder / f"{name}.trace"
+            done = run(self.build / "tests/same/relations", name, self.cut, told)
+            if done.returncode == 77:
+                return done.stdout.strip()
+            if done.returncode:
+                return Verdict(False, f"cannot be told: {done.returncode} {done.stderr.strip()}")
+            image = self.render(told, self.cut_frame, name)
+            if isinstance(image, str):
+                image = Verdict(False, image)
+        if name == "-" or any(base == name for base, _, _ in self.relations.values()):
+            self.images[name] = image
+        return image
+
+    def pair(self, name):
+        """The verdict on a relation."""
+        base, flags, _ = self.relations[name]
+        images = self.tell(base), self.tell(name)
+        for image in images:
+            if isinstance(image, Verdict):
+                return image
+            if isinstance(image, str):
+                return Verdict(None, image)
+        return compare(*images, flags)
+
+    def pairs(self):
+        """(name, verdict) of each relation."""
+        for name, (base, _, _) in self.relations.items():
+            if base:
+                yield name, self.pair(name)

@@ -1,0 +1,37 @@
+/* The relations: what may be told otherwise, and must show the same picture. */
+#pragma once
+
+#include <stdint.h>
+
+struct call;
+struct story;
+struct story_run;
+
+enum {
+	RELATION_RUNS = 1,       /* wants runs of vertices: story.h */
+	RELATION_ALL = 2,        /* does not apply where something foreign is drawn */
+	RELATION_PASSES = 4,     /* what is drawn between two clears is told several times */
+	RELATION_ROUNDS = 8,     /* numbers are rounded otherwise: edges may lie by one pixel elsewhere */
+	RELATION_SATURATES = 16, /* where light is cut off at 1 nothing is demanded */
+	RELATION_COVERS = 32,    /* something new may be seen: pixels where `gl` differs are not looked at, if they are few */
+	RELATION_TRIPLES = 64    /* the picture is three times as large: each middle pixel is looked at */
+};
+
+struct relation {
+	const char *name, *what;
+	uint32_t flags;
+	double amount;    /* what the relation takes it for */
+	const char *base; /* the relation that it is compared with; NULL: the recording itself */
+	const char *idle; /* why it does not apply where it has changed nothing */
+	void (*call)(struct story *s, const struct call *c, int draws); /* write a call; NULL: as it is */
+	void (*run)(struct story *s, const struct story_run *run);      /* write a run; NULL: as it is */
+	void (*cleared)(struct story *s); /* the whole window was cleared, colour and depth */
+	void (*first)(struct story *s);   /* something is about to be drawn for the first time since */
+	void (*frame)(struct story *s);   /* a frame is about to end */
+};
+
+extern const struct relation relations[];
+extern const unsigned n_relations;
+
+/** Write a call as it is. */
+void say_call(struct story *s, const struct call *c);
