@@ -2,8 +2,9 @@
 
 A frame of a recording is cut out (relume trim) and told otherwise (relations.c); `relume render` makes pictures of both. Compared are
 `gl.*`, GL's picture, and R G B, the traced one, in display numbers (--encoding display). Two pixels are the same where no channel is apart
-by more than TOLERANCE. Where a relation rounds numbers otherwise, edges may lie one pixel elsewhere: a pixel then differs where it lies
-outside of what the 3 x 3 pixels around it span in the other picture, and a share of ROUNDED may. Else not one pixel may differ.
+by more than TOLERANCE, and not one pixel may differ. Where a relation rounds numbers otherwise, it is ROUNDED_TOLERANCE, and edges may lie
+one pixel elsewhere: a pixel then differs where it lies outside of what the 3 x 3 pixels around it span in the other picture, and a share of
+ROUNDED may (of COARSELY where all is so far away that depths are coarse).
 """
 import pathlib
 import subprocess
@@ -15,10 +16,11 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests/show"))
 import exr_numpy as exr  # noqa: E402
 
-RUNS, ALL, PASSES, ROUNDS, SATURATES, COVERS, TRIPLES = (1 << i for i in range(7))
+RUNS, ALL, PASSES, ROUNDS, SATURATES, COVERS, COARSE, TRIPLES = (1 << i for i in range(8))
 TOLERANCE = 1.01 / 255
-PASSES_TOLERANCE = 4.01 / 255  # of light that is added: each pass is rounded
+ROUNDED_TOLERANCE = 4.01 / 255  # where numbers are rounded otherwise, also light that is added in passes
 ROUNDED = 1e-4
+COARSELY = 1e-2
 COVERED = 0.1  # of the picture, by what a relation adds in sight
 PICTURES = {"gl": ("gl.R", "gl.G", "gl.B"), "traced": ("R", "G", "B")}
 TRIMMED = "trimmed"  # the frame cut out, beside the whole recording
@@ -55,17 +57,16 @@ def around(plane, take):
 
 def differing(ours, theirs, tolerance, rounds):
     """Pixels that are not the same in both."""
-    bad = numpy.zeros(ours[0].shape, bool)
-    for a, b in zip(ours, theirs):
-        for p, q in ((a, b), (b, a)):
-            low, high = (around(q, numpy.minimum), around(q, numpy.maximum)) if rounds else (q, q)
-            bad |= ~((p >= low - tolerance) & (p <= high + tolerance))
+    bad = numpy.logical_or.reduce([~(abs(p - q) <= tolerance) for p, q in zip(ours, theirs)])
+    if rounds and bad.any():
+        bad = numpy.logical_or.reduce([~((p >= around(q, numpy.minimum) - tolerance) & (p <= around(q, numpy.maximum) + tolerance))
+                                       for a, b in zip(ours, theirs) for p, q in ((a, b), (b, a))])
     return bad
 
 
 def compare(image, other, flags):
     """The verdict on two pictures: image is the base's."""
-    tolerance = PASSES_TOLERANCE if flags & SATURATES else TOLERANCE
+    tolerance = ROUNDED_TOLERANCE if flags & (ROUNDS | SATURATES) else TOLERANCE
     planes = {name: [[i.planes[c].astype("f4") for c in channels] for i in (image, other)] for name, channels in PICTURES.items()}
     if flags & TRIPLES:
         planes = {name: [pair[0], [plane[1::3, 1::3] for plane in pair[1]]] for name, pair in planes.items()}
@@ -80,7 +81,7 @@ def compare(image, other, flags):
             return Verdict(None, "what is added covers the picture")
     for name, pair in planes.items():
         bad = differing(*pair, tolerance, flags & ROUNDS) & left
-        if bad.mean() > (ROUNDED if flags & ROUNDS else 0):
+        if bad.mean() > (COARSELY if flags & COARSE else ROUNDED if flags & ROUNDS else 0):
             draws = numpy.where(bad, image.planes["id"].astype("f8"), numpy.inf)
             y, x = numpy.unravel_index(numpy.argmin(draws), draws.shape)
             return Verdict(False, share=bad.mean(), picture=name, where=(int(x), int(y)), draw=int(draws[y, x]))

@@ -14,16 +14,6 @@
 #define ALL_ATTRIBS 0xfffffu
 #define OURS 0x7001u /* a name that no program uses, of any kind of object */
 
-static int is(const struct call *c, const char *name)
-{
-	return strcmp(c->sig->name, name) == 0;
-}
-
-static int begins(const struct call *c, const char *name)
-{
-	return strncmp(c->sig->name, name, strlen(name)) == 0;
-}
-
 static const float *top(const struct gls_matrix_stack *stack)
 {
 	return stack->matrices[stack->depth];
@@ -255,7 +245,7 @@ static void call_asked(struct story *s, const struct call *c, int draws)
 		say(s, "glBlendFunc", "uu", 7, 7);
 		say(s, "glLightf", "uuf", 0, 0, 0.0);
 		say(s, "glBegin", "u", 99);
-		say(s, "glViewport", "uuuu", 0, 0, UINT32_MAX, UINT32_MAX);
+		say(s, "glViewport", "uuff", 0, 0, -1.0, -1.0);
 		say(s, "glEndQuery", "u", GL_SAMPLES_PASSED);
 		s->n_changes++;
 	}
@@ -463,14 +453,46 @@ static void run_prepass(struct story *s, const struct story_run *run)
 	}
 }
 
-/* Draws that stay in the last pass alone, or (amount 1) in the first. */
-static void call_pass(struct story *s, const struct call *c, int draws)
+/* Draws stay in the last pass. */
+static void call_prepass(struct story *s, const struct call *c, int draws)
 {
-	if (draws && s->pass && s->n_passes > 1 && s->pass != (s->relation->amount > 0 ? 1 : s->n_passes))
+	if (!draws || s->pass == 0 || s->pass == s->n_passes)
+		say_call(s, c);
+}
+
+/* Light of a quarter: colours of vertices are cut off at 1, which the sum of several passes is not. */
+static void call_dimmed(struct story *s, const struct call *c, int draws)
+{
+	const int light = begins(c, "glLight") && !begins(c, "glLightM");
+	float v[4] = { 0 };
+
+	(void)draws;
+	if (s->x->st && !s->target) {
+		s->target = 1;
+		for (unsigned i = 0; i < 2; i++)
+			say(s, "glLightfv", "uuv", GL_LIGHT0, i ? GL_SPECULAR : GL_DIFFUSE, (float[]){ 0.25f, 0.25f, 0.25f, 1 });
+		say(s, "glLightModelfv", "uv", GL_LIGHT_MODEL_AMBIENT, (float[]){ 0.05f, 0.05f, 0.05f, 1 });
+	}
+	if ((light && arg_u(c, 1) >= GL_AMBIENT && arg_u(c, 1) <= GL_SPECULAR) || (begins(c, "glLightM") && arg_u(c, 0) == GL_LIGHT_MODEL_AMBIENT)) {
+		arg_floats(c, 1 + (unsigned)light, v, 4);
+		for (unsigned k = 0; k < 3; k++)
+			v[k] /= 4;
+		if (light)
+			say(s, "glLightfv", "uuv", arg_u(c, 0), arg_u(c, 1), v);
+		else
+			say(s, "glLightModelfv", "uv", GL_LIGHT_MODEL_AMBIENT, v);
+	} else {
+		say_call(s, c);
+	}
+}
+
+/* Other draws stay in the first pass. */
+static void call_lights(struct story *s, const struct call *c, int draws)
+{
+	if (draws && s->pass > 1)
 		return;
-	if (draws && s->relation->amount > 0)
-		s->step |= 1u << 31; /* run_lights: something lies over what is lit */
-	say_call(s, c);
+	s->step |= (uint32_t)draws << 31; /* run_lights: something lies over what is lit */
+	call_dimmed(s, c, draws);
 }
 
 static uint32_t lights_of(const struct gls_state *st)
@@ -850,7 +872,8 @@ static void call_target(struct story *s, const struct call *c, int draws)
 
 	if (s->x->n_contexts > 1 || begins(c, "glAccum") || (begins(c, "glDrawBuffer") && arg_u(c, 0) == GL_FRONT && !(c->flags & CALL_FAKE)))
 		not_for(s, "it has several contexts, or draws to more than the back buffer");
-	if (st && !s->target && !st->list && (draws || is(c, "glClear") || (kind == GLS_KIND_STATE && !begins(c, "glDrawBuffer") && !begins(c, "glViewport") && !begins(c, "glScissor"))))
+	/* The recorder's own calls draw to the front buffer first. */
+	if (st && !s->target && !st->list && !(c->flags & CALL_FAKE) && (draws || (kind == GLS_KIND_STATE && !begins(c, "glDrawBuffer"))))
 		make_target(s);
 	if (s->target && begins(c, "glBindFramebuffer") && arg_u(c, 1) == 0)
 		say(s, "glBindFramebuffer", "uu", arg_u(c, 0), s->target);
@@ -959,16 +982,20 @@ const struct relation relations[] = {
 	/* another world */
 	{ "near-base", "vertices rounded as in near", EVERY, .amount = -1, .run = run_moved, .base = "" },
 	{ "near", "the world moved by its own size, camera and lights too", EVERY | RELATION_ROUNDS, .amount = 1, .base = "near-base", .run = run_moved },
-	{ "far-base", "vertices rounded as in far", EVERY, .amount = -1024, .run = run_moved, .base = "" },
-	{ "far", "the world moved by 1,024 times its size", EVERY | RELATION_ROUNDS, .amount = 1024, .base = "far-base", .run = run_moved },
+	{ "far-base", "vertices rounded as in far", EVERY, .amount = -256, .run = run_moved, .base = "" },
+	{ "far", "the world moved by 256 times its size", EVERY | RELATION_ROUNDS, .amount = 256, .base = "far-base", .run = run_moved },
+	{ "farther-base", "vertices rounded as in farther", EVERY, .amount = -2048, .run = run_moved, .base = "" },
+	{ "farther", "the world moved by 2,048 times its size", EVERY | RELATION_ROUNDS | RELATION_COARSE, .amount = 2048, .base = "farther-base",
+	  .run = run_moved },
 	{ "small", "the world scaled by 2^-10", EVERY | RELATION_ROUNDS, .amount = 0x1p-10, .base = DRAWN, .run = run_eye, .call = call_eye },
 	{ "large", "the world scaled by 2^17", EVERY | RELATION_ROUNDS, .amount = 0x1p17, .base = DRAWN, .run = run_eye, .call = call_eye },
 	{ "mirrored", "eye space mirrored, and back by the projection", EVERY | RELATION_ROUNDS, .base = DRAWN, .run = run_eye, .call = call_eye },
 	{ "turned", "eye space turned, and back by the projection", EVERY | RELATION_ROUNDS, .amount = -1, .base = DRAWN, .run = run_eye, .call = call_eye },
 	/* passes */
-	{ "prepass", "depth first, colour after it", RUNS | RELATION_PASSES, .base = DRAWN, .run = run_prepass, .call = call_pass,
+	{ "prepass", "depth first, colour after it", RUNS | RELATION_PASSES, .base = DRAWN, .run = run_prepass, .call = call_prepass,
 	  .idle = "nothing solid is drawn, or by stencil" },
-	{ "lights", "light by light, added", RUNS | RELATION_PASSES | RELATION_SATURATES, .amount = 1, .base = DRAWN, .run = run_lights, .call = call_pass,
+	{ "lights-base", "light of a quarter", RUNS, .base = "", .run = run_plain, .call = call_dimmed },
+	{ "lights", "light by light, added", RUNS | RELATION_PASSES | RELATION_SATURATES, .base = "lights-base", .run = run_lights, .call = call_lights,
 	  .idle = "nothing solid is lit, or something lies over it" },
 	/* beside the world */
 	{ "behind", "a sheet behind all, without depth", 0, .cleared = cleared_behind, .idle = "the window is not cleared" },

@@ -25,16 +25,6 @@ static void *need(void *memory)
 	return memory;
 }
 
-static int is(const struct call *c, const char *name)
-{
-	return strcmp(c->sig->name, name) == 0;
-}
-
-static int begins(const struct call *c, const char *name)
-{
-	return strncmp(c->sig->name, name, strlen(name)) == 0;
-}
-
 void not_for(struct story *s, const char *why)
 {
 	s->why_not = s->why_not ? s->why_not : why;
@@ -284,6 +274,9 @@ static void before_draw(struct story *s)
 static void perform_run(struct story *s, const struct story_run *run)
 {
 	before_draw(s);
+	for (unsigned a = 0; a < STORY_ATTRIBUTES; a++) /* what Begin and End left: earlier passes left it, too */
+		if (s->pass && memcmp(s->x->st->a.current.attribute[a], run->after[a], sizeof(run->after[a])) != 0)
+			put_attribute(s, a, run->after[a], 1);
 	if (s->relation->run)
 		s->relation->run(s, run);
 	else
@@ -308,8 +301,9 @@ void say_call(struct story *s, const struct call *c)
 	write_call(s, c);
 }
 
-static void take_run(struct story *s, const struct story_run *run)
+static void take_run(struct story *s, struct story_run *run)
 {
+	memcpy(run->after, s->x->st->a.current.attribute, sizeof(run->after));
 	if (s->holds)
 		items_add(&s->held, NULL, run);
 	if (run->n)
@@ -325,51 +319,41 @@ static void take_call(struct story *s, const struct call *c, int foreign)
 
 /* ---- passes ---- */
 
-static struct gls_matrix_stack *const *stacks_of(struct gls_state *st)
-{
-	static struct gls_matrix_stack *stacks[4];
-
-	stacks[0] = &st->modelview;
-	stacks[1] = &st->projection;
-	stacks[2] = &st->texture[st->a.texturing.active];
-	stacks[3] = &st->color_matrix;
-	return stacks;
-}
-
 static struct { float matrix[3][16]; unsigned depth[3]; uint32_t program, unit; } saved;
-static const uint32_t matrix_modes[3] = { GL_MODELVIEW, GL_PROJECTION, GL_TEXTURE };
 
-static void save(struct story *s)
+/* The current modelview, projection and texture matrices. */
+static struct gls_matrix_stack *stack_of(struct story *s, unsigned i)
 {
 	struct gls_state *st = s->x->st;
 
-	saved.program = st->program;
-	saved.unit = st->a.texturing.active;
-	for (unsigned i = 0; i < 3; i++) {
-		const struct gls_matrix_stack *stack = stacks_of(st)[i];
+	return i == 0 ? &st->modelview : i == 1 ? &st->projection : &st->texture[st->a.texturing.active];
+}
 
-		saved.depth[i] = stack->depth;
-		memcpy(saved.matrix[i], stack->matrices[stack->depth], sizeof(saved.matrix[i]));
+static void save(struct story *s)
+{
+	saved.program = s->x->st->program;
+	saved.unit = s->x->st->a.texturing.active;
+	for (unsigned i = 0; i < 3; i++) {
+		saved.depth[i] = stack_of(s, i)->depth;
+		memcpy(saved.matrix[i], stack_of(s, i)->matrices[saved.depth[i]], sizeof(saved.matrix[i]));
 	}
 	tell(s, "glPushAttrib", "u", 0xfffffu);
 }
 
 static void restore(struct story *s)
 {
-	struct gls_state *st = s->x->st;
+	static const uint32_t modes[3] = { GL_MODELVIEW, GL_PROJECTION, GL_TEXTURE };
 
 	tell(s, "glActiveTexture", "u", GL_TEXTURE0 + saved.unit);
 	for (unsigned i = 0; i < 3; i++) {
-		struct gls_matrix_stack *stack = stacks_of(st)[i];
-
-		if (stack->depth < saved.depth[i])
+		if (stack_of(s, i)->depth < saved.depth[i])
 			not_for(s, "matrices are popped that were pushed before a clear");
-		tell(s, "glMatrixMode", "u", matrix_modes[i]);
-		while (stack->depth > saved.depth[i])
+		tell(s, "glMatrixMode", "u", modes[i]);
+		while (stack_of(s, i)->depth > saved.depth[i])
 			tell(s, "glPopMatrix", "");
 		tell(s, "glLoadMatrixf", "m", saved.matrix[i]);
 	}
-	if (st->program != saved.program)
+	if (s->x->st->program != saved.program)
 		tell(s, "glUseProgram", "u", saved.program);
 	tell(s, "glPopAttrib", "");
 }
@@ -387,12 +371,12 @@ static void hold(struct story *s)
 /* Objects are made once. */
 static int is_done_once(const struct call *c)
 {
-	static const char *const names[] = { "glGen", "glDelete", "glNewList", "glEndList", "glCreate", "glRead", "glIs", "glBeginQuery", "glEndQuery" };
+	static const char *const names[] = { "glGen", "glDelete", "glCreate", "glRead", "glIs", "glGet", "glBeginQuery", "glEndQuery" };
 
 	for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++)
 		if (begins(c, names[i]))
 			return 1;
-	return begins(c, "glGet") || c->ret.type != TRACE_NONE;
+	return c->ret.type != TRACE_NONE;
 }
 
 /* The first pass, number 0, has looked at all; now they are written. */
@@ -423,40 +407,6 @@ static void release(struct story *s)
 
 /* ---- Begin and End ---- */
 
-/* Later passes set attributes that were set between Begin and End by calls. */
-static void take_current(struct story *s)
-{
-	float now[STORY_ATTRIBUTES][4];
-
-	memcpy(now, s->x->st->a.current.attribute, sizeof(now));
-	for (unsigned a = 0; a < STORY_ATTRIBUTES && s->holds; a++) {
-		static const char *const names[] = { "glNormal3fv", "glColor4fv", "glSecondaryColor3fv", "glFogCoordfv", "glMultiTexCoord4fv" };
-		const unsigned kind = a < GLS_ATTR_TEXCOORD ? a : GLS_ATTR_TEXCOORD, first = kind == GLS_ATTR_TEXCOORD;
-		struct trace_value numbers[4], args[2] = { { .type = TRACE_UINT, .u = GL_TEXTURE0 + a - GLS_ATTR_TEXCOORD } };
-
-		if (memcmp(s->said[a], now[a], sizeof(now[a])) == 0)
-			continue;
-		memcpy(s->said[a], now[a], sizeof(now[a]));
-		for (unsigned i = 0; i < 4; i++)
-			numbers[i] = (struct trace_value){ .type = TRACE_FLOAT, .f = now[a][i] };
-		args[first] = (struct trace_value){ .type = TRACE_ARRAY, .count = 4, .items = numbers };
-		items_add(&s->held, &(struct call){ .thread = s->thread, .sig = sig_of(names[kind], 1 + first), .n_args = 1 + first, .args = args,
-		                                    .ret = { .type = TRACE_NONE } }, NULL);
-	}
-}
-
-static void read_position(const struct call *c, float p[4])
-{
-	const struct gls_suffix suffix = gls_commands[c->sig->command].suffix;
-
-	p[0] = p[1] = p[2] = 0;
-	p[3] = 1;
-	if (suffix.array)
-		arg_floats(c, 0, p, suffix.n);
-	for (unsigned i = 0; i < suffix.n && !suffix.array; i++)
-		p[i] = arg_f(c, i);
-}
-
 static void add_current(struct story *s, const float position[4])
 {
 	struct story_vertex *v = run_add(&s->open);
@@ -469,11 +419,14 @@ static void add_current(struct story *s, const float position[4])
 static void play_inside(struct story *s, const struct call *c)
 {
 	const struct gls_command *k = &gls_commands[c->sig->command];
-	float p[4];
+	float p[4] = { 0, 0, 0, 1 };
 
 	items_add(&s->raw, c, NULL);
 	if (begins(c, "glVertex") && !begins(c, "glVertexA")) {
-		read_position(c, p);
+		for (unsigned i = 0; i < k->suffix.n && !k->suffix.array; i++)
+			p[i] = arg_f(c, i);
+		if (k->suffix.array)
+			arg_floats(c, 0, p, k->suffix.n);
 		add_current(s, p);
 	} else if (is(c, "glArrayElement") && !s->open_is_foreign) {
 		struct gls_sources sources;
@@ -487,10 +440,8 @@ static void play_inside(struct story *s, const struct call *c)
 	} else if (k->role == GLS_ROLE_END) {
 		execute(s, c);
 		s->is_open = 0;
-		if (!s->open_is_foreign) {
-			take_current(s);
+		if (!s->open_is_foreign)
 			take_run(s, &s->open);
-		}
 		for (size_t i = 0; i < s->raw.n && s->open_is_foreign; i++)
 			take_call(s, &s->raw.items[i].call, 1);
 		items_clear(&s->raw);
@@ -695,20 +646,20 @@ static void play(struct story *s, const struct call *c)
 		if (s->relation->frame && s->x->st)
 			s->relation->frame(s);
 	}
-	if (s->is_open && command >= 0)
-		play_inside(s, c);
-	else if (s->list && command >= 0)
+	if (s->list && command >= 0)
 		keep_in_list(s, c);
 	else if (runs && is(c, "glNewList")) {
 		s->list = need(calloc(1, sizeof(*s->list)));
 		s->list_name = arg_u(c, 0);
 		s->list_runs = arg_u(c, 1) == GL_COMPILE_AND_EXECUTE;
-	} else if (runs && gls_commands[command].role == GLS_ROLE_BEGIN)
+	} else if (runs && !s->is_open && gls_commands[command].role == GLS_ROLE_BEGIN)
 		open_run(s, c);
 	else if (runs && is(c, "glCallList"))
 		play_list(s, arg_u(c, 0));
 	else if (runs && is(c, "glCallLists"))
 		play_lists(s, c);
+	else if (s->is_open && command >= 0)
+		play_inside(s, c);
 	else if (runs && draws(c) && read_draw(s, c, &run)) {
 		take_run(s, &run);
 		free(run.v);

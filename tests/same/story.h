@@ -10,6 +10,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "base/arena.h"
 #include "base/table.h"
@@ -28,6 +29,7 @@ struct story_run {
 	uint32_t given;         /* in a display list: attributes that it brings itself, 1 << attribute. Others are those of the moment */
 	int listed;             /* 1: it came from a list, or by indices: gls_geometry_turn_quads */
 	struct story_vertex *v; /* owned */
+	float after[STORY_ATTRIBUTES][4]; /* current attributes */
 };
 
 /* A call, or a run, that is played later. */
@@ -72,6 +74,15 @@ struct story {
 	float extent;            /* no coordinate is farther from 0 */
 	uint32_t target;         /* framebuffer object in place of the window; 0: none yet */
 };
+
+static inline int is(const struct call *c, const char *name)
+{
+	return strcmp(c->sig->name, name) == 0;
+}
+static inline int begins(const struct call *c, const char *name)
+{
+	return strncmp(c->sig->name, name, strlen(name)) == 0;
+}
 
 /**
  * Write a call.
