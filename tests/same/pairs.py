@@ -4,7 +4,7 @@ A frame of a recording is cut out (relume trim) and told otherwise (relations.c)
 `gl.*`, GL's picture, and R G B, the traced one, in display numbers (--encoding display). Two pixels are the same where no channel is apart
 by more than TOLERANCE, and not one pixel may differ. Where a relation rounds numbers otherwise, it is ROUNDED_TOLERANCE, and edges may lie
 one pixel elsewhere: a pixel then differs where it lies outside of what the 3 x 3 pixels around it span in the other picture, and a share of
-ROUNDED may (of COARSELY where all is so far away that depths are coarse).
+ROUNDED may, or of COARSELY.
 """
 import pathlib
 import subprocess
@@ -21,7 +21,7 @@ TOLERANCE = 1.01 / 255
 ROUNDED_TOLERANCE = 4.01 / 255  # where numbers are rounded otherwise, also light that is added in passes
 ROUNDED = 1e-4
 COARSELY = 1e-2
-COVERED = 0.1  # of the picture, by what a relation adds in sight
+COVERED = 0.1  # of the picture, where GL's own may differ
 PICTURES = {"gl": ("gl.R", "gl.G", "gl.B"), "traced": ("R", "G", "B")}
 TRIMMED = "trimmed"  # the frame cut out, beside the whole recording
 
@@ -76,9 +76,9 @@ def compare(image, other, flags):
     if flags & SATURATES:
         left = around(numpy.maximum.reduce(planes["gl"][0]), numpy.maximum) < 1 - TOLERANCE
     if flags & COVERS:
-        left = around(differing(*planes["gl"], tolerance, 0), numpy.maximum) == 0
+        left = ~around(differing(*planes["gl"], tolerance, flags & ROUNDS), numpy.maximum)
         if left.mean() < 1 - COVERED:
-            return Verdict(None, "what is added covers the picture")
+            return Verdict(None, "GL's picture is another one, as it may be")
     for name, pair in planes.items():
         bad = differing(*pair, tolerance, flags & ROUNDS) & left
         if bad.mean() > (COARSELY if flags & COARSE else ROUNDED if flags & ROUNDS else 0):

@@ -77,11 +77,9 @@ static void run_arrays(struct story *s, const struct story_run *run)
 {
 	const uint32_t *order, cut = run->mode == GL_QUADS ? run_triangles(s, run, &order) : 0, n = cut ? 3 * cut : run->n;
 	const int indexed = s->relation->amount > 0;
-	float (*floats)[4] = calloc(n, sizeof(*floats));
-	uint32_t *index = calloc(n, sizeof(*index));
+	float (*floats)[4] = need(calloc(n, sizeof(*floats)));
+	uint32_t *index = need(calloc(n, sizeof(*index)));
 
-	if (!floats || !index)
-		exit(5);
 	say(s, "glPushClientAttrib", "u", GL_CLIENT_VERTEX_ARRAY_BIT);
 	say(s, "glBindBuffer", "uu", GL_ARRAY_BUFFER, 0);
 	say(s, "glBindBuffer", "uu", GL_ELEMENT_ARRAY_BUFFER, 0);
@@ -131,9 +129,7 @@ static void run_strip(struct story *s, const struct story_run *run)
 		as_it_is(s, run);
 		return;
 	}
-	strip = malloc(6 * (size_t)n * sizeof(*strip));
-	if (!strip)
-		exit(5);
+	strip = need(malloc(6 * (size_t)n * sizeof(*strip)));
 	for (uint32_t i = 0; i < n; i++) {
 		const uint32_t *t = order + 3 * (size_t)i;
 
@@ -256,22 +252,24 @@ static void call_asked(struct story *s, const struct call *c, int draws)
 
 static void run_measured(struct story *s, const struct story_run *run)
 {
-	for (uint32_t i = 0; i < run->n; i++)
-		for (unsigned k = 0; k < 3; k++)
-			s->extent = fmaxf(s->extent, fabsf(run->v[i].position[k]));
+	float eye[4];
+
+	for (uint32_t i = 0; i < run->n && s->x->st->a.depth.enabled; i++) {
+		mat4_transform(eye, top(&s->x->st->modelview), run->v[i].position);
+		s->n_measured++;
+		s->distance += (logf(fmaxf(fabsf(eye[2] / eye[3]), 1e-6f)) - s->distance) / s->n_measured;
+	}
 }
 
-/* amount: how far, in sizes of the world; below 0: vertices are only rounded as they are there, which is what the others compare with */
+/* amount: how far, in distances from the eye to things (their geometric mean); below 0: vertices are only rounded as they are there, which is what the others compare with */
 static void run_moved(struct story *s, const struct story_run *run)
 {
-	const float d = (float)(fabs(s->relation->amount) * exp2(ceil(log2(s->extent > 0 ? s->extent : 1))));
+	const float d = (float)(fabs(s->relation->amount) * exp2(ceil(s->distance / log(2))));
 	const float by[3] = { d, -d, d };
 	const int stays = s->relation->amount < 0;
 	const struct gls_state *st = s->x->st;
-	struct story_vertex *v = malloc((run->n + 1) * sizeof(*v));
+	struct story_vertex *v = need(malloc((run->n + 1) * sizeof(*v)));
 
-	if (!v)
-		exit(5);
 	for (unsigned unit = 0; unit < GLS_MAX_UNITS; unit++)
 		for (unsigned k = 0; k < 4; k++)
 			if (st->a.texturing.units[unit].gen_enabled >> k & 1 && st->a.texturing.units[unit].value.gen_mode[k] == GL_OBJECT_LINEAR)
@@ -355,11 +353,9 @@ static void run_eye(struct story *s, const struct story_run *run)
 {
 	const struct gls_attribs *a = &s->x->st->a;
 	const float scale = s->relation->amount > 0 && !a->transform.normalize && !a->transform.rescale_normal ? (float)s->relation->amount : 1;
-	struct story_vertex *v = malloc((run->n + 1) * sizeof(*v));
+	struct story_vertex *v = need(malloc((run->n + 1) * sizeof(*v)));
 	float k[16], inverse[16];
 
-	if (!v)
-		exit(5);
 	check_eye(s);
 	eye_matrices(s, k, inverse);
 	for (unsigned i = 0; i < GLS_MAX_LIGHTS && !s->n_changes; i++) { /* nobody may have placed them */
@@ -567,37 +563,13 @@ static void run_doubled(struct story *s, const struct story_run *run)
 	}
 }
 
-static void run_halves(struct story *s, const struct story_run *run)
-{
-	const struct gls_scissor *scissor = &s->x->st->a.scissor;
-	const struct gls_drawable *d = gls_drawable_of(s->x, s->x->st->drawable);
-	const int32_t all[4] = { 0, 0, (int32_t)d->width, (int32_t)d->height }, *r = scissor->enabled ? scissor->rect : all;
-	const int32_t left = r[2] / 2;
-
-	if (s->x->st->draw_framebuffer || !r[2]) {
-		as_it_is(s, run);
-		return;
-	}
-	say(s, "glEnable", "u", GL_SCISSOR_TEST);
-	say(s, "glScissor", "uuuu", r[0], r[1], left, r[3]);
-	as_it_is(s, run);
-	say(s, "glScissor", "uuuu", r[0] + left, r[1], r[2] - left, r[3]);
-	as_it_is(s, run);
-	say(s, "glScissor", "uuuu", scissor->rect[0], scissor->rect[1], scissor->rect[2], scissor->rect[3]);
-	if (!scissor->enabled)
-		say(s, "glDisable", "u", GL_SCISSOR_TEST);
-	s->n_changes++;
-}
-
 /* ---- sides ---- */
 
 static void run_wound(struct story *s, const struct story_run *run)
 {
 	const uint32_t *order, n = run_triangles(s, run, &order), ccw = s->x->st->a.polygon.front_face == GL_CCW;
-	uint32_t *other = malloc((3 * (size_t)n + 1) * sizeof(*other));
+	uint32_t *other = need(malloc((3 * (size_t)n + 1) * sizeof(*other)));
 
-	if (!other)
-		exit(5);
 	for (uint32_t i = 0; i < n; i++)
 		memcpy(other + 3 * (size_t)i, (uint32_t[]){ order[3 * i + 1], order[3 * i], order[3 * i + 2] }, 12);
 	if (!n) {
@@ -706,62 +678,40 @@ static void cleared_behind(struct story *s)
 	end_flat(s);
 }
 
-static int sees_in_depth(const struct story *s)
-{
-	return s->fresh && s->fresh_color && s->x->st->a.depth.enabled;
-}
-
-/* Just before the far plane. */
-static void first_behind(struct story *s)
-{
-	const float *projection = top(&s->x->st->projection);
-
-	if (!sees_in_depth(s))
-		return;
-	begin_flat(s, projection);
-	say(s, "glDepthMask", "u", 0);
-	say_color(s, s->x->st->a.color.clear);
-	say_sheet(s, projection, 0.999f, 1);
-	end_flat(s);
-}
-
+/* amount: a sky of so many draws before a clear of depth; 0: a sheet before the far plane, without depth */
 static void first_sky(struct story *s)
 {
 	const float *projection = top(&s->x->st->projection);
+	const unsigned parts = (unsigned)s->relation->amount;
 
-	if (!sees_in_depth(s))
+	if (!s->fresh || !s->fresh_color || !s->x->st->a.depth.enabled)
 		return;
 	begin_flat(s, projection);
-	say(s, "glEnable", "u", GL_DEPTH_TEST);
+	say(s, parts ? "glEnable" : "glDisable", "u", GL_DEPTH_TEST);
 	say(s, "glDepthFunc", "u", GL_LESS);
-	say(s, "glDepthMask", "u", 1);
+	say(s, "glDepthMask", "u", parts > 0);
 	say_color(s, s->x->st->a.color.clear);
-	say_sheet(s, projection, 0, (unsigned)s->relation->amount);
+	say_sheet(s, projection, parts ? 0 : 0.999f, parts ? parts : 1);
 	end_flat(s);
-	say(s, "glClear", "u", GL_DEPTH_BUFFER_BIT);
+	if (parts)
+		say(s, "glClear", "u", GL_DEPTH_BUFFER_BIT);
 }
 
 /* Sheets that GL shows nothing of, each for another reason. */
 static void first_unseen(struct story *s)
 {
+	static const uint32_t whys[4] = { GL_CULL_FACE, GL_DEPTH_TEST, GL_ALPHA_TEST, GL_DEPTH_TEST };
 	const float *projection = top(&s->x->st->projection);
 
 	if (!s->x->st->a.depth.enabled)
 		return;
 	for (unsigned why = 0; why < 4; why++) {
 		begin_flat(s, projection);
-		if (why == 0) {
-			say(s, "glEnable", "u", GL_CULL_FACE);
-			say(s, "glCullFace", "u", GL_FRONT_AND_BACK);
-		} else if (why == 1) {
-			say(s, "glEnable", "u", GL_DEPTH_TEST);
-			say(s, "glDepthFunc", "u", GL_NEVER);
-		} else if (why == 2) {
-			say(s, "glEnable", "u", GL_ALPHA_TEST);
-			say(s, "glAlphaFunc", "uf", GL_NEVER, 0.0);
-		} else {
-			say_mask(s, "glColorMask", 0);
-		}
+		say(s, "glCullFace", "u", GL_FRONT_AND_BACK);
+		say(s, "glDepthFunc", "u", GL_NEVER);
+		say(s, "glAlphaFunc", "uf", GL_NEVER, 0.0);
+		say_mask(s, "glColorMask", why < 3 ? 15 : 0);
+		say(s, why < 3 ? "glEnable" : "glDisable", "u", whys[why]);
 		say(s, "glDepthMask", "u", why != 3);
 		say_color(s, (float[]){ 1, 1, 1, 1 });
 		say_sheet(s, projection, -0.5f + 0.1f * why, 1);
@@ -917,43 +867,37 @@ static void frame_target(struct story *s)
 	say(s, "glBindFramebuffer", "uu", GL_FRAMEBUFFER, bound ? bound : s->target);
 }
 
-static void begin_thrice(struct story *s)
-{
-	s->target = 1;
-	say(s, "glLineWidth", "f", 3.0);
-	say(s, "glPointSize", "f", 3.0);
-	for (unsigned unit = 0; unit < GLS_MAX_UNITS; unit++) { /* the same level of detail */
-		say(s, "glActiveTexture", "u", GL_TEXTURE0 + unit);
-		say(s, "glTexEnvf", "uuf", GL_TEXTURE_FILTER_CONTROL, GL_TEXTURE_LOD_BIAS, log2(3));
-	}
-	say(s, "glActiveTexture", "u", GL_TEXTURE0 + s->x->st->a.texturing.active);
-}
-
 static void call_thrice(struct story *s, const struct call *c, int draws)
 {
 	unsigned width, height;
 	char text[80];
 	size_t n;
-	const uint8_t *marker = c->n_args > 1 && c->args[1].type == TRACE_STRING ? (const uint8_t *)c->args[1].str : arg_blob(c, 1, &n);
+	const char *marker = c->n_args > 1 && c->args[1].type == TRACE_STRING ? c->args[1].str : (const char *)arg_blob(c, 1, &n);
 
-	if (s->x->st && !s->target && (draws || is(c, "glClear")) && !s->x->st->list)
-		begin_thrice(s);
-	if (draws && (begins(c, "glBitmap") || begins(c, "glDrawPixels") || begins(c, "glCopy") || (begins(c, "glDrawTex"))))
+	if (s->x->st && !s->target && (draws || is(c, "glClear")) && !s->x->st->list) {
+		s->target = 1;
+		for (unsigned unit = 0; unit < GLS_MAX_UNITS; unit++) { /* the same level of detail */
+			say(s, "glActiveTexture", "u", GL_TEXTURE0 + unit);
+			say(s, "glTexEnvf", "uuf", GL_TEXTURE_FILTER_CONTROL, GL_TEXTURE_LOD_BIAS, log2(3));
+		}
+		say(s, "glActiveTexture", "u", GL_TEXTURE0 + s->x->st->a.texturing.active);
+	}
+	if (begins(c, "glBitmap") || begins(c, "glDrawPixels") || begins(c, "glDrawTex") || begins(c, "glCopy") || begins(c, "glReadPixels") ||
+	    begins(c, "glBindFramebuffer"))
 		not_for(s, "pixels do not grow with the window");
-	if (begins(c, "glCopy") || begins(c, "glReadPixels") || begins(c, "glBindFramebuffer"))
-		not_for(s, "it reads what it drew");
 	if ((is(c, "glBegin") || begins(c, "glDrawArrays") || begins(c, "glDrawElements") || begins(c, "glDrawRange")) &&
 	    gls_mode_kind(arg_u(c, 0)) != SCENE_TRIANGLES)
 		not_for(s, "lines and points are cut otherwise");
-	if (is(c, "glViewport") || is(c, "glScissor"))
+	if (is(c, "glViewport") || is(c, "glScissor")) {
 		say(s, c->sig->name[2] == 'V' ? "glViewport" : "glScissor", "uuuu", 3 * arg_u(c, 0), 3 * arg_u(c, 1), 3 * arg_u(c, 2), 3 * arg_u(c, 3));
-	else if (is(c, "glPolygonOffset"))
+	} else if (is(c, "glPolygonOffset")) {
 		say(s, "glPolygonOffset", "ff", 3 * arg_d(c, 0), arg_d(c, 1));
-	else if (marker && is(c, "glStringMarkerGREMEDY") && sscanf((const char *)marker, "relume:drawable %u %u", &width, &height) == 2) {
+	} else if (is(c, "glStringMarkerGREMEDY") && marker && sscanf(marker, "relume:drawable %u %u", &width, &height) == 2) {
 		snprintf(text, sizeof(text), "relume:drawable %u %u", 3 * width, 3 * height);
 		say(s, "glStringMarkerGREMEDY", "us", (uint32_t)strlen(text), text);
-	} else
+	} else {
 		say_call(s, c);
+	}
 	s->n_changes++;
 }
 
@@ -975,17 +919,16 @@ const struct relation relations[] = {
 	{ "loaded", "matrices loaded before each draw", RUNS, .base = DRAWN, .run = run_loaded, .idle = "nothing is drawn" },
 	{ "undone", "state changed and put back, set again, pushed and popped", 0, .call = call_undone, .idle = "nothing is drawn" },
 	{ "asked", "queries, and calls that are errors", 0, .call = call_asked, .idle = "nothing is drawn" },
-	{ "wound", "triangles the other way round, and the front face", RUNS, .base = DRAWN, .run = run_wound, .idle = "it draws no triangles" },
+	{ "wound", "triangles the other way round, and the front face", RUNS | RELATION_ROUNDS, .base = DRAWN, .run = run_wound, .idle = "it draws no triangles" },
 	{ "culled", "the front face and the side that is culled turned together", RUNS, .base = DRAWN, .run = run_culled, .idle = "nothing is drawn" },
-	{ "halves", "each draw twice, in the left half of the window and in the right", RUNS, .base = DRAWN, .run = run_halves, .idle = "nothing is drawn" },
 	{ "doubled", "solid draws twice", RUNS, .base = DRAWN, .run = run_doubled, .idle = "nothing solid is drawn" },
 	/* another world */
 	{ "near-base", "vertices rounded as in near", EVERY, .amount = -1, .run = run_moved, .base = "" },
-	{ "near", "the world moved by its own size, camera and lights too", EVERY | RELATION_ROUNDS, .amount = 1, .base = "near-base", .run = run_moved },
+	{ "near", "the world moved as far as things are from the eye, camera and lights too", EVERY | RELATION_ROUNDS, .amount = 1, .base = "near-base", .run = run_moved },
 	{ "far-base", "vertices rounded as in far", EVERY, .amount = -256, .run = run_moved, .base = "" },
-	{ "far", "the world moved by 256 times its size", EVERY | RELATION_ROUNDS, .amount = 256, .base = "far-base", .run = run_moved },
-	{ "farther-base", "vertices rounded as in farther", EVERY, .amount = -2048, .run = run_moved, .base = "" },
-	{ "farther", "the world moved by 2,048 times its size", EVERY | RELATION_ROUNDS | RELATION_COARSE, .amount = 2048, .base = "farther-base",
+	{ "far", "the world moved 256 times as far as things are from the eye", EVERY | RELATION_ROUNDS, .amount = 256, .base = "far-base", .run = run_moved },
+	{ "farther-base", "vertices rounded as in farther", EVERY, .amount = -4096, .run = run_moved, .base = "" },
+	{ "farther", "the world moved 4,096 times as far", EVERY | RELATION_ROUNDS | RELATION_COVERS | RELATION_COARSE, .amount = 4096, .base = "farther-base",
 	  .run = run_moved },
 	{ "small", "the world scaled by 2^-10", EVERY | RELATION_ROUNDS, .amount = 0x1p-10, .base = DRAWN, .run = run_eye, .call = call_eye },
 	{ "large", "the world scaled by 2^17", EVERY | RELATION_ROUNDS, .amount = 0x1p17, .base = DRAWN, .run = run_eye, .call = call_eye },
@@ -1000,7 +943,7 @@ const struct relation relations[] = {
 	/* beside the world */
 	{ "behind", "a sheet behind all, without depth", 0, .cleared = cleared_behind, .idle = "the window is not cleared" },
 	{ "behind-depth", "a sheet behind all that writes depth", 0, .amount = 1, .cleared = cleared_behind, .idle = "the window is not cleared" },
-	{ "behind-far", "a sheet before the far plane, without depth", RUNS, .base = DRAWN, .run = as_it_is, .first = first_behind, .idle = NO_DEPTH },
+	{ "behind-far", "a sheet before the far plane, without depth", RUNS, .base = DRAWN, .run = as_it_is, .first = first_sky, .idle = NO_DEPTH },
 	{ "sky", "a sky of one draw, and a clear of depth", RUNS, .amount = 1, .base = DRAWN, .run = as_it_is, .first = first_sky, .idle = NO_DEPTH },
 	{ "skies", "a sky of 24 draws, and a clear of depth", RUNS, .amount = 24, .base = DRAWN, .run = as_it_is, .first = first_sky, .idle = NO_DEPTH },
 	{ "unseen", "sheets that GL does not show", RUNS, .base = DRAWN, .run = as_it_is, .first = first_unseen, .idle = NO_DEPTH },
@@ -1041,7 +984,7 @@ int main(int argc, char **argv)
 		return usage();
 	if (s.relation->run == run_moved) { /* nothing is written: it never applies */
 		rc = story_tell(&first, argv[2], argv[3]);
-		s.extent = first.extent;
+		s.distance = first.distance;
 	}
 	rc = story_tell(&s, argv[2], argv[3]);
 	if (rc == 1)

@@ -13,8 +13,8 @@ enum {
 	RELATION_PASSES = 4,     /* what is drawn between two clears is told several times */
 	RELATION_ROUNDS = 8,     /* numbers are rounded otherwise: edges may lie by one pixel elsewhere */
 	RELATION_SATURATES = 16, /* where light is cut off at 1 nothing is demanded */
-	RELATION_COVERS = 32,    /* something new may be seen: pixels where `gl` differs are not looked at, if they are few */
-	RELATION_COARSE = 64,    /* so much that more may lie elsewhere, too: what is far away is coarse */
+	RELATION_COVERS = 32,    /* GL's picture may differ: such pixels are not looked at, if they are few */
+	RELATION_COARSE = 64,    /* places are so coarse that shadows may lie elsewhere, too */
 	RELATION_TRIPLES = 128   /* the picture is three times as large: each middle pixel is looked at */
 };
 

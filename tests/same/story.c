@@ -16,7 +16,7 @@
 #include "replay/machine/buffer.h"
 #include "tests/same/relations.h"
 
-static void *need(void *memory)
+void *need(void *memory)
 {
 	if (!memory) {
 		fputs("out of memory\n", stderr);
@@ -428,15 +428,6 @@ static void play_inside(struct story *s, const struct call *c)
 		if (k->suffix.array)
 			arg_floats(c, 0, p, k->suffix.n);
 		add_current(s, p);
-	} else if (is(c, "glArrayElement") && !s->open_is_foreign) {
-		struct gls_sources sources;
-
-		execute(s, c);
-		s->open_is_foreign |= !gls_sources_open(s->x, s->x->st, &sources);
-		if (!s->open_is_foreign) {
-			gls_source_read(&sources.vertex, arg_u(c, 0), p);
-			add_current(s, p);
-		}
 	} else if (k->role == GLS_ROLE_END) {
 		execute(s, c);
 		s->is_open = 0;

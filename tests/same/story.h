@@ -71,7 +71,7 @@ struct story {
 	unsigned step; /* what a relation counts */
 	int fresh, fresh_color; /* nothing was drawn since depth and, by its colour, the whole window were cleared */
 	struct story_run joined; /* draws that stand together */
-	float extent;            /* no coordinate is farther from 0 */
+	double distance, n_measured; /* the mean logarithm of how far things are from the eye, of so many vertices */
 	uint32_t target;         /* framebuffer object in place of the window; 0: none yet */
 };
 
@@ -91,6 +91,9 @@ static inline int begins(const struct call *c, const char *name)
 void say(struct story *s, const char *name, const char *form, ...);
 /** The same, and the state machine executes it: it lasts. */
 void tell(struct story *s, const char *name, const char *form, ...);
+
+/** Memory that could be had; else the program ends. */
+void *need(void *memory);
 
 /** The relation does not apply to this recording. */
 void not_for(struct story *s, const char *why);

@@ -94,4 +94,4 @@ def main(build, only):
 
 
 if __name__ == "__main__":
-    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), sys.argv[3:]))
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), [part for part in sys.argv[2:] if part != "--only"]))
