@@ -4,7 +4,7 @@ A frame of a recording is cut out (relume trim) and told otherwise (relations.c)
 `gl.*`, GL's picture, and R G B, the traced one, in display numbers (--encoding display). Two pixels are the same where no channel is apart
 by more than TOLERANCE, and not one pixel may differ. Where a relation rounds numbers otherwise, it is ROUNDED_TOLERANCE, and edges may lie
 one pixel elsewhere: a pixel then differs where it lies outside of what the 3 x 3 pixels around it span in the other picture, and a share of
-ROUNDED may, or of COARSELY.
+ROUNDED may, or of COARSELY. In passes, the same share may: of surfaces at the same depth another one is seen.
 """
 import pathlib
 import subprocess
@@ -19,7 +19,7 @@ import exr_numpy as exr  # noqa: E402
 RUNS, ALL, PASSES, ROUNDS, SATURATES, COVERS, COARSE, TRIPLES = (1 << i for i in range(8))
 TOLERANCE = 1.01 / 255
 ROUNDED_TOLERANCE = 4.01 / 255  # where numbers are rounded otherwise, also light that is added in passes
-ROUNDED = 1e-4
+ROUNDED = 5e-4
 COARSELY = 1e-2
 COVERED = 0.1  # of the picture, where GL's own may differ
 PICTURES = {"gl": ("gl.R", "gl.G", "gl.B"), "traced": ("R", "G", "B")}
@@ -81,7 +81,7 @@ def compare(image, other, flags):
             return Verdict(None, "GL's picture is another one, as it may be")
     for name, pair in planes.items():
         bad = differing(*pair, tolerance, flags & ROUNDS) & left
-        if bad.mean() > (COARSELY if flags & COARSE else ROUNDED if flags & ROUNDS else 0):
+        if bad.mean() > (COARSELY if flags & COARSE else ROUNDED if flags & (ROUNDS | PASSES | COVERS) else 0):
             draws = numpy.where(bad, image.planes["id"].astype("f8"), numpy.inf)
             y, x = numpy.unravel_index(numpy.argmin(draws), draws.shape)
             return Verdict(False, share=bad.mean(), picture=name, where=(int(x), int(y)), draw=int(draws[y, x]))

@@ -14,6 +14,16 @@
 #define ALL_ATTRIBS 0xfffffu
 #define OURS 0x7001u /* a name that no program uses, of any kind of object */
 
+/* Up to four numbers of an argument. Those of OpenGL ES may be fixed-point ones. */
+static void read_numbers(const struct call *c, unsigned i, float v[4])
+{
+	const int fixed = gls_commands[c->sig->command].fixed != 0;
+
+	arg_floats(c, i, v, 4);
+	for (unsigned k = 0; k < 4; k++)
+		v[k] /= fixed ? 65536 : 1;
+}
+
 static const float *top(const struct gls_matrix_stack *stack)
 {
 	return stack->matrices[stack->depth];
@@ -24,22 +34,28 @@ static int is_triangles(const struct story_run *run)
 	return gls_mode_kind(run->mode) == SCENE_TRIANGLES;
 }
 
-static void as_it_is(struct story *s, const struct story_run *run)
-{
-	say_run(s, run->mode, run->v, run->n, NULL);
-}
-
 /* ---- the same vertices by other calls ---- */
 
-static void run_plain(struct story *s, const struct story_run *run)
+/* Write a run with these vertices. Quads are cut: Mesa cuts those otherwise that come from lists or by indices. */
+static void say_plain(struct story *s, const struct story_run *run, const struct story_vertex *v)
 {
 	const uint32_t *order, n = run->mode == GL_QUADS ? run_triangles(s, run, &order) : 0;
 
-	s->n_changes++;
-	if (n) /* Mesa cuts quads otherwise that come from lists or by indices */
-		say_run(s, GL_TRIANGLES, run->v, 3 * n, order);
+	if (n)
+		say_run(s, GL_TRIANGLES, v, 3 * n, order);
 	else
-		as_it_is(s, run);
+		say_run(s, run->mode, v, run->n, NULL);
+}
+
+void run_as_it_is(struct story *s, const struct story_run *run)
+{
+	say_plain(s, run, run->v);
+}
+
+static void run_plain(struct story *s, const struct story_run *run)
+{
+	s->n_changes++;
+	run_as_it_is(s, run);
 }
 
 static void run_listed(struct story *s, const struct story_run *run)
@@ -116,7 +132,7 @@ static void run_cut(struct story *s, const struct story_run *run)
 	if (n)
 		say_run(s, GL_TRIANGLES, run->v, 3 * n, order);
 	else
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 }
 
 /* One strip of all triangles, joined by empty ones: six between two keep the side. */
@@ -126,7 +142,7 @@ static void run_strip(struct story *s, const struct story_run *run)
 	uint32_t *strip;
 
 	if (!n) {
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 		return;
 	}
 	strip = need(malloc(6 * (size_t)n * sizeof(*strip)));
@@ -148,13 +164,13 @@ static void run_split(struct story *s, const struct story_run *run)
 		say_run(s, GL_TRIANGLES, run->v, 3, order + 3 * (size_t)i);
 	s->n_changes += n > 1;
 	if (!n)
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 }
 
 static void say_joined(struct story *s)
 {
 	if (s->joined.n)
-		as_it_is(s, &s->joined);
+		run_as_it_is(s, &s->joined);
 	s->joined.n = 0;
 }
 
@@ -164,7 +180,7 @@ static void run_join(struct story *s, const struct story_run *run)
 
 	if (!n) {
 		say_joined(s);
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 		return;
 	}
 	s->n_changes += s->joined.n > 0;
@@ -195,7 +211,7 @@ static void load(struct story *s, const float modelview[16], const float project
 static void run_loaded(struct story *s, const struct story_run *run)
 {
 	load(s, top(&s->x->st->modelview), top(&s->x->st->projection));
-	as_it_is(s, run);
+	run_as_it_is(s, run);
 	s->n_changes++;
 }
 
@@ -286,7 +302,7 @@ static void run_moved(struct story *s, const struct story_run *run)
 		say(s, "glPushMatrix", "");
 		say(s, "glTranslatef", "fff", -by[0], -by[1], -by[2]);
 	}
-	say_run(s, run->mode, v, run->n, NULL);
+	say_plain(s, run, v);
 	if (!stays) {
 		say(s, "glPopMatrix", "");
 		say(s, "glMatrixMode", "u", st->a.transform.matrix_mode);
@@ -369,7 +385,7 @@ static void run_eye(struct story *s, const struct story_run *run)
 		for (unsigned c = 0; c < 3; c++)
 			v[i].attribute[GLS_ATTR_NORMAL][c] *= scale;
 	load_other_eye(s);
-	say_run(s, run->mode, v, run->n, NULL);
+	say_plain(s, run, v);
 	load_own_eye(s);
 	s->n_changes++;
 	free(v);
@@ -383,13 +399,13 @@ static void call_eye(struct story *s, const struct call *c, int draws)
 
 	(void)draws;
 	if (begins(c, "glLight") && !begins(c, "glLightM") && (arg_u(c, 1) == GL_LINEAR_ATTENUATION || arg_u(c, 1) == GL_QUADRATIC_ATTENUATION)) {
-		arg_floats(c, 2, v, 4);
+		read_numbers(c, 2, v);
 		say(s, "glLightf", "uuf", arg_u(c, 0), arg_u(c, 1), v[0] / (arg_u(c, 1) == GL_LINEAR_ATTENUATION ? scale : scale * scale));
 	} else if (begins(c, "glFog") && !begins(c, "glFogC") && arg_u(c, 0) == GL_FOG_DENSITY) {
-		arg_floats(c, 1, v, 4);
+		read_numbers(c, 1, v);
 		say(s, "glFogf", "uf", GL_FOG_DENSITY, v[0] / scale);
 	} else if (begins(c, "glFog") && !begins(c, "glFogC") && (arg_u(c, 0) == GL_FOG_START || arg_u(c, 0) == GL_FOG_END)) {
-		arg_floats(c, 1, v, 4);
+		read_numbers(c, 1, v);
 		say(s, "glFogf", "uf", arg_u(c, 0), v[0] * scale);
 	} else if ((begins(c, "glLight") && !begins(c, "glLightM")) || begins(c, "glClipPlane") || begins(c, "glTexGen") || begins(c, "glRasterPos")) {
 		load_other_eye(s);
@@ -436,15 +452,15 @@ static void run_prepass(struct story *s, const struct story_run *run)
 		s->n_passes = s->step == SOLID ? 2 : 1;
 	}
 	if (s->n_passes == 1 || (s->pass == 2 && !solid)) {
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 	} else if (s->pass == 1 && solid) {
 		say_mask(s, "glColorMask", 0);
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 		say_mask(s, "glColorMask", a->color.mask);
 		s->n_changes++;
 	} else if (s->pass == 2) {
 		say(s, "glDepthFunc", "u", GL_LEQUAL);
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 		say(s, "glDepthFunc", "u", a->depth.func);
 	}
 }
@@ -470,7 +486,7 @@ static void call_dimmed(struct story *s, const struct call *c, int draws)
 		say(s, "glLightModelfv", "uv", GL_LIGHT_MODEL_AMBIENT, (float[]){ 0.05f, 0.05f, 0.05f, 1 });
 	}
 	if ((light && arg_u(c, 1) >= GL_AMBIENT && arg_u(c, 1) <= GL_SPECULAR) || (begins(c, "glLightM") && arg_u(c, 0) == GL_LIGHT_MODEL_AMBIENT)) {
-		arg_floats(c, 1 + (unsigned)light, v, 4);
+		read_numbers(c, 1 + (unsigned)light, v);
 		for (unsigned k = 0; k < 3; k++)
 			v[k] /= 4;
 		if (light)
@@ -532,10 +548,10 @@ static void run_lights(struct story *s, const struct story_run *run)
 		light &= light - 1;
 	light &= -light;
 	if (s->n_passes == 1 || (s->pass == 1 && !lit)) {
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 	} else if (s->pass == 1) {
 		say_lights(s, 0);
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 		say_lights(s, lights_of(st));
 		s->n_changes++;
 	} else if (s->pass > 1 && lit && lights_of(st) & light) {
@@ -549,17 +565,17 @@ static void run_lights(struct story *s, const struct story_run *run)
 		say(s, "glDepthMask", "u", 0);
 		say(s, "glDepthFunc", "u", GL_EQUAL);
 		say_mask(s, "glColorMask", 7);
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 		say(s, "glPopAttrib", "");
 	}
 }
 
 static void run_doubled(struct story *s, const struct story_run *run)
 {
-	as_it_is(s, run);
+	run_as_it_is(s, run);
 	if (is_solid(s->x->st, run)) {
 		s->n_changes++;
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 	}
 }
 
@@ -573,7 +589,7 @@ static void run_wound(struct story *s, const struct story_run *run)
 	for (uint32_t i = 0; i < n; i++)
 		memcpy(other + 3 * (size_t)i, (uint32_t[]){ order[3 * i + 1], order[3 * i], order[3 * i + 2] }, 12);
 	if (!n) {
-		as_it_is(s, run);
+		run_as_it_is(s, run);
 	} else {
 		say(s, "glFrontFace", "u", ccw ? GL_CW : GL_CCW);
 		say_run(s, GL_TRIANGLES, run->v, 3 * n, other);
@@ -591,7 +607,7 @@ static void run_culled(struct story *s, const struct story_run *run)
 		not_for(s, "both sides count");
 	say(s, "glFrontFace", "u", p->front_face == GL_CCW ? GL_CW : GL_CCW);
 	say(s, "glCullFace", "u", p->cull_face == GL_BACK ? GL_FRONT : p->cull_face == GL_FRONT ? GL_BACK : p->cull_face);
-	as_it_is(s, run);
+	run_as_it_is(s, run);
 	say(s, "glCullFace", "u", p->cull_face);
 	say(s, "glFrontFace", "u", p->front_face);
 	s->n_changes++;
@@ -692,9 +708,9 @@ static void first_sky(struct story *s)
 	say(s, "glDepthMask", "u", parts > 0);
 	say_color(s, s->x->st->a.color.clear);
 	say_sheet(s, projection, parts ? 0 : 0.999f, parts ? parts : 1);
-	end_flat(s);
 	if (parts)
 		say(s, "glClear", "u", GL_DEPTH_BUFFER_BIT);
+	end_flat(s);
 }
 
 /* Sheets that GL shows nothing of, each for another reason. */
@@ -780,6 +796,10 @@ static void run_lamps(struct story *s, const struct story_run *run)
 {
 	const struct gls_state *st = s->x->st;
 
+	if (st->a.lighting.enabled && __builtin_popcount(lights_of(st)) > 1)
+		not_for(s, "a lamp would stand in the way of another light");
+	if (st->surface.reflect > 0 || st->surface.transmit > 0)
+		not_for(s, "mirrors would show the lamp");
 	for (unsigned i = 0; i < GLS_MAX_LIGHTS && st->a.lighting.enabled && is_solid(st, run); i++) {
 		const struct gls_light *light = &st->a.lighting.lights[i];
 
@@ -788,7 +808,7 @@ static void run_lamps(struct story *s, const struct story_run *run)
 			s->step |= 1u << i;
 		}
 	}
-	as_it_is(s, run);
+	run_as_it_is(s, run);
 }
 
 /* ---- another window ---- */
@@ -926,7 +946,7 @@ const struct relation relations[] = {
 	{ "near-base", "vertices rounded as in near", EVERY, .amount = -1, .run = run_moved, .base = "" },
 	{ "near", "the world moved as far as things are from the eye, camera and lights too", EVERY | RELATION_ROUNDS, .amount = 1, .base = "near-base", .run = run_moved },
 	{ "far-base", "vertices rounded as in far", EVERY, .amount = -256, .run = run_moved, .base = "" },
-	{ "far", "the world moved 256 times as far as things are from the eye", EVERY | RELATION_ROUNDS, .amount = 256, .base = "far-base", .run = run_moved },
+	{ "far", "the world moved 256 times as far as things are from the eye", EVERY | RELATION_ROUNDS | RELATION_COVERS, .amount = 256, .base = "far-base", .run = run_moved },
 	{ "farther-base", "vertices rounded as in farther", EVERY, .amount = -4096, .run = run_moved, .base = "" },
 	{ "farther", "the world moved 4,096 times as far", EVERY | RELATION_ROUNDS | RELATION_COVERS | RELATION_COARSE, .amount = 4096, .base = "farther-base",
 	  .run = run_moved },
@@ -943,10 +963,10 @@ const struct relation relations[] = {
 	/* beside the world */
 	{ "behind", "a sheet behind all, without depth", 0, .cleared = cleared_behind, .idle = "the window is not cleared" },
 	{ "behind-depth", "a sheet behind all that writes depth", 0, .amount = 1, .cleared = cleared_behind, .idle = "the window is not cleared" },
-	{ "behind-far", "a sheet before the far plane, without depth", RUNS, .base = DRAWN, .run = as_it_is, .first = first_sky, .idle = NO_DEPTH },
-	{ "sky", "a sky of one draw, and a clear of depth", RUNS, .amount = 1, .base = DRAWN, .run = as_it_is, .first = first_sky, .idle = NO_DEPTH },
-	{ "skies", "a sky of 24 draws, and a clear of depth", RUNS, .amount = 24, .base = DRAWN, .run = as_it_is, .first = first_sky, .idle = NO_DEPTH },
-	{ "unseen", "sheets that GL does not show", RUNS, .base = DRAWN, .run = as_it_is, .first = first_unseen, .idle = NO_DEPTH },
+	{ "behind-far", "a sheet before the far plane, without depth", RUNS, .base = DRAWN, .first = first_sky, .idle = NO_DEPTH },
+	{ "sky", "a sky of one draw, and a clear of depth", RUNS, .amount = 1, .base = DRAWN, .first = first_sky, .idle = NO_DEPTH },
+	{ "skies", "a sky of 24 draws, and a clear of depth", RUNS, .amount = 24, .base = DRAWN, .first = first_sky, .idle = NO_DEPTH },
+	{ "unseen", "sheets that GL does not show", RUNS, .base = DRAWN, .first = first_unseen, .idle = NO_DEPTH },
 	{ "hud", "a HUD of clear glass", 0, .frame = frame_hud, .idle = "no frame ends in the window" },
 	{ "lamps", "a body about each light", RUNS | RELATION_COVERS, .base = DRAWN, .run = run_lamps, .cleared = cleared_lamps, .idle = "no light has a place" },
 	/* another window */

@@ -36,3 +36,5 @@ extern const unsigned n_relations;
 
 /** Write a call as it is. */
 void say_call(struct story *s, const struct call *c);
+/** Write a run as it is. */
+void run_as_it_is(struct story *s, const struct story_run *run);

@@ -277,10 +277,7 @@ static void perform_run(struct story *s, const struct story_run *run)
 	for (unsigned a = 0; a < STORY_ATTRIBUTES; a++) /* what Begin and End left: earlier passes left it, too */
 		if (s->pass && memcmp(s->x->st->a.current.attribute[a], run->after[a], sizeof(run->after[a])) != 0)
 			put_attribute(s, a, run->after[a], 1);
-	if (s->relation->run)
-		s->relation->run(s, run);
-	else
-		say_run(s, run->mode, run->v, run->n, NULL);
+	(s->relation->run ? s->relation->run : run_as_it_is)(s, run);
 }
 
 static void perform_call(struct story *s, const struct call *c, int foreign)
@@ -615,6 +612,8 @@ static void clear(struct story *s, const struct call *c)
 
 	release(s);
 	take_call(s, c, 0);
+	if (a->scissor.enabled && mask & GL_COLOR_BUFFER_BIT)
+		s->fresh_color = 0;
 	if (a->scissor.enabled)
 		return;
 	s->fresh |= (mask & GL_DEPTH_BUFFER_BIT) && a->depth.write;
