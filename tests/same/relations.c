@@ -71,13 +71,17 @@ static void run_listed(struct story *s, const struct story_run *run)
 /* One array of a draw, of floats. a: an attribute; STORY_ATTRIBUTES: positions */
 static void say_array(struct story *s, unsigned a, const float *floats, size_t n, int on)
 {
-	static const char *const names[] = { "glNormalPointer", "glColorPointer", "glSecondaryColorPointer", "glFogCoordPointer" };
+	static const char *const names[] = { "glNormalPointer", "glColorPointer", "glSecondaryColorPointer",
+		                             "glFogCoordPointer" };
 	static const uint32_t arrays[] = { GL_NORMAL_ARRAY, GL_COLOR_ARRAY, GL_SECONDARY_COLOR_ARRAY, GL_FOG_COORD_ARRAY };
 	const int is_vertex = a == STORY_ATTRIBUTES, is_texture = !is_vertex && a >= GLS_ATTR_TEXCOORD;
 
 	if (is_texture)
 		say(s, "glClientActiveTexture", "u", GL_TEXTURE0 + a - GLS_ATTR_TEXCOORD);
-	say(s, on ? "glEnableClientState" : "glDisableClientState", "u", is_vertex ? GL_VERTEX_ARRAY : is_texture ? GL_TEXTURE_COORD_ARRAY : arrays[a]);
+	say(s, on ? "glEnableClientState" : "glDisableClientState", "u",
+	    is_vertex    ? GL_VERTEX_ARRAY
+	    : is_texture ? GL_TEXTURE_COORD_ARRAY
+	                 : arrays[a]);
 	if (!on)
 		return;
 	if (is_vertex || is_texture)
@@ -219,7 +223,8 @@ static int can_insert(const struct story *s, int draws)
 {
 	const struct gls_state *st = s->x->st;
 
-	return draws && !st->begin_mode && !st->list && st->attrib_depth < GLS_MAX_ATTRIB_DEPTH - 1 && st->modelview.depth < 30;
+	return draws && !st->begin_mode && !st->list && st->attrib_depth < GLS_MAX_ATTRIB_DEPTH - 1 &&
+	       st->modelview.depth < 30;
 }
 
 static void call_undone(struct story *s, const struct call *c, int draws)
@@ -277,7 +282,7 @@ static void run_measured(struct story *s, const struct story_run *run)
 	}
 }
 
-/* amount: how far, in distances from the eye to things (their geometric mean); below 0: vertices are only rounded as they are there, which is what the others compare with */
+/* amount: how far, in distances from the eye to things; below 0: vertices are only rounded as they are there */
 static void run_moved(struct story *s, const struct story_run *run)
 {
 	const float d = (float)(fabs(s->relation->amount) * exp2(ceil(s->distance / log(2))));
@@ -288,7 +293,8 @@ static void run_moved(struct story *s, const struct story_run *run)
 
 	for (unsigned unit = 0; unit < GLS_MAX_UNITS; unit++)
 		for (unsigned k = 0; k < 4; k++)
-			if (st->a.texturing.units[unit].gen_enabled >> k & 1 && st->a.texturing.units[unit].value.gen_mode[k] == GL_OBJECT_LINEAR)
+			if (st->a.texturing.units[unit].gen_enabled >> k & 1 &&
+			    st->a.texturing.units[unit].value.gen_mode[k] == GL_OBJECT_LINEAR)
 				not_for(s, "texture coordinates come from places in the object");
 	memcpy(v, run->v, run->n * sizeof(*v));
 	for (uint32_t i = 0; i < run->n; i++)
@@ -354,13 +360,16 @@ static void check_eye(struct story *s)
 		not_for(s, "fog goes by one direction of eye space");
 	for (unsigned i = 0; amount < 0 && a->lighting.enabled && !a->lighting.local_viewer && i < GLS_MAX_LIGHTS; i++)
 		for (unsigned k = 0; k < 3 && a->lighting.lights[i].enabled; k++)
-			if (a->lighting.lights[i].value.specular[k] * (a->lighting.face[0].specular[k] + a->lighting.face[1].specular[k]) > 0)
+			if (a->lighting.lights[i].value.specular[k] *
+			        (a->lighting.face[0].specular[k] + a->lighting.face[1].specular[k]) >
+			    0)
 				not_for(s, "highlights go by one direction of eye space");
 	for (unsigned u = 0; amount <= 0 && u < GLS_MAX_UNITS; u++)
 		for (unsigned k = 0; k < 4; k++) {
 			const struct gls_unit *unit = &a->texturing.units[u];
 
-			if (unit->enabled && unit->gen_enabled >> k & 1 && unit->value.gen_mode[k] != GL_EYE_LINEAR && unit->value.gen_mode[k] != GL_OBJECT_LINEAR)
+			if (unit->enabled && unit->gen_enabled >> k & 1 && unit->value.gen_mode[k] != GL_EYE_LINEAR &&
+			    unit->value.gen_mode[k] != GL_OBJECT_LINEAR)
 				not_for(s, "textures mirror by directions of eye space");
 		}
 }
@@ -368,7 +377,9 @@ static void check_eye(struct story *s)
 static void run_eye(struct story *s, const struct story_run *run)
 {
 	const struct gls_attribs *a = &s->x->st->a;
-	const float scale = s->relation->amount > 0 && !a->transform.normalize && !a->transform.rescale_normal ? (float)s->relation->amount : 1;
+	const float scale = s->relation->amount > 0 && !a->transform.normalize && !a->transform.rescale_normal
+	                        ? (float)s->relation->amount
+	                        : 1;
 	struct story_vertex *v = need(malloc((run->n + 1) * sizeof(*v)));
 	float k[16], inverse[16];
 
@@ -398,16 +409,20 @@ static void call_eye(struct story *s, const struct call *c, int draws)
 	float v[4] = { 0 };
 
 	(void)draws;
-	if (begins(c, "glLight") && !begins(c, "glLightM") && (arg_u(c, 1) == GL_LINEAR_ATTENUATION || arg_u(c, 1) == GL_QUADRATIC_ATTENUATION)) {
+	if (begins(c, "glLight") && !begins(c, "glLightM") &&
+	    (arg_u(c, 1) == GL_LINEAR_ATTENUATION || arg_u(c, 1) == GL_QUADRATIC_ATTENUATION)) {
 		read_numbers(c, 2, v);
-		say(s, "glLightf", "uuf", arg_u(c, 0), arg_u(c, 1), v[0] / (arg_u(c, 1) == GL_LINEAR_ATTENUATION ? scale : scale * scale));
+		say(s, "glLightf", "uuf", arg_u(c, 0), arg_u(c, 1),
+		    v[0] / (arg_u(c, 1) == GL_LINEAR_ATTENUATION ? scale : scale * scale));
 	} else if (begins(c, "glFog") && !begins(c, "glFogC") && arg_u(c, 0) == GL_FOG_DENSITY) {
 		read_numbers(c, 1, v);
 		say(s, "glFogf", "uf", GL_FOG_DENSITY, v[0] / scale);
-	} else if (begins(c, "glFog") && !begins(c, "glFogC") && (arg_u(c, 0) == GL_FOG_START || arg_u(c, 0) == GL_FOG_END)) {
+	} else if (begins(c, "glFog") && !begins(c, "glFogC") &&
+	           (arg_u(c, 0) == GL_FOG_START || arg_u(c, 0) == GL_FOG_END)) {
 		read_numbers(c, 1, v);
 		say(s, "glFogf", "uf", arg_u(c, 0), v[0] * scale);
-	} else if ((begins(c, "glLight") && !begins(c, "glLightM")) || begins(c, "glClipPlane") || begins(c, "glTexGen") || begins(c, "glRasterPos")) {
+	} else if ((begins(c, "glLight") && !begins(c, "glLightM")) || begins(c, "glClipPlane") ||
+	           begins(c, "glTexGen") || begins(c, "glRasterPos")) {
 		load_other_eye(s);
 		say_call(s, c);
 		load_own_eye(s);
@@ -428,10 +443,11 @@ static int is_solid(const struct gls_state *st, const struct story_run *run)
 {
 	const struct gls_attribs *a = &st->a;
 
-	return is_triangles(run) && a->depth.enabled && (a->depth.func == GL_LESS || a->depth.func == GL_LEQUAL) && a->depth.write && !a->color.blend &&
-	       !a->color.alpha_test && !a->stencil.enabled && !a->color.logic_op_enabled && (a->color.mask & 7) == 7 && !a->polygon.stipple &&
-	       a->polygon.mode[0] == GL_FILL && a->polygon.mode[1] == GL_FILL && !st->program && !a->programs.fragment && !a->programs.vertex &&
-	       !a->programs.ati;
+	return is_triangles(run) && a->depth.enabled && (a->depth.func == GL_LESS || a->depth.func == GL_LEQUAL) &&
+	       a->depth.write && !a->color.blend && !a->color.alpha_test && !a->stencil.enabled &&
+	       !a->color.logic_op_enabled && (a->color.mask & 7) == 7 && !a->polygon.stipple &&
+	       a->polygon.mode[0] == GL_FILL && a->polygon.mode[1] == GL_FILL && !st->program &&
+	       !a->programs.fragment && !a->programs.vertex && !a->programs.ati;
 }
 
 static void say_mask(struct story *s, const char *name, uint32_t mask)
@@ -485,7 +501,8 @@ static void call_dimmed(struct story *s, const struct call *c, int draws)
 			say(s, "glLightfv", "uuv", GL_LIGHT0, i ? GL_SPECULAR : GL_DIFFUSE, (float[]){ 0.25f, 0.25f, 0.25f, 1 });
 		say(s, "glLightModelfv", "uv", GL_LIGHT_MODEL_AMBIENT, (float[]){ 0.05f, 0.05f, 0.05f, 1 });
 	}
-	if ((light && arg_u(c, 1) >= GL_AMBIENT && arg_u(c, 1) <= GL_SPECULAR) || (begins(c, "glLightM") && arg_u(c, 0) == GL_LIGHT_MODEL_AMBIENT)) {
+	if ((light && arg_u(c, 1) >= GL_AMBIENT && arg_u(c, 1) <= GL_SPECULAR) ||
+	    (begins(c, "glLightM") && arg_u(c, 0) == GL_LIGHT_MODEL_AMBIENT)) {
 		read_numbers(c, 1 + (unsigned)light, v);
 		for (unsigned k = 0; k < 3; k++)
 			v[k] /= 4;
@@ -523,7 +540,8 @@ static int is_lit_solid(const struct gls_state *st, const struct story_run *run)
 	for (unsigned i = 0; i < GLS_MAX_UNITS; i++)
 		if (st->a.texturing.units[i].enabled && st->a.texturing.units[i].value.env_mode != GL_MODULATE)
 			return 0;
-	return is_solid(st, run) && l->enabled && lights_of(st) && !(l->color_material && l->color_material_mode == GL_EMISSION);
+	return is_solid(st, run) && l->enabled && lights_of(st) &&
+	       !(l->color_material && l->color_material_mode == GL_EMISSION);
 }
 
 static void say_lights(struct story *s, uint32_t mask)
@@ -603,7 +621,8 @@ static void run_culled(struct story *s, const struct story_run *run)
 {
 	const struct gls_polygon *p = &s->x->st->a.polygon;
 
-	if (s->x->st->a.lighting.two_side || s->x->st->a.programs.two_side || s->x->st->a.stencil.two_side || p->mode[0] != p->mode[1])
+	if (s->x->st->a.lighting.two_side || s->x->st->a.programs.two_side || s->x->st->a.stencil.two_side ||
+	    p->mode[0] != p->mode[1])
 		not_for(s, "both sides count");
 	say(s, "glFrontFace", "u", p->front_face == GL_CCW ? GL_CW : GL_CCW);
 	say(s, "glCullFace", "u", p->cull_face == GL_BACK ? GL_FRONT : p->cull_face == GL_FRONT ? GL_BACK : p->cull_face);
@@ -617,10 +636,23 @@ static void run_culled(struct story *s, const struct story_run *run)
 
 static void begin_flat(struct story *s, const float projection[16])
 {
-	static const uint32_t off[] = { GL_LIGHTING, GL_FOG, GL_BLEND, GL_ALPHA_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE, GL_DEPTH_TEST,
-		                        GL_POLYGON_OFFSET_FILL, GL_COLOR_LOGIC_OP, GL_POLYGON_STIPPLE, GL_COLOR_SUM, GL_VERTEX_PROGRAM_ARB,
-		                        GL_FRAGMENT_PROGRAM_ARB, GL_FRAGMENT_SHADER_ATI };
-	static const uint32_t targets[] = { GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE };
+	static const uint32_t off[] = { GL_LIGHTING,
+		                        GL_FOG,
+		                        GL_BLEND,
+		                        GL_ALPHA_TEST,
+		                        GL_STENCIL_TEST,
+		                        GL_SCISSOR_TEST,
+		                        GL_CULL_FACE,
+		                        GL_DEPTH_TEST,
+		                        GL_POLYGON_OFFSET_FILL,
+		                        GL_COLOR_LOGIC_OP,
+		                        GL_POLYGON_STIPPLE,
+		                        GL_COLOR_SUM,
+		                        GL_VERTEX_PROGRAM_ARB,
+		                        GL_FRAGMENT_PROGRAM_ARB,
+		                        GL_FRAGMENT_SHADER_ATI };
+	static const uint32_t targets[] = { GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP,
+		                            GL_TEXTURE_RECTANGLE };
 	const struct gls_state *st = s->x->st;
 
 	say(s, "glPushAttrib", "u", ALL_ATTRIBS);
@@ -824,7 +856,8 @@ static void make_target(struct story *s)
 	say(s, "glBindTexture", "uu", GL_TEXTURE_2D, OURS);
 	say(s, "glTexParameteri", "uuu", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
 	say(s, "glTexParameteri", "uuu", GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-	say(s, "glTexImage2D", "uuuuuuuun", GL_TEXTURE_2D, 0, st->alpha_bits ? GL_RGBA8 : GL_RGB8, d->width, d->height, 0, GL_RGBA, GL_UNSIGNED_BYTE);
+	say(s, "glTexImage2D", "uuuuuuuun", GL_TEXTURE_2D, 0, st->alpha_bits ? GL_RGBA8 : GL_RGB8, d->width, d->height,
+	    0, GL_RGBA, GL_UNSIGNED_BYTE);
 	say(s, "glBindTexture", "uu", GL_TEXTURE_2D, st->a.texturing.units[st->a.texturing.active].bound[GLS_TEXTURE_2D]);
 	say(s, "glBindRenderbuffer", "uu", GL_RENDERBUFFER, OURS);
 	say(s, "glRenderbufferStorage", "uuuu", GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, d->width, d->height);
@@ -840,14 +873,17 @@ static void call_target(struct story *s, const struct call *c, int draws)
 	const struct gls_state *st = s->x->st;
 	const uint32_t kind = c->sig->command >= 0 ? gls_commands[c->sig->command].kind : GLS_KIND_NONE;
 
-	if (s->x->n_contexts > 1 || begins(c, "glAccum") || (begins(c, "glDrawBuffer") && arg_u(c, 0) == GL_FRONT && !(c->flags & CALL_FAKE)))
+	if (s->x->n_contexts > 1 || begins(c, "glAccum") ||
+	    (begins(c, "glDrawBuffer") && arg_u(c, 0) == GL_FRONT && !(c->flags & CALL_FAKE)))
 		not_for(s, "it has several contexts, or draws to more than the back buffer");
 	/* The recorder's own calls draw to the front buffer first. */
-	if (st && !s->target && !st->list && !(c->flags & CALL_FAKE) && (draws || (kind == GLS_KIND_STATE && !begins(c, "glDrawBuffer"))))
+	if (st && !s->target && !st->list && !(c->flags & CALL_FAKE) &&
+	    (draws || (kind == GLS_KIND_STATE && !begins(c, "glDrawBuffer"))))
 		make_target(s);
 	if (s->target && begins(c, "glBindFramebuffer") && arg_u(c, 1) == 0)
 		say(s, "glBindFramebuffer", "uu", arg_u(c, 0), s->target);
-	else if (!s->target || !((begins(c, "glDrawBuffer") && !st->draw_framebuffer) || (begins(c, "glReadBuffer") && !st->read_framebuffer)))
+	else if (!s->target || !((begins(c, "glDrawBuffer") && !st->draw_framebuffer) ||
+	                         (begins(c, "glReadBuffer") && !st->read_framebuffer)))
 		say_call(s, c);
 }
 
@@ -881,7 +917,8 @@ static void frame_target(struct story *s)
 		say(s, "glPopMatrix", "");
 	} else {
 		say(s, "glBindFramebuffer", "uu", GL_READ_FRAMEBUFFER, s->target);
-		say(s, "glBlitFramebuffer", "uuuuuuuuuu", 0, 0, d->width, d->height, 0, 0, d->width, d->height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+		say(s, "glBlitFramebuffer", "uuuuuuuuuu", 0, 0, d->width, d->height, 0, 0, d->width, d->height,
+		    GL_COLOR_BUFFER_BIT, GL_NEAREST);
 	}
 	end_flat(s);
 	say(s, "glBindFramebuffer", "uu", GL_FRAMEBUFFER, bound ? bound : s->target);
@@ -892,7 +929,8 @@ static void call_thrice(struct story *s, const struct call *c, int draws)
 	unsigned width, height;
 	char text[80];
 	size_t n;
-	const char *marker = c->n_args > 1 && c->args[1].type == TRACE_STRING ? c->args[1].str : (const char *)arg_blob(c, 1, &n);
+	const char *marker =
+	    c->n_args > 1 && c->args[1].type == TRACE_STRING ? c->args[1].str : (const char *)arg_blob(c, 1, &n);
 
 	if (s->x->st && !s->target && (draws || is(c, "glClear")) && !s->x->st->list) {
 		s->target = 1;
@@ -902,14 +940,15 @@ static void call_thrice(struct story *s, const struct call *c, int draws)
 		}
 		say(s, "glActiveTexture", "u", GL_TEXTURE0 + s->x->st->a.texturing.active);
 	}
-	if (begins(c, "glBitmap") || begins(c, "glDrawPixels") || begins(c, "glDrawTex") || begins(c, "glCopy") || begins(c, "glReadPixels") ||
-	    begins(c, "glBindFramebuffer"))
+	if (begins(c, "glBitmap") || begins(c, "glDrawPixels") || begins(c, "glDrawTex") || begins(c, "glCopy") ||
+	    begins(c, "glReadPixels") || begins(c, "glBindFramebuffer"))
 		not_for(s, "pixels do not grow with the window");
 	if ((is(c, "glBegin") || begins(c, "glDrawArrays") || begins(c, "glDrawElements") || begins(c, "glDrawRange")) &&
 	    gls_mode_kind(arg_u(c, 0)) != SCENE_TRIANGLES)
 		not_for(s, "lines and points are cut otherwise");
 	if (is(c, "glViewport") || is(c, "glScissor")) {
-		say(s, c->sig->name[2] == 'V' ? "glViewport" : "glScissor", "uuuu", 3 * arg_u(c, 0), 3 * arg_u(c, 1), 3 * arg_u(c, 2), 3 * arg_u(c, 3));
+		say(s, c->sig->name[2] == 'V' ? "glViewport" : "glScissor", "uuuu", 3 * arg_u(c, 0), 3 * arg_u(c, 1),
+		    3 * arg_u(c, 2), 3 * arg_u(c, 3));
 	} else if (is(c, "glPolygonOffset")) {
 		say(s, "glPolygonOffset", "ff", 3 * arg_d(c, 0), arg_d(c, 1));
 	} else if (is(c, "glStringMarkerGREMEDY") && marker && sscanf(marker, "relume:drawable %u %u", &width, &height) == 2) {
@@ -921,70 +960,81 @@ static void call_thrice(struct story *s, const struct call *c, int draws)
 	s->n_changes++;
 }
 
-#define DRAWN "immediate"
 #define RUNS RELATION_RUNS
-#define EVERY (RELATION_RUNS | RELATION_ALL)
+#define EVERY (RELATION_RUNS | RELATION_ALL | RELATION_ROUNDS)
+#define FAR (EVERY | RELATION_COVERS)
+#define NO_DRAWS "nothing is drawn that it could change"
+#define NO_TRIANGLES "no triangles are drawn"
+#define NO_CLEAR "the window is not cleared"
 #define NO_DEPTH "nothing is drawn in depth right after a clear"
+#define NO_FRAME "no frame ends in the window"
 
 const struct relation relations[] = {
-	/* how it is told: nothing is rounded otherwise */
-	{ "immediate", "all vertices between Begin and End", RUNS, .run = run_plain, .idle = "it has no vertices that can be seen" },
-	{ "lists", "each draw in a display list", RUNS, .base = DRAWN, .run = run_listed, .idle = "it draws nothing that lists can hold" },
-	{ "arrays", "each draw from arrays", RUNS, .base = DRAWN, .run = run_arrays, .idle = "it draws nothing that arrays can hold" },
-	{ "elements", "each draw by indices", RUNS, .amount = 1, .base = DRAWN, .run = run_arrays, .idle = "it draws nothing that arrays can hold" },
-	{ "triangles", "strips, fans, quads as separate triangles", RUNS, .base = DRAWN, .run = run_cut, .idle = "it draws triangles already" },
-	{ "strips", "triangles as one strip, joined by empty ones", RUNS, .base = DRAWN, .run = run_strip, .idle = "it draws no triangles" },
-	{ "split", "each triangle a draw of its own", RUNS, .base = DRAWN, .run = run_split, .idle = "no draw has two triangles" },
-	{ "joined", "draws that stand together as one", RUNS, .base = DRAWN, .run = run_join, .call = call_join, .idle = "no two draws stand together" },
-	{ "loaded", "matrices loaded before each draw", RUNS, .base = DRAWN, .run = run_loaded, .idle = "nothing is drawn" },
-	{ "undone", "state changed and put back, set again, pushed and popped", 0, .call = call_undone, .idle = "nothing is drawn" },
-	{ "asked", "queries, and calls that are errors", 0, .call = call_asked, .idle = "nothing is drawn" },
-	{ "wound", "triangles the other way round, and the front face", RUNS | RELATION_ROUNDS, .base = DRAWN, .run = run_wound, .idle = "it draws no triangles" },
-	{ "culled", "the front face and the side that is culled turned together", RUNS, .base = DRAWN, .run = run_culled, .idle = "nothing is drawn" },
-	{ "doubled", "solid draws twice", RUNS, .base = DRAWN, .run = run_doubled, .idle = "nothing solid is drawn" },
-	/* another world */
-	{ "near-base", "vertices rounded as in near", EVERY, .amount = -1, .run = run_moved, .base = "" },
-	{ "near", "the world moved as far as things are from the eye, camera and lights too", EVERY | RELATION_ROUNDS, .amount = 1, .base = "near-base", .run = run_moved },
-	{ "far-base", "vertices rounded as in far", EVERY, .amount = -256, .run = run_moved, .base = "" },
-	{ "far", "the world moved 256 times as far as things are from the eye", EVERY | RELATION_ROUNDS | RELATION_COVERS, .amount = 256, .base = "far-base", .run = run_moved },
-	{ "farther-base", "vertices rounded as in farther", EVERY, .amount = -4096, .run = run_moved, .base = "" },
-	{ "farther", "the world moved 4,096 times as far", EVERY | RELATION_ROUNDS | RELATION_COVERS | RELATION_COARSE, .amount = 4096, .base = "farther-base",
+	/* how it is told */
+	{ "immediate", "all vertices between Begin and End", NO_DRAWS, RUNS, .base = "-", .run = run_plain },
+	{ "lists", "each draw in a display list", NO_DRAWS, RUNS, .run = run_listed },
+	{ "arrays", "each draw from arrays", NO_DRAWS, RUNS, .run = run_arrays },
+	{ "elements", "each draw by indices", NO_DRAWS, RUNS, 1, .run = run_arrays },
+	{ "triangles", "strips, fans, quads as separate triangles", "it draws triangles already", RUNS,
+	  .run = run_cut },
+	{ "strips", "triangles as one strip, joined by empty ones", NO_TRIANGLES, RUNS, .run = run_strip },
+	{ "split", "each triangle a draw of its own", "no draw has two triangles", RUNS, .run = run_split },
+	{ "joined", "draws that stand together as one", "no two draws do", RUNS, .run = run_join, .call = call_join },
+	{ "loaded", "matrices loaded before each draw", NO_DRAWS, RUNS, .run = run_loaded },
+	{ "undone", "state changed and put back, set again, pushed and popped", NO_DRAWS, 0, .call = call_undone },
+	{ "asked", "queries, and calls that are errors", NO_DRAWS, 0, .call = call_asked },
+	{ "wound", "triangles the other way round, and the front face", NO_TRIANGLES, RUNS | RELATION_ROUNDS,
+	  .run = run_wound },
+	{ "culled", "the front face and the side that is culled turned", NO_DRAWS, RUNS, .run = run_culled },
+	{ "doubled", "solid draws twice", "nothing solid is drawn", RUNS, .run = run_doubled },
+	/* another world: bases have vertices rounded as they are there */
+	{ "near-base", "", NO_DRAWS, EVERY, -1, .run = run_moved, .base = "" },
+	{ "near", "the world moved as far as its things are from the eye", NO_DRAWS, EVERY, 1, "near-base",
 	  .run = run_moved },
-	{ "small", "the world scaled by 2^-10", EVERY | RELATION_ROUNDS, .amount = 0x1p-10, .base = DRAWN, .run = run_eye, .call = call_eye },
-	{ "large", "the world scaled by 2^17", EVERY | RELATION_ROUNDS, .amount = 0x1p17, .base = DRAWN, .run = run_eye, .call = call_eye },
-	{ "mirrored", "eye space mirrored, and back by the projection", EVERY | RELATION_ROUNDS, .base = DRAWN, .run = run_eye, .call = call_eye },
-	{ "turned", "eye space turned, and back by the projection", EVERY | RELATION_ROUNDS, .amount = -1, .base = DRAWN, .run = run_eye, .call = call_eye },
+	{ "far-base", "", NO_DRAWS, EVERY, -256, .run = run_moved, .base = "" },
+	{ "far", "moved 256 times as far", NO_DRAWS, FAR, 256, "far-base", .run = run_moved },
+	{ "farther-base", "", NO_DRAWS, EVERY, -4096, .run = run_moved, .base = "" },
+	{ "farther", "moved 4,096 times as far", NO_DRAWS, FAR | RELATION_COARSE, 4096, "farther-base",
+	  .run = run_moved },
+	{ "small", "the world scaled by 2^-10", NO_DRAWS, EVERY, 0x1p-10, .run = run_eye, .call = call_eye },
+	{ "large", "the world scaled by 2^17", NO_DRAWS, EVERY, 0x1p17, .run = run_eye, .call = call_eye },
+	{ "mirrored", "eye space mirrored, back by the projection", NO_DRAWS, EVERY, 0, .run = run_eye,
+	  .call = call_eye },
+	{ "turned", "eye space turned, back by the projection", NO_DRAWS, EVERY, -1, .run = run_eye, .call = call_eye },
 	/* passes */
-	{ "prepass", "depth first, colour after it", RUNS | RELATION_PASSES, .base = DRAWN, .run = run_prepass, .call = call_prepass,
-	  .idle = "nothing solid is drawn, or by stencil" },
-	{ "lights-base", "light of a quarter", RUNS, .base = "", .run = run_plain, .call = call_dimmed },
-	{ "lights", "light by light, added", RUNS | RELATION_PASSES | RELATION_SATURATES, .base = "lights-base", .run = run_lights, .call = call_lights,
-	  .idle = "nothing solid is lit, or something lies over it" },
+	{ "prepass", "depth first, colour after it", "nothing solid is drawn, or by stencil", RUNS | RELATION_PASSES,
+	  .run = run_prepass, .call = call_prepass },
+	{ "lights-base", "light of a quarter", NO_DRAWS, RUNS, .base = "", .run = run_plain, .call = call_dimmed },
+	{ "lights", "light by light, added", "nothing solid is lit, or something lies over it",
+	  RUNS | RELATION_PASSES | RELATION_SATURATES, .base = "lights-base", .run = run_lights, .call = call_lights },
 	/* beside the world */
-	{ "behind", "a sheet behind all, without depth", 0, .cleared = cleared_behind, .idle = "the window is not cleared" },
-	{ "behind-depth", "a sheet behind all that writes depth", 0, .amount = 1, .cleared = cleared_behind, .idle = "the window is not cleared" },
-	{ "behind-far", "a sheet before the far plane, without depth", RUNS, .base = DRAWN, .first = first_sky, .idle = NO_DEPTH },
-	{ "sky", "a sky of one draw, and a clear of depth", RUNS, .amount = 1, .base = DRAWN, .first = first_sky, .idle = NO_DEPTH },
-	{ "skies", "a sky of 24 draws, and a clear of depth", RUNS, .amount = 24, .base = DRAWN, .first = first_sky, .idle = NO_DEPTH },
-	{ "unseen", "sheets that GL does not show", RUNS, .base = DRAWN, .first = first_unseen, .idle = NO_DEPTH },
-	{ "hud", "a HUD of clear glass", 0, .frame = frame_hud, .idle = "no frame ends in the window" },
-	{ "lamps", "a body about each light", RUNS | RELATION_COVERS, .base = DRAWN, .run = run_lamps, .cleared = cleared_lamps, .idle = "no light has a place" },
+	{ "behind", "a sheet behind all, without depth", NO_CLEAR, 0, 0, .cleared = cleared_behind },
+	{ "behind-depth", "a sheet behind all that writes depth", NO_CLEAR, 0, 1, .cleared = cleared_behind },
+	{ "behind-far", "a sheet before the far plane, without depth", NO_DEPTH, RUNS, 0, .first = first_sky },
+	{ "sky", "a sky of one draw, and a clear of depth", NO_DEPTH, RUNS, 1, .first = first_sky },
+	{ "skies", "a sky of 24 draws, and a clear of depth", NO_DEPTH, RUNS, 24, .first = first_sky },
+	{ "unseen", "sheets that GL does not show", NO_DEPTH, RUNS, .first = first_unseen },
+	{ "hud", "a HUD of clear glass", NO_FRAME, 0, .frame = frame_hud },
+	{ "lamps", "a body about the light", "no light has a place", RUNS | RELATION_COVERS, .run = run_lamps,
+	  .cleared = cleared_lamps },
 	/* another window */
-	{ "blit", "the frame in a framebuffer object, blitted", 0, .call = call_target, .frame = frame_target, .idle = "no frame ends" },
-	{ "quad", "the frame in a framebuffer object, drawn as a textured quad", 0, .amount = 1, .call = call_target, .frame = frame_target,
-	  .idle = "no frame ends" },
-	{ "thrice", "the window three times as large", RELATION_ROUNDS | RELATION_TRIPLES, .call = call_thrice, .idle = "nothing is drawn" },
+	{ "blit", "a framebuffer object, blitted", NO_FRAME, 0, 0, .call = call_target, .frame = frame_target },
+	{ "quad", "a framebuffer object, as a textured quad", NO_FRAME, 0, 1, .call = call_target,
+	  .frame = frame_target },
+	{ "thrice", "the window three times as large", NO_DRAWS, RELATION_ROUNDS | RELATION_TRIPLES,
+	  .call = call_thrice },
 };
 const unsigned n_relations = sizeof(relations) / sizeof(relations[0]);
 
 /* ---- the program ---- */
 
-static const struct relation measured = { .flags = EVERY, .run = run_measured, .idle = "measured" };
+static const struct relation measured = { "", "", "measured", RUNS, .run = run_measured };
 
 static int usage(void)
 {
 	fputs("usage: relations | relations RELATION FROM.trace TO.trace\n"
-	      "Without arguments: a line for each relation, NAME BASE FLAGS WHAT. Exits with 77 and a reason where it does not apply.\n", stderr);
+	      "Without arguments: a line for each relation, NAME BASE FLAGS WHAT.\n"
+	      "Exits with 77 and a reason where it does not apply.\n", stderr);
 	return 2;
 }
 
@@ -993,8 +1043,12 @@ int main(int argc, char **argv)
 	struct story s = { 0 }, first = { .relation = &measured };
 	int rc;
 
-	for (unsigned i = 0; i < n_relations && argc == 1; i++)
-		printf("%s\t%s\t%u\t%s\n", relations[i].name, relations[i].base ? relations[i].base : "-", relations[i].flags, relations[i].what);
+	for (unsigned i = 0; i < n_relations && argc == 1; i++) {
+		const struct relation *r = &relations[i];
+		const char *base = r->base ? r->base : r->flags & RUNS ? "immediate" : "-";
+
+		printf("%s\t%s\t%u\t%s\n", r->name, base, r->flags, r->what);
+	}
 	if (argc == 1)
 		return 0;
 	for (unsigned i = 0; i < n_relations && argc == 4; i++)

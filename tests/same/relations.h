@@ -20,10 +20,11 @@ enum {
 
 struct relation {
 	const char *name, *what;
+	const char *idle; /* why it does not apply where it has changed nothing */
 	uint32_t flags;
 	double amount;    /* what the relation takes it for */
-	const char *base; /* the relation that it is compared with; NULL: the recording itself */
-	const char *idle; /* why it does not apply where it has changed nothing */
+	const char *base; /* what it is compared with: a relation, "-" the recording itself, "": it is only a base itself.
+	                     NULL: "immediate" for those that want runs, else "-" */
 	void (*call)(struct story *s, const struct call *c, int draws); /* write a call; NULL: as it is */
 	void (*run)(struct story *s, const struct story_run *run);      /* write a run; NULL: as it is */
 	void (*cleared)(struct story *s); /* the whole window was cleared, colour and depth */

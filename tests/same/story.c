@@ -43,7 +43,9 @@ static const struct call_sig *sig_of(const char *name, uint32_t n_args)
 		if (sigs[i]->name == name)
 			return sigs[i];
 	sigs[i] = need(malloc(sizeof(*sigs[i])));
-	*sigs[i] = (struct call_sig){ .name = name, .n_args = n_args, .arg_names = arg_names, .command = gls_command_find(name) };
+	*sigs[i] = (struct call_sig){
+		.name = name, .n_args = n_args, .arg_names = arg_names, .command = gls_command_find(name)
+	};
 	return sigs[i];
 }
 
@@ -182,7 +184,8 @@ uint32_t run_triangles(struct story *s, const struct story_run *run, const uint3
 	static struct gls_geometry g;
 	const struct gls_state *st = s->x->st;
 
-	if (gls_mode_kind(run->mode) != SCENE_TRIANGLES || st->a.polygon.mode[0] != GL_FILL || st->a.polygon.mode[1] != GL_FILL)
+	if (gls_mode_kind(run->mode) != SCENE_TRIANGLES || st->a.polygon.mode[0] != GL_FILL ||
+	    st->a.polygon.mode[1] != GL_FILL)
 		return 0;
 	gls_geometry_clear(&g);
 	g.kind = SCENE_TRIANGLES;
@@ -196,7 +199,8 @@ uint32_t run_triangles(struct story *s, const struct story_run *run, const uint3
 	if (gls_geometry_cut(s->x, &g, run->mode, 0, run->n, NULL, (int)st->a.lighting.first_provokes))
 		exit(-ERR_SYSTEM);
 	g.quads = run->mode == GL_QUADS;
-	if (g.quads && g.n_primitives && !run->listed && gls_quads_turn(st, gls_shades_flat(st), g.position, g.index, g.n_primitives))
+	if (g.quads && g.n_primitives && !run->listed &&
+	    gls_quads_turn(st, gls_shades_flat(st), g.position, g.index, g.n_primitives))
 		gls_geometry_turn_quads(&g);
 	*order = g.index;
 	return g.n_primitives;
@@ -368,7 +372,8 @@ static void hold(struct story *s)
 /* Objects are made once. */
 static int is_done_once(const struct call *c)
 {
-	static const char *const names[] = { "glGen", "glDelete", "glCreate", "glRead", "glIs", "glGet", "glBeginQuery", "glEndQuery" };
+	static const char *const names[] = { "glGen", "glDelete", "glCreate",     "glRead",
+		                             "glIs",  "glGet",    "glBeginQuery", "glEndQuery" };
 
 	for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++)
 		if (begins(c, names[i]))
@@ -452,7 +457,8 @@ static void open_run(struct story *s, const struct call *c)
 
 /* ---- arrays ---- */
 
-static int read_elements(struct story *s, struct story_run *run, int64_t first, int64_t count, uint32_t type, const struct trace_value *indices)
+static int read_elements(struct story *s, struct story_run *run, int64_t first, int64_t count, uint32_t type,
+                         const struct trace_value *indices)
 {
 	struct gls_state *st = s->x->st;
 	struct gls_buffer *b = gls_buffer_find(st, st->client.element_buffer);
@@ -461,7 +467,8 @@ static int read_elements(struct story *s, struct story_run *run, int64_t first, 
 	struct gls_sources sources;
 	size_t n = 0;
 
-	if (count <= 0 || st->client.restart || !gls_sources_open(s->x, st, &sources) || sources.has_edges || sources.present >> STORY_ATTRIBUTES)
+	if (count <= 0 || st->client.restart || !gls_sources_open(s->x, st, &sources) || sources.has_edges ||
+	    sources.present >> STORY_ATTRIBUTES)
 		return 0;
 	if (indices && indices->type == TRACE_BLOB) {
 		bytes = indices->blob;
@@ -515,7 +522,8 @@ static int read_draw(struct story *s, const struct call *c, struct story_run *ru
 		struct story_vertex *v = run_add(run);
 
 		memcpy(v->attribute, s->x->st->a.current.attribute, sizeof(v->attribute));
-		memcpy(v->position, (float[]){ arg_f(c, i == 1 || i == 2 ? 2 : 0), arg_f(c, i > 1 ? 3 : 1), 0, 1 }, sizeof(v->position));
+		memcpy(v->position, (float[]){ arg_f(c, i == 1 || i == 2 ? 2 : 0), arg_f(c, i > 1 ? 3 : 1), 0, 1 },
+		       sizeof(v->position));
 	}
 	return 1;
 }
@@ -588,7 +596,8 @@ static void keep_in_list(struct story *s, const struct call *c)
 		items_add(s->list, NULL, &run);
 	else if (k->kind == GLS_KIND_ARRAY)
 		not_for(s, "display lists hold draws of a rare kind");
-	else if (k->kind == GLS_KIND_VERTEX || k->kind == GLS_KIND_INSIDE || k->kind == GLS_KIND_STATE || k->kind == GLS_KIND_MATRIX)
+	else if (k->kind == GLS_KIND_VERTEX || k->kind == GLS_KIND_INSIDE || k->kind == GLS_KIND_STATE ||
+	         k->kind == GLS_KIND_MATRIX)
 		items_add(s->list, c, NULL);
 	else
 		take_call(s, c, 0);
@@ -601,8 +610,10 @@ static int draws(const struct call *c)
 {
 	const struct gls_command *k = &gls_commands[c->sig->command];
 
-	return k->kind == GLS_KIND_ARRAY || (k->drawing == GLS_DRAWS && !is(c, "glClear") && !begins(c, "glRead") && !begins(c, "glAccum")) ||
-	       k->role == GLS_ROLE_CALL_LIST || k->role == GLS_ROLE_BEGIN || begins(c, "glBitmap") || begins(c, "glCallList");
+	return k->kind == GLS_KIND_ARRAY ||
+	       (k->drawing == GLS_DRAWS && !is(c, "glClear") && !begins(c, "glRead") && !begins(c, "glAccum")) ||
+	       k->role == GLS_ROLE_CALL_LIST || k->role == GLS_ROLE_BEGIN || begins(c, "glBitmap") ||
+	       begins(c, "glCallList");
 }
 
 static void clear(struct story *s, const struct call *c)
@@ -682,7 +693,7 @@ int story_tell(struct story *s, const char *from, const char *to)
 			s->fresh = s->fresh_color = 0;
 		}
 	}
-	if (!rc && !s->why_not && !s->n_changes && s->relation->idle)
+	if (!rc && !s->why_not && !s->n_changes)
 		s->why_not = s->relation->idle;
 	if (!rc && !s->why_not)
 		return trace_out_finish(&s->out, NULL);
