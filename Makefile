@@ -312,7 +312,7 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 LIBS_test_blend := -lEGL -lGL
 
 # Tells recordings otherwise.
-$(BUILD)/tests/same/relations: $(BUILD)/tests/same/story.o
+$(BUILD)/tests/same/relations: $(patsubst %.c,$(BUILD)/%.o,$(filter-out tests/same/relations.c,$(wildcard tests/same/*.c)))
 
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c tests/check/host_cl.c) \

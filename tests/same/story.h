@@ -100,6 +100,12 @@ void not_for(struct story *s, const char *why);
 
 /** Write a run's vertices in this order (NULL: as they come) as a primitive; current attributes are afterwards those of the machine. */
 void say_run(struct story *s, uint32_t mode, const struct story_vertex *v, uint32_t n, const uint32_t *order);
+/** Write a call as it is. */
+void say_call(struct story *s, const struct call *c);
+/** The state machine executes a call. */
+void story_execute(struct story *s, const struct call *c);
+/** Set an attribute. lasts: as by `tell`. */
+void put_attribute(struct story *s, unsigned attribute, const float value[4], int lasts);
 /** Set an attribute, if it is not what was written last. */
 void say_attribute(struct story *s, unsigned attribute, const float value[4]);
 /** Set current attributes to what the machine has. */
