@@ -1,10 +1,10 @@
 /*
- * A recording told otherwise: calls come from one recording, run through a state machine, and go into another one, as they are or as a
- * relation (relations.h) has them.
+ * A recording told otherwise: calls come from one recording, run through a state machine, and go into another one, as
+ * they are or as a relation (relations.h) has them.
  *
- * Relations that need vertices get runs: a primitive mode and whole vertices, whether they came between Begin and End, from arrays or
- * from display lists. All else that draws (vertex programs with attributes of their own, materials between Begin and End, evaluators,
- * lists with pixels) is foreign: it is passed on as it is, or the relation does not apply.
+ * Relations that need vertices get runs: a primitive mode and whole vertices, whether they came between Begin and End,
+ * from arrays or from display lists. All else that draws (vertex programs with attributes of their own, materials
+ * between Begin and End, evaluators, pixels) is foreign: it is passed on as it is, or the relation does not apply.
  */
 #pragma once
 
@@ -26,7 +26,7 @@ struct story_vertex {
 
 struct story_run {
 	uint32_t mode, n, room; /* mode: a GL token */
-	uint32_t given;         /* in a display list: attributes that it brings itself, 1 << attribute. Others are those of the moment */
+	uint32_t given;         /* in a display list: attributes that it brings itself, 1 << attribute */
 	int listed;             /* 1: it came from a list, or by indices: gls_geometry_turn_quads */
 	struct story_vertex *v; /* owned */
 	float after[STORY_ATTRIBUTES][4]; /* current attributes */
@@ -98,7 +98,7 @@ void *need(void *memory);
 /** The relation does not apply to this recording. */
 void not_for(struct story *s, const char *why);
 
-/** Write a run's vertices in this order (NULL: as they come) as a primitive; current attributes are afterwards those of the machine. */
+/** Write vertices in this order (NULL: as they come) as a primitive; then current attributes are the machine's. */
 void say_run(struct story *s, uint32_t mode, const struct story_vertex *v, uint32_t n, const uint32_t *order);
 /** Write a call as it is. */
 void say_call(struct story *s, const struct call *c);
