@@ -85,7 +85,7 @@ static int usage(void)
 
 int main(int argc, char **argv)
 {
-	struct story s = { 0 }, first = { .relation = &measured };
+	static struct story s, first = { .relation = &measured }; /* what they own goes with the program */
 	int rc;
 
 	for (unsigned i = 0; i < n_relations && argc == 1; i++) {

@@ -18,7 +18,8 @@ static struct story_run *run_copy(const struct story_run *run)
 
 	*copy = *run;
 	copy->v = need(malloc((run->n + 1) * sizeof(*copy->v)));
-	memcpy(copy->v, run->v, run->n * sizeof(*copy->v));
+	if (run->n)
+		memcpy(copy->v, run->v, run->n * sizeof(*copy->v));
 	copy->room = run->n;
 	return copy;
 }
@@ -69,6 +70,14 @@ static void items_clear(struct story_items *items)
 		}
 	items->n = 0;
 	arena_reset(&items->arena, (size_t)64 << 20);
+}
+
+static void items_free(struct story_items *items)
+{
+	items_clear(items);
+	arena_free(&items->arena);
+	free(items->items);
+	free(items);
 }
 
 /* ---- what is performed: held, or handed to the relation ---- */
@@ -383,7 +392,7 @@ static void keep_in_list(struct story *s, const struct call *c)
 	if (is(c, "glEndList")) {
 		old = table_remove(&s->lists, s->list_name);
 		if (old)
-			items_clear(old); /* its memory stays: a test's tool */
+			items_free(old);
 		if (table_set(&s->lists, s->list_name, s->list))
 			exit(-ERR_SYSTEM);
 		s->list = NULL;

@@ -22,8 +22,9 @@ from table import Shown  # noqa: E402
 # Programs below BUILD, and their options. Of all of them frame 1 is looked at.
 SMALL = [f"corpus/{line} --frames 3 --size 400x300" for line in (
     "arena", "blocks", "board_fbo --by quad", "board_fbo --by blit", "closed_hall", "courtyard", "courtyard lit",
-    "facets", "hall", "model_on_cube", "phong", "phong --by glsl", "phong --by vertex", "spheres", "still_life", "street",
-    "street --by unlit", "tree_cards", "tricks planar", "tricks zfail", "tricks mirror", "viewer", "viewer --ortho")]
+    "facets", "hall", "model_on_cube", "phong", "phong --by glsl", "phong --by vertex", "spheres", "still_life",
+    "street", "street --by unlit", "tree_cards", "tricks planar", "tricks zfail", "tricks mirror", "viewer",
+    "viewer --ortho")]
 PROGRAMS = SMALL + [f"corpus/{name} --frames 3" for name in ("glx/marbles", "rooms", "es/fixed", "es/shapes")] + [
     f"tests/real/panels/{name}" for name in ("light", "fog", "texture")]
 FAULTS = {"passes1": 1, "bulb3": 0, "sky3dn": 0, "grow": 0}  # of ../shared/faults: a frame that is as it should be
