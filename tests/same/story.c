@@ -97,6 +97,7 @@ static void perform_run(struct story *s, const struct story_run *run)
 		if (s->pass && memcmp(s->x->st->a.current.attribute[a], run->after[a], sizeof(run->after[a])) != 0)
 			put_attribute(s, a, run->after[a], 1);
 	(s->relation->run ? s->relation->run : run_as_it_is)(s, run);
+	say_current(s); /* also where the run itself comes later, or not at all */
 }
 
 static void perform_call(struct story *s, const struct call *c, int foreign)
