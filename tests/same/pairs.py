@@ -41,8 +41,9 @@ class Verdict:
 
 
 def run(*args):
-    return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          errors="replace", timeout=300, check=False)
+    """A program's result. What is not done after five minutes counts as failed."""
+    return subprocess.run(["timeout", "300", *map(str, args)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          errors="replace", check=False)
 
 
 def read_relations(tool):
@@ -138,6 +139,8 @@ class Told:
             if done.returncode:
                 return Verdict(None if done.returncode == 77 else False, f"{done.stdout}{done.stderr}".strip())
         image = self.render(told, self.cut_frame, name)
+        if name != "-":
+            told.unlink()
         if any(base == name for base, _, _ in self.relations.values()):
             self.images[name] = image
         return image

@@ -44,6 +44,8 @@ void say_call(struct story *s, const struct call *c)
 {
 	if (!s->mute && trace_out_call(s->out, c))
 		exit(-ERR_SYSTEM);
+	if (s->n_said++ == STORY_MOST_CALLS)
+		not_for(s, "it would take millions of calls");
 }
 
 void story_execute(struct story *s, const struct call *c)

@@ -19,6 +19,7 @@
 #include "replay/trace/trace_out.h"
 
 enum { STORY_ATTRIBUTES = GLS_ATTR_GENERIC }; /* the conventional ones */
+enum { STORY_MOST_CALLS = 6000000 };
 
 struct story_vertex {
 	float position[4], attribute[STORY_ATTRIBUTES][4];
@@ -54,6 +55,7 @@ struct story {
 	uint64_t thread;
 	const char *why_not;  /* the relation does not apply; a static string. NULL: it does so far */
 	uint64_t n_changes;   /* places that the relation has changed */
+	uint64_t n_said;      /* calls written */
 	int mute;             /* 1: nothing is written */
 	float said[STORY_ATTRIBUTES][4]; /* current attributes, as what was written leaves them */
 
