@@ -549,4 +549,4 @@ FORCE:
 # Objects are kept, also those that only a pattern names.
 .PRECIOUS: $(BUILD)/%.o
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
-	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(DRIVE_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)
+	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(patsubst %.c,$(BUILD)/%.d,$(wildcard tests/same/*.c)) $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(DRIVE_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)
