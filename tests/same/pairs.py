@@ -136,8 +136,10 @@ class Told:
         told = self.cut if name == "-" else self.folder / f"{name}.trace"
         if name != "-":
             done = run(self.build / "tests/same/relations", name, self.cut, told)
+            if done.returncode == 77:
+                return Verdict(None, done.stdout.strip())
             if done.returncode:
-                return Verdict(None if done.returncode == 77 else False, f"{done.stdout}{done.stderr}".strip())
+                return Verdict(False, f"it cannot be told: exit code {done.returncode}: {done.stderr.strip()}")
         image = self.render(told, self.cut_frame, name)
         if name != "-":
             told.unlink()

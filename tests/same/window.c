@@ -18,6 +18,7 @@ static void make_target(struct story *s)
 	if (st->samples > 1 || !st->double_buffered)
 		not_for(s, "the window has several samples, or no back buffer");
 	s->target = OURS;
+	s->step = d->width << 16 | d->height;
 	say(s, "glBindTexture", "uu", GL_TEXTURE_2D, OURS);
 	say(s, "glTexParameteri", "uuu", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
 	say(s, "glTexParameteri", "uuu", GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -60,6 +61,8 @@ void frame_target(struct story *s)
 
 	if (!s->target)
 		return;
+	if (s->step != (d->width << 16 | d->height))
+		not_for(s, "the window's size changes");
 	say(s, "glBindFramebuffer", "uu", GL_FRAMEBUFFER, 0);
 	begin_flat(s, mat4_identity);
 	if (s->relation->amount > 0) {
