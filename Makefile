@@ -311,6 +311,9 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 
 LIBS_test_blend := -lEGL -lGL
 
+# Tells recordings otherwise.
+$(BUILD)/tests/same/relations: $(patsubst %.c,$(BUILD)/%.o,$(filter-out tests/same/relations.c,$(wildcard tests/same/*.c)))
+
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c tests/check/host_cl.c) \
 	$(patsubst %,$(BUILD)/tests/%,real/back real/blocking real/closer real/cracks real/deep real/depths real/elsewhere real/empty real/endless real/errors real/front real/greedy real/growing real/kdtree real/layers real/leaving real/linear real/moved real/multisampled real/objects real/parameters real/parting real/parts real/persistent real/pixels real/pixmaps real/projections real/readbacks real/samples real/shapes real/shared real/sums real/surfaces real/targets real/textures real/units real/vertices real/windows bench/static_scene) \
@@ -330,7 +333,7 @@ HOST_TESTS := $(addprefix $(BUILD)/tests/check/test_,rays camera shade compose)
 
 # With ONLY, what other tests need is left alone.
 HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny $(BUILD)/tests/fuzz/drive $(HOST_TESTS)
-BUILT_FOR_TESTS := $(HELPERS) $(addprefix $(BUILD)/tests/bench/,hits build queries)
+BUILT_FOR_TESTS := $(HELPERS) $(BUILD)/tests/same/relations $(addprefix $(BUILD)/tests/bench/,hits build queries)
 check: all pages $(CORPUS) $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(BUILT_FOR_TESTS)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
@@ -344,7 +347,7 @@ picture: all $(BUILD)/corpus/glx/marbles
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. Group NAME of
 # packaging/deps.txt is what it alone needs installed, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := bisect ci crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject journeys kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms sandbox sanitize seek \
+SCRIPTS := bisect ci crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject journeys kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms same sandbox sanitize seek \
 	film soak sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := ci crashes frames mutants replay
@@ -363,6 +366,7 @@ NEEDS_overhead = $(HELPERS)
 NEEDS_photons := $(BUILD)/tests/truth/test_caustics
 NEEDS_reach = $(WINDOWS) $(BUILD)/tests/real/deep
 NEEDS_rooms := $(BUILD)/tests/unit/test_repair
+NEEDS_same = $(HELPERS) $(BUILD)/tests/same/relations
 NEEDS_sandbox = $(HELPERS)
 NEEDS_mutants = $(HELPERS) $(BUILD)/tests/fuzz/drive $(BUILD)/tests/fuzz/make_seeds
 NEEDS_soak = $(HELPERS)
@@ -545,4 +549,4 @@ FORCE:
 # Objects are kept, also those that only a pattern names.
 .PRECIOUS: $(BUILD)/%.o
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
-	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(DRIVE_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)
+	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(patsubst %.c,$(BUILD)/%.d,$(wildcard tests/same/*.c)) $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(DRIVE_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)

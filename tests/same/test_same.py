@@ -1,0 +1,49 @@
+#!/usr/bin/python3
+# limit: 600 s
+"""The same scene, told otherwise, gives the same picture: relations (relations.c) over a lit room with a mirror, and
+some over a street with a sky. Not here: what is known to differ, which `make show-same` counts."""
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
+from helpers import BUILD, ROOT, SCRATCH, check, corpus, finish, record  # noqa: E402
+from pairs import ROUNDS, Told, compare  # noqa: E402
+
+DIFFER = {"farther", "lights"}  # shadows from nothing; mirrors show only the first pass
+SOME = {"trimmed", "immediate", "lists", "elements", "split", "undone", "wound"}
+
+golden = ROOT / "tests/golden/cornell.trace"
+street = SCRATCH / "street.trace"
+record(street, corpus("street"), "--frames", 2, "--size", "200x150", options=())
+for trace, some in ((golden, None), (street, SOME)):
+    told = Told(BUILD, trace, 1, SCRATCH / trace.stem)
+    verdicts = {name: told.pair(name) for name, (base, _, _) in told.relations.items()
+                if base and (name in some if some else name not in DIFFER)}
+    for name, verdict in verdicts.items():
+        check(verdict.same is not False, f"{trace.stem}, {name}: {verdict}")
+    applied = sum(verdict.same is True for verdict in verdicts.values())
+    check(applied >= (len(some) if some else 30), f"{trace.stem}: {applied} relations apply")
+
+# What the comparison must see: another frame, and one pixel; and what it must not, where edges may lie elsewhere.
+told = Told(BUILD, golden, 1, SCRATCH / "controls")
+image, other = told.tell("-"), told.render(golden, 0, "other")
+verdict = compare(image, other, ROUNDS)
+check(verdict.same is False and verdict.share > 0.001 and verdict.draw, f"two frames are not the same: {verdict}")
+other = told.tell("trimmed")
+check(compare(image, other, 0).same is True, "a picture is the same as itself")
+for name, picture in (("R", "traced"), ("gl.R", "gl")):
+    kept, other.planes[name] = other.planes[name], other.planes[name].copy()
+    other.planes[name][300, 400] += 0.01
+    verdict = compare(image, other, 0)
+    check(verdict.same is False and verdict.where == (400, 300) and verdict.picture == picture, f"one pixel: {verdict}")
+    other.planes[name] = kept
+for name, plane in other.planes.items():
+    other.planes[name] = plane.copy()
+    other.planes[name][:, 1:] = plane[:, :-1]
+check(compare(image, other, 0).same is False, "moved by a pixel it is another picture")
+check(compare(image, other, ROUNDS).same is True, "but not where edges may lie one pixel elsewhere")
+
+told = Told(BUILD, ROOT / "tests/golden/two_triangles.trace", 1, SCRATCH / "flat")
+verdict = told.pair("lamps")
+check(verdict.same is None and str(verdict) == "no light has a place", f"without light no lamp, and why: {verdict}")
+finish()
