@@ -116,6 +116,10 @@ static void perform_call(struct story *s, const struct call *c, int foreign)
 static void take_run(struct story *s, struct story_run *run)
 {
 	memcpy(run->after, s->x->st->a.current.attribute, sizeof(run->after));
+	if (s->x->st->rasterizer_discard) { /* of frames that trim has left out */
+		say_current(s);
+		return;
+	}
 	if (s->holds)
 		items_add(&s->held, NULL, run);
 	if (run->n)
