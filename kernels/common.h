@@ -211,7 +211,8 @@ static inline struct vec4 v4_clamp01(struct vec4 a)
 /* As llvmpipe clamps colours of vertices: a NaN becomes 1. */
 static inline struct vec4 v4_clamp_vertex(struct vec4 a)
 {
-	return v4_clamp01(v4(a.x < 1.0f ? a.x : 1.0f, a.y < 1.0f ? a.y : 1.0f, a.z < 1.0f ? a.z : 1.0f, a.w < 1.0f ? a.w : 1.0f));
+	return v4_clamp01(v4(a.x < 1.0f ? a.x : 1.0f, a.y < 1.0f ? a.y : 1.0f, a.z < 1.0f ? a.z : 1.0f,
+	                     a.w < 1.0f ? a.w : 1.0f));
 }
 
 /* Column-major matrix times column vector, summed column by column as Mesa's vertex programs do. */

@@ -169,7 +169,9 @@ static void frame_begins(void)
 	struct drawable *d;
 	int saved = errno;
 
-	if (self.drawn || !t->id || (t->system != DRAWABLE_GLX && t->system != DRAWABLE_EGL) || !writer_active() || skip_active())
+	if (self.drawn || !t->id || !writer_active() || skip_active())
+		return;
+	if (t->system != DRAWABLE_GLX && t->system != DRAWABLE_EGL)
 		return;
 	d = drawable_find(t->id);
 	if (d) {

@@ -150,7 +150,8 @@ static enum unread why_unread(int width, int height)
 		return IS_READ;
 	if (!context_get(GL_MATRIX_MODE)) /* never 0: between glBegin and glEnd nothing can be asked */
 		return IN_BEGIN;
-	return context_get(GL_LIST_INDEX) ? IN_LIST : IS_READ; /* a list that is being compiled would take the selection of the buffer */
+	/* A list that is being compiled would take the selection of the buffer. */
+	return context_get(GL_LIST_INDEX) ? IN_LIST : IS_READ;
 }
 
 /* The first time. */

@@ -103,7 +103,8 @@ static void choose_columns(const struct output_run *run, const struct score *con
 
 	for (size_t i = 0; i < n_rows; i++) {
 		shows_reference |= run->reference && fails_beside(rows[i], 1);
-		shows_beauty |= !run->baseline && strcmp(rows[i]->layer, "beauty") != 0; /* else it is what is compared, or there already */
+		/* Else it is what is compared, or there already. */
+		shows_beauty |= !run->baseline && strcmp(rows[i]->layer, "beauty") != 0;
 	}
 	for (size_t c = 0; run->baseline && c < sizeof(of_change) / sizeof(of_change[0]); c++)
 		sheet->columns[sheet->n_columns++] = of_change[c];
@@ -113,8 +114,8 @@ static void choose_columns(const struct output_run *run, const struct score *con
 }
 
 /* A cell's label. @param picture  what the row is called @return 1 where it says that something failed */
-static int label(const struct sheet *sheet, int column, const struct score *s, const struct picture_frame *frame, const char *picture,
-                 char out[LABEL_SIZE])
+static int label(const struct sheet *sheet, int column, const struct score *s, const struct picture_frame *frame,
+                 const char *picture, char out[LABEL_SIZE])
 {
 	const enum picture_kind kind = sheet->columns[column];
 	const int is_of_change = sheet->columns[0] == PICTURE_APPROVED, failed = fails_beside(s, kind == PICTURE_DIFFERENCE);
@@ -131,7 +132,8 @@ static int label(const struct sheet *sheet, int column, const struct score *s, c
 	if (kind == PICTURE_CHANGE)
 		snprintf(out, LABEL_SIZE, "difference x 8: %s", failed ? "changed" : "as approved");
 	else if (kind == PICTURE_DIFFERENCE)
-		snprintf(out, LABEL_SIZE, "difference x 8: %s, %.2f %%", failed ? "failed" : score_outcome_names[s->outcome], 100 * s->fidelity);
+		snprintf(out, LABEL_SIZE, "difference x 8: %s, %.2f %%", failed ? "failed" : score_outcome_names[s->outcome],
+		         100 * s->fidelity);
 	else if (column == 0)
 		snprintf(out, LABEL_SIZE, "%s, %s", name, picture);
 	else

@@ -79,7 +79,7 @@ static inline float function_log2(float a)
 	return a < INFINITY ? M_FMA(y, M_FMA(odd, z, even), (float)((int)(exponent >> 23) - 127)) : a;
 }
 
-/* 0 to any power is 0, to that of 0 as well; so is what is not normal, which the processor takes for 0 (lp_build_pow). */
+/* 0 to any power is 0, to that of 0 as well (lp_build_pow); what is not normal counts as 0. */
 static inline float function_power(float a, float b)
 {
 	return (M_BITS(a) & 0x7f800000u) == 0u ? 0.0f : function_exp2(function_log2(a) * b);

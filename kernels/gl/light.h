@@ -46,8 +46,8 @@ static inline float light_spot(GLOBAL const struct scene_light *light, struct ve
 }
 
 /*
- * 1 where Mesa (22.3.6, ffvertex_prog.c) raises the cosine to the light to its own power in place of a highlight's: no material's highlight has
- * a power, and the light's strength differs from place to place.
+ * 1 where Mesa (22.3.6, ffvertex_prog.c) raises the cosine to the light to its own power in place of a highlight's:
+ * no material's highlight has a power, and the light's strength differs from place to place.
  */
 static inline int light_is_own_power(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *light)
 {
@@ -58,7 +58,8 @@ static inline int light_is_own_power(GLOBAL const struct scene_material *m, GLOB
 }
 
 /* A highlight, before strength and colours. */
-static inline float light_shine(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *light, float shininess, float n_h, float n_l)
+static inline float light_shine(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *light,
+                                float shininess, float n_h, float n_l)
 {
 	if (light_is_own_power(m, light))
 		return M_POW(n_l, n_l);

@@ -63,7 +63,8 @@ static void write_shadow(const struct tricks *t, unsigned first, const struct so
 			n++;
 		}
 	fprintf(out, "  - role: %s\n    confidence: %.2f\n", trick_names[f->kind], confidence_of(votes));
-	fprintf(out, "    why: \"%u draws in %u frames %s ", votes, frames, is_volume ? "have edges that meet in" : "are flattened away from");
+	fprintf(out, "    why: \"%u draws in %u frames %s ", votes, frames,
+	        is_volume ? "have edges that meet in" : "are flattened away from");
 	if (n == 1)
 		fprintf(out, "one light; ");
 	else

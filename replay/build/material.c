@@ -279,7 +279,10 @@ static uint32_t fill_stipple(struct gls_exec *x, struct gls_frame *f, const stru
 	              sizeof(a->polygon_stipple));
 }
 
-/* color: the current one, which vertices may have instead; covered: 1: they have none, and the material's own has come over it (waiting.h) */
+/*
+ * color: the current one, which vertices may have instead; covered: 1: they have none, and the material's own has come over it
+ * (gl/geometry/waiting.h)
+ */
 static void fill_lighting(const struct gls_lighting *l, const float color[4], int covered, struct scene_material *m)
 {
 	const int tracks = l->color_material && !covered;
@@ -398,7 +401,8 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 
 	memset(&m, 0, sizeof(m));
 	m.lighting = a->lighting.enabled;
-	fill_lighting(&a->lighting, e->values[GLS_ATTR_COLOR], st->waiting.covers && !st->waiting.colored && !e->mesh->mesh.color, &m);
+	fill_lighting(&a->lighting, e->values[GLS_ATTR_COLOR],
+	              st->waiting.covers && !st->waiting.colored && !e->mesh->mesh.color, &m);
 	if (runs_vertices)
 		fill_vertex_stage(st, vertices.code, &m);
 	lights = runs_vertices ? program_lights(vertices.code) | (runs_fragments ? program_lights(fragments.code) : 0) :

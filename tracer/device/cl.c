@@ -69,7 +69,8 @@ static struct cl_common *all_left;
 static pthread_mutex_t left_lock = PTHREAD_MUTEX_INITIALIZER;
 
 /*
- * A sub-device of so many units, so that a run uses no more cores than it was given. PoCL 7's processors have no sub-devices: the user is told.
+ * A sub-device of so many units, so that a run uses no more cores than it was given. PoCL 7's processors have no
+ * sub-devices: the user is told.
  */
 static int limit_threads(struct cl_common *dev, int cpu, unsigned threads)
 {

@@ -20,8 +20,8 @@ struct expand_input {
 	uint32_t width, height, depth_bits;
 	uint32_t from_below, mesa; /* scene.samples_from_below and .mesa */
 	/*
-	 * 1: the view is cut at twice its width and height. llvmpipe does so where there is neither depth nor stencil buffer and colours are 8 bits
-	 * of one sample (lp_state_derived.c, 22.3.6 to 25.0): what is cut there begins at another place between two pixels.
+	 * 1: the view is cut at twice its width and height. llvmpipe does so where there is neither depth nor stencil buffer
+	 * and colours are 8 bits of one sample (lp_state_derived.c, 22.3.6): what is cut begins elsewhere between two pixels.
 	 */
 	int guards;
 	const struct shaded_vertex *vertices; /* [mesh vertices] */

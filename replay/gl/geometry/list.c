@@ -138,7 +138,8 @@ static int extent_of(const struct call *c, int8_t i)
 static size_t pixel_bytes(const struct gls_pixel_args *a, const struct call *c, const struct gls_pixel_store *s)
 {
 	const struct pixel_box box = {
-		a->dims, a->format < 0 ? GL_COLOR_INDEX : arg_u(c, (unsigned)a->format), a->type < 0 ? GL_BITMAP : arg_u(c, (unsigned)a->type),
+		a->dims, a->format < 0 ? GL_COLOR_INDEX : arg_u(c, (unsigned)a->format),
+		a->type < 0 ? GL_BITMAP : arg_u(c, (unsigned)a->type),
 		extent_of(c, a->width), extent_of(c, a->height), extent_of(c, a->depth),
 	};
 
@@ -148,23 +149,28 @@ static size_t pixel_bytes(const struct gls_pixel_args *a, const struct call *c, 
 }
 
 /*
- * Pixels are read when the list is made, also those in a buffer (sec. 5.4, ARB_pixel_buffer_object): put them in the place of their offset.
+ * Pixels are read when the list is made, also those in a buffer (sec. 5.4, ARB_pixel_buffer_object): put them in the
+ * place of their offset.
  * @param args  [MAX_ARGS]; receives the arguments
  * @return 1 where the call reads a buffer
  */
-static int take_pixels(struct gls_exec *x, struct gls_state *st, const struct call *c, const struct gls_pixel_args *a, struct trace_value *args)
+static int take_pixels(struct gls_exec *x, struct gls_state *st, const struct call *c, const struct gls_pixel_args *a,
+                       struct trace_value *args)
 {
 	const unsigned at = (unsigned)a->at;
 	const uint8_t *data;
 	size_t n, wanted;
 
-	if (a->at < 0 || at >= c->n_args || c->n_args > MAX_ARGS || c->args[at].type == TRACE_BLOB || !st->client.unpack.buffer)
+	if (a->at < 0 || at >= c->n_args || c->n_args > MAX_ARGS)
+		return 0;
+	if (c->args[at].type == TRACE_BLOB || !st->client.unpack.buffer)
 		return 0;
 	gls_pixel_missing(x, st, c, at);
 	data = gls_pixel_source(st, c, at, &n);
 	wanted = pixel_bytes(a, c, &st->client.unpack);
 	memcpy(args, c->args, c->n_args * sizeof(*args));
-	args[at] = (struct trace_value){ .type = TRACE_BLOB, .count = n < wanted ? n : wanted, .blob = data ? data : (const uint8_t *)"" };
+	args[at] = (struct trace_value){ .type = TRACE_BLOB, .count = n < wanted ? n : wanted,
+		                         .blob = data ? data : (const uint8_t *)"" };
 	return 1;
 }
 

@@ -5,7 +5,8 @@
 void gls_color_changed(struct gls_state *st)
 {
 	for (unsigned side = 0; side < 2; side++)
-		gls_set_face_colors(&st->a.lighting.face[side], gls_tracked_colors(&st->a.lighting, side), st->a.current.attribute[GLS_ATTR_COLOR]);
+		gls_set_face_colors(&st->a.lighting.face[side], gls_tracked_colors(&st->a.lighting, side),
+		                    st->a.current.attribute[GLS_ATTR_COLOR]);
 	st->dirty |= GLS_DIRTY_MATERIAL;
 	st->waiting.covers = 0;
 }
