@@ -28,9 +28,10 @@ static int is_depth_alone(const struct scene *s, const struct scene_instance *in
 	       s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle;
 }
 
-static int is_film(const struct scene_material *m)
+/* A colour that stops light, or some of it, by itself; passes that add light do not. */
+static int is_body(const struct scene_material *m)
 {
-	return m->color_mask & 7 && m->depth_test && m->blend && m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA;
+	return m->color_mask & 7 && m->depth_test && (!m->blend || m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA);
 }
 
 static int is_same_body(const struct scene *s, const struct scene_instance *a, const struct scene_instance *b)
@@ -49,7 +50,7 @@ void scene_find_depths(const struct scene *scene, uint8_t *depths)
 	for (uint32_t i = first_kept(scene); i < scene->n_instances; i++)
 		n += depths[i] = (uint8_t)is_depth_alone(scene, &scene->instances[i]);
 	for (uint32_t i = 0; i < scene->n_instances && n; i++)
-		for (uint32_t k = 0; k < i && is_film(&scene->materials[scene->instances[i].material]); k++)
+		for (uint32_t k = 0; k < i && is_body(&scene->materials[scene->instances[i].material]); k++)
 			if (depths[k] && is_same_body(scene, &scene->instances[i], &scene->instances[k]))
 				depths[k] = 0;
 }

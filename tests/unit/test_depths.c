@@ -76,6 +76,7 @@ START_TEST(test_seen_through)
 	struct body b;
 
 	ck_assert_uint_eq(CHANGED(materials[LIGHT].blend_dst_rgb, GL_ONE_MINUS_SRC_ALPHA), 0);
+	ck_assert_uint_eq(CHANGED(materials[LIGHT].blend, 0), 0); /* a pre-pass of what is then drawn as usual */
 	b.instances[LIGHT].modelview[12] = 1;                   /* another body */
 	ck_assert_uint_eq(is_solid(&b), 1);
 }

@@ -43,8 +43,9 @@ static const struct accel_space *space_of(const struct job *job, const struct se
 static int has_one_space(const struct job *job)
 {
 	const struct accel_space *space = NULL;
+	const int has_rays = job->prepared.n_light_slots || plain_has_mirrors(job);
 
-	for (uint32_t i = 0; i < job->prepared.n_segments; i++) {
+	for (uint32_t i = 0; i < job->prepared.n_segments && has_rays; i++) {
 		const struct segment *segment = &job->prepared.segments[i];
 		const struct accel_space *own = segment->view == SCENE_NONE ? NULL : space_of(job, segment);
 
