@@ -6,6 +6,7 @@
 #include "base/mat4.h"
 #include "gl_tokens.h"
 #include "look/blockers.h"
+#include "look/modelview.h"
 
 #define HALF_TURN 3.14159265358979
 /* A place is within a body whose winding number about it is nearer to 1 than to 0. */
@@ -37,7 +38,7 @@ static int has_side(const struct scene *s, const struct scene_instance *in)
 	return (m->lighting || s->meshes[in->mesh]->normal) && !m->two_side;
 }
 
-/* 1 where a triangle's back is the side that is shown. modelview mirrors: its determinant is negative */
+/* 1 where a triangle's back is the side that is shown. mirrors: 1 where the modelview does */
 static int is_turned(const struct scene *s, const struct scene_instance *in, uint32_t primitive, const double normal[3],
                      int mirrors)
 {
@@ -55,16 +56,6 @@ static int is_turned(const struct scene *s, const struct scene_instance *in, uin
 		sum += n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2];
 	}
 	return sum < 0;
-}
-
-static double determinant(const float m[16])
-{
-	double column[3][3], across[3];
-
-	for (int k = 0; k < 9; k++)
-		column[k / 3][k % 3] = m[4 * (k / 3) + k % 3];
-	cross(column[0], column[1], across);
-	return dot(across, column[2]);
 }
 
 /* A triangle with its shown side outwards. mirrors: 1 where the modelview does */
@@ -125,7 +116,7 @@ static double share_around(const struct facet *f, const double place[3])
 static int shows_back(const struct scene *s, const struct scene_instance *in, const double place[3], double *share,
                       double *viewers)
 {
-	const int mirrors = determinant(in->modelview) < 0;
+	const int mirrors = modelview_kind_of(in->modelview) == MODELVIEW_MIRRORED;
 
 	*share = *viewers = 0;
 	for (uint32_t i = 0; i < s->meshes[in->mesh]->primitive_count; i++) {
