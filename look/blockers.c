@@ -7,6 +7,8 @@
 #include "base/err.h"
 #include "base/mat4.h"
 #include "base/optimize.h"
+#include "look/corner.h"
+#include "look/sides.h"
 #include "scene/backdrop.h"
 #include "scene/depths.h"
 
@@ -27,18 +29,6 @@ struct blockers {
 	struct box *around;      /* [instance]: in eye space, of those that block */
 	uint8_t *blocks;         /* [instance] */
 };
-
-const float *blockers_corner(const struct scene_mesh *mesh, uint32_t primitive, unsigned corner)
-{
-	return mesh->position + 4 * (size_t)mesh->index[3 * (size_t)primitive + corner];
-}
-
-const float *blockers_normal(const struct scene *scene, const struct scene_instance *in, uint32_t primitive, unsigned corner)
-{
-	const struct scene_mesh *mesh = scene->meshes[in->mesh];
-
-	return mesh->normal ? mesh->normal + 3 * (size_t)mesh->index[3 * (size_t)primitive + corner] : scene->currents[in->current].normal;
-}
 
 int blockers_can(const struct scene *s, uint32_t instance, int is_depth)
 {
@@ -292,17 +282,15 @@ static float meet_triangle(const struct line *r, const float *a, const float *b,
 	return u >= 0 && v >= 0 && u + v <= 1 && t > 0 && t < r->t_max ? t : 0;
 }
 
-/* Normals are turned by the inverse transpose: against a direction in object space their sign is what it is in eye space. */
-static enum blocker_side side_shown(const struct blockers *b, const struct scene_instance *in, uint32_t primitive, const float d[3])
+static enum blocker_side side_met(const struct blockers *b, const struct scene_instance *in, uint32_t primitive, const float d[3])
 {
-	const struct scene_material *m = &b->scene->materials[in->material];
-	float sum = 0;
+	const struct sides sides = sides_of(b->scene, in);
+	double towards[3];
 
-	if (!m->lighting || m->two_side)
+	if (sides.shown == SIDES_BOTH)
 		return BLOCKER_UNKNOWN_SIDE;
-	for (unsigned c = 0; c < 3; c++)
-		sum += dot(blockers_normal(b->scene, in, primitive, c), d);
-	return sum < 0 ? BLOCKER_LIT_SIDE : BLOCKER_BACK;
+	sides_towards(b->scene, in, sides, primitive, towards);
+	return towards[0] * d[0] + towards[1] * d[1] + towards[2] * d[2] < 0 ? BLOCKER_SHOWN : BLOCKER_OTHER;
 }
 
 /* The first cluster from k on that is in a group which the line meets; a line meets a group where it meets one of its clusters. */
@@ -325,10 +313,10 @@ static unsigned meet_instance(const struct blockers *b, uint32_t i, const struct
 		if (!meets_box(r, &boxes[k]))
 			continue;
 		for (uint32_t p = k * CLUSTER; p < (k + 1) * CLUSTER && p < mesh->primitive_count && n < BLOCKERS_MOST; p++) {
-			float t = meet_triangle(r, blockers_corner(mesh, p, 0), blockers_corner(mesh, p, 1), blockers_corner(mesh, p, 2));
+			float t = meet_triangle(r, corner_place(mesh, p, 0), corner_place(mesh, p, 1), corner_place(mesh, p, 2));
 
 			if (t > 0)
-				out[n++] = (struct blocker_hit){ t, i, side_shown(b, in, p, r->d) };
+				out[n++] = (struct blocker_hit){ t, i, side_met(b, in, p, r->d) };
 		}
 	}
 	return n;

@@ -10,8 +10,8 @@
 
 enum { BLOCKERS_MOST = 32 }; /* hits of a ray that are told; further ones are not */
 
-/* Which side a surface shows to the ray's origin, where OpenGL lights one side alone. */
-enum blocker_side { BLOCKER_UNKNOWN_SIDE, BLOCKER_LIT_SIDE, BLOCKER_BACK };
+/* Which side a surface turns to the ray's origin, where it shows only one (look/sides.h). */
+enum blocker_side { BLOCKER_UNKNOWN_SIDE, BLOCKER_SHOWN, BLOCKER_OTHER };
 
 struct blocker_hit {
 	float t; /* in lengths of the ray's direction */
@@ -39,9 +39,3 @@ int blockers_has(const struct blockers *b, uint32_t instance);
  */
 unsigned blockers_on(const struct blockers *b, uint32_t space, const float from[3], const float direction[3], float t_max,
                      struct blocker_hit out[BLOCKERS_MOST]);
-
-/** A triangle's corner in object space. */
-const float *blockers_corner(const struct scene_mesh *mesh, uint32_t primitive, unsigned corner);
-
-/** The normal that lights a corner, in object space: the mesh's own, or the current one. */
-const float *blockers_normal(const struct scene *scene, const struct scene_instance *in, uint32_t primitive, unsigned corner);

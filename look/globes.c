@@ -4,9 +4,11 @@
 #include <string.h>
 
 #include "base/mat4.h"
-#include "gl_tokens.h"
+#include "base/vec3.h"
 #include "look/blockers.h"
+#include "look/corner.h"
 #include "look/modelview.h"
+#include "look/sides.h"
 
 #define HALF_TURN 3.14159265358979
 /* A place is within a body whose winding number about it is nearer to 1 than to 0. */
@@ -19,68 +21,25 @@ struct facet {
 	double corner[3][3];
 };
 
-static void cross(const double a[3], const double b[3], double out[3])
+/* A triangle with its shown side outwards. */
+static struct facet facet_of(const struct scene *s, const struct scene_instance *in, struct sides sides,
+                             uint32_t primitive, int mirrors)
 {
-	for (int k = 0; k < 3; k++)
-		out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
-static double dot(const double a[3], const double b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* 1 where normals say which side OpenGL lights; they may be there without lighting, too. */
-static int has_side(const struct scene *s, const struct scene_instance *in)
-{
-	const struct scene_material *m = &s->materials[in->material];
-
-	return (m->lighting || s->meshes[in->mesh]->normal) && !m->two_side;
-}
-
-/* 1 where a triangle's back is the side that is shown. mirrors: 1 where the modelview does */
-static int is_turned(const struct scene *s, const struct scene_instance *in, uint32_t primitive, const double normal[3],
-                     int mirrors)
-{
-	const struct scene_material *m = &s->materials[in->material];
-	const int by_winding = (m->front_face == GL_CW) ^ mirrors;
-	double sum = 0;
-
-	if (m->cull_face == GL_FRONT || m->cull_face == GL_BACK)
-		return (m->cull_face == GL_FRONT) ^ by_winding;
-	if (!has_side(s, in))
-		return by_winding;
-	for (unsigned c = 0; c < 3; c++) {
-		const float *n = blockers_normal(s, in, primitive, c);
-
-		sum += n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2];
-	}
-	return sum < 0;
-}
-
-/* A triangle with its shown side outwards. mirrors: 1 where the modelview does */
-static struct facet facet_of(const struct scene *s, const struct scene_instance *in, uint32_t primitive, int mirrors)
-{
-	double object[3][3], edge[2][3], normal[3];
+	const struct sides wound = { SIDES_BOTH, 0 };
+	double counter_clockwise[3], shown[3];
 	struct facet f;
 	int turned;
 
 	for (unsigned c = 0; c < 3; c++) {
-		const float *at = blockers_corner(s->meshes[in->mesh], primitive, c);
 		float eye[4];
 
-		mat4_transform(eye, in->modelview, at);
-		for (int k = 0; k < 3; k++) {
-			object[c][k] = at[k];
+		mat4_transform(eye, in->modelview, corner_place(s->meshes[in->mesh], primitive, c));
+		for (int k = 0; k < 3; k++)
 			f.corner[c][k] = eye[k];
-		}
 	}
-	for (int k = 0; k < 3; k++) {
-		edge[0][k] = object[1][k] - object[0][k];
-		edge[1][k] = object[2][k] - object[0][k];
-	}
-	cross(edge[0], edge[1], normal);
-	turned = is_turned(s, in, primitive, normal, mirrors) != mirrors;
+	sides_towards(s, in, wound, primitive, counter_clockwise);
+	sides_towards(s, in, sides, primitive, shown);
+	turned = (vec3_dot(counter_clockwise, shown) < 0) != mirrors;
 	for (int k = 0; k < 3 && turned; k++) {
 		const double swapped = f.corner[1][k];
 
@@ -101,12 +60,12 @@ static double share_around(const struct facet *f, const double place[3])
 	for (int c = 0; c < 3; c++) {
 		for (int k = 0; k < 3; k++)
 			r[c][k] = f->corner[c][k] - place[k];
-		length[c] = sqrt(dot(r[c], r[c]));
+		length[c] = sqrt(vec3_dot(r[c], r[c]));
 	}
-	cross(r[1], r[2], across);
-	beside = length[0] * length[1] * length[2] + dot(r[0], r[1]) * length[2] + dot(r[1], r[2]) * length[0] +
-	         dot(r[2], r[0]) * length[1];
-	return atan2(dot(r[0], across), beside) / (2 * HALF_TURN);
+	vec3_cross(r[1], r[2], across);
+	beside = length[0] * length[1] * length[2] + vec3_dot(r[0], r[1]) * length[2] + vec3_dot(r[1], r[2]) * length[0] +
+	         vec3_dot(r[2], r[0]) * length[1];
+	return atan2(vec3_dot(r[0], across), beside) / (2 * HALF_TURN);
 }
 
 /*
@@ -117,10 +76,11 @@ static int shows_back(const struct scene *s, const struct scene_instance *in, co
                       double *viewers)
 {
 	const int mirrors = modelview_kind_of(in->modelview) == MODELVIEW_MIRRORED;
+	const struct sides sides = sides_of(s, in);
 
 	*share = *viewers = 0;
 	for (uint32_t i = 0; i < s->meshes[in->mesh]->primitive_count; i++) {
-		const struct facet f = facet_of(s, in, i, mirrors);
+		const struct facet f = facet_of(s, in, sides, i, mirrors);
 		const double part = share_around(&f, place);
 
 		if (!(part > -EDGE_ON))
@@ -146,9 +106,9 @@ static uint32_t mark(const struct scene *s, const struct blockers *b, const stru
 	if (!(body->around > INSIDE) || body->around_viewer > INSIDE)
 		return 0;
 	for (uint32_t i = body->first; i < end; i++) {
-		if (!blockers_has(b, i))
+		if (!blockers_has(b, i) || sides_of(s, &s->instances[i]).shown != SIDES_BOTH)
 			continue;
-		bits[i] |= has_side(s, &s->instances[i]) ? SCENE_ONE_SIDED : SCENE_HIDDEN_FROM_LIGHTS;
+		bits[i] |= SCENE_HIDDEN_FROM_LIGHTS;
 		n++;
 	}
 	return n;

@@ -1,6 +1,6 @@
 /*
- * Bodies around lamps. A sheet blocks light only on the sides that it shows: a lamp's own globe shows its outside,
- * and the lamp sees its inside.
+ * Bodies around lamps. A lamp's own globe shows its outside, and the lamp sees its inside. Where culling or lighting
+ * tell that a part of it shows one side alone, look/sides.h sees to it; here it is told by the whole body.
  */
 #pragma once
 
@@ -19,8 +19,7 @@ struct blockers;
  * @param blockers  of the scene; what blocks nothing is not looked at
  * @param position  of the light, as in scene_light; lights at infinity have no globes
  * @param space     as in scene_view
- * @param bits      [n_instances]: receives SCENE_ONE_SIDED for instances with normals, SCENE_HIDDEN_FROM_LIGHTS for
- *                  others
+ * @param bits      [n_instances]: receives SCENE_HIDDEN_FROM_LIGHTS for instances of which nothing else tells the sides
  * @return how many instances
  */
 uint32_t globes_find(const struct scene *scene, const struct blockers *blockers, const float position[4],

@@ -8,8 +8,10 @@
 #include "base/err.h"
 #include "base/mat4.h"
 #include "look/blockers.h"
+#include "look/corner.h"
 #include "look/cards.h"
 #include "look/globes.h"
+#include "look/sides.h"
 #include "scene/draw_list.h"
 
 /* A light is shut out where it reaches less than this share of the area that it lights. A sun through a window reaches a few hundredths. */
@@ -35,6 +37,7 @@ struct sparing {
 	struct blockers *blockers;
 	struct receiver receivers[RECEIVERS];
 	uint32_t n_receivers;
+	int more_lamps; /* 1: than out->lamps has room for */
 };
 
 /* --- What is lit -------------------------------------------------------------------------------------------------------- */
@@ -65,6 +68,7 @@ static void add_lamps(struct sparing *a, uint32_t instance)
 		while (k < a->out->n_lamps && (a->out->lamps[k].space != space ||
 		                               memcmp(a->out->lamps[k].position, position, sizeof(a->out->lamps[k].position)) != 0))
 			k++;
+		a->more_lamps |= k == SPARE_MOST_LAMPS;
 		if (k < a->out->n_lamps || k == SPARE_MOST_LAMPS)
 			continue;
 		a->out->lamps[a->out->n_lamps].space = space;
@@ -112,12 +116,12 @@ static int receiver_of(const struct scene *s, uint32_t instance, uint32_t primit
 	if (!mat4_invert(inverse, in->modelview))
 		return 0;
 	for (unsigned c = 0; c < 3; c++) {
-		const float *at = blockers_corner(s->meshes[in->mesh], primitive, c);
+		const float *at = corner_place(s->meshes[in->mesh], primitive, c);
 
 		mat4_transform(corner[c], in->modelview, at);
 		for (int k = 0; k < 3; k++) {
 			middle[k] += at[k] / 3;
-			plane[k] += blockers_normal(s, in, primitive, c)[k];
+			plane[k] += corner_normal(s, in, primitive, c)[k];
 		}
 	}
 	out->area = area_of(corner[0], corner[1], corner[2]);
@@ -161,7 +165,7 @@ static void find_receivers(struct sparing *a)
 /* --- Enclosures --------------------------------------------------------------------------------------------------------- */
 
 /* The ray from a receiver to a lamp. @return 0: the lamp does not light it */
-static int ray_to(const struct sparing *a, const struct receiver *r, const struct spare_lamp *lamp, float from[3], float d[3])
+static int ray_to(const struct sparing *a, const struct receiver *r, const struct sides_lamp *lamp, float from[3], float d[3])
 {
 	float cosine = 0, length = 0, off = 0;
 
@@ -177,11 +181,11 @@ static int ray_to(const struct sparing *a, const struct receiver *r, const struc
 }
 
 /* 1 where a hit still stops light under the bits found so far. */
-static int stops(const struct sparing *a, const struct spare_lamp *lamp, const struct blocker_hit *hit, const uint32_t *bits)
+static int stops(const struct sparing *a, const struct sides_lamp *lamp, const struct blocker_hit *hit, const uint32_t *bits)
 {
 	uint32_t b = bits[hit->instance];
 
-	return !(b & SCENE_HIDDEN_FROM_LIGHTS || (b & SCENE_ONE_SIDED && hit->side == BLOCKER_LIT_SIDE) ||
+	return !(b & SCENE_HIDDEN_FROM_LIGHTS || (b & SCENE_ONE_SIDED && hit->side == BLOCKER_SHOWN) ||
 	         (b & SCENE_STOPS_NO_SUN && lamp->position[3] == 0) || !blockers_has(a->blockers, hit->instance));
 }
 
@@ -192,11 +196,10 @@ struct fare {
 };
 
 /*
- * Send a lamp's rays, one in `step`. at_lit_side, at_last: [n_instances], NULL where not asked for: the area for which each instance stops
- * them at its lit side, and as the last one on the way.
+ * Send a lamp's rays, one in `step`. at_last: [n_instances], NULL where not asked for: the area for which each instance is the last one
+ * on the way that stops them.
  */
-static struct fare follow(const struct sparing *a, const struct spare_lamp *lamp, const uint32_t *bits, uint32_t step, float *at_lit_side,
-                          float *at_last)
+static struct fare follow(const struct sparing *a, const struct sides_lamp *lamp, const uint32_t *bits, uint32_t step, float *at_last)
 {
 	struct fare fare = { 0, 0, 0 };
 
@@ -212,11 +215,8 @@ static struct fare follow(const struct sparing *a, const struct spare_lamp *lamp
 		fare.area += a->receivers[i].area;
 		n = blockers_on(a->blockers, lamp->space, from, d, lamp->position[3] != 0 ? 0.9999f : INFINITY, hits);
 		for (unsigned k = 0; k < n; k++) {
-			if (!stops(a, lamp, &hits[k], bits))
-				continue;
-			last = !last || hits[k].t > last->t ? &hits[k] : last;
-			if (at_lit_side && hits[k].side == BLOCKER_LIT_SIDE)
-				at_lit_side[hits[k].instance] += a->receivers[i].area;
+			if (stops(a, lamp, &hits[k], bits))
+				last = !last || hits[k].t > last->t ? &hits[k] : last;
 		}
 		fare.reached += last ? 0 : a->receivers[i].area;
 		if (last && at_last)
@@ -244,28 +244,23 @@ static uint32_t mark(const struct sparing *a, const float *stopped, const struct
 }
 
 /* Let a lamp in that an enclosure shuts out. stopped, bits: [n_instances], room to try in */
-static void let_in(struct sparing *a, const struct spare_lamp *lamp, float *stopped, uint32_t *bits)
+static void let_in(struct sparing *a, const struct sides_lamp *lamp, float *stopped, uint32_t *bits)
 {
 	const uint32_t n = a->scene->n_instances;
-	struct fare fare = follow(a, lamp, a->out->bits, a->n_receivers / FIRST_RECEIVERS + 1, NULL, NULL);
-	uint32_t marked;
+	struct fare fare = follow(a, lamp, a->out->bits, a->n_receivers / FIRST_RECEIVERS + 1, NULL);
+	uint32_t marked = 0;
 
 	if (!is_shut_out(&fare))
 		return;
-	memset(stopped, 0, n * sizeof(*stopped));
-	fare = follow(a, lamp, a->out->bits, 1, stopped, NULL);
-	if (!is_shut_out(&fare))
-		return;
 	memcpy(bits, a->out->bits, n * sizeof(*bits));
-	marked = mark(a, stopped, &fare, SCENE_ONE_SIDED, bits);
 	for (int layer = 0; layer < 3; layer++) {
 		memset(stopped, 0, n * sizeof(*stopped));
-		fare = follow(a, lamp, bits, 1, NULL, stopped);
+		fare = follow(a, lamp, bits, 1, stopped);
 		if (!is_shut_out(&fare))
 			break;
 		marked += mark(a, stopped, &fare, lamp->position[3] == 0 ? SCENE_STOPS_NO_SUN : SCENE_HIDDEN_FROM_LIGHTS, bits);
 	}
-	fare = follow(a, lamp, bits, 1, NULL, NULL);
+	fare = follow(a, lamp, bits, 1, NULL);
 	if (fare.reached < REACHED_AFTER * fare.area)
 		return; /* it is not they that shut the light out */
 	memcpy(a->out->bits, bits, n * sizeof(*bits));
@@ -279,7 +274,7 @@ static int find_enclosures(struct sparing *a)
 	uint32_t *bits = malloc((n + 1) * sizeof(*bits));
 
 	for (uint32_t i = 0; i < a->out->n_lamps; i++) {
-		const struct spare_lamp *lamp = &a->out->lamps[i];
+		const struct sides_lamp *lamp = &a->out->lamps[i];
 
 		a->out->enclosures += globes_find(a->scene, a->blockers, lamp->position, lamp->space, a->out->bits);
 	}
@@ -404,7 +399,7 @@ static int find_blocking(struct sparing *a)
 	return err;
 }
 
-int spare_find(const struct scene *scene, int cards_alone, struct spare *out)
+int spare_find(const struct scene *scene, int cards_alone, int new_lights, struct spare *out)
 {
 	struct sparing *a = calloc(1, sizeof(*a));
 	int err = 0;
@@ -414,19 +409,21 @@ int spare_find(const struct scene *scene, int cards_alone, struct spare *out)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	*a = (struct sparing){ .scene = scene, .out = out };
 	find_receivers(a);
-	if (!a->n_receivers) {
+	if (!out->n_lamps && !new_lights) {
 		free(a);
 		return 0;
 	}
-	out->bits = calloc(scene->n_instances, sizeof(*out->bits));
+	out->bits = calloc(scene->n_instances + (size_t)1, sizeof(*out->bits));
 	if (!out->bits)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
-	if (!err && !cards_alone)
+	if (!err)
+		out->one_sided = sides_find(scene, new_lights || a->more_lamps ? NULL : out->lamps, out->n_lamps, out->bits);
+	if (!err && !cards_alone && a->n_receivers)
 		err = find_blocking(a);
 	if (!err)
 		err = cards_find(scene, SCENE_CARD, out->bits, &out->cards);
 	free(a);
-	if (err || !(out->enclosures + out->backdrops + out->cards)) {
+	if (err || !(out->one_sided + out->enclosures + out->backdrops + out->cards)) {
 		free(out->bits);
 		out->bits = NULL;
 	}

@@ -3,10 +3,10 @@
  * outside of it, put a lit figure between walls that are pictures, and cross two cards for a tree. What shadows make of that is
  * worse than what OpenGL drew. Rules: `spare: no` turns this off; `shadows: yes` of a surface has the last word (look/rules.h).
  *
- *   enclosures   A light that reaches less than a tenth of what it lights is shut out. Surfaces that shut it out let through the light
- *                that comes from behind their lit side, which OpenGL lights no more than they show it; where that does not help,
- *                as walls are lit on both sides or have an outside as well, they let all light through that comes from beyond.
- *   globes       A body around a lamp, which sees the side that is not shown, lets its light through (look/globes.h).
+ *   sheets       What shows one side alone, by culling or lighting, blocks light on that side alone (look/sides.h).
+ *   enclosures   A light that reaches less than a tenth of what it lights is shut out: by walls that are lit on both sides, or have an
+ *                outside as well. Surfaces that shut it out let all light through that comes from beyond.
+ *   globes       A body around a lamp, which sees the side that nobody does, lets its light through (look/globes.h).
  *   backdrops    What OpenGL does not light stops no light at infinity, unless it stands within the lit world: a tree on a lit hill casts
  *                a shadow, the walls around a lit figure do not.
  *   cards        Crossed cut-out cards do not shade each other.
@@ -17,6 +17,7 @@
  */
 #pragma once
 
+#include "look/sides.h"
 #include "scene/scene.h"
 
 enum { SPARE_MOST_LAMPS = 16 };
@@ -24,16 +25,10 @@ enum { SPARE_MOST_LAMPS = 16 };
 /* What sparing decides of a surface, cards apart: bits of scene_surface's `hidden`. */
 #define SPARE_BITS (SCENE_HIDDEN_FROM_LIGHTS | SCENE_ONE_SIDED | SCENE_STOPS_NO_SUN)
 
-/* A light, once for all materials that have it. */
-struct spare_lamp {
-	float position[4]; /* as in scene_light */
-	uint32_t space;    /* as in scene_view */
-};
-
 struct spare {
 	uint32_t *bits; /* [n_instances]: SCENE_ONE_SIDED and the like; NULL: nothing is spared */
-	uint32_t enclosures, backdrops, cards; /* instances */
-	struct spare_lamp lamps[SPARE_MOST_LAMPS];
+	uint32_t one_sided, enclosures, backdrops, cards; /* instances */
+	struct sides_lamp lamps[SPARE_MOST_LAMPS];
 	uint32_t n_lamps;
 	int kept; /* 1: rules keep all this from being spared (look_apply) */
 };
@@ -46,10 +41,11 @@ int spare_named(const char *name, uint32_t *bits);
 
 /**
  * @param cards_alone  1: enclosures and backdrops, which take rays, are not looked for
+ * @param new_lights   1: rules bring lights of their own, which may stand anywhere
  * @param out          filled; free with spare_free
  * @return 0 or ERR_SYSTEM (reported)
  */
-int spare_find(const struct scene *scene, int cards_alone, struct spare *out);
+int spare_find(const struct scene *scene, int cards_alone, int new_lights, struct spare *out);
 void spare_free(struct spare *spare);
 
 /**

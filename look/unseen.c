@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "gl_tokens.h"
 #include "look/blockers.h"
+#include "look/corner.h"
 #include "look/drawn.h"
 #include "look/rules.h"
 #include "look/solid.h"
@@ -73,7 +74,7 @@ static void find_middle(const struct scene_mesh *mesh, const float modelview[16]
 	float corner[3][4];
 
 	for (unsigned c = 0; c < 3; c++)
-		mat4_transform(corner[c], modelview, blockers_corner(mesh, primitive, c));
+		mat4_transform(corner[c], modelview, corner_place(mesh, primitive, c));
 	for (int k = 0; k < 3; k++) {
 		const int i = (k + 1) % 3, j = (k + 2) % 3;
 

@@ -56,7 +56,7 @@ struct scene_face {
 /* What a surface is hidden from, and what of it the beauty goes without. */
 #define SCENE_HIDDEN_FROM_LIGHTS 1u  /* casts no shadow */
 #define SCENE_HIDDEN_FROM_MIRRORS 2u /* is not seen in mirrors and through glass */
-#define SCENE_ONE_SIDED 4u           /* light that comes from behind its lit side passes; the draw is lit, on one side */
+#define SCENE_ONE_SIDED 4u           /* light that comes from behind the only side that it shows passes (look/sides.h) */
 #define SCENE_STOPS_NO_SUN 8u        /* light at infinity passes */
 #define SCENE_CARD 16u               /* nothing nearer than its own primitive's longest edge shades it */
 #define SCENE_FACETED 32u            /* rays to lights start on its faces, whatever surface its normals mean */

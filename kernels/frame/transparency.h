@@ -74,13 +74,33 @@ static inline struct vec3 glass_absorb(GLOBAL const struct scene_material *m, fl
 	          M_EXP(-m->surface.absorb[2] * length));
 }
 
+/* Normals that stand across a triangle, to a thousandth, do not tell its sides apart. */
+#define TRANSPARENCY_ACROSS 1.0e-3f
+
+/*
+ * 1 where a ray to a light meets the only side that a surface shows: the light is behind it. What is culled is not shown; where nothing
+ * is, normals tell the side of a lit triangle (look/sides.h).
+ */
+static inline int transparency_meets_shown(const struct point *p, struct vec3 d)
+{
+	struct vec3 plane, sum;
+	float along;
+
+	if (p->material->cull_face == GL_FRONT || p->material->cull_face == GL_BACK)
+		return (p->material->cull_face == GL_BACK) == (p->front != 0);
+	plane = point_plane_normal(p);
+	sum = v3_add(v3_load(p->vertex[0]->normal), v3_add(v3_load(p->vertex[1]->normal), v3_load(p->vertex[2]->normal)));
+	along = v3_dot(plane, sum);
+	return p->material->lighting && !p->material->two_side && M_ABS(along) > TRANSPARENCY_ACROSS * M_SQRT(v3_dot(sum, sum)) &&
+	       (along > 0.0f) == (v3_dot(plane, d) < 0.0f);
+}
+
 /* 1 where a surface is spared as a blocker of a light (scene.h): by the side on which it is met, or as the light is at infinity. */
 static inline int transparency_is_spared(const struct point *p, struct vec3 d, int at_infinity)
 {
 	const uint32_t hidden = p->material->surface.hidden;
-	struct vec3 lit_side = v3_add(v3_load(p->vertex[0]->normal), v3_add(v3_load(p->vertex[1]->normal), v3_load(p->vertex[2]->normal)));
 
-	return (hidden & SCENE_STOPS_NO_SUN && at_infinity) || (hidden & SCENE_ONE_SIDED && v3_dot(lit_side, d) < 0.0f);
+	return (hidden & SCENE_STOPS_NO_SUN && at_infinity) || (hidden & SCENE_ONE_SIDED && transparency_meets_shown(p, d));
 }
 
 /* Light that a stippled surface lets through (sec. 3.5.2): as many of its pixels are not drawn. */

@@ -173,7 +173,7 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 	int err = match_begin(&a);
 
 	if (!err)
-		err = spare_find(scene, decides_sparing(a.rules), &spare);
+		err = spare_find(scene, decides_sparing(a.rules), a.lights_change || a.rules->lights_count, &spare);
 	spare.kept = !look_spares(look);
 	a.spare = spare.kept ? NULL : &spare;
 	if (!err)

@@ -12,7 +12,8 @@
 
 enum { MOST_RULES = 256 };
 
-static const uint32_t bits[SPARED_BITS] = { SCENE_HIDDEN_FROM_LIGHTS, SCENE_ONE_SIDED, SCENE_STOPS_NO_SUN };
+/* Sides are told by each draw (look/sides.h): no frame has to be asked. */
+static const uint32_t bits[SPARED_BITS] = { SCENE_HIDDEN_FROM_LIGHTS, SCENE_STOPS_NO_SUN };
 
 /* --- Votes -------------------------------------------------------------------------------------------------------------- */
 
@@ -54,7 +55,7 @@ int spared_add(struct spared *s, const struct scene *scene)
 {
 	struct spare found;
 	uint8_t *depths;
-	int err = spare_find(scene, 0, &found);
+	int err = spare_find(scene, 0, 0, &found);
 
 	if (err || !found.n_lamps) {
 		spare_free(&found);
@@ -70,7 +71,7 @@ int spared_add(struct spared *s, const struct scene *scene)
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++) {
 		const struct scene_material *m = &scene->materials[scene->instances[i].material];
 		size_t mesh = 0, texture = 0;
-		const uint32_t spared = found.bits ? found.bits[i] & SPARE_BITS : 0, lit = m->lighting != 0;
+		const uint32_t spared = found.bits ? found.bits[i] & (bits[0] | bits[1]) : 0, lit = m->lighting != 0;
 
 		if (!blockers_can(scene, i, depths[i]))
 			continue;
@@ -166,7 +167,7 @@ static unsigned write_exceptions(const struct spared *s, uint32_t is_texture, FI
 			continue;
 		write_rule(&r, "frames", out);
 		fprintf(out, "    match: { %s: \"%016" PRIx64 "%016" PRIx64 "\", lit: %s }\n    passes: %s\n", is_texture ? "texture" : "mesh", e->hash[1],
-		        e->hash[0], e->lit ? "yes" : "no", spare_name(r.decided));
+		        e->hash[0], e->lit ? "yes" : "no", spare_name(r.decided | SCENE_ONE_SIDED));
 	}
 	return n;
 }
@@ -184,7 +185,7 @@ static unsigned write_all(const struct spared *s, FILE *out)
 		if (!r.frames || !out)
 			continue;
 		write_rule(&r, lit ? "cases that are lit" : "cases that are not lit", out);
-		fprintf(out, "    match: { lit: %s }\n    passes: %s\n", lit ? "yes" : "no", spare_name(r.decided));
+		fprintf(out, "    match: { lit: %s }\n    passes: %s\n", lit ? "yes" : "no", spare_name(r.decided | SCENE_ONE_SIDED));
 	}
 	return n + write_exceptions(s, 1, out) + write_exceptions(s, 0, out);
 }

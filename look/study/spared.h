@@ -14,7 +14,7 @@
 #include "base/table.h"
 #include "scene/scene.h"
 
-enum { SPARED_BITS = 3 };
+enum { SPARED_BITS = 2 };
 
 /* How frames decide about a mesh, or a texture. */
 struct spared_entry {

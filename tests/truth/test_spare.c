@@ -98,22 +98,60 @@ START_TEST(test_depth_of_a_closed_room)
 }
 END_TEST
 
-/* A roof over half a floor is no enclosure, whatever its sides are. */
-START_TEST(test_roof_shades)
+/* How a roof over a floor is drawn. */
+static void lit_below(struct scene_material *m)
 {
-	struct made t;
-	float with, without;
+	(void)m;
+}
 
-	made_init(&t, SIZE, SIZE, 0.6f);
-	made_add_light(&t, 0, 1, 0, 0);
-	made_add_material(&t, 0.7f);
-	made_add_square(&t, 0, (float[3]){ 0, -2, -7 }, z_axis, x_axis, 3, 8);
-	made_add_square(&t, 0, (float[3]){ -1.5f, 3.5f, -7 }, x_axis, z_axis, 2, 2);
-	with = dark_share(&t, NULL);
-	without = dark_share(&t, "spare: no\n");
-	ck_assert_float_gt(with, 0.3f);
-	ck_assert_float_eq(with, without);
-	made_free(&t);
+static void lit_on_both_sides(struct scene_material *m)
+{
+	m->two_side = 1;
+}
+
+static void culled_above(struct scene_material *m)
+{
+	m->lighting = 0;
+	m->cull_face = GL_BACK;
+}
+
+static void culled_below(struct scene_material *m)
+{
+	m->cull_face = GL_FRONT;
+}
+
+static void unlit(struct scene_material *m)
+{
+	m->lighting = 0;
+}
+
+/* Light from above falls through a roof that shows its underside alone, and is blocked by any other. */
+START_TEST(test_roofs)
+{
+	static const struct {
+		void (*draw)(struct scene_material *);
+		int turned, shades; /* its normals and its front point upwards */
+	} roofs[] = {
+		{ lit_below, 0, 0 }, { lit_below, 1, 1 },    { lit_on_both_sides, 0, 1 }, { culled_above, 0, 0 },
+		{ culled_above, 1, 1 }, { culled_below, 0, 1 }, { culled_below, 1, 0 },      { unlit, 0, 1 },
+	};
+
+	for (int k = 0; k < 8; k++) {
+		const float *u = roofs[k].turned ? z_axis : x_axis, *v = roofs[k].turned ? x_axis : z_axis;
+		struct made t;
+		float with;
+
+		made_init(&t, SIZE, SIZE, 0.6f);
+		made_add_light(&t, 0, 1, 0, 0);
+		made_add_material(&t, 0.7f);
+		roofs[k].draw(&t.materials[made_add_material(&t, 0.7f)]);
+		made_add_square(&t, 0, (float[3]){ 0, -2, -7 }, z_axis, x_axis, 3, 8);
+		made_add_square(&t, 1, (float[3]){ -1, -0.5f, -7 }, u, v, 1, 2);
+		with = dark_share(&t, NULL);
+		ck_assert_msg(roofs[k].shades ? with > 0.03f : with == 0, "roof %d: %g of the floor is dark", k, (double)with);
+		ck_assert_float_gt(dark_share(&t, "spare: no\n"), 0.03f);
+		made_free(&t);
+	}
 }
 END_TEST
 
@@ -203,7 +241,7 @@ int main(void)
 	tcase_set_timeout(tests, 60);
 	tcase_add_test(tests, test_closed_room_is_lit_from_outside);
 	tcase_add_test(tests, test_depth_of_a_closed_room);
-	tcase_add_test(tests, test_roof_shades);
+	tcase_add_test(tests, test_roofs);
 	tcase_add_test(tests, test_unlit_walls);
 	tcase_add_test(tests, test_crossed_cards);
 	return run_case(tests, "spare");

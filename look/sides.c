@@ -1,0 +1,196 @@
+#include "look/sides.h"
+
+#include <math.h>
+
+#include "base/mat4.h"
+#include "base/vec3.h"
+#include "gl_tokens.h"
+#include "look/corner.h"
+#include "look/modelview.h"
+
+/* The cross products of a closed body's triangles add up to this share of their lengths at most: corners that were
+   computed twice differ by rounding. */
+#define CLOSED 1e-6
+/* Normals that stand across a triangle, to a thousandth, do not tell its sides apart: as in kernels/frame/transparency.h. */
+#define ACROSS 1e-3
+
+static enum sides_shown shown_of(const struct scene_material *m)
+{
+	if (m->cull_face == GL_FRONT)
+		return SIDES_BACK;
+	if (m->cull_face == GL_BACK)
+		return SIDES_FRONT;
+	return m->lighting && !m->two_side ? SIDES_LIT : SIDES_BOTH;
+}
+
+struct sides sides_of(const struct scene *scene, const struct scene_instance *in)
+{
+	const struct scene_material *m = &scene->materials[in->material];
+	struct sides sides = { .shown = shown_of(m) };
+
+	sides.clockwise = (m->front_face == GL_CW) ^ (sides.shown == SIDES_BACK) ^
+	                  (modelview_kind_of(in->modelview) == MODELVIEW_MIRRORED);
+	return sides;
+}
+
+/* A triangle's cross product on the side that its winding says is shown. */
+static void wound_normal(const struct scene_mesh *mesh, struct sides sides, uint32_t primitive, double out[3])
+{
+	const float *corner[3];
+	double edge[2][3];
+
+	for (unsigned c = 0; c < 3; c++)
+		corner[c] = corner_place(mesh, primitive, c);
+	for (int k = 0; k < 3; k++) {
+		edge[0][k] = (double)corner[sides.clockwise ? 2 : 1][k] - corner[0][k];
+		edge[1][k] = (double)corner[sides.clockwise ? 1 : 2][k] - corner[0][k];
+	}
+	vec3_cross(edge[0], edge[1], out);
+}
+
+void sides_towards(const struct scene *scene, const struct scene_instance *in, struct sides sides, uint32_t primitive,
+                   double out[3])
+{
+	double sum[3] = { 0, 0, 0 }, along, turn;
+
+	wound_normal(scene->meshes[in->mesh], sides, primitive, out);
+	if (sides.shown != SIDES_LIT)
+		return;
+	for (unsigned c = 0; c < 3; c++)
+		for (int k = 0; k < 3; k++)
+			sum[k] += corner_normal(scene, in, primitive, c)[k];
+	along = vec3_dot(out, sum);
+	turn = along > 0 ? 1 : -1;
+	if (!(along * along > ACROSS * ACROSS * vec3_dot(sum, sum) * vec3_dot(out, out)))
+		turn = 0;
+	for (int k = 0; k < 3; k++)
+		out[k] *= turn;
+}
+
+/* What is known of an instance's triangles, in object space. */
+struct sheet {
+	double sum[3], length; /* of cross products on the shown side, and of their lengths */
+	double volume;         /* six times what they enclose; below 0 where that is what they show */
+	float low[3], high[3];
+	uint32_t behind; /* bits: lamps that some triangle turns its other side to */
+};
+
+enum { MOST_LAMPS = 32 };
+
+/* Lamps of an instance's eye space, in its object space; w is 0 or 1. */
+struct lamps {
+	double place[MOST_LAMPS][4];
+	uint32_t n;
+};
+
+static void add_lamp(struct lamps *lamps, const struct sides_lamp *lamp, const float obj_from_eye[16])
+{
+	double *place = lamps->place[lamps->n++];
+	float at[4];
+
+	mat4_transform(at, obj_from_eye, lamp->position);
+	for (int k = 0; k < 4; k++)
+		place[k] = at[3] != 0 ? (double)at[k] / at[3] : at[k];
+}
+
+static void add_triangle(const struct scene *s, const struct scene_instance *in, struct sides sides, uint32_t primitive,
+                         const struct lamps *lamps, struct sheet *sheet)
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	double normal[3], shown[3];
+
+	wound_normal(mesh, sides, primitive, normal);
+	if (!(vec3_dot(normal, normal) > 0))
+		return; /* no ray meets it */
+	sides_towards(s, in, sides, primitive, shown);
+	for (int k = 0; k < 3; k++)
+		sheet->sum[k] += shown[k];
+	sheet->length += sqrt(vec3_dot(normal, normal));
+	for (unsigned c = 0; c < 3; c++) {
+		const float *at = corner_place(mesh, primitive, c);
+
+		sheet->volume += (shown[0] * at[0] + shown[1] * at[1] + shown[2] * at[2]) / 3;
+		for (int k = 0; k < 3; k++) {
+			sheet->low[k] = at[k] < sheet->low[k] ? at[k] : sheet->low[k];
+			sheet->high[k] = at[k] > sheet->high[k] ? at[k] : sheet->high[k];
+		}
+		for (uint32_t i = 0; i < lamps->n; i++) {
+			const double *l = lamps->place[i];
+			const double to[3] = { l[0] - l[3] * at[0], l[1] - l[3] * at[1], l[2] - l[3] * at[2] };
+
+			sheet->behind |= (uint32_t)!(vec3_dot(shown, to) > 0) << i;
+		}
+	}
+}
+
+static int is_inside(const struct sheet *sheet, const double lamp[4])
+{
+	int inside = lamp[3] != 0;
+
+	for (int k = 0; k < 3; k++)
+		inside &= lamp[k] >= sheet->low[k] && lamp[k] <= sheet->high[k];
+	return inside;
+}
+
+/* A body that shows its outside alone: what goes through it meets a side that blocks. */
+static int is_closed(const struct sheet *sheet)
+{
+	return sqrt(vec3_dot(sheet->sum, sheet->sum)) <= CLOSED * sheet->length && sheet->volume > 0;
+}
+
+/* lamps: NULL: anywhere */
+static int has_lamp_behind(const struct scene *s, const struct scene_instance *in, const struct lamps *lamps)
+{
+	static const struct lamps none = { .n = 0 };
+	struct sheet sheet = { .low = { INFINITY, INFINITY, INFINITY }, .high = { -INFINITY, -INFINITY, -INFINITY } };
+	const struct sides sides = sides_of(s, in);
+
+	for (uint32_t i = 0; i < s->meshes[in->mesh]->primitive_count; i++)
+		add_triangle(s, in, sides, i, lamps ? lamps : &none, &sheet);
+	if (!is_closed(&sheet))
+		return !lamps || sheet.behind;
+	for (uint32_t i = 0; lamps && i < lamps->n; i++)
+		if (is_inside(&sheet, lamps->place[i]))
+			return 1;
+	return 0;
+}
+
+static int is_told_apart(const struct scene *s, const struct scene_instance *in)
+{
+	return s->meshes[in->mesh]->kind == SCENE_TRIANGLES && s->meshes[in->mesh]->primitive_count && !in->rectangle &&
+	       shown_of(&s->materials[in->material]) != SIDES_BOTH;
+}
+
+/* 1 where rays to some lamp have to be asked which side of an instance they meet. */
+static int is_asked(const struct scene *s, const struct scene_instance *in, const struct sides_lamp *lamps,
+                    uint32_t n_lamps)
+{
+	struct lamps near = { .n = 0 };
+	float inverse[16];
+
+	if (s->materials[in->material].vertex_program || !mat4_invert(inverse, in->modelview))
+		return 1;
+	if (!lamps)
+		return has_lamp_behind(s, in, NULL);
+	for (uint32_t k = 0; k < n_lamps; k++) {
+		if (lamps[k].space != s->views[in->view].space)
+			continue;
+		if (near.n == MOST_LAMPS)
+			return 1;
+		add_lamp(&near, &lamps[k], inverse);
+	}
+	return near.n && has_lamp_behind(s, in, &near);
+}
+
+uint32_t sides_find(const struct scene *scene, const struct sides_lamp *lamps, uint32_t n_lamps, uint32_t *bits)
+{
+	uint32_t n = 0;
+
+	for (uint32_t i = 0; i < scene->n_instances; i++)
+		if (is_told_apart(scene, &scene->instances[i]) &&
+		    is_asked(scene, &scene->instances[i], lamps, n_lamps)) {
+			bits[i] |= SCENE_ONE_SIDED;
+			n++;
+		}
+	return n;
+}
