@@ -35,7 +35,7 @@ int blockers_can(const struct scene *s, uint32_t instance, int is_depth)
 	const struct scene_instance *in = &s->instances[instance];
 	const struct scene_material *m = &s->materials[in->material];
 
-	if (!(m->color_mask & 7 || is_depth))
+	if (!(m->color_mask & 7 || is_depth) || scene_is_never_drawn(m))
 		return 0;
 	return instance >= scene_backdrop(s) && s->meshes[in->mesh]->kind == SCENE_TRIANGLES && s->views[in->view].target == 0 && !in->rectangle && m->depth_test &&
 	       (!m->blend || m->depth_write) && !m->alpha_test && !m->logic_op && !(m->surface.transmit > 0) &&

@@ -1,8 +1,12 @@
 #include "look/sides.h"
 
+#include <float.h>
 #include <math.h>
+#include <xxhash.h>
 
+#include "base/err.h"
 #include "base/mat4.h"
+#include "base/table.h"
 #include "base/vec3.h"
 #include "gl_tokens.h"
 #include "look/corner.h"
@@ -65,6 +69,24 @@ void sides_towards(const struct scene *scene, const struct scene_instance *in, s
 		turn = 0;
 	for (int k = 0; k < 3; k++)
 		out[k] *= turn;
+}
+
+int sides_back_outside(const struct scene *scene, const struct scene_instance *in)
+{
+	const struct sides sides = sides_of(scene, in);
+	const struct sides front = { SIDES_FRONT, sides.clockwise };
+	double along = 0;
+
+	if (sides.shown != SIDES_LIT)
+		return sides.shown == SIDES_BACK;
+	for (uint32_t i = 0; i < scene->meshes[in->mesh]->primitive_count; i++) {
+		double fronts[3], shown[3];
+
+		sides_towards(scene, in, front, i, fronts);
+		sides_towards(scene, in, sides, i, shown);
+		along += vec3_dot(fronts, shown) / sqrt(fmax(vec3_dot(fronts, fronts), DBL_MIN));
+	}
+	return along < 0;
 }
 
 /* What is known of an instance's triangles, in object space. */
@@ -132,7 +154,7 @@ static int is_inside(const struct sheet *sheet, const double lamp[4])
 	return inside;
 }
 
-/* A body that shows its outside alone: what goes through it meets a side that blocks. */
+/* A body that shows its outside alone: what goes through it meets a side that blocks, where all of that does. */
 static int is_closed(const struct sheet *sheet)
 {
 	return sqrt(vec3_dot(sheet->sum, sheet->sum)) <= CLOSED * sheet->length && sheet->volume > 0;
@@ -147,7 +169,7 @@ static int has_lamp_behind(const struct scene *s, const struct scene_instance *i
 
 	for (uint32_t i = 0; i < s->meshes[in->mesh]->primitive_count; i++)
 		add_triangle(s, in, sides, i, lamps ? lamps : &none, &sheet);
-	if (!is_closed(&sheet))
+	if (!is_closed(&sheet) || s->materials[in->material].blend || s->materials[in->material].alpha_test)
 		return !lamps || sheet.behind;
 	for (uint32_t i = 0; lamps && i < lamps->n; i++)
 		if (is_inside(&sheet, lamps->place[i]))
@@ -182,15 +204,45 @@ static int is_asked(const struct scene *s, const struct scene_instance *in, cons
 	return near.n && has_lamp_behind(s, in, &near);
 }
 
-uint32_t sides_find(const struct scene *scene, const struct sides_lamp *lamps, uint32_t n_lamps, uint32_t *bits)
+/* The place of a mesh that is culled. */
+static uint64_t key_of(const struct scene *s, const struct scene_instance *in)
 {
-	uint32_t n = 0;
+	return (XXH3_64bits(in->modelview, sizeof(in->modelview)) + s->views[in->view].space) ^ s->meshes[in->mesh]->hash[0];
+}
 
-	for (uint32_t i = 0; i < scene->n_instances; i++)
-		if (is_told_apart(scene, &scene->instances[i]) &&
-		    is_asked(scene, &scene->instances[i], lamps, n_lamps)) {
+/*
+ * Which sides are shown of what stands at each place: bodies that are seen through are drawn twice, backs first. both: keys to bits of
+ * 1 << enum sides_shown
+ */
+static int find_both(const struct scene *s, struct table *both)
+{
+	for (uint32_t i = 0; i < s->n_instances; i++) {
+		const struct scene_instance *in = &s->instances[i];
+		const enum sides_shown shown = shown_of(&s->materials[in->material]);
+		const uint64_t key = key_of(s, in);
+
+		if ((shown == SIDES_FRONT || shown == SIDES_BACK) &&
+		    table_set(both, key, (void *)((uintptr_t)table_find(both, key) | (uintptr_t)1 << shown)))
+			return ERR_SYSTEM;
+	}
+	return 0;
+}
+
+int sides_find(const struct scene *scene, const struct sides_lamp *lamps, uint32_t n_lamps, uint32_t *bits, uint32_t *n)
+{
+	const uintptr_t all = (uintptr_t)1 << SIDES_FRONT | (uintptr_t)1 << SIDES_BACK;
+	struct table both = { 0 };
+	int err = find_both(scene, &both);
+
+	for (uint32_t i = 0; i < scene->n_instances && !err; i++) {
+		const struct scene_instance *in = &scene->instances[i];
+
+		if (is_told_apart(scene, in) && (uintptr_t)table_find(&both, key_of(scene, in)) != all &&
+		    is_asked(scene, in, lamps, n_lamps)) {
 			bits[i] |= SCENE_ONE_SIDED;
-			n++;
+			++*n;
 		}
-	return n;
+	}
+	table_free(&both);
+	return err;
 }

@@ -26,6 +26,9 @@ struct sides sides_of(const struct scene *scene, const struct scene_instance *in
 void sides_towards(const struct scene *scene, const struct scene_instance *in, struct sides sides, uint32_t primitive,
                    double out[3]);
 
+/** 1 where the side that an instance shows is the back of most of its triangles, by area: a body of glass has it outside. */
+int sides_back_outside(const struct scene *scene, const struct scene_instance *in);
+
 /* A light, once for all materials that have it. */
 struct sides_lamp {
 	float position[4]; /* as in scene_light */
@@ -34,10 +37,13 @@ struct sides_lamp {
 
 /**
  * Find the instances that have a lamp behind them: rays to it have to be asked which side they meet. Closed bodies
- * that show their outside are none: from outside they stop a ray wherever it goes through.
+ * that show their outside are none: from outside they stop a ray wherever it goes through. (Blended and alpha-tested
+ * ones are, as each side that counts takes its share.) What is drawn twice, so that each side is shown, shows both.
  *
  * @param lamps  NULL: light may come from anywhere
  * @param bits   [n_instances]: receives SCENE_ONE_SIDED
- * @return how many instances
+ * @param n      grows by their number
+ * @return 0 or ERR_SYSTEM (reported)
  */
-uint32_t sides_find(const struct scene *scene, const struct sides_lamp *lamps, uint32_t n_lamps, uint32_t *bits);
+int sides_find(const struct scene *scene, const struct sides_lamp *lamps, uint32_t n_lamps, uint32_t *bits,
+               uint32_t *n);

@@ -417,7 +417,7 @@ int spare_find(const struct scene *scene, int cards_alone, int new_lights, struc
 	if (!out->bits)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err)
-		out->one_sided = sides_find(scene, new_lights || a->more_lamps ? NULL : out->lamps, out->n_lamps, out->bits);
+		err = sides_find(scene, new_lights || a->more_lamps ? NULL : out->lamps, out->n_lamps, out->bits, &out->one_sided);
 	if (!err && !cards_alone && a->n_receivers)
 		err = find_blocking(a);
 	if (!err)

@@ -17,12 +17,19 @@ static uint32_t first_kept(const struct scene *s)
 	return first;
 }
 
+int scene_is_never_drawn(const struct scene_material *m)
+{
+	return m->cull_face == GL_FRONT_AND_BACK || (m->depth_test && m->depth_func == GL_NEVER) ||
+	       (m->alpha_test && m->alpha_func == GL_NEVER) ||
+	       (m->stencil_test && m->stencil_front.func == GL_NEVER && m->stencil_back.func == GL_NEVER);
+}
+
 static int is_depth_alone(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];
 	const struct scene_view *view = &s->views[in->view];
 
-	return !(m->color_mask & 7) && m->depth_test && m->depth_write && !m->stencil_test &&
+	return !(m->color_mask & 7) && !scene_is_never_drawn(m) && m->depth_test && m->depth_write && !m->stencil_test &&
 	       (m->depth_func == GL_LESS || m->depth_func == GL_LEQUAL) && view->target == 0 &&
 	       view->depth_range[0] != view->depth_range[1] &&
 	       s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle;

@@ -1,9 +1,13 @@
-/* Surfaces that a frame draws into the depth buffer alone. */
+/* Surfaces that a frame draws into the depth buffer alone, or not at all. */
 #pragma once
 
 #include <stdint.h>
 
 struct scene;
+struct scene_material;
+
+/** 1 where nothing of a draw is ever seen, nor left in the depth buffer: both sides are culled, or a test fails always. */
+int scene_is_never_drawn(const struct scene_material *m);
 
 /**
  * Find instances that write depth and no colour, and are solid: depth counts, not colour. A depth pre-pass, whose light

@@ -68,6 +68,7 @@ struct scene_face {
 #define SCENE_UNSHADED 2048u         /* nothing: it keeps the light that GL gives it, whatever stands in its way */
 #define SCENE_CREASED 8192u          /* nothing: its mesh has normals beside GL's, scene_mesh.crease */
 #define SCENE_ENTERED 16384u         /* nothing: what lets light through here leads into a body, whichever side is shown */
+#define SCENE_BACK_OUTSIDE 32768u    /* nothing: what lets light through here has its back outside */
 #define SCENE_NO_NORMALS 4096u       /* nothing: a near mirror that GL does not light turns rays about its faces */
 
 /* What rules and rtMaterialEXT say about a surface beyond GL. All zero: what GL drew, nothing else. */

@@ -137,7 +137,9 @@ WIDE_VECTORS static inline packf pack_fresnel(packf eta, packf cosine, packf *co
 /* As glass_enters. */
 WIDE_VECTORS static inline packi pack_enters(const struct pack *p)
 {
-	return p->material->surface.hidden & SCENE_ENTERED ? (packi)(-1) : p->front;
+	const uint hidden = p->material->surface.hidden;
+
+	return hidden & SCENE_ENTERED ? (packi)(-1) : hidden & SCENE_BACK_OUTSIDE ? ~p->front : p->front;
 }
 
 /* As split_light. d: length as split_light takes it */

@@ -48,10 +48,16 @@ static inline float glass_ior(GLOBAL const struct scene_material *m)
 	return m->surface.ior > 0.0f ? m->surface.ior : 1.0f;
 }
 
+/* 1 where the side of a surface of glass that is seen is its body's outside. */
+static inline int glass_is_outside(const struct point *p)
+{
+	return (p->front != 0) != ((p->material->surface.hidden & SCENE_BACK_OUTSIDE) != 0u);
+}
+
 /* 1 where light that comes to a surface of glass from the side that is seen goes into the body. */
 static inline int glass_enters(const struct point *p)
 {
-	return p->front || p->material->surface.hidden & SCENE_ENTERED;
+	return glass_is_outside(p) || p->material->surface.hidden & SCENE_ENTERED;
 }
 
 /* 1 where rays that look for colours pass a surface: rules hide it, or it has none (scene/depths.h). */
@@ -79,7 +85,7 @@ static inline struct vec3 glass_absorb(GLOBAL const struct scene_material *m, fl
 
 /*
  * 1 where a ray to a light meets the only side that a surface shows: the light is behind it. What is culled is not shown; where nothing
- * is, normals tell the side of a lit triangle (look/sides.h).
+ * is, normals tell the side of a lit triangle (look/sides.h). Glass is a body, whose sides both count.
  */
 static inline int transparency_meets_shown(const struct point *p, struct vec3 d)
 {
@@ -100,7 +106,8 @@ static inline int transparency_is_spared(const struct point *p, struct vec3 d, i
 {
 	const uint32_t hidden = p->material->surface.hidden;
 
-	return (hidden & SCENE_STOPS_NO_SUN && at_infinity) || (hidden & SCENE_ONE_SIDED && transparency_meets_shown(p, d));
+	return (hidden & SCENE_STOPS_NO_SUN && at_infinity) ||
+	       (hidden & SCENE_ONE_SIDED && !(p->material->surface.transmit > 0.0f) && transparency_meets_shown(p, d));
 }
 
 /* Light that a stippled surface lets through (sec. 3.5.2): as many of its pixels are not drawn. */
@@ -154,7 +161,7 @@ static inline struct vec3 transparency_of_hit(const struct tables *t, const stru
 		cosine = M_ABS(v3_dot(point_normal(&p), v3_normalize(d)));
 		pass = v3_scale(glass_tint(t, &p, &texturing), clamp01(m->surface.transmit) *
 		                (1.0f - glass_fresnel(1.0f / glass_ior(m), cosine, &beyond)));
-		if (!p.front) /* on its way out: through the body since the last surface */
+		if (!glass_is_outside(&p)) /* on its way out: through the body since the last surface */
 			pass = v3_mul(pass, glass_absorb(m, (hit->t - ray->t_min) * M_SQRT(v3_dot(d, d))));
 		return pass;
 	}

@@ -11,6 +11,7 @@
 #include "look/film.h"
 #include "look/gloss.h"
 #include "look/matched.h"
+#include "look/sides.h"
 #include "look/solid.h"
 
 static void add_parameters(struct scene *out, const struct parameter_rule *list, uint32_t n)
@@ -92,6 +93,8 @@ static int change_instance(const struct applying *a, uint32_t i)
 
 	*m = *own;
 	set_surface(a, i, m);
+	if (m->surface.transmit > 0 && sides_back_outside(a->scene, in))
+		m->surface.hidden |= SCENE_BACK_OUTSIDE;
 	err = meshes_smooth(a, i, &out->instances[i], m);
 	list_parameters(a, in, &m->surface);
 	decide_lighting(a, in, m, &m->surface);

@@ -180,8 +180,10 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 	if (name_draws(x, f, st, e->command, e->call_number, mesh->n_draws) ||
 	    MEMORY_GROW(s->instances, f->room.instances, s->n_instances + 1))
 		goto fail;
-	if (f->last != st || st->dirty & GLS_DIRTY_VIEW)
+	if (f->last != st || st->dirty & GLS_DIRTY_VIEW || f->is_programmed != gls_frame_is_programmed(st, e)) {
 		f->view = gls_frame_view(x, target->surface, st, e);
+		f->is_programmed = gls_frame_is_programmed(st, e);
+	}
 	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || e->attribs->lighting.color_material || st->a.programs.fragment || st->a.programs.vertex || st->a.programs.ati || st->program)
 		f->material = gls_frame_material(x, target, st, e);
 	f->last = st;

@@ -37,10 +37,19 @@ void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *sciss
 	out[3] = (int32_t)(y1 > y0 ? y1 - y0 : 0);
 }
 
-/* Views with equal viewport rectangles share their eye space (scene.h). */
-static uint32_t space_of(struct gls_exec *x, struct gls_frame *f, const struct scene_view *view)
+/*
+ * Views share their eye space (scene.h) where their viewport rectangles are equal. One in parallel projection has no eye: its coordinates
+ * are those of views alone that show x and y alike, as a window's are not those of the world before it. Programs bring matrices of their
+ * own, and what GL's say then tells nothing.
+ */
+static uint32_t space_of(struct gls_exec *x, struct gls_frame *f, const struct scene_view *view, int is_programmed)
 {
-	uint64_t key = XXH3_64bits(view->viewport, sizeof(view->viewport));
+	const float *m = view->projection;
+	const int is_parallel = !is_programmed && m[3] == 0 && m[7] == 0 && m[11] == 0;
+	const float across[] = { view->viewport[0], view->viewport[1], view->viewport[2], view->viewport[3],
+		                 m[0] / m[15], m[4] / m[15], m[8] / m[15], m[12] / m[15],
+		                 m[1] / m[15], m[5] / m[15], m[9] / m[15], m[13] / m[15] };
+	const uint64_t key = XXH3_64bits(across, is_parallel ? sizeof(across) : sizeof(view->viewport));
 	uintptr_t found = (uintptr_t)table_find(&f->spaces, key);
 
 	if (!found) {
@@ -63,6 +72,11 @@ static void fill_window_view(const struct gls_surface *surface, struct scene_vie
 	view->depth_range[1] = 1;
 }
 
+int gls_frame_is_programmed(const struct gls_state *st, const struct gls_event *e)
+{
+	return !e->in_window && (st->program || st->a.programs.vertex);
+}
+
 uint32_t gls_frame_view(struct gls_exec *x, const struct gls_surface *surface, const struct gls_state *st, const struct gls_event *e)
 {
 	const struct gls_attribs *a = e->attribs;
@@ -79,7 +93,7 @@ uint32_t gls_frame_view(struct gls_exec *x, const struct gls_surface *surface, c
 		memcpy(view.depth_range, a->viewport.depth_range, 8);
 	}
 	gls_scissor_of(surface, &a->scissor, view.scissor);
-	view.space = space_of(x, f, &view);
+	view.space = space_of(x, f, &view, gls_frame_is_programmed(st, e));
 	view.x87 = st->x87;
 	return gls_intern(x, &f->views, &s->views, &s->n_views, &f->room.views, &view, sizeof(view));
 }

@@ -16,6 +16,7 @@ struct gls_frame {
 	struct { uint32_t instances, materials, units, lights, currents, views, clears, stipples, meshes, textures, draws, rectangles, programs; } room;
 	struct table materials, units, lights, currents, views, stipples, programs, spaces; /* hash -> index + 1 */
 	uint32_t material, view; /* of the last draw, while its context's state is not dirty */
+	int is_programmed;       /* that of the view */
 	const struct gls_state *last;
 	uint32_t next_draw, next_primitive;
 	uint32_t colored; /* 1: some event may change colours */
@@ -27,7 +28,9 @@ struct gls_frame {
 	int snapshot_in_part;         /* 1: it holds only where it is known */
 };
 
-/** Projection, viewport and scissor. */
+/** 1 where a program may place what is drawn. */
+int gls_frame_is_programmed(const struct gls_state *st, const struct gls_event *e);
+/** Projection, viewport and scissor, and whose eye space it is. */
 uint32_t gls_frame_view(struct gls_exec *x, const struct gls_surface *surface, const struct gls_state *st, const struct gls_event *e);
 /** Everything else that the fragments of a draw depend on, with units and lights. */
 uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e);

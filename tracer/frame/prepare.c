@@ -217,7 +217,7 @@ static uint32_t instance_flags(const struct scene_material *m, enum prepared_sha
 
 	if (!m->blend && !m->alpha_test && !m->alpha_to_coverage && !m->logic_op && draws_color)
 		flags |= INSTANCE_OPAQUE;
-	if (m->depth_test && (draws_color || is_depth) && shape == PREPARED_FILLED &&
+	if (m->depth_test && (draws_color || is_depth) && !scene_is_never_drawn(m) && shape == PREPARED_FILLED &&
 	    (~m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_HIDDEN_FROM_MIRRORS)))
 		flags |= INSTANCE_SECONDARY;
 	if (m->cull_face == GL_FRONT || m->cull_face == GL_FRONT_AND_BACK)
