@@ -41,8 +41,9 @@ static int is_body(const struct scene_material *m)
 	return m->color_mask & 7 && m->depth_test && (!m->blend || m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA);
 }
 
-static int is_same_body(const struct scene *s, const struct scene_instance *a, const struct scene_instance *b)
+int scene_is_same_body(const struct scene *s, uint32_t first, uint32_t second)
 {
+	const struct scene_instance *a = &s->instances[first], *b = &s->instances[second];
 	const struct scene_mesh *p = s->meshes[a->mesh], *q = s->meshes[b->mesh];
 
 	return memcmp(a->modelview, b->modelview, sizeof(a->modelview)) == 0 &&
@@ -58,6 +59,6 @@ void scene_find_depths(const struct scene *scene, uint8_t *depths)
 		n += depths[i] = (uint8_t)is_depth_alone(scene, &scene->instances[i]);
 	for (uint32_t i = 0; i < scene->n_instances && n; i++)
 		for (uint32_t k = 0; k < i && is_body(&scene->materials[scene->instances[i].material]); k++)
-			if (depths[k] && is_same_body(scene, &scene->instances[i], &scene->instances[k]))
+			if (depths[k] && scene_is_same_body(scene, i, k))
 				depths[k] = 0;
 }

@@ -9,6 +9,9 @@ struct scene_material;
 /** 1 where nothing of a draw is ever seen, nor left in the depth buffer: both sides are culled, or a test fails always. */
 int scene_is_never_drawn(const struct scene_material *m);
 
+/** 1 where two instances are the same geometry at the same place. */
+int scene_is_same_body(const struct scene *scene, uint32_t a, uint32_t b);
+
 /**
  * Find instances that write depth and no colour, and are solid: depth counts, not colour. A depth pre-pass, whose light
  * comes in passes under GL_EQUAL, is one. Not solid are

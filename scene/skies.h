@@ -6,8 +6,9 @@
 struct scene;
 
 /**
- * Which instances are skies: drawn in perspective before anything of their eye space that leaves depth, and leaving none themselves, so
- * that all else is in front of them. Depth that is cleared before the world is drawn is none (scene/backdrop.h).
+ * Which instances are skies: drawn in perspective before anything of their eye space that leaves colour and depth, and leaving no depth
+ * themselves, so that all that is seen else is in front of them. What colours a depth pre-pass is none (scene/depths.h). A clear of the
+ * window's depth begins anew.
  * @param skies  [n_instances], all 0; receives 1 for each
  * @return 0; -1: out of memory
  */
