@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <xxhash.h>
 
 #include "base/beside.h"
 #include "base/err.h"
@@ -15,6 +16,7 @@
 #include "base/json.h"
 #include "base/part.h"
 #include "base/program.h"
+#include "base/table.h"
 #include "base/version.h"
 
 enum { MOST_FOLLOWED = 4, MOST_FOLDERS = 40, HEAD_BYTES = 4096 };
@@ -23,6 +25,7 @@ struct collector {
 	const struct ci_program *program;
 	struct watched *watched;
 	FILE *lines, *folders;
+	struct table added; /* device and number of a file, as a hash: libraries are those of several programs */
 };
 
 /* A line: quoted, as a name may hold any byte. */
@@ -47,12 +50,31 @@ static int is_folder(const char *path)
 	return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
+/* 1 where a file was added before, by whatever name. */
+static int is_added(struct collector *c, const char *path, int *err)
+{
+	uint64_t key[2] = { 0, 0 };
+	struct stat info;
+	int was;
+
+	if (stat(path, &info) != 0)
+		return 0;
+	key[0] = info.st_dev;
+	key[1] = info.st_ino;
+	was = table_find(&c->added, XXH3_64bits(key, sizeof(key))) != NULL;
+	*err = table_set(&c->added, XXH3_64bits(key, sizeof(key)), c);
+	return was;
+}
+
 static int add_file(struct collector *c, const char *path)
 {
 	uint64_t hash[2];
 	char kind[64];
-	int err = hash_whole(path, hash);
+	int err = 0;
 
+	if (is_added(c, path, &err) || err)
+		return err;
+	err = hash_whole(path, hash);
 	if (err)
 		return err;
 	snprintf(kind, sizeof(kind), "file %016" PRIx64 "%016" PRIx64, hash[0], hash[1]);
@@ -234,6 +256,7 @@ int watched_collect(const struct ci_program *p, const char *program, struct watc
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (c.folders && fclose(c.folders) && !err)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	table_free(&c.added);
 	return err;
 }
 

@@ -163,8 +163,10 @@ def test_touched():
         shutil.copy(SCRATCH / name, folder)
     (folder / "start").write_text('#!/bin/sh\nLD_LIBRARY_PATH="$PWD" exec ./viewer model.obj 1\n')
     (folder / "start").chmod(0o755)
-    for command in (("./viewer", "model.obj", "1"), ("./start",)):
+    for command in (("./viewer", "model.obj", "1"), ("./start",), ("env", "VIEWER_GREEN=0.5", "./viewer", "model.obj", "1")):
         program = ci_touched.Touched(RELUME, folder, *command)
+        files = re.findall(r'^file \w+ "(.*)"$', program.inputs, re.M)
+        check(len(files) == len({os.path.realpath(folder / path) for path in files}), f"{command}: each file once: {files}")
         paths = [path for path in ci_touched.opened(command, folder) if program.can_touch(path)]
         ours = [str(folder / name) for name in ("viewer", "model.obj", "hidden.dat")]
         check(set(ours) <= set(paths), f"{command}: strace lists {paths}")
