@@ -52,23 +52,33 @@ static void wound_normal(const struct scene_mesh *mesh, struct sides sides, uint
 	vec3_cross(edge[0], edge[1], out);
 }
 
-void sides_towards(const struct scene *scene, const struct scene_instance *in, struct sides sides, uint32_t primitive,
-                   double out[3])
+/* Turn a triangle's cross product to the side that its normals tell, where they count; to 0 where they tell none. */
+static void turn_to_normals(const struct scene *scene, const struct scene_instance *in, struct sides sides, uint32_t primitive,
+                            double normal[3])
 {
 	double sum[3] = { 0, 0, 0 }, along, turn;
 
-	wound_normal(scene->meshes[in->mesh], sides, primitive, out);
 	if (sides.shown != SIDES_LIT)
 		return;
-	for (unsigned c = 0; c < 3; c++)
+	for (unsigned c = 0; c < 3; c++) {
+		const float *n = corner_normal(scene, in, primitive, c);
+
 		for (int k = 0; k < 3; k++)
-			sum[k] += corner_normal(scene, in, primitive, c)[k];
-	along = vec3_dot(out, sum);
+			sum[k] += n[k];
+	}
+	along = vec3_dot(normal, sum);
 	turn = along > 0 ? 1 : -1;
-	if (!(along * along > ACROSS * ACROSS * vec3_dot(sum, sum) * vec3_dot(out, out)))
+	if (!(along * along > ACROSS * ACROSS * vec3_dot(sum, sum) * vec3_dot(normal, normal)))
 		turn = 0;
 	for (int k = 0; k < 3; k++)
-		out[k] *= turn;
+		normal[k] *= turn;
+}
+
+void sides_towards(const struct scene *scene, const struct scene_instance *in, struct sides sides, uint32_t primitive,
+                   double out[3])
+{
+	wound_normal(scene->meshes[in->mesh], sides, primitive, out);
+	turn_to_normals(scene, in, sides, primitive, out);
 }
 
 int sides_back_outside(const struct scene *scene, const struct scene_instance *in)
@@ -115,34 +125,35 @@ static void add_lamp(struct lamps *lamps, const struct sides_lamp *lamp, const f
 		place[k] = at[3] != 0 ? (double)at[k] / at[3] : at[k];
 }
 
+static void widen(struct sheet *sheet, const float at[3])
+{
+	for (int k = 0; k < 3; k++) {
+		sheet->low[k] = at[k] < sheet->low[k] ? at[k] : sheet->low[k];
+		sheet->high[k] = at[k] > sheet->high[k] ? at[k] : sheet->high[k];
+	}
+}
+
 static void add_triangle(const struct scene *s, const struct scene_instance *in, struct sides sides, uint32_t primitive,
                          const struct lamps *lamps, struct sheet *sheet)
 {
-	const struct scene_mesh *mesh = s->meshes[in->mesh];
-	double normal[3], shown[3];
+	const float *corner = corner_place(s->meshes[in->mesh], primitive, 0);
+	const double at[3] = { corner[0], corner[1], corner[2] };
+	double shown[3], square, from_origin;
 
-	wound_normal(mesh, sides, primitive, normal);
-	if (!(vec3_dot(normal, normal) > 0))
+	wound_normal(s->meshes[in->mesh], sides, primitive, shown);
+	square = vec3_dot(shown, shown);
+	if (!(square > 0))
 		return; /* no ray meets it */
-	sides_towards(s, in, sides, primitive, shown);
+	turn_to_normals(s, in, sides, primitive, shown);
 	for (int k = 0; k < 3; k++)
 		sheet->sum[k] += shown[k];
-	sheet->length += sqrt(vec3_dot(normal, normal));
-	for (unsigned c = 0; c < 3; c++) {
-		const float *at = corner_place(mesh, primitive, c);
-
-		sheet->volume += (shown[0] * at[0] + shown[1] * at[1] + shown[2] * at[2]) / 3;
-		for (int k = 0; k < 3; k++) {
-			sheet->low[k] = at[k] < sheet->low[k] ? at[k] : sheet->low[k];
-			sheet->high[k] = at[k] > sheet->high[k] ? at[k] : sheet->high[k];
-		}
-		for (uint32_t i = 0; i < lamps->n; i++) {
-			const double *l = lamps->place[i];
-			const double to[3] = { l[0] - l[3] * at[0], l[1] - l[3] * at[1], l[2] - l[3] * at[2] };
-
-			sheet->behind |= (uint32_t)!(vec3_dot(shown, to) > 0) << i;
-		}
-	}
+	sheet->length += sqrt(square);
+	from_origin = vec3_dot(shown, at);
+	sheet->volume += from_origin;
+	for (unsigned c = 0; c < 3; c++)
+		widen(sheet, corner_place(s->meshes[in->mesh], primitive, c));
+	for (uint32_t i = 0; i < lamps->n; i++)
+		sheet->behind |= (uint32_t)!(vec3_dot(shown, lamps->place[i]) > lamps->place[i][3] * from_origin) << i;
 }
 
 static int is_inside(const struct sheet *sheet, const double lamp[4])

@@ -10,6 +10,7 @@
 #include "look/blockers.h"
 #include "look/corner.h"
 #include "look/cards.h"
+#include "look/flattened.h"
 #include "look/globes.h"
 #include "look/sides.h"
 #include "scene/draw_list.h"
@@ -399,9 +400,10 @@ static int find_blocking(struct sparing *a)
 	return err;
 }
 
-int spare_find(const struct scene *scene, int cards_alone, int new_lights, struct spare *out)
+int spare_find(const struct scene *scene, unsigned said, struct spare *out)
 {
 	struct sparing *a = calloc(1, sizeof(*a));
+	const int new_lights = (said & SPARE_NEW_LIGHTS) != 0, decided = (said & SPARE_IS_DECIDED) != 0;
 	int err = 0;
 
 	*out = (struct spare){ .bits = NULL };
@@ -418,12 +420,14 @@ int spare_find(const struct scene *scene, int cards_alone, int new_lights, struc
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err)
 		err = sides_find(scene, new_lights || a->more_lamps ? NULL : out->lamps, out->n_lamps, out->bits, &out->one_sided);
-	if (!err && !cards_alone && a->n_receivers)
+	if (!err && !decided && a->n_receivers)
 		err = find_blocking(a);
+	if (!err && !decided)
+		err = flattened_find(scene, !(said & SPARE_TRICKS_STAY), out->bits, &out->flattened);
 	if (!err)
 		err = cards_find(scene, SCENE_CARD, out->bits, &out->cards);
 	free(a);
-	if (err || !(out->one_sided + out->enclosures + out->backdrops + out->cards)) {
+	if (err || !(out->one_sided + out->flattened + out->enclosures + out->backdrops + out->cards)) {
 		free(out->bits);
 		out->bits = NULL;
 	}

@@ -9,6 +9,7 @@
  *   globes       A body around a lamp, which sees the side that nobody does, lets its light through (look/globes.h).
  *   backdrops    What OpenGL does not light stops no light at infinity, unless it stands within the lit world: a tree on a lit hill casts
  *                a shadow, the walls around a lit figure do not.
+ *   flattened    What the program draws a shadow of throws no second one (look/flattened.h).
  *   cards        Crossed cut-out cards do not shade each other.
  *   terminator   Flat faces with smooth normals do not stop light that grazes them (kernels/frame/shadow.h); that is found by the kernels.
  *
@@ -22,12 +23,19 @@
 
 enum { SPARE_MOST_LAMPS = 16 };
 
+/* What rules say before anything is looked for: bits. */
+enum {
+	SPARE_IS_DECIDED = 1,  /* what of enclosures, backdrops and drawn shadows lets light pass */
+	SPARE_NEW_LIGHTS = 2,  /* there are lights of rules' own, which may stand anywhere */
+	SPARE_TRICKS_STAY = 4, /* drawn shadows do not give way to traced ones */
+};
+
 /* What sparing decides of a surface, cards apart: bits of scene_surface's `hidden`. */
 #define SPARE_BITS (SCENE_HIDDEN_FROM_LIGHTS | SCENE_ONE_SIDED | SCENE_STOPS_NO_SUN)
 
 struct spare {
 	uint32_t *bits; /* [n_instances]: SCENE_ONE_SIDED and the like; NULL: nothing is spared */
-	uint32_t one_sided, enclosures, backdrops, cards; /* instances */
+	uint32_t one_sided, flattened, enclosures, backdrops, cards; /* instances */
 	struct sides_lamp lamps[SPARE_MOST_LAMPS];
 	uint32_t n_lamps;
 	int kept; /* 1: rules keep all this from being spared (look_apply) */
@@ -40,12 +48,11 @@ const char *spare_name(uint32_t bits);
 int spare_named(const char *name, uint32_t *bits);
 
 /**
- * @param cards_alone  1: enclosures and backdrops, which take rays, are not looked for
- * @param new_lights   1: rules bring lights of their own, which may stand anywhere
- * @param out          filled; free with spare_free
+ * @param said  SPARE_IS_DECIDED and what follows it
+ * @param out   filled; free with spare_free
  * @return 0 or ERR_SYSTEM (reported)
  */
-int spare_find(const struct scene *scene, int cards_alone, int new_lights, struct spare *out);
+int spare_find(const struct scene *scene, unsigned said, struct spare *out);
 void spare_free(struct spare *spare);
 
 /**

@@ -8,7 +8,7 @@
 
 #include "base/err.h"
 #include "base/table.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 #include "scene/drawn.h"
 
 /* How far off its triangle's plane and sides a point of a mesh may seem, as a share of the triangle's size: positions are floats. */

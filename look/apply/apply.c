@@ -169,6 +169,13 @@ static int decides_sparing(const struct rules *rules)
 	return decided == 3 || (rules->spare && !*rules->spare);
 }
 
+static unsigned said_of_sparing(const struct applying *a)
+{
+	return (decides_sparing(a->rules) ? SPARE_IS_DECIDED : 0u) |
+	       (a->lights_change || a->rules->lights_count ? SPARE_NEW_LIGHTS : 0u) |
+	       (a->rules->replace && !*a->rules->replace ? SPARE_TRICKS_STAY : 0u);
+}
+
 int look_apply(const struct look *look, const struct scene *scene, struct scene *out, struct spare *found)
 {
 	struct applying a = { .look = look, .scene = scene, .out = out };
@@ -176,7 +183,7 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 	int err = match_begin(&a);
 
 	if (!err)
-		err = spare_find(scene, decides_sparing(a.rules), a.lights_change || a.rules->lights_count, &spare);
+		err = spare_find(scene, said_of_sparing(&a), &spare);
 	spare.kept = !look_spares(look);
 	a.spare = spare.kept ? NULL : &spare;
 	if (!err)

@@ -9,7 +9,7 @@
 #include "look/drawn.h"
 #include "look/modelview.h"
 #include "look/solid.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 enum { MOST_VERTICES = 200000 };
 /* A vertex is asked about a little within its triangles: beyond its edges other walls begin. */

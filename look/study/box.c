@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 const struct box box_empty = { { HUGE_VAL, HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } };
 

@@ -9,7 +9,7 @@
 #include "look/drawn.h"
 #include "look/solid.h"
 #include "look/study/box.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 /* A texture of a shadow leaves this much along its edge, and no more than that in its middle. */
 #define NEUTRAL 0.95

@@ -6,7 +6,7 @@
 #include "look/solid.h"
 #include "look/study/face.h"
 #include "look/study/layer.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 /* Surfaces are asked about at so many of their triangles. */
 enum { MOST_TRIANGLES = 64 };

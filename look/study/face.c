@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 int face_of(const struct scene_mesh *mesh, const double place[16], uint32_t primitive, struct face *out)
 {

@@ -9,7 +9,7 @@
 #include "look/modelview.h"
 #include "look/plane.h"
 #include "look/study/face.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 /* A floor has few triangles. */
 enum { MOST_TRIANGLES = 512 };

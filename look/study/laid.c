@@ -10,7 +10,7 @@
 #include "look/solid.h"
 #include "look/study/box.h"
 #include "look/study/face.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 /* So many places of a draw are looked at, and this share of them lies on something. */
 enum { PLACES = 8, MOST_TRIANGLES = 8192 };

@@ -7,7 +7,7 @@
 #include "gl_tokens.h"
 #include "look/solid.h"
 #include "look/study/layer.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 /* A bright texel, by its luma, and a coloured one, by how much less than its largest component the smallest is; their share of all. */
 #define BRIGHT 0.75

@@ -8,7 +8,7 @@
 #include "look/solid.h"
 #include "look/study/box.h"
 #include "look/study/face.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 /* A ground reaches from below the viewer to far off; a sky is nowhere so much nearer than elsewhere. */
 #define NEAREST 0.1

@@ -7,7 +7,7 @@
 #include "gl_tokens.h"
 #include "look/drawn.h"
 #include "look/modelview.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 enum { MOST_TEXELS = 400000, MOST_TRIANGLES = 500000 };
 

@@ -6,8 +6,8 @@
 #include "gl_tokens.h"
 #include "look/modelview.h"
 #include "look/plane.h"
-#include "look/study/matrix.h"
-#include "look/study/pairs.h"
+#include "look/matrix.h"
+#include "look/pairs.h"
 
 /* The plane of a reflection in eye space, its normal towards the viewer. @return 0: the matrix is none */
 static int read_reflection(const double m[16], double plane[4])

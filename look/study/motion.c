@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "look/drawn.h"
 #include "look/study/box.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 /* Places agree up to this share of their distance from the viewer, turns up to this angle: products of floats are better by far. */
 #define SAME_PLACE 1e-3

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "look/drawn.h"
 #include "look/study/face.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 /* Matrices agree up to this share of the world's numbers in them. */
 #define SAME 1e-4

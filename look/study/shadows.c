@@ -3,54 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "look/flattened.h"
 #include "look/modelview.h"
-#include "look/study/matrix.h"
-#include "look/study/pairs.h"
-
-static void turn(double v[4], int n)
-{
-	for (int k = 0; k < n; k++)
-		v[k] = -v[k];
-}
-
-/* A plane shows its lit side: to the light; of a direction, which is known but for its sign, to the viewer. */
-static void orient(double light[4], double plane[4])
-{
-	double along = 0;
-
-	if (light[3] == 0 && plane[3] < 0)
-		turn(plane, 4);
-	for (int k = 0; k < 4; k++)
-		along += plane[k] * light[k];
-	if (along < 0 && light[3] == 0)
-		turn(light, 3);
-	else if (along < 0)
-		turn(plane, 4);
-}
-
-/* What the flattening matrix says, in eye space; @return 0: it is none of a shadow */
-static int read_matrix(const double from_upright[16], double light[4], double plane[4])
-{
-	double length, along = 0;
-
-	if (matrix_null(light, from_upright, 0) > 1e-3 || matrix_null(plane, from_upright, 1) > 1e-3)
-		return 0;
-	length = sqrt(light[0] * light[0] + light[1] * light[1] + light[2] * light[2]);
-	if (fabs(light[3]) < 1e-6 * length)
-		light[3] = 0;
-	length = light[3] != 0 ? light[3] : length;
-	for (int k = 0; k < 4; k++)
-		light[k] /= length;
-	length = sqrt(plane[0] * plane[0] + plane[1] * plane[1] + plane[2] * plane[2]);
-	if (!(length > 1e-9))
-		return 0;
-	for (int k = 0; k < 4; k++) {
-		plane[k] /= length;
-		along += plane[k] * light[k];
-	}
-	orient(light, plane);
-	return fabs(along) > 1e-9;
-}
+#include "look/matrix.h"
+#include "look/pairs.h"
 
 static void into_world(const struct motion_camera *camera, double light[4], double plane[4])
 {
@@ -84,10 +40,10 @@ static void study_flat(struct tricks *t, const struct scene *s, const struct pai
 		if (!matrix_invert(inverse, eye))
 			continue;
 		matrix_mul(from_upright, shadow, inverse);
-		if (!read_matrix(from_upright, what.light, what.plane))
+		if (!flattened_read(from_upright, what.light, what.plane))
 			continue;
 		what.stencil = !(s->materials[s->instances[flat].material].color_mask & 7);
-		what.has_opengl_light = tricks_opengl_lights(s, what.light, what.plane);
+		what.has_opengl_light = flattened_is_lit(s, what.light, what.plane);
 		into_world(motion_now(motion), what.light, what.plane);
 		tricks_note(t, &what, motion->n_frames);
 	}
@@ -103,11 +59,7 @@ int shadows_add(struct tricks *t, const struct scene *s, const struct motion *mo
 	if (flat)
 		err = pairs_make(&pairs, s);
 	for (uint32_t i = 0; i < s->n_instances && flat && !err; i++) {
-		const struct scene_instance *in = &s->instances[i];
-		const struct scene_material *m = &s->materials[in->material];
-
-		if (s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle && (m->color_mask & 7 ? !m->lighting : m->stencil_test) &&
-		    modelview_kind_of(in->modelview) == MODELVIEW_SINGULAR)
+		if (flattened_may_be(s, &s->instances[i]))
 			study_flat(t, s, &pairs, i, motion);
 	}
 	pairs_free(&pairs);

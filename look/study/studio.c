@@ -6,7 +6,7 @@
 #include "look/drawn.h"
 #include "look/solid.h"
 #include "look/study/box.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 /* OpenGL lights at least this share of what is solid. */
 #define LEAST_LIT 0.9

@@ -11,7 +11,7 @@
 #include "look/study/floor.h"
 #include "look/study/lamps.h"
 #include "look/study/lightmaps.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 #include "look/study/mirrors.h"
 #include "look/study/motion.h"
 #include "look/study/roles.h"

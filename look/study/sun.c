@@ -8,7 +8,7 @@
 #include "look/solid.h"
 #include "look/study/face.h"
 #include "look/study/layer.h"
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 enum { MOST_FRAMES = 16, PLACES = 64, WHITE = 250, PER_INSTANCE = 4 };
 /* A spot's share of its texture, how much of its circle it fills, and how bright the texture may be otherwise. */

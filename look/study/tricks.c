@@ -3,26 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "look/modelview.h"
-#include "look/solid.h"
-#include "look/study/matrix.h"
+#include "look/flattened.h"
 
 /* The same light or plane, said twice: lights of one level are farther from each other. */
 #define SAME 0.01
-
-/* How far apart two lights are, over how far they are from the origin; of directions the angle. */
-static double apart(const double a[4], const double b[4])
-{
-	double off = 0, far = 0;
-
-	if ((a[3] == 0) != (b[3] == 0))
-		return HUGE_VAL;
-	for (int k = 0; k < 3; k++) {
-		off += (a[k] - b[k]) * (a[k] - b[k]);
-		far += a[k] * a[k];
-	}
-	return sqrt(off) / (a[3] == 0 ? 1 : 1 + sqrt(far));
-}
 
 static double planes_apart(const double a[4], const double b[4])
 {
@@ -50,7 +34,7 @@ static void take_in(struct trick_found *f, const struct trick_found *what)
 
 static int is_same_trick(const struct trick_found *a, const struct trick_found *b)
 {
-	return a->kind == b->kind && (b->kind == TRICK_MIRROR || !(apart(a->light, b->light) > SAME)) && !(planes_apart(a->plane, b->plane) > SAME);
+	return a->kind == b->kind && (b->kind == TRICK_MIRROR || !(flattened_apart(a->light, b->light) > SAME)) && !(planes_apart(a->plane, b->plane) > SAME);
 }
 
 struct trick_found *tricks_note(struct tricks *t, const struct trick_found *said, uint64_t frame)
@@ -90,55 +74,4 @@ int tricks_is_outvoted(const struct tricks *t, unsigned i)
 		if (t->found[k].kind == f->kind && t->found[k].votes > 4 * f->votes && planes_apart(t->found[k].plane, f->plane) < SAME)
 			return 1;
 	return 0;
-}
-
-/* 1 where a material is lit by a light of OpenGL's at a place of eye space. */
-static int is_lit_from(const struct scene *s, const struct scene_material *m, const double eye[4])
-{
-	for (uint32_t k = 0; m->lighting && k < m->light_count; k++) {
-		const float *at = s->lights[m->light_first + k].position_eye;
-		double w = at[3] != 0 ? (double)at[3] : sqrt((double)(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]));
-		double there[4] = { (double)at[0] / w, (double)at[1] / w, (double)at[2] / w, at[3] != 0 };
-
-		if (apart(eye, there) < SAME)
-			return 1;
-	}
-	return 0;
-}
-
-/* 1 where a triangle of a mesh lies in a plane of eye space, or a little beside it. */
-static int touches(const struct scene *s, const struct scene_instance *in, const double plane[4])
-{
-	const struct scene_mesh *mesh = s->meshes[in->mesh];
-	double eye[16];
-
-	matrix_from_floats(eye, in->modelview);
-	for (uint32_t i = 0, run = 0; i < 3 * mesh->primitive_count; i++) {
-		const float *p = mesh->position + 4 * mesh->index[i];
-		double at[3];
-
-		matrix_point(at, eye, (double[3]){ (double)p[0], (double)p[1], (double)p[2] });
-		run = i % 3 ? run : 0;
-		run += fabs(plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] + plane[3]) <=
-		       0.01 * (1 + fabs(at[0]) + fabs(at[1]) + fabs(at[2]));
-		if (run == 3)
-			return 1;
-	}
-	return 0;
-}
-
-int tricks_opengl_lights(const struct scene *s, const double light[4], const double *plane)
-{
-	uint32_t lit = 0, all = 0;
-
-	for (uint32_t i = 0; i < s->n_instances; i++) {
-		const struct scene_instance *in = &s->instances[i];
-		const struct scene_material *m = &s->materials[in->material];
-
-		if (!solid_is(s, in) || modelview_kind_of(in->modelview) != MODELVIEW_PLAIN || (plane && !touches(s, in, plane)))
-			continue;
-		all++;
-		lit += (uint32_t)is_lit_from(s, m, light);
-	}
-	return 2 * lit > all;
 }

@@ -42,10 +42,3 @@ struct trick_found *tricks_note(struct tricks *t, const struct trick_found *said
  * the others say false lights.
  */
 int tricks_is_outvoted(const struct tricks *t, unsigned i);
-
-/**
- * 1 where most of what is drawn (at a plane, or at all where it is NULL) is lit by a light of OpenGL's at this place: traced shadows of
- * that light fall there.
- * @param light, plane  in eye space
- */
-int tricks_opengl_lights(const struct scene *scene, const double light[4], const double *plane);

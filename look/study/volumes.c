@@ -6,7 +6,8 @@
 
 #include "base/err.h"
 #include "gl_tokens.h"
-#include "look/study/matrix.h"
+#include "look/flattened.h"
+#include "look/matrix.h"
 
 enum { MAX_LINES = 3000, GUESSES = 400, LEAST_MEETING = 8 };
 
@@ -186,7 +187,7 @@ static int study_volume(struct tricks *t, const struct scene *s, const struct sc
 	n = longest_edges(mesh, eye, lines);
 	if (find_light(lines, n, light) && matrix_invert(inverse, motion_now(motion)->eye_from_world)) {
 		face_light(lines, n, light);
-		what.has_opengl_light = tricks_opengl_lights(s, light, NULL);
+		what.has_opengl_light = flattened_is_lit(s, light, NULL);
 		matrix_transform(what.light, inverse, light);
 		what.light[3] = light[3]; /* the camera neither brings near nor takes away what is infinitely far */
 		tricks_note(t, &what, motion->n_frames);

@@ -1,4 +1,4 @@
-#include "look/study/matrix.h"
+#include "look/matrix.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "look/study/pairs.h"
+#include "look/pairs.h"
 
 #include <stdlib.h>
 #define XXH_INLINE_ALL
