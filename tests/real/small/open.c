@@ -155,11 +155,62 @@ static void offset_of_ext(void)
 	quad(-0.6f, 0.2f);
 }
 
+static void use_cube(GLint filter)
+{
+	static GLubyte texels[6][16][3];
+
+	for (int i = 0; i < 6 * 16; i++) {
+		texels[i / 16][i % 16][0] = (GLubyte)(40 * (i / 16) + 10);
+		texels[i / 16][i % 16][1] = (GLubyte)(60 * (i % 4) + 10);
+		texels[i / 16][i % 16][2] = (GLubyte)(60 * (i / 4 % 4) + 10);
+	}
+	glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_GENERATE_MIPMAP, filter != GL_NEAREST && filter != GL_LINEAR);
+	for (GLenum i = 0; i < 6; i++)
+		glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + i, 0, GL_RGB, 4, 4, 0, GL_RGB, GL_UNSIGNED_BYTE, texels[i]);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, filter);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, filter == GL_NEAREST || filter == GL_NEAREST_MIPMAP_NEAREST ? GL_NEAREST : GL_LINEAR);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+	glEnable(GL_TEXTURE_CUBE_MAP);
+}
+
+/* No direction at all, and those between two or three faces. */
+static void between_faces(GLint filter)
+{
+	static const float along[8][3] = { { 0, 0, 0 }, { 1, 1, 0 }, { 1, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 }, { -1, 1, 1 }, { -1, -1, -1 }, { -1, -1, 0 } };
+
+	use_cube(filter);
+	for (int i = 0; i < 8; i++) {
+		glTexCoord3fv(along[i]);
+		glRectf(-1 + 0.25f * (float)i, -0.9f, -0.75f + 0.25f * (float)i, 0.9f);
+	}
+}
+
+static void nearest(void)
+{
+	between_faces(GL_NEAREST);
+}
+
+static void linear(void)
+{
+	between_faces(GL_LINEAR);
+}
+
+static void nearest_level(void)
+{
+	between_faces(GL_NEAREST_MIPMAP_NEAREST);
+}
+
+static void linear_levels(void)
+{
+	between_faces(GL_LINEAR_MIPMAP_LINEAR);
+}
+
 int main(void)
 {
 	static void (*const frames[])(void) = {
 		light_nothing_attenuates, highlight_without_power, fog_without_length, powers_of_programs, logarithms, powers_of_shaders,
-		places_between_pixels, offset_of_ext,
+		places_between_pixels, offset_of_ext, nearest, linear, nearest_level, linear_levels,
 	};
 
 	open_window();
