@@ -88,6 +88,24 @@ static void powers_of_programs(void)
 	}
 }
 
+/* What is known before a program runs is computed by another library: 0 to the power of 0 is 1. */
+static void known_powers(void)
+{
+	static const char *const known[4] = {
+		"MOV r, {1, 0, 0, 0};\nLIT r, r;\nMOV o.x, r.z;\n", "PARAM p = {0, 0, 0, 0};\nPOW o.x, p.x, p.y;\nADD r, {0.25, 0, 0, 0}, p;\nPOW o.y, r.x, {0.5}.x;\n",
+		"SUB r, {1, 1, 1, 1}, {1, 1, 1, 1};\nPOW o.xyz, r.x, r.x;\nLIT o.x, program.env[0];\n", "LG2 r, {0.3}.x;\nEX2 o.x, r.x;\nLOG o.y, {0.4}.x;\nLIT r, {0.5, -2, 0, -3};\nMOV o.z, r.z;\n",
+	};
+	char text[512];
+
+	glProgramEnvParameter4fARB(GL_VERTEX_PROGRAM_ARB, 0, 1, 0, 0, 0);
+	for (int i = 0; i < 4; i++) {
+		snprintf(text, sizeof(text), "!!ARBvp1.0\nTEMP r, o;\nMOV o, {0, 0, 0.2, 1};\n%sMOV result.color, o;\nMOV result.position, vertex.position;\nEND\n",
+		         known[i]);
+		use_program(text);
+		quad(0.45f * (float)i - 0.9f, 0);
+	}
+}
+
 static void logarithms(void)
 {
 	use_program("!!ARBvp1.0\nLOG result.color, program.env[0].x;\nMOV result.position, vertex.position;\nEND\n");
@@ -209,7 +227,7 @@ static void linear_levels(void)
 int main(void)
 {
 	static void (*const frames[])(void) = {
-		light_nothing_attenuates, highlight_without_power, fog_without_length, powers_of_programs, logarithms, powers_of_shaders,
+		light_nothing_attenuates, highlight_without_power, fog_without_length, powers_of_programs, known_powers, logarithms, powers_of_shaders,
 		places_between_pixels, offset_of_ext, nearest, linear, nearest_level, linear_levels,
 	};
 
