@@ -1,4 +1,6 @@
 /* Enables, hints and attribute stacks (GL 2.1 sec. 6.1.14 and the state tables of chapter 6). */
+#include "replay/gl/state/attrib.h"
+
 #include <stddef.h>
 #include <string.h>
 
@@ -89,6 +91,14 @@ static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 	case GL_RASTERIZER_DISCARD: return &st->rasterizer_discard;
 	default: return bit_of(st, cap, bit);
 	}
+}
+
+int gls_is_switched(struct gls_state *st, uint32_t cap, int on)
+{
+	uint32_t bit;
+	const uint32_t *flag = enable_flag(st, cap, &bit);
+
+	return flag && ((bit ? *flag & bit : *flag) != 0) == on;
 }
 
 /* Capabilities that change nothing here. */
