@@ -14,6 +14,7 @@ struct gls_texture_image;
 struct gls_surface {
 	uint32_t width, height, depth_bits, stencil_bits, alpha_bits;
 	uint32_t samples, samples_from_below, floats; /* as in struct scene */
+	uint32_t srgb;               /* 1: it can hold sRGB colours */
 	struct gls_frame *frame;     /* owned: events; NULL: none */
 	struct gls_picture *picture; /* a reference: what it held before the events, */
 	struct scene *before;        /* or a reference to the scene that shows it; at most one of the two is there */

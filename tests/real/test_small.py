@@ -19,6 +19,7 @@ PROGRAMS = {
     "outward": ("far out", "hardly any w", "without w", "corners of different w", "a ground to the horizon"),
     "resized": ("as it was opened", "larger, without a viewport", "scissored clears", "pixels", "views of parts", "smaller", "another window",
                 "that one smaller"),
+    "srgb": ("shades", "blends", "pixels", "lit and textured", "through sRGB", "through a plain texture", "through floats", "a pushed switch"),
 }
 
 for name in sys.argv[1:] or PROGRAMS:

@@ -26,7 +26,8 @@ static const struct { uint32_t cap, offset; } capabilities[] = {
 	CAPABILITY(STENCIL_TEST, stencil.enabled), CAPABILITY(SCISSOR_TEST, scissor.enabled),
 	CAPABILITY(AUTO_NORMAL, evaluator.auto_normal), CAPABILITY(COLOR_LOGIC_OP, color.logic_op_enabled),
 	CAPABILITY(INDEX_LOGIC_OP, color.index_logic_op_enabled), CAPABILITY(COLOR_SUM, fog.color_sum),
-	CAPABILITY(DITHER, color.dither), CAPABILITY(LINE_SMOOTH, line.smooth), CAPABILITY(LINE_STIPPLE, line.stipple),
+	CAPABILITY(DITHER, color.dither), CAPABILITY(FRAMEBUFFER_SRGB, color.framebuffer_srgb),
+	CAPABILITY(LINE_SMOOTH, line.smooth), CAPABILITY(LINE_STIPPLE, line.stipple),
 	CAPABILITY(MULTISAMPLE, multisample.enabled), CAPABILITY(SAMPLE_ALPHA_TO_COVERAGE, multisample.alpha_to_coverage),
 	CAPABILITY(SAMPLE_ALPHA_TO_ONE, multisample.alpha_to_one), CAPABILITY(SAMPLE_COVERAGE, multisample.coverage),
 	CAPABILITY(RESCALE_NORMAL, transform.rescale_normal), CAPABILITY(POINT_SMOOTH, point.smooth),
@@ -106,7 +107,6 @@ static int is_harmless_cap(uint32_t cap)
 {
 	switch (cap) {
 	case GL_DEBUG_OUTPUT: case GL_DEBUG_OUTPUT_SYNCHRONOUS: case GL_TEXTURE_CUBE_MAP_SEAMLESS:
-	case GL_FRAMEBUFFER_SRGB: /* the window has no sRGB buffer */
 		return 1;
 	default:
 		return 0;

@@ -97,7 +97,7 @@ int gls_attachments_describe(const struct gls_share *share, const struct gls_att
 	struct target t;
 	int any = 0;
 
-	s->depth_bits = s->stencil_bits = s->alpha_bits = s->samples = s->floats = 0;
+	s->depth_bits = s->stencil_bits = s->alpha_bits = s->samples = s->floats = s->srgb = 0;
 	s->samples_from_below = 1;
 	s->width = s->height = 16384;
 	for (int i = 0; i < N_GLS_ATTACHMENTS; i++) {
@@ -111,6 +111,7 @@ int gls_attachments_describe(const struct gls_share *share, const struct gls_att
 		if (i < DEPTH) {
 			s->alpha_bits |= has_alpha(gls_base_format(t.format)) ? 8 : 0;
 			s->floats |= gls_format_floats(t.format);
+			s->srgb |= gls_format_is_srgb(t.format);
 		}
 		else if (i == DEPTH)
 			s->depth_bits = gls_format_depth_bits(t.format);

@@ -19,6 +19,7 @@ static void describe(struct gls_surface *s, const struct gls_drawable *d, const 
 	s->depth_bits = st->depth_bits;
 	s->stencil_bits = st->stencil_bits;
 	s->alpha_bits = st->alpha_bits;
+	s->srgb = st->srgb;
 	s->samples = st->samples;
 }
 
