@@ -48,10 +48,10 @@ struct gls_event {
 	int in_window; /* 1: positions are window coordinates and texture coordinates final: no matrix counts */
 };
 
-/** 1 if draws and clears reach a surface when scenes are built: not so in selection and feedback (sec. 5.2, 5.3). */
+/** 1 if draws and clears reach a surface when scenes are built: not so in selection and feedback (sec. 5.2, 5.3), nor on a condition. */
 static inline int gls_renders(const struct gls_state *st)
 {
-	return st->render_mode == GL_RENDER && !st->rasterizer_discard;
+	return st->render_mode == GL_RENDER && !st->rasterizer_discard && !st->left_out;
 }
 /** 1 if they reach it now. */
 static inline int gls_is_drawn(const struct gls_exec *x, const struct gls_state *st)
