@@ -42,6 +42,9 @@ if not sys.argv[1:]:
     record(trace, BUILD / "tests/real/small/lacking", options=())
     said = must(relume("info", trace)).stdout
     check("glBegin: a shader reads or writes gl_ClipDistance, which is not done" in said, f"the draw and the name are told: {said}")
+    for name in "glBindTexture", "glTexImage3D", "glTexParameteri":
+        check(f"{name}: texture arrays and other targets of later GL" in said, f"what Relume lacks: {name}: {said}")
+    check("GL errors" not in said, f"the program is not blamed: {said}")
     trace = SCRATCH / "outward.trace"
     files = render(trace, SCRATCH / "outward", "-f", "2-4")
     _, score = diff(trace, SCRATCH / "outward", "-f", "2-4")
