@@ -14,6 +14,7 @@ PROGRAMS = {
     "asks": ("framebuffers", "shader objects", "texture objects of EXT", "one deleted"),
     "colors": tuple(f"seed {seed}" for seed in range(1, 13)),
     "condition": ("draws", "clears and pixels", "lists and arrays", "inverted"),
+    "copies": ("parts", "without alpha", "depths", "many of a large one"),
     "direct": ("matrices", "named textures", "units", "buffers and programs", "framebuffers"),
     "open": ("a light that nothing attenuates", "a highlight without a power", "fog without length", "powers of programs", "known powers", "logarithms",
              "powers of shaders", "places between pixels", "an offset of EXT", "between faces of a cube", "filtered there", "a level there",
