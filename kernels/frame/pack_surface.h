@@ -82,7 +82,8 @@ WIDE_VECTORS static inline packi pack_eyes(const struct tables *t, const struct 
 }
 
 /* As point_corner_about, for the lanes `which`. */
-WIDE_VECTORS static inline void pack_corners_about(const struct pack *p, packf (*e)[4], packi which, struct pack_vec *corner)
+WIDE_VECTORS static inline void pack_corners_about(const struct pack *p, packf (*e)[4], packi which,
+                                                    struct pack_vec *corner)
 {
 	packf of_point[4], w_inv;
 	struct pack_vec at;
@@ -92,11 +93,13 @@ WIDE_VECTORS static inline void pack_corners_about(const struct pack *p, packf (
 	w_inv = 1.0f / of_point[3];
 	at = pack_scale(pack_vec(of_point[0], of_point[1], of_point[2]), w_inv);
 	for (int k = 0; k < 3; k++)
-		corner[k] = pack_choose(corner[k], pack_scale(pack_add(corner[k], pack_scale(at, of_point[3] - e[k][3])), w_inv), which);
+		corner[k] = pack_choose(corner[k],
+		                        pack_scale(pack_add(corner[k], pack_scale(at, of_point[3] - e[k][3])), w_inv), which);
 }
 
 /* From pack_eyes. */
-WIDE_VECTORS static inline void pack_surface_through(const struct pack *p, packf (*e)[4], packi bent, struct pack_surface *out)
+WIDE_VECTORS static inline void pack_surface_through(const struct pack *p, packf (*e)[4], packi bent,
+                                                      struct pack_surface *out)
 {
 	struct pack_vec n;
 

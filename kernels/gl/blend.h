@@ -140,7 +140,7 @@ static inline struct vec4 blend_floats(GLOBAL const struct scene_material *m, st
 	          blend_float_equation(m->blend_equation_alpha, s.w, as.w, d.w, ad.w));
 }
 
-/* --- Frame buffers of sRGB: both ways as llvmpipe has them (22.3.6, lp_bld_format_srgb.c), within half a code of the formulas ---- */
+/* --- Frame buffers of sRGB: as llvmpipe has it both ways (22.3.6, lp_bld_format_srgb.c), to half a code ---------- */
 
 static inline float blend_linear_from_code(uint32_t code)
 {

@@ -39,8 +39,9 @@ static inline int point_is_affine(const struct point *p)
 }
 
 /*
- * Corners with other w may lie at infinity, or be seen from behind it. In their place are those of a triangle about the point P that
- * lies in the same plane, shows the same side and has the same weights there. A corner E is at P + (E - w P) / W; W is the point's w.
+ * Corners with other w may lie at infinity, or be seen from behind it. In their place are those of a triangle about the
+ * point P that lies in the same plane, shows the same side and has the same weights there. A corner E is at
+ * P + (E - w P) / W; W is the point's w.
  */
 static inline struct vec3 point_corner_about(const struct point *p, int i)
 {

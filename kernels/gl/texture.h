@@ -294,7 +294,7 @@ static inline int texture_is_negative(float x)
 	return (int)(M_BITS(x) >> 31u);
 }
 
-/* Face of a cube that a direction leads to (table 3.19); of equal axes z counts before y, and y before x, as in llvmpipe. */
+/* Face of a cube that a direction leads to (table 3.19); of equal axes z counts first, then y, as in llvmpipe. */
 static inline int texture_cube_face(struct vec4 c)
 {
 	float ax = M_ABS(c.x), ay = M_ABS(c.y), az = M_ABS(c.z);
@@ -488,8 +488,12 @@ static inline struct vec4 texture_filtered(const struct tables *t, GLOBAL const 
 	float last = (float)(image->n_levels - 1u), level = 0.0f;
 	int face = 0;
 
-	if (image->target == GL_TEXTURE_CUBE_MAP && texture_has_own_slopes(t, unit) && c.x == 0.0f && c.y == 0.0f && c.z == 0.0f) {
-		/* 0 / 0 as a texel's number is the least integer in llvmpipe; less the half texel of a linear filter it is the largest. */
+	if (image->target == GL_TEXTURE_CUBE_MAP && texture_has_own_slopes(t, unit) && c.x == 0.0f && c.y == 0.0f &&
+	    c.z == 0.0f) {
+		/*
+		 * 0 / 0 as a texel's number is the least integer in llvmpipe; less the half texel of a linear filter it
+		 * is the largest.
+		 */
 		face = texture_cube_face(c);
 		c = linear ? v4(1.0f, 1.0f, 0.0f, 1.0f) : v4(0.0f, 0.0f, 0.0f, 1.0f);
 	} else if (image->target == GL_TEXTURE_CUBE_MAP) {

@@ -48,7 +48,10 @@ struct gls_event {
 	int in_window; /* 1: positions are window coordinates and texture coordinates final: no matrix counts */
 };
 
-/** 1 if draws and clears reach a surface when scenes are built: not so in selection and feedback (sec. 5.2, 5.3), nor on a condition. */
+/**
+ * 1 if draws and clears reach a surface when scenes are built: not so in selection and feedback (sec. 5.2, 5.3), nor where a
+ * condition does not hold.
+ */
 static inline int gls_renders(const struct gls_state *st)
 {
 	return st->render_mode == GL_RENDER && !st->rasterizer_discard && !st->left_out;

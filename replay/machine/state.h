@@ -310,8 +310,8 @@ struct gls_state {
 	struct gls_maps *maps; /* evaluators' (eval.c), owned; NULL: none was ever defined */
 	uint32_t render_mode; /* GL_RENDER, GL_SELECT, GL_FEEDBACK */
 	uint32_t rasterizer_discard; /* GL 3.0 sec. 3.1: nothing is drawn, nor cleared */
-	uint32_t conditional, left_out; /* conditional rendering: 1 between Begin and End of it; 1: what is drawn there is left out */
-	uint32_t answered, answer;      /* of the query that comes next, as the recorder says: 1: it is known; what it counted */
+	uint32_t conditional, left_out; /* 1 within conditional rendering; 1: what is drawn is left out */
+	uint32_t answered, answer;      /* of the next one's query, by the recorder: 1: it is known; what it counted */
 	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
 	struct gls_waiting waiting;
 	uint32_t program, arb_vertex, arb_fragment, ati_fragment;

@@ -15,7 +15,8 @@ struct known {
 };
 
 /* One of an instruction's operands, for its number i. @return whether it is known */
-static int look_up(const struct known *known, uint32_t operand, uint32_t i, uint32_t flags, uint32_t step, uint32_t negate, float *value)
+static int look_up(const struct known *known, uint32_t operand, uint32_t i, uint32_t flags, uint32_t step, uint32_t negate,
+                   float *value)
 {
 	const uint32_t number = operand + (flags & step ? i : 0);
 
@@ -36,8 +37,8 @@ static int look_up(const struct known *known, uint32_t operand, uint32_t i, uint
 
 static int folds(uint32_t operation)
 {
-	return operation == SCENE_OP_POWER || operation == SCENE_OP_EXP2 || operation == SCENE_OP_LOG2 || operation == SCENE_OP_SINE ||
-	       operation == SCENE_OP_COSINE;
+	return operation == SCENE_OP_POWER || operation == SCENE_OP_EXP2 || operation == SCENE_OP_LOG2 ||
+	       operation == SCENE_OP_SINE || operation == SCENE_OP_COSINE;
 }
 
 static float folded(uint32_t operation, float a, float b)

@@ -7,7 +7,7 @@
 #include "base/err.h"
 #include "kernels/rays/rays.h"
 
-/* Make a point of a position. Clears *bounded where w <= 0, or where the point is too far out. @return 0: it is not finite */
+/* Make a point of a position. Clears *bounded where w <= 0 or it is too far out. @return 0: it is not finite */
 static int point_of(const float p[4], float out[3], int *bounded)
 {
 	for (int a = 0; a < 3; a++) {

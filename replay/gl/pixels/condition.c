@@ -15,7 +15,8 @@ GLS_HANDLER(glBeginConditionalRender, OBJECT)
 {
 	const uint32_t mode = arg_u(c, 1);
 
-	if (gls_refuses(x, st, !is_inverted(mode) && (mode < GL_QUERY_WAIT || mode > GL_QUERY_BY_REGION_NO_WAIT), GL_INVALID_ENUM))
+	if (gls_refuses(x, st, !is_inverted(mode) && (mode < GL_QUERY_WAIT || mode > GL_QUERY_BY_REGION_NO_WAIT),
+	                GL_INVALID_ENUM))
 		return;
 	if (gls_refuses(x, st, st->conditional, GL_INVALID_OPERATION))
 		return;

@@ -212,7 +212,8 @@ static void load_stencil(const struct target *t, const struct part *part, struct
 	const uint8_t *from = stencil_of(t);
 
 	for (uint32_t y = part->y0; from && y < part->y1; y++)
-		memcpy(p->stencil + (size_t)y * p->width + part->x0, from + (size_t)y * t->width + part->x0, part->x1 - part->x0);
+		memcpy(p->stencil + (size_t)y * p->width + part->x0, from + (size_t)y * t->width + part->x0,
+		       part->x1 - part->x0);
 }
 
 /* What attachments hold of one sample, or of the mean (struct target). */
@@ -255,7 +256,8 @@ struct gls_picture *gls_attachments_load(struct gls_exec *x, const struct gls_sh
 		if ((i >= DEPTH || i == color) && find_target(share, &attached[i], &t) && is_missing(&t))
 			return NULL;
 	/* Where it is read in part, the rest is not even touched: alpha, too, is set there alone. */
-	p = gls_picture_make(x, &(struct gls_picture_form){ s->width, s->height, s->depth_bits, 8, s->samples, s->floats });
+	p = gls_picture_make(x, &(struct gls_picture_form){ s->width, s->height, s->depth_bits, 8, s->samples,
+	                                                    s->floats });
 	if (!p)
 		return NULL;
 	load_sample(share, attached, color, 0, s, &part, &p->picture);
