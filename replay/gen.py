@@ -6,7 +6,8 @@ usage: gen.py OUT tokens                                                every GL
        gen.py OUT handlers OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...    their handlers, in the same order (gl/dispatch.h)
 
 A handler is a line GLS_HANDLER(glName, KIND) or GLS_HANDLER(glName, KIND, ROLE) in a source of replay/. GLS_FAMILY(glName, ...) handles
-all commands whose names are glName and a suffix (GL 2.1 sec. 2.3). A command without a handler takes that of the command that the
+all commands whose names are glName and a suffix (GL 2.1 sec. 2.3); GLS_FAMILY(glNameEXT, ...) those with the suffix before EXT.
+A command without a handler takes that of the command that the
 registry calls its alias, or that of the command which does the same by another suffix (glFrustumfOES, glFrustumx: glFrustum); else the
 excuse that overlay.txt gives; else it is one that only asks; else it is counted when met.
 The lines "draws" and "ends" of capture/gen/overlay.txt say which commands do nothing but draw, or end a frame; its lines "arg" which
@@ -86,7 +87,9 @@ def handled(handlers, names):
             found[stem] = stem, kind, role, NO_SUFFIX
             continue
         for name in names:
-            suffix = SUFFIX.fullmatch(name.removeprefix(stem).removesuffix("OES")) if name.startswith(stem) else None
+            start, end = re.fullmatch("(.*?)(EXT|)", stem).groups()
+            fits = name.startswith(start) and name.endswith(end)
+            suffix = SUFFIX.fullmatch(name.removeprefix(start).removesuffix(end).removesuffix("OES")) if fits else None
             if suffix:
                 count, normalized, letters, array = suffix.groups()
                 kind_of_number = "NONE" if letters == "D" else letters.upper()

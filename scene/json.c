@@ -144,7 +144,8 @@ static const struct field material_fields[] = {
 	TOKEN(material, depth_func), FIELD(material, depth_write), FIELD(material, blend),
 	TOKEN(material, blend_equation_rgb), TOKEN(material, blend_equation_alpha), FACTOR(material, blend_src_rgb),
 	FACTOR(material, blend_dst_rgb), FACTOR(material, blend_src_alpha), FACTOR(material, blend_dst_alpha),
-	FIELD(material, blend_color), TOKEN(material, logic_op), FIELD(material, color_mask), FIELD(material, surface),
+	FIELD(material, blend_color), TOKEN(material, logic_op), FIELD(material, color_mask), FIELD(material, srgb),
+	FIELD(material, surface),
 	FIELD(material, program), FIELD(material, fragment_program), FIELD(material, vertex_program),
 	{ 0 },
 };

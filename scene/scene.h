@@ -170,6 +170,7 @@ struct scene_material {
 	uint32_t logic_op;   /* 0: off; else GL token */
 	uint32_t color_mask; /* bits: 1 red, 2 green, 4 blue, 8 alpha */
 	uint32_t floats;     /* SCENE_FLOATS or SCENE_HALVES: into a drawable of such, and nothing is rounded to 8 bits; 0 */
+	uint32_t srgb;       /* 1: colours are encoded as sRGB, and blended in linear light (EXT_framebuffer_sRGB) */
 	uint32_t unclamped;  /* bits: colours that may leave [0,1] (ARB_color_buffer_float): 1 of fragments, 2 of vertices */
 
 	struct scene_surface surface;

@@ -9,6 +9,7 @@
 #include "capture/client/pixels.h"
 #include "capture/client/runs.h"
 #include "capture/format/sizes.h"
+#include "capture/gl/condition.h"
 #include "capture/gl/context.h"
 #include "capture/gl/current.h"
 #include "capture/gl/bound.h"

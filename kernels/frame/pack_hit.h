@@ -52,14 +52,26 @@ static inline void pack_take_hit(__global const struct hit *hits, uint item, uin
 	list->pixel[lane] = 0;
 }
 
+/* As point_divide_weights, for the lanes `which`. */
+WIDE_VECTORS static inline void pack_divide_weights(packf (*e)[4], packi which, packf *weight)
+{
+	packf divided[3], sum;
+
+	for (int k = 0; k < 3; k++)
+		divided[k] = weight[k] / e[k][3];
+	sum = divided[0] + divided[1] + divided[2];
+	for (int k = 0; k < 3; k++)
+		weight[k] = select(weight[k], divided[k] / sum, which);
+}
+
 /* The hits of q->list, as point_from_hit has them. material: theirs */
 WIDE_VECTORS static inline void pack_place_hits(const struct tables *t, __global const struct ray *rays,
                                                 __global const struct scene_material *material, struct pack_points *q)
 {
 	const packu ray = vload16(0, q->list.item) * 8;
 	struct pack *p = &q->p;
-	packf o[4], d[4];
-	packi behind;
+	packf o[4], d[4], e[3][4];
+	packi behind, bent;
 
 	p->material = material;
 	pack_load(t, 1, 1, &q->list, q->lanes, p);
@@ -72,7 +84,10 @@ WIDE_VECTORS static inline void pack_place_hits(const struct tables *t, __global
 	p->weight[0] = 1.0f - p->b1 - p->b2;
 	p->weight[1] = p->b1;
 	p->weight[2] = p->b2;
-	pack_surface(t, p, &q->surface);
+	bent = pack_eyes(t, p, e);
+	if (any_pack(bent))
+		pack_divide_weights(e, bent, p->weight);
+	pack_surface_through(p, e, bent, &q->surface);
 	pack_measure(p, &q->surface);
 	behind = pack_dot(q->surface.plane, q->d) > 0.0f;
 	p->front = material->front_face == GL_CW ? behind : ~behind;

@@ -73,20 +73,50 @@ struct pack_surface {
 	packf length[3], area, rounding;  /* once pack_measure has found them */
 };
 
-WIDE_VECTORS static inline void pack_surface(const struct tables *t, const struct pack *p, struct pack_surface *out)
+/* The corners, homogeneous. @return the lanes in which not all have w = 1 */
+WIDE_VECTORS static inline packi pack_eyes(const struct tables *t, const struct pack *p, packf (*e)[4])
+{
+	for (int k = 0; k < 3; k++)
+		pack_vertex(t, p, k, (packu)(PACK_EYE), e[k]);
+	return (e[0][3] != 1.0f) | (e[1][3] != 1.0f) | (e[2][3] != 1.0f);
+}
+
+/* As point_corner_about, for the lanes `which`. */
+WIDE_VECTORS static inline void pack_corners_about(const struct pack *p, packf (*e)[4], packi which,
+                                                    struct pack_vec *corner)
+{
+	packf of_point[4], w_inv;
+	struct pack_vec at;
+
+	for (int i = 0; i < 4; i++)
+		of_point[i] = e[0][i] * p->weight[0] + e[1][i] * p->weight[1] + e[2][i] * p->weight[2];
+	w_inv = 1.0f / of_point[3];
+	at = pack_scale(pack_vec(of_point[0], of_point[1], of_point[2]), w_inv);
+	for (int k = 0; k < 3; k++)
+		corner[k] = pack_choose(corner[k],
+		                        pack_scale(pack_add(corner[k], pack_scale(at, of_point[3] - e[k][3])), w_inv), which);
+}
+
+/* From pack_eyes. */
+WIDE_VECTORS static inline void pack_surface_through(const struct pack *p, packf (*e)[4], packi bent,
+                                                      struct pack_surface *out)
 {
 	struct pack_vec n;
 
-	for (int k = 0; k < 3; k++) {
-		packf e[4];
-
-		pack_vertex(t, p, k, (packu)(PACK_EYE), e);
-		out->corner[k] = pack_vec(e[0], e[1], e[2]);
-		if (any_pack(e[3] != 1.0f))
-			out->corner[k] = pack_choose(pack_scale(out->corner[k], 1.0f / e[3]), out->corner[k], e[3] == 1.0f);
-	}
+	for (int k = 0; k < 3; k++)
+		out->corner[k] = pack_vec(e[k][0], e[k][1], e[k][2]);
+	if (any_pack(bent))
+		pack_corners_about(p, e, bent, out->corner);
 	n = pack_normalize(pack_cross(pack_sub(out->corner[1], out->corner[0]), pack_sub(out->corner[2], out->corner[0])));
 	out->plane = pack_choose(pack_vec(0, 0, 0), n, pack_dot(n, n) > 0.0f);
+}
+
+WIDE_VECTORS static inline void pack_surface(const struct tables *t, const struct pack *p, struct pack_surface *out)
+{
+	packf e[3][4];
+	const packi bent = pack_eyes(t, p, e);
+
+	pack_surface_through(p, e, bent, out);
 }
 
 /* As point_place. */

@@ -81,7 +81,7 @@ static inline void draw(const struct tables *t, __global const struct fragment *
 
 	if (!pixel_reaches(m, s, pixel, bits))
 		return;
-	if (m->logic_op || m->floats)
+	if (m->logic_op || m->floats || m->srgb)
 		pixel_colors(m, s, pixel, bits);
 	else
 		draw_colors(m, s, pixel, bits);

@@ -176,6 +176,7 @@ static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_
 	const struct tables *t = &a->tables;
 	uint32_t slot = item / a->n, i = item % a->n;
 	struct fragment f = a->fragments[i];
+	int is_new = 0;
 	struct point p;
 	float u, v;
 
@@ -187,11 +188,14 @@ static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_
 		kept->instance = f.instance;
 		kept->primitive = f.primitive;
 		kept->p = point_of_triangle(t, a->windows, &f, kept->w_inv);
-		kept->plane = point_plane_of(&kept->p);
-		kept->curve = shadow_curve_of(t, &kept->p, &kept->plane);
+		is_new = 1;
 	}
 	p = kept->p;
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
+	if (is_new || !point_is_affine(&p)) {
+		kept->plane = point_plane_of(&p);
+		kept->curve = shadow_curve_of(t, &p, &kept->plane);
+	}
 	sample_take(a->frame, sample_hash(a->pixels[i]) + SAMPLE_LIGHT + slot, a->sample, &u, &v);
 	stage_light_ray(t, &p, &kept->plane, &kept->curve, slot,
 	                stage_view_direction(&a->views[p.geometry->view], a->pixels[i] % a->width, a->pixels[i] / a->width), u, v,

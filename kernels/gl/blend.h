@@ -139,3 +139,22 @@ static inline struct vec4 blend_floats(GLOBAL const struct scene_material *m, st
 	          blend_float_equation(m->blend_equation_rgb, s.z, fs.z, d.z, fd.z),
 	          blend_float_equation(m->blend_equation_alpha, s.w, as.w, d.w, ad.w));
 }
+
+/* --- Frame buffers of sRGB: as llvmpipe has it both ways (22.3.6, lp_bld_format_srgb.c), to half a code ---------- */
+
+static inline float blend_linear_from_code(uint32_t code)
+{
+	const float x = (float)code, x2 = x * x;
+	const float even = M_FMA(x2, 0.6935f / (255.0f * 255.0f), 0.0023f);
+	const float odd = M_FMA(x2, 0.3012f / (255.0f * 255.0f * 255.0f), 0.0030f / 255.0f);
+
+	return code <= 15u ? x * (1.0f / (12.6f * 255.0f)) : M_FMA(odd, x, even);
+}
+
+/* As a share of 255, not rounded. */
+static inline float blend_code_from_linear(float linear)
+{
+	const float x = clamp01(linear), root = M_SQRT(x), power = M_SQRT(M_SQRT(root * x));
+
+	return x <= 0.0031308f ? 12.92f * x : 0.675f * 1.0622f * power + (0.325f * 1.0622f * root - 0.0620f);
+}

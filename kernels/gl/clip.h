@@ -11,6 +11,7 @@
 
 /* Beyond this many pixels a window coordinate is not kept in 1/256 pixel. */
 #define CLIP_SAFE_PIXELS 16384.0f
+#define CLIP_FLOAT_MAX 3.402823466e38f
 #define CLIP_PLANES 6
 #define CLIP_MAX_CORNERS 9 /* a triangle's, and one for each plane */
 #define CLIP_MAX_CUTS (2 * CLIP_PLANES)
@@ -280,8 +281,8 @@ static inline void clip_triangle(GLOBAL const struct view *view, float height, s
 			float d = clip_distance(pool[next].clip, plane);
 			int crosses = d_last >= 0.0f ? d < 0.0f : !(d < 0.0f);
 
-			if (n_left + 2u > CLIP_MAX_CORNERS + 1u || cuts->n == CLIP_MAX_CUTS || !(M_ABS(d) < 1.0e30f))
-				return; /* no numbers, or rounding has made it cross a plane again and again */
+			if (n_left + 2u > CLIP_MAX_CORNERS + 1u || cuts->n == CLIP_MAX_CUTS || !(M_ABS(d) <= CLIP_FLOAT_MAX))
+				return; /* infinite, no number, or rounding has made it cross a plane again and again */
 			if (d_last >= 0.0f)
 				lists[!now][n_left++] = last;
 			if (crosses) {

@@ -129,8 +129,20 @@ static inline float pixel_half(float x)
 	return M_FLOAT((bits & 0x80000000u) | cut);
 }
 
+/* A drawable that holds sRGB: blended in linear light, and encoded as llvmpipe does both. */
+static inline struct vec4 pixel_encoded(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d, int blends)
+{
+	s = v4(clamp01(s.x), clamp01(s.y), clamp01(s.z), clamp01(s.w));
+	if (blends)
+		s = blend_floats(m, s, v4(blend_linear_from_code(blend_round(d.x)), blend_linear_from_code(blend_round(d.y)),
+		                          blend_linear_from_code(blend_round(d.z)), pixel_stored(d.w)));
+	return v4(blend_code_from_linear(s.x), blend_code_from_linear(s.y), blend_code_from_linear(s.z), s.w);
+}
+
 static inline struct vec4 pixel_blended(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
 {
+	if (m->srgb && !m->floats && !m->logic_op)
+		return pixel_encoded(m, s, d, m->blend != 0u);
 	if (!m->blend && !m->logic_op)
 		return s;
 	if (m->floats)
@@ -250,7 +262,9 @@ static inline void pixel_part(GLOBAL const struct scene_material *m, GLOBAL cons
 {
 	struct vec4 s = v4(source[0], source[1], source[2], source_alpha);
 
-	if (!opaque)
+	if (opaque && m->srgb && !m->floats)
+		s = pixel_encoded(m, s, s, 0);
+	else if (!opaque)
 		s = pixel_source(m, s, v4(destination[0], destination[1], destination[2], alpha));
 	pixel_store(destination, v3(s.x, s.y, s.z), m->color_mask);
 }

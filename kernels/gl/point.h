@@ -17,7 +17,7 @@ struct point {
 	GLOBAL const struct shaded_vertex *vertex[3];
 	uint32_t number[3]; /* the vertices in the mesh */
 	uint32_t primitive; /* the triangle in it */
-	float weight[3];    /* of the vertices, in object space: perspective-correct */
+	float weight[3];    /* of the vertices, homogeneous: perspective-correct */
 	int front;
 };
 
@@ -32,11 +32,31 @@ static inline void point_vertices(const struct tables *t, struct point *p, uint3
 	}
 }
 
+/* 1 where all corners have w = 1. */
+static inline int point_is_affine(const struct point *p)
+{
+	return p->vertex[0]->eye[3] == 1.0f && p->vertex[1]->eye[3] == 1.0f && p->vertex[2]->eye[3] == 1.0f;
+}
+
+/*
+ * Corners with other w may lie at infinity, or be seen from behind it. In their place are those of a triangle about the
+ * point P that lies in the same plane, shows the same side and has the same weights there. A corner E is at
+ * P + (E - w P) / W; W is the point's w.
+ */
+static inline struct vec3 point_corner_about(const struct point *p, int i)
+{
+	const struct vec4 of_point = v4_add(v4_add(v4_scale(v4_load(p->vertex[0]->eye), p->weight[0]),
+	                                           v4_scale(v4_load(p->vertex[1]->eye), p->weight[1])),
+	                                    v4_scale(v4_load(p->vertex[2]->eye), p->weight[2]));
+	const float w_inv = 1.0f / of_point.w;
+	const struct vec3 at = v3_scale(v3(of_point.x, of_point.y, of_point.z), w_inv);
+
+	return v3_scale(v3_add(v3_load(p->vertex[i]->eye), v3_scale(at, of_point.w - p->vertex[i]->eye[3])), w_inv);
+}
+
 static inline struct vec3 point_corner(const struct point *p, int i)
 {
-	GLOBAL const float *e = p->vertex[i]->eye;
-
-	return e[3] == 1.0f ? v3_load(e) : v3_scale(v3_load(e), 1.0f / e[3]);
+	return point_is_affine(p) ? v3_load(p->vertex[i]->eye) : point_corner_about(p, i);
 }
 
 /*
@@ -108,6 +128,19 @@ static inline struct point point_from_fragment(const struct tables *t, GLOBAL co
 	return p;
 }
 
+/* Weights of corners that are divided by w become those of vertices. */
+static inline void point_divide_weights(struct point *p)
+{
+	float sum = 0.0f;
+
+	for (int i = 0; i < 3; i++) {
+		p->weight[i] /= p->vertex[i]->eye[3];
+		sum += p->weight[i];
+	}
+	for (int i = 0; i < 3; i++)
+		p->weight[i] /= sum;
+}
+
 /* The point that a ray hit; its front side is the one GL would see from the ray's origin. */
 static inline struct point point_from_hit(const struct tables *t, const struct hit *hit, struct vec3 direction)
 {
@@ -117,6 +150,8 @@ static inline struct point point_from_hit(const struct tables *t, const struct h
 	p.weight[0] = 1.0f - hit->b1 - hit->b2;
 	p.weight[1] = hit->b1;
 	p.weight[2] = hit->b2;
+	if (!point_is_affine(&p))
+		point_divide_weights(&p);
 	p.front = (v3_dot(point_plane_normal(&p), direction) > 0.0f) == (p.material->front_face == GL_CW);
 	return p;
 }

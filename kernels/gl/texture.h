@@ -288,16 +288,20 @@ static inline struct vec4 texture_level(const struct tables *t, GLOBAL const str
 	return sum;
 }
 
-/* Face of a cube that a direction leads to (table 3.19). */
+/* Whether a number has its sign bit set, zero included. */
+static inline int texture_is_negative(float x)
+{
+	return (int)(M_BITS(x) >> 31u);
+}
+
+/* Face of a cube that a direction leads to (table 3.19); of equal axes z counts first, then y, as in llvmpipe. */
 static inline int texture_cube_face(struct vec4 c)
 {
 	float ax = M_ABS(c.x), ay = M_ABS(c.y), az = M_ABS(c.z);
 
-	if (ax >= ay && ax >= az)
-		return c.x >= 0.0f ? 0 : 1;
-	if (ay >= az)
-		return c.y >= 0.0f ? 2 : 3;
-	return c.z >= 0.0f ? 4 : 5;
+	if (az >= M_MAX(ax, ay))
+		return 4 + texture_is_negative(c.z);
+	return ax > ay ? texture_is_negative(c.x) : 2 + texture_is_negative(c.y);
 }
 
 /* sc, tc and ma of a direction, or of the difference of two, on a face. */
@@ -484,10 +488,19 @@ static inline struct vec4 texture_filtered(const struct tables *t, GLOBAL const 
 	float last = (float)(image->n_levels - 1u), level = 0.0f;
 	int face = 0;
 
-	if (image->target == GL_TEXTURE_CUBE_MAP)
+	if (image->target == GL_TEXTURE_CUBE_MAP && texture_has_own_slopes(t, unit) && c.x == 0.0f && c.y == 0.0f &&
+	    c.z == 0.0f) {
+		/*
+		 * 0 / 0 as a texel's number is the least integer in llvmpipe; less the half texel of a linear filter it
+		 * is the largest.
+		 */
+		face = texture_cube_face(c);
+		c = linear ? v4(1.0f, 1.0f, 0.0f, 1.0f) : v4(0.0f, 0.0f, 0.0f, 1.0f);
+	} else if (image->target == GL_TEXTURE_CUBE_MAP) {
 		c = texture_cube(c, &face);
-	else
+	} else {
 		c = v4_scale(c, 1.0f / c.w);
+	}
 	if (anisotropic && unit->min_filter != GL_NEAREST) {
 		int nearest = unit->min_filter == GL_NEAREST_MIPMAP_NEAREST || unit->min_filter == GL_LINEAR_MIPMAP_NEAREST;
 

@@ -13,6 +13,7 @@
 #include "replay/build/material.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/texture/image.h"
+#include "replay/gl/texture/texformat.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/programs/program.h"
@@ -233,6 +234,8 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	gls_scissor_of(d, &st->a.scissor, clear.scissor);
 	gls_color_of(clear.color, st->a.color.clear, d->floats);
 	clear.floats = d->floats;
+	if (d->srgb && st->a.color.framebuffer_srgb)
+		gls_encode_color(clear.color);
 	if (!st->a.depth.write) /* masks count for Clear too (sec. 4.2.3) */
 		clear.buffers &= ~2u;
 	clear.depth = st->a.depth.clear;

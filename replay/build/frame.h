@@ -14,6 +14,7 @@ struct gls_texture_image;
 struct gls_surface {
 	uint32_t width, height, depth_bits, stencil_bits, alpha_bits;
 	uint32_t samples, samples_from_below, floats; /* as in struct scene */
+	uint32_t srgb;               /* 1: it can hold sRGB colours */
 	struct gls_frame *frame;     /* owned: events; NULL: none */
 	struct gls_picture *picture; /* a reference: what it held before the events, */
 	struct scene *before;        /* or a reference to the scene that shows it; at most one of the two is there */
@@ -47,10 +48,13 @@ struct gls_event {
 	int in_window; /* 1: positions are window coordinates and texture coordinates final: no matrix counts */
 };
 
-/** 1 if draws and clears reach a surface when scenes are built: not so in selection and feedback (sec. 5.2, 5.3). */
+/**
+ * 1 if draws and clears reach a surface when scenes are built: not so in selection and feedback (sec. 5.2, 5.3), nor where a
+ * condition does not hold.
+ */
 static inline int gls_renders(const struct gls_state *st)
 {
-	return st->render_mode == GL_RENDER && !st->rasterizer_discard;
+	return st->render_mode == GL_RENDER && !st->rasterizer_discard && !st->left_out;
 }
 /** 1 if they reach it now. */
 static inline int gls_is_drawn(const struct gls_exec *x, const struct gls_state *st)

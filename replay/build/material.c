@@ -340,6 +340,7 @@ static void fill_fragment_state(const struct gls_attribs *a, const struct gls_ta
 	m->logic_op = b->logic_op_enabled && !d->floats ? b->logic_op : 0;
 	m->color_mask = target->colored ? b->mask : 0;
 	m->floats = d->floats;
+	m->srgb = b->framebuffer_srgb && d->srgb;
 	m->unclamped = unclamped_by(a, d);
 }
 

@@ -12,9 +12,11 @@
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/geometry/list_assemble.h"
 #include "replay/gl/geometry/pending.h"
+#include "replay/gl/state/attrib.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/gl/surface/surface.h"
 #include "replay/gl/texture/image.h"
+#include "replay/machine/args.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/fixed.h"
 #include "replay/machine/machine.h"
@@ -23,6 +25,14 @@
 #define MAX_THREADS 65536
 
 enum { OUTSIDE = 1, DRAW_PENDING = 2, STALE = 4 };
+
+/* glEnable and glDisable of what is switched so already. */
+static int changes_nothing(struct gls_state *st, const struct call *c, uint32_t command)
+{
+	const int enables = gls_handlers[command] == gls_glEnable;
+
+	return (enables || gls_handlers[command] == gls_glDisable) && gls_is_switched(st, arg_u(c, 0), enables);
+}
 
 static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack)
 {
@@ -37,9 +47,11 @@ static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command,
 	x->command = command;
 	x->unpack = unpack;
 	if (rules[k->kind]) {
+		const int is_pending = x->pending.geometry.n_vertices || st->waiting.stored;
+
 		if (gls_refuses(x, st, st->begin_mode, GL_INVALID_OPERATION))
 			return;
-		if (rules[k->kind] & DRAW_PENDING && (x->pending.geometry.n_vertices || st->waiting.stored))
+		if (rules[k->kind] & DRAW_PENDING && is_pending && !changes_nothing(st, c, command))
 			gls_flush(x);
 		if (rules[k->kind] & STALE)
 			st->dirty |= GLS_DIRTY_ALL;

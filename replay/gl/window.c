@@ -169,6 +169,8 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		set_surface(x, st, text + 16);
 	if (strncmp(text, "relume:time ", 12) == 0)
 		x->time_ns = strtoull(text + 12, NULL, 10);
+	if (sscanf(text, "relume:condition %u", &st->answer) == 1)
+		st->answered = 1;
 	if (strcmp(text, "relume:kdtree") == 0)
 		st->kd_tree = 1;
 	if (strcmp(text, "relume:x87") == 0)

@@ -48,10 +48,10 @@ static int make_arrays(struct scene_picture *p, const struct gls_picture_form *f
 	p->colors = form->floats ? calloc(room, 4 * sizeof(*p->colors)) : NULL;
 	if (!p->rgba || !p->depth || !p->stencil || (form->floats && !p->colors))
 		return 0;
-	for (size_t i = 0; i < n; i++) {
-		p->rgba[4 * i + 3] = form->alpha_bits ? 0 : 255;
+	for (size_t i = 0; i < n && !form->alpha_bits; i++) {
+		p->rgba[4 * i + 3] = 255;
 		if (form->floats)
-			p->colors[4 * i + 3] = form->alpha_bits ? 0 : 1;
+			p->colors[4 * i + 3] = 1;
 	}
 	return 1;
 }

@@ -144,6 +144,7 @@ struct gls_color_buffer {
 	uint32_t mask; /* bits: 1 red, 2 green, 4 blue, 8 alpha */
 	uint32_t draw_buffer;
 	uint32_t also_drawn; /* of a framebuffer object's colours, beside it: 1 << number, or GLS_OUT_OF_ORDER */
+	uint32_t framebuffer_srgb; /* 1: buffers that can hold sRGB take colours encoded (EXT_framebuffer_sRGB) */
 	uint32_t clamp; /* of fragments' colours, as gls_lighting.clamp */
 	float clear[4];
 };
@@ -309,6 +310,8 @@ struct gls_state {
 	struct gls_maps *maps; /* evaluators' (eval.c), owned; NULL: none was ever defined */
 	uint32_t render_mode; /* GL_RENDER, GL_SELECT, GL_FEEDBACK */
 	uint32_t rasterizer_discard; /* GL 3.0 sec. 3.1: nothing is drawn, nor cleared */
+	uint32_t conditional, left_out; /* 1 within conditional rendering; 1: what is drawn is left out */
+	uint32_t answered, answer;      /* of the next one's query, by the recorder: 1: it is known; what it counted */
 	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
 	struct gls_waiting waiting;
 	uint32_t program, arb_vertex, arb_fragment, ati_fragment;
@@ -335,7 +338,7 @@ struct gls_state {
 	uint32_t alpha_bits, depth_bits, stencil_bits, samples, double_buffered;
 	uint32_t x87;  /* 1: the GL library's own code sums as mat4_sums[1] does */
 	uint32_t mesa; /* enum scene_mesa: what the Mesa that was recorded does otherwise than 22.3 */
-	uint32_t srgb; /* 1: it can hold sRGB colours (which matters to accum.c alone: nothing here converts else) */
+	uint32_t srgb; /* 1: it can hold sRGB colours */
 };
 
 /* What contexts share. */

@@ -6,6 +6,7 @@
 #include "base/err.h"
 #include "replay/machine/state.h"
 #include "replay/programs/arb_parser.h"
+#include "replay/programs/fold.h"
 
 #define MAX_TEXT 1048576u
 
@@ -210,6 +211,8 @@ int program_translate_arb(const char *text, size_t n, int is_vertex, struct prog
 		arb_fail(&p->words, "an ARB program has more instructions than are done");
 	*why = p->words.why;
 	err = p->emitter.err == ERR_SYSTEM ? ERR_SYSTEM : 0;
+	if (!err && !p->words.why)
+		err = program_fold(code);
 	free(p);
 	return err;
 }

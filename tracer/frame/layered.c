@@ -30,7 +30,7 @@ struct looks {
 /* Whether kernels know all that a material asks of the frame buffer. */
 static int is_known(const struct job *job, const struct scene_material *m)
 {
-	return !(m->stencil_test && pixel_stencil_bits(job->bits)) && !m->logic_op && !m->floats && !m->samples_off && !m->alpha_to_coverage &&
+	return !(m->stencil_test && pixel_stencil_bits(job->bits)) && !m->logic_op && !m->floats && !m->srgb && !m->samples_off && !m->alpha_to_coverage &&
 	       !m->alpha_to_one && !(m->surface.transmit > 0 && m->blend && !plain_has_mirrors(job));
 }
 

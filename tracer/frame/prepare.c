@@ -381,7 +381,7 @@ static uint32_t draw_mode(const struct scene *scene, const struct scene_instance
 	if (scene->meshes[instance->mesh]->kind != SCENE_TRIANGLES || m->polygon_mode_front != GL_FILL ||
 	    m->polygon_mode_back != GL_FILL)
 		return CAMERA_COLUMN;
-	if (!m->depth_test || !m->depth_write || m->blend || m->alpha_test || m->stencil_test || m->logic_op ||
+	if (!m->depth_test || !m->depth_write || m->blend || m->alpha_test || m->stencil_test || m->logic_op || m->srgb ||
 	    (m->color_mask & 7) != 7 || m->clip_plane_mask || m->polygon_stipple != SCENE_NONE || m->samples_off || m->alpha_to_coverage ||
 	    m->surface.hidden & SCENE_LEFT_OUT || (m->polygon_offset & 4) || program_moves(scene, m) ||
 	    scene->depth_bits < 24) /* of more bits, 24 count (pixel_depth_steps) */

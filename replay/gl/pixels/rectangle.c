@@ -98,7 +98,8 @@ void gls_copy_rectangle(struct gls_exec *x, struct gls_state *st, const struct g
 {
 	struct gls_attribs a = st->a;
 
-	a.color.alpha_test = a.color.blend = a.color.logic_op_enabled = a.stencil.enabled = a.fog.enabled = 0;
+	a.color.alpha_test = a.color.blend = a.color.logic_op_enabled = a.color.framebuffer_srgb = 0;
+	a.stencil.enabled = a.fog.enabled = 0;
 	a.depth.enabled = a.depth.write = r->kind == SCENE_DEPTH_PIXELS;
 	a.depth.func = GL_ALWAYS;
 	a.stencil.side[0].write_mask = 255;

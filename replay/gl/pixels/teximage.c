@@ -24,10 +24,13 @@ struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state 
 	struct gls_texture *t;
 
 	if (token == GL_PROXY_TEXTURE_1D || token == GL_PROXY_TEXTURE_2D || token == GL_PROXY_TEXTURE_3D ||
-	    token == GL_PROXY_TEXTURE_CUBE_MAP || token == GL_PROXY_TEXTURE_RECTANGLE)
+	    token == GL_PROXY_TEXTURE_CUBE_MAP || token == GL_PROXY_TEXTURE_RECTANGLE || token == GL_PROXY_TEXTURE_1D_ARRAY ||
+	    token == GL_PROXY_TEXTURE_2D_ARRAY || token == GL_PROXY_TEXTURE_CUBE_MAP_ARRAY)
 		return NULL;
-	if (gls_refuses(x, st, target < 0, GL_INVALID_ENUM))
+	if (target < 0) {
+		gls_texture_no_target(x, st, token);
 		return NULL;
+	}
 	if (gls_refuses(x, st, level < 0 || level >= GLS_MAX_LEVELS, GL_INVALID_VALUE))
 		return NULL;
 	t = gls_texture_bound(x, st, st->a.texturing.active, (unsigned)target);

@@ -1,4 +1,6 @@
 /* Enables, hints and attribute stacks (GL 2.1 sec. 6.1.14 and the state tables of chapter 6). */
+#include "replay/gl/state/attrib.h"
+
 #include <stddef.h>
 #include <string.h>
 
@@ -24,7 +26,8 @@ static const struct { uint32_t cap, offset; } capabilities[] = {
 	CAPABILITY(STENCIL_TEST, stencil.enabled), CAPABILITY(SCISSOR_TEST, scissor.enabled),
 	CAPABILITY(AUTO_NORMAL, evaluator.auto_normal), CAPABILITY(COLOR_LOGIC_OP, color.logic_op_enabled),
 	CAPABILITY(INDEX_LOGIC_OP, color.index_logic_op_enabled), CAPABILITY(COLOR_SUM, fog.color_sum),
-	CAPABILITY(DITHER, color.dither), CAPABILITY(LINE_SMOOTH, line.smooth), CAPABILITY(LINE_STIPPLE, line.stipple),
+	CAPABILITY(DITHER, color.dither), CAPABILITY(FRAMEBUFFER_SRGB, color.framebuffer_srgb),
+	CAPABILITY(LINE_SMOOTH, line.smooth), CAPABILITY(LINE_STIPPLE, line.stipple),
 	CAPABILITY(MULTISAMPLE, multisample.enabled), CAPABILITY(SAMPLE_ALPHA_TO_COVERAGE, multisample.alpha_to_coverage),
 	CAPABILITY(SAMPLE_ALPHA_TO_ONE, multisample.alpha_to_one), CAPABILITY(SAMPLE_COVERAGE, multisample.coverage),
 	CAPABILITY(RESCALE_NORMAL, transform.rescale_normal), CAPABILITY(POINT_SMOOTH, point.smooth),
@@ -91,12 +94,19 @@ static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 	}
 }
 
+int gls_is_switched(struct gls_state *st, uint32_t cap, int on)
+{
+	uint32_t bit;
+	const uint32_t *flag = enable_flag(st, cap, &bit);
+
+	return flag && ((bit ? *flag & bit : *flag) != 0) == on;
+}
+
 /* Capabilities that change nothing here. */
 static int is_harmless_cap(uint32_t cap)
 {
 	switch (cap) {
 	case GL_DEBUG_OUTPUT: case GL_DEBUG_OUTPUT_SYNCHRONOUS: case GL_TEXTURE_CUBE_MAP_SEAMLESS:
-	case GL_FRAMEBUFFER_SRGB: /* the window has no sRGB buffer */
 		return 1;
 	default:
 		return 0;

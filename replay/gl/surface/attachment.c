@@ -97,7 +97,7 @@ int gls_attachments_describe(const struct gls_share *share, const struct gls_att
 	struct target t;
 	int any = 0;
 
-	s->depth_bits = s->stencil_bits = s->alpha_bits = s->samples = s->floats = 0;
+	s->depth_bits = s->stencil_bits = s->alpha_bits = s->samples = s->floats = s->srgb = 0;
 	s->samples_from_below = 1;
 	s->width = s->height = 16384;
 	for (int i = 0; i < N_GLS_ATTACHMENTS; i++) {
@@ -111,6 +111,7 @@ int gls_attachments_describe(const struct gls_share *share, const struct gls_att
 		if (i < DEPTH) {
 			s->alpha_bits |= has_alpha(gls_base_format(t.format)) ? 8 : 0;
 			s->floats |= gls_format_floats(t.format);
+			s->srgb |= gls_format_is_srgb(t.format);
 		}
 		else if (i == DEPTH)
 			s->depth_bits = gls_format_depth_bits(t.format);
@@ -132,21 +133,42 @@ static struct scene_picture *held_by(const struct target *t)
 	return sample_of(t, t->renderbuffer->content ? &t->renderbuffer->content->picture : NULL);
 }
 
-static void load_color(const struct target *t, struct scene_picture *p)
+/* Pixels of a picture: from x0 and y0 on, before x1 and y1. */
+struct part {
+	uint32_t x0, y0, x1, y1;
+};
+
+static uint32_t within(int64_t at, uint32_t size)
+{
+	return at < 0 ? 0 : at < size ? (uint32_t)at : size;
+}
+
+/* area: NULL: all of it */
+static struct part part_of(const struct gls_surface *s, const struct gls_area *area)
+{
+	const int32_t *r = area ? area->rect : NULL;
+
+	if (!area)
+		return (struct part){ 0, 0, s->width, s->height };
+	return (struct part){ within(r[0], s->width), within(r[1], s->height), within((int64_t)r[0] + r[2], s->width),
+		              within((int64_t)r[1] + r[3], s->height) };
+}
+
+static void load_color(const struct target *t, const struct part *part, struct scene_picture *p)
 {
 	const struct gls_level *l = t->level;
 	const struct scene_picture *held = l ? NULL : held_by(t);
 	const uint8_t *from = l ? l->texels + l->texel_bytes * t->first : held ? held->rgba : NULL;
 	float v[4];
 
-	for (uint32_t y = 0; from && y < p->height; y++) {
-		size_t at = (size_t)y * t->width, to = (size_t)y * p->width;
+	for (uint32_t y = part->y0; from && y < part->y1; y++) {
+		size_t at = (size_t)y * t->width + part->x0, to = (size_t)y * p->width + part->x0;
 
 		if (!p->colors && (!l || l->texel_bytes == 4)) {
-			memcpy(p->rgba + 4 * to, from + 4 * at, 4 * (size_t)p->width);
+			memcpy(p->rgba + 4 * to, from + 4 * at, 4 * (size_t)(part->x1 - part->x0));
 			continue;
 		}
-		for (uint32_t x = 0; x < p->width; x++, at++, to++) {
+		for (uint32_t x = part->x0; x < part->x1; x++, at++, to++) {
 			if (l)
 				gls_texel_load(l->texel_bytes, from + l->texel_bytes * at, v);
 			else
@@ -159,12 +181,12 @@ static void load_color(const struct target *t, struct scene_picture *p)
 	}
 }
 
-static void load_depth(const struct target *t, struct scene_picture *p)
+static void load_depth(const struct target *t, const struct part *part, struct scene_picture *p)
 {
 	float steps = (float)((1u << p->depth_bits) - 1), value;
 
-	for (uint32_t y = 0; y < p->height; y++)
-		for (uint32_t x = 0; x < p->width; x++) {
+	for (uint32_t y = part->y0; y < part->y1; y++)
+		for (uint32_t x = part->x0; x < part->x1; x++) {
 			uint32_t *to = &p->depth[(size_t)y * p->width + x];
 			size_t from = (size_t)y * t->width + x;
 
@@ -185,50 +207,62 @@ static uint8_t *stencil_of(const struct target *t)
 	return gls_level_stencil(t->level) ? gls_level_stencil(t->level) + t->first : NULL;
 }
 
-static void load_stencil(const struct target *t, struct scene_picture *p)
+static void load_stencil(const struct target *t, const struct part *part, struct scene_picture *p)
 {
 	const uint8_t *from = stencil_of(t);
 
-	for (uint32_t y = 0; from && y < p->height; y++)
-		memcpy(p->stencil + (size_t)y * p->width, from + (size_t)y * t->width, p->width);
+	for (uint32_t y = part->y0; from && y < part->y1; y++)
+		memcpy(p->stencil + (size_t)y * p->width + part->x0, from + (size_t)y * t->width + part->x0,
+		       part->x1 - part->x0);
 }
 
 /* What attachments hold of one sample, or of the mean (struct target). */
 static void load_sample(const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS], int color, int sample,
-                        const struct gls_surface *s, struct scene_picture *p)
+                        const struct gls_surface *s, const struct part *part, struct scene_picture *p)
 {
 	struct target t;
+
+	for (uint32_t y = part->y0; !s->alpha_bits && y < part->y1; y++)
+		for (uint32_t x = part->x0; x < part->x1; x++) {
+			p->rgba[4 * ((size_t)y * p->width + x) + 3] = 255;
+			if (p->colors)
+				p->colors[4 * ((size_t)y * p->width + x) + 3] = 1;
+		}
 
 	/* A surface is as small as the smallest of what it draws to. A read buffer may be smaller still: then nothing is loaded. */
 	if (color >= 0 && find_target(share, &attached[color], &t) && t.width >= s->width && t.height >= s->height) {
 		t.sample = sample;
-		load_color(&t, p);
+		load_color(&t, part, p);
 	}
 	if (s->depth_bits && find_target(share, &attached[DEPTH], &t)) {
 		t.sample = sample;
-		load_depth(&t, p);
+		load_depth(&t, part, p);
 	}
 	if (s->stencil_bits && find_target(share, &attached[STENCIL], &t)) {
 		t.sample = sample;
-		load_stencil(&t, p);
+		load_stencil(&t, part, p);
 	}
 }
 
 struct gls_picture *gls_attachments_load(struct gls_exec *x, const struct gls_share *share,
-                                         const struct gls_attachment attached[N_GLS_ATTACHMENTS], int color, const struct gls_surface *s)
+                                         const struct gls_attachment attached[N_GLS_ATTACHMENTS], int color, const struct gls_surface *s,
+                                         const struct gls_area *area)
 {
+	const struct part part = part_of(s, area);
 	struct gls_picture *p;
 	struct target t;
 
 	for (int i = 0; i < N_GLS_ATTACHMENTS; i++)
 		if ((i >= DEPTH || i == color) && find_target(share, &attached[i], &t) && is_missing(&t))
 			return NULL;
-	p = gls_picture_make(x, &(struct gls_picture_form){ s->width, s->height, s->depth_bits, s->alpha_bits, s->samples, s->floats });
+	/* Where it is read in part, the rest is not even touched: alpha, too, is set there alone. */
+	p = gls_picture_make(x, &(struct gls_picture_form){ s->width, s->height, s->depth_bits, 8, s->samples,
+	                                                    s->floats });
 	if (!p)
 		return NULL;
-	load_sample(share, attached, color, 0, s, &p->picture);
+	load_sample(share, attached, color, 0, s, &part, &p->picture);
 	for (int i = 0; i < SCENE_SAMPLES && p->picture.samples; i++)
-		load_sample(share, attached, color, i + 1, s, &p->picture.samples[i]);
+		load_sample(share, attached, color, i + 1, s, &part, &p->picture.samples[i]);
 	return p;
 }
 

@@ -7,6 +7,7 @@
 
 struct gls_exec;
 struct gls_share;
+struct gls_area;
 struct gls_surface;
 
 /* What an attachment point names: a renderbuffer, or an image of a texture; neither: nothing. */
@@ -39,9 +40,14 @@ int gls_attachment_has_8_bits(const struct gls_share *share, const struct gls_at
 int gls_attachments_describe(const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS], uint32_t colors,
                              struct gls_surface *s);
 
-/** What depth, stencil and a colour (-1: none) hold, in the form of a surface. @return a reference; NULL: missing, or out of memory */
+/**
+ * What depth, stencil and a colour (-1: none) hold, in the form of a surface.
+ * @param area  what of it is looked at; NULL: all
+ * @return a reference; NULL: missing, or out of memory
+ */
 struct gls_picture *gls_attachments_load(struct gls_exec *x, const struct gls_share *share,
-                                         const struct gls_attachment attached[N_GLS_ATTACHMENTS], int color, const struct gls_surface *s);
+                                         const struct gls_attachment attached[N_GLS_ATTACHMENTS], int color, const struct gls_surface *s,
+                                         const struct gls_area *area);
 
 /** Attachments (1 << number) become what was drawn to them. p: NULL in a frame that is not built: they are missing from now on */
 void gls_attachments_store(struct gls_exec *x, const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS],

@@ -56,7 +56,7 @@ static void update_colors(struct gls_exec *x, const struct gls_share *share, str
 	const struct gls_area depths = { { 0, 0, (int32_t)s->width, (int32_t)s->height }, (s->depth_bits ? 2u : 0) | (s->stencil_bits ? 4u : 0) };
 	const struct scene_picture *p = NULL;
 
-	if (loads && !(s->picture = gls_attachments_load(x, share, fb->attached, color, s)))
+	if (loads && !(s->picture = gls_attachments_load(x, share, fb->attached, color, s, NULL)))
 		s->skipped = 1;
 	p = gls_surface_read(x, s, left ? NULL : &depths);
 	for (left &= left - 1; left && p; left &= left - 1) {
@@ -66,7 +66,7 @@ static void update_colors(struct gls_exec *x, const struct gls_share *share, str
 		color = __builtin_ctz(left);
 		if (!shows)
 			continue;
-		if (!(next = gls_attachments_load(x, share, fb->attached, color, s)))
+		if (!(next = gls_attachments_load(x, share, fb->attached, color, s, NULL)))
 			s->skipped = 1;
 		if ((shows = gls_surface_restart(x, s, next)))
 			p = gls_surface_read(x, s, NULL);
@@ -189,7 +189,7 @@ struct gls_surface *gls_framebuffer_surface(struct gls_exec *x, struct gls_state
 	return &fb->surface;
 }
 
-const struct scene_picture *gls_framebuffer_read(struct gls_exec *x, struct gls_state *st)
+const struct scene_picture *gls_framebuffer_read(struct gls_exec *x, struct gls_state *st, const struct gls_area *area)
 {
 	struct gls_framebuffer *fb = find(x, st, st->read_framebuffer);
 	uint32_t buffer = st->a.pixel.read_buffer;
@@ -203,7 +203,7 @@ const struct scene_picture *gls_framebuffer_read(struct gls_exec *x, struct gls_
 	fb->read = NULL;
 	if (!gls_attachments_describe(st->share, fb->attached, colors_of(buffer, 0), &fb->surface))
 		return NULL;
-	fb->read = gls_attachments_load(x, st->share, fb->attached, gls_attachment_color(buffer), &fb->surface);
+	fb->read = gls_attachments_load(x, st->share, fb->attached, gls_attachment_color(buffer), &fb->surface, area);
 	if (!fb->read && !x->failed && x->feedback.supply)
 		gls_rewind(x, "a framebuffer object has what they drew");
 	return fb->read ? &fb->read->picture : NULL;

@@ -24,7 +24,7 @@ struct gls_framebuffer {
 struct gls_surface *gls_framebuffer_surface(struct gls_exec *x, struct gls_state *st);
 
 /** The pixels of the bound read object: as gls_read_screen. */
-const struct scene_picture *gls_framebuffer_read(struct gls_exec *x, struct gls_state *st);
+const struct scene_picture *gls_framebuffer_read(struct gls_exec *x, struct gls_state *st, const struct gls_area *area);
 
 /** A frame is not built: what is attached to the bound object, if one is, is missing from now on. */
 void gls_framebuffer_skip(struct gls_exec *x, struct gls_state *st);

@@ -19,6 +19,7 @@ static void describe(struct gls_surface *s, const struct gls_drawable *d, const 
 	s->depth_bits = st->depth_bits;
 	s->stencil_bits = st->stencil_bits;
 	s->alpha_bits = st->alpha_bits;
+	s->srgb = st->srgb;
 	s->samples = st->samples;
 }
 
@@ -68,7 +69,7 @@ const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state
 	struct gls_drawable *d;
 
 	if (st->read_framebuffer)
-		return gls_framebuffer_read(x, st);
+		return gls_framebuffer_read(x, st, area);
 	d = gls_window_of(x, st, st->read_drawable);
 	return d ? gls_surface_read(x, gls_front_is_read(st) && x->want ? gls_front_part(x, d) : &d->surface, area) : NULL;
 }

@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include "gl_tokens.h"
+#include "kernels/gl/blend.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
@@ -90,14 +91,18 @@ static int is_cube_complete(const struct gls_texture *t)
 	return 1;
 }
 
+/* As llvmpipe samples them. In eight bits, what is dark would lack the steps that a buffer of sRGB shows. */
 static void decode_srgb(uint8_t *to, const uint8_t *from, size_t n_texels)
 {
-	uint8_t linear[256];
+	float linear[256], texel[4];
 
 	for (unsigned i = 0; i < 256; i++)
-		linear[i] = (uint8_t)(gls_linear_from_srgb((float)i / 255) * 255 + 0.5f);
-	for (size_t i = 0; i < 4 * n_texels; i++)
-		to[i] = i % 4 == 3 ? from[i] : linear[from[i]];
+		linear[i] = blend_linear_from_code(i);
+	for (size_t i = 0; i < n_texels; i++, from += 4, to += sizeof(texel)) {
+		for (unsigned k = 0; k < 4; k++)
+			texel[k] = k < 3 ? linear[from[k]] : (float)from[k] / 255;
+		memcpy(to, texel, sizeof(texel));
+	}
 }
 
 static struct gls_texture_image *build_image(struct gls_exec *x, const struct gls_texture *t, uint32_t n_levels)
@@ -110,11 +115,12 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	                     t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border,
 	                     t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1, n_levels, base->border, (uint32_t)srgb,
 	                     base->texel_bytes };
+	const uint32_t texel_bytes = srgb ? 16 : base->texel_bytes;
 	struct gls_texture_image *image;
 	XXH3_state_t state;
 	XXH128_hash_t hash;
 	uint64_t key;
-	size_t bytes = 0, n;
+	size_t bytes = 0;
 	uint8_t *at;
 
 	XXH3_128bits_reset(&state);
@@ -122,9 +128,8 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	for (uint32_t l = 0; l < n_levels; l++)
 		for (unsigned face = 0; face < n_faces; face++) {
 			const struct gls_level *level = &t->levels[face][t->parameters.base_level + l];
-			n = level->texel_bytes * gls_level_count(level);
-			XXH3_128bits_update(&state, level->texels, n);
-			bytes += n;
+			XXH3_128bits_update(&state, level->texels, level->texel_bytes * gls_level_count(level));
+			bytes += texel_bytes * gls_level_count(level);
 		}
 	hash = XXH3_128bits_digest(&state);
 	for (key = hash.low64; (image = table_find(&x->caches.images, key)); key++)
@@ -141,7 +146,7 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	atomic_init(&image->refs, 2); /* the cache's and the caller's */
 	image->texture = (struct scene_texture){ .hash = { hash.low64, hash.high64 }, .target = head[0],
 		.base_format = head[1], .width = head[2], .height = head[3], .depth = head[4], .n_levels = n_levels,
-		.border = base->border, .floats = base->texel_bytes == 16, .n_bytes = bytes };
+		.border = base->border, .floats = texel_bytes == 16, .n_bytes = bytes };
 	image->texture.texels = at = (uint8_t *)(image + 1);
 	for (uint32_t l = 0; l < n_levels; l++)
 		for (unsigned face = 0; face < n_faces; face++) {
@@ -150,7 +155,7 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 				decode_srgb(at, level->texels, gls_level_count(level));
 			else
 				memcpy(at, level->texels, level->texel_bytes * gls_level_count(level));
-			at += level->texel_bytes * gls_level_count(level);
+			at += texel_bytes * gls_level_count(level);
 		}
 	x->caches.image_bytes += bytes;
 	return image;

@@ -159,6 +159,13 @@ uint32_t gls_format_floats(uint32_t internal_format)
 	return !f || f->numbers < GLS_FLOAT ? 0 : f->numbers == GLS_HALF ? SCENE_HALVES : SCENE_FLOATS;
 }
 
+uint32_t gls_format_is_srgb(uint32_t internal_format)
+{
+	const struct gls_format *f = gls_format_find(internal_format);
+
+	return f && f->srgb;
+}
+
 uint32_t gls_texel_bytes(uint32_t internal_format)
 {
 	const struct gls_format *f = gls_format_find(internal_format);
@@ -303,4 +310,10 @@ float gls_linear_from_srgb(float c)
 float gls_srgb_from_linear(float c)
 {
 	return c <= 0.0031308f ? c * 12.92f : 1.055f * powf(c, 1 / 2.4f) - 0.055f;
+}
+
+void gls_encode_color(float color[4])
+{
+	for (unsigned i = 0; i < 3; i++)
+		color[i] = gls_srgb_from_linear(color[i] > 0 ? color[i] < 1 ? color[i] : 1 : 0);
 }

@@ -58,3 +58,7 @@ void gls_format_border(uint32_t internal_format, const float color[4], float out
 /** One channel in [0,1] (EXT_texture_sRGB, IEC 61966-2-1). */
 float gls_linear_from_srgb(float c);
 float gls_srgb_from_linear(float c);
+/** The first three in place, clamped. */
+void gls_encode_color(float color[4]);
+/** 1 where colours of a format are encoded so. */
+uint32_t gls_format_is_srgb(uint32_t internal_format);

@@ -119,6 +119,26 @@ void gls_texture_restore_parameters(struct gls_state *st,
 		}
 }
 
+/* Targets of GL 3.0 and later, which Mesa and others know in any context. */
+static int is_later_target(uint32_t token)
+{
+	switch (token) {
+	case GL_TEXTURE_1D_ARRAY: case GL_TEXTURE_2D_ARRAY: case GL_TEXTURE_CUBE_MAP_ARRAY: case GL_TEXTURE_BUFFER:
+	case GL_TEXTURE_2D_MULTISAMPLE: case GL_TEXTURE_2D_MULTISAMPLE_ARRAY:
+		return 1;
+	default:
+		return 0;
+	}
+}
+
+void gls_texture_no_target(struct gls_exec *x, struct gls_state *st, uint32_t token)
+{
+	if (is_later_target(token))
+		gls_unsupported(x, "texture arrays and other targets of later GL");
+	else
+		gls_error(x, st, GL_INVALID_ENUM);
+}
+
 /* The object that a call with a target argument changes, or NULL (error set). */
 static struct gls_texture *addressed(struct gls_exec *x, struct gls_state *st, uint32_t token)
 {
@@ -127,10 +147,7 @@ static struct gls_texture *addressed(struct gls_exec *x, struct gls_state *st, u
 
 	if (target >= 0)
 		return gls_texture_bound(x, st, st->a.texturing.active, (unsigned)target);
-	if (token >= GL_TEXTURE_1D_ARRAY && token <= GL_TEXTURE_2D_MULTISAMPLE_ARRAY)
-		gls_unsupported(x, "texture targets of later GL");
-	else
-		gls_error(x, st, GL_INVALID_ENUM);
+	gls_texture_no_target(x, st, token);
 	return NULL;
 }
 
@@ -154,7 +171,7 @@ GLS_HANDLER(glBindTexture, STATE, BIND_TEXTURE)
 	struct gls_texture *t;
 
 	if (target < 0 || token != gls_texture_token((uint32_t)target)) {
-		addressed(x, st, token == GL_TEXTURE_1D_ARRAY ? token : 0);
+		gls_texture_no_target(x, st, token);
 		return;
 	}
 	t = name ? table_find(&st->share->textures, name) : NULL;

@@ -34,6 +34,8 @@ static inline void gls_texture_changed(struct gls_texture *t)
 
 /** gls_texture_target of a GL token (texture or cube face), -1: none. `face` receives 0 .. 5. */
 int gls_texture_target_of(uint32_t token, unsigned *face);
+/** A target that is none: the program's error, or one that we lack. */
+void gls_texture_no_target(struct gls_exec *x, struct gls_state *st, uint32_t token);
 
 /** The GL token of a gls_texture_target. */
 static inline uint32_t gls_texture_token(uint32_t target)

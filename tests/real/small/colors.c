@@ -4,7 +4,7 @@
  */
 #include "tests/trace/window.h"
 
-enum { ACROSS = 8, DOWN = 6, SEEDS = 8 };
+enum { ACROSS = 8, DOWN = 6, SEEDS = 12 };
 
 static unsigned state;
 
@@ -67,23 +67,23 @@ static void draw(int cell)
 	ways[roll(2)](cell, (int)roll(3));
 }
 
-/* Of the state, what changes: calls that change nothing leave Mesa's vertex store alone, and are no matter of this program. */
+/* Of the state, what changes, or is switched on once more: that leaves Mesa's vertex store alone, as all calls do that change nothing. */
 static void change(void)
 {
 	static unsigned mode = 2, ambient = 5;
 	static const GLenum parameters[5] = { GL_AMBIENT, GL_DIFFUSE, GL_AMBIENT_AND_DIFFUSE, GL_EMISSION, GL_SPECULAR };
 
 	switch (roll(8)) {
-	case 0:
-	case 1: glMaterialfv(GL_FRONT_AND_BACK, parameters[roll(4)], palette[roll(5)]); break;
-	case 2:
-	case 3: glColor4fv(palette[roll(5)]); break;
+	case 0: glMaterialfv(GL_FRONT_AND_BACK, parameters[roll(4)], palette[roll(5)]); break;
+	case 1:
+	case 2: glColor4fv(palette[roll(5)]); break;
+	case 3: glEnable(roll(2) ? GL_LIGHTING : GL_LIGHT0); break;
 	case 4:
 	case 5:
-		if (!glIsEnabled(GL_COLOR_MATERIAL))
-			glEnable(GL_COLOR_MATERIAL);
-		else if (roll(3) == 0)
+		if (roll(3) == 0)
 			glDisable(GL_COLOR_MATERIAL);
+		else
+			glEnable(GL_COLOR_MATERIAL);
 		break;
 	case 6:
 		mode = (mode + 1 + roll(4)) % 5;

@@ -1,10 +1,13 @@
-/* A shader that reads what Relume does not do, and a call after the draw that draws nothing itself. Recorded by test_small.py. */
+/*
+ * A shader that reads what Relume does not do, and a call after the draw that draws nothing itself; then a texture that is not done, which is
+ * no error of this program. Recorded by test_small.py.
+ */
 #include "tests/trace/window.h"
 
 int main(void)
 {
 	const char *text = "#version 130\nvoid main() { gl_Position = ftransform(); gl_ClipDistance[0] = 1.0; }";
-	GLuint shader, program;
+	GLuint shader, program, texture;
 	GLint links;
 
 	open_window();
@@ -24,6 +27,13 @@ int main(void)
 	glVertex2f(0, 0.5f);
 	glEnd();
 	glPopMatrix();
+	glUseProgram(0);
+	glTexImage3D(GL_PROXY_TEXTURE_2D_ARRAY, 0, GL_RGB, 1, 1, 1, 0, GL_RGB, GL_UNSIGNED_BYTE, NULL);
+	glGenTextures(1, &texture);
+	glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
+	glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGB, 1, 1, 1, 0, GL_RGB, GL_UNSIGNED_BYTE, "abc");
+	glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	expect(glGetError() == GL_NO_ERROR, "no error");
 	end_frame();
 	return 0;
 }

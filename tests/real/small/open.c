@@ -88,6 +88,24 @@ static void powers_of_programs(void)
 	}
 }
 
+/* What is known before a program runs is computed by another library: 0 to the power of 0 is 1. */
+static void known_powers(void)
+{
+	static const char *const known[4] = {
+		"MOV r, {1, 0, 0, 0};\nLIT r, r;\nMOV o.x, r.z;\n", "PARAM p = {0, 0, 0, 0};\nPOW o.x, p.x, p.y;\nADD r, {0.25, 0, 0, 0}, p;\nPOW o.y, r.x, {0.5}.x;\n",
+		"SUB r, {1, 1, 1, 1}, {1, 1, 1, 1};\nPOW o.xyz, r.x, r.x;\nLIT o.x, program.env[0];\n", "LG2 r, {0.3}.x;\nEX2 o.x, r.x;\nLOG o.y, {0.4}.x;\nLIT r, {0.5, -2, 0, -3};\nMOV o.z, r.z;\n",
+	};
+	char text[512];
+
+	glProgramEnvParameter4fARB(GL_VERTEX_PROGRAM_ARB, 0, 1, 0, 0, 0);
+	for (int i = 0; i < 4; i++) {
+		snprintf(text, sizeof(text), "!!ARBvp1.0\nTEMP r, o;\nMOV o, {0, 0, 0.2, 1};\n%sMOV result.color, o;\nMOV result.position, vertex.position;\nEND\n",
+		         known[i]);
+		use_program(text);
+		quad(0.45f * (float)i - 0.9f, 0);
+	}
+}
+
 static void logarithms(void)
 {
 	use_program("!!ARBvp1.0\nLOG result.color, program.env[0].x;\nMOV result.position, vertex.position;\nEND\n");
@@ -155,11 +173,62 @@ static void offset_of_ext(void)
 	quad(-0.6f, 0.2f);
 }
 
+static void use_cube(GLint filter)
+{
+	static GLubyte texels[6][16][3];
+
+	for (int i = 0; i < 6 * 16; i++) {
+		texels[i / 16][i % 16][0] = (GLubyte)(40 * (i / 16) + 10);
+		texels[i / 16][i % 16][1] = (GLubyte)(60 * (i % 4) + 10);
+		texels[i / 16][i % 16][2] = (GLubyte)(60 * (i / 4 % 4) + 10);
+	}
+	glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_GENERATE_MIPMAP, filter != GL_NEAREST && filter != GL_LINEAR);
+	for (GLenum i = 0; i < 6; i++)
+		glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + i, 0, GL_RGB, 4, 4, 0, GL_RGB, GL_UNSIGNED_BYTE, texels[i]);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, filter);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, filter == GL_NEAREST || filter == GL_NEAREST_MIPMAP_NEAREST ? GL_NEAREST : GL_LINEAR);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+	glEnable(GL_TEXTURE_CUBE_MAP);
+}
+
+/* No direction at all, and those between two or three faces. */
+static void between_faces(GLint filter)
+{
+	static const float along[8][3] = { { 0, 0, 0 }, { 1, 1, 0 }, { 1, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 }, { -1, 1, 1 }, { -1, -1, -1 }, { -1, -1, 0 } };
+
+	use_cube(filter);
+	for (int i = 0; i < 8; i++) {
+		glTexCoord3fv(along[i]);
+		glRectf(-1 + 0.25f * (float)i, -0.9f, -0.75f + 0.25f * (float)i, 0.9f);
+	}
+}
+
+static void nearest(void)
+{
+	between_faces(GL_NEAREST);
+}
+
+static void linear(void)
+{
+	between_faces(GL_LINEAR);
+}
+
+static void nearest_level(void)
+{
+	between_faces(GL_NEAREST_MIPMAP_NEAREST);
+}
+
+static void linear_levels(void)
+{
+	between_faces(GL_LINEAR_MIPMAP_LINEAR);
+}
+
 int main(void)
 {
 	static void (*const frames[])(void) = {
-		light_nothing_attenuates, highlight_without_power, fog_without_length, powers_of_programs, logarithms, powers_of_shaders,
-		places_between_pixels, offset_of_ext,
+		light_nothing_attenuates, highlight_without_power, fog_without_length, powers_of_programs, known_powers, logarithms, powers_of_shaders,
+		places_between_pixels, offset_of_ext, nearest, linear, nearest_level, linear_levels,
 	};
 
 	open_window();
