@@ -7,6 +7,16 @@ int drawn_in_parallel(const struct scene_view *view)
 	return view->projection[3] == 0 && view->projection[7] == 0 && view->projection[11] == 0;
 }
 
+int drawn_mirrored(const struct scene_view *view)
+{
+	const float *m = view->projection;
+	const double xy = (double)m[0] * m[5] - (double)m[1] * m[4];
+
+	/* of x, y and w as they follow from x, y and z; w falls along -z */
+	return drawn_in_parallel(view) ? xy < 0 :
+	       m[3] * ((double)m[4] * m[9] - (double)m[5] * m[8]) - m[7] * ((double)m[0] * m[9] - (double)m[1] * m[8]) + m[11] * xy > 0;
+}
+
 int drawn_multiplies(const struct scene_material *m)
 {
 	return m->blend && ((m->blend_src_rgb == GL_DST_COLOR && m->blend_dst_rgb == GL_ZERO) ||

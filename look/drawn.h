@@ -6,6 +6,9 @@
 /** 1 where a view shows its space in parallel projection. */
 int drawn_in_parallel(const struct scene_view *view);
 
+/** 1 where a view shows eye space as a mirror does: what runs clockwise to its viewer runs counter-clockwise in the window. */
+int drawn_mirrored(const struct scene_view *view);
+
 /** 1 where a draw multiplies what is there by its own colour. */
 int drawn_multiplies(const struct scene_material *m);
 

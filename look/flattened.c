@@ -143,29 +143,33 @@ static int is_shadow_of(const struct scene *s, uint32_t flat, uint32_t upright, 
 	return flattened_read(from_upright, light, plane);
 }
 
+/* 1 where some light of OpenGL's is at a place of eye space: most that wrong pairs say is not. */
+static int is_light(const struct scene *s, const double light[4])
+{
+	for (uint32_t i = 0; i < s->n_materials; i++)
+		if (is_lit_from(s, &s->materials[i], light))
+			return 1;
+	return 0;
+}
+
 /* Decide about a flat draw and those that it may be the shadow of. @return how many instances got bits */
 static uint32_t decide(const struct scene *s, const struct pairs *pairs, uint32_t flat, int gives_way, uint32_t *bits)
 {
 	const int may_go = gives_way && (s->materials[s->instances[flat].material].color_mask & 7) != 0;
 	const uint32_t first = pairs_find(pairs, s, flat, MODELVIEW_PLAIN);
+	double light[4], plane[4];
 	uint32_t n = 0;
 
-	for (uint32_t upright = first; upright != SCENE_NONE && may_go; upright = pairs->next[upright]) {
-		double light[4], plane[4];
-
-		if (is_shadow_of(s, flat, upright, light, plane) && flattened_is_lit(s, light, plane)) {
+	for (uint32_t upright = first; upright != SCENE_NONE && may_go; upright = pairs->next[upright])
+		if (is_shadow_of(s, flat, upright, light, plane) && is_light(s, light) && flattened_is_lit(s, light, plane)) {
 			bits[flat] |= SCENE_LEFT_OUT;
 			return 1;
 		}
-	}
-	for (uint32_t upright = first; upright != SCENE_NONE; upright = pairs->next[upright]) {
-		double light[4], plane[4];
-
-		if (bits[upright] & SCENE_HIDDEN_FROM_LIGHTS || !is_shadow_of(s, flat, upright, light, plane))
-			continue;
-		bits[upright] |= SCENE_HIDDEN_FROM_LIGHTS;
-		n++;
-	}
+	for (uint32_t upright = first; upright != SCENE_NONE; upright = pairs->next[upright])
+		if (!(bits[upright] & SCENE_HIDDEN_FROM_LIGHTS) && is_shadow_of(s, flat, upright, light, plane)) {
+			bits[upright] |= SCENE_HIDDEN_FROM_LIGHTS;
+			n++;
+		}
 	return n;
 }
 

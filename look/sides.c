@@ -10,6 +10,7 @@
 #include "base/vec3.h"
 #include "gl_tokens.h"
 #include "look/corner.h"
+#include "look/drawn.h"
 #include "look/modelview.h"
 
 /* The cross products of a closed body's triangles add up to this share of their lengths at most: corners that were
@@ -188,10 +189,13 @@ static int has_lamp_behind(const struct scene *s, const struct scene_instance *i
 	return 0;
 }
 
+/* Rays find fronts by how triangles run in eye space: where a projection mirrors it, what is culled is not known to them. */
 static int is_told_apart(const struct scene *s, const struct scene_instance *in)
 {
+	const enum sides_shown shown = shown_of(&s->materials[in->material]);
+
 	return s->meshes[in->mesh]->kind == SCENE_TRIANGLES && s->meshes[in->mesh]->primitive_count && !in->rectangle &&
-	       shown_of(&s->materials[in->material]) != SIDES_BOTH;
+	       (shown == SIDES_LIT || (shown != SIDES_BOTH && !drawn_mirrored(&s->views[in->view])));
 }
 
 /* 1 where rays to some lamp have to be asked which side of an instance they meet. */

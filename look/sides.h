@@ -11,7 +11,7 @@ enum sides_shown {
 	SIDES_BOTH,  /* nothing tells them apart */
 	SIDES_FRONT, /* the other one is culled */
 	SIDES_BACK,
-	SIDES_LIT, /* the one that normals point away from */
+	SIDES_LIT, /* the one that its normals stand on */
 };
 
 /* Which sides of its triangles an instance shows. */

@@ -422,7 +422,7 @@ int spare_find(const struct scene *scene, unsigned said, struct spare *out)
 		err = sides_find(scene, new_lights || a->more_lamps ? NULL : out->lamps, out->n_lamps, out->bits, &out->one_sided);
 	if (!err && !decided && a->n_receivers)
 		err = find_blocking(a);
-	if (!err && !decided)
+	if (!err && !(said & SPARE_TRICKS_KNOWN))
 		err = flattened_find(scene, !(said & SPARE_TRICKS_STAY), out->bits, &out->flattened);
 	if (!err)
 		err = cards_find(scene, SCENE_CARD, out->bits, &out->cards);

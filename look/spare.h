@@ -25,9 +25,10 @@ enum { SPARE_MOST_LAMPS = 16 };
 
 /* What rules say before anything is looked for: bits. */
 enum {
-	SPARE_IS_DECIDED = 1,  /* what of enclosures, backdrops and drawn shadows lets light pass */
-	SPARE_NEW_LIGHTS = 2,  /* there are lights of rules' own, which may stand anywhere */
-	SPARE_TRICKS_STAY = 4, /* drawn shadows do not give way to traced ones */
+	SPARE_IS_DECIDED = 1,   /* what of enclosures and backdrops lets light pass */
+	SPARE_NEW_LIGHTS = 2,   /* there are lights of rules' own, which may stand anywhere */
+	SPARE_TRICKS_STAY = 4,  /* drawn shadows do not give way to traced ones */
+	SPARE_TRICKS_KNOWN = 8, /* drawn shadows are seen to already */
 };
 
 /* What sparing decides of a surface, cards apart: bits of scene_surface's `hidden`. */

@@ -171,9 +171,15 @@ static int decides_sparing(const struct rules *rules)
 
 static unsigned said_of_sparing(const struct applying *a)
 {
-	return (decides_sparing(a->rules) ? SPARE_IS_DECIDED : 0u) |
-	       (a->lights_change || a->rules->lights_count ? SPARE_NEW_LIGHTS : 0u) |
-	       (a->rules->replace && !*a->rules->replace ? SPARE_TRICKS_STAY : 0u);
+	const struct rules *rules = a->rules;
+	unsigned said = (decides_sparing(rules) ? SPARE_IS_DECIDED : 0u) |
+	                (a->lights_change || rules->lights_count ? SPARE_NEW_LIGHTS : 0u);
+
+	if (rules->replace && !*rules->replace)
+		return said | SPARE_TRICKS_STAY;
+	for (uint32_t k = 0; k < rules->surfaces_count; k++)
+		said |= rules->surfaces[k].left_out ? SPARE_TRICKS_KNOWN : 0u;
+	return said;
 }
 
 int look_apply(const struct look *look, const struct scene *scene, struct scene *out, struct spare *found)

@@ -55,7 +55,7 @@ int spared_add(struct spared *s, const struct scene *scene)
 {
 	struct spare found;
 	uint8_t *depths;
-	int err = spare_find(scene, 0, &found);
+	int err = spare_find(scene, SPARE_TRICKS_KNOWN, &found);
 
 	if (err || !found.n_lamps) {
 		spare_free(&found);
