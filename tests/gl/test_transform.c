@@ -93,29 +93,44 @@ START_TEST(test_eye_space)
 }
 END_TEST
 
-/* Views: equal ones once, equal viewport rectangles share their eye space; scissors are cut to the target. */
+static uint32_t space_of(const struct scene *s, unsigned instance)
+{
+	return s->views[s->instances[instance].view].space;
+}
+
+/*
+ * Views: equal ones once; in equal viewport rectangles those in perspective share their eye space, and parallel ones
+ * that show x and y alike; scissors are cut to the target.
+ */
 START_TEST(test_views)
 {
 	struct gl gl = gl_open();
 	struct scene *s;
 
 	gl_call(&gl, "glEnable", "e", GL_SCISSOR_TEST);
-	for (unsigned i = 0; i < 4; i++) {
+	for (unsigned i = 0; i < 7; i++) {
 		gl_call(&gl, "glViewport", "iiii", i == 3 ? 32 : 0, 0, 32, 64);
 		gl_call(&gl, "glScissor", "iiii", -10, 50, 40, 100);
 		gl_call(&gl, "glMatrixMode", "e", GL_PROJECTION);
 		gl_call(&gl, "glLoadIdentity", "");
-		gl_call(&gl, "glOrtho", "dddddd", 0.0, i == 2 ? 2.0 : 1.0, 0.0, 1.0, -1.0, 1.0);
+		if (i == 4 || i == 5)
+			gl_call(&gl, "glFrustum", "dddddd", -1.0, 1.0, -1.0, i - 3.0, 1.0, 10.0 * i);
+		else
+			gl_call(&gl, "glOrtho", "dddddd", 0.0, i == 2 ? 2.0 : 1.0, 0.0, 1.0, -1.0, i == 6 ? 5.0 : 1.0);
 		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
 	}
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(s->width, 64);
-	ck_assert_uint_eq(s->n_instances, 4);
-	ck_assert_uint_eq(s->n_views, 3);
-	ck_assert_uint_eq(s->n_meshes, 1);
+	ck_assert_uint_eq(s->n_instances, 7);
+	ck_assert_uint_eq(s->n_views, 6);
+	for (unsigned i = 1; i < 4; i++)
+		ck_assert_uint_eq(s->instances[i].mesh, s->instances[0].mesh);
 	ck_assert_uint_eq(s->instances[0].view, s->instances[1].view);
-	ck_assert_uint_eq(s->views[s->instances[2].view].space, s->views[s->instances[0].view].space);
-	ck_assert_uint_ne(s->views[s->instances[3].view].space, s->views[s->instances[0].view].space);
+	ck_assert_uint_ne(space_of(s, 2), space_of(s, 0));
+	ck_assert_uint_ne(space_of(s, 3), space_of(s, 0));
+	ck_assert_uint_ne(space_of(s, 4), space_of(s, 0));
+	ck_assert_uint_eq(space_of(s, 5), space_of(s, 4));
+	ck_assert_uint_eq(space_of(s, 6), space_of(s, 0));
 	ck_assert_mem_eq(s->views[0].scissor, ((int32_t[]){ 0, 50, 30, 14 }), 16);
 	scene_release(&s);
 	gl_close(&gl);

@@ -1,0 +1,44 @@
+#!/usr/bin/python3
+# limit: 600 s
+"""Sheets that stand in nobody's light, and shadows that the program draws itself: frames of tests/real/sheets.c."""
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
+from exr import Image  # noqa: E402
+from helpers import BUILD, SCRATCH, check, finish, record, render  # noqa: E402
+
+CHANNELS = [f"{layer}{c}" for layer in ("", "gl.") for c in "RGB"]
+SIZE = 100
+
+
+def frames(kind):
+    """The planes of each frame of a kind."""
+    trace = SCRATCH / f"{kind}.trace"
+    record(trace, BUILD / "tests/real/sheets", kind, options=())
+    return [Image(f, CHANNELS).planes for f in render(trace, SCRATCH / kind)]
+
+
+def differing(a, b, of_a="", of_b=""):
+    """Pixels that differ by more than a step of eight bits."""
+    return sum(any(abs(a[of_a + c][y][x] - b[of_b + c][y][x]) > 1 / 255 for c in "RGB")
+               for y in range(SIZE) for x in range(SIZE))
+
+
+for kind in ("window", "iso", "unseen"):
+    alone, *others = frames(kind)
+    shadow = differing(alone, alone, of_b="gl.")
+    check(20 < shadow < SIZE * SIZE / 2, f"{kind}: the box alone throws a shadow: {shadow} pixels")
+    for number, frame in enumerate(others, 1):
+        check(differing(alone, frame, "gl.", "gl.") == 0, f"{kind} {number}: OpenGL shows nothing of the sheet")
+        differ = differing(alone, frame)
+        check(differ == 0, f"{kind} {number}: nor does light meet it: {differ} pixels differ")
+
+alone, same, other = frames("drawn")
+check(differing(same, same, of_b="gl.") > 20, "a drawn shadow of OpenGL's light is not that which is traced")
+differ = differing(alone, same)
+check(differ == 0, f"it gives way to the traced one: {differ} pixels differ")
+differ = differing(other, other, of_b="gl.")
+check(differ == 0, f"that of another light is the only one: {differ} pixels differ from OpenGL's picture")
+check(differing(alone, other, "gl.", "gl.") > 20, "and is there")
+finish()
