@@ -39,21 +39,13 @@ static const struct accel_space *space_of(const struct job *job, const struct se
 	return job->options->mode == TRACER_GL ? NULL : secondary_space(job, segment->view, 0);
 }
 
-/* Whether rays to lights all go through the same space. */
-static int has_one_space(const struct job *job)
+/* Whether a segment's rays go through another space than those of the round so far. */
+static int leaves_space(const struct job *job, const struct segment *segment, const struct looks *looks)
 {
-	const struct accel_space *space = NULL;
 	const int has_rays = job->prepared.n_light_slots || plain_has_mirrors(job);
+	const struct accel_space *own = has_rays ? space_of(job, segment) : NULL;
 
-	for (uint32_t i = 0; i < job->prepared.n_segments && has_rays; i++) {
-		const struct segment *segment = &job->prepared.segments[i];
-		const struct accel_space *own = segment->view == SCENE_NONE ? NULL : space_of(job, segment);
-
-		if (own && space && own != space)
-			return 0;
-		space = own ? own : space;
-	}
-	return 1;
+	return own && looks->space && own != looks->space;
 }
 
 /* How many of the first segment's clears all pixels begin with. */
@@ -124,7 +116,7 @@ int layered_suits(const struct job *job)
 	const struct prepared *p = &job->prepared;
 
 	if (!frame_in_packets(job) || !plain_is_simple(job) || !keeps_uncleared(job, 1) || dome_is_there(job) || p->has_fragment_programs ||
-	    p->has_vertex_programs || !has_one_space(job))
+	    p->has_vertex_programs)
 		return 0;
 	if ((job->scene->start && job->scene->start->colors) || !(job->image ? suits_image(job) : suits_picture(job)))
 		return 0;
@@ -278,7 +270,7 @@ static int look_around(struct job *job, struct looks *looks)
 		if (segment->view != SCENE_NONE && segment->instance_count) {
 			const struct camera_rectangle r = segment_rectangle(job, p->views[segment->view].scissor);
 
-			if (looks->n == looks->most || looks->layers + slots > PLAIN_LAYERS)
+			if (looks->n == looks->most || looks->layers + slots > PLAIN_LAYERS || leaves_space(job, segment, looks))
 				return 0;
 			if (looks->cleared == looks->next)
 				clear_segment(job, segment, looks);
