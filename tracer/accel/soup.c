@@ -7,14 +7,22 @@
 #include "base/err.h"
 #include "kernels/rays/rays.h"
 
-/* Make a point of a position. Clears *bounded where w <= 0 or it is too far out. @return 0: it is not finite */
+/* Make a point of a position. Clears *bounded where w <= 0. @return 0: it has no finite place */
 static int point_of(const float p[4], float out[3], int *bounded)
 {
-	for (int a = 0; a < 3; a++) {
-		out[a] = p[3] == 1.0f ? p[a] : p[a] / p[3];
-		*bounded &= p[3] > 0 && fabsf(out[a]) < SOUP_UNBOUNDED;
+	if (p[3] == 1.0f) {
+		memcpy(out, p, 3 * sizeof(*out));
+	} else if (p[3] > 0) {
+		for (int a = 0; a < 3; a++)
+			out[a] = p[a] / p[3];
+	} else {
+		*bounded = 0;
+		return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]) && isfinite(p[3]);
 	}
-	return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]) && isfinite(p[3]);
+	for (int a = 0; a < 3; a++)
+		if (!(fabsf(out[a]) < SOUP_UNBOUNDED))
+			return 0;
+	return 1;
 }
 
 /* Fill in one triangle and its box; 0: leave it out. */

@@ -18,7 +18,7 @@ static void before(void)
 
 static void far_out(void)
 {
-	static const float far[] = { 1e17f, 1e18f, 1e22f, 1e30f, 1e36f };
+	static const float far[] = { 1e14f, 1e15f, 1e16f, 1e17f, 9e17f };
 
 	for (int i = 0; i < 5; i++) {
 		glBegin(GL_TRIANGLES);
