@@ -7,7 +7,7 @@ what it is about. Run with names of programs: those alone.
 import sys
 
 from exr import Image
-from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_same_pictures, diff, finish, must, record, relume, render
+from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_same_pictures, diff, finish, must, on_display, record, relume, render
 
 PROGRAMS = {
     "bare": ("lines", "a strip", "a wide loop", "points", "outlines"),
@@ -26,6 +26,10 @@ PROGRAMS = {
 }
 
 for name in sys.argv[1:] or PROGRAMS:
+    done = on_display(BUILD / f"tests/real/small/{name}")
+    if done.returncode == 77:
+        print(f"small/{name} is {done.stdout.strip().splitlines()[-1]}")
+        continue
     trace, _ = check_same_pictures(f"small/{name}", PROGRAMS[name])
     done = must(relume("info", trace))
     check("not done" not in done.stdout, f"{name}: nothing is left out: {done.stdout}")
