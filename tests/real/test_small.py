@@ -28,7 +28,7 @@ PROGRAMS = {
 for name in sys.argv[1:] or PROGRAMS:
     done = on_display(BUILD / f"tests/real/small/{name}")
     if done.returncode == 77:
-        print(f"small/{name} is {done.stdout.strip().splitlines()[-1]}")
+        print(f"small/{name} is {(done.stdout + done.stderr).strip().splitlines()[-1]}")
         continue
     trace, _ = check_same_pictures(f"small/{name}", PROGRAMS[name])
     done = must(relume("info", trace))
