@@ -58,10 +58,9 @@ int shadows_add(struct tricks *t, const struct scene *s, const struct motion *mo
 		flat = modelview_kind_of(s->instances[i].modelview) == MODELVIEW_SINGULAR;
 	if (flat)
 		err = pairs_make(&pairs, s);
-	for (uint32_t i = 0; i < s->n_instances && flat && !err; i++) {
+	for (uint32_t i = 0; i < s->n_instances && flat && !err; i++)
 		if (flattened_may_be(s, &s->instances[i]))
 			study_flat(t, s, &pairs, i, motion);
-	}
 	pairs_free(&pairs);
 	return err;
 }
