@@ -17,41 +17,56 @@ static int drops_depth(const struct scene *s, uint32_t instance, uint32_t *next)
 	return drops;
 }
 
-/* Whether an instance colours what was laid into the depth buffer before. */
-static int is_laid_before(const struct scene *s, uint32_t instance)
-{
-	for (uint32_t k = 0; k < instance; k++) {
-		const struct scene_material *m = &s->materials[s->instances[k].material];
+/* What was laid into the depth buffer without colours so far. */
+struct laid {
+	uint32_t *instances, n;
+};
 
-		if (!(m->color_mask & 7) && m->depth_test && m->depth_write && scene_is_same_body(s, instance, k))
-			return 1;
-	}
-	return 0;
+static int lays_depth(const struct scene_material *m)
+{
+	return !(m->color_mask & 7) && m->depth_test && m->depth_write;
+}
+
+static int is_laid(const struct scene *s, const struct laid *laid, uint32_t instance)
+{
+	uint32_t k = 0;
+
+	while (k < laid->n && !scene_is_same_body(s, instance, laid->instances[k]))
+		k++;
+	return k < laid->n;
+}
+
+static size_t count_spaces(const struct scene *s)
+{
+	size_t n = 0;
+
+	for (uint32_t v = 0; v < s->n_views; v++)
+		n = s->views[v].space >= n ? s->views[v].space + (size_t)1 : n;
+	return n;
 }
 
 int scene_find_skies(const struct scene *scene, uint8_t *skies)
 {
-	uint32_t *space = malloc((scene->n_views + (size_t)1) * sizeof(*space)); /* the first view with the same one */
-	uint8_t *deep = calloc(scene->n_views + (size_t)1, 1);
+	const size_t n_spaces = count_spaces(scene);
+	uint8_t *deep = calloc(n_spaces + 1, 1); /* [space]: something of it leaves colour and depth */
+	struct laid laid = { malloc((scene->n_instances + (size_t)1) * sizeof(*laid.instances)), 0 };
+	const int has_room = deep && laid.instances;
 	uint32_t clear = 0;
 
-	for (uint32_t v = 0; v < scene->n_views && space && deep; v++) {
-		space[v] = 0;
-		while (scene->views[space[v]].space != scene->views[v].space)
-			space[v]++;
-	}
-	for (uint32_t i = 0; i < scene->n_instances && space && deep; i++) {
-		const struct scene_instance *instance = &scene->instances[i];
-		const struct scene_material *m = &scene->materials[instance->material];
+	for (uint32_t i = 0; i < scene->n_instances && has_room; i++) {
+		const struct scene_material *m = &scene->materials[scene->instances[i].material];
+		const struct scene_view *view = &scene->views[scene->instances[i].view];
 
 		if (drops_depth(scene, i, &clear))
-			memset(deep, 0, scene->n_views);
+			memset(deep, 0, n_spaces);
 		if (m->depth_test && m->depth_write && m->color_mask & 7 && !scene_is_never_drawn(m))
-			deep[space[instance->view]] = 1;
-		skies[i] = !deep[space[instance->view]] && (m->color_mask & 7) && !m->stencil_test &&
-		           scene->views[instance->view].projection[11] != 0 && !is_laid_before(scene, i);
+			deep[view->space] = 1;
+		skies[i] = !deep[view->space] && (m->color_mask & 7) && !m->stencil_test &&
+		           view->projection[11] != 0 && !is_laid(scene, &laid, i);
+		if (lays_depth(m))
+			laid.instances[laid.n++] = i;
 	}
+	free(laid.instances);
 	free(deep);
-	free(space);
-	return space && deep ? 0 : -1;
+	return has_room ? 0 : -1;
 }
