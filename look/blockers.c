@@ -282,7 +282,8 @@ static float meet_triangle(const struct line *r, const float *a, const float *b,
 	return u >= 0 && v >= 0 && u + v <= 1 && t > 0 && t < r->t_max ? t : 0;
 }
 
-static enum blocker_side side_met(const struct blockers *b, const struct scene_instance *in, uint32_t primitive, const float d[3])
+static enum blocker_side side_met(const struct blockers *b, const struct scene_instance *in, uint32_t primitive,
+                                  const float d[3])
 {
 	const struct sides sides = sides_of(b->scene, in);
 	double towards[3];

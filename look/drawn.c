@@ -12,9 +12,11 @@ int drawn_mirrored(const struct scene_view *view)
 	const float *m = view->projection;
 	const double xy = (double)m[0] * m[5] - (double)m[1] * m[4];
 
-	/* of x, y and w as they follow from x, y and z; w falls along -z */
-	return drawn_in_parallel(view) ? xy < 0 :
-	       m[3] * ((double)m[4] * m[9] - (double)m[5] * m[8]) - m[7] * ((double)m[0] * m[9] - (double)m[1] * m[8]) + m[11] * xy > 0;
+	if (drawn_in_parallel(view))
+		return xy < 0;
+	/* the determinant of x, y and w as they follow from x, y and z; w grows along -z */
+	return m[3] * ((double)m[4] * m[9] - (double)m[5] * m[8]) - m[7] * ((double)m[0] * m[9] - (double)m[1] * m[8]) +
+	       m[11] * xy > 0;
 }
 
 int drawn_multiplies(const struct scene_material *m)

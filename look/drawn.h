@@ -6,7 +6,7 @@
 /** 1 where a view shows its space in parallel projection. */
 int drawn_in_parallel(const struct scene_view *view);
 
-/** 1 where a view shows eye space as a mirror does: what runs clockwise to its viewer runs counter-clockwise in the window. */
+/** 1 where a projection mirrors: what runs clockwise in eye space, to its viewer, does not in the window. */
 int drawn_mirrored(const struct scene_view *view);
 
 /** 1 where a draw multiplies what is there by its own colour. */

@@ -46,7 +46,8 @@ static void orient(double light[4], double plane[4])
 		turn(plane, 4);
 }
 
-int flattened_read(const double from_upright[16], double light[4], double plane[4])
+/* What a flattening matrix says. @return 0: it is none of a shadow */
+static int read_matrix(const double from_upright[16], double light[4], double plane[4])
 {
 	double length, along = 0;
 
@@ -67,6 +68,18 @@ int flattened_read(const double from_upright[16], double light[4], double plane[
 	}
 	orient(light, plane);
 	return fabs(along) > 1e-9;
+}
+
+int flattened_from(const struct scene *s, uint32_t flat, uint32_t upright, double light[4], double plane[4])
+{
+	double eye[16], inverse[16], shadow[16], from_upright[16];
+
+	matrix_from_floats(eye, s->instances[upright].modelview);
+	matrix_from_floats(shadow, s->instances[flat].modelview);
+	if (!matrix_invert(inverse, eye))
+		return 0;
+	matrix_mul(from_upright, shadow, inverse);
+	return read_matrix(from_upright, light, plane);
 }
 
 /* 1 where a material is lit by a light of OpenGL's at a place of eye space. */
@@ -112,7 +125,8 @@ int flattened_is_lit(const struct scene *s, const double light[4], const double 
 		const struct scene_instance *in = &s->instances[i];
 		const struct scene_material *m = &s->materials[in->material];
 
-		if (!solid_is(s, in) || modelview_kind_of(in->modelview) != MODELVIEW_PLAIN || (plane && !touches(s, in, plane)))
+		if (!solid_is(s, in) || modelview_kind_of(in->modelview) != MODELVIEW_PLAIN ||
+		    (plane && !touches(s, in, plane)))
 			continue;
 		all++;
 		lit += (uint32_t)is_lit_from(s, m, light);
@@ -125,23 +139,11 @@ int flattened_may_be(const struct scene *s, const struct scene_instance *in)
 	const struct scene_material *m = &s->materials[in->material];
 
 	return s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle &&
-	       (m->color_mask & 7 ? !m->lighting : m->stencil_test) && modelview_kind_of(in->modelview) == MODELVIEW_SINGULAR;
+	       (m->color_mask & 7 ? !m->lighting : m->stencil_test) &&
+	       modelview_kind_of(in->modelview) == MODELVIEW_SINGULAR;
 }
 
-/* --- In one frame ------------------------------------------------------------------------------------------------------- */
-
-/* 1 where a flat draw is the shadow of an upright one: light and plane in eye space */
-static int is_shadow_of(const struct scene *s, uint32_t flat, uint32_t upright, double light[4], double plane[4])
-{
-	double eye[16], inverse[16], shadow[16], from_upright[16];
-
-	matrix_from_floats(eye, s->instances[upright].modelview);
-	matrix_from_floats(shadow, s->instances[flat].modelview);
-	if (!matrix_invert(inverse, eye))
-		return 0;
-	matrix_mul(from_upright, shadow, inverse);
-	return flattened_read(from_upright, light, plane);
-}
+/* --- In one frame -------------------------------------------------------------------------------- */
 
 /* 1 where some light of OpenGL's is at a place of eye space: most that wrong pairs say is not. */
 static int is_light(const struct scene *s, const double light[4])
@@ -161,12 +163,13 @@ static uint32_t decide(const struct scene *s, const struct pairs *pairs, uint32_
 	uint32_t n = 0;
 
 	for (uint32_t upright = first; upright != SCENE_NONE && may_go; upright = pairs->next[upright])
-		if (is_shadow_of(s, flat, upright, light, plane) && is_light(s, light) && flattened_is_lit(s, light, plane)) {
+		if (flattened_from(s, flat, upright, light, plane) && is_light(s, light) &&
+		    flattened_is_lit(s, light, plane)) {
 			bits[flat] |= SCENE_LEFT_OUT;
 			return 1;
 		}
 	for (uint32_t upright = first; upright != SCENE_NONE; upright = pairs->next[upright])
-		if (!(bits[upright] & SCENE_HIDDEN_FROM_LIGHTS) && is_shadow_of(s, flat, upright, light, plane)) {
+		if (!(bits[upright] & SCENE_HIDDEN_FROM_LIGHTS) && flattened_from(s, flat, upright, light, plane)) {
 			bits[upright] |= SCENE_HIDDEN_FROM_LIGHTS;
 			n++;
 		}

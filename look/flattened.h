@@ -10,13 +10,12 @@
 int flattened_may_be(const struct scene *scene, const struct scene_instance *in);
 
 /**
- * What a flattening matrix says.
- * @param from_upright  from the body to its shadow, in eye space
- * @param light         in eye space; w 0: a direction towards it
- * @param plane         p . (x y z 1) = 0, its normal a unit vector towards what is seen
- * @return 0: it is none of a shadow
+ * The light and the plane of a shadow, by what takes an upright draw's body to a flat one's.
+ * @param light  in eye space; w 0: a direction towards it
+ * @param plane  p . (x y z 1) = 0 in eye space, its normal a unit vector towards what is seen
+ * @return 0: the flat draw is none of its shadows
  */
-int flattened_read(const double from_upright[16], double light[4], double plane[4]);
+int flattened_from(const struct scene *scene, uint32_t flat, uint32_t upright, double light[4], double plane[4]);
 
 /** How far apart two lights are, over how far they are from the origin; of directions the angle. */
 double flattened_apart(const double a[4], const double b[4]);

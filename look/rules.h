@@ -37,8 +37,8 @@
  *         emission: [0, 0, 0]     # light that it sends out, besides what OpenGL shows
  *         shadows: yes            # whether it casts shadows
  *         passes: none            # light that it lets through in spite of that, instead of what each frame decides:
- *                                 # none, from behind (the only side that it shows), suns (lights at infinity), suns and from
- *                                 # behind, all
+ *                                 # none, from behind (the only side that it shows), suns (lights at infinity),
+ *                                 # suns and from behind, all
  *         mirrors: yes            # whether it is seen in mirrors and through glass
  *         near: yes               # reflect mirrors only what is near; where nothing is, the surface keeps its own
  *                                 # colour

@@ -2,6 +2,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 #include <xxhash.h>
 
 #include "base/err.h"
@@ -16,7 +17,7 @@
 /* The cross products of a closed body's triangles add up to this share of their lengths at most: corners that were
    computed twice differ by rounding. */
 #define CLOSED 1e-6
-/* Normals that stand across a triangle, to a thousandth, do not tell its sides apart: as in kernels/frame/transparency.h. */
+/* Normals across a triangle, to a thousandth, do not tell its sides apart: as in kernels/frame/transparency.h. */
 #define ACROSS 1e-3
 
 static enum sides_shown shown_of(const struct scene_material *m)
@@ -54,8 +55,8 @@ static void wound_normal(const struct scene_mesh *mesh, struct sides sides, uint
 }
 
 /* Turn a triangle's cross product to the side that its normals tell, where they count; to 0 where they tell none. */
-static void turn_to_normals(const struct scene *scene, const struct scene_instance *in, struct sides sides, uint32_t primitive,
-                            double normal[3])
+static void turn_to_normals(const struct scene *scene, const struct scene_instance *in, struct sides sides,
+                            uint32_t primitive, double normal[3])
 {
 	double sum[3] = { 0, 0, 0 }, along, turn;
 
@@ -84,23 +85,23 @@ void sides_towards(const struct scene *scene, const struct scene_instance *in, s
 
 int sides_back_outside(const struct scene *scene, const struct scene_instance *in)
 {
-	const struct sides sides = sides_of(scene, in);
-	const struct sides front = { SIDES_FRONT, sides.clockwise };
+	const struct sides sides = sides_of(scene, in); /* lit ones: by how fronts run */
 	double along = 0;
 
 	if (sides.shown != SIDES_LIT)
 		return sides.shown == SIDES_BACK;
 	for (uint32_t i = 0; i < scene->meshes[in->mesh]->primitive_count; i++) {
-		double fronts[3], shown[3];
+		double front[3], shown[3];
 
-		sides_towards(scene, in, front, i, fronts);
-		sides_towards(scene, in, sides, i, shown);
-		along += vec3_dot(fronts, shown) / sqrt(fmax(vec3_dot(fronts, fronts), DBL_MIN));
+		wound_normal(scene->meshes[in->mesh], sides, i, front);
+		memcpy(shown, front, sizeof(shown));
+		turn_to_normals(scene, in, sides, i, shown);
+		along += vec3_dot(front, shown) / sqrt(fmax(vec3_dot(front, front), DBL_MIN));
 	}
 	return along < 0;
 }
 
-/* What is known of an instance's triangles, in object space. */
+/* An instance's triangles taken together, in object space. */
 struct sheet {
 	double sum[3], length; /* of cross products on the shown side, and of their lengths */
 	double volume;         /* six times what they enclose; below 0 where that is what they show */
@@ -189,7 +190,7 @@ static int has_lamp_behind(const struct scene *s, const struct scene_instance *i
 	return 0;
 }
 
-/* Rays find fronts by how triangles run in eye space: where a projection mirrors it, what is culled is not known to them. */
+/* Rays tell fronts by how triangles run in eye space, which is wrong where a projection mirrors it. */
 static int is_told_apart(const struct scene *s, const struct scene_instance *in)
 {
 	const enum sides_shown shown = shown_of(&s->materials[in->material]);
@@ -222,12 +223,14 @@ static int is_asked(const struct scene *s, const struct scene_instance *in, cons
 /* The place of a mesh that is culled. */
 static uint64_t key_of(const struct scene *s, const struct scene_instance *in)
 {
-	return (XXH3_64bits(in->modelview, sizeof(in->modelview)) + s->views[in->view].space) ^ s->meshes[in->mesh]->hash[0];
+	const uint64_t place = XXH3_64bits(in->modelview, sizeof(in->modelview)) + s->views[in->view].space;
+
+	return place ^ s->meshes[in->mesh]->hash[0];
 }
 
 /*
- * Which sides are shown of what stands at each place: bodies that are seen through are drawn twice, backs first. both: keys to bits of
- * 1 << enum sides_shown
+ * Which sides are shown of what stands at each place: bodies that are seen through are drawn twice, backs first.
+ * both: keys to bits of 1 << enum sides_shown
  */
 static int find_both(const struct scene *s, struct table *both)
 {

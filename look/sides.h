@@ -26,7 +26,7 @@ struct sides sides_of(const struct scene *scene, const struct scene_instance *in
 void sides_towards(const struct scene *scene, const struct scene_instance *in, struct sides sides, uint32_t primitive,
                    double out[3]);
 
-/** 1 where the side that an instance shows is the back of most of its triangles, by area: a body of glass has it outside. */
+/** 1 where an instance shows the backs of most of its triangles, by area: a body of glass has them outside. */
 int sides_back_outside(const struct scene *scene, const struct scene_instance *in);
 
 /* A light, once for all materials that have it. */

@@ -200,7 +200,8 @@ struct fare {
  * Send a lamp's rays, one in `step`. at_last: [n_instances], NULL where not asked for: the area for which each instance is the last one
  * on the way that stops them.
  */
-static struct fare follow(const struct sparing *a, const struct sides_lamp *lamp, const uint32_t *bits, uint32_t step, float *at_last)
+static struct fare follow(const struct sparing *a, const struct sides_lamp *lamp, const uint32_t *bits, uint32_t step,
+                          float *at_last)
 {
 	struct fare fare = { 0, 0, 0 };
 
@@ -419,7 +420,8 @@ int spare_find(const struct scene *scene, unsigned said, struct spare *out)
 	if (!out->bits)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err)
-		err = sides_find(scene, new_lights || a->more_lamps ? NULL : out->lamps, out->n_lamps, out->bits, &out->one_sided);
+		err = sides_find(scene, new_lights || a->more_lamps ? NULL : out->lamps, out->n_lamps, out->bits,
+		                 &out->one_sided);
 	if (!err && !decided && a->n_receivers)
 		err = find_blocking(a);
 	if (!err && !(said & SPARE_TRICKS_KNOWN))

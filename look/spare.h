@@ -23,7 +23,7 @@
 
 enum { SPARE_MOST_LAMPS = 16 };
 
-/* What rules say before anything is looked for: bits. */
+/* Bits that rules set before anything is looked for. */
 enum {
 	SPARE_IS_DECIDED = 1,   /* what of enclosures and backdrops lets light pass */
 	SPARE_NEW_LIGHTS = 2,   /* there are lights of rules' own, which may stand anywhere */

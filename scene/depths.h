@@ -6,7 +6,7 @@
 struct scene;
 struct scene_material;
 
-/** 1 where nothing of a draw is ever seen, nor left in the depth buffer: both sides are culled, or a test fails always. */
+/** 1 where a draw leaves neither colour nor depth: both sides are culled, or a test always fails. */
 int scene_is_never_drawn(const struct scene_material *m);
 
 /** 1 where two instances are the same geometry at the same place. */

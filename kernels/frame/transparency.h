@@ -84,8 +84,8 @@ static inline struct vec3 glass_absorb(GLOBAL const struct scene_material *m, fl
 #define TRANSPARENCY_ACROSS 1.0e-3f
 
 /*
- * 1 where a ray to a light meets the only side that a surface shows: the light is behind it. What is culled is not shown; where nothing
- * is, normals tell the side of a lit triangle (look/sides.h). Glass is a body, whose sides both count.
+ * 1 where a ray to a light meets the only side that a surface shows: the light is behind it. Culled sides are not
+ * shown; without culling, normals tell the side of a lit triangle (look/sides.h). Both sides of glass count.
  */
 static inline int transparency_meets_shown(const struct point *p, struct vec3 d)
 {
@@ -97,8 +97,8 @@ static inline int transparency_meets_shown(const struct point *p, struct vec3 d)
 	plane = point_plane_normal(p);
 	sum = v3_add(v3_load(p->vertex[0]->normal), v3_add(v3_load(p->vertex[1]->normal), v3_load(p->vertex[2]->normal)));
 	along = v3_dot(plane, sum);
-	return p->material->lighting && !p->material->two_side && M_ABS(along) > TRANSPARENCY_ACROSS * M_SQRT(v3_dot(sum, sum)) &&
-	       (along > 0.0f) == (v3_dot(plane, d) < 0.0f);
+	return p->material->lighting && !p->material->two_side &&
+	       M_ABS(along) > TRANSPARENCY_ACROSS * M_SQRT(v3_dot(sum, sum)) && (along > 0.0f) == (v3_dot(plane, d) < 0.0f);
 }
 
 /* 1 where a surface is spared as a blocker of a light (scene.h): by the side on which it is met, or as the light is at infinity. */

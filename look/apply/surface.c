@@ -14,8 +14,10 @@ void surface_set(struct scene_surface *s, const struct surface_rule *r, int spar
 	applying_number(&s->roughness, r->roughness, 1);
 	applying_number(s->absorb, r->absorb, 3);
 	applying_number(s->emission, r->emission, 3);
-	if (r->passes && spares && spare_named(r->passes, &passes))
-		s->hidden = (s->hidden & ~SPARE_BITS) | (passes & (s->hidden | ~SCENE_ONE_SIDED)); /* no lamp behind it, none to ask of */
+	if (r->passes && spares && spare_named(r->passes, &passes)) {
+		passes &= s->hidden | ~SCENE_ONE_SIDED; /* where no lamp is behind it, there is none to ask of */
+		s->hidden = (s->hidden & ~SPARE_BITS) | passes;
+	}
 	if (r->shadows)
 		s->hidden = (s->hidden & ~(SPARE_BITS | SCENE_CARD | SCENE_FACETED | SCENE_FILM)) | (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
 	if (r->mirrors)

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "look/flattened.h"
-#include "look/modelview.h"
 #include "look/matrix.h"
+#include "look/modelview.h"
 #include "look/pairs.h"
 
 static void into_world(const struct motion_camera *camera, double light[4], double plane[4])
@@ -28,19 +28,12 @@ static void into_world(const struct motion_camera *camera, double light[4], doub
 static void study_flat(struct tricks *t, const struct scene *s, const struct pairs *pairs, uint32_t flat, const struct motion *motion)
 {
 	uint32_t upright = pairs_find(pairs, s, flat, MODELVIEW_PLAIN);
-	double shadow[16];
 
 	t->unmatched += upright == SCENE_NONE;
-	matrix_from_floats(shadow, s->instances[flat].modelview);
 	for (int tries = 0; upright != SCENE_NONE && tries < 4; upright = pairs->next[upright], tries++) {
 		struct trick_found what = { .kind = TRICK_PLANAR_SHADOW };
-		double eye[16], inverse[16], from_upright[16];
 
-		matrix_from_floats(eye, s->instances[upright].modelview);
-		if (!matrix_invert(inverse, eye))
-			continue;
-		matrix_mul(from_upright, shadow, inverse);
-		if (!flattened_read(from_upright, what.light, what.plane))
+		if (!flattened_from(s, flat, upright, what.light, what.plane))
 			continue;
 		what.stencil = !(s->materials[s->instances[flat].material].color_mask & 7);
 		what.has_opengl_light = flattened_is_lit(s, what.light, what.plane);

@@ -12,7 +12,7 @@
 
 enum { MOST_RULES = 256 };
 
-/* Sides are told by each draw (look/sides.h): no frame has to be asked. */
+/* Each draw tells its own sides (look/sides.h), so that frames do not vote on them. */
 static const uint32_t bits[SPARED_BITS] = { SCENE_HIDDEN_FROM_LIGHTS, SCENE_STOPS_NO_SUN };
 
 /* --- Votes -------------------------------------------------------------------------------------------------------------- */

@@ -38,9 +38,9 @@ void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *sciss
 }
 
 /*
- * Views share their eye space (scene.h) where their viewport rectangles are equal. One in parallel projection has no eye: its coordinates
- * are those of views alone that show x and y alike, as a window's are not those of the world before it. Programs bring matrices of their
- * own, and what GL's say then tells nothing.
+ * Views share their eye space (scene.h) where their viewport rectangles are equal. A parallel projection has no eye: it
+ * shares coordinates only with views that show x and y alike, so that a window's are not the world's. Programs bring
+ * matrices of their own, and GL's then tell nothing.
  */
 static uint32_t space_of(struct gls_exec *x, struct gls_frame *f, const struct scene_view *view, int is_programmed)
 {

@@ -270,7 +270,8 @@ static int look_around(struct job *job, struct looks *looks)
 		if (segment->view != SCENE_NONE && segment->instance_count) {
 			const struct camera_rectangle r = segment_rectangle(job, p->views[segment->view].scissor);
 
-			if (looks->n == looks->most || looks->layers + slots > PLAIN_LAYERS || leaves_space(job, segment, looks))
+			if (looks->n == looks->most || looks->layers + slots > PLAIN_LAYERS ||
+			    leaves_space(job, segment, looks))
 				return 0;
 			if (looks->cleared == looks->next)
 				clear_segment(job, segment, looks);

@@ -178,15 +178,18 @@ static void switch_unit(struct gls_exec *x, struct gls_state *st, const struct c
 GLS_HANDLER(glEnableIndexedEXT, STATE) { switch_unit(x, st, c, "glEnable"); }
 GLS_HANDLER(glDisableIndexedEXT, STATE) { switch_unit(x, st, c, "glDisable"); }
 
-/* ---- buffers ---- */
+/* ---- buffers, renderbuffers, framebuffer objects: by a target that drawing does not look at ---- */
 
-static void on_buffer(struct gls_exec *x, struct gls_state *st, const struct call *c)
+static void on_bound(struct gls_exec *x, const struct call *c, const char *bind, uint32_t target, uint32_t bound)
 {
-	const uint32_t bound = st->client.copy_write_buffer;
+	run_with(x, c, bind, target, arg_u(c, 0));
+	run_on(x, c, target);
+	run_with(x, c, bind, target, bound);
+}
 
-	run_with(x, c, "glBindBuffer", GL_COPY_WRITE_BUFFER, arg_u(c, 0));
-	run_on(x, c, GL_COPY_WRITE_BUFFER);
-	st->client.copy_write_buffer = bound;
+static void on_buffer(struct gls_exec *x, const struct gls_state *st, const struct call *c)
+{
+	on_bound(x, c, "glBindBuffer", GL_COPY_WRITE_BUFFER, st->client.copy_write_buffer);
 }
 
 GLS_HANDLER(glNamedBufferDataEXT, CLIENT) { on_buffer(x, st, c); }
@@ -229,27 +232,17 @@ GLS_HANDLER(glProgramUniformMatrix4x2fv, STATE) { on_uniform(x, st, c); }
 GLS_HANDLER(glProgramUniformMatrix3x4fv, STATE) { on_uniform(x, st, c); }
 GLS_HANDLER(glProgramUniformMatrix4x3fv, STATE) { on_uniform(x, st, c); }
 
-/* ---- framebuffer objects ---- */
-
-static void on_renderbuffer(struct gls_exec *x, struct gls_state *st, const struct call *c)
+static void on_renderbuffer(struct gls_exec *x, const struct gls_state *st, const struct call *c)
 {
-	const uint32_t bound = st->renderbuffer;
-
-	run_with(x, c, "glBindRenderbuffer", GL_RENDERBUFFER, arg_u(c, 0));
-	run_on(x, c, GL_RENDERBUFFER);
-	st->renderbuffer = bound;
+	on_bound(x, c, "glBindRenderbuffer", GL_RENDERBUFFER, st->renderbuffer);
 }
 
 GLS_HANDLER(glNamedRenderbufferStorageEXT, OBJECT) { on_renderbuffer(x, st, c); }
 GLS_HANDLER(glNamedRenderbufferStorageMultisampleEXT, OBJECT) { on_renderbuffer(x, st, c); }
 
-static void on_framebuffer(struct gls_exec *x, struct gls_state *st, const struct call *c)
+static void on_framebuffer(struct gls_exec *x, const struct gls_state *st, const struct call *c)
 {
-	const uint32_t bound = st->read_framebuffer;
-
-	run_with(x, c, "glBindFramebuffer", GL_READ_FRAMEBUFFER, arg_u(c, 0));
-	run_on(x, c, GL_READ_FRAMEBUFFER);
-	run_with(x, c, "glBindFramebuffer", GL_READ_FRAMEBUFFER, bound);
+	on_bound(x, c, "glBindFramebuffer", GL_READ_FRAMEBUFFER, st->read_framebuffer);
 }
 
 GLS_HANDLER(glNamedFramebufferTexture1DEXT, OBJECT) { on_framebuffer(x, st, c); }
