@@ -35,6 +35,8 @@ enum scene_mesa {
 	SCENE_MESA_LACKS_YCBCR = 2048,
 	/* another GL: it has what every Mesa lacks (glPolygonOffsetEXT) */
 	SCENE_MESA_IS_OTHER = 4096,
+	/* 25.0: with COLOR_MATERIAL, lighting takes the current colour, and no parameter that waits (replay/gl/geometry/waiting.h) */
+	SCENE_MESA_TRACKS_COLORS = 8192,
 };
 
 /**

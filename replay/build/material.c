@@ -401,6 +401,12 @@ static void fill_vertex_stage(const struct gls_state *st, const struct program_c
 	memcpy(m->point_attenuation, attenuation, sizeof(attenuation));
 }
 
+/* 1 where material parameters that waited count in place of the colour that COLOR_MATERIAL has them follow. */
+static int covers_color(const struct gls_state *st, const struct gls_event *e)
+{
+	return st->waiting.covers && !(st->mesa & SCENE_MESA_TRACKS_COLORS) && !st->waiting.colored && !e->mesh->mesh.color;
+}
+
 uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e)
 {
 	struct gls_frame *f = target->surface->frame;
@@ -416,8 +422,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 
 	memset(&m, 0, sizeof(m));
 	m.lighting = a->lighting.enabled;
-	fill_lighting(&a->lighting, e->values[GLS_ATTR_COLOR],
-	              st->waiting.covers && !st->waiting.colored && !e->mesh->mesh.color, &m);
+	fill_lighting(&a->lighting, e->values[GLS_ATTR_COLOR], covers_color(st, e), &m);
 	if (runs_vertices)
 		fill_vertex_stage(st, vertices.code, &m);
 	lights = runs_vertices ? program_lights(vertices.code) | (runs_fragments ? program_lights(fragments.code) : 0) :
