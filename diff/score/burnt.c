@@ -14,6 +14,7 @@ struct burnt {
 	const float *gl[3], *shadow[3], *relight[3], *albedo[3];
 	const float *layers; /* NULL: the frame does not say */
 	int is_display;
+	float full; /* FULL in linear light */
 };
 
 /* What a frame holds as light: least and greatest channel, and luminance. */
@@ -39,11 +40,9 @@ static float share_of(const struct burnt *b, size_t i, struct seen own)
 	return is_film || !(own.most > 0) ? 1 : 1.25f * own.least / own.most + 0.05f;
 }
 
-static int is_burnt(struct seen color, float share)
+static int is_burnt(const struct burnt *b, struct seen color, float share)
 {
-	const float full = image_linear_from_display(FULL);
-
-	return color.most >= full && color.least >= fminf(share, full) * color.most;
+	return color.most >= b->full && color.least >= fminf(share, b->full) * color.most;
 }
 
 /* @return 1: burnt by light; -1: in OpenGL's picture alone; 0: in none, or in both */
@@ -60,16 +59,17 @@ static int compare(const struct burnt *b, size_t i)
 	before = see(b, gl);
 	after = see(b, light);
 	share = share_of(b, i, see(b, albedo));
-	if (is_burnt(before, share))
-		return is_burnt(after, share) ? 0 : -1;
-	return is_burnt(after, share) && score_code_from_linear(after.luminance) - score_code_from_linear(before.luminance) >= BRIGHT_CODES;
+	if (is_burnt(b, before, share))
+		return is_burnt(b, after, share) ? 0 : -1;
+	return is_burnt(b, after, share) && score_code_from_linear(after.luminance) - score_code_from_linear(before.luminance) >= BRIGHT_CODES;
 }
 
 double burnt_share(const struct gate_frame *f)
 {
 	const size_t n = (size_t)f->img->width * f->img->height;
 	const char *encoding = image_attribute(f->img, "relume:encoding");
-	struct burnt b = { .layers = image_channel(f->img, "layers"), .is_display = encoding && strcmp(encoding, "display") == 0 };
+	struct burnt b = { .layers = image_channel(f->img, "layers"), .is_display = encoding && strcmp(encoding, "display") == 0,
+		             .full = image_linear_from_display(FULL) };
 	int64_t more = 0;
 
 	if (!score_find_layer(f->img, "gl", b.gl) || !score_find_layer(f->img, "shadow", b.shadow) ||

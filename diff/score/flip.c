@@ -44,11 +44,28 @@ static void multiply(const float m[3][3], const float v[3], float out[3])
 		out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
 }
 
+/* Of a normal positive number: a third of its exponent, and two steps of Halley's, each of which leaves the cube of an error. */
+static float cube_root(float t)
+{
+	uint32_t bits;
+	float root;
+
+	memcpy(&bits, &t, sizeof(bits));
+	bits = bits / 3 + 0x2a514067;
+	memcpy(&root, &bits, sizeof(root));
+	for (int i = 0; i < 2; i++) {
+		const float cube = root * root * root;
+
+		root *= (cube + 2 * t) / (2 * cube + t);
+	}
+	return root;
+}
+
 static float cube_root_of_lab(float t)
 {
 	const float delta = 6.0f / 29;
 
-	return t > delta * delta * delta ? cbrtf(t) : t / (3 * delta * delta) + 4.0f / 29;
+	return t > delta * delta * delta ? cube_root(t) : t / (3 * delta * delta) + 4.0f / 29;
 }
 
 /* L*a*b* with a and b scaled by lightness: the Hunt effect (sec. 4.1.2). */
@@ -64,9 +81,14 @@ static void hunt_lab(const float rgb[3], float lab[3])
 	lab[2] = 0.01f * lab[0] * 200 * (f[1] - f[2]);
 }
 
+static float length(float x, float y)
+{
+	return sqrtf(x * x + y * y);
+}
+
 static float hyab(const float a[3], const float b[3])
 {
-	return fabsf(a[0] - b[0]) + hypotf(a[1] - b[1], a[2] - b[2]);
+	return fabsf(a[0] - b[0]) + length(a[1] - b[1], a[2] - b[2]);
 }
 
 static void make_gaussian(struct kernel *k, int radius, double falloff)
@@ -310,16 +332,16 @@ static void find_features(const struct workspace *w, int picture, int width, int
 	normalise_signs(&first);
 	normalise_signs(&second);
 
+	filter_x(y, w->part, width, height, &smooth, w->padded);
 	for (int kind = 0; kind < 2; kind++) {
 		const struct kernel *derivative = kind ? &second : &first;
 		float *out = kind ? w->points[picture] : w->edges[picture];
 
 		filter_x(y, w->scratch, width, height, derivative, w->padded);
 		filter_y(w->scratch, out, width, height, &smooth);
-		filter_x(y, w->scratch, width, height, &smooth, w->padded);
-		filter_y(w->scratch, w->part, width, height, derivative);
+		filter_y(w->part, w->scratch, width, height, derivative);
 		for (size_t i = 0; i < n; i++)
-			out[i] = hypotf(out[i], w->part[i]) / 116; /* offsets do not matter to derivatives */
+			out[i] = length(out[i], w->scratch[i]) / 116; /* offsets do not matter to derivatives */
 	}
 }
 

@@ -276,11 +276,34 @@ double metric_ciede2000(const double lab1[3], const double lab2[3])
 	return sqrt(dl * dl + dc * dc + dh_chord * dh_chord + rt * dc * dh_chord);
 }
 
-static int compare_doubles(const void *a, const void *b)
+static uint8_t digit_of(double number, int shift)
 {
-	double x = *(const double *)a, y = *(const double *)b;
+	uint64_t bits;
 
-	return (x > y) - (x < y);
+	memcpy(&bits, &number, sizeof(bits));
+	return (uint8_t)(bits >> shift);
+}
+
+/*
+ * The number that would be at `rank` if they were sorted; moves them. Numbers from 0 on sort as their bits do, so each
+ * step counts eight bits of those that the steps before have left.
+ */
+static double select_rank(double *numbers, size_t n, size_t rank)
+{
+	for (int shift = 56; shift >= 0; shift -= 8) {
+		size_t counts[256] = { 0 }, left = 0;
+		uint8_t digit = 0;
+
+		for (size_t i = 0; i < n; i++)
+			counts[digit_of(numbers[i], shift)]++;
+		for (; rank >= counts[digit]; digit++)
+			rank -= counts[digit];
+		for (size_t i = 0; i < n; i++)
+			if (digit_of(numbers[i], shift) == digit)
+				numbers[left++] = numbers[i];
+		n = left;
+	}
+	return numbers[0];
 }
 
 int metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels, double *out)
@@ -306,9 +329,8 @@ int metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels, do
 		metric_lab_from_linear(rgb[1], lab[1]);
 		differences[i] = metric_ciede2000(lab[0], lab[1]);
 	}
-	qsort(differences, n_pixels, sizeof(*differences), compare_doubles);
 	if (n_pixels)
-		*out = differences[(n_pixels - 1) * 95 / 100];
+		*out = select_rank(differences, n_pixels, (n_pixels - 1) * 95 / 100);
 	free(differences);
 	return 0;
 }

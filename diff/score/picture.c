@@ -1,17 +1,76 @@
 #include "diff/score/picture.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/err.h"
 
+/* What the formula gives. Written so that NaN gives 0; lrintf rounds half to even. */
+static uint8_t calculated_code(float linear)
+{
+	const float display = image_display_from_linear(linear);
+
+	return (uint8_t)lrintf(255 * (display > 0 ? display < 1 ? display : 1 : 0));
+}
+
+/* Of positive numbers, the leading bits: exponent and six of the fraction. Few codes meet in one such cell. */
+static uint32_t cell_of(float positive)
+{
+	uint32_t bits;
+
+	memcpy(&bits, &positive, sizeof(bits));
+	return bits >> 17;
+}
+
+/* Codes without powers: the least number of each code, and the first code of each cell. */
+enum { CELLS = 127 << 6 };
+
+static struct {
+	float least[256];
+	uint8_t first[CELLS];
+} codes;
+
+static float float_of_bits(uint32_t bits)
+{
+	float number;
+
+	memcpy(&number, &bits, sizeof(number));
+	return number;
+}
+
+static void make_codes(void)
+{
+	const uint32_t one = (uint32_t)CELLS << 17;
+
+	for (uint32_t code = 1, below = 0; code < 256; code++) {
+		uint32_t from = one;
+
+		while (from - below > 1) {
+			const uint32_t middle = below + (from - below) / 2;
+
+			*(calculated_code(float_of_bits(middle)) < code ? &below : &from) = middle;
+		}
+		codes.least[code] = float_of_bits(from);
+	}
+	for (uint32_t cell = 0; cell < CELLS; cell++)
+		codes.first[cell] = calculated_code(float_of_bits(cell << 17));
+}
+
 uint8_t score_code_from_linear(float linear)
 {
-	float display = image_display_from_linear(linear);
+	static pthread_once_t once = PTHREAD_ONCE_INIT;
+	uint8_t code;
 
-	/* written so that NaN gives 0; lrintf rounds half to even */
-	return (uint8_t)lrintf(255 * (display > 0 ? display < 1 ? display : 1 : 0));
+	pthread_once(&once, make_codes);
+	if (!(linear >= codes.least[1]))
+		return 0; /* NaN, too */
+	if (linear >= codes.least[255])
+		return 255;
+	for (code = codes.first[cell_of(linear)]; linear >= codes.least[code + 1];)
+		code++;
+	return code;
 }
 
 uint8_t score_code(float number, int is_display)

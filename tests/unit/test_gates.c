@@ -1002,6 +1002,14 @@ START_TEST(codes_round_trip)
 {
 	for (int i = 0; i < 256; i++)
 		ck_assert_int_eq(score_code_from_linear(image_linear_from_display((float)i / 255)), i);
+	for (uint32_t bits = 0; bits < 0x40000000; bits += 977) {
+		float linear, display;
+
+		memcpy(&linear, &bits, sizeof(linear));
+		display = 255 * fminf(image_display_from_linear(linear), 1);
+		ck_assert_msg(score_code_from_linear(linear) == (int)lrintf(display), "%.9g: %d, %.9g", (double)linear,
+		              score_code_from_linear(linear), (double)display);
+	}
 	ck_assert_int_eq(score_code_from_linear(NAN), 0);
 	ck_assert_int_eq(score_code_from_linear(-1), 0);
 	ck_assert_int_eq(score_code_from_linear(7), 255);
