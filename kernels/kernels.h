@@ -78,6 +78,7 @@ typedef float element_float;
 	IN(triangle, triangles) AND()
 #define ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
+	VALUE(uint, to_lights) AND()        /* 1: rays to lights, which pass some sides: INSTANCE_PASS_* */ \
 	OUT(uint, occluded)                 /* 1 where anything is hit, else 0 */
 #define ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) OUT(hit, hits)
@@ -253,9 +254,11 @@ typedef float element_float;
 	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(uint, sample) AND() \
 	VALUE(float, reach) AND() VALUE(uint, n) AND() OUT(ray, rays)
 #define ARGUMENTS_shadow_sum(IN, OUT, VALUE, GROUP, AND) \
-	IN(uint, occluded) AND() VALUE(float, weight) AND() \
+	IN(ray, rays) AND() VALUE(float, weight) AND() \
 	VALUE(uint, first) AND()            /* 1: visibility holds nothing yet */ \
+	VALUE(uint, through) AND()          /* 1: something lets light pass */ \
 	VALUE(uint, n) AND() \
+	OUT(uint, occluded) AND()           /* read as well: what is left goes on */ \
 	OUT(float, visibility)              /* [3] a ray; read as well */
 #define ARGUMENTS_shadow_start(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, occluded) AND() \

@@ -142,6 +142,8 @@ SHARED_SIZE(struct face8, 128);
 #define INSTANCE_SCREEN 32u      /* geometry in window space (lines, points, pixel rectangles): the BLAS bounds x y in
                                     pixels, camera rays meet it as points; never secondary */
 #define INSTANCE_SKY 128u        /* drawn before all depth, around the viewer: seen by secondary rays that hit nothing */
+#define INSTANCE_PASS_COUNTER 256u   /* rays to lights pass triangles whose corners they see run counter-clockwise */
+#define INSTANCE_PASS_CLOCKWISE 512u
 #define INSTANCE_BAKED 64u       /* the modelview has no inverse or is projective: the BLAS is in eye space */
 
 /* One instance as the kernels see it. */
@@ -287,7 +289,7 @@ SHARED_SIZE(struct shaded, 84);
 struct path {
 	float weight[3];
 	uint32_t target; /* fragment in the list; for rays to lights: slot * n + item */
-	uint32_t kind;   /* PATH_*: the part of the fragment that its radiance belongs to */
+	uint32_t kind;   /* PATH_*: the part of the fragment that its radiance belongs to; for rays to lights: as shadow_walk has it */
 	uint32_t depth;  /* bounces so far, without the fragment's own */
 	uint32_t medium; /* material of the body it travels in, or SCENE_NONE */
 	float density;   /* of directions where it was scattered, a steradian; 0: its direction is not one of many */

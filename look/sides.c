@@ -54,14 +54,18 @@ static void wound_normal(const struct scene_mesh *mesh, struct sides sides, uint
 	vec3_cross(edge[0], edge[1], out);
 }
 
-/* Turn a triangle's cross product to the side that its normals tell, where they count; to 0 where they tell none. */
-static void turn_to_normals(const struct scene *scene, const struct scene_instance *in, struct sides sides,
+/*
+ * Turn a triangle's cross product to the side that its normals tell, where they count; to 0 where they tell none.
+ * @return 1, 0 or -1: by what it was multiplied
+ */
+static int turn_to_normals(const struct scene *scene, const struct scene_instance *in, struct sides sides,
                             uint32_t primitive, double normal[3])
 {
-	double sum[3] = { 0, 0, 0 }, along, turn;
+	double sum[3] = { 0, 0, 0 }, along;
+	int turn;
 
 	if (sides.shown != SIDES_LIT)
-		return;
+		return 1;
 	for (unsigned c = 0; c < 3; c++) {
 		const float *n = corner_normal(scene, in, primitive, c);
 
@@ -74,6 +78,7 @@ static void turn_to_normals(const struct scene *scene, const struct scene_instan
 		turn = 0;
 	for (int k = 0; k < 3; k++)
 		normal[k] *= turn;
+	return turn;
 }
 
 void sides_towards(const struct scene *scene, const struct scene_instance *in, struct sides sides, uint32_t primitive,
@@ -107,6 +112,7 @@ struct sheet {
 	double volume;         /* six times what they enclose; below 0 where that is what they show */
 	float low[3], high[3];
 	uint32_t behind; /* bits: lamps that some triangle turns its other side to */
+	uint32_t as_wound, against, untold; /* triangles whose shown side is as their winding has it, the other one, or no one */
 };
 
 enum { MOST_LAMPS = 32 };
@@ -141,12 +147,14 @@ static void add_triangle(const struct scene *s, const struct scene_instance *in,
 	const float *corner = corner_place(s->meshes[in->mesh], primitive, 0);
 	const double at[3] = { corner[0], corner[1], corner[2] };
 	double shown[3], square, from_origin;
+	int turn;
 
 	wound_normal(s->meshes[in->mesh], sides, primitive, shown);
 	square = vec3_dot(shown, shown);
 	if (!(square > 0))
 		return; /* no ray meets it */
-	turn_to_normals(s, in, sides, primitive, shown);
+	turn = turn_to_normals(s, in, sides, primitive, shown);
+	++*(turn > 0 ? &sheet->as_wound : turn < 0 ? &sheet->against : &sheet->untold);
 	for (int k = 0; k < 3; k++)
 		sheet->sum[k] += shown[k];
 	sheet->length += sqrt(square);
@@ -173,21 +181,31 @@ static int is_closed(const struct sheet *sheet)
 	return sqrt(vec3_dot(sheet->sum, sheet->sum)) <= CLOSED * sheet->length && sheet->volume > 0;
 }
 
-/* lamps: NULL: anywhere */
-static int has_lamp_behind(const struct scene *s, const struct scene_instance *in, const struct lamps *lamps)
+/* How corners of the shown side run, where that is the same for all triangles: a bit of the two. */
+static uint32_t winding_of(const struct sheet *sheet, struct sides sides)
+{
+	if (sheet->untold || (sheet->as_wound && sheet->against))
+		return 0;
+	return (sides.clockwise != 0) != (sheet->against != 0) ? SCENE_SHOWN_CLOCKWISE : SCENE_SHOWN_COUNTER;
+}
+
+/* lamps: NULL: anywhere. @return bits as sides_find; 0: rays to lamps need not be asked */
+static uint32_t has_lamp_behind(const struct scene *s, const struct scene_instance *in, const struct lamps *lamps)
 {
 	static const struct lamps none = { .n = 0 };
 	struct sheet sheet = { .low = { INFINITY, INFINITY, INFINITY }, .high = { -INFINITY, -INFINITY, -INFINITY } };
 	const struct sides sides = sides_of(s, in);
+	int is_asked;
 
 	for (uint32_t i = 0; i < s->meshes[in->mesh]->primitive_count; i++)
 		add_triangle(s, in, sides, i, lamps ? lamps : &none, &sheet);
-	if (!is_closed(&sheet) || s->materials[in->material].blend || s->materials[in->material].alpha_test)
-		return !lamps || sheet.behind;
-	for (uint32_t i = 0; lamps && i < lamps->n; i++)
-		if (is_inside(&sheet, lamps->place[i]))
-			return 1;
-	return 0;
+	is_asked = !lamps || sheet.behind;
+	if (is_closed(&sheet) && !s->materials[in->material].blend && !s->materials[in->material].alpha_test) {
+		is_asked = 0;
+		for (uint32_t i = 0; lamps && i < lamps->n; i++)
+			is_asked |= is_inside(&sheet, lamps->place[i]);
+	}
+	return is_asked ? SCENE_ONE_SIDED | winding_of(&sheet, sides) : 0;
 }
 
 /* Rays tell fronts by how triangles run in eye space, which is wrong where a projection mirrors it. */
@@ -199,25 +217,25 @@ static int is_told_apart(const struct scene *s, const struct scene_instance *in)
 	       (shown == SIDES_LIT || (shown != SIDES_BOTH && !drawn_mirrored(&s->views[in->view])));
 }
 
-/* 1 where rays to some lamp have to be asked which side of an instance they meet. */
-static int is_asked(const struct scene *s, const struct scene_instance *in, const struct sides_lamp *lamps,
-                    uint32_t n_lamps)
+/* Whether rays to some lamp have to be asked which side of an instance they meet: bits as sides_find. */
+static uint32_t asked_of(const struct scene *s, const struct scene_instance *in, const struct sides_lamp *lamps,
+                         uint32_t n_lamps)
 {
 	struct lamps near = { .n = 0 };
 	float inverse[16];
 
 	if (s->materials[in->material].vertex_program || !mat4_invert(inverse, in->modelview))
-		return 1;
+		return SCENE_ONE_SIDED;
 	if (!lamps)
 		return has_lamp_behind(s, in, NULL);
 	for (uint32_t k = 0; k < n_lamps; k++) {
 		if (lamps[k].space != s->views[in->view].space)
 			continue;
 		if (near.n == MOST_LAMPS)
-			return 1;
+			return SCENE_ONE_SIDED;
 		add_lamp(&near, &lamps[k], inverse);
 	}
-	return near.n && has_lamp_behind(s, in, &near);
+	return near.n ? has_lamp_behind(s, in, &near) : 0;
 }
 
 /* The place of a mesh that is culled. */
@@ -254,12 +272,13 @@ int sides_find(const struct scene *scene, const struct sides_lamp *lamps, uint32
 
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++) {
 		const struct scene_instance *in = &scene->instances[i];
+		uint32_t asked;
 
-		if (is_told_apart(scene, in) && (uintptr_t)table_find(&both, key_of(scene, in)) != all &&
-		    is_asked(scene, in, lamps, n_lamps)) {
-			bits[i] |= SCENE_ONE_SIDED;
-			++*n;
-		}
+		if (!is_told_apart(scene, in) || (uintptr_t)table_find(&both, key_of(scene, in)) == all)
+			continue;
+		asked = asked_of(scene, in, lamps, n_lamps);
+		bits[i] |= asked;
+		*n += asked != 0;
 	}
 	table_free(&both);
 	return err;

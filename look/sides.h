@@ -41,7 +41,7 @@ struct sides_lamp {
  * ones are, as each side that counts takes its share.) What is drawn twice, so that each side is shown, shows both.
  *
  * @param lamps  NULL: light may come from anywhere
- * @param bits   [n_instances]: receives SCENE_ONE_SIDED
+ * @param bits   [n_instances]: receives SCENE_ONE_SIDED, and SCENE_SHOWN_* where the winding tells its sides
  * @param n      grows by their number
  * @return 0 or ERR_SYSTEM (reported)
  */

@@ -32,7 +32,9 @@ enum {
 };
 
 /* What sparing decides of a surface, cards apart: bits of scene_surface's `hidden`. */
-#define SPARE_BITS (SCENE_HIDDEN_FROM_LIGHTS | SCENE_ONE_SIDED | SCENE_STOPS_NO_SUN)
+#define SPARE_BITS (SCENE_HIDDEN_FROM_LIGHTS | SCENE_ONE_SIDED | SCENE_STOPS_NO_SUN | SPARE_WINDING)
+/* How one-sided ones are told apart. */
+#define SPARE_WINDING (SCENE_SHOWN_COUNTER | SCENE_SHOWN_CLOCKWISE)
 
 struct spare {
 	uint32_t *bits; /* [n_instances]: SCENE_ONE_SIDED and the like; NULL: nothing is spared */

@@ -57,6 +57,8 @@ struct scene_face {
 #define SCENE_HIDDEN_FROM_LIGHTS 1u  /* casts no shadow */
 #define SCENE_HIDDEN_FROM_MIRRORS 2u /* is not seen in mirrors and through glass */
 #define SCENE_ONE_SIDED 4u           /* light that comes from behind the only side that it shows passes (look/sides.h) */
+#define SCENE_SHOWN_COUNTER 65536u   /* nothing: with the last, corners of the shown side run counter-clockwise in object space, on all triangles */
+#define SCENE_SHOWN_CLOCKWISE 131072u
 #define SCENE_STOPS_NO_SUN 8u        /* light at infinity passes */
 #define SCENE_CARD 16u               /* nothing nearer than its own primitive's longest edge shades it */
 #define SCENE_FACETED 32u            /* rays to lights start on its faces, whatever surface its normals mean */

@@ -120,11 +120,12 @@ static inline void pack_light_rays(const struct pack *p, const struct pack_surfa
 	const struct pack_vec to = pack_vec((packf)(light->position_eye[0] * scale), (packf)(light->position_eye[1] * scale),
 	                                       (packf)(light->position_eye[2] * scale));
 	const struct pack_vec straight = positional ? pack_sub(to, pack_place_at(s, p->weight)) : to;
+	const packi within = ~curve->smooth & ((pack_dot(s->plane, straight) < 0.0f) != (pack_dot(s->plane, back) < 0.0f));
 	const struct pack_vec o = pack_curve_origin(curve, s, p->weight, to, positional, straight, back);
 	const struct pack_vec d = positional ? pack_sub(to, o) : to;
 	packf from[4], way[4];
 
-	pack_turn_rows(o.x, o.y, o.z, (packf)(0), from);
+	pack_turn_rows(o.x, o.y, o.z, select((packf)(0), (packf)(SHADOW_WITHIN), within), from);
 	pack_turn_rows(d.x, d.y, d.z, (packf)(positional ? 1.0f : 1.0e30f), way);
 	for (uint lane = 0; lane < PACK_SIZE; lane++) {
 		__global gather_loose *ray = (__global gather_loose *)(rays + place[lane]);

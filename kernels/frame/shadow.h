@@ -8,6 +8,14 @@
 #include "kernels/frame/sample.h"
 #include "kernels/frame/transparency.h"
 
+/* Least t of a ray to a light that begins within the body that it lights: a zero that tells (shadow_walk). */
+#define SHADOW_WITHIN (-0.0f)
+
+static inline int shadow_begins_within(GLOBAL const struct ray *ray)
+{
+	return M_BITS(ray->t_min) == 0x80000000u;
+}
+
 static inline void stage_no_ray(GLOBAL struct ray *ray)
 {
 	v3_store(ray->o, v3(0.0f, 0.0f, 0.0f));
@@ -130,6 +138,16 @@ static inline struct vec3 shadow_curve_origin(const struct shadow_curve *c, cons
 }
 
 /*
+ * 1 where a triangle turns away from a light on the side that is seen. What GL lights there, it lights by normals that lean
+ * over to the light. Normals of a curved surface say where its own shade begins (shadow_curve_origin); others mean no surface,
+ * and the body behind the triangle does not take that light away (shadow_walk).
+ */
+static inline int shadow_turns_away(const struct point_plane *plane, struct vec3 towards, struct vec3 from)
+{
+	return (v3_dot(plane->normal, towards) < 0.0f) == (v3_dot(plane->normal, from) < 0.0f);
+}
+
+/*
  * The ray from a point to a light: as far as the light, d not normalised, so that t = 1 is the light itself. `from`: the
  * direction of the ray that led to the point. u, v: which place on the light, where it has a size: a sphere is seen as a
  * disk; the radius of a light at infinity is the tangent of half the angle that it fills.
@@ -140,19 +158,21 @@ static inline void stage_light_ray(const struct tables *t, const struct point *p
 {
 	GLOBAL const struct scene_light *light = &t->lights[point_lights(p).first + slot];
 	struct vec3 to = v3_load(light->position_eye), at = point_place(plane, p->weight), place, o;
-	int positional = light->position_eye[3] != 0.0f;
+	int positional = light->position_eye[3] != 0.0f, within;
 
 	place = positional ? v3_scale(to, 1.0f / light->position_eye[3]) : to;
 	if (light->radius > 0.0f && positional)
 		place = v3_add(place, v3_scale(sample_disk(v3_normalize(v3_sub(at, place)), u, v), light->radius));
 	else if (light->radius > 0.0f)
 		place = v3_add(v3_normalize(to), v3_scale(sample_disk(v3_normalize(to), u, v), light->radius));
+	to = positional ? v3_sub(place, at) : place;
+	within = !curve->smooth && shadow_turns_away(plane, to, from);
 	o = curve->smooth ? shadow_curve_origin(curve, plane, p->weight, place, positional, from) :
-	                    point_ray_origin(p->weight, plane, positional ? v3_sub(place, at) : place, from);
+	                    point_ray_origin(p->weight, plane, to, from);
 	place = positional ? v3_sub(place, o) : place;
 	v3_store(ray->o, o);
 	v3_store(ray->d, place);
-	ray->t_min = 0.0f;
+	ray->t_min = within ? SHADOW_WITHIN : 0.0f;
 	ray->t_max = positional ? 1.0f : 1.0e30f;
 	if (p->material->surface.hidden & SCENE_CARD)
 		ray->t_min = M_MIN(M_MAX(M_MAX(plane->length[0], plane->length[1]), plane->length[2]) / M_SQRT(v3_dot(place, place)), ray->t_max);
@@ -257,11 +277,15 @@ static inline void ao_ray_item(const struct ao_ray_arguments *a, uint32_t item)
 /* --- Results --------------------------------------------------------------------------------------------------- */
 
 /*
- * shadow_sum: visibility of lights: rays that nothing stopped add `weight`. first: of this list.
+ * shadow_sum: visibility of lights: rays that nothing stopped add `weight`. first: of this list. Of the others, those that may
+ * go on are left.
  */
 static inline void shadow_sum_item(const struct shadow_sum_arguments *a, uint32_t item)
 {
 	float share = a->occluded[item] ? 0.0f : a->weight;
+
+	if (a->occluded[item] && !a->through)
+		a->occluded[item] = (uint32_t)shadow_begins_within(&a->rays[item]);
 
 	for (uint32_t c = 0u; c < 3u; c++)
 		a->visibility[item * 3u + c] = a->first ? share : a->visibility[item * 3u + c] + share;
@@ -278,11 +302,26 @@ static inline void shadow_start_item(const struct shadow_start_arguments *a, uin
 	a->shadow_rays[a->places[item]] = a->rays[item];
 	v3_store(w->weight, v3(a->weight, a->weight, a->weight));
 	w->target = item;
-	w->kind = w->depth = 0u;
+	w->kind = (uint32_t)shadow_begins_within(&a->rays[item]);
+	w->depth = 0u;
 	w->medium = SCENE_NONE;
 }
 
-/* shadow_walk: past the surface that a ray to a light hit, or to its end. */
+/* 1 where a ray that begins within a lit body leaves it: through the side to which the triangle's normals look. */
+static inline int shadow_leaves_body(const struct tables *t, const struct hit *hit, GLOBAL const struct ray *ray)
+{
+	struct vec3 d = v3_load(ray->d), plane, sum;
+	struct point p = point_from_hit(t, hit, d);
+
+	plane = point_plane_normal(&p);
+	sum = v3_add(v3_add(point_corner_normal(t, &p, 0u), point_corner_normal(t, &p, 1u)), point_corner_normal(t, &p, 2u));
+	return (p.material->lighting || p.material->program_normals) && v3_dot(plane, sum) * v3_dot(plane, d) > 0.0f;
+}
+
+/*
+ * shadow_walk: past the surface that a ray to a light hit, or to its end. A path's kind is 1 while the ray may be within the
+ * body that it lights.
+ */
 static inline void shadow_walk_item(const struct shadow_walk_arguments *a, uint32_t item)
 {
 	const struct tables *t = &a->tables;
@@ -296,7 +335,10 @@ static inline void shadow_walk_item(const struct shadow_walk_arguments *a, uint3
 		v3_store(out, v3_add(v3_load(out), weight));
 		return;
 	}
-	weight = v3_mul(weight, transparency_of_hit(t, &hit, &a->rays[item], a->to_lights));
+	if (w.kind && shadow_leaves_body(t, &hit, &a->rays[item]))
+		w.kind = 0u;
+	else
+		weight = v3_mul(weight, transparency_of_hit(t, &hit, &a->rays[item], a->to_lights));
 	if (!(v3_most(weight) > 0.0f))
 		return;
 	a->next_rays[item] = a->rays[item];

@@ -234,8 +234,8 @@ static inline packi packet_faces(const struct packet *p, __global const struct t
 	return RAYS_FLAT * e1 * e2 * (pack_max(pack_max(fabs(p->dx), fabs(p->dy)), fabs(p->dz)) * fabs(inverse)) < 1.0f;
 }
 
-/* Moeller and Trumbore: of some lanes those hit at t in t_min .. t_max, and where. */
-static inline packi packet_triangle(const struct packet *p, uint lanes, __global const struct triangle8 *block, uint lane, packf *t_out,
+/* Moeller and Trumbore: of some lanes those hit at t in t_min .. t_max, and where. passes: as rays_passes */
+static inline packi packet_triangle(const struct packet *p, uint lanes, uint passes, __global const struct triangle8 *block, uint lane, packf *t_out,
                              packf *b1, packf *b2)
 {
 	const float e1x = block->e1[0][lane], e1y = block->e1[1][lane], e1z = block->e1[2][lane];
@@ -255,8 +255,11 @@ static inline packi packet_triangle(const struct packet *p, uint lanes, __global
 	packi hit = (u >= -RAYS_EDGE_SLACK) & (v >= -RAYS_EDGE_SLACK) & (u + v <= 1 + RAYS_EDGE_SLACK) & (t >= p->t_min) &
 	            (t <= p->t_max);
 
-	if (any_pack(hit))
+	if (any_pack(hit)) {
 		hit &= packet_faces(p, block, lane, inverse) & lanes_pack(lanes);
+		if (passes)
+			hit &= passes == INSTANCE_PASS_COUNTER ? inverse < 0.0f : inverse > 0.0f;
+	}
 	*t_out = t, *b1 = u, *b2 = v;
 	return hit;
 }

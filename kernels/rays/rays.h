@@ -19,6 +19,8 @@
  * Any hit and nearest hit decide by one rule: a triangle is tried where the ray itself meets the box of its leaf, whatever rays travel
  * beside it, and both queries ask the boxes in the same way.
  *
+ * Rays to lights (occlude, to_lights) pass the triangles of an instance that they see from one side: INSTANCE_PASS_*.
+ *
  * Work items: as many as hold n_rays when each takes RAYS_PER_ITEM for *_packet, n_rays for all others. A space with nothing
  * to hit (accel_space.n_nodes == 0) is the caller's to leave out.
  */
@@ -26,6 +28,18 @@
 
 #include "scene/scene.h"
 #include "kernels/shared.h"
+
+/* What a walk through an instance passes: bits INSTANCE_PASS_*; 0: nothing. */
+static inline uint32_t rays_passes(uint32_t flags, uint32_t to_lights)
+{
+	return to_lights ? flags & (INSTANCE_PASS_COUNTER | INSTANCE_PASS_CLOCKWISE) : 0u;
+}
+
+/* The bit for the side of a triangle that a ray sees. determinant: of Moeller and Trumbore, or its inverse */
+static inline uint32_t rays_side(float determinant)
+{
+	return determinant > 0.0f ? INSTANCE_PASS_COUNTER : INSTANCE_PASS_CLOCKWISE;
+}
 
 /* Rays in a packet, packets of a work item. */
 #define RAYS_PER_PACKET 16u

@@ -33,7 +33,7 @@ static inline void take_lane(const struct packet *p, uint lane, struct walk *w)
 }
 
 /* Lanes of a packet down a subtree one by one. @return those that need no more: any hit will do, and they have it */
-INLINED uint walk_lanes(struct packet *p, struct found *found, int any, uint lanes, uint2 start, __global const struct node8 *nodes,
+INLINED uint walk_lanes(struct packet *p, struct found *found, int any, uint passes, uint lanes, uint2 start, __global const struct node8 *nodes,
                        __global const struct triangle8 *triangles)
 {
 	uint done = 0;
@@ -46,7 +46,7 @@ INLINED uint walk_lanes(struct packet *p, struct found *found, int any, uint lan
 		take_lane(p, lane, &w);
 		w.hit.instance = SCENE_NONE;
 		w.hit.primitive = any ? SCENE_NONE : ((const uint *)&found->primitive)[lane];
-		walk_subtree(&w, start, 0, any, nodes, triangles);
+		walk_subtree(&w, start, 0, any, passes, nodes, triangles);
 		if (w.hit.instance == SCENE_NONE)
 			continue;
 		((float *)&p->t_max)[lane] = any ? -INFINITY : w.hit.t;
@@ -155,7 +155,7 @@ static inline void mean_direction(const struct packet *p, float towards[3])
 
 /* Packets of which only a few rays are left in a subtree send them through it one by one. @return lanes without these; those that need
  * no more are no longer awake */
-INLINED ulong walk_few(struct packet *p, struct found *found, int any, uint2 start, ulong lanes, ulong *awake, __global const struct node8 *nodes,
+INLINED ulong walk_few(struct packet *p, struct found *found, int any, uint passes, uint2 start, ulong lanes, ulong *awake, __global const struct node8 *nodes,
                       __global const struct triangle8 *triangles)
 {
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
@@ -163,13 +163,13 @@ INLINED ulong walk_few(struct packet *p, struct found *found, int any, uint2 sta
 
 		if (few == 0 || popcount(few) > PACKET_FEW)
 			continue;
-		*awake &= ~lanes_at(walk_lanes(&p[k], &found[k], any, few, start, nodes, triangles), k);
+		*awake &= ~lanes_at(walk_lanes(&p[k], &found[k], any, passes, few, start, nodes, triangles), k);
 		lanes &= ~lanes_at(few, k);
 	}
 	return lanes;
 }
 
-WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int any, __global const struct triangle8 *blocks, uint n,
+WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int any, uint passes, __global const struct triangle8 *blocks, uint n,
                                     ulong lanes)
 {
 	for (uint k = 0; k < RAYS_PACKETS; k++)
@@ -177,7 +177,7 @@ WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int 
 			for (uint lane = 0; lane < 8 && blocks[i].primitive[lane] != SCENE_NONE; lane++) {
 				const packu primitive = blocks[i].primitive[lane];
 				packf t, b1, b2;
-				packi hit = packet_triangle(&p[k], lanes_of(lanes, k), &blocks[i], lane, &t, &b1, &b2);
+				packi hit = packet_triangle(&p[k], lanes_of(lanes, k), passes, &blocks[i], lane, &t, &b1, &b2);
 
 				if (any) {
 					p[k].t_max = select(p[k].t_max, (packf)(-INFINITY), hit);
@@ -193,7 +193,7 @@ WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int 
 }
 
 /* Walk one instance's tree with packets, of one octant or of several (-1). */
-INLINED void walk_blas(struct packet *p, struct found *found, int any, int octant, __global const struct node8 *nodes,
+INLINED void walk_blas(struct packet *p, struct found *found, int any, uint passes, int octant, __global const struct node8 *nodes,
                       __global const struct triangle8 *triangles)
 {
 	const struct planes planes = octant_planes(octant);
@@ -209,13 +209,13 @@ INLINED void walk_blas(struct packet *p, struct found *found, int any, int octan
 	if (!any)
 		mean_direction(p, towards);
 	for (;;) {
-		lanes = walk_few(p, found, any, at, lanes, &awake, nodes, triangles);
+		lanes = walk_few(p, found, any, passes, at, lanes, &awake, nodes, triangles);
 		if (lanes && at.y == 0)
 			depth = push_children(stack, depth, p, any, octant, planes,
 			                      octant < 0 ? existing_boxes(&nodes[at.x]) : beam_meets(&beam, &nodes[at.x], planes), nodes, at.x,
 			                      lanes, towards);
 		else if (lanes)
-			try_blocks(p, found, any, &triangles[at.x], at.y, lanes);
+			try_blocks(p, found, any, passes, &triangles[at.x], at.y, lanes);
 		if (any && lanes && at.y)
 			awake = awake_lanes(p);
 		do {
@@ -256,7 +256,7 @@ static inline void leave_instance(struct packet *eye, struct found *eye_found, c
 }
 
 /* One instance's tree with the lanes of `meets`. */
-INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any, ulong meets, uint index,
+INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any, uint to_lights, ulong meets, uint index,
                           __global const struct instance *instances, __global const struct node8 *all_nodes,
                           __global const struct triangle8 *all_triangles)
 {
@@ -266,6 +266,7 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any,
 	struct found found[RAYS_PACKETS];
 	struct packet p[RAYS_PACKETS];
 	packf shift[RAYS_PACKETS];
+	const uint passes = any ? rays_passes(instance->flags, to_lights) : 0;
 	int octant;
 
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
@@ -286,9 +287,9 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any,
 	}
 	octant = packet_octant(p, RAYS_PACKETS);
 	if (octant < 0)
-		walk_blas(p, found, any, -1, nodes, triangles);
+		walk_blas(p, found, any, passes, -1, nodes, triangles);
 	else
-		walk_blas(p, found, any, octant, nodes, triangles);
+		walk_blas(p, found, any, passes, octant, nodes, triangles);
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		if (!any)
 			leave_instance(&eye[k], &eye_found[k], &p[k], &found[k], shift[k], index);
@@ -296,7 +297,7 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any,
 			eye[k].t_max = select(eye[k].t_max, (packf)(-INFINITY), p[k].t_max == -INFINITY);
 }
 
-INLINED void walk_top(struct packet *eye, struct found *found, int any, __global const struct node8 *top,
+INLINED void walk_top(struct packet *eye, struct found *found, int any, uint to_lights, __global const struct node8 *top,
                      __global const uint *instance_list, __global const struct instance *instances,
                      __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
@@ -318,7 +319,7 @@ INLINED void walk_top(struct packet *eye, struct found *found, int any, __global
 			depth = push_children(stack, depth, eye, any, -1, planes, existing_boxes(&top[task.child.x]), top, task.child.x, lanes,
 			                      towards);
 		for (uint i = 0; i < task.child.y && lanes; i++)
-			walk_instance(eye, found, any, lanes, instance_list[task.child.x + i], instances, nodes, triangles);
+			walk_instance(eye, found, any, to_lights, lanes, instance_list[task.child.x + i], instances, nodes, triangles);
 		if (any)
 			awake = awake_lanes(eye);
 	}
@@ -388,7 +389,7 @@ KERNEL_OF(float16) void occlude_packet(KERNEL_ARGUMENTS(occlude_wide))
 		return;
 	lanes = load_packets(p, rays, first, n_rays);
 	if (lanes)
-		walk_top(p, nothing, 1, top + top_first, instance_list, instances, nodes, triangles);
+		walk_top(p, nothing, 1, to_lights, top + top_first, instance_list, instances, nodes, triangles);
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		lanes &= ~lanes_at(pack_bits(p[k].t_max != -INFINITY), k);
 	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays; i++)
@@ -408,7 +409,7 @@ KERNEL_OF(float16) void intersect_packet(KERNEL_ARGUMENTS(intersect_wide))
 		found[k].b1 = found[k].b2 = 0;
 		found[k].instance = found[k].primitive = SCENE_NONE;
 	}
-	walk_top(p, found, 0, top + top_first, instance_list, instances, nodes, triangles);
+	walk_top(p, found, 0, 0, top + top_first, instance_list, instances, nodes, triangles);
 	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays; i++) {
 		const struct found *f = &found[i / RAYS_PER_PACKET];
 		const uint lane = i % RAYS_PER_PACKET;

@@ -14,7 +14,7 @@
 #include "kernels/rays/walk.h"
 
 /* Moeller and Trumbore; of equally near hits that of the lowest primitive stays. */
-static inline void try_single(struct walk *w, __global const struct triangle *triangle, uint instance)
+static inline void try_single(struct walk *w, __global const struct triangle *triangle, uint instance, uint passes)
 {
 	const float e1x = triangle->e1[0], e1y = triangle->e1[1], e1z = triangle->e1[2];
 	const float e2x = triangle->e2[0], e2y = triangle->e2[1], e2z = triangle->e2[2];
@@ -31,7 +31,7 @@ static inline void try_single(struct walk *w, __global const struct triangle *tr
 	const float t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
 
 	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
-	    (t < w->hit.t || (t == w->hit.t && triangle->primitive < w->hit.primitive)) &&
+	    (t < w->hit.t || (t == w->hit.t && triangle->primitive < w->hit.primitive)) && !(passes & rays_side(inverse)) &&
 	    RAYS_FLAT * largest(e1x, e1y, e1z) * largest(e2x, e2y, e2z) * (largest(w->dx, w->dy, w->dz) * fabs(inverse)) < 1) {
 		w->hit.t = t;
 		w->hit.b1 = u;
@@ -94,7 +94,7 @@ static inline int next_leaf(const struct walk *w, __global const struct node2 *n
 	return 1;
 }
 
-static inline void walk_binary(struct walk *w, uint index, int any, __global const struct node2 *nodes,
+static inline void walk_binary(struct walk *w, uint index, int any, uint passes, __global const struct node2 *nodes,
                         __global const struct triangle *triangles)
 {
 	struct entry stack[BVH_MAX_DEPTH], entry;
@@ -104,7 +104,7 @@ static inline void walk_binary(struct walk *w, uint index, int any, __global con
 	entry.child = entry.count = 0;
 	while (next_leaf(w, nodes, stack, &depth, &entry)) {
 		for (uint i = 0; i < entry.count; i++) {
-			try_single(w, &triangles[entry.child + i], index);
+			try_single(w, &triangles[entry.child + i], index, passes);
 			if (any && w->hit.instance != SCENE_NONE)
 				return;
 		}
@@ -115,7 +115,7 @@ static inline void walk_binary(struct walk *w, uint index, int any, __global con
 
 /* --- Compressed trees --------------------------------------------------------------------------------------------- */
 
-static inline void walk_compressed(struct walk *w, uint index, int any, __global const struct node8c *nodes,
+static inline void walk_compressed(struct walk *w, uint index, int any, uint passes, __global const struct node8c *nodes,
                             __global const struct triangle *triangles)
 {
 	const uint octant = (w->dx < 0 ? 0u : 1u) | (w->dy < 0 ? 0u : 2u) | (w->dz < 0 ? 0u : 4u);
@@ -129,7 +129,7 @@ static inline void walk_compressed(struct walk *w, uint index, int any, __global
 		group.y = meet_compressed(w, octant, &nodes[child], &bits, &first);
 		group.x = first.x;
 		while (bits) {
-			try_single(w, &triangles[first.y + popcount((bits & -bits) - 1)], index);
+			try_single(w, &triangles[first.y + popcount((bits & -bits) - 1)], index, passes);
 			bits &= bits - 1;
 			if (any && w->hit.instance != SCENE_NONE)
 				return;
@@ -155,7 +155,7 @@ static inline void walk_compressed(struct walk *w, uint index, int any, __global
  * instance is walked nothing is kept of the ray in eye space but its hit: the rest is read and computed again, which costs less than
  * the registers.
  */
-INLINED struct hit walk_ray(__global const struct ray *ray, int any, int is_compressed, __global const struct node2 *top,
+INLINED struct hit walk_ray(__global const struct ray *ray, int any, uint to_lights, int is_compressed, __global const struct node2 *top,
                             __global const uint *instance_list, __global const struct instance *instances,
                             __global const struct node2 *binary, __global const struct node8c *compressed,
                             __global const struct triangle *triangles)
@@ -175,11 +175,12 @@ INLINED struct hit walk_ray(__global const struct ray *ray, int any, int is_comp
 			struct hit hit = eye.hit;
 			struct walk w;
 			const float shift = walk_enter(&w, &eye, instance);
+			const uint passes = rays_passes(instance->flags, to_lights);
 
 			if (is_compressed)
-				walk_compressed(&w, index, any, compressed + instance->node8c_first, triangles + instance->triangle8c_first);
+				walk_compressed(&w, index, any, passes, compressed + instance->node8c_first, triangles + instance->triangle8c_first);
 			else
-				walk_binary(&w, index, any, binary + instance->node2_first, triangles + instance->triangle_first);
+				walk_binary(&w, index, any, passes, binary + instance->node2_first, triangles + instance->triangle_first);
 			walk_start(&eye, ray);
 			eye.hit = hit;
 			walk_leave(&eye, &w, shift);
@@ -197,7 +198,7 @@ __kernel void occlude_binary(KERNEL_ARGUMENTS(occlude_binary))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		occluded[i] = walk_ray(&rays[i], 1, 0, top + top_first, instance_list, instances, nodes, 0, triangles).instance !=
+		occluded[i] = walk_ray(&rays[i], 1, to_lights, 0, top + top_first, instance_list, instances, nodes, 0, triangles).instance !=
 		              SCENE_NONE;
 }
 
@@ -206,7 +207,7 @@ __kernel void intersect_binary(KERNEL_ARGUMENTS(intersect_binary))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		hits[i] = walk_ray(&rays[i], 0, 0, top + top_first, instance_list, instances, nodes, 0, triangles);
+		hits[i] = walk_ray(&rays[i], 0, 0, 0, top + top_first, instance_list, instances, nodes, 0, triangles);
 }
 
 __kernel void occlude_compressed(KERNEL_ARGUMENTS(occlude_compressed))
@@ -214,7 +215,7 @@ __kernel void occlude_compressed(KERNEL_ARGUMENTS(occlude_compressed))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		occluded[i] = walk_ray(&rays[i], 1, 1, top + top_first, instance_list, instances, 0, nodes, triangles).instance !=
+		occluded[i] = walk_ray(&rays[i], 1, to_lights, 1, top + top_first, instance_list, instances, 0, nodes, triangles).instance !=
 		              SCENE_NONE;
 }
 
@@ -223,5 +224,5 @@ __kernel void intersect_compressed(KERNEL_ARGUMENTS(intersect_compressed))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		hits[i] = walk_ray(&rays[i], 0, 1, top + top_first, instance_list, instances, 0, nodes, triangles);
+		hits[i] = walk_ray(&rays[i], 0, 0, 1, top + top_first, instance_list, instances, 0, nodes, triangles);
 }

@@ -5,18 +5,18 @@
 #include "kernels/rays/rays.h"
 #include "kernels/rays/wide.h"
 
-static inline void walk_instance(struct walk *eye, uint index, int any, __global const struct instance *instances,
+static inline void walk_instance(struct walk *eye, uint index, int any, uint to_lights, __global const struct instance *instances,
                           __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	__global const struct instance *instance = &instances[index];
 	struct walk w;
 	const float shift = walk_enter(&w, eye, instance);
 
-	walk_subtree(&w, (uint2)(0, 0), index, any, nodes + instance->node8_first, triangles + instance->triangle8_first);
+	walk_subtree(&w, (uint2)(0, 0), index, any, rays_passes(instance->flags, to_lights), nodes + instance->node8_first, triangles + instance->triangle8_first);
 	walk_leave(eye, &w, shift);
 }
 
-static inline struct hit walk_ray(__global const struct ray *ray, int any, __global const struct node8 *top,
+static inline struct hit walk_ray(__global const struct ray *ray, int any, uint to_lights, __global const struct node8 *top,
                            __global const uint *instance_list, __global const struct instance *instances,
                            __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
@@ -42,7 +42,7 @@ static inline struct hit walk_ray(__global const struct ray *ray, int any, __glo
 			continue;
 		}
 		for (uint i = 0; i < entry.count; i++) {
-			walk_instance(&w, instance_list[entry.child + i], any, instances, nodes, triangles);
+			walk_instance(&w, instance_list[entry.child + i], any, to_lights, instances, nodes, triangles);
 			if (any && w.hit.instance != SCENE_NONE)
 				return w.hit;
 		}
@@ -55,7 +55,7 @@ KERNEL_OF(float8) void occlude_wide(KERNEL_ARGUMENTS(occlude_wide))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		occluded[i] = walk_ray(&rays[i], 1, top + top_first, instance_list, instances, nodes, triangles).instance !=
+		occluded[i] = walk_ray(&rays[i], 1, to_lights, top + top_first, instance_list, instances, nodes, triangles).instance !=
 		              SCENE_NONE;
 }
 
@@ -64,5 +64,5 @@ KERNEL_OF(float8) void intersect_wide(KERNEL_ARGUMENTS(intersect_wide))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		hits[i] = walk_ray(&rays[i], 0, top + top_first, instance_list, instances, nodes, triangles);
+		hits[i] = walk_ray(&rays[i], 0, 0, top + top_first, instance_list, instances, nodes, triangles);
 }

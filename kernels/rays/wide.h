@@ -48,8 +48,8 @@ static inline uint push_boxes(struct entry *stack, uint depth, uint bits, const 
 	return depth;
 }
 
-/* Moeller and Trumbore on eight triangles; the nearest hit, the lowest primitive of equals, goes into w->hit. */
-static inline void try_block(struct walk *w, __global const struct triangle8 *block, uint instance, int any)
+/* Moeller and Trumbore on eight triangles; the nearest hit, the lowest primitive of equals, goes into w->hit. passes: where any will do */
+static inline void try_block(struct walk *w, __global const struct triangle8 *block, uint instance, int any, uint passes)
 {
 	const float8 e1x = vload8(0, block->e1[0]), e1y = vload8(0, block->e1[1]), e1z = vload8(0, block->e1[2]);
 	const float8 e2x = vload8(0, block->e2[0]), e2y = vload8(0, block->e2[1]), e2z = vload8(0, block->e2[2]);
@@ -75,6 +75,8 @@ static inline void try_block(struct walk *w, __global const struct triangle8 *bl
 		const float e2 = largest(block->e2[0][lane], block->e2[1][lane], block->e2[2][lane]);
 
 		bits &= bits - 1;
+		if (any && passes & rays_side(((const float *)&inverse)[lane]))
+			continue;
 		if ((at < w->hit.t || (at == w->hit.t && block->primitive[lane] < w->hit.primitive)) &&
 		    RAYS_FLAT * e1 * e2 * (largest(w->dx, w->dy, w->dz) * fabs(((const float *)&inverse)[lane])) < 1) {
 			w->hit.t = at;
@@ -89,7 +91,7 @@ static inline void try_block(struct walk *w, __global const struct triangle8 *bl
 }
 
 /* From a node (y: 0) or a leaf of y blocks on down. */
-static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int any, __global const struct node8 *nodes,
+static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int any, uint passes, __global const struct node8 *nodes,
                          __global const struct triangle8 *triangles)
 {
 	struct entry stack[RAYS_WIDE_STACK], entry;
@@ -114,7 +116,7 @@ static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int 
 			depth = push_boxes(stack, depth, bits, &enter, any, node);
 		}
 		for (uint i = 0; i < entry.count; i++) {
-			try_block(w, &triangles[entry.child + i], instance, any);
+			try_block(w, &triangles[entry.child + i], instance, any, passes);
 			if (any && w->hit.instance != SCENE_NONE)
 				return;
 		}

@@ -30,6 +30,7 @@ struct walk {
 	float t_min;
 	struct hit hit; /* hit.t: the ray's end so far */
 	int any;        /* the first hit will do */
+	uint32_t to_lights, passes; /* as in kernels/rays/rays.h; of the instance that it walks */
 };
 
 static int done(const struct walk *w)
@@ -70,7 +71,7 @@ static void try_triangle(struct walk *w, const float v0[3], const float e1[3], c
 	t = dot(e2, q) * inverse;
 	/* A determinant of 0 makes NaNs or infinities of u and v, which fail here. */
 	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
-	    (t < w->hit.t || (t == w->hit.t && primitive < w->hit.primitive)) &&
+	    (t < w->hit.t || (t == w->hit.t && primitive < w->hit.primitive)) && !(w->passes & rays_side(inverse)) &&
 	    RAYS_FLAT * largest(e1) * largest(e2) * (largest(w->d) * fabsf(inverse)) < 1)
 		w->hit = (struct hit){ t, u, v, instance, primitive };
 }
@@ -242,6 +243,7 @@ static void walk_instance(struct walk *w, uint32_t instance_index)
 	w->hit = (struct hit){ eye.hit.t - shift, 0, 0, SCENE_NONE, SCENE_NONE };
 	if (shift > 0 && eye.hit.instance != SCENE_NONE)
 		w->hit.t += 3e-7f * eye.hit.t; /* t + shift decides */
+	w->passes = rays_passes(instance->flags, w->to_lights);
 	if (in_range)
 		walk_blas(w, instance_index);
 	w->hit.t += shift;
@@ -300,10 +302,10 @@ static void walk_top_binary(struct walk *w)
 	}
 }
 
-static struct hit walk_ray(const struct args *args, uint32_t index, int any)
+static struct hit walk_ray(const struct args *args, uint32_t index, int any, uint32_t to_lights)
 {
 	const struct ray *ray = &args->rays[index];
-	struct walk w = { .args = args, .t_min = ray->t_min, .any = any };
+	struct walk w = { .args = args, .t_min = ray->t_min, .any = any, .to_lights = to_lights };
 
 	w.hit = (struct hit){ ray->t_max, 0, 0, SCENE_NONE, SCENE_NONE };
 	if (!(ray->t_min <= ray->t_max))
@@ -329,7 +331,7 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any)
 		const struct args args = ARGS_OF(a, tree); \
 \
 		for (size_t i = first; i < last && i < a->n_rays; i++) \
-			a->occluded[i] = walk_ray(&args, (uint32_t)i, 1).instance != SCENE_NONE; \
+			a->occluded[i] = walk_ray(&args, (uint32_t)i, 1, a->to_lights).instance != SCENE_NONE; \
 	} \
 \
 	void intersect_##list##_c(const struct intersect_##list##_arguments *a, size_t first, size_t last) \
@@ -337,7 +339,7 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any)
 		const struct args args = ARGS_OF(a, tree); \
 \
 		for (size_t i = first; i < last && i < a->n_rays; i++) \
-			a->hits[i] = walk_ray(&args, (uint32_t)i, 0); \
+			a->hits[i] = walk_ray(&args, (uint32_t)i, 0, 0); \
 	}
 TWINS(wide, TREE_ROWS)
 TWINS(binary, TREE_BINARY)

@@ -16,6 +16,7 @@ void surface_set(struct scene_surface *s, const struct surface_rule *r, int spar
 	applying_number(s->emission, r->emission, 3);
 	if (r->passes && spares && spare_named(r->passes, &passes)) {
 		passes &= s->hidden | ~SCENE_ONE_SIDED; /* where no lamp is behind it, there is none to ask of */
+		passes |= passes & SCENE_ONE_SIDED ? s->hidden & SPARE_WINDING : 0;
 		s->hidden = (s->hidden & ~SPARE_BITS) | passes;
 	}
 	if (r->shadows)

@@ -11,7 +11,7 @@
 #define GUARD_WORD 0xa5a5a5a5u
 
 struct result {
-	uint32_t occluded[N_RAYS + GUARD];
+	uint32_t occluded[N_RAYS + GUARD], to_lights[N_RAYS + GUARD]; /* the same of rays to lights */
 	struct hit hits[N_RAYS + GUARD];
 };
 
@@ -88,13 +88,16 @@ static const struct {
 
 static void run(struct random_scene *s, struct device *dev, const struct ray *rays, enum way way, struct result *out)
 {
-	struct device_buffer *b[] = { make_buffer(dev, rays, N_RAYS * sizeof(*rays)), NULL, NULL };
+	struct device_buffer *b[] = { make_buffer(dev, rays, N_RAYS * sizeof(*rays)), NULL, NULL, NULL };
 	struct traverse_trees trees = { 0 };
 	struct traverse_rays r = { .space = &s->spaces[0], .n = N_RAYS };
 
 	memset(out, 0xa5, sizeof(*out));
 	b[1] = make_buffer(dev, out->occluded, sizeof(out->occluded));
 	b[2] = make_buffer(dev, out->hits, sizeof(out->hits));
+	b[3] = make_buffer(dev, out->to_lights, sizeof(out->to_lights));
+	for (uint32_t k = 1; k < INSTANCES; k++) /* the first one lets nothing pass */
+		s->instances[k].flags |= k % 2 ? INSTANCE_PASS_COUNTER : INSTANCE_PASS_CLOCKWISE;
 	r.rays.buffer = b[0];
 	r.occluded.buffer = b[1];
 	r.hits.buffer = b[2];
@@ -102,19 +105,23 @@ static void run(struct random_scene *s, struct device *dev, const struct ray *ra
 	ck_assert_int_eq(traverse_upload_tlases(dev, s->accel, s->instances, sizeof(s->instances) / sizeof(s->instances[0]), &trees), 0);
 	for (int kind = 0; kind < 2; kind++)
 		ck_assert_int_eq(traverse_rays(dev, ways[way].kernels[kind], &trees, &r), 0);
+	r.occluded.buffer = b[3];
+	r.to_lights = 1;
+	ck_assert_int_eq(traverse_rays(dev, ways[way].kernels[0], &trees, &r), 0);
 	ck_assert_int_eq(device_read(dev, b[1], 0, out->occluded, sizeof(out->occluded)), 0);
+	ck_assert_int_eq(device_read(dev, b[3], 0, out->to_lights, sizeof(out->to_lights)), 0);
 	ck_assert_int_eq(device_read(dev, b[2], 0, out->hits, sizeof(out->hits)), 0);
 	for (size_t i = 0; i < sizeof(b) / sizeof(b[0]); i++)
 		device_release(dev, &b[i]);
 	traverse_release(dev, &trees);
 	for (uint32_t i = 0; i < GUARD; i++) {
-		ck_assert_msg(out->occluded[N_RAYS + i] == GUARD_WORD, "occlude writes past its end");
+		ck_assert_msg(out->occluded[N_RAYS + i] == GUARD_WORD && out->to_lights[N_RAYS + i] == GUARD_WORD, "occlude writes past its end");
 		ck_assert_msg(out->hits[N_RAYS + i].primitive == GUARD_WORD, "intersect writes past its end");
 	}
 }
 
 /* All triangles of all instances, in the object space of each and in double precision. */
-static struct hit hit_all(const struct random_scene *s, const struct ray *ray, double *margin)
+static struct hit hit_all(const struct random_scene *s, const struct ray *ray, int to_lights, double *margin)
 {
 	struct hit best = { ray->t_max, 0, 0, SCENE_NONE, SCENE_NONE };
 
@@ -150,6 +157,8 @@ static struct hit hit_all(const struct random_scene *s, const struct ray *ray, d
 			/* How close any candidate comes to an edge, an end of the ray or the nearest hit: too close to call. */
 			if (edge > -1e-3 && t > -1e9 && t < 1e9)
 				*margin = fmin(*margin, fmin(fabs(edge), fmin(fabs(t - ray->t_min), fabs(t - ray->t_max)) / (1 + fabs(t))));
+			if (to_lights && s->instances[k].flags & (det > 0 ? INSTANCE_PASS_COUNTER : INSTANCE_PASS_CLOCKWISE))
+				continue;
 			if (edge >= 0 && t >= ray->t_min && t <= ray->t_max) {
 				if (best.instance != SCENE_NONE)
 					*margin = fmin(*margin, fabs(t - best.t) / (1 + fabs(t)));
@@ -175,7 +184,7 @@ START_TEST(twins_find_what_all_triangles_give)
 	struct ray *rays = make_rays(s);
 	struct result *got = malloc(sizeof(*got));
 	struct device *dev;
-	uint32_t compared = 0;
+	uint32_t compared = 0, passed = 0;
 
 	if (_i != ACCEL_BVH)
 		random_scene_rebuild(s, (enum accel_kind)_i);
@@ -184,10 +193,12 @@ START_TEST(twins_find_what_all_triangles_give)
 		run(s, dev, rays, way, got);
 		for (uint32_t i = 0; i < N_RAYS; i++) {
 			double margin = 1;
-			struct hit want = { 0, 0, 0, SCENE_NONE, SCENE_NONE };
+			struct hit want = { 0, 0, 0, SCENE_NONE, SCENE_NONE }, blocks = want;
 
-			if (is_usable(&rays[i]))
-				want = hit_all(s, &rays[i], &margin);
+			if (is_usable(&rays[i])) {
+				blocks = hit_all(s, &rays[i], 1, &margin);
+				want = hit_all(s, &rays[i], 0, &margin);
+			}
 			if (margin < 1e-4 || i % 97 == 47)
 				continue;
 			compared++;
@@ -197,9 +208,13 @@ START_TEST(twins_find_what_all_triangles_give)
 			              (int)want.primitive, want.t);
 			ck_assert_msg(got->occluded[i] == (want.instance != SCENE_NONE), "ray %u (%s): occluded %u", i, ways[way].name,
 			              got->occluded[i]);
+			ck_assert_msg(got->to_lights[i] == (blocks.instance != SCENE_NONE), "ray %u (%s) to a light: occluded %u", i,
+			              ways[way].name, got->to_lights[i]);
+			passed += got->occluded[i] && !got->to_lights[i];
 		}
 	}
 	ck_assert_uint_gt(compared, N_RAYS);
+	ck_assert_uint_gt(passed, 0);
 	device_close(&dev);
 	free(rays);
 	free(got);
@@ -212,8 +227,9 @@ static void compare(const struct result *want, const struct result *got, const c
 	for (uint32_t i = 0; i < N_RAYS; i++) {
 		const struct hit *a = &want->hits[i], *b = &got->hits[i];
 
-		ck_assert_msg(want->occluded[i] == got->occluded[i], "%s: ray %u: occluded %u, the twin has %u", what, i,
-		              got->occluded[i], want->occluded[i]);
+		ck_assert_msg(want->occluded[i] == got->occluded[i] && want->to_lights[i] == got->to_lights[i],
+		              "%s: ray %u: occluded %u and %u, the twin has %u and %u", what, i, got->occluded[i], got->to_lights[i],
+		              want->occluded[i], want->to_lights[i]);
 		ck_assert_msg(a->instance == b->instance && a->primitive == b->primitive,
 		              "%s: ray %u: instance %d primitive %d t %g, the twin has %d %d %g", what, i, (int)b->instance,
 		              (int)b->primitive, b->t, (int)a->instance, (int)a->primitive, a->t);

@@ -41,4 +41,12 @@ check(differ == 0, f"it gives way to the traced one: {differ} pixels differ")
 differ = differing(other, other, of_b="gl.")
 check(differ == 0, f"that of another light is the only one: {differ} pixels differ from OpenGL's picture")
 check(differing(alone, other, "gl.", "gl.") > 20, "and is there")
+
+*bodies, behind = frames("leaning")
+for number, frame in enumerate(bodies, 1):
+    check(sum(frame["gl.R"][y][x] > 0 for y in range(SIZE) for x in range(SIZE)) > 500, f"leaning {number} is lit")
+    differ = differing(frame, frame, of_b="gl.")
+    check(differ == 0, f"leaning {number}: a face that turns away keeps the light that OpenGL gives it: {differ} pixels differ")
+differ = differing(behind, behind, of_b="gl.")
+check(differ > 500, f"but not where a board is in the way: {differ} pixels differ")
 finish()

@@ -9,6 +9,8 @@
  *   unseen  the box alone; under sheets that are culled on both sides, fail the depth test always, or have no colour
  *           and leave no depth
  *   drawn   a box on a floor: alone; with its shadow flattened onto the floor from where the light is; from elsewhere
+ *   leaning bodies whose normals lean over to a light from which their faces turn away: a box of one normal a face; of
+ *           those of a ball; a coarse ball; then the first behind a board that stands in the light's way
  */
 #include "tests/trace/window.h"
 
@@ -215,12 +217,84 @@ static void draw_drawn(void)
 	}
 }
 
+/* A point of a ball or a box around the middle, with a normal between the face's own and what it leans to. */
+static void corner(const float face[3], const float at[3], const float lean[3], float share)
+{
+	float n[3];
+
+	for (int k = 0; k < 3; k++)
+		n[k] = (1 - share) * face[k] + share * lean[k];
+	glNormal3fv(n);
+	glVertex3fv(at);
+}
+
+/* A box of one draw. lean: NULL: to the corner itself */
+static void leaning_box(const float lean[3], float share)
+{
+	static const float around[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
+
+	glBegin(GL_QUADS);
+	for (int face = 0; face < 6; face++)
+		for (int k = 0; k < 4; k++) {
+			const int axis = face / 2, side = face % 2 ? 1 : -1;
+			float normal[3] = { 0 }, at[3];
+
+			normal[axis] = (float)side;
+			at[axis] = 0.5f * (float)side;
+			at[(axis + 1) % 3] = 0.5f * around[side > 0 ? k : 3 - k][0];
+			at[(axis + 2) % 3] = 0.5f * around[side > 0 ? k : 3 - k][1];
+			corner(normal, at, lean ? lean : at, share);
+		}
+	glEnd();
+}
+
+static void coarse_ball(void)
+{
+	enum { ROUND = 8, HIGH = 5 };
+
+	glBegin(GL_QUADS);
+	for (int i = 0; i < ROUND * HIGH; i++)
+		for (int k = 0; k < 4; k++) {
+			const float turn = 6.2831853f * (float)(i % ROUND + (k == 1 || k == 2)) / ROUND;
+			const float rise = 3.1415927f * ((float)(i / ROUND + (k > 1)) / HIGH - 0.5f);
+			const float at[3] = { 0.7f * cosf(rise) * sinf(turn), 0.7f * sinf(rise), 0.7f * cosf(rise) * cosf(turn) };
+
+			corner(at, at, at, 0);
+		}
+	glEnd();
+}
+
+static void draw_leaning(void)
+{
+	static const float low[4] = { 0.8f, 0.5f, -0.3f, 0 };
+
+	for (int i = 0; i < 4; i++) {
+		begin_frame(0, low);
+		glEnable(GL_NORMALIZE);
+		glColor3f(0.8f, 0.6f, 0.4f);
+		glPushMatrix();
+		glTranslatef(0, 0, -3);
+		if (i == 2)
+			coarse_ball();
+		else
+			leaning_box(i == 1 ? NULL : low, i == 1 ? 1 : 0.6f);
+		if (i == 3) {
+			glTranslatef(2.4f, 1.5f, -0.9f);
+			glScalef(0.1f, 1.5f, 1.5f);
+			box();
+		}
+		glPopMatrix();
+		end_frame();
+	}
+}
+
 int main(int argc, char **argv)
 {
 	static const struct {
 		const char *name;
 		void (*draw)(void);
-	} kinds[] = { { "window", draw_window }, { "iso", draw_iso }, { "unseen", draw_unseen }, { "drawn", draw_drawn } };
+	} kinds[] = { { "window", draw_window }, { "iso", draw_iso }, { "unseen", draw_unseen }, { "drawn", draw_drawn },
+	              { "leaning", draw_leaning } };
 
 	window_size[0] = window_size[1] = 100;
 	open_window();
@@ -233,6 +307,6 @@ int main(int argc, char **argv)
 			kinds[i].draw();
 			return 0;
 		}
-	fprintf(stderr, "usage: sheets window|iso|unseen|drawn\n");
+	fprintf(stderr, "usage: sheets window|iso|unseen|drawn|leaning\n");
 	return 2;
 }

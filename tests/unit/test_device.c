@@ -38,18 +38,20 @@ START_TEST(test_profile)
 	struct device *dev = NULL;
 	union buffer_uint occluded = { NULL };
 	union buffer_float visibility = { NULL };
+	union buffer_ray rays = { NULL };
 	struct device_profile profile;
 	uint32_t flags[4] = { 0, 1, 0, 1 }, n = 4;
 	float out[12];
 
 	memset(&profile, 0, sizeof(profile));
 	ck_assert_int_eq(device_open("reference", 2, &dev), 0);
+	ck_assert_int_eq(launch_reserve(dev, rays, n), 0);
 	ck_assert_int_eq(launch_reserve(dev, occluded, n), 0);
 	ck_assert_int_eq(launch_reserve(dev, visibility, 3 * n), 0);
 	device_set_profile(dev, &profile);
 	ck_assert_int_eq(device_write(dev, occluded.buffer, 0, flags, sizeof(flags)), 0);
-	ck_assert_int_eq(launch_shadow_sum(dev, n, LAUNCH(shadow_sum, .occluded = occluded, .weight = 0.5f, .first = 1, .n = n,
-	                                                  .visibility = visibility)), 0);
+	ck_assert_int_eq(launch_shadow_sum(dev, n, LAUNCH(shadow_sum, .rays = rays, .occluded = occluded, .weight = 0.5f, .first = 1, .through = 0,
+	                                                  .n = n, .visibility = visibility)), 0);
 	device_set_profile(dev, NULL);
 	ck_assert_int_eq(device_read(dev, visibility.buffer, 0, out, sizeof(out)), 0);
 	ck_assert_float_eq(out[0], 0.5f);
@@ -61,6 +63,7 @@ START_TEST(test_profile)
 	ck_assert(profile.kernels[KERNEL_shadow_sum].wall_s > 0);
 	ck_assert_uint_eq(profile.reads.count, 0);
 	ck_assert_str_eq(kernel_entries[KERNEL_shadow_sum].name, "shadow_sum");
+	device_release(dev, &rays.buffer);
 	device_release(dev, &occluded.buffer);
 	device_release(dev, &visibility.buffer);
 	device_close(&dev);
@@ -73,15 +76,18 @@ static void run_kernel(struct device *dev)
 	const uint32_t flags[2] = { 0, 1 }, n = 2;
 	union buffer_uint occluded = { NULL };
 	union buffer_float visibility = { NULL };
+	union buffer_ray rays = { NULL };
 	float out[6];
 
 	ck_assert_int_eq(launch_upload(dev, occluded, flags, n), 0);
+	ck_assert_int_eq(launch_reserve(dev, rays, n), 0);
 	ck_assert_int_eq(launch_reserve(dev, visibility, 3 * n), 0);
-	ck_assert_int_eq(launch_shadow_sum(dev, n, LAUNCH(shadow_sum, .occluded = occluded, .weight = 0.25f, .first = 1, .n = n,
-	                                                  .visibility = visibility)), 0);
+	ck_assert_int_eq(launch_shadow_sum(dev, n, LAUNCH(shadow_sum, .rays = rays, .occluded = occluded, .weight = 0.25f, .first = 1, .through = 0,
+	                                                  .n = n, .visibility = visibility)), 0);
 	ck_assert_int_eq(device_read(dev, visibility.buffer, 0, out, sizeof(out)), 0);
 	ck_assert_float_eq(out[0], 0.25f);
 	ck_assert_float_eq(out[3], 0);
+	device_release(dev, &rays.buffer);
 	device_release(dev, &occluded.buffer);
 	device_release(dev, &visibility.buffer);
 }

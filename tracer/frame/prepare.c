@@ -229,6 +229,15 @@ static uint32_t instance_flags(const struct scene_material *m, enum prepared_sha
 	return flags;
 }
 
+/* Sides that rays to lights pass by how their corners run; 0: each hit has to be asked, or none passes. */
+static uint32_t passes_of(const struct scene_material *m)
+{
+	if (!(m->surface.hidden & SCENE_ONE_SIDED) || m->surface.transmit > 0)
+		return 0;
+	return m->surface.hidden & SCENE_SHOWN_COUNTER ? INSTANCE_PASS_COUNTER :
+	       m->surface.hidden & SCENE_SHOWN_CLOCKWISE ? INSTANCE_PASS_CLOCKWISE : 0;
+}
+
 static enum prepared_shape shape_of_mode(uint32_t mode)
 {
 	return mode == GL_LINE ? PREPARED_LINES : mode == GL_POINT ? PREPARED_POINTS : PREPARED_FILLED;
@@ -279,6 +288,8 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	const struct scene_mesh *mesh = scene->meshes[from->mesh];
 	struct instance *instance = &p->instances[p->n_instances];
 	struct geometry *g = &p->geometries[p->n_instances];
+	uint32_t asked = m->surface.hidden & ~(SCENE_CARD | SCENE_FACETED | SCENE_DOME_LIT | SCENE_NEAR_MIRROR | SCENE_UNSHADED | SCENE_NO_NORMALS |
+	                                       SCENE_SHOWN_COUNTER | SCENE_SHOWN_CLOCKWISE);
 
 	p->shapes[p->n_instances] = shape;
 	mat4_sums[scene->views[from->view].x87].mul(g->clip_from_obj, scene->views[from->view].projection, from->modelview);
@@ -329,10 +340,14 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	p->has_vertex_programs |= m->vertex_program != 0;
 	p->has_fragment_programs |= m->fragment_program != 0;
 	p->has_mirrors |= m->surface.reflect > 0 || m->surface.transmit > 0;
+	if (!(instance->flags & (INSTANCE_BAKED | INSTANCE_SCREEN)))
+		instance->flags |= passes_of(m);
+	if (instance->flags & (INSTANCE_PASS_COUNTER | INSTANCE_PASS_CLOCKWISE))
+		asked &= ~SCENE_ONE_SIDED;
 	if (instance->flags & INSTANCE_SECONDARY)
 		p->has_transparency |= m->blend || m->alpha_test || m->alpha_to_coverage || m->clip_plane_mask || m->surface.transmit > 0 ||
 		                       m->polygon_stipple != SCENE_NONE ||
-		                       m->surface.hidden & ~(SCENE_CARD | SCENE_FACETED | SCENE_DOME_LIT | SCENE_NEAR_MIRROR | SCENE_UNSHADED | SCENE_NO_NORMALS);
+		                       asked;
 }
 
 /* One scene instance in the shapes that its polygon modes give it; filled ones in the first pass, others in the second. */

@@ -42,9 +42,10 @@ static uint32_t packs(uint32_t n)
 }
 
 /* Which of n rays meet anything in a space. */
-static int occlude(struct job *job, const struct accel_space *space, union buffer_ray rays, union buffer_uint occluded, uint32_t n)
+static int occlude(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays, union buffer_uint occluded,
+                   uint32_t n)
 {
-	const struct traverse_rays r = { .space = space, .n = n, .rays = rays, .occluded = occluded };
+	const struct traverse_rays r = { .space = space, .n = n, .to_lights = to_lights, .rays = rays, .occluded = occluded };
 	struct device *dev = job->tr->dev;
 	int err = space->n_nodes ? traverse_rays(dev, traverse_families[device_family(dev)].occlude, &job->tr->trees, &r) : 0;
 
@@ -149,7 +150,7 @@ static int start_walk(struct job *job, const struct list *list, union buffer_ray
 	                                                   .shadow_paths = *list->paths));
 }
 
-/* The stopped ones of n_rays rays go on through what lets light pass, from surface to surface. */
+/* The stopped ones of n_rays rays that shadow_sum has left go on through what lets light pass, from surface to surface. */
 static int walk_layers(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays, uint32_t n_rays, float weight)
 {
 	struct tracer *tr = job->tr;
@@ -179,13 +180,15 @@ static int ask(struct job *job, const struct accel_space *space, uint32_t to_lig
                uint32_t sample, uint32_t samples)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
+	const int through = job->prepared.has_transparency || hooks_has(job, HOOK_ANY_HIT);
 	float weight = 1.0f / (float)samples;
-	int err = occlude(job, space, rays, b->occluded, n_rays);
+	int err = occlude(job, space, to_lights, rays, b->occluded, n_rays);
 
 	if (!err)
-		err = launch_shadow_sum(job->tr->dev, n_rays, LAUNCH(shadow_sum, .occluded = b->occluded, .weight = weight,
-		                                                     .first = sample == 0, .n = n_rays, .visibility = b->visibility));
-	return err || !(job->prepared.has_transparency || hooks_has(job, HOOK_ANY_HIT)) ? err : walk_layers(job, space, to_lights, rays, n_rays, weight);
+		err = launch_shadow_sum(job->tr->dev, n_rays, LAUNCH(shadow_sum, .rays = rays, .weight = weight, .first = sample == 0,
+		                                                     .through = (uint32_t)through, .n = n_rays, .occluded = b->occluded,
+		                                                     .visibility = b->visibility));
+	return err || !(to_lights || through) ? err : walk_layers(job, space, to_lights, rays, n_rays, weight);
 }
 
 int secondary_reserve_rays(struct job *job, size_t n_rays)

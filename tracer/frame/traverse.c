@@ -67,28 +67,31 @@ int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_
 {
 	const uint32_t packets = (r->n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM;
 
-#define RAYS(list, top_of, nodes_of, triangles_of, result) \
+#define RAYS(list, top_of, nodes_of, triangles_of, ...) \
 	LAUNCH(list, .n_rays = r->n, .rays = r->rays, .top_first = r->space->top_of##_first, .top = t->top_of, \
 	       .instance_list = t->instance_list, .instances = t->instances, .nodes = t->nodes_of, .triangles = t->triangles_of, \
-	       .result = r->result)
+	       __VA_ARGS__)
+#define OCCLUDE(list, top_of, nodes_of, triangles_of) \
+	RAYS(list, top_of, nodes_of, triangles_of, .to_lights = r->to_lights, .occluded = r->occluded)
+#define INTERSECT(list, top_of, nodes_of, triangles_of) RAYS(list, top_of, nodes_of, triangles_of, .hits = r->hits)
 
 	switch (kernel) {
 	case KERNEL_occlude_packet:
-		return launch_occlude_packet(dev, packets, RAYS(occlude_wide, top8, nodes8, triangles8, occluded));
+		return launch_occlude_packet(dev, packets, OCCLUDE(occlude_wide, top8, nodes8, triangles8));
 	case KERNEL_occlude_wide:
-		return launch_occlude_wide(dev, r->n, RAYS(occlude_wide, top8, nodes8, triangles8, occluded));
+		return launch_occlude_wide(dev, r->n, OCCLUDE(occlude_wide, top8, nodes8, triangles8));
 	case KERNEL_occlude_binary:
-		return launch_occlude_binary(dev, r->n, RAYS(occlude_binary, top2, nodes2, triangles, occluded));
+		return launch_occlude_binary(dev, r->n, OCCLUDE(occlude_binary, top2, nodes2, triangles));
 	case KERNEL_occlude_compressed:
-		return launch_occlude_compressed(dev, r->n, RAYS(occlude_compressed, top2, nodes8c, triangles8c, occluded));
+		return launch_occlude_compressed(dev, r->n, OCCLUDE(occlude_compressed, top2, nodes8c, triangles8c));
 	case KERNEL_intersect_packet:
-		return launch_intersect_packet(dev, packets, RAYS(intersect_wide, top8, nodes8, triangles8, hits));
+		return launch_intersect_packet(dev, packets, INTERSECT(intersect_wide, top8, nodes8, triangles8));
 	case KERNEL_intersect_wide:
-		return launch_intersect_wide(dev, r->n, RAYS(intersect_wide, top8, nodes8, triangles8, hits));
+		return launch_intersect_wide(dev, r->n, INTERSECT(intersect_wide, top8, nodes8, triangles8));
 	case KERNEL_intersect_binary:
-		return launch_intersect_binary(dev, r->n, RAYS(intersect_binary, top2, nodes2, triangles, hits));
+		return launch_intersect_binary(dev, r->n, INTERSECT(intersect_binary, top2, nodes2, triangles));
 	case KERNEL_intersect_compressed:
-		return launch_intersect_compressed(dev, r->n, RAYS(intersect_compressed, top2, nodes8c, triangles8c, hits));
+		return launch_intersect_compressed(dev, r->n, INTERSECT(intersect_compressed, top2, nodes8c, triangles8c));
 	default:
 		return no_such_kernel(kernel);
 	}

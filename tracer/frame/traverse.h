@@ -45,7 +45,7 @@ int traverse_camera(struct device *dev, enum kernel kernel, const struct travers
 /* Rays through a space with something in it, and where the answers go: one of the two. */
 struct traverse_rays {
 	const struct accel_space *space;
-	uint32_t n;
+	uint32_t n, to_lights;      /* 1: KERNEL_occlude_* passes the sides that instances let light pass */
 	union buffer_ray rays;
 	union buffer_uint occluded; /* KERNEL_occlude_* */
 	union buffer_hit hits;      /* KERNEL_intersect_* */
