@@ -4,21 +4,35 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "diff/score/pair.h"
 
-enum { NEIGHBOURHOOD = 16, MIN_SHARE = 4 };
+enum { NEIGHBOURHOOD = 16, MIN_SHARE = 4, NUMBERS = 4 };
 
-/* What the runs showed of each number: codes of colours, or window depth. */
+/* What the runs showed of each number: codes of colours and alpha (pair.h), or window depth. */
 struct range {
-	uint8_t *low, *high;       /* [n][3] */
+	int16_t *low, *high;       /* [n][NUMBERS] */
 	uint8_t *off, *spread;     /* [n]: codes from the reference, and between runs, of the worst channel */
 	float *near, *far;         /* [n]; NULL: the reference has no depth */
 };
 
+/* Number c of pixel i: a colour or alpha. */
+static int16_t code_of(const struct score_picture *p, size_t i, size_t c)
+{
+	return (int16_t)(c < 3 ? score_code_at(p, 3 * i + c) : p->alpha ? p->alpha[i] : 255);
+}
+
+static uint8_t at_most_255(int difference)
+{
+	return (uint8_t)(difference < 255 ? difference : 255);
+}
+
 static void widen(struct range *r, const struct score_picture *p, size_t n, int is_first)
 {
-	for (size_t i = 0; i < 3 * n; i++) {
-		r->low[i] = is_first || p->rgb[i] < r->low[i] ? p->rgb[i] : r->low[i];
-		r->high[i] = is_first || p->rgb[i] > r->high[i] ? p->rgb[i] : r->high[i];
+	for (size_t i = 0; i < n * NUMBERS; i++) {
+		const int16_t code = code_of(p, i / NUMBERS, i % NUMBERS);
+
+		r->low[i] = is_first || code < r->low[i] ? code : r->low[i];
+		r->high[i] = is_first || code > r->high[i] ? code : r->high[i];
 	}
 	for (size_t i = 0; r->near && i < n; i++) {
 		r->near[i] = is_first || p->depth[i] < r->near[i] ? p->depth[i] : r->near[i];
@@ -52,27 +66,27 @@ static double nearest(double wanted, double low, double high)
 /* Where runs disagree about a pixel, its neighbours' values are within what they show as well: edges tremble by a pixel. */
 static int loosen(struct range *r, const struct score_picture *ref, int codes)
 {
-	const size_t n = 3 * (size_t)ref->width * ref->height;
-	uint8_t *low = malloc(n + 1), *high = malloc(n + 1);
+	const size_t n = NUMBERS * (size_t)ref->width * ref->height;
+	int16_t *low = malloc((n + 1) * sizeof(*low)), *high = malloc((n + 1) * sizeof(*high));
 
 	if (!low || !high) {
 		free(low);
 		free(high);
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	}
-	memcpy(low, r->low, n);
-	memcpy(high, r->high, n);
+	memcpy(low, r->low, n * sizeof(*low));
+	memcpy(high, r->high, n * sizeof(*high));
 	for (uint32_t y = 0; y < ref->height; y++)
 		for (uint32_t x = 0; x < ref->width; x++) {
 			const size_t at = (size_t)y * ref->width + x;
 
 			for (uint32_t v = y ? y - 1 : 0; r->spread[at] > codes && v < ref->height && v <= y + 1; v++)
 				for (uint32_t u = x ? x - 1 : 0; u < ref->width && u <= x + 1; u++)
-					for (size_t c = 0; c < 3; c++) {
-						const size_t i = 3 * ((size_t)v * ref->width + u) + c;
+					for (size_t c = 0; c < NUMBERS; c++) {
+						const size_t i = NUMBERS * ((size_t)v * ref->width + u) + c;
 
-						low[3 * at + c] = r->low[i] < low[3 * at + c] ? r->low[i] : low[3 * at + c];
-						high[3 * at + c] = r->high[i] > high[3 * at + c] ? r->high[i] : high[3 * at + c];
+						low[NUMBERS * at + c] = r->low[i] < low[NUMBERS * at + c] ? r->low[i] : low[NUMBERS * at + c];
+						high[NUMBERS * at + c] = r->high[i] > high[NUMBERS * at + c] ? r->high[i] : high[NUMBERS * at + c];
 					}
 		}
 	free(r->low);
@@ -82,14 +96,24 @@ static int loosen(struct range *r, const struct score_picture *ref, int codes)
 	return 0;
 }
 
+static uint8_t spread_of(const struct range *r, size_t i)
+{
+	int spread = 0;
+
+	for (size_t c = NUMBERS * i; c < NUMBERS * (i + 1); c++)
+		spread = r->high[c] - r->low[c] > spread ? r->high[c] - r->low[c] : spread;
+	return at_most_255(spread);
+}
+
 static void measure(const struct range *r, const struct score_picture *ref, size_t n)
 {
 	for (size_t i = 0; i < n; i++) {
 		r->off[i] = 0;
-		for (size_t c = 3 * i; c < 3 * i + 3; c++) {
-			const int off = abs(ref->rgb[c] - (int)nearest(ref->rgb[c], r->low[c], r->high[c]));
+		for (size_t c = 0; c < NUMBERS; c++) {
+			const int wanted = code_of(ref, i, c);
+			const uint8_t off = at_most_255(abs(wanted - (int)nearest(wanted, r->low[NUMBERS * i + c], r->high[NUMBERS * i + c])));
 
-			r->off[i] = off > r->off[i] ? (uint8_t)off : r->off[i];
+			r->off[i] = off > r->off[i] ? off : r->off[i];
 		}
 	}
 }
@@ -113,29 +137,42 @@ static int is_noise(const struct range *r, const struct score_picture *ref, uint
 	return MIN_SHARE * alike <= varying;
 }
 
-static int put(struct image *base, const char *layer, const struct score_picture *ref, const struct range *r)
+/* Pixel i's numbers, in place of those that have other codes. Colours stand as their picture has them: multiplied by alpha, or not. */
+static void put_pixel(const struct score_numbers *to, const struct score_picture *was, size_t i, const int16_t code[NUMBERS])
 {
-	const char *encoding = image_attribute(base, "relume:encoding");
-	const int is_display = encoding && strcmp(encoding, "display") == 0;
+	const int is_other = was->alpha && code[3] != was->alpha[i];
+	const float alpha = was->alpha ? (float)code[3] / 255 : 1, weight = was->alpha && to->is_straight ? alpha : 1;
+
+	if (is_other && to->alpha)
+		((float *)to->alpha)[i] = alpha;
+	for (size_t c = 0; c < 3; c++)
+		if (code[c] != code_of(was, i, c) || (is_other && weight != 1))
+			((float *)to->rgb[c])[i] = weight > 0 ? score_number_of(code[c], to->is_display) / weight : 0;
+}
+
+static int put(struct image *base, const char *layer, struct score_picture *ref, const struct range *r, int ignore_alpha)
+{
 	const size_t n = (size_t)ref->width * ref->height;
 	struct score_picture was = { 0 };
-	const float *planes[3];
 	float *depth = r->near ? image_channel(base, "gl.depth") : NULL;
 	int err = score_picture_from_image(base, layer, &was);
 
-	if (err || !score_find_layer(base, layer, planes)) {
+	if (!err)
+		err = score_pair(ref, &was, ignore_alpha);
+	if (err) {
 		score_picture_free(&was);
 		return err == ERR_SYSTEM ? err : 0;
 	}
 	for (size_t i = 0; i < n; i++) {
 		const int noise = is_noise(r, ref, (uint32_t)(i % ref->width), (uint32_t)(i / ref->width));
+		int16_t code[NUMBERS];
 
-		for (size_t c = 3 * i; c < 3 * i + 3; c++) {
-			const uint8_t code = noise ? ref->rgb[c] : (uint8_t)nearest(ref->rgb[c], r->low[c], r->high[c]);
+		for (size_t c = 0; c < NUMBERS; c++) {
+			const int16_t wanted = code_of(ref, i, c);
 
-			if (code != was.rgb[c])
-				((float *)planes[c % 3])[i] = is_display ? (float)code / 255 : image_linear_from_display((float)code / 255);
+			code[c] = noise ? wanted : (int16_t)nearest(wanted, r->low[NUMBERS * i + c], r->high[NUMBERS * i + c]);
 		}
+		put_pixel(&was.numbers, &was, i, code);
 		if (depth)
 			depth[i] = noise && r->off[i] ? ref->depth[i] : (float)nearest(ref->depth[i], r->near[i], r->far[i]);
 	}
@@ -143,11 +180,11 @@ static int put(struct image *base, const char *layer, const struct score_picture
 	return 0;
 }
 
-int composite_make(struct image *base, const char *layer, const struct score_picture *ref, const struct image *images, size_t n, int codes,
-                   struct composite_varying *varying)
+int composite_make(struct image *base, const char *layer, struct score_picture *ref, const struct image *images, size_t n, int codes,
+                   int ignore_alpha, struct composite_varying *varying)
 {
-	const size_t pixels = (size_t)ref->width * ref->height;
-	struct range r = { malloc(3 * pixels + 1), malloc(3 * pixels + 1), malloc(pixels + 1), malloc(pixels + 1), NULL, NULL };
+	const size_t pixels = (size_t)ref->width * ref->height, numbers = (NUMBERS * pixels + 1) * sizeof(int16_t);
+	struct range r = { malloc(numbers), malloc(numbers), malloc(pixels + 1), malloc(pixels + 1), NULL, NULL };
 	size_t used = 0;
 	int err = 0;
 
@@ -163,6 +200,8 @@ int composite_make(struct image *base, const char *layer, const struct score_pic
 		if (images[i].width != ref->width || images[i].height != ref->height)
 			continue;
 		err = score_picture_from_image(&images[i], layer, &p);
+		if (!err)
+			err = score_pair(ref, &p, ignore_alpha);
 		if (!err && !p.depth) {
 			free(r.near);
 			free(r.far);
@@ -176,13 +215,13 @@ int composite_make(struct image *base, const char *layer, const struct score_pic
 	*varying = (struct composite_varying){ .pixels = 0 };
 	if (!err && used) {
 		for (size_t i = 0; i < pixels; i++)
-			r.spread[i] = (uint8_t)score_code_difference(r.low + 3 * i, r.high + 3 * i);
+			r.spread[i] = spread_of(&r, i);
 		find_varying(&r, ref, codes, varying);
 		err = loosen(&r, ref, codes);
 	}
 	if (!err && used) {
 		measure(&r, ref, pixels);
-		err = put(base, layer, ref, &r);
+		err = put(base, layer, ref, &r, ignore_alpha);
 	}
 	free(r.low);
 	free(r.high);

@@ -70,6 +70,7 @@ static int judge_common(const struct shown *f, struct runs_frame *out)
 	const struct output_run *best = &r->runs[f->best];
 	const struct scoring all = { r->ref, &r->sets[f->best], &none, best };
 	struct image reference = { 0 };
+	struct score_rules_frame settings = { 0 };
 	struct score_picture ref = { 0 };
 	struct score score;
 	int err = set_read(r->ref, set_find(r->ref, out->frame), &reference);
@@ -77,11 +78,16 @@ static int judge_common(const struct shown *f, struct runs_frame *out)
 	if (!err)
 		err = picture_take_reference(&reference, best->options->channel, &ref);
 	if (!err)
-		err = composite_make(&f->images[f->best], best->scores[f->frame].layer, &ref, f->images, r->n, SCORE_CODES, &out->varying);
+		err = score_rules_for_frame(best->settings, best->name, out->frame, best->options,
+		                            (uint32_t[]){ ref.width, ref.height }, &settings);
+	if (!err)
+		err = composite_make(&f->images[f->best], best->scores[f->frame].layer, &ref, f->images, r->n, SCORE_CODES,
+		                     settings.options.ignore_alpha, &out->varying);
 	if (!err)
 		err = scoring_image(&all, out->frame, &ref, &f->images[f->best], &score);
 	if (!err)
 		out->steady_gates |= failed_gates(&score) & composed;
+	score_rules_frame_free(&settings);
 	score_picture_free(&ref);
 	image_free(&reference);
 	return err;

@@ -22,6 +22,9 @@ int score_pair(struct score_picture *a, struct score_picture *b, int ignore_alph
 /** Colour number `at` ([height][width][3]) as a code that is not clamped, where the pair has such. */
 int score_code_at(const struct score_picture *picture, size_t at);
 
+/** The number that has such a code, in linear light or, where is_display, as shown. */
+float score_number_of(int code, int is_display);
+
 /** How far pixel i of a is from pixel j of b: the largest difference of a colour or of alpha, codes, at most 255. */
 int score_difference(const struct score_picture *a, size_t i, const struct score_picture *b, size_t j);
 

@@ -8,6 +8,7 @@ import collections
 import json
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
@@ -325,6 +326,21 @@ class Relations(unittest.TestCase):
         for option in ("view.diffuse", "N", "Z", "view.diffuse.R", "beauty"):
             self.judge(drawn(lambda seed: (case for name, case in of_layers(seed) if name == option)), "--channel", option)
         self.judge(drawn(of_numbers), "--channel", "id")
+
+    def test_runs(self):
+        """Of several runs: what differs from run to run, in alpha or over white too, is noise; what is wrong in all is not."""
+        seed, wanted = SEEDS[0], {}
+        pictures = ((png, codes_of(seed, 4), (3,), lambda v: 255 - v), (exr, bright_of(seed), (), lambda v: 2 * v))
+        with tempfile.TemporaryDirectory() as folder:
+            folders = [pathlib.Path(folder) / name for name in ("ref", "run0", "run1", "run2")]
+            for frame, (kind, values, of, by) in enumerate(picture for picture in pictures for _ in range(2)):
+                for n, run in enumerate(folders):
+                    rows = slice(4 + 10 * n, 10 + 10 * n) if frame % 2 == 0 else slice(4, 24)
+                    run.mkdir(exist_ok=True)
+                    kind(changed(values, (rows, slice(2, 16), *of), by) if n else values)(run / f"f{frame:04}")
+                wanted[str(frame)] = "regression" if frame % 2 else "flaky"
+            done = subprocess.run([RELUME, "diff", *folders], capture_output=True, text=True, timeout=120)
+        self.assertEqual(dict(re.findall(r"^ +(\d+) (flaky|regression)", done.stdout, re.M)), wanted, done.stdout + done.stderr)
 
 
 if __name__ == "__main__":
