@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "tracer/image/image.h"
 
 static int compare_numbers(const void *a, const void *b)
 {
@@ -71,6 +72,17 @@ static int find_doubles(struct set *const *sets, size_t n_sets, size_t own)
 	return 0;
 }
 
+/* A frame of ours says in its file which one it is. */
+static void number_by_file(struct set_entry *entry)
+{
+	char text[24];
+
+	if (!image_exr_text(entry->path, "relume:frame", text, sizeof(text)))
+		return;
+	entry->frame = strtoull(text, NULL, 10);
+	entry->has_number = 1;
+}
+
 /* Leave pictures without a number out. */
 static int drop_named(struct set *set)
 {
@@ -79,6 +91,8 @@ static int drop_named(struct set *set)
 	for (size_t i = 0; i < set->n_entries; i++) {
 		struct set_entry *entry = &set->entries[i];
 
+		if (set->is_single && entry->name && !entry->has_number)
+			number_by_file(entry);
 		if (entry->has_number || !entry->name || set->is_single) {
 			set->entries[n++] = *entry;
 			continue;

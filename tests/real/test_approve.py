@@ -28,6 +28,9 @@ done = relume("diff", trace, out, "--baseline", base)
 said = [line for line in done.stderr.splitlines() if str(base) in line]
 check(done.returncode == 4 and len(said) == 1 and "there is no such folder" in said[0] and f"relume approve TRACED {base}" in said[0],
       f"a baseline that is not there: {done.stderr}")
+shutil.copy(out / "c.0002.exr", SCRATCH / "view.exr")
+got, score = diff(trace, SCRATCH / "view.exr")
+check([(f["frame"], f["outcome"]) for f in score["frames"]] == [(2, "passed")], f"a frame without a number in its name says which one it is: {score['frames']}")
 text = approve(out, base, "-n")
 check(not base.exists() and "frame 1: new" in text and "nothing was written" in text, f"a dry run: {text}")
 env = dict(os.environ, SOURCE_DATE_EPOCH="1000000000")

@@ -336,6 +336,25 @@ int image_exr_is_dwa(const char *path)
 	return is_dwa;
 }
 
+int image_exr_text(const char *path, const char *attribute, char *text, size_t size)
+{
+	exr_context_initializer_t setup = context_setup();
+	exr_context_t file = NULL;
+	const char *found;
+	int32_t length;
+	int is_there;
+
+	if (exr_start_read(&file, path, &setup) != EXR_ERR_SUCCESS)
+		return 0;
+	is_there = exr_attr_get_string(file, 0, attribute, &length, &found) == EXR_ERR_SUCCESS && (size_t)length < size;
+	if (is_there) {
+		memcpy(text, found, (size_t)length);
+		text[length] = '\0';
+	}
+	exr_finish(&file);
+	return is_there;
+}
+
 /* Where the data lies, for place.h. @return 0 or ERR_SYSTEM (reported) */
 static int read_windows(exr_context_t file, struct image *img)
 {

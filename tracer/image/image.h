@@ -94,6 +94,9 @@ int image_check_exr(const char *path);
 /** 1 where a file is compressed by DWAA or DWAB, which OpenEXRCore 3.1.5 cannot expand and OpenImageIO can. */
 int image_exr_is_dwa(const char *path);
 
+/** A text attribute from the head of an OpenEXR file. @return 1, or 0: there is none, or it has no room in `text` */
+int image_exr_text(const char *path, const char *attribute, char *text, size_t size);
+
 /** sRGB's transfer function (IEC 61966-2-1): display-referred [0,1] to linear light and back; an odd function, also beyond [0,1]. */
 float image_linear_from_display(float display);
 float image_display_from_linear(float linear);
