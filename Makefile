@@ -275,7 +275,7 @@ $(BUILD)/deps.%: packaging/deps.txt
 	@touch $@
 
 # Programs that Debian has, beside those of the group.
-$(BUILD)/deps.sweep $(BUILD)/deps.sweep-record: $(BUILD)/deps.%: packaging/deps.txt tests/show/more_programs.py | $(BUILD)/deps.check
+$(BUILD)/deps.lot $(BUILD)/deps.sweep $(BUILD)/deps.sweep-record: $(BUILD)/deps.%: packaging/deps.txt tests/show/more_programs.py | $(BUILD)/deps.check
 	@packaging/deps.sh install $* -- $$($(PYTHON) -B tests/show/more_programs.py) 2>$@.log || { tail -n 20 $@.log; exit 1; }
 	@touch $@
 
@@ -348,7 +348,7 @@ picture: all $(BUILD)/corpus/glx/marbles
 # packaging/deps.txt is what it alone needs installed, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
 SCRIPTS := bisect ci crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject journeys kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms same sandbox sanitize seek \
-	film soak sweep sweep-record thesis
+	film lot soak sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := ci crashes frames mutants replay
 SHOWS += $(SCRIPTS:%=show-%)
@@ -424,7 +424,7 @@ $(BUILD)/show/denoise/venv/ready: | $(BUILD)/deps.denoise
 show-denoise: all $(BUILD)/show/denoise/venv/ready
 	@$(BUILD)/show/denoise/venv/bin/python -B tests/show/denoise.py $(BUILD)
 
-show-metrics: all $(BUILD)/tests/unit/test_metrics $(BUILD)/show/venv/ready
+show-metrics: all $(CORPUS) $(BUILD)/tests/unit/test_metrics $(BUILD)/show/venv/ready
 	@$(BUILD)/show/venv/bin/python -B tests/show/metrics.py $(BUILD)
 
 # Kernels built for this processor with the freedoms of OpenCL C, beside their C twins.
