@@ -2,7 +2,8 @@
  * Light from all around (scene_dome): one fragment of the list a work item. On what GL lights a share of it counts.
  *
  * Pixels of a block share a set of directions, each has its part of them (A. Keller and W. Heidrich, "Interleaved Sampling", 2001). A
- * fragment takes the mean over the block around it, of neighbours on the same surface. So few rays make no noise.
+ * fragment takes the mean over the block around it, of neighbours on the same surface; where these are few, of all that face the
+ * same way. So few rays make no noise. What is left of a block with too few rays counts in proportion.
  *
  * How far a ray looks differs from ray to ray, evenly in the logarithm: what is near dims the light more than what is far, whatever
  * the scene's scale (after S. Zhukov, A. Iones and G. Kronin, "An ambient light illumination model", 1998).
@@ -16,6 +17,9 @@
 #define DOME_BLOCK 4u
 /* Columns of a tile of dome_light_packet. */
 #define DOME_WIDTH 16u
+/* Of the rays of a block: with less of them, all that face the same way count; with less of those, the mean counts in proportion. */
+#define DOME_OWN 0.5f
+#define DOME_ENOUGH 0.25f
 /* The nearest that a ray looks, as a share of the dome's reach: e to the power of minus this. */
 #define DOME_SPAN 4.158883f
 /* What is left of a colour where no light arrives. */
@@ -153,13 +157,25 @@ static inline uint32_t dome_first(uint32_t at, uint32_t low, uint32_t high)
 	return first + DOME_BLOCK <= high ? first : high > low + DOME_BLOCK ? high - DOME_BLOCK : low;
 }
 
-/* 1 where two places lie on about one plane. */
-static inline int dome_is_same(GLOBAL const struct dome_place *a, GLOBAL const struct dome_place *b)
+/* 1 where two places face about the same way. */
+static inline int dome_is_alike(GLOBAL const struct dome_place *a, GLOBAL const struct dome_place *b)
 {
-	const struct vec3 n = v3_load(a->normal), apart = v3_sub(v3_load(b->from), v3_load(a->from));
-	const float off = v3_dot(n, apart);
+	return b->strength > 0.0f && v3_dot(v3_load(a->normal), v3_load(b->normal)) > 0.9f;
+}
 
-	return b->strength > 0.0f && v3_dot(n, v3_load(b->normal)) > 0.9f && off * off <= 0.1f * v3_dot(apart, apart);
+/* 1 where two places that face the same way lie on about one plane. */
+static inline int dome_is_level(GLOBAL const struct dome_place *a, GLOBAL const struct dome_place *b)
+{
+	const struct vec3 apart = v3_sub(v3_load(b->from), v3_load(a->from));
+	const float off = v3_dot(v3_load(a->normal), apart);
+
+	return off * off <= 0.1f * v3_dot(apart, apart);
+}
+
+/* Rays that a block has where all of its pixels lie on one surface. own: of one pixel */
+static inline float dome_rays(float own)
+{
+	return (float)(DOME_BLOCK * DOME_BLOCK) * own;
 }
 
 /* The light that an open sky sends. A surface between upright and level keeps its colour where nothing dims the light. */
@@ -173,12 +189,13 @@ static inline float dome_open(const struct scene_dome *dome)
 	return open;
 }
 
-/* What GL's colour becomes in the mean light of a block. */
-static inline struct vec3 dome_factor(const struct scene_dome *dome, const float *sum, float strength)
+/* What GL's colour becomes in the mean light of a block. own: rays of one pixel */
+static inline struct vec3 dome_factor(const struct scene_dome *dome, const float *sum, float own, float strength)
 {
-	const float whole = sum[3] * dome_open(dome);
+	const float whole = sum[3] * dome_open(dome), enough = DOME_ENOUGH * dome_rays(own);
 	float f[3];
 
+	strength = sum[3] < enough ? strength * (sum[3] / enough) : strength;
 	for (uint32_t c = 0u; c < 3u; c++)
 		f[c] = M_SQRT(DOME_LEFT + (1.0f - DOME_LEFT) * sum[c] / whole) * strength + (1.0f - strength);
 	return v3(f[0], f[1], f[2]);
@@ -226,26 +243,37 @@ static inline uint32_t dome_items(const struct dome_light_arguments *a, uint32_t
 /* The light of the block about a fragment, into sum[4]: column by column. x, y: its pixel in the band */
 static inline void dome_add_block(const struct dome_light_arguments *a, uint32_t item, uint32_t x, uint32_t y, float *sum)
 {
+	float alike[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
 	const uint32_t x0 = dome_first(x, (uint32_t)a->rectangle.x0, (uint32_t)a->rectangle.x1);
 	uint32_t bottom, top, y0;
 
 	dome_rows(a, y, &bottom, &top);
 	y0 = dome_first(y, bottom, top);
 	for (uint32_t bx = x0; bx < x0 + DOME_BLOCK && bx < (uint32_t)a->rectangle.x1; bx++) {
-		float column[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+		float column[4] = { 0.0f, 0.0f, 0.0f, 0.0f }, others[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
 
 		for (uint32_t by = y0; by < y0 + DOME_BLOCK && by < top; by++) {
 			uint32_t count;
 			const uint32_t begin = dome_items(a, bx, by, &count);
 
-			for (uint32_t other = begin; other < begin + count; other++)
-				if (other == item || dome_is_same(&a->places[item], &a->places[other]))
-					for (uint32_t k = 0u; k < 4u; k++)
+			for (uint32_t other = begin; other < begin + count; other++) {
+				if (other != item && !dome_is_alike(&a->places[item], &a->places[other]))
+					continue;
+				for (uint32_t k = 0u; k < 4u; k++) {
+					others[k] += a->sums[other * 4u + k];
+					if (other == item || dome_is_level(&a->places[item], &a->places[other]))
 						column[k] += a->sums[other * 4u + k];
+				}
+			}
 		}
-		for (uint32_t k = 0u; k < 4u; k++)
+		for (uint32_t k = 0u; k < 4u; k++) {
 			sum[k] += column[k];
+			alike[k] += others[k];
+		}
 	}
+	if (sum[3] < DOME_OWN * dome_rays(a->sums[item * 4u + 3u]))
+		for (uint32_t k = 0u; k < 4u; k++)
+			sum[k] = alike[k];
 }
 
 /* A fragment's light, in the frame or to a->factors. Colours are GL's numbers, which are about the roots of light. */
@@ -258,7 +286,7 @@ static inline void dome_light_at(const struct dome_light_arguments *a, uint32_t 
 	if (strength > 0.0f) {
 		dome_add_block(a, item, x, y, sum);
 		if (sum[3] > 0.0f)
-			factor = dome_factor(&a->dome, sum, strength);
+			factor = dome_factor(&a->dome, sum, a->sums[item * 4u + 3u], strength);
 	}
 	if (a->in_blocks) {
 		a->factors[item] = factor.x;

@@ -435,12 +435,14 @@ WIDE_VECTORS static inline struct pack_vec own_vec(const float (*rows)[CAMERA_TI
 /* As dome_add_block for the pixels of a row of a layer. */
 WIDE_VECTORS static inline void add_blocks(const struct field *f, uint row, uint layer, packf *sum)
 {
+	packf alike[4] = { 0, 0, 0, 0 };
+	packi few;
 	const struct pack_vec from = own_vec(f->layer[layer].from, row), n = own_vec(f->layer[layer].normal, row);
 	const packi first = vload16(0, f->first), column = PACK_LANES + (int)LEFT;
 	const uint begin = dome_first(f->low + row, f->bottom, f->top) - f->low, end = min(begin + DOME_BLOCK, f->top - f->low);
 
 	for (uint bx = 0; bx < DOME_BLOCK; bx++) {
-		packf part[4] = { 0, 0, 0, 0 };
+		packf part[4] = { 0, 0, 0, 0 }, others[4] = { 0, 0, 0, 0 };
 
 		for (uint by = begin; by < end; by++)
 			for (uint i = 0; i < f->layers[by]; i++) {
@@ -448,16 +450,25 @@ WIDE_VECTORS static inline void add_blocks(const struct field *f, uint row, uint
 				const struct pack_vec apart = pack_sub(take_vec(f, l->from, by, bx), from);
 				const packf off = pack_dot(n, apart);
 				const packi self = by == row && i == layer ? first + (int)bx == column : (packi)(0);
-				const packi same = self | ((take(f, l->strength[by], bx) > 0.0f) &
-				                           (pack_dot(n, take_vec(f, l->normal, by, bx)) > 0.9f) &
-				                           (off * off <= 0.1f * pack_dot(apart, apart)));
+				const packi faces = self | ((take(f, l->strength[by], bx) > 0.0f) &
+				                            (pack_dot(n, take_vec(f, l->normal, by, bx)) > 0.9f));
+				const packi same = faces & (self | (off * off <= 0.1f * pack_dot(apart, apart)));
 
-				for (uint k = 0; k < 4; k++)
-					part[k] += select((packf)(0), take(f, l->sum[k][by], bx), same);
+				for (uint k = 0; k < 4; k++) {
+					const packf light = take(f, l->sum[k][by], bx);
+
+					others[k] += select((packf)(0), light, faces);
+					part[k] += select((packf)(0), light, same);
+				}
 			}
-		for (uint k = 0; k < 4; k++)
+		for (uint k = 0; k < 4; k++) {
 			sum[k] += part[k];
+			alike[k] += others[k];
+		}
 	}
+	few = sum[3] < DOME_OWN * ((float)(DOME_BLOCK * DOME_BLOCK) * own(f->layer[layer].sum[3][row]));
+	for (uint k = 0; k < 4; k++)
+		sum[k] = select(sum[k], alike[k], few);
 }
 
 /* Factors of the pixels of a row of a plain frame, to where plain_shadow finds them. */
@@ -472,14 +483,16 @@ WIDE_VECTORS static inline void store_row(const struct dome_light_arguments *a, 
 /* A layer of the pixels of a row. */
 WIDE_VECTORS static inline void light_row(const struct dome_light_arguments *a, const struct field *f, uint row, uint layer)
 {
-	const packf strength = own(f->layer[layer].strength[row]);
+	packf strength = own(f->layer[layer].strength[row]);
 	uint lanes = pack_bits(strength > 0.0f);
-	packf sum[4] = { 0, 0, 0, 0 }, factor[3], whole;
+	packf sum[4] = { 0, 0, 0, 0 }, factor[3], whole, enough;
 
 	if (!lanes && !a->in_blocks)
 		return;
 	add_blocks(f, row, layer, sum);
 	whole = sum[3] * dome_open(&a->dome);
+	enough = DOME_ENOUGH * ((float)(DOME_BLOCK * DOME_BLOCK) * own(f->layer[layer].sum[3][row]));
+	strength = select(strength, strength * (sum[3] / enough), sum[3] < enough);
 	for (uint c = 0; c < 3; c++)
 		factor[c] = sqrt(DOME_LEFT + (1.0f - DOME_LEFT) * sum[c] / whole) * strength + (1.0f - strength);
 	lanes &= pack_bits(sum[3] > 0.0f);
