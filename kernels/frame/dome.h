@@ -17,7 +17,7 @@
 #define DOME_BLOCK 4u
 /* Columns of a tile of dome_light_packet. */
 #define DOME_WIDTH 16u
-/* Of the rays of a block: with less of them, all that face the same way count; with less of those, the mean counts in proportion. */
+/* Of the rays of a block: with no more of them, all that face the same way count; with less of those, the mean counts in proportion. */
 #define DOME_OWN 0.5f
 #define DOME_ENOUGH 0.25f
 /* The nearest that a ray looks, as a share of the dome's reach: e to the power of minus this. */
@@ -271,7 +271,7 @@ static inline void dome_add_block(const struct dome_light_arguments *a, uint32_t
 			alike[k] += others[k];
 		}
 	}
-	if (sum[3] < DOME_OWN * dome_rays(a->sums[item * 4u + 3u]))
+	if (sum[3] <= DOME_OWN * dome_rays(a->sums[item * 4u + 3u]))
 		for (uint32_t k = 0u; k < 4u; k++)
 			sum[k] = alike[k];
 }

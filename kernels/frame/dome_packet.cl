@@ -466,7 +466,7 @@ WIDE_VECTORS static inline void add_blocks(const struct field *f, uint row, uint
 			alike[k] += others[k];
 		}
 	}
-	few = sum[3] < DOME_OWN * ((float)(DOME_BLOCK * DOME_BLOCK) * own(f->layer[layer].sum[3][row]));
+	few = sum[3] <= DOME_OWN * ((float)(DOME_BLOCK * DOME_BLOCK) * own(f->layer[layer].sum[3][row]));
 	for (uint k = 0; k < 4; k++)
 		sum[k] = select(sum[k], alike[k], few);
 }

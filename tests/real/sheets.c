@@ -11,6 +11,7 @@
  *   drawn   a box on a floor: alone; with its shadow flattened onto the floor from where the light is; from elsewhere
  *   leaning bodies whose normals lean over to a light from which their faces turn away: a box of one normal a face; of
  *           those of a ball; a coarse ball; then the first behind a board that stands in the light's way
+ *   steps   boards that face the viewer one behind the other, of which a pixel or two is seen of each; no light
  */
 #include "tests/trace/window.h"
 
@@ -288,13 +289,30 @@ static void draw_leaning(void)
 	}
 }
 
+static void draw_steps(void)
+{
+	begin_frame(0, sun);
+	glDisable(GL_LIGHTING);
+	glPushMatrix();
+	glLoadIdentity();
+	for (int i = 0; i < 60; i++) {
+		const float x = 0.9f - 0.05f * (float)i, z = -2 - 0.05f * (float)i;
+		const float corners[4][3] = { { x, -1, z }, { 2, -1, z }, { 2, 1, z }, { x, 1, z } };
+
+		glColor3f(0.3f, 0.5f, 0.9f);
+		quad(corners);
+	}
+	glPopMatrix();
+	end_frame();
+}
+
 int main(int argc, char **argv)
 {
 	static const struct {
 		const char *name;
 		void (*draw)(void);
 	} kinds[] = { { "window", draw_window }, { "iso", draw_iso }, { "unseen", draw_unseen }, { "drawn", draw_drawn },
-	              { "leaning", draw_leaning } };
+	              { "leaning", draw_leaning }, { "steps", draw_steps } };
 
 	window_size[0] = window_size[1] = 100;
 	open_window();
@@ -307,6 +325,6 @@ int main(int argc, char **argv)
 			kinds[i].draw();
 			return 0;
 		}
-	fprintf(stderr, "usage: sheets window|iso|unseen|drawn|leaning\n");
+	fprintf(stderr, "usage: sheets window|iso|unseen|drawn|leaning|steps\n");
 	return 2;
 }
