@@ -203,13 +203,17 @@ $(BUILD)/recorder/%.o: %.c $(BUILD)/recorder/gen/stamp $(BUILD)/flags
 	$(Q)$(CC) $(CPPFLAGS) $(RECORDER_CFLAGS) -c -o $@ $<
 
 # Generated headers come before whatever includes them; the .d files know the rest.
-GENERATED_H := $(BUILD)/gen/gl_tokens.h $(BUILD)/gen/layout.h
+GENERATED_H := $(BUILD)/gen/gl_tokens.h $(BUILD)/gen/layout.h $(BUILD)/gen/version_number.h
 $(COMMAND_OBJ) $(TESTS:=.o): | $(GENERATED_H)
 $(GENERATED_H): | $(HAVE)
 
 $(BUILD)/gen/gl_tokens.h: replay/gen.py capture/gen/registry.py
 	@mkdir -p $(@D)
 	$(Q)$(PYTHON) -B replay/gen.py $@ tokens
+
+$(BUILD)/gen/version_number.h: VERSION
+	@mkdir -p $(@D)
+	$(Q)printf '/* Made by the Makefile from VERSION. */\n#define RELUME_VERSION "%s"\n' "$$(cat $<)" >$@
 
 # What snapshots keep of the state machine: those of another layout are not read (replay/index/layout.txt).
 LAYOUT := replay/index/layout

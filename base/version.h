@@ -1,4 +1,4 @@
-/* Relume's version. Frames carry it; a frame of another version is rendered again. */
+/* Relume's version: RELUME_VERSION, made from the file VERSION. Frames carry it; a frame of another version is rendered again. */
 #pragma once
 
-#define RELUME_VERSION "0.1"
+#include "version_number.h"

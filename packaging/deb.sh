@@ -3,7 +3,7 @@
 # Leaves BUILD/deb/*.deb; exits with lintian's code, which tells errors and warnings.
 set -eu
 cd "$(dirname "$0")/.."
-version=$(sed -n 's/^#define RELUME_VERSION "\(.*\)"/\1/p' base/version.h)
+version=$(cat VERSION)
 out=$1/deb
 rm -rf "$out"
 mkdir -p "$out/relume-$version"

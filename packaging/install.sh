@@ -23,7 +23,7 @@ place() {
 	mv -f "$root/$3.new" "$root/$3"
 }
 
-version=$(sed -n 's/^#define RELUME_VERSION "\(.*\)"/\1/p' base/version.h)
+version=$(cat VERSION)
 sed "s|@PREFIX@|$prefix|; s|@VERSION@|$version|" packaging/relume.pc.in >"$build/relume.pc"
 sed "s|@PREFIX@|$prefix|; s|@VERSION@|$version|" packaging/relume-rays.pc.in >"$build/relume-rays.pc"
 

@@ -2,7 +2,7 @@
 """`relume help`, --help of every verb, and what wrong usage looks like."""
 import re
 
-from helpers import check, finish, relume
+from helpers import ROOT, check, finish, relume
 
 overview = relume("help")
 verbs = re.findall(r"^  (\w+) ", overview.stdout, re.M)
@@ -15,7 +15,7 @@ check(relume("paint").returncode == 2, "an unknown verb is wrong usage")
 near, far = relume("rendr"), relume("paint")
 check("unknown command 'rendr'; did you mean 'render'?" in near.stderr and "did you mean" not in far.stderr, f"a verb that is near is named: {near.stderr}{far.stderr}")
 version = relume("--version")
-check(version.returncode == 0 and re.fullmatch(r"relume \d+\.\d+\n", version.stdout), f"--version: {version.stdout}")
+check(version.returncode == 0 and version.stdout == f"relume {(ROOT / 'VERSION').read_text()}", f"--version: {version.stdout}")
 for words, said in ((("render", "--frmes", "1"), "render has no option '--frmes', but --frames;"), (("render", "--zzz"), "render has no option '--zzz';"),
                     (("render", "--samples", "0"), "--samples takes a number from 1 to "),
                     (("render", "--rays", "0"), "--rays takes a number from 1 to "),
