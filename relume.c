@@ -25,35 +25,53 @@ static int reduce_with_pictures(int argc, char **argv)
 	return reduce_main(argc, argv, wrong_note, wrong_again);
 }
 
+/* The groups of `relume help`, in its order. */
+enum group { GROUP_FIRST, GROUP_INSPECT, GROUP_RENDER, GROUP_COMPARE, GROUP_FARM, GROUP_RESEARCH, N_GROUPS };
+
+static const char *const group_titles[N_GROUPS] = {
+	[GROUP_FIRST] = "First steps",
+	[GROUP_INSPECT] = "Record and inspect",
+	[GROUP_RENDER] = "Render",
+	[GROUP_COMPARE] = "Compare",
+	[GROUP_FARM] = "Farm",
+	[GROUP_RESEARCH] = "Research",
+};
+
 static const struct verb {
+	enum group group;
 	const char *name;
 	int (*main)(int argc, char **argv);
 	const char *summary;
 } verbs[] = {
-	{ "record", record_main, "run a program and record its OpenGL calls" },
-	{ "info", info_main, "what a trace holds: frames, calls, what is not handled" },
-	{ "index", index_main, "index a trace: rendering then begins at any frame at once" },
-	{ "dump", dump_main, "print a trace's calls as text" },
-	{ "trim", trim_main, "cut a recording down to some frames" },
-	{ "repair", repair_main, "save what can be read of a recording that was cut or damaged" },
-	{ "reduce", reduce_with_pictures, "find the smallest recording with which a frame or a command still fails" },
-	{ "bisect", bisect_main, "find the first call at which two recordings of a program part" },
-	{ "scene", scene_main, "print the scene of a frame" },
-	{ "export", export_main, "write a frame as glTF, for other programs" },
-	{ "look", look_main, "study a trace: write rules about lights and surfaces for render" },
-	{ "render", render_main, "ray trace frames of a trace to OpenEXR, PNG or JPEG" },
-	{ "raster", raster_main, "rasterize frames of a trace with a real OpenGL" },
-	{ "diff", diff_with_names, "score traced frames against rasterized ones, or any two sets" },
-	{ "denoise", denoise_main, "take the noise out of rendered frames" },
-	{ "film", film_main, "make a film of rendered frames, beside what the program showed" },
-	{ "approve", approve_main, "make traced frames the baseline that later ones are compared with" },
-	{ "ci", ci_main, "record programs, render what they drew, and gate the frames" },
-	{ "farm", farm_main, "render on many machines, by array jobs of Slurm or by scripts" },
-	{ "devices", devices_main, "list the OpenCL devices" },
-	{ "hook", hook_main, "try functions of your own for stages of the ray tracer" },
-	{ "query", query_main, "ask what rays hit, how far surfaces are, what moving bodies meet" },
-	{ "pick", pick_main, "say what a pixel of a frame shows, and write a rule for it" },
-	{ "bench", bench_main, "measure the tracer's kernels" },
+	{ GROUP_FIRST, "record", record_main, "run a program and record its OpenGL calls" },
+	{ GROUP_FIRST, "info", info_main, "show what a recording holds: frames, calls, what is not supported" },
+	{ GROUP_FIRST, "render", render_main, "ray trace frames of a recording to OpenEXR, PNG or JPEG" },
+	{ GROUP_FIRST, "look", look_main, "study a recording: write rules about lights and surfaces for render" },
+	{ GROUP_FIRST, "film", film_main, "make a film of rendered frames, beside what the program showed" },
+	{ GROUP_FIRST, "diff", diff_with_names, "score traced frames against rasterized ones, or any two sets" },
+	{ GROUP_FIRST, "approve", approve_main, "make traced frames the baseline that later ones are compared with" },
+	{ GROUP_FIRST, "ci", ci_main, "record programs, render what they drew, and gate the frames" },
+
+	{ GROUP_INSPECT, "index", index_main, "index a recording, so that rendering starts at any frame at once" },
+	{ GROUP_INSPECT, "dump", dump_main, "print a recording's calls as text" },
+	{ GROUP_INSPECT, "scene", scene_main, "print the scene of a frame" },
+	{ GROUP_INSPECT, "export", export_main, "write a frame as glTF, for other programs" },
+	{ GROUP_INSPECT, "trim", trim_main, "cut a recording down to some frames" },
+	{ GROUP_INSPECT, "repair", repair_main, "save what can be read of a truncated or damaged recording" },
+
+	{ GROUP_RENDER, "pick", pick_main, "say what a pixel of a frame shows, and write a rule for it" },
+	{ GROUP_RENDER, "denoise", denoise_main, "take the noise out of rendered frames" },
+	{ GROUP_RENDER, "devices", devices_main, "list the OpenCL devices, and check what they draw" },
+
+	{ GROUP_COMPARE, "raster", raster_main, "rasterize frames of a recording with a real OpenGL" },
+	{ GROUP_COMPARE, "bisect", bisect_main, "find the first call at which two recordings of a program diverge" },
+	{ GROUP_COMPARE, "reduce", reduce_with_pictures, "find the smallest recording with which a frame or a command still fails" },
+
+	{ GROUP_FARM, "farm", farm_main, "render on many machines, by Slurm array jobs or scripts" },
+
+	{ GROUP_RESEARCH, "hook", hook_main, "try your own functions for stages of the ray tracer" },
+	{ GROUP_RESEARCH, "query", query_main, "ask what rays hit, how far surfaces are, what moving bodies meet" },
+	{ GROUP_RESEARCH, "bench", bench_main, "measure the tracer's kernels" },
 };
 
 static void print_help(FILE *out)
@@ -63,9 +81,15 @@ static void print_help(FILE *out)
 	      "Ray trace what a legacy OpenGL program draws, from a recording.\n"
 	      "\n",
 	      out);
-	for (size_t i = 0; i < sizeof(verbs) / sizeof(verbs[0]); i++)
+	for (size_t i = 0; i < sizeof(verbs) / sizeof(verbs[0]); i++) {
+		if (i == 0 || verbs[i].group != verbs[i - 1].group)
+			fprintf(out, "%s%s:\n\n", i ? "\n" : "", group_titles[verbs[i].group]);
 		fprintf(out, "  %-9s %s\n", verbs[i].name, verbs[i].summary);
-	fputs("  help      this text, or 'relume help VERB' for a verb's own\n"
+	}
+	fputs("\n"
+	      "Help:\n"
+	      "\n"
+	      "  help      this text, or 'relume help VERB' for a verb's own\n"
 	      "\n"
 	      "Formats of files, for 'relume help':\n"
 	      "\n",

@@ -9,6 +9,10 @@ verbs = re.findall(r"^  (\w+) ", overview.stdout, re.M)
 check(overview.returncode == 0 and not overview.stderr, "help goes to standard output and exits with 0")
 check({"record", "info", "index", "dump", "scene", "render", "raster", "diff", "devices", "bench"} <= set(verbs),
       f"help lists the verbs: {verbs}")
+groups = {title: re.findall(r"^  (\w+) ", body, re.M) for title, body in re.findall(r"^(\w[\w ]*):\n\n((?:  \w+ .*\n)+)", overview.stdout, re.M)}
+check(list(groups) == ["First steps", "Record and inspect", "Render", "Compare", "Farm", "Research", "Help"], f"help groups the verbs: {list(groups)}")
+check(groups["First steps"] == ["record", "info", "render", "look", "film", "diff", "approve", "ci"], f"eight come first: {groups['First steps']}")
+check(sum(groups.values(), []) == verbs and len(set(verbs)) == len(verbs), f"each verb is in one group: {groups}")
 check(relume("help", "help").stdout == overview.stdout, "help of help is help")
 check(relume().returncode == 2, "no verb is wrong usage")
 check(relume("paint").returncode == 2, "an unknown verb is wrong usage")
