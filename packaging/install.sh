@@ -44,6 +44,9 @@ place 644 "$build/relume.pc" share/pkgconfig/relume.pc
 place 644 "$build/relume-rays.pc" share/pkgconfig/relume-rays.pc
 place 644 diff/score/score.schema.json share/relume/score.schema.json
 place 644 README.md share/doc/relume/README.md
+for text in docs/*.md; do
+	place 644 "$text" "share/doc/relume/$text"
+done
 for page in "$build"/pages/man/*.[15]; do
 	place 644 "$page" "share/man/man${page##*.}/${page##*/}"
 done

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 """The house as it is: which file calls and includes which, drawn from object files and #include lines.
 
-usage: house.py BUILD [--root DIR]           check: circles, and arrows that the README's diagram does not show
+usage: house.py BUILD [--root DIR]           check: circles, and arrows that docs/architecture.md does not show
        house.py BUILD --dot                  the drawing, for Graphviz: files in folders, arrows between folders
-       house.py BUILD --text                 the drawing as the README shows it
+       house.py BUILD --text                 the drawing as docs/architecture.md shows it
        house.py BUILD --count [--json FILE]  the figures of `make show-house` beside their bars
 
 An arrow goes from a file to what it uses: a symbol that another object file defines, or a header. A folder's arrows are those of
-its files. The README shows one line for each folder: `folder -> folders`. The check fails on a circle between files or between
-folders, on an arrow that the README does not show, and on one that it shows and nobody uses any more.
+its files. docs/architecture.md shows one line for each folder: `folder -> folders`. The check fails on a circle between files or
+between folders, on an arrow that the document does not show, and on one that it shows and nobody uses any more.
 """
 import argparse
 import collections
@@ -20,6 +20,7 @@ import re
 import subprocess
 import sys
 
+DRAWING = "docs/architecture.md"
 STAGES = ("base", "bisect", "capture", "ci", "diff", "farm", "film", "kernels", "look", "query", "render", "replay", "scene", "tracer")
 SOURCES = (".c", ".h", ".inc", ".cl", ".cpp")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
@@ -161,17 +162,17 @@ class House:
                   for a in sorted(self.folders) for b in sorted(self.folders[a])]
         return "\n".join(lines + ["}"])
 
-    def faults(self, readme):
-        """What is wrong, a line each."""
+    def faults(self, drawing):
+        """What is wrong, a line each. @param drawing  the text of DRAWING"""
         lines = ["circle between files: " + " ".join(part) for part in self.file_circles]
         lines += ["circle between folders: " + " ".join(part) for part in self.folder_circles]
-        shown = {(a, b) for a, others in SHOWN.findall(readme) for b in others.split()}
+        shown = {(a, b) for a, others in SHOWN.findall(drawing) for b in others.split()}
         there = {(a, b) for a, others in self.folders.items() for b in others}
         for a, b in sorted(there - shown):
             pair = min(self.folders[a][b])
             what = " ".join(sorted(self.symbols.get(pair[0], {}).get(pair[1], {"#include"}))[:3])
-            lines.append(f"{a} -> {b} is not in the README's diagram: {pair[0]} uses {pair[1]} ({what})")
-        lines += [f"{a} -> {b} is in the README's diagram, and nobody uses it" for a, b in sorted(shown - there)]
+            lines.append(f"{a} -> {b} is not in {DRAWING}: {pair[0]} uses {pair[1]} ({what})")
+        lines += [f"{a} -> {b} is in {DRAWING}, and nobody uses it" for a, b in sorted(shown - there)]
         return lines
 
 
@@ -259,7 +260,7 @@ def main():
         return 0
     if args.count:
         return show(counts(house), args.json)
-    faults = house.faults((args.root / "README.md").read_text(encoding="utf-8"))
+    faults = house.faults((args.root / DRAWING).read_text(encoding="utf-8"))
     print("\n".join(faults))
     return 1 if faults else 0
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The house is as the README draws it (tests/house.py); and the drawing notices what it is there to notice."""
+"""The house is as docs/architecture.md draws it (tests/house.py); and the drawing notices what it is there to notice."""
 import os
 import pathlib
 import subprocess
@@ -53,7 +53,7 @@ class Drawn(unittest.TestCase):
     def test_a_leaf_that_calls_a_chapter_is_found(self):
         lines = self.build(replay__machine__args="int light(void); int arg(void) { return light(); }\n").faults(SHOWN)
         self.assertIn("circle between folders: replay/gl replay/machine", lines)
-        self.assertTrue(any("replay/machine -> replay/gl is not in the README's diagram" in line for line in lines))
+        self.assertTrue(any("replay/machine -> replay/gl is not in docs/architecture.md" in line for line in lines))
 
     def test_an_include_is_an_arrow(self):
         lines = self.build(base__err='#include "replay/machine/args.h"\n' + LEAF).faults(SHOWN)
@@ -61,7 +61,7 @@ class Drawn(unittest.TestCase):
 
     def test_an_arrow_that_nobody_uses_is_found(self):
         lines = self.build().faults(SHOWN + "    base                   -> diff\n")
-        self.assertEqual(lines, ["base -> diff is in the README's diagram, and nobody uses it"])
+        self.assertEqual(lines, ["base -> diff is in docs/architecture.md, and nobody uses it"])
 
     def test_long_functions_and_repetitions_are_counted(self):
         long = "static int f(void)\n{\n" + "\tg();\n" * 90 + "}\n"
@@ -73,8 +73,8 @@ class Drawn(unittest.TestCase):
 
 
 class Real(unittest.TestCase):
-    def test_the_house_is_as_the_readme_draws_it(self):
-        faults = house.House(ROOT, BUILD).faults((ROOT / "README.md").read_text(encoding="utf-8"))
+    def test_the_house_is_as_the_document_draws_it(self):
+        faults = house.House(ROOT, BUILD).faults((ROOT / house.DRAWING).read_text(encoding="utf-8"))
         self.assertFalse(faults, "\n".join(faults))
 
 

@@ -1,0 +1,98 @@
+#!/usr/bin/python3
+# limit: 600 s
+"""The README's commands do what it shows, and commands of docs/ name options that exist.
+
+A line "$ COMMAND" of the README is run; the lines below it are what it prints, with any numbers, and "..." for any lines or words. The
+examples of its groups are run as well. Commands run from top to bottom in one folder.
+"""
+import os
+import re
+
+from helpers import BUILD, RELUME, ROOT, SCRATCH, check, finish, on_display, relume, run
+
+# Commands that wait for somebody or something that is not here.
+CANNOT_RUN = {
+    "make demo": "installs packages; tests/show/suites.py runs it",
+    "make": "builds", "make check": "runs this test", "make install": "real/test_install.py runs it", "make deb": "needs debhelper",
+    "relume farm submit gears.trace -f 0-59 -o farm/gears.####.exr": "farm/test_farm.py has a cluster",
+}
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PLACE = SCRATCH / "place"
+
+
+def blocks_of(page):
+    """Blocks of code: their lines, without the indentation."""
+    for block in re.findall(r"(?:^    .*\n)+", page.read_text(encoding="utf-8"), re.M):
+        yield [line[4:] for line in block.split("\n")[:-1]]
+
+
+def commands_of(page):
+    """[(command, lines that it prints or None)]"""
+    found = []
+    for lines in blocks_of(page):
+        shows = lines[0].startswith("$ ")
+        for line in lines:
+            if line.startswith("$ ") or not shows:
+                found.append((re.sub(r"\s+# .*", "", line.removeprefix("$ ")), [] if shows else None))
+            else:
+                found[-1][1].append(line)
+    return found
+
+
+def pattern_of(lines):
+    """A regular expression for what a transcript shows."""
+    def of_line(line):
+        if line == "...":
+            return r"(?:.*\n)*?"
+        parts = re.split(r"(\d+(?:\.\d+)?|\.\.\.)", line)  # every second one is a number or dots
+        return "".join((".*" if part == "..." else r"\d+(?:\.\d+)?") if i % 2 else re.escape(part) for i, part in enumerate(parts)) + "\n"
+
+    return "".join(of_line(line) for line in lines)
+
+
+def options_of(verb):
+    return set(re.findall(r"(?<![\w-])--?[a-z][\w-]*", relume("help", verb).stdout.split("\nExamples:\n")[0]))
+
+
+verbs = [v for v in re.findall(r"^  (\w+) ", relume("help").stdout, re.M) if v != "help"]
+readme = (ROOT / "README.md").read_text(encoding="utf-8")
+groups = re.findall(r"^\*\*([\w ]+)\*\*: ((?:.+\n)+)\n((?:    .*\n)+)", readme, re.M)
+named = [verb for _, words, _ in groups for verb in re.findall(r"`(\w+)`", words)]
+check(sorted(named) == sorted(verbs), f"the README's groups name each verb once: {sorted(named)}, {sorted(verbs)}")
+for title, words, example in groups:
+    check(any(f"relume {verb} " in example for verb in re.findall(r"`(\w+)`", words)), f"{title} has an example of one of its verbs")
+
+n = 0
+for page in DOCUMENTS:
+    for command, _ in commands_of(page):
+        for part in re.split(r"[|;&]+ ", command):
+            asked = re.search(r"(?:^|[ /])relume (\w+)(.*)", part)
+            if not asked:
+                continue
+            n += 1
+            before, _, behind = asked[2].partition(" -- ")
+            given = {(asked[1], option) for option in re.findall(r"(?<=\s)--?[a-z][a-z-]*", before)}
+            given |= {("render", option) for option in re.findall(r"(?<![\w-])--[a-z-]+", behind)} if asked[1] == "farm" else set()
+            check(asked[1] in verbs, f"{page.name}: {command}: there is no verb {asked[1]}")
+            unknown = [option for verb, option in given if option not in options_of(verb)]
+            check(not unknown, f"{page.name}: {command}: relume has no {unknown}")
+check(n > 20, f"documents show commands: {n}")
+
+(PLACE / "build").mkdir(parents=True)
+(PLACE / "build/relume").symlink_to(RELUME)
+(BUILD / "tests/cache").mkdir(parents=True, exist_ok=True)  # whose absence Mesa reports
+env = {**os.environ, "PATH": f"{PLACE / 'build'}:{os.environ['PATH']}", "XDG_CACHE_HOME": str(BUILD / "tests/cache")}
+ran = 0
+for command, printed in commands_of(ROOT / "README.md"):
+    if command in CANNOT_RUN:
+        continue
+    ran += 1
+    words = ("sh", "-c", f"{{ {command}; }} 2>&1")
+    done = run(*words, cwd=PLACE, env=env, timeout=200) if "xvfb-run" in command else on_display(*words, cwd=PLACE, env=env, timeout=200)
+    check(done.returncode == 0, f"{command}: exit code {done.returncode}\n{done.stdout[-2000:]}")
+    check(printed is None or re.fullmatch(pattern_of(printed), done.stdout), f"{command} prints\n{done.stdout}and not\n" + "\n".join(printed or []))
+    for written in re.findall(r"-o (\S+\.(?:png|trace|exr))", command):
+        found = list(PLACE.glob(re.sub(r"#+", "*", written)))
+        check(found and all(f.stat().st_size for f in found), f"{command} writes {written}")
+check(ran >= 5, f"the README's commands are run: {ran}")
+finish()
