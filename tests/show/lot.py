@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+"""tests/show/lot.py BUILD [--seed N] [--programs N] (as `make show-lot`): traced pictures of programs drawn by lot, to be looked at.
+
+Of the sweep's programs that are installed, some are drawn by lot, so that nobody chooses them. A late frame of each is
+rendered as it comes and with `--look auto`; BUILD/show/lot/NAME.png shows raster, default and auto side by side. Somebody looks
+at each, and writes into tests/show/lot.yaml what was seen under the seed: default and auto each better, equal or worse than the
+raster frame, and whether anything there is lit or casts a shadow. A lot without a seed is drawn anew, and is yet to be looked at.
+
+The bars: no default picture worse, no auto picture worse, one of the two better on a third of those where anything is lit.
+"""
+import argparse
+import pathlib
+import random
+import secrets
+import sys
+
+import numpy
+import yaml
+
+import exr_numpy
+import programs
+import recording
+import sheet
+from display import need_display
+from table import Shown
+
+SEEN = recording.ROOT / "tests/show/lot.yaml"
+ENOUGH = 40
+LEAST_BETTER = 1 / 3
+
+
+def picture(build, program, folder):
+    """The sheet of a program: its path. Raises RuntimeError where there is none."""
+    done = recording.record(build / "relume", program, folder)
+    if done.trace is None or not done.references:
+        raise RuntimeError(f"no recording: {done.said[:120]}")
+    frame = done.references[int(sheet.LATE * (len(done.references) - 1))]
+    images = [sheet.render(build, done.trace, frame, folder / f"{name}.exr", *options)
+              for name, options in (("default", ()), ("auto", ("--look", "auto")))]
+    if not any(images[0].planes[f"gl.{c}"].any() for c in "RGB"):
+        raise RuntimeError("the frame is black")
+    gap = numpy.zeros((images[0].planes["R"].shape[0], 4, 3), "u1")
+    out = folder.parent / f"{program.name}.png"
+    shown = (sheet.display(images[0], "gl."), gap, sheet.display(images[0]), gap, sheet.display(images[1]))
+    exr_numpy.write_png(out, numpy.concatenate(shown, axis=1))
+    return out
+
+
+def count(seen, of, verdict):
+    return [name for name, line in seen.items() if line[of] == verdict]
+
+
+def show_verdicts(shown, seen, n):
+    shown.row("programs drawn, with a picture, and looked at", f"{len(seen)} of {n}", f"{n}", len(seen) == n)
+    for of in ("default", "auto"):
+        worse = count(seen, of, "worse")
+        shown.row(f"{of}: worse than the raster frame", f"{len(worse)}: {', '.join(worse)}" if worse else "0", "0", not worse)
+    lit = [name for name, line in seen.items() if line["lit"]]
+    better = [name for name in lit if "better" in (seen[name]["default"], seen[name]["auto"])]
+    shown.row("better, of those where anything is lit or casts", f"{len(better)} of {len(lit)}", f"{LEAST_BETTER:.0%}",
+              len(better) >= LEAST_BETTER * len(lit))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--seed", type=int, default=None)
+    parser.add_argument("--programs", type=int, default=ENOUGH)
+    options = parser.parse_args()
+    need_display()
+    build = options.build.resolve()
+    known = yaml.safe_load(SEEN.read_text()) if SEEN.exists() else {}
+    seed = options.seed if options.seed is not None else max(known, default=secrets.randbelow(1 << 31))
+    every = programs.sweep()
+    order = random.Random(seed).sample(every, len(every))
+    shown, seen, drawn = Shown(build, "lot"), {}, 0
+    print(f"seed {seed}, of {len(every)} programs", flush=True)
+    for program in order:
+        if drawn == options.programs:
+            break
+        try:
+            path = picture(build, program, build / "show/lot" / program.name)
+        except RuntimeError as why:
+            print(f"{program.name}: {why}", flush=True)
+            continue
+        drawn += 1
+        line = known.get(seed, {}).get(program.name)
+        if line:
+            seen[program.name] = line
+        print(f"{program.name}: {line or 'look at'} {path}", flush=True)
+    show_verdicts(shown, seen, options.programs)
+    sys.exit(shown.finish())
+
+
+if __name__ == "__main__":
+    main()
