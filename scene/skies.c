@@ -51,6 +51,7 @@ int scene_find_skies(const struct scene *scene, uint8_t *skies)
 	uint8_t *deep = calloc(n_spaces + 1, 1); /* [space]: something of it leaves colour and depth */
 	struct laid laid = { malloc((scene->n_instances + (size_t)1) * sizeof(*laid.instances)), 0 };
 	const int has_room = deep && laid.instances;
+	const uint32_t backdrop = scene_backdrop(scene);
 	uint32_t clear = 0;
 
 	for (uint32_t i = 0; i < scene->n_instances && has_room; i++) {
@@ -59,7 +60,7 @@ int scene_find_skies(const struct scene *scene, uint8_t *skies)
 
 		if (drops_depth(scene, i, &clear))
 			memset(deep, 0, n_spaces);
-		if (m->depth_test && m->depth_write && m->color_mask & 7 && !scene_is_never_drawn(m))
+		if (i >= backdrop && m->depth_test && m->depth_write && m->color_mask & 7 && !scene_is_never_drawn(m))
 			deep[view->space] = 1;
 		skies[i] = !deep[view->space] && (m->color_mask & 7) && !m->stencil_test &&
 		           view->projection[11] != 0 && !is_laid(scene, &laid, i);

@@ -11,11 +11,14 @@ from pairs import ROUNDS, Told, compare  # noqa: E402
 
 DIFFER = {"farther", "lights"}  # shadows from nothing; mirrors show only the first pass
 SOME = {"trimmed", "immediate", "lists", "elements", "split", "undone", "wound"}
+BEHIND = {"sky"}  # in the hall a lamp is behind the viewer, and a sky before a clear of depth before it
 
 golden = ROOT / "tests/golden/cornell.trace"
 street = SCRATCH / "street.trace"
 record(street, corpus("street"), "--frames", 2, "--size", "200x150", options=())
-for trace, some in ((golden, None), (street, SOME)):
+hall = SCRATCH / "hall.trace"
+record(hall, corpus("hall"), "--frames", 2, "--size", "200x150", options=())
+for trace, some in ((golden, None), (street, SOME), (hall, BEHIND)):
     told = Told(BUILD, trace, 1, SCRATCH / trace.stem)
     verdicts = {name: told.pair(name) for name, (base, _, _) in told.relations.items()
                 if base and (name in some if some else name not in DIFFER)}
