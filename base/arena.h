@@ -1,6 +1,6 @@
 /*
- * Memory that is given out piece by piece and taken back all at once; blocks are kept, so that a steady user of it
- * allocates nothing. All zero is a valid empty arena.
+ * An arena: pieces of memory are handed out one by one and released all at once. Its blocks are kept, so once usage
+ * is steady nothing more is allocated. All zero is a valid empty arena.
  */
 #pragma once
 
@@ -15,6 +15,6 @@ struct arena {
 /** n bytes, aligned to 16, not cleared; NULL: out of memory (not reported). Valid until arena_reset or arena_free. */
 void *arena_alloc(struct arena *a, size_t n);
 
-/** Take everything back. Blocks are kept up to `keep` bytes. */
+/** Release every piece. Keeps blocks of up to `keep` bytes in all. */
 void arena_reset(struct arena *a, size_t keep);
 void arena_free(struct arena *a);

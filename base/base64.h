@@ -1,11 +1,11 @@
-/* Bytes as base64 (RFC 4648 sec. 4), for pages that hold their own pictures. */
+/* Base64 (RFC 4648 sec. 4), for pages that embed their pictures. */
 #pragma once
 
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
-/** Whole groups of three bytes may be followed by more. */
+/** A multiple of three bytes can be followed by another call. */
 void base64_write(const uint8_t *bytes, size_t n, FILE *out);
 
 /**

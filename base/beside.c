@@ -21,5 +21,5 @@ int beside_find(const char *name, char *out, size_t size)
 	for (size_t i = 0; i < sizeof(folders) / sizeof(folders[0]); i++)
 		if (snprintf(out, size, "%s/%s/%s", command, folders[i], name) < (int)size && access(out, R_OK) == 0)
 			return 0;
-	return err_report(ERR_SYSTEM, name, "is neither in %s nor in %s/%s; install Relume anew", command, command, folders[1]);
+	return err_report(ERR_SYSTEM, name, "is neither in %s nor in %s/%s; reinstall Relume", command, command, folders[1]);
 }

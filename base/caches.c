@@ -11,7 +11,7 @@
 #include "base/err.h"
 #include "base/folder.h"
 
-/* @return 0, or the errno that says why nothing can be written there */
+/* @return 0, or the errno of why it cannot be written */
 static int try_cache(const char *caches, const char *name)
 {
 	char path[PATH_MAX];
@@ -23,7 +23,10 @@ static int try_cache(const char *caches, const char *name)
 	return failed ? failed : access(path, W_OK | X_OK) ? errno : 0;
 }
 
-/* A folder of this user's alone, of a name that the next run knows. Another user may have taken the name: then any name. @return 1: it is there */
+/*
+ * Make a folder that only this user can read, under a name that later runs find; under a random name if another user
+ * has taken that one. @return 1 if it exists now
+ */
 static int make_own(char *path, size_t size)
 {
 	const char *tmp = getenv("TMPDIR");
@@ -47,7 +50,7 @@ void caches_find(void)
 
 	if (!failed && !getenv("POCL_CACHE_DIR"))
 		failed = try_cache(caches, "pocl");
-	if (!failed || failed == ENOMEM /* which says nothing of the folder */ || !make_own(own, sizeof(own)))
+	if (!failed || failed == ENOMEM /* not the folder's fault */ || !make_own(own, sizeof(own)))
 		return;
 	err_warn(has_home ? caches : "~/.cache", "cannot be written (%s); caches are in %s instead: set XDG_CACHE_HOME to a folder that can be", strerror(failed), own);
 	setenv("XDG_CACHE_HOME", own, 1);

@@ -1,12 +1,13 @@
 /*
- * A cache folder that can be written. PoCL offers no device without one, so that a service or a build server whose user has no
- * home could render nothing.
+ * A writable cache folder. PoCL offers no device without one, so a service or build server whose user has no home
+ * directory could not render.
  */
 #pragma once
 
 /**
- * Where relume/ or pocl/ in the user's cache folder ($XDG_CACHE_HOME, or ~/.cache) cannot be made or written, set XDG_CACHE_HOME to
- * a folder of this user's in $TMPDIR (or /tmp), which later runs find again (unless another user has taken its name: then each run makes one), and say so in one line. Before the first thread,
- * and before files are confined. Does nothing the second time.
+ * If relume/ or pocl/ in the user's cache folder ($XDG_CACHE_HOME, or ~/.cache) cannot be made or written, set
+ * XDG_CACHE_HOME to a private folder in $TMPDIR (or /tmp) and print one warning. Later runs use the same folder; if
+ * another user has taken its name, each run makes a new one. Call before the first thread is started and before files
+ * are confined. A second call does nothing.
  */
 void caches_find(void);

@@ -9,7 +9,7 @@
 #include "base/err.h"
 #include "base/memory.h"
 
-/* What libcyaml says about the first thing that is wrong, and the line that it names first in its backtrace. */
+/* libcyaml's message about the first error, and the first line number in its backtrace. */
 struct complaint {
 	char text[256];
 	int line;
@@ -72,8 +72,8 @@ static int read_all(const char *path, char **out, size_t *n)
 }
 
 /**
- * libcyaml names the line it has read last, which for a key stands before it. Where the message names a key, its line is
- * the first one from there that holds it.
+ * libcyaml names the line it read last, which for a key is an earlier one. If the message names a key, search for it
+ * from that line on.
  */
 static int line_of_key(const char *text, const char *end, const struct complaint *c)
 {

@@ -11,10 +11,10 @@
  *
  * @param schema  its root must be a pointer (CYAML_FLAG_POINTER) to a mapping
  * @param out     receives the data; free with config_free and the same schema. (libyaml owns the prefix yaml_.)
- * @return 0; ERR_INPUT (reported: missing, no YAML, or not what the schema says, with its line); ERR_SYSTEM (reported)
+ * @return 0; ERR_INPUT (reported with its line: missing, not YAML, or against the schema); ERR_SYSTEM (reported)
  */
 int config_load(const char *path, const cyaml_schema_value_t *schema, void **out);
 
-/** The same for text in memory. @param name  what messages call it */
+/** The same for text in memory. @param name  for messages */
 int config_parse(const char *name, const char *text, size_t n, const cyaml_schema_value_t *schema, void **out);
 void config_free(const cyaml_schema_value_t *schema, void *data);

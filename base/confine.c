@@ -20,12 +20,12 @@
 #include "base/err.h"
 #include "base/folder.h"
 
-/* Of Linux 6.2, newer than the headers of Debian 12. */
+/* From Linux 6.2, newer than Debian 12's headers. */
 #ifndef LANDLOCK_ACCESS_FS_TRUNCATE
 #define LANDLOCK_ACCESS_FS_TRUNCATE (1u << 14)
 #endif
 
-/* Rights of Landlock. What is handled and not granted is refused. */
+/* Landlock rights. A right that is handled but not granted is refused. */
 enum {
 	READ_FILES = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR,
 	MAKE_FILES = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_TRUNCATE,
@@ -42,7 +42,7 @@ struct sandbox {
 
 /* --- Files -------------------------------------------------------------------------------------------------------------- */
 
-/* What is not there, or not ours to open, is passed over. Without what is there libraries crash that count on it. */
+/* Skips files that are missing or may not be opened. Libraries crash if a file they rely on exists but is refused. */
 static void grant(struct sandbox *s, const char *path, uint32_t rights)
 {
 	struct landlock_path_beneath_attr rule = { .parent_fd = open(path, O_PATH | O_CLOEXEC) };
@@ -71,7 +71,7 @@ static void grant_folder_of(struct sandbox *s, const char *file, uint32_t rights
 		grant(s, folder, rights);
 }
 
-/* NAME.trace: NAME.ref and NAME.trace.index, which is made where it is missing or older than the recording or this program. */
+/* Beside NAME.trace: NAME.ref, and NAME.trace.index, which is rebuilt if missing or older than recording or program. */
 static void grant_beside(struct sandbox *s, const char *trace)
 {
 	const char *dot = strrchr(trace, '.');
@@ -88,7 +88,7 @@ static void grant_beside(struct sandbox *s, const char *trace)
 		grant_folder_of(s, trace, ALL_IN_FOLDER);
 }
 
-/* A folder of output, made where it is missing: Landlock knows only what is there. */
+/* An output folder, made now if it is missing: Landlock can only grant files that exist. */
 static void grant_made(struct sandbox *s, const char *folder, int is_cache)
 {
 	char parent[PATH_MAX];
@@ -129,7 +129,7 @@ static void grant_file(struct sandbox *s, const struct confine_file *file, int i
 	}
 }
 
-/* Folders of a list as in PATH, and of what links there point to. */
+/* The folders in a list like PATH, and those that links in them point to. */
 static void grant_list(struct sandbox *s, const char *list)
 {
 	char *copy = list ? strdup(list) : NULL, *rest = copy;
@@ -149,7 +149,7 @@ static void grant_list(struct sandbox *s, const char *list)
 	free(copy);
 }
 
-/* What every process reads: libraries, their settings, what the system says of itself. */
+/* Files that every process reads: libraries, their settings, system information. */
 static void grant_system(struct sandbox *s)
 {
 	static const char *const reads[] = { "/usr", "/lib", "/lib64", "/opt", "/etc/ld.so.cache", "/etc/ld.so.conf", "/etc/ld.so.conf.d",
@@ -172,7 +172,7 @@ static void grant_system(struct sandbox *s)
 
 /* --- OpenCL ------------------------------------------------------------------------------------------------------------- */
 
-/* A folder in the user's caches, or where a variable of the implementation says. */
+/* A folder in the user's caches, or the one named by the implementation's own variable. */
 static void grant_cache(struct sandbox *s, const char *variable, const char *name, int make)
 {
 	const char *said = getenv(variable), *caches = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -191,7 +191,7 @@ static void grant_cache(struct sandbox *s, const char *variable, const char *nam
 		grant(s, path, ALL_IN_FOLDER);
 }
 
-/* Folders of the libraries that *.icd files of a folder name. */
+/* The folders of the libraries named by a folder's *.icd files. */
 static void grant_vendors(struct sandbox *s, const char *folder)
 {
 	char pattern[PATH_MAX], library[PATH_MAX], real[PATH_MAX];
@@ -211,7 +211,7 @@ static void grant_vendors(struct sandbox *s, const char *folder)
 	globfree(&found);
 }
 
-/* PoCL links kernels with ld. A program can be started where its file and its loader may be. */
+/* PoCL links kernels with ld. To start a program, both its file and its loader must be executable. */
 static void grant_linker(struct sandbox *s)
 {
 	static const char *const programs[] = { "/usr/bin/ld", "/usr/bin/ld.bfd", "/usr/bin/ld.lld", "/lib64/ld-linux-x86-64.so.2",
@@ -221,7 +221,10 @@ static void grant_linker(struct sandbox *s)
 		grant(s, programs[i], LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_READ_FILE);
 }
 
-/* Where NVIDIA's driver keeps machine code, which it makes of what is kept of kernels: 20 s each time where it may not. It asks for no XDG_CACHE_HOME. */
+/*
+ * NVIDIA's driver caches the machine code that it compiles from our kept kernels; without the cache each run takes 20 s
+ * longer. It ignores XDG_CACHE_HOME.
+ */
 static void grant_nvidia(struct sandbox *s)
 {
 	const char *said = getenv("CUDA_CACHE_PATH"), *home = getenv("HOME");
@@ -257,7 +260,7 @@ static void grant_devices(struct sandbox *s)
 
 /* --- Calls -------------------------------------------------------------------------------------------------------------- */
 
-/* Networks, other processes, the system, what files may do beside being read and written. */
+/* Networks, other processes, the system, and file operations other than reading and writing. */
 static const int refused[] = {
 	SCMP_SYS(socket), SCMP_SYS(connect), SCMP_SYS(bind), SCMP_SYS(listen), SCMP_SYS(accept), SCMP_SYS(accept4), SCMP_SYS(io_uring_setup),
 	SCMP_SYS(tkill), SCMP_SYS(pidfd_send_signal), SCMP_SYS(rt_sigqueueinfo), SCMP_SYS(rt_tgsigqueueinfo), SCMP_SYS(pidfd_getfd),
@@ -284,10 +287,13 @@ static int refuse_calls(enum confine_kind kind)
 		seccomp_rule_add(filter, no, SCMP_SYS(execve), 0);
 		seccomp_rule_add(filter, no, SCMP_SYS(execveat), 0);
 	}
-	/* ld gives up where it cannot make a library executable, which nobody needs: it is told that it did. */
+	/* ld fails if it cannot make a library executable, which is not needed: these calls report success and do nothing. */
 	seccomp_rule_add(filter, SCMP_ACT_ERRNO(0), SCMP_SYS(chmod), 0);
 	seccomp_rule_add(filter, SCMP_ACT_ERRNO(0), SCMP_SYS(fchmodat), 0);
-	/* Signal 0 asks whether a process runs (base/part.c). Threads of this process may be signalled; a terminal is not typed into. */
+	/*
+	 * Signal 0 asks whether a process runs (base/part.c). Signals to threads of this process are allowed; pushing input
+	 * into a terminal is not.
+	 */
 	seccomp_rule_add(filter, no, SCMP_SYS(kill), 1, SCMP_A1(SCMP_CMP_NE, 0));
 	seccomp_rule_add(filter, no, SCMP_SYS(tgkill), 1, SCMP_A0(SCMP_CMP_NE, (scmp_datum_t)getpid()));
 	seccomp_rule_add(filter, no, SCMP_SYS(ioctl), 1, SCMP_A1(SCMP_CMP_MASKED_EQ, UINT32_MAX, TIOCSTI));

@@ -1,10 +1,10 @@
 /*
- * A recording may come from a stranger. A verb that reads one gives up, before it reads, what it does not need: all files but those that its
- * command line names, sockets, other programs. A fault in a reader then leaves whoever wrote the recording with nothing to reach.
+ * Recordings may be untrusted. Before opening one, a verb drops every right it does not need: files that its command
+ * line does not name, sockets, other programs. If a recording then exploits a fault in a reader, it can reach nothing.
  *
- * Files: Landlock (Linux 5.13; truncation from 6.2 on). It binds this thread and all threads and processes that it starts from here on, so
- * it comes before the first of them. Calls: seccomp, through libseccomp. A kernel that lacks one of them is named in a warning, and the verb
- * goes on.
+ * Files: Landlock (Linux 5.13; truncation from 6.2 on). It binds this thread and the threads and processes started
+ * later, so confine before starting any. Calls: seccomp, through libseccomp. If the kernel lacks one of the two, a
+ * warning says so and the verb continues.
  */
 #pragma once
 
@@ -21,10 +21,10 @@ enum confine_use {
 	CONFINE_UNUSED,
 	CONFINE_READS,    /* a file, a folder with all in it, or a pattern: its folder */
 	CONFINE_WRITES,   /* a file: its folder */
-	CONFINE_MAKES,    /* a file or a pattern: its folder, made where it is missing */
-	CONFINE_FILLS,    /* a folder, made where it is missing */
-	CONFINE_DRY,      /* no file: what would be made is not */
-	CONFINE_RECORDING /* as CONFINE_READS; of a file also its references and its index. Where that is to be made: its folder */
+	CONFINE_MAKES,    /* a file or a pattern: its folder, made if missing */
+	CONFINE_FILLS,    /* a folder, made if missing */
+	CONFINE_DRY,      /* nothing: a dry run writes no file */
+	CONFINE_RECORDING /* as CONFINE_READS, with a file's references and index; its folder if the index must be built */
 };
 
 struct confine_file {
@@ -33,8 +33,8 @@ struct confine_file {
 };
 
 /**
- * Give up all else. System libraries and their settings can still be read. "-" and what does not exist are passed over.
- * A folder that was made for it, and is left empty, goes again at exit.
- * @return 0, or ERR_SYSTEM (reported) where something that is there cannot be kept for lack of descriptors or memory
+ * Drop all other rights. System libraries and their settings stay readable. Skips "-" and files that do not exist.
+ * A folder made here is removed at exit if it is still empty.
+ * @return 0, or ERR_SYSTEM (reported) if an existing file cannot be kept for lack of descriptors or memory
  */
 int confine_to(const struct confine_file *files, size_t n, enum confine_kind kind);

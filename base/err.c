@@ -8,7 +8,7 @@
 static _Thread_local int *shared;
 static const char *before = ""; /* each line */
 
-/* Memory that is short for one thing is short for all that comes of it: one line says so. */
+/* One allocation failure causes others: report only the first. */
 static int is_said(const char *fmt)
 {
 	static int said;
@@ -19,7 +19,7 @@ static int is_said(const char *fmt)
 static struct err_lines *lines; /* or NULL */
 static uint32_t process;
 
-/* Whether an earlier process has printed a line; note that this one does. */
+/* Has an earlier process printed this line? Records that this one has. */
 static int is_old(const char *where, const char *text)
 {
 	const uint64_t hash = XXH3_64bits_withSeed(text, strlen(text), where ? XXH3_64bits(where, strlen(where)) : 0);
@@ -45,7 +45,7 @@ static void print_line(const char *kind, const char *where, const char *fmt, va_
 	vsnprintf(text, sizeof(text), fmt, args);
 	if (is_old(where, text))
 		return;
-	/* One call, so that lines of several threads and processes do not mix. */
+	/* One call, so that lines of threads and processes do not interleave. */
 	if (where)
 		fprintf(stderr, "%srelume: %s%s: %s\n", before, kind, where, text);
 	else

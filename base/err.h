@@ -15,11 +15,11 @@ enum {
 	ERR_BASELINE = -4, /* a baseline is new or missing */
 	ERR_SYSTEM   = -5, /* a device or the system failed: memory, disk, OpenCL, a child process */
 	ERR_INCOMPLETE = -6, /* frames are there, but some of what the program drew is missing from them */
-	ERR_MEMORY   = -7  /* a device has too little memory for so much at once; not reported, never an exit code (tracer/device/device.h) */
+	ERR_MEMORY   = -7  /* too large for the device's memory at once; not reported, never an exit code (tracer/device/device.h) */
 };
 
 /**
- * Print "relume: WHERE: TEXT" as one line on standard error. Of texts that say "out of memory" a process prints the first.
+ * Print "relume: WHERE: TEXT" as one line on standard error. A process prints only its first "out of memory".
  *
  * @param code   ERR_*, returned unchanged so that `return err_report(...)` reads well
  * @param where  file, or file and frame or call ("gears.trace: frame 12"); NULL leaves it out
@@ -30,20 +30,20 @@ int err_report(int code, const char *where, const char *fmt, ...) __attribute__(
 
 /**
  * Print only the first report of a group of threads: a disk that is full for one is full for all. From now on this thread
- * shares `said` (initially 0) with the others of its group. NULL leaves the group. Warnings are always printed.
+ * shares `said` (initially 0) with the rest of its group. NULL leaves the group. Warnings are always printed.
  */
 void err_share(int *said);
 
-/** From now on a bar stands in the last line of standard error (1), or no more (0): lines take its place, and it is drawn again. */
+/** Is the last line of standard error a bar from now on (1, else 0)? Lines then replace it, and it is drawn again. */
 void err_clear_bar(int stands);
 
-/* Lines that processes have printed which do the same work one after the other, in memory that they share; all 0 at first. */
+/* Lines printed so far by processes that do the same work in turn. Lives in memory they share; initially all 0. */
 struct err_lines {
 	struct { uint64_t hash; uint32_t process; } said[1024];
 };
 
-/** From now on, lines that an earlier one of these processes has printed are not printed again. @param process  counts from 1 on */
+/** From now on, skip lines that an earlier one of these processes has printed. @param process  counts from 1 */
 void err_carry_on(struct err_lines *lines, uint32_t process);
 
-/** Print "relume: WHERE: warning: TEXT": the user should know, and the work goes on. */
+/** Print "relume: WHERE: warning: TEXT": something the user should know, although work continues. */
 void err_warn(const char *where, const char *fmt, ...) __attribute__((format(printf, 2, 3)));

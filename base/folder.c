@@ -11,7 +11,7 @@
 
 #include "base/err.h"
 
-/* `path` is changed meanwhile, and whole again afterwards. @return 0 or errno */
+/* Changes `path` while it runs, and restores it. @return 0 or errno */
 static int make_all(char *path)
 {
 	struct stat st;
@@ -20,7 +20,7 @@ static int make_all(char *path)
 		if (*p != '/')
 			continue;
 		*p = '\0';
-		mkdir(path, 0777); /* what matters is whether the last one is there */
+		mkdir(path, 0777); /* only the last one's result matters */
 		*p = '/';
 	}
 	if (mkdir(path, 0777) == 0)
@@ -55,7 +55,7 @@ int folder_nearest(const char *path, char *out, size_t size)
 	return 1;
 }
 
-/* A folder made early: its path, with a '/', and how much of that was there before. */
+/* A folder made early: its path, with a '/', and how much of that path already existed. */
 struct early {
 	struct early *next;
 	size_t old;

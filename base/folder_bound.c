@@ -26,7 +26,7 @@ static int compare_kept(const void *a, const void *b)
 	return (x->used.tv_nsec > y->used.tv_nsec) - (x->used.tv_nsec < y->used.tv_nsec);
 }
 
-/* List the files. @return how many, in an array that the caller frees; 0 also where memory is short (reported) */
+/* List the files. @return their number, in an array that the caller frees; 0 also if memory is short (reported) */
 static size_t list_kept(DIR *dir, const char *pattern, struct kept **out)
 {
 	size_t n = 0, room = 0;

@@ -17,7 +17,7 @@ static int compare_first(const void *a, const void *b)
 	return (x->first > y->first) - (x->first < y->first);
 }
 
-/** Read a decimal number at *p and move *p past it; 0 where there is none or it does not fit 64 bits. */
+/** Read a decimal number at *p and move *p past it. @return 0 if there is none or it does not fit 64 bits */
 static int parse_number(const char **p, uint64_t *out)
 {
 	uint64_t value = 0;
@@ -78,7 +78,7 @@ static void join(struct frame_list *list)
 	list->n_ranges = kept;
 }
 
-/** 1 where no two ranges can hold the same frame, so that counts add up. */
+/** 1 if no two ranges can hold the same frame, so that their counts can be added. */
 static int is_disjoint(const struct frame_list *list)
 {
 	for (size_t i = 1; i < list->n_ranges; i++)
@@ -87,7 +87,7 @@ static int is_disjoint(const struct frame_list *list)
 	return 1;
 }
 
-/* 1 where counting the frames, one by one over all ranges, takes too long. */
+/* 1 if counting the frames one by one, over all ranges, takes too long. */
 static int is_too_long(const struct frame_list *list)
 {
 	uint64_t left = MOST_STEPS / list->n_ranges;
@@ -230,7 +230,7 @@ uint64_t frame_list_count(const struct frame_list *list, uint64_t end)
 		}
 		return count;
 	}
-	/* Ranges overlap, so frames are asked for one by one; the cost is that of naming them. */
+	/* Ranges overlap, so count frames one by one. */
 	for (uint64_t frame = 0; frame_list_next(list, frame, &frame) && frame < end; frame++)
 		count++;
 	return count;
@@ -255,7 +255,7 @@ int frame_chunk_parse(const char *text, uint64_t *i, uint64_t *n)
 	return 0;
 }
 
-/** The frame with so many before it in the list. */
+/** The frame at index `rank` of the list. */
 static uint64_t frame_of_rank(const struct frame_list *list, uint64_t rank)
 {
 	uint64_t frame = 0;

@@ -16,7 +16,7 @@ struct frame_range {
 };
 
 struct frame_list {
-	struct frame_range *ranges; /* owned; sorted by first; those that overlap name few enough frames to count them one by one */
+	struct frame_range *ranges; /* owned; sorted by first; overlapping ones hold few enough frames to count them one by one */
 	size_t n_ranges;            /* 0: every frame */
 };
 
@@ -29,19 +29,19 @@ struct frame_list {
 int frame_list_parse(const char *text, struct frame_list *out);
 void frame_list_free(struct frame_list *list);
 
-/** 1 where the list holds the frame (an empty list holds every frame), 0 otherwise. */
+/** 1 if the list holds the frame (an empty list holds every frame), else 0. */
 int frame_list_contains(const struct frame_list *list, uint64_t frame);
 
 /** The last frame of the list; UINT64_MAX for an empty list, and for a range without an end. */
 uint64_t frame_list_last(const struct frame_list *list);
 
-/** The last frame that must be there for the list to be had: of a range without an end its first. 0 where all are asked for. */
+/** The last frame that the recording must have; a range without an end needs its first. 0 for an empty list. */
 uint64_t frame_list_needed(const struct frame_list *list);
 
 /** Number of frames of the list below `end`. */
 uint64_t frame_list_count(const struct frame_list *list, uint64_t end);
 
-/** The first frame of the list at or after `from`. @return 1, or 0 where there is none */
+/** The first frame of the list at or after `from`. @return 1, or 0 if there is none */
 int frame_list_next(const struct frame_list *list, uint64_t from, uint64_t *frame);
 
 /** Parse one frame number. @return 0 or ERR_USAGE (reported) */
@@ -51,25 +51,25 @@ int frame_number_parse(const char *text, uint64_t *frame);
 int frame_chunk_parse(const char *text, uint64_t *i, uint64_t *n);
 
 /**
- * Cut the list down to its i-th part of n. Parts are runs of consecutive frames, of equal length but for one frame; each frame is in
- * exactly one part.
+ * Cut the list down to its i-th part of n. Parts are runs of consecutive frames whose lengths differ by at most one;
+ * each frame is in exactly one part.
  * @param end  number of frames of the recording; later ones are in no part
- * @return 0; 1 where this part holds no frame (the list is unchanged); ERR_SYSTEM (reported)
+ * @return 0; 1 if this part holds no frame (the list is unchanged); ERR_SYSTEM (reported)
  */
 int frame_list_chunk(struct frame_list *list, uint64_t end, uint64_t i, uint64_t n);
 
-/** Which of the n parts, from 1, a frame of the list is in. */
+/** The part, 1 to n, that holds a frame of the list. */
 uint64_t frame_list_part_of(const struct frame_list *list, uint64_t end, uint64_t frame, uint64_t n);
 
-/** 1 where the pattern has a placeholder for the frame number. */
+/** 1 if the pattern has a placeholder for the frame number. */
 int frame_pattern_has_number(const char *pattern);
 
-/** Bytes of the pattern before its placeholder; all of them where it has none. */
+/** Bytes of the pattern before its placeholder; its whole length if it has none. */
 size_t frame_pattern_prefix(const char *pattern);
 
 /**
  * Put a frame number into a pattern.
  * @param out, size  receives the name, NUL-terminated
- * @return 0, or ERR_USAGE (reported) where the name does not fit
+ * @return 0, or ERR_USAGE (reported) if the name does not fit
  */
 int frame_pattern_expand(const char *pattern, uint64_t frame, char *out, size_t size);

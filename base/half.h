@@ -1,4 +1,4 @@
-/* Numbers of 16 bits: sign, 5 bits of exponent, 10 of mantissa (IEEE 754 binary16). */
+/* 16-bit floats: sign, 5 bits of exponent, 10 of mantissa (IEEE 754 binary16). */
 #pragma once
 
 #include <stdint.h>

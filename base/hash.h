@@ -1,11 +1,11 @@
-/* Hashes of bytes and of files: what they are known by, and whether they are still the same. */
+/* Hashes of bytes and files: to name them, and to see whether they have changed. */
 #pragma once
 
 #include <stddef.h>
 #include <stdint.h>
 #include <xxhash.h>
 
-/** The XXH3-128 of bytes: their name where they are kept once each. */
+/** The XXH3-128 of bytes: their name in a store that keeps each content once. */
 void hash_bytes(const void *data, size_t n, uint64_t out[2]);
 
 /**
@@ -18,10 +18,10 @@ int hash_name(const char *path, uint64_t size, char out[33]);
 /**
  * Hash a file from its beginning, in small pieces.
  * @param limit  bytes at most
- * @param state  XXH3-128, begun by the caller, who may go on with it
+ * @param state  XXH3-128, initialised by the caller, who may add more
  * @return 0 or ERR_INPUT (reported)
  */
 int hash_file(const char *path, uint64_t limit, XXH3_state_t *state);
 
-/** The XXH3-128 of all of a file. @return 0, ERR_INPUT or ERR_SYSTEM (reported) */
+/** The XXH3-128 of a whole file. @return 0, ERR_INPUT or ERR_SYSTEM (reported) */
 int hash_whole(const char *path, uint64_t out[2]);

@@ -33,7 +33,7 @@ void json_end(struct json *j, char bracket)
 	j->has_items = 1;
 }
 
-/* The bytes of a character of well-formed UTF-8 (RFC 3629: not longer than need be, no surrogates, up to U+10FFFF); 0: there is none here. */
+/* Length of a well-formed UTF-8 character (RFC 3629: shortest form, no surrogates, up to U+10FFFF); 0: not one. */
 static unsigned character(const unsigned char *p)
 {
 	const unsigned n = *p < 0x80 ? 1 : *p < 0xc2 ? 0 : *p < 0xe0 ? 2 : *p < 0xf0 ? 3 : *p < 0xf5 ? 4 : 0;
@@ -46,7 +46,10 @@ static unsigned character(const unsigned char *p)
 	return n;
 }
 
-/* The number of a character of up to three bytes that YAML's reader, which takes our JSON too, refuses as it is: controls, the byte order mark, ... */
+/*
+ * The code point of a character of up to three bytes that must be escaped for YAML readers, which take our JSON too:
+ * controls, the byte order mark, ...
+ */
 static unsigned unprintable(const unsigned char *p, unsigned n)
 {
 	const unsigned number = n == 1 ? *p : n == 2 ? (*p & 0x1fu) << 6 | (p[1] & 0x3f) : n == 3 ? (*p & 0xfu) << 12 | (p[1] & 0x3fu) << 6 | (p[2] & 0x3f) : 0;
@@ -54,7 +57,7 @@ static unsigned unprintable(const unsigned char *p, unsigned n)
 	return number < 0x20 || (number >= 0x7f && number < 0xa0) || number == 0xfeff || number >= 0xfffe ? number : 0;
 }
 
-/* Well-formed UTF-8 passes; any other byte is shown as the character of its number. */
+/* Well-formed UTF-8 passes; any other byte is written as the code point of the same number. */
 void json_string(struct json *j, const char *text)
 {
 	start_item(j);

@@ -10,7 +10,7 @@
 #include "base/folder.h"
 #include "base/part.h"
 
-static const char magic[8] = { 'r', 'e', 'l', 'u', 'm', 'e', 2, '\n' }; /* the end shows files that were sent as text */
+static const char magic[8] = { 'r', 'e', 'l', 'u', 'm', 'e', 2, '\n' }; /* the line end reveals files transferred as text */
 
 struct header {
 	char magic[8];
@@ -26,7 +26,7 @@ static struct header header_of(const uint64_t key[2], const void *bytes, size_t 
 	return h;
 }
 
-/* The content of a file whose header is read. @return NULL: it is cut, or memory is short */
+/* Read the content, after the header. @return NULL: the file is truncated, or memory is short */
 static void *read_content(FILE *file, uint64_t n)
 {
 	void *bytes;
@@ -64,7 +64,7 @@ int kept_read(const char *path, const uint64_t key[2], void **bytes, size_t *n)
 	return 0;
 }
 
-/* @return 0, or the errno of what failed */
+/* @return 0 or the errno */
 static int write_file(const char *path, const struct header *h, const void *bytes)
 {
 	FILE *file = fopen(path, "wbxe");

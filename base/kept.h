@@ -1,6 +1,6 @@
 /*
- * One file of a cache folder: written whole (base/part.h), with a key and a checksum. A file that is missing, cut, damaged or of
- * another key counts as absent.
+ * One file of a cache folder, written atomically (base/part.h) with a key and a checksum. A file that is missing,
+ * truncated, damaged or has another key counts as absent.
  */
 #pragma once
 
@@ -14,5 +14,5 @@
  */
 int kept_read(const char *path, const uint64_t key[2], void **bytes, size_t *n);
 
-/** Replace the file; make its folder where that is missing. @return 0; the errno that says why not; -1 (reported) */
+/** Replace the file; make its folder if missing. @return 0; the errno; or -1 (reported) */
 int kept_write(const char *path, const uint64_t key[2], const void *bytes, size_t n);

@@ -1,12 +1,12 @@
 /*
- * What `relume help` prints besides the tables of options: the formats of files, and examples. packaging/manual.py makes both lists
- * from the headers that document the formats and from packaging/examples.txt.
+ * Texts that `relume help` prints besides option tables: file formats and examples. packaging/manual.py generates both
+ * lists from the headers that document the formats and from packaging/examples.txt.
  */
 #pragma once
 
 struct manual_text {
-	const char *name;    /* "look-file"; of examples: the verb's */
-	const char *summary; /* one line; of examples: NULL */
+	const char *name;    /* "look-file"; for examples, the verb's name */
+	const char *summary; /* one line; NULL for examples */
 	const char *text;    /* whole lines */
 };
 

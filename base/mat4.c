@@ -5,7 +5,7 @@
 
 const float mat4_identity[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
 
-/* A column at once. Each entry is made by the same operations in the same order as if it were made alone. */
+/* One column at a time. Each entry uses the same operations, in the same order, as if computed alone. */
 typedef float column __attribute__((vector_size(16)));
 
 void mat4_mul(float out[16], const float a[16], const float b[16])
@@ -52,7 +52,7 @@ void mat4_transpose(float out[16], const float m[16])
 
 int mat4_invert(float out[16], const float m[16])
 {
-	/* Gauss and Jordan with row pivoting, in double. */
+	/* Gauss-Jordan with row pivoting, in double. */
 	double rows[4][8];
 
 	for (int r = 0; r < 4; r++)

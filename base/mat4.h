@@ -1,6 +1,7 @@
 /*
- * 4x4 matrices: float[16], column-major, column vectors, p' = M p. All arithmetic is in float and in Mesa's order, so products
- * agree with Mesa's to the last bit where that is possible: with those of its libraries of 64 bits, or, by mat4_sums, of 32.
+ * 4x4 matrices: float[16], column-major, column vectors, p' = M p. All arithmetic is in float and in Mesa's order, so
+ * products agree with Mesa's to the last bit where possible: with its 64-bit libraries, or through mat4_sums with its
+ * 32-bit ones.
  */
 #pragma once
 
@@ -20,19 +21,19 @@ void mat4_frustum(float out[16], float left, float right, float bottom, float to
 void mat4_ortho(float out[16], float left, float right, float bottom, float top, float near, float far);
 void mat4_transpose(float out[16], const float m[16]);
 
-/** @return 1, or 0 and the identity where m has no inverse */
+/** @return 1; 0 if m has no inverse: out is then the identity */
 int mat4_invert(float out[16], const float m[16]);
 
 /** out = M v. */
 void mat4_transform(float out[4], const float m[16], const float v[4]);
 
-/** Turn a direction: out = M (v, 0), without its last number. out may be v. */
+/** Transform a direction: out = M (v, 0), without w. out may be v. */
 void mat4_turn(float out[3], const float m[16], const float v[3]);
 
-/** out = v M: with the inverse matrix, how a plane equation is transformed (sec. 2.12). */
+/** out = v M. With the inverse matrix, this transforms a plane equation (sec. 2.12). */
 void mat4_transform_plane(float out[4], const float plane[4], const float inverse[16]);
 
-/** The functions of these names, by how the C code of a GL library sums. */
+/** The functions above, with the precision that the C code of a GL library sums in. */
 struct mat4_sums {
 	void (*mul)(float out[16], const float a[16], const float b[16]);
 	void (*transform)(float out[4], const float m[16], const float v[4]);
@@ -43,5 +44,5 @@ struct mat4_sums {
 	void (*ortho)(float out[16], float left, float right, float bottom, float top, float near, float far);
 };
 
-/** [0]: each operation is rounded to float. [1]: in the x87's registers, rounded where a number is stored: libraries of 32 bits. */
+/** [0]: every operation is rounded to float. [1]: x87 registers, rounded when a number is stored: 32-bit libraries. */
 extern const struct mat4_sums mat4_sums[2];

@@ -1,6 +1,7 @@
 /*
- * Matrices and products whose numbers are sums, as text that mat4.c takes twice: with `real` float, and with `real` long double, in which the
- * x87 calculates. A number is rounded to float where Mesa's C code stores it in one (math/m_matrix.c); so no #pragma once.
+ * Matrices and products whose entries are sums. mat4.c includes this twice, so there is no #pragma once: with `real` as
+ * float, and as long double, the x87's precision. Numbers are rounded to float where Mesa's C code stores them in one
+ * (math/m_matrix.c).
  */
 
 SUM(transform)(float out[4], const float m[16], const float v[4])
@@ -31,7 +32,7 @@ SUM(rotation)(float out[16], float angle_deg, float x, float y, float z)
 	float xx, yy, zz, xy, yz, zx, xs, ys, zs;
 
 	memcpy(out, mat4_identity, 16 * sizeof(float));
-	if (turned == 1) { /* about an axis: the other entries are 0 and 1 to the last bit, however short the vector */
+	if (turned == 1) { /* about a coordinate axis: the other entries are exactly 0 and 1, however short the vector */
 		const int axis = x != 0 ? 0 : y != 0 ? 1 : 2, i = (axis + 1) % 3, j = (axis + 2) % 3;
 		const float sine = (float)(x + y + z < 0 ? -s : s);
 

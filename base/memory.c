@@ -34,7 +34,7 @@ size_t memory_grow(void *array, size_t room, size_t wanted, size_t item_bytes)
 
 void memory_widen_heap(void)
 {
-	void *volatile blocks[2]; /* so that the compiler does not see that they come to nothing */
+	void *volatile blocks[2]; /* volatile, or the compiler removes malloc and free */
 
 	for (int i = 0; i < 2; i++)
 		blocks[i] = malloc(MAPPED_BYTES - ((size_t)1 << 20)); /* more would have pages of its own */
@@ -44,7 +44,7 @@ void memory_widen_heap(void)
 
 void memory_use_large_pages(void)
 {
-	void *volatile block; /* so that the compiler does not see that it comes to nothing */
+	void *volatile block; /* volatile, or the compiler removes malloc and free */
 	uintptr_t begin = ((uintptr_t)sbrk(0) + LARGE_PAGE - 1) & ~(LARGE_PAGE - 1), end;
 
 	mallopt(M_MMAP_THRESHOLD, (int)MAPPED_BYTES);

@@ -1,4 +1,4 @@
-/* Memory: arrays that grow, and how the process gets it from the system. */
+/* Memory: growing arrays, and how the process gets memory from the system. */
 #pragma once
 
 #include <stddef.h>
@@ -14,7 +14,7 @@ int memory_resize(void *array, size_t n, size_t item_bytes);
 
 /**
  * Make room for at least `wanted` items, and for half as many again.
- * @return the room there is now; `room`, less than wanted, where memory is short (reported): the array is as it was
+ * @return the new room; if memory is short (reported), `room`, which is less than wanted: the array is as it was
  */
 size_t memory_grow(void *array, size_t room, size_t wanted, size_t item_bytes);
 
@@ -23,14 +23,14 @@ size_t memory_grow(void *array, size_t room, size_t wanted, size_t item_bytes);
 	((wanted) <= (room) ? 0 : ((room) = memory_grow(&(array), (room), (wanted), sizeof(*(array)))) < (wanted) ? ERR_SYSTEM : 0)
 
 /**
- * Let malloc use transparent huge pages, where the system offers them on request, and keep freed memory. A replay fills tens of
- * MiB once; a page fault for each 4 KiB is a sixth of its time. Call once, before starting threads. Does nothing where the
- * system refuses.
+ * Let malloc use transparent huge pages, if the system offers them on request, and keep freed memory. A replay fills
+ * tens of MiB once; a page fault for each 4 KiB would take a sixth of its time. Call once, before starting threads. Does
+ * nothing if the system refuses.
  */
 void memory_use_large_pages(void);
 
 /**
- * Give the calling thread's heap room for tens of MiB: glibc asks the system for each 4 KiB that a heap grows by, but the first thread's.
- * For threads that take much in small blocks, when they begin.
+ * Give the calling thread's heap room for tens of MiB: in all threads but the first, glibc asks the system for every
+ * 4 KiB that the heap grows by. Call at the start of threads that allocate much in small blocks.
  */
 void memory_widen_heap(void);

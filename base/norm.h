@@ -1,7 +1,7 @@
 /* Integers that stand for [-1,1]: GL's colours and normals (GL 2.1 table 2.9). */
 #pragma once
 
-/** A signed integer of 32 bits. */
+/** A signed 32-bit integer. */
 static inline float norm_int(double c)
 {
 	return (float)((2 * c + 1) / 4294967295.0);

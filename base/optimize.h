@@ -1,4 +1,4 @@
-/* Functions that are compiled with more optimizing than the rest, where the compiler can: clang cannot. */
+/* Functions to optimize more than the rest, if the compiler can; clang cannot. */
 #pragma once
 
 #ifdef __clang__

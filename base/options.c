@@ -14,9 +14,9 @@
 #include "base/nearest.h"
 
 /* Help texts: names take up to NAME_COLUMNS, lines PAGE_COLUMNS. */
-enum { NAME_COLUMNS = 25, PAGE_COLUMNS = 114, FIRST_ROW = 256 /* what getopt_long returns for the first row */ };
+enum { NAME_COLUMNS = 25, PAGE_COLUMNS = 114, FIRST_ROW = 256 /* getopt_long's result for the first row */ };
 
-/* Words that name files: no verb that is confined takes more. */
+/* Most words that name files; no confined verb takes more. */
 enum { MOST_WORDS = 33 };
 
 static const struct options_row help_row = { "help", 'h', NULL, "this text", .set = NULL };
@@ -81,7 +81,7 @@ int options_misuse(const struct options_table *table)
 
 /* --- Parsing ------------------------------------------------------------------------------------------------------- */
 
-/* What getopt_long takes; the row of --help is the last one. */
+/* Build the arguments of getopt_long; the row of --help comes last. */
 static void make_getopt(const struct options_table *table, struct option longs[OPTIONS_MAX_ROWS + 2],
                         char letters[2 * OPTIONS_MAX_ROWS + 5])
 {
@@ -91,7 +91,7 @@ static void make_getopt(const struct options_table *table, struct option longs[O
 	assert(n <= OPTIONS_MAX_ROWS);
 	if (table->stops)
 		*letters++ = '+';
-	*letters++ = ':'; /* getopt_long tells a missing argument from an unknown option, and prints nothing */
+	*letters++ = ':'; /* makes getopt_long distinguish a missing argument from an unknown option, and print nothing */
 	for (size_t i = 0; i <= n; i++) {
 		const struct options_row *row = i < n ? &table->rows[i] : &help_row;
 
@@ -117,7 +117,7 @@ static size_t find_row(const struct options_table *table, int c)
 	return i;
 }
 
-/* @param word what getopt_long stopped at  @param c what it returned: ':' where a value is missing, '?' otherwise */
+/* @param word  where getopt_long stopped  @param c  its result: ':' if a value is missing, else '?' */
 static int refuse(const struct options_table *table, const struct option *longs, const char *word, int c)
 {
 	const int is_letter = optopt > 0 && optopt < FIRST_ROW;
@@ -144,7 +144,7 @@ int options_parse(const struct options_table *table, int argc, char **argv, void
 
 	*line = (struct options_line){ 0 };
 	make_getopt(table, longs, letters);
-	optind = 0; /* glibc: begin anew */
+	optind = 0; /* glibc: start over */
 	while ((c = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
 		const size_t i = find_row(table, c);
 		const struct options_row *row = &table->rows[i];
@@ -181,7 +181,7 @@ int options_no_sandbox(const struct options_row *row, const char *value, void *o
 	return 0;
 }
 
-/* Limits by the size of all recordings that are named. */
+/* Limits for the total size of the recordings named. */
 static void limit(const struct confine_file *files, size_t n, enum confine_kind kind)
 {
 	const char *recording = NULL;
@@ -222,7 +222,7 @@ int options_confine(const struct options_table *table, const struct options_line
 
 /* --- Values -------------------------------------------------------------------------------------------------------- */
 
-/* @return the place of a value in the row's words, or ERR_USAGE (reported) */
+/* @return a value's index in the row's words, or ERR_USAGE (reported) */
 static int find_word(const struct options_row *row, const char *value)
 {
 	char list[160] = "";

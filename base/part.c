@@ -104,13 +104,13 @@ int part_close(struct part_file *file, int err)
 
 void part_drop_all(void)
 {
-	pthread_mutex_lock(&lock); /* never given back: nobody begins another one */
+	pthread_mutex_lock(&lock); /* never unlocked, so that nobody begins another one */
 	for (size_t i = 0; i < MAX_PARTS; i++)
 		if (parts[i])
 			unlink(parts[i]);
 }
 
-/* The process of "FINAL.HOST-PID-N.part" where it is of this host; else 0. */
+/* The PID in "FINAL.HOST-PID-N.part" if HOST is this machine, else 0. */
 static long process_of(const char *name, const char *host)
 {
 	const char *end = strstr(name, ".part"), *dash, *at;
@@ -130,7 +130,7 @@ static long process_of(const char *name, const char *host)
 	return rest == dash && pid > 0 ? pid : 0;
 }
 
-/* Whether a file that a process made is to go. gone: a process that has ended; 0: it is not known */
+/* Should a process's file be removed? gone: a process known to have ended; 0: not known */
 static int is_left_over(const struct stat *info, long process, long gone)
 {
 	if (!process || gone)

@@ -1,8 +1,8 @@
 /*
- * Files that appear whole: written beside their final place under a temporary name, then renamed.
+ * Files that appear only when complete: written beside their final place under a temporary name, then renamed.
  *
- * The temporary name is "FINAL.HOST-PID-N.part". Writers on several machines never collide, and the leftovers of a killed process
- * can be told from a file being written.
+ * The temporary name is "FINAL.HOST-PID-N.part". Writers on several machines never collide, and leftovers of a killed
+ * process can be distinguished from a file being written.
  */
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* A stream for a file that appears whole. */
+/* A stream to such a file. */
 struct part_file {
 	FILE *stream;
 	const char *path; /* its final name; borrowed */
@@ -21,7 +21,7 @@ struct part_file {
 int part_open(struct part_file *file, const char *path);
 
 /**
- * The file is whole: close it and give it its final name. Remove it where `err` says that something has failed before.
+ * Close the file and give it its final name; if `err` reports an earlier failure, remove it instead.
  * @return err, or ERR_SYSTEM (reported)
  */
 int part_close(struct part_file *file, int err);
@@ -33,20 +33,20 @@ int part_close(struct part_file *file, int err);
  */
 int part_begin(const char *path, char *part, size_t size);
 
-/** The file is whole: give it its final name. @return 0, or ERR_SYSTEM (reported; the file is removed) */
+/** Give a complete file its final name. @return 0, or ERR_SYSTEM (reported; the file is removed) */
 int part_finish(const char *part, const char *path);
 
 /** Remove an unfinished file. */
 void part_drop(const char *part);
 
-/** Remove all unfinished files of this process, which is about to end. No other part_* call may be running, or run later. */
+/** Remove all unfinished files of this process, which is about to end. No part_* call may run then or later. */
 void part_drop_all(void);
 
-/** Remove what a process of this machine that has ended left in a file's folder. */
+/** Remove the files that an ended process of this machine left in a file's folder. */
 void part_sweep_of(const char *path, long process);
 
 /**
- * Remove what killed processes of this machine left in a file's folder: files of no running process, untouched for a minute (the
- * process may run unseen in another container).
+ * Remove the files that killed processes of this machine left in a file's folder: those of no running process, untouched
+ * for a minute (the process may run in another container, where it cannot be seen).
  */
 void part_sweep(const char *path);

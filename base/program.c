@@ -60,7 +60,7 @@ static int read_all(int fd, char **out)
 			continue;
 		if (n < 0) {
 			free(text);
-			return err_report(ERR_SYSTEM, NULL, "what a program says cannot be read: %s", strerror(errno));
+			return err_report(ERR_SYSTEM, NULL, "cannot read the program's output: %s", strerror(errno));
 		}
 		if (n == 0)
 			break;

@@ -16,11 +16,11 @@ int program_exists(const char *name);
 /**
  * Run a program to its end. Its errors go to standard error.
  * @param argv  ended by NULL; argv[0] is looked up in PATH
- * @param quiet 1: its errors go nowhere, for a question that may have no answer
- * @param out   receives what it prints, NUL-terminated, the caller's; NULL also on failure
- * @return its exit code, 128 + N where signal N ended it, or ERR_SYSTEM (reported) where it does not start
+ * @param quiet 1: discard its errors, for a query that is allowed to fail
+ * @param out   receives its output, NUL-terminated, to be freed by the caller; NULL on failure
+ * @return its exit code, 128 + N if signal N ended it, or ERR_SYSTEM (reported) if it cannot be started
  */
 int program_read(char *const *argv, int quiet, char **out);
 
-/** The same; what it prints goes to standard output, after what this process has printed. */
+/** The same; its output goes to standard output, after this process's own. */
 int program_run(char *const *argv);

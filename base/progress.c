@@ -81,7 +81,8 @@ static void fill_bar(char bar[WIDTH + 1], uint64_t done, uint64_t total)
 }
 
 /*
- * Seconds left, by the frames since the first one: that one waited for kernels. Frames of several workers come at once; a second shows more.
+ * Seconds left, estimated from the frames after the first, which waited for kernels. Frames of several workers arrive
+ * together, so wait a second before estimating.
  * @return below 0: not known yet
  */
 static double seconds_left(const struct progress *p)
@@ -97,7 +98,7 @@ static double seconds_left(const struct progress *p)
 static void draw_bar(const struct progress *p, uint64_t frame)
 {
 	double elapsed = progress_clock_s() - p->start_s, left = seconds_left(p);
-	/* Skipped frames cost next to nothing; what is left is counted by those that were worked on. */
+	/* Skipped frames cost next to nothing; estimate from those that were rendered. */
 	double rate = elapsed > 0 ? (double)(p->done - p->skipped) / elapsed : 0;
 	char bar[WIDTH + 1];
 
@@ -135,7 +136,7 @@ void progress_start(const struct progress *p, uint64_t frame, double seconds)
 	fflush(stdout);
 }
 
-/* Seconds between what is told of a frame that is not done yet. */
+/* Seconds between reports about an unfinished frame. */
 static double telling_interval_s(const struct progress *p)
 {
 	return p->style == PROGRESS_BAR ? 0.1 : p->style == PROGRESS_JSON ? 1 : 10;

@@ -26,7 +26,7 @@ int queue_init(struct queue *q, size_t bound, size_t extra);
 /** The queue must be empty. */
 void queue_free(struct queue *q);
 
-/** Append; waits for room. @return 1, or 0 where the queue is closed: the caller keeps the item */
+/** Append; waits for room. @return 1; 0 if the queue is closed: the caller keeps the item */
 int queue_put(struct queue *q, void *item);
 
 /** Return a taken item to the front of the queue, even of a closed one. Never waits. */

@@ -70,7 +70,7 @@ void *table_remove(struct table *t, uint64_t key)
 	value = t->entries[i].value;
 	t->entries[i].value = NULL;
 	t->n--;
-	/* Close the gap: entries that were pushed past it move back. */
+	/* Close the gap: move back entries that were displaced past it. */
 	hole = i;
 	for (i = (i + 1) & (t->room - 1); t->entries[i].value; i = (i + 1) & (t->room - 1)) {
 		size_t home = place_of(t, t->entries[i].key);

@@ -22,12 +22,12 @@ void *table_find(const struct table *t, uint64_t key);
 /** Set a key's value (not NULL). @return 0 or ERR_SYSTEM (reported) */
 int table_set(struct table *t, uint64_t key, void *value);
 
-/** @return the value that was there, or NULL */
+/** @return the value removed, or NULL */
 void *table_remove(struct table *t, uint64_t key);
 
 void table_free(struct table *t);
 
-/** Free a table and, by drop(value), all that it holds. */
+/** Free a table and, with drop(value), every value in it. */
 #define TABLE_DROP(t, drop) \
 	do { \
 		for (size_t i_ = 0; i_ < (t)->room; i_++) \

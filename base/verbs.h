@@ -29,4 +29,4 @@ int raster_main(int argc, char **argv);  /* replay/verbs/raster.c */
 int film_main(int argc, char **argv);    /* film/film.c */
 int denoise_main(int argc, char **argv); /* film/denoise.c */
 int approve_main(int argc, char **argv); /* diff/baseline/approve.c */
-/* relume diff and reduce also take what they must not know: diff/diff.h, replay/verbs/reduce.h. */
+/* relume diff and reduce get functions of stages that they must not include: diff/diff.h, replay/verbs/reduce.h. */
