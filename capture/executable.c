@@ -31,7 +31,7 @@ int executable_has_rights(const char *path)
 	return stat(path, &st) == 0 && (st.st_mode & (S_ISUID | S_ISGID)) != 0;
 }
 
-/* 1 where the table of segments names an interpreter, the dynamic loader. */
+/* 1 if the segment table names an interpreter, the dynamic loader. */
 static int has_interpreter(int fd, int is_64, uint64_t at, unsigned n)
 {
 	for (unsigned i = 0; i < n; i++) {

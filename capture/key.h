@@ -1,6 +1,6 @@
 /*
- * Keys of the keyboard at hand, by X's names, and the one that switches recording on and off. It reaches the program as well.
- * A process of its own watches it, so the loss of the display ends that process and nothing else.
+ * Keys of the local keyboard, by their X names, and the one that switches recording on and off, which also reaches the
+ * program. A separate process watches it, so that losing the display ends only that process.
  */
 #pragma once
 
@@ -20,7 +20,10 @@ struct key_code {
  */
 int key_find(const char *option, const char *name, struct key_code *out);
 
-/** Start watching a key that key_find has found: each press sends `signal` to this process. Returns the watcher; -1 where it cannot be started. */
+/**
+ * Start watching a key that key_find has found: each press sends `signal` to this process.
+ * @return the watcher; -1: it cannot be started
+ */
 pid_t key_watch(const char *name, int signal);
 
 /** End the watcher and wait for its end; nothing for -1. */

@@ -80,8 +80,8 @@ static int read_key(const char *text, uint64_t quit_after, struct event out[2])
 		return err_report(ERR_USAGE, NULL, "--press takes a key and the frame that is the first to show it, from 1 on, "
 		                  "as in space@10, Left@20-30 or Control+s@5, not '%s'", text);
 	if (quit_after && first >= quit_after)
-		return err_report(ERR_USAGE, NULL, "--press %s: the program ends after %" PRIu64 " frames, the first of which is "
-		                  "frame 0", text, quit_after);
+		return err_report(ERR_USAGE, NULL, "--press %s: the program ends after %" PRIu64 " frames, counted "
+		                  "from frame 0", text, quit_after);
 	snprintf(key, sizeof(key), "%.*s", (int)(at - name), name);
 	err = key_find("--press", key, &out[0].key);
 	out[0].key.state |= state;

@@ -25,7 +25,7 @@ int press_take(const struct options_row *row, const char *text, void *out);
 
 /**
  * Look the keys up on the keyboard of DISPLAY, and list them for the recorder.
- * @param quit_after  frames after which the program ends: a key at a later one would never be pressed; 0: no end
+ * @param quit_after  the program ends after this many frames, so no key may have a later one; 0: no end
  * @param out         receives the list, the caller's; NULL where there are no keys
  * @return 0, ERR_USAGE or ERR_SYSTEM (reported)
  */

@@ -1,4 +1,4 @@
-/* relume record: runs a program with the recorder preloaded. What is recorded, and where, travels in RELUME_* variables. */
+/* relume record: runs a program with the recorder preloaded. RELUME_* variables pass the options to the recorder. */
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -53,7 +53,7 @@ static int take_count(const struct options_row *row, const char *text, void *out
 	return options_text(row, text, out);
 }
 
-/* "A", or "A-B" or "A-", cut in two where it stands in argv. */
+/* "A", "A-B" or "A-", split in place in argv. */
 static int take_frames(const struct options_row *row, const char *text, void *out)
 {
 	size_t digits = strspn(text, "0123456789"), more = text[digits] == '-' ? strspn(text + digits + 1, "0123456789") : 0;
@@ -100,7 +100,7 @@ static const struct options_row rows[] = {
 	{ "start-key", 0, "KEY", "the same; KEY switches as SIGUSR2 does (F9, Pause, r, ...: a name of X)", options_text, AT(start_key) },
 	{ "press", 0, "KEY@FRAME", "press a key of X's name once the frame before FRAME is shown, as in space@10, Control+s@5, or held as in "
 	  "Left@20-30; the program counts its frames from 0; may be repeated", press_take, AT(press) },
-	{ "frame-end", 0, "CALL", "what ends a frame besides a swap: flush, finish, clear (of the color buffer), or readpixels after "
+	{ "frame-end", 0, "CALL", "also end a frame at: flush, finish, clear (of the color buffer), or readpixels after "
 	  "something was drawn (swap: nothing else; with OSMesa, flush and finish); such a frame is the buffer that is drawn to, "
 	  "front or back", options_text, AT(frame_end), .words = frame_ends },
 	{ "max-frames", 0, "N", "end the recording after N frames; the program goes on", take_count, AT(max_frames) },
@@ -166,8 +166,8 @@ static int parse(int argc, char **argv, struct options *o)
 }
 
 /*
- * Where the recorder for programs of 32 bits is there as well, the loader picks: it replaces $LIB, on Debian by lib/x86_64-linux-gnu or
- * lib/i386-linux-gnu, in the program and in each process that it starts.
+ * If the recorder for 32-bit programs is there as well, the loader picks one: in the program and each process that it
+ * starts, it replaces $LIB, on Debian with lib/x86_64-linux-gnu or lib/i386-linux-gnu.
  */
 static void prefer_both(char *recorder, size_t size)
 {
@@ -306,7 +306,7 @@ static void forward(int signal)
 static const int forwarded[] = { SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2 };
 enum { N_FORWARDED = sizeof(forwarded) / sizeof(forwarded[0]) };
 
-/* 1 where a recorder has told its program to end. */
+/* 1 if a recorder has ended its program. */
 static int was_told_to_quit(const struct recorder_stats *stats)
 {
 	for (uint32_t i = 0; i < stats_processes(stats); i++)
@@ -315,7 +315,7 @@ static int was_told_to_quit(const struct recorder_stats *stats)
 	return 0;
 }
 
-/* Wait for the program, and look at it while it draws nothing; kill it some time after it was told to quit. */
+/* Wait for the program, and watch it while it draws nothing; kill it some time after the recorder has ended it. */
 static int wait_for_child(const struct recorder_stats *stats, struct watching *watching)
 {
 	struct itimerval tick = { { 0, 1000000 / TICKS_A_SECOND }, { 0, 1000000 / TICKS_A_SECOND } }, off = { { 0, 0 }, { 0, 0 } };
@@ -383,7 +383,10 @@ static int run_program(const struct options *o, const char *recorder, const stru
 	return error ? -1 : status;
 }
 
-/* As ERR_*. A recording that is cut short counts for more than how the program ended: it keeps running, and may well end in success. */
+/*
+ * The exit code, as ERR_*. A recording cut short outweighs the program's own exit code: the program keeps running, and
+ * may well succeed.
+ */
 static int exit_code(const struct recorder_stats *stats, int status)
 {
 	for (uint32_t i = 0; i < stats_processes(stats); i++)
@@ -394,7 +397,7 @@ static int exit_code(const struct recorder_stats *stats, int status)
 	return WIFSIGNALED(status) ? -(128 + WTERMSIG(status)) : -WEXITSTATUS(status);
 }
 
-/* Keys that did not reach the program: the recording is of another run than the one asked for. */
+/* Keys did not reach the program: this is not the run that the user asked to record. */
 static int check_keys(const struct options *o, const struct recorder_stats *stats)
 {
 	if (stats->keys_lost)
@@ -406,7 +409,7 @@ static int check_keys(const struct options *o, const struct recorder_stats *stat
 		             stats->keys_pressed, o->press.n);
 }
 
-/* A program of 32 bits whose recorder was not built: the loader would complain in its own words, and record nothing. */
+/* A 32-bit program whose recorder was not built: the loader would warn in its own words, and record nothing. */
 static int check_class(const char *program, const char *recorder)
 {
 	char path[PATH_MAX];

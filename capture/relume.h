@@ -1,8 +1,8 @@
 /*
- * For programs that can be recompiled: what OpenGL has no word for. This header is all there is to add; no library.
+ * For programs that can be recompiled: hints that OpenGL cannot express. Only this header is needed; no library.
  *
- * Both functions look for a recorder in the process when they are called and do nothing where there is none. They may be
- * called wherever a GL context is current, also while a display list is compiled (they are not part of the list).
+ * Both functions look for a recorder in the process and do nothing if there is none. They may be called whenever a GL
+ * context is current, even while a display list is compiled (they are not part of the list).
  */
 #ifndef RELUME_H
 #define RELUME_H

@@ -1,7 +1,7 @@
 /*
- * What the recorder tells the command that started it: a small file that both map, so the figures outlive the program however
- * it ends. Every recorded process has a slot. Commands that passed through unrecorded are counted by name, for all processes
- * together.
+ * Statistics that the recorder passes to the command that started it, in a small file that both map: they outlive the
+ * program, however it ends. Every recorded process has a slot. Commands that were not recorded are counted by name, for
+ * all processes together.
  */
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* What ends a frame besides a swap: the words of `record --frame-end`, in this order. */
+/* Calls that end a frame besides a swap: the words of `record --frame-end`, in this order. */
 enum frame_trigger { FRAME_SWAP, FRAME_FLUSH, FRAME_FINISH, FRAME_CLEAR, FRAME_READPIXELS, N_FRAME_TRIGGERS };
 #define FRAME_TRIGGER_NAMES { "swap", "flush", "finish", "clear", "readpixels", NULL }
 
@@ -20,7 +20,7 @@ struct stats_process {
 	_Atomic uint64_t frames, calls, bytes; /* whole frames, calls written, bytes in the file */
 	_Atomic int32_t failed; /* errno of what ended the recording early; 0: nothing did */
 	_Atomic int32_t programs; /* 1: it made shaders or programs current */
-	_Atomic int32_t windows;  /* 1: its frames are of one window; 2: of several */
+	_Atomic int32_t windows;  /* 1: its frames come from one window; 2: from several */
 	_Atomic int32_t quit;   /* 1: it ended the program: after the frames asked for, or as nothing more can be recorded */
 	_Atomic int32_t contexts; /* 1: it made a context current; 2: one of a core profile */
 	_Atomic int32_t lost_references; /* 1: reference frames ended early */
@@ -32,12 +32,12 @@ struct stats_unknown {
 	_Atomic uint64_t calls;
 };
 
-/* What was seen in any process, which tells why nothing was recorded. */
+/* Libraries seen in any process; they explain why nothing was recorded. */
 enum { SEEN_RECORDER = 1, SEEN_GL = 2, SEEN_VULKAN = 4 };
 
 struct recorder_stats {
 	_Atomic uint32_t seen;    /* SEEN_* */
-	_Atomic uint32_t toggles; /* how often the command was told to switch recording on or off */
+	_Atomic uint32_t toggles; /* requests to the command to switch recording on or off */
 	_Atomic uint32_t keys_pressed, keys_lost; /* keys of --press that a window took, and that none did */
 	_Atomic uint32_t n_processes, n_unknown; /* may exceed the tables; what does not fit is lost */
 	struct stats_process processes[STATS_MAX_PROCESSES];

@@ -39,7 +39,7 @@ static void explain_no_frame(const struct stats_process *p)
 	err_warn(p->path, p->calls ? "the program swapped no buffers, so there is no frame" : "the program drew nothing");
 }
 
-/* What a renderer will have to do with a recording. */
+/* Warn of features that matter for rendering. */
 static void explain_needs(const struct stats_process *p)
 {
 	if (p->programs)
@@ -47,10 +47,10 @@ static void explain_needs(const struct stats_process *p)
 	if (p->contexts > 1)
 		err_warn(p->path, "the program uses a core profile of OpenGL 3 or later; Relume renders OpenGL 1 and 2, 'relume info' lists the calls that it leaves out");
 	if (p->windows > 1)
-		err_warn(p->path, "its frames are of several windows, in the order of their swaps");
+		err_warn(p->path, "its frames come from several windows, in the order of their swaps");
 }
 
-/* The bytes of the reference frames beside a trace; 0: there are none. */
+/* Size of the reference frames beside a trace; 0: there are none. */
 static uint64_t reference_bytes(const char *trace)
 {
 	char path[PATH_MAX];
@@ -107,7 +107,7 @@ static int display_answers(const char *display)
 	return answers;
 }
 
-/* What to do about the display, where that is the matter; "" where it is there. */
+/* Advice for a missing display; "" if there is one. */
 static void find_display(char *out, size_t size)
 {
 	const char *x = getenv("DISPLAY"), *wayland = getenv("WAYLAND_DISPLAY");

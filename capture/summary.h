@@ -1,4 +1,4 @@
-/* What `relume record` says at the end: what was recorded, or why nothing was, and what to do. */
+/* The closing report of `relume record`: what was recorded, or why nothing was and what to do. */
 #pragma once
 
 #include "capture/stats.h"

@@ -1,4 +1,4 @@
-/* Looks at a running program from outside, for as long as no recorder reports: which of its processes run without one? */
+/* Watches a running program from outside until a recorder reports: which of its processes run without one? */
 #pragma once
 
 #include <sys/types.h>

@@ -1,6 +1,6 @@
 /*
- * Runs inside the traced program. Array state as the driver has it: it is asked again after any command that can have changed it.
- * Not between Begin and End, where it cannot be asked.
+ * Runs inside the traced program. The driver's array state, queried again after any command that may have changed it.
+ * It cannot be queried between Begin and End.
  */
 #pragma once
 
@@ -22,31 +22,31 @@ struct array {
 	const uint8_t *pointer;
 };
 
-/** How the fixed-function arrays are asked for and set. 0: not asked, the value is `fixed_size` or the type is a byte. */
+/** Enumerants to query and set the fixed-function arrays. 0: not queried; the size is `fixed_size`, the type a byte. */
 struct array_names {
 	unsigned enable, size, type, stride, buffer, pointer, command;
 	int fixed_size;
 	unsigned feature;
 };
 
-/** What array_state_refresh has found, for this thread's context. */
+/** The array state of this thread's context, as of array_state_refresh. */
 extern __thread struct array_state {
 	struct array arrays[N_ARRAYS];
-	int known;      /* since nothing that changes it was called */
-	unsigned turn;  /* of the context (context_turn) */
+	int known;      /* 1: nothing that may change it was called since */
+	unsigned turn;  /* the context's (context_turn) */
 	int n_client;   /* enabled arrays without a buffer */
 	int n_buffered; /* enabled arrays with one */
 } array_state __attribute__((tls_model("initial-exec"), visibility("hidden")));
 
-/** Array state can have changed. */
+/** Array state may have changed. */
 void array_state_changed(void);
 void array_state_attributes_used(void);
 void array_state_unit_used(unsigned texture);
 
-/** Ask where it is not known. Outside Begin/End only. */
+/** Query the state unless it is known. Outside Begin/End only. */
 void array_state_refresh(void);
 
-/** 1 where pointers that are set now are offsets in a bound buffer. */
+/** 1 if a pointer set now would be an offset in a bound buffer. */
 int array_state_pointer_is_offset(void);
 /** The buffer that they are offsets in. */
 unsigned array_state_buffer(void);
@@ -63,11 +63,11 @@ static inline int array_is_attribute(int slot)
 	return slot >= ARRAY_ATTRIBUTE && slot < ARRAY_VERTEX;
 }
 
-/** Of an array that is no attribute. */
+/** The names of an array that is not a generic attribute. */
 const struct array_names *array_names_of(int slot);
 
-/** Bytes of one element; 0 for a size or type that is none. */
+/** Bytes of one element; 0 if its size or type is invalid. */
 long array_element_bytes(const struct array *a);
 
-/** 1 where the array is enabled and lies in client memory. */
+/** 1 if the array is enabled and in client memory. */
 int array_is_client(const struct array *a);

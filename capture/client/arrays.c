@@ -23,7 +23,7 @@
 
 enum { MAX_ARRAY_BYTES = 1 << 30 }; /* a garbage index makes a larger one */
 
-/* What the trace has set for a slot. Where that is what the draw needs, nothing is written. */
+/* A slot's array as last set in the trace. Nothing is written if the draw needs the same one. */
 struct written {
 	struct array array;
 	unsigned buffer; /* the recorder's own; 0: not known */
@@ -32,7 +32,7 @@ struct written {
 
 static __thread struct {
 	struct written written[N_ARRAYS];
-	unsigned epoch, turn; /* of the trace and the context that have it */
+	unsigned epoch, turn; /* the trace and the context that have it */
 } self __attribute__((tls_model("initial-exec")));
 
 void arrays_forget(void)
@@ -80,7 +80,7 @@ static void record_array(int slot, const struct array *a, long bytes, unsigned o
 	self.written[slot].offset = offset;
 }
 
-/* 1 where the trace has this array already. */
+/* 1 if the trace has this array already. */
 static int is_written(int slot, const struct array *a, unsigned own, long offset)
 {
 	const struct written *w = &self.written[slot];
@@ -89,7 +89,7 @@ static int is_written(int slot, const struct array *a, unsigned own, long offset
 	       w->array.stride == a->stride && w->array.normalized == a->normalized && w->array.integer == a->integer;
 }
 
-/* What the trace has bound and active while arrays are written. */
+/* The trace's bindings and active unit while arrays are written. */
 struct bindings {
 	unsigned buffer, unit;
 };
@@ -185,7 +185,7 @@ static void record_arrays(struct drawn *d)
 
 /* Draws */
 
-/* 1 where a draw has client arrays that must be written. */
+/* 1 if a draw has client arrays that must be written. */
 static int needed(void)
 {
 	if (!writer_active() || skip_draws())
@@ -193,7 +193,7 @@ static int needed(void)
 	if (self.epoch != writer_epoch() || self.turn != context_turn()) {
 		self.epoch = writer_epoch();
 		self.turn = context_turn();
-		arrays_forget(); /* another trace or context has none of what was written */
+		arrays_forget(); /* another trace or context has none of the arrays written so far */
 	}
 	array_state_refresh();
 	return array_state.n_client > 0;
@@ -282,7 +282,7 @@ uint8_t *put_indirect(uint8_t *p, const void *indirect, long bytes)
 
 enum { MAX_WORDS = 5 };
 
-/* One draw's parameters: count, instances, first index, then of elements the base vertex, then the base instance. */
+/* One draw's parameters: count, instances, first index, for elements the base vertex, base instance. */
 static void add_indirect(struct drawn *d, const uint32_t *words, int elements, unsigned type)
 {
 	long instances = words[elements ? 4 : 3] + (long)words[1], offset = (long)words[2] * type_bytes(type);
@@ -294,7 +294,7 @@ static void add_indirect(struct drawn *d, const uint32_t *words, int elements, u
 	d->instances = instances > d->instances ? instances : d->instances;
 }
 
-/* ARB_draw_indirect: parameters in memory. Where a buffer of them cannot be read, the draw is an error, too. */
+/* ARB_draw_indirect: parameters in memory. If their buffer cannot be read, the draw is an error as well. */
 static void add_all_indirect(struct drawn *d, const void *indirect, int draws, int stride, int elements, unsigned type)
 {
 	int buffered = indirect_in_buffer();
@@ -336,7 +336,7 @@ void arrays_draw_elements_indirect(unsigned type, const void *indirect, int draw
 	record_arrays(&d);
 }
 
-/* InterleavedArrays sets pointers, to be written at the draw, and enables arrays: that is written here. */
+/* InterleavedArrays sets pointers, which are written at the draw, and enables arrays, which is written here. */
 void arrays_interleaved(void)
 {
 	arrays_pointer_set();

@@ -1,5 +1,5 @@
 /*
- * Runs inside the traced program. Vertex arrays in client memory: what they hold is known only when it is drawn.
+ * Runs inside the traced program. Vertex arrays in client memory: their content is known only at the draw.
  *
  * Before each draw every enabled array without a buffer object is written as a made-up gl*Pointer call. Its pointer is a blob of
  * the elements 0 .. highest used, or an offset in a buffer that holds the same bytes (mirror.h). The driver is the authority on
@@ -9,7 +9,7 @@
 
 #include <stdint.h>
 
-/** The trace may now have other pointers than the recorder has written last; array state can have changed. */
+/** The trace's pointers may differ from those that the recorder wrote last; array state may have changed. */
 void arrays_forget(void);
 /** The program has set a pointer. */
 void arrays_pointer_set(void);
@@ -26,6 +26,6 @@ void arrays_multi_draw_elements(const int *count, unsigned type, const void *con
 void arrays_draw_indirect(const void *indirect, int draws, int stride);
 void arrays_draw_elements_indirect(unsigned type, const void *indirect, int draws, int stride);
 
-/** The parameters of indirect draws: how many bytes they have, and they themselves or their offset. */
+/** The parameters of indirect draws: their size in bytes, and their address or offset. */
 long indirect_bytes(int elements, int draws, int stride);
 uint8_t *put_indirect(uint8_t *p, const void *indirect, long bytes);

@@ -24,7 +24,7 @@ struct content_entry {
 	unsigned buffer; /* 0: seen once */
 };
 struct content_table {
-	unsigned epoch; /* of the trace that has the buffers */
+	unsigned epoch; /* the trace that has the buffers */
 	long owned_bytes;
 	uint8_t *copy; /* the program's memory, read once */
 	size_t copy_bytes;
@@ -70,7 +70,7 @@ static void release(void *data)
 	munmap(t, sizeof(*t));
 }
 
-/* The current context's, made at need; NULL where there is no memory. */
+/* The current context's table, created on demand; NULL: out of memory. */
 static struct content_table *current_table(void)
 {
 	struct content_table *t = context_data(CONTEXT_CONTENTS);

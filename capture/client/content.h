@@ -2,9 +2,9 @@
  * Runs inside the traced program. Contents that are drawn again and again are stored once: in a buffer object of the recorder's
  * own, which exists only in the trace.
  *
- * A content gets its buffer when it is seen for the second time. So vertices that change every frame make none, and replaying a
- * long recording does not fill the GL with buffers that are used once. A 128-bit hash stands for the content, for each context
- * apart: contexts need not share objects.
+ * A content gets its buffer when it is seen for the second time, so vertices that change every frame need none, and
+ * replaying a long recording does not fill the GL with buffers that are used once. Contents are identified by a 128-bit
+ * hash, separately for each context, as contexts need not share objects.
  */
 #pragma once
 
@@ -12,17 +12,17 @@ enum { CONTENT_MIN_BYTES = 256 }; /* less is not worth two calls */
 
 /**
  * The buffer that holds these bytes in the trace. There must be a current context.
- * @param target  where it is bound in the trace while it is filled: GL_ARRAY_BUFFER and the like
+ * @param target  where the trace binds it to fill it: GL_ARRAY_BUFFER and the like
  * @param data    the recorder's own copy
  * @param bytes   at least CONTENT_MIN_BYTES
- * @param bound   set to 1 where the trace now has it bound to the target (it has just been made), else left
- * @return its name, or 0 where there is none: the bytes are new
+ * @param bound   set to 1 if the trace now has it bound to the target (it was just created), else unchanged
+ * @return its name; 0: none, as the bytes are new
  */
 unsigned content_buffer(unsigned target, const void *data, long bytes, int *bound);
 
 /**
- * The same of bytes in the program's memory, which are read without faulting.
- * @param bytes  0 where it is not known how many; then there is no buffer
+ * The same for bytes in the program's memory, read without faulting.
+ * @param bytes  0: not known; then there is no buffer
  */
 unsigned content_of_memory(unsigned target, const void *data, long bytes, int *bound);
 

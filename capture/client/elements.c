@@ -11,7 +11,7 @@
 #include "capture/write/writer.h"
 #include "tables/commands.h"
 
-/* Between Begin and End, with arrays in client memory and in buffers: the trace has the former disabled. */
+/* 1: between Begin and End, with arrays in client memory, which the trace has disabled, and arrays in buffers. */
 static __thread int apart __attribute__((tls_model("initial-exec")));
 
 /* The trace's array is enabled or disabled. */
@@ -23,7 +23,7 @@ static void record_enabled(int slot, int on)
 		fake_call(on ? CMD_glEnableClientState : CMD_glDisableClientState, "e", array_names_of(slot)->enable);
 }
 
-/* Switch all arrays in client memory, so that the trace's ArrayElement takes from buffers only. */
+/* Enable or disable all arrays in client memory, so that the trace's ArrayElement reads only buffers. */
 static void record_client_enabled(int on)
 {
 	unsigned active = array_state_unit(), now = active;
@@ -132,7 +132,7 @@ static void record_element(int slot, const struct array *a, int index)
 {
 	unsigned command = element_command(slot, a), argument = 0;
 	long element = array_element_bytes(a);
-	double data[4]; /* of any type */
+	double data[4]; /* holds any type */
 	uint8_t *p;
 
 	if (!command || element <= 0 || element > (long)sizeof(data))
@@ -149,7 +149,7 @@ static void record_element(int slot, const struct array *a, int index)
 	writer_call_end(p);
 }
 
-/* 1 where the call itself is to be written. */
+/* 1 if the call itself must be written. */
 int elements_in_buffer(int index)
 {
 	if (!writer_active() || !array_state.known || !array_state.n_client)

@@ -1,7 +1,7 @@
 /*
- * Runs inside the traced program. ArrayElement of client memory is written as the immediate-mode calls that it stands for (GL 2.1
- * sec. 2.8). Where other arrays lie in buffers the call itself is written, too; from Begin to End the trace has only those
- * enabled. Array state cannot be asked between Begin and End, so it is asked before Begin.
+ * Runs inside the traced program. ArrayElement from client memory is written as the equivalent immediate-mode calls (GL
+ * 2.1 sec. 2.8). If other arrays are in buffers, the call itself is written as well; from Begin to End the trace has
+ * only those enabled. Array state cannot be queried between Begin and End, so it is queried before Begin.
  */
 #pragma once
 
@@ -9,5 +9,5 @@
 void elements_begin(void);
 void elements_ended(void);
 
-/** Before ArrayElement: 1 where the call itself is to be written. */
+/** Before ArrayElement: 1 if the call itself must be written. */
 int elements_in_buffer(int index);

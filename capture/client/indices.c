@@ -65,7 +65,7 @@ void indices_widen(struct indices_range *range, const void *indices, int count, 
 	range->last = highest + base > range->last ? highest + base : range->last;
 }
 
-/* Returns the place for what is known of them, or NULL. */
+/* Returns where to keep the range of these indices, or NULL. */
 static struct mirror_indices *bind_own(const void *indices, long bytes)
 {
 	struct mirror_indices *known;

@@ -20,9 +20,9 @@ enum { MAX_MAPS = 256, BLOCK = 1 << 14, MAX_PIECES = 8 };
 struct map {
 	const uint8_t *data; /* NULL: the slot is free */
 	long bytes;
-	uint8_t *copy;       /* what the trace has there */
-	const void *context; /* in which it was mapped */
-	unsigned epoch;      /* of the trace that knows it */
+	uint8_t *copy;       /* the content in the trace */
+	const void *context; /* the one that mapped it */
+	unsigned epoch;      /* the trace that has it */
 	struct watch watch;
 	unsigned looks;      /* while it is not watched */
 };
@@ -62,7 +62,7 @@ static struct map *find(const void *data)
 	return NULL;
 }
 
-/* Write what differs in [from, end), and copy it: in each block, from the first byte that differs to the last. */
+/* Write and copy the differences in [from, end): in each block, from the first differing byte to the last. */
 static void compare(struct map *m, long from, long end)
 {
 	uint8_t now[BLOCK];
@@ -169,7 +169,7 @@ void maps_read(void)
 	pthread_mutex_unlock(&lock);
 }
 
-/* Write all of a persistent mapping and forget it. 0 where it was none. */
+/* Write all of a persistent mapping and forget it. @return 0 if it was not one */
 static int ended(const void *data)
 {
 	struct map *m;
@@ -197,7 +197,7 @@ static int buffer_get(unsigned target, unsigned pname)
 	return value;
 }
 
-/* Where the target's buffer is mapped. */
+/* The address that the target's buffer is mapped to. */
 static const uint8_t *mapped_at(unsigned target)
 {
 	void *data = NULL;

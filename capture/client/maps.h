@@ -1,18 +1,18 @@
 /*
- * Runs inside the traced program. Mapped buffers: the recorder sees no store, so what lies there goes out as a copy (apitrace's own
- * memory function): what a flush names, and all of a mapping that ends.
+ * Runs inside the traced program. Mapped buffers: the recorder sees no stores, so it writes the memory as a copy
+ * (apitrace's own memory function): the range of each flush, and the whole mapping when it ends.
  *
- * A persistent mapping (ARB_buffer_storage) may be written while draws read the buffer. What it holds is written when it begins.
- * Before each command that may read it, it is compared with a copy, and what differs goes out. Where the kernel tells which pages
- * were written (watch.h), only those are compared.
+ * A program may write to a persistent mapping (ARB_buffer_storage) while draws read the buffer. Its content is written
+ * when it begins. Before each command that may read it, it is compared with a copy and the differences are written. If
+ * the kernel reports which pages were written (watch.h), only those are compared.
  */
 #pragma once
 
 /**
- * A part of a buffer was mapped; the call is written. It is followed until it ends where it may be written while draws read
- * it: persistent, without explicit flushes.
- * @param data    what the program gets; NULL where it failed
- * @param access  as of glMapBufferRange
+ * Part of a buffer was mapped; the call is already written. The mapping is followed until it ends if the program may
+ * write to it while draws read it: persistent, without explicit flushes.
+ * @param data    the result that the program gets; NULL: the call failed
+ * @param access  as for glMapBufferRange
  */
 void maps_begun(const void *data, long bytes, unsigned access);
 

@@ -16,7 +16,7 @@
 #include "tables/commands.h"
 
 enum { N_MIRRORS = 1 << 12, N_PROBES = 8, BLOCK = 1 << 17 };
-enum { PATIENCE = 16, SAMPLE = 8 };     /* after so many new contents in a row, only every eighth is looked up */
+enum { PATIENCE = 16, SAMPLE = 8 };     /* after PATIENCE new contents in a row, only every SAMPLEth is looked up */
 enum { CREDIT = 64 };                   /* mirrors that may be made before their array is drawn again; refunded when it is */
 enum { WATCH_AFTER = 64, WATCH_NEVER = 1 << 30 }; /* draws in a row that found the same bytes */
 enum { REWRITTEN = 8 };                 /* times that most watched pages were written with the same bytes */
@@ -26,9 +26,9 @@ struct mirror {
 	const uint8_t *data;
 	unsigned buffer;   /* 0: drawn from once */
 	int unproven;      /* made on credit, not drawn from since */
-	unsigned misses;   /* contents since the last one that came back */
-	long room;         /* of the buffer */
-	long first, end;   /* what the buffer and `copy` hold */
+	unsigned misses;   /* contents since the last known one */
+	long room;         /* the buffer's size */
+	long first, end;   /* the range held by the buffer and `copy` */
 	uint8_t *copy;     /* `copy_bytes` mapped */
 	size_t copy_bytes;
 	struct mirror_indices indices;
@@ -39,7 +39,7 @@ struct mirror {
 };
 
 struct mirror_table {
-	unsigned epoch; /* of the trace that has the buffers */
+	unsigned epoch; /* the trace that has the buffers */
 	int credit;
 	long bytes;
 	uint8_t *staging; /* the program's memory, read once */
@@ -47,7 +47,7 @@ struct mirror_table {
 	struct mirror mirrors[N_MIRRORS];
 };
 
-/* End a mirror. `told`: 1 to delete the trace's buffer. */
+/* End a mirror. `told`: 1 to delete the trace's buffer as well. */
 static void drop(struct mirror_table *t, struct mirror *m, int told)
 {
 	uint8_t *p = m->buffer && told ? writer_enter_fake(CMD_glDeleteBuffers) : NULL;
@@ -82,7 +82,7 @@ static void release(void *table)
 	munmap(table, sizeof(struct mirror_table));
 }
 
-/* The current context's, made at need; NULL where there is no memory. */
+/* The current context's table, created on demand; NULL: out of memory. */
 static struct mirror_table *current_table(void)
 {
 	struct mirror_table *t = context_data(CONTEXT_MIRRORS);
@@ -97,7 +97,7 @@ static struct mirror_table *current_table(void)
 	return t;
 }
 
-/* The array's mirror. Where it has none: a new one, perhaps in another's place. */
+/* The array's mirror, or a new one, which may replace another array's. */
 static struct mirror *find(struct mirror_table *t, const uint8_t *data)
 {
 	uint64_t at = ((uintptr_t)data >> 2) * 0x9E3779B97F4A7C15u >> 40;
@@ -117,8 +117,8 @@ static struct mirror *find(struct mirror_table *t, const uint8_t *data)
 }
 
 /*
- * The first difference between program and mirror in [first, end), to within a block; `end` where there is none. Bytes that the
- * mirror does not hold yet differ.
+ * The first difference between program and mirror in [first, end), to within a block; `end` if there is none. Bytes
+ * that the mirror does not hold yet count as different.
  */
 static long difference(struct mirror_table *t, const struct mirror *m, long first, long end)
 {
@@ -156,7 +156,7 @@ static void begin_watch(struct mirror_table *t, struct mirror *m)
 		watch_end(&m->watch);
 }
 
-/* 1 where what a watched array holds in [first, end) is what the mirror holds. */
+/* 1 if [first, end) of a watched array equals the mirror. */
 static int is_unchanged(struct mirror_table *t, struct mirror *m, long first, long end)
 {
 	long from = (long)(m->watch.first - (uintptr_t)m->data), to = (long)(m->watch.end - (uintptr_t)m->data), bytes = 0;
@@ -261,7 +261,7 @@ unsigned mirror_buffer(unsigned target, const void *data, long first, long end, 
 	new = !m->data;
 	m->data = data;
 	m->patience = m->patience ? m->patience : WATCH_AFTER;
-	/* What is held stays in one piece. */
+	/* Keep the held range contiguous. */
 	if (m->buffer && first > m->end)
 		first = m->end;
 	if (m->buffer && end < m->first)

@@ -111,7 +111,7 @@ long pixels_read_bytes(unsigned format, unsigned type, int width, int height)
 	return packed_bytes(&(struct pixel_box){ 2, format, type, width, height, 1 });
 }
 
-/* Where the program's call was an error, so may be these. */
+/* If the program's call was an error, these queries may be errors, too. */
 long pixels_texture_bytes(unsigned target, int level, unsigned format, unsigned type)
 {
 	struct pixel_box box = { .dims = 2, .format = format, .type = type, .depth = 1 };

@@ -22,8 +22,9 @@ enum { FIRST_ROOM = 1 << 18, MAX_ROOM = 1 << 26 }; /* of a thread's buffer */
 #define MAX_KEPT_BYTES (128l << 20)                /* of one context */
 
 /*
- * Names of lists, counted down. A GL that gives out the name after the highest one in use (Mesa) then gives the program none that
- * we take later. Programs choose far lower names for themselves; where one does choose such a name, we make no more lists.
+ * Names of lists, counted down. A GL that allocates the name after the highest one in use (Mesa) then never gives the
+ * program a name that we take later. Names that programs choose themselves are far lower; if one does collide, we make
+ * no more lists.
  */
 enum { FIRST_NAME = 0xFFFFFF, LAST_NAME = 0xF00000 };
 
@@ -32,7 +33,7 @@ struct run {
 	uint32_t bytes;         /* 0: the slot is free */
 	int seen;               /* times drawn, at most 2 */
 	unsigned list;          /* 0: it has none */
-	const uint8_t *records; /* of a run that has a list */
+	const uint8_t *records; /* NULL unless the run has a list */
 	struct run *next;       /* the one that followed last time */
 };
 
@@ -42,7 +43,7 @@ struct block { /* the head of a piece of the arena */
 };
 
 struct runs_table {
-	unsigned epoch;         /* of the trace that has the lists */
+	unsigned epoch;         /* the trace that has the lists */
 	int off;                /* no more lists, ever */
 	int compiling;          /* the program makes a list */
 	long kept_bytes;
@@ -118,7 +119,7 @@ static void write_record(unsigned command, const uint8_t *at, unsigned bytes)
 	writer_call_end(p);
 }
 
-/* 1 where one of the next records sets the same, with no vertex in between. */
+/* 1 if one of the next records sets the same state before any vertex. */
 static int is_overwritten(const uint8_t *at, const uint8_t *end)
 {
 	enum { LOOK_AHEAD = 12 };
@@ -126,7 +127,7 @@ static int is_overwritten(const uint8_t *at, const uint8_t *end)
 
 	memcpy(&first, at, sizeof(first));
 	if (commands[first & 0xFFFF].shape[0] == 'e' || strncmp(commands[first & 0xFFFF].name, "glVertexAttrib", 14) == 0)
-		return 0; /* an argument says what these set: material, texture unit, attribute */
+		return 0; /* an argument selects the state that these set: material, texture unit, attribute */
 	for (int i = 0; i < LOOK_AHEAD; i++) {
 		memcpy(&word, at, sizeof(word));
 		at += 4 + (((word >> 16) + 3) & ~3u);
@@ -156,7 +157,7 @@ static void write_records(const uint8_t *at, size_t bytes)
 
 /* Keeping records */
 
-/* Another call comes: write the run as far as it goes, and the rest call by call. */
+/* An unexpected call: write the run so far, and the rest call by call. */
 static void write_open_run(void)
 {
 	const uint8_t *from = runs_self.expect ? self.guess->records : self.room;

@@ -19,19 +19,19 @@ enum { RUNS_MAX_ARGUMENTS = 64 }; /* bytes of one call's arguments; GL's longest
 extern __thread struct runs_thread {
 	int open;              /* a run is being kept */
 	const uint8_t *expect; /* the record that the next call should be; NULL: nothing is expected */
-	uint8_t *at, *end;     /* where the next record goes where it is not as expected; RUNS_MAX_ARGUMENTS fit behind `end` */
+	uint8_t *at, *end;     /* position of an unexpected record; RUNS_MAX_ARGUMENTS fit after `end` */
 } runs_self __attribute__((tls_model("initial-exec"), visibility("hidden")));
 
-/** glBegin. 1 where the run is kept, and glBegin must not be written now. */
+/** glBegin. @return 1 if the run is kept: glBegin must not be written now */
 int runs_begin(unsigned mode);
-/** glEnd. 1 where it ended a run that was kept; all of it is written. */
+/** glEnd. @return 1 if it ended a kept run, which is now written in full */
 int runs_end(void);
-/** Edge flags were set: this context makes no more lists: their vertices would need flags that only the call knows. */
+/** Edge flags were set. This context makes no more lists: their vertices would need flags known only at the call. */
 void runs_edge_flag_set(void);
 /**
- * glColorMaterial. Where the back face alone follows the colour, lists are made no more. Mesa (22.3.6) lights back faces differently
- * by a vertex's colour than by a constant one. The colour that a program sets before glBegin is a vertex's while vertices are
- * pending, and a constant where a list is called.
+ * glColorMaterial. If only the back face follows the colour, no more lists are made: Mesa (22.3.6) lights back faces
+ * differently by a vertex's colour than by a constant one. A colour set before glBegin belongs to a vertex while
+ * vertices are pending, but is a constant when a list is called.
  */
 void runs_color_material(unsigned face);
 /** The program began or ended a list of its own, or deleted some. */
@@ -40,7 +40,7 @@ void runs_lists_used(unsigned first, long count);
 
 /** Leave the guessed run; what was as guessed is copied. 0: there was no room, as below. */
 int runs_diverge(void);
-/** More room. 0: there is none, the run has been written as far as it goes and is no longer kept. */
+/** Make more room. @return 0: there is none; the run so far has been written and is no longer kept */
 int runs_grow(void);
 
 /** 1 where this thread keeps a run. */
@@ -49,7 +49,7 @@ static inline int runs_open(void)
 	return runs_self.open;
 }
 
-/** A call inside the run. `bytes` is best known at compile time. Returns 0 where the run is kept no more: write the call. */
+/** A call inside the run. `bytes` should be a constant. @return 0: the run is no longer kept, so write the call */
 static inline __attribute__((always_inline)) int runs_put(unsigned command, const void *arguments, unsigned bytes)
 {
 	uint32_t word = command | bytes << 16, padded = (bytes + 3) & ~3u;

@@ -32,7 +32,7 @@ static int unreadable(const struct ref_file *ref, int code)
 	return err_report(code, ref->path, "cannot be read: %s", strerror(errno));
 }
 
-/* Reads records up to the last whole one; a cut is no error. */
+/* Reads records up to the last whole one; a truncated file is not an error. */
 static int list_records(struct ref_file *ref, uint64_t file_bytes)
 {
 	uint64_t at = REF_MAGIC_BYTES;
@@ -138,7 +138,7 @@ static int damaged(const struct ref_file *ref, const struct ref_entry *entry)
 	return err_report(ERR_INPUT, ref->path, "the reference of frame %llu is damaged", (unsigned long long)entry->frame);
 }
 
-/* pread, whole, for a record. @return 0, ERR_INPUT (the file has less) or ERR_SYSTEM (a disk that fails is no damage), reported */
+/* pread all of a record. @return 0, ERR_INPUT (the file is too short) or ERR_SYSTEM (the disk failed), reported */
 static int read_at(const struct ref_file *ref, const struct ref_entry *entry, uint64_t offset, void *to, size_t n)
 {
 	char *out = to;
@@ -159,7 +159,8 @@ static int read_at(const struct ref_file *ref, const struct ref_entry *entry, ui
 
 /*
  * Xor a block's pixels to those in *out.
- * planes: 1: the block holds four planes of bytes. out: NULL: receives them; whoever calls frees it. @return 0, ERR_INPUT or ERR_SYSTEM (reported)
+ * planes: 1: the block holds four planes of bytes. *out: if NULL, receives a buffer that the caller frees.
+ * @return 0, ERR_INPUT or ERR_SYSTEM (reported)
  */
 static int add_block(const struct ref_file *ref, const struct ref_entry *entry, uint64_t offset, uint64_t packed_bytes, int planes, uint32_t **out)
 {
@@ -208,7 +209,7 @@ static int find_base(const struct ref_file *ref, struct ref_entry *entry)
 
 int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **out)
 {
-	const size_t ahead = sizeof(uint64_t); /* of a changed block */
+	const size_t ahead = sizeof(uint64_t); /* bytes before a changed block */
 	struct ref_entry at = *entry;
 	uint32_t *pixels = NULL;
 	int rc = 0;

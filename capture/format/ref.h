@@ -1,15 +1,17 @@
 /*
- * Reference frames: what the recorded program itself showed, read back just before each frame's end.
+ * Reference frames: the recorded program's own pictures, read back just before each frame's end.
  *
  * File NAME.ref beside NAME.trace, little-endian:
  *   magic   8 bytes "RELREF2\n"; "RELREF1\n" where no record has REF_CHANGED
  *   record* u32 kind, u32 width, u32 height, u64 frame, u64 packed_bytes, then packed_bytes of one raw Snappy block
  * kind 1: colour, RGBA, 8 bits each; the mean of a pixel's samples, as the window shows it.
  * kind 2: window depth, one float each, [0,1]; with several samples what glReadPixels gives.
- * Where kind has REF_CHANGED, packed_bytes begin with u64 base: where an earlier record of the same kind and size begins. The block
- * then holds what has changed: pixels xor those of that record, first the lowest bytes of all of them, then the next ones, four times.
- * Rows run from the bottom row up, as GL delivers them, without padding. A frame's records follow each other. Frames ascend, but for
- * those that several threads ended at the same time. A file cut at any byte is valid up to the last whole record.
+ * If kind has REF_CHANGED, packed_bytes begin with u64 base: the offset of an earlier record of the same kind and size.
+ * The block then holds the differences: pixels xor those of that record, first the lowest bytes of all of them, then
+ * the next ones, four times.
+ * Rows run from the bottom row up, as GL delivers them, without padding. A frame's records follow each other. Frames
+ * ascend, except for those that several threads ended at the same time. A file cut at any byte is valid up to the last
+ * whole record.
  */
 #pragma once
 
@@ -24,7 +26,7 @@
 
 enum ref_kind { REF_COLOR = 1, REF_DEPTH = 2 };
 
-/** What a record begins with, as it lies in the file. */
+/** The head of a record, as in the file. */
 struct __attribute__((packed)) ref_head {
 	uint32_t kind, width, height;
 	uint64_t frame, packed_bytes;
@@ -35,7 +37,7 @@ struct ref_entry {
 	enum ref_kind kind;
 	uint32_t width, height;
 	uint64_t frame;
-	uint64_t offset, packed_bytes; /* of what follows the head in the file */
+	uint64_t offset, packed_bytes; /* the block that follows the head in the file */
 	int is_changed;                /* 1: REF_CHANGED */
 };
 
@@ -46,7 +48,7 @@ struct ref_file {
 	size_t n_entries;
 };
 
-/** 1 where a file that begins so has reference frames. @param head  [REF_MAGIC_BYTES] */
+/** 1 if a file with these first bytes holds reference frames. @param head  [REF_MAGIC_BYTES] */
 int ref_begins(const void *head);
 
 /**

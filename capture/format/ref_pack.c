@@ -8,7 +8,7 @@ size_t ref_pack_room(size_t n)
 	return sizeof(struct ref_head) + sizeof(uint64_t) + snappy_max_compressed_length(4 * n);
 }
 
-/* Blocks of pictures that move are shorter where like bytes lie side by side. */
+/* Moving pictures compress better with like bytes side by side. */
 static void find_changes(const uint32_t *pixels, const uint32_t *before, size_t n, uint8_t *planes)
 {
 	for (size_t i = 0; i < n; i++) {

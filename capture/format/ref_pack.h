@@ -8,22 +8,22 @@
 
 /** The record of a kind that was written last, which the next one may build on. All zero: there is none. */
 struct ref_last {
-	uint64_t at; /* of its head in the file */
+	uint64_t at; /* offset of its head in the file */
 	uint32_t width, height;
-	uint32_t in_a_row;  /* records since one that holds its pixels whole */
-	size_t whole_bytes; /* of that one's block */
+	uint32_t in_a_row;  /* records since the last one that is whole */
+	size_t whole_bytes; /* size of that one's block */
 };
 
-/** The most bytes that a record of so many pixels takes. */
+/** The most bytes that a record of n pixels takes. */
 size_t ref_pack_room(size_t n);
 
 /**
- * Make a record: of what has changed since the last one where that has the same size, or whole.
+ * Make a record: the differences from the last one if that has the same size, or a whole one.
  * @param last    of this kind; becomes this record
  * @param head    with kind (REF_COLOR or REF_DEPTH), size and frame
  * @param at      where it will be in the file
  * @param pixels  [width * height]: RGBA, or a float each
- * @param before  the last record's pixels; read only where it has the same size
+ * @param before  the last record's pixels; read only if it has the same size
  * @param planes  room for as much as pixels
  * @param out     receives head and block; room for ref_pack_room(width * height)
  * @return its bytes; 0: no memory

@@ -1,7 +1,7 @@
 /*
- * Snappy is C++: where malloc has no memory for it, it throws, and there is nobody to catch. What it needs for a moment (175 KB at most, for
- * chunks of any size) then comes from here, one after the other. These are C++'s operators new and delete, of the command and of the
- * recorder alone: no library and no program sees them.
+ * Snappy is C++: if malloc fails it throws, and nobody catches that. Its temporary memory (175 KB at most, for chunks
+ * of any size) then comes from here, for one caller at a time. These are C++'s operators new and delete, for the
+ * command and the recorder only: no library and no program sees them.
  */
 #include <sched.h>
 #include <stdatomic.h>

@@ -1,6 +1,7 @@
 /*
- * How much memory an argument points to: a function for each form that Khronos' registry leaves open (COMPSIZE). They call no GL
- * and know no state, so the recorder, the replay and the tests share them. What would be more than a long holds is 0, as nonsense is.
+ * How much memory an argument points to: a function for each form that Khronos' registry leaves open (COMPSIZE). They
+ * call no GL and use no state, so the recorder, the replay and the tests share them. A size that overflows a long, or
+ * makes no sense, is 0.
  */
 #pragma once
 
@@ -11,13 +12,13 @@ struct pixel_layout {
 	int row_length, image_height, skip_rows, skip_pixels, skip_images, alignment;
 };
 
-/** Values of a vector parameter or query by its name (GL_POSITION: 4); 1 where the name is unknown. */
+/** Values of a vector parameter or query by its name (GL_POSITION: 4); 1 if the name is unknown. */
 long count_of_pname(unsigned pname);
 
 /** Bytes of one element of a type (GL_FLOAT: 4); 0: no such type. A packed pixel type counts as a whole pixel. */
 long type_bytes(unsigned type);
 
-/** Bytes of one pixel; 0 where format and type do not say (GL_BITMAP: less than a byte). */
+/** Bytes of one pixel; 0 if format and type do not define it (GL_BITMAP: less than a byte). */
 long image_pixel_bytes(unsigned format, unsigned type);
 
 /** The pixels of a call. `dims` is 1 to 3; skipped rows count from 2 on, skipped images with 3. */
@@ -29,7 +30,7 @@ struct pixel_box {
 
 /**
  * Bytes from the pointer to the end of the last pixel that GL reads.
- * @return 0 where there are no pixels, or where format, type or layout make no sense
+ * @return 0 if there are no pixels, or format, type or layout make no sense
  */
 long image_bytes(const struct pixel_layout *layout, const struct pixel_box *box);
 

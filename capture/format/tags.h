@@ -1,10 +1,10 @@
 /*
- * The bytes of a trace that have a meaning of their own, named once for the recorder, the reader and trace_out. trace.md is
- * the grammar that they stand in; the numbers are apitrace's.
+ * The tag bytes of a trace, named once for the recorder, the reader and trace_out. Their grammar is in trace.md; the
+ * numbers are apitrace's.
  */
 #pragma once
 
-/** The version of the format that is written, and of the meaning of its calls. */
+/** The version of the format written, and of the meaning of its calls. */
 enum { TRACE_VERSION = 6, TRACE_SEMANTICS = 6 };
 
 /** The first byte of an event. */
@@ -34,7 +34,7 @@ enum trace_type {
 };
 
 /**
- * Signatures: what is written in full only where its id comes first. Each kind counts ids of its own. Indexes store these
+ * Signatures are written in full only at the first use of their id. Each kind has its own ids. Indexes store these
  * numbers; traces do not.
  */
 enum trace_sig_kind {

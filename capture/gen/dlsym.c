@@ -1,8 +1,8 @@
 /*
  * Runs inside the traced program. dlsym is ours too: a program that looks up GL finds the recorder's entry points.
  *
- * Lookups that say "after me" (RTLD_NEXT) keep their meaning: libraries that wrap GL themselves make them, and we stand before
- * all of these.
+ * Lookups of the next definition (RTLD_NEXT) keep their meaning: libraries that wrap GL themselves make them, and we
+ * are loaded before all of these.
  */
 #include <dlfcn.h>
 #include <string.h>
@@ -25,7 +25,7 @@ __attribute__((RESOLVE_BEFORE_ALL)) static int is_gl_name(const char *name)
 	return begins_with(name, "gl") || begins_with(name, "egl") || begins_with(name, "OSMesa");
 }
 
-/* 1 where an address lies in a library of GL, 2 where it lies in ours. */
+/* 1 if an address is in a GL library, 2 if it is in ours. */
 static int whose(const void *address)
 {
 	static const char *const names[] = { "libGL.so", "libGLX", "libOpenGL.so", "libEGL", "libGLES", "libOSMesa",
@@ -45,7 +45,7 @@ static int whose(const void *address)
 	return 0;
 }
 
-/* What dlsym gives for a name of GL on any handle but "after me". */
+/* dlsym's result for a GL name on any handle but RTLD_NEXT. */
 static void *look_up_gl(void *handle, const char *name)
 {
 	void *found = resolve_real_dlsym(handle, name);

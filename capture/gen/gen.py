@@ -291,7 +291,7 @@ class Generator:
             kind = self.element(param.type, command.name)
             base = self.c_type(param.type, command.name).replace("const", "").replace("*", "").strip()
             if kind not in self.LETTERS:
-                raise InputError(f"{self.overlay.path}: '{param.name}' of {command.name} cannot stand in a run")
+                raise InputError(f"{self.overlay.path}: '{param.name}' of {command.name} cannot be in a run")
             if not param.pointer:
                 letter = self.LETTERS[kind]
                 if kind == "enum" and param.group in self.small_groups:

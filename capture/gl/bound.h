@@ -1,6 +1,6 @@
 /*
- * Runs inside the traced program. Drawables that were bound to a texture (GLX_EXT_texture_from_pixmap, eglBindTexImage): what they show comes
- * from elsewhere, X for the most part, so the picture that the texture has then is written as a call that sets it.
+ * Runs inside the traced program. Drawables bound to a texture (GLX_EXT_texture_from_pixmap, eglBindTexImage). Their
+ * content comes from elsewhere, mostly from X, so the texture's image at that time is written as a call that sets it.
  */
 #pragma once
 

@@ -1,5 +1,5 @@
-/* Runs inside the traced program. Conditional rendering: what the query counted, which a trace has no place for. */
+/* Runs inside the traced program. Conditional rendering: the query's count, which the format has no place for. */
 #pragma once
 
-/** Before glBeginConditionalRender: write the answer of its query, for which the driver waits in any mode now. */
+/** Before glBeginConditionalRender: write its query's result. The driver now waits for the result in any mode. */
 void condition_write(unsigned query);

@@ -1,12 +1,12 @@
 /*
  * Runs inside the traced program. Contexts: which is current, what it can do, its pending errors, and what belongs to it.
  *
- * Nothing here changes GL state that the program can see, its errors included. State is asked from the driver, and cached only
- * where every command that can change it drops the cache.
+ * Nothing here changes GL state that the program can see, including its errors. State is queried from the driver, and
+ * cached only if every command that can change it drops the cache.
  */
 #pragma once
 
-enum context_feature { /* what may be asked without making a GL error */
+enum context_feature { /* features that can be queried without a GL error */
 	HAS_FIXED_FUNCTION = 1 << 0 /* all of it: not OpenGL ES 1 */, HAS_BUFFERS = 1 << 1, HAS_PIXEL_BUFFERS = 1 << 2, HAS_MAP_RANGE = 1 << 3,
 	HAS_MULTITEXTURE = 1 << 4, HAS_FOG_COORD = 1 << 5, HAS_SECONDARY_COLOR = 1 << 6, HAS_ATTRIBUTES = 1 << 7,
 	HAS_FRAMEBUFFERS = 1 << 8, HAS_READ_FRAMEBUFFER = 1 << 9, HAS_DIVISOR = 1 << 10, HAS_RESTART = 1 << 11,
@@ -17,32 +17,32 @@ enum context_feature { /* what may be asked without making a GL error */
 	HAS_POINT_SIZES = 1 << 22 /* an array of them */
 };
 
-/** What others keep for each context. */
+/** Data that other files keep for each context. */
 enum context_slot { CONTEXT_CONTENTS, CONTEXT_MIRRORS, CONTEXT_RUNS, CONTEXT_MAPS, N_CONTEXT_SLOTS };
 
-/** Stands for this thread's context; NULL where it has none. */
+/** Identifies this thread's context; NULL if it has none. */
 const void *context_current(void);
-/** 1 where this thread's current context has the feature. */
+/** 1 if this thread's current context has the feature. */
 int context_has(enum context_feature feature);
-/** An integer state of the current context; 0 where it has none. */
+/** An integer state of the current context; 0 if it has none. */
 int context_get(unsigned pname);
-/** The same of a level of the texture that is bound to the target; there must be a current context. */
+/** The same for a level of the texture bound to the target; there must be a current context. */
 int context_get_level(unsigned target, int level, unsigned pname);
 
-/** What the current context's slot holds; NULL where it is empty or there is no context. */
+/** The content of the current context's slot; NULL if it is empty or there is no context. */
 void *context_data(enum context_slot slot);
-/** Put it there. `release` is called with it when the context is destroyed; there must be a current context. */
+/** Fill the slot. `release(data)` is called when the context is destroyed; there must be a current context. */
 void context_set_data(enum context_slot slot, void *data, void (*release)(void *data));
 
-/** This thread's context from now on; NULL: none. Returns 1 where it has never been current before. */
+/** This thread's context from now on; NULL: none. @return 1 if it has never been current before */
 int context_select(void *handle);
 /** A number for each context that becomes current in this thread instead of another. */
 unsigned context_turn(void);
-/** The context is gone where no thread has it: what its slots hold is released. */
+/** The context was destroyed: once no thread has it, the contents of its slots are released. */
 void context_destroyed(void *handle);
 
 /** glGetError's answer: errors that the recorder had to fetch come first. */
 unsigned context_pending_error(unsigned error);
-/** Keep the program's pending errors aside; errors made from here on are the recorder's, until ..._after drops them. */
+/** Set the program's pending errors aside. Later errors are the recorder's, until ..._after drops them. */
 void context_errors_before(void);
 void context_errors_after(void);

@@ -69,8 +69,8 @@ void drawable_may_have_changed(void)
 }
 
 /*
- * Ask for the size of an X window through XCB. Xlib calls the program's error handler, which ends the program, where a drawable is
- * gone. Mesa's GLX has loaded both libraries.
+ * Query the size of an X window through XCB: if a drawable is gone, Xlib would call the program's error handler, which
+ * ends the program. Mesa's GLX has loaded both libraries.
  */
 struct geometry_reply { /* the X protocol's GetGeometry reply */
 	uint8_t response_type, depth;
@@ -80,7 +80,7 @@ struct geometry_reply { /* the X protocol's GetGeometry reply */
 	uint16_t width, height, border_width;
 };
 
-struct geometry_cookie { /* a struct as XCB has it: i386 returns one otherwise than a number */
+struct geometry_cookie { /* a struct, as in XCB: i386 returns structs and numbers in different ways */
 	unsigned sequence;
 };
 
@@ -141,9 +141,9 @@ void drawable_ask(struct drawable *d, const struct drawable_target *target, int 
 }
 
 /*
- * glretrace makes a small window and resizes it at the first viewport. Mesa's software rasterizer learns of that when something
- * is drawn to the front buffer, or at the first swap: all of the first frame but a corner would be lost (Mesa 22.3.6). So nothing
- * is drawn there: a clear of no buffers.
+ * glretrace makes a small window and resizes it at the first viewport. Mesa's software rasterizer notices the new size
+ * when something is drawn to the front buffer, or at the first swap: all of the first frame but a corner would be lost
+ * (Mesa 22.3.6). So draw there, but change nothing: clear no buffers.
  */
 void drawable_make_size_known(void)
 {

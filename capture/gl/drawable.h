@@ -11,12 +11,12 @@ struct drawable {
 	uint64_t asked_ns;
 	int marked_width, marked_height; /* as trace number `marked_epoch` has them (writer_epoch) */
 	unsigned marked_epoch;
-	int held_width, held_height; /* of its buffers, when its last frame ended */
+	int held_width, held_height; /* size of its buffers at the end of its last frame */
 };
 
 enum drawable_system { DRAWABLE_NONE, DRAWABLE_GLX, DRAWABLE_EGL, DRAWABLE_OSMESA };
 
-/** What a thread draws to. */
+/** The target that a thread draws to. */
 struct drawable_target {
 	enum drawable_system system;
 	void *display;
@@ -25,7 +25,7 @@ struct drawable_target {
 	int width, height; /* OSMesa's, which has no drawables */
 };
 
-/** Drawable number `id`, made at need; it stays. NULL: no memory. */
+/** Drawable number `id`, created on demand and never freed. NULL: out of memory. */
 struct drawable *drawable_find(uintptr_t id);
 
 /** window: of X, or its pixmap */
@@ -34,10 +34,11 @@ void drawable_is_pbuffer(void *display, unsigned long pbuffer);
 void drawable_may_have_changed(void);
 
 /**
- * Ask for the size, a trip to the X server: not at each frame, but when the program has set a viewport, or after a while.
- * @param exact  1: ask now
+ * Query the size. This takes a trip to the X server, so it is done not at each frame, but when the program has set a
+ * viewport, or after a while.
+ * @param exact  1: query now
  */
 void drawable_ask(struct drawable *d, const struct drawable_target *target, int exact);
 
-/** Calls that draw nothing, by which glretrace's window learns of the size that a viewport has given it. */
+/** Write calls that draw nothing, but make glretrace's window take on the size of the viewport. */
 void drawable_make_size_known(void);

@@ -1,7 +1,7 @@
 /*
- * Runs inside the traced program. glXUseXFont makes display lists out of a font of the X server. Readers of the trace have no such
- * font, so the lists are written out before the call: each character as the bitmap that the X server draws of it (GLX 1.4
- * sec. 3.3.6). The server is asked as GLX itself asks it, through the Xlib that GLX has loaded.
+ * Runs inside the traced program. glXUseXFont makes display lists from a font of the X server. Readers of the trace may
+ * lack the font, so the lists are written before the call, each character as the bitmap that the X server draws (GLX
+ * 1.4 sec. 3.3.6). The server is queried as GLX does, through the Xlib that GLX has loaded.
  */
 #pragma once
 

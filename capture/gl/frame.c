@@ -23,11 +23,11 @@
 #include "tables/commands.h"
 
 static _Atomic uint64_t program_frames; /* recorded or not */
-static _Atomic int threads;             /* that draw */
+static _Atomic int threads;             /* those that draw */
 static struct {
-	uint64_t max_frames, quit_after, max_bytes; /* 0: no such wish */
-	uint64_t first, last;                       /* of the program's frames, from 0 */
-	int paused;                                 /* to begin with */
+	uint64_t max_frames, quit_after, max_bytes; /* 0: no limit */
+	uint64_t first, last;                       /* the program's frames to record, from 0 */
+	int paused;                                 /* at the start */
 	enum frame_trigger trigger;
 } wish;
 
@@ -59,12 +59,12 @@ static void mark_size(struct drawable *d, int width, int height)
 	d->marked_width = width;
 	d->marked_height = height;
 	d->marked_epoch = writer_epoch();
-	self.viewport[0] = 0; /* what was beyond it may be within */
+	self.viewport[0] = 0; /* a viewport that exceeded it may fit now */
 }
 
 /*
- * Mesa's software rasterizer gives a window's buffers its new size with the first draw after a swap (22.3.6): a frame that has begun before
- * keeps the old one. Asked of the driver where the window has another size than the buffers had.
+ * Mesa's software rasterizer resizes a window's buffers at the first draw after a swap (22.3.6), so a frame that began
+ * earlier keeps the old size. Query the driver if the window's size differs from that of the buffers.
  */
 static void held_size(struct drawable *d, int *width, int *height)
 {
@@ -128,7 +128,7 @@ void frame_draw_to(const struct drawable_target *target)
 	self.draws = 1;
 }
 
-/* A frame ends without a swap: a made-up call says so. */
+/* A frame ends without a swap: mark it with a fake call. */
 static void frame_end_current(void)
 {
 	const struct drawable_target *t = &self.target;
@@ -278,7 +278,7 @@ static void end_recording(void)
 	quit();
 }
 
-/* A frame is in the trace: end what was to end after it. */
+/* A frame is in the trace: end the recording or the program if it was the last one wanted. */
 static void frame_recorded(uint64_t frames)
 {
 	if ((wish.max_frames && frames >= wish.max_frames) || (wish.quit_after && frames >= wish.quit_after)) {

@@ -23,7 +23,7 @@ void marker_write(const char *text)
 SHOWN void relume_material(int kind, float amount, float ior);
 SHOWN void relume_build_kd_tree(void);
 
-/* A number of at least 0 to six places, with a point whatever the program's locale says. */
+/* A nonnegative number to six places, with a point in any locale. */
 static int print_number(char *out, size_t size, float value)
 {
 	long millionths = value > 0 && value < 1e6f ? (long)((double)value * 1e6 + 0.5) : 0;
@@ -52,7 +52,7 @@ void relume_build_kd_tree(void)
 	marker_write("relume:kdtree");
 }
 
-/* Which GL draws: versions of Mesa differ in what the specification leaves open (scene/mesa.h). */
+/* The GL that draws: versions of Mesa differ where the specification leaves a choice (scene/mesa.h). */
 static void marker_write_gl(void)
 {
 	const char *version = (const char *)real_glGetString(GL_VERSION), *renderer = (const char *)real_glGetString(GL_RENDERER);

@@ -39,7 +39,7 @@ void press_begin(const char *list)
 	next = list;
 }
 
-/* The first of a window and its ancestors of which somebody takes key presses; *root: the root window. 0: none */
+/* The first of a window and its ancestors whose key presses somebody takes; *root: the root window. 0: none */
 static xcb_window_t find_taker(xcb_connection_t *c, xcb_window_t window, xcb_window_t *root)
 {
 	while (window) {
@@ -58,7 +58,7 @@ static xcb_window_t find_taker(xcb_connection_t *c, xcb_window_t window, xcb_win
 	return 0;
 }
 
-/* A second question makes sure that the server has passed the event on before the program draws. */
+/* A second request makes sure that the server has delivered the event before the program draws. */
 static int send_key(xcb_connection_t *c, xcb_window_t window, xcb_window_t root, const unsigned long event[3])
 {
 	xcb_key_press_event_t key = {

@@ -1,8 +1,8 @@
 /*
  * Runs inside the traced program. Keys that `record --press` sends to it (capture/press.h).
  *
- * They are events that only the window which drew gets, over an X connection of our own: neither the focus nor the
- * pointer, nor another program on the same display, decides who gets them, and the server repeats none.
+ * They are sent as events to the window that drew, over an X connection of our own: neither focus nor pointer, nor
+ * another program on the same display, affects who gets them, and the server does not repeat them.
  */
 #pragma once
 
@@ -12,7 +12,7 @@
 void press_begin(const char *list);
 
 /**
- * Send what is due before the program draws a frame, and return once the server has passed it on.
+ * Send the events due before the program draws a frame, and return once the server has delivered them.
  * @param frame   number of the program's next frame
  * @param window  X window that showed the last one; the event goes to the nearest of its ancestors that takes keys
  */

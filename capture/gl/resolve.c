@@ -20,7 +20,7 @@ static long absent(void)
 	return 0;
 }
 
-/* Where a family's commands are looked for, in this order. */
+/* The libraries to search for a family's commands, in this order. */
 static const struct library {
 	const char *prefix, *name, *get_proc_address;
 } libraries[] = {

@@ -1,6 +1,6 @@
 /*
- * Runs inside the traced program. Finding the real GL, by the libraries that the program has loaded or, where it has none, by the
- * names that Debian and its kin give them.
+ * Runs inside the traced program. Finds the real GL in the libraries that the program has loaded or, if it has none,
+ * under the names used by Debian and its derivatives.
  */
 #pragma once
 
@@ -8,7 +8,7 @@
 
 #define RESOLVE_HIDDEN __attribute__((visibility("hidden")))
 
-/** A sanitizer looks up what it replaces by dlsym before it is ready itself: what that needs must need nothing of it. */
+/** A sanitizer calls dlsym before it is ready itself, so everything used by dlsym must be free of instrumentation. */
 #define RESOLVE_BEFORE_ALL no_sanitize("thread", "address")
 
 extern RESOLVE_HIDDEN void *resolve_found[N_COMMANDS];
@@ -17,20 +17,20 @@ extern RESOLVE_HIDDEN void *(*resolve_real_dlsym)(void *handle, const char *name
 /** Set resolve_real_dlsym. */
 void resolve_dlsym(void);
 
-/** A function of a library that is no GL. */
+/** A function of a library other than GL. */
 void *resolve_in(void *library, const char *name);
 
-/** Find a command's real function and remember it. Where there is none, a function that does nothing and returns 0. */
+/** Find a command's real function and remember it. If there is none: a function that does nothing and returns 0. */
 void *resolve_command(unsigned command);
 
-/** 1 where the command has a real function. */
+/** 1 if the command has a real function. */
 int resolve_exists(unsigned command);
 
 /** The number of a command, or N_COMMANDS. */
 unsigned resolve_number(const char *name);
 
 /**
- * What the program gets where the real GL has given out `real` for a name.
+ * The function to give the program for a name that the real GL resolves to `real`.
  * @param entry_points  ours, by command
  */
 void *resolve_substitute(void *const entry_points[], const char *name, void *real);

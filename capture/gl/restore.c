@@ -258,7 +258,7 @@ void restore_drawn(int width, int height)
 	if (!context_has(HAS_FIXED_FUNCTION) || context_get(GL_LIST_INDEX))
 		return;
 	context_errors_before();
-	drawable_make_size_known(); /* where it was due, the frame was left out and so was its clear */
+	drawable_make_size_known(); /* its clear was left out with its frame */
 	restore_make_neutral(0);
 	reading_begin(&state);
 	real_glPixelStorei(GL_PACK_ALIGNMENT, 1); /* put back with all else */

@@ -1,10 +1,10 @@
 /*
- * Runs inside the traced program. Where recording begins after frames that were left out (skip.h): what they have drawn goes into
- * the trace by value. Textures copied from the screen or drawn to, and the colours, depths and stencil values of the window are
- * read back from the driver and written as calls that set them.
+ * Runs inside the traced program. When recording begins after frames that were left out (skip.h), their results are
+ * written into the trace. Textures copied from the screen or drawn to, and the window's colours, depths and stencil
+ * values, are read back from the driver and written as calls that set them.
  *
- * Not put back: renderbuffers, the accumulation buffer, pixels read into buffer objects, and what contexts other than the
- * current one show.
+ * Not restored: renderbuffers, the accumulation buffer, pixels read into buffer objects, and the windows of contexts
+ * other than the current one.
  */
 #pragma once
 
@@ -13,8 +13,8 @@ void restore_texture_copied(unsigned target);
 void restore_texture_attached(unsigned target, unsigned name);
 
 /**
- * Write what was drawn.
- * @param width, height  of the window; 0 where there is none
+ * Write the results of earlier frames.
+ * @param width, height  of the window; 0: there is none
  */
 void restore_drawn(int width, int height);
 

@@ -1,4 +1,4 @@
-/* Runs inside the traced program. Calls that the recorder makes up and that return nothing. */
+/* Runs inside the traced program. Fake calls, made up by the recorder, that return nothing. */
 #pragma once
 
 /**

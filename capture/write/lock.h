@@ -1,9 +1,9 @@
 /*
  * Runs inside the traced program. The writer's lock.
  *
- * While a single thread calls GL, it owns the lock: taking it is a plain store and a load, without an atomic operation. The
- * second thread that comes takes the ownership away for good. membarrier makes every thread pass a barrier, so either the
- * owner sees that it owns the lock no more, or the newcomer sees that the owner is inside.
+ * While a single thread calls GL, it owns the lock: taking it is a plain store and a load, without an atomic operation.
+ * The second thread that calls GL revokes the ownership for good. membarrier makes every thread pass a barrier, so
+ * either the owner sees that it no longer owns the lock, or the newcomer sees that the owner is inside.
  */
 #pragma once
 
@@ -17,10 +17,10 @@ extern LOCK_HIDDEN _Atomic uintptr_t lock_owner;     /* address of the owner's l
 extern LOCK_HIDDEN _Atomic int lock_owner_inside;
 extern LOCK_HIDDEN __thread int lock_is_owner __attribute__((tls_model("initial-exec"))); /* inside by owning it */
 
-/** The way of threads that do not own the lock. */
+/** The slow path, for threads that do not own the lock. */
 void lock_take_shared(void);
 
-/** Once, by the thread that makes the first call, inside the lock: it owns the lock from now on where the kernel can help. */
+/** Called once, inside the lock, by the thread of the first call, which then owns the lock if the kernel allows. */
 void lock_choose_owner(void);
 
 /** In the child of a fork: nobody owns the lock. */

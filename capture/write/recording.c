@@ -10,7 +10,7 @@
 
 struct recording recording;
 
-/* End the recording, once, where the file has failed. The figures are of the file: what was lost does not count. */
+/* End the recording, once, after a write error. The figures describe the file, without what was lost. */
 static void look_for_errors(void)
 {
 	struct sink_state sink = sink_state();

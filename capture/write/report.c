@@ -16,7 +16,7 @@
 #include "tables/commands.h"
 
 static struct recorder_stats *stats;
-static struct stats_process own_process; /* where the command maps no file of figures */
+static struct stats_process own_process; /* used if the command maps no statistics file */
 
 void report_say(const char *fmt, ...)
 {

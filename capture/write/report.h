@@ -1,4 +1,4 @@
-/* Runs inside the traced program. What the recorder tells: figures shared with the command (stats.h), words on standard error. */
+/* Runs inside the traced program. Reports: statistics shared with the command (stats.h), messages on standard error. */
 #pragma once
 
 struct stats_process;
@@ -7,8 +7,8 @@ struct stats_process;
 void report_say(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 
 /**
- * Map the figures from the file at `path`, or, where a sandbox hides that, from the descriptor that the command left open. Without this,
- * or where it fails, figures are kept where nobody reads them.
+ * Map the statistics from the file at `path`, or, if a sandbox hides that, from the descriptor that the command left
+ * open. Without this call, or if it fails, the statistics are kept in private memory, which nobody reads.
  * @param descriptor  its number, as text; NULL: there is none
  */
 void report_open(const char *path, const char *descriptor);

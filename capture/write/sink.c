@@ -108,8 +108,8 @@ int sink_pwrite(int fd, const void *data, size_t bytes, uint64_t offset)
 }
 
 /*
- * A killed process leaves whole chunks only. A kill can cut a write of many pages short, so the length, without which there is no
- * chunk, goes out last.
+ * A killed process leaves only whole chunks. A kill can cut a write of many pages short, so the length, which makes it
+ * a chunk, is written last.
  */
 static void append(size_t packed)
 {
@@ -233,7 +233,7 @@ static void start_thread(void)
 	pthread_attr_destroy(&attributes);
 }
 
-/* Wait until at most so many chunks are left. */
+/* Wait until at most this many chunks are left. */
 static void wait_for_thread(uint32_t at_most)
 {
 	const struct timespec patience = { 0, WAIT_NS };

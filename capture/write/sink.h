@@ -1,12 +1,12 @@
 /*
  * Runs inside the traced program. Where the trace goes: chunks of plain bytes in, packed chunks in the file.
  *
- * A thread packs and writes full chunks while the program goes on. At the end of a frame the rest is handed over before the
- * swap and waited for after it. So the kernel has every frame that was swapped, and packing costs no time where the swap takes
- * longer. Little data is packed and written on the spot: waking a thread would take longer.
+ * A thread packs and writes full chunks while the program continues. At the end of a frame the rest is handed over
+ * before the swap and awaited after it, so the kernel has every frame that was swapped, and packing costs no time if
+ * the swap takes longer. Little data is packed and written at once: waking a thread would take longer.
  *
- * One caller at a time (the writer's lock). The first error ends all writing, and what is not whole in the file is cut off. Every
- * function keeps errno. Nothing here maps a file: a full file system is an error of pwrite, never a SIGBUS.
+ * One caller at a time (the writer's lock). The first error ends all writing, and an incomplete end of the file is cut
+ * off. Every function keeps errno. Nothing here maps a file: a full file system is an error of pwrite, never a SIGBUS.
  */
 #pragma once
 
@@ -29,8 +29,8 @@ struct sink_state {
 };
 
 /**
- * Create NAME.trace, or NAME.1.trace and so on where that exists: the first process that calls GL gets the name.
- * @return the first chunk to fill, SINK_CHUNK bytes; NULL where there is no file (sink_state says why)
+ * Create NAME.trace or, if that exists, NAME.1.trace and so on: the first process that calls GL gets the name.
+ * @return the first chunk to fill, SINK_CHUNK bytes; NULL if there is no file (sink_state says why)
  */
 uint8_t *sink_open(const char *name);
 
@@ -55,5 +55,5 @@ void sink_leave(void);
  */
 int sink_pwrite(int fd, const void *data, size_t bytes, uint64_t offset);
 
-/** Why a file cannot go on, as users say it: "disk full", or "cannot write: Input/output error". */
+/** Why a file ends, in the user's words: "disk full", or "cannot write: Input/output error". */
 void sink_explain(char *out, size_t size, const char *what, int error);

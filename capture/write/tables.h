@@ -1,5 +1,5 @@
 /*
- * Runs inside the traced program. The types of the generated tables: what there is to know of each command and enumerant.
+ * Runs inside the traced program. The types of the generated tables, which describe each command and enumerant.
  * tables/commands.h numbers the commands, tables/enums.h names the groups of enumerants.
  */
 #pragma once
@@ -11,9 +11,10 @@ struct command {
 	unsigned n_args;
 	const char *arg_names; /* one after the other, each with its NUL */
 	/*
-	 * One letter for each argument of a command that may stand in a run (runs.h); else NULL. f d: floats of 4 and 8 bytes;
-	 * b s i, B S I: signed and unsigned integers of 1, 2, 4; e: enumerant, p: of a primitive, t: truth, y: number or
-	 * enumerant. A digit before it: an array of so many; '*': as many as there are bytes.
+	 * One letter for each argument of a command that may be in a run (runs.h); else NULL. f d: floats of 4 and 8
+	 * bytes; b s i, B S I: signed and unsigned integers of 1, 2, 4; e: enumerant, p: a primitive's, t: truth, y:
+	 * number
+	 * or enumerant. A digit before it: an array of that length; '*': as many as there are bytes.
 	 */
 	const char *shape;
 	int draws; /* 1: does nothing but draw, or end a frame */
@@ -25,7 +26,7 @@ struct enum_entry {
 	uint32_t value;
 };
 struct bits_entry {
-	unsigned number; /* of its signature */
+	unsigned number; /* its signature's number */
 	unsigned n_flags;
 	const struct enum_entry *flags;
 };

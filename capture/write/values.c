@@ -123,7 +123,7 @@ uint8_t *put_memory(uint8_t *p, const void *data, size_t bytes)
 	return put_room(p);
 }
 
-/* A longer array or blob that does not end in the program's memory has garbage for a length, and would fill the disk with zeros: nothing is put. */
+/* A longer array or blob that leaves the program's memory has a garbage length: write nothing, not a disk of zeros. */
 enum { LONG_ARRAY = 256, LONG_BLOB = 65536 };
 
 static int has_end(const void *at, long n, size_t size)
@@ -187,7 +187,7 @@ uint8_t *put_array_head(uint8_t *p, long n)
 	return put_varint(p, n > 0 ? (uint64_t)n : 0);
 }
 
-enum { MAX_TEXT = 1 << 24 }; /* bytes; a longer one comes from a length that is garbage, and would fill the disk */
+enum { MAX_TEXT = 1 << 24 }; /* bytes; a longer one has a garbage length, and would fill the disk */
 
 uint8_t *put_strings(uint8_t *p, const char *const *strings, long count, const int *lengths)
 {
@@ -220,8 +220,9 @@ uint8_t *put_zeros(uint8_t *p, const void *data, long n)
 }
 
 /*
- * Arrays of a call that GL refuses or ignores may be anywhere and of any length. Vectors and matrices, which a program passes thousands of times a
- * frame, are read as GL reads them unless their address can be nobody's; a copy by the kernel costs more than they do. Longer arrays are copied.
+ * Arrays of a call that GL refuses or ignores may have any address and length. Vectors and matrices, which a program
+ * passes thousands of times a frame, are read directly, as GL does, unless their address cannot be valid: copying them
+ * through the kernel would cost more than they do. Longer arrays are copied.
  */
 enum { SHORT_ARRAY = 16, PIECE = 256 };
 
@@ -231,7 +232,7 @@ static int may_be_mapped(const void *at)
 	return (uintptr_t)at >= 0x10000 && (uint64_t)(uintptr_t)at >> 56 == 0;
 }
 
-/* n elements: where they are, or a copy in `piece`. @param all  elements of the array */
+/* n elements: their address, or a copy in `piece`. @param all  elements of the array */
 static const void *elements(void *piece, const void *from, long n, size_t size, long all)
 {
 	if (all <= SHORT_ARRAY && may_be_mapped(from))

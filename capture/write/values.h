@@ -1,7 +1,7 @@
 /*
- * Runs inside the traced program. Values in the trace (trace.md): each put_* function writes one at the position `p` and returns
- * the position behind it. At least RECORDING_MARGIN bytes are free there, enough for any scalar arguments. To be called between
- * begin and end of a call (writer.h). Every function keeps errno; none allocates.
+ * Runs inside the traced program. Values in the trace (trace.md): each put_* function writes one at the position `p`
+ * and returns the position after it. At least RECORDING_MARGIN bytes are free there, enough for any scalar arguments.
+ * Call them between begin and end of a call (writer.h). Every function keeps errno; none allocates.
  */
 #pragma once
 
@@ -19,7 +19,7 @@
 uint8_t *put_string(uint8_t *p, const char *s, long bytes);
 /** Text in a buffer of `size` bytes that may lack a NUL. */
 uint8_t *put_text(uint8_t *p, const char *s, long size);
-/** Raw memory, read without ever faulting: zeros stand for what cannot be read (pages.h). */
+/** Raw memory, read without ever faulting: unreadable bytes become zeros (pages.h). */
 uint8_t *put_blob(uint8_t *p, const void *data, long bytes);
 /** Raw memory of the recorder's own. */
 uint8_t *put_own_blob(uint8_t *p, const void *data, long bytes);
@@ -31,7 +31,10 @@ uint8_t *put_visual(uint8_t *p, const void *visual);
 uint8_t *put_attribs(uint8_t *p, const int *list, int end);
 uint8_t *put_attribs_wide(uint8_t *p, const long *list, long end);
 
-/** Arrays of values; NULL becomes null. More than 16 are read without faulting, and more than 256 whose end cannot be read are put as none. */
+/**
+ * Arrays of values; NULL becomes null. More than 16 values are read without faulting. More than 256 are written as none
+ * if their end cannot be read.
+ */
 uint8_t *put_array_s8(uint8_t *p, const int8_t *v, long n);
 uint8_t *put_array_u8(uint8_t *p, const uint8_t *v, long n);
 uint8_t *put_array_s16(uint8_t *p, const int16_t *v, long n);
@@ -55,7 +58,7 @@ uint8_t *put_array_head(uint8_t *p, long n);
 /** Raw bytes without a tag; `data` is read without faulting. */
 uint8_t *put_memory(uint8_t *p, const void *data, size_t bytes);
 
-/* Scalars. What every call needs is inline, the rest is not: there are thousands of thunks. */
+/* Scalars. Only functions that every call needs are inline: there are thousands of thunks. */
 
 /** `index` < 128. */
 static inline uint8_t *put_argument(uint8_t *p, unsigned index)
@@ -105,7 +108,7 @@ uint8_t *put_uint(uint8_t *p, uint64_t v);
 uint8_t *put_sint(uint8_t *p, int64_t v);
 uint8_t *put_address(uint8_t *p, uintptr_t v);
 #define put_opaque(p, v) put_address(p, (uintptr_t)(v))
-/** An enumerant; a plain number where it has no name. */
+/** An enumerant; a plain number if it has no name. */
 uint8_t *put_enum(uint8_t *p, uint32_t v);
 /** An enumerant of a group that names small values in its own way. */
 uint8_t *put_enum_small(uint8_t *p, uint32_t v, const uint16_t group[16]);

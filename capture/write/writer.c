@@ -36,7 +36,7 @@ static __thread struct {
 	unsigned number; /* 1-based */
 	void (*waiting)(void); /* writes calls that wait */
 	int hand_over;         /* the next call ends a frame: pack what is before it */
-	uint64_t ended;        /* this thread's last frame, numbered from 1, where writer_frame_ended has not told it yet; or 0 */
+	uint64_t ended;        /* this thread's last frame, from 1, until writer_frame_ended has returned it; or 0 */
 } self __attribute__((tls_model("initial-exec")));
 
 /* Opening */
@@ -62,7 +62,7 @@ static void open_trace(void)
 	if (!recording.chunk)
 		return;
 	epoch++;
-	recording.p = recording_spill(put_head(recording.chunk), 1); /* a trace from here on, whatever happens */
+	recording.p = recording_spill(put_head(recording.chunk), 1); /* the trace exists, whatever happens from here on */
 	flushed_ns = clock_ns();
 	lock_choose_owner();
 }
@@ -391,7 +391,7 @@ int writer_sidecar(char *out, size_t size, const char *suffix)
 
 /* Beginning and end of the process */
 
-/* The child has no thread of the sink: wait for what that has. */
+/* The child lacks the sink's thread: wait until it has written everything. */
 static void lock_for_child(void)
 {
 	lock_take();
@@ -399,7 +399,7 @@ static void lock_for_child(void)
 		sink_write(0, (struct sink_content){ 0 });
 }
 
-/* A child gets a trace of its own with its first call; what is unwritten stays the parent's. */
+/* A child gets its own trace at its first call; unwritten data stays the parent's. */
 static void start_child(void)
 {
 	lock_leave();

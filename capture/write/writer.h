@@ -1,9 +1,9 @@
 /*
  * Runs inside the traced program. The trace writer: calls go into the recording's chunk, chunks into the file (sink.h).
  *
- * A recorded call is written in one piece where nothing comes back from it (writer_enter, arguments, writer_call_end, then
- * the real call), else in two (writer_enter, inputs, writer_enter_end, the real call, writer_leave, outputs,
- * writer_leave_end). Between enter and end the writer is locked, and the caller holds the write position `p` for put_*
+ * A call that returns nothing is written in one piece (writer_enter, arguments, writer_call_end, then the real call),
+ * any other in two (writer_enter, inputs, writer_enter_end, the real call, writer_leave, outputs, writer_leave_end).
+ * Between enter and end the writer is locked, and the caller holds the write position `p` for put_*
  * (values.h). Grammar: trace.md. Every function keeps errno. None allocates, aborts or exits.
  */
 #pragma once
@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/** Begin a call. Returns the write position, or NULL where the call is not recorded (recording off, or a nested call). */
+/** Begin a call. @return the write position; NULL: the call is not recorded (recording off, or a nested call) */
 uint8_t *writer_enter(unsigned command);
 
 /** Begin a call that the recorder makes up; readers execute it like any other. */
@@ -23,14 +23,14 @@ uint8_t *writer_enter_memcpy(void);
 /** End a call that returns nothing. */
 void writer_call_end(uint8_t *p);
 
-/** The same of a call that ends a frame, and of its second half: the frame has its number from here on. */
+/** The same for a call that ends a frame, and for its second half: the frame has its number from here on. */
 void writer_frame_call_end(uint8_t *p);
 void writer_frame_leave_end(uint8_t *p);
 
 /** End the first half of a call. Returns what writer_leave wants. */
 uint64_t writer_enter_end(uint8_t *p);
 
-/** Begin the second half. NULL where `call` is 0 (the call is not recorded) or the recording has ended since. */
+/** Begin the second half. @return NULL if `call` is 0 (the call is not recorded) or the recording has ended since */
 uint8_t *writer_leave(uint64_t call);
 void writer_leave_end(uint8_t *p);
 
@@ -38,16 +38,16 @@ void writer_leave_end(uint8_t *p);
 void writer_nest(void);
 void writer_unnest(void);
 
-/** Leave out the calls for which `left_out` returns 1. NULL: none. */
+/** Leave out each call that `left_out` returns 1 for. NULL: none. */
 void writer_skip(int (*left_out)(unsigned command));
 
-/** Call `flush` once, before this thread's next call begins, to write calls that wait. NULL: none wait any more. */
+/** Call `flush` once, before this thread's next call begins, to write pending calls. NULL: none are pending. */
 void writer_wait_with(void (*flush)(void));
 
-/** The number of this process' trace, from 1 on; it changes after a fork. A new trace has nothing of the one before. */
+/** The number of this process' trace, from 1; changes after a fork. A new trace shares nothing with the one before. */
 unsigned writer_epoch(void);
 
-/** 1 where a call that this thread makes now is recorded. */
+/** 1 if a call that this thread makes now would be recorded. */
 int writer_active(void);
 
 /** Count a command that passes through unrecorded. */
@@ -62,10 +62,10 @@ void writer_frame_ends(void);
  */
 uint64_t writer_frame_ended(void);
 
-/** The same of what is complete, where the last time is a while ago. */
+/** The same for all complete data, if the last time was a while ago. */
 void writer_flush_sometimes(void);
 
-/** Frames numbered so far. Where one thread ends frames, that is the number, from 0 on, of the one being drawn. */
+/** Frames numbered so far. If only one thread ends frames, this is the number, from 0, of the frame being drawn. */
 uint64_t writer_frames(void);
 
 /** Bytes of the trace in the file. */
@@ -74,7 +74,7 @@ uint64_t writer_bytes(void);
 /** Write everything and end the recording; calls pass through from here on. */
 void writer_end(void);
 
-/** A call that ends a frame where the user says so. */
+/** Count a call that ends a frame if the user asks for it. */
 void writer_note_end(unsigned trigger);
 /** The same of a frame's window. */
 void writer_note_window(uintptr_t drawable);
@@ -84,7 +84,7 @@ void writer_note_program(void);
 /** A context is current; `is_core`: one of a core profile. */
 void writer_note_context(int is_core);
 
-/** The recorder ended the program as it was told to: the command reports success. */
+/** The recorder ended the program as requested: the command reports success. */
 void writer_note_quit(void);
 
 /** The program ends with the recording (--quit-after): an error that ends the recording says so. */
@@ -97,6 +97,6 @@ void writer_note_lost_references(void);
 
 /**
  * Path of a file beside this process' trace, with .trace replaced by `suffix` (".ref").
- * @return 0, or -1 where there is no trace or it does not fit
+ * @return 0; -1: there is no trace, or the path does not fit
  */
 int writer_sidecar(char *out, size_t size, const char *suffix);

@@ -18,7 +18,7 @@ failing = [f["failing_pixels"] for f in score["frames"]]
 check(failing == [0] * FRAMES, f"failing pixels: {failing}")
 sizes = [(f["width"], f["height"]) for f in score["frames"]]
 check(sizes == [(48, 48), (80, 80)] * 5, f"sizes: {sizes}")
-check("its frames are of several windows" in said, f"record says: {said}")
+check("its frames come from several windows" in said, f"record says: {said}")
 check("shaders" not in said, f"record says: {said}")
 size = trace.with_suffix(".ref").stat().st_size
 check(f"bytes, {size} bytes of reference frames, 0 calls not recorded" in said, f"references of {size} bytes: {said}")
