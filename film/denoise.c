@@ -1,4 +1,4 @@
-/* relume denoise: noise out of rendered frames, by frames before and after them. */
+/* relume denoise: removes noise from rendered frames, with the help of frames before and after them. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,12 +27,12 @@ struct asked {
 static const struct options_row rows[] = {
 	{ "output", 'o', "PATTERN", "file names, .exr: ####, %04d, $F4 or {frame} stand for the frame number", options_text,
 	  .at = offsetof(struct asked, output), .is_required = 1 },
-	{ "frames", 'f', "LIST", "frames to denoise (default: all that are there); others help where they are there", options_frames,
+	{ "frames", 'f', "LIST", "frames to denoise (default: all that exist); the others help if they exist", options_frames,
 	  .at = offsetof(struct asked, frames) },
-	{ "reach", 0, "N", "frames before and after that help, where channels motion.* tell what moved where (default 3)", options_number,
+	{ "reach", 0, "N", "use up to N frames before and after, if channels motion.* tie them together (default 3)", options_number,
 	  .at = offsetof(struct asked, reach), .most = MOST_REACH },
-	{ "no-time", 0, NULL, "each frame by itself", options_flag, .at = offsetof(struct asked, no_time) },
-	{ "oidn", 0, NULL, "each frame by itself, by Intel's Open Image Denoise 2, where it is installed", options_flag,
+	{ "no-time", 0, NULL, "denoise each frame alone", options_flag, .at = offsetof(struct asked, no_time) },
+	{ "oidn", 0, NULL, "denoise each frame alone, with Intel's Open Image Denoise 2, which must be installed", options_flag,
 	  .at = offsetof(struct asked, oidn) },
 };
 
@@ -40,9 +40,9 @@ static const struct options_table table = {
 	.verb = "denoise",
 	.head = "usage: relume denoise [OPTIONS] FRAMES -o PATTERN\n"
 	        "\n"
-	        "Take the noise out of rendered frames.\n"
+	        "Remove noise from rendered frames.\n"
 	        "\n"
-	        "FRAMES  what 'relume render' made: a folder, or a pattern such as out/gears.####.exr, with channels reflect, refract,\n"
+	        "FRAMES  made by 'relume render': a folder, or a pattern such as out/gears.####.exr, with channels reflect, refract,\n"
 	        "        albedo, N and Z; --aov motion adds those that tie frames together\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Channels of effects (shadow, relight, reflect, refract) are left out: they would not add up to the new beauty. The same\n"
@@ -72,7 +72,7 @@ static void drop(struct kept *k)
 	k->is_there = 0;
 }
 
-/* A frame taken apart, read where it is not kept. @return 0; *out NULL: there is none; or ERR_* (reported) */
+/* A frame, taken apart; read unless it is kept. @return 0 (*out is NULL if there is none) or ERR_* (reported) */
 static int keep(struct denoising *d, uint64_t frame, struct kept **out)
 {
 	const struct set_entry *entry = set_find(&d->set, frame);
@@ -103,7 +103,7 @@ static int keep(struct denoising *d, uint64_t frame, struct kept **out)
 	return err;
 }
 
-/* Frames that lie too far from the one that is next go. */
+/* Drop frames that are too far from the next one. */
 static void forget(struct denoising *d, uint64_t first)
 {
 	for (size_t i = 0; i < sizeof(d->kept) / sizeof(d->kept[0]); i++)
@@ -140,7 +140,7 @@ static int gather(struct denoising *d, uint64_t frame, unsigned reach, const str
 	return err;
 }
 
-/* By frames before and after, and over the picture. where: its name, for messages */
+/* Filter over frames before and after, then over the picture. where: its name, for messages */
 static int filter(struct denoising *d, uint64_t frame, const char *where, struct image *img)
 {
 	const unsigned reach = d->asked->no_time ? 0 : d->asked->reach;

@@ -25,7 +25,7 @@ struct encoder {
 	int pipe; /* its standard input */
 };
 
-/* What ffmpeg is told for each kind of file. All of it is 8 bits of 4:2:0, which every player and browser shows. */
+/* ffmpeg's options for each kind of file. All are 8 bits, 4:2:0, which every player and browser shows. */
 static const struct kind {
 	const char *ending;
 	const char *options[16];
@@ -80,7 +80,7 @@ static int spawn(char *const *argv, int input, pid_t *child)
 
 static int start(struct encoder *e, uint32_t width, uint32_t height, unsigned fps)
 {
-	/* Pictures are sRGB; players take films for BT.709, so its matrix and range are said. Odd sizes get a row or column more. */
+	/* Pictures are sRGB; players assume BT.709: set its matrix and range. Odd sizes get one more row or column. */
 	static char filter[] = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
 	char size[32], rate[16];
 	char *argv[64] = { "ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size,
@@ -117,7 +117,7 @@ int encoder_open(const char *path, uint32_t width, uint32_t height, unsigned fps
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	e->path = path;
 	e->frame_bytes = (size_t)width * height * 3;
-	signal(SIGPIPE, SIG_IGN); /* an ffmpeg that ends early is an error of encoder_write */
+	signal(SIGPIPE, SIG_IGN); /* if ffmpeg ends early, encoder_write fails */
 	err = part_begin(path, e->part, sizeof(e->part));
 	if (!err) {
 		err = start(e, width, height, fps);

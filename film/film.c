@@ -1,4 +1,4 @@
-/* relume film: rendered frames, beside what the program showed, as a film. */
+/* relume film: makes a film of rendered frames, beside the program's own pictures. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -33,16 +33,16 @@ struct asked {
 static const struct options_row rows[] = {
 	{ "output", 'o', "FILM", "the film's file: .webm, .mp4 or .mkv; a poster appears beside it, as FILM with the ending .jpg", options_text,
 	  .at = offsetof(struct asked, output), .is_required = 1 },
-	{ "frames", 'f', "LIST", "frames to show (default: all that are there)", options_frames, .at = offsetof(struct asked, frames) },
-	{ "layout", 0, "WORD", "side: what the program showed beside the traced picture (default); wipe: a line moves between the two; "
+	{ "frames", 'f', "LIST", "frames to show (default: all that exist)", options_frames, .at = offsetof(struct asked, frames) },
+	{ "layout", 0, "WORD", "side: the program's picture beside the traced one (default); wipe: a line moves between the two; "
 	  "alternate: one after the other; traced or raster: one alone", options_word, .at = offsetof(struct asked, layout.kind), .words = layout_names },
-	{ "raster", 0, "REF", "what the program showed: a trace (NAME.ref beside it), a .ref file or images (default: channels gl.* of the frames)",
+	{ "raster", 0, "REF", "the program's pictures: a trace (with NAME.ref beside it), a .ref file or images (default: the frames' channels gl.*)",
 	  options_text, .at = offsetof(struct asked, raster) },
 	{ "fps", 0, "N", "show N frames a second (default: each as long as the program showed it, but at least for one of the 30 or 60 pictures that a second "
 	  "has, and at most 2 s; 30 a second where the frames do not tell)", options_number, .at = offsetof(struct asked, fps), .most = 240 },
 	{ "caption", 0, "TEXT", "a line below the pictures", options_text, .at = offsetof(struct asked, layout.caption) },
-	{ "no-labels", 0, NULL, "do not say which picture is which", options_flag, .at = offsetof(struct asked, layout.no_labels) },
-	{ "exposure", 0, "STOPS", "the traced picture is brighter by so many stops (default 0)", options_real,
+	{ "no-labels", 0, NULL, "do not label the pictures", options_flag, .at = offsetof(struct asked, layout.no_labels) },
+	{ "exposure", 0, "STOPS", "make the traced picture brighter by this many stops (default 0)", options_real,
 	  .at = offsetof(struct asked, display.exposure), .low = -30, .high = 30 },
 	{ "white", 0, "X", "the brightness that is shown as white, as for 'relume render' (default: as the frames' mode has it)", options_real,
 	  .at = offsetof(struct asked, display.white), .low = 1, .high = 10000 },
@@ -52,32 +52,32 @@ static const struct options_table table = {
 	.verb = "film",
 	.head = "usage: relume film [OPTIONS] FRAMES -o FILM\n"
 	        "\n"
-	        "Make a film of rendered frames, beside what the program showed.\n"
+	        "Make a film of rendered frames, beside the program's own pictures.\n"
 	        "\n"
-	        "FRAMES  what 'relume render' made: a folder, or a pattern such as out/gears.####.exr. OpenEXR frames hold both\n"
+	        "FRAMES  made by 'relume render': a folder, or a pattern such as out/gears.####.exr. OpenEXR frames hold both\n"
 	        "        pictures; .png and .jpg need --raster\n",
 	OPTIONS_ROWS(rows),
-	.notes = "ffmpeg, which must be installed, packs the film.\n"
+	.notes = "ffmpeg, which must be installed, encodes the film.\n"
 	         "Exit codes: 0 done, 2 wrong usage, 3 a frame cannot be read, 5 ffmpeg or the system failed.\n",
 	.takes = "FRAMES and -o FILM", .least = 1, .most = 1,
 };
 
-/* The film on its way. */
+/* The film so far. */
 struct film {
 	const struct asked *asked;
-	struct set traced, raster;             /* raster: empty where frames bring their own */
-	struct display *of_traced, *of_raster; /* NULL: no frame was read yet */
-	uint32_t width, height;                /* of frames */
-	struct oiio_pixels picture;            /* of the film */
+	struct set traced, raster;             /* raster: empty if the frames have their own */
+	struct display *of_traced, *of_raster; /* NULL: no frame read yet */
+	uint32_t width, height;                /* size of the frames */
+	struct oiio_pixels picture;            /* one picture of the film */
 	struct encoder *encoder;
 	unsigned fps;
 	uint64_t n_pictures;                   /* in the film so far */
-	/* The frame that is shown next, once it is known how long it stands. */
+	/* The held frame: shown as soon as its duration is known. */
 	uint8_t *raster_rgb, *traced_rgb;
 	uint64_t time_ns;                      /* when the program showed it; 0: not known */
-	double ends_s, lasts_s;                /* when it ends in the film; how long the last one stood */
-	double shown_s;                        /* how long the program showed all that stand longer here */
-	uint64_t n_slowed;                     /* how many these are */
+	double ends_s, lasts_s;                /* its end in the film; the duration of the last one */
+	double shown_s;                        /* time that the program showed all frames that the film shows longer */
+	uint64_t n_slowed;                     /* number of these frames */
 	int is_held;
 };
 
@@ -86,14 +86,14 @@ struct film {
 static int fill(struct film *f, const struct display *display, const struct image *img, const char *layer, const char *where, uint8_t *rgb)
 {
 	if (img->width != f->width || img->height != f->height)
-		return err_report(ERR_INPUT, where, "is of %u x %u pixels; the film began with %u x %u", img->width, img->height, f->width,
+		return err_report(ERR_INPUT, where, "is %u x %u pixels, but the film started at %u x %u", img->width, img->height, f->width,
 		                  f->height);
 	if (*layer && !image_channel(img, "gl.R"))
 		return err_report(ERR_INPUT, where, "holds no channels gl.*; name the recording or its raster frames with --raster");
 	return display_codes(display, img, layer, rgb, NULL);
 }
 
-/* The first frame decides about size, curve and speed. */
+/* The first frame determines size, tone curve and speed. */
 static int begin(struct film *f, const struct image *img)
 {
 	const char *white = image_attribute(img, "relume:white");
@@ -121,7 +121,7 @@ static int begin(struct film *f, const struct image *img)
 	return err ? err : encoder_open(f->asked->output, f->picture.width, f->picture.height, f->fps, &f->encoder);
 }
 
-/* Show the frame that is held until `f->ends_s`. */
+/* Show the held frame until `f->ends_s`. */
 static int show(struct film *f)
 {
 	const uint64_t rounded = (uint64_t)(f->ends_s * f->fps + 0.5);
@@ -136,7 +136,7 @@ static int show(struct film *f)
 	return err;
 }
 
-/* How long the frame that is held stands, as the next one shows. @param next_ns  0: not known, or there is none */
+/* Duration of the held frame, in seconds. @param next_ns  time of the next one; 0: not known, or there is none */
 static double duration(const struct film *f, uint64_t next_ns)
 {
 	if (f->asked->fps)
@@ -146,7 +146,7 @@ static double duration(const struct film *f, uint64_t next_ns)
 	return f->lasts_s > 0 ? f->lasts_s : 1.0 / RATE_FPS;
 }
 
-/* The frame that is held has ended. */
+/* The held frame has ended: show it. */
 static int let_go(struct film *f, uint64_t next_ns)
 {
 	if (!f->is_held)
@@ -194,7 +194,7 @@ static int take_frame(struct film *f, const struct set_entry *entry)
 
 /* --- The poster ---------------------------------------------------------------------------------------------------- */
 
-/* The film's picture of the frame that is held; both halves of it where they take turns. */
+/* The film's picture of the held frame; both halves if they alternate. */
 static int write_poster(struct film *f)
 {
 	struct layout layout = f->asked->layout;
@@ -255,7 +255,7 @@ static int run(struct film *f)
 		fprintf(stderr, "%s: %" PRIu64 " frame%s, %.1f s, %u x %u\n", f->asked->output, total, plural(total),
 		        (double)f->n_pictures / f->fps, f->picture.width, f->picture.height);
 	if (!err && f->n_slowed)
-		fprintf(stderr, "  the program showed %" PRIu64 " of these frames in %.2g s, faster than films go: each stands for one picture "
+		fprintf(stderr, "  the program showed %" PRIu64 " of these frames in %.2g s, faster than films go: each is shown for one picture "
 		        "(--fps sets how many a second)\n", f->n_slowed, f->shown_s);
 	return err;
 }

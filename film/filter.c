@@ -7,7 +7,7 @@
 #include "base/err.h"
 #include "film/filter_weights.h"
 
-#define ALBEDO_LEAST 0.02f /* light is what a surface shows over its albedo, at least this */
+#define ALBEDO_LEAST 0.02f /* light is a surface's colour over its albedo, or over this if it is less */
 
 static int allocate(struct filter_frame *f)
 {
@@ -43,7 +43,7 @@ void filter_free(struct filter_frame *f)
 	*f = (struct filter_frame){ 0 };
 }
 
-/* A frame's planes by group: three of each, but for Z. */
+/* A frame's planes by group: three each, except for Z. */
 struct planes {
 	const float *beauty[3], *reflect[3], *refract[3], *albedo[3], *normal[3], *motion[3], *depth;
 };
@@ -101,7 +101,7 @@ int filter_take(struct image *img, const char *where, struct filter_frame *f)
 			square += f->normal[i][c] * f->normal[i][c];
 		}
 		f->depth[i] = p.depth[i];
-		/* What lies in the viewer's own plane is no place that light reaches: a HUD, blended over another surface's light. */
+		/* A surface in the viewer's own plane is not lit: it is a HUD, blended over another surface's light. */
 		f->is_there[i] = square > 0.25f && f->depth[i] > 0 && isfinite(f->depth[i]) && isfinite(filter_brightness(f->light[i]) + filter_brightness(f->gloss[i]));
 	}
 	return err;
@@ -115,7 +115,7 @@ static void drop_channel(struct image *img, size_t i)
 	img->n_channels--;
 }
 
-/* Files take a channel as it was rendered, where that is still there. */
+/* Files are written with a channel as it was rendered, if that is still there. */
 static void forget_halves(struct image *img, const float *plane)
 {
 	for (size_t i = 0; i < img->n_channels; i++)

@@ -1,12 +1,13 @@
 /*
- * Noise out of rendered frames, by what is known without noise: albedo, normals, depth, motion vectors.
+ * Removes noise from rendered frames, guided by channels without noise: albedo, normals, depth, motion vectors.
  *
- * What lights the surfaces (beauty less reflect and refract, over albedo) and what mirrors and glass show are filtered apart. Over
- * time: a point's light in frames before and after, followed by motion vectors, where surface and brightness are the same. Then over the
- * picture: five passes of an a-trous wavelet whose steps double (H. Dammertz et al., "Edge-Avoiding A-Trous Wavelet Transform for fast
- * Global Illumination Filtering", 2010), guided by normals, depth and the variance that is left (C. Schied et al., "Spatiotemporal
- * Variance-Guided Filtering", 2017), which neighbours tell
- * (filter_guess.h). All in C on this processor: the same frames give the same bytes, whatever the number of threads.
+ * The light on surfaces (beauty minus reflect and refract, over albedo) and the light from mirrors and glass are
+ * filtered separately. First over time: a point's light in frames before and after, followed along motion vectors,
+ * wherever surface and brightness are the same. Then over the picture: five passes of an a-trous wavelet whose steps
+ * double (H. Dammertz et al., "Edge-Avoiding A-Trous Wavelet Transform for fast Global Illumination Filtering", 2010),
+ * guided by normals, depth and the remaining variance (C. Schied et al., "Spatiotemporal Variance-Guided Filtering",
+ * 2017), which is estimated from neighbours (filter_guess.h). All in C on this processor: the same frames give the same
+ * bytes with any number of threads.
  */
 #pragma once
 
@@ -18,16 +19,16 @@
 struct filter_frame {
 	uint32_t width, height;
 	float (*light)[3], (*gloss)[3]; /* on surfaces; in mirrors and through glass */
-	float *variance;                /* of light's noise, the mean of the channels */
-	float *guess;                   /* brightness as it may be, to compare frames by */
+	float *variance;                /* variance of light's noise, mean of the channels */
+	float *guess;                   /* estimated brightness, to compare frames by */
 	float (*albedo)[3], (*normal)[3], *depth;
-	float (*motion)[3]; /* pixels right and down since the frame before, and 1 where that is known */
+	float (*motion)[3]; /* pixels right and down since the frame before, and 1 if that is known */
 	uint8_t *is_there;  /* 1: a surface */
-	uint8_t *is_inner;  /* 1: and so are the pixels about it, the same: none of its samples lie elsewhere */
+	uint8_t *is_inner;  /* 1: the pixels around it are the same surface, so all its samples are on it */
 };
 
 /**
- * Take apart what a file holds.
+ * Take a frame apart.
  * @param where  its name, for messages
  * @param out    all zero; filter_free
  * @return 0; ERR_INPUT (reported: channels are missing); ERR_SYSTEM (reported)
@@ -40,25 +41,25 @@ int filter_guess(struct filter_frame *frame);
 
 /**
  * Mix in the same points of other frames.
- * @param frames  [n] in order, one a frame, sizes alike, guessed; of all but frames[middle] light and gloss are read as they were taken
- * @param out     of frames[middle]: receives light, gloss and variance
+ * @param frames  [n] in order, all of one size, after filter_guess; light and gloss as taken, but for frames[middle]
+ * @param out     receives light, gloss and variance of frames[middle]
  */
 int filter_time(const struct filter_frame *const *frames, unsigned n, unsigned middle, struct filter_frame *out);
 
-/** Over the picture. @return 0 or ERR_SYSTEM (reported) */
+/** Filter over the picture. @return 0 or ERR_SYSTEM (reported) */
 int filter_space(struct filter_frame *frame);
 
 /**
- * The planes of R, G and B, to be written; effect channels, which will no longer add up to them, go.
+ * The planes of R, G and B, to be written. Effect channels are removed: they will no longer add up to these.
  * @return 0 or ERR_SYSTEM (reported)
  */
 int filter_beauty(struct image *img, float *to[3]);
 
-/** Into R, G and B, as filter_beauty. @return 0 or ERR_SYSTEM (reported) */
+/** Write the result into R, G and B, as filter_beauty. @return 0 or ERR_SYSTEM (reported) */
 int filter_put(const struct filter_frame *frame, struct image *img);
 
 /**
- * All of this for a frame by itself.
+ * All of this for a single frame.
  * @return 0; ERR_INPUT (reported: channels are missing); ERR_SYSTEM (reported)
  */
 int filter_alone(struct image *img);

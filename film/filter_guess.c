@@ -18,7 +18,7 @@ static int by_size(const void *a, const void *b)
 	return (x > y) - (x < y);
 }
 
-/* Half the squared difference of two neighbours, where they lie on one surface. */
+/* Add half the squared difference of two neighbours if they are on one surface. */
 static void add_pair(const struct filter_frame *f, const float (*plane)[3], size_t a, size_t b, float slope, float *pairs, size_t *n)
 {
 	if (*n < MOST_PAIRS && f->is_there[a] && filter_same_surface(f, a, b, slope, 1) > 0.5f)
@@ -44,7 +44,7 @@ float filter_noise(const struct filter_frame *f, const float (*plane)[3], uint32
 	return n ? pairs[(size_t)((float)(n - 1) * QUANTILE)] / QUANTILE_SQUARE : 0;
 }
 
-/* Whether all of the eight pixels about one lie on its surface. */
+/* Are all eight pixels around one on its surface? */
 static int is_inner(const struct filter_frame *f, uint32_t x, uint32_t y, float slope)
 {
 	const size_t i = (size_t)y * f->width + x;

@@ -1,11 +1,11 @@
-/* The noise about a pixel. */
+/* The noise around a pixel. */
 #pragma once
 
 #include "film/filter.h"
 
 /**
- * The variance of the noise about a pixel, from how much neighbours differ. Most pairs of neighbours do so by noise alone; edges of
- * shadows, where some differ by more, are no noise and stay.
- * @param plane  [pixels] of the frame, whatever it shows
+ * The variance of the noise around a pixel, estimated from the differences between neighbours. Most pairs differ only
+ * by noise; at the edges of shadows some differ by more, which is not noise and is kept.
+ * @param plane  [pixels] of the frame, of any channels
  */
 float filter_noise(const struct filter_frame *frame, const float (*plane)[3], uint32_t x, uint32_t y);

@@ -1,4 +1,4 @@
-/* Passes over the picture, whose steps double. */
+/* Passes over the picture, each with twice the step. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +19,7 @@ struct pass {
 	float (*to)[3], *next_variance;
 };
 
-/* The variance about a pixel, itself less noisy than one pixel's. */
+/* The variance around a pixel, which is less noisy than that of one pixel. */
 static float smooth_variance(const struct pass *p, uint32_t x, uint32_t y)
 {
 	static const float weight[2] = { 0.5f, 0.25f };
@@ -86,7 +86,7 @@ static void pass_row(const void *user, uint32_t y)
 	}
 }
 
-/* Some passes over light or gloss; *plane and *variance are exchanged for others. */
+/* Some passes over light or gloss; replaces *plane and *variance. */
 static int run_passes(const struct filter_frame *f, uint32_t n, float (**plane)[3], float **variance)
 {
 	const size_t pixels = (size_t)f->width * f->height + 1;
@@ -107,7 +107,7 @@ static int run_passes(const struct filter_frame *f, uint32_t n, float (**plane)[
 	return err;
 }
 
-/* The noise of what mirrors show, about each pixel: as filter_guess has it of light. */
+/* The noise of gloss around each pixel, as filter_guess computes it for light. */
 static void gloss_row(const void *user, uint32_t y)
 {
 	const struct pass *p = user;

@@ -7,7 +7,7 @@
 #include "film/filter.h"
 #include "film/rows.h"
 
-/* Where each pixel of a frame is in the next one: motion vectors turned round. [pixels][2]; INFINITY: nowhere */
+/* The position of each pixel of a frame in the next one: motion vectors reversed. [pixels][2]; INFINITY: none */
 static void turn_round(const struct filter_frame *next, float (*out)[2])
 {
 	for (size_t i = 0; i < (size_t)next->width * next->height; i++)
@@ -26,7 +26,7 @@ static void turn_round(const struct filter_frame *next, float (*out)[2])
 		}
 }
 
-/* The pixel at a place. @return 0: it lies outside */
+/* The pixel at a position. @return 0: it is outside */
 static int pixel_at(const struct filter_frame *f, const float at[2], size_t *pixel)
 {
 	if (!(at[0] >= 0) || !(at[1] >= 0) || !(at[0] < (float)f->width) || !(at[1] < (float)f->height))
@@ -35,7 +35,7 @@ static int pixel_at(const struct filter_frame *f, const float at[2], size_t *pix
 	return 1;
 }
 
-/* A step along one point's way: to the frame before (its own motion) or the next. @return 0: it is not known */
+/* One step along a point's path: to the frame before (its own motion) or the next. @return 0: not known */
 static int step(const struct filter_frame *from, const float (*onwards)[2], float at[2])
 {
 	size_t pixel;
@@ -56,14 +56,14 @@ struct over_time {
 	struct filter_frame *out;
 };
 
-/* How much of a pixel of another frame counts: the same surface, as bright as the noise of both guesses allows. */
+/* The weight of another frame's pixel: is it the same surface, and as bright as the noise of both guesses allows? */
 static float same_point(const struct filter_frame *a, size_t i, const struct filter_frame *b, size_t k)
 {
 	const float *n = a->normal[i], *m = b->normal[k], *c = a->albedo[i], *d = b->albedo[k];
 	const float off = a->guess[i] - b->guess[k], scale = 0.02f * (a->guess[i] + b->guess[k]) +
 	                                                      0.3f * sqrtf(a->variance[i] + b->variance[k]) + 1e-4f;
 
-	/* the viewer may turn a little from frame to frame, and so do normals in eye space */
+	/* the viewer may turn a little between frames, which turns normals in eye space */
 	if (!b->is_inner[k] || n[0] * m[0] + n[1] * m[1] + n[2] * m[2] < 0.9f ||
 	    fabsf(a->depth[i] - b->depth[k]) > 0.1f * (fabsf(a->depth[i]) + fabsf(b->depth[k])) ||
 	    fabsf(c[0] - d[0]) + fabsf(c[1] - d[1]) + fabsf(c[2] - d[2]) > 0.15f * (c[0] + c[1] + c[2]) + 0.02f)
@@ -71,12 +71,12 @@ static float same_point(const struct filter_frame *a, size_t i, const struct fil
 	return expf(-off * off / (scale * scale));
 }
 
-/* What is summed up of a pixel. */
+/* Weighted sums for a pixel. */
 struct mix {
 	float light[3], gloss[3], weights, squares;
 };
 
-/* Add the four pixels about a place of another frame, as near as they are. @return 0: it lies outside */
+/* Add the four pixels around a position in another frame, weighted by distance. @return 0: it is outside */
 static int mix_place(const struct filter_frame *here, size_t i, const struct filter_frame *there, const float at[2], struct mix *mix)
 {
 	const float x = at[0] - 0.5f, y = at[1] - 0.5f, left = floorf(x), top = floorf(y);

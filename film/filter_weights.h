@@ -1,4 +1,4 @@
-/* What all parts of the filter weigh pixels by. */
+/* Weights of pixels, for all parts of the filter. */
 #pragma once
 
 #include <math.h>
@@ -12,7 +12,7 @@ static inline float filter_brightness(const float c[3])
 	return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
 }
 
-/* The mean square of what two colours differ by. */
+/* The mean squared difference of two colours. */
 static inline float filter_distance2(const float a[3], const float b[3])
 {
 	const float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
@@ -20,7 +20,7 @@ static inline float filter_distance2(const float a[3], const float b[3])
 	return (x * x + y * y + z * z) / 3;
 }
 
-/* How much two pixels lie on one smooth surface. step: pixels between them */
+/* How likely two pixels are on one smooth surface, [0,1]. step: pixels between them */
 static inline float filter_same_surface(const struct filter_frame *f, size_t a, size_t b, float slope, float step)
 {
 	const float *n = f->normal[a], *m = f->normal[b];
@@ -33,7 +33,7 @@ static inline float filter_same_surface(const struct filter_frame *f, size_t a, 
 	return cosine * expf(-fabsf(f->depth[a] - f->depth[b]) / (FILTER_SIGMA_DEPTH * slope * step + 1e-3f * fabsf(f->depth[a]) + 1e-6f));
 }
 
-/* By how much depth changes from pixel to pixel: the lesser of what it does on both sides, of both axes the greater. */
+/* Change of depth per pixel: on each axis the smaller of both sides, then the larger of the two axes. */
 static inline float filter_slope(const struct filter_frame *f, uint32_t x, uint32_t y)
 {
 	const size_t i = (size_t)y * f->width + x;

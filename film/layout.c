@@ -24,7 +24,7 @@ int layout_moves(enum layout_kind kind)
 	return kind == LAYOUT_WIPE || kind == LAYOUT_ALTERNATE;
 }
 
-/* Columns first .. end - 1 of a picture, put at a column of the film. */
+/* Copy columns first .. end - 1 of a picture to a column of the film. */
 static void put(const struct oiio_pixels *film, uint32_t at, const uint8_t *rgb, const uint32_t size[2], uint32_t first, uint32_t end)
 {
 	const uint32_t width = size[0];
@@ -38,7 +38,7 @@ static int letters_of(uint32_t height)
 	return height >= 480 ? 18 : 12;
 }
 
-/* Without a font there are none. */
+/* Draws nothing without a font. */
 static void write_text(const struct oiio_pixels *film, const char *text, uint32_t x, int letters)
 {
 	oiio_draw_text(film, &(struct oiio_label){ text, (int)x, (int)film->height - letters / 2, letters, { 230, 230, 230 } });
@@ -65,7 +65,7 @@ static void write_strip(const struct layout *layout, uint32_t width, int odd, co
 		write_text(film, layout->caption, left + 9 * (uint32_t)letters, letters);
 }
 
-/* The column where the raster picture ends and the traced one begins. */
+/* The column of the border between the raster picture and the traced one. */
 static uint32_t wipe_column(uint32_t width, double seconds)
 {
 	const double share = 0.5 - 0.5 * cos(2 * 3.14159265358979 * (seconds / WIPE_S + 0.25));

@@ -8,7 +8,7 @@
 #include "base/err.h"
 #include "film/filter.h"
 
-/* Of its interface what is used here, by oidn.h of version 2 (https://www.openimagedenoise.org/documentation.html). */
+/* The part of its interface used here, from oidn.h 2 (https://www.openimagedenoise.org/documentation.html). */
 enum { DEVICE_CPU = 1, FORMAT_FLOAT3 = 3 };
 
 static struct {
@@ -41,7 +41,7 @@ static const struct symbol {
 	{ "oidnReleaseFilter", (void **)&oidn.release_filter },
 };
 
-/* What went wrong since it was last asked. @return 0: nothing; ERR_SYSTEM (reported) */
+/* Report any error since the last check. @return 0: none; ERR_SYSTEM (reported) */
 static int check_device(const char *where)
 {
 	const char *text = NULL;
@@ -57,7 +57,7 @@ int oidn_open(void)
 		return 0;
 	library = dlopen("libOpenImageDenoise.so.2", RTLD_NOW | RTLD_LOCAL);
 	if (!library)
-		return err_report(ERR_SYSTEM, NULL, "--oidn: Intel's Open Image Denoise 2 is not installed (%s); --denoise does without", dlerror());
+		return err_report(ERR_SYSTEM, NULL, "--oidn: Intel's Open Image Denoise 2 is not installed (%s); --denoise does not need it", dlerror());
 	for (size_t i = 0; i < sizeof(symbols) / sizeof(symbols[0]); i++) {
 		*symbols[i].to = dlsym(library, symbols[i].name);
 		if (!*symbols[i].to)
