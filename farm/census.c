@@ -11,7 +11,7 @@
 #include "base/program.h"
 #include "base/memory.h"
 
-/* "frame 7: out/gears.0007.exr: leave", as `relume render --dry-run` says it. */
+/* "frame 7: out/gears.0007.exr: leave", as printed by `relume render --dry-run`. */
 static int count_line(const struct farm_job *job, const char *line, struct census *c, size_t *room)
 {
 	enum census_verdict found = CENSUS_MISSING;
@@ -62,7 +62,7 @@ int census_take(const struct farm_job *job, struct census *out)
 	argv[n++] = "--";
 	argv[n++] = (char *)job->trace;
 	rc = program_read(argv, 0, &text);
-	/* It has said what is wrong. */
+	/* It has reported the error. */
 	rc = rc <= 0 ? rc : rc <= -ERR_SYSTEM ? -rc : ERR_SYSTEM;
 	for (char *line = rc == 0 ? strtok(text, "\n") : NULL; line && !rc; line = strtok(NULL, "\n"))
 		rc = count_line(job, line, out, &room);
@@ -103,7 +103,7 @@ uint64_t census_landed(const struct farm_job *job, const struct census *c)
 	return n;
 }
 
-/* When the first task of the last submission began: job.sh is written anew by each, and touches a lock in each task. */
+/* When the first task of the last submission began: submissions rewrite job.sh, which touches a lock in each task. */
 static double began(const struct farm_job *job)
 {
 	char path[PATH_MAX + 48];

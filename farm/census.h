@@ -1,11 +1,11 @@
-/* Which frames of a job are whole: what the files say. */
+/* Which frames of a job are whole, judged by their files. */
 #pragma once
 
 #include <time.h>
 
 #include "farm/job.h"
 
-enum census_verdict { CENSUS_MISSING, CENSUS_DAMAGED, CENSUS_OUTDATED, N_CENSUS_VERDICTS }; /* OUTDATED: of other settings */
+enum census_verdict { CENSUS_MISSING, CENSUS_DAMAGED, CENSUS_OUTDATED, N_CENSUS_VERDICTS }; /* OUTDATED: other settings */
 
 struct census_frame {
 	uint64_t frame;
@@ -20,16 +20,16 @@ struct census {
 	time_t taken;
 };
 
-/** Look at every frame, and check all that tasks will be given. @return 0 or ERR_* (reported); free in any case */
+/** Look at every frame, and check all options that tasks will get. @return 0 or ERR_* (reported); free in any case */
 int census_take(const struct farm_job *job, struct census *out);
 void census_free(struct census *census);
 
-/** Frames that were wanting and have a new file since. */
+/** Number of frames that were not whole and have a new file since. */
 uint64_t census_landed(const struct farm_job *job, const struct census *census);
 
 /**
- * How fast frames come: those written since the first task of the last submission began, by the times of their files.
- * What a task needs to start counts: several frames of one that land together say little of those to come.
- * @return frames a second; 0 where it cannot be known yet
+ * The rate of frames written since the first task of the last submission began, by the times of their files. It
+ * includes the start of tasks: several frames of one task that appear together say little about the rest.
+ * @return frames a second; 0: not known yet
  */
 double census_rate(const struct farm_job *job);

@@ -42,7 +42,7 @@ static char *list_tasks(const struct farm_job *job, const struct census *c)
 	return text;
 }
 
-/* Becomes the script; returns only where it cannot. */
+/* Replace this process with the script; returns only on failure. */
 static int run_script(const struct farm_job *job, const char *tasks)
 {
 	char path[PATH_MAX + 16];
@@ -88,7 +88,7 @@ static int script(int argc, char **argv)
 	int err = farm_job_parse(argc, argv, &job);
 
 	if (!err && job.asked_engine < 0)
-		err = err_report(ERR_USAGE, NULL, "for which engine? --for takes slurm, parallel or make");
+		err = err_report(ERR_USAGE, NULL, "no engine given: --for takes slurm, parallel or make");
 	if (!err)
 		err = farm_script_print(&job, stdout);
 	if (!err && fflush(stdout))
@@ -102,14 +102,14 @@ static int retry(struct farm_job *job)
 	struct census census = { 0 };
 	struct slurm_queue queue = { 0 };
 	char *tasks = NULL;
-	/* Asked before the frames are: the frames of a task that has left the queue by then have all been written. */
+	/* Query the queue before the frames: a task that has left the queue by then has written all its frames. */
 	int err = job->engine == FARM_SLURM ? slurm_read(job, &queue) : 0;
 
 	if (!err)
 		err = slurm_release(&queue);
 	if (!err)
 		err = census_take(job, &census);
-	/* What waits or runs is in good hands. */
+	/* Leave out tasks that wait or run. */
 	for (uint64_t i = 1; !err && i <= job->n_tasks; i++)
 		if (queue.holds && queue.holds[i])
 			census.needs[i] = 0;
@@ -165,7 +165,7 @@ static int with_job(int argc, char **argv, int (*verb)(struct farm_job *))
 	return err;
 }
 
-/* What stands behind `relume farm`: the words of a new job, or the folder of one; of neither is status. */
+/* The subcommands: they take the words of a new job, or a job's folder; status takes more and is in neither column. */
 static const struct {
 	const char *name;
 	int (*with_words)(int argc, char **argv);

@@ -45,9 +45,9 @@ static const struct options_row rows[] = {
 	{ "output", 'o', "PATTERN", "file names: ####, %04d, $F4 or {frame} stand for the frame number",
 	  options_text, .at = offsetof(struct farm_job, output), .is_required = 1 },
 	{ "chunk", 0, "N", "frames in a task, at most (default 50)", take_chunk, .at = offsetof(struct farm_job, chunk) },
-	{ "reference", 0, "REF", "what to score against, as for 'relume diff' (default: what was recorded with --ref)",
+	{ "reference", 0, "REF", "reference to score against, as for 'relume diff' (default: frames recorded with --ref)",
 	  options_text, .at = offsetof(struct farm_job, reference) },
-	{ "gres", 0, "LIST", "what each task needs of a node, as gpu:1", options_text, .at = offsetof(struct farm_job, gres) },
+	{ "gres", 0, "LIST", "resources that each task needs, as gpu:1", options_text, .at = offsetof(struct farm_job, gres) },
 	{ "sbatch", 0, "OPTION", "one more option of sbatch, as --sbatch=--partition=night; may be repeated", add_sbatch, .at = 0 },
 	{ "local", 0, NULL, "on this machine, even where Slurm is installed", options_flag, .at = offsetof(struct farm_job, is_local) },
 	{ "replace", 0, NULL, "cancel the Slurm job that still renders to the same PATTERN, instead of refusing", options_flag,
@@ -82,7 +82,7 @@ const struct options_table farm_options = {
 	.takes = "one TRACE, -f FRAMES and -o PATTERN", .least = 1, .most = 1,
 };
 
-/* Which frames, where to and which of them anew is said once, before the "--". */
+/* The options for frames, output and re-rendering belong before the "--", once. */
 static int check_render_options(const struct farm_job *job)
 {
 	static const char *const ours[] = { "-f", "--frames", "-o", "--output", "--chunk", "--force", "--dry-run" };
@@ -93,7 +93,7 @@ static int check_render_options(const struct farm_job *job)
 
 			if (strncmp(job->render[i], ours[k], n) == 0 &&
 			    (n == 2 || job->render[i][n] == '\0' || job->render[i][n] == '='))
-				return err_report(ERR_USAGE, NULL, "%s does not belong behind '--': the farm cuts the frames itself",
+				return err_report(ERR_USAGE, NULL, "%s does not belong after '--': the farm divides the frames itself",
 				                  ours[k]);
 		}
 	return 0;
@@ -152,7 +152,7 @@ static const char *render_option(const struct farm_job *job, const char *option)
 	return value;
 }
 
-/* Only channels gl.*, from the recorded camera, can be held against what the program showed. NULL: they are there. */
+/* Only channels gl.*, from the recorded camera, can be scored. @return NULL if they are written, else why not */
 static const char *why_unscored(const struct farm_job *job)
 {
 	const size_t n = strlen(job->output);
@@ -172,7 +172,7 @@ static int parse_words(struct farm_job *job)
 	struct options_line line;
 	int argc = job->n_words, err;
 
-	/* What stands behind the first "--" is not ours to sort. */
+	/* Do not sort the words after the first "--". */
 	for (int i = 1; i < argc; i++)
 		if (strcmp(job->words[i], "--") == 0) {
 			job->render = job->words + i + 1;
@@ -250,7 +250,7 @@ int farm_job_save(const struct farm_job *job)
 	if (err)
 		return err;
 	fwrite(job->directory, 1, strlen(job->directory) + 1, file.stream);
-	/* The words may have been sorted by getopt_long, which means the same. */
+	/* getopt_long may have sorted the words, which keeps their meaning. */
 	for (int i = 0; i < job->n_words; i++)
 		fwrite(job->words[i], 1, strlen(job->words[i]) + 1, file.stream);
 	return part_close(&file, 0);

@@ -24,8 +24,8 @@ enum farm_engine { FARM_SLURM, FARM_PARALLEL, FARM_MAKE, FARM_LOCAL };
 struct farm_job {
 	/* As typed; borrowed from `words`. Relative names start at `directory`. */
 	const char *trace, *output, *frames_text;
-	const char *reference; /* what the report scores against; NULL: nothing is scored */
-	const char *unscored;  /* why the recorded reference frames are not used; NULL: they are, or there are none */
+	const char *reference; /* reference that the report scores against; NULL: nothing is scored */
+	const char *unscored;  /* why the recorded references are unused; NULL: they are used, or there are none */
 	const char *at_end;    /* a command of the shell that runs when all is done; NULL */
 	const char *gres;      /* generic resources a task asks Slurm for, or NULL */
 	const char **sbatch;   /* owned array of n_sbatch further options of sbatch */
@@ -36,20 +36,20 @@ struct farm_job {
 	uint64_t chunk;        /* frames in a task, at most */
 	int is_local;          /* 1: --local */
 	int replace;           /* 1: --replace */
-	int asked_engine;      /* what --for names, an enum farm_engine; -1: nothing */
+	int asked_engine;      /* --for, an enum farm_engine; -1: not given */
 
 	enum farm_engine engine;
-	struct frame_list frames;   /* of frames_text; owned */
+	struct frame_list frames;   /* frames_text, parsed; owned */
 	uint64_t n_frames, n_tasks; /* n_tasks: as many as it takes for no task to exceed `chunk` */
 
-	char directory[PATH_MAX]; /* where the words were typed; absolute */
+	char directory[PATH_MAX]; /* directory of the command line; absolute */
 	char relume[PATH_MAX];    /* this command; absolute */
 	char folder[PATH_MAX];    /* the job's folder, relative to directory or absolute */
 	char **words;             /* owned; argv of submit without its first word */
 	int n_words;
 };
 
-/** What `relume farm submit` and `relume farm script` take. */
+/** The options of `relume farm submit` and `relume farm script`. */
 extern const struct options_table farm_options;
 
 /**
@@ -66,5 +66,5 @@ int farm_job_save(const struct farm_job *job);
 /** Find a job by its folder, and go to the directory where it was submitted. @return 0 or ERR_* (reported) */
 int farm_job_load(const char *folder, struct farm_job *out);
 
-/** The number, from 1, of the task that a frame belongs to; 0 where it is none of the job's. */
+/** The number, from 1, of the task that a frame belongs to; 0 if the job does not have it. */
 uint64_t farm_job_task_of(const struct farm_job *job, uint64_t frame);

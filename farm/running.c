@@ -58,7 +58,7 @@ static int read_slurm(const struct farm_job *job, uint64_t *number, char *text, 
 	return err;
 }
 
-/* End the Slurm jobs, and wait: what they still write would be taken for the new job's. */
+/* End the Slurm jobs and wait, or what they still write would be mistaken for the new job's. */
 static int end_slurm(const struct farm_job *job)
 {
 	const struct timespec pause = { 0, 1000000000 / LOOKS_A_SECOND };
@@ -76,7 +76,7 @@ static int end_slurm(const struct farm_job *job)
 	return err;
 }
 
-/* What an earlier run left to be read by `farm status`: it would be taken for the new one's. */
+/* Remove an earlier run's files: `farm status` would mistake them for the new one's. */
 static void forget_earlier(const struct farm_job *job)
 {
 	char path[PATH_MAX + 16];

@@ -4,7 +4,7 @@
 #include "farm/job.h"
 
 /**
- * Take the job's folder for a new run. Refuses where an earlier one still renders there: names it and says what to do.
+ * Take the job's folder for a new run. Refuses if an earlier one still renders there, and reports which and what to do.
  * @param replace  1: end the earlier run's Slurm jobs first, and wait until they are gone
  * @return 0; ERR_USAGE or ERR_SYSTEM (reported)
  */

@@ -158,12 +158,12 @@ static void put_case(FILE *out)
 	      "esac\n", out);
 }
 
-/* The worse of two exit codes tells: frames first. */
+/* The exit code of the frames, or else that of the report. */
 static const char both[] = "report\nreported=$?\n[ \"$rendered\" = 0 ] || reported=$rendered\nat_end \"$reported\"\n";
 
 /*
- * Behind a command: go on when it has ended. Whoever ends the script, by the number in lock/run, ends the command as well. A terminal's
- * SIGINT reaches both.
+ * After a command: continue when it has ended. A signal that ends the script, by the PID in lock/run, ends the command
+ * as well. A terminal's SIGINT reaches both.
  */
 static const char wait_for_it[] =
 	" &\n"

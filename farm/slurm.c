@@ -21,7 +21,7 @@ static int ask(char *const *argv, char **out)
 	return rc;
 }
 
-/* The numbers of the Slurm jobs this job was handed over as: pairs of array and report, 0 for none. The caller's. */
+/* The numbers of this job's Slurm jobs: pairs of array and report, 0 for none. Freed by the caller. */
 static int read_numbers(const struct farm_job *job, uint64_t **out, size_t *n)
 {
 	char path[PATH_MAX + 16], array[32], report[32];
@@ -168,7 +168,7 @@ int slurm_read_ends(const struct farm_job *job, char ***words)
 		if (!has_accounting) {
 			free(text);
 			text = NULL;
-			program_read(scontrol, 1, &text); /* it forgets jobs after a while: then nobody knows */
+			program_read(scontrol, 1, &text); /* the controller forgets jobs: then it is not known */
 		}
 		for (char *line = text ? strtok(text, "\n") : NULL; line && !err; line = strtok(NULL, "\n"))
 			err = has_accounting ? read_accounting(job, line, *words) : read_controller(job, line, *words);
@@ -214,7 +214,7 @@ int slurm_cancel(const struct farm_job *job)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err) {
 		argv[k++] = "scancel";
-		argv[k++] = "--quiet"; /* of jobs that are over */
+		argv[k++] = "--quiet"; /* about jobs that have ended */
 		for (size_t i = 0; i < n; i++)
 			if (numbers[i]) {
 				snprintf(words[i], sizeof(words[i]), "%" PRIu64, numbers[i]);

@@ -1,17 +1,17 @@
-/* What Slurm knows of a job: asked each time, never kept. */
+/* Slurm's view of a job: queried each time, never kept. */
 #pragma once
 
 #include "farm/job.h"
 
 struct slurm_queue {
 	uint64_t running, waiting; /* tasks */
-	uint64_t number;           /* of the Slurm job that one of these, or the report, belongs to; 0: there is none */
-	int report;                /* 1 where the report waits or runs */
+	uint64_t number;           /* the Slurm job of one of these, or of the report; 0: there is none */
+	int report;                /* 1 if the report waits or runs */
 	unsigned char *holds;      /* [n_tasks + 1]: whether the task of that number waits or runs; owned */
 	char *failed_starts;       /* "12_3,12_7": tasks that Slurm could not start and holds; "" for none; owned */
 };
 
-/** Ask which tasks of the job wait or run. @param out zero-initialised @return 0 or ERR_SYSTEM (reported) */
+/** Query which tasks of the job wait or run. @param out zero-initialised @return 0 or ERR_SYSTEM (reported) */
 int slurm_read(const struct farm_job *job, struct slurm_queue *out);
 void slurm_free(struct slurm_queue *queue);
 
@@ -26,12 +26,12 @@ int slurm_release(const struct slurm_queue *queue);
 int slurm_cancel(const struct farm_job *job);
 
 /**
- * How tasks ended, by Slurm's accounting; where there is none, by what the controller still remembers (MinJobAge).
- * @param words  [n_tasks + 1] texts as "OUT_OF_MEMORY" or "FAILED, signal 9"; NULL where Slurm does not know. Each text and the
- *               array are the caller's
+ * How tasks ended, by Slurm's accounting or, without it, by what the controller still remembers (MinJobAge).
+ * @param words  [n_tasks + 1] texts as "OUT_OF_MEMORY" or "FAILED, signal 9"; NULL if Slurm does not know. The
+ *               caller frees each text and the array
  * @return 0 or ERR_SYSTEM (reported)
  */
 int slurm_read_ends(const struct farm_job *job, char ***words);
 
-/** Does the cluster take an array of so many tasks? @return 0, ERR_USAGE or ERR_SYSTEM (reported) */
+/** Does the cluster accept an array of the job's size? @return 0, ERR_USAGE (no) or ERR_SYSTEM (reported) */
 int slurm_check_size(const struct farm_job *job);

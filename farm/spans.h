@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-enum { SPANS_MOST = 12 }; /* runs that are printed; after them "..." */
+enum { SPANS_MOST = 12 }; /* runs to print before "..." */
 
 /* All-zero is empty but for `out`. */
 struct spans {

@@ -17,10 +17,10 @@
 
 enum { MOST_FAILED = 20 }; /* tasks that are named */
 
-/* What waits and runs. */
+/* The tasks that wait and run. */
 struct work {
 	struct slurm_queue queue;
-	char process[32]; /* without Slurm: the one that is at work; "" */
+	char process[32]; /* without Slurm: the process at work, or "" */
 	int is_over;
 };
 
@@ -55,7 +55,7 @@ static void print_rate(const struct farm_job *job, const struct work *work, uint
 
 static void print_frames(const struct census *c)
 {
-	static const char *const words[N_CENSUS_VERDICTS] = { "missing", "damaged", "of other settings" };
+	static const char *const words[N_CENSUS_VERDICTS] = { "missing", "damaged", "rendered with other settings" };
 
 	for (int k = 0; k < N_CENSUS_VERDICTS; k++) {
 		struct spans spans = { .out = stdout };
@@ -118,7 +118,7 @@ static int print_failed_task(const struct farm_job *job, uint64_t task, const st
 	return err;
 }
 
-/* Tasks that have frames to render, and that nobody works on: why not? */
+/* Tasks that have frames to render, but neither wait nor run: print why. */
 static int print_failed(const struct farm_job *job, const struct census *c, const struct slurm_queue *queue)
 {
 	uint64_t n = 0;
@@ -133,7 +133,7 @@ static int print_failed(const struct farm_job *job, const struct census *c, cons
 			continue;
 		snprintf(name, sizeof(name), "%" PRIu64, i);
 		task_read(job, name, &story);
-		/* It did its work, and somebody has touched its frames since. */
+		/* It succeeded, and its frames were changed later. */
 		if (story.state == TASK_ENDED && story.code == 0)
 			continue;
 		if (n++ < MOST_FAILED)
@@ -194,7 +194,7 @@ static int print_state(const struct farm_job *job, struct census *c, struct work
 	return fflush(stdout) ? err_report(ERR_SYSTEM, NULL, "cannot write to standard output") : err;
 }
 
-/* One line, without a look into the frames. */
+/* One line, without reading the frames. */
 static int print_progress(const struct farm_job *job, const struct census *c, struct work *work)
 {
 	uint64_t landed = census_landed(job, c);

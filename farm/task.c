@@ -9,7 +9,7 @@ void task_log(const struct farm_job *job, const char *name, char *out, size_t si
 	snprintf(out, size, "%s/log/%s", job->folder, name);
 }
 
-/* Errors of ours, of Slurm, of the shell; the rest is progress. */
+/* Errors from Relume, Slurm or the shell; the rest is progress. */
 static int is_error(const char *line)
 {
 	static const char *const starts[] = { "relume: ", "slurmstepd: ", "slurmd", "sh: ", "/" };

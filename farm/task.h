@@ -16,5 +16,5 @@ struct task_story {
 /** The log's path. @param name  a task's number, or "report" */
 void task_log(const struct farm_job *job, const char *name, char *out, size_t size);
 
-/** Read a log, from where the task began last. */
+/** Read a log, from the last start of the task. */
 void task_read(const struct farm_job *job, const char *name, struct task_story *out);
