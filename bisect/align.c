@@ -6,7 +6,7 @@
 #include "base/err.h"
 #include "base/memory.h"
 
-enum { MOST_EDITS = 500 }; /* of one script; time and memory grow with its square */
+enum { MOST_EDITS = 500 }; /* most edits in a script; time and memory grow with its square */
 
 struct part {
 	size_t a0, a1, b0, b1;
@@ -15,7 +15,7 @@ struct part {
 struct work {
 	const uint64_t *a, *b;
 	uint8_t *a_parts, *b_parts; /* 1: has no partner */
-	int32_t *rows;              /* of scripts of 0 .. MOST_EDITS edits: row d has 2 d + 1 places */
+	int32_t *rows;              /* for scripts of 0 .. MOST_EDITS edits: row d has 2 d + 1 places */
 };
 
 struct key_place {
@@ -123,7 +123,7 @@ static int compare_anchors(const void *x, const void *y)
 	return (a->a > b->a) - (a->a < b->a);
 }
 
-/* Keep the longest chain that rises in b as well. @return its length; the chain stands in order at the front */
+/* Keep the longest chain that rises in b as well. @return its length; the chain is moved to the front, in order */
 static size_t keep_chain(struct anchor *anchors, size_t n, size_t *ends)
 {
 	size_t length = 0, at;

@@ -1,8 +1,9 @@
 /*
- * relume bisect: the first call at which two recordings of a program part.
+ * relume bisect: finds the first call where two recordings of a program diverge.
  *
- * Frames are aligned, then calls (partners.h). Both recordings are executed side by side (walk.h): where calls differ, what of the state
- * differs is said as well. Then frames are drawn as OpenGL drew them, until a picture differs (sights.h).
+ * Frames are aligned, then calls (partners.h). Both recordings are executed side by side (walk.h): each difference
+ * between calls is printed with the differences in state. Then frames are drawn as OpenGL drew them, until a picture
+ * differs (sights.h).
  */
 #include <stdio.h>
 #include <string.h>
@@ -27,12 +28,12 @@ struct asked {
 #define AT(member) .at = offsetof(struct asked, member)
 
 static const struct options_row rows[] = {
-	{ "by", 0, "WHAT", "what decides about the exit code: calls (default) or pictures", options_word, AT(by), .words = by_words },
-	{ "all", 'a', NULL, "count queries and waits, too (glGetError, glFinish): programs differ in them without drawing anything else",
+	{ "by", 0, "WHAT", "let calls (default) or pictures determine the exit code", options_word, AT(by), .words = by_words },
+	{ "all", 'a', NULL, "compare queries and waits, too (glGetError, glFinish): programs may differ in them and yet draw the same",
 	  options_flag, AT(all) },
-	{ "ignore", 0, "LIST", "commands that do not count either: shell patterns with commas, as in 'glRotate*,glColor4f'", options_text, AT(ignore) },
+	{ "ignore", 0, "LIST", "ignore these commands, too: shell patterns with commas, as in 'glRotate*,glColor4f'", options_text, AT(ignore) },
 	{ "most", 'n', "N", "places to show at most (default 10)", options_number, AT(most), .most = 10000 },
-	{ "pictures", 'p', "N", "frames to draw at most, from the first one that parts on (default 20; 0: none)",
+	{ "pictures", 'p', "N", "frames to draw at most, from the first one that diverges (default 20; 0: none)",
 	  options_number, AT(pictures), .most = 1000000 },
 	{ "report", 0, "DIR", "DIR/index.html, with the first pictures that differ", options_text, AT(report), .use = CONFINE_FILLS },
 	{ "device", 0, "NAME", "OpenCL device that draws, as for 'relume render'", options_text, AT(device) },
@@ -43,18 +44,18 @@ static const struct options_table table = {
 	.verb = "bisect",
 	.head = "usage: relume bisect [OPTIONS] GOOD BAD\n"
 	        "\n"
-	        "Find the first call at which two recordings of a program part, of a good and of a bad build: its frame, its arguments in\n"
-	        "both, what of OpenGL's state differs because of it, and the first picture that differs. Calls are aligned, so that one that\n"
-	        "came or went changes nothing behind it. Textures, lists and other objects may be numbered differently.\n"
+	        "Find the first call where two recordings of a program, of a good and a bad build, diverge: its frame, its arguments in\n"
+	        "both, the OpenGL state that differs because of it, and the first picture that differs. Calls are aligned, so an added\n"
+	        "or removed call does not affect later ones. Textures, lists and other objects may be numbered differently.\n"
 	        "\n"
-	        "A program that moves by the clock parts in every frame: record both with a fixed step, or --ignore what moves.\n"
+	        "A program that moves with the clock diverges in every frame: record both with a fixed step, or --ignore what moves.\n"
 	        "\n"
 	        "With git, where good.trace was recorded from a good build:\n"
 	        "\n"
 	        "    git bisect run sh -c 'make || exit 125; xvfb-run -a relume record -o now.trace -- ./program || exit 125;\n"
 	        "        relume bisect --by pictures good.trace now.trace'\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exit codes: 0 they are the same, 1 they part, 2 wrong usage, 125 that cannot be told: a recording cannot be read, or\n"
+	.notes = "Exit codes: 0 the same, 1 they diverge, 2 wrong usage, 125 cannot be determined: a recording cannot be read, or\n"
 	         "frames were left that --pictures excludes.\n",
 	.takes = "two recordings", .least = 2, .most = 2, .words_use = CONFINE_RECORDING,
 };
@@ -86,7 +87,7 @@ static int judge(const struct asked *o, struct findings *f, const struct partner
 	if (o->report && !err && sight->is_found)
 		err = sight_write(sight, o->report);
 	if (err && o->by == BY_CALLS && !f->sight)
-		err = 0; /* said; calls tell enough */
+		err = 0; /* reported; the calls are enough */
 	if (err || !f->partings->n)
 		return err;
 	if (o->by == BY_CALLS || sight->is_found)

@@ -51,7 +51,7 @@ static enum names_kind kind_of(const struct call *c, uint32_t argument)
 	return NAMES_NONE;
 }
 
-/* What a call returns, and whether it is new: of glGen*, in arguments, too. */
+/* The kind of name that a call returns, and whether it is new: for glGen*, in arguments, too. */
 static enum names_kind kind_of_result(const struct call *c)
 {
 	const char *name = c->sig->name;
@@ -105,7 +105,7 @@ int names_pair(struct names *names, enum names_kind kind, uint64_t good, uint64_
 
 /* --- Values ------------------------------------------------------------------------------------------------------------- */
 
-/* What a value is, however a recorder wrote it. */
+/* The type of a value, however a recorder wrote it. */
 enum form { NOTHING, NUMBER, REAL, TEXT, BYTES, LIST, ADDRESS };
 
 static enum form form_of(const struct trace_value *v)
@@ -174,7 +174,7 @@ uint64_t names_hash(const struct call *c)
 	return hash;
 }
 
-/* What comparing two values needs. */
+/* A comparison of two values. */
 struct comparison {
 	struct names *names;
 	enum names_kind kind;

@@ -1,8 +1,9 @@
 /*
- * When do two calls of two recordings say the same?
+ * When are two calls of two recordings equal?
  *
- * Textures, lists, buffers, contexts and the like may be numbered differently in each: a name means what it was first met as, so equal
- * calls pair names, and a pair that contradicts an earlier one is a difference. Addresses in the program's memory mean nothing.
+ * Textures, lists, buffers, contexts and the like may be numbered differently in each. A name is defined by its first
+ * use, so equal calls pair names, and a pair that contradicts an earlier one is a difference. Addresses in the
+ * program's memory are ignored.
  */
 #pragma once
 
@@ -20,15 +21,18 @@ struct names {
 };
 void names_free(struct names *names);
 
-/** 1 where both names may be the same object; from now on they are. A name of 0 is 0 in both. @return ERR_SYSTEM (reported), too */
+/**
+ * Pair two names, unless either has another partner. 0 pairs only with 0.
+ * @return 1: they are the same object from now on; 0: they cannot be; ERR_SYSTEM (reported)
+ */
 int names_pair(struct names *names, enum names_kind kind, uint64_t good, uint64_t bad);
 
-/** A hash of the call and its arguments. What names_compare pairs or passes over counts as equal. */
+/** A hash of the call and its arguments, without those that names_compare pairs or ignores. */
 uint64_t names_hash(const struct call *call);
 
 /**
  * Compare two calls of the same command.
- * @param argument  receives the first argument that parts
- * @return 1 the same; 0 they part; ERR_SYSTEM (reported)
+ * @param argument  receives the first argument that differs
+ * @return 1 equal; 0 different; ERR_SYSTEM (reported)
  */
 int names_compare(struct names *names, const struct call *good, const struct call *bad, uint32_t *argument);

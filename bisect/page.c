@@ -13,7 +13,7 @@ static const char *const side_names[N_SIDES] = { "good", "bad" };
 
 enum { MOST_LINE = 240 /* bytes of a call's text: a page of numbers says no more than its first ones */ };
 
-/* Put text, for HTML or as it is. */
+/* Print text, escaped for HTML or as it is. */
 static void put(const char *text, size_t most, int is_html, FILE *out)
 {
 	for (size_t i = 0; text[i] && i < most; i++) {
@@ -81,7 +81,7 @@ void page_table(const struct findings *f, FILE *out)
 		return;
 	}
 	for (size_t i = 0; i < p->n; i++) {
-		fputs(i == 0 ? "they part first at\n" : "then at\n", out);
+		fputs(i == 0 ? "they diverge first at\n" : "then at\n", out);
 		put_parting(&p->list[i], out);
 	}
 	if (p->is_cut)

@@ -1,4 +1,4 @@
-/* What was found, for people: a table, and a page beside the pictures. */
+/* The findings for people: a table, and a page beside the pictures. */
 #pragma once
 
 #include <stdio.h>
@@ -8,7 +8,7 @@
 struct findings {
 	const struct recording *recordings[N_SIDES];
 	const struct partings *partings;
-	const struct sight *sight; /* NULL: no pictures were looked at */
+	const struct sight *sight; /* NULL: no pictures were compared */
 };
 
 void page_table(const struct findings *f, FILE *out);

@@ -7,7 +7,7 @@
 #include "base/err.h"
 #include "base/memory.h"
 
-/* By what frames or calls are the same. */
+/* Keys for comparing frames or calls. */
 enum by { BY_KEY, BY_NAME };
 
 static uint64_t *keys_of_frames(const struct recording *r, enum by by)
@@ -32,10 +32,10 @@ static int add_hunk(struct partners *p, const struct align_hunk *h)
 	return 0;
 }
 
-/* What two recordings are made of, while they are aligned. */
+/* The elements of two recordings, while they are aligned. */
 struct sides {
 	const struct recording *good, *bad;
-	uint64_t *good_keys, *bad_keys; /* of frames, by name */
+	uint64_t *good_keys, *bad_keys; /* keys of frames, by name */
 	struct partners *partners;
 };
 
@@ -63,7 +63,7 @@ static int pair_frames(struct sides *s, size_t a, size_t b)
 	return err;
 }
 
-/* Frames that have nothing in common pair in order; what is left of the longer part has no partner. */
+/* Frames that have nothing in common pair in order; the rest of the longer side has no partner. */
 static int pair_rest(struct sides *s, const struct align_hunk *h)
 {
 	size_t a = h->a0, b = h->b0;

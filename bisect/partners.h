@@ -1,11 +1,11 @@
-/* Which calls and frames of one recording stand for which of the other. */
+/* Pairs the calls and frames of one recording with those of the other. */
 #pragma once
 
 #include "bisect/align.h"
 #include "bisect/recording.h"
 
 struct partners {
-	struct align_hunk *hunks; /* of calls that count, in order; between them calls pair one by one */
+	struct align_hunk *hunks; /* hunks of calls that count, in order; between them calls pair one by one */
 	size_t n, room;
 	size_t *frames;           /* [good->n_frames]: the frame of bad, or SIZE_MAX */
 };

@@ -12,13 +12,13 @@
 #include "replay/machine/commands.h"
 #include "replay/trace/reader.h"
 
-/* Reasons of replay/overlay.txt for commands that change nothing: what the program asked, or waited for. */
+/* Reasons in replay/overlay.txt for commands that change nothing: queries and waits. */
 static const char *const idle[] = {
 	"a query", "only the program sees how many samples were counted", "nothing is ever pending",
 	"time does not pass in a replay", "it manages memory of the program", "it changes which events the program gets, not what it draws",
 };
 
-/* What is known of a command, kept by signature. */
+/* Facts about a command, kept by signature. */
 enum { COUNTS = 1, IS_IDLE, IS_MARKER };
 
 static int matches(const char *patterns, const char *name)

@@ -1,4 +1,4 @@
-/* A recording as a list of what its calls say, for aligning it with another one. */
+/* A recording as a list of hashes of its calls, for aligning it with another one. */
 #pragma once
 
 #include <stddef.h>
@@ -17,13 +17,13 @@ struct recording {
 	size_t n, room;
 	size_t *frames;               /* [n_frames + 1]: the first call of each frame; the last of them may not end */
 	size_t n_frames, n_ended, frames_room;
-	uint64_t n_all;               /* calls, with those that do not count */
+	uint64_t n_all;               /* calls, including those that do not count */
 };
 
 /**
  * Read a recording.
  * @param ignore  shell patterns of commands that do not count, with commas; NULL: none
- * @param all     0: queries and waits do not count either, nor what the recorder added about time
+ * @param all     0: queries and waits do not count either, nor the recorder's notes on time
  * @param path    kept
  * @return 0 or ERR_* (reported)
  */

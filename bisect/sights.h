@@ -1,4 +1,4 @@
-/* Pictures of frames of two recordings, as OpenGL drew them, held against each other. */
+/* Compares pictures of frames of two recordings, as OpenGL drew them. */
 #pragma once
 
 #include "bisect/walk.h"
@@ -6,10 +6,10 @@
 
 /* The first pair of frames whose pictures differ. */
 struct sight {
-	int is_found;               /* 0: none of those that were looked at */
-	size_t looked, left;        /* pairs of frames that were compared, and that were not: there were too many */
+	int is_found;               /* 0: none of those compared */
+	size_t looked, left;        /* pairs of frames that were compared, and pairs beyond the limit, which were not */
 	size_t frame[N_SIDES];
-	uint64_t differing, pixels; /* pixels; all of them where the sizes differ */
+	uint64_t differing, pixels; /* pixels; all of them if the sizes differ */
 	unsigned worst;             /* largest difference of a channel, of 255 */
 	struct oiio_pixels pictures[N_SIDES]; /* free with sight_free */
 };

@@ -11,7 +11,7 @@
 
 enum { MOST_PATH = 256, MOST_SHOWN = 16 /* elements of an array */ };
 
-/* Members that hold objects' names, or say nothing of the state. */
+/* Members that hold objects' names, or are not part of the state. */
 static const struct {
 	const char *owner, *name;
 	enum names_kind kind;
@@ -74,7 +74,7 @@ static void print_member(FILE *out, const struct member *m, const uint8_t *at)
 	fputs(n > MOST_SHOWN ? ", ...}" : n > 1 ? "}" : "", out);
 }
 
-/* Say that a member differs, unless that was said. */
+/* Report that a member differs, once. */
 static void tell(struct comparison *c, const struct member *m, const uint8_t *good, const uint8_t *bad)
 {
 	const uint64_t hash = XXH3_64bits(c->path, strlen(c->path));
@@ -129,7 +129,7 @@ static void compare_member(struct comparison *c, const struct member *m, const u
 	tell(c, m, good, bad);
 }
 
-/* Of a stack, what is current and how deep it is: what lies above says nothing. */
+/* Compare a stack's depth and current entry; entries above it are meaningless. */
 static void compare_stack(struct comparison *c, const struct gls_matrix_stack *good, const struct gls_matrix_stack *bad)
 {
 	static const struct member current = { "", "", "float", 0, 16 * sizeof(float), sizeof(float) }, depth = { "", "", "unsigned", 0, sizeof(unsigned), sizeof(unsigned) };

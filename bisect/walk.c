@@ -11,17 +11,17 @@
 #include "replay/play/player.h"
 #include "replay/trace/text.h"
 
-/* What a call that parts changes. */
+/* Effects of a call that differs. */
 enum { DRAWS = 1, FILLS_LIST = 2, CHANGES_OBJECT = 4, CHANGES_PROGRAM = 8, CHANGES_ARRAY = 16, N_EFFECTS = 5 };
-static const char *const effects[N_EFFECTS] = { "what is drawn", "what a display list holds", "an object", "programs or their inputs", "what arrays hold" };
+static const char *const effects[N_EFFECTS] = { "the drawing", "a display list", "an object", "programs or their inputs", "vertex arrays" };
 
 struct side {
 	struct player player;
 	const struct recording *recording;
-	size_t next;       /* of its calls that count */
+	size_t next;       /* index of its next call that counts */
 	uint64_t read;     /* calls of the file so far */
-	uint64_t number;   /* of the last one that counts */
-	unsigned effect;   /* of all that were taken since it was cleared */
+	uint64_t number;   /* number of the last one that counts */
+	unsigned effect;   /* effects of all calls taken since this was cleared */
 };
 
 struct walk {
@@ -74,7 +74,7 @@ static int is_full(const struct walk *w)
 	return w->out->n >= w->most;
 }
 
-/* A parting at what comes next. @return NULL: out of memory (reported) */
+/* Add a difference at the next calls. @return NULL: out of memory (reported) */
 static struct parting *begin_parting(struct walk *w)
 {
 	struct parting *p;
@@ -103,7 +103,7 @@ static int put_text(const struct call *c, char **text)
 	return out && fclose(out) == 0 ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 }
 
-/* Both have taken what parts. */
+/* Both have executed the calls that differ. */
 static int end_parting(struct walk *w, struct parting *p)
 {
 	const unsigned effect = w->sides[GOOD].effect | w->sides[BAD].effect;
@@ -151,7 +151,7 @@ static int pair(struct walk *w)
 	return err ? err : end_parting(w, p);
 }
 
-/* Calls that stand in the place of others, or of none. */
+/* Calls that replace others, or have no counterpart. */
 static int replaced(struct walk *w, const size_t count[N_SIDES])
 {
 	struct parting *p = begin_parting(w);
@@ -181,7 +181,7 @@ static uint64_t *names_of(const struct recording *r, size_t first, size_t end)
 	return out;
 }
 
-/* Calls of the same commands in the same order are one call with other arguments each. */
+/* Calls of the same commands in the same order are compared as one call each, with other arguments. */
 static int walk_hunk(struct walk *w, const struct align_hunk *h)
 {
 	uint64_t *a = names_of(w->sides[GOOD].recording, h->a0, h->a1), *b = names_of(w->sides[BAD].recording, h->b0, h->b1);

@@ -15,10 +15,10 @@
 #include "render/single.h"
 #include "scene/scene.h"
 
-/* What one frame shows. All zero is empty. */
+/* A rendered frame. All zero is empty. */
 struct sighted {
 	struct single single;
-	struct score_picture shown; /* of its image */
+	struct score_picture shown; /* its image, for scoring */
 };
 
 static void free_sighted(struct sighted *v)
@@ -48,7 +48,7 @@ static int see(const char *trace, uint64_t frame, struct sighted *v)
 	return err ? err : score_picture_from_image(&v->single.image, "gl", &v->shown);
 }
 
-/* The call of what a pixel shows; UINT64_MAX: of nothing. */
+/* The call that drew a pixel; UINT64_MAX: none. */
 static uint64_t call_at(const struct sighted *v, size_t pixel)
 {
 	const uint32_t draw = single_draw_at(&v->single, pixel);

@@ -1,8 +1,8 @@
 /*
- * A fault that a frame's gates find: a draw that shows other colours than the reference has.
+ * A fault found by a frame's gates: a draw whose colours differ from the reference.
  *
- * Another recording has the same fault where the same call shows the same wrong colours at the same pixels, whatever else the frame lacks.
- * The worst pixels alone are looked at.
+ * Another recording has the same fault if the same call shows the same wrong colours at the same pixels, whatever else
+ * the frame lacks. Only the worst pixels are compared.
  */
 #pragma once
 

@@ -16,8 +16,8 @@ CASES = {
     "texture": ("glBindTexture(target = GL_TEXTURE_2D, texture = 2)", "glBindTexture(target = GL_TEXTURE_2D, texture = 1)", 4, "bound", 4),
     "frame": ("nothing", "glClearColor(", 2, "calls more", None),
     "texel": ("glTexImage2D(", "glTexImage2D(", 0, "differs in  pixels", 0),
-    "list": ("glVertex2f(x = 0, y = 1)", "glVertex2f(x = 0.5, y = 1)", 0, "what a display list holds", 0),
-    "array": ("glVertexPointer(", "glVertexPointer(", 3, "what arrays hold", 3),
+    "list": ("glVertex2f(x = 0, y = 1)", "glVertex2f(x = 0.5, y = 1)", 0, "a display list", 0),
+    "array": ("glVertexPointer(", "glVertexPointer(", 3, "vertex arrays", 3),
     "matrix": ("glRotatef(angle = 35", "glRotatef(angle = 40", 5, "modelview: ", 5),
     "last": ("glClearColor(red = 0, green = 0, blue = 0.5", "glClearColor(red = 0, green = 0, blue = 1", 5, "color.clear: ", 5),
 }
