@@ -1,4 +1,4 @@
-/* relume query: rays, distances and collisions of a frame's triangles, from a file or a pipe. */
+/* relume query: rays, distances and collisions with a frame's triangles; queries come from a file or a pipe. */
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -19,7 +19,7 @@
 
 enum kind { NEAREST, ANY, ALL, DISTANCE, BOX, SPHERE, N_KINDS };
 static const char *const kind_names[N_KINDS + 1] = { "nearest", "any", "all", "distance", "box", "sphere", NULL };
-/* Numbers of a query. */
+/* Numbers in a query. */
 static const unsigned kind_numbers[N_KINDS] = { 8, 8, 8, 4, 9, 7 };
 
 struct asked {
@@ -32,13 +32,13 @@ struct asked {
 
 static const struct options_row rows[] = {
 	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct asked, frame) },
-	{ "kind", 'k', "KIND", "what is asked: nearest, any, all, distance, box or sphere (default nearest)", options_word,
+	{ "kind", 'k', "KIND", "the query: nearest, any, all, distance, box or sphere (default nearest)", options_word,
 	  .at = offsetof(struct asked, kind), .words = kind_names },
-	{ "most", 'm', "N", "with all: the nearest so many hits of a ray are told (default 16)", options_number, .at = offsetof(struct asked, most),
+	{ "most", 'm', "N", "with all: print the N nearest hits of a ray (default 16)", options_number, .at = offsetof(struct asked, most),
 	  .most = MOST_HITS },
-	{ "binary", 'b', NULL, "queries and answers are 4-byte numbers of this machine one after the other, without lines", options_flag,
+	{ "binary", 'b', NULL, "queries and answers are 4-byte numbers in this machine's byte order, without lines", options_flag,
 	  .at = offsetof(struct asked, binary) },
-	{ "output", 'o', "FILE", "the answers; appears when it is whole (default: standard output, as they come)", options_text,
+	{ "output", 'o', "FILE", "file for the answers, which appears once it is complete (default: standard output, as they come)", options_text,
 	  .at = offsetof(struct asked, output), .use = CONFINE_MAKES },
 	{ "device", 'd', "DEVICE", "a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference", options_text,
 	  .at = offsetof(struct asked, device) },
@@ -49,24 +49,24 @@ static const struct options_table table = {
 	.verb = "query",
 	.head = "usage: relume query [OPTIONS] TRACE [QUERIES]\n"
 	        "\n"
-	        "Ask what rays hit, how far surfaces are, and what moving bodies meet, of the triangles that one frame draws.\n"
+	        "Find what rays hit, how far surfaces are, and what moving bodies meet among the triangles that one frame draws.\n"
 	        "\n"
 	        "QUERIES  a file, a query a line (default: standard input). Numbers are in eye space: the viewer at 0 looks along -z\n",
 	OPTIONS_ROWS(rows),
-	.notes = "A query is, by its kind, and its answer\n"
+	.notes = "Each kind of query, and its answer:\n"
 	         "  nearest   origin x y z, nearest t, direction x y z, farthest t     t b1 b2 triangle draw primitive\n"
 	         "  any       the same                                                 0 or 1\n"
 	         "  all       the same                                                 how many hits, then t b1 b2 triangle of each\n"
 	         "  distance  point x y z, farthest distance                           distance x y z triangle draw primitive\n"
 	         "  box       centre x y z, half its edges x y z, way x y z            share of the way, triangle draw primitive\n"
 	         "  sphere    centre x y z, radius, way x y z                          the same\n"
-	         "Nothing found: the line '-'. Empty lines, and what follows '#', are left out. With --binary there are no draw and primitive, nothing\n"
-	         "found is triangle 4294967295, and all has the number of hits, then as many as --most says.\n"
+	         "If nothing is found, the line is '-'. Empty lines and text after '#' are ignored. With --binary there are no draw\n"
+	         "and primitive, nothing found is triangle 4294967295, and all gives the number of hits, then always --most of them.\n"
 	         "Exit codes: 0 done, 2 wrong usage, 3 a recording or a query cannot be read, 5 the device or the system failed.\n",
 	.takes = "a trace, and at most one file of queries", .least = 1, .most = 2, .words_use = CONFINE_RECORDING,
 };
 
-/* Where queries come from, and where answers go. */
+/* The source of queries and the destination of answers. */
 struct stream {
 	const struct asked *asked;
 	const char *name;
@@ -85,7 +85,7 @@ struct stream {
 
 /* --- Queries in ----------------------------------------------------------------------------------------------------------- */
 
-/* A line's numbers. @return 1; 0: it has none; ERR_INPUT (reported) */
+/* Read a line's numbers. @return 1; 0: it has none; ERR_INPUT (reported) */
 static int read_line(struct stream *s, char *line, float *out)
 {
 	const unsigned wanted = kind_numbers[s->asked->kind];
@@ -108,7 +108,7 @@ static int read_line(struct stream *s, char *line, float *out)
 	return err_report(ERR_INPUT, where, "'%s' queries have %u numbers", kind_names[s->asked->kind], wanted);
 }
 
-/* @return how many queries there are now; 0: none are left; ERR_INPUT (reported) */
+/* @return the number of queries read; 0: none are left; ERR_INPUT (reported) */
 static long read_text(struct stream *s)
 {
 	char line[LINE_BYTES];
@@ -216,7 +216,7 @@ static void write_binary(const struct stream *s, size_t n)
 	}
 }
 
-/* A sphere's query has its radius once. */
+/* A sphere's query holds its radius once. */
 static void spread_spheres(const float *numbers, size_t n, struct relume_rays_body *out)
 {
 	for (size_t i = 0; i < n; i++) {

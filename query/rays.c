@@ -1,4 +1,4 @@
-/* The interface of relume-rays.h: a tree of one mesh on a device, and batches of queries through it. */
+/* Implements relume-rays.h: a tree of one mesh on a device, and batches of queries through it. */
 #include "query/relume-rays.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ struct relume_rays {
 	struct device *dev;
 	struct query_soup soup;
 	struct accel *accel;
-	const struct accel_space *space; /* NULL: there is nothing in it */
+	const struct accel_space *space; /* NULL: the scene is empty */
 	struct traverse_trees trees;
 	union buffer_ray rays;
 	union buffer_hit hits;
@@ -28,11 +28,11 @@ struct relume_rays {
 	union buffer_query_nearest nearest;
 	union buffer_query_body bodies;
 	union buffer_query_contact contacts;
-	struct hit *read; /* what the device says of a batch of rays */
+	struct hit *read; /* the device's hits for a batch of rays */
 	size_t read_room;
 };
 
-/* What the device takes and gives is what the interface has. */
+/* The device's layouts are those of the interface. */
 _Static_assert(sizeof(struct relume_rays_ray) == sizeof(struct ray), "");
 _Static_assert(sizeof(struct relume_rays_point) == sizeof(struct query_point), "");
 _Static_assert(sizeof(struct relume_rays_distance) == sizeof(struct query_nearest), "");
@@ -70,7 +70,7 @@ static int build(struct relume_rays *r)
 	return 0;
 }
 
-/* Takes the soup over, also after an error. */
+/* Takes ownership of the soup, even on failure. */
 static int open_soup(struct query_soup *soup, const char *device, struct relume_rays **out)
 {
 	struct relume_rays *r = calloc(1, sizeof(*r));
@@ -160,13 +160,13 @@ void relume_rays_describe(const struct relume_rays *rays, uint32_t triangle, str
 
 enum question { NEAREST, ANY, ALL, DISTANCE, BOX, SPHERE, N_QUESTIONS };
 
-/* A batch: what is asked, and where the answers go. */
+/* A batch: the queries, and the destination of the answers. */
 struct batch {
 	enum question question;
 	const void *asked;
 	size_t n;
 	uint32_t most;   /* ALL: hits of a ray */
-	void *answers;   /* as the interface has them */
+	void *answers;   /* in the interface's layout */
 	uint32_t *counts; /* ALL */
 };
 
@@ -279,7 +279,7 @@ static int ask_device(struct relume_rays *r, const struct batch *b)
 	}
 }
 
-/* The answers where there is nothing. */
+/* The answers in an empty scene. */
 static void answer_nothing(const struct batch *b)
 {
 	for (size_t i = 0; i < b->n * b->most; i++)
@@ -301,7 +301,7 @@ static void answer_nothing(const struct batch *b)
 		b->counts[i] = 0;
 }
 
-/* All, in batches that become smaller where the device lacks memory. */
+/* All queries, in batches that shrink if the device lacks memory. */
 static int ask(struct relume_rays *r, const struct batch *all)
 {
 	size_t room = BATCH / all->most ? BATCH / all->most : 1;

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "tracer/frame/prepare.h"
 
-/* The mesh of an instance that rays of a space see; NULL: they do not. */
+/* The mesh of an instance if rays of a space see it, else NULL. */
 static const struct scene_mesh *seen_mesh(const struct scene *scene, const struct prepared *p, uint32_t space, uint32_t i)
 {
 	const struct scene_instance *instance = &scene->instances[p->instances[i].scene_instance];
@@ -19,7 +19,7 @@ static const struct scene_mesh *seen_mesh(const struct scene *scene, const struc
 	return scene->meshes[instance->mesh];
 }
 
-/* The space with most triangles; of equal ones the first. */
+/* The space with the most triangles; the first of equal ones. */
 static uint32_t largest_space(const struct scene *scene, const struct prepared *p)
 {
 	uint32_t best = SCENE_NONE;
@@ -42,7 +42,7 @@ static uint32_t largest_space(const struct scene *scene, const struct prepared *
 	return best;
 }
 
-/* @return 0: the vertex has no place in eye space */
+/* @return 0: the vertex has no position in eye space */
 static int to_eye(const float *m, const float *p, float out[4])
 {
 	float e[4];
@@ -60,7 +60,7 @@ static int has_place(const float p[4])
 	return p[3] == 1;
 }
 
-/* One instance behind those that are there. Room has been made. */
+/* Append one instance. There is room for it. */
 static void add_instance(const struct scene_instance *instance, const struct scene_mesh *mesh, struct query_soup *out)
 {
 	const uint32_t first = out->n_vertices;

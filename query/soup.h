@@ -1,4 +1,4 @@
-/* The triangles of a scene in one space: what queries are asked of. */
+/* The triangles of a scene in one space, for queries. */
 #pragma once
 
 #include <stddef.h>
@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-/* Where a triangle is from. */
+/* The origin of a triangle. */
 struct soup_source {
 	uint32_t draw, primitive; /* as in struct relume_rays_triangle */
 };
@@ -14,22 +14,22 @@ struct soup_source {
 struct query_soup {
 	float (*position)[4]; /* [n_vertices], w is 1 */
 	uint32_t (*index)[3];
-	struct soup_source *sources; /* [n_triangles], or NULL: of one's own */
+	struct soup_source *sources; /* [n_triangles]; NULL: the caller's own */
 	uint32_t n_vertices, n_triangles;
 };
 
 /**
- * The triangles of a frame that rays see, in eye space; of its eye spaces the one that has most. Those with a corner at infinity or
- * behind it are left out.
+ * The triangles of a frame that rays see, in eye space; if there are several eye spaces, those of the one with the
+ * most. Triangles with a corner at infinity or beyond it are left out.
  * @param out  query_soup_free
  * @return 0 or ERR_SYSTEM (reported)
  */
 int query_soup_of_frame(const struct scene *scene, struct query_soup *out);
 
 /**
- * Triangles of somebody's own.
- * @param where  what messages call them
- * @return 0; ERR_SYSTEM, ERR_USAGE (reported: an index or a number that cannot be)
+ * The caller's own triangles.
+ * @param where  their name in messages
+ * @return 0; ERR_SYSTEM (reported); ERR_USAGE (reported: an index out of range or a number that is not finite)
  */
 int query_soup_of_triangles(const float (*position)[3], size_t n_vertices, const uint32_t (*index)[3], size_t n_triangles,
                             const char *where, struct query_soup *out);
