@@ -4,7 +4,7 @@
 Of the sweep's programs that are installed, some are drawn by lot, so that nobody chooses them. A late frame of each is
 rendered as it comes and with `--look auto`; BUILD/show/lot/NAME.png shows raster, default and auto side by side. Somebody looks
 at each, and writes into tests/show/lot.yaml what was seen under the seed: default and auto each better, equal or worse than the
-raster frame, and whether anything there is lit or casts a shadow. A lot without a seed is drawn anew, and is yet to be looked at.
+raster frame, and whether anything there is lit or casts a shadow. Where there is no seed yet, one is drawn, and its pictures have to be looked at.
 
 The bars: no default picture worse, no auto picture worse, one of the two better on a third of those where anything is lit.
 """
