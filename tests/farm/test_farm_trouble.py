@@ -22,8 +22,8 @@ trace = SCRATCH / "gears.trace"
 record(trace, "glxgears", options=("--ref", "color", "--quit-after", str(FRAMES)))
 # The scalar twins: nothing is compiled, so the first frame comes soon on a busy machine as well.
 QUICK = ("--device", "reference", "--mode", "gl", "--aov", "gl")
-# Long enough to be interrupted.
-SLOW = ("--device", "reference", "--depth=3")
+# Long enough to be interrupted: a task takes longer than Slurm and a status do.
+SLOW = ("--device", "reference", "--depth=3", "--samples=4")
 
 
 def words(pattern, chunk, *options, render=QUICK):
