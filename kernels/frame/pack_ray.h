@@ -120,7 +120,8 @@ static inline void pack_light_rays(const struct pack *p, const struct pack_surfa
 	const struct pack_vec to = pack_vec((packf)(light->position_eye[0] * scale), (packf)(light->position_eye[1] * scale),
 	                                       (packf)(light->position_eye[2] * scale));
 	const struct pack_vec straight = positional ? pack_sub(to, pack_place_at(s, p->weight)) : to;
-	const packi within = ~curve->smooth & ((pack_dot(s->plane, straight) < 0.0f) != (pack_dot(s->plane, back) < 0.0f));
+	const packi away = (pack_dot(s->plane, straight) < 0.0f) != (pack_dot(s->plane, back) < 0.0f);
+	const packi within = p->material->surface.hidden & SCENE_FACETED ? (packi)(0) : ~curve->smooth & away;
 	const struct pack_vec o = pack_curve_origin(curve, s, p->weight, to, positional, straight, back);
 	const struct pack_vec d = positional ? pack_sub(to, o) : to;
 	packf from[4], way[4];

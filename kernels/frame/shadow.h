@@ -139,8 +139,8 @@ static inline struct vec3 shadow_curve_origin(const struct shadow_curve *c, cons
 
 /*
  * 1 where a triangle turns away from a light on the side that is seen. What GL lights there, it lights by normals that lean
- * over to the light. Normals of a curved surface say where its own shade begins (shadow_curve_origin); others mean no surface,
- * and the body behind the triangle does not take that light away (shadow_walk).
+ * over to the light. Normals of a curved surface say where its own shade begins (shadow_curve_origin), and rules may have its
+ * faces do so; others mean no surface, and the body behind the triangle does not take that light away (shadow_walk).
  */
 static inline int shadow_turns_away(const struct point_plane *plane, struct vec3 towards, struct vec3 from)
 {
@@ -166,7 +166,7 @@ static inline void stage_light_ray(const struct tables *t, const struct point *p
 	else if (light->radius > 0.0f)
 		place = v3_add(v3_normalize(to), v3_scale(sample_disk(v3_normalize(to), u, v), light->radius));
 	to = positional ? v3_sub(place, at) : place;
-	within = !curve->smooth && shadow_turns_away(plane, to, from);
+	within = !curve->smooth && !(p->material->surface.hidden & SCENE_FACETED) && shadow_turns_away(plane, to, from);
 	o = curve->smooth ? shadow_curve_origin(curve, plane, p->weight, place, positional, from) :
 	                    point_ray_origin(p->weight, plane, to, from);
 	place = positional ? v3_sub(place, o) : place;
