@@ -111,7 +111,8 @@ static void measure(const struct range *r, const struct score_picture *ref, size
 		r->off[i] = 0;
 		for (size_t c = 0; c < NUMBERS; c++) {
 			const int wanted = code_of(ref, i, c);
-			const uint8_t off = at_most_255(abs(wanted - (int)nearest(wanted, r->low[NUMBERS * i + c], r->high[NUMBERS * i + c])));
+			const int found = (int)nearest(wanted, r->low[NUMBERS * i + c], r->high[NUMBERS * i + c]);
+			const uint8_t off = at_most_255(abs(wanted - found));
 
 			r->off[i] = off > r->off[i] ? off : r->off[i];
 		}
@@ -137,9 +138,10 @@ static int is_noise(const struct range *r, const struct score_picture *ref, uint
 	return MIN_SHARE * alike <= varying;
 }
 
-/* Pixel i's numbers, in place of those that have other codes. Colours stand as their picture has them: multiplied by alpha, or not. */
-static void put_pixel(const struct score_numbers *to, const struct score_picture *was, size_t i, const int16_t code[NUMBERS])
+/* Replace the numbers of pixel i that have other codes. Colours stay as the picture stores them: multiplied by alpha, or not. */
+static void put_pixel(const struct score_picture *was, size_t i, const int16_t code[NUMBERS])
 {
+	const struct score_numbers *to = &was->numbers;
 	const int is_other = was->alpha && code[3] != was->alpha[i];
 	const float alpha = was->alpha ? (float)code[3] / 255 : 1, weight = was->alpha && to->is_straight ? alpha : 1;
 
@@ -150,7 +152,8 @@ static void put_pixel(const struct score_numbers *to, const struct score_picture
 			((float *)to->rgb[c])[i] = weight > 0 ? score_number_of(code[c], to->is_display) / weight : 0;
 }
 
-static int put(struct image *base, const char *layer, struct score_picture *ref, const struct range *r, int ignore_alpha)
+static int put(struct image *base, const char *layer, struct score_picture *ref, const struct range *r,
+               int ignore_alpha)
 {
 	const size_t n = (size_t)ref->width * ref->height;
 	struct score_picture was = { 0 };
@@ -172,7 +175,7 @@ static int put(struct image *base, const char *layer, struct score_picture *ref,
 
 			code[c] = noise ? wanted : (int16_t)nearest(wanted, r->low[NUMBERS * i + c], r->high[NUMBERS * i + c]);
 		}
-		put_pixel(&was.numbers, &was, i, code);
+		put_pixel(&was, i, code);
 		if (depth)
 			depth[i] = noise && r->off[i] ? ref->depth[i] : (float)nearest(ref->depth[i], r->near[i], r->far[i]);
 	}
@@ -180,8 +183,8 @@ static int put(struct image *base, const char *layer, struct score_picture *ref,
 	return 0;
 }
 
-int composite_make(struct image *base, const char *layer, struct score_picture *ref, const struct image *images, size_t n, int codes,
-                   int ignore_alpha, struct composite_varying *varying)
+int composite_make(struct image *base, const char *layer, struct score_picture *ref, const struct image *images,
+                   size_t n, int codes, int ignore_alpha, struct composite_varying *varying)
 {
 	const size_t pixels = (size_t)ref->width * ref->height, numbers = (NUMBERS * pixels + 1) * sizeof(int16_t);
 	struct range r = { malloc(numbers), malloc(numbers), malloc(pixels + 1), malloc(pixels + 1), NULL, NULL };

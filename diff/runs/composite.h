@@ -20,8 +20,9 @@ struct composite_varying {
  * @param base    one of the runs; its compared layer and gl.depth are changed into the composite's
  * @param layer   the layer that is compared
  * @param ref     receives the codes of its pairs with the runs, as score_pair
+ * @param ignore_alpha  as score_pair
  * @param images  all runs, base among them or not; those of another size than the reference are left out
  * @return 0 or ERR_SYSTEM (reported)
  */
-int composite_make(struct image *base, const char *layer, struct score_picture *ref, const struct image *images, size_t n, int codes,
-                   int ignore_alpha, struct composite_varying *varying);
+int composite_make(struct image *base, const char *layer, struct score_picture *ref, const struct image *images,
+                   size_t n, int codes, int ignore_alpha, struct composite_varying *varying);

@@ -3,8 +3,9 @@
 
 Of the sweep's programs that are installed, some are drawn by lot, so that nobody chooses them. A late frame of each is
 rendered as it comes and with `--look auto`; BUILD/show/lot/NAME.png shows raster, default and auto side by side. Somebody looks
-at each, and writes into tests/show/lot.yaml what was seen under the seed: default and auto each better, equal or worse than the
-raster frame, and whether anything there is lit or casts a shadow. Where there is no seed yet, one is drawn, and its pictures have to be looked at.
+at each, and writes into tests/show/lot.yaml what was seen under the seed: default and auto each better, equal or worse
+than the raster frame, and whether anything there is lit or casts a shadow. Where there is no seed yet, one is drawn,
+and its pictures have to be looked at.
 
 The bars: no default picture worse, no auto picture worse, one of the two better on a third of those where anything is lit.
 """
@@ -14,10 +15,8 @@ import random
 import secrets
 import sys
 
-import numpy
 import yaml
 
-import exr_numpy
 import programs
 import recording
 import sheet
@@ -34,15 +33,12 @@ def picture(build, program, folder):
     done = recording.record(build / "relume", program, folder)
     if done.trace is None or not done.references:
         raise RuntimeError(f"no recording: {done.said[:120]}")
-    frame = done.references[int(sheet.LATE * (len(done.references) - 1))]
-    images = [sheet.render(build, done.trace, frame, folder / f"{name}.exr", *options)
+    images = [sheet.render(build, done.trace, sheet.late(done), folder / f"{name}.exr", *options)
               for name, options in (("default", ()), ("auto", ("--look", "auto")))]
     if not any(images[0].planes[f"gl.{c}"].any() for c in "RGB"):
         raise RuntimeError("the frame is black")
-    gap = numpy.zeros((images[0].planes["R"].shape[0], 4, 3), "u1")
     out = folder.parent / f"{program.name}.png"
-    shown = (sheet.display(images[0], "gl."), gap, sheet.display(images[0]), gap, sheet.display(images[1]))
-    exr_numpy.write_png(out, numpy.concatenate(shown, axis=1))
+    sheet.side_by_side(out, *images)
     return out
 
 

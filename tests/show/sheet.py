@@ -37,7 +37,12 @@ def find(build, program):
     done = recording.record(build / "relume", program, build / "show/relit/recordings" / program.name)
     if done.trace is None or not done.references:
         return None, f"no recording: {done.said[:120]}", False
-    return done.trace, done.references[int(LATE * (len(done.references) - 1))], False
+    return done.trace, late(done), False
+
+
+def late(done):
+    """The frame of a recording with references that is looked at."""
+    return done.references[int(LATE * (len(done.references) - 1))]
 
 
 def luminance(image, prefix=""):
@@ -62,6 +67,12 @@ def render(build, trace, frame, out, *look):
     return exr_numpy.Image(out)
 
 
+def side_by_side(path, beauty, other):
+    """Write a sheet: raster | beauty | other, of two renderings of one frame."""
+    gap = numpy.zeros((beauty.planes["R"].shape[0], 4, 3), "u1")
+    exr_numpy.write_png(path, numpy.concatenate((display(beauty, "gl."), gap, display(beauty), gap, display(other)), axis=1))
+
+
 def harm(build, picture, frame):
     """Gate N of a relit frame. It asks for no reference; diff does: OpenGL's own picture of the frame is one."""
     reference = picture.with_name(f"gl.{frame:04d}.png")
@@ -77,9 +88,8 @@ def show(build, program, work):
     rules, relit = work / "x.look.yaml", work / f"relit.{frame:04d}.exr"
     run(build / "relume", "look", trace, "-o", rules)
     pictures = (render(build, trace, frame, work / "beauty.exr"), render(build, trace, frame, relit, "--look", rules))
-    gap = numpy.zeros((pictures[0].planes["R"].shape[0], 4, 3), "u1")
     out = build / "show/relit" / f"{program.name}.png"
-    exr_numpy.write_png(out, numpy.concatenate((display(pictures[0], "gl."), gap, display(pictures[0]), gap, display(pictures[1])), axis=1))
+    side_by_side(out, *pictures)
     return {"frame": frame, "shared": is_shared, "sheet": str(out), "N": harm(build, relit, frame),
             "luminance": [round(luminance(pictures[0], "gl."), 5), round(luminance(pictures[0]), 5), round(luminance(pictures[1]), 5)]}
 
