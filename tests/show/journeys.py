@@ -29,11 +29,18 @@ def environment(build, tmp):
             "POCL_CACHE_DIR": str(build / "tests/pocl-cache"), "XDG_CACHE_HOME": str(build / "tests/cache")}
 
 
+def journey(build, name):
+    with tempfile.TemporaryDirectory(prefix="relume-") as tmp:
+        return subprocess.run([ROOT / f"tests/journeys/test_{name}.py"], env=environment(build, tmp),
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              check=False)
+
+
 def show_journeys(shown, build):
+    for name in JOURNEYS:  # compiles their kernels
+        journey(build, name)
     for name in JOURNEYS:
-        with tempfile.TemporaryDirectory(prefix="relume-") as tmp:
-            done = subprocess.run([ROOT / f"tests/journeys/test_{name}.py"], env=environment(build, tmp), stdin=subprocess.DEVNULL,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        done = journey(build, name)
         seconds = float((re.search(r"^([\d.]+) s of processor time", done.stdout, re.M) or [0, "inf"])[1])
         checks = re.search(r"Checks: (\d+), Failures: (\d+)", done.stdout)
         figure = f"{int(checks[1]) - int(checks[2])} of {checks[1]} checks, {seconds:.1f} s" if checks else f"exit code {done.returncode}"
