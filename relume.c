@@ -65,7 +65,8 @@ static const struct verb {
 
 	{ GROUP_COMPARE, "raster", raster_main, "rasterize frames of a recording with a real OpenGL" },
 	{ GROUP_COMPARE, "bisect", bisect_main, "find the first call at which two recordings of a program diverge" },
-	{ GROUP_COMPARE, "reduce", reduce_with_pictures, "find the smallest recording with which a frame or a command still fails" },
+	{ GROUP_COMPARE, "reduce", reduce_with_pictures,
+	  "find the smallest recording with which a frame or a command still fails" },
 
 	{ GROUP_FARM, "farm", farm_main, "render on many machines, by Slurm array jobs or scripts" },
 
@@ -123,8 +124,9 @@ static int refuse(const char *typed, int is_help)
 		nearest_try(&nearest, verbs[i].name);
 	for (const struct manual_text *format = manual_formats; is_help && format->name; format++)
 		nearest_try(&nearest, format->name);
-	return err_report(ERR_USAGE, NULL, "unknown %s '%s'%s%s%s; 'relume help' lists them", is_help ? "topic" : "command", typed,
-	                  nearest.word ? "; did you mean '" : "", nearest.word ? nearest.word : "", nearest.word ? "'?" : "");
+	return err_report(ERR_USAGE, NULL, "unknown %s '%s'%s%s%s; 'relume help' lists them",
+	                  is_help ? "topic" : "command", typed, nearest.word ? "; did you mean '" : "",
+	                  nearest.word ? nearest.word : "", nearest.word ? "'?" : "");
 }
 
 /* What was printed may still be on its way: a full disk is told by the exit code. */
@@ -147,7 +149,8 @@ int main(int argc, char **argv)
 		return -ERR_USAGE;
 	}
 	wants_help = strcmp(argv[1], "help") == 0;
-	if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || (wants_help && (argc == 2 || strcmp(argv[2], "help") == 0))) {
+	if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 ||
+	    (wants_help && (argc == 2 || strcmp(argv[2], "help") == 0))) {
 		print_help(stdout);
 		return 0;
 	}

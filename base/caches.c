@@ -52,6 +52,8 @@ void caches_find(void)
 		failed = try_cache(caches, "pocl");
 	if (!failed || failed == ENOMEM /* not the folder's fault */ || !make_own(own, sizeof(own)))
 		return;
-	err_warn(has_home ? caches : "~/.cache", "cannot be written (%s); caches are in %s instead: set XDG_CACHE_HOME to a folder that can be", strerror(failed), own);
+	err_warn(has_home ? caches : "~/.cache",
+	         "cannot be written (%s); caches are in %s instead: set XDG_CACHE_HOME to a folder that can be",
+	         strerror(failed), own);
 	setenv("XDG_CACHE_HOME", own, 1);
 }

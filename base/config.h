@@ -1,6 +1,6 @@
 /*
- * Configuration files: YAML, checked against a libcyaml schema. An unknown key, a wrong type or a value out of range is an error that
- * names the file and the line.
+ * Configuration files: YAML, checked against a libcyaml schema. An unknown key, a wrong type or a value out of range is
+ * an error that names the file and the line.
  */
 #pragma once
 

@@ -28,9 +28,12 @@
 /* Landlock rights. A right that is handled but not granted is refused. */
 enum {
 	READ_FILES = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR,
-	MAKE_FILES = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_TRUNCATE,
-	ALL_IN_FOLDER = READ_FILES | MAKE_FILES | LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_REMOVE_DIR | LANDLOCK_ACCESS_FS_REFER,
-	OF_FILES = LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_TRUNCATE,
+	MAKE_FILES = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_REMOVE_FILE |
+	             LANDLOCK_ACCESS_FS_TRUNCATE,
+	ALL_IN_FOLDER = READ_FILES | MAKE_FILES | LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_REMOVE_DIR |
+	                LANDLOCK_ACCESS_FS_REFER,
+	OF_FILES = LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_READ_FILE |
+	           LANDLOCK_ACCESS_FS_TRUNCATE,
 	FIRST_VERSION = 2 * LANDLOCK_ACCESS_FS_MAKE_SYM - 1
 };
 
@@ -40,7 +43,7 @@ struct sandbox {
 	int err; /* 0 or ERR_SYSTEM (reported) */
 };
 
-/* --- Files -------------------------------------------------------------------------------------------------------------- */
+/* --- Files ------------------------------------------------------------------------------------------------------- */
 
 /* Skips files that are missing or may not be opened. Libraries crash if a file they rely on exists but is refused. */
 static void grant(struct sandbox *s, const char *path, uint32_t rights)
@@ -80,9 +83,11 @@ static void grant_beside(struct sandbox *s, const char *trace)
 
 	if (dot && snprintf(name, sizeof(name), "%.*s.ref", (int)(dot - trace), trace) < (int)sizeof(name))
 		grant(s, name, READ_FILES);
-	if (stat(trace, &recording) || !S_ISREG(recording.st_mode) || snprintf(name, sizeof(name), "%s.index", trace) >= (int)sizeof(name))
+	if (stat(trace, &recording) || !S_ISREG(recording.st_mode) ||
+	    snprintf(name, sizeof(name), "%s.index", trace) >= (int)sizeof(name))
 		return;
-	if (stat(name, &index) == 0 && index.st_mtime >= recording.st_mtime && stat("/proc/self/exe", &own) == 0 && index.st_mtime >= own.st_mtime)
+	if (stat(name, &index) == 0 && index.st_mtime >= recording.st_mtime && stat("/proc/self/exe", &own) == 0 &&
+	    index.st_mtime >= own.st_mtime)
 		grant(s, name, READ_FILES);
 	else
 		grant_folder_of(s, trace, ALL_IN_FOLDER);
@@ -119,7 +124,9 @@ static void grant_file(struct sandbox *s, const struct confine_file *file, int i
 			grant_beside(s, file->path);
 		break;
 	case CONFINE_MAKES:
-		if (slash && !is_dry && snprintf(folder, sizeof(folder), "%.*s", (int)(slash - file->path), file->path) < (int)sizeof(folder))
+		if (slash && !is_dry &&
+		    snprintf(folder, sizeof(folder), "%.*s", (int)(slash - file->path), file->path) <
+		            (int)sizeof(folder))
 			grant_made(s, folder, 0);
 		/* fall through */
 	case CONFINE_WRITES: grant_folder_of(s, file->path, ALL_IN_FOLDER); break;
@@ -139,7 +146,8 @@ static void grant_list(struct sandbox *s, const char *list)
 		glob_t found;
 
 		grant(s, word, READ_FILES);
-		if (snprintf(pattern, sizeof(pattern), "%s/*.so*", word) >= (int)sizeof(pattern) || glob(pattern, GLOB_NOSORT, NULL, &found))
+		if (snprintf(pattern, sizeof(pattern), "%s/*.so*", word) >= (int)sizeof(pattern) ||
+		    glob(pattern, GLOB_NOSORT, NULL, &found))
 			continue;
 		for (size_t i = 0; i < found.gl_pathc; i++)
 			if (realpath(found.gl_pathv[i], real) && strcmp(real, found.gl_pathv[i]) != 0)
@@ -152,9 +160,11 @@ static void grant_list(struct sandbox *s, const char *list)
 /* Files that every process reads: libraries, their settings, system information. */
 static void grant_system(struct sandbox *s)
 {
-	static const char *const reads[] = { "/usr", "/lib", "/lib64", "/opt", "/etc/ld.so.cache", "/etc/ld.so.conf", "/etc/ld.so.conf.d",
-		                             "/etc/alternatives", "/etc/localtime", "/etc/locale.alias", "/etc/debian_version", "/etc/os-release", "/etc/OpenCL", "/proc/self", "/proc/cpuinfo",
-		                             "/proc/meminfo", "/proc/stat", "/proc/filesystems", "/sys" };
+	static const char *const reads[] = {
+		"/usr", "/lib", "/lib64", "/opt", "/etc/ld.so.cache", "/etc/ld.so.conf", "/etc/ld.so.conf.d",
+		"/etc/alternatives", "/etc/localtime", "/etc/locale.alias", "/etc/debian_version", "/etc/os-release",
+		"/etc/OpenCL", "/proc/self", "/proc/cpuinfo", "/proc/meminfo", "/proc/stat", "/proc/filesystems", "/sys"
+	};
 	static const char *const devices[] = { "/dev/null", "/dev/zero", "/dev/full", "/dev/urandom", "/dev/random" };
 	char own[PATH_MAX];
 	const ssize_t n = readlink("/proc/self/exe", own, sizeof(own) - 1);
@@ -170,7 +180,7 @@ static void grant_system(struct sandbox *s)
 	grant_list(s, getenv("LD_PRELOAD"));
 }
 
-/* --- OpenCL ------------------------------------------------------------------------------------------------------------- */
+/* --- OpenCL ------------------------------------------------------------------------------------------------------ */
 
 /* A folder in the user's caches, or the one named by the implementation's own variable. */
 static void grant_cache(struct sandbox *s, const char *variable, const char *name, int make)
@@ -197,7 +207,8 @@ static void grant_vendors(struct sandbox *s, const char *folder)
 	char pattern[PATH_MAX], library[PATH_MAX], real[PATH_MAX];
 	glob_t found;
 
-	if (!folder || snprintf(pattern, sizeof(pattern), "%s/*.icd", folder) >= (int)sizeof(pattern) || glob(pattern, 0, NULL, &found))
+	if (!folder || snprintf(pattern, sizeof(pattern), "%s/*.icd", folder) >= (int)sizeof(pattern) ||
+	    glob(pattern, 0, NULL, &found))
 		return;
 	grant(s, folder, READ_FILES);
 	for (size_t i = 0; i < found.gl_pathc; i++) {
@@ -214,8 +225,8 @@ static void grant_vendors(struct sandbox *s, const char *folder)
 /* PoCL links kernels with ld. To start a program, both its file and its loader must be executable. */
 static void grant_linker(struct sandbox *s)
 {
-	static const char *const programs[] = { "/usr/bin/ld", "/usr/bin/ld.bfd", "/usr/bin/ld.lld", "/lib64/ld-linux-x86-64.so.2",
-		                                "/lib/ld-linux-aarch64.so.1" };
+	static const char *const programs[] = { "/usr/bin/ld", "/usr/bin/ld.bfd", "/usr/bin/ld.lld",
+		                                "/lib64/ld-linux-x86-64.so.2", "/lib/ld-linux-aarch64.so.1" };
 
 	for (size_t i = 0; i < sizeof(programs) / sizeof(programs[0]); i++)
 		grant(s, programs[i], LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_READ_FILE);
@@ -230,8 +241,11 @@ static void grant_nvidia(struct sandbox *s)
 	const char *said = getenv("CUDA_CACHE_PATH"), *home = getenv("HOME");
 	char path[PATH_MAX];
 
-	if (access("/dev/nvidiactl", F_OK) == 0 &&
-	    snprintf(path, sizeof(path), "%s%s", said && *said ? said : home ? home : "", said && *said ? "" : "/.nv") < (int)sizeof(path))
+	if (access("/dev/nvidiactl", F_OK) == 0 && snprintf(path, sizeof(path), "%s%s",
+	                                                    said && *said ? said :
+	                                                    home          ? home :
+	                                                                    "",
+	                                                    said && *said ? "" : "/.nv") < (int)sizeof(path))
 		grant_made(s, path, 1);
 }
 
@@ -258,18 +272,20 @@ static void grant_devices(struct sandbox *s)
 	grant_linker(s);
 }
 
-/* --- Calls -------------------------------------------------------------------------------------------------------------- */
+/* --- Calls ------------------------------------------------------------------------------------------------------- */
 
 /* Networks, other processes, the system, and file operations other than reading and writing. */
 static const int refused[] = {
-	SCMP_SYS(socket), SCMP_SYS(connect), SCMP_SYS(bind), SCMP_SYS(listen), SCMP_SYS(accept), SCMP_SYS(accept4), SCMP_SYS(io_uring_setup),
-	SCMP_SYS(tkill), SCMP_SYS(pidfd_send_signal), SCMP_SYS(rt_sigqueueinfo), SCMP_SYS(rt_tgsigqueueinfo), SCMP_SYS(pidfd_getfd),
-	SCMP_SYS(setns), SCMP_SYS(unshare), SCMP_SYS(mount), SCMP_SYS(umount2), SCMP_SYS(pivot_root), SCMP_SYS(chroot), SCMP_SYS(move_mount),
-	SCMP_SYS(open_by_handle_at), SCMP_SYS(keyctl), SCMP_SYS(add_key), SCMP_SYS(request_key), SCMP_SYS(bpf), SCMP_SYS(perf_event_open),
-	SCMP_SYS(userfaultfd), SCMP_SYS(init_module), SCMP_SYS(finit_module), SCMP_SYS(delete_module), SCMP_SYS(kexec_load), SCMP_SYS(reboot),
-	SCMP_SYS(swapon), SCMP_SYS(swapoff), SCMP_SYS(settimeofday), SCMP_SYS(clock_settime), SCMP_SYS(clock_adjtime), SCMP_SYS(adjtimex),
-	SCMP_SYS(chown), SCMP_SYS(lchown), SCMP_SYS(fchownat), SCMP_SYS(setxattr), SCMP_SYS(lsetxattr),
-	SCMP_SYS(removexattr), SCMP_SYS(lremovexattr), SCMP_SYS(mknod), SCMP_SYS(mknodat)
+	SCMP_SYS(socket), SCMP_SYS(connect), SCMP_SYS(bind), SCMP_SYS(listen), SCMP_SYS(accept), SCMP_SYS(accept4),
+	SCMP_SYS(io_uring_setup), SCMP_SYS(tkill), SCMP_SYS(pidfd_send_signal), SCMP_SYS(rt_sigqueueinfo),
+	SCMP_SYS(rt_tgsigqueueinfo), SCMP_SYS(pidfd_getfd), SCMP_SYS(setns), SCMP_SYS(unshare), SCMP_SYS(mount),
+	SCMP_SYS(umount2), SCMP_SYS(pivot_root), SCMP_SYS(chroot), SCMP_SYS(move_mount), SCMP_SYS(open_by_handle_at),
+	SCMP_SYS(keyctl), SCMP_SYS(add_key), SCMP_SYS(request_key), SCMP_SYS(bpf), SCMP_SYS(perf_event_open),
+	SCMP_SYS(userfaultfd), SCMP_SYS(init_module), SCMP_SYS(finit_module), SCMP_SYS(delete_module), SCMP_SYS(kexec_load),
+	SCMP_SYS(reboot), SCMP_SYS(swapon), SCMP_SYS(swapoff), SCMP_SYS(settimeofday), SCMP_SYS(clock_settime),
+	SCMP_SYS(clock_adjtime), SCMP_SYS(adjtimex), SCMP_SYS(chown), SCMP_SYS(lchown), SCMP_SYS(fchownat),
+	SCMP_SYS(setxattr), SCMP_SYS(lsetxattr), SCMP_SYS(removexattr), SCMP_SYS(lremovexattr), SCMP_SYS(mknod),
+	SCMP_SYS(mknodat)
 };
 
 /* @return 0, or an errno below 0 */
@@ -304,7 +320,7 @@ static int refuse_calls(enum confine_kind kind)
 	return err;
 }
 
-/* --- All of it ---------------------------------------------------------------------------------------------------------- */
+/* --- All of it --------------------------------------------------------------------------------------------------- */
 
 /* @return 0; 1: this kernel has no Landlock */
 static int begin(struct sandbox *s)
@@ -314,7 +330,8 @@ static int begin(struct sandbox *s)
 
 	if (version < 1)
 		return 1;
-	s->handled = FIRST_VERSION | (version >= 2 ? LANDLOCK_ACCESS_FS_REFER : 0) | (version >= 3 ? LANDLOCK_ACCESS_FS_TRUNCATE : 0);
+	s->handled = FIRST_VERSION | (version >= 2 ? LANDLOCK_ACCESS_FS_REFER : 0) |
+	             (version >= 3 ? LANDLOCK_ACCESS_FS_TRUNCATE : 0);
 	attr = (struct landlock_ruleset_attr){ .handled_access_fs = s->handled };
 	s->ruleset = (int)syscall(SYS_landlock_create_ruleset, &attr, sizeof(attr), 0);
 	return s->ruleset < 0;
@@ -343,7 +360,8 @@ int confine_to(const struct confine_file *files, size_t n, enum confine_kind kin
 	}
 	if (s.err)
 		goto done;
-	if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && s.ruleset >= 0 && syscall(SYS_landlock_restrict_self, s.ruleset, 0) != 0)
+	if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && s.ruleset >= 0 &&
+	    syscall(SYS_landlock_restrict_self, s.ruleset, 0) != 0)
 		err_warn(NULL, "files cannot be confined: %s", strerror(errno));
 	refuses = refuse_calls(kind);
 	if (refuses)

@@ -14,7 +14,8 @@ enum confine_kind {
 	CONFINE_NOT,
 	CONFINE_READER, /* starts no program; limits_of_reader (limits.h) */
 	CONFINE_SCORER, /* starts no program; reads as many pictures as there are, without limits */
-	CONFINE_TRACER  /* opens OpenCL devices: their libraries and caches, and the linker that PoCL starts; limits_of_tracer */
+	CONFINE_TRACER  /* opens OpenCL devices: their libraries and caches, and the linker that PoCL starts;
+	                   limits_of_tracer */
 };
 
 enum confine_use {

@@ -1,21 +1,22 @@
 /*
  * Errors and exit codes, the same in every stage outside the traced program.
  *
- * Functions return 0 or a negative ERR_*; results go out by pointer. err_report prints the text once, where the facts are known;
- * callers only pass the code on. The command exits with the negated code.
+ * Functions return 0 or a negative ERR_*; results go out by pointer. err_report prints the text once, where the facts
+ * are known; callers only pass the code on. The command exits with the negated code.
  */
 #pragma once
 
 #include <stdint.h>
 
 enum {
-	ERR_FAILED   = -1, /* compared, and the comparison failed */
-	ERR_USAGE    = -2, /* wrong usage: options, ranges, names */
-	ERR_INPUT    = -3, /* an input is missing, unreadable or not what it should be */
-	ERR_BASELINE = -4, /* a baseline is new or missing */
-	ERR_SYSTEM   = -5, /* a device or the system failed: memory, disk, OpenCL, a child process */
+	ERR_FAILED = -1,     /* compared, and the comparison failed */
+	ERR_USAGE = -2,      /* wrong usage: options, ranges, names */
+	ERR_INPUT = -3,      /* an input is missing, unreadable or not what it should be */
+	ERR_BASELINE = -4,   /* a baseline is new or missing */
+	ERR_SYSTEM = -5,     /* a device or the system failed: memory, disk, OpenCL, a child process */
 	ERR_INCOMPLETE = -6, /* frames are there, but some of what the program drew is missing from them */
-	ERR_MEMORY   = -7  /* too large for the device's memory at once; not reported, never an exit code (tracer/device/device.h) */
+	ERR_MEMORY = -7      /* too large for the device's memory at once; not reported, never an exit code
+	                        (tracer/device/device.h) */
 };
 
 /**
@@ -29,8 +30,8 @@ enum {
 int err_report(int code, const char *where, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
 
 /**
- * Print only the first report of a group of threads: a disk that is full for one is full for all. From now on this thread
- * shares `said` (initially 0) with the rest of its group. NULL leaves the group. Warnings are always printed.
+ * Print only the first report of a group of threads: a disk that is full for one is full for all. From now on this
+ * thread shares `said` (initially 0) with the rest of its group. NULL leaves the group. Warnings are always printed.
  */
 void err_share(int *said);
 

@@ -36,7 +36,8 @@ static size_t list_kept(DIR *dir, const char *pattern, struct kept **out)
 	while ((entry = readdir(dir))) {
 		struct stat info;
 
-		if (fnmatch(pattern, entry->d_name, 0) || fstatat(dirfd(dir), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) || !S_ISREG(info.st_mode))
+		if (fnmatch(pattern, entry->d_name, 0) ||
+		    fstatat(dirfd(dir), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) || !S_ISREG(info.st_mode))
 			continue;
 		if (MEMORY_GROW(*out, room, n + 1))
 			return 0;

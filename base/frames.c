@@ -126,7 +126,8 @@ int frame_list_parse(const char *text, struct frame_list *out)
 	join(&list);
 	if (!is_disjoint(&list) && is_too_long(&list)) {
 		frame_list_free(&list);
-		return err_report(ERR_USAGE, NULL, "'%s' names too many frames in ranges that overlap; write ranges that do not", text);
+		return err_report(ERR_USAGE, NULL,
+		                  "'%s' names too many frames in ranges that overlap; write ranges that do not", text);
 	}
 	*out = list;
 	return 0;

@@ -1,9 +1,9 @@
 /*
  * Frame ranges and file name patterns, as every verb takes them.
  *
- * A range list is "1-500", "1-500x5" (every fifth), "7", "55-" (to the end), or several of these with commas. Frames count from 0, in the
- * order of the trace's frame ends.
- * A pattern holds the frame number as "####" (zero-padded to the number of #), "%04d", "$F4" ("$F" alone: no padding) or
+ * A range list is "1-500", "1-500x5" (every fifth), "7", "55-" (to the end), or several of these with commas. Frames
+ * count from 0, in the order of the trace's frame ends. A pattern holds the frame number as "####" (zero-padded to the
+ * number of #), "%04d", "$F4" ("$F" alone: no padding) or
  * "{frame}" (no padding).
  */
 #pragma once
@@ -16,7 +16,8 @@ struct frame_range {
 };
 
 struct frame_list {
-	struct frame_range *ranges; /* owned; sorted by first; overlapping ones hold few enough frames to count them one by one */
+	struct frame_range *ranges; /* owned; sorted by first; overlapping ones hold few enough frames to count them one
+	                               by one */
 	size_t n_ranges;            /* 0: every frame */
 };
 

@@ -41,7 +41,8 @@ static unsigned character(const unsigned char *p)
 	for (unsigned i = 1; i < n; i++)
 		if ((p[i] & 0xc0) != 0x80)
 			return 0;
-	if ((*p == 0xe0 && p[1] < 0xa0) || (*p == 0xed && p[1] > 0x9f) || (*p == 0xf0 && p[1] < 0x90) || (*p == 0xf4 && p[1] > 0x8f))
+	if ((*p == 0xe0 && p[1] < 0xa0) || (*p == 0xed && p[1] > 0x9f) || (*p == 0xf0 && p[1] < 0x90) ||
+	    (*p == 0xf4 && p[1] > 0x8f))
 		return 0;
 	return n;
 }
@@ -52,7 +53,10 @@ static unsigned character(const unsigned char *p)
  */
 static unsigned unprintable(const unsigned char *p, unsigned n)
 {
-	const unsigned number = n == 1 ? *p : n == 2 ? (*p & 0x1fu) << 6 | (p[1] & 0x3f) : n == 3 ? (*p & 0xfu) << 12 | (p[1] & 0x3fu) << 6 | (p[2] & 0x3f) : 0;
+	const unsigned number = n == 1 ? *p :
+	                        n == 2 ? (*p & 0x1fu) << 6 | (p[1] & 0x3f) :
+	                        n == 3 ? (*p & 0xfu) << 12 | (p[1] & 0x3fu) << 6 | (p[2] & 0x3f) :
+	                                 0;
 
 	return number < 0x20 || (number >= 0x7f && number < 0xa0) || number == 0xfeff || number >= 0xfffe ? number : 0;
 }

@@ -10,7 +10,8 @@
 #include "base/folder.h"
 #include "base/part.h"
 
-static const char magic[8] = { 'r', 'e', 'l', 'u', 'm', 'e', 2, '\n' }; /* the line end reveals files transferred as text */
+static const char magic[8] = { 'r', 'e', 'l', 'u', 'm', 'e', 2, '\n' }; /* the line end reveals files transferred as
+                                                                           text */
 
 struct header {
 	char magic[8];

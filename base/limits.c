@@ -57,12 +57,16 @@ static void *look(void *unused)
 
 	for (;;) {
 		if (memory_used() > l->memory_bytes) {
-			err_report(ERR_SYSTEM, watched.recording, "asks for more than %llu MiB of memory, the limit for a recording of its size; --no-sandbox lifts it",
+			err_report(ERR_SYSTEM, watched.recording,
+			           "asks for more than %llu MiB of memory, the limit for a recording of its size; "
+			           "--no-sandbox lifts it",
 			           (unsigned long long)(l->memory_bytes >> 20));
 			end_now();
 		}
 		if (l->processor_s > 0 && progress_processor_s() > l->processor_s) {
-			err_report(ERR_SYSTEM, watched.recording, "takes more than %.0f s of processor time, the limit for a recording of its size; --no-sandbox lifts it",
+			err_report(ERR_SYSTEM, watched.recording,
+			           "takes more than %.0f s of processor time, the limit for a recording of its size; "
+			           "--no-sandbox lifts it",
 			           l->processor_s);
 			end_now();
 		}

@@ -11,8 +11,8 @@ extern const float mat4_identity[16];
 void mat4_mul(float out[16], const float a[16], const float b[16]);
 
 /**
- * Angle in degrees; the axis need not be normalised (GL 2.1 sec. 2.11.2). A zero axis gives the identity. A rotation about x, y or z has
- * exact zeros and ones.
+ * Angle in degrees; the axis need not be normalised (GL 2.1 sec. 2.11.2). A zero axis gives the identity. A rotation
+ * about x, y or z has exact zeros and ones.
  */
 void mat4_rotation(float out[16], float angle_deg, float x, float y, float z);
 /** m = m T. */

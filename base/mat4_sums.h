@@ -18,8 +18,8 @@ SUM(transform_plane)(float out[4], const float plane[4], const float inverse[16]
 	float p[4];
 
 	for (int c = 0; c < 4; c++)
-		p[c] = (float)((real)plane[0] * inverse[4 * c] + (real)plane[1] * inverse[4 * c + 1] + (real)plane[2] * inverse[4 * c + 2] +
-		               (real)plane[3] * inverse[4 * c + 3]);
+		p[c] = (float)((real)plane[0] * inverse[4 * c] + (real)plane[1] * inverse[4 * c + 1] +
+		               (real)plane[2] * inverse[4 * c + 2] + (real)plane[3] * inverse[4 * c + 3]);
 	memcpy(out, p, sizeof(p));
 }
 

@@ -20,12 +20,13 @@ size_t memory_grow(void *array, size_t room, size_t wanted, size_t item_bytes);
 
 /** memory_grow where it is needed. `room` is a variable, of any unsigned type. @return 0 or ERR_SYSTEM (reported) */
 #define MEMORY_GROW(array, room, wanted) \
-	((wanted) <= (room) ? 0 : ((room) = memory_grow(&(array), (room), (wanted), sizeof(*(array)))) < (wanted) ? ERR_SYSTEM : 0)
+	((wanted) <= (room) ? 0 : ((room) = memory_grow(&(array), (room), (wanted), \
+	sizeof(*(array)))) < (wanted) ? ERR_SYSTEM : 0)
 
 /**
  * Let malloc use transparent huge pages, if the system offers them on request, and keep freed memory. A replay fills
- * tens of MiB once; a page fault for each 4 KiB would take a sixth of its time. Call once, before starting threads. Does
- * nothing if the system refuses.
+ * tens of MiB once; a page fault for each 4 KiB would take a sixth of its time. Call once, before starting threads.
+ * Does nothing if the system refuses.
  */
 void memory_use_large_pages(void);
 

@@ -21,7 +21,7 @@ enum { MOST_WORDS = 33 };
 
 static const struct options_row help_row = { "help", 'h', NULL, "this text", .set = NULL };
 
-/* --- Help ---------------------------------------------------------------------------------------------------------- */
+/* --- Help -------------------------------------------------------------------------------------------------------- */
 
 static int format_name(const struct options_row *row, char *out, size_t size)
 {
@@ -29,7 +29,8 @@ static int format_name(const struct options_row *row, char *out, size_t size)
 
 	if (row->letter)
 		snprintf(letter, sizeof(letter), "-%c, ", row->letter);
-	return snprintf(out, size, "  %s--%s%s%s", letter, row->name, row->argument ? " " : "", row->argument ? row->argument : "");
+	return snprintf(out, size, "  %s--%s%s%s", letter, row->name, row->argument ? " " : "",
+	                row->argument ? row->argument : "");
 }
 
 static void print_row(const struct options_row *row, int column, FILE *out)
@@ -79,7 +80,7 @@ int options_misuse(const struct options_table *table)
 	return err_report(ERR_USAGE, NULL, "%s takes %s; 'relume help %s' says more", table->verb, table->takes, table->verb);
 }
 
-/* --- Parsing ------------------------------------------------------------------------------------------------------- */
+/* --- Parsing ----------------------------------------------------------------------------------------------------- */
 
 /* Build the arguments of getopt_long; the row of --help comes last. */
 static void make_getopt(const struct options_table *table, struct option longs[OPTIONS_MAX_ROWS + 2],
@@ -97,7 +98,8 @@ static void make_getopt(const struct options_table *table, struct option longs[O
 
 		if (!row->name)
 			continue;
-		longs[n_longs++] = (struct option){ row->name, row->argument ? required_argument : no_argument, NULL, FIRST_ROW + (int)i };
+		longs[n_longs++] = (struct option){ row->name, row->argument ? required_argument : no_argument, NULL,
+			                            FIRST_ROW + (int)i };
 		if (row->letter)
 			*letters++ = row->letter;
 		if (row->letter && row->argument)
@@ -127,7 +129,8 @@ static int refuse(const struct options_table *table, const struct option *longs,
 
 	snprintf(name, sizeof(name), "%.*s", is_letter ? 2 : (int)strcspn(word, "="), is_letter ? letter : word);
 	if (c == ':')
-		return err_report(ERR_USAGE, NULL, "%s: %s takes a value; 'relume help %s' says which", table->verb, name, table->verb);
+		return err_report(ERR_USAGE, NULL, "%s: %s takes a value; 'relume help %s' says which", table->verb,
+		                  name, table->verb);
 	if (optopt >= FIRST_ROW)
 		return err_report(ERR_USAGE, NULL, "%s: %s takes no value", table->verb, name);
 	for (; !is_letter && longs->name; longs++)
@@ -170,7 +173,7 @@ int options_parse(const struct options_table *table, int argc, char **argv, void
 	return 0;
 }
 
-/* --- What is kept ------------------------------------------------------------------------------------------------------ */
+/* --- What is kept ------------------------------------------------------------------------------------------------ */
 
 static int no_sandbox;
 
@@ -199,7 +202,8 @@ static void limit(const struct confine_file *files, size_t n, enum confine_kind 
 		limits_begin(recording, &limits);
 }
 
-int options_confine(const struct options_table *table, const struct options_line *line, enum confine_kind kind, const char *also)
+int options_confine(const struct options_table *table, const struct options_line *line, enum confine_kind kind,
+                    const char *also)
 {
 	struct confine_file files[OPTIONS_MAX_ROWS + MOST_WORDS + 1];
 	size_t n = 0;
@@ -220,7 +224,7 @@ int options_confine(const struct options_table *table, const struct options_line
 	return err;
 }
 
-/* --- Values -------------------------------------------------------------------------------------------------------- */
+/* --- Values ------------------------------------------------------------------------------------------------------ */
 
 /* @return a value's index in the row's words, or ERR_USAGE (reported) */
 static int find_word(const struct options_row *row, const char *value)
@@ -250,8 +254,8 @@ int options_real(const struct options_row *row, const char *value, void *out)
 
 	*number = strtof(value, &end);
 	if (end == value || *end || !(*number >= row->low && *number <= row->high))
-		return err_report(ERR_USAGE, NULL, "--%s takes a number from %g to %g, not '%s'", row->name, (double)row->low, (double)row->high,
-		                  value);
+		return err_report(ERR_USAGE, NULL, "--%s takes a number from %g to %g, not '%s'", row->name,
+		                  (double)row->low, (double)row->high, value);
 	return 0;
 }
 
@@ -286,7 +290,8 @@ int options_number(const struct options_row *row, const char *value, void *out)
 	errno = 0;
 	number = strtoul(value, &end, 10);
 	if (!errno && end != value && !*end && *value != '-' && number < row->least)
-		return err_report(ERR_USAGE, NULL, "--%s takes a number from %u to %u, not '%s'", row->name, row->least, row->most, value);
+		return err_report(ERR_USAGE, NULL, "--%s takes a number from %u to %u, not '%s'", row->name, row->least,
+		                  row->most, value);
 	if (errno || end == value || *end || *value == '-' || number > row->most)
 		return err_report(ERR_USAGE, NULL, "--%s takes a number up to %u, not '%s'", row->name, row->most, value);
 	*(unsigned *)out = (unsigned)number;

@@ -6,8 +6,8 @@
  *         { "json", 'j', NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
  *     };
  *
- * getopt_long does the parsing; unknown options are reported by name. Every verb has -h, --help without a row. Man pages
- * and shell completion are generated from the help text (packaging/pages.py).
+ * getopt_long does the parsing; unknown options are reported by name. Every verb has -h, --help without a row. Man
+ * pages and shell completion are generated from the help text (packaging/pages.py).
  */
 #pragma once
 
@@ -70,7 +70,9 @@ struct options_line {
 int options_parse(const struct options_table *table, int argc, char **argv, void *out, struct options_line *line);
 
 /** A row for verbs that read recordings, without its braces. */
-#define OPTIONS_NO_SANDBOX .name = "no-sandbox", .help = "for debugging: no limits of memory and time, and all rights that reading a recording does not need (files, sockets, programs)", .set = options_no_sandbox
+#define OPTIONS_NO_SANDBOX \
+	.name = "no-sandbox", .help = "for debugging: no limits of memory and time, \
+	and all rights that reading a recording does not need (files, sockets, programs)", .set = options_no_sandbox
 
 /**
  * Keep the rights to the files that a command line names and those that verbs of this kind need; drop all others and
@@ -78,7 +80,8 @@ int options_parse(const struct options_table *table, int argc, char **argv, void
  * @param also  one more file to read; NULL: none
  * @return 0 or ERR_SYSTEM (reported)
  */
-int options_confine(const struct options_table *table, const struct options_line *line, enum confine_kind kind, const char *also);
+int options_confine(const struct options_table *table, const struct options_line *line, enum confine_kind kind,
+                    const char *also);
 
 /** Report the words that the verb requires. @return ERR_USAGE */
 int options_misuse(const struct options_table *table);
@@ -87,7 +90,8 @@ void options_print_help(const struct options_table *table, FILE *out);
 
 /* Setters for the common kinds of values; each comment gives the type of `out`. */
 int options_no_sandbox(const struct options_row *row, const char *value, void *out); /* nothing */
-int options_text(const struct options_row *row, const char *value, void *out);   /* const char *, borrowed; of `words` if any */
+int options_text(const struct options_row *row, const char *value, void *out); /* const char *, borrowed; of `words` if
+                                                                                  any */
 int options_flag(const struct options_row *row, const char *value, void *out);   /* int: 1 */
 int options_clear(const struct options_row *row, const char *value, void *out);  /* int: 0 */
 int options_number(const struct options_row *row, const char *value, void *out); /* unsigned, 0 to `most` */

@@ -46,7 +46,7 @@ void part_drop_all(void);
 void part_sweep_of(const char *path, long process);
 
 /**
- * Remove the files that killed processes of this machine left in a file's folder: those of no running process, untouched
- * for a minute (the process may run in another container, where it cannot be seen).
+ * Remove the files that killed processes of this machine left in a file's folder: those of no running process,
+ * untouched for a minute (the process may run in another container, where it cannot be seen).
  */
 void part_sweep(const char *path);

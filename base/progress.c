@@ -51,7 +51,9 @@ void progress_begin_style(struct progress *p, const char *verb, uint64_t total, 
 {
 	if (style == PROGRESS_AUTO)
 		style = isatty(STDERR_FILENO) ? PROGRESS_BAR : PROGRESS_LINES;
-	*p = (struct progress){ .verb = verb, .total = total, .style = style, .start_s = progress_clock_s(), .replayed = UINT64_MAX };
+	*p = (struct progress){
+		.verb = verb, .total = total, .style = style, .start_s = progress_clock_s(), .replayed = UINT64_MAX
+	};
 	err_clear_bar(style == PROGRESS_BAR);
 	if (style == PROGRESS_JSON) {
 		printf("{\"event\": \"begin\", \"verb\": \"%s\", \"total\": %" PRIu64 "}\n", verb, total);
@@ -92,7 +94,9 @@ static double seconds_left(const struct progress *p)
 
 	if (p->done >= p->total)
 		return 0;
-	return p->first_s > 0 && worked > 1 && since_s >= 1 ? since_s / (double)(worked - 1) * (double)(p->total - p->done) : -1;
+	return p->first_s > 0 && worked > 1 && since_s >= 1 ?
+	               since_s / (double)(worked - 1) * (double)(p->total - p->done) :
+	               -1;
 }
 
 static void draw_bar(const struct progress *p, uint64_t frame)
@@ -157,14 +161,16 @@ void progress_replay(struct progress *p, uint64_t frame, uint64_t played, uint64
 	p->told_s = now;
 	if (p->style == PROGRESS_BAR) {
 		fill_bar(bar, played < of ? played : of, of);
-		fprintf(stderr, "\r\033[Kreplaying [%s] %" PRIu64 "/%" PRIu64 "  before frame %" PRIu64 "%s%s", bar, played, of, frame, why ? ": " : "",
-		        why ? why : "");
+		fprintf(stderr, "\r\033[Kreplaying [%s] %" PRIu64 "/%" PRIu64 "  before frame %" PRIu64 "%s%s", bar,
+		        played, of, frame, why ? ": " : "", why ? why : "");
 	} else if (p->style == PROGRESS_JSON) {
-		printf("{\"event\": \"replay\", \"frame\": %" PRIu64 ", \"played\": %" PRIu64 ", \"of\": %" PRIu64 "}\n", frame, played, of);
+		printf("{\"event\": \"replay\", \"frame\": %" PRIu64 ", \"played\": %" PRIu64 ", \"of\": %" PRIu64
+		       "}\n",
+		       frame, played, of);
 		fflush(stdout);
 	} else {
-		fprintf(stderr, "replayed %" PRIu64 " of %" PRIu64 " frames before frame %" PRIu64 "%s%s\n", played, of, frame, why ? ": " : "",
-		        why ? why : "");
+		fprintf(stderr, "replayed %" PRIu64 " of %" PRIu64 " frames before frame %" PRIu64 "%s%s\n", played, of,
+		        frame, why ? ": " : "", why ? why : "");
 	}
 }
 
@@ -183,7 +189,8 @@ void progress_sample(struct progress *p, uint64_t frame, uint32_t done, uint32_t
 		draw_bar(p, frame);
 		fprintf(stderr, "  frame %" PRIu64 ": sample %s", frame, count);
 	} else if (p->style == PROGRESS_JSON) {
-		printf("{\"event\": \"sample\", \"frame\": %" PRIu64 ", \"done\": %" PRIu32 ", \"of\": %" PRIu32 "}\n", frame, done, of);
+		printf("{\"event\": \"sample\", \"frame\": %" PRIu64 ", \"done\": %" PRIu32 ", \"of\": %" PRIu32 "}\n",
+		       frame, done, of);
 		fflush(stdout);
 	} else {
 		fprintf(stderr, "frame %" PRIu64 ": sample %s\n", frame, count);

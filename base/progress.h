@@ -1,6 +1,7 @@
 /*
  * Progress of a run over frames: a bar with rate and time left where standard error is a terminal, one plain line per
- * frame elsewhere (farm managers parse "VERB frame N, DONE of TOTAL: TEXT"), or JSON, one object a line, on standard output:
+ * frame elsewhere (farm managers parse "VERB frame N, DONE of TOTAL: TEXT"), or JSON, one object a line, on standard
+ * output:
  *
  *     {"event": "begin", "verb": "rendered", "total": 500}
  *     {"event": "start", "frame": 12, "seconds": 0.05}
@@ -10,8 +11,8 @@
  *     {"event": "end", "done": 500, "seconds": 61.2, "peak_memory_bytes": 536870912}
  *
  * A state is "done", "skipped" (already there) or "failed"; total is 0 if unknown. Once a second, "replay" reports how
- * many of the frames that frame 12 depends on or follows have been played, and "sample" how many of its samples are done;
- * `of` is 0 if time or noise decides.
+ * many of the frames that frame 12 depends on or follows have been played, and "sample" how many of its samples are
+ * done; `of` is 0 if time or noise decides.
  */
 #pragma once
 
@@ -54,8 +55,8 @@ void progress_step(struct progress *p, uint64_t frame, const char *text);
 void progress_start(const struct progress *p, uint64_t frame, double seconds);
 
 /**
- * `played` of the `of` earlier frames that are replayed for a frame, but not rendered, are done. A bar shows it at once,
- * lines every ten seconds.
+ * `played` of the `of` earlier frames that are replayed for a frame, but not rendered, are done. A bar shows it at
+ * once, lines every ten seconds.
  * @param why  why the frame needs them, borrowed until the next call; NULL: they are only on the way
  */
 void progress_replay(struct progress *p, uint64_t frame, uint64_t played, uint64_t of, const char *why);

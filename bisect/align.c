@@ -36,7 +36,7 @@ static void trim(const struct work *w, struct part *p)
 		p->a1--, p->b1--;
 }
 
-/* --- Myers, "An O(ND) Difference Algorithm and Its Variations" (1986), figure 2 ------------------------------------------ */
+/* --- Myers, "An O(ND) Difference Algorithm and Its Variations" (1986), figure 2 ---------------------------------- */
 
 static int32_t *row(const struct work *w, int d)
 {
@@ -91,7 +91,7 @@ static int find_script(struct work *w, const struct part *p)
 	return 0;
 }
 
-/* --- Anchors ------------------------------------------------------------------------------------------------------------ */
+/* --- Anchors ----------------------------------------------------------------------------------------------------- */
 
 static int compare_keys(const void *x, const void *y)
 {
@@ -181,7 +181,7 @@ static int find_anchors(const struct work *w, const struct part *p, struct ancho
 	return ok ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 }
 
-/* --- All of it ---------------------------------------------------------------------------------------------------------- */
+/* --- All of it --------------------------------------------------------------------------------------------------- */
 
 static int solve(struct work *w, struct part p)
 {

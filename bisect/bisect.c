@@ -28,14 +28,18 @@ struct asked {
 #define AT(member) .at = offsetof(struct asked, member)
 
 static const struct options_row rows[] = {
-	{ "by", 0, "WHAT", "let calls (default) or pictures determine the exit code", options_word, AT(by), .words = by_words },
-	{ "all", 'a', NULL, "compare queries and waits, too (glGetError, glFinish): programs may differ in them and yet draw the same",
+	{ "by", 0, "WHAT", "let calls (default) or pictures determine the exit code", options_word, AT(by),
+	  .words = by_words },
+	{ "all", 'a', NULL,
+	  "compare queries and waits, too (glGetError, glFinish): programs may differ in them and yet draw the same",
 	  options_flag, AT(all) },
-	{ "ignore", 0, "LIST", "ignore these commands, too: shell patterns with commas, as in 'glRotate*,glColor4f'", options_text, AT(ignore) },
+	{ "ignore", 0, "LIST", "ignore these commands, too: shell patterns with commas, as in 'glRotate*,glColor4f'",
+	  options_text, AT(ignore) },
 	{ "most", 'n', "N", "places to show at most (default 10)", options_number, AT(most), .most = 10000 },
 	{ "pictures", 'p', "N", "frames to draw at most, from the first one that diverges (default 20; 0: none)",
 	  options_number, AT(pictures), .most = 1000000 },
-	{ "report", 0, "DIR", "DIR/index.html, with the first pictures that differ", options_text, AT(report), .use = CONFINE_FILLS },
+	{ "report", 0, "DIR", "DIR/index.html, with the first pictures that differ", options_text, AT(report),
+	  .use = CONFINE_FILLS },
 	{ "device", 0, "NAME", "OpenCL device that draws, as for 'relume render'", options_text, AT(device) },
 	{ OPTIONS_NO_SANDBOX },
 };
@@ -43,21 +47,30 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "bisect",
 	.head = "usage: relume bisect [OPTIONS] GOOD BAD\n"
-	        "\n"
-	        "Find the first call where two recordings of a program, of a good and a bad build, diverge: its frame, its arguments in\n"
-	        "both, the OpenGL state that differs because of it, and the first picture that differs. Calls are aligned, so an added\n"
-	        "or removed call does not affect later ones. Textures, lists and other objects may be numbered differently.\n"
-	        "\n"
-	        "A program that moves with the clock diverges in every frame: record both with a fixed step, or --ignore what moves.\n"
-	        "\n"
-	        "With git, where good.trace was recorded from a good build:\n"
-	        "\n"
-	        "    git bisect run sh -c 'make || exit 125; xvfb-run -a relume record -o now.trace -- ./program || exit 125;\n"
-	        "        relume bisect --by pictures good.trace now.trace'\n",
+		"\n"
+		"Find the first call where two recordings of a program, of a good and a bad build, diverge: its frame, "
+	        "its arguments in\n"
+		"both, the OpenGL state that differs because of it, and the first picture that differs. Calls are "
+	        "aligned, so an added\n"
+		"or removed call does not affect later ones. Textures, lists and other objects may be numbered "
+	        "differently.\n"
+		"\n"
+		"A program that moves with the clock diverges in every frame: record both with a fixed step, or "
+	        "--ignore what moves.\n"
+		"\n"
+		"With git, where good.trace was recorded from a good build:\n"
+		"\n"
+		"    git bisect run sh -c 'make || exit 125; xvfb-run -a relume record -o now.trace -- ./program || "
+	        "exit 125;\n"
+		"        relume bisect --by pictures good.trace now.trace'\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exit codes: 0 the same, 1 they diverge, 2 wrong usage, 125 cannot be determined: a recording cannot be read, or\n"
-	         "frames were left that --pictures excludes.\n",
-	.takes = "two recordings", .least = 2, .most = 2, .words_use = CONFINE_RECORDING,
+	.notes = "Exit codes: 0 the same, 1 they diverge, 2 wrong usage, 125 cannot be determined: a recording cannot "
+	         "be read, or\n"
+		 "frames were left that --pictures excludes.\n",
+	.takes = "two recordings",
+	.least = 2,
+	.most = 2,
+	.words_use = CONFINE_RECORDING,
 };
 
 /* The first frame of the good recording that can look different. */
@@ -76,7 +89,8 @@ static int judge(const struct asked *o, struct findings *f, const struct partner
 	int err = 0;
 
 	if (f->partings->n && o->pictures) {
-		err = sight_find(partners, f->recordings[GOOD], f->recordings[BAD], first_frame(f->partings), o->pictures, o->device, sight);
+		err = sight_find(partners, f->recordings[GOOD], f->recordings[BAD], first_frame(f->partings),
+		                 o->pictures, o->device, sight);
 		f->sight = err ? NULL : sight;
 	}
 	page_table(f, stdout);

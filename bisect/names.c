@@ -10,7 +10,7 @@
 
 enum { MOST_NAMES = 65536 /* of one glGenLists */ };
 
-/* --- Which arguments are names ------------------------------------------------------------------------------------------ */
+/* --- Which arguments are names ----------------------------------------------------------------------------------- */
 
 /* By the registry's names of arguments; an argument of type ENUM is none. */
 static const struct {
@@ -18,9 +18,10 @@ static const struct {
 	enum names_kind kind;
 } kinds[] = {
 	{ "texture", NAMES_TEXTURE }, { "textures", NAMES_TEXTURE }, { "list", NAMES_LIST }, { "base", NAMES_LIST_BASE },
-	{ "buffer", NAMES_BUFFER }, { "buffers", NAMES_BUFFER }, { "framebuffer", NAMES_FRAMEBUFFER }, { "framebuffers", NAMES_FRAMEBUFFER },
-	{ "renderbuffer", NAMES_RENDERBUFFER }, { "renderbuffers", NAMES_RENDERBUFFER }, { "program", NAMES_PROGRAM },
-	{ "programs", NAMES_PROGRAM }, { "shader", NAMES_PROGRAM }, { "sampler", NAMES_SAMPLER }, { "samplers", NAMES_SAMPLER },
+	{ "buffer", NAMES_BUFFER }, { "buffers", NAMES_BUFFER }, { "framebuffer", NAMES_FRAMEBUFFER },
+	{ "framebuffers", NAMES_FRAMEBUFFER }, { "renderbuffer", NAMES_RENDERBUFFER },
+	{ "renderbuffers", NAMES_RENDERBUFFER }, { "program", NAMES_PROGRAM }, { "programs", NAMES_PROGRAM },
+	{ "shader", NAMES_PROGRAM }, { "sampler", NAMES_SAMPLER }, { "samplers", NAMES_SAMPLER },
 	{ "array", NAMES_VERTEX_ARRAY }, { "arrays", NAMES_VERTEX_ARRAY }, { "id", NAMES_QUERY }, { "ids", NAMES_QUERY },
 };
 static const char *const windows[] = { "drawable", "draw", "read", "win", "window", "pbuf", "pixmap", "glxpixmap" };
@@ -43,7 +44,8 @@ static enum names_kind kind_of(const struct call *c, uint32_t argument)
 				return NAMES_WINDOW;
 		return c->args[argument].type == TRACE_OPAQUE ? NAMES_WINDOW : NAMES_NONE;
 	}
-	if (c->args[argument].type != TRACE_UINT && c->args[argument].type != TRACE_SINT && c->args[argument].type != TRACE_ARRAY)
+	if (c->args[argument].type != TRACE_UINT && c->args[argument].type != TRACE_SINT &&
+	    c->args[argument].type != TRACE_ARRAY)
 		return NAMES_NONE;
 	for (size_t i = 0; i < sizeof(kinds) / sizeof(kinds[0]); i++)
 		if (strcmp(name, kinds[i].argument) == 0)
@@ -63,7 +65,7 @@ static enum names_kind kind_of_result(const struct call *c)
 	return is_of_gl(name) || c->ret.type != TRACE_OPAQUE ? NAMES_NONE : NAMES_WINDOW;
 }
 
-/* --- Pairs -------------------------------------------------------------------------------------------------------------- */
+/* --- Pairs ------------------------------------------------------------------------------------------------------- */
 
 void names_free(struct names *names)
 {
@@ -103,7 +105,7 @@ int names_pair(struct names *names, enum names_kind kind, uint64_t good, uint64_
 	return 1;
 }
 
-/* --- Values ------------------------------------------------------------------------------------------------------------- */
+/* --- Values ------------------------------------------------------------------------------------------------------ */
 
 /* The type of a value, however a recorder wrote it. */
 enum form { NOTHING, NUMBER, REAL, TEXT, BYTES, LIST, ADDRESS };
@@ -111,7 +113,13 @@ enum form { NOTHING, NUMBER, REAL, TEXT, BYTES, LIST, ADDRESS };
 static enum form form_of(const struct trace_value *v)
 {
 	switch (v->type) {
-	case TRACE_FALSE: case TRACE_TRUE: case TRACE_SINT: case TRACE_UINT: case TRACE_ENUM: case TRACE_BITMASK: return NUMBER;
+	case TRACE_FALSE:
+	case TRACE_TRUE:
+	case TRACE_SINT:
+	case TRACE_UINT:
+	case TRACE_ENUM:
+	case TRACE_BITMASK:
+		return NUMBER;
 	case TRACE_FLOAT: case TRACE_DOUBLE: return REAL;
 	case TRACE_STRING: return TEXT;
 	case TRACE_BLOB: case TRACE_WSTRING: return BYTES;
@@ -155,7 +163,10 @@ static uint64_t hash_value(const struct trace_value *v, enum names_kind kind, ui
 		real = real_of(v) + 0.0; /* -0 is 0 */
 		memcpy(&word, &real, sizeof(word));
 		break;
-	case TEXT: case BYTES: return XXH3_64bits_withSeed(v->type == TRACE_STRING ? (const void *)v->str : v->blob, bytes_of(v), hash);
+	case TEXT:
+	case BYTES:
+		return XXH3_64bits_withSeed(v->type == TRACE_STRING ? (const void *)v->str : v->blob, bytes_of(v),
+		                            hash);
 	case LIST:
 		for (uint64_t i = 0; i < v->count; i++)
 			hash = hash_value(&v->items[i], kind, hash);

@@ -29,10 +29,13 @@ static void put(const char *text, size_t most, int is_html, FILE *out)
 static void put_sight(const struct sight *s, FILE *out)
 {
 	if (s->is_found)
-		fprintf(out, "first picture that differs: frame %zu of good, %zu of bad: %" PRIu64 " of %" PRIu64 " pixels, by up to %u of 255\n",
+		fprintf(out,
+		        "first picture that differs: frame %zu of good, %zu of bad: %" PRIu64 " of %" PRIu64
+		        " pixels, by up to %u of 255\n",
 		        s->frame[GOOD], s->frame[BAD], s->differing, s->pixels, s->worst);
 	else if (s->left)
-		fprintf(out, "pictures: the same in the %zu frame%s that were compared; %zu more were not\n", s->looked, plural(s->looked), s->left);
+		fprintf(out, "pictures: the same in the %zu frame%s that were compared; %zu more were not\n", s->looked,
+		        plural(s->looked), s->left);
 	else
 		fprintf(out, "pictures: the same in all %zu frame%s from there on\n", s->looked, plural(s->looked));
 }
@@ -74,8 +77,8 @@ void page_table(const struct findings *f, FILE *out)
 	const struct partings *p = f->partings;
 
 	for (int s = 0; s < N_SIDES; s++)
-		fprintf(out, "%-4s  %s: %zu frame%s, %zu calls that count\n", side_names[s], f->recordings[s]->path, f->recordings[s]->n_ended,
-		        plural(f->recordings[s]->n_ended), f->recordings[s]->n);
+		fprintf(out, "%-4s  %s: %zu frame%s, %zu calls that count\n", side_names[s], f->recordings[s]->path,
+		        f->recordings[s]->n_ended, plural(f->recordings[s]->n_ended), f->recordings[s]->n);
 	if (!p->n) {
 		fputs("they are the same\n", out);
 		return;
@@ -120,20 +123,27 @@ int page_write(const struct findings *f, const char *folder)
 	if (err)
 		return err;
 	fputs("<!doctype html><meta charset=\"utf-8\"><title>relume bisect</title>\n"
-	      "<style>body{font:14px sans-serif;margin:1em}table{border-collapse:collapse}td,th{border:1px solid #bbb;padding:.3em;text-align:left;"
-	      "vertical-align:top}pre{margin:0}img{max-width:32%;image-rendering:pixelated}</style>\n<h1>relume bisect</h1>\n<p>good ", file.stream);
+	      "<style>body{font:14px sans-serif;margin:1em}table{border-collapse:collapse}td,th{border:1px solid "
+	      "#bbb;padding:.3em;text-align:left;"
+	      "vertical-align:top}pre{margin:0}img{max-width:32%;image-rendering:pixelated}</style>\n<h1>relume "
+	      "bisect</h1>\n<p>good ",
+	      file.stream);
 	put(f->recordings[GOOD]->path, SIZE_MAX, 1, file.stream);
 	fputs(", bad ", file.stream);
 	put(f->recordings[BAD]->path, SIZE_MAX, 1, file.stream);
-	fprintf(file.stream, "</p>\n<table><tr><th colspan=3>good: frame, call<th colspan=3>bad: frame, call<th>argument<th>state and more that differs</tr>\n");
+	fprintf(file.stream, "</p>\n<table><tr><th colspan=3>good: frame, call<th colspan=3>bad: frame, "
+	                     "call<th>argument<th>state and more that differs</tr>\n");
 	for (size_t i = 0; i < f->partings->n; i++)
 		put_row(&f->partings->list[i], file.stream);
 	fputs("</table>\n", file.stream);
 	if (f->sight) {
 		fputs("<p>", file.stream);
 		put_sight(f->sight, file.stream);
-		fputs(f->sight->is_found ? "</p>\n<p><img src=\"good.png\" alt=\"good\"> <img src=\"bad.png\" alt=\"bad\"> <img src=\"difference.png\" "
-		      "alt=\"where they differ\"></p>\n" : "</p>\n", file.stream);
+		fputs(f->sight->is_found ? "</p>\n<p><img src=\"good.png\" alt=\"good\"> <img src=\"bad.png\" "
+		                           "alt=\"bad\"> <img src=\"difference.png\" "
+		                           "alt=\"where they differ\"></p>\n" :
+		                           "</p>\n",
+		      file.stream);
 	}
 	return part_close(&file, 0);
 }

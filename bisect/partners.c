@@ -55,7 +55,8 @@ static int pair_frames(struct sides *s, size_t a, size_t b)
 	if (!err)
 		err = align_keys(x, n, y, m, &hunks, &n_hunks);
 	for (size_t i = 0; i < n_hunks && !err; i++)
-		err = add_hunk(s->partners, &(struct align_hunk){ g0 + hunks[i].a0, g0 + hunks[i].a1, b0 + hunks[i].b0, b0 + hunks[i].b1 });
+		err = add_hunk(s->partners, &(struct align_hunk){ g0 + hunks[i].a0, g0 + hunks[i].a1, b0 + hunks[i].b0,
+		                                                  b0 + hunks[i].b1 });
 	s->partners->frames[a] = b;
 	free(hunks);
 	free(x);
@@ -72,7 +73,8 @@ static int pair_rest(struct sides *s, const struct align_hunk *h)
 	for (; a < h->a1 && b < h->b1 && !err; a++, b++)
 		err = pair_frames(s, a, b);
 	if (!err)
-		err = add_hunk(s->partners, &(struct align_hunk){ s->good->frames[a], s->good->frames[h->a1], s->bad->frames[b], s->bad->frames[h->b1] });
+		err = add_hunk(s->partners, &(struct align_hunk){ s->good->frames[a], s->good->frames[h->a1],
+		                                                  s->bad->frames[b], s->bad->frames[h->b1] });
 	return err;
 }
 
@@ -87,8 +89,9 @@ static int pair_hunk(struct sides *s, const struct align_hunk *h)
 		return pair_rest(s, h);
 	err = align_keys(s->good_keys + h->a0, h->a1 - h->a0, s->bad_keys + h->b0, h->b1 - h->b0, &hunks, &n);
 	for (size_t i = 0; i <= n && !err; i++) {
-		const struct align_hunk rest = i < n ? (struct align_hunk){ h->a0 + hunks[i].a0, h->a0 + hunks[i].a1, h->b0 + hunks[i].b0, h->b0 + hunks[i].b1 }
-		                                     : (struct align_hunk){ h->a1, h->a1, h->b1, h->b1 };
+		const struct align_hunk rest = i < n ? (struct align_hunk){ h->a0 + hunks[i].a0, h->a0 + hunks[i].a1,
+			                                                    h->b0 + hunks[i].b0, h->b0 + hunks[i].b1 } :
+		                                       (struct align_hunk){ h->a1, h->a1, h->b1, h->b1 };
 
 		for (; a < rest.a0 && !err; a++, b++)
 			err = pair_frames(s, a, b);

@@ -15,7 +15,8 @@
 /* Reasons in replay/overlay.txt for commands that change nothing: queries and waits. */
 static const char *const idle[] = {
 	"a query", "only the program sees how many samples were counted", "nothing is ever pending",
-	"time does not pass in a replay", "it manages memory of the program", "it changes which events the program gets, not what it draws",
+	"time does not pass in a replay", "it manages memory of the program",
+	"it changes which events the program gets, not what it draws",
 };
 
 /* Facts about a command, kept by signature. */

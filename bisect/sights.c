@@ -71,7 +71,8 @@ static int look(struct eyes *e, int side, size_t frame, struct oiio_pixels *out)
 	scene_release(&scene);
 	if (!rc) {
 		*out = (struct oiio_pixels){ malloc(3 * (size_t)img.width * img.height + 1), img.width, img.height };
-		rc = out->rgb ? display_codes(e->display, &img, "gl.", out->rgb, NULL) : err_report(ERR_SYSTEM, NULL, "out of memory");
+		rc = out->rgb ? display_codes(e->display, &img, "gl.", out->rgb, NULL) :
+		                err_report(ERR_SYSTEM, NULL, "out of memory");
 	}
 	image_free(&img);
 	return rc;
@@ -111,8 +112,8 @@ static void compare(struct sight *s)
 	s->is_found = s->differing > 0;
 }
 
-int sight_find(const struct partners *partners, const struct recording *good, const struct recording *bad, size_t first, size_t most,
-               const char *device, struct sight *out)
+int sight_find(const struct partners *partners, const struct recording *good, const struct recording *bad, size_t first,
+               size_t most, const char *device, struct sight *out)
 {
 	struct eyes eyes = { .dev = NULL };
 	int err;

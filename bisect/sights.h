@@ -21,8 +21,8 @@ struct sight {
  * @param device  as for device_open
  * @return 0 or ERR_* (reported)
  */
-int sight_find(const struct partners *partners, const struct recording *good, const struct recording *bad, size_t first, size_t most,
-               const char *device, struct sight *out);
+int sight_find(const struct partners *partners, const struct recording *good, const struct recording *bad, size_t first,
+               size_t most, const char *device, struct sight *out);
 void sight_free(struct sight *sight);
 
 /** Write DIR/good.png, bad.png and difference.png. @return 0 or ERR_SYSTEM (reported) */

@@ -17,17 +17,18 @@ static const struct {
 	enum names_kind kind;
 	int is_passed;
 } special[] = {
-	{ "gls_unit", "bound", NAMES_TEXTURE, 0 }, { "gls_unit", "sampler", NAMES_SAMPLER, 0 }, { "gls_attribs", "list_base", NAMES_LIST_BASE, 0 },
-	{ "gls_array", "buffer", NAMES_BUFFER, 0 }, { "gls_pixel_store", "buffer", NAMES_BUFFER, 0 },
-	{ "gls_client_attribs", "array_buffer", NAMES_BUFFER, 0 }, { "gls_client_attribs", "element_buffer", NAMES_BUFFER, 0 },
+	{ "gls_unit", "bound", NAMES_TEXTURE, 0 }, { "gls_unit", "sampler", NAMES_SAMPLER, 0 },
+	{ "gls_attribs", "list_base", NAMES_LIST_BASE, 0 }, { "gls_array", "buffer", NAMES_BUFFER, 0 },
+	{ "gls_pixel_store", "buffer", NAMES_BUFFER, 0 }, { "gls_client_attribs", "array_buffer", NAMES_BUFFER, 0 },
+	{ "gls_client_attribs", "element_buffer", NAMES_BUFFER, 0 },
 	{ "gls_client_attribs", "vertex_array", NAMES_VERTEX_ARRAY, 0 }, { "gls_state", "program", NAMES_PROGRAM, 0 },
 	{ "gls_state", "arb_vertex", NAMES_PROGRAM, 0 }, { "gls_state", "arb_fragment", NAMES_PROGRAM, 0 },
 	{ "gls_state", "draw_framebuffer", NAMES_FRAMEBUFFER, 0 }, { "gls_state", "read_framebuffer", NAMES_FRAMEBUFFER, 0 },
 	{ "gls_state", "renderbuffer", NAMES_RENDERBUFFER, 0 }, { "gls_state", "list_name", NAMES_LIST, 0 },
 	{ "gls_state", "drawable", NAMES_WINDOW, 0 }, { "gls_state", "read_drawable", NAMES_WINDOW, 0 },
 	{ "gls_state", "dirty", NAMES_NONE, 1 }, { "gls_state", "vertex_arrays", NAMES_NONE, 1 },
-	{ "gls_array", "offset", NAMES_NONE, 1 }, { "gls_array", "version", NAMES_NONE, 1 }, { "gls_array", "client_bytes", NAMES_NONE, 1 },
-	{ "gls_array", "client_room", NAMES_NONE, 1 },
+	{ "gls_array", "offset", NAMES_NONE, 1 }, { "gls_array", "version", NAMES_NONE, 1 },
+	{ "gls_array", "client_bytes", NAMES_NONE, 1 }, { "gls_array", "client_room", NAMES_NONE, 1 },
 };
 
 struct comparison {
@@ -91,7 +92,8 @@ static void tell(struct comparison *c, const struct member *m, const uint8_t *go
 }
 
 /* Do names of objects differ? */
-static int names_differ(const struct comparison *c, enum names_kind kind, const struct member *m, const uint8_t *good, const uint8_t *bad)
+static int names_differ(const struct comparison *c, enum names_kind kind, const struct member *m, const uint8_t *good,
+                        const uint8_t *bad)
 {
 	for (size_t i = 0; i < m->bytes; i += m->each) {
 		uint64_t g = 0, b = 0, to;
@@ -132,7 +134,8 @@ static void compare_member(struct comparison *c, const struct member *m, const u
 /* Compare a stack's depth and current entry; entries above it are meaningless. */
 static void compare_stack(struct comparison *c, const struct gls_matrix_stack *good, const struct gls_matrix_stack *bad)
 {
-	static const struct member current = { "", "", "float", 0, 16 * sizeof(float), sizeof(float) }, depth = { "", "", "unsigned", 0, sizeof(unsigned), sizeof(unsigned) };
+	static const struct member current = { "", "", "float", 0, 16 * sizeof(float), sizeof(float) },
+				   depth = { "", "", "unsigned", 0, sizeof(unsigned), sizeof(unsigned) };
 	const size_t length = strlen(c->path);
 
 	if (memcmp(good->matrices[good->depth], bad->matrices[bad->depth], current.bytes) != 0)
@@ -157,13 +160,15 @@ static void compare_struct(struct comparison *c, const char *owner, const uint8_
 		if (strcmp(m->owner, owner) != 0 || strcmp(m->type, "void *") == 0)
 			continue;
 		/* gls_state.a is what PushAttrib saves: its groups have names of their own */
-		snprintf(c->path + length, MOST_PATH - length, "%s%s", length ? "." : "", strcmp(m->type, "struct gls_attribs") == 0 ? "" : m->name);
+		snprintf(c->path + length, MOST_PATH - length, "%s%s", length ? "." : "",
+		         strcmp(m->type, "struct gls_attribs") == 0 ? "" : m->name);
 		compare_member(c, m, good + m->offset, bad + m->offset);
 		c->path[length] = '\0';
 	}
 }
 
-int states_compare(const struct gls_state *good, const struct gls_state *bad, const struct names *names, struct table *known, char **text)
+int states_compare(const struct gls_state *good, const struct gls_state *bad, const struct names *names,
+                   struct table *known, char **text)
 {
 	struct comparison c = { .names = names, .known = known };
 	size_t size = 0;

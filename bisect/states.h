@@ -12,4 +12,5 @@
  * @param text     receives "color.dst_rgb: 0x1, 0x303" and so on, a line each, freed by the caller; NULL: nothing new
  * @return 0 or ERR_SYSTEM (reported)
  */
-int states_compare(const struct gls_state *good, const struct gls_state *bad, const struct names *names, struct table *known, char **text);
+int states_compare(const struct gls_state *good, const struct gls_state *bad, const struct names *names,
+                   struct table *known, char **text);

@@ -13,7 +13,8 @@
 
 /* Effects of a call that differs. */
 enum { DRAWS = 1, FILLS_LIST = 2, CHANGES_OBJECT = 4, CHANGES_PROGRAM = 8, CHANGES_ARRAY = 16, N_EFFECTS = 5 };
-static const char *const effects[N_EFFECTS] = { "the drawing", "a display list", "an object", "programs or their inputs", "vertex arrays" };
+static const char *const effects[N_EFFECTS] = { "the drawing", "a display list", "an object",
+	                                        "programs or their inputs", "vertex arrays" };
 
 struct side {
 	struct player player;
@@ -41,7 +42,8 @@ static unsigned effect_of(const struct side *s, const struct call *c)
 		return 0;
 	if (st && st->list && k->kind != GLS_KIND_WINDOW)
 		return FILLS_LIST;
-	if (k->drawing == GLS_DRAWS || k->kind == GLS_KIND_VERTEX || k->kind == GLS_KIND_ARRAY || k->role == GLS_ROLE_BEGIN || k->role == GLS_ROLE_END)
+	if (k->drawing == GLS_DRAWS || k->kind == GLS_KIND_VERTEX || k->kind == GLS_KIND_ARRAY ||
+	    k->role == GLS_ROLE_BEGIN || k->role == GLS_ROLE_END)
 		return DRAWS;
 	switch (k->kind) {
 	case GLS_KIND_NONE: return CHANGES_PROGRAM;
@@ -187,7 +189,8 @@ static int walk_hunk(struct walk *w, const struct align_hunk *h)
 	uint64_t *a = names_of(w->sides[GOOD].recording, h->a0, h->a1), *b = names_of(w->sides[BAD].recording, h->b0, h->b1);
 	struct align_hunk *hunks = NULL;
 	size_t n = 0;
-	int err = a && b ? align_keys(a, h->a1 - h->a0, b, h->b1 - h->b0, &hunks, &n) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	int err = a && b ? align_keys(a, h->a1 - h->a0, b, h->b1 - h->b0, &hunks, &n) :
+	                   err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	for (size_t i = 0; i <= n && !err && !is_full(w); i++) {
 		while (!err && !is_full(w) && w->sides[GOOD].next < (i < n ? h->a0 + hunks[i].a0 : h->a1))
@@ -201,7 +204,8 @@ static int walk_hunk(struct walk *w, const struct align_hunk *h)
 	return err;
 }
 
-int walk_both(const struct partners *partners, const struct recording *good, const struct recording *bad, size_t most, struct partings *out)
+int walk_both(const struct partners *partners, const struct recording *good, const struct recording *bad, size_t most,
+              struct partings *out)
 {
 	struct walk w = { .sides = { { .recording = good }, { .recording = bad } }, .out = out, .most = most };
 	int err = player_open(&w.sides[GOOD].player, good->path);

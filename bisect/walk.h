@@ -27,5 +27,6 @@ struct partings {
  * @param most  stop after this many
  * @return 0 or ERR_* (reported)
  */
-int walk_both(const struct partners *partners, const struct recording *good, const struct recording *bad, size_t most, struct partings *out);
+int walk_both(const struct partners *partners, const struct recording *good, const struct recording *bad, size_t most,
+              struct partings *out);
 void partings_free(struct partings *p);

@@ -56,12 +56,13 @@ static uint64_t call_at(const struct sighted *v, size_t pixel)
 	return draw ? v->single.scene->draws[draw].call_number : UINT64_MAX;
 }
 
-/* --- The note: the call and the frame's size, then a line for each pixel with its codes ---------------------------------------- */
+/* --- The note: the call and the frame's size, then a line for each pixel with its codes -------------------------- */
 
 enum { MOST_PIXELS = 16 };
 
 /* The pixels of a call that are furthest from the reference, worst first. @return how many */
-static unsigned find_worst(const struct sighted *v, const struct score_picture *ref, uint64_t call, size_t worst[MOST_PIXELS])
+static unsigned find_worst(const struct sighted *v, const struct score_picture *ref, uint64_t call,
+                           size_t worst[MOST_PIXELS])
 {
 	int off[MOST_PIXELS];
 	unsigned n = 0;
@@ -82,7 +83,8 @@ static unsigned find_worst(const struct sighted *v, const struct score_picture *
 	return n;
 }
 
-static int write_note(const struct sighted *v, const struct score_picture *ref, uint64_t call, const char *path, unsigned *n)
+static int write_note(const struct sighted *v, const struct score_picture *ref, uint64_t call, const char *path,
+                      unsigned *n)
 {
 	size_t worst[MOST_PIXELS];
 	FILE *out = fopen(path, "w");
@@ -106,7 +108,10 @@ int wrong_again(const char *note, const char *trace, uint64_t frame, uint64_t ca
 	uint64_t was;
 	unsigned width, height, c[3];
 	size_t i;
-	int err = in && fscanf(in, "%" SCNu64 " %u %u", &was, &width, &height) == 3 ? 0 : err_report(ERR_SYSTEM, note, "cannot be read"), same = 0;
+	int err = in && fscanf(in, "%" SCNu64 " %u %u", &was, &width, &height) == 3 ?
+	                  0 :
+	                  err_report(ERR_SYSTEM, note, "cannot be read"),
+	    same = 0;
 
 	if (!err)
 		err = see(trace, frame, &v);
@@ -125,7 +130,7 @@ int wrong_again(const char *note, const char *trace, uint64_t frame, uint64_t ca
 	return err == ERR_USAGE ? 0 : err ? err : same;
 }
 
-/* --- The fault ------------------------------------------------------------------------------------------------------------ */
+/* --- The fault --------------------------------------------------------------------------------------------------- */
 
 static void tell(const struct score *s, const struct scene_draw *draw)
 {
@@ -133,11 +138,12 @@ static void tell(const struct score *s, const struct scene_draw *draw)
 	for (int g = 0; g < N_GATES; g++)
 		if (s->gates[g].state == SCORE_FAILED)
 			fprintf(stderr, " %s", score_gates[g].name);
-	fprintf(stderr, "; %s (call %" PRIu64 ") is to blame for %" PRIu64 " pixel%s\n", draw->call, draw->call_number, s->blame[0].pixels,
-	        plural(s->blame[0].pixels));
+	fprintf(stderr, "; %s (call %" PRIu64 ") is to blame for %" PRIu64 " pixel%s\n", draw->call, draw->call_number,
+	        s->blame[0].pixels, plural(s->blame[0].pixels));
 }
 
-static int judge(const struct sighted *v, struct score_picture *ref, uint64_t frame, const char *trace, const char *note)
+static int judge(const struct sighted *v, struct score_picture *ref, uint64_t frame, const char *trace,
+                 const char *note)
 {
 	static const struct score_options options = { .channel = "gl" };
 	struct score score = { .frame = frame };
@@ -154,10 +160,15 @@ static int judge(const struct sighted *v, struct score_picture *ref, uint64_t fr
 		return err_report(ERR_USAGE, trace, "frame %" PRIu64 " passes all gates: there is nothing to look for", frame);
 	draw = score.n_blame ? score.blame[0].draw : 0;
 	if (!draw || draw > v->single.scene->n_draws)
-		return err_report(ERR_USAGE, trace, "frame %" PRIu64 " fails, but no draw is to blame; say what to look for with --when", frame);
+		return err_report(ERR_USAGE, trace,
+		                  "frame %" PRIu64 " fails, but no draw is to blame; say what to look for with --when",
+		                  frame);
 	err = write_note(v, ref, v->single.scene->draws[draw].call_number, note, &pixels);
 	if (!err && !pixels)
-		err = err_report(ERR_USAGE, trace, "frame %" PRIu64 " fails by its depth or shapes alone; say what to look for with --when", frame);
+		err = err_report(ERR_USAGE, trace,
+		                 "frame %" PRIu64
+		                 " fails by its depth or shapes alone; say what to look for with --when",
+		                 frame);
 	if (!err)
 		tell(&score, &v->single.scene->draws[draw]);
 	return err;

@@ -8,7 +8,8 @@
 
 #include <stdint.h>
 
-/** A reduce_note (replay/verbs/reduce.h): renders the frame in mode gl, and takes the draw that is blamed first (diff/score/score.h). */
+/** A reduce_note (replay/verbs/reduce.h): renders the frame in mode gl, and takes the draw that is blamed first
+ * (diff/score/score.h). */
 int wrong_note(const char *trace, const char *reference, uint64_t frame, const char *note);
 
 /** A reduce_again. */

@@ -40,7 +40,7 @@ struct options {
 	char **program;
 };
 
-/* --- The command line ---------------------------------------------------------------------------------------------- */
+/* --- The command line -------------------------------------------------------------------------------------------- */
 
 /* A whole number from 1 on. */
 static int take_count(const struct options_row *row, const char *text, void *out)
@@ -66,7 +66,9 @@ static int take_frames(const struct options_row *row, const char *text, void *ou
 	}
 	if (!digits || digits >= MAX_NUMBER_BYTES - 4 || more >= MAX_NUMBER_BYTES - 4 || text[digits] != '-' || last[more] ||
 	    (more && strtoull(last, NULL, 10) < strtoull(text, NULL, 10)))
-		return err_report(ERR_USAGE, NULL, "--%s takes one frame, or the first and the last, as in 7, 10-19 or 10-, not '%s'", row->name, text);
+		return err_report(ERR_USAGE, NULL,
+		                  "--%s takes one frame, or the first and the last, as in 7, 10-19 or 10-, not '%s'",
+		                  row->name, text);
 	((char *)text)[digits] = '\0';
 	o->first_frame = text;
 	o->last_frame = more ? last : NULL;
@@ -87,42 +89,62 @@ static const char *const ref_kinds[] = { "color", "depth", "color,depth", "depth
 #define AT(member) .at = offsetof(struct options, member)
 
 static const struct options_row rows[] = {
-	{ "output", 'o', "NAME.trace", "the trace to write, replacing an older one (default: PROGRAM.trace in the current directory)",
-	  options_text, AT(output) },
-	{ "ref", 0, "KINDS", "keep what the program showed in NAME.ref: color, depth, or color,depth",
-	  options_text, AT(ref), .words = ref_kinds },
+	{ "output", 'o', "NAME.trace",
+	  "the trace to write, replacing an older one (default: PROGRAM.trace in the current directory)", options_text,
+	  AT(output) },
+	{ "ref", 0, "KINDS", "keep what the program showed in NAME.ref: color, depth, or color,depth", options_text,
+	  AT(ref), .words = ref_kinds },
 	{ "ref-every", 0, "N", "only every Nth frame of these", take_count, AT(ref_every) },
-	{ "ref-exact", 0, NULL, "switch off Mesa llvmpipe's quick rasterizer (LP_PERF=no_rast_linear): in windows without depth its colours "
-	  "are off by up to 2/255; the program shows the exact ones, too", options_flag, AT(ref_exact) },
-	{ "frames", 0, "A-B", "record only the program's frames A to B, counted from 0 (\"A-\": to the end; \"A\": that one); the trace begins with all "
-	  "that they need and numbers them from 0; the program goes on", take_frames, .at = 0 },
+	{ "ref-exact", 0, NULL,
+	  "switch off Mesa llvmpipe's quick rasterizer (LP_PERF=no_rast_linear): in windows without depth its colours "
+	  "are off by up to 2/255; the program shows the exact ones, too",
+	  options_flag, AT(ref_exact) },
+	{ "frames", 0, "A-B",
+	  "record only the program's frames A to B, counted from 0 (\"A-\": to the end; \"A\": that one); the trace "
+	  "begins with all "
+	  "that they need and numbers them from 0; the program goes on",
+	  take_frames, .at = 0 },
 	{ "paused", 0, NULL, "begin with recording switched off", options_flag, AT(paused) },
-	{ "start-key", 0, "KEY", "the same; KEY switches as SIGUSR2 does (F9, Pause, r, ...: a name of X)", options_text, AT(start_key) },
-	{ "press", 0, "KEY@FRAME", "press a key of X's name once the frame before FRAME is shown, as in space@10, Control+s@5, or held as in "
-	  "Left@20-30; the program counts its frames from 0; may be repeated", press_take, AT(press) },
-	{ "frame-end", 0, "CALL", "also end a frame at: flush, finish, clear (of the color buffer), or readpixels after "
-	  "something was drawn (swap: nothing else; with OSMesa, flush and finish); such a frame is the buffer that is drawn to, "
-	  "front or back", options_text, AT(frame_end), .words = frame_ends },
+	{ "start-key", 0, "KEY", "the same; KEY switches as SIGUSR2 does (F9, Pause, r, ...: a name of X)",
+	  options_text, AT(start_key) },
+	{ "press", 0, "KEY@FRAME",
+	  "press a key of X's name once the frame before FRAME is shown, as in space@10, Control+s@5, or held as in "
+	  "Left@20-30; the program counts its frames from 0; may be repeated",
+	  press_take, AT(press) },
+	{ "frame-end", 0, "CALL",
+	  "also end a frame at: flush, finish, clear (of the color buffer), or readpixels after "
+	  "something was drawn (swap: nothing else; with OSMesa, flush and finish); such a frame is the buffer that is "
+	  "drawn to, "
+	  "front or back",
+	  options_text, AT(frame_end), .words = frame_ends },
 	{ "max-frames", 0, "N", "end the recording after N frames; the program goes on", take_count, AT(max_frames) },
-	{ "max-size", 0, "BYTES", "end the recording after the first frame that makes the trace this large (K, M and G count 1024, 1024^2, "
-	  "1024^3); the program goes on", options_bytes, AT(max_bytes) },
+	{ "max-size", 0, "BYTES",
+	  "end the recording after the first frame that makes the trace this large (K, M and G count 1024, 1024^2, "
+	  "1024^3); the program goes on",
+	  options_bytes, AT(max_bytes) },
 	{ "no-children", 0, NULL, "record only this process, not those that it starts", options_flag, AT(no_children) },
-	{ "quit-after", 0, "N", "end the recording and the program after N frames, or when nothing more can be recorded; exit with 0", take_count, AT(quit_after) },
+	{ "quit-after", 0, "N",
+	  "end the recording and the program after N frames, or when nothing more can be recorded; exit with 0",
+	  take_count, AT(quit_after) },
 	{ "env", 0, "NAME=VALUE", "set a variable for the program; may be repeated", take_variable, .at = 0 },
 };
 
 static const struct options_table table = {
 	.verb = "record",
 	.head = "usage: relume record [OPTIONS] -- PROGRAM [ARGUMENTS]\n"
-	        "\n"
-	        "Run a program and record its OpenGL calls (GLX, EGL, OSMesa) into a trace in apitrace's format.\n"
-	        "Processes that the program starts are recorded as well, into NAME.1.trace and so on.\n"
-	        "SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGUSR1 are passed on to the program. SIGUSR2 switches recording off and on\n"
-	        "again at the end of a frame. What the program makes and sets meanwhile is kept, so what follows is complete.\n",
+		"\n"
+		"Run a program and record its OpenGL calls (GLX, EGL, OSMesa) into a trace in apitrace's format.\n"
+		"Processes that the program starts are recorded as well, into NAME.1.trace and so on.\n"
+		"SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGUSR1 are passed on to the program. SIGUSR2 switches recording "
+	        "off and on\n"
+		"again at the end of a frame. What the program makes and sets meanwhile is kept, so what follows is "
+	        "complete.\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exits with the program's code; 2: wrong usage, 5: the program cannot be started, or called no OpenGL and did not\n"
-	         "fail itself, or the recording or its reference frames stopped early, as on a full disk. The recording is whole\n"
-	         "up to there, and the program keeps running; with --quit-after it ends.\n",
+	.notes = "Exits with the program's code; 2: wrong usage, 5: the program cannot be started, or called no OpenGL "
+	         "and did not\n"
+		 "fail itself, or the recording or its reference frames stopped early, as on a full disk. The "
+	         "recording is whole\n"
+		 "up to there, and the program keeps running; with --quit-after it ends.\n",
 	.most = -1,
 	.stops = 1,
 };
@@ -267,7 +289,8 @@ static void set_environment(const struct options *o, const char *recorder, int f
 {
 	const char *others = getenv("LD_PRELOAD");
 	char preload[2 * PATH_MAX], path[64];
-	int inherited = fcntl(figures, F_DUPFD, INHERITED_FD); /* a user namespace of its own (unshare -r) may not look into our process */
+	/* a user namespace of its own (unshare -r) may not look into our process */
+	int inherited = fcntl(figures, F_DUPFD, INHERITED_FD);
 
 	snprintf(preload, sizeof(preload), "%s%s%s", recorder, others && *others ? ":" : "", others ? others : "");
 	setenv("LD_PRELOAD", preload, 1);
@@ -318,7 +341,8 @@ static int was_told_to_quit(const struct recorder_stats *stats)
 /* Wait for the program, and watch it while it draws nothing; kill it some time after the recorder has ended it. */
 static int wait_for_child(const struct recorder_stats *stats, struct watching *watching)
 {
-	struct itimerval tick = { { 0, 1000000 / TICKS_A_SECOND }, { 0, 1000000 / TICKS_A_SECOND } }, off = { { 0, 0 }, { 0, 0 } };
+	struct itimerval tick = { { 0, 1000000 / TICKS_A_SECOND }, { 0, 1000000 / TICKS_A_SECOND } },
+			 off = { { 0, 0 }, { 0, 0 } };
 	int status = 0, ticks = 0;
 
 	setitimer(ITIMER_REAL, &tick, NULL);
@@ -332,11 +356,14 @@ static int wait_for_child(const struct recorder_stats *stats, struct watching *w
 }
 
 /* Returns the program's wait status, or -1 with errno where it cannot be started. */
-static int run_program(const struct options *o, const char *recorder, const struct figures *figures, struct watching *watching)
+static int run_program(const struct options *o, const char *recorder, const struct figures *figures,
+                       struct watching *watching)
 {
 	struct sigaction action = { .sa_handler = forward }, old[N_FORWARDED];
 	char file[PATH_MAX];
-	int pipe_fds[2], error = 0, status = 0, no_new_rights = executable_find(o->program[0], file, sizeof(file)) && executable_has_rights(file);
+	int pipe_fds[2],
+		error = 0, status = 0,
+		no_new_rights = executable_find(o->program[0], file, sizeof(file)) && executable_has_rights(file);
 	pid_t watcher = -1;
 
 	if (no_new_rights)
@@ -401,12 +428,16 @@ static int exit_code(const struct recorder_stats *stats, int status)
 static int check_keys(const struct options *o, const struct recorder_stats *stats)
 {
 	if (stats->keys_lost)
-		return err_report(ERR_SYSTEM, o->program[0], "--press: %u of %zu keys were lost: its window takes no key events of X (it may use "
-		                  "Wayland, or XInput 2 alone)", stats->keys_lost, o->press.n);
-	return stats->keys_pressed >= o->press.n ? 0
-		: err_report(ERR_SYSTEM, o->program[0], "--press: %u of %zu keys were pressed: the program or the recording ended before "
-		             "the frames of the others",
-		             stats->keys_pressed, o->press.n);
+		return err_report(ERR_SYSTEM, o->program[0],
+		                  "--press: %u of %zu keys were lost: its window takes no key events of X (it may use "
+		                  "Wayland, or XInput 2 alone)",
+		                  stats->keys_lost, o->press.n);
+	return stats->keys_pressed >= o->press.n ?
+	               0 :
+	               err_report(ERR_SYSTEM, o->program[0],
+	                          "--press: %u of %zu keys were pressed: the program or the recording ended before "
+	                          "the frames of the others",
+	                          stats->keys_pressed, o->press.n);
 }
 
 /* A 32-bit program whose recorder was not built: the loader would warn in its own words, and record nothing. */
@@ -414,13 +445,17 @@ static int check_class(const char *program, const char *recorder)
 {
 	char path[PATH_MAX];
 
-	if (strstr(recorder, "/$LIB/") || !executable_find(program, path, sizeof(path)) || executable_kind(path) != EXECUTABLE_32)
+	if (strstr(recorder, "/$LIB/") || !executable_find(program, path, sizeof(path)) ||
+	    executable_kind(path) != EXECUTABLE_32)
 		return 0;
-	return err_report(ERR_SYSTEM, program, "is a program of 32 bits, and only the recorder for 64 is here; 'make i386' builds the other one");
+	return err_report(
+		ERR_SYSTEM, program,
+		"is a program of 32 bits, and only the recorder for 64 is here; 'make i386' builds the other one");
 }
 
 /* No recorder has reported. As exit_code, but never success where there is no recording. */
-static int explain_nothing(const struct options *o, const struct recorder_stats *stats, const struct watching *watching, int status)
+static int explain_nothing(const struct options *o, const struct recorder_stats *stats, const struct watching *watching,
+                           int status)
 {
 	const int code = exit_code(stats, status);
 	struct stat st;
@@ -449,8 +484,8 @@ static int record(int argc, char **argv, struct options *o)
 	if ((rc = press_plan(&o->press, o->quit_after && !o->first_frame && !o->paused ? strtoull(o->quit_after, NULL, 10) : 0,
 	                     &o->press_plan)))
 		return -rc;
-	if ((rc = find_recorder(recorder, sizeof(recorder))) || (rc = check_class(o->program[0], recorder)) || (rc = clear_output(o)) ||
-	    (rc = make_figures(&figures)))
+	if ((rc = find_recorder(recorder, sizeof(recorder))) || (rc = check_class(o->program[0], recorder)) ||
+	    (rc = clear_output(o)) || (rc = make_figures(&figures)))
 		return -rc;
 	shared = figures.stats;
 	status = run_program(o, recorder, &figures, &watching);
@@ -459,7 +494,8 @@ static int record(int argc, char **argv, struct options *o)
 		goto done;
 	}
 	summary_print(figures.stats);
-	rc = figures.stats->n_processes ? exit_code(figures.stats, status) : explain_nothing(o, figures.stats, &watching, status);
+	rc = figures.stats->n_processes ? exit_code(figures.stats, status) :
+	                                  explain_nothing(o, figures.stats, &watching, status);
 	if (!rc && o->press.n)
 		rc = check_keys(o, figures.stats);
 done:

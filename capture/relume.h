@@ -35,8 +35,8 @@ static inline void rtMaterialEXT(enum rtMaterialKindEXT kind, float amount, floa
 }
 
 /**
- * The static part of the scene has been drawn once. In later frames of this context, meshes that do not move become kd-trees. It
- * never changes a picture.
+ * The static part of the scene has been drawn once. In later frames of this context, meshes that do not move become
+ * kd-trees. It never changes a picture.
  */
 static inline void rtBuildKdTreeEXT(void)
 {

@@ -24,7 +24,8 @@ struct stats_process {
 	_Atomic int32_t quit;   /* 1: it ended the program: after the frames asked for, or as nothing more can be recorded */
 	_Atomic int32_t contexts; /* 1: it made a context current; 2: one of a core profile */
 	_Atomic int32_t lost_references; /* 1: reference frames ended early */
-	_Atomic uint64_t ends[N_FRAME_TRIGGERS]; /* frames so far, recorded or not (swap); calls that would have ended the first one */
+	_Atomic uint64_t ends[N_FRAME_TRIGGERS]; /* frames so far, recorded or not (swap); calls that would have ended
+	                                            the first one */
 };
 
 struct stats_unknown {
@@ -51,8 +52,8 @@ static inline uint32_t stats_library(const char *path)
 		const char *start;
 		uint32_t seen;
 	} libraries[] = {
-		{ "librelume.so", SEEN_RECORDER }, { "libGL.so", SEEN_GL }, { "libGLX.so", SEEN_GL }, { "libEGL.so", SEEN_GL }, { "libGLES", SEEN_GL },
-		{ "libOpenGL.so", SEEN_GL }, { "libOSMesa", SEEN_GL }, { "libvulkan.so", SEEN_VULKAN },
+		{ "librelume.so", SEEN_RECORDER }, { "libGL.so", SEEN_GL }, { "libGLX.so", SEEN_GL }, { "libEGL.so", SEEN_GL },
+		{ "libGLES", SEEN_GL }, { "libOpenGL.so", SEEN_GL }, { "libOSMesa", SEEN_GL }, { "libvulkan.so", SEEN_VULKAN },
 	};
 	const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
 
@@ -62,4 +63,5 @@ static inline uint32_t stats_library(const char *path)
 	return 0;
 }
 
-_Static_assert(sizeof(struct stats_process) == 1112 && sizeof(struct stats_unknown) == 72, "the same in programs of 32 bits");
+_Static_assert(sizeof(struct stats_process) == 1112 && sizeof(struct stats_unknown) == 72,
+               "the same in programs of 32 bits");

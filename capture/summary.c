@@ -33,7 +33,8 @@ static void explain_no_frame(const struct stats_process *p)
 			return;
 		}
 	if (p->calls && !p->contexts) {
-		err_warn(p->path, "the program asked for OpenGL but made no context, so it drew nothing; 'glxinfo -B' tells whether the display has OpenGL");
+		err_warn(p->path, "the program asked for OpenGL but made no context, so it drew nothing; 'glxinfo -B' "
+		                  "tells whether the display has OpenGL");
 		return;
 	}
 	err_warn(p->path, p->calls ? "the program swapped no buffers, so there is no frame" : "the program drew nothing");
@@ -45,7 +46,8 @@ static void explain_needs(const struct stats_process *p)
 	if (p->programs)
 		err_warn(p->path, "the program uses shaders; 'relume info' lists any that Relume cannot run");
 	if (p->contexts > 1)
-		err_warn(p->path, "the program uses a core profile of OpenGL 3 or later; Relume renders OpenGL 1 and 2, 'relume info' lists the calls that it leaves out");
+		err_warn(p->path, "the program uses a core profile of OpenGL 3 or later; Relume renders OpenGL 1 and "
+		                  "2, 'relume info' lists the calls that it leaves out");
 	if (p->windows > 1)
 		err_warn(p->path, "its frames come from several windows, in the order of their swaps");
 }
@@ -75,7 +77,8 @@ void summary_print(const struct recorder_stats *stats)
 		fprintf(stderr, "relume: %s: %" PRIu64 " frame%s, %" PRIu64 " call%s, %" PRIu64 " bytes, ", p->path, p->frames,
 		        plural(p->frames), p->calls, plural(p->calls), p->bytes);
 		if (references)
-			fprintf(stderr, "%" PRIu64 " bytes of reference frames%s, ", references, p->lost_references ? " (stopped early)" : "");
+			fprintf(stderr, "%" PRIu64 " bytes of reference frames%s, ", references,
+			        p->lost_references ? " (stopped early)" : "");
 		if (p->failed)
 			fprintf(stderr, "stopped early: %s\n", strerror(p->failed));
 		else
@@ -89,7 +92,7 @@ void summary_print(const struct recorder_stats *stats)
 		        plural(stats->unknown[i].calls));
 }
 
-/* --- Nothing was recorded ------------------------------------------------------------------------------------------ */
+/* --- Nothing was recorded ---------------------------------------------------------------------------------------- */
 
 /* 1 where a server listens at this machine's X display of that number, or the display is another machine's. */
 static int display_answers(const char *display)
@@ -116,22 +119,37 @@ static void find_display(char *out, size_t size)
 	if (wayland && *wayland)
 		return;
 	if (!x || !*x)
-		snprintf(out, size, "; there is no display (DISPLAY and WAYLAND_DISPLAY are not set): 'xvfb-run -a relume record ...' makes one");
+		snprintf(out, size,
+		         "; there is no display (DISPLAY and WAYLAND_DISPLAY are not set): 'xvfb-run -a relume record "
+		         "...' makes one");
 	else if (!display_answers(x))
-		snprintf(out, size, "; no X server answers at DISPLAY=%s: start one, or let 'xvfb-run -a relume record ...' make one", x);
+		snprintf(out, size,
+		         "; no X server answers at DISPLAY=%s: start one, or let 'xvfb-run -a relume record ...' make "
+		         "one",
+		         x);
 }
 
 /* A process that ran without the recorder. */
 static void explain_stranger(const char *program, const struct watching *w)
 {
 	if (w->kind == EXECUTABLE_STATIC)
-		err_report(ERR_SYSTEM, program, "nothing was recorded: process '%s' is linked statically, so no recorder can be loaded into it; "
-		           "link it dynamically", w->name);
+		err_report(ERR_SYSTEM, program,
+		           "nothing was recorded: process '%s' is linked statically, so no recorder can be loaded into "
+		           "it; "
+		           "link it dynamically",
+		           w->name);
 	else if (w->kind == EXECUTABLE_32)
-		err_report(ERR_SYSTEM, program, "nothing was recorded: process '%s' is a program of 32 bits; 'make i386' builds the recorder for it", w->name);
+		err_report(ERR_SYSTEM, program,
+		           "nothing was recorded: process '%s' is a program of 32 bits; 'make i386' builds the "
+		           "recorder for it",
+		           w->name);
 	else
-		err_report(ERR_SYSTEM, program, "nothing was recorded: process '%s' ran without the recorder: its environment was cleared (env -i, sudo), or "
-		           "a sandbox hides Relume's files; put 'relume record -- ' behind that, before the program itself", w->name);
+		err_report(ERR_SYSTEM, program,
+		           "nothing was recorded: process '%s' ran without the recorder: its environment was cleared "
+		           "(env -i, sudo), or "
+		           "a sandbox hides Relume's files; put 'relume record -- ' behind that, before the program "
+		           "itself",
+		           w->name);
 }
 
 void summary_explain_nothing(const char *program, const struct recorder_stats *stats, const struct watching *w)
@@ -140,18 +158,29 @@ void summary_explain_nothing(const char *program, const struct recorder_stats *s
 	char path[PATH_MAX], display[200];
 
 	find_display(display, sizeof(display));
-	if (executable_find(program, path, sizeof(path)) && executable_kind(path) == EXECUTABLE_STATIC && !(seen & SEEN_RECORDER))
-		err_report(ERR_SYSTEM, program, "nothing was recorded: the program is linked statically, so no recorder can be loaded into it; link it dynamically");
+	if (executable_find(program, path, sizeof(path)) && executable_kind(path) == EXECUTABLE_STATIC &&
+	    !(seen & SEEN_RECORDER))
+		err_report(ERR_SYSTEM, program,
+		           "nothing was recorded: the program is linked statically, so no recorder can be loaded into "
+		           "it; link it dynamically");
 	else if (w->stranger && (w->stranger_seen || !(seen & (SEEN_GL | SEEN_VULKAN))))
 		explain_stranger(program, w);
 	else if (!(seen & SEEN_RECORDER))
-		err_report(ERR_SYSTEM, program, "nothing was recorded: the recorder was loaded into no process: the environment was cleared (env -i, sudo), or a "
-		           "sandbox hides Relume's files; put 'relume record -- ' behind that, before the program itself");
+		err_report(
+			ERR_SYSTEM, program,
+			"nothing was recorded: the recorder was loaded into no process: the environment was cleared "
+		        "(env -i, sudo), or a "
+			"sandbox hides Relume's files; put 'relume record -- ' behind that, before the program itself");
 	else if (seen & SEEN_GL)
-		err_report(ERR_SYSTEM, program, "nothing was recorded: the program loaded OpenGL and ended without calling it%s", display);
+		err_report(ERR_SYSTEM, program,
+		           "nothing was recorded: the program loaded OpenGL and ended without calling it%s", display);
 	else if (seen & SEEN_VULKAN)
-		err_report(ERR_SYSTEM, program, "nothing was recorded: the program draws by Vulkan, and Relume records OpenGL; choose the program's OpenGL "
+		err_report(ERR_SYSTEM, program,
+		           "nothing was recorded: the program draws by Vulkan, and Relume records OpenGL; choose the "
+		           "program's OpenGL "
 		           "renderer, where it has one");
 	else
-		err_report(ERR_SYSTEM, program, "nothing was recorded: the program loaded no OpenGL (libGL, libEGL or libOSMesa)%s", display);
+		err_report(ERR_SYSTEM, program,
+		           "nothing was recorded: the program loaded no OpenGL (libGL, libEGL or libOSMesa)%s",
+		           display);
 }

@@ -86,20 +86,27 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "ci",
 	.head = "usage: relume ci [OPTIONS] -- PROGRAM [ARGUMENTS]\n"
-	        "       relume ci [OPTIONS]\n"
-	        "\n"
-	        "Record a program, render its frames, and gate each against what the program itself showed and against\n"
-	        "the approved frames. Without PROGRAM: all programs that relume-ci.yaml lists ('relume help ci-file' has its keys).\n"
-	        "\n"
-	        "The program needs a display; on a server, --xvfb makes one.\n"
-	        "Frames that are whole and of the same recording, settings and version are not rendered again. DIR/NAME\n"
-	        "of --kept holds report/index.html, junit.xml, scores.json and summary.md, whatever the exit code. The\n"
-	        "summary is added to the file that GITHUB_STEP_SUMMARY names, where that is set; where GITHUB_ACTIONS is\n"
-	        "true, frames are marked in the log (::error, ::warning).\n",
+		"       relume ci [OPTIONS]\n"
+		"\n"
+		"Record a program, render its frames, and gate each against what the program itself showed and "
+	        "against\n"
+		"the approved frames. Without PROGRAM: all programs that relume-ci.yaml lists ('relume help ci-file' "
+	        "has its keys).\n"
+		"\n"
+		"The program needs a display; on a server, --xvfb makes one.\n"
+		"Frames that are whole and of the same recording, settings and version are not rendered again. "
+	        "DIR/NAME\n"
+		"of --kept holds report/index.html, junit.xml, scores.json and summary.md, whatever the exit code. "
+	        "The\n"
+		"summary is added to the file that GITHUB_STEP_SUMMARY names, where that is set; where GITHUB_ACTIONS "
+	        "is\n"
+		"true, frames are marked in the log (::error, ::warning).\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exit codes: 0 all passed; 1 a picture changed or is missing; 2 wrong usage; 3 an input cannot be read;\n"
-	         "4 frames that nobody has approved yet; 5 a program is missing, ended with an error or showed nothing,\n"
-	         "or the system failed. Of several programs, the first of 5, 3, 2, 6, 1, 4 that one of them has.\n",
+	.notes = "Exit codes: 0 all passed; 1 a picture changed or is missing; 2 wrong usage; 3 an input cannot be "
+	         "read;\n"
+		 "4 frames that nobody has approved yet; 5 a program is missing, ended with an error or showed "
+	         "nothing,\n"
+		 "or the system failed. Of several programs, the first of 5, 3, 2, 6, 1, 4 that one of them has.\n",
 	.most = -1,
 	.stops = 1,
 };

@@ -77,7 +77,7 @@ static void write_error(const struct steps *s, const char *step, int code)
 	part_close(&file, 0);
 }
 
-/* --- Record ----------------------------------------------------------------------------------------------------- */
+/* --- Record ------------------------------------------------------------------------------------------------------ */
 
 /* Have the display for this process alone, or give it back. */
 static void hold_display(const struct steps *s, short type)
@@ -127,8 +127,9 @@ static int record(const struct steps *s)
 	if (code < 0)
 		return -code;
 	/* The program's own code, or that of record, which has said why. */
-	return code ? -err_report(ERR_SYSTEM, p->name, "'%s' was not recorded: 'relume record' ended with exit code %d", p->command[0],
-	                          code) : 0;
+	return code ? -err_report(ERR_SYSTEM, p->name, "'%s' was not recorded: 'relume record' ended with exit code %d",
+	                          p->command[0], code) :
+	              0;
 }
 
 static void say_watched(const struct steps *s, const struct watched *w)
@@ -162,7 +163,8 @@ static int record_if_changed(const struct steps *s, const char *program)
 		say(s, "recorded nothing: all that is watched is the same\n");
 	} else if (!code) {
 		say(s, "record");
-		printf(s->run->when_changed ? " %u frame%s: %s\n" : " %u frame%s\n", s->program->frames, plural(s->program->frames), why);
+		printf(s->run->when_changed ? " %u frame%s: %s\n" : " %u frame%s\n", s->program->frames,
+		       plural(s->program->frames), why);
 		unlink(kept);
 		code = record(s);
 		if (!code)
@@ -172,7 +174,7 @@ static int record_if_changed(const struct steps *s, const char *program)
 	return code;
 }
 
-/* --- Render ----------------------------------------------------------------------------------------------------- */
+/* --- Render ------------------------------------------------------------------------------------------------------ */
 
 static int count_frames(struct steps *s)
 {
@@ -229,7 +231,7 @@ static int render(const struct steps *s)
 	return code < 0 ? -code : code;
 }
 
-/* --- Compare ---------------------------------------------------------------------------------------------------- */
+/* --- Compare ----------------------------------------------------------------------------------------------------- */
 
 static int compare(const struct steps *s)
 {
@@ -238,8 +240,8 @@ static int compare(const struct steps *s)
 	const char *config = s->program->config;
 	char *argv[MOST_WORDS] = {
 		(char *)s->run->relume, "diff", "--all", "-f", list, "--baseline", baseline,
-		"--report", path_in(s, "report", report), "--junit", path_in(s, "junit.xml", junit), "--json", path_in(s, "scores.json", scores),
-		"--markdown", path_in(s, "summary.md", summary),
+		"--report", path_in(s, "report", report), "--junit", path_in(s, "junit.xml", junit), "--json",
+		path_in(s, "scores.json", scores), "--markdown", path_in(s, "summary.md", summary),
 	};
 	size_t n = 0;
 	int code;

@@ -1,7 +1,7 @@
 /*
- * A lit figure in an arena. Walls and floor are only textured, without OpenGL's lighting: the walls are a backdrop. The light is
- * meant for the figure, and shines through a wall. With --by ball, a lantern that OpenGL does not light hangs beside the figure, and a
- * lit ball hops below it every third frame: what is lit then reaches as far as the lantern.
+ * A lit figure in an arena. Walls and floor are only textured, without OpenGL's lighting: the walls are a backdrop. The
+ * light is meant for the figure, and shines through a wall. With --by ball, a lantern that OpenGL does not light hangs
+ * beside the figure, and a lit ball hops below it every third frame: what is lit then reaches as far as the lantern.
  *
  *   cc -o arena corpus/arena.c -lglut -lGLU -lGL -lm
  */

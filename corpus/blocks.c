@@ -1,6 +1,6 @@
 /*
- * Low-poly shapes with smooth normals on a plate, in low light: where the light grazes, the shapes' flat faces stop light that their
- * normals say arrives. That border between light and shade is the shadow terminator.
+ * Low-poly shapes with smooth normals on a plate, in low light: where the light grazes, the shapes' flat faces stop
+ * light that their normals say arrives. That border between light and shade is the shadow terminator.
  *
  *   cc -o blocks corpus/blocks.c -lglut -lGLU -lGL -lm
  */
@@ -22,7 +22,8 @@ static void init(void)
 /** A cube from -1 to 1. Each corner has one normal, along its diagonal. */
 static void draw_block(void)
 {
-	static const int faces[6][4] = { { 0, 1, 3, 2 }, { 4, 6, 7, 5 }, { 0, 4, 5, 1 }, { 2, 3, 7, 6 }, { 0, 2, 6, 4 }, { 1, 5, 7, 3 } };
+	static const int faces[6][4] = { { 0, 1, 3, 2 }, { 4, 6, 7, 5 }, { 0, 4, 5, 1 },
+		                         { 2, 3, 7, 6 }, { 0, 2, 6, 4 }, { 1, 5, 7, 3 } };
 
 	glBegin(GL_QUADS);
 	for (int f = 0; f < 6; f++)

@@ -1,11 +1,12 @@
 /*
- * A lit board with pieces, drawn into a framebuffer object of the window's size, brought to the window, and a score drawn over it.
+ * A lit board with pieces, drawn into a framebuffer object of the window's size, brought to the window, and a score
+ * drawn over it.
  *
  *   cc -o board_fbo corpus/board_fbo.c -lglut -lGLU -lGL -lm
  *
- * --by quad (default): one textured quad that covers the window; shader: the same as toolkits compose their windows, by a trivial program
- * from arrays; blit: glBlitFramebuffer; copy: the board is drawn in the window's
- * back buffer, copied by glCopyTexSubImage2D, and comes back as the quad after a clear.
+ * --by quad (default): one textured quad that covers the window; shader: the same as toolkits compose their windows, by
+ * a trivial program from arrays; blit: glBlitFramebuffer; copy: the board is drawn in the window's back buffer, copied
+ * by glCopyTexSubImage2D, and comes back as the quad after a clear.
  */
 #include <math.h>
 
@@ -43,14 +44,18 @@ static void make_target(void)
 static const char *const composing[] = {
 	"#define highp\nattribute highp vec3 vertexCoord; attribute highp vec2 textureCoord; varying highp vec2 uv;\n"
 	"uniform highp mat4 vertexTransform; uniform highp mat3 textureTransform;\n"
-	"void main() { uv = (textureTransform * vec3(textureCoord, 1.0)).xy; gl_Position = vertexTransform * vec4(vertexCoord, 1.0); }",
-	"#define highp\nvarying highp vec2 uv; uniform sampler2D textureSampler; uniform bool swizzle; uniform highp float opacity;\n"
-	"void main() { highp vec4 c = texture2D(textureSampler, uv); c.a *= opacity; gl_FragColor = swizzle ? c.bgra : c; }",
+	"void main() { uv = (textureTransform * vec3(textureCoord, 1.0)).xy; gl_Position = vertexTransform * "
+	"vec4(vertexCoord, 1.0); }",
+	"#define highp\nvarying highp vec2 uv; uniform sampler2D textureSampler; uniform bool swizzle; uniform highp "
+	"float opacity;\n"
+	"void main() { highp vec4 c = texture2D(textureSampler, uv); c.a *= opacity; gl_FragColor = swizzle ? c.bgra : "
+	"c; }",
 };
 
 static void make_composer(void)
 {
-	static const float vertex[16] = { 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, -1, -1, 0, 1 }, texture[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+	static const float vertex[16] = { 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, -1, -1, 0, 1 },
+			   texture[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
 	composer = glCreateProgram();
 	for (int i = 0; i < 2; i++) {
@@ -149,7 +154,8 @@ static void show_picture(void)
 		glBindFramebuffer(GL_READ_FRAMEBUFFER, target);
 		glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
 		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-		glBlitFramebuffer(0, 0, PROGRAM_WIDTH, PROGRAM_HEIGHT, 0, 0, PROGRAM_WIDTH, PROGRAM_HEIGHT, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+		glBlitFramebuffer(0, 0, PROGRAM_WIDTH, PROGRAM_HEIGHT, 0, 0, PROGRAM_WIDTH, PROGRAM_HEIGHT,
+		                  GL_COLOR_BUFFER_BIT, GL_NEAREST);
 		return;
 	}
 	if (is_by("copy"))

@@ -1,6 +1,7 @@
 /*
- * A closed hall, lit from outside by two directional lights. OpenGL knows no shadows, so their light passes walls and ceiling, and
- * programs of the time lit rooms this way. Traced to the letter, the whole hall lies in the ceiling's shadow.
+ * A closed hall, lit from outside by two directional lights. OpenGL knows no shadows, so their light passes walls and
+ * ceiling, and programs of the time lit rooms this way. Traced to the letter, the whole hall lies in the ceiling's
+ * shadow.
  *
  *   cc -o closed_hall corpus/closed_hall.c -lglut -lGLU -lGL -lm
  */
@@ -29,7 +30,8 @@ static void init(void)
 /** A wall by its corner and two edges; its front is where right x up points. */
 static void wall(const float at[3], const float right[3], const float up[3])
 {
-	glNormal3f(right[1] * up[2] - right[2] * up[1], right[2] * up[0] - right[0] * up[2], right[0] * up[1] - right[1] * up[0]);
+	glNormal3f(right[1] * up[2] - right[2] * up[1], right[2] * up[0] - right[0] * up[2],
+	           right[0] * up[1] - right[1] * up[0]);
 	glVertex3fv(at);
 	glVertex3f(at[0] + right[0], at[1] + right[1], at[2] + right[2]);
 	glVertex3f(at[0] + right[0] + up[0], at[1] + right[1] + up[1], at[2] + right[2] + up[2]);

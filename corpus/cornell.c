@@ -1,8 +1,8 @@
 /*
- * A Cornell box of exactly 34 triangles: five walls and two boxes, one positional light below the ceiling. Vertex, normal
- * and colour arrays drawn by glDrawArrays, from client memory or from a buffer object (--vbo). With --mirror the red
- * wall is a mirror where a recorder listens, and an ordinary wall otherwise. --glass adds a box of glass in front, --mesh a
- * model of 100,000 triangles (or --model's) on the short box.
+ * A Cornell box of exactly 34 triangles: five walls and two boxes, one positional light below the ceiling. Vertex,
+ * normal and colour arrays drawn by glDrawArrays, from client memory or from a buffer object (--vbo). With --mirror the
+ * red wall is a mirror where a recorder listens, and an ordinary wall otherwise. --glass adds a box of glass in front,
+ * --mesh a model of 100,000 triangles (or --model's) on the short box.
  *
  *   cc -o cornell corpus/cornell.c -lglut -lGLU -lGL -lm
  */

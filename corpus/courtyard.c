@@ -1,6 +1,7 @@
 /*
- * A courtyard without OpenGL's lighting, as games drew theirs: a sky about the viewer, textured ground, walls, pillars and crates, sparks
- * that face the viewer, something held in the viewer's hand, and a bar that tells the viewer's health.
+ * A courtyard without OpenGL's lighting, as games drew theirs: a sky about the viewer, textured ground, walls, pillars
+ * and crates, sparks that face the viewer, something held in the viewer's hand, and a bar that tells the viewer's
+ * health.
  *
  * courtyard lit: OpenGL lights all from a lamp over the crates, the sky too.
  *
@@ -19,8 +20,10 @@ static void make_texel(int texture, int x, int y, GLubyte *out)
 {
 	const int grain = (x * 7 + y * 13 + x * y) % 17, joint = x % 32 < 2 || y % 16 < 2;
 	const double r = hypot(x - SIZE / 2 + 0.5, y - SIZE / 2 + 0.5) / (SIZE / 2);
-	const int colors[N_TEXTURES][3] = { { 150 - 3 * grain, 145 - 3 * grain, 130 - 2 * grain }, { 150 - 4 * grain, 100 - 3 * grain, 60 },
-		                            { 90 + y, 140 + y, 220 }, { 255, 200, 90 } };
+	const int colors[N_TEXTURES][3] = { { 150 - 3 * grain, 145 - 3 * grain, 130 - 2 * grain },
+		                            { 150 - 4 * grain, 100 - 3 * grain, 60 },
+		                            { 90 + y, 140 + y, 220 },
+		                            { 255, 200, 90 } };
 
 	for (int c = 0; c < 3; c++)
 		out[c] = (GLubyte)(colors[texture][c] - (texture == 0 && joint ? 40 : 0));
@@ -43,7 +46,8 @@ static void init(void)
 	glBlendFunc(GL_SRC_ALPHA, GL_ONE);
 }
 
-/** A side of a box, at distance 1 along an axis, with its texture `repeat` times; seen from within where that is negative. */
+/** A side of a box, at distance 1 along an axis, with its texture `repeat` times; seen from within where that is
+ * negative. */
 static void draw_side(int axis, float sign, float repeat)
 {
 	static const float corners[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
@@ -93,7 +97,8 @@ static void draw_world(void)
 	draw_box(3, 0.6f, -3, 1.2f, 1.2f, 1.2f, 1);
 }
 
-/** Sparks rise beside the crates; each faces the viewer, whatever way that looks. They leave depth, as careless programs have it. */
+/** Sparks rise beside the crates; each faces the viewer, whatever way that looks. They leave depth, as careless
+ * programs have it. */
 static void draw_sparks(void)
 {
 	float m[16];
@@ -103,7 +108,8 @@ static void draw_sparks(void)
 	glBindTexture(GL_TEXTURE_2D, textures[3]);
 	glBegin(GL_QUADS);
 	for (int i = 0; i < 8; i++) {
-		const float y = 0.3f + fmodf(0.31f * (float)i + 0.05f * (float)program_frame, 2.2f), x = 1 + 0.4f * sinf(5 * y + (float)i), z = -3 + 0.3f * cosf(4 * y);
+		const float y = 0.3f + fmodf(0.31f * (float)i + 0.05f * (float)program_frame, 2.2f),
+			    x = 1 + 0.4f * sinf(5 * y + (float)i), z = -3 + 0.3f * cosf(4 * y);
 
 		for (int k = 0; k < 4; k++) {
 			const float u = k == 1 || k == 2 ? 0.2f : -0.2f, v = k > 1 ? 0.2f : -0.2f;

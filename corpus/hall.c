@@ -1,6 +1,7 @@
 /*
  * A vaulted hall between two rows of fluted columns, made by code, of exactly 262,267 triangles: as many as the Sponza
- * model has with which ray tracers are compared. Textured, mipmapped, two lights, indexed arrays (--vbo: in buffer objects).
+ * model has with which ray tracers are compared. Textured, mipmapped, two lights, indexed arrays (--vbo: in buffer
+ * objects).
  *
  *   cc -o hall corpus/hall.c -lglut -lGLU -lGL -lm
  */

@@ -1,6 +1,6 @@
 /*
- * The geometry of the hall (hall.c): a vaulted hall between two rows of fluted columns, made by code, of exactly 262,267
- * triangles: as many as the Sponza model has with which ray tracers are compared. Knows no OpenGL.
+ * The geometry of the hall (hall.c): a vaulted hall between two rows of fluted columns, made by code, of exactly
+ * 262,267 triangles: as many as the Sponza model has with which ray tracers are compared. Knows no OpenGL.
  */
 #pragma once
 

@@ -191,8 +191,8 @@ static void mesh_add_normals(struct mesh *m)
 }
 
 /**
- * The model to show: the OBJ file, or the knot of 2 * along * around triangles where `path` is NULL. Exits with a line on
- * standard error on failure.
+ * The model to show: the OBJ file, or the knot of 2 * along * around triangles where `path` is NULL. Exits with a line
+ * on standard error on failure.
  */
 static inline struct mesh mesh_load(const char *path, unsigned along, unsigned around)
 {

@@ -1,7 +1,8 @@
 /*
- * A knot above a floor, lit by a lamp: by fixed function (--by fixed), by a vertex program that computes the same light (--by vertex), or
- * by a fragment program that lights each fragment with the normal that a vertex program hands on (--by fragment; --by glsl: the same in
- * GLSL 1.10). The floor is fixed function's. Engines had matrices of their own: --by own draws all by a vertex program whose parameters hold them, under OpenGL's identity.
+ * A knot above a floor, lit by a lamp: by fixed function (--by fixed), by a vertex program that computes the same light
+ * (--by vertex), or by a fragment program that lights each fragment with the normal that a vertex program hands on
+ * (--by fragment; --by glsl: the same in GLSL 1.10). The floor is fixed function's. Engines had matrices of their own:
+ * --by own draws all by a vertex program whose parameters hold them, under OpenGL's identity.
  *
  *   cc -o phong corpus/phong.c -lglut -lGLU -lGL -lm
  */
@@ -27,8 +28,10 @@ static const char own_space[] =
 /* Of a light in e's space and a normal n: colour c. Both stages have these instructions. */
 static const char light[] =
 	"SUB l, state.light[0].position, e; DP3 l.w, l, l; RSQ l.w, l.w; MUL l.xyz, l, l.w; ADD h, l, { 0, 0, 1, 0 };\n"
-	"DP3 h.w, h, h; RSQ h.w, h.w; MUL h.xyz, h, h.w; DP3 l.x, n, l; DP3 l.y, n, h; MOV l.w, state.material.shininess.x; LIT l, l;\n"
-	"MAD c, state.lightprod[0].diffuse, l.y, state.lightmodel.scenecolor; MAD c.xyz, state.lightprod[0].specular, l.z, c;\n";
+	"DP3 h.w, h, h; RSQ h.w, h.w; MUL h.xyz, h, h.w; DP3 l.x, n, l; DP3 l.y, n, h; MOV l.w, "
+        "state.material.shininess.x; LIT l, l;\n"
+	"MAD c, state.lightprod[0].diffuse, l.y, state.lightmodel.scenecolor; MAD c.xyz, state.lightprod[0].specular, "
+        "l.z, c;\n";
 
 static const char vertex_shader[] =
 	"varying vec3 eye, normal;\n"
@@ -38,14 +41,16 @@ static const char vertex_shader[] =
 	"	gl_Position = ftransform();\n"
 	"}\n";
 
-static const char fragment_shader[] =
-	"varying vec3 eye, normal;\n"
-	"void main() {\n"
-	"	vec3 n = normalize(normal), l = normalize(gl_LightSource[0].position.xyz - eye), h = normalize(l + vec3(0.0, 0.0, 1.0));\n"
-	"	float facing = dot(n, l), shine = facing > 0.0 ? pow(max(dot(n, h), 0.0), gl_FrontMaterial.shininess) : 0.0;\n"
-	"	gl_FragColor = gl_FrontLightModelProduct.sceneColor + max(facing, 0.0) * gl_FrontLightProduct[0].diffuse +\n"
-	"	               shine * vec4(gl_FrontLightProduct[0].specular.rgb, 0.0);\n"
-	"}\n";
+static const char fragment_shader[] = "varying vec3 eye, normal;\n"
+				      "void main() {\n"
+				      "	vec3 n = normalize(normal), l = normalize(gl_LightSource[0].position.xyz - "
+                                      "eye), h = normalize(l + vec3(0.0, 0.0, 1.0));\n"
+				      "	float facing = dot(n, l), shine = facing > 0.0 ? pow(max(dot(n, h), 0.0), "
+                                      "gl_FrontMaterial.shininess) : 0.0;\n"
+				      "	gl_FragColor = gl_FrontLightModelProduct.sceneColor + max(facing, 0.0) * "
+                                      "gl_FrontLightProduct[0].diffuse +\n"
+				      "	               shine * vec4(gl_FrontLightProduct[0].specular.rgb, 0.0);\n"
+				      "}\n";
 
 static struct mesh model;
 static GLuint shaders; /* the program object of --by glsl */
@@ -92,7 +97,8 @@ static void set_programs(void)
 		glLinkProgram(shaders);
 	}
 	if (is_by("vertex"))
-		set_program(GL_VERTEX_PROGRAM_ARB, "!!ARBvp1.0\nOPTION ARB_position_invariant;\nTEMP l, c;", eye_space, light, "MOV result.color, c;");
+		set_program(GL_VERTEX_PROGRAM_ARB, "!!ARBvp1.0\nOPTION ARB_position_invariant;\nTEMP l, c;", eye_space,
+		            light, "MOV result.color, c;");
 	if (is_by("own"))
 		set_program(GL_VERTEX_PROGRAM_ARB, "!!ARBvp1.0\nTEMP l, c;", own_space, light, "MOV result.color, c;");
 	if (!is_by("fragment"))
@@ -100,8 +106,9 @@ static void set_programs(void)
 	set_program(GL_VERTEX_PROGRAM_ARB, "!!ARBvp1.0\nOPTION ARB_position_invariant;", eye_space, "",
 	            "MOV result.texcoord[0], e; MOV result.texcoord[1], n; MOV result.texcoord[1].w, 1;");
 	set_program(GL_FRAGMENT_PROGRAM_ARB, "!!ARBfp1.0\nTEMP e, n, h, l, c;",
-	            "MOV e, fragment.texcoord[0]; MOV n, fragment.texcoord[1]; DP3 n.w, n, n; RSQ n.w, n.w; MUL n.xyz, n, n.w;\n", light,
-	            "MOV result.color, c;");
+	            "MOV e, fragment.texcoord[0]; MOV n, fragment.texcoord[1]; DP3 n.w, n, n; RSQ n.w, n.w; MUL n.xyz, "
+	            "n, n.w;\n",
+	            light, "MOV result.color, c;");
 }
 
 static void init(void)

@@ -1,7 +1,7 @@
 /*
- * Whitted's picture (An Improved Illumination Model for Shaded Display, 1980): a glass sphere in front of a mirror sphere
- * above a checkered floor. The spheres are display lists of strips, the floor is textured. Without a recorder the
- * spheres are plain plastic.
+ * Whitted's picture (An Improved Illumination Model for Shaded Display, 1980): a glass sphere in front of a mirror
+ * sphere above a checkered floor. The spheres are display lists of strips, the floor is textured. Without a recorder
+ * the spheres are plain plastic.
  *
  *   cc -o spheres corpus/spheres.c -lglut -lGLU -lGL -lm
  */

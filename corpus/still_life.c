@@ -1,7 +1,8 @@
 /*
- * One of everything that a fault can break, each in a draw of its own: a textured floor, a box from client arrays, a lit
- * sphere in a display list, an unlit pyramid, a fence by alpha test, two panes of coloured glass by blending, fog, two lights,
- * culling. The projection is a glFrustum and every transformation is one call, so that a recording is easily edited.
+ * One of everything that a fault can break, each in a draw of its own: a textured floor, a box from client arrays, a
+ * lit sphere in a display list, an unlit pyramid, a fence by alpha test, two panes of coloured glass by blending, fog,
+ * two lights, culling. The projection is a glFrustum and every transformation is one call, so that a recording is
+ * easily edited.
  *
  *   cc -o still_life corpus/still_life.c -lglut -lGLU -lGL -lm
  */
@@ -159,7 +160,9 @@ static void draw_sphere(void)
 
 static void draw_pyramid(void)
 {
-	static const float base[5][2] = { { -0.6f, 0.6f }, { 0.6f, 0.6f }, { 0.6f, -0.6f }, { -0.6f, -0.6f }, { -0.6f, 0.6f } };
+	static const float base[5][2] = {
+		{ -0.6f, 0.6f }, { 0.6f, 0.6f }, { 0.6f, -0.6f }, { -0.6f, -0.6f }, { -0.6f, 0.6f }
+	};
 
 	glPushMatrix();
 	glTranslatef(1.9f, -1, 0);

@@ -1,11 +1,12 @@
 /*
- * A street at dusk, as games drew it: a sky about the viewer that is painted first and leaves no depth, a lit ball that rolls over a blob
- * of shadow, a mark on the ground, a lamp that shows its bulb by bright texels. The viewer stands still.
+ * A street at dusk, as games drew it: a sky about the viewer that is painted first and leaves no depth, a lit ball that
+ * rolls over a blob of shadow, a mark on the ground, a lamp that shows its bulb by bright texels. The viewer stands
+ * still.
  *
  *   cc -o street corpus/street.c -lglut -lGLU -lGL -lm
  *
- * --by unlit draws it without OpenGL's lights, --by plain with neither blob nor mark, --by thrown with the blob as a texture unit of the
- * ground, whose coordinates come of places.
+ * --by unlit draws it without OpenGL's lights, --by plain with neither blob nor mark, --by thrown with the blob as a
+ * texture unit of the ground, whose coordinates come of places.
  */
 #include <math.h>
 
@@ -161,7 +162,8 @@ static void draw_ball(float radius)
 	for (int j = 0; j < UP; j++)
 		for (int i = 0; i < AROUND; i++)
 			for (int k = 0; k < 4; k++) {
-				const float a = 6.2831853f * (float)(i + (k == 1 || k == 2)) / AROUND, b = 3.1415927f * ((float)(j + k / 2) / UP - 0.5f);
+				const float a = 6.2831853f * (float)(i + (k == 1 || k == 2)) / AROUND,
+					    b = 3.1415927f * ((float)(j + k / 2) / UP - 0.5f);
 				const float n[3] = { cosf(b) * sinf(a), sinf(b), cosf(b) * cosf(a) };
 
 				glNormal3fv(n);

@@ -1,8 +1,9 @@
 /*
- * A cube over a floor, and what stood for light in its day: a shadow flattened onto the floor, a shadow volume in the stencil buffer, a
- * mirror drawn as the world behind it; or none of these, and a mirror by rtMaterialEXT. The light is at (2, 4, 1) of the world, or far
- * away in that direction; the mirror is the plane z = -3. From frame 1 on the viewer moves around. On a grid or gravel the shadow is
- * flattened, too, but the floor is one picture without OpenGL's light: dark, with bright lines, or with grain.
+ * A cube over a floor, and what stood for light in its day: a shadow flattened onto the floor, a shadow volume in the
+ * stencil buffer, a mirror drawn as the world behind it; or none of these, and a mirror by rtMaterialEXT. The light is
+ * at (2, 4, 1) of the world, or far away in that direction; the mirror is the plane z = -3. From frame 1 on the viewer
+ * moves around. On a grid or gravel the shadow is flattened, too, but the floor is one picture without OpenGL's light:
+ * dark, with bright lines, or with grain.
  *
  *   cc -o tricks corpus/tricks.c -lglut -lGLU -lGL -lm
  *   tricks planar|directional|zpass|zfail|mirror|none|traced-mirror|grid|gravel [--frames N]
@@ -13,12 +14,15 @@
 
 enum { PLANAR, DIRECTIONAL, ZPASS, ZFAIL, MIRROR, NONE, TRACED_MIRROR, GRID, GRAVEL, N_KINDS };
 
-static const char *const kinds[] = { "planar", "directional", "zpass", "zfail", "mirror", "none", "traced-mirror", "grid", "gravel" };
+static const char *const kinds[] = { "planar", "directional",   "zpass", "zfail", "mirror",
+	                             "none",   "traced-mirror", "grid",  "gravel" };
 static int kind;
 static float light[4] = { 2, 4, 1, 1 };
-static const float corners[8][3] = { { -1, -1, -1 }, { 1, -1, -1 }, { -1, 1, -1 }, { 1, 1, -1 }, { -1, -1, 1 }, { 1, -1, 1 }, { -1, 1, 1 }, { 1, 1, 1 } };
+static const float corners[8][3] = { { -1, -1, -1 }, { 1, -1, -1 }, { -1, 1, -1 }, { 1, 1, -1 },
+	                             { -1, -1, 1 },  { 1, -1, 1 },  { -1, 1, 1 },  { 1, 1, 1 } };
 /* Each face's corners against the clock, seen from outside, and its normal. */
-static const int faces[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
+static const int faces[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 },
+	                         { 2, 6, 7, 3 }, { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
 static const float normals[6][3] = { { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 }, { 0, 0, -1 }, { 0, 0, 1 } };
 
 static void cube(void)
@@ -306,7 +310,9 @@ int main(int argc, char **argv)
 	for (kind = 0; argc > 1 && kind < N_KINDS && strcmp(argv[1], kinds[kind]) != 0;)
 		kind++;
 	if (argc < 2 || kind == N_KINDS) {
-		fprintf(stderr, "usage: %s planar|directional|zpass|zfail|mirror|none|traced-mirror|grid|gravel [--frames N]\n", argv[0]);
+		fprintf(stderr,
+		        "usage: %s planar|directional|zpass|zfail|mirror|none|traced-mirror|grid|gravel [--frames N]\n",
+		        argv[0]);
 		return 2;
 	}
 	argv[1] = argv[0];

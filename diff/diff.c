@@ -77,62 +77,88 @@ static int want_yee(const struct options_row *row, const char *value, void *out)
 }
 
 static const struct options_row rows[] = {
-	{ "frames", 'f', "LIST", "frames that must be there and pass, as in 10-60 or 1-500x5 (default: those of TRACED)",
-	  options_frames, .at = offsetof(struct options, frames) },
-	{ "all", 0, NULL, "every frame that REF, TRACED or the approved frames have must be there and pass; with --frames: "
-	  "each of these that one has", options_flag, .at = offsetof(struct options, all) },
-	{ "channel", 0, "LAYER", "what to compare with the reference: gl (default where there is one), beauty, any layer by what its channels' names begin with "
+	{ "frames", 'f', "LIST",
+	  "frames that must be there and pass, as in 10-60 or 1-500x5 (default: those of TRACED)", options_frames,
+	  .at = offsetof(struct options, frames) },
+	{ "all", 0, NULL,
+	  "every frame that REF, TRACED or the approved frames have must be there and pass; with --frames: "
+	  "each of these that one has",
+	  options_flag, .at = offsetof(struct options, all) },
+	{ "channel", 0, "LAYER",
+	  "what to compare with the reference: gl (default where there is one), beauty, any layer by what its "
+	  "channels' names begin with "
 	  "(view.diffuse, N), or a single channel (Z)",
 	  options_text, .at = offsetof(struct options, score.channel) },
-	{ "ignore-alpha", 0, NULL, "leave alpha out, and compare colours as they are stored: else pictures of others are compared with colours "
-	  "multiplied by alpha, and one without alpha is opaque", options_flag, .at = offsetof(struct options, score.ignore_alpha) },
-	{ "effects", 0, "E=LO:HI", "gate E3: effect E (shadow, relight, reflect, refract, any) must touch LO to HI per cent of the "
-	  "pixels; either may be left out; may be given several times", parse_effects, .at = offsetof(struct options, score) },
-	{ "baseline", 0, "DIR", "gate B: compare with the frames that 'relume approve' put there",
-	  options_text, .at = offsetof(struct options, baseline), .use = CONFINE_READS },
-	{ "config", 0, "FILE", "bars, masks, flaky frames (default: relume-diff.yaml where there is one); 'relume help diff-file' has its keys",
+	{ "ignore-alpha", 0, NULL,
+	  "leave alpha out, and compare colours as they are stored: else pictures of others are compared with colours "
+	  "multiplied by alpha, and one without alpha is opaque",
+	  options_flag, .at = offsetof(struct options, score.ignore_alpha) },
+	{ "effects", 0, "E=LO:HI",
+	  "gate E3: effect E (shadow, relight, reflect, refract, any) must touch LO to HI per cent of the "
+	  "pixels; either may be left out; may be given several times",
+	  parse_effects, .at = offsetof(struct options, score) },
+	{ "baseline", 0, "DIR", "gate B: compare with the frames that 'relume approve' put there", options_text,
+	  .at = offsetof(struct options, baseline), .use = CONFINE_READS },
+	{ "config", 0, "FILE",
+	  "bars, masks, flaky frames (default: relume-diff.yaml where there is one); 'relume help diff-file' has its "
+	  "keys",
 	  options_text, .at = offsetof(struct options, config) },
-	{ "yee", 0, NULL, "measure Yee's metric as well, which is slow", want_yee, .at = offsetof(struct options, score) },
+	{ "yee", 0, NULL, "measure Yee's metric as well, which is slow", want_yee,
+	  .at = offsetof(struct options, score) },
 	{ "report", 0, "DIR", "DIR/index.html, one file with all pictures in it, and DIR/sheet.png, a contact sheet",
 	  options_text, .at = offsetof(struct options, report), .use = CONFINE_FILLS },
 	{ "film", 0, "FILM", "a film of 'relume film' that the report's page plays; it becomes part of the page",
 	  options_text, .at = offsetof(struct options, film), .use = CONFINE_READS },
-	{ "table", 0, NULL, "the whole table: a line for each frame, a column for each gate, 170 columns (default: what failed, why, and what to do)",
+	{ "table", 0, NULL,
+	  "the whole table: a line for each frame, a column for each gate, 170 columns (default: what failed, why, and "
+	  "what to do)",
 	  options_flag, .at = offsetof(struct options, table) },
 	{ "json", 0, "FILE", "every figure and bar as JSON; - for standard output, instead of what people read",
 	  options_text, .at = offsetof(struct options, json), .use = CONFINE_WRITES },
-	{ "junit", 0, "FILE", "JUnit XML, one case for each frame, with the files to look at", options_text, .at = offsetof(struct options, junit), .use = CONFINE_WRITES },
+	{ "junit", 0, "FILE", "JUnit XML, one case for each frame, with the files to look at", options_text,
+	  .at = offsetof(struct options, junit), .use = CONFINE_WRITES },
 	{ "markdown", 0, "FILE", "a summary for a merge request, as Markdown; added to FILE where it is there",
 	  options_text, .at = offsetof(struct options, markdown), .use = CONFINE_WRITES },
 	{ "annotations", 0, NULL, "print workflow commands (::error, ::warning) that CI servers show beside a change",
 	  options_flag, .at = offsetof(struct options, annotations) },
-	{ "quarantine", 0, "FILE", "of several runs: write the entries that are proposed for flaky frames (default: standard output)",
+	{ "quarantine", 0, "FILE",
+	  "of several runs: write the entries that are proposed for flaky frames (default: standard output)",
 	  options_text, .at = offsetof(struct options, quarantine), .use = CONFINE_WRITES },
-	{ "expires", 0, "DAYS", "days after which these expire (default 30)", options_number, .at = offsetof(struct options, expires), .most = 3650 },
+	{ "expires", 0, "DAYS", "days after which these expire (default 30)", options_number,
+	  .at = offsetof(struct options, expires), .most = 3650 },
 	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
 	.verb = "diff",
 	.head = "usage: relume diff [OPTIONS] REF TRACED\n"
-	        "       relume diff [OPTIONS] --baseline DIR TRACED\n"
-	        "       relume diff [OPTIONS] REF RUN RUN...\n"
-	        "\n"
-	        "Score traced frames against their references, frame by frame and gate by gate.\n"
-	        "\n"
-	        "REF     a trace (NAME.ref beside it holds its frames), a .ref file, or images\n"
-	        "TRACED  images: those of 'relume render', or any; the gates of effects, depth and harm need its OpenEXR files\n"
-	        "        Images are a folder (the last number in a name is its frame), a pattern such as\n"
-	        "        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their colours.\n"
-	        "        Of two folders, pictures without a number, and those in their folders, are matched by path: login.png, dark/login.exr.\n"
-	        "RUN     the same frames once more. With several, frames whose failures are noise are told apart from regressions: of each pixel\n"
-	        "        the value nearest to REF between what the runs show is taken, and what still fails is a regression. REF may be\n"
-	        "        approved frames. Entries for `flaky:` of relume-diff.yaml are proposed, and what it allows needlessly is named.\n",
+		"       relume diff [OPTIONS] --baseline DIR TRACED\n"
+		"       relume diff [OPTIONS] REF RUN RUN...\n"
+		"\n"
+		"Score traced frames against their references, frame by frame and gate by gate.\n"
+		"\n"
+		"REF     a trace (NAME.ref beside it holds its frames), a .ref file, or images\n"
+		"TRACED  images: those of 'relume render', or any; the gates of effects, depth and harm need its "
+	        "OpenEXR files\n"
+		"        Images are a folder (the last number in a name is its frame), a pattern such as\n"
+		"        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their "
+	        "colours.\n"
+		"        Of two folders, pictures without a number, and those in their folders, are matched by path: "
+	        "login.png, dark/login.exr.\n"
+		"RUN     the same frames once more. With several, frames whose failures are noise are told apart from "
+	        "regressions: of each pixel\n"
+		"        the value nearest to REF between what the runs show is taken, and what still fails is a "
+	        "regression. REF may be\n"
+		"        approved frames. Entries for `flaky:` of relume-diff.yaml are proposed, and what it allows "
+	        "needlessly is named.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 all frames passed; 1 a frame failed or is missing; 3 an input cannot be read;\n"
-	         "4 there are traced frames without a reference or an approved frame, and all others passed.\n"
-	         "Of several runs: 0 no regressions, 1 a frame is a regression, 3 an input cannot be read.\n",
-	.takes = "REF and TRACED, --baseline DIR and TRACED, or REF and up to 32 runs", .least = 1, .most = RUNS_MOST + 1, .words_use = CONFINE_RECORDING,
+		 "4 there are traced frames without a reference or an approved frame, and all others passed.\n"
+		 "Of several runs: 0 no regressions, 1 a frame is a regression, 3 an input cannot be read.\n",
+	.takes = "REF and TRACED, --baseline DIR and TRACED, or REF and up to 32 runs",
+	.least = 1,
+	.most = RUNS_MOST + 1,
+	.words_use = CONFINE_RECORDING,
 };
 
 /** @return 0 go on, 1 help was printed, or ERR_* (reported) */
@@ -149,7 +175,9 @@ static int parse_options(int argc, char **argv, struct options *o, struct option
 	if (o->film && access(o->film, R_OK) != 0)
 		return err_report(ERR_INPUT, o->film, "%s", strerror(errno));
 	if (line->n_words > 2 && (o->report || o->json || o->junit || o->annotations || o->markdown || o->baseline))
-		return err_report(ERR_USAGE, NULL, "of several runs there is a table: --report, --json, --junit, --markdown, --annotations and --baseline are for one");
+		return err_report(ERR_USAGE, NULL,
+		                  "of several runs there is a table: --report, --json, --junit, --markdown, "
+		                  "--annotations and --baseline are for one");
 	if (line->n_words <= 2 && o->quarantine)
 		return err_report(ERR_USAGE, NULL, "--quarantine is for several runs");
 	o->reference = line->n_words >= 2 ? line->words[0] : NULL;
@@ -157,7 +185,8 @@ static int parse_options(int argc, char **argv, struct options *o, struct option
 	return 0;
 }
 
-/** Give the blamed draws their calls' names. What the trace does not tell stays unnamed: the scores stand without it. */
+/** Give the blamed draws their calls' names. What the trace does not tell stays unnamed: the scores stand without
+ * it. */
 static int name_blamed_draws(const char *trace, draw_namer *namer, struct output_run *run)
 {
 	struct draw_name *names = calloc(run->n_scores * SCORE_MAX_BLAME, sizeof(*names));
@@ -221,8 +250,8 @@ static int exit_code(const struct output_run *run)
 }
 
 /** Everything that is compared, and how. */
-static int open_all(struct options *o, const struct options_line *line, struct set *ref, struct set *traced, struct baseline *baseline,
-                    struct score_rules **settings)
+static int open_all(struct options *o, const struct options_line *line, struct set *ref, struct set *traced,
+                    struct baseline *baseline, struct score_rules **settings)
 {
 	const char *config = o->config ? o->config : access("relume-diff.yaml", F_OK) == 0 ? "relume-diff.yaml" : NULL;
 	int err = config ? score_rules_read(config, settings) : 0;
@@ -236,7 +265,9 @@ static int open_all(struct options *o, const struct options_line *line, struct s
 	if (!err)
 		err = set_open_named(o->traced, traced);
 	if (!err && o->baseline && access(o->baseline, F_OK) != 0)
-		err_warn(o->baseline, "there is no such folder, so all frames are new; 'relume approve TRACED %s' makes it", o->baseline);
+		err_warn(o->baseline,
+		         "there is no such folder, so all frames are new; 'relume approve TRACED %s' makes it",
+		         o->baseline);
 	if (!err && o->baseline)
 		err = baseline_open(o->baseline, baseline);
 	return err;
@@ -274,7 +305,7 @@ static int write_all(const struct options *o, const struct picture_sources *from
 	return err;
 }
 
-/* --- Several runs ----------------------------------------------------------------------------------------------- */
+/* --- Several runs ------------------------------------------------------------------------------------------------ */
 
 static int tell_runs(const struct options *o, const struct runs *r, const struct runs_frame *frames)
 {
@@ -311,10 +342,18 @@ static int score_runs(const struct options *o, struct runs *r, char **words, con
 		char *name = names[i];
 
 		name_run(r->match ? r->ref->name : words[i], name, sizeof(names[i]));
-		*run = (struct output_run){ .reference = r->ref->name, .traced = words[i], .name = name, .command = "", .options = &o->score,
-			                    .ref = r->ref, .set = &r->sets[i], .settings = settings, .n_scores = r->n_frames };
+		*run = (struct output_run){ .reference = r->ref->name,
+			                    .traced = words[i],
+			                    .name = name,
+			                    .command = "",
+			                    .options = &o->score,
+			                    .ref = r->ref,
+			                    .set = &r->sets[i],
+			                    .settings = settings,
+			                    .n_scores = r->n_frames };
 		run->scores = calloc(r->n_frames + 1, sizeof(*run->scores));
-		err = run->scores ? scoring_all(r->ref, &r->sets[i], &none, r->frames, run) : err_report(ERR_SYSTEM, NULL, "out of memory");
+		err = run->scores ? scoring_all(r->ref, &r->sets[i], &none, r->frames, run) :
+		                    err_report(ERR_SYSTEM, NULL, "out of memory");
 	}
 	if (!err)
 		err = runs_judge(r, frames);
@@ -385,7 +424,7 @@ static int list_frames(const struct options *o, const struct set *ref, const str
 	return err;
 }
 
-/* --- The verb --------------------------------------------------------------------------------------------------- */
+/* --- The verb ---------------------------------------------------------------------------------------------------- */
 
 int diff_main(int argc, char **argv, draw_namer *namer)
 {

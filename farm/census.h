@@ -5,7 +5,12 @@
 
 #include "farm/job.h"
 
-enum census_verdict { CENSUS_MISSING, CENSUS_DAMAGED, CENSUS_OUTDATED, N_CENSUS_VERDICTS }; /* OUTDATED: other settings */
+enum census_verdict {
+	CENSUS_MISSING,
+	CENSUS_DAMAGED,
+	CENSUS_OUTDATED,
+	N_CENSUS_VERDICTS
+}; /* OUTDATED: other settings */
 
 struct census_frame {
 	uint64_t frame;

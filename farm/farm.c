@@ -157,7 +157,8 @@ static int with_job(int argc, char **argv, int (*verb)(struct farm_job *))
 	int err;
 
 	if (argc != (interval_s ? 3 : 2) || folder[0] == '-')
-		return err_report(ERR_USAGE, NULL, "relume farm %s takes %sthe FOLDER that submit printed", argv[0], verb ? "" : "[--watch[=SECONDS]] and ");
+		return err_report(ERR_USAGE, NULL, "relume farm %s takes %sthe FOLDER that submit printed", argv[0],
+		                  verb ? "" : "[--watch[=SECONDS]] and ");
 	err = farm_job_load(folder, &job);
 	if (!err)
 		err = verb ? verb(&job) : status_print(&job, interval_s);
@@ -171,7 +172,8 @@ static const struct {
 	int (*with_words)(int argc, char **argv);
 	int (*with_job)(struct farm_job *job);
 } verbs[] = {
-	{ "submit", submit, NULL }, { "script", script, NULL }, { "status", NULL, NULL }, { "retry", NULL, retry }, { "cancel", NULL, cancel },
+	{ "submit", submit, NULL }, { "script", script, NULL }, { "status", NULL, NULL }, { "retry", NULL, retry },
+	{ "cancel", NULL, cancel },
 };
 
 int farm_main(int argc, char **argv)

@@ -17,7 +17,7 @@
 
 static const char *const farm_engine_names[] = { "slurm", "parallel", "make", NULL };
 
-/* --- The command line ---------------------------------------------------------------------------------------------- */
+/* --- The command line -------------------------------------------------------------------------------------------- */
 
 static int take_chunk(const struct options_row *row, const char *text, void *out)
 {
@@ -41,45 +41,64 @@ static int add_sbatch(const struct options_row *row, const char *text, void *out
 }
 
 static const struct options_row rows[] = {
-	{ "frames", 'f', "LIST", "frames, as in 1-500 or 1-500x5", options_text, .at = offsetof(struct farm_job, frames_text), .is_required = 1 },
-	{ "output", 'o', "PATTERN", "file names: ####, %04d, $F4 or {frame} stand for the frame number",
-	  options_text, .at = offsetof(struct farm_job, output), .is_required = 1 },
-	{ "chunk", 0, "N", "frames in a task, at most (default 50)", take_chunk, .at = offsetof(struct farm_job, chunk) },
-	{ "reference", 0, "REF", "reference to score against, as for 'relume diff' (default: frames recorded with --ref)",
-	  options_text, .at = offsetof(struct farm_job, reference) },
-	{ "gres", 0, "LIST", "resources that each task needs, as gpu:1", options_text, .at = offsetof(struct farm_job, gres) },
-	{ "sbatch", 0, "OPTION", "one more option of sbatch, as --sbatch=--partition=night; may be repeated", add_sbatch, .at = 0 },
-	{ "local", 0, NULL, "on this machine, even where Slurm is installed", options_flag, .at = offsetof(struct farm_job, is_local) },
-	{ "replace", 0, NULL, "cancel the Slurm job that still renders to the same PATTERN, instead of refusing", options_flag,
-	  .at = offsetof(struct farm_job, replace) },
-	{ "at-end", 0, "COMMAND", "run COMMAND by the shell when all is done, with RELUME_FARM, the job's folder, and RELUME_CODE, 0 where "
-	  "all frames are whole and passed", options_text, .at = offsetof(struct farm_job, at_end) },
-	{ "for", 0, "ENGINE", "slurm, parallel or make", options_word, .at = offsetof(struct farm_job, asked_engine), .words = farm_engine_names },
+	{ "frames", 'f', "LIST", "frames, as in 1-500 or 1-500x5", options_text,
+	  .at = offsetof(struct farm_job, frames_text), .is_required = 1 },
+	{ "output", 'o', "PATTERN", "file names: ####, %04d, $F4 or {frame} stand for the frame number", options_text,
+	  .at = offsetof(struct farm_job, output), .is_required = 1 },
+	{ "chunk", 0, "N", "frames in a task, at most (default 50)", take_chunk,
+	  .at = offsetof(struct farm_job, chunk) },
+	{ "reference", 0, "REF",
+	  "reference to score against, as for 'relume diff' (default: frames recorded with --ref)", options_text,
+	  .at = offsetof(struct farm_job, reference) },
+	{ "gres", 0, "LIST", "resources that each task needs, as gpu:1", options_text,
+	  .at = offsetof(struct farm_job, gres) },
+	{ "sbatch", 0, "OPTION", "one more option of sbatch, as --sbatch=--partition=night; may be repeated",
+	  add_sbatch, .at = 0 },
+	{ "local", 0, NULL, "on this machine, even where Slurm is installed", options_flag,
+	  .at = offsetof(struct farm_job, is_local) },
+	{ "replace", 0, NULL, "cancel the Slurm job that still renders to the same PATTERN, instead of refusing",
+	  options_flag, .at = offsetof(struct farm_job, replace) },
+	{ "at-end", 0, "COMMAND",
+	  "run COMMAND by the shell when all is done, with RELUME_FARM, the job's folder, and RELUME_CODE, 0 where "
+	  "all frames are whole and passed",
+	  options_text, .at = offsetof(struct farm_job, at_end) },
+	{ "for", 0, "ENGINE", "slurm, parallel or make", options_word, .at = offsetof(struct farm_job, asked_engine),
+	  .words = farm_engine_names },
 };
 
 const struct options_table farm_options = {
 	.verb = "farm",
 	.head = "usage: relume farm submit TRACE -f FRAMES -o PATTERN [OPTIONS] [-- RENDER-OPTIONS]\n"
-	        "       relume farm script --for ENGINE TRACE -f FRAMES -o PATTERN [OPTIONS] [-- RENDER-OPTIONS]\n"
-	        "       relume farm status [--watch[=SECONDS]] FOLDER\n"
-	        "       relume farm retry|cancel FOLDER\n"
-	        "\n"
-	        "Render frames on many machines, as an array job of Slurm; all on this one where Slurm is not installed.\n"
-	        "Every machine must see the trace and the frames under the same names.\n"
-	        "\n"
-	        "submit  starts an array job that renders, then a job that scores and writes a page; prints their numbers and the\n"
-	        "        job's FOLDER, which lies beside the frames: out/gears.farm for out/gears.####.exr. Refuses while an\n"
-	        "        earlier job renders there\n"
-	        "script  prints what submit would run, for slurm, parallel (GNU parallel) or make; its head says how to use it\n"
-	        "status  says which frames are whole, what waits and runs, how fast, and which tasks failed, why and where their\n"
-	        "        logs are; exits with 1 while frames are missing. With --watch it goes on until nothing waits or runs, a\n"
-	        "        line each 10 SECONDS\n"
-	        "retry   renders frames that are missing or damaged and that no task waits or runs for, and scores again\n"
-	        "cancel  ends what waits and runs; frames that are whole stay\n",
+		"       relume farm script --for ENGINE TRACE -f FRAMES -o PATTERN [OPTIONS] [-- RENDER-OPTIONS]\n"
+		"       relume farm status [--watch[=SECONDS]] FOLDER\n"
+		"       relume farm retry|cancel FOLDER\n"
+		"\n"
+		"Render frames on many machines, as an array job of Slurm; all on this one where Slurm is not "
+	        "installed.\n"
+		"Every machine must see the trace and the frames under the same names.\n"
+		"\n"
+		"submit  starts an array job that renders, then a job that scores and writes a page; prints their "
+	        "numbers and the\n"
+		"        job's FOLDER, which lies beside the frames: out/gears.farm for out/gears.####.exr. Refuses "
+	        "while an\n"
+		"        earlier job renders there\n"
+		"script  prints what submit would run, for slurm, parallel (GNU parallel) or make; its head says how "
+	        "to use it\n"
+		"status  says which frames are whole, what waits and runs, how fast, and which tasks failed, why and "
+	        "where their\n"
+		"        logs are; exits with 1 while frames are missing. With --watch it goes on until nothing waits "
+	        "or runs, a\n"
+		"        line each 10 SECONDS\n"
+		"retry   renders frames that are missing or damaged and that no task waits or runs for, and scores "
+	        "again\n"
+		"cancel  ends what waits and runs; frames that are whole stay\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exit codes: 0 done, 1 frames are missing or did not pass, 2 wrong usage, 3 the trace or the job cannot be read,\n"
-	         "5 Slurm or the system failed.\n",
-	.takes = "one TRACE, -f FRAMES and -o PATTERN", .least = 1, .most = 1,
+	.notes = "Exit codes: 0 done, 1 frames are missing or did not pass, 2 wrong usage, 3 the trace or the job "
+	         "cannot be read,\n"
+		 "5 Slurm or the system failed.\n",
+	.takes = "one TRACE, -f FRAMES and -o PATTERN",
+	.least = 1,
+	.most = 1,
 };
 
 /* The options for frames, output and re-rendering belong before the "--", once. */
@@ -210,20 +229,26 @@ int farm_job_parse(int argc, char **argv, struct farm_job *out)
 	if (!err)
 		err = frame_list_parse(out->frames_text, &out->frames);
 	if (!err && !frame_pattern_has_number(out->output))
-		err = err_report(ERR_USAGE, NULL, "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})", out->output);
+		err = err_report(ERR_USAGE, NULL,
+		                 "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})", out->output);
 	if (!err && frame_list_last(&out->frames) == UINT64_MAX)
-		err = err_report(ERR_USAGE, NULL, "'%s' has no end; tasks need one, as in 55-499 ('relume info' counts frames)", out->frames_text);
+		err = err_report(ERR_USAGE, NULL,
+		                 "'%s' has no end; tasks need one, as in 55-499 ('relume info' counts frames)",
+		                 out->frames_text);
 	if (err)
 		return err;
 	out->n_frames = frame_list_count(&out->frames, UINT64_MAX);
 	out->n_tasks = out->n_frames / out->chunk + (out->n_frames % out->chunk != 0);
 	if (out->n_tasks > MAX_TASKS)
-		return err_report(ERR_USAGE, NULL, "%" PRIu64 " tasks are more than anybody has nodes for; a larger --chunk makes fewer",
+		return err_report(ERR_USAGE, NULL,
+		                  "%" PRIu64 " tasks are more than anybody has nodes for; a larger --chunk makes fewer",
 		                  out->n_tasks);
 	if (!out->reference && (out->reference = recorded_reference(out)) && (out->unscored = why_unscored(out)))
 		out->reference = NULL;
 	if (out->at_end && out->asked_engine == FARM_MAKE)
-		return err_report(ERR_USAGE, NULL, "--at-end does not go with --for make: put the command behind make's, as in 'make -f FILE; COMMAND'");
+		return err_report(ERR_USAGE, NULL,
+		                  "--at-end does not go with --for make: put the command behind make's, as in 'make -f "
+		                  "FILE; COMMAND'");
 	err = name_folder(out);
 	return err ? err : find_places(out);
 }
@@ -310,5 +335,7 @@ int farm_job_load(const char *folder, struct farm_job *out)
 
 uint64_t farm_job_task_of(const struct farm_job *job, uint64_t frame)
 {
-	return frame_list_contains(&job->frames, frame) ? frame_list_part_of(&job->frames, UINT64_MAX, frame, job->n_tasks) : 0;
+	return frame_list_contains(&job->frames, frame) ?
+	               frame_list_part_of(&job->frames, UINT64_MAX, frame, job->n_tasks) :
+	               0;
 }

@@ -8,8 +8,8 @@
  *     slurm       the numbers of its Slurm jobs, one line for each submission and retry: array job, report job or "-"
  *     lock/, log/ of each task; report/, scores.json
  *
- * Progress is never written down. The frames show what is done (`relume render --skip-existing --dry-run`), and Slurm knows what
- * waits and runs. Nothing here can disagree with them. Logs are asked only why a frame is missing.
+ * Progress is never written down. The frames show what is done (`relume render --skip-existing --dry-run`), and Slurm
+ * knows what waits and runs. Nothing here can disagree with them. Logs are asked only why a frame is missing.
  */
 #pragma once
 

@@ -51,7 +51,8 @@ static int read_slurm(const struct farm_job *job, uint64_t *number, char *text, 
 
 	*number = queue.number;
 	if (queue.running + queue.waiting)
-		snprintf(text, size, "%" PRIu64 " task%s running, %" PRIu64 " waiting", queue.running, plural(queue.running), queue.waiting);
+		snprintf(text, size, "%" PRIu64 " task%s running, %" PRIu64 " waiting", queue.running,
+		         plural(queue.running), queue.waiting);
 	else
 		snprintf(text, size, "its report waits or runs");
 	slurm_free(&queue);
@@ -72,7 +73,8 @@ static int end_slurm(const struct farm_job *job)
 			nanosleep(&pause, NULL);
 	}
 	if (!err && number)
-		err = err_report(ERR_SYSTEM, job->folder, "Slurm job %" PRIu64 " was cancelled but does not end; try again later", number);
+		err = err_report(ERR_SYSTEM, job->folder,
+		                 "Slurm job %" PRIu64 " was cancelled but does not end; try again later", number);
 	return err;
 }
 
@@ -95,10 +97,15 @@ int running_claim(const struct farm_job *job, int replace)
 	int err = read_slurm(job, &number, text, sizeof(text));
 
 	if (!err && number && !replace)
-		return err_report(ERR_USAGE, job->folder, "Slurm job %" PRIu64 " still renders there (%s): 'relume farm status %s' shows it; submit with "
-		                  "--replace to cancel it first, or to another -o", number, text, job->folder);
+		return err_report(ERR_USAGE, job->folder,
+		                  "Slurm job %" PRIu64
+		                  " still renders there (%s): 'relume farm status %s' shows it; submit with "
+		                  "--replace to cancel it first, or to another -o",
+		                  number, text, job->folder);
 	if (!err && running_process(job, process, sizeof(process)))
-		return err_report(ERR_USAGE, job->folder, "process %s still renders there: wait for it or end it, or submit to another -o", process);
+		return err_report(ERR_USAGE, job->folder,
+		                  "process %s still renders there: wait for it or end it, or submit to another -o",
+		                  process);
 	if (!err && number)
 		err = end_slurm(job);
 	if (!err)

@@ -34,7 +34,8 @@ static void put_option(const struct farm_job *job, FILE *out, const char *option
 	put_argument(job, out, word);
 }
 
-/* A task's command; `task` is its number as the engine writes it, NULL for all of them. Our options come last, and so count. */
+/* A task's command; `task` is its number as the engine writes it, NULL for all of them. Our options come last, and so
+ * count. */
 static void put_render(const struct farm_job *job, FILE *out, const char *task)
 {
 	put_word(job, out, job->relume);
@@ -235,7 +236,8 @@ static void put_slurm(const struct farm_job *job, FILE *out)
 {
 	fputs("#!/bin/sh\n", out);
 	put_head(job, out);
-	fputs("#   sh FILE [TASKS]   hand all (or tasks as 3,17,40-42; or none) to Slurm, and the report after them; prints their numbers\n",
+	fputs("#   sh FILE [TASKS]   hand all (or tasks as 3,17,40-42; or none) to Slurm, and the report after them; "
+	      "prints their numbers\n",
 	      out);
 	put_functions(job, out);
 	put_case(out);

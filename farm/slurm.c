@@ -99,13 +99,14 @@ int slurm_read(const struct farm_job *job, struct slurm_queue *out)
 	return err;
 }
 
-/* --- How tasks ended ------------------------------------------------------------------------------------------------- */
+/* --- How tasks ended --------------------------------------------------------------------------------------------- */
 
 static int keep_end(const struct farm_job *job, char **words, uint64_t task, const char *state, int signal)
 {
 	char text[64];
 
-	if (task > job->n_tasks || strcmp(state, "COMPLETED") == 0 || strcmp(state, "RUNNING") == 0 || strcmp(state, "PENDING") == 0)
+	if (task > job->n_tasks || strcmp(state, "COMPLETED") == 0 || strcmp(state, "RUNNING") == 0 ||
+	    strcmp(state, "PENDING") == 0)
 		return 0;
 	if (signal)
 		snprintf(text, sizeof(text), "%s, signal %d", state, signal);
@@ -132,7 +133,8 @@ static int read_accounting(const struct farm_job *job, char *line, char **words)
 /* "JobId=13 ArrayJobId=12 ArrayTaskId=3 ... JobState=OUT_OF_MEMORY ... ExitCode=0:125 ..." */
 static int read_controller(const struct farm_job *job, char *line, char **words)
 {
-	const char *task = strstr(line, " ArrayTaskId="), *state = strstr(line, " JobState="), *code = strstr(line, " ExitCode=");
+	const char *task = strstr(line, " ArrayTaskId="), *state = strstr(line, " JobState="),
+		   *code = strstr(line, " ExitCode=");
 	char word[32];
 	int signal = 0;
 

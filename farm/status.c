@@ -101,7 +101,8 @@ static void print_end(const struct task_story *story, const char *by_slurm)
 		printf(" (Slurm: %s)", by_slurm);
 }
 
-static int print_failed_task(const struct farm_job *job, uint64_t task, const struct task_story *story, const char *by_slurm)
+static int print_failed_task(const struct farm_job *job, uint64_t task, const struct task_story *story,
+                             const char *by_slurm)
 {
 	char name[24], path[PATH_MAX + 32];
 	int err;
@@ -178,8 +179,10 @@ static int print_state(const struct farm_job *job, struct census *c, struct work
 		err = read_work(job, work);
 	if (err)
 		return err;
-	printf("frames %" PRIu64 " of %" PRIu64 " whole, %" PRIu64 " missing, %" PRIu64 " damaged, %" PRIu64 " rendered with other settings\n",
-	       c->whole, job->n_frames, c->counts[CENSUS_MISSING], c->counts[CENSUS_DAMAGED], c->counts[CENSUS_OUTDATED]);
+	printf("frames %" PRIu64 " of %" PRIu64 " whole, %" PRIu64 " missing, %" PRIu64 " damaged, %" PRIu64
+	       " rendered with other settings\n",
+	       c->whole, job->n_frames, c->counts[CENSUS_MISSING], c->counts[CENSUS_DAMAGED],
+	       c->counts[CENSUS_OUTDATED]);
 	print_frames(c);
 	print_work(job, work);
 	print_rate(job, work, c->n_wanting);

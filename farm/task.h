@@ -1,4 +1,5 @@
-/* How a task of Slurm ended, by its log. job.sh writes a line there when a task begins and one when it ends (script.h). */
+/* How a task of Slurm ended, by its log. job.sh writes a line there when a task begins and one when it ends
+ * (script.h). */
 #pragma once
 
 #include "farm/job.h"

@@ -25,30 +25,34 @@ struct asked {
 };
 
 static const struct options_row rows[] = {
-	{ "output", 'o', "PATTERN", "file names, .exr: ####, %04d, $F4 or {frame} stand for the frame number", options_text,
-	  .at = offsetof(struct asked, output), .is_required = 1 },
-	{ "frames", 'f', "LIST", "frames to denoise (default: all that exist); the others help if they exist", options_frames,
-	  .at = offsetof(struct asked, frames) },
-	{ "reach", 0, "N", "use up to N frames before and after, if channels motion.* tie them together (default 3)", options_number,
-	  .at = offsetof(struct asked, reach), .most = MOST_REACH },
+	{ "output", 'o', "PATTERN", "file names, .exr: ####, %04d, $F4 or {frame} stand for the frame number",
+	  options_text, .at = offsetof(struct asked, output), .is_required = 1 },
+	{ "frames", 'f', "LIST", "frames to denoise (default: all that exist); the others help if they exist",
+	  options_frames, .at = offsetof(struct asked, frames) },
+	{ "reach", 0, "N", "use up to N frames before and after, if channels motion.* tie them together (default 3)",
+	  options_number, .at = offsetof(struct asked, reach), .most = MOST_REACH },
 	{ "no-time", 0, NULL, "denoise each frame alone", options_flag, .at = offsetof(struct asked, no_time) },
-	{ "oidn", 0, NULL, "denoise each frame alone, with Intel's Open Image Denoise 2, which must be installed", options_flag,
-	  .at = offsetof(struct asked, oidn) },
+	{ "oidn", 0, NULL, "denoise each frame alone, with Intel's Open Image Denoise 2, which must be installed",
+	  options_flag, .at = offsetof(struct asked, oidn) },
 };
 
 static const struct options_table table = {
 	.verb = "denoise",
 	.head = "usage: relume denoise [OPTIONS] FRAMES -o PATTERN\n"
-	        "\n"
-	        "Remove noise from rendered frames.\n"
-	        "\n"
-	        "FRAMES  made by 'relume render': a folder, or a pattern such as out/gears.####.exr, with channels reflect, refract,\n"
-	        "        albedo, N and Z; --aov motion adds those that tie frames together\n",
+		"\n"
+		"Remove noise from rendered frames.\n"
+		"\n"
+		"FRAMES  made by 'relume render': a folder, or a pattern such as out/gears.####.exr, with channels "
+	        "reflect, refract,\n"
+		"        albedo, N and Z; --aov motion adds those that tie frames together\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Channels of effects (shadow, relight, reflect, refract) are left out: they would not add up to the new beauty. The same\n"
-	         "frames give the same bytes, whichever are asked for at a time.\n"
-	         "Exit codes: 0 done, 2 wrong usage, 3 a frame cannot be read, 5 the system failed.\n",
-	.takes = "FRAMES and -o PATTERN", .least = 1, .most = 1,
+	.notes = "Channels of effects (shadow, relight, reflect, refract) are left out: they would not add up to the "
+	         "new beauty. The same\n"
+		 "frames give the same bytes, whichever are asked for at a time.\n"
+		 "Exit codes: 0 done, 2 wrong usage, 3 a frame cannot be read, 5 the system failed.\n",
+	.takes = "FRAMES and -o PATTERN",
+	.least = 1,
+	.most = 1,
 };
 
 /* A frame that is kept while others need it. */
@@ -112,7 +116,8 @@ static void forget(struct denoising *d, uint64_t first)
 }
 
 /* The frame's neighbours without a gap, itself at *middle. */
-static int gather(struct denoising *d, uint64_t frame, unsigned reach, const struct filter_frame **around, unsigned *n, unsigned *middle)
+static int gather(struct denoising *d, uint64_t frame, unsigned reach, const struct filter_frame **around, unsigned *n,
+                  unsigned *middle)
 {
 	const struct filter_frame *before[MOST_REACH];
 	unsigned n_before = 0;

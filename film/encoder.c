@@ -30,8 +30,11 @@ static const struct kind {
 	const char *ending;
 	const char *options[16];
 } kinds[] = {
-	{ ".webm", { "-f", "webm", "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used", "6", "-row-mt", "1", NULL } },
-	{ ".mp4", { "-f", "mp4", "-c:v", "libx264", "-crf", "17", "-preset", "medium", "-movflags", "+faststart", NULL } },
+	{ ".webm",
+	  { "-f", "webm", "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used", "6",
+	    "-row-mt", "1", NULL } },
+	{ ".mp4",
+	  { "-f", "mp4", "-c:v", "libx264", "-crf", "17", "-preset", "medium", "-movflags", "+faststart", NULL } },
 	{ ".mkv", { "-f", "matroska", "-c:v", "libx264", "-crf", "17", "-preset", "medium", NULL } },
 };
 #define N_KINDS (sizeof(kinds) / sizeof(kinds[0]))
@@ -83,9 +86,17 @@ static int start(struct encoder *e, uint32_t width, uint32_t height, unsigned fp
 	/* Pictures are sRGB; players assume BT.709: set its matrix and range. Odd sizes get one more row or column. */
 	static char filter[] = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
 	char size[32], rate[16];
-	char *argv[64] = { "ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size,
-		           "-r", rate, "-i", "pipe:0", "-vf", filter, "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc",
-		           "iec61966-2-1", "-color_range", "tv", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-an" };
+	char *argv[64] = { "ffmpeg",       "-hide_banner", "-nostdin",
+		           "-loglevel",    "error",        "-y",
+		           "-f",           "rawvideo",     "-pix_fmt",
+		           "rgb24",        "-s",           size,
+		           "-r",           rate,           "-i",
+		           "pipe:0",       "-vf",          filter,
+		           "-colorspace",  "bt709",        "-color_primaries",
+		           "bt709",        "-color_trc",   "iec61966-2-1",
+		           "-color_range", "tv",           "-fflags",
+		           "+bitexact",    "-flags:v",     "+bitexact",
+		           "-an" };
 	size_t n = 0;
 	int fds[2], err;
 
@@ -104,8 +115,10 @@ static int start(struct encoder *e, uint32_t width, uint32_t height, unsigned fp
 	if (!err)
 		return 0;
 	close(fds[1]);
-	return err == ENOENT ? err_report(ERR_SYSTEM, NULL, "ffmpeg, which makes films, is not installed; it is the Debian package ffmpeg")
-	                     : err_report(ERR_SYSTEM, "ffmpeg", "cannot start: %s", strerror(err));
+	return err == ENOENT ?
+	               err_report(ERR_SYSTEM, NULL,
+	                          "ffmpeg, which makes films, is not installed; it is the Debian package ffmpeg") :
+	               err_report(ERR_SYSTEM, "ffmpeg", "cannot start: %s", strerror(err));
 }
 
 int encoder_open(const char *path, uint32_t width, uint32_t height, unsigned fps, struct encoder **out)

@@ -31,35 +31,50 @@ struct asked {
 };
 
 static const struct options_row rows[] = {
-	{ "output", 'o', "FILM", "the film's file: .webm, .mp4 or .mkv; a poster appears beside it, as FILM with the ending .jpg", options_text,
-	  .at = offsetof(struct asked, output), .is_required = 1 },
-	{ "frames", 'f', "LIST", "frames to show (default: all that exist)", options_frames, .at = offsetof(struct asked, frames) },
-	{ "layout", 0, "WORD", "side: the program's picture beside the traced one (default); wipe: a line moves between the two; "
-	  "alternate: one after the other; traced or raster: one alone", options_word, .at = offsetof(struct asked, layout.kind), .words = layout_names },
-	{ "raster", 0, "REF", "the program's pictures: a trace (with NAME.ref beside it), a .ref file or images (default: the frames' channels gl.*)",
+	{ "output", 'o', "FILM",
+	  "the film's file: .webm, .mp4 or .mkv; a poster appears beside it, as FILM with the ending .jpg",
+	  options_text, .at = offsetof(struct asked, output), .is_required = 1 },
+	{ "frames", 'f', "LIST", "frames to show (default: all that exist)", options_frames,
+	  .at = offsetof(struct asked, frames) },
+	{ "layout", 0, "WORD",
+	  "side: the program's picture beside the traced one (default); wipe: a line moves between the two; "
+	  "alternate: one after the other; traced or raster: one alone",
+	  options_word, .at = offsetof(struct asked, layout.kind), .words = layout_names },
+	{ "raster", 0, "REF",
+	  "the program's pictures: a trace (with NAME.ref beside it), a .ref file or images (default: the frames' "
+	  "channels gl.*)",
 	  options_text, .at = offsetof(struct asked, raster) },
-	{ "fps", 0, "N", "show N frames a second (default: each as long as the program showed it, but at least for one of the 30 or 60 pictures that a second "
-	  "has, and at most 2 s; 30 a second where the frames do not tell)", options_number, .at = offsetof(struct asked, fps), .most = 240 },
-	{ "caption", 0, "TEXT", "a line below the pictures", options_text, .at = offsetof(struct asked, layout.caption) },
-	{ "no-labels", 0, NULL, "do not label the pictures", options_flag, .at = offsetof(struct asked, layout.no_labels) },
+	{ "fps", 0, "N",
+	  "show N frames a second (default: each as long as the program showed it, but at least for one of the 30 or "
+	  "60 pictures that a second "
+	  "has, and at most 2 s; 30 a second where the frames do not tell)",
+	  options_number, .at = offsetof(struct asked, fps), .most = 240 },
+	{ "caption", 0, "TEXT", "a line below the pictures", options_text,
+	  .at = offsetof(struct asked, layout.caption) },
+	{ "no-labels", 0, NULL, "do not label the pictures", options_flag,
+	  .at = offsetof(struct asked, layout.no_labels) },
 	{ "exposure", 0, "STOPS", "make the traced picture brighter by this many stops (default 0)", options_real,
 	  .at = offsetof(struct asked, display.exposure), .low = -30, .high = 30 },
-	{ "white", 0, "X", "the brightness that is shown as white, as for 'relume render' (default: as the frames' mode has it)", options_real,
-	  .at = offsetof(struct asked, display.white), .low = 1, .high = 10000 },
+	{ "white", 0, "X",
+	  "the brightness that is shown as white, as for 'relume render' (default: as the frames' mode has it)",
+	  options_real, .at = offsetof(struct asked, display.white), .low = 1, .high = 10000 },
 };
 
 static const struct options_table table = {
 	.verb = "film",
 	.head = "usage: relume film [OPTIONS] FRAMES -o FILM\n"
-	        "\n"
-	        "Make a film of rendered frames, beside the program's own pictures.\n"
-	        "\n"
-	        "FRAMES  made by 'relume render': a folder, or a pattern such as out/gears.####.exr. OpenEXR frames hold both\n"
-	        "        pictures; .png and .jpg need --raster\n",
+		"\n"
+		"Make a film of rendered frames, beside the program's own pictures.\n"
+		"\n"
+		"FRAMES  made by 'relume render': a folder, or a pattern such as out/gears.####.exr. OpenEXR frames "
+	        "hold both\n"
+		"        pictures; .png and .jpg need --raster\n",
 	OPTIONS_ROWS(rows),
 	.notes = "ffmpeg, which must be installed, encodes the film.\n"
-	         "Exit codes: 0 done, 2 wrong usage, 3 a frame cannot be read, 5 ffmpeg or the system failed.\n",
-	.takes = "FRAMES and -o FILM", .least = 1, .most = 1,
+		 "Exit codes: 0 done, 2 wrong usage, 3 a frame cannot be read, 5 ffmpeg or the system failed.\n",
+	.takes = "FRAMES and -o FILM",
+	.least = 1,
+	.most = 1,
 };
 
 /* The film so far. */
@@ -81,13 +96,14 @@ struct film {
 	int is_held;
 };
 
-/* --- Frames -------------------------------------------------------------------------------------------------------- */
+/* --- Frames ------------------------------------------------------------------------------------------------------ */
 
-static int fill(struct film *f, const struct display *display, const struct image *img, const char *layer, const char *where, uint8_t *rgb)
+static int fill(struct film *f, const struct display *display, const struct image *img, const char *layer,
+                const char *where, uint8_t *rgb)
 {
 	if (img->width != f->width || img->height != f->height)
-		return err_report(ERR_INPUT, where, "is %u x %u pixels, but the film started at %u x %u", img->width, img->height, f->width,
-		                  f->height);
+		return err_report(ERR_INPUT, where, "is %u x %u pixels, but the film started at %u x %u", img->width,
+		                  img->height, f->width, f->height);
 	if (*layer && !image_channel(img, "gl.R"))
 		return err_report(ERR_INPUT, where, "holds no channels gl.*; name the recording or its raster frames with --raster");
 	return display_codes(display, img, layer, rgb, NULL);
@@ -130,7 +146,8 @@ static int show(struct film *f)
 
 	for (uint64_t first = f->n_pictures; f->n_pictures < end && !err; f->n_pictures++) {
 		if (f->n_pictures == first || layout_moves(f->asked->layout.kind))
-			layout_draw(&f->asked->layout, f->raster_rgb, f->traced_rgb, f->width, f->height, (double)f->n_pictures / f->fps, &f->picture);
+			layout_draw(&f->asked->layout, f->raster_rgb, f->traced_rgb, f->width, f->height,
+			            (double)f->n_pictures / f->fps, &f->picture);
 		err = encoder_write(f->encoder, f->picture.rgb);
 	}
 	return err;
@@ -192,7 +209,7 @@ static int take_frame(struct film *f, const struct set_entry *entry)
 	return err;
 }
 
-/* --- The poster ---------------------------------------------------------------------------------------------------- */
+/* --- The poster -------------------------------------------------------------------------------------------------- */
 
 /* The film's picture of the held frame; both halves if they alternate. */
 static int write_poster(struct film *f)
@@ -209,7 +226,7 @@ static int write_poster(struct film *f)
 	return display_save(&f->picture, &(struct oiio_coding){ "jpg", .quality = POSTER_QUALITY }, path);
 }
 
-/* --- All together -------------------------------------------------------------------------------------------------- */
+/* --- All together ------------------------------------------------------------------------------------------------ */
 
 static uint64_t count_frames(const struct film *f)
 {
@@ -255,8 +272,11 @@ static int run(struct film *f)
 		fprintf(stderr, "%s: %" PRIu64 " frame%s, %.1f s, %u x %u\n", f->asked->output, total, plural(total),
 		        (double)f->n_pictures / f->fps, f->picture.width, f->picture.height);
 	if (!err && f->n_slowed)
-		fprintf(stderr, "  the program showed %" PRIu64 " of these frames in %.2g s, faster than films go: each is shown for one picture "
-		        "(--fps sets how many a second)\n", f->n_slowed, f->shown_s);
+		fprintf(stderr,
+		        "  the program showed %" PRIu64
+		        " of these frames in %.2g s, faster than films go: each is shown for one picture "
+		        "(--fps sets how many a second)\n",
+		        f->n_slowed, f->shown_s);
 	return err;
 }
 

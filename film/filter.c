@@ -23,7 +23,8 @@ static int allocate(struct filter_frame *f)
 	f->motion = calloc(n, sizeof(*f->motion));
 	f->is_there = calloc(n, 1);
 	f->is_inner = calloc(n, 1);
-	if (f->is_inner && f->light && f->gloss && f->variance && f->guess && f->albedo && f->normal && f->depth && f->motion && f->is_there)
+	if (f->is_inner && f->light && f->gloss && f->variance && f->guess && f->albedo && f->normal && f->depth &&
+	    f->motion && f->is_there)
 		return 0;
 	return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", f->width, f->height);
 }
@@ -76,7 +77,9 @@ static int find_planes(struct image *img, const char *where, struct planes *out)
 				                  name, FILTER_NEEDS);
 		}
 	out->depth = image_channel(img, "Z");
-	return out->depth ? 0 : err_report(ERR_INPUT, where, "has no channel Z; render it with all channels, or --aov %s", FILTER_NEEDS);
+	return out->depth ? 0 :
+	                    err_report(ERR_INPUT, where, "has no channel Z; render it with all channels, or --aov %s",
+	                               FILTER_NEEDS);
 }
 
 int filter_take(struct image *img, const char *where, struct filter_frame *f)
@@ -102,7 +105,8 @@ int filter_take(struct image *img, const char *where, struct filter_frame *f)
 		}
 		f->depth[i] = p.depth[i];
 		/* A surface in the viewer's own plane is not lit: it is a HUD, blended over another surface's light. */
-		f->is_there[i] = square > 0.25f && f->depth[i] > 0 && isfinite(f->depth[i]) && isfinite(filter_brightness(f->light[i]) + filter_brightness(f->gloss[i]));
+		f->is_there[i] = square > 0.25f && f->depth[i] > 0 && isfinite(f->depth[i]) &&
+		                 isfinite(filter_brightness(f->light[i]) + filter_brightness(f->gloss[i]));
 	}
 	return err;
 }

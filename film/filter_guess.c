@@ -19,7 +19,8 @@ static int by_size(const void *a, const void *b)
 }
 
 /* Add half the squared difference of two neighbours if they are on one surface. */
-static void add_pair(const struct filter_frame *f, const float (*plane)[3], size_t a, size_t b, float slope, float *pairs, size_t *n)
+static void add_pair(const struct filter_frame *f, const float (*plane)[3], size_t a, size_t b, float slope,
+                     float *pairs, size_t *n)
 {
 	if (*n < MOST_PAIRS && f->is_there[a] && filter_same_surface(f, a, b, slope, 1) > 0.5f)
 		pairs[(*n)++] = filter_distance2(plane[a], plane[b]) / 2;
@@ -51,7 +52,8 @@ static int is_inner(const struct filter_frame *f, uint32_t x, uint32_t y, float 
 
 	for (uint32_t v = y ? y - 1 : 0; v <= y + 1 && v < f->height; v++)
 		for (uint32_t u = x ? x - 1 : 0; u <= x + 1 && u < f->width; u++)
-			if (!(filter_same_surface(f, i, (size_t)v * f->width + u, slope, hypotf((float)u - (float)x, (float)v - (float)y)) > INNER_LEAST))
+			if (!(filter_same_surface(f, i, (size_t)v * f->width + u, slope,
+			                          hypotf((float)u - (float)x, (float)v - (float)y)) > INNER_LEAST))
 				return 0;
 	return 1;
 }

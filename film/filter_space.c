@@ -113,7 +113,8 @@ static void gloss_row(const void *user, uint32_t y)
 	const struct pass *p = user;
 
 	for (uint32_t x = 0; x < p->frame->width; x++)
-		p->next_variance[(size_t)y * p->frame->width + x] = filter_noise(p->frame, p->from, x, y) / (SIGMA_LIGHT * SIGMA_LIGHT);
+		p->next_variance[(size_t)y * p->frame->width + x] = filter_noise(p->frame, p->from, x, y) /
+		                                                    (SIGMA_LIGHT * SIGMA_LIGHT);
 }
 
 int filter_space(struct filter_frame *f)
@@ -122,6 +123,7 @@ int filter_space(struct filter_frame *f)
 
 	if (err)
 		return err;
-	rows_each(f->height, gloss_row, &(struct pass){ .frame = f, .from = (const float (*)[3])f->gloss, .next_variance = f->variance });
+	rows_each(f->height, gloss_row,
+	          &(struct pass){ .frame = f, .from = (const float(*)[3])f->gloss, .next_variance = f->variance });
 	return run_passes(f, GLOSS_PASSES, &f->gloss, &f->variance);
 }

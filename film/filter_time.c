@@ -77,7 +77,8 @@ struct mix {
 };
 
 /* Add the four pixels around a position in another frame, weighted by distance. @return 0: it is outside */
-static int mix_place(const struct filter_frame *here, size_t i, const struct filter_frame *there, const float at[2], struct mix *mix)
+static int mix_place(const struct filter_frame *here, size_t i, const struct filter_frame *there, const float at[2],
+                     struct mix *mix)
 {
 	const float x = at[0] - 0.5f, y = at[1] - 0.5f, left = floorf(x), top = floorf(y);
 	size_t inside;

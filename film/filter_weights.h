@@ -30,7 +30,8 @@ static inline float filter_same_surface(const struct filter_frame *f, size_t a, 
 		return 0;
 	for (int i = 0; i < 6; i++) /* to the 64th */
 		cosine *= cosine;
-	return cosine * expf(-fabsf(f->depth[a] - f->depth[b]) / (FILTER_SIGMA_DEPTH * slope * step + 1e-3f * fabsf(f->depth[a]) + 1e-6f));
+	return cosine * expf(-fabsf(f->depth[a] - f->depth[b]) /
+	                     (FILTER_SIGMA_DEPTH * slope * step + 1e-3f * fabsf(f->depth[a]) + 1e-6f));
 }
 
 /* Change of depth per pixel: on each axis the smaller of both sides, then the larger of the two axes. */
@@ -38,7 +39,8 @@ static inline float filter_slope(const struct filter_frame *f, uint32_t x, uint3
 {
 	const size_t i = (size_t)y * f->width + x;
 	const float z = f->depth[i], left = x ? fabsf(z - f->depth[i - 1]) : INFINITY;
-	const float right = x + 1 < f->width ? fabsf(z - f->depth[i + 1]) : INFINITY, above = y ? fabsf(z - f->depth[i - f->width]) : INFINITY;
+	const float right = x + 1 < f->width ? fabsf(z - f->depth[i + 1]) : INFINITY,
+		    above = y ? fabsf(z - f->depth[i - f->width]) : INFINITY;
 	const float below = y + 1 < f->height ? fabsf(z - f->depth[i + f->width]) : INFINITY;
 	const float most = fmaxf(fminf(left, right), fminf(above, below));
 

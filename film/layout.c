@@ -25,12 +25,14 @@ int layout_moves(enum layout_kind kind)
 }
 
 /* Copy columns first .. end - 1 of a picture to a column of the film. */
-static void put(const struct oiio_pixels *film, uint32_t at, const uint8_t *rgb, const uint32_t size[2], uint32_t first, uint32_t end)
+static void put(const struct oiio_pixels *film, uint32_t at, const uint8_t *rgb, const uint32_t size[2], uint32_t first,
+                uint32_t end)
 {
 	const uint32_t width = size[0];
 
 	for (uint32_t y = 0; y < size[1] && first < end; y++)
-		memcpy(film->rgb + 3 * ((size_t)y * film->width + at), rgb + 3 * ((size_t)y * width + first), 3 * (size_t)(end - first));
+		memcpy(film->rgb + 3 * ((size_t)y * film->width + at), rgb + 3 * ((size_t)y * width + first),
+		       3 * (size_t)(end - first));
 }
 
 static int letters_of(uint32_t height)
@@ -41,17 +43,20 @@ static int letters_of(uint32_t height)
 /* Draws nothing without a font. */
 static void write_text(const struct oiio_pixels *film, const char *text, uint32_t x, int letters)
 {
-	oiio_draw_text(film, &(struct oiio_label){ text, (int)x, (int)film->height - letters / 2, letters, { 230, 230, 230 } });
+	oiio_draw_text(film, &(struct oiio_label){
+				     text, (int)x, (int)film->height - letters / 2, letters, { 230, 230, 230 } });
 }
 
-void layout_size(const struct layout *layout, uint32_t width, uint32_t height, uint32_t *film_width, uint32_t *film_height)
+void layout_size(const struct layout *layout, uint32_t width, uint32_t height, uint32_t *film_width,
+                 uint32_t *film_height)
 {
 	*film_width = layout->kind == LAYOUT_SIDE ? 2 * width + GAP : width;
 	*film_height = height + (layout->caption || !layout->no_labels ? 2 * (uint32_t)letters_of(height) : 0);
 }
 
 /* The strip below the pictures. */
-static void write_strip(const struct layout *layout, uint32_t width, int odd, const struct oiio_pixels *film, int letters)
+static void write_strip(const struct layout *layout, uint32_t width, int odd, const struct oiio_pixels *film,
+                        int letters)
 {
 	static const char *const names[2] = { "OpenGL", "ray traced" };
 	const uint32_t left = (uint32_t)letters / 2, right = film->width - width + left;
@@ -80,8 +85,8 @@ static void draw_line(const struct oiio_pixels *film, uint32_t column, uint32_t 
 			memset(film->rgb + 3 * ((size_t)y * film->width + x), 255, 3);
 }
 
-void layout_draw(const struct layout *layout, const uint8_t *raster, const uint8_t *traced, uint32_t width, uint32_t height, double seconds,
-                 const struct oiio_pixels *film)
+void layout_draw(const struct layout *layout, const uint8_t *raster, const uint8_t *traced, uint32_t width,
+                 uint32_t height, double seconds, const struct oiio_pixels *film)
 {
 	const int odd = fmod(seconds, ALTERNATE_S) >= ALTERNATE_S / 2;
 	const uint32_t column = wipe_column(width, seconds), size[2] = { width, height };
@@ -98,7 +103,9 @@ void layout_draw(const struct layout *layout, const uint8_t *raster, const uint8
 		draw_line(film, column, height);
 		break;
 	default:
-		put(film, 0, layout->kind == LAYOUT_RASTER || (layout->kind == LAYOUT_ALTERNATE && !odd) ? raster : traced, size, 0, width);
+		put(film, 0,
+		    layout->kind == LAYOUT_RASTER || (layout->kind == LAYOUT_ALTERNATE && !odd) ? raster : traced, size,
+		    0, width);
 	}
 	write_strip(layout, width, odd, film, letters_of(height));
 }

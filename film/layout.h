@@ -21,7 +21,8 @@ int layout_wants_raster(enum layout_kind kind);
 int layout_wants_traced(enum layout_kind kind);
 
 /** The size of the film's pictures for frames of a given size. */
-void layout_size(const struct layout *layout, uint32_t width, uint32_t height, uint32_t *film_width, uint32_t *film_height);
+void layout_size(const struct layout *layout, uint32_t width, uint32_t height, uint32_t *film_width,
+                 uint32_t *film_height);
 
 /** 1 if the picture changes with time while one frame is shown. */
 int layout_moves(enum layout_kind kind);
@@ -32,5 +33,5 @@ int layout_moves(enum layout_kind kind);
  * @param seconds         since the start of the film: sets the position of a wipe, and which picture alternates
  * @param film            of layout_size
  */
-void layout_draw(const struct layout *layout, const uint8_t *raster, const uint8_t *traced, uint32_t width, uint32_t height, double seconds,
-                 const struct oiio_pixels *film);
+void layout_draw(const struct layout *layout, const uint8_t *raster, const uint8_t *traced, uint32_t width,
+                 uint32_t height, double seconds, const struct oiio_pixels *film);

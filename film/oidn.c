@@ -18,8 +18,8 @@ static struct {
 	void (*commit_device)(void *device);
 	int (*device_error)(void *device, const char **text);
 	void *(*new_filter)(void *device, const char *type);
-	void (*set_image)(void *filter, const char *name, void *values, int format, size_t width, size_t height, size_t offset, size_t pixel_stride,
-	                  size_t row_stride);
+	void (*set_image)(void *filter, const char *name, void *values, int format, size_t width, size_t height,
+	                  size_t offset, size_t pixel_stride, size_t row_stride);
 	void (*set_bool)(void *filter, const char *name, _Bool value);
 	void (*commit_filter)(void *filter);
 	void (*execute_filter)(void *filter);
@@ -57,7 +57,10 @@ int oidn_open(void)
 		return 0;
 	library = dlopen("libOpenImageDenoise.so.2", RTLD_NOW | RTLD_LOCAL);
 	if (!library)
-		return err_report(ERR_SYSTEM, NULL, "--oidn: Intel's Open Image Denoise 2 is not installed (%s); --denoise does not need it", dlerror());
+		return err_report(
+			ERR_SYSTEM, NULL,
+			"--oidn: Intel's Open Image Denoise 2 is not installed (%s); --denoise does not need it",
+			dlerror());
 	for (size_t i = 0; i < sizeof(symbols) / sizeof(symbols[0]); i++) {
 		*symbols[i].to = dlsym(library, symbols[i].name);
 		if (!*symbols[i].to)
@@ -83,14 +86,17 @@ static int interleave(struct image *img, const char *where, const char *name, fl
 		strncat(channel, name + length + c, 1);
 		plane = image_channel(img, channel);
 		if (!plane)
-			return err_report(ERR_INPUT, where, "has no channel %s; render it with all channels, or --aov %s", channel, FILTER_NEEDS);
+			return err_report(ERR_INPUT, where,
+			                  "has no channel %s; render it with all channels, or --aov %s", channel,
+			                  FILTER_NEEDS);
 		for (size_t i = 0; i < n; i++)
 			out[i][c] = plane[i];
 	}
 	return 0;
 }
 
-static int execute(const struct image *img, const char *where, float (*color)[3], float (*albedo)[3], float (*normal)[3])
+static int execute(const struct image *img, const char *where, float (*color)[3], float (*albedo)[3],
+                   float (*normal)[3])
 {
 	const struct {
 		const char *name;

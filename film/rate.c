@@ -32,7 +32,8 @@ int rate_choose(struct set *frames, const struct frame_list *wanted, unsigned *f
 		const size_t i = k * (n - 1) / LOOKS;
 		uint64_t begins = 0, ends = 0;
 
-		if (i == last || !frame_list_contains(wanted, frames->entries[i].frame) || !frame_list_contains(wanted, frames->entries[i + 1].frame))
+		if (i == last || !frame_list_contains(wanted, frames->entries[i].frame) ||
+		    !frame_list_contains(wanted, frames->entries[i + 1].frame))
 			continue;
 		last = i;
 		err = read_time(frames, i, &begins);

@@ -1,6 +1,6 @@
 /*
- * Round holes in a grid, in whatever rules say `cut: 1` about (hooks/cutout.look.yaml). What is a hole for the camera is one for mirrors and
- * for light, too. The grid lies in the object's own space and moves with it.
+ * Round holes in a grid, in whatever rules say `cut: 1` about (hooks/cutout.look.yaml). What is a hole for the camera
+ * is one for mirrors and for light, too. The grid lies in the object's own space and moves with it.
  */
 #pragma relume parameter int cut = 0
 #pragma relume parameter float spacing = 0.5

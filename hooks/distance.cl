@@ -1,7 +1,7 @@
 /*
- * A shape told by its distance alone, in place of what rules say `shape: 1` about (hooks/distance.look.yaml): the frame of a box with a
- * ball that melts into it, fitted into the box of the mesh that was drawn. The ray steps as far as the distance says that nothing is
- * (J. C. Hart, "Sphere tracing", The Visual Computer 12, 1996).
+ * A shape told by its distance alone, in place of what rules say `shape: 1` about (hooks/distance.look.yaml): the frame
+ * of a box with a ball that melts into it, fitted into the box of the mesh that was drawn. The ray steps as far as the
+ * distance says that nothing is (J. C. Hart, "Sphere tracing", The Visual Computer 12, 1996).
  */
 #pragma relume parameter int shape = 0
 #pragma relume parameter float thickness = 0.12
@@ -47,9 +47,13 @@ struct relume_request intersection(struct relume_crossing crossing, struct relum
 		step = distance_at(p, parameters);
 		/* Rays that start on the surface leave it: only what comes nearer is a hit. */
 		if (step < 2e-4f) {
-			normal = (float4)(distance_at(p + (float4)(e, 0.0f, 0.0f, 0.0f), parameters) - distance_at(p - (float4)(e, 0.0f, 0.0f, 0.0f), parameters),
-			                  distance_at(p + (float4)(0.0f, e, 0.0f, 0.0f), parameters) - distance_at(p - (float4)(0.0f, e, 0.0f, 0.0f), parameters),
-			                  distance_at(p + (float4)(0.0f, 0.0f, e, 0.0f), parameters) - distance_at(p - (float4)(0.0f, 0.0f, e, 0.0f), parameters), 0.0f);
+			normal = (float4)(distance_at(p + (float4)(e, 0.0f, 0.0f, 0.0f), parameters) -
+			                          distance_at(p - (float4)(e, 0.0f, 0.0f, 0.0f), parameters),
+			                  distance_at(p + (float4)(0.0f, e, 0.0f, 0.0f), parameters) -
+			                          distance_at(p - (float4)(0.0f, e, 0.0f, 0.0f), parameters),
+			                  distance_at(p + (float4)(0.0f, 0.0f, e, 0.0f), parameters) -
+			                          distance_at(p - (float4)(0.0f, 0.0f, e, 0.0f), parameters),
+			                  0.0f);
 			if (dot(normal, d) < 0.0f)
 				return relume_surface(t, normal / radius);
 		}

@@ -1,10 +1,12 @@
-/* A fisheye camera: angles from the middle of the view grow evenly towards the border of a disk, and beyond it nothing is seen. */
+/* A fisheye camera: angles from the middle of the view grow evenly towards the border of a disk, and beyond it nothing
+ * is seen. */
 #pragma relume parameter float degrees = 180
 
 struct relume_ray ray_generation(struct relume_pixel pixel, struct relume_parameters parameters)
 {
 	const float radius = 0.5f * min(pixel.width, pixel.height);
-	const float x = (pixel.x - 0.5f * pixel.width) / radius, y = (0.5f * pixel.height - pixel.y) / radius, r = sqrt(x * x + y * y);
+	const float x = (pixel.x - 0.5f * pixel.width) / radius, y = (0.5f * pixel.height - pixel.y) / radius,
+		    r = sqrt(x * x + y * y);
 	const float angle = r * 0.5f * parameters.degrees * 0.017453293f;
 	struct relume_ray ray;
 

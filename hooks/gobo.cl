@@ -1,6 +1,7 @@
 /*
- * A gobo: bars stand in the way of each light as those of a window, and its panes tint it. The bars of a lamp are `panes` to its distance, across a
- * spot's axis or straight below; those before light at infinity are `size` / `panes` apart.
+ * A gobo: bars stand in the way of each light as those of a window, and its panes tint it. The bars of a lamp are
+ * `panes` to its distance, across a spot's axis or straight below; those before light at infinity are `size` / `panes`
+ * apart.
  */
 #pragma relume parameter float panes = 2
 #pragma relume parameter float bar = 0.12
@@ -9,9 +10,14 @@
 
 struct relume_request light(struct relume_beam beam, struct relume_parameters parameters)
 {
-	const float4 axis = dot(beam.axis, beam.axis) > 0.0f ? beam.axis : isinf(beam.distance) ? -beam.direction : (float4)(0.0f, -1.0f, 0.0f, 0.0f);
-	const float4 across = normalize(cross(axis, fabs(axis.y) < 0.9f ? (float4)(0.0f, 1.0f, 0.0f, 0.0f) : (float4)(0.0f, 0.0f, 1.0f, 0.0f)));
-	const float4 up = cross(across, axis), from = isinf(beam.distance) ? beam.position : -beam.direction / max(dot(-beam.direction, axis), 1e-3f);
+	const float4 axis = dot(beam.axis, beam.axis) > 0.0f ? beam.axis :
+	                    isinf(beam.distance)             ? -beam.direction :
+	                                                       (float4)(0.0f, -1.0f, 0.0f, 0.0f);
+	const float4 across = normalize(
+		cross(axis, fabs(axis.y) < 0.9f ? (float4)(0.0f, 1.0f, 0.0f, 0.0f) : (float4)(0.0f, 0.0f, 1.0f, 0.0f)));
+	const float4 up = cross(across, axis), from = isinf(beam.distance) ?
+	                                                      beam.position :
+	                                                      -beam.direction / max(dot(-beam.direction, axis), 1e-3f);
 	const float scale = parameters.panes * (isinf(beam.distance) ? 1.0f / parameters.size : 1.0f);
 	const float x = dot(from, across) * scale, y = dot(from, up) * scale;
 	const float edge = min(fabs(x - rint(x)), fabs(y - rint(y)));

@@ -1,10 +1,12 @@
-/* A camera with a thin lens: what lies `focus` in front of the viewer is sharp, all else is not. Give it samples (--samples 64). */
+/* A camera with a thin lens: what lies `focus` in front of the viewer is sharp, all else is not. Give it samples
+ * (--samples 64). */
 #pragma relume parameter float focus = 10
 #pragma relume parameter float radius = 0.1
 
 struct relume_ray ray_generation(struct relume_pixel pixel, struct relume_parameters parameters)
 {
-	const float4 sharp = pixel.ray.origin + pixel.ray.direction * ((parameters.focus + pixel.ray.origin.z) / -pixel.ray.direction.z);
+	const float4 sharp = pixel.ray.origin +
+	                     pixel.ray.direction * ((parameters.focus + pixel.ray.origin.z) / -pixel.ray.direction.z);
 	const float angle = 6.2831853f * pixel.v, away = parameters.radius * sqrt(pixel.u);
 	struct relume_ray ray;
 

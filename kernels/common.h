@@ -1,6 +1,6 @@
 /*
- * Shading is written in the common subset of C11 and OpenCL C 1.2. This header gives it names for mathematics, and small vectors. Text
- * that includes only this and shared.h compiles as kernel and as C twin.
+ * Shading is written in the common subset of C11 and OpenCL C 1.2. This header gives it names for mathematics, and
+ * small vectors. Text that includes only this and shared.h compiles as kernel and as C twin.
  *
  * Both sides compile without contraction (-ffp-contract=off; the pragma below): the twin is the kernel's specification.
  */

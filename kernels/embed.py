@@ -2,9 +2,9 @@
 
 usage: embed.py OUT.c OUT.d INCLUDE_DIR... -- FILE.cl...
 
-The first #include "..." of a file is replaced by its text (searched beside the including file, then in the given folders),
-and line numbers of compiler messages are kept by #line. OUT.c defines kernel_files and kernel_places (kernels/embed.h).
-OUT.d is the list of files read, for make. Same input, same bytes.
+The first #include "..." of a file is replaced by its text (searched beside the including file, then in the given
+folders), and line numbers of compiler messages are kept by #line. OUT.c defines kernel_files and kernel_places
+(kernels/embed.h). OUT.d is the list of files read, for make. Same input, same bytes.
 """
 import os
 import re
@@ -45,8 +45,10 @@ def main():
     split = sys.argv.index("--")
     folders, files = sys.argv[3:split], sorted(sys.argv[split + 1:])
     read, places = set(), []
-    text = ["/* Made by kernels/embed.py from %s. */" % (" ".join(files) or "no files"), '#include "kernels/embed.h"', "",
-            "const struct kernel_file kernel_files[] = {"]
+    text = [
+        "/* Made by kernels/embed.py from %s. */" % (" ".join(files) or "no files"), '#include "kernels/embed.h"', "",
+        "const struct kernel_file kernel_files[] = {"
+    ]
     for index, path in enumerate(files):
         seen = []
         lines = expand(path, folders, seen)

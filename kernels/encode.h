@@ -1,14 +1,14 @@
 /*
- * sRGB's transfer function (IEC 61966-2-1) both ways: GL's numbers are display-referred, light is not. By nothing but what is the same on
- * every device.
+ * sRGB's transfer function (IEC 61966-2-1) both ways: GL's numbers are display-referred, light is not. By nothing but
+ * what is the same on every device.
  */
 #pragma once
 
 #include "kernels/common.h"
 
 /*
- * x^exponent for 1e-30 < x < 1e15 and exponents up to 2.4, to 5e-7 of itself: log2 of the mantissa by its series in (m - 1) / (m + 1),
- * times the exponent, and 2 to that by its own series.
+ * x^exponent for 1e-30 < x < 1e15 and exponents up to 2.4, to 5e-7 of itself: log2 of the mantissa by its series in (m
+ * - 1) / (m + 1), times the exponent, and 2 to that by its own series.
  */
 static inline float encode_power(float x, float exponent)
 {

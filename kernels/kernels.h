@@ -1,13 +1,13 @@
 /*
- * Every kernel and its arguments, listed once. From a list come the kernel's signature in OpenCL C (KERNEL_ARGUMENTS), the fields
- * that its C twin reads (struct LIST_arguments, here) and those that the host sets (struct LIST_launch, tracer/device/launch.h).
- * A kernel's own header says what it computes.
+ * Every kernel and its arguments, listed once. From a list come the kernel's signature in OpenCL C (KERNEL_ARGUMENTS),
+ * the fields that its C twin reads (struct LIST_arguments, here) and those that the host sets (struct LIST_launch,
+ * tracer/device/launch.h). A kernel's own header says what it computes.
  */
 #pragma once
 
 #include "kernels/shared.h"
 
-/* --- Elements: what buffers hold ------------------------------------------------------------------------------------ */
+/* --- Elements: what buffers hold --------------------------------------------------------------------------------- */
 
 /* X(word): struct word. */
 #define KERNEL_STRUCTS(X) \
@@ -27,7 +27,7 @@ typedef uint32_t element_uint;
 typedef uint16_t element_half;
 typedef float element_float;
 
-/* --- Arguments ------------------------------------------------------------------------------------------------------ */
+/* --- Arguments --------------------------------------------------------------------------------------------------- */
 
 /*
  * ARGUMENTS_LIST(IN, OUT, VALUE, GROUP, AND), in the kernel's order:
@@ -68,7 +68,8 @@ typedef float element_float;
 	IN(uint, instance_list) AND() IN(node, nodes) AND() IN(triangle, triangles)
 #define ARGUMENTS_camera_packet(IN, OUT, VALUE, GROUP, AND) ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node8, face8)
 #define ARGUMENTS_camera_wide(IN, OUT, VALUE, GROUP, AND) ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node2, triangle)
-#define ARGUMENTS_camera_compressed(IN, OUT, VALUE, GROUP, AND) ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node8c, triangle)
+#define ARGUMENTS_camera_compressed(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node8c, triangle)
 
 /* Other rays: kernels/rays/rays.h. _packet and _wide share trees. */
 #define ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
@@ -155,7 +156,8 @@ typedef float element_float;
 	IN(uint, first) AND() IN(uint, counts) AND() VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() \
 	VALUE(uint, bits) AND() VALUE(uint, n) AND() \
 	IN(frame_pixel, cleared) AND()      /* one. This and the next: resolve_packet alone, any buffers otherwise */ \
-	OUT(uint, drawn) AND()              /* per row of FRAME_ROW pixels: 0 where they are still to be cleared; read as well */ \
+	/* per row of FRAME_ROW pixels: 0 where they are still to be cleared; read as well */ \
+	OUT(uint, drawn) AND() \
 	OUT(frame_pixel, frame)             /* read as well */
 #define ARGUMENTS_merge_samples(IN, OUT, VALUE, GROUP, AND) \
 	IN(frame_pixel, first) AND() IN(frame_pixel, second) AND() IN(frame_pixel, third) AND() \
@@ -170,7 +172,8 @@ typedef float element_float;
 	OUT(float, sums)                    /* [PASS_PARTS]; read as well */
 #define ARGUMENTS_compose(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(window_vertex, windows) AND() IN(frame_pixel, frame) AND() \
-	IN(frame_pixel, cleared) AND() IN(uint, drawn) AND() /* as resolve left them; compose_packet alone, any buffers otherwise */ \
+	/* as resolve left them; compose_packet alone, any buffers otherwise */ \
+	IN(frame_pixel, cleared) AND() IN(uint, drawn) AND() \
 	IN(float, sums) AND() VALUE(uint, first_pixel) AND()      /* as in add_pass */ \
 	VALUE(compose_request, request) AND() \
 	VALUE(uint, n) AND()                /* pixels */ \
@@ -180,15 +183,21 @@ typedef float element_float;
 #define ARGUMENTS_layers(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, counts) AND()              /* where plain_look_first says */ \
 	VALUE(uint, n_looks) AND() \
-	VALUE(uint, columns) AND() VALUE(uint, asking) AND() /* a bit for each look at columns, and whose fragments send rays */ \
+	/* a bit for each look at columns, and whose fragments send rays */ \
+	VALUE(uint, columns) AND() VALUE(uint, asking) AND() \
 	VALUE(uint, round) AND()            /* PLAIN_BEGINS and the like */ \
 	IN(layer_clear, clears) AND() VALUE(uint, n_clears) AND() /* in order; of this round */ \
-	IN(float, before) AND() OUT(float, after) AND() /* [PLAIN_KEPT] a pixel, row by row of blocks: as the last round left it; for the next */ \
+	/* [PLAIN_KEPT] a pixel, row by row of blocks: as the last round left it; for the next */ \
+	IN(float, before) AND() OUT(float, after) AND() \
 	OUT(uint, unknown) AND()            /* as of layered_picture, from the round that ends */ \
-	VALUE(uint, mirrors) AND()          /* 1: light leaves fragments that mirror or let it through. 0: the rest are any buffers */ \
-	OUT(uint, leaving) AND()            /* [n / PLAIN_WIDTH]: a bit for each such fragment that shows; from layered, read by the others */ \
-	IN(uint, list_first) AND()          /* [n / PLAIN_WIDTH]: where these stand in the next three; layered_shadow, layered_mirror */ \
-	OUT(fragment, list) AND() OUT(uint, list_pixels) AND() OUT(shaded, list_shaded) /* from layered_shadow, for the kernels of paths */
+	/* 1: light leaves fragments that mirror or let it through. 0: the rest are any buffers */ \
+	VALUE(uint, mirrors) AND() \
+	/* [n / PLAIN_WIDTH]: a bit for each such fragment that shows; from layered, read by the others */ \
+	OUT(uint, leaving) AND() \
+	/* [n / PLAIN_WIDTH]: where these stand in the next three; layered_shadow, layered_mirror */ \
+	IN(uint, list_first) AND() \
+	/* from layered_shadow, for the kernels of paths */ \
+	OUT(fragment, list) AND() OUT(uint, list_pixels) AND() OUT(shaded, list_shaded)
 
 /* Plain frames: kernels/frame/plain.h. */
 #define ARGUMENTS_plain(IN, OUT, VALUE, GROUP, AND) \
@@ -202,9 +211,11 @@ typedef float element_float;
 	VALUE(compose_request, request) AND() /* request.height: rows of the band */ \
 	IN(float, visibility) AND()         /* [slot][n][3]; plain: any buffer */ \
 	VALUE(uint, n_slots) AND()          /* of lights that are asked; 0: none. plain_program before plain: 0 */ \
-	IN(uint, blocks) AND()              /* per block: which place it has; SCENE_NONE: none, it has no fragments. GPUs: any buffer, its number is its place */ \
+	/* per block: which place it has; SCENE_NONE: none, it has no fragments. GPUs: any buffer, its number is its place */ \
+	IN(uint, blocks) AND() \
 	VALUE(uint, n) AND()                /* places of rays a slot: the pixels of blocks that have one */ \
-	OUT(fragment, fragments) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() /* [n]: of what is shaded one by one or by programs; read as well */ \
+	/* [n]: of what is shaded one by one or by programs; read as well */ \
+	OUT(fragment, fragments) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() \
 	OUT(ray, rays) AND()                /* [slot][n] */ \
 	OUT(uint, programs) AND()           /* plain_program alone; read as well */ \
 	VALUE(scene_dome, dome) AND()       /* reach 0: there is none. The next four: any buffers then */ \
@@ -212,7 +223,8 @@ typedef float element_float;
 	OUT(dome_place, places) AND()       /* [n]; read as well */ \
 	OUT(ray, looks) AND()               /* [sample][n] */ \
 	IN(float, factors) AND()            /* as dome_light leaves them: plain_shadow alone */ \
-	GROUP(layers, layers) AND()         /* layered, layered_shadow and layered_mirror alone, which do without rectangle */ \
+	/* layered, layered_shadow and layered_mirror alone, which do without rectangle */ \
+	GROUP(layers, layers) AND() \
 	OUT(half, halves) AND() OUT(float, floats)
 
 /* A picture from before as a round of looks takes it over. */
@@ -223,22 +235,27 @@ typedef float element_float;
 
 /* What the last round has left, as GL's frame buffer has it. */
 #define ARGUMENTS_layered_picture(IN, OUT, VALUE, GROUP, AND) \
-	IN(float, kept) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() /* as in layered_start */ \
-	OUT(uint, colors) AND() OUT(uint, depths) AND() /* per pixel: red from the lowest byte on; in the buffer's steps, of which 24 bits count */ \
+	/* as in layered_start */ \
+	IN(float, kept) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() \
+	/* per pixel: red from the lowest byte on; in the buffer's steps, of which 24 bits count */ \
+	OUT(uint, colors) AND() OUT(uint, depths) AND() \
 	OUT(uint, unknown)                  /* [PLAIN_WIDTH pixels of a row]: a bit for each whose colour is not known */
 
 /* Plain frames without rays: the camera's and their planes. */
 #define ARGUMENTS_plain_whole(IN, OUT, VALUE, GROUP, AND) \
-	ARGUMENTS_camera_packet(IN, OUT, VALUE, GROUP, AND) AND() /* fragments and counts: the twin alone leaves them; as of a band of request.height rows */ \
+	/* fragments and counts: the twin alone leaves them; as of a band of request.height rows */ \
+	ARGUMENTS_camera_packet(IN, OUT, VALUE, GROUP, AND) AND() \
 	GROUP(tables, tables) AND() VALUE(uint, bits) AND() \
 	IN(frame_pixel, cleared) AND() VALUE(compose_request, request) AND() /* as in plain */ \
-	OUT(fragment, alone) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() /* [pixels of the band]: of what is shaded one by one; read as well */ \
+	/* [pixels of the band]: of what is shaded one by one; read as well */ \
+	OUT(fragment, alone) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() \
 	OUT(half, halves) AND() OUT(float, floats)
 
 /* Rays to lights and into the surroundings: kernels/frame/shadow.h. */
 #define ARGUMENTS_shadow_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(uint, sample) AND() \
+	VALUE(uint, frame) AND() \
 	VALUE(uint, n) AND()                /* fragments */ \
 	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
 	OUT(ray, rays)
@@ -285,7 +302,8 @@ typedef float element_float;
 	OUT(dome_place, places) AND() \
 	OUT(ray, rays)                      /* [sample][n] */
 #define ARGUMENTS_dome_sum(IN, OUT, VALUE, GROUP, AND) \
-	IN(dome_place, places) AND() IN(ray, rays) AND() IN(float, visibility) AND() VALUE(scene_dome, dome) AND() VALUE(uint, samples) AND() \
+	IN(dome_place, places) AND() IN(ray, rays) AND() IN(float, visibility) AND() VALUE(scene_dome, dome) AND() \
+	VALUE(uint, samples) AND() \
 	VALUE(uint, is_first) AND()         /* 1: there are no sums yet */ \
 	VALUE(uint, n) AND() \
 	OUT(float, sums)                    /* [4] a fragment: light r g b, and how many rays; read as well */
@@ -296,7 +314,8 @@ typedef float element_float;
 	VALUE(uint, width) AND() \
 	VALUE(uint, first_pixel) AND()      /* the number of the band's first pixel */ \
 	VALUE(scene_dome, dome) AND() \
-	VALUE(uint, in_blocks) AND()        /* 1: fragments are a plain frame's; pixels, first, counts and shaded are any buffers; 0: blocks and factors are */ \
+	/* 1: fragments are a plain frame's; pixels, first, counts and shaded are any buffers; 0: blocks and factors are */ \
+	VALUE(uint, in_blocks) AND() \
 	IN(uint, blocks) AND()              /* as in plain */ \
 	VALUE(uint, n) AND() \
 	OUT(shaded, shaded) AND()           /* read as well */ \
@@ -309,7 +328,8 @@ typedef float element_float;
 	VALUE(float, emitted)               /* sum of their areas times emitter_strength */
 #define ARGUMENTS_leave_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() GROUP(emission, emission) AND() VALUE(uint, sample) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() GROUP(emission, emission) AND() \
+	VALUE(uint, sample) AND() \
 	VALUE(uint, frame) AND() VALUE(uint, n) AND() OUT(ray, rays)
 #define ARGUMENTS_bounce_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() \
@@ -321,7 +341,8 @@ typedef float element_float;
 /* Paths: kernels/frame/path.h. */
 #define ARGUMENTS_leave(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() VALUE(uint, width) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() GROUP(emission, emission) AND() IN(float, visibility) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() \
+	VALUE(uint, frame) AND() GROUP(emission, emission) AND() IN(float, visibility) AND() \
 	VALUE(uint, n) AND() \
 	OUT(shaded, shaded) AND()           /* read as well */ \
 	OUT(ray, next_rays) AND()           /* PATHS_PER_FRAGMENT each */ \
@@ -340,7 +361,8 @@ typedef float element_float;
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(hit, sky) AND() \
 	VALUE(uint, has_sky) AND()          /* 0: sky is any buffer */ \
 	IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() IN(float, visibility) AND() \
-	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() GROUP(emission, emission) AND() \
+	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
+	GROUP(emission, emission) AND() \
 	VALUE(uint, depth) AND()            /* bounces at most */ \
 	VALUE(float, most) AND()            /* light that a path may bring (hit_bound); 0: no bound */ \
 	IN(float, background) AND()         /* [4] */ \
@@ -372,9 +394,11 @@ typedef float element_float;
 	VALUE(uint, sample) AND() VALUE(uint, frame_number) AND() \
 	IN(float, parameters) AND() VALUE(uint, row) AND() /* where the frame's own parameters start */ \
 	VALUE(uint, n) AND() \
-	OUT(uint, pixels) AND() OUT(shaded, shaded) AND() OUT(ray, next_rays) AND() OUT(path, next_paths) AND() OUT(uint, counts)
+	OUT(uint, pixels) AND() OUT(shaded, shaded) AND() OUT(ray, next_rays) AND() OUT(path, next_paths) AND() \
+	OUT(uint, counts)
 #define ARGUMENTS_hook_see(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(path, paths) AND() IN(uint, pixels) AND() VALUE(uint, first_pixel) AND() \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(path, paths) AND() IN(uint, pixels) AND() \
+	VALUE(uint, first_pixel) AND() \
 	VALUE(uint, n) AND() \
 	OUT(frame_pixel, frame)             /* read as well */
 #define ARGUMENTS_hook_store(IN, OUT, VALUE, GROUP, AND) \
@@ -382,23 +406,27 @@ typedef float element_float;
 	OUT(frame_pixel, frame)             /* read as well */
 #define ARGUMENTS_hook_shade(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(float, visibility) AND() VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(float, visibility) AND() VALUE(uint, n_slots) AND() \
+	VALUE(uint, transport) AND() \
 	IN(float, parameters) AND() VALUE(uint, words) AND() /* a row for each material */ \
 	GROUP(hook_trees, trees) AND() VALUE(uint, n) AND() \
 	OUT(shaded, shaded) AND()           /* read as well */ \
 	OUT(hook_answer, answers)
 #define ARGUMENTS_hook_ways(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(hook_answer, answers) AND() VALUE(uint, transport) AND() VALUE(uint, n) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(hook_answer, answers) AND() VALUE(uint, transport) AND() \
+	VALUE(uint, n) AND() \
 	OUT(shaded, shaded) AND() OUT(ray, next_rays) AND() OUT(path, next_paths) AND() OUT(uint, counts)
 #define ARGUMENTS_hook_hit(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() IN(float, visibility) AND() \
 	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, depth) AND() \
-	IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, row) AND() GROUP(hook_trees, trees) AND() VALUE(uint, n) AND() \
+	IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, row) AND() GROUP(hook_trees, trees) AND() \
+	VALUE(uint, n) AND() \
 	OUT(float, radiance) AND()          /* [3] a path; read as well */ \
 	OUT(ray, next_rays) AND() OUT(path, next_paths) AND() OUT(uint, counts)
 #define ARGUMENTS_hook_walk(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() VALUE(uint, transport) AND() \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() \
+	VALUE(uint, transport) AND() \
 	IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, n) AND() \
 	OUT(ray, next_rays) AND() OUT(path, next_paths) AND() OUT(uint, counts)
 #define ARGUMENTS_hook_light(IN, OUT, VALUE, GROUP, AND) \
@@ -409,13 +437,15 @@ typedef float element_float;
 	OUT(float, visibility)              /* read as well */
 #define ARGUMENTS_hook_light_hit(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, path_rays) AND() IN(ray, rays) AND() \
-	VALUE(uint, transport) AND() IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, n) AND() VALUE(uint, n_rays) AND() \
+	VALUE(uint, transport) AND() IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, n) AND() \
+	VALUE(uint, n_rays) AND() \
 	OUT(float, visibility)              /* read as well */
 #define ARGUMENTS_hook_bounds(IN, OUT, VALUE, GROUP, AND) \
 	IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, n) AND() \
 	OUT(hook_object, objects)           /* read as well */
 #define ARGUMENTS_hook_intersect(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() IN(view, views) AND() IN(hook_object, objects) AND() VALUE(uint, n_objects) AND() IN(ray, rays) AND() \
+	GROUP(tables, tables) AND() IN(view, views) AND() IN(hook_object, objects) AND() VALUE(uint, n_objects) AND() \
+	IN(ray, rays) AND() \
 	IN(float, parameters) AND() VALUE(uint, words) AND() \
 	VALUE(uint, alone) AND()            /* 1: there are no triangles, and no hits yet */ \
 	VALUE(uint, first_slot) AND()       /* where the triangles begin that stand for what these rays hit */ \
@@ -425,7 +455,8 @@ typedef float element_float;
 	OUT(float, made_coords) AND()       /* tables.texcoords */ \
 	OUT(window_vertex, windows)
 #define ARGUMENTS_hook_occlude(IN, OUT, VALUE, GROUP, AND) \
-	IN(hook_object, objects) AND() VALUE(uint, n_objects) AND() IN(ray, rays) AND() IN(float, parameters) AND() VALUE(uint, words) AND() \
+	IN(hook_object, objects) AND() VALUE(uint, n_objects) AND() IN(ray, rays) AND() IN(float, parameters) AND() \
+	VALUE(uint, words) AND() \
 	VALUE(uint, alone) AND() VALUE(uint, n) AND() \
 	OUT(uint, occluded)                 /* read as well */
 
@@ -439,10 +470,14 @@ typedef float element_float;
 #define KERNEL_GROUPS(X) X(tables) X(layers) X(camera_pass) X(emission) X(hook_trees)
 #define KERNEL_LISTS(X) \
 	X(camera_packet) X(camera_wide) X(camera_compressed) X(occlude_wide) X(occlude_binary) X(occlude_compressed) \
-	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) X(query_sphere) \
+	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) \
+	X(query_sphere) \
 	X(vertex) X(vertex_program) X(window) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
-	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
-	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(layered_start) X(layered_picture) X(plain_whole) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
+	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) \
+	X(want_lights) \
+	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) \
+	X(plain) X(layered_start) X(layered_picture) X(plain_whole) X(clear) X(resolve) X(merge_samples) X(add_pass) \
+	X(compose) \
 	HOOK_LISTS(X)
 
 /* Kernels for hooks. Each has a kernel of its name; KERNEL_ITEMS is its body. */
@@ -450,7 +485,7 @@ typedef float element_float;
 	X(hook_ray) X(hook_see) X(hook_store) X(hook_shade) X(hook_ways) X(hook_hit) X(hook_walk) X(hook_light) \
 	X(hook_light_hit) X(hook_bounds) X(hook_intersect) X(hook_occlude)
 
-/* --- Structs and signatures ----------------------------------------------------------------------------------------- */
+/* --- Structs and signatures -------------------------------------------------------------------------------------- */
 
 #define KERNEL_FIELD_IN(element, name) GLOBAL const element_##element *name;
 #define KERNEL_FIELD_OUT(element, name) GLOBAL element_##element *name;
@@ -473,14 +508,17 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 #define KERNEL_PARAMETER_OUT(element, name) __global element_##element *name
 #define KERNEL_PARAMETER_VALUE(element, name) element_##element name
 #define KERNEL_PARAMETER_GROUP(list, name) \
-	ARGUMENTS_##list(KERNEL_PARAMETER_IN, KERNEL_PARAMETER_OUT, KERNEL_PARAMETER_VALUE, KERNEL_PARAMETER_GROUP, KERNEL_COMMA)
+	ARGUMENTS_##list(KERNEL_PARAMETER_IN, KERNEL_PARAMETER_OUT, KERNEL_PARAMETER_VALUE, KERNEL_PARAMETER_GROUP, \
+	KERNEL_COMMA)
 #define KERNEL_COMMA() ,
 #define KERNEL_ARGUMENTS(list) \
-	ARGUMENTS_##list(KERNEL_PARAMETER_IN, KERNEL_PARAMETER_OUT, KERNEL_PARAMETER_VALUE, KERNEL_PARAMETER_GROUP, KERNEL_COMMA)
+	ARGUMENTS_##list(KERNEL_PARAMETER_IN, KERNEL_PARAMETER_OUT, KERNEL_PARAMETER_VALUE, KERNEL_PARAMETER_GROUP, \
+	KERNEL_COMMA)
 
 /* The same arguments as a struct: const struct list_arguments a = KERNEL_STRUCT(list). */
 #define KERNEL_NAME(element, name) name
-#define KERNEL_NAME_GROUP(list, name) { ARGUMENTS_##list(KERNEL_NAME, KERNEL_NAME, KERNEL_NAME, KERNEL_NAME_GROUP, KERNEL_COMMA) }
+#define KERNEL_NAME_GROUP(list, name) \
+	{ ARGUMENTS_##list(KERNEL_NAME, KERNEL_NAME, KERNEL_NAME, KERNEL_NAME_GROUP, KERNEL_COMMA) }
 #define KERNEL_STRUCT(list) { ARGUMENTS_##list(KERNEL_NAME, KERNEL_NAME, KERNEL_NAME, KERNEL_NAME_GROUP, KERNEL_COMMA) }
 
 /* The body of a kernel that does NAME_item(&arguments, item) for each of `count` work items. */
@@ -494,17 +532,19 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 
 #else
 
-/* --- Kernels -------------------------------------------------------------------------------------------------------- */
+/* --- Kernels ----------------------------------------------------------------------------------------------------- */
 
 /*
- * X(name, list): kernel NAME in a .cl file, twin NAME_c in kernels/ref/. Work items beyond the number that the list gives do nothing:
- * OpenCL rounds the global size up to work groups.
+ * X(name, list): kernel NAME in a .cl file, twin NAME_c in kernels/ref/. Work items beyond the number that the list
+ * gives do nothing: OpenCL rounds the global size up to work groups.
  */
 #define KERNELS(X) \
-	X(camera_packet, camera_packet) /* camera rays, a tile of 32 x 32 pixels a work item, eight-wide trees; nearest fragment or a column of them */ \
+	/* camera rays, a tile of 32 x 32 pixels a work item, eight-wide trees; nearest fragment or a column of them */ \
+	X(camera_packet, camera_packet) \
 	X(camera_wide, camera_wide)     /* the same, one pixel a work item (GPUs) */ \
 	X(camera_compressed, camera_compressed) /* the same, compressed nodes */ \
-	X(occlude_packet, occlude_wide) /* shadow and other short rays, a packet of consecutive ones a work item, 8-wide nodes */ \
+	/* shadow and other short rays, a packet of consecutive ones a work item, 8-wide nodes */ \
+	X(occlude_packet, occlude_wide) \
 	X(occlude_wide, occlude_wide)   /* the same, one ray a work item */ \
 	X(intersect_packet, intersect_wide) /* nearest hit, a packet a work item */ \
 	X(intersect_wide, intersect_wide) /* the same, one ray a work item */ \
@@ -518,17 +558,20 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(query_sphere, query_sphere)   /* the same, a sphere */ \
 	X(vertex, vertex)               /* GL's vertex stage: one vertex of one instance a work item */ \
 	X(vertex_packet, vertex)        /* the same, VERTEX_PACKET consecutive vertices a work item (CPUs) */ \
-	X(vertex_program, vertex_program) /* after either, where vertex programs are: four vertices of an instance a work item */ \
+	/* after either, where vertex programs are: four vertices of an instance a work item */ \
+	X(vertex_program, vertex_program) \
 	X(window, window)               /* one vertex a work item: its place in a window that has moved */ \
 	X(gather, gather)               /* one pixel a work item: its fragments into one dense list */ \
 	X(shade, shade)                 /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
 	X(shade_packet, shade)          /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
-	X(program, shade)               /* after either, where fragment programs are: one fragment a work item, coloured by its program */ \
+	/* after either, where fragment programs are: one fragment a work item, coloured by its program */ \
+	X(program, shade) \
 	X(program_packet, shade)        /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
 	X(shadow_ray, shadow_ray)       /* one fragment a work item: its ray to one light */ \
 	X(shadow_ray_packet, shadow_ray) /* the same, SHADE_PACKET consecutive ones a work item (CPUs) */ \
 	X(hit_ray, hit_ray)             /* one hit of a path a work item: its ray to one light */ \
-	X(hit_ray_packet, hit_ray)      /* want_lights, and rays to all lights, SHADE_PACKET consecutive hits a work item (CPUs) */ \
+	/* want_lights, and rays to all lights, SHADE_PACKET consecutive hits a work item (CPUs) */ \
+	X(hit_ray_packet, hit_ray) \
 	X(ao_ray, ao_ray)               /* one fragment a work item: a look around */ \
 	X(shadow_sum, shadow_sum)       /* one ray to a light a work item: full visibility where nothing stopped it */ \
 	X(shadow_start, shadow_start)   /* one stopped ray a work item: into a list, to go on through what lets light pass */ \
@@ -547,31 +590,41 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(credit, credit)               /* one path a work item: that radiance into its fragment */ \
 	X(photon, photon)               /* one photon a work item: where it came to, and its way on */ \
 	X(ao_shade, ao_shade)           /* one fragment a work item: its openness as its colour */ \
-	X(dome_find, dome_find)         /* one fragment a work item: where it takes light from all around, and its looks around */ \
+	/* one fragment a work item: where it takes light from all around, and its looks around */ \
+	X(dome_find, dome_find) \
 	X(dome_find_packet, dome_find)  /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
 	X(dome_sum, dome_sum)           /* one fragment a work item: the light that came by its looks */ \
 	X(dome_light, dome_light)       /* the same: its and its neighbours' light on its colours */ \
 	X(dome_light_packet, dome_light) /* the same, a tile of DOME_WIDTH x CAMERA_TILE pixels a work item (CPUs) */ \
 	X(clear, clear)                 /* one pixel a work item: a Clear */ \
 	X(resolve, resolve)             /* one pixel a work item: per-fragment operations in draw order */ \
-	X(resolve_packet, resolve)      /* the same, FRAME_ROW pixels of a row a work item, all colours of a pixel at once (CPUs) */ \
+	/* the same, FRAME_ROW pixels of a row a work item, all colours of a pixel at once (CPUs) */ \
+	X(resolve_packet, resolve) \
 	X(merge_samples, merge_samples) /* one pixel a work item: its samples into one */ \
 	X(add_pass, add_pass)           /* one pixel a work item: a pass of several to their sum */ \
 	X(plain_program, plain)         /* before either of the next two, where programs are: colours by them */ \
-	X(plain, plain)                 /* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
-	X(plain_whole, plain_whole)     /* in place of camera_packet and plain where no rays are sent: a tile of CAMERA_TILE x CAMERA_TILE pixels a work item (CPUs) */ \
-	X(plain_dome, plain)            /* in place of plain where light comes from all around: a block's rays, to lights and into the surroundings */ \
+	/* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
+	X(plain, plain) \
+	/* in place of camera_packet and plain where no rays are sent: a tile of CAMERA_TILE x CAMERA_TILE pixels a work item \
+	   (CPUs) */ \
+	X(plain_whole, plain_whole) \
+	/* in place of plain where light comes from all around: a block's rays, to lights and into the surroundings */ \
+	X(plain_dome, plain) \
 	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
-	X(plain_color, plain)           /* the first of plain's steps where each block has the place of its number, one pixel a work item (GPUs): its colour */ \
+	/* the first of plain's steps where each block has the place of its number, one pixel a work item (GPUs): its colour \
+	   */ \
+	X(plain_color, plain) \
 	X(plain_ask, plain)             /* the second, one ray a work item, n a slot */ \
 	X(plain_show, plain)            /* the third, one pixel a work item: its planes */ \
 	X(plain_color_dimmed, plain)    /* plain_shadow's two steps, the same */ \
 	X(plain_show_dimmed, plain) \
-	X(layered_start, layered_start) /* before the next, where frames begin with a picture: PLAIN_WIDTH pixels of a row a work item */ \
+	/* before the next, where frames begin with a picture: PLAIN_WIDTH pixels of a row a work item */ \
+	X(layered_start, layered_start) \
 	X(layered, plain)               /* as plain, of several looks */ \
 	X(layered_shadow, plain)        /* as plain_shadow; and fragments that light leaves, into a list */ \
 	X(layered_mirror, plain)        /* planes of pixels where these are, with what their paths found */ \
-	X(layered_picture, layered_picture) /* after the last round, where a picture is asked for in place of planes: PLAIN_WIDTH pixels of a row a work item */ \
+	/* after the last round, where a picture is asked for in place of planes: PLAIN_WIDTH pixels of a row a work item */ \
+	X(layered_picture, layered_picture) \
 	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \
 	X(compose_packet, compose)      /* the same, FRAME_ROW pixels of COMPOSE_ROWS rows a work item (CPUs) */ \
 	X(hook_ray, hook_ray)           /* one pixel a work item: its first ray by a hook */ \
@@ -581,7 +634,8 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(hook_ways, hook_ways)         /* the same: its rays */ \
 	X(hook_hit, hook_hit)           /* one path a work item: the light it found and its rays by a hook */ \
 	X(hook_walk, hook_walk)         /* one stopped ray to a light a work item: it goes on where a hook says so */ \
-	X(hook_light, hook_light)       /* one fragment's ray to a light a work item: how much of the light a hook lets arrive */ \
+	/* one fragment's ray to a light a work item: how much of the light a hook lets arrive */ \
+	X(hook_light, hook_light) \
 	X(hook_light_hit, hook_light_hit) /* the same of a hit */ \
 	X(hook_bounds, hook_bounds)     /* one object of a hook a work item: its box */ \
 	X(hook_intersect, hook_intersect) /* one ray a work item: what it meets of these objects */ \

@@ -1,6 +1,6 @@
 /*
- * Structs that host and kernels share, beside those of scene.h. C and OpenCL C 1.2 include this file, so structs are plain: fields of
- * 4 bytes, no pointers. SHARED_SIZE asserts their sizes when C includes it.
+ * Structs that host and kernels share, beside those of scene.h. C and OpenCL C 1.2 include this file, so structs are
+ * plain: fields of 4 bytes, no pointers. SHARED_SIZE asserts their sizes when C includes it.
  *
  * Terms
  *   order      number of a primitive in the frame's draw order (scene.h)
@@ -16,15 +16,16 @@
 typedef ushort uint16_t;
 #define GLOBAL __global
 #define SHARED_SIZE(type, bytes)
-/* Marks a function that kernels call with constants: each kernel then gets a version of its own, without the branches that its
- * constants rule out. Interpreters of kernels (LANES_PORTABLE, kernels/rays/lanes.h) do not know the attribute. */
+/* Marks a function that kernels call with constants: each kernel then gets a version of its own, without the branches
+ * that its constants rule out. Interpreters of kernels (LANES_PORTABLE, kernels/rays/lanes.h) do not know the
+ * attribute. */
 #ifdef LANES_PORTABLE
 #define INLINED static inline
 #else
 #define INLINED __attribute__((always_inline)) static inline
 #endif
-/* A kernel that computes in vectors by itself. Intel's compiler would pack eight or sixteen work items into vectors as well: it takes
- * five times as long for that, and the kernels are no faster. */
+/* A kernel that computes in vectors by itself. Intel's compiler would pack eight or sixteen work items into vectors as
+ * well: it takes five times as long for that, and the kernels are no faster. */
 #define KERNEL_OF(vector) __kernel __attribute__((vec_type_hint(vector)))
 #else
 #define GLOBAL
@@ -49,8 +50,8 @@ SHARED_SIZE(struct hit, 20);
 /*
  * A primitive at a pixel centre. b1, b2 are weights of vertices 1 and 2 on the SCREEN: linear in window space, not
  * perspective-correct; attributes divide by w (GL 2.1 equation 3.6). Where a vertex has no place in the window
- * (window_vertex.w_inv == 0), FRAGMENT_PERSPECTIVE is set and they are weights in the volume, perspective-correct as they stand.
- * fragment_weights knows both.
+ * (window_vertex.w_inv == 0), FRAGMENT_PERSPECTIVE is set and they are weights in the volume, perspective-correct as
+ * they stand. fragment_weights knows both.
  */
 #define FRAGMENT_PERSPECTIVE 0x80000000u
 #define FRAGMENT_PRIMITIVE(fragment) ((fragment).primitive & ~FRAGMENT_PERSPECTIVE)
@@ -93,18 +94,20 @@ struct node8 {
 SHARED_SIZE(struct node8, 256);
 
 /*
- * An eight-wide node in 80 bytes, five loads of a GPU (Ylitie, Karras and Laine 2017, "Efficient incoherent ray traversal on GPUs
- * through compressed wide BVHs"). The children's boxes lie on a grid of 8 bits an axis over the node's box; each box contains the one
- * it stands for. Slot s holds the child that lies farthest along diagonal s (bit a set: along +a). A ray then meets slots about in
- * the order of s ^ its octant, with nothing to sort. kernels/rays/compressed.h reads it.
+ * An eight-wide node in 80 bytes, five loads of a GPU (Ylitie, Karras and Laine 2017, "Efficient incoherent ray
+ * traversal on GPUs through compressed wide BVHs"). The children's boxes lie on a grid of 8 bits an axis over the
+ * node's box; each box contains the one it stands for. Slot s holds the child that lies farthest along diagonal s (bit
+ * a set: along +a). A ray then meets slots about in the order of s ^ its octant, with nothing to sort.
+ * kernels/rays/compressed.h reads it.
  */
 struct node8c {
 	float origin[3];    /* lower corner of the grid */
-	uint32_t exponents; /* bytes: of the grid's steps along x, y, z, as in a float; the last: a bit for each slot that is a node */
+	uint32_t exponents; /* bytes: of the grid's steps along x, y, z, as in a float; the last: a bit for each slot
+	                       that is a node */
 	uint32_t child_first;    /* nodes among the children stand one after the other, in the order of their slots */
 	uint32_t triangle_first; /* in triangles8c */
-	uint32_t meta[2];        /* a byte a slot, little end first: 0 for a node or nothing; else NODE8C_LEAF | (triangles - 1) << 5 |
-	                            the first triangle, counted from triangle_first */
+	uint32_t meta[2]; /* a byte a slot, little end first: 0 for a node or nothing; else NODE8C_LEAF | (triangles -
+	                     1) << 5 | the first triangle, counted from triangle_first */
 	uint32_t lo[3][2], hi[3][2]; /* a byte a slot; nothing: lo 255, hi 0 */
 };
 SHARED_SIZE(struct node8c, 80);
@@ -141,7 +144,8 @@ SHARED_SIZE(struct face8, 128);
 #define INSTANCE_FRONT_CW 16u    /* front faces run clockwise in window space */
 #define INSTANCE_SCREEN 32u      /* geometry in window space (lines, points, pixel rectangles): the BLAS bounds x y in
                                     pixels, camera rays meet it as points; never secondary */
-#define INSTANCE_SKY 128u        /* drawn before all depth, around the viewer: seen by secondary rays that hit nothing */
+/* drawn before all depth, around the viewer: seen by secondary rays that hit nothing */
+#define INSTANCE_SKY 128u
 #define INSTANCE_PASS_COUNTER 256u   /* rays to lights pass triangles whose corners they see run counter-clockwise */
 #define INSTANCE_PASS_CLOCKWISE 512u
 #define INSTANCE_BAKED 64u       /* the modelview has no inverse or is projective: the BLAS is in eye space */
@@ -197,7 +201,7 @@ static inline void fragment_weights(struct fragment f, float w_inv0, float w_inv
 	out[2] = c2 / sum;
 }
 
-/* --- Shading --------------------------------------------------------------------------------------------------- */
+/* --- Shading ----------------------------------------------------------------------------------------------------- */
 
 /* What the vertex stage leaves of one vertex of one instance. Texture coordinates: see geometry.texcoord_first. */
 struct shaded_vertex {
@@ -208,7 +212,8 @@ struct shaded_vertex {
 	float normal[3];       /* eye space, normalised only where GL does */
 	float fog_coord;
 	uint32_t lit[2];       /* per side, bit i: light i of the material's list adds diffuse or specular light here */
-	float size[2];         /* of a point: [0], after attenuation, before rounding. Of a smooth line's corner: its place, see below */
+	float size[2]; /* of a point: [0], after attenuation, before rounding. Of a smooth line's corner: its place, see
+	                  below */
 };
 SHARED_SIZE(struct shaded_vertex, 128);
 
@@ -216,20 +221,21 @@ SHARED_SIZE(struct shaded_vertex, 128);
 #define GEOMETRY_EXPANDED 1u /* lines or points made into triangles after the vertex stage: nothing to light again */
 /*
  * Smooth ones: nothing else uses their vertices' color[1], so it holds their place for the coverage (stage_coverage).
- *   line   pixels across the line; half its width and a half; pixels along it from its middle; half its length and a half. For lines
- *          shorter than a pixel the last two are smaller, so that lines fade as they get shorter. size[] holds the corner's place
- *          in the window, in pixels, y from the top, not snapped: clip would lose the last bits
- *   point  x and y in its circle of radius 1; where its rim begins, as the square of a radius
+ *   line   pixels across the line; half its width and a half; pixels along it from its middle; half its length and a
+ * half. For lines shorter than a pixel the last two are smaller, so that lines fade as they get shorter. size[] holds
+ * the corner's place in the window, in pixels, y from the top, not snapped: clip would lose the last bits point  x and
+ * y in its circle of radius 1; where its rim begins, as the square of a radius
  */
 #define GEOMETRY_SMOOTH_LINE 2u
 #define GEOMETRY_SMOOTH_POINT 4u
 /* Smooth lines of which a pixel is covered no more than they are long. */
 #define GEOMETRY_LENGTH_COVERS 32u
-/* Bitmaps and pixel rectangles: color[1] holds the pixel's column and row, the texture's number, and the kind (SCENE_BITMAP ..). */
+/* Bitmaps and pixel rectangles: color[1] holds the pixel's column and row, the texture's number, and the kind
+ * (SCENE_BITMAP ..). */
 #define GEOMETRY_PIXELS 8u
 /*
- * Lines: color[1] of each corner holds its end's place in the window (x, y from the top, depth), then 0 at the first end, 1 at the
- * second. secondary[1] says which pixels are drawn at all: first column, first and last row from the top.
+ * Lines: color[1] of each corner holds its end's place in the window (x, y from the top, depth), then 0 at the first
+ * end, 1 at the second. secondary[1] says which pixels are drawn at all: first column, first and last row from the top.
  */
 #define GEOMETRY_LINE 16u
 
@@ -283,13 +289,14 @@ SHARED_SIZE(struct shaded, 84);
 #define SHADED_WANTS(slot) (0x100u << (slot)) /* light `slot` of the material's list needs a shadow ray */
 
 /*
- * A path from a fragment: the share of the radiance it finds that counts, and where to. Its ray stands in a buffer of its own, at the
- * same place.
+ * A path from a fragment: the share of the radiance it finds that counts, and where to. Its ray stands in a buffer of
+ * its own, at the same place.
  */
 struct path {
 	float weight[3];
 	uint32_t target; /* fragment in the list; for rays to lights: slot * n + item */
-	uint32_t kind;   /* PATH_*: the part of the fragment that its radiance belongs to; for rays to lights: as shadow_walk has it */
+	uint32_t kind;   /* PATH_*: the part of the fragment that its radiance belongs to; for rays to lights: as
+	                    shadow_walk has it */
 	uint32_t depth;  /* bounces so far, without the fragment's own */
 	uint32_t medium; /* material of the body it travels in, or SCENE_NONE */
 	float density;   /* of directions where it was scattered, a steradian; 0: its direction is not one of many */
@@ -360,7 +367,8 @@ SHARED_SIZE(struct emitter, 12);
 #define PATH_DIFFUSE 0u
 #define PATH_REFLECT 1u
 #define PATH_REFRACT 2u
-#define PATH_NEAR 3u /* as PATH_REFLECT; where it meets nothing, the fragment's own colour stands for what it would find */
+/* as PATH_REFLECT; where it meets nothing, the fragment's own colour stands for what it would find */
+#define PATH_NEAR 3u
 
 /* Upper bounds of the rays that leave a fragment, and a hit: mirrored, let through, scattered. */
 #define PATHS_PER_FRAGMENT 3u
@@ -460,8 +468,9 @@ static inline uint32_t frame_columns(uint32_t width)
 	return (width + FRAME_ROW - 1u) / FRAME_ROW;
 }
 
-/* Fragments of a work item of shade_packet, and rays of one of shadow_ray_packet: where each pixel has one fragment, a block of the
- * list (tracer/frame/segment.c). And triangles that it keeps, by number: neighbours mostly have numbers close together. */
+/* Fragments of a work item of shade_packet, and rays of one of shadow_ray_packet: where each pixel has one fragment, a
+ * block of the list (tracer/frame/segment.c). And triangles that it keeps, by number: neighbours mostly have numbers
+ * close together. */
 #define SHADE_PACKET 64u
 #define SHADE_TRIANGLES 8u
 

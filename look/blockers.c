@@ -37,8 +37,9 @@ int blockers_can(const struct scene *s, uint32_t instance, int is_depth)
 
 	if (!(m->color_mask & 7 || is_depth) || scene_is_never_drawn(m))
 		return 0;
-	return instance >= scene_backdrop(s) && s->meshes[in->mesh]->kind == SCENE_TRIANGLES && s->views[in->view].target == 0 && !in->rectangle && m->depth_test &&
-	       (!m->blend || m->depth_write) && !m->alpha_test && !m->logic_op && !(m->surface.transmit > 0) &&
+	return instance >= scene_backdrop(s) && s->meshes[in->mesh]->kind == SCENE_TRIANGLES &&
+	       s->views[in->view].target == 0 && !in->rectangle && m->depth_test && (!m->blend || m->depth_write) &&
+	       !m->alpha_test && !m->logic_op && !(m->surface.transmit > 0) &&
 	       !(m->surface.hidden & SCENE_HIDDEN_FROM_LIGHTS);
 }
 
@@ -105,7 +106,9 @@ static struct box box_around(const struct blockers *b, const struct scene_instan
 		const struct box *box = &b->boxes[b->first[in->mesh] + cluster_count(mesh) + i];
 
 		for (unsigned c = 0; c < 8; c++) {
-			const float corner[4] = { c & 1 ? box->high[0] : box->low[0], c & 2 ? box->high[1] : box->low[1], c & 4 ? box->high[2] : box->low[2], 1 };
+			const float corner[4] = { c & 1 ? box->high[0] : box->low[0],
+				                  c & 2 ? box->high[1] : box->low[1],
+				                  c & 4 ? box->high[2] : box->low[2], 1 };
 			float eye[4];
 
 			mat4_transform(eye, in->modelview, corner);
@@ -194,7 +197,7 @@ int blockers_has(const struct blockers *b, uint32_t instance)
 	return b->blocks[instance];
 }
 
-/* --- Rays, in eye space ------------------------------------------------------------------------------------------------- */
+/* --- Rays, in eye space ------------------------------------------------------------------------------------------ */
 
 /* How a ray meets boxes: 1 / direction, and how far off it may be by rounding. */
 struct sight {
@@ -219,7 +222,8 @@ static int may_meet(const struct sight *s, const struct box *box)
 	float near = 0, far = s->t_max;
 
 	for (int k = 0; k < 3; k++) {
-		const float a = (box->low[k] - s->margin - s->from[k]) * s->over[k], b = (box->high[k] + s->margin - s->from[k]) * s->over[k];
+		const float a = (box->low[k] - s->margin - s->from[k]) * s->over[k],
+			    b = (box->high[k] + s->margin - s->from[k]) * s->over[k];
 		const float first = a < b ? a : b, last = a < b ? b : a;
 
 		near = first > near ? first : near;
@@ -228,7 +232,7 @@ static int may_meet(const struct sight *s, const struct box *box)
 	return !(near > far * 1.001f);
 }
 
-/* --- The same in object space ------------------------------------------------------------------------------------------- */
+/* --- The same in object space ------------------------------------------------------------------------------------ */
 
 struct line {
 	float from[3], d[3], t_max;
@@ -294,7 +298,8 @@ static enum blocker_side side_met(const struct blockers *b, const struct scene_i
 	return towards[0] * d[0] + towards[1] * d[1] + towards[2] * d[2] < 0 ? BLOCKER_SHOWN : BLOCKER_OTHER;
 }
 
-/* The first cluster from k on that is in a group which the line meets; a line meets a group where it meets one of its clusters. */
+/* The first cluster from k on that is in a group which the line meets; a line meets a group where it meets one of its
+ * clusters. */
 static uint32_t next_cluster(const struct line *r, const struct box *groups, uint32_t k, uint32_t n)
 {
 	while (k % GROUP == 0 && k < n && !meets_box(r, &groups[k / GROUP]))
@@ -302,7 +307,8 @@ static uint32_t next_cluster(const struct line *r, const struct box *groups, uin
 	return k;
 }
 
-static unsigned meet_instance(const struct blockers *b, uint32_t i, const struct line *r, struct blocker_hit *out, unsigned n)
+static unsigned meet_instance(const struct blockers *b, uint32_t i, const struct line *r, struct blocker_hit *out,
+                              unsigned n)
 {
 	const struct scene_instance *in = &b->scene->instances[i];
 	const struct scene_mesh *mesh = b->scene->meshes[in->mesh];
@@ -323,8 +329,8 @@ static unsigned meet_instance(const struct blockers *b, uint32_t i, const struct
 	return n;
 }
 
-unsigned blockers_on(const struct blockers *b, uint32_t space, const float from[3], const float direction[3], float t_max,
-                     struct blocker_hit out[BLOCKERS_MOST])
+unsigned blockers_on(const struct blockers *b, uint32_t space, const float from[3], const float direction[3],
+                     float t_max, struct blocker_hit out[BLOCKERS_MOST])
 {
 	const struct sight sight = sight_of(from, direction, t_max);
 	unsigned n = 0;

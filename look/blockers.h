@@ -1,8 +1,9 @@
 /*
- * What stands between a point and a light, for decisions about a scene: a few hundred rays on the host, before anything is traced.
+ * What stands between a point and a light, for decisions about a scene: a few hundred rays on the host, before anything
+ * is traced.
  *
- * Surfaces with holes (alpha test), films (blended, without depth) and those that secondary rays do not see block nothing here. Others that
- * are blended count as opaque: walls are often drawn so.
+ * Surfaces with holes (alpha test), films (blended, without depth) and those that secondary rays do not see block
+ * nothing here. Others that are blended count as opaque: walls are often drawn so.
  */
 #pragma once
 
@@ -37,5 +38,5 @@ int blockers_has(const struct blockers *b, uint32_t instance);
  * @param t_max   the ray's end, in lengths of its direction
  * @return how many hits
  */
-unsigned blockers_on(const struct blockers *b, uint32_t space, const float from[3], const float direction[3], float t_max,
-                     struct blocker_hit out[BLOCKERS_MOST]);
+unsigned blockers_on(const struct blockers *b, uint32_t space, const float from[3], const float direction[3],
+                     float t_max, struct blocker_hit out[BLOCKERS_MOST]);

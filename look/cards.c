@@ -23,8 +23,8 @@ static int may_be_cards(const struct scene *s, const struct scene_instance *in)
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 
 	return mesh->kind == SCENE_TRIANGLES && mesh->primitive_count >= 2 && mesh->primitive_count % 2 == 0 &&
-	       mesh->primitive_count <= MOST_TRIANGLES && m->lighting && m->depth_test && m->unit_count && (m->alpha_test || m->blend) &&
-	       s->views[in->view].target == 0;
+	       mesh->primitive_count <= MOST_TRIANGLES && m->lighting && m->depth_test && m->unit_count &&
+	       (m->alpha_test || m->blend) && s->views[in->view].target == 0;
 }
 
 /* Two triangles in a row that are a parallelogram. @return 0: they are none */
@@ -57,7 +57,8 @@ static int card_of(const struct scene *s, uint32_t instance, uint32_t first, str
 		along += normal[0][k] * normal[1][k];
 	}
 	out->size = sqrtf(out->size);
-	return length[0] > 0 && length[1] > 0.5f * length[0] && length[1] < 2 * length[0] && fabsf(along) > 0.999f * sqrtf(length[0] * length[1]);
+	return length[0] > 0 && length[1] > 0.5f * length[0] && length[1] < 2 * length[0] &&
+	       fabsf(along) > 0.999f * sqrtf(length[0] * length[1]);
 }
 
 /* 1 where two cards stand in one place, turned by 20 degrees or more. */
@@ -69,7 +70,8 @@ static int do_cross(const struct card *a, const struct card *b)
 		apart += (a->middle[k] - b->middle[k]) * (a->middle[k] - b->middle[k]);
 		cosine += a->normal[k] * b->normal[k];
 	}
-	return sqrtf(apart) < 0.15f * fminf(a->size, b->size) && fabsf(cosine) < 0.94f && a->size < 2 * b->size && b->size < 2 * a->size;
+	return sqrtf(apart) < 0.15f * fminf(a->size, b->size) && fabsf(cosine) < 0.94f && a->size < 2 * b->size &&
+	       b->size < 2 * a->size;
 }
 
 static void compare(struct card *cards, size_t n)
@@ -94,7 +96,9 @@ int cards_find(const struct scene *scene, uint32_t bit, uint32_t *bits, uint32_t
 	if (!cards)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (uint32_t i = 0; i < scene->n_instances; i++)
-		for (uint32_t p = 0; may_be_cards(scene, &scene->instances[i]) && p < scene->meshes[scene->instances[i].mesh]->primitive_count; p += 2)
+		for (uint32_t p = 0; may_be_cards(scene, &scene->instances[i]) &&
+		                     p < scene->meshes[scene->instances[i].mesh]->primitive_count;
+		     p += 2)
 			n += (size_t)card_of(scene, i, p, &cards[n]);
 	compare(cards, n);
 	for (size_t first = 0, end; first < n; first = end) {

@@ -7,7 +7,8 @@
 #include "base/err.h"
 
 #define DEGREE 0.017453292519943295f
-/* Places are one where they are the same in so many steps of the mesh's size: programs close their rounds with sin(2 pi). */
+/* Places are one where they are the same in so many steps of the mesh's size: programs close their rounds with sin(2
+ * pi). */
 #define STEPS 262144.0f
 /* Corners at one place; a fan of more stays flat. */
 enum { MOST_CORNERS = 1024 };
@@ -108,7 +109,8 @@ static void sort_corners(const struct scene_mesh *mesh, struct corner *corners)
 }
 
 /* The normal of a corner among those of its place. */
-static void mean_normal(const struct facet *facets, const struct corner *corners, uint32_t n, const struct corner *own, float least, float out[3])
+static void mean_normal(const struct facet *facets, const struct corner *corners, uint32_t n, const struct corner *own,
+                        float least, float out[3])
 {
 	const float *face = facets[own->number / 3].normal;
 	float sum[3] = { 0, 0, 0 };
@@ -122,13 +124,16 @@ static void mean_normal(const struct facet *facets, const struct corner *corners
 	memcpy(out, normalize(sum) > 0 ? sum : face, sizeof(sum));
 }
 
-static void smooth_all(const struct scene_mesh *mesh, const struct facet *facets, const struct corner *corners, float angle, float *out)
+static void smooth_all(const struct scene_mesh *mesh, const struct facet *facets, const struct corner *corners,
+                       float angle, float *out)
 {
 	const float least = cosf(angle * DEGREE) - 1e-6f;
 	const uint32_t n = 3 * mesh->primitive_count;
 
 	for (uint32_t first = 0, end; first < n; first = end) {
-		for (end = first + 1; end < n && memcmp(corners[first].place, corners[end].place, sizeof(corners[end].place)) == 0; end++)
+		for (end = first + 1;
+		     end < n && memcmp(corners[first].place, corners[end].place, sizeof(corners[end].place)) == 0;
+		     end++)
 			;
 		for (uint32_t i = first; i < end; i++) {
 			const struct facet *f = &facets[corners[i].number / 3];

@@ -4,9 +4,10 @@
 #include "scene/scene.h"
 
 /**
- * A mesh with normals for the corners of its flat faces (scene_mesh.crease): the mean of the faces that meet there at no more than an
- * angle, by their angles at the corner (Thuermer and Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998). Sharper edges
- * stay. Corners meet where they are in one place, whatever vertices they have. A face is flat where its corners have one normal.
+ * A mesh with normals for the corners of its flat faces (scene_mesh.crease): the mean of the faces that meet there at
+ * no more than an angle, by their angles at the corner (Thuermer and Wuethrich, "Computing Vertex Normals from
+ * Polygonal Facets", 1998). Sharper edges stay. Corners meet where they are in one place, whatever vertices they have.
+ * A face is flat where its corners have one normal.
  *
  * @param flat   1: all faces are, as under glShadeModel(GL_FLAT)
  * @param angle  degrees

@@ -15,11 +15,13 @@ static int is_shell(const struct scene_material *m, const struct scene_mesh *mes
 	return m->lighting && !m->unit_count && !m->color_material && !mesh->face && m->front.diffuse[3] < MOST_ALPHA;
 }
 
-static int is_label(const struct scene_material *m, const struct scene_mesh *mesh, const struct scene_instance *instance)
+static int is_label(const struct scene_material *m, const struct scene_mesh *mesh,
+                    const struct scene_instance *instance)
 {
 	float first[4];
 
-	if (m->lighting || !m->unit_count || mesh->kind != SCENE_TRIANGLES || mesh->primitive_count > LABEL_PRIMITIVES || !mesh->vertex_count)
+	if (m->lighting || !m->unit_count || mesh->kind != SCENE_TRIANGLES ||
+	    mesh->primitive_count > LABEL_PRIMITIVES || !mesh->vertex_count)
 		return 0;
 	mat4_transform(first, instance->modelview, mesh->position);
 	for (uint32_t v = 1; v < mesh->vertex_count; v++) {

@@ -27,7 +27,8 @@ void gloss_set(const struct scene_material *m, float share, struct scene_surface
 	const struct scene_face *f = &m->front;
 	const float roughness = sqrtf(2 / (f->shininess + 2));
 	/* The rougher, the more directions share it: what one ray brings counts less. */
-	const float reflect = share * fminf(most_of(f->specular), 1) * (is_metal(f) ? 1 : NO_METAL) * (1 - roughness) * (1 - roughness);
+	const float reflect = share * fminf(most_of(f->specular), 1) * (is_metal(f) ? 1 : NO_METAL) * (1 - roughness) *
+	                      (1 - roughness);
 
 	if (surface->reflect > 0 || surface->transmit > 0) /* the program says itself what it mirrors */
 		return;

@@ -111,10 +111,14 @@ void matched_report(const struct look *look, int quiet)
 		if (lines++ == MOST_LINES)
 			fprintf(stderr, "  and more rules\n");
 		else if (c->draws)
-			fprintf(stderr, "  %s: rule %" PRIu32 " matches %" PRIu64 " draw%s in %" PRIu64 " of %" PRIu64 " frame%s\n", c->file, c->rule, c->draws,
-			        plural(c->draws), c->frames, m->frames, plural(m->frames));
+			fprintf(stderr,
+			        "  %s: rule %" PRIu32 " matches %" PRIu64 " draw%s in %" PRIu64 " of %" PRIu64
+			        " frame%s\n",
+			        c->file, c->rule, c->draws, plural(c->draws), c->frames, m->frames, plural(m->frames));
 		else
-			err_warn(c->file, "surfaces, rule %" PRIu32 " matches nothing in %" PRIu64 " frame%s; 'relume scene --json' shows hashes and draws",
+			err_warn(c->file,
+			         "surfaces, rule %" PRIu32 " matches nothing in %" PRIu64
+			         " frame%s; 'relume scene --json' shows hashes and draws",
 			         c->rule, m->frames, plural(m->frames));
 	}
 }

@@ -17,8 +17,8 @@ int matched_append(struct matched *to, struct matched **more);
 void matched_add(struct matched *matched, const uint32_t *draws);
 
 /**
- * Say on standard error what each rule of a file matched, and warn of those that matched nothing. Silent about rules that nobody
- * wrote (`--look auto`), and where no frame was under the rules.
+ * Say on standard error what each rule of a file matched, and warn of those that matched nothing. Silent about rules
+ * that nobody wrote (`--look auto`), and where no frame was under the rules.
  * @param quiet  1: warnings alone
  */
 void matched_report(const struct look *look, int quiet);

@@ -1,6 +1,6 @@
 /*
- * Matrices of doubles: m[16], column-major, column vectors, p' = M p, as OpenGL's. What a recording holds are products of floats;
- * inverses and null vectors of those need more digits than they have.
+ * Matrices of doubles: m[16], column-major, column vectors, p' = M p, as OpenGL's. What a recording holds are products
+ * of floats; inverses and null vectors of those need more digits than they have.
  */
 #pragma once
 

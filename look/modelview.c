@@ -16,7 +16,8 @@ enum modelview_kind modelview_named(const char *name)
 /* The volume that three columns span, over what they could. */
 static double fullness3(const float *m)
 {
-	double volume = (double)m[0] * ((double)m[5] * m[10] - (double)m[6] * m[9]) - (double)m[4] * ((double)m[1] * m[10] - (double)m[2] * m[9]) +
+	double volume = (double)m[0] * ((double)m[5] * m[10] - (double)m[6] * m[9]) -
+	                (double)m[4] * ((double)m[1] * m[10] - (double)m[2] * m[9]) +
 	                (double)m[8] * ((double)m[1] * m[6] - (double)m[2] * m[5]);
 	double most = 1;
 
@@ -34,9 +35,11 @@ static double fullness4(const float *m)
 		for (int r = 0; r < 4; r++)
 			a[4 * c + r] = (double)m[4 * c + r] * (far > 0 && r == 3 ? far : 1) / (far > 0 && c == 3 ? far : 1);
 	for (int c = 0; c < 4; c++)
-		most *= sqrt(a[4 * c] * a[4 * c] + a[4 * c + 1] * a[4 * c + 1] + a[4 * c + 2] * a[4 * c + 2] + a[4 * c + 3] * a[4 * c + 3]);
+		most *= sqrt(a[4 * c] * a[4 * c] + a[4 * c + 1] * a[4 * c + 1] + a[4 * c + 2] * a[4 * c + 2] +
+		             a[4 * c + 3] * a[4 * c + 3]);
 	for (int c = 0; c < 4; c++) { /* Gram and Schmidt: the lengths that remain */
-		double length = sqrt(a[4 * c] * a[4 * c] + a[4 * c + 1] * a[4 * c + 1] + a[4 * c + 2] * a[4 * c + 2] + a[4 * c + 3] * a[4 * c + 3]);
+		double length = sqrt(a[4 * c] * a[4 * c] + a[4 * c + 1] * a[4 * c + 1] + a[4 * c + 2] * a[4 * c + 2] +
+		                     a[4 * c + 3] * a[4 * c + 3]);
 
 		volume *= length;
 		for (int k = c + 1; k < 4 && length > 0; k++) {

@@ -38,8 +38,8 @@ int pairs_make(struct pairs *p, const struct scene *s)
 		uint64_t key = key_of(p, s, i, modelview_kind_of(in->modelview));
 
 		p->next[i] = SCENE_NONE;
-		if (s->meshes[in->mesh]->kind != SCENE_TRIANGLES || in->rectangle || s->views[in->view].target || !(m->color_mask & 7) ||
-		    !m->depth_test)
+		if (s->meshes[in->mesh]->kind != SCENE_TRIANGLES || in->rectangle || s->views[in->view].target ||
+		    !(m->color_mask & 7) || !m->depth_test)
 			continue;
 		p->next[i] = (uint32_t)((uintptr_t)table_find(&p->first, key) - 1);
 		if (table_set(&p->first, key, (void *)((uintptr_t)i + 1)))

@@ -1,4 +1,5 @@
-/* Draws of one frame that show the same points: a mesh drawn once upright and once flattened, or once before and once behind a mirror. */
+/* Draws of one frame that show the same points: a mesh drawn once upright and once flattened, or once before and once
+ * behind a mirror. */
 #pragma once
 
 #include "base/table.h"
@@ -16,5 +17,6 @@ struct pairs {
 int pairs_make(struct pairs *p, const struct scene *scene);
 void pairs_free(struct pairs *p);
 
-/** The first draw of an instance's points under a kind of modelview; pairs.next has the others. SCENE_NONE: there is none */
+/** The first draw of an instance's points under a kind of modelview; pairs.next has the others. SCENE_NONE: there is
+ * none */
 uint32_t pairs_find(const struct pairs *p, const struct scene *scene, uint32_t instance, enum modelview_kind kind);

@@ -55,13 +55,15 @@ void repaired_destroy(struct repaired **store)
 	*store = NULL;
 }
 
-int repaired_wants(const struct repair_rule *rule, const struct scene *scene, const struct scene_instance *in, const struct scene_material *m,
-                   struct repair_wants *wants)
+int repaired_wants(const struct repair_rule *rule, const struct scene *scene, const struct scene_instance *in,
+                   const struct scene_material *m, struct repair_wants *wants)
 {
 	const enum modelview_kind kind = modelview_kind_of(in->modelview);
 
-	*wants = (struct repair_wants){ .weld = rule->weld ? *rule->weld : REPAIR_WELD, .turn = rule->turn ? *rule->turn : m->surface.transmit > 0,
-		                        .clockwise = (m->front_face == GL_CW) != (kind == MODELVIEW_MIRRORED), .merge = rule->merge && *rule->merge,
+	*wants = (struct repair_wants){ .weld = rule->weld ? *rule->weld : REPAIR_WELD,
+		                        .turn = rule->turn ? *rule->turn : m->surface.transmit > 0,
+		                        .clockwise = (m->front_face == GL_CW) != (kind == MODELVIEW_MIRRORED),
+		                        .merge = rule->merge && *rule->merge,
 		                        .flat = m->shade_model == GL_FLAT };
 	if (!wants->turn)
 		wants->clockwise = 0;
@@ -78,14 +80,19 @@ static void warn(struct repaired *s, const struct scene_mesh *mesh, const struct
 	if (found->leaks && s->n_leaking == MOST_WARNINGS + 1)
 		err_warn(NULL, "other meshes leak light, too; attributes relume:rule.N of the frames tell of them");
 	if (found->leaks && s->n_leaking <= MOST_WARNINGS)
-		err_warn(NULL, "mesh %016llx%016llx still leaks light at %u edges after its repair, the longest about %g %g %g (object space)",
-		         (unsigned long long)mesh->hash[1], (unsigned long long)mesh->hash[0], found->leaks, (double)at[0], (double)at[1], (double)at[2]);
+		err_warn(NULL,
+		         "mesh %016llx%016llx still leaks light at %u edges after its repair, the longest about %g %g "
+		         "%g (object space)",
+		         (unsigned long long)mesh->hash[1], (unsigned long long)mesh->hash[0], found->leaks,
+		         (double)at[0], (double)at[1], (double)at[2]);
 }
 
-static const struct entry *find(const struct repaired *s, const struct scene_mesh *mesh, const struct repair_wants *wants)
+static const struct entry *find(const struct repaired *s, const struct scene_mesh *mesh,
+                                const struct repair_wants *wants)
 {
 	for (size_t i = 0; i < s->n; i++)
-		if (memcmp(s->entries[i].hash, mesh->hash, sizeof(mesh->hash)) == 0 && memcmp(&s->entries[i].wants, wants, sizeof(*wants)) == 0)
+		if (memcmp(s->entries[i].hash, mesh->hash, sizeof(mesh->hash)) == 0 &&
+		    memcmp(&s->entries[i].wants, wants, sizeof(*wants)) == 0)
 			return &s->entries[i];
 	return NULL;
 }
@@ -100,12 +107,14 @@ static int add(struct repaired *s, const struct scene_mesh *of, const struct rep
 	if (err)
 		return err;
 	warn(s, of, &made.found);
-	s->bytes += sizeof(made) + (made.mesh ? 64 * (size_t)made.mesh->vertex_count + 16 * (size_t)made.mesh->primitive_count : 0);
+	s->bytes += sizeof(made) +
+	            (made.mesh ? 64 * (size_t)made.mesh->vertex_count + 16 * (size_t)made.mesh->primitive_count : 0);
 	s->entries[s->n++] = made;
 	return 0;
 }
 
-int repaired_find(struct repaired *s, const struct scene_mesh *of, const struct repair_wants *wants, const struct scene_mesh **mesh, struct repair_found *found)
+int repaired_find(struct repaired *s, const struct scene_mesh *of, const struct repair_wants *wants,
+                  const struct scene_mesh **mesh, struct repair_found *found)
 {
 	const struct entry *entry;
 	int err = 0;
@@ -131,14 +140,16 @@ int repaired_find(struct repaired *s, const struct scene_mesh *of, const struct 
 
 void repaired_describe(const struct repair_found *f, char *out, size_t room)
 {
-	const int n = snprintf(out, room, "%u vertices welded, %u places set into edges, %u triangles dropped, %u turned, %u places merged; ", f->welded, f->junctions,
-	                       f->dropped, f->turned, f->merged);
+	const int n = snprintf(
+		out, room,
+		"%u vertices welded, %u places set into edges, %u triangles dropped, %u turned, %u places merged; ",
+		f->welded, f->junctions, f->dropped, f->turned, f->merged);
 
 	if (!f->shells)
 		snprintf(out, room, "not repaired");
 	else if (f->closed)
 		snprintf(out + n, room - (size_t)n, "closed");
 	else
-		snprintf(out + n, room - (size_t)n, "%u edges leak, the longest about %g %g %g, %u look two ways", f->leaks, (double)f->leak_at[0],
-		         (double)f->leak_at[1], (double)f->leak_at[2], f->twisted);
+		snprintf(out + n, room - (size_t)n, "%u edges leak, the longest about %g %g %g, %u look two ways",
+		         f->leaks, (double)f->leak_at[0], (double)f->leak_at[1], (double)f->leak_at[2], f->twisted);
 }

@@ -13,7 +13,7 @@
 #include "scene/release.h"
 #include "scene/scene.h"
 
-/* --- The file ------------------------------------------------------------------------------------------------------ */
+/* --- The file ---------------------------------------------------------------------------------------------------- */
 
 #define OPTIONAL_POINTER (CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL)
 
@@ -47,9 +47,11 @@ static const cyaml_schema_field_t parameter_fields[] = {
 	CYAML_FIELD_SEQUENCE("value", CYAML_FLAG_POINTER, struct parameter_rule, value, &number, 1, 4), CYAML_FIELD_END
 };
 
-static const cyaml_schema_value_t parameter_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct parameter_rule, parameter_fields) };
+static const cyaml_schema_value_t parameter_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct parameter_rule,
+	                                                                   parameter_fields) };
 
-#define PARAMETERS(type) CYAML_FIELD_SEQUENCE("parameters", OPTIONAL_POINTER, type, parameters, &parameter_schema, 0, CYAML_UNLIMITED)
+#define PARAMETERS(type) \
+	CYAML_FIELD_SEQUENCE("parameters", OPTIONAL_POINTER, type, parameters, &parameter_schema, 0, CYAML_UNLIMITED)
 
 static const cyaml_schema_field_t repair_fields[] = {
 	NUMBER(struct repair_rule, weld), TRUTH(struct repair_rule, turn), TRUTH(struct repair_rule, merge), CYAML_FIELD_END
@@ -62,11 +64,11 @@ static const cyaml_schema_field_t surface_fields[] = {
 	NUMBER(struct surface_rule, roughness), NUMBER(struct surface_rule, crease), NUMBERS(struct surface_rule, absorb, 3),
 	NUMBERS(struct surface_rule, emission, 3), TRUTH(struct surface_rule, shadows), TRUTH(struct surface_rule, mirrors),
 	TRUTH(struct surface_rule, near), TRUTH(struct surface_rule, shaded),
-	TEXT(struct surface_rule, passes), CYAML_FIELD_MAPPING_PTR("repair", OPTIONAL_POINTER, struct surface_rule, repair, repair_fields),
-	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, dome),
-	TRUTH(struct surface_rule, left_out), COUNT(struct surface_rule, lightmap), COUNT(struct surface_rule, shadow_unit),
-	TRUTH(struct surface_rule, solid), TRUTH(struct surface_rule, vertex_light),
-	PARAMETERS(struct surface_rule), CYAML_FIELD_END
+	TEXT(struct surface_rule, passes),
+	CYAML_FIELD_MAPPING_PTR("repair", OPTIONAL_POINTER, struct surface_rule, repair, repair_fields),
+	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, dome), TRUTH(struct surface_rule, left_out),
+	COUNT(struct surface_rule, lightmap), COUNT(struct surface_rule, shadow_unit), TRUTH(struct surface_rule, solid),
+	TRUTH(struct surface_rule, vertex_light), PARAMETERS(struct surface_rule), CYAML_FIELD_END
 };
 
 static const cyaml_schema_field_t spot_fields[] = {
@@ -93,20 +95,23 @@ static const cyaml_schema_field_t unseen_fields[] = {
 
 static const cyaml_schema_field_t sky_fields[] = {
 	REASON(struct sky_rule), NUMBER(struct sky_rule, reach), NUMBERS(struct sky_rule, up, 3), TEXT(struct sky_rule, space),
-	NUMBERS(struct sky_rule, light, 3), NUMBERS(struct sky_rule, ground, 3), NUMBER(struct sky_rule, lit), TRUTH(struct sky_rule, unlit),
-	CYAML_FIELD_END
+	NUMBERS(struct sky_rule, light, 3), NUMBERS(struct sky_rule, ground, 3), NUMBER(struct sky_rule, lit),
+	TRUTH(struct sky_rule, unlit), CYAML_FIELD_END
 };
 
-static const cyaml_schema_field_t gloss_fields[] = { REASON(struct gloss_rule), NUMBER(struct gloss_rule, share), CYAML_FIELD_END };
+static const cyaml_schema_field_t gloss_fields[] = { REASON(struct gloss_rule), NUMBER(struct gloss_rule, share),
+	                                             CYAML_FIELD_END };
 
 static const cyaml_schema_value_t surface_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct surface_rule,
                                                                          surface_fields) };
 static const cyaml_schema_value_t light_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct light_rule,
                                                                        light_fields) };
 
-static const cyaml_schema_value_t anchor_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct anchor, anchor_fields) };
+static const cyaml_schema_value_t anchor_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct anchor,
+	                                                                anchor_fields) };
 
-static const cyaml_schema_value_t unseen_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct unseen_rule, unseen_fields) };
+static const cyaml_schema_value_t unseen_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct unseen_rule,
+	                                                                unseen_fields) };
 
 static const cyaml_schema_field_t rules_fields[] = {
 	CYAML_FIELD_SEQUENCE("surfaces", OPTIONAL_POINTER, struct rules, surfaces, &surface_schema, 0, CYAML_UNLIMITED),
@@ -119,9 +124,10 @@ static const cyaml_schema_field_t rules_fields[] = {
 	CYAML_FIELD_END
 };
 
-static const cyaml_schema_value_t rules_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct rules, rules_fields) };
+static const cyaml_schema_value_t rules_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct rules,
+	                                                               rules_fields) };
 
-/* --- Checks that libcyaml does not make ---------------------------------------------------------------------------- */
+/* --- Checks that libcyaml does not make -------------------------------------------------------------------------- */
 
 static int check_number(const char *path, const char *list, uint32_t rule, const char *key, const float *value,
                         float least, float most)
@@ -137,8 +143,8 @@ static int check_hash(const char *path, const char *list, uint32_t rule, const c
 {
 	if (!value || (strspn(value, "0123456789abcdef") == strlen(value) && strlen(value) <= 32))
 		return 0;
-	return err_report(ERR_INPUT, path, "%s, rule %u: %s '%s' is not the beginning of a hash (0-9, a-f)", list, rule + 1, key,
-	                  value);
+	return err_report(ERR_INPUT, path, "%s, rule %u: %s '%s' is not the beginning of a hash (0-9, a-f)", list,
+	                  rule + 1, key, value);
 }
 
 static int check_surface(const char *path, const struct surface_rule *r, uint32_t i)
@@ -167,7 +173,10 @@ static int check_surface(const char *path, const struct surface_rule *r, uint32_
 		err = err_report(ERR_INPUT, path, "surfaces, rule %u: modelview is plain, mirrored or singular, not '%s'", i + 1,
 		                 r->match->modelview);
 	if (!err && r->passes && !spare_named(r->passes, &(uint32_t){ 0 }))
-		err = err_report(ERR_INPUT, path, "surfaces, rule %u: passes is none, from behind, suns, suns and from behind, or all, not '%s'", i + 1, r->passes);
+		err = err_report(
+			ERR_INPUT, path,
+			"surfaces, rule %u: passes is none, from behind, suns, suns and from behind, or all, not '%s'",
+			i + 1, r->passes);
 	if (!err && r->match)
 		err = check_hash(path, list, i, "mesh", r->match->mesh);
 	if (!err && r->match)

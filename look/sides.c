@@ -112,7 +112,8 @@ struct sheet {
 	double volume;         /* six times what they enclose; below 0 where that is what they show */
 	float low[3], high[3];
 	uint32_t behind; /* bits: lamps that some triangle turns its other side to */
-	uint32_t as_wound, against, untold; /* triangles whose shown side is as their winding has it, the other one, or no one */
+	uint32_t as_wound, against, untold; /* triangles whose shown side is as their winding has it, the other one, or
+	                                       no one */
 };
 
 enum { MOST_LAMPS = 32 };

@@ -15,7 +15,8 @@
 #include "look/sides.h"
 #include "scene/draw_list.h"
 
-/* A light is shut out where it reaches less than this share of the area that it lights. A sun through a window reaches a few hundredths. */
+/* A light is shut out where it reaches less than this share of the area that it lights. A sun through a window reaches
+ * a few hundredths. */
 #define REACHED_LEAST 0.1f
 /* Surfaces belong to an enclosure where they stop light from this share of what is not reached, */
 #define STOPS_LEAST 0.02f
@@ -41,7 +42,7 @@ struct sparing {
 	int more_lamps; /* 1: than out->lamps has room for */
 };
 
-/* --- What is lit -------------------------------------------------------------------------------------------------------- */
+/* --- What is lit ------------------------------------------------------------------------------------------------- */
 
 static const struct scene_material *material_of(const struct scene *s, uint32_t i)
 {
@@ -91,14 +92,16 @@ static float area_of(const float a[4], const float b[4], const float c[4])
 }
 
 /*
- * 1 where a surface turns its lit side to the viewer, in front of something or not; of two lit sides the one counts that does. The outer
- * walls of a hall say nothing about the light within.
+ * 1 where a surface turns its lit side to the viewer, in front of something or not; of two lit sides the one counts
+ * that does. The outer walls of a hall say nothing about the light within.
  */
 static int shows_lit_side(const struct scene *s, struct receiver *r)
 {
 	const struct scene_instance *in = &s->instances[r->instance];
 	const float *projection = s->views[in->view].projection;
-	float towards = projection[11] != 0 ? -(r->at[0] * r->normal[0] + r->at[1] * r->normal[1] + r->at[2] * r->normal[2]) : r->normal[2];
+	float towards = projection[11] != 0 ?
+	                        -(r->at[0] * r->normal[0] + r->at[1] * r->normal[1] + r->at[2] * r->normal[2]) :
+	                        r->normal[2];
 
 	if (towards < 0 && s->materials[in->material].two_side) {
 		for (int k = 0; k < 3; k++)
@@ -137,7 +140,8 @@ static int receiver_of(const struct scene *s, uint32_t instance, uint32_t primit
 	return length > 0 && isfinite(length) && shows_lit_side(s, out);
 }
 
-/* Places on lit surfaces, so many of each instance, evenly spread over its triangles; of all instances, or evenly of some. */
+/* Places on lit surfaces, so many of each instance, evenly spread over its triangles; of all instances, or evenly of
+ * some. */
 static void find_receivers(struct sparing *a)
 {
 	const struct scene *s = a->scene;
@@ -163,10 +167,11 @@ static void find_receivers(struct sparing *a)
 	}
 }
 
-/* --- Enclosures --------------------------------------------------------------------------------------------------------- */
+/* --- Enclosures -------------------------------------------------------------------------------------------------- */
 
 /* The ray from a receiver to a lamp. @return 0: the lamp does not light it */
-static int ray_to(const struct sparing *a, const struct receiver *r, const struct sides_lamp *lamp, float from[3], float d[3])
+static int ray_to(const struct sparing *a, const struct receiver *r, const struct sides_lamp *lamp, float from[3],
+                  float d[3])
 {
 	float cosine = 0, length = 0, off = 0;
 
@@ -182,7 +187,8 @@ static int ray_to(const struct sparing *a, const struct receiver *r, const struc
 }
 
 /* 1 where a hit still stops light under the bits found so far. */
-static int stops(const struct sparing *a, const struct sides_lamp *lamp, const struct blocker_hit *hit, const uint32_t *bits)
+static int stops(const struct sparing *a, const struct sides_lamp *lamp, const struct blocker_hit *hit,
+                 const uint32_t *bits)
 {
 	uint32_t b = bits[hit->instance];
 
@@ -197,8 +203,8 @@ struct fare {
 };
 
 /*
- * Send a lamp's rays, one in `step`. at_last: [n_instances], NULL where not asked for: the area for which each instance is the last one
- * on the way that stops them.
+ * Send a lamp's rays, one in `step`. at_last: [n_instances], NULL where not asked for: the area for which each instance
+ * is the last one on the way that stops them.
  */
 static struct fare follow(const struct sparing *a, const struct sides_lamp *lamp, const uint32_t *bits, uint32_t step,
                           float *at_last)
@@ -233,7 +239,8 @@ static int is_shut_out(const struct fare *fare)
 }
 
 /* Give instances that stop enough rays a bit. @return how many */
-static uint32_t mark(const struct sparing *a, const float *stopped, const struct fare *fare, uint32_t bit, uint32_t *bits)
+static uint32_t mark(const struct sparing *a, const float *stopped, const struct fare *fare, uint32_t bit,
+                     uint32_t *bits)
 {
 	uint32_t n = 0;
 
@@ -287,7 +294,7 @@ static int find_enclosures(struct sparing *a)
 	return stopped && bits ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 }
 
-/* --- Backdrops ---------------------------------------------------------------------------------------------------------- */
+/* --- Backdrops --------------------------------------------------------------------------------------------------- */
 
 /* A ball around something, in eye space: it does not depend on where the camera looks. */
 struct ball {
@@ -378,7 +385,7 @@ static void find_backdrops(struct sparing *a)
 	}
 }
 
-/* ------------------------------------------------------------------------------------------------------------------------ */
+/* ----------------------------------------------------------------------------------------------------------------- */
 
 static int has_sun(const struct sparing *a)
 {
@@ -440,8 +447,8 @@ static const struct {
 	const char *name;
 	uint32_t bits;
 } names[] = {
-	{ "none", 0 }, { "from behind", SCENE_ONE_SIDED }, { "suns", SCENE_STOPS_NO_SUN }, { "suns and from behind", SCENE_STOPS_NO_SUN | SCENE_ONE_SIDED },
-	{ "all", SCENE_HIDDEN_FROM_LIGHTS },
+	{ "none", 0 }, { "from behind", SCENE_ONE_SIDED }, { "suns", SCENE_STOPS_NO_SUN },
+	{ "suns and from behind", SCENE_STOPS_NO_SUN | SCENE_ONE_SIDED }, { "all", SCENE_HIDDEN_FROM_LIGHTS },
 };
 
 enum { N_NAMES = sizeof(names) / sizeof(names[0]) };

@@ -1,20 +1,22 @@
 /*
- * Do no harm: surfaces that OpenGL never meant to stand in light's way. A program that knows no shadows may light a closed hall from
- * outside of it, put a lit figure between walls that are pictures, and cross two cards for a tree. What shadows make of that is
- * worse than what OpenGL drew. Rules: `spare: no` turns this off; `shadows: yes` of a surface has the last word (look/rules.h).
+ * Do no harm: surfaces that OpenGL never meant to stand in light's way. A program that knows no shadows may light a
+ * closed hall from outside of it, put a lit figure between walls that are pictures, and cross two cards for a tree.
+ * What shadows make of that is worse than what OpenGL drew. Rules: `spare: no` turns this off; `shadows: yes` of a
+ * surface has the last word (look/rules.h).
  *
  *   sheets       What shows one side alone, by culling or lighting, blocks light on that side alone (look/sides.h).
- *   enclosures   A light that reaches less than a tenth of what it lights is shut out: by walls that are lit on both sides, or have an
- *                outside as well. Surfaces that shut it out let all light through that comes from beyond.
- *   globes       A body around a lamp, which sees the side that nobody does, lets its light through (look/globes.h).
- *   backdrops    What OpenGL does not light stops no light at infinity, unless it stands within the lit world: a tree on a lit hill casts
+ *   enclosures   A light that reaches less than a tenth of what it lights is shut out: by walls that are lit on both
+ * sides, or have an outside as well. Surfaces that shut it out let all light through that comes from beyond. globes A
+ * body around a lamp, which sees the side that nobody does, lets its light through (look/globes.h). backdrops    What
+ * OpenGL does not light stops no light at infinity, unless it stands within the lit world: a tree on a lit hill casts
  *                a shadow, the walls around a lit figure do not.
  *   flattened    What the program draws a shadow of throws no second one (look/flattened.h).
  *   cards        Crossed cut-out cards do not shade each other.
- *   terminator   Flat faces with smooth normals do not stop light that grazes them (kernels/frame/shadow.h); that is found by the kernels.
+ *   terminator   Flat faces with smooth normals do not stop light that grazes them (kernels/frame/shadow.h); that is
+ * found by the kernels.
  *
- * All of it is decided from the geometry of the whole frame, also where something else hides it, so that it changes little as the camera
- * moves.
+ * All of it is decided from the geometry of the whole frame, also where something else hides it, so that it changes
+ * little as the camera moves.
  */
 #pragma once
 
@@ -59,8 +61,8 @@ int spare_find(const struct scene *scene, unsigned said, struct spare *out);
 void spare_free(struct spare *spare);
 
 /**
- * What diff's gate N wants to know: places of lights ("x y z w,..."), draw numbers of cards that shade each other ("3-7,12"), of tricks that
- * traced light takes the place of. To be freed; NULL: out of memory.
+ * What diff's gate N wants to know: places of lights ("x y z w,..."), draw numbers of cards that shade each other
+ * ("3-7,12"), of tricks that traced light takes the place of. To be freed; NULL: out of memory.
  */
 char *spare_tell_lights(const struct spare *spare);
 char *spare_tell_cards(const struct spare *spare, const struct scene *scene);

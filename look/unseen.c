@@ -32,7 +32,7 @@ struct adding {
 	uint32_t main_view;        /* through which the viewer looks at the world */
 };
 
-/* --- What may be added -------------------------------------------------------------------------------------------------- */
+/* --- What may be added ------------------------------------------------------------------------------------------- */
 
 static int is_same_place(const float a[16], const float b[16])
 {
@@ -49,7 +49,8 @@ static int is_same_place(const float a[16], const float b[16])
 static int is_drawn(const struct scene *s, const struct scene_mesh *mesh, const float modelview[16])
 {
 	for (uint32_t i = 0; i < s->n_instances; i++)
-		if (memcmp(s->meshes[s->instances[i].mesh]->hash, mesh->hash, sizeof(mesh->hash)) == 0 && is_same_place(s->instances[i].modelview, modelview))
+		if (memcmp(s->meshes[s->instances[i].mesh]->hash, mesh->hash, sizeof(mesh->hash)) == 0 &&
+		    is_same_place(s->instances[i].modelview, modelview))
 			return 1;
 	return 0;
 }
@@ -69,7 +70,8 @@ static int can_move(const struct scene *s, const struct scene_instance *in)
 }
 
 /* Corners' mean, and twice the area as a normal. */
-static void find_middle(const struct scene_mesh *mesh, const float modelview[16], uint32_t primitive, float middle[3], float normal[3])
+static void find_middle(const struct scene_mesh *mesh, const float modelview[16], uint32_t primitive, float middle[3],
+                        float normal[3])
 {
 	float corner[3][4];
 
@@ -79,7 +81,8 @@ static void find_middle(const struct scene_mesh *mesh, const float modelview[16]
 		const int i = (k + 1) % 3, j = (k + 2) % 3;
 
 		middle[k] = (corner[0][k] + corner[1][k] + corner[2][k]) / 3;
-		normal[k] = (corner[1][i] - corner[0][i]) * (corner[2][j] - corner[0][j]) - (corner[1][j] - corner[0][j]) * (corner[2][i] - corner[0][i]);
+		normal[k] = (corner[1][i] - corner[0][i]) * (corner[2][j] - corner[0][j]) -
+		            (corner[1][j] - corner[0][j]) * (corner[2][i] - corner[0][i]);
 	}
 }
 
@@ -93,12 +96,13 @@ static int is_in_view(const struct scene_view *view, const float at[3])
 	float clip[4];
 
 	mat4_transform(clip, view->projection, (const float[4]){ at[0], at[1], at[2], 1 });
-	return clip[3] > 0 && fabsf(clip[0]) < WITHIN * clip[3] && fabsf(clip[1]) < WITHIN * clip[3] && fabsf(clip[2]) < clip[3];
+	return clip[3] > 0 && fabsf(clip[0]) < WITHIN * clip[3] && fabsf(clip[1]) < WITHIN * clip[3] &&
+	       fabsf(clip[2]) < clip[3];
 }
 
 /*
- * 1 where a mesh is gone: it turns the side to the viewer that it showed when it was drawn, lies in view, and nothing that the frame
- * drew hides it. then, now: its modelviews
+ * 1 where a mesh is gone: it turns the side to the viewer that it showed when it was drawn, lies in view, and nothing
+ * that the frame drew hides it. then, now: its modelviews
  */
 static int is_gone(const struct adding *a, const struct scene_mesh *mesh, const float then[16], const float now[16])
 {
@@ -118,7 +122,7 @@ static int is_gone(const struct adding *a, const struct scene_mesh *mesh, const 
 	return open >= (all < PROOF ? all : PROOF) && 2 * open > all;
 }
 
-/* --- A scene that grows --------------------------------------------------------------------------------------------------- */
+/* --- A scene that grows ------------------------------------------------------------------------------------------ */
 
 #define APPEND(a, items, item) \
 	(MEMORY_GROW((a)->out->items, (a)->room_##items, (a)->out->n_##items + (size_t)1) ? ERR_SYSTEM : \
@@ -145,12 +149,14 @@ static int add_light(struct adding *a, const struct scene_light *light, const fl
 		}
 	mat4_transform(moved.position_eye, now_from_then, light->position_eye);
 	mat4_transform(turned, now_from_then,
-	               (const float[4]){ light->spot_direction_eye[0], light->spot_direction_eye[1], light->spot_direction_eye[2], 0 });
+	               (const float[4]){ light->spot_direction_eye[0], light->spot_direction_eye[1],
+	                                 light->spot_direction_eye[2], 0 });
 	memcpy(moved.spot_direction_eye, turned, sizeof(moved.spot_direction_eye));
 	return APPEND(a, lights, moved);
 }
 
-static int add_material(struct adding *a, const struct scene *from, const struct scene_material *was, const float now_from_then[16])
+static int add_material(struct adding *a, const struct scene *from, const struct scene_material *was,
+                        const float now_from_then[16])
 {
 	struct scene_material m = *was;
 	int err = 0;
@@ -172,7 +178,8 @@ static int add_material(struct adding *a, const struct scene *from, const struct
 }
 
 /* One draw of another frame. hidden: the view through which nobody looks */
-static int add_instance(struct adding *a, const struct scene *from, const struct scene_instance *in, const float now_from_then[16], uint32_t hidden)
+static int add_instance(struct adding *a, const struct scene *from, const struct scene_instance *in,
+                        const float now_from_then[16], uint32_t hidden)
 {
 	struct scene_instance added = *in;
 	const struct scene_mesh *mesh = from->meshes[in->mesh];
@@ -198,7 +205,8 @@ static int add_instance(struct adding *a, const struct scene *from, const struct
 
 #define COPY(a, items) \
 	(MEMORY_GROW((a)->out->items, (a)->room_##items, (a)->scene->n_##items + (size_t)1) ? ERR_SYSTEM : \
-	 ((a)->scene->n_##items ? (void)memcpy((a)->out->items, (a)->scene->items, (a)->scene->n_##items * sizeof(*(a)->out->items)) : (void)0, 0))
+	 ((a)->scene->n_##items ? (void)memcpy((a)->out->items, (a)->scene->items, \
+	 (a)->scene->n_##items * sizeof(*(a)->out->items)) : (void)0, 0))
 
 /* The scene's arrays as the copy's own, and a view of the main one's space that covers no pixel. */
 static int copy(struct adding *a)
@@ -215,8 +223,8 @@ static int copy(struct adding *a)
 	out->meshes = NULL;
 	out->textures = NULL;
 	out->views = malloc((s->n_views + (size_t)1) * sizeof(*out->views));
-	if (!out->views || COPY(a, instances) || COPY(a, materials) || COPY(a, units) || COPY(a, lights) || COPY(a, currents) || COPY(a, meshes) ||
-	    COPY(a, textures))
+	if (!out->views || COPY(a, instances) || COPY(a, materials) || COPY(a, units) || COPY(a, lights) ||
+	    COPY(a, currents) || COPY(a, meshes) || COPY(a, textures))
 		return ERR_SYSTEM;
 	memcpy(out->views, s->views, s->n_views * sizeof(*out->views));
 	out->views[s->n_views] = s->views[a->main_view];
@@ -250,7 +258,8 @@ static int add_frame(struct adding *a, uint32_t k, const float eye_from_world[16
 	float then[16], world_from_then[16], now_from_then[16];
 	int err = 0;
 
-	if (!from || from->frame == a->scene->frame || !world_find(a->look->rules, from, then) || !mat4_invert(world_from_then, then))
+	if (!from || from->frame == a->scene->frame || !world_find(a->look->rules, from, then) ||
+	    !mat4_invert(world_from_then, then))
 		return 0;
 	mat4_mul(now_from_then, eye_from_world, world_from_then);
 	for (uint32_t i = 0; i < from->n_instances && !err; i++)

@@ -11,7 +11,8 @@ struct rules;
 int world_hash_begins(const uint64_t hash[2], const char *text);
 
 /**
- * The matrix that leads from the world into eye space. Each anchor that the frame draws says one; what most of them say counts.
+ * The matrix that leads from the world into eye space. Each anchor that the frame draws says one; what most of them say
+ * counts.
  * @return 1; 0: the frame draws no anchor, or there is none
  */
 int world_find(const struct rules *rules, const struct scene *scene, float eye_from_world[16]);

@@ -42,7 +42,8 @@ def is_heading(line):
 
 
 def read(source):
-    """The blocks of a text: ("heading", title), ("text", words), ("list", [(term, words)]), ("keys", lines), ("code", lines)."""
+    """The blocks of a text: ("heading", title), ("text", words), ("list", [(term, words)]), ("keys", lines), ("code",
+    lines)."""
     blocks, heading = [], None
     for line in [*lines_of(source), ""]:
         kind = blocks[-1][0] if blocks else None
@@ -86,7 +87,10 @@ def plain(blocks):
             out += [*textwrap.wrap(content, PAGE_COLUMNS, break_long_words=False, break_on_hyphens=False), ""]
         elif kind == "list":
             for term, words in content:
-                out += [f"    {term}", *textwrap.wrap(words, PAGE_COLUMNS, initial_indent=8 * " ", subsequent_indent=8 * " ")]
+                out += [
+                    f"    {term}",
+                    *textwrap.wrap(words, PAGE_COLUMNS, initial_indent=8 * " ", subsequent_indent=8 * " ")
+                ]
             out.append("")
         else:
             out += [*(f"    {line}" if line else "" for line in content), ""]
@@ -110,7 +114,10 @@ def c_string(text):
 
 
 def main(out, dep):
-    c = ["/* Made by packaging/manual.py from headers, hooks/README.md and packaging/examples.txt. */", '#include "base/manual.h"', "", "#include <stddef.h>", ""]
+    c = [
+        "/* Made by packaging/manual.py from headers, hooks/README.md and packaging/examples.txt. */",
+        '#include "base/manual.h"', "", "#include <stddef.h>", ""
+    ]
     c.append("const struct manual_text manual_formats[] = {")
     for form in FORMATS:
         c.append(f'\t{{ "{form.name}-file", "{form.summary}",\n{c_string(plain(read(form.source)))} }},')

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """packaging/pages.py RELUME OUT: man pages and shell completion, made from what the command itself says.
 
-Reads `relume help` and every verb's --help; nothing here knows a verb or an option by name. Pages about formats of files
-come from the same texts as `relume help NAME-file` (manual.py). Writes
+Reads `relume help` and every verb's --help; nothing here knows a verb or an option by name. Pages about formats of
+files come from the same texts as `relume help NAME-file` (manual.py). Writes
 
     OUT/man/relume.1, OUT/man/relume-VERB.1, OUT/man/relume-NAME.5
     OUT/bash/relume, OUT/zsh/_relume, OUT/fish/relume.fish
@@ -19,7 +19,8 @@ import sys
 
 import manual
 
-OPTION = re.compile(r"^ {2,6}(?:-(?P<short>\w), )?--(?P<long>[a-z][\w-]*)(?: (?P<value>[A-Z][^ ]*))?(?: +(?P<text>.*))?$")
+OPTION = re.compile(
+    r"^ {2,6}(?:-(?P<short>\w), )?--(?P<long>[a-z][\w-]*)(?: (?P<value>[A-Z][^ ]*))?(?: +(?P<text>.*))?$")
 VERB = re.compile(r"^  (\w+) +(.+)$", re.M)
 FILES = re.compile(r"TRACE|FILE|DIR|PATTERN|\.\w+|REF|PATH|FOLDER")
 
@@ -54,7 +55,12 @@ class Help:
 
 
 def roff(text):
-    text = text.replace("\\", "\\e").replace("-", "\\-").replace("'", "\\(aq").replace("`", "\\(ga").replace("^", "\\(ha").replace("~", "\\(ti")
+    text = text.replace("\\",
+                        "\\e").replace("-",
+                                       "\\-").replace("'",
+                                                      "\\(aq").replace("`",
+                                                                       "\\(ga").replace("^",
+                                                                                        "\\(ha").replace("~", "\\(ti")
     return "\\&" + text if text.startswith(".") else text
 
 
@@ -70,8 +76,10 @@ def page(name, section, about, body, others):
     group = {1: "User Commands", 5: "File Formats"}[section]
     see = " ,\n".join(".BR \\%{} ({})".format(*re.fullmatch(r"(.*)\((\d)\)", roff(other)).groups()) for other in others)
     body = [line for before, line in zip([None, *body], body) if line != ".PP" or not before.startswith((".SH", ".SS"))]
-    return "\n".join([f'.TH {name.upper()} {section} "{day():%Y-%m-%d}" relume "{group}"', ".SH NAME", f"{roff(name)} \\- {roff(about)}", *body,
-                      ".SH SEE ALSO", see]) + "\n"
+    return "\n".join([
+        f'.TH {name.upper()} {section} "{day():%Y-%m-%d}" relume "{group}"', ".SH NAME",
+        f"{roff(name)} \\- {roff(about)}", *body, ".SH SEE ALSO", see
+    ]) + "\n"
 
 
 def as_typed(lines):
@@ -233,7 +241,8 @@ def zsh(verbs):
     for verb, (_, help) in verbs.items():
         specs = []
         for option in help.options:
-            action = f":{clean(option['value'])}:{'_files' if takes_file(option['value']) else ' '}" if option["value"] else ""
+            action = f":{clean(option['value'])}:{'_files' if takes_file(option['value']) else ' '}" if option[
+                "value"] else ""
             for name in names_of(option):
                 specs.append(quote(f"*{name}[{clean(short_text(option))}]{action}"))
         cases.append(f"\t{verb}) _arguments -s {' '.join(specs)} '*:file:_files' ;;")
@@ -272,7 +281,8 @@ def fish(verbs):
     for verb, (about, help) in {**verbs, "help": ("explain a verb", None)}.items():
         lines.append(f"complete -c relume -n __fish_use_subcommand -a {verb} -d {text(about)}")
         if not help:
-            lines.append(f"complete -c relume -n '__fish_seen_subcommand_from help' -a {text(' '.join([*verbs, *formats()]))}")
+            lines.append(
+                f"complete -c relume -n '__fish_seen_subcommand_from help' -a {text(' '.join([*verbs, *formats()]))}")
             continue
         seen = f"-n '__fish_seen_subcommand_from {verb}'"
         lines.append(f"complete -c relume {seen} -F")
@@ -294,14 +304,18 @@ def main(relume, out):
     pages = {verb: f"relume-{verb}(1)" for verb in verbs}
     file_pages = {form.name: f"relume-{form.name}(5)" for form in manual.FORMATS}
     about = "ray trace what a legacy OpenGL program draws, from a recording"
-    files = {"man/relume.1": page("relume", 1, about, body_of_help(Help(overview)), [*pages.values(), *file_pages.values()])}
+    files = {
+        "man/relume.1": page("relume", 1, about, body_of_help(Help(overview)), [*pages.values(), *file_pages.values()])
+    }
     texts = {verb: ask("help", verb) for verb in verbs}
     for verb, (about, help) in verbs.items():
-        others = [p for v, p in pages.items() if v != verb] + [p for name, p in file_pages.items() if f"{name}-file" in texts[verb]]
+        others = [p for v, p in pages.items() if v != verb
+                  ] + [p for name, p in file_pages.items() if f"{name}-file" in texts[verb]]
         files[f"man/relume-{verb}.1"] = page(f"relume-{verb}", 1, about, body_of_help(help), ["relume(1)", *others])
     for form in manual.FORMATS:
         others = ["relume(1)", *(pages[verb] for verb in verbs if f"{form.name}-file" in texts[verb])]
-        files[f"man/relume-{form.name}.5"] = page(f"relume-{form.name}", 5, form.summary, body_of_format(manual.read(form.source)), others)
+        files[f"man/relume-{form.name}.5"] = page(f"relume-{form.name}", 5, form.summary,
+                                                  body_of_format(manual.read(form.source)), others)
     files.update({"bash/relume": bash(verbs), "zsh/_relume": zsh(verbs), "fish/relume.fish": fish(verbs)})
     for name, content in files.items():
         path = pathlib.Path(out, name)

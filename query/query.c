@@ -34,13 +34,15 @@ static const struct options_row rows[] = {
 	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct asked, frame) },
 	{ "kind", 'k', "KIND", "the query: nearest, any, all, distance, box or sphere (default nearest)", options_word,
 	  .at = offsetof(struct asked, kind), .words = kind_names },
-	{ "most", 'm', "N", "with all: print the N nearest hits of a ray (default 16)", options_number, .at = offsetof(struct asked, most),
-	  .most = MOST_HITS },
-	{ "binary", 'b', NULL, "queries and answers are 4-byte numbers in this machine's byte order, without lines", options_flag,
-	  .at = offsetof(struct asked, binary) },
-	{ "output", 'o', "FILE", "file for the answers, which appears once it is complete (default: standard output, as they come)", options_text,
-	  .at = offsetof(struct asked, output), .use = CONFINE_MAKES },
-	{ "device", 'd', "DEVICE", "a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference", options_text,
+	{ "most", 'm', "N", "with all: print the N nearest hits of a ray (default 16)", options_number,
+	  .at = offsetof(struct asked, most), .most = MOST_HITS },
+	{ "binary", 'b', NULL, "queries and answers are 4-byte numbers in this machine's byte order, without lines",
+	  options_flag, .at = offsetof(struct asked, binary) },
+	{ "output", 'o', "FILE",
+	  "file for the answers, which appears once it is complete (default: standard output, as they come)",
+	  options_text, .at = offsetof(struct asked, output), .use = CONFINE_MAKES },
+	{ "device", 'd', "DEVICE",
+	  "a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference", options_text,
 	  .at = offsetof(struct asked, device) },
 	{ OPTIONS_NO_SANDBOX },
 };
@@ -48,22 +50,34 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "query",
 	.head = "usage: relume query [OPTIONS] TRACE [QUERIES]\n"
-	        "\n"
-	        "Find what rays hit, how far surfaces are, and what moving bodies meet among the triangles that one frame draws.\n"
-	        "\n"
-	        "QUERIES  a file, a query a line (default: standard input). Numbers are in eye space: the viewer at 0 looks along -z\n",
+		"\n"
+		"Find what rays hit, how far surfaces are, and what moving bodies meet among the triangles that one "
+	        "frame draws.\n"
+		"\n"
+		"QUERIES  a file, a query a line (default: standard input). Numbers are in eye space: the viewer at 0 "
+	        "looks along -z\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Each kind of query, and its answer:\n"
-	         "  nearest   origin x y z, nearest t, direction x y z, farthest t     t b1 b2 triangle draw primitive\n"
-	         "  any       the same                                                 0 or 1\n"
-	         "  all       the same                                                 how many hits, then t b1 b2 triangle of each\n"
-	         "  distance  point x y z, farthest distance                           distance x y z triangle draw primitive\n"
-	         "  box       centre x y z, half its edges x y z, way x y z            share of the way, triangle draw primitive\n"
-	         "  sphere    centre x y z, radius, way x y z                          the same\n"
-	         "If nothing is found, the line is '-'. Empty lines and text after '#' are ignored. With --binary there are no draw\n"
-	         "and primitive, nothing found is triangle 4294967295, and all gives the number of hits, then always --most of them.\n"
-	         "Exit codes: 0 done, 2 wrong usage, 3 a recording or a query cannot be read, 5 the device or the system failed.\n",
-	.takes = "a trace, and at most one file of queries", .least = 1, .most = 2, .words_use = CONFINE_RECORDING,
+	.notes =
+		"Each kind of query, and its answer:\n"
+		"  nearest   origin x y z, nearest t, direction x y z, farthest t     t b1 b2 triangle draw primitive\n"
+		"  any       the same                                                 0 or 1\n"
+		"  all       the same                                                 how many hits, then t b1 b2 "
+	        "triangle of each\n"
+		"  distance  point x y z, farthest distance                           distance x y z triangle draw "
+	        "primitive\n"
+		"  box       centre x y z, half its edges x y z, way x y z            share of the way, triangle draw "
+	        "primitive\n"
+		"  sphere    centre x y z, radius, way x y z                          the same\n"
+		"If nothing is found, the line is '-'. Empty lines and text after '#' are ignored. With --binary there "
+	        "are no draw\n"
+		"and primitive, nothing found is triangle 4294967295, and all gives the number of hits, then always "
+	        "--most of them.\n"
+		"Exit codes: 0 done, 2 wrong usage, 3 a recording or a query cannot be read, 5 the device or the "
+	        "system failed.\n",
+	.takes = "a trace, and at most one file of queries",
+	.least = 1,
+	.most = 2,
+	.words_use = CONFINE_RECORDING,
 };
 
 /* The source of queries and the destination of answers. */
@@ -83,7 +97,7 @@ struct stream {
 	uint32_t *counts;
 };
 
-/* --- Queries in ----------------------------------------------------------------------------------------------------------- */
+/* --- Queries in -------------------------------------------------------------------------------------------------- */
 
 /* Read a line's numbers. @return 1; 0: it has none; ERR_INPUT (reported) */
 static int read_line(struct stream *s, char *line, float *out)
@@ -133,7 +147,8 @@ static long read_binary(struct stream *s)
 	const size_t bytes = kind_numbers[s->asked->kind] * sizeof(float), n = fread(s->numbers, 1, BATCH * bytes, s->in);
 
 	if (n % bytes)
-		return err_report(ERR_INPUT, s->name, "ends within a query: '%s' queries have %zu bytes", kind_names[s->asked->kind], bytes);
+		return err_report(ERR_INPUT, s->name, "ends within a query: '%s' queries have %zu bytes",
+		                  kind_names[s->asked->kind], bytes);
 	return (long)(n / bytes);
 }
 
@@ -144,7 +159,7 @@ static long read_batch(struct stream *s)
 	return n >= 0 && ferror(s->in) ? err_report(ERR_INPUT, s->name, "%s", strerror(errno)) : n;
 }
 
-/* --- Answers out ---------------------------------------------------------------------------------------------------------- */
+/* --- Answers out ------------------------------------------------------------------------------------------------- */
 
 static void print_triangle(const struct stream *s, uint32_t triangle)
 {
@@ -187,7 +202,8 @@ static void print_answer(const struct stream *s, size_t i)
 	case DISTANCE:
 		triangle = distance->triangle;
 		if (triangle != RELUME_RAYS_NONE)
-			fprintf(s->out, "%.9g %.9g %.9g %.9g", distance->distance, distance->nearest[0], distance->nearest[1], distance->nearest[2]);
+			fprintf(s->out, "%.9g %.9g %.9g %.9g", distance->distance, distance->nearest[0],
+			        distance->nearest[1], distance->nearest[2]);
 		break;
 	default:
 		triangle = contact->triangle;
@@ -202,9 +218,9 @@ static void print_answer(const struct stream *s, size_t i)
 
 static void write_binary(const struct stream *s, size_t n)
 {
-	static const size_t bytes[N_KINDS] = { sizeof(struct relume_rays_hit), sizeof(uint32_t), sizeof(struct relume_rays_hit),
-		                               sizeof(struct relume_rays_distance), sizeof(struct relume_rays_contact),
-		                               sizeof(struct relume_rays_contact) };
+	static const size_t bytes[N_KINDS] = { sizeof(struct relume_rays_hit),     sizeof(uint32_t),
+		                               sizeof(struct relume_rays_hit),     sizeof(struct relume_rays_distance),
+		                               sizeof(struct relume_rays_contact), sizeof(struct relume_rays_contact) };
 
 	if (s->asked->kind != ALL) {
 		fwrite(s->answers.any, bytes[s->asked->kind], n, s->out);
@@ -247,7 +263,7 @@ static int ask(struct stream *s, size_t n, struct relume_rays_body *bodies)
 	}
 }
 
-/* --- The verb ------------------------------------------------------------------------------------------------------------- */
+/* --- The verb ---------------------------------------------------------------------------------------------------- */
 
 /* All queries, batch by batch. @return 0 or ERR_* (reported) */
 static int answer_all(struct stream *s)

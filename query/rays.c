@@ -40,17 +40,25 @@ _Static_assert(sizeof(struct relume_rays_body) == sizeof(struct query_body), "")
 _Static_assert(sizeof(struct relume_rays_contact) == sizeof(struct query_contact), "");
 _Static_assert(RELUME_RAYS_NONE == SCENE_NONE, "");
 
-/* --- The tree --------------------------------------------------------------------------------------------------------- */
+/* --- The tree ---------------------------------------------------------------------------------------------------- */
 
 /* A scene of one mesh, for the builders. */
 static int build(struct relume_rays *r)
 {
-	const struct scene_mesh mesh = { .hash = { 1, 1 }, .kind = SCENE_TRIANGLES, .vertex_count = r->soup.n_vertices,
-		                         .primitive_count = r->soup.n_triangles, .position = r->soup.position[0], .index = r->soup.index[0] };
+	const struct scene_mesh mesh = { .hash = { 1, 1 },
+		                         .kind = SCENE_TRIANGLES,
+		                         .vertex_count = r->soup.n_vertices,
+		                         .primitive_count = r->soup.n_triangles,
+		                         .position = r->soup.position[0],
+		                         .index = r->soup.index[0] };
 	const struct scene_mesh *meshes[1] = { &mesh };
 	struct scene_instance scene_instance = { .mesh = 0 };
 	struct scene_view scene_view = { .space = 0 };
-	const struct scene scene = { .meshes = meshes, .instances = &scene_instance, .views = &scene_view, .n_meshes = 1, .n_instances = 1,
+	const struct scene scene = { .meshes = meshes,
+		                     .instances = &scene_instance,
+		                     .views = &scene_view,
+		                     .n_meshes = 1,
+		                     .n_instances = 1,
 		                     .n_views = 1 };
 	struct instance instance = { .flags = INSTANCE_OPAQUE | INSTANCE_SECONDARY };
 	struct view view = { .tlas_count = 0 };
@@ -109,8 +117,8 @@ int relume_rays_open_frame(const char *trace, uint64_t frame, const char *device
 	return err ? -err : open_soup(&soup, device, out);
 }
 
-int relume_rays_open_triangles(const float (*position)[3], size_t n_vertices, const uint32_t (*index)[3], size_t n_triangles,
-                               const char *device, struct relume_rays **out)
+int relume_rays_open_triangles(const float (*position)[3], size_t n_vertices, const uint32_t (*index)[3],
+                               size_t n_triangles, const char *device, struct relume_rays **out)
 {
 	struct query_soup soup = { NULL };
 	int err = query_soup_of_triangles(position, n_vertices, index, n_triangles, "relume_rays_open_triangles", &soup);
@@ -127,8 +135,9 @@ void relume_rays_close(struct relume_rays **rays)
 	if (!r)
 		return;
 	if (r->dev) {
-		struct device_buffer **buffers[] = { &r->rays.buffer, &r->hits.buffer, &r->counts.buffer, &r->points.buffer, &r->nearest.buffer,
-			                             &r->bodies.buffer, &r->contacts.buffer };
+		struct device_buffer **buffers[] = { &r->rays.buffer,    &r->hits.buffer,    &r->counts.buffer,
+			                             &r->points.buffer,  &r->nearest.buffer, &r->bodies.buffer,
+			                             &r->contacts.buffer };
 
 		for (size_t i = 0; i < sizeof(buffers) / sizeof(buffers[0]); i++)
 			device_release(r->dev, buffers[i]);
@@ -156,7 +165,7 @@ void relume_rays_describe(const struct relume_rays *rays, uint32_t triangle, str
 	out->primitive = soup->sources ? soup->sources[triangle].primitive : triangle;
 }
 
-/* --- Batches ------------------------------------------------------------------------------------------------------------ */
+/* --- Batches ----------------------------------------------------------------------------------------------------- */
 
 enum question { NEAREST, ANY, ALL, DISTANCE, BOX, SPHERE, N_QUESTIONS };
 
@@ -171,12 +180,13 @@ struct batch {
 };
 
 static const size_t asked_bytes[N_QUESTIONS] = {
-	[NEAREST] = sizeof(struct ray), [ANY] = sizeof(struct ray), [ALL] = sizeof(struct ray), [DISTANCE] = sizeof(struct query_point),
-	[BOX] = sizeof(struct query_body), [SPHERE] = sizeof(struct query_body),
+	[NEAREST] = sizeof(struct ray), [ANY] = sizeof(struct ray), [ALL] = sizeof(struct ray),
+	[DISTANCE] = sizeof(struct query_point), [BOX] = sizeof(struct query_body), [SPHERE] = sizeof(struct query_body),
 };
 static const size_t answer_bytes[N_QUESTIONS] = {
 	[NEAREST] = sizeof(struct relume_rays_hit), [ANY] = sizeof(uint32_t), [ALL] = sizeof(struct relume_rays_hit),
-	[DISTANCE] = sizeof(struct query_nearest), [BOX] = sizeof(struct query_contact), [SPHERE] = sizeof(struct query_contact),
+	[DISTANCE] = sizeof(struct query_nearest), [BOX] = sizeof(struct query_contact),
+	[SPHERE] = sizeof(struct query_contact),
 };
 
 static int read_hits(struct relume_rays *r, size_t n)
@@ -188,7 +198,8 @@ static int read_hits(struct relume_rays *r, size_t n)
 
 static void give_hit(const struct hit *hit, struct relume_rays_hit *out)
 {
-	*out = (struct relume_rays_hit){ hit->t, hit->b1, hit->b2, hit->instance == SCENE_NONE ? RELUME_RAYS_NONE : hit->primitive };
+	*out = (struct relume_rays_hit){ hit->t, hit->b1, hit->b2,
+		                         hit->instance == SCENE_NONE ? RELUME_RAYS_NONE : hit->primitive };
 }
 
 static int ask_rays(struct relume_rays *r, const struct batch *b)
@@ -218,11 +229,14 @@ static int ask_all(struct relume_rays *r, const struct batch *b)
 	int err;
 
 	if ((err = launch_upload(r->dev, r->rays, (const struct ray *)b->asked, b->n)) ||
-	    (err = launch_reserve(r->dev, r->hits, b->n * b->most)) || (err = launch_reserve(r->dev, r->counts, b->n)) ||
-	    (err = launch_query_all(r->dev, b->n, LAUNCH(query_all, .n = (uint32_t)b->n, .nodes = r->trees.nodes2,
-	                                                 .triangles = r->trees.triangles, .rays = r->rays, .most = b->most, .hits = r->hits,
-	                                                 .counts = r->counts))) ||
-	    (err = device_read(r->dev, r->counts.buffer, 0, b->counts, b->n * sizeof(*b->counts))) || (err = read_hits(r, b->n * b->most)))
+	    (err = launch_reserve(r->dev, r->hits, b->n * b->most)) ||
+	    (err = launch_reserve(r->dev, r->counts, b->n)) ||
+	    (err = launch_query_all(r->dev, b->n,
+	                            LAUNCH(query_all, .n = (uint32_t)b->n, .nodes = r->trees.nodes2,
+	                                   .triangles = r->trees.triangles, .rays = r->rays, .most = b->most,
+	                                   .hits = r->hits, .counts = r->counts))) ||
+	    (err = device_read(r->dev, r->counts.buffer, 0, b->counts, b->n * sizeof(*b->counts))) ||
+	    (err = read_hits(r, b->n * b->most)))
 		return err;
 	for (size_t i = 0; i < b->n; i++)
 		for (uint32_t k = 0; k < b->most; k++) {
@@ -242,8 +256,10 @@ static int ask_distance(struct relume_rays *r, const struct batch *b)
 
 	if ((err = launch_upload(r->dev, r->points, (const struct query_point *)b->asked, b->n)) ||
 	    (err = launch_reserve(r->dev, r->nearest, b->n)) ||
-	    (err = launch_query_distance(r->dev, b->n, LAUNCH(query_distance, .n = (uint32_t)b->n, .nodes = r->trees.nodes2,
-	                                                      .triangles = r->trees.triangles, .points = r->points, .nearest = r->nearest))))
+	    (err = launch_query_distance(r->dev, b->n,
+	                                 LAUNCH(query_distance, .n = (uint32_t)b->n, .nodes = r->trees.nodes2,
+	                                        .triangles = r->trees.triangles, .points = r->points,
+	                                        .nearest = r->nearest))))
 		return err;
 	return device_read(r->dev, r->nearest.buffer, 0, b->answers, b->n * sizeof(struct query_nearest));
 }
@@ -256,11 +272,15 @@ static int ask_bodies(struct relume_rays *r, const struct batch *b)
 	    (err = launch_reserve(r->dev, r->contacts, b->n)))
 		return err;
 	if (b->question == BOX)
-		err = launch_query_box(r->dev, b->n, LAUNCH(query_box, .n = (uint32_t)b->n, .nodes = r->trees.nodes2,
-		                                            .triangles = r->trees.triangles, .bodies = r->bodies, .contacts = r->contacts));
+		err = launch_query_box(r->dev, b->n,
+		                       LAUNCH(query_box, .n = (uint32_t)b->n, .nodes = r->trees.nodes2,
+		                              .triangles = r->trees.triangles, .bodies = r->bodies,
+		                              .contacts = r->contacts));
 	else
-		err = launch_query_sphere(r->dev, b->n, LAUNCH(query_sphere, .n = (uint32_t)b->n, .nodes = r->trees.nodes2,
-		                                               .triangles = r->trees.triangles, .bodies = r->bodies, .contacts = r->contacts));
+		err = launch_query_sphere(r->dev, b->n,
+		                          LAUNCH(query_sphere, .n = (uint32_t)b->n, .nodes = r->trees.nodes2,
+		                                 .triangles = r->trees.triangles, .bodies = r->bodies,
+		                                 .contacts = r->contacts));
 	return err ? err : device_read(r->dev, r->contacts.buffer, 0, b->answers, b->n * sizeof(struct query_contact));
 }
 
@@ -288,7 +308,8 @@ static void answer_nothing(const struct batch *b)
 			((uint32_t *)b->answers)[i] = 0;
 			break;
 		case DISTANCE:
-			((struct relume_rays_distance *)b->answers)[i] = (struct relume_rays_distance){ .distance = INFINITY, .triangle = RELUME_RAYS_NONE };
+			((struct relume_rays_distance *)b->answers)[i] =
+				(struct relume_rays_distance){ .distance = INFINITY, .triangle = RELUME_RAYS_NONE };
 			break;
 		case BOX:
 		case SPHERE:
@@ -330,7 +351,8 @@ static int ask(struct relume_rays *r, const struct batch *all)
 	return 0;
 }
 
-int relume_rays_nearest(struct relume_rays *rays, const struct relume_rays_ray *ray, size_t n, struct relume_rays_hit *hits)
+int relume_rays_nearest(struct relume_rays *rays, const struct relume_rays_ray *ray, size_t n,
+                        struct relume_rays_hit *hits)
 {
 	return ask(rays, &(struct batch){ .question = NEAREST, .asked = ray, .n = n, .most = 1, .answers = hits });
 }
@@ -340,25 +362,30 @@ int relume_rays_any(struct relume_rays *rays, const struct relume_rays_ray *ray,
 	return ask(rays, &(struct batch){ .question = ANY, .asked = ray, .n = n, .most = 1, .answers = any });
 }
 
-int relume_rays_all(struct relume_rays *rays, const struct relume_rays_ray *ray, size_t n, uint32_t most, struct relume_rays_hit *hits,
-                    uint32_t *counts)
+int relume_rays_all(struct relume_rays *rays, const struct relume_rays_ray *ray, size_t n, uint32_t most,
+                    struct relume_rays_hit *hits, uint32_t *counts)
 {
 	if (!most)
 		return -err_report(ERR_USAGE, "relume_rays_all", "keeps at least one hit of a ray");
-	return ask(rays, &(struct batch){ .question = ALL, .asked = ray, .n = n, .most = most, .answers = hits, .counts = counts });
+	return ask(rays,
+	           &(struct batch){
+			   .question = ALL, .asked = ray, .n = n, .most = most, .answers = hits, .counts = counts });
 }
 
-int relume_rays_distance(struct relume_rays *rays, const struct relume_rays_point *points, size_t n, struct relume_rays_distance *out)
+int relume_rays_distance(struct relume_rays *rays, const struct relume_rays_point *points, size_t n,
+                         struct relume_rays_distance *out)
 {
 	return ask(rays, &(struct batch){ .question = DISTANCE, .asked = points, .n = n, .most = 1, .answers = out });
 }
 
-int relume_rays_move_box(struct relume_rays *rays, const struct relume_rays_body *bodies, size_t n, struct relume_rays_contact *out)
+int relume_rays_move_box(struct relume_rays *rays, const struct relume_rays_body *bodies, size_t n,
+                         struct relume_rays_contact *out)
 {
 	return ask(rays, &(struct batch){ .question = BOX, .asked = bodies, .n = n, .most = 1, .answers = out });
 }
 
-int relume_rays_move_sphere(struct relume_rays *rays, const struct relume_rays_body *bodies, size_t n, struct relume_rays_contact *out)
+int relume_rays_move_sphere(struct relume_rays *rays, const struct relume_rays_body *bodies, size_t n,
+                            struct relume_rays_contact *out)
 {
 	return ask(rays, &(struct batch){ .question = SPHERE, .asked = bodies, .n = n, .most = 1, .answers = out });
 }

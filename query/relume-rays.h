@@ -73,7 +73,8 @@ struct relume_rays_body {
 };
 
 struct relume_rays_contact {
-	float t;           /* share of its way to the first contact, [0,1]; 0: it touches something where it starts; infinite: it is free */
+	float t; /* share of its way to the first contact, [0,1]; 0: it touches something where it starts; infinite: it
+	            is free */
 	uint32_t triangle; /* the one that it meets; RELUME_RAYS_NONE: it is free */
 };
 
@@ -89,8 +90,8 @@ int relume_rays_open_frame(const char *trace, uint64_t frame, const char *device
  * @param position  [n_vertices], finite
  * @param index     [n_triangles], each less than n_vertices
  */
-int relume_rays_open_triangles(const float (*position)[3], size_t n_vertices, const uint32_t (*index)[3], size_t n_triangles,
-                               const char *device, struct relume_rays **out);
+int relume_rays_open_triangles(const float (*position)[3], size_t n_vertices, const uint32_t (*index)[3],
+                               size_t n_triangles, const char *device, struct relume_rays **out);
 
 /** *rays becomes NULL; it may be NULL. */
 void relume_rays_close(struct relume_rays **rays);
@@ -101,7 +102,8 @@ size_t relume_rays_triangles(const struct relume_rays *rays);
 void relume_rays_describe(const struct relume_rays *rays, uint32_t triangle, struct relume_rays_triangle *out);
 
 /** The nearest hit of each ray. @param hits  [n] */
-int relume_rays_nearest(struct relume_rays *rays, const struct relume_rays_ray *ray, size_t n, struct relume_rays_hit *hits);
+int relume_rays_nearest(struct relume_rays *rays, const struct relume_rays_ray *ray, size_t n,
+                        struct relume_rays_hit *hits);
 
 /** Does each ray hit anything? @param any  [n], receives 1 or 0 */
 int relume_rays_any(struct relume_rays *rays, const struct relume_rays_ray *ray, size_t n, uint32_t *any);
@@ -112,15 +114,19 @@ int relume_rays_any(struct relume_rays *rays, const struct relume_rays_ray *ray,
  * @param hits    [n][most], by distance
  * @param counts  [n]: number of triangles that the ray hits, which may exceed `most`
  */
-int relume_rays_all(struct relume_rays *rays, const struct relume_rays_ray *ray, size_t n, uint32_t most, struct relume_rays_hit *hits,
-                    uint32_t *counts);
+int relume_rays_all(struct relume_rays *rays, const struct relume_rays_ray *ray, size_t n, uint32_t most,
+                    struct relume_rays_hit *hits, uint32_t *counts);
 
 /** The distance from each point to the nearest triangle. @param out  [n] */
-int relume_rays_distance(struct relume_rays *rays, const struct relume_rays_point *points, size_t n, struct relume_rays_distance *out);
+int relume_rays_distance(struct relume_rays *rays, const struct relume_rays_point *points, size_t n,
+                         struct relume_rays_distance *out);
 
-/** The first contact of each moving body. Surfaces only: inside a closed mesh, a body touches nothing. @param out  [n] */
-int relume_rays_move_box(struct relume_rays *rays, const struct relume_rays_body *bodies, size_t n, struct relume_rays_contact *out);
-int relume_rays_move_sphere(struct relume_rays *rays, const struct relume_rays_body *bodies, size_t n, struct relume_rays_contact *out);
+/** The first contact of each moving body. Surfaces only: inside a closed mesh, a body touches nothing. @param out 
+ * [n] */
+int relume_rays_move_box(struct relume_rays *rays, const struct relume_rays_body *bodies, size_t n,
+                         struct relume_rays_contact *out);
+int relume_rays_move_sphere(struct relume_rays *rays, const struct relume_rays_body *bodies, size_t n,
+                            struct relume_rays_contact *out);
 
 #ifdef __cplusplus
 }

@@ -9,7 +9,8 @@
 #include "tracer/frame/prepare.h"
 
 /* The mesh of an instance if rays of a space see it, else NULL. */
-static const struct scene_mesh *seen_mesh(const struct scene *scene, const struct prepared *p, uint32_t space, uint32_t i)
+static const struct scene_mesh *seen_mesh(const struct scene *scene, const struct prepared *p, uint32_t space,
+                                          uint32_t i)
 {
 	const struct scene_instance *instance = &scene->instances[p->instances[i].scene_instance];
 
@@ -89,7 +90,8 @@ static int make_room(size_t n_vertices, size_t n_triangles, int sources, struct 
 {
 	if (n_vertices >= SCENE_NONE || n_triangles >= SCENE_NONE / 3)
 		return err_report(ERR_SYSTEM, NULL, "%zu triangles are too many for one scene", n_triangles);
-	if (memory_resize(&out->position, n_vertices, sizeof(*out->position)) || memory_resize(&out->index, n_triangles, sizeof(*out->index)) ||
+	if (memory_resize(&out->position, n_vertices, sizeof(*out->position)) ||
+	    memory_resize(&out->index, n_triangles, sizeof(*out->index)) ||
 	    (sources && memory_resize(&out->sources, n_triangles, sizeof(*out->sources))))
 		return ERR_SYSTEM;
 	return 0;
@@ -128,8 +130,8 @@ int query_soup_of_frame(const struct scene *scene, struct query_soup *out)
 	return err;
 }
 
-int query_soup_of_triangles(const float (*position)[3], size_t n_vertices, const uint32_t (*index)[3], size_t n_triangles,
-                            const char *where, struct query_soup *out)
+int query_soup_of_triangles(const float (*position)[3], size_t n_vertices, const uint32_t (*index)[3],
+                            size_t n_triangles, const char *where, struct query_soup *out)
 {
 	int err;
 

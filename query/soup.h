@@ -31,6 +31,6 @@ int query_soup_of_frame(const struct scene *scene, struct query_soup *out);
  * @param where  their name in messages
  * @return 0; ERR_SYSTEM (reported); ERR_USAGE (reported: an index out of range or a number that is not finite)
  */
-int query_soup_of_triangles(const float (*position)[3], size_t n_vertices, const uint32_t (*index)[3], size_t n_triangles,
-                            const char *where, struct query_soup *out);
+int query_soup_of_triangles(const float (*position)[3], size_t n_vertices, const uint32_t (*index)[3],
+                            size_t n_triangles, const char *where, struct query_soup *out);
 void query_soup_free(struct query_soup *soup);

@@ -23,14 +23,19 @@ int carried_take_fault(struct carried *c)
 	if (fault.kind == FAULT_NONE)
 		return 0;
 	if (fault.device < 0)
-		return err_report(ERR_SYSTEM, "OpenCL", "a driver fails when it lists its devices (%s); repair it, or use --device reference (slow)",
-		                  fault_words(&fault, text, sizeof(text)));
+		return err_report(
+			ERR_SYSTEM, "OpenCL",
+			"a driver fails when it lists its devices (%s); repair it, or use --device reference (slow)",
+			fault_words(&fault, text, sizeof(text)));
 	for (size_t i = 0; i < c->run.n; i++)
 		if (c->run.faults[i].device == fault.device && c->run.faults[i].family == fault.family)
-			return err_report(ERR_SYSTEM, "OpenCL", "device %d fails before it runs a kernel (%s): choose another --device, or --device reference (slow)",
+			return err_report(ERR_SYSTEM, "OpenCL",
+			                  "device %d fails before it runs a kernel (%s): choose another --device, or "
+			                  "--device reference (slow)",
 			                  fault.device, fault_words(&fault, text, sizeof(text)));
 	if (c->run.n == MOST_FAULTS || fault.family < 0 || fault.family >= N_DEVICE_FAMILIES)
-		return err_report(ERR_SYSTEM, "OpenCL", "too many drivers fail (%s): choose another --device", fault_words(&fault, text, sizeof(text)));
+		return err_report(ERR_SYSTEM, "OpenCL", "too many drivers fail (%s): choose another --device",
+		                  fault_words(&fault, text, sizeof(text)));
 	c->run.faults[c->run.n++] = fault;
 	c->first = fault.is_build ? FAULT_NO_FRAME : fault.frame;
 	c->is_confirmed = 0;
@@ -47,7 +52,8 @@ int carried_confirms(struct carried *c, const struct device *dev)
 	return 1;
 }
 
-/* Launches may do better with another frame; compilers never do. @return how many different frames they had, as far as is known */
+/* Launches may do better with another frame; compilers never do. @return how many different frames they had, as far as
+ * is known */
 static int forget_launches(struct outcome_run *run)
 {
 	const int64_t last = run->faults[run->n - 1].frame;

@@ -1,6 +1,6 @@
 /*
- * What the worker processes of one run hand on to each other (guard.h): faults, frames that are done, and all that the run tells in the
- * end. It lies in memory that they share, so a process that ends at any moment leaves it there.
+ * What the worker processes of one run hand on to each other (guard.h): faults, frames that are done, and all that the
+ * run tells in the end. It lies in memory that they share, so a process that ends at any moment leaves it there.
  */
 #pragma once
 
@@ -45,8 +45,8 @@ int carried_take_fault(struct carried *c);
 int carried_confirms(struct carried *c, const struct device *dev);
 
 /**
- * Every family that a device may run has failed in this run. Where all failed on one frame, and others were made, that one fails alone.
- * Where each had another frame, or one of several, they are tried once more.
+ * Every family that a device may run has failed in this run. Where all failed on one frame, and others were made, that
+ * one fails alone. Where each had another frame, or one of several, they are tried once more.
  * @return 1: all families count as untried again; 0: the device is of no use
  */
 int carried_blame_frame(struct carried *c);

@@ -13,7 +13,7 @@ enum kind { DRAWS, MESHES, TEXTURES, N_KINDS };
 
 static const char *const layers[N_KINDS] = { "CryptoDraw", "CryptoMesh", "CryptoTexture" };
 
-/* --- Numbers ------------------------------------------------------------------------------------------------------- */
+/* --- Numbers ----------------------------------------------------------------------------------------------------- */
 
 static uint32_t turn(uint32_t x, unsigned bits)
 {
@@ -59,7 +59,7 @@ static float as_float(uint32_t bits)
 	return f;
 }
 
-/* --- Names --------------------------------------------------------------------------------------------------------- */
+/* --- Names ------------------------------------------------------------------------------------------------------- */
 
 static void name_object(const struct scene *scene, enum kind kind, uint32_t draw, char name[64])
 {
@@ -80,7 +80,7 @@ static void name_object(const struct scene *scene, enum kind kind, uint32_t draw
 		snprintf(name, 64, "%s", kind == TEXTURES ? "untextured" : "no mesh");
 }
 
-/* --- Channels ------------------------------------------------------------------------------------------------------ */
+/* --- Channels ---------------------------------------------------------------------------------------------------- */
 
 /* What a layer knows of each draw number, and its manifest. */
 struct layer {
@@ -103,7 +103,8 @@ static int add_name(struct layer *layer, const char *name, uint32_t number)
 }
 
 /* Find the numbers of all draws that pixels show. */
-static int find_objects(const struct scene *scene, enum kind kind, const float *ids, size_t n_pixels, struct layer *layer)
+static int find_objects(const struct scene *scene, enum kind kind, const float *ids, size_t n_pixels,
+                        struct layer *layer)
 {
 	int err = 0;
 

@@ -7,7 +7,8 @@
 #include "look/camera/camera.h"
 #include "render/work.h"
 
-#define ENOUGH_BYTES ((uint64_t)1200 << 20) /* a third frame is not begun where it would take more, whatever --jobs says */
+/* a third frame is not begun where it would take more, whatever --jobs says */
+#define ENOUGH_BYTES ((uint64_t)1200 << 20)
 
 /* Whether memory is short for another frame. A limit lets the first go alone, to see what it takes. */
 static int is_crowded(const struct pipeline_state *state)
@@ -36,7 +37,8 @@ static int is_there(const struct pipeline_state *state, uint64_t frame)
 {
 	char path[PIPELINE_PATH_BYTES];
 
-	return state->p->settings->skip_existing && !frame_pattern_expand(state->p->settings->output, frame, path, sizeof(path)) &&
+	return state->p->settings->skip_existing &&
+	       !frame_pattern_expand(state->p->settings->output, frame, path, sizeof(path)) &&
 	       stamp_check(&state->p->stamp, settings_recorded_frame(state->p->settings, frame), path) == STAMP_SAME;
 }
 
@@ -58,7 +60,8 @@ static void note_lacks(const struct pipeline *p)
 		p->carried->lacks |= !replay_is_rendered(&counts[i]);
 }
 
-/* The scene of the next frame, or the one that all pictures of a turntable are made of. @return 1; 0: the recording has ended; ERR_* */
+/* The scene of the next frame, or the one that all pictures of a turntable are made of. @return 1; 0: the recording has
+ * ended; ERR_* */
 static int take_scene(struct pipeline_state *state, struct shared_scene **out)
 {
 	struct shared_scene *shared = state->turned ? state->turned : calloc(1, sizeof(*shared));
@@ -121,7 +124,8 @@ static int hand_out(struct pipeline_state *state, uint64_t number)
 	return more;
 }
 
-/* The frame that a driver failed on, so that another family tries it before all others; UINT64_MAX: none. Motion wants frames in their order. */
+/* The frame that a driver failed on, so that another family tries it before all others; UINT64_MAX: none. Motion wants
+ * frames in their order. */
 static uint64_t first_of(const struct pipeline *p)
 {
 	const int64_t first = p->carried->first;

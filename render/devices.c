@@ -20,13 +20,18 @@ struct asked {
 };
 
 static const struct options_row rows[] = {
-	{ "check", 0, NULL, "draw small scenes with every family of kernels, compare them with what the C twins draw, time them, and "
-	  "keep the outcome: 'relume render' goes by it", options_flag, .at = offsetof(struct asked, check) },
-	{ "device", 0, "NAME", "only this one, by number, type or part of the name (default: all)",
-	  options_text, .at = offsetof(struct asked, device) },
-	{ "timeout", 0, "S", "seconds that --check waits for a scene: a family that is not done then counts as wrong (default 300)",
+	{ "check", 0, NULL,
+	  "draw small scenes with every family of kernels, compare them with what the C twins draw, time them, and "
+	  "keep the outcome: 'relume render' goes by it",
+	  options_flag, .at = offsetof(struct asked, check) },
+	{ "device", 0, "NAME", "only this one, by number, type or part of the name (default: all)", options_text,
+	  .at = offsetof(struct asked, device) },
+	{ "timeout", 0, "S",
+	  "seconds that --check waits for a scene: a family that is not done then counts as wrong (default 300)",
 	  options_number, .at = offsetof(struct asked, seconds), .most = 86400 },
-	{ "cache", 0, "DIR", "where outcomes are kept, as for 'relume render' (default: relume/devices in $XDG_CACHE_HOME, or in ~/.cache)",
+	{ "cache", 0, "DIR",
+	  "where outcomes are kept, as for 'relume render' (default: relume/devices in $XDG_CACHE_HOME, or in "
+	  "~/.cache)",
 	  options_text, .at = offsetof(struct asked, cache) },
 	{ "json", 0, NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
 };
@@ -34,22 +39,31 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "devices",
 	.head = "usage: relume devices [--check] [OPTIONS]\n"
-	        "\n"
-	        "List the OpenCL devices: number, type, name, compute units and the floats that each computes with at once, memory,\n"
-	        "the family of traversal kernels that it runs (render --kernels names another), platform and driver. The number, the\n"
-	        "type (cpu, gpu, accelerator: the first of it) or any part of the name is what --device takes; without --device the\n"
-	        "first GPU is used, else the first device.\n"
-	        "'--device reference' runs the kernels' C twins: slow, needs no OpenCL.\n"
-	        "\n"
-	        "A device runs the family that suits its type, until --check has found out which are right there and which of these is\n"
-	        "the fastest. That counts until the driver or Relume's kernels change. Run it once on a new machine or driver: it takes\n"
-	        "a minute or two, as every kernel is compiled. Each family has a process of its own, so that a driver that crashes or\n"
-	        "hangs stops nothing. Where one does so while 'relume render' runs, that is remembered, too, until the next --check, and\n"
-	        "the list names it. Packets are for CPUs, and passed over elsewhere. The table: compile is what compiling took of all\n"
-	        "kernels, frame a picture of 480 x 360 once all is compiled.\n",
+		"\n"
+		"List the OpenCL devices: number, type, name, compute units and the floats that each computes with at "
+	        "once, memory,\n"
+		"the family of traversal kernels that it runs (render --kernels names another), platform and driver. "
+	        "The number, the\n"
+		"type (cpu, gpu, accelerator: the first of it) or any part of the name is what --device takes; without "
+	        "--device the\n"
+		"first GPU is used, else the first device.\n"
+		"'--device reference' runs the kernels' C twins: slow, needs no OpenCL.\n"
+		"\n"
+		"A device runs the family that suits its type, until --check has found out which are right there and "
+	        "which of these is\n"
+		"the fastest. That counts until the driver or Relume's kernels change. Run it once on a new machine or "
+	        "driver: it takes\n"
+		"a minute or two, as every kernel is compiled. Each family has a process of its own, so that a driver "
+	        "that crashes or\n"
+		"hangs stops nothing. Where one does so while 'relume render' runs, that is remembered, too, until the "
+	        "next --check, and\n"
+		"the list names it. Packets are for CPUs, and passed over elsewhere. The table: compile is what "
+	        "compiling took of all\n"
+		"kernels, frame a picture of 480 x 360 once all is compiled.\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exit codes of --check: 0 all families are right on all devices, 1 one is not, 5 on some device none is: there\n"
-	         "'relume render' takes no --device but 'reference'.\n",
+	.notes = "Exit codes of --check: 0 all families are right on all devices, 1 one is not, 5 on some device none "
+	         "is: there\n"
+		 "'relume render' takes no --device but 'reference'.\n",
 	.takes = "no arguments",
 };
 
@@ -65,7 +79,8 @@ struct known {
 /* The family that it renders with; -1: none is right. */
 static int family_of(const struct known *k)
 {
-	return k->is_known ? outcome_best(&k->outcome, device_type_family(k->device->type)) : (int)device_type_family(k->device->type);
+	return k->is_known ? outcome_best(&k->outcome, device_type_family(k->device->type)) :
+	                     (int)device_type_family(k->device->type);
 }
 
 static const char *name_of_family(int family)
@@ -73,7 +88,7 @@ static const char *name_of_family(int family)
 	return family < 0 ? "none" : device_family_names[family];
 }
 
-/* --- As JSON ------------------------------------------------------------------------------------------------------- */
+/* --- As JSON ----------------------------------------------------------------------------------------------------- */
 
 static void print_family(struct json *j, const struct known *k, int family, int check)
 {
@@ -139,16 +154,16 @@ static const char *say_why(const struct known *k, char *text, size_t size)
 	return text;
 }
 
-/* --- As text ------------------------------------------------------------------------------------------------------- */
+/* --- As text ----------------------------------------------------------------------------------------------------- */
 
 static void print_line(const struct known *k)
 {
 	const struct device_description *d = k->device;
 	char why[224];
 
-	printf("%zu  %s  %s, %u units of width %u, %llu MiB, kernels: %s%s  (%s %s)\n", k->number, device_type_name(d->type), d->name,
-	       d->units, d->width, (unsigned long long)(d->memory_bytes >> 20), name_of_family(family_of(k)),
-	       say_why(k, why, sizeof(why)), d->platform, d->driver);
+	printf("%zu  %s  %s, %u units of width %u, %llu MiB, kernels: %s%s  (%s %s)\n", k->number,
+	       device_type_name(d->type), d->name, d->units, d->width, (unsigned long long)(d->memory_bytes >> 20),
+	       name_of_family(family_of(k)), say_why(k, why, sizeof(why)), d->platform, d->driver);
 }
 
 static void print_row(const struct known *k, int family)
@@ -158,8 +173,8 @@ static void print_row(const struct known *k, int family)
 
 	if (r->all.frame_s > 0)
 		snprintf(frame, sizeof(frame), "%.1f ms", 1e3 * r->all.frame_s);
-	printf("%-2zu  %-40.40s  %-10s  %8.1f s  %12s  %s", k->number, k->device->name, device_family_names[family], r->all.compile_s, frame,
-	       outcome_words(&r->all, text, sizeof(text)));
+	printf("%-2zu  %-40.40s  %-10s  %8.1f s  %12s  %s", k->number, k->device->name, device_family_names[family],
+	       r->all.compile_s, frame, outcome_words(&r->all, text, sizeof(text)));
 	for (int i = 0; i < N_CHECK_SCENES; i++)
 		if (r->scenes[i].state == OUTCOME_WRONG)
 			printf("; %s: %u pixels of %s", check_scene_names[i], r->scenes[i].n_differ, r->scenes[i].channel);
@@ -167,7 +182,7 @@ static void print_row(const struct known *k, int family)
 	fflush(stdout);
 }
 
-/* --- Checking ------------------------------------------------------------------------------------------------------ */
+/* --- Checking ---------------------------------------------------------------------------------------------------- */
 
 /* Packets compute in vectors: compilers for GPUs take minutes for them, and GPUs gain nothing by them. */
 static int is_for(const struct device_description *device, enum device_family family)
@@ -192,7 +207,8 @@ static int check_one(const struct asked *o, const struct check_truth *truth, str
 	return err;
 }
 
-/* Check a device, and keep the outcome. @return 0; ERR_FAILED: a family is not right; ERR_SYSTEM (reported): none is, or nothing was found out */
+/* Check a device, and keep the outcome. @return 0; ERR_FAILED: a family is not right; ERR_SYSTEM (reported): none is,
+ * or nothing was found out */
 static int check_device(const struct asked *o, const struct check_truth *truth, const char *folder, struct known *k)
 {
 	int err = 0, n_right = 0, n_sound = 0; /* sound: right or passed over */
@@ -208,7 +224,8 @@ static int check_device(const struct asked *o, const struct check_truth *truth, 
 	if (folder)
 		outcome_write(folder, k->device, &k->outcome);
 	if (n_right == 0)
-		return err_report(ERR_SYSTEM, k->device->name, "no kernels are right on this device: render with another --device, or with "
+		return err_report(ERR_SYSTEM, k->device->name,
+		                  "no kernels are right on this device: render with another --device, or with "
 		                  "--device reference (slow)");
 	return n_sound < N_DEVICE_FAMILIES ? ERR_FAILED : 0;
 }

@@ -1,5 +1,6 @@
 /*
- * For motion vectors: what is known of the frames before those that are handed out. The thread that decodes notes them, workers ask and drop.
+ * For motion vectors: what is known of the frames before those that are handed out. The thread that decodes notes them,
+ * workers ask and drop.
  */
 #pragma once
 
@@ -25,7 +26,8 @@ void earlier_free(struct earlier *e);
 /** Note where everything is in a frame, for the one after it. @return 0 or ERR_SYSTEM (reported) */
 int earlier_note(struct earlier *e, const struct scene *scene);
 
-/** Decode the frame before one, unless it was the last, and keep what is to be known of it. @return 1; 0: the recording ends before it; ERR_* (reported) */
+/** Decode the frame before one, unless it was the last, and keep what is to be known of it. @return 1; 0: the recording
+ * ends before it; ERR_* (reported) */
 int earlier_decode(struct earlier *e, struct replay *replay, uint64_t frame);
 
 /** What is known of the frame before one; stays until earlier_drop. NULL: nothing */

@@ -1,9 +1,10 @@
 /*
- * Work in a process that may be ended by an OpenCL driver: a parent, which has touched no driver, waits for a worker process, and starts
- * another one where the driver was at fault (tracer/device/fault.h). What the next worker must know lies in memory that all share.
+ * Work in a process that may be ended by an OpenCL driver: a parent, which has touched no driver, waits for a worker
+ * process, and starts another one where the driver was at fault (tracer/device/fault.h). What the next worker must know
+ * lies in memory that all share.
  *
- * Otherwise the two look like one process. Signals that the parent is sent reach the worker, the worker ends with its parent, and the
- * parent ends as the worker did: by exit code or by signal.
+ * Otherwise the two look like one process. Signals that the parent is sent reach the worker, the worker ends with its
+ * parent, and the parent ends as the worker did: by exit code or by signal.
  */
 #pragma once
 
@@ -29,5 +30,6 @@ struct guard {
  */
 int guard_run(struct guard *guard, int (*function)(void *user), void *user);
 
-/** In the worker, of a signal that came: 1 where the parent has passed it on. A process group gets each signal twice so. */
+/** In the worker, of a signal that came: 1 where the parent has passed it on. A process group gets each signal twice
+ * so. */
 int guard_is_passed_on(const struct guard *guard, int si_code);

@@ -23,9 +23,10 @@ struct asked {
 };
 
 static const struct options_row rows[] = {
-	{ "check", 'c', NULL, "read FILE, compile it, and run its functions on two small scenes", options_flag, .at = offsetof(struct asked, check),
-	  .is_required = 1 },
-	{ "device", 'd', "DEVICE", "a number from 'relume devices', cpu, gpu, accelerator, or part of a name (default: the first GPU, else CPU)",
+	{ "check", 'c', NULL, "read FILE, compile it, and run its functions on two small scenes", options_flag,
+	  .at = offsetof(struct asked, check), .is_required = 1 },
+	{ "device", 'd', "DEVICE",
+	  "a number from 'relume devices', cpu, gpu, accelerator, or part of a name (default: the first GPU, else CPU)",
 	  options_text, .at = offsetof(struct asked, device) },
 	{ "seconds", 's', "N", "how long compiling and running may take, for each scene (default 60)", options_number,
 	  .at = offsetof(struct asked, seconds), .most = 86400 },
@@ -35,21 +36,33 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "hook",
 	.head = "usage: relume hook --check FILE.cl\n"
-	        "\n"
-	        "Try a hook: OpenCL C whose functions take the place of stages of the ray tracer (relume render --hook FILE.cl).\n",
+		"\n"
+		"Try a hook: OpenCL C whose functions take the place of stages of the ray tracer (relume render --hook "
+	        "FILE.cl).\n",
 	OPTIONS_ROWS(rows),
 	.notes = "The stages that there are:\n"
-	         "  struct relume_ray ray_generation(struct relume_pixel, struct relume_parameters)    a pixel's first ray\n"
-	         "  struct relume_box bounds(struct relume_object, struct relume_parameters)           where another shape takes a draw's place\n"
-	         "  struct relume_request intersection(struct relume_crossing, struct relume_parameters)  where a ray meets that shape\n"
-	         "  struct relume_request any_hit(struct relume_hit, struct relume_parameters)         whether what a ray meets counts\n"
-	         "  struct relume_request closest_hit(struct relume_hit, struct relume_parameters)     what a ray hit first\n"
-	         "  struct relume_request miss(struct relume_miss, struct relume_parameters)           a ray that hit nothing\n"
-	         "  struct relume_request light(struct relume_beam, struct relume_parameters)          how much of a light arrives\n"
-	         "'relume help hook-file' has the structs, how to find accesses out of bounds, and examples.\n"
-	         "Errors have the file's own lines.\n"
-	         "Exit codes: 0 it runs, 2 wrong usage, 3 it does not compile, does not end or ends the process, 5 the device failed.\n",
-	.takes = "--check and one FILE.cl", .least = 1, .most = 1, .words_use = CONFINE_READS,
+		 "  struct relume_ray ray_generation(struct relume_pixel, struct relume_parameters)    a pixel's first "
+	         "ray\n"
+		 "  struct relume_box bounds(struct relume_object, struct relume_parameters)           where another "
+	         "shape takes a draw's place\n"
+		 "  struct relume_request intersection(struct relume_crossing, struct relume_parameters)  where a ray "
+	         "meets that shape\n"
+		 "  struct relume_request any_hit(struct relume_hit, struct relume_parameters)         whether what a "
+	         "ray meets counts\n"
+		 "  struct relume_request closest_hit(struct relume_hit, struct relume_parameters)     what a ray hit "
+	         "first\n"
+		 "  struct relume_request miss(struct relume_miss, struct relume_parameters)           a ray that hit "
+	         "nothing\n"
+		 "  struct relume_request light(struct relume_beam, struct relume_parameters)          how much of a "
+	         "light arrives\n"
+		 "'relume help hook-file' has the structs, how to find accesses out of bounds, and examples.\n"
+		 "Errors have the file's own lines.\n"
+		 "Exit codes: 0 it runs, 2 wrong usage, 3 it does not compile, does not end or ends the process, 5 the "
+	         "device failed.\n",
+	.takes = "--check and one FILE.cl",
+	.least = 1,
+	.most = 1,
+	.words_use = CONFINE_READS,
 };
 
 /* What the process that tries the hook shares with the one that waits. */
@@ -145,9 +158,12 @@ static int check(const struct asked *o, const struct options_line *line, const s
 	end = apart_run(try_apart, t, &t->step, seconds);
 	err = t->err;
 	if (end == APART_LATE)
-		err = err_report(ERR_INPUT, hook->path, "did not end within %u s; is there an endless loop? (--seconds gives it more)", seconds);
+		err = err_report(ERR_INPUT, hook->path,
+		                 "did not end within %u s; is there an endless loop? (--seconds gives it more)",
+		                 seconds);
 	else if (end == APART_DIED && t->step < 2)
-		err = err_report(ERR_INPUT, hook->path, "ended the process that ran it; an access out of bounds? Oclgrind would tell");
+		err = err_report(ERR_INPUT, hook->path,
+		                 "ended the process that ran it; an access out of bounds? Oclgrind would tell");
 	else if (!err)
 		describe(hook);
 	apart_free(t, sizeof(*t));

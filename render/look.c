@@ -21,27 +21,39 @@ struct asked {
 };
 
 static const struct options_row rows[] = {
-	{ "frames", 'f', "LIST", "frames to study, counted from 0: \"7\", \"1-500\", \"55-\" to the end, \"1-500x5\", with commas (default: all); of many "
-	  "only some, evenly spread", options_frames, .at = offsetof(struct asked, frames) },
-	{ "output", 'o', "FILE", "the rules, as NAME.look.yaml", options_text, .at = offsetof(struct asked, output), .use = CONFINE_MAKES },
-	{ "sheet", 0, "FILE.html", "a page that shows one frame, the first of --frames or the recording's middle one: point at a "
+	{ "frames", 'f', "LIST",
+	  "frames to study, counted from 0: \"7\", \"1-500\", \"55-\" to the end, \"1-500x5\", with commas (default: "
+	  "all); of many "
+	  "only some, evenly spread",
+	  options_frames, .at = offsetof(struct asked, frames) },
+	{ "output", 'o', "FILE", "the rules, as NAME.look.yaml", options_text, .at = offsetof(struct asked, output),
+	  .use = CONFINE_MAKES },
+	{ "sheet", 0, "FILE.html",
+	  "a page that shows one frame, the first of --frames or the recording's middle one: point at a "
 	  "surface to see its draw, mesh, textures and material, and a rule for it; below are all textures and meshes. "
-	  "Without -o nothing is studied", options_text,
-	  .at = offsetof(struct asked, sheet), .use = CONFINE_MAKES },
-	{ "device", 'd', "DEVICE", "of --sheet: a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference "
-	  "(default: the first GPU, else CPU)", options_text, .at = offsetof(struct asked, device) },
+	  "Without -o nothing is studied",
+	  options_text, .at = offsetof(struct asked, sheet), .use = CONFINE_MAKES },
+	{ "device", 'd', "DEVICE",
+	  "of --sheet: a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference "
+	  "(default: the first GPU, else CPU)",
+	  options_text, .at = offsetof(struct asked, device) },
 	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
 	.verb = "look",
 	.head = "usage: relume look TRACE [-f FRAMES] -o FILE\n"
-	        "       relume look TRACE [-f FRAME] --sheet FILE.html\n"
-	        "\n"
-	        "Study a recording, and write rules for relume render --look: where the camera is, what stands still, what tricks stand for\n"
-	        "light, where lights are. Each rule has a confidence and a reason. Edit the file to overrule it: 'relume help look-file'.\n",
+		"       relume look TRACE [-f FRAME] --sheet FILE.html\n"
+		"\n"
+		"Study a recording, and write rules for relume render --look: where the camera is, what stands still, "
+	        "what tricks stand for\n"
+		"light, where lights are. Each rule has a confidence and a reason. Edit the file to overrule it: "
+	        "'relume help look-file'.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace, and -o FILE or --sheet FILE.html", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
+	.takes = "one trace, and -o FILE or --sheet FILE.html",
+	.least = 1,
+	.most = 1,
+	.words_use = CONFINE_RECORDING,
 };
 
 /* Play the frames of a list, of too many every so often one, into a study. */

@@ -1,4 +1,5 @@
-/* Studying a recording: it is replayed without pixels, frame by frame, into look/study; what its rules name is fetched with them. */
+/* Studying a recording: it is replayed without pixels, frame by frame, into look/study; what its rules name is fetched
+ * with them. */
 #pragma once
 
 #include "base/frames.h"
@@ -16,7 +17,8 @@ int look_study(const char *trace, const struct frame_list *frames, struct look *
 
 /**
  * Fetch the scenes that rules `unseen` name; a frame that is not there is left out.
- * @param replay  with who renders for it (replay_set_supplier): without, pixels that these frames read back would be missing in later ones
+ * @param replay  with who renders for it (replay_set_supplier): without, pixels that these frames read back would be
+ * missing in later ones
  * @param look    NULL: nothing to do
  * @return 0 or ERR_* (reported)
  */

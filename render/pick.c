@@ -19,24 +19,33 @@ struct asked {
 
 static const struct options_row rows[] = {
 	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct asked, frame) },
-	{ "device", 'd', "DEVICE", "a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference (default: the first GPU, "
-	  "else CPU)", options_text, .at = offsetof(struct asked, device) },
+	{ "device", 'd', "DEVICE",
+	  "a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference (default: the first "
+	  "GPU, "
+	  "else CPU)",
+	  options_text, .at = offsetof(struct asked, device) },
 	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
 	.verb = "pick",
 	.head = "usage: relume pick TRACE -f N X,Y\n"
-	        "\n"
-	        "Say what a pixel of a frame shows: its draw and call, its mesh and textures with their hashes, its material, and a rule for\n"
-	        "relume render --look that matches this surface and no other of the frame.\n"
-	        "\n"
-	        "X,Y  the pixel, counted from 0 at the upper left corner, as programs that show pictures count them\n",
+		"\n"
+		"Say what a pixel of a frame shows: its draw and call, its mesh and textures with their hashes, its "
+	        "material, and a rule for\n"
+		"relume render --look that matches this surface and no other of the frame.\n"
+		"\n"
+		"X,Y  the pixel, counted from 0 at the upper left corner, as programs that show pictures count them\n",
 	OPTIONS_ROWS(rows),
-	.notes = "The output is a file of rules: write it to FILE.yaml, change what the surface is made of ('relume help look-file' lists them), and\n"
-	         "render with --look FILE.yaml. 'relume look --sheet' shows all surfaces of a frame at once.\n"
-	         "Exit codes: 0 done, 2 wrong usage, or nothing is drawn there, 3 the recording cannot be read, 5 the device or the system failed.\n",
-	.takes = "a trace and a pixel X,Y", .least = 2, .most = 2, .words_use = CONFINE_RECORDING,
+	.notes = "The output is a file of rules: write it to FILE.yaml, change what the surface is made of ('relume "
+	         "help look-file' lists them), and\n"
+		 "render with --look FILE.yaml. 'relume look --sheet' shows all surfaces of a frame at once.\n"
+		 "Exit codes: 0 done, 2 wrong usage, or nothing is drawn there, 3 the recording cannot be read, 5 the "
+	         "device or the system failed.\n",
+	.takes = "a trace and a pixel X,Y",
+	.least = 2,
+	.most = 2,
+	.words_use = CONFINE_RECORDING,
 };
 
 static int parse_pixel(const char *text, uint32_t *x, uint32_t *y)
@@ -56,8 +65,9 @@ static int write_rule(const struct scene *scene, uint32_t instance)
 	if (others < 0)
 		return others;
 	if (others)
-		printf("# without `draws` the rule matches %d other%s of the same mesh and texture; draw numbers hold in this frame alone\n", others,
-		       plural((uint64_t)others));
+		printf("# without `draws` the rule matches %d other%s of the same mesh and texture; draw numbers hold "
+		       "in this frame alone\n",
+		       others, plural((uint64_t)others));
 	printf("surfaces:\n"
 	       "  - match: %s\n"
 	       "    reflect: 0.3\n", keys);
@@ -71,8 +81,8 @@ static int tell(const struct single *single, const char *trace, uint32_t x, uint
 	uint32_t draw, instance;
 
 	if (x >= img->width || y >= img->height)
-		return err_report(ERR_USAGE, trace, "frame %" PRIu64 " has %u x %u pixels; %u,%u is not there", scene->frame, img->width,
-		                  img->height, x, y);
+		return err_report(ERR_USAGE, trace, "frame %" PRIu64 " has %u x %u pixels; %u,%u is not there",
+		                  scene->frame, img->width, img->height, x, y);
 	draw = single_draw_at(single, (size_t)y * img->width + x);
 	instance = draw ? scene_instance_of(scene, draw) : SCENE_NONE;
 	if (instance == SCENE_NONE)

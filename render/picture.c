@@ -12,9 +12,11 @@
 #include "render/preview.h"
 
 /* What gate N (diff/score/harm.c) wants to know of a frame. changed: the scene under the rules */
-static int tell_harm(const struct spare *found, const struct scene *scene, const struct scene *changed, struct image *img)
+static int tell_harm(const struct spare *found, const struct scene *scene, const struct scene *changed,
+                     struct image *img)
 {
-	char *lights = spare_tell_lights(found), *cards = spare_tell_cards(found, scene), *left_out = spare_tell_left_out(changed);
+	char *lights = spare_tell_lights(found), *cards = spare_tell_cards(found, scene),
+	     *left_out = spare_tell_left_out(changed);
 	int err = lights && cards && left_out ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	if (!err && *lights)
@@ -47,8 +49,8 @@ static int tell_role(void *user, const char *text)
 }
 
 /* A scene traced as its camera sees it, the recorded one or another. */
-static int trace_seen(const struct settings *settings, struct tracer *tracer, const struct scene *scene, uint64_t number,
-                      const struct tracer_options *options, struct image *img)
+static int trace_seen(const struct settings *settings, struct tracer *tracer, const struct scene *scene,
+                      uint64_t number, const struct tracer_options *options, struct image *img)
 {
 	struct elsewhere elsewhere;
 	int err;
@@ -62,7 +64,9 @@ static int trace_seen(const struct settings *settings, struct tracer *tracer, co
 	if (!err)
 		err = image_set_attribute(img, "relume:camera", "%s", elsewhere.told);
 	if (!err && elsewhere.without)
-		err_warn(settings->camera->path, "frame %llu: %u draws are left out: programs place their vertices, and nothing says where that is from elsewhere",
+		err_warn(settings->camera->path,
+		         "frame %llu: %u draws are left out: programs place their vertices, and nothing says where "
+		         "that is from elsewhere",
 		         (unsigned long long)scene->frame, elsewhere.without);
 	elsewhere_release(&elsewhere);
 	return err;

@@ -31,7 +31,8 @@ static unsigned writer_count(void)
 	return cores < 1 ? 1 : cores < MAX_WRITERS ? (unsigned)cores : MAX_WRITERS;
 }
 
-/* Every worker has a queue of its own on its device: the first uses the device as it was opened, the others share it. */
+/* Every worker has a queue of its own on its device: the first uses the device as it was opened, the others share
+ * it. */
 static int seat_workers(struct pipeline_state *state, struct worker *workers, size_t n)
 {
 	struct pipeline *p = state->p;

@@ -4,10 +4,10 @@
  *
  *     replay -> [shots] -> workers (one tracer each, several to a device) -> [pictures] -> writers -> files
  *
- * Workers start as scenes need them. Where memory would be short for a third frame, fewer are under way than --jobs allows.
- * Devices take scenes as they become free, so faster ones do more. A frame depends on its scene alone: files are the same bytes
- * whatever the number of workers. Of a turntable (look/camera/camera.h), all pictures come from one scene. A device that fails hands its scene to the others and is not used again; with the last device
- * the run fails.
+ * Workers start as scenes need them. Where memory would be short for a third frame, fewer are under way than --jobs
+ * allows. Devices take scenes as they become free, so faster ones do more. A frame depends on its scene alone: files
+ * are the same bytes whatever the number of workers. Of a turntable (look/camera/camera.h), all pictures come from one
+ * scene. A device that fails hands its scene to the others and is not used again; with the last device the run fails.
  */
 #pragma once
 

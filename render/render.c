@@ -1,4 +1,5 @@
-/* relume render: recording -> scenes -> pictures -> files. Options: settings.c; threads: pipeline.c; signals: watch.c. */
+/* relume render: recording -> scenes -> pictures -> files. Options: settings.c; threads: pipeline.c; signals:
+ * watch.c. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +30,8 @@ struct extent {
 	int short_of;   /* 1: it is damaged, and frames behind the damage were asked for */
 };
 
-/* Check that the frames asked for are there; cut the list down to the chunk asked for. @return 1: the chunk holds no frame */
+/* Check that the frames asked for are there; cut the list down to the chunk asked for. @return 1: the chunk holds no
+ * frame */
 static int choose_frames(struct settings *s, struct replay *replay, struct extent *x)
 {
 	int damaged = 0, err = replay_frame_count(replay, &x->end, &damaged);
@@ -94,7 +96,7 @@ static unsigned default_jobs(void)
 	return cores <= 4 ? 2 : cores >= 16 ? 8 : (unsigned)cores / 2;
 }
 
-/* --- What frames lack ------------------------------------------------------------------------------------------------ */
+/* --- What frames lack -------------------------------------------------------------------------------------------- */
 
 struct missing {
 	struct replay_lack *lacks; /* of frames asked for, by the index */
@@ -155,7 +157,9 @@ static void report(const struct pipeline *p, struct missing *m)
 	}
 	m->any |= p->carried->lacks || u->targets != 0 || u->ended != 0;
 	if (u->ended)
-		err_warn(trace, "ended: programs of %llu draw%s, after %u instructions in loops; what they drew is wrong (frames say which: relume:ended)",
+		err_warn(trace,
+		         "ended: programs of %llu draw%s, after %u instructions in loops; what they drew is wrong "
+		         "(frames say which: relume:ended)",
 		         (unsigned long long)u->ended, plural(u->ended), SCENE_PROGRAM_STEPS);
 	if (u->targets)
 		err_warn(trace, "not drawn yet: %llu draw%s to other targets than the window", (unsigned long long)u->targets,
@@ -291,7 +295,9 @@ static int render(struct settings *s, struct carried *carried)
 		err = look_from_study(s);
 	if (!err) {
 		p.stamp = (struct stamp){ .trace = replay_trace_hash(p.replay), .settings = s->hash };
-		snprintf(p.stamp.program, sizeof(p.stamp.program), "%s", replay_program(p.replay)); /* the replay's own goes where it goes back */
+		snprintf(p.stamp.program, sizeof(p.stamp.program), "%s", replay_program(p.replay)); /* the replay's own
+		                                                                                       goes where it
+		                                                                                       goes back */
 		p.end = x.end;
 		err = s->dry_run ? rehearse(s, &p.stamp, x.total) : render_frames(&p, x.total, &missing);
 	}
@@ -299,7 +305,8 @@ static int render(struct settings *s, struct carried *carried)
 		err = err_report(ERR_INPUT, s->trace, "is damaged after frame %llu; frames up to there are done",
 		                 (unsigned long long)x.end - 1);
 	if (!err && missing.any && !s->allow_incomplete && !s->dry_run)
-		err = err_report(ERR_INCOMPLETE, s->trace, "every frame is there, but draws are missing (--allow-incomplete: exit with 0)");
+		err = err_report(ERR_INCOMPLETE, s->trace,
+		                 "every frame is there, but draws are missing (--allow-incomplete: exit with 0)");
 	free(missing.lacks);
 	number = watch_signal(p.watch);
 	if (number)

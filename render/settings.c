@@ -26,7 +26,7 @@ enum effect {
 const char *const settings_mode_names[] = { "whitted", "gl", "normals", "ao", "ao-phong", "diffuse", "path", NULL };
 static const char *const encoding_names[] = { "linear", "display", NULL };
 
-/* --- Values -------------------------------------------------------------------------------------------------------- */
+/* --- Values ------------------------------------------------------------------------------------------------------ */
 
 static int take_chunk(const struct options_row *row, const char *value, void *out)
 {
@@ -45,7 +45,8 @@ static int take_word(const char *at, size_t length, const char *word, int *flag)
 	return is_it;
 }
 
-/* The groups that are the tracer's; where there is none, it makes all. Cryptomatte comes from channel id, motion from id and P. */
+/* The groups that are the tracer's; where there is none, it makes all. Cryptomatte comes from channel id, motion from
+ * id and P. */
 static int take_aov(const struct options_row *row, const char *value, void *out)
 {
 	struct settings *s = out;
@@ -59,7 +60,8 @@ static int take_aov(const struct options_row *row, const char *value, void *out)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (const char *at = value; *at; at += *at == ',') {
 		const size_t length = strcspn(at, ",");
-		const int is_ours = take_word(at, length, "cryptomatte", &s->cryptomatte) || take_word(at, length, "motion", &s->motion) ||
+		const int is_ours = take_word(at, length, "cryptomatte", &s->cryptomatte) ||
+		                    take_word(at, length, "motion", &s->motion) ||
 		                    take_word(at, length, "caustics", &s->caustics);
 
 		if (!is_ours)
@@ -161,121 +163,191 @@ static int take_progress(const struct options_row *row, const char *value, void 
 	return 0;
 }
 
-/* As of 'relume devices --check'. Compilers of OpenCL take 20 s for a program, and several times that on slow machines. */
+/* As of 'relume devices --check'. Compilers of OpenCL take 20 s for a program, and several times that on slow
+ * machines. */
 #define DRIVER_S 300
 
 /* Of a pixel; the default where sampling may stop earlier. */
 #define MOST_SAMPLES 65536
 
-/* --- The options --------------------------------------------------------------------------------------------------- */
+/* --- The options ------------------------------------------------------------------------------------------------- */
 
 #define ACCEL_TEXT(kind, name, build, spare, keep_from, help) name " (" help "), "
 #define AT(member) .at = offsetof(struct settings, member)
 
 static const struct options_row rows[] = {
 	{ .help = "What:" },
-	{ "frames", 'f', "LIST", "frames, counted from 0: \"7\", \"1-500\", \"55-\" to the end, \"1-500x5\", with commas (default: all)",
+	{ "frames", 'f', "LIST",
+	  "frames, counted from 0: \"7\", \"1-500\", \"55-\" to the end, \"1-500x5\", with commas (default: all)",
 	  options_frames, AT(frames), .kind = RUN },
-	{ "chunk", 0, "I/N", "only the I-th of N parts of them, as for a task of a farm", take_chunk, .at = 0, .kind = RUN },
-	{ "output", 'o', "PATTERN", "file names: ####, %04d, $F4 or {frame} stand for the frame number; .exr holds all channels, .png and .jpg "
+	{ "chunk", 0, "I/N", "only the I-th of N parts of them, as for a task of a farm", take_chunk, .at = 0,
+	  .kind = RUN },
+	{ "output", 'o', "PATTERN",
+	  "file names: ####, %04d, $F4 or {frame} stand for the frame number; .exr holds all channels, .png and .jpg "
 	  "a picture to look at",
 	  options_text, AT(output), .kind = RUN, .is_required = 1, .use = CONFINE_MAKES },
-	{ "preview", 0, "PATTERN", "where a frame's picture is shown while samples still come in: .exr, .png or .jpg, always whole, made anew "
-	  "each time their number has grown by half", options_text, AT(preview), .kind = RUN, .use = CONFINE_MAKES },
+	{ "preview", 0, "PATTERN",
+	  "where a frame's picture is shown while samples still come in: .exr, .png or .jpg, always whole, made anew "
+	  "each time their number has grown by half",
+	  options_text, AT(preview), .kind = RUN, .use = CONFINE_MAKES },
 	{ "skip-existing", 0, NULL, "leave out frames whose file is whole and of the same trace, settings and version",
 	  options_flag, AT(skip_existing), .kind = RUN },
-	{ "force", 0, NULL, "render all, the opposite of --skip-existing (default)", options_clear, AT(skip_existing), .kind = RUN },
-	{ "allow-incomplete", 0, NULL, "exit with 0 where draws that Relume does not do are missing", options_flag, AT(allow_incomplete),
+	{ "force", 0, NULL, "render all, the opposite of --skip-existing (default)", options_clear, AT(skip_existing),
 	  .kind = RUN },
-	{ "dry-run", 0, NULL, "only say what would be done, a line for each frame", options_flag, AT(dry_run), .kind = RUN, .use = CONFINE_DRY },
+	{ "allow-incomplete", 0, NULL, "exit with 0 where draws that Relume does not do are missing", options_flag,
+	  AT(allow_incomplete), .kind = RUN },
+	{ "dry-run", 0, NULL, "only say what would be done, a line for each frame", options_flag, AT(dry_run),
+	  .kind = RUN, .use = CONFINE_DRY },
 	{ .help = "How the picture is made:" },
-	{ "mode", 0, "MODE", "whitted: GL's picture with shadows, mirrors and glass (default); gl: GL's picture alone; normals; ao: "
-	  "how open surfaces are; ao-phong: the same over GL's picture; diffuse: whitted, and one bounce of light between surfaces; "
-	  "path: all bounces, followed in linear light (with --encoding display in GL's own numbers)", options_word, AT(tracer.mode), .words = settings_mode_names },
-	{ "encoding", 0, "E", "linear (default) or display (GL's own numbers)", options_word, AT(tracer.display), .words = encoding_names },
-	{ "aov", 0, "LIST", "channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,layers (default: all; "
-	  "gl is enough for scratch frames); with cryptomatte, which draw, mesh and texture a pixel shows, as compositors read it; with motion, by how many "
-	  "pixels right and down what a pixel shows has moved since the frame before; with caustics, the light that mirrors and glass send to matte "
-	  "surfaces (modes whitted, diffuse and path; no part of R G B)", take_aov, .at = 0 },
-	{ "photons", 0, "N", "how many find --aov caustics (default 1048576)", options_number, AT(photons), .least = 1, .most = 1u << 30 },
+	{ "mode", 0, "MODE",
+	  "whitted: GL's picture with shadows, mirrors and glass (default); gl: GL's picture alone; normals; ao: "
+	  "how open surfaces are; ao-phong: the same over GL's picture; diffuse: whitted, and one bounce of light "
+	  "between surfaces; "
+	  "path: all bounces, followed in linear light (with --encoding display in GL's own numbers)",
+	  options_word, AT(tracer.mode), .words = settings_mode_names },
+	{ "encoding", 0, "E", "linear (default) or display (GL's own numbers)", options_word, AT(tracer.display),
+	  .words = encoding_names },
+	{ "aov", 0, "LIST",
+	  "channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,layers (default: all; "
+	  "gl is enough for scratch frames); with cryptomatte, which draw, mesh and texture a pixel shows, as "
+	  "compositors read it; with motion, by how many "
+	  "pixels right and down what a pixel shows has moved since the frame before; with caustics, the light that "
+	  "mirrors and glass send to matte "
+	  "surfaces (modes whitted, diffuse and path; no part of R G B)",
+	  take_aov, .at = 0 },
+	{ "photons", 0, "N", "how many find --aov caustics (default 1048576)", options_number, AT(photons), .least = 1,
+	  .most = 1u << 30 },
 	{ "depth", 0, "N", "bounces at most (default 4)", options_number, AT(tracer.depth), .most = 64 },
-	{ "samples", 0, "N", "samples of a pixel, each spread differently; the pixel is their mean (default 1); gl, Z, N, P, albedo "
-	  "and id stay those of pixel centres", options_number, AT(tracer.samples), .least = 1, .most = MOST_SAMPLES },
-	{ "noise", 0, "X", "stop sampling a frame once its noise, the root mean square of its pixels' standard errors over the mean brightness, "
-	  "is at most X, as 0.02; --samples is the most (then 65536 by default)", options_real, AT(tracer.noise), .low = 0, .high = 1e30 },
-	{ "time", 0, "S", "begin no sample of a frame that would end later than S seconds after its first; one there is always. How many they are is in "
-	  "attribute relume:samples, and another run may take more or fewer; with --noise, whichever stops first", take_seconds, AT(tracer.seconds) },
-	{ "denoise", 0, NULL, "take the noise out of each frame by itself; relume denoise does better where several frames are there",
+	{ "samples", 0, "N",
+	  "samples of a pixel, each spread differently; the pixel is their mean (default 1); gl, Z, N, P, albedo "
+	  "and id stay those of pixel centres",
+	  options_number, AT(tracer.samples), .least = 1, .most = MOST_SAMPLES },
+	{ "noise", 0, "X",
+	  "stop sampling a frame once its noise, the root mean square of its pixels' standard errors over the mean "
+	  "brightness, "
+	  "is at most X, as 0.02; --samples is the most (then 65536 by default)",
+	  options_real, AT(tracer.noise), .low = 0, .high = 1e30 },
+	{ "time", 0, "S",
+	  "begin no sample of a frame that would end later than S seconds after its first; one there is always. How "
+	  "many they are is in "
+	  "attribute relume:samples, and another run may take more or fewer; with --noise, whichever stops first",
+	  take_seconds, AT(tracer.seconds) },
+	{ "denoise", 0, NULL,
+	  "take the noise out of each frame by itself; relume denoise does better where several frames are there",
 	  options_flag, AT(denoise) },
 	{ "oidn", 0, NULL, "--denoise by Intel's Open Image Denoise 2, where it is installed", options_flag, AT(oidn) },
-	{ "rays", 0, "N", "rays of a sample: to each light that has a radius, and around each point in the ao modes (default 16)",
+	{ "rays", 0, "N",
+	  "rays of a sample: to each light that has a radius, and around each point in the ao modes (default 16)",
 	  options_number, AT(tracer.rays), .least = 1, .most = 4096 },
-	{ "clamp", 0, "X", "mode path: no bounce brings a sample more than X times white, but for one in a mirror or glass: that spares "
-	  "bright dots, and takes their light; 0: no bound (default 10)", options_real, AT(tracer.clamp), .low = 0, .high = 1e30 },
-	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
-	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, which flat faces are meant round (crease), which meshes have cracks (repair), lights added, moved, off or with a "
-	  "size ('relume help look-file' lists all keys); \"auto\": those that relume look finds; several apply in order, later rules count", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
-	{ "hook", 0, "FILE", "OpenCL C whose functions take the place of stages: ray_generation (other cameras), bounds and intersection (other shapes; "
-	  "modes whitted and path), any_hit, closest_hit, miss, light (modes whitted, diffuse and path). 'relume hook --check' tries them; "
-	  "'relume help hook-file' explains them", take_hook, .at = 0,
-	  .kind = PICTURE_FILE, .use = CONFINE_READS },
-	{ "camera", 0, "FILE", "another camera, YAML: a recorded frame from elsewhere, in perspective or not, light and all things where they stand, or "
-	  "many pictures of one frame around it (turntable; -f names the frame, the pictures are numbered from 0). HUDs are left out. "
-	  "'relume help camera-file' lists all keys", take_camera, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
+	{ "clamp", 0, "X",
+	  "mode path: no bounce brings a sample more than X times white, but for one in a mirror or glass: that spares "
+	  "bright dots, and takes their light; 0: no bound (default 10)",
+	  options_real, AT(tracer.clamp), .low = 0, .high = 1e30 },
+	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length,
+	  AT(tracer.reach) },
+	{ "look", 0, "FILE",
+	  "rules, YAML: what surfaces are made of, which flat faces are meant round (crease), which meshes have cracks "
+	  "(repair), lights added, moved, off or with a "
+	  "size ('relume help look-file' lists all keys); \"auto\": those that relume look finds; several apply in "
+	  "order, later rules count",
+	  take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
+	{ "hook", 0, "FILE",
+	  "OpenCL C whose functions take the place of stages: ray_generation (other cameras), bounds and intersection "
+	  "(other shapes; "
+	  "modes whitted and path), any_hit, closest_hit, miss, light (modes whitted, diffuse and path). 'relume hook "
+	  "--check' tries them; "
+	  "'relume help hook-file' explains them",
+	  take_hook, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
+	{ "camera", 0, "FILE",
+	  "another camera, YAML: a recorded frame from elsewhere, in perspective or not, light and all things where "
+	  "they stand, or "
+	  "many pictures of one frame around it (turntable; -f names the frame, the pictures are numbered from 0). "
+	  "HUDs are left out. "
+	  "'relume help camera-file' lists all keys",
+	  take_camera, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
-	{ "accel", 0, "KIND", "how trees of meshes are built: " TREE_BUILDERS(ACCEL_TEXT) "by default kd from where the program calls "
-	  "rtBuildKdTreeEXT, else bvh. What moves gets a binned one. The picture is the same",
+	{ "accel", 0, "KIND",
+	  "how trees of meshes are built: " TREE_BUILDERS(
+		  ACCEL_TEXT) "by default kd from where the program calls "
+	                      "rtBuildKdTreeEXT, else bvh. What moves gets a binned one. The picture is the same",
 	  take_accel, AT(tracer), .words = accel_kind_names, .kind = RUN },
 	{ "relight", 0, NULL, "light pixels (Phong) instead of vertices; channel relight holds the difference",
 	  options_flag, AT(tracer.relight) },
 	{ .help = "Pictures to look at (.png, .jpg; sRGB, dithered but in mode gl):" },
-	{ "exposure", 0, "STOPS", "brighter by so many stops (default 0), the same for all frames", options_real, AT(display.exposure), .low = -30, .high = 30 },
-	{ "white", 0, "X", "the brightness that is shown as white; below it, highlights are compressed (default 1: what GL drew looks as it "
-	  "did; 4 in the modes diffuse and path)", options_real, AT(display.white), .low = 1, .high = 10000 },
+	{ "exposure", 0, "STOPS", "brighter by so many stops (default 0), the same for all frames", options_real,
+	  AT(display.exposure), .low = -30, .high = 30 },
+	{ "white", 0, "X",
+	  "the brightness that is shown as white; below it, highlights are compressed (default 1: what GL drew looks "
+	  "as it "
+	  "did; 4 in the modes diffuse and path)",
+	  options_real, AT(display.white), .low = 1, .high = 10000 },
 	{ .help = "On what:" },
-	{ "device", 0, "LIST", "devices that share the frames, by number, type or part of the name as 'relume devices' lists them, "
-	  "with commas; \"all\"; \"reference\": no OpenCL (default: the first GPU, else CPU)", options_text, AT(device), .kind = RUN },
-	{ "kernels", 0, "FAMILY", "traversal kernels: packets, binary or compressed; the pictures are the same (default: the fastest that "
+	{ "device", 0, "LIST",
+	  "devices that share the frames, by number, type or part of the name as 'relume devices' lists them, "
+	  "with commas; \"all\"; \"reference\": no OpenCL (default: the first GPU, else CPU)",
+	  options_text, AT(device), .kind = RUN },
+	{ "kernels", 0, "FAMILY",
+	  "traversal kernels: packets, binary or compressed; the pictures are the same (default: the fastest that "
 	  "'relume devices --check' found right; where it has not been run, packets on a CPU, compressed on a GPU)",
 	  options_word, AT(family), .words = device_family_names, .kind = RUN },
-	{ "threads", 0, "N", "compute threads of a CPU device (default: all cores)", options_number, AT(threads), .most = 1024, .kind = RUN },
-	{ "jobs", 'j', "N", "frames in flight on each device (default: by the number of cores)",
-	  options_number, AT(jobs), .most = 64, .kind = RUN },
-	{ "limit-memory", 0, "M", "memory to stay within, as 800M or 4G: fewer frames are in flight; a single frame that needs "
-	  "more ends the run", options_bytes, AT(memory_bytes), .kind = RUN },
-	{ "cache", 0, "DIR", "where trees of large meshes, compiled kernels, what 'relume devices --check' found and pixels that later frames begin with are "
-	  "kept for other runs; processes and machines may share it (default: relume/trees, kernels, devices and pixels in $XDG_CACHE_HOME, or in ~/.cache; "
+	{ "threads", 0, "N", "compute threads of a CPU device (default: all cores)", options_number, AT(threads),
+	  .most = 1024, .kind = RUN },
+	{ "jobs", 'j', "N", "frames in flight on each device (default: by the number of cores)", options_number,
+	  AT(jobs), .most = 64, .kind = RUN },
+	{ "limit-memory", 0, "M",
+	  "memory to stay within, as 800M or 4G: fewer frames are in flight; a single frame that needs "
+	  "more ends the run",
+	  options_bytes, AT(memory_bytes), .kind = RUN },
+	{ "cache", 0, "DIR",
+	  "where trees of large meshes, compiled kernels, what 'relume devices --check' found and pixels that later "
+	  "frames begin with are "
+	  "kept for other runs; processes and machines may share it (default: relume/trees, kernels, devices and "
+	  "pixels in $XDG_CACHE_HOME, or in ~/.cache; "
 	  "PoCL keeps kernels itself)",
 	  take_folder, AT(cache), .kind = RUN, .use = CONFINE_FILLS },
-	{ "cache-size", 0, "M", "what that folder may hold: unused trees go first (default 2G)", options_bytes, AT(cache_bytes), .kind = RUN },
+	{ "cache-size", 0, "M", "what that folder may hold: unused trees go first (default 2G)", options_bytes,
+	  AT(cache_bytes), .kind = RUN },
 	{ "no-cache", 0, NULL, "use no cache", options_flag, AT(no_cache), .kind = RUN },
-	{ "timeout-per-frame", 0, "S", "give up a frame after so many seconds and go on with the next",
-	  take_seconds, AT(frame_s), .kind = RUN },
-	{ "timeout-driver", 0, "S", "a call of OpenCL that has taken S seconds (default 300) counts as hung where it used as much processor time to compile, or "
-	  "the process used none for a fifth of S; the run goes on with another family of kernels", take_seconds, AT(driver_s), .kind = RUN },
-	{ "progress", 0, "WORD", "bar, lines, json (on standard output) or none (default: bar on a terminal, else lines)",
-	  take_progress, AT(progress), .kind = RUN },
+	{ "timeout-per-frame", 0, "S", "give up a frame after so many seconds and go on with the next", take_seconds,
+	  AT(frame_s), .kind = RUN },
+	{ "timeout-driver", 0, "S",
+	  "a call of OpenCL that has taken S seconds (default 300) counts as hung where it used as much processor time "
+	  "to compile, or "
+	  "the process used none for a fifth of S; the run goes on with another family of kernels",
+	  take_seconds, AT(driver_s), .kind = RUN },
+	{ "progress", 0, "WORD",
+	  "bar, lines, json (on standard output) or none (default: bar on a terminal, else lines)", take_progress,
+	  AT(progress), .kind = RUN },
 	{ OPTIONS_NO_SANDBOX, .kind = RUN },
 };
 
 static const struct options_table table = {
 	.verb = "render",
 	.head = "usage: relume render TRACE [-f FRAMES] -o PATTERN [OPTIONS]\n"
-	        "\n"
-	        "Ray trace frames of a recording to OpenEXR, or to pictures to look at.\n",
+		"\n"
+		"Ray trace frames of a recording to OpenEXR, or to pictures to look at.\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Files appear whole or not at all. SIGINT and SIGTERM finish the files being written, drop the frames being traced and end\n"
-	         "with exit code 130 or 143; the same command with --skip-existing goes on from there.\n"
-	         "An OpenCL driver that crashes, hangs (--timeout-driver) or refuses a program costs a line: the frames go to the next family of\n"
-	         "kernels, in a new process, and later runs with this driver and these kernels take that one at once ('relume devices' names\n"
-	         "it, 'relume devices --check' looks again). A frame that no family can draw fails alone. --kernels takes no other family.\n"
-	         "Exit codes: 0 every frame is there, 2 wrong usage, 3 the trace cannot be read, 5 a device, the disk or the system\n"
-	         "failed, or a frame was given up, 6 every frame is there, but draws that Relume does not do are missing,\n"
-	         "130 SIGINT, 143 SIGTERM.\n",
-	.takes = "one trace and -o PATTERN", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
+	.notes = "Files appear whole or not at all. SIGINT and SIGTERM finish the files being written, drop the frames "
+	         "being traced and end\n"
+		 "with exit code 130 or 143; the same command with --skip-existing goes on from there.\n"
+		 "An OpenCL driver that crashes, hangs (--timeout-driver) or refuses a program costs a line: the "
+	         "frames go to the next family of\n"
+		 "kernels, in a new process, and later runs with this driver and these kernels take that one at once "
+	         "('relume devices' names\n"
+		 "it, 'relume devices --check' looks again). A frame that no family can draw fails alone. --kernels "
+	         "takes no other family.\n"
+		 "Exit codes: 0 every frame is there, 2 wrong usage, 3 the trace cannot be read, 5 a device, the disk "
+	         "or the system\n"
+		 "failed, or a frame was given up, 6 every frame is there, but draws that Relume does not do are "
+	         "missing,\n"
+		 "130 SIGINT, 143 SIGTERM.\n",
+	.takes = "one trace and -o PATTERN",
+	.least = 1,
+	.most = 1,
+	.words_use = CONFINE_RECORDING,
 };
 
-/* --- The name of the settings -------------------------------------------------------------------------------------- */
+/* --- The name of the settings ------------------------------------------------------------------------------------ */
 
 static int hash_file(XXH3_state_t *state, const char *path)
 {
@@ -326,7 +398,7 @@ static int name_settings(struct settings *s, const struct options_line *line)
 	return err;
 }
 
-/* --- The command line ---------------------------------------------------------------------------------------------- */
+/* --- The command line -------------------------------------------------------------------------------------------- */
 
 /* The word of a list with commas behind the one at its head. */
 static const char *next_word(const char *list)
@@ -370,7 +442,8 @@ static int check_camera(const struct settings *s)
 	if (s->motion)
 		return err_report(ERR_USAGE, NULL, "--camera: no motion is known from elsewhere (--aov motion)");
 	if (camera_is_in_world(s->camera) && !s->look && !s->look_auto)
-		return err_report(ERR_USAGE, s->camera->path, "space is world: --look with a list `world`, or --look auto, says where that is");
+		return err_report(ERR_USAGE, s->camera->path,
+		                  "space is world: --look with a list `world`, or --look auto, says where that is");
 	return 0;
 }
 
@@ -410,7 +483,8 @@ static int choose_kind(struct settings *s)
 	if (s->kind == DISPLAY_NONE)
 		return display_refuse(s->output);
 	if (s->kind == DISPLAY_EXR && is_asked)
-		return err_report(ERR_USAGE, NULL, "--exposure and --white are for .png and .jpg; OpenEXR keeps the light of the scene");
+		return err_report(ERR_USAGE, NULL,
+		                  "--exposure and --white are for .png and .jpg; OpenEXR keeps the light of the scene");
 	if (s->kind != DISPLAY_EXR && s->aov)
 		return err_report(ERR_USAGE, NULL, "--aov is for .exr; .png and .jpg have no channels but red, green and blue");
 	if (s->kind != DISPLAY_EXR)

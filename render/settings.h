@@ -1,8 +1,8 @@
 /*
  * What `relume render` was asked for: its command line, and the name by content of all that decides about pictures.
  *
- * settings.c lists the options in one table. An option changes pictures unless its row says otherwise, so a new one is part of
- * the name by default.
+ * settings.c lists the options in one table. An option changes pictures unless its row says otherwise, so a new one is
+ * part of the name by default.
  */
 #pragma once
 
@@ -58,7 +58,8 @@ struct settings {
  */
 int settings_parse(struct settings *s, int argc, char **argv);
 
-/** Open what is needed beside the recording, and give up all rights but those that the command line asks for. @return 0 or ERR_SYSTEM (reported) */
+/** Open what is needed beside the recording, and give up all rights but those that the command line asks for. @return 0
+ * or ERR_SYSTEM (reported) */
 int settings_confine(const struct settings *s);
 void settings_free(struct settings *s);
 

@@ -24,7 +24,8 @@ struct single {
  */
 int single_open(const char *trace, const char *device, struct single *single);
 
-/** Render the scene that is there in mode gl, one sample a pixel. @param aov  channel groups. @return 0 or ERR_SYSTEM (reported) */
+/** Render the scene that is there in mode gl, one sample a pixel. @param aov  channel groups. @return 0 or ERR_SYSTEM
+ * (reported) */
 int single_render(struct single *single, const char *aov);
 
 /** Which draw a pixel of the picture shows, by channel id. @return its number; 0: none */

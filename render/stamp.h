@@ -10,13 +10,15 @@ struct stamp {
 	char program[256];            /* recorded, a path of which the name is written; may be empty */
 };
 
-/** Write where it comes from into a picture (relume:trace, relume:program, relume:settings, relume:version). @return 0 or ERR_SYSTEM */
+/** Write where it comes from into a picture (relume:trace, relume:program, relume:settings, relume:version). @return 0
+ * or ERR_SYSTEM */
 int stamp_image(const struct stamp *stamp, struct image *img);
 
 enum stamp_state { STAMP_MISSING, STAMP_DAMAGED, STAMP_OTHER, STAMP_SAME };
 
 /**
  * Check a frame's file. Unpacks every byte of its pixels, and so finds torn, cut and zeroed files.
- * @return STAMP_MISSING; STAMP_DAMAGED (reported); STAMP_OTHER: of another trace, frame, settings or version; STAMP_SAME
+ * @return STAMP_MISSING; STAMP_DAMAGED (reported); STAMP_OTHER: of another trace, frame, settings or version;
+ * STAMP_SAME
  */
 enum stamp_state stamp_check(const struct stamp *stamp, uint64_t frame, const char *path);

@@ -1,6 +1,6 @@
 /*
- * Gives a replay the pixels that it asks for (scene_supply): a tracer on a queue of its own, on a device that others use too.
- * Both are made for the first picture. Only the thread that decodes uses it.
+ * Gives a replay the pixels that it asks for (scene_supply): a tracer on a queue of its own, on a device that others
+ * use too. Both are made for the first picture. Only the thread that decodes uses it.
  */
 #pragma once
 

@@ -28,7 +28,7 @@ struct page {
 	struct json json;
 };
 
-/* --- What is seen where ------------------------------------------------------------------------------------------------ */
+/* --- What is seen where ------------------------------------------------------------------------------------------ */
 
 static int find_owners(struct page *p)
 {
@@ -41,7 +41,8 @@ static int find_owners(struct page *p)
 	if (!p->owners || !p->surfaces)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (size_t i = 0; i < n; i++) {
-		const uint32_t draw = single_draw_at(p->single, i), instance = draw ? scene_instance_of(p->single->scene, draw) : SCENE_NONE;
+		const uint32_t draw = single_draw_at(p->single, i),
+			       instance = draw ? scene_instance_of(p->single->scene, draw) : SCENE_NONE;
 
 		p->owners[i] = instance == SCENE_NONE ? 0 : instance + 1;
 		if (p->owners[i])
@@ -74,7 +75,7 @@ static int write_runs(struct page *p)
 	return 0;
 }
 
-/* --- Pictures ---------------------------------------------------------------------------------------------------------- */
+/* --- Pictures ---------------------------------------------------------------------------------------------------- */
 
 static int write_png(struct page *p, uint8_t *png, size_t n)
 {
@@ -93,7 +94,8 @@ static int write_frame(struct page *p)
 	uint8_t *rgb = malloc((size_t)img->width * img->height * 3 + 1), *png = NULL;
 	struct display *display = NULL;
 	size_t n = 0;
-	int err = rgb ? display_create(&(struct display_options){ .white = 1, .rounds = 1 }, &display) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	int err = rgb ? display_create(&(struct display_options){ .white = 1, .rounds = 1 }, &display) :
+	                err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	if (!err)
 		err = display_codes(display, img, "", rgb, NULL);
@@ -104,7 +106,7 @@ static int write_frame(struct page *p)
 	return err ? err : write_png(p, png, n);
 }
 
-/* --- Surfaces, textures, meshes ---------------------------------------------------------------------------------------- */
+/* --- Surfaces, textures, meshes ---------------------------------------------------------------------------------- */
 
 static int write_surface(struct page *p, uint32_t instance)
 {

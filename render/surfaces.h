@@ -1,4 +1,5 @@
-/* relume look --sheet: a page that shows a frame whose surfaces can be pointed at, its textures and meshes, and a rule for each. */
+/* relume look --sheet: a page that shows a frame whose surfaces can be pointed at, its textures and meshes, and a rule
+ * for each. */
 #pragma once
 
 #include "render/single.h"

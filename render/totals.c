@@ -14,7 +14,9 @@ static void write_share(uint64_t part, uint64_t all, char text[16])
 
 static const char *name_of(enum tracer_part part, const struct settings *s, const struct carried *c)
 {
-	static const char *const names[] = { [TRACER_SHADOWS] = "shadows", [TRACER_MIRRORS] = "mirrors", [TRACER_GLASS] = "glass" };
+	static const char *const names[] = {
+		[TRACER_SHADOWS] = "shadows", [TRACER_MIRRORS] = "mirrors", [TRACER_GLASS] = "glass"
+	};
 
 	if (part != TRACER_RELIGHT)
 		return names[part];
@@ -34,7 +36,8 @@ static void print_added(const struct settings *s, const struct carried *c)
 		if (!a->parts[i])
 			continue;
 		write_share(a->parts[i], a->pixels, share);
-		fprintf(stderr, "%s%s on %s %%%s", n ? ", " : "  tracing added ", name_of((enum tracer_part)i, s, c), share, n ? "" : " of the pixels");
+		fprintf(stderr, "%s%s on %s %%%s", n ? ", " : "  tracing added ", name_of((enum tracer_part)i, s, c),
+		        share, n ? "" : " of the pixels");
 		n++;
 	}
 	if (!n)
@@ -42,7 +45,9 @@ static void print_added(const struct settings *s, const struct carried *c)
 	fputc('\n', stderr);
 	if ((double)a->changed >= FEW * (double)a->pixels || s->tracer.mode == TRACER_PATH)
 		return;
-	fprintf(stderr, "  for more, try %s--mode path, or materials and lights of your own (--look FILE; 'relume pick' writes a rule)\n",
+	fprintf(stderr,
+	        "  for more, try %s--mode path, or materials and lights of your own (--look FILE; 'relume pick' writes "
+	        "a rule)\n",
 	        s->look_auto ? "" : "--look auto, ");
 }
 
@@ -51,7 +56,8 @@ static void print_display(const struct settings *s, const struct carried *c)
 	char share[16];
 
 	write_share(c->bright, c->pixels, share);
-	fprintf(stderr, "  exposure %+g stops, white at %g; %s %% of the pixels are brighter\n", (double)s->display.exposure, (double)s->display.white, share);
+	fprintf(stderr, "  exposure %+g stops, white at %g; %s %% of the pixels are brighter\n",
+	        (double)s->display.exposure, (double)s->display.white, share);
 }
 
 void totals_print(const struct settings *s, const struct carried *c)

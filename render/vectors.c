@@ -11,7 +11,8 @@
 #include "look/matrix.h"
 #include "scene/drawn.h"
 
-/* How far off its triangle's plane and sides a point of a mesh may seem, as a share of the triangle's size: positions are floats. */
+/* How far off its triangle's plane and sides a point of a mesh may seem, as a share of the triangle's size: positions
+ * are floats. */
 #define OFF_TRIANGLE 1e-3
 
 /* A draw of a mesh. */
@@ -29,7 +30,7 @@ struct vectors_frame {
 	struct table by_mesh, by_shape; /* of keys with the number of the same before -> index + 1 */
 };
 
-/* --- Which is which -------------------------------------------------------------------------------------------------------- */
+/* --- Which is which ---------------------------------------------------------------------------------------------- */
 
 static uint64_t key_of_mesh(const struct scene_mesh *mesh)
 {
@@ -54,7 +55,7 @@ static uint64_t next_key(struct table *counts, uint64_t key)
 	return table_set(counts, key, (void *)(before + 1)) ? 0 : XXH3_64bits(parts, sizeof(parts));
 }
 
-/* --- Frames ---------------------------------------------------------------------------------------------------------------- */
+/* --- Frames ------------------------------------------------------------------------------------------------------ */
 
 static int note_instance(const struct scene *scene, uint32_t i, struct table *counts, struct vectors_frame *f)
 {
@@ -117,7 +118,7 @@ void vectors_free(struct vectors_frame **frame)
 	free(f);
 }
 
-/* --- Points ---------------------------------------------------------------------------------------------------------------- */
+/* --- Points ------------------------------------------------------------------------------------------------------ */
 
 /* A point of eye space on the picture: pixels from the left and from the top. @return 0: behind the viewer */
 static int project(const struct placed *p, uint32_t height, const double eye[3], double out[2])
@@ -208,7 +209,8 @@ static int weigh(const double corner[3][3], const double point[3], double weight
 }
 
 /* The pixels that a triangle may lie on. @return 0: none */
-static int pixels_of(const struct work *w, const struct placed *p, const double corner[3][3], uint32_t low[2], uint32_t end[2])
+static int pixels_of(const struct work *w, const struct placed *p, const double corner[3][3], uint32_t low[2],
+                     uint32_t end[2])
 {
 	const double size[2] = { w->width, w->height };
 	double least[2] = { INFINITY, INFINITY }, most[2] = { -INFINITY, -INFINITY };
@@ -276,7 +278,7 @@ static void follow_triangles(struct work *w, uint32_t i)
 	}
 }
 
-/* --- All together ------------------------------------------------------------------------------------------------------------ */
+/* --- All together ------------------------------------------------------------------------------------------------ */
 
 /* What each instance was in the frame before. */
 static int match_all(struct work *w)

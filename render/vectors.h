@@ -1,11 +1,13 @@
 /*
- * Motion vectors: channels motion.X and motion.Y, in pixels, right and down: by how much the point that a pixel shows has moved since the
- * frame before; it was at the pixel minus this. motion.A is 1 where that is known, else 0, and the vector is 0.
+ * Motion vectors: channels motion.X and motion.Y, in pixels, right and down: by how much the point that a pixel shows
+ * has moved since the frame before; it was at the pixel minus this. motion.A is 1 where that is known, else 0, and the
+ * vector is 0.
  *
- * By nothing but what the recording has: a point goes back through its draw's modelview into its mesh, to that mesh's place in the frame
- * before, and through that draw's matrices onto the picture. The draw before is the one of the same mesh, the n-th of them for the n-th;
- * where there is none, of a mesh with the same triangles and other vertices, whose points are followed triangle by triangle. What was
- * not drawn before, pixel rectangles, and what nothing drew have no vector. What hid a point then does not count.
+ * By nothing but what the recording has: a point goes back through its draw's modelview into its mesh, to that mesh's
+ * place in the frame before, and through that draw's matrices onto the picture. The draw before is the one of the same
+ * mesh, the n-th of them for the n-th; where there is none, of a mesh with the same triangles and other vertices, whose
+ * points are followed triangle by triangle. What was not drawn before, pixel rectangles, and what nothing drew have no
+ * vector. What hid a point then does not count.
  */
 #pragma once
 

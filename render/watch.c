@@ -13,7 +13,8 @@
 #include "render/guard.h"
 
 #define LOOK_S 0.05
-#define END_S 20.0 /* from the first signal to the hard end; also for a device that does not come back from a late frame */
+/* from the first signal to the hard end; also for a device that does not come back from a late frame */
+#define END_S 20.0
 
 struct seat {
 	struct device *dev;
@@ -117,8 +118,10 @@ static void look_at_memory(struct watch *w)
 	pthread_mutex_unlock(&w->lock);
 	if (n != 1)
 		return;
-	err_report(ERR_SYSTEM, NULL, "frame %llu: takes %llu MiB, more than --limit-memory allows (%llu MiB); the run ends",
-	           (unsigned long long)frame, (unsigned long long)(now >> 20), (unsigned long long)(w->limits.memory_bytes >> 20));
+	err_report(ERR_SYSTEM, NULL,
+	           "frame %llu: takes %llu MiB, more than --limit-memory allows (%llu MiB); the run ends",
+	           (unsigned long long)frame, (unsigned long long)(now >> 20),
+	           (unsigned long long)(w->limits.memory_bytes >> 20));
 	end_now(-ERR_SYSTEM);
 }
 

@@ -2,8 +2,8 @@
  * What may end a frame, or the run, from outside: signals, the limits of time and memory. One thread watches
  * for all of them and interrupts devices (device_interrupt). A worker whose device was interrupted asks here why.
  *
- * The first SIGINT or SIGTERM stops the run: frames on devices are interrupted. A second one, or twenty seconds without an
- * end, removes unfinished files and ends the process at once, with 128 + the signal's number.
+ * The first SIGINT or SIGTERM stops the run: frames on devices are interrupted. A second one, or twenty seconds without
+ * an end, removes unfinished files and ends the process at once, with 128 + the signal's number.
  *
  * A call of a driver that hangs ends the process, too; its parent starts another one (guard.h).
  */

@@ -74,7 +74,10 @@ static enum frame_end trace(struct worker *w, struct tracer *tracer, const struc
 	device_set_frame(w->dev, shot->number);
 	watch_begin(w->state->p->watch, w->seat, shot->number);
 	/* some need the whole planes */
-	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion || settings->caustics || settings->denoise ? 0 : packer_count(w->state);
+	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion ||
+	                                       settings->caustics || settings->denoise ?
+	                               0 :
+	                               packer_count(w->state);
 	err = picture_render(settings, tracer, scene, shot->number, &listener, &picture->img);
 	if (!err && !w->state->turned)
 		err = tell_time(scene, &picture->img);
@@ -150,7 +153,8 @@ static void retire(struct pipeline_state *state, struct shot *shot)
 	pipeline_land(state);
 }
 
-/* A frame was tried: add what its tracer counted. Where it is the first after a fault, the family that took over is right. */
+/* A frame was tried: add what its tracer counted. Where it is the first after a fault, the family that took over is
+ * right. */
 static void note_frame(struct worker *w, const struct tracer *tracer, int is_traced, int has_dome)
 {
 	const struct tracer_undrawn *u = tracer_undrawn(tracer);

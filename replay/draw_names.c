@@ -13,7 +13,8 @@ static const char *known_of(const struct scene *scene, const struct scene_instan
 {
 	const struct scene_material *m = &scene->materials[drawn->material];
 
-	if (scene->mesa & SCENE_MESA_LATE_BITMAPS && m->fog && drawn->rectangle && scene->rectangles[drawn->rectangle - 1].kind == SCENE_BITMAP)
+	if (scene->mesa & SCENE_MESA_LATE_BITMAPS && m->fog && drawn->rectangle &&
+	    scene->rectangles[drawn->rectangle - 1].kind == SCENE_BITMAP)
 		return "Mesa 25 draws bitmaps late, with the fog that is set then";
 	if (!(scene->mesa & SCENE_MESA_BACK_COLORS) && m->lighting && m->two_side && m->color_material == GL_BACK)
 		return "Mesa 22 leaves green and blue of back sides unknown whose colours alone are the vertices'";

@@ -1,17 +1,17 @@
 #!/usr/bin/python3
 """Writes the sources that come from Khronos' registries.
 
-usage: gen.py OUT tokens                                                every GL enum as a #define (gl_tokens.h)
-       gen.py OUT commands OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...    what is known of each command (machine/commands.h)
-       gen.py OUT handlers OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...    their handlers, in the same order (gl/dispatch.h)
+usage: gen.py OUT tokens                                                every GL enum as a #define (gl_tokens.h) gen.py
+OUT commands OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...    what is known of each command (machine/commands.h) gen.py OUT
+handlers OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...    their handlers, in the same order (gl/dispatch.h)
 
-A handler is a line GLS_HANDLER(glName, KIND) or GLS_HANDLER(glName, KIND, ROLE) in a source of replay/. GLS_FAMILY(glName, ...) handles
-all commands whose names are glName and a suffix (GL 2.1 sec. 2.3); GLS_FAMILY(glNameEXT, ...) those with the suffix before EXT.
-A command without a handler takes that of the command that the
-registry calls its alias, or that of the command which does the same by another suffix (glFrustumfOES, glFrustumx: glFrustum); else the
-excuse that overlay.txt gives; else it is one that only asks; else it is counted when met.
-The lines "draws" and "ends" of capture/gen/overlay.txt say which commands do nothing but draw, or end a frame; its lines "arg" which
-arguments are pixels.
+A handler is a line GLS_HANDLER(glName, KIND) or GLS_HANDLER(glName, KIND, ROLE) in a source of replay/.
+GLS_FAMILY(glName, ...) handles all commands whose names are glName and a suffix (GL 2.1 sec. 2.3);
+GLS_FAMILY(glNameEXT, ...) those with the suffix before EXT. A command without a handler takes that of the command that
+the registry calls its alias, or that of the command which does the same by another suffix (glFrustumfOES, glFrustumx:
+glFrustum); else the excuse that overlay.txt gives; else it is one that only asks; else it is counted when met. The
+lines "draws" and "ends" of capture/gen/overlay.txt say which commands do nothing but draw, or end a frame; its lines
+"arg" which arguments are pixels.
 """
 import re
 import sys
@@ -39,7 +39,10 @@ def expand(pattern):
     braces = re.search(r"{([^}]*)}", pattern)
     if not braces:
         return [pattern]
-    return [name for part in braces[1].split(",") for name in expand(pattern[:braces.start()] + part + pattern[braces.end():])]
+    return [
+        name for part in braces[1].split(",")
+        for name in expand(pattern[:braces.start()] + part + pattern[braces.end():])
+    ]
 
 
 def read_overlay(path):
@@ -93,7 +96,8 @@ def handled(handlers, names):
             if suffix:
                 count, normalized, letters, array = suffix.groups()
                 kind_of_number = "NONE" if letters == "D" else letters.upper()
-                found[name] = stem, kind, role, f"{{ {count or 1}, GLS_SUFFIX_{kind_of_number}, {len(normalized)}, {len(array)} }}"
+                found[
+                    name] = stem, kind, role, f"{{ {count or 1}, GLS_SUFFIX_{kind_of_number}, {len(normalized)}, {len(array)} }}"
     return found
 
 
@@ -107,9 +111,9 @@ def types_of(command):
 
 
 def same_by_suffix(name, commands):
-    """
-    Commands that may do the same: without OES, or without EXT and ARB where parameters are the same (glGenTexturesEXT has another GLX
-    protocol, and so is no alias); with floats for fixed-point numbers; without the f that OpenGL ES 1 puts there.
+    """Commands that may do the same: without OES, or without EXT and ARB where parameters are the same
+    (glGenTexturesEXT has another GLX protocol, and so is no alias); with floats for fixed-point numbers; without the f
+    that OpenGL ES 1 puts there.
     """
     base, core = name.removesuffix("OES"), re.sub("(EXT|ARB)$", "", name)
     names = [base]
@@ -130,7 +134,8 @@ NAMES_FOR_LATER = re.compile(r"\w*(Location|Index|Handle|Id|Counter)([A-Z0-9]\w*
 
 
 def only_asks(command):
-    """By its name, and by what it writes: `void *` may be a place in a buffer. Answers that later calls name things by are not enough."""
+    """By its name, and by what it writes: `void *` may be a place in a buffer. Answers that later calls name things by
+    are not enough."""
     writes_bytes = any(p.pointer == 1 and re.match(r"(GL)?void\b", p.type) for p in command.params)
     return bool(QUERY.fullmatch(command.name)) and not NAMES_FOR_LATER.fullmatch(command.name) and not writes_bytes
 
@@ -139,7 +144,9 @@ def read_drawing(path):
     """[(pattern of commands, what they do)]"""
     with open(path) as source:
         words = [line.split(None, 1) for line in source]
-    return [(re.compile(line[1].strip()), "GLS_" + line[0].upper()) for line in words if line and line[0] in ("draws", "ends")]
+    return [(re.compile(line[1].strip()), "GLS_" + line[0].upper())
+            for line in words
+            if line and line[0] in ("draws", "ends")]
 
 
 def read_pixels(path):
@@ -157,7 +164,8 @@ def pixel_args(command, rows):
         if at is None or not names.fullmatch(command.name):
             continue
         said = [places.get(field, -1) for field in fields]
-        numbers = [at, int(fields[0]), *said[1:]] if kind == "image" else [at, 0, -1, -1, said[1] if fields[0] == "blob" else -1, -1, -1]
+        numbers = [at, int(fields[0]), *said[1:]
+                   ] if kind == "image" else [at, 0, -1, -1, said[1] if fields[0] == "blob" else -1, -1, -1]
         return "{ " + ", ".join(map(str, numbers)) + " }"
     return "{ -1, 0, -1, -1, -1, -1, -1 }"
 
@@ -175,21 +183,25 @@ def table(out, what, overlay, capture_overlay, sources):
         sys.exit(f"{overlay}: {both[0]} is excused and handled")
 
     def resolve(name, known):
-        """The command whose entry counts for this one: itself, else along its aliases, else one that is an alias of it."""
+        """The command whose entry counts for this one: itself, else along its aliases, else one that is an alias of
+        it."""
         seen = set()
         while name and name not in seen:
             if name in known:
                 return name
             seen.add(name)
             others = same_by_suffix(name, commands)
-            name = commands[name].alias if name in commands and commands[name].alias else next((n for n in others if n in known), "")
+            name = commands[name].alias if name in commands and commands[name].alias else next(
+                (n for n in others if n in known), "")
         return ""
 
     names = sorted(commands.keys() | excuses.keys() | handlers.keys())
     lines = ["/* Made by replay/gen.py from Khronos' registries, overlay.txt and the handlers of replay/. */"]
     if what == "handlers":
-        lines += ['#include "replay/gl/dispatch.h"', "", *(f"gls_handler gls_{name};" for _, name, _, _ in functions), "",
-                  "gls_handler *const gls_handlers[] = {"]
+        lines += [
+            '#include "replay/gl/dispatch.h"', "", *(f"gls_handler gls_{name};" for _, name, _, _ in functions), "",
+            "gls_handler *const gls_handlers[] = {"
+        ]
     else:
         lines += ['#include "replay/machine/commands.h"', "", "const struct gls_command gls_commands[] = {"]
     for name in names:
@@ -199,10 +211,16 @@ def table(out, what, overlay, capture_overlay, sources):
         if not handler and not reason and name in commands and only_asks(commands[name]):
             reason = "a query"
         core = name in commands and any(re.fullmatch(r"GL_VERSION_(1_\d|2_[01])", v) for v in commands[name].versions)
-        fields = [f'"{name}"', '"' + reason.replace('"', '\\"') + '"' if reason else "0", f"GLS_KIND_{kind}", f"GLS_ROLE_{role}",
-                  str(int(core)), next((does for pattern, does in drawing if pattern.fullmatch(name)), "0"), suffix,
-                  str(fixed_mask(commands[name]) if handler and name in commands else 0), pixel_args(commands.get(name), pixels)]
-        lines.append(f"\t{f'gls_{function}' if handler else '0'}," if what == "handlers" else "\t{ " + ", ".join(fields) + " },")
+        fields = [
+            f'"{name}"', '"' + reason.replace('"', '\\"') + '"' if reason else "0", f"GLS_KIND_{kind}",
+            f"GLS_ROLE_{role}",
+            str(int(core)),
+            next((does for pattern, does in drawing if pattern.fullmatch(name)), "0"), suffix,
+            str(fixed_mask(commands[name]) if handler and name in commands else 0),
+            pixel_args(commands.get(name), pixels)
+        ]
+        lines.append(f"\t{f'gls_{function}' if handler else '0'}," if what == "handlers" else "\t{ " +
+                     ", ".join(fields) + " },")
     lines.append("};")
     if what == "commands":
         lines += ["", "const unsigned n_gls_commands = sizeof(gls_commands) / sizeof(gls_commands[0]);"]

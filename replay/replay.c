@@ -23,7 +23,8 @@
 #include "scene/release.h"
 
 #define FEW_FRAMES 8    /* a way so short is executed, without the index */
-#define FIRST_BACK 16   /* frames that are built before one that needs their pixels, and how much longer the way is where they do not do */
+/* frames that are built before one that needs their pixels, and how much longer the way is where they do not do */
+#define FIRST_BACK 16
 #define LONGER_BACK 8
 #define ALL_BACK UINT64_MAX
 #define PIXELS_EVERY 32 /* of the frames that are built on the way one is kept (index/pixels.h) */
@@ -114,7 +115,8 @@ static int restore(struct replay *rp, uint64_t checkpoint, int has_pixels)
 
 	if (rc)
 		return rc;
-	rc = has_pixels ? pixels_restore(&rp->pixels, checkpoint, rp->player.reader, x) : index_restore(rp->index, checkpoint, rp->player.reader, x);
+	rc = has_pixels ? pixels_restore(&rp->pixels, checkpoint, rp->player.reader, x) :
+	                  index_restore(rp->index, checkpoint, rp->player.reader, x);
 	if (!rc) {
 		player_use(&rp->player, x);
 		return 0;
@@ -155,8 +157,11 @@ static uint64_t beginning_of(const struct replay *rp, uint64_t frame)
 /* Why a frame takes so long, and what it waits for. */
 static void tell_back(const struct player *p, uint64_t frame, const struct gls_feedback *found)
 {
-	err_warn(p->path, "frame %" PRIu64 " needs the pixels of frames before it (%s, found at call %" PRIu64 ", %s); playing them from frame %" PRIu64,
-	         frame, found->rewind_why, found->rewind_call, gls_commands[found->rewind_command].name, p->exec->frame);
+	err_warn(p->path,
+	         "frame %" PRIu64 " needs the pixels of frames before it (%s, found at call %" PRIu64
+	         ", %s); playing them from frame %" PRIu64,
+	         frame, found->rewind_why, found->rewind_call, gls_commands[found->rewind_command].name,
+	         p->exec->frame);
 }
 
 /* Keep pixels now and then, between frames that are built on the way to another. @return 1 or ERR_SYSTEM (reported) */
@@ -164,11 +169,15 @@ static int keep_pixels(struct replay *rp)
 {
 	struct gls_exec *x = rp->player.exec;
 
-	return rp->player.build_all && !x->feedback.rewind && x->frame % PIXELS_EVERY == 0 && pixels_keep(&rp->pixels, rp->player.reader, x) ? ERR_SYSTEM : 1;
+	return rp->player.build_all && !x->feedback.rewind && x->frame % PIXELS_EVERY == 0 &&
+	                       pixels_keep(&rp->pixels, rp->player.reader, x) ?
+	               ERR_SYSTEM :
+	               1;
 }
 
 /* Build all up to a frame, from where the player is now, and keep pixels on the way. As replay_next_frame */
-static int play_again(struct replay *rp, uint64_t frame, int want, const struct gls_feedback *found, struct scene **scene)
+static int play_again(struct replay *rp, uint64_t frame, int want, const struct gls_feedback *found,
+                      struct scene **scene)
 {
 	struct player *p = &rp->player;
 	const uint64_t from = p->exec->frame;
@@ -185,7 +194,8 @@ static int play_again(struct replay *rp, uint64_t frame, int want, const struct 
 	return rc;
 }
 
-/* Go to the last pixels before a frame that lie no farther back than what else is begun with, nor than the player is. @return 1; 0: there are none */
+/* Go to the last pixels before a frame that lie no farther back than what else is begun with, nor than the player is.
+ * @return 1; 0: there are none */
 static int jump_to_pixels(struct replay *rp, uint64_t frame)
 {
 	const struct gls_exec *x = rp->player.exec;
@@ -198,8 +208,8 @@ static int jump_to_pixels(struct replay *rp, uint64_t frame)
 }
 
 /*
- * A frame needs pixels of skipped ones: build those before it, ever more of them until what it shows is known. From the trace's beginning
- * a second time where only the first one finds out that the program looks at front buffers.
+ * A frame needs pixels of skipped ones: build those before it, ever more of them until what it shows is known. From the
+ * trace's beginning a second time where only the first one finds out that the program looks at front buffers.
  */
 static int go_back(struct replay *rp, uint64_t frame, int want, struct scene **scene)
 {
@@ -307,7 +317,8 @@ int replay_take_frame(struct replay *rp, const char *path, uint64_t frame, struc
 	if (rc == 0 && replay_frame(rp) == 0)
 		rc = err_report(ERR_INPUT, path, "holds no whole frame");
 	else if (rc == 0)
-		rc = err_report(ERR_USAGE, path, "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
+		rc = err_report(ERR_USAGE, path,
+		                "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
 		                frame, replay_frame(rp), plural(replay_frame(rp)), replay_frame(rp) - 1);
 	return rc < 0 ? rc : 0;
 }
@@ -370,8 +381,9 @@ static int more_often(const void *a, const void *b)
 }
 
 /* What was counted by command, and by name where the call is in no table, most frequent first. */
-static size_t collect(struct replay *rp, const uint64_t *counts, const char *(*why)(const struct gls_exec *x, unsigned command),
-                      const struct table *unknown, const struct replay_count **out)
+static size_t collect(struct replay *rp, const uint64_t *counts,
+                      const char *(*why)(const struct gls_exec *x, unsigned command), const struct table *unknown,
+                      const struct replay_count **out)
 {
 	size_t n = 0;
 
@@ -379,7 +391,8 @@ static size_t collect(struct replay *rp, const uint64_t *counts, const char *(*w
 		put(rp, &n, gls_commands[i].name, why && counts[i] ? why(rp->player.exec, i) : NULL, counts[i]);
 	for (size_t i = 0; unknown && i < unknown->room; i++)
 		if (unknown->entries[i].value)
-			put(rp, &n, ((const struct call_sig *)(uintptr_t)unknown->entries[i].key)->name, NULL, (uintptr_t)unknown->entries[i].value);
+			put(rp, &n, ((const struct call_sig *)(uintptr_t)unknown->entries[i].key)->name, NULL,
+			    (uintptr_t)unknown->entries[i].value);
 	if (n)
 		qsort(rp->counts, n, sizeof(rp->counts[0]), more_often);
 	*out = rp->counts;
@@ -396,7 +409,8 @@ long replay_lacks(struct replay *rp, struct replay_lack **out)
 	if (!*out)
 		return err_report(ERR_SYSTEM, rp->player.path, "out of memory");
 	for (size_t i = 0; i < n; i++)
-		(*out)[i] = (struct replay_lack){ lacks[i].name, lacks[i].why, lacks[i].first, lacks[i].stays ? UINT64_MAX : lacks[i].last };
+		(*out)[i] = (struct replay_lack){ lacks[i].name, lacks[i].why, lacks[i].first,
+			                          lacks[i].stays ? UINT64_MAX : lacks[i].last };
 	return rc ? rc : (long)n;
 }
 

@@ -29,9 +29,10 @@ void replay_close(struct replay **rp);
 /**
  * Execute the calls up to the end of the next frame.
  * @param want   0: execute only (skip a frame; cheaper), *scene is set to NULL. 1: build the frame's scene
- * @param scene  receives the frame's scene; the caller's, scene_release. NULL unless the return value is 1 and want was 1
- * @return 1 a frame was finished; 0 the trace has no more frames (*scene NULL); ERR_INPUT (reported: damaged at a byte; all
- *         frames that are whole before it were delivered) or ERR_SYSTEM (reported)
+ * @param scene  receives the frame's scene; the caller's, scene_release. NULL unless the return value is 1 and want was
+ * 1
+ * @return 1 a frame was finished; 0 the trace has no more frames (*scene NULL); ERR_INPUT (reported: damaged at a byte;
+ * all frames that are whole before it were delivered) or ERR_SYSTEM (reported)
  */
 int replay_next_frame(struct replay *rp, int want, struct scene **scene);
 
@@ -63,10 +64,10 @@ int replay_take_frame(struct replay *rp, const char *path, uint64_t frame, struc
 int replay_one_frame(const char *path, uint64_t frame, struct scene **scene);
 
 /**
- * Name who renders what the recorded program needs back as pixels (screen copies, framebuffer objects, frames that are not cleared).
- * replay_next_frame calls it, in its own thread. Without a supplier such operations are counted (replay_unsupported). With one, a
- * wanted frame that needs pixels of skipped frames makes the replay go back, as far as it takes, and build every frame from there: slow,
- * but right.
+ * Name who renders what the recorded program needs back as pixels (screen copies, framebuffer objects, frames that are
+ * not cleared). replay_next_frame calls it, in its own thread. Without a supplier such operations are counted
+ * (replay_unsupported). With one, a wanted frame that needs pixels of skipped frames makes the replay go back, as far
+ * as it takes, and build every frame from there: slow, but right.
  */
 void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user);
 
@@ -78,24 +79,26 @@ void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user);
  */
 int replay_keep_pixels(struct replay *rp, const char *folder, const char *device);
 
-/** Name who is told how far frames before the one that is wanted have been played; it is called in the replay's thread, after each of them. */
+/** Name who is told how far frames before the one that is wanted have been played; it is called in the replay's thread,
+ * after each of them. */
 void replay_set_tell(struct replay *rp, replay_tell *tell, void *user);
 
 /**
- * Leave pictures of framebuffer objects that cover the window what they are. Without this, scenes hold what drew them: OpenGL's pixels are
- * the same, and rays see it. Call it before the first frame.
+ * Leave pictures of framebuffer objects that cover the window what they are. Without this, scenes hold what drew them:
+ * OpenGL's pixels are the same, and rays see it. Call it before the first frame.
  */
 void replay_keep_targets(struct replay *rp);
 
 /**
- * Leave what a frame begins with to who renders it, where perhaps nothing of it shows (scene/before.h). Without this the supplier renders
- * the frame once more to find out. Call it where all frames are rendered, before the first.
+ * Leave what a frame begins with to who renders it, where perhaps nothing of it shows (scene/before.h). Without this
+ * the supplier renders the frame once more to find out. Call it where all frames are rendered, before the first.
  */
 void replay_leave_starts(struct replay *rp);
 
 /**
- * Do the frames up to and including `last` need pixels of frames that were skipped? Builds them without rendering: a frame that does
- * not clear the screen counts as one that shows what was there before. Afterwards the replay can only be closed.
+ * Do the frames up to and including `last` need pixels of frames that were skipped? Builds them without rendering: a
+ * frame that does not clear the screen counts as one that shows what was there before. Afterwards the replay can only
+ * be closed.
  * @return 1 they do; 0 they do not; ERR_* (reported)
  */
 int replay_needs_skipped(struct replay *rp, uint64_t last);
@@ -134,7 +137,8 @@ struct replay_lack {
 	uint64_t first, last;   /* frames that lack it; last is UINT64_MAX where all from the first on may */
 };
 
-/** @param out  receives an array, to be freed with free(), in the order in which it is met  @return entries, or ERR_* (reported) */
+/** @param out  receives an array, to be freed with free(), in the order in which it is met  @return entries, or ERR_*
+ * (reported) */
 long replay_lacks(struct replay *rp, struct replay_lack **out);
 
 /** What the frames so far ask of a renderer. */
@@ -145,7 +149,8 @@ struct replay_needs {
 };
 struct replay_needs replay_needs(const struct replay *rp);
 
-/** 1 where an entry of replay_unsupported is there only because nobody renders: 'relume render' does it. These come last. */
+/** 1 where an entry of replay_unsupported is there only because nobody renders: 'relume render' does it. These come
+ * last. */
 int replay_is_rendered(const struct replay_count *count);
 
 /** All calls met so far by name, most frequent first; as above. */
@@ -158,7 +163,8 @@ struct replay_program {
 	uint64_t draws;
 };
 
-/** The programs that draws used so far. Those that are not run are among replay_unsupported, too. Valid until the next call. @return how many */
+/** The programs that draws used so far. Those that are not run are among replay_unsupported, too. Valid until the next
+ * call. @return how many */
 size_t replay_programs(struct replay *rp, const struct replay_program **out);
 
 /** 1 where some list of counts was not whole, as memory was short (reported). */

@@ -10,7 +10,8 @@ struct scene_clear;
 int scene_clears_window(const struct scene *scene, const struct scene_clear *clear);
 
 /**
- * How many of the first instances are a backdrop: they are followed by a clear of the window's depth that keeps the colours, and by more
- * instances than they are. (A view model is drawn after such a clear, too; what stands before it is the world.)
+ * How many of the first instances are a backdrop: they are followed by a clear of the window's depth that keeps the
+ * colours, and by more instances than they are. (A view model is drawn after such a clear, too; what stands before it
+ * is the world.)
  */
 uint32_t scene_backdrop(const struct scene *scene);

@@ -1,6 +1,6 @@
 /*
- * What a scene begins with where that is not made yet: the scene before it. Many programs clear no colours and draw over all of them, and
- * only who renders a scene finds out whether something from before shows. Threads may share one.
+ * What a scene begins with where that is not made yet: the scene before it. Many programs clear no colours and draw
+ * over all of them, and only who renders a scene finds out whether something from before shows. Threads may share one.
  */
 #pragma once
 

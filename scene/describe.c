@@ -20,8 +20,9 @@ static void write_mesh(FILE *out, const struct scene_mesh *m)
 {
 	static const char *const kinds[] = { "", "point", "line", "triangle" };
 
-	fprintf(out, "mesh %016" PRIx64 "%016" PRIx64 ": %u %s%s%s%s\n", m->hash[1], m->hash[0], m->primitive_count, kinds[m->kind],
-	        plural(m->primitive_count), m->normal ? ", with normals" : "", m->color ? ", with colours" : "");
+	fprintf(out, "mesh %016" PRIx64 "%016" PRIx64 ": %u %s%s%s%s\n", m->hash[1], m->hash[0], m->primitive_count,
+	        kinds[m->kind], plural(m->primitive_count), m->normal ? ", with normals" : "",
+	        m->color ? ", with colours" : "");
 }
 
 static void write_texture(FILE *out, const struct scene *s, const struct scene_unit *u)
@@ -29,8 +30,9 @@ static void write_texture(FILE *out, const struct scene *s, const struct scene_u
 	const struct scene_texture *t = s->textures[u->texture];
 	char target[TOKEN_NAME_BYTES], format[TOKEN_NAME_BYTES], mode[TOKEN_NAME_BYTES], made[TOKEN_NAME_BYTES];
 
-	fprintf(out, "texture %016" PRIx64 "%016" PRIx64 ": unit %u, %u x %u, %s %s, %s", t->hash[1], t->hash[0], u->unit, t->width, t->height,
-	        token_name(t->target, target), token_name(t->base_format, format), token_name(u->env_mode, mode));
+	fprintf(out, "texture %016" PRIx64 "%016" PRIx64 ": unit %u, %u x %u, %s %s, %s", t->hash[1], t->hash[0],
+	        u->unit, t->width, t->height, token_name(t->target, target), token_name(t->base_format, format),
+	        token_name(u->env_mode, mode));
 	if (u->gen_mode[0])
 		fprintf(out, ", coordinates by %s", token_name(u->gen_mode[0], made));
 	fputc('\n', out);

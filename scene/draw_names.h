@@ -1,6 +1,6 @@
 /*
- * Names of draws, for reports: what a draw number of a frame was in its recording. replay/ hands them out, and a report that
- * takes them needs no replay.
+ * Names of draws, for reports: what a draw number of a frame was in its recording. replay/ hands them out, and a report
+ * that takes them needs no replay.
  */
 #pragma once
 

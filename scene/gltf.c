@@ -145,12 +145,13 @@ static void write_camera(struct json *j, const struct scene_view *v)
 }
 
 /*
- * Lumen that a watt makes (at 555 nm): KHR_lights_punctual counts in candela and lux. Programs that render in watts divide by
- * this number again (Blender's importer, "standard" light units), so that a radiance of 1 stays one.
+ * Lumen that a watt makes (at 555 nm): KHR_lights_punctual counts in candela and lux. Programs that render in watts
+ * divide by this number again (Blender's importer, "standard" light units), so that a radiance of 1 stays one.
  */
 #define LUMEN_PER_WATT 683.0
 
-/* A light as KHR_lights_punctual wants it: a white surface facing it at the middle of its space has its diffuse colour. */
+/* A light as KHR_lights_punctual wants it: a white surface facing it at the middle of its space has its diffuse
+ * colour. */
 static void write_light(struct json *j, const struct scene_light *l, const float middle[3])
 {
 	float most = fmaxf(fmaxf(l->diffuse[0], l->diffuse[1]), fmaxf(l->diffuse[2], 1e-6f)), color[3];
@@ -370,7 +371,8 @@ static int write_chunk(FILE *out, uint32_t type, const void *bytes, size_t n, ch
 	const uint32_t head[2] = { (uint32_t)((n + 3) & ~(size_t)3), type };
 	const char fill[4] = { filler, filler, filler, filler };
 
-	return fwrite(head, 8, 1, out) == 1 && fwrite(bytes, 1, n, out) == n && fwrite(fill, 1, head[0] - n, out) == head[0] - n;
+	return fwrite(head, 8, 1, out) == 1 && fwrite(bytes, 1, n, out) == n &&
+	       fwrite(fill, 1, head[0] - n, out) == head[0] - n;
 }
 
 int gltf_write(FILE *out, const char *where, const struct scene *scene, struct gltf_losses *losses)

@@ -40,13 +40,15 @@ static uint32_t put_sampled(struct gltf *g, const struct scene_unit *u)
 	return GLTF_PUSH(g, sampled, s);
 }
 
-/* 1 where a unit lets its texture's colour through, not its alpha alone as for shadows and fades (GL 2.1 sec. 3.8.13). */
+/* 1 where a unit lets its texture's colour through, not its alpha alone as for shadows and fades (GL 2.1 sec.
+ * 3.8.13). */
 static int shows_color(const struct scene_unit *u)
 {
 	const int n = u->combine_rgb == GL_REPLACE ? 1 : u->combine_rgb == GL_INTERPOLATE ? 3 : 2;
 
 	for (int i = 0; i < n && u->env_mode == GL_COMBINE; i++)
-		if (u->source_rgb[i] == GL_TEXTURE && (u->operand_rgb[i] == GL_SRC_COLOR || u->operand_rgb[i] == GL_ONE_MINUS_SRC_COLOR))
+		if (u->source_rgb[i] == GL_TEXTURE &&
+		    (u->operand_rgb[i] == GL_SRC_COLOR || u->operand_rgb[i] == GL_ONE_MINUS_SRC_COLOR))
 			return 1;
 	return u->env_mode != GL_COMBINE;
 }
@@ -57,7 +59,8 @@ static int rank(const struct scene_texture *t, const struct scene_mesh *mesh, co
 	const int has_colors = t->base_format == GL_RGB || t->base_format == GL_RGBA;
 	const int is_own = mesh->texcoord[u->unit] != NULL; /* else one texel colours all of it */
 
-	if ((t->target != GL_TEXTURE_2D && t->target != GL_TEXTURE_RECTANGLE) || t->base_format == GL_DEPTH_COMPONENT || u->gen_mode[0] || u->gen_mode[1] || !shows_color(u))
+	if ((t->target != GL_TEXTURE_2D && t->target != GL_TEXTURE_RECTANGLE) || t->base_format == GL_DEPTH_COMPONENT ||
+	    u->gen_mode[0] || u->gen_mode[1] || !shows_color(u))
 		return 0;
 	return 1 + has_colors + 2 * is_own;
 }
@@ -85,8 +88,8 @@ const struct scene_unit *gltf_shown_unit(struct gltf *g, const struct scene_mate
 	return found;
 }
 
-uint32_t gltf_put_look(struct gltf *g, const struct scene_material *m, const struct scene_unit *unit, const float color[4],
-                       int vertex_colors)
+uint32_t gltf_put_look(struct gltf *g, const struct scene_material *m, const struct scene_unit *unit,
+                       const float color[4], int vertex_colors)
 {
 	struct gltf_look look;
 	const struct scene_face *f = &m->front;

@@ -42,10 +42,13 @@ static int is_affine(const struct scene_mesh *m)
 
 static uint32_t put_accessor(struct gltf *g, uint32_t piece, uint32_t component, uint32_t count, const char *type)
 {
-	return GLTF_PUSH(g, accessors, ((struct gltf_accessor){ .piece = piece, .component = component, .count = count, .type = type }));
+	return GLTF_PUSH(
+		g, accessors,
+		((struct gltf_accessor){ .piece = piece, .component = component, .count = count, .type = type }));
 }
 
-/* Positions, in object space or baked into eye space; a vertex at infinity or behind becomes NaN, for put_indices to see. */
+/* Positions, in object space or baked into eye space; a vertex at infinity or behind becomes NaN, for put_indices to
+ * see. */
 static uint32_t put_positions(struct gltf *g, const struct scene_mesh *m, const float *baked)
 {
 	uint32_t piece, number;
@@ -113,7 +116,8 @@ static uint32_t put_colors(struct gltf *g, const struct scene_mesh *m)
 }
 
 /* Texture coordinates after the texture matrix. In rectangle textures they count texels (ARB_texture_rectangle). */
-static uint32_t put_texcoords(struct gltf *g, const struct scene_mesh *m, const struct scene_unit *u, const float current[4])
+static uint32_t put_texcoords(struct gltf *g, const struct scene_mesh *m, const struct scene_unit *u,
+                              const float current[4])
 {
 	const struct scene_texture *t = g->s->textures[u->texture];
 	float size[2] = { 1, 1 };
@@ -136,8 +140,8 @@ static uint32_t put_texcoords(struct gltf *g, const struct scene_mesh *m, const 
 }
 
 /*
- * Primitives with an infinite vertex are counted and left out. So are triangles with one corner twice: they cover nothing. `flipped`
- * turns triangles over.
+ * Primitives with an infinite vertex are counted and left out. So are triangles with one corner twice: they cover
+ * nothing. `flipped` turns triangles over.
  */
 static uint32_t put_indices(struct gltf *g, const struct scene_mesh *m, uint32_t position, int flipped)
 {
@@ -194,8 +198,10 @@ static uint32_t put_part(struct gltf *g, uint32_t number)
 	const struct scene_current *cur = &g->s->currents[in->current];
 	int as_node = is_trs(in->modelview) && is_affine(m);
 	const float *baked = as_node ? NULL : in->modelview;
-	struct gltf_part p = { .mesh = in->mesh, .material = in->material, .current = in->current, .baked = as_node ? SCENE_NONE : number,
-		          .normal = SCENE_NONE, .color = SCENE_NONE, .texcoord = SCENE_NONE };
+	struct gltf_part p = {
+		.mesh = in->mesh, .material = in->material, .current = in->current, .baked = as_node ? SCENE_NONE : number,
+		.normal = SCENE_NONE, .color = SCENE_NONE, .texcoord = SCENE_NONE
+	};
 	const struct scene_unit *unit;
 	int vertex_colors;
 

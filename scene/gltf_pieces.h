@@ -1,6 +1,6 @@
 /*
- * What a glTF file holds: the binary chunk, and the numbered things that refer to it. gltf_parts.c gathers them from a scene, with the
- * materials of gltf_looks.c; gltf.c writes the text.
+ * What a glTF file holds: the binary chunk, and the numbered things that refer to it. gltf_parts.c gathers them from a
+ * scene, with the materials of gltf_looks.c; gltf.c writes the text.
  */
 #pragma once
 
@@ -79,7 +79,8 @@ struct gltf {
 
 /** Append one item to a growing array; its number, or SCENE_NONE out of memory. */
 #define GLTF_PUSH(g, array, value) \
-	(gltf_grow((g), (void **)&(g)->array, (g)->n_##array, sizeof(*(g)->array)) ? SCENE_NONE : ((g)->array[(g)->n_##array] = (value), (g)->n_##array++))
+	(gltf_grow((g), (void **)&(g)->array, (g)->n_##array, \
+	sizeof(*(g)->array)) ? SCENE_NONE : ((g)->array[(g)->n_##array] = (value), (g)->n_##array++))
 int gltf_grow(struct gltf *g, void **items, uint32_t n, size_t size);
 
 /** Room for a piece, at a multiple of 4 bytes; NULL out of memory. Valid until the next call. */

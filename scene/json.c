@@ -37,8 +37,8 @@ static void write_textures(FILE *out, const struct scene *s, const struct scene_
 		const struct scene_unit *u = &s->units[m->unit_first + i];
 		const struct scene_texture *t = s->textures[u->texture];
 
-		fprintf(out, ", unit %u: texture %08x %ux%u %s %s", u->unit, start_of(t->hash), t->width, t->height, token_name(t->base_format, format),
-		        token_name(u->env_mode, mode));
+		fprintf(out, ", unit %u: texture %08x %ux%u %s %s", u->unit, start_of(t->hash), t->width, t->height,
+		        token_name(t->base_format, format), token_name(u->env_mode, mode));
 	}
 }
 
@@ -55,8 +55,9 @@ static void write_instance_text(FILE *out, const struct scene *s, const struct s
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	const struct scene_material *m = &s->materials[in->material];
 
-	fprintf(out, "draw %u: %u %s of mesh %08x, %s at call %" PRIu64 ", view %u%s", in->draw, mesh->primitive_count, kind_name(mesh->kind),
-	        start_of(mesh->hash), s->draws[in->draw].call, s->draws[in->draw].call_number, in->view, m->lighting ? ", lit" : "");
+	fprintf(out, "draw %u: %u %s of mesh %08x, %s at call %" PRIu64 ", view %u%s", in->draw, mesh->primitive_count,
+	        kind_name(mesh->kind), start_of(mesh->hash), s->draws[in->draw].call, s->draws[in->draw].call_number,
+	        in->view, m->lighting ? ", lit" : "");
 	write_textures(out, s, m);
 	write_blending(out, m);
 	fprintf(out, "%s%s\n", m->alpha_test ? ", alpha test" : "", m->depth_test ? "" : ", no depth test");
@@ -66,10 +67,13 @@ void scene_write_text(FILE *out, const struct scene *s)
 {
 	uint32_t clear = 0;
 
-	fprintf(out, "frame %" PRIu64 ": %ux%u, %u instance%s, %u primitive%s, %u mesh%s, %u material%s, %u view%s, %u texture%s%s\n",
-	        s->frame, s->width, s->height, s->n_instances, plural(s->n_instances), s->n_primitives, plural(s->n_primitives),
-	        s->n_meshes, s->n_meshes == 1 ? "" : "es", s->n_materials, plural(s->n_materials), s->n_views, plural(s->n_views),
-	        s->n_textures, plural(s->n_textures), s->needs_previous ? ", shows pixels of an earlier frame" : "");
+	fprintf(out,
+	        "frame %" PRIu64
+	        ": %ux%u, %u instance%s, %u primitive%s, %u mesh%s, %u material%s, %u view%s, %u texture%s%s\n",
+	        s->frame, s->width, s->height, s->n_instances, plural(s->n_instances), s->n_primitives,
+	        plural(s->n_primitives), s->n_meshes, s->n_meshes == 1 ? "" : "es", s->n_materials,
+	        plural(s->n_materials), s->n_views, plural(s->n_views), s->n_textures, plural(s->n_textures),
+	        s->needs_previous ? ", shows pixels of an earlier frame" : "");
 	for (uint32_t i = 0; i < s->n_instances; i++) {
 		write_clears(out, s, &clear, i);
 		write_instance_text(out, s, &s->instances[i]);
@@ -92,16 +96,19 @@ struct field {
 /* A row's kind and form follow from the field's type, so that they cannot disagree. */
 #define MEMBER(type, member) (((type *)0)->member)
 #define KIND_OF(value) \
-	_Generic((value), uint32_t: UINTS, uint64_t: UINTS, uint32_t *: UINTS, int32_t *: INTS, float: FLOATS, float *: FLOATS, \
+	_Generic((value), uint32_t: UINTS, uint64_t: UINTS, uint32_t *: UINTS, int32_t *: INTS, float: FLOATS, \
+	float *: FLOATS, \
 		float(*)[4]: FLOATS, struct scene_face: FACE, struct scene_stencil: STENCIL, struct scene_surface: SURFACE)
 #define IS_ARRAY(value) _Generic((value), uint32_t *: 1, int32_t *: 1, float *: 1, float(*)[4]: 1, default: 0)
 #define ROW(type, member) \
-	{ #member, KIND_OF(MEMBER(type, member)), IS_ARRAY(MEMBER(type, member)), offsetof(type, member), sizeof(MEMBER(type, member)) }
+	{ #member, KIND_OF(MEMBER(type, member)), IS_ARRAY(MEMBER(type, member)), offsetof(type, member), \
+	sizeof(MEMBER(type, member)) }
 #define FIELD(owner, member) ROW(struct scene_##owner, member)
 #define SCENE_FIELD(member) ROW(struct scene, member)
 /* Numbers that are GL tokens: only scene.h's comments tell. */
 #define TOKEN_ROW(owner, member, kind) \
-	{ #member, kind, IS_ARRAY(MEMBER(struct scene_##owner, member)), offsetof(struct scene_##owner, member), sizeof(MEMBER(struct scene_##owner, member)) }
+	{ #member, kind, IS_ARRAY(MEMBER(struct scene_##owner, member)), offsetof(struct scene_##owner, member), \
+	sizeof(MEMBER(struct scene_##owner, member)) }
 #define TOKEN(owner, member) TOKEN_ROW(owner, member, TOKENS)
 #define FACTOR(owner, member) TOKEN_ROW(owner, member, FACTORS)
 
@@ -138,16 +145,15 @@ static const struct field material_fields[] = {
 	FIELD(material, point_sprite), FIELD(material, point_attenuation), FIELD(material, point_size_min),
 	FIELD(material, point_size_max), FIELD(material, point_fade_threshold), FIELD(material, multisample),
 	FIELD(material, samples_off), FIELD(material, alpha_to_coverage), FIELD(material, alpha_to_one),
-	FIELD(material, clip_plane_mask), FIELD(material, clip_plane_eye), FIELD(material, clip_by_program), FIELD(material, alpha_test),
-	TOKEN(material, alpha_func), FIELD(material, alpha_ref), FIELD(material, stencil_test),
+	FIELD(material, clip_plane_mask), FIELD(material, clip_plane_eye), FIELD(material, clip_by_program),
+	FIELD(material, alpha_test), TOKEN(material, alpha_func), FIELD(material, alpha_ref), FIELD(material, stencil_test),
 	FIELD(material, stencil_front), FIELD(material, stencil_back), FIELD(material, depth_test),
 	TOKEN(material, depth_func), FIELD(material, depth_write), FIELD(material, blend),
 	TOKEN(material, blend_equation_rgb), TOKEN(material, blend_equation_alpha), FACTOR(material, blend_src_rgb),
 	FACTOR(material, blend_dst_rgb), FACTOR(material, blend_src_alpha), FACTOR(material, blend_dst_alpha),
 	FIELD(material, blend_color), TOKEN(material, logic_op), FIELD(material, color_mask), FIELD(material, srgb),
-	FIELD(material, surface),
-	FIELD(material, program), FIELD(material, fragment_program), FIELD(material, vertex_program),
-	{ 0 },
+	FIELD(material, surface), FIELD(material, program), FIELD(material, fragment_program),
+	FIELD(material, vertex_program), { 0 },
 };
 
 static const struct field unit_fields[] = {
@@ -225,7 +231,9 @@ static void write_tokens(struct json *j, const struct field *f, const uint32_t *
 
 static void write_field(struct json *j, const struct field *f, const void *at)
 {
-	static const struct field *const inner[] = { [FACE] = face_fields, [STENCIL] = stencil_fields, [SURFACE] = surface_fields };
+	static const struct field *const inner[] = {
+		[FACE] = face_fields, [STENCIL] = stencil_fields, [SURFACE] = surface_fields
+	};
 	size_t n = f->bytes / 4;
 
 	if (f->kind >= FACE) {

@@ -27,7 +27,8 @@ enum scene_mesa {
 	SCENE_MESA_LATE_BITMAPS = 128,
 	/* 25.0: GLSL's (A B C) v is (A B) (C v), and not A (B (C v)): products are taken apart once */
 	SCENE_MESA_PRODUCTS_ONCE = 256,
-	/* 25.0: pixels that become floats of 10 and 11 bits are rounded, and not cut off; what is drawn to them still is */
+	/* 25.0: pixels that become floats of 10 and 11 bits are rounded, and not cut off; what is drawn to them still
+	   is */
 	SCENE_MESA_ROUNDS_SMALL_FLOATS = 512,
 	/* 25.0: levels of encoded luminance are means in linear light, and not of what is stored */
 	SCENE_MESA_LINEAR_MEANS = 1024,
@@ -35,7 +36,8 @@ enum scene_mesa {
 	SCENE_MESA_LACKS_YCBCR = 2048,
 	/* another GL: it has what every Mesa lacks (glPolygonOffsetEXT) */
 	SCENE_MESA_IS_OTHER = 4096,
-	/* 25.0: with COLOR_MATERIAL, lighting takes the current colour, and no parameter that waits (replay/gl/geometry/waiting.h) */
+	/* 25.0: with COLOR_MATERIAL, lighting takes the current colour, and no parameter that waits
+	   (replay/gl/geometry/waiting.h) */
 	SCENE_MESA_TRACKS_COLORS = 8192,
 };
 

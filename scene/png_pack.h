@@ -17,5 +17,6 @@ struct png_pixels {
  */
 int png_pack(const struct png_pixels *pixels, uint8_t **out, size_t *n);
 
-/** Level 0 of a texture that holds colours, without its border; of a cube or volume its first picture. Row t = 0 is the top one. @return as png_pack */
+/** Level 0 of a texture that holds colours, without its border; of a cube or volume its first picture. Row t = 0 is the
+ * top one. @return as png_pack */
 int png_pack_texture(const struct scene_texture *t, uint8_t **out, size_t *n);

@@ -44,7 +44,8 @@ struct scene_light {
 	float spot_cutoff_deg; /* 180: no spot */
 	float attenuation[3];  /* constant, linear, quadratic */
 	uint32_t index;        /* 0..7: which GL_LIGHTi */
-	float radius;          /* of the light's sphere, eye-space units; 0: a point; below 0: nothing stops it. Set by rules, not by GL */
+	float radius; /* of the light's sphere, eye-space units; 0: a point; below 0: nothing stops it. Set by rules,
+	                 not by GL */
 };
 
 /* Material of one side (GL 2.1 table 2.9). */
@@ -56,8 +57,10 @@ struct scene_face {
 /* What a surface is hidden from, and what of it the beauty goes without. */
 #define SCENE_HIDDEN_FROM_LIGHTS 1u  /* casts no shadow */
 #define SCENE_HIDDEN_FROM_MIRRORS 2u /* is not seen in mirrors and through glass */
-#define SCENE_ONE_SIDED 4u           /* light that comes from behind the only side that it shows passes (look/sides.h) */
-#define SCENE_SHOWN_COUNTER 65536u   /* nothing: with the last, corners of the shown side run counter-clockwise in object space, on all triangles */
+/* light that comes from behind the only side that it shows passes (look/sides.h) */
+#define SCENE_ONE_SIDED 4u
+/* nothing: with the last, corners of the shown side run counter-clockwise in object space, on all triangles */
+#define SCENE_SHOWN_COUNTER 65536u
 #define SCENE_SHOWN_CLOCKWISE 131072u
 #define SCENE_STOPS_NO_SUN 8u        /* light at infinity passes */
 #define SCENE_CARD 16u               /* nothing nearer than its own primitive's longest edge shades it */
@@ -69,7 +72,8 @@ struct scene_face {
 #define SCENE_FILM 1024u             /* lights: it is more seen through than seen, and casts no shadow */
 #define SCENE_UNSHADED 2048u         /* nothing: it keeps the light that GL gives it, whatever stands in its way */
 #define SCENE_CREASED 8192u          /* nothing: its mesh has normals beside GL's, scene_mesh.crease */
-#define SCENE_ENTERED 16384u         /* nothing: what lets light through here leads into a body, whichever side is shown */
+/* nothing: what lets light through here leads into a body, whichever side is shown */
+#define SCENE_ENTERED 16384u
 #define SCENE_BACK_OUTSIDE 32768u    /* nothing: what lets light through here has its back outside */
 #define SCENE_NO_NORMALS 4096u       /* nothing: a near mirror that GL does not light turns rays about its faces */
 
@@ -85,8 +89,10 @@ struct scene_surface {
 	/* 1: beside GL's picture, which stays, the surface is lit at each pixel by scene.lights[light_first .. +light_count)
 	   instead of GL's own; what GL does not light is then matte, of the colour it shows */
 	uint32_t relit, light_first, light_count;
-	uint32_t parameter_first, parameter_count; /* of hooks: scene.parameters[parameter_first .. +parameter_count), the last one last */
-	uint32_t light_unit; /* of what is relit: 1 + the texture unit that holds light, and is no part of its colour; SCENE_LIGHT_IN_COLORS; 0: none */
+	uint32_t parameter_first, parameter_count; /* of hooks: scene.parameters[parameter_first .. +parameter_count),
+	                                              the last one last */
+	uint32_t light_unit; /* of what is relit: 1 + the texture unit that holds light, and is no part of its colour;
+	                        SCENE_LIGHT_IN_COLORS; 0: none */
 };
 
 /* scene_surface.light_unit: vertex colours hold the light. */
@@ -95,7 +101,7 @@ struct scene_surface {
 /* Light from all around. Set by rules, not by GL. */
 struct scene_dome {
 	float up_eye[3];           /* unit vector; all 0: no direction is up, and all are `light` */
-	float reach;               /* things dim it up to this distance, eye-space units, near ones more; 0: there is no dome */
+	float reach; /* things dim it up to this distance, eye-space units, near ones more; 0: there is no dome */
 	float light[3], ground[3]; /* from straight up and from straight down; in between in proportion to the height */
 	float lit;                 /* [0,1]: how much of it counts where GL lights a surface, and the rest is GL's */
 };
@@ -107,7 +113,8 @@ struct scene_stencil {
 	uint32_t fail, zfail, zpass; /* GL tokens */
 };
 
-/* What a drawable of floats holds: floats, or in all of its colours halves, of which drawing cuts off what they have no room for. Bits: both is floats. */
+/* What a drawable of floats holds: floats, or in all of its colours halves, of which drawing cuts off what they have no
+ * room for. Bits: both is floats. */
 #define SCENE_FLOATS 1u
 #define SCENE_HALVES 2u
 
@@ -133,7 +140,8 @@ struct scene_material {
 	/* fog, GL 2.1 sec. 3.10 */
 	uint32_t fog;
 	uint32_t fog_mode; /* GL token */
-	uint32_t fog_coord_source; /* GL_FOG_COORD, or how far from the viewer: GL_EYE_PLANE_ABSOLUTE_NV, GL_EYE_PLANE, GL_EYE_RADIAL_NV */
+	uint32_t fog_coord_source; /* GL_FOG_COORD, or how far from the viewer: GL_EYE_PLANE_ABSOLUTE_NV, GL_EYE_PLANE,
+	                              GL_EYE_RADIAL_NV */
 	float fog_density, fog_start, fog_end, fog_color[4];
 
 	/* rasterization, GL 2.1 sec. 3.3 - 3.5 */
@@ -149,15 +157,17 @@ struct scene_material {
 	uint32_t point_sprite; /* 0; 1: t = 0 at the top; 2: at the bottom */
 	float point_attenuation[3], point_size_min, point_size_max, point_fade_threshold;
 	/*
-	 * Multisampling (sec. 3.2.1, 4.1.3), all 0 where the drawable has one sample a pixel or it is disabled. Then no smoothing
-	 * of lines, points or polygons is asked for. samples_off: samples that SAMPLE_COVERAGE leaves out, a bit each.
+	 * Multisampling (sec. 3.2.1, 4.1.3), all 0 where the drawable has one sample a pixel or it is disabled. Then no
+	 * smoothing of lines, points or polygons is asked for. samples_off: samples that SAMPLE_COVERAGE leaves out, a
+	 * bit each.
 	 */
 	uint32_t multisample, samples_off, alpha_to_coverage, alpha_to_one;
 
 	/* user clip planes in eye space (sec. 2.12): mask of enabled ones */
 	uint32_t clip_plane_mask;
 	float clip_plane_eye[SCENE_MAX_CLIP_PLANES][4];
-	uint32_t clip_by_program; /* 1: they clip by what the vertex program says (SCENE_RESULT_CLIP_VERTEX), where faces have one colour alone */
+	uint32_t clip_by_program; /* 1: they clip by what the vertex program says (SCENE_RESULT_CLIP_VERTEX), where
+	                             faces have one colour alone */
 
 	/* per-fragment operations, GL 2.1 sec. 4.1 (scissor: see the view) */
 	uint32_t alpha_test, alpha_func; /* GL token */
@@ -177,9 +187,12 @@ struct scene_material {
 
 	struct scene_surface surface;
 	uint32_t program; /* 1: the draw used a program object or ARB program */
-	uint32_t fragment_program; /* 0, or 1 + where in scene.programs the program that shades it begins; else it is rendered as fixed function */
-	uint32_t vertex_program; /* the same of its vertices; `lighting` is 0 then, and lights are those that its programs read */
-	uint32_t program_normals; /* 1: that one reads normals: those of vertices that it does not move are the surface's, as of a lit one */
+	uint32_t fragment_program; /* 0, or 1 + where in scene.programs the program that shades it begins; else it is
+	                              rendered as fixed function */
+	uint32_t vertex_program;   /* the same of its vertices; `lighting` is 0 then, and lights are those that its
+	                              programs read */
+	uint32_t program_normals;  /* 1: that one reads normals: those of vertices that it does not move are the
+	                              surface's, as of a lit one */
 };
 
 /* One enabled texture unit as a draw saw it (GL 2.1 sec. 3.8). */
@@ -237,13 +250,15 @@ struct scene_instance {
 	uint32_t first_primitive; /* see "Draw order" above */
 	float modelview[16]; /* object to eye space; may be singular or projective (planar shadows) */
 	/*
-	 * 0, or 1 + the index in scene.rectangles of what each vertex of the mesh (points, in WINDOW coordinates: matrices count
-	 * for nothing) is the first pixel's outer corner of. Then current attributes are final: lit, generated, transformed.
+	 * 0, or 1 + the index in scene.rectangles of what each vertex of the mesh (points, in WINDOW coordinates:
+	 * matrices count for nothing) is the first pixel's outer corner of. Then current attributes are final: lit,
+	 * generated, transformed.
 	 */
 	uint32_t rectangle;
 };
 
-/* A bitmap or pixel rectangle (GL 2.1 sec. 3.6.4, 3.7): pixel (n, m) covers what the corner + zoom * (n..n+1, m..m+1) does. */
+/* A bitmap or pixel rectangle (GL 2.1 sec. 3.6.4, 3.7): pixel (n, m) covers what the corner + zoom * (n..n+1, m..m+1)
+ * does. */
 #define SCENE_BITMAP 1u         /* fragments where alpha is not 0, of the current colour */
 #define SCENE_COLOR_PIXELS 2u   /* fragments of the texels' colours */
 #define SCENE_DEPTH_PIXELS 3u   /* fragments of the texels' depth (a float each) and the current colour */
@@ -254,7 +269,8 @@ struct scene_rectangle {
 	uint32_t texture; /* scene.textures: one level, rows from the first (m = 0) on */
 	uint32_t width, height;
 	float zoom[2];    /* pixels of the window a pixel of the rectangle; may be negative */
-	uint32_t from_top; /* 1: rows are counted from the last. Rounds otherwise where a zoom puts the middle of a pixel on the border of two rows */
+	uint32_t from_top; /* 1: rows are counted from the last. Rounds otherwise where a zoom puts the middle of a
+	                      pixel on the border of two rows */
 };
 #define SCENE_FROM_TOP 8u /* added to the kind of such a rectangle in its corners' colours */
 
@@ -281,8 +297,9 @@ enum { /* bits of scene_mesh.attributes; SCENE_HAS_TEXCOORD << unit, SCENE_HAS_G
 #ifndef __OPENCL_VERSION__
 
 /*
- * Of a primitive's edge flags. CONTINUES: a line stipple does not start anew, the primitive belongs to the strip, quad or polygon of the one drawn
- * before it. EARLIER: drawn as lines or points it comes before the primitive in front of it, as Mesa has the halves of quad strips.
+ * Of a primitive's edge flags. CONTINUES: a line stipple does not start anew, the primitive belongs to the strip, quad
+ * or polygon of the one drawn before it. EARLIER: drawn as lines or points it comes before the primitive in front of
+ * it, as Mesa has the halves of quad strips.
  */
 enum { SCENE_CONTINUES = 8, SCENE_EARLIER = 16 };
 
@@ -303,13 +320,15 @@ struct scene_mesh {
 	const float *color;                      /* [vertex][4] or NULL */
 	const float *secondary;                  /* [vertex][4] or NULL */
 	const float *fog_coord;                  /* [vertex] or NULL */
-	const float *crease;                     /* [primitive][3][3] or NULL: its corners' normals for light beyond GL's, no part of the hash. Set by rules */
+	const float *crease; /* [primitive][3][3] or NULL: its corners' normals for light beyond GL's, no part of the
+	                        hash. Set by rules */
 	const float *texcoord[SCENE_MAX_UNITS];  /* [vertex][4] or NULL */
 	const float *generics[SCENE_MAX_GENERICS]; /* [vertex][4] or NULL: vertex programs' attributes 1 and up */
 	const struct scene_face (*face)[2];      /* [vertex] front and back, or NULL: those of the instance's material */
 	const uint32_t *index;                   /* [primitive][kind] */
 	const uint32_t *primitive_draw;          /* [primitive], to be added to instance.draw; NULL: all 0 */
-	const uint8_t *edge_flags;               /* [primitive], bit i: edge from vertex i to i+1 is drawn; SCENE_CONTINUES ..; NULL: all 7 */
+	const uint8_t *edge_flags; /* [primitive], bit i: edge from vertex i to i+1 is drawn; SCENE_CONTINUES ..; NULL:
+	                              all 7 */
 };
 
 /*
@@ -324,13 +343,14 @@ struct scene_texture {
 	uint32_t n_levels;             /* complete ones only */
 	uint32_t border;               /* 1: each level has a border of one texel around it, kept in the data */
 	uint32_t floats;               /* 1: texels are four floats, which may be beyond [0,1] */
-	const uint8_t *texels; /* all levels, finest first, one after the other; faces of a level in GL's order; rows from t = 0 up */
+	const uint8_t *texels; /* all levels, finest first, one after the other; faces of a level in GL's order; rows
+	                          from t = 0 up */
 	size_t n_bytes;
 };
 
 /*
- * Pixels of a drawable as GL's frame buffer holds them after each operation: rounded to its bits. Row 0 is the bottom row.
- * Arrays are [height][width]; what a drawable has not (depth_bits 0) is there all the same and means nothing.
+ * Pixels of a drawable as GL's frame buffer holds them after each operation: rounded to its bits. Row 0 is the bottom
+ * row. Arrays are [height][width]; what a drawable has not (depth_bits 0) is there all the same and means nothing.
  */
 struct scene_picture {
 	uint32_t width, height;
@@ -339,7 +359,8 @@ struct scene_picture {
 	float *colors;    /* of a drawable of floats the same as 4 of them each, not clamped; else NULL */
 	uint32_t *depth;  /* in steps of the drawable's depth bits, of which at most 24 count */
 	uint8_t *stencil;
-	uint32_t unknown; /* pixels that show, or whose tests looked at, something from before the scene that it does not hold */
+	uint32_t unknown; /* pixels that show, or whose tests looked at, something from before the scene that it does
+	                     not hold */
 	/* [SCENE_SAMPLES], a picture of each sample; `rgba` and `colors` are their means. NULL: one sample a pixel. */
 	struct scene_picture *samples;
 };
@@ -358,7 +379,8 @@ struct scene {
 	uint32_t depth_bits, stencil_bits, alpha_bits; /* of the drawable */
 	uint32_t samples; /* of a pixel; 0 counts as 1, more as SCENE_SAMPLES. Where they are: tracer/frame/trace.c */
 	uint32_t floats;  /* not 0: its colours are floats (ARB_color_buffer_float) */
-	uint32_t output;  /* which of the colours of programs that draw to several buffers it shows, from 0 (scene_program.data) */
+	uint32_t output;  /* which of the colours of programs that draw to several buffers it shows, from 0
+	                     (scene_program.data) */
 	uint32_t mesa;    /* enum scene_mesa: what the Mesa that drew the reference does otherwise than 22.3 */
 	uint32_t samples_from_below; /* 1: their rows count from the bottom, as llvmpipe has it in framebuffer objects */
 
@@ -385,15 +407,20 @@ struct scene {
 	uint32_t n_parameters, n_shared_parameters;
 	uint32_t kd_tree; /* 1: of what drew here, some program has called rtBuildKdTreeEXT before */
 	uint32_t n_draws;
-	uint64_t time_ns; /* when the program ended the frame, by a clock that never runs backwards; 0: the recording does not tell */
-	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where nothing covers it */
+	uint64_t time_ns; /* when the program ended the frame, by a clock that never runs backwards; 0: the recording
+	                     does not tell */
+	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where
+	 * nothing covers it */
 	uint32_t needs_previous;
 	uint32_t is_first; /* 1: there was nothing before it: black, depth 0 and stencil 0 are what shows through */
 	uint32_t keeps_depth; /* 1: depth may be that of frames before; what looks at it sets needs_previous, too */
-	uint32_t untraced_draw; /* a draw that shows a framebuffer object's lit picture, of which the scene was left out; 0: none */
-	uint32_t shows_earlier; /* 1: a texture or buffer lacks what an earlier frame drew, as nothing renders during this replay */
+	uint32_t untraced_draw; /* a draw that shows a framebuffer object's lit picture, of which the scene was left
+	                           out; 0: none */
+	uint32_t shows_earlier; /* 1: a texture or buffer lacks what an earlier frame drew, as nothing renders during
+	                           this replay */
 	const struct scene_picture *start; /* what was there before the first event; NULL: all 0, not known, or not made */
-	struct scene_before *before;       /* the scene that shows `start`, which is not made yet (before.h); NULL: there is none */
+	struct scene_before *before; /* the scene that shows `start`, which is not made yet (before.h); NULL: there is
+	                                none */
 
 	/* What became of each draw number: the call's name and number in the trace, for blame. [n_draws + 1], 0 unused */
 	struct scene_draw {
@@ -401,7 +428,8 @@ struct scene {
 		uint64_t call_number;
 		uint32_t list; /* the display list that it came from, as the program called it; 0: none */
 		struct scene_draw_program {
-			const char *kind; /* "program object", "vertex program", "fragment program": a static string; NULL: there is none, nor another */
+			const char *kind; /* "program object", "vertex program", "fragment program": a static string;
+			                     NULL: there is none, nor another */
 			uint32_t name;
 		} programs[SCENE_DRAW_PROGRAMS]; /* that it ran */
 	} *draws;
@@ -410,7 +438,8 @@ struct scene {
 };
 
 /**
- * Makes pixels of a scene for who needs them back: what GL itself drew, from what it begins with on where that is there.
+ * Makes pixels of a scene for who needs them back: what GL itself drew, from what it begins with on where that is
+ * there.
  * @param scene    part of a frame, or a whole one; borrowed
  * @param picture  of the scene's size, arrays there and undefined; to be filled
  * @return 0 or ERR_* (reported)

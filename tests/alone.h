@@ -1,6 +1,6 @@
 /*
- * Mains of tests with OpenImageIO, behind which a library waits at exit for a thread that a fork does not have: their tests run in one process.
- * Each may have a folder of its own.
+ * Mains of tests with OpenImageIO, behind which a library waits at exit for a thread that a fork does not have: their
+ * tests run in one process. Each may have a folder of its own.
  */
 #pragma once
 

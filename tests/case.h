@@ -3,7 +3,8 @@
 
 #include <check.h>
 
-/** Runs one case or two, which it takes, each test in a process of its own. Returns main's exit code: 0 where all passed. */
+/** Runs one case or two, which it takes, each test in a process of its own. Returns main's exit code: 0 where all
+ * passed. */
 static inline int run_cases(TCase *first, TCase *second, const char *name)
 {
 	Suite *suite = suite_create(name);

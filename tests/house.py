@@ -6,9 +6,10 @@ usage: house.py BUILD [--root DIR]           check: circles, and arrows that doc
        house.py BUILD --text                 the drawing as docs/architecture.md shows it
        house.py BUILD --count [--json FILE]  the figures of `make show-house` beside their bars
 
-An arrow goes from a file to what it uses: a symbol that another object file defines, or a header. A folder's arrows are those of
-its files. docs/architecture.md shows one line for each folder: `folder -> folders`. The check fails on a circle between files or
-between folders, on an arrow that the document does not show, and on one that it shows and nobody uses any more.
+An arrow goes from a file to what it uses: a symbol that another object file defines, or a header. A folder's arrows are
+those of its files. docs/architecture.md shows one line for each folder: `folder -> folders`. The check fails on a
+circle between files or between folders, on an arrow that the document does not show, and on one that it shows and
+nobody uses any more.
 """
 import argparse
 import collections
@@ -21,16 +22,18 @@ import subprocess
 import sys
 
 DRAWING = "docs/architecture.md"
-STAGES = ("base", "bisect", "capture", "ci", "diff", "farm", "film", "kernels", "look", "query", "render", "replay", "scene", "tracer")
+STAGES = ("base", "bisect", "capture", "ci", "diff", "farm", "film", "kernels", "look", "query", "render", "replay",
+          "scene", "tracer")
 SOURCES = (".c", ".h", ".inc", ".cl", ".cpp")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 SHOWN = re.compile(r"^    ([\w./]+) +-> +([\w./ ]+)$", re.M)
 # Generated sources belong to the folder that makes them.
-GENERATED = {"gen/commands": "replay/machine/commands.gen", "gen/handlers": "replay/gl/handlers.gen",
-             "gen/kernels": "kernels/kernels.gen", "gen/page": "diff/report/page.gen",
-             "gen/surfaces": "render/surfaces.gen",
-             "recorder/gen/thunks": "capture/gen/thunks.gen", "recorder/gen/tables/commands": "capture/tables/commands.gen",
-             "recorder/gen/tables/enums": "capture/tables/enums.gen"}
+GENERATED = {
+    "gen/commands": "replay/machine/commands.gen", "gen/handlers": "replay/gl/handlers.gen",
+    "gen/kernels": "kernels/kernels.gen", "gen/page": "diff/report/page.gen", "gen/surfaces": "render/surfaces.gen",
+    "recorder/gen/thunks": "capture/gen/thunks.gen", "recorder/gen/tables/commands": "capture/tables/commands.gen",
+    "recorder/gen/tables/enums": "capture/tables/enums.gen"
+}
 # {(from, to): reason}; files or folders. Each entry is an arrow that the check lets pass.
 EXCEPTIONS = {}
 
@@ -40,7 +43,8 @@ SAME_LINES = 6
 
 def sources(root):
     """Files of the house, as paths below root, without tests and programs to record."""
-    files = [root / "relume.c"] + [f for stage in STAGES for f in sorted((root / stage).rglob("*")) if f.suffix in SOURCES]
+    files = [root / "relume.c"
+             ] + [f for stage in STAGES for f in sorted((root / stage).rglob("*")) if f.suffix in SOURCES]
     return [f.relative_to(root).as_posix() for f in files if f.is_file()]
 
 
@@ -182,7 +186,8 @@ def functions(text):
     for number, line in enumerate(lines):
         if line == "{" and number and not lines[number - 1].startswith((" *", "\\")):
             start = number
-            while start and lines[start - 1][:1] not in ("", "}", "#", "/") and not lines[start - 1].endswith((";", "*/")):
+            while start and lines[start - 1][:1] not in ("", "}", "#", "/") and not lines[start - 1].endswith(
+                (";", "*/")):
                 start -= 1
         elif line.rstrip() in ("}", "};") and start is not None:
             name = re.search(r"(\w+)\s*\(", " ".join(lines[start:start + 4]))
@@ -219,16 +224,18 @@ def counts(house):
     common = max((h for h in headers if not h.startswith("base/")), key=lambda h: users[h])
     lengths = [(n, f"{f}:{name}") for f in files for name, n in functions(text[f]) if n > LONG_FUNCTION]
     loops = [f for f in files for _ in re.findall(r"\bgetopt_long\(", re.sub(r"/\*.*?\*/", "", text[f], flags=re.S))]
-    tracked = subprocess.run(["git", "-C", root, "ls-files", ":!tests"], capture_output=True, text=True, check=True).stdout.split("\n")
+    tracked = subprocess.run(["git", "-C", root, "ls-files", ":!tests"], capture_output=True, text=True,
+                             check=True).stdout.split("\n")
     lines = sum((root / f).read_bytes().count(b"\n") for f in tracked if f and (root / f).is_file())
     same = repeated(root, files)
     return [("circles between files", len(house.file_circles), 0, "; ".join(" ".join(c) for c in house.file_circles)),
-            ("circles between folders", len(house.folder_circles), 0, "; ".join(" ".join(c) for c in house.folder_circles)),
+            ("circles between folders", len(house.folder_circles), 0, "; ".join(" ".join(c)
+                                                                                for c in house.folder_circles)),
             ("lines of the largest header", headers[largest], None, largest),
             ("files that include that one", users[largest], None, ""),
             ("files that include the commonest header of a stage", users[common], None, common),
-            ("functions over %d lines" % LONG_FUNCTION, len(lengths), 0, ", ".join(name for _, name in sorted(lengths, reverse=True))),
-            ("lines outside tests", lines, None, ""),
+            ("functions over %d lines" % LONG_FUNCTION, len(lengths), 0,
+             ", ".join(name for _, name in sorted(lengths, reverse=True))), ("lines outside tests", lines, None, ""),
             ("loops over getopt_long", len(loops), 1, " ".join(loops)),
             ("pairs of places with the same %d lines" % SAME_LINES, len(same), None,
              ", ".join(sorted({f"{a[0]} ~ {b[0]}" for a, b in same})))]
@@ -237,12 +244,15 @@ def counts(house):
 def show(rows, out):
     held = all(bar is None or figure <= bar for _, figure, bar, _ in rows)
     for name, figure, bar, detail in rows:
-        print("%-52s %7d  %s%s" % (name, figure, "" if bar is None else f"(at most {bar})", "  " + detail[:300] if detail else ""))
+        print("%-52s %7d  %s%s" %
+              (name, figure, "" if bar is None else f"(at most {bar})", "  " + detail[:300] if detail else ""))
     if out:
-        table = [{"what": name, "figure": figure, "bar": bar, "peer": None, "passed": None if bar is None else figure <= bar}
-                 for name, figure, bar, _ in rows]
+        table = [{
+            "what": name, "figure": figure, "bar": bar, "peer": None, "passed": None if bar is None else figure <= bar
+        } for name, figure, bar, _ in rows]
         pathlib.Path(out).parent.mkdir(parents=True, exist_ok=True)
-        pathlib.Path(out).write_text(json.dumps({"name": "house", "command": "make show-house", "rows": table}, indent=1))
+        pathlib.Path(out).write_text(
+            json.dumps({"name": "house", "command": "make show-house", "rows": table}, indent=1))
     return 0 if held else 1
 
 

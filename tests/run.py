@@ -58,7 +58,8 @@ def kill_session(leader):
 
 def vendor_files():
     """The .icd files that name OpenCL's implementations here."""
-    place = pathlib.Path(os.environ.get("OCL_ICD_VENDORS") or os.environ.get("OPENCL_VENDOR_PATH") or "/etc/OpenCL/vendors")
+    place = pathlib.Path(
+        os.environ.get("OCL_ICD_VENDORS") or os.environ.get("OPENCL_VENDOR_PATH") or "/etc/OpenCL/vendors")
     return sorted(place.glob("*.icd")) if place.is_dir() else []
 
 
@@ -140,7 +141,8 @@ def main(argv):
         good, bad, skips, output = result
         passed, failed, skipped = passed + good, failed + bad, skipped + skips
         if bad:
-            print(f"FAILED {test.name}\n" + "".join(f"    {line}\n" for line in output.splitlines()), end="", flush=True)
+            print(f"FAILED {test.name}\n" + "".join(f"    {line}\n" for line in output.splitlines()), end="",
+                  flush=True)
         if skips:
             reasons.append(f"skipped {test.name}: {output}")
 

@@ -19,8 +19,10 @@ enum {
 #define NAMES(slot, name, command, size, type, fixed, feature) \
 	[ARRAY_##slot] = { GL_##name##_ARRAY, size, type, GL_##name##_ARRAY_STRIDE, GL_##name##_ARRAY_BUFFER_BINDING, \
 	                   GL_##name##_ARRAY_POINTER, CMD_##command, fixed, feature }
-#define SIZED(slot, name, command, feature) NAMES(slot, name, command, GL_##name##_ARRAY_SIZE, GL_##name##_ARRAY_TYPE, 0, feature)
-#define UNSIZED(slot, name, command, fixed, feature) NAMES(slot, name, command, 0, GL_##name##_ARRAY_TYPE, fixed, feature)
+#define SIZED(slot, name, command, feature) \
+	NAMES(slot, name, command, GL_##name##_ARRAY_SIZE, GL_##name##_ARRAY_TYPE, 0, feature)
+#define UNSIZED(slot, name, command, fixed, feature) \
+	NAMES(slot, name, command, 0, GL_##name##_ARRAY_TYPE, fixed, feature)
 static const struct array_names names[] = {
 	UNSIZED(NORMAL, NORMAL, glNormalPointer, 3, 0),
 	SIZED(COLOR, COLOR, glColorPointer, 0),
@@ -148,8 +150,9 @@ int array_state_pointer_is_offset(void)
 
 unsigned array_state_unit(void)
 {
-	return context_has(HAS_MULTITEXTURE) && context_has(HAS_CONVENTIONAL) ? (unsigned)context_get(GL_CLIENT_ACTIVE_TEXTURE) :
-	                                                                         GL_TEXTURE0;
+	return context_has(HAS_MULTITEXTURE) && context_has(HAS_CONVENTIONAL) ?
+	               (unsigned)context_get(GL_CLIENT_ACTIVE_TEXTURE) :
+	               GL_TEXTURE0;
 }
 
 const struct array_names *array_names_of(int slot)

@@ -1,9 +1,9 @@
 /*
  * Runs inside the traced program. Vertex arrays in client memory: their content is known only at the draw.
  *
- * Before each draw every enabled array without a buffer object is written as a made-up gl*Pointer call. Its pointer is a blob of
- * the elements 0 .. highest used, or an offset in a buffer that holds the same bytes (mirror.h). The driver is the authority on
- * array state (array_state.h).
+ * Before each draw every enabled array without a buffer object is written as a made-up gl*Pointer call. Its pointer is
+ * a blob of the elements 0 .. highest used, or an offset in a buffer that holds the same bytes (mirror.h). The driver
+ * is the authority on array state (array_state.h).
  */
 #pragma once
 

@@ -1,6 +1,6 @@
 /*
- * Runs inside the traced program. Contents that are drawn again and again are stored once: in a buffer object of the recorder's
- * own, which exists only in the trace.
+ * Runs inside the traced program. Contents that are drawn again and again are stored once: in a buffer object of the
+ * recorder's own, which exists only in the trace.
  *
  * A content gets its buffer when it is seen for the second time, so vertices that change every frame need none, and
  * replaying a long recording does not fill the GL with buffers that are used once. Contents are identified by a 128-bit

@@ -18,7 +18,8 @@ static __thread int apart __attribute__((tls_model("initial-exec")));
 static void record_enabled(int slot, int on)
 {
 	if (array_is_attribute(slot))
-		fake_call(on ? CMD_glEnableVertexAttribArray : CMD_glDisableVertexAttribArray, "u", (unsigned)(slot - ARRAY_ATTRIBUTE));
+		fake_call(on ? CMD_glEnableVertexAttribArray : CMD_glDisableVertexAttribArray, "u",
+		          (unsigned)(slot - ARRAY_ATTRIBUTE));
 	else
 		fake_call(on ? CMD_glEnableClientState : CMD_glDisableClientState, "e", array_names_of(slot)->enable);
 }

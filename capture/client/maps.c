@@ -233,8 +233,8 @@ void maps_unmapped(unsigned target)
 	const uint8_t *data;
 	long bytes;
 
-	if (!writer_active() || !context_has(HAS_DESKTOP) || !context_has(HAS_BUFFERS) || !buffer_get(target, GL_BUFFER_MAPPED) ||
-	    buffer_get(target, GL_BUFFER_ACCESS) == GL_READ_ONLY)
+	if (!writer_active() || !context_has(HAS_DESKTOP) || !context_has(HAS_BUFFERS) ||
+	    !buffer_get(target, GL_BUFFER_MAPPED) || buffer_get(target, GL_BUFFER_ACCESS) == GL_READ_ONLY)
 		return;
 	data = mapped_at(target);
 	if (data && ended(data))

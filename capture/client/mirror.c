@@ -17,7 +17,7 @@
 
 enum { N_MIRRORS = 1 << 12, N_PROBES = 8, BLOCK = 1 << 17 };
 enum { PATIENCE = 16, SAMPLE = 8 };     /* after PATIENCE new contents in a row, only every SAMPLEth is looked up */
-enum { CREDIT = 64 };                   /* mirrors that may be made before their array is drawn again; refunded when it is */
+enum { CREDIT = 64 }; /* mirrors that may be made before their array is drawn again; refunded when it is */
 enum { WATCH_AFTER = 64, WATCH_NEVER = 1 << 30 }; /* draws in a row that found the same bytes */
 enum { REWRITTEN = 8 };                 /* times that most watched pages were written with the same bytes */
 #define MAX_MIRRORED_BYTES (256l << 20) /* of one context, here and on replay */
@@ -172,7 +172,8 @@ static int is_unchanged(struct mirror_table *t, struct mirror *m, long first, lo
 	/* Whole pages: the kernel tells of each only once. */
 	from = first <= from ? from : from + ((first - from) & -4096l);
 	to = end >= to ? to : from + ((end - from + 4095) & -4096l);
-	n = watch_take_written(&m->watch, (uintptr_t)m->data + (uintptr_t)from, (uintptr_t)m->data + (uintptr_t)to, written, 8);
+	n = watch_take_written(&m->watch, (uintptr_t)m->data + (uintptr_t)from, (uintptr_t)m->data + (uintptr_t)to,
+	                       written, 8);
 	for (int i = 0; i < n; i++) {
 		long at = (long)(written[i].first - (uintptr_t)m->data), piece_end = (long)(written[i].end - (uintptr_t)m->data);
 
@@ -187,7 +188,8 @@ static int is_unchanged(struct mirror_table *t, struct mirror *m, long first, lo
 	return n >= 0;
 }
 
-/* Room in buffer and copy for bytes up to `end`. 1: the buffer is new and empty; 0: there was enough; -1: there is no memory. */
+/* Room in buffer and copy for bytes up to `end`. 1: the buffer is new and empty; 0: there was enough; -1: there is no
+ * memory. */
 static int make_room(struct mirror_table *t, struct mirror *m, long end)
 {
 	long room = 2 * m->room < end ? end : 2 * m->room;
@@ -201,7 +203,8 @@ static int make_room(struct mirror_table *t, struct mirror *m, long end)
 	return 1;
 }
 
-/* Bring the buffer up to date with staging, which holds [first, end) and differs from `changed` on; it is bound then. */
+/* Bring the buffer up to date with staging, which holds [first, end) and differs from `changed` on; it is bound
+ * then. */
 static int update(struct mirror_table *t, struct mirror *m, unsigned target, long first, long end, long changed)
 {
 	int fresh = make_room(t, m, end), made = !m->buffer;
@@ -247,7 +250,8 @@ static int update(struct mirror_table *t, struct mirror *m, unsigned target, lon
 	return 1;
 }
 
-unsigned mirror_buffer(unsigned target, const void *data, long first, long end, int *bound, struct mirror_indices **indices)
+unsigned mirror_buffer(unsigned target, const void *data, long first, long end, int *bound,
+                       struct mirror_indices **indices)
 {
 	struct mirror_table *t = current_table();
 	struct mirror *m = t ? find(t, data) : NULL;

@@ -25,4 +25,5 @@ struct mirror_indices {
  * @param indices NULL, or set to a slot that is kept with these bytes until they change; NULL if there is none
  * @return its name; 0: none
  */
-unsigned mirror_buffer(unsigned target, const void *data, long first, long end, int *bound, struct mirror_indices **indices);
+unsigned mirror_buffer(unsigned target, const void *data, long first, long end, int *bound,
+                       struct mirror_indices **indices);

@@ -15,10 +15,10 @@ static __thread int own_pixels __attribute__((tls_model("initial-exec")));
 
 static const struct layout_names {
 	unsigned alignment, row_length, skip_rows, skip_pixels, image_height, skip_images;
-} unpack = { GL_UNPACK_ALIGNMENT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_IMAGE_HEIGHT,
-	     GL_UNPACK_SKIP_IMAGES },
-  pack = { GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_PACK_IMAGE_HEIGHT,
-	   GL_PACK_SKIP_IMAGES };
+} unpack = { GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH,   GL_UNPACK_SKIP_ROWS,
+	     GL_UNPACK_SKIP_PIXELS, GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES },
+  pack = { GL_PACK_ALIGNMENT,   GL_PACK_ROW_LENGTH,   GL_PACK_SKIP_ROWS,
+	   GL_PACK_SKIP_PIXELS, GL_PACK_IMAGE_HEIGHT, GL_PACK_SKIP_IMAGES };
 
 static struct pixel_layout read_layout(const struct layout_names *names)
 {
@@ -61,7 +61,8 @@ void pixels_used(const void *pixels, const struct pixel_box *box)
 	unsigned buffer;
 	int bound = 0;
 
-	if (!pixels || !writer_active() || !context_has(HAS_PIXEL_BUFFERS) || !context_has(HAS_FIXED_FUNCTION) || pixels_in_buffer())
+	if (!pixels || !writer_active() || !context_has(HAS_PIXEL_BUFFERS) || !context_has(HAS_FIXED_FUNCTION) ||
+	    pixels_in_buffer())
 		return;
 	layout = read_layout(&unpack);
 	buffer = content_of_memory(GL_PIXEL_UNPACK_BUFFER, pixels, image_bytes(&layout, box), &bound);

@@ -1,6 +1,6 @@
 /*
- * Runs inside the traced program. Pixels that the program hands over or reads back: as the pixel store state lays them out in its
- * memory, or as an offset in a buffer object.
+ * Runs inside the traced program. Pixels that the program hands over or reads back: as the pixel store state lays them
+ * out in its memory, or as an offset in a buffer object.
  */
 #pragma once
 

@@ -283,9 +283,9 @@ static struct run *look_up(struct runs_table *t, const uint8_t *records, size_t 
 }
 
 /*
- * Mesa's lists do not draw quite what they hold. They split quads along the other diagonal, which shows in the last bit of some
- * pixels, and line loops go astray. A list that is called between Begin and End draws as immediate mode does, so Begin and End of
- * these stay outside the list.
+ * Mesa's lists do not draw quite what they hold. They split quads along the other diagonal, which shows in the last bit
+ * of some pixels, and line loops go astray. A list that is called between Begin and End draws as immediate mode does,
+ * so Begin and End of these stay outside the list.
  */
 static int stays_outside(const uint8_t *records)
 {
@@ -362,7 +362,8 @@ int runs_end(void)
 		run = look_up(t, self.room, bytes);
 	if (run && run->list && run->seen == 1)
 		t->credit++;
-	else if (run && !run->list && !skip_draws() && (run->seen || t->credit > 0) && make_list(t, run, self.room) && !run->seen)
+	else if (run && !run->list && !skip_draws() && (run->seen || t->credit > 0) && make_list(t, run, self.room) &&
+	         !run->seen)
 		t->credit--;
 	if (run && run->list)
 		write_call(run);

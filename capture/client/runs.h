@@ -2,12 +2,12 @@
  * Runs inside the traced program. Begin..End runs: one that was drawn before is written as a call of a display list.
  *
  * The calls from glBegin to glEnd are kept as plain records and written when the run is whole. A run that was
- * drawn before becomes a display list that only the trace has, and from then on a single glCallList. The recorder guesses what comes
- * next: the run that followed the last one in the frame before. So a call of a static scene costs the comparison of its arguments
- * with those in the guessed run; nothing is copied or hashed.
+ * drawn before becomes a display list that only the trace has, and from then on a single glCallList. The recorder
+ * guesses what comes next: the run that followed the last one in the frame before. So a call of a static scene costs
+ * the comparison of its arguments with those in the guessed run; nothing is copied or hashed.
  *
- * A record is a word (command, bytes of arguments in the upper half) and the arguments as C has them, packed one after the
- * other and padded to four bytes; struct command's `shape` says what they are.
+ * A record is a word (command, bytes of arguments in the upper half) and the arguments as C has them, packed one after
+ * the other and padded to four bytes; struct command's `shape` says what they are.
  */
 #pragma once
 

@@ -9,7 +9,12 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-enum { PAGE = 4096, MIN_PAGES = 4, MAX_WATCHES = 256, LOW_FD = 100 /* the program's own descriptors keep their numbers */ };
+enum {
+	PAGE = 4096,
+	MIN_PAGES = 4,
+	MAX_WATCHES = 256,
+	LOW_FD = 100 /* the program's own descriptors keep their numbers */
+};
 
 /* From Linux 6.7's linux/fs.h and linux/userfaultfd.h, newer than Debian 12's. */
 struct scanned {
@@ -78,7 +83,9 @@ static int scan(struct scan *s, uintptr_t from, uintptr_t end, struct scanned *o
 static int protect(const struct watch *w)
 {
 	struct scan written = { .flags = SCAN_PROTECT, .category_mask = PAGE_WRITTEN, .return_mask = PAGE_WRITTEN };
-	struct scan good = { .category_mask = PAGE_PRESENT | PAGE_OF_FILE, .category_inverted = PAGE_OF_FILE, .return_mask = PAGE_PRESENT };
+	struct scan good = { .category_mask = PAGE_PRESENT | PAGE_OF_FILE,
+		             .category_inverted = PAGE_OF_FILE,
+		             .return_mask = PAGE_PRESENT };
 	struct scanned piece;
 	uintptr_t at = w->first;
 
@@ -99,8 +106,10 @@ static void forget(const struct watch *w)
 
 int watch_begin(struct watch *w, const void *from, const void *end)
 {
-	struct watch wanted = { ((uintptr_t)from + PAGE - 1) & -(uintptr_t)PAGE, (uintptr_t)end & -(uintptr_t)PAGE }, *place = NULL;
-	struct uffdio_register pages = { .range = { wanted.first, wanted.end - wanted.first }, .mode = UFFDIO_REGISTER_MODE_WP };
+	struct watch wanted = { ((uintptr_t)from + PAGE - 1) & -(uintptr_t)PAGE, (uintptr_t)end & -(uintptr_t)PAGE },
+		     *place = NULL;
+	struct uffdio_register pages = { .range = { wanted.first, wanted.end - wanted.first },
+		                         .mode = UFFDIO_REGISTER_MODE_WP };
 	int saved = errno, good = 0;
 
 	if (wanted.end < wanted.first + MIN_PAGES * PAGE || (all.tried && all.pid != getpid()))

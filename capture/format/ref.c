@@ -45,8 +45,10 @@ static int list_records(struct ref_file *ref, uint64_t file_bytes)
 		if (fseeko(ref->stream, (off_t)at, SEEK_SET) || fread(&head, sizeof(head), 1, ref->stream) != 1)
 			return unreadable(ref, ERR_INPUT);
 		at += sizeof(head);
-		entry = (struct ref_entry){ (enum ref_kind)(head.kind & ~REF_CHANGED), head.width, head.height, head.frame, at, head.packed_bytes,
-		                            (head.kind & REF_CHANGED) != 0 };
+		entry = (struct ref_entry){
+			(enum ref_kind)(head.kind & ~REF_CHANGED), head.width, head.height, head.frame, at, head.packed_bytes,
+			(head.kind & REF_CHANGED) != 0
+		};
 		if ((entry.kind != REF_COLOR && entry.kind != REF_DEPTH) || !entry.width || !entry.height ||
 		    entry.width > MAX_SIDE || entry.height > MAX_SIDE)
 			return err_report(ERR_INPUT, ref->path, "record %zu is damaged", ref->n_entries);
@@ -63,7 +65,8 @@ static int compare_entries(const void *one, const void *other)
 {
 	const struct ref_entry *a = one, *b = other;
 
-	return a->frame != b->frame ? (a->frame > b->frame) - (a->frame < b->frame) : (a->offset > b->offset) - (a->offset < b->offset);
+	return a->frame != b->frame ? (a->frame > b->frame) - (a->frame < b->frame) :
+	                              (a->offset > b->offset) - (a->offset < b->offset);
 }
 
 int ref_begins(const void *head)
@@ -162,13 +165,15 @@ static int read_at(const struct ref_file *ref, const struct ref_entry *entry, ui
  * planes: 1: the block holds four planes of bytes. *out: if NULL, receives a buffer that the caller frees.
  * @return 0, ERR_INPUT or ERR_SYSTEM (reported)
  */
-static int add_block(const struct ref_file *ref, const struct ref_entry *entry, uint64_t offset, uint64_t packed_bytes, int planes, uint32_t **out)
+static int add_block(const struct ref_file *ref, const struct ref_entry *entry, uint64_t offset, uint64_t packed_bytes,
+                     int planes, uint32_t **out)
 {
 	const size_t n = (size_t)entry->width * entry->height;
 	char *packed = malloc(packed_bytes ? packed_bytes : 1);
 	uint8_t *bytes = NULL;
 	size_t unpacked = 0;
-	int rc = packed ? read_at(ref, entry, offset, packed, packed_bytes) : err_report(ERR_SYSTEM, ref->path, "out of memory");
+	int rc = packed ? read_at(ref, entry, offset, packed, packed_bytes) :
+	                  err_report(ERR_SYSTEM, ref->path, "out of memory");
 
 	if (!rc && (snappy_uncompressed_length(packed, packed_bytes, &unpacked) != SNAPPY_OK || unpacked != 4 * n))
 		rc = damaged(ref, entry);
@@ -180,7 +185,9 @@ static int add_block(const struct ref_file *ref, const struct ref_entry *entry, 
 		uint32_t whole;
 
 		memcpy(&whole, bytes + 4 * i, sizeof(whole));
-		(*out)[i] ^= planes ? bytes[i] | (uint32_t)bytes[n + i] << 8 | (uint32_t)bytes[2 * n + i] << 16 | (uint32_t)bytes[3 * n + i] << 24 : whole;
+		(*out)[i] ^= planes ? bytes[i] | (uint32_t)bytes[n + i] << 8 | (uint32_t)bytes[2 * n + i] << 16 |
+		                              (uint32_t)bytes[3 * n + i] << 24 :
+		                      whole;
 	}
 	free(bytes);
 	free(packed);
@@ -192,7 +199,8 @@ static int find_base(const struct ref_file *ref, struct ref_entry *entry)
 {
 	struct ref_head head;
 	uint64_t base;
-	int rc = entry->packed_bytes < sizeof(base) ? damaged(ref, entry) : read_at(ref, entry, entry->offset, &base, sizeof(base));
+	int rc = entry->packed_bytes < sizeof(base) ? damaged(ref, entry) :
+	                                              read_at(ref, entry, entry->offset, &base, sizeof(base));
 
 	if (!rc)
 		rc = base >= entry->offset ? damaged(ref, entry) : read_at(ref, entry, base, &head, sizeof(head));

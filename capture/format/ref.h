@@ -64,8 +64,10 @@ const struct ref_entry *ref_find(const struct ref_file *ref, enum ref_kind kind,
 
 /**
  * Read one record's pixels. Several threads may do so at once.
- * @param out  receives a buffer of width * height * 4 bytes (RGBA8, or float), bottom row first; caller frees with free()
- * @return 0, ERR_INPUT (reported: the block does not decode to that size) or ERR_SYSTEM (reported: it cannot be read, or memory is short)
+ * @param out  receives a buffer of width * height * 4 bytes (RGBA8, or float), bottom row first; caller frees with
+ * free()
+ * @return 0, ERR_INPUT (reported: the block does not decode to that size) or ERR_SYSTEM (reported: it cannot be read,
+ * or memory is short)
  */
 int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **out);
 

@@ -21,7 +21,8 @@ static void find_changes(const uint32_t *pixels, const uint32_t *before, size_t 
 	}
 }
 
-size_t ref_pack(struct ref_last *last, const struct ref_head *head, uint64_t at, const uint32_t *pixels, const uint32_t *before, uint8_t *planes, uint8_t *out)
+size_t ref_pack(struct ref_last *last, const struct ref_head *head, uint64_t at, const uint32_t *pixels,
+                const uint32_t *before, uint8_t *planes, uint8_t *out)
 {
 	const size_t n = (size_t)head->width * head->height;
 	const int is_whole = last->width != head->width || last->height != head->height || last->in_a_row == REF_MOST_CHANGED;
@@ -39,7 +40,8 @@ size_t ref_pack(struct ref_last *last, const struct ref_head *head, uint64_t at,
 	made.kind |= is_whole ? 0 : REF_CHANGED;
 	made.packed_bytes = bytes + ahead;
 	memcpy(out, &made, sizeof(made));
-	*last = (struct ref_last){ at, made.width, made.height, is_whole ? 0 : last->in_a_row + 1, is_whole ? bytes : last->whole_bytes };
+	*last = (struct ref_last){ at, made.width, made.height, is_whole ? 0 : last->in_a_row + 1,
+		                   is_whole ? bytes : last->whole_bytes };
 	if (bytes > last->whole_bytes) /* another picture: the next one is whole again */
 		last->in_a_row = REF_MOST_CHANGED;
 	return sizeof(made) + made.packed_bytes;

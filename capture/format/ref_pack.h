@@ -28,4 +28,5 @@ size_t ref_pack_room(size_t n);
  * @param out     receives head and block; room for ref_pack_room(width * height)
  * @return its bytes; 0: no memory
  */
-size_t ref_pack(struct ref_last *last, const struct ref_head *head, uint64_t at, const uint32_t *pixels, const uint32_t *before, uint8_t *planes, uint8_t *out);
+size_t ref_pack(struct ref_last *last, const struct ref_head *head, uint64_t at, const uint32_t *pixels,
+                const uint32_t *before, uint8_t *planes, uint8_t *out);

@@ -22,7 +22,12 @@ long count_of_pname(unsigned pname)
 	case GL_CONVOLUTION_BORDER_COLOR: case GL_CONVOLUTION_FILTER_SCALE: case GL_CONVOLUTION_FILTER_BIAS:
 	case GL_COLOR_TABLE_SCALE: case GL_COLOR_TABLE_BIAS:
 	/* Queries */
-	case TEXTURE_CROP_RECT_OES: case GL_VIEWPORT: case GL_SCISSOR_BOX: case GL_COLOR_CLEAR_VALUE: case GL_ACCUM_CLEAR_VALUE: case GL_BLEND_COLOR:
+	case TEXTURE_CROP_RECT_OES:
+	case GL_VIEWPORT:
+	case GL_SCISSOR_BOX:
+	case GL_COLOR_CLEAR_VALUE:
+	case GL_ACCUM_CLEAR_VALUE:
+	case GL_BLEND_COLOR:
 	case GL_COLOR_WRITEMASK: case GL_CURRENT_COLOR: case GL_CURRENT_SECONDARY_COLOR: case GL_CURRENT_TEXTURE_COORDS:
 	case GL_CURRENT_RASTER_COLOR: case GL_CURRENT_RASTER_POSITION: case GL_CURRENT_RASTER_TEXTURE_COORDS:
 	case GL_CURRENT_RASTER_SECONDARY_COLOR: case GL_CURRENT_VERTEX_ATTRIB: case GL_MAP2_GRID_DOMAIN:
@@ -109,13 +114,14 @@ long image_bytes(const struct pixel_layout *layout, const struct pixel_box *box)
 	long long row_bytes, lines, last_bytes, bytes;
 	long out;
 
-	if (box->width <= 0 || box->height <= 0 || box->depth <= 0 || bits <= 0 || layout->alignment < 1 || layout->skip_pixels < 0 ||
-	    layout->skip_rows < 0 || layout->skip_images < 0)
+	if (box->width <= 0 || box->height <= 0 || box->depth <= 0 || bits <= 0 || layout->alignment < 1 ||
+	    layout->skip_pixels < 0 || layout->skip_rows < 0 || layout->skip_images < 0)
 		return 0;
 	row_bytes = (pixels * bits + 7) / 8;
 	row_bytes = (row_bytes + layout->alignment - 1) / layout->alignment * layout->alignment;
 	/* Below 2^63, as two products of ints are. Their bytes need not be. */
-	lines = (box->dims > 1 ? layout->skip_rows : 0) + (box->dims > 2 ? layout->skip_images * rows : 0) + (box->depth - 1) * rows + box->height - 1;
+	lines = (box->dims > 1 ? layout->skip_rows : 0) + (box->dims > 2 ? layout->skip_images * rows : 0) +
+	        (box->depth - 1) * rows + box->height - 1;
 	last_bytes = ((layout->skip_pixels + (long long)box->width) * bits + 7) / 8;
 	return __builtin_mul_overflow(lines, row_bytes, &bytes) || __builtin_add_overflow(bytes, last_bytes, &out) ? 0 : out;
 }

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""The recorder's generated part: one thunk for every command of gl.xml, glx.xml and overlay.txt's headers, and names of enumerants.
+"""The recorder's generated part: one thunk for every command of gl.xml, glx.xml and overlay.txt's headers, and names of
+enumerants.
 
     gen.py OVERLAY OUTPUT-DIRECTORY
 
-writes tables/commands.h and .c (numbers, names and shapes of commands), tables/enums.h and .c (names by value), real.h (typed calls
-of the real functions), thunks.h and .c, and commands.txt (one line a command: recorded, or passed through and why). The same
-input gives the same bytes. A thunk is thin: it calls what hooks.h lists; every decision is in overlay.txt or there.
+writes tables/commands.h and .c (numbers, names and shapes of commands), tables/enums.h and .c (names by value), real.h
+(typed calls of the real functions), thunks.h and .c, and commands.txt (one line a command: recorded, or passed through
+and why). The same input gives the same bytes. A thunk is thin: it calls what hooks.h lists; every decision is in
+overlay.txt or there.
 """
 import os
 import re
@@ -39,8 +41,11 @@ class Overlay:
         raise InputError(f"{self.path}:{number}: {text}")
 
     # statement: (regular expressions, what else it takes)
-    STATEMENTS = {"arg": (2, "a kind"), "when": (1, "an expression"), "before": (1, "an expression"), "result": (1, "an expression"),
-                  "after": (1, "an expression"), "pass": (1, "a reason"), "run": (1, ""), "draws": (1, ""), "ends": (1, "")}
+    STATEMENTS = {
+        "arg": (2, "a kind"), "when": (1, "an expression"), "before": (1, "an expression"),
+        "result": (1, "an expression"), "after": (1, "an expression"), "pass": (1, "a reason"), "run": (1, ""),
+        "draws": (1, ""), "ends": (1, "")
+    }
 
     def statement(self, number, line):
         word, _, rest = line.partition(" ")
@@ -237,7 +242,8 @@ class Generator:
                 return f"put_opaque(p_, {param.name})", None
             return self.array(command, param, "out", count)
         if not count:
-            raise Unknown(f"the size of '{param.name}'{' (' + param.length + ')' if param.length else ''} is not described")
+            raise Unknown(
+                f"the size of '{param.name}'{' (' + param.length + ')' if param.length else ''} is not described")
         if element is None:
             return f"put_blob(p_, {param.name}, (long)({count}))", None
         return self.array(command, param, "in", count)
@@ -280,10 +286,14 @@ class Generator:
 
     # Runs: the arguments as plain memory
 
-    LETTERS = {"s8": "b", "s16": "s", "s32": "i", "u8": "B", "u16": "S", "u32": "I", "f32": "f", "f64": "d", "bool8": "t", "enum": "e"}
+    LETTERS = {
+        "s8": "b", "s16": "s", "s32": "i", "u8": "B", "u16": "S", "u32": "I", "f32": "f", "f64": "d", "bool8": "t",
+        "enum": "e"
+    }
 
     def shape(self, command):
-        """struct command's shape, [(member of a packed struct, parameter, its elements)]; None where it is in no run."""
+        """struct command's shape, [(member of a packed struct, parameter, its elements)]; None where it is in no
+        run."""
         if not any(names.fullmatch(command.name) for _, names, _ in self.overlay.lines["run"]):
             return None
         shape, members = "", []
@@ -423,19 +433,25 @@ def main(overlay_path, directory):
     os.makedirs(os.path.join(directory, "tables"), exist_ok=True)
 
     numbers = [BANNER + "#pragma once\n\nenum {"]
-    write(directory, "tables/commands.h", numbers + [f"\tCMD_{name}," for name in gen.commands] + ["\tN_COMMANDS", "};"])
+    write(directory, "tables/commands.h",
+          numbers + [f"\tCMD_{name}," for name in gen.commands] + ["\tN_COMMANDS", "};"])
     table = [BANNER + '#include "tables/commands.h"\n\n#include <stddef.h>\n\n#include "capture/write/tables.h"\n',
              "const struct command commands[N_COMMANDS] = {"]
     for name, command in gen.commands.items():
         arguments = "".join(p.name + "\\0" for p in command.params)
         shape = gen.shape(command)
-        table.append(f'\t{{ "{name}", {len(command.params)}, "{arguments}", ' + (f'"{shape[0]}"' if shape else "NULL")
-                     + (", 1 }," if any(names.fullmatch(name) for _, names, _ in gen.overlay.lines["draws"] + gen.overlay.lines["ends"]) else ", 0 },"))
+        table.append(f'\t{{ "{name}", {len(command.params)}, "{arguments}", ' + (f'"{shape[0]}"' if shape else "NULL") +
+                     (", 1 }," if any(
+                         names.fullmatch(name)
+                         for _, names, _ in gen.overlay.lines["draws"] + gen.overlay.lines["ends"]) else ", 0 },"))
     write(directory, "tables/commands.c", table + ["};"])
 
     real = [BANNER + '#pragma once\n\n#include "capture/gl/resolve.h"\n#include "tables/commands.h"\n']
     for name, command in gen.commands.items():
-        real.append(f"#define real_{name} (({gen.c_type(command.result, name)} (*)({gen.signature(command)}))resolve_real(CMD_{name}))")
+        real.append(
+            f"#define real_{name} (({gen.c_type(command.result, name)} "
+            f"(*)({gen.signature(command)}))resolve_real(CMD_{name}))"
+        )
     write(directory, "real.h", real)
 
     thunks = [BANNER + '#include "thunks.h"\n\n#include "capture/gen/hooks.h"\n']
@@ -451,7 +467,10 @@ def main(overlay_path, directory):
     names = gen.plain_enums()
 
     # One signature a name, written where it is first used: index in enum_entries is the signature's number.
-    enums = [BANNER + '#include "tables/enums.h"\n\n#include <stddef.h>\n', "const struct enum_entry enum_entries[] = {", "\t{ NULL, 0 },"]
+    enums = [
+        BANNER + '#include "tables/enums.h"\n\n#include <stddef.h>\n', "const struct enum_entry enum_entries[] = {",
+        "\t{ NULL, 0 },"
+    ]
     index, order = {}, 0
     for value, name in names.items():
         order += 1
@@ -474,13 +493,17 @@ def main(overlay_path, directory):
     for number, group in enumerate(sorted(gen.used_bits)):
         flags = sorted(gen.bit_groups[group].items())
         entries = ", ".join(f'{{ "{name}", {value}u }}' for value, name in flags)
-        enums.append(f"const struct bits_entry bits_{group} = {{ {number}, {len(flags)}, (const struct enum_entry[]){{ {entries} }} }};")
+        enums.append(
+            f"const struct bits_entry bits_{group} = "
+            f"{{ {number}, {len(flags)}, (const struct enum_entry[]){{ {entries} }} }};"
+        )
         header.append(f"extern const struct bits_entry bits_{group};")
     header += [f"\nenum {{ N_BITS_ENTRIES = {len(gen.used_bits)} }};"]
     write(directory, "tables/enums.c", enums)
     write(directory, "tables/enums.h", header)
 
-    write(directory, "commands.txt", [f"{name} {'passed: ' + passed[name] if passed[name] else 'recorded'}" for name in gen.commands])
+    write(directory, "commands.txt",
+          [f"{name} {'passed: ' + passed[name] if passed[name] else 'recorded'}" for name in gen.commands])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""Khronos' XML registries (Debian package khronos-api) and headers as plain Python objects, for the generators of capture/ and replay/.
+"""Khronos' XML registries (Debian package khronos-api) and headers as plain Python objects, for the generators of
+capture/ and replay/.
 
 Standard library only. Everything comes back in a fixed order, so that what is generated from it is the same each time.
 """
@@ -76,11 +77,13 @@ def read_header(file_name):
     """{name: Command} of a header's prototypes: "EGLAPI EGLint EGLAPIENTRY eglGetError (void);"."""
     with open(f"/usr/include/{file_name}", encoding="utf-8") as stream:
         text = re.sub(r"/\*.*?\*/", " ", stream.read(), flags=re.S)
-    return dict(map(_prototype, re.findall(r"\b(?:EGL|GL)API\s+([^;()]+?)\s*\b\w*APIENTRY\s+(\w+)\s*\(([^;]*?)\)\s*;", text)))
+    return dict(
+        map(_prototype, re.findall(r"\b(?:EGL|GL)API\s+([^;()]+?)\s*\b\w*APIENTRY\s+(\w+)\s*\(([^;]*?)\)\s*;", text)))
 
 
 def read_prototype(text):
-    """name, Command of one prototype: "void *OSMesaCreateContext(GLenum format, void *sharelist)". None: it is no prototype."""
+    """name, Command of one prototype: "void *OSMesaCreateContext(GLenum format, void *sharelist)". None: it is no
+    prototype."""
     match = re.fullmatch(r"(.+?)\s*\b(\w+)\((.*)\)", text)
     return match and _prototype(match.groups())
 
@@ -100,12 +103,14 @@ class Enum:
 
 
 def read_enums(file_name):
-    """Every enumerant of one registry with its groups, in the registry's order. Values that are no numbers are left out."""
+    """Every enumerant of one registry with its groups, in the registry's order. Values that are no numbers are left
+    out."""
     found = []
     for block in ElementTree.parse(f"{DIRECTORY}/{file_name}").getroot().iterfind("enums"):
         for element in block.iterfind("enum"):
             if element.get("api") not in (None, "gl") or element.get("value").startswith('"'):
                 continue
             groups = [g for g in element.get("group", block.get("group", "")).split(",") if g]
-            found.append(Enum(element.get("name"), int(element.get("value"), 0), groups, block.get("type") == "bitmask"))
+            found.append(Enum(element.get("name"), int(element.get("value"), 0), groups,
+                              block.get("type") == "bitmask"))
     return found

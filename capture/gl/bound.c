@@ -40,7 +40,8 @@ static void write_image(unsigned target, int width, int height)
 	restore_make_neutral(0);
 	reading_begin(&state);
 	real_glGetTexImage(target, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
-	fake_call(CMD_glTexImage2D, "eiiiiieeb", target, 0, format, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels, bytes);
+	fake_call(CMD_glTexImage2D, "eiiiiieeb", target, 0, format, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels,
+	          bytes);
 	reading_end(&state);
 	restore_make_neutral(1);
 	munmap(pixels, (size_t)bytes);
@@ -52,7 +53,8 @@ static void bound_to(unsigned target)
 
 	if (!writer_active())
 		return;
-	if (!context_current() || !context_has(HAS_DESKTOP) || (context_has(HAS_FIXED_FUNCTION) && context_get(GL_LIST_INDEX))) {
+	if (!context_current() || !context_has(HAS_DESKTOP) ||
+	    (context_has(HAS_FIXED_FUNCTION) && context_get(GL_LIST_INDEX))) {
 		say_unknown();
 		return;
 	}

@@ -1,5 +1,6 @@
 /*
- * Runs inside the traced program. Contexts: which is current, what it can do, its pending errors, and what belongs to it.
+ * Runs inside the traced program. Contexts: which is current, what it can do, its pending errors, and what belongs to
+ * it.
  *
  * Nothing here changes GL state that the program can see, including its errors. State is queried from the driver, and
  * cached only if every command that can change it drops the cache.
@@ -7,14 +8,30 @@
 #pragma once
 
 enum context_feature { /* features that can be queried without a GL error */
-	HAS_FIXED_FUNCTION = 1 << 0 /* all of it: not OpenGL ES 1 */, HAS_BUFFERS = 1 << 1, HAS_PIXEL_BUFFERS = 1 << 2, HAS_MAP_RANGE = 1 << 3,
-	HAS_MULTITEXTURE = 1 << 4, HAS_FOG_COORD = 1 << 5, HAS_SECONDARY_COLOR = 1 << 6, HAS_ATTRIBUTES = 1 << 7,
-	HAS_FRAMEBUFFERS = 1 << 8, HAS_READ_FRAMEBUFFER = 1 << 9, HAS_DIVISOR = 1 << 10, HAS_RESTART = 1 << 11,
-	HAS_FIXED_RESTART = 1 << 12, HAS_INTEGER_ATTRIBUTES = 1 << 13, HAS_VERTEX_ARRAYS = 1 << 14,
-	HAS_PACK_INVERT = 1 << 15, HAS_3D = 1 << 16, HAS_DESKTOP = 1 << 17 /* not OpenGL ES */, HAS_WINDOW_POS = 1 << 18,
-	HAS_INDIRECT = 1 << 19, HAS_RESTART_NV = 1 << 20,
-	HAS_CONVENTIONAL = 1 << 21 /* matrices, lights and arrays of positions: fixed function, and OpenGL ES 1 */,
-	HAS_POINT_SIZES = 1 << 22 /* an array of them */
+	               HAS_FIXED_FUNCTION = 1 << 0 /* all of it: not OpenGL ES 1 */,
+	               HAS_BUFFERS = 1 << 1,
+	               HAS_PIXEL_BUFFERS = 1 << 2,
+	               HAS_MAP_RANGE = 1 << 3,
+	               HAS_MULTITEXTURE = 1 << 4,
+	               HAS_FOG_COORD = 1 << 5,
+	               HAS_SECONDARY_COLOR = 1 << 6,
+	               HAS_ATTRIBUTES = 1 << 7,
+	               HAS_FRAMEBUFFERS = 1 << 8,
+	               HAS_READ_FRAMEBUFFER = 1 << 9,
+	               HAS_DIVISOR = 1 << 10,
+	               HAS_RESTART = 1 << 11,
+	               HAS_FIXED_RESTART = 1 << 12,
+	               HAS_INTEGER_ATTRIBUTES = 1 << 13,
+	               HAS_VERTEX_ARRAYS = 1 << 14,
+	               HAS_PACK_INVERT = 1 << 15,
+	               HAS_3D = 1 << 16,
+	               HAS_DESKTOP = 1 << 17 /* not OpenGL ES */,
+	               HAS_WINDOW_POS = 1 << 18,
+	               HAS_INDIRECT = 1 << 19,
+	               HAS_RESTART_NV = 1 << 20,
+	               HAS_CONVENTIONAL =
+	                       1 << 21 /* matrices, lights and arrays of positions: fixed function, and OpenGL ES 1 */,
+	               HAS_POINT_SIZES = 1 << 22 /* an array of them */
 };
 
 /** Data that other files keep for each context. */

@@ -21,7 +21,8 @@ static void record_rectangle(unsigned command, unsigned pname)
 	fake_call(command, "iiii", r[0], r[1], r[2], r[3]);
 }
 
-/* GL sets viewport and scissor to the drawable when a context is first made current. From these a reader learns its size. */
+/* GL sets viewport and scissor to the drawable when a context is first made current. From these a reader learns its
+ * size. */
 static void made_current(int ok, const struct drawable_target *target, void *context)
 {
 	if (!ok || !writer_active())
@@ -39,12 +40,20 @@ static void made_current(int ok, const struct drawable_target *target, void *con
 
 void current_made_glx(int ok, void *display, unsigned long drawable, unsigned long read, void *context)
 {
-	made_current(ok, &(struct drawable_target){ .system = DRAWABLE_GLX, .display = display, .id = drawable, .reads_other = read != drawable }, context);
+	made_current(
+		ok,
+		&(struct drawable_target){
+			.system = DRAWABLE_GLX, .display = display, .id = drawable, .reads_other = read != drawable },
+		context);
 }
 
 void current_made_egl(unsigned ok, void *display, void *surface, void *read, void *context)
 {
-	made_current(ok != 0, &(struct drawable_target){ .system = DRAWABLE_EGL, .display = display, .id = (uintptr_t)surface, .reads_other = read != surface },
+	made_current(ok != 0,
+	             &(struct drawable_target){ .system = DRAWABLE_EGL,
+	                                        .display = display,
+	                                        .id = (uintptr_t)surface,
+	                                        .reads_other = read != surface },
 	             context);
 }
 

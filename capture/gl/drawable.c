@@ -99,7 +99,8 @@ static void find_xcb(void)
 		return;
 	xcb.get_connection = (void *(*)(void *))resolve_in(x11, "XGetXCBConnection");
 	xcb.get_geometry = (struct geometry_cookie (*)(void *, uint32_t))resolve_in(lib, "xcb_get_geometry");
-	xcb.get_reply = (struct geometry_reply * (*)(void *, struct geometry_cookie, void **)) resolve_in(lib, "xcb_get_geometry_reply");
+	xcb.get_reply = (struct geometry_reply * (*)(void *, struct geometry_cookie, void **))
+		resolve_in(lib, "xcb_get_geometry_reply");
 }
 
 static void ask_window_size(void *display, struct drawable *d)

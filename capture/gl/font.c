@@ -56,13 +56,16 @@ static const XCharStruct *find_character(const XFontStruct *font, unsigned code)
 		row = font->min_byte1;
 		column = code;
 	}
-	if (row < font->min_byte1 || row > font->max_byte1 || column < font->min_char_or_byte2 || column > font->max_char_or_byte2)
+	if (row < font->min_byte1 || row > font->max_byte1 || column < font->min_char_or_byte2 ||
+	    column > font->max_char_or_byte2)
 		return NULL;
-	return font->per_char ? &font->per_char[(row - font->min_byte1) * columns + column - font->min_char_or_byte2] : &font->max_bounds;
+	return font->per_char ? &font->per_char[(row - font->min_byte1) * columns + column - font->min_char_or_byte2] :
+	                        &font->max_bounds;
 }
 
 /* `bits` is all zeros. GL's rows go from the bottom up; each has whole bytes, the leftmost pixel in the highest bit. */
-static void draw_character(Display *display, const XFontStruct *font, unsigned code, const XCharStruct *c, uint8_t *bits)
+static void draw_character(Display *display, const XFontStruct *font, unsigned code, const XCharStruct *c,
+                           uint8_t *bits)
 {
 	unsigned width = (unsigned)(c->rbearing - c->lbearing), height = (unsigned)(c->ascent + c->descent);
 	XGCValues values = { .font = font->fid };
@@ -89,14 +92,14 @@ static void draw_character(Display *display, const XFontStruct *font, unsigned c
 static void record_list(unsigned list, const XCharStruct *c, int width, int height, float advance, const uint8_t *bits)
 {
 	fake_call(CMD_glNewList, "ue", list, GL_COMPILE);
-	fake_call(CMD_glBitmap, "iiffffb", width, height, (double)-c->lbearing, (double)(c->descent - 1), (double)advance, 0.0, bits,
-	          (long)(width + 7) / 8 * height);
+	fake_call(CMD_glBitmap, "iiffffb", width, height, (double)-c->lbearing, (double)(c->descent - 1),
+	          (double)advance, 0.0, bits, (long)(width + 7) / 8 * height);
 	fake_call(CMD_glEndList, "");
 }
 
 /*
- * How far the list of a character without pixels moves the raster position. Mesa's own glXUseXFont fails to store bitmaps of no
- * pixels, and its lists then do not move it. Calling such a list draws nothing.
+ * How far the list of a character without pixels moves the raster position. Mesa's own glXUseXFont fails to store
+ * bitmaps of no pixels, and its lists then do not move it. Calling such a list draws nothing.
  */
 static float ask_advance(unsigned list, float otherwise)
 {
@@ -144,7 +147,8 @@ static void record_lists(unsigned long name, int first, int count, int list)
 	Display *display;
 
 	/* GLX makes no lists while the program makes one, or without a context. */
-	if (count <= 0 || count > MAX_CHARACTERS || first < 0 || !context_has(HAS_FIXED_FUNCTION) || context_get(GL_LIST_INDEX))
+	if (count <= 0 || count > MAX_CHARACTERS || first < 0 || !context_has(HAS_FIXED_FUNCTION) ||
+	    context_get(GL_LIST_INDEX))
 		return;
 	pthread_once(&x_once, find_xlib);
 	writer_nest(); /* the program does not ask this */

@@ -42,7 +42,8 @@ static __thread struct {
 
 /* Frames */
 
-/* 1 where the frame that ends may be one to be read back: with several threads nobody knows its number before it has ended. */
+/* 1 where the frame that ends may be one to be read back: with several threads nobody knows its number before it has
+ * ended. */
 static int may_be_read(void)
 {
 	return reference_wanted(writer_frames()) || (threads > 1 && reference_wanted(0));
@@ -52,7 +53,8 @@ static void mark_size(struct drawable *d, int width, int height)
 {
 	char text[64];
 
-	if (width <= 0 || height <= 0 || (width == d->marked_width && height == d->marked_height && d->marked_epoch == writer_epoch()))
+	if (width <= 0 || height <= 0 ||
+	    (width == d->marked_width && height == d->marked_height && d->marked_epoch == writer_epoch()))
 		return;
 	snprintf(text, sizeof(text), "relume:drawable %d %d", width, height);
 	marker_write(text);
@@ -153,7 +155,8 @@ void frame_viewport(int x, int y, int width, int height)
 	int saved = errno;
 
 	drawable_may_have_changed();
-	if (!d || !d->width || (width == self.viewport[0] && height == self.viewport[1]) || ((int64_t)x + width <= d->marked_width && (int64_t)y + height <= d->marked_height))
+	if (!d || !d->width || (width == self.viewport[0] && height == self.viewport[1]) ||
+	    ((int64_t)x + width <= d->marked_width && (int64_t)y + height <= d->marked_height))
 		return;
 	drawable_ask(d, &self.target, 1);
 	mark_size(d, d->width, d->height);

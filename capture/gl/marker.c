@@ -55,7 +55,8 @@ void relume_build_kd_tree(void)
 /* The GL that draws: versions of Mesa differ where the specification leaves a choice (scene/mesa.h). */
 static void marker_write_gl(void)
 {
-	const char *version = (const char *)real_glGetString(GL_VERSION), *renderer = (const char *)real_glGetString(GL_RENDERER);
+	const char *version = (const char *)real_glGetString(GL_VERSION),
+		   *renderer = (const char *)real_glGetString(GL_RENDERER);
 	char text[192];
 
 	if (!version || !renderer)

@@ -11,8 +11,9 @@
 static const unsigned pack_state[READING_PACK] = { GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST,   GL_PACK_ROW_LENGTH,
 	                                           GL_PACK_SKIP_ROWS,  GL_PACK_SKIP_PIXELS, GL_PACK_ALIGNMENT };
 /* Scales, initially 1, and biases take turns. */
-static const unsigned transfer_state[READING_TRANSFER] = { GL_RED_SCALE,  GL_RED_BIAS,  GL_GREEN_SCALE, GL_GREEN_BIAS, GL_BLUE_SCALE,
-	                                                   GL_BLUE_BIAS,  GL_ALPHA_SCALE, GL_ALPHA_BIAS, GL_DEPTH_SCALE, GL_DEPTH_BIAS };
+static const unsigned transfer_state[READING_TRANSFER] = { GL_RED_SCALE,   GL_RED_BIAS,  GL_GREEN_SCALE, GL_GREEN_BIAS,
+	                                                   GL_BLUE_SCALE,  GL_BLUE_BIAS, GL_ALPHA_SCALE, GL_ALPHA_BIAS,
+	                                                   GL_DEPTH_SCALE, GL_DEPTH_BIAS };
 
 static unsigned read_target(void)
 {
@@ -83,13 +84,15 @@ void reading_end(const struct reading_state *s)
 }
 
 /*
- * A window with several samples a pixel shows their mean. glReadPixels need not: Mesa's software rasterizers return one sample
- * (22.3.6). So a blit into a temporary renderbuffer makes what the window will show, as the driver does at the swap.
+ * A window with several samples a pixel shows their mean. glReadPixels need not: Mesa's software rasterizers return one
+ * sample (22.3.6). So a blit into a temporary renderbuffer makes what the window will show, as the driver does at the
+ * swap.
  */
 static void read_resolved(int width, int height, void *pixels)
 {
 	int renderbuffer = context_get(GL_RENDERBUFFER_BINDING);
-	unsigned framebuffer = 0, colors = 0, scissor = real_glIsEnabled(GL_SCISSOR_TEST), srgb = real_glIsEnabled(GL_FRAMEBUFFER_SRGB);
+	unsigned framebuffer = 0, colors = 0, scissor = real_glIsEnabled(GL_SCISSOR_TEST),
+		 srgb = real_glIsEnabled(GL_FRAMEBUFFER_SRGB);
 
 	real_glGenFramebuffers(1, &framebuffer);
 	real_glGenRenderbuffers(1, &colors);
@@ -116,7 +119,8 @@ static void read_resolved(int width, int height, void *pixels)
 
 void reading_colors(int width, int height, void *pixels)
 {
-	if (context_has(HAS_DESKTOP) && context_has(HAS_FRAMEBUFFERS) && context_has(HAS_READ_FRAMEBUFFER) && context_get(GL_SAMPLES) > 1)
+	if (context_has(HAS_DESKTOP) && context_has(HAS_FRAMEBUFFERS) && context_has(HAS_READ_FRAMEBUFFER) &&
+	    context_get(GL_SAMPLES) > 1)
 		read_resolved(width, height, pixels);
 	else
 		real_glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);

@@ -1,7 +1,8 @@
 /*
  * Runs inside the traced program. Reading pixels back from the driver.
  *
- * All state that reading depends on is set to its initial value and put back. Queries go to the driver, so no cache can be wrong.
+ * All state that reading depends on is set to its initial value and put back. Queries go to the driver, so no cache can
+ * be wrong.
  */
 #pragma once
 
@@ -17,8 +18,8 @@ void reading_begin(struct reading_state *s);
 void reading_end(const struct reading_state *s);
 
 /**
- * In between: a size at most as large as what the window's buffers hold, down from the one given. glReadPixels leaves memory alone for
- * pixels that they do not have (Mesa 22.3.6).
+ * In between: a size at most as large as what the window's buffers hold, down from the one given. glReadPixels leaves
+ * memory alone for pixels that they do not have (Mesa 22.3.6).
  */
 void reading_held(int *width, int *height);
 

@@ -188,7 +188,8 @@ void reference_read(int width, int height, int unswapped)
 		real_glReadBuffer(GL_FRONT);
 	if (r.color && !r.failed && (pixels = place_pixels(REF_COLOR, width, height)))
 		reading_colors(width, height, pixels);
-	if (r.depth && !r.failed && context_has(HAS_DESKTOP) && context_get(GL_DEPTH_BITS) > 0 && /* OpenGL ES reads no depth */
+	if (r.depth && !r.failed && context_has(HAS_DESKTOP) && context_get(GL_DEPTH_BITS) > 0 && /* OpenGL ES reads no
+	                                                                                             depth */
 	    (pixels = place_pixels(REF_DEPTH, width, height)))
 		real_glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, pixels);
 	reading_end(&state);
@@ -198,7 +199,8 @@ done:
 	errno = saved;
 }
 
-/* Add a kind's record to r.records, which hold `bytes` so far, and keep its pixels for the next one. Returns its bytes; 0: no memory (said) */
+/* Add a kind's record to r.records, which hold `bytes` so far, and keep its pixels for the next one. Returns its bytes;
+ * 0: no memory (said) */
 static size_t pack_record(struct readback *read, enum ref_kind kind, uint64_t frame, size_t bytes)
 {
 	const unsigned k = kind == REF_DEPTH;
@@ -209,8 +211,8 @@ static size_t pack_record(struct readback *read, enum ref_kind kind, uint64_t fr
 
 	if (!make_room(&r.planes, 4 * n) || !make_room(&r.records, bytes + ref_pack_room(n)))
 		return 0;
-	more = ref_pack(&r.last[k], &head, r.bytes + bytes, (const uint32_t *)(const void *)pixels.at, (const uint32_t *)(const void *)r.before[k].at,
-	                r.planes.at, r.records.at + bytes);
+	more = ref_pack(&r.last[k], &head, r.bytes + bytes, (const uint32_t *)(const void *)pixels.at,
+	                (const uint32_t *)(const void *)r.before[k].at, r.planes.at, r.records.at + bytes);
 	if (!more)
 		fail("no memory", ENOMEM);
 	read->pixels[k] = r.before[k];

@@ -1,4 +1,5 @@
-/* Runs inside the traced program. Reference frames: what the program shows, read back just before it is swapped (ref.h). */
+/* Runs inside the traced program. Reference frames: what the program shows, read back just before it is swapped
+ * (ref.h). */
 #pragma once
 
 #include <stdint.h>
@@ -7,8 +8,8 @@
 int reference_wanted(uint64_t frame);
 
 /**
- * Read the current context's default framebuffer; changes no state that the program can see, keeps its pending errors and errno.
- * The pixels wait for this thread's reference_write.
+ * Read the current context's default framebuffer; changes no state that the program can see, keeps its pending errors
+ * and errno. The pixels wait for this thread's reference_write.
  * @param unswapped  1: the frame ends without a swap and shows what is drawn to, be it the front buffer
  */
 void reference_read(int width, int height, int unswapped);

@@ -44,7 +44,9 @@ static void note_texture(unsigned target, unsigned name)
 
 static unsigned whole_target(unsigned target)
 {
-	return target >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && target <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z ? GL_TEXTURE_CUBE_MAP : target;
+	return target >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && target <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z ?
+	               GL_TEXTURE_CUBE_MAP :
+	               target;
 }
 
 static unsigned binding_of(unsigned target)
@@ -76,14 +78,17 @@ void restore_texture_attached(unsigned target, unsigned name)
 
 /* Pixel state */
 
-static const unsigned store_names[] = { GL_UNPACK_SWAP_BYTES,  GL_UNPACK_LSB_FIRST, GL_UNPACK_ROW_LENGTH,  GL_UNPACK_SKIP_ROWS,
-	                                GL_UNPACK_SKIP_PIXELS, GL_UNPACK_ALIGNMENT, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_IMAGE_HEIGHT };
-static const unsigned transfer_names[] = { GL_RED_SCALE,   GL_RED_BIAS,    GL_GREEN_SCALE, GL_GREEN_BIAS,   GL_BLUE_SCALE, GL_BLUE_BIAS,
-	                                   GL_ALPHA_SCALE, GL_ALPHA_BIAS,  GL_DEPTH_SCALE, GL_DEPTH_BIAS,   GL_MAP_COLOR,  GL_MAP_STENCIL,
-	                                   GL_INDEX_SHIFT, GL_INDEX_OFFSET };
+static const unsigned store_names[] = { GL_UNPACK_SWAP_BYTES,  GL_UNPACK_LSB_FIRST,   GL_UNPACK_ROW_LENGTH,
+	                                GL_UNPACK_SKIP_ROWS,   GL_UNPACK_SKIP_PIXELS, GL_UNPACK_ALIGNMENT,
+	                                GL_UNPACK_SKIP_IMAGES, GL_UNPACK_IMAGE_HEIGHT };
+static const unsigned transfer_names[] = { GL_RED_SCALE, GL_RED_BIAS,    GL_GREEN_SCALE, GL_GREEN_BIAS,  GL_BLUE_SCALE,
+	                                   GL_BLUE_BIAS, GL_ALPHA_SCALE, GL_ALPHA_BIAS,  GL_DEPTH_SCALE, GL_DEPTH_BIAS,
+	                                   GL_MAP_COLOR, GL_MAP_STENCIL, GL_INDEX_SHIFT, GL_INDEX_OFFSET };
 enum {
-	N_STORE = sizeof(store_names) / sizeof(store_names[0]), N_TRANSFER = sizeof(transfer_names) / sizeof(transfer_names[0]),
-	FIRST_3D = 6, N_SCALES = 10 /* scales, initially 1, and biases take turns; all others are 0 */
+	N_STORE = sizeof(store_names) / sizeof(store_names[0]),
+	N_TRANSFER = sizeof(transfer_names) / sizeof(transfer_names[0]),
+	FIRST_3D = 6,
+	N_SCALES = 10 /* scales, initially 1, and biases take turns; all others are 0 */
 };
 static int store_initial(unsigned i)
 {
@@ -116,7 +121,8 @@ void restore_make_neutral(int back)
 /* Rows lie close on both sides. 0 where there is no such level. */
 static int restore_level(unsigned target, int level)
 {
-	int width = context_get_level(target, level, GL_TEXTURE_WIDTH), height = context_get_level(target, level, GL_TEXTURE_HEIGHT);
+	int width = context_get_level(target, level, GL_TEXTURE_WIDTH),
+	    height = context_get_level(target, level, GL_TEXTURE_HEIGHT);
 	int depth = target == GL_TEXTURE_3D ? context_get_level(target, level, GL_TEXTURE_DEPTH) : 1;
 	int wide = context_get_level(target, level, GL_TEXTURE_RED_SIZE) > 8;
 	unsigned format = GL_RGBA, type = wide ? GL_FLOAT : GL_UNSIGNED_BYTE;
@@ -141,7 +147,8 @@ static int restore_level(unsigned target, int level)
 	if (target == GL_TEXTURE_1D)
 		fake_call(CMD_glTexSubImage1D, "eiiieeb", target, level, 0, width, format, type, pixels, bytes);
 	else if (target == GL_TEXTURE_3D)
-		fake_call(CMD_glTexSubImage3D, "eiiiiiiieeb", target, level, 0, 0, 0, width, height, depth, format, type, pixels, bytes);
+		fake_call(CMD_glTexSubImage3D, "eiiiiiiieeb", target, level, 0, 0, 0, width, height, depth, format,
+		          type, pixels, bytes);
 	else
 		fake_call(CMD_glTexSubImage2D, "eiiiiieeb", target, level, 0, 0, width, height, format, type, pixels, bytes);
 	munmap(pixels, (size_t)bytes);
@@ -175,9 +182,13 @@ static void restore_texture(const struct texture *t)
 /* Within PushAttrib and PopAttrib: let fragments reach the buffers unchanged. */
 static void make_pass_through(void)
 {
-	static const unsigned caps[] = { GL_ALPHA_TEST, GL_BLEND, GL_DITHER, GL_FOG, GL_LIGHTING, GL_COLOR_LOGIC_OP, GL_SCISSOR_TEST,
-		                         GL_STENCIL_TEST, GL_DEPTH_TEST, GL_COLOR_SUM, GL_FRAGMENT_PROGRAM_ARB };
-	static const unsigned targets[] = { GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE };
+	static const unsigned caps[] = {
+		GL_ALPHA_TEST,          GL_BLEND,        GL_DITHER,       GL_FOG,        GL_LIGHTING,
+		GL_COLOR_LOGIC_OP,      GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_DEPTH_TEST, GL_COLOR_SUM,
+		GL_FRAGMENT_PROGRAM_ARB
+	};
+	static const unsigned targets[] = { GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP,
+		                            GL_TEXTURE_RECTANGLE };
 	int active = context_has(HAS_MULTITEXTURE) ? context_get(GL_ACTIVE_TEXTURE) : 0;
 	int units = active ? context_get(GL_MAX_TEXTURE_UNITS) : 1;
 
@@ -266,7 +277,8 @@ void restore_drawn(int width, int height)
 	for (int i = 0; i < n_textures; i++)
 		restore_texture(&textures[i]);
 	pthread_mutex_unlock(&lock);
-	restore_window(width, height, (unsigned)(context_has(HAS_READ_FRAMEBUFFER) ? state.draw_framebuffer : state.framebuffer));
+	restore_window(width, height,
+	               (unsigned)(context_has(HAS_READ_FRAMEBUFFER) ? state.draw_framebuffer : state.framebuffer));
 	reading_end(&state);
 	restore_make_neutral(1);
 	context_errors_after();

@@ -1,5 +1,6 @@
 /*
- * Runs inside the traced program. Frames that are not recorded: before the first one asked for, and while recording is paused.
+ * Runs inside the traced program. Frames that are not recorded: before the first one asked for, and while recording is
+ * paused.
  *
  * Objects and state are always recorded, with everything that they depend on. Only commands that do nothing but draw
  * are left out (those that overlay.txt calls "draws", unless the program puts them into a display list), and the ends

@@ -13,7 +13,7 @@
 #define LOCK_HIDDEN __attribute__((visibility("hidden")))
 
 extern LOCK_HIDDEN _Atomic uint32_t lock_word;
-extern LOCK_HIDDEN _Atomic uintptr_t lock_owner;     /* address of the owner's lock_is_owner; lock.c has the other values */
+extern LOCK_HIDDEN _Atomic uintptr_t lock_owner; /* address of the owner's lock_is_owner; lock.c has the other values */
 extern LOCK_HIDDEN _Atomic int lock_owner_inside;
 extern LOCK_HIDDEN __thread int lock_is_owner __attribute__((tls_model("initial-exec"))); /* inside by owning it */
 

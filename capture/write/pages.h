@@ -1,8 +1,8 @@
 /*
  * Runs inside the traced program. Memory: the program's, read without ever faulting, and pages of our own.
  *
- * An enabled vertex array may be stale or shorter than the draw says, and the real GL may never look at it. So the kernel reads
- * client memory for us: it returns an error where a load would raise a signal.
+ * An enabled vertex array may be stale or shorter than the draw says, and the real GL may never look at it. So the
+ * kernel reads client memory for us: it returns an error where a load would raise a signal.
  */
 #pragma once
 

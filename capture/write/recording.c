@@ -24,8 +24,9 @@ static void look_for_errors(void)
 	recording.state = RECORDING_ENDED;
 	recording.process->failed = sink.error;
 	sink_explain(reason, sizeof(reason), sink.what, sink.error);
-	report_say("%s: %s: recording stopped after %llu frame%s; %s", sink.path, reason, (unsigned long long)sink.content.frames,
-	           sink.content.frames == 1 ? "" : "s", recording.quits ? "the program ends as well (--quit-after)" : "the program keeps running");
+	report_say("%s: %s: recording stopped after %llu frame%s; %s", sink.path, reason,
+	           (unsigned long long)sink.content.frames, sink.content.frames == 1 ? "" : "s",
+	           recording.quits ? "the program ends as well (--quit-after)" : "the program keeps running");
 }
 
 void recording_open(const char *name)

@@ -1,6 +1,6 @@
 /*
- * Runs inside the traced program. The recording of this process: its state, and the chunk of the trace that is being filled.
- * The writer's lock guards all of it but `state` and `n_frames`.
+ * Runs inside the traced program. The recording of this process: its state, and the chunk of the trace that is being
+ * filled. The writer's lock guards all of it but `state` and `n_frames`.
  */
 #pragma once
 
@@ -24,7 +24,8 @@ extern struct recording {
 void recording_open(const char *name);
 
 /**
- * The chunk is complete up to p: hand it over. Ends the recording, and says so once, where the file has failed. Keeps errno.
+ * The chunk is complete up to p: hand it over. Ends the recording, and says so once, where the file has failed. Keeps
+ * errno.
  * @param now  1: return only when it is in the file
  * @return where to go on
  */

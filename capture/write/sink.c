@@ -20,7 +20,14 @@
 #include "capture/stats.h"
 #include "capture/write/pages.h"
 
-enum { N_CHUNKS = 8, AT_ONCE = 16 << 10, LOW_FD = 100, MAX_PROCESSES = 10000, STACK_BYTES = 256 << 10, WAIT_NS = 100000000 };
+enum {
+	N_CHUNKS = 8,
+	AT_ONCE = 16 << 10,
+	LOW_FD = 100,
+	MAX_PROCESSES = 10000,
+	STACK_BYTES = 256 << 10,
+	WAIT_NS = 100000000
+};
 
 static struct {
 	uint8_t *chunks[N_CHUNKS];

@@ -46,7 +46,8 @@ uint8_t *sink_write(size_t bytes, struct sink_content content);
 
 struct sink_state sink_state(void);
 
-/** In the child of a fork: leave the file to the parent, which must have waited for what it handed over (sink_write). */
+/** In the child of a fork: leave the file to the parent, which must have waited for what it handed over
+ * (sink_write). */
 void sink_leave(void);
 
 /**

@@ -242,11 +242,11 @@ static const void *elements(void *piece, const void *from, long n, size_t size, 
 }
 
 /* Elements of one type: `value` writes v[i], in 128 bytes at most, so 16 fit the margin. */
-#define DEFINE_PUT_ARRAY(suffix, type, value)                                                                                 \
+#define DEFINE_PUT_ARRAY(suffix, type, value) \
 	uint8_t *put_array_##suffix(uint8_t *p, type const *array, long n)                                                    \
 	{                                                                                                                     \
 		type piece[PIECE];                                                                                            \
-                                                                                                                              \
+ \
 		if (!array)                                                                                                   \
 			return put_null(p);                                                                                   \
 		n = n > LONG_ARRAY && !has_end(array, n, sizeof(piece[0])) ? 0 : n;                                           \
@@ -254,7 +254,7 @@ static const void *elements(void *piece, const void *from, long n, size_t size, 
 		for (long at = 0; at < n; at += PIECE) {                                                                      \
 			const long part = n - at < PIECE ? n - at : PIECE;                                                    \
 			type const *v = elements(piece, array + at, part, sizeof(piece[0]), n);                               \
-                                                                                                                              \
+ \
 			for (long i = 0; i < part; i++) {                                                                     \
 				p = value;                                                                                    \
 				if (i % 16 == 15)                                                                             \

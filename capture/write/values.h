@@ -13,7 +13,8 @@
 #include "capture/write/recording.h"
 #include "capture/write/tables.h"
 
-/* Bulk values: they may hand chunks to the file on the way. A negative count is 0; a NULL pointer is written as null. */
+/* Bulk values: they may hand chunks to the file on the way. A negative count is 0; a NULL pointer is written as
+ * null. */
 
 /** Text; `bytes` < 0: up to its NUL. */
 uint8_t *put_string(uint8_t *p, const char *s, long bytes);

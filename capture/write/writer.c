@@ -174,7 +174,9 @@ uint8_t *writer_enter(unsigned command)
 
 uint8_t *writer_enter_fake(unsigned command)
 {
-	return is_left_out(command) ? NULL : enter(command + FIRST_COMMAND_ID, &commands[command], &command_known[command], CALL_FAKE);
+	return is_left_out(command) ?
+	               NULL :
+	               enter(command + FIRST_COMMAND_ID, &commands[command], &command_known[command], CALL_FAKE);
 }
 
 uint8_t *writer_enter_memcpy(void)

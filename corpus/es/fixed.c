@@ -1,8 +1,8 @@
 /*
  * cc fixed.c -lEGL -lGLESv1_CM -lX11
  *
- * OpenGL ES 1.0 as processors without floats used it: every number is 16.16 fixed point, arrays included. Lit cubes, fog, blending, a
- * textured quad by combiners, wide lines, points, depth range, scissored clears.
+ * OpenGL ES 1.0 as processors without floats used it: every number is 16.16 fixed point, arrays included. Lit cubes,
+ * fog, blending, a textured quad by combiners, wide lines, points, depth range, scissored clears.
  */
 #include "window.h"
 
@@ -109,7 +109,9 @@ static void draw_flat(int frame)
 {
 	static const GLfixed corners[4][2] = { { 0, 0 }, { X(96), 0 }, { 0, X(80) }, { X(96), X(80) } };
 	static const GLfixed texels[4][2] = { { 0, 0 }, { X(1), 0 }, { 0, X(1) }, { X(1), X(1) } };
-	static const GLfixed colors[4][4] = { { X(1), 0, 0, X(1) }, { 0, X(1), 0, X(0.75) }, { 0, 0, X(1), X(0.5) }, { X(1), X(1), X(1), X(0.25) } };
+	static const GLfixed colors[4][4] = {
+		{ X(1), 0, 0, X(1) }, { 0, X(1), 0, X(0.75) }, { 0, 0, X(1), X(0.5) }, { X(1), X(1), X(1), X(0.25) }
+	};
 	static const GLfixed tint[4] = { X(0.25), X(0.5), X(0.75), X(1) };
 
 	glMatrixMode(GL_PROJECTION);

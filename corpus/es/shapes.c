@@ -1,8 +1,8 @@
 /*
  * cc shapes.c -lEGL -lGLESv1_CM -lX11 -lm
  *
- * OpenGL ES 1.1 by floats: a lit torus from buffer objects with short indices, a textured floor of bytes from client memory, a second
- * texture by combiners, fog, a user clip plane, two lights.
+ * OpenGL ES 1.1 by floats: a lit torus from buffer objects with short indices, a textured floor of bytes from client
+ * memory, a second texture by combiners, fog, a user clip plane, two lights.
  */
 #include <math.h>
 
@@ -81,7 +81,8 @@ static void make_textures(void)
 
 static void set_up(void)
 {
-	static const GLfloat fog[4] = { 0.3f, 0.35f, 0.4f, 1 }, warm[4] = { 0.9f, 0.7f, 0.5f, 1 }, ambient[4] = { 0.2f, 0.2f, 0.25f, 1 };
+	static const GLfloat fog[4] = { 0.3f, 0.35f, 0.4f, 1 }, warm[4] = { 0.9f, 0.7f, 0.5f, 1 },
+			     ambient[4] = { 0.2f, 0.2f, 0.25f, 1 };
 
 	glViewport(0, 0, WIDTH, HEIGHT);
 	glMatrixMode(GL_PROJECTION);
@@ -109,7 +110,9 @@ static void draw_floor(void)
 	static const GLbyte corners[4][3] = { { -4, -1, -4 }, { 4, -1, -4 }, { -4, -1, 4 }, { 4, -1, 4 } };
 	static const GLshort texels[4][2] = { { 0, 0 }, { 4, 0 }, { 0, 4 }, { 4, 4 } };
 	static const GLfloat glow[4][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 }, { 1, 1 } };
-	static const GLubyte colors[4][4] = { { 255, 255, 255, 255 }, { 200, 255, 200, 255 }, { 200, 200, 255, 255 }, { 255, 220, 200, 255 } };
+	static const GLubyte colors[4][4] = {
+		{ 255, 255, 255, 255 }, { 200, 255, 200, 255 }, { 200, 200, 255, 255 }, { 255, 220, 200, 255 }
+	};
 
 	glEnable(GL_TEXTURE_2D);
 	glEnableClientState(GL_TEXTURE_COORD_ARRAY);

@@ -1,10 +1,11 @@
 /*
  * cc sprites.c -lEGL -lGLESv1_CM -lX11 -lm
  *
- * Extensions of OpenGL ES 1's age: draw texture with crop rectangles, paletted textures, point sprites with an array of sizes, a
- * framebuffer object, separate blending, a cube map by reflection.
+ * Extensions of OpenGL ES 1's age: draw texture with crop rectangles, paletted textures, point sprites with an array of
+ * sizes, a framebuffer object, separate blending, a cube map by reflection.
  *
- * The current colour is set once: Mesa (22.3.6) draws textures with the colour that was current when arrays were drawn last.
+ * The current colour is set once: Mesa (22.3.6) draws textures with the colour that was current when arrays were drawn
+ * last.
  */
 #include <math.h>
 
@@ -42,7 +43,8 @@ static void make_sheet(void)
 		image[3 * i + 2] = (GLubyte)(i * i);
 	}
 	for (int i = 0; i < SHEET * SHEET; i++) {
-		const int x = i % SHEET, y = i / SHEET, dx = x % TILE - 7, dy = y % TILE - 7, color = dx * dx + dy * dy < 40 ? x / TILE + 4 * (y / TILE) : (x + y) & 3;
+		const int x = i % SHEET, y = i / SHEET, dx = x % TILE - 7, dy = y % TILE - 7,
+			  color = dx * dx + dy * dy < 40 ? x / TILE + 4 * (y / TILE) : (x + y) & 3;
 
 		image[48 + i / 2] |= (GLubyte)(i % 2 ? color : color << 4);
 	}
@@ -97,7 +99,8 @@ static void make_cube(void)
 			texels[i / TILE][i % TILE][1] = (GLubyte)(250 - face * 30);
 			texels[i / TILE][i % TILE][2] = (GLubyte)(12 * (i / TILE));
 		}
-		glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X_OES + (GLenum)face, 0, GL_RGB, TILE, TILE, 0, GL_RGB, GL_UNSIGNED_BYTE, texels);
+		glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X_OES + (GLenum)face, 0, GL_RGB, TILE, TILE, 0, GL_RGB,
+		             GL_UNSIGNED_BYTE, texels);
 	}
 	tex_gen_i(GL_TEXTURE_GEN_STR_OES, GL_TEXTURE_GEN_MODE_OES, GL_REFLECTION_MAP_OES);
 }
@@ -200,7 +203,9 @@ static void draw_mirror(int frame)
 {
 	static const GLfloat corners[4][3] = { { -0.2f, 0.4f, 0 }, { 0.2f, 0.4f, 0 }, { -0.2f, 0.8f, 0 }, { 0.2f, 0.8f, 0 } };
 	const GLfloat lean = 0.1f * (float)frame;
-	const GLfloat normals[4][3] = { { -0.5f, -0.5f, 1 }, { 0.5f + lean, -0.5f, 1 }, { -0.5f, 0.5f, 1 }, { 0.5f + lean, 0.5f, 1 } };
+	const GLfloat normals[4][3] = {
+		{ -0.5f, -0.5f, 1 }, { 0.5f + lean, -0.5f, 1 }, { -0.5f, 0.5f, 1 }, { 0.5f + lean, 0.5f, 1 }
+	};
 
 	glDisable(GL_TEXTURE_2D);
 	glEnable(GL_TEXTURE_CUBE_MAP_OES);

@@ -1,6 +1,6 @@
 /*
- * A window of OpenGL ES 1 on X11, and the frame loop that the programs of this folder share. `--frames N` ends after N frames; the same
- * pictures in every run.
+ * A window of OpenGL ES 1 on X11, and the frame loop that the programs of this folder share. `--frames N` ends after N
+ * frames; the same pictures in every run.
  */
 #pragma once
 
@@ -33,8 +33,10 @@ static void lack(void)
 
 int main(int argc, char **argv)
 {
-	const EGLint config_attributes[] = { EGL_SURFACE_TYPE, EGL_WINDOW_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES_BIT, EGL_RED_SIZE, 8,
-		                             EGL_DEPTH_SIZE, 24, EGL_STENCIL_SIZE, 8, EGL_NONE };
+	const EGLint config_attributes[] = {
+		EGL_SURFACE_TYPE, EGL_WINDOW_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES_BIT, EGL_RED_SIZE, 8, EGL_DEPTH_SIZE, 24,
+		EGL_STENCIL_SIZE, 8, EGL_NONE
+	};
 	const EGLint context_attributes[] = { EGL_CONTEXT_CLIENT_VERSION, 1, EGL_NONE };
 	const int frames = argc > 2 && strcmp(argv[1], "--frames") == 0 ? atoi(argv[2]) : 10;
 	Display *display = XOpenDisplay(NULL);
@@ -48,7 +50,8 @@ int main(int argc, char **argv)
 	if (!display)
 		fail("display");
 	egl = eglGetDisplay((EGLNativeDisplayType)display);
-	if (!eglInitialize(egl, NULL, NULL) || !eglBindAPI(EGL_OPENGL_ES_API) || !eglChooseConfig(egl, config_attributes, &config, 1, &n) || !n)
+	if (!eglInitialize(egl, NULL, NULL) || !eglBindAPI(EGL_OPENGL_ES_API) ||
+	    !eglChooseConfig(egl, config_attributes, &config, 1, &n) || !n)
 		lack();
 	window = XCreateSimpleWindow(display, DefaultRootWindow(display), 0, 0, WIDTH, HEIGHT, 0, 0, 0);
 	XMapWindow(display, window);

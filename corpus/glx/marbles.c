@@ -1,7 +1,7 @@
 /*
- * What `make demo` shows: marbles on a board of two woods, a camera that goes slowly around them. OpenGL 1.1 and GLX alone, for
- * machines without GLUT: a display list, a texture, one light. It knows nothing of mirrors, glass and shadows;
- * marbles.look.yaml says what its draws are made of.
+ * What `make demo` shows: marbles on a board of two woods, a camera that goes slowly around them. OpenGL 1.1 and GLX
+ * alone, for machines without GLUT: a display list, a texture, one light. It knows nothing of mirrors, glass and
+ * shadows; marbles.look.yaml says what its draws are made of.
  *
  *   cc -o marbles corpus/glx/marbles.c -lGL -lX11 -lm
  *
@@ -43,7 +43,8 @@ static void make_ball(void)
 	for (int stack = 0; stack < STACKS; stack++)
 		for (int slice = 0; slice < SLICES; slice++)
 			for (int k = 0; k < 4; k++) {
-				const float up = pi * (float)(stack + (k == 1 || k == 2)) / STACKS, around = 2 * pi * (float)(slice + k / 2) / SLICES;
+				const float up = pi * (float)(stack + (k == 1 || k == 2)) / STACKS,
+					    around = 2 * pi * (float)(slice + k / 2) / SLICES;
 				const float at[3] = { sinf(up) * sinf(around), cosf(up), sinf(up) * cosf(around) };
 
 				glNormal3fv(at);
@@ -163,8 +164,8 @@ int main(int argc, char **argv)
 		return 1;
 	}
 	set.colormap = XCreateColormap(display, DefaultRootWindow(display), visual->visual, AllocNone);
-	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, (unsigned)width, (unsigned)height, 0, visual->depth, InputOutput,
-	                       visual->visual, CWColormap, &set);
+	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, (unsigned)width, (unsigned)height, 0,
+	                       visual->depth, InputOutput, visual->visual, CWColormap, &set);
 	XStoreName(display, window, "marbles");
 	XMapWindow(display, window);
 	glXMakeCurrent(display, window, glXCreateContext(display, visual, NULL, True));

@@ -73,12 +73,14 @@ static struct vec move_inside(const struct mesh *mesh, const struct face *face, 
 	return p;
 }
 
-void bake_point(const struct level *level, const struct mesh *mesh, const struct bsp *bsp, const struct face *face, struct vec p, unsigned char out[3])
+void bake_point(const struct level *level, const struct mesh *mesh, const struct bsp *bsp, const struct face *face,
+                struct vec p, unsigned char out[3])
 {
 	light_at(level, bsp, vec_mad(move_inside(mesh, face, p), face->plane.n, 0.002), face->plane.n, out);
 }
 
-void bake_face(struct lightmap *map, const struct level *level, const struct mesh *mesh, const struct bsp *bsp, const struct face *face)
+void bake_face(struct lightmap *map, const struct level *level, const struct mesh *mesh, const struct bsp *bsp,
+               const struct face *face)
 {
 	struct vec origin = vec_scale(face->plane.n, face->plane.d + 0.002);
 

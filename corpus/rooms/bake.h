@@ -1,8 +1,8 @@
 /*
  * Lightmaps: for each wall the light that reaches it, computed once in plain C.
  *
- * A texel holds AMBIENT + sum over lights of color x max(0, cos) x visible / d^2, d in metres, each channel cut off at 1. Walls are
- * matte; light that they throw back is not there.
+ * A texel holds AMBIENT + sum over lights of color x max(0, cos) x visible / d^2, d in metres, each channel cut off
+ * at 1. Walls are matte; light that they throw back is not there.
  */
 #pragma once
 
@@ -18,10 +18,12 @@ struct lightmap {
 	double u0, v0, du, dv;   /* texture coordinates of p: (u . p - u0) / du, (v . p - v0) / dv */
 };
 
-void bake_face(struct lightmap *map, const struct level *level, const struct mesh *mesh, const struct bsp *bsp, const struct face *face);
+void bake_face(struct lightmap *map, const struct level *level, const struct mesh *mesh, const struct bsp *bsp,
+               const struct face *face);
 
 /** The light at a point of a wall, as its lightmap has it there. */
-void bake_point(const struct level *level, const struct mesh *mesh, const struct bsp *bsp, const struct face *face, struct vec p, unsigned char out[3]);
+void bake_point(const struct level *level, const struct mesh *mesh, const struct bsp *bsp, const struct face *face,
+                struct vec p, unsigned char out[3]);
 
 /** Texture coordinates of a point of the wall. */
 void bake_coordinates(const struct lightmap *map, struct vec p, float st[2]);

@@ -16,7 +16,7 @@ struct pieces {
 	size_t n;
 };
 
-/* --- Building ----------------------------------------------------------------------------------------------------------- */
+/* --- Building ---------------------------------------------------------------------------------------------------- */
 
 static int is_in_plane(const struct piece *piece, struct plane plane)
 {
@@ -69,7 +69,8 @@ static int add_leaf(struct bsp *bsp, int solid)
 	return ~(int)(bsp->n_leaves - 1);
 }
 
-/* Divide a space by the plane of one of its walls. A side without walls is all solid or all empty, as that wall says. */
+/* Divide a space by the plane of one of its walls. A side without walls is all solid or all empty, as that wall
+ * says. */
 static int build_node(struct bsp *bsp, struct pieces *pieces)
 {
 	struct pieces side[2] = { { .n = 0 }, { .n = 0 } };
@@ -96,7 +97,7 @@ static int build_node(struct bsp *bsp, struct pieces *pieces)
 	return node;
 }
 
-/* --- Walls of leaves ---------------------------------------------------------------------------------------------------- */
+/* --- Walls of leaves --------------------------------------------------------------------------------------------- */
 
 /* Let a wall down to the leaves before it. */
 static void list_face(struct bsp *bsp, int child, unsigned face, const struct piece *piece)
@@ -139,7 +140,7 @@ void bsp_build(struct bsp *bsp, const struct mesh *mesh)
 	}
 }
 
-/* --- Asking ------------------------------------------------------------------------------------------------------------- */
+/* --- Asking ------------------------------------------------------------------------------------------------------ */
 
 unsigned bsp_find(const struct bsp *bsp, struct vec p)
 {

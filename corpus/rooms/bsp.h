@@ -1,6 +1,6 @@
 /*
- * A leaf BSP over the walls. Each node is a wall's plane, each leaf a convex space, solid or empty. Walls are kept whole: a leaf lists
- * the walls that bound it, and a wall may bound several leaves.
+ * A leaf BSP over the walls. Each node is a wall's plane, each leaf a convex space, solid or empty. Walls are kept
+ * whole: a leaf lists the walls that bound it, and a wall may bound several leaves.
  */
 #pragma once
 

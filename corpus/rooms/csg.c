@@ -48,7 +48,8 @@ static int is_made_later(const struct level *level, size_t brush, struct plane p
 		int side = 0, inside = 1;
 
 		for (int k = 0; k < b->n_planes; k++) {
-			side |= fabs(fabs(vec_dot(b->planes[k].n, plane.n)) - 1) < 1e-9 && fabs(plane_distance(b->planes[k], centre)) < ON_PLANE;
+			side |= fabs(fabs(vec_dot(b->planes[k].n, plane.n)) - 1) < 1e-9 &&
+			        fabs(plane_distance(b->planes[k], centre)) < ON_PLANE;
 			inside &= plane_distance(b->planes[k], centre) < ON_PLANE;
 		}
 		if (side && inside)
@@ -68,7 +69,8 @@ static struct winding side_of_brush(const struct brush *b, int side)
 }
 
 /* What of a polygon of one brush's side is surface, its front towards what is empty. */
-static void add_surface(const struct level *level, size_t brush, struct plane plane, const struct winding *w, struct mesh *mesh)
+static void add_surface(const struct level *level, size_t brush, struct plane plane, const struct winding *w,
+                        struct mesh *mesh)
 {
 	struct vec centre = winding_centre(w);
 	int front, back;
@@ -110,7 +112,7 @@ void csg_build(const struct level *level, struct mesh *mesh)
 	}
 }
 
-/* --- Portals ------------------------------------------------------------------------------------------------------------ */
+/* --- Portals ----------------------------------------------------------------------------------------------------- */
 
 /* Two faces for each piece of a portal that is not in a wall. */
 static void add_portal(const struct level *level, size_t portal, struct mesh *mesh)

@@ -7,7 +7,7 @@ const char *const culling_names[N_CULLINGS] = { "none", "frustum", "portal", "bs
 
 enum { MAX_PORTALS_AWAY = 24 };
 
-/* --- Frusta ------------------------------------------------------------------------------------------------------------- */
+/* --- Frusta ------------------------------------------------------------------------------------------------------ */
 
 static struct plane plane_through(struct vec eye, struct vec a, struct vec b)
 {
@@ -25,7 +25,8 @@ struct frustum frustum_of(const struct view *view)
 	struct frustum f = { .n_planes = 4 };
 
 	for (int i = 0; i < 4; i++)
-		corner[i] = vec_mad(vec_mad(ahead, right, i == 1 || i == 2 ? t * view->aspect : -t * view->aspect), up, i >= 2 ? t : -t);
+		corner[i] = vec_mad(vec_mad(ahead, right, i == 1 || i == 2 ? t * view->aspect : -t * view->aspect), up,
+		                    i >= 2 ? t : -t);
 	for (int i = 0; i < 4; i++)
 		f.planes[i] = plane_through(view->eye, corner[(i + 1) % 4], corner[i]);
 	return f;
@@ -35,7 +36,8 @@ static int box_is_outside(struct box box, const struct frustum *f)
 {
 	for (int i = 0; i < f->n_planes; i++) {
 		struct vec n = f->planes[i].n;
-		struct vec farthest = vec(n.x > 0 ? box.max.x : box.min.x, n.y > 0 ? box.max.y : box.min.y, n.z > 0 ? box.max.z : box.min.z);
+		struct vec farthest = vec(n.x > 0 ? box.max.x : box.min.x, n.y > 0 ? box.max.y : box.min.y,
+		                          n.z > 0 ? box.max.z : box.min.z);
 
 		if (plane_distance(f->planes[i], farthest) < 0)
 			return 1;
@@ -59,7 +61,7 @@ static void show(const struct world *world, unsigned face, const struct frustum 
 		visible[face] = clip_to_frustum(&world->mesh, &world->mesh.faces[face], f).n != 0;
 }
 
-/* --- Ways --------------------------------------------------------------------------------------------------------------- */
+/* --- Ways -------------------------------------------------------------------------------------------------------- */
 
 static void cull_frustum(const struct world *world, const struct frustum *f, unsigned char *visible)
 {
@@ -119,7 +121,8 @@ static const struct face *back_of(const struct mesh *mesh, const struct face *po
 }
 
 /* Everything of a zone, and of the zones that are seen through its portals. */
-static void cull_zone(const struct world *world, struct vec eye, unsigned zone, const struct frustum *f, int away, unsigned char *visible)
+static void cull_zone(const struct world *world, struct vec eye, unsigned zone, const struct frustum *f, int away,
+                      unsigned char *visible)
 {
 	const struct mesh *mesh = &world->mesh;
 

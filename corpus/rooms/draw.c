@@ -12,7 +12,7 @@ enum { TEXELS = 64 };
 
 static GLuint textures[N_TEXTURES + 1], *map_names;
 
-/* --- Textures ----------------------------------------------------------------------------------------------------------- */
+/* --- Textures ---------------------------------------------------------------------------------------------------- */
 
 /* A number in [0,1] that looks random and is the same for the same place. */
 static double noise(unsigned x, unsigned y)
@@ -41,7 +41,9 @@ static double brightness_of(int texture, unsigned x, unsigned y)
 
 static void make_texture(int which)
 {
-	static const double tints[N_TEXTURES + 1][3] = { { 0.95, 0.55, 0.4 }, { 0.75, 0.8, 0.9 }, { 0.9, 0.7, 0.4 }, { 0.9, 0.9, 0.8 }, { 0.8, 0.85, 0.9 } };
+	static const double tints[N_TEXTURES + 1][3] = {
+		{ 0.95, 0.55, 0.4 }, { 0.75, 0.8, 0.9 }, { 0.9, 0.7, 0.4 }, { 0.9, 0.9, 0.8 }, { 0.8, 0.85, 0.9 }
+	};
 	static GLubyte texels[TEXELS][TEXELS][3];
 
 	for (unsigned y = 0; y < TEXELS; y++)
@@ -64,7 +66,8 @@ static void make_lightmap(struct drawing *d, size_t face)
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, (GLsizei)map->width, (GLsizei)map->height, 0, GL_RGB, GL_UNSIGNED_BYTE, map->texels);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, (GLsizei)map->width, (GLsizei)map->height, 0, GL_RGB, GL_UNSIGNED_BYTE,
+	             map->texels);
 }
 
 void draw_init(struct drawing *d)
@@ -91,7 +94,7 @@ void draw_init(struct drawing *d)
 	glMaterialfv(GL_FRONT, GL_AMBIENT_AND_DIFFUSE, (const float[]){ 1, 1, 1, 1 });
 }
 
-/* --- Walls -------------------------------------------------------------------------------------------------------------- */
+/* --- Walls ------------------------------------------------------------------------------------------------------- */
 
 void draw_face_plain(const struct mesh *mesh, const struct face *face)
 {
@@ -247,7 +250,7 @@ const struct face *draw_mirror_of(const struct mesh *mesh)
 	return mirror;
 }
 
-/* --- Frames ------------------------------------------------------------------------------------------------------------- */
+/* --- Frames ------------------------------------------------------------------------------------------------------ */
 
 /* OpenGL's lights are the level's: 1 / d^2, as the lightmaps have it. */
 static void place_lights(const struct level *level)
@@ -257,7 +260,8 @@ static void place_lights(const struct level *level)
 
 		glEnable(GL_LIGHT0 + i);
 		glLightfv(GL_LIGHT0 + i, GL_POSITION, (const float[]){ (float)l->at.x, (float)l->at.y, (float)l->at.z, 1 });
-		glLightfv(GL_LIGHT0 + i, GL_DIFFUSE, (const float[]){ (float)l->color[0], (float)l->color[1], (float)l->color[2], 1 });
+		glLightfv(GL_LIGHT0 + i, GL_DIFFUSE,
+		          (const float[]){ (float)l->color[0], (float)l->color[1], (float)l->color[2], 1 });
 		glLightfv(GL_LIGHT0 + i, GL_SPECULAR, (const float[]){ 0, 0, 0, 1 });
 		glLightf(GL_LIGHT0 + i, GL_CONSTANT_ATTENUATION, 0);
 		glLightf(GL_LIGHT0 + i, GL_QUADRATIC_ATTENUATION, 1);

@@ -45,18 +45,19 @@ void draw_face_plain(const struct mesh *mesh, const struct face *face);
 /** The largest face that is a mirror; NULL: the level has none. */
 const struct face *draw_mirror_of(const struct mesh *mesh);
 
-/* --- tricks.c ----------------------------------------------------------------------------------------------------------- */
+/* --- tricks.c ---------------------------------------------------------------------------------------------------- */
 
 /** The surroundings of the second object into the environment map, by six pictures of the world. */
 void trick_environment(struct drawing *d, const struct view *view, long frame);
 /** Draw the second object with it. */
 void trick_mirroring_object(struct drawing *d);
-/** The world behind the mirror, and the mirror over it. Leaves depth as of a frame in which only the mirror was drawn. */
+/** The world behind the mirror, and the mirror over it. Leaves depth as of a frame in which only the mirror was
+ * drawn. */
 void trick_planar_mirror(struct drawing *d, long frame);
 /** Darken what lies in the first object's shadow (z-fail: Bilodeau and Songy 1999; Carmack 2000). */
 void trick_shadow(struct drawing *d, long frame);
 
-/* --- torus.c ------------------------------------------------------------------------------------------------------------ */
+/* --- torus.c ----------------------------------------------------------------------------------------------------- */
 
 enum { TORUS_AROUND = 24, TORUS_ACROSS = 12, N_TORUS_TRIANGLES = 2 * TORUS_AROUND * TORUS_ACROSS };
 

@@ -8,7 +8,7 @@
 
 static const double turn = 6.28318530717958647692;
 
-/* --- Brushes ------------------------------------------------------------------------------------------------------------ */
+/* --- Brushes ----------------------------------------------------------------------------------------------------- */
 
 static void add_plane(struct brush *b, struct vec n, double d)
 {
@@ -93,7 +93,7 @@ static void add_portal(struct level *level, const double v[6])
 	ARRAY_PUSH(level->portals, level->n_portals, w);
 }
 
-/* --- Files -------------------------------------------------------------------------------------------------------------- */
+/* --- Files ------------------------------------------------------------------------------------------------------- */
 
 static const char *read_brush(struct level *level, int adds, const char *kind, const double *v, int n)
 {
@@ -166,7 +166,7 @@ void level_read(struct level *level, const char *path)
 	fclose(in);
 }
 
-/* --- Levels from a number ----------------------------------------------------------------------------------------------- */
+/* --- Levels from a number ---------------------------------------------------------------------------------------- */
 
 enum { GRID_X = 4, GRID_Z = 3, CELL = 12 };
 #define EYE_HEIGHT 1.7
@@ -233,7 +233,8 @@ static void join(struct level *level, const double a[6], const double b[6], int 
 static struct vec doorway_of(const double a[6], const double b[6], int axis)
 {
 	int across = 2 - axis;
-	double at = floor(2 * (fmax(a[across], b[across]) + fmin(a[across + 3], b[across + 3]))) / 4, along = 0.5 * (a[axis + 3] + b[axis]);
+	double at = floor(2 * (fmax(a[across], b[across]) + fmin(a[across + 3], b[across + 3]))) / 4,
+	       along = 0.5 * (a[axis + 3] + b[axis]);
 
 	return axis ? vec(at, EYE_HEIGHT, along) : vec(along, EYE_HEIGHT, at);
 }
@@ -262,7 +263,8 @@ static void walk_rooms(struct level *level, double rooms[GRID_Z][GRID_X][6])
 /* A panel before a room's wall at its greatest z, on the side that one looks at from the start. */
 static void hang_mirror(struct level *level, const double room[6])
 {
-	add_brush(level, brush_box(1, (double[]){ room[0] + 1, 0.5, room[5] - 0.125, room[0] + 3.5, 2.5, room[5] }, TEXTURE_MIRROR));
+	add_brush(level, brush_box(1, (double[]){ room[0] + 1, 0.5, room[5] - 0.125, room[0] + 3.5, 2.5, room[5] },
+	                           TEXTURE_MIRROR));
 }
 
 void level_generate(struct level *level, unsigned seed, unsigned n_lights)

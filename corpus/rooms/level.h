@@ -9,8 +9,8 @@
  *     add plane NX NY NZ D X0 Y0 Z0 X1 Y1 Z1 TEXTURE         what of a box lies behind n . p = D
  *     portal X0 Y0 Z0 X1 Y1 Z1                               a rectangle across a doorway; one extent is 0
  *     light X Y Z RED GREEN BLUE                             radiant at 1 m
- *     object X Y Z                                           the first turns and throws a shadow, the second mirrors its surroundings
- *     start X Y Z YAW
+ *     object X Y Z                                           the first turns and throws a shadow, the second mirrors
+ * its surroundings start X Y Z YAW
  */
 #pragma once
 

@@ -7,7 +7,7 @@
 
 #include "array.h"
 
-/* --- Points ------------------------------------------------------------------------------------------------------------- */
+/* --- Points ------------------------------------------------------------------------------------------------------ */
 
 #define CELL (16 * WELD)
 
@@ -48,7 +48,8 @@ static unsigned find_point(struct mesh *mesh, struct vec p)
 {
 	grow_cells(mesh);
 	for (int near = 0; near < 8; near++) {
-		size_t i = cell_of(mesh, p.x + (near & 1 ? WELD : -WELD), p.y + (near & 2 ? WELD : -WELD), p.z + (near & 4 ? WELD : -WELD));
+		size_t i = cell_of(mesh, p.x + (near & 1 ? WELD : -WELD), p.y + (near & 2 ? WELD : -WELD),
+		                   p.z + (near & 4 ? WELD : -WELD));
 
 		for (; mesh->cells[i]; i = (i + 1) & (mesh->n_cells - 1))
 			if (vec_length(vec_sub(mesh->points[mesh->cells[i] - 1], p)) < WELD)
@@ -59,7 +60,7 @@ static unsigned find_point(struct mesh *mesh, struct vec p)
 	return (unsigned)mesh->n_points - 1;
 }
 
-/* --- Faces -------------------------------------------------------------------------------------------------------------- */
+/* --- Faces ------------------------------------------------------------------------------------------------------- */
 
 void mesh_add(struct mesh *mesh, const struct winding *w, struct plane plane, int texture, int portal)
 {
@@ -100,7 +101,7 @@ struct winding mesh_winding(const struct mesh *mesh, const struct face *face)
 	return w;
 }
 
-/* --- Merging ------------------------------------------------------------------------------------------------------------ */
+/* --- Merging ----------------------------------------------------------------------------------------------------- */
 
 /* How a corner turns as seen from the front: positive, to the left; 0, not at all. */
 static double turn_at(const struct mesh *mesh, const struct face *face, unsigned i)
@@ -121,8 +122,8 @@ static void drop_straight_corners(const struct mesh *mesh, struct face *face)
 }
 
 /*
- * Both polygons along a shared edge, which runs from a's corner i and against it from b's corner k, as one. Fails where that is
- * not convex. b is left without corners.
+ * Both polygons along a shared edge, which runs from a's corner i and against it from b's corner k, as one. Fails where
+ * that is not convex. b is left without corners.
  */
 static int join_faces(const struct mesh *mesh, struct face *a, unsigned i, struct face *b, unsigned k)
 {
@@ -178,7 +179,7 @@ void mesh_merge(struct mesh *mesh)
 	mesh_sweep(mesh);
 }
 
-/* --- T-junctions -------------------------------------------------------------------------------------------------------- */
+/* --- T-junctions ------------------------------------------------------------------------------------------------- */
 
 /* The first point between the ends of an edge; 1 where there is one. */
 static int point_between(const struct mesh *mesh, unsigned from, unsigned to, unsigned *out)

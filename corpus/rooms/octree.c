@@ -10,8 +10,10 @@ static struct box octant(struct box box, int which)
 {
 	struct vec middle = vec_scale(vec_add(box.min, box.max), 0.5);
 
-	return (struct box){ vec(which & 1 ? middle.x : box.min.x, which & 2 ? middle.y : box.min.y, which & 4 ? middle.z : box.min.z),
-	                     vec(which & 1 ? box.max.x : middle.x, which & 2 ? box.max.y : middle.y, which & 4 ? box.max.z : middle.z) };
+	return (struct box){ vec(which & 1 ? middle.x : box.min.x, which & 2 ? middle.y : box.min.y,
+		                 which & 4 ? middle.z : box.min.z),
+		             vec(which & 1 ? box.max.x : middle.x, which & 2 ? box.max.y : middle.y,
+		                 which & 4 ? box.max.z : middle.z) };
 }
 
 static void divide(struct octree *tree, const struct mesh *mesh, unsigned node, int depth)

@@ -1,5 +1,6 @@
 /*
- * Rooms, doorways and what stands in them, made of brushes and drawn as engines of about 2000 drew such levels. See README.md.
+ * Rooms, doorways and what stands in them, made of brushes and drawn as engines of about 2000 drew such levels. See
+ * README.md.
  *
  *   cd corpus/rooms && cc -o rooms *.c -lglut -lGLU -lGL -lm
  */
@@ -16,9 +17,11 @@ static struct drawing drawing = { .level = &level, .world = &world };
 static void usage(void)
 {
 	fputs("usage: rooms [--level FILE | --seed N] [--lights N] [--cull none|frustum|portal|bsp|octree]\n"
-	      "             [--lighting multitexture|pass|opengl|colors|paint|none|white] [--environment cube|sphere] [--mirror] [--shadow]\n"
+	      "             [--lighting multitexture|pass|opengl|colors|paint|none|white] [--environment cube|sphere] "
+	      "[--mirror] [--shadow]\n"
 	      "             [--truth FILE.json] [--frames N] [--animate camera|--walk]\n"
-	      "       rooms --check N    make levels 0 to N - 1 and see whether they are sound; no window\n", stderr);
+	      "       rooms --check N    make levels 0 to N - 1 and see whether they are sound; no window\n",
+	      stderr);
 	exit(2);
 }
 
@@ -55,7 +58,8 @@ static const char *parse(int *argc, char **argv)
 {
 	static const char *const lightings[] = { "multitexture", "pass", "opengl", "colors", "paint", "none", "white", NULL };
 	static const char *const environments[] = { "none", "cube", "sphere", NULL };
-	const char *const cullings[] = { culling_names[0], culling_names[1], culling_names[2], culling_names[3], culling_names[4], NULL };
+	const char *const cullings[] = { culling_names[0], culling_names[1], culling_names[2],
+		                         culling_names[3], culling_names[4], NULL };
 	const char *file = NULL, *truth = NULL;
 	unsigned seed = 0, n_lights = 3;
 	int left = 1;

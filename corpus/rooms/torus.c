@@ -8,7 +8,10 @@ void torus_matrix(const struct level *level, long frame, float out[16])
 {
 	double a = turn * (double)frame / 72, c = cos(a), s = sin(a), tilt_c = cos(0.6), tilt_s = sin(0.6);
 	struct vec at = level->n_objects ? level->objects[0] : vec(0, 0, 0);
-	double columns[4][4] = { { c, 0, -s, 0 }, { s * tilt_s, tilt_c, c * tilt_s, 0 }, { s * tilt_c, -tilt_s, c * tilt_c, 0 }, { at.x, at.y, at.z, 1 } };
+	double columns[4][4] = { { c, 0, -s, 0 },
+		                 { s * tilt_s, tilt_c, c * tilt_s, 0 },
+		                 { s * tilt_c, -tilt_s, c * tilt_c, 0 },
+		                 { at.x, at.y, at.z, 1 } };
 
 	for (int i = 0; i < 16; i++)
 		out[i] = (float)columns[i / 4][i % 4];
@@ -22,7 +25,8 @@ static struct vec torus_point(int around, int across, struct vec *normal)
 	return vec_mad(vec(0.5 * cos(a), 0.5 * sin(a), 0), *normal, 0.2);
 }
 
-/* Corners of a triangle, counter-clockwise from outside, as (around, across); a quad's lower triangle, then its upper one. */
+/* Corners of a triangle, counter-clockwise from outside, as (around, across); a quad's lower triangle, then its upper
+ * one. */
 static void torus_triangle(int i, int corners[3][2])
 {
 	int around = i / 2 / TORUS_ACROSS, across = i / 2 % TORUS_ACROSS;

@@ -4,7 +4,7 @@
 
 #include "draw.h"
 
-/* --- Environment maps --------------------------------------------------------------------------------------------------- */
+/* --- Environment maps -------------------------------------------------------------------------------------------- */
 
 static GLuint cube_map, sphere_map;
 
@@ -139,7 +139,7 @@ void trick_mirroring_object(struct drawing *d)
 	gluDeleteQuadric(ball);
 }
 
-/* --- A planar mirror ---------------------------------------------------------------------------------------------------- */
+/* --- A planar mirror --------------------------------------------------------------------------------------------- */
 
 /* p' = p - 2 (n . p - d) n, column-major. */
 static void reflect(struct plane plane)
@@ -176,7 +176,8 @@ void trick_planar_mirror(struct drawing *d, long frame)
 	glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 	glPushMatrix();
 	reflect(mirror->plane);
-	glClipPlane(GL_CLIP_PLANE0, (const double[]){ mirror->plane.n.x, mirror->plane.n.y, mirror->plane.n.z, -mirror->plane.d });
+	glClipPlane(GL_CLIP_PLANE0,
+	            (const double[]){ mirror->plane.n.x, mirror->plane.n.y, mirror->plane.n.z, -mirror->plane.d });
 	glEnable(GL_CLIP_PLANE0);
 	glFrontFace(GL_CW);
 	draw_world(d, NULL, frame, 1);
@@ -195,7 +196,7 @@ void trick_planar_mirror(struct drawing *d, long frame)
 	glDisable(GL_BLEND);
 }
 
-/* --- Shadow volumes ----------------------------------------------------------------------------------------------------- */
+/* --- Shadow volumes ---------------------------------------------------------------------------------------------- */
 
 static const struct light *nearest_light(const struct level *level, struct vec p)
 {
@@ -212,7 +213,8 @@ static struct vec into_object(const float m[16], struct vec p)
 {
 	struct vec q = vec(p.x - m[12], p.y - m[13], p.z - m[14]);
 
-	return vec(m[0] * q.x + m[1] * q.y + m[2] * q.z, m[4] * q.x + m[5] * q.y + m[6] * q.z, m[8] * q.x + m[9] * q.y + m[10] * q.z);
+	return vec(m[0] * q.x + m[1] * q.y + m[2] * q.z, m[4] * q.x + m[5] * q.y + m[6] * q.z,
+	           m[8] * q.x + m[9] * q.y + m[10] * q.z);
 }
 
 /* Count back faces up and front faces down, where they lie behind what is drawn. */

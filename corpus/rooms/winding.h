@@ -1,5 +1,6 @@
 /*
- * Convex polygons as points, counter-clockwise as seen from the front of their plane: what brushes are made of and cut by.
+ * Convex polygons as points, counter-clockwise as seen from the front of their plane: what brushes are made of and cut
+ * by.
  */
 #pragma once
 
@@ -20,7 +21,8 @@ struct winding winding_of_plane(struct plane plane);
 
 /**
  * Cut a winding by a plane.
- * @param front, back  receive the parts; empty where there is none. A winding in the plane is in neither. Either may be NULL.
+ * @param front, back  receive the parts; empty where there is none. A winding in the plane is in neither. Either may be
+ * NULL.
  * @return 1 where both parts are there
  */
 int winding_split(const struct winding *w, struct plane plane, struct winding *front, struct winding *back);

@@ -50,7 +50,8 @@ static void write_lights(FILE *out, const struct level *level)
 	for (size_t i = 0; i < level->n_lights; i++) {
 		fprintf(out, "%s\n    {\"position\": ", i ? "," : "");
 		write_vec(out, level->lights[i].at);
-		fprintf(out, ", \"color\": [%g, %g, %g]}", level->lights[i].color[0], level->lights[i].color[1], level->lights[i].color[2]);
+		fprintf(out, ", \"color\": [%g, %g, %g]}", level->lights[i].color[0], level->lights[i].color[1],
+		        level->lights[i].color[2]);
 	}
 	fprintf(out, "\n  ],\n");
 }
@@ -59,8 +60,8 @@ static void write_zones(FILE *out, const struct world *world)
 {
 	fprintf(out, "  \"zones\": [");
 	for (size_t i = 0; i < world->zones.n; i++)
-		fprintf(out, "%s\n    {\"volume\": %.6f, \"shells\": %zu, \"faces\": %zu}", i ? "," : "", world->zones.items[i].volume,
-		        world->zones.items[i].n_shells, world->zones.items[i].n_faces);
+		fprintf(out, "%s\n    {\"volume\": %.6f, \"shells\": %zu, \"faces\": %zu}", i ? "," : "",
+		        world->zones.items[i].volume, world->zones.items[i].n_shells, world->zones.items[i].n_faces);
 	fprintf(out, "\n  ],\n  \"open_edges\": %zu,\n", world->zones.open_edges);
 }
 
@@ -94,7 +95,8 @@ void world_write_truth(const struct world *world, const struct level *level, con
 	write_lights(out, level);
 	fprintf(out, "  \"start\": ");
 	write_vec(out, level->start);
-	fprintf(out, ", \"start_yaw\": %g, \"size\": %.9g,\n", level->start_yaw_deg, largest_extent(world->octree.nodes[0].box));
+	fprintf(out, ", \"start_yaw\": %g, \"size\": %.9g,\n", level->start_yaw_deg,
+	        largest_extent(world->octree.nodes[0].box));
 	if (mirror) {
 		fprintf(out, "  \"mirror\": {\"normal\": ");
 		write_vec(out, mirror->plane.n);
@@ -127,9 +129,11 @@ int world_check(const struct world *world, const struct level *level, unsigned s
 		other_leaf += leaf != bsp_find_slowly(&world->bsp, p);
 		other_matter += world->bsp.leaves[leaf].solid != level_is_solid(level, p);
 	}
-	printf("level %u: %zu polygons, %zu zones, %zu open edges, %zu T-junctions, %zu leaves, of 10000 points %zu in another leaf, "
-	       "%zu of other matter\n", seed, world->mesh.n_faces, world->zones.n, world->zones.open_edges, t_junctions,
-	       world->bsp.n_leaves, other_leaf, other_matter);
+	printf("level %u: %zu polygons, %zu zones, %zu open edges, %zu T-junctions, %zu leaves, of 10000 points %zu in "
+	       "another leaf, "
+	       "%zu of other matter\n",
+	       seed, world->mesh.n_faces, world->zones.n, world->zones.open_edges, t_junctions, world->bsp.n_leaves,
+	       other_leaf, other_matter);
 	return world->zones.n && !world->zones.open_edges && !t_junctions && !other_leaf && !other_matter;
 }
 

@@ -16,8 +16,8 @@ struct view world_view(const struct level *level, double turned_deg);
 void world_write_truth(const struct world *world, const struct level *level, const char *path);
 
 /**
- * Is every zone closed, no T-junction left, and does the BSP find for 10,000 points the leaf that asking every leaf finds, solid where
- * the brushes are solid? Prints a line.
+ * Is every zone closed, no T-junction left, and does the BSP find for 10,000 points the leaf that asking every leaf
+ * finds, solid where the brushes are solid? Prints a line.
  * @return 1 or 0
  */
 int world_check(const struct world *world, const struct level *level, unsigned seed);

@@ -6,7 +6,7 @@
 
 #include "array.h"
 
-/* --- Edges -------------------------------------------------------------------------------------------------------------- */
+/* --- Edges ------------------------------------------------------------------------------------------------------- */
 
 struct edge {
 	uint64_t key; /* begin and end */
@@ -32,7 +32,10 @@ static struct edge *list_edges(const struct mesh *mesh, size_t *n)
 	*n = 0;
 	for (unsigned f = 0; f < mesh->n_faces; f++)
 		for (unsigned k = 0; k < mesh->faces[f].n; k++)
-			ARRAY_PUSH(edges, *n, ((struct edge){ key_of(mesh->faces[f].v[k], mesh->faces[f].v[(k + 1) % mesh->faces[f].n]), f, k }));
+			ARRAY_PUSH(edges, *n,
+			           ((struct edge){
+					   key_of(mesh->faces[f].v[k], mesh->faces[f].v[(k + 1) % mesh->faces[f].n]), f,
+					   k }));
 	if (*n)
 		qsort(edges, *n, sizeof(*edges), compare_edges);
 	return edges;
@@ -54,8 +57,8 @@ static const struct edge *first_edge(const struct edge *edges, size_t n, uint64_
 }
 
 /*
- * The angle about an edge from one face through what is empty in front of it to another one that runs along the edge the other way,
- * (0, 2 pi]: from the back of a portal to its front it is the whole way round.
+ * The angle about an edge from one face through what is empty in front of it to another one that runs along the edge
+ * the other way, (0, 2 pi]: from the back of a portal to its front it is the whole way round.
  */
 static double dihedral(const struct mesh *mesh, const struct face *from, const struct face *to, unsigned corner)
 {
@@ -84,7 +87,7 @@ static unsigned neighbour(const struct mesh *mesh, const struct edge *edges, siz
 	return best;
 }
 
-/* --- Shells ------------------------------------------------------------------------------------------------------------- */
+/* --- Shells ------------------------------------------------------------------------------------------------------ */
 
 struct shell {
 	double volume; /* positive around what is empty */
@@ -176,7 +179,8 @@ static int is_in_shell(const struct mesh *mesh, const unsigned *shell_of, unsign
 }
 
 /* The smallest shell around what is empty that a solid's shell lies in. */
-static unsigned zone_around(const struct mesh *mesh, const unsigned *shell_of, const struct shell *shells, size_t n, const struct shell *inner)
+static unsigned zone_around(const struct mesh *mesh, const unsigned *shell_of, const struct shell *shells, size_t n,
+                            const struct shell *inner)
 {
 	struct winding w = mesh_winding(mesh, &mesh->faces[inner->face]);
 	struct vec p = vec_mad(winding_centre(&w), mesh->faces[inner->face].plane.n, 1e-3);
@@ -192,9 +196,10 @@ static unsigned zone_around(const struct mesh *mesh, const unsigned *shell_of, c
 	return best;
 }
 
-/* --- Zones -------------------------------------------------------------------------------------------------------------- */
+/* --- Zones ------------------------------------------------------------------------------------------------------- */
 
-static void collect_zones(struct mesh *mesh, struct zones *zones, const unsigned *shell_of, struct shell *shells, size_t n)
+static void collect_zones(struct mesh *mesh, struct zones *zones, const unsigned *shell_of, struct shell *shells,
+                          size_t n)
 {
 	for (size_t i = 0; i < n; i++)
 		if (shells[i].volume > 0) {

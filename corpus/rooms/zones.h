@@ -1,7 +1,8 @@
 /*
- * Zones: the spaces that walls and portals close off. A walk over edges finds them. It goes from a face across each edge to the
- * next face: the first one met when turning about the edge through empty space. The faces of a walk are a shell. A shell around
- * empty space is a zone. A shell around solid matter (a floating block) belongs to the zone around it.
+ * Zones: the spaces that walls and portals close off. A walk over edges finds them. It goes from a face across each
+ * edge to the next face: the first one met when turning about the edge through empty space. The faces of a walk are a
+ * shell. A shell around empty space is a zone. A shell around solid matter (a floating block) belongs to the zone
+ * around it.
  */
 #pragma once
 

@@ -1,8 +1,9 @@
 /*
  * cc blades.c -lwayland-client -lwayland-egl -lEGL -lGL -lm
  *
- * Fixed-function OpenGL on Wayland: a lit wheel from a display list before a textured wall. `--frames N` ends after N frames; the same
- * pictures in every run. The window has no role, so that no shell is needed: it is drawn to and never shown.
+ * Fixed-function OpenGL on Wayland: a lit wheel from a display list before a textured wall. `--frames N` ends after N
+ * frames; the same pictures in every run. The window has no role, so that no shell is needed: it is drawn to and never
+ * shown.
  */
 #include <EGL/egl.h>
 #include <GL/gl.h>
@@ -24,7 +25,8 @@ static void fail(const char *what)
 	exit(1);
 }
 
-static void note_global(void *data, struct wl_registry *registry, uint32_t name, const char *interface, uint32_t version)
+static void note_global(void *data, struct wl_registry *registry, uint32_t name, const char *interface,
+                        uint32_t version)
 {
 	(void)data, (void)version;
 	if (strcmp(interface, "wl_compositor") == 0)
@@ -126,7 +128,8 @@ int main(int argc, char **argv)
 		fail("display");
 	window = open_window(display);
 	egl = eglGetDisplay((EGLNativeDisplayType)display);
-	if (!eglInitialize(egl, NULL, NULL) || !eglBindAPI(EGL_OPENGL_API) || !eglChooseConfig(egl, attributes, &config, 1, &n) || !n)
+	if (!eglInitialize(egl, NULL, NULL) || !eglBindAPI(EGL_OPENGL_API) ||
+	    !eglChooseConfig(egl, attributes, &config, 1, &n) || !n)
 		fail("OpenGL here");
 	context = eglCreateContext(egl, config, EGL_NO_CONTEXT, NULL);
 	surface = eglCreateWindowSurface(egl, config, (EGLNativeWindowType)window, NULL);

@@ -28,12 +28,14 @@ struct options {
 };
 
 static const struct options_row rows[] = {
-	{ "frames", 'f', "LIST", "frames to approve, as in 10-60 or 1-500x5 (default: all)", options_frames, .at = offsetof(struct options, frames) },
+	{ "frames", 'f', "LIST", "frames to approve, as in 10-60 or 1-500x5 (default: all)", options_frames,
+	  .at = offsetof(struct options, frames) },
 	{ "hashes", 0, NULL, "keep only the hashes of the channels: small, but comparable on the same device only",
 	  options_flag, .at = offsetof(struct options, hashes) },
 	{ "by", 0, "NAME", "who approves (default: the user)", options_text, .at = offsetof(struct options, by) },
 	{ "reason", 0, "TEXT", "why", options_text, .at = offsetof(struct options, reason) },
-	{ "dry-run", 'n', NULL, "print what would change, and change nothing", options_flag, .at = offsetof(struct options, dry_run) },
+	{ "dry-run", 'n', NULL, "print what would change, and change nothing", options_flag,
+	  .at = offsetof(struct options, dry_run) },
 };
 
 static const struct options_table table = {
@@ -156,7 +158,7 @@ static void print_change(const struct update *u, const struct baseline_frame *ol
 	image_free(&image);
 }
 
-/* --- Files: all or none -------------------------------------------------------------------------------------------- */
+/* --- Files: all or none ------------------------------------------------------------------------------------------ */
 
 /* @param to  a name for an unfinished file */
 static int copy_file(const char *from, const char *to)
@@ -231,7 +233,7 @@ static int carry_out(struct update *u)
 	return err;
 }
 
-/* --- Frames -------------------------------------------------------------------------------------------------------- */
+/* --- Frames ------------------------------------------------------------------------------------------------------ */
 
 static int approve_frame(struct update *u, const struct set_entry *entry, const struct image *img, char *channels)
 {

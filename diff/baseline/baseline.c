@@ -31,7 +31,8 @@ static const cyaml_schema_value_t frame_schema = {
 
 /* Texts of struct baseline_variant, as the file has them. */
 #define TEXTS(ROW) ROW(device) ROW(trace) ROW(relume) ROW(settings) ROW(approved_by) ROW(approved_at) ROW(reason)
-#define FIELD(member) CYAML_FIELD_STRING_PTR(#member, CYAML_FLAG_POINTER, struct baseline_variant, member, 0, CYAML_UNLIMITED),
+#define FIELD(member) \
+	CYAML_FIELD_STRING_PTR(#member, CYAML_FLAG_POINTER, struct baseline_variant, member, 0, CYAML_UNLIMITED),
 
 static const cyaml_schema_field_t variant_fields[] = {
 	FIELD(format) CYAML_FIELD_UINT("version", CYAML_FLAG_DEFAULT, struct baseline_variant, version),
@@ -256,7 +257,8 @@ static void write_text(FILE *out, const char *key, const char *text)
 static void write_name(FILE *out, const char *name)
 {
 	fputs("file: ", out);
-	if (isalpha((unsigned char)*name) && name[strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-")] == '\0')
+	if (isalpha((unsigned char)*name) &&
+	    name[strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-")] == '\0')
 		fputs(name, out);
 	else
 		json_string(&(struct json){ .out = out }, name);

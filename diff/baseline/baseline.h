@@ -1,10 +1,10 @@
 /*
  * Approved frames: somebody looked at them and found them right; later frames are compared with them.
  *
- * DIR/DEVICE/baseline.yaml is one variant, for one device: provenance, then a line for each frame with the hashes of its
- * channels. The frames lie beside it (frame.0012.exr, or .png where such were approved), unless only hashes were. Nothing in it depends on the machine,
- * and lines are sorted by frame: version control shows what changed. DEVICE is the device's name; anything but letters, digits,
- * dots and dashes becomes "_".
+ * DIR/DEVICE/baseline.yaml is one variant, for one device: provenance, then a line for each frame with the hashes of
+ * its channels. The frames lie beside it (frame.0012.exr, or .png where such were approved), unless only hashes were.
+ * Nothing in it depends on the machine, and lines are sorted by frame: version control shows what changed. DEVICE is
+ * the device's name; anything but letters, digits, dots and dashes becomes "_".
  */
 #pragma once
 

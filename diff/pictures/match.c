@@ -51,7 +51,8 @@ static void forget_number(struct set *const *sets, size_t n_sets, uint64_t frame
 				sets[s]->entries[i].has_number = 0;
 }
 
-/* Numbers that two pictures of a set have. Names tell them apart where other sets have these, or nothing of that number. */
+/* Numbers that two pictures of a set have. Names tell them apart where other sets have these, or nothing of that
+ * number. */
 static int find_doubles(struct set *const *sets, size_t n_sets, size_t own)
 {
 	struct set *set = sets[own];

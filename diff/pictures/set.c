@@ -55,9 +55,9 @@ static int is_image_name(const char *path)
 {
 	/* Formats of OpenImageIO that hold pictures; which of them it reads depends on how it was built. */
 	static const char *const known[] = {
-		"exr", "png", "jpg", "jpe", "jpeg", "tif", "tiff", "tx", "bmp", "dib", "tga", "tpic", "ppm", "pgm", "pbm", "pnm", "pfm",
-		"hdr", "rgbe", "webp", "dpx", "cin", "sgi", "rgb", "rgba", "bw", "int", "inta", "gif", "psd", "pdd", "psb", "jp2", "j2k", "j2c",
-		"dds", "iff", "rla", "pic", "fits", "heic", "heif", "avif", "jxl", "dcm", "zfile",
+		"exr", "png", "jpg", "jpe", "jpeg", "tif", "tiff", "tx", "bmp", "dib", "tga", "tpic", "ppm", "pgm", "pbm", "pnm",
+		"pfm", "hdr", "rgbe", "webp", "dpx", "cin", "sgi", "rgb", "rgba", "bw", "int", "inta", "gif", "psd", "pdd", "psb",
+		"jp2", "j2k", "j2c", "dds", "iff", "rla", "pic", "fits", "heic", "heif", "avif", "jxl", "dcm", "zfile",
 	};
 
 	for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++)
@@ -162,7 +162,8 @@ static int open_folder(struct set *set, const char *folder, const char *pattern)
 
 enum { MOST_DEPTH = 16 };
 
-/** List all images of a folder and of those in it, with their names. @param root  length of the set's own folder, its slash included */
+/** List all images of a folder and of those in it, with their names. @param root  length of the set's own folder, its
+ * slash included */
 static int open_tree(struct set *set, const char *folder, size_t root, int depth)
 {
 	char page[4096];
@@ -180,7 +181,8 @@ static int open_tree(struct set *set, const char *folder, size_t root, int depth
 		struct stat st;
 		uint64_t frame = 0;
 
-		if (file->d_name[0] == '.' || snprintf(path, sizeof(path), "%s%s%s", folder, slash, file->d_name) >= (int)sizeof(path))
+		if (file->d_name[0] == '.' ||
+		    snprintf(path, sizeof(path), "%s%s%s", folder, slash, file->d_name) >= (int)sizeof(path))
 			continue;
 		if (stat(path, &st) == 0 && S_ISDIR(st.st_mode)) {
 			if (depth < MOST_DEPTH)

@@ -12,7 +12,8 @@
 struct set_entry {
 	uint64_t frame;
 	char *path; /* owned; NULL: record of the set's .ref file */
-	char *name; /* owned; of a set with names: its path within the set, without its ending. After set_match, of pictures matched by it alone */
+	char *name; /* owned; of a set with names: its path within the set, without its ending. After set_match, of
+	               pictures matched by it alone */
 	int has_number; /* of a set with names: 1: `frame` is a number in the file's name */
 };
 
@@ -30,8 +31,8 @@ struct set {
  * Find the frames of a set.
  *
  * @param where  a .ref file; a trace (its NAME.ref is taken); a directory of images; a pattern with a frame number
- *               ("out/gears.####.exr"); or one image. In a directory the last number of a name is its frame; files whose
- *               names are not those of images are passed over. Two images of one frame are an error.
+ *               ("out/gears.####.exr"); or one image. In a directory the last number of a name is its frame; files
+ * whose names are not those of images are passed over. Two images of one frame are an error.
  * @param out    all zero; free with set_free
  * @return 0; ERR_INPUT (reported: missing, unreadable, or no image in it); ERR_USAGE (reported: two images of one
  *         frame); ERR_SYSTEM (reported)
@@ -48,7 +49,8 @@ int set_open_named(const char *where, struct set *out);
 const struct set_entry *set_find(const struct set *set, uint64_t frame);
 
 /**
- * Read a frame; several threads may do so at once. A .ref file gives channels R G B (display), and gl.depth if it was recorded.
+ * Read a frame; several threads may do so at once. A .ref file gives channels R G B (display), and gl.depth if it was
+ * recorded.
  * @param img  empty; filled on success
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */

@@ -18,7 +18,8 @@ static void mark_numbers(const struct image *now, const struct image *was, uint8
 	}
 }
 
-static int mark(const struct image *traced, const struct score_approved *approved, const uint8_t *ignore, struct change *out)
+static int mark(const struct image *traced, const struct score_approved *approved, const uint8_t *ignore,
+                struct change *out)
 {
 	const size_t n = (size_t)traced->width * traced->height;
 	int any = 0;

@@ -7,7 +7,7 @@
 struct change {
 	struct image image;            /* the approved frame; no channels: none, or its pixels are not stored */
 	struct score_picture was, now; /* beauty of the approved and of the traced frame; rgb NULL where there is none */
-	uint8_t *off;                  /* [height][width] of both: 1 where gate B sees a change; NULL: of two sizes, or unchanged */
+	uint8_t *off; /* [height][width] of both: 1 where gate B sees a change; NULL: of two sizes, or unchanged */
 };
 
 /**

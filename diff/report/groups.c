@@ -18,13 +18,15 @@ static unsigned failed_gates(const struct score *s)
 
 static int is_worse(const struct score *a, const struct score *b)
 {
-	return a->fidelity < b->fidelity || (a->fidelity <= b->fidelity && a->gates[GATE_B].value[0] > b->gates[GATE_B].value[0]);
+	return a->fidelity < b->fidelity ||
+	       (a->fidelity <= b->fidelity && a->gates[GATE_B].value[0] > b->gates[GATE_B].value[0]);
 }
 
 /* @return 1 where the frame goes on with a group */
 static int goes_on(const struct output_run *run, struct group *group, const struct score *s)
 {
-	if (output_is_named(run, s->frame) || s->frame != group->last + 1 || s->outcome != group->worst->outcome || failed_gates(s) != group->failed)
+	if (output_is_named(run, s->frame) || s->frame != group->last + 1 || s->outcome != group->worst->outcome ||
+	    failed_gates(s) != group->failed)
 		return 0;
 	group->last = s->frame;
 	if (is_worse(s, group->worst))

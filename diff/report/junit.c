@@ -30,7 +30,8 @@ static void put_attribute(const char *name, const char *value, FILE *out)
 	fputc('"', out);
 }
 
-/* The first gate that failed decides the message: "not as approved: pixels off from the approved frame 6.5 % (bar <= 0.01 %)" */
+/* The first gate that failed decides the message: "not as approved: pixels off from the approved frame 6.5 % (bar <=
+ * 0.01 %)" */
 static void put_message(const struct score *s, FILE *out)
 {
 	char text[MOST_TEXT];
@@ -145,8 +146,10 @@ int junit_write(const struct output_run *run, const char *path)
 	        "\" time=\"%.3f\">\n", run->n_scores, failures, errors, skipped, run->seconds);
 	fputs("    <properties>\n", file.stream);
 	for (int i = 0; i < 4; i++) {
-		const char *const properties[][2] = { { "recording", run->name }, { "pictures", run->traced }, { "reference", run->reference },
-		                                      { "approved", run->baseline } };
+		const char *const properties[][2] = { { "recording", run->name },
+			                              { "pictures", run->traced },
+			                              { "reference", run->reference },
+			                              { "approved", run->baseline } };
 
 		if (!properties[i][1])
 			continue;

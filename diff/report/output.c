@@ -156,8 +156,8 @@ static const struct {
 
 static void json_blame(const struct score_blame *by, FILE *out)
 {
-	fprintf(out, "{\"draw\": %u, \"pixels\": %" PRIu64 ", \"approved\": %s, \"box\": [%u, %u, %u, %u]", by->draw, by->pixels,
-	        by->is_approved ? "true" : "false", by->x0, by->y0, by->x1, by->y1);
+	fprintf(out, "{\"draw\": %u, \"pixels\": %" PRIu64 ", \"approved\": %s, \"box\": [%u, %u, %u, %u]", by->draw,
+	        by->pixels, by->is_approved ? "true" : "false", by->x0, by->y0, by->x1, by->y1);
 	if (by->name.call)
 		fprintf(out, ", \"call\": \"%s\", \"call_number\": %" PRIu64 ", \"program\": %s", by->name.call, by->name.call_number,
 		        by->name.has_program ? "true" : "false");

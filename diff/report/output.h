@@ -1,5 +1,6 @@
 /*
- * The outcome of a comparison: what all its forms share (summary.h, table.h, junit.h, markdown.h), JSON, and workflow commands.
+ * The outcome of a comparison: what all its forms share (summary.h, table.h, junit.h, markdown.h), JSON, and workflow
+ * commands.
  */
 #pragma once
 

@@ -10,8 +10,8 @@
 #define DIFFERENCE_GAIN 8
 
 const char *const picture_names[N_PICTURES] = {
-	"approved", "change", "changed", "reference", "compared", "beauty", "difference", "flip", "failing", "shadow", "relight", "reflect", "refract", "albedo",
-	"normal", "depth", "id",
+	"approved", "change", "changed", "reference", "compared", "beauty", "difference", "flip", "failing", "shadow",
+	"relight", "reflect", "refract", "albedo", "normal", "depth", "id",
 };
 
 int picture_take_reference(const struct image *img, const char *channel, struct score_picture *out)
@@ -222,8 +222,8 @@ static int make_map(const struct picture_frame *f, enum picture_kind kind, uint8
 
 	const int is_of_change = kind == PICTURE_CHANGE || kind == PICTURE_CHANGED;
 
-	if ((is_of_change && !f->change.off) || (!is_of_change && kind <= PICTURE_FAILING && !f->maps.failing) || (kind == PICTURE_DEPTH && !f->compared.depth) ||
-	    (kind == PICTURE_ID && !f->compared.id) ||
+	if ((is_of_change && !f->change.off) || (!is_of_change && kind <= PICTURE_FAILING && !f->maps.failing) ||
+	    (kind == PICTURE_DEPTH && !f->compared.depth) || (kind == PICTURE_ID && !f->compared.id) ||
 	    (kind == PICTURE_NORMAL && !(normal[0] && normal[1] && normal[2])))
 		return 0;
 	out = malloc(n ? 3 * n : 1);

@@ -55,13 +55,14 @@ struct picture_frame {
 int picture_frame_read(const struct picture_sources *from, uint64_t frame, struct picture_frame *out);
 void picture_frame_free(struct picture_frame *frame);
 
-/** The reference as it is compared: layer `channel` if it has it, else gl, else its plain colours where these are all it has. */
+/** The reference as it is compared: layer `channel` if it has it, else gl, else its plain colours where these are all
+ * it has. */
 int picture_take_reference(const struct image *img, const char *channel, struct score_picture *out);
 
 /**
  * Make one picture.
- * @param rgb            receives a buffer [height][width][3]; caller frees with free(). NULL where there is nothing to show: no
- *                       such channels, or an effect of one colour all over
+ * @param rgb            receives a buffer [height][width][3]; caller frees with free(). NULL where there is nothing to
+ * show: no such channels, or an effect of one colour all over
  * @param width, height  receive its size: the reference's, or the traced frame's where the sizes differ
  * @return 0 or ERR_SYSTEM (reported)
  */

@@ -37,7 +37,8 @@ static int write_picture(const char *name, uint8_t *rgb, uint32_t width, uint32_
 {
 	uint8_t *png;
 	size_t bytes;
-	int err = oiio_encode(&(struct oiio_pixels){ rgb, width, height }, &(struct oiio_coding){ "png", .level = PNG_LEVEL }, &png, &bytes);
+	int err = oiio_encode(&(struct oiio_pixels){ rgb, width, height },
+	                      &(struct oiio_coding){ "png", .level = PNG_LEVEL }, &png, &bytes);
 
 	free(rgb);
 	if (err)
@@ -51,7 +52,8 @@ static int write_picture(const char *name, uint8_t *rgb, uint32_t width, uint32_
  * Where a window of a box shows most marked pixels: a box of scattered ones may be empty nearly everywhere.
  * @param corner  the box's first pixel; receives the window's
  */
-static void place_window(const uint8_t *marked, uint32_t width, const uint32_t box[2], const uint32_t size[2], uint32_t corner[2])
+static void place_window(const uint8_t *marked, uint32_t width, const uint32_t box[2], const uint32_t size[2],
+                         uint32_t corner[2])
 {
 	enum { STEP = BLAME_SIZE / 4 };
 	const uint32_t first[2] = { corner[0], corner[1] };
@@ -73,7 +75,8 @@ static void place_window(const uint8_t *marked, uint32_t width, const uint32_t b
 }
 
 /* Three pictures of a blamed draw's surroundings, side by side: before, now, and what fails. */
-static int write_blame(const struct picture_frame *frame, const struct score *s, unsigned number, FILE *out, size_t *used)
+static int write_blame(const struct picture_frame *frame, const struct score *s, unsigned number, FILE *out,
+                       size_t *used)
 {
 	enum { MARGIN = 12, GAP = 4, SIDES = 3 };
 	static const enum picture_kind sides[2][SIDES] = { { PICTURE_REFERENCE, PICTURE_COMPARED, PICTURE_FAILING },

@@ -46,7 +46,8 @@ static int paint_surface(const struct picture_frame *f, const struct role *role,
 	int err = is_list(role->what) ? frame_list_parse(role->what, &draws) : 0;
 
 	for (size_t i = 0; i < n && !err; i++) {
-		const int has = draws.n_ranges && f->compared.id[i] >= 1 && f->compared.id[i] < 1e9f && frame_list_contains(&draws, (uint64_t)f->compared.id[i]);
+		const int has = draws.n_ranges && f->compared.id[i] >= 1 && f->compared.id[i] < 1e9f &&
+		                frame_list_contains(&draws, (uint64_t)f->compared.id[i]);
 
 		for (size_t c = 3 * i; c < 3 * i + 3; c++)
 			rgb[c] = has ? f->compared.rgb[c] : f->compared.rgb[c] / 5;
@@ -58,7 +59,8 @@ static int paint_surface(const struct picture_frame *f, const struct role *role,
 }
 
 /* How much each pixel faces the light. */
-static void paint_light(const float at[4], const float *const normal[3], const float *const place[3], uint8_t *rgb, size_t n)
+static void paint_light(const float at[4], const float *const normal[3], const float *const place[3], uint8_t *rgb,
+                        size_t n)
 {
 	for (size_t i = 0; i < n; i++) {
 		float to[3], cosine = 0, square = 0;
@@ -76,14 +78,17 @@ static void paint_light(const float at[4], const float *const normal[3], const f
 int roles_paint(const struct picture_frame *f, const struct role *role, uint8_t **rgb)
 {
 	const size_t n = (size_t)f->image.width * f->image.height;
-	const float *normal[3] = { image_channel(&f->image, "N.X"), image_channel(&f->image, "N.Y"), image_channel(&f->image, "N.Z") };
-	const float *place[3] = { image_channel(&f->image, "P.X"), image_channel(&f->image, "P.Y"), image_channel(&f->image, "P.Z") };
+	const float *normal[3] = { image_channel(&f->image, "N.X"), image_channel(&f->image, "N.Y"),
+		                   image_channel(&f->image, "N.Z") };
+	const float *place[3] = { image_channel(&f->image, "P.X"), image_channel(&f->image, "P.Y"),
+		                  image_channel(&f->image, "P.Z") };
 	float at[4];
 	int err = 0;
 
 	*rgb = NULL;
-	if (role->is_light ? sscanf(role->what, "%f %f %f %f", &at[0], &at[1], &at[2], &at[3]) != 4 || !normal[2] || !place[2] || !normal[0] || !place[0] :
-	    !f->compared.id)
+	if (role->is_light ? sscanf(role->what, "%f %f %f %f", &at[0], &at[1], &at[2], &at[3]) != 4 || !normal[2] ||
+	                             !place[2] || !normal[0] || !place[0] :
+	                     !f->compared.id)
 		return 0;
 	*rgb = malloc(3 * n + 1);
 	if (!*rgb)

@@ -1,6 +1,6 @@
 /*
- * The report's page of roles and lights: what the rules said of a frame that was rendered under some. The renderer tells in attributes
- * relume:rule.0 and so on (look/apply/tell.h, look_tell).
+ * The report's page of roles and lights: what the rules said of a frame that was rendered under some. The renderer
+ * tells in attributes relume:rule.0 and so on (look/apply/tell.h, look_tell).
  */
 #pragma once
 

@@ -1,6 +1,7 @@
 /*
- * The contact sheet: one row for each of a few frames, one column for each picture, labels above. With a baseline, the approved
- * frame, what it is now and the difference come first; the reference's columns follow where one of the frames differs from it.
+ * The contact sheet: one row for each of a few frames, one column for each picture, labels above. With a baseline, the
+ * approved frame, what it is now and the difference come first; the reference's columns follow where one of the frames
+ * differs from it.
  */
 #include "diff/report/report.h"
 
@@ -15,7 +16,8 @@
 enum { MAX_COLUMNS = 7, MAX_ROWS = 4, GAP = 8, LABEL = 22, LETTERS = 13, MAX_CELL = 640, LABEL_SIZE = 160 };
 
 static const enum picture_kind of_change[] = { PICTURE_APPROVED, PICTURE_BEAUTY, PICTURE_CHANGE };
-static const enum picture_kind of_reference[] = { PICTURE_REFERENCE, PICTURE_COMPARED, PICTURE_BEAUTY, PICTURE_DIFFERENCE };
+static const enum picture_kind of_reference[] = { PICTURE_REFERENCE, PICTURE_COMPARED, PICTURE_BEAUTY,
+	                                          PICTURE_DIFFERENCE };
 
 struct sheet {
 	enum picture_kind columns[MAX_COLUMNS];
@@ -31,7 +33,8 @@ static void draw_text(struct sheet *sheet, uint32_t x, uint32_t y, const char *t
 	struct oiio_label label = { text, (int)x, (int)(y + LABEL - 6), LETTERS, { 0 } };
 
 	memcpy(label.rgb, colors[warn], sizeof(label.rgb));
-	oiio_draw_text(&(struct oiio_pixels){ sheet->rgb, sheet->width, sheet->height }, &label); /* without a font: no labels */
+	/* without a font: no labels */
+	oiio_draw_text(&(struct oiio_pixels){ sheet->rgb, sheet->width, sheet->height }, &label);
 }
 
 /** Copy a picture into a cell, shrunk by means of whole boxes where it is larger. */
@@ -97,7 +100,8 @@ static int fails_beside(const struct score *s, int reference)
 	return 0;
 }
 
-static void choose_columns(const struct output_run *run, const struct score *const *rows, size_t n_rows, struct sheet *sheet)
+static void choose_columns(const struct output_run *run, const struct score *const *rows, size_t n_rows,
+                           struct sheet *sheet)
 {
 	int shows_reference = !run->baseline, shows_beauty = 0;
 
@@ -122,7 +126,9 @@ static int label(const struct sheet *sheet, int column, const struct score *s, c
 	const char *name = picture_names[kind];
 
 	if (kind == PICTURE_APPROVED)
-		name = frame->change.was.rgb ? "approved" : s->gates[GATE_B].state == SCORE_NOT_MEASURED ? "nothing approved" : "as approved";
+		name = frame->change.was.rgb                        ? "approved" :
+		       s->gates[GATE_B].state == SCORE_NOT_MEASURED ? "nothing approved" :
+		                                                      "as approved";
 	else if (kind == PICTURE_REFERENCE)
 		name = "raster";
 	else if (kind == PICTURE_COMPARED)
@@ -192,7 +198,8 @@ int sheet_write(const struct picture_sources *from, const char *path)
 	for (size_t i = 0; !err && i < n_rows; i++)
 		err = draw_row(&sheet, i, rows[i], from);
 	if (!err)
-		err = display_save(&(struct oiio_pixels){ sheet.rgb, sheet.width, sheet.height }, &(struct oiio_coding){ "png", .level = 6 }, path);
+		err = display_save(&(struct oiio_pixels){ sheet.rgb, sheet.width, sheet.height },
+		                   &(struct oiio_coding){ "png", .level = 6 }, path);
 	free(sheet.rgb);
 	return err;
 }

@@ -11,7 +11,7 @@
 
 enum { COLUMNS = 100, MOST_GROUPS = 12, MOST_BLAME = 3, MOST_TEXT = 640 };
 
-/* --- The last lines ------------------------------------------------------------------------------------------------ */
+/* --- The last lines ---------------------------------------------------------------------------------------------- */
 
 static int compare_names(const void *a, const void *b)
 {
@@ -44,7 +44,8 @@ static int print_programs(const struct output_run *run, FILE *out)
 			sum.pixels += all[end].pixels;
 			sum.failing += all[end].failing;
 		}
-		fprintf(out, "%s: %.3f %% of %" PRIu64 " px\n", sum.name, 100 * (1 - (double)sum.failing / (double)sum.pixels), sum.pixels);
+		fprintf(out, "%s: %.3f %% of %" PRIu64 " px\n", sum.name,
+		        100 * (1 - (double)sum.failing / (double)sum.pixels), sum.pixels);
 	}
 	free(all);
 	return 0;
@@ -88,7 +89,7 @@ int summary_close(const struct output_run *run, FILE *out)
 	return err;
 }
 
-/* --- Lines of 100 columns ------------------------------------------------------------------------------------------ */
+/* --- Lines of 100 columns ---------------------------------------------------------------------------------------- */
 
 /* Bytes of UTF-8 that begin no letter take no column. */
 static int columns_of(const char *text, size_t n)
@@ -100,7 +101,8 @@ static int columns_of(const char *text, size_t n)
 	return columns;
 }
 
-/* Text after `indent` spaces, broken between words; further lines are two columns deeper. A word that is too long has a line of its own. */
+/* Text after `indent` spaces, broken between words; further lines are two columns deeper. A word that is too long has a
+ * line of its own. */
 static void put_text(const char *text, int indent, FILE *out)
 {
 	int at = fprintf(out, "%*s", indent, "");
@@ -120,7 +122,7 @@ static void put_text(const char *text, int indent, FILE *out)
 	fputc('\n', out);
 }
 
-/* --- Frames -------------------------------------------------------------------------------------------------------- */
+/* --- Frames ------------------------------------------------------------------------------------------------------ */
 
 static const char *reason_of(const struct score *s)
 {
@@ -213,7 +215,7 @@ static void put_warnings(const struct output_run *run, FILE *out)
 	}
 }
 
-/* --- What to do ---------------------------------------------------------------------------------------------------- */
+/* --- What to do -------------------------------------------------------------------------------------------------- */
 
 /* "3-5,9": the frames that a person may approve, at most some ranges of them. @return 0: there are none */
 static int list_approvable(const struct output_run *run, char *out, size_t size)
@@ -227,7 +229,8 @@ static int list_approvable(const struct output_run *run, char *out, size_t size)
 		if (run->scores[i].outcome != SCORE_FRAME_NEW && run->scores[i].gates[GATE_B].state != SCORE_FAILED)
 			continue;
 		while (last + 1 < run->n_scores && run->scores[last + 1].frame == run->scores[last].frame + 1 &&
-		       (run->scores[last + 1].outcome == SCORE_FRAME_NEW || run->scores[last + 1].gates[GATE_B].state == SCORE_FAILED))
+		       (run->scores[last + 1].outcome == SCORE_FRAME_NEW ||
+		        run->scores[last + 1].gates[GATE_B].state == SCORE_FAILED))
 			last++;
 		if (n + 48 > size)
 			return snprintf(out, size, "FRAMES") > 0;
@@ -247,7 +250,8 @@ static void put_advice(const struct output_run *run, const char *report, FILE *o
 	if (report)
 		snprintf(text, sizeof(text), "Look at them: %s/index.html", report);
 	else
-		snprintf(text, sizeof(text), "Look at them: once more with --report DIR, then open DIR/index.html. All figures: --table.");
+		snprintf(text, sizeof(text),
+		         "Look at them: once more with --report DIR, then open DIR/index.html. All figures: --table.");
 	if (n_failed || run->counts[SCORE_FRAME_NEW])
 		put_text(text, 0, out);
 	if (run->baseline && list_approvable(run, list, sizeof(list))) {
@@ -255,7 +259,9 @@ static void put_advice(const struct output_run *run, const char *report, FILE *o
 		put_text(text, 0, out);
 	}
 	if (run->counts[SCORE_FRAME_EXTRA])
-		put_text("A frame without a reference is checked by nobody: add one to REF, or name the frames to compare by -f.", 0, out);
+		put_text("A frame without a reference is checked by nobody: add one to REF, or name the frames to "
+		         "compare by -f.",
+		         0, out);
 }
 
 int summary_write(const struct output_run *run, const char *report, FILE *out)

@@ -10,7 +10,8 @@
 #include "diff/report/summary.h"
 #include "diff/score/gates.h"
 
-/* Indices of scores: frames that did not pass come first; each part is in the order of frames. out has n_scores elements. */
+/* Indices of scores: frames that did not pass come first; each part is in the order of frames. out has n_scores
+ * elements. */
 static void order_scores(const struct output_run *run, size_t *out)
 {
 	size_t n = 0;
@@ -43,7 +44,8 @@ static void print_failure(const struct score *s, FILE *out)
 	}
 }
 
-/** The figures that have a column: values, "-" where they were not measured, "!" behind them where the gate failed; or headings. */
+/** The figures that have a column: values, "-" where they were not measured, "!" behind them where the gate failed; or
+ * headings. */
 static void print_columns(const struct score *s, FILE *out)
 {
 	for (int g = 0; g < N_GATES; g++)
@@ -61,14 +63,17 @@ static void print_columns(const struct score *s, FILE *out)
 /* What the columns are. */
 static void print_legend(FILE *out)
 {
-	fputs("legend: - not measured; ! failed; fidelity: pixels that pass R1, R1b or R2; beauty: FLIP of the beauty against the reference\n", out);
+	fputs("legend: - not measured; ! failed; fidelity: pixels that pass R1, R1b or R2; beauty: FLIP of the beauty "
+	      "against the reference\n",
+	      out);
 	for (int g = 0; g < N_GATES; g++)
 		for (int f = 0; f < score_gates[g].n_figures; f++) {
 			const struct score_figure *info = &score_gates[g].figures[f];
 
 			if (info->column)
-				fprintf(out, "  %-7s %s: %s, %s %g%s%s\n", info->column, score_gates[g].title, info->name,
-				        info->at_least ? "by default at least" : "by default at most", info->bar, info->unit[0] ? " " : "", info->unit);
+				fprintf(out, "  %-7s %s: %s, %s %g%s%s\n", info->column, score_gates[g].title,
+				        info->name, info->at_least ? "by default at least" : "by default at most",
+				        info->bar, info->unit[0] ? " " : "", info->unit);
 		}
 }
 
@@ -110,7 +115,8 @@ static void end_rows(struct rows *rows, FILE *out)
 
 	if (!rows->text)
 		return;
-	snprintf(range, sizeof(range), rows->last > rows->first ? "%" PRIu64 "-%" PRIu64 : "%" PRIu64, rows->first, rows->last);
+	snprintf(range, sizeof(range), rows->last > rows->first ? "%" PRIu64 "-%" PRIu64 : "%" PRIu64, rows->first,
+	         rows->last);
 	fprintf(out, "%7s%s", range, rows->text);
 	free(rows->text);
 	rows->text = NULL;

@@ -135,7 +135,8 @@ static const cyaml_schema_field_t rule_fields[] = {
 	RULE_FIELDS,
 	CYAML_FIELD_END
 };
-static const cyaml_schema_value_t rule_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct yaml_rule, rule_fields) };
+static const cyaml_schema_value_t rule_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct yaml_rule,
+	                                                              rule_fields) };
 
 static const cyaml_schema_field_t flaky_fields[] = {
 	OPTIONAL_STRING("match", struct yaml_flaky, match),
@@ -156,7 +157,8 @@ static const cyaml_schema_field_t file_fields[] = {
 	OPTIONAL_LIST("flaky", struct yaml_file, flaky, &flaky_schema),
 	CYAML_FIELD_END
 };
-static const cyaml_schema_value_t file_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct yaml_file, file_fields) };
+static const cyaml_schema_value_t file_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct yaml_file,
+	                                                              file_fields) };
 
 /* What is made of it. */
 struct score_rules {
@@ -374,8 +376,8 @@ static int apply_rectangle(const struct score_rules *s, const struct yaml_rectan
 	return 0;
 }
 
-static int apply_rule(const struct score_rules *s, const struct yaml_rule *rule, const struct image *mask, uint32_t width,
-                      uint32_t height, struct score_rules_frame *out)
+static int apply_rule(const struct score_rules *s, const struct yaml_rule *rule, const struct image *mask,
+                      uint32_t width, uint32_t height, struct score_rules_frame *out)
 {
 	const char *parent = rule->preset ? rule->preset : rule->inherits;
 	int err = 0;
@@ -441,7 +443,8 @@ int score_rules_for_frame(const struct score_rules *settings, const char *name, 
 	return err;
 }
 
-static void visit_bars(const struct score_rules *s, const struct yaml_rule *rule, void (*visit)(void *, const struct score_rules_entry *), void *user)
+static void visit_bars(const struct score_rules *s, const struct yaml_rule *rule,
+                       void (*visit)(void *, const struct score_rules_entry *), void *user)
 {
 	const char *parent = rule->preset ? rule->preset : rule->inherits;
 
@@ -450,8 +453,11 @@ static void visit_bars(const struct score_rules *s, const struct yaml_rule *rule
 	for (uint32_t i = 0; i < rule->n_bars; i++) {
 		const struct yaml_bar *b = &rule->bars[i];
 
-		visit(user, &(struct score_rules_entry){ .key = b, .of = rule->name ? rule->name : "a rule", .gate = b->gate,
-		                                         .figure = b->figure ? (int)b->figure - 1 : 0, .fail = b->fail ? *b->fail : NAN });
+		visit(user, &(struct score_rules_entry){ .key = b,
+		                                         .of = rule->name ? rule->name : "a rule",
+		                                         .gate = b->gate,
+		                                         .figure = b->figure ? (int)b->figure - 1 : 0,
+		                                         .fail = b->fail ? *b->fail : NAN });
 	}
 }
 

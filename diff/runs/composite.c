@@ -40,7 +40,8 @@ static void widen(struct range *r, const struct score_picture *p, size_t n, int 
 	}
 }
 
-static void find_varying(const struct range *r, const struct score_picture *ref, int codes, struct composite_varying *out)
+static void find_varying(const struct range *r, const struct score_picture *ref, int codes,
+                         struct composite_varying *out)
 {
 	*out = (struct composite_varying){ .x0 = UINT32_MAX, .y0 = UINT32_MAX };
 	for (uint32_t y = 0; y < ref->height; y++)
@@ -63,7 +64,8 @@ static double nearest(double wanted, double low, double high)
 	return wanted < low ? low : wanted > high ? high : wanted;
 }
 
-/* Where runs disagree about a pixel, its neighbours' values are within what they show as well: edges tremble by a pixel. */
+/* Where runs disagree about a pixel, its neighbours' values are within what they show as well: edges tremble by a
+ * pixel. */
 static int loosen(struct range *r, const struct score_picture *ref, int codes)
 {
 	const size_t n = NUMBERS * (size_t)ref->width * ref->height;
@@ -138,7 +140,8 @@ static int is_noise(const struct range *r, const struct score_picture *ref, uint
 	return MIN_SHARE * alike <= varying;
 }
 
-/* Replace the numbers of pixel i that have other codes. Colours stay as the picture stores them: multiplied by alpha, or not. */
+/* Replace the numbers of pixel i that have other codes. Colours stay as the picture stores them: multiplied by alpha,
+ * or not. */
 static void put_pixel(const struct score_picture *was, size_t i, const int16_t code[NUMBERS])
 {
 	const struct score_numbers *to = &was->numbers;

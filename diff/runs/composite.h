@@ -1,11 +1,12 @@
 /*
- * Several pictures of one frame that should be the same. What differs between them is noise; what is wrong in all of them alike is not.
+ * Several pictures of one frame that should be the same. What differs between them is noise; what is wrong in all of
+ * them alike is not.
  *
- * The composite takes for each pixel and channel the value nearest to the reference that lies within what the runs showed: where the
- * reference lies between them, the reference itself. Where runs disagree, a pixel's neighbours count as what they showed: edges tremble.
- * The reference is taken, too, where it is no further from what the runs showed than these
- * are from each other, and at single pixels that all runs show alike by chance: amid at least four times as many that vary by as much.
- * A gate that the composite fails, fails whatever the noise.
+ * The composite takes for each pixel and channel the value nearest to the reference that lies within what the runs
+ * showed: where the reference lies between them, the reference itself. Where runs disagree, a pixel's neighbours count
+ * as what they showed: edges tremble. The reference is taken, too, where it is no further from what the runs showed
+ * than these are from each other, and at single pixels that all runs show alike by chance: amid at least four times as
+ * many that vary by as much. A gate that the composite fails, fails whatever the noise.
  */
 #pragma once
 

@@ -12,9 +12,10 @@
 #include "diff/score/gates.h"
 
 /* Gates that look at the compared layer and depth alone: a composite can be scored by them. */
-static const unsigned composed = 1u << GATE_R1 | 1u << GATE_R1B | 1u << GATE_R2 | 1u << GATE_R3 | 1u << GATE_R4 | 1u << GATE_R5 | 1u << GATE_P;
+static const unsigned composed = 1u << GATE_R1 | 1u << GATE_R1B | 1u << GATE_R2 | 1u << GATE_R3 | 1u << GATE_R4 |
+                                 1u << GATE_R5 | 1u << GATE_P;
 
-/* --- Verdicts ----------------------------------------------------------------------------------------------------------- */
+/* --- Verdicts ---------------------------------------------------------------------------------------------------- */
 
 static unsigned failed_gates(const struct score *s)
 {
@@ -122,7 +123,7 @@ int runs_judge(const struct runs *r, struct runs_frame *out)
 	return err;
 }
 
-/* --- What is said ------------------------------------------------------------------------------------------------------- */
+/* --- What is said ------------------------------------------------------------------------------------------------ */
 
 static void put_gates(const struct runs_frame *f, FILE *out)
 {
@@ -130,7 +131,8 @@ static void put_gates(const struct runs_frame *f, FILE *out)
 
 	for (int g = 0; g < N_GATES; g++)
 		if (f->n_failed[g]) {
-			fprintf(out, "%s%s (%u%s)", between, score_gates[g].name, f->n_failed[g], f->steady_gates >> g & 1 ? ", always" : "");
+			fprintf(out, "%s%s (%u%s)", between, score_gates[g].name, f->n_failed[g],
+			        f->steady_gates >> g & 1 ? ", always" : "");
 			between = ", ";
 		}
 	if (f->missing)
@@ -142,7 +144,8 @@ void runs_table(const struct runs *r, const struct runs_frame *frames, FILE *out
 	static const char *const words[] = { "steady", "flaky", "regression" };
 	size_t counts[3] = { 0, 0, 0 };
 
-	fprintf(out, "%7s %-11s %8s  %s\n", "frame", "verdict", "failing", "gates (runs that fail); pixels that vary between runs");
+	fprintf(out, "%7s %-11s %8s  %s\n", "frame", "verdict", "failing",
+	        "gates (runs that fail); pixels that vary between runs");
 	for (size_t i = 0; i < r->n_frames; i++) {
 		const struct runs_frame *f = &frames[i];
 		const struct composite_varying *v = &f->varying;
@@ -162,7 +165,8 @@ void runs_table(const struct runs *r, const struct runs_frame *frames, FILE *out
 		fputc('\n', out);
 	}
 	fprintf(out, "%zu frame%s in %zu runs: %zu steady, %zu flaky (%.3g %%), %zu regression%s\n", r->n_frames,
-	        plural(r->n_frames), r->n, counts[RUNS_STEADY], counts[RUNS_FLAKY], 100 * (double)counts[RUNS_FLAKY] / (double)r->n_frames, counts[RUNS_REGRESSION],
+	        plural(r->n_frames), r->n, counts[RUNS_STEADY], counts[RUNS_FLAKY],
+	        100 * (double)counts[RUNS_FLAKY] / (double)r->n_frames, counts[RUNS_REGRESSION],
 	        plural(counts[RUNS_REGRESSION]));
 }
 
@@ -215,15 +219,17 @@ size_t runs_quarantine(const struct runs *r, const struct runs_frame *frames, un
 				fprintf(out, "%s%s", between, score_gates[g].name);
 				between = ", ";
 			}
-		fprintf(out, "], reason: \"frame %" PRIu64 " failed in %u of %zu runs, %" PRIu64 " pixels vary\", expires: %s}\n", f->frame, f->failing, r->n,
-		        f->varying.pixels, day);
+		fprintf(out,
+		        "], reason: \"frame %" PRIu64 " failed in %u of %zu runs, %" PRIu64
+		        " pixels vary\", expires: %s}\n",
+		        f->frame, f->failing, r->n, f->varying.pixels, day);
 		n++;
 	}
 	free(done);
 	return n;
 }
 
-/* --- What the rules need not allow -------------------------------------------------------------------------------------- */
+/* --- What the rules need not allow ------------------------------------------------------------------------------- */
 
 struct use {
 	struct score_rules_entry entry;
@@ -250,7 +256,8 @@ static void note(void *user, const struct score_rules_entry *entry)
 	struct uses *u = user;
 	const struct score_gate *gate = &u->score->gates[entry->gate];
 	const struct score_figure *figure = &score_gates[entry->gate].figures[entry->figure];
-	const double share = figure->share * u->score->width * u->score->height, usual = figure->bar > share ? figure->bar : share;
+	const double share = figure->share * u->score->width * u->score->height,
+		     usual = figure->bar > share ? figure->bar : share;
 	size_t i = 0;
 
 	if (!entry->reason && !(isfinite(entry->fail) && is_beyond(figure, entry->fail, usual)))
@@ -290,10 +297,16 @@ int runs_unneeded(const struct runs *r, FILE *out)
 		if (u.list[i].is_needed)
 			continue;
 		if (e->reason)
-			fprintf(out, "not needed any more: the flaky entry \"%s\": none of its gates failed in %" PRIu64 " pictures\n", e->reason, u.list[i].frames);
+			fprintf(out,
+			        "not needed any more: the flaky entry \"%s\": none of its gates failed in %" PRIu64
+			        " pictures\n",
+			        e->reason, u.list[i].frames);
 		else
-			fprintf(out, "not needed any more: %s's bar %g for %s: the worst of %" PRIu64 " pictures is %g, the usual bar %g\n", e->of, e->fail,
-			        score_gates[e->gate].name, u.list[i].frames, u.list[i].worst, score_gates[e->gate].figures[e->figure].bar);
+			fprintf(out,
+			        "not needed any more: %s's bar %g for %s: the worst of %" PRIu64
+			        " pictures is %g, the usual bar %g\n",
+			        e->of, e->fail, score_gates[e->gate].name, u.list[i].frames, u.list[i].worst,
+			        score_gates[e->gate].figures[e->figure].bar);
 	}
 	free(u.list);
 	return u.err;

@@ -1,8 +1,8 @@
 /*
  * Several runs of the same frames, held against one reference: which failures are noise, and which are not.
  *
- * A frame is flaky where it fails in some run, and what all runs have in common passes (composite.h). It is a regression where that
- * fails as well, or where a gate that looks at more than colours and depth fails in every run.
+ * A frame is flaky where it fails in some run, and what all runs have in common passes (composite.h). It is a
+ * regression where that fails as well, or where a gate that looks at more than colours and depth fails in every run.
  */
 #pragma once
 
@@ -45,5 +45,6 @@ void runs_table(const struct runs *r, const struct runs_frame *frames, FILE *out
  */
 size_t runs_quarantine(const struct runs *r, const struct runs_frame *frames, unsigned days, FILE *out);
 
-/** A line for each bar and flaky entry of the rules that no frame of any run needed. @return 0 or ERR_SYSTEM (reported) */
+/** A line for each bar and flaky entry of the rules that no frame of any run needed. @return 0 or ERR_SYSTEM
+ * (reported) */
 int runs_unneeded(const struct runs *r, FILE *out);

@@ -46,8 +46,8 @@ static size_t sort_unique(uint64_t *frames, size_t n)
 	return unique;
 }
 
-int scoring_list(const struct set *const *sets, size_t n_sets, const struct baseline *baseline, const struct scoring_asked *asked,
-                 uint64_t **out, size_t *n_out)
+int scoring_list(const struct set *const *sets, size_t n_sets, const struct baseline *baseline,
+                 const struct scoring_asked *asked, uint64_t **out, size_t *n_out)
 {
 	const int is_named = asked->frames->n_ranges && !asked->all;
 	/* Of an open range, those that are there are meant. */
@@ -75,7 +75,8 @@ int scoring_list(const struct set *const *sets, size_t n_sets, const struct base
 	*n_out = sort_unique(g.frames, g.n);
 	if (*n_out == 0) {
 		free(g.frames);
-		return err_report(ERR_USAGE, NULL, "none of the frames asked for is in %s or %s", sets[0]->name, sets[n_sets - 1]->name);
+		return err_report(ERR_USAGE, NULL, "none of the frames asked for is in %s or %s", sets[0]->name,
+		                  sets[n_sets - 1]->name);
 	}
 	*out = g.frames;
 	return 0;
@@ -112,7 +113,8 @@ static void judge_flaky(const struct score_rules_frame *settings, struct score *
 	s->flaky_reason = settings->flaky_reason;
 }
 
-int scoring_image(const struct scoring *w, uint64_t frame, struct score_picture *picture, const struct image *image, struct score *out)
+int scoring_image(const struct scoring *w, uint64_t frame, struct score_picture *picture, const struct image *image,
+                  struct score *out)
 {
 	const struct output_run *run = w->run;
 	struct score_rules_frame settings = { 0 };
@@ -159,7 +161,8 @@ static int score_one(struct work *w, uint64_t frame, struct score *out)
 	if (!err && r)
 		err = picture_take_reference(&ref_image, w->run->options->channel, &picture);
 	if (err == ERR_INPUT && ref_image.n_channels)
-		err_report(ERR_INPUT, r->path ? r->path : w->all.ref->name, "the reference has no %s", w->run->options->channel ? "such layer (--channel)" : "colour channels");
+		err_report(ERR_INPUT, r->path ? r->path : w->all.ref->name, "the reference has no %s",
+		           w->run->options->channel ? "such layer (--channel)" : "colour channels");
 	if (!err)
 		err = set_read(w->all.traced, t, &image);
 	if (!err && !r)
@@ -198,7 +201,8 @@ static void *score_frames(void *arg)
 	return NULL;
 }
 
-int scoring_all(struct set *ref, struct set *traced, const struct baseline *baseline, const uint64_t *frames, struct output_run *run)
+int scoring_all(struct set *ref, struct set *traced, const struct baseline *baseline, const uint64_t *frames,
+                struct output_run *run)
 {
 	enum { MAX_THREADS = 16 };
 	struct work w = { .all = { ref, traced, baseline, run }, .frames = frames, .run = run,

@@ -24,15 +24,16 @@ struct scoring_asked {
  * @param out, n_out  receive them in order; free with free()
  * @return 0, ERR_USAGE (reported: none) or ERR_SYSTEM (reported)
  */
-int scoring_list(const struct set *const *sets, size_t n_sets, const struct baseline *baseline, const struct scoring_asked *asked,
-                 uint64_t **out, size_t *n_out);
+int scoring_list(const struct set *const *sets, size_t n_sets, const struct baseline *baseline,
+                 const struct scoring_asked *asked, uint64_t **out, size_t *n_out);
 
 /**
  * Score an image that is there, against a reference, an approved frame, or both.
  * @param picture  the reference; where there is none, of the image's size and without pixels
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */
-int scoring_image(const struct scoring *all, uint64_t frame, struct score_picture *picture, const struct image *image, struct score *out);
+int scoring_image(const struct scoring *all, uint64_t frame, struct score_picture *picture, const struct image *image,
+                  struct score *out);
 
 /**
  * Score frames.
@@ -40,4 +41,5 @@ int scoring_image(const struct scoring *all, uint64_t frame, struct score_pictur
  * @param run     its scores, counts and seconds are filled in
  * @return 0 or ERR_SYSTEM (reported)
  */
-int scoring_all(struct set *ref, struct set *traced, const struct baseline *baseline, const uint64_t *frames, struct output_run *run);
+int scoring_all(struct set *ref, struct set *traced, const struct baseline *baseline, const uint64_t *frames,
+                struct output_run *run);

@@ -82,7 +82,8 @@ int gate_blame(const struct gate_frame *f)
 	if (!votes)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 
-	/* A draw that is missing shows nothing to blame it by. Where an approved frame shows another draw, that one goes first. */
+	/* A draw that is missing shows nothing to blame it by. Where an approved frame shows another draw, that one
+	 * goes first. */
 	for (size_t i = 0; old && i < n; i++)
 		if (blamed[i] && draw_at(old, i) != draw_at(traced->id, i))
 			votes[moved++] = (struct vote){ draw_at(old, i), (uint32_t)i };

@@ -28,11 +28,13 @@ static struct seen see(const struct burnt *b, const float color[3])
 
 	for (int c = 0; c < 3; c++)
 		linear[c] = b->is_display ? image_linear_from_display(color[c]) : color[c];
-	return (struct seen){ .least = fminf(fminf(linear[0], linear[1]), linear[2]), .most = fmaxf(fmaxf(linear[0], linear[1]), linear[2]),
+	return (struct seen){ .least = fminf(fminf(linear[0], linear[1]), linear[2]),
+		              .most = fmaxf(fmaxf(linear[0], linear[1]), linear[2]),
 		              .luminance = 0.2126f * linear[0] + 0.7152f * linear[1] + 0.0722f * linear[2] };
 }
 
-/* own: the surface's colour. @return which share of the greatest channel the least has at least, where a colour is washed out */
+/* own: the surface's colour. @return which share of the greatest channel the least has at least, where a colour is
+ * washed out */
 static float share_of(const struct burnt *b, size_t i, struct seen own)
 {
 	const int is_film = b->layers && b->layers[i] > 0; /* albedo is the film's alone */
@@ -61,15 +63,17 @@ static int compare(const struct burnt *b, size_t i)
 	share = share_of(b, i, see(b, albedo));
 	if (is_burnt(b, before, share))
 		return is_burnt(b, after, share) ? 0 : -1;
-	return is_burnt(b, after, share) && score_code_from_linear(after.luminance) - score_code_from_linear(before.luminance) >= BRIGHT_CODES;
+	return is_burnt(b, after, share) &&
+	       score_code_from_linear(after.luminance) - score_code_from_linear(before.luminance) >= BRIGHT_CODES;
 }
 
 double burnt_share(const struct gate_frame *f)
 {
 	const size_t n = (size_t)f->img->width * f->img->height;
 	const char *encoding = image_attribute(f->img, "relume:encoding");
-	struct burnt b = { .layers = image_channel(f->img, "layers"), .is_display = encoding && strcmp(encoding, "display") == 0,
-		             .full = image_linear_from_display(FULL) };
+	struct burnt b = { .layers = image_channel(f->img, "layers"),
+		           .is_display = encoding && strcmp(encoding, "display") == 0,
+		           .full = image_linear_from_display(FULL) };
 	int64_t more = 0;
 
 	if (!score_find_layer(f->img, "gl", b.gl) || !score_find_layer(f->img, "shadow", b.shadow) ||

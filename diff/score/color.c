@@ -25,17 +25,22 @@ void gate_count_colors(struct gate_frame *f)
 
 		c->count[kind]++;
 		c->failing[kind] += maps->failing[i];
-		if (maps->failing[i] && score_code_difference(f->ref->rgb + 3 * i, f->traced.rgb + 3 * i) <= score_allowed(f->options, &f->traced, i))
-			*(score_alpha_difference(f->ref, i, &f->traced, i) >= maps->difference[i] ? &c->by_alpha[kind] : &c->by_range[kind]) += 1;
+		if (maps->failing[i] && score_code_difference(f->ref->rgb + 3 * i, f->traced.rgb + 3 * i) <=
+		                                score_allowed(f->options, &f->traced, i))
+			*(score_alpha_difference(f->ref, i, &f->traced, i) >= maps->difference[i] ?
+			          &c->by_alpha[kind] :
+			          &c->by_range[kind]) += 1;
 		c->beyond += maps->difference[i] > score_allowed(f->options, &f->traced, i);
 		c->gross += maps->residual[i] > GROSS_CODES;
 		s->worst = maps->difference[i] > s->worst ? maps->difference[i] : s->worst;
 	}
 	s->failing_pixels = c->failing[INTERIOR] + c->failing[BLENDED] + c->failing[BAND];
-	s->fidelity = 1 - (double)s->failing_pixels / fmax(1, (double)(c->count[INTERIOR] + c->count[BLENDED] + c->count[BAND]));
+	s->fidelity = 1 - (double)s->failing_pixels /
+	                          fmax(1, (double)(c->count[INTERIOR] + c->count[BLENDED] + c->count[BAND]));
 }
 
-/* Enter the share of pixels of one kind that fail, or that pass where the bar is a lower bound. none: the note where there are none */
+/* Enter the share of pixels of one kind that fail, or that pass where the bar is a lower bound. none: the note where
+ * there are none */
 static int measure_kind(struct gate_frame *f, enum score_gate_id id, int kind, const char *none, const char *pixels)
 {
 	const uint64_t n = f->colors.count[kind], failing = f->colors.failing[kind];
@@ -48,14 +53,18 @@ static int measure_kind(struct gate_frame *f, enum score_gate_id id, int kind, c
 	gate_measure(f, id, 0, score_gates[id].figures[0].at_least ? 100 - share : share);
 	gate_note(f, id, "%" PRIu64 " of %" PRIu64 " %s", failing, n, pixels);
 	if (f->colors.by_alpha[kind] && failing)
-		gate_note(f, id, "%" PRIu64 " of %" PRIu64 " %s; %" PRIu64 " in alpha alone (--ignore-alpha)", failing, n, pixels, f->colors.by_alpha[kind]);
+		gate_note(f, id, "%" PRIu64 " of %" PRIu64 " %s; %" PRIu64 " in alpha alone (--ignore-alpha)", failing,
+		          n, pixels, f->colors.by_alpha[kind]);
 	else if (f->colors.by_range[kind] && failing)
-		gate_note(f, id, "%" PRIu64 " of %" PRIu64 " %s; %" PRIu64 " by values over white or below black alone", failing, n, pixels,
-		          f->colors.by_range[kind]);
+		gate_note(f, id, "%" PRIu64 " of %" PRIu64 " %s; %" PRIu64 " by values over white or below black alone",
+		          failing, n, pixels, f->colors.by_range[kind]);
 	return 0;
 }
 
-int gate_interior(struct gate_frame *f) { return measure_kind(f, GATE_R1, INTERIOR, "no pixel is interior", "interior pixels"); }
+int gate_interior(struct gate_frame *f)
+{
+	return measure_kind(f, GATE_R1, INTERIOR, "no pixel is interior", "interior pixels");
+}
 
 int gate_blended(struct gate_frame *f)
 {

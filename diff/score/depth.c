@@ -33,9 +33,11 @@ int gate_depth(struct gate_frame *f)
 	double bar, worst = 0;
 
 	if (!ref->depth || !traced->depth) {
-		gate_note(f, GATE_R5, !ref->depth ? "no depth reference" :
-		          image_attribute(f->img, "relume:unknown") ? "it is that of earlier frames: nothing here clears depth or looks at it" :
-		                                                      "the frame has no channel \"gl.depth\"");
+		gate_note(f, GATE_R5,
+		          !ref->depth ? "no depth reference" :
+		          image_attribute(f->img, "relume:unknown") ?
+		                        "it is that of earlier frames: nothing here clears depth or looks at it" :
+		                        "the frame has no channel \"gl.depth\"");
 		return 0;
 	}
 	bar = score_depth_is_16_bit(ref->depth, (size_t)ref->width * ref->height) ? OFF_16 : OFF_24;

@@ -45,8 +45,8 @@ static double effect_at(const struct image_channel *channel, size_t i, double ab
 enum { LAYER_BEAUTY, LAYER_GL, LAYER_SHADOW, LAYER_RELIGHT, LAYER_REFLECT, LAYER_REFRACT, N_LAYERS };
 
 /**
- * 1 where the renderer was told to leave out channels that could explain a difference: a sum that does not close then says
- * nothing. The file holds the renderer's --aov list; a file without one holds every effect there was.
+ * 1 where the renderer was told to leave out channels that could explain a difference: a sum that does not close then
+ * says nothing. The file holds the renderer's --aov list; a file without one holds every effect there was.
  */
 static int left_out_effects(const struct image *img, const char **first)
 {
@@ -114,7 +114,8 @@ static unsigned look_at_pixel(const struct layers *l, size_t i, double *worst)
 		const struct image_channel *const *ch = l->channels[c];
 		double beauty = effect_at(ch[LAYER_BEAUTY], i, 0), gl = effect_at(ch[LAYER_GL], i, 0);
 		double shadow = effect_at(ch[LAYER_SHADOW], i, 1);
-		double more[3] = { effect_at(ch[LAYER_RELIGHT], i, 0), effect_at(ch[LAYER_REFLECT], i, 0), effect_at(ch[LAYER_REFRACT], i, 0) };
+		double more[3] = { effect_at(ch[LAYER_RELIGHT], i, 0), effect_at(ch[LAYER_REFLECT], i, 0),
+			           effect_at(ch[LAYER_REFRACT], i, 0) };
 		double sum = gl * shadow + more[0] + more[1] + more[2];
 		double size = fabs(gl * shadow) + fabs(more[0]) + fabs(more[1]) + fabs(more[2]);
 		double allowed = l->relative * fmax(size, fabs(beauty)) + l->absolute;
@@ -183,7 +184,8 @@ int gate_closure(struct gate_frame *f)
 	if (!can_close(f, GATE_E1))
 		return 0;
 	gate_measure(f, GATE_E1, 0, (double)f->closure.open);
-	gate_note(f, GATE_E1, "worst is %.3g of the bar (relative %s)%s", f->closure.worst, f->closure.relative == OFF_HALF ? "2^-9" : "1e-5",
+	gate_note(f, GATE_E1, "worst is %.3g of the bar (relative %s)%s", f->closure.worst,
+	          f->closure.relative == OFF_HALF ? "2^-9" : "1e-5",
 	          f->closure.any_effect ? "" : "; no effect channels: beauty must equal gl");
 	return 0;
 }

@@ -44,7 +44,8 @@ static void multiply(const float m[3][3], const float v[3], float out[3])
 		out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
 }
 
-/* Of a normal positive number: a third of its exponent, and two steps of Halley's, each of which leaves the cube of an error. */
+/* Of a normal positive number: a third of its exponent, and two steps of Halley's, each of which leaves the cube of an
+ * error. */
 static float cube_root(float t)
 {
 	uint32_t bits;
@@ -124,7 +125,8 @@ static int clamp(int v, int end)
 	return v < 0 ? 0 : v >= end ? end - 1 : v;
 }
 
-/* Compiled once more for vectors of eight floats, chosen where the processor has them; sums are the same. Sanitizers know no such functions. */
+/* Compiled once more for vectors of eight floats, chosen where the processor has them; sums are the same. Sanitizers
+ * know no such functions. */
 #if defined(__x86_64__) && defined(__has_attribute) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #if __has_attribute(target_clones)
 #define WIDER __attribute__((target_clones("avx2", "default")))

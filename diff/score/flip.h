@@ -19,8 +19,9 @@ int flip_compare(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t he
 
 /**
  * The same for linear pictures of any range: the largest error over four exposures from 2^0.083 to 2^3.557 of a film
- * curve (Andersson et al., "Visualizing Errors in Rendered High Dynamic Range Images", Eurographics 2021). The exposures are
- * fixed, where its authors derive them from the reference: frames stay comparable, and black ones have a score.
+ * curve (Andersson et al., "Visualizing Errors in Rendered High Dynamic Range Images", Eurographics 2021). The
+ * exposures are fixed, where its authors derive them from the reference: frames stay comparable, and black ones have a
+ * score.
  *
  * @param a, b   planes R, G, B of linear Rec.709, [height][width] each
  */

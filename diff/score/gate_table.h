@@ -1,9 +1,9 @@
 /*
- * The gates, one row each. From this list come enum score_gate_id, the order in which gates are measured, their default bars,
- * the keys of relume-diff.yaml, the columns of the table, and what JSON, JUnit XML and the page show.
+ * The gates, one row each. From this list come enum score_gate_id, the order in which gates are measured, their default
+ * bars, the keys of relume-diff.yaml, the columns of the table, and what JSON, JUnit XML and the page show.
  *
- * A new gate is a row, its measure function (in a file of its own where it is large), and its name in score.schema.json, which
- * tests hold against what `relume diff --json` writes.
+ * A new gate is a row, its measure function (in a file of its own where it is large), and its name in
+ * score.schema.json, which tests hold against what `relume diff --json` writes.
  */
 #pragma once
 

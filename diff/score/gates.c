@@ -25,7 +25,8 @@ void gate_measure(const struct gate_frame *f, enum score_gate_id id, int figure,
 	const int at_least = info->at_least;
 	struct score_gate *g = &f->score->gates[id];
 	enum score_state state = SCORE_PASSED;
-	double bar = fmax(info->bar, info->share * (double)((size_t)f->score->width * f->score->height)), warn = NAN, better = NAN;
+	double bar = fmax(info->bar, info->share * (double)((size_t)f->score->width * f->score->height)), warn = NAN,
+	       better = NAN;
 
 	for (size_t i = 0; i < options->n_bars; i++) {
 		const struct score_bar *b = &options->bars[i];

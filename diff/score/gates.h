@@ -43,7 +43,8 @@ struct gate_frame {
 	/* Interior, blended and band pixels, as color.c counts them. */
 	struct gate_colors {
 		uint64_t count[3], failing[3], gross;
-		uint64_t by_alpha[3], by_range[3]; /* of the failing ones, by kind: by alpha alone, and by values below black or over white alone */
+		uint64_t by_alpha[3], by_range[3]; /* of the failing ones, by kind: by alpha alone, and by values below
+		                                      black or over white alone */
 		uint64_t beyond; /* further off than R1 allows, edges not excused */
 	} colors;
 	/* Pixels where the channels do not add up, as effects.c counts them. */
@@ -64,7 +65,9 @@ struct gate_frame {
 void gate_measure(const struct gate_frame *f, enum score_gate_id id, int figure, double value);
 
 /** Set the gate's note. */
-void gate_note(const struct gate_frame *f, enum score_gate_id id, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+void gate_note(const struct gate_frame *f, enum score_gate_id id, const char *fmt, ...)
+	__attribute__((format(printf, 3, 4)));
 
 /** Fail the gate, whatever its figures; the note says why. */
-void gate_fail(const struct gate_frame *f, enum score_gate_id id, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+void gate_fail(const struct gate_frame *f, enum score_gate_id id, const char *fmt, ...)
+	__attribute__((format(printf, 3, 4)));

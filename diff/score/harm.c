@@ -1,26 +1,28 @@
 /*
  * Gate N: is a frame darker than its shadows explain? Two figures; the third is burnt.h's.
  *
- * Dark without an edge. A shadow that something casts ends somewhere: beside it the same surface is lit. Where a light was shut out
- * altogether, the dark ends at outlines, or where OpenGL itself shows no light. Pixels are dark that lose at least DARK_CODES and 30 %
- * of their light; those that touch form a patch. A pixel's neighbour is an edge where it is not dark, lies on the same surface (the
- * same draw, or normals within 37 degrees, and in its plane as far as depth goes) and shows more light of its own colour than
- * the dark one by a quarter, at once or, as a wide light's shadow ends, within PENUMBRA pixels of it. Where a film is blended over
- * either, the colour is not known (albedo is the film's, as black as a drawn shadow's), and the light itself is compared. Light is
- * gl x shadow + relight: of a drawn shadow that gives way to a traced one, gl x shadow still has both. A patch is explained where its
- * edges are as long as a quarter of a square's side of its area; patches below LEAST_PATCH pixels say nothing. Bar: 2 % of the frame.
- * An honest room in the shade of its own walls took 1.1 % (rooms lit by OpenGL), seventeen other frames up to 0.03 %; a closed hall
- * 82 %, a lit figure between unlit walls 3.4 %.
+ * Dark without an edge. A shadow that something casts ends somewhere: beside it the same surface is lit. Where a light
+ * was shut out altogether, the dark ends at outlines, or where OpenGL itself shows no light. Pixels are dark that lose
+ * at least DARK_CODES and 30 % of their light; those that touch form a patch. A pixel's neighbour is an edge where it
+ * is not dark, lies on the same surface (the same draw, or normals within 37 degrees, and in its plane as far as depth
+ * goes) and shows more light of its own colour than the dark one by a quarter, at once or, as a wide light's shadow
+ * ends, within PENUMBRA pixels of it. Where a film is blended over either, the colour is not known (albedo is the
+ * film's, as black as a drawn shadow's), and the light itself is compared. Light is gl x shadow + relight: of a drawn
+ * shadow that gives way to a traced one, gl x shadow still has both. A patch is explained where its edges are as long
+ * as a quarter of a square's side of its area; patches below LEAST_PATCH pixels say nothing. Bar: 2 % of the frame. An
+ * honest room in the shade of its own walls took 1.1 % (rooms lit by OpenGL), seventeen other frames up to 0.03 %; a
+ * closed hall 82 %, a lit figure between unlit walls 3.4 %.
  *
- * Known faults. Pixels that lost light to what is no shadow: flat faces that stop light which their smooth normals face (the shadow
- * terminator: the normal faces a light, the pixels' own plane turns away, and no light from all around that things near by dim explains
- * it), dark ones of crossed cards that shade each other (attribute relume:cards), and lit pictures of framebuffer objects that no ray saw
- * (relume:targets). Bar: 0.3 % of the frame, for shadows of others that fall on such places: up to 0.08 % (the hall). Low-poly blocks
- * took 0.7 %, trees of crossed cards 2 % and more.
+ * Known faults. Pixels that lost light to what is no shadow: flat faces that stop light which their smooth normals face
+ * (the shadow terminator: the normal faces a light, the pixels' own plane turns away, and no light from all around that
+ * things near by dim explains it), dark ones of crossed cards that shade each other (attribute relume:cards), and lit
+ * pictures of framebuffer objects that no ray saw (relume:targets). Bar: 0.3 % of the frame, for shadows of others that
+ * fall on such places: up to 0.08 % (the hall). Low-poly blocks took 0.7 %, trees of crossed cards 2 % and more.
  *
- * The renderer says in attributes what a picture cannot show: relume:lights, places in eye space; relume:dimmed, the least share of
- * display codes that light from all around leaves; relume:cards and relume:targets, draw numbers, where rules kept these from being
- * spared; relume:left-out, draws of tricks that traced light takes the place of: what lies below them is the surface. Frames without them are judged by what they hold.
+ * The renderer says in attributes what a picture cannot show: relume:lights, places in eye space; relume:dimmed, the
+ * least share of display codes that light from all around leaves; relume:cards and relume:targets, draw numbers, where
+ * rules kept these from being spared; relume:left-out, draws of tricks that traced light takes the place of: what lies
+ * below them is the surface. Frames without them are judged by what they hold.
  */
 #include "diff/score/measures.h"
 
@@ -77,7 +79,8 @@ static int find_all_planes(const struct image *img, struct harm *h)
 	if (!find_planes(img, "relight", "RGB", h->relight))
 		h->relight[0] = NULL;
 	return h->id && find_planes(img, "gl", "RGB", h->gl) && find_planes(img, "shadow", "RGB", h->shadow) &&
-	       find_planes(img, "albedo", "RGB", h->albedo) && find_planes(img, "N", "XYZ", h->normal) && find_planes(img, "P", "XYZ", h->place);
+	       find_planes(img, "albedo", "RGB", h->albedo) && find_planes(img, "N", "XYZ", h->normal) &&
+	       find_planes(img, "P", "XYZ", h->place);
 }
 
 static float luminance(float red, float green, float blue)
@@ -152,10 +155,12 @@ static int is_same_surface(const struct harm *h, size_t i, size_t other)
 	subtract(h, other, i, apart);
 	normal_at(h, i, normal);
 	normal_at(h, other, normal_there);
-	return (h->id[i] == h->id[other] || dot(normal, normal_there) > 0.8f) && fabsf(dot(apart, normal)) < 0.3f * sqrtf(dot(apart, apart));
+	return (h->id[i] == h->id[other] || dot(normal, normal_there) > 0.8f) &&
+	       fabsf(dot(apart, normal)) < 0.3f * sqrtf(dot(apart, apart));
 }
 
-/* 1 where a shadow ends beside a dark pixel, at once or over a penumbra: towards x + dx, y + dy the surface goes on and shows more light. */
+/* 1 where a shadow ends beside a dark pixel, at once or over a penumbra: towards x + dx, y + dy the surface goes on and
+ * shows more light. */
 static int is_edge(const struct harm *h, uint32_t dark, int dx, int dy)
 {
 	uint32_t x = dark % h->width, y = dark / h->width, i = dark;
@@ -184,7 +189,8 @@ static uint32_t collect_patch(const struct harm *h, uint32_t start, uint64_t *ed
 	h->patch[n++] = start;
 	for (uint32_t next = 0; next < n; next++) {
 		const uint32_t i = h->patch[next], x = i % h->width, y = i / h->width;
-		const uint32_t around[4] = { x ? i - 1 : i, x + 1 < h->width ? i + 1 : i, y ? i - h->width : i, y + 1 < h->height ? i + h->width : i };
+		const uint32_t around[4] = { x ? i - 1 : i, x + 1 < h->width ? i + 1 : i, y ? i - h->width : i,
+			                     y + 1 < h->height ? i + h->width : i };
 		static const int steps[4][2] = { { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
 
 		for (int k = 0; k < 4; k++) {
@@ -219,7 +225,7 @@ static uint64_t count_unbounded(const struct harm *h, uint32_t n)
 	return unbounded;
 }
 
-/* --- Known faults -------------------------------------------------------------------------------------------------------- */
+/* --- Known faults ------------------------------------------------------------------------------------------------ */
 
 static void read_lights(struct harm *h)
 {
@@ -227,7 +233,9 @@ static void read_lights(struct harm *h)
 	float *l = h->lights[0];
 	int length;
 
-	for (; at && h->n_lights < MOST_LIGHTS && sscanf(at, " %f %f %f %f%n", &l[0], &l[1], &l[2], &l[3], &length) == 4; l += 4) {
+	for (;
+	     at && h->n_lights < MOST_LIGHTS && sscanf(at, " %f %f %f %f%n", &l[0], &l[1], &l[2], &l[3], &length) == 4;
+	     l += 4) {
 		h->n_lights++;
 		at += length + (at[length] == ',');
 	}
@@ -319,7 +327,10 @@ int gate_harm(struct gate_frame *f)
 	const uint32_t n = f->img->width * f->img->height;
 	const char *encoding = image_attribute(f->img, "relume:encoding"), *dimmed = image_attribute(f->img, "relume:dimmed");
 	const char *left_out = image_attribute(f->img, "relume:left-out");
-	struct harm h = { .f = f, .width = f->img->width, .height = f->img->height, .is_display = encoding && strcmp(encoding, "display") == 0,
+	struct harm h = { .f = f,
+		          .width = f->img->width,
+		          .height = f->img->height,
+		          .is_display = encoding && strcmp(encoding, "display") == 0,
 		          .dimmed = dimmed ? strtof(dimmed, NULL) : 1 };
 	int err = 0;
 

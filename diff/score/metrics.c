@@ -148,7 +148,8 @@ static void halve(double *plane, uint32_t width, uint32_t height)
 	}
 }
 
-static int ssim_over_scales(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, int n_scales, double *out)
+static int ssim_over_scales(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, int n_scales,
+                            double *out)
 {
 	static const double exponents[MS_SCALES] = { 0.0448, 0.2856, 0.3001, 0.2363, 0.1333 };
 	const size_t n = (size_t)width * height;

@@ -1,4 +1,5 @@
-/* Metrics between two pictures, [height][width][3] codes. Those that return an int need memory: 0, or ERR_SYSTEM (reported). */
+/* Metrics between two pictures, [height][width][3] codes. Those that return an int need memory: 0, or ERR_SYSTEM
+ * (reported). */
 #pragma once
 
 #include <stddef.h>

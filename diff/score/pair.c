@@ -22,7 +22,9 @@ float score_number_of(int code, int is_display)
 {
 	const float shown = (float)code / 255;
 
-	return is_display ? shown : code <= 255 ? image_linear_from_display(shown) : expf((float)(code - 255) / CODES_OVER_WHITE);
+	return is_display  ? shown :
+	       code <= 255 ? image_linear_from_display(shown) :
+	                     expf((float)(code - 255) / CODES_OVER_WHITE);
 }
 
 static int is_alpha_compared(const struct score_numbers *a, const struct score_numbers *b)

@@ -22,8 +22,8 @@ uint8_t score_code_from_linear(float linear);
 uint8_t score_code(float number, int is_display);
 
 /**
- * The planes of a layer: NAME.R, NAME.G and NAME.B ("beauty": R, G and B, or Y), or NAME.X, NAME.Y and NAME.Z; three times the same for NAME.Y
- * alone and for a single channel of that name. @return 1, or 0: there is none
+ * The planes of a layer: NAME.R, NAME.G and NAME.B ("beauty": R, G and B, or Y), or NAME.X, NAME.Y and NAME.Z; three
+ * times the same for NAME.Y alone and for a single channel of that name. @return 1, or 0: there is none
  */
 int score_find_layer(const struct image *img, const char *layer, const float *planes[3]);
 

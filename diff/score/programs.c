@@ -12,7 +12,8 @@
 #define MOST_DRAWS ((size_t)1 << 24)
 
 /* Pixels of draws in the list. marked: [n] room, by draw number */
-static void count(const struct gate_frame *f, const struct frame_list *draws, uint8_t *marked, size_t n, struct score_program *program)
+static void count(const struct gate_frame *f, const struct frame_list *draws, uint8_t *marked, size_t n,
+                  struct score_program *program)
 {
 	const size_t n_pixels = (size_t)f->ref->width * f->ref->height;
 	const float *id = f->traced.id;

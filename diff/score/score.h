@@ -1,22 +1,21 @@
 /*
  * The score of one frame: how well a traced picture agrees with its reference, gate by gate.
  *
- * The gates ask separate questions. Is the geometry right (R4, R5)? Is OpenGL's own shading right (R1 to R3 and P, on the gl
- * channels)? Do the effect channels explain what the beauty adds (E1 to E3), and is nothing darker than its shadows explain,
- * and nothing burnt out (N)?
- * Where there is an approved frame, gate B asks another: is everything as it was when somebody approved it?
+ * The gates ask separate questions. Is the geometry right (R4, R5)? Is OpenGL's own shading right (R1 to R3 and P, on
+ * the gl channels)? Do the effect channels explain what the beauty adds (E1 to E3), and is nothing darker than its
+ * shadows explain, and nothing burnt out (N)? Where there is an approved frame, gate B asks another: is everything as
+ * it was when somebody approved it?
  *
  * Conventions
  *   codes    display-referred numbers of 8 bits; linear channels go through sRGB's curve and are rounded half to even
  *   alpha    of pictures of others: compared, with colours multiplied by it; pictures without it are opaque (pair.h)
- *   range    between two linear pictures, values below 0 and above 1 have codes, too (pair.h); elsewhere they are clamped
- *   rows     the top row first, as in image.h
- *   edges    a pixel is in the edge band when one of its 8 neighbours has another id, or when window depth bends at it:
- *            |z[-1] - 2 z[0] + z[+1]| > SCORE_DEPTH_EPSILON + max(|z[+1] - z[0]|, |z[0] - z[-1]|) / 8 along x or y. A
- *            plane has no second difference in window space (GL 2.1 equation 3.9 is linear there): this finds creases and
- *            silhouettes, not slopes. It looks at the traced frame's id and depth, and at the reference's depth if any.
- *            All other pixels are interior: further than 1 px from an edge. In pictures with neither id nor depth, every
- *            pixel is interior.
+ *   range    between two linear pictures, values below 0 and above 1 have codes, too (pair.h); elsewhere they are
+ * clamped rows     the top row first, as in image.h edges    a pixel is in the edge band when one of its 8 neighbours
+ * has another id, or when window depth bends at it: |z[-1] - 2 z[0] + z[+1]| > SCORE_DEPTH_EPSILON + max(|z[+1] -
+ * z[0]|, |z[0] - z[-1]|) / 8 along x or y. A plane has no second difference in window space (GL 2.1 equation 3.9 is
+ * linear there): this finds creases and silhouettes, not slopes. It looks at the traced frame's id and depth, and at
+ * the reference's depth if any. All other pixels are interior: further than 1 px from an edge. In pictures with neither
+ * id nor depth, every pixel is interior.
  */
 #pragma once
 
@@ -130,7 +129,8 @@ struct score_picture {
 	const float *layers;   /* number of blended layers on the pixel */
 	const uint8_t *outside; /* 1 where its file has no pixel; borrowed */
 	const uint8_t *ignore; /* of a reference: 1 where nothing is compared (a clock, a version number); borrowed */
-	const char *recording; /* of a reference: hash of the trace that it belongs to, NULL or "" where none is known; borrowed */
+	const char *recording; /* of a reference: hash of the trace that it belongs to, NULL or "" where none is known;
+	                          borrowed */
 };
 
 /** The approved frame that gate B compares with. */

@@ -83,7 +83,8 @@ static float background_depth(const struct score_picture *traced, size_t n)
 }
 
 /* How surely a pixel shows more than the background: 0 not, 1 maybe, 2 surely. */
-static int coverage(const struct score_picture *pic, size_t i, int use_depth, float far_depth, const uint8_t *background)
+static int coverage(const struct score_picture *pic, size_t i, int use_depth, float far_depth,
+                    const uint8_t *background)
 {
 	int d = background ? score_code_difference(pic->rgb + 3 * i, background) : 0;
 

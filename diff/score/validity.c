@@ -37,10 +37,13 @@ int gate_validity(struct gate_frame *f)
 		gate_note(f, GATE_V, "first in channel %s", odd_channel);
 
 	if (recording && ref->recording && ref->recording[0] && strcmp(recording, ref->recording) != 0) {
-		gate_fail(f, GATE_V, "made from another recording: one%s%.60s of hash %.8s, and the reference's is %.8s (relume info)",
+		gate_fail(f, GATE_V,
+		          "made from another recording: one%s%.60s of hash %.8s, and the reference's is %.8s (relume "
+		          "info)",
 		          program ? " of " : "", program ? program : "", recording, ref->recording);
 	} else if (image_attribute(img, "relume:camera")) {
-		gate_fail(f, GATE_V, "made with --camera: the reference shows another view (camera %.100s)", image_attribute(img, "relume:camera"));
+		gate_fail(f, GATE_V, "made with --camera: the reference shows another view (camera %.100s)",
+		          image_attribute(img, "relume:camera"));
 	} else if (img->width != ref->width || img->height != ref->height) {
 		gate_fail(f, GATE_V, "size %u x %u, but the reference is %u x %u", img->width, img->height, ref->width, ref->height);
 	} else if (!score_find_layer(img, f->layer, planes)) {

@@ -1,6 +1,6 @@
 /*
- * Sets up sixteen triangles at once for a tile's pixels, one triangle a lane: which of them the tile can see, and their edges and
- * depths for rows of pixels. OpenCL C only.
+ * Sets up sixteen triangles at once for a tile's pixels, one triangle a lane: which of them the tile can see, and their
+ * edges and depths for rows of pixels. OpenCL C only.
  *
  * A tile meets few pixels of each triangle: setting up a triangle costs as much as drawing its pixels.
  */
@@ -20,12 +20,12 @@ struct batch_corners {
 };
 
 /*
- * Edge i is the one across from corner i, turned so that triangles run counter-clockwise. Its function at a pixel's place and its
- * steps to the right and up: 64 bits hold the function exactly; of its whole part, which is clamped to where steps inside a tile
- * cannot change its sign, 32 bits do.
+ * Edge i is the one across from corner i, turned so that triangles run counter-clockwise. Its function at a pixel's
+ * place and its steps to the right and up: 64 bits hold the function exactly; of its whole part, which is clamped to
+ * where steps inside a tile cannot change its sign, 32 bits do.
  */
 struct batch {
-	packi whole[3];               /* (the function at the tile's first pixel - (1 where the edge itself is outside)) / 256 */
+	packi whole[3]; /* (the function at the tile's first pixel - (1 where the edge itself is outside)) / 256 */
 	packi step_x[3], step_y[3];   /* 1/256 square pixel a pixel */
 	long16 value[2];              /* of edges 1 and 2 at the tile's first pixel, exact, 1/65536 square pixel */
 	packi small;                  /* lanes whose functions fit into 32 bits wherever they are inside */
@@ -41,8 +41,9 @@ struct batch {
  * The corners that have a place in the window, from the vertices' tables.
  * @return the lanes where all three have one; the others' corners say nothing
  */
-WIDE_VECTORS static inline packi batch_load(__global const struct view *view, float height, __global const struct window_vertex *window,
-                                            __global const float *clip, const packu *vertex, struct batch_corners *out)
+WIDE_VECTORS static inline packi batch_load(__global const struct view *view, float height,
+                                            __global const struct window_vertex *window, __global const float *clip,
+                                            const packu *vertex, struct batch_corners *out)
 {
 	const float half_x = view->viewport[2] * 0.5f, half_y = -view->viewport[3] * 0.5f;
 	const float middle_x = view->viewport[0] + view->viewport[2] * 0.5f;
@@ -87,8 +88,8 @@ WIDE_VECTORS static inline void batch_depth(const struct batch_corners *v, struc
 }
 
 /* Edge i, from corner a to corner b; sign: all ones where it is to be turned. @return its function at `at`, exact */
-WIDE_VECTORS static inline long16 batch_edge(const struct batch_corners *v, int i, int a, int b, packi turned, struct clip_spot at,
-                                             struct batch *out)
+WIDE_VECTORS static inline long16 batch_edge(const struct batch_corners *v, int i, int a, int b, packi turned,
+                                             struct clip_spot at, struct batch *out)
 {
 	const packi dx = ((v->x[b] - v->x[a]) ^ turned) - turned, dy = ((v->y[b] - v->y[a]) ^ turned) - turned;
 	const long16 value = convert_long16(dx) * convert_long16((int)at.y - v->y[a]) -
@@ -110,7 +111,8 @@ struct batch_far {
 };
 
 /*
- * Lanes that are behind wherever in the box they are. A plane's values at the box's corners bound those in it, rounding included.
+ * Lanes that are behind wherever in the box they are. A plane's values at the box's corners bound those in it, rounding
+ * included.
  * @param x, y  where the view looks in the tile's first pixel, as planes count
  */
 WIDE_VECTORS static inline packi batch_hidden(const struct batch *s, const struct batch_far *far, float x, float y)
@@ -144,7 +146,8 @@ WIDE_VECTORS static inline packi batch_reaches(const struct batch *s, int i)
  * @return one bit for each triangle that the tile may see
  */
 WIDE_VECTORS INLINED uint batch_set_up(__global const struct view *view, uint height, int x, int y, uint flags,
-                                             const struct batch_corners *v, packi lanes, const struct batch_far *far, struct batch *out)
+                                       const struct batch_corners *v, packi lanes, const struct batch_far *far,
+                                       struct batch *out)
 {
 	const struct clip_spot at = clip_spot(view, x, y);
 	const packi x_first = (min(min(v->x[0], v->x[1]), v->x[2]) + (255 - (int)at.x)) >> 8;

@@ -1,33 +1,34 @@
 /*
- * camera_packet, camera_wide, camera_compressed: which primitives cover which pixels of one view. Included by C and OpenCL C.
+ * camera_packet, camera_wide, camera_compressed: which primitives cover which pixels of one view. Included by C and
+ * OpenCL C.
  *
- * A pixel's ray runs from the unprojected near towards the unprojected far point of its centre, or of the place in the pixel that the
- * view samples (view.sample; "centre" stands for either). It goes through the view's TLAS and the instances' BLASes, with boxes
- * widened by instance.pad. camera_packet sends the frustum around a tile's rays instead, a hundredth of a pixel wider. The
- * triangles found are candidates. GL's own rule on window vertices (GL 2.1 sec. 3.5.1) decides which of them cover a pixel, so edges
- * fall where the rasterizer puts them:
- *   - all three vertices have a place in the window: integer edge functions at the pixel centre in 1/256 pixel. A centre on an edge
- *     belongs to the triangle on its right, or above where the edge is level, as in Mesa's llvmpipe for windows and framebuffer
- *     objects. Pixels on a shared edge are covered once.
+ * A pixel's ray runs from the unprojected near towards the unprojected far point of its centre, or of the place in the
+ * pixel that the view samples (view.sample; "centre" stands for either). It goes through the view's TLAS and the
+ * instances' BLASes, with boxes widened by instance.pad. camera_packet sends the frustum around a tile's rays instead,
+ * a hundredth of a pixel wider. The triangles found are candidates. GL's own rule on window vertices (GL 2.1
+ * sec. 3.5.1) decides which of them cover a pixel, so edges fall where the rasterizer puts them:
+ *   - all three vertices have a place in the window: integer edge functions at the pixel centre in 1/256 pixel. A
+ * centre on an edge belongs to the triangle on its right, or above where the edge is level, as in Mesa's llvmpipe for
+ * windows and framebuffer objects. Pixels on a shared edge are covered once.
  *   - else: the same on the clipped triangle's parts (kernels/gl/clip.h).
  * Screen instances (view.screen_first ..) are tested at the pixel centre as a point, whatever the projection.
  *
- * Pixels are numbered y * width + x, y from the bottom. Buffers of pixels begin with number first_pixel: a band of the frame's rows has
- * its own. Where it stands further on in them, first_pixel is less by that, modulo 2^32. Pixels outside of the rectangle are not touched.
- * It lies within the view's (camera_rectangle).
+ * Pixels are numbered y * width + x, y from the bottom. Buffers of pixels begin with number first_pixel: a band of the
+ * frame's rows has its own. Where it stands further on in them, first_pixel is less by that, modulo 2^32. Pixels
+ * outside of the rectangle are not touched. It lies within the view's (camera_rectangle).
  *
- * CAMERA_NEAREST_*: fragments[pixel] is the fragment of least window depth, in steps of 2^-24 (24-bit depth buffer). Of equals the
- * first in draw order counts with LESS, the last with LEQUAL. order is SCENE_NONE where there is none.
- * A triangle seen edge-on covers pixels by its snapped vertices alone. Its plane gives the depth (kernels/gl/clip.h) and may stand
- * nearer there than any vertex, as in llvmpipe. Its box does not show that: where something lies before the box, it depends on the
- * tree whether such a fragment is found.
- * CAMERA_COLUMN: fragments[pixel * CAMERA_COLUMN_MAX ..] are the first CAMERA_COLUMN_MAX fragments with an order number of at least
- * after[pixel], ascending. To get all, start with after = 0 and go on with the last order + 1 as long as CAMERA_COLUMN_MAX come.
+ * CAMERA_NEAREST_*: fragments[pixel] is the fragment of least window depth, in steps of 2^-24 (24-bit depth buffer). Of
+ * equals the first in draw order counts with LESS, the last with LEQUAL. order is SCENE_NONE where there is none. A
+ * triangle seen edge-on covers pixels by its snapped vertices alone. Its plane gives the depth (kernels/gl/clip.h) and
+ * may stand nearer there than any vertex, as in llvmpipe. Its box does not show that: where something lies before the
+ * box, it depends on the tree whether such a fragment is found. CAMERA_COLUMN: fragments[pixel * CAMERA_COLUMN_MAX ..]
+ * are the first CAMERA_COLUMN_MAX fragments with an order number of at least after[pixel], ascending. To get all, start
+ * with after = 0 and go on with the last order + 1 as long as CAMERA_COLUMN_MAX come.
  *
  * Window vertices with a place lie within +-2^23 (32768 pixels).
  *
- * Work items: camera_packet_items() tiles of 32 x 32 pixels, or for the others camera_wide_items() pixels in blocks, of the rectangle. Tiles
- * have their places in the frame: a rectangle that ends within one takes part of it.
+ * Work items: camera_packet_items() tiles of 32 x 32 pixels, or for the others camera_wide_items() pixels in blocks, of
+ * the rectangle. Tiles have their places in the frame: a rectangle that ends within one takes part of it.
  */
 #pragma once
 
@@ -111,5 +112,6 @@ static inline int32_t camera_wide_y(struct camera_rectangle r, uint32_t item)
 {
 	const uint32_t block = item / (CAMERA_WIDE_WIDTH * CAMERA_WIDE_HEIGHT);
 
-	return r.y0 + (int32_t)(block / camera_wide_columns(r) * CAMERA_WIDE_HEIGHT + item / CAMERA_WIDE_WIDTH % CAMERA_WIDE_HEIGHT);
+	return r.y0 + (int32_t)(block / camera_wide_columns(r) * CAMERA_WIDE_HEIGHT +
+	                        item / CAMERA_WIDE_WIDTH % CAMERA_WIDE_HEIGHT);
 }

@@ -1,5 +1,6 @@
 /*
- * camera_packet: a tile of 32 x 32 pixels a work item (kernels/camera/tile_walk.h), and how its fragments are stored. See kernels/camera/camera.h.
+ * camera_packet: a tile of 32 x 32 pixels a work item (kernels/camera/tile_walk.h), and how its fragments are stored.
+ * See kernels/camera/camera.h.
  */
 #include "kernels/camera/tile_walk.h"
 
@@ -24,9 +25,12 @@ static inline void store_pixel(const struct tile *t, int x, int y, __global uint
 	counts[pixel] = f.order != SCENE_NONE;
 }
 
-/* Of each row of a block, four numbers a row: the first two of a and of b by turns, the last two; halves of a and of b. */
-#define STORE_LOW(a, b) (packu)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5, a.s8, b.s8, a.s9, b.s9, a.sc, b.sc, a.sd, b.sd)
-#define STORE_HIGH(a, b) (packu)(a.s2, b.s2, a.s3, b.s3, a.s6, b.s6, a.s7, b.s7, a.sa, b.sa, a.sb, b.sb, a.se, b.se, a.sf, b.sf)
+/* Of each row of a block, four numbers a row: the first two of a and of b by turns, the last two; halves of a and of
+ * b. */
+#define STORE_LOW(a, b) \
+	(packu)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5, a.s8, b.s8, a.s9, b.s9, a.sc, b.sc, a.sd, b.sd)
+#define STORE_HIGH(a, b) \
+	(packu)(a.s2, b.s2, a.s3, b.s3, a.s6, b.s6, a.s7, b.s7, a.sa, b.sa, a.sb, b.sb, a.se, b.se, a.sf, b.sf)
 #define STORE_FIRST(a, b) (packu)(a.s01, b.s01, a.s45, b.s45, a.s89, b.s89, a.scd, b.scd)
 #define STORE_LAST(a, b) (packu)(a.s23, b.s23, a.s67, b.s67, a.sab, b.sab, a.sef, b.sef)
 #define STORE_FIRST_LAST(a, b) (packu)(a.s01, b.s23, a.s45, b.s67, a.s89, b.sab, a.scd, b.sef)
@@ -57,7 +61,8 @@ static inline void store_pack(packu value, __global uint *to, int aligned)
 }
 
 /* Quarter i of four vectors goes to row i. */
-WIDE_VECTORS static inline void store_rows(packu a, packu b, packu c, packu d, __global uint *to, size_t stride, int aligned)
+WIDE_VECTORS static inline void store_rows(packu a, packu b, packu c, packu d, __global uint *to, size_t stride,
+                                           int aligned)
 {
 	packu row[BLOCK];
 

@@ -1,5 +1,6 @@
 /*
- * camera_wide, camera_compressed: one pixel a work item, for devices that run many work items in step. See kernels/camera/camera.h.
+ * camera_wide, camera_compressed: one pixel a work item, for devices that run many work items in step. See
+ * kernels/camera/camera.h.
  */
 #include "kernels/camera/camera.h"
 #include "kernels/camera/coverage.h"
@@ -107,7 +108,8 @@ static inline struct vec3 invert_all(struct vec3 d)
 }
 
 /* Whether the ray meets a box, widened by pad, and where. */
-static inline int pixel_meets_box(struct vec3 lo, struct vec3 hi, struct vec3 o, struct vec3 inverse, float pad, float t_max, float *enter)
+static inline int pixel_meets_box(struct vec3 lo, struct vec3 hi, struct vec3 o, struct vec3 inverse, float pad,
+                                  float t_max, float *enter)
 {
 	const float x0 = (lo.x - pad - o.x) * inverse.x, x1 = (hi.x + pad - o.x) * inverse.x;
 	const float y0 = (lo.y - pad - o.y) * inverse.y, y1 = (hi.y + pad - o.y) * inverse.y;
@@ -119,8 +121,8 @@ static inline int pixel_meets_box(struct vec3 lo, struct vec3 hi, struct vec3 o,
 }
 
 /* The same for one side of a binary node. */
-static inline int meets_side(__global const struct node2 *node, uint side, struct vec3 o, struct vec3 inverse, float pad, float t_max,
-                      float *enter)
+static inline int meets_side(__global const struct node2 *node, uint side, struct vec3 o, struct vec3 inverse,
+                             float pad, float t_max, float *enter)
 {
 	return pixel_meets_box(v3_load(node->lo[side]), v3_load(node->hi[side]), o, inverse, pad, t_max, enter);
 }
@@ -181,7 +183,8 @@ static inline struct walk compressed_ray(struct vec3 o, struct vec3 d, float pad
 	return w;
 }
 
-/* Nodes in the order of the ray's octant, about from front to back, as in kernels/rays/rays_single.cl. is_screen: the ray's end is w's */
+/* Nodes in the order of the ray's octant, about from front to back, as in kernels/rays/rays_single.cl. is_screen: the
+ * ray's end is w's */
 static inline void pixel_walk_compressed(struct pixel *p, uint index, struct walk *w, int is_screen)
 {
 	__global const struct instance *instance = &p->instances[index];
@@ -255,7 +258,8 @@ INLINED void walk_top(struct pixel *p, int is_compressed, __global const struct 
 /* Where the view looks in the pixel, pixels. */
 static inline float2 pixel_spot(const struct pixel *p)
 {
-	return (float2)((float)p->x, (float)p->y) + 0.5f + (float2)((float)p->view->sample[0], (float)p->view->sample[1]) * 0.00390625f;
+	return (float2)((float)p->x, (float)p->y) + 0.5f +
+	       (float2)((float)p->view->sample[0], (float)p->view->sample[1]) * 0.00390625f;
 }
 
 static inline void walk_screen_binary(struct pixel *p, uint index, float2 at)
@@ -320,10 +324,11 @@ static inline int make_ray(struct pixel *p)
 }
 
 /*
- * p: with its trees, the rest is set here. Each kernel compiles this for its kind of trees alone, and has stacks of that kind.
+ * p: with its trees, the rest is set here. Each kernel compiles this for its kind of trees alone, and has stacks of
+ * that kind.
  */
-INLINED void do_pixel(int is_compressed, struct pixel *p, const struct camera_pass *pass, __global const struct node2 *top,
-                      __global const uint *instance_list)
+INLINED void do_pixel(int is_compressed, struct pixel *p, const struct camera_pass *pass,
+                      __global const struct node2 *top, __global const uint *instance_list)
 {
 	__global const struct view *view = &pass->views[pass->view_index];
 	const struct camera_rectangle r = pass->rectangle;

@@ -1,5 +1,6 @@
 /*
- * GL's coverage rule for one pixel, as kernels/camera/camera.h says; scalar. OpenCL C only. kernels/ref/camera.c is the twin.
+ * GL's coverage rule for one pixel, as kernels/camera/camera.h says; scalar. OpenCL C only. kernels/ref/camera.c is the
+ * twin.
  */
 #pragma once
 
@@ -48,8 +49,9 @@ static inline int coverage_placed(struct window_vertex v0, struct window_vertex 
 }
 
 /* Depth at a pixel as it counts in comparisons: from vertices that are not snapped. corner: as for clip_depth_plane. */
-static inline float coverage_depth(__global const struct view *view, uint height, const struct clip_corner *const *corner,
-                            const struct vec4 *clip, const float *z, int x, int y, float otherwise)
+static inline float coverage_depth(__global const struct view *view, uint height,
+                                   const struct clip_corner *const *corner, const struct vec4 *clip, const float *z,
+                                   int x, int y, float otherwise)
 {
 	struct clip_plane plane;
 
@@ -59,8 +61,9 @@ static inline float coverage_depth(__global const struct view *view, uint height
 }
 
 /* A vertex lies outside of the view volume: ask the clipped triangle. i0, i1, i2: places in clip. */
-static inline int coverage_clipped(__global const struct view *view, __global const float *clip, uint height, uint i0, uint i1, uint i2,
-                            uint flags, int exact, int x, int y, float *b1, float *b2, float *depth)
+static inline int coverage_clipped(__global const struct view *view, __global const float *clip, uint height, uint i0,
+                                   uint i1, uint i2, uint flags, int exact, int x, int y, float *b1, float *b2,
+                                   float *depth)
 {
 	struct clip_polygon polygon;
 	const struct clip_corner *last = &polygon.corner[0];

@@ -1,9 +1,9 @@
 /*
  * Eight planes around a bundle of rays, against boxes. OpenCL C only.
  *
- * A box is outside as soon as one plane has it all on its outer side (Assarsson and Moller 2000, "Optimized view frustum
- * culling algorithms for bounding boxes"): its corner that lies farthest along the plane's normal decides. With the
- * planes in lanes that is six multiply-adds a box, however many rays there are.
+ * A box is outside as soon as one plane has it all on its outer side (Assarsson and Moller 2000, "Optimized view
+ * frustum culling algorithms for bounding boxes"): its corner that lies farthest along the plane's normal decides. With
+ * the planes in lanes that is six multiply-adds a box, however many rays there are.
  */
 #pragma once
 
@@ -53,8 +53,8 @@ static inline struct vec3 frustum_extent(__global const struct node2 *root)
  * Planes with coefficients a b c d. abs_a .. abs_d bound the terms that each was added up from; what rounding may have
  * done to them, at any point that lies no farther from the origin than `extent`, is given back.
  */
-static inline struct frustum frustum_make(float8 a, float8 b, float8 c, float8 d, float8 abs_a, float8 abs_b, float8 abs_c,
-                                   float8 abs_d, struct vec3 extent)
+static inline struct frustum frustum_make(float8 a, float8 b, float8 c, float8 d, float8 abs_a, float8 abs_b,
+                                          float8 abs_c, float8 abs_d, struct vec3 extent)
 {
 	struct frustum f;
 

@@ -1,8 +1,9 @@
 /*
- * A tile of 32 x 32 pixels, which a view looks through: its fragments, and how triangles are drawn to them. OpenCL C only. See kernels/camera/camera.h.
+ * A tile of 32 x 32 pixels, which a view looks through: its fragments, and how triangles are drawn to them. OpenCL C
+ * only. See kernels/camera/camera.h.
  *
- * Triangles of leaves wait until there are sixteen, and are then set up at once (kernels/camera/batch.h). Each is then drawn block by block,
- * four rows of four pixels at once: small triangles meet few blocks.
+ * Triangles of leaves wait until there are sixteen, and are then set up at once (kernels/camera/batch.h). Each is then
+ * drawn block by block, four rows of four pixels at once: small triangles meet few blocks.
  */
 #pragma once
 
@@ -23,8 +24,9 @@
 #define BLOCK_Y (PACK_LANES >> 2)
 
 /*
- * The state of a block. NEAREST: the nearest fragment, of depth NO_DEPTH where there is none. COLUMN: how many fragments so far, the least
- * order number that counts (SCENE_NONE where pixels do not), and that of the last fragment of a full column, SCENE_NONE of another.
+ * The state of a block. NEAREST: the nearest fragment, of depth NO_DEPTH where there is none. COLUMN: how many
+ * fragments so far, the least order number that counts (SCENE_NONE where pixels do not), and that of the last fragment
+ * of a full column, SCENE_NONE of another.
  */
 #define NO_DEPTH 2.0f
 struct camera_pack {
@@ -34,7 +36,8 @@ struct camera_pack {
 	packu first, last;
 };
 
-/* Faces of a tile to be drawn in draw order: a heap, the least order number on top; the lower half of a key says where the face stands. */
+/* Faces of a tile to be drawn in draw order: a heap, the least order number on top; the lower half of a key says where
+ * the face stands. */
 #define LISTED_FULL 512
 struct listed {
 	int is_used, is_drawn; /* a part of them has been drawn already: later ones may come before them */
@@ -44,8 +47,8 @@ struct listed {
 };
 
 /*
- * Triangles that wait, of instances of the same flags. vertex: in the frame. The first sixteen are drawn when sixteen more have come: the
- * vertices of the later ones are prefetched meanwhile.
+ * Triangles that wait, of instances of the same flags. vertex: in the frame. The first sixteen are drawn when sixteen
+ * more have come: the vertices of the later ones are prefetched meanwhile.
  */
 #define PENDING_FULL 32
 struct pending {
@@ -85,7 +88,8 @@ struct candidate {
 /* Quarter i of four vectors is row i: of blocks side by side, sixteen pixels of a row. */
 WIDE_VECTORS static inline void tile_quarters(packu a, packu b, packu c, packu d, packu *row)
 {
-	const packu ab = (packu)(a.lo, b.lo), cd = (packu)(c.lo, d.lo), ab_high = (packu)(a.hi, b.hi), cd_high = (packu)(c.hi, d.hi);
+	const packu ab = (packu)(a.lo, b.lo), cd = (packu)(c.lo, d.lo), ab_high = (packu)(a.hi, b.hi),
+		    cd_high = (packu)(c.hi, d.hi);
 
 	row[0] = (packu)(ab.s0123, ab.s89ab, cd.s0123, cd.s89ab);
 	row[1] = (packu)(ab.s4567, ab.scdef, cd.s4567, cd.scdef);
@@ -93,16 +97,18 @@ WIDE_VECTORS static inline void tile_quarters(packu a, packu b, packu c, packu d
 	row[3] = (packu)(ab_high.s4567, ab_high.scdef, cd_high.s4567, cd_high.scdef);
 }
 
-/* --- fragments --- */
+/* --- fragments --------------------------------------------------------------------------------------------------- */
 
-/* What rint does to numbers from 0 to 2^24; PoCL's own takes twenty instructions. From 2^23 on they have no fraction. */
+/* What rint does to numbers from 0 to 2^24; PoCL's own takes twenty instructions. From 2^23 on they have no
+ * fraction. */
 WIDE_VECTORS static inline packf round_steps(packf x)
 {
 	return select((x + 0x1p23f) - 0x1p23f, x, x >= 0x1p23f);
 }
 
 /* No branches: which pixels take a candidate cannot be foretold. */
-WIDE_VECTORS static inline void keep_nearest(const struct tile *t, struct camera_pack *p, packi covered, packf b1, packf b2, packf depth, struct candidate c)
+WIDE_VECTORS static inline void keep_nearest(const struct tile *t, struct camera_pack *p, packi covered, packf b1,
+                                             packf b2, packf depth, struct candidate c)
 {
 	const packi before = t->mode == CAMERA_NEAREST_LESS ? (packu)(c.order) < p->order : (packu)(c.order) > p->order;
 	const packf steps = round_steps(depth * 16777215.0f);
@@ -123,7 +129,8 @@ static inline size_t place_of(const struct tile *t, int x, int y)
 	return (uint)(t->y + y) * t->width + (uint)(t->x + x) - t->first_pixel;
 }
 
-WIDE_VECTORS static inline void keep_in_columns(struct tile *t, int x, int y, packi covered, packf b1, packf b2, packf depth, struct candidate c)
+WIDE_VECTORS static inline void keep_in_columns(struct tile *t, int x, int y, packi covered, packf b1, packf b2,
+                                                packf depth, struct candidate c)
 {
 	struct camera_pack *p = &t->packs[y][x];
 
@@ -159,9 +166,11 @@ WIDE_VECTORS static inline packf maxima(packf *v)
 	for (int i = 0; i < 8; i++)
 		v[i] = pack_max((packf)(v[2 * i].lo, v[2 * i + 1].lo), (packf)(v[2 * i].hi, v[2 * i + 1].hi));
 	for (int i = 0; i < 4; i++)
-		v[i] = pack_max((packf)(v[2 * i].s012389ab, v[2 * i + 1].s012389ab), (packf)(v[2 * i].s4567cdef, v[2 * i + 1].s4567cdef));
+		v[i] = pack_max((packf)(v[2 * i].s012389ab, v[2 * i + 1].s012389ab),
+		                (packf)(v[2 * i].s4567cdef, v[2 * i + 1].s4567cdef));
 	for (int i = 0; i < 2; i++)
-		v[i] = pack_max((packf)(v[2 * i].s014589cd, v[2 * i + 1].s014589cd), (packf)(v[2 * i].s2367abef, v[2 * i + 1].s2367abef));
+		v[i] = pack_max((packf)(v[2 * i].s014589cd, v[2 * i + 1].s014589cd),
+		                (packf)(v[2 * i].s2367abef, v[2 * i + 1].s2367abef));
 	return pack_max((packf)(v[0].even, v[1].even), (packf)(v[0].odd, v[1].odd));
 }
 
@@ -190,9 +199,10 @@ WIDE_VECTORS static inline void shorten(struct tile *t)
 		t->z_far = fmin(2.0f * ((t->far.all - near) / range + 5e-7f) - 1.0f, 1.0f);
 }
 
-/* --- coverage --- */
+/* --- coverage ---------------------------------------------------------------------------------------------------- */
 
-/* The weight of edge 1 + i's corner in the pixels of a block: its function's value, rounded once, in the whole triangle's. */
+/* The weight of edge 1 + i's corner in the pixels of a block: its function's value, rounded once, in the whole
+ * triangle's. */
 WIDE_VECTORS static inline packf weight_at(const struct batch *s, uint lane, int i, uint x, uint y, packi at)
 {
 	packf rounded;
@@ -203,8 +213,10 @@ WIDE_VECTORS static inline packf weight_at(const struct batch *s, uint lane, int
 		const long value = ((const long *)&s->value[i])[lane];
 		const packi step_x = LANE_INT(s->step_x[1 + i], lane), step_y = LANE_INT(s->step_y[1 + i], lane);
 
-		rounded = convert_float16((long16)(value) + (convert_long16(BLOCK_Y + BLOCK * (int)y) * convert_long16(step_y) +
-		                                             convert_long16(BLOCK_X + BLOCK * (int)x) * convert_long16(step_x)) * 256);
+		rounded = convert_float16((long16)(value) +
+		                          (convert_long16(BLOCK_Y + BLOCK * (int)y) * convert_long16(step_y) +
+		                           convert_long16(BLOCK_X + BLOCK * (int)x) * convert_long16(step_x)) *
+		                                  256);
 	}
 	return rounded * LANE_FLOAT(s->inverse, lane);
 }
@@ -226,8 +238,9 @@ WIDE_VECTORS static inline packf clamp_depth(packf depth)
 }
 
 /* What one triangle of a batch covers of a block. at: its edges there. corner: NULL, or the three of a part of one. */
-WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s, uint lane, uint x, uint y, packi covered, const packi *at,
-                                           const struct clip_corner *const *corner, struct candidate c)
+WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s, uint lane, uint x, uint y,
+                                           packi covered, const packi *at, const struct clip_corner *const *corner,
+                                           struct candidate c)
 {
 	const int exact = t->mode != CAMERA_COLUMN && LANE_INT(s->exact, lane);
 	struct camera_pack *p = &t->packs[y][x];
@@ -241,9 +254,11 @@ WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s
 	b2 = weight_at(s, lane, 1, x, y, at[2]);
 	if (exact)
 		depth = clamp_depth(fma((packf)(LANE_FLOAT(s->along_y, lane)), t->plane_y[y],
-		                        fma((packf)(LANE_FLOAT(s->along_x, lane)), t->plane_x[x], (packf)(LANE_FLOAT(s->origin, lane)))));
+		                        fma((packf)(LANE_FLOAT(s->along_x, lane)), t->plane_x[x],
+		                            (packf)(LANE_FLOAT(s->origin, lane)))));
 	else
-		depth = clamp_depth(LANE_FLOAT(s->z, lane) + (b1 * LANE_FLOAT(s->along_b1, lane) + b2 * LANE_FLOAT(s->along_b2, lane)));
+		depth = clamp_depth(LANE_FLOAT(s->z, lane) +
+		                    (b1 * LANE_FLOAT(s->along_b1, lane) + b2 * LANE_FLOAT(s->along_b2, lane)));
 	if (corner)
 		weigh_in_volume(corner, &b1, &b2);
 	if (t->mode == CAMERA_COLUMN) {
@@ -254,8 +269,8 @@ WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s
 }
 
 /* All that one triangle of a batch covers. */
-WIDE_VECTORS static inline void draw_triangle(struct tile *t, const struct batch *s, uint lane, const struct clip_corner *const *corner,
-                                              struct candidate c)
+WIDE_VECTORS static inline void draw_triangle(struct tile *t, const struct batch *s, uint lane,
+                                              const struct clip_corner *const *corner, struct candidate c)
 {
 	const uint x_first = (uint)LANE_INT(s->x_first, lane) / BLOCK, x_last = (uint)LANE_INT(s->x_last, lane) / BLOCK;
 	const uint y_first = (uint)LANE_INT(s->y_first, lane) / BLOCK, y_last = (uint)LANE_INT(s->y_last, lane) / BLOCK;
@@ -290,8 +305,8 @@ static inline void draw_clipped(struct tile *t, uint flags, const uint *vertex, 
 	struct batch_corners v;
 	struct batch batch;
 
-	clip_triangle(t->view, (float)t->height, v4_load(t->clip + 4 * (size_t)vertex[0]), v4_load(t->clip + 4 * (size_t)vertex[1]),
-	              v4_load(t->clip + 4 * (size_t)vertex[2]), &polygon);
+	clip_triangle(t->view, (float)t->height, v4_load(t->clip + 4 * (size_t)vertex[0]),
+	              v4_load(t->clip + 4 * (size_t)vertex[1]), v4_load(t->clip + 4 * (size_t)vertex[2]), &polygon);
 	if (polygon.n < 3)
 		return;
 	for (uint lane = 0; lane < 16; lane++)
@@ -304,8 +319,9 @@ static inline void draw_clipped(struct tile *t, uint flags, const uint *vertex, 
 			((float *)&v.place_x[i])[lane] = from->place[0] - clip_origin(t->view);
 			((float *)&v.place_y[i])[lane] = from->place[1] - clip_origin(t->view);
 		}
-	for (uint lanes = batch_set_up(t->view, t->height, t->x, t->y, flags, &v, PACK_LANES < (int)polygon.n - 2, &t->far, &batch); lanes;
-	     lanes &= lanes - 1) {
+	for (uint lanes = batch_set_up(t->view, t->height, t->x, t->y, flags, &v, PACK_LANES < (int)polygon.n - 2,
+	                               &t->far, &batch);
+	     lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		const struct clip_corner *corner[3] = { &polygon.corner[lane + 1], &polygon.corner[lane + 2], &polygon.corner[0] };
 
@@ -331,16 +347,20 @@ WIDE_VECTORS static inline void draw_pending(struct tile *t)
 	t->changed = t->mode != CAMERA_COLUMN;
 	placed = batch_load(t->view, (float)t->height, t->window, t->clip, vertex, &v);
 	clipped = pack_bits(there & ~placed);
-	for (uint lanes = batch_set_up(t->view, t->height, t->x, t->y, pending->flags, &v, there & placed, &t->far, &batch); lanes;
-	     lanes &= lanes - 1) {
-		const uint lane = popcount((lanes & -lanes) - 1), primitive = pending->primitive[lane], index = pending->instance[lane];
+	for (uint lanes =
+	             batch_set_up(t->view, t->height, t->x, t->y, pending->flags, &v, there & placed, &t->far, &batch);
+	     lanes; lanes &= lanes - 1) {
+		const uint lane = popcount((lanes & -lanes) - 1), primitive = pending->primitive[lane],
+			   index = pending->instance[lane];
 		const struct candidate c = { t->instances[index].primitive_first + primitive, index, primitive };
 
 		draw_triangle(t, &batch, lane, 0, c);
 	}
 	for (; clipped; clipped &= clipped - 1) {
-		const uint lane = popcount((clipped & -clipped) - 1), primitive = pending->primitive[lane], index = pending->instance[lane];
-		const struct candidate c = { t->instances[index].primitive_first + primitive, index, primitive | FRAGMENT_PERSPECTIVE };
+		const uint lane = popcount((clipped & -clipped) - 1), primitive = pending->primitive[lane],
+			   index = pending->instance[lane];
+		const struct candidate c = { t->instances[index].primitive_first + primitive, index,
+			                     primitive | FRAGMENT_PERSPECTIVE };
 		const uint corner[3] = { LANE_INT(vertex[0], lane), LANE_INT(vertex[1], lane), LANE_INT(vertex[2], lane) };
 
 		draw_clipped(t, pending->flags, corner, c);

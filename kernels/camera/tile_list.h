@@ -1,8 +1,8 @@
 /*
  * A tile's faces in draw order. OpenCL C only.
  *
- * Columns that go on from an earlier launch are often deep. Their tiles first list all faces, and draw them in draw order until no pixel
- * has room: a face that comes too early or too late is not set up.
+ * Columns that go on from an earlier launch are often deep. Their tiles first list all faces, and draw them in draw
+ * order until no pixel has room: a face that comes too early or too late is not set up.
  */
 #pragma once
 
@@ -37,7 +37,8 @@ static inline void sink(struct listed *l, uint at)
 	l->key[at] = key;
 }
 
-/* Up to sixteen of the list's first faces wait now, of instances of the same flags. A face may lie in several leaves, and is taken once. */
+/* Up to sixteen of the list's first faces wait now, of instances of the same flags. A face may lie in several leaves,
+ * and is taken once. */
 static inline void take_listed(struct tile *t)
 {
 	struct pending *pending = &t->pending;
@@ -45,7 +46,8 @@ static inline void take_listed(struct tile *t)
 	uint last = SCENE_NONE;
 
 	while (l->n && pending->n < 16) {
-		const uint order = (uint)(l->key[0] >> 32), entry = (uint)l->key[0], index = l->instance[entry], lane = l->place[entry] % 8;
+		const uint order = (uint)(l->key[0] >> 32), entry = (uint)l->key[0], index = l->instance[entry],
+			   lane = l->place[entry] % 8;
 		__global const struct face8 *faces = &t->faces[l->place[entry] / 8];
 		__global const struct instance *instance = &t->instances[index];
 
@@ -98,7 +100,7 @@ static inline void list_faces(struct tile *t, uint index, uint place)
 	}
 }
 
-/* --- columns --- */
+/* --- columns ----------------------------------------------------------------------------------------------------- */
 
 /* Of a block's pixels, the least order numbers that count. after: of pixels, as camera.h has it */
 static inline packu columns_begin(const struct tile *t, int x, int y, __global const uint *after)

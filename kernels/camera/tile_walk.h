@@ -1,12 +1,13 @@
 /*
- * Which triangles a tile sees: its rays go through the trees as one frustum against eight boxes at once, nearest child first. Of the tile's
- * nearest fragments the farthest cuts the frustum off. OpenCL C only.
+ * Which triangles a tile sees: its rays go through the trees as one frustum against eight boxes at once, nearest child
+ * first. Of the tile's nearest fragments the farthest cuts the frustum off. OpenCL C only.
  */
 #pragma once
 
 #include "kernels/camera/tile_list.h"
 
-/* A block of faces of an instance waits now, or is listed; the first sixteen are drawn where that is enough. place: among all blocks */
+/* A block of faces of an instance waits now, or is listed; the first sixteen are drawn where that is enough. place:
+ * among all blocks */
 static inline void add_faces(struct tile *t, uint index, uint place)
 {
 	const uint vertex_first = t->instances[index].vertex_first;
@@ -43,7 +44,8 @@ static inline float tile_sample(const struct tile *t, int axis)
 
 /*
  * The tile's frustum in the space that `m` (3 rows of 4; NULL: eye space) leads from into eye space. With clip
- * coordinates x y z w, a pixel centre between X0 and X1 means X0 w <= x <= X1 w, and so on; all are linear in the point.
+ * coordinates x y z w, a pixel centre between X0 and X1 means X0 w <= x <= X1 w, and so on; all are linear in the
+ * point.
  */
 static inline struct frustum tile_frustum(const struct tile *t, __global const float *m, struct vec3 extent)
 {
@@ -81,10 +83,11 @@ struct tile_entry {
 	uint child, count;
 };
 
-/* Push the children of a node that the tile may see; the one that reaches farthest before the far plane is popped first. nodes, faces:
- * the instance's. */
-static inline uint tile_push_children(const struct frustum8 *f, __global const struct node8 *nodes, __global const struct face8 *faces,
-                                 uint index, struct tile_entry *stack, uint depth)
+/* Push the children of a node that the tile may see; the one that reaches farthest before the far plane is popped
+ * first. nodes, faces: the instance's. */
+static inline uint tile_push_children(const struct frustum8 *f, __global const struct node8 *nodes,
+                                      __global const struct face8 *faces, uint index, struct tile_entry *stack,
+                                      uint depth)
 {
 	__global const struct node8 *node = &nodes[index];
 	const uint bottom = depth;
@@ -116,7 +119,8 @@ static inline uint tile_push_children(const struct frustum8 *f, __global const s
 static inline struct frustum8 instance_frustum(const struct tile *t, __global const struct instance *instance)
 {
 	const float r = instance->radius;
-	const struct vec3 extent = v3(fabs(instance->centre[0]) + r, fabs(instance->centre[1]) + r, fabs(instance->centre[2]) + r);
+	const struct vec3 extent = v3(fabs(instance->centre[0]) + r, fabs(instance->centre[1]) + r,
+	                              fabs(instance->centre[2]) + r);
 
 	return frustum8_from(tile_frustum(t, instance->eye_from_obj, extent), FAR_PLANE);
 }
@@ -228,7 +232,7 @@ WIDE_VECTORS static inline void open_pixels(struct tile *t, float x0, float y0, 
 	}
 }
 
-/* --- the whole tile --- */
+/* --- the whole tile ---------------------------------------------------------------------------------------------- */
 
 WIDE_VECTORS static inline void clear_tile(struct tile *t)
 {

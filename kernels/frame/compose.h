@@ -10,7 +10,7 @@
 #include "kernels/gl/point.h"
 #include "kernels/frame/sample.h"
 
-/* --- Numbers ------------------------------------------------------------------------------------------------------ */
+/* --- Numbers ----------------------------------------------------------------------------------------------------- */
 
 /* The bits of the nearest half, ties to even; beyond its range infinity. */
 static inline uint32_t compose_half(float x)
@@ -34,7 +34,7 @@ static inline float compose_rounded(float x)
 	return M_FLOAT((bits & 0x80000000u) | (size < 0x38800000u ? small : normal));
 }
 
-/* --- Planes ------------------------------------------------------------------------------------------------------- */
+/* --- Planes ------------------------------------------------------------------------------------------------------ */
 
 /* The rest of a sum, rounded as it is stored; what rounding alone leaves is no effect. */
 static inline float compose_effect(float rest, float of)
@@ -43,8 +43,8 @@ static inline float compose_effect(float rest, float of)
 }
 
 /*
- * GL's number moved off the borders between two of the frame buffer's 8-bit codes by more than halves and the encoding change
- * it: whoever rounds it to 8 bits again gets the code that GL's own rounding gives.
+ * GL's number moved off the borders between two of the frame buffer's 8-bit codes by more than halves and the encoding
+ * change it: whoever rounds it to 8 bits again gets the code that GL's own rounding gives.
  */
 #define COMPOSE_CODE_REACH 0.43f /* of a code's half width of 0.5: a half of 0.5 and more is good to 1/16 of a code */
 
@@ -128,8 +128,8 @@ static inline float compose_part(float display, uint32_t radiant)
 }
 
 /* What is taken from a pixel: all but the colours' encoding and what follows from it. */
-static inline void compose_load(const struct compose_arguments *a, GLOBAL const struct frame_pixel *pixel, uint32_t number,
-                                struct compose_pixel *p)
+static inline void compose_load(const struct compose_arguments *a, GLOBAL const struct frame_pixel *pixel,
+                                uint32_t number, struct compose_pixel *p)
 {
 	uint32_t drawn = pixel->id != 0u || pixel->unknown & PIXEL_BEFORE;
 	struct fragment surface = pixel->surface;
@@ -145,7 +145,8 @@ static inline void compose_load(const struct compose_arguments *a, GLOBAL const 
 		p->display[COLOR_ALBEDO + c] = drawn ? pixel->albedo[c] : 0.0f;
 	}
 	for (uint32_t i = 0u; i < PASS_PARTS && a->request.n_passes > 1u; i++) {
-		float sum = a->sums[(a->first_pixel + number) * PASS_PARTS + i] + compose_part(p->display[COLOR_SHADOWED + i], a->request.radiant);
+		float sum = a->sums[(a->first_pixel + number) * PASS_PARTS + i] +
+		            compose_part(p->display[COLOR_SHADOWED + i], a->request.radiant);
 		float mean = sum / (float)a->request.n_passes;
 
 		p->display[COLOR_SHADOWED + i] = a->request.radiant ? encode_display(mean) : mean;
@@ -189,7 +190,8 @@ static inline void compose_colors(struct compose_pixel *p, const struct compose_
 }
 
 /* Numbers as they are stored, to a place in the planes. */
-static inline void compose_store(const struct compose_pixel *p, const struct compose_request *r, uint32_t at, GLOBAL uint16_t *halves, GLOBAL float *floats)
+static inline void compose_store(const struct compose_pixel *p, const struct compose_request *r, uint32_t at,
+                                 GLOBAL uint16_t *halves, GLOBAL float *floats)
 {
 	for (uint32_t i = 0u; i < N_COMPOSE_HALVES; i++)
 		if (r->half_plane[i] != SCENE_NONE)
@@ -200,10 +202,11 @@ static inline void compose_store(const struct compose_pixel *p, const struct com
 }
 
 /*
- * A pixel, by its number in the band, to a place in the planes. a->sums: what add_pass left of the parts of all passes but this one; not looked at where
- * there is but one.
+ * A pixel, by its number in the band, to a place in the planes. a->sums: what add_pass left of the parts of all passes
+ * but this one; not looked at where there is but one.
  */
-static inline void compose_one(const struct compose_arguments *a, GLOBAL const struct frame_pixel *pixel, uint32_t number, uint32_t at)
+static inline void compose_one(const struct compose_arguments *a, GLOBAL const struct frame_pixel *pixel,
+                               uint32_t number, uint32_t at)
 {
 	struct compose_pixel p;
 

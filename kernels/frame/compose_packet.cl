@@ -6,7 +6,8 @@
 #define PIXEL_WORDS 31 /* of struct frame_pixel */
 
 /* The pixels' numbers, from records to rows. list: receives their surfaces. @return a bit for each that has one */
-WIDE_VECTORS static inline uint load_pixels(__global const struct frame_pixel *first, packu place, struct pack_pixels *p, struct pack_list *list)
+WIDE_VECTORS static inline uint load_pixels(__global const struct frame_pixel *first, packu place,
+                                            struct pack_pixels *p, struct pack_list *list)
 {
 	__global const float *words = (__global const float *)first;
 	packf row[32];
@@ -57,7 +58,8 @@ WIDE_VECTORS static inline void add_sums(__global const float *sums, packu place
 }
 
 /* Where the surfaces of some lanes lie. */
-static inline void find_surfaces(const struct compose_arguments *a, const struct pack_list *list, uint lanes, struct pack_pixels *pixels)
+static inline void find_surfaces(const struct compose_arguments *a, const struct pack_list *list, uint lanes,
+                                 struct pack_pixels *pixels)
 {
 	const struct tables *t = &a->tables;
 	uint material;
@@ -88,7 +90,8 @@ static inline void find_surfaces(const struct compose_arguments *a, const struct
 }
 
 /* drawn: 0 where the row's pixels are still as a->cleared */
-static inline void compose_drawn_row(const struct compose_arguments *a, uint x, uint y, uint drawn, const struct pack_planes *to)
+static inline void compose_drawn_row(const struct compose_arguments *a, uint x, uint y, uint drawn,
+                                     const struct pack_planes *to)
 {
 	/* Lanes beyond the row repeat its last pixel. */
 	const packu place = y * a->request.width + min(x + as_uint16(PACK_LANES), a->request.width - 1);

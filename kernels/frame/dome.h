@@ -1,12 +1,14 @@
 /*
  * Light from all around (scene_dome): one fragment of the list a work item. On what GL lights a share of it counts.
  *
- * Pixels of a block share a set of directions, each has its part of them (A. Keller and W. Heidrich, "Interleaved Sampling", 2001). A
- * fragment takes the mean over the block around it, of neighbours on the same surface; where these are few, of all that face the
- * same way. So few rays make no noise. What is left of a block with too few rays counts in proportion.
+ * Pixels of a block share a set of directions, each has its part of them (A. Keller and W. Heidrich, "Interleaved
+ * Sampling", 2001). A fragment takes the mean over the block around it, of neighbours on the same surface; where these
+ * are few, of all that face the same way. So few rays make no noise. What is left of a block with too few rays counts
+ * in proportion.
  *
- * How far a ray looks differs from ray to ray, evenly in the logarithm: what is near dims the light more than what is far, whatever
- * the scene's scale (after S. Zhukov, A. Iones and G. Kronin, "An ambient light illumination model", 1998).
+ * How far a ray looks differs from ray to ray, evenly in the logarithm: what is near dims the light more than what is
+ * far, whatever the scene's scale (after S. Zhukov, A. Iones and G. Kronin, "An ambient light illumination model",
+ * 1998).
  */
 #pragma once
 
@@ -17,7 +19,8 @@
 #define DOME_BLOCK 4u
 /* Columns of a tile of dome_light_packet. */
 #define DOME_WIDTH 16u
-/* Of the rays of a block: with no more of them, all that face the same way count; with less of those, the mean counts in proportion. */
+/* Of the rays of a block: with no more of them, all that face the same way count; with less of those, the mean counts
+ * in proportion. */
 #define DOME_OWN 0.5f
 #define DOME_ENOUGH 0.25f
 /* The nearest that a ray looks, as a share of the dome's reach: e to the power of minus this. */
@@ -32,7 +35,8 @@ static inline uint32_t dome_part(uint32_t number, uint32_t width)
 }
 
 /* A direction of the pixel's part, turned to the surface. across, along: sample_basis of the normal */
-static inline struct vec3 dome_turned(GLOBAL const float *direction, struct vec3 n, struct vec3 across, struct vec3 along)
+static inline struct vec3 dome_turned(GLOBAL const float *direction, struct vec3 n, struct vec3 across,
+                                      struct vec3 along)
 {
 	return v3_add(v3_add(v3_scale(across, direction[0]), v3_scale(along, direction[1])), v3_scale(n, direction[2]));
 }
@@ -178,7 +182,8 @@ static inline float dome_rays(float own)
 	return (float)(DOME_BLOCK * DOME_BLOCK) * own;
 }
 
-/* The light that an open sky sends. A surface between upright and level keeps its colour where nothing dims the light. */
+/* The light that an open sky sends. A surface between upright and level keeps its colour where nothing dims the
+ * light. */
 static inline float dome_open(const struct scene_dome *dome)
 {
 	const float height = dome_height(dome, v3(0.0f, 0.0f, 0.0f)) < 1.0f ? 0.6666667f : 1.0f;
@@ -211,13 +216,15 @@ static inline void dome_apply(GLOBAL struct shaded *s, struct vec3 factor)
 	if (brightest > 1.0f) /* no more than white */
 		factor = v3_scale(factor, M_MAX(was, 1.0f) / brightest);
 	more = v3_mul(direct, v3_sub(factor, v3(1.0f, 1.0f, 1.0f)));
-	v3_store(s->shadowed, v3_mul(v3_load(s->shadowed), v3(M_MIN(factor.x, 1.0f), M_MIN(factor.y, 1.0f), M_MIN(factor.z, 1.0f))));
+	v3_store(s->shadowed,
+	         v3_mul(v3_load(s->shadowed), v3(M_MIN(factor.x, 1.0f), M_MIN(factor.y, 1.0f), M_MIN(factor.z, 1.0f))));
 	v3_store(s->direct, v3_add(direct, more));
 	v3_store(s->mirrored, v3_add(v3_load(s->mirrored), more));
 	v3_store(s->beauty, v3_add(v3_load(s->beauty), more));
 }
 
-/* Rows of the tile that a row of the band lies in, as far as the rectangle goes. Bands end where tiles do, and so do blocks. */
+/* Rows of the tile that a row of the band lies in, as far as the rectangle goes. Bands end where tiles do, and so do
+ * blocks. */
 static inline void dome_rows(const struct dome_light_arguments *a, uint32_t y, uint32_t *bottom, uint32_t *top)
 {
 	const uint32_t low = y / CAMERA_TILE * CAMERA_TILE;
@@ -241,7 +248,8 @@ static inline uint32_t dome_items(const struct dome_light_arguments *a, uint32_t
 }
 
 /* The light of the block about a fragment, into sum[4]: column by column. x, y: its pixel in the band */
-static inline void dome_add_block(const struct dome_light_arguments *a, uint32_t item, uint32_t x, uint32_t y, float *sum)
+static inline void dome_add_block(const struct dome_light_arguments *a, uint32_t item, uint32_t x, uint32_t y,
+                                  float *sum)
 {
 	float alike[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
 	const uint32_t x0 = dome_first(x, (uint32_t)a->rectangle.x0, (uint32_t)a->rectangle.x1);

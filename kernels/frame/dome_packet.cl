@@ -1,14 +1,14 @@
 /*
- * dome_find_packet, dome_light_packet: kernels/frame/dome.h for CPUs, sixteen fragments at once and to the same bits. plain_dome: what
- * rays a plain frame sends there (kernels/frame/plain.h).
+ * dome_find_packet, dome_light_packet: kernels/frame/dome.h for CPUs, sixteen fragments at once and to the same bits.
+ * plain_dome: what rays a plain frame sends there (kernels/frame/plain.h).
  *
- * dome_light_packet lays the fragments of a tile out as rows first: a pixel's neighbours are its own row and others, moved by some
- * places. Where pixels have several lit fragments, there are several layers of rows.
+ * dome_light_packet lays the fragments of a tile out as rows first: a pixel's neighbours are its own row and others,
+ * moved by some places. Where pixels have several lit fragments, there are several layers of rows.
  */
 #include "kernels/frame/dome.h"
 #include "kernels/frame/plain_row.h"
 
-/* --- Looks around ---------------------------------------------------------------------------------------------------- */
+/* --- Looks around ------------------------------------------------------------------------------------------------ */
 
 /* Whether packs know the light that fog leaves of a material. */
 static inline int knows(__global const struct scene_material *m)
@@ -26,7 +26,8 @@ static inline void find_left(const struct dome_find_arguments *a, uint first, st
 		__global const struct scene_material *m = &a->tables.materials[g->material];
 
 		left->material[i] = g->material;
-		if (!(a->shaded[first + i].flags & SHADED_THERE) || !(m->surface.hidden & SCENE_DOME_LIT) || g->flags & GEOMETRY_EXPANDED) {
+		if (!(a->shaded[first + i].flags & SHADED_THERE) || !(m->surface.hidden & SCENE_DOME_LIT) ||
+		    g->flags & GEOMETRY_EXPANDED) {
 			dome_find_none(a, first + i);
 			continue;
 		}
@@ -51,24 +52,28 @@ WIDE_VECTORS static inline void look_around(const struct dome_find_arguments *a,
 	const packf strength = pack_fog(&a->tables, p) * (p->material->lighting ? a->dome.lit : 1.0f);
 
 	l->part = as_uint16((int)height - 1 - p->row) % DOME_BLOCK * DOME_BLOCK + as_uint16(p->x) % DOME_BLOCK;
-	l->axes[2] = pack_choose(surface->plane, pack_scale(surface->plane, (packf)(-1)), pack_dot(surface->plane, from) > 0.0f);
+	l->axes[2] = pack_choose(surface->plane, pack_scale(surface->plane, (packf)(-1)),
+	                         pack_dot(surface->plane, from) > 0.0f);
 	l->o = pack_ray_origin(p->weight, surface, l->axes[2], back);
 	l->strength = select((packf)(0), strength, (pack_dot(l->axes[2], l->axes[2]) > 0.0f) & (strength > 0.0f));
 	pack_basis(l->axes[2], &l->axes[0], &l->axes[1]);
 }
 
 /* The directions of a sample, and how far they look. */
-WIDE_VECTORS static inline struct pack_vec look_along(const struct dome_find_arguments *a, const struct looks *l, uint sample, packf *reach)
+WIDE_VECTORS static inline struct pack_vec look_along(const struct dome_find_arguments *a, const struct looks *l,
+                                                      uint sample, packf *reach)
 {
 	packf row[4];
 
 	pack_gather(a->directions + sample * DOME_BLOCK * DOME_BLOCK * 4, l->part, row);
 	*reach = row[3];
-	return pack_add(pack_add(pack_scale(l->axes[0], row[0]), pack_scale(l->axes[1], row[1])), pack_scale(l->axes[2], row[2]));
+	return pack_add(pack_add(pack_scale(l->axes[0], row[0]), pack_scale(l->axes[1], row[1])),
+	                pack_scale(l->axes[2], row[2]));
 }
 
 /* Some lanes' place and rays, to where they stand in the list. */
-static inline void store_looks(const struct dome_find_arguments *a, const struct pack_list *list, uint lanes, const struct looks *l)
+static inline void store_looks(const struct dome_find_arguments *a, const struct pack_list *list, uint lanes,
+                               const struct looks *l)
 {
 	const uint lit = lanes & pack_bits(l->strength > 0.0f);
 
@@ -89,9 +94,11 @@ static inline void store_looks(const struct dome_find_arguments *a, const struct
 		for (uint left = lit; left; left &= left - 1) {
 			const uint lane = popcount((left & -left) - 1);
 
-			vstore8((float8)(LANE(l->o.x, const float, lane), LANE(l->o.y, const float, lane), LANE(l->o.z, const float, lane), 0,
-			                 LANE(d.x, const float, lane), LANE(d.y, const float, lane), LANE(d.z, const float, lane),
-			                 LANE(reach, const float, lane)), list->item[lane], (__global float *)(a->rays + sample * a->n));
+			vstore8((float8)(LANE(l->o.x, const float, lane), LANE(l->o.y, const float, lane),
+			                 LANE(l->o.z, const float, lane), 0, LANE(d.x, const float, lane),
+			                 LANE(d.y, const float, lane), LANE(d.z, const float, lane),
+			                 LANE(reach, const float, lane)),
+			        list->item[lane], (__global float *)(a->rays + sample * a->n));
 		}
 	}
 }
@@ -134,7 +141,7 @@ KERNEL_OF(float16) void dome_find_packet(KERNEL_ARGUMENTS(dome_find))
 	}
 }
 
-/* --- Plain frames ---------------------------------------------------------------------------------------------------- */
+/* --- Plain frames ------------------------------------------------------------------------------------------------ */
 
 /* What is kept from one fragment to the next. */
 struct dome_kept {
@@ -147,17 +154,18 @@ struct dome_kept {
 static inline struct dome_find_arguments looks_of(const struct plain_arguments *a)
 {
 	const struct dome_find_arguments d = {
-		.tables = a->tables, .views = a->views, .windows = a->windows, .fragments = a->fragments, .pixels = a->pixels, .width = a->width,
-		.shaded = a->shaded, .dome = a->dome, .directions = a->directions, .samples = a->samples, .n = a->n, .places = a->places,
-		.rays = a->looks,
+		.tables = a->tables, .views = a->views, .windows = a->windows, .fragments = a->fragments, .pixels = a->pixels,
+		.width = a->width, .shaded = a->shaded, .dome = a->dome, .directions = a->directions, .samples = a->samples,
+		.n = a->n, .places = a->places, .rays = a->looks,
 	};
 
 	return d;
 }
 
-/* Those of one material: the rays to lights, as plain sends them, and the rest to their lanes of `looks`. @return those that are done */
-static inline uint look_lanes(const struct plain_arguments *a, const struct shade_arguments *s, const struct plain_row *row, uint lanes,
-                              struct pack_kept *kept, struct looks *looks)
+/* Those of one material: the rays to lights, as plain sends them, and the rest to their lanes of `looks`. @return those
+ * that are done */
+static inline uint look_lanes(const struct plain_arguments *a, const struct shade_arguments *s,
+                              const struct plain_row *row, uint lanes, struct pack_kept *kept, struct looks *looks)
 {
 	const struct tables *t = &a->tables;
 	__global const struct geometry *g = &t->geometries[row->list.instance[popcount((lanes & -lanes) - 1)]];
@@ -210,12 +218,14 @@ WIDE_VECTORS static inline void store_records(const packf *row, __global float *
 	turn(row[4], row[5], row[6], row[7], last);
 	for (uint i = 0; i < 4; i++) {
 		*(__global pack_loose_floats *)(to + 32 * i) = (packf)(first[i].s0123, last[i].s0123, first[i].s4567, last[i].s4567);
-		*(__global pack_loose_floats *)(to + 32 * i + 16) = (packf)(first[i].s89ab, last[i].s89ab, first[i].scdef, last[i].scdef);
+		*(__global pack_loose_floats *)(to + 32 * i + 16) = (packf)(first[i].s89ab, last[i].s89ab,
+		                                                            first[i].scdef, last[i].scdef);
 	}
 }
 
 /* The places and rays of a row. */
-WIDE_VECTORS static inline void store_row_of_looks(const struct dome_find_arguments *a, uint base, const struct looks *l)
+WIDE_VECTORS static inline void store_row_of_looks(const struct dome_find_arguments *a, uint base,
+                                                   const struct looks *l)
 {
 	const packi lit = l->strength > 0.0f;
 	packf row[8] = { l->o.x, l->o.y, l->o.z, l->strength, l->axes[2].x, l->axes[2].y, l->axes[2].z, 0 };
@@ -234,8 +244,8 @@ WIDE_VECTORS static inline void store_row_of_looks(const struct dome_find_argume
 	}
 }
 
-static inline void look_alone(const struct plain_arguments *a, const struct shade_arguments *s, const struct plain_row *row, uint lane,
-                              struct dome_kept *kept)
+static inline void look_alone(const struct plain_arguments *a, const struct shade_arguments *s,
+                              const struct plain_row *row, uint lane, struct dome_kept *kept)
 {
 	const struct shadow_ray_arguments r = plain_rays(a);
 	const struct dome_find_arguments d = looks_of(a);
@@ -249,8 +259,8 @@ static inline void look_alone(const struct plain_arguments *a, const struct shad
 	dome_find_item(&d, item);
 }
 
-static inline void look_row(const struct plain_arguments *a, const struct shade_arguments *s, const struct plain_row *row, uint lanes,
-                            struct dome_kept *kept)
+static inline void look_row(const struct plain_arguments *a, const struct shade_arguments *s,
+                            const struct plain_row *row, uint lanes, struct dome_kept *kept)
 {
 	const struct dome_find_arguments d = looks_of(a);
 	uint material, alone = 0;
@@ -294,7 +304,7 @@ KERNEL_OF(float16) void plain_dome(KERNEL_ARGUMENTS(plain))
 	}
 }
 
-/* --- Light ----------------------------------------------------------------------------------------------------------- */
+/* --- Light ------------------------------------------------------------------------------------------------------- */
 
 /* Columns of a tile and those that its blocks reach, with as many left of it. */
 #define LEFT DOME_BLOCK
@@ -316,7 +326,8 @@ struct field {
 };
 
 /* Sixteen pixels of a row of a layer, of which `item` says the fragments. */
-WIDE_VECTORS static inline void load_sixteen(const struct dome_light_arguments *a, uint row, uint column, struct layer *to)
+WIDE_VECTORS static inline void load_sixteen(const struct dome_light_arguments *a, uint row, uint column,
+                                             struct layer *to)
 {
 	const packu item = *(const pack_loose_uints *)(to->item[row] + column);
 	const packi there = item != SCENE_NONE;
@@ -336,7 +347,8 @@ WIDE_VECTORS static inline void load_sixteen(const struct dome_light_arguments *
 }
 
 /* The fragments of a pixel that may be lit, a layer each. @return 0: there are too many */
-static inline int list_pixel(const struct dome_light_arguments *a, uint begin, uint count, uint row, uint column, struct field *f)
+static inline int list_pixel(const struct dome_light_arguments *a, uint begin, uint count, uint row, uint column,
+                             struct field *f)
 {
 	uint n = 0;
 
@@ -370,16 +382,21 @@ static inline int list_row(const struct dome_light_arguments *a, uint y, struct 
 }
 
 /* Those of a row of a plain frame's pixels, which have one at most: sixteen columns of the field. */
-WIDE_VECTORS static inline void list_plain_row(const struct dome_light_arguments *a, uint y, uint column, struct field *f)
+WIDE_VECTORS static inline void list_plain_row(const struct dome_light_arguments *a, uint y, uint column,
+                                               struct field *f)
 {
 	const uint own = plain_base(plain_place(a->blocks, a->width, f->x, y), y);
 	const uint before = f->x ? plain_base(plain_place(a->blocks, a->width, f->x - 1, y), y) : SCENE_NONE;
-	const uint after = f->x + DOME_WIDTH < a->width ? plain_base(plain_place(a->blocks, a->width, f->x + DOME_WIDTH, y), y) : SCENE_NONE;
+	const uint after = f->x + DOME_WIDTH < a->width ?
+	                           plain_base(plain_place(a->blocks, a->width, f->x + DOME_WIDTH, y), y) :
+	                           SCENE_NONE;
 	const packi x = (int)f->x - (int)LEFT + (int)column + PACK_LANES;
-	const packu base = select(select((packu)(own), (packu)(before), x < (int)f->x), (packu)(after), x >= (int)(f->x + DOME_WIDTH));
+	const packu base = select(select((packu)(own), (packu)(before), x < (int)f->x), (packu)(after),
+	                          x >= (int)(f->x + DOME_WIDTH));
 
-	*(pack_loose_uints *)(f->layer[0].item[y - f->low] + column) =
-		select((packu)(SCENE_NONE), base + as_uint16(x) % PLAIN_WIDTH, (x >= a->rectangle.x0) & (x < a->rectangle.x1) & (base != SCENE_NONE));
+	*(pack_loose_uints *)(f->layer[0].item[y - f->low] +
+	                      column) = select((packu)(SCENE_NONE), base + as_uint16(x) % PLAIN_WIDTH,
+	                                       (x >= a->rectangle.x0) & (x < a->rectangle.x1) & (base != SCENE_NONE));
 }
 
 /* @return 0: there are too many */
@@ -400,7 +417,10 @@ static inline int fill_row(const struct dome_light_arguments *a, uint y, struct 
 	}
 	if (a->in_blocks)
 		f->layers[row] = any_pack((*(const pack_loose_floats *)f->layer[0].strength[row] > 0.0f) |
-		                          (*(const pack_loose_floats *)(f->layer[0].strength[row] + COLUMNS - PACK_SIZE) > 0.0f)) ? 1 : 0;
+		                          (*(const pack_loose_floats *)(f->layer[0].strength[row] + COLUMNS -
+		                                                        PACK_SIZE) > 0.0f)) ?
+		                         1 :
+		                         0;
 	return 1;
 }
 
@@ -416,7 +436,8 @@ WIDE_VECTORS static inline packf take(const struct field *f, const float *row, u
 	return out;
 }
 
-WIDE_VECTORS static inline struct pack_vec take_vec(const struct field *f, const float (*rows)[CAMERA_TILE][COLUMNS], uint row, uint column)
+WIDE_VECTORS static inline struct pack_vec take_vec(const struct field *f, const float (*rows)[CAMERA_TILE][COLUMNS],
+                                                    uint row, uint column)
 {
 	return pack_vec(take(f, rows[0][row], column), take(f, rows[1][row], column), take(f, rows[2][row], column));
 }
@@ -439,7 +460,8 @@ WIDE_VECTORS static inline void add_blocks(const struct field *f, uint row, uint
 	packi few;
 	const struct pack_vec from = own_vec(f->layer[layer].from, row), n = own_vec(f->layer[layer].normal, row);
 	const packi first = vload16(0, f->first), column = PACK_LANES + (int)LEFT;
-	const uint begin = dome_first(f->low + row, f->bottom, f->top) - f->low, end = min(begin + DOME_BLOCK, f->top - f->low);
+	const uint begin = dome_first(f->low + row, f->bottom, f->top) - f->low,
+		   end = min(begin + DOME_BLOCK, f->top - f->low);
 
 	for (uint bx = 0; bx < DOME_BLOCK; bx++) {
 		packf part[4] = { 0, 0, 0, 0 }, others[4] = { 0, 0, 0, 0 };
@@ -472,7 +494,8 @@ WIDE_VECTORS static inline void add_blocks(const struct field *f, uint row, uint
 }
 
 /* Factors of the pixels of a row of a plain frame, to where plain_shadow finds them. */
-WIDE_VECTORS static inline void store_row(const struct dome_light_arguments *a, const struct field *f, uint row, const packf *factor)
+WIDE_VECTORS static inline void store_row(const struct dome_light_arguments *a, const struct field *f, uint row,
+                                          const packf *factor)
 {
 	const uint item = plain_base(plain_place(a->blocks, a->width, f->x, f->low + row), f->low + row);
 
@@ -481,7 +504,8 @@ WIDE_VECTORS static inline void store_row(const struct dome_light_arguments *a, 
 }
 
 /* A layer of the pixels of a row. */
-WIDE_VECTORS static inline void light_row(const struct dome_light_arguments *a, const struct field *f, uint row, uint layer)
+WIDE_VECTORS static inline void light_row(const struct dome_light_arguments *a, const struct field *f, uint row,
+                                          uint layer)
 {
 	packf strength = own(f->layer[layer].strength[row]);
 	uint lanes = pack_bits(strength > 0.0f);

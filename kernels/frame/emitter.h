@@ -1,16 +1,18 @@
 /*
- * Light straight from surfaces that shine, in mode path: from each point one ray to one place on one of them, a triangle as often as it
- * sends light, its places evenly. What a scattered ray finds there by itself counts as well. Each of the two has the weight of the
- * power heuristic (E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995, sec. 4).
+ * Light straight from surfaces that shine, in mode path: from each point one ray to one place on one of them, a
+ * triangle as often as it sends light, its places evenly. What a scattered ray finds there by itself counts as well.
+ * Each of the two has the weight of the power heuristic (E. Veach and L. Guibas, "Optimally Combining Sampling
+ * Techniques for Monte Carlo Rendering", 1995, sec. 4).
  *
- * Only matte, lit surfaces without holes are asked for (emitter_strength). Light of all others, and of skies, is what rays find: their
- * weight is 1.
+ * Only matte, lit surfaces without holes are asked for (emitter_strength). Light of all others, and of skies, is what
+ * rays find: their weight is 1.
  */
 #pragma once
 
 #include "kernels/frame/shadow.h"
 
-/* How bright a material is; the share of its triangles' area by which they are asked. attributes: of the geometry. 0: never asked */
+/* How bright a material is; the share of its triangles' area by which they are asked. attributes: of the geometry. 0:
+ * never asked */
 static inline float emitter_strength(uint32_t transport, GLOBAL const struct scene_material *m, uint32_t attributes)
 {
 	const struct vec3 by_rule = stage_light(transport, v3_load(m->surface.emission));
@@ -22,7 +24,8 @@ static inline float emitter_strength(uint32_t transport, GLOBAL const struct sce
 	    m->surface.reflect > 0.0f || m->surface.transmit > 0.0f || m->surface.hidden & ~(SCENE_FACETED | SCENE_DOME_LIT))
 		return 0.0f;
 	if (m->lighting && !(attributes & SCENE_HAS_FACE))
-		most += M_MAX(v3_most(stage_light(transport, v3_load(m->front.emission))), v3_most(stage_light(transport, v3_load(m->back.emission))));
+		most += M_MAX(v3_most(stage_light(transport, v3_load(m->front.emission))),
+		              v3_most(stage_light(transport, v3_load(m->back.emission))));
 	return most;
 }
 
@@ -33,7 +36,9 @@ static inline struct vec3 emitter_sends(const struct tables *t, const struct poi
 
 	if (!p->material->lighting)
 		return by_rule;
-	return v3_add(by_rule, stage_light(transport, v3_load(tables_face(t, p->geometry, p->number[2], point_side(p))->emission)));
+	return v3_add(
+		by_rule,
+		stage_light(transport, v3_load(tables_face(t, p->geometry, p->number[2], point_side(p))->emission)));
 }
 
 /* The emitter at u of the list, the place at (what is left of u, v) on it, seen along `from`'s end: as a hit. */
@@ -81,8 +86,8 @@ struct emitter_sample {
 };
 
 /* The ray from a point to the place; t = 1 would be the place. from: the direction of the ray that led to the point */
-static inline void emitter_ray(const struct tables *t, const struct emission *e, const struct point *p, struct vec3 from,
-                               const struct emitter_sample *at, GLOBAL struct ray *ray)
+static inline void emitter_ray(const struct tables *t, const struct emission *e, const struct point *p,
+                               struct vec3 from, const struct emitter_sample *at, GLOBAL struct ray *ray)
 {
 	const struct point_plane plane = point_plane_of(p);
 	struct vec3 to, o;
@@ -102,8 +107,8 @@ static inline void emitter_ray(const struct tables *t, const struct emission *e,
 }
 
 /* What comes from there, as a matte white point shows it, where nothing stops it. */
-static inline struct vec3 emitter_light(const struct tables *t, const struct emission *e, uint32_t transport, const struct point *p,
-                                        struct vec3 from, const struct emitter_sample *at)
+static inline struct vec3 emitter_light(const struct tables *t, const struct emission *e, uint32_t transport,
+                                        const struct point *p, struct vec3 from, const struct emitter_sample *at)
 {
 	struct vec3 plane = point_plane_normal(p), to, d;
 	float u, v, distance2, cosine, density, scattered;
@@ -121,7 +126,8 @@ static inline struct vec3 emitter_light(const struct tables *t, const struct emi
 	if (!(cosine > 0.0f) || !(v3_dot(plane, d) > 0.0f) || !(distance2 > 0.0f))
 		return v3(0.0f, 0.0f, 0.0f);
 	q = point_from_hit(t, &hit, d); /* the side that is seen from here */
-	density = emitter_density(e, emitter_strength(transport, q.material, q.geometry->attributes), distance2, v3_dot(point_plane_normal(&q), d));
+	density = emitter_density(e, emitter_strength(transport, q.material, q.geometry->attributes), distance2,
+	                          v3_dot(point_plane_normal(&q), d));
 	scattered = cosine * 0.31830988618f;
 	return v3_scale(emitter_sends(t, &q, transport), scattered / density * emitter_weight(density, scattered));
 }
@@ -139,7 +145,9 @@ static inline void leave_ray_item(const struct leave_ray_arguments *a, uint32_t 
 	p = point_from_fragment(&a->tables, a->windows, &f);
 	if (point_takes_light(&p))
 		emitter_ray(&a->tables, &a->emission, &p,
-		            stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width), &at, &a->rays[item]);
+		            stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width,
+		                                 a->pixels[item] / a->width),
+		            &at, &a->rays[item]);
 }
 
 /* bounce_ray: from what paths hit, where they may go on. */

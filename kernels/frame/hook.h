@@ -1,6 +1,7 @@
 /*
- * Where a user's functions are called (tracer/hook/hook.h reads them, hooks/README.md is for who writes them). Each takes plain structs
- * and says what is to become of a ray; kernels do it. Nothing here is compiled unless a hook is there.
+ * Where a user's functions are called (tracer/hook/hook.h reads them, hooks/README.md is for who writes them). Each
+ * takes plain structs and says what is to become of a ray; kernels do it. Nothing here is compiled unless a hook is
+ * there.
  *
  *   hook_ray        ray generation: a pixel's first ray, in place of the camera's
  *   hook_see        what these rays hit first, for channels Z, N, P and id
@@ -12,14 +13,14 @@
  *   hook_light      light, of fragments: after their rays to lights
  *   hook_light_hit  the same, of hits
  *
- * The built-in's colour is what the kernels before have left: a hook that gives it back changes no bit. The twins have no hook, so they
- * are what kernels do where a hook always goes on.
+ * The built-in's colour is what the kernels before have left: a hook that gives it back changes no bit. The twins have
+ * no hook, so they are what kernels do where a hook always goes on.
  */
 #pragma once
 
 #include "kernels/frame/hook_text.h"
 
-/* --- Asking them ------------------------------------------------------------------------------------------------------------ */
+/* --- Asking them ------------------------------------------------------------------------------------------------- */
 
 static inline struct hook_answer hook_no_answer(void)
 {
@@ -76,7 +77,8 @@ static inline int hook_ignores(const struct hook_place *at, const struct hook_wa
 #endif
 }
 
-static inline struct hook_answer hook_ask_hit(const struct hook_place *at, const struct hook_way *way, GLOBAL const float *row)
+static inline struct hook_answer hook_ask_hit(const struct hook_place *at, const struct hook_way *way,
+                                              GLOBAL const float *row)
 {
 #if defined(__OPENCL_VERSION__) && defined(HOOK_CLOSEST_HIT)
 	return hook_answer_of(closest_hit(hook_hit_of(at, way), hook_parameters(row)));
@@ -105,9 +107,10 @@ static inline struct hook_answer hook_ask_miss(const struct hook_way *way, GLOBA
 #endif
 }
 
-/* --- Ray generation ----------------------------------------------------------------------------------------------------------- */
+/* --- Ray generation ---------------------------------------------------------------------------------------------- */
 
-/* The program's own ray through a pixel, as its view is moved by this pass, becomes the hook's. @return 0: there is none */
+/* The program's own ray through a pixel, as its view is moved by this pass, becomes the hook's. @return 0: there is
+ * none */
 static inline int hook_first_ray(const struct hook_ray_arguments *a, uint32_t number, struct vec3 *o, struct vec3 *d)
 {
 	GLOBAL const struct view *view = &a->views[a->view_index];
@@ -193,12 +196,13 @@ static inline void hook_store_item(const struct hook_store_arguments *a, uint32_
 	if (!(a->shaded[item].flags & SHADED_THERE))
 		return;
 	for (uint32_t c = 0u; c < 3u; c++)
-		pixel->gl[c] = pixel->shadowed[c] = pixel->direct[c] = pixel->mirrored[c] = pixel->beauty[c] = a->shaded[item].beauty[c];
+		pixel->gl[c] = pixel->shadowed[c] = pixel->direct[c] = pixel->mirrored[c] = pixel->beauty[c] =
+			a->shaded[item].beauty[c];
 	pixel->gl[3] = 1.0f;
 	pixel->unknown &= ~PIXEL_UNKNOWN_COLOR;
 }
 
-/* --- Closest hit, and miss ------------------------------------------------------------------------------------------------------ */
+/* --- Closest hit, and miss --------------------------------------------------------------------------------------- */
 
 static inline int hook_differs(struct vec3 a, struct vec3 b)
 {
@@ -212,7 +216,8 @@ static inline GLOBAL const float *hook_row(GLOBAL const float *parameters, uint3
 }
 
 /* Any hit, then closest hit. in_part: 1: the surface is one that only any hit is asked about */
-static inline struct hook_answer hook_ask(const struct hook_place *at, const struct hook_way *way, GLOBAL const float *row, int in_part)
+static inline struct hook_answer hook_ask(const struct hook_place *at, const struct hook_way *way,
+                                          GLOBAL const float *row, int in_part)
 {
 	struct hook_answer answer = hook_no_answer();
 
@@ -239,7 +244,8 @@ static inline void hook_shade_item(const struct hook_shade_arguments *a, uint32_
 	if (p.geometry->flags & GEOMETRY_EXPANDED)
 		return;
 	way.origin = v3(0.0f, 0.0f, 0.0f);
-	way.direction = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
+	way.direction = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width,
+	                                                  a->pixels[item] / a->width));
 	way.distance = M_SQRT(v3_dot(point_position(&p), point_position(&p)));
 	way.depth = way.shadow = 0u;
 	way.color = stage_light(a->transport, v3_load(s->direct));
@@ -266,9 +272,11 @@ static inline void hook_ways_item(const struct hook_ways_arguments *a, uint32_t 
 		return;
 	stage_store_direct(s, stage_number(a->transport, hook_color(&answer)));
 	p = point_from_fragment(&a->tables, a->windows, &f);
-	d = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
+	d = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width,
+	                                      a->pixels[item] / a->width));
 	b = branches_of_fragment(a->next_rays, a->next_paths, item);
-	ray = branch(&b, through ? v3(1.0f, 1.0f, 1.0f) : v3(answer.weight[0], answer.weight[1], answer.weight[2]), PATH_REFLECT, SCENE_NONE);
+	ray = branch(&b, through ? v3(1.0f, 1.0f, 1.0f) : v3(answer.weight[0], answer.weight[1], answer.weight[2]),
+	             PATH_REFLECT, SCENE_NONE);
 	if (ray)
 		stage_ray(&p, through ? d : v3_normalize(v3(answer.direction[0], answer.direction[1], answer.direction[2])), d, ray);
 	if (ray && through)
@@ -277,7 +285,8 @@ static inline void hook_ways_item(const struct hook_ways_arguments *a, uint32_t 
 }
 
 /* What is left of the built-in's light per unit of a surface's own colour. */
-static inline struct vec3 hook_share(const struct hook_hit_arguments *a, uint32_t item, const struct point *p, struct vec3 weight)
+static inline struct vec3 hook_share(const struct hook_hit_arguments *a, uint32_t item, const struct point *p,
+                                     struct vec3 weight)
 {
 	GLOBAL const struct scene_material *m = p->material;
 	struct split split;
@@ -312,10 +321,11 @@ static inline void hook_miss_path(const struct hook_hit_arguments *a, uint32_t i
 }
 
 /* What a hook said of a hit becomes the path's light and its ways on. */
-static inline void hook_obey(const struct hook_hit_arguments *a, uint32_t item, const struct point *p, const struct hook_answer *answer,
-                             struct vec3 weight)
+static inline void hook_obey(const struct hook_hit_arguments *a, uint32_t item, const struct point *p,
+                             const struct hook_answer *answer, struct vec3 weight)
 {
-	const struct vec3 d = v3_load(a->rays[item].d), on = v3(answer->direction[0], answer->direction[1], answer->direction[2]);
+	const struct vec3 d = v3_load(a->rays[item].d),
+			  on = v3(answer->direction[0], answer->direction[1], answer->direction[2]);
 	GLOBAL struct ray *ray = (GLOBAL struct ray *)0;
 	struct branches b;
 
@@ -391,11 +401,11 @@ static inline void hook_walk_item(const struct hook_walk_arguments *a, uint32_t 
 	a->counts[item] = 1u;
 }
 
-/* --- Light -------------------------------------------------------------------------------------------------------------------- */
+/* --- Light ------------------------------------------------------------------------------------------------------- */
 
 /* What of a light arrives at a point, by the hook's factor. number: of the light among the point's */
-static inline void hook_dim(const struct tables *t, const struct point *p, uint32_t number, uint32_t transport, GLOBAL const float *row,
-                            GLOBAL float *visibility)
+static inline void hook_dim(const struct tables *t, const struct point *p, uint32_t number, uint32_t transport,
+                            GLOBAL const float *row, GLOBAL float *visibility)
 {
 #if defined(__OPENCL_VERSION__) && defined(HOOK_LIGHT)
 	GLOBAL const struct scene_light *source = &t->lights[point_lights(p).first + number];
@@ -409,7 +419,8 @@ static inline void hook_dim(const struct tables *t, const struct point *p, uint3
 	beam.normal = hook_float4(point_normal(p));
 	beam.direction = hook_float4(to_light);
 	beam.color = hook_float4(stage_light(transport, v3_scale(v3_load(source->diffuse), strength)));
-	beam.axis = hook_float4(source->spot_cutoff_deg == 180.0f ? v3(0.0f, 0.0f, 0.0f) : v3_normalize(v3_load(source->spot_direction_eye)));
+	beam.axis = hook_float4(source->spot_cutoff_deg == 180.0f ? v3(0.0f, 0.0f, 0.0f) :
+	                                                            v3_normalize(v3_load(source->spot_direction_eye)));
 	beam.distance = w != 0.0f ? length(hook_float4(v3_load(source->position_eye)) / w - beam.position) : INFINITY;
 	beam.number = source->index;
 	beam.draw = p->geometry->draw;

@@ -1,12 +1,13 @@
 /*
- * Shapes that a user's hook tells by its functions bounds and intersection (hooks/README.md), in place of instances' triangles.
+ * Shapes that a user's hook tells by its functions bounds and intersection (hooks/README.md), in place of instances'
+ * triangles.
  *
  *   hook_bounds     bounds of what intersection is asked about
  *   hook_intersect  intersection: after the nearest triangle was found
  *   hook_occlude    the same, where any hit will do
  *
- * A small triangle stands for each place that a ray hit, with three vertices of its own: what shades hits knows nothing else. Its slot is the
- * ray's (tracer/frame/hook_objects.h). A ray asks all objects of its space, one after the other.
+ * A small triangle stands for each place that a ray hit, with three vertices of its own: what shades hits knows nothing
+ * else. Its slot is the ray's (tracer/frame/hook_objects.h). A ray asks all objects of its space, one after the other.
  */
 #pragma once
 
@@ -16,7 +17,8 @@ static inline void hook_bounds_item(const struct hook_bounds_arguments *a, uint3
 {
 #if defined(__OPENCL_VERSION__) && defined(HOOK_BOUNDS)
 	GLOBAL struct hook_object *o = &a->objects[item];
-	const struct relume_box box = bounds(hook_object_of(o), hook_parameters(a->parameters + (size_t)o->material * a->words));
+	const struct relume_box box = bounds(hook_object_of(o),
+	                                     hook_parameters(a->parameters + (size_t)o->material * a->words));
 
 	v3_store(o->lower, hook_vec3(box.lower));
 	v3_store(o->upper, hook_vec3(box.upper));
@@ -34,10 +36,11 @@ struct hook_found {
 };
 
 /* @return 1: it meets it */
-static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const struct ray *ray, float end, GLOBAL const float *row,
-                           struct hook_found *found)
+static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const struct ray *ray, float end,
+                           GLOBAL const float *row, struct hook_found *found)
 {
-	const struct vec3 o = hook_move(object->obj_from_eye, v3_load(ray->o)), d = hook_turn(object->obj_from_eye, v3_load(ray->d));
+	const struct vec3 o = hook_move(object->obj_from_eye, v3_load(ray->o)),
+			  d = hook_turn(object->obj_from_eye, v3_load(ray->d));
 	float enter = ray->t_min, leave = end;
 
 	if (!(ray->t_min <= end) || !hook_meets(object->lower, object->upper, o, d, &enter, &leave))
@@ -68,11 +71,11 @@ static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const
 }
 
 /*
- * A vertex of the triangle that stands for a place of a surface. As vertex_item makes them, but that texture coordinates are the hook's
- * where OpenGL does not make them.
+ * A vertex of the triangle that stands for a place of a surface. As vertex_item makes them, but that texture
+ * coordinates are the hook's where OpenGL does not make them.
  */
-static inline void hook_vertex(const struct hook_intersect_arguments *a, uint32_t number, uint32_t instance, struct vec3 at, struct vec3 normal,
-                               struct vec3 in_object, struct vec4 coordinates)
+static inline void hook_vertex(const struct hook_intersect_arguments *a, uint32_t number, uint32_t instance,
+                               struct vec3 at, struct vec3 normal, struct vec3 in_object, struct vec4 coordinates)
 {
 	const struct tables *t = &a->tables;
 	GLOBAL const struct geometry *g = &t->geometries[instance];
@@ -89,15 +92,16 @@ static inline void hook_vertex(const struct hook_intersect_arguments *a, uint32_
 	out->size[0] = out->size[1] = 0.0f;
 	for (uint32_t i = 0u; i < m->unit_count; i++)
 		v4_store(a->made_coords + (g->texcoord_first + number * m->unit_count + i) * 4u,
-		         vertex_generated(&t->units[m->unit_first + i], coordinates, v4(in_object.x, in_object.y, in_object.z, 1.0f), eye, normal));
+		         vertex_generated(&t->units[m->unit_first + i], coordinates,
+		                          v4(in_object.x, in_object.y, in_object.z, 1.0f), eye, normal));
 }
 
 /* The size of the triangle that stands for a place, as a share of its largest coordinate. */
 #define HOOK_TRIANGLE 0.00390625f
 
 /* A small triangle about the place, in the slot of the ray; the hit is its middle. */
-static inline void hook_place_triangle(const struct hook_intersect_arguments *a, uint32_t item, GLOBAL const struct hook_object *object,
-                                       const struct hook_found *found)
+static inline void hook_place_triangle(const struct hook_intersect_arguments *a, uint32_t item,
+                                       GLOBAL const struct hook_object *object, const struct hook_found *found)
 {
 	GLOBAL const struct ray *ray = &a->rays[item];
 	GLOBAL const float *m = object->obj_from_eye;
@@ -140,7 +144,8 @@ static inline void hook_intersect_item(const struct hook_intersect_arguments *a,
 	best.coordinates = v4(0.0f, 0.0f, 0.0f, 1.0f);
 	found = best;
 	for (uint32_t i = 0u; i < a->n_objects; i++)
-		if (hook_try(&a->objects[i], &a->rays[item], best.t, a->parameters + (size_t)a->objects[i].material * a->words, &found)) {
+		if (hook_try(&a->objects[i], &a->rays[item], best.t,
+		             a->parameters + (size_t)a->objects[i].material * a->words, &found)) {
 			best = found;
 			nearest = i;
 		}
@@ -154,6 +159,7 @@ static inline void hook_occlude_item(const struct hook_occlude_arguments *a, uin
 	uint32_t stopped = a->alone ? 0u : a->occluded[item];
 
 	for (uint32_t i = 0u; i < a->n_objects && !stopped; i++)
-		stopped = hook_try(&a->objects[i], &a->rays[item], a->rays[item].t_max, a->parameters + (size_t)a->objects[i].material * a->words, &found) != 0;
+		stopped = hook_try(&a->objects[i], &a->rays[item], a->rays[item].t_max,
+		                   a->parameters + (size_t)a->objects[i].material * a->words, &found) != 0;
 	a->occluded[item] = stopped;
 }

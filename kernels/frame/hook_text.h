@@ -1,6 +1,6 @@
 /*
- * What a user's hook is compiled with: structs, requests, and what its functions may call (hooks/README.md). Nothing here is compiled unless a
- * hook is there, but for what the C twins need.
+ * What a user's hook is compiled with: structs, requests, and what its functions may call (hooks/README.md). Nothing
+ * here is compiled unless a hook is there, but for what the C twins need.
  */
 #pragma once
 
@@ -21,10 +21,11 @@ struct hook_place {
 	const struct hook_trees *trees; /* NULL: hooks ask nothing of them here */
 };
 
-/* --- Boxes --------------------------------------------------------------------------------------------------------------- */
+/* --- Boxes ------------------------------------------------------------------------------------------------------- */
 
 /* Whether a ray meets a box between two places on it. */
-static inline int hook_meets(GLOBAL const float *lower, GLOBAL const float *upper, struct vec3 o, struct vec3 d, float *least, float *most)
+static inline int hook_meets(GLOBAL const float *lower, GLOBAL const float *upper, struct vec3 o, struct vec3 d,
+                             float *least, float *most)
 {
 	const float from[3] = { o.x, o.y, o.z }, along[3] = { d.x, d.y, d.z };
 
@@ -40,7 +41,8 @@ static inline int hook_meets(GLOBAL const float *lower, GLOBAL const float *uppe
 
 static inline struct vec3 hook_turn(GLOBAL const float *m, struct vec3 v)
 {
-	return v3(m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z, m[8] * v.x + m[9] * v.y + m[10] * v.z);
+	return v3(m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
+	          m[8] * v.x + m[9] * v.y + m[10] * v.z);
 }
 
 static inline struct vec3 hook_move(GLOBAL const float *m, struct vec3 v)
@@ -51,7 +53,8 @@ static inline struct vec3 hook_move(GLOBAL const float *m, struct vec3 v)
 /* Subtrees still to be walked: of the top level, and of the meshes in its leaves. What does not fit is not counted. */
 #define HOOK_STACK 192u
 
-/* Boxes of the binary trees that a ray asks, up to a distance: two a node, those of the space and those of its meshes. */
+/* Boxes of the binary trees that a ray asks, up to a distance: two a node, those of the space and those of its
+ * meshes. */
 static inline uint32_t hook_box_tests(const struct hook_trees *a, struct vec3 from, struct vec3 along, float distance)
 {
 	uint32_t instance[HOOK_STACK], node[HOOK_STACK], depth = 1u, tests = 0u, inside = SCENE_NONE;
@@ -89,7 +92,7 @@ static inline uint32_t hook_box_tests(const struct hook_trees *a, struct vec3 fr
 
 #ifdef __OPENCL_VERSION__
 
-/* --- For hooks: hooks/README.md ------------------------------------------------------------------------------------------- */
+/* --- For hooks: hooks/README.md ---------------------------------------------------------------------------------- */
 
 struct relume_ray {
 	float4 origin, direction;
@@ -239,7 +242,9 @@ static inline uint relume_box_tests(const struct relume_hit *hit)
 {
 	const struct hook_place *at = hit->place;
 
-	return at->trees ? hook_box_tests(at->trees, hook_vec3(hit->position - hit->distance * hit->direction), hook_vec3(hit->direction), hit->distance) : 0u;
+	return at->trees ? hook_box_tests(at->trees, hook_vec3(hit->position - hit->distance * hit->direction),
+	                                  hook_vec3(hit->direction), hit->distance) :
+	                   0u;
 }
 
 static inline uint relume_lights(const struct relume_hit *hit)

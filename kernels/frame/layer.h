@@ -1,6 +1,6 @@
 /*
- * Fragments of a row of sixteen pixels, layer by layer (kernels/frame/layered.cl): how they are loaded, tested, and drawn over each other.
- * OpenCL C only.
+ * Fragments of a row of sixteen pixels, layer by layer (kernels/frame/layered.cl): how they are loaded, tested, and
+ * drawn over each other. OpenCL C only.
  */
 #pragma once
 
@@ -27,19 +27,22 @@ struct layered_row {
 	struct pack_pixels pixels;
 	packu depth;         /* as the depth buffer has it */
 	uint step;           /* PLAIN_* */
-	packu last, surface; /* the layers of the last fragment that was drawn, and of the one whose surface shows; SCENE_NONE: there is none */
+	packu last, surface; /* the layers of the last fragment that was drawn, and of the one whose surface shows;
+	                        SCENE_NONE: there is none */
 	uint n;
 	uint unknown;    /* a bit for each pixel whose colours from before the frame are not known, and show */
 	int is_mirrored; /* mirrored and beauty are not what direct is */
 	int at_once;     /* layers are shaded and drawn as they are tested: nothing of the row before was covered */
 };
 
-/* --- Loading ------------------------------------------------------------------------------------------------------- */
+/* --- Loading ----------------------------------------------------------------------------------------------------- */
 
 /* How many fragments each pixel of a row has in a look. */
 static inline packu load_counts(const struct plain_arguments *a, uint look, uint x, uint y)
 {
-	__global const uint *counts = a->layers.counts + plain_look_first(a->layers.columns, look, a->width * a->request.height) + y * a->width + x;
+	__global const uint *counts = a->layers.counts +
+	                              plain_look_first(a->layers.columns, look, a->width * a->request.height) +
+	                              y * a->width + x;
 	packu n = 0;
 
 	if (x + PACK_SIZE <= a->width)
@@ -99,7 +102,8 @@ WIDE_VECTORS static inline void load_layer(const struct plain_arguments *a, stru
 }
 
 /* The layers of a row. row: with its step. @return whether this step changes any */
-static inline uint load_layers(const struct plain_arguments *a, const struct layered_block *b, uint y, struct layered_row *row)
+static inline uint load_layers(const struct plain_arguments *a, const struct layered_block *b, uint y,
+                               struct layered_row *row)
 {
 	const uint n_pixels = a->width * a->request.height;
 	uint changed = row->step == PLAIN_FIRST, place = b->place;
@@ -197,20 +201,24 @@ WIDE_VECTORS static inline void store_kept(__global float *to, const struct laye
 		((__global pack_loose_floats *)to)[i] = ((const packf *)row)[i];
 }
 
-WIDE_VECTORS static inline void keep_pixels(const struct plain_arguments *a, uint x, uint y, const struct layered_row *row)
+WIDE_VECTORS static inline void keep_pixels(const struct plain_arguments *a, uint x, uint y,
+                                            const struct layered_row *row)
 {
 	struct layered_kept_row after;
 
 	after.pixels = row->pixels;
 	after.depth = row->depth;
-	after.shows = select((packu)(1), (packu)(0), row->surface == SCENE_NONE) | select((packu)(0), (packu)(2), pack_mask(row->unknown));
+	after.shows = select((packu)(1), (packu)(0), row->surface == SCENE_NONE) |
+	              select((packu)(0), (packu)(2), pack_mask(row->unknown));
 	store_kept(a->layers.after + plain_kept(a->width, x, y), &after);
 }
 
-/* --- Clears -------------------------------------------------------------------------------------------------------- */
+/* --- Clears ------------------------------------------------------------------------------------------------------ */
 
-/* Clears of depth before a look, from number `next` on. x, y: of the row. @return the number of the first that is left */
-WIDE_VECTORS static inline uint clear_before(const struct plain_arguments *a, uint look, uint next, uint x, uint y, struct layered_row *row)
+/* Clears of depth before a look, from number `next` on. x, y: of the row. @return the number of the first that is
+ * left */
+WIDE_VECTORS static inline uint clear_before(const struct plain_arguments *a, uint look, uint next, uint x, uint y,
+                                             struct layered_row *row)
 {
 	const packi column = as_int16((packu)(x) + as_uint16(PACK_LANES));
 
@@ -224,11 +232,12 @@ WIDE_VECTORS static inline uint clear_before(const struct plain_arguments *a, ui
 	return next;
 }
 
-/* --- Tests --------------------------------------------------------------------------------------------------------- */
+/* --- Tests ------------------------------------------------------------------------------------------------------- */
 
-/* As pixel_tests and pixel_mark: fragments of layer i, of one material, whose depths are known, and colours where it tests alpha. */
-WIDE_VECTORS static inline void test_lanes(const struct plain_arguments *a, struct layered_row *row, uint i, __global const struct scene_material *m,
-                                           uint lanes)
+/* As pixel_tests and pixel_mark: fragments of layer i, of one material, whose depths are known, and colours where it
+ * tests alpha. */
+WIDE_VECTORS static inline void test_lanes(const struct plain_arguments *a, struct layered_row *row, uint i,
+                                           __global const struct scene_material *m, uint lanes)
 {
 	const uint bits = pixel_depth_bits(a->bits);
 	struct layer *layer = &row->layers[i];
@@ -256,22 +265,23 @@ WIDE_VECTORS static inline void test_lanes(const struct plain_arguments *a, stru
 	row->surface = select(row->surface, (packu)(i), shows);
 }
 
-/* --- Drawing ------------------------------------------------------------------------------------------------------- */
+/* --- Drawing ----------------------------------------------------------------------------------------------------- */
 
 /* One channel of a part of the colours over the same part of the pixels. */
-WIDE_VECTORS static inline void draw_channel(__global const struct scene_material *m, int channel, packf source, packu s_alpha,
-                                             packu d_alpha, int opaque, packi lanes, packf *to)
+WIDE_VECTORS static inline void draw_channel(__global const struct scene_material *m, int channel, packf source,
+                                             packu s_alpha, packu d_alpha, int opaque, packi lanes, packf *to)
 {
 	if (m->color_mask >> channel & 1)
 		pack_put(to, m->blend && !opaque ? pack_blend(m, channel, source, s_alpha, *to, d_alpha) : source, lanes);
 }
 
 /* Whether a channel of some lanes is the same in all parts of the pixels, and of the fragments. */
-WIDE_VECTORS static inline int is_same(const struct layer *layer, const struct pack_pixels *p, int i, int is_mirrored, packi lanes)
+WIDE_VECTORS static inline int is_same(const struct layer *layer, const struct pack_pixels *p, int i, int is_mirrored,
+                                       packi lanes)
 {
 	const packi gl = as_int16(p->gl[i]), own = as_int16(layer->colors.gl.c[i]);
-	packi differ = (gl ^ as_int16(p->shadowed[i])) | (gl ^ as_int16(p->direct[i])) | (own ^ as_int16(layer->colors.shadowed.c[i])) |
-	               (own ^ as_int16(layer->colors.direct.c[i]));
+	packi differ = (gl ^ as_int16(p->shadowed[i])) | (gl ^ as_int16(p->direct[i])) |
+	               (own ^ as_int16(layer->colors.shadowed.c[i])) | (own ^ as_int16(layer->colors.direct.c[i]));
 
 	if (is_mirrored)
 		differ |= (gl ^ as_int16(p->mirrored[i])) | (gl ^ as_int16(p->beauty[i])) | (own ^ as_int16(layer->mirrored[i])) |
@@ -280,8 +290,9 @@ WIDE_VECTORS static inline int is_same(const struct layer *layer, const struct p
 }
 
 /* As pixel_colors, for fragments of one material. is_mirrored: as of struct layered_row */
-WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __global const struct scene_material *m, const struct layer *layer,
-                                           int is_mirrored, packi lanes, struct pack_pixels *p)
+WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __global const struct scene_material *m,
+                                           const struct layer *layer, int is_mirrored, packi lanes,
+                                           struct pack_pixels *p)
 {
 	const struct plain_colors *c = &layer->colors;
 	const packu s_alpha = pack_code(c->gl.c[3]), d_alpha = pixel_alpha_bits(a->bits) ? pack_code(p->gl[3]) : (packu)(255);

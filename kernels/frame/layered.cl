@@ -1,8 +1,10 @@
 /*
- * layered, layered_shadow, layered_mirror, layered_start, layered_picture: see kernels/frame/plain.h. All fragments of a row of sixteen pixels go through the per-fragment
- * operations in draw order, layer by layer: the first of each pixel, the second of each, and so on. Depth tests come before colours, and
- * colours are found from the last layer to the first: a fragment that fails, or that a later one covers whole, is not shaded, and sends no
- * rays. Rows that light leaves are composed by layered_mirror alone. Where none of the row before was covered, layers are drawn as they are tested.
+ * layered, layered_shadow, layered_mirror, layered_start, layered_picture: see kernels/frame/plain.h. All fragments of
+ * a row of sixteen pixels go through the per-fragment operations in draw order, layer by layer: the first of each
+ * pixel, the second of each, and so on. Depth tests come before colours, and colours are found from the last layer to
+ * the first: a fragment that fails, or that a later one covers whole, is not shaded, and sends no rays. Rows that light
+ * leaves are composed by layered_mirror alone. Where none of the row before was covered, layers are drawn as they are
+ * tested.
  */
 #include "kernels/frame/layer.h"
 
@@ -14,7 +16,7 @@ struct layered_kept {
 	struct shadow_kept ray;
 };
 
-/* --- Colours ------------------------------------------------------------------------------------------------------- */
+/* --- Colours ----------------------------------------------------------------------------------------------------- */
 
 /* What shows of fragments of layer i that kept->last has placed beside their colours. */
 static inline void put_layer_surface(const struct plain_arguments *a, struct layered_row *row, uint i, uint lanes,
@@ -30,8 +32,8 @@ static inline void put_layer_surface(const struct plain_arguments *a, struct lay
 }
 
 /* Places of fragments of one material, into kept->last. @return those that are done */
-static inline uint place_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct layer *layer, uint lanes,
-                               struct pack_kept *kept)
+static inline uint place_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct layer *layer,
+                               uint lanes, struct pack_kept *kept)
 {
 	__global const struct geometry *g = &a->tables.geometries[layer->at.list.instance[popcount((lanes & -lanes) - 1)]];
 
@@ -54,7 +56,7 @@ WIDE_VECTORS static inline void keep_colors(const struct plain_colors *from, pac
 	}
 }
 
-/* --- Light that leaves --------------------------------------------------------------------------------------------- */
+/* --- Light that leaves ------------------------------------------------------------------------------------------- */
 
 /* Where a fragment that light leaves stands in the list. */
 static inline uint place_in_list(const struct plain_arguments *a, const struct layer *layer, uint lane)
@@ -63,7 +65,8 @@ static inline uint place_in_list(const struct plain_arguments *a, const struct l
 }
 
 /* A fragment that light leaves, into the list; f, direct: as it is shaded. */
-static inline void list_one(const struct plain_arguments *a, const struct layer *layer, uint lane, struct fragment f, struct vec3 direct)
+static inline void list_one(const struct plain_arguments *a, const struct layer *layer, uint lane, struct fragment f,
+                            struct vec3 direct)
 {
 	const uint place = place_in_list(a, layer, lane);
 	__global struct shaded *to = &a->layers.list_shaded[place];
@@ -86,8 +89,8 @@ static inline void take_one(const struct plain_arguments *a, struct layer *layer
 }
 
 /* Either, for fragments that kept->last has placed and that have their colours. */
-static inline void follow_lanes(const struct plain_arguments *a, const struct layered_row *row, struct layer *layer, uint lanes,
-                                const struct pack *p)
+static inline void follow_lanes(const struct plain_arguments *a, const struct layered_row *row, struct layer *layer,
+                                uint lanes, const struct pack *p)
 {
 	const struct pack_list *list = &layer->at.list;
 
@@ -123,8 +126,10 @@ static inline uint find_leaves(const struct plain_arguments *a, struct layered_r
 	for (uint i = 0; i < row->n && a->layers.mirrors; i++) {
 		struct layer *layer = &row->layers[i];
 
-		for (uint left = row->step == PLAIN_FIRST && layer->follows ? layer->drawn & ~layer->covered : 0; left; left &= left - 1) {
-			__global const struct scene_material *m = stage_material(&a->tables, layer->at.list.instance[popcount((left & -left) - 1)]);
+		for (uint left = row->step == PLAIN_FIRST && layer->follows ? layer->drawn & ~layer->covered : 0; left;
+		     left &= left - 1) {
+			__global const struct scene_material *m = stage_material(
+				&a->tables, layer->at.list.instance[popcount((left & -left) - 1)]);
 
 			if (m->surface.reflect > 0.0f || m->surface.transmit > 0.0f)
 				layer->leaves |= left & -left;
@@ -136,11 +141,11 @@ static inline uint find_leaves(const struct plain_arguments *a, struct layered_r
 	return all;
 }
 
-/* --- Fragments ----------------------------------------------------------------------------------------------------- */
+/* --- Fragments --------------------------------------------------------------------------------------------------- */
 
 /* Colours of fragments of one material in layer i. tests: they have not been tested yet. @return those that are done */
-static inline uint shade_layer_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row, uint i,
-                                     uint lanes, int tests, struct pack_kept *kept)
+static inline uint shade_layer_lanes(const struct plain_arguments *a, const struct shade_arguments *s,
+                                     struct layered_row *row, uint i, uint lanes, int tests, struct pack_kept *kept)
 {
 	struct layer *layer = &row->layers[i];
 	const int sends = layer->asks && row->step == PLAIN_FIRST;
@@ -175,8 +180,8 @@ static inline uint shade_layer_lanes(const struct plain_arguments *a, const stru
 }
 
 /* A fragment that packs do not know, all that is to be done of it. */
-static inline void shade_layer_alone(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row, uint i,
-                                     uint lane, struct layered_kept *kept)
+static inline void shade_layer_alone(const struct plain_arguments *a, const struct shade_arguments *s,
+                                     struct layered_row *row, uint i, uint lane, struct layered_kept *kept)
 {
 	struct layer *layer = &row->layers[i];
 	const uint item = layer->at.base + lane;
@@ -216,11 +221,11 @@ static inline void shade_layer_alone(const struct plain_arguments *a, const stru
 	pack_put_one(&a->tables, a->windows, &f, lane, &row->pixels);
 }
 
-/* --- Rows ---------------------------------------------------------------------------------------------------------- */
+/* --- Rows -------------------------------------------------------------------------------------------------------- */
 
 /* Tests of layer i. Where the outcome needs colours, or nothing can cover them, fragments are shaded at once. */
-static inline void test_layer(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row, uint i,
-                              struct layered_kept *kept)
+static inline void test_layer(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row,
+                              uint i, struct layered_kept *kept)
 {
 	struct layer *layer = &row->layers[i];
 	uint material;
@@ -254,8 +259,8 @@ static inline void test_layer(const struct plain_arguments *a, const struct shad
 }
 
 /* Colours of layer i, where they can be seen. covered: by later layers. @return with what this one covers */
-static inline uint shade_layer(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row, uint i, uint covered,
-                               struct layered_kept *kept)
+static inline uint shade_layer(const struct plain_arguments *a, const struct shade_arguments *s,
+                               struct layered_row *row, uint i, uint covered, struct layered_kept *kept)
 {
 	struct layer *layer = &row->layers[i];
 	uint material, covers = 0;
@@ -298,9 +303,10 @@ static inline void put_draws(const struct plain_arguments *a, struct layered_row
 	}
 }
 
-/* From layers to planes or to the next round; where light leaves the row, only in the step that knows what became of it. */
-static inline void draw_row(const struct plain_arguments *a, const struct shade_arguments *s, uint x, uint y, struct layered_row *row,
-                            struct layered_kept *kept, const struct pack_planes *to)
+/* From layers to planes or to the next round; where light leaves the row, only in the step that knows what became of
+ * it. */
+static inline void draw_row(const struct plain_arguments *a, const struct shade_arguments *s, uint x, uint y,
+                            struct layered_row *row, struct layered_kept *kept, const struct pack_planes *to)
 {
 	uint covered = 0, spared = 0, clear = 0;
 
@@ -333,7 +339,8 @@ static inline void draw_row(const struct plain_arguments *a, const struct shade_
 }
 
 /* s: with visibility where lights have been asked */
-static inline void do_layered_block(const struct plain_arguments *a, const struct shade_arguments *s, uint step, uint item)
+static inline void do_layered_block(const struct plain_arguments *a, const struct shade_arguments *s, uint step,
+                                    uint item)
 {
 	struct layered_kept kept;
 	struct layered_row row;
@@ -398,12 +405,14 @@ WIDE_VECTORS static inline void keep_start(packu color, packu depth, uint depth_
 
 KERNEL_OF(float16) void layered_start(KERNEL_ARGUMENTS(layered_start))
 {
-	const uint item = (uint)get_global_id(0), x = item % plain_columns(width) * PLAIN_WIDTH, y = item / plain_columns(width);
+	const uint item = (uint)get_global_id(0), x = item % plain_columns(width) * PLAIN_WIDTH,
+		   y = item / plain_columns(width);
 	struct layered_kept_row row;
 
 	if (y >= height)
 		return;
-	keep_start(load_words(colors + y * width, x, width), load_words(depths + y * width, x, width), pixel_depth_bits(bits), &row);
+	keep_start(load_words(colors + y * width, x, width), load_words(depths + y * width, x, width),
+	           pixel_depth_bits(bits), &row);
 	store_kept(kept + plain_kept(width, x, y), &row);
 }
 
@@ -417,7 +426,8 @@ WIDE_VECTORS static inline packu frame_colors(const struct pack_pixels *p, uint 
 
 KERNEL_OF(float16) void layered_picture(KERNEL_ARGUMENTS(layered_picture))
 {
-	const uint item = (uint)get_global_id(0), x = item % plain_columns(width) * PLAIN_WIDTH, y = item / plain_columns(width);
+	const uint item = (uint)get_global_id(0), x = item % plain_columns(width) * PLAIN_WIDTH,
+		   y = item / plain_columns(width);
 	struct layered_kept_row row;
 	packu code, depth;
 

@@ -1,6 +1,6 @@
 /*
- * Sixteen fragments of the list at once, a lane each, of any triangles of one material: what they are, and where in their triangles they
- * lie, in the order of operations of setup.h and to the same bits. OpenCL C only.
+ * Sixteen fragments of the list at once, a lane each, of any triangles of one material: what they are, and where in
+ * their triangles they lie, in the order of operations of setup.h and to the same bits. OpenCL C only.
  *
  * Triangles that leave the view volume are cut one at a time, and the cut ones kept.
  */
@@ -22,13 +22,15 @@ struct pack_list {
 struct pack {
 	__global const struct scene_material *material;
 	__global const struct view *view;
-	uint instance, primitive; /* the one whole triangle that pack_place has found them in, kept for the next ones; SCENE_NONE: none */
+	uint instance, primitive; /* the one whole triangle that pack_place has found them in, kept for the next ones;
+	                             SCENE_NONE: none */
 	packi x, row;             /* pixels, row 0 at the top */
 	int uniform;              /* all lie in the same triangle */
 	packi cut, front;         /* all ones: leaves the view volume; shows its front */
 	packu number[3];          /* of the vertices in the mesh */
 	packu vertex[3];          /* and in the frame */
-	packf px[3], py[3], z[3], w_inv[3]; /* corners of the triangle or of the part of it that covers the pixel; places from clip_origin */
+	packf px[3], py[3], z[3], w_inv[3]; /* corners of the triangle or of the part of it that covers the pixel;
+	                                       places from clip_origin */
 	uint part[PACK_SIZE];               /* pack_part, of those that are cut */
 	packf corner1[3], corner2[3];       /* of parts: the corners' weights of vertices 1 and 2 */
 	packf vertex_w_inv[3];
@@ -74,7 +76,8 @@ typedef uint16 pack_loose_uints __attribute__((aligned(4)));
 #define LANE(vector, type, lane) (((type *)&(vector))[lane])
 
 /* A fragment of the list, to a lane. */
-static inline void pack_take(__global const struct fragment *fragments, __global const uint *pixels, uint item, uint lane, struct pack_list *list)
+static inline void pack_take(__global const struct fragment *fragments, __global const uint *pixels, uint item,
+                             uint lane, struct pack_list *list)
 {
 	list->item[lane] = item;
 	list->instance[lane] = fragments[item].instance;
@@ -86,13 +89,14 @@ static inline void pack_take(__global const struct fragment *fragments, __global
 }
 
 /* Sixteen fragments of n, from `first` on. Lanes beyond them repeat the last. */
-static inline void pack_list(__global const struct fragment *fragments, __global const uint *pixels, uint first, uint n, struct pack_list *list)
+static inline void pack_list(__global const struct fragment *fragments, __global const uint *pixels, uint first, uint n,
+                             struct pack_list *list)
 {
 	for (uint lane = 0; lane < PACK_SIZE; lane++)
 		pack_take(fragments, pixels, min(first + lane, n - 1), lane, list);
 }
 
-/* --- Which ones ---------------------------------------------------------------------------------------------------- */
+/* --- Which ones -------------------------------------------------------------------------------------------------- */
 
 /* Whether a pack can take fragments of a geometry with others of its material. */
 static inline int pack_knows_geometry(__global const struct geometry *g)
@@ -118,7 +122,8 @@ static inline uint pack_same_kind(const struct tables *t, const struct pack_list
 	return same;
 }
 
-/* The items of a launch that a work item does, SHADE_PACKET of them: a bit for each that is left, and for each that packs know. */
+/* The items of a launch that a work item does, SHADE_PACKET of them: a bit for each that is left, and for each that
+ * packs know. */
 struct pack_left {
 	uint first;
 	ulong all, packed;
@@ -152,16 +157,18 @@ static inline uint pack_next(struct pack_left *left, uint *item)
 	return (1u << n) - 1;
 }
 
-/* --- Loading ------------------------------------------------------------------------------------------------------- */
+/* --- Loading ----------------------------------------------------------------------------------------------------- */
 
 /* The lanes that lie in a triangle. */
 WIDE_VECTORS static inline uint pack_in_triangle(const struct pack_list *list, uint instance, uint primitive)
 {
-	return pack_bits((*(const pack_loose_uints *)list->primitive == primitive) & (*(const pack_loose_uints *)list->instance == instance));
+	return pack_bits((*(const pack_loose_uints *)list->primitive == primitive) &
+	                 (*(const pack_loose_uints *)list->instance == instance));
 }
 
 /* The lanes' triangles. Lanes that are not asked for repeat the first that is. */
-WIDE_VECTORS static inline void pack_load_triangles(const struct tables *t, const struct pack_list *list, uint lanes, struct pack *p)
+WIDE_VECTORS static inline void pack_load_triangles(const struct tables *t, const struct pack_list *list, uint lanes,
+                                                    struct pack *p)
 {
 	const uint first = popcount((lanes & -lanes) - 1), step = sizeof(struct geometry) / sizeof(uint);
 	const packi asked = pack_mask(lanes);
@@ -200,7 +207,8 @@ WIDE_VECTORS static inline void pack_load_pixels(uint width, uint height, const 
 	p->row = (int)height - 1 - p->row;
 }
 
-static inline void pack_load(const struct tables *t, uint width, uint height, const struct pack_list *list, uint lanes, struct pack *p)
+static inline void pack_load(const struct tables *t, uint width, uint height, const struct pack_list *list, uint lanes,
+                             struct pack *p)
 {
 	pack_load_triangles(t, list, lanes, p);
 	pack_load_pixels(width, height, list, p);
@@ -245,7 +253,8 @@ WIDE_VECTORS static inline packi pack_by_clip(packf (*c)[4])
 }
 
 /* The triangles in the window, and which side they show. */
-WIDE_VECTORS static inline void pack_window(const struct tables *t, __global const struct window_vertex *windows, struct pack *p)
+WIDE_VECTORS static inline void pack_window(const struct tables *t, __global const struct window_vertex *windows,
+                                            struct pack *p)
 {
 	packf x[3], y[3], window[4];
 	packi placed = -1, clockwise;
@@ -287,8 +296,8 @@ WIDE_VECTORS static inline void pack_corners(const struct shade_arguments *a, st
 }
 
 /* What the view volume leaves of a lane's triangle. */
-static inline const struct clip_polygon *pack_polygon(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
-                                                      uint lane, struct pack_kept *kept)
+static inline const struct clip_polygon *pack_polygon(const struct shade_arguments *a, const struct pack_list *list,
+                                                      const struct pack *p, uint lane, struct pack_kept *kept)
 {
 	struct pack_cut *cut = &kept->cuts[list->primitive[lane] % PACK_CUTS];
 	__global const struct shaded_vertex *v = a->tables.vertices;
@@ -297,7 +306,8 @@ static inline const struct clip_polygon *pack_polygon(const struct shade_argumen
 		cut->instance = list->instance[lane];
 		cut->primitive = list->primitive[lane];
 		clip_triangle(p->view, (float)a->height, v4_load(v[LANE(p->vertex[0], uint, lane)].clip),
-		              v4_load(v[LANE(p->vertex[1], uint, lane)].clip), v4_load(v[LANE(p->vertex[2], uint, lane)].clip), &cut->polygon);
+		              v4_load(v[LANE(p->vertex[1], uint, lane)].clip),
+		              v4_load(v[LANE(p->vertex[2], uint, lane)].clip), &cut->polygon);
 	}
 	return &cut->polygon;
 }
@@ -312,7 +322,8 @@ WIDE_VECTORS static inline packi pack_inside(struct window_vertex a, struct wind
 }
 
 /* As clip_covers. */
-WIDE_VECTORS static inline packi pack_covers_part(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, packi x, packi y)
+WIDE_VECTORS static inline packi pack_covers_part(struct window_vertex v0, struct window_vertex v1,
+                                                  struct window_vertex v2, packi x, packi y)
 {
 	const clip_area area = (clip_area)(v1.x - v0.x) * (v2.y - v0.y) - (clip_area)(v2.x - v0.x) * (v1.y - v0.y);
 	const int sign = area > 0 ? 1 : -1;
@@ -323,13 +334,17 @@ WIDE_VECTORS static inline packi pack_covers_part(struct window_vertex v0, struc
 }
 
 /* The part of a polygon that covers the lanes' pixels, by its second corner; polygon->n: none does. */
-WIDE_VECTORS static inline packu pack_part(const struct shade_arguments *a, const struct clip_polygon *polygon, const struct pack *p)
+WIDE_VECTORS static inline packu pack_part(const struct shade_arguments *a, const struct clip_polygon *polygon,
+                                           const struct pack *p)
 {
-	const packi x = p->x * 256 + 128 + p->view->sample[0], y = ((int)a->height - 1 - p->row) * 256 + 128 + p->view->sample[1];
+	const packi x = p->x * 256 + 128 + p->view->sample[0],
+		    y = ((int)a->height - 1 - p->row) * 256 + 128 + p->view->sample[1];
 	packu part = polygon->n;
 
 	for (uint k = polygon->n; k-- > 2;) /* the first of several */
-		part = select(part, (packu)(k), pack_covers_part(polygon->corner[k - 1].window, polygon->corner[k].window, polygon->corner[0].window, x, y));
+		part = select(part, (packu)(k),
+		              pack_covers_part(polygon->corner[k - 1].window, polygon->corner[k].window,
+		                               polygon->corner[0].window, x, y));
 	return part;
 }
 
@@ -344,11 +359,13 @@ WIDE_VECTORS static inline uint pack_same_part(const struct pack_list *list, con
 {
 	const uint lane = popcount((lanes & -lanes) - 1);
 
-	return lanes & pack_in_triangle(list, list->instance[lane], list->primitive[lane]) & pack_bits(vload16(0, p->part) == p->part[lane]);
+	return lanes & pack_in_triangle(list, list->instance[lane], list->primitive[lane]) &
+	       pack_bits(vload16(0, p->part) == p->part[lane]);
 }
 
 /* The corners of a part, in place of those of the lanes' triangle. */
-WIDE_VECTORS static inline void pack_place_part(const struct clip_polygon *polygon, uint part, packi lanes, struct pack *p)
+WIDE_VECTORS static inline void pack_place_part(const struct clip_polygon *polygon, uint part, packi lanes,
+                                                struct pack *p)
 {
 	for (uint k = 0; k < 3; k++) {
 		const struct clip_corner *c = pack_corner(polygon, part, k);
@@ -363,7 +380,8 @@ WIDE_VECTORS static inline void pack_place_part(const struct clip_polygon *polyg
 }
 
 /* Four numbers of the vertices of a lane's triangle become those of its part's corners in all lanes of the part. */
-WIDE_VECTORS static inline void pack_cut_row(const struct clip_polygon *polygon, uint lane, packi lanes, const struct pack *p, packf (*row)[4])
+WIDE_VECTORS static inline void pack_cut_row(const struct clip_polygon *polygon, uint lane, packi lanes,
+                                             const struct pack *p, packf (*row)[4])
 {
 	struct vec4 pool[3 + CLIP_MAX_CUTS];
 
@@ -382,13 +400,14 @@ WIDE_VECTORS static inline void pack_cut_row(const struct clip_polygon *polygon,
 	}
 }
 
-/* --- Where they are ------------------------------------------------------------------------------------------------ */
+/* --- Where they are ---------------------------------------------------------------------------------------------- */
 
 /* As setup_offset. */
 WIDE_VECTORS static inline packf pack_offset(const struct pack *p, uint bits)
 {
 	const struct pack_edges *e = &p->edges;
-	const packf first = select(p->z[0], p->z[1], e->turned), dz01 = first - select(p->z[1], p->z[0], e->turned), dz20 = p->z[2] - first;
+	const packf first = select(p->z[0], p->z[1], e->turned), dz01 = first - select(p->z[1], p->z[0], e->turned),
+		    dz20 = p->z[2] - first;
 	const packf slope = fmax(fabs((dz20 * e->dy01 - e->dy20 * dz01) * e->one_over_area),
 	                         fabs((e->dx20 * dz01 - dz20 * e->dx01) * e->one_over_area));
 
@@ -413,7 +432,8 @@ WIDE_VECTORS static inline void pack_unsnap(struct pack *p, uint bits)
 	p->b1 = -(px[2] * py[0] - px[0] * py[2]) / p->edges.area;
 	p->b2 = -(px[0] * py[1] - px[1] * py[0]) / p->edges.area;
 	if (any_pack(p->cut)) {
-		const packf p0 = (1.0f - p->b1 - p->b2) * p->w_inv[0], p1 = p->b1 * p->w_inv[1], p2 = p->b2 * p->w_inv[2], sum = p0 + p1 + p2;
+		const packf p0 = (1.0f - p->b1 - p->b2) * p->w_inv[0], p1 = p->b1 * p->w_inv[1],
+			    p2 = p->b2 * p->w_inv[2], sum = p0 + p1 + p2;
 
 		p->b1 = select(p->b1, (p0 * p->corner1[0] + p1 * p->corner1[1] + p2 * p->corner1[2]) / sum, p->cut);
 		p->b2 = select(p->b2, (p0 * p->corner2[0] + p1 * p->corner2[1] + p2 * p->corner2[2]) / sum, p->cut);
@@ -446,8 +466,8 @@ WIDE_VECTORS static inline packi pack_side(const struct pack *p)
 }
 
 /* The lanes' triangles and the weights of their vertices, for fragments that have been shaded. */
-static inline void pack_locate(const struct tables *t, __global const struct window_vertex *windows, uint width, uint height,
-                               const struct pack_list *list, uint lanes, struct pack *p)
+static inline void pack_locate(const struct tables *t, __global const struct window_vertex *windows, uint width,
+                               uint height, const struct pack_list *list, uint lanes, struct pack *p)
 {
 	pack_load(t, width, height, list, lanes, p);
 	pack_window(t, windows, p);
@@ -455,7 +475,8 @@ static inline void pack_locate(const struct tables *t, __global const struct win
 }
 
 /* The corners and edges of the lanes' triangles. @return the lanes of which a part of the triangle covers the pixel */
-static inline uint pack_find(const struct shade_arguments *a, const struct pack_list *list, uint lanes, struct pack_kept *kept, struct pack *p)
+static inline uint pack_find(const struct shade_arguments *a, const struct pack_list *list, uint lanes,
+                             struct pack_kept *kept, struct pack *p)
 {
 	pack_window(&a->tables, a->windows, p);
 	pack_corners(a, p);
@@ -483,8 +504,8 @@ static inline uint pack_find(const struct shade_arguments *a, const struct pack_
  * p: with material and view, and with instance and primitive: those of the last ones, or SCENE_NONE
  * @return the lanes that have one: others lie in slivers
  */
-static inline uint pack_place(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int first_time, struct pack_kept *kept,
-                              struct pack *p)
+static inline uint pack_place(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int first_time,
+                              struct pack_kept *kept, struct pack *p)
 {
 	const uint first = popcount((lanes & -lanes) - 1);
 	const int is_known = p->primitive != SCENE_NONE && !(lanes & ~pack_in_triangle(list, p->instance, p->primitive));

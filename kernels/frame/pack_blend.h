@@ -1,6 +1,6 @@
 /*
- * Per-fragment operations on sixteen pixels of a row at once, a lane each: what pixel.h and blend.h do for one, to the same bits. OpenCL C
- * only. No stencil test, no logic operations, no samples, no frame buffers of floats.
+ * Per-fragment operations on sixteen pixels of a row at once, a lane each: what pixel.h and blend.h do for one, to the
+ * same bits. OpenCL C only. No stencil test, no logic operations, no samples, no frame buffers of floats.
  */
 #pragma once
 
@@ -12,7 +12,9 @@ WIDE_VECTORS static inline packu pack_depth_steps(packf depth, uint bits)
 {
 	depth = pack_clamp01(depth);
 	if (bits > 24)
-		return select((packu)(0xffffffffu), convert_uint16(select((packf)(0), depth, depth < 1.0f) * 2147483648.0f) << 1, depth < 1.0f);
+		return select((packu)(0xffffffffu),
+		              convert_uint16(select((packf)(0), depth, depth < 1.0f) * 2147483648.0f) << 1,
+		              depth < 1.0f);
 	return convert_uint16(pack_round(depth * (float)pixel_bits_mask(bits)));
 }
 
@@ -38,8 +40,8 @@ WIDE_VECTORS static inline packu pack_code(packf x)
 }
 
 /* As blend_factor. s, d: source and destination of a channel, with their alphas */
-WIDE_VECTORS static inline packu pack_blend_factor(__global const struct scene_material *m, uint factor, int channel, packu s, packu s_alpha,
-                                                   packu d, packu d_alpha)
+WIDE_VECTORS static inline packu pack_blend_factor(__global const struct scene_material *m, uint factor, int channel,
+                                                   packu s, packu s_alpha, packu d, packu d_alpha)
 {
 	switch (factor) {
 	case GL_ZERO: return 0;
@@ -83,17 +85,22 @@ WIDE_VECTORS static inline packu pack_blend_equation(uint equation, packu s, pac
 }
 
 /* One channel of blend_colors. */
-WIDE_VECTORS static inline packf pack_blend(__global const struct scene_material *m, int channel, packf source, packu s_alpha,
-                                            packf destination, packu d_alpha)
+WIDE_VECTORS static inline packf pack_blend(__global const struct scene_material *m, int channel, packf source,
+                                            packu s_alpha, packf destination, packu d_alpha)
 {
 	const packu s = pack_code(source), d = pack_code(destination);
-	const packu fs = pack_blend_factor(m, channel == 3 ? m->blend_src_alpha : m->blend_src_rgb, channel, s, s_alpha, d, d_alpha);
-	const packu fd = pack_blend_factor(m, channel == 3 ? m->blend_dst_alpha : m->blend_dst_rgb, channel, s, s_alpha, d, d_alpha);
+	const packu fs = pack_blend_factor(m, channel == 3 ? m->blend_src_alpha : m->blend_src_rgb, channel, s, s_alpha,
+	                                   d, d_alpha);
+	const packu fd = pack_blend_factor(m, channel == 3 ? m->blend_dst_alpha : m->blend_dst_rgb, channel, s, s_alpha,
+	                                   d, d_alpha);
 
-	return convert_float16(as_int16(pack_blend_equation(channel == 3 ? m->blend_equation_alpha : m->blend_equation_rgb, s, fs, d, fd))) / 255.0f;
+	return convert_float16(as_int16(pack_blend_equation(
+		       channel == 3 ? m->blend_equation_alpha : m->blend_equation_rgb, s, fs, d, fd))) /
+	       255.0f;
 }
 
-/* When nothing is left of a destination that is blended by a pair of factors: 0 never, 1 ever, 2 where the source's alpha is 1. */
+/* When nothing is left of a destination that is blended by a pair of factors: 0 never, 1 ever, 2 where the source's
+ * alpha is 1. */
 static inline int pack_blend_covers(uint source, uint destination)
 {
 	switch (source) {
@@ -117,5 +124,7 @@ static inline int pack_covers(__global const struct scene_material *m)
 		return 1;
 	rgb = pack_blend_covers(m->blend_src_rgb, m->blend_dst_rgb);
 	alpha = pack_blend_covers(m->blend_src_alpha, m->blend_dst_alpha);
-	return m->blend_equation_rgb != GL_FUNC_ADD || m->blend_equation_alpha != GL_FUNC_ADD || !rgb || !alpha ? 0 : max(rgb, alpha);
+	return m->blend_equation_rgb != GL_FUNC_ADD || m->blend_equation_alpha != GL_FUNC_ADD || !rgb || !alpha ?
+	               0 :
+	               max(rgb, alpha);
 }

@@ -1,4 +1,5 @@
-/* Texture environments in sixteen lanes: what combine.h does for one, in the same order of operations. OpenCL C only. */
+/* Texture environments in sixteen lanes: what combine.h does for one, in the same order of operations. OpenCL C
+ * only. */
 #pragma once
 
 #include "kernels/frame/pack_texture.h"
@@ -9,8 +10,8 @@ struct pack_color {
 };
 
 /* As combine_plain. */
-WIDE_VECTORS static inline struct pack_color pack_combine(uint mode, uint format, const struct pack_color *p, const packf *s,
-                                                          __global const float *e)
+WIDE_VECTORS static inline struct pack_color pack_combine(uint mode, uint format, const struct pack_color *p,
+                                                          const packf *s, __global const float *e)
 {
 	struct pack_color out = *p;
 
@@ -25,15 +26,18 @@ WIDE_VECTORS static inline struct pack_color pack_combine(uint mode, uint format
 		out.c[i] = mode == GL_REPLACE ? s[i] : mode == GL_BLEND ? p->c[i] * (1.0f - s[i]) + e[i] * s[i] :
 		           mode == GL_ADD ? p->c[i] + s[i] : p->c[i] * s[i];
 	if (combine_has_alpha(format))
-		out.c[3] = mode == GL_REPLACE ? s[3] : mode == GL_BLEND && format == GL_INTENSITY ? p->c[3] * (1.0f - s[3]) + e[3] * s[3] :
-		           mode == GL_ADD && format == GL_INTENSITY ? p->c[3] + s[3] : p->c[3] * s[3];
+		out.c[3] = mode == GL_REPLACE                         ? s[3] :
+		           mode == GL_BLEND && format == GL_INTENSITY ? p->c[3] * (1.0f - s[3]) + e[3] * s[3] :
+		           mode == GL_ADD && format == GL_INTENSITY   ? p->c[3] + s[3] :
+		                                                        p->c[3] * s[3];
 	for (int i = 0; i < 4 && mode == GL_ADD; i++)
 		out.c[i] = pack_clamp01(out.c[i]);
 	return out;
 }
 
 /* Which of a material's units a number of GL's belongs to; unit_count: none. units: the material's */
-static inline uint pack_find_unit(__global const struct scene_material *m, __global const struct scene_unit *units, uint number)
+static inline uint pack_find_unit(__global const struct scene_material *m, __global const struct scene_unit *units,
+                                  uint number)
 {
 	uint i = 0;
 
@@ -42,12 +46,14 @@ static inline uint pack_find_unit(__global const struct scene_material *m, __glo
 	return i;
 }
 
-/* Whether pack_combine and pack_combine_full know what unit i asks for: sources that are there, products of colours for colours alone. */
-static inline int pack_knows_combine(__global const struct scene_material *m, __global const struct scene_unit *units, uint i)
+/* Whether pack_combine and pack_combine_full know what unit i asks for: sources that are there, products of colours for
+ * colours alone. */
+static inline int pack_knows_combine(__global const struct scene_material *m, __global const struct scene_unit *units,
+                                     uint i)
 {
 	__global const struct scene_unit *unit = &units[i];
-	int known = unit->combine_alpha != GL_DOT3_RGB && unit->combine_alpha != GL_DOT3_RGBA && unit->combine_alpha != GL_DOT3_RGB_EXT &&
-	            unit->combine_alpha != GL_DOT3_RGBA_EXT;
+	int known = unit->combine_alpha != GL_DOT3_RGB && unit->combine_alpha != GL_DOT3_RGBA &&
+	            unit->combine_alpha != GL_DOT3_RGB_EXT && unit->combine_alpha != GL_DOT3_RGBA_EXT;
 
 	if (unit->env_mode != GL_COMBINE)
 		return unit->env_mode != GL_COMBINE4_NV;
@@ -119,9 +125,9 @@ WIDE_VECTORS static inline packf pack_scaled(packf value, uint function, float s
  * @param units    the material's
  * @param samples  in their order
  */
-WIDE_VECTORS static inline struct pack_color pack_combine_full(__global const struct scene_material *m, __global const struct scene_unit *units,
-                                                               uint i, const struct pack_color *previous, const struct pack_color *primary,
-                                                               const packf (*samples)[4])
+WIDE_VECTORS static inline struct pack_color
+pack_combine_full(__global const struct scene_material *m, __global const struct scene_unit *units, uint i,
+                  const struct pack_color *previous, const struct pack_color *primary, const packf (*samples)[4])
 {
 	__global const struct scene_unit *unit = &units[i];
 	const uint function = unit->combine_rgb;

@@ -1,6 +1,6 @@
 /*
- * The numbers of sixteen pixels of a row on their way to the planes of a picture: what compose.h does for one, to the same bits.
- * OpenCL C only.
+ * The numbers of sixteen pixels of a row on their way to the planes of a picture: what compose.h does for one, to the
+ * same bits. OpenCL C only.
  */
 #pragma once
 
@@ -35,7 +35,8 @@ struct pack_planes {
 };
 
 /* Those of a row of sixteen pixels, or as many as there are. r: kept. y: from the bottom */
-static inline struct pack_planes pack_planes_of(const struct compose_request *r, __global ushort *halves, __global float *floats, uint x, uint y)
+static inline struct pack_planes pack_planes_of(const struct compose_request *r, __global ushort *halves,
+                                                __global float *floats, uint x, uint y)
 {
 	struct pack_planes to;
 
@@ -57,7 +58,8 @@ WIDE_VECTORS static inline ushort16 pack_half(packf x)
 #ifdef PACK_HALF16
 	return as_ushort16(__builtin_ia32_vcvtps2ph512_mask(value, 8, as_short16((ushort16)(0)), (ushort)0xffff));
 #elif defined(PACK_HALF8)
-	return (ushort16)(as_ushort8(__builtin_ia32_vcvtps2ph256(value.lo, 0)), as_ushort8(__builtin_ia32_vcvtps2ph256(value.hi, 0)));
+	return (ushort16)(as_ushort8(__builtin_ia32_vcvtps2ph256(value.lo, 0)),
+	                  as_ushort8(__builtin_ia32_vcvtps2ph256(value.hi, 0)));
 #else
 	const packu bits = as_uint16(x), size = bits & 0x7fffffffu;
 	const packu normal = (size - 0x38000000u + 0xfffu + (size >> 13 & 1u)) >> 13;
@@ -97,9 +99,10 @@ WIDE_VECTORS static inline packf pack_effect(packf rest, packf of)
 /* Whether any plane shows where surfaces lie. */
 static inline int pack_wants_surface(const struct compose_request *r)
 {
-	return r->normals || (r->half_plane[COMPOSE_NORMAL] & r->half_plane[COMPOSE_NORMAL + 1] & r->half_plane[COMPOSE_NORMAL + 2] &
-	                      r->float_plane[COMPOSE_POSITION] & r->float_plane[COMPOSE_POSITION + 1] & r->float_plane[COMPOSE_POSITION + 2] &
-	                      r->float_plane[COMPOSE_Z]) != SCENE_NONE;
+	return r->normals ||
+	       (r->half_plane[COMPOSE_NORMAL] & r->half_plane[COMPOSE_NORMAL + 1] & r->half_plane[COMPOSE_NORMAL + 2] &
+	        r->float_plane[COMPOSE_POSITION] & r->float_plane[COMPOSE_POSITION + 1] &
+	        r->float_plane[COMPOSE_POSITION + 2] & r->float_plane[COMPOSE_Z]) != SCENE_NONE;
 }
 
 /* Some lanes of a number. */
@@ -109,8 +112,8 @@ WIDE_VECTORS static inline void pack_put(packf *number, packf value, packi mask)
 }
 
 /* Where the surfaces of some lanes lie. */
-WIDE_VECTORS static inline void pack_put_surface(const struct tables *t, const struct pack *p, const struct pack_surface *s, packi mask,
-                                                 struct pack_pixels *to)
+WIDE_VECTORS static inline void pack_put_surface(const struct tables *t, const struct pack *p,
+                                                 const struct pack_surface *s, packi mask, struct pack_pixels *to)
 {
 	const struct pack_vec normal = pack_normal(t, p, s), at = pack_place_at(s, p->weight);
 
@@ -123,8 +126,8 @@ WIDE_VECTORS static inline void pack_put_surface(const struct tables *t, const s
 }
 
 /* The same for one lane. f: its fragment, of any kind */
-static inline void pack_put_one(const struct tables *t, __global const struct window_vertex *windows, const struct fragment *f, uint lane,
-                                struct pack_pixels *to)
+static inline void pack_put_one(const struct tables *t, __global const struct window_vertex *windows,
+                                const struct fragment *f, uint lane, struct pack_pixels *to)
 {
 	struct vec3 normal, position;
 
@@ -171,7 +174,8 @@ WIDE_VECTORS static inline packf pack_encode(const struct compose_request *r, pa
 	return any_pack(as_int16(x) != as_int16(before)) ? pack_linear(x) : known;
 }
 
-/* The part that one step adds to a sum, as compose_channel has it. display, before: after and before the step, not encoded */
+/* The part that one step adds to a sum, as compose_channel has it. display, before: after and before the step, not
+ * encoded */
 WIDE_VECTORS static inline packf pack_part_of(packf display, packf before, packf color, packf sum)
 {
 	return select((packf)(0), pack_rounded(color - sum), display != before);
@@ -190,9 +194,10 @@ WIDE_VECTORS static inline void pack_compose_gl(packf exact, int c, const struct
 	pack_store_half(to, COMPOSE_REFRACT + c, (packf)(0));
 }
 
-/* One colour channel, as compose_nudge, compose_normals, compose_encode and compose_channel take it apart. first: GL's, or the normal's */
-WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p, packf nudged, packf first, packf exact, int c,
-                                                     const struct pack_planes *to)
+/* One colour channel, as compose_nudge, compose_normals, compose_encode and compose_channel take it apart. first: GL's,
+ * or the normal's */
+WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p, packf nudged, packf first,
+                                                     packf exact, int c, const struct pack_planes *to)
 {
 	const packf display_shadowed = select(p->shadowed[c], nudged, p->shadowed[c] == p->gl[c]);
 	const packf display_direct = select(p->direct[c], nudged, p->direct[c] == p->gl[c]);
@@ -203,7 +208,8 @@ WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p
 	const packf mirrored = pack_encode(to->request, display_mirrored, display_direct, direct);
 	const packf beauty = pack_encode(to->request, display_beauty, display_mirrored, mirrored);
 	const packf gl = pack_rounded(exact), share = shadowed / exact;
-	const packf shadow = select((packf)(1), pack_rounded(select((packf)(0), share, share > 0.0f)), (gl > 0.0f) & (shadowed < exact));
+	const packf shadow = select((packf)(1), pack_rounded(select((packf)(0), share, share > 0.0f)),
+	                            (gl > 0.0f) & (shadowed < exact));
 	const packf relight = pack_effect(direct - gl * shadow, direct), sum = gl * shadow + relight;
 	const packf reflect = pack_part_of(display_mirrored, display_direct, mirrored, sum);
 	const packf refract = pack_part_of(display_beauty, display_mirrored, beauty, sum + reflect);
@@ -216,13 +222,14 @@ WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p
 	pack_store_half(to, COMPOSE_REFRACT + c, refract);
 }
 
-/* The same; what no effect changes goes a shorter way. nudged: compose_nudged; first, exact: as pack_compose_channel takes them */
-WIDE_VECTORS static inline void pack_compose_color(const struct pack_pixels *p, packf nudged, packf first, packf exact, int c,
-                                                   const struct pack_planes *to)
+/* The same; what no effect changes goes a shorter way. nudged: compose_nudged; first, exact: as pack_compose_channel
+ * takes them */
+WIDE_VECTORS static inline void pack_compose_color(const struct pack_pixels *p, packf nudged, packf first, packf exact,
+                                                   int c, const struct pack_planes *to)
 {
 	const packi gl = as_int16(p->gl[c]);
-	const packi changed = (gl ^ as_int16(p->shadowed[c])) | (gl ^ as_int16(p->direct[c])) | (gl ^ as_int16(p->mirrored[c])) |
-	                      (gl ^ as_int16(p->beauty[c]));
+	const packi changed = (gl ^ as_int16(p->shadowed[c])) | (gl ^ as_int16(p->direct[c])) |
+	                      (gl ^ as_int16(p->mirrored[c])) | (gl ^ as_int16(p->beauty[c]));
 
 	if (to->request->normals || any_pack((changed != 0) | (p->gl[c] != p->gl[c])))
 		pack_compose_channel(p, nudged, first, exact, c, to);
@@ -251,7 +258,8 @@ struct pack_encoded {
 };
 
 /* Encode a row's colours, if they are not those that were encoded last. */
-WIDE_VECTORS static inline void pack_encode_row(const struct pack_pixels *p, const struct compose_request *r, struct pack_encoded *last)
+WIDE_VECTORS static inline void pack_encode_row(const struct pack_pixels *p, const struct compose_request *r,
+                                                struct pack_encoded *last)
 {
 	const packi differ = (as_int16(p->gl[0]) ^ as_int16(last->gl[0])) | (as_int16(p->gl[1]) ^ as_int16(last->gl[1])) |
 	                     (as_int16(p->gl[2]) ^ as_int16(last->gl[2]));
@@ -274,7 +282,8 @@ WIDE_VECTORS static inline void pack_encode_row(const struct pack_pixels *p, con
  * is_gl: no effect has a part in any of them, and the colours after p->gl are not there: they would be the same numbers
  * last: of the row before, or not known
  */
-WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, int is_gl, const struct pack_planes *to, struct pack_encoded *last)
+WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, int is_gl, const struct pack_planes *to,
+                                             struct pack_encoded *last)
 {
 	const packf *nudged = last->nudged, *first = last->first, *exact = last->exact;
 

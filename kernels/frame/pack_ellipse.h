@@ -1,6 +1,7 @@
 /*
- * Anisotropic samples of a texture in sixteen lanes: what texture_ellipse does for one, in the same order of operations. Each lane has
- * a footprint of its own; all go through their texels row by row together, as long as any has some left. OpenCL C only.
+ * Anisotropic samples of a texture in sixteen lanes: what texture_ellipse does for one, in the same order of
+ * operations. Each lane has a footprint of its own; all go through their texels row by row together, as long as any has
+ * some left. OpenCL C only.
  */
 #pragma once
 
@@ -20,7 +21,8 @@ WIDE_VECTORS static inline packi pack_place_texel(uint wrap, packi i, packi n)
 	return select(rest, rest + n, rest < 0);
 }
 
-/* Footprints: u, v their centres in texels; a, b, e of the ellipses, scaled; where they begin and how many texels they reach over. */
+/* Footprints: u, v their centres in texels; a, b, e of the ellipses, scaled; where they begin and how many texels they
+ * reach over. */
 struct pack_footprint {
 	packf u, v, a, b, e, first_x, first_y;
 	packi columns, rows;
@@ -30,11 +32,12 @@ struct pack_footprint {
  * As texture_ellipse finds them.
  * @return the lanes that have one: some of `lanes`. It reaches over less than 64 texels
  */
-WIDE_VECTORS static inline packi pack_footprint(const struct pack_level *l, const struct pack_slope *slope, packi level, packf s, packf t,
-                                                packi lanes, struct pack_footprint *out)
+WIDE_VECTORS static inline packi pack_footprint(const struct pack_level *l, const struct pack_slope *slope, packi level,
+                                                packf s, packf t, packi lanes, struct pack_footprint *out)
 {
 	const packf scale = as_float16((127 - level) << 23);
-	const packf ux = slope->right_s * scale, vx = slope->right_t * scale, uy = slope->down_s * scale, vy = slope->down_t * scale;
+	const packf ux = slope->right_s * scale, vx = slope->right_t * scale, uy = slope->down_s * scale,
+		    vy = slope->down_t * scale;
 	const packf a = vx * vx + vy * vy + 1.0f, b = -2.0f * (ux * vx + uy * vy), e = ux * ux + uy * uy + 1.0f;
 	const packf f = a * e - b * b * 0.25f, d = 4.0f * e * a - b * b, enlarge = 1023.0f / f;
 	const packf reach_u = 2.0f / d * sqrt(d * e * f), reach_v = 2.0f / d * sqrt(a * d * f);
@@ -62,12 +65,13 @@ static inline int pack_most(packi x)
 }
 
 /*
- * The columns of a row that an ellipse reaches, from *first on. It is taken a little larger, beyond what rounding moves: which texels lie in
- * it, q decides.
+ * The columns of a row that an ellipse reaches, from *first on. It is taken a little larger, beyond what rounding
+ * moves: which texels lie in it, q decides.
  * @param dy  from the centre to the row
  * @return how many: 0 in a lane where the ellipse does not reach the row
  */
-WIDE_VECTORS static inline packi pack_row_of_ellipse(const struct pack_footprint *at, packf dy, packi rows_left, packi *first)
+WIDE_VECTORS static inline packi pack_row_of_ellipse(const struct pack_footprint *at, packf dy, packi rows_left,
+                                                     packi *first)
 {
 	const packf bdy = at->b * dy, rest = bdy * bdy - 4.0f * at->a * (at->e * dy * dy - 1040.0f);
 	const packf half_width = sqrt(select((packf)(0), rest, rest > 0.0f)), over = 0.5f / at->a, from = at->u - at->first_x;
@@ -91,8 +95,8 @@ WIDE_VECTORS static inline packf pack_gauss(packf q, packi there)
  * @param out  [4]
  * @return the lanes that have some
  */
-WIDE_VECTORS static inline packi pack_ellipse(const struct tables *tables, __global const struct scene_unit *unit, const struct pack_level *l,
-                                             const struct pack_footprint *at, packf *out)
+WIDE_VECTORS static inline packi pack_ellipse(const struct tables *tables, __global const struct scene_unit *unit,
+                                              const struct pack_level *l, const struct pack_footprint *at, packf *out)
 {
 	const int rows = pack_most(at->rows);
 	packf red = 0.0f, green = 0.0f, blue = 0.0f, alpha = 0.0f, sum_weight = 0.0f;
@@ -108,7 +112,8 @@ WIDE_VECTORS static inline packi pack_ellipse(const struct tables *tables, __glo
 			const packf x = at->first_x + convert_float16(first + k), dx = x - at->u;
 			const packf q = (at->e * dy + at->b * dx) * dy + at->a * dx * dx;
 			const packf weight = pack_gauss(q, (q < 1024.0f) & (k < columns)), scale = 1.0f / 255.0f;
-			const packu texel = pack_texels(tables->texels, row + as_uint16(pack_place_texel(unit->wrap_s, pack_int(x), l->width)));
+			const packu texel = pack_texels(
+				tables->texels, row + as_uint16(pack_place_texel(unit->wrap_s, pack_int(x), l->width)));
 
 			red += convert_float16(texel & 255) * scale * weight;
 			green += convert_float16(texel >> 8 & 255) * scale * weight;
@@ -126,8 +131,8 @@ WIDE_VECTORS static inline packi pack_ellipse(const struct tables *tables, __glo
 
 /* Samples of a unit that is filtered anisotropically: one level a lane. */
 WIDE_VECTORS static inline void pack_anisotropic(const struct tables *t, __global const struct texture_image *image,
-                                                 __global const struct scene_unit *unit, const struct pack_slope *slope, const packf *c,
-                                                 packi lanes, packf *out)
+                                                 __global const struct scene_unit *unit, const struct pack_slope *slope,
+                                                 const packf *c, packi lanes, packf *out)
 {
 	const int nearest = unit->min_filter == GL_NEAREST_MIPMAP_NEAREST || unit->min_filter == GL_LINEAR_MIPMAP_NEAREST;
 	const packf lod = pack_lod(unit, slope, 1);
@@ -136,7 +141,8 @@ WIDE_VECTORS static inline void pack_anisotropic(const struct tables *t, __globa
 	packi level = 0, whole;
 
 	if (unit->min_filter != GL_LINEAR)
-		level = convert_int16(fmin(fmax(pack_floor(nearest ? lod + 0.5f : lod), (packf)(0)), (packf)((float)image->n_levels - 1.0f)));
+		level = convert_int16(fmin(fmax(pack_floor(nearest ? lod + 0.5f : lod), (packf)(0)),
+		                           (packf)((float)image->n_levels - 1.0f)));
 	l = pack_level(image, level);
 	whole = pack_footprint(&l, slope, level, c[0], c[1], lanes, &at);
 	whole &= pack_ellipse(t, unit, &l, &at, out);

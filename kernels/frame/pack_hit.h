@@ -1,6 +1,7 @@
 /*
- * Hits of paths, and fragments that light leaves, sixteen of one material at once: what point.h, transparency.h and path.h have for one,
- * in the same order of operations and to the same bits. OpenCL C only. pack_knows_paths says which materials it knows.
+ * Hits of paths, and fragments that light leaves, sixteen of one material at once: what point.h, transparency.h and
+ * path.h have for one, in the same order of operations and to the same bits. OpenCL C only. pack_knows_paths says which
+ * materials it knows.
  */
 #pragma once
 
@@ -39,7 +40,7 @@ static inline int pack_knows_bounces(const struct shade_arguments *s, __global c
 	       !transparency_is_unseen(m) && !(m->surface.reflect > 0.0f) && !(m->surface.transmit > 0.0f);
 }
 
-/* --- Where they are ------------------------------------------------------------------------------------------------ */
+/* --- Where they are ---------------------------------------------------------------------------------------------- */
 
 static inline void pack_take_hit(__global const struct hit *hits, uint item, uint lane, struct pack_list *list)
 {
@@ -94,8 +95,8 @@ WIDE_VECTORS static inline void pack_place_hits(const struct tables *t, __global
 }
 
 /* Textures at hits, as point_texture has them for points without neighbours. */
-WIDE_VECTORS static inline void pack_texture_hits(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
-                                                  struct pack_texturing *out)
+WIDE_VECTORS static inline void pack_texture_hits(const struct tables *t, const struct pack_list *list,
+                                                  const struct pack *p, uint lanes, struct pack_texturing *out)
 {
 	__global const struct scene_material *m = p->material;
 	const packu first = pack_texcoord_first(t, list, m, lanes, p->uniform);
@@ -129,7 +130,7 @@ WIDE_VECTORS static inline void pack_texture_hits(const struct tables *t, const 
 	out->fog = pack_fog(t, p);
 }
 
-/* --- Ways on ------------------------------------------------------------------------------------------------------- */
+/* --- Ways on ----------------------------------------------------------------------------------------------------- */
 
 /* As struct split. */
 struct pack_split {
@@ -143,7 +144,8 @@ WIDE_VECTORS static inline packf pack_fresnel(packf eta, packf cosine, packf *co
 	const packf k = 1.0f - eta * eta * (1.0f - cosine * cosine);
 	const packi passes = k > 0.0f;
 	const packf beyond = sqrt(select((packf)(0), k, passes));
-	const packf across = (eta * cosine - beyond) / (eta * cosine + beyond), along = (cosine - eta * beyond) / (cosine + eta * beyond);
+	const packf across = (eta * cosine - beyond) / (eta * cosine + beyond),
+		    along = (cosine - eta * beyond) / (cosine + eta * beyond);
 
 	*cosine_beyond = beyond;
 	return select((packf)(1), 0.5f * (across * across + along * along), passes);
@@ -158,7 +160,8 @@ WIDE_VECTORS static inline packi pack_enters(const struct pack *p)
 }
 
 /* As split_light. d: length as split_light takes it */
-WIDE_VECTORS static inline void pack_split_light(const struct tables *t, const struct pack_points *q, struct pack_vec d, struct pack_split *s)
+WIDE_VECTORS static inline void pack_split_light(const struct tables *t, const struct pack_points *q, struct pack_vec d,
+                                                 struct pack_split *s)
 {
 	__global const struct scene_material *m = q->p.material;
 	const float mirrored = clamp01(m->surface.reflect), through = fmin(clamp01(m->surface.transmit), 1.0f - mirrored);
@@ -193,8 +196,8 @@ WIDE_VECTORS static inline struct pack_vec pack_on_side(struct pack_vec d, struc
 }
 
 /* Rays of some lanes in a direction, as branch and stage_ray have them. */
-WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint lanes, struct pack_vec direction, struct pack_vec weight,
-                                            packu kind, packu medium, struct pack_branches *b)
+WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint lanes, struct pack_vec direction,
+                                            struct pack_vec weight, packu kind, packu medium, struct pack_branches *b)
 {
 	const struct pack_vec o = pack_ray_origin(q->p.weight, &q->surface, direction, q->back);
 	const packf most = fmax(fmax(weight.x, weight.y), weight.z);
@@ -204,8 +207,9 @@ WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint la
 		const uint lane = popcount((left & -left) - 1), at = q->list.item[lane] * b->slots + b->count[lane]++;
 		__global struct path *path = &b->paths[at];
 
-		vstore8((float8)(LANE(o.x, const float, lane), LANE(o.y, const float, lane), LANE(o.z, const float, lane), 0,
-		                 LANE(direction.x, float, lane), LANE(direction.y, float, lane), LANE(direction.z, float, lane), 1.0e30f),
+		vstore8((float8)(LANE(o.x, const float, lane), LANE(o.y, const float, lane),
+		                 LANE(o.z, const float, lane), 0, LANE(direction.x, float, lane),
+		                 LANE(direction.y, float, lane), LANE(direction.z, float, lane), 1.0e30f),
 		        at, (__global float *)b->rays);
 		path->weight[0] = LANE(weight.x, float, lane);
 		path->weight[1] = LANE(weight.y, float, lane);
@@ -219,7 +223,8 @@ WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint la
 }
 
 /* As branch_normal. */
-WIDE_VECTORS static inline struct pack_vec pack_mirror_normal(const struct tables *t, const struct pack *p, struct pack_vec n)
+WIDE_VECTORS static inline struct pack_vec pack_mirror_normal(const struct tables *t, const struct pack *p,
+                                                              struct pack_vec n)
 {
 	const uint kind = p->material->surface.hidden & (SCENE_NEAR_MIRROR | SCENE_NO_NORMALS);
 
@@ -227,8 +232,9 @@ WIDE_VECTORS static inline struct pack_vec pack_mirror_normal(const struct table
 }
 
 /* As branch_mirror, of what is smooth. */
-WIDE_VECTORS static inline void pack_branch_mirror(const struct tables *t, const struct pack_points *q, uint lanes, struct pack_vec d,
-                                                   const struct pack_split *s, struct pack_vec weight, packu kind, struct pack_branches *b)
+WIDE_VECTORS static inline void pack_branch_mirror(const struct tables *t, const struct pack_points *q, uint lanes,
+                                                   struct pack_vec d, const struct pack_split *s,
+                                                   struct pack_vec weight, packu kind, struct pack_branches *b)
 {
 	const struct pack_vec n = pack_mirror_normal(t, &q->p, s->normal), plane = q->surface.plane;
 	const struct pack_vec away = pack_sub(d, pack_scale(n, 2.0f * pack_dot(d, n)));
@@ -238,8 +244,9 @@ WIDE_VECTORS static inline void pack_branch_mirror(const struct tables *t, const
 }
 
 /* As branch_mirror, of fragments' materials that are rough. */
-static inline void pack_branch_rough(const struct leave_arguments *a, const struct pack_points *q, struct pack_vec d, const struct pack_split *s,
-                                     struct pack_vec weight, packu kind, struct pack_branches *b)
+static inline void pack_branch_rough(const struct leave_arguments *a, const struct pack_points *q, struct pack_vec d,
+                                     const struct pack_split *s, struct pack_vec weight, packu kind,
+                                     struct pack_branches *b)
 {
 	const struct pack_vec n = pack_mirror_normal(&a->tables, &q->p, s->normal), plane = q->surface.plane;
 	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, d) > 0.0f);
@@ -263,20 +270,23 @@ static inline void pack_branch_rough(const struct leave_arguments *a, const stru
 }
 
 /* As branch_through. */
-WIDE_VECTORS static inline void pack_branch_through(const struct tables *t, const struct pack_points *q, uint lanes, struct pack_vec d,
-                                                    const struct pack_split *s, struct pack_vec weight, packu kind, struct pack_branches *b)
+WIDE_VECTORS static inline void pack_branch_through(const struct tables *t, const struct pack_points *q, uint lanes,
+                                                    struct pack_vec d, const struct pack_split *s,
+                                                    struct pack_vec weight, packu kind, struct pack_branches *b)
 {
-	const struct pack_vec on = pack_normalize(pack_add(pack_scale(d, s->eta), pack_scale(s->normal, s->eta * s->cosine - s->cosine_beyond)));
+	const struct pack_vec on = pack_normalize(
+		pack_add(pack_scale(d, s->eta), pack_scale(s->normal, s->eta * s->cosine - s->cosine_beyond)));
 	const struct pack_vec plane = q->surface.plane;
 	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, d) < 0.0f);
 	const uint material = (uint)(q->p.material - t->materials);
 
-	pack_branch(q, lanes, pack_on_side(on, side), weight, kind, select((packu)(SCENE_NONE), (packu)(material), pack_enters(&q->p)), b);
+	pack_branch(q, lanes, pack_on_side(on, side), weight, kind,
+	            select((packu)(SCENE_NONE), (packu)(material), pack_enters(&q->p)), b);
 }
 
 /* As glass_tint. from_vertices: as they are lit */
-static inline struct pack_vec pack_tint(const struct tables *t, const struct pack_points *q, const struct pack_texturing *texturing,
-                                        const struct pack_color *from_vertices)
+static inline struct pack_vec pack_tint(const struct tables *t, const struct pack_points *q,
+                                        const struct pack_texturing *texturing, const struct pack_color *from_vertices)
 {
 	const struct pack_color c = pack_albedo(t, &q->list, &q->p, q->lanes, texturing, from_vertices);
 
@@ -288,7 +298,7 @@ WIDE_VECTORS static inline struct pack_vec pack_mul(struct pack_vec a, struct pa
 	return pack_vec(a.x * b.x, a.y * b.y, a.z * b.z);
 }
 
-/* --- Ways that chance chooses ------------------------------------------------------------------------------------------ */
+/* --- Ways that chance chooses ------------------------------------------------------------------------------------ */
 
 /* As sample_hash. */
 WIDE_VECTORS static inline packu pack_hash(packu x)
@@ -331,8 +341,10 @@ WIDE_VECTORS static inline void pack_sobol(packu seed, uint index, packf *u, pac
 	second ^= (second & 0xf0f0f0f0u) >> 4;
 	second ^= (second & 0xccccccccu) >> 2;
 	second ^= (second & 0xaaaaaaaau) >> 1;
-	*u = convert_float16(pack_reverse(pack_mix_upwards(place, pack_hash(hash ^ 0x85ebca6bu))) >> 8) * 5.9604644775390625e-8f;
-	*v = convert_float16(pack_reverse(pack_mix_upwards(second, pack_hash(hash ^ 0xc2b2ae35u))) >> 8) * 5.9604644775390625e-8f;
+	*u = convert_float16(pack_reverse(pack_mix_upwards(place, pack_hash(hash ^ 0x85ebca6bu))) >> 8) *
+	     5.9604644775390625e-8f;
+	*v = convert_float16(pack_reverse(pack_mix_upwards(second, pack_hash(hash ^ 0xc2b2ae35u))) >> 8) *
+	     5.9604644775390625e-8f;
 }
 
 /* As sample_cosine. */
@@ -349,15 +361,17 @@ static inline struct pack_vec pack_cosine(struct pack_vec n, packf u, packf v, u
 		LANE(up, float, lane) = LANE(radius, const float, lane) * M_SIN(LANE(turn, const float, lane));
 	}
 	pack_basis(n, &across, &along);
-	return pack_normalize(pack_add(pack_add(pack_scale(across, right), pack_scale(along, up)), pack_scale(n, sqrt(1.0f - u))));
+	return pack_normalize(
+		pack_add(pack_add(pack_scale(across, right), pack_scale(along, up)), pack_scale(n, sqrt(1.0f - u))));
 }
 
 /*
- * As branch_one, of what is matte. No path is given a density: only surfaces that shine, which packs do not know, ask for it.
- * seed: of the paths. albedo: as light
+ * As branch_one, of what is matte. No path is given a density: only surfaces that shine, which packs do not know, ask
+ * for it. seed: of the paths. albedo: as light
  */
-static inline void pack_branch_scatter(const struct shade_hit_arguments *a, const struct pack_points *q, uint lanes, packu seed,
-                                       const packf *albedo, struct pack_vec weight, packu kind, struct pack_branches *b)
+static inline void pack_branch_scatter(const struct shade_hit_arguments *a, const struct pack_points *q, uint lanes,
+                                       packu seed, const packf *albedo, struct pack_vec weight, packu kind,
+                                       struct pack_branches *b)
 {
 	const uint frame = sample_hash(a->frame);
 	const struct pack_vec n = pack_normal(&a->tables, &q->p, &q->surface), plane = q->surface.plane;

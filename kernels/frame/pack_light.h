@@ -1,6 +1,6 @@
 /*
- * Sixteen points of one material lit where they are, instead of between lit vertices: what point_lit_here and light_vertex have for one, in
- * the same order of operations and to the same bits. OpenCL C only.
+ * Sixteen points of one material lit where they are, instead of between lit vertices: what point_lit_here and
+ * light_vertex have for one, in the same order of operations and to the same bits. OpenCL C only.
  */
 #pragma once
 
@@ -21,10 +21,11 @@ struct pack_matter {
 	__global const struct scene_material *material;
 };
 
-/* --- Colours ------------------------------------------------------------------------------------------------------- */
+/* --- Colours ----------------------------------------------------------------------------------------------------- */
 
 /* The current colours (glColor) of the vertices of some lanes; of the others undefined. */
-static inline void pack_vertex_colors(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes, packf (*v)[4])
+static inline void pack_vertex_colors(const struct tables *t, const struct pack_list *list, const struct pack *p,
+                                      uint lanes, packf (*v)[4])
 {
 	for (uint lane = 0; lane < PACK_SIZE; lane++) {
 		const uint from = lanes >> lane & 1 ? lane : popcount((lanes & -lanes) - 1);
@@ -42,7 +43,8 @@ static inline void pack_vertex_colors(const struct tables *t, const struct pack_
 }
 
 /* As point_current_color. */
-static inline struct pack_color pack_current_color(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes)
+static inline struct pack_color pack_current_color(const struct tables *t, const struct pack_list *list,
+                                                   const struct pack *p, uint lanes)
 {
 	struct pack_color out;
 	packf v[3][4];
@@ -54,7 +56,8 @@ static inline struct pack_color pack_current_color(const struct tables *t, const
 }
 
 /* As point_matte_color. */
-static inline struct pack_color pack_matte_color(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes)
+static inline struct pack_color pack_matte_color(const struct tables *t, const struct pack_list *list,
+                                                 const struct pack *p, uint lanes)
 {
 	struct pack_color out = pack_current_color(t, list, p, lanes);
 
@@ -63,7 +66,7 @@ static inline struct pack_color pack_matte_color(const struct tables *t, const s
 	return out;
 }
 
-/* --- Lights -------------------------------------------------------------------------------------------------------- */
+/* --- Lights ------------------------------------------------------------------------------------------------------ */
 
 /* As light_spot. */
 static inline packf pack_spot(__global const struct scene_light *light, struct pack_vec to_light)
@@ -84,7 +87,8 @@ static inline packf pack_spot(__global const struct scene_light *light, struct p
 }
 
 /* As light_strength. */
-static inline packf pack_strength(__global const struct scene_light *light, struct pack_vec at, struct pack_vec *to_light)
+static inline packf pack_strength(__global const struct scene_light *light, struct pack_vec at,
+                                  struct pack_vec *to_light)
 {
 	const float w = light->position_eye[3];
 	const struct vec3 place = w != 0.0f ? v3_scale(v3_load(light->position_eye), 1.0f / w) : v3_load(light->position_eye);
@@ -104,7 +108,8 @@ static inline packf pack_strength(__global const struct scene_light *light, stru
 }
 
 /* The shares of a slot's light that reach some lanes, as stage_seen has them. */
-static inline void pack_seen(const struct shade_arguments *a, const struct pack_list *list, uint lanes, uint slot, packf *share)
+static inline void pack_seen(const struct shade_arguments *a, const struct pack_list *list, uint lanes, uint slot,
+                             packf *share)
 {
 	share[0] = share[1] = share[2] = 1.0f;
 	if (slot >= a->n_slots)
@@ -119,8 +124,8 @@ static inline void pack_seen(const struct shade_arguments *a, const struct pack_
 }
 
 /* What one light adds. share: how much of it reaches the points */
-static inline void pack_add_light(const struct pack_matter *m, __global const struct scene_light *light, uint lanes, const packf *share,
-                                  packu bit, int apart, struct pack_lit_here *out)
+static inline void pack_add_light(const struct pack_matter *m, __global const struct scene_light *light, uint lanes,
+                                  const packf *share, packu bit, int apart, struct pack_lit_here *out)
 {
 	struct pack_vec to_light;
 	const packf strength = pack_strength(light, m->at, &to_light), n_l = pack_dot(m->normal, to_light);
@@ -154,7 +159,7 @@ static inline void pack_add_light(const struct pack_matter *m, __global const st
 	}
 }
 
-/* --- Points -------------------------------------------------------------------------------------------------------- */
+/* --- Points ------------------------------------------------------------------------------------------------------ */
 
 /* A colour of the material's sides, or the vertices' where the side tracks them. */
 static inline void pack_own_color(__global const float *front, __global const float *back, packi side, packi tracked,
@@ -168,8 +173,8 @@ static inline void pack_own_color(__global const float *front, __global const fl
  * The material of a side under white light. side: all ones for the back; current: the points' current colours
  * matter: receives all but place, normal and viewer; out: the light that no light sends
  */
-static inline void pack_material(__global const struct scene_material *m, packi side, const struct pack_color *current, struct pack_matter *matter,
-                                 struct pack_color *out)
+static inline void pack_material(__global const struct scene_material *m, packi side, const struct pack_color *current,
+                                 struct pack_matter *matter, struct pack_color *out)
 {
 	const packi back = m->color_material == GL_BACK ? (packi)(-1) : (packi)(0);
 	const packi front = m->color_material == GL_FRONT ? (packi)(-1) : (packi)(0);
@@ -177,11 +182,12 @@ static inline void pack_material(__global const struct scene_material *m, packi 
 	const uint mode = m->color_material ? m->color_material_mode : 0;
 	packf emission[4];
 
-	pack_own_color(m->front.ambient, m->back.ambient, side, mode == GL_AMBIENT || mode == GL_AMBIENT_AND_DIFFUSE ? tracks : none, current,
-	               matter->ambient);
-	pack_own_color(m->front.diffuse, m->back.diffuse, side, mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE ? tracks : none, current,
-	               matter->diffuse);
-	pack_own_color(m->front.specular, m->back.specular, side, mode == GL_SPECULAR ? tracks : none, current, matter->specular);
+	pack_own_color(m->front.ambient, m->back.ambient, side,
+	               mode == GL_AMBIENT || mode == GL_AMBIENT_AND_DIFFUSE ? tracks : none, current, matter->ambient);
+	pack_own_color(m->front.diffuse, m->back.diffuse, side,
+	               mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE ? tracks : none, current, matter->diffuse);
+	pack_own_color(m->front.specular, m->back.specular, side, mode == GL_SPECULAR ? tracks : none, current,
+	               matter->specular);
 	pack_own_color(m->front.emission, m->back.emission, side, mode == GL_EMISSION ? tracks : none, current, emission);
 	for (int i = 0; i < 4; i++)
 		out->c[i] = emission[i] + matter->ambient[i] * m->light_model_ambient[i];
@@ -190,8 +196,8 @@ static inline void pack_material(__global const struct scene_material *m, packi 
 }
 
 /* Of what OpenGL lights. out: receives the light that no light sends, too */
-static inline void pack_lit_matter(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
-                                   struct pack_matter *matter, struct pack_color *out)
+static inline void pack_lit_matter(const struct tables *t, const struct pack_list *list, const struct pack *p,
+                                   uint lanes, struct pack_matter *matter, struct pack_color *out)
 {
 	const packi side = pack_side(p);
 	struct pack_color current;
@@ -207,8 +213,9 @@ static inline void pack_lit_matter(const struct tables *t, const struct pack_lis
 }
 
 /* Of what only rules light. */
-static inline void pack_unlit_matter(const struct tables *t, const struct pack_list *list, const struct pack *p, const struct pack_surface *s,
-                                     uint lanes, struct pack_matter *matter, struct pack_color *out)
+static inline void pack_unlit_matter(const struct tables *t, const struct pack_list *list, const struct pack *p,
+                                     const struct pack_surface *s, uint lanes, struct pack_matter *matter,
+                                     struct pack_color *out)
 {
 	const struct pack_color matte = pack_matte_color(t, list, p, lanes);
 
@@ -222,7 +229,8 @@ static inline void pack_unlit_matter(const struct tables *t, const struct pack_l
 }
 
 /* Before the first light. m: of its points */
-static inline void pack_light_begin(__global const struct scene_material *m, struct pack_matter *matter, struct pack_lit_here *out)
+static inline void pack_light_begin(__global const struct scene_material *m, struct pack_matter *matter,
+                                    struct pack_lit_here *out)
 {
 	matter->material = m;
 	matter->to_viewer = pack_vec((packf)(0), (packf)(0), (packf)(1));
@@ -264,7 +272,8 @@ static inline void pack_lit_here(const struct shade_arguments *a, const struct p
 		packf share[3];
 
 		pack_seen(a, list, lanes, i, share);
-		pack_add_light(&matter, &t->lights[m->surface.light_first + i], lanes, share, (packu)(1u << i), m->separate_specular, out);
+		pack_add_light(&matter, &t->lights[m->surface.light_first + i], lanes, share, (packu)(1u << i),
+		               m->separate_specular, out);
 	}
 	pack_light_end(&matter, out);
 }

@@ -1,7 +1,7 @@
 /*
- * Fragments of one material shaded by programs, sixteen lanes at once: what program.h and instructions.h have for a fragment, in the same order
- * of operations and to the same bits. OpenCL C only. Where a program asks nothing across pixels a lane is a fragment, else four lanes are the
- * quad of one.
+ * Fragments of one material shaded by programs, sixteen lanes at once: what program.h and instructions.h have for a
+ * fragment, in the same order of operations and to the same bits. OpenCL C only. Where a program asks nothing across
+ * pixels a lane is a fragment, else four lanes are the quad of one.
  */
 #pragma once
 
@@ -22,12 +22,14 @@ struct pack_runs {
 	struct program_run vertices;
 };
 
-/* --- Instructions -------------------------------------------------------------------------------------------------- */
+/* --- Instructions ------------------------------------------------------------------------------------------------ */
 
-WIDE_VECTORS static inline packf pack_operand(const struct pack_run *run, const struct program *program, uint operand, uint place, uint negate)
+WIDE_VECTORS static inline packf pack_operand(const struct pack_run *run, const struct program *program, uint operand,
+                                              uint place, uint negate)
 {
-	const packf v = operand >= SCENE_PROGRAM_CONSTANT ? (packf)(program->constants[operand - SCENE_PROGRAM_CONSTANT + place]) :
-	                                                    run->registers[operand + place];
+	const packf v = operand >= SCENE_PROGRAM_CONSTANT ?
+	                        (packf)(program->constants[operand - SCENE_PROGRAM_CONSTANT + place]) :
+	                        run->registers[operand + place];
 
 	return negate ? v * -1.0f : v;
 }
@@ -82,7 +84,8 @@ WIDE_VECTORS static inline void pack_keep(struct pack_run *run, uint place, pack
 }
 
 /* As program_fetch and program_store. */
-static inline void pack_fetch(struct pack_run *run, const struct program *program, __global const struct scene_instruction *in)
+static inline void pack_fetch(struct pack_run *run, const struct program *program,
+                              __global const struct scene_instruction *in)
 {
 	const packf at = pack_operand(run, program, in->b, 0, 0);
 	const uint elements = in->c >> 16, numbers = in->c & 0xffff;
@@ -104,7 +107,8 @@ static inline void pack_fetch(struct pack_run *run, const struct program *progra
 	}
 }
 
-static inline void pack_store(struct pack_run *run, const struct program *program, __global const struct scene_instruction *in)
+static inline void pack_store(struct pack_run *run, const struct program *program,
+                              __global const struct scene_instruction *in)
 {
 	const packf value = pack_operand(run, program, in->a, 0, 0), at = pack_operand(run, program, in->b, 0, 0);
 
@@ -118,9 +122,12 @@ static inline void pack_store(struct pack_run *run, const struct program *progra
 }
 
 /* As program_turn. */
-static inline uint pack_turn(struct pack_run *run, const struct program *program, __global const struct scene_instruction *in, uint at)
+static inline uint pack_turn(struct pack_run *run, const struct program *program,
+                             __global const struct scene_instruction *in, uint at)
 {
-	const uint is_true = in->operation == SCENE_OP_JUMP ? 0 : run->lanes & pack_bits(pack_operand(run, program, in->a, 0, 0) != 0.0f);
+	const uint is_true = in->operation == SCENE_OP_JUMP ?
+	                             0 :
+	                             run->lanes & pack_bits(pack_operand(run, program, in->a, 0, 0) != 0.0f);
 
 	if (in->operation == SCENE_OP_MASK) {
 		run->mask = is_true;
@@ -140,7 +147,8 @@ static inline uint pack_turn(struct pack_run *run, const struct program *program
 	return in->to - 1;
 }
 
-WIDE_VECTORS static inline void pack_compute(struct pack_run *run, const struct program *program, __global const struct scene_instruction *in)
+WIDE_VECTORS static inline void pack_compute(struct pack_run *run, const struct program *program,
+                                             __global const struct scene_instruction *in)
 {
 	const uint flags = in->flags;
 
@@ -156,14 +164,16 @@ WIDE_VECTORS static inline void pack_compute(struct pack_run *run, const struct 
 		if (in->operation >= SCENE_OP_MAD)
 			c = pack_operand(run, program, in->c, flags & SCENE_STEP_C ? i : 0, flags & SCENE_NEGATE_C);
 		a = pack_result(in->operation, a, b, c);
-		pack_keep(run, in->to + i, flags & SCENE_SATURATE ? pack_clamp01(a) : a, flags & SCENE_UNMASKED ? run->lanes : run->mask);
+		pack_keep(run, in->to + i, flags & SCENE_SATURATE ? pack_clamp01(a) : a,
+		          flags & SCENE_UNMASKED ? run->lanes : run->mask);
 	}
 }
 
-/* --- Textures ------------------------------------------------------------------------------------------------------ */
+/* --- Textures ---------------------------------------------------------------------------------------------------- */
 
 /* As program_sample; lanes are quads. */
-static inline void pack_look_up(const struct tables *t, const struct pack *p, __global const struct scene_instruction *in, struct pack_run *run)
+static inline void pack_look_up(const struct tables *t, const struct pack *p,
+                                __global const struct scene_instruction *in, struct pack_run *run)
 {
 	const uint place = program_unit(t, p->material, in->b);
 	__global const struct scene_unit *unit = &t->units[p->material->unit_first + (place == SCENE_NONE ? 0 : place)];
@@ -204,7 +214,8 @@ static inline void pack_look_up(const struct tables *t, const struct pack *p, __
 }
 
 /* As program_run_from and program_execute. */
-static inline void pack_execute(const struct tables *t, const struct pack *p, const struct program *program, struct pack_run *run)
+static inline void pack_execute(const struct tables *t, const struct pack *p, const struct program *program,
+                                struct pack_run *run)
 {
 	for (uint at = 0; at < program->head->n_instructions && run->wanted & ~run->killed; at++) {
 		__global const struct scene_instruction *in = &program->instructions[at];
@@ -222,11 +233,12 @@ static inline void pack_execute(const struct tables *t, const struct pack *p, co
 	}
 }
 
-/* --- Inputs -------------------------------------------------------------------------------------------------------- */
+/* --- Inputs ------------------------------------------------------------------------------------------------------ */
 
 /* As program_light_corners and point_lit_between, lane by lane. */
-static inline void pack_lit_by_program(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                                       struct pack_kept *kept, struct program_run *run, struct pack_color *color, struct pack_color *secondary)
+static inline void pack_lit_by_program(const struct shade_arguments *a, const struct pack_list *list,
+                                       const struct pack *p, uint lanes, struct pack_kept *kept,
+                                       struct program_run *run, struct pack_color *color, struct pack_color *secondary)
 {
 	struct pack_corners_lit lit;
 
@@ -248,8 +260,9 @@ static inline void pack_lit_by_program(const struct shade_arguments *a, const st
 }
 
 /* Colours of fragments as their vertices are lit, with the lights' visibility where lights have been asked. */
-static inline void pack_lit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                            struct pack_kept *kept, struct program_run *run, struct pack_color *color, struct pack_color *secondary)
+static inline void pack_lit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
+                            uint lanes, struct pack_kept *kept, struct program_run *run, struct pack_color *color,
+                            struct pack_color *secondary)
 {
 	if (stage_is_lit_by_program(a, p->material, 0)) {
 		pack_lit_by_program(a, list, p, lanes, kept, run, color, secondary);
@@ -262,7 +275,8 @@ static inline void pack_lit(const struct shade_arguments *a, const struct pack_l
 }
 
 /* As point_weights_at of triangles, at the lanes' pixels. */
-WIDE_VECTORS static inline void pack_weights_at(const struct tables *t, const struct pack *p, uint height, packf *weight)
+WIDE_VECTORS static inline void pack_weights_at(const struct tables *t, const struct pack *p, uint height,
+                                                packf *weight)
 {
 	const packf x = convert_float16(p->x) + 0.5f, y = (float)height - (convert_float16(p->row) + 0.5f);
 	const struct pack_vec at = pack_vec(2.0f * (x - p->view->viewport[0]) / p->view->viewport[2] - 1.0f,
@@ -303,7 +317,8 @@ WIDE_VECTORS static inline struct pack_places pack_places(const struct pack *p)
 }
 
 /* As program_set_by_planes, of numbers n to m. row: the corners' */
-WIDE_VECTORS static inline void pack_set_by_planes(const struct pack *p, const struct pack_places *at, packf (*row)[4], int n, int m, packf *to)
+WIDE_VECTORS static inline void pack_set_by_planes(const struct pack *p, const struct pack_places *at, packf (*row)[4],
+                                                   int n, int m, packf *to)
 {
 	for (int c = n; c <= m; c++) {
 		const packf over_w[3] = { row[0][c] * p->w_inv[0], row[1][c] * p->w_inv[1], row[2][c] * p->w_inv[2] };
@@ -314,8 +329,9 @@ WIDE_VECTORS static inline void pack_set_by_planes(const struct pack *p, const s
 }
 
 /* As program_texcoords. */
-WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                                                     struct pack_kept *kept, uint inputs, const struct pack_places *at, struct pack_run *run)
+WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_arguments *a, const struct pack_list *list,
+                                                     const struct pack *p, uint lanes, struct pack_kept *kept,
+                                                     uint inputs, const struct pack_places *at, struct pack_run *run)
 {
 	const packu first = pack_texcoord_first(&a->tables, list, p->material, lanes, p->uniform);
 
@@ -341,7 +357,8 @@ WIDE_VECTORS static inline packf pack_weighted(const struct tables *t, const str
 }
 
 /* As program_position. */
-WIDE_VECTORS static inline void pack_input_position(const struct tables *t, const struct pack *p, uint height, struct pack_run *run)
+WIDE_VECTORS static inline void pack_input_position(const struct tables *t, const struct pack *p, uint height,
+                                                    struct pack_run *run)
 {
 	packf *to = &run->registers[4 * SCENE_INPUT_POSITION];
 
@@ -352,7 +369,8 @@ WIDE_VECTORS static inline void pack_input_position(const struct tables *t, cons
 }
 
 /* As program_colors_by_weights. own_color, own_secondary: of the lanes that are fragments */
-WIDE_VECTORS static inline void pack_colors_by_weights(const struct tables *t, const struct pack *p, packi is_own, const struct pack_color *own_color,
+WIDE_VECTORS static inline void pack_colors_by_weights(const struct tables *t, const struct pack *p, packi is_own,
+                                                       const struct pack_color *own_color,
                                                        const struct pack_color *own_secondary, struct pack_run *run)
 {
 	const struct pack_color color = pack_between(t, p, PACK_COLOR), secondary = pack_between(t, p, PACK_SECONDARY);
@@ -366,13 +384,16 @@ WIDE_VECTORS static inline void pack_colors_by_weights(const struct tables *t, c
 }
 
 /* As program_colors_by_planes. */
-WIDE_VECTORS static inline void pack_colors_by_planes(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                                                      struct pack_kept *kept, uint inputs, const struct pack_places *at, struct pack_run *run)
+WIDE_VECTORS static inline void pack_colors_by_planes(const struct shade_arguments *a, const struct pack_list *list,
+                                                      const struct pack *p, uint lanes, struct pack_kept *kept,
+                                                      uint inputs, const struct pack_places *at, struct pack_run *run)
 {
 	const packu side = as_uint16(pack_side(p) & 1);
 
 	for (uint input = SCENE_INPUT_COLOR; input <= SCENE_INPUT_FOG; input++) {
-		const packu four = input == SCENE_INPUT_COLOR ? PACK_COLOR + side : input == SCENE_INPUT_SECONDARY ? PACK_SECONDARY + side : (packu)(PACK_NORMAL);
+		const packu four = input == SCENE_INPUT_COLOR     ? PACK_COLOR + side :
+		                   input == SCENE_INPUT_SECONDARY ? PACK_SECONDARY + side :
+		                                                    (packu)(PACK_NORMAL);
 		packf *to = &run->registers[4 * input], row[3][4];
 
 		if (!(inputs >> input & 1))
@@ -404,8 +425,8 @@ WIDE_VECTORS static inline void pack_spread(const struct tables *t, uint height,
 }
 
 /* As program_begin. */
-static inline void pack_begin(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, const struct program *program,
-                              uint own, struct pack_run *run)
+static inline void pack_begin(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
+                              const struct program *program, uint own, struct pack_run *run)
 {
 	run->wanted = run->lanes = own;
 	for (uint quad = 0xf; program->head->across && quad < 0x10000; quad <<= 4)
@@ -428,11 +449,11 @@ static inline void pack_begin(const struct shade_arguments *a, const struct pack
 	}
 }
 
-/* --- Fragments ----------------------------------------------------------------------------------------------------- */
+/* --- Fragments --------------------------------------------------------------------------------------------------- */
 
 /* Colours of some lanes, as struct shaded takes them. */
-static inline void pack_store_program(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                                      const struct pack_color *color)
+static inline void pack_store_program(const struct shade_arguments *a, const struct pack_list *list,
+                                      const struct pack *p, uint lanes, const struct pack_color *color)
 {
 	const int is_direct = !stage_is_path(a->transport) && !p->material->surface.relit;
 	struct pack_color nudged = *color;
@@ -442,7 +463,8 @@ static inline void pack_store_program(const struct shade_arguments *a, const str
 	for (; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		__global struct shaded *out = &a->shaded[list->item[lane]];
-		const struct vec3 c = v3(LANE(nudged.c[0], float, lane), LANE(nudged.c[1], float, lane), LANE(nudged.c[2], float, lane));
+		const struct vec3 c = v3(LANE(nudged.c[0], float, lane), LANE(nudged.c[1], float, lane),
+		                         LANE(nudged.c[2], float, lane));
 
 		v3_store(out->shadowed, c);
 		if (is_direct)
@@ -453,8 +475,8 @@ static inline void pack_store_program(const struct shade_arguments *a, const str
 }
 
 /* Fragments of which a vertex program has lit the vertices, for fixed function's fragment stage. */
-static inline void pack_fixed(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint lanes, struct pack_kept *kept,
-                              struct pack_runs *runs)
+static inline void pack_fixed(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint lanes,
+                              struct pack_kept *kept, struct pack_runs *runs)
 {
 	struct pack_color lit, secondary, color;
 	struct pack_texturing texturing;
@@ -469,10 +491,12 @@ static inline void pack_fixed(const struct shade_arguments *a, const struct pack
  * Run a fragment program for the lanes of a pack. p: with the fragments' own places
  * own: the lanes that are fragments; the others, where a lane is one of a quad, see other pixels of the same triangle
  */
-static inline void pack_run_program(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint own,
-                                    const struct program *program, struct pack_kept *kept, struct pack_runs *runs)
+static inline void pack_run_program(const struct shade_arguments *a, const struct pack_list *list, struct pack *p,
+                                    uint own, const struct program *program, struct pack_kept *kept,
+                                    struct pack_runs *runs)
 {
-	const uint inputs = program->head->inputs, colors = inputs & (1 << SCENE_INPUT_COLOR | 1 << SCENE_INPUT_SECONDARY | 1 << SCENE_INPUT_FOG);
+	const uint inputs = program->head->inputs,
+		   colors = inputs & (1 << SCENE_INPUT_COLOR | 1 << SCENE_INPUT_SECONDARY | 1 << SCENE_INPUT_FOG);
 	const packi is_own = pack_mask(own);
 	struct pack_run *run = &runs->fragments;
 	struct pack_color color, secondary;
@@ -530,8 +554,9 @@ static inline uint pack_own(const struct shade_arguments *a, uint pixel)
 }
 
 /* pack_program where four lanes are the quad of a fragment. p: with material and view */
-static inline uint pack_program_across(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int unplaced,
-                                       const struct program *program, struct pack_kept *kept, struct pack_runs *runs, struct pack *p)
+static inline uint pack_program_across(const struct shade_arguments *a, const struct pack_list *list, uint lanes,
+                                       int unplaced, const struct program *program, struct pack_kept *kept,
+                                       struct pack_runs *runs, struct pack *p)
 {
 	uint done = 0;
 
@@ -561,8 +586,8 @@ static inline uint pack_program_across(const struct shade_arguments *a, const st
  * unplaced: 1 where their weights and depths are still the camera's
  * @return the lanes that it has done: none of slivers
  */
-static inline uint pack_program(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int unplaced, struct pack_kept *kept,
-                                struct pack_runs *runs)
+static inline uint pack_program(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int unplaced,
+                                struct pack_kept *kept, struct pack_runs *runs)
 {
 	__global const struct geometry *g = &a->tables.geometries[list->instance[popcount((lanes & -lanes) - 1)]];
 	__global const struct scene_material *m = &a->tables.materials[g->material];
@@ -582,7 +607,8 @@ static inline uint pack_program(const struct shade_arguments *a, const struct pa
 	return lanes;
 }
 
-/* Whether pack_program knows all that a material asks for. pack_knows_geometry has to know the fragments' geometries. */
+/* Whether pack_program knows all that a material asks for. pack_knows_geometry has to know the fragments'
+ * geometries. */
 static inline int pack_knows_program(const struct shade_arguments *a, __global const struct scene_material *m)
 {
 	return m->fragment_program || pack_is_plain(a, m);

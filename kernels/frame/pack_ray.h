@@ -1,5 +1,6 @@
 /*
- * Rays from sixteen fragments, and to lights: what point.h and shadow.h have for one, in the same order of operations. OpenCL C only.
+ * Rays from sixteen fragments, and to lights: what point.h and shadow.h have for one, in the same order of operations.
+ * OpenCL C only.
  */
 #pragma once
 
@@ -7,8 +8,8 @@
 #include "kernels/frame/shadow.h"
 
 /* As point_ray_origin. back: against the rays that led to the fragments, length 1 */
-WIDE_VECTORS static inline struct pack_vec pack_ray_origin(const packf *of_point, const struct pack_surface *s, struct pack_vec towards,
-                                                           struct pack_vec back)
+WIDE_VECTORS static inline struct pack_vec pack_ray_origin(const packf *of_point, const struct pack_surface *s,
+                                                           struct pack_vec towards, struct pack_vec back)
 {
 	const struct pack_vec n = pack_choose(s->plane, pack_scale(s->plane, (packf)(-1)), pack_dot(s->plane, towards) < 0.0f);
 	struct pack_vec at = pack_place_at(s, of_point);
@@ -18,7 +19,8 @@ WIDE_VECTORS static inline struct pack_vec pack_ray_origin(const packf *of_point
 	for (int i = 0; i < 3; i++) {
 		const packf length = s->length[i];
 
-		weight[i] = pack_max(of_point[i], select((packf)(1.0f / 3.0f), size * length / s->area, size * length * 3.0f < s->area));
+		weight[i] = pack_max(of_point[i], select((packf)(1.0f / 3.0f), size * length / s->area,
+		                                         size * length * 3.0f < s->area));
 		sum += weight[i];
 	}
 	for (int i = 0; i < 3; i++)
@@ -39,7 +41,8 @@ WIDE_VECTORS static inline packi pack_is_other(struct pack_vec a, struct pack_ve
 	return (a.x != b.x) | (a.y != b.y) | (a.z != b.z);
 }
 
-WIDE_VECTORS static inline void pack_curve_of(const struct tables *t, const struct pack *p, const struct pack_surface *s, struct pack_curve *c)
+WIDE_VECTORS static inline void pack_curve_of(const struct tables *t, const struct pack *p,
+                                              const struct pack_surface *s, struct pack_curve *c)
 {
 	const packf side = select((packf)(1), (packf)(-1), pack_side(p));
 	packf cosine[3];
@@ -67,17 +70,19 @@ WIDE_VECTORS static inline packi pack_lit_weights(const packf *of_point, const p
 	const packf best = select(select(cosine[0], cosine[1], one), cosine[2], two);
 	const packf here = of_point[0] * cosine[0] + of_point[1] * cosine[1] + of_point[2] * cosine[2];
 	const packf move = select((packf)(0), -here / (best - here), here < 0.0f);
-	const packf moved[3] = { select((packf)(0), move, ~(one | two)), select((packf)(0), move, one & ~two), select((packf)(0), move, two) };
+	const packf moved[3] = { select((packf)(0), move, ~(one | two)), select((packf)(0), move, one & ~two),
+		                 select((packf)(0), move, two) };
 
 	for (int i = 0; i < 3; i++)
 		weight[i] = of_point[i] * (1.0f - move) + moved[i];
 	return best > 0.0f;
 }
 
-/* As shadow_curve_origin, for lanes that are smooth; others start on their triangles. straight: what point_ray_origin goes towards */
-WIDE_VECTORS static inline struct pack_vec pack_curve_origin(const struct pack_curve *c, const struct pack_surface *s, const packf *of_point,
-                                                             struct pack_vec to, int positional, struct pack_vec straight,
-                                                             struct pack_vec back)
+/* As shadow_curve_origin, for lanes that are smooth; others start on their triangles. straight: what point_ray_origin
+ * goes towards */
+WIDE_VECTORS static inline struct pack_vec pack_curve_origin(const struct pack_curve *c, const struct pack_surface *s,
+                                                             const packf *of_point, struct pack_vec to, int positional,
+                                                             struct pack_vec straight, struct pack_vec back)
 {
 	struct pack_vec n = pack_vec(0, 0, 0), lift = n, at, curved;
 	packf cosine[3], weight[3];
@@ -106,14 +111,17 @@ static inline int pack_knows_rays(__global const struct scene_material *m)
 }
 
 /* As point_lights: where a material's lights start. */
-static inline __global const struct scene_light *pack_lights_of(const struct tables *t, __global const struct scene_material *m)
+static inline __global const struct scene_light *pack_lights_of(const struct tables *t,
+                                                                __global const struct scene_material *m)
 {
 	return t->lights + (m->surface.relit ? m->surface.light_first : m->light_first);
 }
 
-/* As stage_light_ray for a light without a size and a material of pack_knows_rays: rays[place[lane]] of the lanes that want one. */
-static inline void pack_light_rays(const struct pack *p, const struct pack_surface *s, const struct pack_curve *curve, struct pack_vec back,
-                                   __global const struct scene_light *light, uint lanes, const uint *place, __global struct ray *rays)
+/* As stage_light_ray for a light without a size and a material of pack_knows_rays: rays[place[lane]] of the lanes that
+ * want one. */
+static inline void pack_light_rays(const struct pack *p, const struct pack_surface *s, const struct pack_curve *curve,
+                                   struct pack_vec back, __global const struct scene_light *light, uint lanes,
+                                   const uint *place, __global struct ray *rays)
 {
 	const int positional = light->position_eye[3] != 0.0f;
 	const float scale = positional ? 1.0f / light->position_eye[3] : 1.0f;

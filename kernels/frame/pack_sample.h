@@ -4,8 +4,8 @@
 #include "kernels/frame/pack_ellipse.h"
 
 /* A unit's texture at coordinates s, t and r. slope: where texture_needs_slope. lanes, out: as of pack_sample */
-WIDE_VECTORS static inline void pack_sample_at(const struct tables *tables, __global const struct scene_unit *unit, const packf *c,
-                                               const struct pack_slope *slope, packi lanes, packf *out)
+WIDE_VECTORS static inline void pack_sample_at(const struct tables *tables, __global const struct scene_unit *unit,
+                                               const packf *c, const struct pack_slope *slope, packi lanes, packf *out)
 {
 	__global const struct texture_image *image = &tables->textures[unit->texture];
 	packu texel;
@@ -17,7 +17,8 @@ WIDE_VECTORS static inline void pack_sample_at(const struct tables *tables, __gl
 	if (unit->min_filter == GL_NEAREST)
 		texel = pack_nearest(tables, unit, c);
 	else
-		texel = pack_filter(tables, image, unit, unit->min_filter != unit->mag_filter ? pack_lod(unit, slope, 0) : (packf)(0), c);
+		texel = pack_filter(tables, image, unit,
+		                    unit->min_filter != unit->mag_filter ? pack_lod(unit, slope, 0) : (packf)(0), c);
 	for (int i = 0; i < 4; i++)
 		out[i] = convert_float16(texel >> (packu)(8 * i) & 255) * (1.0f / 255.0f);
 }
@@ -30,9 +31,9 @@ WIDE_VECTORS static inline void pack_sample_at(const struct tables *tables, __gl
  * @param lanes     that count: others' samples are undefined
  * @param out       [4]
  */
-WIDE_VECTORS static inline void pack_sample(const struct tables *tables, __global const struct scene_unit *unit, const struct pack_edges *edges,
-                                            const packf *w_inv, packf (*texcoord)[4], packi x, packi row, float middle, packi lanes,
-                                            packf *out)
+WIDE_VECTORS static inline void pack_sample(const struct tables *tables, __global const struct scene_unit *unit,
+                                            const struct pack_edges *edges, const packf *w_inv, packf (*texcoord)[4],
+                                            packi x, packi row, float middle, packi lanes, packf *out)
 {
 	__global const struct texture_image *image = &tables->textures[unit->texture];
 	const packf px = convert_float16(x) + middle, py = convert_float16(row) + middle;

@@ -1,6 +1,6 @@
 /*
- * Colours of sixteen fragments of one material at once: what shade_item does for one, in the same order of operations and to the same
- * bits. OpenCL C only. pack_is_plain says which materials it knows; shade_item does the others.
+ * Colours of sixteen fragments of one material at once: what shade_item does for one, in the same order of operations
+ * and to the same bits. OpenCL C only. pack_is_plain says which materials it knows; shade_item does the others.
  */
 #pragma once
 
@@ -11,8 +11,8 @@
 /* Whether pack_shade knows all that a material asks for. */
 static inline int pack_is_plain(const struct shade_arguments *a, __global const struct scene_material *m)
 {
-	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped && !(m->surface.hidden & SCENE_CREASED) &&
-	            (!m->fog || m->fog_mode == GL_LINEAR) &&
+	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped &&
+	            !(m->surface.hidden & SCENE_CREASED) && (!m->fog || m->fog_mode == GL_LINEAR) &&
 	            (a->transport == TRANSPORT_GL || a->transport == TRANSPORT_DIFFUSE || stage_is_path(a->transport));
 
 	for (uint i = 0; i < m->unit_count && plain; i++)
@@ -21,9 +21,10 @@ static inline int pack_is_plain(const struct shade_arguments *a, __global const 
 	return plain;
 }
 
-/* --- Colours ------------------------------------------------------------------------------------------------------- */
+/* --- Colours ----------------------------------------------------------------------------------------------------- */
 
-/* Between the vertices' colours or secondary ones; under flat shading the last one's. four: PACK_COLOR or PACK_SECONDARY */
+/* Between the vertices' colours or secondary ones; under flat shading the last one's. four: PACK_COLOR or
+ * PACK_SECONDARY */
 WIDE_VECTORS static inline struct pack_color pack_between(const struct tables *t, const struct pack *p, uint four)
 {
 	const packu row = four + as_uint16(pack_side(p) & 1);
@@ -43,8 +44,8 @@ WIDE_VECTORS static inline struct pack_color pack_between(const struct tables *t
 }
 
 /* As point_lit_from_vertices; secondary colours only where they are looked at. */
-WIDE_VECTORS static inline void pack_lit_from_vertices(const struct tables *t, const struct pack *p, struct pack_color *color,
-                                                       struct pack_color *secondary)
+WIDE_VECTORS static inline void pack_lit_from_vertices(const struct tables *t, const struct pack *p,
+                                                       struct pack_color *color, struct pack_color *secondary)
 {
 	*color = *secondary = pack_between(t, p, PACK_COLOR);
 	if (p->material->color_sum || (p->material->lighting && p->material->separate_specular))
@@ -68,8 +69,8 @@ WIDE_VECTORS static inline packu pack_lights(const struct tables *t, const struc
 }
 
 /* A lane's triangle among those that are kept lit. is_lit: receives 1 where it has been lit by what is seen there */
-static inline struct pack_lit *pack_keep_lit(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lane,
-                                             const struct vec3 *seen, struct pack_kept *kept, int *is_lit)
+static inline struct pack_lit *pack_keep_lit(const struct tables *t, const struct pack_list *list, const struct pack *p,
+                                             uint lane, const struct vec3 *seen, struct pack_kept *kept, int *is_lit)
 {
 	struct pack_lit *l = &kept->lit[list->primitive[lane] % SHADE_TRIANGLES];
 	const int front = LANE(p->front, const int, lane) != 0;
@@ -108,7 +109,8 @@ static inline void pack_take_lit(const struct lit *lit, int flat, uint lane, str
 }
 
 /* As point_lit_between. */
-static inline void pack_lit_between(const struct pack *p, const struct pack_corners_lit *lit, struct pack_color *color, struct pack_color *secondary)
+static inline void pack_lit_between(const struct pack *p, const struct pack_corners_lit *lit, struct pack_color *color,
+                                    struct pack_color *secondary)
 {
 	const int flat = p->material->shade_model == GL_FLAT;
 
@@ -119,8 +121,9 @@ static inline void pack_lit_between(const struct pack *p, const struct pack_corn
 }
 
 /* Colours by the lights' visibility: each lane's triangle lit again, as setup_keep_lit does it. */
-static inline void pack_between_relit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                                      struct pack_kept *kept, struct pack_color *color, struct pack_color *secondary)
+static inline void pack_between_relit(const struct shade_arguments *a, const struct pack_list *list,
+                                      const struct pack *p, uint lanes, struct pack_kept *kept,
+                                      struct pack_color *color, struct pack_color *secondary)
 {
 	struct pack_corners_lit lit;
 
@@ -148,8 +151,8 @@ struct pack_texturing {
 };
 
 /* Where the texture coordinates of the lanes' meshes start. is_uniform: all lie in the same triangle */
-static inline packu pack_texcoord_first(const struct tables *t, const struct pack_list *list, __global const struct scene_material *m, uint lanes,
-                                        int is_uniform)
+static inline packu pack_texcoord_first(const struct tables *t, const struct pack_list *list,
+                                        __global const struct scene_material *m, uint lanes, int is_uniform)
 {
 	packu first = 0;
 
@@ -178,8 +181,8 @@ WIDE_VECTORS static inline packf pack_fog(const struct tables *t, const struct p
 }
 
 /* The lanes' vertices' numbers become those of their parts' corners. row: [3][4] */
-WIDE_VECTORS static inline void pack_cut_rows(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                                              struct pack_kept *kept, packf (*row)[4])
+WIDE_VECTORS static inline void pack_cut_rows(const struct shade_arguments *a, const struct pack_list *list,
+                                              const struct pack *p, uint lanes, struct pack_kept *kept, packf (*row)[4])
 {
 	for (uint left = lanes & pack_bits(p->cut), same; left; left &= ~same) {
 		const uint lane = popcount((left & -left) - 1);
@@ -190,16 +193,18 @@ WIDE_VECTORS static inline void pack_cut_rows(const struct shade_arguments *a, c
 }
 
 /* Texture coordinates of the material's unit i at the corners. first: pack_texcoord_first; texcoord: [3][4] */
-WIDE_VECTORS static inline void pack_texcoords(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                                               packu first, uint i, struct pack_kept *kept, packf (*texcoord)[4])
+WIDE_VECTORS static inline void pack_texcoords(const struct shade_arguments *a, const struct pack_list *list,
+                                               const struct pack *p, uint lanes, packu first, uint i,
+                                               struct pack_kept *kept, packf (*texcoord)[4])
 {
 	for (int k = 0; k < 3; k++)
 		pack_row(a->tables.texcoords, p, first + p->number[k] * p->material->unit_count + i, texcoord[k]);
 	pack_cut_rows(a, list, p, lanes, kept, texcoord);
 }
 
-WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint lanes,
-                                             struct pack_kept *kept, struct pack_texturing *out)
+WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, const struct pack_list *list,
+                                             struct pack *p, uint lanes, struct pack_kept *kept,
+                                             struct pack_texturing *out)
 {
 	const struct tables *t = &a->tables;
 	__global const struct scene_material *m = p->material;
@@ -217,9 +222,9 @@ WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, co
 }
 
 /* As point_finish_in_fog. */
-WIDE_VECTORS static inline struct pack_color pack_finish_without(const struct tables *t, const struct pack *p,
-                                                                 const struct pack_texturing *texturing, const struct pack_color *lit,
-                                                                 const struct pack_color *secondary, packf fog, uint without)
+WIDE_VECTORS static inline struct pack_color
+pack_finish_without(const struct tables *t, const struct pack *p, const struct pack_texturing *texturing,
+                    const struct pack_color *lit, const struct pack_color *secondary, packf fog, uint without)
 {
 	__global const struct scene_material *m = p->material;
 	struct pack_color color = *lit;
@@ -231,7 +236,8 @@ WIDE_VECTORS static inline struct pack_color pack_finish_without(const struct ta
 			continue;
 		color = unit->env_mode == GL_COMBINE ?
 		                pack_combine_full(m, t->units + m->unit_first, i, &color, lit, texturing->sample) :
-		                pack_combine(unit->env_mode, point_unit_format(t, unit), &color, texturing->sample[i], unit->env_color);
+		                pack_combine(unit->env_mode, point_unit_format(t, unit), &color, texturing->sample[i],
+		                             unit->env_color);
 	}
 	for (int i = 0; i < 3 && (m->color_sum || (m->lighting && m->separate_specular)); i++)
 		color.c[i] += secondary->c[i];
@@ -243,23 +249,26 @@ WIDE_VECTORS static inline struct pack_color pack_finish_without(const struct ta
 }
 
 /* As point_finish. */
-WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t, const struct pack *p, const struct pack_texturing *texturing,
-                                                         const struct pack_color *lit, const struct pack_color *secondary)
+WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t, const struct pack *p,
+                                                         const struct pack_texturing *texturing,
+                                                         const struct pack_color *lit,
+                                                         const struct pack_color *secondary)
 {
 	return pack_finish_without(t, p, texturing, lit, secondary, texturing->fog, 0);
 }
 
 /* As point_finish_relit. */
 WIDE_VECTORS static inline struct pack_color pack_finish_relit(const struct tables *t, const struct pack *p,
-                                                               const struct pack_texturing *texturing, const struct pack_color *lit,
+                                                               const struct pack_texturing *texturing,
+                                                               const struct pack_color *lit,
                                                                const struct pack_color *secondary)
 {
 	return pack_finish_without(t, p, texturing, lit, secondary, texturing->fog, p->material->surface.light_unit);
 }
 
 /* The colour that point_albedo_of starts from. from_vertices: as they are lit */
-static inline struct pack_color pack_matte(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
-                                            const struct pack_color *from_vertices)
+static inline struct pack_color pack_matte(const struct tables *t, const struct pack_list *list, const struct pack *p,
+                                           uint lanes, const struct pack_color *from_vertices)
 {
 	__global const struct scene_material *m = p->material;
 	const uint mode = m->color_material_mode;
@@ -280,8 +289,9 @@ static inline struct pack_color pack_matte(const struct tables *t, const struct 
 }
 
 /* As point_albedo_of. */
-static inline struct pack_color pack_albedo(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
-                                            const struct pack_texturing *texturing, const struct pack_color *from_vertices)
+static inline struct pack_color pack_albedo(const struct tables *t, const struct pack_list *list, const struct pack *p,
+                                            uint lanes, const struct pack_texturing *texturing,
+                                            const struct pack_color *from_vertices)
 {
 	const struct pack_color matte = pack_matte(t, list, p, lanes, from_vertices);
 	struct pack_color none;
@@ -291,7 +301,7 @@ static inline struct pack_color pack_albedo(const struct tables *t, const struct
 	return pack_finish_without(t, p, texturing, &matte, &none, (packf)(1), p->material->surface.light_unit);
 }
 
-/* --- Light that is followed ------------------------------------------------------------------------------------------ */
+/* --- Light that is followed -------------------------------------------------------------------------------------- */
 
 /* Whether light has a part in the colour of a material's points. pack_knows_geometry knows their geometries. */
 static inline int pack_takes_light(__global const struct scene_material *m)
@@ -325,16 +335,19 @@ static inline packu pack_radiant_lights(const struct tables *t, const struct pac
  * from_vertices, secondary: as they are lit
  * albedo: receives point_albedo as light, where the material takes any
  */
-static inline struct pack_vec pack_radiance(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
-                                            const struct pack_surface *s, uint lanes, const struct pack_texturing *texturing,
-                                            const struct pack_color *from_vertices, const struct pack_color *secondary, packf *albedo)
+static inline struct pack_vec pack_radiance(const struct shade_arguments *a, const struct pack_list *list,
+                                            const struct pack *p, const struct pack_surface *s, uint lanes,
+                                            const struct pack_texturing *texturing,
+                                            const struct pack_color *from_vertices, const struct pack_color *secondary,
+                                            packf *albedo)
 {
 	const struct tables *t = &a->tables;
 	__global const struct scene_material *m = p->material;
 	__global const struct scene_light *light = t->lights + (m->surface.relit ? m->surface.light_first : m->light_first);
 	const uint count = m->surface.relit ? m->surface.light_count : m->light_count;
 	const struct vec3 by_rule = stage_light(a->transport, v3_load(m->surface.emission));
-	const struct vec3 front = stage_light(a->transport, v3_load(m->front.emission)), back = stage_light(a->transport, v3_load(m->back.emission));
+	const struct vec3 front = stage_light(a->transport, v3_load(m->front.emission)),
+			  back = stage_light(a->transport, v3_load(m->back.emission));
 	packf sum[3] = { 0.0f, 0.0f, 0.0f };
 	struct pack_vec n, at;
 	struct pack_color c;
@@ -354,7 +367,10 @@ static inline struct pack_vec pack_radiance(const struct shade_arguments *a, con
 
 		pack_seen(a, list, lanes, i, share);
 		for (int k = 0; k < 3; k++)
-			sum[k] = select(sum[k], sum[k] + pack_as_light(a->transport, light[i].diffuse[k] * strength) * cosine * share[k], cosine > 0.0f);
+			sum[k] = select(sum[k],
+			                sum[k] + pack_as_light(a->transport, light[i].diffuse[k] * strength) * cosine *
+			                                 share[k],
+			                cosine > 0.0f);
 	}
 	c = pack_albedo(t, list, p, lanes, texturing, from_vertices);
 	for (int k = 0; k < 3; k++)
@@ -377,9 +393,10 @@ WIDE_VECTORS static inline packf pack_nudge(packf x)
 	return select(x, moved, fabs(rest) > 0.46f);
 }
 
-/* --- Shading ------------------------------------------------------------------------------------------------------- */
+/* --- Shading ----------------------------------------------------------------------------------------------------- */
 
-static inline void pack_store_relit(__global struct shaded *out, uint lane, const struct pack_color *color, const struct pack_color *direct)
+static inline void pack_store_relit(__global struct shaded *out, uint lane, const struct pack_color *color,
+                                    const struct pack_color *direct)
 {
 	for (uint i = 0; i < 3; i++) {
 		const float c = LANE(direct->c[i], const float, lane);
@@ -390,8 +407,10 @@ static inline void pack_store_relit(__global struct shaded *out, uint lane, cons
 }
 
 /* pack_direct where light is followed. from_vertices, secondary: as they are lit */
-static inline struct pack_color pack_direct_light(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                                                  const struct pack_texturing *texturing, const struct pack_color *from_vertices,
+static inline struct pack_color pack_direct_light(const struct shade_arguments *a, const struct pack_list *list,
+                                                  const struct pack *p, uint lanes,
+                                                  const struct pack_texturing *texturing,
+                                                  const struct pack_color *from_vertices,
                                                   const struct pack_color *secondary, packu *lights)
 {
 	struct pack_surface s;
@@ -414,8 +433,9 @@ static inline struct pack_color pack_direct_light(const struct shade_arguments *
  * color: by GL's own lighting
  * lights: of vertices; receives those that light the points where rules light them anew
  */
-static inline struct pack_color pack_direct(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                                            const struct pack_texturing *texturing, const struct pack_color *color, packu *lights)
+static inline struct pack_color pack_direct(const struct shade_arguments *a, const struct pack_list *list,
+                                            const struct pack *p, uint lanes, const struct pack_texturing *texturing,
+                                            const struct pack_color *color, packu *lights)
 {
 	__global const struct scene_material *m = p->material;
 	struct pack_color out = *color;
@@ -437,7 +457,8 @@ static inline struct pack_color pack_direct(const struct shade_arguments *a, con
  * shade_item for fragments of one material, a plain one, and geometries that pack_knows_geometry.
  * @return the lanes that it has done: none of slivers
  */
-static inline uint pack_shade(const struct shade_arguments *a, const struct pack_list *list, uint lanes, struct pack_kept *kept)
+static inline uint pack_shade(const struct shade_arguments *a, const struct pack_list *list, uint lanes,
+                              struct pack_kept *kept)
 {
 	const struct tables *t = &a->tables;
 	__global const struct geometry *g = &t->geometries[list->instance[popcount((lanes & -lanes) - 1)]];
@@ -462,8 +483,9 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	for (int i = 0; i < 3; i++)
 		color.c[i] = pack_nudge(color.c[i]);
 	lights = pack_lights(t, p);
-	direct = stage_is_path(a->transport) ? pack_direct_light(a, list, p, lanes, &texturing, &from_vertices, &secondary, &lights) :
-	                                       pack_direct(a, list, p, lanes, &texturing, &color, &lights);
+	direct = stage_is_path(a->transport) ?
+	                 pack_direct_light(a, list, p, lanes, &texturing, &from_vertices, &secondary, &lights) :
+	                 pack_direct(a, list, p, lanes, &texturing, &color, &lights);
 	for (uint left = a->n_slots ? lanes : 0; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 

@@ -141,7 +141,8 @@ WIDE_VECTORS static inline struct pack_vec pack_vertex_normals(const struct tabl
 }
 
 /* The same on the side of n; n where they have none. */
-WIDE_VECTORS static inline struct pack_vec pack_smooth_normal(const struct tables *t, const struct pack *p, struct pack_vec n)
+WIDE_VECTORS static inline struct pack_vec pack_smooth_normal(const struct tables *t, const struct pack *p,
+                                                              struct pack_vec n)
 {
 	struct pack_vec smooth = pack_vertex_normals(t, p);
 
@@ -150,7 +151,8 @@ WIDE_VECTORS static inline struct pack_vec pack_smooth_normal(const struct table
 }
 
 /* As point_normal. */
-WIDE_VECTORS static inline struct pack_vec pack_normal(const struct tables *t, const struct pack *p, const struct pack_surface *s)
+WIDE_VECTORS static inline struct pack_vec pack_normal(const struct tables *t, const struct pack *p,
+                                                       const struct pack_surface *s)
 {
 	const packi seen = p->material->front_face == GL_CW ? p->front : ~p->front;
 	const struct pack_vec n = pack_scale(s->plane, select((packf)(1), (packf)(-1), seen));
@@ -170,7 +172,8 @@ WIDE_VECTORS static inline struct pack_vec pack_view_direction(const struct pack
 		near[i] = m[i] * nx + m[4 + i] * ny + -m[8 + i] + m[12 + i];
 		far[i] = m[i] * nx + m[4 + i] * ny + m[8 + i] + m[12 + i];
 	}
-	return pack_vec(far[0] * near[3] - near[0] * far[3], far[1] * near[3] - near[1] * far[3], far[2] * near[3] - near[2] * far[3]);
+	return pack_vec(far[0] * near[3] - near[0] * far[3], far[1] * near[3] - near[1] * far[3],
+	                far[2] * near[3] - near[2] * far[3]);
 }
 
 /* As v3_extent. */

@@ -1,16 +1,16 @@
 /*
- * Planes over sixteen triangles at once, a lane each, and samples of one texture there: as kernels/gl/clip.h and texture.h have them for
- * one, in the same order of operations. OpenCL C only.
+ * Planes over sixteen triangles at once, a lane each, and samples of one texture there: as kernels/gl/clip.h and
+ * texture.h have them for one, in the same order of operations. OpenCL C only.
  *
- * The textures are those that most programs use (pack_knows_texture): images of four bytes a texel, without a border, repeated or clamped
- * to their edge; of two dimensions, or of three and one level.
+ * The textures are those that most programs use (pack_knows_texture): images of four bytes a texel, without a border,
+ * repeated or clamped to their edge; of two dimensions, or of three and one level.
  */
 #pragma once
 
 #include "kernels/gl/fragment.h"
 #include "kernels/rays/lanes.h"
 
-/* --- Numbers ------------------------------------------------------------------------------------------------------- */
+/* --- Numbers ----------------------------------------------------------------------------------------------------- */
 
 WIDE_VECTORS static inline packf pack_clamp01(packf x)
 {
@@ -50,7 +50,7 @@ static inline packi pack_mask(uint lanes)
 	return ((packi)((int)lanes) >> PACK_LANES & 1) != 0;
 }
 
-/* --- Planes -------------------------------------------------------------------------------------------------------- */
+/* --- Planes ------------------------------------------------------------------------------------------------------ */
 
 /* As struct clip_edges; area: clip_place_area */
 struct pack_edges {
@@ -92,16 +92,18 @@ WIDE_VECTORS static inline packf pack_plane_at(const struct pack_plane *p, packf
 	return fma(p->along_y, y, fma(p->along_x, x, p->origin));
 }
 
-/* --- Textures ------------------------------------------------------------------------------------------------------ */
+/* --- Textures ---------------------------------------------------------------------------------------------------- */
 
 static inline int pack_knows_texture(const struct tables *t, __global const struct scene_unit *unit)
 {
 	__global const struct texture_image *image = &t->textures[unit->texture];
 	const int nearest = unit->mag_filter == GL_NEAREST && unit->min_filter == GL_NEAREST;
-	const int linear = unit->mag_filter == GL_LINEAR && (unit->min_filter == GL_LINEAR || unit->min_filter == GL_LINEAR_MIPMAP_NEAREST ||
-	                                                     unit->min_filter == GL_LINEAR_MIPMAP_LINEAR);
+	const int linear = unit->mag_filter == GL_LINEAR &&
+	                   (unit->min_filter == GL_LINEAR || unit->min_filter == GL_LINEAR_MIPMAP_NEAREST ||
+	                    unit->min_filter == GL_LINEAR_MIPMAP_LINEAR);
 
-	if (image->target == GL_TEXTURE_3D ? !texture_wrap_is_plain(unit->wrap_r) || texture_needs_slope(t, unit) : image->target != GL_TEXTURE_2D)
+	if (image->target == GL_TEXTURE_3D ? !texture_wrap_is_plain(unit->wrap_r) || texture_needs_slope(t, unit) :
+	                                     image->target != GL_TEXTURE_2D)
 		return 0;
 	return image->base_format != GL_DEPTH_COMPONENT && !image->border && image->words == 1 &&
 	       texture_wrap_is_plain(unit->wrap_s) && texture_wrap_is_plain(unit->wrap_t) && !unit->swizzle &&
@@ -181,8 +183,8 @@ WIDE_VECTORS static inline packu pack_texels(__global const uint *texels, packu 
 }
 
 /* As texture_level_8. c: coordinates s and t, and r of an image of three dimensions */
-WIDE_VECTORS static inline packu pack_level_8(const struct tables *t, __global const struct scene_unit *unit, const struct pack_level *l,
-                                              const packf *c)
+WIDE_VECTORS static inline packu pack_level_8(const struct tables *t, __global const struct scene_unit *unit,
+                                              const struct pack_level *l, const packf *c)
 {
 	__global const struct texture_image *image = &t->textures[unit->texture];
 	const packi slice = l->width * l->height;
@@ -195,17 +197,21 @@ WIDE_VECTORS static inline packu pack_level_8(const struct tables *t, __global c
 	if (n == 2)
 		pack_wrap_8(unit->wrap_r, c[2], (packi)((int)image->depth), &z[0], &z[1], &wz);
 	for (int k = 0; k < n; k++) {
-		const packu row0 = l->first + as_uint16(z[k] * slice + y0 * l->width), row1 = l->first + as_uint16(z[k] * slice + y1 * l->width);
+		const packu row0 = l->first + as_uint16(z[k] * slice + y0 * l->width),
+			    row1 = l->first + as_uint16(z[k] * slice + y1 * l->width);
 
-		texel[k] =
-			pack_mix_8(pack_mix_8(pack_texels(t->texels, row0 + as_uint16(x0)), pack_texels(t->texels, row0 + as_uint16(x1)), wx),
-		                   pack_mix_8(pack_texels(t->texels, row1 + as_uint16(x0)), pack_texels(t->texels, row1 + as_uint16(x1)), wx), wy);
+		texel[k] = pack_mix_8(pack_mix_8(pack_texels(t->texels, row0 + as_uint16(x0)),
+		                                 pack_texels(t->texels, row0 + as_uint16(x1)), wx),
+		                      pack_mix_8(pack_texels(t->texels, row1 + as_uint16(x0)),
+		                                 pack_texels(t->texels, row1 + as_uint16(x1)), wx),
+		                      wy);
 	}
 	return n == 2 ? pack_mix_8(texel[0], texel[1], wz) : texel[0];
 }
 
 /* The nearest texels of level 0. c: as of pack_level_8 */
-WIDE_VECTORS static inline packu pack_nearest(const struct tables *t, __global const struct scene_unit *unit, const packf *c)
+WIDE_VECTORS static inline packu pack_nearest(const struct tables *t, __global const struct scene_unit *unit,
+                                              const packf *c)
 {
 	__global const struct texture_image *image = &t->textures[unit->texture];
 	packi row = pack_wrap_nearest(unit->wrap_t, c[1], (int)image->height);
@@ -246,8 +252,9 @@ struct pack_slope {
 };
 
 /* As texture_slope for a quad of pixels. */
-WIDE_VECTORS static inline void pack_slope_of(__global const struct texture_image *image, const struct pack_coords *coords, packi x, packi row,
-                                              float middle, struct pack_slope *slope)
+WIDE_VECTORS static inline void pack_slope_of(__global const struct texture_image *image,
+                                              const struct pack_coords *coords, packi x, packi row, float middle,
+                                              struct pack_slope *slope)
 {
 	const packf left = convert_float16(x & ~1), top = convert_float16(row & ~1);
 	packf at[2], right[2], down[2];
@@ -262,7 +269,8 @@ WIDE_VECTORS static inline void pack_slope_of(__global const struct texture_imag
 }
 
 /* As texture_lod. */
-WIDE_VECTORS static inline packf pack_lod(__global const struct scene_unit *unit, const struct pack_slope *slope, int anisotropic)
+WIDE_VECTORS static inline packf pack_lod(__global const struct scene_unit *unit, const struct pack_slope *slope,
+                                          int anisotropic)
 {
 	const packf right = slope->right_s * slope->right_s + slope->right_t * slope->right_t;
 	const packf down = slope->down_s * slope->down_s + slope->down_t * slope->down_t;
@@ -297,5 +305,8 @@ WIDE_VECTORS static inline packu pack_filter(const struct tables *t, __global co
 	if (!any_pack(both))
 		return texel;
 	l = pack_level(image, fine - both);
-	return select(texel, pack_mix_8(texel, pack_level_8(t, unit, &l, c), convert_uint16(select((packf)(0), part, both) * 256.0f)), both);
+	return select(texel,
+	              pack_mix_8(texel, pack_level_8(t, unit, &l, c),
+	                         convert_uint16(select((packf)(0), part, both) * 256.0f)),
+	              both);
 }

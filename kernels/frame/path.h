@@ -1,8 +1,8 @@
 /*
- * One work item of each kernel that follows light beyond GL: mirrored, bent by glass, scattered from surface to surface. From the list
- * of fragments (kernels/gl/stages.h) and on lists of paths (struct path). A path's next rays are written apart, so many places each,
- * and gathered into the next list in the order of their paths: the paths of a fragment stay side by side, and sums do not depend on
- * scheduling.
+ * One work item of each kernel that follows light beyond GL: mirrored, bent by glass, scattered from surface to
+ * surface. From the list of fragments (kernels/gl/stages.h) and on lists of paths (struct path). A path's next rays are
+ * written apart, so many places each, and gathered into the next list in the order of their paths: the paths of a
+ * fragment stay side by side, and sums do not depend on scheduling.
  */
 #pragma once
 
@@ -31,7 +31,8 @@ struct branches {
 };
 
 /* The ways on from a fragment: none yet. */
-static inline struct branches branches_of_fragment(GLOBAL struct ray *next_rays, GLOBAL struct path *next_paths, uint32_t item)
+static inline struct branches branches_of_fragment(GLOBAL struct ray *next_rays, GLOBAL struct path *next_paths,
+                                                   uint32_t item)
 {
 	struct branches b;
 
@@ -45,7 +46,8 @@ static inline struct branches branches_of_fragment(GLOBAL struct ray *next_rays,
 }
 
 /* The same from where a path ended. */
-static inline struct branches branches_of_path(struct path from, GLOBAL struct ray *next_rays, GLOBAL struct path *next_paths, uint32_t item)
+static inline struct branches branches_of_path(struct path from, GLOBAL struct ray *next_rays,
+                                               GLOBAL struct path *next_paths, uint32_t item)
 {
 	struct branches b;
 
@@ -80,12 +82,14 @@ static inline struct vec3 branch_on_side(struct vec3 d, struct vec3 plane)
 	return into < 0.0f ? v3_normalize(v3_sub(d, v3_scale(plane, 1.001f * into))) : d;
 }
 
-/* The normal that a mirror turns rays about: of a near one the surface's own, if it has any, also where GL does not light it. */
+/* The normal that a mirror turns rays about: of a near one the surface's own, if it has any, also where GL does not
+ * light it. */
 static inline struct vec3 branch_normal(const struct point *p)
 {
 	struct vec3 n = point_normal(p), smooth;
 
-	if (p->material->lighting || (p->material->surface.hidden & (SCENE_NEAR_MIRROR | SCENE_NO_NORMALS)) != SCENE_NEAR_MIRROR)
+	if (p->material->lighting ||
+	    (p->material->surface.hidden & (SCENE_NEAR_MIRROR | SCENE_NO_NORMALS)) != SCENE_NEAR_MIRROR)
 		return n;
 	smooth = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
 	                                    v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
@@ -119,7 +123,8 @@ static inline void branch_mirror(struct branches *b, const struct point *p, stru
 	stage_ray(p, branch_on_side(away, plane), d, ray);
 }
 
-/* What a surface does with light that arrives along d: shares that it mirrors and lets through; the rest it scatters. */
+/* What a surface does with light that arrives along d: shares that it mirrors and lets through; the rest it
+ * scatters. */
 struct split {
 	float mirrored, through, base;
 	float eta, cosine, cosine_beyond;
@@ -212,12 +217,14 @@ static inline void leave_item(const struct leave_arguments *a, uint32_t item)
 	if (a->transport < TRANSPORT_DIFFUSE && !(p.material->surface.reflect > 0.0f || p.material->surface.transmit > 0.0f))
 		return;
 	b = branches_of_fragment(a->next_rays, a->next_paths, item);
-	d = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
+	d = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width,
+	                                      a->pixels[item] / a->width));
 	split = split_light(&p, d);
 	if (a->emission.n_emitters && v3_most(v3_load(a->visibility + item * 3u)) > 0.0f && point_takes_light(&p)) {
 		const struct emitter_sample place = { at.frame, at.seed, at.index };
 
-		direct = v3_mul(v3_mul(emitter_light(t, &a->emission, a->transport, &p, d, &place), v3_load(a->visibility + item * 3u)),
+		direct = v3_mul(v3_mul(emitter_light(t, &a->emission, a->transport, &p, d, &place),
+		                       v3_load(a->visibility + item * 3u)),
 		                stage_light(a->transport, v3_load(s->albedo)));
 		credit_part(a->transport, s->direct, direct);
 		credit_part(a->transport, s->mirrored, direct);
@@ -280,9 +287,10 @@ static inline struct vec4 hit_color(const struct tables *t, const struct point *
 	return v4(c.x, c.y, c.z, color.w);
 }
 
-/* The light where nothing was hit: the sky's surface, if there is one, or the colour that the frame was cleared with. */
-static inline struct vec3 hit_nothing(const struct tables *t, uint32_t transport, GLOBAL const struct hit *sky, GLOBAL const struct ray *ray,
-                                      uint32_t has_sky, GLOBAL const float *background)
+/* The light where nothing was hit: the sky's surface, if there is one, or the colour that the frame was cleared
+ * with. */
+static inline struct vec3 hit_nothing(const struct tables *t, uint32_t transport, GLOBAL const struct hit *sky,
+                                      GLOBAL const struct ray *ray, uint32_t has_sky, GLOBAL const float *background)
 {
 	struct hit hit;
 	struct point p;
@@ -329,9 +337,9 @@ static inline int branch_survives(struct vec3 *weight, float chance)
 /*
  * One of the ways on, as often as it carries light. What depth allows is the caller's question.
  */
-static inline void branch_one(const struct tables *t, uint32_t transport, struct branches *b, const struct point *p, struct vec3 d,
-                              const struct split *s, const struct texturing *texturing, struct vec3 weight,
-                              const struct branch_samples *at)
+static inline void branch_one(const struct tables *t, uint32_t transport, struct branches *b, const struct point *p,
+                              struct vec3 d, const struct split *s, const struct texturing *texturing,
+                              struct vec3 weight, const struct branch_samples *at)
 {
 	struct vec4 albedo;
 	float u, v;
@@ -352,21 +360,26 @@ static inline void branch_one(const struct tables *t, uint32_t transport, struct
 	}
 }
 
-/* What a path found, within bounds where a surface scattered it or it bounced twice: few samples of much light would leave bright dots. */
+/* What a path found, within bounds where a surface scattered it or it bounced twice: few samples of much light would
+ * leave bright dots. */
 static inline struct vec3 hit_bound(const struct shade_hit_arguments *a, const struct path *path, struct vec3 light)
 {
 	const float most = v3_most(light);
 
-	return a->most > 0.0f && most > a->most && path->depth + (path->kind == PATH_DIFFUSE) > 1u ? v3_scale(light, a->most / most) : light;
+	return a->most > 0.0f && most > a->most && path->depth + (path->kind == PATH_DIFFUSE) > 1u ?
+	               v3_scale(light, a->most / most) :
+	               light;
 }
 
-/* What surfaces that shine send a hit, and the part of its own shine that the point which the path comes from asked for, less. */
+/* What surfaces that shine send a hit, and the part of its own shine that the point which the path comes from asked
+ * for, less. */
 static inline struct vec3 hit_emitters(const struct shade_hit_arguments *a, uint32_t item, const struct point *p,
                                        const struct texturing *texturing, struct vec3 d)
 {
 	const struct tables *t = &a->tables;
 	const struct emitter_sample at = { a->frame, stage_seed(&a->paths[item], a->pixels, 0u), a->sample };
-	const float strength = emitter_strength(a->transport, p->material, p->geometry->attributes), density = a->paths[item].density;
+	const float strength = emitter_strength(a->transport, p->material, p->geometry->attributes),
+		    density = a->paths[item].density;
 	struct vec3 sum = v3(0.0f, 0.0f, 0.0f), seen;
 	struct vec4 albedo;
 

@@ -1,17 +1,17 @@
 /*
- * Light that goes from a light to a mirror or glass and on (H. W. Jensen, "Global Illumination using Photon Maps", 1996): one work item
- * follows one photon from surface to surface. Its path's fields mean other things than those of an eye's path:
- *   target   the photon's number in its pass
- *   kind     the instance that it was sent to: one that meets another first is that one's own light, or stopped
- *   density  the length of its way so far
+ * Light that goes from a light to a mirror or glass and on (H. W. Jensen, "Global Illumination using Photon Maps",
+ * 1996): one work item follows one photon from surface to surface. Its path's fields mean other things than those of an
+ * eye's path: target   the photon's number in its pass kind     the instance that it was sent to: one that meets
+ * another first is that one's own light, or stopped density  the length of its way so far
  */
 #pragma once
 
 #include "kernels/frame/path.h"
 
 /* The way on from where a photon came to: mirrored, bent, or none, as often as light goes there. */
-static inline void photon_go_on(struct branches *b, const struct tables *t, const struct point *p, const struct texturing *texturing,
-                                struct vec3 d, const struct split *s, struct vec3 weight, uint32_t pass)
+static inline void photon_go_on(struct branches *b, const struct tables *t, const struct point *p,
+                                const struct texturing *texturing, struct vec3 d, const struct split *s,
+                                struct vec3 weight, uint32_t pass)
 {
 	const struct branch_samples at = { 0u, sample_hash(b->from.target ^ sample_hash(pass)), b->from.depth };
 	const float u = sample_unit(sample_hash(at.seed + 0x9e3779b9u * (at.index + 1u)));

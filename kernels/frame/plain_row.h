@@ -26,7 +26,8 @@ static inline int plain_knows(const struct shade_arguments *s, __global const st
 }
 
 /* The fragments of a row that lies in the rectangle, from records to rows. @return a bit for each pixel that has one */
-WIDE_VECTORS static inline uint load_whole_row(const struct plain_arguments *a, const struct plain_row *at, struct pack_list *list)
+WIDE_VECTORS static inline uint load_whole_row(const struct plain_arguments *a, const struct plain_row *at,
+                                               struct pack_list *list)
 {
 	__global const float *words = (__global const float *)(a->sparse + at->y * a->width + at->x);
 	const packu place = as_uint16(PACK_LANES) * 6;
@@ -65,7 +66,8 @@ static inline uint load_row(const struct plain_arguments *a, struct plain_row *r
 	return lanes;
 }
 
-/* A bit for each fragment of a row that a light does not reach whole. base: its place among the rays; lanes: those that are there */
+/* A bit for each fragment of a row that a light does not reach whole. base: its place among the rays; lanes: those that
+ * are there */
 static inline uint plain_dimmed(const struct plain_arguments *a, uint base, uint lanes)
 {
 	uint dimmed = 0;
@@ -84,7 +86,8 @@ static inline uint plain_dimmed(const struct plain_arguments *a, uint base, uint
  * n_slots: of lights whose visibility is there; 0: nothing is dimmed
  * @return a bit for each pixel that has a fragment
  */
-static inline uint plain_load_row(const struct plain_arguments *a, uint n_slots, uint block, uint k, struct plain_row *row)
+static inline uint plain_load_row(const struct plain_arguments *a, uint n_slots, uint block, uint k,
+                                  struct plain_row *row)
 {
 	uint lanes;
 
@@ -138,8 +141,9 @@ static inline int plain_adds_nothing(__global const struct scene_material *m)
  * s: with visibility where lights have been asked
  * lights: receives a bit for each that lights them
  */
-static inline void plain_shade(const struct plain_arguments *a, const struct shade_arguments *s, const struct plain_row *row, uint lanes,
-                               struct pack_kept *kept, packu *lights, struct plain_colors *out)
+static inline void plain_shade(const struct plain_arguments *a, const struct shade_arguments *s,
+                               const struct plain_row *row, uint lanes, struct pack_kept *kept, packu *lights,
+                               struct plain_colors *out)
 {
 	const struct tables *t = &a->tables;
 	struct pack *p = &kept->last;
@@ -159,7 +163,8 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE)
 		out->albedo = pack_albedo(t, &row->list, p, lanes, &texturing, &lit);
 	*lights = a->n_slots && !s->n_slots ? pack_lights(t, p) : (packu)(0);
-	out->is_gl = !(lanes & row->dimmed) && !stage_is_by_program(s, p->material, g->flags) && plain_adds_nothing(p->material);
+	out->is_gl = !(lanes & row->dimmed) && !stage_is_by_program(s, p->material, g->flags) &&
+	             plain_adds_nothing(p->material);
 	if (out->is_gl)
 		return;
 	out->shadowed = out->gl;
@@ -175,8 +180,8 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 }
 
 /* Rays to the lights that light them. lights: a bit for each that does */
-static inline void plain_send_rays(const struct plain_arguments *a, const struct plain_row *row, const struct pack *p, struct pack_surface *s,
-                                   packu lights, uint lanes)
+static inline void plain_send_rays(const struct plain_arguments *a, const struct plain_row *row, const struct pack *p,
+                                   struct pack_surface *s, packu lights, uint lanes)
 {
 	__global const struct scene_light *light = pack_lights_of(&a->tables, p->material);
 	const struct pack_vec back = pack_scale(pack_normalize(pack_view_direction(p, a->height)), (packf)(-1));

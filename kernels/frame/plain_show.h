@@ -1,6 +1,6 @@
 /*
- * A row of sixteen pixels of a plain frame (kernels/frame/plain.h) at once, from fragments to planes, material by material (kernels/frame/pack_shade.h);
- * fragments that packs do not know go one by one. OpenCL C only.
+ * A row of sixteen pixels of a plain frame (kernels/frame/plain.h) at once, from fragments to planes, material by
+ * material (kernels/frame/pack_shade.h); fragments that packs do not know go one by one. OpenCL C only.
  */
 #pragma once
 
@@ -47,16 +47,18 @@ WIDE_VECTORS static inline void clear_row(__global const struct frame_pixel *cle
 	p->drawn = p->id = p->layers = 0.0f;
 }
 
-/* --- Sixteen at once ------------------------------------------------------------------------------------------------- */
+/* --- Sixteen at once --------------------------------------------------------------------------------------------- */
 
 /* Which fragments show: those before what was cleared. */
-WIDE_VECTORS static inline packi shows(const struct plain_arguments *a, __global const struct scene_material *m, packf depth)
+WIDE_VECTORS static inline packi shows(const struct plain_arguments *a, __global const struct scene_material *m,
+                                       packf depth)
 {
 	return pack_compare(m->depth_func, pack_depth_steps(depth, pixel_depth_bits(a->bits)), (packu)(a->cleared->depth));
 }
 
 /* Colours of lanes that show. */
-WIDE_VECTORS static inline void put_colors(struct shown_row *row, const struct pack *p, const struct plain_colors *c, packi show)
+WIDE_VECTORS static inline void put_colors(struct shown_row *row, const struct pack *p, const struct plain_colors *c,
+                                           packi show)
 {
 	struct pack_pixels *to = &row->pixels;
 
@@ -75,8 +77,8 @@ WIDE_VECTORS static inline void put_colors(struct shown_row *row, const struct p
 }
 
 /* Where they are, and their draws. */
-static inline void put_surface(const struct plain_arguments *a, struct shown_row *row, const struct pack *p, const struct pack_surface *s,
-                               packi show)
+static inline void put_surface(const struct plain_arguments *a, struct shown_row *row, const struct pack *p,
+                               const struct pack_surface *s, packi show)
 {
 	struct pack_pixels *to = &row->pixels;
 
@@ -90,8 +92,8 @@ static inline void put_surface(const struct plain_arguments *a, struct shown_row
 }
 
 /* Fragments of one material. s: with visibility where lights have been asked. @return those that are done */
-static inline uint shade_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lanes,
-                               struct pack_kept *kept)
+static inline uint shade_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row,
+                               uint lanes, struct pack_kept *kept)
 {
 	const struct tables *t = &a->tables;
 	__global const struct geometry *g = &t->geometries[row->at.list.instance[popcount((lanes & -lanes) - 1)]];
@@ -121,7 +123,7 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 	return lanes;
 }
 
-/* --- One by one ------------------------------------------------------------------------------------------------------ */
+/* --- One by one -------------------------------------------------------------------------------------------------- */
 
 /* A fragment as it is shaded, to its lane. */
 static inline void put_one(const struct plain_arguments *a, struct shown_row *row, uint lane)
@@ -132,7 +134,8 @@ static inline void put_one(const struct plain_arguments *a, struct shown_row *ro
 	struct pack_pixels *to = &row->pixels;
 
 	if (!(s->flags & SHADED_THERE) ||
-	    !pixel_compare(a->tables.materials[a->tables.geometries[f.instance].material].depth_func, steps, a->cleared->depth))
+	    !pixel_compare(a->tables.materials[a->tables.geometries[f.instance].material].depth_func, steps,
+	                   a->cleared->depth))
 		return;
 	spread_gl(row);
 	for (uint i = 0; i < 3; i++) {
@@ -148,8 +151,8 @@ static inline void put_one(const struct plain_arguments *a, struct shown_row *ro
 	LANE(to->id, float, lane) = (float)stage_draw(&a->tables, f.instance, f.primitive);
 }
 
-static inline void shade_one(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lane,
-                             struct plain_kept *kept)
+static inline void shade_one(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row,
+                             uint lane, struct plain_kept *kept)
 {
 	const uint item = row->at.base + lane;
 	__global const struct geometry *g = &a->tables.geometries[row->at.list.instance[lane]];
@@ -167,10 +170,10 @@ static inline void shade_one(const struct plain_arguments *a, const struct shade
 	put_one(a, row, lane);
 }
 
-/* --- Rows ------------------------------------------------------------------------------------------------------------ */
+/* --- Rows -------------------------------------------------------------------------------------------------------- */
 
-static inline void shade_row(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lanes,
-                             struct plain_kept *kept)
+static inline void shade_row(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row,
+                             uint lanes, struct plain_kept *kept)
 {
 	__global const struct scene_material *m;
 	uint material;
@@ -212,7 +215,8 @@ WIDE_VECTORS static inline void light_row(const struct plain_arguments *a, struc
 }
 
 /* What its colours are at last. */
-WIDE_VECTORS static inline void finish_row(const struct plain_arguments *a, struct shown_row *row, uint lanes, int is_lit)
+WIDE_VECTORS static inline void finish_row(const struct plain_arguments *a, struct shown_row *row, uint lanes,
+                                           int is_lit)
 {
 	struct pack_pixels *p = &row->pixels;
 	const packi odd = (p->gl[0] != p->gl[0]) | (p->gl[1] != p->gl[1]) | (p->gl[2] != p->gl[2]);
@@ -232,12 +236,12 @@ struct plain_empty {
 };
 
 /*
- * A row that plain_row has been loaded for. s: what packs and shade_item take, with visibility where lights have been asked
- * lanes: a bit for each pixel that has a fragment
- * is_lit: from all around
+ * A row that plain_row has been loaded for. s: what packs and shade_item take, with visibility where lights have been
+ * asked lanes: a bit for each pixel that has a fragment is_lit: from all around
  */
-static inline void plain_show_row(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row, uint lanes, int is_lit,
-                                  const struct pack_planes *to, struct plain_kept *kept, struct plain_empty *empty)
+static inline void plain_show_row(const struct plain_arguments *a, const struct shade_arguments *s,
+                                  struct shown_row *row, uint lanes, int is_lit, const struct pack_planes *to,
+                                  struct plain_kept *kept, struct plain_empty *empty)
 {
 	if (!lanes && empty->at != SCENE_NONE && to->n == PACK_SIZE) {
 		pack_compose_again(empty->at, to);

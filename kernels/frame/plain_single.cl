@@ -1,7 +1,8 @@
 /*
- * plain_color, plain_ask, plain_show, plain_color_dimmed, plain_show_dimmed: see kernels/frame/plain.h. One pixel a work item, for devices
- * that run many work items in step. One kernel for all of plain takes as many registers as its greediest part: 134 on an H200, where a
- * frame of the hall then took 0.69 and 0.28 ms in place of 0.51 and 0.28, four launches with a wait after each counted.
+ * plain_color, plain_ask, plain_show, plain_color_dimmed, plain_show_dimmed: see kernels/frame/plain.h. One pixel a
+ * work item, for devices that run many work items in step. One kernel for all of plain takes as many registers as its
+ * greediest part: 134 on an H200, where a frame of the hall then took 0.69 and 0.28 ms in place of 0.51 and 0.28, four
+ * launches with a wait after each counted.
  */
 #include "kernels/frame/compose.h"
 #include "kernels/frame/plain.h"
@@ -21,10 +22,11 @@ static inline struct plain_spot spot_of(const struct plain_arguments *a, uint it
 	return at;
 }
 
-/* --- From a fragment to the planes ----------------------------------------------------------------------------------- */
+/* --- From a fragment to the planes ------------------------------------------------------------------------------- */
 
 /* A colour without mirrors. */
-static inline void put_colors(struct compose_pixel *p, __global const float *gl, __global const float *shadowed, __global const float *direct)
+static inline void put_colors(struct compose_pixel *p, __global const float *gl, __global const float *shadowed,
+                              __global const float *direct)
 {
 	for (uint c = 0; c < 3; c++) {
 		p->display[COLOR_GL + c] = gl[c];
@@ -56,7 +58,8 @@ static inline void put_cleared(__global const struct frame_pixel *cleared, struc
 	p->floats[COMPOSE_ID] = p->floats[COMPOSE_LAYERS] = 0;
 }
 
-static inline void put_fragment(const struct plain_arguments *a, const struct fragment *f, __global const struct shaded *s, struct compose_pixel *p)
+static inline void put_fragment(const struct plain_arguments *a, const struct fragment *f,
+                                __global const struct shaded *s, struct compose_pixel *p)
 {
 	struct vec3 normal, position;
 
@@ -75,7 +78,8 @@ static inline int shows(const struct plain_arguments *a, const struct fragment *
 {
 	const uint steps = pixel_depth_steps(s->depth, pixel_depth_bits(a->bits));
 
-	return s->flags & SHADED_THERE && pixel_compare(stage_material(&a->tables, f->instance)->depth_func, steps, a->cleared->depth);
+	return s->flags & SHADED_THERE &&
+	       pixel_compare(stage_material(&a->tables, f->instance)->depth_func, steps, a->cleared->depth);
 }
 
 static inline void compose_pixel(const struct plain_arguments *a, const struct plain_spot *at, int is_there)
@@ -93,7 +97,7 @@ static inline void compose_pixel(const struct plain_arguments *a, const struct p
 	compose_store(&p, &a->request, compose_at(&a->request, at->y * a->width + at->x), a->halves, a->floats);
 }
 
-/* --- Kernels --------------------------------------------------------------------------------------------------------- */
+/* --- Kernels ----------------------------------------------------------------------------------------------------- */
 
 KERNEL_OF(float4) void plain_color(KERNEL_ARGUMENTS(plain))
 {

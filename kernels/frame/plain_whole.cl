@@ -1,6 +1,6 @@
 /*
- * plain_whole: see kernels/frame/plain.h. A tile's fragments go from where the camera keeps them to the planes: no record of a pixel leaves the
- * work item.
+ * plain_whole: see kernels/frame/plain.h. A tile's fragments go from where the camera keeps them to the planes: no
+ * record of a pixel leaves the work item.
  */
 #include "kernels/camera/tile_walk.h"
 #include "kernels/frame/plain_show.h"
@@ -29,7 +29,8 @@ WIDE_VECTORS static inline void take_rows(const struct camera_pack *p, struct fo
 }
 
 /* Row i of four as plain's rows are. x, y: in the band. @return a bit for each pixel that has a fragment */
-WIDE_VECTORS static inline uint load_taken(const struct plain_arguments *a, const struct four_rows *from, int i, uint x, uint y, struct plain_row *row)
+WIDE_VECTORS static inline uint load_taken(const struct plain_arguments *a, const struct four_rows *from, int i, uint x,
+                                           uint y, struct plain_row *row)
 {
 	row->x = x;
 	row->y = y;
@@ -52,8 +53,8 @@ struct tile_kept {
 };
 
 /* Four rows of sixteen pixels, from block x, y of the tile on. */
-static inline void show_rows(const struct plain_arguments *a, const struct shade_arguments *s, const struct tile *t, int is_seen, int x, int y,
-                             struct tile_kept *kept)
+static inline void show_rows(const struct plain_arguments *a, const struct shade_arguments *s, const struct tile *t,
+                             int is_seen, int x, int y, struct tile_kept *kept)
 {
 	const uint left = (uint)(t->x + BLOCK * x), low = (uint)(t->y + BLOCK * y) - a->first_pixel / a->width;
 	struct four_rows rows;
@@ -73,11 +74,12 @@ KERNEL_OF(float16) void plain_whole(KERNEL_ARGUMENTS(plain_whole))
 {
 	const struct camera_packet_arguments camera = KERNEL_STRUCT(camera_packet);
 	const struct plain_arguments a = {
-		.tables = KERNEL_STRUCT(tables), .views = views, .windows = window, .width = width, .height = height, .first_pixel = first_pixel,
-		.bits = bits, .cleared = cleared, .request = request, .n = width * request.height, .fragments = alone, .pixels = pixels,
-		.shaded = shaded, .halves = halves, .floats = floats,
+		.tables = KERNEL_STRUCT(tables), .views = views, .windows = window, .width = width, .height = height,
+		.first_pixel = first_pixel, .bits = bits, .cleared = cleared, .request = request, .n = width * request.height,
+		.fragments = alone, .pixels = pixels, .shaded = shaded, .halves = halves, .floats = floats,
 	};
-	const struct camera_rectangle band = { 0, (int)(first_pixel / width), (int)width, (int)(first_pixel / width + request.height) };
+	const struct camera_rectangle band = { 0, (int)(first_pixel / width), (int)width,
+		                               (int)(first_pixel / width + request.height) };
 	const struct shade_arguments s = plain_shading(&a, 0);
 	const uint item = (uint)get_global_id(0);
 	struct tile_kept kept;
@@ -88,7 +90,8 @@ KERNEL_OF(float16) void plain_whole(KERNEL_ARGUMENTS(plain_whole))
 		return;
 	t.x = camera_packet_x(band, item);
 	t.y = camera_packet_y(band, item);
-	is_seen = t.x < rectangle.x1 && t.x + CAMERA_TILE > rectangle.x0 && t.y < rectangle.y1 && t.y + CAMERA_TILE > rectangle.y0;
+	is_seen = t.x < rectangle.x1 && t.x + CAMERA_TILE > rectangle.x0 && t.y < rectangle.y1 &&
+	          t.y + CAMERA_TILE > rectangle.y0;
 	if (is_seen) {
 		tile_draw(&camera, &t);
 		is_seen = t.is_drawn;

@@ -1,8 +1,10 @@
 /*
- * program_packet: program with SHADE_PACKET consecutive fragments of the list a work item, for CPUs, material by material
- * (kernels/frame/pack_program.h). What packs do not know goes one by one: a triangle that several fragments lie in is set up once.
+ * program_packet: program with SHADE_PACKET consecutive fragments of the list a work item, for CPUs, material by
+ * material (kernels/frame/pack_program.h). What packs do not know goes one by one: a triangle that several fragments
+ * lie in is set up once.
  *
- * plain_program: the same with a block of a plain frame's pixels (kernels/frame/plain.h). Frames without programs compile neither.
+ * plain_program: the same with a block of a plain frame's pixels (kernels/frame/plain.h). Frames without programs
+ * compile neither.
  */
 #include "kernels/frame/pack_program.h"
 #include "kernels/frame/plain_row.h"
@@ -19,7 +21,7 @@ static inline void keep_nothing(struct program_kept *kept)
 	pack_keep_nothing(&kept->pack);
 }
 
-/* --- Lists ----------------------------------------------------------------------------------------------------------- */
+/* --- Lists ------------------------------------------------------------------------------------------------------- */
 
 /* Which ones programs have a say in. */
 static inline void find_left(const struct shade_arguments *a, uint first, struct pack_left *left)
@@ -69,11 +71,11 @@ KERNEL_OF(float16) void program_packet(KERNEL_ARGUMENTS(shade))
 		run_next(&a, &left, &kept);
 }
 
-/* --- Plain frames ---------------------------------------------------------------------------------------------------- */
+/* --- Plain frames ------------------------------------------------------------------------------------------------ */
 
 /* One that packs do not know: as it is shaded without its program, then by it. */
-static inline void run_alone(const struct plain_arguments *a, const struct shade_arguments *s, const struct plain_row *row, uint lane,
-                             struct program_kept *kept)
+static inline void run_alone(const struct plain_arguments *a, const struct shade_arguments *s,
+                             const struct plain_row *row, uint lane, struct program_kept *kept)
 {
 	const uint item = row->base + lane;
 
@@ -85,8 +87,8 @@ static inline void run_alone(const struct plain_arguments *a, const struct shade
 	program_item(s, item, 0, &kept->one);
 }
 
-static inline void run_row(const struct plain_arguments *a, const struct shade_arguments *s, const struct plain_row *row, uint lanes,
-                           struct program_kept *kept)
+static inline void run_row(const struct plain_arguments *a, const struct shade_arguments *s,
+                           const struct plain_row *row, uint lanes, struct program_kept *kept)
 {
 	while (lanes) {
 		const uint bit = lanes & -lanes;

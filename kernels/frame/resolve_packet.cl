@@ -1,8 +1,9 @@
 /*
- * resolve_packet: resolve with all colours of a pixel as one vector, for CPUs. Tests, and what else a pixel keeps, go as in
- * kernels/gl/pixel.h; logic operations and frame buffers of floats do altogether.
+ * resolve_packet: resolve with all colours of a pixel as one vector, for CPUs. Tests, and what else a pixel keeps, go
+ * as in kernels/gl/pixel.h; logic operations and frame buffers of floats do altogether.
  *
- * Lanes stand as struct shaded and struct frame_pixel begin: GL's colour and alpha, then red, green and blue of the four further parts.
+ * Lanes stand as struct shaded and struct frame_pixel begin: GL's colour and alpha, then red, green and blue of the
+ * four further parts.
  */
 #include "kernels/frame/pack_blend.h"
 #include "kernels/frame/pack_texture.h"
@@ -45,16 +46,21 @@ WIDE_VECTORS static inline packu factor_of(__global const struct scene_material 
 WIDE_VECTORS static inline packf blend(__global const struct scene_material *m, packf source, packf destination)
 {
 	const packu s = pack_code(source), d = pack_code(destination);
-	packu out = pack_blend_equation(m->blend_equation_rgb, s, factor_of(m, m->blend_src_rgb, s, d), d, factor_of(m, m->blend_dst_rgb, s, d));
+	packu out = pack_blend_equation(m->blend_equation_rgb, s, factor_of(m, m->blend_src_rgb, s, d), d,
+	                                factor_of(m, m->blend_dst_rgb, s, d));
 
-	if (m->blend_equation_alpha != m->blend_equation_rgb || m->blend_src_alpha != m->blend_src_rgb || m->blend_dst_alpha != m->blend_dst_rgb)
-		out.s3 = pack_blend_equation(m->blend_equation_alpha, s, factor_of(m, m->blend_src_alpha, s, d), d, factor_of(m, m->blend_dst_alpha, s, d)).s3;
+	if (m->blend_equation_alpha != m->blend_equation_rgb || m->blend_src_alpha != m->blend_src_rgb ||
+	    m->blend_dst_alpha != m->blend_dst_rgb)
+		out.s3 = pack_blend_equation(m->blend_equation_alpha, s, factor_of(m, m->blend_src_alpha, s, d), d,
+		                             factor_of(m, m->blend_dst_alpha, s, d))
+		                 .s3;
 	return convert_float16(as_int16(out)) / 255.0f;
 }
 
 /* As pixel_colors. */
-WIDE_VECTORS static inline void draw_colors(__global const struct scene_material *m, __global const struct shaded *shaded,
-                                            __global struct frame_pixel *pixel, uint bits)
+WIDE_VECTORS static inline void draw_colors(__global const struct scene_material *m,
+                                            __global const struct shaded *shaded, __global struct frame_pixel *pixel,
+                                            uint bits)
 {
 	const packf before = *(__global const loose_floats *)pixel->gl;
 	packf source = *(__global const loose_floats *)shaded->gl, destination = before, color;

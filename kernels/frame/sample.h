@@ -1,6 +1,6 @@
 /*
- * Samples that depend on neither time nor scheduling: a sequence fills the unit square evenly. In mode path each pixel, bounce, purpose
- * and frame scrambles Sobol's by a number of its own; elsewhere each pixel and purpose turns one.
+ * Samples that depend on neither time nor scheduling: a sequence fills the unit square evenly. In mode path each pixel,
+ * bounce, purpose and frame scrambles Sobol's by a number of its own; elsewhere each pixel and purpose turns one.
  */
 #pragma once
 
@@ -15,7 +15,8 @@
 #define SAMPLE_DOME 0x60000u
 #define SAMPLE_EMITTER 0x70000u
 
-/* Mix the bits of a number: multiply, shift and xor (constants found by C. Wellons, "Prospecting for hash functions"). */
+/* Mix the bits of a number: multiply, shift and xor (constants found by C. Wellons, "Prospecting for hash
+ * functions"). */
 static inline uint32_t sample_hash(uint32_t x)
 {
 	x ^= x >> 16;
@@ -51,8 +52,8 @@ static inline uint32_t sample_reverse(uint32_t x)
 	return x >> 16 | x << 16;
 }
 
-/* Each bit is exchanged or kept, as a hash of the bits below it says (S. Laine and T. Karras, "Stratified Sampling for Stochastic
-   Transparency", 2011; constants after N. Vegdahl, "Building a Better LK Hash", 2021). */
+/* Each bit is exchanged or kept, as a hash of the bits below it says (S. Laine and T. Karras, "Stratified Sampling for
+   Stochastic Transparency", 2011; constants after N. Vegdahl, "Building a Better LK Hash", 2021). */
 static inline uint32_t sample_mix_upwards(uint32_t x, uint32_t seed)
 {
 	x ^= x * 0x3d20adeau;
@@ -65,8 +66,8 @@ static inline uint32_t sample_mix_upwards(uint32_t x, uint32_t seed)
 
 /*
  * Point `index` of Sobol's (0,2)-sequence, its digits exchanged as A. Owen has it ("Randomly Permuted (t,m,s)-Nets and
- * (t,s)-Sequences", 1995) and its points in an order of their own, which makes seeds independent of each other (B. Burley, "Practical
- * Hash-based Owen Scrambling", 2020). All points from 0 up to a power of two lie evenly.
+ * (t,s)-Sequences", 1995) and its points in an order of their own, which makes seeds independent of each other (B.
+ * Burley, "Practical Hash-based Owen Scrambling", 2020). All points from 0 up to a power of two lie evenly.
  */
 static inline void sample_sobol(uint32_t seed, uint32_t index, float *u, float *v)
 {
@@ -92,11 +93,11 @@ static inline void sample_take(uint32_t frame, uint32_t seed, uint32_t index, fl
 }
 
 /*
- * Where samples fall within a pixel: a (0,2)-sequence, of which any 2^k in a row from a multiple of 2^k on hold one in each of 2^k
- * columns, rows and other even cuts of the pixel, its digits exchanged by a hash (Kollig and Keller 2002, "Efficient
- * multidimensional sampling", sec. 3.1). There are so many exchanges, and a hash of the pixel's number picks one: neighbours have
- * different samples, so that edges and fine patterns leave noise and no bands. Few, because a picture is traced for each: camera
- * rays keep to the pixel grid, moved as a whole.
+ * Where samples fall within a pixel: a (0,2)-sequence, of which any 2^k in a row from a multiple of 2^k on hold one in
+ * each of 2^k columns, rows and other even cuts of the pixel, its digits exchanged by a hash (Kollig and Keller 2002,
+ * "Efficient multidimensional sampling", sec. 3.1). There are so many exchanges, and a hash of the pixel's number picks
+ * one: neighbours have different samples, so that edges and fine patterns leave noise and no bands. Few, because a
+ * picture is traced for each: camera rays keep to the pixel grid, moved as a whole.
  */
 #define SAMPLE_TURNS 4u
 
@@ -105,15 +106,17 @@ static inline uint32_t sample_turn(uint32_t pixel)
 	return sample_hash(pixel + SAMPLE_JITTER) % SAMPLE_TURNS;
 }
 
-/* 1 where a pixel takes part in a turn. SAMPLE_TURNS is the turn of all pixels: in mode path, where noise hides bands. */
+/* 1 where a pixel takes part in a turn. SAMPLE_TURNS is the turn of all pixels: in mode path, where noise hides
+ * bands. */
 static inline int sample_takes_part(uint32_t pixel, uint32_t turn)
 {
 	return turn == SAMPLE_TURNS || sample_turn(pixel) == turn;
 }
 
 /*
- * Sample `index` (1 and up; 0 is the pixel's centre) of the pixels of a turn: by how much it is off the centre, pixels. A step of
- * 1/256 pixel, to which vertices are snapped, is left at the sides: there the picture's own border may be cut away.
+ * Sample `index` (1 and up; 0 is the pixel's centre) of the pixels of a turn: by how much it is off the centre, pixels.
+ * A step of 1/256 pixel, to which vertices are snapped, is left at the sides: there the picture's own border may be cut
+ * away.
  */
 static inline void sample_shift(uint32_t turn, uint32_t index, float shift[2])
 {

@@ -1,9 +1,9 @@
 /*
- * Prefix sums (Blelloch 1990, "Prefix sums and their applications"): the place of each item's results in a dense list is the sum of
- * all counts before. Included by C and OpenCL C.
+ * Prefix sums (Blelloch 1990, "Prefix sums and their applications"): the place of each item's results in a dense list
+ * is the sum of all counts before. Included by C and OpenCL C.
  *
- * A work item sums SCAN_CHUNK consecutive counts; the host makes of these sums what stands before each chunk. No work item waits for
- * another: nothing depends on scheduling.
+ * A work item sums SCAN_CHUNK consecutive counts; the host makes of these sums what stands before each chunk. No work
+ * item waits for another: nothing depends on scheduling.
  *
  * scan_sum: sums[i] = counts[SCAN_CHUNK i] + .. as far as n counts go; and SCAN_FULL where one of them is `full`
  *

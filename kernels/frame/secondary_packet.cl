@@ -1,13 +1,14 @@
 /*
- * Paths with SHADE_PACKET items of their lists a work item, for CPUs: sixteen points of one material at once (kernels/frame/pack_hit.h).
- * What packs do not know goes one by one.
+ * Paths with SHADE_PACKET items of their lists a work item, for CPUs: sixteen points of one material at once
+ * (kernels/frame/pack_hit.h). What packs do not know goes one by one.
  */
 #include "kernels/frame/pack_hit.h"
 
-/* --- Which ones ---------------------------------------------------------------------------------------------------- */
+/* --- Which ones -------------------------------------------------------------------------------------------------- */
 
 /* The hits of a work item. */
-static inline void find_hits(const struct shade_arguments *s, __global const struct hit *hits, uint first, uint n, struct pack_left *left)
+static inline void find_hits(const struct shade_arguments *s, __global const struct hit *hits, uint first, uint n,
+                             struct pack_left *left)
 {
 	uint last = SCENE_NONE;
 	int known = 0;
@@ -32,7 +33,8 @@ static inline void find_hits(const struct shade_arguments *s, __global const str
 }
 
 /* The fragments of a work item that light leaves; the others have no paths. */
-static inline void find_leaving(const struct leave_arguments *a, const struct shade_arguments *s, uint first, struct pack_left *left)
+static inline void find_leaving(const struct leave_arguments *a, const struct shade_arguments *s, uint first,
+                                struct pack_left *left)
 {
 	left->first = first;
 	left->all = left->packed = 0;
@@ -51,7 +53,7 @@ static inline void find_leaving(const struct leave_arguments *a, const struct sh
 	}
 }
 
-/* --- Rays to lights ------------------------------------------------------------------------------------------------ */
+/* --- Rays to lights ---------------------------------------------------------------------------------------------- */
 
 static inline void send_alone(const struct hit_ray_arguments *a, uint item)
 {
@@ -79,7 +81,8 @@ static inline packu lights_at(const struct hit_ray_arguments *a, const struct pa
 }
 
 /* @return 0: one of the lights has a size */
-static inline int send_lanes(const struct hit_ray_arguments *a, struct pack_points *q, __global const struct scene_material *m)
+static inline int send_lanes(const struct hit_ray_arguments *a, struct pack_points *q,
+                             __global const struct scene_material *m)
 {
 	const uint n_slots = a->n_rays / a->n, n_lights = m->surface.relit ? m->surface.light_count : m->light_count;
 	__global const struct scene_light *light = pack_lights_of(&a->tables, m);
@@ -128,7 +131,7 @@ KERNEL_OF(float16) void hit_ray_packet(KERNEL_ARGUMENTS(hit_ray))
 	}
 }
 
-/* --- Hits ------------------------------------------------------------------------------------------------------------ */
+/* --- Hits -------------------------------------------------------------------------------------------------------- */
 
 /* What paths carry. */
 struct way {
@@ -138,7 +141,8 @@ struct way {
 };
 
 /* The paths of q's lanes. */
-WIDE_VECTORS static inline void load_paths(const struct shade_hit_arguments *a, const struct pack_points *q, struct way *way)
+WIDE_VECTORS static inline void load_paths(const struct shade_hit_arguments *a, const struct pack_points *q,
+                                           struct way *way)
 {
 	const packu place = vload16(0, q->list.item) * 8;
 	packf row[4], last[4];
@@ -146,7 +150,8 @@ WIDE_VECTORS static inline void load_paths(const struct shade_hit_arguments *a, 
 	pack_gather_from((__global const float *)a->paths, place, row);
 	pack_gather_from((__global const float *)a->paths, place + 3, last);
 	way->weight = pack_vec(row[0], row[1], row[2]);
-	way->kind = select(as_uint16(last[1]), (packu)(PATH_REFLECT), as_uint16(last[1]) == PATH_NEAR); /* those of PATH_NEAR that hit */
+	/* those of PATH_NEAR that hit */
+	way->kind = select(as_uint16(last[1]), (packu)(PATH_REFLECT), as_uint16(last[1]) == PATH_NEAR);
 	way->branches.rays = a->next_rays;
 	way->branches.paths = a->next_paths;
 	way->branches.slots = PATHS_PER_HIT;
@@ -174,8 +179,9 @@ static inline void absorb(const struct tables *t, const struct pack_points *q, s
 }
 
 /* As hit_color. lit: receives the colours as the vertices have them */
-static inline struct pack_vec color_of(const struct shade_arguments *s, const struct pack_points *q, const struct pack_texturing *texturing,
-                                       struct pack_kept *kept, struct pack_color *lit)
+static inline struct pack_vec color_of(const struct shade_arguments *s, const struct pack_points *q,
+                                       const struct pack_texturing *texturing, struct pack_kept *kept,
+                                       struct pack_color *lit)
 {
 	struct pack_color secondary, color, relit;
 	uint dimmed = 0;
@@ -196,7 +202,8 @@ static inline struct pack_vec color_of(const struct shade_arguments *s, const st
 	return pack_vec(color.c[0], color.c[1], color.c[2]);
 }
 
-static inline void store_hits(const struct shade_hit_arguments *a, const struct pack_points *q, const struct pack_vec *out, const struct way *way)
+static inline void store_hits(const struct shade_hit_arguments *a, const struct pack_points *q,
+                              const struct pack_vec *out, const struct way *way)
 {
 	for (uint left = q->lanes; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1), item = q->list.item[lane];
@@ -207,8 +214,8 @@ static inline void store_hits(const struct shade_hit_arguments *a, const struct 
 	}
 }
 
-static inline void shade_hits(const struct shade_hit_arguments *a, const struct shade_arguments *s, struct pack_points *q,
-                              __global const struct scene_material *m, struct pack_kept *kept)
+static inline void shade_hits(const struct shade_hit_arguments *a, const struct shade_arguments *s,
+                              struct pack_points *q, __global const struct scene_material *m, struct pack_kept *kept)
 {
 	struct pack_texturing texturing;
 	struct pack_split split;
@@ -233,14 +240,16 @@ static inline void shade_hits(const struct shade_hit_arguments *a, const struct 
 		pack_branch_mirror(&a->tables, q, on, q->d, &split, pack_scale(way.weight, split.mirrored), way.kind, &way.branches);
 	on &= pack_bits(split.through > 0.0f);
 	if (on)
-		pack_branch_through(&a->tables, q, on, q->d, &split,
-		                    pack_mul(pack_scale(way.weight, split.through), pack_tint(&a->tables, q, &texturing, &lit)), way.kind,
-		                    &way.branches);
+		pack_branch_through(
+			&a->tables, q, on, q->d, &split,
+			pack_mul(pack_scale(way.weight, split.through), pack_tint(&a->tables, q, &texturing, &lit)),
+			way.kind, &way.branches);
 	store_hits(a, q, &out, &way);
 }
 
 /* As hit_bound. kind: the paths' own */
-static inline struct pack_vec bound(const struct shade_hit_arguments *a, const struct way *way, packu kind, struct pack_vec light)
+static inline struct pack_vec bound(const struct shade_hit_arguments *a, const struct way *way, packu kind,
+                                    struct pack_vec light)
 {
 	const packf most = fmax(fmax(light.x, light.y), light.z);
 	const packi bounced = (way->branches.depth > 1) | ((way->branches.depth == 1) & (kind == PATH_DIFFUSE));
@@ -249,8 +258,8 @@ static inline struct pack_vec bound(const struct shade_hit_arguments *a, const s
 }
 
 /* The same where light is followed. */
-static inline void shade_bounces(const struct shade_hit_arguments *a, const struct shade_arguments *s, struct pack_points *q,
-                                 __global const struct scene_material *m)
+static inline void shade_bounces(const struct shade_hit_arguments *a, const struct shade_arguments *s,
+                                 struct pack_points *q, __global const struct scene_material *m)
 {
 	struct pack_texturing texturing;
 	struct pack_color lit, secondary;
@@ -273,7 +282,8 @@ static inline void shade_bounces(const struct shade_hit_arguments *a, const stru
 	out = bound(a, &way, kind, pack_mul(way.weight, out));
 	on = pack_takes_light(m) ? q->lanes & pack_bits(way.branches.depth < a->depth) : 0;
 	if (on)
-		pack_branch_scatter(a, q, on, pack_hash(pack_hash(pixel) + way.branches.depth * 4 + kind), albedo, way.weight, way.kind, &way.branches);
+		pack_branch_scatter(a, q, on, pack_hash(pack_hash(pixel) + way.branches.depth * 4 + kind), albedo,
+		                    way.weight, way.kind, &way.branches);
 	store_hits(a, q, &out, &way);
 }
 
@@ -309,9 +319,10 @@ KERNEL_OF(float16) void shade_hit_packet(KERNEL_ARGUMENTS(shade_hit))
 	}
 }
 
-/* --- Fragments ------------------------------------------------------------------------------------------------------- */
+/* --- Fragments --------------------------------------------------------------------------------------------------- */
 
-static inline void leave_lanes(const struct leave_arguments *a, struct pack_points *q, __global const struct scene_material *m)
+static inline void leave_lanes(const struct leave_arguments *a, struct pack_points *q,
+                               __global const struct scene_material *m)
 {
 	struct pack_color lit, secondary;
 	struct pack_texturing texturing;

@@ -1,8 +1,8 @@
 /*
- * shade_packet: shade with SHADE_PACKET consecutive fragments of the list a work item, for CPUs: material by material, sixteen at a time in
- * vectors (kernels/frame/pack_shade.h). Pixels stand one after the other in the list, each with all that covers it, so neighbours in a pack are
- * mostly neighbours on the same surface. What packs do not know is shaded one by one: a triangle that several fragments lie in is set up
- * once. kernels/README.md has the figures.
+ * shade_packet: shade with SHADE_PACKET consecutive fragments of the list a work item, for CPUs: material by material,
+ * sixteen at a time in vectors (kernels/frame/pack_shade.h). Pixels stand one after the other in the list, each with
+ * all that covers it, so neighbours in a pack are mostly neighbours on the same surface. What packs do not know is
+ * shaded one by one: a triangle that several fragments lie in is set up once. kernels/README.md has the figures.
  */
 #include "kernels/frame/pack_shade.h"
 
@@ -23,7 +23,8 @@ static inline void find_left(const struct shade_arguments *a, uint first, struct
 	for (uint i = 0; i < min(SHADE_PACKET, a->n - first); i++) {
 		__global const struct geometry *g = &a->tables.geometries[a->fragments[first + i].instance];
 
-		if (a->n_slots && !(a->shaded[first + i].flags & SHADED_THERE && stage_dimmed(a->visibility, a->n_slots, a->n, first + i)))
+		if (a->n_slots && !(a->shaded[first + i].flags & SHADED_THERE &&
+		                    stage_dimmed(a->visibility, a->n_slots, a->n, first + i)))
 			continue;
 		if (g->material != last)
 			known = pack_is_plain(a, &a->tables.materials[g->material]);

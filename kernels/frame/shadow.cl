@@ -1,4 +1,5 @@
-/* Rays from fragments and hits to lights and around: see kernels/frame/shadow.h. A plain frame needs these alone, so paths are compiled apart. */
+/* Rays from fragments and hits to lights and around: see kernels/frame/shadow.h. A plain frame needs these alone, so
+ * paths are compiled apart. */
 #include "kernels/frame/shadow.h"
 
 KERNEL_OF(float4) void shadow_ray(KERNEL_ARGUMENTS(shadow_ray))

@@ -1,7 +1,8 @@
 /*
- * One work item of each kernel that sends rays from fragments and hits to lights, or from fragments into their surroundings, and of
- * those that sum up the rays' visibility. Rays stand slot by slot of a material's lights, in the order of fragments
- * (kernels/gl/stages.h) or hits. A stopped ray goes on in a list of its own, past each surface that lets light pass.
+ * One work item of each kernel that sends rays from fragments and hits to lights, or from fragments into their
+ * surroundings, and of those that sum up the rays' visibility. Rays stand slot by slot of a material's lights, in the
+ * order of fragments (kernels/gl/stages.h) or hits. A stopped ray goes on in a list of its own, past each surface that
+ * lets light pass.
  */
 #pragma once
 
@@ -49,9 +50,9 @@ static inline struct vec3 stage_view_direction(GLOBAL const struct view *view, u
 /* --- Lights ------------------------------------------------------------------------------------------------------ */
 
 /*
- * The surface that a triangle's three normals mean. `smooth` is 0 where they are equal, only one counts, or they lie on both sides of the
- * triangle, as a thin fin's do: then rays start on the triangle itself, on the light's side. A surface above it would lie below it, too, and
- * the triangle would stop its own light.
+ * The surface that a triangle's three normals mean. `smooth` is 0 where they are equal, only one counts, or they lie on
+ * both sides of the triangle, as a thin fin's do: then rays start on the triangle itself, on the light's side. A
+ * surface above it would lie below it, too, and the triangle would stop its own light.
  */
 struct shadow_curve {
 	int smooth;
@@ -69,10 +70,12 @@ static inline int shadow_is_other(struct vec3 a, struct vec3 b)
 /* Whether normals may bend a material's triangles. */
 static inline int shadow_may_curve(GLOBAL const struct scene_material *m)
 {
-	return (m->lighting || m->program_normals) && (m->shade_model != GL_FLAT || m->surface.hidden & SCENE_CREASED) && !(m->surface.hidden & SCENE_FACETED);
+	return (m->lighting || m->program_normals) &&
+	       (m->shade_model != GL_FLAT || m->surface.hidden & SCENE_CREASED) && !(m->surface.hidden & SCENE_FACETED);
 }
 
-static inline struct shadow_curve shadow_curve_of(const struct tables *t, const struct point *p, const struct point_plane *plane)
+static inline struct shadow_curve shadow_curve_of(const struct tables *t, const struct point *p,
+                                                  const struct point_plane *plane)
 {
 	struct shadow_curve c;
 	const float side = point_side(p) ? -1.0f : 1.0f;
@@ -90,9 +93,10 @@ static inline struct shadow_curve shadow_curve_of(const struct tables *t, const 
 }
 
 /*
- * Weights of the place from which light is asked for. A vertex that faces the light lights all of its triangles in part (sec. 2.14.1,
- * Gouraud 1971), beyond the line where the interpolated normal turns away. From there the surface itself stands in the light's way: a
- * point beyond the line asks on the line, straight towards the corner that faces the light most.
+ * Weights of the place from which light is asked for. A vertex that faces the light lights all of its triangles in part
+ * (sec. 2.14.1, Gouraud 1971), beyond the line where the interpolated normal turns away. From there the surface itself
+ * stands in the light's way: a point beyond the line asks on the line, straight towards the corner that faces the light
+ * most.
  *
  * cosine: of each corner's normal to the light.
  * @return 0: no corner faces the light
@@ -111,14 +115,16 @@ static inline int shadow_lit_weights(const float *of_point, const float *cosine,
 }
 
 /*
- * Where the ray to a light starts on a triangle of several normals: above it, on a surface that has these normals at its corners
- * (J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4). Flat faces would else stop light that grazes
- * them: the shade's border would follow the triangles' edges. Where the corners' normals bend inwards nothing is moved.
+ * Where the ray to a light starts on a triangle of several normals: above it, on a surface that has these normals at
+ * its corners (J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4). Flat faces would else
+ * stop light that grazes them: the shade's border would follow the triangles' edges. Where the corners' normals bend
+ * inwards nothing is moved.
  *
- * The start is continuous from triangle to triangle, and so are the shadows of others on them. to: the light, or the direction to it.
+ * The start is continuous from triangle to triangle, and so are the shadows of others on them. to: the light, or the
+ * direction to it.
  */
-static inline struct vec3 shadow_curve_origin(const struct shadow_curve *c, const struct point_plane *plane, const float *of_point,
-                                              struct vec3 to, int positional, struct vec3 from)
+static inline struct vec3 shadow_curve_origin(const struct shadow_curve *c, const struct point_plane *plane,
+                                              const float *of_point, struct vec3 to, int positional, struct vec3 from)
 {
 	struct vec3 n = v3(0.0f, 0.0f, 0.0f), lift = n, at;
 	float cosine[3], weight[3];
@@ -138,9 +144,10 @@ static inline struct vec3 shadow_curve_origin(const struct shadow_curve *c, cons
 }
 
 /*
- * 1 where a triangle turns away from a light on the side that is seen. What GL lights there, it lights by normals that lean
- * over to the light. Normals of a curved surface say where its own shade begins (shadow_curve_origin), and rules may have its
- * faces do so; others mean no surface, and the body behind the triangle does not take that light away (shadow_walk).
+ * 1 where a triangle turns away from a light on the side that is seen. What GL lights there, it lights by normals that
+ * lean over to the light. Normals of a curved surface say where its own shade begins (shadow_curve_origin), and rules
+ * may have its faces do so; others mean no surface, and the body behind the triangle does not take that light away
+ * (shadow_walk).
  */
 static inline int shadow_turns_away(const struct point_plane *plane, struct vec3 towards, struct vec3 from)
 {
@@ -148,9 +155,9 @@ static inline int shadow_turns_away(const struct point_plane *plane, struct vec3
 }
 
 /*
- * The ray from a point to a light: as far as the light, d not normalised, so that t = 1 is the light itself. `from`: the
- * direction of the ray that led to the point. u, v: which place on the light, where it has a size: a sphere is seen as a
- * disk; the radius of a light at infinity is the tangent of half the angle that it fills.
+ * The ray from a point to a light: as far as the light, d not normalised, so that t = 1 is the light itself. `from`:
+ * the direction of the ray that led to the point. u, v: which place on the light, where it has a size: a sphere is seen
+ * as a disk; the radius of a light at infinity is the tangent of half the angle that it fills.
  */
 static inline void stage_light_ray(const struct tables *t, const struct point *p, const struct point_plane *plane,
                                    const struct shadow_curve *curve, uint32_t slot, struct vec3 from, float u, float v,
@@ -175,7 +182,9 @@ static inline void stage_light_ray(const struct tables *t, const struct point *p
 	ray->t_min = within ? SHADOW_WITHIN : 0.0f;
 	ray->t_max = positional ? 1.0f : 1.0e30f;
 	if (p->material->surface.hidden & SCENE_CARD)
-		ray->t_min = M_MIN(M_MAX(M_MAX(plane->length[0], plane->length[1]), plane->length[2]) / M_SQRT(v3_dot(place, place)), ray->t_max);
+		ray->t_min = M_MIN(M_MAX(M_MAX(plane->length[0], plane->length[1]), plane->length[2]) /
+		                           M_SQRT(v3_dot(place, place)),
+		                   ray->t_max);
 }
 
 /* A triangle as rays from all its fragments need it, kept from the first one. */
@@ -191,7 +200,8 @@ struct shadow_kept {
  * shadow_ray: rays[slot * n + i] goes from fragment i to the light in a slot; an empty ray where none is wanted.
  * sample: which of the rays to each light, over all passes of the frame. keeps, kept: as for shade_item.
  */
-static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_t item, int keeps, struct shadow_kept *kept)
+static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_t item, int keeps,
+                                   struct shadow_kept *kept)
 {
 	const struct tables *t = &a->tables;
 	uint32_t slot = item / a->n, i = item % a->n;
@@ -218,7 +228,8 @@ static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_
 	}
 	sample_take(a->frame, sample_hash(a->pixels[i]) + SAMPLE_LIGHT + slot, a->sample, &u, &v);
 	stage_light_ray(t, &p, &kept->plane, &kept->curve, slot,
-	                stage_view_direction(&a->views[p.geometry->view], a->pixels[i] % a->width, a->pixels[i] / a->width), u, v,
+	                stage_view_direction(&a->views[p.geometry->view], a->pixels[i] % a->width, a->pixels[i] / a->width),
+	                u, v,
 	                &a->rays[item]);
 }
 
@@ -274,11 +285,11 @@ static inline void ao_ray_item(const struct ao_ray_arguments *a, uint32_t item)
 	a->rays[item].t_max = a->reach;
 }
 
-/* --- Results --------------------------------------------------------------------------------------------------- */
+/* --- Results ----------------------------------------------------------------------------------------------------- */
 
 /*
- * shadow_sum: visibility of lights: rays that nothing stopped add `weight`. first: of this list. Of the others, those that may
- * go on are left.
+ * shadow_sum: visibility of lights: rays that nothing stopped add `weight`. first: of this list. Of the others, those
+ * that may go on are left.
  */
 static inline void shadow_sum_item(const struct shadow_sum_arguments *a, uint32_t item)
 {
@@ -319,8 +330,8 @@ static inline int shadow_leaves_body(const struct tables *t, const struct hit *h
 }
 
 /*
- * shadow_walk: past the surface that a ray to a light hit, or to its end. A path's kind is 1 while the ray may be within the
- * body that it lights.
+ * shadow_walk: past the surface that a ray to a light hit, or to its end. A path's kind is 1 while the ray may be
+ * within the body that it lights.
  */
 static inline void shadow_walk_item(const struct shadow_walk_arguments *a, uint32_t item)
 {

@@ -1,6 +1,7 @@
 /*
- * shadow_ray_packet: shadow_ray with SHADE_PACKET consecutive rays a work item, for CPUs: sixteen fragments of one material at once
- * (kernels/frame/pack_ray.h). Those that packs do not know send theirs one by one; what rays from a triangle share is found once.
+ * shadow_ray_packet: shadow_ray with SHADE_PACKET consecutive rays a work item, for CPUs: sixteen fragments of one
+ * material at once (kernels/frame/pack_ray.h). Those that packs do not know send theirs one by one; what rays from a
+ * triangle share is found once.
  */
 #include "kernels/frame/pack_ray.h"
 
@@ -15,8 +16,8 @@ static inline uint wanting(const struct shadow_ray_arguments *a, uint first, uin
 	return lanes;
 }
 
-static inline void send_lanes(const struct shadow_ray_arguments *a, const struct pack_list *list, __global const struct scene_material *m,
-                              uint lanes, uint slot, __global struct ray *rays)
+static inline void send_lanes(const struct shadow_ray_arguments *a, const struct pack_list *list,
+                              __global const struct scene_material *m, uint lanes, uint slot, __global struct ray *rays)
 {
 	struct pack_surface surface;
 	struct pack_curve curve;
@@ -34,7 +35,8 @@ static inline void send_lanes(const struct shadow_ray_arguments *a, const struct
 }
 
 /* Rays first .. end - 1 of a slot, sixteen at most. */
-static inline void send_sixteen(const struct shadow_ray_arguments *a, uint slot, uint first, uint end, struct shadow_kept *kept)
+static inline void send_sixteen(const struct shadow_ray_arguments *a, uint slot, uint first, uint end,
+                                struct shadow_kept *kept)
 {
 	__global struct ray *rays = a->rays + slot * a->n + first;
 	struct pack_list list;

@@ -1,5 +1,6 @@
 /*
- * What lets light through: holes, blended surfaces, glass. Rays to lights lose by it what it holds back; paths go on behind it.
+ * What lets light through: holes, blended surfaces, glass. Rays to lights lose by it what it holds back; paths go on
+ * behind it.
  */
 #pragma once
 
@@ -29,7 +30,8 @@ static inline int transparency_is_hole(const struct point *p, float alpha)
 	                                                                   blend_round(p->material->alpha_ref)));
 }
 
-/* Unpolarised light that a boundary reflects (Fresnel); eta: index on this side over that beyond, cosine on this side. */
+/* Unpolarised light that a boundary reflects (Fresnel); eta: index on this side over that beyond, cosine on this
+ * side. */
 static inline float glass_fresnel(float eta, float cosine, float *cosine_beyond)
 {
 	float k = 1.0f - eta * eta * (1.0f - cosine * cosine), across, along;
@@ -101,7 +103,8 @@ static inline int transparency_meets_shown(const struct point *p, struct vec3 d)
 	       M_ABS(along) > TRANSPARENCY_ACROSS * M_SQRT(v3_dot(sum, sum)) && (along > 0.0f) == (v3_dot(plane, d) < 0.0f);
 }
 
-/* 1 where a surface is spared as a blocker of a light (scene.h): by the side on which it is met, or as the light is at infinity. */
+/* 1 where a surface is spared as a blocker of a light (scene.h): by the side on which it is met, or as the light is at
+ * infinity. */
 static inline int transparency_is_spared(const struct point *p, struct vec3 d, int at_infinity)
 {
 	const uint32_t hidden = p->material->surface.hidden;
@@ -124,14 +127,17 @@ static inline float transparency_of_stipple(const struct tables *t, uint32_t sti
 /* 1 where nothing that a ray to a light meets of a material can let it pass. */
 static inline int transparency_is_none(GLOBAL const struct scene_material *m)
 {
-	return !m->alpha_test && !m->blend && !(m->surface.transmit > 0.0f) && !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE &&
+	return !m->alpha_test && !m->blend && !(m->surface.transmit > 0.0f) && !m->clip_plane_mask &&
+	       m->polygon_stipple == SCENE_NONE &&
 	       !(m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_FILM | SCENE_STOPS_NO_SUN | SCENE_ONE_SIDED));
 }
 
 /*
- * Transmittance of the surface that a ray hit; 1 where it casts no shadow. to_lights: 1: the ray goes to a light, 0: it looks around
+ * Transmittance of the surface that a ray hit; 1 where it casts no shadow. to_lights: 1: the ray goes to a light, 0: it
+ * looks around
  */
-static inline struct vec3 transparency_of_hit(const struct tables *t, const struct hit *hit, GLOBAL const struct ray *ray, uint32_t to_lights)
+static inline struct vec3 transparency_of_hit(const struct tables *t, const struct hit *hit,
+                                              GLOBAL const struct ray *ray, uint32_t to_lights)
 {
 	struct vec3 d = v3_load(ray->d), none = v3(0.0f, 0.0f, 0.0f), all = v3(1.0f, 1.0f, 1.0f), pass;
 	GLOBAL const struct scene_material *m = &t->materials[t->geometries[hit->instance].material];
@@ -144,7 +150,8 @@ static inline struct vec3 transparency_of_hit(const struct tables *t, const stru
 	if (transparency_is_none(m))
 		return none;
 	p = point_from_hit(t, hit, d);
-	if (m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_FILM) || (to_lights && transparency_is_spared(&p, d, ray->t_max > 1.0f)))
+	if (m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_FILM) ||
+	    (to_lights && transparency_is_spared(&p, d, ray->t_max > 1.0f)))
 		return all;
 	if (m->polygon_stipple != SCENE_NONE && !m->blend && !m->alpha_test && !m->clip_plane_mask)
 		return v3_scale(all, transparency_of_stipple(t, m->polygon_stipple));

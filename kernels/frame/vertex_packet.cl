@@ -1,6 +1,7 @@
 /*
- * vertex_packet: vertex for sixteen vertices of one instance at once, to the same bits. What packs do not know goes one by one: materials that
- * change from vertex to vertex, colours that are not clamped, coordinates that are generated, and normals whose squares are no normal numbers.
+ * vertex_packet: vertex for sixteen vertices of one instance at once, to the same bits. What packs do not know goes one
+ * by one: materials that change from vertex to vertex, colours that are not clamped, coordinates that are generated,
+ * and normals whose squares are no normal numbers.
  */
 #include "kernels/frame/pack_light.h"
 #include "kernels/gl/vertex.h"
@@ -15,7 +16,7 @@ struct vertex_pack {
 	packf length2; /* of the normal, before it is made 1 */
 };
 
-/* --- Numbers --------------------------------------------------------------------------------------------------------- */
+/* --- Numbers ----------------------------------------------------------------------------------------------------- */
 
 /* Four numbers of each vertex, from and to where they stand, `step` numbers apart. */
 WIDE_VECTORS static inline void load_fours(__global const float *from, uint step, packf *row)
@@ -33,7 +34,8 @@ WIDE_VECTORS static inline void store_fours(packf x, packf y, packf z, packf w, 
 }
 
 /* An attribute of the mesh, or the current one. */
-WIDE_VECTORS static inline void load_attribute(uint is_there, __global const float *array, __global const float *current, packf *row)
+WIDE_VECTORS static inline void load_attribute(uint is_there, __global const float *array,
+                                               __global const float *current, packf *row)
 {
 	if (is_there)
 		load_fours(array, 4, row);
@@ -48,7 +50,7 @@ WIDE_VECTORS static inline void transform(__global const float *m, const packf *
 		out[i] = m[i] * v[0] + m[4 + i] * v[1] + m[8 + i] * v[2] + m[12 + i] * v[3];
 }
 
-/* --- Places ---------------------------------------------------------------------------------------------------------- */
+/* --- Places ------------------------------------------------------------------------------------------------------ */
 
 /* As vertex_eye_normal, in the lanes that it returns: those whose normals are not too short to square, or too long. */
 WIDE_VECTORS static inline packi load_normals(const struct tables *t, struct vertex_pack *p)
@@ -58,7 +60,8 @@ WIDE_VECTORS static inline packi load_normals(const struct tables *t, struct ver
 
 	for (int i = 0; i < 3; i++)
 		n[1 + i] = current[i];
-	if (p->g->attributes & SCENE_HAS_NORMAL) /* three numbers each, and what stands before them: positions do before the first */
+	if (p->g->attributes & SCENE_HAS_NORMAL) /* three numbers each, and what stands before them: positions do before
+	                                            the first */
 		load_fours(t->attributes + p->g->normal + p->v * 3 - 1, 3, n);
 	p->normal = pack_vec(r[0] * n[1] + r[1] * n[2] + r[2] * n[3], r[4] * n[1] + r[5] * n[2] + r[6] * n[3],
 	                     r[8] * n[1] + r[9] * n[2] + r[10] * n[3]);
@@ -72,27 +75,31 @@ WIDE_VECTORS static inline packi load_normals(const struct tables *t, struct ver
 /* As clip_outside: whether it lies beyond any plane. */
 WIDE_VECTORS static inline packi is_outside(const packf *c)
 {
-	return ~((c[0] <= c[3]) & (c[0] + c[3] >= 0.0f) & (c[1] <= c[3]) & (c[1] + c[3] >= 0.0f) & (c[2] + c[3] >= 0.0f) & (c[2] <= c[3]));
+	return ~((c[0] <= c[3]) & (c[0] + c[3] >= 0.0f) & (c[1] <= c[3]) & (c[1] + c[3] >= 0.0f) &
+	         (c[2] + c[3] >= 0.0f) & (c[2] <= c[3]));
 }
 
 /* As clip_window. */
-WIDE_VECTORS static inline void store_window(__global const struct view *view, const packf *clip, float height, __global struct window_vertex *to)
+WIDE_VECTORS static inline void store_window(__global const struct view *view, const packf *clip, float height,
+                                             __global struct window_vertex *to)
 {
-	const float near = view->depth_range[0], far = view->depth_range[1], half_x = view->viewport[2] * 0.5f, half_y = view->viewport[3] * 0.5f;
+	const float near = view->depth_range[0], far = view->depth_range[1], half_x = view->viewport[2] * 0.5f,
+		    half_y = view->viewport[3] * 0.5f;
 	const packf w_inv = 1.0f / clip[3];
 	const packf x = fma((packf)(half_x), clip[0] * w_inv, (packf)(view->viewport[0] + half_x));
 	const packf y = fma((packf)(-half_y), clip[1] * w_inv, (packf)(height - (view->viewport[1] + half_y)));
 	const packf z = fma((packf)((far - near) * 0.5f), clip[2] * w_inv, (packf)((far + near) * 0.5f));
-	const packi is_there = (clip[3] > 0.0f) & ~is_outside(clip) & (fabs(x) < CLIP_SAFE_PIXELS) & (fabs(y) < CLIP_SAFE_PIXELS);
+	const packi is_there = (clip[3] > 0.0f) & ~is_outside(clip) & (fabs(x) < CLIP_SAFE_PIXELS) &
+	                       (fabs(y) < CLIP_SAFE_PIXELS);
 	const packi at_x = convert_int16(pack_round((x - 0.5f) * 256.0f)) + 128;
 	const packi at_y = (int)height * 256 - (convert_int16(pack_round((y - 0.5f) * 256.0f)) + 128);
 	const packf none = 0.0f;
 
-	store_fours(select(none, as_float16(at_x), is_there), select(none, as_float16(at_y), is_there), select(none, z, is_there),
-	            select(none, w_inv, is_there), (__global float *)to, 4);
+	store_fours(select(none, as_float16(at_x), is_there), select(none, as_float16(at_y), is_there),
+	            select(none, z, is_there), select(none, w_inv, is_there), (__global float *)to, 4);
 }
 
-/* --- Colours --------------------------------------------------------------------------------------------------------- */
+/* --- Colours ----------------------------------------------------------------------------------------------------- */
 
 /* As vertex_clamp. */
 WIDE_VECTORS static inline void clamp_color(uint per_vertex, packf *c)
@@ -102,8 +109,8 @@ WIDE_VECTORS static inline void clamp_color(uint per_vertex, packf *c)
 }
 
 /* As light_vertex. */
-WIDE_VECTORS static inline void light_side(const struct tables *t, const struct vertex_pack *p, int back, const struct pack_color *color,
-                                           struct pack_lit_here *out)
+WIDE_VECTORS static inline void light_side(const struct tables *t, const struct vertex_pack *p, int back,
+                                           const struct pack_color *color, struct pack_lit_here *out)
 {
 	__global const struct scene_material *m = p->m;
 	const packf all[3] = { 1.0f, 1.0f, 1.0f };
@@ -115,16 +122,19 @@ WIDE_VECTORS static inline void light_side(const struct tables *t, const struct 
 	matter.normal = back ? pack_scale(p->normal, (packf)(-1)) : p->normal;
 	pack_light_begin(m, &matter, out);
 	for (uint i = 0; i < m->light_count; i++)
-		pack_add_light(&matter, &t->lights[m->light_first + i], (1u << PACK_SIZE) - 1, all, (packu)(1u << i), m->separate_specular, out);
+		pack_add_light(&matter, &t->lights[m->light_first + i], (1u << PACK_SIZE) - 1, all, (packu)(1u << i),
+		               m->separate_specular, out);
 	pack_light_end(&matter, out);
 }
 
 /* As vertex_store_colors. */
-WIDE_VECTORS static inline void store_colors(const struct tables *t, const struct vertex_pack *p, __global struct shaded_vertex *to)
+WIDE_VECTORS static inline void store_colors(const struct tables *t, const struct vertex_pack *p,
+                                             __global struct shaded_vertex *to)
 {
 	__global const struct geometry *g = p->g;
 	__global const struct scene_current *current = &t->currents[g->current];
-	const int is_lit = p->m->lighting != 0, sides = is_lit && p->m->two_side ? 2 : 1, is_shaded = !(p->m->surface.hidden & SCENE_UNSHADED);
+	const int is_lit = p->m->lighting != 0, sides = is_lit && p->m->two_side ? 2 : 1,
+		  is_shaded = !(p->m->surface.hidden & SCENE_UNSHADED);
 	struct pack_lit_here lit[2];
 	struct pack_color color;
 
@@ -132,7 +142,8 @@ WIDE_VECTORS static inline void store_colors(const struct tables *t, const struc
 	for (int side = 0; side < sides && is_lit; side++)
 		light_side(t, p, side, &color, &lit[side]);
 	if (!is_lit) {
-		load_attribute(g->attributes & SCENE_HAS_SECONDARY, t->attributes + g->secondary + p->v * 4, current->secondary, lit[0].secondary.c);
+		load_attribute(g->attributes & SCENE_HAS_SECONDARY, t->attributes + g->secondary + p->v * 4,
+		               current->secondary, lit[0].secondary.c);
 		lit[0].color = color;
 		clamp_color(g->attributes & SCENE_HAS_COLOR, lit[0].color.c);
 		clamp_color(g->attributes & SCENE_HAS_SECONDARY, lit[0].secondary.c);
@@ -142,13 +153,14 @@ WIDE_VECTORS static inline void store_colors(const struct tables *t, const struc
 		const struct pack_lit_here *l = &lit[i < sides ? i : 0];
 
 		store_fours(l->color.c[0], l->color.c[1], l->color.c[2], l->color.c[3], to->color[i], sizeof(*to) / 4);
-		store_fours(l->secondary.c[0], l->secondary.c[1], l->secondary.c[2], l->secondary.c[3], to->secondary[i], sizeof(*to) / 4);
+		store_fours(l->secondary.c[0], l->secondary.c[1], l->secondary.c[2], l->secondary.c[3],
+		            to->secondary[i], sizeof(*to) / 4);
 		for (uint lane = 0; lane < PACK_SIZE; lane++)
 			to[lane].lit[i] = is_shaded ? LANE(l->lights, const uint, lane) : 0;
 	}
 }
 
-/* --- The rest -------------------------------------------------------------------------------------------------------- */
+/* --- The rest ---------------------------------------------------------------------------------------------------- */
 
 /* As vertex_fog_distance, or the mesh's or the current fog coordinate. */
 WIDE_VECTORS static inline packf fog_coord(const struct tables *t, const struct vertex_pack *p)
@@ -171,26 +183,30 @@ WIDE_VECTORS static inline packf fog_coord(const struct tables *t, const struct 
 WIDE_VECTORS static inline packf point_size(const struct vertex_pack *p)
 {
 	__global const struct scene_material *m = p->m;
-	const packf d = fabs(p->eye[2]), fade = m->point_attenuation[0] + d * (m->point_attenuation[1] + d * m->point_attenuation[2]);
-	const packf one = m->point_size, size = select(one, one * sqrt(1.0f / fade), (fade != 1.0f) & (fade > 0.0f)), low = m->point_size_min;
+	const packf d = fabs(p->eye[2]),
+		    fade = m->point_attenuation[0] + d * (m->point_attenuation[1] + d * m->point_attenuation[2]);
+	const packf one = m->point_size, size = select(one, one * sqrt(1.0f / fade), (fade != 1.0f) & (fade > 0.0f)),
+		    low = m->point_size_min;
 	const packf at_least = select(low, size, size > low), high = m->point_size_max;
 
 	return select(high, at_least, at_least < high);
 }
 
 /* Where a unit's coordinates are not generated. unit: the material's, number i */
-WIDE_VECTORS static inline void store_coords(const struct tables *t, const struct vertex_pack *p, uint i, __global float *to)
+WIDE_VECTORS static inline void store_coords(const struct tables *t, const struct vertex_pack *p, uint i,
+                                             __global float *to)
 {
 	__global const struct scene_unit *unit = &t->units[p->m->unit_first + i];
 	packf coord[4], out[4];
 
-	load_attribute(p->g->attributes & SCENE_HAS_TEXCOORD << unit->unit, t->attributes + p->g->texcoord[unit->unit] + p->v * 4,
+	load_attribute(p->g->attributes & SCENE_HAS_TEXCOORD << unit->unit,
+	               t->attributes + p->g->texcoord[unit->unit] + p->v * 4,
 	               t->currents[p->g->current].texcoord[unit->unit], coord);
 	transform(unit->matrix, coord, out);
 	store_fours(out[0], out[1], out[2], out[3], to + i * 4, p->m->unit_count * 4);
 }
 
-/* --- Sixteen vertices ------------------------------------------------------------------------------------------------ */
+/* --- Sixteen vertices -------------------------------------------------------------------------------------------- */
 
 /* Whether packs know all that a geometry and its material ask for. */
 static inline int knows(const struct tables *t, __global const struct geometry *g)

@@ -1,7 +1,7 @@
 /*
- * Blending (GL 2.1 sec. 4.1.8) as a frame buffer of 8 bits a channel does it, in integers of 8 bits: the source is rounded before
- * blending, not after. The specification leaves the arithmetic open. This is llvmpipe's (Mesa 22.3.6): trails and clouds of
- * particles blend many times over, and must not drift away from the program's picture.
+ * Blending (GL 2.1 sec. 4.1.8) as a frame buffer of 8 bits a channel does it, in integers of 8 bits: the source is
+ * rounded before blending, not after. The specification leaves the arithmetic open. This is llvmpipe's (Mesa 22.3.6):
+ * trails and clouds of particles blend many times over, and must not drift away from the program's picture.
  */
 #pragma once
 
@@ -75,7 +75,8 @@ static inline uint32_t blend_equation(uint32_t equation, uint32_t s, uint32_t fs
 }
 
 /* A source colour over a destination, by a material's factors and equations. */
-static inline struct vec4 blend_colors(GLOBAL const struct scene_material *m, struct vec4 source, struct vec4 destination)
+static inline struct vec4 blend_colors(GLOBAL const struct scene_material *m, struct vec4 source,
+                                       struct vec4 destination)
 {
 	struct color8 s = blend_load(source), d = blend_load(destination), c = blend_load(v4_load(m->blend_color)), out;
 
@@ -89,7 +90,7 @@ static inline struct vec4 blend_colors(GLOBAL const struct scene_material *m, st
 	return v4((float)out.c[0] / 255.0f, (float)out.c[1] / 255.0f, (float)out.c[2] / 255.0f, (float)out.c[3] / 255.0f);
 }
 
-/* --- Frame buffers of floats: the same, without rounding ---------------------------------------------------------- */
+/* --- Frame buffers of floats: the same, without rounding --------------------------------------------------------- */
 
 static inline struct vec4 blend_float_factor(uint32_t factor, struct vec4 s, struct vec4 d, struct vec4 c)
 {

@@ -1,9 +1,10 @@
 /*
- * From clip space to the window (GL 2.1 sec. 2.11, 2.12): where vertices fall, and triangles that leave the view volume.
+ * From clip space to the window (GL 2.1 sec. 2.11, 2.12): where vertices fall, and triangles that leave the view
+ * volume.
  *
- * Such a triangle is cut as Mesa's draw module (22.3) cuts it: plane by plane in single precision, the rest fanned out from its
- * first corner. New corners are snapped to 1/256 pixel like all others: edges and depth are those of the parts. The difference shows
- * on a wall that reaches from the horizon to behind the viewer.
+ * Such a triangle is cut as Mesa's draw module (22.3) cuts it: plane by plane in single precision, the rest fanned out
+ * from its first corner. New corners are snapped to 1/256 pixel like all others: edges and depth are those of the
+ * parts. The difference shows on a wall that reaches from the horizon to behind the viewer.
  */
 #pragma once
 
@@ -23,8 +24,8 @@ typedef int64_t clip_area;
 #endif
 
 /*
- * How new corners came about, in this order: corner 3 + i lies at t[i] between corners from[i] and to[i]; 0 to 2 are the
- * triangle's. What is interpolated as Mesa does it goes the same way.
+ * How new corners came about, in this order: corner 3 + i lies at t[i] between corners from[i] and to[i]; 0 to 2 are
+ * the triangle's. What is interpolated as Mesa does it goes the same way.
  */
 struct clip_cuts {
 	uint32_t n, from[CLIP_MAX_CUTS], to[CLIP_MAX_CUTS];
@@ -73,8 +74,8 @@ static inline struct clip_spot clip_spot(GLOBAL const struct view *view, int32_t
 }
 
 /*
- * Planes count pixels from the first one's centre, as llvmpipe does, but where a pixel has several samples (none of which is its
- * centre): from the window's corner.
+ * Planes count pixels from the first one's centre, as llvmpipe does, but where a pixel has several samples (none of
+ * which is its centre): from the window's corner.
  */
 static inline float clip_origin(GLOBAL const struct view *view)
 {
@@ -99,15 +100,16 @@ static inline int clip_is_sliver(float area)
 }
 
 /*
- * A triangle as llvmpipe sets it up: its vertices turned so that they run counter-clockwise (y from the top), and two edges. Places
- * are not snapped and count from clip_origin.
+ * A triangle as llvmpipe sets it up: its vertices turned so that they run counter-clockwise (y from the top), and two
+ * edges. Places are not snapped and count from clip_origin.
  */
 struct clip_edges {
 	int turned; /* 1: vertices 0 and 1 have changed places */
 	float x, y, dx01, dy01, dx20, dy20, one_over_area; /* x, y: the first one's place */
 };
 
-/* Of a value at each vertex the first vertex's and the second's, chosen and not looked up: arrays then need no memory. */
+/* Of a value at each vertex the first vertex's and the second's, chosen and not looked up: arrays then need no
+ * memory. */
 static inline float clip_first(const struct clip_edges *e, const float *value)
 {
 	return e->turned ? value[1] : value[0];
@@ -157,7 +159,8 @@ static inline float clip_from_origin(GLOBAL const struct view *view, int32_t pix
 }
 
 /* A plane's value where a view looks in a pixel; y from the bottom. */
-static inline float clip_plane_in(const struct clip_plane *p, GLOBAL const struct view *view, float height, int32_t x, int32_t y)
+static inline float clip_plane_in(const struct clip_plane *p, GLOBAL const struct view *view, float height, int32_t x,
+                                  int32_t y)
 {
 	return clip_plane_at(p, clip_from_origin(view, x, view->sample[0]),
 	                     clip_from_origin(view, (int32_t)height - 1 - y, -view->sample[1]));
@@ -176,7 +179,8 @@ static inline int clip_is_safe(const float *place)
 }
 
 /*
- * Window coordinates in 1/256 pixel. Rounding of halves follows Mesa's direction of y: it is snapped so, and turned over.
+ * Window coordinates in 1/256 pixel. Rounding of halves follows Mesa's direction of y: it is snapped so, and turned
+ * over.
  */
 static inline struct window_vertex clip_snap(const float *place, float z, float w_inv, float height)
 {
@@ -237,13 +241,15 @@ static inline struct clip_corner clip_cut(const struct clip_corner *pool, const 
 	return out;
 }
 
-/* A new corner in the window; unlike vertices it is not placed with fused multiplications. @return 0: it has no place */
+/* A new corner in the window; unlike vertices it is not placed with fused multiplications. @return 0: it has no
+ * place */
 static inline int clip_place_new(GLOBAL const struct view *view, float height, struct clip_corner *c)
 {
 	float near = view->depth_range[0], far = view->depth_range[1], w_inv = 1.0f / c->clip.w;
 
 	c->place[0] = c->clip.x * w_inv * (view->viewport[2] * 0.5f) + (view->viewport[0] + view->viewport[2] * 0.5f);
-	c->place[1] = c->clip.y * w_inv * (-view->viewport[3] * 0.5f) + (height - (view->viewport[1] + view->viewport[3] * 0.5f));
+	c->place[1] = c->clip.y * w_inv * (-view->viewport[3] * 0.5f) +
+	              (height - (view->viewport[1] + view->viewport[3] * 0.5f));
 	if (!(c->clip.w > 0.0f) || !clip_is_safe(c->place))
 		return 0;
 	c->window = clip_snap(c->place, c->clip.z * w_inv * ((far - near) * 0.5f) + (far + near) * 0.5f, w_inv, height);
@@ -251,8 +257,8 @@ static inline int clip_place_new(GLOBAL const struct view *view, float height, s
 }
 
 /* What the view volume leaves of a triangle. Its parts are corners k - 1, k and 0 for k from 2 on. */
-static inline void clip_triangle(GLOBAL const struct view *view, float height, struct vec4 c0, struct vec4 c1, struct vec4 c2,
-                                 struct clip_polygon *out)
+static inline void clip_triangle(GLOBAL const struct view *view, float height, struct vec4 c0, struct vec4 c1,
+                                 struct vec4 c2, struct clip_polygon *out)
 {
 	struct clip_corner pool[3 + CLIP_MAX_CUTS];
 	struct clip_cuts *cuts = &out->cuts;
@@ -321,7 +327,8 @@ static inline void clip_triangle(GLOBAL const struct view *view, float height, s
 
 /* --- Its parts --------------------------------------------------------------------------------------------------- */
 
-/* The triangle under a fragment, or the part of a cut one that covers its pixel: what its attributes are interpolated from. */
+/* The triangle under a fragment, or the part of a cut one that covers its pixel: what its attributes are interpolated
+ * from. */
 struct clip_setup {
 	struct clip_corner corner[3];
 	float px[3], py[3]; /* their places, from clip_origin */
@@ -334,8 +341,8 @@ struct clip_setup {
  * Weights of the triangle's vertices 1 and 2 in the volume, from weights on the screen in a part of it.
  * b1, b2: of the part's corners 1 and 2
  */
-static inline void clip_weights(const struct clip_corner *v0, const struct clip_corner *v1, const struct clip_corner *v2, float b1,
-                                float b2, float *out1, float *out2)
+static inline void clip_weights(const struct clip_corner *v0, const struct clip_corner *v1,
+                                const struct clip_corner *v2, float b1, float b2, float *out1, float *out2)
 {
 	float p0 = (1.0f - b1 - b2) * v0->window.w_inv, p1 = b1 * v1->window.w_inv, p2 = b2 * v2->window.w_inv;
 	float sum = p0 + p1 + p2;
@@ -353,7 +360,8 @@ static inline int clip_inside(struct window_vertex a, struct window_vertex b, in
 }
 
 /* 1 where a part covers a place (kernels/camera/camera.h). */
-static inline int clip_covers(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, struct clip_spot at)
+static inline int clip_covers(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2,
+                              struct clip_spot at)
 {
 	clip_area area = (clip_area)(v1.x - v0.x) * (v2.y - v0.y) - (clip_area)(v2.x - v0.x) * (v1.y - v0.y);
 	int sign = area > 0 ? 1 : -1;
@@ -362,11 +370,12 @@ static inline int clip_covers(struct window_vertex v0, struct window_vertex v1, 
 }
 
 /*
- * The plane of a triangle's depth. corner: NULL, or its three corners where it is part of one that was cut; else clip[] and the
- * windows' z. @return 0: a sliver
+ * The plane of a triangle's depth. corner: NULL, or its three corners where it is part of one that was cut; else clip[]
+ * and the windows' z. @return 0: a sliver
  */
-static inline int clip_depth_plane(GLOBAL const struct view *view, float height, const struct clip_corner *const *corner,
-                                   const struct vec4 *clip, const float *z, struct clip_plane *plane)
+static inline int clip_depth_plane(GLOBAL const struct view *view, float height,
+                                   const struct clip_corner *const *corner, const struct vec4 *clip, const float *z,
+                                   struct clip_plane *plane)
 {
 	float px[3], py[3], place[2];
 	struct clip_edges edges;

@@ -127,7 +127,8 @@ static inline struct vec4 combine_function4(uint32_t function, const struct vec4
 {
 	if (function != GL_ADD && function != GL_ADD_SIGNED)
 		return combine_function(function, arguments[0], arguments[1], arguments[2]);
-	return combine_function(function, v4_mul(arguments[0], arguments[1]), v4_mul(arguments[2], arguments[3]), arguments[2]);
+	return combine_function(function, v4_mul(arguments[0], arguments[1]), v4_mul(arguments[2], arguments[3]),
+	                        arguments[2]);
 }
 
 /* Scaled and clamped; the dot products of EXT_texture_env_dot3 are not scaled. */
@@ -154,8 +155,10 @@ static inline struct vec4 combine_full(GLOBAL const struct scene_unit *unit, str
 		                            own, samples);
 	}
 	color = four ? combine_function4(unit->combine_rgb, rgb) : combine_function(unit->combine_rgb, rgb[0], rgb[1], rgb[2]);
-	out = four ? combine_function4(unit->combine_alpha, alpha) : combine_function(unit->combine_alpha, alpha[0], alpha[1], alpha[2]);
-	out = rgba ? combine_scaled(color, unit->combine_rgb, unit->scale_alpha) : combine_scaled(out, unit->combine_alpha, unit->scale_alpha);
+	out = four ? combine_function4(unit->combine_alpha, alpha) :
+	             combine_function(unit->combine_alpha, alpha[0], alpha[1], alpha[2]);
+	out = rgba ? combine_scaled(color, unit->combine_rgb, unit->scale_alpha) :
+	             combine_scaled(out, unit->combine_alpha, unit->scale_alpha);
 	color = combine_scaled(color, unit->combine_rgb, unit->scale_rgb);
 	return v4(color.x, color.y, color.z, out.w);
 }

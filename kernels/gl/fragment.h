@@ -24,14 +24,15 @@ static inline struct vec4 point_texcoord(const struct tables *t, const struct po
 	return c;
 }
 
-/* Texture coordinates of a fragment's triangle, or other four numbers of its vertices, divided by w: linear in the window. */
+/* Texture coordinates of a fragment's triangle, or other four numbers of its vertices, divided by w: linear in the
+ * window. */
 struct point_planes {
 	struct clip_plane s, t, r, q, w_inv;
 };
 
 /*
- * As llvmpipe finds them, last bits and all: nearest filtering shows these where a texel's border runs along pixel centres.
- * pool: begins with the vertices' numbers; receives those of corners that cuts have made
+ * As llvmpipe finds them, last bits and all: nearest filtering shows these where a texel's border runs along pixel
+ * centres. pool: begins with the vertices' numbers; receives those of corners that cuts have made
  */
 static inline void point_planes_between(struct vec4 *pool, const struct clip_setup *setup, struct point_planes *planes)
 {
@@ -54,8 +55,8 @@ static inline void point_planes_between(struct vec4 *pool, const struct clip_set
 	planes->w_inv = setup->w_inv;
 }
 
-static inline void point_texcoord_planes(const struct tables *t, const struct point *p, uint32_t i, const struct clip_setup *setup,
-                                         struct point_planes *planes)
+static inline void point_texcoord_planes(const struct tables *t, const struct point *p, uint32_t i,
+                                         const struct clip_setup *setup, struct point_planes *planes)
 {
 	uint32_t count = p->material->unit_count, first = p->geometry->texcoord_first;
 	struct vec4 pool[3 + CLIP_MAX_CUTS];
@@ -70,13 +71,13 @@ static inline struct vec4 point_planes_at(const struct point_planes *planes, flo
 {
 	float w = 1.0f / clip_plane_at(&planes->w_inv, x, y);
 
-	return v4(clip_plane_at(&planes->s, x, y) * w, clip_plane_at(&planes->t, x, y) * w, clip_plane_at(&planes->r, x, y) * w,
-	          clip_plane_at(&planes->q, x, y) * w);
+	return v4(clip_plane_at(&planes->s, x, y) * w, clip_plane_at(&planes->t, x, y) * w,
+	          clip_plane_at(&planes->r, x, y) * w, clip_plane_at(&planes->q, x, y) * w);
 }
 
 /*
- * What sampling the first unit's texture has found of a triangle, for its next fragment. Lists of fragments go along rows of eight
- * pixels: four quads, which the next row has as well.
+ * What sampling the first unit's texture has found of a triangle, for its next fragment. Lists of fragments go along
+ * rows of eight pixels: four quads, which the next row has as well.
  */
 #define POINT_KEPT_QUADS 4u
 struct point_kept {
@@ -93,7 +94,8 @@ static inline void point_keep_nothing(struct point_kept *kept)
 		kept->quad[i] = SCENE_NONE;
 }
 
-/* A line by its ends, which its corners carry (tracer/frame/expand_line.c): x, y from the top, depth, 1 at the second one. */
+/* A line by its ends, which its corners carry (tracer/frame/expand_line.c): x, y from the top, depth, 1 at the second
+ * one. */
 struct point_line {
 	struct vec4 a, b;
 	int second[3]; /* corners at the second end */
@@ -101,8 +103,9 @@ struct point_line {
 };
 
 /*
- * Attributes change along the line's longer axis only, in llvmpipe's order of operations, and go on beyond its ends. Under multisampling all
- * of the line's direction counts; llvmpipe then takes the ends half a pixel off, but not the places that it asks for.
+ * Attributes change along the line's longer axis only, in llvmpipe's order of operations, and go on beyond its ends.
+ * Under multisampling all of the line's direction counts; llvmpipe then takes the ends half a pixel off, but not the
+ * places that it asks for.
  */
 static inline void point_line_of(const struct point *p, GLOBAL const struct view *view, struct point_line *l)
 {
@@ -134,7 +137,8 @@ static inline void point_line_of(const struct point *p, GLOBAL const struct view
 	l->dy = dy;
 }
 
-/* Weights at any place, in the window: the second end's share goes to one of its corners. x, y: from clip_origin, y from the top */
+/* Weights at any place, in the window: the second end's share goes to one of its corners. x, y: from clip_origin, y
+ * from the top */
 static inline void point_line_weights(const struct point_line *l, float x, float y, struct fragment *f)
 {
 	float share = -(l->dx * l->one_over_area * (x - (l->a.x - 0.5f)) + l->dy * l->one_over_area * (y - (l->a.y - 0.5f)));
@@ -149,10 +153,11 @@ static inline void point_line_weights(const struct point_line *l, float x, float
 }
 
 /*
- * Object-space weights at the middle of any pixel: of the triangle's plane (clip-space edge functions: nothing to clip), or of a line.
- * x, y: the pixel, y from the top
+ * Object-space weights at the middle of any pixel: of the triangle's plane (clip-space edge functions: nothing to
+ * clip), or of a line. x, y: the pixel, y from the top
  */
-static inline void point_weights_at(const struct point *p, GLOBAL const struct view *view, float x, float y, uint32_t height, float *weight)
+static inline void point_weights_at(const struct point *p, GLOBAL const struct view *view, float x, float y,
+                                    uint32_t height, float *weight)
 {
 	struct vec3 at = v3(2.0f * (x + 0.5f - view->viewport[0]) / view->viewport[2] - 1.0f,
 	                    2.0f * ((float)height - (y + 0.5f) - view->viewport[1]) / view->viewport[3] - 1.0f, 1.0f);
@@ -209,8 +214,9 @@ struct point_quad {
 };
 
 /* Texture coordinates of unit i. planes: receives what they follow, where there is a setup */
-static inline struct vec4 point_unit_coord(const struct tables *t, const struct point *p, uint32_t i, const struct point_window *w,
-                                           const struct point_quad *quad, struct point_planes *planes)
+static inline struct vec4 point_unit_coord(const struct tables *t, const struct point *p, uint32_t i,
+                                           const struct point_window *w, const struct point_quad *quad,
+                                           struct point_planes *planes)
 {
 	const int keeps = w && w->kept && i == 0u;
 
@@ -230,14 +236,16 @@ static inline struct vec4 point_unit_coord(const struct tables *t, const struct 
 
 /* Their slopes. planes: as above */
 static inline struct texture_slope point_unit_slope(const struct tables *t, const struct point *p, uint32_t i,
-                                                    const struct point_window *w, struct point_quad *quad, const struct point_planes *planes)
+                                                    const struct point_window *w, struct point_quad *quad,
+                                                    const struct point_planes *planes)
 {
 	GLOBAL const struct scene_unit *unit = &t->units[p->material->unit_first + i];
 	GLOBAL const struct texture_image *image = &t->textures[unit->texture];
 	const uint32_t number = (uint32_t)quad->y << 16 | (uint32_t)quad->x, slot = w->x / 2u % POINT_KEPT_QUADS;
 	const int own = texture_has_own_slopes(t, unit), keeps = w->kept && i == 0u && w->setup && !own;
 	const float x = own ? (float)w->x : quad->x, right = x + (own && w->x & 1u ? -1.0f : 1.0f);
-	const float y = own ? (float)(w->height - 1u - w->row) : quad->y, below = y + (own && (w->height - 1u - w->row) & 1u ? -1.0f : 1.0f);
+	const float y = own ? (float)(w->height - 1u - w->row) : quad->y,
+		    below = y + (own && (w->height - 1u - w->row) & 1u ? -1.0f : 1.0f);
 	struct texture_slope slope;
 
 	if (keeps && w->kept->quad[slot] == number)
@@ -298,12 +306,13 @@ static inline uint32_t point_unit_format(const struct tables *t, GLOBAL const st
 }
 
 /*
- * Texture environments, colour sum and fog over a lit colour; clamped after all of them, as Mesa (22.3.6) does, where sec. 3.9 clamps
- * the sum before the fog. fog_factor: 1 leaves the colour as it is.
- * without: 1 + the number of a unit that is passed by; 0: none
+ * Texture environments, colour sum and fog over a lit colour; clamped after all of them, as Mesa (22.3.6) does, where
+ * sec. 3.9 clamps the sum before the fog. fog_factor: 1 leaves the colour as it is. without: 1 + the number of a unit
+ * that is passed by; 0: none
  */
-static inline struct vec4 point_finish_in_fog(const struct tables *t, const struct point *p, const struct texturing *texturing,
-                                              const struct lit *lit, float fog_factor, uint32_t without)
+static inline struct vec4 point_finish_in_fog(const struct tables *t, const struct point *p,
+                                              const struct texturing *texturing, const struct lit *lit,
+                                              float fog_factor, uint32_t without)
 {
 	GLOBAL const struct scene_material *m = p->material;
 	struct vec4 color = lit->color;
@@ -336,14 +345,15 @@ static inline struct vec4 point_finish(const struct tables *t, const struct poin
 }
 
 /* The same without light that a texture holds. */
-static inline struct vec4 point_finish_relit(const struct tables *t, const struct point *p, const struct texturing *texturing,
-                                             const struct lit *lit)
+static inline struct vec4 point_finish_relit(const struct tables *t, const struct point *p,
+                                             const struct texturing *texturing, const struct lit *lit)
 {
 	return point_finish_in_fog(t, p, texturing, lit, texturing->fog_factor, p->material->surface.light_unit);
 }
 
 /* The surface's own colour under white light: what the albedo channel shows. lit: point_lit_from_vertices */
-static inline struct vec4 point_albedo_of(const struct tables *t, const struct point *p, const struct texturing *texturing, struct lit lit)
+static inline struct vec4 point_albedo_of(const struct tables *t, const struct point *p,
+                                          const struct texturing *texturing, struct lit lit)
 {
 	GLOBAL const struct scene_material *m = p->material;
 	int side = point_side(p);

@@ -1,6 +1,7 @@
 /*
- * Sine, cosine, powers and logarithms of programs, to the last bit of llvmpipe's (Mesa 22.3.6, lp_bld_arit.c) on processors that multiply and
- * add at once: places and depths may be made of them. Cephes' sinf and cosf, and polynomials of Mesa's own.
+ * Sine, cosine, powers and logarithms of programs, to the last bit of llvmpipe's (Mesa 22.3.6, lp_bld_arit.c) on
+ * processors that multiply and add at once: places and depths may be made of them. Cephes' sinf and cosf, and
+ * polynomials of Mesa's own.
  */
 #pragma once
 
@@ -57,7 +58,9 @@ static inline float function_turn(float a, uint32_t is_cosine)
 
 static inline float function_exp2(float a)
 {
-	const float x = a > FUNCTION_MOST_EXPONENT ? FUNCTION_MOST_EXPONENT : a < FUNCTION_LEAST_EXPONENT ? FUNCTION_LEAST_EXPONENT : a;
+	const float x = a > FUNCTION_MOST_EXPONENT  ? FUNCTION_MOST_EXPONENT :
+	                a < FUNCTION_LEAST_EXPONENT ? FUNCTION_LEAST_EXPONENT :
+	                                              a;
 	const float whole = M_FLOOR(x), f = x - whole, z = f * f;
 	const float even = M_FMA(z, M_FMA(z, EXP2_FACTOR4, EXP2_FACTOR2), 1.0f);
 	const float odd = M_FMA(z, M_FMA(z, EXP2_FACTOR5, EXP2_FACTOR3), EXP2_FACTOR1);
@@ -69,8 +72,10 @@ static inline float function_exp2(float a)
 static inline float function_log2(float a)
 {
 	const uint32_t bits = M_BITS(a), exponent = bits & 0x7f800000u;
-	const float mantissa = M_FLOAT((bits & 0x7fffffu) | 0x3f800000u), y = (mantissa - 1.0f) / (mantissa + 1.0f), z = y * y, w = z * z;
-	const float even = M_FMA(w, M_FMA(w, LOG2_FACTOR4, LOG2_FACTOR2), LOG2_FACTOR0), odd = M_FMA(w, LOG2_FACTOR3, LOG2_FACTOR1);
+	const float mantissa = M_FLOAT((bits & 0x7fffffu) | 0x3f800000u), y = (mantissa - 1.0f) / (mantissa + 1.0f),
+		    z = y * y, w = z * z;
+	const float even = M_FMA(w, M_FMA(w, LOG2_FACTOR4, LOG2_FACTOR2), LOG2_FACTOR0),
+		    odd = M_FMA(w, LOG2_FACTOR3, LOG2_FACTOR1);
 
 	if (exponent == 0u)
 		return -INFINITY;

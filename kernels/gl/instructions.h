@@ -1,6 +1,6 @@
 /*
- * Programs of a draw, run instruction by instruction (scene/program.h), for four fragments or vertices at once. This is what both stages share:
- * program.h runs fragments, vertex_program.h vertices.
+ * Programs of a draw, run instruction by instruction (scene/program.h), for four fragments or vertices at once. This is
+ * what both stages share: program.h runs fragments, vertex_program.h vertices.
  */
 #pragma once
 
@@ -70,7 +70,8 @@ static inline struct vec4 program_splat(float x)
 }
 
 /* seen: NULL, or how much of each light of the material's list arrives */
-static inline void program_begin(struct program_run *run, const struct program *program, uint32_t wanted, const struct vec3 *seen)
+static inline void program_begin(struct program_run *run, const struct program *program, uint32_t wanted,
+                                 const struct vec3 *seen)
 {
 	run->wanted = wanted;
 	run->killed = 0u;
@@ -123,11 +124,12 @@ static inline struct vec4 program_get(const struct program_run *run, uint32_t fi
 }
 
 /* Number `place` of an operand for the four. */
-static inline struct vec4 program_operand(const struct program_run *run, const struct program *program, uint32_t operand, uint32_t place,
-                                          uint32_t negate)
+static inline struct vec4 program_operand(const struct program_run *run, const struct program *program,
+                                          uint32_t operand, uint32_t place, uint32_t negate)
 {
-	struct vec4 v = operand >= SCENE_PROGRAM_CONSTANT ? program_splat(program->constants[operand - SCENE_PROGRAM_CONSTANT + place]) :
-	                                                    run->registers[operand + place];
+	struct vec4 v = operand >= SCENE_PROGRAM_CONSTANT ?
+	                        program_splat(program->constants[operand - SCENE_PROGRAM_CONSTANT + place]) :
+	                        run->registers[operand + place];
 
 	return negate ? v4_scale(v, -1.0f) : v;
 }
@@ -162,7 +164,8 @@ static inline float program_number(uint32_t operation, float a, float b)
 }
 
 /* lanes: as of struct program_run */
-static inline struct vec4 program_result(uint32_t operation, struct vec4 a, struct vec4 b, struct vec4 c, uint32_t lanes)
+static inline struct vec4 program_result(uint32_t operation, struct vec4 a, struct vec4 b, struct vec4 c,
+                                         uint32_t lanes)
 {
 	switch (operation) {
 	case SCENE_OP_MOVE: return a;
@@ -176,8 +179,10 @@ static inline struct vec4 program_result(uint32_t operation, struct vec4 a, stru
 	case SCENE_OP_DX: return v4(a.y - a.x, a.y - a.x, a.w - a.z, a.w - a.z);
 	case SCENE_OP_DY: return v4(a.x - a.z, a.y - a.w, a.x - a.z, a.y - a.w);
 	default:
-		return v4(lanes & 1u ? program_number(operation, a.x, b.x) : 0.0f, lanes & 2u ? program_number(operation, a.y, b.y) : 0.0f,
-		          lanes & 4u ? program_number(operation, a.z, b.z) : 0.0f, lanes & 8u ? program_number(operation, a.w, b.w) : 0.0f);
+		return v4(lanes & 1u ? program_number(operation, a.x, b.x) : 0.0f,
+		          lanes & 2u ? program_number(operation, a.y, b.y) : 0.0f,
+		          lanes & 4u ? program_number(operation, a.z, b.z) : 0.0f,
+		          lanes & 8u ? program_number(operation, a.w, b.w) : 0.0f);
 	}
 }
 
@@ -199,8 +204,8 @@ static inline uint32_t program_true(struct vec4 a)
 }
 
 /* One of the four's element of an array. */
-static inline float program_element(const struct program_run *run, const struct program *program, GLOBAL const struct scene_instruction *in,
-                                    uint32_t i, uint32_t k, float element)
+static inline float program_element(const struct program_run *run, const struct program *program,
+                                    GLOBAL const struct scene_instruction *in, uint32_t i, uint32_t k, float element)
 {
 	const uint32_t elements = in->c >> 16, numbers = in->c & 0xffffu;
 	uint32_t place;
@@ -212,18 +217,25 @@ static inline float program_element(const struct program_run *run, const struct 
 	                                         program_of_four(run->registers[in->a + place], k);
 }
 
-static inline void program_fetch(struct program_run *run, const struct program *program, GLOBAL const struct scene_instruction *in)
+static inline void program_fetch(struct program_run *run, const struct program *program,
+                                 GLOBAL const struct scene_instruction *in)
 {
 	const struct vec4 at = program_operand(run, program, in->b, 0u, 0u);
 
 	for (uint32_t i = 0u; i < in->n; i++)
-		program_keep(run, in->to + i, v4(program_element(run, program, in, i, 0u, at.x), program_element(run, program, in, i, 1u, at.y),
-		                                 program_element(run, program, in, i, 2u, at.z), program_element(run, program, in, i, 3u, at.w)), run->mask);
+		program_keep(run, in->to + i,
+		             v4(program_element(run, program, in, i, 0u, at.x),
+		                program_element(run, program, in, i, 1u, at.y),
+		                program_element(run, program, in, i, 2u, at.z),
+		                program_element(run, program, in, i, 3u, at.w)),
+		             run->mask);
 }
 
-static inline void program_store(struct program_run *run, const struct program *program, GLOBAL const struct scene_instruction *in)
+static inline void program_store(struct program_run *run, const struct program *program,
+                                 GLOBAL const struct scene_instruction *in)
 {
-	const struct vec4 value = program_operand(run, program, in->a, 0u, 0u), at = program_operand(run, program, in->b, 0u, 0u);
+	const struct vec4 value = program_operand(run, program, in->a, 0u, 0u),
+			  at = program_operand(run, program, in->b, 0u, 0u);
 
 	for (uint32_t k = 0u; k < 4u; k++) {
 		const float element = program_of_four(at, k);
@@ -234,9 +246,12 @@ static inline void program_store(struct program_run *run, const struct program *
 }
 
 /* MASK, JUMP, JUMP_NONE. @return the number of the instruction before the next one */
-static inline uint32_t program_turn(struct program_run *run, const struct program *program, GLOBAL const struct scene_instruction *in, uint32_t at)
+static inline uint32_t program_turn(struct program_run *run, const struct program *program,
+                                    GLOBAL const struct scene_instruction *in, uint32_t at)
 {
-	const uint32_t is_true = in->operation == SCENE_OP_JUMP ? 0u : run->lanes & program_true(program_operand(run, program, in->a, 0u, 0u));
+	const uint32_t is_true = in->operation == SCENE_OP_JUMP ?
+	                                 0u :
+	                                 run->lanes & program_true(program_operand(run, program, in->a, 0u, 0u));
 
 	if (in->operation == SCENE_OP_MASK) {
 		run->mask = is_true;
@@ -257,15 +272,19 @@ static inline uint32_t program_turn(struct program_run *run, const struct progra
 }
 
 /* An instruction of numbers, each by itself. */
-static inline void program_compute(struct program_run *run, const struct program *program, GLOBAL const struct scene_instruction *in)
+static inline void program_compute(struct program_run *run, const struct program *program,
+                                   GLOBAL const struct scene_instruction *in)
 {
 	const uint32_t flags = in->flags;
 
 	for (uint32_t i = 0u; i < in->n; i++) {
-		struct vec4 a = program_operand(run, program, in->a, flags & SCENE_STEP_A ? i : 0u, flags & SCENE_NEGATE_A), b = a, c = a;
+		struct vec4 a = program_operand(run, program, in->a, flags & SCENE_STEP_A ? i : 0u,
+		                                flags & SCENE_NEGATE_A),
+			    b = a, c = a;
 
 		if (in->operation == SCENE_OP_KILL) {
-			run->killed |= run->mask & ((a.x < 0.0f ? 1u : 0u) | (a.y < 0.0f ? 2u : 0u) | (a.z < 0.0f ? 4u : 0u) | (a.w < 0.0f ? 8u : 0u));
+			run->killed |= run->mask & ((a.x < 0.0f ? 1u : 0u) | (a.y < 0.0f ? 2u : 0u) |
+			                            (a.z < 0.0f ? 4u : 0u) | (a.w < 0.0f ? 8u : 0u));
 			continue;
 		}
 		if (in->operation >= SCENE_OP_ADD)
@@ -273,12 +292,14 @@ static inline void program_compute(struct program_run *run, const struct program
 		if (in->operation >= SCENE_OP_MAD)
 			c = program_operand(run, program, in->c, flags & SCENE_STEP_C ? i : 0u, flags & SCENE_NEGATE_C);
 		a = program_result(in->operation, a, b, c, run->lanes);
-		program_keep(run, in->to + i, flags & SCENE_SATURATE ? v4_clamp01(a) : a, flags & SCENE_UNMASKED ? run->lanes : run->mask);
+		program_keep(run, in->to + i, flags & SCENE_SATURATE ? v4_clamp01(a) : a,
+		             flags & SCENE_UNMASKED ? run->lanes : run->mask);
 	}
 }
 
 /*
- * Run instructions from number `at` on, up to one that is the stage's own (TEXTURE), to the end, or until nobody is left whose result counts.
+ * Run instructions from number `at` on, up to one that is the stage's own (TEXTURE), to the end, or until nobody is
+ * left whose result counts.
  * @return the number of that instruction; n_instructions: the program has ended
  */
 static inline uint32_t program_run_from(struct program_run *run, const struct program *program, uint32_t at)

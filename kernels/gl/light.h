@@ -32,7 +32,8 @@ static inline struct vec4 light_material_color(GLOBAL const float *own, uint32_t
 	return tracked ? vertex_color : v4_load(own);
 }
 
-/* Spot factor for the unit vector towards the light (equation in sec. 2.14.1). On the very edge of its cone Mesa (22.3.6) has no light. */
+/* Spot factor for the unit vector towards the light (equation in sec. 2.14.1). On the very edge of its cone Mesa
+ * (22.3.6) has no light. */
 static inline float light_spot(GLOBAL const struct scene_light *light, struct vec3 to_light)
 {
 	struct vec3 axis = v3_normalize(v3_load(light->spot_direction_eye));
@@ -135,7 +136,8 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 			float n_h = M_MAX(v3_dot(normal, half_way), 0.0f);
 			struct vec4 matte = v4_scale(v4_mul(diffuse, v4_load(light->diffuse)), n_l * strength);
 			struct vec4 gloss = v4_mul(specular, v4_load(light->specular));
-			int is_black = gloss.x == 0.0f && gloss.y == 0.0f && gloss.z == 0.0f && n_h <= 1.0f; /* whatever the power, which is a number */
+			int is_black = gloss.x == 0.0f && gloss.y == 0.0f && gloss.z == 0.0f &&
+			               n_h <= 1.0f; /* whatever the power, which is a number */
 			float shine = is_black ? 1.0f : light_shine(m, light, face->shininess, n_h, n_l);
 
 			gloss = v4_scale(gloss, shine * strength);

@@ -1,9 +1,9 @@
 /*
- * Per-fragment operations (GL 2.1 sec. 4.1) and clears (sec. 4.2.3) on one pixel. They run side by side for GL's own colours and for
- * each step from there to the beauty (struct shaded); GL's colours decide for all.
+ * Per-fragment operations (GL 2.1 sec. 4.1) and clears (sec. 4.2.3) on one pixel. They run side by side for GL's own
+ * colours and for each step from there to the beauty (struct shaded); GL's colours decide for all.
  *
- * Operations that read a colour back (blending, logic op) first round it to 8 bits, as the frame buffer does. Other colours stay as
- * they are.
+ * Operations that read a colour back (blending, logic op) first round it to 8 bits, as the frame buffer does. Other
+ * colours stay as they are.
  */
 #pragma once
 
@@ -39,8 +39,8 @@ static inline uint32_t pixel_bits_mask(uint32_t bits)
 }
 
 /*
- * Depth as a buffer of so many bits holds it, rounded to even as Mesa does. Beyond 24 bits it is the float's own bits; the last one is
- * then always 0, and 1 has all bits set.
+ * Depth as a buffer of so many bits holds it, rounded to even as Mesa does. Beyond 24 bits it is the float's own bits;
+ * the last one is then always 0, and 1 has all bits set.
  */
 static inline uint32_t pixel_depth_steps(float depth, uint32_t bits)
 {
@@ -52,7 +52,8 @@ static inline uint32_t pixel_depth_steps(float depth, uint32_t bits)
 
 /* --- Stencil (sec. 4.1.5) ---------------------------------------------------------------------------------------- */
 
-static inline uint32_t pixel_stencil_apply(uint32_t op, uint32_t value, uint32_t ref, uint32_t write_mask, uint32_t bits)
+static inline uint32_t pixel_stencil_apply(uint32_t op, uint32_t value, uint32_t ref, uint32_t write_mask,
+                                           uint32_t bits)
 {
 	uint32_t top = pixel_bits_mask(bits), out = value;
 
@@ -69,7 +70,7 @@ static inline uint32_t pixel_stencil_apply(uint32_t op, uint32_t value, uint32_t
 	return (value & ~write_mask) | (out & write_mask);
 }
 
-/* --- Logic operation (sec. 4.1.10) -------------------------------------------------------------------------------- */
+/* --- Logic operation (sec. 4.1.10) ------------------------------------------------------------------------------- */
 
 static inline float pixel_logic(uint32_t op, float source, float destination)
 {
@@ -96,7 +97,7 @@ static inline float pixel_logic(uint32_t op, float source, float destination)
 	return (float)(out & 255u) / 255.0f;
 }
 
-/* --- One colour into one place ------------------------------------------------------------------------------------ */
+/* --- One colour into one place ----------------------------------------------------------------------------------- */
 
 static inline float pixel_stored(float x)
 {
@@ -104,8 +105,8 @@ static inline float pixel_stored(float x)
 }
 
 /*
- * Moves a number off the border between two 8-bit codes, to the side that the frame buffer rounds to, by at most 0.04 codes. A
- * picture's half floats and encoding then cannot change its code. 0.3 is 76.5, and 76 for Mesa.
+ * Moves a number off the border between two 8-bit codes, to the side that the frame buffer rounds to, by at most 0.04
+ * codes. A picture's half floats and encoding then cannot change its code. 0.3 is 76.5, and 76 for Mesa.
  */
 static inline float pixel_nudge(float x)
 {
@@ -162,9 +163,10 @@ static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, st
 }
 
 /*
- * Bits of the frame buffer, as kernels get them: depth | stencil << 8 | alpha << 16. With several samples a pixel, the number of the
- * drawn sample, from 1 on, << 24. With PIXEL_FOLLOWS a sample makes no tests of its own: its colours go where the first sample's
- * tests let them. That is how llvmpipe (22.3.6) draws without multisampling to a frame buffer with samples.
+ * Bits of the frame buffer, as kernels get them: depth | stencil << 8 | alpha << 16. With several samples a pixel, the
+ * number of the drawn sample, from 1 on, << 24. With PIXEL_FOLLOWS a sample makes no tests of its own: its colours go
+ * where the first sample's tests let them. That is how llvmpipe (22.3.6) draws without multisampling to a frame buffer
+ * with samples.
  */
 #define PIXEL_FOLLOWS 0x80000000u
 
@@ -224,7 +226,8 @@ static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL cons
 	if (m->alpha_test && !pixel_compare(m->alpha_func, m->floats ? pixel_order(s->gl[3]) : blend_round(s->gl[3]),
 	                                    m->floats ? pixel_order(m->alpha_ref) : blend_round(m->alpha_ref)))
 		return 0;
-	/* Multisample fragment operations (sec. 4.1.3); which samples an alpha covers is left open. These are llvmpipe's, of four. */
+	/* Multisample fragment operations (sec. 4.1.3); which samples an alpha covers is left open. These are
+	 * llvmpipe's, of four. */
 	if (m->samples_off >> pixel_sample(bits) & 1u ||
 	    (m->alpha_to_coverage && !(s->gl[3] > 0.25f * (float)pixel_sample(bits))))
 		return 0;
@@ -270,8 +273,8 @@ static inline void pixel_part(GLOBAL const struct scene_material *m, GLOBAL cons
 }
 
 /* Whether a fragment reaches the colour of a pixel. The first sample's decision is kept for those that follow it. */
-static inline int pixel_passes(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s, GLOBAL struct frame_pixel *pixel,
-                               uint32_t bits)
+static inline int pixel_passes(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s,
+                               GLOBAL struct frame_pixel *pixel, uint32_t bits)
 {
 	if (bits & PIXEL_FOLLOWS)
 		return (s->flags & SHADED_DRAWN) != 0u;
@@ -282,8 +285,8 @@ static inline int pixel_passes(GLOBAL const struct scene_material *m, GLOBAL str
 }
 
 /* Whether a fragment changes the colours of a pixel: all tests, and what they change of depth and stencil. */
-static inline int pixel_reaches(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s, GLOBAL struct frame_pixel *pixel,
-                                uint32_t bits)
+static inline int pixel_reaches(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s,
+                                GLOBAL struct frame_pixel *pixel, uint32_t bits)
 {
 	if (s->flags & SHADED_STENCIL && bits & PIXEL_FOLLOWS)
 		return 0;
@@ -297,8 +300,8 @@ static inline int pixel_reaches(GLOBAL const struct scene_material *m, GLOBAL st
 }
 
 /* The colours of a fragment that reaches them. */
-static inline void pixel_colors(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s, GLOBAL struct frame_pixel *pixel,
-                                uint32_t bits)
+static inline void pixel_colors(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
+                                GLOBAL struct frame_pixel *pixel, uint32_t bits)
 {
 	struct vec4 gl, old_gl = v4_load(pixel->gl);
 	uint32_t mask = m->color_mask;
@@ -327,13 +330,13 @@ static inline int pixel_replaces(GLOBAL const struct scene_material *m, GLOBAL c
 
 	for (int i = 0; i < 3; i++)
 		over[i] = pixel_source(m, source, v4(0.5f * (float)i, 0.5f * (float)i, 0.5f * (float)i, 0.5f * (float)i));
-	return over[0].x == over[1].x && over[1].x == over[2].x && over[0].y == over[1].y && over[1].y == over[2].y && over[0].z == over[1].z &&
-	       over[1].z == over[2].z;
+	return over[0].x == over[1].x && over[1].x == over[2].x && over[0].y == over[1].y && over[1].y == over[2].y &&
+	       over[0].z == over[1].z && over[1].z == over[2].z;
 }
 
 /* What else a pixel keeps of a fragment that reaches its colours. `draw`: its draw number */
-static inline void pixel_mark(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s, GLOBAL const struct fragment *f,
-                              uint32_t draw, GLOBAL struct frame_pixel *pixel)
+static inline void pixel_mark(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
+                              GLOBAL const struct fragment *f, uint32_t draw, GLOBAL struct frame_pixel *pixel)
 {
 	pixel->id = draw;
 	if (m->blend && !m->logic_op)
@@ -360,11 +363,11 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL stru
 	pixel_mark(m, s, f, draw, pixel);
 }
 
-/* --- Samples into pixels ------------------------------------------------------------------------------------------ */
+/* --- Samples into pixels ----------------------------------------------------------------------------------------- */
 
 /*
- * A channel of four samples as one number: the mean of their 8-bit codes, rounded, in Mesa's order of operations (22.3.6,
- * util_make_fs_msaa_resolve). Where all are equal it is the first one's number, as it stands.
+ * A channel of four samples as one number: the mean of their 8-bit codes, rounded, in Mesa's order of operations
+ * (22.3.6, util_make_fs_msaa_resolve). Where all are equal it is the first one's number, as it stands.
  */
 static inline float pixel_average(const float *samples)
 {
@@ -389,8 +392,8 @@ static inline float pixel_average_part(float gl, const float *gls, const float *
 }
 
 /*
- * Resolve four samples of a pixel: the means of colours and parts, the albedo of drawn samples, depth and stencil of the first sample,
- * the surface of the first sample that has one.
+ * Resolve four samples of a pixel: the means of colours and parts, the albedo of drawn samples, depth and stencil of
+ * the first sample, the surface of the first sample that has one.
  */
 static inline void pixel_merge(GLOBAL const struct frame_pixel *first, GLOBAL const struct frame_pixel *second,
                                GLOBAL const struct frame_pixel *third, GLOBAL const struct frame_pixel *fourth,

@@ -1,6 +1,6 @@
 /*
- * A point of a triangle: where it is, how it is lit. It may be a fragment under a pixel centre or the hit of a secondary ray; the text
- * is the same.
+ * A point of a triangle: where it is, how it is lit. It may be a fragment under a pixel centre or the hit of a
+ * secondary ray; the text is the same.
  */
 #pragma once
 
@@ -60,8 +60,8 @@ static inline struct vec3 point_corner(const struct point *p, int i)
 }
 
 /*
- * The triangle's own normal in eye space; front faces that run counter-clockwise have it towards their viewer. Length 0 where
- * there is none: no area, or corners that are no numbers.
+ * The triangle's own normal in eye space; front faces that run counter-clockwise have it towards their viewer. Length 0
+ * where there is none: no area, or corners that are no numbers.
  */
 static inline struct vec3 point_plane_normal(const struct point *p)
 {
@@ -97,7 +97,8 @@ static inline int point_shows_front(const struct point *p, GLOBAL const struct w
 	return clockwise == (p->material->front_face == GL_CW);
 }
 
-/* The point under a fragment without its weights, as all points of its triangle share it. w_inv: of the three vertices */
+/* The point under a fragment without its weights, as all points of its triangle share it. w_inv: of the three
+ * vertices */
 static inline struct point point_of_triangle(const struct tables *t, GLOBAL const struct window_vertex *windows,
                                              const struct fragment *f, float *w_inv)
 {
@@ -162,7 +163,8 @@ static inline struct vec3 point_position(const struct point *p)
 	              v3_scale(point_corner(p, 2), p->weight[2]));
 }
 
-/* Unit normal for effects: GL's interpolated one where the draw is lit, or its program reads it, else the plane's; on the side that is seen. */
+/* Unit normal for effects: GL's interpolated one where the draw is lit, or its program reads it, else the plane's; on
+ * the side that is seen. */
 static inline struct vec3 point_normal(const struct point *p)
 {
 	struct vec3 n = point_plane_normal(p), smooth;
@@ -226,10 +228,11 @@ static inline struct vec3 point_place(const struct point_plane *plane, const flo
 }
 
 /*
- * Weights of a place inside the triangle, at least `inset` away from its edges, where the triangle is that wide. They are those of the
- * point, unless the point lies at an edge, or beyond one because vertices are snapped.
+ * Weights of a place inside the triangle, at least `inset` away from its edges, where the triangle is that wide. They
+ * are those of the point, unless the point lies at an edge, or beyond one because vertices are snapped.
  */
-static inline void point_inset_weights(const float *of_point, const struct point_plane *plane, float inset, float *weight)
+static inline void point_inset_weights(const float *of_point, const struct point_plane *plane, float inset,
+                                       float *weight)
 {
 	float sum = 0.0f;
 
@@ -249,11 +252,11 @@ static inline void point_inset_weights(const float *of_point, const struct point
  * to the point (plane->rounding), and at least by POINT_SNAPPING of its largest coordinate, which stays below a tenth
  * of a pixel's footprint in common windows.
  *
- * Coverage and depth go by vertices snapped to 1/256 pixel. So a pixel's point may lie a little outside its triangle, or behind
- * a wall that meets it: the ray would start behind the next wall, and a lit corner would show dark pixels. The point therefore
- * first moves back into its triangle, and then, by as much again, against `from`, the direction of the ray that led to it: that
- * ray passed there, so nothing stands there. The second step is left out where `towards` leads away through the other side of
- * the triangle.
+ * Coverage and depth go by vertices snapped to 1/256 pixel. So a pixel's point may lie a little outside its triangle,
+ * or behind a wall that meets it: the ray would start behind the next wall, and a lit corner would show dark pixels.
+ * The point therefore first moves back into its triangle, and then, by as much again, against `from`, the direction of
+ * the ray that led to it: that ray passed there, so nothing stands there. The second step is left out where `towards`
+ * leads away through the other side of the triangle.
  */
 static inline struct vec3 point_ray_origin(const float *of_point, const struct point_plane *plane, struct vec3 towards,
                                            struct vec3 from)
@@ -293,11 +296,14 @@ static inline int point_clipped(const struct point *p)
 	return 0;
 }
 
-/* --- Light ----------------------------------------------------------------------------------------------------- */
+/* --- Light ------------------------------------------------------------------------------------------------------- */
 
 static inline struct vec4 point_mix(const struct point *p, struct vec4 a, struct vec4 b, struct vec4 c)
 {
-	return v4_add(a, v4_add(v4_scale(v4_sub(b, a), p->weight[1]), v4_scale(v4_sub(c, a), p->weight[2]))); /* equals give themselves */
+	return v4_add(a, v4_add(v4_scale(v4_sub(b, a), p->weight[1]), v4_scale(v4_sub(c, a), p->weight[2]))); /* equals
+	                                                                                                         give
+	                                                                                                         themselves
+	                                                                                                       */
 }
 
 /* Side whose colours count: the back one only under two-sided lighting (sec. 2.14.1). */
@@ -326,7 +332,8 @@ static inline struct lit point_lit_from_vertices(const struct point *p)
 }
 
 /* The vertices lit again, with the lights' visibility; under flat shading the last one alone. */
-static inline void point_light_corners(const struct tables *t, const struct point *p, const struct vec3 *seen, struct lit *lit)
+static inline void point_light_corners(const struct tables *t, const struct point *p, const struct vec3 *seen,
+                                       struct lit *lit)
 {
 	for (int i = p->material->shade_model == GL_FLAT ? 2 : 0; i < 3; i++)
 		lit[i] = vertex_color(t, p->geometry, p->vertex[i], p->number[i], point_side(p), seen);
@@ -385,14 +392,16 @@ static inline int point_takes_light(const struct point *p)
 	       !(p->material->surface.hidden & SCENE_UNSHADED);
 }
 
-/* The normal of a corner, in eye space: the vertex', or a corner's own where rules give it one (scene_surface SCENE_CREASED). */
+/* The normal of a corner, in eye space: the vertex', or a corner's own where rules give it one (scene_surface
+ * SCENE_CREASED). */
 static inline struct vec3 point_corner_normal(const struct tables *t, const struct point *p, uint32_t corner)
 {
 	GLOBAL const struct geometry *g = p->geometry;
 
 	if (!(p->material->surface.hidden & SCENE_CREASED) || g->crease == SCENE_NONE || g->flags & GEOMETRY_EXPANDED)
 		return v3_load(p->vertex[corner]->normal);
-	return v3_normalize(vertex_eye_normal(g, p->material, v3_load(t->attributes + g->crease + (p->primitive * 3u + corner) * 3u)));
+	return v3_normalize(vertex_eye_normal(g, p->material,
+	                                      v3_load(t->attributes + g->crease + (p->primitive * 3u + corner) * 3u)));
 }
 
 /* The same lit where the point is, with its own normal (Phong 1975), instead of between lit vertices. */

@@ -1,6 +1,7 @@
 /*
- * Fragment programs (ARB_fragment_program): instructions.h runs them. Each runs for the four pixels of llvmpipe's quad at once,
- * of which one is the fragment: textures take their levels from how coordinates change across the quad, whatever they were computed from.
+ * Fragment programs (ARB_fragment_program): instructions.h runs them. Each runs for the four pixels of llvmpipe's quad
+ * at once, of which one is the fragment: textures take their levels from how coordinates change across the quad,
+ * whatever they were computed from.
  */
 #pragma once
 
@@ -22,28 +23,33 @@ static inline uint32_t program_computes(const struct program_fragment *f, uint32
 	return f->run.lanes >> k & 1u;
 }
 
-/* --- Inputs -------------------------------------------------------------------------------------------------------- */
+/* --- Inputs ------------------------------------------------------------------------------------------------------ */
 
 /* The same point of the triangle's plane as pixel `k` of the quad sees it. */
-static inline struct point program_neighbour(const struct program_fragment *f, const struct point_quad *quad, uint32_t k)
+static inline struct point program_neighbour(const struct program_fragment *f, const struct point_quad *quad,
+                                             uint32_t k)
 {
 	struct point p = f->p;
 
 	if (k != f->own)
-		point_weights_at(&p, f->window.view, quad->x + (float)(k & 1u), quad->y + (float)(k >> 1u), f->window.height, p.weight);
+		point_weights_at(&p, f->window.view, quad->x + (float)(k & 1u), quad->y + (float)(k >> 1u),
+		                 f->window.height, p.weight);
 	return p;
 }
 
-static inline void program_set_by_planes(struct program_fragment *f, uint32_t input, const struct point_planes *planes, const struct point_quad *quad)
+static inline void program_set_by_planes(struct program_fragment *f, uint32_t input, const struct point_planes *planes,
+                                         const struct point_quad *quad)
 {
 	for (uint32_t k = 0u; k < 4u; k++)
 		if (program_computes(f, k))
 			program_set(&f->run, 4u * input, k,
-			            point_planes_at(planes, quad->x + (float)(k & 1u) + quad->middle, quad->y + (float)(k >> 1u) + quad->middle));
+			            point_planes_at(planes, quad->x + (float)(k & 1u) + quad->middle,
+			                            quad->y + (float)(k >> 1u) + quad->middle));
 }
 
 /* Texture coordinates of the material's unit i. */
-static inline void program_texcoord(struct program_fragment *f, uint32_t unit, uint32_t i, const struct point_quad *quad)
+static inline void program_texcoord(struct program_fragment *f, uint32_t unit, uint32_t i,
+                                    const struct point_quad *quad)
 {
 	const struct tables *t = &f->a->tables;
 	struct point_planes planes;
@@ -64,7 +70,9 @@ static inline void program_texcoord(struct program_fragment *f, uint32_t unit, u
 static inline void program_texcoords(struct program_fragment *f, uint32_t inputs, const struct point_quad *quad)
 {
 	for (uint32_t unit = 0u; unit < SCENE_MAX_UNITS; unit++) {
-		const uint32_t i = inputs >> (SCENE_INPUT_TEXCOORD + unit) & 1u ? program_unit(&f->a->tables, f->p.material, unit) : SCENE_NONE;
+		const uint32_t i = inputs >> (SCENE_INPUT_TEXCOORD + unit) & 1u ?
+		                           program_unit(&f->a->tables, f->p.material, unit) :
+		                           SCENE_NONE;
 
 		if (i != SCENE_NONE)
 			program_texcoord(f, unit, i, quad);
@@ -75,15 +83,18 @@ static inline void program_position(struct program_fragment *f, const struct poi
 {
 	for (uint32_t k = 0u; k < 4u; k++) {
 		const struct point p = program_neighbour(f, quad, k);
-		const float w = p.vertex[0]->clip[3] * p.weight[0] + p.vertex[1]->clip[3] * p.weight[1] + p.vertex[2]->clip[3] * p.weight[2];
+		const float w = p.vertex[0]->clip[3] * p.weight[0] + p.vertex[1]->clip[3] * p.weight[1] +
+		                p.vertex[2]->clip[3] * p.weight[2];
 
 		program_set(&f->run, 4u * SCENE_INPUT_POSITION, k,
-		            v4(quad->x + (float)(k & 1u) + 0.5f, (float)f->window.height - (quad->y + (float)(k >> 1u)) - 0.5f, depth, 1.0f / w));
+		            v4(quad->x + (float)(k & 1u) + 0.5f,
+		               (float)f->window.height - (quad->y + (float)(k >> 1u)) - 0.5f, depth, 1.0f / w));
 	}
 }
 
 /* Colours by way of the fragment's own, which lights may have dimmed. */
-static inline void program_colors_by_weights(struct program_fragment *f, const struct lit *lit, const struct point_quad *quad)
+static inline void program_colors_by_weights(struct program_fragment *f, const struct lit *lit,
+                                             const struct point_quad *quad)
 {
 	for (uint32_t k = 0u; k < 4u; k++) {
 		const struct point p = program_neighbour(f, quad, k);
@@ -95,12 +106,14 @@ static inline void program_colors_by_weights(struct program_fragment *f, const s
 		program_set(&f->run, 4u * SCENE_INPUT_COLOR, k, here.color);
 		program_set(&f->run, 4u * SCENE_INPUT_SECONDARY, k, here.secondary);
 		program_set(&f->run, 4u * SCENE_INPUT_FOG, k,
-		            v4(p.vertex[0]->fog_coord * p.weight[0] + p.vertex[1]->fog_coord * p.weight[1] + p.vertex[2]->fog_coord * p.weight[2],
+		            v4(p.vertex[0]->fog_coord * p.weight[0] + p.vertex[1]->fog_coord * p.weight[1] +
+		                       p.vertex[2]->fog_coord * p.weight[2],
 		               0.0f, 0.0f, 1.0f));
 	}
 }
 
-/* Colours to llvmpipe's last bits: depth may be made of them. Under flat shading (sec. 2.14.7) the last vertex's as they are. */
+/* Colours to llvmpipe's last bits: depth may be made of them. Under flat shading (sec. 2.14.7) the last vertex's as
+ * they are. */
 static inline void program_colors_by_planes(struct program_fragment *f, uint32_t inputs, const struct point_quad *quad)
 {
 	const int side = point_side(&f->p);
@@ -150,11 +163,11 @@ static inline void program_inputs(struct program_fragment *f, uint32_t inputs, c
 		f->run.registers[4u * SCENE_INPUT_SECONDARY + 3u] = program_splat(1.0f); /* as Mesa's fixed function leaves it */
 }
 
-/* --- Fragments ----------------------------------------------------------------------------------------------------- */
+/* --- Fragments --------------------------------------------------------------------------------------------------- */
 
 /* As point_light_corners, where a vertex program lights them. run: room */
-static inline void program_light_corners(const struct shade_arguments *s, const struct point *p, const struct vec3 *seen, struct program_run *run,
-                                         struct lit *lit)
+static inline void program_light_corners(const struct shade_arguments *s, const struct point *p,
+                                         const struct vec3 *seen, struct program_run *run, struct lit *lit)
 {
 	const struct program program = program_at(s->programs + (p->material->vertex_program - 1u));
 	const uint32_t back = (uint32_t)point_side(p);
@@ -162,14 +175,16 @@ static inline void program_light_corners(const struct shade_arguments *s, const 
 	vertex_run(&s->tables, p->geometry, &program, p->number, 3u, seen, run);
 	for (uint32_t k = 0u; k < 3u; k++) {
 		lit[k].color = vertex_result_color(run, p->material, back ? SCENE_RESULT_BACK_COLOR : SCENE_RESULT_COLOR, k);
-		lit[k].secondary = vertex_result_color(run, p->material, back ? SCENE_RESULT_BACK_SECONDARY : SCENE_RESULT_SECONDARY, k);
+		lit[k].secondary = vertex_result_color(run, p->material,
+		                                       back ? SCENE_RESULT_BACK_SECONDARY : SCENE_RESULT_SECONDARY, k);
 		lit[k].lights = p->vertex[k]->lit[back];
 	}
 }
 
-/* What `shade` has left of a fragment: its triangle, weights and colours. keeps, kept: as for shade_item. @return 0: none that a program shades */
-static inline int program_find(const struct shade_arguments *s, uint32_t item, int keeps, struct setup_kept *kept, struct program_fragment *f,
-                               struct vec3 *seen, struct lit *lit)
+/* What `shade` has left of a fragment: its triangle, weights and colours. keeps, kept: as for shade_item. @return 0:
+ * none that a program shades */
+static inline int program_find(const struct shade_arguments *s, uint32_t item, int keeps, struct setup_kept *kept,
+                               struct program_fragment *f, struct vec3 *seen, struct lit *lit)
 {
 	GLOBAL const struct shaded *out = &s->shaded[item];
 	const struct fragment from = s->fragments[item];
@@ -212,8 +227,8 @@ static inline int program_find(const struct shade_arguments *s, uint32_t item, i
 }
 
 /* The colour of a fragment that a program shades. @return 0: it is discarded */
-static inline int program_shade(const struct shade_arguments *a, uint32_t item, const struct vec3 *seen, const struct lit *lit,
-                                struct program_fragment *f, struct vec4 *color)
+static inline int program_shade(const struct shade_arguments *a, uint32_t item, const struct vec3 *seen,
+                                const struct lit *lit, struct program_fragment *f, struct vec4 *color)
 {
 	const struct program program = program_at(a->programs + (f->p.material->fragment_program - 1u));
 
@@ -229,8 +244,9 @@ static inline int program_shade(const struct shade_arguments *a, uint32_t item, 
 }
 
 /*
- * program: a fragment that `shade` has coloured by fixed function gets its program's colour and depth, or is discarded. Where lights of a
- * vertex program do not arrive, it gets its colour without them, whatever shades it. keeps, kept: as for shade_item.
+ * program: a fragment that `shade` has coloured by fixed function gets its program's colour and depth, or is discarded.
+ * Where lights of a vertex program do not arrive, it gets its colour without them, whatever shades it. keeps, kept: as
+ * for shade_item.
  */
 static inline void program_item(const struct shade_arguments *a, uint32_t item, int keeps, struct setup_kept *kept)
 {

@@ -16,7 +16,8 @@ static inline uint32_t program_unit(const struct tables *t, GLOBAL const struct 
 }
 
 /* One's coordinates as textures take them: divided by the fourth. */
-static inline struct vec4 program_coordinates(const struct program_run *run, GLOBAL const struct scene_instruction *in, uint32_t k)
+static inline struct vec4 program_coordinates(const struct program_run *run, GLOBAL const struct scene_instruction *in,
+                                              uint32_t k)
 {
 	const struct vec4 *r = &run->registers[in->a];
 
@@ -40,8 +41,8 @@ static inline void program_bias(struct texture_slope *slope, float bias)
  * @param quad   coordinates of all four. k: the one
  * @param level  its fourth number, where the instruction has it as a level or what is added to one
  */
-static inline struct vec4 program_texel(const struct tables *t, GLOBAL const struct scene_unit *unit, uint32_t flags, const struct vec4 *quad,
-                                        uint32_t k, float level)
+static inline struct vec4 program_texel(const struct tables *t, GLOBAL const struct scene_unit *unit, uint32_t flags,
+                                        const struct vec4 *quad, uint32_t k, float level)
 {
 	const uint32_t at = texture_has_own_slopes(t, unit) ? k : 0u;
 	struct texture_slope slope;
@@ -58,8 +59,8 @@ static inline struct vec4 program_texel(const struct tables *t, GLOBAL const str
 }
 
 /* A texture that is not there, or not complete, is black. */
-static inline void program_sample(const struct tables *t, GLOBAL const struct scene_material *m, GLOBAL const struct scene_instruction *in,
-                                  struct program_run *run)
+static inline void program_sample(const struct tables *t, GLOBAL const struct scene_material *m,
+                                  GLOBAL const struct scene_instruction *in, struct program_run *run)
 {
 	const uint32_t place = program_unit(t, m, in->b);
 	GLOBAL const struct scene_unit *unit = &t->units[m->unit_first + (place == SCENE_NONE ? 0u : place)];
@@ -78,8 +79,8 @@ static inline void program_sample(const struct tables *t, GLOBAL const struct sc
 }
 
 /* m: whose textures it looks at */
-static inline void program_execute(const struct tables *t, GLOBAL const struct scene_material *m, const struct program *program,
-                                   struct program_run *run)
+static inline void program_execute(const struct tables *t, GLOBAL const struct scene_material *m,
+                                   const struct program *program, struct program_run *run)
 {
 	for (uint32_t at = 0u; (at = program_run_from(run, program, at)) < program->head->n_instructions; at++)
 		program_sample(t, m, &program->instructions[at], run);

@@ -1,6 +1,6 @@
 /*
- * A fragment's triangle or line as llvmpipe sets it up: planes of depth and attributes, polygon offset. What the fragments of a triangle
- * share is found once and kept for those that follow it in the list.
+ * A fragment's triangle or line as llvmpipe sets it up: planes of depth and attributes, polygon offset. What the
+ * fragments of a triangle share is found once and kept for those that follow it in the list.
  */
 #pragma once
 
@@ -16,7 +16,8 @@ static inline float setup_step(uint32_t bits)
 }
 
 /* Polygon offset in llvmpipe's order of operations. */
-static inline float setup_offset(GLOBAL const struct scene_material *m, const struct clip_edges *e, const float *z, uint32_t bits)
+static inline float setup_offset(GLOBAL const struct scene_material *m, const struct clip_edges *e, const float *z,
+                                 uint32_t bits)
 {
 	const float first = clip_first(e, z), dz01 = first - clip_second(e, z), dz20 = z[2] - first;
 	const float slope = M_MAX(M_ABS((dz20 * e->dy01 - e->dy20 * dz01) * e->one_over_area),
@@ -25,9 +26,10 @@ static inline float setup_offset(GLOBAL const struct scene_material *m, const st
 	return m->polygon_offset_units * setup_step(bits) + slope * m->polygon_offset_factor;
 }
 
-/* A fragment of a line: its depth and the weights of its attributes. Other fragments stay as they are. y from the top. */
-static inline void setup_line(const struct tables *t, GLOBAL const struct view *views, uint32_t pixel_x, uint32_t pixel_y,
-                              struct fragment *f)
+/* A fragment of a line: its depth and the weights of its attributes. Other fragments stay as they are. y from the
+ * top. */
+static inline void setup_line(const struct tables *t, GLOBAL const struct view *views, uint32_t pixel_x,
+                              uint32_t pixel_y, struct fragment *f)
 {
 	GLOBAL const struct view *view;
 	struct point_line l;
@@ -43,17 +45,20 @@ static inline void setup_line(const struct tables *t, GLOBAL const struct view *
 	point_line_of(&p, view, &l);
 	along_x = (l.a.z - l.b.z) * l.dx * l.one_over_area;
 	along_y = (l.a.z - l.b.z) * l.dy * l.one_over_area;
-	f->depth = clamp01(M_FMA(along_y, y, M_FMA(along_x, x, l.a.z - (along_x * (l.a.x - 0.5f) + along_y * (l.a.y - 0.5f)))));
+	f->depth = clamp01(
+		M_FMA(along_y, y, M_FMA(along_x, x, l.a.z - (along_x * (l.a.x - 0.5f) + along_y * (l.a.y - 0.5f)))));
 	point_line_weights(&l, clip_from_origin(view, (int32_t)pixel_x, 0), clip_from_origin(view, (int32_t)pixel_y, 0), f);
 }
 
 /*
- * The triangle that a fragment's attributes and depth come from. Coverage goes by snapped vertices, but llvmpipe takes attributes and
- * depth from the unsnapped ones: nearest filtering and steep faces show the difference. So they are found again from clip
- * coordinates. A triangle that leaves the view volume (cut) counts by the part that covers the pixel. @return 0: a line, a sliver
+ * The triangle that a fragment's attributes and depth come from. Coverage goes by snapped vertices, but llvmpipe takes
+ * attributes and depth from the unsnapped ones: nearest filtering and steep faces show the difference. So they are
+ * found again from clip coordinates. A triangle that leaves the view volume (cut) counts by the part that covers the
+ * pixel. @return 0: a line, a sliver
  */
-static inline int setup_triangle(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows, const struct point *p,
-                              uint32_t x, uint32_t y, uint32_t height, int cut, struct clip_setup *setup)
+static inline int setup_triangle(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows,
+                                 const struct point *p, uint32_t x, uint32_t y, uint32_t height, int cut,
+                                 struct clip_setup *setup)
 {
 	struct clip_polygon polygon;
 	uint32_t part = 2u;
@@ -62,8 +67,8 @@ static inline int setup_triangle(GLOBAL const struct view *view, GLOBAL const st
 	if (p->geometry->flags & GEOMETRY_LINE)
 		return 0;
 	if (cut) {
-		clip_triangle(view, (float)height, v4_load(p->vertex[0]->clip), v4_load(p->vertex[1]->clip), v4_load(p->vertex[2]->clip),
-		              &polygon);
+		clip_triangle(view, (float)height, v4_load(p->vertex[0]->clip), v4_load(p->vertex[1]->clip),
+		              v4_load(p->vertex[2]->clip), &polygon);
 		while (part < polygon.n && !clip_covers(polygon.corner[part - 1u].window, polygon.corner[part].window,
 		                                        polygon.corner[0].window, clip_spot(view, (int32_t)x, (int32_t)y)))
 			part++;
@@ -117,8 +122,8 @@ struct setup_kept {
 };
 
 /* The triangle of a fragment. Clipped ones are not kept: other pixels may lie in other parts. */
-static inline void setup_keep(const struct shade_arguments *a, uint32_t x, uint32_t y, const struct fragment *f, int keeps,
-                              struct setup_kept *kept)
+static inline void setup_keep(const struct shade_arguments *a, uint32_t x, uint32_t y, const struct fragment *f,
+                              int keeps, struct setup_kept *kept)
 {
 	const int cut = (f->primitive & FRAGMENT_PERSPECTIVE) != 0, needs_depth = a->n_slots == 0u;
 
@@ -130,7 +135,8 @@ static inline void setup_keep(const struct shade_arguments *a, uint32_t x, uint3
 	kept->have_lit = kept->have_setup = 0;
 	point_keep_nothing(&kept->sampling);
 	if (needs_depth || kept->p.material->unit_count)
-		kept->have_setup = setup_triangle(&a->views[kept->p.geometry->view], a->windows, &kept->p, x, y, a->height, cut, &kept->setup);
+		kept->have_setup = setup_triangle(&a->views[kept->p.geometry->view], a->windows, &kept->p, x, y,
+		                                  a->height, cut, &kept->setup);
 	if (needs_depth && kept->have_setup) {
 		const float z[3] = { kept->setup.corner[0].window.z, kept->setup.corner[1].window.z, kept->setup.corner[2].window.z };
 
@@ -140,7 +146,8 @@ static inline void setup_keep(const struct shade_arguments *a, uint32_t x, uint3
 	}
 }
 
-/* Whether the vertices were lit by what is seen here: what lights show to a fragment they mostly show to the next one too. From now on they are. */
+/* Whether the vertices were lit by what is seen here: what lights show to a fragment they mostly show to the next one
+ * too. From now on they are. */
 static inline int setup_keeps_seen(const struct vec3 *seen, int keeps, struct setup_kept *kept)
 {
 	int same = keeps && kept->have_lit;
@@ -161,11 +168,11 @@ static inline void setup_keep_lit(const struct tables *t, const struct vec3 *see
 }
 
 /*
- * Weights of a fragment of a triangle for its attributes, and its depth with polygon offset. Depth is that of the place where the
- * view looks, attributes are those of the pixel's centre, which samples share (sec. 3.2.1).
+ * Weights of a fragment of a triangle for its attributes, and its depth with polygon offset. Depth is that of the place
+ * where the view looks, attributes are those of the pixel's centre, which samples share (sec. 3.2.1).
  */
-static inline void setup_unsnap(GLOBAL const struct view *view, const struct setup_kept *kept, uint32_t x, uint32_t y, uint32_t height,
-                                struct fragment *f)
+static inline void setup_unsnap(GLOBAL const struct view *view, const struct setup_kept *kept, uint32_t x, uint32_t y,
+                                uint32_t height, struct fragment *f)
 {
 	const struct clip_setup *setup = &kept->setup;
 	float px[3], py[3], area = clip_place_area(setup->px, setup->py);

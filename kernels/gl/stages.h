@@ -1,8 +1,8 @@
 /*
  * One work item of each shading kernel. The .cl files and the C twins are thin wrappers around these.
  *
- * Camera kernels leave fragments sparsely, so many slots a pixel. `gather` puts them into a dense list, pixel by pixel, each pixel's in
- * draw order. All that follows works on the list.
+ * Camera kernels leave fragments sparsely, so many slots a pixel. `gather` puts them into a dense list, pixel by pixel,
+ * each pixel's in draw order. All that follows works on the list.
  */
 #pragma once
 
@@ -32,7 +32,8 @@ static inline void gather_item(const struct gather_arguments *a, uint32_t item)
 }
 
 /* Visibility of the material's lights at the item. */
-static inline void stage_seen(GLOBAL const float *visibility, uint32_t n_slots, uint32_t n, uint32_t item, struct vec3 *seen)
+static inline void stage_seen(GLOBAL const float *visibility, uint32_t n_slots, uint32_t n, uint32_t item,
+                              struct vec3 *seen)
 {
 	for (uint32_t slot = 0u; slot < SCENE_MAX_LIGHTS; slot++)
 		seen[slot] = v3(1.0f, 1.0f, 1.0f);
@@ -60,13 +61,15 @@ static inline uint32_t stage_wanted(const struct point *p, uint32_t lights)
 }
 
 /* Whether a vertex program lights fragments of a material anew, with the lights' visibility. flags: of its geometry */
-static inline int stage_is_lit_by_program(const struct shade_arguments *a, GLOBAL const struct scene_material *m, uint32_t flags)
+static inline int stage_is_lit_by_program(const struct shade_arguments *a, GLOBAL const struct scene_material *m,
+                                          uint32_t flags)
 {
 	return a->n_slots && m->vertex_program && m->light_count && !m->surface.relit && !(flags & GEOMETRY_EXPANDED);
 }
 
 /* Whether program_item has a say in the colour of its fragments. */
-static inline int stage_is_by_program(const struct shade_arguments *a, GLOBAL const struct scene_material *m, uint32_t flags)
+static inline int stage_is_by_program(const struct shade_arguments *a, GLOBAL const struct scene_material *m,
+                                      uint32_t flags)
 {
 	return m->fragment_program || stage_is_lit_by_program(a, m, flags);
 }
@@ -110,8 +113,8 @@ static inline struct vec3 stage_number(uint32_t transport, struct vec3 c)
  * A lit surface as physics would have it: emission, and what lights send straight; no ambient light, nothing clamped.
  * A surface that GL does not light shows its colour as it is.
  */
-static inline struct vec3 stage_radiance(const struct tables *t, const struct point *p, const struct texturing *texturing,
-                                         uint32_t transport, const struct vec3 *seen)
+static inline struct vec3 stage_radiance(const struct tables *t, const struct point *p,
+                                         const struct texturing *texturing, uint32_t transport, const struct vec3 *seen)
 {
 	GLOBAL const struct scene_material *m = p->material;
 	struct light_list list = point_lights(p);
@@ -130,11 +133,19 @@ static inline struct vec3 stage_radiance(const struct tables *t, const struct po
 		float strength = light_strength(light, at, &to_light), cosine = v3_dot(n, to_light);
 
 		if (cosine > 0.0f)
-			sum = v3_add(sum, v3_mul(v3_scale(stage_light(transport, v3_scale(v3_load(light->diffuse), strength)), cosine), seen[i]));
+			sum = v3_add(sum, v3_mul(v3_scale(stage_light(transport,
+			                                              v3_scale(v3_load(light->diffuse), strength)),
+			                                  cosine),
+			                         seen[i]));
 	}
 	c = point_albedo(t, p, texturing);
-	sum = v3_add(v3_mul(sum, stage_light(transport, v3(c.x, c.y, c.z))), stage_light(transport, v3_load(m->surface.emission)));
-	return m->lighting ? v3_add(stage_light(transport, v3_load(tables_face(t, p->geometry, p->number[2], point_side(p))->emission)), sum) : sum;
+	sum = v3_add(v3_mul(sum, stage_light(transport, v3(c.x, c.y, c.z))),
+	             stage_light(transport, v3_load(m->surface.emission)));
+	return m->lighting ?
+	               v3_add(stage_light(transport,
+	                                  v3_load(tables_face(t, p->geometry, p->number[2], point_side(p))->emission)),
+	                      sum) :
+	               sum;
 }
 
 /* Lights of the list that stage_radiance can be lit by, and that something may stop. */
@@ -154,7 +165,8 @@ static inline uint32_t stage_radiant_lights(const struct tables *t, const struct
 }
 
 /* Lights that must be asked for before a point can be lit. from_vertices: those that light its vertices (struct lit) */
-static inline uint32_t stage_lights(const struct tables *t, const struct point *p, uint32_t transport, uint32_t from_vertices)
+static inline uint32_t stage_lights(const struct tables *t, const struct point *p, uint32_t transport,
+                                    uint32_t from_vertices)
 {
 	if (stage_is_path(transport))
 		return stage_radiant_lights(t, p);
@@ -186,10 +198,10 @@ static inline struct vec3 stage_relit(const struct tables *t, const struct point
 }
 
 /*
- * Share of the pixel that a smooth line or point covers (sec. 3.3.1, 3.4.2 leave the filter open), as Mesa's draw module has it
- * (22.3): ramps one pixel wide across the line's sides and ends, interpolated with perspective like any attribute; of a
- * point all pixels whose centres its circle holds. Its rim's ramp goes on inside, where it is more than 1, and the rim itself has none:
- * alphas grow towards the middle.
+ * Share of the pixel that a smooth line or point covers (sec. 3.3.1, 3.4.2 leave the filter open), as Mesa's draw
+ * module has it (22.3): ramps one pixel wide across the line's sides and ends, interpolated with perspective like any
+ * attribute; of a point all pixels whose centres its circle holds. Its rim's ramp goes on inside, where it is more than
+ * 1, and the rim itself has none: alphas grow towards the middle.
  */
 static inline float stage_coverage(const struct point *p)
 {
@@ -210,7 +222,8 @@ static inline float stage_coverage(const struct point *p)
 	return apart < c.z ? (1.0f - apart) / (1.0f - c.z) : 1.0f;
 }
 
-/* A pixel rectangle's extent along one axis: a place in the window (y from the top) and the texel there, at either end. */
+/* A pixel rectangle's extent along one axis: a place in the window (y from the top) and the texel there, at either
+ * end. */
 struct stage_extent {
 	float place[2], texel[2]; /* by ascending texel */
 };
@@ -235,16 +248,19 @@ static inline struct stage_extent stage_extent_of(const struct point *p, uint32_
 }
 
 /*
- * The texel that one axis of a rectangle has at a pixel, in the order of operations that llvmpipe (22.3.6) has for a texture's coordinate:
- * zooms often put the middle of a pixel on the border of two texels.
+ * The texel that one axis of a rectangle has at a pixel, in the order of operations that llvmpipe (22.3.6) has for a
+ * texture's coordinate: zooms often put the middle of a pixel on the border of two texels.
  * @param base    the end at which its plane of coordinates stands on the axis
  * @param turned  texels are counted from the last
  * @param across  the rectangle's size along the other axis, signed from its base
  */
-static inline float stage_texel(const struct stage_extent *e, int base, int turned, float across, uint32_t pixel, uint32_t n)
+static inline float stage_texel(const struct stage_extent *e, int base, int turned, float across, uint32_t pixel,
+                                uint32_t n)
 {
-	const float first = e->texel[base] / (float)n, other = e->texel[!base] / (float)n, size = e->place[base] - e->place[!base];
-	const float from = turned ? 1.0f - first : first, along = (turned ? other - first : first - other) * (across * (1.0f / (size * across)));
+	const float first = e->texel[base] / (float)n, other = e->texel[!base] / (float)n,
+		    size = e->place[base] - e->place[!base];
+	const float from = turned ? 1.0f - first : first,
+		    along = (turned ? other - first : first - other) * (across * (1.0f / (size * across)));
 	const float texel = M_FLOOR(M_FMA(along, (float)pixel, from - along * (e->place[base] - 0.5f)) * (float)n);
 	const float within = M_MIN(M_MAX(texel, 0.0f), (float)(n - 1u));
 
@@ -252,10 +268,12 @@ static inline float stage_texel(const struct stage_extent *e, int base, int turn
 }
 
 /*
- * The texel of a bitmap or pixel rectangle under a fragment; y from the top. llvmpipe's planes stand on the last column's end, and on the
- * row's end where a triangle has two corners; those of a mirrored rectangle on the first column's end and the last row's.
+ * The texel of a bitmap or pixel rectangle under a fragment; y from the top. llvmpipe's planes stand on the last
+ * column's end, and on the row's end where a triangle has two corners; those of a mirrored rectangle on the first
+ * column's end and the last row's.
  */
-static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, const struct point *p, uint32_t x, uint32_t y, uint32_t *kind)
+static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, const struct point *p, uint32_t x,
+                                                       uint32_t y, uint32_t *kind)
 {
 	const struct stage_extent columns = stage_extent_of(p, 0u), rows = stage_extent_of(p, 1u);
 	GLOBAL const struct texture_image *image = &t->textures[(uint32_t)(p->vertex[0]->color[1][2] + 0.5f)];
@@ -268,7 +286,8 @@ static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, c
 		high += p->vertex[i]->color[1][1] == rows.texel[1];
 	at_row = mirrored || high == 2;
 	column = stage_texel(&columns, at_column, 0, rows.place[!at_row] - rows.place[at_row], x, image->width);
-	row = stage_texel(&rows, at_row, (told & SCENE_FROM_TOP) != 0u, columns.place[at_column] - columns.place[!at_column], y, image->height);
+	row = stage_texel(&rows, at_row, (told & SCENE_FROM_TOP) != 0u,
+	                  columns.place[at_column] - columns.place[!at_column], y, image->height);
 	*kind = told & ~SCENE_FROM_TOP;
 	return t->texels + image->level_first[0] + ((uint32_t)row * image->width + (uint32_t)column) * image->words;
 }
@@ -283,7 +302,8 @@ static inline struct vec4 stage_texel_color(GLOBAL const uint32_t *group, uint32
 	          (float)(texel >> 24) / 255.0f);
 }
 
-/* What is to be done with a fragment, and for pixel rectangles its depth. group, kind: their texel; kind 0: it is of none */
+/* What is to be done with a fragment, and for pixel rectangles its depth. group, kind: their texel; kind 0: it is of
+ * none */
 static inline void stage_store_flags(const struct shade_arguments *a, const struct point *p, uint32_t lights,
                                      GLOBAL const uint32_t *group, uint32_t kind, GLOBAL struct shaded *out)
 {
@@ -294,15 +314,17 @@ static inline void stage_store_flags(const struct shade_arguments *a, const stru
 		out->flags = SHADED_THERE | SHADED_STENCIL;
 		return;
 	}
-	out->flags = SHADED_THERE | (p->front ? SHADED_FRONT : 0u) | stage_wanted(p, stage_lights(&a->tables, p, a->transport, lights));
+	out->flags = SHADED_THERE | (p->front ? SHADED_FRONT : 0u) |
+	             stage_wanted(p, stage_lights(&a->tables, p, a->transport, lights));
 }
 
 /*
- * A fragment that is seen for the first time: the weights of its attributes and its depth as its triangle or line has them.
+ * A fragment that is seen for the first time: the weights of its attributes and its depth as its triangle or line has
+ * them.
  * @return 0: nothing is drawn there, by clip planes or stipples
  */
-static inline int stage_place_first(const struct shade_arguments *a, uint32_t x, uint32_t y, const struct setup_kept *kept,
-                                    struct fragment *f)
+static inline int stage_place_first(const struct shade_arguments *a, uint32_t x, uint32_t y,
+                                    const struct setup_kept *kept, struct fragment *f)
 {
 	GLOBAL const struct view *view = &a->views[kept->p.geometry->view];
 	const int clipped = userclip_outside(view, a->windows, &kept->p, (int32_t)x, (int32_t)y, (float)a->height);
@@ -315,10 +337,10 @@ static inline int stage_place_first(const struct shade_arguments *a, uint32_t x,
 }
 
 /*
- * shade: n_slots == 0 gives a fragment its GL colour, its depth and the lights it must ask for; n_slots > 0 gives fragments that
- * asked their colour with the lights' visibility. transport: TRANSPORT_*.
- * kept: room for the fragment's triangle. keeps: 1 where earlier fragments of this launch may have left theirs there (kept->instance
- * SCENE_NONE: they have not).
+ * shade: n_slots == 0 gives a fragment its GL colour, its depth and the lights it must ask for; n_slots > 0 gives
+ * fragments that asked their colour with the lights' visibility. transport: TRANSPORT_*. kept: room for the fragment's
+ * triangle. keeps: 1 where earlier fragments of this launch may have left theirs there (kept->instance SCENE_NONE: they
+ * have not).
  */
 static inline void shade_item(const struct shade_arguments *a, uint32_t item, int keeps, struct setup_kept *kept)
 {
@@ -352,7 +374,8 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 	}
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
 	coverage = stage_coverage(&p);
-	if (!(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE)) /* a line's border leaves depth even where it ends */
+	if (!(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE)) /* a line's border leaves depth even
+	                                                                          where it ends */
 		drawn = a->n_slots != 0u;
 	if (drawn && p.geometry->flags & GEOMETRY_PIXELS) {
 		group = stage_pixel_group(t, &p, x, a->height - 1u - y, &kind);
@@ -417,7 +440,9 @@ static inline uint32_t stage_draw(const struct tables *t, uint32_t instance, uin
 {
 	GLOBAL const struct geometry *g = &t->geometries[instance];
 
-	return g->draw + (g->primitive_draw != SCENE_NONE ? t->indices[g->primitive_draw + (primitive & ~FRAGMENT_PERSPECTIVE)] : 0u);
+	return g->draw + (g->primitive_draw != SCENE_NONE ?
+	                          t->indices[g->primitive_draw + (primitive & ~FRAGMENT_PERSPECTIVE)] :
+	                          0u);
 }
 
 /* A pixel's fragments of the list, in draw order, through the per-fragment operations. */
@@ -428,7 +453,8 @@ static inline void stage_resolve(const struct resolve_arguments *a, uint32_t pix
 	for (uint32_t i = a->first[pixel]; i < a->first[pixel] + a->counts[pixel]; i++) {
 		GLOBAL const struct fragment *f = &a->fragments[i];
 
-		pixel_draw(stage_material(t, f->instance), &a->shaded[i], f, stage_draw(t, f->instance, f->primitive), &a->frame[pixel], a->bits);
+		pixel_draw(stage_material(t, f->instance), &a->shaded[i], f, stage_draw(t, f->instance, f->primitive),
+		           &a->frame[pixel], a->bits);
 	}
 }
 
@@ -447,7 +473,8 @@ struct stage_row {
 /* The row of a work item; cleared, where the first fragments are to be drawn to it. */
 static inline struct stage_row stage_open_row(const struct resolve_arguments *a, uint32_t item)
 {
-	const uint32_t columns = frame_columns(a->width), y = (uint32_t)a->rectangle.y0 + item / columns, x = item % columns * FRAME_ROW;
+	const uint32_t columns = frame_columns(a->width), y = (uint32_t)a->rectangle.y0 + item / columns,
+		       x = item % columns * FRAME_ROW;
 	const uint32_t end = x + FRAME_ROW < a->width ? x + FRAME_ROW : a->width;
 	const uint32_t left = (uint32_t)a->rectangle.x0, right = (uint32_t)a->rectangle.x1;
 	uint32_t n = 0u;

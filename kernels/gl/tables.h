@@ -7,7 +7,8 @@
 /* A vertex attribute: the mesh's own, or the current one where the mesh has none. `v` counts in the mesh. */
 static inline struct vec4 tables_color(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v)
 {
-	return g->attributes & SCENE_HAS_COLOR ? v4_load(t->attributes + g->color + v * 4u) : v4_load(t->currents[g->current].color);
+	return g->attributes & SCENE_HAS_COLOR ? v4_load(t->attributes + g->color + v * 4u) :
+	                                         v4_load(t->currents[g->current].color);
 }
 
 static inline struct vec4 tables_secondary(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v)
@@ -22,8 +23,10 @@ static inline struct vec3 tables_normal(const struct tables *t, GLOBAL const str
 	                            v3_load(t->currents[g->current].normal);
 }
 
-/* A side's material at a vertex: the mesh's own where it changes from vertex to vertex (sec. 2.6.3 lets it), or the draw's. */
-static inline GLOBAL const struct scene_face *tables_face(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v, int back)
+/* A side's material at a vertex: the mesh's own where it changes from vertex to vertex (sec. 2.6.3 lets it), or the
+ * draw's. */
+static inline GLOBAL const struct scene_face *tables_face(const struct tables *t, GLOBAL const struct geometry *g,
+                                                          uint32_t v, int back)
 {
 	GLOBAL const struct scene_material *m = &t->materials[g->material];
 
@@ -33,14 +36,16 @@ static inline GLOBAL const struct scene_face *tables_face(const struct tables *t
 }
 
 /* The attribute 1 + i of vertex programs. */
-static inline struct vec4 tables_generic(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v, uint32_t i)
+static inline struct vec4 tables_generic(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v,
+                                         uint32_t i)
 {
 	uint32_t before = 0u;
 
 	for (uint32_t k = 0u; k < i; k++)
 		before += g->attributes / SCENE_HAS_GENERIC >> k & 1u;
-	return g->attributes & (SCENE_HAS_GENERIC << i) ? v4_load(t->attributes + g->generics + (before * g->vertex_count + v) * 4u) :
-	                            v4_load(t->currents[g->current].generics[i]);
+	return g->attributes & (SCENE_HAS_GENERIC << i) ?
+	               v4_load(t->attributes + g->generics + (before * g->vertex_count + v) * 4u) :
+	               v4_load(t->currents[g->current].generics[i]);
 }
 
 static inline float tables_fog_coord(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v)

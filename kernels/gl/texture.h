@@ -9,7 +9,8 @@
 #include "kernels/gl/tables.h"
 
 #define TEXTURE_OUTSIDE (-0x7fffffff) /* a texel position that is the border colour */
-#define TEXTURE_FAR 4194304.0f        /* texels from here on are not told apart by footprints: steps of 1 would stand still */
+/* texels from here on are not told apart by footprints: steps of 1 would stand still */
+#define TEXTURE_FAR 4194304.0f
 
 static inline uint32_t texture_level_size(uint32_t size, uint32_t level)
 {
@@ -87,8 +88,8 @@ static inline void texture_wrap(uint32_t wrap, float s, int normalized, uint32_t
 }
 
 /* Where a texel of a level is stored; no coordinate may be outside. `layer`: slice of a 3D image or face of a cube. */
-static inline GLOBAL const uint32_t *texture_words(const struct tables *t, GLOBAL const struct texture_image *image, uint32_t level,
-                                                   int x, int y, int layer)
+static inline GLOBAL const uint32_t *texture_words(const struct tables *t, GLOBAL const struct texture_image *image,
+                                                   uint32_t level, int x, int y, int layer)
 {
 	uint32_t border = image->border;
 	uint32_t width = texture_level_size(image->width, level) + 2u * border;
@@ -99,11 +100,12 @@ static inline GLOBAL const uint32_t *texture_words(const struct tables *t, GLOBA
 		y += (int)border;
 	if (image->target == GL_TEXTURE_3D)
 		layer += (int)border;
-	return t->texels + image->level_first[level] + (((uint32_t)layer * height + (uint32_t)y) * width + (uint32_t)x) * image->words;
+	return t->texels + image->level_first[level] +
+	       (((uint32_t)layer * height + (uint32_t)y) * width + (uint32_t)x) * image->words;
 }
 
-/* Four bytes, red lowest, as numbers. Multiplied, not divided, so that products at the border of the next 8-bit code fall on Mesa's
- * side. */
+/* Four bytes, red lowest, as numbers. Multiplied, not divided, so that products at the border of the next 8-bit code
+ * fall on Mesa's side. */
 static inline struct vec4 texture_unpack(uint32_t texel)
 {
 	const float scale = 1.0f / 255.0f;
@@ -132,9 +134,9 @@ static inline struct vec4 texture_texel(const struct tables *t, GLOBAL const str
 }
 
 /*
- * Filtering in 8 bits. Where every wrap is REPEAT or CLAMP_TO_EDGE, llvmpipe filters without floating point: places count in 1/256
- * texel, and each interpolation rounds to 8 bits. The specification leaves the precision open. Exact filtering differs by up to
- * 1.5/255, which gate P sees on a large textured area.
+ * Filtering in 8 bits. Where every wrap is REPEAT or CLAMP_TO_EDGE, llvmpipe filters without floating point: places
+ * count in 1/256 texel, and each interpolation rounds to 8 bits. The specification leaves the precision open. Exact
+ * filtering differs by up to 1.5/255, which gate P sees on a large textured area.
  */
 
 /* Four channels at once. weight: of b, 0 to 255 for [0,1) */
@@ -179,7 +181,8 @@ static inline int texture_is_plain(GLOBAL const struct texture_image *image, GLO
 		return 0;
 	if (image->target == GL_TEXTURE_CUBE_MAP)
 		return 1;
-	return texture_wrap_is_plain(unit->wrap_s) && (image->target == GL_TEXTURE_1D || texture_wrap_is_plain(unit->wrap_t)) &&
+	return texture_wrap_is_plain(unit->wrap_s) &&
+	       (image->target == GL_TEXTURE_1D || texture_wrap_is_plain(unit->wrap_t)) &&
 	       (image->target != GL_TEXTURE_3D || texture_wrap_is_plain(unit->wrap_r));
 }
 
@@ -188,8 +191,10 @@ static inline uint32_t texture_level_8(const struct tables *t, GLOBAL const stru
                                        GLOBAL const struct scene_unit *unit, uint32_t level, struct vec4 c, int face)
 {
 	int normalized = image->target != GL_TEXTURE_RECTANGLE, cube = image->target == GL_TEXTURE_CUBE_MAP;
-	int x[2], y[2] = { 0, 0 }, z[2], n_y = image->target == GL_TEXTURE_1D ? 1 : 2, n_z = image->target == GL_TEXTURE_3D ? 2 : 1;
-	const uint32_t width = texture_level_size(image->width, level), height = n_y == 1 ? 1u : texture_level_size(image->height, level);
+	int x[2], y[2] = { 0, 0 }, z[2], n_y = image->target == GL_TEXTURE_1D ? 1 : 2,
+		  n_z = image->target == GL_TEXTURE_3D ? 2 : 1;
+	const uint32_t width = texture_level_size(image->width, level),
+		       height = n_y == 1 ? 1u : texture_level_size(image->height, level);
 	GLOBAL const uint32_t *texels = t->texels + image->level_first[level]; /* without a border: texture_is_plain */
 	uint32_t wx, wy = 0u, wz = 0u, sum = 0u;
 
@@ -345,12 +350,14 @@ static inline int texture_needs_slope(const struct tables *t, GLOBAL const struc
 	return unit->min_filter != unit->mag_filter || texture_is_anisotropic(t, unit);
 }
 
-/* 1 where each pixel has slopes of its own, as llvmpipe (22.3.6) has it: on a cube of several levels. Else a quad shares its upper left pixel's. */
+/* 1 where each pixel has slopes of its own, as llvmpipe (22.3.6) has it: on a cube of several levels. Else a quad
+ * shares its upper left pixel's. */
 static inline int texture_has_own_slopes(const struct tables *t, GLOBAL const struct scene_unit *unit)
 {
 	GLOBAL const struct texture_image *image = &t->textures[unit->texture];
 
-	return image->target == GL_TEXTURE_CUBE_MAP && image->n_levels > 1u && unit->min_filter != GL_NEAREST && unit->min_filter != GL_LINEAR;
+	return image->target == GL_TEXTURE_CUBE_MAP && image->n_levels > 1u && unit->min_filter != GL_NEAREST &&
+	       unit->min_filter != GL_LINEAR;
 }
 
 /* A step of a direction on its face, in texels: the quotient rule. */
@@ -364,13 +371,14 @@ static inline struct vec4 texture_cube_slope(struct vec4 c, struct vec4 step, fl
 }
 
 /*
- * Slopes from the coordinates at a pixel of a 2x2 quad and at its neighbours there, before division by q. llvmpipe takes them
- * once for each quad, at its upper left pixel, but for texture_has_own_slopes: there each pixel has those of its own face, row and column.
+ * Slopes from the coordinates at a pixel of a 2x2 quad and at its neighbours there, before division by q. llvmpipe
+ * takes them once for each quad, at its upper left pixel, but for texture_has_own_slopes: there each pixel has those of
+ * its own face, row and column.
  *
  * @param right  the pixel beside it, below: the one below or above it
  */
-static inline struct texture_slope texture_slope(GLOBAL const struct texture_image *image, struct vec4 at, struct vec4 right,
-                                                 struct vec4 below)
+static inline struct texture_slope texture_slope(GLOBAL const struct texture_image *image, struct vec4 at,
+                                                 struct vec4 right, struct vec4 below)
 {
 	struct vec4 size = v4((float)image->width, (float)image->height, (float)image->depth, 0.0f);
 	struct texture_slope slope;
@@ -416,9 +424,9 @@ static inline float texture_lod(GLOBAL const struct scene_unit *unit, const stru
 }
 
 /*
- * An elliptic footprint under a Gaussian (Heckbert 1989, "Fundamentals of texture mapping and image warping", p. 59), as
- * Mesa's software renderers sample where the maximum anisotropy is over 1, magnified or not. One level only; weights in
- * 1024 steps.
+ * An elliptic footprint under a Gaussian (Heckbert 1989, "Fundamentals of texture mapping and image warping", p. 59),
+ * as Mesa's software renderers sample where the maximum anisotropy is over 1, magnified or not. One level only; weights
+ * in 1024 steps.
  */
 static inline struct vec4 texture_ellipse(const struct tables *t, GLOBAL const struct texture_image *image,
                                           GLOBAL const struct scene_unit *unit, uint32_t level,

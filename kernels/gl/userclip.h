@@ -1,7 +1,7 @@
 /*
- * Clip planes of the program's own (GL 2.1 sec. 2.12) at one pixel. Mesa's draw module (22.3) cuts a triangle by them after the
- * view volume's, in the same way (kernels/gl/clip.h), so that new edges run between snapped corners: what counts is whether a
- * part that is left covers the pixel, not on which side of a plane its centre lies.
+ * Clip planes of the program's own (GL 2.1 sec. 2.12) at one pixel. Mesa's draw module (22.3) cuts a triangle by them
+ * after the view volume's, in the same way (kernels/gl/clip.h), so that new edges run between snapped corners: what
+ * counts is whether a part that is left covers the pixel, not on which side of a plane its centre lies.
  */
 #pragma once
 
@@ -70,12 +70,13 @@ static inline uint32_t userclip_by(GLOBAL const struct view *view, float height,
 }
 
 /* What the view volume leaves of the triangle of a fragment. @return its corners */
-static inline uint32_t userclip_begin(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows, const struct point *p,
-                                      float height, struct clip_corner *out)
+static inline uint32_t userclip_begin(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows,
+                                      const struct point *p, float height, struct clip_corner *out)
 {
 	struct clip_polygon polygon;
 
-	clip_triangle(view, height, v4_load(p->vertex[0]->clip), v4_load(p->vertex[1]->clip), v4_load(p->vertex[2]->clip), &polygon);
+	clip_triangle(view, height, v4_load(p->vertex[0]->clip), v4_load(p->vertex[1]->clip),
+	              v4_load(p->vertex[2]->clip), &polygon);
 	for (uint32_t i = 0u; i < polygon.n; i++) {
 		out[i] = polygon.corner[i];
 		if (out[i].number < 3u)
@@ -85,13 +86,13 @@ static inline uint32_t userclip_begin(GLOBAL const struct view *view, GLOBAL con
 }
 
 /*
- * 1 where the planes leave nothing of a fragment's triangle at a pixel. Lines and points are cut where they are made into triangles
- * (tracer/frame/expand.c).
+ * 1 where the planes leave nothing of a fragment's triangle at a pixel. Lines and points are cut where they are made
+ * into triangles (tracer/frame/expand.c).
  *
  * x, y  the pixel, y from the bottom
  */
-static inline int userclip_outside(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows, const struct point *p,
-                                   int32_t x, int32_t y, float height)
+static inline int userclip_outside(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows,
+                                   const struct point *p, int32_t x, int32_t y, float height)
 {
 	struct clip_corner corner[2][USERCLIP_CORNERS];
 	uint32_t n = 0u, now = 0u;

@@ -23,14 +23,15 @@ static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLO
 	struct vec3 flushed = v3(vertex_flush(eye.x), vertex_flush(eye.y), vertex_flush(eye.z));
 
 	/* A normal too short to square has length 0 there, and becomes infinite. */
-	if (m->normalize && vertex_flush(v3_dot(eye, eye)) == 0.0f && (flushed.x != 0.0f || flushed.y != 0.0f || flushed.z != 0.0f))
+	if (m->normalize && vertex_flush(v3_dot(eye, eye)) == 0.0f &&
+	    (flushed.x != 0.0f || flushed.y != 0.0f || flushed.z != 0.0f))
 		return v3_scale(flushed, M_FLOAT(0x7f800000u));
 	return m->normalize ? v3_normalize(eye) : eye;
 }
 
 /*
- * A colour without lighting, clamped (sec. 2.14.6). What the specification leaves open: llvmpipe makes a NaN 1 where vertices
- * carry the colour, and 0 where it is the current one.
+ * A colour without lighting, clamped (sec. 2.14.6). What the specification leaves open: llvmpipe makes a NaN 1 where
+ * vertices carry the colour, and 0 where it is the current one.
  */
 static inline struct vec4 vertex_clamp(struct vec4 c, uint32_t per_vertex)
 {
@@ -75,7 +76,8 @@ static inline float vertex_fog_distance(uint32_t source, struct vec4 eye)
 }
 
 /* Both sides' colours of a vertex that has its place and its normal. m: its material */
-static inline void vertex_store_colors(const struct tables *t, GLOBAL const struct geometry *g, GLOBAL const struct scene_material *m, uint32_t v,
+static inline void vertex_store_colors(const struct tables *t, GLOBAL const struct geometry *g,
+                                       GLOBAL const struct scene_material *m, uint32_t v,
                                        GLOBAL struct shaded_vertex *out)
 {
 	const struct lit front = vertex_color(t, g, out, v, 0, (const struct vec3 *)0);
@@ -114,7 +116,8 @@ static inline float vertex_generate(GLOBAL const struct scene_unit *unit, uint32
 }
 
 /* Coordinates c as the unit generates and transforms them. */
-static inline struct vec4 vertex_generated(GLOBAL const struct scene_unit *unit, struct vec4 c, struct vec4 obj, struct vec4 eye, struct vec3 n)
+static inline struct vec4 vertex_generated(GLOBAL const struct scene_unit *unit, struct vec4 c, struct vec4 obj,
+                                           struct vec4 eye, struct vec3 n)
 {
 	struct vec3 u = v3_normalize(eye.w == 1.0f ? v3(eye.x, eye.y, eye.z) :
 	                                             v3_scale(v3(eye.x, eye.y, eye.z), 1.0f / eye.w));
@@ -132,8 +135,8 @@ static inline struct vec4 vertex_texcoord(const struct tables *t, GLOBAL const s
 }
 
 /*
- * Size of a point after attenuation (sec. 3.3), before it is rounded to pixels. The distance is the depth alone, as Mesa has it (22.3.6,
- * build_atten_pointsize).
+ * Size of a point after attenuation (sec. 3.3), before it is rounded to pixels. The distance is the depth alone, as
+ * Mesa has it (22.3.6, build_atten_pointsize).
  */
 static inline float vertex_point_size(GLOBAL const struct scene_material *m, struct vec4 eye)
 {
@@ -168,7 +171,8 @@ static inline void vertex_item(const struct vertex_arguments *a, uint32_t item)
 	a->windows[item] = clip_window(view, clip, (float)a->height);
 
 	vertex_store_colors(t, g, m, v, out);
-	out->fog_coord = m->fog_coord_source == GL_FOG_COORD ? tables_fog_coord(t, g, v) : vertex_fog_distance(m->fog_coord_source, eye);
+	out->fog_coord = m->fog_coord_source == GL_FOG_COORD ? tables_fog_coord(t, g, v) :
+	                                                       vertex_fog_distance(m->fog_coord_source, eye);
 	out->size[0] = vertex_point_size(m, eye);
 	out->size[1] = 0.0f;
 

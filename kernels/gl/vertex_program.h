@@ -1,7 +1,8 @@
 /*
- * Vertex programs (ARB_vertex_program): instructions.h runs them, for four vertices at once. What the vertex stage has made of a vertex by fixed
- * function (vertex.h) gives way to what the program says of it: a clip position, from which its eye position is found again by the
- * projection; colours, texture coordinates, fog coordinate, size of a point. Its normal stays fixed function's where its position does.
+ * Vertex programs (ARB_vertex_program): instructions.h runs them, for four vertices at once. What the vertex stage has
+ * made of a vertex by fixed function (vertex.h) gives way to what the program says of it: a clip position, from which
+ * its eye position is found again by the projection; colours, texture coordinates, fog coordinate, size of a point. Its
+ * normal stays fixed function's where its position does.
  */
 #pragma once
 
@@ -12,7 +13,8 @@
 #define VERTEX_DEPTH_OUTSIDE 1.00001f /* and so may a vertex that lies upon it */
 
 /* One of scene_vertex_input's, of a vertex in the mesh. */
-static inline struct vec4 vertex_input(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v, uint32_t input)
+static inline struct vec4 vertex_input(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v,
+                                       uint32_t input)
 {
 	struct vec3 normal;
 
@@ -37,8 +39,8 @@ static inline struct vec3 vertex_row(GLOBAL const float *m, uint32_t row)
 }
 
 /*
- * Where a clip position lies in eye space: under a perspective projection the place that has its x, y and w. Depth has no part in it, of which
- * a far place would have lost most bits. Else by the inverse, with the w that it finds.
+ * Where a clip position lies in eye space: under a perspective projection the place that has its x, y and w. Depth has
+ * no part in it, of which a far place would have lost most bits. Else by the inverse, with the w that it finds.
  */
 static inline struct vec4 vertex_eye_from_clip(GLOBAL const struct view *view, struct vec4 clip)
 {
@@ -49,13 +51,15 @@ static inline struct vec4 vertex_eye_from_clip(GLOBAL const struct view *view, s
 
 	if (determinant == 0.0f)
 		return m4_mul(view->inverse, clip);
-	eye = v3_add(v3_add(v3_scale(y_w, clip.x - m[12]), v3_scale(v3_cross(w, x), clip.y - m[13])), v3_scale(v3_cross(x, y), clip.w - m[15]));
+	eye = v3_add(v3_add(v3_scale(y_w, clip.x - m[12]), v3_scale(v3_cross(w, x), clip.y - m[13])),
+	             v3_scale(v3_cross(x, y), clip.w - m[15]));
 	return v4(eye.x / determinant, eye.y / determinant, eye.z / determinant, 1.0f);
 }
 
 /*
- * The place of a vertex that GL draws: it has to lie between the ends of the rays that look for it. A program that gives depths or a w of its
- * own may have put it beyond them by x, y and w; then its own depth tells where on its line of sight it is.
+ * The place of a vertex that GL draws: it has to lie between the ends of the rays that look for it. A program that
+ * gives depths or a w of its own may have put it beyond them by x, y and w; then its own depth tells where on its line
+ * of sight it is.
  */
 static inline struct vec4 vertex_drawn_eye(GLOBAL const struct view *view, struct vec4 clip)
 {
@@ -84,7 +88,8 @@ static inline struct vec4 vertex_result(const struct program_run *run, uint32_t 
 	return program_get(run, SCENE_VERTEX_RESULTS + 4u * output, k);
 }
 
-static inline struct vec4 vertex_result_color(const struct program_run *run, GLOBAL const struct scene_material *m, uint32_t output, uint32_t k)
+static inline struct vec4 vertex_result_color(const struct program_run *run, GLOBAL const struct scene_material *m,
+                                              uint32_t output, uint32_t k)
 {
 	const struct vec4 color = vertex_result(run, output, k);
 
@@ -92,7 +97,8 @@ static inline struct vec4 vertex_result_color(const struct program_run *run, GLO
 }
 
 /* Lights of the material's list that a program can light a vertex by: where it has a normal, those in front of it. */
-static inline uint32_t vertex_lights(const struct tables *t, GLOBAL const struct scene_material *m, GLOBAL const struct shaded_vertex *vertex)
+static inline uint32_t vertex_lights(const struct tables *t, GLOBAL const struct scene_material *m,
+                                     GLOBAL const struct shaded_vertex *vertex)
 {
 	const struct vec3 at = v3_load(vertex->eye), n = v3_load(vertex->normal);
 	const int has_normal = m->program_normals && v3_dot(n, n) > 0.0f;
@@ -109,8 +115,8 @@ static inline uint32_t vertex_lights(const struct tables *t, GLOBAL const struct
 }
 
 /* Keep what the program has made of vertex v, number k of the four. */
-static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL const struct geometry *g, const struct program *program,
-                               const struct program_run *run, uint32_t v, uint32_t k)
+static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL const struct geometry *g,
+                               const struct program *program, const struct program_run *run, uint32_t v, uint32_t k)
 {
 	GLOBAL const struct scene_material *m = &a->tables.materials[g->material];
 	GLOBAL const struct view *view = &a->views[g->view];
@@ -130,7 +136,8 @@ static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL 
 	}
 	out->lit[0] = out->lit[1] = vertex_lights(&a->tables, m, out);
 	v4_store(out->color[0], vertex_result_color(run, m, SCENE_RESULT_COLOR, k));
-	v4_store(out->color[1], m->clip_by_program ? vertex_result(run, SCENE_RESULT_CLIP_VERTEX, k) : vertex_result_color(run, m, SCENE_RESULT_BACK_COLOR, k));
+	v4_store(out->color[1], m->clip_by_program ? vertex_result(run, SCENE_RESULT_CLIP_VERTEX, k) :
+	                                             vertex_result_color(run, m, SCENE_RESULT_BACK_COLOR, k));
 	v4_store(out->secondary[0], vertex_result_color(run, m, SCENE_RESULT_SECONDARY, k));
 	v4_store(out->secondary[1], vertex_result_color(run, m, SCENE_RESULT_BACK_SECONDARY, k));
 	out->fog_coord = vertex_result(run, SCENE_RESULT_FOG, k).x;
@@ -142,8 +149,8 @@ static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL 
 }
 
 /* Run it for up to four vertices, number[n] in the mesh. seen: as program_begin takes it */
-static inline void vertex_run(const struct tables *t, GLOBAL const struct geometry *g, const struct program *program, const uint32_t *number,
-                              uint32_t n, const struct vec3 *seen, struct program_run *run)
+static inline void vertex_run(const struct tables *t, GLOBAL const struct geometry *g, const struct program *program,
+                              const uint32_t *number, uint32_t n, const struct vec3 *seen, struct program_run *run)
 {
 	program_begin(run, program, (1u << n) - 1u, seen);
 	for (uint32_t input = 0u; input < N_SCENE_VERTEX_INPUTS; input++)
@@ -152,7 +159,8 @@ static inline void vertex_run(const struct tables *t, GLOBAL const struct geomet
 	program_execute(t, &t->materials[g->material], program, run);
 }
 
-/* vertex_program: after `vertex`; item: a vertex of the frame. Its instance's vertices go by fours, each four with the first one's item. */
+/* vertex_program: after `vertex`; item: a vertex of the frame. Its instance's vertices go by fours, each four with the
+ * first one's item. */
 static inline void vertex_program_item(const struct vertex_program_arguments *a, uint32_t item)
 {
 	GLOBAL const struct geometry *g = &a->tables.geometries[a->owners[item]];

@@ -1,6 +1,7 @@
 /*
- * Reading struct node8c (kernels/shared.h), box by box. In what C and OpenCL C have in common: for the builder, the C twins, and
- * kernels that look at one child at a time. kernels/rays/compressed_node.h has a way of its own, for eight at once.
+ * Reading struct node8c (kernels/shared.h), box by box. In what C and OpenCL C have in common: for the builder, the C
+ * twins, and kernels that look at one child at a time. kernels/rays/compressed_node.h has a way of its own, for eight
+ * at once.
  */
 #pragma once
 

@@ -1,6 +1,6 @@
 /*
- * A node of 80 bytes (struct node8c) and one ray: all eight children at once, in numbers alone. OpenCL C only; for kernels that trace one
- * ray a work item.
+ * A node of 80 bytes (struct node8c) and one ray: all eight children at once, in numbers alone. OpenCL C only; for
+ * kernels that trace one ray a work item.
  */
 #pragma once
 
@@ -34,9 +34,11 @@ static inline float byte_of(uint word, uint k)
  * @param octant     bit a set: the ray goes up along a
  * @param triangles  receives a bit for each triangle of the leaves that it meets, from triangle_first on
  * @param head       receives the node's first children: x nodes, y triangles
- * @return a bit for each node that it meets, at slot ^ octant, the last one the nearest, and from bit 8 on which slots are nodes
+ * @return a bit for each node that it meets, at slot ^ octant, the last one the nearest, and from bit 8 on which slots
+ * are nodes
  */
-static inline uint meet_compressed(const struct walk *w, uint octant, __global const struct node8c *node, uint *triangles, uint2 *head)
+static inline uint meet_compressed(const struct walk *w, uint octant, __global const struct node8c *node,
+                                   uint *triangles, uint2 *head)
 {
 	__global const uint4 *row = (__global const uint4 *)node;
 	const uint4 a = row[0], b = row[1], c = row[2], d = row[3], e = row[4];

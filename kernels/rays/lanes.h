@@ -5,8 +5,9 @@
 #pragma once
 
 /*
- * Sixteen lanes are passed by value, to fma() and select() too. Clang warns where the processor has narrower registers: code of a wider
- * processor would pass them otherwise. A program and its device's library are compiled for one processor, so there is no such code.
+ * Sixteen lanes are passed by value, to fma() and select() too. Clang warns where the processor has narrower registers:
+ * code of a wider processor would pass them otherwise. A program and its device's library are compiled for one
+ * processor, so there is no such code.
  */
 #ifdef __clang__
 #pragma clang diagnostic ignored "-Wpsabi"
@@ -28,10 +29,12 @@
 #endif
 
 /*
- * Functions of the compiler's own, where it takes what Clang's language offers: PoCL's compiles for a processor, Intel's says SPIR. Others
- * translate and fail (rusticl 22.3: "Unexpected llvm intrinsic: llvm.prefetch"). LANES_PORTABLE: for interpreters of kernels.
+ * Functions of the compiler's own, where it takes what Clang's language offers: PoCL's compiles for a processor,
+ * Intel's says SPIR. Others translate and fail (rusticl 22.3: "Unexpected llvm intrinsic: llvm.prefetch").
+ * LANES_PORTABLE: for interpreters of kernels.
  */
-#if defined(__has_builtin) && !defined(LANES_PORTABLE) && (defined(__x86_64__) || defined(__aarch64__) || defined(__SPIR__))
+#if defined(__has_builtin) && !defined(LANES_PORTABLE) && \
+	(defined(__x86_64__) || defined(__aarch64__) || defined(__SPIR__))
 #define LANES_OWN(function) __has_builtin(function)
 #else
 #define LANES_OWN(function) 0
@@ -41,7 +44,8 @@
 #define LANES_REDUCE 1
 #endif
 
-/* Let what stands at p come near: it is read soon. What the language's own prefetch does is up to the device, and PoCL leaves it out. */
+/* Let what stands at p come near: it is read soon. What the language's own prefetch does is up to the device, and PoCL
+ * leaves it out. */
 #if LANES_OWN(__builtin_prefetch)
 #define PREFETCH(p) __builtin_prefetch((const void *)(size_t)(p))
 #else
@@ -140,8 +144,8 @@ WIDE_VECTORS static inline packf pack_pick(packf table, packi index)
 }
 
 /*
- * Words of a table in any address space at sixteen places, lane by lane. Places are below 2^31. The language has no such thing, and LLVM 15
- * makes loads and moves of a loop.
+ * Words of a table in any address space at sixteen places, lane by lane. Places are below 2^31. The language has no
+ * such thing, and LLVM 15 makes loads and moves of a loop.
  */
 #if LANES_OWN(__builtin_ia32_gathersiv16si) && defined(__AVX512F__)
 #define PACK_WORDS(table, place) \
@@ -149,7 +153,8 @@ WIDE_VECTORS static inline packf pack_pick(packf table, packi index)
 #elif LANES_OWN(__builtin_ia32_gatherd_d256) && defined(__AVX2__)
 #define PACK_EIGHT_WORDS(table, place) \
 	__builtin_ia32_gatherd_d256((int8)(0), (const int *)(size_t)(table), as_int8(place), (int8)(-1), 4)
-#define PACK_WORDS(table, place) as_uint16((packi)(PACK_EIGHT_WORDS(table, (place).lo), PACK_EIGHT_WORDS(table, (place).hi)))
+#define PACK_WORDS(table, place) \
+	as_uint16((packi)(PACK_EIGHT_WORDS(table, (place).lo), PACK_EIGHT_WORDS(table, (place).hi)))
 #else
 #define PACK_WORD(table, place, lane) as_uint((table)[(place).lane])
 #define PACK_FOUR_WORDS(table, place, a, b, c, d) \

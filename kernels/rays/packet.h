@@ -1,11 +1,11 @@
 /*
- * Sixteen rays as rows of a lane each against eight-wide trees, one box or triangle at a time. OpenCL C only; included by
- * occlude_packet and intersect_packet.
+ * Sixteen rays as rows of a lane each against eight-wide trees, one box or triangle at a time. OpenCL C only; included
+ * by occlude_packet and intersect_packet.
  *
- * Boxes: with i = 1/d, a ray meets a plane at p at t = p * i - o * i. Both products are kept in two roundings, so that rounding
- * misses no box (far planes with p * i < 0 come nearer because i is larger; o * i makes up for it). The signs of d alone decide
- * which of a box's planes comes first; where they differ within a packet each lane picks its own. A ray sleeps where t_max is
- * below t_min.
+ * Boxes: with i = 1/d, a ray meets a plane at p at t = p * i - o * i. Both products are kept in two roundings, so that
+ * rounding misses no box (far planes with p * i < 0 come nearer because i is larger; o * i makes up for it). The signs
+ * of d alone decide which of a box's planes comes first; where they differ within a packet each lane picks its own. A
+ * ray sleeps where t_max is below t_min.
  */
 #pragma once
 
@@ -79,7 +79,8 @@ static inline struct planes octant_planes(int octant)
 	return s;
 }
 
-/* How far boxes are looked at: walk_end of kernels/rays/walk.h. A ray that needs no more (t_max -infinity) gets a NaN, and meets none. */
+/* How far boxes are looked at: walk_end of kernels/rays/walk.h. A ray that needs no more (t_max -infinity) gets a NaN,
+ * and meets none. */
 static inline packf packet_end(const struct packet *p)
 {
 	return fma(fabs(p->t_max), RAYS_END_SLACK, p->t_max);
@@ -88,18 +89,21 @@ static inline packf packet_end(const struct packet *p)
 /* Lanes that meet a node's box before `end`, all of one octant. bounds: the node's first float of that box. */
 static inline packi packet_meets(const struct packet *p, packf end, __global const float *bounds, struct planes s)
 {
-	const packf enter = pack_max(pack_max(fma(bounds[s.near_x], p->ix, p->near_x), fma(bounds[s.near_y], p->iy, p->near_y)),
-	                             pack_max(fma(bounds[s.near_z], p->iz, p->near_z), p->t_min));
-	const packf leave = pack_min(pack_min(fma(bounds[s.far_x], p->far_ix, p->far_x), fma(bounds[s.far_y], p->far_iy, p->far_y)),
-	                             pack_min(fma(bounds[s.far_z], p->far_iz, p->far_z), end));
+	const packf enter = pack_max(
+		pack_max(fma(bounds[s.near_x], p->ix, p->near_x), fma(bounds[s.near_y], p->iy, p->near_y)),
+		pack_max(fma(bounds[s.near_z], p->iz, p->near_z), p->t_min));
+	const packf leave = pack_min(
+		pack_min(fma(bounds[s.far_x], p->far_ix, p->far_x), fma(bounds[s.far_y], p->far_iy, p->far_y)),
+		pack_min(fma(bounds[s.far_z], p->far_iz, p->far_z), end));
 
 	return enter <= leave;
 }
 
 /*
- * Bounds of the rays of a packet of one octant: per axis the corner of their origins that enters a box first, the one that leaves it
- * last, and least and greatest 1/d. No ray meets a box that the beam misses (interval arithmetic: Reshetov, Soupikov and Hurley 2005,
- * "Multi-level ray tracing algorithm"). A beam tests eight boxes at once, whatever the number of rays.
+ * Bounds of the rays of a packet of one octant: per axis the corner of their origins that enters a box first, the one
+ * that leaves it last, and least and greatest 1/d. No ray meets a box that the beam misses (interval arithmetic:
+ * Reshetov, Soupikov and Hurley 2005, "Multi-level ray tracing algorithm"). A beam tests eight boxes at once, whatever
+ * the number of rays.
  */
 struct beam {
 	float near_o[3], far_o[3], least[3], greatest[3], t_min, t_max;
@@ -142,8 +146,10 @@ static inline struct beam beam_around(const struct packet *p, uint n, int octant
 	for (uint k = 0; k < n; k++) {
 		const packi awake = p[k].t_min <= p[k].t_max;
 
-		bounds_add(&bounds[0], p[k].ox, awake), bounds_add(&bounds[1], p[k].oy, awake), bounds_add(&bounds[2], p[k].oz, awake);
-		bounds_add(&bounds[3], p[k].ix, awake), bounds_add(&bounds[4], p[k].iy, awake), bounds_add(&bounds[5], p[k].iz, awake);
+		bounds_add(&bounds[0], p[k].ox, awake), bounds_add(&bounds[1], p[k].oy, awake),
+			bounds_add(&bounds[2], p[k].oz, awake);
+		bounds_add(&bounds[3], p[k].ix, awake), bounds_add(&bounds[4], p[k].iy, awake),
+			bounds_add(&bounds[5], p[k].iz, awake);
 		bounds_add(&bounds[6], p[k].t_min, awake), bounds_add(&bounds[7], packet_end(&p[k]), awake);
 	}
 	for (int axis = 0; axis < 3; axis++) {
@@ -195,9 +201,11 @@ static inline packi packet_meets_any(const struct packet *p, packf end, __global
 	const packf lo_x = node->lo[0][side], hi_x = node->hi[0][side], lo_y = node->lo[1][side], hi_y = node->hi[1][side];
 	const packf lo_z = node->lo[2][side], hi_z = node->hi[2][side];
 	const packi x = p->ix < 0, y = p->iy < 0, z = p->iz < 0;
-	const packf enter = pack_max(pack_max(fma(select(lo_x, hi_x, x), p->ix, p->near_x), fma(select(lo_y, hi_y, y), p->iy, p->near_y)),
-	                             pack_max(fma(select(lo_z, hi_z, z), p->iz, p->near_z), p->t_min));
-	const packf leave = pack_min(pack_min(fma(select(hi_x, lo_x, x), p->far_ix, p->far_x), fma(select(hi_y, lo_y, y), p->far_iy, p->far_y)),
+	const packf enter = pack_max(
+		pack_max(fma(select(lo_x, hi_x, x), p->ix, p->near_x), fma(select(lo_y, hi_y, y), p->iy, p->near_y)),
+		pack_max(fma(select(lo_z, hi_z, z), p->iz, p->near_z), p->t_min));
+	const packf leave = pack_min(pack_min(fma(select(hi_x, lo_x, x), p->far_ix, p->far_x),
+	                                      fma(select(hi_y, lo_y, y), p->far_iy, p->far_y)),
 	                             pack_min(fma(select(hi_z, lo_z, z), p->far_iz, p->far_z), end));
 
 	return enter <= leave;
@@ -226,7 +234,8 @@ static inline int packet_octant(const struct packet *p, uint n)
 }
 
 /* Of some lanes those that do not see a triangle edge-on. */
-static inline packi packet_faces(const struct packet *p, __global const struct triangle8 *block, uint lane, packf inverse)
+static inline packi packet_faces(const struct packet *p, __global const struct triangle8 *block, uint lane,
+                                 packf inverse)
 {
 	const float e1 = fmax(fmax(fabs(block->e1[0][lane]), fabs(block->e1[1][lane])), fabs(block->e1[2][lane]));
 	const float e2 = fmax(fmax(fabs(block->e2[0][lane]), fabs(block->e2[1][lane])), fabs(block->e2[2][lane]));
@@ -235,8 +244,9 @@ static inline packi packet_faces(const struct packet *p, __global const struct t
 }
 
 /* Moeller and Trumbore: of some lanes those hit at t in t_min .. t_max, and where. passes: as rays_passes */
-static inline packi packet_triangle(const struct packet *p, uint lanes, uint passes, __global const struct triangle8 *block, uint lane, packf *t_out,
-                             packf *b1, packf *b2)
+static inline packi packet_triangle(const struct packet *p, uint lanes, uint passes,
+                                    __global const struct triangle8 *block, uint lane, packf *t_out, packf *b1,
+                                    packf *b2)
 {
 	const float e1x = block->e1[0][lane], e1y = block->e1[1][lane], e1z = block->e1[2][lane];
 	const float e2x = block->e2[0][lane], e2y = block->e2[1][lane], e2z = block->e2[2][lane];

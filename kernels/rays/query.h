@@ -1,18 +1,18 @@
 /*
- * query_all, query_distance, query_box, query_sphere: questions that programs other than a renderer ask of a scene. One binary tree,
- * all triangles in one space, each in one leaf (ACCEL_BVH). Text for C and OpenCL C: the twins are built from it, too. What it gives is
- * compared with brute force (tests/query/).
+ * query_all, query_distance, query_box, query_sphere: questions that programs other than a renderer ask of a scene. One
+ * binary tree, all triangles in one space, each in one leaf (ACCEL_BVH). Text for C and OpenCL C: the twins are built
+ * from it, too. What it gives is compared with brute force (tests/query/).
  *
- *   all       triangles that a ray hits, by the rule of kernels/rays/rays.h; the nearest `most` of them, sorted by t, then by number
- *   distance  the point of any triangle that is nearest to a point, at most `most` away
- *   box       first contact of a moving box with a triangle, by separating axes: along each axis the box overlaps the triangle from one
- *             moment to another, and they meet when the last axis begins, unless one has ended by then (Ericson 2005, "Real-Time
- *             Collision Detection", section 5.5.8). Triangles are surfaces: what lies within a closed mesh touches nothing
- *   sphere    the same of a sphere: the distance of a moving point from a triangle is a convex function of its way, whose tangent
- *             leads from before the contact to no more than the contact (Newton)
+ *   all       triangles that a ray hits, by the rule of kernels/rays/rays.h; the nearest `most` of them, sorted by t,
+ * then by number distance  the point of any triangle that is nearest to a point, at most `most` away box       first
+ * contact of a moving box with a triangle, by separating axes: along each axis the box overlaps the triangle from one
+ *             moment to another, and they meet when the last axis begins, unless one has ended by then (Ericson 2005,
+ * "Real-Time Collision Detection", section 5.5.8). Triangles are surfaces: what lies within a closed mesh touches
+ * nothing sphere    the same of a sphere: the distance of a moving point from a triangle is a convex function of its
+ * way, whose tangent leads from before the contact to no more than the contact (Newton)
  *
- * Triangles without area count for distance, box and sphere as the segment or point that they are. Of several answers that are equal
- * the lowest triangle counts. A query with a NaN or an infinite number finds nothing.
+ * Triangles without area count for distance, box and sphere as the segment or point that they are. Of several answers
+ * that are equal the lowest triangle counts. A query with a NaN or an infinite number finds nothing.
  */
 #pragma once
 
@@ -25,14 +25,15 @@
 #define QUERY_BOX 2u
 #define QUERY_SPHERE 3u
 
-/* By how much boxes of nodes grow, as a share of the numbers that say where they are: more than what rounding does to an answer. */
+/* By how much boxes of nodes grow, as a share of the numbers that say where they are: more than what rounding does to
+ * an answer. */
 #define QUERY_PAD 2e-6f
 /* The same for t, and how close to a sphere a triangle touches it. */
 #define QUERY_SLACK 1e-5f
 #define QUERY_TOUCH 1e-6f
 /*
- * By how much the direction to the nearest point may be wrong: where an edge is as near as a face but for rounding, the square root of
- * that, over the distance. Steps towards a triangle are shorter by as much, and at least by QUERY_TURN.
+ * By how much the direction to the nearest point may be wrong: where an edge is as near as a face but for rounding, the
+ * square root of that, over the distance. Steps towards a triangle are shorter by as much, and at least by QUERY_TURN.
  */
 #define QUERY_TURN 1e-3f
 #define QUERY_ROUNDING 5e-7f
@@ -81,7 +82,7 @@ static inline struct vec3 query_cross(struct vec3 a, struct vec3 b)
 	return v3(M_FMA(a.y, b.z, -(a.z * b.y)), M_FMA(a.z, b.x, -(a.x * b.z)), M_FMA(a.x, b.y, -(a.y * b.x)));
 }
 
-/* --- Boxes of nodes ------------------------------------------------------------------------------------------------- */
+/* --- Boxes of nodes ---------------------------------------------------------------------------------------------- */
 
 /* Along one axis, where the way enters and leaves [lo, hi]. */
 static inline void query_slab(float lo, float hi, float o, float inverse, float *enter, float *leave)
@@ -115,7 +116,7 @@ static inline float query_bound(const struct query *q, uint32_t kind, GLOBAL con
 	return enter <= leave + QUERY_SLACK * M_ABS(leave) ? enter - QUERY_SLACK * M_ABS(enter) : INFINITY;
 }
 
-/* --- Triangles ------------------------------------------------------------------------------------------------------ */
+/* --- Triangles --------------------------------------------------------------------------------------------------- */
 
 /* A triangle relative to the query's o. */
 struct query_triangle {
@@ -156,11 +157,15 @@ static inline struct vec3 query_away(const struct query_triangle *t, struct vec3
 		const float u = query_dot(query_cross(from, t->e2), n) / n2, v = query_dot(query_cross(t->e1, from), n) / n2;
 
 		if (u >= 0.0f && v >= 0.0f && u + v <= 1.0f) {
-			const struct vec3 off = v3_sub(p, query_fma(t->e2, v, query_fma(t->e1, u, t->v0))), across = v3_scale(n, query_dot(from, n) / n2);
+			const struct vec3 off = v3_sub(p, query_fma(t->e2, v, query_fma(t->e1, u, t->v0))),
+					  across = v3_scale(n, query_dot(from, n) / n2);
 			const struct vec3 apart = v3_sub(off, across);
 
 			/* A needle's normal is rounded to another one: its plane is nearer than any point of it. */
-			query_take_nearer(query_dot(apart, apart) <= QUERY_APART * QUERY_APART * query_dot(off, off) ? across : off, &best, &least);
+			query_take_nearer(query_dot(apart, apart) <= QUERY_APART * QUERY_APART * query_dot(off, off) ?
+			                          across :
+			                          off,
+			                  &best, &least);
 		}
 	}
 	return best;
@@ -210,7 +215,8 @@ static inline void query_try_sphere(struct query *q, const struct query_triangle
 }
 
 /* When the box and the triangle overlap along an axis; the span so far becomes no longer. */
-static inline void query_axis(const struct query *q, const struct query_triangle *t, struct vec3 axis, float *enter, float *leave)
+static inline void query_axis(const struct query *q, const struct query_triangle *t, struct vec3 axis, float *enter,
+                              float *leave)
 {
 	const float a = query_dot(t->v0, axis), b = a + query_dot(t->e1, axis), c = a + query_dot(t->e2, axis);
 	const float reach = q->size.x * M_ABS(axis.x) + q->size.y * M_ABS(axis.y) + q->size.z * M_ABS(axis.z);
@@ -226,8 +232,10 @@ static inline void query_axis(const struct query *q, const struct query_triangle
 	*leave = M_MIN(*leave, (speed > 0.0f ? hi : lo) / speed);
 }
 
-/* Axes across an edge of the triangle and one of the box. What is all but parallel says nothing that faces do not say better. */
-static inline void query_edge(const struct query *q, const struct query_triangle *t, struct vec3 e, float *enter, float *leave)
+/* Axes across an edge of the triangle and one of the box. What is all but parallel says nothing that faces do not say
+ * better. */
+static inline void query_edge(const struct query *q, const struct query_triangle *t, struct vec3 e, float *enter,
+                              float *leave)
 {
 	const float least = 1e-6f * query_dot(e, e);
 
@@ -267,7 +275,9 @@ static inline void query_keep(struct query *q, float t, float u, float v, uint32
 		return;
 	if (place == q->most)
 		place--;
-	for (; place > 0 && (q->hits[place - 1].t > t || (q->hits[place - 1].t == t && q->hits[place - 1].primitive > primitive)); place--)
+	for (; place > 0 &&
+	       (q->hits[place - 1].t > t || (q->hits[place - 1].t == t && q->hits[place - 1].primitive > primitive));
+	     place--)
 		q->hits[place] = q->hits[place - 1];
 	q->hits[place].t = t;
 	q->hits[place].b1 = u;
@@ -307,10 +317,11 @@ static inline void query_try(struct query *q, uint32_t kind, GLOBAL const struct
 		query_try_sphere(q, &t);
 }
 
-/* --- The walk ------------------------------------------------------------------------------------------------------- */
+/* --- The walk ---------------------------------------------------------------------------------------------------- */
 
 /* Through the tree, nearer sides first. */
-static inline void query_walk(struct query *q, uint32_t kind, GLOBAL const struct node2 *nodes, GLOBAL const struct triangle *triangles)
+static inline void query_walk(struct query *q, uint32_t kind, GLOBAL const struct node2 *nodes,
+                              GLOBAL const struct triangle *triangles)
 {
 	uint32_t stack[BVH_MAX_DEPTH + 1], depth = 0, at = 0;
 	float bounds[BVH_MAX_DEPTH + 1];

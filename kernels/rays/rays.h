@@ -1,28 +1,29 @@
 /*
- * occlude and intersect, each _packet, _wide, _binary and _compressed: rays in eye space against a top level and the instances'
- * trees. Included by C and OpenCL C.
+ * occlude and intersect, each _packet, _wide, _binary and _compressed: rays in eye space against a top level and the
+ * instances' trees. Included by C and OpenCL C.
  *
  * Triangles are tested after Moeller and Trumbore 1997 ("Fast, minimum storage ray/triangle intersection"), both sides,
- * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Triangles without area,
- * triangles seen edge-on (RAYS_FLAT), rays with t_min > t_max and rays with a NaN or an infinite o or d hit nothing. Nor do
- * rays with a component of o / d beyond RAYS_RANGE, in eye space or an instance's (a smaller d counts as 1e-20): boxes could not
- * be told apart.
+ * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Triangles without
+ * area, triangles seen edge-on (RAYS_FLAT), rays with t_min > t_max and rays with a NaN or an infinite o or d hit
+ * nothing. Nor do rays with a component of o / d beyond RAYS_RANGE, in eye space or an instance's (a smaller d counts
+ * as 1e-20): boxes could not be told apart.
  *
  * Rays that start far from an instance are moved along themselves until they are near it, in its object space: the test
- * rounds in proportion to the distance, and at a million times an instance's size would hit what the ray misses by a tenth
- * of it. With c, r the instance's centre and radius, shift = (c - o).d / d.d - r / max|d|, where shift max|d| >
- * RAYS_FAR r, else 0: o + shift d is a few radii before the instance. There t is counted from that point; the nearest hit
- * of several instances is the one whose t + shift, rounded, is least.
+ * rounds in proportion to the distance, and at a million times an instance's size would hit what the ray misses by a
+ * tenth of it. With c, r the instance's centre and radius, shift = (c - o).d / d.d - r / max|d|, where shift max|d| >
+ * RAYS_FAR r, else 0: o + shift d is a few radii before the instance. There t is counted from that point; the nearest
+ * hit of several instances is the one whose t + shift, rounded, is least.
  *
- * Of several nearest hits at the very same t the lowest instance counts, there the lowest primitive: the answer depends on no tree.
+ * Of several nearest hits at the very same t the lowest instance counts, there the lowest primitive: the answer depends
+ * on no tree.
  *
- * Any hit and nearest hit decide by one rule: a triangle is tried where the ray itself meets the box of its leaf, whatever rays travel
- * beside it, and both queries ask the boxes in the same way.
+ * Any hit and nearest hit decide by one rule: a triangle is tried where the ray itself meets the box of its leaf,
+ * whatever rays travel beside it, and both queries ask the boxes in the same way.
  *
  * Rays to lights (occlude, to_lights) pass the triangles of an instance that they see from one side: INSTANCE_PASS_*.
  *
- * Work items: as many as hold n_rays when each takes RAYS_PER_ITEM for *_packet, n_rays for all others. A space with nothing
- * to hit (accel_space.n_nodes == 0) is the caller's to leave out.
+ * Work items: as many as hold n_rays when each takes RAYS_PER_ITEM for *_packet, n_rays for all others. A space with
+ * nothing to hit (accel_space.n_nodes == 0) is the caller's to leave out.
  */
 #pragma once
 
@@ -50,8 +51,8 @@ static inline uint32_t rays_side(float determinant)
 #define RAYS_EDGE_SLACK 1e-6f
 
 /*
- * A determinant within this share of the largest components of e1, e2 and d, multiplied, is rounding, and so are the weights and t
- * that come of it. Such a triangle is narrower across the ray than single precision can tell.
+ * A determinant within this share of the largest components of e1, e2 and d, multiplied, is rounding, and so are the
+ * weights and t that come of it. Such a triangle is narrower across the ray than single precision can tell.
  */
 #define RAYS_FLAT 1.5e-6f
 

@@ -1,8 +1,8 @@
 /*
- * occlude_packet, intersect_packet: sixty-four consecutive rays a work item against eight-wide trees, as packets of sixteen that share
- * one stack. Where all rays have one octant, the beam around them first tests eight boxes at a time; the packets then test the boxes
- * that it meets one by one. Where only a few rays of a packet go on, each tests eight boxes at once on its own. See
- * kernels/rays/rays.h.
+ * occlude_packet, intersect_packet: sixty-four consecutive rays a work item against eight-wide trees, as packets of
+ * sixteen that share one stack. Where all rays have one octant, the beam around them first tests eight boxes at a time;
+ * the packets then test the boxes that it meets one by one. Where only a few rays of a packet go on, each tests eight
+ * boxes at once on its own. See kernels/rays/rays.h.
  *
  * kernels/README.md lists what was tried on a processor with AVX-512 and left.
  */
@@ -14,7 +14,8 @@
 /* Rays that go on one by one, against eight boxes at once: less work than all lanes against each box. */
 #define PACKET_FEW 2
 
-/* What a packet's rays have hit, at their t_max: the nearest so far. Not kept where any hit will do: these rays' t_max is -infinity then. */
+/* What a packet's rays have hit, at their t_max: the nearest so far. Not kept where any hit will do: these rays' t_max
+ * is -infinity then. */
 struct found {
 	packf b1, b2;
 	packu instance, primitive;
@@ -25,7 +26,8 @@ static inline void take_lane(const struct packet *p, uint lane, struct walk *w)
 {
 #define TAKE(row) w->row = ((const float *)&p->row)[lane]
 	TAKE(ox), TAKE(oy), TAKE(oz), TAKE(dx), TAKE(dy), TAKE(dz), TAKE(ix), TAKE(iy), TAKE(iz);
-	TAKE(far_ix), TAKE(far_iy), TAKE(far_iz), TAKE(near_x), TAKE(near_y), TAKE(near_z), TAKE(far_x), TAKE(far_y), TAKE(far_z);
+	TAKE(far_ix), TAKE(far_iy), TAKE(far_iz), TAKE(near_x), TAKE(near_y), TAKE(near_z), TAKE(far_x), TAKE(far_y),
+		TAKE(far_z);
 	TAKE(t_min);
 #undef TAKE
 	find_rows(w);
@@ -33,8 +35,8 @@ static inline void take_lane(const struct packet *p, uint lane, struct walk *w)
 }
 
 /* Lanes of a packet down a subtree one by one. @return those that need no more: any hit will do, and they have it */
-INLINED uint walk_lanes(struct packet *p, struct found *found, int any, uint passes, uint lanes, uint2 start, __global const struct node8 *nodes,
-                       __global const struct triangle8 *triangles)
+INLINED uint walk_lanes(struct packet *p, struct found *found, int any, uint passes, uint lanes, uint2 start,
+                        __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	uint done = 0;
 
@@ -100,19 +102,19 @@ WIDE_VECTORS INLINED ulong lanes_meet(const struct packet *p, int octant, struct
 	return meet;
 }
 
-/* A child of a node and the lanes that meet its box, or, where the nearest hit is asked for, that meet the node: the box is asked when
- * the task is popped, as there may be nearer hits by then. */
+/* A child of a node and the lanes that meet its box, or, where the nearest hit is asked for, that meet the node: the
+ * box is asked when the task is popped, as there may be nearer hits by then. */
 struct task {
 	uint2 child; /* a node (y: 0) or a leaf of y blocks; at the top, of y instances */
 	uint node, box;
 	ulong lanes;
 };
 
-/* Push those of a node's children that `boxes` names and lanes meet: the nearest along a direction last, so that it is popped first; in
- * any order where any hit will do. */
+/* Push those of a node's children that `boxes` names and lanes meet: the nearest along a direction last, so that it is
+ * popped first; in any order where any hit will do. */
 WIDE_VECTORS INLINED uint push_children(struct task *stack, uint depth, const struct packet *p, int any, int octant,
-                                       struct planes planes, uint boxes, __global const struct node8 *all, uint index, ulong lanes,
-                                       const float *towards)
+                                        struct planes planes, uint boxes, __global const struct node8 *all, uint index,
+                                        ulong lanes, const float *towards)
 {
 	__global const struct node8 *node = &all[index];
 	const uint bottom = depth;
@@ -148,15 +150,16 @@ static inline void mean_direction(const struct packet *p, float towards[3])
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
 		const packi awake = p[k].t_min <= p[k].t_max;
 
-		x += select((packf)(0), p[k].dx, awake), y += select((packf)(0), p[k].dy, awake), z += select((packf)(0), p[k].dz, awake);
+		x += select((packf)(0), p[k].dx, awake), y += select((packf)(0), p[k].dy, awake),
+			z += select((packf)(0), p[k].dz, awake);
 	}
 	towards[0] = sum_of(x), towards[1] = sum_of(y), towards[2] = sum_of(z);
 }
 
-/* Packets of which only a few rays are left in a subtree send them through it one by one. @return lanes without these; those that need
- * no more are no longer awake */
-INLINED ulong walk_few(struct packet *p, struct found *found, int any, uint passes, uint2 start, ulong lanes, ulong *awake, __global const struct node8 *nodes,
-                      __global const struct triangle8 *triangles)
+/* Packets of which only a few rays are left in a subtree send them through it one by one. @return lanes without these;
+ * those that need no more are no longer awake */
+INLINED ulong walk_few(struct packet *p, struct found *found, int any, uint passes, uint2 start, ulong lanes,
+                       ulong *awake, __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
 		const uint few = lanes_of(lanes, k);
@@ -169,8 +172,8 @@ INLINED ulong walk_few(struct packet *p, struct found *found, int any, uint pass
 	return lanes;
 }
 
-WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int any, uint passes, __global const struct triangle8 *blocks, uint n,
-                                    ulong lanes)
+WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int any, uint passes,
+                                     __global const struct triangle8 *blocks, uint n, ulong lanes)
 {
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		for (uint i = 0; i < n && lanes_of(lanes, k); i++)
@@ -193,8 +196,8 @@ WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int 
 }
 
 /* Walk one instance's tree with packets, of one octant or of several (-1). */
-INLINED void walk_blas(struct packet *p, struct found *found, int any, uint passes, int octant, __global const struct node8 *nodes,
-                      __global const struct triangle8 *triangles)
+INLINED void walk_blas(struct packet *p, struct found *found, int any, uint passes, int octant,
+                       __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	const struct planes planes = octant_planes(octant);
 	struct task stack[RAYS_WIDE_STACK];
@@ -212,7 +215,8 @@ INLINED void walk_blas(struct packet *p, struct found *found, int any, uint pass
 		lanes = walk_few(p, found, any, passes, at, lanes, &awake, nodes, triangles);
 		if (lanes && at.y == 0)
 			depth = push_children(stack, depth, p, any, octant, planes,
-			                      octant < 0 ? existing_boxes(&nodes[at.x]) : beam_meets(&beam, &nodes[at.x], planes), nodes, at.x,
+			                      octant < 0 ? existing_boxes(&nodes[at.x]) : beam_meets(&beam, &nodes[at.x], planes), nodes,
+			                      at.x,
 			                      lanes, towards);
 		else if (lanes)
 			try_blocks(p, found, any, passes, &triangles[at.x], at.y, lanes);
@@ -242,12 +246,13 @@ static inline packf far_shift(__global const struct instance *instance, const st
 }
 
 /* Back in eye space with what was hit in an instance, where that is nearer, or as near and of a lower instance. */
-static inline void leave_instance(struct packet *eye, struct found *eye_found, const struct packet *p, const struct found *found,
-                           packf shift, uint index)
+static inline void leave_instance(struct packet *eye, struct found *eye_found, const struct packet *p,
+                                  const struct found *found, packf shift, uint index)
 {
 	const packf t = p->t_max + shift;
 	const packi nearer = (found->primitive != SCENE_NONE) &
-	                     ((eye_found->instance == SCENE_NONE) | (t < eye->t_max) | ((t == eye->t_max) & (index < eye_found->instance)));
+	                     ((eye_found->instance == SCENE_NONE) | (t < eye->t_max) |
+	                      ((t == eye->t_max) & (index < eye_found->instance)));
 
 	eye->t_max = select(eye->t_max, t, nearer);
 	eye_found->b1 = select(eye_found->b1, found->b1, nearer), eye_found->b2 = select(eye_found->b2, found->b2, nearer);
@@ -256,9 +261,9 @@ static inline void leave_instance(struct packet *eye, struct found *eye_found, c
 }
 
 /* One instance's tree with the lanes of `meets`. */
-INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any, uint to_lights, ulong meets, uint index,
-                          __global const struct instance *instances, __global const struct node8 *all_nodes,
-                          __global const struct triangle8 *all_triangles)
+INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any, uint to_lights, ulong meets,
+                           uint index, __global const struct instance *instances,
+                           __global const struct node8 *all_nodes, __global const struct triangle8 *all_triangles)
 {
 	__global const struct instance *instance = &instances[index];
 	__global const struct node8 *nodes = all_nodes + instance->node8_first;
@@ -283,7 +288,8 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any,
 		if (any)
 			continue;
 		found[k].primitive = SCENE_NONE;
-		p[k].t_max += select((packf)(0), 3e-7f * eye[k].t_max, (shift[k] > 0) & (eye_found[k].instance != SCENE_NONE)); /* t + shift decides */
+		/* t + shift decides */
+		p[k].t_max += select((packf)(0), 3e-7f * eye[k].t_max, (shift[k] > 0) & (eye_found[k].instance != SCENE_NONE));
 	}
 	octant = packet_octant(p, RAYS_PACKETS);
 	if (octant < 0)
@@ -297,9 +303,10 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any,
 			eye[k].t_max = select(eye[k].t_max, (packf)(-INFINITY), p[k].t_max == -INFINITY);
 }
 
-INLINED void walk_top(struct packet *eye, struct found *found, int any, uint to_lights, __global const struct node8 *top,
-                     __global const uint *instance_list, __global const struct instance *instances,
-                     __global const struct node8 *nodes, __global const struct triangle8 *triangles)
+INLINED void walk_top(struct packet *eye, struct found *found, int any, uint to_lights,
+                      __global const struct node8 *top, __global const uint *instance_list,
+                      __global const struct instance *instances, __global const struct node8 *nodes,
+                      __global const struct triangle8 *triangles)
 {
 	const struct planes planes = octant_planes(0);
 	struct task stack[RAYS_WIDE_STACK];
@@ -316,8 +323,8 @@ INLINED void walk_top(struct packet *eye, struct found *found, int any, uint to_
 		const ulong lanes = any ? left : left & lanes_meet(eye, -1, planes, &top[task.node], task.box, left);
 
 		if (lanes && task.child.y == 0)
-			depth = push_children(stack, depth, eye, any, -1, planes, existing_boxes(&top[task.child.x]), top, task.child.x, lanes,
-			                      towards);
+			depth = push_children(stack, depth, eye, any, -1, planes, existing_boxes(&top[task.child.x]),
+			                      top, task.child.x, lanes, towards);
 		for (uint i = 0; i < task.child.y && lanes; i++)
 			walk_instance(eye, found, any, to_lights, lanes, instance_list[task.child.x + i], instances, nodes, triangles);
 		if (any)
@@ -332,7 +339,8 @@ static inline void turn(float16 a, float16 b, float16 c, float16 d, packf *x, pa
 	*z = (packf)(a.s26ae, b.s26ae, c.s26ae, d.s26ae), *w = (packf)(a.s37bf, b.s37bf, c.s37bf, d.s37bf);
 }
 
-/* Rows from sixteen rays; lanes past the end, and rays that hit nothing by definition, sleep. @return a bit for each awake */
+/* Rows from sixteen rays; lanes past the end, and rays that hit nothing by definition, sleep. @return a bit for each
+ * awake */
 static inline uint load_rays(struct packet *p, __global const struct ray *rays, uint first, uint n)
 {
 	const float8 asleep = (float8)(0, 0, 0, 1, 1, 1, 1, -INFINITY);

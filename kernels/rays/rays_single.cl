@@ -1,11 +1,11 @@
 /*
- * occlude_binary, intersect_binary, occlude_compressed, intersect_compressed: one ray a work item and nothing wider than a number,
- * for devices that run many work items in step (GPUs). See kernels/rays/rays.h.
+ * occlude_binary, intersect_binary, occlude_compressed, intersect_compressed: one ray a work item and nothing wider
+ * than a number, for devices that run many work items in step (GPUs). See kernels/rays/rays.h.
  *
- * Both walk the binary top level. Below it, *_binary goes down the binary tree to a leaf, then through its triangles ("while-while",
- * Aila and Laine 2009, "Understanding the efficiency of ray traversal on GPUs"); *_compressed walks eight-wide nodes of 80 bytes in the
- * order of the ray's octant (Ylitie, Karras and Laine 2017, section 4). Stacks are private: of the room they have for the deepest tree
- * a ray touches only the few entries that it needs.
+ * Both walk the binary top level. Below it, *_binary goes down the binary tree to a leaf, then through its triangles
+ * ("while-while", Aila and Laine 2009, "Understanding the efficiency of ray traversal on GPUs"); *_compressed walks
+ * eight-wide nodes of 80 bytes in the order of the ray's octant (Ylitie, Karras and Laine 2017, section 4). Stacks are
+ * private: of the room they have for the deepest tree a ray touches only the few entries that it needs.
  */
 #include "kernels/common.h"
 #include "kernels/kernels.h"
@@ -41,14 +41,17 @@ static inline void try_single(struct walk *w, __global const struct triangle *tr
 	}
 }
 
-/* --- Binary trees ------------------------------------------------------------------------------------------------- */
+/* --- Binary trees ------------------------------------------------------------------------------------------------ */
 
 /* Whether the ray meets a box, and where it enters. An empty one has lo > hi. */
 static inline int meets_box(const struct walk *w, struct vec3 lo, struct vec3 hi, float *enter)
 {
-	const float near_x = fma(w->ix < 0 ? hi.x : lo.x, w->ix, w->near_x), far_x = fma(w->ix < 0 ? lo.x : hi.x, w->far_ix, w->far_x);
-	const float near_y = fma(w->iy < 0 ? hi.y : lo.y, w->iy, w->near_y), far_y = fma(w->iy < 0 ? lo.y : hi.y, w->far_iy, w->far_y);
-	const float near_z = fma(w->iz < 0 ? hi.z : lo.z, w->iz, w->near_z), far_z = fma(w->iz < 0 ? lo.z : hi.z, w->far_iz, w->far_z);
+	const float near_x = fma(w->ix < 0 ? hi.x : lo.x, w->ix, w->near_x),
+		    far_x = fma(w->ix < 0 ? lo.x : hi.x, w->far_ix, w->far_x);
+	const float near_y = fma(w->iy < 0 ? hi.y : lo.y, w->iy, w->near_y),
+		    far_y = fma(w->iy < 0 ? lo.y : hi.y, w->far_iy, w->far_y);
+	const float near_z = fma(w->iz < 0 ? hi.z : lo.z, w->iz, w->near_z),
+		    far_z = fma(w->iz < 0 ? lo.z : hi.z, w->far_iz, w->far_z);
 
 	*enter = fmax(fmax(near_x, near_y), fmax(near_z, w->t_min));
 	return lo.x <= hi.x && *enter <= fmin(fmin(far_x, far_y), fmin(far_z, walk_end(w)));
@@ -113,10 +116,10 @@ static inline void walk_binary(struct walk *w, uint index, int any, uint passes,
 	}
 }
 
-/* --- Compressed trees --------------------------------------------------------------------------------------------- */
+/* --- Compressed trees -------------------------------------------------------------------------------------------- */
 
-static inline void walk_compressed(struct walk *w, uint index, int any, uint passes, __global const struct node8c *nodes,
-                            __global const struct triangle *triangles)
+static inline void walk_compressed(struct walk *w, uint index, int any, uint passes,
+                                   __global const struct node8c *nodes, __global const struct triangle *triangles)
 {
 	const uint octant = (w->dx < 0 ? 0u : 1u) | (w->dy < 0 ? 0u : 2u) | (w->dz < 0 ? 0u : 4u);
 	uint2 stack[NODE8C_MAX_DEPTH]; /* nodes that were met with others: where they begin, what meet_compressed says */
@@ -148,17 +151,17 @@ static inline void walk_compressed(struct walk *w, uint index, int any, uint pas
 	}
 }
 
-/* --- Rays --------------------------------------------------------------------------------------------------------- */
+/* --- Rays -------------------------------------------------------------------------------------------------------- */
 
 /*
- * What trees are made of is known where this is compiled into a kernel, so that each has stacks of its own kind alone. While an
- * instance is walked nothing is kept of the ray in eye space but its hit: the rest is read and computed again, which costs less than
- * the registers.
+ * What trees are made of is known where this is compiled into a kernel, so that each has stacks of its own kind alone.
+ * While an instance is walked nothing is kept of the ray in eye space but its hit: the rest is read and computed again,
+ * which costs less than the registers.
  */
-INLINED struct hit walk_ray(__global const struct ray *ray, int any, uint to_lights, int is_compressed, __global const struct node2 *top,
-                            __global const uint *instance_list, __global const struct instance *instances,
-                            __global const struct node2 *binary, __global const struct node8c *compressed,
-                            __global const struct triangle *triangles)
+INLINED struct hit walk_ray(__global const struct ray *ray, int any, uint to_lights, int is_compressed,
+                            __global const struct node2 *top, __global const uint *instance_list,
+                            __global const struct instance *instances, __global const struct node2 *binary,
+                            __global const struct node8c *compressed, __global const struct triangle *triangles)
 {
 	struct entry stack[BVH_MAX_DEPTH], entry;
 	struct walk eye;
@@ -178,7 +181,8 @@ INLINED struct hit walk_ray(__global const struct ray *ray, int any, uint to_lig
 			const uint passes = rays_passes(instance->flags, to_lights);
 
 			if (is_compressed)
-				walk_compressed(&w, index, any, passes, compressed + instance->node8c_first, triangles + instance->triangle8c_first);
+				walk_compressed(&w, index, any, passes, compressed + instance->node8c_first,
+				                triangles + instance->triangle8c_first);
 			else
 				walk_binary(&w, index, any, passes, binary + instance->node2_first, triangles + instance->triangle_first);
 			walk_start(&eye, ray);
@@ -198,8 +202,9 @@ __kernel void occlude_binary(KERNEL_ARGUMENTS(occlude_binary))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		occluded[i] = walk_ray(&rays[i], 1, to_lights, 0, top + top_first, instance_list, instances, nodes, 0, triangles).instance !=
-		              SCENE_NONE;
+		occluded[i] = walk_ray(&rays[i], 1, to_lights, 0, top + top_first, instance_list, instances, nodes, 0,
+		                       triangles)
+		                      .instance != SCENE_NONE;
 }
 
 __kernel void intersect_binary(KERNEL_ARGUMENTS(intersect_binary))
@@ -215,8 +220,9 @@ __kernel void occlude_compressed(KERNEL_ARGUMENTS(occlude_compressed))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		occluded[i] = walk_ray(&rays[i], 1, to_lights, 1, top + top_first, instance_list, instances, 0, nodes, triangles).instance !=
-		              SCENE_NONE;
+		occluded[i] = walk_ray(&rays[i], 1, to_lights, 1, top + top_first, instance_list, instances, 0, nodes,
+		                       triangles)
+		                      .instance != SCENE_NONE;
 }
 
 __kernel void intersect_compressed(KERNEL_ARGUMENTS(intersect_compressed))

@@ -1,24 +1,28 @@
 /*
- * occlude_wide, intersect_wide: one ray a work item against eight boxes or eight triangles at once. See kernels/rays/rays.h.
+ * occlude_wide, intersect_wide: one ray a work item against eight boxes or eight triangles at once. See
+ * kernels/rays/rays.h.
  */
 #include "kernels/kernels.h"
 #include "kernels/rays/rays.h"
 #include "kernels/rays/wide.h"
 
-static inline void walk_instance(struct walk *eye, uint index, int any, uint to_lights, __global const struct instance *instances,
-                          __global const struct node8 *nodes, __global const struct triangle8 *triangles)
+static inline void walk_instance(struct walk *eye, uint index, int any, uint to_lights,
+                                 __global const struct instance *instances, __global const struct node8 *nodes,
+                                 __global const struct triangle8 *triangles)
 {
 	__global const struct instance *instance = &instances[index];
 	struct walk w;
 	const float shift = walk_enter(&w, eye, instance);
 
-	walk_subtree(&w, (uint2)(0, 0), index, any, rays_passes(instance->flags, to_lights), nodes + instance->node8_first, triangles + instance->triangle8_first);
+	walk_subtree(&w, (uint2)(0, 0), index, any, rays_passes(instance->flags, to_lights),
+	             nodes + instance->node8_first, triangles + instance->triangle8_first);
 	walk_leave(eye, &w, shift);
 }
 
-static inline struct hit walk_ray(__global const struct ray *ray, int any, uint to_lights, __global const struct node8 *top,
-                           __global const uint *instance_list, __global const struct instance *instances,
-                           __global const struct node8 *nodes, __global const struct triangle8 *triangles)
+static inline struct hit walk_ray(__global const struct ray *ray, int any, uint to_lights,
+                                  __global const struct node8 *top, __global const uint *instance_list,
+                                  __global const struct instance *instances, __global const struct node8 *nodes,
+                                  __global const struct triangle8 *triangles)
 {
 	struct entry stack[RAYS_WIDE_STACK];
 	uint depth = 0;
@@ -55,8 +59,9 @@ KERNEL_OF(float8) void occlude_wide(KERNEL_ARGUMENTS(occlude_wide))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		occluded[i] = walk_ray(&rays[i], 1, to_lights, top + top_first, instance_list, instances, nodes, triangles).instance !=
-		              SCENE_NONE;
+		occluded[i] = walk_ray(&rays[i], 1, to_lights, top + top_first, instance_list, instances, nodes,
+		                       triangles)
+		                      .instance != SCENE_NONE;
 }
 
 KERNEL_OF(float8) void intersect_wide(KERNEL_ARGUMENTS(intersect_wide))

@@ -1,6 +1,6 @@
 /*
- * One ray on its way through trees, whatever these are made of: into an instance's object space and back. OpenCL C only;
- * included by the kernels that trace one ray a work item.
+ * One ray on its way through trees, whatever these are made of: into an instance's object space and back. OpenCL C
+ * only; included by the kernels that trace one ray a work item.
  */
 #pragma once
 
@@ -18,8 +18,8 @@ struct walk {
 };
 
 /*
- * Boxes count up to here, a little beyond the nearest hit so far: a triangle's t may be rounded to before its box. Without that
- * slack the tree would decide between two nearly equal hits.
+ * Boxes count up to here, a little beyond the nearest hit so far: a triangle's t may be rounded to before its box.
+ * Without that slack the tree would decide between two nearly equal hits.
  */
 static inline float walk_end(const struct walk *w)
 {

@@ -48,8 +48,10 @@ static inline uint push_boxes(struct entry *stack, uint depth, uint bits, const 
 	return depth;
 }
 
-/* Moeller and Trumbore on eight triangles; the nearest hit, the lowest primitive of equals, goes into w->hit. passes: where any will do */
-static inline void try_block(struct walk *w, __global const struct triangle8 *block, uint instance, int any, uint passes)
+/* Moeller and Trumbore on eight triangles; the nearest hit, the lowest primitive of equals, goes into w->hit. passes:
+ * where any will do */
+static inline void try_block(struct walk *w, __global const struct triangle8 *block, uint instance, int any,
+                             uint passes)
 {
 	const float8 e1x = vload8(0, block->e1[0]), e1y = vload8(0, block->e1[1]), e1z = vload8(0, block->e1[2]);
 	const float8 e2x = vload8(0, block->e2[0]), e2y = vload8(0, block->e2[1]), e2z = vload8(0, block->e2[2]);
@@ -91,8 +93,8 @@ static inline void try_block(struct walk *w, __global const struct triangle8 *bl
 }
 
 /* From a node (y: 0) or a leaf of y blocks on down. */
-static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int any, uint passes, __global const struct node8 *nodes,
-                         __global const struct triangle8 *triangles)
+static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int any, uint passes,
+                                __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	struct entry stack[RAYS_WIDE_STACK], entry;
 	uint depth = 0;

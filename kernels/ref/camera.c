@@ -44,10 +44,12 @@ struct pixel {
 
 /* All but the trees and their triangles. */
 #define COMMON_ARGS(a) \
-	.view = (a)->pass.views + (a)->pass.view_index, .width = (a)->pass.width, .height = (a)->pass.height, .mode = (a)->pass.mode, \
+	.view = (a)->pass.views + (a)->pass.view_index, .width = (a)->pass.width, .height = (a)->pass.height, \
+	.mode = (a)->pass.mode, \
 	.rectangle = (a)->pass.rectangle, .first_pixel = (a)->pass.first_pixel, \
 	.instances = (a)->instances, .top = (a)->top, .instance_list = (a)->instance_list, .window = (a)->pass.window, \
-	.clip = (const float (*)[4])(a)->pass.clip, .after = (a)->pass.after, .fragments = (a)->pass.fragments, .counts = (a)->pass.counts
+	.clip = (const float (*)[4])(a)->pass.clip, .after = (a)->pass.after, .fragments = (a)->pass.fragments, \
+	.counts = (a)->pass.counts
 
 /* Where a pixel stands in the buffers. */
 static size_t place_of(const struct args *args, int32_t x, int32_t y)
@@ -55,7 +57,7 @@ static size_t place_of(const struct args *args, int32_t x, int32_t y)
 	return (uint32_t)y * args->width + (uint32_t)x - args->first_pixel;
 }
 
-/* --- fragments --- */
+/* --- fragments --------------------------------------------------------------------------------------------------- */
 
 static uint32_t quantise_depth(float depth)
 {
@@ -125,9 +127,10 @@ static void keep(struct pixel *p, const struct fragment *f)
 		keep_nearest(p, f);
 }
 
-/* --- coverage --- */
+/* --- coverage ---------------------------------------------------------------------------------------------------- */
 
-/* Twice the signed area, in 1/65536 square pixels, of a -> b -> where the view looks: positive on the left of a -> b. */
+/* Twice the signed area, in 1/65536 square pixels, of a -> b -> where the view looks: positive on the left of a ->
+ * b. */
 static int64_t edge(struct window_vertex a, struct window_vertex b, const struct pixel *p)
 {
 	const struct clip_spot at = clip_spot(p->args->view, p->x, p->y);
@@ -141,7 +144,8 @@ static int owns_edge(struct window_vertex a, struct window_vertex b)
 	return b.y < a.y || (b.y == a.y && b.x > a.x);
 }
 
-/* 1 where the centre is on the inner side of a -> b of a triangle that turns with sign (1: counter-clockwise, or -1). */
+/* 1 where the centre is on the inner side of a -> b of a triangle that turns with sign (1: counter-clockwise, or
+ * -1). */
 static int inside_edge(struct window_vertex a, struct window_vertex b, int sign, const struct pixel *p)
 {
 	const int64_t e = sign * edge(a, b, p);
@@ -170,7 +174,8 @@ static int in_viewport(const struct pixel *p)
 	return x >= v[0] && x < v[0] + v[2] && y >= v[1] && y < v[1] + v[3];
 }
 
-/* All vertices have a place in the window. corner, clip: as for clip_depth_plane; nearest fragments are compared by exact depth. */
+/* All vertices have a place in the window. corner, clip: as for clip_depth_plane; nearest fragments are compared by
+ * exact depth. */
 static int cover_placed(const struct pixel *p, uint32_t flags, const struct window_vertex v[3],
                         const struct clip_corner *const *corner, const struct vec4 *clip, struct fragment *f)
 {
@@ -237,7 +242,8 @@ static void try_triangle(struct pixel *p, uint32_t instance_index, uint32_t prim
 }
 
 /* A leaf of the binary or of the compressed tree; triangle_first: of the instance. */
-static void try_triangles(struct pixel *p, uint32_t instance_index, uint32_t triangle_first, uint32_t first, uint32_t count)
+static void try_triangles(struct pixel *p, uint32_t instance_index, uint32_t triangle_first, uint32_t first,
+                          uint32_t count)
 {
 	const struct triangle *triangles = p->args->triangles + triangle_first + first;
 
@@ -256,7 +262,7 @@ static void try_faces(struct pixel *p, uint32_t instance_index, uint32_t first, 
 			             (const uint32_t[]){ faces[i].vertex[0][lane], faces[i].vertex[1][lane], faces[i].vertex[2][lane] });
 }
 
-/* --- traversal --- */
+/* --- traversal --------------------------------------------------------------------------------------------------- */
 
 /* Share of a ray inside a box widened by pad; 0: none. */
 static int hits_box(const float o[3], const float inverse[3], const float lo[3], const float hi[3], float pad,
@@ -317,7 +323,8 @@ static void walk_binary(struct pixel *p, uint32_t instance_index, const float o[
 }
 
 /* Is a box on the way? inverse NULL: the pixel centre is a point, under which boxes are looked for in x and y. */
-static int meets_box(const struct pixel *p, const float o[3], const float *inverse, const float lo[3], const float hi[3], float pad)
+static int meets_box(const struct pixel *p, const float o[3], const float *inverse, const float lo[3],
+                     const float hi[3], float pad)
 {
 	float t;
 

@@ -1,6 +1,6 @@
 /*
- * The kernels of a hook for the reference device, where clang is there: OpenCL C compiled for this processor, behind host_builtins.h and what
- * the hook declares, in front of its text (tracer/hook/host.h). host_NAME is a kernel_twin.
+ * The kernels of a hook for the reference device, where clang is there: OpenCL C compiled for this processor, behind
+ * host_builtins.h and what the hook declares, in front of its text (tracer/hook/host.h). host_NAME is a kernel_twin.
  */
 #pragma once
 

@@ -1,6 +1,7 @@
 /*
- * OpenCL C 1.2 for a processor that clang compiles C for (-cl-no-stdinc): types and built-in functions that kernels and hooks use (hook_host.h), and how
- * tests/check/host_cl.c starts kernels. It promises no more than the specification. HOST_OTHERWISE picks another answer wherever the specification leaves one open.
+ * OpenCL C 1.2 for a processor that clang compiles C for (-cl-no-stdinc): types and built-in functions that kernels and
+ * hooks use (hook_host.h), and how tests/check/host_cl.c starts kernels. It promises no more than the specification.
+ * HOST_OTHERWISE picks another answer wherever the specification leaves one open.
  */
 #ifndef KERNELS_REF_HOST_BUILTINS_H
 #define KERNELS_REF_HOST_BUILTINS_H
@@ -38,11 +39,12 @@ HOST_VECTORS(float)
 
 #define HOST_OVER static inline __attribute__((overloadable, unused))
 
-/* --- One number ---------------------------------------------------------------------------------------------------- */
+/* --- One number -------------------------------------------------------------------------------------------------- */
 
-float logf(float), log2f(float), tanf(float), asinf(float), acosf(float), atanf(float), atan2f(float, float), fmodf(float, float), roundf(float), truncf(float),
-	hypotf(float, float);
-float sqrtf(float), floorf(float), ceilf(float), rintf(float), powf(float, float), expf(float), exp2f(float), cosf(float), sinf(float);
+float logf(float), log2f(float), tanf(float), asinf(float), acosf(float), atanf(float), atan2f(float, float),
+	fmodf(float, float), roundf(float), truncf(float), hypotf(float, float);
+float sqrtf(float), floorf(float), ceilf(float), rintf(float), powf(float, float), expf(float), exp2f(float),
+	cosf(float), sinf(float);
 ulong host_item(void); /* host_cl.c */
 
 #ifdef HOST_OTHERWISE
@@ -216,7 +218,7 @@ HOST_OVER uint clz(uint x)
 	return x ? (uint)__builtin_clz(x) : 32;
 }
 
-/* --- Several ------------------------------------------------------------------------------------------------------- */
+/* --- Several ----------------------------------------------------------------------------------------------------- */
 
 #define HOST_WIDTHS(X, T) X(T, 2) X(T, 4) X(T, 8) X(T, 16)
 #define HOST_LANES(T, n, expression) \
@@ -340,7 +342,7 @@ HOST_WIDTHS(HOST_TRUTH, int)
 #define as_short16(x) __builtin_astype((x), short16)
 #define as_ushort16(x) __builtin_astype((x), ushort16)
 
-/* --- For hooks --------------------------------------------------------------------------------------------------------- */
+/* --- For hooks --------------------------------------------------------------------------------------------------- */
 
 #define HOST_CALL(name, called) \
 	HOST_OVER float name(float x) \
@@ -467,10 +469,12 @@ HOST_OVER float4 cross(float4 x, float4 y)
 	return (float4)(x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x, 0.0f);
 }
 
-/* --- Starting kernels ---------------------------------------------------------------------------------------------- */
+/* --- Starting kernels -------------------------------------------------------------------------------------------- */
 
-/* host_run_NAME(arguments, first, last): work items first .. last - 1, the last one first. An argument is where its value stands. */
-#define HOST_BUFFER(element, name) __global element_##element *host_of_##name = (__global element_##element *)*(ulong *)*host_arguments++;
+/* host_run_NAME(arguments, first, last): work items first .. last - 1, the last one first. An argument is where its
+ * value stands. */
+#define HOST_BUFFER(element, name) \
+	__global element_##element *host_of_##name = (__global element_##element *)*(ulong *)*host_arguments++;
 #define HOST_VALUE(element, name) element_##element host_of_##name = *(element_##element *)*host_arguments++;
 #define HOST_GROUP(list, name) ARGUMENTS_##list(HOST_BUFFER, HOST_BUFFER, HOST_VALUE, HOST_GROUP, KERNEL_NOTHING)
 #define HOST_NAME(element, name) host_of_##name

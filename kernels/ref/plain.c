@@ -1,4 +1,5 @@
-/* C twins of kernels/frame/plain.cl, plain_single.cl and layered.cl: a pixel after the other through the steps that frames which are not plain take. */
+/* C twins of kernels/frame/plain.cl, plain_single.cl and layered.cl: a pixel after the other through the steps that
+ * frames which are not plain take. */
 #include "kernels/frame/plain.h"
 
 #include <string.h>
@@ -26,7 +27,8 @@ static int is_by_program(const struct shade_arguments *s, struct fragment f)
 }
 
 /* A fragment as fixed function has it. s: as of do_pixel */
-static void shade_fixed(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+static void shade_fixed(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
+                        uint32_t item)
 {
 	struct setup_kept kept;
 
@@ -38,7 +40,8 @@ static void shade_fixed(const struct plain_arguments *a, const struct shade_argu
 }
 
 /* A fragment as it is shaded, to its pixel. */
-static void draw_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, uint32_t item, struct frame_pixel *pixel)
+static void draw_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, uint32_t item,
+                       struct frame_pixel *pixel)
 {
 	const struct fragment f = plain_fragment(a, x, y);
 
@@ -47,7 +50,8 @@ static void draw_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, 
 }
 
 /* s: with visibility where lights have been asked */
-static void do_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+static void do_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
+                     uint32_t item)
 {
 	const struct shadow_ray_arguments rays = plain_rays(a);
 	const struct fragment f = plain_fragment(a, x, y);
@@ -72,7 +76,8 @@ static void do_pixel(const struct plain_arguments *a, const struct shade_argumen
 }
 
 /* What plain_program leaves for do_pixel. */
-static void run_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+static void run_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
+                      uint32_t item)
 {
 	const struct fragment f = plain_fragment(a, x, y);
 	struct setup_kept kept;
@@ -84,12 +89,13 @@ static void run_pixel(const struct plain_arguments *a, const struct shade_argume
 }
 
 /* What plain_dome leaves for it. */
-static void look_from_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+static void look_from_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
+                            uint32_t item)
 {
 	const struct dome_find_arguments d = {
-		.tables = a->tables, .views = a->views, .windows = a->windows, .fragments = a->fragments, .pixels = a->pixels, .width = a->width,
-		.shaded = a->shaded, .dome = a->dome, .directions = a->directions, .samples = a->samples, .n = a->n, .places = a->places,
-		.rays = a->looks,
+		.tables = a->tables, .views = a->views, .windows = a->windows, .fragments = a->fragments, .pixels = a->pixels,
+		.width = a->width, .shaded = a->shaded, .dome = a->dome, .directions = a->directions, .samples = a->samples,
+		.n = a->n, .places = a->places, .rays = a->looks,
 	};
 	const struct shadow_ray_arguments rays = plain_rays(a);
 	struct shadow_kept kept;
@@ -152,8 +158,8 @@ static void follow(const struct plain_arguments *a, uint32_t step, uint32_t item
 }
 
 /* A fragment of a look: its colour, its rays, and through the per-fragment operations. */
-static void draw_fragment(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t step, uint32_t item, int asks,
-                          struct frame_pixel *pixel)
+static void draw_fragment(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t step,
+                          uint32_t item, int asks, struct frame_pixel *pixel)
 {
 	const struct shadow_ray_arguments rays = plain_rays(a);
 	const struct fragment *f = &a->fragments[item];
@@ -167,7 +173,8 @@ static void draw_fragment(const struct plain_arguments *a, const struct shade_ar
 		shadow_ray_item(&rays, slot * a->n + item, 0, &shadow_kept);
 	follow(a, step, item);
 	pixel_draw(m, &a->shaded[item], f, stage_draw(&a->tables, f->instance, f->primitive), pixel, a->bits);
-	if (step == PLAIN_FIRST && a->layers.mirrors && asks && a->shaded[item].flags & SHADED_DRAWN && (m->surface.reflect > 0 || m->surface.transmit > 0))
+	if (step == PLAIN_FIRST && a->layers.mirrors && asks && a->shaded[item].flags & SHADED_DRAWN &&
+	    (m->surface.reflect > 0 || m->surface.transmit > 0))
 		a->layers.leaving[item / PLAIN_WIDTH] |= 1u << item % PLAIN_WIDTH;
 }
 
@@ -199,7 +206,8 @@ static void end_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, c
 _Static_assert(sizeof(struct frame_pixel) == PLAIN_KEPT * sizeof(float), "what is kept of a pixel");
 
 /* Clears of depth before a look, from number `next` on. @return the number of the first that is left */
-static uint32_t clear_before(const struct plain_arguments *a, uint32_t look, uint32_t next, uint32_t x, uint32_t y, struct frame_pixel *pixel)
+static uint32_t clear_before(const struct plain_arguments *a, uint32_t look, uint32_t next, uint32_t x, uint32_t y,
+                             struct frame_pixel *pixel)
 {
 	for (; next < a->layers.n_clears && a->layers.clears[next].look <= look; next++) {
 		const struct layer_clear *c = &a->layers.clears[next];
@@ -213,7 +221,8 @@ static uint32_t clear_before(const struct plain_arguments *a, uint32_t look, uin
 }
 
 /* do_pixel where there are several looks. item: its place in the block's first layer */
-static void draw_layers(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t step, uint32_t x, uint32_t y, uint32_t item)
+static void draw_layers(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t step, uint32_t x,
+                        uint32_t y, uint32_t item)
 {
 	const int is_there = x < a->width && y < a->request.height;
 	const uint32_t number = y * a->width + x;
@@ -248,29 +257,34 @@ static void draw_layers(const struct plain_arguments *a, const struct shade_argu
 	end_pixel(a, x, y, &pixel);
 }
 
-static void draw_layers_first(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+static void draw_layers_first(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
+                              uint32_t item)
 {
 	draw_layers(a, s, PLAIN_FIRST, x, y, item);
 }
 
-static void draw_layers_shadow(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+static void draw_layers_shadow(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
+                               uint32_t item)
 {
 	draw_layers(a, s, PLAIN_SHADOW, x, y, item);
 }
 
-static void draw_layers_mirror(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+static void draw_layers_mirror(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
+                               uint32_t item)
 {
 	draw_layers(a, s, PLAIN_MIRROR, x, y, item);
 }
 
 /* The steps of do_pixel, each by itself, of fragments without programs. */
-static void color_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+static void color_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
+                        uint32_t item)
 {
 	if (plain_has_fragment(a, x, y))
 		shade_fixed(a, s, x, y, item);
 }
 
-static void show_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+static void show_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
+                       uint32_t item)
 {
 	struct frame_pixel pixel = *a->cleared;
 
@@ -366,7 +380,8 @@ static struct frame_pixel start_pixel(const struct layered_start_arguments *a, u
 void layered_start_c(const struct layered_start_arguments *a, size_t first, size_t last)
 {
 	for (size_t item = first; item < last && item < (size_t)plain_columns(a->width) * a->height; item++) {
-		const uint32_t x = (uint32_t)item % plain_columns(a->width) * PLAIN_WIDTH, y = (uint32_t)item / plain_columns(a->width);
+		const uint32_t x = (uint32_t)item % plain_columns(a->width) * PLAIN_WIDTH,
+			       y = (uint32_t)item / plain_columns(a->width);
 
 		for (uint32_t i = x; i < x + PLAIN_WIDTH && i < a->width; i++) {
 			const struct frame_pixel p = start_pixel(a, y * a->width + i);
@@ -393,7 +408,8 @@ static uint32_t picture_pixel(const struct layered_picture_arguments *a, uint32_
 void layered_picture_c(const struct layered_picture_arguments *a, size_t first, size_t last)
 {
 	for (size_t item = first; item < last && item < (size_t)plain_columns(a->width) * a->height; item++) {
-		const uint32_t x = (uint32_t)item % plain_columns(a->width) * PLAIN_WIDTH, y = (uint32_t)item / plain_columns(a->width);
+		const uint32_t x = (uint32_t)item % plain_columns(a->width) * PLAIN_WIDTH,
+			       y = (uint32_t)item / plain_columns(a->width);
 
 		a->unknown[item] = 0;
 		for (uint32_t i = 0; i < PLAIN_WIDTH && x + i < a->width; i++)
@@ -429,7 +445,8 @@ void plain_dome_c(const struct plain_arguments *a, size_t first, size_t last)
 /* The rectangle that two have in common; it may be empty. */
 static struct camera_rectangle both_of(struct camera_rectangle a, struct camera_rectangle b)
 {
-	struct camera_rectangle r = { a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1, a.y1 < b.y1 ? a.y1 : b.y1 };
+	struct camera_rectangle r = { a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1,
+		                      a.y1 < b.y1 ? a.y1 : b.y1 };
 
 	if (r.x1 < r.x0 || r.y1 < r.y0)
 		r = (struct camera_rectangle){ 0, 0, 0, 0 };
@@ -451,7 +468,8 @@ void plain_whole_c(const struct plain_whole_arguments *a, size_t first, size_t l
 
 	for (size_t item = first; item < last && item < camera_packet_items(band); item++) {
 		const int32_t x = camera_packet_x(band, (uint32_t)item), y = camera_packet_y(band, (uint32_t)item);
-		const struct camera_rectangle tile = both_of(band, (struct camera_rectangle){ x, y, x + CAMERA_TILE, y + CAMERA_TILE });
+		const struct camera_rectangle tile = both_of(
+			band, (struct camera_rectangle){ x, y, x + CAMERA_TILE, y + CAMERA_TILE });
 		struct camera_packet_arguments camera = { a->pass, a->instances, a->top, a->instance_list, a->nodes, a->triangles };
 
 		camera.pass.rectangle = both_of(tile, r);

@@ -21,7 +21,8 @@ struct args {
 	enum tree tree;
 };
 #define ARGS_OF(a, kind) \
-	{ (a)->n_rays, (a)->rays, (a)->top_first, (a)->top, (a)->instance_list, (a)->instances, (a)->nodes, (a)->triangles, kind }
+	{ (a)->n_rays, (a)->rays, (a)->top_first, (a)->top, (a)->instance_list, (a)->instances, (a)->nodes, (a)->triangles, \
+	kind }
 
 /* One ray on its way. */
 struct walk {
@@ -100,7 +101,8 @@ static int hits_lane(const struct walk *w, const struct node8 *node, int lane)
 	return hits_box(w, lo, hi);
 }
 
-/* d, and 1/d, finite: a ray that runs along a plane is moved off it by next to nothing. @return 0: it hits nothing from its o */
+/* d, and 1/d, finite: a ray that runs along a plane is moved off it by next to nothing. @return 0: it hits nothing from
+ * its o */
 static int set_direction(struct walk *w, const float d[3])
 {
 	int in_range = 1;

@@ -33,8 +33,12 @@ KERNEL_TWIN(ao_shade, n)
 /* Lights are asked of hits at once. */
 void hit_ray_packet_c(const struct hit_ray_arguments *a, size_t first, size_t last)
 {
-	const struct want_lights_arguments w = { .tables = a->tables, .hits = a->hits, .rays = a->rays, .transport = a->transport,
-		                                 .n = a->n, .wanted = a->wanted };
+	const struct want_lights_arguments w = { .tables = a->tables,
+		                                 .hits = a->hits,
+		                                 .rays = a->rays,
+		                                 .transport = a->transport,
+		                                 .n = a->n,
+		                                 .wanted = a->wanted };
 
 	for (size_t i = first * SHADE_PACKET; i < last * SHADE_PACKET && i < a->n; i++) {
 		want_lights_item(&w, (uint32_t)i);

@@ -1,4 +1,5 @@
-/* Arguments one by one, as kernel_twin has them, become the structs that twins read: take_LIST for each list of kernels.h. */
+/* Arguments one by one, as kernel_twin has them, become the structs that twins read: take_LIST for each list of
+ * kernels.h. */
 #pragma once
 
 #include "kernels/kernels.h"

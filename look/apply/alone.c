@@ -18,7 +18,8 @@ static void write_keys(const struct scene *scene, const struct scene_instance *i
 {
 	const struct scene_material *m = &scene->materials[in->material];
 	char texture[64] = "", mesh[64] = "", list[32] = "", draws[32] = "";
-	const uint32_t last = m->unit_first + m->unit_count - 1; /* of several, the first may be a shadow or light that others have, too */
+	/* of several, the first may be a shadow or light that others have, too */
+	const uint32_t last = m->unit_first + m->unit_count - 1;
 	int n;
 
 	if (which & TEXTURE)
@@ -57,7 +58,8 @@ int alone_find(const struct scene *scene, uint32_t instance, char keys[ALONE_BYT
 {
 	static const int candidates[] = { TEXTURE, MESH, TEXTURE | MESH, TEXTURE | MESH | LIST };
 	const struct scene_instance *in = &scene->instances[instance];
-	const int has = (scene->materials[in->material].unit_count ? TEXTURE : 0) | MESH | (scene->draws[in->draw].list ? LIST : 0);
+	const int has = (scene->materials[in->material].unit_count ? TEXTURE : 0) | MESH |
+	                (scene->draws[in->draw].list ? LIST : 0);
 	int matched = 0;
 
 	for (size_t i = 0; i < sizeof(candidates) / sizeof(candidates[0]); i++) {

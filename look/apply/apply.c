@@ -63,7 +63,8 @@ static void set_surface(const struct applying *a, uint32_t i, struct scene_mater
 }
 
 /* Whether the tracer lights the surface anew, and what its vertices or texels then hold of light. */
-static void decide_lighting(const struct applying *a, const struct scene_instance *in, const struct scene_material *m, struct scene_surface *s)
+static void decide_lighting(const struct applying *a, const struct scene_instance *in, const struct scene_material *m,
+                            struct scene_surface *s)
 {
 	const struct scene_mesh *mesh = a->scene->meshes[in->mesh];
 
@@ -129,7 +130,8 @@ static int copy_scene(struct applying *a)
 	out->instances = malloc((copies * n + 1) * sizeof(*out->instances));
 	out->materials = malloc((scene->n_materials + copies * n + 2) * sizeof(*out->materials));
 	out->views = malloc((2 * scene->n_views + (size_t)1) * sizeof(*out->views));
-	out->lights = malloc((scene->n_lights + SCENE_MAX_LIGHTS * (n + 1)) * sizeof(*out->lights)); /* untouched, it is no memory */
+	/* untouched, it is no memory */
+	out->lights = malloc((scene->n_lights + SCENE_MAX_LIGHTS * (n + 1)) * sizeof(*out->lights));
 	out->meshes = malloc((scene->n_meshes + copies * n + 1) * sizeof(*out->meshes));
 	if (!out->instances || !out->materials || !out->views || !out->lights || !out->meshes || !out->parameters) {
 		out->n_meshes = 0;
@@ -163,7 +165,8 @@ static int decides_sparing(const struct rules *rules)
 	for (uint32_t k = 0; k < rules->surfaces_count; k++) {
 		const struct match only = { .lit = rules->surfaces[k].match ? rules->surfaces[k].match->lit : NULL };
 
-		if (rules->surfaces[k].passes && (!rules->surfaces[k].match || memcmp(rules->surfaces[k].match, &only, sizeof(only)) == 0))
+		if (rules->surfaces[k].passes &&
+		    (!rules->surfaces[k].match || memcmp(rules->surfaces[k].match, &only, sizeof(only)) == 0))
 			decided |= !only.lit ? 3 : *only.lit ? 2 : 1;
 	}
 	return decided == 3 || (rules->spare && !*rules->spare);

@@ -21,8 +21,9 @@ static int lit_by(const struct light_rule *r)
 
 int lights_change_of(const struct light_rule *r)
 {
-	const int changes = r->light ? r->off || r->position || r->ambient || r->diffuse || r->specular || r->attenuation || r->spot
-	                             : !r->off || !*r->off;
+	const int changes = r->light ? r->off || r->position || r->ambient || r->diffuse || r->specular ||
+	                                       r->attenuation || r->spot :
+	                               !r->off || !*r->off;
 
 	return changes ? lit_by(r) : 0;
 }
@@ -127,7 +128,9 @@ static void middle_of(const struct scene *s, const struct scene_instance *in, fl
 			low[k] = v && low[k] < x ? low[k] : x;
 			high[k] = v && high[k] > x ? high[k] : x;
 		}
-	mat4_transform(out, in->modelview, (const float[4]){ 0.5f * (low[0] + high[0]), 0.5f * (low[1] + high[1]), 0.5f * (low[2] + high[2]), 1 });
+	mat4_transform(
+		out, in->modelview,
+		(const float[4]){ 0.5f * (low[0] + high[0]), 0.5f * (low[1] + high[1]), 0.5f * (low[2] + high[2]), 1 });
 }
 
 uint32_t lights_list(const struct applying *a, const struct scene_instance *in, const struct scene_material *m,
@@ -174,7 +177,8 @@ int lights_leave_in_shade(const struct applying *a, const struct scene_instance 
 		for (int c = 0; c < 3 && !r->light && r->ambient && !(r->off && *r->off); c++)
 			ambient[c] += r->ambient[c];
 	}
-	return fabsf(color[0] - ambient[0]) < SHADE && fabsf(color[1] - ambient[1]) < SHADE && fabsf(color[2] - ambient[2]) < SHADE;
+	return fabsf(color[0] - ambient[0]) < SHADE && fabsf(color[1] - ambient[1]) < SHADE &&
+	       fabsf(color[2] - ambient[2]) < SHADE;
 }
 
 void lights_size(const struct rules *rules, struct scene *s)

@@ -32,7 +32,8 @@ static int matches(const struct scene *s, const struct scene_instance *in, const
 
 	if (!r)
 		return 1;
-	if ((r->texture && !has_texture(s, m, r->texture)) || (r->mesh && !world_hash_begins(s->meshes[in->mesh]->hash, r->mesh)))
+	if ((r->texture && !has_texture(s, m, r->texture)) ||
+	    (r->mesh && !world_hash_begins(s->meshes[in->mesh]->hash, r->mesh)))
 		return 0;
 	if ((r->draws && !frame_list_contains(draws, in->draw)) || (r->call && (!draw || strcmp(draw->call, r->call) != 0)))
 		return 0;

@@ -4,7 +4,8 @@
 #include "look/apply/applying.h"
 
 /**
- * What the rules need to know of a frame before they apply: where its world is, which lights change, whether a mirror is there.
+ * What the rules need to know of a frame before they apply: where its world is, which lights change, whether a mirror
+ * is there.
  * @param a  `look` and `scene` are set; end with match_end, also after an error
  * @return 0 or ERR_SYSTEM (reported)
  */

@@ -22,7 +22,9 @@ static float crease_of(const struct applying *a, const struct scene_instance *in
 int meshes_smooth(const struct applying *a, uint32_t i, struct scene_instance *placed, struct scene_material *m)
 {
 	const struct scene_instance *in = &a->scene->instances[i];
-	const float angle = a->lights_change & 8 && m->lighting && !(m->surface.hidden & SCENE_UNSHADED) ? crease_of(a, in) : 0;
+	const float angle = a->lights_change & 8 && m->lighting && !(m->surface.hidden & SCENE_UNSHADED) ?
+	                            crease_of(a, in) :
+	                            0;
 	struct scene_mesh *mesh = NULL;
 	int err = angle > 0 ? crease_smooth(a->out->meshes[placed->mesh], m->shade_model == GL_FLAT, angle, &mesh) : 0;
 
@@ -34,7 +36,8 @@ int meshes_smooth(const struct applying *a, uint32_t i, struct scene_instance *p
 	return 0;
 }
 
-int meshes_wants_repair(const struct applying *a, const struct scene_instance *in, const struct scene_material *m, struct repair_wants *wants)
+int meshes_wants_repair(const struct applying *a, const struct scene_instance *in, const struct scene_material *m,
+                        struct repair_wants *wants)
 {
 	const struct repair_rule *rule = NULL;
 
@@ -71,8 +74,9 @@ int meshes_repair(const struct applying *a, uint32_t i)
 	err = repaired_find(a->look->repaired, a->scene->meshes[a->scene->instances[i].mesh], &wants, &mesh, &found);
 	if (err || !mesh)
 		return err;
-	m[0].surface.hidden |= SCENE_HIDDEN_FROM_LIGHTS | SCENE_HIDDEN_FROM_MIRRORS |
-	                       (found.closed && found.turned && !m->cull_face && is_outside(a->scene, own, mesh) ? SCENE_ENTERED : 0);
+	m[0].surface.hidden |=
+		SCENE_HIDDEN_FROM_LIGHTS | SCENE_HIDDEN_FROM_MIRRORS |
+		(found.closed && found.turned && !m->cull_face && is_outside(a->scene, own, mesh) ? SCENE_ENTERED : 0);
 	*added = a->scene->instances[i];
 	added->mesh = out->n_meshes;
 	added->view += a->scene->n_views;

@@ -20,7 +20,8 @@ void surface_set(struct scene_surface *s, const struct surface_rule *r, int spar
 		s->hidden = (s->hidden & ~SPARE_BITS) | passes;
 	}
 	if (r->shadows)
-		s->hidden = (s->hidden & ~(SPARE_BITS | SCENE_CARD | SCENE_FACETED | SCENE_FILM)) | (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
+		s->hidden = (s->hidden & ~(SPARE_BITS | SCENE_CARD | SCENE_FACETED | SCENE_FILM)) |
+		            (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
 	if (r->mirrors)
 		s->hidden = (s->hidden & ~SCENE_HIDDEN_FROM_MIRRORS) | (*r->mirrors ? 0u : SCENE_HIDDEN_FROM_MIRRORS);
 	if (r->near)

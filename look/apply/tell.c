@@ -27,7 +27,8 @@ static int is_told(const struct rules *rules, uint32_t k)
 static int has_role(const struct applying *a, const struct scene_instance *in, const char *role)
 {
 	for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
-		if (a->rules->surfaces[k].reason.role && strcmp(a->rules->surfaces[k].reason.role, role) == 0 && match_applies(a, in, k))
+		if (a->rules->surfaces[k].reason.role && strcmp(a->rules->surfaces[k].reason.role, role) == 0 &&
+		    match_applies(a, in, k))
 			return 1;
 	return 0;
 }
@@ -60,11 +61,13 @@ static int list_draws(const struct applying *a, const char *role, char out[TOLD_
 	return 0;
 }
 
-static int tell_one(const char *kind, const struct rule_reason *r, const char *what, int (*tell)(void *user, const char *text), void *user)
+static int tell_one(const char *kind, const struct rule_reason *r, const char *what,
+                    int (*tell)(void *user, const char *text), void *user)
 {
 	char text[TOLD_BYTES];
 
-	snprintf(text, sizeof(text), "%s\t%.40s\t%.2f\t%s\t%s", kind, r->role, r->confidence ? (double)*r->confidence : 1.0, what, r->why ? r->why : "");
+	snprintf(text, sizeof(text), "%s\t%.40s\t%.2f\t%s\t%s", kind, r->role,
+	         r->confidence ? (double)*r->confidence : 1.0, what, r->why ? r->why : "");
 	return tell(user, text);
 }
 
@@ -109,7 +112,11 @@ static int tell_repairs(const struct applying *a, int (*tell)(void *user, const 
 		last = s->meshes[in->mesh];
 		err = repaired_find(a->look->repaired, last, &wants, &mesh, &found);
 		repaired_describe(&found, why, sizeof(why));
-		snprintf(text, sizeof(text), "surface\t%s\t1.00\t%u\t%s", found.closed ? "closed mesh" : found.leaks ? "mesh that leaks" : "mesh", in->draw, why);
+		snprintf(text, sizeof(text), "surface\t%s\t1.00\t%u\t%s",
+		         found.closed ? "closed mesh" :
+		         found.leaks  ? "mesh that leaks" :
+		                        "mesh",
+		         in->draw, why);
 		err = err ? err : tell(user, text);
 		n++;
 	}

@@ -21,16 +21,24 @@ static const cyaml_schema_field_t turntable_fields[] = {
 };
 
 static const cyaml_schema_field_t camera_fields[] = {
-	TEXT(struct camera_keys, kind), TEXT(struct camera_keys, space), VECTOR(struct camera_keys, place), VECTOR(struct camera_keys, look_at),
-	VECTOR(struct camera_keys, up), NUMBER(struct camera_keys, field_of_view), NUMBER(struct camera_keys, height),
-	NUMBER(struct camera_keys, near), NUMBER(struct camera_keys, far),
+	TEXT(struct camera_keys, kind),
+	TEXT(struct camera_keys, space),
+	VECTOR(struct camera_keys, place),
+	VECTOR(struct camera_keys, look_at),
+	VECTOR(struct camera_keys, up),
+	NUMBER(struct camera_keys, field_of_view),
+	NUMBER(struct camera_keys, height),
+	NUMBER(struct camera_keys, near),
+	NUMBER(struct camera_keys, far),
 	CYAML_FIELD_SEQUENCE_FIXED("size", OPTIONAL_POINTER, struct camera_keys, size, &count, 2),
-	CYAML_FIELD_MAPPING_PTR("turntable", OPTIONAL_POINTER, struct camera_keys, turntable, turntable_fields), CYAML_FIELD_END
+	CYAML_FIELD_MAPPING_PTR("turntable", OPTIONAL_POINTER, struct camera_keys, turntable, turntable_fields),
+	CYAML_FIELD_END
 };
 
-static const cyaml_schema_value_t camera_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct camera_keys, camera_fields) };
+static const cyaml_schema_value_t camera_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct camera_keys,
+	                                                                camera_fields) };
 
-/* --- Checks that libcyaml does not make ---------------------------------------------------------------------------- */
+/* --- Checks that libcyaml does not make -------------------------------------------------------------------------- */
 
 static int is_word(const char *value, const char *one, const char *other)
 {
@@ -42,7 +50,8 @@ static int check_numbers(const char *path, const char *key, const float *values,
 {
 	for (int i = 0; values && i < n; i++)
 		if (!(values[i] >= least && values[i] <= most))
-			return err_report(ERR_INPUT, path, "%s is %g; it must be between %g and %g", key, (double)values[i], (double)least, (double)most);
+			return err_report(ERR_INPUT, path, "%s is %g; it must be between %g and %g", key,
+			                  (double)values[i], (double)least, (double)most);
 	return 0;
 }
 
@@ -61,7 +70,8 @@ static int check_turntable(const char *path, const struct camera_keys *k)
 	if (!err && k->look_at)
 		err = err_report(ERR_INPUT, path, "look_at: a turntable looks at what it goes around (about)");
 	if (!err && t->frames && (!*t->frames || *t->frames > CAMERA_MOST_PICTURES))
-		err = err_report(ERR_INPUT, path, "turntable: frames is %u; it must be between 1 and %d", *t->frames, CAMERA_MOST_PICTURES);
+		err = err_report(ERR_INPUT, path, "turntable: frames is %u; it must be between 1 and %d", *t->frames,
+		                 CAMERA_MOST_PICTURES);
 	return err;
 }
 
@@ -93,7 +103,9 @@ static int check_all(const char *path, const struct camera_keys *k)
 	if (!err)
 		err = check_numbers(path, "height", k->height, 1, 1e-30f, 1e30f);
 	if (!err && k->field_of_view && k->height)
-		err = err_report(ERR_INPUT, path, "field_of_view is for a pinhole, height for an orthographic view; there is one of them");
+		err = err_report(
+			ERR_INPUT, path,
+			"field_of_view is for a pinhole, height for an orthographic view; there is one of them");
 	if (!err && k->kind && strcmp(k->kind, k->field_of_view ? "orthographic" : k->height ? "pinhole" : "") == 0)
 		err = err_report(ERR_INPUT, path, "%s is not for kind %s", k->field_of_view ? "field_of_view" : "height", k->kind);
 	if (!err)
@@ -104,11 +116,12 @@ static int check_all(const char *path, const struct camera_keys *k)
 		err = err_report(ERR_INPUT, path, "near is %g, and far %g; it must be farther", (double)*k->near, (double)*k->far);
 	for (int i = 0; i < 2 && !err && k->size; i++)
 		if (!k->size[i] || k->size[i] > CAMERA_MOST_SIZE)
-			err = err_report(ERR_INPUT, path, "size is %u x %u; each must be between 1 and %d", k->size[0], k->size[1], CAMERA_MOST_SIZE);
+			err = err_report(ERR_INPUT, path, "size is %u x %u; each must be between 1 and %d", k->size[0],
+			                 k->size[1], CAMERA_MOST_SIZE);
 	return err || !k->turntable ? err : check_turntable(path, k);
 }
 
-/* --- The file ------------------------------------------------------------------------------------------------------ */
+/* --- The file ---------------------------------------------------------------------------------------------------- */
 
 int camera_load(const char *path, struct camera **out)
 {

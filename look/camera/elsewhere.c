@@ -28,7 +28,7 @@ struct making {
 	uint32_t without;
 };
 
-/* --- What is seen -------------------------------------------------------------------------------------------------- */
+/* --- What is seen ------------------------------------------------------------------------------------------------ */
 
 static int shows_as_much(const struct making *m, const struct scene_view *view)
 {
@@ -59,7 +59,8 @@ static void grow_box(const struct scene_mesh *mesh, float low[3], float high[3])
 		}
 }
 
-/* 1 where a box is no flat one, and has the viewer in its middle along two axes at least, as a box or dome around him has. */
+/* 1 where a box is no flat one, and has the viewer in its middle along two axes at least, as a box or dome around him
+ * has. */
 static int is_around(const float low[3], const float high[3], const float viewer[3])
 {
 	float least = INFINITY, most = 0;
@@ -76,8 +77,8 @@ static int is_around(const float low[3], const float high[3], const float viewer
 }
 
 /*
- * What is drawn as skies are, all together that comes with the same modelview, is one where it surrounds the viewer. What else is drawn without
- * depth, as a ground, is part of the world.
+ * What is drawn as skies are, all together that comes with the same modelview, is one where it surrounds the viewer.
+ * What else is drawn without depth, as a ground, is part of the world.
  */
 static int find_skies(struct making *m)
 {
@@ -90,9 +91,12 @@ static int find_skies(struct making *m)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (uint32_t first = 0; first < s->n_instances; first = end) {
 		const float *modelview = s->instances[first].modelview;
-		float low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY }, viewer[4], inverse[16];
+		float low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY },
+		      viewer[4], inverse[16];
 
-		for (end = first; end < s->n_instances && m->skies[end] == m->skies[first] && memcmp(s->instances[end].modelview, modelview, sizeof(inverse)) == 0; end++)
+		for (end = first; end < s->n_instances && m->skies[end] == m->skies[first] &&
+		                  memcmp(s->instances[end].modelview, modelview, sizeof(inverse)) == 0;
+		     end++)
 			if (m->skies[first])
 				grow_box(s->meshes[s->instances[end].mesh], low, high);
 		if (!m->skies[first])
@@ -125,7 +129,7 @@ static enum fate fate_of(struct making *m, uint32_t i, uint32_t first_of_world)
 	return MOVES;
 }
 
-/* --- Moved --------------------------------------------------------------------------------------------------------- */
+/* --- Moved ------------------------------------------------------------------------------------------------------- */
 
 static int copy_scene(struct making *m)
 {
@@ -142,7 +146,8 @@ static int copy_scene(struct making *m)
 	out->clears = calloc(s->n_clears + (size_t)1, sizeof(*out->clears));
 	out->programs = NULL;
 	m->kept_before = calloc(s->n_instances + (size_t)1, sizeof(*m->kept_before));
-	if (!out->instances || !out->materials || !out->units || !out->lights || !out->views || !out->clears || !m->kept_before)
+	if (!out->instances || !out->materials || !out->units || !out->lights || !out->views || !out->clears ||
+	    !m->kept_before)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (s->n_materials)
 		memcpy(out->materials, s->materials, s->n_materials * sizeof(*out->materials));
@@ -175,7 +180,8 @@ static void shown_rectangle(const struct scene *s, const struct scene_view *view
 
 static int holds(const int32_t outer[4], const int32_t inner[4])
 {
-	return outer[0] <= inner[0] && outer[1] <= inner[1] && outer[0] + outer[2] >= inner[0] + inner[2] && outer[1] + outer[3] >= inner[1] + inner[3];
+	return outer[0] <= inner[0] && outer[1] <= inner[1] && outer[0] + outer[2] >= inner[0] + inner[2] &&
+	       outer[1] + outer[3] >= inner[1] + inner[3];
 }
 
 /* shown: of the recorded window */
@@ -266,11 +272,17 @@ static void set_clears(const struct making *m, const int32_t shown[4])
 
 	out->n_clears = 0;
 	for (uint32_t i = 0; i < s->n_clears; i++)
-		if (s->clears[i].target == 0 && holds(s->clears[i].scissor, shown) && m->kept_before[s->clears[i].before_instance] == 0)
+		if (s->clears[i].target == 0 && holds(s->clears[i].scissor, shown) &&
+		    m->kept_before[s->clears[i].before_instance] == 0)
 			begun |= s->clears[i].buffers;
 	if ((begun & 3) != 3)
-		out->clears[out->n_clears++] = (struct scene_clear){ .draw = s->n_clears ? s->clears[0].draw : 0, .buffers = ~begun & 7, .depth = 1,
-			                                             .color_mask = 15, .stencil_mask = ~0u, .scissor = { 0, 0, (int32_t)s->width, (int32_t)s->height } };
+		out->clears[out->n_clears++] = (struct scene_clear){ .draw = s->n_clears ? s->clears[0].draw : 0,
+			                                             .buffers = ~begun & 7,
+			                                             .depth = 1,
+			                                             .color_mask = 15,
+			                                             .stencil_mask = ~0u,
+			                                             .scissor = { 0, 0, (int32_t)s->width,
+			                                                          (int32_t)s->height } };
 	for (uint32_t i = 0; i < s->n_clears; i++) {
 		if (s->clears[i].target || !holds(s->clears[i].scissor, shown))
 			continue;
@@ -278,21 +290,25 @@ static void set_clears(const struct making *m, const int32_t shown[4])
 		out->clears[out->n_clears++].before_instance = m->kept_before[s->clears[i].before_instance];
 	}
 	for (uint32_t i = 0; i < out->n_clears && m->viewpoint.keys->size; i++)
-		memcpy(out->clears[i].scissor, (const int32_t[4]){ 0, 0, (int32_t)m->viewpoint.keys->size[0], (int32_t)m->viewpoint.keys->size[1] },
+		memcpy(out->clears[i].scissor,
+		       (const int32_t[4]){ 0, 0, (int32_t)m->viewpoint.keys->size[0],
+		                           (int32_t)m->viewpoint.keys->size[1] },
 		       sizeof(out->clears[i].scissor));
 }
 
 static void tell(const struct viewpoint *v, uint32_t number, uint32_t pictures, char *out, size_t size)
 {
 	const float *m = v->eye_from_camera;
-	int n = snprintf(out, size, "at %.6g %.6g %.6g, towards %.4g %.4g %.4g, up %.4g %.4g %.4g", 0.0 + m[12], 0.0 + m[13], 0.0 + m[14],
-	                 0.0 - m[8], 0.0 - m[9], 0.0 - m[10], 0.0 + m[4], 0.0 + m[5], 0.0 + m[6]);
+	int n = snprintf(out, size, "at %.6g %.6g %.6g, towards %.4g %.4g %.4g, up %.4g %.4g %.4g", 0.0 + m[12],
+	                 0.0 + m[13], 0.0 + m[14], 0.0 - m[8], 0.0 - m[9], 0.0 - m[10], 0.0 + m[4], 0.0 + m[5],
+	                 0.0 + m[6]);
 
 	if (pictures && n > 0 && (size_t)n < size)
 		snprintf(out + n, size - (size_t)n, ", picture %u of %u", number, pictures);
 }
 
-int elsewhere_make(const struct camera *camera, const struct look *look, const struct scene *scene, uint32_t number, struct elsewhere *out)
+int elsewhere_make(const struct camera *camera, const struct look *look, const struct scene *scene, uint32_t number,
+                   struct elsewhere *out)
 {
 	struct making m = { .scene = scene, .out = &out->scene };
 	int32_t shown[4];
@@ -301,7 +317,9 @@ int elsewhere_make(const struct camera *camera, const struct look *look, const s
 	memset(out, 0, sizeof(*out));
 	err = viewpoint_find(camera, look, scene, number, &m.viewpoint);
 	if (!err && m.viewpoint.main_view == SCENE_NONE)
-		err = err_report(ERR_INPUT, camera->path, "frame %llu shows nothing in space: there is no other place to see it from", (unsigned long long)scene->frame);
+		err = err_report(ERR_INPUT, camera->path,
+		                 "frame %llu shows nothing in space: there is no other place to see it from",
+		                 (unsigned long long)scene->frame);
 	if (!err)
 		err = find_skies(&m);
 	if (!err)

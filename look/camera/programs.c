@@ -8,7 +8,11 @@
 #include "look/drawn.h"
 #include "scene/program.h"
 
-enum { COLUMNS = 5, MOVING = COLUMNS }; /* of the function, the last one added as it is; instructions: one for each of the others, and one that sets the position */
+enum {
+	COLUMNS = 5,
+	MOVING = COLUMNS
+}; /* of the function, the last one added as it is; instructions: one for each of the others, and one that sets the
+      position */
 
 static const struct scene_program *program_of(const struct scene *s, const struct scene_instance *in)
 {
@@ -24,7 +28,8 @@ int programs_place(const struct scene *s, const struct scene_instance *in)
 	return p && p->outputs >> SCENE_RESULT_POSITION & 1;
 }
 
-/* Eye positions as the vertex stage has them of clip positions (kernels/gl/vertex_program.h): eye = columns . (x, y, z, w, 1). @return 0: there are none */
+/* Eye positions as the vertex stage has them of clip positions (kernels/gl/vertex_program.h): eye = columns . (x, y, z,
+ * w, 1). @return 0: there are none */
 static int find_eye(const struct scene_view *view, float eye[COLUMNS][4])
 {
 	const float *m = view->projection;
@@ -79,15 +84,20 @@ static void write_moving(const struct scene_program *was, struct scene_instructi
 	const uint32_t own = was->n_registers, first = SCENE_PROGRAM_CONSTANT + was->n_constants;
 
 	for (uint32_t c = 0; c < COLUMNS - 1; c++)
-		out[c] = (struct scene_instruction){ .operation = SCENE_OP_MAD, .n = 4, .flags = SCENE_STEP_B | SCENE_STEP_C | SCENE_UNMASKED, .to = own,
-			                             .a = SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_POSITION + c, .b = first + 4 * c,
-			                             .c = c ? own : first + 4 * (COLUMNS - 1) };
-	out[COLUMNS - 1] = (struct scene_instruction){ .operation = SCENE_OP_MOVE, .n = 4, .flags = SCENE_STEP_A | SCENE_UNMASKED,
-		                                       .to = SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_POSITION, .a = own };
+		out[c] = (struct scene_instruction){
+			.operation = SCENE_OP_MAD, .n = 4, .flags = SCENE_STEP_B | SCENE_STEP_C | SCENE_UNMASKED, .to = own,
+			.a = SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_POSITION + c, .b = first + 4 * c,
+			.c = c ? own : first + 4 * (COLUMNS - 1)
+		};
+	out[COLUMNS - 1] = (struct scene_instruction){ .operation = SCENE_OP_MOVE,
+		                                       .n = 4,
+		                                       .flags = SCENE_STEP_A | SCENE_UNMASKED,
+		                                       .to = SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_POSITION,
+		                                       .a = own };
 }
 
-int programs_move(const struct scene *s, const struct scene_instance *in, const float moved[16], const float projection[16], struct scene *out,
-                  struct scene_instance *to)
+int programs_move(const struct scene *s, const struct scene_instance *in, const float moved[16],
+                  const float projection[16], struct scene *out, struct scene_instance *to)
 {
 	const struct scene_program *was = program_of(s, in);
 	const size_t old_head = sizeof(*was) + was->n_instructions * sizeof(struct scene_instruction);

@@ -1,4 +1,5 @@
-/* Vertices that programs place (scene/program.h), moved: clip positions, seen from elsewhere, are an affine function of what programs made. */
+/* Vertices that programs place (scene/program.h), moved: clip positions, seen from elsewhere, are an affine function of
+ * what programs made. */
 #pragma once
 
 #include "scene/scene.h"
@@ -21,5 +22,5 @@ int programs_copy(const struct scene *scene, struct scene *out);
  * @param to          the draw in `out`
  * @return 0 or ERR_SYSTEM (reported)
  */
-int programs_move(const struct scene *scene, const struct scene_instance *instance, const float moved[16], const float projection[16],
-                  struct scene *out, struct scene_instance *to);
+int programs_move(const struct scene *scene, const struct scene_instance *instance, const float moved[16],
+                  const float projection[16], struct scene *out, struct scene_instance *to);

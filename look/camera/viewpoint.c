@@ -11,7 +11,7 @@
 #include "look/solid.h"
 #include "look/world.h"
 
-/* --- Vectors ------------------------------------------------------------------------------------------------------- */
+/* --- Vectors ----------------------------------------------------------------------------------------------------- */
 
 static void subtract(const float a[3], const float b[3], float out[3])
 {
@@ -48,8 +48,10 @@ static void move_place(const float m[16], const float from[3], float out[3])
 	memcpy(out, at, 3 * sizeof(*out));
 }
 
-/* Eye space from that of a camera at a place; and back. @return 0: `up` lies along the line of sight, or there is none */
-static int stand(const float place[3], const float forward[3], const float up[3], float eye_from[16], float from_eye[16])
+/* Eye space from that of a camera at a place; and back. @return 0: `up` lies along the line of sight, or there is
+ * none */
+static int stand(const float place[3], const float forward[3], const float up[3], float eye_from[16],
+                 float from_eye[16])
 {
 	float f[3], side[3], above[3], upright[3];
 
@@ -70,11 +72,13 @@ static int stand(const float place[3], const float forward[3], const float up[3]
 		eye_from[12 + k] = place[k];
 	}
 	for (int row = 0; row < 3; row++)
-		from_eye[12 + row] = (float)(0.0 - (double)from_eye[row] * place[0] - (double)from_eye[4 + row] * place[1] - (double)from_eye[8 + row] * place[2]);
+		from_eye[12 + row] = (float)(0.0 - (double)from_eye[row] * place[0] -
+		                             (double)from_eye[4 + row] * place[1] -
+		                             (double)from_eye[8 + row] * place[2]);
 	return 1;
 }
 
-/* --- The recorded camera ------------------------------------------------------------------------------------------- */
+/* --- The recorded camera ----------------------------------------------------------------------------------------- */
 
 /* The view through which most triangles that have depth are seen, of those that are of any use. */
 static uint32_t find_main_view(const struct scene *s)
@@ -103,7 +107,8 @@ static uint32_t find_main_view(const struct scene *s)
 /* 1 where a projection has its viewer at the origin, who looks along -z. */
 static int is_plain(const float m[16])
 {
-	return m[1] == 0 && m[2] == 0 && m[3] == 0 && m[4] == 0 && m[6] == 0 && m[7] == 0 && (m[11] < 0 ? m[15] == 0 && m[12] == 0 && m[13] == 0 : m[11] == 0);
+	return m[1] == 0 && m[2] == 0 && m[3] == 0 && m[4] == 0 && m[6] == 0 && m[7] == 0 &&
+	       (m[11] < 0 ? m[15] == 0 && m[12] == 0 && m[13] == 0 : m[11] == 0);
 }
 
 /* The place that is shown at x, y of the clip cube, at its near (-1) or far side. */
@@ -173,9 +178,10 @@ static void find_middle(const struct scene *s, const struct viewpoint *v, float 
 		out[k] = 0.5f * (low[k] + high[k]);
 }
 
-/* --- Where it stands ----------------------------------------------------------------------------------------------- */
+/* --- Where it stands --------------------------------------------------------------------------------------------- */
 
-/* Where the camera is and what it looks at, in eye space. space: eye space from the one in which the file has its places */
+/* Where the camera is and what it looks at, in eye space. space: eye space from the one in which the file has its
+ * places */
 struct stance {
 	float place[3], at[3], up[3];
 };
@@ -196,8 +202,8 @@ static void go_around(const struct camera *camera, uint32_t number, struct stanc
 		s->place[k] = s->at[k] + arm[k];
 }
 
-static void find_stance(const struct camera *camera, const float space[16], const struct viewpoint *v, const float middle[3], uint32_t number,
-                        struct stance *out)
+static void find_stance(const struct camera *camera, const float space[16], const struct viewpoint *v,
+                        const float middle[3], uint32_t number, struct stance *out)
 {
 	const struct camera_keys *k = camera->keys;
 	const float *at = k->turntable ? k->turntable->about : k->look_at;
@@ -232,16 +238,20 @@ static float find_distance(const struct camera_keys *k, const struct stance *s, 
 	return along > 0 ? along : length_of(to);
 }
 
-static int find_space(const struct camera *camera, const struct look *look, const struct scene *scene, const struct viewpoint *v, float out[16])
+static int find_space(const struct camera *camera, const struct look *look, const struct scene *scene,
+                      const struct viewpoint *v, float out[16])
 {
 	memcpy(out, v->eye_from_recorded, 16 * sizeof(*out));
 	if (!camera_is_in_world(camera) || (look && world_find(look->rules, scene, out)))
 		return 0;
-	return err_report(ERR_INPUT, camera->path, "frame %llu: space is world, and no mesh of the frame says where that is (--look, list world)",
-	                  (unsigned long long)scene->frame);
+	return err_report(
+		ERR_INPUT, camera->path,
+		"frame %llu: space is world, and no mesh of the frame says where that is (--look, list world)",
+		(unsigned long long)scene->frame);
 }
 
-int viewpoint_find(const struct camera *camera, const struct look *look, const struct scene *scene, uint32_t number, struct viewpoint *out)
+int viewpoint_find(const struct camera *camera, const struct look *look, const struct scene *scene, uint32_t number,
+                   struct viewpoint *out)
 {
 	const struct camera_keys *k = camera->keys;
 	float space[16], middle[3], forward[3], moved[16];
@@ -259,7 +269,9 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 	find_stance(camera, space, out, middle, number, &stance);
 	subtract(stance.at, stance.place, forward);
 	if (!stand(stance.place, forward, stance.up, out->eye_from_camera, out->camera_from_eye))
-		return err_report(ERR_INPUT, camera->path, "frame %llu: the camera cannot stand so: up lies along the line of sight, or that has no length",
+		return err_report(ERR_INPUT, camera->path,
+		                  "frame %llu: the camera cannot stand so: up lies along the line of sight, or that "
+		                  "has no length",
 		                  (unsigned long long)scene->frame);
 	mat4_mul(moved, out->camera_from_eye, out->eye_from_recorded);
 	out->is_moved = memcmp(moved, mat4_identity, sizeof(moved)) != 0;
@@ -269,7 +281,10 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 	for (int i = 0; i < 3; i++)
 		out->sky_from_eye[12 + i] = 0.0f - moved[i];
 	out->was_parallel = drawn_in_parallel(&scene->views[out->main_view]);
-	out->is_parallel = k->kind ? strcmp(k->kind, "orthographic") == 0 : k->height ? 1 : k->field_of_view ? 0 : out->was_parallel;
+	out->is_parallel = k->kind          ? strcmp(k->kind, "orthographic") == 0 :
+	                   k->height        ? 1 :
+	                   k->field_of_view ? 0 :
+	                                      out->was_parallel;
 	out->distance = find_distance(k, &stance, middle);
 	out->aspect = k->size ? (float)k->size[0] / (float)k->size[1] :
 	              scene->views[out->main_view].viewport[2] / scene->views[out->main_view].viewport[3];
@@ -278,10 +293,11 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 	return 0;
 }
 
-/* --- What it projects ---------------------------------------------------------------------------------------------- */
+/* --- What it projects -------------------------------------------------------------------------------------------- */
 
 /* Rows x and y. recorded: project_recorded of the view */
-static void project_across(const struct viewpoint *v, const struct scene *scene, const float recorded[16], float out[16])
+static void project_across(const struct viewpoint *v, const struct scene *scene, const float recorded[16],
+                           float out[16])
 {
 	const struct scene_view *main_view = &scene->views[v->main_view];
 	float of_main[16], up;
@@ -358,7 +374,8 @@ static void project_along(const struct viewpoint *v, const float recorded[16], f
 	out[15] = v->is_parallel ? 1 : 0;
 }
 
-void viewpoint_project(const struct viewpoint *v, const struct scene *scene, const struct scene_view *view, float out[16])
+void viewpoint_project(const struct viewpoint *v, const struct scene *scene, const struct scene_view *view,
+                       float out[16])
 {
 	const int is_same = !v->is_moved && v->is_parallel == v->was_parallel && !v->keys->near && !v->keys->far;
 	float recorded[16];

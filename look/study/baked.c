@@ -25,8 +25,9 @@ static int may_be_baked(const struct scene *s, const struct scene_instance *in)
 	const struct scene_material *m = &s->materials[in->material];
 	const struct scene_unit *unit = m->unit_count ? &s->units[m->unit_first] : NULL;
 
-	if (!solid_is(s, in) || m->lighting || m->blend || m->stencil_test || m->program || m->shade_model == GL_FLAT || m->unit_count > 1 ||
-	    drawn_in_parallel(&s->views[in->view]) || modelview_kind_of(in->modelview) != MODELVIEW_PLAIN)
+	if (!solid_is(s, in) || m->lighting || m->blend || m->stencil_test || m->program || m->shade_model == GL_FLAT ||
+	    m->unit_count > 1 || drawn_in_parallel(&s->views[in->view]) ||
+	    modelview_kind_of(in->modelview) != MODELVIEW_PLAIN)
 		return 0;
 	return s->meshes[in->mesh]->color && (!unit || (unit->env_mode == GL_MODULATE && !unit->gen_mode[0]));
 }
@@ -59,7 +60,8 @@ static void add_triangle(struct corner *corners, const uint32_t *index, double p
 	for (int k = 0; k < 3; k++) {
 		const int a = (k + 1) % 3, b = (k + 2) % 3;
 
-		n[k] = side * ((place[1][a] - place[0][a]) * (place[2][b] - place[0][b]) - (place[1][b] - place[0][b]) * (place[2][a] - place[0][a]));
+		n[k] = side * ((place[1][a] - place[0][a]) * (place[2][b] - place[0][b]) -
+		               (place[1][b] - place[0][b]) * (place[2][a] - place[0][a]));
 	}
 	area = sqrt(matrix_dot3(n, n));
 	for (int v = 0; v < 3; v++) {
@@ -73,7 +75,8 @@ static void add_triangle(struct corner *corners, const uint32_t *index, double p
 	}
 }
 
-static int put_vertices(struct lightmaps *l, const struct scene_mesh *mesh, const struct corner *corners, const double world[16])
+static int put_vertices(struct lightmaps *l, const struct scene_mesh *mesh, const struct corner *corners,
+                        const double world[16])
 {
 	if (MEMORY_GROW(l->texels, l->room, l->n + mesh->vertex_count))
 		return ERR_SYSTEM;
@@ -129,7 +132,8 @@ static uint64_t key_of(const struct scene *s, const struct scene_instance *in, c
 	return solid_is(s, in) && !m->blend && !m->alpha_test && !m->stencil_test ? s->meshes[in->mesh]->hash[0] : 0;
 }
 
-static int put_draw(struct lightmaps *l, const struct scene *s, const struct scene_instance *in, const struct motion_thing *t)
+static int put_draw(struct lightmaps *l, const struct scene *s, const struct scene_instance *in,
+                    const struct motion_thing *t)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	int err = 0;

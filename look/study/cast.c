@@ -18,7 +18,7 @@
 #define MIDDLE 0.1
 #define SAME 1e-4f
 
-/* --- What a unit does ---------------------------------------------------------------------------------------------------- */
+/* --- What a unit does -------------------------------------------------------------------------------------------- */
 
 /* What a texel leaves of the light; 2: the unit does something else. */
 static double factor_of(const struct scene_unit *u, const uint8_t *texel)
@@ -28,7 +28,8 @@ static double factor_of(const struct scene_unit *u, const uint8_t *texel)
 	if (u->env_mode == GL_COMBINE) {
 		const int at = u->source_rgb[0] == GL_TEXTURE ? 0 : 1;
 
-		if (u->combine_rgb != GL_MODULATE || u->source_rgb[at] != GL_TEXTURE || u->operand_rgb[1 - at] != GL_SRC_COLOR || u->scale_rgb != 1 ||
+		if (u->combine_rgb != GL_MODULATE || u->source_rgb[at] != GL_TEXTURE ||
+		    u->operand_rgb[1 - at] != GL_SRC_COLOR || u->scale_rgb != 1 ||
 		    (u->source_rgb[1 - at] != GL_PREVIOUS && u->source_rgb[1 - at] != GL_PRIMARY_COLOR))
 			return 2;
 		operand = u->operand_rgb[at];
@@ -47,8 +48,8 @@ static int is_blob(const struct scene *s, const struct scene_unit *u)
 	const struct scene_texture *t = s->textures[u->texture];
 	const uint32_t middle = (t->height / 2) * t->width + t->width / 2;
 
-	if (t->target != GL_TEXTURE_2D || t->floats || t->border || t->width < 4 || t->height < 4 || u->wrap_s == GL_REPEAT || u->wrap_t == GL_REPEAT ||
-	    factor_of(u, t->texels + 4 * (size_t)middle) > DARK)
+	if (t->target != GL_TEXTURE_2D || t->floats || t->border || t->width < 4 || t->height < 4 ||
+	    u->wrap_s == GL_REPEAT || u->wrap_t == GL_REPEAT || factor_of(u, t->texels + 4 * (size_t)middle) > DARK)
 		return 0;
 	for (uint32_t y = 0; y < t->height; y++)
 		for (uint32_t x = 0; x < t->width; x += y == 0 || y + 1 == t->height ? 1 : t->width - 1) {
@@ -60,7 +61,7 @@ static int is_blob(const struct scene *s, const struct scene_unit *u)
 	return 1;
 }
 
-/* --- Where it falls ------------------------------------------------------------------------------------------------------ */
+/* --- Where it falls ---------------------------------------------------------------------------------------------- */
 
 /* 1 where a unit's coordinates are the points' own places. */
 static int is_by_place(const struct scene_mesh *mesh, const struct scene_unit *u)
@@ -78,7 +79,8 @@ static int is_by_place(const struct scene_mesh *mesh, const struct scene_unit *u
 }
 
 /* What leads from eye space to a unit's coordinates, before its matrix. @return 0: they do not come of places */
-static int find_coordinates(const struct scene *s, const struct scene_instance *in, const struct scene_unit *u, double out[16])
+static int find_coordinates(const struct scene *s, const struct scene_instance *in, const struct scene_unit *u,
+                            double out[16])
 {
 	double eye[16], inverse[16], rows[16];
 	const uint32_t mode = u->gen_mode[0];
@@ -137,7 +139,8 @@ static int has_thing(const struct scene *s, const struct scene_instance *in, con
 		const struct scene_instance *thing = &s->instances[i];
 		double at[4] = { 0, 0, 0, 1 }, out[4];
 
-		if (!solid_is(s, thing) || has_texture(s, thing, u->texture) || s->views[thing->view].space != s->views[in->view].space ||
+		if (!solid_is(s, thing) || has_texture(s, thing, u->texture) ||
+		    s->views[thing->view].space != s->views[in->view].space ||
 		    drawn_in_parallel(&s->views[thing->view]))
 			continue;
 		find_middle(s, thing, at);
@@ -148,7 +151,7 @@ static int has_thing(const struct scene *s, const struct scene_instance *in, con
 	return 0;
 }
 
-/* --- Frames -------------------------------------------------------------------------------------------------------------- */
+/* --- Frames ------------------------------------------------------------------------------------------------------ */
 
 static struct cast_texture *entry_of(struct cast *c, const uint64_t hash[2], uint32_t unit, int may_add)
 {
@@ -162,7 +165,8 @@ static struct cast_texture *entry_of(struct cast *c, const uint64_t hash[2], uin
 }
 
 /* A unit of a lit draw: the first such draw of a frame tells for all. */
-static void note_unit(struct cast *c, const struct scene *s, const struct scene_instance *in, const struct scene_unit *u)
+static void note_unit(struct cast *c, const struct scene *s, const struct scene_instance *in,
+                      const struct scene_unit *u)
 {
 	const uint64_t *hash = s->textures[u->texture]->hash;
 	struct cast_texture *t = entry_of(c, hash, u->unit, 0);
@@ -191,7 +195,9 @@ void cast_add(struct cast *c, const struct scene *s)
 		const struct scene_instance *in = &s->instances[i];
 		const struct scene_material *m = &s->materials[in->material];
 
-		for (uint32_t k = 0; k + 1 < m->unit_count && m->lighting && m->light_count && s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle; k++)
+		for (uint32_t k = 0; k + 1 < m->unit_count && m->lighting && m->light_count &&
+		                     s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle;
+		     k++)
 			note_unit(c, s, in, &s->units[m->unit_first + k]);
 	}
 }
@@ -207,11 +213,14 @@ unsigned cast_write(const struct cast *c, FILE *out)
 			continue;
 		n++;
 		if (out)
-			fprintf(out, "  - role: shadow in a unit\n    confidence: %.2f\n    why: \"%u of %u draws in %u frames: a texture that is dark in its middle falls "
+			fprintf(out,
+			        "  - role: shadow in a unit\n    confidence: %.2f\n    why: \"%u of %u draws in %u "
+			        "frames: a texture that is dark in its middle falls "
 			        "where a thing is, by places alone; traced shadows of OpenGL's lights replace it\"\n"
-			        "    match: { texture: \"%016" PRIx64 "%016" PRIx64 "\", lit: yes }\n    shadow_unit: %u\n",
-			        t->thrown * (1 - 0.5 / (1 + t->frames)) / (t->thrown + t->others), t->thrown, t->thrown + t->others, t->frames,
-			        t->hash[1], t->hash[0], t->unit);
+			        "    match: { texture: \"%016" PRIx64 "%016" PRIx64
+			        "\", lit: yes }\n    shadow_unit: %u\n",
+			        t->thrown * (1 - 0.5 / (1 + t->frames)) / (t->thrown + t->others), t->thrown,
+			        t->thrown + t->others, t->frames, t->hash[1], t->hash[0], t->unit);
 	}
 	return n;
 }

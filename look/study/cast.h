@@ -1,6 +1,7 @@
 /*
- * A thing's shadow as a texture that is thrown onto the ground: a unit's coordinates are made of each point's place, the texture is dark in
- * its middle alone, and the thing is where that falls. What a unit holds so is no colour of the ground.
+ * A thing's shadow as a texture that is thrown onto the ground: a unit's coordinates are made of each point's place,
+ * the texture is dark in its middle alone, and the thing is where that falls. What a unit holds so is no colour of the
+ * ground.
  */
 #pragma once
 

@@ -22,7 +22,8 @@ enum { SKIES = 64, SKY_TEXELS = 1024 };
 /* Upright within 60 degrees of the window's own up; one floor within 8 degrees. */
 #define UPRIGHT 0.5
 #define SAME_UP 0.99
-/* How much of it counts where OpenGL lights a surface: its lights are most of what is there, ambient light is the rest. */
+/* How much of it counts where OpenGL lights a surface: its lights are most of what is there, ambient light is the
+ * rest. */
 #define LIT_SHARE 0.8
 /* A floor has at least this share of what is seen. */
 #define LEAST_FLOOR 0.08
@@ -61,9 +62,11 @@ static void window_up(const struct scene_view *view, double out[3])
 }
 
 /* times: so many faces it stands for */
-static void note_face(struct dome *d, const struct scene_view *view, const struct face *face, unsigned times, const double world_from_eye[16])
+static void note_face(struct dome *d, const struct scene_view *view, const struct face *face, unsigned times,
+                      const double world_from_eye[16])
 {
-	double up[3], normal[4] = { 0, 0, 0, 0 }, turned[4], size, weight = fmin(1, times * face_share(face, view->projection, &size)), side;
+	double up[3], normal[4] = { 0, 0, 0, 0 }, turned[4], size,
+		      weight = fmin(1, times * face_share(face, view->projection, &size)), side;
 
 	if (!(weight > 0))
 		return;
@@ -80,7 +83,8 @@ static void note_face(struct dome *d, const struct scene_view *view, const struc
 		d->all += weight;
 }
 
-static void note_instance(struct dome *d, const struct scene *scene, const struct scene_instance *in, const double world_from_eye[16])
+static void note_instance(struct dome *d, const struct scene *scene, const struct scene_instance *in,
+                          const double world_from_eye[16])
 {
 	const struct scene_mesh *mesh = scene->meshes[in->mesh];
 	const uint32_t stride = mesh->primitive_count / MOST_TRIANGLES + 1;
@@ -169,7 +173,8 @@ static void write_for_lit(const struct dome *d, FILE *out)
 	fprintf(out, "sky:\n  role: ambient light\n  confidence: %.2f\n", d->lit / (d->unlit + d->lit));
 	fprintf(out, "  why: \"OpenGL lights %.0f %% of what is solid; what stands close dims the light from all around\"\n",
 	        100 * d->lit / (d->unlit + d->lit));
-	fprintf(out, "  reach: %.4g\n  light: [1, 1, 1]\n  lit: %g\n  unlit: no\n", REACH_LIT * middle_size(d->sizes[1]), LIT_SHARE);
+	fprintf(out, "  reach: %.4g\n  light: [1, 1, 1]\n  lit: %g\n  unlit: no\n",
+	        REACH_LIT * middle_size(d->sizes[1]), LIT_SHARE);
 }
 
 /* What most of the level ground says; NULL: there is too little of it */
@@ -213,7 +218,8 @@ void dome_write(const struct dome *d, FILE *out)
 		return;
 	}
 	fprintf(out, "sky:\n  role: sky light\n  confidence: %.2f\n", d->unlit / (d->unlit + d->lit));
-	fprintf(out, "  why: \"OpenGL lights %.0f %% of what is solid, and nothing tells of another light; ", 100 * d->lit / (d->unlit + d->lit));
+	fprintf(out, "  why: \"OpenGL lights %.0f %% of what is solid, and nothing tells of another light; ",
+	        100 * d->lit / (d->unlit + d->lit));
 	if (has_floor)
 		fprintf(out, "%.0f %% of the rest is level, which says what is up\"\n", 100 * best->weight / d->all);
 	else

@@ -1,6 +1,6 @@
 /*
- * Light from all around, for a recording that has no other, and where things dim it: how much of what is solid OpenGL lights, how large the world is as it is
- * seen, and which way is up.
+ * Light from all around, for a recording that has no other, and where things dim it: how much of what is solid OpenGL
+ * lights, how large the world is as it is seen, and which way is up.
  */
 #pragma once
 
@@ -14,7 +14,8 @@ enum { DOME_SIZES = 160, DOME_UPS = 48 };
 /* All zero: nothing was seen. Weights are shares of the window. */
 struct dome {
 	double lit, unlit;
-	double sizes[2][DOME_SIZES]; /* of what is unlit, and of what is lit, by half the window's width where it stands, eye units: four to an octave */
+	double sizes[2][DOME_SIZES]; /* of what is unlit, and of what is lit, by half the window's width where it
+	                                stands, eye units: four to an octave */
 	struct dome_up {
 		double normal[3], weight; /* in the world; floors' normals, and ceilings' turned */
 	} ups[DOME_UPS];

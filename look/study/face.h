@@ -6,10 +6,12 @@
 #include "scene/scene.h"
 
 struct face {
-	double corner[3][3], normal[3], area; /* normal: of unit length, on the side from which its corners go round counterclockwise */
+	double corner[3][3], normal[3], area; /* normal: of unit length, on the side from which its corners go round
+	                                         counterclockwise */
 };
 
-/** @param place  4 x 4, from the mesh to where it is looked at. @return 1; 0: the triangle has no area, and no normal */
+/** @param place  4 x 4, from the mesh to where it is looked at. @return 1; 0: the triangle has no area, and no
+ * normal */
 int face_of(const struct scene_mesh *mesh, const double place[16], uint32_t primitive, struct face *out);
 
 /**

@@ -3,7 +3,8 @@
 #include <inttypes.h>
 #include <math.h>
 
-static const char *const trick_names[] = { "planar shadow", "stencil mirror", "shadow volume (z-pass)", "shadow volume (z-fail)" };
+static const char *const trick_names[] = { "planar shadow", "stencil mirror", "shadow volume (z-pass)",
+	                                   "shadow volume (z-fail)" };
 
 /* More draws that agree are more certain. */
 static double confidence_of(unsigned votes)
@@ -73,7 +74,9 @@ static void write_shadow(const struct tricks *t, unsigned first, const struct so
 	        "no light is known there, and so they stay");
 	if (!is_volume && n == 1)
 		write_plane(f, out);
-	fprintf(out, "    match: %s\n", is_volume || f->stencil ? "{ stencil_tested: yes, blended: yes, depth_tested: no }" : "{ modelview: singular, lit: no }");
+	fprintf(out, "    match: %s\n",
+	        is_volume || f->stencil ? "{ stencil_tested: yes, blended: yes, depth_tested: no }" :
+	                                  "{ modelview: singular, lit: no }");
 	if (is_replaced(f, s))
 		fprintf(out, "    left_out: yes\n    shadows: no\n    mirrors: no\n");
 }
@@ -88,11 +91,13 @@ static void write_mirror(const struct trick_found *f, FILE *out)
 	if (!(f->shows > 0))
 		return;
 	fprintf(out, "    left_out: yes\n    shadows: no\n    mirrors: no\n");
-	fprintf(out, "  - role: mirror\n    confidence: %.2f\n    why: \"it is blended over its picture, of which %.0f %% show\"\n",
+	fprintf(out,
+	        "  - role: mirror\n    confidence: %.2f\n    why: \"it is blended over its picture, of which %.0f %% "
+	        "show\"\n",
 	        confidence_of(f->votes), 100 * f->shows);
 	write_plane(f, out);
-	fprintf(out, "    match: { in_plane: [%.7g, %.7g, %.7g, %.7g], blended: yes, stencil_tested: %s }\n", f->plane[0], f->plane[1], f->plane[2], f->plane[3],
-	        f->surface_stencil ? "yes" : "no");
+	fprintf(out, "    match: { in_plane: [%.7g, %.7g, %.7g, %.7g], blended: yes, stencil_tested: %s }\n",
+	        f->plane[0], f->plane[1], f->plane[2], f->plane[3], f->surface_stencil ? "yes" : "no");
 	fprintf(out, "    solid: yes\n    reflect: %.4g\n", f->shows);
 }
 
@@ -100,7 +105,8 @@ static void write_light(const struct trick_found *f, FILE *out)
 {
 	fprintf(out, "  - role: light of a %s\n    confidence: %.2f\n", trick_names[f->kind], confidence_of(f->votes));
 	fprintf(out, "    why: \"%s\"\n", f->has_opengl_light ? "OpenGL has it too" : "how strong it is, nothing says");
-	fprintf(out, "    off: yes\n    space: world\n    position: [%.7g, %.7g, %.7g, %g]\n", f->light[0], f->light[1], f->light[2], f->light[3]);
+	fprintf(out, "    off: yes\n    space: world\n    position: [%.7g, %.7g, %.7g, %g]\n", f->light[0], f->light[1],
+	        f->light[2], f->light[3]);
 }
 
 static void write_walls(const struct lightmaps *maps, const struct solved *s, FILE *out)
@@ -109,35 +115,57 @@ static void write_walls(const struct lightmaps *maps, const struct solved *s, FI
 	double share = explained_share(s);
 
 	if (maps->n_units)
-		fprintf(out, "  - role: lightmap in a second unit\n    confidence: %.2f\n    why: \"%u walls; %u lights explain %.1f %% of it%s\"\n"
-		        "    match: { units: 2, lit: no, blended: no, depth_tested: yes, stencil_tested: no, environment_mapped: no }\n%s",
-		        fmax(0, share), maps->n_units, s->n, 100 * share, findings_relights(s) ? "" : stays, findings_relights(s) ? "    lit: yes\n" : "");
+		fprintf(out,
+		        "  - role: lightmap in a second unit\n    confidence: %.2f\n    why: \"%u walls; %u lights "
+		        "explain %.1f %% of it%s\"\n"
+		        "    match: { units: 2, lit: no, blended: no, depth_tested: yes, stencil_tested: no, "
+		        "environment_mapped: no }\n%s",
+		        fmax(0, share), maps->n_units, s->n, 100 * share, findings_relights(s) ? "" : stays,
+		        findings_relights(s) ? "    lit: yes\n" : "");
 	if (maps->n_units && findings_relights(s))
 		fprintf(out, "    lightmap: %u\n", maps->unit);
 	if (maps->n_passes)
-		fprintf(out, "  - role: lightmap pass\n    confidence: %.2f\n    why: \"%u walls; %u lights explain %.1f %% of it%s\"\n"
+		fprintf(out,
+		        "  - role: lightmap pass\n    confidence: %.2f\n    why: \"%u walls; %u lights explain %.1f %% "
+		        "of it%s\"\n"
 		        "    match: { multiplies: yes, units: 1, lit: no, stencil_tested: no }\n%s",
-		        fmax(0, share), maps->n_passes, s->n, 100 * share, findings_relights(s) ? "" : stays, findings_relights(s) ? "    left_out: yes\n" : "");
+		        fmax(0, share), maps->n_passes, s->n, 100 * share, findings_relights(s) ? "" : stays,
+		        findings_relights(s) ? "    left_out: yes\n" : "");
 	if (maps->n_colors && findings_relights(s))
-		fprintf(out, "  - role: light in vertex colours\n    confidence: %.2f\n    why: \"%u meshes; %u lights explain %.1f %% of it\"\n"
-		        "    match: { lit: no, blended: no, depth_tested: yes, stencil_tested: no, environment_mapped: no, parallel: no }\n"
-		        "    lit: yes\n    vertex_light: yes\n", share, maps->n_colors, s->n, 100 * share);
+		fprintf(out,
+		        "  - role: light in vertex colours\n    confidence: %.2f\n    why: \"%u meshes; %u lights "
+		        "explain %.1f %% of it\"\n"
+		        "    match: { lit: no, blended: no, depth_tested: yes, stencil_tested: no, environment_mapped: "
+		        "no, parallel: no }\n"
+		        "    lit: yes\n    vertex_light: yes\n",
+		        share, maps->n_colors, s->n, 100 * share);
 	if (maps->n_passes && findings_relights(s))
-		fprintf(out, "  - role: wall below a lightmap pass\n    confidence: %.2f\n    why: \"its light comes by the pass\"\n"
-		        "    match: { units: 1, lit: no, blended: no, depth_tested: yes, stencil_tested: no, environment_mapped: no }\n    lit: yes\n", share);
+		fprintf(out,
+		        "  - role: wall below a lightmap pass\n    confidence: %.2f\n    why: \"its light comes by the "
+		        "pass\"\n"
+		        "    match: { units: 1, lit: no, blended: no, depth_tested: yes, stencil_tested: no, "
+		        "environment_mapped: no }\n    lit: yes\n",
+		        share);
 }
 
 static void write_solved(const struct solved *s, const char *of, FILE *out)
 {
-	fprintf(out, "  - role: ambient light of %s\n    confidence: %.2f\n"
-	        "    why: \"what no light explains is as bright as this everywhere\"\n    on: unlit\n    space: world\n    position: [0, 1, 0, 0]\n    ambient: [%.5g, %.5g, %.5g]\n    diffuse: [0, 0, 0]\n    specular: [0, 0, 0]\n",
+	fprintf(out,
+	        "  - role: ambient light of %s\n    confidence: %.2f\n"
+	        "    why: \"what no light explains is as bright as this everywhere\"\n    on: unlit\n    space: "
+	        "world\n    position: [0, 1, 0, 0]\n    ambient: [%.5g, %.5g, %.5g]\n    diffuse: [0, 0, 0]\n    "
+	        "specular: [0, 0, 0]\n",
 	        of, explained_share(s), s->ambient[0], s->ambient[1], s->ambient[2]);
 	for (unsigned i = 0; i < s->n; i++)
-		fprintf(out, "  - role: light of %s\n    confidence: %.2f\n"
+		fprintf(out,
+		        "  - role: light of %s\n    confidence: %.2f\n"
 		        "    why: \"without it %.0f %% of what is explained is not; %zu texels, rest %.2g\"\n"
-		        "    on: unlit\n    space: world\n    position: [%.6g, %.6g, %.6g, 1]\n    diffuse: [%.5g, %.5g, %.5g]\n    specular: [0, 0, 0]\n"
-		        "    attenuation: [0, 0, 1]\n", of, s->lights[i].share, 100 * s->lights[i].share, s->texels, s->residual, s->lights[i].at[0],
-		        s->lights[i].at[1], s->lights[i].at[2], s->lights[i].color[0], s->lights[i].color[1], s->lights[i].color[2]);
+		        "    on: unlit\n    space: world\n    position: [%.6g, %.6g, %.6g, 1]\n    diffuse: [%.5g, "
+		        "%.5g, %.5g]\n    specular: [0, 0, 0]\n"
+		        "    attenuation: [0, 0, 1]\n",
+		        of, s->lights[i].share, 100 * s->lights[i].share, s->texels, s->residual, s->lights[i].at[0],
+		        s->lights[i].at[1], s->lights[i].at[2], s->lights[i].color[0], s->lights[i].color[1],
+		        s->lights[i].color[2]);
 }
 
 void findings_write_surfaces(const struct tricks *t, const struct lightmaps *maps, const struct solved *s, FILE *out)
@@ -155,7 +183,8 @@ void findings_write_surfaces(const struct tricks *t, const struct lightmaps *map
 	write_walls(maps, s, out);
 }
 
-void findings_write_lights(const struct tricks *t, const struct lightmaps *maps, const struct solved *s, int has_more, FILE *out)
+void findings_write_lights(const struct tricks *t, const struct lightmaps *maps, const struct solved *s, int has_more,
+                           FILE *out)
 {
 	unsigned lights = 0;
 

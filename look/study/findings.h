@@ -11,7 +11,9 @@
 int findings_relights(const struct solved *solved);
 
 /** Entries of the list `surfaces`. */
-void findings_write_surfaces(const struct tricks *tricks, const struct lightmaps *maps, const struct solved *solved, FILE *out);
+void findings_write_surfaces(const struct tricks *tricks, const struct lightmaps *maps, const struct solved *solved,
+                             FILE *out);
 
 /** The list `lights`, its last entries left to who knows more. has_more: 1: there are such */
-void findings_write_lights(const struct tricks *tricks, const struct lightmaps *maps, const struct solved *solved, int has_more, FILE *out);
+void findings_write_lights(const struct tricks *tricks, const struct lightmaps *maps, const struct solved *solved,
+                           int has_more, FILE *out);

@@ -13,7 +13,8 @@
 
 /* A floor has few triangles. */
 enum { MOST_TRIANGLES = 512 };
-/* Neighbours differ by no more than this, of 255, in this share of texels; the mean of the largest channel is at most this. */
+/* Neighbours differ by no more than this, of 255, in this share of texels; the mean of the largest channel is at most
+ * this. */
 enum { ALIKE = 6 };
 #define LEAST_EVEN 0.5
 #define DARKEST 0.3
@@ -39,7 +40,8 @@ static int has_shadow(const struct tricks *t, const double plane[4])
 	return 0;
 }
 
-/* The plane of eye space in which all of a draw lies. share: receives how much of the window it covers. @return 0: it is not flat */
+/* The plane of eye space in which all of a draw lies. share: receives how much of the window it covers. @return 0: it
+ * is not flat */
 static int find_plane(const struct scene *s, const struct scene_instance *in, double plane[4], double *share)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
@@ -85,8 +87,9 @@ static void read_texels(const struct scene_texture *t, struct floor_texture *f)
 
 	for (uint32_t y = 0; y < t->height; y++)
 		for (uint32_t x = 0; x < t->width; x++) {
-			const uint8_t *c = t->texels + 4 * ((size_t)y * t->width + x), *next[2] = { t->texels + 4 * ((size_t)y * t->width + (x + 1) % t->width),
-				t->texels + 4 * ((size_t)((y + 1) % t->height) * t->width + x) };
+			const uint8_t *c = t->texels + 4 * ((size_t)y * t->width + x),
+				      *next[2] = { t->texels + 4 * ((size_t)y * t->width + (x + 1) % t->width),
+				                   t->texels + 4 * ((size_t)((y + 1) % t->height) * t->width + x) };
 			int off = 0, most = 0;
 
 			for (int k = 0; k < 3; k++) {
@@ -120,8 +123,9 @@ static int may_be_floor(const struct scene *s, const struct scene_instance *in)
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	const struct scene_texture *t = m->unit_count == 1 ? s->textures[s->units[m->unit_first].texture] : NULL;
 
-	return t && !t->floats && t->texels && !t->border && !m->lighting && !m->program && !m->stencil_test && !in->rectangle && m->color_mask & 7 &&
-	       s->views[in->view].target == 0 && !drawn_in_parallel(&s->views[in->view]) && mesh->kind == SCENE_TRIANGLES &&
+	return t && !t->floats && t->texels && !t->border && !m->lighting && !m->program && !m->stencil_test &&
+	       !in->rectangle && m->color_mask & 7 && s->views[in->view].target == 0 &&
+	       !drawn_in_parallel(&s->views[in->view]) && mesh->kind == SCENE_TRIANGLES &&
 	       mesh->primitive_count <= MOST_TRIANGLES && modelview_kind_of(in->modelview) == MODELVIEW_PLAIN;
 }
 
@@ -152,13 +156,17 @@ unsigned floors_write(const struct floors *f, FILE *out)
 	for (unsigned i = 0; i < f->n; i++) {
 		const struct floor_texture *t = &f->textures[i];
 
-		if (t->shadowed < LEAST_SHADOWED * t->draws || t->share < LEAST_SHARE * f->frames || t->even < LEAST_EVEN || t->shown > DARKEST)
+		if (t->shadowed < LEAST_SHADOWED * t->draws || t->share < LEAST_SHARE * f->frames ||
+		    t->even < LEAST_EVEN || t->shown > DARKEST)
 			continue;
 		n++;
 		if (out)
-			fprintf(out, "  - role: polished floor\n    confidence: 0.5\n"
-			        "    why: \"shadows fall on it in %u of %u draws; it is dark, and %.0f %% of its texels are as their neighbours\"\n"
-			        "    match: { texture: \"%016" PRIx64 "%016" PRIx64 "\", lit: no, parallel: no, modelview: plain }\n    reflect: %g\n    near: yes\n",
+			fprintf(out,
+			        "  - role: polished floor\n    confidence: 0.5\n"
+			        "    why: \"shadows fall on it in %u of %u draws; it is dark, and %.0f %% of its "
+			        "texels are as their neighbours\"\n"
+			        "    match: { texture: \"%016" PRIx64 "%016" PRIx64
+			        "\", lit: no, parallel: no, modelview: plain }\n    reflect: %g\n    near: yes\n",
 			        t->shadowed, t->draws, 100 * t->even, t->hash[1], t->hash[0], MIRRORED);
 	}
 	return n;

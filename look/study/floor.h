@@ -1,7 +1,7 @@
 /*
- * Floors that are smooth and dark, as polished stone is: they mirror what stands on them. Where OpenGL lights a floor, its specular colour
- * says how it mirrors (look/gloss.h). Where it does not, shadows flattened onto the floor say that things stand on it, and its texture
- * says that it has no grain: grass, cloth and sand have some.
+ * Floors that are smooth and dark, as polished stone is: they mirror what stands on them. Where OpenGL lights a floor,
+ * its specular colour says how it mirrors (look/gloss.h). Where it does not, shadows flattened onto the floor say that
+ * things stand on it, and its texture says that it has no grain: grass, cloth and sand have some.
  */
 #pragma once
 

@@ -10,15 +10,15 @@
 
 enum { BY_MESH, BY_TEXTURE, BY_STATE };
 enum {
-	STATE_LIT = 1, STATE_BLENDED = 2, STATE_ALPHA = 4, STATE_DEPTH = 8, STATE_STENCIL = 16, STATE_MULTIPLIES = 32, STATE_PARALLEL = 64,
-	STATE_UNITS = 128
+	STATE_LIT = 1, STATE_BLENDED = 2, STATE_ALPHA = 4, STATE_DEPTH = 8, STATE_STENCIL = 16, STATE_MULTIPLIES = 32,
+	STATE_PARALLEL = 64, STATE_UNITS = 128
 };
 /* A mesh is asked about so often what it lies on, in a frame and in all, and a role has so many rules. */
 enum { MOST_IN_FRAME = 4, MOST_VOTES = 48, MOST_RULES = 64 };
 /* Nearly always. */
 #define SHARE 0.95
 
-/* --- Votes -------------------------------------------------------------------------------------------------------------- */
+/* --- Votes ------------------------------------------------------------------------------------------------------- */
 
 static uint64_t state_of(const struct scene *s, const struct scene_instance *in)
 {
@@ -26,7 +26,8 @@ static uint64_t state_of(const struct scene *s, const struct scene_instance *in)
 	uint64_t state = m->unit_count * STATE_UNITS;
 
 	state |= (m->lighting ? STATE_LIT : 0) | (m->blend ? STATE_BLENDED : 0) | (m->alpha_test ? STATE_ALPHA : 0);
-	state |= (m->depth_test ? STATE_DEPTH : 0) | (m->stencil_test ? STATE_STENCIL : 0) | (drawn_multiplies(m) ? STATE_MULTIPLIES : 0);
+	state |= (m->depth_test ? STATE_DEPTH : 0) | (m->stencil_test ? STATE_STENCIL : 0) |
+	         (drawn_multiplies(m) ? STATE_MULTIPLIES : 0);
 	return state | (drawn_in_parallel(&s->views[in->view]) ? STATE_PARALLEL : 0);
 }
 
@@ -65,7 +66,8 @@ static int vote(struct kinds *k, const uint64_t hash[2], uint32_t by, enum kind_
 	return 0;
 }
 
-/* A draw says what its mesh, its last texture and its state are. Textures before the last are of all that shares them. */
+/* A draw says what its mesh, its last texture and its state are. Textures before the last are of all that shares
+ * them. */
 static int vote_all(struct kinds *k, const struct scene *s, const struct scene_instance *in, enum kind_role role)
 {
 	const struct scene_material *m = &s->materials[in->material];
@@ -74,7 +76,8 @@ static int vote_all(struct kinds *k, const struct scene *s, const struct scene_i
 	int err = vote(k, s->meshes[in->mesh]->hash, BY_MESH, role, &mesh);
 
 	for (uint32_t u = 0; u < m->unit_count && !err; u++)
-		err = vote(k, s->textures[s->units[m->unit_first + u].texture]->hash, BY_TEXTURE, u + 1 < m->unit_count ? KIND_WORLD : role, &texture);
+		err = vote(k, s->textures[s->units[m->unit_first + u].texture]->hash, BY_TEXTURE,
+		           u + 1 < m->unit_count ? KIND_WORLD : role, &texture);
 	if (!err)
 		err = vote(k, state, BY_STATE, role, &by_state);
 	if (err)
@@ -122,7 +125,8 @@ int kinds_add(struct kinds *k, const struct scene *s)
 {
 	static const enum kind_role roles[] = { KIND_WORLD, KIND_DECAL, KIND_SHADOW, KIND_LIT_SHADOW };
 	uint8_t *laid = malloc(s->n_instances + (size_t)1), *asked = malloc(s->n_instances + (size_t)1);
-	int err = laid && asked ? MEMORY_GROW(k->layers, k->room_layers, s->n_instances + (size_t)1) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	int err = laid && asked ? MEMORY_GROW(k->layers, k->room_layers, s->n_instances + (size_t)1) :
+	                          err_report(ERR_SYSTEM, NULL, "out of memory");
 	const uint8_t *layers = k->layers;
 
 	k->frames++;
@@ -152,7 +156,7 @@ void kinds_free(struct kinds *k)
 	*k = (struct kinds){ .list = NULL };
 }
 
-/* --- Rules -------------------------------------------------------------------------------------------------------------- */
+/* --- Rules ------------------------------------------------------------------------------------------------------- */
 
 /* A role as rules have it. */
 struct rule {
@@ -162,13 +166,17 @@ struct rule {
 };
 
 static const struct rule rules[] = {
-	{ "sky", "are painted before the world, hide nothing of it, and are all around", "", "    shadows: no\n    shaded: no\n", 1u << KIND_SKY, 3 },
+	{ "sky", "are painted before the world, hide nothing of it, and are all around", "",
+	  "    shadows: no\n    shaded: no\n", 1u << KIND_SKY, 3 },
 	{ "decal", "lie on what was drawn before them", ", parallel: no", "    shadows: no\n", 1u << KIND_DECAL, 3 },
-	{ "blob shadow", "darken what they lie on, below a thing that stands there; traced shadows of OpenGL's lights replace them",
+	{ "blob shadow",
+	  "darken what they lie on, below a thing that stands there; traced shadows of OpenGL's lights replace them",
 	  ", parallel: no", "    shadows: no\n    mirrors: no\n    left_out: yes\n", 1u << KIND_LIT_SHADOW, 3 },
-	{ "blob shadow", "darken what they lie on, below a thing that stands there; no light of OpenGL's does, and so they stay",
+	{ "blob shadow",
+	  "darken what they lie on, below a thing that stands there; no light of OpenGL's does, and so they stay",
 	  ", parallel: no", "    shadows: no\n    dome: no\n", 1u << KIND_SHADOW, 1 },
-	{ "blob shadow", "darken what they lie on, below a thing that stands there; traced shadows of the lights below replace them",
+	{ "blob shadow",
+	  "darken what they lie on, below a thing that stands there; traced shadows of the lights below replace them",
 	  ", parallel: no", "    shadows: no\n    mirrors: no\n    left_out: yes\n", 1u << KIND_SHADOW, 2 },
 };
 
@@ -217,11 +225,13 @@ static void write_match(const struct kind *k, const char *view, FILE *out)
 	const uint64_t s = k->hash[0];
 
 	if (k->by != BY_STATE) {
-		fprintf(out, "    match: { %s: \"%016" PRIx64 "%016" PRIx64 "\"%s }\n", k->by == BY_MESH ? "mesh" : "texture", k->hash[1], k->hash[0], view);
+		fprintf(out, "    match: { %s: \"%016" PRIx64 "%016" PRIx64 "\"%s }\n",
+		        k->by == BY_MESH ? "mesh" : "texture", k->hash[1], k->hash[0], view);
 		return;
 	}
 	fprintf(out, "    match: { lit: %s, units: %" PRIu64 ", blended: %s, alpha_tested: %s, depth_tested: %s,\n",
-	        yes_no[(s & STATE_LIT) != 0], s / STATE_UNITS, yes_no[(s & STATE_BLENDED) != 0], yes_no[(s & STATE_ALPHA) != 0],
+	        yes_no[(s & STATE_LIT) != 0], s / STATE_UNITS, yes_no[(s & STATE_BLENDED) != 0],
+	        yes_no[(s & STATE_ALPHA) != 0],
 	        yes_no[(s & STATE_DEPTH) != 0]);
 	fprintf(out, "             stencil_tested: %s, multiplies: %s, parallel: %s }\n", yes_no[(s & STATE_STENCIL) != 0],
 	        yes_no[(s & STATE_MULTIPLIES) != 0], yes_no[(s & STATE_PARALLEL) != 0]);
@@ -251,9 +261,11 @@ unsigned kinds_write(const struct kinds *k, int is_relit, FILE *out)
 			of_role++;
 			if (!out)
 				continue;
-			fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"%u of %u draws in %u frames %s\"\n", rules[r].role,
-			        draws_with(kind, rules[r].roles) * (1 - 0.5 / (1 + kind->frames)) / votes_of(kind), draws_with(kind, rules[r].roles),
-			        votes_of(kind), kind->frames, rules[r].why);
+			fprintf(out,
+			        "  - role: %s\n    confidence: %.2f\n    why: \"%u of %u draws in %u frames %s\"\n",
+			        rules[r].role,
+			        draws_with(kind, rules[r].roles) * (1 - 0.5 / (1 + kind->frames)) / votes_of(kind),
+			        draws_with(kind, rules[r].roles), votes_of(kind), kind->frames, rules[r].why);
 			write_match(kind, rules[r].view, out);
 			fputs(rules[r].then, out);
 		}

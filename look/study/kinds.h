@@ -1,7 +1,7 @@
 /*
- * Draws of one kind: of one mesh, one texture, or one state of OpenGL's, and how often frames say what they are. A role is given to a
- * kind that has it nearly always: by its texture where all of that shows it, else by its mesh, or by its state where meshes are
- * in one frame each.
+ * Draws of one kind: of one mesh, one texture, or one state of OpenGL's, and how often frames say what they are. A role
+ * is given to a kind that has it nearly always: by its texture where all of that shows it, else by its mesh, or by its
+ * state where meshes are in one frame each.
  */
 #pragma once
 

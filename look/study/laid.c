@@ -51,12 +51,13 @@ int laid_may_be(const struct scene *s, uint32_t instance)
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	const int is_offset = m->polygon_offset & 4 && (m->polygon_offset_factor < 0 || m->polygon_offset_units < 0);
 
-	return mesh->kind == SCENE_TRIANGLES && mesh->primitive_count && mesh->primitive_count <= MOST_TRIANGLES && !in->rectangle &&
-	       s->views[in->view].target == 0 && !drawn_in_parallel(&s->views[in->view]) && m->color_mask & 7 &&
-	       (!m->depth_test || !m->depth_write || is_offset) && modelview_kind_of(in->modelview) == MODELVIEW_PLAIN;
+	return mesh->kind == SCENE_TRIANGLES && mesh->primitive_count && mesh->primitive_count <= MOST_TRIANGLES &&
+	       !in->rectangle && s->views[in->view].target == 0 && !drawn_in_parallel(&s->views[in->view]) &&
+	       m->color_mask & 7 && (!m->depth_test || !m->depth_write || is_offset) &&
+	       modelview_kind_of(in->modelview) == MODELVIEW_PLAIN;
 }
 
-/* --- What it lies on ---------------------------------------------------------------------------------------------------- */
+/* --- What it lies on --------------------------------------------------------------------------------------------- */
 
 /* 1 where a place with a normal lies on a face. */
 static int lies_on(const struct face *f, const double at[3], const double normal[3], double off)
@@ -72,7 +73,8 @@ static int lies_on(const struct face *f, const double at[3], const double normal
 		double out[3];
 
 		for (int k = 0; k < 3; k++)
-			out[k] = (b[(k + 1) % 3] - a[(k + 1) % 3]) * f->normal[(k + 2) % 3] - (b[(k + 2) % 3] - a[(k + 2) % 3]) * f->normal[(k + 1) % 3];
+			out[k] = (b[(k + 1) % 3] - a[(k + 1) % 3]) * f->normal[(k + 2) % 3] -
+			         (b[(k + 2) % 3] - a[(k + 2) % 3]) * f->normal[(k + 1) % 3];
 		for (int k = 0; k < 3; k++)
 			from[k] = at[k] - a[k];
 		if (matrix_dot3(from, out) > off * sqrt(matrix_dot3(out, out)))
@@ -89,7 +91,8 @@ struct ground {
 };
 
 /* 1 where a place of a draw lies on an instance; normal: receives that of the face below */
-static int has_below(const struct scene *s, const struct scene_instance *below, const struct face *place, double off, double normal[3])
+static int has_below(const struct scene *s, const struct scene_instance *below, const struct face *place, double off,
+                     double normal[3])
 {
 	const struct scene_mesh *mesh = s->meshes[below->mesh];
 	double eye[16], at[3];
@@ -100,7 +103,8 @@ static int has_below(const struct scene *s, const struct scene_instance *below, 
 	for (uint32_t p = 0; p < mesh->primitive_count; p++) {
 		struct face face;
 
-		if (!face_of(mesh, eye, p, &face) || !lies_on(&face, at, place->normal, off + OFF_DISTANCE * sqrt(matrix_dot3(at, at))))
+		if (!face_of(mesh, eye, p, &face) ||
+		    !lies_on(&face, at, place->normal, off + OFF_DISTANCE * sqrt(matrix_dot3(at, at))))
 			continue;
 		for (int k = 0; k < 3; k++)
 			normal[k] = matrix_dot3(face.normal, at) > 0 ? -face.normal[k] : face.normal[k];
@@ -171,7 +175,8 @@ static int find_ground(const struct scene *s, const struct ball *balls, uint32_t
 			const struct scene_instance *below = &s->instances[i];
 
 			if (apart(ball, &balls[i]) > ball->radius + balls[i].radius || !solid_is(s, below) ||
-			    s->views[below->view].space != s->views[in->view].space || s->meshes[below->mesh]->primitive_count > MOST_TRIANGLES)
+			    s->views[below->view].space != s->views[in->view].space ||
+			    s->meshes[below->mesh]->primitive_count > MOST_TRIANGLES)
 				continue;
 			lies = has_below(s, below, &places[p], OFF_SIZE * ball->radius, ground->normal);
 			if (lies && balls[i].radius > ground->radius) {
@@ -186,7 +191,7 @@ static int find_ground(const struct scene *s, const struct ball *balls, uint32_t
 	return n > 0;
 }
 
-/* --- What it does -------------------------------------------------------------------------------------------------------- */
+/* --- What it does ------------------------------------------------------------------------------------------------ */
 
 static int has_black_texels(const struct scene_texture *t)
 {
@@ -251,8 +256,8 @@ static int darkens(const struct scene *s, const struct scene_instance *in)
 	if (drawn_multiplies(m) && m->unit_count)
 		return has_white_edge(s->textures[s->units[m->unit_first + m->unit_count - 1].texture]);
 	if (m->blend_src_rgb == GL_ZERO)
-		return m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA || m->blend_dst_rgb == GL_SRC_ALPHA || m->blend_dst_rgb == GL_SRC_COLOR ||
-		       m->blend_dst_rgb == GL_ONE_MINUS_SRC_COLOR;
+		return m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA || m->blend_dst_rgb == GL_SRC_ALPHA ||
+		       m->blend_dst_rgb == GL_SRC_COLOR || m->blend_dst_rgb == GL_ONE_MINUS_SRC_COLOR;
 	return drawn_multiplies(m) || (m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA && is_black(s, in));
 }
 
@@ -273,7 +278,8 @@ static int has_thing(const struct scene *s, const struct ball *balls, uint32_t i
 		double off[3], height, aside;
 
 		if (!is_alike(thing, ball) || i == instance || i == ground->instance || !solid_is(s, in) ||
-		    s->views[in->view].space != s->views[s->instances[instance].view].space || modelview_kind_of(in->modelview) != MODELVIEW_PLAIN)
+		    s->views[in->view].space != s->views[s->instances[instance].view].space ||
+		    modelview_kind_of(in->modelview) != MODELVIEW_PLAIN)
 			continue;
 		for (int k = 0; k < 3; k++)
 			off[k] = thing->middle[k] - ball->middle[k];
@@ -285,7 +291,8 @@ static int has_thing(const struct scene *s, const struct ball *balls, uint32_t i
 	return 0;
 }
 
-/* 1 where a draw is of the same points as one before it, and adds to that: another pass of a surface. One that covers it is a picture. */
+/* 1 where a draw is of the same points as one before it, and adds to that: another pass of a surface. One that covers
+ * it is a picture. */
 static int is_pass(const struct scene *s, const struct ball *balls, uint32_t instance)
 {
 	const struct scene_instance *in = &s->instances[instance];

@@ -1,6 +1,7 @@
 /*
- * Flat pictures laid on surfaces, told by one frame: a draw that leaves no depth, or is offset towards the viewer, and lies on something
- * that was drawn before it. It is a shadow where it only darkens and a thing stands on it, else a decal.
+ * Flat pictures laid on surfaces, told by one frame: a draw that leaves no depth, or is offset towards the viewer, and
+ * lies on something that was drawn before it. It is a shadow where it only darkens and a thing stands on it, else a
+ * decal.
  */
 #pragma once
 

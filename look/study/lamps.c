@@ -9,7 +9,8 @@
 #include "look/study/layer.h"
 #include "look/matrix.h"
 
-/* A bright texel, by its luma, and a coloured one, by how much less than its largest component the smallest is; their share of all. */
+/* A bright texel, by its luma, and a coloured one, by how much less than its largest component the smallest is; their
+ * share of all. */
 #define BRIGHT 0.75
 #define COLOURED 0.2
 #define MOST_TEXELS 0.5
@@ -25,7 +26,8 @@ static void find_color(const struct scene_texture *t, double out[3])
 
 	for (size_t i = 0; i < (size_t)t->width * t->height && !t->floats && t->target == GL_TEXTURE_2D; i++) {
 		const uint8_t *c = t->texels + 4 * i;
-		const double luma = (0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2]) / 255, most = fmax(c[0], fmax(c[1], c[2])), least = fmin(c[0], fmin(c[1], c[2]));
+		const double luma = (0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2]) / 255,
+			     most = fmax(c[0], fmax(c[1], c[2])), least = fmin(c[0], fmin(c[1], c[2]));
 
 		if (luma < BRIGHT || most - least < COLOURED * most)
 			continue;
@@ -64,7 +66,8 @@ static double size_of(const struct motion *m, const struct scene *s, uint32_t i)
 	return 0.5 * m->things[m->of_instance[i]].size * matrix_scale(eye);
 }
 
-static void note(struct lamps *l, const struct motion *m, const struct scene *s, uint32_t instance, const double color[3])
+static void note(struct lamps *l, const struct motion *m, const struct scene *s, uint32_t instance,
+                 const double color[3])
 {
 	const uint32_t thing = m->of_instance[instance];
 	unsigned i = 0;
@@ -95,9 +98,9 @@ void lamps_add(struct lamps *l, const struct scene *s, const struct motion *m, c
 		const struct scene_unit *u = material->unit_count == 1 ? &s->units[material->unit_first] : NULL;
 		const double *color;
 
-		if (layers[i] != LAYER_WORLD || !u || !solid_is(s, in) || material->lighting || material->blend || material->alpha_test ||
-		    s->meshes[in->mesh]->color || s->views[in->view].projection[11] == 0 || m->of_instance[i] == SCENE_NONE ||
-		    size_of(m, s, i) > SMALL * largest)
+		if (layers[i] != LAYER_WORLD || !u || !solid_is(s, in) || material->lighting || material->blend ||
+		    material->alpha_test || s->meshes[in->mesh]->color || s->views[in->view].projection[11] == 0 ||
+		    m->of_instance[i] == SCENE_NONE || size_of(m, s, i) > SMALL * largest)
 			continue;
 		color = color_of(l, s->textures[u->texture]);
 		if (color)
@@ -126,8 +129,11 @@ void lamps_write_surfaces(const struct lamps *l, const struct motion *m, FILE *o
 		const struct lamp *lamp = &l->list[i];
 
 		if (is_lamp(lamp, m))
-			fprintf(out, "  - role: lamp\n    confidence: %.2f\n    why: \"small, lit by nothing, and bright in %u frames\"\n"
-			        "    match: { mesh: \"%016" PRIx64 "%016" PRIx64 "\", lit: no }\n    shadows: no\n    dome: no\n    lit: no\n",
+			fprintf(out,
+			        "  - role: lamp\n    confidence: %.2f\n    why: \"small, lit by nothing, and bright in "
+			        "%u frames\"\n"
+			        "    match: { mesh: \"%016" PRIx64 "%016" PRIx64
+			        "\", lit: no }\n    shadows: no\n    dome: no\n    lit: no\n",
 			        0.8 * (1 - 0.5 / (1 + lamp->draws)), lamp->draws, lamp->mesh[1], lamp->mesh[0]);
 	}
 }
@@ -145,9 +151,14 @@ void lamps_write_lights(const struct lamps *l, const struct motion *m, FILE *out
 		if (!is_lamp(lamp, m) || larger >= LAMPS_MOST)
 			continue;
 		n++;
-		fprintf(out, "  - role: light of a lamp\n    confidence: %.2f\n    why: \"bright texels shine; how strongly, nothing says\"\n    on: unlit\n"
-		        "    space: world\n    position: [%.6g, %.6g, %.6g, 1]\n    diffuse: [%.3f, %.3f, %.3f]\n    specular: [0, 0, 0]\n"
-		        "    attenuation: [1, 0, %.4g]\n    radius: %.4g\n", 0.5, lamp->at[0], lamp->at[1], lamp->at[2], STRENGTH * lamp->color[0],
-		        STRENGTH * lamp->color[1], STRENGTH * lamp->color[2], 1 / (REACH * REACH * lamp->size * lamp->size), 0.5 * lamp->size);
+		fprintf(out,
+		        "  - role: light of a lamp\n    confidence: %.2f\n    why: \"bright texels shine; how "
+		        "strongly, nothing says\"\n    on: unlit\n"
+		        "    space: world\n    position: [%.6g, %.6g, %.6g, 1]\n    diffuse: [%.3f, %.3f, %.3f]\n    "
+		        "specular: [0, 0, 0]\n"
+		        "    attenuation: [1, 0, %.4g]\n    radius: %.4g\n",
+		        0.5, lamp->at[0], lamp->at[1], lamp->at[2], STRENGTH * lamp->color[0],
+		        STRENGTH * lamp->color[1], STRENGTH * lamp->color[2],
+		        1 / (REACH * REACH * lamp->size * lamp->size), 0.5 * lamp->size);
 	}
 }

@@ -1,6 +1,6 @@
 /*
- * Lamps: small solid things that nothing lights, with bright and coloured texels, as bulbs, flames and windows at night were drawn. They
- * are their own light; in a world that OpenGL does not light they light what is about them.
+ * Lamps: small solid things that nothing lights, with bright and coloured texels, as bulbs, flames and windows at night
+ * were drawn. They are their own light; in a world that OpenGL does not light they light what is about them.
  */
 #pragma once
 

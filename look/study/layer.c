@@ -102,7 +102,8 @@ static int covers_window(const struct scene *s, const struct scene_instance *in)
 	matrix_from_floats(projection, s->views[in->view].projection);
 	matrix_mul(clip, projection, eye);
 	box = box_of(mesh, clip);
-	return mesh->kind == SCENE_TRIANGLES && box.low[0] <= -COVERS && box.low[1] <= -COVERS && box.high[0] >= COVERS && box.high[1] >= COVERS;
+	return mesh->kind == SCENE_TRIANGLES && box.low[0] <= -COVERS && box.low[1] <= -COVERS &&
+	       box.high[0] >= COVERS && box.high[1] >= COVERS;
 }
 
 /* Instances from `first` on that are of the world. */

@@ -1,6 +1,6 @@
 /*
- * What a program paints behind its world, told by one frame: drawn before the world, so that it hides nothing of it, and all around the
- * viewer. The viewer need not move for that.
+ * What a program paints behind its world, told by one frame: drawn before the world, so that it hides nothing of it,
+ * and all around the viewer. The viewer need not move for that.
  */
 #pragma once
 

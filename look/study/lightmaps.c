@@ -32,8 +32,8 @@ struct corner {
 	double s, t, at[3];
 };
 
-static void corner_of(const struct scene_mesh *mesh, const struct scene_unit *unit, const struct scene_texture *texture, const double world[16],
-                      uint32_t vertex, struct corner *out)
+static void corner_of(const struct scene_mesh *mesh, const struct scene_unit *unit, const struct scene_texture *texture,
+                      const double world[16], uint32_t vertex, struct corner *out)
 {
 	const float *c = mesh->texcoord[unit->unit] + 4 * vertex, *p = mesh->position + 4 * vertex, *m = unit->matrix;
 
@@ -49,7 +49,8 @@ static double area(const struct corner *a, const struct corner *b, double s, dou
 }
 
 /* The texels with their middle in a triangle. */
-static int put_texels(struct lightmaps *l, const struct scene_texture *texture, const struct corner c[3], const double normal[3], unsigned wall)
+static int put_texels(struct lightmaps *l, const struct scene_texture *texture, const struct corner c[3],
+                      const double normal[3], unsigned wall)
 {
 	double whole = area(&c[0], &c[1], c[2].s, c[2].t);
 	int s0 = (int)floor(fmin(c[0].s, fmin(c[1].s, c[2].s))), s1 = (int)ceil(fmax(c[0].s, fmax(c[1].s, c[2].s)));
@@ -59,7 +60,8 @@ static int put_texels(struct lightmaps *l, const struct scene_texture *texture, 
 		return 0; /* repeated: no lightmap */
 	for (int t = t0 < 0 ? 0 : t0; t < t1 && t < (int)texture->height; t++)
 		for (int s = s0 < 0 ? 0 : s0; s < s1 && s < (int)texture->width; s++) {
-			double w0 = area(&c[1], &c[2], s + 0.5, t + 0.5) / whole, w1 = area(&c[2], &c[0], s + 0.5, t + 0.5) / whole, w2 = 1 - w0 - w1;
+			double w0 = area(&c[1], &c[2], s + 0.5, t + 0.5) / whole,
+			       w1 = area(&c[2], &c[0], s + 0.5, t + 0.5) / whole, w2 = 1 - w0 - w1;
 			const uint8_t *texel = texture->texels + 4 * ((size_t)t * texture->width + (size_t)s);
 
 			if (w0 < 0 || w1 < 0 || w2 < 0 || l->n >= MOST_TEXELS)
@@ -77,8 +79,8 @@ static int put_texels(struct lightmaps *l, const struct scene_texture *texture, 
 }
 
 /* A wall with its light. */
-static int put_wall(struct lightmaps *l, const struct scene *s, const struct scene_instance *in, const struct scene_unit *unit,
-                    const double world[16])
+static int put_wall(struct lightmaps *l, const struct scene *s, const struct scene_instance *in,
+                    const struct scene_unit *unit, const double world[16])
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	const struct scene_texture *texture = s->textures[unit->texture];
@@ -94,7 +96,8 @@ static int put_wall(struct lightmaps *l, const struct scene *s, const struct sce
 		for (int k = 0; k < 3; k++) {
 			int a = (k + 1) % 3, b = (k + 2) % 3;
 
-			n[k] = side * ((c[1].at[a] - c[0].at[a]) * (c[2].at[b] - c[0].at[b]) - (c[1].at[b] - c[0].at[b]) * (c[2].at[a] - c[0].at[a]));
+			n[k] = side * ((c[1].at[a] - c[0].at[a]) * (c[2].at[b] - c[0].at[b]) -
+			               (c[1].at[b] - c[0].at[b]) * (c[2].at[a] - c[0].at[a]));
 		}
 		length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
 		for (int k = 0; k < 3; k++)
@@ -122,7 +125,8 @@ int lightmaps_put_occluder(struct lightmaps *l, const struct scene_mesh *mesh, c
 	return err;
 }
 
-int lightmaps_walk(struct lightmaps *l, const struct scene *s, const struct motion *motion, const struct lightmaps_kind *kind)
+int lightmaps_walk(struct lightmaps *l, const struct scene *s, const struct motion *motion,
+                   const struct lightmaps_kind *kind)
 {
 	int err = 0;
 
@@ -152,7 +156,8 @@ static uint64_t key_of(const struct scene *s, const struct scene_instance *in, c
 	return m->blend || m->lighting || !t->votes || m->alpha_test ? 0 : hash;
 }
 
-static int put_draw(struct lightmaps *l, const struct scene *s, const struct scene_instance *in, const struct motion_thing *t)
+static int put_draw(struct lightmaps *l, const struct scene *s, const struct scene_instance *in,
+                    const struct motion_thing *t)
 {
 	const struct scene_material *m = &s->materials[in->material];
 	const struct scene_mesh *mesh = s->meshes[in->mesh];

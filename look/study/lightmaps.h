@@ -1,7 +1,7 @@
 /*
- * Lightmaps: textures that hold the light on a wall. They come as a second unit that multiplies, or as a second draw of the same
- * points that multiplies what is there, with coordinates of their own within [0,1]. Each texel is a place in the world, its normal,
- * and how much light falls there.
+ * Lightmaps: textures that hold the light on a wall. They come as a second unit that multiplies, or as a second draw of
+ * the same points that multiplies what is there, with coordinates of their own within [0,1]. Each texel is a place in
+ * the world, its normal, and how much light falls there.
  */
 #pragma once
 
@@ -36,11 +36,13 @@ int lightmaps_add(struct lightmaps *l, const struct scene *scene, const struct m
 struct lightmaps_kind {
 	/* Each draw is taken once by its key; 0: it is not looked for */
 	uint64_t (*key_of)(const struct scene *scene, const struct scene_instance *instance, const struct motion_thing *thing);
-	int (*put)(struct lightmaps *l, const struct scene *scene, const struct scene_instance *instance, const struct motion_thing *thing);
+	int (*put)(struct lightmaps *l, const struct scene *scene, const struct scene_instance *instance,
+	           const struct motion_thing *thing);
 };
 
 /** Put draws of what stands still that were not taken before. @return 0, what put returns, or ERR_SYSTEM (reported) */
-int lightmaps_walk(struct lightmaps *l, const struct scene *scene, const struct motion *motion, const struct lightmaps_kind *kind);
+int lightmaps_walk(struct lightmaps *l, const struct scene *scene, const struct motion *motion,
+                   const struct lightmaps_kind *kind);
 
 /** A mesh stops light. @return 0 or ERR_SYSTEM (reported) */
 int lightmaps_put_occluder(struct lightmaps *l, const struct scene_mesh *mesh, const double world[16]);

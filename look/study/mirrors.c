@@ -60,7 +60,8 @@ static double share_behind(const struct scene *s, const struct scene_instance *i
 		return 0;
 	if (m->lighting)
 		return 1 - fmin(1, fmax(0, (double)m->front.diffuse[3]));
-	return s->meshes[in->mesh]->color ? 1 - (double)s->meshes[in->mesh]->color[3] : 1 - (double)s->currents[in->current].color[3];
+	return s->meshes[in->mesh]->color ? 1 - (double)s->meshes[in->mesh]->color[3] :
+	                                    1 - (double)s->currents[in->current].color[3];
 }
 
 /* The surface over the picture: drawn after it, blended, in its plane. */
@@ -71,7 +72,8 @@ static void find_surface(struct trick_found *f, const struct scene *s, uint32_t 
 	for (uint32_t i = after + 1; i < s->n_instances && !(f->shows > 0); i++) {
 		const struct scene_instance *in = &s->instances[i];
 
-		if (s->meshes[in->mesh]->kind != SCENE_TRIANGLES || in->rectangle || !(s->materials[in->material].color_mask & 7) || !(share_behind(s, in) > 0) ||
+		if (s->meshes[in->mesh]->kind != SCENE_TRIANGLES || in->rectangle ||
+		    !(s->materials[in->material].color_mask & 7) || !(share_behind(s, in) > 0) ||
 		    modelview_kind_of(in->modelview) != MODELVIEW_PLAIN || !plane_holds(s, in, here))
 			continue;
 		f->shows = share_behind(s, in);
@@ -79,7 +81,8 @@ static void find_surface(struct trick_found *f, const struct scene *s, uint32_t 
 	}
 }
 
-static void study_mirrored(struct tricks *t, const struct scene *s, const struct pairs *pairs, uint32_t mirrored, const struct motion *motion)
+static void study_mirrored(struct tricks *t, const struct scene *s, const struct pairs *pairs, uint32_t mirrored,
+                           const struct motion *motion)
 {
 	const double *camera = motion_now(motion)->eye_from_world;
 	uint32_t upright = pairs_find(pairs, s, mirrored, MODELVIEW_PLAIN);
@@ -124,7 +127,8 @@ int mirrors_add(struct tricks *t, const struct scene *s, const struct motion *mo
 	for (uint32_t i = 0; i < s->n_instances && !err; i++) {
 		const struct scene_instance *in = &s->instances[i];
 
-		if (s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle && modelview_kind_of(in->modelview) == MODELVIEW_MIRRORED)
+		if (s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle &&
+		    modelview_kind_of(in->modelview) == MODELVIEW_MIRRORED)
 			study_mirrored(t, s, &pairs, i, motion);
 	}
 	pairs_free(&pairs);

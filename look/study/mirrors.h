@@ -1,6 +1,7 @@
 /*
- * Mirrors drawn as the world behind them: meshes drawn once as they are and once under a reflection, p' = p - 2 (n . p + d) n. What
- * leads from the one draw to the other holds the plane. The mirror itself lies in it, blended over the picture.
+ * Mirrors drawn as the world behind them: meshes drawn once as they are and once under a reflection, p' = p - 2 (n . p
+ * + d) n. What leads from the one draw to the other holds the plane. The mirror itself lies in it, blended over the
+ * picture.
  */
 #pragma once
 

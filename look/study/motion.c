@@ -11,19 +11,20 @@
 #include "look/study/box.h"
 #include "look/matrix.h"
 
-/* Places agree up to this share of their distance from the viewer, turns up to this angle: products of floats are better by far. */
+/* Places agree up to this share of their distance from the viewer, turns up to this angle: products of floats are
+ * better by far. */
 #define SAME_PLACE 1e-3
 #define SAME_TURN 2e-3
 enum { MAX_GUESSES = 48 };
 
-/* --- Things ------------------------------------------------------------------------------------------------------------- */
+/* --- Things ------------------------------------------------------------------------------------------------------ */
 
 static int is_deep(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];
 
-	return s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle && m->depth_test && m->depth_write && (m->color_mask & 7) &&
-	       s->views[in->view].target == 0;
+	return s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle && m->depth_test && m->depth_write &&
+	       (m->color_mask & 7) && s->views[in->view].target == 0;
 }
 
 /* A mesh by its points: how its quads are cut, and so its own hash, may change as the viewer moves. */
@@ -48,16 +49,17 @@ static void note_hash(struct motion_thing *t, const uint64_t hash[2])
 }
 
 /*
- * The thing that an instance is: what has its mesh, its handedness, and is as often drawn before it in the frame. A mirrored copy is
- * another one.
- * out: receives its index; SCENE_NONE: none, there are too many.  @return 0 or ERR_SYSTEM (reported)
+ * The thing that an instance is: what has its mesh, its handedness, and is as often drawn before it in the frame. A
+ * mirrored copy is another one. out: receives its index; SCENE_NONE: none, there are too many.  @return 0 or ERR_SYSTEM
+ * (reported)
  */
-static int find_thing(struct motion *m, struct table *counts, const struct scene *s, const struct scene_instance *in, const double eye[16],
-                      uint32_t *out)
+static int find_thing(struct motion *m, struct table *counts, const struct scene *s, const struct scene_instance *in,
+                      const double eye[16], uint32_t *out)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	const XXH128_hash_t points = hash_points(mesh);
-	uint64_t parts[4] = { points.low64, points.high64, matrix_determinant3(eye) < 0, 0 }, key = XXH3_64bits(parts, sizeof(parts));
+	uint64_t parts[4] = { points.low64, points.high64, matrix_determinant3(eye) < 0, 0 },
+		 key = XXH3_64bits(parts, sizeof(parts));
 	uintptr_t before = (uintptr_t)table_find(counts, key), found;
 	struct box box;
 
@@ -83,7 +85,7 @@ static int find_thing(struct motion *m, struct table *counts, const struct scene
 	return 0;
 }
 
-/* --- The camera --------------------------------------------------------------------------------------------------------- */
+/* --- The camera -------------------------------------------------------------------------------------------------- */
 
 /* A thing's say: under which camera it has not moved. */
 struct vote {
@@ -112,7 +114,8 @@ static int stands(const struct motion_thing *t, const double camera[16], const d
 	return 1;
 }
 
-static double support(const struct motion *m, const struct vote *votes, size_t n, const double camera[16], size_t *agreeing)
+static double support(const struct motion *m, const struct vote *votes, size_t n, const double camera[16],
+                      size_t *agreeing)
 {
 	double sum = 0;
 
@@ -147,8 +150,8 @@ static int surrounds_viewer(const struct motion_thing *t, const double eye[16])
 }
 
 /*
- * What more than half say, by size; else the last camera, and where it does as well. One thing alone is no evidence of a camera, unless
- * it surrounds the viewer: it may move itself.
+ * What more than half say, by size; else the last camera, and where it does as well. One thing alone is no evidence of
+ * a camera, unless it surrounds the viewer: it may move itself.
  */
 static void choose_camera(const struct motion *m, struct vote *votes, size_t n, struct motion_camera *camera)
 {
@@ -164,7 +167,8 @@ static void choose_camera(const struct motion *m, struct vote *votes, size_t n, 
 	for (size_t i = 0; i < n && i < MAX_GUESSES && best < 0.999 * whole; i++) {
 		double sum = support(m, votes, n, votes[i].camera, &agreeing);
 
-		if (sum <= best * 1.001 || sum <= 0.5 * whole || (agreeing < 2 && !surrounds_viewer(&m->things[votes[i].thing], votes[i].eye)))
+		if (sum <= best * 1.001 || sum <= 0.5 * whole ||
+		    (agreeing < 2 && !surrounds_viewer(&m->things[votes[i].thing], votes[i].eye)))
 			continue;
 		best = sum;
 		memcpy(camera->eye_from_world, votes[i].camera, sizeof(camera->eye_from_world));
@@ -179,8 +183,8 @@ static int is_parallel(const struct scene *s, uint32_t i)
 	return drawn_in_parallel(&s->views[s->instances[i].view]);
 }
 
-/* Each thing that was drawn before and is drawn again votes. Large ones count more, up to a bound: a far plane is no world. What is drawn in
- * parallel projection over a world in perspective is a HUD, and has no say. */
+/* Each thing that was drawn before and is drawn again votes. Large ones count more, up to a bound: a far plane is no
+ * world. What is drawn in parallel projection over a world in perspective is a HUD, and has no say. */
 static size_t collect_votes(const struct motion *m, const struct scene *s, struct vote *votes)
 {
 	size_t n = 0;
@@ -211,9 +215,10 @@ static size_t collect_votes(const struct motion *m, const struct scene *s, struc
 	return n;
 }
 
-/* --- Frames ------------------------------------------------------------------------------------------------------------- */
+/* --- Frames ------------------------------------------------------------------------------------------------------ */
 
-static void note_thing(struct motion *m, struct motion_thing *t, const double eye[16], const struct motion_camera *camera)
+static void note_thing(struct motion *m, struct motion_thing *t, const double eye[16],
+                       const struct motion_camera *camera)
 {
 	double inverse[16];
 	int knows = t->frames && camera->witnessed;
@@ -280,7 +285,8 @@ static int place_things(struct motion *m, const struct scene *s)
 
 		m->of_instance[i] = SCENE_NONE;
 		matrix_from_floats(eye, in->modelview);
-		if (s->meshes[in->mesh]->kind != SCENE_TRIANGLES || in->rectangle || s->views[in->view].target || !matrix_invert(inverse, eye))
+		if (s->meshes[in->mesh]->kind != SCENE_TRIANGLES || in->rectangle || s->views[in->view].target ||
+		    !matrix_invert(inverse, eye))
 			continue;
 		err = find_thing(m, &counts, s, in, eye, &m->of_instance[i]);
 		if (m->of_instance[i] != SCENE_NONE)
@@ -303,7 +309,8 @@ int motion_add(struct motion *m, const struct scene *scene)
 		free(votes);
 		return ERR_SYSTEM;
 	}
-	memcpy(camera.eye_from_world, m->n_frames ? motion_now(m)->eye_from_world : matrix_identity, sizeof(camera.eye_from_world));
+	memcpy(camera.eye_from_world, m->n_frames ? motion_now(m)->eye_from_world : matrix_identity,
+	       sizeof(camera.eye_from_world));
 	err = place_things(m, scene);
 	if (!err)
 		choose_camera(m, votes, collect_votes(m, scene, votes), &camera);

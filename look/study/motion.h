@@ -1,8 +1,10 @@
 /*
- * Where the viewer is in each frame, and what stands, moves, or comes along with the viewer, by nothing but where meshes were drawn.
+ * Where the viewer is in each frame, and what stands, moves, or comes along with the viewer, by nothing but where
+ * meshes were drawn.
  *
- * A mesh that was drawn before says where the camera must be for it to stand still: its modelview times the inverse of its place in
- * the world. What most of the frame says, by size, is the camera's motion. World space is the eye space of the first frame.
+ * A mesh that was drawn before says where the camera must be for it to stand still: its modelview times the inverse of
+ * its place in the world. What most of the frame says, by size, is the camera's motion. World space is the eye space of
+ * the first frame.
  */
 #pragma once
 
@@ -17,7 +19,8 @@ enum { MOTION_MAX_FRAMES = 128, MOTION_MAX_THINGS = 65536 };
 /* A mesh at its place in the frame's order, followed over the frames. */
 struct motion_thing {
 	uint64_t mesh[2];      /* its hash; */
-	uint64_t turned[2];    /* the same with its quads cut the other way, as they are on the other side of some plane; 0: never seen */
+	uint64_t turned[2]; /* the same with its quads cut the other way, as they are on the other side of some plane;
+	                       0: never seen */
 	double world[16];      /* from the mesh into the world, where it was last seen */
 	double eye[16];        /* its last modelview */
 	double middle[3], size; /* of its box, object space; length of the diagonal */
@@ -59,7 +62,8 @@ struct motion {
 };
 
 /**
- * Study one more frame; at most MOTION_MAX_FRAMES, in ascending order. Afterwards of_instance tells which thing each instance is.
+ * Study one more frame; at most MOTION_MAX_FRAMES, in ascending order. Afterwards of_instance tells which thing each
+ * instance is.
  * @return 0 or ERR_SYSTEM (reported)
  */
 int motion_add(struct motion *m, const struct scene *scene);

@@ -35,10 +35,11 @@ static void turn_back(const double camera[16], double out[16])
 	out[15] = 1;
 }
 
-/* --- Sky ---------------------------------------------------------------------------------------------------------------- */
+/* --- Sky --------------------------------------------------------------------------------------------------------- */
 
 /* walked: the viewer is elsewhere than the frame before */
-static void note_thing(struct roles *r, const struct motion *m, uint32_t i, const double eye[16], const double back[16], int walked)
+static void note_thing(struct roles *r, const struct motion *m, uint32_t i, const double eye[16], const double back[16],
+                       int walked)
 {
 	struct role_thing *t = &r->things[i];
 	double turned[16];
@@ -63,8 +64,9 @@ static double distance_in_sizes(const struct motion_thing *t)
 /* What turns about a point looks like a sky; a sky, or a side of its box, is about the viewer. */
 static int is_sky(const struct roles *r, const struct motion *m, size_t i)
 {
-	return !r->things[i].is_flat && r->things[i].came_along >= 2 && !r->things[i].stayed && 2 * m->things[i].carried < m->things[i].again &&
-	       distance_in_sizes(&m->things[i]) < 0.5 && !kinds_has_sky(&r->kinds, m->things[i].mesh);
+	return !r->things[i].is_flat && r->things[i].came_along >= 2 && !r->things[i].stayed &&
+	       2 * m->things[i].carried < m->things[i].again && distance_in_sizes(&m->things[i]) < 0.5 &&
+	       !kinds_has_sky(&r->kinds, m->things[i].mesh);
 }
 
 /* What stands while all else turns looks held; what is held is near, and small beside the world. */
@@ -80,7 +82,7 @@ static int is_held(const struct roles *r, const struct motion *m, size_t i)
 	return t->size * matrix_scale(t->eye) < 0.25 * largest;
 }
 
-/* --- Particles ---------------------------------------------------------------------------------------------------------- */
+/* --- Particles --------------------------------------------------------------------------------------------------- */
 
 /* 1 where every face looks at the viewer, or straight back along the view. */
 static int faces_viewer(const struct scene_mesh *mesh, const double eye[16])
@@ -95,7 +97,8 @@ static int faces_viewer(const struct scene_mesh *mesh, const double eye[16])
 	return 1;
 }
 
-static void note_texture(struct roles *r, const struct scene *s, const struct scene_instance *in, const double eye[16], uint64_t frame)
+static void note_texture(struct roles *r, const struct scene *s, const struct scene_instance *in, const double eye[16],
+                         uint64_t frame)
 {
 	const struct scene_material *m = &s->materials[in->material];
 	const uint64_t *hash = m->unit_count ? s->textures[s->units[m->unit_first].texture]->hash : NULL;
@@ -126,7 +129,7 @@ static int is_particle(const struct roles *r, const struct role_texture *t)
 	return (r->turns || t->points == t->facing) && t->frames >= 2 && t->facing >= FACING_SHARE * (t->facing + t->others);
 }
 
-/* --- HUD ---------------------------------------------------------------------------------------------------------------- */
+/* --- HUD --------------------------------------------------------------------------------------------------------- */
 
 /* Draws in parallel projection, where the same frame shows a world in perspective that leaves and asks for depth. */
 static void note_hud(struct roles *r, const struct scene *s)
@@ -149,7 +152,7 @@ static void note_hud(struct roles *r, const struct scene *s)
 	r->hud_frames++;
 }
 
-/* --- All together --------------------------------------------------------------------------------------------------------- */
+/* --- All together ------------------------------------------------------------------------------------------------ */
 
 int roles_add(struct roles *r, const struct scene *scene, const struct motion *motion)
 {
@@ -180,7 +183,8 @@ int roles_add(struct roles *r, const struct scene *scene, const struct motion *m
 	for (uint32_t i = 0; i < scene->n_instances; i++) {
 		double eye[16];
 
-		if (scene->meshes[scene->instances[i].mesh]->kind == SCENE_POINTS && scene->materials[scene->instances[i].material].point_sprite)
+		if (scene->meshes[scene->instances[i].mesh]->kind == SCENE_POINTS &&
+		    scene->materials[scene->instances[i].material].point_sprite)
 			note_texture(r, scene, &scene->instances[i], eye, motion->n_frames);
 		if (motion->of_instance[i] == SCENE_NONE)
 			continue;
@@ -204,7 +208,8 @@ void roles_free(struct roles *r)
 
 typedef int role_test(const struct roles *r, const struct motion *m, size_t i);
 
-/* The next mesh that has a role in all its things, by the first of them. next: the place to look from. @return SCENE_NONE: there is none */
+/* The next mesh that has a role in all its things, by the first of them. next: the place to look from. @return
+ * SCENE_NONE: there is none */
 static uint32_t next_mesh(const struct roles *r, const struct motion *m, role_test *has, size_t next)
 {
 	for (size_t i = next; i < r->n_things; i++) {
@@ -219,8 +224,8 @@ static uint32_t next_mesh(const struct roles *r, const struct motion *m, role_te
 	return SCENE_NONE;
 }
 
-static unsigned write_meshes(const struct roles *r, const struct motion *m, role_test *has, const char *role, const char *then,
-                             const char *why, FILE *out)
+static unsigned write_meshes(const struct roles *r, const struct motion *m, role_test *has, const char *role,
+                             const char *then, const char *why, FILE *out)
 {
 	unsigned n = 0;
 
@@ -233,8 +238,11 @@ static unsigned write_meshes(const struct roles *r, const struct motion *m, role
 				continue;
 			n++;
 			if (out)
-				fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %u frames %s\"\n    match: { mesh: \"%016" PRIx64 "%016" PRIx64 "\" }\n"
-				        "    shadows: no\n%s", role, 1 - 1.0 / (1 + t->again), t->again, why, hash[1], hash[0], then);
+				fprintf(out,
+				        "  - role: %s\n    confidence: %.2f\n    why: \"in %u frames %s\"\n    match: "
+				        "{ mesh: \"%016" PRIx64 "%016" PRIx64 "\" }\n"
+				        "    shadows: no\n%s",
+				        role, 1 - 1.0 / (1 + t->again), t->again, why, hash[1], hash[0], then);
 		}
 	return n;
 }
@@ -242,8 +250,10 @@ static unsigned write_meshes(const struct roles *r, const struct motion *m, role
 /* out: NULL: they are only counted */
 static unsigned write_all(const struct roles *r, const struct motion *m, int is_relit, FILE *out)
 {
-	unsigned n = write_meshes(r, m, is_sky, "sky", "    shaded: no\n", "it turned with the world and came along with the viewer", out) +
-	             write_meshes(r, m, is_held, "view model", "    dome: no\n    lit: no\n", "it was where it was before the viewer, who moved", out);
+	unsigned n = write_meshes(r, m, is_sky, "sky", "    shaded: no\n",
+	                          "it turned with the world and came along with the viewer", out) +
+	             write_meshes(r, m, is_held, "view model", "    dome: no\n    lit: no\n",
+	                          "it was where it was before the viewer, who moved", out);
 
 	for (unsigned i = 0; i < r->n_textures; i++) {
 		const struct role_texture *t = &r->textures[i];

@@ -14,8 +14,8 @@ enum { MOST_FRAMES = 32 };
 /* What a mirror's picture shows stands still as well, in a world that is not there. */
 static int is_world(const struct scene *s, const struct scene_instance *in)
 {
-	return solid_is(s, in) && !s->materials[in->material].stencil_test && modelview_kind_of(in->modelview) == MODELVIEW_PLAIN &&
-	       !drawn_in_parallel(&s->views[in->view]);
+	return solid_is(s, in) && !s->materials[in->material].stencil_test &&
+	       modelview_kind_of(in->modelview) == MODELVIEW_PLAIN && !drawn_in_parallel(&s->views[in->view]);
 }
 
 int seen_add(struct seen *seen, const struct scene *scene, const struct motion *motion)
@@ -24,7 +24,8 @@ int seen_add(struct seen *seen, const struct scene *scene, const struct motion *
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (uint32_t i = 0; i < scene->n_instances; i++)
 		if (motion->of_instance[i] != SCENE_NONE && is_world(scene, &scene->instances[i]))
-			seen->draws[seen->n++] = (struct seen_draw){ motion->of_instance[i], scene->instances[i].draw, (uint32_t)motion->n_frames - 1 };
+			seen->draws[seen->n++] = (struct seen_draw){ motion->of_instance[i], scene->instances[i].draw,
+				                                     (uint32_t)motion->n_frames - 1 };
 	return 0;
 }
 
@@ -56,7 +57,8 @@ static size_t find_best(const struct seen *seen, const struct motion *m, const u
 }
 
 /* A frame's draws as ranges; what they draw is covered then. */
-static void write_draws(const struct seen *seen, const struct motion *m, uint32_t frame, unsigned char *covered, FILE *out)
+static void write_draws(const struct seen *seen, const struct motion *m, uint32_t frame, unsigned char *covered,
+                        FILE *out)
 {
 	uint32_t first = 0, last = 0;
 	const char *comma = "";
@@ -91,7 +93,9 @@ int seen_write(const struct seen *seen, const struct motion *m, FILE *out)
 
 		if (!n)
 			break;
-		fprintf(out, "%s  - role: out of sight\n    why: \"%zu meshes stand still, and some frames leave them out\"\n    frame: %llu\n    draws: \"",
+		fprintf(out,
+		        "%s  - role: out of sight\n    why: \"%zu meshes stand still, and some frames leave them "
+		        "out\"\n    frame: %llu\n    draws: \"",
 		        i ? "" : "unseen:\n", n, (unsigned long long)m->cameras[frame].frame);
 		write_draws(seen, m, frame, covered, out);
 		fprintf(out, "\"\n");

@@ -1,5 +1,6 @@
 /*
- * Which frame draws what stands still: programs leave out what their viewer does not see, and mirrors and shadows need it all the same.
+ * Which frame draws what stands still: programs leave out what their viewer does not see, and mirrors and shadows need
+ * it all the same.
  */
 #pragma once
 
@@ -20,5 +21,6 @@ struct seen {
 int seen_add(struct seen *seen, const struct scene *scene, const struct motion *motion);
 void seen_free(struct seen *seen);
 
-/** The rules `unseen`: few frames that draw between them all that stands still and some frames leave out. @return 0 or ERR_SYSTEM (reported) */
+/** The rules `unseen`: few frames that draw between them all that stands still and some frames leave out. @return 0 or
+ * ERR_SYSTEM (reported) */
 int seen_write(const struct seen *seen, const struct motion *motion, FILE *out);

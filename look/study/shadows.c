@@ -25,7 +25,8 @@ static void into_world(const struct motion_camera *camera, double light[4], doub
 }
 
 /* One flat draw beside the draws of the same mesh as it is: what most of all say is true, and tricks_note counts. */
-static void study_flat(struct tricks *t, const struct scene *s, const struct pairs *pairs, uint32_t flat, const struct motion *motion)
+static void study_flat(struct tricks *t, const struct scene *s, const struct pairs *pairs, uint32_t flat,
+                       const struct motion *motion)
 {
 	uint32_t upright = pairs_find(pairs, s, flat, MODELVIEW_PLAIN);
 

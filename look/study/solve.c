@@ -11,8 +11,8 @@ enum { MOST_SAMPLES = 12000, SEARCH_SAMPLES = 1500, SEEDS = 6, FOLLOWED = 3, ROU
 #define CUT_OFF (254.5 / 255)
 /* A light is one more where it explains this share of what the others leave. */
 #define EXPLAINS_LEAST 0.02
-/* And what it adds is spread over this many texels: less stands for the errors of a few. Lights of generated levels have 98 to
- * 270, what was invented 1 to 9. */
+/* And what it adds is spread over this many texels: less stands for the errors of a few. Lights of generated levels
+ * have 98 to 270, what was invented 1 to 9. */
 #define SPREAD_LEAST 24
 /* A step that explains no more than this share in addition is none: places would creep. */
 #define CREEP 1e-7
@@ -61,7 +61,8 @@ static double gain_of(const struct solving *s, struct sample *x, const double at
 	return looks && !occluders_sees(s->walls, from, at, &x->blocker) ? 0 : along / (square * sqrt(square));
 }
 
-/* How much of the rest a light at a place explains at its best strength: the drop of the sum of squares. seen: of every sample, or NULL */
+/* How much of the rest a light at a place explains at its best strength: the drop of the sum of squares. seen: of every
+ * sample, or NULL */
 static double explained(const struct solving *s, const double at[3], const unsigned char *seen, unsigned char *sees)
 {
 	double product[3] = { 0, 0, 0 }, square[3] = { 0, 0, 0 }, sum = 0;
@@ -118,7 +119,7 @@ static double search(const struct solving *s, double at[3], double step, unsigne
 	return explained(s, at, NULL, sees);
 }
 
-/* --- Strengths ---------------------------------------------------------------------------------------------------------- */
+/* --- Strengths --------------------------------------------------------------------------------------------------- */
 
 /* Of all lights and the ambient light together, none negative: coordinate descent on the normal equations. */
 static void fit_strengths(struct solving *s)
@@ -126,7 +127,8 @@ static void fit_strengths(struct solving *s)
 	struct solved *out = s->out;
 
 	for (int c = 0; c < 3; c++) {
-		double a[SOLVE_MOST_LIGHTS + 1][SOLVE_MOST_LIGHTS + 1] = { { 0 } }, b[SOLVE_MOST_LIGHTS + 1] = { 0 }, x[SOLVE_MOST_LIGHTS + 1] = { 0 };
+		double a[SOLVE_MOST_LIGHTS + 1][SOLVE_MOST_LIGHTS + 1] = { { 0 } }, b[SOLVE_MOST_LIGHTS + 1] = { 0 },
+								    x[SOLVE_MOST_LIGHTS + 1] = { 0 };
 		unsigned n = out->n + 1;
 
 		for (size_t i = 0; i < s->n; i++) {
@@ -200,7 +202,7 @@ static double spread_of(const struct solving *s, unsigned which)
 	return squares > 0 ? sum * sum / squares : 0;
 }
 
-/* --- Places ------------------------------------------------------------------------------------------------------------- */
+/* --- Places ------------------------------------------------------------------------------------------------------ */
 
 /* Walls with the most rest: a light stands before them. Fills places to begin at. @return how many */
 static unsigned find_seeds(const struct solving *s, double scale, double seeds[][3], unsigned most)
@@ -269,8 +271,8 @@ static unsigned follow_seeds(const struct solving *s, double scale, unsigned cha
 }
 
 /*
- * One more light where it explains most. A search looks at few samples; all of them together decide. A light that explains a few
- * texels only, which no light explains, is none. @return 1; 0: none explains enough
+ * One more light where it explains most. A search looks at few samples; all of them together decide. A light that
+ * explains a few texels only, which no light explains, is none. @return 1; 0: none explains enough
  */
 static int add_light(struct solving *s, double scale, unsigned char *sees)
 {
@@ -353,8 +355,9 @@ static double off_by(const struct sample *x)
 }
 
 /*
- * Some samples lie: a vertex at the rim of a shadow may stand on its other side. Those that the lights explain worst are left out, with a
- * stricter measure each time, and the lights move to where they explain the others. Where that would be many, it is the lights that lie.
+ * Some samples lie: a vertex at the rim of a shadow may stand on its other side. Those that the lights explain worst
+ * are left out, with a stricter measure each time, and the lights move to where they explain the others. Where that
+ * would be many, it is the lights that lie.
  */
 static void leave_out_strays(struct solving *s, double scale, unsigned char *sees)
 {
@@ -428,7 +431,8 @@ int solve_lights(struct lightmaps *maps, struct solved *out)
 	memcpy(out->ambient, dark, sizeof(dark));
 	leave_rest(&s, SOLVE_MOST_LIGHTS);
 	out->signal = sqrt(squares_left(&s) / (3.0 * (double)s.n + 1));
-	while (s.n && out->n < SOLVE_MOST_LIGHTS && sqrt(squares_left(&s) / (3.0 * (double)s.n)) > 1.0 / 255 && add_light(&s, scale, sees)) {
+	while (s.n && out->n < SOLVE_MOST_LIGHTS && sqrt(squares_left(&s) / (3.0 * (double)s.n)) > 1.0 / 255 &&
+	       add_light(&s, scale, sees)) {
 		polish(&s, scale, sees);
 		leave_rest(&s, SOLVE_MOST_LIGHTS);
 	}

@@ -1,7 +1,7 @@
 /*
- * Lights from lightmaps. A texel's light is ambient + sum over lights of color x max(0, cos) x visible / d^2, cut off at 1. Lights are
- * found one by one, each where it explains most of what the others leave; places by search, strengths of all together by non-negative
- * least squares.
+ * Lights from lightmaps. A texel's light is ambient + sum over lights of color x max(0, cos) x visible / d^2, cut off
+ * at 1. Lights are found one by one, each where it explains most of what the others leave; places by search, strengths
+ * of all together by non-negative least squares.
  */
 #pragma once
 

@@ -15,10 +15,11 @@ enum { MOST_RULES = 256 };
 /* Each draw tells its own sides (look/sides.h), so that frames do not vote on them. */
 static const uint32_t bits[SPARED_BITS] = { SCENE_HIDDEN_FROM_LIGHTS, SCENE_STOPS_NO_SUN };
 
-/* --- Votes -------------------------------------------------------------------------------------------------------------- */
+/* --- Votes ------------------------------------------------------------------------------------------------------- */
 
 /* out: index + 1 of the entry */
-static int vote(struct spared *s, const uint64_t hash[2], uint32_t is_texture, uint32_t lit, uint32_t spared, size_t *out)
+static int vote(struct spared *s, const uint64_t hash[2], uint32_t is_texture, uint32_t lit, uint32_t spared,
+                size_t *out)
 {
 	const uint64_t key = (hash[0] ^ (2 * is_texture + lit)) * 0x9e3779b97f4a7c15u;
 	size_t at = (size_t)(uintptr_t)table_find(&s->by_key, key);
@@ -95,7 +96,7 @@ void spared_free(struct spared *s)
 	*s = (struct spared){ .entries = NULL };
 }
 
-/* --- Rules -------------------------------------------------------------------------------------------------------------- */
+/* --- Rules ------------------------------------------------------------------------------------------------------- */
 
 /* What most frames say. share: of frames that agree */
 static uint32_t decide(const uint32_t votes[SPARED_BITS], uint32_t frames, double *share)
@@ -145,12 +146,15 @@ static struct rule rule_of_kind(const struct spared *s, uint32_t lit)
 
 static void write_rule(const struct rule *r, const char *of, FILE *out)
 {
-	fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %.0f %% of %u %s it %s\"\n", r->decided ? "spared" : "blocker of light",
-	        r->share * (1 - 0.5 / (1 + r->frames)), 100 * r->share, r->frames, of,
-	        !r->decided ? "stands in the lit world and shuts out no light" : "would shut out light of what OpenGL lights, or stands beyond it");
+	fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %.0f %% of %u %s it %s\"\n",
+	        r->decided ? "spared" : "blocker of light", r->share * (1 - 0.5 / (1 + r->frames)), 100 * r->share,
+	        r->frames, of,
+	        !r->decided ? "stands in the lit world and shuts out no light" :
+	                      "would shut out light of what OpenGL lights, or stands beyond it");
 }
 
-/* Rules of meshes or of textures that differ from what would be without. out: NULL: they are only counted. @return how many */
+/* Rules of meshes or of textures that differ from what would be without. out: NULL: they are only counted. @return how
+ * many */
 static unsigned write_exceptions(const struct spared *s, uint32_t is_texture, FILE *out)
 {
 	const struct rule kinds[2] = { rule_of_kind(s, 0), rule_of_kind(s, 1) };
@@ -166,8 +170,9 @@ static unsigned write_exceptions(const struct spared *s, uint32_t is_texture, FI
 		if (!out)
 			continue;
 		write_rule(&r, "frames", out);
-		fprintf(out, "    match: { %s: \"%016" PRIx64 "%016" PRIx64 "\", lit: %s }\n    passes: %s\n", is_texture ? "texture" : "mesh", e->hash[1],
-		        e->hash[0], e->lit ? "yes" : "no", spare_name(r.decided | SCENE_ONE_SIDED));
+		fprintf(out, "    match: { %s: \"%016" PRIx64 "%016" PRIx64 "\", lit: %s }\n    passes: %s\n",
+		        is_texture ? "texture" : "mesh", e->hash[1], e->hash[0], e->lit ? "yes" : "no",
+		        spare_name(r.decided | SCENE_ONE_SIDED));
 	}
 	return n;
 }

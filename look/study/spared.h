@@ -1,10 +1,10 @@
 /*
- * What is spared as a blocker of light (look/spare.h), once for a recording: what most of its frames say. Each frame alone would decide
- * by what it shows, and shadows would come and go as something moves.
+ * What is spared as a blocker of light (look/spare.h), once for a recording: what most of its frames say. Each frame
+ * alone would decide by what it shows, and shadows would come and go as something moves.
  *
- * Frames vote by mesh and by texture, lit draws and others apart. A mesh that is drawn more than once in a frame is spared there only
- * where all of them are: what stands in the lit world counts. Meshes that are in one frame only (their points move) go by their texture,
- * what has none by most of its kind.
+ * Frames vote by mesh and by texture, lit draws and others apart. A mesh that is drawn more than once in a frame is
+ * spared there only where all of them are: what stands in the lit world counts. Meshes that are in one frame only
+ * (their points move) go by their texture, what has none by most of its kind.
  */
 #pragma once
 
@@ -41,5 +41,6 @@ void spared_free(struct spared *s);
 /** How many rules there are; none where no frame spares anything. */
 unsigned spared_count(const struct spared *s);
 
-/** Entries of the list `surfaces`, the general ones first; they belong before those that know what is no blocker at all. */
+/** Entries of the list `surfaces`, the general ones first; they belong before those that know what is no blocker at
+ * all. */
 void spared_write(const struct spared *s, FILE *out);

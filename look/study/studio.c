@@ -17,10 +17,10 @@
 #define LAMP_DISTANCE 1.6
 /* What of a lamp's light falls off by the square of the distance. */
 #define FALLS_OFF 0.5
-/* What the viewer's own light keeps, and what the lamp beside it has. They meet on the side that faces the lamp, which burns out first:
- * there, where a ball in the box ends, the lamp has its strength. A ball shows 2 / 3 of its light to whence light comes, and to 51 degrees
- * from there, where the lamp is, (sin 51 + cos 51 * (180 - 51) * pi / 180) * 2 / 3 / pi = 0.47, of which 0.87 is left as the lamp falls
- * off: both together leave a ball as bright as it was. */
+/* What the viewer's own light keeps, and what the lamp beside it has. They meet on the side that faces the lamp, which
+ * burns out first: there, where a ball in the box ends, the lamp has its strength. A ball shows 2 / 3 of its light to
+ * whence light comes, and to 51 degrees from there, where the lamp is, (sin 51 + cos 51 * (180 - 51) * pi / 180) * 2 /
+ * 3 / pi = 0.47, of which 0.87 is left as the lamp falls off: both together leave a ball as bright as it was. */
 #define FILL 0.6
 #define KEY 0.66
 #define NEAR_SIDE 0.29
@@ -29,11 +29,12 @@
 /* What is moved farther is another place, as a share of how far off it is. */
 #define MOVED 1e-3
 
-/* --- Frames -------------------------------------------------------------------------------------------------------------- */
+/* --- Frames ------------------------------------------------------------------------------------------------------ */
 
 static int is_other_light(const struct studio_light *known, const struct scene_light *l)
 {
-	return memcmp(known->diffuse, l->diffuse, sizeof(known->diffuse)) != 0 || memcmp(known->specular, l->specular, sizeof(known->specular)) != 0;
+	return memcmp(known->diffuse, l->diffuse, sizeof(known->diffuse)) != 0 ||
+	       memcmp(known->specular, l->specular, sizeof(known->specular)) != 0;
 }
 
 static int has_moved(const float a[4], const float b[4])
@@ -61,7 +62,8 @@ static void note_light(struct studio *s, const struct scene_light *l, const stru
 {
 	struct studio_light *known = &s->lights[l->index];
 	float place[4];
-	const int is_plain = l->attenuation[0] == 1 && l->attenuation[1] == 0 && l->attenuation[2] == 0 && l->spot_cutoff_deg == 180;
+	const int is_plain = l->attenuation[0] == 1 && l->attenuation[1] == 0 && l->attenuation[2] == 0 &&
+	                     l->spot_cutoff_deg == 180;
 
 	place_of(l, place);
 	known->differs |= !is_plain;
@@ -141,11 +143,12 @@ void studio_add(struct studio *s, const struct scene *scene, const uint8_t *laye
 			s->lights[i].distance += distance_to(s->lights[i].position, middle);
 }
 
-/* --- Rules --------------------------------------------------------------------------------------------------------------- */
+/* --- Rules ------------------------------------------------------------------------------------------------------- */
 
 static int is_head_light(const struct studio_light *l, const double middle[3])
 {
-	const double length = sqrt((double)(l->position[0] * l->position[0] + l->position[1] * l->position[1] + l->position[2] * l->position[2]));
+	const double length = sqrt((double)(l->position[0] * l->position[0] + l->position[1] * l->position[1] +
+	                                    l->position[2] * l->position[2]));
 
 	if (l->position[3] == 0)
 		return (double)l->position[2] > HEAD_COSINE * length;
@@ -154,7 +157,8 @@ static int is_head_light(const struct studio_light *l, const double middle[3])
 
 static void write_color(const char *key, const float color[3], double share, FILE *out)
 {
-	fprintf(out, "    %s: [%.4g, %.4g, %.4g]\n", key, share * (double)color[0], share * (double)color[1], share * (double)color[2]);
+	fprintf(out, "    %s: [%.4g, %.4g, %.4g]\n", key, share * (double)color[0], share * (double)color[1],
+	        share * (double)color[2]);
 }
 
 /* As strong as OpenGL has it at a distance, stronger before, weaker behind. */
@@ -168,18 +172,22 @@ static void write_place(const double middle[3], const double towards[3], double 
 {
 	const double length = sqrt(matrix_dot3(towards, towards));
 
-	fprintf(out, "    position: [%.5g, %.5g, %.5g, 1]\n", middle[0] + distance * towards[0] / length, middle[1] + distance * towards[1] / length,
-	        middle[2] + distance * towards[2] / length);
+	fprintf(out, "    position: [%.5g, %.5g, %.5g, 1]\n", middle[0] + distance * towards[0] / length,
+	        middle[1] + distance * towards[1] / length, middle[2] + distance * towards[2] / length);
 }
 
 static void write_head(const struct studio_light *l, unsigned number, const double middle[3], double size, FILE *out)
 {
 	static const double aside[3] = { -0.6, 0.7, 0.75 };
 
-	fprintf(out, "  - role: light of the viewer\n    confidence: 0.8\n    why: \"it comes from where the viewer is, and shows no shadow\"\n    light: %u\n", number);
+	fprintf(out,
+	        "  - role: light of the viewer\n    confidence: 0.8\n    why: \"it comes from where the viewer is, and "
+	        "shows no shadow\"\n    light: %u\n",
+	        number);
 	write_color("diffuse", l->diffuse, FILL, out);
 	write_color("specular", l->specular, FILL, out);
-	fprintf(out, "    shadows: no\n  - role: lamp of a studio\n    confidence: 0.5\n    why: \"what the light of the viewer lacks comes from aside\"\n");
+	fprintf(out, "    shadows: no\n  - role: lamp of a studio\n    confidence: 0.5\n    why: \"what the light of "
+	             "the viewer lacks comes from aside\"\n");
 	write_place(middle, aside, LAMP_DISTANCE * size, out);
 	write_falling((LAMP_DISTANCE - NEAR_SIDE) * size, out);
 	write_color("diffuse", l->diffuse, KEY, out);
@@ -191,7 +199,10 @@ static void write_one(const struct studio_light *l, unsigned number, const doubl
 {
 	const double towards[3] = { (double)l->position[0], (double)l->position[1], (double)l->position[2] };
 
-	fprintf(out, "  - role: lamp of a studio\n    confidence: 0.6\n    why: \"it lights things before an empty window, and is as strong far off as near\"\n    light: %u\n", number);
+	fprintf(out,
+	        "  - role: lamp of a studio\n    confidence: 0.6\n    why: \"it lights things before an empty window, "
+	        "and is as strong far off as near\"\n    light: %u\n",
+	        number);
 	if (l->position[3] == 0)
 		write_place(middle, towards, LAMP_DISTANCE * size, out);
 	write_falling(l->position[3] == 0 ? LAMP_DISTANCE * size : l->distance / l->frames, out);
@@ -199,7 +210,8 @@ static void write_one(const struct studio_light *l, unsigned number, const doubl
 
 unsigned studio_write(const struct studio *s, FILE *out)
 {
-	const double size = s->size / s->frames, middle[3] = { s->middle[0] / s->frames, s->middle[1] / s->frames, s->middle[2] / s->frames };
+	const double size = s->size / s->frames,
+		     middle[3] = { s->middle[0] / s->frames, s->middle[1] / s->frames, s->middle[2] / s->frames };
 	unsigned n = 0;
 
 	if (!s->frames || s->skies || !(s->lit >= LEAST_LIT * s->solid))
@@ -207,7 +219,8 @@ unsigned studio_write(const struct studio *s, FILE *out)
 	for (unsigned i = 0; i < SCENE_MAX_LIGHTS; i++) {
 		const struct studio_light *l = &s->lights[i];
 
-		/* A light at infinity that moves is a sun of the world, and one of a world around the viewer comes from outside of it. */
+		/* A light at infinity that moves is a sun of the world, and one of a world around the viewer comes from
+		 * outside of it. */
 		if (!l->frames || l->differs || ((l->moves || s->around) && l->position[3] == 0))
 			continue;
 		n++;

@@ -1,7 +1,7 @@
 /*
- * Lights of a scene that stands in the dark, as a studio has them. A program that shows things before an empty window often lights them
- * without care: by one light that stands where the viewer does, and shows no shadow, or by light that is as strong far off as
- * near. Lamps in a studio stand near and aside.
+ * Lights of a scene that stands in the dark, as a studio has them. A program that shows things before an empty window
+ * often lights them without care: by one light that stands where the viewer does, and shows no shadow, or by light that
+ * is as strong far off as near. Lamps in a studio stand near and aside.
  */
 #pragma once
 

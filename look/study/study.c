@@ -84,8 +84,11 @@ static void note_gloss(struct study *study, const struct scene *scene)
 static void write_gloss(const struct study *study, FILE *out)
 {
 	if (study->glossy)
-		fprintf(out, "gloss:\n  role: highlights\n  confidence: 0.5\n  why: \"%u of %u materials that are lit have highlights sharp enough to mirror what is near\"\n"
-		        "  share: 1\n", study->glossy, study->lit);
+		fprintf(out,
+		        "gloss:\n  role: highlights\n  confidence: 0.5\n  why: \"%u of %u materials that are lit have "
+		        "highlights sharp enough to mirror what is near\"\n"
+		        "  share: 1\n",
+		        study->glossy, study->lit);
 }
 
 int study_add(struct study *study, const struct scene *scene)
@@ -128,13 +131,15 @@ int study_finish(struct study *study)
 	return maps->n ? solve_lights(maps, &study->solved) : 0;
 }
 
-/* What shines in a world that OpenGL does not light, and lightmaps do not either: the sky's sun, lamps. up: receives the world's */
+/* What shines in a world that OpenGL does not light, and lightmaps do not either: the sky's sun, lamps. up: receives
+ * the world's */
 static void find_shining(const struct study *study, double up[3], int *is_sunny, int *has_lamps)
 {
 	const int is_dark = dome_is_wanted(&study->dome) && !study->lightmaps.n && !findings_relights(&study->solved);
 	double towards[3];
 
-	*is_sunny = is_dark && dome_find_up(&study->dome, up) && sun_is_there(&study->sun, towards) && matrix_dot3(up, towards) > LOWEST_SUN;
+	*is_sunny = is_dark && dome_find_up(&study->dome, up) && sun_is_there(&study->sun, towards) &&
+	            matrix_dot3(up, towards) > LOWEST_SUN;
 	*has_lamps = is_dark && lamps_count(&study->lamps, &study->motion);
 }
 
@@ -148,7 +153,8 @@ int study_write(const struct study *study, const char *trace, FILE *out)
 	find_shining(study, up, &is_sunny, &has_lamps);
 	shines = is_sunny || has_lamps;
 	/* Tricks tell where lights are: these stand in the world. */
-	is_studio = !shines && !study->tricks.n && !study->lightmaps.n && !findings_relights(&study->solved) && studio_write(&study->studio, NULL);
+	is_studio = !shines && !study->tricks.n && !study->lightmaps.n && !findings_relights(&study->solved) &&
+	            studio_write(&study->studio, NULL);
 	fprintf(out, "# Rules for %s, written by relume look after it studied %zu frames", trace, m->n_frames);
 	if (m->n_frames)
 		fprintf(out, " (%llu to %llu)", (unsigned long long)m->cameras[0].frame,
@@ -156,9 +162,11 @@ int study_write(const struct study *study, const char *trace, FILE *out)
 	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
 	world_report(m, out);
 	fprintf(out, "replace: yes # no: tricks stay as they are\n");
-	fprintf(out, study->tricks.n || study->lightmaps.n || findings_relights(&study->solved) || spared_count(&study->spared) ||
-	             roles_count(&study->roles, m) || cast_write(&study->cast, NULL) || floors_write(&study->floors, NULL) || shines
-	             ? "surfaces:\n" : "surfaces: []\n");
+	fprintf(out, study->tricks.n || study->lightmaps.n || findings_relights(&study->solved) ||
+	                             spared_count(&study->spared) || roles_count(&study->roles, m) ||
+	                             cast_write(&study->cast, NULL) || floors_write(&study->floors, NULL) || shines ?
+	                     "surfaces:\n" :
+	                     "surfaces: []\n");
 	spared_write(&study->spared, out);
 	findings_write_surfaces(&study->tricks, maps, &study->solved, out);
 	if (shines)

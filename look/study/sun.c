@@ -19,7 +19,8 @@ enum { MOST_FRAMES = 16, PLACES = 64, WHITE = 250, PER_INSTANCE = 4 };
 /* All frames have it within five degrees; at least so much of what is in sight is open to it. */
 #define SAME 0.996
 #define OPEN 0.5
-/* The sun's share of the light on level ground at most, and how strong it is at most; what shines from all sides beside lamps alone. */
+/* The sun's share of the light on level ground at most, and how strong it is at most; what shines from all sides beside
+ * lamps alone. */
 #define SHARE 0.5
 #define STRONGEST 1.0
 #define WITHOUT 0.85
@@ -77,7 +78,8 @@ static const double *spot_of(struct sun *sun, const struct scene_texture *t)
 }
 
 /* The place in eye space where a mesh shows a place of its texture. @return 0: it does not */
-static int find_place(const struct scene *s, const struct scene_instance *in, const struct scene_unit *u, const double at[2], double out[3])
+static int find_place(const struct scene *s, const struct scene_instance *in, const struct scene_unit *u,
+                      const double at[2], double out[3])
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	const float *coord = mesh->texcoord[u->unit];
@@ -88,8 +90,12 @@ static int find_place(const struct scene *s, const struct scene_instance *in, co
 		const uint32_t *i = mesh->index + 3 * (size_t)p;
 		const float *a = coord + 4 * (size_t)i[0], *b = coord + 4 * (size_t)i[1], *c = coord + 4 * (size_t)i[2];
 		const double det = (double)(b[0] - a[0]) * (double)(c[1] - a[1]) - (double)(c[0] - a[0]) * (double)(b[1] - a[1]);
-		const double v = ((at[0] - (double)a[0]) * (double)(c[1] - a[1]) - (double)(c[0] - a[0]) * (at[1] - (double)a[1])) / det;
-		const double w = ((double)(b[0] - a[0]) * (at[1] - (double)a[1]) - (at[0] - (double)a[0]) * (double)(b[1] - a[1])) / det;
+		const double v = ((at[0] - (double)a[0]) * (double)(c[1] - a[1]) -
+		                  (double)(c[0] - a[0]) * (at[1] - (double)a[1])) /
+		                 det;
+		const double w = ((double)(b[0] - a[0]) * (at[1] - (double)a[1]) -
+		                  (at[0] - (double)a[0]) * (double)(b[1] - a[1])) /
+		                 det;
 		struct face face;
 
 		if (!(fabs(det) > 0) || !(v >= 0) || !(w >= 0) || !(v + w <= 1) || !face_of(mesh, eye, p, &face))
@@ -113,7 +119,8 @@ static int find_towards(struct sun *sun, const struct scene *s, const uint8_t *l
 		const double *at;
 		double place[3];
 
-		if (layers[i] != LAYER_SKY || !u || m->lighting || s->views[in->view].projection[11] == 0 || s->meshes[in->mesh]->kind != SCENE_TRIANGLES)
+		if (layers[i] != LAYER_SKY || !u || m->lighting || s->views[in->view].projection[11] == 0 ||
+		    s->meshes[in->mesh]->kind != SCENE_TRIANGLES)
 			continue;
 		*has_sky = 1;
 		at = spot_of(sun, s->textures[u->texture]);
@@ -149,11 +156,15 @@ static int count_open(struct sun *sun, const struct scene *s, const uint8_t *lay
 			struct face face;
 			unsigned n, blocked = 0;
 
-			if (!face_of(mesh, eye, p, &face) || matrix_dot3(face.normal, towards) * (matrix_dot3(face.normal, face.corner[0]) > 0 ? -1 : 1) < 0.05)
+			if (!face_of(mesh, eye, p, &face) ||
+			    matrix_dot3(face.normal, towards) *
+			                    (matrix_dot3(face.normal, face.corner[0]) > 0 ? -1 : 1) <
+			            0.05)
 				continue;
 			for (int k = 0; k < 3; k++) {
 				d[k] = (float)towards[k];
-				from[k] = (float)((face.corner[0][k] + face.corner[1][k] + face.corner[2][k]) / 3 + 1e-3 * sqrt(face.area) * towards[k]);
+				from[k] = (float)((face.corner[0][k] + face.corner[1][k] + face.corner[2][k]) / 3 +
+				                  1e-3 * sqrt(face.area) * towards[k]);
 			}
 			n = blockers_on(blockers, s->views[in->view].space, from, d, 1e9f, hits);
 			for (unsigned h = 0; h < n; h++)
@@ -212,11 +223,14 @@ void sun_write_light(const struct sun *sun, const double up[3], FILE *out)
 	if (!sun_is_there(sun, towards))
 		return;
 	strength = strength_of(towards, up);
-	fprintf(out, "  - role: sun\n    confidence: %.2f\n"
-	        "    why: \"in %u of %u frames the sky has a small white spot there, and %u of %u places in sight are open to it\"\n"
-	        "    on: unlit\n    space: world\n    position: [%.5f, %.5f, %.5f, 0]\n    diffuse: [%.3f, %.3f, %.3f]\n    specular: [0, 0, 0]\n    radius: 0.01\n",
-	        (double)sun->frames / sun->skies * sun->open / sun->places, sun->frames, sun->skies, sun->open, sun->places, towards[0], towards[1],
-	        towards[2], strength, strength, strength);
+	fprintf(out,
+	        "  - role: sun\n    confidence: %.2f\n"
+	        "    why: \"in %u of %u frames the sky has a small white spot there, and %u of %u places in sight are "
+	        "open to it\"\n"
+	        "    on: unlit\n    space: world\n    position: [%.5f, %.5f, %.5f, 0]\n    diffuse: [%.3f, %.3f, "
+	        "%.3f]\n    specular: [0, 0, 0]\n    radius: 0.01\n",
+	        (double)sun->frames / sun->skies * sun->open / sun->places, sun->frames, sun->skies, sun->open,
+	        sun->places, towards[0], towards[1], towards[2], strength, strength, strength);
 }
 
 void sun_write_ambient(const struct sun *sun, const double *up, FILE *out)
@@ -225,7 +239,10 @@ void sun_write_ambient(const struct sun *sun, const double *up, FILE *out)
 
 	if (up && sun_is_there(sun, towards))
 		ambient = 1 - strength_of(towards, up) * matrix_dot3(up, towards);
-	fprintf(out, "  - role: ambient light\n    confidence: 0.5\n    why: \"as much as leaves level ground about as bright as it was\"\n    on: unlit\n"
-	        "    space: world\n    position: [0, 1, 0, 0]\n    ambient: [%.3f, %.3f, %.3f]\n    diffuse: [0, 0, 0]\n    specular: [0, 0, 0]\n", ambient, ambient,
-	        ambient);
+	fprintf(out,
+	        "  - role: ambient light\n    confidence: 0.5\n    why: \"as much as leaves level ground about as "
+	        "bright as it was\"\n    on: unlit\n"
+	        "    space: world\n    position: [0, 1, 0, 0]\n    ambient: [%.3f, %.3f, %.3f]\n    diffuse: [0, 0, "
+	        "0]\n    specular: [0, 0, 0]\n",
+	        ambient, ambient, ambient);
 }

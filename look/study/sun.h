@@ -1,6 +1,6 @@
 /*
- * A sun that a sky shows: a small round spot of white texels in a picture that is darker all about, at one place of the world in all frames.
- * It lights a world that nothing else lights, where most of what is in sight is open to it.
+ * A sun that a sky shows: a small round spot of white texels in a picture that is darker all about, at one place of the
+ * world in all frames. It lights a world that nothing else lights, where most of what is in sight is open to it.
  */
 #pragma once
 

@@ -34,7 +34,8 @@ static void take_in(struct trick_found *f, const struct trick_found *what)
 
 static int is_same_trick(const struct trick_found *a, const struct trick_found *b)
 {
-	return a->kind == b->kind && (b->kind == TRICK_MIRROR || !(flattened_apart(a->light, b->light) > SAME)) && !(planes_apart(a->plane, b->plane) > SAME);
+	return a->kind == b->kind && (b->kind == TRICK_MIRROR || !(flattened_apart(a->light, b->light) > SAME)) &&
+	       !(planes_apart(a->plane, b->plane) > SAME);
 }
 
 struct trick_found *tricks_note(struct tricks *t, const struct trick_found *said, uint64_t frame)
@@ -71,7 +72,8 @@ int tricks_is_outvoted(const struct tricks *t, unsigned i)
 	const struct trick_found *f = &t->found[i];
 
 	for (unsigned k = 0; k < t->n && f->kind == TRICK_PLANAR_SHADOW; k++)
-		if (t->found[k].kind == f->kind && t->found[k].votes > 4 * f->votes && planes_apart(t->found[k].plane, f->plane) < SAME)
+		if (t->found[k].kind == f->kind && t->found[k].votes > 4 * f->votes &&
+		    planes_apart(t->found[k].plane, f->plane) < SAME)
 			return 1;
 	return 0;
 }

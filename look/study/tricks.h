@@ -1,6 +1,7 @@
 /*
- * What stands for light in a recording, told by the matrices and vertices it was drawn with: shadows flattened onto a plane, worlds
- * drawn again behind a mirror, shadow volumes in the stencil buffer. Their matrices hold the light and the plane exactly.
+ * What stands for light in a recording, told by the matrices and vertices it was drawn with: shadows flattened onto a
+ * plane, worlds drawn again behind a mirror, shadow volumes in the stencil buffer. Their matrices hold the light and
+ * the plane exactly.
  */
 #pragma once
 
@@ -22,9 +23,11 @@ struct trick_found {
 	uint64_t last;   /* number of the frame that said so last, counted from 1 */
 	unsigned frames;
 	int has_opengl_light; /* a light of OpenGL's is there, and lights most of what the shadows fall on */
-	int stencil;     /* of a mirror: its picture was drawn through the stencil buffer; of a planar shadow: it was drawn there alone */
+	int stencil; /* of a mirror: its picture was drawn through the stencil buffer; of a planar shadow: it was drawn
+	                there alone */
 	int surface_stencil; /* of a mirror: the surface over its picture was drawn through the stencil buffer */
-	double shows;    /* of a mirror: the share of its picture that the surface drawn over it let through; 0: none was found */
+	double shows; /* of a mirror: the share of its picture that the surface drawn over it let through; 0: none was
+	                 found */
 };
 
 struct tricks {
@@ -34,11 +37,12 @@ struct tricks {
 	unsigned darkenings; /* draws that darken where the stencil buffer says so, in frames with shadow volumes */
 };
 
-/** A finding to be noted, or added to what it equals: a mirror also to one of the turned plane. @return NULL: there are too many */
+/** A finding to be noted, or added to what it equals: a mirror also to one of the turned plane. @return NULL: there are
+ * too many */
 struct trick_found *tricks_note(struct tricks *t, const struct trick_found *said, uint64_t frame);
 
 /**
- * 1 for a shadow that few say beside another of the same plane: a mesh that stands in many places is flattened from one of them, and
- * the others say false lights.
+ * 1 for a shadow that few say beside another of the same plane: a mesh that stands in many places is flattened from one
+ * of them, and the others say false lights.
  */
 int tricks_is_outvoted(const struct tricks *t, unsigned i);

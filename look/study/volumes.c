@@ -58,7 +58,8 @@ static int longer(const void *a, const void *b)
 	return x < y ? 1 : x > y ? -1 : 0;
 }
 
-/* Lines through the longest edges of a volume: those that lead away from the light, and some others. @return how many */
+/* Lines through the longest edges of a volume: those that lead away from the light, and some others. @return how
+ * many */
 static size_t longest_edges(const struct scene_mesh *mesh, const double eye[16], struct line *lines)
 {
 	size_t n = 0;
@@ -66,8 +67,8 @@ static size_t longest_edges(const struct scene_mesh *mesh, const double eye[16],
 
 	for (uint32_t i = 0; i < mesh->primitive_count; i++)
 		for (int k = 0; k < 3; k++)
-			n += (size_t)line_through(eye, mesh->position + 4 * mesh->index[3 * i + k], mesh->position + 4 * mesh->index[3 * i + (k + 1) % 3],
-			                          &lines[n]);
+			n += (size_t)line_through(eye, mesh->position + 4 * mesh->index[3 * i + k],
+			                          mesh->position + 4 * mesh->index[3 * i + (k + 1) % 3], &lines[n]);
 	qsort(lines, n, sizeof(*lines), longer);
 	longest = n ? lines[0].length : 0;
 	while (n && !(lines[n - 1].length >= 0.5 * longest))
@@ -76,8 +77,8 @@ static size_t longest_edges(const struct scene_mesh *mesh, const double eye[16],
 }
 
 /*
- * How far a line passes by a place, over how far the place is from where the line begins: the sine of the angle that it is off.
- * `to`: homogeneous; w 0 is a direction.
+ * How far a line passes by a place, over how far the place is from where the line begins: the sine of the angle that it
+ * is off. `to`: homogeneous; w 0 is a direction.
  */
 static double passes_by(const struct line *l, const double to[4])
 {
@@ -103,7 +104,8 @@ static void meet(const struct line *a, const struct line *b, double out[4])
 	out[3] = below > 1e-10;
 }
 
-/* The place that is nearest to all lines that pass by it, in the sense of least squares (normal equations, solved by Cramer's rule). */
+/* The place that is nearest to all lines that pass by it, in the sense of least squares (normal equations, solved by
+ * Cramer's rule). */
 static void refine(const struct line *lines, size_t n, double near, double light[4])
 {
 	double m[16] = { 0 }, right[4] = { 0 }, inverse[16];
@@ -173,7 +175,8 @@ static void face_light(const struct line *lines, size_t n, double light[4])
 		light[k] = -light[k];
 }
 
-static int study_volume(struct tricks *t, const struct scene *s, const struct scene_instance *in, enum trick kind, const struct motion *motion)
+static int study_volume(struct tricks *t, const struct scene *s, const struct scene_instance *in, enum trick kind,
+                        const struct motion *motion)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	struct line *lines = malloc((3 * (size_t)mesh->primitive_count + 1) * sizeof(*lines));
@@ -208,7 +211,8 @@ int volumes_add(struct tricks *t, const struct scene *s, const struct motion *mo
 
 		any |= kind != N_TRICKS;
 		t->darkenings += any && m->stencil_test && m->blend && !m->depth_test && (m->color_mask & 7);
-		if (kind == N_TRICKS || s->meshes[in->mesh]->kind != SCENE_TRIANGLES || memcmp(last, s->meshes[in->mesh]->hash, sizeof(last)) == 0)
+		if (kind == N_TRICKS || s->meshes[in->mesh]->kind != SCENE_TRIANGLES ||
+		    memcmp(last, s->meshes[in->mesh]->hash, sizeof(last)) == 0)
 			continue; /* the same faces, from the other side */
 		memcpy(last, s->meshes[in->mesh]->hash, sizeof(last));
 		err = study_volume(t, s, in, kind, motion);

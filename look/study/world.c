@@ -39,10 +39,13 @@ void world_report(const struct motion *m, FILE *out)
 	if (!known)
 		fprintf(out, "# camera: unknown, as no mesh was drawn twice\n");
 	else
-		fprintf(out, "# camera: followed through %zu of %zu frames, moves in %zu; %.0f %% of what is seen again, by size, stands still\n", known,
-		        m->n_frames, moved, 100 * share / (double)known);
-	fprintf(out, "# meshes: %zu static, %zu moving, %zu with the viewer, %zu seen in one frame; %zu deforming shapes\n", still, moving,
-	        carried, once, count_deforming(m));
+		fprintf(out,
+		        "# camera: followed through %zu of %zu frames, moves in %zu; %.0f %% of what is seen again, by "
+		        "size, stands still\n",
+		        known, m->n_frames, moved, 100 * share / (double)known);
+	fprintf(out,
+	        "# meshes: %zu static, %zu moving, %zu with the viewer, %zu seen in one frame; %zu deforming shapes\n",
+	        still, moving, carried, once, count_deforming(m));
 }
 
 static void write_anchor(const struct motion_thing *t, const uint64_t hash[2], int *begun, FILE *out)

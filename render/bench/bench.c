@@ -50,7 +50,9 @@ static int take_kinds(const struct options_row *row, const char *list, void *out
 		while (kind < N_ACCEL_KINDS && (strlen(accel_kind_names[kind]) != n || strncmp(accel_kind_names[kind], list, n) != 0))
 			kind++;
 		if (kind == N_ACCEL_KINDS)
-			return err_report(ERR_USAGE, NULL, "--accel takes " TREE_BUILDERS(ACCEL_WORD) "with commas, or all, not '%.*s'", (int)n, list);
+			return err_report(ERR_USAGE, NULL,
+			                  "--accel takes " TREE_BUILDERS(ACCEL_WORD) "with commas, or all, not '%.*s'",
+			                  (int)n, list);
 		*kinds |= 1u << kind;
 		list += n + (list[n] == ',');
 	} while (*list);
@@ -67,20 +69,26 @@ static int take_look(const struct options_row *row, const char *file, void *out)
 }
 
 static const struct options_row rows[] = {
-	{ "device", 0, "NAME", "number or part of the name of an OpenCL device, or 'reference'", options_text, .at = offsetof(struct options, device) },
-	{ "kernels", 0, "FAMILY", "with a recording: packets, binary or compressed, as for relume render",
-	  options_word, .at = offsetof(struct options, family), .words = device_family_names },
-	{ "threads", 0, "N", "compute threads on a CPU", options_number, .at = offsetof(struct options, threads), .most = 1024 },
-	{ "models", 0, "DIR", "folder with stanford-bunny.obj, cow.obj, spot.obj, teapot.obj (default: ../shared/models; bumpy spheres "
-	  "stand in where they are missing)", options_text, .at = offsetof(struct options, models), .use = CONFINE_READS },
+	{ "device", 0, "NAME", "number or part of the name of an OpenCL device, or 'reference'", options_text,
+	  .at = offsetof(struct options, device) },
+	{ "kernels", 0, "FAMILY", "with a recording: packets, binary or compressed, as for relume render", options_word,
+	  .at = offsetof(struct options, family), .words = device_family_names },
+	{ "threads", 0, "N", "compute threads on a CPU", options_number, .at = offsetof(struct options, threads),
+	  .most = 1024 },
+	{ "models", 0, "DIR",
+	  "folder with stanford-bunny.obj, cow.obj, spot.obj, teapot.obj (default: ../shared/models; bumpy spheres "
+	  "stand in where they are missing)",
+	  options_text, .at = offsetof(struct options, models), .use = CONFINE_READS },
 	{ "accel", 0, "LIST", "kinds of trees, side by side: " TREE_BUILDERS(ACCEL_WORD) "with commas, or all",
 	  take_kinds, .at = offsetof(struct options, kinds) },
-	{ "repeat", 0, "N", "runs of each (default 5)", options_number, .at = offsetof(struct options, repeats), .most = MAX_REPEATS },
-	{ "frame", 'f', "N", "which frame of the recording (default 0)", options_frame, .at = offsetof(struct options, frame) },
-	{ "mode", 0, "MODE", "as for relume render (default whitted)",
-	  options_word, .at = offsetof(struct options, mode), .words = settings_mode_names },
-	{ "look", 0, "FILE", "with a recording: rules for its surfaces and lights, as for relume render",
-	  take_look, .at = offsetof(struct options, look), .use = CONFINE_READS },
+	{ "repeat", 0, "N", "runs of each (default 5)", options_number, .at = offsetof(struct options, repeats),
+	  .most = MAX_REPEATS },
+	{ "frame", 'f', "N", "which frame of the recording (default 0)", options_frame,
+	  .at = offsetof(struct options, frame) },
+	{ "mode", 0, "MODE", "as for relume render (default whitted)", options_word,
+	  .at = offsetof(struct options, mode), .words = settings_mode_names },
+	{ "look", 0, "FILE", "with a recording: rules for its surfaces and lights, as for relume render", take_look,
+	  .at = offsetof(struct options, look), .use = CONFINE_READS },
 	{ "json", 0, NULL, "as JSON", options_flag, .at = offsetof(struct options, json) },
 	{ OPTIONS_NO_SANDBOX },
 };
@@ -88,13 +96,18 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "bench",
 	.head = "usage: relume bench [OPTIONS] [TRACE]\n"
-	        "\n"
-	        "With a recording: render one of its frames several times and print what each kernel took, the means of all runs\n"
-	        "but the first. Without: trace a scene of about 250,000 triangles and print millions of rays a second, the median\n"
-	        "of several runs, for camera rays (with all that a frame with a new camera costs), shadow rays to one point light,\n"
-	        "and short incoherent rays; with --accel, the same for trees of several kinds, and what these cost.\n",
+		"\n"
+		"With a recording: render one of its frames several times and print what each kernel took, the means "
+	        "of all runs\n"
+		"but the first. Without: trace a scene of about 250,000 triangles and print millions of rays a second, "
+	        "the median\n"
+		"of several runs, for camera rays (with all that a frame with a new camera costs), shadow rays to one "
+	        "point light,\n"
+		"and short incoherent rays; with --accel, the same for trees of several kinds, and what these cost.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one recording or none", .most = 1, .words_use = CONFINE_RECORDING,
+	.takes = "one recording or none",
+	.most = 1,
+	.words_use = CONFINE_RECORDING,
 };
 
 static int parse(int argc, char **argv, struct options *o)
@@ -131,8 +144,8 @@ static int measure(struct bench *b, struct figure *f, size_t repeats)
 /* Kernels in vectors of eight and more, which compilers for GPUs take minutes for. */
 static int is_in_vectors(enum kernel kernel)
 {
-	return kernel == KERNEL_camera_packet || kernel == KERNEL_occlude_packet || kernel == KERNEL_occlude_wide || kernel == KERNEL_intersect_packet ||
-	       kernel == KERNEL_intersect_wide;
+	return kernel == KERNEL_camera_packet || kernel == KERNEL_occlude_packet || kernel == KERNEL_occlude_wide ||
+	       kernel == KERNEL_intersect_packet || kernel == KERNEL_intersect_wide;
 }
 
 #define FIGURE(rays, kernel, kind) { rays, #kernel, KERNEL_##kernel, kind, 0 }
@@ -172,8 +185,10 @@ static int measure_all(struct bench *b, size_t repeats, int json)
 		err = measure(b, &figures[i], repeats);
 	if (err)
 		return err;
-	printf(json ? "{\"device\": \"%s\", \"triangles\": %u, \"models\": \"%s\", \"build_s\": %.4f, \"figures\": [\n"
-	            : "%s\n%u triangles (%s), built in %.3f s; ", device_name(b->dev), b->mesh.n_triangles, b->mesh.source, b->build_s);
+	printf(json ? "{\"device\": \"%s\", \"triangles\": %u, \"models\": \"%s\", \"build_s\": %.4f, \"figures\": "
+	              "[\n" :
+	              "%s\n%u triangles (%s), built in %.3f s; ",
+	       device_name(b->dev), b->mesh.n_triangles, b->mesh.source, b->build_s);
 	if (!json)
 		printf("%ux%u\n", b->width, b->height);
 	for (size_t i = 0; i < n; i++)

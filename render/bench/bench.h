@@ -1,7 +1,7 @@
 /*
- * A fixed scene of about 250,000 triangles and rays to measure it with: camera rays of one picture, shadow rays from what
- * they hit to one point light, and short rays in all directions, as ambient occlusion sends them. `relume bench` uses it, and so
- * does the comparison with other tracers in tests/bench/.
+ * A fixed scene of about 250,000 triangles and rays to measure it with: camera rays of one picture, shadow rays from
+ * what they hit to one point light, and short rays in all directions, as ambient occlusion sends them. `relume bench`
+ * uses it, and so does the comparison with other tracers in tests/bench/.
  */
 #pragma once
 

@@ -42,20 +42,23 @@ static void print_row(const struct bench *b, enum accel_kind kind, size_t n, str
 	for (int k = CAMERA_S; k < N_TIMES; k++)
 		mrays[k] = rays[k] / bench_median(row->times[k], n) * 1e-6;
 	if (json)
-		printf("  {\"accel\": \"%s\", \"build_s\": %.5f, \"build_cpu_s\": %.5f, \"sah_cost\": %.3f, \"items_per_triangle\": %.3f, \"bytes\": %zu, "
-		       "\"camera_mrays_per_s\": %.3f, \"shadow_mrays_per_s\": %.3f, \"incoherent_mrays_per_s\": %.3f}%s\n",
-		       accel_kind_names[kind], build_s, cpu_s, row->tree.cost, share, row->tree.bytes, mrays[CAMERA_S], mrays[SHADOW_S],
-		       mrays[INCOHERENT_S], last ? "" : ",");
+		printf("  {\"accel\": \"%s\", \"build_s\": %.5f, \"build_cpu_s\": %.5f, \"sah_cost\": %.3f, "
+		       "\"items_per_triangle\": %.3f, \"bytes\": %zu, "
+		       "\"camera_mrays_per_s\": %.3f, \"shadow_mrays_per_s\": %.3f, \"incoherent_mrays_per_s\": "
+		       "%.3f}%s\n",
+		       accel_kind_names[kind], build_s, cpu_s, row->tree.cost, share, row->tree.bytes, mrays[CAMERA_S],
+		       mrays[SHADOW_S], mrays[INCOHERENT_S], last ? "" : ",");
 	else
-		printf("%-6s %9.1f ms %9.1f ms %9.2f %9.2f %7.1f MB %9.2f %9.2f %11.2f\n", accel_kind_names[kind], 1e3 * build_s, 1e3 * cpu_s, row->tree.cost,
-		       share, (double)row->tree.bytes * 1e-6, mrays[CAMERA_S], mrays[SHADOW_S], mrays[INCOHERENT_S]);
+		printf("%-6s %9.1f ms %9.1f ms %9.2f %9.2f %7.1f MB %9.2f %9.2f %11.2f\n", accel_kind_names[kind],
+		       1e3 * build_s, 1e3 * cpu_s, row->tree.cost, share, (double)row->tree.bytes * 1e-6,
+		       mrays[CAMERA_S], mrays[SHADOW_S], mrays[INCOHERENT_S]);
 }
 
 static void print_all(const struct bench *b, unsigned kinds, size_t n, struct row *rows, int json)
 {
 	if (json)
-		printf("{\"device\": \"%s\", \"triangles\": %u, \"models\": \"%s\", \"runs\": %zu, \"trees\": [\n", device_name(b->dev),
-		       b->mesh.n_triangles, b->mesh.source, n);
+		printf("{\"device\": \"%s\", \"triangles\": %u, \"models\": \"%s\", \"runs\": %zu, \"trees\": [\n",
+		       device_name(b->dev), b->mesh.n_triangles, b->mesh.source, n);
 	else
 		printf("%s\n%u triangles (%s); %ux%u; millions of rays a second, medians of %zu runs in turn\n"
 		       "tree        build    processors  SAH cost     items     memory    camera    shadow  incoherent\n",

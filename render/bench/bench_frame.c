@@ -33,8 +33,8 @@ static void print_profile(const struct device *dev, const struct device_profile 
 		printf("{\"device\": \"%s\", \"width\": %u, \"height\": %u, \"runs\": %.0f, \"spent\": [\n", device_name(dev), width,
 		       height, n);
 	else
-		printf("%s, %ux%u, %.0f runs\n%-18s %9s %9s %8s %12s\n", device_name(dev), width, height, n, "ms a frame", "wall", "cpu",
-		       "count", "items, bytes");
+		printf("%s, %ux%u, %.0f runs\n%-18s %9s %9s %8s %12s\n", device_name(dev), width, height, n,
+		       "ms a frame", "wall", "cpu", "count", "items, bytes");
 	for (int i = 0; i < N_KERNELS; i++)
 		print_row(device_kernel_name((enum kernel)i), &p->kernels[i], n, json, &sum);
 	print_row("(copies to it)", &p->writes, n, json, &sum);

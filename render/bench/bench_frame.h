@@ -20,8 +20,8 @@ struct bench_frame {
 };
 
 /**
- * Render a frame of a recording 1 + n times and print the means of the last n: the whole frame, each kernel, copies, and the
- * rest, which is the host's own work (trees, matrices, composing). Waits for each kernel.
+ * Render a frame of a recording 1 + n times and print the means of the last n: the whole frame, each kernel, copies,
+ * and the rest, which is the host's own work (trees, matrices, composing). Waits for each kernel.
  * @return 0 or ERR_* (reported)
  */
 int bench_frame(struct device *dev, const struct bench_frame *what);

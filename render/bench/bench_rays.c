@@ -146,7 +146,8 @@ int bench_camera(struct bench *b, enum kernel kernel, double *seconds)
 	if (!err)
 		err = traverse_camera(b->dev, kernel, &s->trees, r,
 		                      LAUNCH(camera_pass, .view_index = 0, .views = s->views, .width = b->width, .height = b->height,
-		                             .rectangle = r, .first_pixel = 0, .mode = CAMERA_NEAREST_LESS, .window = s->window_buffer, .clip = s->clip_buffer,
+		                             .rectangle = r, .first_pixel = 0, .mode = CAMERA_NEAREST_LESS,
+		                             .window = s->window_buffer, .clip = s->clip_buffer,
 		                             .after = s->count_buffer, .fragments = s->fragment_buffer, .counts = s->count_buffer));
 	if (!err)
 		err = device_finish(b->dev);
@@ -172,7 +173,8 @@ int bench_count_camera_hits(struct bench *b, uint32_t *n)
 {
 	const size_t pixels = (size_t)b->width * b->height;
 	uint32_t *counts = malloc(pixels * sizeof(*counts));
-	int err = counts ? device_read(b->dev, b->state->count_buffer.buffer, 0, counts, pixels * sizeof(*counts)) : out_of_memory();
+	int err = counts ? device_read(b->dev, b->state->count_buffer.buffer, 0, counts, pixels * sizeof(*counts)) :
+	                   out_of_memory();
 
 	*n = 0;
 	for (size_t i = 0; i < pixels && !err; i++)
@@ -196,7 +198,7 @@ int bench_count_ray_hits(struct bench *b, enum kernel kernel, enum bench_ray_kin
 	return err;
 }
 
-/* --- the rays that start where the picture was hit --- */
+/* --- the rays that start where the picture was hit --------------------------------------------------------------- */
 
 /* Where a fragment lies, moved off the surface on the viewer's side, and the surface's normal. */
 static void hit_point(const struct bench *b, const struct fragment *f, float point[3], float normal[3])
@@ -270,8 +272,8 @@ static uint32_t even_bits(uint32_t n)
 }
 
 /*
- * Pixels in tiles of 64 x 64, there in blocks of 4 x 2 along a Morton curve of 4 x 4 blocks first: eight, sixteen, thirty-two
- * or sixty-four consecutive rays belong to a compact patch, which packets of any kind like.
+ * Pixels in tiles of 64 x 64, there in blocks of 4 x 2 along a Morton curve of 4 x 4 blocks first: eight, sixteen,
+ * thirty-two or sixty-four consecutive rays belong to a compact patch, which packets of any kind like.
  */
 static void make_rays(struct bench *b)
 {
@@ -417,8 +419,8 @@ int bench_rebuild(struct bench *b, enum accel_kind kind, struct bench_tree *out)
 static void release_buffers(struct device *dev, struct bench_state *s)
 {
 	struct device_buffer **buffers[] = {
-		&s->views.buffer, &s->window_buffer.buffer, &s->clip_buffer.buffer, &s->fragment_buffer.buffer, &s->count_buffer.buffer,
-		&s->rays[BENCH_SHADOW].buffer, &s->rays[BENCH_AMBIENT].buffer, &s->results,
+		&s->views.buffer, &s->window_buffer.buffer, &s->clip_buffer.buffer, &s->fragment_buffer.buffer,
+		&s->count_buffer.buffer, &s->rays[BENCH_SHADOW].buffer, &s->rays[BENCH_AMBIENT].buffer, &s->results,
 	};
 
 	for (size_t i = 0; i < sizeof(buffers) / sizeof(buffers[0]); i++)

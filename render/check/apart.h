@@ -1,6 +1,6 @@
 /*
- * A function in a process of its own: what it calls may crash, hang or end the process, and the caller goes on. For OpenCL drivers, of
- * which some do, and none outlives a fork: the caller has not touched OpenCL before.
+ * A function in a process of its own: what it calls may crash, hang or end the process, and the caller goes on. For
+ * OpenCL drivers, of which some do, and none outlives a fork: the caller has not touched OpenCL before.
  */
 #pragma once
 
@@ -16,7 +16,8 @@ enum apart_end { APART_DONE, APART_DIED, APART_LATE };
  * Run a function in a child process, and wait for its end.
  * @param user     from apart_alloc, for what the function finds out
  * @param step     within it: changes as the function gets on
- * @param seconds  without a change after which the child is killed; so it is where it holds more than half of the machine's memory
+ * @param seconds  without a change after which the child is killed; so it is where it holds more than half of the
+ * machine's memory
  * @return how it ended; APART_DIED where there is no process to be had (reported)
  */
 enum apart_end apart_run(void (*function)(void *user), void *user, const volatile int *step, double seconds);

@@ -9,7 +9,8 @@
 #include "base/progress.h"
 #include "render/check/apart.h"
 
-/* Size of the pictures to compare: odd, so that tiles and work groups are cut. The twins draw all of them in a second. */
+/* Size of the pictures to compare: odd, so that tiles and work groups are cut. The twins draw all of them in a
+ * second. */
 enum { WIDTH = 93, HEIGHT = 67, RINGS = 12 };
 
 /* Size of the frame to measure. A device that would need longer than SLOW_S for it only draws a small picture. */
@@ -28,7 +29,7 @@ static int draw(struct tracer *tracer, const struct check_world *world, struct i
 	return err;
 }
 
-/* --- Comparing ----------------------------------------------------------------------------------------------------- */
+/* --- Comparing --------------------------------------------------------------------------------------------------- */
 
 int check_truth_make(struct check_truth *truth)
 {
@@ -67,7 +68,8 @@ static uint32_t count_differing(const float *a, const float *b, size_t n)
 	return differ;
 }
 
-enum outcome_state check_compare(const struct image *want, const struct image *found, uint32_t *n_differ, char channel[32])
+enum outcome_state check_compare(const struct image *want, const struct image *found, uint32_t *n_differ,
+                                 char channel[32])
 {
 	const size_t n_pixels = (size_t)want->width * want->height;
 
@@ -85,7 +87,7 @@ enum outcome_state check_compare(const struct image *want, const struct image *f
 	return *n_differ <= n_pixels / 1000 ? OUTCOME_RIGHT : OUTCOME_WRONG;
 }
 
-/* --- In a process of its own --------------------------------------------------------------------------------------- */
+/* --- In a process of its own ------------------------------------------------------------------------------------- */
 
 struct listing {
 	int err, step;
@@ -220,7 +222,8 @@ static void draw_apart(void *user)
 	free(world);
 }
 
-/* Sum the scenes up: the first state that is not right, the names of all scenes that are not, and the driver's fault. */
+/* Sum the scenes up: the first state that is not right, the names of all scenes that are not, and the driver's
+ * fault. */
 static void sum_up(struct check_result *r, const struct fault *fault)
 {
 	char text[160];
@@ -238,7 +241,8 @@ static void sum_up(struct check_result *r, const struct fault *fault)
 		snprintf(r->all.where + at, sizeof(r->all.where) - at, ": %s", fault_words(fault, text, sizeof(text)));
 }
 
-int check_family(const struct check_truth *truth, size_t device, enum device_family family, double seconds, struct check_result *out)
+int check_family(const struct check_truth *truth, size_t device, enum device_family family, double seconds,
+                 struct check_result *out)
 {
 	struct drawing *d = apart_alloc(sizeof(*d));
 	enum apart_end end;
@@ -252,7 +256,9 @@ int check_family(const struct check_truth *truth, size_t device, enum device_fam
 		d->result.scenes[i].state = -1;
 	end = apart_run(draw_apart, d, &d->at, seconds);
 	if (end != APART_DONE || d->result.scenes[0].state < 0) /* it ended, or did not even open the device */
-		d->result.scenes[d->at < N_CHECK_SCENES ? d->at : CHECK_OPAQUE].state = end == APART_LATE ? OUTCOME_LATE : OUTCOME_FAILED;
+		d->result.scenes[d->at < N_CHECK_SCENES ? d->at : CHECK_OPAQUE].state = end == APART_LATE ?
+		                                                                                OUTCOME_LATE :
+		                                                                                OUTCOME_FAILED;
 	*out = d->result;
 	sum_up(out, &d->journal.fault);
 	apart_free(d, sizeof(*d));

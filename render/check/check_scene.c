@@ -32,12 +32,20 @@ static void make_texture(struct check_world *w)
 			texel[2] = odd ? 120 : (uint8_t)(60 + 20 * size);
 			texel[3] = odd ? 255 : 40;
 		}
-	w->texture = (struct scene_texture){ .hash = { 7, 7 }, .target = GL_TEXTURE_2D, .base_format = GL_RGBA, .width = 8, .height = 8,
-		                             .depth = 1, .n_levels = 4, .texels = w->texels, .n_bytes = sizeof(w->texels) };
+	w->texture = (struct scene_texture){ .hash = { 7, 7 },
+		                             .target = GL_TEXTURE_2D,
+		                             .base_format = GL_RGBA,
+		                             .width = 8,
+		                             .height = 8,
+		                             .depth = 1,
+		                             .n_levels = 4,
+		                             .texels = w->texels,
+		                             .n_bytes = sizeof(w->texels) };
 	w->textures[0] = &w->texture;
 	w->unit = (struct scene_unit){ .wrap_s = GL_REPEAT, .wrap_t = GL_MIRRORED_REPEAT, .wrap_r = GL_REPEAT,
 		                       .min_filter = GL_LINEAR_MIPMAP_LINEAR, .mag_filter = GL_LINEAR, .min_lod = -1000,
-		                       .max_lod = 1000, .max_anisotropy = 1, .env_mode = GL_MODULATE, .scale_rgb = 1, .scale_alpha = 1,
+		                       .max_lod = 1000, .max_anisotropy = 1, .env_mode = GL_MODULATE, .scale_rgb = 1,
+		                       .scale_alpha = 1,
 		                       .gen_mode = { GL_OBJECT_LINEAR, GL_OBJECT_LINEAR } };
 	w->unit.gen_object_plane[0][0] = w->unit.gen_object_plane[1][1] = 0.4f;
 	w->unit.gen_object_plane[1][2] = 0.3f;
@@ -132,8 +140,10 @@ static void add_films(struct made *m)
 
 static struct scene_stencil stencil_of(uint32_t func, uint32_t ref, uint32_t zfail, uint32_t zpass)
 {
-	return (struct scene_stencil){ .func = func, .ref = ref, .compare_mask = 255, .write_mask = 255, .fail = GL_KEEP, .zfail = zfail,
-		                       .zpass = zpass };
+	return (struct scene_stencil){
+		.func = func, .ref = ref, .compare_mask = 255, .write_mask = 255, .fail = GL_KEEP, .zfail = zfail,
+		.zpass = zpass
+	};
 }
 
 /* A ball behind a window; a volume, counted in the stencil where its faces are hidden; a quad that darkens there. */
@@ -195,8 +205,8 @@ static void add_lamp(struct made *m)
 }
 
 /* Put a program behind those that are there. @return what a material calls it */
-static uint32_t put_program(struct check_world *w, const struct scene_program *head, const struct scene_instruction *instructions,
-                            const float *constants)
+static uint32_t put_program(struct check_world *w, const struct scene_program *head,
+                            const struct scene_instruction *instructions, const float *constants)
 {
 	struct scene *s = &w->made.scene;
 	const uint32_t first = s->n_programs, n = (uint32_t)(sizeof(*head) + head->n_instructions * sizeof(*instructions)) / 4;
@@ -235,8 +245,11 @@ static void add_vertex_program(struct check_world *w)
 		{ SCENE_OP_MAD, 3, SCENE_STEP_A | SCENE_SATURATE, COLOR, NORMAL, TABLE + 1, OWN },
 	};
 	const uint32_t material = made_add_material(&w->made, 0.7f);
-	const struct scene_program head = { sizeof(instructions) / sizeof(instructions[0]), 20, PLACE + 4, 1u << SCENE_VERTEX_POSITION | 1u << SCENE_VERTEX_NORMAL,
-		                            0, 0, 1u << SCENE_RESULT_POSITION | 1u << SCENE_RESULT_COLOR, 0, 0, 0, 0, 0 };
+	const struct scene_program head = {
+		sizeof(instructions) / sizeof(instructions[0]), 20, PLACE + 4,
+		1u << SCENE_VERTEX_POSITION | 1u << SCENE_VERTEX_NORMAL, 0, 0,
+		1u << SCENE_RESULT_POSITION | 1u << SCENE_RESULT_COLOR, 0, 0, 0, 0, 0
+	};
 	float constants[20] = { [16] = 0.2f, 0.5f, 3, 0.4f };
 
 	memcpy(constants, w->made.view.projection, 64);
@@ -256,12 +269,16 @@ static void add_fragment_program(struct check_world *w)
 		{ SCENE_OP_ADD, 1, SCENE_NEGATE_B, OWN, SAMPLE, CONSTANTS + 1, 0 },
 		{ SCENE_OP_KILL, 1, 0, 0, OWN, 0, 0 },
 		{ SCENE_OP_FRACTION, 3, SCENE_STEP_A, OWN, 4 * SCENE_INPUT_POSITION, 0, 0 },
-		{ SCENE_OP_MAD, 4, SCENE_STEP_A | SCENE_STEP_B | SCENE_STEP_C | SCENE_SATURATE, SCENE_PROGRAM_COLOR, SAMPLE, 4 * SCENE_INPUT_COLOR, OWN },
-		{ SCENE_OP_SELECT, 1, SCENE_NEGATE_A, SCENE_PROGRAM_DEPTH, OWN, 4 * SCENE_INPUT_POSITION + 2, CONSTANTS + 1 },
+		{ SCENE_OP_MAD, 4, SCENE_STEP_A | SCENE_STEP_B | SCENE_STEP_C | SCENE_SATURATE, SCENE_PROGRAM_COLOR,
+		  SAMPLE, 4 * SCENE_INPUT_COLOR, OWN },
+		{ SCENE_OP_SELECT, 1, SCENE_NEGATE_A, SCENE_PROGRAM_DEPTH, OWN, 4 * SCENE_INPUT_POSITION + 2,
+		  CONSTANTS + 1 },
 	};
 	static const float constants[2] = { 0.01f, 0.3f };
 	const uint32_t n = sizeof(instructions) / sizeof(instructions[0]), material = made_add_material(&w->made, 0.7f);
-	const struct scene_program head = { n, 2, SAMPLE + 4, 1u << SCENE_INPUT_POSITION | 1u << SCENE_INPUT_COLOR, 1, 1, 0, 1, 0, 0, 0, 0 };
+	const struct scene_program head = { n, 2, SAMPLE + 4, 1u << SCENE_INPUT_POSITION | 1u << SCENE_INPUT_COLOR,
+		                            1, 1, 0,          1,
+		                            0, 0, 0,          0 };
 
 	w->made.materials[material].unit_count = 1;
 	w->made.materials[material].fragment_program = put_program(w, &head, instructions, constants);
@@ -275,7 +292,9 @@ int check_world_make(enum check_scene scene, uint32_t width, uint32_t height, ui
 
 	made_init(m, width, height, 0.7f);
 	make_texture(w);
-	w->options = (struct tracer_options){ .mode = modes[scene], .display = 1, .depth = 4, .rays = 4, .reach = scene == CHECK_AO ? 5 : 0 };
+	w->options = (struct tracer_options){
+		.mode = modes[scene], .display = 1, .depth = 4, .rays = 4, .reach = scene == CHECK_AO ? 5 : 0
+	};
 	add_room(w, &floor);
 	if (scene == CHECK_MIRROR) {
 		m->materials[floor].surface.reflect = 0.5f;

@@ -1,5 +1,6 @@
 /*
- * Small scenes in which kernels have all their kinds of work: what is drawn of them on a device is compared with what the C twins draw.
+ * Small scenes in which kernels have all their kinds of work: what is drawn of them on a device is compared with what
+ * the C twins draw.
  */
 #pragma once
 

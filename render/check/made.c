@@ -116,7 +116,8 @@ uint32_t made_add_light(struct made *made, float x, float y, float z, float w)
 	return number;
 }
 
-uint32_t made_add_triangles(struct made *made, uint32_t material, const float (*position)[3], const float (*normal)[3], uint32_t n)
+uint32_t made_add_triangles(struct made *made, uint32_t material, const float (*position)[3], const float (*normal)[3],
+                            uint32_t n)
 {
 	const uint32_t i = made->scene.n_meshes;
 	float *positions = malloc(n * 4 * sizeof(float)), *normals = malloc(n * 3 * sizeof(float));
@@ -190,8 +191,8 @@ static void point_of_square(const void *user, float x, float y, float position[3
 	}
 }
 
-uint32_t made_add_square(struct made *made, uint32_t material, const float centre[3], const float u[3], const float v[3], float r,
-                         uint32_t cells)
+uint32_t made_add_square(struct made *made, uint32_t material, const float centre[3], const float u[3],
+                         const float v[3], float r, uint32_t cells)
 {
 	return add_grid(made, material, cells, cells, &(struct square){ centre, u, v, r }, point_of_square);
 }

@@ -28,7 +28,8 @@ struct made {
 
 /**
  * An empty frame, cleared to black.
- * @param tangent  of half the angle that the picture's width spans; 0: a parallel view, 2 units wide. Near is 1, far 100
+ * @param tangent  of half the angle that the picture's width spans; 0: a parallel view, 2 units wide. Near is 1, far
+ * 100
  */
 void made_init(struct made *made, uint32_t width, uint32_t height, float tangent);
 void made_free(struct made *made);
@@ -44,11 +45,13 @@ uint32_t made_add_light(struct made *made, float x, float y, float z, float w);
  * @param position, normal  [n][3], copied
  * @param n                 vertices, a multiple of 3
  */
-uint32_t made_add_triangles(struct made *made, uint32_t material, const float (*position)[3], const float (*normal)[3], uint32_t n);
+uint32_t made_add_triangles(struct made *made, uint32_t material, const float (*position)[3], const float (*normal)[3],
+                            uint32_t n);
 
 /** A square around a centre: corners at centre +- r u +- r v, normal u x v, cut into cells x cells squares. */
-uint32_t made_add_square(struct made *made, uint32_t material, const float centre[3], const float u[3], const float v[3], float r,
-                         uint32_t cells);
+uint32_t made_add_square(struct made *made, uint32_t material, const float centre[3], const float u[3],
+                         const float v[3], float r, uint32_t cells);
 
 /** A ball of so many rings and twice as many sectors. @param inside  1: turned inside out, to be seen from within */
-uint32_t made_add_ball(struct made *made, uint32_t material, const float centre[3], float r, uint32_t rings, int inside);
+uint32_t made_add_ball(struct made *made, uint32_t material, const float centre[3], float r, uint32_t rings,
+                       int inside);

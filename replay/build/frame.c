@@ -45,7 +45,8 @@ static uint32_t mesh_slot(struct gls_exec *x, struct gls_frame *f, struct gls_me
 }
 
 /* st: its programs run the draws; NULL: they are no draws that programs run */
-static int name_draws(const struct gls_exec *x, struct gls_frame *f, const struct gls_state *st, uint32_t command, uint64_t call_number, uint32_t n)
+static int name_draws(const struct gls_exec *x, struct gls_frame *f, const struct gls_state *st, uint32_t command,
+                      uint64_t call_number, uint32_t n)
 {
 	struct scene_draw named = { .call = gls_commands[command].name, .call_number = call_number, .list = x->drawn_list };
 	struct scene *s = f->out;
@@ -86,7 +87,8 @@ static int clears_depth(const struct gls_surface *d, const struct scene_clear *c
 /* 1 if nothing of its depths and colours remains. */
 static int clears_all(const struct gls_surface *d, const struct scene_clear *clear)
 {
-	return clears_depth(d, clear) && clear->buffers & 1 && (clear->color_mask & 7) == 7 && (!d->alpha_bits || clear->color_mask & 8);
+	return clears_depth(d, clear) && clear->buffers & 1 && (clear->color_mask & 7) == 7 &&
+	       (!d->alpha_bits || clear->color_mask & 8);
 }
 
 /* 1 if nothing of its stencil values remains. */
@@ -111,8 +113,8 @@ static struct gls_frame *make_frame(struct gls_exec *x);
 static void free_frame(struct gls_frame *f);
 
 /*
- * Nothing that was drawn shows any more. Begin with an empty scene, so that old draws cast no shadows. Draws keep their numbers and
- * names; clears keep what they did to the stencil buffer.
+ * Nothing that was drawn shows any more. Begin with an empty scene, so that old draws cast no shadows. Draws keep their
+ * numbers and names; clears keep what they did to the stencil buffer.
  */
 static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 {
@@ -185,7 +187,8 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 		f->view = gls_frame_view(x, target->surface, st, e);
 		f->is_programmed = gls_frame_is_programmed(st, e);
 	}
-	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || e->attribs->lighting.color_material || st->a.programs.fragment || st->a.programs.vertex || st->a.programs.ati || st->program)
+	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || e->attribs->lighting.color_material ||
+	    st->a.programs.fragment || st->a.programs.vertex || st->a.programs.ati || st->program)
 		f->material = gls_frame_material(x, target, st, e);
 	f->last = st;
 	instance = &s->instances[s->n_instances];
@@ -261,7 +264,9 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	}
 	s->clears[s->n_clears++] = clear;
 	f->colored |= clear.buffers & 1 && clear.color_mask;
-	gls_known_clear(&f->known, clear.buffers & (((clear.color_mask & 7) == 7 ? 1u : 0) | ((clear.stencil_mask & 255) == 255 ? 6u : 2u)),
+	gls_known_clear(&f->known,
+	                clear.buffers & (((clear.color_mask & 7) == 7 ? 1u : 0) |
+	                                 ((clear.stencil_mask & 255) == 255 ? 6u : 2u)),
 	                (const uint32_t[2]){ d->width, d->height }, clear.scissor);
 }
 
@@ -269,7 +274,8 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 
 static void free_frame(struct gls_frame *f)
 {
-	struct table *tables[] = { &f->materials, &f->units, &f->lights, &f->currents, &f->views, &f->stipples, &f->programs, &f->spaces };
+	struct table *tables[] = { &f->materials, &f->units,    &f->lights,   &f->currents,
+		                   &f->views,     &f->stipples, &f->programs, &f->spaces };
 
 	for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++)
 		table_free(tables[i]);
@@ -304,7 +310,8 @@ static void release_reference(struct scene *s)
 	free(s);
 }
 
-/* Of scenes, whichever state machine makes them: a replay that goes back has another one, and the same supplier (picture_recall). */
+/* Of scenes, whichever state machine makes them: a replay that goes back has another one, and the same supplier
+ * (picture_recall). */
 static uint64_t next_serial(void)
 {
 	static atomic_ullong last;
@@ -405,8 +412,10 @@ const struct gls_picture *gls_frame_snapshot(const struct gls_surface *surface, 
 {
 	const struct gls_frame *f = surface->frame;
 
-	return f->snapshot && f->snapshot_events == gls_frame_events(surface) && (!f->snapshot_in_part || gls_frame_knows(surface, area)) ?
-	       f->snapshot : NULL;
+	return f->snapshot && f->snapshot_events == gls_frame_events(surface) &&
+	                       (!f->snapshot_in_part || gls_frame_knows(surface, area)) ?
+	               f->snapshot :
+	               NULL;
 }
 
 void gls_frame_keep_snapshot(struct gls_surface *surface, struct gls_picture *p, int in_part)

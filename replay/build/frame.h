@@ -1,4 +1,5 @@
-/* A surface and its events: what is drawn and cleared becomes a scene. Nothing happens unless scenes are built (x->want). */
+/* A surface and its events: what is drawn and cleared becomes a scene. Nothing happens unless scenes are built
+ * (x->want). */
 #pragma once
 
 #include <stdint.h>
@@ -43,14 +44,15 @@ struct gls_event {
 	const float (*values)[4];  /* attributes that the mesh does not give */
 	uint32_t command;
 	uint64_t call_number;
-	const struct scene_rectangle *rectangle; /* of pixels, at the mesh's only point; its texture is filled in. NULL: none */
+	const struct scene_rectangle *rectangle; /* of pixels, at the mesh's only point; its texture is filled in. NULL:
+	                                            none */
 	struct gls_texture_image *image;         /* its pixels */
 	int in_window; /* 1: positions are window coordinates and texture coordinates final: no matrix counts */
 };
 
 /**
- * 1 if draws and clears reach a surface when scenes are built: not so in selection and feedback (sec. 5.2, 5.3), nor where a
- * condition does not hold.
+ * 1 if draws and clears reach a surface when scenes are built: not so in selection and feedback (sec. 5.2, 5.3), nor
+ * where a condition does not hold.
  */
 static inline int gls_renders(const struct gls_state *st)
 {
@@ -71,13 +73,14 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 void gls_frame_pass(struct gls_surface *surface);
 /** Clear a surface; buffers: as in scene_clear. */
 void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const struct gls_state *st, uint32_t buffers);
-/** The scene of all events so far, valid until the next event; begun if there is none. Borrowed; NULL: out of memory. */
+/** The scene of all events so far, valid until the next event; begun if there is none. Borrowed; NULL: out of
+ * memory. */
 struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface);
 /** Take the scene out of the surface, which has no events then. @return a reference for the caller */
 struct scene *gls_frame_take(struct gls_exec *x, struct gls_surface *surface);
 /**
- * Let other events come in place of a surface's, which showed what these draw: their colours, the depth and stencil values of its own.
- * In shown.c.
+ * Let other events come in place of a surface's, which showed what these draw: their colours, the depth and stencil
+ * values of its own. In shown.c.
  * @param drawn  the surface's afterwards
  * @param depth  that what showed them left everywhere; NULL: none
  * @return 1; 0: out of memory (reported), and `drawn` is the caller's still
@@ -85,7 +88,8 @@ struct scene *gls_frame_take(struct gls_exec *x, struct gls_surface *surface);
 int gls_frame_precede(struct gls_exec *x, struct gls_surface *surface, struct gls_frame *drawn, const float *depth);
 /** Forget all events. */
 void gls_frame_drop(struct gls_surface *surface);
-/** Buffers, bits as in scene_clear, that some draw looked at where clears had not set them. The surface must have a frame. */
+/** Buffers, bits as in scene_clear, that some draw looked at where clears had not set them. The surface must have a
+ * frame. */
 uint32_t gls_frame_looked(const struct gls_surface *surface);
 /** Nothing from before the events shows any more. */
 void gls_frame_all_known(struct gls_surface *surface);
@@ -95,9 +99,11 @@ void gls_frame_renew(struct gls_surface *surface);
 uint64_t gls_frame_events(const struct gls_surface *surface);
 /** 1 where its events alone tell the pixels of an area (NULL: of everything). The surface must have a frame. */
 int gls_frame_knows(const struct gls_surface *surface, const struct gls_area *area);
-/** The picture of all events that was kept and holds in an area (NULL: everywhere), or NULL. Borrowed. The surface must have a frame. */
+/** The picture of all events that was kept and holds in an area (NULL: everywhere), or NULL. Borrowed. The surface must
+ * have a frame. */
 const struct gls_picture *gls_frame_snapshot(const struct gls_surface *surface, const struct gls_area *area);
-/** Keep one. @param p  a reference, taken; NULL: none  @param in_part  1: it holds only in areas that gls_frame_knows */
+/** Keep one. @param p  a reference, taken; NULL: none  @param in_part  1: it holds only in areas that
+ * gls_frame_knows */
 void gls_frame_keep_snapshot(struct gls_surface *surface, struct gls_picture *p, int in_part);
 /** One more reference. */
 struct scene *gls_scene_reference(struct scene *scene);

@@ -17,13 +17,14 @@ static int make_room(void *array, uint32_t *room, uint32_t wanted, size_t size)
 	return wanted > *room ? ERR_SYSTEM : 0;
 }
 
-uint32_t gls_intern(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value, size_t size)
+uint32_t gls_intern(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value,
+                    size_t size)
 {
 	return gls_intern_array(x, t, array, n, room, value, 1, size);
 }
 
-uint32_t gls_intern_array(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room, const void *values, uint32_t count,
-                           size_t size)
+uint32_t gls_intern_array(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room,
+                          const void *values, uint32_t count, size_t size)
 {
 	uint64_t hash = XXH3_64bits_withSeed(values, count * size, count - 1);
 	uint8_t **p = array;

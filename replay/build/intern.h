@@ -1,4 +1,5 @@
-/* The arrays of a scene: equal values are stored once. Where memory is short the replay ends after this call (gls_fail): it is asked once, where a draw is added (frame.c). */
+/* The arrays of a scene: equal values are stored once. Where memory is short the replay ends after this call
+ * (gls_fail): it is asked once, where a draw is added (frame.c). */
 #pragma once
 
 #include <stddef.h>
@@ -13,6 +14,8 @@ struct gls_exec;
  * @param t      hash -> index + 1
  * @param array  address of the pointer to the items, n of them, with room for more
  */
-uint32_t gls_intern(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value, size_t size);
+uint32_t gls_intern(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value,
+                    size_t size);
 /** The same for values that must lie together. @return the first one's index; 0 if count is 0 */
-uint32_t gls_intern_array(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room, const void *values, uint32_t count, size_t size);
+uint32_t gls_intern_array(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room,
+                          const void *values, uint32_t count, size_t size);

@@ -1,7 +1,7 @@
 /*
- * Which pixels of a surface are known without what was there before: those that clears have reached, by buffer. Whole clears are a
- * bit; clears of parts (one viewport of several, a corner that becomes a texture) are kept as rectangles, as far as there is room.
- * What finds no room counts as not known.
+ * Which pixels of a surface are known without what was there before: those that clears have reached, by buffer. Whole
+ * clears are a bit; clears of parts (one viewport of several, a corner that becomes a texture) are kept as rectangles,
+ * as far as there is room. What finds no room counts as not known.
  */
 #pragma once
 

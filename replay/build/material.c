@@ -77,7 +77,8 @@ int gls_frame_is_programmed(const struct gls_state *st, const struct gls_event *
 	return !e->in_window && (st->program || st->a.programs.vertex);
 }
 
-uint32_t gls_frame_view(struct gls_exec *x, const struct gls_surface *surface, const struct gls_state *st, const struct gls_event *e)
+uint32_t gls_frame_view(struct gls_exec *x, const struct gls_surface *surface, const struct gls_state *st,
+                        const struct gls_event *e)
 {
 	const struct gls_attribs *a = e->attribs;
 	struct gls_frame *f = surface->frame;
@@ -146,8 +147,8 @@ static void fill_coordinates(const struct gls_unit *unit, const float *matrix, s
 }
 
 /* target: -1: none; matrix: of the unit's coordinates.  @return 1 if the unit textures */
-static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_unit *unit, int target,
-                     const float *matrix, struct scene_unit *out)
+static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_unit *unit,
+                     int target, const float *matrix, struct scene_unit *out)
 {
 	unsigned u = unit->value.unit;
 	struct gls_texture *t = target >= 0 ? gls_texture_bound(x, st, u, (unsigned)target) : NULL;
@@ -195,7 +196,8 @@ static void pass_by(struct scene_unit *unit)
  * A program samples black from a unit that has no texture, or no complete one. What
  * stands in for the program where it does not run passes the unit by.
  */
-static void fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls_unit *unit, const float *matrix, struct scene_unit *out)
+static void fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls_unit *unit, const float *matrix,
+                       struct scene_unit *out)
 {
 	static const uint8_t black[4] = { 0, 0, 0, 255 };
 	struct gls_texture_image *image = gls_texture_image_find(x, 1, 1, sizeof(black), black);
@@ -217,16 +219,21 @@ static void fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls
  * @return how many
  */
 static uint32_t fill_units(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_event *e,
-                           const struct program_stage *program, const struct program_stage *vertices, struct scene_unit units[GLS_MAX_UNITS])
+                           const struct program_stage *program, const struct program_stage *vertices,
+                           struct scene_unit units[GLS_MAX_UNITS])
 {
 	uint32_t n = 0;
 
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
 		const struct gls_unit *unit = &e->attribs->texturing.units[u];
 		const float *matrix = e->in_window ? mat4_identity : st->texture[u].matrices[st->texture[u].depth];
-		const int of_fragments = program && !(program->code->enabled >> u & 1) ? (int)program_target(program, u) - 1 : enabled_target(unit);
+		const int of_fragments = program && !(program->code->enabled >> u & 1) ?
+		                                 (int)program_target(program, u) - 1 :
+		                                 enabled_target(unit);
 		const int target = of_fragments >= 0 || !vertices ? of_fragments : (int)program_target(vertices, u) - 1;
-		const int counts = target > of_fragments || (program && (target >= 0 || program->code->inputs >> (SCENE_INPUT_TEXCOORD + u) & 1));
+		const int counts = target > of_fragments ||
+		                   (program &&
+		                    (target >= 0 || program->code->inputs >> (SCENE_INPUT_TEXCOORD + u) & 1));
 
 		if (!fill_unit(x, f, st, unit, target, matrix, &units[n])) {
 			if (!counts)
@@ -262,7 +269,8 @@ static uint32_t unclamped_by(const struct gls_attribs *a, const struct gls_surfa
 }
 
 /* which: 1 << number */
-static uint32_t fill_lights(struct gls_exec *x, struct gls_frame *f, const struct gls_lighting *l, uint32_t which, uint32_t *count)
+static uint32_t fill_lights(struct gls_exec *x, struct gls_frame *f, const struct gls_lighting *l, uint32_t which,
+                            uint32_t *count)
 {
 	struct scene *s = f->out;
 	struct scene_light lights[GLS_MAX_LIGHTS];
@@ -294,8 +302,8 @@ static uint32_t fill_stipple(struct gls_exec *x, struct gls_frame *f, const stru
 }
 
 /*
- * color: the current one, which vertices may have instead; covered: 1: they have none, and the material's own has come over it
- * (gl/geometry/waiting.h)
+ * color: the current one, which vertices may have instead; covered: 1: they have none, and the material's own has come
+ * over it (gl/geometry/waiting.h)
  */
 static void fill_lighting(const struct gls_lighting *l, const float color[4], int covered, struct scene_material *m)
 {
@@ -372,8 +380,8 @@ static void fill_raster_state(const struct gls_attribs *a, struct scene_material
 }
 
 /*
- * Multisampling (sec. 3.2.1) replaces smoothing. GL leaves open which samples SAMPLE_COVERAGE keeps; Mesa keeps the first ones
- * (st_update_sample_state).
+ * Multisampling (sec. 3.2.1) replaces smoothing. GL leaves open which samples SAMPLE_COVERAGE keeps; Mesa keeps the
+ * first ones (st_update_sample_state).
  */
 static void fill_multisample(const struct gls_multisample *a, const struct gls_surface *d, struct scene_material *m)
 {
@@ -407,7 +415,8 @@ static int covers_color(const struct gls_state *st, const struct gls_event *e)
 	return st->waiting.covers && !(st->mesa & SCENE_MESA_TRACKS_COLORS) && !st->waiting.colored && !e->mesh->mesh.color;
 }
 
-uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e)
+uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st,
+                            const struct gls_event *e)
 {
 	struct gls_frame *f = target->surface->frame;
 	struct scene *s = f->out;
@@ -436,7 +445,8 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.unit_count = fill_units(x, f, st, e, runs_fragments ? &fragments : NULL, runs_vertices ? &vertices : NULL, units);
 	for (unsigned i = 0; i < m.unit_count; i++)
 		gls_color_of(units[i].env_color, units[i].env_color, unclamped & 1);
-	m.unit_first = gls_intern_array(x, &f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
+	m.unit_first = gls_intern_array(x, &f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count,
+	                                sizeof(units[0]));
 	m.color_sum = a->fog.color_sum;
 	m.fog = a->fog.enabled;
 	m.fog_mode = a->fog.mode;
@@ -464,12 +474,13 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 }
 
 /* Attributes of the mesh, and those that nothing looks at, get GL's initial values, so that more currents are equal. */
-uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m,
-                           const float (*values)[4])
+uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct scene_mesh *mesh,
+                           const struct scene_material *m, const float (*values)[4])
 {
 	static const float white[4] = { 1, 1, 1, 1 }, up[4] = { 0, 0, 1, 0 }, origin[4] = { 0, 0, 0, 1 };
 	struct scene *s = f->out;
-	const uint32_t inputs = m->vertex_program ? ((const struct scene_program *)(s->programs + (m->vertex_program - 1)))->inputs : 0;
+	const uint32_t inputs =
+		m->vertex_program ? ((const struct scene_program *)(s->programs + (m->vertex_program - 1)))->inputs : 0;
 	struct scene_current current;
 	uint32_t varying = mesh->attributes, textured = 0;
 

@@ -1,6 +1,6 @@
 /*
- * What a draw saw: state copied into the scene under construction, equal things once. Indices are those of the scene's arrays, and
- * mean nothing where memory was short (gls_fail).
+ * What a draw saw: state copied into the scene under construction, equal things once. Indices are those of the scene's
+ * arrays, and mean nothing where memory was short (gls_fail).
  */
 #pragma once
 
@@ -13,7 +13,10 @@
 /* The events of a surface so far; for frame.c and material.c. */
 struct gls_frame {
 	struct scene *out; /* NULL between frames */
-	struct { uint32_t instances, materials, units, lights, currents, views, clears, stipples, meshes, textures, draws, rectangles, programs; } room;
+	struct {
+		uint32_t instances, materials, units, lights, currents, views, clears, stipples, meshes, textures,
+			draws, rectangles, programs;
+	} room;
 	struct table materials, units, lights, currents, views, stipples, programs, spaces; /* hash -> index + 1 */
 	uint32_t material, view; /* of the last draw, while its context's state is not dirty */
 	int is_programmed;       /* that of the view */
@@ -31,11 +34,14 @@ struct gls_frame {
 /** 1 where a program may place what is drawn. */
 int gls_frame_is_programmed(const struct gls_state *st, const struct gls_event *e);
 /** Projection, viewport and scissor, and whose eye space it is. */
-uint32_t gls_frame_view(struct gls_exec *x, const struct gls_surface *surface, const struct gls_state *st, const struct gls_event *e);
+uint32_t gls_frame_view(struct gls_exec *x, const struct gls_surface *surface, const struct gls_state *st,
+                        const struct gls_event *e);
 /** Everything else that the fragments of a draw depend on, with units and lights. */
-uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e);
+uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st,
+                            const struct gls_event *e);
 /** Attributes that the mesh does not have and the material looks at. */
-uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m, const float (*values)[4]);
+uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct scene_mesh *mesh,
+                           const struct scene_material *m, const float (*values)[4]);
 /** The place of an image in the scene. */
 uint32_t gls_frame_texture(struct gls_exec *x, struct gls_frame *f, struct gls_texture_image *image);
 

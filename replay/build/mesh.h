@@ -21,7 +21,8 @@ struct gls_mesh {
 	size_t bytes;
 };
 
-/** Find or make the mesh of collected vertices. @return a reference; NULL: nothing to draw, or out of memory (reported) */
+/** Find or make the mesh of collected vertices. @return a reference; NULL: nothing to draw, or out of memory
+ * (reported) */
 struct gls_mesh *gls_geometry_mesh(struct gls_exec *x, struct gls_geometry *g);
 void gls_mesh_release(struct gls_mesh *mesh);
 /** Between frames: if the cache is large, drop meshes that it alone holds and nobody drew for a while. */

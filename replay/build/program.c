@@ -19,7 +19,10 @@ static void set_four(float out[4], const float *from)
 
 static const float *face_color(const struct scene_face *face, uint32_t part)
 {
-	return part == GLS_AMBIENT ? face->ambient : part == GLS_DIFFUSE ? face->diffuse : part == GLS_SPECULAR ? face->specular : face->emission;
+	return part == GLS_AMBIENT  ? face->ambient :
+	       part == GLS_DIFFUSE  ? face->diffuse :
+	       part == GLS_SPECULAR ? face->specular :
+	                              face->emission;
 }
 
 static const float *light_color(const struct scene_light *light, uint32_t part)
@@ -64,10 +67,13 @@ static void fill_light(const struct scene_light *light, uint32_t part, float out
 
 static void fill_matrix(const struct gls_state *st, const struct program_constant *c, float out[4])
 {
-	const struct gls_matrix_stack *stack = c->index == PROGRAM_MODELVIEW ? &st->modelview :
-	                                       c->index < PROGRAM_TEXTURE_MATRIX ? &st->projection :
-	                                       c->index < PROGRAM_OWN_MATRIX ? &st->texture[c->index - PROGRAM_TEXTURE_MATRIX] :
-	                                                                       &st->program_matrix[c->index - PROGRAM_OWN_MATRIX];
+	const struct gls_matrix_stack *stack = c->index == PROGRAM_MODELVIEW ?
+	                                               &st->modelview :
+	                                       c->index < PROGRAM_TEXTURE_MATRIX ?
+	                                               &st->projection :
+	                                       c->index < PROGRAM_OWN_MATRIX ?
+	                                               &st->texture[c->index - PROGRAM_TEXTURE_MATRIX] :
+	                                               &st->program_matrix[c->index - PROGRAM_OWN_MATRIX];
 	float m[16], other[16];
 
 	memcpy(m, stack->matrices[stack->depth], sizeof(m));
@@ -106,8 +112,8 @@ static void fill_normal_scale(const struct gls_state *st, float out[4])
 	out[0] = 1 / sqrtf(inverse[2] * inverse[2] + inverse[6] * inverse[6] + inverse[10] * inverse[10]);
 }
 
-static void fill(const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage, const struct program_constant *c,
-                 float out[4])
+static void fill(const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage,
+                 const struct program_constant *c, float out[4])
 {
 	const struct gls_lighting *l = &a->lighting;
 	const struct scene_light *light = &l->lights[c->index % GLS_MAX_LIGHTS].value;
@@ -168,13 +174,15 @@ static void name_units(const struct program_stage *stage, struct scene_instructi
 			instructions[i].b = program_unit_of(stage, instructions[i].b);
 }
 
-uint32_t gls_program_build(struct gls_exec *x, struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage,
-                           uint32_t lights)
+uint32_t gls_program_build(struct gls_exec *x, struct gls_frame *f, const struct gls_state *st,
+                           const struct gls_attribs *a, const struct program_stage *stage, uint32_t lights)
 {
 	const struct program_code *code = stage->code;
-	const struct scene_program head = { code->n_instructions, 4 * code->n_constants, code->n_registers, code->inputs, code->kills,
-		                            code->sets_depth, outputs_of(st, code), code->across, code->n_lights, 0, code->data,
-		                            code->n_data };
+	const struct scene_program head = {
+		code->n_instructions, 4 * code->n_constants, code->n_registers, code->inputs,   code->kills,
+		code->sets_depth,     outputs_of(st, code),  code->across,      code->n_lights, 0,
+		code->data,           code->n_data
+	};
 	const size_t instruction_bytes = code->n_instructions * sizeof(struct scene_instruction);
 	const size_t light_bytes = code->n_lights * sizeof(struct scene_program_light);
 	const size_t n = (sizeof(head) + instruction_bytes + light_bytes) / 4 + 4 * (size_t)code->n_constants;
@@ -202,7 +210,8 @@ uint32_t gls_program_build(struct gls_exec *x, struct gls_frame *f, const struct
 		fill(st, a, stage, &code->constants[i], four);
 		memcpy((char *)words + sizeof(head) + instruction_bytes + light_bytes + 16 * i, four, sizeof(four));
 	}
-	place = gls_intern_array(x, &f->programs, &f->out->programs, &f->out->n_programs, &f->room.programs, words, (uint32_t)n, 4);
+	place = gls_intern_array(x, &f->programs, &f->out->programs, &f->out->n_programs, &f->room.programs, words,
+	                         (uint32_t)n, 4);
 	free(words);
 	return place == SCENE_NONE ? 0 : place + 1;
 }

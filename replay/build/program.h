@@ -20,5 +20,5 @@ int gls_shades_flat(const struct gls_state *st);
  * @param lights  1 << number of each in the material's list
  * @return 1 + where it begins in scene.programs; 0: out of memory (gls_fail)
  */
-uint32_t gls_program_build(struct gls_exec *x, struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage,
-                           uint32_t lights);
+uint32_t gls_program_build(struct gls_exec *x, struct gls_frame *f, const struct gls_state *st,
+                           const struct gls_attribs *a, const struct program_stage *stage, uint32_t lights);

@@ -58,7 +58,8 @@ static void init_unit(struct gls_unit *unit, uint32_t index)
 	v->env_mode = GL_MODULATE;
 	v->combine_rgb = v->combine_alpha = GL_MODULATE;
 	for (unsigned i = 0; i < 4; i++) {
-		static const uint32_t sources[] = { GL_TEXTURE, GL_PREVIOUS, GL_CONSTANT, GL_CONSTANT }; /* the fourth as Mesa has it */
+		/* the fourth as Mesa has it */
+		static const uint32_t sources[] = { GL_TEXTURE, GL_PREVIOUS, GL_CONSTANT, GL_CONSTANT };
 		v->source_rgb[i] = v->source_alpha[i] = sources[i];
 		v->operand_rgb[i] = i < 2 ? GL_SRC_COLOR : GL_SRC_ALPHA;
 		v->operand_alpha[i] = GL_SRC_ALPHA;
@@ -98,7 +99,11 @@ static void init_attribs(struct gls_attribs *a)
 	a->transform.matrix_mode = GL_MODELVIEW;
 	a->viewport.depth_range[1] = 1;
 	init_lighting(&a->lighting);
-	a->fog = (struct gls_fog){ .mode = GL_EXP, .coord_source = GL_FRAGMENT_DEPTH, .distance_mode = GL_EYE_PLANE_ABSOLUTE_NV, .density = 1, .end = 1 };
+	a->fog = (struct gls_fog){ .mode = GL_EXP,
+		                   .coord_source = GL_FRAGMENT_DEPTH,
+		                   .distance_mode = GL_EYE_PLANE_ABSOLUTE_NV,
+		                   .density = 1,
+		                   .end = 1 };
 	a->point = (struct gls_point){ .size = 1, .size_max = 255, .fade_threshold = 1, .attenuation = { 1 },
 	                               .sprite_origin = GL_UPPER_LEFT };
 	a->line = (struct gls_line){ .width = 1, .stipple_pattern = 0xffff, .stipple_factor = 1 };
@@ -214,8 +219,8 @@ struct gls_context *gls_context_find(struct gls_exec *x, uint64_t handle)
 	return NULL;
 }
 
-struct gls_context *gls_context_create(struct gls_exec *x, uint64_t handle, uint64_t share, const struct trace_value *config,
-                                       const char *api)
+struct gls_context *gls_context_create(struct gls_exec *x, uint64_t handle, uint64_t share,
+                                       const struct trace_value *config, const char *api)
 {
 	struct gls_context *ctx, *other = gls_context_find(x, share), **grown;
 

@@ -17,8 +17,8 @@ struct gls_context *gls_context_find(struct gls_exec *x, uint64_t handle);
  * @param api     "GLX", "EGL" ...; kept
  * @return borrowed, or NULL: none was made (counted or reported)
  */
-struct gls_context *gls_context_create(struct gls_exec *x, uint64_t handle, uint64_t share, const struct trace_value *config,
-                                       const char *api);
+struct gls_context *gls_context_create(struct gls_exec *x, uint64_t handle, uint64_t share,
+                                       const struct trace_value *config, const char *api);
 
 /** State as GL hands it out; the drawable's size is not known. @return 0 or ERR_SYSTEM (reported) */
 int gls_state_init(struct gls_state *st);

@@ -39,7 +39,8 @@ static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command,
 	/* What each kind asks for (commands.h); all of it means outside Begin/End. */
 	static const uint8_t rules[] = {
 		[GLS_KIND_STATE] = OUTSIDE | DRAW_PENDING | STALE, [GLS_KIND_MATRIX] = OUTSIDE | DRAW_PENDING,
-		[GLS_KIND_ARRAY] = OUTSIDE | DRAW_PENDING, [GLS_KIND_NOW] = OUTSIDE, [GLS_KIND_OBJECT] = OUTSIDE | DRAW_PENDING | STALE, [GLS_KIND_WINDOW] = 0,
+		[GLS_KIND_ARRAY] = OUTSIDE | DRAW_PENDING, [GLS_KIND_NOW] = OUTSIDE,
+		[GLS_KIND_OBJECT] = OUTSIDE | DRAW_PENDING | STALE, [GLS_KIND_WINDOW] = 0,
 	};
 	const struct gls_command *k = &gls_commands[command];
 	struct gls_state *st = x->st;

@@ -1,4 +1,5 @@
-/* Window systems: contexts, drawables and frame ends, as far as a recording of GLX 1.4, EGL or OSMesa shows them; our own markers. */
+/* Window systems: contexts, drawables and frame ends, as far as a recording of GLX 1.4, EGL or OSMesa shows them; our
+ * own markers. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,13 +38,14 @@ static struct gls_context *find_or_create(struct gls_exec *x, uint64_t handle, c
 	return ctx ? ctx : gls_context_create(x, handle, 0, NULL, api);
 }
 
-static struct gls_context *create_context(struct gls_exec *x, const struct call *c, int64_t share, const struct trace_value *config,
-                                          const char *api)
+static struct gls_context *create_context(struct gls_exec *x, const struct call *c, int64_t share,
+                                          const struct trace_value *config, const char *api)
 {
 	return gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)share, config, api);
 }
 
-static void make_current(struct gls_exec *x, const struct call *c, unsigned drawable, unsigned read, unsigned context, const char *api)
+static void make_current(struct gls_exec *x, const struct call *c, unsigned drawable, unsigned read, unsigned context,
+                         const char *api)
 {
 	uint64_t handle = (uint64_t)arg_i(c, context);
 
@@ -84,7 +86,8 @@ GLS_HANDLER(glXCopyContext, WINDOW) { gls_unsupported(x, "the copy of state betw
 
 enum { EGL_OPENGL_ES_API = 0x30A0, EGL_CONTEXT_CLIENT_VERSION = 0x3098 };
 
-/* EGL 1.5 sec. 3.7: what eglBindAPI has chosen, OpenGL ES where nothing was. Recordings that begin late may lack the call. */
+/* EGL 1.5 sec. 3.7: what eglBindAPI has chosen, OpenGL ES where nothing was. Recordings that begin late may lack the
+ * call. */
 static int is_es(const struct gls_exec *x, const struct call *c)
 {
 	uint64_t n;
@@ -103,7 +106,8 @@ GLS_HANDLER(eglCreateContext, WINDOW)
 {
 	struct gls_context *ctx = create_context(x, c, arg_i(c, 2), arg(c, 1), "EGL");
 
-	/* Mesa (22.3.6) clamps the colours of OpenGL ES' vertices after interpolation alone, other than OpenGL ES 1.1 sec. 2.12.2 says. */
+	/* Mesa (22.3.6) clamps the colours of OpenGL ES' vertices after interpolation alone, other than OpenGL ES 1.1
+	 * sec. 2.12.2 says. */
 	if (ctx && is_es(x, c))
 		ctx->state.a.lighting.clamp = GL_FALSE;
 }

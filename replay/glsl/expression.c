@@ -26,8 +26,9 @@ bool glsl_has_effects(const struct glsl_writer *w, uint32_t node)
 	if (node == GLSL_NONE)
 		return false;
 	n = node_of(w, node);
-	if (n->operation == GLSL_ASSIGN || n->operation == GLSL_CALL || n->operation == GLSL_POST_INCREMENT || n->operation == GLSL_POST_DECREMENT ||
-	    n->operation == GLSL_PRE_INCREMENT || n->operation == GLSL_PRE_DECREMENT)
+	if (n->operation == GLSL_ASSIGN || n->operation == GLSL_CALL || n->operation == GLSL_POST_INCREMENT ||
+	    n->operation == GLSL_POST_DECREMENT || n->operation == GLSL_PRE_INCREMENT ||
+	    n->operation == GLSL_PRE_DECREMENT)
 		return true;
 	for (uint32_t i = 0; i < n->count; i++)
 		if (glsl_has_effects(w, child(w, n, i)))
@@ -45,7 +46,7 @@ static struct glsl_value kept(struct glsl_writer *w, const struct glsl_value *v)
 	return copy;
 }
 
-/* --- Variables ---------------------------------------------------------------------------------------------------------- */
+/* --- Variables --------------------------------------------------------------------------------------------------- */
 
 static struct glsl_value of_numbers(struct glsl_writer *w, uint32_t type, uint32_t first)
 {
@@ -69,7 +70,8 @@ struct glsl_value glsl_variable(struct glsl_writer *w, uint32_t symbol)
 	if (v->at || glsl_stopped(w))
 		return *v;
 	if (strncmp(name, "gl_", 3) == 0) {
-		*v = s->storage == GLSL_CONSTANT_VALUE && s->first != GLSL_NONE ? of_numbers(w, s->type, s->first) : glsl_builtin(w, s);
+		*v = s->storage == GLSL_CONSTANT_VALUE && s->first != GLSL_NONE ? of_numbers(w, s->type, s->first) :
+		                                                                  glsl_builtin(w, s);
 	} else if (s->storage == GLSL_CONSTANT_VALUE && s->first != GLSL_NONE) {
 		*v = of_numbers(w, s->type, s->first);
 	} else if (s->storage == GLSL_UNIFORM) {
@@ -86,7 +88,7 @@ struct glsl_value glsl_variable(struct glsl_writer *w, uint32_t symbol)
 	return *v;
 }
 
-/* --- Places ------------------------------------------------------------------------------------------------------------- */
+/* --- Places ------------------------------------------------------------------------------------------------------ */
 
 static struct glsl_value slice(struct glsl_writer *w, const struct glsl_value *v, uint32_t type, uint32_t first)
 {
@@ -197,7 +199,8 @@ struct glsl_place glsl_place_of(struct glsl_writer *w, uint32_t node)
 	}
 }
 
-/* Numbers of a place whose element is chosen at run time, a row of them at a time. @return how many from `first` on are one */
+/* Numbers of a place whose element is chosen at run time, a row of them at a time. @return how many from `first` on are
+ * one */
 static uint32_t row_of(const struct glsl_value *v, uint32_t first)
 {
 	uint32_t n = 1;
@@ -216,7 +219,11 @@ struct glsl_value glsl_load(struct glsl_writer *w, const struct glsl_place *p)
 	v = glsl_fresh(w, p->value.type);
 	for (uint32_t i = 0, n; i < p->value.n && !glsl_stopped(w); i += n) {
 		n = row_of(&p->value, i);
-		glsl_append(w, &(struct scene_instruction){ .operation = SCENE_OP_FETCH, .n = n, .to = v.at[i], .a = p->value.at[i], .b = p->offset,
+		glsl_append(w, &(struct scene_instruction){ .operation = SCENE_OP_FETCH,
+		                                            .n = n,
+		                                            .to = v.at[i],
+		                                            .a = p->value.at[i],
+		                                            .b = p->offset,
 		                                            .c = SCENE_ARRAY(p->limit, 1) });
 	}
 	return v;
@@ -236,11 +243,15 @@ void glsl_store(struct glsl_writer *w, const struct glsl_place *p, const struct 
 		return;
 	}
 	for (uint32_t i = 0; i < v->n; i++)
-		glsl_append(w, &(struct scene_instruction){ .operation = SCENE_OP_STORE, .n = 1, .to = p->value.at[i], .a = v->at[i], .b = p->offset,
+		glsl_append(w, &(struct scene_instruction){ .operation = SCENE_OP_STORE,
+		                                            .n = 1,
+		                                            .to = p->value.at[i],
+		                                            .a = v->at[i],
+		                                            .b = p->offset,
 		                                            .c = SCENE_ARRAY(p->limit, 1) });
 }
 
-/* --- Conversions and constructors --------------------------------------------------------------------------------------- */
+/* --- Conversions and constructors -------------------------------------------------------------------------------- */
 
 /* Numbers of one kind as those of another. */
 static struct glsl_value converted(struct glsl_writer *w, const struct glsl_value *v, uint32_t kind)
@@ -304,7 +315,7 @@ static struct glsl_value construct(struct glsl_writer *w, uint32_t type, struct 
 	return v;
 }
 
-/* --- Nodes -------------------------------------------------------------------------------------------------------------- */
+/* --- Nodes ------------------------------------------------------------------------------------------------------- */
 
 static struct glsl_value assign(struct glsl_writer *w, const struct glsl_node *n)
 {

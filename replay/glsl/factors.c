@@ -31,7 +31,8 @@ static bool is_kept(const struct program_code *code, uint32_t since, uint32_t at
 }
 
 /* The product that operand r is before instruction `at`. @return whether it is one */
-static bool find_product(const struct program_code *code, const uint8_t *targets, uint32_t at, uint32_t r, struct product *p)
+static bool find_product(const struct program_code *code, const uint8_t *targets, uint32_t at, uint32_t r,
+                         struct product *p)
 {
 	const struct glsl_maker made = glsl_find_maker(code, targets, at, r);
 	const struct scene_instruction *in = &code->instructions[made.at];
@@ -45,7 +46,8 @@ static bool find_product(const struct program_code *code, const uint8_t *targets
 }
 
 /* The two products whose sum is an instruction's number i. */
-static bool find_products(const struct program_code *code, const uint8_t *targets, uint32_t at, uint32_t i, struct product p[2])
+static bool find_products(const struct program_code *code, const uint8_t *targets, uint32_t at, uint32_t i,
+                          struct product p[2])
 {
 	const struct scene_instruction *in = &code->instructions[at];
 
@@ -59,8 +61,10 @@ static bool find_products(const struct program_code *code, const uint8_t *target
 	return find_product(code, targets, at, glsl_operand(in, 2, i), &p[0]);
 }
 
-/* The factor that an instruction's number i has twice. @return whether there is one, and all operands can be read there */
-static bool find_sharing(const struct program_code *code, const uint8_t *targets, uint32_t at, uint32_t i, struct sharing *s)
+/* The factor that an instruction's number i has twice. @return whether there is one, and all operands can be read
+ * there */
+static bool find_sharing(const struct program_code *code, const uint8_t *targets, uint32_t at, uint32_t i,
+                         struct sharing *s)
 {
 	struct glsl_maker made[2][2];
 	struct product p[2];
@@ -83,7 +87,8 @@ static bool find_sharing(const struct program_code *code, const uint8_t *targets
 	return false;
 }
 
-/* Make an instruction's first number, of which the factor is known, the product. The sum has a register of its own: sums of it may share, too. */
+/* Make an instruction's first number, of which the factor is known, the product. The sum has a register of its own:
+ * sums of it may share, too. */
 static int share(struct program_code *code, uint32_t at, const struct sharing *s)
 {
 	const uint32_t flags = code->instructions[at].flags, sum = code->n_registers;
@@ -95,14 +100,23 @@ static int share(struct program_code *code, uint32_t at, const struct sharing *s
 	if (code->instructions[at].n > 1)
 		err = glsl_split(code, at, 1);
 	if (!err)
-		err = glsl_insert(code, at, (struct scene_instruction){ .operation = SCENE_OP_ADD, .n = 1, .flags = flags & SCENE_UNMASKED,
-		                                                        .to = sum, .a = s->others[0], .b = s->others[1] });
+		err = glsl_insert(code, at,
+		                  (struct scene_instruction){ .operation = SCENE_OP_ADD,
+		                                              .n = 1,
+		                                              .flags = flags & SCENE_UNMASKED,
+		                                              .to = sum,
+		                                              .a = s->others[0],
+		                                              .b = s->others[1] });
 	if (err)
 		return err;
 	code->n_registers++;
 	in = &code->instructions[at + 1];
-	*in = (struct scene_instruction){ .operation = SCENE_OP_MULTIPLY, .n = 1, .flags = flags & (SCENE_UNMASKED | SCENE_SATURATE),
-	                                  .to = in->to, .a = s->shared, .b = sum };
+	*in = (struct scene_instruction){ .operation = SCENE_OP_MULTIPLY,
+		                          .n = 1,
+		                          .flags = flags & (SCENE_UNMASKED | SCENE_SATURATE),
+		                          .to = in->to,
+		                          .a = s->shared,
+		                          .b = sum };
 	return 0;
 }
 

@@ -32,7 +32,10 @@ static uint32_t two(struct glsl_writer *w, enum scene_operation operation, uint3
 }
 static uint32_t add(struct glsl_writer *w, uint32_t a, uint32_t b) { return two(w, SCENE_OP_ADD, a, b); }
 static uint32_t mul(struct glsl_writer *w, uint32_t a, uint32_t b) { return two(w, SCENE_OP_MULTIPLY, a, b); }
-static uint32_t mad(struct glsl_writer *w, uint32_t a, uint32_t b, uint32_t c) { return glsl_one(w, SCENE_OP_MAD, a, b, c); }
+static uint32_t mad(struct glsl_writer *w, uint32_t a, uint32_t b, uint32_t c)
+{
+	return glsl_one(w, SCENE_OP_MAD, a, b, c);
+}
 static uint32_t sub(struct glsl_writer *w, uint32_t a, uint32_t b)
 {
 	const uint32_t to = glsl_registers(w, 1);
@@ -52,7 +55,7 @@ static uint32_t dot(struct glsl_writer *w, const struct glsl_value *a, const str
 	return sum;
 }
 
-/* --- Of one number ------------------------------------------------------------------------------------------------------ */
+/* --- Of one number ----------------------------------------------------------------------------------------------- */
 
 /* The sign of x: -1, 0 or 1. */
 static uint32_t sign_of(struct glsl_writer *w, uint32_t x)
@@ -77,7 +80,8 @@ static uint32_t arc_sine(struct glsl_writer *w, uint32_t x, double p0, double p1
 /* Its do_atan. */
 static uint32_t arc_tangent(struct glsl_writer *w, uint32_t x)
 {
-	static const double factors[] = { 0.0536813784310406, -0.1173503194786851, 0.1938924977115610, -0.3326756418091246, 0.9999793128310355 };
+	static const double factors[] = { 0.0536813784310406, -0.1173503194786851, 0.1938924977115610,
+		                          -0.3326756418091246, 0.9999793128310355 };
 	const uint32_t far = one(w, SCENE_OP_ABSOLUTE, x), limit = num(w, 1);
 	const uint32_t u = two(w, SCENE_OP_DIVIDE, two(w, SCENE_OP_MINIMUM, far, limit), two(w, SCENE_OP_MAXIMUM, far, limit));
 	const uint32_t square = mul(w, u, u);
@@ -149,12 +153,14 @@ static uint32_t of_one(struct glsl_writer *w, uint32_t operation, uint32_t x)
 	case GLSL_IS_INF: return two(w, SCENE_OP_EQUAL, one(w, SCENE_OP_ABSOLUTE, x), num(w, INFINITY));
 	case GLSL_DPDX: return one(w, SCENE_OP_DX, x);
 	case GLSL_DPDY: return one(w, SCENE_OP_DY, x);
-	case GLSL_FWIDTH: return add(w, one(w, SCENE_OP_ABSOLUTE, one(w, SCENE_OP_DX, x)), one(w, SCENE_OP_ABSOLUTE, one(w, SCENE_OP_DY, x)));
+	case GLSL_FWIDTH:
+		return add(w, one(w, SCENE_OP_ABSOLUTE, one(w, SCENE_OP_DX, x)),
+		           one(w, SCENE_OP_ABSOLUTE, one(w, SCENE_OP_DY, x)));
 	default: return GLSL_NONE;
 	}
 }
 
-/* --- Of several, component by component --------------------------------------------------------------------------------- */
+/* --- Of several, component by component -------------------------------------------------------------------------- */
 
 /* atan(y, x), as builtin_functions.cpp has it but for what it does about numbers near the largest ones. */
 static uint32_t arc_tangent_of_two(struct glsl_writer *w, uint32_t y, uint32_t x)
@@ -165,13 +171,16 @@ static uint32_t arc_tangent_of_two(struct glsl_writer *w, uint32_t y, uint32_t x
 	const uint32_t quotient = mul(w, s, one(w, SCENE_OP_RECIPROCAL, t));
 	uint32_t arc = arc_tangent(w, one(w, SCENE_OP_ABSOLUTE, quotient)), below;
 
-	arc = glsl_one(w, SCENE_OP_CHOOSE, two(w, SCENE_OP_EQUAL, one(w, SCENE_OP_ABSOLUTE, x), one(w, SCENE_OP_ABSOLUTE, y)), num(w, M_PI_4), arc);
+	arc = glsl_one(w, SCENE_OP_CHOOSE,
+	               two(w, SCENE_OP_EQUAL, one(w, SCENE_OP_ABSOLUTE, x), one(w, SCENE_OP_ABSOLUTE, y)),
+	               num(w, M_PI_4), arc);
 	arc = mad(w, left, num(w, M_PI_2), arc);
 	below = two(w, SCENE_OP_LESS, two(w, SCENE_OP_MINIMUM, y, one(w, SCENE_OP_RECIPROCAL, t)), zero);
 	return glsl_one(w, SCENE_OP_CHOOSE, below, neg(w, arc), arc);
 }
 
-static uint32_t of_several(struct glsl_writer *w, const struct glsl_node *node, const struct glsl_value *a, uint32_t n, uint32_t i)
+static uint32_t of_several(struct glsl_writer *w, const struct glsl_node *node, const struct glsl_value *a, uint32_t n,
+                           uint32_t i)
 {
 	const uint32_t x = part(&a[0], i), y = part(&a[1], i), z = n > 2 ? part(&a[2], i) : 0;
 	const uint32_t zero = num(w, 0), unit = num(w, 1);
@@ -196,7 +205,7 @@ static uint32_t of_several(struct glsl_writer *w, const struct glsl_node *node, 
 	}
 }
 
-/* --- Geometry ----------------------------------------------------------------------------------------------------------- */
+/* --- Geometry ---------------------------------------------------------------------------------------------------- */
 
 static uint32_t length_of(struct glsl_writer *w, const struct glsl_value *v)
 {
@@ -217,7 +226,8 @@ static void cross(struct glsl_writer *w, struct glsl_value *v, const struct glsl
 	}
 }
 
-static void refract(struct glsl_writer *w, struct glsl_value *v, const struct glsl_value *i, const struct glsl_value *n, uint32_t eta)
+static void refract(struct glsl_writer *w, struct glsl_value *v, const struct glsl_value *i, const struct glsl_value *n,
+                    uint32_t eta)
 {
 	const uint32_t d = dot(w, n, i), zero = num(w, 0), unit = num(w, 1);
 	const uint32_t k = sub(w, unit, mul(w, mul(w, eta, eta), sub(w, unit, mul(w, d, d))));
@@ -262,10 +272,11 @@ static int of_vectors(struct glsl_writer *w, uint32_t operation, struct glsl_val
 	}
 }
 
-/* --- Matrices ----------------------------------------------------------------------------------------------------------- */
+/* --- Matrices ---------------------------------------------------------------------------------------------------- */
 
 /* Of the rows and columns that are left in bits, n of each; m: n_all x n_all. */
-static uint32_t determinant(struct glsl_writer *w, const struct glsl_value *m, uint32_t n_all, uint32_t rows, uint32_t columns)
+static uint32_t determinant(struct glsl_writer *w, const struct glsl_value *m, uint32_t n_all, uint32_t rows,
+                            uint32_t columns)
 {
 	uint32_t column = 0, sum = GLSL_NONE, sign = 0;
 
@@ -320,7 +331,7 @@ static int of_matrices(struct glsl_writer *w, uint32_t operation, struct glsl_va
 	}
 }
 
-/* --- All of them -------------------------------------------------------------------------------------------------------- */
+/* --- All of them ------------------------------------------------------------------------------------------------- */
 
 /* ANY, ALL: whether one is, or all are. */
 static uint32_t folded(struct glsl_writer *w, enum scene_operation operation, const struct glsl_value *v)
@@ -336,7 +347,8 @@ static uint32_t folded(struct glsl_writer *w, enum scene_operation operation, co
 static void transform(struct glsl_writer *w, struct glsl_value *v)
 {
 	for (uint32_t r = 0; r < 4; r++) {
-		const uint32_t row = glsl_constant(w, &(struct program_constant){ .source = PROGRAM_MATRIX, .index = PROGRAM_MVP, .row = r });
+		const uint32_t row = glsl_constant(
+			w, &(struct program_constant){ .source = PROGRAM_MATRIX, .index = PROGRAM_MVP, .row = r });
 		uint32_t sum = mul(w, row, 4 * SCENE_VERTEX_POSITION);
 
 		for (uint32_t c = 1; c < 4; c++)
@@ -345,7 +357,8 @@ static void transform(struct glsl_writer *w, struct glsl_value *v)
 	}
 }
 
-struct glsl_value glsl_call_builtin(struct glsl_writer *w, const struct glsl_node *node, const struct glsl_value *a, uint32_t n)
+struct glsl_value glsl_call_builtin(struct glsl_writer *w, const struct glsl_node *node, const struct glsl_value *a,
+                                    uint32_t n)
 {
 	struct glsl_value v = glsl_value_of(w, node->type, glsl_type_of(w, node->type)->numbers);
 	uint32_t made = GLSL_NONE;
@@ -367,7 +380,9 @@ struct glsl_value glsl_call_builtin(struct glsl_writer *w, const struct glsl_nod
 	if (of_vectors(w, node->operation, &v, a) || of_matrices(w, node->operation, &v, a))
 		return v;
 	for (uint32_t i = 0; i < v.n && !glsl_stopped(w); i++) {
-		made = node->operation == GLSL_NOISE ? num(w, 0) : n == 1 ? of_one(w, node->operation, part(&a[0], i)) : of_several(w, node, a, n, i);
+		made = node->operation == GLSL_NOISE ? num(w, 0) :
+		       n == 1                        ? of_one(w, node->operation, part(&a[0], i)) :
+		                                       of_several(w, node, a, n, i);
 		if (made == GLSL_NONE)
 			glsl_fail(w, "a shader calls a function that is not done");
 		v.at[i] = made;
@@ -375,18 +390,22 @@ struct glsl_value glsl_call_builtin(struct glsl_writer *w, const struct glsl_nod
 	return v;
 }
 
-/* --- Textures ----------------------------------------------------------------------------------------------------------- */
+/* --- Textures ---------------------------------------------------------------------------------------------------- */
 
 /* The number of a sampler in the code, which is added where it is new. */
 static uint32_t sampler_of(struct glsl_writer *w, const struct glsl_value *v)
 {
-	static const uint32_t targets[] = { [GLSL_TEXTURE_1D] = GLS_TEXTURE_1D, [GLSL_TEXTURE_2D] = GLS_TEXTURE_2D, [GLSL_TEXTURE_3D] = GLS_TEXTURE_3D,
-		                            [GLSL_TEXTURE_CUBE] = GLS_TEXTURE_CUBE, [GLSL_TEXTURE_RECTANGLE] = GLS_TEXTURE_RECTANGLE };
+	static const uint32_t targets[] = { [GLSL_TEXTURE_1D] = GLS_TEXTURE_1D,
+		                            [GLSL_TEXTURE_2D] = GLS_TEXTURE_2D,
+		                            [GLSL_TEXTURE_3D] = GLS_TEXTURE_3D,
+		                            [GLSL_TEXTURE_CUBE] = GLS_TEXTURE_CUBE,
+		                            [GLSL_TEXTURE_RECTANGLE] = GLS_TEXTURE_RECTANGLE };
 	const struct glsl_type *t = glsl_type_of(w, v->type);
 	struct program_code *code = w->code;
 	const uint32_t number = v->at[0] - SCENE_PROGRAM_CONSTANT;
 
-	if (t->kind != GLSL_SAMPLER || t->texture >= GLSL_TEXTURE_OTHER || v->at[0] < SCENE_PROGRAM_CONSTANT || number >= w->uniforms->n_values) {
+	if (t->kind != GLSL_SAMPLER || t->texture >= GLSL_TEXTURE_OTHER || v->at[0] < SCENE_PROGRAM_CONSTANT ||
+	    number >= w->uniforms->n_values) {
 		glsl_fail(w, "a shader samples a kind of texture that is not done");
 		return 0;
 	}
@@ -401,9 +420,13 @@ static uint32_t sampler_of(struct glsl_writer *w, const struct glsl_value *v)
 	return code->n_samplers++;
 }
 
-struct glsl_value glsl_sample(struct glsl_writer *w, const struct glsl_node *node, const struct glsl_value *a, uint32_t n)
+struct glsl_value glsl_sample(struct glsl_writer *w, const struct glsl_node *node, const struct glsl_value *a,
+                              uint32_t n)
 {
-	static const uint32_t dimensions[] = { [GLSL_TEXTURE_1D] = 1, [GLSL_TEXTURE_2D] = 2, [GLSL_TEXTURE_3D] = 3, [GLSL_TEXTURE_CUBE] = 3,
+	static const uint32_t dimensions[] = { [GLSL_TEXTURE_1D] = 1,
+		                               [GLSL_TEXTURE_2D] = 2,
+		                               [GLSL_TEXTURE_3D] = 3,
+		                               [GLSL_TEXTURE_CUBE] = 3,
 		                               [GLSL_TEXTURE_RECTANGLE] = 2 };
 	const bool divided = node->operation == GLSL_TEXTURE_PROJ || node->operation == GLSL_TEXTURE_PROJ_LOD;
 	const bool of_vertices = w->stage == GLSL_VERTEX_STAGE; /* they have no neighbours: level 0, unless they name one */

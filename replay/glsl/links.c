@@ -95,7 +95,8 @@ static uint32_t next_unplaced(const struct glsl_writer *w, const uint8_t *used)
 
 		if (!used[i] || !is_declared_input(tree, i) || w->links->locations[i] != GLSL_NONE)
 			continue;
-		if (!b || slots_of(tree, s) > slots_of(tree, b) || (slots_of(tree, s) == slots_of(tree, b) && s->declared < b->declared))
+		if (!b || slots_of(tree, s) > slots_of(tree, b) ||
+		    (slots_of(tree, s) == slots_of(tree, b) && s->declared < b->declared))
 			best = i;
 	}
 	return best;
@@ -152,7 +153,8 @@ static struct glsl_value attribute(struct glsl_writer *w, const struct glsl_symb
 
 struct glsl_value glsl_linked(struct glsl_writer *w, const struct glsl_symbol *s)
 {
-	const uint32_t first = w->stage == GLSL_VERTEX_STAGE ? SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_TEXCOORD : 4 * SCENE_INPUT_TEXCOORD;
+	const uint32_t first = w->stage == GLSL_VERTEX_STAGE ? SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_TEXCOORD :
+	                                                       4 * SCENE_INPUT_TEXCOORD;
 	const uint32_t n = glsl_type_of(w, s->type)->numbers;
 
 	if (w->stage == GLSL_VERTEX_STAGE && s->storage == GLSL_INPUT)

@@ -7,8 +7,8 @@
 #define GLSL_LINK_NUMBERS (4u * SCENE_MAX_UNITS)
 
 /*
- * What the vertex stage hands the fragment stage, besides built-in names: numbers of texture coordinates that gl_TexCoord leaves free. GL 2.1
- * promises 32 of them (MAX_VARYING_FLOATS), which is as many as there are.
+ * What the vertex stage hands the fragment stage, besides built-in names: numbers of texture coordinates that
+ * gl_TexCoord leaves free. GL 2.1 promises 32 of them (MAX_VARYING_FLOATS), which is as many as there are.
  */
 struct glsl_links {
 	struct {
@@ -29,8 +29,9 @@ void glsl_links_take(struct glsl_links *links, const struct glsl_tree *tree);
 void glsl_links_place(struct glsl_links *links, const struct glsl_tree *tree, const char **why);
 
 /**
- * Find locations of the vertex stage's attributes: what the text says goes before what the program was told or bound. Those that are left get the
- * lowest that are free, larger ones first, then in the order of the text, as Mesa (22.3.6) links them; 0 is the vertex's where it is read.
+ * Find locations of the vertex stage's attributes: what the text says goes before what the program was told or bound.
+ * Those that are left get the lowest that are free, larger ones first, then in the order of the text, as Mesa (22.3.6)
+ * links them; 0 is the vertex's where it is read.
  * @param used  [n_symbols], of w->tree: 1 where main comes to it
  */
 void glsl_links_locate(struct glsl_writer *w, const uint8_t *used);

@@ -1,6 +1,6 @@
 /*
- * What makes the numbers that an instruction uses: rules of Mesa's about the last bit look at it (roots.h, factors.h). Nothing is known beyond
- * what jumps or masks, or where something jumps to.
+ * What makes the numbers that an instruction uses: rules of Mesa's about the last bit look at it (roots.h, factors.h).
+ * Nothing is known beyond what jumps or masks, or where something jumps to.
  */
 #pragma once
 
@@ -8,7 +8,8 @@
 
 #include "replay/programs/code.h"
 
-#define GLSL_MAX_SEARCHED 16384 /* instructions of code that is searched: the searches take the square of them, 1 s then */
+/* instructions of code that is searched: the searches take the square of them, 1 s then */
+#define GLSL_MAX_SEARCHED 16384
 
 /* A number before an instruction, copies left out. Two are the same number where all but is_made are equal. */
 struct glsl_maker {

@@ -100,8 +100,11 @@ static int set_given_locations(struct gls_shader *program)
 
 int gls_shader_translate(struct gls_shader *program, int keeps)
 {
-	const struct glsl_sources sources = { { (const char *const *)program->texts[0], (const char *const *)program->texts[1] },
-		                              { program->n_texts[0], program->n_texts[1] }, program->attributes, program->n_attributes,
+	const struct glsl_sources sources = { { (const char *const *)program->texts[0],
+		                                (const char *const *)program->texts[1] },
+		                              { program->n_texts[0], program->n_texts[1] },
+		                              program->attributes,
+		                              program->n_attributes,
 		                              program->products_once };
 	struct glsl_uniforms before = program->uniforms;
 	int err;
@@ -155,8 +158,9 @@ int gls_shader_locate_uniform(struct gls_shader *program, const char *name, uint
 	return u ? set_locations(program, location, (uint64_t)(u - program->uniforms.list), element) : 0;
 }
 
-int gls_shader_set_uniform(struct gls_shader *program, uint32_t location, const float *values, uint32_t count, uint32_t rows, uint32_t columns,
-                           int transposed, int only_asks, struct gls_uniform_change *change)
+int gls_shader_set_uniform(struct gls_shader *program, uint32_t location, const float *values, uint32_t count,
+                           uint32_t rows, uint32_t columns, int transposed, int only_asks,
+                           struct gls_uniform_change *change)
 {
 	const uint64_t found = (uintptr_t)table_find(&program->locations, location);
 	const uint32_t element = (uint32_t)(found - 1), n = rows * (columns ? columns : 1);
@@ -172,7 +176,8 @@ int gls_shader_set_uniform(struct gls_shader *program, uint32_t location, const 
 	*change = (struct gls_uniform_change){ u->first + element * n, count * n };
 	for (uint32_t i = 0; i < count; i++)
 		for (uint32_t k = 0; k < n; k++) {
-			const float given = values[i * n + (transposed ? k % rows * columns + k / rows : k)], v = u->kind == GLSL_BOOL ? given != 0 : given;
+			const float given = values[i * n + (transposed ? k % rows * columns + k / rows : k)],
+				    v = u->kind == GLSL_BOOL ? given != 0 : given;
 			float *to = &program->uniforms.values[change->first + i * n + k];
 
 			changes |= memcmp(to, &v, sizeof(v)) != 0;

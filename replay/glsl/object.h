@@ -13,7 +13,8 @@ struct gls_shader {
 	uint32_t type;        /* GL token; 0: a program object */
 	uint32_t deleted;     /* 1: it goes when nothing uses it any more */
 	uint32_t uses;        /* of a shader: programs that it is attached to */
-	char *source, *compiled; /* of a shader, owned: as the program gave it last, and when it was compiled last; NULL: never */
+	char *source, *compiled; /* of a shader, owned: as the program gave it last, and when it was compiled last;
+	                            NULL: never */
 
 	/* Of a program. */
 	uint32_t *attached;   /* owned; names */
@@ -62,5 +63,6 @@ struct gls_uniform_change {
  * @param change         receives which numbers these are, where there are any
  * @return 1 where they change
  */
-int gls_shader_set_uniform(struct gls_shader *program, uint32_t location, const float *values, uint32_t count, uint32_t rows, uint32_t columns,
-                           int transposed, int only_asks, struct gls_uniform_change *change);
+int gls_shader_set_uniform(struct gls_shader *program, uint32_t location, const float *values, uint32_t count,
+                           uint32_t rows, uint32_t columns, int transposed, int only_asks,
+                           struct gls_uniform_change *change);

@@ -16,8 +16,8 @@ const uint32_t *glsl_spread(struct glsl_writer *w, const struct glsl_value *v, u
 	return at;
 }
 
-struct glsl_value glsl_by_component(struct glsl_writer *w, enum scene_operation operation, uint32_t flags, uint32_t type,
-                                    const struct glsl_value *a, const struct glsl_value *b)
+struct glsl_value glsl_by_component(struct glsl_writer *w, enum scene_operation operation, uint32_t flags,
+                                    uint32_t type, const struct glsl_value *a, const struct glsl_value *b)
 {
 	struct glsl_value v = glsl_fresh(w, type);
 	const uint32_t *x = glsl_spread(w, a, v.n), *y = b ? glsl_spread(w, b, v.n) : NULL;
@@ -27,7 +27,8 @@ struct glsl_value glsl_by_component(struct glsl_writer *w, enum scene_operation 
 	return v;
 }
 
-static struct glsl_value divide(struct glsl_writer *w, uint32_t type, const struct glsl_value *a, const struct glsl_value *b)
+static struct glsl_value divide(struct glsl_writer *w, uint32_t type, const struct glsl_value *a,
+                                const struct glsl_value *b)
 {
 	const struct glsl_value v = glsl_by_component(w, SCENE_OP_DIVIDE, 0, type, a, b);
 
@@ -37,7 +38,8 @@ static struct glsl_value divide(struct glsl_writer *w, uint32_t type, const stru
 }
 
 /* a - b floor(a / b); of whole numbers, the division is cut off. */
-static struct glsl_value modulo(struct glsl_writer *w, uint32_t type, const struct glsl_value *a, const struct glsl_value *b)
+static struct glsl_value modulo(struct glsl_writer *w, uint32_t type, const struct glsl_value *a,
+                                const struct glsl_value *b)
 {
 	struct glsl_value v = divide(w, type, a, b);
 
@@ -48,7 +50,8 @@ static struct glsl_value modulo(struct glsl_writer *w, uint32_t type, const stru
 }
 
 /* Whether all numbers are equal. */
-static struct glsl_value all_equal(struct glsl_writer *w, uint32_t type, const struct glsl_value *a, const struct glsl_value *b, bool negated)
+static struct glsl_value all_equal(struct glsl_writer *w, uint32_t type, const struct glsl_value *a,
+                                   const struct glsl_value *b, bool negated)
 {
 	struct glsl_value v = glsl_fresh(w, type);
 	uint32_t all = GLSL_NONE;
@@ -93,7 +96,8 @@ static void combine(struct glsl_writer *w, uint32_t to, const struct glsl_value 
 	}
 }
 
-static struct glsl_value of_matrices(struct glsl_writer *w, uint32_t operation, uint32_t type, const struct glsl_value *a, const struct glsl_value *b)
+static struct glsl_value of_matrices(struct glsl_writer *w, uint32_t operation, uint32_t type,
+                                     const struct glsl_value *a, const struct glsl_value *b)
 {
 	const struct glsl_type *x = glsl_type_of(w, a->type), *y = glsl_type_of(w, b->type);
 	struct glsl_value v = glsl_fresh(w, type);
@@ -113,16 +117,19 @@ static struct glsl_value of_matrices(struct glsl_writer *w, uint32_t operation, 
 	return v;
 }
 
-struct glsl_value glsl_binary(struct glsl_writer *w, uint32_t operation, uint32_t type, const struct glsl_value *a, const struct glsl_value *b)
+struct glsl_value glsl_binary(struct glsl_writer *w, uint32_t operation, uint32_t type, const struct glsl_value *a,
+                              const struct glsl_value *b)
 {
 	static const struct {
 		uint32_t operation, flags, turned; /* enum scene_operation; turned: b and a */
 	} plain[N_GLSL_OPERATORS] = {
-		[GLSL_ADD] = { SCENE_OP_ADD, 0, 0 }, [GLSL_SUBTRACT] = { SCENE_OP_ADD, SCENE_NEGATE_B, 0 }, [GLSL_MULTIPLY] = { SCENE_OP_MULTIPLY, 0, 0 },
-		[GLSL_VECTOR_EQUAL] = { SCENE_OP_EQUAL, 0, 0 }, [GLSL_VECTOR_NOT_EQUAL] = { SCENE_OP_NOT_EQUAL, 0, 0 },
-		[GLSL_LESS] = { SCENE_OP_LESS, 0, 0 }, [GLSL_GREATER] = { SCENE_OP_LESS, 0, 1 }, [GLSL_LESS_EQUAL] = { SCENE_OP_GREATER_EQUAL, 0, 1 },
-		[GLSL_GREATER_EQUAL] = { SCENE_OP_GREATER_EQUAL, 0, 0 }, [GLSL_OR] = { SCENE_OP_MAXIMUM, 0, 0 }, [GLSL_XOR] = { SCENE_OP_NOT_EQUAL, 0, 0 },
-		[GLSL_AND] = { SCENE_OP_AND, 0, 0 }, [GLSL_MIN] = { SCENE_OP_MINIMUM, 0, 0 }, [GLSL_MAX] = { SCENE_OP_MAXIMUM, 0, 0 },
+		[GLSL_ADD] = { SCENE_OP_ADD, 0, 0 }, [GLSL_SUBTRACT] = { SCENE_OP_ADD, SCENE_NEGATE_B, 0 },
+		[GLSL_MULTIPLY] = { SCENE_OP_MULTIPLY, 0, 0 }, [GLSL_VECTOR_EQUAL] = { SCENE_OP_EQUAL, 0, 0 },
+		[GLSL_VECTOR_NOT_EQUAL] = { SCENE_OP_NOT_EQUAL, 0, 0 }, [GLSL_LESS] = { SCENE_OP_LESS, 0, 0 },
+		[GLSL_GREATER] = { SCENE_OP_LESS, 0, 1 }, [GLSL_LESS_EQUAL] = { SCENE_OP_GREATER_EQUAL, 0, 1 },
+		[GLSL_GREATER_EQUAL] = { SCENE_OP_GREATER_EQUAL, 0, 0 }, [GLSL_OR] = { SCENE_OP_MAXIMUM, 0, 0 },
+		[GLSL_XOR] = { SCENE_OP_NOT_EQUAL, 0, 0 }, [GLSL_AND] = { SCENE_OP_AND, 0, 0 },
+		[GLSL_MIN] = { SCENE_OP_MINIMUM, 0, 0 }, [GLSL_MAX] = { SCENE_OP_MAXIMUM, 0, 0 },
 		[GLSL_POW] = { SCENE_OP_POWER, 0, 0 },
 	};
 
@@ -142,5 +149,6 @@ struct glsl_value glsl_binary(struct glsl_writer *w, uint32_t operation, uint32_
 		glsl_fail(w, "a shader has an operator that is not done");
 		return *a;
 	}
-	return glsl_by_component(w, plain[operation].operation, plain[operation].flags, type, plain[operation].turned ? b : a, plain[operation].turned ? a : b);
+	return glsl_by_component(w, plain[operation].operation, plain[operation].flags, type,
+	                         plain[operation].turned ? b : a, plain[operation].turned ? a : b);
 }

@@ -7,10 +7,12 @@
 
 static int is_literal(const struct program_code *code, uint32_t operand)
 {
-	return operand >= SCENE_PROGRAM_CONSTANT && code->constants[(operand - SCENE_PROGRAM_CONSTANT) / 4].source == PROGRAM_LITERAL;
+	return operand >= SCENE_PROGRAM_CONSTANT &&
+	       code->constants[(operand - SCENE_PROGRAM_CONSTANT) / 4].source == PROGRAM_LITERAL;
 }
 
-/* Whether register r, which instruction `at` has made, is multiplied by a number of the shader's text next: Mesa then has (a c) b of (a b) c. */
+/* Whether register r, which instruction `at` has made, is multiplied by a number of the shader's text next: Mesa then
+ * has (a c) b of (a b) c. */
 static int is_scaled(const struct program_code *code, uint32_t at, uint32_t r)
 {
 	for (uint32_t i = at + 1; i < code->n_instructions && !glsl_is_jump(&code->instructions[i]); i++) {
@@ -26,7 +28,8 @@ static int is_scaled(const struct program_code *code, uint32_t at, uint32_t r)
 	return 0;
 }
 
-/* The square root of which an instruction's number i is the square. @return the root's number, or `at`: it is something else */
+/* The square root of which an instruction's number i is the square. @return the root's number, or `at`: it is something
+ * else */
 static uint32_t find_root(const struct program_code *code, const uint8_t *targets, uint32_t at, uint32_t i)
 {
 	const struct scene_instruction *in = &code->instructions[at], *root;

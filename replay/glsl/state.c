@@ -18,18 +18,47 @@ static const struct state {
 	uint32_t by_face; /* 1: the constant's index is the face */
 	struct piece pieces[13];
 } states[] = {
-	{ "gl_LightSource", 0, 0, { { PROGRAM_LIGHT, PROGRAM_LIGHT_AMBIENT, 0, 4 }, { PROGRAM_LIGHT, PROGRAM_LIGHT_DIFFUSE, 0, 4 },
-	    { PROGRAM_LIGHT, PROGRAM_LIGHT_SPECULAR, 0, 4 }, { PROGRAM_LIGHT, PROGRAM_LIGHT_POSITION, 0, 4 }, { PROGRAM_LIGHT, PROGRAM_LIGHT_HALF, 0, 4 },
-	    { PROGRAM_LIGHT, PROGRAM_LIGHT_DIRECTION, 0, 3 }, { PROGRAM_LIGHT, PROGRAM_LIGHT_ATTENUATION, 3, 1 }, { PROGRAM_LIGHT, PROGRAM_LIGHT_CUTOFF, 0, 1 },
-	    { PROGRAM_LIGHT, PROGRAM_LIGHT_DIRECTION, 3, 1 }, { PROGRAM_LIGHT, PROGRAM_LIGHT_ATTENUATION, 0, 3 } } },
-	{ "gl_FrontLightProduct", 0, 0, { { PROGRAM_LIGHT_PRODUCT, GLS_AMBIENT, 0, 4 }, { PROGRAM_LIGHT_PRODUCT, GLS_DIFFUSE, 0, 4 },
+	{ "gl_LightSource",
+	  0,
+	  0,
+	  { { PROGRAM_LIGHT, PROGRAM_LIGHT_AMBIENT, 0, 4 },
+	    { PROGRAM_LIGHT, PROGRAM_LIGHT_DIFFUSE, 0, 4 },
+	    { PROGRAM_LIGHT, PROGRAM_LIGHT_SPECULAR, 0, 4 },
+	    { PROGRAM_LIGHT, PROGRAM_LIGHT_POSITION, 0, 4 },
+	    { PROGRAM_LIGHT, PROGRAM_LIGHT_HALF, 0, 4 },
+	    { PROGRAM_LIGHT, PROGRAM_LIGHT_DIRECTION, 0, 3 },
+	    { PROGRAM_LIGHT, PROGRAM_LIGHT_ATTENUATION, 3, 1 },
+	    { PROGRAM_LIGHT, PROGRAM_LIGHT_CUTOFF, 0, 1 },
+	    { PROGRAM_LIGHT, PROGRAM_LIGHT_DIRECTION, 3, 1 },
+	    { PROGRAM_LIGHT, PROGRAM_LIGHT_ATTENUATION, 0, 3 } } },
+	{ "gl_FrontLightProduct",
+	  0,
+	  0,
+	  { { PROGRAM_LIGHT_PRODUCT, GLS_AMBIENT, 0, 4 },
+	    { PROGRAM_LIGHT_PRODUCT, GLS_DIFFUSE, 0, 4 },
 	    { PROGRAM_LIGHT_PRODUCT, GLS_SPECULAR, 0, 4 } } },
-	{ "gl_BackLightProduct", 1, 0, { { PROGRAM_LIGHT_PRODUCT, GLS_AMBIENT, 0, 4 }, { PROGRAM_LIGHT_PRODUCT, GLS_DIFFUSE, 0, 4 },
+	{ "gl_BackLightProduct",
+	  1,
+	  0,
+	  { { PROGRAM_LIGHT_PRODUCT, GLS_AMBIENT, 0, 4 },
+	    { PROGRAM_LIGHT_PRODUCT, GLS_DIFFUSE, 0, 4 },
 	    { PROGRAM_LIGHT_PRODUCT, GLS_SPECULAR, 0, 4 } } },
-	{ "gl_FrontMaterial", 0, 1, { { PROGRAM_MATERIAL, GLS_EMISSION, 0, 4 }, { PROGRAM_MATERIAL, GLS_AMBIENT, 0, 4 },
-	    { PROGRAM_MATERIAL, GLS_DIFFUSE, 0, 4 }, { PROGRAM_MATERIAL, GLS_SPECULAR, 0, 4 }, { PROGRAM_MATERIAL, PROGRAM_SHININESS, 0, 1 } } },
-	{ "gl_BackMaterial", 1, 1, { { PROGRAM_MATERIAL, GLS_EMISSION, 0, 4 }, { PROGRAM_MATERIAL, GLS_AMBIENT, 0, 4 },
-	    { PROGRAM_MATERIAL, GLS_DIFFUSE, 0, 4 }, { PROGRAM_MATERIAL, GLS_SPECULAR, 0, 4 }, { PROGRAM_MATERIAL, PROGRAM_SHININESS, 0, 1 } } },
+	{ "gl_FrontMaterial",
+	  0,
+	  1,
+	  { { PROGRAM_MATERIAL, GLS_EMISSION, 0, 4 },
+	    { PROGRAM_MATERIAL, GLS_AMBIENT, 0, 4 },
+	    { PROGRAM_MATERIAL, GLS_DIFFUSE, 0, 4 },
+	    { PROGRAM_MATERIAL, GLS_SPECULAR, 0, 4 },
+	    { PROGRAM_MATERIAL, PROGRAM_SHININESS, 0, 1 } } },
+	{ "gl_BackMaterial",
+	  1,
+	  1,
+	  { { PROGRAM_MATERIAL, GLS_EMISSION, 0, 4 },
+	    { PROGRAM_MATERIAL, GLS_AMBIENT, 0, 4 },
+	    { PROGRAM_MATERIAL, GLS_DIFFUSE, 0, 4 },
+	    { PROGRAM_MATERIAL, GLS_SPECULAR, 0, 4 },
+	    { PROGRAM_MATERIAL, PROGRAM_SHININESS, 0, 1 } } },
 	{ "gl_LightModel", 0, 0, { { PROGRAM_LIGHT_MODEL, 0, 0, 4 } } },
 	{ "gl_FrontLightModelProduct", 0, 1, { { PROGRAM_SCENE_COLOR, 0, 0, 4 } } },
 	{ "gl_BackLightModelProduct", 1, 1, { { PROGRAM_SCENE_COLOR, 0, 0, 4 } } },
@@ -53,15 +82,18 @@ static const struct {
 	const char *name;
 	uint32_t index, part;
 } matrices[] = {
-	{ "gl_ModelViewMatrix", PROGRAM_MODELVIEW, PROGRAM_TRANSPOSED }, { "gl_ProjectionMatrix", PROGRAM_PROJECTION, PROGRAM_TRANSPOSED },
-	{ "gl_ModelViewProjectionMatrix", PROGRAM_MVP, PROGRAM_TRANSPOSED }, { "gl_TextureMatrix", PROGRAM_TEXTURE_MATRIX, PROGRAM_TRANSPOSED },
+	{ "gl_ModelViewMatrix", PROGRAM_MODELVIEW, PROGRAM_TRANSPOSED },
+	{ "gl_ProjectionMatrix", PROGRAM_PROJECTION, PROGRAM_TRANSPOSED },
+	{ "gl_ModelViewProjectionMatrix", PROGRAM_MVP, PROGRAM_TRANSPOSED },
+	{ "gl_TextureMatrix", PROGRAM_TEXTURE_MATRIX, PROGRAM_TRANSPOSED },
 	{ "gl_NormalMatrix", PROGRAM_MODELVIEW, PROGRAM_INVERTED },
 	{ "gl_ModelViewMatrixInverse", PROGRAM_MODELVIEW, PROGRAM_INVERTED | PROGRAM_TRANSPOSED },
 	{ "gl_ProjectionMatrixInverse", PROGRAM_PROJECTION, PROGRAM_INVERTED | PROGRAM_TRANSPOSED },
 	{ "gl_ModelViewProjectionMatrixInverse", PROGRAM_MVP, PROGRAM_INVERTED | PROGRAM_TRANSPOSED },
 	{ "gl_TextureMatrixInverse", PROGRAM_TEXTURE_MATRIX, PROGRAM_INVERTED | PROGRAM_TRANSPOSED },
 	{ "gl_ModelViewMatrixTranspose", PROGRAM_MODELVIEW, 0 }, { "gl_ProjectionMatrixTranspose", PROGRAM_PROJECTION, 0 },
-	{ "gl_ModelViewProjectionMatrixTranspose", PROGRAM_MVP, 0 }, { "gl_TextureMatrixTranspose", PROGRAM_TEXTURE_MATRIX, 0 },
+	{ "gl_ModelViewProjectionMatrixTranspose", PROGRAM_MVP, 0 },
+	{ "gl_TextureMatrixTranspose", PROGRAM_TEXTURE_MATRIX, 0 },
 	{ "gl_ModelViewMatrixInverseTranspose", PROGRAM_MODELVIEW, PROGRAM_INVERTED },
 	{ "gl_ProjectionMatrixInverseTranspose", PROGRAM_PROJECTION, PROGRAM_INVERTED },
 	{ "gl_ModelViewProjectionMatrixInverseTranspose", PROGRAM_MVP, PROGRAM_INVERTED },
@@ -86,8 +118,9 @@ static struct glsl_value matrix(struct glsl_writer *w, const struct glsl_symbol 
 
 	for (uint32_t i = 0; i < n && v.at; i++)
 		for (uint32_t column = 0; column < element->columns; column++) {
-			const uint32_t first = glsl_constant(w, &(struct program_constant){ .source = PROGRAM_MATRIX, .index = index + i, .part = part,
-			                                                                    .row = column });
+			const uint32_t first = glsl_constant(
+				w, &(struct program_constant){
+					   .source = PROGRAM_MATRIX, .index = index + i, .part = part, .row = column });
 
 			for (uint32_t row = 0; row < element->rows; row++)
 				v.at[at++] = first + row;
@@ -104,8 +137,12 @@ static struct glsl_value state(struct glsl_writer *w, const struct glsl_symbol *
 
 	for (uint32_t i = 0; i < n && v.at; i++)
 		for (const struct piece *p = from->pieces; p->n; p++) {
-			const uint32_t first = glsl_constant(w, &(struct program_constant){ .source = p->source, .index = from->by_face ? from->face : i,
-			                                                                    .part = p->part, .face = from->face, .row = from->face });
+			const uint32_t first = glsl_constant(
+				w, &(struct program_constant){ .source = p->source,
+			                                       .index = from->by_face ? from->face : i,
+			                                       .part = p->part,
+			                                       .face = from->face,
+			                                       .row = from->face });
 
 			for (uint32_t k = 0; k < p->n && at < v.n; k++)
 				v.at[at++] = first + p->from + k;
@@ -118,21 +155,25 @@ static const struct place {
 	const char *name;
 	uint32_t first;
 } fragment_places[] = {
-	{ "gl_Color", 4 * SCENE_INPUT_COLOR }, { "gl_SecondaryColor", 4 * SCENE_INPUT_SECONDARY }, { "gl_FogFragCoord", 4 * SCENE_INPUT_FOG },
-	{ "gl_FragCoord", 4 * SCENE_INPUT_POSITION }, { "gl_TexCoord", 4 * SCENE_INPUT_TEXCOORD }, { "gl_FrontFacing", 4 * SCENE_INPUT_FACE },
+	{ "gl_Color", 4 * SCENE_INPUT_COLOR }, { "gl_SecondaryColor", 4 * SCENE_INPUT_SECONDARY },
+	{ "gl_FogFragCoord", 4 * SCENE_INPUT_FOG }, { "gl_FragCoord", 4 * SCENE_INPUT_POSITION },
+	{ "gl_TexCoord", 4 * SCENE_INPUT_TEXCOORD }, { "gl_FrontFacing", 4 * SCENE_INPUT_FACE },
 	{ "gl_FragColor", SCENE_PROGRAM_COLOR }, { "gl_FragDepth", SCENE_PROGRAM_DEPTH },
 }, vertex_places[] = {
-	{ "gl_Vertex", 4 * SCENE_VERTEX_POSITION }, { "gl_Normal", 4 * SCENE_VERTEX_NORMAL }, { "gl_Color", 4 * SCENE_VERTEX_COLOR },
-	{ "gl_SecondaryColor", 4 * SCENE_VERTEX_SECONDARY }, { "gl_FogCoord", 4 * SCENE_VERTEX_FOG },
-	{ "gl_MultiTexCoord0", 4 * SCENE_VERTEX_TEXCOORD }, { "gl_MultiTexCoord1", 4 * SCENE_VERTEX_TEXCOORD + 4 },
-	{ "gl_MultiTexCoord2", 4 * SCENE_VERTEX_TEXCOORD + 8 }, { "gl_MultiTexCoord3", 4 * SCENE_VERTEX_TEXCOORD + 12 },
-	{ "gl_MultiTexCoord4", 4 * SCENE_VERTEX_TEXCOORD + 16 }, { "gl_MultiTexCoord5", 4 * SCENE_VERTEX_TEXCOORD + 20 },
-	{ "gl_MultiTexCoord6", 4 * SCENE_VERTEX_TEXCOORD + 24 }, { "gl_MultiTexCoord7", 4 * SCENE_VERTEX_TEXCOORD + 28 },
-	{ "gl_Position", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_POSITION }, { "gl_FrontColor", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_COLOR },
+	{ "gl_Vertex", 4 * SCENE_VERTEX_POSITION }, { "gl_Normal", 4 * SCENE_VERTEX_NORMAL },
+	{ "gl_Color", 4 * SCENE_VERTEX_COLOR }, { "gl_SecondaryColor", 4 * SCENE_VERTEX_SECONDARY },
+	{ "gl_FogCoord", 4 * SCENE_VERTEX_FOG }, { "gl_MultiTexCoord0", 4 * SCENE_VERTEX_TEXCOORD },
+	{ "gl_MultiTexCoord1", 4 * SCENE_VERTEX_TEXCOORD + 4 }, { "gl_MultiTexCoord2", 4 * SCENE_VERTEX_TEXCOORD + 8 },
+	{ "gl_MultiTexCoord3", 4 * SCENE_VERTEX_TEXCOORD + 12 }, { "gl_MultiTexCoord4", 4 * SCENE_VERTEX_TEXCOORD + 16 },
+	{ "gl_MultiTexCoord5", 4 * SCENE_VERTEX_TEXCOORD + 20 }, { "gl_MultiTexCoord6", 4 * SCENE_VERTEX_TEXCOORD + 24 },
+	{ "gl_MultiTexCoord7", 4 * SCENE_VERTEX_TEXCOORD + 28 },
+	{ "gl_Position", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_POSITION },
+	{ "gl_FrontColor", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_COLOR },
 	{ "gl_FrontSecondaryColor", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_SECONDARY },
 	{ "gl_BackColor", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_BACK_COLOR },
 	{ "gl_BackSecondaryColor", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_BACK_SECONDARY },
-	{ "gl_FogFragCoord", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_FOG }, { "gl_PointSize", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_POINT_SIZE },
+	{ "gl_FogFragCoord", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_FOG },
+	{ "gl_PointSize", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_POINT_SIZE },
 	{ "gl_ClipVertex", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_CLIP_VERTEX },
 	{ "gl_TexCoord", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_TEXCOORD },
 };
@@ -167,7 +208,8 @@ struct glsl_value glsl_builtin(struct glsl_writer *w, const struct glsl_symbol *
 	const char *name = w->tree->names + s->name;
 	const uint32_t place = place_of(w, name);
 
-	if (place != GLSL_NONE && glsl_type_of(w, s->type)->numbers > (strcmp(name, "gl_TexCoord") == 0 ? 4 * SCENE_MAX_UNITS : 4)) {
+	if (place != GLSL_NONE &&
+	    glsl_type_of(w, s->type)->numbers > (strcmp(name, "gl_TexCoord") == 0 ? 4 * SCENE_MAX_UNITS : 4)) {
 		glsl_fail(w, "a shader has more texture coordinates than there are");
 		return (struct glsl_value){ 0 };
 	}
@@ -187,7 +229,7 @@ struct glsl_value glsl_builtin(struct glsl_writer *w, const struct glsl_symbol *
 	return (struct glsl_value){ 0 };
 }
 
-/* --- What is not read goes ---------------------------------------------------------------------------------------------- */
+/* --- What is not read goes --------------------------------------------------------------------------------------- */
 
 static void mark(struct program_code *code, uint8_t *used, uint32_t operand, uint32_t n, uint32_t n_inputs)
 {

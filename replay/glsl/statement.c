@@ -1,7 +1,8 @@
 /*
- * Statements (GLSL 1.20 sec. 6). The four pixels of a quad run in step: where they part, those that take no part are masked, and what nobody
- * takes part in is jumped over. A mask is a register with 1 for each pixel that is in it; masks of what encloses a statement are
- * levels. Break, continue and return take pixels out of the masks up to what they leave.
+ * Statements (GLSL 1.20 sec. 6). The four pixels of a quad run in step: where they part, those that take no part are
+ * masked, and what nobody takes part in is jumped over. A mask is a register with 1 for each pixel that is in it; masks
+ * of what encloses a statement are levels. Break, continue and return take pixels out of the masks up to what they
+ * leave.
  */
 #include "replay/glsl/statement.h"
 
@@ -28,7 +29,7 @@ static uint32_t count_of(const struct glsl_writer *w, uint32_t node, uint32_t op
 	return count;
 }
 
-/* --- Masks -------------------------------------------------------------------------------------------------------------- */
+/* --- Masks ------------------------------------------------------------------------------------------------------- */
 
 /* The operand that says who takes part now. */
 static uint32_t mask_now(struct glsl_writer *w)
@@ -45,7 +46,8 @@ static void set_mask(struct glsl_writer *w)
 /* A mask is written for all pixels, whoever takes part. */
 static void write_mask(struct glsl_writer *w, enum scene_operation operation, uint32_t to, uint32_t a, uint32_t b)
 {
-	glsl_append(w, &(struct scene_instruction){ .operation = operation, .n = 1, .flags = SCENE_UNMASKED, .to = to, .a = a, .b = b });
+	glsl_append(w, &(struct scene_instruction){
+			       .operation = operation, .n = 1, .flags = SCENE_UNMASKED, .to = to, .a = a, .b = b });
 }
 
 static uint32_t new_mask(struct glsl_writer *w, enum scene_operation operation, uint32_t a, uint32_t b)
@@ -67,7 +69,9 @@ static void push_level(struct glsl_writer *w, enum glsl_level_kind kind, uint32_
 /* @return the number of a jump whose place is still to be said. none_of: a mask; GLSL_NONE: in any case */
 static uint32_t jump(struct glsl_writer *w, uint32_t none_of)
 {
-	return glsl_append(w, &(struct scene_instruction){ .operation = none_of == GLSL_NONE ? SCENE_OP_JUMP : SCENE_OP_JUMP_NONE, .a = none_of == GLSL_NONE ? 0 : none_of });
+	return glsl_append(
+		w, &(struct scene_instruction){ .operation = none_of == GLSL_NONE ? SCENE_OP_JUMP : SCENE_OP_JUMP_NONE,
+	                                        .a = none_of == GLSL_NONE ? 0 : none_of });
 }
 
 /* A jump leads to what comes next. */
@@ -95,7 +99,7 @@ static void leave(struct glsl_writer *w, enum glsl_level_kind kind)
 	set_mask(w);
 }
 
-/* --- If ----------------------------------------------------------------------------------------------------------------- */
+/* --- If ---------------------------------------------------------------------------------------------------------- */
 
 static int is_constant(uint32_t operand)
 {
@@ -120,7 +124,8 @@ static void branch_value(struct glsl_writer *w, uint32_t node, const struct glsl
 }
 
 /* One or the other, by a condition. Where it is the same for all pixels, nobody is masked. */
-static void write_if(struct glsl_writer *w, uint32_t condition, uint32_t yes, uint32_t no, branch *write, const struct glsl_value *result)
+static void write_if(struct glsl_writer *w, uint32_t condition, uint32_t yes, uint32_t no, branch *write,
+                     const struct glsl_value *result)
 {
 	const uint32_t before = mask_now(w), has_no = no != GLSL_NONE;
 	uint32_t masks[2] = { 0 }, over;
@@ -175,7 +180,7 @@ struct glsl_value glsl_choose(struct glsl_writer *w, const struct glsl_node *n)
 	return result;
 }
 
-/* --- Loops -------------------------------------------------------------------------------------------------------------- */
+/* --- Loops ------------------------------------------------------------------------------------------------------- */
 
 /* Those for whom the test fails leave the loop. */
 static void write_test(struct glsl_writer *w, uint32_t test, uint32_t running)
@@ -190,7 +195,8 @@ static void write_test(struct glsl_writer *w, uint32_t test, uint32_t running)
 
 static void write_loop(struct glsl_writer *w, const struct glsl_node *n)
 {
-	const uint32_t test = child(w, n, 0), body = child(w, n, 1), terminal = child(w, n, 2), continues = count_of(w, body, GLSL_CONTINUE) != 0;
+	const uint32_t test = child(w, n, 0), body = child(w, n, 1), terminal = child(w, n, 2),
+		       continues = count_of(w, body, GLSL_CONTINUE) != 0;
 	const uint32_t running = new_mask(w, SCENE_OP_MOVE, mask_now(w), 0), inside = continues ? glsl_registers(w, 1) : 0;
 	uint32_t top, over;
 
@@ -236,13 +242,15 @@ static void write_switch(struct glsl_writer *w, const struct glsl_node *n)
 {
 	const struct glsl_node *body = &w->tree->nodes[child(w, n, 1)];
 	const struct glsl_value v = glsl_expression(w, child(w, n, 0));
-	const uint32_t zero = glsl_number(w, 0), running = new_mask(w, SCENE_OP_MOVE, mask_now(w), 0), inside = new_mask(w, SCENE_OP_MOVE, zero, 0);
+	const uint32_t zero = glsl_number(w, 0), running = new_mask(w, SCENE_OP_MOVE, mask_now(w), 0),
+		       inside = new_mask(w, SCENE_OP_MOVE, zero, 0);
 	uint32_t value, none = glsl_number(w, 1);
 
 	if (glsl_stopped(w))
 		return;
 	value = glsl_one(w, SCENE_OP_MOVE, v.at[0], 0, 0);
-	for (uint32_t i = 0; i < body->count && !glsl_stopped(w); i++) { /* whoever matches nothing takes part from the default on */
+	/* whoever matches nothing takes part from the default on */
+	for (uint32_t i = 0; i < body->count && !glsl_stopped(w); i++) {
 		const struct glsl_node *label = &w->tree->nodes[child(w, body, i)];
 
 		if (label->operation == GLSL_CASE) {
@@ -275,7 +283,7 @@ static void write_switch(struct glsl_writer *w, const struct glsl_node *n)
 	set_mask(w);
 }
 
-/* --- Functions ---------------------------------------------------------------------------------------------------------- */
+/* --- Functions --------------------------------------------------------------------------------------------------- */
 
 /* Registers for the variables of a function, before its first statement. */
 static void place_variables(struct glsl_writer *w, uint32_t node)
@@ -357,8 +365,9 @@ static int may_stand(const struct glsl_writer *w, const struct glsl_value *v, ui
 		return 0;
 	for (uint32_t i = 0; i < v->n; i++)
 		all_constant &= is_constant(v->at[i]);
-	return all_constant || (operation != GLSL_SYMBOL && operation != GLSL_INDEX && operation != GLSL_MEMBER && operation != GLSL_SWIZZLE &&
-	                        operation != GLSL_CONSTRUCT && operation != GLSL_COMMA && operation != GLSL_ASSIGN && operation != GLSL_CONVERT && operation != GLSL_TRANSPOSE);
+	return all_constant || (operation != GLSL_SYMBOL && operation != GLSL_INDEX && operation != GLSL_MEMBER &&
+	                        operation != GLSL_SWIZZLE && operation != GLSL_CONSTRUCT && operation != GLSL_COMMA &&
+	                        operation != GLSL_ASSIGN && operation != GLSL_CONVERT && operation != GLSL_TRANSPOSE);
 }
 
 struct glsl_value glsl_call(struct glsl_writer *w, const struct glsl_node *n)
@@ -366,11 +375,13 @@ struct glsl_value glsl_call(struct glsl_writer *w, const struct glsl_node *n)
 	const struct glsl_function *f = &w->tree->functions[n->value];
 	const struct glsl_value outer = w->result, result = glsl_fresh(w, n->type);
 	struct glsl_place *places = glsl_alloc(w, (n->count + 1) * sizeof(*places));
-	struct glsl_value *old = glsl_alloc(w, (n->count + 1) * sizeof(*old)), *in = glsl_alloc(w, (n->count + 1) * sizeof(*in));
+	struct glsl_value *old = glsl_alloc(w, (n->count + 1) * sizeof(*old)),
+			  *in = glsl_alloc(w, (n->count + 1) * sizeof(*in));
 	uint32_t top;
 
 	if (f->body == GLSL_NONE || f->count != n->count || w->running[n->value])
-		glsl_fail(w, w->running[n->value] ? "a shader's function calls itself" : "a shader calls a function that it does not have");
+		glsl_fail(w, w->running[n->value] ? "a shader's function calls itself" :
+		                                    "a shader calls a function that it does not have");
 	if (glsl_stopped(w))
 		return result;
 	for (uint32_t i = 0; i < n->count && !glsl_stopped(w); i++) {
@@ -410,7 +421,8 @@ struct glsl_value glsl_call(struct glsl_writer *w, const struct glsl_node *n)
 	w->result = outer;
 	w->running[n->value] = 0;
 	for (uint32_t i = 0; i < n->count && !glsl_stopped(w); i++) {
-		const uint32_t symbol = w->tree->nodes[w->tree->children[f->first + i]].value, storage = w->tree->symbols[symbol].storage;
+		const uint32_t symbol = w->tree->nodes[w->tree->children[f->first + i]].value,
+			       storage = w->tree->symbols[symbol].storage;
 
 		if (storage == GLSL_OUT || storage == GLSL_INOUT)
 			glsl_store(w, &places[i], &w->variables[symbol]);
@@ -421,7 +433,7 @@ struct glsl_value glsl_call(struct glsl_writer *w, const struct glsl_node *n)
 	return result;
 }
 
-/* --- All of them -------------------------------------------------------------------------------------------------------- */
+/* --- All of them ------------------------------------------------------------------------------------------------- */
 
 static void write_discard(struct glsl_writer *w)
 {

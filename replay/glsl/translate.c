@@ -19,7 +19,7 @@ static const char *name_of(const struct glsl_tree *tree, uint32_t symbol)
 	return tree->names + tree->symbols[symbol].name;
 }
 
-/* --- What is reached ---------------------------------------------------------------------------------------------------- */
+/* --- What is reached --------------------------------------------------------------------------------------------- */
 
 /* The symbol that an assignment changes; GLSL_NONE: none */
 static uint32_t root_of(const struct glsl_tree *tree, uint32_t node)
@@ -83,7 +83,7 @@ static void place_all(struct glsl_writer *w)
 			glsl_variable(w, i);
 }
 
-/* --- Stages ------------------------------------------------------------------------------------------------------------- */
+/* --- Stages ------------------------------------------------------------------------------------------------------ */
 
 /* 1 where a node is what fixed function makes of a vertex by a matrix of this name. */
 static int is_fixed_place(const struct glsl_tree *tree, const struct glsl_node *n, const char *matrix)
@@ -113,7 +113,8 @@ static int keeps_place(const struct glsl_tree *tree, const char *result, const c
 
 		if (n->operation == GLSL_RETURN || n->operation == GLSL_SELECTION || n->operation == GLSL_LOOP)
 			break; /* which may leave main */
-		kept += n->operation == GLSL_ASSIGN && n->value == GLSL_ASSIGN && tree->nodes[tree->children[n->first]].operation == GLSL_SYMBOL &&
+		kept += n->operation == GLSL_ASSIGN && n->value == GLSL_ASSIGN &&
+		        tree->nodes[tree->children[n->first]].operation == GLSL_SYMBOL &&
 		        strcmp(name_of(tree, tree->nodes[tree->children[n->first]].value), result) == 0 &&
 		        is_fixed_place(tree, &tree->nodes[tree->children[n->first + 1]], matrix);
 	}
@@ -132,7 +133,10 @@ static int is_written(const struct glsl_writer *w, const char *name)
 static void copy_front(struct glsl_writer *w, const char *back, uint32_t to, uint32_t from)
 {
 	if (!is_written(w, back))
-		glsl_append(w, &(struct scene_instruction){ .operation = SCENE_OP_MOVE, .n = 4, .flags = SCENE_STEP_A, .to = SCENE_VERTEX_RESULTS + 4 * to,
+		glsl_append(w, &(struct scene_instruction){ .operation = SCENE_OP_MOVE,
+		                                            .n = 4,
+		                                            .flags = SCENE_STEP_A,
+		                                            .to = SCENE_VERTEX_RESULTS + 4 * to,
 		                                            .a = SCENE_VERTEX_RESULTS + 4 * from });
 }
 
@@ -219,8 +223,8 @@ static int write_stage(struct glsl_writer *w, const char **why)
 	return w->err;
 }
 
-int glsl_translate(const struct glsl_sources *sources, struct program_code code[2], struct glsl_uniforms *uniforms, char *message,
-		   const char **why)
+int glsl_translate(const struct glsl_sources *sources, struct program_code code[2], struct glsl_uniforms *uniforms,
+                   char *message, const char **why)
 {
 	struct glsl_links *links = calloc(1, sizeof(*links));
 	struct glsl_writer *w = calloc(1, sizeof(*w));
@@ -250,8 +254,10 @@ int glsl_translate(const struct glsl_sources *sources, struct program_code code[
 			continue;
 		links->attributes = sources->attributes;
 		links->n_attributes = sources->n_attributes;
-		*w = (struct glsl_writer){ .tree = &trees[stage], .code = &code[stage], .stage = stage, .uniforms = uniforms, .links = links,
-		                            .message = message, .call = glsl_call, .choose = glsl_choose };
+		*w = (struct glsl_writer){
+			.tree = &trees[stage], .code = &code[stage], .stage = stage, .uniforms = uniforms, .links = links,
+			.message = message, .call = glsl_call, .choose = glsl_choose
+		};
 		err = write_stage(w, why);
 	}
 	for (uint32_t stage = 0; stage < 2; stage++)

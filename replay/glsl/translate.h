@@ -1,4 +1,5 @@
-/* Programs of GLSL, translated: shaders of both stages become instructions (scene/program.h), names get their places. */
+/* Programs of GLSL, translated: shaders of both stages become instructions (scene/program.h), names get their
+ * places. */
 #pragma once
 
 #include <stdint.h>
@@ -23,5 +24,5 @@ struct glsl_sources {
  * @param why       receives NULL, or what stands in the way: a static string, or `message`
  * @return 0, also where *why is set, or ERR_SYSTEM (reported)
  */
-int glsl_translate(const struct glsl_sources *sources, struct program_code code[2], struct glsl_uniforms *uniforms, char *message,
-		   const char **why);
+int glsl_translate(const struct glsl_sources *sources, struct program_code code[2], struct glsl_uniforms *uniforms,
+                   char *message, const char **why);

@@ -79,7 +79,8 @@ static int add_root(struct naming *n, const struct glsl_symbol *s)
 		return 0;
 	}
 	kept = strdup(name);
-	if (!kept || MEMORY_GROW(u->roots, u->root_room, u->n_roots + 1) || MEMORY_GROW(u->values, u->value_room, first + padded)) {
+	if (!kept || MEMORY_GROW(u->roots, u->root_room, u->n_roots + 1) ||
+	    MEMORY_GROW(u->values, u->value_room, first + padded)) {
 		free(kept);
 		return err_report(ERR_SYSTEM, NULL, "out of memory for uniforms");
 	}

@@ -1,6 +1,6 @@
 /*
- * What of a program has locations: attributes, and uniforms, numbers in a row, in the order in which its stages were met. A translation has them as its first constants, four
- * numbers each, so that both stages read the same ones.
+ * What of a program has locations: attributes, and uniforms, numbers in a row, in the order in which its stages were
+ * met. A translation has them as its first constants, four numbers each, so that both stages read the same ones.
  */
 #pragma once
 

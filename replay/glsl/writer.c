@@ -73,16 +73,18 @@ struct glsl_value glsl_fresh(struct glsl_writer *w, uint32_t type)
 	return glsl_row(w, type, glsl_registers(w, glsl_type_of(w, type)->numbers));
 }
 
-/* --- Constants ---------------------------------------------------------------------------------------------------------- */
+/* --- Constants --------------------------------------------------------------------------------------------------- */
 
 static int is_number(const struct glsl_writer *w, uint32_t place, float value)
 {
 	const struct program_constant *c = place < 4 * w->code->n_constants ? &w->code->constants[place / 4] : NULL;
 
-	return c && c->source == PROGRAM_LITERAL && place % 4 < c->part && memcmp(&c->value[place % 4], &value, sizeof(value)) == 0;
+	return c && c->source == PROGRAM_LITERAL && place % 4 < c->part &&
+	       memcmp(&c->value[place % 4], &value, sizeof(value)) == 0;
 }
 
-/* Behind the last number, where the last constant is a literal with room (its part says how many of the four are in use), else in a new one. */
+/* Behind the last number, where the last constant is a literal with room (its part says how many of the four are in
+ * use), else in a new one. */
 static uint32_t add_number(struct glsl_writer *w, float value)
 {
 	struct program_constant *last = w->code->n_constants ? &w->code->constants[w->code->n_constants - 1] : NULL;
@@ -137,7 +139,7 @@ uint32_t glsl_constant(struct glsl_writer *w, const struct program_constant *c)
 	return SCENE_PROGRAM_CONSTANT + 4 * number;
 }
 
-/* --- Instructions ------------------------------------------------------------------------------------------------------- */
+/* --- Instructions ------------------------------------------------------------------------------------------------ */
 
 uint32_t glsl_append(struct glsl_writer *w, const struct scene_instruction *in)
 {
@@ -165,8 +167,8 @@ static int step_of(const uint32_t *at, uint32_t n)
 	return alike ? 0 : row ? 1 : -1;
 }
 
-void glsl_write(struct glsl_writer *w, enum scene_operation operation, uint32_t flags, uint32_t to, uint32_t n, const uint32_t *a,
-                const uint32_t *b, const uint32_t *c)
+void glsl_write(struct glsl_writer *w, enum scene_operation operation, uint32_t flags, uint32_t to, uint32_t n,
+                const uint32_t *a, const uint32_t *b, const uint32_t *c)
 {
 	const uint32_t *const sources[3] = { a, b, c };
 
@@ -199,7 +201,8 @@ uint32_t glsl_one(struct glsl_writer *w, enum scene_operation operation, uint32_
 	return to;
 }
 
-/* 1 where the last instruction has made the operands, all of them and nothing else, so that it can as well write to registers from `to` on. */
+/* 1 where the last instruction has made the operands, all of them and nothing else, so that it can as well write to
+ * registers from `to` on. */
 static int is_last_made(const struct glsl_writer *w, uint32_t to, const uint32_t *from, uint32_t n)
 {
 	struct scene_instruction *in;
@@ -207,12 +210,14 @@ static int is_last_made(const struct glsl_writer *w, uint32_t to, const uint32_t
 	if (w->code->n_instructions <= w->barrier || w->code->n_instructions == 0)
 		return 0;
 	in = &w->code->instructions[w->code->n_instructions - 1];
-	if (in->n != n || from[0] != in->to || step_of(from, n) < (n > 1) || in->operation >= SCENE_OP_KILL || from[0] < w->top - n)
+	if (in->n != n || from[0] != in->to || step_of(from, n) < (n > 1) || in->operation >= SCENE_OP_KILL ||
+	    from[0] < w->top - n)
 		return 0;
 	for (unsigned k = 0; k < 3; k++) {
 		const uint32_t operand = k == 0 ? in->a : k == 1 ? in->b : in->c, span = in->flags & SCENE_STEP_A << k ? n : 1;
 
-		if (operand < SCENE_PROGRAM_CONSTANT && operand < to + n && operand + span > to && !(operand == to && span == n) && n > 1)
+		if (operand < SCENE_PROGRAM_CONSTANT && operand < to + n && operand + span > to &&
+		    !(operand == to && span == n) && n > 1)
 			return 0;
 	}
 	return 1;
@@ -220,7 +225,8 @@ static int is_last_made(const struct glsl_writer *w, uint32_t to, const uint32_t
 
 void glsl_settle(struct glsl_writer *w, uint32_t top, struct glsl_value *v)
 {
-	if (glsl_stopped(w) || !v->n || v->at[0] <= top || v->at[0] >= SCENE_PROGRAM_CONSTANT || !is_last_made(w, top, v->at, v->n))
+	if (glsl_stopped(w) || !v->n || v->at[0] <= top || v->at[0] >= SCENE_PROGRAM_CONSTANT ||
+	    !is_last_made(w, top, v->at, v->n))
 		return;
 	w->code->instructions[w->code->n_instructions - 1].to = top;
 	for (uint32_t i = 0; i < v->n; i++)

@@ -1,9 +1,10 @@
 /*
- * From a tree to instructions (scene/program.h): what the files of this room share, and operands. A value is a list of operands, one for each of its
- * numbers: registers, inputs or constants, in any order, so that swizzles, members and constructors cost nothing.
+ * From a tree to instructions (scene/program.h): what the files of this room share, and operands. A value is a list of
+ * operands, one for each of its numbers: registers, inputs or constants, in any order, so that swizzles, members and
+ * constructors cost nothing.
  *
- * Registers: variables of main and of the text's own level first, then, as a stack, what a statement computes and what functions keep, which
- * are written where they are called. A failure sticks: all that follows does nothing.
+ * Registers: variables of main and of the text's own level first, then, as a stack, what a statement computes and what
+ * functions keep, which are written where they are called. A failure sticks: all that follows does nothing.
  */
 #pragma once
 
@@ -46,7 +47,8 @@ struct glsl_writer {
 	char *message;   /* [GLSL_MESSAGE] room for a reason that names something */
 	int err;         /* ERR_SYSTEM: out of memory (reported) */
 	uint32_t top;    /* first free register */
-	uint32_t barrier; /* instructions before this number are not changed any more: something jumps behind them, or they set variables */
+	uint32_t barrier; /* instructions before this number are not changed any more: something jumps behind them, or
+	                     they set variables */
 	struct glsl_value *variables; /* [n_symbols]; at NULL: it has no place yet */
 	uint8_t *written;             /* [n_symbols] 1: something assigns it */
 	uint8_t *running;             /* [n_functions] 1: it is being written */
@@ -64,7 +66,8 @@ struct glsl_writer {
 };
 
 void glsl_fail(struct glsl_writer *w, const char *why);
-/** The same with a name of the shader's: "a shader calls refract(), which is not done". @param before, after  of the name */
+/** The same with a name of the shader's: "a shader calls refract(), which is not done". @param before, after  of the
+ * name */
 void glsl_fail_at(struct glsl_writer *w, const char *before, const char *name, const char *after);
 static inline bool glsl_stopped(const struct glsl_writer *w)
 {
@@ -94,14 +97,16 @@ void glsl_numbers(struct glsl_writer *w, const float *values, uint32_t n, uint32
 /** A constant of the state, behind the last one. @return its first number's operand */
 uint32_t glsl_constant(struct glsl_writer *w, const struct program_constant *c);
 
-/** to[i] = f(a[i], b[i], c[i]), registers from `to` on, of which i may be among the i-th operands alone; b and c may be NULL. flags: SCENE_NEGATE_A ... */
-void glsl_write(struct glsl_writer *w, enum scene_operation operation, uint32_t flags, uint32_t to, uint32_t n, const uint32_t *a,
-                const uint32_t *b, const uint32_t *c);
+/** to[i] = f(a[i], b[i], c[i]), registers from `to` on, of which i may be among the i-th operands alone; b and c may be
+ * NULL. flags: SCENE_NEGATE_A ... */
+void glsl_write(struct glsl_writer *w, enum scene_operation operation, uint32_t flags, uint32_t to, uint32_t n,
+                const uint32_t *a, const uint32_t *b, const uint32_t *c);
 /** The same of one number. @return a new register */
 uint32_t glsl_one(struct glsl_writer *w, enum scene_operation operation, uint32_t a, uint32_t b, uint32_t c);
 /** An instruction as it stands. @return its number */
 uint32_t glsl_append(struct glsl_writer *w, const struct scene_instruction *in);
-/** Where the last instruction has made a value, have it made in registers from `top` on, what lay there being of no use any more. */
+/** Where the last instruction has made a value, have it made in registers from `top` on, what lay there being of no use
+ * any more. */
 void glsl_settle(struct glsl_writer *w, uint32_t top, struct glsl_value *v);
 /** to = from, whatever they share. `to`: registers */
 void glsl_copy(struct glsl_writer *w, const uint32_t *to, const uint32_t *from, uint32_t n);

@@ -1,10 +1,12 @@
 /*
- * The index of a trace: where its frames are, and checkpoints of the GL state machine. Rendering begins at a checkpoint, so that
- * frame 90 000 costs no more than frame 9.
+ * The index of a trace: where its frames are, and checkpoints of the GL state machine. Rendering begins at a
+ * checkpoint, so that frame 90 000 costs no more than frame 9.
  *
- * It lies beside the trace as TRACE.index, or, where that folder cannot be written, as HASH.index in $XDG_CACHE_HOME/relume
+ * It lies beside the trace as TRACE.index, or, where that folder cannot be written, as HASH.index in
+ * $XDG_CACHE_HOME/relume
  * (~/.cache/relume). It names the trace by size, time, the hash of its first MiB and the hash of all of it; the last is
- * compared only where the time differs. An index is stale where the trace or the layout of snapshots (snapshot.h) has changed.
+ * compared only where the time differs. An index is stale where the trace or the layout of snapshots (snapshot.h) has
+ * changed.
  *
  * This header is about an index that is there. index_build.h opens or makes one.
  */
@@ -27,7 +29,8 @@ int index_create(struct index **out, const char *path, const char *hash);
 /** Open the file that is there. @return 1 opened; 0 none is there, or it is stale or damaged (said) */
 int index_load(struct index *index);
 
-/** Where its file may lie: beside the trace, or (cached 1) in the cache folder. @return 0 where there is no such place */
+/** Where its file may lie: beside the trace, or (cached 1) in the cache folder. @return 0 where there is no such
+ * place */
 int index_place(const struct index *index, int cached, char out[PATH_MAX]);
 
 void index_close(struct index **index);
@@ -50,7 +53,8 @@ struct index_lack {
 	uint64_t seen;           /* private */
 };
 
-/** What the trace's frames lack, in the order in which it is met. Found without building scenes: what only drawing shows is not there. */
+/** What the trace's frames lack, in the order in which it is met. Found without building scenes: what only drawing
+ * shows is not there. */
 size_t index_lacks(const struct index *index, const struct index_lack **out);
 
 /** The number of the call that ends a frame, and the unpacked bytes of the trace up to there. */

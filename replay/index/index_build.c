@@ -107,8 +107,8 @@ static int note_lack(struct index *index, const char *name, const char *why, uin
 }
 
 /*
- * What is missing of draws by a program that is not run and may draw, as it stays current from frame to frame; NULL: nothing.
- * command: receives the call that made it so
+ * What is missing of draws by a program that is not run and may draw, as it stays current from frame to frame; NULL:
+ * nothing. command: receives the call that made it so
  */
 static const char *program_lack(const struct gls_exec *x, const char **command)
 {
@@ -154,8 +154,8 @@ static uint64_t spacing(uint64_t state_bytes)
 }
 
 /*
- * The least distance from a checkpoint to a larger one. To restore a byte more of state takes as long as to replay a byte and a
- * quarter of calls (medians of recordings of eight programs).
+ * The least distance from a checkpoint to a larger one. To restore a byte more of state takes as long as to replay a
+ * byte and a quarter of calls (medians of recordings of eight programs).
  */
 static uint64_t soonest(uint64_t grown_bytes)
 {

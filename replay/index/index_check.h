@@ -4,8 +4,8 @@
 struct index;
 
 /**
- * Replay the whole trace, and from every checkpoint to the next; compare each state reached with the one that is kept, byte by
- * byte.
+ * Replay the whole trace, and from every checkpoint to the next; compare each state reached with the one that is kept,
+ * byte by byte.
  * @return 0; ERR_FAILED (reported: which checkpoint, which way, the first byte); ERR_INPUT, ERR_SYSTEM (reported)
  */
 int index_check(struct index *index);

@@ -1,8 +1,8 @@
 /*
  * The file of an index, as those see it who read it (index.c), write it (index_build.c) and compare it (index_check.c).
  *
- * A header; blobs, each once, under the XXH3-128 of their content, Snappy-packed where that saves something; a table of contents
- * with a checksum, packed alike. Snapshots are blobs as well. Numbers are as this machine has them.
+ * A header; blobs, each once, under the XXH3-128 of their content, Snappy-packed where that saves something; a table of
+ * contents with a checksum, packed alike. Snapshots are blobs as well. Numbers are as this machine has them.
  */
 #pragma once
 
@@ -78,7 +78,8 @@ void index_undelta(struct index_frame *frames, size_t n, int sign);
 /** Open the file of an index that knows nothing yet. @return 1; 0: there is none, or it is stale or damaged (said) */
 int index_open_file(struct index *index, const char *path);
 
-/** Begin an unfinished file (base/part.h) to write into. @param part  receives its name @return 1; 0: none can be written there */
+/** Begin an unfinished file (base/part.h) to write into. @param part  receives its name @return 1; 0: none can be
+ * written there */
 int index_begin_file(struct index *index, const char *path, char part[PATH_MAX]);
 
 /**
@@ -89,7 +90,8 @@ int index_begin_file(struct index *index, const char *path, char part[PATH_MAX])
 int index_add_checkpoint(struct index *index, struct trace_reader *reader, struct gls_exec *x, uint64_t most,
                          int (*save)(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out));
 
-/** Write the table of contents and the header; then the file is whole. @return 0 or ERR_SYSTEM (reported). A file that is lost is no error */
+/** Write the table of contents and the header; then the file is whole. @return 0 or ERR_SYSTEM (reported). A file that
+ * is lost is no error */
 int index_write_toc(struct index *index);
 
 /* ---- blobs ---- */

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """layout.py TXT OUT <PREPROCESSED: the members of the structs that a snapshot keeps, as a list for the C compiler.
 
-TXT (layout.txt) says what becomes of every member. OUT defines SNAPSHOT_MEMBERS(PLACED, SINGLE), a list of PLACED(struct,
-member, type of its elements) for structs that are saved as they lie, and of SINGLE(struct, member) for members that are saved one by one:
-snapshot_layout.c hashes their names, offsets and sizes. Comments and prototypes change nothing.
+TXT (layout.txt) says what becomes of every member. OUT defines SNAPSHOT_MEMBERS(PLACED, SINGLE), a list of
+PLACED(struct, member, type of its elements) for structs that are saved as they lie, and of SINGLE(struct, member) for
+members that are saved one by one: snapshot_layout.c hashes their names, offsets and sizes. Comments and prototypes
+change nothing.
 """
 import re
 import sys
@@ -56,7 +57,8 @@ def main():
         if name not in structs:
             sys.exit(f"{path}: there is no struct {name}")
     for name, named in rules["pointers"].items():
-        check(name, named, [m for m, kind, pointer, _ in structs[name] if pointer or (kind in structs and points(kind))],
+        check(name, named,
+              [m for m, kind, pointer, _ in structs[name] if pointer or (kind in structs and points(kind))],
               "is or holds a pointer: say what becomes of it where the struct is saved, and name it here")
     for name in {**rules["kept"], **rules["left"]}:
         kept = rules["kept"].get(name, [])
@@ -75,7 +77,8 @@ def main():
         sys.exit("\n".join(f"{path}: {error}" for error in errors))
     with open(sys.argv[2], "w") as out:
         out.write("/* Made by replay/index/layout.py from layout.txt. */\n#define SNAPSHOT_MEMBERS(PLACED, SINGLE)")
-        out.writelines(f" \\\n\t{how}({name}, {member}{', ' + kind if kind else ''})" for how, name, member, kind in rows)
+        out.writelines(
+            f" \\\n\t{how}({name}, {member}{', ' + kind if kind else ''})" for how, name, member, kind in rows)
         out.write("\n")
 
 

@@ -1,4 +1,5 @@
-/* The members of the structs that make up OpenGL's state (layout.txt), so that states can be looked through without a line for each. */
+/* The members of the structs that make up OpenGL's state (layout.txt), so that states can be looked through without a
+ * line for each. */
 #pragma once
 
 #include <stddef.h>

@@ -9,8 +9,8 @@
 size_t pack_room(size_t n);
 
 /**
- * Pack bytes, unless a sample of them says that it saves little. Photographs would take most of an index's time, for a tenth of their
- * bytes.
+ * Pack bytes, unless a sample of them says that it saves little. Photographs would take most of an index's time, for a
+ * tenth of their bytes.
  * @param out     pack_room(n) bytes
  * @param packed  receives how many were written: n where they are as they were, else fewer
  * @return 0 or ERR_SYSTEM
@@ -19,7 +19,7 @@ int pack_blob(const char *data, size_t n, char *out, size_t *packed);
 
 /**
  * @param n  bytes there were
- * @return the bytes: `packed` itself where they were not packed, else memory to be freed with free(); NULL: there are not n of
- *         them, or out of memory
+ * @return the bytes: `packed` itself where they were not packed, else memory to be freed with free(); NULL: there are
+ * not n of them, or out of memory
  */
 char *unpack_blob(char *packed, size_t n_packed, size_t n);

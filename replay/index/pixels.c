@@ -28,7 +28,8 @@ uint64_t pixels_maker(const char *device)
 	int n;
 
 	stat("/proc/self/exe", &own);
-	n = snprintf(text, sizeof(text), "%lld %lld.%ld %s", (long long)own.st_size, (long long)own.st_mtim.tv_sec, own.st_mtim.tv_nsec, device);
+	n = snprintf(text, sizeof(text), "%lld %lld.%ld %s", (long long)own.st_size, (long long)own.st_mtim.tv_sec,
+	             own.st_mtim.tv_nsec, device);
 	hash_bytes(text, (size_t)n < sizeof(text) ? (size_t)n : sizeof(text), maker);
 	return maker[0];
 }
@@ -36,12 +37,13 @@ uint64_t pixels_maker(const char *device)
 /* @return 0: the path is too long */
 static int path_of(const struct pixels *p, uint64_t frame, char out[PATH_MAX])
 {
-	const int n = snprintf(out, PATH_MAX, "%s/%.32s-%016" PRIx64 "-%" PRIu64 ".index", p->folder, p->trace, p->maker, frame);
+	const int n = snprintf(out, PATH_MAX, "%s/%.32s-%016" PRIx64 "-%" PRIu64 ".index", p->folder, p->trace,
+	                       p->maker, frame);
 
 	return n > 0 && n < PATH_MAX;
 }
 
-/* --- Finding ---------------------------------------------------------------------------------------------------------- */
+/* --- Finding ----------------------------------------------------------------------------------------------------- */
 
 int pixels_find(const struct pixels *p, uint64_t frame, uint64_t *found)
 {
@@ -54,8 +56,9 @@ int pixels_find(const struct pixels *p, uint64_t frame, uint64_t *found)
 		uint64_t number;
 		int end = 0;
 
-		if (strncmp(e->d_name, prefix, (size_t)n) != 0 || sscanf(e->d_name + n, "%" SCNu64 ".index%n", &number, &end) != 1 || !end ||
-		    e->d_name[n + end] || number > frame || (any && number < *found))
+		if (strncmp(e->d_name, prefix, (size_t)n) != 0 ||
+		    sscanf(e->d_name + n, "%" SCNu64 ".index%n", &number, &end) != 1 || !end || e->d_name[n + end] ||
+		    number > frame || (any && number < *found))
 			continue;
 		*found = number;
 		any = 1;
@@ -82,9 +85,10 @@ int pixels_restore(const struct pixels *p, uint64_t frame, struct trace_reader *
 	return rc;
 }
 
-/* --- Keeping ---------------------------------------------------------------------------------------------------------- */
+/* --- Keeping ----------------------------------------------------------------------------------------------------- */
 
-/* index: with its file, which is begun. @return 0; 1: not worth its bytes, or the file is lost; ERR_SYSTEM (reported) */
+/* index: with its file, which is begun. @return 0; 1: not worth its bytes, or the file is lost; ERR_SYSTEM
+ * (reported) */
 static int write_index(struct index *index, struct trace_reader *reader, struct gls_exec *x)
 {
 	int rc = index_add_checkpoint(index, reader, x, MOST_BYTES, snapshot_save_pixels);

@@ -1,7 +1,7 @@
 /*
- * Checkpoints with pixels. A frame that shows what earlier ones drew costs all frames back to where that is known. Who has played them
- * leaves what they drew: each checkpoint is an index with nothing else, TRACE-MAKER-FRAME.index in a folder for such files. What is missing or
- * damaged costs time alone.
+ * Checkpoints with pixels. A frame that shows what earlier ones drew costs all frames back to where that is known. Who
+ * has played them leaves what they drew: each checkpoint is an index with nothing else, TRACE-MAKER-FRAME.index in a
+ * folder for such files. What is missing or damaged costs time alone.
  */
 #pragma once
 
@@ -23,5 +23,6 @@ int pixels_find(const struct pixels *p, uint64_t frame, uint64_t *found);
 /** As index_restore; a checkpoint that cannot be read is removed. */
 int pixels_restore(const struct pixels *p, uint64_t frame, struct trace_reader *reader, struct gls_exec *x);
 
-/** Keep one after a frame that was built, where all pixels are known, and room is. @return 0 or ERR_SYSTEM (reported) */
+/** Keep one after a frame that was built, where all pixels are known, and room is. @return 0 or ERR_SYSTEM
+ * (reported) */
 int pixels_keep(const struct pixels *p, struct trace_reader *reader, struct gls_exec *x);

@@ -1,13 +1,13 @@
 /*
  * The GL state machine between two frames, as bytes: an index keeps them so that a replay can begin in the middle.
  *
- * Structs of the state are saved as they lie in memory, without their pointers: a plain member that is added is saved by itself.
- * What a pointer leads to is saved by hand. layout.txt names what becomes of every pointer, and a new one does not compile
- * before it is named there. `relume index --check` compares states restored with states replayed, byte by byte. Big things
- * (texels, buffers, lists, meshes) are blobs: each content is kept once.
+ * Structs of the state are saved as they lie in memory, without their pointers: a plain member that is added is saved
+ * by itself. What a pointer leads to is saved by hand. layout.txt names what becomes of every pointer, and a new one
+ * does not compile before it is named there. `relume index --check` compares states restored with states replayed, byte
+ * by byte. Big things (texels, buffers, lists, meshes) are blobs: each content is kept once.
  *
- * Why not a stream of calls that rebuilds the state? Every seek would have to execute it. It cannot say all that the state holds
- * (errors, versions of buffers, meshes of lists), and nobody notices what it forgets.
+ * Why not a stream of calls that rebuilds the state? Every seek would have to execute it. It cannot say all that the
+ * state holds (errors, versions of buffers, meshes of lists), and nobody notices what it forgets.
  *
  * Only a build with the same layout can read a snapshot: see snapshot_layout.h.
  */
@@ -38,15 +38,18 @@ extern const struct snapshot_blobs snapshot_no_blobs;
  */
 int snapshot_save(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out);
 
-/** The same with the pixels of drawables and renderbuffers, after gls_frame_settle. Without them all that was drawn counts as skipped. */
+/** The same with the pixels of drawables and renderbuffers, after gls_frame_settle. Without them all that was drawn
+ * counts as skipped. */
 int snapshot_save_pixels(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out);
 
-/** What the byte at a place of a snapshot of this state belongs to ("state of context 0, byte 812"). A static string. */
+/** What the byte at a place of a snapshot of this state belongs to ("state of context 0, byte 812"). A static
+ * string. */
 const char *snapshot_place(struct gls_exec *x, size_t at);
 
 /**
  * Bring a state machine to a saved state.
  * @param x  as gls_exec_create made it
- * @return 0, ERR_INPUT (reported: no snapshot, or a blob is missing or damaged) or ERR_SYSTEM (reported); then destroy x
+ * @return 0, ERR_INPUT (reported: no snapshot, or a blob is missing or damaged) or ERR_SYSTEM (reported); then destroy
+ * x
  */
 int snapshot_load(struct gls_exec *x, const struct snapshot_blobs *blobs, const uint8_t *data, size_t n);

@@ -12,7 +12,8 @@
 uint64_t snapshot_layout(void)
 {
 #define SINGLE(type, member) { #type "." #member, 0, sizeof(((struct type *)0)->member) },
-#define PLACED(type, member, element) { #type "." #member, offsetof(struct type, member), sizeof(((struct type *)0)->member) },
+#define PLACED(type, member, element) \
+	{ #type "." #member, offsetof(struct type, member), sizeof(((struct type *)0)->member) },
 	static const struct {
 		const char *name;
 		size_t offset, bytes;

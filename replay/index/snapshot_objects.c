@@ -138,7 +138,8 @@ static void *get_buffer(struct loader *l)
 	return NULL;
 }
 
-static const struct snapshot_table buffers = { "buffer", sizeof(struct gls_buffer), put_buffer, get_buffer, drop_buffer };
+static const struct snapshot_table buffers = { "buffer", sizeof(struct gls_buffer), put_buffer, get_buffer,
+	                                       drop_buffer };
 
 /* ---- framebuffer objects and renderbuffers: what was drawn to them is missing (gls_framebuffer_skip) ---- */
 
@@ -252,7 +253,8 @@ static void *get_program(struct loader *l)
 	return NULL;
 }
 
-static const struct snapshot_table programs = { "program", sizeof(((struct gls_program *)0)->target) + 16, put_program, get_program, drop_program };
+static const struct snapshot_table programs = { "program", sizeof(((struct gls_program *)0)->target) + 16, put_program,
+	                                        get_program, drop_program };
 
 /* ---- all that contexts share ---- */
 

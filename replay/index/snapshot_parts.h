@@ -1,6 +1,6 @@
 /*
- * What the parts of a snapshot have in common (snapshot.c, _state, _objects, _lists). Each part saves and loads, in the same order.
- * layout.txt names what becomes of every pointer.
+ * What the parts of a snapshot have in common (snapshot.c, _state, _objects, _lists). Each part saves and loads, in the
+ * same order. layout.txt names what becomes of every pointer.
  */
 #pragma once
 

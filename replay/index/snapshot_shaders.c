@@ -95,7 +95,10 @@ static void get_texts(struct loader *l, struct gls_shader *sh)
 		for (uint64_t n = loader_count(l, 16); n && !loader_is_bad(l); n--) {
 			char *text = get_text(l);
 
-			if (!loader_is_bad(l) && (!text || gls_shader_add_text(sh, stage == GLSL_VERTEX_STAGE ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER, text)))
+			if (!loader_is_bad(l) &&
+			    (!text ||
+			     gls_shader_add_text(sh, stage == GLSL_VERTEX_STAGE ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER,
+			                         text)))
 				l->in.failed = 1;
 			free(text);
 		}

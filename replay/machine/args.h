@@ -13,7 +13,8 @@ double gls_value_double(const struct trace_value *v);
 int64_t gls_value_truncated(const struct trace_value *v);
 static inline int64_t gls_value_int(const struct trace_value *v)
 {
-	const uint32_t whole = 1u << TRACE_SINT | 1u << TRACE_UINT | 1u << TRACE_ENUM | 1u << TRACE_BITMASK | 1u << TRACE_OPAQUE;
+	const uint32_t whole = 1u << TRACE_SINT | 1u << TRACE_UINT | 1u << TRACE_ENUM | 1u << TRACE_BITMASK |
+	                       1u << TRACE_OPAQUE;
 
 	return whole >> ((uint32_t)v->type & 31) & 1 ? v->i : gls_value_truncated(v);
 }
@@ -60,11 +61,13 @@ static inline int64_t arg_i32(const struct call *c, unsigned i)
 /** Numbers of an array argument, or one plain number. @return how many there were; the rest of out stays as it is */
 unsigned arg_floats(const struct call *c, unsigned i, float *out, unsigned n);
 unsigned arg_uints(const struct call *c, unsigned i, uint32_t *out, unsigned n);
-/** A colour of four numbers, 0 where one is missing. Integers of a command in -iv stand for [-1,1] (GL 2.1 table 2.9). */
+/** A colour of four numbers, 0 where one is missing. Integers of a command in -iv stand for [-1,1] (GL 2.1 table
+ * 2.9). */
 void arg_color(const struct gls_exec *x, const struct call *c, unsigned i, float out[4]);
 /** Elements of an array argument; NULL and 0 if it is no array. */
 const struct trace_value *arg_items(const struct call *c, unsigned i, uint64_t *n);
-/** Names of objects in an array argument, one a call; 0 is passed over. *at counts, from 0. @return a name; 0: there are no more */
+/** Names of objects in an array argument, one a call; 0 is passed over. *at counts, from 0. @return a name; 0: there
+ * are no more */
 uint32_t arg_next_name(const struct call *c, unsigned i, uint64_t *at);
 /** Bytes of a blob argument; NULL if it is no blob. */
 const uint8_t *arg_blob(const struct call *c, unsigned i, size_t *n);

@@ -26,12 +26,14 @@ void gls_buffer_lose(struct gls_exec *x, struct gls_buffer *b, size_t from, size
 void gls_buffer_fill(struct gls_exec *x, struct gls_buffer *b, size_t from, size_t to);
 
 /**
- * A call looks at a buffer (NULL: none). Where the buffer misses pixels the replay goes back, if frames are built and somebody renders.
+ * A call looks at a buffer (NULL: none). Where the buffer misses pixels the replay goes back, if frames are built and
+ * somebody renders.
  * @return its `missing`
  */
 uint32_t gls_buffer_lacks(struct gls_exec *x, const struct gls_buffer *b);
 
-/** The same where state that frames to come use is made of it: the replay goes back in any frame, and else the call is counted as not done. */
+/** The same where state that frames to come use is made of it: the replay goes back in any frame, and else the call is
+ * counted as not done. */
 void gls_buffer_keep(struct gls_exec *x, const struct gls_buffer *b);
 
 /** A draw looks at a buffer, for a list if one is being made: what of the two above that asks for. */

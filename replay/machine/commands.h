@@ -1,8 +1,10 @@
 /*
- * The commands of OpenGL and of window systems. gen.py makes the table from Khronos' registries, overlay.txt and the handlers.
+ * The commands of OpenGL and of window systems. gen.py makes the table from Khronos' registries, overlay.txt and the
+ * handlers.
  *
- * A chapter defines one function per command, or per family of commands, with GLS_HANDLER or GLS_FAMILY at the start of a line. The
- * line says what others must know of the command: its kind (what the dispatcher does first) and its role in display lists.
+ * A chapter defines one function per command, or per family of commands, with GLS_HANDLER or GLS_FAMILY at the start of
+ * a line. The line says what others must know of the command: its kind (what the dispatcher does first) and its role in
+ * display lists.
  */
 #pragma once
 
@@ -19,12 +21,14 @@ enum gls_kind {
 	GLS_KIND_NONE,
 	GLS_KIND_VERTEX, /* vertex attributes: anywhere, kept in lists, pending vertices stay pending */
 	GLS_KIND_INSIDE, /* the same, but the handler itself looks after pending vertices (Material, CallList, End) */
-	GLS_KIND_STATE,  /* outside Begin/End only, kept in lists; pending vertices are drawn first, material and view are stale */
+	GLS_KIND_STATE,  /* outside Begin/End only, kept in lists; pending vertices are drawn first, material and view
+	                    are stale */
 	GLS_KIND_MATRIX, /* as STATE, but only the current matrix changes */
 	GLS_KIND_ARRAY,  /* draws from client state: outside Begin/End only; into a list goes what it drew */
 	GLS_KIND_CLIENT, /* client state: anywhere, never kept in lists, changes nothing that is pending */
 	GLS_KIND_NOW,    /* outside Begin/End only, never kept in lists: client state, queries */
-	GLS_KIND_OBJECT, /* as NOW, for objects that draws use: pending vertices are drawn first, material and view are stale */
+	GLS_KIND_OBJECT, /* as NOW, for objects that draws use: pending vertices are drawn first, material and view are
+	                    stale */
 	GLS_KIND_WINDOW  /* window system and memory: no context needed, st may be NULL */
 };
 
@@ -48,13 +52,14 @@ enum gls_role {
 	                const struct call *c __attribute__((unused)))
 
 /*
- * GLS_FAMILY(name, ...): the same for all commands that are called name and a suffix of GL 2.1 section 2.3. GLS_FAMILY(glColor, VERTEX)
- * handles glColor3b to glColor4usv.
+ * GLS_FAMILY(name, ...): the same for all commands that are called name and a suffix of GL 2.1 section 2.3.
+ * GLS_FAMILY(glColor, VERTEX) handles glColor3b to glColor4usv.
  */
 #define GLS_FAMILY GLS_HANDLER
 
 enum gls_suffix_type {
-	GLS_SUFFIX_NONE, GLS_SUFFIX_B, GLS_SUFFIX_UB, GLS_SUFFIX_S, GLS_SUFFIX_US, GLS_SUFFIX_I, GLS_SUFFIX_UI, GLS_SUFFIX_F, GLS_SUFFIX_D
+	GLS_SUFFIX_NONE, GLS_SUFFIX_B, GLS_SUFFIX_UB, GLS_SUFFIX_S, GLS_SUFFIX_US, GLS_SUFFIX_I, GLS_SUFFIX_UI, GLS_SUFFIX_F,
+	GLS_SUFFIX_D
 };
 
 /* What the suffix of a command in a family says; glVertexAttrib4Nubv: 4, UB, 1, 1. */
@@ -69,7 +74,8 @@ struct gls_suffix {
 struct gls_pixel_args {
 	int8_t at;     /* the argument that points to them; -1: the command reads none */
 	int8_t dims;   /* 1 to 3; 0: they are no image, and `width` is the argument with their bytes */
-	int8_t format, type, width, height, depth; /* arguments; -1: GL_COLOR_INDEX, GL_BITMAP, an extent of 1, bytes that no argument says */
+	int8_t format, type, width, height, depth; /* arguments; -1: GL_COLOR_INDEX, GL_BITMAP, an extent of 1, bytes
+	                                              that no argument says */
 };
 
 enum gls_drawing { GLS_DRAWS = 1, GLS_ENDS }; /* capture/gen/overlay.txt: does nothing but draw; ends a frame */

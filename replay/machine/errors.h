@@ -38,7 +38,8 @@ extern const char gls_needs_renderer[];
 /** What it says of draws by shaders or programs. */
 extern const char gls_programs[];
 
-/** The frame needs pixels of skipped frames: the replay goes back (gls_feedback). why: what shows them, a static string. */
+/** The frame needs pixels of skipped frames: the replay goes back (gls_feedback). why: what shows them, a static
+ * string. */
 void gls_rewind(struct gls_exec *x, const char *why);
 
 /** Scratch memory of n bytes, valid until the next call of this; NULL: out of memory (reported). */
@@ -51,9 +52,9 @@ void gls_out_of_memory(struct gls_exec *x, size_t bytes);
 void gls_fail(struct gls_exec *x);
 
 /**
- * Bound the work that a few calls can ask for. Lists that call themselves, or each other twice, run longer than anybody waits, in a
- * driver too; so do draws of endless instances. A frame may multiply its work by so much for each call recorded so far that no program
- * comes near it.
+ * Bound the work that a few calls can ask for. Lists that call themselves, or each other twice, run longer than anybody
+ * waits, in a driver too; so do draws of endless instances. A frame may multiply its work by so much for each call
+ * recorded so far that no program comes near it.
  * @param n    more work: operations of a list called by a list, instances, some points of evaluated meshes
  * @param why  what to count the call as if it is too much
  * @return 1 if it is too much

@@ -12,7 +12,8 @@ struct gls_fixed {
 };
 
 /**
- * The call with floats. Numbers that stand for enumerants or truth values are no fixed point, nor are texels of a crop rectangle.
+ * The call with floats. Numbers that stand for enumerants or truth values are no fixed point, nor are texels of a crop
+ * rectangle.
  * @param fixed  bits of the arguments that are fixed point (gls_command)
  * @return in `room`, valid as long as it and `c`
  */

@@ -56,7 +56,8 @@ static int make_room(struct gls_geometry *g, uint32_t n_vertices, uint32_t n_pri
 		uint32_t room = g->room_primitives ? g->room_primitives : 256;
 		while (room < g->n_primitives + n_primitives)
 			room *= 2;
-		if (memory_resize(&g->index, room, 12) || memory_resize(&g->primitive_draw, room, 4) || memory_resize(&g->edge_flags, room, 1))
+		if (memory_resize(&g->index, room, 12) || memory_resize(&g->primitive_draw, room, 4) ||
+		    memory_resize(&g->edge_flags, room, 1))
 			return ERR_SYSTEM;
 		g->room_primitives = room;
 	}
@@ -177,7 +178,8 @@ static void put_provoked(const struct cutter *c, uint32_t i, uint32_t j, uint32_
 		put_triangle(c, i, j, k, edges);
 }
 
-int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements, int first_provokes)
+int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count,
+                     const uint32_t *elements, int first_provokes)
 {
 	const struct cutter c = { g, elements, first };
 	uint32_t i;
@@ -278,7 +280,8 @@ void gls_geometry_turn_quads(struct gls_geometry *g)
 	}
 }
 
-int gls_quads_turn(const struct gls_state *st, int is_flat, const float *position, const uint32_t *index, uint32_t n_primitives)
+int gls_quads_turn(const struct gls_state *st, int is_flat, const float *position, const uint32_t *index,
+                   uint32_t n_primitives)
 {
 	static const unsigned corners[4] = { 0, 1, 2, 4 }; /* of the six indices of its two triangles */
 	const struct gls_attribs *a = &st->a;

@@ -33,8 +33,8 @@ struct gls_geometry {
 void gls_geometry_clear(struct gls_geometry *g);
 void gls_geometry_free(struct gls_geometry *g);
 /*
- * What follows returns 0, or ERR_SYSTEM (reported) where memory is short: the replay ends after this call (gls_fail). All that is
- * collected keeps its arrays, and what varies has one.
+ * What follows returns 0, or ERR_SYSTEM (reported) where memory is short: the replay ends after this call (gls_fail).
+ * All that is collected keeps its arrays, and what varies has one.
  */
 /** Make room for more vertices with the varying attributes, and for more primitives. */
 int gls_geometry_reserve(struct gls_exec *x, struct gls_geometry *g, uint32_t n_vertices, uint32_t n_primitives);
@@ -47,23 +47,26 @@ enum scene_primitive gls_mode_kind(uint32_t mode);
 /**
  * Cut vertices of a primitive mode as Mesa does, provoking vertex last.
  * @param elements  [count] vertex numbers, NULL: first .. first + count - 1
- * @param first_provokes  1: separate triangles, strips and fans follow FIRST_VERTEX_CONVENTION (ARB_provoking_vertex). Lines have a
- *                  direction: whoever draws them decides
+ * @param first_provokes  1: separate triangles, strips and fans follow FIRST_VERTEX_CONVENTION (ARB_provoking_vertex).
+ * Lines have a direction: whoever draws them decides
  */
-int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements, int first_provokes);
+int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count,
+                     const uint32_t *elements, int first_provokes);
 /**
- * Cut quads the other way, from the first to the third vertex. The geometry holds nothing but quads. llvmpipe does so with quads that
- * come without indices (hence not from lists), are shaded smoothly and need no clipping.
+ * Cut quads the other way, from the first to the third vertex. The geometry holds nothing but quads. llvmpipe does so
+ * with quads that come without indices (hence not from lists), are shaded smoothly and need no clipping.
  */
 void gls_geometry_turn_quads(struct gls_geometry *g);
 /**
- * Make lines of line strips that stand beside other strips or lines, each of which starts a stipple anew. The geometry holds nothing but lines,
- * which come from a list: Mesa (22.3.6) has them so.
+ * Make lines of line strips that stand beside other strips or lines, each of which starts a stipple anew. The geometry
+ * holds nothing but lines, which come from a list: Mesa (22.3.6) has them so.
  */
 void gls_geometry_part_strips(struct gls_geometry *g);
 /**
  * 1 if quads are cut the other way under this state.
  * @param is_flat  1: they are shaded flat (replay/build/program.h)
- * @param index  [n_primitives][3], as gls_geometry_cut makes them of GL_QUADS: vertices of quads that are not whole do not count
+ * @param index  [n_primitives][3], as gls_geometry_cut makes them of GL_QUADS: vertices of quads that are not whole do
+ * not count
  */
-int gls_quads_turn(const struct gls_state *st, int is_flat, const float *position, const uint32_t *index, uint32_t n_primitives);
+int gls_quads_turn(const struct gls_state *st, int is_flat, const float *position, const uint32_t *index,
+                   uint32_t n_primitives);

@@ -1,4 +1,5 @@
-/* The machine that executes calls: what it knows while it runs a recording. The chapters of replay/gl/ and the index see it. */
+/* The machine that executes calls: what it knows while it runs a recording. The chapters of replay/gl/ and the index
+ * see it. */
 #pragma once
 
 #include <stddef.h>
@@ -81,7 +82,8 @@ struct gls_feedback {
 struct gls_exec;
 
 /** Run a command from a list, or as part of another command. unpack: as in gls_exec. */
-typedef void gls_dispatcher(struct gls_exec *x, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack);
+typedef void gls_dispatcher(struct gls_exec *x, const struct call *c, uint32_t command,
+                            const struct gls_pixel_store *unpack);
 
 struct gls_exec {
 	const char *path;    /* of the trace, for messages */
@@ -113,7 +115,8 @@ struct gls_exec {
 	uint64_t swapped;             /* drawable of the swap that ended the frame */
 	int unswapped;                /* 1: it ended without a swap */
 
-	gls_dispatcher *dispatch;     /* how handlers reach gl/dispatch.c, which stands above them; `command` is then what was run */
+	gls_dispatcher *dispatch; /* how handlers reach gl/dispatch.c, which stands above them; `command` is then what
+	                             was run */
 	struct gls_exec *assembler;   /* the machine in which lists are assembled (list_assemble.h); NULL: none yet */
 
 	struct gls_pending pending;
@@ -124,7 +127,8 @@ struct gls_exec {
 	struct gls_counts counts;
 };
 
-/** How pixels of the current call lie in client memory. A list keeps the layout of the moment when it was made (sec. 5.4). */
+/** How pixels of the current call lie in client memory. A list keeps the layout of the moment when it was made
+ * (sec. 5.4). */
 static inline const struct gls_pixel_store *gls_client_store(const struct gls_exec *x, const struct gls_state *st)
 {
 	return x->unpack ? x->unpack : &st->client.unpack;

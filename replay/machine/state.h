@@ -1,8 +1,8 @@
 /*
  * The state of one GL context, grouped as the state tables of the GL 2.1 specification group it (chapter 6).
  *
- * Tokens are kept as the numbers GL gives them (build/gen/gl_tokens.h). Matrices as scene.h says. Object names are kept as
- * names, not as pointers: what a name means is looked up in the share group when it is used.
+ * Tokens are kept as the numbers GL gives them (build/gen/gl_tokens.h). Matrices as scene.h says. Object names are kept
+ * as names, not as pointers: what a name means is looked up in the share group when it is used.
  */
 #pragma once
 
@@ -176,7 +176,8 @@ struct gls_evaluator {
 	int32_t grid1_segments, grid2_segments[2];
 };
 
-/* What switches programs on (ARB_vertex_program, table X.6; ATI_fragment_shader), and what those of vertices may say. */
+/* What switches programs on (ARB_vertex_program, table X.6; ATI_fragment_shader), and what those of vertices may
+ * say. */
 struct gls_programs {
 	uint32_t vertex, fragment, point_size, two_side, ati;
 };
@@ -230,7 +231,8 @@ struct gls_array {
 	uint64_t version;  /* changes with the contents of `client` */
 };
 enum gls_array_index {
-	GLS_ARRAY_VERTEX = N_GLS_ATTRIBUTES, GLS_ARRAY_GENERIC0, GLS_ARRAY_EDGE_FLAG, GLS_ARRAY_INDEX, GLS_ARRAY_POINT_SIZE, N_GLS_ARRAYS
+	GLS_ARRAY_VERTEX = N_GLS_ATTRIBUTES, GLS_ARRAY_GENERIC0, GLS_ARRAY_EDGE_FLAG, GLS_ARRAY_INDEX, GLS_ARRAY_POINT_SIZE,
+	N_GLS_ARRAYS
 };
 struct gls_client_attribs {
 	struct gls_pixel_store pack, unpack;
@@ -284,7 +286,8 @@ struct gls_share;
 
 /* waiting.h */
 struct gls_waiting {
-	uint32_t set[2];         /* colours that glMaterial has set since the store was emptied: GLS_AMBIENT and so on, by side */
+	uint32_t set[2]; /* colours that glMaterial has set since the store was emptied: GLS_AMBIENT and so on, by side
+	                  */
 	struct scene_face face[2];
 	uint32_t touched;        /* 1: an attribute was set since it was looked at */
 	uint32_t recolored;      /* 1: the current colour has become another one since then */
@@ -330,7 +333,8 @@ struct gls_state {
 	uint32_t list_name, list_mode;
 
 	uint64_t handle; /* of the context */
-	uint32_t drawn_program[2], drawn_links[2]; /* by enum gls_stage: the program object that ran at the last draw, 0: none; as of struct gls_stages */
+	uint32_t drawn_program[2], drawn_links[2]; /* by enum gls_stage: the program object that ran at the last draw,
+	                                              0: none; as of struct gls_stages */
 
 	/* drawable */
 	uint64_t drawable, read_drawable;
@@ -346,7 +350,7 @@ struct gls_share {
 	unsigned refs;
 	struct table lists, textures, buffers; /* name -> struct gls_list, gls_texture, gls_buffer */
 	struct table programs;                 /* programs/program.h: key -> struct gls_program */
-	struct table shaders;                  /* programs/glsl/object.h: name -> struct gls_shader, shaders and programs of GLSL */
+	struct table shaders; /* programs/glsl/object.h: name -> struct gls_shader, shaders and programs of GLSL */
 	struct table framebuffers, renderbuffers; /* name (0: the window) -> struct gls_framebuffer, gls_renderbuffer */
 	struct gls_texture *defaults[N_GLS_TEXTURE_TARGETS];
 	uint64_t epoch; /* changes when a texture goes, or a list that another one's effect was made of */
@@ -376,7 +380,8 @@ int gls_attributes_wait(const struct gls_state *st);
 enum { GLS_AMBIENT = 1, GLS_DIFFUSE = 2, GLS_SPECULAR = 4, GLS_EMISSION = 8 };
 /** Colours of a face that a material parameter names. @return 0: none */
 unsigned gls_face_colors(uint32_t parameter);
-/** Those that follow the current colour where COLOR_MATERIAL is enabled (GL 2.1 sec. 2.14.3). @param side  0 front, 1 back */
+/** Those that follow the current colour where COLOR_MATERIAL is enabled (GL 2.1 sec. 2.14.3). @param side  0 front, 1
+ * back */
 unsigned gls_tracked_colors(const struct gls_lighting *l, unsigned side);
 void gls_set_face_colors(struct scene_face *face, unsigned colors, const float value[4]);
 

@@ -1,6 +1,6 @@
 /*
- * A trace, executed frame by frame from its beginning: a reader, a state machine, and the loop that takes calls from one to the
- * other. Indexes are built and checked with it; replay.h adds seeking and counts.
+ * A trace, executed frame by frame from its beginning: a reader, a state machine, and the loop that takes calls from
+ * one to the other. Indexes are built and checked with it; replay.h adds seeking and counts.
  *
  * Frame n (from 0) ends with the trace's n-th swap of buffers.
  */
@@ -38,7 +38,8 @@ void player_keep_targets(struct player *p);
 /** replay_leave_starts. */
 void player_leave_starts(struct player *p);
 
-/** As replay_next_frame, but a frame that needs pixels of skipped frames is left: 1 is returned and exec->feedback.rewind is set. */
+/** As replay_next_frame, but a frame that needs pixels of skipped frames is left: 1 is returned and
+ * exec->feedback.rewind is set. */
 int player_try_frame(struct player *p, int want, struct scene **scene);
 
 /**
@@ -48,7 +49,8 @@ int player_try_frame(struct player *p, int want, struct scene **scene);
  */
 int player_step(struct player *p, const struct call **call);
 
-/** Tell how far frames from `from` to `to` have been played: by `tell`, or every ten seconds as a warning where there is none. */
+/** Tell how far frames from `from` to `to` have been played: by `tell`, or every ten seconds as a warning where there
+ * is none. */
 void player_tell(struct player *p, uint64_t from, uint64_t to);
 
 /** Go on with another state machine, which the player then owns. What was counted so far goes on being counted. */

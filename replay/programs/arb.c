@@ -78,8 +78,8 @@ static void take_name_for(struct arb_parser *p, char kind)
 
 static void take_option(struct arb_parser *p)
 {
-	static const char *const harmless[] = { "ARB_precision_hint_fastest", "ARB_precision_hint_nicest", "ARB_draw_buffers", "ATI_draw_buffers",
-		                                "ARB_fragment_program_shadow" };
+	static const char *const harmless[] = { "ARB_precision_hint_fastest", "ARB_precision_hint_nicest",
+		                                "ARB_draw_buffers", "ATI_draw_buffers", "ARB_fragment_program_shadow" };
 	const char *name;
 	const size_t n = arb_name(&p->words, &name);
 
@@ -129,10 +129,14 @@ static void add_fog(struct arb_parser *p)
 	struct emitter *e = &p->emitter;
 	const uint32_t numbers = arb_constant(p, &(struct program_constant){ .source = PROGRAM_FOG_NUMBERS });
 	const uint32_t color = arb_constant(p, &(struct program_constant){ .source = PROGRAM_FOG_COLOR });
-	const struct emit_source four = emit_four(numbers), density = emit_splat(&four, 0), end = emit_splat(&four, 2), scale = emit_splat(&four, 3);
-	const struct emit_source in = emit_four(4 * SCENE_INPUT_FOG), at = emit_splat(&in, 0), aside = emit_four(e->scratch + 4);
-	const struct emit_source log2_e = { { arb_literal(p, 1.44269504f, 0, 0, 0) }, 0 }, fog = emit_four(color), own = emit_four(SCENE_PROGRAM_COLOR);
-	const struct emit_target one = { e->scratch + 4, 1, 0 }, factor = { e->scratch + 4, 1, 1 }, rgb = { SCENE_PROGRAM_COLOR, 7, 0 };
+	const struct emit_source four = emit_four(numbers), density = emit_splat(&four, 0), end = emit_splat(&four, 2),
+				 scale = emit_splat(&four, 3);
+	const struct emit_source in = emit_four(4 * SCENE_INPUT_FOG), at = emit_splat(&in, 0),
+				 aside = emit_four(e->scratch + 4);
+	const struct emit_source log2_e = { { arb_literal(p, 1.44269504f, 0, 0, 0) }, 0 }, fog = emit_four(color),
+				 own = emit_four(SCENE_PROGRAM_COLOR);
+	const struct emit_target one = { e->scratch + 4, 1, 0 }, factor = { e->scratch + 4, 1, 1 },
+				 rgb = { SCENE_PROGRAM_COLOR, 7, 0 };
 	struct emit_source x = emit_splat(&aside, 0), back = at;
 
 	p->emitter.code->inputs |= 1u << SCENE_INPUT_FOG;
@@ -157,7 +161,8 @@ static void add_fog(struct arb_parser *p)
 	emit_vector(e, SCENE_OP_MAD, &rgb, &own, &x, &fog);
 }
 
-/* 1 where an attribute is called by its number and by its name: as Mesa (22.3.6) counts them, not in ARB_vertex_program's order. */
+/* 1 where an attribute is called by its number and by its name: as Mesa (22.3.6) counts them, not in
+ * ARB_vertex_program's order. */
 static int is_named_twice(const struct arb_parser *p)
 {
 	const uint32_t first = (1u << SCENE_VERTEX_TEXCOORD) - 1;
@@ -174,7 +179,8 @@ static void take_program(struct arb_parser *p)
 	size_t n;
 
 	if ((size_t)(w->end - w->at) < strlen(header) || memcmp(w->at, header, strlen(header)) != 0) {
-		arb_fail(w, p->is_vertex ? "a vertex program does not begin with !!ARBvp1.0" : "a fragment program does not begin with !!ARBfp1.0");
+		arb_fail(w, p->is_vertex ? "a vertex program does not begin with !!ARBvp1.0" :
+		                           "a fragment program does not begin with !!ARBfp1.0");
 		return;
 	}
 	w->at += strlen(header);

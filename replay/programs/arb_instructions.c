@@ -103,7 +103,8 @@ static void do_lit(struct arb_parser *p, const struct emit_target *to, const str
 {
 	struct emitter *e = &p->emitter;
 	const uint32_t limits = arb_literal(p, 0, 1, 128, -128), aside = e->scratch + 4;
-	const struct emit_source four = emit_four(limits), zero = emit_splat(&four, 0), most = emit_splat(&four, 2), least = emit_splat(&four, 3);
+	const struct emit_source four = emit_four(limits), zero = emit_splat(&four, 0), most = emit_splat(&four, 2),
+				 least = emit_splat(&four, 3);
 	const struct emit_source in = { { limits + 1, s[0].number[0], s[0].number[1], s[0].number[3] },
 		                        (s[0].negated & 1) << 1 | (s[0].negated & 2) << 1 | (s[0].negated & 8) };
 	const struct emit_source d = emit_four(aside), power = emit_splat(&d, 2), shine = emit_splat(&d, 3);
@@ -117,7 +118,8 @@ static void do_lit(struct arb_parser *p, const struct emit_target *to, const str
 	emit_vector(e, SCENE_OP_POWER, &z, &power, &shine, NULL);
 	below.negated = 15;
 	emit_vector(e, SCENE_OP_SELECT, &z, &below, &power, &zero);
-	emit_vector(e, SCENE_OP_MOVE, &w, &(struct emit_source){ { limits + 1, limits + 1, limits + 1, limits + 1 }, 0 }, NULL, NULL);
+	emit_vector(e, SCENE_OP_MOVE, &w,
+	            &(struct emit_source){ { limits + 1, limits + 1, limits + 1, limits + 1 }, 0 }, NULL, NULL);
 	move_from(p, to, aside);
 }
 
@@ -125,9 +127,11 @@ static void do_lit(struct arb_parser *p, const struct emit_target *to, const str
 static void do_exp(struct arb_parser *p, const struct emit_target *to, const struct emit_source s[3])
 {
 	struct emitter *e = &p->emitter;
-	const struct emit_source x = emit_splat(&s[0], 0), one = emit_four(arb_literal(p, 1, 1, 1, 1)), d = emit_four(e->scratch + 4);
+	const struct emit_source x = emit_splat(&s[0], 0), one = emit_four(arb_literal(p, 1, 1, 1, 1)),
+				 d = emit_four(e->scratch + 4);
 	const struct emit_source whole = emit_splat(&d, 0);
-	const struct emit_target first = { e->scratch + 4, 1, 0 }, second = { e->scratch + 4, 2, 0 }, third = { e->scratch + 4, 4, 0 },
+	const struct emit_target first = { e->scratch + 4, 1, 0 }, second = { e->scratch + 4, 2, 0 },
+	third = { e->scratch + 4, 4, 0 },
 	                         fourth = { e->scratch + 4, 8, 0 };
 
 	emit_vector(e, SCENE_OP_FLOOR, &first, &x, NULL, NULL);
@@ -142,9 +146,11 @@ static void do_exp(struct arb_parser *p, const struct emit_target *to, const str
 static void do_log(struct arb_parser *p, const struct emit_target *to, const struct emit_source s[3])
 {
 	struct emitter *e = &p->emitter;
-	const struct emit_source x = emit_splat(&s[0], 0), one = emit_four(arb_literal(p, 1, 1, 1, 1)), d = emit_four(e->scratch + 4);
+	const struct emit_source x = emit_splat(&s[0], 0), one = emit_four(arb_literal(p, 1, 1, 1, 1)),
+				 d = emit_four(e->scratch + 4);
 	const struct emit_source y = emit_splat(&d, 1), z = emit_splat(&d, 2), w = emit_splat(&d, 3);
-	const struct emit_target first = { e->scratch + 4, 1, 0 }, second = { e->scratch + 4, 2, 0 }, third = { e->scratch + 4, 4, 0 },
+	const struct emit_target first = { e->scratch + 4, 1, 0 }, second = { e->scratch + 4, 2, 0 },
+	third = { e->scratch + 4, 4, 0 },
 	                         fourth = { e->scratch + 4, 8, 0 };
 	struct emit_source less = emit_splat(&d, 0);
 
@@ -168,17 +174,21 @@ static const struct {
 	instruction *otherwise;
 } instructions[] = {
 	{ "ABS", 1, IN_BOTH, BY_COMPONENT, SCENE_OP_ABSOLUTE, NULL }, { "ADD", 2, IN_BOTH, BY_COMPONENT, SCENE_OP_ADD, NULL },
-	{ "CMP", 3, IN_FRAGMENTS, BY_COMPONENT, SCENE_OP_SELECT, NULL }, { "COS", 1, IN_FRAGMENTS, BY_NUMBER, SCENE_OP_COSINE, NULL },
-	{ "DP3", 2, IN_BOTH, OTHERWISE, 0, do_dp3 }, { "DP4", 2, IN_BOTH, OTHERWISE, 0, do_dp4 }, { "DPH", 2, IN_BOTH, OTHERWISE, 0, do_dph },
+	{ "CMP", 3, IN_FRAGMENTS, BY_COMPONENT, SCENE_OP_SELECT, NULL },
+	{ "COS", 1, IN_FRAGMENTS, BY_NUMBER, SCENE_OP_COSINE, NULL }, { "DP3", 2, IN_BOTH, OTHERWISE, 0, do_dp3 },
+	{ "DP4", 2, IN_BOTH, OTHERWISE, 0, do_dp4 }, { "DPH", 2, IN_BOTH, OTHERWISE, 0, do_dph },
 	{ "DST", 2, IN_BOTH, OTHERWISE, 0, do_dst }, { "EX2", 1, IN_BOTH, BY_NUMBER, SCENE_OP_EXP2, NULL },
 	{ "EXP", 1, IN_VERTICES, OTHERWISE, 0, do_exp }, { "LOG", 1, IN_VERTICES, OTHERWISE, 0, do_log },
-	{ "FLR", 1, IN_BOTH, BY_COMPONENT, SCENE_OP_FLOOR, NULL }, { "FRC", 1, IN_BOTH, BY_COMPONENT, SCENE_OP_FRACTION, NULL },
-	{ "LG2", 1, IN_BOTH, BY_NUMBER, SCENE_OP_LOG2, NULL }, { "LIT", 1, IN_BOTH, OTHERWISE, 0, do_lit }, { "LRP", 3, IN_FRAGMENTS, OTHERWISE, 0, do_lrp },
+	{ "FLR", 1, IN_BOTH, BY_COMPONENT, SCENE_OP_FLOOR, NULL },
+	{ "FRC", 1, IN_BOTH, BY_COMPONENT, SCENE_OP_FRACTION, NULL }, { "LG2", 1, IN_BOTH, BY_NUMBER, SCENE_OP_LOG2, NULL },
+	{ "LIT", 1, IN_BOTH, OTHERWISE, 0, do_lit }, { "LRP", 3, IN_FRAGMENTS, OTHERWISE, 0, do_lrp },
 	{ "MAD", 3, IN_BOTH, BY_COMPONENT, SCENE_OP_MAD, NULL }, { "MAX", 2, IN_BOTH, BY_COMPONENT, SCENE_OP_MAXIMUM, NULL },
-	{ "MIN", 2, IN_BOTH, BY_COMPONENT, SCENE_OP_MINIMUM, NULL }, { "MOV", 1, IN_BOTH, BY_COMPONENT, SCENE_OP_MOVE, NULL },
+	{ "MIN", 2, IN_BOTH, BY_COMPONENT, SCENE_OP_MINIMUM, NULL },
+	{ "MOV", 1, IN_BOTH, BY_COMPONENT, SCENE_OP_MOVE, NULL },
 	{ "MUL", 2, IN_BOTH, BY_COMPONENT, SCENE_OP_MULTIPLY, NULL }, { "POW", 2, IN_BOTH, BY_NUMBER, SCENE_OP_POWER, NULL },
-	{ "RCP", 1, IN_BOTH, BY_NUMBER, SCENE_OP_RECIPROCAL, NULL }, { "RSQ", 1, IN_BOTH, BY_NUMBER, SCENE_OP_INVERSE_ROOT, NULL },
-	{ "SCS", 1, IN_FRAGMENTS, OTHERWISE, 0, do_scs }, { "SGE", 2, IN_BOTH, BY_COMPONENT, SCENE_OP_GREATER_EQUAL, NULL },
+	{ "RCP", 1, IN_BOTH, BY_NUMBER, SCENE_OP_RECIPROCAL, NULL },
+	{ "RSQ", 1, IN_BOTH, BY_NUMBER, SCENE_OP_INVERSE_ROOT, NULL }, { "SCS", 1, IN_FRAGMENTS, OTHERWISE, 0, do_scs },
+	{ "SGE", 2, IN_BOTH, BY_COMPONENT, SCENE_OP_GREATER_EQUAL, NULL },
 	{ "SIN", 1, IN_FRAGMENTS, BY_NUMBER, SCENE_OP_SINE, NULL }, { "SLT", 2, IN_BOTH, BY_COMPONENT, SCENE_OP_LESS, NULL },
 	{ "SUB", 2, IN_BOTH, OTHERWISE, 0, do_sub }, { "XPD", 2, IN_BOTH, OTHERWISE, 0, do_xpd },
 };
@@ -219,9 +229,13 @@ static void take_texture(struct arb_parser *p, const struct emit_target *to, uin
 	static const struct {
 		const char *name;
 		enum gls_texture_target target;
-	} targets[] = { { "1D", GLS_TEXTURE_1D }, { "2D", GLS_TEXTURE_2D }, { "3D", GLS_TEXTURE_3D }, { "CUBE", GLS_TEXTURE_CUBE },
-		        { "RECT", GLS_TEXTURE_RECTANGLE }, { "SHADOW1D", GLS_TEXTURE_1D }, { "SHADOW2D", GLS_TEXTURE_2D },
-		        { "SHADOWRECT", GLS_TEXTURE_RECTANGLE } }; /* whether depths are compared, the texture says */
+	} targets[] = { { "1D", GLS_TEXTURE_1D },          { "2D", GLS_TEXTURE_2D },
+		        { "3D", GLS_TEXTURE_3D },          { "CUBE", GLS_TEXTURE_CUBE },
+		        { "RECT", GLS_TEXTURE_RECTANGLE }, { "SHADOW1D", GLS_TEXTURE_1D },
+		        { "SHADOW2D", GLS_TEXTURE_2D },    { "SHADOWRECT", GLS_TEXTURE_RECTANGLE } }; /* whether depths
+	                                                                                                 are compared,
+	                                                                                                 the texture
+	                                                                                                 says */
 	struct arb_words *w = &p->words;
 	const struct emit_source at = arb_take_source(p);
 	uint32_t unit, *target;
@@ -300,7 +314,8 @@ void arb_take_instruction(struct arb_parser *p, const char *name, size_t n)
 
 	p->n_fetched = 0;
 	for (size_t i = 0; i < sizeof(instructions) / sizeof(instructions[0]); i++)
-		if (instructions[i].stages & (p->is_vertex ? IN_VERTICES : IN_FRAGMENTS) && is_instruction(p, name, n, instructions[i].name, &saturates)) {
+		if (instructions[i].stages & (p->is_vertex ? IN_VERTICES : IN_FRAGMENTS) &&
+		    is_instruction(p, name, n, instructions[i].name, &saturates)) {
 			take_plain_instruction(p, i, saturates);
 			return;
 		}

@@ -9,7 +9,7 @@
 #define ARB_MAX_OFFSET 4096u /* of an address, as in Mesa */
 
 
-/* --- Registers and constants ----------------------------------------------------------------------------------------- */
+/* --- Registers and constants ------------------------------------------------------------------------------------ */
 
 uint32_t arb_new_registers(struct arb_parser *p)
 {
@@ -52,14 +52,15 @@ struct arb_symbol *arb_new_symbol(struct arb_parser *p)
 
 	s.n = arb_name(&p->words, &s.name);
 	if (!s.n || arb_find_symbol(p, s.name, s.n) || p->n_symbols == ARB_MAX_SYMBOLS) {
-		arb_fail(&p->words, p->n_symbols == ARB_MAX_SYMBOLS ? "an ARB program has more names than are done" : arb_bad_grammar);
+		arb_fail(&p->words, p->n_symbols == ARB_MAX_SYMBOLS ? "an ARB program has more names than are done" :
+		                                                      arb_bad_grammar);
 		return &nowhere;
 	}
 	p->symbols[p->n_symbols] = s;
 	return &p->symbols[p->n_symbols++];
 }
 
-/* --- Operands ---------------------------------------------------------------------------------------------------------- */
+/* --- Operands ---------------------------------------------------------------------------------------------------- */
 
 /* After `color`: 1 where the secondary one is meant. What follows may be a swizzle. */
 static uint32_t takes_secondary(struct arb_words *w)
@@ -251,7 +252,8 @@ uint32_t arb_take_binding(struct arb_parser *p, int in_array)
 	return w->why ? 0 : n;
 }
 
-/* After an array's `[`, where a name comes: an element that an address finds, offset included. @return its first register */
+/* After an array's `[`, where a name comes: an element that an address finds, offset included. @return its first
+ * register */
 static uint32_t take_fetched(struct arb_parser *p, const struct arb_symbol *array)
 {
 	struct arb_words *w = &p->words;
@@ -274,7 +276,8 @@ static uint32_t take_fetched(struct arb_parser *p, const struct arb_symbol *arra
 	*to = *to ? *to : arb_new_registers(p);
 	p->n_fetched++;
 	if (!w->why)
-		emit_fetch(&p->emitter, *to, p->elements[array->first], array->count, address->first, arb_literal(p, offset, 0, 0, 0));
+		emit_fetch(&p->emitter, *to, p->elements[array->first], array->count, address->first,
+		           arb_literal(p, offset, 0, 0, 0));
 	return *to;
 }
 
@@ -362,7 +365,8 @@ struct emit_target arb_take_target(struct arb_parser *p, int saturates)
 
 	if (arb_is(name, n, "result"))
 		to.first = arb_take_output(p);
-	else if (s && s->kind == ARB_IS_REGISTER && s->first >= (p->is_vertex ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR - 2))
+	else if (s && s->kind == ARB_IS_REGISTER &&
+	         s->first >= (p->is_vertex ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR - 2))
 		to.first = s->first;
 	else
 		arb_fail(w, arb_bad_grammar);

@@ -23,7 +23,8 @@ struct arb_parser {
 	struct program_constant bound[ARB_MAX_ELEMENTS]; /* those of one binding */
 	uint32_t n_symbols, n_elements;
 	uint32_t fetched[3], n_fetched;      /* where an instruction's operands are that an address has found */
-	uint32_t numbered, named;            /* bits: attributes of vertices that are called by number, 1 << it; by name, as inputs */
+	uint32_t numbered, named; /* bits: attributes of vertices that are called by number, 1 << it; by name, as inputs
+	                           */
 	int is_vertex, is_invariant;         /* a vertex program; one that leaves the position to fixed function */
 	enum { ARB_NO_FOG, ARB_FOG_LINEAR, ARB_FOG_EXP, ARB_FOG_EXP2 } fog;
 };
@@ -45,7 +46,8 @@ struct arb_symbol *arb_new_symbol(struct arb_parser *p);
 uint32_t arb_take_input(struct arb_parser *p);
 uint32_t arb_take_output(struct arb_parser *p);
 
-/** Constants that a binding names, into elements. in_array: each is there for itself, behind the last. @return how many */
+/** Constants that a binding names, into elements. in_array: each is there for itself, behind the last. @return how
+ * many */
 uint32_t arb_take_binding(struct arb_parser *p, int in_array);
 
 /** The first of an operand's four numbers, before any swizzle. */

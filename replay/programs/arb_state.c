@@ -71,8 +71,11 @@ static void take_light(struct arb_words *w, struct program_constant *c)
 	}
 }
 
-static const struct part colors[] = { { "ambient", GLS_AMBIENT }, { "diffuse", GLS_DIFFUSE }, { "specular", GLS_SPECULAR },
-	                              { "emission", GLS_EMISSION }, { "shininess", PROGRAM_SHININESS } };
+static const struct part colors[] = { { "ambient", GLS_AMBIENT },
+	                              { "diffuse", GLS_DIFFUSE },
+	                              { "specular", GLS_SPECULAR },
+	                              { "emission", GLS_EMISSION },
+	                              { "shininess", PROGRAM_SHININESS } };
 
 static void take_light_product(struct arb_words *w, struct program_constant *c)
 {
@@ -109,7 +112,9 @@ static uint32_t take_matrix(struct arb_words *w, struct program_constant *to, ui
 	arb_expect(w, '.');
 	matrix = TAKE_PART(w, matrices);
 	if (arb_peek(w) == '[')
-		matrix += arb_subscript(w, matrix == PROGRAM_TEXTURE_MATRIX ? GLS_MAX_UNITS : matrix == PROGRAM_OWN_MATRIX ? GLS_MAX_PROGRAM_MATRICES : 1);
+		matrix += arb_subscript(w, matrix == PROGRAM_TEXTURE_MATRIX ? GLS_MAX_UNITS :
+		                           matrix == PROGRAM_OWN_MATRIX     ? GLS_MAX_PROGRAM_MATRICES :
+		                                                              1);
 	if (arb_takes(w, '.') && !arb_takes_name(w, "row")) {
 		change = TAKE_PART(w, changes);
 		if (arb_takes(w, '.') && !arb_takes_name(w, "row"))

@@ -1,4 +1,5 @@
-/* What an ARB program names of GL's state and of its parameters: bindings of constants (tables X.1 to X.5 of both extensions). */
+/* What an ARB program names of GL's state and of its parameters: bindings of constants (tables X.1 to X.5 of both
+ * extensions). */
 #pragma once
 
 #include <stdint.h>

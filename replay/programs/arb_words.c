@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char arb_bad_grammar[] = "an ARB program breaks the grammar", arb_too_much[] = "an ARB program uses more than there is";
+const char arb_bad_grammar[] = "an ARB program breaks the grammar",
+	   arb_too_much[] = "an ARB program uses more than there is";
 
 void arb_fail(struct arb_words *w, const char *why)
 {

@@ -126,7 +126,8 @@ static uint32_t arguments_of(uint32_t operation)
 }
 
 /* Four numbers = f(arguments). */
-static void compute(struct translator *t, uint32_t operation, const struct emit_target *to, const struct emit_source s[3])
+static void compute(struct translator *t, uint32_t operation, const struct emit_target *to,
+                    const struct emit_source s[3])
 {
 	struct emitter *e = &t->emitter;
 	const struct emit_source value = emit_four(to->first), half = number(t, 0.5f);
@@ -165,8 +166,8 @@ static void compute(struct translator *t, uint32_t operation, const struct emit_
 static float scale_of(uint32_t change)
 {
 	static const struct { uint32_t bit; float scale; } scales[] = {
-		{ GL_2X_BIT_ATI, 2 }, { GL_4X_BIT_ATI, 4 }, { GL_8X_BIT_ATI, 8 }, { GL_HALF_BIT_ATI, 0.5f }, { GL_QUARTER_BIT_ATI, 0.25f },
-		{ GL_EIGHTH_BIT_ATI, 0.125f }
+		{ GL_2X_BIT_ATI, 2 }, { GL_4X_BIT_ATI, 4 }, { GL_8X_BIT_ATI, 8 }, { GL_HALF_BIT_ATI, 0.5f },
+		{ GL_QUARTER_BIT_ATI, 0.25f }, { GL_EIGHTH_BIT_ATI, 0.125f }
 	};
 
 	for (unsigned i = 0; i < sizeof(scales) / sizeof(scales[0]); i++)
@@ -180,7 +181,8 @@ static void take_arithmetic(struct translator *t, const struct ati_call *c)
 {
 	const uint32_t rgb = c->mask & 7 ? c->mask & 7 : 7; /* GL_RED_BIT_ATI, GL_GREEN_BIT_ATI, GL_BLUE_BIT_ATI */
 	const struct emit_target value = { t->value, 15, 0 };
-	const struct emit_target to = { t->registers[register_of(t, c->to)], c->kind == ATI_ALPHA ? 8 : rgb, !!(c->change & GL_SATURATE_BIT_ATI) };
+	const struct emit_target to = { t->registers[register_of(t, c->to)], c->kind == ATI_ALPHA ? 8 : rgb,
+		                        !!(c->change & GL_SATURATE_BIT_ATI) };
 	const struct emit_source result = emit_four(t->value), scale = number(t, scale_of(c->change));
 	struct emit_source s[3] = { result, result, result };
 	const uint32_t n = arguments_of(c->operation);
@@ -202,10 +204,12 @@ static void take_texture(struct translator *t, const struct ati_call *c)
 	const uint32_t from = c->arguments[0].source, r = register_of(t, c->to);
 	const uint32_t is_divided = c->operation == GL_SWIZZLE_STR_DR_ATI || c->operation == GL_SWIZZLE_STQ_DQ_ATI;
 	const uint32_t third = c->operation == GL_SWIZZLE_STQ_ATI || c->operation == GL_SWIZZLE_STQ_DQ_ATI ? 3 : 2;
-	const struct emit_target to = { t->registers[r], 15, 0 }, aside = { t->aside[0], 15, 0 }, first = { t->aside[1], 1, 0 };
+	const struct emit_target to = { t->registers[r], 15, 0 }, aside = { t->aside[0], 15, 0 },
+				 first = { t->aside[1], 1, 0 };
 	const struct emit_source changed = emit_four(t->aside[0]), inverse = emit_four(t->aside[1]);
-	struct emit_source s = from >= GL_TEXTURE0 && from < GL_TEXTURE0 + GLS_MAX_UNITS ? input(t, SCENE_INPUT_TEXCOORD + from - GL_TEXTURE0) :
-	                                                                                  emit_four(t->registers[register_of(t, from)]);
+	struct emit_source s = from >= GL_TEXTURE0 && from < GL_TEXTURE0 + GLS_MAX_UNITS ?
+	                               input(t, SCENE_INPUT_TEXCOORD + from - GL_TEXTURE0) :
+	                               emit_four(t->registers[register_of(t, from)]);
 
 	if (c->operation < GL_SWIZZLE_STR_ATI || c->operation > GL_SWIZZLE_STQ_DQ_ATI)
 		t->why = not_known;

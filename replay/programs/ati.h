@@ -1,6 +1,6 @@
 /*
- * Fragment shaders of ATI_fragment_shader: what is called between Begin and End is kept, call by call, and becomes code like programs in
- * assembly.
+ * Fragment shaders of ATI_fragment_shader: what is called between Begin and End is kept, call by call, and becomes code
+ * like programs in assembly.
  */
 #pragma once
 

@@ -13,15 +13,16 @@ int program_append(struct program_code *code, const struct scene_instruction *in
 		return ERR_INPUT;
 	if (MEMORY_GROW(code->instructions, code->instruction_room, code->n_instructions + 1))
 		return ERR_SYSTEM;
-	code->across |= instruction->operation == SCENE_OP_TEXTURE || instruction->operation == SCENE_OP_DX || instruction->operation == SCENE_OP_DY;
+	code->across |= instruction->operation == SCENE_OP_TEXTURE || instruction->operation == SCENE_OP_DX ||
+	                instruction->operation == SCENE_OP_DY;
 	code->instructions[code->n_instructions++] = *instruction;
 	return 0;
 }
 
 static int is_same(const struct program_constant *a, const struct program_constant *b)
 {
-	return a->source == b->source && a->index == b->index && a->part == b->part && a->face == b->face && a->row == b->row &&
-	       memcmp(a->value, b->value, sizeof(a->value)) == 0;
+	return a->source == b->source && a->index == b->index && a->part == b->part && a->face == b->face &&
+	       a->row == b->row && memcmp(a->value, b->value, sizeof(a->value)) == 0;
 }
 
 uint32_t program_constant(struct program_code *code, const struct program_constant *constant)

@@ -1,6 +1,6 @@
 /*
- * A program translated: instructions for kernels (scene/program.h), and what state their constants are of. The translators write it, and
- * build.c fills in the numbers when something is drawn.
+ * A program translated: instructions for kernels (scene/program.h), and what state their constants are of. The
+ * translators write it, and build.c fills in the numbers when something is drawn.
  */
 #pragma once
 
@@ -30,7 +30,8 @@ enum program_source {
 	PROGRAM_NORMAL_SCALE   /* the factor of RESCALE_NORMAL */
 };
 enum program_light_part {
-	PROGRAM_LIGHT_AMBIENT, PROGRAM_LIGHT_DIFFUSE, PROGRAM_LIGHT_SPECULAR, PROGRAM_LIGHT_POSITION, PROGRAM_LIGHT_ATTENUATION,
+	PROGRAM_LIGHT_AMBIENT, PROGRAM_LIGHT_DIFFUSE, PROGRAM_LIGHT_SPECULAR, PROGRAM_LIGHT_POSITION,
+	PROGRAM_LIGHT_ATTENUATION,
 	PROGRAM_LIGHT_DIRECTION, /* of a spot; the fourth: cosine of its cutoff */
 	PROGRAM_LIGHT_HALF,      /* half-way vector of a light at infinity */
 	PROGRAM_LIGHT_CUTOFF     /* of a spot, degrees */
@@ -70,11 +71,13 @@ struct program_code {
 	uint32_t inputs, kills, sets_depth, outputs, across, data, n_data; /* as in struct scene_program */
 	uint32_t targets[SCENE_MAX_UNITS];  /* 1 + enum gls_texture_target of what it samples of each unit; 0: nothing */
 	uint32_t enabled;                   /* bits: units of which it samples what fixed function would */
-	struct program_sampler samplers[PROGRAM_MAX_SAMPLERS]; /* where there are some, TEXTURE names one of them in place of its unit */
+	struct program_sampler samplers[PROGRAM_MAX_SAMPLERS]; /* where there are some, TEXTURE names one of them in
+	                                                          place of its unit */
 	uint32_t n_samplers;
 };
 
-/* A stage of the pipeline that a program runs: what it is, and what its parameters hold (PROGRAM_ENV, PROGRAM_LOCAL). Borrowed. */
+/* A stage of the pipeline that a program runs: what it is, and what its parameters hold (PROGRAM_ENV, PROGRAM_LOCAL).
+ * Borrowed. */
 struct program_stage {
 	const struct program_code *code;
 	const float (*env)[4], (*local)[4];
@@ -93,7 +96,8 @@ static inline uint32_t program_unit_of(const struct program_stage *stage, uint32
 uint32_t program_target(const struct program_stage *stage, uint32_t unit);
 
 /**
- * Append an instruction. @return 0, or ERR_SYSTEM: out of memory (reported), ERR_INPUT: there are SCENE_PROGRAM_INSTRUCTIONS already
+ * Append an instruction. @return 0, or ERR_SYSTEM: out of memory (reported), ERR_INPUT: there are
+ * SCENE_PROGRAM_INSTRUCTIONS already
  */
 int program_append(struct program_code *code, const struct scene_instruction *instruction);
 
@@ -107,7 +111,8 @@ uint32_t program_operands(uint32_t operation);
 uint32_t program_constant_append(struct program_code *code, const struct program_constant *constant);
 
 /**
- * The operand that stands for a constant's first number: the constant, or registers of the program's own where it is what a light sends.
+ * The operand that stands for a constant's first number: the constant, or registers of the program's own where it is
+ * what a light sends.
  * @return it; UINT32_MAX: out of memory (reported)
  */
 uint32_t program_constant_operand(struct program_code *code, const struct program_constant *constant);

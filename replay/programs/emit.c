@@ -20,7 +20,8 @@ static void append(struct emitter *e, const struct scene_instruction *in)
 		e->err = program_append(e->code, in);
 }
 
-/* How the components from `first` on follow each other in a source: 1 in a row, 0 all the same, -1 neither. count: of them */
+/* How the components from `first` on follow each other in a source: 1 in a row, 0 all the same, -1 neither. count: of
+ * them */
 static int step_of(const struct emit_source *s, uint32_t first, uint32_t count)
 {
 	int row = 1, same = 1;
@@ -61,7 +62,9 @@ static void emit_runs(struct emitter *e, enum scene_operation operation, const s
                       const struct emit_source *const sources[3])
 {
 	for (uint32_t i = 0, n; i < 4; i += n) {
-		struct scene_instruction in = { .operation = operation, .to = to->first + i, .flags = to->saturates ? SCENE_SATURATE : 0 };
+		struct scene_instruction in = { .operation = operation,
+			                        .to = to->first + i,
+			                        .flags = to->saturates ? SCENE_SATURATE : 0 };
 		uint32_t *operands[3] = { &in.a, &in.b, &in.c };
 
 		n = 1;
@@ -77,8 +80,8 @@ static void emit_runs(struct emitter *e, enum scene_operation operation, const s
 	}
 }
 
-void emit_vector(struct emitter *e, enum scene_operation operation, const struct emit_target *to, const struct emit_source *a,
-                 const struct emit_source *b, const struct emit_source *c)
+void emit_vector(struct emitter *e, enum scene_operation operation, const struct emit_target *to,
+                 const struct emit_source *a, const struct emit_source *b, const struct emit_source *c)
 {
 	const struct emit_source *const sources[3] = { a, b, c };
 	const struct emit_target aside = { e->scratch, to->mask, to->saturates }, plain = { to->first, to->mask, 0 };
@@ -92,8 +95,8 @@ void emit_vector(struct emitter *e, enum scene_operation operation, const struct
 	emit_vector(e, SCENE_OP_MOVE, &plain, &result, NULL, NULL);
 }
 
-void emit_scalar(struct emitter *e, enum scene_operation operation, const struct emit_target *to, const struct emit_source *a,
-                 const struct emit_source *b)
+void emit_scalar(struct emitter *e, enum scene_operation operation, const struct emit_target *to,
+                 const struct emit_source *a, const struct emit_source *b)
 {
 	const struct emit_target one = { e->scratch, 1, 0 };
 	const struct emit_source four = emit_four(e->scratch), result = emit_splat(&four, 0);
@@ -102,8 +105,8 @@ void emit_scalar(struct emitter *e, enum scene_operation operation, const struct
 	emit_vector(e, SCENE_OP_MOVE, to, &result, NULL, NULL);
 }
 
-void emit_dot(struct emitter *e, const struct emit_target *to, const struct emit_source *a, const struct emit_source *b, uint32_t n,
-              int homogeneous)
+void emit_dot(struct emitter *e, const struct emit_target *to, const struct emit_source *a, const struct emit_source *b,
+              uint32_t n, int homogeneous)
 {
 	const struct emit_target sum = { e->scratch, 1, 0 };
 	const struct emit_source four = emit_four(e->scratch), result = emit_splat(&four, 0), last = emit_splat(b, 3);
@@ -118,11 +121,14 @@ void emit_dot(struct emitter *e, const struct emit_target *to, const struct emit
 	emit_vector(e, SCENE_OP_MOVE, to, &result, NULL, NULL);
 }
 
-void emit_texture(struct emitter *e, const struct emit_target *to, const struct emit_source *coordinates, uint32_t unit, uint32_t flags)
+void emit_texture(struct emitter *e, const struct emit_target *to, const struct emit_source *coordinates, uint32_t unit,
+                  uint32_t flags)
 {
 	const struct emit_target place = { e->scratch, 15, 0 };
 	const struct emit_source sample = emit_four(e->scratch + 4);
-	const struct scene_instruction in = { .operation = SCENE_OP_TEXTURE, .n = 1, .to = e->scratch + 4, .a = e->scratch, .b = unit, .c = flags };
+	const struct scene_instruction in = {
+		.operation = SCENE_OP_TEXTURE, .n = 1, .to = e->scratch + 4, .a = e->scratch, .b = unit, .c = flags
+	};
 
 	emit_vector(e, SCENE_OP_MOVE, &place, coordinates, NULL, NULL);
 	append(e, &in);
@@ -131,8 +137,15 @@ void emit_texture(struct emitter *e, const struct emit_target *to, const struct 
 
 void emit_fetch(struct emitter *e, uint32_t to, uint32_t array, uint32_t elements, uint32_t address, uint32_t offset)
 {
-	const struct scene_instruction place = { .operation = SCENE_OP_ADD, .n = 1, .to = e->scratch, .a = address, .b = offset };
-	const struct scene_instruction in = { .operation = SCENE_OP_FETCH, .n = 4, .to = to, .a = array, .b = e->scratch, .c = SCENE_ARRAY(elements, 4u) };
+	const struct scene_instruction place = {
+		.operation = SCENE_OP_ADD, .n = 1, .to = e->scratch, .a = address, .b = offset
+	};
+	const struct scene_instruction in = { .operation = SCENE_OP_FETCH,
+		                              .n = 4,
+		                              .to = to,
+		                              .a = array,
+		                              .b = e->scratch,
+		                              .c = SCENE_ARRAY(elements, 4u) };
 
 	append(e, &place);
 	append(e, &in);

@@ -31,21 +31,23 @@ struct emit_source emit_splat(const struct emit_source *from, uint32_t component
 struct emit_source emit_four(uint32_t first);
 
 /** to = f(a, b, c) for each component that is written; b and c may be NULL. The target may be among the sources. */
-void emit_vector(struct emitter *e, enum scene_operation operation, const struct emit_target *to, const struct emit_source *a,
-                 const struct emit_source *b, const struct emit_source *c);
+void emit_vector(struct emitter *e, enum scene_operation operation, const struct emit_target *to,
+                 const struct emit_source *a, const struct emit_source *b, const struct emit_source *c);
 
 /** All components = f(a.x, b.x). */
-void emit_scalar(struct emitter *e, enum scene_operation operation, const struct emit_target *to, const struct emit_source *a,
-                 const struct emit_source *b);
+void emit_scalar(struct emitter *e, enum scene_operation operation, const struct emit_target *to,
+                 const struct emit_source *a, const struct emit_source *b);
 
 /** All components = the sum of the first n products; plus b.w where `homogeneous`. */
-void emit_dot(struct emitter *e, const struct emit_target *to, const struct emit_source *a, const struct emit_source *b, uint32_t n,
-              int homogeneous);
+void emit_dot(struct emitter *e, const struct emit_target *to, const struct emit_source *a, const struct emit_source *b,
+              uint32_t n, int homogeneous);
 
 /** A sample of a unit. flags: SCENE_TEXTURE_* */
-void emit_texture(struct emitter *e, const struct emit_target *to, const struct emit_source *coordinates, uint32_t unit, uint32_t flags);
+void emit_texture(struct emitter *e, const struct emit_target *to, const struct emit_source *coordinates, uint32_t unit,
+                  uint32_t flags);
 
-/** Four numbers of an array's element, zeros where there is none: number address + offset, two operands. array: its first constant */
+/** Four numbers of an array's element, zeros where there is none: number address + offset, two operands. array: its
+ * first constant */
 void emit_fetch(struct emitter *e, uint32_t to, uint32_t array, uint32_t elements, uint32_t address, uint32_t offset);
 
 /** Discard the fragment where a component is below 0. */

@@ -15,8 +15,8 @@ struct known {
 };
 
 /* One of an instruction's operands, for its number i. @return whether it is known */
-static int look_up(const struct known *known, uint32_t operand, uint32_t i, uint32_t flags, uint32_t step, uint32_t negate,
-                   float *value)
+static int look_up(const struct known *known, uint32_t operand, uint32_t i, uint32_t flags, uint32_t step,
+                   uint32_t negate, float *value)
 {
 	const uint32_t number = operand + (flags & step ? i : 0);
 
@@ -62,8 +62,9 @@ static int result_of(const struct known *known, const struct scene_instruction *
 	    (n > 1 && !look_up(known, in->b, i, in->flags, SCENE_STEP_B, SCENE_NEGATE_B, &b)) ||
 	    (n > 2 && !look_up(known, in->c, i, in->flags, SCENE_STEP_C, SCENE_NEGATE_C, &c)))
 		return 0;
-	*value = folds(in->operation) ? folded(in->operation, a, b) :
-	                                program_result(in->operation, program_splat(a), program_splat(b), program_splat(c), 1).x;
+	*value = folds(in->operation) ?
+	                 folded(in->operation, a, b) :
+	                 program_result(in->operation, program_splat(a), program_splat(b), program_splat(c), 1).x;
 	if (in->flags & SCENE_SATURATE)
 		*value = clamp01(*value);
 	return 1;

@@ -62,7 +62,8 @@ int gls_held_reads(const struct gls_stages *p, enum gls_stage stage, uint32_t fi
 			const uint32_t width = in->operation == SCENE_OP_TEXTURE ? 4 : in->flags & SCENE_STEP_A << k ? in->n : 1;
 			const uint32_t from = c ? c->index * 4 + number % 4 : 0;
 
-			if (c && c->source == PROGRAM_LOCAL && (in->operation == SCENE_OP_FETCH || (from < first + n && first < from + width)))
+			if (c && c->source == PROGRAM_LOCAL &&
+			    (in->operation == SCENE_OP_FETCH || (from < first + n && first < from + width)))
 				return 1;
 		}
 	}

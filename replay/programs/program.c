@@ -53,8 +53,9 @@ int gls_program_set(struct gls_program *p, const char *text, size_t n)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for a program of %zu bytes", n);
 	memcpy(source, text, n);
 	source[n] = 0;
-	err = p->target == GL_FRAGMENT_SHADER_ATI ? program_translate_ati((const struct ati_call *)(void *)source, n, &code, &why) :
-	                                           program_translate_arb(source, n, p->target == GL_VERTEX_PROGRAM_ARB, &code, &why);
+	err = p->target == GL_FRAGMENT_SHADER_ATI ?
+	              program_translate_ati((const struct ati_call *)(void *)source, n, &code, &why) :
+	              program_translate_arb(source, n, p->target == GL_VERTEX_PROGRAM_ARB, &code, &why);
 	if (!err)
 		err = gls_program_reserve(p, locals_of(&code));
 	refused = !err && (why == arb_bad_grammar || why == arb_too_much);
@@ -75,7 +76,9 @@ int gls_program_set(struct gls_program *p, const char *text, size_t n)
 
 struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t target)
 {
-	const uint32_t name = target == GL_FRAGMENT_SHADER_ATI ? st->ati_fragment : target == GL_VERTEX_PROGRAM_ARB ? st->arb_vertex : st->arb_fragment;
+	const uint32_t name = target == GL_FRAGMENT_SHADER_ATI ? st->ati_fragment :
+	                      target == GL_VERTEX_PROGRAM_ARB  ? st->arb_vertex :
+	                                                         st->arb_fragment;
 
 	return table_find(&st->share->programs, gls_program_key(target, name));
 }
@@ -106,14 +109,18 @@ static const char *lack_of_shaders(const struct gls_state *st)
 			if (program_unit_of(&stage, i) >= GLS_MAX_UNITS)
 				return "a shader samples texture units from 8 on";
 	}
-	return p->code[GLS_FRAGMENT_STAGE].n_data && st->a.color.also_drawn & GLS_OUT_OF_ORDER ? "a shader draws to several buffers, not in the order of their numbers" :
-	                                                                                        NULL;
+	return p->code[GLS_FRAGMENT_STAGE].n_data && st->a.color.also_drawn & GLS_OUT_OF_ORDER ?
+	               "a shader draws to several buffers, not in the order of their numbers" :
+	               NULL;
 }
 
-/* 1 where an ATI fragment shader takes the place of fixed function: a program in assembly comes before it, and one without calls is none. */
+/* 1 where an ATI fragment shader takes the place of fixed function: a program in assembly comes before it, and one
+ * without calls is none. */
 static int is_by_ati(const struct gls_state *st)
 {
-	const struct gls_program *p = st->a.programs.ati && !st->a.programs.fragment && !st->ati_open ? gls_program_bound(st, GL_FRAGMENT_SHADER_ATI) : NULL;
+	const struct gls_program *p = st->a.programs.ati && !st->a.programs.fragment && !st->ati_open ?
+	                                      gls_program_bound(st, GL_FRAGMENT_SHADER_ATI) :
+	                                      NULL;
 
 	return p && p->source;
 }
@@ -154,8 +161,10 @@ const char *gls_program_lack(const struct gls_state *st)
 	lack = st->program ? lack_of_shaders(st) : lack_of_assembly(st);
 	if (lack || !st->program)
 		return lack;
-	return st->a.programs.two_side && st->a.transform.clip_plane_mask && linked(st)->code[GLS_VERTEX_STAGE].outputs >> SCENE_RESULT_CLIP_VERTEX & 1 ?
-	       "a shader sets gl_ClipVertex and colours of both sides: clip planes do not clip by it" : NULL;
+	return st->a.programs.two_side && st->a.transform.clip_plane_mask &&
+	                       linked(st)->code[GLS_VERTEX_STAGE].outputs >> SCENE_RESULT_CLIP_VERTEX & 1 ?
+	               "a shader sets gl_ClipVertex and colours of both sides: clip planes do not clip by it" :
+	               NULL;
 }
 
 unsigned gls_program_current(const struct gls_state *st, uint64_t keys[SCENE_DRAW_PROGRAMS])
@@ -189,7 +198,10 @@ static int runs(const struct gls_state *st, uint32_t target, struct program_stag
 {
 	const struct gls_program *p = gls_program_bound(st, target);
 
-	*stage = (struct program_stage){ &p->code, target == GL_FRAGMENT_SHADER_ATI ? st->ati_constants : st->program_env[target == GL_VERTEX_PROGRAM_ARB],
+	*stage = (struct program_stage){ &p->code,
+		                         target == GL_FRAGMENT_SHADER_ATI ?
+		                                 st->ati_constants :
+		                                 st->program_env[target == GL_VERTEX_PROGRAM_ARB],
 		                         p->local };
 	return 1;
 }

@@ -1,4 +1,5 @@
-/* What a program object of GLSL runs (replay/glsl has the objects): the first member of struct gls_shader, so that this room need not know more. */
+/* What a program object of GLSL runs (replay/glsl has the objects): the first member of struct gls_shader, so that this
+ * room need not know more. */
 #pragma once
 
 #include <stdint.h>

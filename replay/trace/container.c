@@ -73,7 +73,8 @@ static const char *foreign_kind(const uint8_t *head, size_t n)
 	return NULL;
 }
 
-/* Read the file's next bytes; fewer: it ends. @return 0, or ERR_SYSTEM (reported): a disk that fails is no end, and no damage either */
+/* Read the file's next bytes; fewer: it ends. @return 0, or ERR_SYSTEM (reported): a disk that fails is no end, and no
+ * damage either */
 static int read_file(struct container *c, void *to, size_t most, size_t *n)
 {
 	*n = fread(to, 1, most, c->file);

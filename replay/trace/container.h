@@ -35,8 +35,9 @@ int container_is_cut(const struct container *c);
 uint64_t container_behind(const struct container *c);
 
 /**
- * Hash the file as hash_whole does. Snappy chunks that are read in order from now on are hashed on the way; hash_end reads the rest
- * of the file, or all of it where the container was sought or is of another kind. After hash_end nothing more is delivered.
+ * Hash the file as hash_whole does. Snappy chunks that are read in order from now on are hashed on the way; hash_end
+ * reads the rest of the file, or all of it where the container was sought or is of another kind. After hash_end nothing
+ * more is delivered.
  * @return 0, ERR_INPUT or ERR_SYSTEM (reported)
  */
 int container_hash_begin(struct container *c);

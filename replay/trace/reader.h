@@ -1,9 +1,10 @@
 /*
  * Reads apitrace's traces (formats 0 .. 6) call by call, in a stream: memory does not grow with the file.
  *
- * Containers: Snappy chunks (what recorders write), one gzip stream, one Brotli stream. Calls come in the order in which they
- * returned. A call and all it points to belong to the reader and are valid until the next trace_reader_next; signatures live as long
- * as the reader. Nothing in the file is trusted: a file cut at any byte delivers every call that is whole.
+ * Containers: Snappy chunks (what recorders write), one gzip stream, one Brotli stream. Calls come in the order in
+ * which they returned. A call and all it points to belong to the reader and are valid until the next trace_reader_next;
+ * signatures live as long as the reader. Nothing in the file is trusted: a file cut at any byte delivers every call
+ * that is whole.
  *
  * The reader does not know what calls mean.
  */
@@ -39,20 +40,22 @@ void trace_reader_close(struct trace_reader **r);
 /**
  * The next call.
  * @param call  receives it; NULL unless 1 is returned
- * @return 1; 0 at the end (a file that ends within an event is warned about once); ERR_INPUT (reported with the byte and
- *         the call) where the bytes make no sense; ERR_SYSTEM. After 0 or an error every further call returns the same.
+ * @return 1; 0 at the end (a file that ends within an event is warned about once); ERR_INPUT (reported with the byte
+ * and the call) where the bytes make no sense; ERR_SYSTEM. After 0 or an error every further call returns the same.
  */
 int trace_reader_next(struct trace_reader *r, const struct call **call);
 
 /** A place between two calls, to come back to. */
 struct trace_place {
-	uint64_t piece;       /* in the file: where the container's piece that holds it begins; UINT64_MAX: reading cannot start there */
+	uint64_t piece; /* in the file: where the container's piece that holds it begins; UINT64_MAX: reading cannot
+	                   start there */
 	uint64_t piece_start; /* bytes of the unpacked stream before that piece */
 	uint64_t offset;      /* bytes of the unpacked stream before the place */
 	uint64_t number;      /* of the next call */
 };
 
-/** Where the reader is. @return 1; 0: a call that was entered has not returned yet, and the reader cannot come back here */
+/** Where the reader is. @return 1; 0: a call that was entered has not returned yet, and the reader cannot come back
+ * here */
 int trace_reader_place(const struct trace_reader *r, struct trace_place *place);
 
 /**

@@ -1,8 +1,8 @@
 /*
  * A reader, as its own files see it, and the bytes that it reads: numbers, strings and blocks of the unpacked stream.
  *
- * Reading stops at the first failure or at the end: r->status is then set, and every function gives zeros. Callers look at it
- * where a loop or an index depends on what was read.
+ * Reading stops at the first failure or at the end: r->status is then set, and every function gives zeros. Callers look
+ * at it where a loop or an index depends on what was read.
  */
 #pragma once
 
@@ -126,7 +126,8 @@ static inline void reader_bytes(struct trace_reader *r, void *out, size_t n)
 	r->p += n;
 }
 
-/** n bytes into an arena, NUL-terminated. The count is not believed: room grows with the bytes that are really there. */
+/** n bytes into an arena, NUL-terminated. The count is not believed: room grows with the bytes that are really
+ * there. */
 uint8_t *reader_block(struct trace_reader *r, struct arena *a, uint64_t n);
 
 /** A string with its length in front, which `count` receives unless it is NULL. */

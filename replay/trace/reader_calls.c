@@ -86,7 +86,8 @@ static inline void forget_args(struct reader_call *p, uint32_t first)
  * @param whole  receives 1: these were all; 0: read_details goes on
  * @return behind them
  */
-static inline const uint8_t *quick_details(struct trace_reader *r, const uint8_t *p, struct reader_call *pending, uint32_t known, int *whole)
+static inline const uint8_t *quick_details(struct trace_reader *r, const uint8_t *p, struct reader_call *pending,
+                                           uint32_t known, int *whole)
 {
 	const uint8_t *next, *const end = r->end;
 	const uint32_t n_args = pending->call.n_args < 0x80 ? pending->call.n_args : 0x80;
@@ -162,7 +163,9 @@ void reader_release_call(struct reader_call *p)
 /* A call; its arguments are not read yet. */
 static inline void begin_call(struct reader_call *p, uint64_t thread, const struct call_sig *sig)
 {
-	p->call = (struct call){ .thread = thread, .sig = sig, .n_args = sig->n_args, .args = p->args, .ret.type = TRACE_NONE };
+	p->call = (struct call){
+		.thread = thread, .sig = sig, .n_args = sig->n_args, .args = p->args, .ret.type = TRACE_NONE
+	};
 }
 
 /* The details of an ENTER event, from r->p on, and its end. */
@@ -217,8 +220,8 @@ static struct reader_call *read_leave(struct trace_reader *r)
 }
 
 /*
- * The next call, if its ENTER begins the quick way and its LEAVE follows at once. Whatever is not so is left to the usual
- * way, which goes on where r->p is then.
+ * The next call, if its ENTER begins the quick way and its LEAVE follows at once. Whatever is not so is left to the
+ * usual way, which goes on where r->p is then.
  * @return the call that has returned, or NULL: the next event is to be read, or failed
  */
 static struct reader_call *quick_call(struct trace_reader *r)
@@ -250,7 +253,8 @@ static struct reader_call *quick_call(struct trace_reader *r)
 		p = r->p;
 	}
 	r->p = p;
-	if (r->end - p < READER_QUICK_BYTES || *p != TRACE_LEAVE || !(p = reader_quick_uint(p + 1, &number)) || number != entered->call.number)
+	if (r->end - p < READER_QUICK_BYTES || *p != TRACE_LEAVE || !(p = reader_quick_uint(p + 1, &number)) ||
+	    number != entered->call.number)
 		return NULL;
 	p = quick_details(r, p, entered, entered->call.n_args, &whole);
 	r->p = p;
@@ -268,11 +272,16 @@ static struct reader_call *end_of_calls(struct trace_reader *r)
 		r->ended = 1;
 		r->cut |= container_is_cut(r->container);
 		if (r->cut)
-			err_warn(r->path, "the file is cut short after call %llu; frames before it are whole, and 'relume repair' saves them",
+			err_warn(r->path,
+			         "the file is cut short after call %llu; frames before it are whole, and 'relume "
+			         "repair' saves them",
 			         (unsigned long long)r->next_number);
 		else if (container_behind(r->container))
-			err_warn(r->path, "%llu bytes follow the recording after call %llu, and are not read; 'relume repair' tells them apart",
-			         (unsigned long long)container_behind(r->container), (unsigned long long)r->next_number);
+			err_warn(r->path,
+			         "%llu bytes follow the recording after call %llu, and are not read; 'relume repair' "
+			         "tells them apart",
+			         (unsigned long long)container_behind(r->container),
+			         (unsigned long long)r->next_number);
 	}
 	for (size_t i = 0; i < r->n_pending; i++)
 		if (r->pending[i]->in_use && (!oldest || r->pending[i]->call.number < oldest->call.number))

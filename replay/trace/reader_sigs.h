@@ -1,6 +1,6 @@
 /*
- * Signatures: the names of calls, enums, bitmasks and structs. A trace spells each where it is met first and names it by a number
- * from then on.
+ * Signatures: the names of calls, enums, bitmasks and structs. A trace spells each where it is met first and names it
+ * by a number from then on.
  */
 #pragma once
 

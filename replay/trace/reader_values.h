@@ -11,9 +11,9 @@
 void reader_value(struct trace_reader *r, struct arena *a, struct trace_value *v, unsigned depth);
 
 /**
- * The quick way. Nearly all that a trace holds are short numbers, known enums and floats within a piece. These functions read
- * them without looking for the piece's end at every byte, and without a store to the reader that the compiler could not keep in
- * a register. Anything else they leave, untouched, to reader_value.
+ * The quick way. Nearly all that a trace holds are short numbers, known enums and floats within a piece. These
+ * functions read them without looking for the piece's end at every byte, and without a store to the reader that the
+ * compiler could not keep in a register. Anything else they leave, untouched, to reader_value.
  */
 #define READER_QUICK_BYTES 32 /* more than any value without items takes: tag, two numbers and a tag between them */
 
@@ -25,7 +25,8 @@ static inline const uint8_t *reader_quick_float(const uint8_t *p, struct trace_v
 	return p + sizeof(v->f);
 }
 
-/** A quick value at p, of which READER_QUICK_BYTES can be read. @return behind it; NULL: not a quick one, v is untouched */
+/** A quick value at p, of which READER_QUICK_BYTES can be read. @return behind it; NULL: not a quick one, v is
+ * untouched */
 static inline const uint8_t *reader_quick_scalar(const struct trace_reader *r, const uint8_t *p, struct trace_value *v)
 {
 	unsigned tag = *p++, sign;

@@ -1,12 +1,12 @@
 /*
- * Writes calls that a reader delivered as a new trace: format 6 in Snappy chunks of 1 MiB (capture/format/trace.md), whatever their
- * own trace was packed in.
+ * Writes calls that a reader delivered as a new trace: format 6 in Snappy chunks of 1 MiB (capture/format/trace.md),
+ * whatever their own trace was packed in.
  *
- * Calls are numbered anew from 0, in the order in which they are handed over. Each is written whole: its return follows its arguments
- * at once. Stack traces are not kept. The file appears under its name when it is finished (base/part.h).
+ * Calls are numbered anew from 0, in the order in which they are handed over. Each is written whole: its return follows
+ * its arguments at once. Stack traces are not kept. The file appears under its name when it is finished (base/part.h).
  *
- * The recorder has a writer of its own (capture/write/writer.h): it encodes a running program's values of C by generated tables. This
- * one encodes values that know their type, with names from the trace.
+ * The recorder has a writer of its own (capture/write/writer.h): it encodes a running program's values of C by
+ * generated tables. This one encodes values that know their type, with names from the trace.
  */
 #pragma once
 

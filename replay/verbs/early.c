@@ -110,7 +110,8 @@ static int put_unseen(struct early *e, const struct call *call)
 	return rc ? rc : put(e, call);
 }
 
-/* Any other call. Only some leave discarding as it is: those that neither read nor write pixels, nor change contexts. */
+/* Any other call. Only some leave discarding as it is: those that neither read nor write pixels, nor change
+ * contexts. */
 static int put_plain(struct early *e, const struct call *call)
 {
 	uint32_t kind = kind_of(call);
@@ -264,7 +265,8 @@ static int put_one(struct early *e, const struct call *call)
 		return rc;
 	if (e->threads[thread].compiling || is(call, "glNewList"))
 		return put_list_call(e, call);
-	if ((call->sig->command >= 0 && gls_commands[call->sig->command].drawing && !is_clear_of_none(call)) || is_time(call) || is_array_of_draw(call))
+	if ((call->sig->command >= 0 && gls_commands[call->sig->command].drawing && !is_clear_of_none(call)) ||
+	    is_time(call) || is_array_of_draw(call))
 		return 0;
 	if ((is(call, "glBegin") && call->n_args == 1 && !e->threads[thread].drawing) || is(call, "glEnd"))
 		return put_begin_end(e, call);

@@ -1,13 +1,13 @@
 /*
- * Frames that are left out of a trace: keeps their calls that make objects and state, and drops those that only draw or end a frame
- * (capture/gen/overlay.txt marks them, for the recorder as well).
+ * Frames that are left out of a trace: keeps their calls that make objects and state, and drops those that only draw or
+ * end a frame (capture/gen/overlay.txt marks them, for the recorder as well).
  *
- * All between NewList and EndList is kept. A list that is executed may change state, so it runs, and draws nothing: it runs with
- * RASTERIZER_DISCARD (GL 3.0 sec. 3.1). Begin and End stay where such a list runs between them. Of colours, normals and texture
- * coordinates only the last before any other call is kept.
+ * All between NewList and EndList is kept. A list that is executed may change state, so it runs, and draws nothing: it
+ * runs with RASTERIZER_DISCARD (GL 3.0 sec. 3.1). Begin and End stay where such a list runs between them. Of colours,
+ * normals and texture coordinates only the last before any other call is kept.
  *
- * Mesa (22.3) does not move the raster position by a bitmap that is discarded. A driver and this machine may differ where such a
- * bitmap stands in a list and a later frame goes on from its position.
+ * Mesa (22.3) does not move the raster position by a bitmap that is discarded. A driver and this machine may differ
+ * where such a bitmap stands in a list and a later frame goes on from its position.
  */
 #pragma once
 

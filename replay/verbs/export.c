@@ -22,7 +22,8 @@ struct export {
 
 static const struct options_row rows[] = {
 	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct export, frame) },
-	{ "output", 'o', "FILE", "the file; appears when it is whole", options_text, .at = offsetof(struct export, output), .is_required = 1, .use = CONFINE_MAKES },
+	{ "output", 'o', "FILE", "the file; appears when it is whole", options_text,
+	  .at = offsetof(struct export, output), .is_required = 1, .use = CONFINE_MAKES },
 	{ OPTIONS_NO_SANDBOX },
 };
 
@@ -79,7 +80,9 @@ static int check_name(const char *path)
 {
 	const char *ending = strrchr(path, '.');
 
-	return ending && strcasecmp(ending, ".glb") == 0 ? 0 : err_report(ERR_USAGE, NULL, "'%s' names no binary glTF; end it in .glb", path);
+	return ending && strcasecmp(ending, ".glb") == 0 ?
+	               0 :
+	               err_report(ERR_USAGE, NULL, "'%s' names no binary glTF; end it in .glb", path);
 }
 
 int export_main(int argc, char **argv)

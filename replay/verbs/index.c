@@ -17,8 +17,11 @@ struct asked {
 };
 
 static const struct options_row rows[] = {
-	{ "force", 0, NULL, "make it anew even where it is current", options_flag, .at = offsetof(struct asked, force) },
-	{ "check", 0, NULL, "compare what every checkpoint restores with what the recording's calls lead to (exit code 1 where they differ)",
+	{ "force", 0, NULL, "make it anew even where it is current", options_flag,
+	  .at = offsetof(struct asked, force) },
+	{ "check", 0, NULL,
+	  "compare what every checkpoint restores with what the recording's calls lead to (exit code 1 where they "
+	  "differ)",
 	  options_flag, .at = offsetof(struct asked, check) },
 	{ "json", 'j', NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
 	{ OPTIONS_NO_SANDBOX },
@@ -27,12 +30,17 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "index",
 	.head = "usage: relume index [OPTIONS] TRACE\n"
-	        "\n"
-	        "Make the index of a recording, which lets 'relume render' begin at any frame at once. It is made on first need\n"
-	        "anyway, and made anew where it is damaged or the recording has changed. It lies beside the recording as\n"
-	        "TRACE.index, or in $XDG_CACHE_HOME/relume (~/.cache/relume) where that folder cannot be written.\n",
+		"\n"
+		"Make the index of a recording, which lets 'relume render' begin at any frame at once. It is made on "
+	        "first need\n"
+		"anyway, and made anew where it is damaged or the recording has changed. It lies beside the recording "
+	        "as\n"
+		"TRACE.index, or in $XDG_CACHE_HOME/relume (~/.cache/relume) where that folder cannot be written.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace", .least = 1, .most = 1, .words_use = CONFINE_WRITES,
+	.takes = "one trace",
+	.least = 1,
+	.most = 1,
+	.words_use = CONFINE_WRITES,
 };
 
 static uint64_t file_bytes(const char *path)

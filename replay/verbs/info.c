@@ -51,7 +51,8 @@ struct asked {
 };
 
 static const struct options_row rows[] = {
-	{ "all", 'a', NULL, "every command that was called, not only the most frequent", options_flag, .at = offsetof(struct asked, all) },
+	{ "all", 'a', NULL, "every command that was called, not only the most frequent", options_flag,
+	  .at = offsetof(struct asked, all) },
 	{ "json", 'j', NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
 	{ OPTIONS_NO_SANDBOX },
 };
@@ -71,8 +72,9 @@ static const struct options_table table = {
 static void print_needs(const struct replay_needs *needs)
 {
 	if (needs->programs)
-		printf("shaders     rendered as fixed function: %" PRIu64 " draw%s by shaders or programs that are not run\n", needs->programs,
-		       plural(needs->programs));
+		printf("shaders     rendered as fixed function: %" PRIu64
+		       " draw%s by shaders or programs that are not run\n",
+		       needs->programs, plural(needs->programs));
 	if (needs->several_windows)
 		puts("windows     several: frames are in the order of their swaps");
 	if (needs->single_buffered)

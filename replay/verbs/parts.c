@@ -23,7 +23,8 @@ static const struct shape {
 	{ "glTexImage3DEXT", NO_ARGUMENT, NO_ARGUMENT, NO_ARGUMENT, NO_ARGUMENT, 9 },
 };
 
-/* By mode (GL 2.1 sec. 2.6.1): vertices from one part to the next, and those beyond them that a part needs. A loop, a fan and a polygon stay whole. */
+/* By mode (GL 2.1 sec. 2.6.1): vertices from one part to the next, and those beyond them that a part needs. A loop, a
+ * fan and a polygon stay whole. */
 static const struct step {
 	uint32_t step, beyond;
 } steps[] = {
@@ -69,7 +70,8 @@ static int has_indices(const struct call *call, const struct shape *s, uint64_t 
 	const struct trace_value *v = &call->args[s->indices];
 	const uint64_t bytes = index_bytes(call, s);
 
-	return bytes && (v->type == TRACE_NULL || v->type == TRACE_UINT || v->type == TRACE_OPAQUE || (v->type == TRACE_BLOB && v->count / bytes >= count));
+	return bytes && (v->type == TRACE_NULL || v->type == TRACE_UINT || v->type == TRACE_OPAQUE ||
+	                 (v->type == TRACE_BLOB && v->count / bytes >= count));
 }
 
 size_t parts_count(const struct call *call)
@@ -84,13 +86,15 @@ size_t parts_count(const struct call *call)
 		return call->args[s->pixels].type == TRACE_BLOB;
 	step = step_of(call);
 	count = number(call, s->count);
-	if (!step || count > MOST_VERTICES || count <= step->beyond || (s->first != NO_ARGUMENT && number(call, s->first) >= UINT32_MAX) ||
+	if (!step || count > MOST_VERTICES || count <= step->beyond ||
+	    (s->first != NO_ARGUMENT && number(call, s->first) >= UINT32_MAX) ||
 	    (s->indices != NO_ARGUMENT && !has_indices(call, s, count)))
 		return 0;
 	return (count - step->beyond + step->step - 1) / step->step;
 }
 
-/* The next run of parts that stay. end: where the last one ended, receives the end of this one @return where it begins; n: there is none */
+/* The next run of parts that stay. end: where the last one ended, receives the end of this one @return where it begins;
+ * n: there is none */
 static size_t next_run(const uint8_t *in, size_t n, size_t *end)
 {
 	size_t begin = *end;
@@ -119,7 +123,8 @@ static void cut(const struct call *call, const struct shape *s, size_t begin, si
 {
 	const struct step *step = step_of(call);
 	const uint64_t skipped = begin * step->step, count = number(call, s->count) - skipped;
-	const uint64_t kept = (end - begin) * step->step + step->beyond, bytes = s->indices != NO_ARGUMENT ? index_bytes(call, s) : 0;
+	const uint64_t kept = (end - begin) * step->step + step->beyond,
+		       bytes = s->indices != NO_ARGUMENT ? index_bytes(call, s) : 0;
 
 	args[s->count].u = kept < count ? kept : count;
 	if (s->first != NO_ARGUMENT) {

@@ -1,6 +1,6 @@
 /*
- * relume raster: reference frames of a trace by a real OpenGL. apitrace's glretrace replays the trace and saves the back
- * buffer just before the calls that end the frames asked for; the replay says which calls these are.
+ * relume raster: reference frames of a trace by a real OpenGL. apitrace's glretrace replays the trace and saves the
+ * back buffer just before the calls that end the frames asked for; the replay says which calls these are.
  */
 #include "base/plural.h"
 #include "base/verbs.h"
@@ -43,7 +43,8 @@ struct frame_ends {
 };
 
 static const struct options_row rows[] = {
-	{ "frames", 'f', "LIST", "frames, as in 10-60 or 1-500x5 (default: all)", options_frames, .at = offsetof(struct options, frames) },
+	{ "frames", 'f', "LIST", "frames, as in 10-60 or 1-500x5 (default: all)", options_frames,
+	  .at = offsetof(struct options, frames) },
 	{ "output", 'o', "PATTERN", "file names with the frame number as ####, %04d or $F4, ending in .png",
 	  options_text, .at = offsetof(struct options, output), .is_required = 1 },
 };
@@ -51,13 +52,18 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "raster",
 	.head = "usage: relume raster [OPTIONS] TRACE -o PATTERN.png\n"
-	        "\n"
-	        "Make reference frames of a trace with a real OpenGL: apitrace's glretrace, on the display there is, or on an\n"
-	        "Xvfb with Mesa's software rasterizer where there is none. 'relume diff' takes the images as its REF.\n"
-	        "Its visual has the bits of depth, stencil and alpha and the samples that the program's pixels had, where there is\n"
-	        "such a visual. The first frame of another recorder's trace is left out: glretrace does not show it reliably.\n",
+		"\n"
+		"Make reference frames of a trace with a real OpenGL: apitrace's glretrace, on the display there is, "
+	        "or on an\n"
+		"Xvfb with Mesa's software rasterizer where there is none. 'relume diff' takes the images as its REF.\n"
+		"Its visual has the bits of depth, stencil and alpha and the samples that the program's pixels had, "
+	        "where there is\n"
+		"such a visual. The first frame of another recorder's trace is left out: glretrace does not show it "
+	        "reliably.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace and -o PATTERN.png", .least = 1, .most = 1,
+	.takes = "one trace and -o PATTERN.png",
+	.least = 1,
+	.most = 1,
 };
 
 /** @return 0 go on, 1 help was printed, or ERR_* (reported) */
@@ -95,7 +101,8 @@ static void find_visual(struct replay *rp, struct frame_ends *ends)
 		if (!most || contexts[i].calls > most->calls)
 			most = &contexts[i];
 	if (most)
-		snprintf(ends->visual, sizeof(ends->visual), "%u %u %u %u", most->alpha_bits, most->depth_bits, most->stencil_bits, most->samples);
+		snprintf(ends->visual, sizeof(ends->visual), "%u %u %u %u", most->alpha_bits, most->depth_bits,
+		         most->stencil_bits, most->samples);
 }
 
 static int find_frame_ends(const struct options *o, struct frame_ends *ends)

@@ -1,8 +1,8 @@
 /*
  * relume reduce: the smallest recording with which a command still fails, or a frame still shows a fault.
  *
- * Calls are left out in steps (enum level), ever finer ones, as long as the command ends with the exit code that it ends with on the
- * whole recording. What belongs together (Begin and End, Push and Pop) goes together.
+ * Calls are left out in steps (enum level), ever finer ones, as long as the command ends with the exit code that it
+ * ends with on the whole recording. What belongs together (Begin and End, Push and Pop) goes together.
  */
 #include "replay/verbs/reduce.h"
 
@@ -71,7 +71,8 @@ struct reduce {
 	struct place *calls; /* [n] */
 	size_t n, room;
 	uint8_t *kept;       /* [n] */
-	uint32_t *unit;      /* [n]: what a call is left out with at this level, or (PARTS) its first part, counted from 1; ALWAYS: it stays */
+	uint32_t *unit; /* [n]: what a call is left out with at this level, or (PARTS) its first part, counted from 1;
+	                   ALWAYS: it stays */
 	enum level level;
 	uint8_t *parts;      /* units of PARTS, once they are known; NULL: calls are whole */
 	char folder[PATH_MAX - 64];
@@ -80,13 +81,13 @@ struct reduce {
 	uint64_t trials;
 };
 
-/* --- The recording ------------------------------------------------------------------------------------------------------ */
+/* --- The recording ----------------------------------------------------------------------------------------------- */
 
 static const struct {
 	const char *open, *close;
 } pairs[] = {
-	{ "glBegin", "glEnd" }, { "glNewList", "glEndList" }, { "glPushMatrix", "glPopMatrix" }, { "glPushAttrib", "glPopAttrib" },
-	{ "glPushClientAttrib", "glPopClientAttrib" }, { "glPushName", "glPopName" },
+	{ "glBegin", "glEnd" }, { "glNewList", "glEndList" }, { "glPushMatrix", "glPopMatrix" },
+	{ "glPushAttrib", "glPopAttrib" }, { "glPushClientAttrib", "glPopClientAttrib" }, { "glPushName", "glPopName" },
 };
 enum { PAIR_BEGIN, PAIR_LIST, N_PAIRS = sizeof(pairs) / sizeof(pairs[0]) };
 
@@ -152,7 +153,8 @@ static const uint8_t *parts_in(const struct reduce *r, const uint8_t *in, size_t
 	return in && r->level == PARTS && r->unit[i] != ALWAYS ? in + (r->unit[i] - 1) : NULL;
 }
 
-/* in: units; NULL: all that is kept. @return how many calls a call becomes: 0 or 1, or, of a draw that lacks primitives, any number */
+/* in: units; NULL: all that is kept. @return how many calls a call becomes: 0 or 1, or, of a draw that lacks
+ * primitives, any number */
 static size_t becomes(const struct reduce *r, const uint8_t *in, size_t i, const struct call *call)
 {
 	const uint8_t *parts = parts_in(r, in, i);
@@ -195,7 +197,7 @@ static int write_calls(struct reduce *r, const uint8_t *in, const char *path, ui
 	return rc;
 }
 
-/* --- Trials ------------------------------------------------------------------------------------------------------------- */
+/* --- Trials ------------------------------------------------------------------------------------------------------ */
 
 static void trial_path(const struct reduce *r, size_t i, const char *name, char out[PATH_MAX])
 {
@@ -207,7 +209,8 @@ static void note_path(const struct reduce *r, char out[PATH_MAX])
 	snprintf(out, PATH_MAX, "%s/fault", r->folder);
 }
 
-/* Has the trial's recording that was written last the fault? A draw in several pieces is not looked at. @return as reduce_again */
+/* Has the trial's recording that was written last the fault? A draw in several pieces is not looked at. @return as
+ * reduce_again */
 static int ask(const struct reduce *r, const char *trace)
 {
 	char note[PATH_MAX];
@@ -230,7 +233,8 @@ static pid_t start_process(void)
 	return pid;
 }
 
-/* Start the command, or the search for the fault, on the trial's recording that was written last. @return its process; below 0: ERR_SYSTEM (reported) */
+/* Start the command, or the search for the fault, on the trial's recording that was written last. @return its process;
+ * below 0: ERR_SYSTEM (reported) */
 static pid_t start(const struct reduce *r, size_t i)
 {
 	char trace[PATH_MAX], folder[PATH_MAX];
@@ -328,7 +332,10 @@ static int note_fault(struct reduce *r)
 		_exit(-r->note_fault(r->path, r->reference ? r->reference : r->path, r->frame, note));
 	code = pid < 0 ? -pid : finish(pid, time(NULL) + MOST_SECONDS);
 	if (code)
-		return code > 0 && code <= -ERR_SYSTEM ? -code : err_report(ERR_SYSTEM, r->path, "the frame's fault was not found: its process ended with %d", code);
+		return code > 0 && code <= -ERR_SYSTEM ?
+		               -code :
+		               err_report(ERR_SYSTEM, r->path,
+		                          "the frame's fault was not found: its process ended with %d", code);
 	in = fopen(note, "r");
 	if (!in || fscanf(in, "%" SCNu64, &call) != 1)
 		code = err_report(ERR_SYSTEM, note, "cannot be read");
@@ -356,16 +363,20 @@ static int find_fault(struct reduce *r)
 	if (!r->when && !(codes[0] == 1 && codes[1] == 1))
 		return err_report(ERR_USAGE, r->path, "frame %" PRIu64 " shows its fault once, and not again in a copy", r->frame);
 	if (codes[0] == 0)
-		return err_report(ERR_USAGE, r->path, "the command ends with exit code 0 on the whole recording: there is nothing to look for");
+		return err_report(
+			ERR_USAGE, r->path,
+			"the command ends with exit code 0 on the whole recording: there is nothing to look for");
 	if (codes[0] != codes[1] || codes[0] < 0 || codes[0] == 127)
-		return err_report(ERR_USAGE, r->path, "the command ends with exit code %d, then with %d on the same recording", codes[0], codes[1]);
+		return err_report(ERR_USAGE, r->path,
+		                  "the command ends with exit code %d, then with %d on the same recording", codes[0],
+		                  codes[1]);
 	r->code = codes[0];
 	if (r->limit_s == MOST_SECONDS)
 		r->limit_s = (unsigned)(10 + 5 * (time(NULL) - begin));
 	return 0;
 }
 
-/* --- Levels ------------------------------------------------------------------------------------------------------------- */
+/* --- Levels ------------------------------------------------------------------------------------------------------ */
 
 static int draws(const struct place *p)
 {
@@ -386,7 +397,8 @@ static uint32_t name_of(const struct reduce *r, size_t i, enum level level)
 	}
 }
 
-/* Number the units of what is kept. numbers: room for one per call @return how many units; SIZE_MAX: out of memory (reported) */
+/* Number the units of what is kept. numbers: room for one per call @return how many units; SIZE_MAX: out of memory
+ * (reported) */
 static size_t number_units(struct reduce *r, enum level level)
 {
 	uint32_t *numbers = calloc(r->n + 2, sizeof(*numbers));
@@ -443,7 +455,7 @@ static int reduce_level(struct reduce *r, enum level level)
 	return err;
 }
 
-/* --- The verb ----------------------------------------------------------------------------------------------------------- */
+/* --- The verb ---------------------------------------------------------------------------------------------------- */
 
 static int reduce(struct reduce *r)
 {
@@ -453,7 +465,8 @@ static int reduce(struct reduce *r)
 	uint64_t bytes = 0;
 	int err = read_calls(r);
 
-	if (!err && snprintf(r->folder, sizeof(r->folder), "%s/relume-reduce-XXXXXX", tmp && *tmp ? tmp : "/tmp") >= (int)sizeof(r->folder))
+	if (!err && snprintf(r->folder, sizeof(r->folder), "%s/relume-reduce-XXXXXX", tmp && *tmp ? tmp : "/tmp") >=
+	                    (int)sizeof(r->folder))
 		err = err_report(ERR_SYSTEM, tmp, "the name is too long");
 	if (!err && !mkdtemp(r->folder))
 		err = err_report(ERR_SYSTEM, r->folder, "%s", strerror(errno));
@@ -468,44 +481,61 @@ static int reduce(struct reduce *r)
 	if (!err && r->when)
 		snprintf(still, sizeof(still), "the command ends with exit code %d", r->code);
 	if (!err)
-		printf("%s: %" PRIu64 " of %zu calls, %" PRIu64 " bytes; %s; %" PRIu64 " trial%s in %ld s\n", r->new, r->written, r->n, bytes, still,
-		       r->trials, plural(r->trials), (long)(time(NULL) - begin));
+		printf("%s: %" PRIu64 " of %zu calls, %" PRIu64 " bytes; %s; %" PRIu64 " trial%s in %ld s\n", r->new,
+		       r->written, r->n, bytes, still, r->trials, plural(r->trials), (long)(time(NULL) - begin));
 	return err;
 }
 
 #define AT(member) .at = offsetof(struct reduce, member)
 
 static const struct options_row rows[] = {
-	{ "when", 'w', "COMMAND", "a command of the shell that fails on the recording $TRACE; it runs in a folder of its own, which goes afterwards",
+	{ "when", 'w', "COMMAND",
+	  "a command of the shell that fails on the recording $TRACE; it runs in a folder of its own, which goes "
+	  "afterwards",
 	  options_text, AT(when) },
-	{ "frame", 'f', "N", "instead: the fault of a frame, which fails its gates in mode gl", options_frame, AT(frame) },
-	{ "ref", 0, "REF", "what the frame is compared with, as for 'relume diff' (default: TRACE's own reference frames)", options_text, AT(reference) },
-	{ "output", 'o', "FILE", "the recording to write; it appears when it is whole", options_text, AT(new), .is_required = 1 },
-	{ "jobs", 'j', "N", "commands that run at once (default: one for each core)", options_number, AT(at_once), .most = MOST_AT_ONCE },
-	{ "timeout", 0, "S", "seconds after which a command counts as passed (default: ten, and five times what the whole recording takes)",
+	{ "frame", 'f', "N", "instead: the fault of a frame, which fails its gates in mode gl", options_frame,
+	  AT(frame) },
+	{ "ref", 0, "REF",
+	  "what the frame is compared with, as for 'relume diff' (default: TRACE's own reference frames)", options_text,
+	  AT(reference) },
+	{ "output", 'o', "FILE", "the recording to write; it appears when it is whole", options_text, AT(new),
+	  .is_required = 1 },
+	{ "jobs", 'j', "N", "commands that run at once (default: one for each core)", options_number, AT(at_once),
+	  .most = MOST_AT_ONCE },
+	{ "timeout", 0, "S",
+	  "seconds after which a command counts as passed (default: ten, and five times what the whole recording "
+	  "takes)",
 	  options_number, AT(limit_s), .most = 86400 },
 };
 
 static const struct options_table table = {
 	.verb = "reduce",
 	.head = "usage: relume reduce TRACE --when COMMAND -o NEW\n"
-	        "       relume reduce TRACE --frame N [--ref REF] -o NEW\n"
-	        "\n"
-	        "Find the smallest recording with which a command still fails: it leaves out frames, then draws, calls, primitives of draws from\n"
-	        "arrays and texels of images, as long as COMMAND ends with the same exit code as on TRACE. NEW runs in apitrace's tools as TRACE\n"
-	        "does. No call of it can be left out alone.\n"
-	        "\n"
-	        "Of a frame that fails its gates it takes the draw that is to blame: this draw must go on to show the same colours at the\n"
-	        "sixteen pixels that are worst. What makes a program's picture wrong stays. Where relume itself is wrong about a call, its\n"
-	        "picture may not need that call; a command that draws with a real OpenGL as well keeps it.\n"
-	        "\n"
-	        "What a command may ask: does the last frame still look different on Mesa?\n"
-	        "\n"
-	        "    relume reduce x.trace -o small.trace --when 'relume raster \"$TRACE\" -o r.####.png &&\n"
-	        "        relume render \"$TRACE\" --mode gl --aov gl -o g.####.exr && relume diff r.####.png g.####.exr'\n",
+		"       relume reduce TRACE --frame N [--ref REF] -o NEW\n"
+		"\n"
+		"Find the smallest recording with which a command still fails: it leaves out frames, then draws, "
+	        "calls, primitives of draws from\n"
+		"arrays and texels of images, as long as COMMAND ends with the same exit code as on TRACE. NEW runs in "
+	        "apitrace's tools as TRACE\n"
+		"does. No call of it can be left out alone.\n"
+		"\n"
+		"Of a frame that fails its gates it takes the draw that is to blame: this draw must go on to show the "
+	        "same colours at the\n"
+		"sixteen pixels that are worst. What makes a program's picture wrong stays. Where relume itself is "
+	        "wrong about a call, its\n"
+		"picture may not need that call; a command that draws with a real OpenGL as well keeps it.\n"
+		"\n"
+		"What a command may ask: does the last frame still look different on Mesa?\n"
+		"\n"
+		"    relume reduce x.trace -o small.trace --when 'relume raster \"$TRACE\" -o r.####.png &&\n"
+		"        relume render \"$TRACE\" --mode gl --aov gl -o g.####.exr && relume diff r.####.png "
+	        "g.####.exr'\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exit codes: 0 done, 2 wrong usage or TRACE does not fail, 3 an input cannot be read, 5 the system failed.\n",
-	.takes = "one trace, --when with a command or --frame with a number, and -o with the file to write", .least = 1, .most = 1,
+	.notes = "Exit codes: 0 done, 2 wrong usage or TRACE does not fail, 3 an input cannot be read, 5 the system "
+	         "failed.\n",
+	.takes = "one trace, --when with a command or --frame with a number, and -o with the file to write",
+	.least = 1,
+	.most = 1,
 };
 
 int reduce_main(int argc, char **argv, reduce_note *note, reduce_again *again)

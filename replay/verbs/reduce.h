@@ -1,4 +1,5 @@
-/* What `relume reduce` asks where it is given a frame instead of a command. replay/ renders and scores nothing: others answer. */
+/* What `relume reduce` asks where it is given a frame instead of a command. replay/ renders and scores nothing: others
+ * answer. */
 #pragma once
 
 #include <stdint.h>

@@ -23,15 +23,22 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "repair",
 	.head = "usage: relume repair -o NEW TRACE\n"
-	        "\n"
-	        "Save what can be read of a recording that was cut (a full disk, a machine that went down) or damaged: every call up\n"
-	        "to there that had returned. NEW is whole and packed in Snappy chunks, whatever TRACE was packed in. What follows\n"
-	        "damage cannot be read: calls are only known by what stands before them. Damage that leaves the bytes readable but\n"
-	        "changes what they say goes unnoticed, as recordings hold no checksums. Where another recording follows in the same\n"
-	        "file, the first one is kept, and a line says how many bytes the other one has.\n",
+		"\n"
+		"Save what can be read of a recording that was cut (a full disk, a machine that went down) or damaged: "
+	        "every call up\n"
+		"to there that had returned. NEW is whole and packed in Snappy chunks, whatever TRACE was packed in. "
+	        "What follows\n"
+		"damage cannot be read: calls are only known by what stands before them. Damage that leaves the bytes "
+	        "readable but\n"
+		"changes what they say goes unnoticed, as recordings hold no checksums. Where another recording "
+	        "follows in the same\n"
+		"file, the first one is kept, and a line says how many bytes the other one has.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 there is a whole recording now, 3 nothing could be saved.\n",
-	.takes = "one trace and -o with the file to write", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
+	.takes = "one trace and -o with the file to write",
+	.least = 1,
+	.most = 1,
+	.words_use = CONFINE_RECORDING,
 };
 
 struct saved {
@@ -82,13 +89,15 @@ static int repair(const char *path, const char *new)
 		behind = trace_reader_behind(r);
 		unread = behind ? 0 : trace_reader_size(r) - trace_reader_offset(r);
 		unfinished = end.number > saved.calls ? end.number - saved.calls : 0;
-		printf("kept  %" PRIu64 " call%s, %" PRIu64 " frame%s, %" PRIu64 " bytes unpacked\n", saved.calls, plural(saved.calls),
-		       saved.frames, plural(saved.frames), saved.bytes);
-		printf("lost  %" PRIu64 " call%s that had not returned, %" PRIu64 " bytes unpacked, and %" PRIu64 " of the file's %" PRIu64
-		       " bytes that cannot be read\n",
+		printf("kept  %" PRIu64 " call%s, %" PRIu64 " frame%s, %" PRIu64 " bytes unpacked\n", saved.calls,
+		       plural(saved.calls), saved.frames, plural(saved.frames), saved.bytes);
+		printf("lost  %" PRIu64 " call%s that had not returned, %" PRIu64 " bytes unpacked, and %" PRIu64
+		       " of the file's %" PRIu64 " bytes that cannot be read\n",
 		       unfinished, plural(unfinished), end.offset - saved.bytes, unread, trace_reader_size(r));
 		if (behind)
-			printf("left  %" PRIu64 " bytes of another recording, which follows in the file: tail -c %" PRIu64 " %s > SECOND.trace\n",
+			printf("left  %" PRIu64
+			       " bytes of another recording, which follows in the file: tail -c %" PRIu64
+			       " %s > SECOND.trace\n",
 			       behind, behind, path);
 	}
 	trace_out_drop(&out);

@@ -14,8 +14,10 @@ struct asked {
 
 static const struct options_row rows[] = {
 	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct asked, frame) },
-	{ "json", 'j', NULL, "everything, as JSON; otherwise one line per instance", options_flag, .at = offsetof(struct asked, json) },
-	{ "vertices", 'v', NULL, "with --json: the meshes' arrays too", options_flag, .at = offsetof(struct asked, vertices) },
+	{ "json", 'j', NULL, "everything, as JSON; otherwise one line per instance", options_flag,
+	  .at = offsetof(struct asked, json) },
+	{ "vertices", 'v', NULL, "with --json: the meshes' arrays too", options_flag,
+	  .at = offsetof(struct asked, vertices) },
 	{ OPTIONS_NO_SANDBOX },
 };
 

@@ -1,6 +1,6 @@
 /*
- * The smallest set of things with which a test still fails: delta debugging (Zeller and Hildebrandt, Simplifying and Isolating Failure-Inducing
- * Input, 2002), by leaving out ever smaller pieces, from the end to the beginning.
+ * The smallest set of things with which a test still fails: delta debugging (Zeller and Hildebrandt, Simplifying and
+ * Isolating Failure-Inducing Input, 2002), by leaving out ever smaller pieces, from the end to the beginning.
  */
 #pragma once
 

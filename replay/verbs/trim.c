@@ -1,8 +1,8 @@
 /*
  * relume trim: some frames of a trace as a trace of their own.
  *
- * It keeps all calls of the frames asked for, and of the frames before them what makes objects and state (early.h). Frames may show
- * what earlier frames drew. Then the new trace begins early enough to hold those as well.
+ * It keeps all calls of the frames asked for, and of the frames before them what makes objects and state (early.h).
+ * Frames may show what earlier frames drew. Then the new trace begins early enough to hold those as well.
  */
 #include <inttypes.h>
 #include <limits.h>
@@ -60,7 +60,8 @@ static int find_first(struct trim *t)
 	if (!rc && t->last == UINT64_MAX && t->wanted != UINT64_MAX)
 		t->last = t->wanted < frames ? frames - 1 : t->wanted; /* to the end */
 	if (!rc && t->last >= frames)
-		rc = err_report(ERR_USAGE, t->path, "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
+		rc = err_report(ERR_USAGE, t->path,
+		                "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
 		                t->last, frames, plural(frames), frames - 1);
 	t->first = t->wanted;
 	while (!rc && (rc = needs_earlier(t, t->first)) == 1) {
@@ -132,11 +133,13 @@ static int copy_references(const struct trim *t, const char *from, const char *t
 
 static void say(const struct trim *t, uint64_t bytes, uint64_t whole_bytes)
 {
-	printf("%s: frames %" PRIu64 "-%" PRIu64 " as 0-%" PRIu64 ", %" PRIu64 " of %" PRIu64 " calls, %" PRIu64 " of %" PRIu64 " bytes\n",
+	printf("%s: frames %" PRIu64 "-%" PRIu64 " as 0-%" PRIu64 ", %" PRIu64 " of %" PRIu64 " calls, %" PRIu64
+	       " of %" PRIu64 " bytes\n",
 	       t->new, t->first, t->last, t->last - t->first, t->n_kept, t->n_calls, bytes, whole_bytes);
 	if (t->first < t->wanted)
-		printf("%s: frame %" PRIu64 " may show what was drawn from frame %" PRIu64 " on, which are kept as well; it is frame %" PRIu64
-		       " now\n", t->new, t->wanted, t->first, t->wanted - t->first);
+		printf("%s: frame %" PRIu64 " may show what was drawn from frame %" PRIu64
+		       " on, which are kept as well; it is frame %" PRIu64 " now\n",
+		       t->new, t->wanted, t->first, t->wanted - t->first);
 }
 
 static int trim(struct trim *t)
@@ -195,15 +198,22 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "trim",
 	.head = "usage: relume trim -f FIRST-LAST -o NEW TRACE\n"
-	        "\n"
-	        "Cut a recording down to some of its frames. NEW needs nothing but itself: it holds all calls of these frames, and of\n"
-	        "the frames before them those that make objects and state, so that it shows the same pictures, here and in apitrace's\n"
-	        "tools. Its frames are counted from 0. Where FIRST may show what earlier frames drew (a screen that is not cleared, or\n"
-	        "is copied), NEW begins with the frame from which on nothing does, and trim says so.\n"
-	        "Reference frames that lie beside TRACE (TRACE with .ref) are cut with it.\n",
+		"\n"
+		"Cut a recording down to some of its frames. NEW needs nothing but itself: it holds all calls of these "
+	        "frames, and of\n"
+		"the frames before them those that make objects and state, so that it shows the same pictures, here "
+	        "and in apitrace's\n"
+		"tools. Its frames are counted from 0. Where FIRST may show what earlier frames drew (a screen that is "
+	        "not cleared, or\n"
+		"is copied), NEW begins with the frame from which on nothing does, and trim says so.\n"
+		"Reference frames that lie beside TRACE (TRACE with .ref) are cut with it.\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exit codes: 0 done, 2 wrong usage or no such frames, 3 TRACE cannot be read, 5 NEW cannot be written.\n",
-	.takes = "one trace, -f with the frames and -o with the file to write", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
+	.notes = "Exit codes: 0 done, 2 wrong usage or no such frames, 3 TRACE cannot be read, 5 NEW cannot be "
+	         "written.\n",
+	.takes = "one trace, -f with the frames and -o with the file to write",
+	.least = 1,
+	.most = 1,
+	.words_use = CONFINE_RECORDING,
 };
 
 int trim_main(int argc, char **argv)

@@ -1,10 +1,11 @@
 /*
- * Runs inside glretrace, before libGL. glretrace chooses its own visual (24 bits of depth, 8 of stencil and alpha) whatever the
- * program had. Where surfaces lie close together, another precision of depth shows another surface. RELUME_VISUAL="ALPHA DEPTH STENCIL
- * SAMPLES", as in a trace's relume:bits marker, gives it configurations with exactly these bits, if there are any.
+ * Runs inside glretrace, before libGL. glretrace chooses its own visual (24 bits of depth, 8 of stencil and alpha)
+ * whatever the program had. Where surfaces lie close together, another precision of depth shows another surface.
+ * RELUME_VISUAL="ALPHA DEPTH STENCIL SAMPLES", as in a trace's relume:bits marker, gives it configurations with exactly
+ * these bits, if there are any.
  *
- * From a window with several samples a pixel it reads what the window shows, their mean; glReadPixels need not give that
- * (capture/gl/reference.c).
+ * From a window with several samples a pixel it reads what the window shows, their mean; glReadPixels need not give
+ * that (capture/gl/reference.c).
  */
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
@@ -32,9 +33,11 @@ GLXFBConfig *glXChooseFBConfig(Display *display, int screen, const int *wanted, 
 	if (!text || sscanf(text, "%d %d %d %d", &alpha, &depth, &stencil, &samples) != 4)
 		return choose(display, screen, wanted, n);
 	all = choose(display, screen,
-	             (int[]){ GLX_RENDER_TYPE, GLX_RGBA_BIT, GLX_DRAWABLE_TYPE, GLX_WINDOW_BIT, GLX_X_RENDERABLE, True, GLX_DOUBLEBUFFER,
-	                      True, GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8, GLX_ALPHA_SIZE, alpha, GLX_DEPTH_SIZE, depth,
-	                      GLX_STENCIL_SIZE, stencil, GLX_SAMPLES, samples, None },
+	             (int[]){
+		GLX_RENDER_TYPE, GLX_RGBA_BIT, GLX_DRAWABLE_TYPE, GLX_WINDOW_BIT, GLX_X_RENDERABLE, True, GLX_DOUBLEBUFFER,
+		True, GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8, GLX_ALPHA_SIZE, alpha, GLX_DEPTH_SIZE, depth,
+		GLX_STENCIL_SIZE, stencil, GLX_SAMPLES, samples, None
+	},
 	             &n_all);
 	for (int i = 0; i < n_all; i++)
 		if (attribute(display, all[i], GLX_ALPHA_SIZE) == alpha && attribute(display, all[i], GLX_DEPTH_SIZE) == depth &&
@@ -61,8 +64,8 @@ void glReadPixels(GLint x, GLint y, GLsizei width, GLsizei height, GLenum format
 	int draw = get(GL_DRAW_FRAMEBUFFER_BINDING), renderbuffer = get(GL_RENDERBUFFER_BINDING), scissor;
 	GLuint framebuffer = 0, colors = 0;
 
-	if (get(GL_READ_FRAMEBUFFER_BINDING) || draw || get(GL_SAMPLES) < 2 || format == GL_DEPTH_COMPONENT || format == GL_STENCIL_INDEX ||
-	    format == GL_DEPTH_STENCIL) {
+	if (get(GL_READ_FRAMEBUFFER_BINDING) || draw || get(GL_SAMPLES) < 2 || format == GL_DEPTH_COMPONENT ||
+	    format == GL_STENCIL_INDEX || format == GL_DEPTH_STENCIL) {
 		read(x, y, width, height, format, type, pixels);
 		return;
 	}

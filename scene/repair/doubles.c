@@ -55,7 +55,8 @@ static int is_none(const struct shape_face *f)
 	return f->p[0] != SCENE_NONE && (f->p[0] == f->p[1] || f->p[1] == f->p[2] || f->p[2] == f->p[0]);
 }
 
-/* All triangles' places, sorted. marks: [n_faces], receives 1 for triangles that are none. @return NULL: out of memory (reported) */
+/* All triangles' places, sorted. marks: [n_faces], receives 1 for triangles that are none. @return NULL: out of memory
+ * (reported) */
 static struct triple *list_triples(const struct shape *s, uint8_t **marks, size_t *n)
 {
 	struct triple *list = malloc((s->n_faces + 1) * sizeof(*list));
@@ -115,13 +116,14 @@ int doubles_drop_narrow(struct shape *s)
 	if (!marks)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (size_t f = 0; f < s->n_faces; f++)
-		marks[f] = s->faces[f].p[0] != SCENE_NONE && shape_normal(s, &s->faces[f], normal) <= s->tolerance * longest_edge(s, &s->faces[f]);
+		marks[f] = s->faces[f].p[0] != SCENE_NONE &&
+		           shape_normal(s, &s->faces[f], normal) <= s->tolerance * longest_edge(s, &s->faces[f]);
 	shape_drop(s, marks);
 	free(marks);
 	return 0;
 }
 
-/* --- Back to back ------------------------------------------------------------------------------------------------------- */
+/* --- Back to back ------------------------------------------------------------------------------------------------ */
 
 /* Of each corner's edge: its triangles, and those that run as this one less those that run against it. */
 struct around {
@@ -147,7 +149,8 @@ static int count_around(const struct shape *s, struct around *around)
 }
 
 /*
- * Mark one of each two triangles back to back of which an edge has an odd number of triangles: the one that neighbours run along with.
+ * Mark one of each two triangles back to back of which an edge has an odd number of triangles: the one that neighbours
+ * run along with.
  * @return how many
  */
 static uint32_t mark_backs(const struct triple *list, size_t n, const struct around *around, uint8_t *marks)

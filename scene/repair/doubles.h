@@ -5,15 +5,16 @@
 
 struct shape;
 
-/** Drop triangles of fewer than three places, and all but the first of those with the same three places in the same sense. */
+/** Drop triangles of fewer than three places, and all but the first of those with the same three places in the same
+ * sense. */
 int doubles_drop(struct shape *s);
 
 /** Drop triangles narrower than the tolerance: their corners come to lie on their neighbours' edges. */
 int doubles_drop_narrow(struct shape *s);
 
 /**
- * Of two triangles back to back drop the one that its neighbours do not need, where they go on with one only. Both sides of a thin sheet
- * stay.
+ * Of two triangles back to back drop the one that its neighbours do not need, where they go on with one only. Both
+ * sides of a thin sheet stay.
  */
 int doubles_drop_backs(struct shape *s);
 

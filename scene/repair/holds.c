@@ -23,7 +23,8 @@ int holds_place(const struct scene_mesh *mesh, const float at[3])
 		}
 		for (int k = 0; k < 3; k++)
 			volume += to[0][k] * (to[1][(k + 1) % 3] * to[2][(k + 2) % 3] - to[1][(k + 2) % 3] * to[2][(k + 1) % 3]);
-		volume = atan2(volume, length[0] * length[1] * length[2] + dot(to[0], to[1]) * length[2] + dot(to[1], to[2]) * length[0] + dot(to[2], to[0]) * length[1]);
+		volume = atan2(volume, length[0] * length[1] * length[2] + dot(to[0], to[1]) * length[2] +
+		                               dot(to[1], to[2]) * length[0] + dot(to[2], to[0]) * length[1]);
 		around += isfinite(volume) ? volume : 0;
 	}
 	return fabs(around) > M_PI;

@@ -9,7 +9,7 @@
 #include "scene/repair/doubles.h"
 #include "scene/repair/shape.h"
 
-/* --- Places of open edges, as a tree: the range [first, end) of a sorted list halves until few are left ------------------------ */
+/* --- Places of open edges, as a tree: the range [first, end) of a sorted list halves until few are left ---------- */
 
 enum { LEAF = 4 };
 
@@ -110,7 +110,7 @@ static void fell(struct tree *t)
 	free(t->boxes);
 }
 
-/* --- Which of them lie on an edge ------------------------------------------------------------------------------------------ */
+/* --- Which of them lie on an edge -------------------------------------------------------------------------------- */
 
 struct on_edge {
 	double along; /* from a, in its length */
@@ -131,7 +131,8 @@ static int is_near(const struct asking *q, const struct box *box)
 	double near = 0, far = q->length;
 
 	for (int k = 0; k < 3; k++) {
-		const double low = box->low[k] - q->tree->s->tolerance - q->from[k], high = box->high[k] + q->tree->s->tolerance - q->from[k];
+		const double low = box->low[k] - q->tree->s->tolerance - q->from[k],
+			     high = box->high[k] + q->tree->s->tolerance - q->from[k];
 
 		if (fabs(q->way[k]) < 1e-12) {
 			if (low > 1e-12 * q->length || high < -1e-12 * q->length)
@@ -213,7 +214,7 @@ static int ask_edge(struct asking *q, uint32_t a, uint32_t b)
 	return err;
 }
 
-/* --- Triangles cut there ----------------------------------------------------------------------------------------------------- */
+/* --- Triangles cut there ----------------------------------------------------------------------------------------- */
 
 /* Places along an edge in one of its triangles' sense. */
 struct cuts {
@@ -254,7 +255,8 @@ static int make_vertex(struct shape *s, uint32_t a, uint32_t b, uint32_t point, 
 	return 0;
 }
 
-/* 1 where an edge of a triangle is cut before another: that with more places, or with lower ends. Which corner is first changes nothing. */
+/* 1 where an edge of a triangle is cut before another: that with more places, or with lower ends. Which corner is first
+ * changes nothing. */
 static int is_before(const struct shape_face *f, const struct cuts on[3], int k, int other)
 {
 	const uint32_t a = f->p[k], b = f->p[(k + 1) % 3], c = f->p[other], d = f->p[(other + 1) % 3];
@@ -266,8 +268,8 @@ static int is_before(const struct shape_face *f, const struct cuts on[3], int k,
 }
 
 /*
- * Cut a triangle at the middle of its places on the edge that has most, and its halves again. Corners keep their turn: the last is last.
- * The same triangle, turned or turned over, is cut into the same parts.
+ * Cut a triangle at the middle of its places on the edge that has most, and its halves again. Corners keep their turn:
+ * the last is last. The same triangle, turned or turned over, is cut into the same parts.
  */
 static int cut(struct cutting *c, struct shape_face f, const struct cuts on[3])
 {
@@ -310,7 +312,9 @@ static int cut_all(struct cutting *c)
 			const uint32_t n = c->of_use[3 * f + k].n;
 			const int forward = s->faces[f].p[k] < s->faces[f].p[(k + 1) % 3];
 
-			on[k] = n ? (struct cuts){ c->points + (forward ? first : first + n - 1), forward ? 1 : -1, n } : (struct cuts){ NULL, 1, 0 };
+			on[k] = n ? (struct cuts){ c->points + (forward ? first : first + n - 1), forward ? 1 : -1,
+				                   n } :
+			            (struct cuts){ NULL, 1, 0 };
 		}
 		err = cut(c, s->faces[f], on);
 	}
@@ -325,7 +329,8 @@ static int cut_all(struct cutting *c)
 }
 
 /* Find the places on all edges. @param found  as for junctions_mend */
-static int find_cuts(struct cutting *c, const struct tree *tree, const struct shape_edge *edges, size_t n, uint32_t *found)
+static int find_cuts(struct cutting *c, const struct tree *tree, const struct shape_edge *edges, size_t n,
+                     uint32_t *found)
 {
 	struct asking q = { .tree = tree };
 	int err = 0, balance;
@@ -350,10 +355,11 @@ static int find_cuts(struct cutting *c, const struct tree *tree, const struct sh
 }
 
 /*
- * marks: [n_points], receives 1 for ends of open edges: not half their triangles run each way, or their number is odd, where two back to back
- * count once. backs: [n_faces], 1 for the second of such two. @return how many edges
+ * marks: [n_points], receives 1 for ends of open edges: not half their triangles run each way, or their number is odd,
+ * where two back to back count once. backs: [n_faces], 1 for the second of such two. @return how many edges
  */
-static size_t mark_open(const struct shape *s, const struct shape_edge *edges, size_t n, const uint8_t *backs, uint8_t *marks)
+static size_t mark_open(const struct shape *s, const struct shape_edge *edges, size_t n, const uint8_t *backs,
+                        uint8_t *marks)
 {
 	size_t open = 0;
 	int balance;

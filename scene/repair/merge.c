@@ -124,7 +124,8 @@ static void weigh(const struct shape *s, const struct shape_face *f, const doubl
 	}
 }
 
-/* 1 where a triangle's attributes are what its plane's first one has there, going on evenly, and both are of one draw. */
+/* 1 where a triangle's attributes are what its plane's first one has there, going on evenly, and both are of one
+ * draw. */
 static int goes_on(const struct merging *m, const struct shape_face *ref, const struct shape_face *f)
 {
 	const uint32_t *draw = m->s->mesh->primitive_draw;
@@ -213,7 +214,8 @@ static int can_become(const struct merging *m, const struct ring *r, uint32_t q)
 		for (int c = 0; c < 3; c++)
 			for (int k = 0; k < 3; k++)
 				most = fmax(most, fabs(m->s->points[f.p[c]][k] - m->s->points[f.p[(c + 1) % 3]][k]));
-		if (!(dot(normal, r->normal[r->side[i]]) > 4 * m->s->tolerance * most) || !is_in_plane(m, r, &f, r->side[i]) || !(length > 0))
+		if (!(dot(normal, r->normal[r->side[i]]) > 4 * m->s->tolerance * most) ||
+		    !is_in_plane(m, r, &f, r->side[i]) || !(length > 0))
 			return 0;
 	}
 	return 1;
@@ -276,8 +278,11 @@ static void find_around(struct merging *m)
 int merge_flat(struct shape *s, uint32_t *merged)
 {
 	struct scene_mesh arrays = *s->mesh;
-	struct merging m = { .s = s, .first = malloc((s->n_points + (size_t)2) * sizeof(*m.first)), .around = malloc((3 * s->n_faces + 1) * sizeof(*m.around)),
-		             .locked = malloc(s->n_points + (size_t)1), .gone = malloc(s->n_faces + 1) };
+	struct merging m = { .s = s,
+		             .first = malloc((s->n_points + (size_t)2) * sizeof(*m.first)),
+		             .around = malloc((3 * s->n_faces + 1) * sizeof(*m.around)),
+		             .locked = malloc(s->n_points + (size_t)1),
+		             .gone = malloc(s->n_faces + 1) };
 	const int err = m.first && m.around && m.locked && m.gone ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 	uint32_t went = 1;
 

@@ -14,7 +14,7 @@
 /* Edges that were cut may lie beside further corners. */
 enum { ROUNDS = 4 };
 
-/* --- What the mesh is now ------------------------------------------------------------------------------------------------------ */
+/* --- What the mesh is now ---------------------------------------------------------------------------------------- */
 
 static double volume_of(const struct shape *s)
 {
@@ -60,7 +60,7 @@ static int tell(const struct shape *s)
 	return err;
 }
 
-/* --- The mesh that comes of it --------------------------------------------------------------------------------------------------- */
+/* --- The mesh that comes of it ----------------------------------------------------------------------------------- */
 
 static void fill_positions(const struct shape *s, float *out)
 {
@@ -96,7 +96,8 @@ static void fill_attribute(const struct shape *s, const struct shape_attribute *
 static int build(const struct shape *s, struct scene_mesh **out)
 {
 	const size_t vertices = s->mesh->vertex_count + s->n_made;
-	const uint32_t wants = (uint32_t)(s->wants->turn | s->wants->clockwise << 1 | s->wants->merge << 2 | s->wants->flat << 3);
+	const uint32_t wants = (uint32_t)(s->wants->turn | s->wants->clockwise << 1 | s->wants->merge << 2 |
+	                                  s->wants->flat << 3);
 	struct scene_mesh copy = *s->mesh, *made;
 	struct shape_attribute list[SHAPE_MOST_ATTRIBUTES];
 	const size_t n = shape_list_attributes(&copy, list);
@@ -131,14 +132,15 @@ static int build(const struct shape *s, struct scene_mesh **out)
 	copy.vertex_count = (uint32_t)vertices;
 	copy.primitive_count = (uint32_t)s->n_faces;
 	memcpy(&bits, &s->wants->weld, sizeof(bits));
-	copy.hash[0] = (copy.hash[0] ^ wants) * 0x9E3779B97F4A7C15u; /* another mesh for all caches, and so is that merged of this one */
+	/* another mesh for all caches, and so is that merged of this one */
+	copy.hash[0] = (copy.hash[0] ^ wants) * 0x9E3779B97F4A7C15u;
 	copy.hash[1] = (copy.hash[1] ^ bits) * 0x9E3779B97F4A7C15u;
 	*made = copy;
 	*out = made;
 	return 0;
 }
 
-/* --- All steps --------------------------------------------------------------------------------------------------------------------- */
+/* --- All steps --------------------------------------------------------------------------------------------------- */
 
 static int mend(struct shape *s)
 {
@@ -197,8 +199,10 @@ static int changes(const struct repair_found *found)
 	return found->welded || found->junctions || found->dropped || found->turned || found->merged;
 }
 
-/* Merge what is closed already, in a mesh of its own as attributes of new vertices must be there. mesh: repaired or not; out: as for repair_mesh */
-static int merge(const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found, struct scene_mesh **out)
+/* Merge what is closed already, in a mesh of its own as attributes of new vertices must be there. mesh: repaired or
+ * not; out: as for repair_mesh */
+static int merge(const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found,
+                 struct scene_mesh **out)
 {
 	struct repair_found again = { .welded = 0 };
 	struct shape s;
@@ -212,7 +216,8 @@ static int merge(const struct scene_mesh *mesh, const struct repair_wants *wants
 	return err;
 }
 
-int repair_mesh(const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found, struct scene_mesh **out)
+int repair_mesh(const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found,
+                struct scene_mesh **out)
 {
 	struct scene_mesh *merged = NULL;
 	struct shape s;

@@ -1,17 +1,18 @@
 /*
- * Meshes without cracks: what rays need and rasterization forgives. Programs draw T-junctions, corners that meet only nearly, faces twice or
- * the wrong way round; light then leaks through, and glass has no inside.
+ * Meshes without cracks: what rays need and rasterization forgives. Programs draw T-junctions, corners that meet only
+ * nearly, faces twice or the wrong way round; light then leaks through, and glass has no inside.
  *
- *   weld        Places nearer to each other than a tolerance become one: the mean of those that differ. Vertices stay as many as they were,
- *               with normals, texture coordinates and colours of their own; only their positions become equal, bit for bit.
- *   junctions   An edge that other triangles' corners lie on, within the tolerance, gets them as corners of its own. New vertices lie
- *               between the edge's two in all attributes.
- *   drop        Triangles without area, those narrower than the tolerance where the mesh has open edges, and those that are there twice.
- *   turn        On request: faces of a closed body look outwards, hollows inside it count; those of other meshes all to one side.
- *   merge       On request: places go where triangles lie in one plane, or meet in a straight edge, and go on evenly (merge.h).
+ *   weld        Places nearer to each other than a tolerance become one: the mean of those that differ. Vertices stay
+ * as many as they were, with normals, texture coordinates and colours of their own; only their positions become equal,
+ * bit for bit. junctions   An edge that other triangles' corners lie on, within the tolerance, gets them as corners of
+ * its own. New vertices lie between the edge's two in all attributes. drop        Triangles without area, those
+ * narrower than the tolerance where the mesh has open edges, and those that are there twice. turn        On request:
+ * faces of a closed body look outwards, hollows inside it count; those of other meshes all to one side. merge       On
+ * request: places go where triangles lie in one plane, or meet in a straight edge, and go on evenly (merge.h).
  *
- * Nothing else is filled: a real opening stays, and is told as a leak. Triangles with a corner that is no number stay as they are and count
- * for nothing. The idea of tracing edges for closed bodies, with junctions mended on the way, is seed B's (a thesis on scene management, 2008).
+ * Nothing else is filled: a real opening stays, and is told as a leak. Triangles with a corner that is no number stay
+ * as they are and count for nothing. The idea of tracing edges for closed bodies, with junctions mended on the way, is
+ * seed B's (a thesis on scene management, 2008).
  */
 #pragma once
 
@@ -22,7 +23,8 @@
 #define REPAIR_MOST_WELD 0.01f
 
 struct repair_wants {
-	float weld;    /* the tolerance: a share of the diagonal of the mesh's box, and what floats round; 0: equal positions only. At most REPAIR_MOST_WELD */
+	float weld; /* the tolerance: a share of the diagonal of the mesh's box, and what floats round; 0: equal
+	               positions only. At most REPAIR_MOST_WELD */
 	int turn;
 	int clockwise; /* 1: faces are seen clockwise from outside; else counter-clockwise */
 	int merge;
@@ -49,4 +51,5 @@ struct repair_found {
  * @param out    receives a copy, to be given to free(): one block; NULL where nothing changed
  * @return 0 or ERR_SYSTEM (reported)
  */
-int repair_mesh(const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found, struct scene_mesh **out);
+int repair_mesh(const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found,
+                struct scene_mesh **out);

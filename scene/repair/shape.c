@@ -7,7 +7,8 @@
 #include "base/err.h"
 #include "scene/repair/weld.h"
 
-int shape_init(struct shape *s, const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found)
+int shape_init(struct shape *s, const struct scene_mesh *mesh, const struct repair_wants *wants,
+               struct repair_found *found)
 {
 	*s = (struct shape){ .mesh = mesh, .wants = wants, .found = found };
 	s->faces = malloc((mesh->primitive_count + (size_t)1) * sizeof(*s->faces));

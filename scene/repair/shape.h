@@ -51,13 +51,15 @@ enum { SHAPE_MOST_ATTRIBUTES = 5 + SCENE_MAX_UNITS + SCENE_MAX_GENERICS };
 size_t shape_list_attributes(struct scene_mesh *mesh, struct shape_attribute list[SHAPE_MOST_ATTRIBUTES]);
 
 /** Triangles and places, each place welded. @return 0 or ERR_SYSTEM (reported); shape_free in any case */
-int shape_init(struct shape *s, const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found);
+int shape_init(struct shape *s, const struct scene_mesh *mesh, const struct repair_wants *wants,
+               struct repair_found *found);
 void shape_free(struct shape *s);
 
 /** All edges of faces that have places, equal ones side by side. @return 0 or ERR_SYSTEM (reported) */
 int shape_list_edges(const struct shape *s, struct shape_edge **edges, size_t *n);
 
-/** The end of the run of equal edges that begins at `first`. balance: those that run from a to b, less those from b to a */
+/** The end of the run of equal edges that begins at `first`. balance: those that run from a to b, less those from b to
+ * a */
 size_t shape_run_end(const struct shape *s, const struct shape_edge *edges, size_t n, size_t first, int *balance);
 
 /** Drop marked faces. marks: [n_faces], not 0: marked */

@@ -66,7 +66,8 @@ static void add_to_shell(const struct turning *t, struct shell *shell, uint32_t 
 		}
 }
 
-/* One shell, from a face on, all its faces turned as that one is. at: where `order` goes on. @return the same after it */
+/* One shell, from a face on, all its faces turned as that one is. at: where `order` goes on. @return the same after
+ * it */
 static uint32_t gather(struct turning *t, uint32_t start, uint32_t at)
 {
 	struct shell *shell = &t->shells[t->n_shells++];
@@ -134,7 +135,8 @@ static int meets_box(const struct shell *shell, const double from[3], const doub
 	return near <= far * (1 + 1e-9);
 }
 
-/* 1 where a shell's faces look inwards: its largest face looks into what an odd number of faces encloses, by most of three rays. */
+/* 1 where a shell's faces look inwards: its largest face looks into what an odd number of faces encloses, by most of
+ * three rays. */
 static int looks_inwards(const struct turning *t, const struct shell *shell)
 {
 	static const double aside[3][3] = { { 0.13, 0.071, -0.037 }, { -0.053, 0.117, 0.089 }, { 0.023, -0.101, 0.149 } };
@@ -186,9 +188,15 @@ static void turn_shell(struct turning *t, const struct shell *shell)
 int turn_outwards(struct shape *s, int turns)
 {
 	const size_t n = s->n_faces;
-	struct turning t = { .s = s, .partner = malloc((3 * n + 1) * sizeof(*t.partner)), .turned = calloc(n + 1, 1), .seen = calloc(n + 1, 1),
-		             .order = malloc((n + 1) * sizeof(*t.order)), .shells = malloc((n + 1) * sizeof(*t.shells)) };
-	int err = t.partner && t.turned && t.seen && t.order && t.shells ? find_partners(&t) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	struct turning t = { .s = s,
+		             .partner = malloc((3 * n + 1) * sizeof(*t.partner)),
+		             .turned = calloc(n + 1, 1),
+		             .seen = calloc(n + 1, 1),
+		             .order = malloc((n + 1) * sizeof(*t.order)),
+		             .shells = malloc((n + 1) * sizeof(*t.shells)) };
+	int err = t.partner && t.turned && t.seen && t.order && t.shells ?
+	                  find_partners(&t) :
+	                  err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	for (uint32_t f = 0, at = 0; f < n && !err; f++)
 		if (!t.seen[f] && s->faces[f].p[0] != SCENE_NONE)

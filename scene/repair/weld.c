@@ -7,7 +7,8 @@
 #include "base/err.h"
 #include "scene/repair/shape.h"
 
-/* Along this direction few places of a mesh are side by side, as programs' walls and rows of vertices never stand across it. */
+/* Along this direction few places of a mesh are side by side, as programs' walls and rows of vertices never stand
+ * across it. */
 static const double skew[3] = { 0.6270473, 0.5391827, 0.5623719 };
 /* What rounding to floats adds to a distance, as a share of the largest coordinate. */
 #define RESOLVED 2.4e-7
@@ -76,7 +77,8 @@ static uint32_t list_seats(struct shape *s, struct seat *seats)
 	return n;
 }
 
-/* Join what is near enough. Equal positions follow each other, but for others of the same sum; only the first of each looks further. */
+/* Join what is near enough. Equal positions follow each other, but for others of the same sum; only the first of each
+ * looks further. */
 static void join(const struct shape *s, struct seat *seats, uint32_t n)
 {
 	for (uint32_t i = 0; i < n; i++)
@@ -109,7 +111,9 @@ static void settle(struct shape *s, struct seat *seats, uint32_t n, double (*sum
 		const uint32_t root = root_of(seats, i);
 
 		if (root == i)
-			memcpy(s->points[s->n_points++], (double[3]){ position(s, seats[i].vertex)[0], position(s, seats[i].vertex)[1], position(s, seats[i].vertex)[2] },
+			memcpy(s->points[s->n_points++],
+			       (double[3]){ position(s, seats[i].vertex)[0], position(s, seats[i].vertex)[1],
+			                    position(s, seats[i].vertex)[2] },
 			       sizeof(*s->points));
 		s->point_of[seats[i].vertex] = root == i ? s->n_points - 1 : s->point_of[seats[root].vertex];
 		if (distance(position(s, seats[i].vertex), position(s, seats[root].vertex)) > 0)

@@ -35,7 +35,7 @@ static double band_of(const struct brute *b, double far)
 	return BRUTE_ROUNDING * ldexp(1, -24) * (b->extent + far);
 }
 
-/* --- Distances: the nearest of a triangle's corners, edges and face ------------------------------------------------------- */
+/* --- Distances: the nearest of a triangle's corners, edges and face ---------------------------------------------- */
 
 static double to_segment(const double p[3], const double a[3], const double b[3])
 {
@@ -72,7 +72,8 @@ static double to_triangle(double v[3][3], const double p[3])
 	return inside && dot(n, n) > 0 ? fmin(least, fabs(dot(n, from)) / sqrt(dot(n, n))) : least;
 }
 
-int brute_distance(const struct brute *b, const struct relume_rays_point *point, const struct relume_rays_distance *answer)
+int brute_distance(const struct brute *b, const struct relume_rays_point *point,
+                   const struct relume_rays_distance *answer)
 {
 	const double p[3] = { point->position[0], point->position[1], point->position[2] };
 	const double band = band_of(b, size_of(point->position));
@@ -93,7 +94,7 @@ int brute_distance(const struct brute *b, const struct relume_rays_point *point,
 	       fabs(sqrt(dot(away, away)) - least) <= band;
 }
 
-/* --- Rays: by the plane across the ray ------------------------------------------------------------------------------------- */
+/* --- Rays: by the plane across the ray --------------------------------------------------------------------------- */
 
 enum verdict { MISS, EDGE, HIT };
 
@@ -128,17 +129,18 @@ static double products(const double a[3], const double b[3], const double c[3])
 }
 
 /*
- * How far single precision may be off on a narrow triangle. Moeller and Trumbore divide triple products: t = e2.(s x e1) / e1.(d x e2),
- * and two weights alike. The cross product rounds each of its products at most twice and the sum of three at most three times; s, e1 and e2
- * are rounded differences. So a triple product errs by at most 8 units of 2^-24 of its six products, however much these cancel: for a sliver
- * nearly all.
- * t: receives what that makes of t. @return what it makes of the place in the triangle
+ * How far single precision may be off on a narrow triangle. Moeller and Trumbore divide triple products: t = e2.(s x
+ * e1) / e1.(d x e2), and two weights alike. The cross product rounds each of its products at most twice and the sum of
+ * three at most three times; s, e1 and e2 are rounded differences. So a triple product errs by at most 8 units of 2^-24
+ * of its six products, however much these cancel: for a sliver nearly all. t: receives what that makes of t. @return
+ * what it makes of the place in the triangle
  */
 static double narrowness(const struct seen *a, double *t)
 {
 	const double unit = 8 * ldexp(1, -24), length1 = sqrt(dot(a->e1, a->e1)), length2 = sqrt(dot(a->e2, a->e2));
 	const double all = products(a->e1, a->d, a->e2), rest = fabs(dot(a->n, a->d)) - unit * all;
-	const double of_t = products(a->e2, a->s, a->e1), of_u = products(a->s, a->d, a->e2), of_v = products(a->d, a->s, a->e1);
+	const double of_t = products(a->e2, a->s, a->e1), of_u = products(a->s, a->d, a->e2),
+		     of_v = products(a->d, a->s, a->e1);
 
 	if (!(rest > 0))
 		return *t = INFINITY;
@@ -168,7 +170,10 @@ static enum verdict meet(const struct brute *b, const struct relume_rays_ray *ra
 	/* A hit's weights may leave [0,1] by 1e-6 (kernels/rays/rays.h): of edges that is less than the band. */
 	if (to_triangle(a.v, at) > place)
 		return MISS;
-	return fmin(fmin(to_segment(at, a.v[0], a.v[1]), to_segment(at, a.v[1], a.v[2])), to_segment(at, a.v[2], a.v[0])) > place ? HIT : EDGE;
+	return fmin(fmin(to_segment(at, a.v[0], a.v[1]), to_segment(at, a.v[1], a.v[2])),
+	            to_segment(at, a.v[2], a.v[0])) > place ?
+	               HIT :
+	               EDGE;
 }
 
 /* Whether t lies in the ray's span: 1 for sure, 0 for sure not, -1 within rounding. */
@@ -210,7 +215,8 @@ int brute_any(const struct brute *b, const struct relume_rays_ray *ray, uint32_t
 	return any == 0 || may;
 }
 
-int brute_all(const struct brute *b, const struct relume_rays_ray *ray, const struct relume_rays_hit *hits, uint32_t kept, uint32_t count)
+int brute_all(const struct brute *b, const struct relume_rays_ray *ray, const struct relume_rays_hit *hits,
+              uint32_t kept, uint32_t count)
 {
 	uint32_t sure = 0, may = 0;
 
@@ -241,7 +247,7 @@ int brute_all(const struct brute *b, const struct relume_rays_ray *ray, const st
 	return count >= sure && count <= may;
 }
 
-/* --- Spheres: the distance along the way is convex, so its least value is found by thirds ------------------------------------ */
+/* --- Spheres: the distance along the way is convex, so its least value is found by thirds ------------------------ */
 
 static void moved(const struct relume_rays_body *body, double t, double out[3])
 {
@@ -308,7 +314,7 @@ int brute_sphere(const struct brute *b, const struct relume_rays_body *body, con
 	return 1;
 }
 
-/* --- Boxes: a triangle is cut by the box's six planes; what is left touches it -------------------------------------------------- */
+/* --- Boxes: a triangle is cut by the box's six planes; what is left touches it ----------------------------------- */
 
 static int touches(double v[3][3], const struct relume_rays_body *body, double t, double grow)
 {
@@ -385,7 +391,8 @@ static int overlaps_before(double v[3][3], const struct relume_rays_body *body, 
 	return enter < leave;
 }
 
-int brute_box(const struct brute *b, const struct relume_rays_body *body, const struct relume_rays_contact *contact, int sampled)
+int brute_box(const struct brute *b, const struct relume_rays_body *body, const struct relume_rays_contact *contact,
+              int sampled)
 {
 	const double band = body_band(b, body), end = contact->triangle == RELUME_RAYS_NONE ? 1 : contact->t;
 	double v[3][3];

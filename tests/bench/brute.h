@@ -1,6 +1,7 @@
 /*
- * Answers of queries judged by all triangles, one by one, in double precision, by other arithmetic than the kernels'. What single precision
- * cannot tell apart counts as right: `band` is ROUNDING times 2^-24 times the largest coordinate in question.
+ * Answers of queries judged by all triangles, one by one, in double precision, by other arithmetic than the kernels'.
+ * What single precision cannot tell apart counts as right: `band` is ROUNDING times 2^-24 times the largest coordinate
+ * in question.
  */
 #pragma once
 
@@ -19,7 +20,10 @@ struct brute {
 int brute_nearest(const struct brute *b, const struct relume_rays_ray *ray, const struct relume_rays_hit *hit);
 int brute_any(const struct brute *b, const struct relume_rays_ray *ray, uint32_t any);
 /** @param kept  hits that were given, of `count` */
-int brute_all(const struct brute *b, const struct relume_rays_ray *ray, const struct relume_rays_hit *hits, uint32_t kept, uint32_t count);
-int brute_distance(const struct brute *b, const struct relume_rays_point *point, const struct relume_rays_distance *answer);
-int brute_box(const struct brute *b, const struct relume_rays_body *body, const struct relume_rays_contact *contact, int sampled);
+int brute_all(const struct brute *b, const struct relume_rays_ray *ray, const struct relume_rays_hit *hits,
+              uint32_t kept, uint32_t count);
+int brute_distance(const struct brute *b, const struct relume_rays_point *point,
+                   const struct relume_rays_distance *answer);
+int brute_box(const struct brute *b, const struct relume_rays_body *body, const struct relume_rays_contact *contact,
+              int sampled);
 int brute_sphere(const struct brute *b, const struct relume_rays_body *body, const struct relume_rays_contact *contact);

@@ -1,13 +1,13 @@
 /*
- * Our builders of acceleration structures against Embree's on the same triangles, in one run, taking turns. A program of
- * its own: the command never links Embree.
+ * Our builders of acceleration structures against Embree's on the same triangles, in one run, taking turns. A program
+ * of its own: the command never links Embree.
  *
  * usage: build [--json FILE] [--models DIR] [--repeat N] [--command TEXT] [--bars 0|1]
  *
- * Both sides build binary trees over the same boxes, with leaves of at most four triangles and the same costs of nodes and
- * triangles, on all processors; the cost of both trees is measured by bvh_cost. What Embree takes for a scene that its own
- * traversal can use is printed as well. Figures are medians; times are by the clock, processor time stands beside them.
- * Exit code 0 where the bars hold, 1 where they do not.
+ * Both sides build binary trees over the same boxes, with leaves of at most four triangles and the same costs of nodes
+ * and triangles, on all processors; the cost of both trees is measured by bvh_cost. What Embree takes for a scene that
+ * its own traversal can use is printed as well. Figures are medians; times are by the clock, processor time stands
+ * beside them. Exit code 0 where the bars hold, 1 where they do not.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -145,7 +145,8 @@ static int peer_cost(struct embree_build *peer, const struct contest *c, double 
 	return err;
 }
 
-static int compare(struct input *in, struct embree_build *peer, const struct contest *c, size_t repeats, struct result *r)
+static int compare(struct input *in, struct embree_build *peer, const struct contest *c, size_t repeats,
+                   struct result *r)
 {
 	int err = 0;
 
@@ -193,10 +194,12 @@ static void write_row(FILE *out, const struct contest *c, const struct result *r
 
 	fprintf(out, "    { \"what\": \"%s, %s: %s\", \"figure\": \"%.3f times\", \"bar\": \"%.2f times\", \"passed\": %s,\n",
 	        c->name, r->scene, time ? "build time" : "SAH cost", ours / peer, bar, ours <= bar * peer ? "true" : "false");
-	fprintf(out, "      \"peer\": \"Embree %s, rtcBuildBVH, %s quality\", \"triangles\": %u, \"ours\": %.6g, \"theirs\": %.6g, ",
+	fprintf(out,
+	        "      \"peer\": \"Embree %s, rtcBuildBVH, %s quality\", \"triangles\": %u, \"ours\": %.6g, "
+	        "\"theirs\": %.6g, ",
 	        RTC_VERSION_STRING, c->quality_name, r->triangles, ours, peer);
-	fprintf(out, "\"ours_processor_s\": %.6g, \"theirs_processor_s\": %.6g, \"their_scene_s\": %.6g }%s\n", r->ours.cpu, r->peer.cpu,
-	        r->peer_scene.wall, last ? "" : ",");
+	fprintf(out, "\"ours_processor_s\": %.6g, \"theirs_processor_s\": %.6g, \"their_scene_s\": %.6g }%s\n",
+	        r->ours.cpu, r->peer.cpu, r->peer_scene.wall, last ? "" : ",");
 }
 
 /* The shape of tests/show/table.py; the figure is the worst time ratio of the first contest. */
@@ -208,10 +211,14 @@ static int write_json(const char *path, struct result results[N_CONTESTS][N_SCEN
 	if (!out)
 		return err_report(ERR_SYSTEM, path, "cannot be written");
 	for (int s = 0; s < N_SCENES; s++)
-		worst = results[0][s].ours.wall / results[0][s].peer.wall > worst ? results[0][s].ours.wall / results[0][s].peer.wall : worst;
-	fprintf(out, "{\n  \"name\": \"build\",\n  \"command\": \"%s\",\n  \"figure\": %.3f,\n  \"bar\": %.2f,\n", command, worst,
-	        contests[0].time_bar);
-	fprintf(out, "  \"unit\": \"times the peer's build time, binned\",\n  \"peer\": \"Embree\",\n  \"peer_version\": \"%s\",\n",
+		worst = results[0][s].ours.wall / results[0][s].peer.wall > worst ?
+		                results[0][s].ours.wall / results[0][s].peer.wall :
+		                worst;
+	fprintf(out, "{\n  \"name\": \"build\",\n  \"command\": \"%s\",\n  \"figure\": %.3f,\n  \"bar\": %.2f,\n",
+	        command, worst, contests[0].time_bar);
+	fprintf(out,
+	        "  \"unit\": \"times the peer's build time, binned\",\n  \"peer\": \"Embree\",\n  \"peer_version\": "
+	        "\"%s\",\n",
 	        RTC_VERSION_STRING);
 	fprintf(out, "  \"rows\": [\n");
 	for (int c = 0; c < N_CONTESTS; c++)

@@ -308,7 +308,8 @@ static int open_peer(const struct bench *b, struct peer *peer)
 	float *vertices;
 	unsigned *indices;
 
-	snprintf(config, sizeof(config), "threads=%u%s%s", peer->threads, peer->isa ? ",isa=" : "", peer->isa ? peer->isa : "");
+	snprintf(config, sizeof(config), "threads=%u%s%s", peer->threads, peer->isa ? ",isa=" : "",
+	         peer->isa ? peer->isa : "");
 	_MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
 	_MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
 	peer->bench = b;
@@ -335,7 +336,8 @@ static int open_peer(const struct bench *b, struct peer *peer)
 	return rtcGetDeviceError(peer->device) ? err_report(ERR_SYSTEM, "Embree", "building failed") : 0;
 }
 
-/* The vector units Embree runs on: those it is held to, or the widest of those it is built for that this processor has. */
+/* The vector units Embree runs on: those it is held to, or the widest of those it is built for that this processor
+ * has. */
 static const char *peer_isa(const char *held)
 {
 	if (held)
@@ -421,7 +423,8 @@ static int compare(struct bench *b, struct peer *peer, enum work work, size_t re
 		}
 	}
 	for (int k = 0; k < 2 && works[work].kernels[k].name && !err; k++) {
-		const uint32_t n = work == WORK_CAMERA ? (uint32_t)pass.n : b->n_rays[work == WORK_SHADOW ? BENCH_SHADOW : BENCH_AMBIENT];
+		const uint32_t n = work == WORK_CAMERA ? (uint32_t)pass.n :
+		                                         b->n_rays[work == WORK_SHADOW ? BENCH_SHADOW : BENCH_AMBIENT];
 
 		took = medians(ours[k], repeats);
 		rate = n / took.wall * 1e-6;
@@ -443,8 +446,10 @@ static int compare(struct bench *b, struct peer *peer, enum work work, size_t re
 	r->cpu_ratio = our_cpu / peer_cpu;
 	r->peer_hits = count_peer_hits(&pass);
 	if (!err)
-		err = work == WORK_CAMERA ? bench_count_camera_hits(b, &hits)
-		                          : bench_count_ray_hits(b, KERNEL_occlude_wide, work == WORK_SHADOW ? BENCH_SHADOW : BENCH_AMBIENT, &hits);
+		err = work == WORK_CAMERA ?
+		              bench_count_camera_hits(b, &hits) :
+		              bench_count_ray_hits(b, KERNEL_occlude_wide,
+		                                   work == WORK_SHADOW ? BENCH_SHADOW : BENCH_AMBIENT, &hits);
 	r->our_hits = hits;
 done:
 	free(pass.hits);
@@ -472,9 +477,10 @@ static double least_share(const struct scene_results *scenes)
 	return least;
 }
 
-/* One object: the least share of a bar, a row for each scene and kind of rays (tests/show/table.py), and all figures. */
-static int write_json(const char *path, const struct device *dev, const struct peer *peer, const struct scene_results *scenes, int bars,
-                      const char *command)
+/* One object: the least share of a bar, a row for each scene and kind of rays (tests/show/table.py), and all
+ * figures. */
+static int write_json(const char *path, const struct device *dev, const struct peer *peer,
+                      const struct scene_results *scenes, int bars, const char *command)
 {
 	const char *isa = peer_isa(peer->isa);
 	FILE *out = fopen(path, "w");
@@ -570,8 +576,8 @@ int main(int argc, char **argv)
 		return -err_report(ERR_USAGE, NULL, "--repeat takes 1 to %d", MAX_REPEATS);
 	err = device_open(NULL, 0, &dev);
 	if (!err)
-		printf("%ux%u, median of %zu\nours: %s\npeer: Embree %s on %s, %u threads\n", WIDTH, HEIGHT, repeats, device_name(dev),
-		       RTC_VERSION_STRING, peer_isa(peer.isa), peer.threads);
+		printf("%ux%u, median of %zu\nours: %s\npeer: Embree %s on %s, %u threads\n", WIDTH, HEIGHT, repeats,
+		       device_name(dev), RTC_VERSION_STRING, peer_isa(peer.isa), peer.threads);
 	for (int s = 0; s < N_SCENES && !err; s++)
 		err = run_scene(dev, models, s, peer, repeats, bars, &scenes[s]);
 	if (!err && bars)

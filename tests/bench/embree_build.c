@@ -55,7 +55,8 @@ static void set_bounds(void *to, const struct RTCBounds **bounds, unsigned n, vo
 		node->bounds[i] = *bounds[i];
 }
 
-static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuildPrimitive *primitives, size_t n, void *user)
+static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuildPrimitive *primitives, size_t n,
+                         void *user)
 {
 	/* Room for the triangles' numbers, as a leaf of any use has. */
 	uint32_t *leaf = rtcThreadLocalAlloc(allocator, (1 + n) * sizeof(*leaf), 16);
@@ -68,8 +69,8 @@ static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuil
 }
 
 /* Cut triangle `primitive` at a plane: the box of what lies on each side, within the box it has now. */
-static void split_primitive(const struct RTCBuildPrimitive *primitive, unsigned axis, float position, struct RTCBounds *left,
-                            struct RTCBounds *right, void *user)
+static void split_primitive(const struct RTCBuildPrimitive *primitive, unsigned axis, float position,
+                            struct RTCBounds *left, struct RTCBounds *right, void *user)
 {
 	const struct embree_build *b = user;
 	const uint32_t *index = b->mesh->index[primitive->primID];
@@ -250,5 +251,7 @@ int embree_build_scene(struct embree_build *b, enum RTCBuildQuality quality, dou
 	}
 	rtcReleaseGeometry(geometry);
 	rtcReleaseScene(scene);
-	return !vertices || !indices || rtcGetDeviceError(b->device) ? err_report(ERR_SYSTEM, "Embree", "building a scene failed") : 0;
+	return !vertices || !indices || rtcGetDeviceError(b->device) ?
+	               err_report(ERR_SYSTEM, "Embree", "building a scene failed") :
+	               0;
 }

@@ -1,6 +1,6 @@
 /*
- * Embree's builders on the triangles of a bench_mesh: rtcBuildBVH, whose callbacks leave a binary tree that we can look at,
- * and rtcCommitScene, which makes all that its own traversal wants.
+ * Embree's builders on the triangles of a bench_mesh: rtcBuildBVH, whose callbacks leave a binary tree that we can look
+ * at, and rtcCommitScene, which makes all that its own traversal wants.
  */
 #pragma once
 

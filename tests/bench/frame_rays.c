@@ -1,11 +1,13 @@
 /*
- * What Embree takes for the camera and shadow rays of a recording's frame: the least that a ray traced frame could cost.
+ * What Embree takes for the camera and shadow rays of a recording's frame: the least that a ray traced frame could
+ * cost.
  *
  * usage: frame_rays TRACE FRAME REPEATS
  *
- * All triangles of the frame stand in one scene of Embree's best quality, in eye space. One ray goes through each pixel's centre, and
- * from what it hits one to each light that the surface faces. Both are laid out beforehand in packets of 4, 8 and 16 and as a stream;
- * the fastest counts. Prints processor milliseconds on one thread, medians: camera, shadow, and how many rays each are.
+ * All triangles of the frame stand in one scene of Embree's best quality, in eye space. One ray goes through each
+ * pixel's centre, and from what it hits one to each light that the surface faces. Both are laid out beforehand in
+ * packets of 4, 8 and 16 and as a stream; the fastest counts. Prints processor milliseconds on one thread, medians:
+ * camera, shadow, and how many rays each are.
  */
 #include "tests/bench/rtcore.h"
 #include <math.h>
@@ -132,7 +134,7 @@ static double trace(RTCScene scene, const struct rays *rays, size_t repeats)
 	return best;
 }
 
-/* --- The frame ----------------------------------------------------------------------------------------------------- */
+/* --- The frame --------------------------------------------------------------------------------------------------- */
 
 /* One geometry an instance, so that a hit tells whose it is. */
 static void add_instance(RTCDevice device, RTCScene to, const struct scene *scene, uint32_t number)
@@ -147,8 +149,10 @@ static void add_instance(RTCDevice device, RTCScene to, const struct scene *scen
 		return;
 	geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
 	rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-	vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh->vertex_count);
-	indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh->primitive_count);
+	vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+	                                   mesh->vertex_count);
+	indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
+	                                  mesh->primitive_count);
 	for (uint32_t i = 0; i < mesh->vertex_count; i++) {
 		float eye[4];
 
@@ -164,9 +168,12 @@ static void add_instance(RTCDevice device, RTCScene to, const struct scene *scen
 
 static struct RTCRayHit ray_between(const float from[3], const float to[3], float t_min, float t_max)
 {
-	return (struct RTCRayHit){ .ray = { .org_x = from[0], .org_y = from[1], .org_z = from[2], .dir_x = to[0] - from[0],
-		                            .dir_y = to[1] - from[1], .dir_z = to[2] - from[2], .tnear = t_min, .tfar = t_max, .mask = ~0u },
-		                   .hit = { .geomID = RTC_INVALID_GEOMETRY_ID, .instID = { RTC_INVALID_GEOMETRY_ID } } };
+	return (struct RTCRayHit){ .ray = {
+		.org_x = from[0], .org_y = from[1], .org_z = from[2], .dir_x = to[0] - from[0], .dir_y = to[1] - from[1],
+		.dir_z = to[2] - from[2], .tnear = t_min, .tfar = t_max, .mask = ~0u
+	},
+		                   .hit = { .geomID = RTC_INVALID_GEOMETRY_ID,
+		                            .instID = { RTC_INVALID_GEOMETRY_ID } } };
 }
 
 /* From the near plane on through pixel centres, in blocks of 4 x 4. */
@@ -180,7 +187,8 @@ static void make_camera_rays(const struct scene *scene, struct rays *rays)
 	rays->r = calloc(rays->n, sizeof(*rays->r));
 	for (size_t i = 0; i < rays->n; i++) {
 		const size_t block = i / 16, x = block % columns * 4 + i % 4, y = block / columns * 4 + i % 16 / 4;
-		float clip[4] = { 2 * ((float)x + 0.5f) / (float)scene->width - 1, 2 * ((float)y + 0.5f) / (float)scene->height - 1, -1, 1 };
+		float clip[4] = { 2 * ((float)x + 0.5f) / (float)scene->width - 1,
+			          2 * ((float)y + 0.5f) / (float)scene->height - 1, -1, 1 };
 		float ends[2][4];
 
 		for (int k = 0; k < 2; k++, clip[2] = 1) {

@@ -4,22 +4,20 @@
  *
  * usage: hits [--rays N] [--models DIR] [--seed N] [--json FILE] [--command TEXT]
  *
- * Four scenes (the models; triangles by chance, with slivers and degenerate ones among them, at three scales) get a quarter
- * of the rays each, in turn: anywhere, through a vertex, through a point of an edge, along an axis, from a surface,
- * from a surface along an axis, from far away.
+ * Four scenes (the models; triangles by chance, with slivers and degenerate ones among them, at three scales) get a
+ * quarter of the rays each, in turn: anywhere, through a vertex, through a point of an edge, along an axis, from a
+ * surface, from a surface along an axis, from far away.
  *
- * Every ray is traced through trees of each kind. The first kind is compared with Embree; the others should give its hits to the bit,
- * and are judged as it is where they do not.
+ * Every ray is traced through trees of each kind. The first kind is compared with Embree; the others should give its
+ * hits to the bit, and are judged as it is where they do not.
  *
- * Where the two disagree, geometry in double precision decides. In the plane across the ray, a triangle is sure to be hit
- * where the ray passes at least `band` inside of its outline, sure to be missed at least `band` outside, and on the edge
- * between. band is ROUNDING times 2^-24 times the largest coordinate of the ray's origin and the triangle, and of one from the
- * other: what single precision cannot tell apart.
- *   tie by edge      a triangle that only one side reports has the ray on its edge
- *   tie by distance  both triangles are hit as far off as rounding tells (band over the cosine to the surface)
- *   tie by end       the hit lies so close to t_min or t_max
- *   wrong            everything else: the side that lacks a sure, nearer hit or has a sure miss
- * Exit code 0 where ours is never wrong.
+ * Where the two disagree, geometry in double precision decides. In the plane across the ray, a triangle is sure to be
+ * hit where the ray passes at least `band` inside of its outline, sure to be missed at least `band` outside, and on the
+ * edge between. band is ROUNDING times 2^-24 times the largest coordinate of the ray's origin and the triangle, and of
+ * one from the other: what single precision cannot tell apart. tie by edge      a triangle that only one side reports
+ * has the ray on its edge tie by distance  both triangles are hit as far off as rounding tells (band over the cosine to
+ * the surface) tie by end       the hit lies so close to t_min or t_max wrong            everything else: the side that
+ * lacks a sure, nearer hit or has a sure miss Exit code 0 where ours is never wrong.
  */
 #include "tests/bench/rtcore.h"
 #include <float.h>
@@ -43,10 +41,12 @@ static const char *const kind_names[N_KINDS] = {
 	"anywhere", "through a vertex", "through an edge", "along an axis", "from a surface", "from a surface along an axis",
 	"from far away",
 };
-static const char *const scene_names[N_SCENES] = { "models", "triangles by chance", "the same, a ten-thousandth", "the same, ten thousand times" };
+static const char *const scene_names[N_SCENES] = { "models", "triangles by chance", "the same, a ten-thousandth",
+	                                           "the same, ten thousand times" };
 
 enum verdict { SAME, TIE_EDGE, TIE_DISTANCE, TIE_END, WRONG_PEER, WRONG_OURS, N_VERDICTS };
-static const char *const verdict_names[N_VERDICTS] = { "same", "tie by edge", "tie by distance", "tie by end", "Embree wrong", "ours wrong" };
+static const char *const verdict_names[N_VERDICTS] = { "same",       "tie by edge",  "tie by distance",
+	                                               "tie by end", "Embree wrong", "ours wrong" };
 
 static uint32_t random_state;
 
@@ -103,7 +103,7 @@ static void make_soup(struct bench_mesh *m, float scale)
 			m->position[i][a] *= scale;
 }
 
-/* --- both sides ------------------------------------------------------------------------------------------------- */
+/* --- both sides -------------------------------------------------------------------------------------------------- */
 
 struct world {
 	struct bench_mesh mesh;
@@ -154,7 +154,8 @@ struct outcome {
 	uint32_t occluded[BATCH];
 };
 
-static int trace_ours(struct device *dev, struct world *w, enum accel_kind kind, const struct ray *rays, uint32_t n, struct outcome *out)
+static int trace_ours(struct device *dev, struct world *w, enum accel_kind kind, const struct ray *rays, uint32_t n,
+                      struct outcome *out)
 {
 	struct traverse_rays r;
 	int err;
@@ -166,7 +167,9 @@ static int trace_ours(struct device *dev, struct world *w, enum accel_kind kind,
 	    (err = launch_upload(dev, w->rays, rays, n)) || (err = launch_reserve(dev, w->hits, n)) ||
 	    (err = launch_reserve(dev, w->occluded, n)))
 		return err;
-	r = (struct traverse_rays){ .space = &w->spaces[0], .n = n, .rays = w->rays, .occluded = w->occluded, .hits = w->hits };
+	r = (struct traverse_rays){
+		.space = &w->spaces[0], .n = n, .rays = w->rays, .occluded = w->occluded, .hits = w->hits
+	};
 	for (int any = 0; any < 2 && !err; any++)
 		err = traverse_rays(dev, any ? KERNEL_occlude_packet : KERNEL_intersect_packet, &w->trees, &r);
 	if (!err)
@@ -179,8 +182,10 @@ static void open_peer(RTCDevice peer, struct world *w)
 {
 	const struct bench_mesh *m = &w->mesh;
 	RTCGeometry geometry = rtcNewGeometry(peer, RTC_GEOMETRY_TYPE_TRIANGLE);
-	float *vertices = must(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), m->n_vertices));
-	unsigned *indices = must(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), m->n_triangles));
+	float *vertices = must(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+	                                               3 * sizeof(float), m->n_vertices));
+	unsigned *indices = must(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+	                                                 3 * sizeof(unsigned), m->n_triangles));
 
 	for (uint32_t i = 0; i < m->n_vertices; i++)
 		memcpy(vertices + 3 * (size_t)i, m->position[i], 3 * sizeof(float));
@@ -196,8 +201,10 @@ static void open_peer(RTCDevice peer, struct world *w)
 static uint32_t trace_peer(const struct world *w, const struct ray *ray)
 {
 	struct peer_query query;
-	struct RTCRayHit r = { .ray = { .org_x = ray->o[0], .org_y = ray->o[1], .org_z = ray->o[2], .dir_x = ray->d[0],
-		                        .dir_y = ray->d[1], .dir_z = ray->d[2], .tnear = ray->t_min, .tfar = ray->t_max, .mask = ~0u },
+	struct RTCRayHit r = { .ray = {
+		.org_x = ray->o[0], .org_y = ray->o[1], .org_z = ray->o[2], .dir_x = ray->d[0], .dir_y = ray->d[1],
+		.dir_z = ray->d[2], .tnear = ray->t_min, .tfar = ray->t_max, .mask = ~0u
+	},
 		               .hit = { .geomID = RTC_INVALID_GEOMETRY_ID } };
 
 	peer_query_init(&query, 0);
@@ -205,7 +212,7 @@ static uint32_t trace_peer(const struct world *w, const struct ray *ray)
 	return r.hit.geomID == RTC_INVALID_GEOMETRY_ID ? SCENE_NONE : r.hit.primID;
 }
 
-/* --- rays ------------------------------------------------------------------------------------------------------- */
+/* --- rays -------------------------------------------------------------------------------------------------------- */
 
 static struct ray make_ray(const struct world *w, uint32_t kind)
 {
@@ -242,7 +249,7 @@ static struct ray make_ray(const struct world *w, uint32_t kind)
 	return r;
 }
 
-/* --- judging ---------------------------------------------------------------------------------------------------- */
+/* --- judging ----------------------------------------------------------------------------------------------------- */
 
 /* A triangle and a ray in double precision. */
 struct meeting {
@@ -284,7 +291,8 @@ static struct meeting meet(const struct world *w, const struct ray *ray, uint32_
 	for (int i = 0; i < 3; i++) {
 		for (int a = 0; a < 3; a++) {
 			v[i][a] = (double)w->mesh.position[index[i]][a] - ray->o[a];
-			largest = fmax(largest, fmax(fabs(v[i][a]), fmax(fabs((double)ray->o[a]), fabs((double)w->mesh.position[index[i]][a]))));
+			largest = fmax(largest, fmax(fabs(v[i][a]), fmax(fabs((double)ray->o[a]),
+			                                                 fabs((double)w->mesh.position[index[i]][a]))));
 		}
 		flat[i][0] = along(v[i], x) / sqrt(along(x, x));
 		flat[i][1] = along(v[i], y) / sqrt(along(y, y));
@@ -301,7 +309,9 @@ static struct meeting meet(const struct world *w, const struct ray *ray, uint32_
 	}
 	across(e1, e2, n);
 	m.t = along(v[0], n) / along(d, n);
-	m.inside = (sign[0] > 0 && sign[1] > 0 && sign[2] > 0) || (sign[0] < 0 && sign[1] < 0 && sign[2] < 0) ? distance : -distance;
+	m.inside = (sign[0] > 0 && sign[1] > 0 && sign[2] > 0) || (sign[0] < 0 && sign[1] < 0 && sign[2] < 0) ?
+	                   distance :
+	                   -distance;
 	m.band = ROUNDING * 0x1p-24 * largest;
 	m.t_band = m.band * sqrt(along(n, n)) / fabs(along(d, n)) + m.band / length;
 	return m;
@@ -337,11 +347,12 @@ static enum verdict judge(const struct world *w, const struct ray *ray, uint32_t
 	return ours == SCENE_NONE || (theirs != SCENE_NONE && b.t < a.t) ? WRONG_OURS : WRONG_PEER;
 }
 
-/* --- the run ---------------------------------------------------------------------------------------------------- */
+/* --- the run ----------------------------------------------------------------------------------------------------- */
 
 struct tally {
 	uint64_t n[N_SCENES][N_KINDS][N_VERDICTS], occluded_wrong, shown[N_VERDICTS];
-	uint64_t differ[N_ACCEL_KINDS], wrong[N_ACCEL_KINDS]; /* rays whose hit in trees of a kind is not that of the first; of them, wrong ones */
+	uint64_t differ[N_ACCEL_KINDS], wrong[N_ACCEL_KINDS]; /* rays whose hit in trees of a kind is not that of the
+	                                                         first; of them, wrong ones */
 };
 
 static void count(struct tally *tally, const struct world *w, uint32_t scene, uint32_t kind, const struct ray *ray,
@@ -361,7 +372,8 @@ static void count(struct tally *tally, const struct world *w, uint32_t scene, ui
 }
 
 /* Trees of the other kinds. */
-static void count_others(struct tally *tally, const struct world *w, const struct ray *ray, uint32_t i, struct outcome *const out[N_ACCEL_KINDS])
+static void count_others(struct tally *tally, const struct world *w, const struct ray *ray, uint32_t i,
+                         struct outcome *const out[N_ACCEL_KINDS])
 {
 	for (int a = 1; a < N_ACCEL_KINDS; a++) {
 		const struct hit *hit = &out[a]->hits[i];
@@ -371,14 +383,15 @@ static void count_others(struct tally *tally, const struct world *w, const struc
 		if (memcmp(hit, &out[0]->hits[i], sizeof(*hit)) == 0)
 			continue;
 		if (tally->differ[a]++ < 5)
-			printf("%s is not %s: o %.9g %.9g %.9g d %.9g %.9g %.9g t %.9g .. %.9g: %d, %d\n", accel_kind_names[a], accel_kind_names[0],
-			       ray->o[0], ray->o[1], ray->o[2], ray->d[0], ray->d[1], ray->d[2], ray->t_min, ray->t_max, (int)ours,
-			       (int)out[0]->hits[i].primitive);
+			printf("%s is not %s: o %.9g %.9g %.9g d %.9g %.9g %.9g t %.9g .. %.9g: %d, %d\n",
+			       accel_kind_names[a], accel_kind_names[0], ray->o[0], ray->o[1], ray->o[2], ray->d[0],
+			       ray->d[1], ray->d[2], ray->t_min, ray->t_max, (int)ours, (int)out[0]->hits[i].primitive);
 		tally->wrong[a] += judge(w, ray, ours, trace_peer(w, ray)) == WRONG_OURS;
 	}
 }
 
-static int run_scene(struct device *dev, RTCDevice peer, struct world *w, uint32_t scene, uint64_t n, struct tally *tally)
+static int run_scene(struct device *dev, RTCDevice peer, struct world *w, uint32_t scene, uint64_t n,
+                     struct tally *tally)
 {
 	struct ray *rays = must(malloc(BATCH * sizeof(*rays)));
 	struct outcome *out[N_ACCEL_KINDS];
@@ -442,18 +455,28 @@ static int write_json(const char *path, const struct tally *tally, const char *d
 
 	if (!out)
 		return err_report(ERR_SYSTEM, path, "cannot be written");
-	fprintf(out, "{\n  \"name\": \"hits\",\n  \"command\": \"%s\",\n  \"figure\": %llu,\n  \"bar\": 0,\n", command, (unsigned long long)wrong);
-	fprintf(out, "  \"unit\": \"rays whose hit is wrong\",\n  \"peer\": \"Embree\",\n  \"peer_version\": \"%s, robust\",\n", RTC_VERSION_STRING);
-	fprintf(out, "  \"device\": \"%s\",\n  \"rays\": %llu,\n  \"rows\": [\n", device, (unsigned long long)total(tally, -1, -1));
+	fprintf(out, "{\n  \"name\": \"hits\",\n  \"command\": \"%s\",\n  \"figure\": %llu,\n  \"bar\": 0,\n", command,
+	        (unsigned long long)wrong);
+	fprintf(out,
+	        "  \"unit\": \"rays whose hit is wrong\",\n  \"peer\": \"Embree\",\n  \"peer_version\": \"%s, "
+	        "robust\",\n",
+	        RTC_VERSION_STRING);
+	fprintf(out, "  \"device\": \"%s\",\n  \"rays\": %llu,\n  \"rows\": [\n", device,
+	        (unsigned long long)total(tally, -1, -1));
 	for (int v = SAME; v < N_VERDICTS; v++)
 		fprintf(out, "    { \"what\": \"%s\", \"figure\": \"%llu rays\", \"bar\": %s, \"passed\": %s },\n", verdict_names[v],
 		        (unsigned long long)total(tally, -1, v), v == WRONG_OURS ? "\"0\"" : "null",
 		        v == WRONG_OURS ? (total(tally, -1, v) ? "false" : "true") : "null");
 	for (int a = 1; a < N_ACCEL_KINDS; a++)
-		fprintf(out, "    { \"what\": \"hits of %s that are not those of %s to the bit\", \"figure\": \"%llu rays, %llu wrong\", \"bar\": "
-		        "\"0 wrong\", \"passed\": %s },\n", accel_kind_names[a], accel_kind_names[0], (unsigned long long)tally->differ[a],
+		fprintf(out,
+		        "    { \"what\": \"hits of %s that are not those of %s to the bit\", \"figure\": \"%llu rays, "
+		        "%llu wrong\", \"bar\": "
+		        "\"0 wrong\", \"passed\": %s },\n",
+		        accel_kind_names[a], accel_kind_names[0], (unsigned long long)tally->differ[a],
 		        (unsigned long long)tally->wrong[a], tally->wrong[a] ? "false" : "true");
-	fprintf(out, "    { \"what\": \"any hit and nearest hit disagree\", \"figure\": \"%llu rays\", \"bar\": \"0\", \"passed\": %s }\n  ]\n}\n",
+	fprintf(out,
+	        "    { \"what\": \"any hit and nearest hit disagree\", \"figure\": \"%llu rays\", \"bar\": \"0\", "
+	        "\"passed\": %s }\n  ]\n}\n",
 	        (unsigned long long)tally->occluded_wrong, tally->occluded_wrong ? "false" : "true");
 	return fclose(out) ? err_report(ERR_SYSTEM, path, "cannot be written") : 0;
 }
@@ -507,7 +530,8 @@ int main(int argc, char **argv)
 		for (int v = 0; v < N_VERDICTS; v++)
 			printf(" %15llu", (unsigned long long)total(&tally, k, v));
 	}
-	printf("\nany hit and nearest hit disagree: %llu; bar: 0 of ours wrong, 0 of these\n", (unsigned long long)tally.occluded_wrong);
+	printf("\nany hit and nearest hit disagree: %llu; bar: 0 of ours wrong, 0 of these\n",
+	       (unsigned long long)tally.occluded_wrong);
 	for (int a = 1; a < N_ACCEL_KINDS; a++)
 		printf("%s: %llu hits are not those of %s to the bit, %llu of them wrong; bar: 0 wrong\n", accel_kind_names[a],
 		       (unsigned long long)tally.differ[a], accel_kind_names[0], (unsigned long long)tally.wrong[a]);

@@ -1,12 +1,12 @@
 /*
- * Queries of query/relume-rays.h: their answers beside those of all triangles one by one, and their rates beside Embree's.
- * A program of its own: the command never links Embree.
+ * Queries of query/relume-rays.h: their answers beside those of all triangles one by one, and their rates beside
+ * Embree's. A program of its own: the command never links Embree.
  *
  * usage: queries [--count N] [--seed N] [--rates 0] [--device NAME] [--models DIR] [--json FILE] [--command TEXT]
  *
- * Two scenes get half of the queries of each kind each: triangles by chance, with slivers, some without area and some twice, about the
- * origin and far from it. Rates: on the bench's scene of 250,000 triangles, incoherent rays and points near surfaces, a thread of Embree
- * for each thread of ours; medians of five, by the clock on the wall, alternating.
+ * Two scenes get half of the queries of each kind each: triangles by chance, with slivers, some without area and some
+ * twice, about the origin and far from it. Rates: on the bench's scene of 250,000 triangles, incoherent rays and points
+ * near surfaces, a thread of Embree for each thread of ours; medians of five, by the clock on the wall, alternating.
  * Exit code 0 where no answer is wrong.
  */
 #include "tests/bench/rtcore.h"
@@ -30,7 +30,8 @@
 #define SAMPLED 16 /* of so many boxes one is looked at at moments of its way, too */
 
 enum kind { NEAREST, ANY, ALL, DISTANCE, BOX, SPHERE, N_KINDS };
-static const char *const kind_names[N_KINDS] = { "nearest hit", "any hit", "all hits", "distance", "moving box", "moving sphere" };
+static const char *const kind_names[N_KINDS] = { "nearest hit", "any hit",    "all hits",
+	                                         "distance",    "moving box", "moving sphere" };
 
 static uint32_t random_state = 1;
 
@@ -40,7 +41,7 @@ static float chance(float lo, float hi)
 	return lo + (hi - lo) * ((float)(random_state >> 8) / 16777216.0f);
 }
 
-/* --- Answers ---------------------------------------------------------------------------------------------------------- */
+/* --- Answers ----------------------------------------------------------------------------------------------------- */
 
 struct world {
 	float position[3 * N_TRIANGLES][3];
@@ -80,8 +81,8 @@ static int make_world(struct world *w, float far, const char *device)
 	for (uint32_t i = 0; i < N_TRIANGLES; i++)
 		make_triangle(w, i);
 	w->brute = (struct brute){ (const float (*)[3])w->position, (const uint32_t (*)[3])w->index, N_TRIANGLES, far + 8 };
-	return relume_rays_open_triangles((const float (*)[3])w->position, 3 * N_TRIANGLES, (const uint32_t (*)[3])w->index, N_TRIANGLES, device,
-	                                  &w->rays);
+	return relume_rays_open_triangles((const float(*)[3])w->position, 3 * N_TRIANGLES,
+	                                  (const uint32_t(*)[3])w->index, N_TRIANGLES, device, &w->rays);
 }
 
 static struct relume_rays_ray make_ray(const struct world *w, uint32_t i)
@@ -118,8 +119,9 @@ static int ask_rays(struct world *w, enum kind kind, uint32_t n, struct tally *t
 	for (uint32_t i = 0; i < n && !rc; i++)
 		rays[i] = make_ray(w, i);
 	if (!rc)
-		rc = kind == NEAREST ? relume_rays_nearest(w->rays, rays, n, hits) : kind == ANY ? relume_rays_any(w->rays, rays, n, counts)
-		                     : relume_rays_all(w->rays, rays, n, MOST, hits, counts);
+		rc = kind == NEAREST ? relume_rays_nearest(w->rays, rays, n, hits) :
+		     kind == ANY     ? relume_rays_any(w->rays, rays, n, counts) :
+		                       relume_rays_all(w->rays, rays, n, MOST, hits, counts);
 	for (uint32_t i = 0; i < n && !rc; i++) {
 		if (kind == NEAREST) {
 			t->found[kind] += hits[i].triangle != RELUME_RAYS_NONE;
@@ -129,7 +131,8 @@ static int ask_rays(struct world *w, enum kind kind, uint32_t n, struct tally *t
 			t->wrong[kind] += !brute_any(&w->brute, &rays[i], counts[i]);
 		} else {
 			t->found[kind] += counts[i] != 0;
-			t->wrong[kind] += !brute_all(&w->brute, &rays[i], hits + (size_t)i * MOST, counts[i] < MOST ? counts[i] : MOST, counts[i]);
+			t->wrong[kind] += !brute_all(&w->brute, &rays[i], hits + (size_t)i * MOST,
+			                             counts[i] < MOST ? counts[i] : MOST, counts[i]);
 		}
 	}
 	t->asked[kind] += n;
@@ -171,7 +174,8 @@ static int ask_bodies(struct world *w, enum kind kind, uint32_t n, struct tally 
 	for (uint32_t i = 0; i < n && !rc; i++)
 		bodies[i] = make_body(w, i, kind == SPHERE);
 	if (!rc)
-		rc = kind == BOX ? relume_rays_move_box(w->rays, bodies, n, answers) : relume_rays_move_sphere(w->rays, bodies, n, answers);
+		rc = kind == BOX ? relume_rays_move_box(w->rays, bodies, n, answers) :
+		                   relume_rays_move_sphere(w->rays, bodies, n, answers);
 	for (uint32_t i = 0; i < n && !rc; i++) {
 		t->found[kind] += answers[i].triangle != RELUME_RAYS_NONE;
 		t->wrong[kind] += kind == BOX ? !brute_box(&w->brute, &bodies[i], &answers[i], i % SAMPLED == 0)
@@ -192,13 +196,15 @@ static int ask_all_kinds(uint32_t n, const char *device, struct tally *t)
 	for (int scene = 0; scene < 2 && !rc; scene++) {
 		rc = make_world(&w, far[scene], device);
 		for (int kind = NEAREST; kind < N_KINDS && !rc; kind++)
-			rc = kind == DISTANCE ? ask_points(&w, n / 2, t) : kind < DISTANCE ? ask_rays(&w, kind, n / 2, t) : ask_bodies(&w, kind, n / 2, t);
+			rc = kind == DISTANCE ? ask_points(&w, n / 2, t) :
+			     kind < DISTANCE  ? ask_rays(&w, kind, n / 2, t) :
+			                        ask_bodies(&w, kind, n / 2, t);
 		relume_rays_close(&w.rays);
 	}
 	return rc;
 }
 
-/* --- Rates ------------------------------------------------------------------------------------------------------------- */
+/* --- Rates ------------------------------------------------------------------------------------------------------- */
 
 struct peer {
 	RTCScene scene;
@@ -222,14 +228,17 @@ static void *trace_share(void *user)
 	return NULL;
 }
 
-/* The nearest point of a triangle by regions (Ericson 2005, section 5.1.5): the quick way, for triangles with an area. */
+/* The nearest point of a triangle by regions (Ericson 2005, section 5.1.5): the quick way, for triangles with an
+ * area. */
 static float region_distance2(const float p[3], const float a[3], const float b[3], const float c[3])
 {
-	float ab[3], ac[3], ap[3], bp[3], cp[3], at[3], d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0, d6 = 0, va, vb, vc, s, t, sum = 0;
+	float ab[3], ac[3], ap[3], bp[3], cp[3], at[3], d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0, d6 = 0, va, vb, vc, s,
+							t, sum = 0;
 
 	for (int i = 0; i < 3; i++) {
 		ab[i] = b[i] - a[i], ac[i] = c[i] - a[i], ap[i] = p[i] - a[i], bp[i] = p[i] - b[i], cp[i] = p[i] - c[i];
-		d1 += ab[i] * ap[i], d2 += ac[i] * ap[i], d3 += ab[i] * bp[i], d4 += ac[i] * bp[i], d5 += ab[i] * cp[i], d6 += ac[i] * cp[i];
+		d1 += ab[i] * ap[i], d2 += ac[i] * ap[i], d3 += ab[i] * bp[i], d4 += ac[i] * bp[i], d5 += ab[i] * cp[i],
+			d6 += ac[i] * cp[i];
 	}
 	vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
 	if (d1 <= 0 && d2 <= 0)
@@ -272,7 +281,8 @@ static void *measure_share(void *user)
 	struct RTCPointQueryContext context;
 
 	for (uint32_t i = p->first; i < p->last; i++) {
-		struct RTCPointQuery query = { p->points[i].position[0], p->points[i].position[1], p->points[i].position[2], 0, INFINITY };
+		struct RTCPointQuery query = { p->points[i].position[0], p->points[i].position[1],
+			                       p->points[i].position[2], 0, INFINITY };
 		const struct bench_mesh *mesh = p->mesh;
 
 		rtcInitPointQueryContext(&context);
@@ -311,8 +321,10 @@ static RTCScene peer_scene(RTCDevice device, const struct bench_mesh *mesh)
 	RTCScene scene = rtcNewScene(device);
 	RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
 
-	rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh->position, 0, 16, mesh->n_vertices);
-	rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->index, 0, 12, mesh->n_triangles);
+	rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh->position, 0, 16,
+	                           mesh->n_vertices);
+	rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->index, 0, 12,
+	                           mesh->n_triangles);
 	rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
 	rtcCommitGeometry(geometry);
 	rtcAttachGeometry(scene, geometry);
@@ -341,9 +353,11 @@ static void make_rated(const struct bench_mesh *mesh, struct relume_rays_point *
 static void copy_rays(const struct relume_rays_ray *rays, struct RTCRayHit *out)
 {
 	for (uint32_t i = 0; i < N_RATED; i++)
-		out[i] = (struct RTCRayHit){ .ray = { .org_x = rays[i].origin[0], .org_y = rays[i].origin[1], .org_z = rays[i].origin[2],
-			                              .tnear = rays[i].nearest, .dir_x = rays[i].direction[0], .dir_y = rays[i].direction[1],
-			                              .dir_z = rays[i].direction[2], .tfar = rays[i].farthest, .mask = ~0u },
+		out[i] = (struct RTCRayHit){ .ray = {
+			.org_x = rays[i].origin[0], .org_y = rays[i].origin[1], .org_z = rays[i].origin[2], .tnear = rays[i].nearest,
+			.dir_x = rays[i].direction[0], .dir_y = rays[i].direction[1], .dir_z = rays[i].direction[2],
+			.tfar = rays[i].farthest, .mask = ~0u
+		},
 			                     .hit = { .geomID = ~0u, .instID = { ~0u } } };
 }
 
@@ -379,13 +393,18 @@ static int run_rates(struct relume_rays *ours, struct rated *r, unsigned threads
 
 static int measure(const char *models, const char *device, struct rates *out)
 {
-	const unsigned threads = (unsigned)sysconf(_SC_NPROCESSORS_ONLN) < MAX_THREADS ? (unsigned)sysconf(_SC_NPROCESSORS_ONLN) : MAX_THREADS;
+	const unsigned threads = (unsigned)sysconf(_SC_NPROCESSORS_ONLN) < MAX_THREADS ?
+	                                 (unsigned)sysconf(_SC_NPROCESSORS_ONLN) :
+	                                 MAX_THREADS;
 	RTCDevice embree = rtcNewDevice(NULL);
 	struct bench_mesh mesh;
 	struct relume_rays *ours = NULL;
-	struct rated r = { .points = malloc(N_RATED * sizeof(*r.points)), .rays = malloc(N_RATED * sizeof(*r.rays)),
-		           .hits = malloc(N_RATED * sizeof(*r.hits)), .answers = malloc(N_RATED * sizeof(*r.answers)),
-		           .peer = { .rays = aligned_alloc(64, N_RATED * sizeof(*r.peer.rays)), .distances = malloc(N_RATED * sizeof(float)) } };
+	struct rated r = { .points = malloc(N_RATED * sizeof(*r.points)),
+		           .rays = malloc(N_RATED * sizeof(*r.rays)),
+		           .hits = malloc(N_RATED * sizeof(*r.hits)),
+		           .answers = malloc(N_RATED * sizeof(*r.answers)),
+		           .peer = { .rays = aligned_alloc(64, N_RATED * sizeof(*r.peer.rays)),
+		                     .distances = malloc(N_RATED * sizeof(float)) } };
 	float (*position)[3];
 	int rc = -bench_mesh_create(models, &mesh);
 
@@ -398,14 +417,16 @@ static int measure(const char *models, const char *device, struct rates *out)
 	r.peer.mesh = &mesh;
 	r.peer.points = r.points;
 	r.peer.scene = peer_scene(embree, &mesh);
-	rc = relume_rays_open_triangles((const float (*)[3])position, mesh.n_vertices, (const uint32_t (*)[3])mesh.index, mesh.n_triangles, device,
-	                                &ours);
+	rc = relume_rays_open_triangles((const float(*)[3])position, mesh.n_vertices, (const uint32_t(*)[3])mesh.index,
+	                                mesh.n_triangles, device, &ours);
 	if (!rc)
 		rc = run_rates(ours, &r, threads);
 	for (uint32_t i = 0; i < N_RATED && !rc; i++) {
 		out->apart = fmax(out->apart, fabs((double)r.answers[i].distance - r.peer.distances[i]));
-		out->hits_differ += (r.hits[i].triangle == RELUME_RAYS_NONE) != (r.peer.rays[i].hit.geomID == RTC_INVALID_GEOMETRY_ID) ||
-		                    (r.hits[i].triangle != RELUME_RAYS_NONE && fabsf(r.hits[i].t - r.peer.rays[i].ray.tfar) > 1e-3f);
+		out->hits_differ += (r.hits[i].triangle == RELUME_RAYS_NONE) !=
+		                            (r.peer.rays[i].hit.geomID == RTC_INVALID_GEOMETRY_ID) ||
+		                    (r.hits[i].triangle != RELUME_RAYS_NONE &&
+		                     fabsf(r.hits[i].t - r.peer.rays[i].ray.tfar) > 1e-3f);
 	}
 	for (int k = 0; k < 2; k++) {
 		out->ray[k] = bench_median(r.seconds[k], REPEATS);
@@ -425,41 +446,52 @@ static int measure(const char *models, const char *device, struct rates *out)
 	return rc;
 }
 
-/* --- The report ---------------------------------------------------------------------------------------------------------- */
+/* --- The report -------------------------------------------------------------------------------------------------- */
 
 static uint64_t print(const struct tally *t, const struct rates *rates, int with_rates)
 {
 	uint64_t wrong = 0;
 
 	for (int kind = 0; kind < N_KINDS; kind++) {
-		printf("%-14s %9llu queries, %9llu find something, %llu wrong (bar: 0)\n", kind_names[kind], (unsigned long long)t->asked[kind],
-		       (unsigned long long)t->found[kind], (unsigned long long)t->wrong[kind]);
+		printf("%-14s %9llu queries, %9llu find something, %llu wrong (bar: 0)\n", kind_names[kind],
+		       (unsigned long long)t->asked[kind], (unsigned long long)t->found[kind],
+		       (unsigned long long)t->wrong[kind]);
 		wrong += t->wrong[kind];
 	}
 	if (with_rates) {
 		printf("nearest hit    %.2f million a second, %.2f times rtcIntersect1M; %u of %u differ by more than 0.001\n",
 		       N_RATED / rates->ray[0] / 1e6, rates->ray[1] / rates->ray[0], rates->hits_differ, N_RATED);
-		printf("distance       %.2f million a second, %.2f times rtcPointQuery; apart by at most %.2g\n", N_RATED / rates->point[0] / 1e6,
-		       rates->point[1] / rates->point[0], rates->apart);
+		printf("distance       %.2f million a second, %.2f times rtcPointQuery; apart by at most %.2g\n",
+		       N_RATED / rates->point[0] / 1e6, rates->point[1] / rates->point[0], rates->apart);
 	}
 	return wrong;
 }
 
-static int write_json(const char *path, const char *command, const struct tally *t, const struct rates *rates, uint64_t wrong)
+static int write_json(const char *path, const char *command, const struct tally *t, const struct rates *rates,
+                      uint64_t wrong)
 {
 	FILE *out = fopen(path, "w");
 
 	if (!out)
 		return err_report(ERR_SYSTEM, path, "cannot be written");
-	fprintf(out, "{\n  \"name\": \"query\",\n  \"command\": \"%s\",\n  \"figure\": %llu,\n  \"bar\": 0,\n  \"unit\": \"answers that are wrong\",\n",
+	fprintf(out,
+	        "{\n  \"name\": \"query\",\n  \"command\": \"%s\",\n  \"figure\": %llu,\n  \"bar\": 0,\n  \"unit\": "
+	        "\"answers that are wrong\",\n",
 	        command, (unsigned long long)wrong);
 	fprintf(out, "  \"peer\": \"Embree\",\n  \"peer_version\": \"%s\",\n  \"rows\": [\n", RTC_VERSION_STRING);
 	for (int kind = 0; kind < N_KINDS; kind++)
-		fprintf(out, "    { \"what\": \"%s\", \"figure\": \"%llu of %llu wrong\", \"bar\": \"0\", \"passed\": %s },\n", kind_names[kind],
-		        (unsigned long long)t->wrong[kind], (unsigned long long)t->asked[kind], t->wrong[kind] ? "false" : "true");
-	fprintf(out, "    { \"what\": \"nearest hit, rate against rtcIntersect1M\", \"figure\": %.3f, \"bar\": null, \"passed\": null },\n",
+		fprintf(out,
+		        "    { \"what\": \"%s\", \"figure\": \"%llu of %llu wrong\", \"bar\": \"0\", \"passed\": %s "
+		        "},\n",
+		        kind_names[kind], (unsigned long long)t->wrong[kind], (unsigned long long)t->asked[kind],
+		        t->wrong[kind] ? "false" : "true");
+	fprintf(out,
+	        "    { \"what\": \"nearest hit, rate against rtcIntersect1M\", \"figure\": %.3f, \"bar\": null, "
+	        "\"passed\": null },\n",
 	        rates->ray[0] > 0 ? rates->ray[1] / rates->ray[0] : 0);
-	fprintf(out, "    { \"what\": \"distance, rate against rtcPointQuery\", \"figure\": %.3f, \"bar\": null, \"passed\": null }\n  ]\n}\n",
+	fprintf(out,
+	        "    { \"what\": \"distance, rate against rtcPointQuery\", \"figure\": %.3f, \"bar\": null, "
+	        "\"passed\": null }\n  ]\n}\n",
 	        rates->point[0] > 0 ? rates->point[1] / rates->point[0] : 0);
 	return fclose(out) ? err_report(ERR_SYSTEM, path, "cannot be written") : 0;
 }

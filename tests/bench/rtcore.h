@@ -1,6 +1,6 @@
 /*
- * Embree 3 or 4, whichever is installed, by the same names. A query is what a call of Embree's takes beside the scene and the rays: the
- * context of Embree 3, the arguments of Embree 4 (its README, "Upgrading from Embree 3 to Embree 4").
+ * Embree 3 or 4, whichever is installed, by the same names. A query is what a call of Embree's takes beside the scene
+ * and the rays: the context of Embree 3, the arguments of Embree 4 (its README, "Upgrading from Embree 3 to Embree 4").
  */
 #pragma once
 
@@ -42,13 +42,15 @@ static inline void peer_occluded(RTCScene scene, struct peer_query *query, struc
 #define PEER_OCCLUDED(N, valid, scene, query, r) rtcOccluded##N(valid, scene, r, &(query)->occluded)
 
 /* Streams of n rays, each `stride` bytes after the one before it. Embree 4 has none: ray by ray. */
-static inline void peer_intersect_stream(RTCScene scene, struct peer_query *query, struct RTCRayHit *r, unsigned n, size_t stride)
+static inline void peer_intersect_stream(RTCScene scene, struct peer_query *query, struct RTCRayHit *r, unsigned n,
+                                         size_t stride)
 {
 	for (unsigned i = 0; i < n; i++)
 		peer_intersect(scene, query, (struct RTCRayHit *)(void *)((char *)r + i * stride));
 }
 
-static inline void peer_occluded_stream(RTCScene scene, struct peer_query *query, struct RTCRay *r, unsigned n, size_t stride)
+static inline void peer_occluded_stream(RTCScene scene, struct peer_query *query, struct RTCRay *r, unsigned n,
+                                        size_t stride)
 {
 	for (unsigned i = 0; i < n; i++)
 		peer_occluded(scene, query, (struct RTCRay *)(void *)((char *)r + i * stride));
@@ -81,12 +83,14 @@ static inline void peer_occluded(RTCScene scene, struct peer_query *query, struc
 #define PEER_INTERSECT(N, valid, scene, query, r) rtcIntersect##N(valid, scene, &(query)->context, r)
 #define PEER_OCCLUDED(N, valid, scene, query, r) rtcOccluded##N(valid, scene, &(query)->context, r)
 
-static inline void peer_intersect_stream(RTCScene scene, struct peer_query *query, struct RTCRayHit *r, unsigned n, size_t stride)
+static inline void peer_intersect_stream(RTCScene scene, struct peer_query *query, struct RTCRayHit *r, unsigned n,
+                                         size_t stride)
 {
 	rtcIntersect1M(scene, &query->context, r, n, stride);
 }
 
-static inline void peer_occluded_stream(RTCScene scene, struct peer_query *query, struct RTCRay *r, unsigned n, size_t stride)
+static inline void peer_occluded_stream(RTCScene scene, struct peer_query *query, struct RTCRay *r, unsigned n,
+                                        size_t stride)
 {
 	rtcOccluded1M(scene, &query->context, r, n, stride);
 }

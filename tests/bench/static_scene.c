@@ -1,11 +1,12 @@
 /*
- * What recording costs: 10,000 lit triangles, 100 frames, drawn in one of four ways; prints milliseconds a frame by the clock,
- * and of the processors' time that the process used.
+ * What recording costs: 10,000 lit triangles, 100 frames, drawn in one of four ways; prints milliseconds a frame by the
+ * clock, and of the processors' time that the process used.
  *
  *     static_scene immediate|arrays|elements|changing [FRAMES]
  *
- * immediate: Begin..End with a normal and a vertex each; arrays: one glDrawArrays; elements: 20 glDrawElements over the same
- * arrays; changing: as arrays, with vertices that move every frame. Run by show-overhead bare, recorded and under apitrace.
+ * immediate: Begin..End with a normal and a vertex each; arrays: one glDrawArrays; elements: 20 glDrawElements over the
+ * same arrays; changing: as arrays, with vertices that move every frame. Run by show-overhead bare, recorded and under
+ * apitrace.
  */
 #include <GL/gl.h>
 #include <GL/glx.h>
@@ -105,8 +106,8 @@ int main(int argc, char **argv)
 	if (!display || !(visual = glXChooseVisual(display, DefaultScreen(display), attributes)))
 		return 1;
 	set.colormap = XCreateColormap(display, DefaultRootWindow(display), visual->visual, AllocNone);
-	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, 640, 480, 0, visual->depth, InputOutput, visual->visual,
-	                       CWColormap, &set);
+	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, 640, 480, 0, visual->depth, InputOutput,
+	                       visual->visual, CWColormap, &set);
 	context = glXCreateContext(display, visual, NULL, True);
 	XMapWindow(display, window);
 	glXMakeCurrent(display, window, context);

@@ -1,7 +1,7 @@
 /*
- * tiny DEVICE FAMILY: scenes of a few pixels in which every kernel has work, for tools that watch kernels run and are slow
- * (make show-oclgrind). FAMILY: "packets", "binary" or "compressed", the traversal kernels to take. Prints a line for each picture,
- * with a hash of its channels.
+ * tiny DEVICE FAMILY: scenes of a few pixels in which every kernel has work, for tools that watch kernels run and are
+ * slow (make show-oclgrind). FAMILY: "packets", "binary" or "compressed", the traversal kernels to take. Prints a line
+ * for each picture, with a hash of its channels.
  */
 #include <stdio.h>
 #include <xxhash.h>
@@ -12,8 +12,14 @@ static const float right[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 };
 
 /* Texels made by the objects' own coordinates. */
 static const uint8_t texels[] = { 255, 0, 0, 255, 0, 255, 0, 60, 0, 0, 255, 255, 255, 255, 255, 60 };
-static const struct scene_texture texture = { .hash = { 7, 7 }, .target = GL_TEXTURE_2D, .base_format = GL_RGBA, .width = 2,
-	                                      .height = 2, .depth = 1, .n_levels = 1, .texels = texels,
+static const struct scene_texture texture = { .hash = { 7, 7 },
+	                                      .target = GL_TEXTURE_2D,
+	                                      .base_format = GL_RGBA,
+	                                      .width = 2,
+	                                      .height = 2,
+	                                      .depth = 1,
+	                                      .n_levels = 1,
+	                                      .texels = texels,
 	                                      .n_bytes = sizeof(texels) };
 static const struct scene_texture *const textures[] = { &texture };
 

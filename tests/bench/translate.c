@@ -10,14 +10,17 @@
 
 #define TIMES 21
 
-static const char *const vertices[] = {
-	"varying vec3 n, v; void main() { n = gl_NormalMatrix * gl_Normal; v = vec3(gl_ModelViewMatrix * gl_Vertex); gl_Position = ftransform(); }" };
+static const char *const vertices[] = { "varying vec3 n, v; void main() { n = gl_NormalMatrix * gl_Normal; v = "
+	                                "vec3(gl_ModelViewMatrix * gl_Vertex); gl_Position = ftransform(); }" };
 static const char *const fragments[] = {
-	"varying vec3 n, v; void main() { vec3 m = normalize(n), e = normalize(-v); vec4 c = gl_FrontLightModelProduct.sceneColor;\n"
-	"for (int i = 0; i < 4; i++) { vec3 l = normalize(gl_LightSource[i].position.xyz - v); float d = max(dot(m, l), 0.0);\n"
+	"varying vec3 n, v; void main() { vec3 m = normalize(n), e = normalize(-v); vec4 c = "
+	"gl_FrontLightModelProduct.sceneColor;\n"
+	"for (int i = 0; i < 4; i++) { vec3 l = normalize(gl_LightSource[i].position.xyz - v); float d = max(dot(m, "
+	"l), 0.0);\n"
 	"c += gl_FrontLightProduct[i].ambient + gl_FrontLightProduct[i].diffuse * d;\n"
 	"c += gl_FrontLightProduct[i].specular * pow(max(dot(reflect(-l, m), e), 0.0), gl_FrontMaterial.shininess); }\n"
-	"gl_FragColor = mix(gl_Fog.color, c, clamp((gl_Fog.end + v.z) * gl_Fog.scale, 0.0, 1.0)); }" };
+	"gl_FragColor = mix(gl_Fog.color, c, clamp((gl_Fog.end + v.z) * gl_Fog.scale, 0.0, 1.0)); }"
+};
 
 static double processor_ms(void)
 {

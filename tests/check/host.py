@@ -1,14 +1,16 @@
-"""
-The OpenCL device of host_cl.c: how clang compiles kernels for it, and the environment that preloads it. It starts clang, so that `relume render`
-needs --no-sandbox with it.
+"""The OpenCL device of host_cl.c: how clang compiles kernels for it, and the environment that preloads it. It starts
+clang, so that `relume render` needs --no-sandbox with it.
 """
 import os
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-COMPILE = ["clang", "-shared", "-fPIC", "-gline-tables-only", "-x", "cl", "-cl-std=CL1.2", "-cl-no-stdinc", "-D__OPENCL_VERSION__=120",
-           "-Wall", "-Wno-unknown-pragmas", "-Wno-unused-function", "-Wno-c++20-designator", "-Wno-psabi", "-I", str(ROOT),
-           "-ftrivial-auto-var-init=pattern"]
+COMPILE = [
+    "clang", "-shared", "-fPIC", "-gline-tables-only", "-x", "cl", "-cl-std=CL1.2", "-cl-no-stdinc",
+    "-D__OPENCL_VERSION__=120", "-Wall", "-Wno-unknown-pragmas", "-Wno-unused-function", "-Wno-c++20-designator",
+    "-Wno-psabi", "-I",
+    str(ROOT), "-ftrivial-auto-var-init=pattern"
+]
 
 
 def programs(build):
@@ -21,7 +23,8 @@ def programs(build):
 
 
 def environment(build, options, shims=(), **more):
-    """A process that sees this device alone, with other shims before it; kernels are compiled with the given options."""
+    """A process that sees this device alone, with other shims before it; kernels are compiled with the given
+    options."""
     preload = [*shims, build / "tests/check/host_cl.so"]
     return dict(os.environ, LD_PRELOAD=" ".join(map(str, preload)), HOST_CL_FOLDER=str(programs(build)),
                 HOST_CL_COMPILE=" ".join([*COMPILE, "-I", str(build / "gen"), *options]), **more)

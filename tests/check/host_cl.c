@@ -1,11 +1,10 @@
 /*
- * An OpenCL device that is this process, preloaded before the ICD loader. Kernels are compiled by a command of the caller's choice (with
- * sanitizers, other rounding, nothing inlined: test_host.py), work items run one after the other, the last one first.
- *   HOST_CL_COMPILE  the command: "clang OPTIONS", to which files are added
- *   HOST_CL_FOLDER   where compiled programs are kept
- *   HOST_CL_FLUSH=1  numbers below 2^-126 count as 0
- *   HOST_CL_WIDTH=N  says that its vectors have so many floats; 8
- * New buffers are full of NaN; bytes behind their end must stay as they are. What UndefinedBehaviorSanitizer finds ends the process.
+ * An OpenCL device that is this process, preloaded before the ICD loader. Kernels are compiled by a command of the
+ * caller's choice (with sanitizers, other rounding, nothing inlined: test_host.py), work items run one after the other,
+ * the last one first. HOST_CL_COMPILE  the command: "clang OPTIONS", to which files are added HOST_CL_FOLDER   where
+ * compiled programs are kept HOST_CL_FLUSH=1  numbers below 2^-126 count as 0 HOST_CL_WIDTH=N  says that its vectors
+ * have so many floats; 8 New buffers are full of NaN; bytes behind their end must stay as they are. What
+ * UndefinedBehaviorSanitizer finds ends the process.
  */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -54,7 +53,7 @@ static void fail(const char *what, const char *more)
 	abort();
 }
 
-/* --- What kernels call --------------------------------------------------------------------------------------------- */
+/* --- What kernels call ------------------------------------------------------------------------------------------- */
 
 static _Thread_local unsigned long item;
 
@@ -112,7 +111,7 @@ HANDLER(nonnull_arg)
 HANDLER(nonnull_return)
 HANDLER(pointer_overflow)
 
-/* --- Devices ------------------------------------------------------------------------------------------------------- */
+/* --- Devices ----------------------------------------------------------------------------------------------------- */
 
 static cl_int tell(const void *what, size_t bytes, size_t size, void *value, size_t *needed)
 {
@@ -193,7 +192,8 @@ cl_int clGetDeviceInfo(cl_device_id d, cl_device_info what, size_t size, void *v
 	}
 }
 
-cl_int clCreateSubDevices(cl_device_id d, const cl_device_partition_property *how, cl_uint n, cl_device_id *out, cl_uint *made)
+cl_int clCreateSubDevices(cl_device_id d, const cl_device_partition_property *how, cl_uint n, cl_device_id *out,
+                          cl_uint *made)
 {
 	(void)d, (void)how, (void)n, (void)out, (void)made;
 	return CL_DEVICE_PARTITION_FAILED;
@@ -206,7 +206,8 @@ cl_int clReleaseDevice(cl_device_id d)
 }
 
 cl_context clCreateContext(const cl_context_properties *properties, cl_uint n, const cl_device_id *devices,
-                           void(CL_CALLBACK *notify)(const char *, const void *, size_t, void *), void *user, cl_int *code)
+                           void(CL_CALLBACK *notify)(const char *, const void *, size_t, void *), void *user,
+                           cl_int *code)
 {
 	(void)properties, (void)n, (void)devices, (void)notify, (void)user;
 	*code = CL_SUCCESS;
@@ -219,7 +220,8 @@ cl_int clReleaseContext(cl_context c)
 	return CL_SUCCESS;
 }
 
-cl_command_queue clCreateCommandQueue(cl_context c, cl_device_id d, cl_command_queue_properties properties, cl_int *code)
+cl_command_queue clCreateCommandQueue(cl_context c, cl_device_id d, cl_command_queue_properties properties,
+                                      cl_int *code)
 {
 	(void)c, (void)d, (void)properties;
 	*code = CL_SUCCESS;
@@ -244,7 +246,7 @@ cl_int clFinish(cl_command_queue q)
 	return CL_SUCCESS;
 }
 
-/* --- Buffers ------------------------------------------------------------------------------------------------------- */
+/* --- Buffers ----------------------------------------------------------------------------------------------------- */
 
 cl_mem clCreateBuffer(cl_context c, cl_mem_flags flags, size_t bytes, void *host, cl_int *code)
 {
@@ -280,8 +282,8 @@ static int is_whole(cl_mem mem)
 	return 1;
 }
 
-cl_int clEnqueueWriteBuffer(cl_command_queue q, cl_mem mem, cl_bool wait, size_t offset, size_t bytes, const void *data, cl_uint n,
-                            const cl_event *events, cl_event *event)
+cl_int clEnqueueWriteBuffer(cl_command_queue q, cl_mem mem, cl_bool wait, size_t offset, size_t bytes, const void *data,
+                            cl_uint n, const cl_event *events, cl_event *event)
 {
 	(void)q, (void)wait, (void)n, (void)events, (void)event;
 	if (offset > mem->bytes || bytes > mem->bytes - offset)
@@ -290,8 +292,8 @@ cl_int clEnqueueWriteBuffer(cl_command_queue q, cl_mem mem, cl_bool wait, size_t
 	return CL_SUCCESS;
 }
 
-cl_int clEnqueueReadBuffer(cl_command_queue q, cl_mem mem, cl_bool wait, size_t offset, size_t bytes, void *data, cl_uint n,
-                           const cl_event *events, cl_event *event)
+cl_int clEnqueueReadBuffer(cl_command_queue q, cl_mem mem, cl_bool wait, size_t offset, size_t bytes, void *data,
+                           cl_uint n, const cl_event *events, cl_event *event)
 {
 	(void)q, (void)wait, (void)n, (void)events, (void)event;
 	if (offset > mem->bytes || bytes > mem->bytes - offset)
@@ -300,21 +302,22 @@ cl_int clEnqueueReadBuffer(cl_command_queue q, cl_mem mem, cl_bool wait, size_t 
 	return CL_SUCCESS;
 }
 
-void *clEnqueueMapBuffer(cl_command_queue q, cl_mem mem, cl_bool wait, cl_map_flags how, size_t offset, size_t bytes, cl_uint n,
-                         const cl_event *events, cl_event *event, cl_int *code)
+void *clEnqueueMapBuffer(cl_command_queue q, cl_mem mem, cl_bool wait, cl_map_flags how, size_t offset, size_t bytes,
+                         cl_uint n, const cl_event *events, cl_event *event, cl_int *code)
 {
 	(void)q, (void)wait, (void)how, (void)n, (void)events, (void)event;
 	*code = offset > mem->bytes || bytes > mem->bytes - offset ? CL_INVALID_VALUE : CL_SUCCESS;
 	return *code == CL_SUCCESS ? mem->at + offset : NULL;
 }
 
-cl_int clEnqueueUnmapMemObject(cl_command_queue q, cl_mem mem, void *mapped, cl_uint n, const cl_event *events, cl_event *event)
+cl_int clEnqueueUnmapMemObject(cl_command_queue q, cl_mem mem, void *mapped, cl_uint n, const cl_event *events,
+                               cl_event *event)
 {
 	(void)q, (void)mem, (void)mapped, (void)n, (void)events, (void)event;
 	return CL_SUCCESS;
 }
 
-/* --- Programs ------------------------------------------------------------------------------------------------------ */
+/* --- Programs ---------------------------------------------------------------------------------------------------- */
 
 cl_program clCreateProgramWithSource(cl_context c, cl_uint n, const char **texts, const size_t *lengths, cl_int *code)
 {
@@ -399,7 +402,8 @@ cl_int clBuildProgram(cl_program program, cl_uint n, const cl_device_id *devices
 	if (!compiler || !folder)
 		fail("HOST_CL_COMPILE and HOST_CL_FOLDER are not set", "");
 	program->entries = entries_of(program->text);
-	snprintf(path, sizeof(path), "%s/%016llx.so", folder, (unsigned long long)hash_of(program->text, hash_of(compiler, 0xcbf29ce484222325u)));
+	snprintf(path, sizeof(path), "%s/%016llx.so", folder,
+	         (unsigned long long)hash_of(program->text, hash_of(compiler, 0xcbf29ce484222325u)));
 	pthread_mutex_lock(&lock);
 	if (access(path, R_OK) != 0)
 		failed = compile(program, compiler, path);
@@ -412,7 +416,8 @@ cl_int clBuildProgram(cl_program program, cl_uint n, const cl_device_id *devices
 	return CL_SUCCESS;
 }
 
-cl_int clGetProgramBuildInfo(cl_program program, cl_device_id d, cl_program_build_info what, size_t size, void *value, size_t *needed)
+cl_int clGetProgramBuildInfo(cl_program program, cl_device_id d, cl_program_build_info what, size_t size, void *value,
+                             size_t *needed)
 {
 	(void)program, (void)d, (void)what;
 	return tell_text("", size, value, needed);
@@ -432,7 +437,7 @@ cl_int clReleaseProgram(cl_program program)
 	return CL_SUCCESS;
 }
 
-/* --- Kernels ------------------------------------------------------------------------------------------------------- */
+/* --- Kernels ----------------------------------------------------------------------------------------------------- */
 
 cl_kernel clCreateKernel(cl_program program, const char *name, cl_int *code)
 {
@@ -468,8 +473,9 @@ cl_int clSetKernelArg(cl_kernel kernel, cl_uint i, size_t bytes, const void *val
 	return CL_SUCCESS;
 }
 
-cl_int clEnqueueNDRangeKernel(cl_command_queue q, cl_kernel kernel, cl_uint dimensions, const size_t *offset, const size_t *global,
-                              const size_t *local, cl_uint n, const cl_event *wait, cl_event *event)
+cl_int clEnqueueNDRangeKernel(cl_command_queue q, cl_kernel kernel, cl_uint dimensions, const size_t *offset,
+                              const size_t *global, const size_t *local, cl_uint n, const cl_event *wait,
+                              cl_event *event)
 {
 	const size_t first = offset ? offset[0] : 0;
 	const unsigned before = _mm_getcsr();

@@ -46,8 +46,8 @@ static inline float between(struct random_scene *s, float lo, float hi)
 	return lo + (hi - lo) * next_random(s);
 }
 
-/* The seed of this run: RELUME_SEED, or the clock; printed. Called by main: the tests are children of that process, and a
- * clock read by each would be another seed than the one printed last. */
+/* The seed of this run: RELUME_SEED, or the clock; printed. Called by main: the tests are children of that process, and
+ * a clock read by each would be another seed than the one printed last. */
 static uint32_t seed_of_run;
 
 static inline void choose_seed(void)

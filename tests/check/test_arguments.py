@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Arguments of kernels: what is wrong with them does not compile, neither where a kernel is launched nor in its twin nor in OpenCL C."""
+"""Arguments of kernels: what is wrong with them does not compile, neither where a kernel is launched nor in its twin
+nor in OpenCL C."""
 import os
 import pathlib
 import shutil
@@ -9,9 +10,14 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("RELUME_BUILD", ROOT / "build"))
 WHERE = ["-I", str(ROOT), "-I", str(BUILD / "gen")]
-FLAGS = ["-std=c11", "-Wall", "-Wextra", "-Werror=override-init", "-Werror=incompatible-pointer-types", "-fsyntax-only", "-x", "c", "-", *WHERE]
-OPENCL = ["-target", "spir64", "-x", "cl", "-cl-std=CL1.2", "-D__OPENCL_VERSION__=120", "-Xclang", "-finclude-default-header", "-fsyntax-only",
-          "-", *WHERE]
+FLAGS = [
+    "-std=c11", "-Wall", "-Wextra", "-Werror=override-init", "-Werror=incompatible-pointer-types", "-fsyntax-only",
+    "-x", "c", "-", *WHERE
+]
+OPENCL = [
+    "-target", "spir64", "-x", "cl", "-cl-std=CL1.2", "-D__OPENCL_VERSION__=120", "-Xclang", "-finclude-default-header",
+    "-fsyntax-only", "-", *WHERE
+]
 
 LAUNCH = """#include "tracer/device/launch.h"
 int f(struct device *dev, union buffer_path paths, union buffer_float radiance, union buffer_shaded shaded);

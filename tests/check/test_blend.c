@@ -1,6 +1,6 @@
 /*
- * Blending against Mesa's llvmpipe, bit for bit: every source and alpha over every destination (alphas in steps), for the
- * pairs of factors that programs use.
+ * Blending against Mesa's llvmpipe, bit for bit: every source and alpha over every destination (alphas in steps), for
+ * the pairs of factors that programs use.
  */
 #define EGL_NO_X11
 #include <EGL/egl.h>

@@ -155,18 +155,22 @@ static void run(const struct frame *f, struct device *dev, enum kernel kernel, u
 	ck_assert_int_eq(traverse_upload_pools(dev, s->accel, &trees), 0);
 	ck_assert_int_eq(traverse_upload_tlases(dev, s->accel, s->instances, INSTANCES, &trees), 0);
 	ck_assert_int_eq(traverse_camera(dev, kernel, &trees, r,
-	                                 LAUNCH(camera_pass, .view_index = 0, .views = { b[0] }, .width = WIDTH, .height = HEIGHT,
-	                                        .rectangle = r, .first_pixel = 0, .mode = mode, .window = { b[1] }, .clip = { b[2] }, .after = { b[3] },
-	                                        .fragments = { b[4] }, .counts = { b[5] })), 0);
+	                                 LAUNCH(camera_pass, .view_index = 0, .views = { b[0] }, .width = WIDTH,
+	                                        .height = HEIGHT, .rectangle = r, .first_pixel = 0, .mode = mode,
+	                                        .window = { b[1] }, .clip = { b[2] }, .after = { b[3] },
+	                                        .fragments = { b[4] }, .counts = { b[5] })),
+	                 0);
 	ck_assert_int_eq(device_read(dev, b[4], 0, out->fragments, sizeof(out->fragments)), 0);
 	ck_assert_int_eq(device_read(dev, b[5], 0, out->counts, sizeof(out->counts)), 0);
 	for (size_t i = 0; i < sizeof(b) / sizeof(b[0]); i++)
 		device_release(dev, &b[i]);
 	traverse_release(dev, &trees);
 	for (uint32_t i = 0; i < GUARD; i++)
-		ck_assert_msg(out->counts[PIXELS + i] == GUARD_WORD &&
-		                      out->fragments[(mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1) * PIXELS + i].order == GUARD_WORD,
-		              "camera writes past its end");
+		ck_assert_msg(
+			out->counts[PIXELS + i] == GUARD_WORD &&
+				out->fragments[(mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1) * PIXELS + i].order ==
+					GUARD_WORD,
+			"camera writes past its end");
 	for (uint32_t i = 0; i < PIXELS; i++) {
 		const int32_t x = i % WIDTH, y = i / WIDTH;
 
@@ -203,15 +207,17 @@ static int stands_out(const struct frame *f, const struct fragment *n)
 	return n->depth < nearest - 1e-5f;
 }
 
-static void compare(const struct frame *f, const struct result *want, const struct result *got, uint32_t mode, const char *what)
+static void compare(const struct frame *f, const struct result *want, const struct result *got, uint32_t mode,
+                    const char *what)
 {
 	const uint32_t stride = mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1;
 	uint32_t n_standing_out = 0;
 
 	for (uint32_t i = 0; i < PIXELS; i++) {
-		ck_assert_msg(want->counts[i] == got->counts[i], "%s: pixel %u %u: %u fragments, the twin has %u (first order %d, depth %g)", what,
-		              i % WIDTH, i / WIDTH, got->counts[i], want->counts[i], (int)want->fragments[i * stride].order,
-		              want->fragments[i * stride].depth);
+		ck_assert_msg(want->counts[i] == got->counts[i],
+		              "%s: pixel %u %u: %u fragments, the twin has %u (first order %d, depth %g)", what,
+		              i % WIDTH, i / WIDTH, got->counts[i], want->counts[i],
+		              (int)want->fragments[i * stride].order, want->fragments[i * stride].depth);
 		if (want->counts[i] == GUARD_WORD)
 			continue;
 		if (mode != CAMERA_COLUMN && want->counts[i] && want->fragments[i].order != got->fragments[i].order &&

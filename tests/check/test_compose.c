@@ -1,6 +1,7 @@
 /*
- * The compose kernels on each device against their C twins: pixels by chance, with equal, strange and huge colours among them,
- * in pictures whose rows are no whole packets; and the packets against the kernel that takes one pixel at a time, bit by bit.
+ * The compose kernels on each device against their C twins: pixels by chance, with equal, strange and huge colours
+ * among them, in pictures whose rows are no whole packets; and the packets against the kernel that takes one pixel at a
+ * time, bit by bit.
  */
 #include <math.h>
 #include <stdio.h>
@@ -101,15 +102,16 @@ static void leave_undrawn(struct content *c)
 	}
 }
 
-static void run(struct device *dev, const struct content *c, const struct compose_request *request, int packets, struct planes *out)
+static void run(struct device *dev, const struct content *c, const struct compose_request *request, int packets,
+                struct planes *out)
 {
 	const uint32_t n = PIXELS;
 	struct device_buffer *b[] = {
 		make_buffer(dev, &c->geometry, sizeof(c->geometry)), make_buffer(dev, &c->material, sizeof(c->material)),
 		make_buffer(dev, c->indices, sizeof(c->indices)), make_buffer(dev, c->vertices, sizeof(c->vertices)),
-		make_buffer(dev, c->windows, sizeof(c->windows)), make_buffer(dev, packets ? c->unwritten : c->frame, sizeof(c->frame)),
-		make_buffer(dev, c->sums, sizeof(c->sums)), NULL, NULL, make_buffer(dev, &c->cleared, sizeof(c->cleared)),
-		make_buffer(dev, c->drawn, sizeof(c->drawn)),
+		make_buffer(dev, c->windows, sizeof(c->windows)),
+		make_buffer(dev, packets ? c->unwritten : c->frame, sizeof(c->frame)), make_buffer(dev, c->sums, sizeof(c->sums)),
+		NULL, NULL, make_buffer(dev, &c->cleared, sizeof(c->cleared)), make_buffer(dev, c->drawn, sizeof(c->drawn)),
 	};
 	const struct tables_launch tables = *LAUNCH(tables, .geometries = { b[0] }, .materials = { b[1] }, .lights = { b[0] },
 	                                            .units = { b[0] }, .currents = { b[0] }, .attributes = { b[0] },
@@ -137,7 +139,8 @@ static void run(struct device *dev, const struct content *c, const struct compos
 	}
 }
 
-/* Devices that divide less exactly than the twins may differ by a step of a half, and where a part is no effect any more. */
+/* Devices that divide less exactly than the twins may differ by a step of a half, and where a part is no effect any
+ * more. */
 static void check_close(const struct planes *a, const struct planes *b, const char *name)
 {
 	uint32_t differ = 0;
@@ -153,7 +156,10 @@ START_TEST(test_packets_and_twins)
 {
 	static const struct {
 		uint32_t n_passes, display, normals, without; /* without: a plane that is not wanted */
-	} cases[] = { { 1, 0, 0, N_COMPOSE_HALVES }, { 3, 0, 0, COMPOSE_RELIGHT + 1 }, { 1, 1, 0, 0 }, { 1, 0, 1, COMPOSE_NORMAL } };
+	} cases[] = { { 1, 0, 0, N_COMPOSE_HALVES },
+		      { 3, 0, 0, COMPOSE_RELIGHT + 1 },
+		      { 1, 1, 0, 0 },
+		      { 1, 0, 1, COMPOSE_NORMAL } };
 	struct content *c = malloc(sizeof(*c));
 	struct planes *twin = malloc(sizeof(*twin)), *one = malloc(sizeof(*one)), *packets = malloc(sizeof(*packets));
 	struct device_description *devices = NULL;

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """test_host.py [BUILD] (with BUILD as `make show-host`): the kernels' text as clang makes processor code of it.
 
-host_cl.c is an OpenCL device of this process. Kernels are compiled for it with every freedom that OpenCL C leaves to a device, one
-build after the other, and each must agree with the C twins: `tiny` with every family, to the bit where the build rounds as the twins
-do, and the tests of tests/check that compare devices with twins. UndefinedBehaviorSanitizer watches the first build; new buffers and
-variables hold what nobody wrote.
+host_cl.c is an OpenCL device of this process. Kernels are compiled for it with every freedom that OpenCL C leaves to a
+device, one build after the other, and each must agree with the C twins: `tiny` with every family, to the bit where the
+build rounds as the twins do, and the tests of tests/check that compare devices with twins. UndefinedBehaviorSanitizer
+watches the first build; new buffers and variables hold what nobody wrote.
 
 The test runs two builds. `make show-host` runs them all, and frames of recordings too.
 
@@ -57,7 +57,8 @@ checks, wrong = [], []
 
 
 def run(*command, env=None):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, errors="replace", env=env or os.environ, check=False)
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, errors="replace", env=env
+                          or os.environ, check=False)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -75,7 +76,8 @@ def pictures(text):
 
 def frame(trace, *options, env=None):
     folder = pathlib.Path(tempfile.mkdtemp(dir=SCRATCH))
-    code, _, said = run(BUILD / "relume", "render", ROOT / "tests" / trace, "-f", "0", "-o", folder / "x.#.exr", "--no-cache", "--no-sandbox", *options, env=env)
+    code, _, said = run(BUILD / "relume", "render", ROOT / "tests" / trace, "-f", "0", "-o", folder / "x.#.exr",
+                        "--no-cache", "--no-sandbox", *options, env=env)
     return code, said, folder / "x.0.exr"
 
 
@@ -95,7 +97,8 @@ def try_build(name, options, more, exact):
         for family in FAMILIES:
             code, said, got = frame(trace, "--kernels", family, env=env)
             check(code == 0, f"{name}: {trace} with {family}: {said}")
-            check(not exact or planes(got) == planes(want), f"{name}: {trace} with {family}: another picture than the twins'")
+            check(not exact or planes(got) == planes(want),
+                  f"{name}: {trace} with {family}: another picture than the twins'")
 
 
 def planes(path):

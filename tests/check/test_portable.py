@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The kernels' text as other devices take it: OpenCL C 1.2 without a warning, for GPUs, for SPIR, and on PoCL; no function is left for
-others to define, as an inline one is that is not static and that a compiler chooses to call; no vector has three components, which
-a compiler of processors' vectors loses (kernels/README.md)."""
+"""The kernels' text as other devices take it: OpenCL C 1.2 without a warning, for GPUs, for SPIR, and on PoCL; no
+function is left for others to define, as an inline one is that is not static and that a compiler chooses to call; no
+vector has three components, which a compiler of processors' vectors loses (kernels/README.md)."""
 import os
 import pathlib
 import re
@@ -13,8 +13,12 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("RELUME_BUILD", ROOT / "build"))
-OPTIONS = ["-x", "cl", "-cl-std=CL1.2", "-D__OPENCL_VERSION__=120", "-Xclang", "-finclude-default-header", "-O0", "-Wall", "-Werror",
-           "-Wno-unused-function", "-Wno-unknown-pragmas", "-Wno-c++20-designator", "-I", str(ROOT), "-I", str(BUILD / "gen")]
+OPTIONS = [
+    "-x", "cl", "-cl-std=CL1.2", "-D__OPENCL_VERSION__=120", "-Xclang", "-finclude-default-header", "-O0", "-Wall",
+    "-Werror", "-Wno-unused-function", "-Wno-unknown-pragmas", "-Wno-c++20-designator", "-I",
+    str(ROOT), "-I",
+    str(BUILD / "gen")
+]
 TARGETS = ("nvptx64", "spir64")
 # Built-in functions have mangled names.
 UNDEFINED = re.compile(r"^declare [^@]*@(?!_Z|llvm\.)(\w+)\(", re.MULTILINE)
@@ -43,13 +47,15 @@ with tempfile.TemporaryDirectory() as folder:
             if left:
                 failed += 1
                 print(f"wrong: {file.name} for {target}: these are not defined: {left}")
-# PoCL builds them for its device, with all that it would only warn of made an error; where the processor has AVX-512 and can hide it, also
-# as on one that has not. PoCL 6.0 ends there if a text breaks the rule on branches in kernels/README.md.
+# PoCL builds them for its device, with all that it would only warn of made an error; where the processor has AVX-512
+# and can hide it, also as on one that has not. PoCL 6.0 ends there if a text breaks the rule on branches in
+# kernels/README.md.
 devices = [{}]
 flags = re.search(r"^flags.*$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
 flags = set(flags.group().split()) if flags else set()
 if {"avx512f", "cpuid_fault"} <= flags:
-    devices.append({"LD_PRELOAD": str(BUILD / "tests/real/avx2_shim.so"), "POCL_CACHE_DIR": str(BUILD / "tests/pocl-cache-avx2")})
+    devices.append(
+        {"LD_PRELOAD": str(BUILD / "tests/real/avx2_shim.so"), "POCL_CACHE_DIR": str(BUILD / "tests/pocl-cache-avx2")})
 elif "avx512f" in flags:
     print("this processor cannot hide AVX-512 (no cpuid_fault): kernels are not built for AVX2")
 for device in devices:

@@ -102,7 +102,9 @@ static void run(struct random_scene *s, struct device *dev, const struct ray *ra
 	r.occluded.buffer = b[1];
 	r.hits.buffer = b[2];
 	ck_assert_int_eq(traverse_upload_pools(dev, s->accel, &trees), 0);
-	ck_assert_int_eq(traverse_upload_tlases(dev, s->accel, s->instances, sizeof(s->instances) / sizeof(s->instances[0]), &trees), 0);
+	ck_assert_int_eq(traverse_upload_tlases(dev, s->accel, s->instances,
+	                                        sizeof(s->instances) / sizeof(s->instances[0]), &trees),
+	                 0);
 	for (int kind = 0; kind < 2; kind++)
 		ck_assert_int_eq(traverse_rays(dev, ways[way].kernels[kind], &trees, &r), 0);
 	r.occluded.buffer = b[3];
@@ -115,7 +117,8 @@ static void run(struct random_scene *s, struct device *dev, const struct ray *ra
 		device_release(dev, &b[i]);
 	traverse_release(dev, &trees);
 	for (uint32_t i = 0; i < GUARD; i++) {
-		ck_assert_msg(out->occluded[N_RAYS + i] == GUARD_WORD && out->to_lights[N_RAYS + i] == GUARD_WORD, "occlude writes past its end");
+		ck_assert_msg(out->occluded[N_RAYS + i] == GUARD_WORD && out->to_lights[N_RAYS + i] == GUARD_WORD,
+		              "occlude writes past its end");
 		ck_assert_msg(out->hits[N_RAYS + i].primitive == GUARD_WORD, "intersect writes past its end");
 	}
 }
@@ -382,7 +385,10 @@ START_TEST(hits_depend_on_no_fitting)
 		/* A wave runs through it, as high at last as the mesh is; in frame 6 everything is somewhere else. */
 		for (uint32_t v = 0; v < mesh->vertex_count && frame; v++)
 			for (int a = 0; a < 3; a++)
-				s->position[0][v][a] += frame == 6 ? between(s, -2, 2) : 0.02f * (float)frame * sinf((float)frame + 3 * s->position[0][v][(a + 1) % 3]);
+				s->position[0][v][a] += frame == 6 ? between(s, -2, 2) :
+				                                     0.02f * (float)frame *
+				                                             sinf((float)frame +
+				                                                  3 * s->position[0][v][(a + 1) % 3]);
 		mesh->hash[1] = 1000 + frame;
 		s->accel = moving;
 		random_scene_rebuild(s, ACCEL_BVH);

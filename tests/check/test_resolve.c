@@ -1,6 +1,7 @@
 /*
- * resolve_packet against resolve on each device and on the twins, bit by bit: fragments by chance, of materials with all factors,
- * equations and masks, over pixels of chance. Some rows of pixels are still to be cleared, which resolve_packet does before it draws.
+ * resolve_packet against resolve on each device and on the twins, bit by bit: fragments by chance, of materials with
+ * all factors, equations and masks, over pixels of chance. Some rows of pixels are still to be cleared, which
+ * resolve_packet does before it draws.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -53,9 +54,11 @@ static float next_number(void)
 
 static uint32_t next_factor(void)
 {
-	static const uint32_t factors[] = { GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR,
-		GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA, GL_CONSTANT_COLOR, GL_ONE_MINUS_CONSTANT_COLOR,
-		GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_SRC_ALPHA_SATURATE };
+	static const uint32_t factors[] = {
+		GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR, GL_SRC_ALPHA,
+		GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA, GL_CONSTANT_COLOR, GL_ONE_MINUS_CONSTANT_COLOR,
+		GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_SRC_ALPHA_SATURATE
+	};
 
 	return factors[next_below(sizeof(factors) / sizeof(factors[0]))];
 }
@@ -152,7 +155,8 @@ static void clear_rest(const struct content *c, const uint32_t *drawn, struct fr
 	for (uint32_t i = 0; i < PIXELS; i++) {
 		if (drawn[row_of(i)])
 			continue;
-		ck_assert_msg(c->counts[i] == 0 && memcmp(&frame[i], &unwritten, sizeof(unwritten)) == 0, "row %u is called undrawn", row_of(i));
+		ck_assert_msg(c->counts[i] == 0 && memcmp(&frame[i], &unwritten, sizeof(unwritten)) == 0,
+		              "row %u is called undrawn", row_of(i));
 		frame[i] = c->cleared;
 	}
 }
@@ -199,7 +203,8 @@ static void check_device(struct device *dev, void *user)
 		run(dev, c, 24 | 8u << 8 | alpha_bits << 16, 1, packet);
 		ck_assert_msg(memcmp(one->frame, c->frame, sizeof(c->frame)) != 0, "%s draws nothing", device_name(dev));
 		for (uint32_t i = 0; i < PIXELS; i++)
-			ck_assert_msg(memcmp(&one->frame[i], &packet->frame[i], sizeof(one->frame[i])) == 0, "pixel %u differs on %s", i, device_name(dev));
+			ck_assert_msg(memcmp(&one->frame[i], &packet->frame[i], sizeof(one->frame[i])) == 0,
+			              "pixel %u differs on %s", i, device_name(dev));
 		ck_assert(memcmp(one->shaded, packet->shaded, sizeof(one->shaded)) == 0);
 	}
 	free(one);

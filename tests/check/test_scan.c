@@ -27,9 +27,14 @@ static void check_scan(struct device *dev, uint32_t n, int kind)
 	ck_assert_int_eq(launch_reserve(dev, places, sizeof(got) / sizeof(got[0])), 0);
 	ck_assert_int_eq(device_write(dev, from.buffer, 0, counts, n * sizeof(*counts)), 0);
 	ck_assert_int_eq(device_write(dev, places.buffer, 0, got, sizeof(got)), 0);
-	ck_assert_int_eq(scan_counts(dev, &(const struct scan_list){ from, n, n ? counts[n / 2] : 1, &places, &scratch }, &total, &is_full), 0);
+	ck_assert_int_eq(scan_counts(dev,
+	                             &(const struct scan_list){ from, n, n ? counts[n / 2] : 1, &places, &scratch },
+	                             &total, &is_full),
+	                 0);
 	ck_assert_int_eq(is_full, n != 0);
-	ck_assert_int_eq(scan_counts(dev, &(const struct scan_list){ from, n, 0x7fffffff, &places, &scratch }, &total, &is_full), 0);
+	ck_assert_int_eq(
+		scan_counts(dev, &(const struct scan_list){ from, n, 0x7fffffff, &places, &scratch }, &total, &is_full),
+		0);
 	ck_assert_int_eq(is_full, 0);
 	ck_assert_int_eq(device_read(dev, places.buffer, 0, got, sizeof(got)), 0);
 	for (uint32_t i = 0; i < n; i++) {

@@ -1,7 +1,7 @@
 /*
  * The shading kernels on an OpenCL device against the same text compiled as C: one scene with everything that shades
- * (lights near and far, specular, two sides, flat and smooth, fog, blending, shadows, a mirror, glass), channel by channel;
- * with one sample a pixel and with several, and as rules change it.
+ * (lights near and far, specular, two sides, flat and smooth, fog, blending, shadows, a mirror, glass), channel by
+ * channel; with one sample a pixel and with several, and as rules change it.
  */
 #include <math.h>
 #include <stdio.h>
@@ -60,7 +60,8 @@ static void take_samples(struct made *t)
 	t->materials[0].samples_off = 2;
 }
 
-/* Lamps of rules, the last one a spot: for the wall in place of OpenGL's own lights, and for what OpenGL does not light. */
+/* Lamps of rules, the last one a spot: for the wall in place of OpenGL's own lights, and for what OpenGL does not
+ * light. */
 static void take_lamps(struct made *t)
 {
 	struct scene_light *spot = &t->lights[made_add_light(t, 0.5f, 2, -5, 1)];
@@ -77,10 +78,14 @@ static void take_lamps(struct made *t)
 	t->materials[3].lighting = 0;
 }
 
-/* As rules want it: light from all around, in which some see the ground; highlights that mirror what is near, a blended board that mirrors. */
+/* As rules want it: light from all around, in which some see the ground; highlights that mirror what is near, a blended
+ * board that mirrors. */
 static void take_rules(struct made *t)
 {
-	t->scene.dome = (struct scene_dome){ .up_eye = { 0, 1, 0 }, .reach = 6, .light = { 1, 0.9f, 0.8f }, .ground = { 0.3f, 0.3f, 0.5f },
+	t->scene.dome = (struct scene_dome){ .up_eye = { 0, 1, 0 },
+		                             .reach = 6,
+		                             .light = { 1, 0.9f, 0.8f },
+		                             .ground = { 0.3f, 0.3f, 0.5f },
 		                             .lit = 0.8f };
 	for (uint32_t m = 0; m < MADE_MAX; m++)
 		t->materials[m].surface.hidden |= SCENE_DOME_LIT;

@@ -1,6 +1,6 @@
 /*
- * vertex_packet against vertex on each device and on the twins, bit by bit: meshes of a few to many vertices, under lights, materials,
- * matrices and normals by chance.
+ * vertex_packet against vertex on each device and on the twins, bit by bit: meshes of a few to many vertices, under
+ * lights, materials, matrices and normals by chance.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +20,8 @@
 #define VIEWS 4u
 #define CURRENTS 4u
 #define VERTICES (MESHES * LONGEST)
-#define EACH (4u + 3u + 4u + 4u + 1u + UNITS * 4u + sizeof(struct scene_face) / sizeof(float) * 2u) /* numbers of a vertex */
+/* numbers of a vertex */
+#define EACH (4u + 3u + 4u + 4u + 1u + UNITS * 4u + sizeof(struct scene_face) / sizeof(float) * 2u)
 #define HEIGHT 480u
 
 struct content {
@@ -89,7 +90,8 @@ static uint32_t one_of(const uint32_t *of, uint32_t n)
 {
 	return of[next_below(n)];
 }
-#define ONE_OF(...) one_of((const uint32_t[]){ __VA_ARGS__ }, sizeof((const uint32_t[]){ __VA_ARGS__ }) / sizeof(uint32_t))
+#define ONE_OF(...) \
+	one_of((const uint32_t[]){ __VA_ARGS__ }, sizeof((const uint32_t[]){ __VA_ARGS__ }) / sizeof(uint32_t))
 
 static void fill_material(struct content *c, uint32_t i)
 {
@@ -138,8 +140,9 @@ static uint32_t fill_attributes(struct content *c, struct geometry *g, uint32_t 
 {
 	const uint32_t n = g->vertex_count, from = at;
 
-	g->attributes = next_below(2) * SCENE_HAS_NORMAL | next_below(2) * SCENE_HAS_COLOR | next_below(2) * SCENE_HAS_SECONDARY |
-	                next_below(2) * SCENE_HAS_FOG_COORD | (next_below(8) ? 0 : SCENE_HAS_FACE) | next_below(2) * SCENE_HAS_TEXCOORD |
+	g->attributes = next_below(2) * SCENE_HAS_NORMAL | next_below(2) * SCENE_HAS_COLOR |
+	                next_below(2) * SCENE_HAS_SECONDARY | next_below(2) * SCENE_HAS_FOG_COORD |
+	                (next_below(8) ? 0 : SCENE_HAS_FACE) | next_below(2) * SCENE_HAS_TEXCOORD |
 	                next_below(2) * (SCENE_HAS_TEXCOORD << 1);
 	g->position = at;
 	g->normal = at += 4 * n;
@@ -215,9 +218,9 @@ static void run(struct device *dev, const struct content *c, int packet, struct 
 	                                            .units = { b[3] }, .currents = { b[4] }, .attributes = { b[5] },
 	                                            .indices = { b[7] }, .vertices = { b[8] }, .texcoords = { b[11] },
 	                                            .textures = { b[0] }, .texels = { b[0] }, .stipples = { b[0] });
-	const struct vertex_launch *a = LAUNCH(vertex, .tables = tables, .views = { b[6] }, .owners = { b[7] }, .height = HEIGHT,
-	                                       .n = c->n_vertices, .shaded = { b[8] }, .windows = { b[9] }, .clips = { b[10] },
-	                                       .coords = { b[11] });
+	const struct vertex_launch *a = LAUNCH(vertex, .tables = tables, .views = { b[6] }, .owners = { b[7] },
+	                                       .height = HEIGHT, .n = c->n_vertices, .shaded = { b[8] },
+	                                       .windows = { b[9] }, .clips = { b[10] }, .coords = { b[11] });
 
 	ck_assert_int_eq(packet ? launch_vertex_packet(dev, (c->n_vertices + VERTEX_PACKET - 1) / VERTEX_PACKET, a) :
 	                          launch_vertex(dev, c->n_vertices, a), 0);
@@ -230,15 +233,16 @@ static void run(struct device *dev, const struct content *c, int packet, struct 
 }
 
 /* The same bits, or no number either. */
-static void check_words(const char *device, const char *what, const void *one, const void *packet, size_t bytes, size_t each)
+static void check_words(const char *device, const char *what, const void *one, const void *packet, size_t bytes,
+                        size_t each)
 {
 	const uint32_t *a = one, *b = packet;
 
 	for (size_t i = 0; i < bytes / 4; i++) {
 		const int are_nan = (a[i] & 0x7FFFFFFF) > 0x7F800000 && (b[i] & 0x7FFFFFFF) > 0x7F800000;
 
-		ck_assert_msg(a[i] == b[i] || are_nan, "%s: %s %zu, number %zu: 0x%08x and 0x%08x", device, what, i / (each / 4), i % (each / 4),
-		              a[i], b[i]);
+		ck_assert_msg(a[i] == b[i] || are_nan, "%s: %s %zu, number %zu: 0x%08x and 0x%08x", device, what,
+		              i / (each / 4), i % (each / 4), a[i], b[i]);
 	}
 }
 
@@ -257,9 +261,11 @@ static void check_device(struct device *dev, void *user)
 		there += one->windows[i].w_inv > 0;
 		lit += one->shaded[i].lit[0] != 0;
 	}
-	ck_assert_msg(there > c->n_vertices / 4 && lit > c->n_vertices / 16, "%u vertices: %u in the window, %u lit", c->n_vertices, there, lit);
+	ck_assert_msg(there > c->n_vertices / 4 && lit > c->n_vertices / 16, "%u vertices: %u in the window, %u lit",
+	              c->n_vertices, there, lit);
 	check_words(device_name(dev), "vertex", one->shaded, packet->shaded, sizeof(one->shaded), sizeof(one->shaded[0]));
-	check_words(device_name(dev), "window vertex", one->windows, packet->windows, sizeof(one->windows), sizeof(one->windows[0]));
+	check_words(device_name(dev), "window vertex", one->windows, packet->windows, sizeof(one->windows),
+	            sizeof(one->windows[0]));
 	check_words(device_name(dev), "clip vertex", one->clips, packet->clips, sizeof(one->clips), sizeof(one->clips[0]));
 	check_words(device_name(dev), "coordinate", one->coords, packet->coords, sizeof(one->coords), sizeof(one->coords[0]));
 	free(one);

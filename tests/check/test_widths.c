@@ -1,6 +1,7 @@
 /*
- * One kernel launched on several queues at once, wider and wider, with more threads than there are cores: PoCL's count of the kernel's
- * users goes wrong where launches of several widths run at once (tracer/device/cl_launch.h), and ends the process.
+ * One kernel launched on several queues at once, wider and wider, with more threads than there are cores: PoCL's count
+ * of the kernel's users goes wrong where launches of several widths run at once (tracer/device/cl_launch.h), and ends
+ * the process.
  */
 #include <pthread.h>
 #include <stdatomic.h>
@@ -36,7 +37,9 @@ static void *launch_all(void *user)
 	for (uint32_t i = 0; i < LAUNCHES && !q->wrong; i++) {
 		const uint32_t chunks = 2 + STEP * atomic_fetch_add(&n_launched, 1);
 
-		if (launch_scan_sum(q->dev, chunks, LAUNCH(scan_sum, .counts = q->counts, .n = chunks * SCAN_CHUNK, .full = 2, .sums = sums)) ||
+		if (launch_scan_sum(
+			    q->dev, chunks,
+			    LAUNCH(scan_sum, .counts = q->counts, .n = chunks * SCAN_CHUNK, .full = 2, .sums = sums)) ||
 		    device_read(q->dev, sums.buffer, (chunks - 2) * sizeof(got[0]), got, sizeof(got)))
 			q->wrong = "launch";
 		else if ((got[0] & 0x7fffffff) != SCAN_CHUNK || (got[1] & 0x7fffffff) != SCAN_CHUNK)

@@ -82,14 +82,28 @@ class Cluster:
         user = "root" if os.getuid() == 0 else os.environ.get("USER", str(os.getuid()))
         gres = f" Gres={self.gres}" if self.gres else ""
         lines = [
-            "ClusterName=test", f"SlurmctldHost={host}(127.0.0.1)", f"SlurmUser={user}", f"SlurmdUser={user}",
-            f"SlurmctldPort={controller}", f"AuthInfo=socket={self.folder}/munge/socket,cred_expire=10",
-            f"StateSaveLocation={self.folder}/state", f"SlurmdSpoolDir={self.folder}/spool.%n",
-            f"SlurmctldPidFile={self.folder}/slurmctld.pid", f"SlurmdPidFile={self.folder}/%n.pid",
-            "ProctrackType=proctrack/linuxproc", "TaskPlugin=task/none", "MpiDefault=none",
-            "SelectType=select/cons_tres", "SelectTypeParameters=CR_Core",
-            "SchedulerParameters=batch_sched_delay=0,sched_min_interval=1000,bf_interval=1", "SlurmdParameters=config_overrides",
-            "SlurmdTimeout=10", "KillWait=2", "ReturnToService=2", "MessageTimeout=5", "JobRequeue=1",
+            "ClusterName=test",
+            f"SlurmctldHost={host}(127.0.0.1)",
+            f"SlurmUser={user}",
+            f"SlurmdUser={user}",
+            f"SlurmctldPort={controller}",
+            f"AuthInfo=socket={self.folder}/munge/socket,cred_expire=10",
+            f"StateSaveLocation={self.folder}/state",
+            f"SlurmdSpoolDir={self.folder}/spool.%n",
+            f"SlurmctldPidFile={self.folder}/slurmctld.pid",
+            f"SlurmdPidFile={self.folder}/%n.pid",
+            "ProctrackType=proctrack/linuxproc",
+            "TaskPlugin=task/none",
+            "MpiDefault=none",
+            "SelectType=select/cons_tres",
+            "SelectTypeParameters=CR_Core",
+            "SchedulerParameters=batch_sched_delay=0,sched_min_interval=1000,bf_interval=1",
+            "SlurmdParameters=config_overrides",
+            "SlurmdTimeout=10",
+            "KillWait=2",
+            "ReturnToService=2",
+            "MessageTimeout=5",
+            "JobRequeue=1",
             *self.settings,
             *(["GresTypes=gpu"] if self.gres else []),
             *(f"NodeName={n} NodeHostname={host} NodeAddr=127.0.0.1 Port={p} CPUs=1 State=UNKNOWN{gres}"
@@ -147,7 +161,8 @@ class Cluster:
         while not ready():
             dead = [n for n, d in self.daemons.items() if d.poll() is not None]
             if dead or time.monotonic() > end:
-                logs = "\n".join((self.folder / f"{n}.log").read_text(errors="replace")[-2000:] for n in dead or self.daemons)
+                logs = "\n".join(
+                    (self.folder / f"{n}.log").read_text(errors="replace")[-2000:] for n in dead or self.daemons)
                 raise RuntimeError(f"{what}{', ended: ' + ', '.join(dead) if dead else ''}\n{logs}")
             time.sleep(0.1)
 
@@ -169,13 +184,16 @@ class Cluster:
 
     def wait_empty(self, seconds):
         """Nothing waits or runs, at two looks: one alone could fall between two states of a task."""
-        self._wait(lambda: self.queue() == [] and not time.sleep(0.5) and self.queue() == [], seconds, "jobs are left in the queue")
+        self._wait(lambda: self.queue() == [] and not time.sleep(0.5) and self.queue() == [], seconds,
+                   "jobs are left in the queue")
 
     def story(self, job):
         """What became of a job's tasks, for a test that failed: Slurm's words and the end of each log."""
         states = self.run("scontrol", "-o", "show", "job").stdout
-        logs = "".join(f"--- {log.name}\n{log.read_text(errors='replace')[-1500:]}\n" for log in sorted((pathlib.Path(job) / "log").glob("*")))
-        nodes = "".join(f"--- {name}\n{(self.folder / f'{name}.log').read_text(errors='replace')[-1500:]}\n" for name in self.daemons)
+        logs = "".join(f"--- {log.name}\n{log.read_text(errors='replace')[-1500:]}\n"
+                       for log in sorted((pathlib.Path(job) / "log").glob("*")))
+        nodes = "".join(f"--- {name}\n{(self.folder / f'{name}.log').read_text(errors='replace')[-1500:]}\n"
+                        for name in self.daemons)
         return f"{states}\n{logs}{nodes}"
 
     def below(self, name=None):
@@ -191,7 +209,9 @@ class Cluster:
         # over its environment: its task's environment tells whose it is.
         strays = {p for p in table.keys() - with_children({os.getpid()}) if self._is_ours(p)}
         steps = {table[p][0] for p in strays if table.get(table[p][0], (0, ""))[1] == "slurmstepd"}
-        return [(p, table[p][1]) for p in with_children(daemons | strays | steps) - daemons if name in (None, table[p][1])]
+        return [(p, table[p][1])
+                for p in with_children(daemons | strays | steps) - daemons
+                if name in (None, table[p][1])]
 
     def _is_ours(self, pid):
         try:

@@ -52,7 +52,8 @@ class Killer:
             if everything or time.monotonic() > when:
                 self.cluster.start(name)
                 del self.down[name]
-        # A controller that comes back before the port of the killed one is free ends at once; an init system tries again.
+        # A controller that comes back before the port of the killed one is free ends at once; an init system tries
+        # again.
         for name in self.cluster.ended():
             self.cluster.start(name)
 
@@ -68,22 +69,24 @@ class Killer:
             except ProcessLookupError:
                 return
         else:
-            names = [n for n in (self.cluster.nodes if kind == "slurmd" else ["slurmctld"]) if n in self.cluster.daemons]
+            names = [
+                n for n in (self.cluster.nodes if kind == "slurmd" else ["slurmctld"]) if n in self.cluster.daemons
+            ]
             if not names:
                 return
             name = self.random.choice(names)
             self.cluster.kill(name)
-            # Mostly back at once; a node that stays away longer than SlurmdTimeout is given up and its task started again.
+            # Mostly back at once; a node that stays away longer than SlurmdTimeout is given up and its task started
+            # again.
             away = 15 if kind == "slurmd" and self.random.random() < 0.2 else self.random.uniform(0.2, 2)
             self.down[name] = time.monotonic() + away
         self.done[kind] += 1
 
 
 def campaign(cluster, killer, landings, folder, relume, n_kills, end_s, pause=(0.2, 1.5)):
-    """
-    Strike until there were n_kills or nothing is left to do, with `relume farm retry` every few seconds, as a person would
-    type it; then bring everything back and retry until all frames are whole. Returns how many retries started tasks.
-    Kills begin when the first frame has landed.
+    """Strike until there were n_kills or nothing is left to do, with `relume farm retry` every few seconds, as a person
+    would type it; then bring everything back and retry until all frames are whole. Returns how many retries started
+    tasks. Kills begin when the first frame has landed.
     """
     retries = 0
     end = time.monotonic() + end_s

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 600 s
-"""relume farm on a real Slurm of two nodes on this machine, and without Slurm: the same frames as a local run, to the byte."""
+"""relume farm on a real Slurm of two nodes on this machine, and without Slurm: the same frames as a local run, to the
+byte."""
 import hashlib
 import os
 import pathlib
@@ -30,7 +31,10 @@ def digests(folder):
 
 
 def words(pattern, chunk, *options):
-    return [trace.name, "-f", f"0-{FRAMES - 1}", "-o", pattern, "--chunk", chunk, *options, "--", "--threads", "1", "--mode", "whitted"]
+    return [
+        trace.name, "-f", f"0-{FRAMES - 1}", "-o", pattern, "--chunk", chunk, *options, "--", "--threads", "1",
+        "--mode", "whitted"
+    ]
 
 
 # Without Slurm: a PATH that has none of it. (PoCL links kernels by ld.)
@@ -42,7 +46,8 @@ folder, pattern, job = place("local")
 done = must(run(RELUME, "farm", "submit", *words(pattern, 5), cwd=SCRATCH, env=dict(os.environ, PATH=str(bare))))
 local = digests(folder)
 check(len(local) == FRAMES, f"locally {len(local)} frames of {FRAMES}")
-check((job / "report/index.html").stat().st_size > 10000 and f"job {job}" in done.stdout, "and the page, and the job's name")
+check((job / "report/index.html").stat().st_size > 10000 and f"job {job}" in done.stdout,
+      "and the page, and the job's name")
 single = SCRATCH / "single"
 must(run(RELUME, "render", trace, "-f", f"0-{FRAMES - 1}", "-o", single / f"{NAME}.####.exr", "--mode", "whitted"))
 check(digests(single) == local, "the same bytes as one run of relume render")
@@ -61,23 +66,30 @@ for what, code, text, arguments in (
     check(done.returncode == code and text in done.stderr, f"{what}: exit code {done.returncode}, {done.stderr}")
 check(not job.exists(), "nothing was written")
 done = run(RELUME, "farm", "status", SCRATCH)
-check(done.returncode == 3 and "is no job" in done.stderr, f"status of a folder that is no job: {done.returncode}, {done.stderr}")
+check(done.returncode == 3 and "is no job" in done.stderr,
+      f"status of a folder that is no job: {done.returncode}, {done.stderr}")
 
 # Scripts for other engines.
 for engine, start in (("parallel", ["sh"]), ("make", ["make", "-k", "-j2", "-f"])):
     folder, pattern, job = place(engine)
     script = SCRATCH / f"{engine}.script"
     script.write_text(must(run(RELUME, "farm", "script", "--for", engine, *words(pattern, 9), cwd=SCRATCH)).stdout)
-    must(run(*start, script, cwd="/", env={k: v for k, v in os.environ.items() if not k.startswith("MAKE") and k != "MFLAGS"}))
+    must(
+        run(*start, script, cwd="/",
+            env={k: v for k, v in os.environ.items() if not k.startswith("MAKE") and k != "MFLAGS"}))
     check(digests(folder) == local, f"{engine}: the same frames")
     check((job / "report/index.html").exists(), f"{engine}: the page")
 
 # For nodes with GPUs: the tasks ask for them, the report does not.
-script = must(run(RELUME, "farm", "script", "--for", "slurm", *words(SCRATCH / "gpu" / f"{NAME}.####.exr", 9, "--gres", "gpu:1", "--sbatch=--partition=night"),
-                  cwd=SCRATCH)).stdout
+script = must(
+    run(RELUME, "farm", "script", "--for", "slurm",
+        *words(SCRATCH / "gpu" / f"{NAME}.####.exr", 9, "--gres", "gpu:1", "--sbatch=--partition=night"),
+        cwd=SCRATCH)).stdout
 submits = re.findall(r"\bsbatch .*", script)
-check(len(submits) == 2 and all("--partition=night" in line for line in submits), f"both go to the partition: {submits}")
-check("--gres 'gpu:1'" in submits[0] and "--array" in submits[0] and "--gres" not in submits[1], f"tasks ask for GPUs: {submits}")
+check(
+    len(submits) == 2 and all("--partition=night" in line for line in submits), f"both go to the partition: {submits}")
+check("--gres 'gpu:1'" in submits[0] and "--array" in submits[0] and "--gres" not in submits[1],
+      f"tasks ask for GPUs: {submits}")
 
 missing = slurm.missing_programs()
 check(not missing, f"Slurm is installed: {missing}")
@@ -90,10 +102,14 @@ with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
     found = re.search(r"^render (\d+), tasks 1-5\nreport (\d+)$", done.stdout, re.M)
     check(found, f"submit prints the numbers of both jobs: {done.stdout}")
     told = cluster.run("scontrol", "show", "job", found[1]).stdout
-    check(re.search("gres[:/]gpu:1", told) and "Comment=night run" in told, f"sbatch got what it was to get: {told[:3000]}")
-    check(f"afterany:{found[1]}" in cluster.run("scontrol", "show", "job", found[2]).stdout, "the report waits for the frames")
+    check(
+        re.search("gres[:/]gpu:1", told) and "Comment=night run" in told,
+        f"sbatch got what it was to get: {told[:3000]}")
+    check(f"afterany:{found[1]}" in cluster.run("scontrol", "show", "job", found[2]).stdout,
+          "the report waits for the frames")
     done = farm("status", job)
-    check(done.returncode == 1 and "report waiting" in done.stdout, f"status while it runs: {done.returncode}, {done.stdout}")
+    check(done.returncode == 1 and "report waiting" in done.stdout,
+          f"status while it runs: {done.returncode}, {done.stdout}")
     cluster.wait_empty(120)
     check(digests(folder) == local, "two nodes: the same bytes as locally")
     used = set(re.findall(r" NodeList=(n\d)", cluster.run("scontrol", "-o", "show", "job", found[1]).stdout))
@@ -109,13 +125,16 @@ with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
     files[12].write_bytes(files[12].read_bytes()[:5000])
     must(run(RELUME, "render", trace, "-f", "13", "-o", pattern, "--mode", "gl"))
     done = farm("status", job)
-    check(done.returncode == 1 and f"{FRAMES - 3} of {FRAMES} whole, 1 missing, 1 damaged, 1 rendered with other settings" in done.stdout,
-          f"status of damaged frames: {done.stdout}")
+    check(
+        done.returncode == 1
+        and f"{FRAMES - 3} of {FRAMES} whole, 1 missing, 1 damaged, 1 rendered with other settings" in done.stdout,
+        f"status of damaged frames: {done.stdout}")
     landings = kills.Landings(folder)
     done = must(farm("retry", job))
     check("tasks 1,3\n" in done.stdout, f"retry starts two of five tasks: {done.stdout}")
     again = farm("retry", job)
-    check(again.returncode == 0 and "waits or runs already" in again.stdout, f"retry leaves alone what is under way: {again.stdout}")
+    check(again.returncode == 0 and "waits or runs already" in again.stdout,
+          f"retry leaves alone what is under way: {again.stdout}")
     cluster.wait_empty(120)
     check(digests(folder) == local, "after retry the same bytes again") or print(cluster.story(job))
     landed = set(landings.read())
@@ -151,8 +170,10 @@ with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
 
 with slurm.Cluster(SCRATCH / "small", n_nodes=1, settings=["MaxArraySize=9"]) as cluster:
     done = cluster.run(RELUME, "farm", "submit", *words(pattern, 2), cwd=SCRATCH)
-    check(done.returncode == 2 and "--chunk 3 " in done.stderr, f"too many tasks for the cluster: {done.returncode}, {done.stderr}")
+    check(done.returncode == 2 and "--chunk 3 " in done.stderr,
+          f"too many tasks for the cluster: {done.returncode}, {done.stderr}")
     cluster.kill("slurmctld")
     done = cluster.run(RELUME, "farm", "submit", *words(pattern, 20), cwd=SCRATCH)
-    check(done.returncode == 5 and "controller" in done.stderr, f"without a controller: {done.returncode}, {done.stderr}")
+    check(done.returncode == 5 and "controller" in done.stderr,
+          f"without a controller: {done.returncode}, {done.stderr}")
 finish()

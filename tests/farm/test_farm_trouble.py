@@ -1,8 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""
-A farm in trouble, on a real Slurm of two nodes: which frames, which tasks, why, and where the log is; two jobs for the same frames; what runs
-at the end; pictures that cannot be scored.
+"""A farm in trouble, on a real Slurm of two nodes: which frames, which tasks, why, and where the log is; two jobs for
+the same frames; what runs at the end; pictures that cannot be scored.
 """
 import contextlib
 import os
@@ -49,25 +48,33 @@ check(not missing, f"Slurm is installed: {missing}")
 
 # Without Slurm: a run holds its folder to its end, whoever starts another.
 folder, pattern, job = place("local")
-first = subprocess.Popen([RELUME, "farm", "submit", "--local", *map(str, words(pattern, 5, render=SLOW))], cwd=SCRATCH, stdin=subprocess.DEVNULL,
-                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+first = subprocess.Popen([RELUME, "farm", "submit", "--local", *map(str, words(pattern, 5, render=SLOW))], cwd=SCRATCH,
+                         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 until(lambda: list(folder.glob("*.exr")), "the first frame")
 before = {f.name: f.stat().st_mtime_ns for f in folder.glob("*.exr")}
 second = run(RELUME, "farm", "submit", "--local", *words(pattern, 5), cwd=SCRATCH)
-check(second.returncode == 2 and second.stderr == f"relume: {job}: process {first.pid} still renders there: wait for it or end it, or submit to another -o\n",
-      f"a second run is refused: {second.returncode}, {second.stderr}")
+check(
+    second.returncode == 2 and second.stderr
+    == f"relume: {job}: process {first.pid} still renders there: wait for it or end it, or submit to another -o\n",
+    f"a second run is refused: {second.returncode}, {second.stderr}")
 told = run(RELUME, "farm", "status", job, cwd=SCRATCH)
-check(told.returncode == 1 and f"\nprocess {first.pid} is at work" in told.stdout, f"status of a run without Slurm: {told.stdout}")
+check(told.returncode == 1 and f"\nprocess {first.pid} is at work" in told.stdout,
+      f"status of a run without Slurm: {told.stdout}")
 script = SCRATCH / "parallel.sh"
 script.write_text(must(run(RELUME, "farm", "script", "--for", "parallel", *words(pattern, 5), cwd=SCRATCH)).stdout)
 third = run("sh", script)
-check(third.returncode == 2 and f"process {first.pid} still renders there" in third.stderr, f"a script as well: {third.returncode}, {third.stderr}")
+check(third.returncode == 2 and f"process {first.pid} still renders there" in third.stderr,
+      f"a script as well: {third.returncode}, {third.stderr}")
 first.terminate()
 check(first.wait() in (143, -signal.SIGTERM), f"the first ended by SIGTERM: {first.returncode}")
 until(lambda: "nothing is at work" in run(RELUME, "farm", "status", job, cwd=SCRATCH).stdout, "nothing at work")
-check(before.items() <= {f.name: f.stat().st_mtime_ns for f in folder.glob("*.exr")}.items(), "what it had rendered is untouched")
-done = must(run(RELUME, "farm", "submit", "--local", *words(pattern, 5, "--at-end", 'echo "$RELUME_CODE $RELUME_FARM" >"local/end"'), cwd=SCRATCH))
-check(re.search(r"^rendered again, for other settings: \d+ frames?$", done.stdout, re.M), f"a later run says what it replaces: {done.stdout}")
+check(before.items() <= {f.name: f.stat().st_mtime_ns for f in folder.glob("*.exr")}.items(),
+      "what it had rendered is untouched")
+done = must(
+    run(RELUME, "farm", "submit", "--local",
+        *words(pattern, 5, "--at-end", 'echo "$RELUME_CODE $RELUME_FARM" >"local/end"'), cwd=SCRATCH))
+check(re.search(r"^rendered again, for other settings: \d+ frames?$", done.stdout, re.M),
+      f"a later run says what it replaces: {done.stdout}")
 check((folder / "end").read_text() == f"0 {job}\n", f"the command at the end: {(folder / 'end').read_text()}")
 done = run(RELUME, "farm", "script", "--for", "make", *words(pattern, 5, "--at-end", "true"), cwd=SCRATCH)
 check(done.returncode == 2 and "behind make's" in done.stderr, f"make has its own way: {done.stderr}")
@@ -82,25 +89,36 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
     number = re.search(r"^render (\d+),", must(farm("submit", *words(pattern, 4, render=SLOW))).stdout, re.M)[1]
     until(lambda: list(folder.glob("*.exr")), "the first frame")
     second = farm("submit", *words(pattern, 4))
-    check(second.returncode == 2 and re.fullmatch(rf"relume: {job}: Slurm job \d+ still renders there \((1 task|2 tasks) running, [0-5] waiting\): 'relume farm status "
-                                                  rf"{job}' shows it; submit with --replace to cancel it first, or to another -o\n", second.stderr),
-          f"a second job is refused: {second.returncode}, {second.stderr}")
+    check(
+        second.returncode == 2 and re.fullmatch(
+            rf"relume: {job}: Slurm job \d+ still renders there \((1 task|2 tasks) running, [0-5] waiting\): 'relume "
+            rf"farm status "
+            rf"{job}' shows it; submit with --replace to cancel it first, or to another -o\n", second.stderr),
+        f"a second job is refused: {second.returncode}, {second.stderr}")
     check(number in second.stderr, f"by its number: {second.stderr}")
     check(SLOW[-1].encode() in (SCRATCH / job / "arguments").read_bytes(), "and the first is as it was")
     told = farm("status", job)
     until(lambda: len(list(folder.glob("*.exr"))) >= 3, "three frames")
     told = farm("status", job)
-    check(re.search(r"^tasks [12] running, [0-4] waiting; report waiting or running; [\d.]+ frames a minute, about \d+ (s|min) left$", told.stdout, re.M),
-          f"rate and time left: {told.stdout}")
+    check(
+        re.search(
+            r"^tasks [12] running, [0-4] waiting; report waiting or running; [\d.]+ frames a minute, about \d+ "
+            r"(s|min) left$",
+            told.stdout, re.M), f"rate and time left: {told.stdout}")
     rate, took = re.search(r"; ([\d.]+) frames a minute", told.stdout), time.time() - submitted
-    check(rate and float(rate[1]) >= 0.9 * 60 * 3 / took, f"at least three in {took:.1f} s since the submission: {told.stdout}")
+    check(rate and float(rate[1]) >= 0.9 * 60 * 3 / took,
+          f"at least three in {took:.1f} s since the submission: {told.stdout}")
     wanting = re.search(r"^missing: frames (.*)$", told.stdout, re.M)
-    check(wanting and all(re.fullmatch(r"\d+(-\d+)?", part) for part in wanting[1].split(",")), f"the frames that are missing: {told.stdout}")
+    check(wanting and all(re.fullmatch(r"\d+(-\d+)?", part) for part in wanting[1].split(",")),
+          f"the frames that are missing: {told.stdout}")
     done = must(farm("submit", *words(pattern, 4, "--replace"), timeout=150))
     watched = farm("status", "--watch=1", job, timeout=120)
-    check(watched.returncode == 0 and f"frames {FRAMES} of {FRAMES} whole" in watched.stdout and "report exit code 0" in watched.stdout,
-          f"replaced, and watched to its end: {watched.returncode}, {watched.stdout}{watched.stderr}")
-    check(re.search(r"^\d\d:\d\d:\d\d  frames \d+ of 24; tasks \d running, ", watched.stdout, re.M), f"a line now and then: {watched.stdout}")
+    check(
+        watched.returncode == 0 and f"frames {FRAMES} of {FRAMES} whole" in watched.stdout
+        and "report exit code 0" in watched.stdout,
+        f"replaced, and watched to its end: {watched.returncode}, {watched.stdout}{watched.stderr}")
+    check(re.search(r"^\d\d:\d\d:\d\d  frames \d+ of 24; tasks \d running, ", watched.stdout, re.M),
+          f"a line now and then: {watched.stdout}")
 
     # A frame that cannot be written, a renderer that is killed, a task that is killed with its script.
     folder, pattern, job = place("trouble")
@@ -118,7 +136,8 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
                 environment = pathlib.Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
             except OSError:
                 continue
-            if f"SLURM_ARRAY_TASK_ID={task}".encode() in environment and command != "slurmstepd" and (everything or command == "relume"):
+            if f"SLURM_ARRAY_TASK_ID={task}".encode() in environment and command != "slurmstepd" and (
+                    everything or command == "relume"):
                 ours.append(pid)
                 renders |= command == "relume"
         if not renders:
@@ -146,10 +165,14 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
     # With accounting Slurm knows more: a task that ran out of memory.
     tool = SCRATCH / "tools"
     tool.mkdir()
-    (tool / "sacct").write_text('#!/bin/sh\nfor job; do :; done\necho "${job}_3|FAILED|137:0"\necho "${job}_4|OUT_OF_MEMORY|0:125"\necho "${job}_5|CANCELLED by 0|0:0"\n')
+    (tool / "sacct").write_text(
+        '#!/bin/sh\nfor job; do :; done\necho "${job}_3|FAILED|137:0"\necho "${job}_4|OUT_OF_MEMORY|0:125"\necho '
+        '"${job}_5|CANCELLED by 0|0:0"\n'
+    )
     (tool / "sacct").chmod(0o755)
     told = cluster.run("env", f"PATH={tool}:{cluster.env['PATH']}", RELUME, "farm", "status", job, cwd=SCRATCH)
-    check("task 4, frames 12-15: killed with its script (Slurm: OUT_OF_MEMORY, signal 125); log" in told.stdout, f"by accounting: {told.stdout}")
+    check("task 4, frames 12-15: killed with its script (Slurm: OUT_OF_MEMORY, signal 125); log" in told.stdout,
+          f"by accounting: {told.stdout}")
     (folder / "x.0006.exr").rmdir()
     must(farm("retry", job))
     cluster.wait_empty(200)
@@ -157,17 +180,23 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
     check(told.returncode == 0 and "task " not in told.stdout, f"after retry: {told.stdout}")
 
     # Pictures to look at, another camera, no channels gl.*: nothing is scored, and it says why.
-    for name, output, render, why in (
-            ("png", "x.####.png", ("--mode", "gl"), "only .exr holds the channels gl.* that can be"),
-            ("aov", "x.####.exr", ("--mode", "gl", "--aov=albedo"), "--aov leaves out the channels gl.* that could be")):
+    for name, output, render, why in (("png", "x.####.png", ("--mode", "gl"),
+                                       "only .exr holds the channels gl.* that can be"),
+                                      ("aov", "x.####.exr", ("--mode", "gl", "--aov=albedo"),
+                                       "--aov leaves out the channels gl.* that could be")):
         folder, _, job = place(name)
         done = must(farm("submit", *words(f"{name}/{output}", 12, render=("--device", "reference", *render))))
         check(f"\nnothing is scored: {why}\n" in done.stdout and "report" not in done.stdout, f"{name}: {done.stdout}")
         cluster.wait_empty(100)
         told = farm("status", job)
-        check(told.returncode == 0 and not (SCRATCH / job / "report").exists(), f"{name}: {told.returncode}, {told.stdout}")
+        check(told.returncode == 0 and not (SCRATCH / job / "report").exists(),
+              f"{name}: {told.returncode}, {told.stdout}")
     folder, pattern, job = place("end")
-    done = must(farm("submit", *words("end/x.####.png", 12, "--at-end", 'echo "$RELUME_CODE" >"end/end"', render=("--device", "reference", "--mode", "gl"))))
+    done = must(
+        farm(
+            "submit",
+            *words("end/x.####.png", 12, "--at-end", 'echo "$RELUME_CODE" >"end/end"',
+                   render=("--device", "reference", "--mode", "gl"))))
     check(re.search(r"^at the end \d+$", done.stdout, re.M), f"the command is a job of its own: {done.stdout}")
     cluster.wait_empty(100)
     check((folder / "end").read_text() == "0\n", "and knows that all frames are whole")

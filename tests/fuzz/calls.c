@@ -23,14 +23,16 @@
 #define MAX_ITEMS 256
 #define MAX_BLOB 16384
 
-static const int64_t EXTREME_INTS[] = { -1, INT32_MAX, INT32_MIN, 0x7FFF, 0x8000, 0xFFFF, 0x10000, UINT32_MAX, 0x1000000, 4096, 2048, 1024, 100,
-	                                INT64_MAX, INT64_MIN, -100 };
+static const int64_t EXTREME_INTS[] = { -1,      INT32_MAX,  INT32_MIN, 0x7FFF, 0x8000, 0xFFFF,
+	                                0x10000, UINT32_MAX, 0x1000000, 4096,   2048,   1024,
+	                                100,     INT64_MAX,  INT64_MIN, -100 };
 static const float EXTREME_FLOATS[] = { NAN, INFINITY, -INFINITY, 3.4e38f, -3.4e38f, 1e-40f, -0.0f, 16777217.0f };
 static const uint32_t BLOB_SIZES[] = { 0, 1, 3, 16, 64, 256, 1024, MAX_BLOB };
 
-static const char *const LIKELY[] = { "glBegin", "glVertex2f", "glVertex3f", "glVertex3f", "glVertex4f", "glEnd", "glRectf", "glDrawArrays",
-	                              "glDrawPixels", "glBitmap", "glCopyPixels", "glEnable", "glTexImage2D", "glColor4f", "glTexCoord2f",
-	                              "glNormal3f", "glCallList", "glClear", "glXSwapBuffers" };
+static const char *const LIKELY[] = { "glBegin",      "glVertex2f", "glVertex3f",   "glVertex3f",    "glVertex4f",
+	                              "glEnd",        "glRectf",    "glDrawArrays", "glDrawPixels",  "glBitmap",
+	                              "glCopyPixels", "glEnable",   "glTexImage2D", "glColor4f",     "glTexCoord2f",
+	                              "glNormal3f",   "glCallList", "glClear",      "glXSwapBuffers" };
 
 unsigned calls_draw(unsigned *state, unsigned n)
 {
@@ -140,13 +142,16 @@ static struct trace_value scalar_of(char letter, uint32_t v, const struct calls_
 	int64_t i;
 
 	if (is_token(letter, v, group))
-		return letter == 'f' || letter == 'd' ? (struct trace_value){ .type = TRACE_FLOAT, .f = (float)token_of(v, group) }
-		                                      : (struct trace_value){ .type = TRACE_ENUM, .sig = &NAMELESS, .i = token_of(v, group) };
+		return letter == 'f' || letter == 'd' ?
+		               (struct trace_value){ .type = TRACE_FLOAT, .f = (float)token_of(v, group) } :
+		               (struct trace_value){ .type = TRACE_ENUM, .sig = &NAMELESS, .i = token_of(v, group) };
 	switch (letter) {
 	case 'e':
 		return (struct trace_value){ .type = TRACE_ENUM, .sig = &NAMELESS, .i = token_of(v, group) };
 	case 'm':
-		return (struct trace_value){ .type = TRACE_BITMASK, .sig = &NAMELESS, .u = token_of(v, group) | (v & 1 ? token_of(v >> 1, group) : 0) };
+		return (struct trace_value){ .type = TRACE_BITMASK,
+			                     .sig = &NAMELESS,
+			                     .u = token_of(v, group) | (v & 1 ? token_of(v >> 1, group) : 0) };
 	case 'f':
 		return (struct trace_value){ .type = TRACE_FLOAT, .f = float_of(v) };
 	case 'd':
@@ -155,11 +160,13 @@ static struct trace_value scalar_of(char letter, uint32_t v, const struct calls_
 		return (struct trace_value){ .type = TRACE_UINT, .u = (uint32_t)int_of(v) };
 	default:
 		i = int_of(v);
-		return i < 0 ? (struct trace_value){ .type = TRACE_SINT, .i = i } : (struct trace_value){ .type = TRACE_UINT, .u = (uint64_t)i };
+		return i < 0 ? (struct trace_value){ .type = TRACE_SINT, .i = i } :
+		               (struct trace_value){ .type = TRACE_UINT, .u = (uint64_t)i };
 	}
 }
 
-static struct trace_value array_of(struct calls *c, unsigned i, char letter, uint32_t v, const struct calls_group *group)
+static struct trace_value array_of(struct calls *c, unsigned i, char letter, uint32_t v,
+                                   const struct calls_group *group)
 {
 	uint32_t random = v, n = v >> 8 < 224 ? 1 + (v >> 8) % 16 : v % MAX_ITEMS;
 
@@ -179,7 +186,8 @@ static struct trace_value blob_of(struct calls *c, unsigned i, uint32_t v)
 	return (struct trace_value){ .type = TRACE_BLOB, .count = n, .blob = c->blob[i] };
 }
 
-static struct trace_value value_of(struct calls *c, unsigned i, char letter, uint32_t v, const struct calls_group *group)
+static struct trace_value value_of(struct calls *c, unsigned i, char letter, uint32_t v,
+                                   const struct calls_group *group)
 {
 	if (v >> 8 == 255) /* what a recorder might not have written */
 		return (struct trace_value){ .type = v & 1 ? TRACE_NULL : TRACE_NONE };
@@ -204,12 +212,19 @@ static struct trace_value value_of(struct calls *c, unsigned i, char letter, uin
 static struct trace_value program_of(uint32_t v)
 {
 	static const char *const texts[] = {
-		"!!ARBvp1.0 PARAM p[] = { program.env[0..255] }; ADDRESS A; ARL A.x, vertex.attrib[1].x; MOV result.color, p[A.x + 4095]; MOV result.position, p[A.x - 4096]; END",
-		"!!ARBvp1.0 OPTION ARB_position_invariant; MOV result.color, vertex.attrib[15]; MOV result.pointsize.x, state.point.size; END",
-		"!!ARBvp1.0 PARAM m[4] = { state.matrix.program[7].invtrans }; MAD result.position, m[0], vertex.texcoord[7], state.lightprod[7].back.specular; END",
-		"!!ARBvp1.0 PARAM p[] = { }; END", "!!ARBvp1.0", "!!ARBvp1.0 TEMP a; ADDRESS A; MOV a, p[A.x]; END",
-		"!!ARBfp1.0 OPTION ARB_fog_exp2; TEX result.color, fragment.texcoord[7], texture[7], SHADOWRECT; KIL fragment.position; END",
-		"!!ARBfp1.0 MUL result.color, state.light[7].diffuse, state.texenv[7].color; MOV result.depth, program.local[255]; END",
+		"!!ARBvp1.0 PARAM p[] = { program.env[0..255] }; ADDRESS A; ARL A.x, vertex.attrib[1].x; MOV "
+		"result.color, p[A.x + 4095]; MOV result.position, p[A.x - 4096]; END",
+		"!!ARBvp1.0 OPTION ARB_position_invariant; MOV result.color, vertex.attrib[15]; MOV "
+		"result.pointsize.x, state.point.size; END",
+		"!!ARBvp1.0 PARAM m[4] = { state.matrix.program[7].invtrans }; MAD result.position, m[0], "
+		"vertex.texcoord[7], state.lightprod[7].back.specular; END",
+		"!!ARBvp1.0 PARAM p[] = { }; END",
+		"!!ARBvp1.0",
+		"!!ARBvp1.0 TEMP a; ADDRESS A; MOV a, p[A.x]; END",
+		"!!ARBfp1.0 OPTION ARB_fog_exp2; TEX result.color, fragment.texcoord[7], texture[7], SHADOWRECT; KIL "
+		"fragment.position; END",
+		"!!ARBfp1.0 MUL result.color, state.light[7].diffuse, state.texenv[7].color; MOV result.depth, "
+		"program.local[255]; END",
 	};
 	const char *text = texts[v % (sizeof(texts) / sizeof(texts[0]))];
 
@@ -291,8 +306,10 @@ static uint8_t *get(void *user, const uint64_t name[2], size_t n)
 	return NULL;
 }
 
-/* Saved, loaded and saved again. @return 0 the same bytes, or nothing that can be saved; 1 other bytes, which is told */
-static int check_saved(struct gls_exec *x, int (*save)(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out))
+/* Saved, loaded and saved again. @return 0 the same bytes, or nothing that can be saved; 1 other bytes, which is
+ * told */
+static int check_saved(struct gls_exec *x,
+                       int (*save)(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out))
 {
 	struct blob *kept = NULL;
 	struct snapshot_blobs blobs = { .put = put, .get = get, .user = &kept };
@@ -382,7 +399,8 @@ static void paint_nothing(void *user, const struct scene *scene)
 const struct calls_painter calls_grey = { .paint = paint_nothing, .supply = supply_grey, .skips = 1 };
 
 /* @return as calls_run */
-static int run(struct gls_exec *x, struct calls *c, const uint8_t *data, size_t size, const struct calls_painter *painter)
+static int run(struct gls_exec *x, struct calls *c, const uint8_t *data, size_t size,
+               const struct calls_painter *painter)
 {
 	const uint64_t first = x->frame;
 	int wrong = 0;

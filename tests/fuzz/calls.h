@@ -1,10 +1,10 @@
 /*
- * Bytes as calls of the state machine: every byte string means a sequence of calls, most of them legal or nearly so. How a
- * fuzzer comes past the reader, which hardly lets a damaged stream through.
+ * Bytes as calls of the state machine: every byte string means a sequence of calls, most of them legal or nearly so.
+ * How a fuzzer comes past the reader, which hardly lets a damaged stream through.
  *
- * A call is a slot of CALLS_SLOT bytes: 16 bits that choose the command whose number is the next at or above them, then 16 bits
- * for each of its parameters, of which the high half says how the low half becomes a value: a small number, one of the
- * parameter's enumerants, an extreme one. The last two bytes are what the call returned.
+ * A call is a slot of CALLS_SLOT bytes: 16 bits that choose the command whose number is the next at or above them, then
+ * 16 bits for each of its parameters, of which the high half says how the low half becomes a value: a small number, one
+ * of the parameter's enumerants, an extreme one. The last two bytes are what the call returned.
  */
 #pragma once
 
@@ -39,13 +39,15 @@ extern const unsigned n_calls_commands;
 unsigned calls_draw(unsigned *state, unsigned n);
 
 /**
- * Any call with any values; half of them are of the commands without which little is drawn, a quarter of near's chapter.
+ * Any call with any values; half of them are of the commands without which little is drawn, a quarter of near's
+ * chapter.
  * @param slot  [CALLS_SLOT]
  * @param near  a call; NULL: none
  */
 void calls_invent(unsigned *state, uint8_t *slot, const uint8_t *near);
 
-/** Name a call's command by its very number: then it is the same one when others have come. @param slot  [CALLS_SLOT] */
+/** Name a call's command by its very number: then it is the same one when others have come. @param slot 
+ * [CALLS_SLOT] */
 void calls_settle(uint8_t *slot);
 
 /** How many of a call's bytes mean something: the command and its parameters. @param slot  [CALLS_SLOT] */
@@ -63,8 +65,8 @@ struct calls_painter {
 extern const struct calls_painter calls_grey;
 
 /**
- * Execute the calls in a state machine of their own, with one context current at the start; scenes are built at each swap.
- * After each frame the state is saved, loaded and saved again: both are the same bytes (replay/index/snapshot.h).
+ * Execute the calls in a state machine of their own, with one context current at the start; scenes are built at each
+ * swap. After each frame the state is saved, loaded and saved again: both are the same bytes (replay/index/snapshot.h).
  * @param painter  NULL: nobody makes pixels
  * @return 0; 1 where they are not
  */
@@ -83,7 +85,8 @@ void calls_begin(struct gls_exec *x);
 void calls_go_on(struct gls_exec *x, const uint8_t *data, size_t size, const struct calls_painter *painter);
 
 /**
- * Hand over the calls of a sequence, one by one: those of calls_begin first, and a swap at the end. The last frame is shown twice.
+ * Hand over the calls of a sequence, one by one: those of calls_begin first, and a swap at the end. The last frame is
+ * shown twice.
  * @param take  gets calls that are there until the next one; not 0: no more of them
  * @return 0, what take returned, or ERR_SYSTEM: no memory
  */

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """libFuzzer under AddressSanitizer and UndefinedBehaviorSanitizer on every reader: `make fuzz`, `make fuzz-keep`.
 
-usage: campaign.py BUILD run SECONDS [TARGET...] | campaign.py BUILD keep [TARGET...] | campaign.py BUILD pack FILE INPUT...
+usage: campaign.py BUILD run SECONDS [TARGET...] | campaign.py BUILD keep [TARGET...] | campaign.py BUILD pack FILE
+INPUT...
 
-`run` goes round the targets (tests/fuzz/fuzz_NAME.c), one process at a time, a slice each, until SECONDS are over. A campaign goes on
-where the last one stopped: inputs that reach new code stay in BUILD/fuzz/found_NAME, what breaks in BUILD/fuzz/NAME-crash-*, sums
-of all campaigns in BUILD/fuzz/sums.json. Exits with 1 where something broke.
-`keep` takes the fewest small inputs that reach all that was reached into tests/fuzz, and adds the sums to tests/fuzz/sums.json, which
-`make show-fuzz` prints. `pack` adds inputs, such as one that broke something, to what is kept of a target.
+`run` goes round the targets (tests/fuzz/fuzz_NAME.c), one process at a time, a slice each, until SECONDS are over. A
+campaign goes on where the last one stopped: inputs that reach new code stay in BUILD/fuzz/found_NAME, what breaks in
+BUILD/fuzz/NAME-crash-*, sums of all campaigns in BUILD/fuzz/sums.json. Exits with 1 where something broke. `keep` takes
+the fewest small inputs that reach all that was reached into tests/fuzz, and adds the sums to tests/fuzz/sums.json,
+which `make show-fuzz` prints. `pack` adds inputs, such as one that broke something, to what is kept of a target.
 """
 import json
 import os
@@ -26,7 +27,10 @@ sys.path.insert(0, str(HERE))
 from seeds import make_seeds, read_pack  # noqa: E402
 
 SLICE_S = 900  # at most: what was found before is read first, which takes minutes
-LONGEST = {"calls": 16384, "verbs": 250_000, "snapshot": 200_000, "index": 150_000, "exr": 100_000, "oiio": 100_000, "ref": 100_000}
+LONGEST = {
+    "calls": 16384, "verbs": 250_000, "snapshot": 200_000, "index": 150_000, "exr": 100_000, "oiio": 100_000,
+    "ref": 100_000
+}
 SMALL = {"calls": 2048, "snapshot": 60_000, "index": 100_000}  # what is kept is smaller
 EDGES_ALONE = ("-set_cover_merge=1", "-use_counters=0")  # how often each is passed would be thousands of inputs
 MOST_MB = {"replay": 8192}  # windows of 16384 x 16384 pixels take what they take
@@ -91,23 +95,29 @@ def slice_of(folder, target, seconds):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     log = folder / f"{target}.log"
     with open(log, "w") as out:
-        done = subprocess.run([program, f"-max_total_time={seconds}", f"-timeout={TIMEOUT_S}", f"-rss_limit_mb={MOST_MB.get(target, 2048)}", "-malloc_limit_mb=6000",
-                               f"-max_len={LONGEST.get(target, 65536)}", "-close_fd_mask=3", "-print_final_stats=1", f"-artifact_prefix={folder}/{target}-",
-                               found, folder / f"kept_{target}", folder / f"seeds_{target}"],
-                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=out, check=False, env=environment(target, TMPDIR=str(work)))
+        done = subprocess.run([
+            program, f"-max_total_time={seconds}", f"-timeout={TIMEOUT_S}",
+            f"-rss_limit_mb={MOST_MB.get(target, 2048)}", "-malloc_limit_mb=6000",
+            f"-max_len={LONGEST.get(target, 65536)}", "-close_fd_mask=3", "-print_final_stats=1",
+            f"-artifact_prefix={folder}/{target}-", found, folder / f"kept_{target}", folder / f"seeds_{target}"
+        ], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=out, check=False,
+                              env=environment(target, TMPDIR=str(work)))
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     text = log.read_text(errors="replace")
     edges = [int(n) for n in re.findall(r" cov: (\d+)", text)]
     of = re.search(r"\((\d+) inline 8-bit counters\)", text)
     runs = re.search(r"number_of_executed_units: *(\d+)", text)
     sums = load(folder / "sums.json")
-    add(sums, target, seconds=after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, runs=int(runs.group(1)) if runs else 0,
-        edges=max(edges, default=0), of=int(of.group(1)) if of else 0, findings=done.returncode != 0)
+    add(sums, target, seconds=after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime,
+        runs=int(runs.group(1)) if runs else 0, edges=max(edges, default=0), of=int(of.group(1)) if of else 0,
+        findings=done.returncode != 0)
     (folder / "sums.json").write_text(json.dumps(sums, indent=1))
     if done.returncode:
-        print(f"{target}: broke something", *re.findall(r".*(?:ERROR: |runtime error: |SUMMARY: |Test unit written).*", text), sep="\n  ", flush=True)
+        print(f"{target}: broke something",
+              *re.findall(r".*(?:ERROR: |runtime error: |SUMMARY: |Test unit written).*", text), sep="\n  ", flush=True)
     row = sums[target]
-    print(f"{target}: {row['runs']:.0f} runs in {row['seconds']:.0f} s, {row['edges']} of {row['of']} edges", flush=True)
+    print(f"{target}: {row['runs']:.0f} runs in {row['seconds']:.0f} s, {row['edges']} of {row['of']} edges",
+          flush=True)
     return done.returncode != 0
 
 
@@ -138,8 +148,10 @@ def keep(build, targets):
         for i, path in enumerate([*(folder / f"found_{target}").glob("*"), *(folder / f"seeds_{target}").glob("*")]):
             if path.is_file() and path.stat().st_size <= most:
                 shutil.copy(path, small / str(i))
-        subprocess.run([folder / target, "-merge=1", *EDGES_ALONE, "-close_fd_mask=3", out, unpacked(folder, target), small],
-                       stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False, env=environment(target, FUZZ_FREE="1"))
+        subprocess.run(
+            [folder / target, "-merge=1", *EDGES_ALONE, "-close_fd_mask=3", out,
+             unpacked(folder, target), small], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL, check=False, env=environment(target, FUZZ_FREE="1"))
         parts = kept_of(target) + [path.read_bytes() for path in out.iterdir() if path.stat().st_size <= most]
         if target == "replay":
             subprocess.run(["cp", "-n", *out.iterdir(), HERE / "kept"], check=False)

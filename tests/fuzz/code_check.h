@@ -1,4 +1,5 @@
-/* Instructions of programs as translators leave them: they stay within their registers, constants and samplers, or the target ends. */
+/* Instructions of programs as translators leave them: they stay within their registers, constants and samplers, or the
+ * target ends. */
 #pragma once
 
 #include <stdlib.h>
@@ -8,7 +9,8 @@
 /* n numbers from an operand on are there. */
 static inline int code_is_there(const struct program_code *code, uint32_t operand, uint32_t n)
 {
-	return operand >= SCENE_PROGRAM_CONSTANT ? operand - SCENE_PROGRAM_CONSTANT + n <= 4 * code->n_constants : operand + n <= code->n_registers;
+	return operand >= SCENE_PROGRAM_CONSTANT ? operand - SCENE_PROGRAM_CONSTANT + n <= 4 * code->n_constants :
+	                                           operand + n <= code->n_registers;
 }
 
 /* first: its results begin there. n_textures: numbers of textures are below it */
@@ -20,13 +22,18 @@ static inline void code_check(const struct program_code *code, uint32_t first, u
 		const int jumps = in->operation == SCENE_OP_JUMP || in->operation == SCENE_OP_JUMP_NONE;
 		const uint32_t results = in->operation == SCENE_OP_TEXTURE ? 4 : in->operation == SCENE_OP_STORE ? span : in->n;
 
-		if (in->operation >= N_SCENE_OPERATIONS || (jumps && in->to > code->n_instructions) || (in->operation == SCENE_OP_TEXTURE && in->b >= n_textures))
+		if (in->operation >= N_SCENE_OPERATIONS || (jumps && in->to > code->n_instructions) ||
+		    (in->operation == SCENE_OP_TEXTURE && in->b >= n_textures))
 			abort();
-		if (!jumps && in->operation != SCENE_OP_KILL && in->operation != SCENE_OP_MASK && (in->to < first || in->to + results > code->n_registers))
+		if (!jumps && in->operation != SCENE_OP_KILL && in->operation != SCENE_OP_MASK &&
+		    (in->to < first || in->to + results > code->n_registers))
 			abort();
 		for (unsigned k = 0; k < program_operands(in->operation); k++)
-			if (!code_is_there(code, operands[k], k == 0 && in->operation == SCENE_OP_TEXTURE ? 4 : k == 0 && in->operation == SCENE_OP_FETCH ? span + in->n - 1 :
-			                                 in->flags >> k & 1 ? in->n : 1))
+			if (!code_is_there(code, operands[k],
+			                   k == 0 && in->operation == SCENE_OP_TEXTURE ? 4 :
+			                   k == 0 && in->operation == SCENE_OP_FETCH   ? span + in->n - 1 :
+			                   in->flags >> k & 1                          ? in->n :
+			                                                                 1))
 				abort();
 	}
 }

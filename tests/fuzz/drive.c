@@ -2,8 +2,9 @@
  * drive replay TARGET FILE...: inputs that were kept (pack_calls.py), one after the other.
  * drive mutate TARGET COUNT SEED FILE...: inputs damaged in COUNT ways.
  *
- * All targets of libFuzzer in one program, without it: no crash, no more than 10 s of processor time, no more than 1 GiB beyond what the process began with.
- * What breaks is written to NAME.crash-NUMBER in the current folder. Prints the count as libcheck does; exits with 1 where something broke.
+ * All targets of libFuzzer in one program, without it: no crash, no more than 10 s of processor time, no more than 1
+ * GiB beyond what the process began with. What breaks is written to NAME.crash-NUMBER in the current folder. Prints the
+ * count as libcheck does; exits with 1 where something broke.
  */
 #include <ctype.h>
 #include <stdio.h>
@@ -133,7 +134,8 @@ static void run_from(const struct target *target, size_t first, size_t end, unsi
 	struct rusage usage;
 	long base;
 
-	if (!freopen("/dev/null", "w", stdout) || (!getenv("V") && !freopen("/dev/null", "w", stderr)) || (target->begin && target->begin(NULL, NULL)))
+	if (!freopen("/dev/null", "w", stdout) || (!getenv("V") && !freopen("/dev/null", "w", stderr)) ||
+	    (target->begin && target->begin(NULL, NULL)))
 		_exit(2);
 	getrusage(RUSAGE_SELF, &usage);
 	base = usage.ru_maxrss;
@@ -169,7 +171,10 @@ static void keep(const char *name, size_t number, const uint8_t *bytes, size_t n
 	if (progress->heavy)
 		printf("%s: input %zu takes more than 1 GiB (%s)\n", name, number, path);
 	else if (WIFSIGNALED(status))
-		printf("%s: input %zu: %s (%s)\n", name, number, WTERMSIG(status) == SIGALRM || WTERMSIG(status) == SIGPROF ? "no end" : strsignal(WTERMSIG(status)), path);
+		printf("%s: input %zu: %s (%s)\n", name, number,
+		       WTERMSIG(status) == SIGALRM || WTERMSIG(status) == SIGPROF ? "no end" :
+		                                                                    strsignal(WTERMSIG(status)),
+		       path);
 	else
 		printf("%s: input %zu: exit code %d (%s)\n", name, number, WEXITSTATUS(status), path);
 }

@@ -1,4 +1,5 @@
-/* ARB assembly programs: their translation. An input is a stage and the text. What comes out must stay within its registers. */
+/* ARB assembly programs: their translation. An input is a stage and the text. What comes out must stay within its
+ * registers. */
 #include "replay/programs/arb.h"
 #include "tests/fuzz/code_check.h"
 #include "tests/fuzz/target.h"

@@ -1,4 +1,5 @@
-/* libFuzzer's target for the state machine alone: the input is a sequence of calls (calls.h), and is changed call by call. */
+/* libFuzzer's target for the state machine alone: the input is a sequence of calls (calls.h), and is changed call by
+ * call. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +10,8 @@ int LLVMFuzzerInitialize(int *argc, char ***argv);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size);
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out, size_t max_size,
-                                 unsigned seed);
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out,
+                                 size_t max_size, unsigned seed);
 
 /* What is reported about senseless calls is of no interest here. */
 int LLVMFuzzerInitialize(int *argc, char ***argv)
@@ -27,7 +28,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	return 0;
 }
 
-/* Calls that were not there, each with some to do with the one before; or one that was there, again. @return how many */
+/* Calls that were not there, each with some to do with the one before; or one that was there, again. @return how
+ * many */
 static size_t insert(uint8_t *data, size_t n, size_t most, unsigned *seed)
 {
 	size_t at = calls_draw(seed, (unsigned)n + 1), count = calls_draw(seed, 3) ? 1 : 1 + calls_draw(seed, 8);
@@ -74,8 +76,8 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsi
 	return (n - count) * CALLS_SLOT;
 }
 
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out, size_t max_size,
-                                 unsigned seed)
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out,
+                                 size_t max_size, unsigned seed)
 {
 	size_t most = max_size / CALLS_SLOT, a_n = a_size / CALLS_SLOT, b_n = b_size / CALLS_SLOT;
 	size_t head = calls_draw(&seed, (unsigned)a_n + 1), tail = calls_draw(&seed, (unsigned)b_n + 1);

@@ -1,4 +1,5 @@
-/* The folder of a job: its words (the input, behind the folder they were typed in), its script made again, its tasks. */
+/* The folder of a job: its words (the input, behind the folder they were typed in), its script made again, its
+ * tasks. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,5 @@
-/* Shaders of GLSL: their translation. An input is a stage and its text, as the program gave it. What comes out must stay within its registers. */
+/* Shaders of GLSL: their translation. An input is a stage and its text, as the program gave it. What comes out must
+ * stay within its registers. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,7 +25,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	sources.texts[stage] = texts;
 	sources.n_texts[stage] = 1;
 	if (!glsl_translate(&sources, code, &uniforms, message, &why) && !why)
-		code_check(&code[stage], stage == GLSL_VERTEX_STAGE ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR, code[stage].n_samplers);
+		code_check(&code[stage], stage == GLSL_VERTEX_STAGE ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR,
+		           code[stage].n_samplers);
 	for (unsigned i = 0; i < 2; i++)
 		program_code_free(&code[i]);
 	glsl_uniforms_free(&uniforms);

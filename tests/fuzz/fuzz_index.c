@@ -1,6 +1,6 @@
 /*
- * An index beside its trace. The input is the table of contents' size (32 bits, low first), the table, and the blobs in front of it; head
- * and checksum are made for it. Each checkpoint is restored; the calls behind it are executed.
+ * An index beside its trace. The input is the table of contents' size (32 bits, low first), the table, and the blobs in
+ * front of it; head and checksum are made for it. Each checkpoint is restored; the calls behind it are executed.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,7 +60,8 @@ static void go_on(struct index *index, uint64_t frame)
 	struct gls_exec *x = NULL;
 	const struct call *call;
 
-	if (!trace_reader_open(&r, trace, gls_command_find) && !gls_exec_create(&x, trace) && !index_restore(index, frame, r, x))
+	if (!trace_reader_open(&r, trace, gls_command_find) && !gls_exec_create(&x, trace) &&
+	    !index_restore(index, frame, r, x))
 		for (int i = 0; i < MOST_CALLS && trace_reader_next(r, &call) == 1 && !gls_exec_call(x, call); i++)
 			;
 	gls_exec_destroy(&x);

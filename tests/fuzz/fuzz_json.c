@@ -1,4 +1,5 @@
-/* What of a recording stands in JSON is text of the recording's: the result stays one string of JSON and well-formed UTF-8, whatever it is. */
+/* What of a recording stands in JSON is text of the recording's: the result stays one string of JSON and well-formed
+ * UTF-8, whatever it is. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,14 +10,19 @@
 /* RFC 3629: how many bytes a character has; 0: none is well-formed here */
 static size_t character(const unsigned char *p, const unsigned char *end)
 {
-	size_t n = p[0] < 0x80 ? 1 : p[0] >= 0xc2 && p[0] < 0xe0 ? 2 : (p[0] & 0xf0) == 0xe0 ? 3 : p[0] >= 0xf0 && p[0] < 0xf5 ? 4 : 0;
+	size_t n = p[0] < 0x80                 ? 1 :
+	           p[0] >= 0xc2 && p[0] < 0xe0 ? 2 :
+	           (p[0] & 0xf0) == 0xe0       ? 3 :
+	           p[0] >= 0xf0 && p[0] < 0xf5 ? 4 :
+	                                         0;
 
 	if (n == 0 || (size_t)(end - p) < n)
 		return 0;
 	for (size_t i = 1; i < n; i++)
 		if ((p[i] & 0xc0) != 0x80)
 			return 0;
-	if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) || (p[0] == 0xf0 && p[1] < 0x90) || (p[0] == 0xf4 && p[1] > 0x8f))
+	if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) || (p[0] == 0xf0 && p[1] < 0x90) ||
+	    (p[0] == 0xf4 && p[1] > 0x8f))
 		return 0;
 	return n;
 }
@@ -30,7 +36,9 @@ static void check_string(const unsigned char *p, const unsigned char *end)
 
 		if (n == 0 || *p == '"' || *p < 0x20)
 			abort();
-		if (*p == '\\' && (end - p < 2 || !strchr("\"\\/bfnrtu", p[1]) || (p[1] == 'u' && (end - p < 6 || strspn((const char *)p + 2, "0123456789abcdef") < 4))))
+		if (*p == '\\' &&
+		    (end - p < 2 || !strchr("\"\\/bfnrtu", p[1]) ||
+		     (p[1] == 'u' && (end - p < 6 || strspn((const char *)p + 2, "0123456789abcdef") < 4))))
 			abort();
 		p += *p == '\\' ? 2 : n;
 	}

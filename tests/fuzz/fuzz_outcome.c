@@ -8,7 +8,9 @@
 #include "tests/fuzz/target.h"
 #include "tracer/device/outcome.h"
 
-static const struct device_description device = { .name = "device", .platform = "platform", .driver = "1", .version = "OpenCL 1.2" };
+static const struct device_description device = {
+	.name = "device", .platform = "platform", .driver = "1", .version = "OpenCL 1.2"
+};
 static char file[4096];
 static uint64_t key[2];
 
@@ -24,7 +26,8 @@ static void begin(void)
 	outcome_write(folder, &device, &outcome);
 	dir = opendir(folder);
 	while (dir && (entry = readdir(dir)))
-		if (strstr(entry->d_name, ".outcome") && snprintf(file, sizeof(file), "%s/%.255s", folder, entry->d_name) < (int)sizeof(file))
+		if (strstr(entry->d_name, ".outcome") &&
+		    snprintf(file, sizeof(file), "%s/%.255s", folder, entry->d_name) < (int)sizeof(file))
 			in = fopen(file, "rb");
 	if (!in || fread(head, 1, sizeof(head), in) != sizeof(head))
 		abort();

@@ -1,6 +1,7 @@
 /*
- * What the recorder reads of a program's memory: texts, lists of texts, blobs and pixels at any address, with pages that are not there. The
- * input is the memory's first bytes and calls. Beside that nothing breaks, what is read is compared: bytes as they are, zeros where a page is missing.
+ * What the recorder reads of a program's memory: texts, lists of texts, blobs and pixels at any address, with pages
+ * that are not there. The input is the memory's first bytes and calls. Beside that nothing breaks, what is read is
+ * compared: bytes as they are, zeros where a page is missing.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -88,7 +89,8 @@ static void run(const struct step *s, const uint8_t *bytes)
 	const uint8_t *from = s->wild % 4 ? memory + at : (const uint8_t *)(uintptr_t)(uint32_t)s->size;
 	const long size = s->size % (int32_t)(4 * MOST_BYTES);
 	const struct pixel_layout layout = { s->more[0], s->more[1], s->more[2], s->more[3], s->more[4], s->size };
-	const struct pixel_box box = { 1 + s->what % 3, (unsigned)s->more[0], (unsigned)s->more[1], s->more[2], s->more[3], s->more[4] };
+	const struct pixel_box box = { 1 + s->what % 3, (unsigned)s->more[0], (unsigned)s->more[1],
+		                       s->more[2],      s->more[3],           s->more[4] };
 	long n;
 
 	recording.chunk = recording.p = chunk;
@@ -98,7 +100,10 @@ static void run(const struct step *s, const uint8_t *bytes)
 	case 1: read_text(at, bytes); break;
 	case 2: put_blob(chunk, from, size); break;
 	case 3: put_string(chunk, (const char *)from, size); break;
-	case 4: put_strings(chunk, (const char *const *)(const void *)from, size % 16, s->wild & 8 ? (const int *)(const void *)(memory + at) : NULL); break;
+	case 4:
+		put_strings(chunk, (const char *const *)(const void *)from, size % 16,
+		            s->wild & 8 ? (const int *)(const void *)(memory + at) : NULL);
+		break;
 	case 5:
 		n = image_bytes(&layout, &box);
 		put_blob(chunk, from, n < (long)(4 * MOST_BYTES) ? n : 0);

@@ -1,7 +1,7 @@
 /*
- * libFuzzer's target for reader and state machine: the input is a trace's logical stream (see capture/format/trace.md), put into a
- * Snappy container and replayed with the scenes of its first frames, or of every other one. Links no tracer: whoever needs pixels gets grey ones.
- * Most changes are to its calls (stream.h), the others to its bytes.
+ * libFuzzer's target for reader and state machine: the input is a trace's logical stream (see capture/format/trace.md),
+ * put into a Snappy container and replayed with the scenes of its first frames, or of every other one. Links no tracer:
+ * whoever needs pixels gets grey ones. Most changes are to its calls (stream.h), the others to its bytes.
  */
 #include <stdint.h>
 #include <stdlib.h>
@@ -20,8 +20,8 @@
 
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size);
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out, size_t max_size,
-                                 unsigned seed);
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out,
+                                 size_t max_size, unsigned seed);
 
 static int supply(void *user, const struct scene *scene, struct scene_picture *picture)
 {
@@ -59,8 +59,8 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsi
 	return n ? n : LLVMFuzzerMutate(data, size, max_size);
 }
 
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out, size_t max_size,
-                                 unsigned seed)
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out,
+                                 size_t max_size, unsigned seed)
 {
 	return stream_change(a, a_size, b, b_size, out, max_size, &seed);
 }

@@ -1,4 +1,5 @@
-/* A snapshot whose names are not compared with what they name: what an index lets through whose hashes somebody has made right. Input: snapshot.h. */
+/* A snapshot whose names are not compared with what they name: what an index lets through whose hashes somebody has
+ * made right. Input: snapshot.h. */
 #include <stdlib.h>
 
 #include "replay/gl/dispatch.h"

@@ -1,6 +1,6 @@
 /*
- * Trees of meshes on disk. The first byte says what the file is: odd, the input as it is; even, its content under a right key and a right
- * checksum. A tree that is taken is walked by what makes other nodes of it.
+ * Trees of meshes on disk. The first byte says what the file is: odd, the input as it is; even, its content under a
+ * right key and a right checksum. A tree that is taken is walked by what makes other nodes of it.
  */
 #include <dirent.h>
 #include <stdio.h>
@@ -38,7 +38,8 @@ static void begin(void)
 	blas_store_save(store, &key, &empty);
 	dir = opendir(folder);
 	while (dir && (entry = readdir(dir)))
-		if (strstr(entry->d_name, ".tree") && snprintf(file, sizeof(file), "%s/%.255s", folder, entry->d_name) < (int)sizeof(file))
+		if (strstr(entry->d_name, ".tree") &&
+		    snprintf(file, sizeof(file), "%s/%.255s", folder, entry->d_name) < (int)sizeof(file))
 			in = fopen(file, "rb");
 	if (!in || fread(head, 1, sizeof(head), in) != sizeof(head))
 		abort();

@@ -1,7 +1,7 @@
 /*
- * The verbs that read a recording, whole and in one process, and what replays that go back do with it: the low bits of the first byte choose
- * one. The rest is the trace's file; where the first byte's highest bit is set it is the logical stream in it, and most changes are to its
- * calls (stream.h). What they write goes into a folder of this process.
+ * The verbs that read a recording, whole and in one process, and what replays that go back do with it: the low bits of
+ * the first byte choose one. The rest is the trace's file; where the first byte's highest bit is set it is the logical
+ * stream in it, and most changes are to its calls (stream.h). What they write goes into a folder of this process.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +19,8 @@
 
 #define MOST_WORDS 12
 #define MOST_FRAMES 8
-#define MOST_PIXELS (1u << 23) /* of a drawable whose picture is made: each takes 9 bytes and more, in several pictures */
+/* of a drawable whose picture is made: each takes 9 bytes and more, in several pictures */
+#define MOST_PIXELS (1u << 23)
 #define STREAM 128 /* of the first byte */
 
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size) __attribute__((weak)); /* drive.c has none */
@@ -36,7 +37,8 @@ static int has_large_drawable(const struct gls_exec *x)
 	return 0;
 }
 
-/* Scenes of most frames, with pixels that have little to do with them; after each the state is saved, loaded and saved again. */
+/* Scenes of most frames, with pixels that have little to do with them; after each the state is saved, loaded and saved
+ * again. */
 static int states_main(int argc, char **argv)
 {
 	struct player p;
@@ -46,7 +48,9 @@ static int states_main(int argc, char **argv)
 	if (player_open(&p, argv[argc - 1]))
 		return 3;
 	player_set_supplier(&p, calls_grey.supply, calls_grey.user);
-	for (int i = 0; i < MOST_FRAMES && !wrong && player_try_frame(&p, i % 4 != 2, &scene) == 1 && !p.exec->feedback.rewind; i++) {
+	for (int i = 0;
+	     i < MOST_FRAMES && !wrong && player_try_frame(&p, i % 4 != 2, &scene) == 1 && !p.exec->feedback.rewind;
+	     i++) {
 		scene_release(&scene);
 		if (has_large_drawable(p.exec))
 			break;

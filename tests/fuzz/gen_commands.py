@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""gen_commands.py OUT HANDLER_SOURCE...: what tests/fuzz/calls.c makes calls of, as C: each command that a handler of replay/
-knows, with a letter for each parameter, the enumerants that the registry says belong there, and the chapter: which source handles it.
+"""gen_commands.py OUT HANDLER_SOURCE...: what tests/fuzz/calls.c makes calls of, as C: each command that a handler of
+replay/ knows, with a letter for each parameter, the enumerants that the registry says belong there, and the chapter:
+which source handles it.
 
-Commands go by a number made of their name, so that what was kept means the same when others have come.
-Letters: e enum, m bitmask, i and u integers, f and d floats, p address, b bytes or an offset, s string; E I F D arrays of these.
+Commands go by a number made of their name, so that what was kept means the same when others have come. Letters: e enum,
+m bitmask, i and u integers, f and d floats, p address, b bytes or an offset, s string; E I F D arrays of these.
 """
 import sys
 import zlib
@@ -12,16 +13,18 @@ sys.path.insert(0, "replay")
 import gen  # noqa: E402
 import registry  # noqa: E402  (gen.py knows where)
 
-SCALARS = {"GLenum": "e", "GLbitfield": "m", "GLfloat": "f", "GLclampf": "f", "GLdouble": "d", "GLclampd": "d",
-           **dict.fromkeys(("GLint", "GLsizei", "GLshort", "GLbyte", "GLintptr", "GLsizeiptr", "GLintptrARB", "GLsizeiptrARB", "int",
-                            "int64_t", "Bool"), "i"),
-           **dict.fromkeys(("GLuint", "GLushort", "GLubyte", "GLboolean", "GLXDrawable", "GLXPbuffer", "GLhandleARB", "Font",
-                            "unsigned long"), "u")}
+SCALARS = {
+    "GLenum": "e", "GLbitfield": "m", "GLfloat": "f", "GLclampf": "f", "GLdouble": "d", "GLclampd": "d",
+    **dict.fromkeys(("GLint", "GLsizei", "GLshort", "GLbyte", "GLintptr", "GLsizeiptr", "GLintptrARB", "GLsizeiptrARB", "int", "int64_t", "Bool"), "i"),
+    **dict.fromkeys(("GLuint", "GLushort", "GLubyte", "GLboolean", "GLXDrawable", "GLXPbuffer", "GLhandleARB", "Font", "unsigned long"), "u")
+}
 # What no registry of GL's or GLX' knows.
-OTHERS = {"memcpy": "pbi", "eglChooseConfig": "pIIiI", "eglGetConfigAttrib": "ppeI", "eglCreateContext": "pppI", "eglDestroyContext": "pp",
-          "eglMakeCurrent": "pppp", "eglSwapBuffers": "pp", "eglSwapBuffersWithDamageEXT": "ppIi", "eglSwapBuffersWithDamageKHR": "ppIi",
-          "OSMesaCreateContext": "ep", "OSMesaCreateContextExt": "eiiip", "OSMesaCreateContextAttribs": "Ip", "OSMesaDestroyContext": "p",
-          "OSMesaMakeCurrent": "ppeii"}
+OTHERS = {
+    "memcpy": "pbi", "eglChooseConfig": "pIIiI", "eglGetConfigAttrib": "ppeI", "eglCreateContext": "pppI",
+    "eglDestroyContext": "pp", "eglMakeCurrent": "pppp", "eglSwapBuffers": "pp", "eglSwapBuffersWithDamageEXT": "ppIi",
+    "eglSwapBuffersWithDamageKHR": "ppIi", "OSMesaCreateContext": "ep", "OSMesaCreateContextExt": "eiiip",
+    "OSMesaCreateContextAttribs": "Ip", "OSMesaDestroyContext": "p", "OSMesaMakeCurrent": "ppeii"
+}
 MOST_PARAMS = 15
 # Numbers that may be tokens, as the registry does not say: values of parameters, of which these groups hold most.
 VALUED = ("glTexParameter", "glSamplerParameter", "glTexEnv", "glTexGen", "glFog", "glLightModel", "glPointParameter")
@@ -56,7 +59,11 @@ def main(out, sources):
             if not enum.bits:
                 values.setdefault("", set()).add(enum.value & 0xFFFFFFFF)
     values["values"] = set().union(*(values[group] for group in VALUES))
-    chapters = {name: number for number, source in enumerate(sources) for name in gen.handled(gen.read_handlers([source]), known)}
+    chapters = {
+        name: number
+        for number, source in enumerate(sources)
+        for name in gen.handled(gen.read_handlers([source]), known)
+    }
     commands = {}
     for name in sorted(known.keys() | chapters.keys()):
         if name in chapters and name in OTHERS:
@@ -76,12 +83,15 @@ def main(out, sources):
              '#include "tests/fuzz/calls.h"', ""]
     for number, group in enumerate(groups):
         lines.append(f"static const uint32_t group_{number}[] = {{ {', '.join(map(hex, sorted(values[group])))} }};")
-    lines += ["", "const struct calls_group calls_groups[] = {",
-              *(f"\t{{ group_{n}, {len(values[group])} }}," for n, group in enumerate(groups)), "};", "",
-              "const struct calls_command calls_commands[] = {",
-              *(f'\t{{ "{name}", {number}, {chapter}, "{letters}", {{ {", ".join(str(groups.index(g)) for g in of) or 0} }} }},'
-                for number, name in sorted(numbers.items()) for letters, of, chapter in [commands[name]]),
-              "};", "", "const unsigned n_calls_commands = sizeof(calls_commands) / sizeof(calls_commands[0]);"]
+    lines += [
+        "", "const struct calls_group calls_groups[] = {",
+        *(f"\t{{ group_{n}, {len(values[group])} }}," for n, group in enumerate(groups)), "};", "",
+        "const struct calls_command calls_commands[] = {",
+        *(f'\t{{ "{name}", {number}, {chapter}, "{letters}", {{ {", ".join(str(groups.index(g)) for g in of) or 0} }} }},'
+          for number, name in sorted(numbers.items())
+          for letters, of, chapter in [commands[name]]), "};", "",
+        "const unsigned n_calls_commands = sizeof(calls_commands) / sizeof(calls_commands[0]);"
+    ]
     gen.write(out, lines)
 
 

@@ -43,7 +43,7 @@ static void write_file(const char *path, const struct bytes *b)
 	must(out && !b->failed && fwrite(b->data, 1, b->n, out) == b->n && fclose(out) == 0, path);
 }
 
-/* --- An index ------------------------------------------------------------------------------------------------------- */
+/* --- An index ---------------------------------------------------------------------------------------------------- */
 
 struct made {
 	struct bytes blobs, list; /* list: of struct index_blob */
@@ -64,7 +64,8 @@ static int put_blob(void *user, const uint64_t name[2], const void *data, size_t
 	return 0;
 }
 
-static void add_checkpoint(struct gls_exec *x, const struct trace_place *place, struct made *made, struct bytes *checkpoints)
+static void add_checkpoint(struct gls_exec *x, const struct trace_place *place, struct made *made,
+                           struct bytes *checkpoints)
 {
 	const struct snapshot_blobs blobs = { .put = put_blob, .user = made };
 	struct index_checkpoint c = { .frame = x->frame, .place = *place };
@@ -125,9 +126,10 @@ static void make_index(const char *path, const char *to)
 	write_file(to, &all);
 }
 
-/* --- Sequences of calls ---------------------------------------------------------------------------------------------- */
+/* --- Sequences of calls ------------------------------------------------------------------------------------------ */
 
-/* The next of the kept inputs. @return its bytes, which are there until the next one, and a zero; NULL: there is none */
+/* The next of the kept inputs. @return its bytes, which are there until the next one, and a zero; NULL: there is
+ * none */
 static const uint8_t *next_kept(FILE *file, uint32_t *size)
 {
 	static uint8_t input[LARGEST + 1];
@@ -159,7 +161,8 @@ struct written {
 
 static int write_call(void *user, const struct call *call)
 {
-	static const char *const names[CALLS_MAX_PARAMS] = { "a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m", "n", "o" };
+	static const char *const names[CALLS_MAX_PARAMS] = { "a", "b", "c", "d", "e", "f", "g", "h",
+		                                             "i", "j", "k", "l", "m", "n", "o" };
 	struct written *written = user;
 	struct call again = *call;
 	size_t i = 0;
@@ -168,7 +171,9 @@ static int write_call(void *user, const struct call *call)
 		i++;
 	if (i == written->n_sigs) {
 		must(i < MOST_SIGS, "signatures");
-		written->sigs[written->n_sigs++] = (struct call_sig){ .name = call->sig->name, .n_args = call->sig->n_args, .arg_names = (const char **)(uintptr_t)names };
+		written->sigs[written->n_sigs++] = (struct call_sig){ .name = call->sig->name,
+			                                              .n_args = call->sig->n_args,
+			                                              .arg_names = (const char **)(uintptr_t)names };
 	}
 	again.sig = &written->sigs[i];
 	return trace_out_call(written->out, &again);
@@ -183,12 +188,14 @@ static void make_trace(const char *folder, const char *target, int number, const
 	char path[4096];
 
 	snprintf(path, sizeof(path), "%s/%s.%d.trace", folder, target, number);
-	must(!trace_reader_open(&from, LIKE, gls_command_find) && !trace_out_open(&written.out, path, LIKE, from) && !say(&written, input, size) &&
-	     !trace_out_finish(&written.out, NULL), path);
+	must(!trace_reader_open(&from, LIKE, gls_command_find) && !trace_out_open(&written.out, path, LIKE, from) &&
+	             !say(&written, input, size) && !trace_out_finish(&written.out, NULL),
+	     path);
 	trace_reader_close(&from);
 }
 
-static void make_traces(const char *folder, const char *target, int (*say)(struct written *written, const uint8_t *input, uint32_t size))
+static void make_traces(const char *folder, const char *target,
+                        int (*say)(struct written *written, const uint8_t *input, uint32_t size))
 {
 	FILE *file = open_kept(target);
 	const uint8_t *input;
@@ -204,7 +211,7 @@ static int say_calls(struct written *written, const uint8_t *input, uint32_t siz
 	return calls_each(input, size, write_call, written);
 }
 
-/* --- Programs ------------------------------------------------------------------------------------------------------- */
+/* --- Programs ---------------------------------------------------------------------------------------------------- */
 
 #define U(v) { .type = TRACE_UINT, .u = (uint64_t)(v) }
 #define F(v) { .type = TRACE_FLOAT, .f = (v) }
@@ -225,7 +232,9 @@ static int say(struct written *written, const struct said *said, size_t n)
 	for (size_t i = 0; i < n && !rc; i++) {
 		const struct call_sig sig = { .name = said[i].name, .n_args = said[i].n_args };
 
-		rc = write_call(written, &(struct call){ .sig = &sig, .n_args = sig.n_args, .args = said[i].args, .ret = said[i].ret });
+		rc = write_call(
+			written,
+			&(struct call){ .sig = &sig, .n_args = sig.n_args, .args = said[i].args, .ret = said[i].ret });
 	}
 	return rc;
 }
@@ -241,9 +250,16 @@ static int say_target(struct written *written)
 		{ "glViewport", 4, { U(0), U(0), U(SIDE), U(SIDE) }, { 0 } },
 		{ "glBindTexture", 2, { U(GL_TEXTURE_2D), U(1) }, { 0 } },
 		{ "glTexParameteri", 3, { U(GL_TEXTURE_2D), U(GL_TEXTURE_MIN_FILTER), U(GL_NEAREST) }, { 0 } },
-		{ "glTexImage2D", 9, { U(GL_TEXTURE_2D), U(0), U(GL_RGBA), U(SIDE), U(SIDE), U(0), U(GL_RGBA), U(GL_UNSIGNED_BYTE), NOTHING }, { 0 } },
+		{ "glTexImage2D",
+		  9,
+		  { U(GL_TEXTURE_2D), U(0), U(GL_RGBA), U(SIDE), U(SIDE), U(0), U(GL_RGBA), U(GL_UNSIGNED_BYTE),
+		    NOTHING },
+		  { 0 } },
 		{ "glBindFramebuffer", 2, { U(GL_FRAMEBUFFER), U(1) }, { 0 } },
-		{ "glFramebufferTexture2D", 5, { U(GL_FRAMEBUFFER), U(GL_COLOR_ATTACHMENT0), U(GL_TEXTURE_2D), U(1), U(0) }, { 0 } },
+		{ "glFramebufferTexture2D",
+		  5,
+		  { U(GL_FRAMEBUFFER), U(GL_COLOR_ATTACHMENT0), U(GL_TEXTURE_2D), U(1), U(0) },
+		  { 0 } },
 		{ "glClear", 1, { U(GL_COLOR_BUFFER_BIT) }, { 0 } },
 		{ "glRectf", 4, { F(-0.5f), F(-0.5f), F(0.5f), F(0.5f) }, { 0 } },
 		{ "glBindFramebuffer", 2, { U(GL_FRAMEBUFFER), U(0) }, { 0 } },
@@ -304,7 +320,7 @@ static int say_assembly(struct written *written, const uint8_t *input, uint32_t 
 	return say_target(written) || SAY(written, said) || say_shown(written);
 }
 
-/* --- Snapshots ------------------------------------------------------------------------------------------------------ */
+/* --- Snapshots --------------------------------------------------------------------------------------------------- */
 
 static void put_record(struct bytes *out, const uint64_t name[2], const void *data, size_t n)
 {
@@ -354,7 +370,7 @@ static void make_snapshots(const char *folder)
 	fclose(file);
 }
 
-/* --- A tree --------------------------------------------------------------------------------------------------------- */
+/* --- A tree ------------------------------------------------------------------------------------------------------ */
 
 static uint32_t split(struct node2 *nodes, uint32_t *n, uint32_t first, uint32_t count)
 {

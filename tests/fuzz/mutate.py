@@ -3,9 +3,9 @@
 
 usage: mutate.py TRACE [COUNT [SEED [BYTES]]]
 
-Bytes of the unpacked stream are flipped, cut out, doubled and spliced, and the file itself is cut. Each run must end within
-10 s, within 1 GiB of address space beyond what the whole trace needs, and with exit code 0 or 3. A mutant that breaks a run is
-kept beside the trace as NAME.crash-N.
+Bytes of the unpacked stream are flipped, cut out, doubled and spliced, and the file itself is cut. Each run must end
+within 10 s, within 1 GiB of address space beyond what the whole trace needs, and with exit code 0 or 3. A mutant that
+breaks a run is kept beside the trace as NAME.crash-N.
 """
 import os
 import pathlib
@@ -119,8 +119,8 @@ def run(path):
     """What is wrong with the runs on a file, or ""."""
     for verb in (["info", "--json"], ["scene", "-f", "3", "--json"]):
         try:
-            done = subprocess.run([RELUME, *verb, str(path)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=10,
-                                  preexec_fn=limit_memory, check=False)
+            done = subprocess.run([RELUME, *verb, str(path)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                  timeout=10, preexec_fn=limit_memory, check=False)
         except subprocess.TimeoutExpired:
             return f"{verb[0]}: no end within 10 s"
         if done.returncode not in (0, 3) and not (verb[0] == "scene" and done.returncode == 2):

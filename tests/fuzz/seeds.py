@@ -1,4 +1,5 @@
-"""What libFuzzer and mutants start from: files as Relume and others make them, one folder BUILD/fuzz/seeds_TARGET each."""
+"""What libFuzzer and mutants start from: files as Relume and others make them, one folder BUILD/fuzz/seeds_TARGET
+each."""
 import gzip
 import pathlib
 import re
@@ -73,7 +74,10 @@ frames:
   - { frame: 2, width: 4, height: 3, file: frame.0002.exr, channels: "A:0123456789abcdef R:0123456789abcdef" }
 """
 # Two frames of 2 x 2 pixels, colour and depth (capture/format/ref.h); a block of Snappy's that is one literal.
-REF = b"RELREF2\n" + b"".join(struct.pack("<IIIQQ", kind, 2, 2, frame, 18) + b"\x10\x3c" + bytes(range(16)) for frame in (3, 4) for kind in (1, 2))
+REF = b"RELREF2\n" + b"".join(
+    struct.pack("<IIIQQ", kind, 2, 2, frame, 18) + b"\x10\x3c" + bytes(range(16))
+    for frame in (3, 4)
+    for kind in (1, 2))
 REF += struct.pack("<IIIQQQ", 0x101, 2, 2, 5, 26, 8) + b"\x10\x3c" + bytes(range(16))
 # Memory of eight pages, the third of which is missing, and a call of each kind (fuzz_recorder.c).
 RECORDER = bytes([0xfb, *b"a text" * 20]).ljust(256, b"\0") + b"".join(
@@ -99,22 +103,29 @@ STREAM = 128  # of the same byte: no container around the stream
 def record(build, folder):
     """Recordings of programs of ours, two frames each (panels: all), with what they showed."""
     folder.mkdir(parents=True, exist_ok=True)
-    for program in [*(build / "corpus").iterdir(), *(build / "tests/real").glob("*"), *(build / "tests/real/panels").iterdir()]:
+    for program in [
+            *(build / "corpus").iterdir(), *(build / "tests/real").glob("*"), *(build / "tests/real/panels").iterdir()
+    ]:
         if program.is_dir() or "." in program.name or program.name.startswith("test_"):
             continue
-        subprocess.run(["timeout", "5", build / "relume", "record", "-o", folder / f"{program.name}.trace", "--ref", "color,depth", "--", program,
-                        "--frames", "2"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+        subprocess.run([
+            "timeout", "5", build / "relume", "record", "-o", folder / f"{program.name}.trace", "--ref", "color,depth",
+            "--", program, "--frames", "2"
+        ], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
 
 
 def cut_panels(build, folder):
-    """Recordings of panels, whose calls are more varied than any other program's, a frame each: short ones are changed more often."""
+    """Recordings of panels, whose calls are more varied than any other program's, a frame each: short ones are changed
+    more often."""
     cut = folder / "cut"
     cut.mkdir(exist_ok=True)
     for program in (build / "tests/real/panels").glob("*.d"):
         trace = folder / f"{program.stem}.trace"
         for frame in range(12):
-            if trace.exists() and subprocess.run([build / "relume", "trim", trace, "-f", str(frame), "-o", cut / f"{trace.stem}.{frame}.trace"], check=False,
-                                                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode:
+            if trace.exists() and subprocess.run(
+                [build / "relume", "trim", trace, "-f",
+                 str(frame), "-o", cut / f"{trace.stem}.{frame}.trace"], check=False, stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode:
                 break
     return sorted(cut.glob("*.trace"))
 
@@ -133,25 +144,29 @@ def made_traces(build, traces, out):
 
 
 def pictures(build, traces, out):
-    """Frames by Relume, and what oiiotool makes of them; the first byte of each is the number of its name's ending (fuzz_oiio.c)."""
+    """Frames by Relume, and what oiiotool makes of them; the first byte of each is the number of its name's ending
+    (fuzz_oiio.c)."""
     trace = ROOT / "tests/golden/two_triangles.trace"
-    subprocess.run([build / "relume", "render", trace, "-o", traces / "frame.####.exr", "-f", "0", "--device", "reference"], check=False,
-                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.run(
+        [build / "relume", "render", trace, "-o", traces / "frame.####.exr", "-f", "0", "--device", "reference"],
+        check=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     for frame in traces.glob("frame.*.exr"):
         (out["exr"] / frame.name).write_bytes(frame.read_bytes())
     first = next(traces.glob("frame.*.exr"), None)
-    for number, ending in enumerate(("png", "jpg", "tif", "exr", "bmp", "tga", "gif", "hdr", "webp", "psd", "dds", "sgi", "pnm", "ico", "dpx", "cin")):
+    for number, ending in enumerate(("png", "jpg", "tif", "exr", "bmp", "tga", "gif", "hdr", "webp", "psd", "dds",
+                                     "sgi", "pnm", "ico", "dpx", "cin")):
         made = traces / f"x.{ending}"
         if first:
-            subprocess.run(["oiiotool", first, "--ch", "R,G,B", "--resize", "24x16", "-o", made], check=False, stdin=subprocess.DEVNULL,
-                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            subprocess.run(["oiiotool", first, "--ch", "R,G,B", "--resize", "24x16", "-o", made], check=False,
+                           stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         if made.exists():
             (out["oiio"] / ending).write_bytes(bytes([number]) + made.read_bytes())
     for compression in ("none", "rle", "zips", "zip", "piz", "pxr24", "b44", "dwaa"):
         made = traces / f"{compression}.exr"
         if first:
-            subprocess.run(["oiiotool", first, "--ch", "R,G,B", "--resize", "24x16", "--compression", compression, "-o", made], check=False,
-                           stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            subprocess.run(
+                ["oiiotool", first, "--ch", "R,G,B", "--resize", "24x16", "--compression", compression, "-o", made],
+                check=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         if made.exists():
             (out["exr"] / made.name).write_bytes(made.read_bytes())
             (out["oiio"] / made.name).write_bytes(b"\3" + made.read_bytes())
@@ -167,8 +182,8 @@ def assembly():
 
 def make_seeds(build, folder):
     """Once; the folders' names end in the targets'."""
-    names = ("calls", "replay", "container", "verbs", "index", "snapshot", "ref", "exr", "oiio", "look", "rules", "baseline", "json", "gltf", "tree",
-             "outcome", "farm", "recorder", "glsl", "arb")
+    names = ("calls", "replay", "container", "verbs", "index", "snapshot", "ref", "exr", "oiio", "look", "rules",
+             "baseline", "json", "gltf", "tree", "outcome", "farm", "recorder", "glsl", "arb")
     out = {name: folder / f"seeds_{name}" for name in names}
     done = folder / "seeds_made"
     if done.exists():
@@ -195,7 +210,8 @@ def make_seeds(build, folder):
     for number, trace in enumerate(golden):
         stream = bytes(unpack(trace.read_bytes()))
         (out["container"] / f"{trace.stem}.gz").write_bytes(gzip.compress(stream))
-        subprocess.run(["brotli", "-f", "-o", out["container"] / f"{trace.stem}.br", "-"], input=stream, check=False) if pathlib.Path("/usr/bin/brotli").exists() else None
+        subprocess.run(["brotli", "-f", "-o", out["container"] / f"{trace.stem}.br", "-"], input=stream,
+                       check=False) if pathlib.Path("/usr/bin/brotli").exists() else None
         for verb in range(VERBS):
             (out["verbs"] / f"{trace.stem}.{verb}").write_bytes(bytes([verb]) + trace.read_bytes())
         subprocess.run([build / "tests/fuzz/make_seeds", "index", trace, out["index"] / str(number)], check=False)

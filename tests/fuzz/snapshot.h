@@ -1,6 +1,7 @@
 /*
- * A snapshot of the state machine (replay/index/snapshot.h) as one file: records of a name (16 bytes), a size (32 bits, low first) and
- * so many bytes. The first is the snapshot, the others are its blobs, one may be calls (calls.h) to be executed once it is loaded: its name is all 0xff.
+ * A snapshot of the state machine (replay/index/snapshot.h) as one file: records of a name (16 bytes), a size (32 bits,
+ * low first) and so many bytes. The first is the snapshot, the others are its blobs, one may be calls (calls.h) to be
+ * executed once it is loaded: its name is all 0xff.
  */
 #pragma once
 

@@ -186,13 +186,17 @@ static void put_random_bytes(struct out *o)
 /* Any value at all in the place of another; most often one of its type. */
 static void put_other(struct out *o, unsigned tag, const struct stream *s)
 {
-	static const uint64_t NUMBERS[] = { 0, 1, 2, 3, 7, 255, 256, 4096, 0x7FFF, 0xFFFF, 0x10000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, UINT64_MAX };
+	static const uint64_t NUMBERS[] = { 0,       1,          2,          3,          7,
+		                            255,     256,        4096,       0x7FFF,     0xFFFF,
+		                            0x10000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, UINT64_MAX };
 	static const float FLOATS[] = { 0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 1e-40f, 3.4e38f, 1e9f, (float)0x1p31, -1e20f };
-	uint64_t number = calls_draw(o->state, 2) ? calls_draw(o->state, 64) : NUMBERS[calls_draw(o->state, sizeof(NUMBERS) / sizeof(NUMBERS[0]))];
+	uint64_t number = calls_draw(o->state, 2) ? calls_draw(o->state, 64) :
+	                                            NUMBERS[calls_draw(o->state, sizeof(NUMBERS) / sizeof(NUMBERS[0]))];
 	const struct calls_group *tokens = &calls_groups[0];
 	struct span sig = s->enums[calls_draw(o->state, s->n_enums)];
 	struct cursor c = { sig.at, sig.at ? sig.at + sig.n : NULL, 0 };
-	float f = calls_draw(o->state, 2) ? FLOATS[calls_draw(o->state, 10)] : ((int)calls_draw(o->state, 2000) - 1000) / 64.0f;
+	float f = calls_draw(o->state, 2) ? FLOATS[calls_draw(o->state, 10)] :
+	                                    ((int)calls_draw(o->state, 2000) - 1000) / 64.0f;
 	double d = f;
 
 	if (calls_draw(o->state, 16) == 0)
@@ -388,7 +392,8 @@ static size_t change_order(struct place *places, size_t n, struct stream *a, str
 	return n + count;
 }
 
-size_t stream_change(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out, size_t room, unsigned *state)
+size_t stream_change(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out, size_t room,
+                     unsigned *state)
 {
 	static struct stream one, other;
 	static struct place places[MAX_CALLS];

@@ -1,6 +1,6 @@
 /*
- * What libFuzzer's targets (fuzz_NAME.c) have in common. A target is one reader; the input is a file as that reader gets it, or, where a
- * checksum would refuse each change, what the checksum is taken of.
+ * What libFuzzer's targets (fuzz_NAME.c) have in common. A target is one reader; the input is a file as that reader
+ * gets it, or, where a checksum would refuse each change, what the checksum is taken of.
  *
  * `make fuzz` links a target with libFuzzer, `make check` and `make show-mutants` with drive.c.
  */
@@ -26,7 +26,8 @@ void target_end(void);
 /** Write a file below it, in place of what is there. @param path  receives its name; [4096] */
 void target_write(const char *name, const uint8_t *data, size_t size, char path[4096]);
 
-/** A trace's file, in Snappy chunks, of its logical stream (capture/format/trace.md). @return its bytes, to be freed with free() */
+/** A trace's file, in Snappy chunks, of its logical stream (capture/format/trace.md). @return its bytes, to be freed
+ * with free() */
 uint8_t *target_pack(const uint8_t *stream, size_t size, size_t *n);
 
 /** The next n bytes of an input, which then begins behind them. @return 0: it has not so many */

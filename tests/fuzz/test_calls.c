@@ -1,6 +1,7 @@
 /*
- * Calls in any order with any values (calls.h): the state machine stays in one piece, and what is saved between two frames is
- * what is loaded. The kept ones are what libFuzzer found worth keeping, with every sequence that ever broke something.
+ * Calls in any order with any values (calls.h): the state machine stays in one piece, and what is saved between two
+ * frames is what is loaded. The kept ones are what libFuzzer found worth keeping, with every sequence that ever broke
+ * something.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,7 +39,8 @@ START_TEST(random_sequences)
 
 		for (unsigned i = 0; i < n; i++)
 			calls_invent(&state, bytes + (size_t)i * CALLS_SLOT, i ? bytes + (size_t)(i - 1) * CALLS_SLOT : NULL);
-		ck_assert_msg(!calls_run(bytes, n * CALLS_SLOT, run % 2 ? &calls_grey : NULL), "part %d, run %d: saved and loaded states differ", _i, run);
+		ck_assert_msg(!calls_run(bytes, n * CALLS_SLOT, run % 2 ? &calls_grey : NULL),
+		              "part %d, run %d: saved and loaded states differ", _i, run);
 	}
 }
 END_TEST

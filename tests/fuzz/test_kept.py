@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""What libFuzzer found worth keeping, with every input that ever broke something: info and scene answer each time, and in order."""
+"""What libFuzzer found worth keeping, with every input that ever broke something: info and scene answer each time, and
+in order."""
 import pathlib
 import sys
 

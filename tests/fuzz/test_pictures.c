@@ -1,7 +1,7 @@
 /*
- * Pictures of what calls in any order with any values draw (calls.h): kernels and C twins stay in one piece, and agree to the
- * last bit. Pictures that calls read go on from the one read before, and show what the whole scene does.
- * limit: 400 s
+ * Pictures of what calls in any order with any values draw (calls.h): kernels and C twins stay in one piece, and agree
+ * to the last bit. Pictures that calls read go on from the one read before, and show what the whole scene does. limit:
+ * 400 s
  */
 #include <stdlib.h>
 #include <string.h>
@@ -46,8 +46,8 @@ static void paint(void *user, const struct scene *scene)
 		size_t n = (size_t)image[TWIN].width * image[TWIN].height, different = 0;
 		for (size_t k = 0; k < n; k++)
 			different += memcmp(&twin[k], &kernels[k], sizeof(float)) != 0;
-		ck_assert_msg(!different, "%s %d of part %d: %zu of %zu values of %s differ", p->what, p->number, p->part, different, n,
-		              image[TWIN].channels[c].name);
+		ck_assert_msg(!different, "%s %d of part %d: %zu of %zu values of %s differ", p->what, p->number,
+		              p->part, different, n, image[TWIN].channels[c].name);
 	}
 	for (int i = 0; i < N_DEVICES; i++)
 		image_free(&image[i]);
@@ -64,9 +64,12 @@ static void compare_whole(struct painter *p, const struct scene *scene, const st
 	other.serial = 0;
 	ck_assert_ptr_nonnull(whole);
 	ck_assert_int_eq(supply_picture(&p->whole, &other, whole), 0);
-	ck_assert_msg(!memcmp(whole->rgba, picture->rgba, 4 * n) && !memcmp(whole->depth, picture->depth, n * sizeof(*whole->depth)) &&
-	              !memcmp(whole->stencil, picture->stencil, n) && (!whole->colors || !memcmp(whole->colors, picture->colors, 4 * n * sizeof(float))),
-	              "%s %d of part %d: what was drawn over a picture differs from the whole", p->what, p->number, p->part);
+	ck_assert_msg(!memcmp(whole->rgba, picture->rgba, 4 * n) &&
+	                      !memcmp(whole->depth, picture->depth, n * sizeof(*whole->depth)) &&
+	                      !memcmp(whole->stencil, picture->stencil, n) &&
+	                      (!whole->colors || !memcmp(whole->colors, picture->colors, 4 * n * sizeof(float))),
+	              "%s %d of part %d: what was drawn over a picture differs from the whole", p->what, p->number,
+	              p->part);
 	picture_free(whole);
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""What libFuzzer found worth keeping of each reader, with every input that ever broke something (kept_NAME), and some mutants of it."""
+"""What libFuzzer found worth keeping of each reader, with every input that ever broke something (kept_NAME), and some
+mutants of it."""
 import os
 import pathlib
 import sys

@@ -1,5 +1,6 @@
 /*
- * Calls into the state machine, without a trace: how the tests of tests/gl speak. Calls in, facts about state or scene out.
+ * Calls into the state machine, without a trace: how the tests of tests/gl speak. Calls in, facts about state or scene
+ * out.
  *
  *     struct gl gl = gl_open();                    a context, made current, drawable 64x64
  *     gl_call(&gl, "glRotatef", "ffff", 90.0, 0.0, 0.0, 1.0);
@@ -7,8 +8,8 @@
  *     gl_close(&gl);
  *
  * Letters of a call's arguments: f float, d double, i signed, u unsigned, e enum, m bitmask, p address (uint64_t; 0 is
- * NULL), s string, S an array of one string, F n floats (int, const float *), D n doubles, U n unsigned (int, const uint32_t *), b bytes (size_t,
- * const void *).
+ * NULL), s string, S an array of one string, F n floats (int, const float *), D n doubles, U n unsigned (int, const
+ * uint32_t *), b bytes (size_t, const void *).
  */
 #pragma once
 
@@ -97,7 +98,8 @@ static inline void gl_value(struct trace_value *v, char letter, va_list *args)
 }
 
 /** Make a call that returns `ret`. */
-static inline void gl_call_ret(struct gl *gl, struct trace_value ret, const char *name, const char *letters, va_list *args)
+static inline void gl_call_ret(struct gl *gl, struct trace_value ret, const char *name, const char *letters,
+                               va_list *args)
 {
 	struct trace_value values[GL_MAX_ARGS];
 	struct call_sig sig = { .name = name, .command = gls_command_find(name) };

@@ -8,7 +8,9 @@
 #include "replay/machine/buffer.h"
 
 static const float square[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
-static const uint8_t colors[4][4] = { { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 }, { 255, 255, 255, 0 } };
+static const uint8_t colors[4][4] = {
+	{ 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 }, { 255, 255, 255, 0 }
+};
 
 static void client_arrays(struct gl *gl)
 {
@@ -44,7 +46,8 @@ START_TEST(test_client_arrays)
 }
 END_TEST
 
-/* Integers as numbers in [-1,1]: of signed types the two lowest are both -1 and 0 is 0, where single calls know no 0 (measured on Mesa 22.3.6). */
+/* Integers as numbers in [-1,1]: of signed types the two lowest are both -1 and 0 is 0, where single calls know no 0
+ * (measured on Mesa 22.3.6). */
 START_TEST(test_normalized)
 {
 	static const int8_t bytes[4] = { 100, -100, 0, -128 };
@@ -325,7 +328,8 @@ static void draw_quad(struct gl *gl, uint32_t object, uint32_t attributes)
 	scene_release(&s);
 }
 
-/* Vertex array objects (GL 3.0 sec. 2.10): each has arrays of its own; so it has after a checkpoint, and on the attribute stack. */
+/* Vertex array objects (GL 3.0 sec. 2.10): each has arrays of its own; so it has after a checkpoint, and on the
+ * attribute stack. */
 START_TEST(test_vertex_array_objects)
 {
 	const struct snapshot_blobs blobs = { .put = keep_blob, .get = find_blob };
@@ -375,7 +379,8 @@ START_TEST(test_vertex_array_objects)
 }
 END_TEST
 
-/* Buffers that were never filled: nothing is there to copy or to draw. Undefined without a care (make check SAN=undefined). */
+/* Buffers that were never filled: nothing is there to copy or to draw. Undefined without a care (make check
+ * SAN=undefined). */
 START_TEST(test_empty_buffers)
 {
 	struct gl gl = gl_open();
@@ -387,13 +392,18 @@ START_TEST(test_empty_buffers)
 	ck_assert_uint_eq(gl_error(&gl), 0);
 	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_UNSIGNED_BYTE, (uint64_t)0);
 	ck_assert_uint_eq(gl_unsupported(&gl), 1);
-	gl_call(&gl, "glBufferData", "eppe", GL_ARRAY_BUFFER, (uint64_t)1 << 31, (uint64_t)0, GL_STATIC_DRAW); /* more than anybody fills */
+	gl_call(&gl, "glBufferData", "eppe", GL_ARRAY_BUFFER, (uint64_t)1 << 31, (uint64_t)0, GL_STATIC_DRAW); /* more
+	                                                                                                          than
+	                                                                                                          anybody
+	                                                                                                          fills
+	                                                                                                        */
 	ck_assert_uint_eq(gl_unsupported(&gl), 2);
 	gl_close(&gl);
 }
 END_TEST
 
-/* A buffer that is mapped again, and one that is mapped where another was: each is at one address, and none when it is gone. */
+/* A buffer that is mapped again, and one that is mapped where another was: each is at one address, and none when it is
+ * gone. */
 START_TEST(test_mapped_again)
 {
 	struct gl gl = gl_open();
@@ -415,7 +425,8 @@ START_TEST(test_mapped_again)
 }
 END_TEST
 
-/* IBM_multimode_draw_arrays: each draw has a mode, and modes are some bytes apart; one that is not there draws nothing. */
+/* IBM_multimode_draw_arrays: each draw has a mode, and modes are some bytes apart; one that is not there draws
+ * nothing. */
 START_TEST(test_modes)
 {
 	static const float positions[4][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 }, { 1, 1 } };
@@ -434,8 +445,12 @@ START_TEST(test_modes)
 	gl_call(&gl, "glMultiModeDrawArraysIBM", "UUUii", 3, modes, 3, first, 3, count, 3, 8);
 	for (unsigned i = 0; i < 6; i++)
 		args[i] = (struct trace_value){ .type = TRACE_UINT, .u = i == 2 ? GL_UNSIGNED_BYTE : i == 4 ? 1 : 4 };
-	args[0] = (struct trace_value){ .type = TRACE_ARRAY, .count = 1, .items = &(struct trace_value){ .type = TRACE_UINT, .u = GL_LINES } };
-	args[1] = (struct trace_value){ .type = TRACE_ARRAY, .count = 1, .items = &(struct trace_value){ .type = TRACE_UINT, .u = 2 } };
+	args[0] = (struct trace_value){ .type = TRACE_ARRAY,
+		                        .count = 1,
+		                        .items = &(struct trace_value){ .type = TRACE_UINT, .u = GL_LINES } };
+	args[1] = (struct trace_value){ .type = TRACE_ARRAY,
+		                        .count = 1,
+		                        .items = &(struct trace_value){ .type = TRACE_UINT, .u = 2 } };
 	args[3] = (struct trace_value){ .type = TRACE_ARRAY, .count = 1, .items = &blob };
 	ck_assert_int_eq(gls_exec_call(gl.x, &call), 0);
 	s = gl_swap(&gl);
@@ -474,5 +489,6 @@ START_TEST(test_instances)
 }
 END_TEST
 
-GL_TESTS("arrays", test_modes, test_instances, test_mapped_again, test_restart, test_copy_buffer, test_client_arrays, test_normalized, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_array_element_bgra, test_interleaved,
-         test_errors_and_shortness, test_vertex_array_objects)
+GL_TESTS("arrays", test_modes, test_instances, test_mapped_again, test_restart, test_copy_buffer, test_client_arrays,
+         test_normalized, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_array_element_bgra,
+         test_interleaved, test_errors_and_shortness, test_vertex_array_objects)

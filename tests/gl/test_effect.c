@@ -1,6 +1,6 @@
 /*
- * What a display list leaves behind in frames that are skipped (replay/gl/geometry/effect.c): the same state and the same errors, to the
- * last bit, as the list itself leaves behind in frames that are built.
+ * What a display list leaves behind in frames that are skipped (replay/gl/geometry/effect.c): the same state and the
+ * same errors, to the last bit, as the list itself leaves behind in frames that are built.
  */
 #include <math.h>
 
@@ -78,9 +78,11 @@ static void compare(struct pair *pair, const char *what, unsigned number)
 		const struct gls_exec *a = pair->gl[0].x, *b = pair->gl[1].x;
 
 		if (a->counts.errors[i] != b->counts.errors[i] || a->counts.unsupported[i] != b->counts.unsupported[i])
-			ck_abort_msg("%s %u: %s: %llu and %llu errors, %llu and %llu not done: %s %s", what, number, gls_commands[i].name,
-			             (unsigned long long)a->counts.errors[i], (unsigned long long)b->counts.errors[i],
-			             (unsigned long long)a->counts.unsupported[i], (unsigned long long)b->counts.unsupported[i], a->counts.why[i], b->counts.why[i]);
+			ck_abort_msg("%s %u: %s: %llu and %llu errors, %llu and %llu not done: %s %s", what, number,
+			             gls_commands[i].name, (unsigned long long)a->counts.errors[i],
+			             (unsigned long long)b->counts.errors[i],
+			             (unsigned long long)a->counts.unsupported[i],
+			             (unsigned long long)b->counts.unsupported[i], a->counts.why[i], b->counts.why[i]);
 	}
 	free(state[0].data);
 	free(state[1].data);
@@ -103,7 +105,8 @@ static void letter(struct pair *pair, unsigned texture, double s)
 	both(pair, "glEnd", "");
 }
 
-/* A word of letters, each a list: three frames on, only the last texture, texture coordinate and nothing of matrices is left. */
+/* A word of letters, each a list: three frames on, only the last texture, texture coordinate and nothing of matrices is
+ * left. */
 START_TEST(test_text)
 {
 	struct pair pair = pair_open();
@@ -155,7 +158,8 @@ START_TEST(test_text)
 }
 END_TEST
 
-/* A stack that is nearly full: PushMatrix within the list is an error there, and PopMatrix takes what was pushed outside. */
+/* A stack that is nearly full: PushMatrix within the list is an error there, and PopMatrix takes what was pushed
+ * outside. */
 START_TEST(test_full_stack)
 {
 	struct pair pair = pair_open();
@@ -187,7 +191,8 @@ static unsigned draw(unsigned *state, unsigned n)
 	return (*state >> 16) % n;
 }
 
-/* A list calls only those of higher numbers: of two that call each other, the calls would double at each of 64 levels. */
+/* A list calls only those of higher numbers: of two that call each other, the calls would double at each of 64
+ * levels. */
 static void random_call(struct pair *pair, unsigned *state, unsigned list)
 {
 	const float light[4] = { 1, (float)draw(state, 4), 3, 1 }, red[4] = { 1, 0, (float)draw(state, 3) * 0.5f, 1 };
@@ -318,7 +323,8 @@ START_TEST(test_random)
 }
 END_TEST
 
-/* Lists that call lists a hundred times each, nine deep, and have next to nothing in them: it is soon given up what they leave behind. */
+/* Lists that call lists a hundred times each, nine deep, and have next to nothing in them: it is soon given up what
+ * they leave behind. */
 START_TEST(test_lists_without_end)
 {
 	struct pair pair = pair_open();

@@ -62,7 +62,8 @@ START_TEST(test_draw_texture)
 	const uint8_t texels[4 * 4 * 3] = { 0 };
 	struct scene *s;
 
-	gl_call(&gl, "glTexImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, GL_RGB, 4, 4, 0, GL_RGB, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+	gl_call(&gl, "glTexImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, GL_RGB, 4, 4, 0, GL_RGB, GL_UNSIGNED_BYTE,
+	        sizeof(texels), texels);
 	gl_call(&gl, "glTexParameteri", "eei", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
 	gl_call(&gl, "glTexParameteriv", "eeU", GL_TEXTURE_2D, GL_TEXTURE_CROP_RECT_OES, 4, (const uint32_t[]){ 1, 2, 2, 1 });
 	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
@@ -85,7 +86,8 @@ START_TEST(test_draw_texture)
 }
 END_TEST
 
-/* A base level that no texture has (GL 2.1 sec. 3.8.10: the texture is incomplete) leaves the rectangle without a texture. */
+/* A base level that no texture has (GL 2.1 sec. 3.8.10: the texture is incomplete) leaves the rectangle without a
+ * texture. */
 START_TEST(test_rectangle_without_level)
 {
 	struct gl gl = gl_open();
@@ -136,7 +138,8 @@ START_TEST(test_palette)
 	for (int i = 0; i < 16; i++)
 		image[4 * i] = (uint8_t)(10 * i);
 	memcpy(image + 64, (const uint8_t[]){ 0x12, 0x34, 0x56, 0x70 }, 4); /* 2 x 2 is two bytes; then 1 x 1 */
-	gl_call(&gl, "glCompressedTexImage2D", "eieiiiib", GL_TEXTURE_2D, -1, GL_PALETTE4_RGBA8_OES, 2, 2, 0, 67, sizeof(image) - 1, image);
+	gl_call(&gl, "glCompressedTexImage2D", "eieiiiib", GL_TEXTURE_2D, -1, GL_PALETTE4_RGBA8_OES, 2, 2, 0, 67,
+	        sizeof(image) - 1, image);
 	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
 	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
 	ck_assert_uint_eq(gl_error(&gl), 0);
@@ -151,4 +154,5 @@ START_TEST(test_palette)
 }
 END_TEST
 
-GL_TESTS("es", test_fixed, test_generation, test_draw_texture, test_rectangle_without_level, test_point_sizes, test_palette)
+GL_TESTS("es", test_fixed, test_generation, test_draw_texture, test_rectangle_without_level, test_point_sizes,
+         test_palette)

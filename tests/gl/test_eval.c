@@ -6,7 +6,8 @@
 
 static const float arc[9] = { 0, 0, 0, 1, 2, 0, 2, 0, 0 };
 
-/* A curve's points are those of its Bernstein polynomials over [u1, u2], strides leave numbers out, current values stay. */
+/* A curve's points are those of its Bernstein polynomials over [u1, u2], strides leave numbers out, current values
+ * stay. */
 START_TEST(test_curve)
 {
 	static const float spaced[15] = { 0, 0, 0, 9, 9, 1, 2, 0, 9, 9, 2, 0, 0, 9, 9 };
@@ -94,8 +95,11 @@ START_TEST(test_errors)
 	for (int i = 0; i < 6; i++) /* four times 2^20 points, and no more */
 		gl_call(&gl, "glEvalMesh2", "eiiii", GL_LINE, 1, 1024, 1, 1024);
 	ck_assert_uint_eq(gl_unsupported(&gl), 2);
-	gl_call(&gl, "glEvalMesh1", "epp", GL_LINE, (uint64_t)INT64_MAX - 1, (uint64_t)INT64_MAX); /* a damaged recording's: it ends */
-	gl_call(&gl, "glEvalMesh2", "epppp", GL_LINE, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX);
+	gl_call(&gl, "glEvalMesh1", "epp", GL_LINE, (uint64_t)INT64_MAX - 1, (uint64_t)INT64_MAX); /* a damaged
+	                                                                                              recording's: it
+	                                                                                              ends */
+	gl_call(&gl, "glEvalMesh2", "epppp", GL_LINE, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX,
+	        (uint64_t)INT64_MAX);
 	gl_close(&gl);
 }
 END_TEST

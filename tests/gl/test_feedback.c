@@ -103,7 +103,8 @@ START_TEST(test_copy_tex_sub_image)
 }
 END_TEST
 
-/* A frame that is drawn without a clear shows the one before; one that covers it all does not; a cleared one neither. */
+/* A frame that is drawn without a clear shows the one before; one that covers it all does not; a cleared one
+ * neither. */
 START_TEST(test_previous_frame)
 {
 	struct painter p = { { 9, 9, 9, 9 }, 5, 0, 0, 0 };
@@ -215,7 +216,8 @@ static struct gl open_deep(struct painter *p)
 
 #define ALL (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT)
 
-/* Clear (sec. 4.2.3) of all that a drawable has: what was drawn before is no part of the scene, but keeps its draw numbers. */
+/* Clear (sec. 4.2.3) of all that a drawable has: what was drawn before is no part of the scene, but keeps its draw
+ * numbers. */
 START_TEST(test_clear_drops_what_it_covers)
 {
 	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
@@ -265,7 +267,8 @@ static void view(struct gl *gl, int x, int width)
 	triangle(gl);
 }
 
-/* Clears of parts that together reach everything: what skipped frames left is not asked for. One column less, and it is. */
+/* Clears of parts that together reach everything: what skipped frames left is not asked for. One column less, and it
+ * is. */
 START_TEST(test_clears_of_parts)
 {
 	for (int gap = 0; gap < 2; gap++) {
@@ -336,7 +339,8 @@ START_TEST(test_starts_are_left)
 }
 END_TEST
 
-/* The scenes of two state machines are told apart: a replay that goes back begins another one, with the same supplier. */
+/* The scenes of two state machines are told apart: a replay that goes back begins another one, with the same
+ * supplier. */
 START_TEST(test_serials)
 {
 	struct gl a = gl_open(), b = gl_open();
@@ -400,10 +404,13 @@ START_TEST(test_looked_at_is_not_left)
 }
 END_TEST
 
-/* A part that was cleared is read: the rest may be anything. What is read beside it may not, and neither may depth that tests looked at. */
+/* A part that was cleared is read: the rest may be anything. What is read beside it may not, and neither may depth that
+ * tests looked at. */
 START_TEST(test_parts_are_read)
 {
-	static const struct { int width, depth_test, rewinds; } cases[] = { { 16, 0, 0 }, { 32, 0, 0 }, { 33, 0, 1 }, { 16, 1, 1 } };
+	static const struct {
+		int width, depth_test, rewinds;
+	} cases[] = { { 16, 0, 0 }, { 32, 0, 0 }, { 33, 0, 1 }, { 16, 1, 1 } };
 
 	for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
 		struct painter p = { { 10, 20, 30, 255 }, 1, 0, 0, 0 };
@@ -426,7 +433,8 @@ START_TEST(test_parts_are_read)
 }
 END_TEST
 
-/* A skipped frame copied to part of a texture: who copies to all of that part makes the texture whole again, and nobody else. */
+/* A skipped frame copied to part of a texture: who copies to all of that part makes the texture whole again, and nobody
+ * else. */
 START_TEST(test_part_of_texture)
 {
 	static const struct { int x, width, rewinds; } cases[] = { { 0, 16, 0 }, { 0, 32, 0 }, { 0, 15, 1 }, { 1, 16, 1 } };
@@ -436,7 +444,8 @@ START_TEST(test_part_of_texture)
 		struct gl gl = open_with(&p);
 		uint8_t texels[64 * 64 * 3] = { 0 };
 
-		gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGB, 64, 64, 0, GL_RGB, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+		gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGB, 64, 64, 0, GL_RGB, GL_UNSIGNED_BYTE,
+		        sizeof(texels), texels);
 		gl.x->want = 0;
 		gl_call(&gl, "glCopyTexSubImage2D", "eiiiiiii", GL_TEXTURE_2D, 0, 8, 0, 0, 0, 8, 8);
 		gl_call(&gl, "glCopyTexSubImage2D", "eiiiiiii", GL_TEXTURE_2D, 0, 0, 0, 0, 0, 8, 8);
@@ -514,7 +523,8 @@ START_TEST(test_clear_that_leaves_something)
 }
 END_TEST
 
-/* The stencil buffer goes on as it was where nothing drawn changed it, and so does the clear that made it, which others went before. */
+/* The stencil buffer goes on as it was where nothing drawn changed it, and so does the clear that made it, which others
+ * went before. */
 START_TEST(test_clear_keeps_stencil)
 {
 	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
@@ -594,6 +604,7 @@ START_TEST(test_rasterizer_discard)
 END_TEST
 
 GL_TESTS("feedback", test_clear_drops_what_it_covers, test_clear_that_leaves_something, test_clear_keeps_stencil,
-         test_clear_after_reading, test_rasterizer_discard, test_copy_tex_image, test_copy_tex_sub_image, test_previous_frame, test_skipped_frames, test_drawables,
-         test_no_supplier, test_clears_of_parts, test_parts_are_read, test_part_of_texture, test_skipped_depth,
-         test_serials, test_starts_are_left, test_few_are_held, test_looked_at_is_not_left)
+         test_clear_after_reading, test_rasterizer_discard, test_copy_tex_image, test_copy_tex_sub_image,
+         test_previous_frame, test_skipped_frames, test_drawables, test_no_supplier, test_clears_of_parts,
+         test_parts_are_read, test_part_of_texture, test_skipped_depth, test_serials, test_starts_are_left,
+         test_few_are_held, test_looked_at_is_not_left)

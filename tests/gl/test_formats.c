@@ -1,7 +1,7 @@
 /*
- * Internal formats beyond 8 bits of red, green, blue and alpha: small ones, red and green alone, sRGB, packed depth and stencil,
- * compressed blocks; swizzles and border colours (EXT_texture_sRGB, EXT_packed_depth_stencil, EXT_texture_compression_s3tc,
- * 3DFX_texture_compression_FXT1, EXT_texture_swizzle; GL 2.1 sec. 3.8.1, 3.8.3, 3.8.8).
+ * Internal formats beyond 8 bits of red, green, blue and alpha: small ones, red and green alone, sRGB, packed depth and
+ * stencil, compressed blocks; swizzles and border colours (EXT_texture_sRGB, EXT_packed_depth_stencil,
+ * EXT_texture_compression_s3tc, 3DFX_texture_compression_FXT1, EXT_texture_swizzle; GL 2.1 sec. 3.8.1, 3.8.3, 3.8.8).
  */
 #include "replay/gl/texture/unpack.h"
 #include "tests/gl/gl.h"
@@ -69,20 +69,23 @@ static void check_numbers(uint32_t internal, uint32_t type, const void *pixel, c
 	ck_assert_uint_eq(s->n_textures, 1);
 	ck_assert_uint_eq(s->textures[0]->floats, 1);
 	for (unsigned i = 0; i < 2; i++)
-		ck_assert_floats(4, (const float *)(const void *)s->textures[0]->texels + 4 * i, wanted[0], wanted[1], wanted[2], wanted[3]);
+		ck_assert_floats(4, (const float *)(const void *)s->textures[0]->texels + 4 * i, wanted[0], wanted[1],
+		                 wanted[2], wanted[3]);
 	ck_assert_uint_eq(gl_unsupported(&gl), 0);
 	scene_release(&s);
 	gl_close(&gl);
 }
 
-/* Colours of EXT_texture_sRGB are linear light, within llvmpipe's half a code of 0.1274, 0.3050 and 0.5776; alpha is no light. */
+/* Colours of EXT_texture_sRGB are linear light, within llvmpipe's half a code of 0.1274, 0.3050 and 0.5776; alpha is no
+ * light. */
 START_TEST(test_linear_light)
 {
 	static const uint8_t rgba[4] = { 100, 150, 200, 90 };
 	struct gl gl = begin();
 	struct scene *s;
 
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, (size_t)4, rgba);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+	        (size_t)4, rgba);
 	draw(&gl);
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(s->textures[0]->floats, 1);
@@ -111,7 +114,8 @@ END_TEST
 
 static void copy_image(struct gl *gl, uint32_t from, uint32_t to, int x, int width)
 {
-	gl_call(gl, "glCopyImageSubData", "ueiiiiueiiiiiii", from, GL_TEXTURE_2D, 0, 0, 0, 0, to, GL_TEXTURE_2D, 0, x, 1, 0, width, 1, 1);
+	gl_call(gl, "glCopyImageSubData", "ueiiiiueiiiiiii", from, GL_TEXTURE_2D, 0, 0, 0, 0, to, GL_TEXTURE_2D, 0, x,
+	        1, 0, width, 1, 1);
 }
 
 /* ARB_copy_image: texels as they are, between textures and within one; places beyond an image are errors. */
@@ -124,8 +128,8 @@ START_TEST(test_copy_image)
 	for (uint32_t name = 1; name < 4; name++) {
 		gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, name);
 		gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-		gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, name < 3 ? GL_ALPHA : GL_ALPHA32F_ARB, 2, 2, 0, GL_ALPHA, GL_UNSIGNED_BYTE,
-		        (size_t)4, bytes);
+		gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, name < 3 ? GL_ALPHA : GL_ALPHA32F_ARB, 2, 2,
+		        0, GL_ALPHA, GL_UNSIGNED_BYTE, (size_t)4, bytes);
 	}
 	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 2u);
 	draw(&gl);
@@ -159,11 +163,13 @@ START_TEST(test_skipped_images)
 	struct scene *s;
 
 	gl_call(&gl, "glPixelStorei", "ei", GL_UNPACK_SKIP_IMAGES, 1);
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_ALPHA, 1, 1, 0, GL_ALPHA, GL_UNSIGNED_BYTE, (size_t)2, bytes);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_ALPHA, 1, 1, 0, GL_ALPHA, GL_UNSIGNED_BYTE,
+	        (size_t)2, bytes);
 	draw(&gl);
 	gl_call(&gl, "glEnable", "e", GL_TEXTURE_3D);
 	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-	gl_call(&gl, "glTexImage3D", "eieiiiieeb", GL_TEXTURE_3D, 0, GL_ALPHA, 1, 1, 1, 0, GL_ALPHA, GL_UNSIGNED_BYTE, (size_t)2, bytes);
+	gl_call(&gl, "glTexImage3D", "eieiiiieeb", GL_TEXTURE_3D, 0, GL_ALPHA, 1, 1, 1, 0, GL_ALPHA, GL_UNSIGNED_BYTE,
+	        (size_t)2, bytes);
 	draw(&gl);
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(s->textures[0]->texels[3], 50);
@@ -173,7 +179,8 @@ START_TEST(test_skipped_images)
 }
 END_TEST
 
-/* Indices through the maps (sec. 3.6.5), levels without texels (ARB_texture_storage), one pixel all over (ARB_clear_texture). */
+/* Indices through the maps (sec. 3.6.5), levels without texels (ARB_texture_storage), one pixel all over
+ * (ARB_clear_texture). */
 START_TEST(test_other_images)
 {
 	static const float zero_one[2] = { 0, 1 };
@@ -182,7 +189,8 @@ START_TEST(test_other_images)
 	struct scene *s;
 
 	gl_call(&gl, "glPixelMapfv", "eiF", GL_PIXEL_MAP_I_TO_G, 2, 2, zero_one);
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGB, 2, 1, 0, GL_COLOR_INDEX, GL_BITMAP, (size_t)1, &bits);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGB, 2, 1, 0, GL_COLOR_INDEX, GL_BITMAP,
+	        (size_t)1, &bits);
 	draw(&gl);
 	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 5);
 	gl_call(&gl, "glTexStorage2D", "eieii", GL_TEXTURE_2D, 3, GL_RGBA8, 4, 2);
@@ -206,7 +214,8 @@ START_TEST(test_srgb_as_it_is)
 	struct gl gl = begin();
 	struct scene *s;
 
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, (size_t)4, rgba);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+	        (size_t)4, rgba);
 	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
 	draw(&gl);
 	s = gl_swap(&gl);
@@ -226,7 +235,8 @@ START_TEST(test_srgb_levels)
 	gl_call(&gl, "glTexParameteri", "eei", GL_TEXTURE_2D, GL_GENERATE_MIPMAP, 1);
 	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
 	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(half), half);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+	        sizeof(half), half);
 	draw(&gl);
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(s->textures[0]->n_levels, 2);
@@ -245,7 +255,8 @@ static struct scene *show_block(struct gl *gl, uint32_t internal, int width, int
 	return gl_swap(gl);
 }
 
-/* Channels of their own (ARB_texture_compression_rgtc): 8 levels, or 6 and both ends; signed ones are numbers from -1 to 1. */
+/* Channels of their own (ARB_texture_compression_rgtc): 8 levels, or 6 and both ends; signed ones are numbers from -1
+ * to 1. */
 START_TEST(test_rgtc)
 {
 	/* texels 0..3 of the first row are codes 0 1 2 6 */
@@ -253,7 +264,8 @@ START_TEST(test_rgtc)
 	struct gl gl = begin();
 	struct scene *s = show_block(&gl, GL_COMPRESSED_RG_RGTC2, 4, 4, 16, blocks);
 
-	ck_assert_mem_eq(s->textures[0]->texels, ((uint8_t[]){ 240, 16, 0, 255, 16, 112, 0, 255, 208, 35, 0, 255, 80, 0, 0, 255 }), 16);
+	ck_assert_mem_eq(s->textures[0]->texels,
+	                 ((uint8_t[]){ 240, 16, 0, 255, 16, 112, 0, 255, 208, 35, 0, 255, 80, 0, 0, 255 }), 16);
 	scene_release(&s);
 	s = show_block(&gl, GL_COMPRESSED_SIGNED_LUMINANCE_LATC1_EXT, 4, 4, 8, blocks);
 	for (unsigned i = 0; i < 4; i++) {
@@ -271,14 +283,17 @@ START_TEST(test_s3tc)
 {
 	/* what lies between is in 1/256 of the way, rounded down, and the middle rounded up: llvmpipe's numbers */
 	/* red 31 and blue 31; texels 0..3 of the first row are codes 0 1 2 3, all others code 0 */
-	static const uint8_t four[8] = { 0x00, 0xf8, 0x1f, 0x00, 0xe4, 0, 0, 0 }, three[8] = { 0x1f, 0x00, 0x00, 0xf8, 0xe4, 0, 0, 0 };
+	static const uint8_t four[8] = { 0x00, 0xf8, 0x1f, 0x00, 0xe4, 0, 0, 0 },
+			     three[8] = { 0x1f, 0x00, 0x00, 0xf8, 0xe4, 0, 0, 0 };
 	static const uint8_t dxt3[16] = { 0x10, 0x32, 0, 0, 0, 0, 0, 0, 0x1f, 0x00, 0x00, 0xf8, 0xe4, 0, 0, 0 };
 	static const uint8_t dxt5[16] = { 70, 0, 0x88, 0x0c, 0, 0, 0, 0, 0x1f, 0x00, 0x00, 0xf8, 0xe4, 0, 0, 0 };
 	struct gl gl = begin();
 	struct scene *s = show_block(&gl, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 4, 4, 8, four);
 	const uint8_t *t = s->textures[0]->texels;
 
-	ck_assert_mem_eq(t, ((uint8_t[]){ 255, 0, 0, 255, 0, 0, 255, 255, 170, 0, 84, 255, 85, 0, 169, 255, 255, 0, 0, 255 }), 20);
+	ck_assert_mem_eq(
+		t, ((uint8_t[]){ 255, 0, 0, 255, 0, 0, 255, 255, 170, 0, 84, 255, 85, 0, 169, 255, 255, 0, 0, 255 }),
+		20);
 	scene_release(&s);
 	s = show_block(&gl, GL_COMPRESSED_RGBA_S3TC_DXT1_EXT, 4, 4, 8, three);
 	t = s->textures[0]->texels;
@@ -298,16 +313,19 @@ START_TEST(test_s3tc)
 	ck_assert_uint_eq(t[11], 60);
 	ck_assert_uint_eq(t[15], 20);
 	scene_release(&s);
-	gl_call(&gl, "glCompressedTexImage2D", "eieiiiib", GL_TEXTURE_2D, 0, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 8, 8, 0, 8, (size_t)8, four);
+	gl_call(&gl, "glCompressedTexImage2D", "eieiiiib", GL_TEXTURE_2D, 0, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 8, 8, 0,
+	        8, (size_t)8, four);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE); /* too few blocks */
-	gl_call(&gl, "glCompressedTexImage3D", "eieiiiiib", GL_TEXTURE_3D, 0, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, INT32_MAX, INT32_MAX, INT32_MAX, 0, 8, (size_t)8, four);
+	gl_call(&gl, "glCompressedTexImage3D", "eieiiiiib", GL_TEXTURE_3D, 0, GL_COMPRESSED_RGB_S3TC_DXT1_EXT,
+	        INT32_MAX, INT32_MAX, INT32_MAX, 0, 8, (size_t)8, four);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE); /* so many that counting them exceeds 64 bits */
 	gl_close(&gl);
 }
 END_TEST
 
 /* The four kinds of blocks. Bits 64 on: colours of 15 bits, blue lowest. */
-/* Plain images become blocks as well: of one colour with 5, 6 and 5 bits of it, of two colours, with one bit of alpha. */
+/* Plain images become blocks as well: of one colour with 5, 6 and 5 bits of it, of two colours, with one bit of
+ * alpha. */
 START_TEST(test_plain_s3tc)
 {
 	struct gl gl = begin();
@@ -316,16 +334,21 @@ START_TEST(test_plain_s3tc)
 
 	for (unsigned how = 0; how < 3; how++) {
 		for (unsigned i = 0; i < 16; i++) {
-			const uint8_t kinds[3][4] = { { 100, 101, 102, 255 }, { i & 1 ? 255 : 0, 0, i & 1 ? 0 : 255, 255 }, { 80, 0, 0, i & 1 ? 127 : 128 } };
+			const uint8_t kinds[3][4] = { { 100, 101, 102, 255 },
+				                      { i & 1 ? 255 : 0, 0, i & 1 ? 0 : 255, 255 },
+				                      { 80, 0, 0, i & 1 ? 127 : 128 } };
 
 			memcpy(texels[i], kinds[how], 4);
 		}
-		gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, how == 2 ? GL_COMPRESSED_RGBA_S3TC_DXT1_EXT : GL_COMPRESSED_RGB, 4, 4, 0,
-		        GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+		gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0,
+		        how == 2 ? GL_COMPRESSED_RGBA_S3TC_DXT1_EXT : GL_COMPRESSED_RGB, 4, 4, 0, GL_RGBA,
+		        GL_UNSIGNED_BYTE, sizeof(texels), texels);
 		draw(&gl);
 		s = gl_swap(&gl);
 		for (unsigned i = 0; i < 16; i++) {
-			const uint8_t left[3][4] = { { 99, 101, 99, 255 }, { i & 1 ? 255 : 0, 0, i & 1 ? 0 : 255, 255 }, { i & 1 ? 0 : 82, 0, 0, i & 1 ? 0 : 255 } };
+			const uint8_t left[3][4] = { { 99, 101, 99, 255 },
+				                     { i & 1 ? 255 : 0, 0, i & 1 ? 0 : 255, 255 },
+				                     { i & 1 ? 0 : 82, 0, 0, i & 1 ? 0 : 255 } };
 
 			ck_assert_mem_eq(s->textures[0]->texels + 4 * i, left[how], 4);
 		}
@@ -380,7 +403,8 @@ START_TEST(test_fxt1)
 	t = s->textures[0]->texels;
 	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 127, 255, 0, 0, 0, 0, 0, 0, 255, 255 }), 12);
 	scene_release(&s);
-	/* Without it, in thirds; bits 125 and 126 are the lowest ones of green, of the first colour turned by the first code's high bit */
+	/* Without it, in thirds; bits 125 and 126 are the lowest ones of green, of the first colour turned by the first
+	 * code's high bit */
 	memset(block, 0, 16);
 	block[15] = 0x80 | 0x40;
 	block[8] = 31;
@@ -390,7 +414,9 @@ START_TEST(test_fxt1)
 	block[4] = 2;
 	s = show_block(&gl, GL_COMPRESSED_RGB_FXT1_3DFX, 8, 4, 16, block);
 	t = s->textures[0]->texels;
-	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 255, 85, 0, 170, 255, 170, 0, 85, 255, 255, 0, 0, 255, 0, 3, 85, 255 }), 20);
+	ck_assert_mem_eq(
+		t, ((uint8_t[]){ 0, 0, 255, 255, 85, 0, 170, 255, 170, 0, 85, 255, 255, 0, 0, 255, 0, 3, 85, 255 }),
+		20);
 	scene_release(&s);
 	/* CC_ALPHA in thirds: from the first colour on the left, the third on the right, to the second */
 	memset(block, 0, 16);
@@ -403,7 +429,9 @@ START_TEST(test_fxt1)
 	block[4] = 3;
 	s = show_block(&gl, GL_COMPRESSED_RGBA_FXT1_3DFX, 8, 4, 16, block);
 	t = s->textures[0]->texels;
-	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 255, 85, 0, 170, 170, 170, 0, 85, 85, 255, 0, 0, 0, 255, 0, 0, 0, 0, 0, 0, 0 }), 24);
+	ck_assert_mem_eq(t, ((uint8_t[]){ 0,   0, 255, 255, 85,  0, 170, 170, 170, 0, 85, 85,
+	                                  255, 0, 0,   0,   255, 0, 0,   0,   0,   0, 0,  0 }),
+	                 24);
 	scene_release(&s);
 	gl_close(&gl);
 }
@@ -417,8 +445,8 @@ START_TEST(test_packed_depth_stencil)
 	struct scene *s;
 	float depth[2];
 
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_DEPTH24_STENCIL8, 2, 1, 0, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8,
-	        sizeof(pixels), pixels);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_DEPTH24_STENCIL8, 2, 1, 0, GL_DEPTH_STENCIL,
+	        GL_UNSIGNED_INT_24_8, sizeof(pixels), pixels);
 	draw(&gl);
 	gl_call(&gl, "glDrawPixels", "iieeb", 2, 1, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, sizeof(pixels), pixels);
 	ck_assert_uint_eq(gl_unsupported(&gl), 0);
@@ -444,8 +472,10 @@ START_TEST(test_small_depth_stencil)
 {
 	static const struct gls_pixel_store store = { .alignment = 1 };
 	static const uint8_t bytes[8] = { 255, 255, 255, 255, 255, 255, 255, 255 };
-	struct gls_pixels p = { .format = GL_DEPTH_STENCIL, .type = GL_UNSIGNED_BYTE, .width = 2, .height = 1, .data = bytes + 4, .n = 2,
-		                .store = &store };
+	struct gls_pixels p = {
+		.format = GL_DEPTH_STENCIL, .type = GL_UNSIGNED_BYTE, .width = 2, .height = 1, .data = bytes + 4, .n = 2,
+		.store = &store
+	};
 	uint8_t out[2] = { 1, 1 };
 
 	gls_unpack_stencil(&p, out);
@@ -462,7 +492,8 @@ START_TEST(test_swizzle_and_border)
 	struct gl gl = begin();
 	struct scene *s;
 
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_LUMINANCE_ALPHA, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, (size_t)4, texel);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_LUMINANCE_ALPHA, 1, 1, 0, GL_RGBA,
+	        GL_UNSIGNED_BYTE, (size_t)4, texel);
 	gl_call(&gl, "glTexParameterfv", "eeF", GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, 4, border);
 	draw(&gl);
 	gl_call(&gl, "glTexParameteriv", "eeU", GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_RGBA, 4, gray_from_blue);
@@ -479,5 +510,6 @@ START_TEST(test_swizzle_and_border)
 }
 END_TEST
 
-GL_TESTS("formats", test_texels, test_linear_light, test_numbers, test_copy_image, test_rgtc, test_other_images, test_skipped_images, test_srgb_as_it_is, test_srgb_levels, test_s3tc, test_plain_s3tc, test_fxt1, test_packed_depth_stencil, test_small_depth_stencil,
-	test_swizzle_and_border)
+GL_TESTS("formats", test_texels, test_linear_light, test_numbers, test_copy_image, test_rgtc, test_other_images,
+         test_skipped_images, test_srgb_as_it_is, test_srgb_levels, test_s3tc, test_plain_s3tc, test_fxt1,
+         test_packed_depth_stencil, test_small_depth_stencil, test_swizzle_and_border)

@@ -1,4 +1,5 @@
-/* Front and back buffer of a window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10): which events reach which, and what a swap does. */
+/* Front and back buffer of a window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10): which events reach which, and what
+ * a swap does. */
 #include "tests/gl/gl.h"
 #include "replay/build/frame.h"
 #include "replay/gl/surface/drawable.h"
@@ -128,7 +129,8 @@ START_TEST(test_known_too_late)
 }
 END_TEST
 
-/* The picture of a swap has what is drawn to the front buffer only where that reaches depth or stencil, and without colours. */
+/* The picture of a swap has what is drawn to the front buffer only where that reaches depth or stencil, and without
+ * colours. */
 START_TEST(test_picture_of_back)
 {
 	struct gl gl = open_with_pictures();

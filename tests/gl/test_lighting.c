@@ -92,8 +92,8 @@ enum { AMBIENT = 1, DIFFUSE = 2, SPECULAR = 4, EMISSION = 8 };
 /* Which of a face's colours have this red. */
 static unsigned with_red(const struct scene_face *face, float red)
 {
-	return (face->ambient[0] == red ? AMBIENT : 0) | (face->diffuse[0] == red ? DIFFUSE : 0) | (face->specular[0] == red ? SPECULAR : 0) |
-	       (face->emission[0] == red ? EMISSION : 0);
+	return (face->ambient[0] == red ? AMBIENT : 0) | (face->diffuse[0] == red ? DIFFUSE : 0) |
+	       (face->specular[0] == red ? SPECULAR : 0) | (face->emission[0] == red ? EMISSION : 0);
 }
 
 /* Attributes that wait become current with the next Begin (waiting.h). */
@@ -104,13 +104,14 @@ static void draw_nothing(struct gl *gl)
 }
 
 /*
- * Sec. 2.14.3: colours of ColorMaterial's faces follow the current one from Enable on, and from a change of the mode on at once; what Material
- * says of them then is lost. They keep what they have when following ends.
+ * Sec. 2.14.3: colours of ColorMaterial's faces follow the current one from Enable on, and from a change of the mode on
+ * at once; what Material says of them then is lost. They keep what they have when following ends.
  */
 START_TEST(test_color_material)
 {
 	static const struct { uint32_t mode; unsigned colors; } modes[] = {
-		{ GL_AMBIENT, AMBIENT }, { GL_DIFFUSE, DIFFUSE }, { GL_SPECULAR, SPECULAR }, { GL_EMISSION, EMISSION }, { GL_AMBIENT_AND_DIFFUSE, AMBIENT | DIFFUSE },
+		{ GL_AMBIENT, AMBIENT }, { GL_DIFFUSE, DIFFUSE }, { GL_SPECULAR, SPECULAR }, { GL_EMISSION, EMISSION },
+		{ GL_AMBIENT_AND_DIFFUSE, AMBIENT | DIFFUSE },
 	};
 	static const uint32_t faces[] = { GL_FRONT, GL_BACK, GL_FRONT_AND_BACK };
 
@@ -131,7 +132,8 @@ START_TEST(test_color_material)
 		gl_call(&gl, "glColor3f", "fff", 0.375, 0.0, 0.0);
 		draw_nothing(&gl);
 		for (unsigned k = 0; k < 4; k++)
-			gl_call(&gl, "glMaterialfv", "eeF", GL_FRONT_AND_BACK, k == 3 ? GL_EMISSION : GL_AMBIENT + k, 4, (const float[4]){ 0.625f, 0, 0, 1 });
+			gl_call(&gl, "glMaterialfv", "eeF", GL_FRONT_AND_BACK, k == 3 ? GL_EMISSION : GL_AMBIENT + k, 4,
+			        (const float[4]){ 0.625f, 0, 0, 1 });
 		for (unsigned side = 0; side < 2; side++) {
 			ck_assert_uint_eq(with_red(&have[side], 0.375f), colors[side]);
 			ck_assert_uint_eq(with_red(&have[side], 0.625f), 15 & ~colors[side]);

@@ -83,7 +83,8 @@ START_TEST(test_inherited)
 }
 END_TEST
 
-/* A value that a list gives to its second primitive says nothing of its first one, even where it was current in a list before. */
+/* A value that a list gives to its second primitive says nothing of its first one, even where it was current in a list
+ * before. */
 START_TEST(test_inherited_by_the_first)
 {
 	struct gl gl = gl_open();
@@ -245,7 +246,8 @@ START_TEST(test_redundant_state)
 }
 END_TEST
 
-/* Lists that call lists twice each, forty deep, end all the same; a list that calls another a thousand times is run whole. */
+/* Lists that call lists twice each, forty deep, end all the same; a list that calls another a thousand times is run
+ * whole. */
 START_TEST(test_lists_without_end)
 {
 	struct gl gl = gl_open();
@@ -270,5 +272,6 @@ START_TEST(test_lists_without_end)
 }
 END_TEST
 
-GL_TESTS("lists", test_compile, test_compile_and_execute, test_inherited, test_inherited_by_the_first, test_vertices_only, test_call_lists,
-         test_recursion_and_deletion, test_errors, test_lists_without_end, test_redundant_state)
+GL_TESTS("lists", test_compile, test_compile_and_execute, test_inherited, test_inherited_by_the_first,
+         test_vertices_only, test_call_lists, test_recursion_and_deletion, test_errors, test_lists_without_end,
+         test_redundant_state)

@@ -40,10 +40,12 @@ START_TEST(test_bitmaps)
 }
 END_TEST
 
-/* Flat shading under a program in assembly: of its colours alone, and quads are cut the other way where it reads some. */
+/* Flat shading under a program in assembly: of its colours alone, and quads are cut the other way where it reads
+ * some. */
 START_TEST(test_flat_programs)
 {
-	static const char *const texts[2] = { "!!ARBfp1.0\nMOV result.color, fragment.texcoord[0];\nEND\n", "!!ARBfp1.0\nMOV result.color, fragment.color;\nEND\n" };
+	static const char *const texts[2] = { "!!ARBfp1.0\nMOV result.color, fragment.texcoord[0];\nEND\n",
+		                              "!!ARBfp1.0\nMOV result.color, fragment.color;\nEND\n" };
 	static const float corners[4][2] = { { -0.5f, -0.5f }, { 0.5f, -0.5f }, { 0.5f, 0.5f }, { -0.5f, 0.5f } };
 	uint32_t third[2][2];
 
@@ -54,7 +56,8 @@ START_TEST(test_flat_programs)
 			struct scene *s;
 
 			gl_call(&gl, "glBindProgramARB", "eu", GL_FRAGMENT_PROGRAM_ARB, 1u);
-			gl_call(&gl, "glProgramStringARB", "eeus", GL_FRAGMENT_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB, (unsigned)strlen(texts[reads]), texts[reads]);
+			gl_call(&gl, "glProgramStringARB", "eeus", GL_FRAGMENT_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB,
+			        (unsigned)strlen(texts[reads]), texts[reads]);
 			gl_call(&gl, "glEnable", "e", GL_FRAGMENT_PROGRAM_ARB);
 			gl_call(&gl, "glShadeModel", "e", GL_FLAT);
 			gl_call(&gl, "glBegin", "e", GL_QUADS);
@@ -76,7 +79,8 @@ START_TEST(test_flat_programs)
 }
 END_TEST
 
-/* Textures of brightness with colours for each two: what names their format is refused, and the texture stays without an image. */
+/* Textures of brightness with colours for each two: what names their format is refused, and the texture stays without
+ * an image. */
 START_TEST(test_ycbcr)
 {
 	static const uint8_t texels[8] = { 200, 90, 60, 160, 30, 90, 120, 160 };
@@ -84,12 +88,14 @@ START_TEST(test_ycbcr)
 	for (int i = 0; i < 2; i++) {
 		struct gl gl = open_by(markers[i]);
 
-		gl_call(&gl, "glTexImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, GL_YCBCR_MESA, 2, 2, 0, GL_YCBCR_MESA, GL_UNSIGNED_SHORT_8_8_MESA,
-		        sizeof(texels), texels);
+		gl_call(&gl, "glTexImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, GL_YCBCR_MESA, 2, 2, 0, GL_YCBCR_MESA,
+		        GL_UNSIGNED_SHORT_8_8_MESA, sizeof(texels), texels);
 		ck_assert_uint_eq(gl_error(&gl), i ? GL_INVALID_ENUM : 0);
-		gl_call(&gl, "glTexSubImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, 0, 0, 1, 1, GL_RGB, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+		gl_call(&gl, "glTexSubImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, 0, 0, 1, 1, GL_RGB, GL_UNSIGNED_BYTE,
+		        sizeof(texels), texels);
 		ck_assert_uint_eq(gl_error(&gl), i ? GL_INVALID_OPERATION : 0);
-		gl_call(&gl, "glTexImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, GL_YCBCR_MESA, 1, 1, 0, GL_RGB, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+		gl_call(&gl, "glTexImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, GL_YCBCR_MESA, 1, 1, 0, GL_RGB,
+		        GL_UNSIGNED_BYTE, sizeof(texels), texels);
 		ck_assert_uint_eq(gl_error(&gl), i ? GL_INVALID_VALUE : 0);
 		gl_close(&gl);
 	}

@@ -1,5 +1,5 @@
-/* Raster position, bitmaps, pixel rectangles, pixel maps, pixels read into buffers (GL 2.1 sec. 2.13, 3.6, 3.7, 4.3): calls in, rectangles
- * and bytes out. */
+/* Raster position, bitmaps, pixel rectangles, pixel maps, pixels read into buffers (GL 2.1 sec. 2.13, 3.6, 3.7, 4.3):
+ * calls in, rectangles and bytes out. */
 #include "tests/gl/gl.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/buffer.h"
@@ -174,7 +174,8 @@ START_TEST(test_pixel_buffer)
 }
 END_TEST
 
-/* Depths that are no numbers are 0, as Mesa clamps them; indices and maps of any floats have a defined meaning (SAN=undefined). */
+/* Depths that are no numbers are 0, as Mesa clamps them; indices and maps of any floats have a defined meaning
+ * (SAN=undefined). */
 START_TEST(test_no_numbers)
 {
 	static const float wild[4] = { NAN, INFINITY, -1e30f, 4.6e30f };
@@ -263,7 +264,8 @@ START_TEST(test_read_formats)
 
 	for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); i++) {
 		read_pixels(&gl, 1, 1, all[i].format, all[i].type, 0);
-		ck_assert_msg(!memcmp(buffer_of(&gl)->data, all[i].bytes, all[i].n), "format %x, type %x", all[i].format, all[i].type);
+		ck_assert_msg(!memcmp(buffer_of(&gl)->data, all[i].bytes, all[i].n), "format %x, type %x",
+		              all[i].format, all[i].type);
 	}
 	ck_assert_uint_eq(gl_error(&gl), 0);
 	ck_assert_uint_eq(gl_unsupported(&gl), 0);
@@ -273,7 +275,8 @@ START_TEST(test_read_formats)
 }
 END_TEST
 
-/* Sec. 4.3.2, table 4.5: rows, alignment, swapped bytes, and the state of pixel transfer; what is between rows stays. */
+/* Sec. 4.3.2, table 4.5: rows, alignment, swapped bytes, and the state of pixel transfer; what is between rows
+ * stays. */
 START_TEST(test_read_storage)
 {
 	struct gl gl = open_buffer(1);
@@ -294,7 +297,9 @@ START_TEST(test_read_storage)
 	gl_call(&gl, "glPixelTransferf", "ef", GL_RED_SCALE, 2.0);
 	read_pixels(&gl, 1, 1, GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1, 0);
 	ck_assert_mem_eq(data, ((uint8_t[2]){ 0x10, 0xb0 }), 2);
-	gl_call(&gl, "glReadPixels", "iiiieep", -1, 63, 2, 2, GL_GREEN, GL_UNSIGNED_BYTE, (uint64_t)64); /* but for one, off the screen */
+	gl_call(&gl, "glReadPixels", "iiiieep", -1, 63, 2, 2, GL_GREEN, GL_UNSIGNED_BYTE, (uint64_t)64); /* but for one,
+	                                                                                                    off the
+	                                                                                                    screen */
 	ck_assert_mem_eq(data + 64, ((uint8_t[10]){ 0xee, 20, 0xee, 0xee, 0xee, 0xee, 0xee, 0xee, 0xee, 0xee }), 10);
 	ck_assert_uint_eq(gl_error(&gl), 0);
 	gl_close(&gl);
@@ -305,8 +310,9 @@ END_TEST
 START_TEST(test_read_beyond)
 {
 	static const struct { int width, height; uint32_t type; uint64_t offset; } wrong[] = {
-		{ 5, 5, GL_UNSIGNED_BYTE, 0 }, { 4, 6, GL_UNSIGNED_BYTE, 1 }, { 1, 1, GL_UNSIGNED_BYTE, UINT64_MAX - 3 }, { 1, 1, GL_FLOAT, 2 },
-		{ INT32_MAX, INT32_MAX, GL_FLOAT, 0 }, { 1, INT32_MAX, GL_UNSIGNED_BYTE, 0 }, { INT32_MAX, 1, GL_UNSIGNED_BYTE, 0 },
+		{ 5, 5, GL_UNSIGNED_BYTE, 0 }, { 4, 6, GL_UNSIGNED_BYTE, 1 }, { 1, 1, GL_UNSIGNED_BYTE, UINT64_MAX - 3 },
+		{ 1, 1, GL_FLOAT, 2 }, { INT32_MAX, INT32_MAX, GL_FLOAT, 0 }, { 1, INT32_MAX, GL_UNSIGNED_BYTE, 0 },
+		{ INT32_MAX, 1, GL_UNSIGNED_BYTE, 0 },
 	};
 	struct gl gl = open_buffer(1);
 
@@ -333,14 +339,16 @@ START_TEST(test_read_texels)
 	struct gl gl = open_buffer(0);
 	const uint8_t *data = buffer_of(&gl)->data;
 
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGBA, 2, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGBA, 2, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+	        sizeof(texels), texels);
 	gl_call(&gl, "glPixelTransferf", "ef", GL_RED_SCALE, 0.5);
 	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_BGRA, GL_UNSIGNED_BYTE, (uint64_t)4);
 	ck_assert_mem_eq(data + 4, ((uint8_t[8]){ 200, 20, 10, 100, 51, 0, 255, 1 }), 8);
 	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_LUMINANCE, GL_UNSIGNED_BYTE, (uint64_t)0);
 	ck_assert_mem_eq(data, ((uint8_t[2]){ 10, 255 }), 2);
 	gl_call(&gl, "glPixelTransferf", "ef", GL_RED_SCALE, 1.0);
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_LUMINANCE_ALPHA, 2, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_LUMINANCE_ALPHA, 2, 1, 0, GL_RGBA,
+	        GL_UNSIGNED_BYTE, sizeof(texels), texels);
 	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
 	ck_assert_mem_eq(data, ((uint8_t[8]){ 10, 0, 0, 100, 255, 0, 0, 1 }), 8);
 	ck_assert_uint_eq(gl_error(&gl), 0);
@@ -355,7 +363,8 @@ START_TEST(test_read_texels)
 }
 END_TEST
 
-/* In the program's memory they are not our affair; where nobody renders, or in skipped frames, they are missing until all are written. */
+/* In the program's memory they are not our affair; where nobody renders, or in skipped frames, they are missing until
+ * all are written. */
 START_TEST(test_read_missing)
 {
 	uint8_t bytes[ROOM] = { 0 };
@@ -390,4 +399,5 @@ START_TEST(test_read_missing)
 }
 END_TEST
 
-GL_TESTS("pixels", test_read_formats, test_read_storage, test_read_beyond, test_read_texels, test_read_missing, test_no_numbers, test_pixel_buffer, test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)
+GL_TESTS("pixels", test_read_formats, test_read_storage, test_read_beyond, test_read_texels, test_read_missing,
+         test_no_numbers, test_pixel_buffer, test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)

@@ -11,7 +11,8 @@ static void vertices(struct gl *gl, uint32_t mode, unsigned n)
 	gl_call(gl, "glEnd", "");
 }
 
-static void check_cut(uint32_t mode, unsigned n, enum scene_primitive kind, unsigned n_primitives, const uint32_t *index)
+static void check_cut(uint32_t mode, unsigned n, enum scene_primitive kind, unsigned n_primitives,
+                      const uint32_t *index)
 {
 	struct gl gl = gl_open();
 	struct scene *s;
@@ -48,7 +49,8 @@ START_TEST(test_cut)
 }
 END_TEST
 
-/* ARB_provoking_vertex: what goes by the first vertex; lists were cut when they were made, which is told where it shows. */
+/* ARB_provoking_vertex: what goes by the first vertex; lists were cut when they were made, which is told where it
+ * shows. */
 START_TEST(test_provoking)
 {
 	static const uint32_t strip[] = { 1, 2, 0, 3, 2, 1 }, fan[] = { 2, 0, 1, 3, 0, 2 };
@@ -247,8 +249,8 @@ START_TEST(test_material_inside)
 END_TEST
 
 /*
- * Quads without indices, shaded smoothly and wholly in view are cut from the first to the third vertex (Mesa 22.3.6, llvmpipe);
- * those of lists, flat ones and those to be clipped are not.
+ * Quads without indices, shaded smoothly and wholly in view are cut from the first to the third vertex (Mesa 22.3.6,
+ * llvmpipe); those of lists, flat ones and those to be clipped are not.
  */
 START_TEST(test_turned_quads)
 {
@@ -279,5 +281,5 @@ START_TEST(test_turned_quads)
 }
 END_TEST
 
-GL_TESTS("primitives", test_cut, test_provoking, test_turned_quads, test_edges, test_varying, test_constant_and_same_mesh, test_merged_runs,
-         test_errors, test_material_inside)
+GL_TESTS("primitives", test_cut, test_provoking, test_turned_quads, test_edges, test_varying,
+         test_constant_and_same_mesh, test_merged_runs, test_errors, test_material_inside)

@@ -1,6 +1,6 @@
 /*
- * State that programs in assembly read (ARB_vertex_program sec. 2.14.1.2, tables X.2 and X.3; ARB_fragment_program table X.3): each binding,
- * as the constant that a draw's scene holds.
+ * State that programs in assembly read (ARB_vertex_program sec. 2.14.1.2, tables X.2 and X.3; ARB_fragment_program
+ * table X.3): each binding, as the constant that a draw's scene holds.
  */
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,9 @@
 
 static void set_light(struct gl *gl)
 {
-	static const float colors[3][4] = { { 0.1f, 0.2f, 0.3f, 0.4f }, { 0.5f, 0.6f, 0.7f, 0.8f }, { 0.9f, 0.25f, 0.75f, 0.125f } };
+	static const float colors[3][4] = { { 0.1f, 0.2f, 0.3f, 0.4f },
+		                            { 0.5f, 0.6f, 0.7f, 0.8f },
+		                            { 0.9f, 0.25f, 0.75f, 0.125f } };
 	static const uint32_t names[3] = { GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR };
 
 	for (unsigned i = 0; i < 3; i++)
@@ -27,7 +29,10 @@ static void set_light(struct gl *gl)
 
 static void set_material(struct gl *gl, uint32_t face, float scale)
 {
-	static const float colors[4][4] = { { 0.2f, 0.4f, 0.6f, 0.5f }, { 0.1f, 0.3f, 0.5f, 0.7f }, { 0.6f, 0.4f, 0.2f, 0.1f }, { 0.05f, 0.1f, 0.15f, 0.3f } };
+	static const float colors[4][4] = { { 0.2f, 0.4f, 0.6f, 0.5f },
+		                            { 0.1f, 0.3f, 0.5f, 0.7f },
+		                            { 0.6f, 0.4f, 0.2f, 0.1f },
+		                            { 0.05f, 0.1f, 0.15f, 0.3f } };
 	static const uint32_t names[4] = { GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_EMISSION };
 
 	for (unsigned i = 0; i < 4; i++) {
@@ -150,7 +155,8 @@ static void check_binding(const struct binding *b)
 	lights = (const struct scene_program_light *)((const struct scene_instruction *)(head + 1) + head->n_instructions);
 	constants = (const float *)(lights + head->n_lights);
 	for (unsigned k = 0; k < 4; k++)
-		ck_assert_msg(fabsf(constants[k] - b->wanted[k]) <= 1e-5f, "state.%s[%u] is %g, not %g", b->name, k, constants[k], b->wanted[k]);
+		ck_assert_msg(fabsf(constants[k] - b->wanted[k]) <= 1e-5f, "state.%s[%u] is %g, not %g", b->name, k,
+		              constants[k], b->wanted[k]);
 	scene_release(&s);
 	gl_close(&gl);
 }

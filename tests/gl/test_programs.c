@@ -1,4 +1,5 @@
-/* Programs in assembly (ARB_vertex_program, ARB_fragment_program): objects, what is translated, what a draw's scene holds of it. */
+/* Programs in assembly (ARB_vertex_program, ARB_fragment_program): objects, what is translated, what a draw's scene
+ * holds of it. */
 #include <stdio.h>
 
 #include "replay/programs/ati.h"
@@ -38,7 +39,8 @@ static const struct scene_program *vertex_program_of(const struct scene *s, uint
 /* No instruction may name a register or a constant that is not there. */
 static void check_bounds(const struct gls_program *p)
 {
-	const uint32_t first = p->target == GL_VERTEX_PROGRAM_ARB ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR; /* what may be written */
+	/* what may be written */
+	const uint32_t first = p->target == GL_VERTEX_PROGRAM_ARB ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR;
 
 	for (uint32_t i = 0; i < p->code.n_instructions; i++) {
 		const struct scene_instruction *in = &p->code.instructions[i];
@@ -46,18 +48,25 @@ static void check_bounds(const struct gls_program *p)
 			const uint32_t numbers = (in->c >> 16) * (in->c & 0xffff);
 
 			ck_assert(in->a >= SCENE_PROGRAM_CONSTANT && in->a - SCENE_PROGRAM_CONSTANT + numbers <= 4 * p->code.n_constants);
-			ck_assert(in->n <= (in->c & 0xffff) && in->b < p->code.n_registers && in->to >= first && in->to + in->n <= p->code.n_registers);
+			ck_assert(in->n <= (in->c & 0xffff) && in->b < p->code.n_registers && in->to >= first &&
+			          in->to + in->n <= p->code.n_registers);
 			continue;
 		}
-		const uint32_t operands[3] = { in->a, in->b, in->c }, taken = in->operation == SCENE_OP_TEXTURE || in->operation < SCENE_OP_ADD ||
-		                                                              in->operation == SCENE_OP_KILL ? 1 : in->operation < SCENE_OP_MAD ? 2 : 3;
+		const uint32_t operands[3] = { in->a, in->b, in->c },
+			       taken = in->operation == SCENE_OP_TEXTURE || in->operation < SCENE_OP_ADD ||
+		                                       in->operation == SCENE_OP_KILL ?
+		                               1 :
+		                       in->operation < SCENE_OP_MAD ? 2 :
+		                                                      3;
 		const uint32_t n = in->operation == SCENE_OP_TEXTURE ? 4 : in->n;
 
 		ck_assert_uint_lt(in->operation, N_SCENE_OPERATIONS);
 		ck_assert(in->operation == SCENE_OP_KILL || (in->to >= first && in->to + n <= p->code.n_registers));
 		for (uint32_t k = 0; k < taken; k++)
-			ck_assert(operands[k] >= SCENE_PROGRAM_CONSTANT ? operands[k] - SCENE_PROGRAM_CONSTANT + n <= 4 * p->code.n_constants + (in->flags >> k & 1 ? 0 : n) :
-			                                                  operands[k] + (in->flags >> k & 1 ? n : 1) <= p->code.n_registers);
+			ck_assert(operands[k] >= SCENE_PROGRAM_CONSTANT ?
+			                  operands[k] - SCENE_PROGRAM_CONSTANT + n <=
+			                          4 * p->code.n_constants + (in->flags >> k & 1 ? 0 : n) :
+			                  operands[k] + (in->flags >> k & 1 ? n : 1) <= p->code.n_registers);
 	}
 	ck_assert_uint_le(p->code.n_registers, SCENE_PROGRAM_REGISTERS);
 }
@@ -96,7 +105,9 @@ START_TEST(test_many_parameters)
 	const float *constants;
 	struct scene *s;
 
-	set_text_of(&gl, GL_VERTEX_PROGRAM_ARB, 1, "!!ARBvp1.0 PARAM p[2047] = { program.local[0..2046] }; MOV result.color, p[2046]; MOV result.position, p[7]; END");
+	set_text_of(&gl, GL_VERTEX_PROGRAM_ARB, 1,
+	            "!!ARBvp1.0 PARAM p[2047] = { program.local[0..2046] }; MOV result.color, p[2046]; MOV "
+	            "result.position, p[7]; END");
 	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
 	gl_call(&gl, "glProgramLocalParameters4fvEXT", "euiF", GL_VERTEX_PROGRAM_ARB, 2046u, 2, 8, four);
 	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
@@ -117,10 +128,12 @@ START_TEST(test_many_parameters)
 }
 END_TEST
 
-/* A long program is translated (piglit's has 12,293 instructions of this kind, three of ours each); one that is far too long is refused. */
+/* A long program is translated (piglit's has 12,293 instructions of this kind, three of ours each); one that is far too
+ * long is refused. */
 START_TEST(test_long_texts)
 {
-	static const char head[] = "!!ARBfp1.0 TEMP r; MOV r, 0;", step[] = "ADD r,r.wxyz,.5;", end[] = "MOV result.color, r; END";
+	static const char head[] = "!!ARBfp1.0 TEMP r; MOV r, 0;", step[] = "ADD r,r.wxyz,.5;",
+			  end[] = "MOV result.color, r; END";
 	static const uint32_t steps[] = { 12293, 30000 };
 	char *text = malloc(sizeof(head) + steps[1] * sizeof(step) + sizeof(end));
 	struct gl gl = gl_open();
@@ -142,7 +155,8 @@ START_TEST(test_long_texts)
 }
 END_TEST
 
-/* ATI's shaders: made between Begin and End, of what is called there; constants of their own before the context's; names of their own. */
+/* ATI's shaders: made between Begin and End, of what is called there; constants of their own before the context's;
+ * names of their own. */
 START_TEST(test_ati)
 {
 	static const float own[4] = { 1, 2, 3, 4 }, shared[4] = { 5, 6, 7, 8 };
@@ -164,7 +178,8 @@ START_TEST(test_ati)
 	gl_call(&gl, "glBindFragmentShaderATI", "u", 8u);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
 	gl_call(&gl, "glSampleMapATI", "eee", GL_REG_1_ATI, GL_TEXTURE0, GL_SWIZZLE_STR_ATI);
-	gl_call(&gl, "glColorFragmentOp3ATI", "eeuueuueuueuu", GL_MAD_ATI, GL_REG_0_ATI, 0u, 0u, GL_REG_1_ATI, 0u, 0u, GL_CON_1_ATI, 0u, 0u, GL_CON_0_ATI, 0u, 0u);
+	gl_call(&gl, "glColorFragmentOp3ATI", "eeuueuueuueuu", GL_MAD_ATI, GL_REG_0_ATI, 0u, 0u, GL_REG_1_ATI, 0u, 0u,
+	        GL_CON_1_ATI, 0u, 0u, GL_CON_0_ATI, 0u, 0u);
 	gl_call(&gl, "glSetFragmentShaderConstantATI", "eF", GL_CON_1_ATI, 4, own);
 	gl_call(&gl, "glEndFragmentShaderATI", "");
 	gl_call(&gl, "glEndFragmentShaderATI", "");
@@ -190,7 +205,8 @@ START_TEST(test_ati)
 	constants = (const float *)((const struct scene_instruction *)(head + 1) + head->n_instructions);
 	ck_assert_ptr_nonnull(memmem(constants, head->n_constants * 4, own, sizeof(own)));
 	ck_assert_ptr_nonnull(memmem(constants, head->n_constants * 4, shared, sizeof(shared)));
-	ck_assert_uint_ne(s->materials[s->instances[2].material].fragment_program, s->materials[s->instances[1].material].fragment_program);
+	ck_assert_uint_ne(s->materials[s->instances[2].material].fragment_program,
+	                  s->materials[s->instances[1].material].fragment_program);
 	ck_assert_uint_eq(s->materials[s->instances[3].material].fragment_program, 0);
 	ck_assert_uint_eq(gl.x->counts.programs, 1);
 	scene_release(&s);
@@ -203,9 +219,11 @@ END_TEST
 /* Calls with any tokens: refused or translated, never beyond what is there. */
 START_TEST(test_damaged_ati)
 {
-	static const uint32_t tokens[] = { GL_REG_0_ATI, GL_REG_5_ATI, GL_REG_5_ATI + 1, GL_CON_0_ATI, GL_CON_7_ATI, GL_ZERO, GL_ONE, GL_PRIMARY_COLOR_ARB,
-		GL_SECONDARY_INTERPOLATOR_ATI, GL_RED, GL_ALPHA, GL_MOV_ATI, GL_MAD_ATI, GL_DOT2_ADD_ATI, GL_LERP_ATI, GL_SWIZZLE_STR_ATI, GL_SWIZZLE_STQ_DQ_ATI,
-		GL_TEXTURE0, GL_TEXTURE7, GL_TEXTURE8, 2, 3, 15, UINT32_MAX };
+	static const uint32_t tokens[] = {
+		GL_REG_0_ATI, GL_REG_5_ATI, GL_REG_5_ATI + 1, GL_CON_0_ATI, GL_CON_7_ATI, GL_ZERO, GL_ONE, GL_PRIMARY_COLOR_ARB,
+		GL_SECONDARY_INTERPOLATOR_ATI, GL_RED, GL_ALPHA, GL_MOV_ATI, GL_MAD_ATI, GL_DOT2_ADD_ATI, GL_LERP_ATI,
+		GL_SWIZZLE_STR_ATI, GL_SWIZZLE_STQ_DQ_ATI, GL_TEXTURE0, GL_TEXTURE7, GL_TEXTURE8, 2, 3, 15, UINT32_MAX
+	};
 	uint32_t seed = 1, translated = 0;
 
 	for (int i = 0; i < 20000; i++) {
@@ -237,7 +255,9 @@ START_TEST(test_scene)
 	const float *constants;
 	struct scene *s;
 
-	set_text(&gl, 1, "!!ARBfp1.0 TEMP r; TEX r, fragment.texcoord[2], texture[1], 2D; MUL result.color, r, program.env[0]; END");
+	set_text(&gl, 1,
+	         "!!ARBfp1.0 TEMP r; TEX r, fragment.texcoord[2], texture[1], 2D; MUL result.color, r, program.env[0]; "
+	         "END");
 	gl_call(&gl, "glEnable", "e", GL_FRAGMENT_PROGRAM_ARB);
 	for (int i = 0; i < 3; i++) {
 		gl_call(&gl, "glProgramEnvParameter4fARB", "euffff", GL_FRAGMENT_PROGRAM_ARB, 0u, 0.5, i / 2 * 0.25, 0.0, 1.0);
@@ -259,12 +279,15 @@ START_TEST(test_scene)
 }
 END_TEST
 
-/* A draw takes its vertex program along, the attributes that have numbers, and what the state says of sizes and sides. */
+/* A draw takes its vertex program along, the attributes that have numbers, and what the state says of sizes and
+ * sides. */
 START_TEST(test_vertices)
 {
 	struct gl gl = gl_open();
-	static const char text[] = "!!ARBvp1.0 PARAM m[4] = { state.matrix.program[1] }; DP4 result.position.x, m[0], vertex.position;\n"
-				   "MOV result.color, vertex.attrib[3]; MOV result.color.back, vertex.attrib[5]; MOV result.pointsize.x, vertex.normal.x; END";
+	static const char text[] =
+		"!!ARBvp1.0 PARAM m[4] = { state.matrix.program[1] }; DP4 result.position.x, m[0], vertex.position;\n"
+		"MOV result.color, vertex.attrib[3]; MOV result.color.back, vertex.attrib[5]; MOV result.pointsize.x, "
+	        "vertex.normal.x; END";
 	static const float matrix[16] = { 7, 0, 0, 0, 6, 0, 0, 0, 5, 0, 0, 0, 4, 0, 0, 0 };
 	const struct scene_program *head;
 	const float *constants;
@@ -298,9 +321,11 @@ START_TEST(test_vertices)
 	ck_assert_uint_eq(s->materials[s->instances[1].material].two_side, 1);
 	ck_assert_uint_eq(s->materials[s->instances[1].material].program_normals, 1);
 	head = vertex_program_of(s, 0);
-	ck_assert_uint_eq(head->outputs, 1u << SCENE_RESULT_POSITION | 1u << SCENE_RESULT_COLOR | 1u << SCENE_RESULT_BACK_COLOR);
+	ck_assert_uint_eq(head->outputs,
+	                  1u << SCENE_RESULT_POSITION | 1u << SCENE_RESULT_COLOR | 1u << SCENE_RESULT_BACK_COLOR);
 	ck_assert_uint_eq(vertex_program_of(s, 1)->outputs, head->outputs | 1u << SCENE_RESULT_POINT_SIZE);
-	ck_assert_uint_eq(head->inputs, 1u << SCENE_VERTEX_POSITION | 1u << SCENE_VERTEX_NORMAL | 5u << (SCENE_VERTEX_GENERIC + 2));
+	ck_assert_uint_eq(head->inputs,
+	                  1u << SCENE_VERTEX_POSITION | 1u << SCENE_VERTEX_NORMAL | 5u << (SCENE_VERTEX_GENERIC + 2));
 	constants = (const float *)((const struct scene_instruction *)(head + 1) + head->n_instructions);
 	ck_assert_floats(4, constants, 7, 6, 5, 4);
 	ck_assert_uint_eq(gl.x->counts.programs, 0);
@@ -328,8 +353,12 @@ static unsigned negations(struct gl *gl, const char *instruction)
 /* A minus before an operand counts, of one number as of four. */
 START_TEST(test_negated)
 {
-	static const char *const operations[] = { "MOV r, %sr", "ABS r, %sr", "FLR r, %sr", "RCP r, %sr.y", "RSQ r, %sr.y", "EX2 r, %sr.y", "EXP r, %sr.y", "LG2 r, %sr.y", "LOG r, %sr.y",
-		                                  "POW r, %sr.x, r.y", "POW r, r.x, %sr.y", "ADD r, r, %sr", "MUL r, %sr, r", "MAD r, r, %sr, r", "MAD r, r, r, %sr", "DP3 r, %sr, r", "MIN r, r, %sr" };
+	static const char *const operations[] = { "MOV r, %sr",        "ABS r, %sr",        "FLR r, %sr",
+		                                  "RCP r, %sr.y",      "RSQ r, %sr.y",      "EX2 r, %sr.y",
+		                                  "EXP r, %sr.y",      "LG2 r, %sr.y",      "LOG r, %sr.y",
+		                                  "POW r, %sr.x, r.y", "POW r, r.x, %sr.y", "ADD r, r, %sr",
+		                                  "MUL r, %sr, r",     "MAD r, r, %sr, r",  "MAD r, r, r, %sr",
+		                                  "DP3 r, %sr, r",     "MIN r, r, %sr" };
 	struct gl gl = gl_open();
 
 	for (size_t i = 0; i < sizeof(operations) / sizeof(operations[0]); i++) {
@@ -351,7 +380,8 @@ START_TEST(test_vertex_arrays)
 	static const uint8_t colors[12] = { 255, 0, 51, 255, 0, 255, 102, 255, 0, 0, 153, 255 };
 	struct scene *s;
 
-	set_text_of(&gl, GL_VERTEX_PROGRAM_ARB, 1, "!!ARBvp1.0 OPTION ARB_position_invariant; MOV result.color, vertex.attrib[2]; END");
+	set_text_of(&gl, GL_VERTEX_PROGRAM_ARB, 1,
+	            "!!ARBvp1.0 OPTION ARB_position_invariant; MOV result.color, vertex.attrib[2]; END");
 	gl_call(&gl, "glVertexPointer", "ieib", 2, GL_FLOAT, 0, sizeof(colors), colors);
 	gl_call(&gl, "glEnableClientState", "e", GL_VERTEX_ARRAY);
 	gl_call(&gl, "glVertexAttribPointer", "uieuib", 0u, 2, GL_FLOAT, 0u, 0, sizeof(positions), positions);
@@ -396,11 +426,15 @@ END_TEST
 START_TEST(test_reasons)
 {
 	static const char *const texts[][2] = {
-		{ "!!ARBfp1.0 MOV result.color, fragment.color END", "grammar" }, { "!!ARBvp1.0 END", "does not begin" },
-		{ "!!ARBfp1.0 FOO result.color, fragment.color; END", "instruction" }, { "!!ARBfp1.0 OPTION ARB_made_up; END", "option" },
+		{ "!!ARBfp1.0 MOV result.color, fragment.color END", "grammar" },
+		{ "!!ARBvp1.0 END", "does not begin" },
+		{ "!!ARBfp1.0 FOO result.color, fragment.color; END", "instruction" },
+		{ "!!ARBfp1.0 OPTION ARB_made_up; END", "option" },
 		{ "!!ARBfp1.0 MOV result.color, state.light[99].ambient; END", "more than there is" },
-		{ "!!ARBfp1.0 TEMP a, a; END", "grammar" }, { "!!ARBfp1.0 MOV result.color, fragment.color.xyq; END", "grammar" },
-		{ "!!ARBfp1.0 MOV fragment.color, 1; END", "grammar" }, { "!!ARBfp1.0 MOV result.color.yx, 1; END", "grammar" },
+		{ "!!ARBfp1.0 TEMP a, a; END", "grammar" },
+		{ "!!ARBfp1.0 MOV result.color, fragment.color.xyq; END", "grammar" },
+		{ "!!ARBfp1.0 MOV fragment.color, 1; END", "grammar" },
+		{ "!!ARBfp1.0 MOV result.color.yx, 1; END", "grammar" },
 	};
 	struct gl gl = gl_open();
 	struct scene *s;
@@ -408,7 +442,9 @@ START_TEST(test_reasons)
 	gl_call(&gl, "glEnable", "e", GL_FRAGMENT_PROGRAM_ARB);
 	for (unsigned i = 0; i < sizeof(texts) / sizeof(texts[0]); i++) {
 		set_text(&gl, i + 1, texts[i][0]);
-		ck_assert_uint_eq(gl_error(&gl), strstr(texts[i][1], "grammar") || strstr(texts[i][1], "more than") ? GL_INVALID_OPERATION : GL_NO_ERROR);
+		ck_assert_uint_eq(gl_error(&gl), strstr(texts[i][1], "grammar") || strstr(texts[i][1], "more than") ?
+		                                         GL_INVALID_OPERATION :
+		                                         GL_NO_ERROR);
 		ck_assert_ptr_nonnull(bound(&gl)->why);
 		ck_assert_msg(strstr(bound(&gl)->why, texts[i][1]), "%s: %s", texts[i][0], bound(&gl)->why);
 		ck_assert_uint_eq(bound(&gl)->code.n_instructions, 0);
@@ -504,15 +540,21 @@ static void check_damaged(struct gl *gl, uint32_t target, const char *text, size
 START_TEST(test_damaged_texts)
 {
 	static const char text[] =
-		"!!ARBfp1.0 OPTION ARB_fog_exp; PARAM p[3] = { program.env[0..1], { 1, -2.5e1, .5 } }; PARAM m[4] = { state.matrix.mvp.transpose };\n"
+		"!!ARBfp1.0 OPTION ARB_fog_exp; PARAM p[3] = { program.env[0..1], { 1, -2.5e1, .5 } }; PARAM m[4] = { "
+	        "state.matrix.mvp.transpose };\n"
 		"ATTRIB c = fragment.color.secondary; OUTPUT o = result.color; ALIAS q = o; TEMP a, b; # words\n"
-		"DP4 a.x, m[1], fragment.position; LRP_SAT a, -c.wzyx, p[2], state.lightprod[3].back.diffuse; SWZ b, a, 1, -x, 0, w;\n"
-		"TXP a, b, texture[2], CUBE; KIL -a.x; LIT b, a; XPD b.xyz, a, c; POW a.w, b.x, { 2 }.x; MAD q, a, b, 0.25; MOV result.depth.z, a; END";
+		"DP4 a.x, m[1], fragment.position; LRP_SAT a, -c.wzyx, p[2], state.lightprod[3].back.diffuse; SWZ b, "
+	        "a, 1, -x, 0, w;\n"
+		"TXP a, b, texture[2], CUBE; KIL -a.x; LIT b, a; XPD b.xyz, a, c; POW a.w, b.x, { 2 }.x; MAD q, a, b, "
+	        "0.25; MOV result.depth.z, a; END";
 	static const char vertices[] =
-		"!!ARBvp1.0 PARAM p[] = { program.env[0..3], { 1, -2.5e1, .5 } }; PARAM m[4] = { state.matrix.mvp.transpose }; ADDRESS A, B;\n"
+		"!!ARBvp1.0 PARAM p[] = { program.env[0..3], { 1, -2.5e1, .5 } }; PARAM m[4] = { "
+	        "state.matrix.mvp.transpose }; ADDRESS A, B;\n"
 		"ATTRIB c = vertex.color.secondary; OUTPUT o = result.color.back; ALIAS q = o; TEMP a, b; # words\n"
-		"DP4 result.position.x, m[1], vertex.position; ARL A.x, vertex.attrib[9].y; MAD a, -p[A.x + 2].wzyx, p[A.x], m[3]; EXP b.xy, a.w; LOG a, -b.x;\n"
-		"ARL B.x, a.x; SWZ b, p[B.x - 1], 1, -x, 0, w; LIT b, a; XPD b.xyz, a, c; MOV q, state.texgen[1].eye.q; MOV result.pointsize.x, a; END";
+		"DP4 result.position.x, m[1], vertex.position; ARL A.x, vertex.attrib[9].y; MAD a, -p[A.x + 2].wzyx, "
+	        "p[A.x], m[3]; EXP b.xy, a.w; LOG a, -b.x;\n"
+		"ARL B.x, a.x; SWZ b, p[B.x - 1], 1, -x, 0, w; LIT b, a; XPD b.xyz, a, c; MOV q, "
+	        "state.texgen[1].eye.q; MOV result.pointsize.x, a; END";
 	struct gl gl = gl_open();
 
 	check_damaged(&gl, GL_FRAGMENT_PROGRAM_ARB, text, sizeof(text) - 1);
@@ -521,4 +563,6 @@ START_TEST(test_damaged_texts)
 }
 END_TEST
 
-GL_TESTS("programs", test_objects, test_ati, test_damaged_ati, test_many_parameters, test_long_texts, test_scene, test_vertices, test_negated, test_vertex_arrays, test_enables, test_reasons, test_no_text, test_wrong_texts, test_damaged_texts)
+GL_TESTS("programs", test_objects, test_ati, test_damaged_ati, test_many_parameters, test_long_texts, test_scene,
+         test_vertices, test_negated, test_vertex_arrays, test_enables, test_reasons, test_no_text, test_wrong_texts,
+         test_damaged_texts)

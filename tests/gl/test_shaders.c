@@ -31,7 +31,8 @@ static struct gls_shader *make_program(struct gl *gl, uint32_t name, const char 
 	return object(gl, name);
 }
 
-/* A shader lives as long as a program has it; a program as long as it is used; what was linked stays when sources change. */
+/* A shader lives as long as a program has it; a program as long as it is used; what was linked stays when sources
+ * change. */
 START_TEST(test_objects)
 {
 	struct gl gl = gl_open();
@@ -97,7 +98,9 @@ START_TEST(test_scene)
 	uint32_t sampled = 0;
 	struct scene *s;
 
-	make_program(&gl, 1, "uniform sampler2D t; uniform vec4 c; void main() { gl_FragColor = texture2D(t, gl_TexCoord[3].xy) * c; }");
+	make_program(&gl, 1,
+	             "uniform sampler2D t; uniform vec4 c; void main() { gl_FragColor = texture2D(t, "
+	             "gl_TexCoord[3].xy) * c; }");
 	gl_answered(&gl, 0, "glGetUniformLocation", "us", 1u, "t");
 	gl_answered(&gl, 1, "glGetUniformLocation", "us", 1u, "c");
 	for (int i = 0; i < 3; i++) {
@@ -126,13 +129,21 @@ END_TEST
 START_TEST(test_reasons)
 {
 	static const char *const texts[][2] = {
-		{ "void main() { gl_FragColor = nothing; }", "compile" }, { "float f(float x) { return f(x); } void main() { gl_FragColor = vec4(f(1.0)); }", "link" },
-		{ "#version 130\nuniform usampler2D t; void main() { gl_FragColor = vec4(texture(t, gl_TexCoord[0].xy)); }", "texture" },
-		{ "uniform float a[60000]; void main() { float b[600]; b[int(a[3])] = a[2]; gl_FragColor = vec4(b[1]); }", "at once" },
+		{ "void main() { gl_FragColor = nothing; }", "compile" },
+		{ "float f(float x) { return f(x); } void main() { gl_FragColor = vec4(f(1.0)); }", "link" },
+		{ "#version 130\nuniform usampler2D t; void main() { gl_FragColor = vec4(texture(t, "
+		  "gl_TexCoord[0].xy)); }",
+		  "texture" },
+		{ "uniform float a[60000]; void main() { float b[600]; b[int(a[3])] = a[2]; gl_FragColor = vec4(b[1]); "
+		  "}",
+		  "at once" },
 		{ "uniform int k; void main() { int i = k; gl_FragColor = vec4(float(i << 2)); }", "compile" },
-		{ "#version 130\nuniform int k; void main() { int i = k; gl_FragColor = vec4(float(i << 2)); }", "not done" },
+		{ "#version 130\nuniform int k; void main() { int i = k; gl_FragColor = vec4(float(i << 2)); }",
+		  "not done" },
 		{ "void main() { gl_FragColor = gl_TexCoord[9]; }", "texture coordinates" },
-		{ "uniform sampler2D t[2]; uniform int k; void main() { gl_FragColor = texture2D(t[k], gl_TexCoord[0].xy); }", "sampler" },
+		{ "uniform sampler2D t[2]; uniform int k; void main() { gl_FragColor = texture2D(t[k], "
+		  "gl_TexCoord[0].xy); }",
+		  "sampler" },
 	};
 	struct gl gl = gl_open();
 	struct scene *s;
@@ -140,7 +151,8 @@ START_TEST(test_reasons)
 	for (unsigned i = 0; i < sizeof(texts) / sizeof(texts[0]); i++) {
 		const struct gls_shader *p = make_program(&gl, i + 1, texts[i][0]);
 
-		ck_assert_msg(p->stages.why && strstr(p->stages.why, texts[i][1]), "%s: %s", texts[i][0], p->stages.why ? p->stages.why : "no reason");
+		ck_assert_msg(p->stages.why && strstr(p->stages.why, texts[i][1]), "%s: %s", texts[i][0],
+		              p->stages.why ? p->stages.why : "no reason");
 		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
 	}
 	s = gl_swap(&gl);
@@ -154,7 +166,8 @@ END_TEST
 /* A reason names the line, and what was counted with it keeps it when the program is linked again or goes. */
 START_TEST(test_reasons_stay)
 {
-	static const char first[] = "void main() {\n\ngl_FragColor = nothing; }", second[] = "void main() { gl_FragColor = other; }";
+	static const char first[] = "void main() {\n\ngl_FragColor = nothing; }",
+			  second[] = "void main() { gl_FragColor = other; }";
 	struct gl gl = gl_open();
 	const struct gls_shader *p = make_program(&gl, 1, first);
 	const char *counted;
@@ -183,14 +196,18 @@ START_TEST(test_reasons_stay)
 }
 END_TEST
 
-/* Planes clip by a place that is not fixed function's; with colours of both sides that counts as missing. The shader runs all the same. */
+/* Planes clip by a place that is not fixed function's; with colours of both sides that counts as missing. The shader
+ * runs all the same. */
 START_TEST(test_clip_vertex)
 {
-	static const struct { const char *text; uint32_t own; } texts[] = {
+	static const struct { const char *text; uint32_t own;
+	} texts[] = {
 		{ "void main() { gl_Position = ftransform(); gl_ClipVertex = gl_ModelViewMatrix * gl_Vertex; }", 0 },
 		{ "void main() { gl_Position = ftransform(); }", 0 },
 		{ "void main() { gl_Position = ftransform(); gl_ClipVertex = gl_Vertex; }", 1 },
-		{ "void main() { gl_Position = ftransform(); gl_ClipVertex = gl_ModelViewMatrix * gl_Vertex; gl_ClipVertex.x += 1.0; }", 1 },
+		{ "void main() { gl_Position = ftransform(); gl_ClipVertex = gl_ModelViewMatrix * gl_Vertex; "
+		  "gl_ClipVertex.x += 1.0; }",
+		  1 },
 		{ "void main() { gl_Position = gl_Vertex; gl_ClipVertex = gl_ModelViewMatrix * gl_Vertex; }", 1 },
 	};
 	struct gl gl = gl_open();
@@ -252,13 +269,15 @@ START_TEST(test_unlinked)
 }
 END_TEST
 
-/* Attributes lie where the program has bound them, or was told that they are, others where Mesa puts them; fixed function's position stays its own. */
+/* Attributes lie where the program has bound them, or was told that they are, others where Mesa puts them; fixed
+ * function's position stays its own. */
 START_TEST(test_attributes)
 {
 	struct gl gl = gl_open();
 	const struct gls_shader *p;
 
-	make_shader(&gl, 200, GL_VERTEX_SHADER, "attribute vec4 a, b; void main() { gl_Position = ftransform(); gl_FrontColor = a + b; }");
+	make_shader(&gl, 200, GL_VERTEX_SHADER,
+	            "attribute vec4 a, b; void main() { gl_Position = ftransform(); gl_FrontColor = a + b; }");
 	gl_answered(&gl, 1, "glCreateProgram", "");
 	gl_call(&gl, "glAttachShader", "uu", 1u, 200u);
 	gl_call(&gl, "glBindAttribLocation", "uus", 1u, 4u, "a");
@@ -273,7 +292,8 @@ START_TEST(test_attributes)
 }
 END_TEST
 
-/* How many rows of texture coordinates the fragment stage of a program reads, where the vertex stage writes vec2 a, vec4 b, vec3 c[2]. */
+/* How many rows of texture coordinates the fragment stage of a program reads, where the vertex stage writes vec2 a,
+ * vec4 b, vec3 c[2]. */
 static int rows_read(uint32_t name, const char *declared, const char *color)
 {
 	static const char vertex[] = "varying vec2 a; varying vec4 b; varying vec3 c[2];\n"
@@ -310,9 +330,12 @@ END_TEST
 /* From GLSL 1.50 on the vertex stage's results are members of a block. */
 START_TEST(test_results_in_blocks)
 {
-	static const char vertex[] = "#version 150 compatibility\nin vec4 a; out vec2 b; void main() { b = a.xy; gl_FrontColor = a; gl_Position = a * 0.5; gl_Position.w = 1.0; }";
-	static const char fragment[] = "#version 150 compatibility\nin vec2 b; out vec4 c; void main() { c = vec4(b, 0.0, 1.0); }";
-	static const char blocks[] = "#version 150 compatibility\nout pair { vec4 x, y; } p; void main() { p.x = gl_Vertex; gl_Position = gl_Vertex; }";
+	static const char vertex[] = "#version 150 compatibility\nin vec4 a; out vec2 b; void main() { b = a.xy; "
+	                             "gl_FrontColor = a; gl_Position = a * 0.5; gl_Position.w = 1.0; }";
+	static const char fragment[] =
+		"#version 150 compatibility\nin vec2 b; out vec4 c; void main() { c = vec4(b, 0.0, 1.0); }";
+	static const char blocks[] = "#version 150 compatibility\nout pair { vec4 x, y; } p; void main() { p.x = "
+	                             "gl_Vertex; gl_Position = gl_Vertex; }";
 	struct gl gl = gl_open();
 	const struct gls_shader *p;
 
@@ -329,9 +352,11 @@ START_TEST(test_results_in_blocks)
 	gl_answered(&gl, 2, "glCreateProgram", "");
 	gl_call(&gl, "glAttachShader", "uu", 2u, 202u);
 	gl_call(&gl, "glLinkProgram", "u", 2u);
-	ck_assert_msg(object(&gl, 2)->stages.why && strstr(object(&gl, 2)->stages.why, "blocks"), "blocks of a shader's own are not done");
+	ck_assert_msg(object(&gl, 2)->stages.why && strstr(object(&gl, 2)->stages.why, "blocks"),
+	              "blocks of a shader's own are not done");
 	gl_close(&gl);
 }
 END_TEST
 
-GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_reasons_stay, test_clip_vertex, test_unlinked, test_attributes, test_varyings, test_results_in_blocks)
+GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_reasons_stay, test_clip_vertex,
+         test_unlinked, test_attributes, test_varyings, test_results_in_blocks)

@@ -1,6 +1,7 @@
 /*
- * Pictures of framebuffer objects that reach the window unchanged are the window's scene (replay/gl/surface/shown.h): by a quad of
- * unit 0, or of programs that look one texture up, at coordinates of vertices or of a vertex program; and what is in the way of that.
+ * Pictures of framebuffer objects that reach the window unchanged are the window's scene (replay/gl/surface/shown.h):
+ * by a quad of unit 0, or of programs that look one texture up, at coordinates of vertices or of a vertex program; and
+ * what is in the way of that.
  */
 #include "replay/play/player.h"
 #include "tests/gl/gl.h"
@@ -110,7 +111,9 @@ static void keep_targets(struct gl *gl)
 }
 
 #define SAME "!!ARBvp1.0 MOV result.position, vertex.position; MOV result.texcoord[0], vertex.texcoord[0]; END"
-#define TWICE "!!ARBvp1.0 MOV result.position, vertex.position; ADD result.texcoord[0], vertex.texcoord[0], vertex.texcoord[0]; END"
+#define TWICE \
+	"!!ARBvp1.0 MOV result.position, vertex.position; ADD result.texcoord[0], vertex.texcoord[0], vertex.texcoord[0]; \
+	END"
 #define LOOK(unit) "!!ARBfp1.0 TEX result.color, fragment.texcoord[" #unit "], texture[" #unit "], 2D; END"
 #define PAINT "!!ARBfp1.0 TEMP r; TEX r, fragment.texcoord[0], texture[0], 2D; MUL result.color, r, 0.5; END"
 
@@ -135,7 +138,8 @@ START_TEST(test_quads)
 	};
 
 	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
-		ck_assert_msg(is_shown(&rows[i].how) == rows[i].shown, "row %zu: the window's scene is %s", i, rows[i].shown ? "the quad" : "the triangle");
+		ck_assert_msg(is_shown(&rows[i].how) == rows[i].shown, "row %zu: the window's scene is %s", i,
+		              rows[i].shown ? "the quad" : "the triangle");
 }
 END_TEST
 

@@ -193,7 +193,8 @@ START_TEST(formats_of_levels)
 	struct bytes saved = { 0 };
 	uint8_t *at;
 
-	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGBA8, 3, 5, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGBA8, 3, 5, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+	        sizeof(texels), texels);
 	ck_assert_int_eq(snapshot_save(gl.x, &in_memory, &saved), 0);
 	at = memmem(saved.data, saved.n, level, sizeof(level));
 	ck_assert_ptr_nonnull(at);
@@ -222,7 +223,8 @@ START_TEST(refused_programs)
 	struct bytes saved = { 0 };
 
 	gl_call(&gl, "glBindProgramARB", "eu", GL_VERTEX_PROGRAM_ARB, 5u);
-	gl_call(&gl, "glProgramStringARB", "eeus", GL_VERTEX_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB, (unsigned)strlen(text), text);
+	gl_call(&gl, "glProgramStringARB", "eeus", GL_VERTEX_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB,
+	        (unsigned)strlen(text), text);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
 	ck_assert_int_eq(snapshot_save(gl.x, &in_memory, &saved), 0);
 	ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
@@ -272,7 +274,8 @@ START_TEST(pixels)
 	gl_call(&gl, "glBindRenderbufferEXT", "eu", GL_RENDERBUFFER_EXT, 3u);
 	gl_call(&gl, "glRenderbufferStorageEXT", "eeii", GL_RENDERBUFFER_EXT, GL_RGBA8, 16, 8);
 	gl_call(&gl, "glBindFramebufferEXT", "eu", GL_FRAMEBUFFER_EXT, 4u);
-	gl_call(&gl, "glFramebufferRenderbufferEXT", "eeeu", GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_RENDERBUFFER_EXT, 3u);
+	gl_call(&gl, "glFramebufferRenderbufferEXT", "eeeu", GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT,
+	        GL_RENDERBUFFER_EXT, 3u);
 	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
 	ck_assert_int_eq(gls_frame_settle(gl.x), 0); /* it waits */
 	gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_RGBA, 0, 0, 16, 8, 0);

@@ -1,4 +1,5 @@
-/* Attribute stacks, materials, contexts, and what a draw sees of the state (GL 2.1 sec. 2.14.3, 6.1.14; GLX 1.4 sec. 3.3). */
+/* Attribute stacks, materials, contexts, and what a draw sees of the state (GL 2.1 sec. 2.14.3, 6.1.14; GLX 1.4
+ * sec. 3.3). */
 #include <math.h>
 
 #include "tests/gl/gl.h"
@@ -279,4 +280,5 @@ START_TEST(test_nonsense)
 END_TEST
 
 GL_TESTS("state", test_push_attrib, test_first_error, test_color_material, test_state_at_draw, test_lights,
-         test_needs_previous, test_contexts, test_scene_outlives, test_surface_marker, test_kd_tree_marker, test_every_command, test_nonsense)
+         test_needs_previous, test_contexts, test_scene_outlives, test_surface_marker, test_kd_tree_marker,
+         test_every_command, test_nonsense)

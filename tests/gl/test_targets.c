@@ -67,7 +67,8 @@ START_TEST(test_bits_of_marker)
 }
 END_TEST
 
-/* Samples of a pixel (sec. 3.2.1), what is asked of them, and smoothing, which they take the place of. Only four can be had. */
+/* Samples of a pixel (sec. 3.2.1), what is asked of them, and smoothing, which they take the place of. Only four can be
+ * had. */
 START_TEST(test_samples)
 {
 	struct gl gl = gl_open();
@@ -104,7 +105,8 @@ END_TEST
 
 /* A supplier that paints every picture in one colour, and remembers what it was asked. */
 struct painter {
-	uint32_t asked, n_instances, width, height, depth_bits, alpha_bits, had_start, unknown; /* unknown: what pictures have */
+	uint32_t asked, n_instances, width, height, depth_bits, alpha_bits, had_start, unknown; /* unknown: what
+	                                                                                           pictures have */
 	uint8_t start[4];
 };
 
@@ -196,7 +198,8 @@ START_TEST(test_object_keeps)
 	struct gl gl = open_object(&p, GL_RGBA);
 
 	triangle(&gl);
-	gl_call(&gl, "glTexSubImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, 0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texel), texel);
+	gl_call(&gl, "glTexSubImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, 0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+	        sizeof(texel), texel);
 	ck_assert_uint_eq(p.asked, 1); /* before it changes */
 	triangle(&gl);
 	show(&gl);
@@ -302,7 +305,8 @@ START_TEST(test_depths_skipped)
 		struct gl gl = open_object(&p, GL_RGBA);
 
 		gl_call(&gl, "glFramebufferTexture2D", "eeeii", GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
-		gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, 16, 8, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, (uint64_t)0);
+		gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, 16, 8, 0,
+		        GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, (uint64_t)0);
 		gl_call(&gl, "glFramebufferTexture2D", "eeeii", GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 5, 0);
 		gl_call(&gl, "glDrawBuffer", "e", GL_NONE);
 		gl_call(&gl, "glEnable", "e", GL_DEPTH_TEST);
@@ -375,7 +379,10 @@ END_TEST
 /* Cleared to 0 as a whole, the accumulation buffer takes no memory; in part, or to other values, it does. */
 START_TEST(test_accum_cleared)
 {
-	static const struct { double value; int scissor, is_there; } clears[] = { { 0, 0, 0 }, { 0.5, 0, 1 }, { 0, 1, 1 }, { 0, 0, 0 }, { 0, 1, 1 } };
+	static const struct {
+		double value;
+		int scissor, is_there;
+	} clears[] = { { 0, 0, 0 }, { 0.5, 0, 1 }, { 0, 1, 1 }, { 0, 0, 0 }, { 0, 1, 1 } };
 	struct gl gl = gl_open();
 	const struct gls_drawable *d = gls_drawable_of(gl.x, 7);
 
@@ -395,5 +402,5 @@ START_TEST(test_accum_cleared)
 }
 END_TEST
 
-GL_TESTS("targets", test_bits_of_visuals, test_bits_of_marker, test_samples, test_render_to_texture, test_object_keeps, test_renderbuffers,
-         test_blit, test_object_skipped, test_depths_skipped, test_accum, test_accum_cleared)
+GL_TESTS("targets", test_bits_of_visuals, test_bits_of_marker, test_samples, test_render_to_texture, test_object_keeps,
+         test_renderbuffers, test_blit, test_object_skipped, test_depths_skipped, test_accum, test_accum_cleared)

@@ -156,7 +156,8 @@ START_TEST(test_texgen)
 }
 END_TEST
 
-/* PushAttrib(TEXTURE_BIT) keeps what is bound, and the parameters of that (sec. 6.1.14, table 6.16), of objects that are still there. */
+/* PushAttrib(TEXTURE_BIT) keeps what is bound, and the parameters of that (sec. 6.1.14, table 6.16), of objects that
+ * are still there. */
 START_TEST(test_pushed_parameters)
 {
 	struct gl gl = gl_open();
@@ -170,7 +171,8 @@ START_TEST(test_pushed_parameters)
 	}
 	gl_call(&gl, "glPushAttrib", "m", GL_TEXTURE_BIT);
 	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP);
-	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_LINEAR); /* incomplete */
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_LINEAR); /* incomplete
+	                                                                                                         */
 	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 4u);
 	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
 	gl_call(&gl, "glPopAttrib", "");
@@ -197,7 +199,8 @@ START_TEST(test_pushed_parameters)
 }
 END_TEST
 
-/* Sampler objects (GL 3.3 sec. 3.8.2) stand for the parameters of what is bound to their unit, completeness included. */
+/* Sampler objects (GL 3.3 sec. 3.8.2) stand for the parameters of what is bound to their unit, completeness
+ * included. */
 START_TEST(test_samplers)
 {
 	struct gl gl = gl_open();
@@ -224,7 +227,8 @@ START_TEST(test_samplers)
 }
 END_TEST
 
-/* Sec. 2.5: what there is no memory for is OUT_OF_MEMORY; here where llvmpipe has none. 16384 by 16384 texels it has. */
+/* Sec. 2.5: what there is no memory for is OUT_OF_MEMORY; here where llvmpipe has none. 16384 by 16384 texels it
+ * has. */
 START_TEST(test_largest)
 {
 	struct gl gl = gl_open();
@@ -251,7 +255,8 @@ START_TEST(test_borders_only)
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
 	gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_RGBA8, 1, 4, 1, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
-	gl_call(&gl, "glTexImage3D", "eieiiiieep", GL_TEXTURE_3D, 0, GL_RGBA8, 4, 4, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	gl_call(&gl, "glTexImage3D", "eieiiiieep", GL_TEXTURE_3D, 0, GL_RGBA8, 4, 4, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+	        (uint64_t)0);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
 	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
 	gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_RGBA8, 4, 2, 1, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
@@ -277,11 +282,14 @@ START_TEST(test_borders)
 		gl_call(&gl, "glEnable", "e", targets[i]);
 		gl_call(&gl, "glTexParameteri", "eee", targets[i], GL_TEXTURE_MIN_FILTER, GL_NEAREST);
 		if (i == 0)
-			gl_call(&gl, "glTexImage1D", "eieiieeb", targets[i], 0, GL_ALPHA, 6, 1, GL_ALPHA, GL_UNSIGNED_BYTE, (size_t)6, texels);
+			gl_call(&gl, "glTexImage1D", "eieiieeb", targets[i], 0, GL_ALPHA, 6, 1, GL_ALPHA,
+			        GL_UNSIGNED_BYTE, (size_t)6, texels);
 		else if (i == 1)
-			gl_call(&gl, "glTexImage2D", "eieiiieeb", targets[i], 0, GL_ALPHA, 4, 3, 1, GL_ALPHA, GL_UNSIGNED_BYTE, (size_t)12, texels);
+			gl_call(&gl, "glTexImage2D", "eieiiieeb", targets[i], 0, GL_ALPHA, 4, 3, 1, GL_ALPHA,
+			        GL_UNSIGNED_BYTE, (size_t)12, texels);
 		else
-			gl_call(&gl, "glTexImage3D", "eieiiiieeb", targets[i], 0, GL_ALPHA, 3, 4, 4, 1, GL_ALPHA, GL_UNSIGNED_BYTE, (size_t)48, texels);
+			gl_call(&gl, "glTexImage3D", "eieiiiieeb", targets[i], 0, GL_ALPHA, 3, 4, 4, 1, GL_ALPHA,
+			        GL_UNSIGNED_BYTE, (size_t)48, texels);
 		draw(&gl);
 	}
 	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
@@ -303,7 +311,8 @@ START_TEST(test_borders)
 }
 END_TEST
 
-/* Generated levels of three dimensions are means of eight texels (sec. 3.8.8), of each kind of format that is averaged in a way of its own. */
+/* Generated levels of three dimensions are means of eight texels (sec. 3.8.8), of each kind of format that is averaged
+ * in a way of its own. */
 START_TEST(test_levels_of_volumes)
 {
 	static const uint32_t formats[] = { GL_RGBA8, GL_RGBA32F, GL_RGB9_E5, GL_LUMINANCE8 };
@@ -323,7 +332,8 @@ START_TEST(test_levels_of_volumes)
 		gl_call(&gl, "glEnable", "e", GL_TEXTURE_3D);
 		gl_call(&gl, "glTexParameteri", "eei", GL_TEXTURE_3D, GL_GENERATE_MIPMAP, 1);
 		gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
-		gl_call(&gl, "glTexImage3D", "eieiiiieeb", GL_TEXTURE_3D, 0, formats[f], 4, 4, 4, 0, GL_RED, GL_FLOAT, sizeof(scaled), scaled);
+		gl_call(&gl, "glTexImage3D", "eieiiiieeb", GL_TEXTURE_3D, 0, formats[f], 4, 4, 4, 0, GL_RED, GL_FLOAT,
+		        sizeof(scaled), scaled);
 		draw(&gl);
 		s = gl_swap(&gl);
 		ck_assert_uint_eq(s->textures[0]->n_levels, 3);
@@ -341,4 +351,5 @@ START_TEST(test_levels_of_volumes)
 }
 END_TEST
 
-GL_TESTS("textures", test_borders, test_levels_of_volumes, test_borders_only, test_pushed_parameters, test_samplers, test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_largest, test_texgen)
+GL_TESTS("textures", test_borders, test_levels_of_volumes, test_borders_only, test_pushed_parameters, test_samplers,
+         test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_largest, test_texgen)

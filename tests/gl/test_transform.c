@@ -175,7 +175,8 @@ START_TEST(test_sums)
 {
 	const float small = 0x1p-24f, sum[] = { 1, 1 + 0x1p-23f };
 	const float m[16] = { 1, 0, 0, 0, small, 1, 0, 0, small, 0, 1, 0, 0, 0, 0, 1 }, ones[16] = { 1, 1, 1 };
-	const float depth[] = { -0x1.07a4ep0f, -0x1.07a4dep0f }; /* -(far + near) / (far - near), worked out with rational numbers */
+	/* -(far + near) / (far - near), worked out with rational numbers */
+	const float depth[] = { -0x1.07a4ep0f, -0x1.07a4dep0f };
 
 	for (int x87 = 0; x87 < 2; x87++) {
 		struct gl gl = gl_open();
@@ -199,4 +200,5 @@ START_TEST(test_sums)
 }
 END_TEST
 
-GL_TESTS("transform", test_products, test_projections, test_stacks, test_eye_space, test_views, test_drawable, test_inverse, test_sums)
+GL_TESTS("transform", test_products, test_projections, test_stacks, test_eye_space, test_views, test_drawable,
+         test_inverse, test_sums)

@@ -1,12 +1,14 @@
 /*
- * What numbers of vertices mean, by their type (GL 2.1 sec. 2.7, 2.8, 2.10, tables 2.4 and 2.9; ARB_vertex_type_2_10_10_10_rev; GL 3.0 for
- * half and, of OpenGL ES, fixed ones): in arrays, in calls, packed, and of rectangles.
+ * What numbers of vertices mean, by their type (GL 2.1 sec. 2.7, 2.8, 2.10, tables 2.4 and 2.9;
+ * ARB_vertex_type_2_10_10_10_rev; GL 3.0 for half and, of OpenGL ES, fixed ones): in arrays, in calls, packed, and of
+ * rectangles.
  */
 #include <math.h>
 
 #include "tests/gl/gl.h"
 
-static const uint32_t types[] = { GL_BYTE, GL_UNSIGNED_BYTE, GL_SHORT, GL_UNSIGNED_SHORT, GL_INT, GL_UNSIGNED_INT, GL_FLOAT, GL_DOUBLE, GL_HALF_FLOAT, GL_FIXED };
+static const uint32_t types[] = { GL_BYTE,         GL_UNSIGNED_BYTE, GL_SHORT,  GL_UNSIGNED_SHORT, GL_INT,
+	                          GL_UNSIGNED_INT, GL_FLOAT,         GL_DOUBLE, GL_HALF_FLOAT,     GL_FIXED };
 
 enum { N_TYPES = sizeof(types) / sizeof(types[0]) };
 
@@ -29,13 +31,15 @@ static uint8_t *put(uint8_t *p, uint32_t type, double value)
 	}
 }
 
-/* Places are what they are, in every type that there is; colours of integers stand for [0,1] or [-1,1], of which 0 is one in arrays (gls_geometry). */
+/* Places are what they are, in every type that there is; colours of integers stand for [0,1] or [-1,1], of which 0 is
+ * one in arrays (gls_geometry). */
 START_TEST(test_arrays)
 {
 	/* of each type the number that is 1, one in between, and what that is */
 	static const double colors[N_TYPES][3] = {
-		{ 127, 25, 25.0 / 127 }, { 255, 51, 0.2 }, { 32767, -1, -1.0 / 32767 }, { 65535, 13107, 0.2 }, { 2147483647, 1073741823, 0.5 },
-		{ 4294967295, 858993459, 0.2 }, { 1, 0.25, 0.25 }, { 1, 0.125, 0.125 }, { 1, 0.5, 0.5 }, { 1, 0.75, 0.75 },
+		{ 127, 25, 25.0 / 127 }, { 255, 51, 0.2 }, { 32767, -1, -1.0 / 32767 }, { 65535, 13107, 0.2 },
+		{ 2147483647, 1073741823, 0.5 }, { 4294967295, 858993459, 0.2 }, { 1, 0.25, 0.25 }, { 1, 0.125, 0.125 },
+		{ 1, 0.5, 0.5 }, { 1, 0.75, 0.75 },
 	};
 
 	for (unsigned i = 0; i < N_TYPES; i++) {
@@ -56,8 +60,8 @@ START_TEST(test_arrays)
 		ck_assert_msg(s->n_instances == 1, "type %#x is not drawn", types[i]);
 		ck_assert_floats(12, s->meshes[0]->position, 1, 2, 3, 1, 4, 5, 6, 1, 7, 8, 9, 1);
 		for (unsigned k = 0; k < 12; k++)
-			ck_assert_msg(fabs(s->meshes[0]->color[k] - (k % 2 ? colors[i][2] : 1)) < 1e-6, "type %#x, colour %u: %g", types[i], k,
-			              s->meshes[0]->color[k]);
+			ck_assert_msg(fabs(s->meshes[0]->color[k] - (k % 2 ? colors[i][2] : 1)) < 1e-6,
+			              "type %#x, colour %u: %g", types[i], k, s->meshes[0]->color[k]);
 		scene_release(&s);
 		gl_close(&gl);
 	}
@@ -116,7 +120,8 @@ START_TEST(test_calls)
 		gl_call(&gl, v->call, v->letters, v->args[0], v->args[1], v->args[2], v->args[3]);
 		ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
 		for (unsigned k = 0; k < n; k++)
-			ck_assert_msg(fabsf(have[k] - v->wanted[k]) < 1e-6f, "row %zu, %s, number %u: %g, not %g", i, v->call, k, have[k], v->wanted[k]);
+			ck_assert_msg(fabsf(have[k] - v->wanted[k]) < 1e-6f, "row %zu, %s, number %u: %g, not %g", i,
+			              v->call, k, have[k], v->wanted[k]);
 	}
 	gl_call(&gl, "glColorP4ui", "eu", GL_UNSIGNED_INT, 5u);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);

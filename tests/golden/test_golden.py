@@ -36,6 +36,7 @@ for trace in TRACES:
         made = render_frame(trace, SCRATCH / name, device)
         for layer in ("gl", "beauty"):
             code, score = diff(HERE / made.name, made, "--channel", layer)
-            check(code == 0 and score["counts"]["passed"] == 1, f"{trace.stem}, {layer}, on {name}: {failed_gates(score)}")
+            check(code == 0 and score["counts"]["passed"] == 1,
+                  f"{trace.stem}, {layer}, on {name}: {failed_gates(score)}")
             check(score["frames"][0]["worst_code"] <= 1, f"{trace.stem}, {layer}, on {name}: within one code of 255")
 finish()

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The runner notices every way in which a test can fail. Each case is a tree with one test, and what must come of it."""
+"""The runner notices every way in which a test can fail. Each case is a tree with one test, and what must come of
+it."""
 import os
 import pathlib
 import subprocess
@@ -99,5 +100,7 @@ results["not built"] = check_not_built()
 results["stragglers"] = check_stragglers()
 failed = [name for name, good in results.items() if not good]
 print(*(f"wrong: {name}" for name in failed), sep="\n")
-print(f"{100 * (len(results) - len(failed)) // len(results)}%: Checks: {len(results)}, Failures: {len(failed)}, Errors: 0")
+print(
+    f"{100 * (len(results) - len(failed)) // len(results)}%: Checks: {len(results)}, Failures: {len(failed)}, Errors: 0"
+)
 sys.exit(bool(failed))

@@ -35,7 +35,8 @@ def typed(line, code=0, says=None, **variables):
 def seen(name):
     """A picture, 0 to 255, that shows something: more than one colour, neither black nor white throughout."""
     found = codes(PLACE / name).transpose(1, 2, 0)  # [row][column][channel]
-    check(found.std() > 10 and 10 < found.mean() < 245, f"{name} shows something: mean {found.mean():.1f}, deviation {found.std():.1f}")
+    check(found.std() > 10 and 10 < found.mean() < 245,
+          f"{name} shows something: mean {found.mean():.1f}, deviation {found.std():.1f}")
     return found
 
 

@@ -17,7 +17,8 @@ typed("xvfb-run -a relume ci", code=1, says="2 failed")
 cases = list(xml.etree.ElementTree.parse(PLACE / "ci/game/junit.xml").getroot().iter("testcase"))
 check(len(cases) == 2 and all(c.find("failure") is not None for c in cases), f"junit.xml fails {len(cases)} cases")
 check(re.search(r"2 failed", (PLACE / "ci/game/summary.md").read_text()), "the summary says so")
-check("<svg" in (PLACE / "ci/game/report/index.html").read_text() or "data:image" in (PLACE / "ci/game/report/index.html").read_text(),
-      "the page has pictures in it")
+check(
+    "<svg" in (PLACE / "ci/game/report/index.html").read_text()
+    or "data:image" in (PLACE / "ci/game/report/index.html").read_text(), "the page has pictures in it")
 seen("ci/game/report/sheet.png")
 end()

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A curious developer: records a program, looks at a first picture, at a nicer one, and at a page beside what the program showed."""
+"""A curious developer: records a program, looks at a first picture, at a nicer one, and at a page beside what the
+program showed."""
 from journey import PLACE, begin, check, end, seen, share, typed
 
 begin()

@@ -7,7 +7,10 @@ from journey import PLACE, begin, check, end, seen, typed
 
 begin(frames=8)
 typed("relume record -o game.trace --ref color,depth -- ./game")
-script = typed("relume farm script --for slurm game.trace -f 0-7 --chunk 3 -o far/game.####.exr --gres gpu:1 --sbatch=--partition=night")
+script = typed(
+    "relume farm script --for slurm game.trace -f 0-7 --chunk 3 -o far/game.####.exr --gres gpu:1 "
+    "--sbatch=--partition=night"
+)
 check(re.search(r"sbatch .*--partition=night.*--gres 'gpu:1' --array", script), "the script asks Slurm for GPUs")
 typed("relume farm submit game.trace -f 0-7 --chunk 3 -o out/game.####.exr --local -- --samples 2")
 typed("relume farm status out/game.farm", says="8")

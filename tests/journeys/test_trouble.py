@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A person in trouble: a recording that was cut, a typing error, a home that cannot be written, a build that draws otherwise."""
+"""A person in trouble: a recording that was cut, a typing error, a home that cannot be written, a build that draws
+otherwise."""
 from journey import PLACE, begin, check, end, seen, typed
 
 begin("cornell", 6)
@@ -13,8 +14,10 @@ check("0 frames" not in said, f"frames are saved: {said}")
 typed("relume rendr saved.trace -o x.png", code=2, says="did you mean 'render'")
 typed("relume render saved.trace -f 1 -o saved.####.png")
 (PLACE / "nohome").write_text("")
-typed("env -u XDG_CACHE_HOME HOME=$PWD/nohome TMPDIR=$PWD relume render saved.trace -f 1 -o homeless.png", says="caches are in")
-check((PLACE / "saved.0001.png").read_bytes() == (PLACE / "homeless.png").read_bytes(), "the same picture without a home")
+typed("env -u XDG_CACHE_HOME HOME=$PWD/nohome TMPDIR=$PWD relume render saved.trace -f 1 -o homeless.png",
+      says="caches are in")
+check((PLACE / "saved.0001.png").read_bytes() == (PLACE / "homeless.png").read_bytes(),
+      "the same picture without a home")
 typed("relume record -o bad.trace -- ./game --animate light")
 said = typed("relume bisect --report parts whole.trace bad.trace", code=1, says="first picture that differs")
 check("glLightfv" in said, f"the call that differs is named: {said[:1000]}")

@@ -15,7 +15,8 @@ FILES = {
     "range.yaml": "surfaces:\n  - { reflect: 7 }\n",
     "camera.yaml": "kind: fisheye\n",
     "diff.yaml": "rules:\n  - { mask: missing.png, colour: 3 }\n",
-    "broken.cl": "struct relume_request closest_hit(struct relume_hit hit, struct relume_parameters p) { return no(hit); }\n",
+    "broken.cl": "struct relume_request closest_hit(struct relume_hit hit, struct relume_parameters p) { return "
+                 "no(hit); }\n",
     "ci.yaml": "programs:\n  - { comand: [./game] }\n",
 }
 
@@ -82,8 +83,9 @@ def try_all(relume, place, env=None):
     prepare(place)
     for typed, code, word in CASES:
         before = {p: p.stat().st_size for p in pathlib.Path(place).rglob("*")}
-        done = subprocess.run(f"'{relume}' {typed}", shell=True, cwd=place, env=env or dict(os.environ), stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", timeout=100, check=False)
+        done = subprocess.run(f"'{relume}' {typed}", shell=True, cwd=place, env=env or dict(os.environ),
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              errors="replace", timeout=100, check=False)
         lines = done.stderr.splitlines()
         after = {p: p.stat().st_size for p in pathlib.Path(place).rglob("*") if p.name != "game.trace.index"}
         faults = []

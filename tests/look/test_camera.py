@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A recorded frame from elsewhere (`render --camera`): what a program draws from another place is what its frame is from there; turntables; and
-that nobody takes such pictures for the program's own."""
+"""A recorded frame from elsewhere (`render --camera`): what a program draws from another place is what its frame is
+from there; turntables; and that nobody takes such pictures for the program's own."""
 import json
 import pathlib
 import sys
@@ -13,7 +13,8 @@ from helpers import SCRATCH, check, corpus, diff, finish, must, record, relume, 
 NEAR, FRAMES = 3 / 255, 4
 life, rooms, file = SCRATCH / "life.trace", SCRATCH / "rooms.trace", SCRATCH / "elsewhere.yaml"
 record(life, corpus("still_life"), "--frames", FRAMES, "--animate", "camera")
-record(rooms, corpus("rooms"), "--seed", 5, "--frames", FRAMES, "--animate", "camera", "--lighting", "opengl", "--mirror", options=())
+record(rooms, corpus("rooms"), "--seed", 5, "--frames", FRAMES, "--animate", "camera", "--lighting", "opengl",
+       "--mirror", options=())
 
 
 def pixels(path, channels="RGB"):
@@ -39,9 +40,12 @@ share = equal_share(there, pixels(moved[0]))
 check(share >= 0.999, f"frame 0 from frame 3's place is frame 3: {share}")
 own = from_elsewhere(life, 0, "own", "place: [0, 0, 0]\nlook_at: [0, 0, -1]\n", "--aov", "gl")
 check(pixels(own[0]) == here, "from the recorded place it is the recorded picture")
-check(Image(moved[0], ["R"]).attributes["relume:camera"].decode().startswith("at -0.45 0 0, towards 0 0 -1"), "the picture says from where it was seen")
+check(
+    Image(moved[0], ["R"]).attributes["relume:camera"].decode().startswith("at -0.45 0 0, towards 0 0 -1"),
+    "the picture says from where it was seen")
 
-# What OpenGL's program turns, by 4 degrees a frame, the look file's world knows: camera 3 in the world, and in frame 0's eye space.
+# What OpenGL's program turns, by 4 degrees a frame, the look file's world knows: camera 3 in the world, and in frame
+# 0's eye space.
 scenes = [json.loads(must(relume("scene", rooms, "-f", f, "--json")).stdout) for f in (0, 3)]
 must(relume("look", rooms, "-o", SCRATCH / "rooms.look.yaml"))
 world = SCRATCH / "world.look.yaml"
@@ -49,8 +53,13 @@ text = (SCRATCH / "rooms.look.yaml").read_text()
 world.write_text(text[text.index("world:"):])
 walls = [{i["list"]: i["modelview"] for i in s["instances"] if i["list"]} for s in scenes]
 a, b = (of[max(walls[0].keys() & walls[1].keys())] for of in walls)
-turn = [[sum(b[4 * k + i] * a[4 * k + j] for k in range(3)) for j in range(3)] for i in range(3)]  # eye 3 from eye 0: b a^-1, both without scale
-place = [sum(turn[i][j] * (sum(turn[i][k] * a[12 + k] for k in range(3)) - b[12 + i]) for i in range(3)) for j in range(3)]
+turn = [[sum(b[4 * k + i] * a[4 * k + j]
+             for k in range(3))
+         for j in range(3)]
+        for i in range(3)]  # eye 3 from eye 0: b a^-1, both without scale
+place = [
+    sum(turn[i][j] * (sum(turn[i][k] * a[12 + k] for k in range(3)) - b[12 + i]) for i in range(3)) for j in range(3)
+]
 at, up = [p - d for p, d in zip(place, turn[2])], turn[1]
 GL = ("gl.R", "gl.G", "gl.B", "id")
 there = pixels(render(rooms, SCRATCH / "turned", "-f", 3, "--encoding", "display", "--aov", "gl,id")[0], GL)
@@ -66,9 +75,14 @@ def equal_walls(other):
 
 check(equal_walls(here) < 0.8, f"the viewer turns: {equal_walls(here)}")
 for space in ("eye", "world"):
-    moved = from_elsewhere(rooms, 0, space, f"space: {space}\nplace: {place}\nlook_at: {at}\nup: {up}\n", "--look", world, "--aov", "gl,id")
+    moved = from_elsewhere(rooms, 0, space, f"space: {space}\nplace: {place}\nlook_at: {at}\nup: {up}\n", "--look",
+                           world, "--aov", "gl,id")
     share = equal_walls(pixels(moved[0], GL))
-    check(share >= 0.99, f"frame 0 as frame 3's viewer sees it, but for the torus, its mirror image, and a room that it culls; space {space}: {share}")
+    check(
+        share >= 0.99,
+        f"frame 0 as frame 3's viewer sees it, but for the torus, its mirror image, and a room that it culls; space "
+        f"{space}: {share}"
+    )
 
 # A turntable: pictures of one frame, numbered from 0; the rest of a run finds those that are there.
 table = "turntable: { frames: 4 }\nsize: [40, 30]\n"
@@ -76,21 +90,27 @@ made = from_elsewhere(life, 2, "table", table, "--chunk", "2/2")
 check([p.name[-8:-4] for p in made] == ["0002", "0003"], f"half of a turntable's pictures: {made}")
 made = from_elsewhere(life, 2, "table", table)
 check(len(made) == 4 and len({str(pixels(p)) for p in made}) == 4, "a turntable shows four sides")
-done = relume("render", life, "-f", 2, "--camera", file, "--encoding", "display", "-o", SCRATCH / "table/life.####.exr", "--skip-existing", "--dry-run")
+done = relume("render", life, "-f", 2, "--camera", file, "--encoding", "display", "-o", SCRATCH / "table/life.####.exr",
+              "--skip-existing", "--dry-run")
 check(done.stdout.count("leave") == 4, f"what is there is left: {done.stdout}")
 
 # Nobody scores them.
 _, score = diff(life, SCRATCH / "moved", "--frames", 0)
 notes = json.dumps(score)
-check(score["counts"]["passed"] == 0 and "made with --camera" in notes, f"a view from elsewhere is no answer to the reference: {notes[:300]}")
+check(score["counts"]["passed"] == 0 and "made with --camera" in notes,
+      f"a view from elsewhere is no answer to the reference: {notes[:300]}")
 
-for text, options, code, words in (
-        (table, ("-o", SCRATCH / "x.####.exr"), 2, "-f names it"), (table, ("-f", 1, "-o", SCRATCH / "x.exr"), 2, "no place for the frame number"),
-        ("space: world\n", ("-f", 1, "-o", SCRATCH / "x.exr"), 2, "space is world"), ("place: [0, 0]\n", ("-f", 1, "-o", SCRATCH / "x.exr"), 3, "line 1"),
-        ("up: [0, 0, 1]\n", ("-f", 1, "-o", SCRATCH / "x.exr"), 5, "line of sight"),
-        ("near: -1\n", ("-f", 1, "-o", SCRATCH / "x.exr"), 5, "a pinhole's must be above 0"),
-        ("place: [0, 0, 1]\n", ("-f", 1, "-o", SCRATCH / "x.exr", "--aov", "motion"), 2, "no motion")):
+for text, options, code, words in ((table, ("-o", SCRATCH / "x.####.exr"), 2, "-f names it"),
+                                   (table, ("-f", 1, "-o", SCRATCH / "x.exr"), 2, "no place for the frame number"),
+                                   ("space: world\n", ("-f", 1, "-o", SCRATCH / "x.exr"), 2, "space is world"),
+                                   ("place: [0, 0]\n", ("-f", 1, "-o", SCRATCH / "x.exr"), 3,
+                                    "line 1"), ("up: [0, 0, 1]\n", ("-f", 1, "-o", SCRATCH / "x.exr"), 5,
+                                                "line of sight"), ("near: -1\n", ("-f", 1, "-o", SCRATCH / "x.exr"), 5,
+                                                                   "a pinhole's must be above 0"),
+                                   ("place: [0, 0, 1]\n", ("-f", 1, "-o", SCRATCH / "x.exr", "--aov", "motion"), 2,
+                                    "no motion")):
     file.write_text(text)
     done = relume("render", life, "--camera", file, "--progress", "none", *options)
-    check(done.returncode == code and words in done.stderr and done.stderr.count("\n") == 1, f"{text!r}: exit code {done.returncode}, {done.stderr}")
+    check(done.returncode == code and words in done.stderr and done.stderr.count("\n") == 1,
+          f"{text!r}: exit code {done.returncode}, {done.stderr}")
 finish()

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Meshes under `repair` (tests/real/cracks.c): light that fell through a roof's T-junction is gone, a die whose far sides are the wrong way round
-bends light as one of glass, OpenGL's picture and what the camera sees stay, what was repaired and what leaks is told; on the first device that there is and by the twins."""
+"""Meshes under `repair` (tests/real/cracks.c): light that fell through a roof's T-junction is gone, a die whose far
+sides are the wrong way round bends light as one of glass, OpenGL's picture and what the camera sees stay, what was
+repaired and what leaks is told; on the first device that there is and by the twins."""
 import pathlib
 import sys
 
@@ -9,7 +10,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
 from exr import Image  # noqa: E402
 from helpers import BUILD, SCRATCH, check, finish, must, record, relume, run  # noqa: E402
 
-KEPT = ("gl.R", "gl.G", "gl.B", "gl.depth", "Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "albedo.R", "albedo.G", "albedo.B", "id")
+KEPT = ("gl.R", "gl.G", "gl.B", "gl.depth", "Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "albedo.R", "albedo.G",
+        "albedo.B", "id")
 GLASS = "spare: no\nsurfaces:\n  - match: {{ list: 1 }}\n    transmit: 0.9\n    ior: 1.5\n{}"
 trace = SCRATCH / "cracks.trace"
 record(trace, BUILD / "tests/real/cracks")
@@ -20,7 +22,9 @@ def picture(name, frame, rules, device="reference"):
     look, out = SCRATCH / f"{name}.yaml", SCRATCH / f"{name}_{device}.exr"
     look.write_text(rules)
     done = must(relume("render", trace, "-f", frame, "-o", out, "--look", look, "--device", device))
-    return Image(out, {*KEPT, "R", "G", "B", "shadow.G", "refract.R", "refract.G"}).planes, done.stderr, run("strings", out).stdout
+    return Image(out,
+                 {*KEPT, "R", "G", "B", "shadow.G", "refract.R", "refract.G"}).planes, done.stderr, run("strings",
+                                                                                                        out).stdout
 
 
 def lit_floor(planes):
@@ -35,11 +39,16 @@ def most_apart(a, b, channel):
 for device in ("reference", "0"):
     before, _, _ = picture("before", 0, "spare: no\n", device)
     after, said, told = picture("after", 0, "spare: no\nsurfaces:\n  - repair: { weld: 0.006 }\n", device)
-    check(lit_floor(before) > 20 and lit_floor(after) == 0, f"{device}: {lit_floor(before)} pixels of the floor were lit through the roof, {lit_floor(after)} are")
+    check(
+        lit_floor(before) > 20 and lit_floor(after) == 0,
+        f"{device}: {lit_floor(before)} pixels of the floor were lit through the roof, {lit_floor(after)} are")
     check(all(before[c] == after[c] for c in KEPT), f"{device}: OpenGL's picture and what the camera sees stay")
     merged, _, said_so = picture("merged", 0, "spare: no\nsurfaces:\n  - repair: { weld: 0.006, merge: yes }\n", device)
-    check(lit_floor(merged) == 0 and all(before[c] == merged[c] for c in KEPT) and " 0 places merged" not in said_so, f"{device}: nor with triangles of one plane merged")
-check("closed mesh" in told and "closed" in told and "leaks" not in said, f"the room is told to be closed: {said}{[line for line in told.splitlines() if 'welded' in line]}")
+    check(
+        lit_floor(merged) == 0 and all(before[c] == merged[c] for c in KEPT) and " 0 places merged" not in said_so,
+        f"{device}: nor with triangles of one plane merged")
+check("closed mesh" in told and "closed" in told and "leaks" not in said,
+      f"the room is told to be closed: {said}{[line for line in told.splitlines() if 'welded' in line]}")
 tight, said, told = picture("tight", 0, "spare: no\nsurfaces:\n  - repair: {}\n")
 check(lit_floor(tight) == lit_floor(picture("before", 0, "spare: no\n")[0]), "a crack wider than the tolerance stays")
 check("still leaks light at" in said and "mesh that leaks" in told, f"and it is told: {said}")
@@ -49,11 +58,15 @@ for device in ("reference", "0"):
     broken, _, _ = picture("broken", 1, GLASS.format(""), device)
     mended, _, _ = picture("mended", 1, GLASS.format("    repair: {}\n"), device)
     over, _, _ = picture("over", 3, GLASS.format("    repair: {}\n"), device)
-    check(most_apart(over, whole, "R") < 0.01 and most_apart(picture("inside", 3, GLASS.format(""), device)[0], whole, "R") > 0.2,
-          f"{device}: so is a die of which the viewer sees the backs: {most_apart(over, whole, 'R')}")
+    check(
+        most_apart(over, whole, "R") < 0.01
+        and most_apart(picture("inside", 3, GLASS.format(""), device)[0], whole, "R") > 0.2,
+        f"{device}: so is a die of which the viewer sees the backs: {most_apart(over, whole, 'R')}")
     same, _, _ = picture("same", 2, GLASS.format("    repair: {}\n"), device)
     check(most_apart(broken, whole, "refract.R") > 0.2, f"{device}: sides the wrong way round bend light the wrong way")
-    check(most_apart(mended, whole, "refract.R") < 0.01 and most_apart(mended, whole, "R") < 0.01, f"{device}: repaired it is glass: {most_apart(mended, whole, 'refract.R')}")
+    check(
+        most_apart(mended, whole, "refract.R") < 0.01 and most_apart(mended, whole, "R") < 0.01,
+        f"{device}: repaired it is glass: {most_apart(mended, whole, 'refract.R')}")
     check(all(broken[c] == mended[c] for c in KEPT), f"{device}: OpenGL's picture of the die stays")
     check(most_apart(same, whole, "R") < 1e-3, f"{device}: what is whole stays")
 bad = SCRATCH / "bad.yaml"

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Faces that are meant round (corpus/facets): with `crease` a ball of flat faces is lit as the ball with normals of its own, by whichever
-way it is flat, on the first device that there is and by the twins. A die beside it keeps its edges, and so does the ball where the angle is less than that between its faces. OpenGL's
-picture, normals and depth stay."""
+"""Faces that are meant round (corpus/facets): with `crease` a ball of flat faces is lit as the ball with normals of its
+own, by whichever way it is flat, on the first device that there is and by the twins. A die beside it keeps its edges,
+and so does the ball where the angle is less than that between its faces. OpenGL's picture, normals and depth stay."""
 import math
 import pathlib
 import sys
@@ -11,7 +11,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
 from exr import Image  # noqa: E402
 from helpers import SCRATCH, check, corpus, finish, must, record, relume, render  # noqa: E402
 
-KEPT = ("gl.R", "gl.G", "gl.B", "gl.depth", "Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "albedo.R", "albedo.G", "albedo.B", "id")
+KEPT = ("gl.R", "gl.G", "gl.B", "gl.depth", "Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "albedo.R", "albedo.G",
+        "albedo.B", "id")
 ROUND = "surfaces:\n  - crease: {}\n"
 
 
@@ -24,7 +25,9 @@ def picture(by, crease=None, *more):
     if crease is not None:
         look = ("--look", SCRATCH / f"{name}.yaml")
         look[1].write_text(ROUND.format(crease))
-    return Image(render(trace, SCRATCH / name, "-f", 1, *look, *(more or ("--device", "reference")))[0], {*KEPT, "R", "G", "B"}).planes
+    return Image(
+        render(trace, SCRATCH / name, "-f", 1, *look, *(more or ("--device", "reference")))[0],
+        {*KEPT, "R", "G", "B"}).planes
 
 
 def differences(a, b):
@@ -41,7 +44,8 @@ for by in ("faces", "flat"):
     bare, smooth, sharp = picture(by), picture(by, 40), picture(by, 4)
     check(all(bare[c] == smooth[c] for c in KEPT), f"{by}: OpenGL's picture and the geometry stay")
     off, on, few = (differences(planes, truth)[0] for planes in (bare, smooth, sharp))
-    check(on < 1 and off > 3 and on < off / 5, f"{by}: the ball is round: {on:.2f} of 255 beside {off:.2f} without the rule")
+    check(on < 1 and off > 3 and on < off / 5,
+          f"{by}: the ball is round: {on:.2f} of 255 beside {off:.2f} without the rule")
     check(few > 3, f"{by}: at 4 degrees it has its faces: {few:.2f}")
     check(differences(smooth, picture(by, 0.001))[1] < 1, f"{by}: what is sharp stays so")
 check(differences(picture("faces", 40), picture("faces", 40, "--device", "0"))[0] < 0.1, "a device and the twins agree")
@@ -49,5 +53,6 @@ check(all(math.isfinite(v) for row in picture("faces", 180)["R"] for v in row), 
 
 SCRATCH.joinpath("bad.yaml").write_text(ROUND.format(200))
 done = relume("render", SCRATCH / "faces.trace", "-f", 1, "-o", SCRATCH / "bad.exr", "--look", SCRATCH / "bad.yaml")
-check(done.returncode == 3 and "crease is 200" in done.stderr and not (SCRATCH / "bad.exr").exists(), f"a wrong angle is one line: {done.stderr}")
+check(done.returncode == 3 and "crease is 200" in done.stderr and not (SCRATCH / "bad.exr").exists(),
+      f"a wrong angle is one line: {done.stderr}")
 finish()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""A dark floor without grain, on which a shadow lies, mirrors what stands on it (corpus/tricks grid): about its own plane, as its draw has no
-normals. One with grain (gravel) does not, and OpenGL's own picture stays."""
+"""A dark floor without grain, on which a shadow lies, mirrors what stands on it (corpus/tricks grid): about its own
+plane, as its draw has no normals. One with grain (gravel) does not, and OpenGL's own picture stays."""
 import pathlib
 import re
 import sys
@@ -24,7 +24,9 @@ def study(kind):
 
 
 def traced(kind, name, *options):
-    return Image(render(SCRATCH / f"{kind}.trace", SCRATCH / f"{kind}-{name}", "-f", 0, "--aov", "gl,reflect,Z,id", *options)[0], GL + MIRRORED)
+    return Image(
+        render(SCRATCH / f"{kind}.trace", SCRATCH / f"{kind}-{name}", "-f", 0, "--aov", "gl,reflect,Z,id", *options)[0],
+        GL + MIRRORED)
 
 
 rules = study("grid")
@@ -35,8 +37,8 @@ check("role: polished floor" not in study("gravel").read_text(), "gravel is none
 before, after = traced("grid", "before"), traced("grid", "after", "--look", rules)
 check(all(before.planes[c] == after.planes[c] for c in GL), "OpenGL's picture stays")
 check(not any(x for c in MIRRORED for row in before.planes[c] for x in row), "nothing mirrors without rules")
-# Frame 0 looks along -z from (0, 1.5, 8), down by nothing: the cube's lowest front edge is in the middle column's part of the picture at
-# height 0.9, its picture at -0.9.
+# Frame 0 looks along -z from (0, 1.5, 8), down by nothing: the cube's lowest front edge is in the middle column's part
+# of the picture at height 0.9, its picture at -0.9.
 height, width = len(after.planes["Z"]), len(after.planes["Z"][0])
 focal = height / 2 / 0.41421356  # of 45 degrees
 
@@ -48,7 +50,8 @@ def pixel(x, y, z):
 
 row, column = pixel(0.5, -BELOW - 0.3, 0.6)
 seen = [after.planes[c][row][column] for c in MIRRORED]
-check(seen[0] > 2 * max(seen[1], seen[2], 0.002), f"the red cube stands on its head in the floor: {seen} at {row}, {column}")
+check(seen[0] > 2 * max(seen[1], seen[2], 0.002),
+      f"the red cube stands on its head in the floor: {seen} at {row}, {column}")
 row, column = pixel(-3, -BELOW - 0.3, 0.6)
 check(max(after.planes[c][row][column] for c in MIRRORED) < 0.5 * seen[0], "and not beside itself")
 finish()

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""What a program lays on the ground and paints behind the world (corpus/street, whose viewer stands still): a sky, a mark, a blob of shadow,
-each found once. The blob gives way to the traced shadow of OpenGL's light, or of the sun that the sky shows; OpenGL's own picture stays."""
+"""What a program lays on the ground and paints behind the world (corpus/street, whose viewer stands still): a sky, a
+mark, a blob of shadow, each found once. The blob gives way to the traced shadow of OpenGL's light, or of the sun that
+the sky shows; OpenGL's own picture stays."""
 import pathlib
 import re
 import sys
@@ -15,7 +16,9 @@ MARK = (60, 155)  # columns that the mark covers
 
 
 def picture(kind, name, *look):
-    return Image(render(SCRATCH / f"{kind}.trace", SCRATCH / f"{kind}-{name}", "-f", 2, "--aov", "gl", *look)[0], COLORS + GL).planes
+    return Image(
+        render(SCRATCH / f"{kind}.trace", SCRATCH / f"{kind}-{name}", "-f", 2, "--aov", "gl", *look)[0],
+        COLORS + GL).planes
 
 
 def worst(a, b, channels, columns=range(400)):
@@ -33,7 +36,8 @@ def without_dome(text):
 
 rules = {}
 for kind in ("lit", "unlit", "plain", "thrown"):
-    record(SCRATCH / f"{kind}.trace", corpus("street"), "--frames", 4, "--size", "400x300", "--by", kind, **({} if kind == "unlit" else {"options": ()}))
+    record(SCRATCH / f"{kind}.trace", corpus("street"), "--frames", 4, "--size", "400x300", "--by", kind,
+           **({} if kind == "unlit" else {"options": ()}))
     rules[kind] = SCRATCH / f"{kind}.look.yaml"
     if kind == "thrown":
         continue
@@ -41,11 +45,14 @@ for kind in ("lit", "unlit", "plain", "thrown"):
     text = rules[kind].read_text()
     for role, times in (("sky", 1), ("decal", kind != "plain"), ("blob shadow", kind != "plain")):
         check(text.count(f"- role: {role}\n") == times, f"{kind}: {role}: {text}")
-    check(("left_out: yes" in text) == (kind != "plain") and ("role: sun" in text) == (kind == "unlit"), f"{kind}: a light, and no blob beside it: {text}")
+    check(("left_out: yes" in text) == (kind != "plain") and ("role: sun" in text) == (kind == "unlit"),
+          f"{kind}: a light, and no blob beside it: {text}")
 
 for kind in ("lit", "plain"):
     rules[kind].write_text(without_dome(rules[kind].read_text()))
-before, after, plain = picture("lit", "before"), picture("lit", "after", "--look", rules["lit"]), picture("plain", "after", "--look", rules["plain"])
+before, after, plain = picture("lit", "before"), picture("lit", "after", "--look",
+                                                         rules["lit"]), picture("plain", "after", "--look",
+                                                                                rules["plain"])
 check(worst(before, after, GL) == 0, "OpenGL's picture stays")
 check(worst(before, after, COLORS) > 0.01, "the blob shows without rules")
 beside_mark = [x for x in range(400) if not MARK[0] <= x <= MARK[1]]
@@ -62,20 +69,27 @@ rules["thrown"].write_text(without_dome(text))
 before, after = picture("thrown", "before"), picture("thrown", "after", "--look", rules["thrown"])
 check(worst(before, after, GL) == 0, "thrown: OpenGL's picture stays")
 off, was = worst(after, plain, COLORS), worst(before, plain, COLORS)
-check(off < 0.006 < was, f"thrown: without it the picture is that of the scene drawn without: off by {off}, with it by {was}")
+check(off < 0.006 < was,
+      f"thrown: without it the picture is that of the scene drawn without: off by {off}, with it by {was}")
 rules["thrown"].write_text(without_dome(text).replace("replace: yes", "replace: no"))
 check(worst(picture("thrown", "kept", "--look", rules["thrown"]), before, COLORS) == 0, "thrown: one key keeps it")
 
-# Where nothing is lit, the sun that the sky shows lights it: the sky and the lamp stay as they are, open ground about so, the ball throws a
-# shadow towards the viewer. Sun: texel (39.5, 25.5) + 0.5 of the picture ahead, the viewer looks down by 10 degrees.
+# Where nothing is lit, the sun that the sky shows lights it: the sky and the lamp stay as they are, open ground about
+# so, the ball throws a shadow towards the viewer. Sun: texel (39.5, 25.5) + 0.5 of the picture ahead, the viewer looks
+# down by 10 degrees.
 unlit, shaped = picture("unlit", "before"), picture("unlit", "after", "--look", rules["unlit"])
 text = rules["unlit"].read_text()
 found = [float(x) for x in re.search(r"role: sun$.*?position: \[(.*?)\]", text, re.M | re.S)[1].split(",")]
-check(sum((a - b) ** 2 for a, b in zip(found, (0.2336, 0.4269, -0.8736, 0))) < 0.01 ** 2, f"the sun is where the sky has it: {found}")
+check(
+    sum((a - b)**2 for a, b in zip(found, (0.2336, 0.4269, -0.8736, 0))) < 0.01**2,
+    f"the sun is where the sky has it: {found}")
 check(text.count("- role: lamp\n") == 1 and text.count("- role: light of a lamp\n") == 1, f"the lamp shines: {text}")
-check(worst(unlit, shaped, GL) == 0 and all(shaped[c][y][x] == unlit[c][y][x] for c in COLORS for y in range(60) for x in range(200)), "the sky stays")
+check(
+    worst(unlit, shaped, GL) == 0
+    and all(shaped[c][y][x] == unlit[c][y][x] for c in COLORS for y in range(60) for x in range(200)), "the sky stays")
 check(brightness(shaped, 330, 58, 355, 70) == brightness(unlit, 330, 58, 355, 70), "the lamp stays")
-check(0.85 < brightness(shaped, 330, 230, 390, 290) / brightness(unlit, 330, 230, 390, 290) < 1.15, "so does open ground")
+check(0.85 < brightness(shaped, 330, 230, 390, 290) / brightness(unlit, 330, 230, 390, 290) < 1.15,
+      "so does open ground")
 check(brightness(shaped, 160, 255, 190, 275) < 0.9 * brightness(unlit, 160, 255, 190, 275), "the ball throws a shadow")
 render(SCRATCH / "unlit.trace", SCRATCH / "harm", "-f", 2, "--look", rules["unlit"])
 code, score = diff(SCRATCH / "unlit.trace", SCRATCH / "harm")

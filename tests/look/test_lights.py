@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""Lights are found in lightmaps, by multitexture and by a second pass, and in vertex colours: those of a level of corpus/rooms, which its program baked in
-plain C. Walls then take these lights, and their albedo is that of their texture alone."""
+"""Lights are found in lightmaps, by multitexture and by a second pass, and in vertex colours: those of a level of
+corpus/rooms, which its program baked in plain C. Walls then take these lights, and their albedo is that of their
+texture alone."""
 import json
 import pathlib
 import resource
@@ -13,9 +14,11 @@ from exr import Image  # noqa: E402
 from helpers import SCRATCH, check, corpus, diff, finish, must, record, relume, render  # noqa: E402
 from look import compare_lights  # noqa: E402
 
-for lighting, role in (("multitexture", "lightmap in a second unit"), ("pass", "lightmap pass"), ("colors", "light in vertex colours")):
+for lighting, role in (("multitexture", "lightmap in a second unit"), ("pass", "lightmap pass"),
+                       ("colors", "light in vertex colours")):
     trace, truth, rules = (SCRATCH / f"{lighting}.{end}" for end in ("trace", "json", "look.yaml"))
-    record(trace, corpus("rooms"), "--seed", 3, "--lights", 2, "--frames", 1, "--lighting", lighting, "--truth", truth, options=())
+    record(trace, corpus("rooms"), "--seed", 3, "--lights", 2, "--frames", 1, "--lighting", lighting, "--truth", truth,
+           options=())
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     must(relume("look", trace, "-o", rules))
     took = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
@@ -27,13 +30,15 @@ for lighting, role in (("multitexture", "lightmap in a second unit"), ("pass", "
     check(found["off"] < 0.02 and found["strength_off"] < 0.1 and found["ambient_off"] < 0.1, f"{lighting}: {found}")
 
 # Colours that are paint are not taken for light.
-record(SCRATCH / "paint.trace", corpus("rooms"), "--seed", 3, "--lights", 2, "--frames", 1, "--lighting", "paint", options=())
+record(SCRATCH / "paint.trace", corpus("rooms"), "--seed", 3, "--lights", 2, "--frames", 1, "--lighting", "paint",
+       options=())
 must(relume("look", SCRATCH / "paint.trace", "-o", SCRATCH / "paint.look.yaml"))
 check("vertex colours" not in (SCRATCH / "paint.look.yaml").read_text(), "paint is no light")
 
 
 def walls_alone(cut, *level, frame=0):
-    """A level's picture with its textures alone. cut: "none" for whole walls, "white" for the small triangles that carry light in their colours."""
+    """A level's picture with its textures alone. cut: "none" for whole walls, "white" for the small triangles that
+    carry light in their colours."""
     bare, folder = (SCRATCH / f"{cut}{frame}{end}" for end in (".trace", ""))
     record(bare, corpus("rooms"), *level, "--lighting", cut)
     drawn = render(bare, folder, "-f", frame, "--aov", "gl,Z", "--encoding", "display")
@@ -43,23 +48,30 @@ def walls_alone(cut, *level, frame=0):
 
 
 def relit(name, frame=0):
-    return Image(render(SCRATCH / f"{name}.trace", SCRATCH / name, "-f", frame, "--look", SCRATCH / f"{name}.look.yaml", "--aov", "gl,albedo", "--encoding", "display")[0],
-                 ["R", "gl.R", "albedo.R", "albedo.G"])
+    return Image(
+        render(SCRATCH / f"{name}.trace", SCRATCH / name, "-f", frame, "--look", SCRATCH / f"{name}.look.yaml", "--aov",
+               "gl,albedo", "--encoding", "display")[0], ["R", "gl.R", "albedo.R", "albedo.G"])
 
 
 def check_albedo(name, image, texture):
-    off = max(abs(a - b) for c in "RG" for p, q in zip(image.planes[f"albedo.{c}"], texture[f"gl.{c}"]) for a, b in zip(p, q))
+    off = max(
+        abs(a - b) for c in "RG" for p, q in zip(image.planes[f"albedo.{c}"], texture[f"gl.{c}"]) for a, b in zip(p, q))
     check(off < 0.005, f"{name}: the albedo is the texels that the program drew: {off}")
 
 
-# The picture relit equals the program's within what lightmaps leave, and the albedo is the same however the lightmap came.
+# The picture relit equals the program's within what lightmaps leave, and the albedo is the same however the lightmap
+# came.
 albedos = {lighting: relit(lighting) for lighting in ("multitexture", "pass", "colors")}
 textures = {cut: walls_alone(cut, "--seed", 3, "--frames", 1) for cut in ("none", "white")}
 for lighting, image in albedos.items():
     off = [abs(a - b) for p, q in zip(image.planes["R"], image.planes["gl.R"]) for a, b in zip(p, q)]
     check(sum(off) / len(off) < 0.03, f"{lighting}: relit as bright as lightmapped: {sum(off) / len(off)}")
     check_albedo(lighting, image, textures["white" if lighting == "colors" else "none"])
-off = max(abs(a - b) for c in ("albedo.R", "albedo.G") for p, q in zip(albedos["multitexture"].planes[c], albedos["pass"].planes[c]) for a, b in zip(p, q))
+off = max(
+    abs(a - b)
+    for c in ("albedo.R", "albedo.G")
+    for p, q in zip(albedos["multitexture"].planes[c], albedos["pass"].planes[c])
+    for a, b in zip(p, q))
 check(off < 0.01, f"the albedo is the texture's by multitexture as by a pass: {off}")
 
 # A wall that no light reaches has one colour, that of ambient light: it is none of its own.

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""`relume look` finds the camera and what stands still: corpus/rooms turns its viewer by 4 degrees a frame, before one torus that turns."""
+"""`relume look` finds the camera and what stands still: corpus/rooms turns its viewer by 4 degrees a frame, before one
+torus that turns."""
 import json
 import pathlib
 import re
@@ -12,16 +13,20 @@ from helpers import SCRATCH, check, corpus, finish, must, record, relume, render
 
 FRAMES = 4
 trace, rules = SCRATCH / "rooms.trace", SCRATCH / "rooms.look.yaml"
-record(trace, corpus("rooms"), "--seed", 5, "--frames", FRAMES, "--animate", "camera", "--lighting", "opengl", "--truth", SCRATCH / "truth.json")
+record(trace, corpus("rooms"), "--seed", 5, "--frames", FRAMES, "--animate", "camera", "--lighting", "opengl",
+       "--truth", SCRATCH / "truth.json")
 must(relume("look", trace, "-o", rules))
 text = rules.read_text()
 found = re.search(r"camera: followed through (\d+) of (\d+) frames, moves in (\d+)", text)
-check(found and found.groups() == (str(FRAMES - 1), str(FRAMES), str(FRAMES - 1)), f"the camera moves in each frame but the first: {text[:400]}")
+check(found and found.groups() == (str(FRAMES - 1), str(FRAMES), str(FRAMES - 1)),
+      f"the camera moves in each frame but the first: {text[:400]}")
 found = re.search(r"meshes: (\d+) static, (\d+) moving, (\d+) with the viewer", text)
-check(found and int(found[1]) > 100 and found[2] == "1" and found[3] == "0", f"walls stand still, the torus turns: {text[:400]}")
+check(found and int(found[1]) > 100 and found[2] == "1" and found[3] == "0",
+      f"walls stand still, the torus turns: {text[:400]}")
 check("world:" in text, "the file says where the world is")
 
-# A light at its place in the world (the first frame's eye space) is where OpenGL puts it in each frame, and lights alike.
+# A light at its place in the world (the first frame's eye space) is where OpenGL puts it in each frame, and lights
+# alike.
 lights = [json.loads(must(relume("scene", trace, "-f", f, "--json")).stdout)["lights"][0] for f in range(FRAMES)]
 check(len({tuple(l["position_eye"]) for l in lights}) == FRAMES, "the light moves in eye space")
 world = text[text.index("world:"):]
@@ -29,7 +34,8 @@ for frame, light in enumerate(lights):
     pictures = []
     for name, where in (("world", lights[0]["position_eye"]), ("eye", light["position_eye"])):
         rules.write_text(f"lights:\n- light: {light['index']}\n  space: {name}\n  position: {where}\n{world}")
-        pictures += render(trace, SCRATCH / name, "-f", frame, "--look", rules, "--aov", "id", "--encoding", "display")[-1:]
+        pictures += render(trace, SCRATCH / name, "-f", frame, "--look", rules, "--aov", "id", "--encoding",
+                           "display")[-1:]
     first, second = (Image(p, ["R", "G", "B"]) for p in pictures)
     worst = max(abs(a - b) for c in "RGB" for p, q in zip(first.planes[c], second.planes[c]) for a, b in zip(p, q))
     check(worst < 0.02, f"frame {frame}: a light of the world stands where it stood: {worst}")

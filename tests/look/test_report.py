@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Roles and lights travel with a frame that was rendered under rules, and the report has a page of them: each with its reason, its
-confidence and a picture."""
+"""Roles and lights travel with a frame that was rendered under rules, and the report has a page of them: each with its
+reason, its confidence and a picture."""
 import json
 import pathlib
 import re
@@ -18,14 +18,20 @@ def told(*look):
     frames, report = SCRATCH / f"frames{len(look)}", SCRATCH / f"report{len(look)}"
     render(trace, frames, "-f", 2, *look)
     relume("diff", trace, frames, "-f", 2, "--report", report)
-    page = json.loads(re.search(r'<script type="application/json" id="p2">(.*?)</script>', (report / "index.html").read_text(), re.S)[1])
-    return [page[key] for key in sorted(page) if key.startswith("told ")], [key for key in page if key.startswith("role ")]
+    page = json.loads(
+        re.search(r'<script type="application/json" id="p2">(.*?)</script>', (report / "index.html").read_text(),
+                  re.S)[1])
+    return [page[key]
+            for key in sorted(page)
+            if key.startswith("told ")], [key for key in page if key.startswith("role ")]
 
 
 says, pictures = told("--look", "auto")
 roles = {(kind, role): (float(confidence), why) for kind, role, confidence, why in says}
-check(("surface", "planar shadow") in roles and ("light", "light of a planar shadow") in roles, f"the shadow and its light are told: {says}")
-check(all(0 < confidence <= 1 and why for confidence, why in roles.values()), f"each with confidence and reason: {says}")
+check(("surface", "planar shadow") in roles and ("light", "light of a planar shadow") in roles,
+      f"the shadow and its light are told: {says}")
+check(all(0 < confidence <= 1 and why for confidence, why in roles.values()),
+      f"each with confidence and reason: {says}")
 check(len(pictures) >= 2, f"the shadow and its light have pictures: {pictures}")
 check(told() == ([], []), "a frame rendered without rules has none")
 finish()

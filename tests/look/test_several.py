@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Several --look files apply in order, "auto" among them; what each rule matched is said once, and one that matches nothing is a warning."""
+"""Several --look files apply in order, "auto" among them; what each rule matched is said once, and one that matches
+nothing is a warning."""
 import pathlib
 import sys
 
@@ -19,7 +20,9 @@ def rules(name, text):
 def rendered(name, *looks, options=()):
     """The frames' bytes, and what `render` says."""
     words = [word for look in looks for word in ("--look", look)]
-    done = must(relume("render", trace, "-o", SCRATCH / name / "x.####.exr", "--device", "reference", *words, *options, timeout=110))
+    done = must(
+        relume("render", trace, "-o", SCRATCH / name / "x.####.exr", "--device", "reference", *words, *options,
+               timeout=110))
     return [f.read_bytes() for f in sorted((SCRATCH / name).glob("*.exr"))], done.stderr
 
 
@@ -35,15 +38,23 @@ def same(a, b):
 mirror = rules("mirror.yaml", "surfaces:\n  - reflect: 0.9\n  - match: { draws: 2 }\n    reflect: 0.5\n")
 dull = rules("dull.yaml", "surfaces:\n  - reflect: 0\n")
 light = rules("light.yaml", "lights:\n  - light: 0\n    position: [50, 50, 100, 1]\n")
-both = rules("both.yaml", "lights:\n  - light: 0\n    position: [50, 50, 100, 1]\nsurfaces:\n  - reflect: 0.9\n  - match: { draws: 2 }\n    reflect: 0.5\n")
-typed = rules("typed.yaml", "surfaces:\n  - match: { mesh: 0123456789 }\n    reflect: 0.9\n  - match: { lit: yes }\n    roughness: 0\n")
+both = rules(
+    "both.yaml",
+    "lights:\n  - light: 0\n    position: [50, 50, 100, 1]\nsurfaces:\n  - reflect: 0.9\n  - match: { draws: 2 }\n    "
+    "reflect: 0.5\n"
+)
+typed = rules(
+    "typed.yaml",
+    "surfaces:\n  - match: { mesh: 0123456789 }\n    reflect: 0.9\n  - match: { lit: yes }\n    roughness: 0\n")
 
 plain, said = rendered("plain")
 check("matches" not in said, f"without rules nothing is said: {said}")
 shiny, said = rendered("shiny", mirror)
 check(not same(plain, shiny), "the rule is seen")
-check(said.count(f"{mirror}: rule 2 matches 2 draws in 2 of 2 frames\n") == 1 and said.count(f"{mirror}: rule 1 matches ") == 1 and "warning" not in said,
-      f"what each rule matched, once: {said}")
+check(
+    said.count(f"{mirror}: rule 2 matches 2 draws in 2 of 2 frames\n") == 1
+    and said.count(f"{mirror}: rule 1 matches ") == 1 and "warning" not in said,
+    f"what each rule matched, once: {said}")
 lit, _ = rendered("lit", light)
 whole, _ = rendered("whole", both)
 for name, order in (("first", (mirror, light)), ("second", (light, mirror))):
@@ -60,14 +71,19 @@ check(same(rendered("behind", mirror, dull, "auto")[0], auto), "and auto comes w
 
 # A mistyped hash.
 _, said = rendered("typed", typed)
-check(said.count(f"relume: warning: {typed}: surfaces, rule 1 matches nothing in 2 frames; 'relume scene --json' shows hashes and draws\n") == 1 and
-      f"{typed}: rule 2 matches " in said, f"a rule that matches nothing: {said}")
+check(
+    said.count(
+        f"relume: warning: {typed}: surfaces, rule 1 matches nothing in 2 frames; 'relume scene --json' shows hashes "
+        f"and draws\n"
+    ) == 1 and f"{typed}: rule 2 matches " in said, f"a rule that matches nothing: {said}")
 _, said = rendered("quiet", typed, options=("--progress", "none"))
 check("rule 1 matches nothing" in said and "rule 2" not in said, f"--progress none leaves warnings: {said}")
 
 # Every file belongs to the settings that --skip-existing compares.
-again = relume("render", trace, "-o", SCRATCH / "first" / "x.####.exr", "--device", "reference", "--skip-existing", "--dry-run", "--look", mirror, "--look", light)
+again = relume("render", trace, "-o", SCRATCH / "first" / "x.####.exr", "--device", "reference", "--skip-existing",
+               "--dry-run", "--look", mirror, "--look", light)
 check(again.stdout.count("leave") == 2, f"the same files: {again.stdout}")
-again = relume("render", trace, "-o", SCRATCH / "first" / "x.####.exr", "--device", "reference", "--skip-existing", "--dry-run", "--look", dull, "--look", light)
+again = relume("render", trace, "-o", SCRATCH / "first" / "x.####.exr", "--device", "reference", "--skip-existing",
+               "--dry-run", "--look", dull, "--look", light)
 check("leave" not in again.stdout, f"another first file: {again.stdout}")
 finish()

@@ -46,17 +46,20 @@ check(differing(alone, other, "gl.", "gl.") > 20, "and is there")
 for number, frame in enumerate(bodies, 1):
     check(sum(frame["gl.R"][y][x] > 0 for y in range(SIZE) for x in range(SIZE)) > 500, f"leaning {number} is lit")
     differ = differing(frame, frame, of_b="gl.")
-    check(differ == 0, f"leaning {number}: a face that turns away keeps the light that OpenGL gives it: {differ} pixels differ")
+    check(differ == 0,
+          f"leaning {number}: a face that turns away keeps the light that OpenGL gives it: {differ} pixels differ")
 differ = differing(behind, behind, of_b="gl.")
 check(differ > 500, f"but not where a board is in the way: {differ} pixels differ")
 
 # Light from all around on boards of a pixel or two each is no noise: few rays give about what many give.
 trace = SCRATCH / "steps.trace"
 record(trace, BUILD / "tests/real/sheets", "steps", options=())
-few, many = (Image(render(trace, SCRATCH / f"steps{n}", "--look", "auto", "--rays", n)[0], CHANNELS).planes for n in (16, 1024))
+few, many = (Image(render(trace, SCRATCH / f"steps{n}", "--look", "auto", "--rays", n)[0], CHANNELS).planes
+             for n in (16, 1024))
 lit = [(x, y) for y in range(SIZE) for x in range(SIZE) if many["gl.B"][y][x] > 0]
 dark = sum(many["B"][y][x] < 0.8 * many["gl.B"][y][x] for x, y in lit)
 off = sum(abs(few["B"][y][x] ** (1 / 2.4) - many["B"][y][x] ** (1 / 2.4)) > 16 / 255 for x, y in lit)
 check(dark > 0.2 * len(lit), f"boards shade each other: {dark} of {len(lit)} pixels")
-check(off <= 0.2 * len(lit), f"by how many rays looked around: {off} of {len(lit)} pixels are others by more than 16 of 255")
+check(off <= 0.2 * len(lit),
+      f"by how many rays looked around: {off} of {len(lit)} pixels are others by more than 16 of 255")
 finish()

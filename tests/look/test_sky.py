@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Light from all around where a program has none (corpus/courtyard): corners and what stands on the ground get dark, open ground does not,
-OpenGL's own picture stays, gate N passes, and the picture is the same whatever draws it."""
+"""Light from all around where a program has none (corpus/courtyard): corners and what stands on the ground get dark,
+open ground does not, OpenGL's own picture stays, gate N passes, and the picture is the same whatever draws it."""
 import pathlib
 import sys
 
@@ -33,7 +33,8 @@ check_gates(score, 2, "courtyard")
 check(score["frames"][-1]["gates"]["N"]["state"] == "passed", f"{score['frames'][-1]['gates']['N']}")
 
 # The same picture by every family of kernels and by the twins, but for ties between neighbours.
-for name, options in (("reference", ("--device", "reference")), ("binary", ("--kernels", "binary")), ("compressed", ("--kernels", "compressed"))):
+for name, options in (("reference", ("--device", "reference")), ("binary", ("--kernels", "binary")),
+                      ("compressed", ("--kernels", "compressed"))):
     render(trace, SCRATCH / name, "-f", 1, "--look", rules, *options)
     other = Image(SCRATCH / name / "courtyard.0001.exr", SHOWN).planes
     far = sum(abs(a - b) > 0.02 for c in "RGB" for x, y in zip(after[c], other[c]) for a, b in zip(x, y))
@@ -57,9 +58,11 @@ record(lamp, corpus("courtyard"), "lit", "--frames", 6, "--animate", "camera", "
 must(relume("look", lamp, "-o", rules))
 text = rules.read_text()
 check(text.count("- role: sky\n") == 1, f"one rule for a lit sky: {text}")
-for name, options in (("shaded", ()), ("spared", ("--look", rules)), ("twins", ("--look", rules, "--device", "reference"))):
+for name, options in (("shaded", ()), ("spared", ("--look", rules)), ("twins", ("--look", rules, "--device",
+                                                                                "reference"))):
     render(lamp, SCRATCH / name, "-f", 4, *options)
-shaded, spared, twins = (Image(SCRATCH / name / "lamp.0004.exr", SHOWN).planes for name in ("shaded", "spared", "twins"))
+shaded, spared, twins = (Image(SCRATCH / name / "lamp.0004.exr", SHOWN).planes
+                         for name in ("shaded", "spared", "twins"))
 check(mean(shaded, "shadow.G", 0, 0, 400, 60) < 0.97, "without rules walls throw shadows on the sky")
 for name, planes in (("packets", spared), ("twins", twins)):
     check(all(min(map(min, planes[f"shadow.{c}"][:60])) == 1 for c in "RGB"), f"{name}: none does under rules")
@@ -72,8 +75,10 @@ edited.write_text("surfaces:\n  - dome: no\n" + text[text.index("sky:"):])
 render(trace, SCRATCH / "none", "-f", 1, "--look", edited)
 none = Image(SCRATCH / "none" / "courtyard.0001.exr", SHOWN).planes
 check(all(none[c] == before[c] for c in "RGB"), "with dome: no everywhere the beauty is as without rules")
-for bad in ("sky: { up: [0, 1, 0] }\n", "sky: { reach: 0 }\n", "sky: { reach: 1, up: [0, 0, 0] }\n", "sky: { reach: 1, space: moon }\n"):
+for bad in ("sky: { up: [0, 1, 0] }\n", "sky: { reach: 0 }\n", "sky: { reach: 1, up: [0, 0, 0] }\n",
+            "sky: { reach: 1, space: moon }\n"):
     edited.write_text(bad)
     done = relume("render", trace, "-f", 1, "-o", SCRATCH / "x.####.exr", "--look", edited)
-    check(done.returncode == 3 and len(done.stderr.strip().splitlines()) == 1, f"{bad!r}: {done.returncode} {done.stderr}")
+    check(done.returncode == 3 and len(done.stderr.strip().splitlines()) == 1,
+          f"{bad!r}: {done.returncode} {done.stderr}")
 finish()

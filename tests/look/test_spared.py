@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""What is spared as a blocker of light is decided once for a recording. corpus/arena --by ball has a lantern at the rim of the lit world, and
-a lit ball every third frame: each frame alone lets the lantern throw a shadow on the figure only while the ball is there."""
+"""What is spared as a blocker of light is decided once for a recording. corpus/arena --by ball has a lantern at the rim
+of the lit world, and a lit ball every third frame: each frame alone lets the lantern throw a shadow on the figure only
+while the ball is there."""
 import pathlib
 import sys
 
@@ -25,7 +26,8 @@ def shadows(name, *look):
 
 must(relume("look", trace, "-o", rules))
 text = rules.read_text()
-check("role: spared" in text and "match: { lit: no }\n    passes: suns" in text, f"the rules say what is spared: {text}")
+check("role: spared" in text and "match: { lit: no }\n    passes: suns" in text,
+      f"the rules say what is spared: {text}")
 alone, once = shadows("alone"), shadows("once", "--look", "auto")
 check(abs(alone[2] - alone[1]) > 0.1, f"each frame alone has a shadow that comes and goes: {alone}")
 check(max(once) - min(once) < 0.005, f"rules of the whole recording keep it as it is: {once}")
@@ -36,8 +38,11 @@ sealed = shadows("sealed", "--look", rules)
 check(max(sealed) < min(once) - 0.1, f"with spare: no walls and lantern stop the light: {sealed}, {once}")
 rules.write_text("surfaces:\n  - match: { lit: no, textured: no }\n    passes: none\n")
 stopped = shadows("stopped", "--look", rules)
-check(max(stopped) - min(stopped) < 0.005 and max(stopped) < min(once) - 0.1, f"a lantern that passes nothing throws its shadow in each frame: {stopped}")
+check(
+    max(stopped) - min(stopped) < 0.005 and max(stopped) < min(once) - 0.1,
+    f"a lantern that passes nothing throws its shadow in each frame: {stopped}")
 rules.write_text("surfaces:\n  - passes: most\n")
 done = relume("render", trace, "-f", 1, "-o", SCRATCH / "x.####.exr", "--look", rules)
-check(done.returncode == 3 and len(done.stderr.strip().splitlines()) == 1 and "passes" in done.stderr, f"{done.returncode} {done.stderr}")
+check(done.returncode == 3 and len(done.stderr.strip().splitlines()) == 1 and "passes" in done.stderr,
+      f"{done.returncode} {done.stderr}")
 finish()

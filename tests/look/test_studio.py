@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Things before an empty dark window: the viewer's own light gets a lamp beside it (corpus/viewer), a lamp falls off (corpus/cornell). A
-world with walls around the viewer (corpus/arena) and one with a bright sky (corpus/blocks) keep their lights."""
+"""Things before an empty dark window: the viewer's own light gets a lamp beside it (corpus/viewer), a lamp falls off
+(corpus/cornell). A world with walls around the viewer (corpus/arena) and one with a bright sky (corpus/blocks) keep
+their lights."""
 import pathlib
 import re
 import sys
@@ -25,13 +26,20 @@ def brightness(planes, x0, y0, x1, y1):
 
 
 trace, text = study("viewer")
-check(re.search("role: light of the viewer(?:(?!role).|\n)*shadows: no", text) and text.count("role: lamp of a studio") == 1, f"a head light and a lamp beside it: {text}")
-pictures = {name: Image(render(trace, SCRATCH / name, "-f", 1, *look)[0], SHOWN).planes for name, look in (("bare", ()), ("lit", ("--look", "auto")))}
+check(
+    re.search("role: light of the viewer(?:(?!role).|\n)*shadows: no", text)
+    and text.count("role: lamp of a studio") == 1, f"a head light and a lamp beside it: {text}")
+pictures = {
+    name: Image(render(trace, SCRATCH / name, "-f", 1, *look)[0], SHOWN).planes
+    for name, look in (("bare", ()), ("lit", ("--look", "auto")))
+}
 bare, lit = pictures["bare"], pictures["lit"]
 check(all(bare[f"gl.{c}"] == lit[f"gl.{c}"] for c in "RGB"), "OpenGL's picture stays")
-left, right = (brightness(lit, x, y, x + 55, y + 55) / brightness(bare, x, y, x + 55, y + 55) for x, y in ((45, 20), (100, 75)))
+left, right = (brightness(lit, x, y, x + 55, y + 55) / brightness(bare, x, y, x + 55, y + 55)
+               for x, y in ((45, 20), (100, 75)))
 check(left > 1.05 * right, f"the lamp is at the upper left: {left:.2f}, {right:.2f} of the light before")
-check(0.7 < brightness(lit, 40, 20, 160, 130) / brightness(bare, 40, 20, 160, 130) < 1.4, "the picture is about as bright as it was")
+check(0.7 < brightness(lit, 40, 20, 160, 130) / brightness(bare, 40, 20, 160, 130) < 1.4,
+      "the picture is about as bright as it was")
 check(diff(trace, SCRATCH / "lit")[1]["frames"][-1]["gates"]["N"]["state"] == "passed", "gate N")
 
 # A lamp that is too strong burns the colour out of the model: gate N says so.

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""Tricks that stand for light are told by their matrices (corpus/tricks): light and plane are found to 0.1 %, and the beauty without
-the trick equals that of the same scene drawn without it. OpenGL's own picture stays."""
+"""Tricks that stand for light are told by their matrices (corpus/tricks): light and plane are found to 0.1 %, and the
+beauty without the trick equals that of the same scene drawn without it. OpenGL's own picture stays."""
 import pathlib
 import re
 import sys
@@ -17,7 +17,8 @@ LIGHT, DIRECTION, FLOOR, MIRROR = (2, 2.5, -7, 1), (0.4364358, 0.8728716, 0.2182
 
 def traced(kind, rules=None, name="traced"):
     """The frame's picture, under rules if there are some."""
-    file = render(SCRATCH / f"{kind}.trace", SCRATCH / f"{kind}-{name}", "-f", FRAME, "--aov", "gl,Z,id", *(("--look", rules) if rules else ()))[0]
+    file = render(SCRATCH / f"{kind}.trace", SCRATCH / f"{kind}-{name}", "-f", FRAME, "--aov", "gl,Z,id",
+                  *(("--look", rules) if rules else ()))[0]
     return Image(file, COLORS + GL)
 
 
@@ -29,7 +30,8 @@ def numbers(text, key):
 def check_numbers(found, true, what):
     length = sum(x * x for x in true) ** 0.5
     off = min((sum((a - b) ** 2 for a, b in zip(f, true)) ** 0.5 for f in found), default=None)
-    check(found and all(sum((a - b) ** 2 for a, b in zip(f, true)) ** 0.5 < 1e-3 * length for f in found), f"{what}: off by {off} of {length}: {found}")
+    check(found and all(sum((a - b)**2 for a, b in zip(f, true))**0.5 < 1e-3 * length for f in found),
+          f"{what}: off by {off} of {length}: {found}")
 
 
 def worst(a, b, channels):
@@ -40,9 +42,11 @@ for kind in ("none", "traced-mirror", "planar", "directional", "zpass", "zfail",
     record(SCRATCH / f"{kind}.trace", corpus("tricks"), kind, "--frames", FRAME + 1, options=())
 plain, mirror = traced("none"), traced("traced-mirror")
 
-for kind, role, light, plane in (("planar", "planar shadow", LIGHT, FLOOR), ("directional", "planar shadow", DIRECTION, FLOOR),
-                                 ("zpass", r"shadow volume \(z-pass\)", LIGHT, None), ("zfail", r"shadow volume \(z-fail\)", LIGHT, None),
-                                 ("mirror", "stencil mirror", None, MIRROR)):
+for kind, role, light, plane in (("planar", "planar shadow", LIGHT,
+                                  FLOOR), ("directional", "planar shadow", DIRECTION,
+                                           FLOOR), ("zpass", r"shadow volume \(z-pass\)", LIGHT, None),
+                                 ("zfail", r"shadow volume \(z-fail\)", LIGHT, None), ("mirror", "stencil mirror", None,
+                                                                                       MIRROR)):
     rules = SCRATCH / f"{kind}.look.yaml"
     must(relume("look", SCRATCH / f"{kind}.trace", "-o", rules))
     # Of the rules those for tricks: what comes from all around, and highlights, change scenes without tricks as well.
@@ -63,17 +67,22 @@ for kind, role, light, plane in (("planar", "planar shadow", LIGHT, FLOOR), ("di
     if kind == "planar":
         before = traced(kind, name="before")
         check(all(before.planes[c] == after.planes[c] for c in GL), f"{kind}: OpenGL's picture stays")
-        check(worst(before, plain, COLORS) < 0.002, f"{kind}: a drawn shadow of OpenGL's own light gives way without rules, too")
+        check(
+            worst(before, plain, COLORS) < 0.002,
+            f"{kind}: a drawn shadow of OpenGL's own light gives way without rules, too")
         rules.write_text(text.replace("replace: yes", "replace: no"))
         kept = traced(kind, rules, "kept")
         check(worst(kept, after, COLORS) > 0.02, f"{kind}: one key keeps the trick")
         rules.write_text("spare: no\n")
-        check(worst(kept, traced(kind, rules, "both"), COLORS) > 0.02, f"{kind}: it is no second shadow, as without sparing")
+        check(
+            worst(kept, traced(kind, rules, "both"), COLORS) > 0.02,
+            f"{kind}: it is no second shadow, as without sparing")
     if kind == "mirror":
         # Where no surface is the mirror, as in a frame that draws it otherwise, its picture stays.
         rules.write_text(text.replace("replace: yes", "replace: no"))
         kept = traced(kind, rules, "kept")
         rules.write_text(re.sub(r"in_plane: \[[^]]*\]", "in_plane: [0, 0, 1, 99]", text))
-        check(worst(traced(kind, rules, "elsewhere"), kept, COLORS) == 0, f"{kind}: without the mirror its picture stays")
+        check(
+            worst(traced(kind, rules, "elsewhere"), kept, COLORS) == 0, f"{kind}: without the mirror its picture stays")
         check(worst(kept, after, COLORS) > 0.02, f"{kind}: the traced mirror differs from its picture")
 finish()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""What stands still and a frame leaves out is there for shadows all the same: corpus/rooms with portal culling, a viewer who turns, beside the
-whole level. Rules that name what other frames draw come from `relume look`."""
+"""What stands still and a frame leaves out is there for shadows all the same: corpus/rooms with portal culling, a
+viewer who turns, beside the whole level. Rules that name what other frames draw come from `relume look`."""
 import pathlib
 import re
 import sys
@@ -12,31 +12,42 @@ from helpers import SCRATCH, check, corpus, finish, must, record, relume, render
 
 FRAME, NEAR = 20, 2 / 255
 for cull in ("none", "portal"):
-    record(SCRATCH / f"{cull}.trace", corpus("rooms"), "--seed", 5, "--frames", FRAME + 1, "--animate", "camera", "--mirror", "--lighting", "opengl",
-           "--cull", cull, options=())
+    record(SCRATCH / f"{cull}.trace", corpus("rooms"), "--seed", 5, "--frames", FRAME + 1, "--animate", "camera",
+           "--mirror", "--lighting", "opengl", "--cull", cull, options=())
 found, none = SCRATCH / "found.look.yaml", SCRATCH / "none.look.yaml"
 must(relume("look", SCRATCH / "portal.trace", "-o", found))
-unseen, world = re.search(r"\nunseen:\n(?:  .*\n)+", found.read_text()), re.search(r"\nworld:\n(?:  .*\n?)+", found.read_text())
+unseen, world = re.search(r"\nunseen:\n(?:  .*\n)+", found.read_text()), re.search(r"\nworld:\n(?:  .*\n?)+",
+                                                                                   found.read_text())
 check(unseen and world, f"what is out of sight is written: {found.read_text()[:1000]}")
 found.write_text("spare: no" + unseen[0] + world[0])
 none.write_text("spare: no\n")
 
 
 def beauty(trace, rules, name):
-    return Image(render(SCRATCH / f"{trace}.trace", SCRATCH / name, "-f", FRAME, "--look", rules, "--aov", "gl")[0], ["R", "G", "B", "gl.G"]).planes
+    return Image(
+        render(SCRATCH / f"{trace}.trace", SCRATCH / name, "-f", FRAME, "--look", rules, "--aov", "gl")[0],
+        ["R", "G", "B", "gl.G"]).planes
 
 
 def equal_share(a, b):
-    pixels = [max(abs(x - y) for x, y in zip(p, q)) for p, q in zip(*(zip(*(sum(map(list, s[c]), []) for c in "RGB")) for s in (a, b)))]
+    pixels = [
+        max(abs(x - y)
+            for x, y in zip(p, q))
+        for p, q in zip(*(zip(*(sum(map(list, s[c]), []) for c in "RGB")) for s in (a, b)))
+    ]
     return sum(p <= NEAR for p in pixels) / len(pixels)
 
 
-whole, without, restored = (beauty(*of) for of in (("none", none, "whole"), ("portal", none, "without"), ("portal", found, "with")))
-check(equal_share(whole, without) < 0.5, f"culling takes shadows away: {equal_share(whole, without)} of the pixels are the same")
+whole, without, restored = (beauty(*of)
+                            for of in (("none", none, "whole"), ("portal", none, "without"), ("portal", found, "with")))
+check(
+    equal_share(whole, without) < 0.5,
+    f"culling takes shadows away: {equal_share(whole, without)} of the pixels are the same")
 check(equal_share(whole, restored) > 0.98, f"other frames' draws bring them back: {equal_share(whole, restored)}")
 check(without["gl.G"] == restored["gl.G"], "OpenGL's own picture stays")
 relume("look", SCRATCH / "portal.trace", "-o", found)
 found.write_text(found.read_text().replace("unseen:\n", "unseen:\n  - frame: 3\n", 1))
 done = relume("render", SCRATCH / "portal.trace", "-f", FRAME, "-o", SCRATCH / "x.exr", "--look", found)
-check(done.returncode == 3 and "needs a frame and draws" in done.stderr, f"a rule without draws is no rule: {done.stderr}")
+check(done.returncode == 3 and "needs a frame and draws" in done.stderr,
+      f"a rule without draws is no rule: {done.stderr}")
 finish()

@@ -1,8 +1,8 @@
 /*
- * A processor without AVX-512: preloaded, it shows a program no more of this one than a Haswell has, so that PoCL compiles kernels as on a
- * Haswell, whichever LLVM it has inside. The processor faults on CPUID (arch_prctl(2), ARCH_SET_CPUID), and a handler answers instead.
- * A processor that cannot do that ends the program with code 77. Give PoCL a POCL_CACHE_DIR apart: 3.1 tells kernels' processors apart by
- * their name alone.
+ * A processor without AVX-512: preloaded, it shows a program no more of this one than a Haswell has, so that PoCL
+ * compiles kernels as on a Haswell, whichever LLVM it has inside. The processor faults on CPUID (arch_prctl(2),
+ * ARCH_SET_CPUID), and a handler answers instead. A processor that cannot do that ends the program with code 77. Give
+ * PoCL a POCL_CACHE_DIR apart: 3.1 tells kernels' processors apart by their name alone.
  */
 #include <asm/prctl.h>
 #include <cpuid.h>

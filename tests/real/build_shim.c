@@ -1,13 +1,14 @@
 /*
- * What an OpenCL compiler takes: preloaded before the ICD loader, it writes a line for each program into the file that BUILD_LOG names,
- * at the end of the process:
+ * What an OpenCL compiler takes: preloaded before the ICD loader, it writes a line for each program into the file that
+ * BUILD_LOG names, at the end of the process:
  *
  *     source|binary SECONDS KERNELS
  *     launch SECONDS KERNEL
  *
- * Seconds of processor time of the whole process, in building, in making kernels, and in the first launch of each, as some compile
- * there; kernels with ';' between them. PoCL compiles a kernel in a thread of its own, once the launch is queued: with BUILD_FINISH a first
- * launch counts until it has ended, with what it runs, and has a line of its own. Run one frame at a time: what other threads do meanwhile counts, too.
+ * Seconds of processor time of the whole process, in building, in making kernels, and in the first launch of each, as
+ * some compile there; kernels with ';' between them. PoCL compiles a kernel in a thread of its own, once the launch is
+ * queued: with BUILD_FINISH a first launch counts until it has ended, with what it runs, and has a line of its own. Run
+ * one frame at a time: what other threads do meanwhile counts, too.
  */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -58,7 +59,8 @@ static void spend(cl_program program, int is_binary, double seconds)
 	pthread_mutex_unlock(&lock);
 }
 
-cl_program clCreateProgramWithSource(cl_context context, cl_uint n, const char **texts, const size_t *lengths, cl_int *code)
+cl_program clCreateProgramWithSource(cl_context context, cl_uint n, const char **texts, const size_t *lengths,
+                                     cl_int *code)
 {
 	const double begin = clock_s();
 	cl_program program = REAL(clCreateProgramWithSource)(context, n, texts, lengths, code);
@@ -100,7 +102,8 @@ cl_kernel clCreateKernel(cl_program program, const char *name, cl_int *code)
 }
 
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t *offset,
-                              const size_t *global, const size_t *local, cl_uint n, const cl_event *wait, cl_event *event)
+                              const size_t *global, const size_t *local, cl_uint n, const cl_event *wait,
+                              cl_event *event)
 {
 	cl_program program = NULL;
 	double begin, seconds;

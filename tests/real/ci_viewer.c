@@ -1,6 +1,6 @@
 /*
- * A viewer as test_ci.py records it: what it draws depends on a file that its argument names, on one that nothing names, on a library
- * that it links, on a variable, on itself (SHINE), and on key s, which makes things half as large.
+ * A viewer as test_ci.py records it: what it draws depends on a file that its argument names, on one that nothing
+ * names, on a library that it links, on a variable, on itself (SHINE), and on key s, which makes things half as large.
  *
  *   cc -DSHINE=0 -o viewer tests/real/ci_viewer.c -L. -lshape -lglut -lGL -lm
  */

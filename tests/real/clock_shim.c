@@ -1,4 +1,5 @@
-/* The time of day jumps by a day, forwards and backwards, at every tenth question (LD_PRELOAD; tests/show/soak.py). The monotonic clock does not. */
+/* The time of day jumps by a day, forwards and backwards, at every tenth question (LD_PRELOAD; tests/show/soak.py). The
+ * monotonic clock does not. */
 #include <dlfcn.h>
 #include <stddef.h>
 #include <sys/time.h>

@@ -1,6 +1,7 @@
 /*
- * A program that is hard on recorders: after its third frame it closes every descriptor but the standard ones, its display's
- * included ones spared, and opens a file of its own for each number that became free. Run by test_record_durable.sh.
+ * A program that is hard on recorders: after its third frame it closes every descriptor but the standard ones, its
+ * display's included ones spared, and opens a file of its own for each number that became free. Run by
+ * test_record_durable.sh.
  */
 #include <GL/gl.h>
 #include <GL/glx.h>
@@ -48,8 +49,8 @@ int main(void)
 	if (!display || !(visual = glXChooseVisual(display, DefaultScreen(display), attributes)))
 		return 1;
 	set.colormap = XCreateColormap(display, DefaultRootWindow(display), visual->visual, AllocNone);
-	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, 64, 64, 0, visual->depth, InputOutput, visual->visual,
-	                       CWColormap, &set);
+	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, 64, 64, 0, visual->depth, InputOutput,
+	                       visual->visual, CWColormap, &set);
 	context = glXCreateContext(display, visual, NULL, True);
 	XMapWindow(display, window);
 	glXMakeCurrent(display, window, context);

@@ -1,4 +1,5 @@
-"""Pictures as codes of 8 bits, read by oiiotool. It writes them as OpenEXR: its PPM stands on its head in some versions."""
+"""Pictures as codes of 8 bits, read by oiiotool. It writes them as OpenEXR: its PPM stands on its head in some
+versions."""
 import numpy
 
 from exr import Image

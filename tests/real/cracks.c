@@ -1,7 +1,8 @@
 /*
- * A room without windows, seen from inside, and a lamp above its roof. Frame 0: the roof's halves meet in a T-junction, whose corner does not
- * lie quite on the edge, and light falls through. Frame 1: a die between the viewer and bright stripes; the faces that look away from him are
- * the wrong way round. Frame 2: the same die as it should be. Frame 3: all its faces are the wrong way round. Recorded by test_cracks.py.
+ * A room without windows, seen from inside, and a lamp above its roof. Frame 0: the roof's halves meet in a T-junction,
+ * whose corner does not lie quite on the edge, and light falls through. Frame 1: a die between the viewer and bright
+ * stripes; the faces that look away from him are the wrong way round. Frame 2: the same die as it should be. Frame 3:
+ * all its faces are the wrong way round. Recorded by test_cracks.py.
  */
 #include "tests/trace/window.h"
 
@@ -19,9 +20,11 @@ static void quad(const float normal[3], const float a[3], const float b[3], cons
 
 static void draw_room(void)
 {
-	static const float at[8][3] = { { -W, 0, -W }, { W, 0, -W }, { W, 0, W }, { -W, 0, W }, { -W, H, -W }, { W, H, -W }, { W, H, W }, { -W, H, W } };
+	static const float at[8][3] = { { -W, 0, -W }, { W, 0, -W }, { W, 0, W }, { -W, 0, W },
+		                        { -W, H, -W }, { W, H, -W }, { W, H, W }, { -W, H, W } };
 	static const float left[3] = { -W, H, -2 }, right[3] = { W, H, 2 }, corner[3] = { 1, H, 0.55f }, end[3] = { 1, H, W };
-	static const float up[3] = { 0, 1, 0 }, down[3] = { 0, -1, 0 }, east[3] = { 1, 0, 0 }, west[3] = { -1, 0, 0 }, north[3] = { 0, 0, -1 }, south[3] = { 0, 0, 1 };
+	static const float up[3] = { 0, 1, 0 }, down[3] = { 0, -1, 0 }, east[3] = { 1, 0, 0 }, west[3] = { -1, 0, 0 },
+			   north[3] = { 0, 0, -1 }, south[3] = { 0, 0, 1 };
 
 	glBegin(GL_QUADS);
 	quad(up, at[0], at[3], at[2], at[1]);
@@ -51,7 +54,8 @@ static void draw_stripes(void)
 /* Sides 1, 2 and 5 look away from the viewer. turned: a bit for each side that is clockwise */
 static void draw_die(unsigned turned)
 {
-	static const int sides[6][4] = { { 4, 5, 7, 6 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 0, 2, 3, 1 } };
+	static const int sides[6][4] = { { 4, 5, 7, 6 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 },
+		                         { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 0, 2, 3, 1 } };
 
 	glNewList(1, GL_COMPILE);
 	glBegin(GL_QUADS);

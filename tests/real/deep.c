@@ -1,6 +1,7 @@
 /*
- * Deep blending: pixels under far more fragments than a camera kernel finds at once, slices of a texture of three dimensions for the most
- * part. Recorded by test_deep.py. With a number: so many frames of 256 slices that fill 512 x 512 pixels, for show-reach.
+ * Deep blending: pixels under far more fragments than a camera kernel finds at once, slices of a texture of three
+ * dimensions for the most part. Recorded by test_deep.py. With a number: so many frames of 256 slices that fill 512 x
+ * 512 pixels, for show-reach.
  */
 #include "tests/trace/window.h"
 

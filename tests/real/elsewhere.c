@@ -1,4 +1,5 @@
-/* Two frames while pixels are read from another window, smaller than the one that is drawn, and two with one for both. Recorded by test_record_elsewhere.py. */
+/* Two frames while pixels are read from another window, smaller than the one that is drawn, and two with one for both.
+ * Recorded by test_record_elsewhere.py. */
 #include "tests/trace/window.h"
 
 static void draw(void)

@@ -1,9 +1,11 @@
-/* Three frames, the second of a window without pixels, as its markers say; or so many such frames in its place. Recorded by test_empty.py. */
+/* Three frames, the second of a window without pixels, as its markers say; or so many such frames in its place.
+ * Recorded by test_empty.py. */
 #include "tests/trace/window.h"
 
 static void mark(const char *text)
 {
-	PFNGLSTRINGMARKERGREMEDYPROC marker = (PFNGLSTRINGMARKERGREMEDYPROC)glXGetProcAddress((const GLubyte *)"glStringMarkerGREMEDY");
+	PFNGLSTRINGMARKERGREMEDYPROC marker = (PFNGLSTRINGMARKERGREMEDYPROC)glXGetProcAddress(
+		(const GLubyte *)"glStringMarkerGREMEDY");
 
 	expect(marker != NULL, "there are markers");
 	marker(0, text);

@@ -1,14 +1,17 @@
 /*
- * Three programs, a stripe of the window each: a short loop, a loop in the fragment stage that is longer than is run, and the same loop in
- * the vertex stage. Frame 0 draws the first alone. Recorded by test_endless.py.
+ * Three programs, a stripe of the window each: a short loop, a loop in the fragment stage that is longer than is run,
+ * and the same loop in the vertex stage. Frame 0 draws the first alone. Recorded by test_endless.py.
  */
 #include "tests/trace/window.h"
 
-#define COUNT "uniform int most; float count() { float n = 0.0; for (int i = 0; i < most; i++) n = fract(n + 0.0078125); return n; }\n"
+#define COUNT \
+	"uniform int most; float count() { float n = 0.0; for (int i = 0; i < most; i++) n = fract(n + 0.0078125); \
+	return n; }\n"
 
 static const char plain_vertex[] = "void main() { gl_Position = gl_Vertex; gl_FrontColor = vec4(0.0, 0.5, 0.0, 1.0); }";
 static const char plain_fragment[] = "void main() { gl_FragColor = gl_Color; }";
-static const char long_vertex[] = COUNT "void main() { gl_Position = gl_Vertex; gl_FrontColor = vec4(count(), 0.0, 0.5, 1.0); }";
+static const char long_vertex[] = COUNT
+	"void main() { gl_Position = gl_Vertex; gl_FrontColor = vec4(count(), 0.0, 0.5, 1.0); }";
 static const char long_fragment[] = COUNT "void main() { gl_FragColor = vec4(count(), 0.5, 0.0, 1.0); }";
 
 static GLuint make_shader(GLuint program, GLenum stage, const char *text)
@@ -24,7 +27,8 @@ static GLuint make_shader(GLuint program, GLenum stage, const char *text)
 /* A stripe from x to x + 0.5. */
 static void draw(const char *vertex, const char *fragment, int most, float x)
 {
-	const GLuint program = make_shader(make_shader(glCreateProgram(), GL_VERTEX_SHADER, vertex), GL_FRAGMENT_SHADER, fragment);
+	const GLuint program = make_shader(make_shader(glCreateProgram(), GL_VERTEX_SHADER, vertex), GL_FRAGMENT_SHADER,
+	                                   fragment);
 
 	glLinkProgram(program);
 	glUseProgram(program);

@@ -1,6 +1,6 @@
 /*
- * Calls at the borders of what OpenGL takes, one after the other, and what glGetError says after each: "CALL ERROR" a line. Recorded by
- * test_errors.py, where the replay has to find the same ones wrong.
+ * Calls at the borders of what OpenGL takes, one after the other, and what glGetError says after each: "CALL ERROR" a
+ * line. Recorded by test_errors.py, where the replay has to find the same ones wrong.
  */
 #include "tests/trace/window.h"
 

@@ -1,25 +1,20 @@
 /*
- * An OpenCL device that fails, or has less than it seems: preloaded before the ICD loader, with a real device underneath.
- *   FAIL_CALL=N      the N-th call (from 1) fails; FAIL_NAME=clName: the N-th of this function
- *   FAIL_GONE=1      and so does every later one
- *   FAIL_CODE=-N     with this error; CL_OUT_OF_RESOURCES
- *   FAIL_ONLY=1      on the first device used alone: others go on. Of launches only
- *   COUNT_CALLS=FILE leaves there the number of calls, the most memory that was used, and the largest buffer's
- *   EDIT=THIS|THAT   compiles kernels that have THAT where their text has THIS
+ * An OpenCL device that fails, or has less than it seems: preloaded before the ICD loader, with a real device
+ * underneath. FAIL_CALL=N      the N-th call (from 1) fails; FAIL_NAME=clName: the N-th of this function FAIL_GONE=1
+ * and so does every later one FAIL_CODE=-N     with this error; CL_OUT_OF_RESOURCES FAIL_ONLY=1      on the first
+ * device used alone: others go on. Of launches only COUNT_CALLS=FILE leaves there the number of calls, the most memory
+ * that was used, and the largest buffer's EDIT=THIS|THAT   compiles kernels that have THAT where their text has THIS
  *   DIE=WORD         ends the process when such a kernel is to run
  *   HANG=WORD        never returns when such a kernel is to run
- *   FAULT=HOW,WHERE,WORD,N  the N-th (from 1) call of a kind goes wrong in this process. WHERE: build (of programs whose text has WORD),
- *                    create or launch (of kernels whose name has it), thread (as launch, in a thread of the driver's own). HOW: abort,
- *                    segv, exit, hang, spin (hangs and computes), code (returns an error that OpenCL does not have). Several with ';'
- *   FAULT_MET=FILE   gets a line for each of these
- *   FAULT_WITH=WORD  only in processes that have made a kernel whose name has this
- *   SLOW_BUILD=N     compiles for so many seconds and a half longer
- *   AS_TYPE=gpu      says that it is a GPU (accelerator: one of these)
- *   AS_PLATFORM=NAME, AS_DRIVER=VERSION  says so
- *   AS_MEMORY=N      has so many bytes of memory
- *   AS_BUFFER=N      makes no buffer that is larger
- *   MOST_ITEMS=N     cannot run launches of more work items
- *   ITEM_NS=N        says that a work item takes so long. A launch of over a second is killed, and nothing works after that
+ *   FAULT=HOW,WHERE,WORD,N  the N-th (from 1) call of a kind goes wrong in this process. WHERE: build (of programs
+ * whose text has WORD), create or launch (of kernels whose name has it), thread (as launch, in a thread of the driver's
+ * own). HOW: abort, segv, exit, hang, spin (hangs and computes), code (returns an error that OpenCL does not have).
+ * Several with ';' FAULT_MET=FILE   gets a line for each of these FAULT_WITH=WORD  only in processes that have made a
+ * kernel whose name has this SLOW_BUILD=N     compiles for so many seconds and a half longer AS_TYPE=gpu      says that
+ * it is a GPU (accelerator: one of these) AS_PLATFORM=NAME, AS_DRIVER=VERSION  says so AS_MEMORY=N      has so many
+ * bytes of memory AS_BUFFER=N      makes no buffer that is larger MOST_ITEMS=N     cannot run launches of more work
+ * items ITEM_NS=N        says that a work item takes so long. A launch of over a second is killed, and nothing works
+ * after that
  */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -85,7 +80,7 @@ __attribute__((destructor)) static void leave_count(void)
 	}
 }
 
-/* --- Calls that do nothing but fail -------------------------------------------------------------------------------- */
+/* --- Calls that do nothing but fail ------------------------------------------------------------------------------ */
 
 /* Functions that return a code, and those that return an object and put the code at the end. */
 #define CODE(name, parameters, ...) \
@@ -105,30 +100,47 @@ __attribute__((destructor)) static void leave_count(void)
 	}
 
 CODE(clGetPlatformIDs, (cl_uint n, cl_platform_id *out, cl_uint *found), n, out, found)
-CODE(clGetDeviceIDs, (cl_platform_id p, cl_device_type type, cl_uint n, cl_device_id *out, cl_uint *found), p, type, n, out, found)
-CODE(clCreateSubDevices, (cl_device_id d, const cl_device_partition_property *how, cl_uint n, cl_device_id *out, cl_uint *made), d, how, n, out, made)
-CODE(clGetProgramInfo, (cl_program p, cl_program_info what, size_t size, void *value, size_t *needed), p, what, size, value, needed)
-CODE(clGetProgramBuildInfo, (cl_program p, cl_device_id d, cl_program_build_info what, size_t size, void *value, size_t *needed), p, d, what, size, value, needed)
+CODE(clGetDeviceIDs, (cl_platform_id p, cl_device_type type, cl_uint n, cl_device_id *out, cl_uint *found), p, type, n,
+     out, found)
+CODE(clCreateSubDevices,
+     (cl_device_id d, const cl_device_partition_property *how, cl_uint n, cl_device_id *out, cl_uint *made), d, how, n,
+     out, made)
+CODE(clGetProgramInfo, (cl_program p, cl_program_info what, size_t size, void *value, size_t *needed), p, what, size,
+     value, needed)
+CODE(clGetProgramBuildInfo,
+     (cl_program p, cl_device_id d, cl_program_build_info what, size_t size, void *value, size_t *needed), p, d, what,
+     size, value, needed)
 CODE(clSetKernelArg, (cl_kernel k, cl_uint i, size_t size, const void *value), k, i, size, value)
-CODE(clGetEventInfo, (cl_event e, cl_event_info what, size_t size, void *value, size_t *needed), e, what, size, value, needed)
+CODE(clGetEventInfo, (cl_event e, cl_event_info what, size_t size, void *value, size_t *needed), e, what, size, value,
+     needed)
 CODE(clFinish, (cl_command_queue q), q)
-CODE(clEnqueueWriteBuffer, (cl_command_queue q, cl_mem m, cl_bool wait, size_t at, size_t size, const void *data, cl_uint n, const cl_event *events, cl_event *event),
+CODE(clEnqueueWriteBuffer,
+     (cl_command_queue q, cl_mem m, cl_bool wait, size_t at, size_t size, const void *data, cl_uint n,
+      const cl_event *events, cl_event *event),
      q, m, wait, at, size, data, n, events, event)
-CODE(clEnqueueReadBuffer, (cl_command_queue q, cl_mem m, cl_bool wait, size_t at, size_t size, void *data, cl_uint n, const cl_event *events, cl_event *event),
+CODE(clEnqueueReadBuffer,
+     (cl_command_queue q, cl_mem m, cl_bool wait, size_t at, size_t size, void *data, cl_uint n, const cl_event *events,
+      cl_event *event),
      q, m, wait, at, size, data, n, events, event)
 OBJECT(cl_context, clCreateContext,
-       (const cl_context_properties *properties, cl_uint n, const cl_device_id *d, void(CL_CALLBACK *notify)(const char *, const void *, size_t, void *), void *user, cl_int *code),
+       (const cl_context_properties *properties, cl_uint n, const cl_device_id *d,
+        void(CL_CALLBACK *notify)(const char *, const void *, size_t, void *), void *user, cl_int *code),
        properties, n, d, notify, user)
-OBJECT(cl_command_queue, clCreateCommandQueue, (cl_context c, cl_device_id d, cl_command_queue_properties properties, cl_int *code), c, d, properties)
+OBJECT(cl_command_queue, clCreateCommandQueue,
+       (cl_context c, cl_device_id d, cl_command_queue_properties properties, cl_int *code), c, d, properties)
 OBJECT(cl_program, clCreateProgramWithBinary,
-       (cl_context c, cl_uint n, const cl_device_id *d, const size_t *lengths, const unsigned char **binaries, cl_int *status, cl_int *code),
+       (cl_context c, cl_uint n, const cl_device_id *d, const size_t *lengths, const unsigned char **binaries,
+        cl_int *status, cl_int *code),
        c, n, d, lengths, binaries, status)
-CODE(clEnqueueUnmapMemObject, (cl_command_queue q, cl_mem m, void *mapped, cl_uint n, const cl_event *events, cl_event *event), q, m, mapped, n, events, event)
+CODE(clEnqueueUnmapMemObject,
+     (cl_command_queue q, cl_mem m, void *mapped, cl_uint n, const cl_event *events, cl_event *event), q, m, mapped, n,
+     events, event)
 OBJECT(void *, clEnqueueMapBuffer,
-       (cl_command_queue q, cl_mem m, cl_bool wait, cl_map_flags how, size_t at, size_t size, cl_uint n, const cl_event *events, cl_event *event, cl_int *code),
+       (cl_command_queue q, cl_mem m, cl_bool wait, cl_map_flags how, size_t at, size_t size, cl_uint n,
+        const cl_event *events, cl_event *event, cl_int *code),
        q, m, wait, how, at, size, n, events, event)
 
-/* --- Calls that a device answers otherwise ------------------------------------------------------------------------- */
+/* --- Calls that a device answers otherwise ----------------------------------------------------------------------- */
 
 /* Whether a kernel's name holds the word that a variable names. */
 static int is_named(const char *variable, cl_kernel kernel)
@@ -136,10 +148,11 @@ static int is_named(const char *variable, cl_kernel kernel)
 	const char *word = getenv(variable);
 	char name[128] = "";
 
-	return word && clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof(name) - 1, name, NULL) == CL_SUCCESS && strstr(name, word);
+	return word && clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof(name) - 1, name, NULL) == CL_SUCCESS &&
+	       strstr(name, word);
 }
 
-/* --- FAULT ------------------------------------------------------------------------------------------------------------- */
+/* --- FAULT ------------------------------------------------------------------------------------------------------- */
 
 #define MOST_FAULTS 8
 #define RUBBISH (-12345)
@@ -227,7 +240,8 @@ static struct launch {
 static atomic_ulong n_launches;
 
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t *offset,
-                              const size_t *global, const size_t *local, cl_uint n, const cl_event *wait, cl_event *event)
+                              const size_t *global, const size_t *local, cl_uint n, const cl_event *wait,
+                              cl_event *event)
 {
 	cl_int code = is_chosen(queue) ? fate("clEnqueueNDRangeKernel") : CL_SUCCESS;
 	char name[128] = "";
@@ -236,7 +250,8 @@ cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint 
 		abort();
 	while (is_named("HANG", kernel))
 		pause();
-	if (!code && getenv("FAULT") && clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof(name) - 1, name, NULL) == CL_SUCCESS)
+	if (!code && getenv("FAULT") &&
+	    clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof(name) - 1, name, NULL) == CL_SUCCESS)
 		code = meet("launch", name);
 	if (code)
 		return code;
@@ -311,7 +326,8 @@ static char *edited(const char *text, const char *this, size_t n, const char *th
 }
 
 /* Texts end with a 0, as ours do. */
-cl_program clCreateProgramWithSource(cl_context context, cl_uint n, const char **texts, const size_t *lengths, cl_int *code)
+cl_program clCreateProgramWithSource(cl_context context, cl_uint n, const char **texts, const size_t *lengths,
+                                     cl_int *code)
 {
 	const char *edit = getenv("EDIT"), *that = edit ? strchr(edit, '|') : NULL, *changed[8];
 
@@ -332,7 +348,8 @@ cl_int clBuildProgram(cl_program program, cl_uint n, const cl_device_id *devices
 	static char text[4 << 20];
 	cl_int code = fate("clBuildProgram");
 
-	if (getenv("FAULT") && REAL(clGetProgramInfo)(program, CL_PROGRAM_SOURCE, sizeof(text) - 1, text, NULL) == CL_SUCCESS && !code)
+	if (getenv("FAULT") &&
+	    REAL(clGetProgramInfo)(program, CL_PROGRAM_SOURCE, sizeof(text) - 1, text, NULL) == CL_SUCCESS && !code)
 		code = meet("build", text);
 	if (getenv("SLOW_BUILD"))
 		nanosleep(&(struct timespec){ (time_t)number("SLOW_BUILD"), 500000000 }, NULL);

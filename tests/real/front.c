@@ -1,8 +1,8 @@
 /*
- * Two buffers of a window, one thing a frame: drawn to the front buffer, to both, read from it and copied, with the one depth
- * buffer that they share. Recorded by test_front.py, where frames end with each swap and each flush. Mesa's software rasterizers
- * leave in the front buffer what was drawn there before a swap (22.3.6), so that its colours are cleared after each;
- * tests/gl/test_front.c looks at what a swap puts there.
+ * Two buffers of a window, one thing a frame: drawn to the front buffer, to both, read from it and copied, with the one
+ * depth buffer that they share. Recorded by test_front.py, where frames end with each swap and each flush. Mesa's
+ * software rasterizers leave in the front buffer what was drawn there before a swap (22.3.6), so that its colours are
+ * cleared after each; tests/gl/test_front.c looks at what a swap puts there.
  */
 #include "tests/trace/window.h"
 

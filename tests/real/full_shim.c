@@ -1,6 +1,6 @@
 /*
- * Preloaded into a program by test_record_full.py: writes at an offset (pwrite) to files whose name ends with FULL_NAME fail with errno
- * FULL_ERRNO once they would reach beyond FULL_BYTES, after a part of them, as on a disk that fills up.
+ * Preloaded into a program by test_record_full.py: writes at an offset (pwrite) to files whose name ends with FULL_NAME
+ * fail with errno FULL_ERRNO once they would reach beyond FULL_BYTES, after a part of them, as on a disk that fills up.
  */
 #include <dlfcn.h>
 #include <errno.h>
@@ -26,7 +26,8 @@ static int is_meant(int fd)
 
 ssize_t pwrite(int fd, const void *data, size_t bytes, off_t offset)
 {
-	ssize_t (*real)(int, const void *, size_t, off_t) = (ssize_t (*)(int, const void *, size_t, off_t))dlsym(RTLD_NEXT, "pwrite");
+	ssize_t (*real)(int, const void *, size_t,
+	                off_t) = (ssize_t(*)(int, const void *, size_t, off_t))dlsym(RTLD_NEXT, "pwrite");
 	const off_t most = atol(getenv("FULL_BYTES") ? getenv("FULL_BYTES") : "0");
 
 	if (!is_meant(fd) || offset + (off_t)bytes <= most)

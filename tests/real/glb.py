@@ -49,14 +49,16 @@ class Glb:
 
     def _check_accessors(self):
         for view in self.json["bufferViews"]:
-            need(view["byteOffset"] + view["byteLength"] <= self.json["buffers"][0]["byteLength"], "bufferView's end (5.11)")
+            need(view["byteOffset"] + view["byteLength"] <= self.json["buffers"][0]["byteLength"],
+                 "bufferView's end (5.11)")
         for i, accessor in enumerate(self.json["accessors"]):
             values = self.values(i)
             need(all(math.isfinite(v) for row in values for v in row), "a number that is none (3.6.2.2)")
             for name, pick in (("min", min), ("max", max)):
                 if name in accessor:
-                    need(accessor[name] == [shorter(pick(row[k] for row in values)) for k in range(len(accessor[name]))],
-                         f"{name} of accessor {i} (3.6.2.5)")
+                    need(
+                        accessor[name] == [shorter(pick(row[k] for row in values)) for k in range(len(accessor[name]))],
+                        f"{name} of accessor {i} (3.6.2.5)")
         for mesh in self.json["meshes"]:
             for primitive in mesh["primitives"]:
                 attributes = primitive["attributes"]
@@ -89,8 +91,11 @@ class Glb:
         view = self.json["bufferViews"][a["bufferView"]]
         letter, size = COMPONENTS[a["componentType"]]
         width = TYPES[a["type"]]
-        need(a["count"] * width * size <= view["byteLength"] and view["byteOffset"] % size == 0, "accessor in its view (3.6.2)")
-        return list(struct.iter_unpack(f"<{width}{letter}", self.bin[view["byteOffset"]:view["byteOffset"] + a["count"] * width * size]))
+        need(a["count"] * width * size <= view["byteLength"] and view["byteOffset"] % size == 0,
+             "accessor in its view (3.6.2)")
+        return list(
+            struct.iter_unpack(f"<{width}{letter}",
+                               self.bin[view["byteOffset"]:view["byteOffset"] + a["count"] * width * size]))
 
     def triangles_eye(self):
         """Corners of all triangles in the space of the scene, by node name."""

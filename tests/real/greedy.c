@@ -1,4 +1,5 @@
-/* Textures of floats out of bytes that are all the same: a recording of some hundred kilobytes that needs gigabytes. Recorded by test_limits.py. */
+/* Textures of floats out of bytes that are all the same: a recording of some hundred kilobytes that needs gigabytes.
+ * Recorded by test_limits.py. */
 #include "tests/trace/window.h"
 
 enum { SIDE = 2048, TEXTURES = 40 };

@@ -1,5 +1,5 @@
-/* A window that grows, shrinks and grows between frames, each drawn whole at the size that it has then, and once within one. Recorded by
-   test_record_growing.py. */
+/* A window that grows, shrinks and grows between frames, each drawn whole at the size that it has then, and once within
+   one. Recorded by test_record_growing.py. */
 #include "tests/trace/window.h"
 
 static void resize(int width, int height)

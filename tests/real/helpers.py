@@ -65,11 +65,12 @@ def on_display(*args, **more):
 
 
 def record(trace, *program, options=("--ref", "color,depth"), optional=False):
-    """Record a program on a display of its own. Where it says that this machine's GL cannot run it (exit code 77), the test is
-    skipped; where it is optional, None is returned instead."""
+    """Record a program on a display of its own. Where it says that this machine's GL cannot run it (exit code 77), the
+    test is skipped; where it is optional, None is returned instead."""
     done = on_display(RELUME, "record", "-o", trace, *options, "--", *program)
     if done.returncode == 77 and (optional or False not in _results):
-        why = next((line for line in done.stderr.splitlines() if line.startswith("skipped: ")), "the program cannot run here")
+        why = next((line for line in done.stderr.splitlines() if line.startswith("skipped: ")),
+                   "the program cannot run here")
         if not optional:
             skip(why.removeprefix("skipped: "))
         print(f"{trace.name}: {why}")
@@ -117,9 +118,8 @@ def frames_of(trace):
 
 
 def check_same_pictures(name, frames, *options):
-    """
-    Record tests/real/NAME with options of `record`, trace it in mode gl, and check frame by frame that no pixel fails; `frames` says what each shows.
-    Returns the trace and what `diff` says.
+    """Record tests/real/NAME with options of `record`, trace it in mode gl, and check frame by frame that no pixel
+    fails; `frames` says what each shows. Returns the trace and what `diff` says.
     """
     trace = SCRATCH / f"{pathlib.Path(name).name}.trace"
     record(trace, BUILD / "tests/real" / name, options=("--ref", "color,depth", *options))
@@ -127,15 +127,20 @@ def check_same_pictures(name, frames, *options):
     check(len(files) == len(frames), f"{name}: {len(files)} frames of {len(frames)}")
     _, score = diff(trace, frames_of(trace))
     for frame, what in zip(score["frames"], frames):
-        known = sum(b["pixels"] for b in frame.get("blame", ()) if "known" in b) # of the Mesa at hand: replay/draw_names.c
-        check(frame["failing_pixels"] == known, f"{name}: {what}: {frame['failing_pixels']} pixels fail, of which {known} are known")
+        known = sum(b["pixels"]
+                    for b in frame.get("blame", ())
+                    if "known" in b)  # of the Mesa at hand: replay/draw_names.c
+        check(frame["failing_pixels"] == known,
+              f"{name}: {what}: {frame['failing_pixels']} pixels fail, of which {known} are known")
     return trace, score
 
 
 def check_replayed(trace, first):
-    """apitrace reads a trace to its end, and glretrace draws each frame from the first to look at on as the program did."""
+    """apitrace reads a trace to its end, and glretrace draws each frame from the first to look at on as the program
+    did."""
     dump = must(run("apitrace", "dump", "--color=never", trace))
-    check(not dump.stderr and "// incomplete" not in dump.stdout, f"{trace.name}: apitrace reads all of it: {dump.stderr}")
+    check(not dump.stderr and "// incomplete" not in dump.stdout,
+          f"{trace.name}: apitrace reads all of it: {dump.stderr}")
     done = on_display(sys.executable, ROOT / "tests/real/replayed.py", trace.with_suffix(""), first)
     check(done.returncode == 0, f"{trace.name} replayed by glretrace: {done.stdout}")
 

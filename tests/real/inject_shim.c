@@ -1,11 +1,11 @@
 /*
- * Preloaded. Makes one call of the system fail: INJECT="CLASS:N" the Nth of a class (from 1) that the command or the recorder makes itself,
- * "CLASS:N+" that one and all after it, "CLASS@N:M" the Mth one from the Nth place in the code that makes such calls, "CLASS@N+" all
- * from there. What libraries do for themselves is left alone. INJECT_COUNT names a file that receives lines "CLASS COUNT" and "CLASS@N COUNT"
- * for each class and place as a process ends.
+ * Preloaded. Makes one call of the system fail: INJECT="CLASS:N" the Nth of a class (from 1) that the command or the
+ * recorder makes itself, "CLASS:N+" that one and all after it, "CLASS@N:M" the Mth one from the Nth place in the code
+ * that makes such calls, "CLASS@N+" all from there. What libraries do for themselves is left alone. INJECT_COUNT names
+ * a file that receives lines "CLASS COUNT" and "CLASS@N COUNT" for each class and place as a process ends.
  *
- * Memory is taken from the next library that has it: LeakSanitizer's, if that is preloaded after this one. INJECT_SPARED holds its
- * suppressions, since a confined command cannot read them from a file.
+ * Memory is taken from the next library that has it: LeakSanitizer's, if that is preloaded after this one.
+ * INJECT_SPARED holds its suppressions, since a confined command cannot read them from a file.
  */
 #include <dlfcn.h>
 #include <errno.h>
@@ -54,7 +54,8 @@ static int take_range(struct dl_phdr_info *info, size_t size, void *first)
 	return 0;
 }
 
-/* What LeakSanitizer asks the program: suppressions, and whether to look for no leaks (a linker that a driver starts is not ours). */
+/* What LeakSanitizer asks the program: suppressions, and whether to look for no leaks (a linker that a driver starts is
+ * not ours). */
 const char *__lsan_default_suppressions(void);
 int __lsan_is_turned_off(void);
 
@@ -95,7 +96,8 @@ static void end(void)
 	char text[64];
 
 	for (int c = 0; count_fd >= 0 && n_ranges && c < N_CLASSES; c++) {
-		int n = snprintf(text, sizeof(text), "%s %lu\n", names[c], atomic_load(&counts[c])), ok = write(count_fd, text, (size_t)n) == n;
+		int n = snprintf(text, sizeof(text), "%s %lu\n", names[c], atomic_load(&counts[c])),
+		    ok = write(count_fd, text, (size_t)n) == n;
 
 		for (int i = 0; ok && i < MOST_PLACES && atomic_load(&places[c][i]); i++) {
 			n = snprintf(text, sizeof(text), "%s@%d %lu\n", names[c], i + 1, atomic_load(&place_counts[c][i]));
@@ -175,7 +177,10 @@ char *strdup(const char *text)
 
 	return out ? memcpy(out, text, n) : NULL;
 }
-int vasprintf(char **out, const char *format, va_list args) { return fails(MEMORY, BY) ? -1 : REAL(vasprintf)(out, format, args); }
+int vasprintf(char **out, const char *format, va_list args)
+{
+	return fails(MEMORY, BY) ? -1 : REAL(vasprintf)(out, format, args);
+}
 int asprintf(char **out, const char *format, ...)
 {
 	va_list args;
@@ -203,8 +208,14 @@ size_t fread(void *to, size_t size, size_t n, FILE *f)
 	return 0;
 }
 
-ssize_t write(int fd, const void *from_, size_t n) { return fd != 2 && fails(WRITE, BY) ? -1 : REAL(write)(fd, from_, n); }
-ssize_t pwrite(int fd, const void *from_, size_t n, off_t at) { return fails(WRITE, BY) ? -1 : REAL(pwrite)(fd, from_, n, at); }
+ssize_t write(int fd, const void *from_, size_t n)
+{
+	return fd != 2 && fails(WRITE, BY) ? -1 : REAL(write)(fd, from_, n);
+}
+ssize_t pwrite(int fd, const void *from_, size_t n, off_t at)
+{
+	return fails(WRITE, BY) ? -1 : REAL(pwrite)(fd, from_, n, at);
+}
 
 static int is_file(FILE *f) { return fileno(f) >= 0 && fileno(f) != 2; }
 size_t fwrite(const void *from_, size_t size, size_t n, FILE *f)

@@ -1,6 +1,7 @@
 /*
- * Preloaded into the command by test_confined.py: as if a recording had taken the process over. When the command opens a recording or its
- * references it tries what a stranger would, and prints "intruder: WHAT: ERRNO" for each attempt, 0 for those that succeed.
+ * Preloaded into the command by test_confined.py: as if a recording had taken the process over. When the command opens
+ * a recording or its references it tries what a stranger would, and prints "intruder: WHAT: ERRNO" for each attempt, 0
+ * for those that succeed.
  */
 #include <dlfcn.h>
 #include <errno.h>

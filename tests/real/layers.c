@@ -1,13 +1,16 @@
 /*
- * Frames of several looks (kernels/frame/plain.h): walls over each other in a lit room, blended by all factors, tested for alpha and depth by
- * all functions, written in part; and a second projection over them. From frame 5 on colours are not cleared: a sky covers what was there
- * before, or it shows; frame 8 copies what it has drawn so far. Recorded by test_layers.py.
+ * Frames of several looks (kernels/frame/plain.h): walls over each other in a lit room, blended by all factors, tested
+ * for alpha and depth by all functions, written in part; and a second projection over them. From frame 5 on colours are
+ * not cleared: a sky covers what was there before, or it shows; frame 8 copies what it has drawn so far. Recorded by
+ * test_layers.py.
  */
 #include "tests/trace/window.h"
 
-static const GLenum factors[] = { GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR, GL_SRC_ALPHA,
-	GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA, GL_CONSTANT_COLOR, GL_ONE_MINUS_CONSTANT_COLOR, GL_CONSTANT_ALPHA,
-	GL_ONE_MINUS_CONSTANT_ALPHA, GL_SRC_ALPHA_SATURATE };
+static const GLenum factors[] = {
+	GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR, GL_SRC_ALPHA,
+	GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA, GL_CONSTANT_COLOR, GL_ONE_MINUS_CONSTANT_COLOR,
+	GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_SRC_ALPHA_SATURATE
+};
 static const GLenum equations[] = { GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX };
 
 static int below(int n)
@@ -33,8 +36,8 @@ static void choose(int kind)
 	glColor4f(number(), number(), number(), below(3) ? number() : 1);
 	(below(4) ? glEnable : glDisable)(GL_BLEND);
 	glBlendColor(number(), number(), number(), number());
-	glBlendFuncSeparate(usual ? GL_SRC_ALPHA : factor(15), usual ? GL_ONE_MINUS_SRC_ALPHA : factor(14), usual ? GL_SRC_ALPHA : factor(15),
-	                    usual ? GL_ONE_MINUS_SRC_ALPHA : factor(14));
+	glBlendFuncSeparate(usual ? GL_SRC_ALPHA : factor(15), usual ? GL_ONE_MINUS_SRC_ALPHA : factor(14),
+	                    usual ? GL_SRC_ALPHA : factor(15), usual ? GL_ONE_MINUS_SRC_ALPHA : factor(14));
 	glBlendEquationSeparate(equations[usual ? 0 : below(5)], equations[usual ? 0 : below(5)]);
 	(kind > 0 && below(3) == 0 ? glEnable : glDisable)(GL_ALPHA_TEST);
 	glAlphaFunc(GL_NEVER + (GLenum)below(8), number());

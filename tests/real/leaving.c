@@ -1,6 +1,7 @@
 /*
- * leaving [DEPTH_BITS]: triangles that leave the view volume on all sides, behind the viewer too, under matrices made by every
- * call that makes one, some of them drawn twice with polygon offset, and smooth lines. Recorded by test_leaving.py.
+ * leaving [DEPTH_BITS]: triangles that leave the view volume on all sides, behind the viewer too, under matrices made
+ * by every call that makes one, some of them drawn twice with polygon offset, and smooth lines. Recorded by
+ * test_leaving.py.
  */
 #include "tests/trace/window.h"
 

@@ -1,6 +1,6 @@
 /*
- * Films over each other in a window without depth, which Mesa's llvmpipe draws by its quick rasterizer. Recorded by test_exact.py.
- * With an argument the window has one buffer.
+ * Films over each other in a window without depth, which Mesa's llvmpipe draws by its quick rasterizer. Recorded by
+ * test_exact.py. With an argument the window has one buffer.
  */
 #include "tests/trace/window.h"
 

@@ -1,6 +1,6 @@
 /*
- * A triangle over a lit floor, between it and the light: its vertices where the program has them, then a unit off, so that a vertex program
- * brings each to the same place. Recorded by test_moved.py.
+ * A triangle over a lit floor, between it and the light: its vertices where the program has them, then a unit off, so
+ * that a vertex program brings each to the same place. Recorded by test_moved.py.
  */
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /*
- * A window with four samples a pixel, and what the X server shows of it: edges in all directions, multisampling on, off, and on again.
- * Each frame's window is read from the server after the swap, as RGB rows from the top
- * one down, and appended to the file named by the argument. Exits with 77 where there is no such visual.
+ * A window with four samples a pixel, and what the X server shows of it: edges in all directions, multisampling on,
+ * off, and on again. Each frame's window is read from the server after the swap, as RGB rows from the top one down, and
+ * appended to the file named by the argument. Exits with 77 where there is no such visual.
  */
 #include <math.h>
 
@@ -68,7 +68,8 @@ static unsigned get(unsigned what)
 
 static void expect_state(void)
 {
-	expect(get(GL_DRAW_FRAMEBUFFER_BINDING) == framebuffer && get(GL_READ_FRAMEBUFFER_BINDING) == framebuffer, "the framebuffer is bound");
+	expect(get(GL_DRAW_FRAMEBUFFER_BINDING) == framebuffer && get(GL_READ_FRAMEBUFFER_BINDING) == framebuffer,
+	       "the framebuffer is bound");
 	expect(get(GL_RENDERBUFFER_BINDING) == renderbuffer, "the renderbuffer is bound");
 	expect(glIsEnabled(GL_SCISSOR_TEST) && !glIsEnabled(GL_FRAMEBUFFER_SRGB), "scissoring is on, encoding off");
 	expect(glGetError() == GL_NO_ERROR, "there is no error");

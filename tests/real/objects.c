@@ -1,6 +1,7 @@
 /*
- * Vertex array objects, one thing a frame: each keeps its arrays, which of them are enabled and its element buffer, from the first
- * frame to the last, whatever is done to the others and to the context's own. Recorded by test_objects.py.
+ * Vertex array objects, one thing a frame: each keeps its arrays, which of them are enabled and its element buffer,
+ * from the first frame to the last, whatever is done to the others and to the context's own. Recorded by
+ * test_objects.py.
  */
 #include "tests/trace/window.h"
 

@@ -1,7 +1,7 @@
 /*
- * Draws that say by other ways what they draw, one a frame: parameters in memory and in buffers, several at a time, instances,
- * glArrayElement of arrays that lie partly in buffers, and primitives that begin anew by NV_primitive_restart's own state. Recorded by
- * test_record_buffers.py. Exits with 77 where GL lacks one of them.
+ * Draws that say by other ways what they draw, one a frame: parameters in memory and in buffers, several at a time,
+ * instances, glArrayElement of arrays that lie partly in buffers, and primitives that begin anew by
+ * NV_primitive_restart's own state. Recorded by test_record_buffers.py. Exits with 77 where GL lacks one of them.
  */
 #include "tests/trace/window.h"
 
@@ -72,7 +72,8 @@ static void draw_elements_indirect(int buffered)
 	point(0, buffered);
 	bind_indices();
 	glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, indirect(commands[0], sizeof(commands[0]), buffered));
-	glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, indirect(commands, sizeof(commands), buffered), 2, sizeof(commands[0]));
+	glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, indirect(commands, sizeof(commands), buffered), 2,
+	                            sizeof(commands[0]));
 	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
 }
 

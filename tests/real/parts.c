@@ -1,7 +1,8 @@
 /*
- * Frames that depend on nothing earlier, though no clear covers the window or a texture is copied in parts: two views with a clear each;
- * a corner that becomes a texture before the rest is cleared; a texture larger than what is copied to it; opaque squares over all
- * of the window, and such that are blended. The last three frames do depend on earlier ones. Recorded by test_parts.py.
+ * Frames that depend on nothing earlier, though no clear covers the window or a texture is copied in parts: two views
+ * with a clear each; a corner that becomes a texture before the rest is cleared; a texture larger than what is copied
+ * to it; opaque squares over all of the window, and such that are blended. The last three frames do depend on earlier
+ * ones. Recorded by test_parts.py.
  */
 #include "tests/trace/window.h"
 

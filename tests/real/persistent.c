@@ -1,7 +1,8 @@
 /*
- * Buffers that stay mapped while they are drawn from (ARB_buffer_storage): vertices, indices and pixels that are stored between
- * draws, in small and in large buffers, after few and after many frames without a change, with and without explicit flushes, up to
- * deletion without unmapping. Recorded and replayed, the pictures must be the program's. Exits with 77 where GL lacks the extension.
+ * Buffers that stay mapped while they are drawn from (ARB_buffer_storage): vertices, indices and pixels that are stored
+ * between draws, in small and in large buffers, after few and after many frames without a change, with and without
+ * explicit flushes, up to deletion without unmapping. Recorded and replayed, the pictures must be the program's. Exits
+ * with 77 where GL lacks the extension.
  */
 #include "tests/trace/window.h"
 
@@ -103,7 +104,8 @@ int main(void)
 		return 77;
 	large = map_new(GL_ARRAY_BUFFER, &names[0], CELLS * 4 * (long)sizeof(*large), NULL, persistent | coherent);
 	small = map_new(GL_ARRAY_BUFFER, &names[1], SMALL * (long)sizeof(*small), NULL, persistent | coherent);
-	flushed = map_new(GL_ARRAY_BUFFER, &names[2], SMALL * (long)sizeof(*small), NULL, persistent | GL_MAP_FLUSH_EXPLICIT_BIT);
+	flushed = map_new(GL_ARRAY_BUFFER, &names[2], SMALL * (long)sizeof(*small), NULL,
+	                  persistent | GL_MAP_FLUSH_EXPLICIT_BIT);
 	order = map_new(GL_ELEMENT_ARRAY_BUFFER, &names[3], CELLS * 4 * (long)sizeof(*order), NULL, persistent | coherent);
 	pixels = map_new(GL_PIXEL_UNPACK_BUFFER, &names[4], 8 * 8 * 4, NULL, persistent | coherent);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);

@@ -1,7 +1,7 @@
 /*
  * Pixels drawn as pixels and pixels that feed back, one thing a frame: bitmaps in lists, lit raster positions,
- * pixel rectangles with zoom and scale, copies of the screen, stencil and depth values, frames without a clear, smooth lines
- * and points. Recorded by test_pixels.py.
+ * pixel rectangles with zoom and scale, copies of the screen, stencil and depth values, frames without a clear, smooth
+ * lines and points. Recorded by test_pixels.py.
  */
 #include "tests/trace/window.h"
 
@@ -153,7 +153,8 @@ static void uncleared(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { text, lit_text, rectangles, values, copies, smooth, uncleared, uncleared, text };
+	static void (*const frames[])(void) = { text,   lit_text,  rectangles, values, copies,
+		                                smooth, uncleared, uncleared,  text };
 
 	open_window();
 	for (int i = 0; i < 16 * 16; i++) {

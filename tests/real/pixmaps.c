@@ -1,7 +1,7 @@
 /*
- * Pixmaps: "drawn" draws three frames to one, without a window and without swaps. Else three frames in a window, of a pixmap that X draws to,
- * as a texture (GLX_EXT_texture_from_pixmap): of two dimensions, or a rectangle where "rectangle" is asked for. Recorded by
- * test_record_pixmaps.py; exits with 77 where the server cannot do that.
+ * Pixmaps: "drawn" draws three frames to one, without a window and without swaps. Else three frames in a window, of a
+ * pixmap that X draws to, as a texture (GLX_EXT_texture_from_pixmap): of two dimensions, or a rectangle where
+ * "rectangle" is asked for. Recorded by test_record_pixmaps.py; exits with 77 where the server cannot do that.
  */
 #include "tests/trace/window.h"
 
@@ -25,7 +25,8 @@ static void draw(int frame)
 
 static Pixmap make_pixmap(void)
 {
-	return XCreatePixmap(display, DefaultRootWindow(display), WIDTH, HEIGHT, (unsigned)DefaultDepth(display, DefaultScreen(display)));
+	return XCreatePixmap(display, DefaultRootWindow(display), WIDTH, HEIGHT,
+	                     (unsigned)DefaultDepth(display, DefaultScreen(display)));
 }
 
 static void draw_to_pixmap(void)
@@ -35,7 +36,8 @@ static void draw_to_pixmap(void)
 	GLXPixmap target;
 
 	display = XOpenDisplay(NULL);
-	if (!display || !(visual = glXChooseVisual(display, DefaultScreen(display), attributes)) || visual->depth != DefaultDepth(display, DefaultScreen(display)))
+	if (!display || !(visual = glXChooseVisual(display, DefaultScreen(display), attributes)) ||
+	    visual->depth != DefaultDepth(display, DefaultScreen(display)))
 		exit(77);
 	target = glXCreateGLXPixmap(display, visual, make_pixmap());
 	if (!glXMakeCurrent(display, target, glXCreateContext(display, visual, NULL, True)))
@@ -76,10 +78,13 @@ static void quad(float right, float top)
 
 static GLXPixmap pixmap_as_texture(Pixmap pixmap, int is_rectangle)
 {
-	const int wanted[] = { GLX_DRAWABLE_TYPE, GLX_PIXMAP_BIT, GLX_BIND_TO_TEXTURE_RGB_EXT, True, GLX_DOUBLEBUFFER, False, GLX_DEPTH_SIZE, 0,
-		               GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 0, None };
-	const int attributes[] = { GLX_TEXTURE_TARGET_EXT, is_rectangle ? GLX_TEXTURE_RECTANGLE_EXT : GLX_TEXTURE_2D_EXT, GLX_TEXTURE_FORMAT_EXT,
-		                   GLX_TEXTURE_FORMAT_RGB_EXT, None };
+	const int wanted[] = {
+		GLX_DRAWABLE_TYPE, GLX_PIXMAP_BIT, GLX_BIND_TO_TEXTURE_RGB_EXT, True, GLX_DOUBLEBUFFER, False, GLX_DEPTH_SIZE,
+		0, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 0, None
+	};
+	const int attributes[] = { GLX_TEXTURE_TARGET_EXT,
+		                   is_rectangle ? GLX_TEXTURE_RECTANGLE_EXT : GLX_TEXTURE_2D_EXT,
+		                   GLX_TEXTURE_FORMAT_EXT, GLX_TEXTURE_FORMAT_RGB_EXT, None };
 	int n = 0;
 	GLXFBConfig *configs = glXChooseFBConfig(display, DefaultScreen(display), wanted, &n);
 
@@ -94,8 +99,10 @@ static GLXPixmap pixmap_as_texture(Pixmap pixmap, int is_rectangle)
 
 static void draw_pixmap(int is_rectangle)
 {
-	PFNGLXBINDTEXIMAGEEXTPROC bind = (PFNGLXBINDTEXIMAGEEXTPROC)glXGetProcAddressARB((const GLubyte *)"glXBindTexImageEXT");
-	PFNGLXRELEASETEXIMAGEEXTPROC release = (PFNGLXRELEASETEXIMAGEEXTPROC)glXGetProcAddressARB((const GLubyte *)"glXReleaseTexImageEXT");
+	PFNGLXBINDTEXIMAGEEXTPROC bind = (PFNGLXBINDTEXIMAGEEXTPROC)glXGetProcAddressARB(
+		(const GLubyte *)"glXBindTexImageEXT");
+	PFNGLXRELEASETEXIMAGEEXTPROC release = (PFNGLXRELEASETEXIMAGEEXTPROC)glXGetProcAddressARB(
+		(const GLubyte *)"glXReleaseTexImageEXT");
 	const GLenum target = is_rectangle ? GL_TEXTURE_RECTANGLE : GL_TEXTURE_2D;
 	GLXPixmap source;
 	Pixmap pixmap;

@@ -1,7 +1,7 @@
 /*
- * Planes that pass through each other, placed by programs that know their projection themselves, one a frame: depths that are linear in w, some
- * of which grow towards the viewer, and depths that are not. The floor comes from behind the viewer where they are linear. Recorded by
- * test_projections.py.
+ * Planes that pass through each other, placed by programs that know their projection themselves, one a frame: depths
+ * that are linear in w, some of which grow towards the viewer, and depths that are not. The floor comes from behind the
+ * viewer where they are linear. Recorded by test_projections.py.
  */
 #include <math.h>
 
@@ -13,8 +13,9 @@ static const struct {
 	const char *of;     /* a depth, by a vertex in eye space, e, and w */
 	GLenum func;
 } depths[] = {
-	{ "-1.002 * e.z - 0.02", GL_LESS }, { "-1.5 * e.z - 1.2", GL_LESS }, { "0.4 * w - 0.3", GL_LESS }, { "0.1 - 0.7 * w", GL_GREATER }, { "0.8 - 0.1 * w", GL_GREATER },
-	{ "0.2 * w", GL_LEQUAL }, { "(2.0 * log(w * 10.0 + 1.0) / log(101.0) - 1.0) * w", GL_LESS }, { "w * w * 0.1 - 0.9", GL_LESS },
+	{ "-1.002 * e.z - 0.02", GL_LESS }, { "-1.5 * e.z - 1.2", GL_LESS }, { "0.4 * w - 0.3", GL_LESS },
+	{ "0.1 - 0.7 * w", GL_GREATER }, { "0.8 - 0.1 * w", GL_GREATER }, { "0.2 * w", GL_LEQUAL },
+	{ "(2.0 * log(w * 10.0 + 1.0) / log(101.0) - 1.0) * w", GL_LESS }, { "w * w * 0.1 - 0.9", GL_LESS },
 };
 
 static GLuint program_of(const char *depth)

@@ -1,6 +1,6 @@
 /*
- * Pixels are read into buffer objects and drawn from there, one kind a frame: colours, luminance, depths, packed types, rows with
- * gaps, texels, colours of vertices, and pixels of the frame before. Recorded by test_readbacks.py.
+ * Pixels are read into buffer objects and drawn from there, one kind a frame: colours, luminance, depths, packed types,
+ * rows with gaps, texels, colours of vertices, and pixels of the frame before. Recorded by test_readbacks.py.
  */
 #include "tests/trace/window.h"
 
@@ -9,7 +9,8 @@ enum { SIDE = 16, BYTES = 8192 };
 /* A square of one colour: a byte is it or it is not. */
 static void rect(unsigned i, float x, float y, float size, float z)
 {
-	glColor4ub((unsigned char)(37 * i + 9), (unsigned char)(91 * i + 51), (unsigned char)(200 - 53 * i), (unsigned char)(60 + 29 * i));
+	glColor4ub((unsigned char)(37 * i + 9), (unsigned char)(91 * i + 51), (unsigned char)(200 - 53 * i),
+	           (unsigned char)(60 + 29 * i));
 	glBegin(GL_QUADS);
 	glVertex3f(x, y, z);
 	glVertex3f(x + size, y, z);
@@ -205,8 +206,12 @@ static void find_texture(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { colors, greys, packed, numbers, depths, storage, textures, vertices, leave, find, find_texture };
-	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8, None };
+	static void (*const frames[])(void) = { colors,   greys,    packed, numbers, depths,      storage,
+		                                textures, vertices, leave,  find,    find_texture };
+	int attributes[] = {
+		GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8,
+		None
+	};
 
 	open_window_of(attributes);
 	glOrtho(0, 64, 0, 48, -10, 10);

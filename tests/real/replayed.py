@@ -2,7 +2,8 @@
 """replayed.py NAME [FIRST]: do a trace's pictures, replayed by apitrace, equal those that the program itself showed?
 
 Compares every colour frame of NAME.ref from frame FIRST on (2: apitrace's first pictures are known to be unreliable, it
-resizes its window then) with `apitrace replay` of NAME.trace, pixel by pixel. Exits with 1 where one differs or none is there.
+resizes its window then) with `apitrace replay` of NAME.trace, pixel by pixel. Exits with 1 where one differs or none is
+there.
 """
 import array
 import ctypes
@@ -82,10 +83,12 @@ def reference_depths(path):
 
 
 def with_visual(bits, build):
-    """An environment in which glretrace takes a visual like the program's, whose relume:bits marker says `bits`: see replay/verbs/visual.c."""
+    """An environment in which glretrace takes a visual like the program's, whose relume:bits marker says `bits`: see
+    replay/verbs/visual.c."""
     alpha, depth, stencil, _, samples = (bits.split() + ["0"] * 5)[:5]
     libraries = os.pathsep.join([str(build / "visual"), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])])
-    return dict(os.environ, LD_LIBRARY_PATH=libraries, RELUME_VISUAL=f"{alpha} {depth} {stencil} {samples}") if bits else dict(os.environ)
+    return dict(os.environ, LD_LIBRARY_PATH=libraries,
+                RELUME_VISUAL=f"{alpha} {depth} {stencil} {samples}") if bits else dict(os.environ)
 
 
 def replayed_frames(path):
@@ -121,7 +124,8 @@ def main(name, first):
             bad += 1
         elif pictures[frame] != (width, height, rgb):
             other = pictures[frame]
-            differ = sum(other[2][i:i + 3] != rgb[i:i + 3] for i in range(0, len(rgb), 3)) if other[:2] == (width, height) else "all"
+            differ = sum(other[2][i:i + 3] != rgb[i:i + 3]
+                         for i in range(0, len(rgb), 3)) if other[:2] == (width, height) else "all"
             print(f"frame {frame}: {differ} of {width * height} pixels differ")
             bad += 1
     print(f"{checked} frames compared, {bad} differ")

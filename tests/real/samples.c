@@ -114,7 +114,8 @@ static void lines(void)
 	glDisable(GL_LINE_STIPPLE);
 }
 
-/* Lines that begin a little before a tile does, where they are cut off. y: of a border between tiles; away: where they come from */
+/* Lines that begin a little before a tile does, where they are cut off. y: of a border between tiles; away: where they
+ * come from */
 static void lines_near(float y, float away)
 {
 	glLoadIdentity();
@@ -313,7 +314,8 @@ static void scissored(void)
 	glDisable(GL_SCISSOR_TEST);
 }
 
-/* Few pixels: these cuts are made where samples are, while Mesa snaps their corners, which shows at one sample in thousands. */
+/* Few pixels: these cuts are made where samples are, while Mesa snaps their corners, which shows at one sample in
+ * thousands. */
 static void cut_by_planes(void)
 {
 	static const double left[4] = { 1, 0.3, 0.1, 0.2 }, low[4] = { -0.2, 1, 0, 0.3 };
@@ -398,13 +400,16 @@ static void bind_samples(GLuint object, const GLuint *buffers)
 	for (int i = 0; i < 2; i++) {
 		glBindRenderbuffer(GL_RENDERBUFFER, buffers[i]);
 		glRenderbufferStorageMultisample(GL_RENDERBUFFER, 4, i ? GL_DEPTH_COMPONENT24 : GL_RGBA8, 80, 80);
-		glFramebufferRenderbuffer(GL_FRAMEBUFFER, i ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[i]);
+		glFramebufferRenderbuffer(GL_FRAMEBUFFER, i ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0,
+		                          GL_RENDERBUFFER, buffers[i]);
 	}
-	expect(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "the framebuffer object of samples is complete");
+	expect(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE,
+	       "the framebuffer object of samples is complete");
 	glViewport(0, 0, 80, 80);
 }
 
-/* Its pixels into a framebuffer object of a texture (EXT_framebuffer_blit, EXT_framebuffer_multisample), and into the window. */
+/* Its pixels into a framebuffer object of a texture (EXT_framebuffer_blit, EXT_framebuffer_multisample), and into the
+ * window. */
 static void resolve_into(GLuint object, GLuint texture)
 {
 	glBindFramebuffer(GL_DRAW_FRAMEBUFFER, object);
@@ -482,10 +487,15 @@ static void object_again(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { fan, crossing, floor_and_strips, lines, lines_at_tiles, points, textured, alpha_to_coverage, sample_coverage, blended,
-		                                disabled, stencilled, pixels, scissored, cut_by_planes, outlines, copied, object, object_again, fan, over_the_last, over_the_last };
-	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8,
-		             GLX_SAMPLE_BUFFERS, 1, GLX_SAMPLES, 4, None };
+	static void (*const frames[])(void) = {
+		fan, crossing, floor_and_strips, lines, lines_at_tiles, points, textured, alpha_to_coverage, sample_coverage,
+		blended, disabled, stencilled, pixels, scissored, cut_by_planes, outlines, copied, object, object_again, fan,
+		over_the_last, over_the_last
+	};
+	int attributes[] = {
+		GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8,
+		GLX_SAMPLE_BUFFERS, 1, GLX_SAMPLES, 4, None
+	};
 	GLint samples;
 
 	window_size[0] = WIDTH;

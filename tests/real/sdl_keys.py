@@ -1,4 +1,5 @@
-"""sdl_keys.py FRAMES: what tests/trace/keys.c does, in a window of SDL 2; 77 where it cannot be had. Keys are polled as well."""
+"""sdl_keys.py FRAMES: what tests/trace/keys.c does, in a window of SDL 2; 77 where it cannot be had. Keys are polled as
+well."""
 import ctypes
 import sys
 
@@ -14,7 +15,8 @@ if sdl.SDL_Init(VIDEO):
     sys.exit("no SDL display")
 window = ctypes.c_void_p(sdl.SDL_CreateWindow(b"keys", 0, 0, 64, 48, OPENGL))
 context = ctypes.c_void_p(sdl.SDL_GL_CreateContext(window))
-event, held = ctypes.create_string_buffer(128), ctypes.cast(sdl.SDL_GetKeyboardState(None), ctypes.POINTER(ctypes.c_uint8))
+event, held = ctypes.create_string_buffer(128), ctypes.cast(sdl.SDL_GetKeyboardState(None),
+                                                            ctypes.POINTER(ctypes.c_uint8))
 for frame in range(int(sys.argv[1])):
     while sdl.SDL_PollEvent(event):
         kind, scancode = int.from_bytes(event[0:4], "little"), int.from_bytes(event[16:20], "little")

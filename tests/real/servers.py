@@ -1,12 +1,14 @@
 """
 What CI servers document of what they read.
 
-GitHub, "Workflow commands for GitHub Actions": a line `::NAME KEY=VALUE,KEY=VALUE::MESSAGE`; in the message %, CR and LF are escaped (%25 %0D
-%0A), in values also : and , (%3A %2C). error, warning and notice take file, line, endLine, col, endColumn and title.
+GitHub, "Workflow commands for GitHub Actions": a line `::NAME KEY=VALUE,KEY=VALUE::MESSAGE`; in the message %, CR and
+LF are escaped (%25 %0D %0A), in values also : and , (%3A %2C). error, warning and notice take file, line, endLine, col,
+endColumn and title.
 
-GitLab, "Unit test reports": JUnit XML of which it reads testsuite, testcase (classname, name, file, time), failure, error, system-out and
-skipped; the key of a case is its classname and name: of several with the same key in a job only the first counts. The elements and attributes
-are those of JUnit's schema as Jenkins publishes it (xunit-plugin, junit-10.xsd).
+GitLab, "Unit test reports": JUnit XML of which it reads testsuite, testcase (classname, name, file, time), failure,
+error, system-out and skipped; the key of a case is its classname and name: of several with the same key in a job only
+the first counts. The elements and attributes are those of JUnit's schema as Jenkins publishes it (xunit-plugin,
+junit-10.xsd).
 """
 import re
 import xml.etree.ElementTree
@@ -20,13 +22,18 @@ COMMAND = re.compile(rf"::(\w+)(?: (\w+={ESCAPED_VALUE}(?:,\w+={ESCAPED_VALUE})*
 COUNT, SECONDS, TEXT = r"\d+", r"\d+(\.\d+)?", r"(?s:.+)"
 # element: (its attributes, required ones with *), and the elements that it holds
 JUNIT = {
-    "testsuites": ({"name": TEXT, "time": SECONDS, "tests": COUNT, "failures": COUNT, "errors": COUNT, "disabled": COUNT}, {"testsuite"}),
-    "testsuite": ({"name*": TEXT, "tests*": COUNT, "failures": COUNT, "errors": COUNT, "skipped": COUNT, "disabled": COUNT, "time": SECONDS,
-                   "timestamp": TEXT, "hostname": TEXT, "id": TEXT, "package": TEXT}, {"properties", "testcase", "system-out", "system-err"}),
+    "testsuites": ({
+        "name": TEXT, "time": SECONDS, "tests": COUNT, "failures": COUNT, "errors": COUNT, "disabled": COUNT
+    }, {"testsuite"}),
+    "testsuite": ({
+        "name*": TEXT, "tests*": COUNT, "failures": COUNT, "errors": COUNT, "skipped": COUNT, "disabled": COUNT,
+        "time": SECONDS, "timestamp": TEXT, "hostname": TEXT, "id": TEXT, "package": TEXT
+    }, {"properties", "testcase", "system-out", "system-err"}),
     "properties": ({}, {"property"}),
     "property": ({"name*": TEXT, "value*": TEXT}, set()),
-    "testcase": ({"name*": TEXT, "classname*": TEXT, "file": TEXT, "time": SECONDS, "assertions": COUNT, "status": TEXT},
-                 {"skipped", "error", "failure", "system-out", "system-err"}),
+    "testcase": ({
+        "name*": TEXT, "classname*": TEXT, "file": TEXT, "time": SECONDS, "assertions": COUNT, "status": TEXT
+    }, {"skipped", "error", "failure", "system-out", "system-err"}),
     "failure": ({"message": TEXT, "type": TEXT}, set()),
     "error": ({"message": TEXT, "type": TEXT}, set()),
     "skipped": ({"message": TEXT}, set()),
@@ -54,8 +61,14 @@ def _wrong(element):
     if attributes is None:
         return [f"no element '{element.tag}'"]
     known = {name.rstrip("*"): form for name, form in attributes.items()}
-    wrong = [f"{element.tag} lacks {name[:-1]}" for name in attributes if name.endswith("*") and name[:-1] not in element.attrib]
-    wrong += [f"{element.tag}: {name}={value!r}" for name, value in element.attrib.items() if not re.fullmatch(known.get(name, r"(?!)"), value)]
+    wrong = [
+        f"{element.tag} lacks {name[:-1]}" for name in attributes
+        if name.endswith("*") and name[:-1] not in element.attrib
+    ]
+    wrong += [
+        f"{element.tag}: {name}={value!r}" for name, value in element.attrib.items()
+        if not re.fullmatch(known.get(name, r"(?!)"), value)
+    ]
     for child in element:
         wrong += _wrong(child) if child.tag in inner else [f"{child.tag} in {element.tag}"]
     return wrong
@@ -66,7 +79,8 @@ def junit_faults(*paths):
     wrong, keys = [], set()
     for path in paths:
         root = xml.etree.ElementTree.parse(path).getroot()
-        wrong += [f"{path}: {fault}" for fault in _wrong(root)] + ([] if path.suffix == ".xml" and root.tag in ("testsuites", "testsuite") else [f"{path}: no report"])
+        wrong += [f"{path}: {fault}" for fault in _wrong(root)] + (
+            [] if path.suffix == ".xml" and root.tag in ("testsuites", "testsuite") else [f"{path}: no report"])
         for suite in root.iter("testsuite"):
             cases = suite.findall("testcase")
             for name, kind in (("tests", None), ("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):

@@ -1,7 +1,7 @@
 /*
- * Shapes whose pixels hang on the last bits of Mesa's arithmetic, one thing a frame: lines of all slopes and widths, lines, smooth ones too,
- * drawn over themselves under GL_LESS, turned and coplanar surfaces, materials that change between Begin and End, points, evaluators,
- * quads that are not whole. Recorded by test_shapes.py.
+ * Shapes whose pixels hang on the last bits of Mesa's arithmetic, one thing a frame: lines of all slopes and widths,
+ * lines, smooth ones too, drawn over themselves under GL_LESS, turned and coplanar surfaces, materials that change
+ * between Begin and End, points, evaluators, quads that are not whole. Recorded by test_shapes.py.
  */
 #include <math.h>
 
@@ -27,7 +27,8 @@ static void spokes(void)
 		glLineWidth((float)width);
 		glBegin(GL_LINES);
 		for (int i = 0; i < SPOKES; i++) {
-			float angle = 6.2831853f * (float)i / SPOKES + 0.013f * (float)width, near = 0.05f, far = width < 3 ? 0.3f * (float)width : 4; /* out of view */
+			float angle = 6.2831853f * (float)i / SPOKES + 0.013f * (float)width, near = 0.05f,
+			      far = width < 3 ? 0.3f * (float)width : 4; /* out of view */
 
 			glColor3f((float)i / SPOKES, 1 - (float)i / SPOKES, 0.6f);
 			glVertex3f(near * cosf(angle), near * sinf(angle), -2);
@@ -225,7 +226,8 @@ static void evaluated(void)
 	glEvalMesh2(GL_LINE, 0, 9, 0, 7);
 }
 
-/* Bent quads, smooth, in view: how they are cut shows. Vertices of a quad that is not whole, far out of view, change nothing. */
+/* Bent quads, smooth, in view: how they are cut shows. Vertices of a quad that is not whole, far out of view, change
+ * nothing. */
 static void incomplete_quads(void)
 {
 	float position[7][3], color[7][3];

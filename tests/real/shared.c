@@ -1,11 +1,13 @@
 /*
- * A program object of two contexts, whose uniforms both set: what a context draws with that sets what the other has set already. Mesa goes on
- * with the older values (replay/programs/held.h). Recorded by test_shared.py.
+ * A program object of two contexts, whose uniforms both set: what a context draws with that sets what the other has set
+ * already. Mesa goes on with the older values (replay/programs/held.h). Recorded by test_shared.py.
  */
 #include "tests/trace/window.h"
 
-static const char *const vertex_text = "uniform vec2 place;\nvoid main() { gl_Position = vec4(gl_Vertex.xy + place, 0.0, 1.0); }";
-static const char *const fragment_text = "uniform vec3 color[2];\nvoid main() { gl_FragColor = vec4(color[0] + color[1], 1.0); }";
+static const char *const vertex_text =
+	"uniform vec2 place;\nvoid main() { gl_Position = vec4(gl_Vertex.xy + place, 0.0, 1.0); }";
+static const char *const fragment_text =
+	"uniform vec3 color[2];\nvoid main() { gl_FragColor = vec4(color[0] + color[1], 1.0); }";
 static const char *const plain_text = "void main() { gl_FragColor = vec4(0.1, 0.2, 0.3, 1.0); }";
 
 static GLXContext contexts[2];
@@ -102,12 +104,15 @@ static void linked_again(void)
 
 int main(void)
 {
-	static void (*const between[])(void) = { the_same, nothing, another, there_and_back, other_element, none_between, drawn_between, linked_again };
-	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, None }; /* as the window has them */
+	static void (*const between[])(void) = { the_same,      nothing,      another,       there_and_back,
+		                                 other_element, none_between, drawn_between, linked_again };
+	/* as the window has them */
+	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, None };
 
 	open_window();
 	contexts[0] = glXGetCurrentContext();
-	contexts[1] = glXCreateContext(display, glXChooseVisual(display, DefaultScreen(display), attributes), contexts[0], True);
+	contexts[1] = glXCreateContext(display, glXChooseVisual(display, DefaultScreen(display), attributes),
+	                               contexts[0], True);
 	program = make_program(fragment_text);
 	other = make_program(plain_text);
 	for (size_t i = 0; i < sizeof(between) / sizeof(between[0]); i++) {

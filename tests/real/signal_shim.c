@@ -1,4 +1,5 @@
-/* Preloaded into `relume record`: SIGUSR1 arrives at the last moment, when the program has ended and its handler is about to be given back. */
+/* Preloaded into `relume record`: SIGUSR1 arrives at the last moment, when the program has ended and its handler is
+ * about to be given back. */
 #include <dlfcn.h>
 #include <signal.h>
 #include <stddef.h>

@@ -1,6 +1,7 @@
 /*
- * Preloaded into `relume ci`: runs the program that STEP names in place of `relume render` and `relume diff`, with their command line as its
- * arguments, where the folder holds a file called "renderer". So a test breaks a step without breaking the command.
+ * Preloaded into `relume ci`: runs the program that STEP names in place of `relume render` and `relume diff`, with
+ * their command line as its arguments, where the folder holds a file called "renderer". So a test breaks a step without
+ * breaking the command.
  */
 #include <dlfcn.h>
 #include <spawn.h>
@@ -8,10 +9,11 @@
 #include <string.h>
 #include <unistd.h>
 
-int posix_spawnp(pid_t *pid, const char *file, const posix_spawn_file_actions_t *actions, const posix_spawnattr_t *attributes, char *const argv[],
-                 char *const envp[])
+int posix_spawnp(pid_t *pid, const char *file, const posix_spawn_file_actions_t *actions,
+                 const posix_spawnattr_t *attributes, char *const argv[], char *const envp[])
 {
-	int (*real)(pid_t *, const char *, const posix_spawn_file_actions_t *, const posix_spawnattr_t *, char *const[], char *const[]);
+	int (*real)(pid_t *, const char *, const posix_spawn_file_actions_t *, const posix_spawnattr_t *, char *const[],
+	            char *const[]);
 	char *step = getenv("STEP"), **words;
 	size_t n = 0;
 	int code;

@@ -1,5 +1,6 @@
 /*
- * Sums in the accumulation buffer, kept from frame to frame, and left alone by selection and feedback. Recorded by test_sums.py.
+ * Sums in the accumulation buffer, kept from frame to frame, and left alone by selection and feedback. Recorded by
+ * test_sums.py.
  */
 #include "tests/trace/window.h"
 
@@ -76,8 +77,10 @@ static void not_rendered(void)
 int main(void)
 {
 	static void (*const frames[])(void) = { sums, more_sums, not_rendered };
-	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, GLX_ACCUM_RED_SIZE, 1,
-		             GLX_ACCUM_GREEN_SIZE, 1, GLX_ACCUM_BLUE_SIZE, 1, GLX_ACCUM_ALPHA_SIZE, 1, None };
+	int attributes[] = {
+		GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, GLX_ACCUM_RED_SIZE, 1,
+		GLX_ACCUM_GREEN_SIZE, 1, GLX_ACCUM_BLUE_SIZE, 1, GLX_ACCUM_ALPHA_SIZE, 1, None
+	};
 
 	window_kind = "an accumulation buffer";
 	open_window_of(attributes);

@@ -1,6 +1,6 @@
 /*
- * Surfaces on top of each other: one frame each of textures filtered anisotropically, environments of GL_COMBINE on three units, and
- * polygon offset. Walls and floors lead out of the view. Recorded by test_families.py.
+ * Surfaces on top of each other: one frame each of textures filtered anisotropically, environments of GL_COMBINE on
+ * three units, and polygon offset. Walls and floors lead out of the view. Recorded by test_families.py.
  */
 #include "tests/trace/window.h"
 
@@ -70,7 +70,8 @@ static void reset(void)
 /* Footprints of all shapes; sizes that are powers of two and others; a lower layer shines through. */
 static void anisotropic(void)
 {
-	static const int filters[4] = { GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, GL_NEAREST_MIPMAP_NEAREST };
+	static const int filters[4] = { GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR,
+		                        GL_NEAREST_MIPMAP_NEAREST };
 	static const int sizes[4][2] = { { 64, 64 }, { 16, 64 }, { 48, 20 }, { 33, 7 } };
 
 	for (int layer = 0; layer < 2; layer++)
@@ -88,7 +89,8 @@ static void anisotropic(void)
 /* Each function and operand, with sources of the unit, of others, and of none. */
 static void combined(void)
 {
-	static const int functions[8] = { GL_REPLACE, GL_MODULATE, GL_ADD, GL_ADD_SIGNED, GL_INTERPOLATE, GL_SUBTRACT, GL_DOT3_RGB, GL_DOT3_RGBA };
+	static const int functions[8] = { GL_REPLACE,     GL_MODULATE, GL_ADD,      GL_ADD_SIGNED,
+		                          GL_INTERPOLATE, GL_SUBTRACT, GL_DOT3_RGB, GL_DOT3_RGBA };
 	static const int sources[6] = { GL_TEXTURE, GL_PREVIOUS, GL_PRIMARY_COLOR, GL_CONSTANT, GL_TEXTURE0, GL_TEXTURE2 };
 	static const int operands[4] = { GL_SRC_COLOR, GL_ONE_MINUS_SRC_ALPHA, GL_ONE_MINUS_SRC_COLOR, GL_SRC_ALPHA };
 	const float constant[4] = { 0.3f, 0.9f, 0.5f, 0.6f };

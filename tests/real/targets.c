@@ -1,7 +1,7 @@
 /*
- * What is drawn to, one thing a frame: a window with alpha, whose stored alpha blends look at; textures and renderbuffers as
- * colour, depth and stencil, drawn with, copied and kept from frame to frame. Recorded by test_targets.py; sums.c has what takes an
- * accumulation buffer.
+ * What is drawn to, one thing a frame: a window with alpha, whose stored alpha blends look at; textures and
+ * renderbuffers as colour, depth and stencil, drawn with, copied and kept from frame to frame. Recorded by
+ * test_targets.py; sums.c has what takes an accumulation buffer.
  */
 #include "tests/trace/window.h"
 
@@ -40,7 +40,8 @@ static void stored_alpha(void)
 	glDisable(GL_BLEND);
 }
 
-static unsigned objects[2], colors[2], depths[2]; /* the first with a depth renderbuffer, the second with a depth texture */
+static unsigned objects[2], colors[2], depths[2]; /* the first with a depth renderbuffer, the second with a depth
+                                                     texture */
 
 static void make_objects(void)
 {
@@ -255,7 +256,8 @@ static void copies(void)
 	show(colors[1], 32, 16, 32, 32);
 }
 
-/* Blits between pixels: halved and turned over in another object, once more as large in the window, and cut by its border. */
+/* Blits between pixels: halved and turned over in another object, once more as large in the window, and cut by its
+ * border. */
 static void scaled(void)
 {
 	glBindFramebuffer(GL_FRAMEBUFFER, objects[1]);
@@ -271,7 +273,8 @@ static void scaled(void)
 	show(colors[0], 2, 34, 16, 16);
 }
 
-/* Colours that one object has at a time, each with a past of its own: cleared together, drawn over with and without depth. */
+/* Colours that one object has at a time, each with a past of its own: cleared together, drawn over with and without
+ * depth. */
 static void several(void)
 {
 	static const unsigned both[2] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT2 };
@@ -334,13 +337,14 @@ static void several(void)
 }
 
 /*
- * Objects of floats: what is cleared, drawn, blended and copied beyond [0,1] stays so, but where the program asks for colours to be
- * clamped. Shown dimmed, panel by panel.
+ * Objects of floats: what is cleared, drawn, blended and copied beyond [0,1] stays so, but where the program asks for
+ * colours to be clamped. Shown dimmed, panel by panel.
  */
 static void floats(void)
 {
 	static const int formats[2] = { GL_RGBA32F, GL_RGB16F };
-	static const float pixels[2][2][4] = { { { 3, -1, 0.5f, 1 }, { 0, 2, 4, 1 } }, { { 1.5f, 1.5f, 0, 1 }, { -2, 3, 0.25f, 1 } } };
+	static const float pixels[2][2][4] = { { { 3, -1, 0.5f, 1 }, { 0, 2, 4, 1 } },
+		                               { { 1.5f, 1.5f, 0, 1 }, { -2, 3, 0.25f, 1 } } };
 	const float fog[4] = { 2, 0.5f, -1, 1 };
 	unsigned object[2], target[2], held, copy;
 
@@ -456,7 +460,8 @@ static void few_bits(void)
 		glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target[i], 0);
 		if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE)
 			for (int k = 0; k < 48; k++)
-				panel(k % 8 * 8, k / 8 * 8, 8, (float)(k * 5) / 255, (float)(k * 5 + 3) / 255, 1 - (float)(k * 5) / 255, (float)(k % 2));
+				panel(k % 8 * 8, k / 8 * 8, 8, (float)(k * 5) / 255, (float)(k * 5 + 3) / 255,
+				      1 - (float)(k * 5) / 255, (float)(k % 2));
 		draw_to(0, 64, 48);
 		show(target[i], i % 2 * 32, i / 2 * 24, 32, 24);
 	}
@@ -494,8 +499,9 @@ static void not_rendered(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, levels, layers, several, floats, scaled,
-		                              few_bits, not_rendered };
+	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, levels,
+		                                layers,       several,           floats,        scaled, few_bits,
+		                                not_rendered };
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, None };
 
 	open_window_of(attributes);

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The last lines of a run: on how many pixels tracing added what, as the channels have it, whether the file holds them or not."""
+"""The last lines of a run: on how many pixels tracing added what, as the channels have it, whether the file holds them
+or not."""
 import re
 
 from exr import Image
@@ -34,19 +35,29 @@ for program, options in (("spheres", ()), ("still_life", ()), ("still_life", ("-
     if not trace.exists():
         record(trace, corpus(program), "--frames", "3", "--size", "160x120", options=())
     text = render(trace, f"{program}.####.exr", *options)
-    wanted = {name: f"{share:.0f}" if share >= 1 else f"{share:.1g}" for name, share in shares(map(Image, sorted(SCRATCH.glob(f"{program}.*.exr")))).items()}
+    wanted = {
+        name: f"{share:.0f}" if share >= 1 else f"{share:.1g}"
+        for name, share in shares(map(Image, sorted(SCRATCH.glob(f"{program}.*.exr")))).items()
+    }
     check(wanted and said(text) == wanted, f"{program} {options}: {said(text)}, by the channels {wanted}: {text}")
     check(said(render(trace, "x.####.png", *options)) == wanted, f"{program} {options}: pictures to look at: the same")
-    check(said(render(trace, "x.####.exr", "--aov", "gl", "-j", 1, *options)) == wanted, f"{program} {options}: files without these channels: the same")
-    check(said(render(trace, "x.####.exr", "--skip-existing", "--aov", "gl", *options)) is None, f"{program} {options}: nothing traced, nothing said")
-    check("tracing added" not in render(trace, "x.####.exr", "--progress", "none", *options), f"{program} {options}: --progress none")
+    check(
+        said(render(trace, "x.####.exr", "--aov", "gl", "-j", 1, *options)) == wanted,
+        f"{program} {options}: files without these channels: the same")
+    check(
+        said(render(trace, "x.####.exr", "--skip-existing", "--aov", "gl", *options)) is None,
+        f"{program} {options}: nothing traced, nothing said")
+    check("tracing added" not in render(trace, "x.####.exr", "--progress", "none", *options),
+          f"{program} {options}: --progress none")
 check("glass" in said(render(SCRATCH / "spheres.trace", "x.####.exr")), "spheres: glass is named")
 check("other light" in wanted, f"lit at each pixel: {wanted}")
 check("tracing added" not in render(trace, "x.####.exr", "--mode", "gl"), "mode gl adds nothing by its nature")
-check("light from surface to surface on" in render(trace, "x.####.exr", "--mode", "path", "--samples", "2", "-f", 0), "mode path")
+check("light from surface to surface on" in render(trace, "x.####.exr", "--mode", "path", "--samples", "2", "-f", 0),
+      "mode path")
 two = SCRATCH / "two.trace"
 record(two, corpus("two_triangles"), "--frames", "1", "--size", "160x120", options=())
 text = render(two, "two.####.png")
-check("tracing added nothing" in text and "--look auto" in text and "--mode path" in text and "brighter" not in text, f"what to try where nothing is added: {text}")
+check("tracing added nothing" in text and "--look auto" in text and "--mode path" in text and "brighter" not in text,
+      f"what to try where nothing is added: {text}")
 
 finish()

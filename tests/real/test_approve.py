@@ -26,11 +26,13 @@ found, frames = outcomes(4, trace, out, "--baseline", base)
 check(found == ["new"] * 3, f"nothing is approved yet: {found}")
 done = relume("diff", trace, out, "--baseline", base)
 said = [line for line in done.stderr.splitlines() if str(base) in line]
-check(done.returncode == 4 and len(said) == 1 and "there is no such folder" in said[0] and f"relume approve TRACED {base}" in said[0],
-      f"a baseline that is not there: {done.stderr}")
+check(
+    done.returncode == 4 and len(said) == 1 and "there is no such folder" in said[0]
+    and f"relume approve TRACED {base}" in said[0], f"a baseline that is not there: {done.stderr}")
 shutil.copy(out / "c.0002.exr", SCRATCH / "view.exr")
 got, score = diff(trace, SCRATCH / "view.exr")
-check([(f["frame"], f["outcome"]) for f in score["frames"]] == [(2, "passed")], f"a frame without a number in its name says which one it is: {score['frames']}")
+check([(f["frame"], f["outcome"]) for f in score["frames"]] == [(2, "passed")],
+      f"a frame without a number in its name says which one it is: {score['frames']}")
 text = approve(out, base, "-n")
 check(not base.exists() and "frame 1: new" in text and "nothing was written" in text, f"a dry run: {text}")
 env = dict(os.environ, SOURCE_DATE_EPOCH="1000000000")
@@ -86,24 +88,28 @@ record(SCRATCH / "o.trace", corpus("two_triangles"), "--frames", "2")
 render(SCRATCH / "o.trace", SCRATCH / "other")
 shutil.copy(SCRATCH / "other" / "o.0001.exr", mixed / "o.0001.exr")
 done = relume("approve", mixed, half)
-check(done.returncode == 2 and "another device or trace" in done.stderr and not half.exists() and not done.stdout, f"two series: {done.stdout}{done.stderr}")
+check(done.returncode == 2 and "another device or trace" in done.stderr and not half.exists() and not done.stdout,
+      f"two series: {done.stdout}{done.stderr}")
 before = {path: path.read_bytes() for path in base.rglob("*") if path.is_file()}
 render(trace, SCRATCH / "gl01", "--mode", "gl", "-f", "0,1")
 (SCRATCH / "gl01" / "c.0002.exr").write_bytes(b"\x76\x2f\x31\x01 no frame")
 done = relume("approve", SCRATCH / "gl01", base)
-check(done.returncode == 3 and before == {path: path.read_bytes() for path in base.rglob("*") if path.is_file()}, f"a damaged frame: {done.stdout}{done.stderr}")
+check(done.returncode == 3 and before == {path: path.read_bytes() for path in base.rglob("*") if path.is_file()},
+      f"a damaged frame: {done.stdout}{done.stderr}")
 
 # Pictures are approved as what they are.
 must(relume("render", trace, "-o", SCRATCH / "png" / "c.####.png"))
 approve(SCRATCH / "png", SCRATCH / "base_png")
 stored = sorted(path.name for path in (SCRATCH / "base_png").glob("*/frame.*"))
 check(stored == [f"frame.{i:04}.png" for i in range(3)], f"PNG frames are stored as PNG: {stored}")
-check(all(path.read_bytes()[:4] == b"\x89PNG" for path in (SCRATCH / "base_png").glob("*/frame.*")), "and are PNG files")
+check(all(path.read_bytes()[:4] == b"\x89PNG" for path in (SCRATCH / "base_png").glob("*/frame.*")),
+      "and are PNG files")
 found, _ = outcomes(0, "--baseline", SCRATCH / "base_png", SCRATCH / "png")
 check(found == ["passed"] * 3, f"and are compared: {found}")
 shutil.copy(SCRATCH / "png" / "c.0000.png", SCRATCH / "png" / "c.0001.png")
 found, frames = outcomes(1, "--baseline", SCRATCH / "base_png", "--report", SCRATCH / "page_png", SCRATCH / "png")
-check(found[1] == "failed" and '"approved": "data:image/png' in (SCRATCH / "page_png/index.html").read_text(), f"another PNG fails, and the page shows both: {found}")
+check(found[1] == "failed" and '"approved": "data:image/png' in (SCRATCH / "page_png/index.html").read_text(),
+      f"another PNG fails, and the page shows both: {found}")
 
 sheet.write_text(sheet.read_text().replace("version: 1", "version: one"))
 done = relume("diff", trace, out, "--baseline", base)

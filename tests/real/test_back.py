@@ -1,7 +1,6 @@
 #!/usr/bin/python3
-"""
-A frame that shows what earlier ones drew goes back as far as it must, and no farther, with the same picture: tests/real/back.c. On the way
-it leaves pixels in the cache for those that come later.
+"""A frame that shows what earlier ones drew goes back as far as it must, and no farther, with the same picture:
+tests/real/back.c. On the way it leaves pixels in the cache for those that come later.
 """
 import os
 import re
@@ -21,8 +20,12 @@ def beginnings(frames, *options):
     for frame in frames.split(","):
         one, = out.glob(f"x.{frame:>04}.exr")
         same, = whole.glob(f"*.{frame:>04}.exr")
-        check(must(relume("diff", same, one)).returncode == 0 and one.read_bytes() == same.read_bytes(), f"{frames}: frame {frame} is another picture")
-    return [(int(frame), int(first)) for frame, first in re.findall(r"frame (\d+) needs the pixels .*playing them from frame (\d+)", done.stderr)]
+        check(
+            must(relume("diff", same, one)).returncode == 0 and one.read_bytes() == same.read_bytes(),
+            f"{frames}: frame {frame} is another picture")
+    return [(int(frame), int(first))
+            for frame, first in re.findall(r"frame (\d+) needs the pixels .*playing them from frame (\d+)", done.stderr)
+            ]
 
 
 def kept():

@@ -73,9 +73,11 @@ for verb in ("scene", "pick", "render"):
     refused(relume(*arguments, "-f", "7"), USAGE, f"{verb} of a frame outside the trace")
     refused(relume(*arguments, "-f", "1-x"), USAGE, f"{verb} of a range that is none")
 
-refused(relume("farm", "script", "--for", "make", good, "-f", "1-", "-o", WORK / "x.####.exr"), USAGE, "a farm's job without an end")
+refused(relume("farm", "script", "--for", "make", good, "-f", "1-", "-o", WORK / "x.####.exr"), USAGE,
+        "a farm's job without an end")
 listed = relume("render", good, "-f", "1-", "-o", WORK / "x.####.exr", "--dry-run")
-check(listed.returncode == 0 and [line.split(":")[0] for line in listed.stdout.splitlines()] == ["frame 1", "frame 2"], f"from 1 to the end: {listed.stdout}")
+check(listed.returncode == 0 and [line.split(":")[0] for line in listed.stdout.splitlines()] == ["frame 1", "frame 2"],
+      f"from 1 to the end: {listed.stdout}")
 refused(relume("render", good, "-f", "9-", "-o", WORK / "x.####.exr"), USAGE, "a range that begins behind the end")
 
 # A plain file where a folder should be: not even root can write below it.
@@ -106,7 +108,8 @@ for size in sorted({1, 2, 3, 6, 7, len(data) - 1, *(rng.randrange(len(data)) for
 cut.write_bytes(data[:len(data) // 8])
 done = relume("scene", cut)
 said = done.stderr.splitlines()
-check(done.returncode == INPUT and "relume repair" in said[0] and said[-1].endswith("holds no whole frame"), f"a recording without a frame: {said}")
+check(done.returncode == INPUT and "relume repair" in said[0] and said[-1].endswith("holds no whole frame"),
+      f"a recording without a frame: {said}")
 for size in (2, len(data) // 3, len(data) // 2, len(data) - 1):
     cut.write_bytes(data[:size])
     for verb, arguments in READERS.items():

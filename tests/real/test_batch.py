@@ -48,9 +48,12 @@ both = dict(os.environ, POCL_DEVICES="pthread pthread")
 long = SCRATCH / "long.trace"
 record(long, corpus("two_triangles"), "--frames", "60", options=())
 must(relume("render", long, "-o", SCRATCH / "alone" / "x.{frame}.exr"))
-shared = must(relume("render", long, "-o", SCRATCH / "shared" / "x.{frame}.exr", "--device", "all", "-j", "1", env=both))
+shared = must(relume("render", long, "-o", SCRATCH / "shared" / "x.{frame}.exr", "--device", "all", "-j", "1",
+                     env=both))
 shares = [int(n) for n in re.findall(r"^  device \d+: (\d+) frames?", shared.stderr, re.MULTILINE)]
-check(len(shares) == 2 and min(shares) > 0 and sum(shares) == 60, f"two devices share sixty frames: {shared.stderr[-400:]}")
+check(
+    len(shares) == 2 and min(shares) > 0 and sum(shares) == 60,
+    f"two devices share sixty frames: {shared.stderr[-400:]}")
 check(files(SCRATCH / "shared") == files(SCRATCH / "alone"), "two devices leave the bytes of one")
 
 # What is there is left; what is torn, zeroed, of other settings or missing is made.

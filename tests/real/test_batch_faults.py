@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """test_batch_faults.py [BUILD] (with BUILD as `make show-batch-faults`): what goes wrong while frames are rendered.
 
-A full disk, a folder that cannot be written, a recording that is cut while it is rendered, one that disappears, a device that
-fails: each ends with its exit code and a line that says what it was, every file that is there is whole, nothing unfinished
-is left, and the same command with --skip-existing goes on once the fault is gone.
+A full disk, a folder that cannot be written, a recording that is cut while it is rendered, one that disappears, a
+device that fails: each ends with its exit code and a line that says what it was, every file that is there is whole,
+nothing unfinished is left, and the same command with --skip-existing goes on once the fault is gone.
 
 limit: 300 s
 """
@@ -46,9 +46,12 @@ def judge(what, done, folder, code, words):
     good = [check(done.returncode == code, f"{what}: exit code {done.returncode} and not {code}: {done.stderr}"),
             check(any(words in line for line in lines), f"{what}: a line says '{words}': {done.stderr}"),
             check(all(whole.get(name) == data for name, data in left.items()), f"{what}: nothing torn: {sorted(left)}")]
-    rows.append({"what": f"{what}: exit code, line, files torn", "figure": f"{done.returncode}, {lines[0][8:80] if lines else ''}, "
-                 f"{sum(whole.get(n) != d for n, d in left.items())}", "bar": f"{code}, one that says it, 0", "peer": None,
-                 "passed": all(good)})
+    rows.append({
+        "what": f"{what}: exit code, line, files torn",
+        "figure": f"{done.returncode}, {lines[0][8:80] if lines else ''}, "
+        f"{sum(whole.get(n) != d for n, d in left.items())}", "bar": f"{code}, one that says it, 0", "peer": None,
+        "passed": all(good)
+    })
     return left
 
 
@@ -57,10 +60,12 @@ def goes_on(what, folder):
     check(files(folder) == whole, f"{what}: the same command with --skip-existing goes on")
 
 
-# A disk that is full: no file may grow beyond half a frame (without PoCL, whose compiler writes files too); then a real one of two frames and a half, where one can be mounted.
+# A disk that is full: no file may grow beyond half a frame (without PoCL, whose compiler writes files too); then a
+# real one of two frames and a half, where one can be mounted.
 folder = SCRATCH / "limited"
 limit = frame_bytes // 2
-done = run(RELUME, *command(trace, folder, "--device", "reference"), preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+done = run(RELUME, *command(trace, folder, "--device", "reference"),
+           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
 check(not judge("file too large", done, folder, 5, "cannot be written"), "file too large: no file is left")
 goes_on("file too large", folder)
 folder = SCRATCH / "small"
@@ -94,22 +99,24 @@ with open(cut, "r+b") as file:
     file.truncate(trace.stat().st_size // 2)
 done = relume(*command(cut, SCRATCH / "cutted"))
 check(done.returncode in (0, 3), f"a cut recording: exit code {done.returncode}: {done.stderr}")
-check("anew" in done.stderr or "cut" in done.stderr or "whole frame" in done.stderr, f"a cut recording is said: {done.stderr}")
+check("anew" in done.stderr or "cut" in done.stderr or "whole frame" in done.stderr,
+      f"a cut recording is said: {done.stderr}")
 cut.unlink()
 judge("recording is gone", relume(*command(cut, SCRATCH / "gone")), SCRATCH / "gone", 3, "cannot be read")
 
 # A device that fails at once, and one that fails in the middle.
 for after in (0, 40):
     folder = SCRATCH / f"device{after}"
-    done = relume(*command(trace, folder), env=dict(shim, FAIL_CALL=str(after + 1), FAIL_NAME="clEnqueueNDRangeKernel", FAIL_GONE="1"))
+    done = relume(*command(trace, folder), env=dict(shim, FAIL_CALL=str(after + 1), FAIL_NAME="clEnqueueNDRangeKernel",
+                                                    FAIL_GONE="1"))
     judge(f"device fails at launch {after}", done, folder, 5, "CL_OUT_OF_RESOURCES")
     goes_on(f"device fails at launch {after}", folder)
 
 if len(sys.argv) > 1:
     show = pathlib.Path(sys.argv[1]) / "show"
     show.mkdir(exist_ok=True)
-    (show / "batch-faults.json").write_text(json.dumps({"name": "batch-faults", "command": "make show-batch-faults", "rows": rows},
-                                                       indent=1))
+    (show / "batch-faults.json").write_text(
+        json.dumps({"name": "batch-faults", "command": "make show-batch-faults", "rows": rows}, indent=1))
     for row in rows:
         print(f"{row['what']}: {row['figure']} (bar {row['bar']}): {'passed' if row['passed'] else 'FAILED'}")
 finish()

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Trees kept on disk: the same frames to the byte with and without, by two runs at once, from damaged files, and without a folder."""
+"""Trees kept on disk: the same frames to the byte with and without, by two runs at once, from damaged files, and
+without a folder."""
 import os
 import subprocess
 
@@ -33,28 +34,36 @@ check(len(files) == 1 and files[0].suffix == ".tree", f"kept: {files}")
 whole, inode = files[0].read_bytes(), files[0].stat().st_ino
 os.utime(files[0], (1, 1))
 check(render("again", "--cache", FOLDER)[0] == want, "a run that finds a tree: another frame")
-check(files[0].stat().st_ino == inode and files[0].stat().st_mtime > 1, "what is found is noted as used, and not written again")
+check(files[0].stat().st_ino == inode and files[0].stat().st_mtime > 1,
+      "what is found is noted as used, and not written again")
 
 render("default", env=home)
-check([f.name for f in kept(SCRATCH / "home") if f.is_file()] == [files[0].name], f"the user's folder: {kept(SCRATCH / 'home')}")
+check([f.name for f in kept(SCRATCH / "home") if f.is_file()] == [files[0].name],
+      f"the user's folder: {kept(SCRATCH / 'home')}")
 
-for what, text in (("cut", whole[:len(whole) // 2]), ("damaged", whole[:5000] + bytes([whole[5000] ^ 4]) + whole[5001:]), ("empty", b"")):
+for what, text in (("cut", whole[:len(whole) // 2]),
+                   ("damaged", whole[:5000] + bytes([whole[5000] ^ 4]) + whole[5001:]), ("empty", b"")):
     files[0].write_bytes(text)
     frame, said = render(what, "--cache", FOLDER)
     check(frame == want, f"{what} file: another frame")
     check(files[0].read_bytes() == whole, f"{what} file is not mended")
 
 shared = SCRATCH / "shared"
-runs = [subprocess.Popen([RELUME, "render", TRACE, "-o", SCRATCH / f"both{i}.#.exr", *OPTIONS, "--cache", shared]) for i in range(2)]
+runs = [
+    subprocess.Popen([RELUME, "render", TRACE, "-o", SCRATCH / f"both{i}.#.exr", *OPTIONS, "--cache", shared])
+    for i in range(2)
+]
 check([run.wait(timeout=120) for run in runs] == [0, 0], "two runs at once fail")
 check(all((SCRATCH / f"both{i}.0.exr").read_bytes() == want for i in range(2)), "two runs at once: another frame")
-check([f.name for f in kept(shared)] == [files[0].name] and kept(shared)[0].read_bytes() == whole, f"two runs keep {kept(shared)}")
+check([f.name for f in kept(shared)] == [files[0].name] and kept(shared)[0].read_bytes() == whole,
+      f"two runs keep {kept(shared)}")
 
 frame, said = render("nowhere", "--cache", "/dev/null/trees")
 check(frame == want, "without a folder: another frame")
 check(said.count("\n") == 1 and "/dev/null/trees" in said, f"a folder that cannot be: {said!r}")
 frame, said = render("little", "--cache", SCRATCH / "little", "--cache-size", "100K")
-check(frame == want and not said and not kept(SCRATCH / "little"), f"a tree larger than the cache: {kept(SCRATCH / 'little')} {said!r}")
+check(frame == want and not said and not kept(SCRATCH / "little"),
+      f"a tree larger than the cache: {kept(SCRATCH / 'little')} {said!r}")
 for options in (("--cache-size", "much"), ("--cache", "")):
     bad = relume("render", TRACE, "-o", SCRATCH / "no.#.exr", *options)
     check(bad.returncode == 2 and bad.stderr.count("\n") == 1, f"{options}: {bad.returncode} {bad.stderr!r}")

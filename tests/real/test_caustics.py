@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Channels caustics of a real program: where light by way of glass falls, whatever else is asked for, and what is refused."""
+"""Channels caustics of a real program: where light by way of glass falls, whatever else is asked for, and what is
+refused."""
 from exr import Image
 from helpers import SCRATCH, check, corpus, finish, must, record, relume
 
@@ -19,19 +20,27 @@ def brightest(image):
 
 
 all_channels = render("all.exr", "--aov", "caustics")
-check({"R", "gl.R", "shadow.R", "caustics.R", "caustics.G", "caustics.B"} <= set(all_channels.names), f"beside all others: {all_channels.names}")
+check({"R", "gl.R", "shadow.R", "caustics.R", "caustics.G", "caustics.B"} <= set(all_channels.names),
+      f"beside all others: {all_channels.names}")
 value, x, y = brightest(all_channels)
 floor, above = all_channels.planes["albedo.R"][y][x], [v for row in all_channels.planes["caustics.R"][:6] for v in row]
-check(value > floor > 0, f"the ball focuses: {value:.2f} at {x}, {y}, where a light by itself gives {floor:.2f} at most")
+check(value > floor > 0,
+      f"the ball focuses: {value:.2f} at {x}, {y}, where a light by itself gives {floor:.2f} at most")
 check(max(above) == 0, "the sky gathers none")
 few = render("few.exr", "--aov", "gl,caustics")
-check("shadow.R" not in few.names and few.planes["caustics.G"] == all_channels.planes["caustics.G"], f"the same by themselves: {few.names}")
+check("shadow.R" not in few.names and few.planes["caustics.G"] == all_channels.planes["caustics.G"],
+      f"the same by themselves: {few.names}")
 render("again.exr", "--aov", "caustics")
 check((SCRATCH / "again.exr").read_bytes() == (SCRATCH / "all.exr").read_bytes(), "the same bytes in another run")
-pairs = [(a, b) for rows in zip(all_channels.planes["caustics.G"], render("cl.exr", "--aov", "caustics", device=()).planes["caustics.G"])
+pairs = [(a, b)
+         for rows in zip(all_channels.planes["caustics.G"],
+                         render("cl.exr", "--aov", "caustics", device=()).planes["caustics.G"])
          for a, b in zip(*rows)]
 off, total = sum(abs(a - b) for a, b in pairs), sum(a for a, _ in pairs)
-check(off < 0.005 * total, f"an OpenCL device's are the reference's, but for photons at edges: off by {off:.4f} of {total:.2f}")
+check(off < 0.005 * total,
+      f"an OpenCL device's are the reference's, but for photons at edges: off by {off:.4f} of {total:.2f}")
 for options in (("--aov", "caustics", "--mode", "gl"), ("--aov", "caustics", "--mode", "ao"), ("--photons", "1000")):
-    check(relume("render", trace, "-f", "1", "-o", SCRATCH / "x.exr", *options).returncode == 2, f"{' '.join(options)} is refused")
+    check(
+        relume("render", trace, "-f", "1", "-o", SCRATCH / "x.exr", *options).returncode == 2,
+        f"{' '.join(options)} is refused")
 finish()

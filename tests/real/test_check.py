@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # limit: 1200 s
-"""`relume devices --check`: every family on every OpenCL implementation that is installed draws what the C twins draw; which family
-`relume render` takes after an outcome, where one loses work items, crashes, hangs; a kept outcome that is damaged."""
+"""`relume devices --check`: every family on every OpenCL implementation that is installed draws what the C twins draw;
+which family `relume render` takes after an outcome, where one loses work items, crashes, hangs; a kept outcome that is
+damaged."""
 import json
 import os
 import pathlib
@@ -45,17 +46,20 @@ for vendor in (pathlib.Path(name) for name in os.environ.get("RELUME_VENDORS", "
     code, devices, said = checked(SCRATCH / "matrix", env)
     check(code == 0 and not said, f"{vendor.name}: --check ends with {code}: {said}")
     for device in devices:
-        check([f["kernels"] for f in device["families"]] == FAMILIES, f"families of {device['name']}: {device['families']}")
+        check([f["kernels"] for f in device["families"]] == FAMILIES,
+              f"families of {device['name']}: {device['families']}")
         for family in device["families"]:
             check(list(family["scenes"]) == SCENES, f"scenes: {list(family['scenes'])}")
             for scene, state in family["scenes"].items():
                 check(state == "right", f"{device['name']}, {family['kernels']}, {scene}: {state}")
-            check(family["frame_ms"] > 0 and family["compile_s"] >= 0, f"{device['name']}, {family['kernels']}: times {family}")
+            check(family["frame_ms"] > 0 and family["compile_s"] >= 0,
+                  f"{device['name']}, {family['kernels']}: times {family}")
 
 # --- A device of another type: packets are passed over, and the rest is right.
 as_gpu = SCRATCH / "as-gpu"
 code, (device,), said = checked(as_gpu, fake(AS_TYPE="gpu"))
-check(code == 0 and not said and states(device) == {"packets": "passed over", "binary": "right", "compressed": "right"}, f"as a GPU: {code}, {device}, {said}")
+check(code == 0 and not said and states(device) == {"packets": "passed over", "binary": "right", "compressed": "right"},
+      f"as a GPU: {code}, {device}, {said}")
 check(set(device["families"][0]["scenes"].values()) == {"not tried"}, f"packets on a GPU: {device['families'][0]}")
 
 # --- What render makes of it, on PoCL.
@@ -67,7 +71,8 @@ def render(cache, *options, env=ENV):
     out = SCRATCH / "frames"
     for old in out.glob("*.exr"):
         old.unlink()
-    done = relume("render", trace, "-o", out / "x.#.exr", "--progress", "none", *options, *(("--cache", cache) if cache else ()), env=env)
+    done = relume("render", trace, "-o", out / "x.#.exr", "--progress", "none", *options,
+                  *(("--cache", cache) if cache else ()), env=env)
     return done, [p.read_bytes() for p in out.glob("*.exr")]
 
 
@@ -85,17 +90,23 @@ check(done.returncode == 0 and found == want and not done.stderr, f"packets on a
 LOST = fake(EDIT="(uint)(lanes >> i) & 1u|(uint)(lanes >> i) & i & 1u")
 lost = SCRATCH / "lost"
 code, (device,), said = checked(lost, LOST)
-check(code == 1 and states(device) == {"packets": "wrong", "binary": "right", "compressed": "right"}, f"packets lose lanes: {code}, {device}")
+check(code == 1 and states(device) == {"packets": "wrong", "binary": "right", "compressed": "right"},
+      f"packets lose lanes: {code}, {device}")
 scenes = device["families"][0]["scenes"]
-check(scenes["ao"] == "wrong" and set(scenes.values()) <= {"right", "wrong"}, f"packets that ask whether light is blocked lose lanes: {scenes}")
+check(scenes["ao"] == "wrong" and set(scenes.values()) <= {"right", "wrong"},
+      f"packets that ask whether light is blocked lose lanes: {scenes}")
 check(device["kernels"] in ("binary", "compressed"), f"packets lose lanes, and the device runs {device['kernels']}")
 listed = must(relume("devices", "--cache", lost, env=ENV)).stdout
 check(f"kernels: {device['kernels']}, as checked" in listed, f"the list says what render takes: {listed}")
 done, found = render(lost, env=LOST)
-check(done.returncode == 0 and said_once(done, f"--kernels {device['kernels']}", "packets", "relume devices --check", "wrong"), f"packets are wrong: {done.stderr}")
+check(
+    done.returncode == 0
+    and said_once(done, f"--kernels {device['kernels']}", "packets", "relume devices --check", "wrong"),
+    f"packets are wrong: {done.stderr}")
 check(found == want, "another family after an outcome: another picture")
 done, found = render(lost, "--kernels", "packets")
-check(done.returncode == 0 and found == want and said_once(done, "warning", "--kernels packets", "wrong"), f"--kernels packets all the same: {done.stderr}")
+check(done.returncode == 0 and found == want and said_once(done, "warning", "--kernels packets", "wrong"),
+      f"--kernels packets all the same: {done.stderr}")
 done, found = render(lost, "--kernels", "binary")
 check(done.returncode == 0 and found == want and not done.stderr, f"--kernels binary, which is right: {done.stderr}")
 done, found = render(lost, "--device", "reference")
@@ -109,28 +120,35 @@ whole = kept.read_bytes()
 for what, data in (("damaged", whole[:60] + bytes([whole[60] ^ 1]) + whole[61:]), ("cut", whole[:100]), ("empty", b"")):
     kept.write_bytes(data)
     done, found = render(lost)
-    check(done.returncode == 0 and found == want and not done.stderr, f"a {what} outcome: exit code {done.returncode}, {[len(f) for f in found]} bytes: {done.stderr}")
+    check(done.returncode == 0 and found == want and not done.stderr,
+          f"a {what} outcome: exit code {done.returncode}, {[len(f) for f in found]} bytes: {done.stderr}")
 done, found = render(lost, env=fake(AS_DRIVER="2.0"))
 check(done.returncode == 0 and found and not done.stderr, f"another driver: {done.stderr}")
 kept.write_bytes(b"")
 code, (device,), said = checked(lost, fake(DIE="compressed", HANG="occlude_packet"), "--timeout", "60")
-check(code == 1 and states(device) == {"packets": "late", "binary": "right", "compressed": "failed"}, f"one crashes, one hangs: {code}, {device}")
+check(code == 1 and states(device) == {"packets": "late", "binary": "right", "compressed": "failed"},
+      f"one crashes, one hangs: {code}, {device}")
 # Beside it stand kernels that were launched with it, if any: the driver may have been at work on these.
-check(re.search(r"SIGABRT in .*camera_compressed", device["families"][2]["where"]), f"the kernel that crashes is named: {device['families'][2]}")
+check(re.search(r"SIGABRT in .*camera_compressed", device["families"][2]["where"]),
+      f"the kernel that crashes is named: {device['families'][2]}")
 check(device["kernels"] == "binary", f"one crashes, one hangs, and the device runs {device['kernels']}")
 check(len(list(lost.glob("*.outcome"))) == 1 and kept.read_bytes() != b"", "a damaged outcome is written again")
 done, found = render(lost)
-check(done.returncode == 0 and found == want and said_once(done, "not done in time", "--kernels binary"), f"one crashes, one hangs: {done.stderr}")
+check(done.returncode == 0 and found == want and said_once(done, "not done in time", "--kernels binary"),
+      f"one crashes, one hangs: {done.stderr}")
 
 # None is right: an error that names the way out.
 code, (device,), said = checked(SCRATCH / "none", fake(DIE="resolve"))
-check(code == 5 and device["kernels"] == "none" and "--device reference" in said, f"none is right: {code}, {device}, {said}")
+check(code == 5 and device["kernels"] == "none" and "--device reference" in said,
+      f"none is right: {code}, {device}, {said}")
 done, found = render(SCRATCH / "none")
-check(done.returncode == 5 and not found and said_once(done, "--device reference", "relume devices --check"), f"none is right: {done.returncode}, {done.stderr}")
+check(done.returncode == 5 and not found and said_once(done, "--device reference", "relume devices --check"),
+      f"none is right: {done.returncode}, {done.stderr}")
 done, found = render(SCRATCH / "none", "--device", "reference")
 check(done.returncode == 0 and found and not done.stderr, f"none is right, --device reference: {done.stderr}")
 done, found = render(SCRATCH / "none", "--kernels", "binary")
-check(done.returncode == 0 and found == want and said_once(done, "warning"), f"none is right, one is asked for: {done.stderr}")
+check(done.returncode == 0 and found == want and said_once(done, "warning"),
+      f"none is right, one is asked for: {done.stderr}")
 
 for options, words in ((("--device", "no such name"), "relume devices"), (("--timeout", "soon"), "--timeout")):
     done = relume("devices", "--check", *options)

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 900 s
-"""relume ci, on glxgears, on a program of the corpus and on a viewer of its own: new, approved, unchanged, changed; whatever changes is recorded."""
+"""relume ci, on glxgears, on a program of the corpus and on a viewer of its own: new, approved, unchanged, changed;
+whatever changes is recorded."""
 import os
 import re
 import random
@@ -20,7 +21,8 @@ NOTHING = "recorded nothing"
 
 
 def ci(name, *words, frames=3):
-    return on_display(RELUME, "ci", "--when-changed", "-n", name, "-f", frames, "-k", KEPT, "-b", APPROVED, *words, timeout=300, cwd=SCRATCH)
+    return on_display(RELUME, "ci", "--when-changed", "-n", name, "-f", frames, "-k", KEPT, "-b", APPROVED, *words,
+                      timeout=300, cwd=SCRATCH)
 
 
 def said(done):
@@ -56,22 +58,27 @@ def test_programs():
     done = ci("box", "--", "no-such-program")
     check(done.returncode == 5 and "no program 'no-such-program'" in done.stderr, f"no such program: {said(done)}")
     error = xml.etree.ElementTree.parse(KEPT / "box/junit.xml").getroot().find(".//error")
-    check(not (KEPT / "box/report").exists() and error is not None, "the page of an earlier run is gone; the results tell of the error")
+    check(not (KEPT / "box/report").exists() and error is not None,
+          "the page of an earlier run is gone; the results tell of the error")
     done = ci("box", "--", "false")
     check(done.returncode == 5 and "ended with exit code 1" in done.stderr, f"a program that fails: {said(done)}")
     done = ci("box", "--", "true")
     check(done.returncode == 5 and "nothing was recorded" in done.stderr, f"a program without pictures: {said(done)}")
 
 
-# --- Whatever changes is recorded ---------------------------------------------------------------------------------------
+# --- Whatever changes is recorded
+# ---------------------------------------------------------------------------------------
 
 def build_shape(facing):
-    must(run("cc", "-shared", "-fPIC", f"-DFACING={facing}", "-o", SCRATCH / "libshape.so", ROOT / "tests/real/ci_shape.c"))
+    must(
+        run("cc", "-shared", "-fPIC", f"-DFACING={facing}", "-o", SCRATCH / "libshape.so",
+            ROOT / "tests/real/ci_shape.c"))
 
 
 def build_viewer(shine):
-    must(run("cc", f"-DSHINE={shine}", "-o", SCRATCH / "viewer", ROOT / "tests/real/ci_viewer.c", f"-L{SCRATCH}", "-lshape", f"-Wl,-rpath,{SCRATCH}",
-             "-lglut", "-lGL", "-lm"))
+    must(
+        run("cc", f"-DSHINE={shine}", "-o", SCRATCH / "viewer", ROOT / "tests/real/ci_viewer.c", f"-L{SCRATCH}",
+            "-lshape", f"-Wl,-rpath,{SCRATCH}", "-lglut", "-lGL", "-lm"))
 
 
 def write(name, text):
@@ -85,13 +92,16 @@ CHANGES = {
     "the file that its argument names": (lambda: write("model.obj", OTHER), lambda: write("model.obj", MODEL), ()),
     "a library that it links": (lambda: build_shape(-1), lambda: build_shape(1), ()),
     "the program": (lambda: build_viewer(0.9), lambda: build_viewer(0), ()),
-    "a file that --data names": (lambda: write("hidden.dat", "0.5\n"), lambda: write("hidden.dat", "1\n"), ("--data", "hidden.dat")),
-    "a folder that --data names": (lambda: write("data/new", "1\n"), lambda: (SCRATCH / "data/new").unlink(), ("--data", "data")),
+    "a file that --data names": (lambda: write("hidden.dat", "0.5\n"), lambda: write("hidden.dat", "1\n"),
+                                 ("--data", "hidden.dat")),
+    "a folder that --data names": (lambda: write("data/new", "1\n"), lambda:
+                                   (SCRATCH / "data/new").unlink(), ("--data", "data")),
 }
 
 
 def test_changes():
-    """Each thing that is watched is touched, alone: recorded again, and the pictures tell; back again: the approved pictures. Nothing touched: nothing recorded."""
+    """Each thing that is watched is touched, alone: recorded again, and the pictures tell; back again: the approved
+    pictures. Nothing touched: nothing recorded."""
     (SCRATCH / "data/deep").mkdir(parents=True)
     write("data/deep/file", "1\n")
     for _, back, _ in CHANGES.values():
@@ -117,13 +127,15 @@ def test_changes():
     write("copy.obj", MODEL)
     done = ci("viewer", "--", "./viewer", "copy.obj", "3")
     check(NOTHING not in done.stdout and done.returncode == 0, f"another argument: {said(done)}")
-    done = on_display(RELUME, "ci", "-n", "viewer", "-f", "3", "-k", KEPT, "-b", APPROVED, "--", "./viewer", "copy.obj", "3", timeout=300, cwd=SCRATCH)
+    done = on_display(RELUME, "ci", "-n", "viewer", "-f", "3", "-k", KEPT, "-b", APPROVED, "--", "./viewer", "copy.obj",
+                      "3", timeout=300, cwd=SCRATCH)
     check("record 3 frames" in done.stdout and done.returncode == 0, f"by default it records always: {said(done)}")
     (KEPT / "viewer/viewer.trace").unlink()
     done = ci("viewer", "--", "./viewer", "copy.obj", "3")
     check(NOTHING not in done.stdout and done.returncode == 0, f"the recording is gone: {said(done)}")
     done = ci("viewer", "--data", "no-such.dat", *VIEWER)
-    check(done.returncode == 3 and "no-such.dat: is neither a file nor a folder" in done.stderr, f"--data of nothing: {said(done)}")
+    check(done.returncode == 3 and "no-such.dat: is neither a file nor a folder" in done.stderr,
+          f"--data of nothing: {said(done)}")
 
 
 def test_opened():
@@ -131,8 +143,11 @@ def test_opened():
     if not shutil.which("strace"):
         print("no strace here: what a program opens is not listed")
         return
-    must(on_display("strace", "-f", "-e", "trace=open,openat,execve", "-o", SCRATCH / "opened", "./viewer", "model.obj", "3", cwd=SCRATCH))
-    succeeded = re.findall(r'(?:openat\(AT_FDCWD, |open\(|execve\()"([^"]+)".* = \d+$', (SCRATCH / "opened").read_text(), re.M)
+    must(
+        on_display("strace", "-f", "-e", "trace=open,openat,execve", "-o", SCRATCH / "opened", "./viewer", "model.obj",
+                   "3", cwd=SCRATCH))
+    succeeded = re.findall(r'(?:openat\(AT_FDCWD, |open\(|execve\()"([^"]+)".* = \d+$',
+                           (SCRATCH / "opened").read_text(), re.M)
     opened = {os.path.realpath(SCRATCH / path) for path in succeeded}
     opened = {path for path in opened if os.path.isfile(path) and not path.startswith(("/proc", "/sys", "/dev"))}
     done = ci("viewer", *VIEWER)
@@ -141,19 +156,25 @@ def test_opened():
     ours = {os.path.realpath(SCRATCH / name) for name in ("viewer", "libshape.so", "model.obj")}
     check(ours <= opened & watched, f"what it opens and is watched: {ours - opened}, {ours - watched}")
     check(os.path.realpath(SCRATCH / "hidden.dat") in opened - watched, "strace lists the file that nothing names")
-    check(f"watched: {len(watched)} files" in done.stdout and "what the program opens beyond these is not watched: name it with --data" in done.stdout,
-          f"the other {len(opened - watched)} files are said not to be watched: {said(done)}")
+    check(
+        f"watched: {len(watched)} files" in done.stdout
+        and "what the program opens beyond these is not watched: name it with --data" in done.stdout,
+        f"the other {len(opened - watched)} files are said not to be watched: {said(done)}")
     unnamed = {path for path in opened - watched if path.startswith(str(SCRATCH))}
     done = ci("viewer", *(word for path in sorted(unnamed) for word in ("--data", path)), *VIEWER)
-    check(f"watched: {len(watched) + len(unnamed)} files" in done.stdout and NOTHING not in done.stdout, f"named, they are watched: {said(done)}")
+    check(f"watched: {len(watched) + len(unnamed)} files" in done.stdout and NOTHING not in done.stdout,
+          f"named, they are watched: {said(done)}")
     done = ci("viewer", "--", "./viewer", "model.obj", "3", "data")
-    check("folders that its arguments name (data)" in done.stdout, f"a folder among the arguments is named: {said(done)}")
+    check("folders that its arguments name (data)" in done.stdout,
+          f"a folder among the arguments is named: {said(done)}")
     done = ci("viewer", "--", "env", "VIEWER_GREEN=0.9", "./viewer", "model.obj", "3")
-    check("libshape.so" in (KEPT / "viewer/inputs").read_text(), f"libraries of a program among the arguments are watched: {said(done)}")
+    check("libshape.so" in (KEPT / "viewer/inputs").read_text(),
+          f"libraries of a program among the arguments are watched: {said(done)}")
 
 
 def test_touched():
-    """The short form of what show-ci does: a few of the files that a program opens are touched, alone; those are recorded that are watched."""
+    """The short form of what show-ci does: a few of the files that a program opens are touched, alone; those are
+    recorded that are watched."""
     if not shutil.which("strace"):
         print("no strace here: what a program opens is not touched")
         return
@@ -163,10 +184,13 @@ def test_touched():
         shutil.copy(SCRATCH / name, folder)
     (folder / "start").write_text('#!/bin/sh\nLD_LIBRARY_PATH="$PWD" exec ./viewer model.obj 1\n')
     (folder / "start").chmod(0o755)
-    for command in (("./viewer", "model.obj", "1"), ("./start",), ("env", "VIEWER_GREEN=0.5", "./viewer", "model.obj", "1")):
+    for command in (("./viewer", "model.obj", "1"), ("./start", ), ("env", "VIEWER_GREEN=0.5", "./viewer", "model.obj",
+                                                                    "1")):
         program = ci_touched.Touched(RELUME, folder, *command)
         files = re.findall(r'^file \w+ "(.*)"$', program.inputs, re.M)
-        check(len(files) == len({os.path.realpath(folder / path) for path in files}), f"{command}: each file once: {files}")
+        check(
+            len(files) == len({os.path.realpath(folder / path) for path in files}),
+            f"{command}: each file once: {files}")
         paths = [path for path in ci_touched.opened(command, folder) if program.can_touch(path)]
         ours = [str(folder / name) for name in ("viewer", "model.obj", "hidden.dat")]
         check(set(ours) <= set(paths), f"{command}: strace lists {paths}")
@@ -187,23 +211,28 @@ def test_press():
         check(done.returncode == 0 and NOTHING in done.stdout, f"the same keys: {said(done)}")
     (KEPT / "keys/keys.trace").unlink()
     done = ci("keys", *pressed, *VIEWER)
-    check(done.returncode == 0 and "record 3 frames: its recording is gone" in done.stdout, f"recorded again, the same pictures: {said(done)}")
+    check(done.returncode == 0 and "record 3 frames: its recording is gone" in done.stdout,
+          f"recorded again, the same pictures: {said(done)}")
     for other, n_wrong in ((("--press", "s@1"), 1), (("--press", "s@2"), 2), ((), 2)):
         done = ci("keys", *other, *VIEWER)
-        check(done.returncode == 1 and 'press: "s@' in done.stdout and kept("keys")[1:] == (3, n_wrong), f"{other}: {kept('keys')}, {said(done)}")
+        check(done.returncode == 1 and 'press: "s@' in done.stdout and kept("keys")[1:] == (3, n_wrong),
+              f"{other}: {kept('keys')}, {said(done)}")
     done = ci("keys", "--press", "s@3", *VIEWER)
-    check(done.returncode == 5 and "the program ends after 3 frames" in done.stderr, f"a key after the last frame: {said(done)}")
+    check(done.returncode == 5 and "the program ends after 3 frames" in done.stderr,
+          f"a key after the last frame: {said(done)}")
 
 
 def test_frames():
-    """Fewer frames than before: none of the old ones is left to approve or is missing; fewer than approved because the program ends early: they are."""
+    """Fewer frames than before: none of the old ones is left to approve or is missing; fewer than approved because the
+    program ends early: they are."""
     check(ci("viewer", "--", "./viewer", "model.obj", "12", frames=12).returncode == 4, "12 frames: 9 are new")
     approve("viewer")
     done = ci("viewer", "--", "./viewer", "model.obj", "12", frames=8)
     left = sorted(path.name for path in (KEPT / "viewer/frames").glob("*.exr"))
     check(done.returncode == 0 and left == [f"viewer.{i:04}.exr" for i in range(8)], f"8 of 12: {left}: {said(done)}")
     done = ci("viewer", "--", "./viewer", "model.obj", "5", frames=8)
-    check(done.returncode == 1 and done.stdout.count(" missing") >= 1 and kept("viewer")[1:] == (8, 3), f"it ends after 5 of 8: {said(done)}")
+    check(done.returncode == 1 and done.stdout.count(" missing") >= 1 and kept("viewer")[1:] == (8, 3),
+          f"it ends after 5 of 8: {said(done)}")
 
 
 TIMED = """programs:
@@ -225,36 +254,52 @@ def test_jobs():
     """Several at a time: one after the other on a display, each with its own keys; what a server reads."""
     write("hidden.dat", "1\n")
     write("relume-ci.yaml", TIMED)
-    write("timed", '#!/bin/sh\necho "begin $1" >>times\nname=$1; shift; ./viewer "$@"; code=$?\nsleep 0.5; echo "end $name" >>times; exit $code\n')
+    write(
+        "timed",
+        '#!/bin/sh\necho "begin $1" >>times\nname=$1; shift; ./viewer "$@"; code=$?\nsleep 0.5; echo "end $name" '
+        '>>times; exit $code\n'
+    )
     (SCRATCH / "timed").chmod(0o755)
     def server(*words, start=ROOT / "tests/xvfb.sh"):
         for name in ("times", "step-summary"):
             (SCRATCH / name).unlink(missing_ok=True)
-        return run(*((start,) if start else ()), RELUME, "ci", "-b", "approved3", *words, timeout=300, cwd=SCRATCH,
-                   env={**os.environ, "GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": str(SCRATCH / "step-summary"), "DISPLAY": ":none"})
+        return run(
+            *((start, ) if start else ()), RELUME, "ci", "-b", "approved3", *words, timeout=300, cwd=SCRATCH, env={
+                **os.environ, "GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": str(SCRATCH / "step-summary"),
+                "DISPLAY": ":none"
+            })
     done = server("-j", "4")
     times = (SCRATCH / "times").read_text().splitlines()
-    check(done.returncode == 5 and len(times) == 6 and all(times[i][5:] == times[i + 1][3:] for i in (0, 2, 4)), f"one at a time on the display: {times}")
-    check("a: not approved yet\nb: not approved yet\nc: not approved yet\nd: could not be compared\n" in done.stdout, f"all of them: {said(done)}")
+    check(done.returncode == 5 and len(times) == 6 and all(times[i][5:] == times[i + 1][3:] for i in (0, 2, 4)),
+          f"one at a time on the display: {times}")
+    check("a: not approved yet\nb: not approved yet\nc: not approved yet\nd: could not be compared\n" in done.stdout,
+          f"all of them: {said(done)}")
     summaries = re.findall(r"^### .*", (SCRATCH / "step-summary").read_text(), re.M)
-    check(len(summaries) == 4 and [n for n in "abcd" if n in summaries["abcd".index(n)].split("relume")[1]] == list("abcd"), f"summaries in order: {summaries}")
+    check(
+        len(summaries) == 4
+        and [n for n in "abcd" if n in summaries["abcd".index(n)].split("relume")[1]] == list("abcd"),
+        f"summaries in order: {summaries}")
     marks = annotations(done.stdout)
-    check(("error", {"title": "relume ci d"}, "record failed with exit code 5; the log says why") in marks and len(marks) == 7, f"marks: {marks}")
+    check(("error", {"title": "relume ci d"}, "record failed with exit code 5; the log says why") in marks
+          and len(marks) == 7, f"marks: {marks}")
     reports = [KEPT / name / "junit.xml" for name in "abcd"]
     check(not junit_faults(*reports), f"reports of one job: {junit_faults(*reports)}")
     for name in "abc":
         must(relume("approve", KEPT / name / "frames", SCRATCH / "approved3" / name))
     write("relume-ci.yaml", TIMED.replace("s@1", "s@2").replace("frames: 2", "frames: 3", 1))
     done = server("-j", "4", "-n", "a")
-    check(done.returncode == 1 and {kind for kind, *_ in annotations(done.stdout)} == {"error"} and not junit_faults(KEPT / "a/junit.xml"),
-          f"pictures have changed: {said(done)}")
+    check(
+        done.returncode == 1 and {kind for kind, *_ in annotations(done.stdout)} == {"error"}
+        and not junit_faults(KEPT / "a/junit.xml"), f"pictures have changed: {said(done)}")
     write("relume-ci.yaml", TIMED[:TIMED.index("- {name: d")])
     if not shutil.which("xvfb-run"):
         print("no xvfb-run here: displays of their own were not tried")
         return
     done = server("-j", "3", "--xvfb", start=None)
-    check(done.returncode == 0 and "a: passed\nb: passed\nc: passed\n" in done.stdout and not annotations(done.stdout), f"each on its display: {said(done)}")
-    done = run(RELUME, "ci", "--xvfb", "-n", "a", "-b", "approved3", cwd=SCRATCH, env={**os.environ, "PATH": "/nowhere"})
+    check(done.returncode == 0 and "a: passed\nb: passed\nc: passed\n" in done.stdout and not annotations(done.stdout),
+          f"each on its display: {said(done)}")
+    done = run(RELUME, "ci", "--xvfb", "-n", "a", "-b", "approved3", cwd=SCRATCH,
+               env={**os.environ, "PATH": "/nowhere"})
     check(done.returncode == 5 and "--xvfb needs the program 'xvfb-run'" in done.stderr, f"no xvfb-run: {said(done)}")
 
 
@@ -263,13 +308,15 @@ def test_bisect():
     (SCRATCH / "relume-ci.yaml").unlink(missing_ok=True)
     check(ci("bisected", "--bisect", *VIEWER).returncode == 125, "--bisect, nobody has approved it")
     approve("bisected")
-    for program, code in ((("--", "false"), 125), (("--", "no-such-program"), 125), (VIEWER, 0), (("--env", "VIEWER_GREEN=0.9", *VIEWER), 1)):
+    for program, code in ((("--", "false"), 125), (("--", "no-such-program"), 125), (VIEWER, 0),
+                          (("--env", "VIEWER_GREEN=0.9", *VIEWER), 1)):
         done = ci("bisected", "--bisect", *program)
         check(done.returncode == code, f"--bisect {program}: {said(done)}")
 
 
 def test_file():
-    """All programs of relume-ci.yaml in one run; one of them by name; what is wrong in the file is named with its line."""
+    """All programs of relume-ci.yaml in one run; one of them by name; what is wrong in the file is named with its
+    line."""
     write("relume-ci.yaml", f"""baseline: approved2
 programs:
 - name: one
@@ -284,26 +331,32 @@ programs:
     def all_of_file(*words):
         return on_display(RELUME, "ci", "--when-changed", *words, timeout=300, cwd=SCRATCH)
     done = all_of_file()
-    check(done.returncode == 4 and "one: not approved yet\ntwo: not approved yet\n" in done.stdout, f"a file of two: {said(done)}")
+    check(done.returncode == 4 and "one: not approved yet\ntwo: not approved yet\n" in done.stdout,
+          f"a file of two: {said(done)}")
     for name in ("one", "two"):
         must(relume("approve", KEPT / name / "frames", SCRATCH / "approved2" / name))
     done = all_of_file()
-    check(done.returncode == 0 and done.stdout.count(NOTHING) == 2 and "one: passed\ntwo: passed\n" in done.stdout, f"approved: {said(done)}")
+    check(done.returncode == 0 and done.stdout.count(NOTHING) == 2 and "one: passed\ntwo: passed\n" in done.stdout,
+          f"approved: {said(done)}")
     in_turn(all_of_file)
     write("hidden.dat", "0.7\n")
     done = all_of_file()
-    check(done.returncode == 1 and done.stdout.count(NOTHING) == 1 and "one: passed\ntwo: failed" in done.stdout, f"data of the second: {said(done)}")
+    check(done.returncode == 1 and done.stdout.count(NOTHING) == 1 and "one: passed\ntwo: failed" in done.stdout,
+          f"data of the second: {said(done)}")
     write("relume-ci.yaml", (SCRATCH / "relume-ci.yaml").read_text().replace("0.7", "0.6"))
     done = all_of_file("-n", "two")
-    check(done.returncode == 1 and "environment: " in done.stdout and "one:" not in done.stdout, f"only the second, its variable: {said(done)}")
+    check(done.returncode == 1 and "environment: " in done.stdout and "one:" not in done.stdout,
+          f"only the second, its variable: {said(done)}")
     check(all_of_file("-n", "three").returncode == 2, "a name that the file lacks")
     check(all_of_file("--data", "x").returncode == 2, "options of a program without one")
-    for text, said_of_it in (("programs:\n- name: a\n  comand: [x]\n", "line 3"), ("programs:\n- {name: a/b, command: [x]}\n", "'a/b' cannot be the name"),
+    for text, said_of_it in (("programs:\n- name: a\n  comand: [x]\n",
+                              "line 3"), ("programs:\n- {name: a/b, command: [x]}\n", "'a/b' cannot be the name"),
                              ("programs:\n- {command: [x]}\n- {command: [y/x]}\n", "two programs are called 'x'"),
                              ("programs:\n- {command: [x], environment: [A]}\n", "not NAME=VALUE")):
         write("relume-ci.yaml", text)
         done = all_of_file()
-        check(done.returncode == 3 and said_of_it in done.stderr and done.stderr.count("\n") == 1, f"{text!r}: {said(done)}")
+        check(done.returncode == 3 and said_of_it in done.stderr and done.stderr.count("\n") == 1,
+              f"{text!r}: {said(done)}")
     (SCRATCH / "relume-ci.yaml").unlink()
     check(all_of_file().returncode == 3, "no file")
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The short form of `make show-ci`: git bisect finds a fault of a program and one of a renderer at their commits; a harmless change passes."""
+"""The short form of `make show-ci`: git bisect finds a fault of a program and one of a renderer at their commits; a
+harmless change passes."""
 import sys
 
 from helpers import BUILD, ROOT, SCRATCH, check, finish, on_display

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""A recording that takes the process over reaches nothing: tests/real/intruder_shim.c stands for it. Without confinement it reaches all."""
+"""A recording that takes the process over reaches nothing: tests/real/intruder_shim.c stands for it. Without
+confinement it reaches all."""
 import ctypes
 import os
 import re
@@ -9,15 +10,22 @@ import tempfile
 
 from helpers import BUILD, RELUME, SCRATCH, check, corpus, finish, pathlib, record, relume, skip
 
-FILES = ("read a file", "read accounts", "overwrite a file", "truncate a file", "remove a file", "make a file", "list a folder")
+FILES = ("read a file", "read accounts", "overwrite a file", "truncate a file", "remove a file", "make a file",
+         "list a folder")
 CALLS = ("socket", "local socket", "io_uring", "kill", "exec")
 VERBS = {
-    "info": ("info", "x.trace"), "dump": ("dump", "x.trace"), "scene": ("scene", "x.trace"), "index": ("index", "--force", "x.trace"),
-    "export": ("export", "x.trace", "-o", "glb/x.glb"), "trim": ("trim", "-f", 0, "x.trace", "-o", "cut/x.trace"),
-    "repair": ("repair", "x.trace", "-o", "mended/x.trace"), "look": ("look", "x.trace", "-o", "rules/x.look.yaml"),
+    "info": ("info", "x.trace"),
+    "dump": ("dump", "x.trace"),
+    "scene": ("scene", "x.trace"),
+    "index": ("index", "--force", "x.trace"),
+    "export": ("export", "x.trace", "-o", "glb/x.glb"),
+    "trim": ("trim", "-f", 0, "x.trace", "-o", "cut/x.trace"),
+    "repair": ("repair", "x.trace", "-o", "mended/x.trace"),
+    "look": ("look", "x.trace", "-o", "rules/x.look.yaml"),
     "render": ("render", "x.trace", "-f", 0, "-o", "frames/x.####.exr", "--progress", "none"),
     "diff": ("diff", "x.trace", "frames", "-f", 0, "--report", "report", "--json", "score/x.json"),
-    "bench": ("bench", "x.trace", "--repeat", 1), "pick": ("pick", "x.trace", "400,300"),
+    "bench": ("bench", "x.trace", "--repeat", 1),
+    "pick": ("pick", "x.trace", "400,300"),
 }
 
 
@@ -33,13 +41,14 @@ def intrude(work, *args):
     for name in ("secret", "victim"):
         (other / name).write_text("mine")
     prey = subprocess.Popen(["sleep", "1000"])
-    env = dict(os.environ, LD_PRELOAD=str(BUILD / "tests/real/intruder_shim.so"), SECRET=str(other / "secret"), VICTIM=str(other / "victim"),
-               NEW=str(other / "new"), PREY=str(prey.pid))
+    env = dict(os.environ, LD_PRELOAD=str(BUILD / "tests/real/intruder_shim.so"), SECRET=str(other / "secret"),
+               VICTIM=str(other / "victim"), NEW=str(other / "new"), PREY=str(prey.pid))
     done = relume(*args, env=env, cwd=work / "own")
     prey.kill()
     prey.wait()
     kept = sorted(p.name for p in other.iterdir()) == ["secret", "victim"] and (other / "victim").read_text() == "mine"
-    return done, dict((what, int(number)) for what, number in re.findall(r"intruder: ([\w ]+): (\d+)", done.stderr)), kept
+    return done, dict(
+        (what, int(number)) for what, number in re.findall(r"intruder: ([\w ]+): (\d+)", done.stderr)), kept
 
 
 if not landlocked():
@@ -56,12 +65,15 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
         done, attempts, kept = intrude(work, *args)
         check(done.returncode == 0, f"{verb}: exit code {done.returncode}: {done.stderr}")
         check(set(attempts) == {*FILES, *CALLS}, f"{verb}: attempts {attempts}")
-        check(all(attempts.values()) and kept, f"{verb}: done in spite of confinement: {[w for w, n in attempts.items() if n == 0]}")
+        check(
+            all(attempts.values()) and kept,
+            f"{verb}: done in spite of confinement: {[w for w, n in attempts.items() if n == 0]}")
         reports = done.stderr.replace("intruder", "")
         check("confine" not in reports and "Landlock" not in reports, f"{verb}: {reports}")
     for out in ("new/x.####.exr", "new/er/x.####.exr", f"{work}/new/x.####.exr"):
         done = relume("render", "missing.trace", "-o", out, cwd=work / "own")
-        check(done.returncode == 3 and not (work / "own/new").exists() and not (work / "new").exists(), f"no such recording, {out}: {done}")
+        check(done.returncode == 3 and not (work / "own/new").exists() and not (work / "new").exists(),
+              f"no such recording, {out}: {done}")
     for verb in ("info", "render", "diff"):
         done, attempts, kept = intrude(work, *VERBS[verb], "--no-sandbox")
         attempts.pop("io_uring") # kernels may refuse it to all

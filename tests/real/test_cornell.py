@@ -110,5 +110,6 @@ def mirrored(channel, x, y):
 
 # From here the mirror shows the back wall, the floor and the boxes, which are all grey; the wall itself is red.
 tinted = sum(abs(mirrored("R", x, y) - mirrored("B", x, y)) > 0.05 for x, y in spots)
-check(tinted <= len(spots) // 1000, f"the mirror shows the grey of the room: {tinted} of {len(spots)} pixels are tinted")
+check(tinted <= len(spots) // 1000,
+      f"the mirror shows the grey of the room: {tinted} of {len(spots)} pixels are tinted")
 finish()

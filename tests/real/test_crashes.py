@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # limit: 900 s
-"""OpenCL drivers that crash, hang or return rubbish while `relume render` runs: another family of kernels takes over, one line says so, and the
-next run does not try again. A frame that no family can draw fails alone. Signals reach the process that works, and nothing outlives it."""
+"""OpenCL drivers that crash, hang or return rubbish while `relume render` runs: another family of kernels takes over,
+one line says so, and the next run does not try again. A frame that no family can draw fails alone. Signals reach the
+process that works, and nothing outlives it."""
 import collections
 import json
 import os
@@ -54,7 +55,8 @@ for family in ("compressed", "binary", "packets"):  # fills PoCL's cache as well
 check(want["packets"] == want["binary"], "families draw the same")
 want = want["binary"]
 
-# --- Another family takes over -----------------------------------------------------------------------------------------
+# --- Another family takes over
+# -----------------------------------------------------------------------------------------
 
 CASES = {
     "abort in clBuildProgram": (f"abort,build,{PACKETS}", {}, (), "SIGABRT in kernels/frame/whole_packet.cl"),
@@ -77,27 +79,35 @@ for i, (what, (fault, more, options, words)) in enumerate(CASES.items()):
     cache = f"cache{i}"
     met.unlink(missing_ok=True)
     done, found = render(trace, cache, faulty(fault, **more), *options)
-    check(one_line(done, 0, "warning", "--kernels binary", "packets", words), f"{what}: exit code {done.returncode}: {done.stderr}")
+    check(one_line(done, 0, "warning", "--kernels binary", "packets", words),
+          f"{what}: exit code {done.returncode}: {done.stderr}")
     check(found == want, f"{what}: other pictures, or other files: {list(found)}")
     check(n_met() == 1, f"{what}: met {n_met()} times")
     done, found = render(trace, cache, faulty(fault, **more), *options)
-    check(one_line(done, 0, "warning", "--kernels binary", "packets", words), f"{what}, again: exit code {done.returncode}: {done.stderr}")
+    check(one_line(done, 0, "warning", "--kernels binary", "packets", words),
+          f"{what}, again: exit code {done.returncode}: {done.stderr}")
     check(found == want and n_met() == 1, f"{what}, again: met {n_met()} times, files {list(found)}")
 
 listed = must(relume("devices", "--device", "0", "--cache", SCRATCH / "cache0", env=ENV)).stdout
-check("kernels: binary, as packets failed: SIGABRT in kernels/frame/whole_packet.cl" in listed, f"the list names it: {listed}")
+check("kernels: binary, as packets failed: SIGABRT in kernels/frame/whole_packet.cl" in listed,
+      f"the list names it: {listed}")
 done, found = render(trace, "cache0", faulty(f"abort,build,{PACKETS}", AS_DRIVER="99"))
 check(one_line(done, 0, "--kernels binary") and found.keys() == want.keys(), f"another driver: {done.stderr}")
 before = n_met()
 done, found = render(trace, "cache0", dict(ENV, LD_PRELOAD=SHIM, AS_DRIVER="100"))
-check(done.returncode == 0 and not done.stderr and found.keys() == want.keys(), f"a driver that is repaired: {done.stderr}")
+check(done.returncode == 0 and not done.stderr and found.keys() == want.keys(),
+      f"a driver that is repaired: {done.stderr}")
 
 # Both of the first two.
 met.unlink(missing_ok=True)
 done, found = render(trace, "two", faulty(f"abort,build,{PACKETS};abort,launch,camera_wide"))
-check(one_line(done, 0, "--kernels compressed", "binary", "camera_wide") and found == want and n_met() == 2, f"two families: {n_met()}: {done.stderr}")
+check(
+    one_line(done, 0, "--kernels compressed", "binary", "camera_wide") and found == want and n_met() == 2,
+    f"two families: {n_met()}: {done.stderr}")
 done, found = render(trace, "two", faulty(f"abort,build,{PACKETS};abort,launch,camera_wide"))
-check(one_line(done, 0, "--kernels compressed") and found == want and n_met() == 2, f"two families, again: {n_met()}: {done.stderr}")
+check(
+    one_line(done, 0, "--kernels compressed") and found == want and n_met() == 2,
+    f"two families, again: {n_met()}: {done.stderr}")
 
 # Nothing is kept; one family is asked for.
 for _ in range(2):
@@ -105,46 +115,57 @@ for _ in range(2):
     done, found = render(trace, None, faulty("abort,launch,camera_packet"))
     check(one_line(done, 0, "--kernels binary") and found == want and n_met() == 1, f"--no-cache: {done.stderr}")
 done, found = render(trace, "asked", faulty("abort,launch,camera_packet"), "--kernels", "packets")
-check(one_line(done, 5, "--kernels packets", "SIGABRT in camera_packet") and not found, f"--kernels packets: exit code {done.returncode}: {done.stderr}")
+check(
+    one_line(done, 5, "--kernels packets", "SIGABRT in camera_packet") and not found,
+    f"--kernels packets: exit code {done.returncode}: {done.stderr}")
 
-# --- None is left ------------------------------------------------------------------------------------------------------
+# --- None is left
+# ------------------------------------------------------------------------------------------------------
 
 for what, fault, again in (("all programs", "abort,build,", 0), ("all launches", "abort,launch,", 3)):
     met.unlink(missing_ok=True)
     for n in (3, 3 + again):
         done, found = render(trace, what.replace(" ", "-"), faulty(fault))
-        check(one_line(done, 5, "packets failed", "binary failed", "compressed failed", "--device reference"), f"{what}: {done.returncode}: {done.stderr}")
+        check(one_line(done, 5, "packets failed", "binary failed", "compressed failed", "--device reference"),
+              f"{what}: {done.returncode}: {done.stderr}")
         check(not found and n_met() == n, f"{what}: met {n_met()} times, not {n}; files {list(found)}")
 done, found = render(trace, "all-programs", ENV, "--device", "reference")
 check(done.returncode == 0 and len(found) == 6 and not done.stderr, f"--device reference: {done.stderr}")
 
-# --- In the middle of a run --------------------------------------------------------------------------------------------
+# --- In the middle of a run
+# --------------------------------------------------------------------------------------------
 
 done, found = render(trace, "middle", faulty("abort,launch,camera_packet,4"), "-j", "1", "--progress", "json")
 events = [json.loads(line) for line in done.stdout.splitlines()]
 count = collections.Counter(e["frame"] for e in events if e["event"] == "frame")
 check(one_line(done, 0, "--kernels binary") and found == want, f"in the middle: {done.stderr}")
-check(count == {i: 1 for i in range(6)} and [e["event"] for e in events].count("begin") == 1 and events[-1]["done"] == 6,
-      f"each frame is told once: {done.stdout}")
+check(
+    count == {i: 1 for i in range(6)} and [e["event"] for e in events].count("begin") == 1 and events[-1]["done"] == 6,
+    f"each frame is told once: {done.stdout}")
 
 done, whole = render(pixels, "sound", ENV, "--mode", "gl")
 done, found = render(pixels, "alone", faulty("abort,launch,gather"), "--mode", "gl")
 missing = set(whole) - set(found)  # frame 3 reads pixels, and so may others do when they are played again
 check(done.returncode == 5 and "x.3.exr" in missing and len(found) > 2 and found.items() <= whole.items(),
       f"one frame fails alone: exit code {done.returncode}, {list(found)}")
-check(done.stderr.count("\n") == len(missing) and all(f"frame {name[2]}: the driver fails on it (SIGABRT in" in done.stderr for name in missing),
-      f"a line for each frame that failed: {missing}: {done.stderr}")
+check(
+    done.stderr.count("\n") == len(missing)
+    and all(f"frame {name[2]}: the driver fails on it (SIGABRT in" in done.stderr for name in missing),
+    f"a line for each frame that failed: {missing}: {done.stderr}")
 done, found = render(pixels, "alone", ENV, "--mode", "gl")
-check(done.returncode == 0 and not done.stderr and found == whole, f"nothing is held against families that made other frames: {done.stderr}")
+check(done.returncode == 0 and not done.stderr and found == whole,
+      f"nothing is held against families that made other frames: {done.stderr}")
 
-# --- Signals -----------------------------------------------------------------------------------------------------------
+# --- Signals
+# -----------------------------------------------------------------------------------------------------------
 
 
 def start_hung():
     """A run whose driver hangs, with its worker process."""
     met.unlink(missing_ok=True)
-    parent = subprocess.Popen([RELUME, "render", trace, "-o", SCRATCH / "hung/x.#.exr", "--progress", "none", "--cache", SCRATCH / "hung-cache"],
-                              env=faulty("hang,launch,camera_packet"), stderr=subprocess.PIPE, text=True, start_new_session=True)
+    parent = subprocess.Popen([
+        RELUME, "render", trace, "-o", SCRATCH / "hung/x.#.exr", "--progress", "none", "--cache", SCRATCH / "hung-cache"
+    ], env=faulty("hang,launch,camera_packet"), stderr=subprocess.PIPE, text=True, start_new_session=True)
     while not n_met():
         time.sleep(0.05)
     worker = int(pathlib.Path(f"/proc/{parent.pid}/task/{parent.pid}/children").read_text().split()[0])
@@ -172,7 +193,8 @@ for number, code, everybody in ((signal.SIGTERM, 143, False), (signal.SIGINT, 13
     send = os.killpg if everybody else os.kill
     send(parent.pid, number)
     time.sleep(1)
-    check(parent.poll() is None, f"{number}, once, to {'all' if everybody else 'one'}: ended at once with {parent.returncode}")
+    check(parent.poll() is None,
+          f"{number}, once, to {'all' if everybody else 'one'}: ended at once with {parent.returncode}")
     send(parent.pid, number)
     found, said = ended(parent)
     check(found == code and is_gone(worker), f"{number}, twice: exit code {found}: {said}")
@@ -182,7 +204,8 @@ check(ended(parent)[0] == -signal.SIGKILL and is_gone(worker), "the worker ends 
 parent, worker = start_hung()
 os.kill(worker, signal.SIGSEGV)
 found, said = ended(parent)
-check(found == -signal.SIGSEGV and not said, f"a signal from elsewhere ends the run, and blames nobody: {found}, {said}")
+check(found == -signal.SIGSEGV and not said,
+      f"a signal from elsewhere ends the run, and blames nobody: {found}, {said}")
 # The frame under way beside the one that hangs may have landed: whole, or not at all.
 left = {p.name: p.read_bytes() for p in (SCRATCH / "hung").glob("*")}
 check(left.items() <= want.items(), f"nothing half-written is left: {list(left)}")

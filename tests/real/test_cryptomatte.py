@@ -54,12 +54,17 @@ check(all(image.planes[name] == plain.planes[name] for name in plain.names), "wh
 scene = json.loads(must(relume("scene", trace, "--json", "--frame", "0")).stdout)
 hashes = {kind: {thing["hash"] for thing in scene[kind]} for kind in ("meshes", "textures")}
 seen = {}
-for layer, known in (("CryptoDraw", None), ("CryptoMesh", hashes["meshes"]), ("CryptoTexture", hashes["textures"] | {"untextured"})):
+for layer, known in (("CryptoDraw", None), ("CryptoMesh", hashes["meshes"]), ("CryptoTexture",
+                                                                              hashes["textures"] | {"untextured"})):
     key = f"cryptomatte/{murmur(layer):08x}"[:-1]
-    text = {word: image.attributes.get(f"{key}/{word}", b"").decode() for word in ("name", "hash", "conversion", "manifest")}
-    check((text["name"], text["hash"], text["conversion"]) == (layer, "MurmurHash3_32", "uint32_to_float32"), f"{layer}: {text}")
+    text = {
+        word: image.attributes.get(f"{key}/{word}", b"").decode() for word in ("name", "hash", "conversion", "manifest")
+    }
+    check((text["name"], text["hash"], text["conversion"]) == (layer, "MurmurHash3_32", "uint32_to_float32"),
+          f"{layer}: {text}")
     manifest = json.loads(text["manifest"])
-    check(manifest and all(int(h, 16) == number(name) for name, h in manifest.items()), f"{layer}: names and their numbers")
+    check(manifest and all(int(h, 16) == number(name) for name, h in manifest.items()),
+          f"{layer}: names and their numbers")
     check(known is None or set(manifest) <= known, f"{layer}: {set(manifest) - (known or set())} are in no scene")
     names = {int(h, 16): name for name, h in manifest.items()}
     wrong = pixels = 0
@@ -70,10 +75,14 @@ for layer, known in (("CryptoDraw", None), ("CryptoMesh", hashes["meshes"]), ("C
                 wrong += h != 0 or g != 0
             else:
                 name = names.get(bits(h))
-                wrong += g != 1 or name is None or seen.setdefault((layer, i), name) != name or (known is None and name != f"draw {int(i)}")
+                wrong += g != 1 or name is None or seen.setdefault(
+                    (layer, i), name) != name or (known is None and name != f"draw {int(i)}")
     check(wrong == 0 and pixels > 10000, f"{layer}: {wrong} pixels wrong of {pixels}")
-    check({name for (of, _), name in seen.items() if of == layer} == set(manifest), f"{layer}: the manifest names what is seen")
+    check({name for (of, _), name in seen.items() if of == layer} == set(manifest),
+          f"{layer}: the manifest names what is seen")
 check(len({name for (layer, _), name in seen.items() if layer == "CryptoMesh"}) > 2, "several meshes")
-check(relume("render", trace, "-o", SCRATCH / "x.####.exr", "--aov", "cryptomate").returncode == 2, "another word is none of them")
+check(
+    relume("render", trace, "-o", SCRATCH / "x.####.exr", "--aov", "cryptomate").returncode == 2,
+    "another word is none of them")
 check(relume("render", trace, "-o", SCRATCH / "x.####.png", "--aov", "cryptomatte").returncode == 2, "a PNG holds none")
 finish()

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Pixels under many blended fragments: what tests/real/deep.c draws is traced as it was rasterized, whichever kernels trace it."""
+"""Pixels under many blended fragments: what tests/real/deep.c draws is traced as it was rasterized, whichever kernels
+trace it."""
 from helpers import AS_SHOWN, SCRATCH, check, check_same_pictures, diff, finish, render
 
-FRAMES = ("slices, a draw each", "the same, nearest first", "slices in one draw, of no power of two", "the same, clamped, nearest first",
-          "nearest texels", "more triangles than a tile lists")
+FRAMES = ("slices, a draw each", "the same, nearest first", "slices in one draw, of no power of two",
+          "the same, clamped, nearest first", "nearest texels", "more triangles than a tile lists")
 trace, _ = check_same_pictures("deep", FRAMES)
 folder = SCRATCH / "binary"
 render(trace, folder, *AS_SHOWN, "--kernels", "binary")

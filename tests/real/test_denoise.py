@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""relume denoise on frames of known light: how much noise goes, what stays sharp, what moves along, and what it refuses."""
+"""relume denoise on frames of known light: how much noise goes, what stays sharp, what moves along, and what it
+refuses."""
 import os
 import random
 import struct
@@ -17,10 +18,12 @@ def write(path, planes):
     names = sorted(planes)
     channels = b"".join(n.encode() + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for n in names) + b"\0"
     window = struct.pack("<4i", 0, 0, WIDTH - 1, HEIGHT - 1)
-    header = {"channels": ("chlist", channels), "compression": ("compression", b"\0"), "dataWindow": ("box2i", window),
-              "displayWindow": ("box2i", window), "lineOrder": ("lineOrder", b"\0"), "pixelAspectRatio": ("float", struct.pack("<f", 1)),
-              "screenWindowCenter": ("v2f", bytes(8)), "screenWindowWidth": ("float", struct.pack("<f", 1)),
-              "relume:time": ("string", b"7")}
+    header = {
+        "channels": ("chlist", channels), "compression": ("compression", b"\0"), "dataWindow": ("box2i", window),
+        "displayWindow": ("box2i", window), "lineOrder": ("lineOrder", b"\0"),
+        "pixelAspectRatio": ("float", struct.pack("<f", 1)), "screenWindowCenter": ("v2f", bytes(8)),
+        "screenWindowWidth": ("float", struct.pack("<f", 1)), "relume:time": ("string", b"7")
+    }
     out = struct.pack("<II", 20000630, 2) + b"".join(
         n.encode() + b"\0" + k.encode() + b"\0" + struct.pack("<i", len(v)) + v for n, (k, v) in header.items()) + b"\0"
     size = 8 + WIDTH * 4 * len(names)
@@ -41,15 +44,17 @@ def albedo_at(x, frame):
 
 
 def make(folder, left_out=(), other_border=1.0):
-    """other_border: how much brighter the wall's last row is in all frames but the third: there samples of a pixel may lie on the floor."""
+    """other_border: how much brighter the wall's last row is in all frames but the third: there samples of a pixel may
+    lie on the floor."""
     folder.mkdir()
     for frame in range(FRAMES):
         noise = random.Random(frame)
 
         def plane(f):
             return [[f(x, y) for x in range(WIDTH)] for y in range(HEIGHT)]
-        noisy = plane(lambda x, y, i=frame, n=noise: light_at(x, y, i) * albedo_at(x, i) * n.choice((0.4, 0.7, 1.0, 1.3, 1.6)) *
-                      (other_border if y == HEIGHT // 2 - 1 and i != 2 else 1))
+
+        noisy = plane(lambda x, y, i=frame, n=noise: light_at(x, y, i) * albedo_at(x, i) * n.choice(
+            (0.4, 0.7, 1.0, 1.3, 1.6)) * (other_border if y == HEIGHT // 2 - 1 and i != 2 else 1))
         planes = {c: noisy for c in "RGB"}
         for c in "RGB":
             planes[f"albedo.{c}"] = plane(lambda x, _, i=frame: albedo_at(x, i))
@@ -78,7 +83,8 @@ def error(path, frame, part=lambda x, y: True):
 make(SCRATCH / "noisy")
 must(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "time.####.exr"))
 must(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "space.####.exr", "--no-time"))
-noisy, time, space = (error(path, 2) for path in (SCRATCH / "noisy/0002.exr", SCRATCH / "time.0002.exr", SCRATCH / "space.0002.exr"))
+noisy, time, space = (error(path, 2)
+                      for path in (SCRATCH / "noisy/0002.exr", SCRATCH / "time.0002.exr", SCRATCH / "space.0002.exr"))
 check(time < noisy / 12, f"with time: {noisy:.4f} becomes {time:.4f}")
 check(space < noisy / 8, f"without: {noisy:.4f} becomes {space:.4f}")
 check(time < space, f"time helps: {time:.5f} and {space:.5f}")
@@ -89,15 +95,19 @@ check(near < 0.03, f"the shadow's edge stays where it is: {near:.4f}")
 make(SCRATCH / "mixed", other_border=1.4)
 must(relume("denoise", SCRATCH / "mixed", "-o", SCRATCH / "mixed.exr", "-f", "2"))
 planes = [Image(SCRATCH / name).planes["R"][HEIGHT // 2 - 1] for name in ("mixed.exr", "space.0002.exr")]
-check(sum(planes[0]) < 1.02 * sum(planes[1]), f"pixels at a surface's border keep their own light: {sum(planes[0]) / sum(planes[1]):.4f}")
+check(
+    sum(planes[0]) < 1.02 * sum(planes[1]),
+    f"pixels at a surface's border keep their own light: {sum(planes[0]) / sum(planes[1]):.4f}")
 
 image = Image(SCRATCH / "time.0002.exr")
 check({"R", "G", "B", "albedo.R", "N.X", "Z", *MOTION} <= set(image.names), f"channels: {image.names}")
-check(not [n for n in image.names if n.split(".")[0] in ("shadow", "reflect", "refract")], f"effects are gone: {image.names}")
+check(not [n for n in image.names if n.split(".")[0] in ("shadow", "reflect", "refract")],
+      f"effects are gone: {image.names}")
 check(image.attributes.get("relume:time") == b"7", "attributes stay")
 
 must(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "one.exr", "-f", "2"))
-check((SCRATCH / "one.exr").read_bytes() == (SCRATCH / "time.0002.exr").read_bytes(), "a frame alone is the same as in a row")
+check((SCRATCH / "one.exr").read_bytes() == (SCRATCH / "time.0002.exr").read_bytes(),
+      "a frame alone is the same as in a row")
 
 make(SCRATCH / "still", MOTION)
 must(relume("denoise", SCRATCH / "still", "-o", SCRATCH / "still.####.exr"))
@@ -105,19 +115,23 @@ check(abs(error(SCRATCH / "still.0002.exr", 2) - space) < 1e-6, "without motion 
 
 make(SCRATCH / "poor", ("albedo.G",))
 poor = relume("denoise", SCRATCH / "poor", "-o", SCRATCH / "poor.####.exr")
-check(poor.returncode == 3 and "albedo.G" in poor.stderr and not list(SCRATCH.glob("poor.*.exr")), f"no albedo: {poor.returncode} {poor.stderr}")
+check(poor.returncode == 3 and "albedo.G" in poor.stderr and not list(SCRATCH.glob("poor.*.exr")),
+      f"no albedo: {poor.returncode} {poor.stderr}")
 check(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "x.png").returncode == 2, "no PNG")
 check(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "x.exr").returncode == 2, "five frames need five names")
 check(relume("denoise", SCRATCH / "none", "-o", SCRATCH / "x.####.exr").returncode == 3, "a folder that is not there")
 
 # Open Image Denoise itself is asked in make show-denoise
 with_oidn = relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "oidn.####.exr", "--oidn")
-check(with_oidn.returncode == 0 or with_oidn.returncode == 5 and "not installed" in with_oidn.stderr, f"--oidn: {with_oidn.returncode} {with_oidn.stderr}")
+check(with_oidn.returncode == 0 or with_oidn.returncode == 5 and "not installed" in with_oidn.stderr,
+      f"--oidn: {with_oidn.returncode} {with_oidn.stderr}")
 (SCRATCH / "lib").mkdir()
 (SCRATCH / "empty.c").write_text("int nothing;\n")
-subprocess.run(["cc", "-shared", "-fPIC", "-o", SCRATCH / "lib/libOpenImageDenoise.so.2", SCRATCH / "empty.c"], check=True)
+subprocess.run(["cc", "-shared", "-fPIC", "-o", SCRATCH / "lib/libOpenImageDenoise.so.2", SCRATCH / "empty.c"],
+               check=True)
 for words in (("denoise", SCRATCH / "noisy"), ("render", SCRATCH / "none.trace", "-f", "1-2", "--mode", "path")):
-    other = relume(*words, "-o", SCRATCH / "other.####.exr", "--oidn", env=os.environ | {"LD_LIBRARY_PATH": str(SCRATCH / "lib")})
+    other = relume(*words, "-o", SCRATCH / "other.####.exr", "--oidn",
+                   env=os.environ | {"LD_LIBRARY_PATH": str(SCRATCH / "lib")})
     check(other.returncode == 5 and "has no oidnNewDevice" in other.stderr and not list(SCRATCH.glob("other.*")),
           f"{words[0]} with another library: {other.returncode} {other.stderr}")
 finish()

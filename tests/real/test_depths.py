@@ -6,5 +6,6 @@ FRAMES = ("never cleared", "never cleared again", "compared with what it began w
           "kept, and not looked at", "cleared")
 _, score = check_same_pictures("depths", FRAMES)
 states = [(f["gates"]["R4"]["state"], f["gates"]["R5"]["state"]) for f in score["frames"]]
-check(states == [("passed", "passed")] * 4 + [("passed", "not measured"), ("passed", "passed")], f"R4 and R5 of depths: {states}")
+check(states == [("passed", "passed")] * 4 + [("passed", "not measured"), ("passed", "passed")],
+      f"R4 and R5 of depths: {states}")
 finish()

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""test_device_faults.py [BUILD] (with BUILD as `make show-device-faults`): devices with little memory, with a watchdog, and that fail.
+"""test_device_faults.py [BUILD] (with BUILD as `make show-device-faults`): devices with little memory, with a watchdog,
+and that fail.
 
-Frames that need more memory than a device has are drawn in smaller bands, and launches that a watchdog would kill in parts: the same
-bytes. Where that does not help, and where a call of OpenCL fails, the run ends with exit code 5 and one line; frames that are there are
-whole. Every call is tried by `make show-device-faults`, one in some twenty by the test.
+Frames that need more memory than a device has are drawn in smaller bands, and launches that a watchdog would kill in
+parts: the same bytes. Where that does not help, and where a call of OpenCL fails, the run ends with exit code 5 and one
+line; frames that are there are whole. Every call is tried by `make show-device-faults`, one in some twenty by the test.
 
 limit: 300 s
 """
@@ -29,7 +30,8 @@ sys.path.insert(0, str(ROOT / "tests/check"))
 import host  # noqa: E402
 
 SHIM = BUILD / "tests/real/failing_cl.so"
-LOST = ("-5", "-4", "-2", "-36")  # CL_OUT_OF_RESOURCES, CL_MEM_OBJECT_ALLOCATION_FAILURE, CL_DEVICE_NOT_AVAILABLE, CL_INVALID_COMMAND_QUEUE
+LOST = ("-5", "-4", "-2", "-36"
+        )  # CL_OUT_OF_RESOURCES, CL_MEM_OBJECT_ALLOCATION_FAILURE, CL_DEVICE_NOT_AVAILABLE, CL_INVALID_COMMAND_QUEUE
 SHOW = len(sys.argv) > 1
 EVERY = 1 if SHOW else 20
 rows = []
@@ -48,7 +50,8 @@ def lines_of(done):
 
 
 def render(trace, name, env, *options):
-    return relume("render", trace, "-o", SCRATCH / name / "x.####.exr", "-j", "1", "--no-cache", "--progress", "none", *options, env=env, timeout=250)
+    return relume("render", trace, "-o", SCRATCH / name / "x.####.exr", "-j", "1", "--no-cache", "--progress", "none",
+                  *options, env=env, timeout=250)
 
 
 # --- Little memory, and a watchdog: PoCL underneath ------------------------------------------------------------------
@@ -74,7 +77,9 @@ SMALL = {
     "smaller buffers": {"AS_TYPE": "gpu", "AS_BUFFER": str(largest - 1)},
     "launches of 1000 work items": {"AS_TYPE": "gpu", "MOST_ITEMS": "1000"},
     "work items of 60 us, and a watchdog": {"AS_TYPE": "gpu", "ITEM_NS": "60000"},
-    "one buffer that cannot be made": {"FAIL_CALL": "25", "FAIL_NAME": "clCreateBuffer", "FAIL_CODE": "-4", "AS_TYPE": "gpu"},
+    "one buffer that cannot be made": {
+        "FAIL_CALL": "25", "FAIL_NAME": "clCreateBuffer", "FAIL_CODE": "-4", "AS_TYPE": "gpu"
+    },
     "one launch that cannot be queued": {"FAIL_CALL": "30", "FAIL_NAME": "clEnqueueNDRangeKernel", "AS_TYPE": "gpu"},
 }
 for what, env in SMALL.items():
@@ -83,8 +88,10 @@ for what, env in SMALL.items():
     same = files(SCRATCH / folder) == whole
     check(done.returncode == 0 and not done.stderr, f"{what}: exit code {done.returncode}: {done.stderr}")
     check(same, f"{what}: another picture")
-    rows.append({"what": f"a device with {what}", "figure": "the same bytes" if same else "another picture", "bar": "the same bytes",
-                 "peer": "", "passed": done.returncode == 0 and same})
+    rows.append({
+        "what": f"a device with {what}", "figure": "the same bytes" if same else "another picture",
+        "bar": "the same bytes", "peer": "", "passed": done.returncode == 0 and same
+    })
 # Too little for the smallest band; work items so slow that any launch is killed.
 for what, env, words in (("100 KB of memory", {"AS_MEMORY": "100000"}, "are needed on this device, which has 0"),
                          ("2 MiB of memory", {"AS_MEMORY": str(2 << 20)}, "are needed on this device, which has 2"),
@@ -93,7 +100,8 @@ for what, env, words in (("100 KB of memory", {"AS_MEMORY": "100000"}, "are need
                          ("a watchdog that kills all", {"ITEM_NS": "1000000000"}, "CL_INVALID_COMMAND_QUEUE")):
     folder = what.replace(" ", "_")
     done = render(scene, folder, fake(AS_TYPE="gpu", **env), *FRAMES)
-    check(done.returncode == 5 and len(lines_of(done)) == 1 and words in done.stderr, f"{what}: exit code {done.returncode}: {done.stderr}")
+    check(done.returncode == 5 and len(lines_of(done)) == 1 and words in done.stderr,
+          f"{what}: exit code {done.returncode}: {done.stderr}")
     check(not files(SCRATCH / folder), f"{what}: something was written: {list(files(SCRATCH / folder))}")
     needed = re.search(r"(\d+) MiB are needed on this device, which has (\d+)", done.stderr)
     check(not needed or int(needed[1]) > int(needed[2]), f"{what}: more is needed than there is: {done.stderr}")
@@ -120,7 +128,8 @@ def try_call(trace, want, kind, n, gone, code):
         return f"torn, or another picture: {torn}: {done.stderr}"
     if done.returncode == 0:  # a program or kernel that is refused costs a line: another family draws the same
         taken_over = len(lines_of(done)) == 1 and "renders with --kernels" in done.stderr
-        return "" if got.keys() == want.keys() and (not done.stderr or taken_over) else f"exit code 0, {list(got)}: {done.stderr}"
+        return "" if got.keys() == want.keys() and (not done.stderr
+                                                    or taken_over) else f"exit code 0, {list(got)}: {done.stderr}"
     return "" if done.returncode == 5 and len(lines_of(done)) == 1 else f"exit code {done.returncode}: {done.stderr}"
 
 
@@ -133,9 +142,13 @@ def try_calls(trace, kind):
     must(render(trace, name, env, *FRAMES, "--no-sandbox"))
     want, n_calls = planes(SCRATCH / name), int(COUNT.read_text().split()[0])
     check(len(want) == 2, f"{name}: frames {list(want)}")
-    cases = [(n, gone, LOST[(n + gone) % len(LOST)]) for n in range(1 + (random.randrange(EVERY)), n_calls + 1, EVERY) for gone in (0, 1)]
+    cases = [(n, gone, LOST[(n + gone) % len(LOST)])
+             for n in range(1 + (random.randrange(EVERY)), n_calls + 1, EVERY)
+             for gone in (0, 1)]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        wrong = [(case, what) for case, what in zip(cases, pool.map(lambda c: try_call(trace, want, kind, *c), cases)) if what]
+        wrong = [(case, what)
+                 for case, what in zip(cases, pool.map(lambda c: try_call(trace, want, kind, *c), cases))
+                 if what]
     return len(cases), wrong
 
 
@@ -144,14 +157,18 @@ if shutil.which("clang"):
     record(calls, BUILD / "tests/real/targets", options=())
     for kind in ("cpu", "gpu"):
         tried, wrong = try_calls(calls, kind)
-        check(tried and not wrong, f"calls that fail on a {kind}: {len(wrong)} of {tried} end badly; (call, gone, code): {wrong[:5]}")
-        rows.append({"what": f"calls of OpenCL that fail on a {kind}: ends that are not exit code 5 and one line, or the same picture",
-                     "figure": f"{len(wrong)} of {tried}", "bar": "0", "peer": "", "passed": not wrong})
+        check(tried and not wrong,
+              f"calls that fail on a {kind}: {len(wrong)} of {tried} end badly; (call, gone, code): {wrong[:5]}")
+        rows.append({
+            "what": f"calls of OpenCL that fail on a {kind}: ends that are not exit code 5 and one line, or the same "
+                    f"picture",
+            "figure": f"{len(wrong)} of {tried}", "bar": "0", "peer": "", "passed": not wrong
+        })
 
 if SHOW:
     (BUILD / "show").mkdir(exist_ok=True)
-    (BUILD / "show/device-faults.json").write_text(json.dumps({"name": "device-faults", "command": "make show-device-faults", "rows": rows},
-                                                              indent=1) + "\n")
+    (BUILD / "show/device-faults.json").write_text(
+        json.dumps({"name": "device-faults", "command": "make show-device-faults", "rows": rows}, indent=1) + "\n")
     for row in rows:
         print(f"{row['what']}: {row['figure']} (bar: {row['bar']}): {'passed' if row['passed'] else 'FAILED'}")
 finish()

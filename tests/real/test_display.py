@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Display pictures: PNG beside oiiotool's conversion of the OpenEXR file by the same curve; the same bytes whatever runs at once."""
+"""Display pictures: PNG beside oiiotool's conversion of the OpenEXR file by the same curve; the same bytes whatever
+runs at once."""
 import numpy
 
 from codes import codes
@@ -34,12 +35,14 @@ render("exr", "-f", "0", ending="exr")
 brightest = codes(out / "exr/s.0000.exr").max() / 255
 for exposure, white in ((0, 1), (1.5, 1), (2, 4), (-1, 16)):
     said = render(f"curve{exposure}_{white}", "-f", "0", "--exposure", exposure, "--white", white)
-    ours, theirs = numpy.rint(codes(out / f"curve{exposure}_{white}/s.0000.png")), codes(out / "exr/s.0000.exr", *curve(exposure, white))
+    ours, theirs = numpy.rint(codes(out / f"curve{exposure}_{white}/s.0000.png")), codes(
+        out / "exr/s.0000.exr", *curve(exposure, white))
     apart = numpy.abs(ours - numpy.rint(theirs))
     check(apart.max() <= 1, f"exposure {exposure}, white {white}: at most {apart.max()} codes from oiiotool's")
     check(numpy.abs((ours - theirs).mean()) < 0.03, f"dither is no shift: {(ours - theirs).mean()}")
     clips = brightest * 2.0 ** exposure > white
-    check((f"exposure {exposure:+g} stops, white at {white:g}; " in said) == clips, f"the log says what lies above white ({clips}): {said}")
+    check((f"exposure {exposure:+g} stops, white at {white:g}; " in said) == clips,
+          f"the log says what lies above white ({clips}): {said}")
 plain = codes(out / "curve0_1/s.0000.png")
 check(numpy.abs(plain - codes(out / "curve1.5_1/s.0000.png")).max() > 40, "exposure changes the picture")
 render("jpeg", "-f", "0", ending="jpg")
@@ -48,7 +51,8 @@ check(numpy.abs(codes(out / "jpeg/s.0000.jpg") - plain).mean() < 2, "a JPEG of t
 # Mode gl rounds as GL does: it is what the program showed, to the code.
 render("gl", "--mode", "gl")
 status, score = diff(trace, out / "gl")
-check(status == 0 and len(score["frames"]) == 4 and all(f["failing_pixels"] == 0 for f in score["frames"]), "mode gl passes")
+check(status == 0 and len(score["frames"]) == 4 and all(f["failing_pixels"] == 0 for f in score["frames"]),
+      "mode gl passes")
 must(relume("raster", trace, "-f", "1", "-o", SCRATCH / "raster.####.png"))
 apart = codes(out / "gl/s.0001.png") != codes(SCRATCH / "raster.0001.png")
 check(apart.mean() < 0.001, f"mode gl: {100 * apart.mean()} % of the codes are not those of the raster frame")
@@ -65,10 +69,12 @@ for folder, ending in (("whole", "png"), ("jpeg", "jpg")):
     (out / folder / name).write_bytes(whole[:-100])
     render(folder, "-f", "0", "--skip-existing", ending=ending)
     check(files(folder)[name] == whole, f"{name} was torn and is made again")
-    check("there already" not in render(folder, "-f", "0", "--skip-existing", "--exposure", "1", ending=ending), "another exposure")
+    check("there already" not in render(folder, "-f", "0", "--skip-existing", "--exposure", "1", ending=ending),
+          "another exposure")
 
 # What cannot be.
-for options, word in ((("--aov", "gl"), "--aov"), (("--exposure", "bright"), "-30 to 30"), (("--white", "0.5"), "1 to 10000")):
+for options, word in ((("--aov", "gl"), "--aov"), (("--exposure", "bright"), "-30 to 30"), (("--white", "0.5"),
+                                                                                            "1 to 10000")):
     check(word in render("wrong", *options, code=2), f"{options} is refused")
 check("--exposure" in render("wrong", "--exposure", "1", ending="exr", code=2), "OpenEXR has no exposure")
 for ending in ("tif", "exr.bak", "webp"):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A frame that no device can render is one bad frame: the others are rendered, and the exit code says so (tests/real/empty.c). Many that fail
-alike are told once, with their range."""
+"""A frame that no device can render is one bad frame: the others are rendered, and the exit code says so
+(tests/real/empty.c). Many that fail alike are told once, with their range."""
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, finish, record, relume
 
 trace = SCRATCH / "empty.trace"
@@ -15,7 +15,10 @@ check("another device" not in done.stderr, f"blames the device: {done.stderr}")
 trace = SCRATCH / "many.trace"
 record(trace, BUILD / "tests/real/empty", "20", options=())
 done = relume("render", trace, "-o", SCRATCH / "many/e.####.exr", "-f", "0-12,14-21", *AS_SHOWN)
-check(done.returncode == 5 and len(list((SCRATCH / "many").glob("*.exr"))) == 2, f"many bad frames: exit code {done.returncode}")
+check(done.returncode == 5 and len(list((SCRATCH / "many").glob("*.exr"))) == 2,
+      f"many bad frames: exit code {done.returncode}")
 told = [line for line in done.stderr.splitlines() if "cannot be rendered" in line]
-check(len(told) == 2 and told[1] == "relume: frames 1-12, 14-20: 0 x 0 pixels cannot be rendered", f"many bad frames: {told}")
+check(
+    len(told) == 2 and told[1] == "relume: frames 1-12, 14-20: 0 x 0 pixels cannot be rendered",
+    f"many bad frames: {told}")
 finish()

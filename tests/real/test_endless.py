@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""
-A program whose loops run longer than is done is ended, and never silently: the frame names its draws, the run says it and ends as one with
-missing draws; `relume diff` tells how many pixels of each program are right (tests/real/endless.c).
+"""A program whose loops run longer than is done is ended, and never silently: the frame names its draws, the run says
+it and ends as one with missing draws; `relume diff` tells how many pixels of each program are right
+(tests/real/endless.c).
 """
 from exr import Image
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, diff, finish, must, record, relume
@@ -11,10 +11,12 @@ record(trace, BUILD / "tests/real/endless")
 for device in ("reference", "cpu"):
     done = relume("render", trace, "-o", frames / "x.####.exr", "--device", device, "--force", *AS_SHOWN)
     check(done.returncode == 6, f"{device}: exit code {done.returncode}: {done.stderr}")
-    check("ended: programs of 2 draws, after 262144 instructions in loops" in done.stderr, f"{device}: the run says: {done.stderr}")
+    check("ended: programs of 2 draws, after 262144 instructions in loops" in done.stderr,
+          f"{device}: the run says: {done.stderr}")
     attributes = [Image(frames / f"x.{i:04}.exr").attributes for i in range(2)]
     check("relume:ended" not in attributes[0], f"{device}: no program of frame 0 is ended: {attributes[0]}")
-    check(attributes[1].get("relume:ended") == b"3-4", f"{device}: frame 1 names its draws: {attributes[1].get('relume:ended')}")
+    check(attributes[1].get("relume:ended") == b"3-4",
+          f"{device}: frame 1 names its draws: {attributes[1].get('relume:ended')}")
 done = relume("render", trace, "-o", SCRATCH / "alone.####.exr", "-f", "0", *AS_SHOWN)
 check(done.returncode == 0, f"frame 0 alone: exit code {done.returncode}: {done.stderr}")
 _, score = diff(trace, frames)

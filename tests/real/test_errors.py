@@ -1,7 +1,6 @@
 #!/usr/bin/python3
-"""
-Of the calls of tests/real/errors.c the replay refuses those that OpenGL does, and no other ones: what is refused changes nothing, and what is done
-all the same would be seen later. How many of each command are wrong is compared.
+"""Of the calls of tests/real/errors.c the replay refuses those that OpenGL does, and no other ones: what is refused
+changes nothing, and what is done all the same would be seen later. How many of each command are wrong is compared.
 """
 import collections
 import json

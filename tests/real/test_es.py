@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""
-OpenGL ES 1 (corpus/es): what three programs record passes every gate that needs no depth, which OpenGL ES cannot read back. Nothing is
-missing or an error, apitrace reads the recordings, and a frame rendered alone is the same.
+"""OpenGL ES 1 (corpus/es): what three programs record passes every gate that needs no depth, which OpenGL ES cannot
+read back. Nothing is missing or an error, apitrace reads the recordings, and a frame rendered alone is the same.
 """
 import json
 
-from helpers import AS_SHOWN, SCRATCH, check, check_alone, check_gates, corpus, diff, finish, frames_of, must, record, relume, render, run
+from helpers import (
+    AS_SHOWN, SCRATCH, check, check_alone, check_gates, corpus, diff, finish, frames_of, must, record, relume, render,
+    run)
 
 FRAMES = 10
 
@@ -14,7 +15,8 @@ for name in ("shapes", "fixed", "sprites"):
     record(trace, corpus(f"es/{name}"), "--frames", FRAMES)
     info = json.loads(must(relume("info", "--json", trace)).stdout)
     check(info["frames"] == FRAMES, f"{name}: {info['frames']} frames")
-    check(all("only a renderer" in u.get("why", "") for u in info["unsupported"]), f"{name}: not done: {info['unsupported']}")
+    check(all("only a renderer" in u.get("why", "") for u in info["unsupported"]),
+          f"{name}: not done: {info['unsupported']}")
     check(not info["gl_errors"], f"{name}: errors: {info['gl_errors']}")
     dump = must(run("apitrace", "dump", "--color=never", trace))
     check(not dump.stderr, f"{name}: apitrace reads all of it: {dump.stderr}")

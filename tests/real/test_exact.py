@@ -26,7 +26,8 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
         render(out / f"{name}.trace", out / name, *AS_SHOWN)
         codes[name], code[name] = compare(out / f"{name}.trace", out / name)
     check(code["exact"] == 0, f"exit codes of diff: {code}")
-    check(codes["exact"] < codes["quick"] or codes["quick"] == 0, f"largest differences: {codes}") # 0: Mesa 25 has no quick way for these
+    check(codes["exact"] < codes["quick"] or codes["quick"] == 0,
+          f"largest differences: {codes}")  # 0: Mesa 25 has no quick way for these
     check(codes["exact"] <= 1, f"largest difference with --ref-exact: {codes}")
     must(on_display(RELUME, "raster", out / "quick.trace", "-o", out / "raster/r.####.png"))
     done = relume("diff", out / "exact.trace", out / "raster")

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Examples of help texts and man pages: each names options that exist, and each that can runs, from top to bottom, on a recording.
+"""Examples of help texts and man pages: each names options that exist, and each that can runs, from top to bottom, on a
+recording.
 
 limit: 600 s
 """
@@ -54,27 +55,34 @@ def files_of(blocks):
 # Every help text has examples, of its verb, with options that it has.
 verbs = [v for v in re.findall(r"^  (\w+) ", relume("help").stdout, re.M) if v != "help"]
 examples = manual.examples()
-check(set(examples) == {"relume", *verbs}, f"packaging/examples.txt has these and no other verbs: {set(examples) ^ set(verbs)}")
+check(
+    set(examples) == {"relume", *verbs},
+    f"packaging/examples.txt has these and no other verbs: {set(examples) ^ set(verbs)}")
 commands = [("relume", line) for line in examples["relume"] if not line.startswith("#")]
 check(all(line in relume("help").stdout for _, line in commands), "relume help has examples")
 for verb in verbs:
     shown = relume("help", verb).stdout.partition("\nExamples:\n")[2].split("\n")
     lines = [line.strip() for line in shown if line.strip()]
     check(any(f"relume {verb} " in line for line in lines), f"relume help {verb} has an example of it")
-    check(all(len(line) <= manual.PAGE_COLUMNS for line in shown), f"relume help {verb}: examples of at most {manual.PAGE_COLUMNS} columns")
+    check(all(len(line) <= manual.PAGE_COLUMNS for line in shown),
+          f"relume help {verb}: examples of at most {manual.PAGE_COLUMNS} columns")
     commands += [(verb, line) for line in examples.get(verb, ()) if not line.startswith("#")]
 for form in manual.FORMATS:
     text = relume("help", f"{form.name}-file")
     check(text.returncode == 0 and "\nEXAMPLES\n" in text.stdout, f"relume help {form.name}-file has examples")
     pairs = list(files_of(manual.read(form.source)))
-    check(any(name for name, _ in pairs) and any(not name for name, _ in pairs), f"{form.source}: a file and a command to use it")
+    check(
+        any(name for name, _ in pairs) and any(not name for name, _ in pairs),
+        f"{form.source}: a file and a command to use it")
     for name, part in pairs:
-        commands += [("FILE", (name, part))] if name else [("ci" if "relume ci" in c else c.split()[1], c) for c in part.split("\n")]
+        commands += [("FILE", (name, part))] if name else [("ci" if "relume ci" in c else c.split()[1], c)
+                                                           for c in part.split("\n")]
 for page in sorted((BUILD / "pages/man").glob("*.[15]")):
     check(".SH EXAMPLES" in page.read_text(), f"{page.name} has a section EXAMPLES")
 # No help text names a file of the source, which nobody has who installed a package.
 for word in ["", *verbs, *(f"{form.name}-file" for form in manual.FORMATS)]:
-    named = re.findall(r"\b[a-z]+(?:/[a-z_]+)*/[\w.]+\.(?:h|c|md|cl)\b", relume("help", *([word] if word else [])).stdout)
+    named = re.findall(r"\b[a-z]+(?:/[a-z_]+)*/[\w.]+\.(?:h|c|md|cl)\b",
+                       relume("help", *([word] if word else [])).stdout)
     check(not named, f"relume help {word} names files of the source: {named}")
 
 for verb, line in commands:
@@ -82,7 +90,8 @@ for verb, line in commands:
         found = re.search(r"\brelume (\w+)(.*)", part)
         if found:
             given = set(re.findall(r"(?<=\s)--?[a-z][a-z-]*", found[2].partition(" -- ")[0]))
-            given |= set(re.findall(r"(?<=\s)--[a-z-]+", found[2].partition(" -- ")[2])) if found[1] != "farm" else set()
+            given |= set(re.findall(r"(?<=\s)--[a-z-]+",
+                                    found[2].partition(" -- ")[2])) if found[1] != "farm" else set()
             unknown = given - options_of(found[1])
             check(not unknown, f"{line}: relume {found[1]} has no {unknown}")
 
@@ -96,7 +105,9 @@ for hook in (ROOT / "hooks").glob("*.cl"):
     shutil.copy(hook, PLACE)
 env = {**os.environ, "PATH": f"{PLACE / 'bin'}:{os.environ['PATH']}", "XDG_CACHE_HOME": str(BUILD / "tests/cache")}
 must(on_display(RELUME, "record", "-o", PLACE / "good.trace", "--", game, cwd=PLACE, env=env))
-must(on_display(RELUME, "record", "-o", PLACE / "bad.trace", "--", game, "--mirror", "--animate", "light", cwd=PLACE, env=env))
+must(
+    on_display(RELUME, "record", "-o", PLACE / "bad.trace", "--", game, "--mirror", "--animate", "light", cwd=PLACE,
+               env=env))
 
 for name, part in (pair for verb, pair in commands if verb == "FILE"):
     with open(PLACE / name, "a" if part.startswith("\n") else "w", encoding="utf-8") as file:
@@ -108,7 +119,8 @@ for verb, line in commands:
         whole = (PLACE / "game.trace").read_bytes()
         (PLACE / "broken.trace").write_bytes(whole[:len(whole) * 2 // 3])
     done = on_display("sh", "-c", line, cwd=PLACE, env=env, timeout=300)
-    check(done.returncode in (0, *ALSO.get(verb, ())), f"{line}: exit code {done.returncode}\n{done.stdout[-500:]}{done.stderr[-2000:]}")
+    check(done.returncode in (0, *ALSO.get(verb, ())),
+          f"{line}: exit code {done.returncode}\n{done.stdout[-500:]}{done.stderr[-2000:]}")
     for written in re.findall(r"-o (\S+\.(?:png|trace|glb|exr|webm|mp4|yaml))", line):
         found = list(PLACE.glob(re.sub(r"#+", "*", written)))
         check(found and all(f.stat().st_size for f in found) or "farm script" in line, f"{line} writes {written}")

@@ -18,7 +18,8 @@ COLOR = 7
 
 
 def expected_eye(scene):
-    """Corners of the triangles of each draw that writes colour, in eye space; those with one corner twice cover nothing."""
+    """Corners of the triangles of each draw that writes colour, in eye space; those with one corner twice cover
+    nothing."""
     found = {}
     for item in scene["instances"]:
         mesh, material = scene["meshes"][item["mesh"]], scene["materials"][item["material"]]
@@ -52,24 +53,32 @@ for trace, frame in ((ROOT / "tests/golden/cornell.trace", 1), (ROOT / "tests/go
         check(False, f"{trace.stem}: {broken}")
         continue
     exported, expected = glb.triangles_eye(), expected_eye(scene)
-    check(exported.keys() == expected.keys() and expected, f"{trace.stem}: draws {exported.keys()} of {expected.keys()}")
-    check(all(same(exported.get(name, []), corners) for name, corners in expected.items()), f"{trace.stem}: triangles in eye space")
-    lit = {light for m in scene["materials"] if m["lighting"] for light in range(m["light_first"], m["light_first"] + m["light_count"])}
+    check(exported.keys() == expected.keys() and expected,
+          f"{trace.stem}: draws {exported.keys()} of {expected.keys()}")
+    check(all(same(exported.get(name, []), corners) for name, corners in expected.items()),
+          f"{trace.stem}: triangles in eye space")
+    lit = {
+        light for m in scene["materials"] if m["lighting"]
+        for light in range(m["light_first"], m["light_first"] + m["light_count"])
+    }
     lights = glb.json.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])
     check(bool(lights) == bool(lit) and len(lights) <= len(lit), f"{trace.stem}: {len(lights)} lights of {len(lit)}")
     check(len(glb.json.get("cameras", [])) >= 1, f"{trace.stem}: a camera")
-    # Candela: a white surface in the middle, facing the light, has the luminance of the light's colour, 683 cd/m^2 for 1.
+    # Candela: a white surface in the middle, facing the light, has the luminance of the light's colour, 683 cd/m^2 for
+    # 1.
     corners = [corner for triangles in exported.values() for corner in triangles]
     for node in (n for n in glb.json["nodes"] if "KHR_lights_punctual" in n.get("extensions", {})):
         light = lights[node["extensions"]["KHR_lights_punctual"]["light"]]
         places = [min(c[k] for c in corners) + max(c[k] for c in corners) for k in range(3)]
         d2 = sum((node["matrix"][12 + k] - places[k] / 2) ** 2 for k in range(3))
-        told = next(l for l in scene["lights"] if all(abs(l["position_eye"][k] - node["matrix"][12 + k]) < 1e-3 for k in range(3)))
+        told = next(l for l in scene["lights"] if all(
+            abs(l["position_eye"][k] - node["matrix"][12 + k]) < 1e-3 for k in range(3)))
         most = max(told["diffuse"][:3])
         want = 683 * (most / 12.92 if most <= 0.04045 else ((most + 0.055) / 1.055) ** 2.4)
         want /= sum(a * math.sqrt(d2) ** k for k, a in enumerate(told["attenuation"]))
         got = light["intensity"] / d2 / math.pi
-        check(light["type"] == "point" and abs(got - want) < 0.01 * want, f"{trace.stem}: luminance {got} and not {want}")
+        check(light["type"] == "point" and abs(got - want) < 0.01 * want,
+              f"{trace.stem}: luminance {got} and not {want}")
 
 
 def turns(corners):
@@ -86,11 +95,14 @@ for rotate in turned.find("glRotatef"):
 turned.save(SCRATCH / "turned.trace")
 must(relume("export", SCRATCH / "turned.trace", "-f", 1, "-o", SCRATCH / "turned.glb"))
 exported = Glb(SCRATCH / "turned.glb").triangles_eye()
-expected = expected_eye(json.loads(must(relume("scene", SCRATCH / "turned.trace", "-f", 1, "--json", "--vertices")).stdout))
-check(expected and all(turns(exported[name]) == turns(corners) for name, corners in expected.items()), f"the sense of turned triangles: {exported} {expected}")
+expected = expected_eye(
+    json.loads(must(relume("scene", SCRATCH / "turned.trace", "-f", 1, "--json", "--vertices")).stdout))
+check(expected and all(turns(exported[name]) == turns(corners) for name, corners in expected.items()),
+      f"the sense of turned triangles: {exported} {expected}")
 
 done = relume("export", ROOT / "tests/golden/cornell.trace", "-f", 99999, "-o", SCRATCH / "none.glb")
-check(done.returncode == 2 and "no frame 99999" in done.stderr, f"a frame that is not there: {done.returncode} {done.stderr}")
+check(done.returncode == 2 and "no frame 99999" in done.stderr,
+      f"a frame that is not there: {done.returncode} {done.stderr}")
 check(not list(SCRATCH.glob("none*")), "nothing is left of a failed export")
 
 # Of several textures the one in colours; what was written, and under which names.
@@ -100,9 +112,14 @@ for frame, wanted in ((0, (4, 4)), (1, (4, 4)), (2, None)):
     file = SCRATCH / f"units{frame}.glb"
     done = must(relume("export", units, "-f", frame, "-o", file))
     glb = Glb(file)
-    sizes = [struct.unpack_from(">II", glb.bin, glb.json["bufferViews"][image["bufferView"]]["byteOffset"] + 16) for image in glb.json.get("images", [])]
+    sizes = [
+        struct.unpack_from(">II", glb.bin, glb.json["bufferViews"][image["bufferView"]]["byteOffset"] + 16)
+        for image in glb.json.get("images", [])
+    ]
     check(sizes == ([wanted] if wanted else []), f"frame {frame}: the texture of {wanted} texels: {sizes}")
-    check(f"{file}: frame {frame}, " in done.stderr and "MiB" in done.stderr, f"what was written is said: {done.stderr}")
+    check(f"{file}: frame {frame}, " in done.stderr and "MiB" in done.stderr,
+          f"what was written is said: {done.stderr}")
 done = relume("export", units, "-o", SCRATCH / "units.obj")
-check(done.returncode == 2 and ".glb" in done.stderr and not (SCRATCH / "units.obj").exists(), f"another ending: {done.returncode} {done.stderr}")
+check(done.returncode == 2 and ".glb" in done.stderr and not (SCRATCH / "units.obj").exists(),
+      f"another ending: {done.returncode} {done.stderr}")
 finish()

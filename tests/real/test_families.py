@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The same files, byte by byte, from every family of traversal kernels and their C twins: surfaces seen through each other, lines, points,
-bitmaps, mirrors, shadows, several samples a pixel, textures of all kinds that packs know."""
+"""The same files, byte by byte, from every family of traversal kernels and their C twins: surfaces seen through each
+other, lines, points, bitmaps, mirrors, shadows, several samples a pixel, textures of all kinds that packs know."""
 from helpers import BUILD, SCRATCH, check, corpus, finish, record, relume, render
 
 FAMILIES = ("packets", "binary", "compressed")
@@ -20,11 +20,17 @@ for name, program in PROGRAMS.items():
     if not record(trace, *program, options=(), optional=name == "samples"):
         continue
     for device in ("0", "reference"):
-        pictures = {family: render(trace, SCRATCH / f"{name}-{device}-{family}", "--device", device, "--kernels", family)
-                    for family in FAMILIES}
+        pictures = {
+            family: render(trace, SCRATCH / f"{name}-{device}-{family}", "--device", device, "--kernels", family)
+            for family in FAMILIES
+        }
         for family in FAMILIES[1:]:
             check(pictures[family], f"{name}, device {device}, kernels {family}: no pictures")
-            differ = [b.name for a, b in zip(pictures["packets"], pictures[family], strict=True) if a.read_bytes() != b.read_bytes()]
+            differ = [
+                b.name
+                for a, b in zip(pictures["packets"], pictures[family], strict=True)
+                if a.read_bytes() != b.read_bytes()
+            ]
             check(not differ, f"{name}, device {device}: kernels {family} leave other files than packets: {differ}")
 bad = relume("render", trace, "-o", SCRATCH / "no.#.exr", "--kernels", "wide")
 check(bad.returncode == 2 and "packets, binary or compressed" in bad.stderr and bad.stderr.count("\n") == 1,

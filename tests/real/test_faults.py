@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The short form of `make show-faults`: a few of its faults are caught by their gates and blamed on their draws, a few of its
-variations pass."""
+"""The short form of `make show-faults`: a few of its faults are caught by their gates and blamed on their draws, a few
+of its variations pass."""
 import pathlib
 import sys
 
@@ -15,8 +15,10 @@ import faults  # noqa: E402
 for name in ("relume", "corpus", "librelume.so"):
     (SCRATCH / name).symlink_to(BUILD / name)
 suite = faults.Suite(SCRATCH)
-chosen = {"a box is not drawn", "wrong blend function", "one NaN in a normal", "a drift of 1/255", "a drift of 3/255", "the shadows are gone",
-          "light without a reason", "shadows in the beauty alone"}
+chosen = {
+    "a box is not drawn", "wrong blend function", "one NaN in a normal", "a drift of 1/255", "a drift of 3/255",
+    "the shadows are gone", "light without a reason", "shadows in the beauty alone"
+}
 for name, gates, draw, what in faults.FAULTS:
     if name not in chosen:
         continue
@@ -27,7 +29,8 @@ for name, gates, draw, what in faults.FAULTS:
     caught, named, failed, first = faults.judge_fault(code, frame, gates, draw)
     check(caught, f"{name}: {failed} failed, not {' or '.join(gates)}")
     check(named, f"{name}: {first} is blamed, not {draw}")
-    if name == "the shadows are gone":  # beside the recording itself, which has names: the floor is the draw with its texture
+    # beside the recording itself, which has names: the floor is the draw with its texture
+    if name == "the shadows are gone":
         _, score = diff(suite.trace, folder / "s.####.exr", "-f", faults.FRAME, "--baseline", suite.base)
         blamed = score["frames"][0]["blame"][0]
         check(blamed["draw"] == draw and blamed.get("call") == "glBegin" and "texture" in blamed, f"{name}: {blamed}")

@@ -53,7 +53,8 @@ must(relume("raster", trace, "-f", "1", "-o", SCRATCH / "raster.####.png"))
 shown, traced = whole_codes(SCRATCH / "raster.0001.png"), whole_codes(pngs / "s.0001.png")
 height, width, _ = shown.shape
 pictures, rate = film("plain.webm", "--fps", "25", "--no-labels")
-check(rate == 25 and pictures.shape == (4, height, 2 * width + 4, 3), f"four pictures at 25 a second: {rate}, {pictures.shape}")
+check(rate == 25 and pictures.shape == (4, height, 2 * width + 4, 3),
+      f"four pictures at 25 a second: {rate}, {pictures.shape}")
 check((pictures[1, :, :width] != shown).mean() < 0.001, "on the left what the program showed")
 check((pictures[1, :, width + 4:] == traced).all(), "on the right what render shows")
 check((pictures[:, :, width:width + 4] == 0).all(), "a gap between them")
@@ -75,30 +76,42 @@ check(len(set(lines)) == 4 and abs(lines[0] - width // 2) < 4, f"the line moves 
 # Labels stand in a strip below the pictures.
 pictures, _ = film("labels.webm", "--fps", "25", "--caption", "a still life")
 strip = pictures[0, height:]
-check(pictures.shape[1] > height and strip[:, :200].max() > 200 and strip[:, width + 4:width + 200].max() > 200, "labels")
+check(pictures.shape[1] > height and strip[:, :200].max() > 200 and strip[:, width + 4:width + 200].max() > 200,
+      "labels")
 check((pictures[1, :height, width + 4:] == traced).all(), "they cover nothing")
 check((SCRATCH / "labels.jpg").stat().st_size > 10000, "a poster")
 
 # What is shown as white: what the frames say, but no less than 1; what the program showed stays, and is white beyond 1.
 said = {}
-for name, change in (("four", ("--sattrib", "relume:white", "4")), ("quarter", ("--sattrib", "relume:white", "0.25")), ("bright", ("--mulc", "2"))):
+for name, change in (("four", ("--sattrib", "relume:white", "4")), ("quarter", ("--sattrib", "relume:white", "0.25")),
+                     ("bright", ("--mulc", "2"))):
     (SCRATCH / name).mkdir()
     must(run("oiiotool", frames / "s.0001.exr", *change, "-d", "float", "-o", SCRATCH / name / "s.0001.exr"))
     said[name] = film(f"{name}.webm", "--fps", "25", "--no-labels", of=SCRATCH / name)[0][0]
 asked = film("asked.webm", "--fps", "25", "--no-labels", "-f", "1", "--white", "4")[0][0]
-check((said["four"] == asked).all() and (asked[:, width + 4:] != traced).any(), "frames that say white is at 4 look as with --white 4")
+check((said["four"] == asked).all() and (asked[:, width + 4:] != traced).any(),
+      "frames that say white is at 4 look as with --white 4")
 check((said["quarter"][:, width + 4:] == traced).all(), "white at a quarter is none")
-for what, was, now in (("what the program showed", shown, said["bright"][:, :width]), ("the frame", traced, said["bright"][:, width + 4:])):
+for what, was, now in (("what the program showed", shown, said["bright"][:, :width]), ("the frame", traced,
+                                                                                       said["bright"][:, width + 4:])):
     above = was >= 190  # more than half of white, twice of which is beyond it
     check(above.any() and (now[above] == 255).all(), f"beyond white is white in {what}")
 
 # Without --fps a frame stands as long as the program showed it: the recording's times.
 pictures, rate = film("times.webm", "--no-labels", "--layout", "raster")
-times = [int(line.split()[1]) for p in sorted(frames.glob("*.exr"))
-         for line in must(run("oiiotool", "--info", "-v", p)).stdout.replace('"', "").splitlines() if "relume:time" in line]
+times = [
+    int(line.split()[1])
+    for p in sorted(frames.glob("*.exr"))
+    for line in must(run("oiiotool", "--info", "-v", p)).stdout.replace('"', "").splitlines()
+    if "relume:time" in line
+]
 gaps = [min(b - a, 2e9) / 1e9 for a, b in zip(times, times[1:])]
-check(len(times) == 4 and rate == (60 if sum(gap < 1 / 45 for gap in gaps) > 1.5 else 30), f"times are known: {gaps}, {rate}")
-check(abs(len(pictures) - rate * sum(max(gap, 1 / rate) for gap in [*gaps, gaps[-1]])) <= 1, f"{len(pictures)} pictures at {rate} for {gaps}")
+check(
+    len(times) == 4 and rate == (60 if sum(gap < 1 / 45 for gap in gaps) > 1.5 else 30),
+    f"times are known: {gaps}, {rate}")
+check(
+    abs(len(pictures) - rate * sum(max(gap, 1 / rate) for gap in [*gaps, gaps[-1]])) <= 1,
+    f"{len(pictures)} pictures at {rate} for {gaps}")
 
 
 def timed(name, *milliseconds):
@@ -107,7 +120,9 @@ def timed(name, *milliseconds):
     now = 10 ** 12
     for i, ms in enumerate((0, *milliseconds)):
         now += int(ms * 1e6)
-        must(run("oiiotool", frames / f"s.{i:04}.exr", "--sattrib", "relume:time", now, "-d", "float", "-o", SCRATCH / name / f"s.{i:04}.exr"))
+        must(
+            run("oiiotool", frames / f"s.{i:04}.exr", "--sattrib", "relume:time", now, "-d", "float", "-o",
+                SCRATCH / name / f"s.{i:04}.exr"))
     done = relume("film", SCRATCH / name, "-o", SCRATCH / f"{name}.webm", "--layout", "traced", "--no-labels", env=fake)
     head, data = (SCRATCH / f"{name}.webm").read_bytes().split(b"\n", 1)
     return int(head.split()[1]), len(data) // (3 * width * height), "faster than films go" in done.stderr
@@ -130,7 +145,11 @@ check("none of the frames" in film("far.webm", "-f", "77", code=3), "no such fra
 # The report plays it.
 done = relume("diff", trace, frames, "--report", SCRATCH / "report", "--film", SCRATCH / "plain.webm")
 page = (SCRATCH / "report/index.html").read_text()
-check(done.returncode == 0 and page.count('id="film">"data:video/webm;base64,') == 1, f"a page with a film: {done.stderr}")
-check(relume("diff", trace, frames, "--film", SCRATCH / "plain.webm").returncode == 2, "without a page there is no film")
-check(relume("diff", trace, frames, "--report", SCRATCH / "none", "--film", SCRATCH / "none.webm").returncode == 3, "no such film")
+check(done.returncode == 0 and page.count('id="film">"data:video/webm;base64,') == 1,
+      f"a page with a film: {done.stderr}")
+check(
+    relume("diff", trace, frames, "--film", SCRATCH / "plain.webm").returncode == 2, "without a page there is no film")
+check(
+    relume("diff", trace, frames, "--report", SCRATCH / "none", "--film", SCRATCH / "none.webm").returncode == 3,
+    "no such film")
 finish()

@@ -2,8 +2,9 @@
 """Front and back buffer of a window: what tests/real/front.c draws to either is traced as it was rasterized."""
 from helpers import check_alone, check_same_pictures, finish
 
-FRAMES = ("back", "band", "second band", "hides", "hidden", "after hidden", "hidden by an earlier frame", "front of both", "back of both", "front of listed",
-          "back of listed", "copied", "alone", "alone again", "ended by a list", "back again")
+FRAMES = ("back", "band", "second band", "hides", "hidden", "after hidden", "hidden by an earlier frame",
+          "front of both", "back of both", "front of listed", "back of listed", "copied", "alone", "alone again",
+          "ended by a list", "back again")
 trace, _ = check_same_pictures("front", FRAMES, "--frame-end", "flush")
 # what the front buffer had before, whose frames are not asked for
 for frame in (2, 4, 6, 7, 11, 13):

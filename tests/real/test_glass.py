@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""Whitted's spheres and a glass box in the Cornell box: every gate on every frame, and glass that shows what is behind it."""
+"""Whitted's spheres and a glass box in the Cornell box: every gate on every frame, and glass that shows what is behind
+it."""
 from exr import Image
 from helpers import SCRATCH, check, check_gates, corpus, diff, finish, record, render
 

@@ -30,8 +30,8 @@ def main():
             done = recording.record(pathlib.Path(helpers.RELUME), programs.xscreensaver(name), folder)
             if not helpers.check(done.trace and len(done.references) == 11, f"{name}: recorded: {done.said}"):
                 continue
-            line = scoring.score_recording(scoring.Scorer(pathlib.Path(helpers.RELUME), folder, folder / "log"), scoring.Line(name), done, 2,
-                                           "gl", sweep.GATES)
+            line = scoring.score_recording(scoring.Scorer(pathlib.Path(helpers.RELUME), folder, folder / "log"),
+                                           scoring.Line(name), done, 2, "gl", sweep.GATES)
             helpers.check(line.frames == 2 and line.good, f"{name}: {line}")
             helpers.check(line.dump == "whole", f"{name}: apitrace dump: {line.dump}")
             helpers.check(line.replay == "same", f"{name}: glretrace: {line.replay}")
@@ -42,4 +42,6 @@ def main():
 if __name__ == "__main__":
     if "DISPLAY_IS_OURS" in __import__("os").environ:
         main()
-    sys.exit(subprocess.run(["env", "DISPLAY_IS_OURS=1", helpers.ROOT / "tests/xvfb.sh", sys.executable, "-B", *sys.argv], check=False).returncode)
+    sys.exit(
+        subprocess.run(["env", "DISPLAY_IS_OURS=1", helpers.ROOT / "tests/xvfb.sh", sys.executable, "-B", *sys.argv],
+                       check=False).returncode)

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Programs whose traced picture was worse than OpenGL's (corpus): gate N says so of each as it was, and of none as it is now."""
+"""Programs whose traced picture was worse than OpenGL's (corpus): gate N says so of each as it was, and of none as it
+is now."""
 from exr import Image
 from helpers import SCRATCH, check, check_gates, corpus, diff, finish, record, render
 
@@ -29,7 +30,10 @@ for name, (program, *options) in PROGRAMS.items():
     check(failed == ["N"], f"{name}, not spared: fails {failed}")
 
 # What covers the window as a framebuffer object's picture is traced: pieces throw shadows on the board.
-board = {shown: Image(SCRATCH / shown / f"{shown}.0000.exr", {"shadow.G"}).planes["shadow.G"] for shown in ("board_quad", "board_blit", "board_shader")}
+board = {
+    shown: Image(SCRATCH / shown / f"{shown}.0000.exr", {"shadow.G"}).planes["shadow.G"]
+    for shown in ("board_quad", "board_blit", "board_shader")
+}
 dark = sum(share < 0.9 for row in board["board_quad"] for share in row)
 check(5000 < dark < 50000, f"{dark} pixels of the board lie in shadow")
 for way in ("board_blit", "board_shader"):

@@ -17,8 +17,10 @@ hook.write_text("""struct relume_request closest_hit(struct relume_hit hit, stru
 	return relume_go_on();
 }
 """)
-done = subprocess.run(["oclgrind", "--build-options", "-cl-opt-disable -D LANES_PORTABLE", "--max-errors", "2", RELUME, "hook", "--check",
-                       "--seconds", "100", hook], capture_output=True, text=True, timeout=110)
+done = subprocess.run([
+    "oclgrind", "--build-options", "-cl-opt-disable -D LANES_PORTABLE", "--max-errors", "2", RELUME, "hook", "--check",
+    "--seconds", "100", hook
+], capture_output=True, text=True, timeout=110)
 said = done.stdout + done.stderr
 check("Invalid write of size 4" in said and "At line 6" in said, f"out of bounds: {said[:600]}")
 finish()

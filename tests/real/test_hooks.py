@@ -51,38 +51,58 @@ for name, options in (("repeat", ()), ("mirrors", ("--look", MIRRORS)), ("path",
 check(not same("mirrors", "repeat"), "and pictures that differ are told apart")
 
 # Colours, parameters of a frame and of a draw, rays, and no surface at all.
-tint = hook("tint", "#pragma relume parameter color tint = 0 1 0\n" + CLOSEST % "\treturn relume_color(hit.color * parameters.tint);")
+tint = hook(
+    "tint",
+    "#pragma relume parameter color tint = 0 1 0\n" + CLOSEST % "\treturn relume_color(hit.color * parameters.tint);")
 green = picture("green", "--hook", tint, wanted=list(plain.planes))
 middle = plain.width // 3, plain.height // 2
-check(green.at("R", *middle) == 0 and green.at("G", *middle) == plain.at("G", *middle), "a closest hit's colour is the pixel's")
+check(
+    green.at("R", *middle) == 0 and green.at("G", *middle) == plain.at("G", *middle),
+    "a closest hit's colour is the pixel's")
 check(differing(plain, green, ("gl.R", "gl.G", "gl.B", "Z", "id")) == 0, "gl.* and Z stay")
 look = SCRATCH / "tint.look.yaml"
 draw = int(plain.at("id", *middle))
-look.write_text(f"parameters:\n  - {{ name: tint, value: [0, 0, 1] }}\nsurfaces:\n  - match: {{ draws: '{draw}' }}\n    parameters:\n"
-                "      - { name: tint, value: [1, 0, 0] }\n")
+look.write_text(
+    f"parameters:\n  - {{ name: tint, value: [0, 0, 1] }}\nsurfaces:\n  - match: {{ draws: '{draw}' }}\n    "
+    f"parameters:\n"
+    "      - { name: tint, value: [1, 0, 0] }\n")
 red = picture("red", "--hook", tint, "--look", look)
-others = [(x, y) for y in range(0, plain.height, 7) for x in range(0, plain.width, 7) if plain.at("id", x, y) not in (0, draw)]
+others = [(x, y)
+          for y in range(0, plain.height, 7)
+          for x in range(0, plain.width, 7)
+          if plain.at("id", x, y) not in (0, draw)]
 check(red.at("R", *middle) == plain.at("R", *middle) and red.at("G", *middle) == 0, "a rule sets a draw's parameter")
 ROUNDING = 1e-5 # beauty is a sum of channels of 16 bits
-check(others and all(abs(red.at("G", x, y)) < ROUNDING and red.at("B", x, y) > 10 * ROUNDING for x, y in others),
-      f"and the frame's counts for {len(others)} other pixels: a mirror, which shows that draw beside its own dark blue")
+check(
+    others and all(abs(red.at("G", x, y)) < ROUNDING and red.at("B", x, y) > 10 * ROUNDING for x, y in others),
+    f"and the frame's counts for {len(others)} other pixels: a mirror, which shows that draw beside its own dark blue")
 look.write_text("parameters:\n  - { name: taint, value: [0, 0, 1] }\n")
 done = relume("render", CORNELL, "-f", 1, "-o", SCRATCH / "x.####.exr", "--hook", tint, "--look", look)
 check(done.returncode != 0 and "no parameter taint" in done.stderr, f"a parameter that is not there: {done.stderr}")
-sky = hook("sky", CLOSEST % "\treturn relume_ignore();" + MISS % "\treturn relume_color((float4)(0.25f, 0.5f, 1.0f, 0.0f));")
+sky = hook("sky",
+           CLOSEST % "\treturn relume_ignore();" + MISS % "\treturn relume_color((float4)(0.25f, 0.5f, 1.0f, 0.0f));")
 nothing = picture("nothing", "--hook", sky, "--encoding", "display")
-check(all(nothing.at(c, *middle) == v for c, v in (("R", .25), ("G", .5), ("B", 1))), "no surface: the ray goes on, and misses")
-mirror = hook("mirror", CLOSEST % ("\tif (hit.depth > 0)\n\t\treturn relume_go_on();\n\treturn relume_color_and_ray((float4)(0.0f), hit.direction - 2.0f * "
-                                   "dot(hit.direction, hit.normal) * hit.normal, (float4)(1.0f));"))
+check(all(nothing.at(c, *middle) == v for c, v in (("R", .25), ("G", .5), ("B", 1))),
+      "no surface: the ray goes on, and misses")
+mirror = hook(
+    "mirror", CLOSEST %
+    ("\tif (hit.depth > 0)\n\t\treturn relume_go_on();\n\treturn relume_color_and_ray((float4)(0.0f), hit.direction - "
+     "2.0f * "
+     "dot(hit.direction, hit.normal) * hit.normal, (float4)(1.0f));"))
 check(differing(plain, picture("mirror", "--hook", mirror)) > 0.3, "a ray that a hook sends finds other things")
-lit = hook("lit", CLOSEST % ("\tfloat4 sum = (float4)(0.0f);\n\n\tfor (uint i = 0; i < relume_lights(&hit); i++)\n\t\tsum += relume_light(&hit, i).arrives;\n"
-                             "\treturn relume_color(sum * relume_albedo(&hit));"))
+lit = hook(
+    "lit", CLOSEST %
+    ("\tfloat4 sum = (float4)(0.0f);\n\n\tfor (uint i = 0; i < relume_lights(&hit); i++)\n\t\tsum += "
+     "relume_light(&hit, i).arrives;\n"
+     "\treturn relume_color(sum * relume_albedo(&hit));"))
 check(differing(plain, picture("lit", "--hook", lit)) > 0.3, "lights and albedo can be asked for")
 
 # Ray generation: the program's own rays show what the program's camera does, but for its edges.
 own = hook("own", RAY % "\treturn pixel.ray;")
 traced = picture("traced", "--hook", own, wanted=("R", "G", "B", "Z"))
-check(differing(plain, traced, most=0.02) < 0.04, f"the same rays: {differing(plain, traced, most=0.02):.3f} of the pixels differ")
+check(
+    differing(plain, traced, most=0.02) < 0.04,
+    f"the same rays: {differing(plain, traced, most=0.02):.3f} of the pixels differ")
 check(differing(plain, traced, "Z", most=0.02 * abs(plain.at("Z", *middle))) < 0.04, "and their distances")
 fisheye = picture("fisheye", "--hook", ROOT / "hooks/fisheye.cl")
 check(all(fisheye.at(c, 0, 0) == 0 for c in "RGB"), "nothing beyond a fisheye's disk")
@@ -90,20 +110,26 @@ lens = picture("lens", "--hook", ROOT / "hooks/thin_lens.cl", "--samples", 2)
 check(differing(plain, lens) > 0.2, "a lens blurs")
 
 # What is refused.
-for options, words in ((("--mode", "gl", "--hook", own), "mode gl has no stage"), (("--mode", "diffuse", "--hook", own), "mode diffuse has no stage")):
+for options, words in ((("--mode", "gl", "--hook", own), "mode gl has no stage"), (("--mode", "diffuse", "--hook", own),
+                                                                                   "mode diffuse has no stage")):
     done = relume("render", CORNELL, "-f", 1, "-o", SCRATCH / "x.####.exr", *options)
     check(done.returncode == 2 and words in done.stderr, f"{words}: {done.returncode}, {done.stderr}")
 for example in ("toon", "car_paint"):
     done = relume("hook", "--check", ROOT / f"hooks/{example}.cl")
     check(done.returncode == 0 and "it runs" in done.stdout, f"{example}: {done.stdout}{done.stderr}")
-for name, text, words in (("member", "\n" + CLOSEST % "\treturn relume_color(hit.colour);", "member.cl:4:"), ("none", "float f(void) { return 1; }\n", "defines none"),
-                          ("type", "/*\n*/\n#pragma relume parameter vector v = 1\n" + CLOSEST % "", "line 3: there is no type vector"),
-                          ("few", "#pragma relume parameter color v = 1 2\n" + CLOSEST % "", "line 1: parameter v takes 3 numbers")):
+for name, text, words in (("member", "\n" + CLOSEST % "\treturn relume_color(hit.colour);",
+                           "member.cl:4:"), ("none", "float f(void) { return 1; }\n", "defines none"),
+                          ("type", "/*\n*/\n#pragma relume parameter vector v = 1\n" + CLOSEST % "",
+                           "line 3: there is no type vector"),
+                          ("few", "#pragma relume parameter color v = 1 2\n" + CLOSEST % "",
+                           "line 1: parameter v takes 3 numbers")):
     done = relume("hook", "--check", hook(name, text))
     check(done.returncode == 3 and words in done.stderr, f"{name}: {done.returncode}, {done.stderr}")
 done = relume("render", CORNELL, "-f", 1, "-o", SCRATCH / "x.####.exr", "--hook", SCRATCH / "member.cl")
-check(done.returncode != 0 and "member.cl:4:" in done.stderr and not (SCRATCH / "x.0001.exr").exists(), f"nor does it render: {done.stderr}")
-endless = hook("endless", CLOSEST % "\tvolatile int i = 0;\n\n\twhile (i >= 0)\n\t\ti = (i + 1) % 7;\n\treturn relume_go_on();")
+check(done.returncode != 0 and "member.cl:4:" in done.stderr and not (SCRATCH / "x.0001.exr").exists(),
+      f"nor does it render: {done.stderr}")
+endless = hook("endless",
+               CLOSEST % "\tvolatile int i = 0;\n\n\twhile (i >= 0)\n\t\ti = (i + 1) % 7;\n\treturn relume_go_on();")
 done = relume("hook", "--check", "--seconds", 15, endless)
 check(done.returncode == 3 and "endless loop" in done.stderr, f"an endless loop: {done.returncode}, {done.stderr}")
 finish()

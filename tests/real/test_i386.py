@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""
-Programs of 32 bits (`make i386`): recorded by the recorder of their class, whether started by themselves or by a program of 64 bits, as is one of
-64 bits that they start, and every picture as they showed it, be it calculated in the x87's registers.
+"""Programs of 32 bits (`make i386`): recorded by the recorder of their class, whether started by themselves or by a
+program of 64 bits, as is one of 64 bits that they start, and every picture as they showed it, be it calculated in the
+x87's registers.
 """
 import wine
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_gates, diff, finish, must, record, render, run, skip
@@ -16,7 +16,8 @@ if not (BUILD / "lib/i386-linux-gnu/librelume.so").exists() or not PROGRAM.exist
 source, parent = SCRATCH / "parent.c", SCRATCH / "parent"
 source.write_text("#include <unistd.h>\nint main(int n, char **v) { return n > 1 ? execv(v[1], v + 1) : 1; }\n")
 must(run("cc", "-m32", "-o", parent, source))
-for name, command in (("alone", [PROGRAM]), ("child", ["/bin/sh", "-c", f"{PROGRAM}; true"]), ("child of 64 bits", [parent, BUILD / "tests/real/windows"])):
+for name, command in (("alone", [PROGRAM]), ("child", ["/bin/sh", "-c", f"{PROGRAM}; true"]),
+                      ("child of 64 bits", [parent, BUILD / "tests/real/windows"])):
     trace = SCRATCH / f"{name}.trace"
     said = record(trace, *command).stderr
     check("cannot be preloaded" not in said, f"{name}: {said}")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The index: checkpoints restore what the calls lead to, frames are the same bytes however they are come to, and an index that is
-stale, damaged or cannot be written is noticed.
+"""The index: checkpoints restore what the calls lead to, frames are the same bytes however they are come to, and an
+index that is stale, damaged or cannot be written is noticed.
 
 limit: 200 s
 """
@@ -35,7 +35,8 @@ for trace in traces:
     found, _ = facts(trace, "--check")  # exit code 1 where a state differs
     check(found["frames"] > 0 and index_of(trace).exists(), f"{trace.name}: the index lies beside it: {found}")
     check(found["checkpoints"] > 0, f"{trace.name}: has checkpoints: {found}")
-    check(found["bytes"] < found["trace_bytes"] + (512 << 10), f"{trace.name}: the index does not outgrow the trace: {found}")
+    check(found["bytes"] < found["trace_bytes"] + (512 << 10),
+          f"{trace.name}: the index does not outgrow the trace: {found}")
 
     check(index_of(trace).stat().st_size == found["bytes"], f"{trace.name}: there is nothing behind the index: {found}")
 
@@ -64,8 +65,8 @@ if (last - near) % 7 == 0:
 # Another trace under the same name, damage, and what is no index: noticed and made anew.
 good = index_of(live).read_bytes()
 for what, data in (("its middle", good[:len(good) // 2] + b"\0" * 64 + good[len(good) // 2 + 64:]),
-                   ("its end", good[:-40]), ("its head", b"RELIDX3\n" + bytes(200) + good[208:]), ("all of it", b"no index"),
-                   ("everything", b"")):
+                   ("its end", good[:-40]), ("its head", b"RELIDX3\n" + bytes(200) + good[208:]),
+                   ("all of it", b"no index"), ("everything", b"")):
     index_of(live).write_bytes(data)
     done = must(relume("render", live, "-f", "399", "-o", SCRATCH / "x.#.exr"))
     check("anew" in done.stderr or "damaged" in done.stderr or index_of(live).read_bytes() == data,
@@ -87,7 +88,10 @@ found, _ = facts(live, env=env)
 check(found["index"].startswith(str(SCRATCH / "cache")), f"the cache folder takes the index: {found}")
 found, _ = facts(live, env=env)
 check(found["build_us"] == 0, "and it is found there")
-done = must(relume("render", live, "-f", str(last), "-o", SCRATCH / "y.#.exr", env=dict(os.environ, XDG_CACHE_HOME="/dev/null")))
+done = must(
+    relume("render", live, "-f", str(last), "-o", SCRATCH / "y.#.exr", env=dict(os.environ,
+                                                                                XDG_CACHE_HOME="/dev/null")))
 check("cannot be written" in done.stderr, f"an index that cannot be written is said: {done.stderr}")
-check((SCRATCH / f"y.{last}.exr").read_bytes() == (SCRATCH / f"jump.{last}.exr").read_bytes(), "and the frame is the same")
+check((SCRATCH / f"y.{last}.exr").read_bytes() == (SCRATCH / f"jump.{last}.exr").read_bytes(),
+      "and the frame is the same")
 finish()

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""make install into a folder: what is installed runs from there, explains itself and is found; uninstall leaves nothing."""
+"""make install into a folder: what is installed runs from there, explains itself and is found; uninstall leaves
+nothing."""
 import os
 import pathlib
 import re
@@ -15,7 +16,8 @@ PREFIX = PLACE / "usr"
 
 
 def make(target, *options):
-    return run("make", "-C", ROOT, "--no-print-directory", *options, target, f"BUILD={os.path.relpath(BUILD, ROOT)}", "PREFIX=/usr", f"DESTDIR={PLACE}")
+    return run("make", "-C", ROOT, "--no-print-directory", *options, target, f"BUILD={os.path.relpath(BUILD, ROOT)}",
+               "PREFIX=/usr", f"DESTDIR={PLACE}")
 
 
 # Other tests use what is built while this one runs: nothing may be built again. A second `make` has nothing to do.
@@ -28,8 +30,11 @@ tools = SCRATCH / "tools"
 tools.mkdir()
 for name in "make", "sh":
     (tools / name).symlink_to(shutil.which(name))
-bare = run("make", "-C", ROOT, "--no-print-directory", "-n", "demo", f"BUILD={SCRATCH / 'bare'}", env={"PATH": str(tools)})
-check(bare.stdout.startswith("corpus/demo.sh ") and not bare.stderr, f"make demo on a bare machine says {bare.stdout}{bare.stderr}")
+bare = run("make", "-C", ROOT, "--no-print-directory", "-n", "demo", f"BUILD={SCRATCH / 'bare'}",
+           env={"PATH": str(tools)})
+check(
+    bare.stdout.startswith("corpus/demo.sh ") and not bare.stderr,
+    f"make demo on a bare machine says {bare.stdout}{bare.stderr}")
 must(make("install"))
 relume = PREFIX / "bin/relume"
 version = (ROOT / "VERSION").read_text().strip()
@@ -40,26 +45,35 @@ check("3 frames" in done.stderr, f"the installed command records: {done.stderr}"
 maps = run(relume, "record", "-o", SCRATCH / "cat.trace", "--", "cat", "/proc/self/maps").stdout
 found = set(re.findall(r"/\S.*librelume\.so", maps))
 with_i386 = (BUILD / "lib/i386-linux-gnu/librelume.so").exists()
-recorders = {bits: PREFIX / "lib/relume" / (f"lib/{bits}-linux-gnu" if with_i386 else "") / "librelume.so" for bits in ("x86_64", "i386")}
+recorders = {
+    bits: PREFIX / "lib/relume" / (f"lib/{bits}-linux-gnu" if with_i386 else "") / "librelume.so"
+    for bits in ("x86_64", "i386")
+}
 check(found == {str(recorders["x86_64"])}, f"its recorder is the installed one: {found}")
 if with_i386:
-    check(recorders["i386"].read_bytes()[4] == 1, "the recorder for programs of 32 bits is installed, and is of their class")
-    done = must(on_display(relume, "record", "-o", SCRATCH / "i386.trace", "--", BUILD / "i386/two_triangles", "--frames", "3"))
-    check("3 frames" in done.stderr and "preloaded" not in done.stderr, f"the installed command records a program of 32 bits: {done.stderr}")
+    check(recorders["i386"].read_bytes()[4] == 1,
+          "the recorder for programs of 32 bits is installed, and is of their class")
+    done = must(
+        on_display(relume, "record", "-o", SCRATCH / "i386.trace", "--", BUILD / "i386/two_triangles", "--frames", "3"))
+    check("3 frames" in done.stderr and "preloaded" not in done.stderr,
+          f"the installed command records a program of 32 bits: {done.stderr}")
 else:
     check(not (PREFIX / "lib/relume/lib").exists(), "no folder for the recorders of two classes where there is one")
 must(run(relume, "render", SCRATCH / "gears.trace", "-f", "2", "-o", SCRATCH / "gears.####.exr"))
 check((SCRATCH / "gears.0002.exr").exists(), "the installed command renders")
 done = run(relume, "diff", "--report", SCRATCH / "report", SCRATCH / "gears.0002.exr", SCRATCH / "gears.0002.exr")
-check(done.returncode == 0 and (SCRATCH / "report/sheet.png").exists(), f"and scores, with pictures: {done.returncode}, {done.stderr}")
+check(done.returncode == 0 and (SCRATCH / "report/sheet.png").exists(),
+      f"and scores, with pictures: {done.returncode}, {done.stderr}")
 
-check((PREFIX / "share/relume/score.schema.json").read_bytes() == (ROOT / "diff/score/score.schema.json").read_bytes(), "the schema of scores is there")
+check((PREFIX / "share/relume/score.schema.json").read_bytes() == (ROOT / "diff/score/score.schema.json").read_bytes(),
+      "the schema of scores is there")
 
 # What the dynamic linker cannot preload is said, not passed over.
 spaced = SCRATCH / "a place"
 shutil.copytree(PREFIX, spaced)
 done = run(spaced / "bin/relume", "record", "-o", SCRATCH / "none.trace", "--", "true")
-check(done.returncode == 5 and "cannot be preloaded" in done.stderr, f"a path with a space: {done.returncode}, {done.stderr}")
+check(done.returncode == 5 and "cannot be preloaded" in done.stderr,
+      f"a path with a space: {done.returncode}, {done.stderr}")
 
 # The header, through pkg-config.
 env = dict(os.environ, PKG_CONFIG_PATH=str(PREFIX / "share/pkgconfig"))
@@ -84,28 +98,42 @@ for verb, known in options.items():
 # A page about each format of a file, and in every page a day and examples.
 formats = re.findall(r"^  (\w+)-file ", run(relume, "help").stdout, re.M)
 pages = sorted((PREFIX / "share/man").rglob("*.[15]"))
-check(len(formats) >= 5 and {p.name for p in pages if p.suffix == ".5"} == {f"relume-{f}.5" for f in formats}, f"pages of section 5: {pages}")
+check(
+    len(formats) >= 5 and {p.name for p in pages if p.suffix == ".5"} == {f"relume-{f}.5" for f in formats},
+    f"pages of section 5: {pages}")
 for source in pages:
     page = run("man", "--warnings", "-P", "cat", "-l", source, env=dict(os.environ, MANWIDTH="80", LC_ALL="C.UTF-8"))
     text = re.sub(r".\x08", "", page.stdout)
     check(page.returncode == 0 and not page.stderr, f"man {source.name}: {page.stderr}")
     check("\nEXAMPLES\n" in text, f"man {source.name} has examples")
-    check(re.search(r"^relume +20[2-9]\d-\d\d-\d\d ", text, re.M), f"man {source.name} has a day of our days: {text[-200:]}")
+    check(re.search(r"^relume +20[2-9]\d-\d\d-\d\d ", text, re.M),
+          f"man {source.name} has a day of our days: {text[-200:]}")
 keys = run(relume, "help", "look-file").stdout
-shown = re.sub(r"\s+", " ", must(run("man", "-P", "cat", "-l", PREFIX / "share/man/man5/relume-look.5", env=dict(os.environ, MANWIDTH="300", LC_ALL="C.UTF-8"))).stdout)
+shown = re.sub(
+    r"\s+", " ",
+    must(
+        run("man", "-P", "cat", "-l", PREFIX / "share/man/man5/relume-look.5",
+            env=dict(os.environ, MANWIDTH="300", LC_ALL="C.UTF-8"))).stdout)
 wanted = re.findall(r"^ {8,}(?:- )?(\w+):.* # ", keys, re.M)
-check(len(wanted) > 50 and all(f"{key}:" in shown for key in wanted), f"man 5 relume-look has every key: {[k for k in wanted if f'{k}:' not in shown]}")
+check(
+    len(wanted) > 50 and all(f"{key}:" in shown for key in wanted),
+    f"man 5 relume-look has every key: {[k for k in wanted if f'{k}:' not in shown]}")
 # The hooks and recipes that the pages speak of.
 examples = PREFIX / "share/doc/relume/examples"
-check((examples / "hooks/toon.cl").exists() and (examples / "hooks/car_paint.look.yaml").exists(), "example hooks are installed")
+check((examples / "hooks/toon.cl").exists() and (examples / "hooks/car_paint.look.yaml").exists(),
+      "example hooks are installed")
 must(run(relume, "hook", "--check", examples / "hooks/toon.cl", timeout=200))
 for recipe in ("github.yml", "gitlab-ci.yml"):
     text = (examples / "ci" / recipe).read_text()
     check(yaml.safe_load(text) and "relume ci" in text, f"the recipe {recipe} is YAML that runs relume ci")
 # The help texts themselves say every option that the verbs' tables have.
-tables = {f"--{name}" for folder in ("capture", "diff", "farm", "render", "replay") for source in (ROOT / folder).rglob("*.c")
-          for name in re.findall(r"\{ \"([a-z][a-z-]+)\", (?:0|'\w'), (?:NULL|\"[^\"]+\"), \"", source.read_text())}
-check(len(tables) > 30 and tables <= set().union(*options.values()), f"every option is explained: {tables - set().union(*options.values())}")
+tables = {
+    f"--{name}" for folder in ("capture", "diff", "farm", "render", "replay") for source in (ROOT / folder).rglob("*.c")
+    for name in re.findall(r"\{ \"([a-z][a-z-]+)\", (?:0|'\w'), (?:NULL|\"[^\"]+\"), \"", source.read_text())
+}
+check(
+    len(tables) > 30 and tables <= set().union(*options.values()),
+    f"every option is explained: {tables - set().union(*options.values())}")
 
 # Each shell completes a verb, an option of it, and nothing of another verb.
 BASH = f"""source '{PREFIX}/share/bash-completion/completions/relume'
@@ -122,8 +150,9 @@ def by_bash(*words):
 
 
 def by_zsh(*words):
-    shown = subprocess.run(["env", "TERM=dumb", "zsh", "-f", "-c", ZSH, "-", " ".join(["relume", *words])], stdin=subprocess.DEVNULL,
-                           stdout=subprocess.PIPE, text=True, errors="replace", timeout=60, cwd=SCRATCH, check=False).stdout
+    shown = subprocess.run(["env", "TERM=dumb", "zsh", "-f", "-c", ZSH, "-", " ".join(["relume", *words])],
+                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, errors="replace", timeout=60,
+                           cwd=SCRATCH, check=False).stdout
     return set(re.findall(r"(?<![\w-])[\w-]+", shown))
 
 

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Compiled kernels that are kept for other runs: damaged, cut, empty, of another driver, a folder in their place, nowhere to write. The
-frame is the same to the byte each time, and the file is made anew or a line says why not. PoCL keeps its own, so it takes another name."""
+"""Compiled kernels that are kept for other runs: damaged, cut, empty, of another driver, a folder in their place,
+nowhere to write. The frame is the same to the byte each time, and the file is made anew or a line says why not. PoCL
+keeps its own, so it takes another name."""
 import os
 import random
 import shutil
@@ -20,8 +21,9 @@ def render(folder, **more):
     env = dict(os.environ, LD_PRELOAD=str(BUILD / "tests/real/failing_cl.so"), AS_PLATFORM="another", **more)
     out = SCRATCH / "frame.0.exr"
     out.unlink(missing_ok=True)
-    done = must(relume("render", trace, "-f", "0", "-o", SCRATCH / "frame.#.exr", "--mode", "gl", "--cache", folder, "--progress", "none",
-                       "-j", "1", env=env, timeout=250))
+    done = must(
+        relume("render", trace, "-f", "0", "-o", SCRATCH / "frame.#.exr", "--mode", "gl", "--cache", folder,
+               "--progress", "none", "-j", "1", env=env, timeout=250))
     return out.read_bytes(), done.stderr
 
 
@@ -59,9 +61,11 @@ check(render(cache) == (want, ""), f"seed {seed}: what was made anew")
 # Of another driver: the file's name is the same, what it depends on is not.
 before = kept(cache)
 _, said = render(cache, AS_DRIVER="99")
-check(not said and exr.Image(SCRATCH / "frame.0.exr").planes == planes, f"another driver: another picture, or words: {said}")
+check(not said and exr.Image(SCRATCH / "frame.0.exr").planes == planes,
+      f"another driver: another picture, or words: {said}")
 after = kept(cache)
-check(after.keys() == before.keys() and all(after[n] != before[n] for n in before), "another driver takes the kernels of this one")
+check(after.keys() == before.keys() and all(after[n] != before[n] for n in before),
+      "another driver takes the kernels of this one")
 
 # A folder in a file's place; places where nothing can be written.
 path = cache / name

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
-"""
-A frame that Mesa draws otherwise than OpenGL says fails, and the report says that this is known, of the draws that it is known of and of no
-others: tests/real/panels/known.c.
+"""A frame that Mesa draws otherwise than OpenGL says fails, and the report says that this is known, of the draws that
+it is known of and of no others: tests/real/panels/known.c.
 """
 import re
 

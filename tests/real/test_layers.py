@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Frames of several looks go through packets in two or three steps (kernels/frame/layered.cl), others stage by stage: what tests/real/layers.c
-draws leaves the files of other kernels and of the twins, byte by byte; in shadow, with mirrors and glass by rules, in several rounds
-(frames 3 and 4), and with pictures that replay asks for (from frame 5 on)."""
+"""Frames of several looks go through packets in two or three steps (kernels/frame/layered.cl), others stage by stage:
+what tests/real/layers.c draws leaves the files of other kernels and of the twins, byte by byte; in shadow, with mirrors
+and glass by rules, in several rounds (frames 3 and 4), and with pictures that replay asks for (from frame 5 on)."""
 import json
 
 from helpers import BUILD, SCRATCH, check, finish, must, record, relume, render
@@ -21,13 +21,24 @@ DEVICES = {"": {"packets": (), "one thread": ("--threads", 1), "binary": ("--ker
 record(TRACE, BUILD / "tests/real/layers", options=())
 for how, (kernel, rules, options) in WAYS.items():
     for frame in 0, 4:
-        stages = {row["what"] for row in json.loads(must(relume("bench", TRACE, "--repeat", 1, "--json", "-f", frame, *rules)).stdout)["spent"]}
-        check(kernel in stages and "resolve_packet" not in stages, f"{how}, frame {frame}: goes through {sorted(stages)}")
+        stages = {
+            row["what"] for row in json.loads(
+                must(relume("bench", TRACE, "--repeat", 1, "--json", "-f", frame, *rules)).stdout)["spent"]
+        }
+        check(kernel in stages and "resolve_packet" not in stages,
+              f"{how}, frame {frame}: goes through {sorted(stages)}")
     for device, ways in DEVICES.items():
         on = ("--device", device) if device else ()
-        pictures = {way: render(TRACE, SCRATCH / f"{how}-{device}-{way}".replace(" ", "_"), *on, *more, *options, *rules)
-                    for way, more in ways.items()}
+        pictures = {
+            way: render(TRACE, SCRATCH / f"{how}-{device}-{way}".replace(" ", "_"), *on, *more, *options, *rules)
+            for way, more in ways.items()
+        }
         for way in list(ways)[1:]:
-            differ = [b.name for a, b in zip(pictures["packets"], pictures[way], strict=True) if a.read_bytes() != b.read_bytes()]
-            check(not differ and len(pictures[way]) == FRAMES, f"{how} {device}: packets leave other files than {way}: {differ}")
+            differ = [
+                b.name
+                for a, b in zip(pictures["packets"], pictures[way], strict=True)
+                if a.read_bytes() != b.read_bytes()
+            ]
+            check(not differ and len(pictures[way]) == FRAMES,
+                  f"{how} {device}: packets leave other files than {way}: {differ}")
 finish()

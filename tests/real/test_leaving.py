@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Triangles that leave the view volume: what tests/real/leaving.c draws has the rasterized depth to the last bit, in buffers of 24
-and 32 bits, and its colours but for the last of 8 bits in a smooth line, those between two numbers of 8 bits too."""
+"""Triangles that leave the view volume: what tests/real/leaving.c draws has the rasterized depth to the last bit, in
+buffers of 24 and 32 bits, and its colours but for the last of 8 bits in a smooth line, those between two numbers of 8
+bits too."""
 import exr
 from helpers import BUILD, SCRATCH, check, check_gates, diff, finish, record, render
 from replayed import reference_depths, reference_frames
@@ -9,7 +10,8 @@ N_FRAMES = 12
 
 
 def differing(image, depth, color):
-    """Pixels whose depth is more than half a step of 24 bits from the reference's, and pixels whose colours are not its own."""
+    """Pixels whose depth is more than half a step of 24 bits from the reference's, and pixels whose colours are not its
+    own."""
     width, height, depths = depth
     far = off = 0
     for y in range(height):
@@ -18,7 +20,8 @@ def differing(image, depth, color):
         far += sum(abs(row[x] - depths[from_bottom + x]) > 2 ** -25 for x in range(width))
         for x in range(width):
             at = 3 * (y * width + x)
-            off += any(round(255 * display(image.at(f"gl.{name}", x, y))) != color[2][at + c] for c, name in enumerate("RGB"))
+            off += any(
+                round(255 * display(image.at(f"gl.{name}", x, y))) != color[2][at + c] for c, name in enumerate("RGB"))
     return far, off
 
 
@@ -40,5 +43,6 @@ for bits in (24, 32):
         check(far == 0, f"{bits} bits, frame {frame}: depth differs at {far} pixels")
         check(off <= 40, f"{bits} bits, frame {frame}: colours differ at {off} pixels")
     for frame in score["frames"]:
-        check(frame["failing_pixels"] == 0, f"{bits} bits, frame {frame['frame']}: {frame['failing_pixels']} pixels fail")
+        check(frame["failing_pixels"] == 0,
+              f"{bits} bits, frame {frame['frame']}: {frame['failing_pixels']} pixels fail")
 finish()

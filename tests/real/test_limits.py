@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""A recording that asks for more memory than one of its size may: one line, exit code 5, nothing left behind. --no-sandbox lifts the limit."""
+"""A recording that asks for more memory than one of its size may: one line, exit code 5, nothing left behind. --no-
+sandbox lifts the limit."""
 from helpers import BUILD, SCRATCH, check, finish, record, relume
 
 trace = SCRATCH / "greedy.trace"
@@ -12,7 +13,9 @@ for args in (("info",), ("scene", "-f", "0"), ("export", "-o", out), ("look", "-
     done = relume(*args, trace)
     said = done.stderr.strip().splitlines()
     check(done.returncode == 5, f"{args[0]}: exit code {done.returncode}: {done.stderr}")
-    check(len(said) == 1 and said[0].startswith(f"relume: {trace}: asks for more than {limit} MiB") and "--no-sandbox lifts it" in said[0], f"{args[0]} says: {said}")
+    check(
+        len(said) == 1 and said[0].startswith(f"relume: {trace}: asks for more than {limit} MiB")
+        and "--no-sandbox lifts it" in said[0], f"{args[0]} says: {said}")
     check(not done.stdout or args[0] != "info", f"{args[0]} prints: {done.stdout[:200]}")
 for folder in (out.parent, SCRATCH / "rules"):
     check(not folder.exists(), f"{folder.name} was made for nothing, and stays")

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""What `make demo` shows: marbles of which rules make a mirror, glass and a lamp with a size. It passes, and differs from OpenGL's picture at a glance."""
+"""What `make demo` shows: marbles of which rules make a mirror, glass and a lamp with a size. It passes, and differs
+from OpenGL's picture at a glance."""
 from codes import codes
 from helpers import ROOT, SCRATCH, check, check_gates, corpus, diff, finish, must, record, relume, render
 

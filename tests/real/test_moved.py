@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""What a vertex program moves throws its shadow from where it is: tests/real/moved.c, whose two frames show the same."""
+"""What a vertex program moves throws its shadow from where it is: tests/real/moved.c, whose two frames show the
+same."""
 import numpy
 
 import exr

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""jigglypuff's 4096 triangles move in each frame: their tree is fitted to them from frame to frame, or built where a frame comes alone.
+"""jigglypuff's 4096 triangles move in each frame: their tree is fitted to them from frame to frame, or built where a
+frame comes alone.
 
 The frame's file is the same to the byte.
 """

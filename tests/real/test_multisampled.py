@@ -10,7 +10,8 @@ bare = on_display(PROGRAM, SCRATCH / "bare")
 if bare.returncode == 77:
     skip("this GL has no visual with four samples a pixel")
 check(bare.returncode == 0, f"the program runs: {bare.stderr}")
-done = on_display(RELUME, "record", "-o", SCRATCH / "m.trace", "--ref", "color,depth", "--", PROGRAM, SCRATCH / "recorded")
+done = on_display(RELUME, "record", "-o", SCRATCH / "m.trace", "--ref", "color,depth", "--", PROGRAM,
+                  SCRATCH / "recorded")
 check(done.returncode == 0, f"the recorded program runs: {done.stderr}")
 shown = (SCRATCH / "bare").read_bytes()
 check((SCRATCH / "recorded").read_bytes() == shown, "the window shows the same while it is recorded")

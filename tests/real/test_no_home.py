@@ -22,7 +22,9 @@ def said(done):
 
 done = must(run(RELUME, "render", trace, "-f", "0", "-o", SCRATCH / "x.png", env=env, timeout=300))
 check((SCRATCH / "x.png").exists(), "the frame is there")
-check(len(said(done)) == 1 and str(caches) in said(done)[0] and "XDG_CACHE_HOME" in said(done)[0], f"one line says where caches are: {done.stderr}")
+check(
+    len(said(done)) == 1 and str(caches) in said(done)[0] and "XDG_CACHE_HOME" in said(done)[0],
+    f"one line says where caches are: {done.stderr}")
 check(stat.S_IMODE(caches.stat().st_mode) == 0o700, "which is this user's alone")
 
 # PoCL itself offers no device without its cache.
@@ -30,7 +32,9 @@ bare = {k: v for k, v in env.items() if k != "POCL_CACHE_DIR"}
 done = must(run(RELUME, "devices", env=bare))
 check(len(done.stdout.splitlines()) >= 1 and len(said(done)) == 1, f"devices are listed: {done.stdout}{done.stderr}")
 done = must(run(RELUME, "devices", env={k: v for k, v in bare.items() if k != "HOME"}))
-check(len(done.stdout.splitlines()) >= 1 and len(said(done)) == 1 and str(caches) in said(done)[0], f"no home at all: {done.stdout}{done.stderr}")
+check(
+    len(done.stdout.splitlines()) >= 1 and len(said(done)) == 1 and str(caches) in said(done)[0],
+    f"no home at all: {done.stdout}{done.stderr}")
 # A name that somebody else has taken, or could write to, is not used.
 os.chmod(caches, 0o777)
 done = must(run(RELUME, "devices", env=bare))

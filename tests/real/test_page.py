@@ -1,8 +1,7 @@
 #!/usr/bin/python3
 # limit: 600 s
-"""
-The report's page in a browser (show/operate.js): with 1,000 frames its list, chart, filters, keys, views, zoom, the pixel under the pointer; with a
-baseline, the approved frame beside what it is now. Both on a screen of 390 pixels.
+"""The report's page in a browser (show/operate.js): with 1,000 frames its list, chart, filters, keys, views, zoom, the
+pixel under the pointer; with a baseline, the approved frame beside what it is now. Both on a screen of 390 pixels.
 """
 import base64
 import json
@@ -23,21 +22,77 @@ from exr_numpy import write_png  # noqa: E402
 N_FRAMES, EVERY = 1000, 5  # one of five frames is damaged
 SIDE = ["reference", "compared", "difference", "flip"]
 WANTED = {
-    "errors": [], "opened": 995, "shown_at_first": [200, "not passed"], "title": "run: not passed - relume diff",
-    "verdicts": ["failed: Not as the reference: R1 interior colour, R3 gross errors, R4 silhouette, P perceptual; fidelity 95.833 %"], "frames": N_FRAMES, "order": [0, 5, 10], "about": "ref; 1000 frames", "zooms": "0.5 x1 x2 x4 x8 x",
-    "verdict": "not passed, failed", "counts": "800 passed200 failed", "bars": N_FRAMES,
+    "errors": [],
+    "opened": 995,
+    "shown_at_first": [200, "not passed"],
+    "title": "run: not passed - relume diff",
+    "verdicts": [
+        "failed: Not as the reference: R1 interior colour, R3 gross errors, R4 silhouette, P perceptual; fidelity "
+        "95.833 %"
+    ],
+    "frames": N_FRAMES,
+    "order": [0, 5, 10],
+    "about": "ref; 1000 frames",
+    "zooms": "0.5 x1 x2 x4 x8 x",
+    "verdict": "not passed, failed",
+    "counts": "800 passed200 failed",
+    "bars": N_FRAMES,
     "bar": [0, 90, 50, "0.86"],  # fidelity 0.9583 on a floor of 0.9, of 86
-    "chart": "the floor of the chart is 90 %, its top 100 %", "heading": "frame 995 failed fidelity 95.833 %", "in_sight": True, "corner": "x 0  y 0   raster (reference) 0 90 30   beauty 0 90 30",
+    "chart": "the floor of the chart is 90 %, its top 100 %",
+    "heading": "frame 995 failed fidelity 95.833 %",
+    "in_sight": True,
+    "corner": "x 0  y 0   raster (reference) 0 90 30   beauty 0 90 30",
     "outside": "x -1  y 0",
-    "row": "0|failed|R1 R3 R4 P", "gate": "4.16667 %|<= 0.1 %|failed", "approve": "relume approve -f 995 run", "outcomes": ["", "not passed", "passed", "failed"],
-    "nothing_chosen": ["", True], "chosen": ["relume approve -f 5", True, False], "chosen_by_key": ["relume approve -f 0,5", 2], "chosen_all": [True, "0-999"],
-    "dropped": 200, "chosen_none": "", "line": ["50%", True], "line_moved": "25%",
-    "clicked": [0, "#0", 1], "thumbnails": ["data:image/", ""], "before_first": 0, "next": 5, "after": 10, "back": 0, "bar_clicked": 1, "after_last": True, "typed": True,
-    "focus": "filter", "by_number": [1, 999], "by_gate": [200, 200, 0], "among_filtered": 5, "by_draw": 0, "nothing": 0, "all_again": N_FRAMES, "passed": [800, "100 %"],
-    "failed": 200, "both": 38, "all": [*SIDE, "failing"], "side": SIDE, "pressed": ["side by side"], "blink": ["raster (reference)", "reference"],
-    "blinked": ["beauty", "compared"], "blinked_back": "reference", "swipe": [SIDE[:2], "left raster (reference), right beauty", "inset(0px 0px 0px 50%)"], "wide": [1, "absolute"],
-    "swiped": ["inset(0px 0px 0px 25%)", 25], "slid": "inset(0px 0px 0px 80%)", "other": [["reference", "failing"], "failing"], "other_a": ["compared", "failing"],
-    "button": 4, "timer_ended": 4, "roles": SIDE, "zoom": [1, 2, 4, 8, 8, 8, 4, 2, 1, 0.5, 0.5, 1], "scaling": "pixelated", "scaling_small": "auto", "chosen": [4, 4],
+    "row": "0|failed|R1 R3 R4 P",
+    "gate": "4.16667 %|<= 0.1 %|failed",
+    "approve": "relume approve -f 995 run",
+    "outcomes": ["", "not passed", "passed", "failed"],
+    "nothing_chosen": ["", True],
+    "chosen": ["relume approve -f 5", True, False],
+    "chosen_by_key": ["relume approve -f 0,5", 2],
+    "chosen_all": [True, "0-999"],
+    "dropped": 200,
+    "chosen_none": "",
+    "line": ["50%", True],
+    "line_moved": "25%",
+    "clicked": [0, "#0", 1],
+    "thumbnails": ["data:image/", ""],
+    "before_first": 0,
+    "next": 5,
+    "after": 10,
+    "back": 0,
+    "bar_clicked": 1,
+    "after_last": True,
+    "typed": True,
+    "focus": "filter",
+    "by_number": [1, 999],
+    "by_gate": [200, 200, 0],
+    "among_filtered": 5,
+    "by_draw": 0,
+    "nothing": 0,
+    "all_again": N_FRAMES,
+    "passed": [800, "100 %"],
+    "failed": 200,
+    "both": 38,
+    "all": [*SIDE, "failing"],
+    "side": SIDE,
+    "pressed": ["side by side"],
+    "blink": ["raster (reference)", "reference"],
+    "blinked": ["beauty", "compared"],
+    "blinked_back": "reference",
+    "swipe": [SIDE[:2], "left raster (reference), right beauty", "inset(0px 0px 0px 50%)"],
+    "wide": [1, "absolute"],
+    "swiped": ["inset(0px 0px 0px 25%)", 25],
+    "slid": "inset(0px 0px 0px 80%)",
+    "other": [["reference", "failing"], "failing"],
+    "other_a": ["compared", "failing"],
+    "button": 4,
+    "timer_ended": 4,
+    "roles": SIDE,
+    "zoom": [1, 2, 4, 8, 8, 8, 4, 2, 1, 0.5, 0.5, 1],
+    "scaling": "pixelated",
+    "scaling_small": "auto",
+    "chosen": [4, 4],
     "pixel": "x 3  y 2   raster (reference) 0 90 30   beauty 250 40 200",
 }
 
@@ -57,7 +112,8 @@ found = browser.operate(SCRATCH, SCRATCH / "report", "#995") or {}
 for name, value in WANTED.items():
     check(found.get(name) == value, f"{name}: {found.get(name)} instead of {value}")
 
-# --- With a baseline: frames 1 and 2 of 4 have changed -------------------------------------------------------------------
+# --- With a baseline: frames 1 and 2 of 4 have changed
+# -------------------------------------------------------------------
 
 PATCH = (slice(10, 30), slice(40, 60))
 trace, approved = SCRATCH / "a.trace", SCRATCH / "approved"
@@ -70,17 +126,25 @@ for path in frames[1:3]:
         if channel in image.planes:
             image.planes[channel][PATCH] += image.planes[channel].dtype.type(0.5)
     exr_numpy.write(path, image)
-done = relume("diff", "--all", "--baseline", approved, trace, SCRATCH / "frames", "--report", SCRATCH / "changed", "--markdown", SCRATCH / "changed.md")
+done = relume("diff", "--all", "--baseline", approved, trace, SCRATCH / "frames", "--report", SCRATCH / "changed",
+              "--markdown", SCRATCH / "changed.md")
 check(done.returncode == 1, f"diff of changed frames: exit code {done.returncode}: {done.stderr[-500:]}")
 found = browser.operate(SCRATCH, SCRATCH / "changed") or {}
 NOW = ["approved", "beauty"]
-for name, value in {"errors": [], "opened": 1, "shown_at_first": [2, "not passed"], "counts": "2 passed2 failed", "heading": "frame 1 failed",
-                    "side": [*NOW, "change"], "swipe": [NOW, "left approved, right now (beauty)", "inset(0px 0px 0px 50%)"], "blink": ["approved", "approved"],
-                    "blinked": ["now (beauty)", "beauty"], "blinked_back": "approved", "passed": [2, "100 %"]}.items():
+for name, value in {
+        "errors": [], "opened": 1, "shown_at_first": [2, "not passed"], "counts": "2 passed2 failed",
+        "heading": "frame 1 failed", "side": [*NOW, "change"],
+        "swipe": [NOW, "left approved, right now (beauty)",
+                  "inset(0px 0px 0px 50%)"], "blink": ["approved", "approved"], "blinked": ["now (beauty)", "beauty"],
+        "blinked_back": "approved", "passed": [2, "100 %"]
+}.items():
     check(found.get(name) == value, f"with a baseline: {name}: {found.get(name)} instead of {value}")
-check({"approved", "change", "changed", "reference", "compared", "beauty", "difference"} <= set(found.get("all", [])), f"all channels: {found.get('all')}")
+check({"approved", "change", "changed", "reference", "compared", "beauty", "difference"} <= set(found.get("all", [])),
+      f"all channels: {found.get('all')}")
 told = found.get("verdicts", ["", ""])
-check(told[0].startswith("failed: Not as approved: pixels off from the approved frame 6.5") and "R reflect.R" in told[0] or "hashes: R" in told[0], f"which comparison failed: {told}")
+check(
+    told[0].startswith("failed: Not as approved: pixels off from the approved frame 6.5") and "R reflect.R" in told[0]
+    or "hashes: R" in told[0], f"which comparison failed: {told}")
 check(told[1] == "passed: As the reference, fidelity 100 %.", f"and which did not: {told}")
 page = (SCRATCH / "changed/index.html").read_text()
 
@@ -94,26 +158,37 @@ def picture_of(frame, name):
 change, marks = picture_of(1, "change"), picture_of(1, "changed")
 red = (marks == (255, 40, 30)).all(2)
 check(red[PATCH].all() and red.sum() == 400, f"the marks are the patch: {red.sum()} pixels, {red[PATCH].sum()} in it")
-check((change[PATCH][:, :, 0] > 100).all() and change[red == 0].max() == 0, "the difference shows the patch, and nothing else")
-check((abs(picture_of(1, "approved") - picture_of(1, "beauty")).max(2) > 0).sum() == 400, "the approved frame is another one")
+check((change[PATCH][:, :, 0] > 100).all() and change[red == 0].max() == 0,
+      "the difference shows the patch, and nothing else")
+check((abs(picture_of(1, "approved") - picture_of(1, "beauty")).max(2) > 0).sum() == 400,
+      "the approved frame is another one")
 check((picture_of(1, "blame 0") == (255, 40, 30)).all(2).any(), "the blamed draw's picture shows the failing pixels")
-check("approved" not in re.search(r'id="p0">(.*?)</script>', page, re.S)[1], "a frame that is as approved needs no second picture")
+check("approved" not in re.search(r'id="p0">(.*?)</script>', page, re.S)[1],
+      "a frame that is as approved needs no second picture")
 sheet = whole_codes(SCRATCH / "changed/sheet.png").astype(int)
 check(sheet.shape[1] == 8 + 3 * (96 + 8), f"the sheet's columns are approved, now, difference: {sheet.shape}")
 text = (SCRATCH / "changed.md").read_text()
-check("| 1-2 | failed | not as approved: " in text, f"Markdown says which comparison failed, once for both frames:\n{text}")
+check("| 1-2 | failed | not as approved: " in text,
+      f"Markdown says which comparison failed, once for both frames:\n{text}")
 
-# --- On a narrow screen ----------------------------------------------------------------------------------------------------
+# --- On a narrow screen
+# ----------------------------------------------------------------------------------------------------
 
 for report in ("report", "changed"):
     found = browser.narrow(SCRATCH, SCRATCH / report, 390) or {}
-    check(len(found) == 4 and all(inner == 390 >= wide for inner, wide in found.values()), f"{report} on a screen of 390 pixels: {found}")
+    check(
+        len(found) == 4 and all(inner == 390 >= wide for inner, wide in found.values()),
+        f"{report} on a screen of 390 pixels: {found}")
 
-# --- For those who see little, hear the page, or use no mouse; and on paper -------------------------------------------------
+# --- For those who see little, hear the page, or use no mouse; and on paper
+# -------------------------------------------------
 
 for scheme in ("light", "dark"):
     found = browser.accessible(SCRATCH, SCRATCH / "changed", scheme) or {}
     check(found.get("wrong") == [], f"accessible, {scheme}: {found}")
 found = browser.printed(SCRATCH, SCRATCH / "changed") or {}
-check(found == {"shown": sorted(["H1", "H2", "IMG", "TABLE", "chart", "verdicts"]), "wide": False, "back": "rgb(255, 255, 255)"}, f"printed: {found}")
+check(
+    found == {
+        "shown": sorted(["H1", "H2", "IMG", "TABLE", "chart", "verdicts"]), "wide": False, "back": "rgb(255, 255, 255)"
+    }, f"printed: {found}")
 finish()

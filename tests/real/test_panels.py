@@ -1,24 +1,27 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""
-The modes, functions, operands and terms of the specification's chapters, a panel each, are drawn as Mesa draws them: tests/real/panels/.
-Not among them: the colour maps of glDrawPixels (those of glTexImage2D are). Run with names of programs: those alone.
+"""The modes, functions, operands and terms of the specification's chapters, a panel each, are drawn as Mesa draws them:
+tests/real/panels/. Not among them: the colour maps of glDrawPixels (those of glTexImage2D are). Run with names of
+programs: those alone.
 """
 import sys
 
 from helpers import AS_SHOWN, SCRATCH, check, check_alone, check_same_pictures, diff, finish, must, on_display, render
 
 PROGRAMS = {
-    "light": ("attenuation", "spots", "terms", "shininess", "sides", "normals", "many lights", "flat shading", "short normals"),
+    "light": ("attenuation", "spots", "terms", "shininess", "sides", "normals", "many lights", "flat shading",
+              "short normals"),
     "fog": ("modes", "colours", "lit", "points, lines, rectangles", "distances"),
     "texture": ("environments", "combiner functions", "combiner operands", "generated coordinates", "cube maps"),
-    "fragment": ("blend factors", "more blend factors", "blend equations", "tests", "stencil", "stencil of two sides", "user planes", "near plane",
-                 "alpha at the reference"),
+    "fragment": ("blend factors", "more blend factors", "blend equations", "tests", "stencil", "stencil of two sides",
+                 "user planes", "near plane", "alpha at the reference"),
     "line": ("strips", "kinds", "cut", "shared corners", "unfilled polygons", "edge flags", "short ones", "textured"),
-    "compression": ("plain images", "their alpha", "parts", "levels", "alpha of levels", "copies of the screen", "YCbCr"),
-    "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "copies of these", "what rectangles go through",
-              "transfer to textures", "indices to textures", "in lists"),
-    "point": ("attenuated",),
+    "compression": ("plain images", "their alpha", "parts", "levels", "alpha of levels", "copies of the screen",
+                    "YCbCr"),
+    "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils",
+              "copies of these", "what rectangles go through", "transfer to textures", "indices to textures",
+              "in lists"),
+    "point": ("attenuated", ),
     "program": ("instructions", "bindings", "textures", "fragments", "last bits"),
     "ati_shader": ("instructions", "arguments", "destinations", "sources", "textures"),
     "vertex_program": ("instructions", "bindings", "addresses", "results", "attributes", "uses", "extremes"),
@@ -32,7 +35,8 @@ def check_kernels(trace, number):
         folder = SCRATCH / kernels[1]
         render(trace, folder, *AS_SHOWN, *kernels, "-f", number)
         _, score = diff(trace, folder, "-f", number)
-        check(score["frames"][0]["failing_pixels"] == 0, f"frame {number} with {kernels[1]}: {score['frames'][0]['failing_pixels']} pixels fail")
+        check(score["frames"][0]["failing_pixels"] == 0,
+              f"frame {number} with {kernels[1]}: {score['frames'][0]['failing_pixels']} pixels fail")
 
 
 NEEDS = {"YCbCr": "GL_MESA_ycbcr_texture"}  # what the Mesa at hand may lack; such a frame is not drawn
@@ -46,7 +50,8 @@ def drawn(frames):
     return [what for what in frames if what not in lacking]
 
 
-OTHER_KERNELS = {"vertex_program": "5", "program": "4"}  # a program's frame: depths that are not the projection's, last bits
+OTHER_KERNELS = {"vertex_program": "5",
+                 "program": "4"}  # a program's frame: depths that are not the projection's, last bits
 
 for name in sys.argv[1:] or PROGRAMS:
     trace, _ = check_same_pictures(f"panels/{name}", drawn(PROGRAMS[name]))

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""
-A lit knot by fixed function, by a vertex program, a fragment program and GLSL (corpus/phong.c): all gates, and the same beauty: where surfaces
-are and what their normals are, shadows of the knot on the floor and on itself. A program with matrices of its own has the same shadows.
+"""A lit knot by fixed function, by a vertex program, a fragment program and GLSL (corpus/phong.c): all gates, and the
+same beauty: where surfaces are and what their normals are, shadows of the knot on the floor and on itself. A program
+with matrices of its own has the same shadows.
 """
 from exr import Image
 from helpers import check, check_gates, corpus, diff, finish, frames_of, record, render, SCRATCH
@@ -10,7 +10,8 @@ FRAMES = 2
 SAME = ("Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z")  # to the bit
 NEAR = ("R", "G", "B", "shadow.R")
 NEAR_BY = 0.02  # most pixels; at the borders of shadows rays go either way
-ODD_PIXELS = {"vertex": 100, "fragment": 1200, "glsl": 1200, "own": 200}  # of 43,200. Light between vertices is not light at a fragment: highlights differ
+ODD_PIXELS = {"vertex": 100, "fragment": 1200, "glsl": 1200,
+              "own": 200}  # of 43,200. Light between vertices is not light at a fragment: highlights differ
 
 
 def picture(way):
@@ -29,6 +30,9 @@ for way, most in ODD_PIXELS.items():
     for name in SAME if way != "own" else ():  # its eye space is found from the picture
         check(ours.planes[name] == fixed.planes[name], f"by {way}: {name} is fixed function's")
     for name in NEAR:
-        odd = sum(abs(a - b) > NEAR_BY for one, other in zip(ours.planes[name], fixed.planes[name]) for a, b in zip(one, other))
+        odd = sum(
+            abs(a - b) > NEAR_BY
+            for one, other in zip(ours.planes[name], fixed.planes[name])
+            for a, b in zip(one, other))
         check(odd <= most, f"by {way}: {name} differs in {odd} pixels")
 finish()

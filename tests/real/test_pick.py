@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""relume pick: what it says of pixels is what `scene` holds, and a rule that it writes changes that surface and nothing else."""
+"""relume pick: what it says of pixels is what `scene` holds, and a rule that it writes changes that surface and nothing
+else."""
 import collections
 import json
 
@@ -30,27 +31,41 @@ def check_surface(trace, scene, image, instance, found):
     rule = must(relume("pick", trace, "-f", 1, f"{middle % image.width},{middle // image.width}")).stdout
     mine = scene["instances"][instance]
     material = scene["materials"][mine["material"]]
-    textures = [scene["textures"][u["texture"]] for u in scene["units"][material["unit_first"]:][:material["unit_count"]]]
+    textures = [
+        scene["textures"][u["texture"]] for u in scene["units"][material["unit_first"]:][:material["unit_count"]]
+    ]
     check(f"draw {mine['draw']}: {mine['call']}, call {mine['call_number']}" in rule, f"{what}: its call: {rule}")
     check(f"mesh {scene['meshes'][mine['mesh']]['hash']}: " in rule, f"{what}: its mesh: {rule}")
-    check(all(f"texture {t['hash']}: " in rule and f"{t['target']} {t['base_format']}" in rule for t in textures), f"{what}: its textures: {rule}")
+    check(all(f"texture {t['hash']}: " in rule and f"{t['target']} {t['base_format']}" in rule for t in textures),
+          f"{what}: its textures: {rule}")
     check(("lit by" in rule) == bool(material["lighting"]), f"{what}: its material: {rule}")
 
     file = SCRATCH / "rule.yaml"
     file.write_text(rule)
-    said = must(relume("render", trace, "-f", 1, "-o", SCRATCH / "mirror.####.exr", "--look", file, "--no-cache")).stderr
+    said = must(relume("render", trace, "-f", 1, "-o", SCRATCH / "mirror.####.exr", "--look", file,
+                       "--no-cache")).stderr
     check("rule 1 matches 1 draw in 1 of 1 frame" in said, f"{what}: matches one draw: {said}{rule}")
     # A surface that shines is brighter by as much, and nothing else is.
     file.write_text(rule.replace("reflect: 0.3", "emission: [0, 1, 0]"))
-    must(relume("render", trace, "-f", 1, "-o", SCRATCH / "shining.####.exr", "--aov", "relight,id", "--look", file, "--no-cache"))
+    must(
+        relume("render", trace, "-f", 1, "-o", SCRATCH / "shining.####.exr", "--aov", "relight,id", "--look", file,
+               "--no-cache"))
     shining = Image(SCRATCH / "shining.0001.exr")
-    shines = {i for i, (with_it, without) in enumerate(zip(plane(shining, "relight.G"), plane(image, "relight.G"))) if with_it != without}
-    blended = {pixel for i in found if scene["materials"][scene["instances"][i]["material"]]["blend"] for pixel in found[i]} # it is seen through these
+    shines = {
+        i for i, (with_it, without) in enumerate(zip(plane(shining, "relight.G"), plane(image, "relight.G")))
+        if with_it != without
+    }
+    blended = {
+        pixel for i in found if scene["materials"][scene["instances"][i]["material"]]["blend"] for pixel in found[i]
+    }  # it is seen through these
     others = shines - set(pixels) - blended
     check(shines and not others, f"{what}: {len(shines)} pixels shine, of {len(pixels)}; {len(others)} are others'")
     check(len(shines) > 0.9 * len(pixels), f"{what}: {len(shines)} of its {len(pixels)} pixels shine")
-    twins = [i for i in scene["instances"] if i["mesh"] == mine["mesh"] and scene["materials"][i["material"]] == material]
-    check(("draws: " in rule) == (len(twins) > 1), f"{what}: a draw number where it must be, as it holds in one frame alone: {rule}")
+    twins = [
+        i for i in scene["instances"] if i["mesh"] == mine["mesh"] and scene["materials"][i["material"]] == material
+    ]
+    check(("draws: " in rule) == (len(twins) > 1),
+          f"{what}: a draw number where it must be, as it holds in one frame alone: {rule}")
     return "draws: " in rule
 
 
@@ -68,17 +83,22 @@ for program in ("blocks", "courtyard"):
     text = must(relume("scene", trace, "-f", 1)).stdout
     for instance in scene["instances"]:
         line = next((line for line in text.splitlines() if line.startswith(f"draw {instance['draw']}: ")), "")
-        check(f"mesh {scene['meshes'][instance['mesh']]['hash'][:8]}, {instance['call']}" in line, f"{program}: scene names meshes by hashes: {line}")
-    numbers = [t for t in scene["textures"] if not t["base_format"].startswith("GL_")] + [m for m in scene["materials"] if not m["depth_func"].startswith("GL_")]
+        check(f"mesh {scene['meshes'][instance['mesh']]['hash'][:8]}, {instance['call']}" in line,
+              f"{program}: scene names meshes by hashes: {line}")
+    numbers = [t for t in scene["textures"] if not t["base_format"].startswith("GL_")
+               ] + [m for m in scene["materials"] if not m["depth_func"].startswith("GL_")]
     check(not numbers, f"{program}: scene names GL's tokens: {numbers}")
 
-    for pixel, text in ((f"{image.width},0", "is not there"), ("12", "is no pixel"), ("a,b", "is no pixel"), ("1,2,3", "is no pixel")):
+    for pixel, text in ((f"{image.width},0", "is not there"), ("12", "is no pixel"), ("a,b", "is no pixel"),
+                        ("1,2,3", "is no pixel")):
         done = relume("pick", trace, "-f", 1, pixel)
-        check(done.returncode == 2 and text in done.stderr and not done.stdout, f"{pixel}: {done.returncode}, {done.stderr}")
+        check(done.returncode == 2 and text in done.stderr and not done.stdout,
+              f"{pixel}: {done.returncode}, {done.stderr}")
     empty = next((i for i, draw in enumerate(plane(image, "id")) if not draw), None)
     if empty is not None:
         done = relume("pick", trace, "-f", 1, f"{empty % image.width},{empty // image.width}")
-        check(done.returncode == 2 and "nothing is drawn" in done.stderr and not done.stdout, f"nothing there: {done.returncode}, {done.stderr}")
+        check(done.returncode == 2 and "nothing is drawn" in done.stderr and not done.stdout,
+              f"nothing there: {done.returncode}, {done.stderr}")
     check(relume("pick", trace, "-f", 7, "0,0").returncode == 2, "a frame that is not there")
 
 check(shared, "one of them needed a draw number")

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""Plain frames go through packets in one step (kernels/frame/plain.h), those of several looks in two or three; kernels of one pixel a work item
-know plain ones without programs. Without rays (mode gl) the camera's part is in the same step. All leave the same files, byte by byte; with rules that have rays to lights start on flat faces, and in
-light from all around, too. There programs take other ways, and the C twins show the same."""
+"""Plain frames go through packets in one step (kernels/frame/plain.h), those of several looks in two or three; kernels
+of one pixel a work item know plain ones without programs. Without rays (mode gl) the camera's part is in the same step.
+All leave the same files, byte by byte; with rules that have rays to lights start on flat faces, and in light from all
+around, too. There programs take other ways, and the C twins show the same."""
 import json
 
 import exr
@@ -26,13 +27,19 @@ PROGRAMS = {  # and the kernel that their frames go through
     "courtyard": ("layered", ["courtyard", "--size", "320x240"]),  # clears its depth again
 }
 
-IN_DOME = {"box": "plain_dome", "arena": "plain_dome", "blocks": "plain_dome", "vertex": "dome_light_packet", "fragment": "dome_light_packet"}
+IN_DOME = {
+    "box": "plain_dome", "arena": "plain_dome", "blocks": "plain_dome", "vertex": "dome_light_packet",
+    "fragment": "dome_light_packet"
+}
 WHOLE = ("box", "arena", "blocks", "vertex", "spheres")  # without rays, from the camera to planes in one step
 ONE_BY_ONE = ("box", "arena", "blocks")  # known to kernels of one pixel a work item
 
 
 def stages(trace, *options):
-    return {row["what"] for row in json.loads(must(relume("bench", trace, "--repeat", 1, "--json", *options)).stdout)["spent"]}
+    return {
+        row["what"]
+        for row in json.loads(must(relume("bench", trace, "--repeat", 1, "--json", *options)).stdout)["spent"]
+    }
 
 
 for name, (kernel, (program, *options)) in PROGRAMS.items():
@@ -43,18 +50,24 @@ for name, (kernel, (program, *options)) in PROGRAMS.items():
         ways["dome"] = (IN_DOME[name], ("--look", DOME))
     for stage, rules in (way for how, way in ways.items() if how != "flat"):
         through = stages(trace, *rules)
-        check(stage in through and ("resolve_packet" in through) == (stage == "dome_light_packet"), f"{name} {rules}: goes through {sorted(through)}")
+        check(stage in through and ("resolve_packet" in through) == (stage == "dome_light_packet"),
+              f"{name} {rules}: goes through {sorted(through)}")
     through = stages(trace, "--mode", "gl")
-    check(("plain_whole" in through) == (name in WHOLE) != ("camera_packet" in through), f"{name} in mode gl: goes through {sorted(through)}")
+    check(("plain_whole" in through) == (name in WHOLE) != ("camera_packet" in through),
+          f"{name} in mode gl: goes through {sorted(through)}")
     pictures = [render(trace, SCRATCH / f"{name}-gl-{'-'.join(way)}", *way, "--mode", "gl")[0].read_bytes()
                 for way in (("--kernels", "packets"), ("--kernels", "binary"))]
     check(pictures[0] == pictures[1], f"{name}, mode gl: packets leave another file than binary")
     if name in WHOLE:
-        pictures = [render(trace, SCRATCH / f"{name}-gl-twins-{kernels}", "--device", "reference", "--kernels", kernels, "--mode", "gl")[0].read_bytes()
-                    for kernels in ("packets", "binary")]
-        check(pictures[0] == pictures[1], f"{name}, mode gl: the twins of packets leave another file than those of binary")
+        pictures = [
+            render(trace, SCRATCH / f"{name}-gl-twins-{kernels}", "--device", "reference", "--kernels", kernels,
+                   "--mode", "gl")[0].read_bytes() for kernels in ("packets", "binary")
+        ]
+        check(pictures[0] == pictures[1],
+              f"{name}, mode gl: the twins of packets leave another file than those of binary")
     through = stages(trace, "--kernels", "binary")
-    one = ("plain_color", "plain_ask", "plain_show", "plain_color_dimmed", "plain_show_dimmed") if name in ONE_BY_ONE else ("shade", "resolve", "compose")
+    one = ("plain_color", "plain_ask", "plain_show", "plain_color_dimmed",
+           "plain_show_dimmed") if name in ONE_BY_ONE else ("shade", "resolve", "compose")
     check(all(stage in through for stage in one), f"{name}, one pixel a work item: goes through {sorted(through)}")
     default = None
     for how, (_, rules) in ways.items():
@@ -65,11 +78,14 @@ for name, (kernel, (program, *options)) in PROGRAMS.items():
         default = pictures[0]
         if how == "dome":
             render(trace, SCRATCH / f"{name}-twins", "--device", "reference", *rules)
-            twins, packets = (exr.Image(next((SCRATCH / folder).iterdir())).planes for folder in (f"{name}-twins", f"{name}-dome-packets"))
+            twins, packets = (exr.Image(next((SCRATCH / folder).iterdir())).planes
+                              for folder in (f"{name}-twins", f"{name}-dome-packets"))
             odd = sum(abs(a - b) > 1e-3 for c in "RGB" for rows in zip(twins[c], packets[c]) for a, b in zip(*rows))
             check(odd < 20, f"{name}: {odd} numbers of the C twins are others")
     if name in ONE_BY_ONE:
-        pictures = [render(trace, SCRATCH / f"{name}-twins-{kernels}", "--device", "reference", "--kernels", kernels)[0].read_bytes()
-                    for kernels in ("packets", "binary")]
+        pictures = [
+            render(trace, SCRATCH / f"{name}-twins-{kernels}", "--device", "reference", "--kernels",
+                   kernels)[0].read_bytes() for kernels in ("packets", "binary")
+        ]
         check(pictures[0] == pictures[1], f"{name}: the twins of packets leave another file than those of binary")
 finish()

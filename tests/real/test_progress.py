@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""A bar on a terminal, one plain line per frame elsewhere; where frames need others before them, what is replayed, why, and in whose time."""
+"""A bar on a terminal, one plain line per frame elsewhere; where frames need others before them, what is replayed, why,
+and in whose time."""
 import json
 import os
 import pty
@@ -34,8 +35,9 @@ plain = must(relume(*command[1:]))
 lines = [line for line in plain.stderr.splitlines() if line.startswith("rendered frame")]
 found = [re.match(r"rendered frame (\d+), (\d+) of (\d+): .", line) for line in lines]
 # frames are told as they become whole: two writers pack them, so that a later one may be first
-check(all(found) and sorted(m[1] for m in found) == ["0", "1", "2"] and [m.group(2, 3) for m in found] == [(n, "3") for n in "123"],
-      f"one line per frame: {plain.stderr}")
+check(
+    all(found) and sorted(m[1] for m in found) == ["0", "1", "2"]
+    and [m.group(2, 3) for m in found] == [(n, "3") for n in "123"], f"one line per frame: {plain.stderr}")
 check("\r" not in plain.stderr and "\x1b" not in plain.stderr, "no control characters outside a terminal")
 
 for old in SCRATCH.glob("x.*.exr"):
@@ -51,11 +53,16 @@ record(trace, BUILD / "tests/real/front", options=("--frame-end", "flush"))
 command = [RELUME, "render", str(trace), "-f", str(frame), "-o", str(SCRATCH / "front.####.exr")]
 why = r"what they drew is not cleared, and shows"
 done = must(relume(*command[1:], "--progress", "json"))
-check(re.search(rf"frame {frame} needs the pixels of frames before it \({why}, found at call \d+, .*playing them from frame 0", done.stderr),
-      f"a line says why: {done.stderr}")
+check(
+    re.search(
+        rf"frame {frame} needs the pixels of frames before it \({why}, found at call \d+, .*playing them from frame 0",
+        done.stderr), f"a line says why: {done.stderr}")
 events = {event["event"]: event for event in map(json.loads, done.stdout.splitlines())}
-check(events["frame"]["seconds"] > 0.5 * events["end"]["seconds"], f"the frame's time counts those that were replayed for it: {events}")
+check(events["frame"]["seconds"] > 0.5 * events["end"]["seconds"],
+      f"the frame's time counts those that were replayed for it: {events}")
 code, shown = on_terminal(command)
-check(code == 0 and re.search(rf"\r\x1b\[Krelume: warning: .*{why}.*\r\n\r\x1b\[Kreplaying \[#*\.*\] 1/{frame}  before frame {frame}: {why}", shown),
-      f"a bar of what is replayed: {shown!r}")
+check(
+    code == 0 and re.search(
+        rf"\r\x1b\[Krelume: warning: .*{why}.*\r\n\r\x1b\[Kreplaying \[#*\.*\] 1/{frame}  before frame {frame}: {why}",
+        shown), f"a bar of what is replayed: {shown!r}")
 finish()

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""
-What lies before what where programs have a projection of their own is what Mesa says: tests/real/projections.c. Nothing is nearer than what the recorded
-projection shows, nor hidden by it, for any family of kernels.
+"""What lies before what where programs have a projection of their own is what Mesa says: tests/real/projections.c.
+Nothing is nearer than what the recorded projection shows, nor hidden by it, for any family of kernels.
 """
 from helpers import AS_SHOWN, SCRATCH, check, check_same_pictures, diff, finish, render
 
-FRAMES = ("from 0.01 on", "from 0.48 on", "halfway", "towards the viewer", "the same, of few steps", "one depth", "logarithmic", "square")
+FRAMES = ("from 0.01 on", "from 0.48 on", "halfway", "towards the viewer", "the same, of few steps", "one depth",
+          "logarithmic", "square")
 trace, _ = check_same_pictures("projections", FRAMES)
 for kernels in (("--device", "reference"), ("--kernels", "binary"), ("--kernels", "compressed")):
     folder = SCRATCH / kernels[1]

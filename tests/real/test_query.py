@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""relume query: rays, distances and collisions of a recorded frame, beside what the frame's own triangles say; and what it refuses."""
+"""relume query: rays, distances and collisions of a recorded frame, beside what the frame's own triangles say; and what
+it refuses."""
 import math
 import pathlib
 import struct
@@ -11,13 +12,16 @@ import exr  # noqa: E402
 from helpers import BUILD, RELUME, ROOT, SCRATCH, check, finish, must, relume, run  # noqa: E402
 
 CORNELL = ROOT / "tests/golden/cornell.trace"
-BINARY = {"nearest": ("8f", "3fI"), "any": ("8f", "I"), "distance": ("4f", "4fI"), "box": ("9f", "fI"), "sphere": ("7f", "fI")}
+BINARY = {
+    "nearest": ("8f", "3fI"), "any": ("8f", "I"), "distance": ("4f", "4fI"), "box": ("9f", "fI"), "sphere": ("7f", "fI")
+}
 
 
 def query(kind, queries, *options, trace=CORNELL):
     """Answers, a list of words each."""
-    done = subprocess.run([RELUME, "query", "-k", kind, *map(str, options), str(trace)], text=True, capture_output=True, timeout=100,
-                          input="".join(" ".join(map(str, q)) + "\n" for q in queries))
+    done = subprocess.run(
+        [RELUME, "query", "-k", kind, *map(str, options), str(trace)], text=True, capture_output=True, timeout=100,
+        input="".join(" ".join(map(str, q)) + "\n" for q in queries))
     must(done)
     return [line.split() for line in done.stdout.splitlines()]
 
@@ -28,14 +32,20 @@ image = exr.Image(SCRATCH / "cornell.0001.exr")
 point = [image.at(channel, image.width // 3, image.height // 2) for channel in ("P.X", "P.Y", "P.Z", "id")]
 check(all(map(math.isfinite, point)) and point[2] < 0, f"a point of the picture: {point}")
 x, y, z, draw = point
-through = query("nearest", [(0, 0, 0, 0, x, y, z, 1e9), (0, 0, 0, 0, x, y, z, 0.5), (0, 0, 0, 0, -x, -y, -z, 1e9)], "-f", 1)
-check(abs(float(through[0][0]) - 1) < 2e-3 and int(through[0][4]) == int(draw), f"the ray through that pixel ends there: {through[0]}, id {draw}")
+through = query("nearest", [(0, 0, 0, 0, x, y, z, 1e9), (0, 0, 0, 0, x, y, z, 0.5), (0, 0, 0, 0, -x, -y, -z, 1e9)],
+                "-f", 1)
+check(
+    abs(float(through[0][0]) - 1) < 2e-3 and int(through[0][4]) == int(draw),
+    f"the ray through that pixel ends there: {through[0]}, id {draw}")
 check(through[1] == ["-"] and through[2] == ["-"], f"before it, and behind the viewer, there is nothing: {through[1:]}")
-check(query("any", [(0, 0, 0, 0, x, y, z, 2), (0, 0, 0, 0, x, y, z, 0.5)], "-f", 1) == [["1"], ["0"]], "any hit says the same")
+check(
+    query("any", [(0, 0, 0, 0, x, y, z, 2), (0, 0, 0, 0, x, y, z, 0.5)], "-f", 1) == [["1"], ["0"]],
+    "any hit says the same")
 near = query("distance", [(x, y, z, 1e9), (x, y, z + 1e5, 1)], "-f", 1)
 check(float(near[0][0]) < 2e-3 and near[1] == ["-"], f"the point lies on a surface: {near}")
 every = query("all", [(0, 0, 0, 0, x, y, z, 1e9)], "-f", 1)[0]
-check(int(every[0]) >= 1 and every[1] == through[0][0] and every[4] == through[0][3], f"the nearest of all hits: {every}")
+check(
+    int(every[0]) >= 1 and every[1] == through[0][0] and every[4] == through[0][3], f"the nearest of all hits: {every}")
 ts = [float(t) for t in every[1::4]]
 check(ts == sorted(ts) and len(ts) == int(every[0]), f"all hits stand in order: {every}")
 one = query("all", [(0, 0, 0, 0, x, y, z, 1e9)], "-f", 1, "-m", 1)[0]
@@ -46,11 +56,14 @@ length = math.sqrt(x * x + y * y + z * z)
 for kind, size in (("sphere", (0.01,)), ("box", (0.01, 0.01, 0.01))):
     stop = query(kind, [(0, 0, 0, *size, x, y, z), (0, 0, 0, *size, -x, -y, -z), (x, y, z, *size, 0, 0, 0)], "-f", 1)
     check(0.9 < float(stop[0][0]) <= 1 - 0.009 / length, f"the {kind} stops before the surface: {stop[0]}")
-    check(stop[1] == ["-"] and float(stop[2][0]) == 0, f"the {kind} is free behind, and touches where it stands: {stop[1:]}")
+    check(stop[1] == ["-"] and float(stop[2][0]) == 0,
+          f"the {kind} is free behind, and touches where it stands: {stop[1:]}")
 
 # Numbers in place of text; a file in place of a pipe; comments.
-text = {"nearest": (0, 0, 0, 0, x, y, z, 1e9), "any": (0, 0, 0, 0, x, y, z, 1e9), "distance": (0, 0, 0, 1e9), "box": (0, 0, 0, .1, .1, .1, 0, 0, 2 * z),
-        "sphere": (0, 0, 0, .1, 0, 0, 2 * z)}
+text = {
+    "nearest": (0, 0, 0, 0, x, y, z, 1e9), "any": (0, 0, 0, 0, x, y, z, 1e9), "distance": (0, 0, 0, 1e9),
+    "box": (0, 0, 0, .1, .1, .1, 0, 0, 2 * z), "sphere": (0, 0, 0, .1, 0, 0, 2 * z)
+}
 for kind, (asked, answered) in BINARY.items():
     queries = SCRATCH / f"{kind}.bin"
     queries.write_bytes(struct.pack(asked, *text[kind]) * 3)
@@ -58,13 +71,19 @@ for kind, (asked, answered) in BINARY.items():
     answers = (SCRATCH / "new/answers.bin").read_bytes()
     words = query(kind, [text[kind]], "-f", 1)[0]
     numbers = struct.unpack(answered, answers[:struct.calcsize(answered)])
-    check(len(answers) == 3 * struct.calcsize(answered) and answers[:len(answers) // 3] == answers[-(len(answers) // 3):], f"{kind}: three answers")
-    check(all(abs(a - float(b)) <= 1e-6 * abs(a) for a, b in zip(numbers, words)), f"{kind}: numbers {numbers}, text {words}")
+    check(
+        len(answers) == 3 * struct.calcsize(answered) and answers[:len(answers) // 3] == answers[-(len(answers) // 3):],
+        f"{kind}: three answers")
+    check(all(abs(a - float(b)) <= 1e-6 * abs(a) for a, b in zip(numbers, words)),
+          f"{kind}: numbers {numbers}, text {words}")
 (SCRATCH / "queries.txt").write_text("# rays\n\n0 0 0 0  0 0 -1 1e9  # straight on\n   \n0 0 0 0 0 0 1 1e9")
 done = relume("query", "-f", 1, CORNELL, SCRATCH / "queries.txt")
-check(done.returncode == 0 and len(done.stdout.splitlines()) == 2 and done.stdout.splitlines()[1] == "-", f"comments: {done.stdout}{done.stderr}")
+check(done.returncode == 0 and len(done.stdout.splitlines()) == 2 and done.stdout.splitlines()[1] == "-",
+      f"comments: {done.stdout}{done.stderr}")
 check(query("nearest", [], "-f", 1) == [], "no queries, no answers")
-check(query("nearest", [("nan", 0, 0, 0, 0, 0, -1, 9), (0, 0, 0, 0, 0, 0, "-inf", 9)], "-f", 1) == [["-"], ["-"]], "no numbers find nothing")
+check(
+    query("nearest", [("nan", 0, 0, 0, 0, 0, -1, 9), (0, 0, 0, 0, 0, 0, "-inf", 9)], "-f", 1) == [["-"], ["-"]],
+    "no numbers find nothing")
 # Nothing of this frame is depth-tested: an empty scene.
 empty = query("distance", [(0, 0, 0, 1e9)], "-f", 0, trace=ROOT / "tests/golden/two_triangles.trace")
 check(empty == [["-"]], f"a frame without depth: {empty}")
@@ -108,10 +127,14 @@ int main(int argc, char **argv)
 	return 0;
 }
 """)
-must(run("cc", "-Wall", "-Werror", f"-I{ROOT / 'query'}", SCRATCH / "mine.c", "-o", SCRATCH / "mine", f"-L{BUILD}", f"-Wl,-rpath,{BUILD.resolve()}", "-lrelume-rays"))
+must(
+    run("cc", "-Wall", "-Werror", f"-I{ROOT / 'query'}", SCRATCH / "mine.c", "-o", SCRATCH / "mine", f"-L{BUILD}",
+        f"-Wl,-rpath,{BUILD.resolve()}", "-lrelume-rays"))
 for device in ((), ("reference",)):
     done = run(SCRATCH / "mine", *device)
-    check(done.stdout.split()[0] == "2.5" and done.stdout.strip().endswith("0 of 1"), f"a program's own triangle: {done.stdout}{done.stderr}")
+    check(done.stdout.split()[0] == "2.5" and done.stdout.strip().endswith("0 of 1"),
+          f"a program's own triangle: {done.stdout}{done.stderr}")
 shown = run("nm", "-D", "--defined-only", BUILD / "librelume-rays.so").stdout.split("\n")
-check(all(line.split()[2].startswith("relume_rays_") for line in shown if line), "the library shows its interface and nothing else")
+check(all(line.split()[2].startswith("relume_rays_") for line in shown if line),
+      "the library shows its interface and nothing else")
 finish()

@@ -2,8 +2,8 @@
 # limit: 600 s
 """The README's commands do what it shows, and commands of docs/ name options that exist.
 
-A line "$ COMMAND" of the README is run; the lines below it are what it prints, with any numbers, and "..." for any lines or words. The
-examples of its groups are run as well. Commands run from top to bottom in one folder.
+A line "$ COMMAND" of the README is run; the lines below it are what it prints, with any numbers, and "..." for any
+lines or words. The examples of its groups are run as well. Commands run from top to bottom in one folder.
 """
 import os
 import re
@@ -13,7 +13,10 @@ from helpers import BUILD, RELUME, ROOT, SCRATCH, check, finish, on_display, rel
 # Commands that wait for somebody or something that is not here.
 CANNOT_RUN = {
     "make demo": "installs packages; tests/show/suites.py runs it",
-    "make": "builds", "make check": "runs this test", "make install": "real/test_install.py runs it", "make deb": "needs debhelper",
+    "make": "builds",
+    "make check": "runs this test",
+    "make install": "real/test_install.py runs it",
+    "make deb": "needs debhelper",
     "relume farm submit gears.trace -f 0-59 -o farm/gears.####.exr": "farm/test_farm.py has a cluster",
 }
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -45,7 +48,8 @@ def pattern_of(lines):
         if line == "...":
             return r"(?:.*\n)*?"
         parts = re.split(r"(\d+(?:\.\d+)?|\.\.\.)", line)  # every second one is a number or dots
-        return "".join((".*" if part == "..." else r"\d+(?:\.\d+)?") if i % 2 else re.escape(part) for i, part in enumerate(parts)) + "\n"
+        return "".join((".*" if part == "..." else r"\d+(?:\.\d+)?") if i % 2 else re.escape(part)
+                       for i, part in enumerate(parts)) + "\n"
 
     return "".join(of_line(line) for line in lines)
 
@@ -60,7 +64,8 @@ groups = re.findall(r"^\*\*([\w ]+)\*\*: ((?:.+\n)+)\n((?:    .*\n)+)", readme, 
 named = [verb for _, words, _ in groups for verb in re.findall(r"`(\w+)`", words)]
 check(sorted(named) == sorted(verbs), f"the README's groups name each verb once: {sorted(named)}, {sorted(verbs)}")
 for title, words, example in groups:
-    check(any(f"relume {verb} " in example for verb in re.findall(r"`(\w+)`", words)), f"{title} has an example of one of its verbs")
+    check(any(f"relume {verb} " in example for verb in re.findall(r"`(\w+)`", words)),
+          f"{title} has an example of one of its verbs")
 
 n = 0
 for page in DOCUMENTS:
@@ -72,7 +77,8 @@ for page in DOCUMENTS:
             n += 1
             before, _, behind = asked[2].partition(" -- ")
             given = {(asked[1], option) for option in re.findall(r"(?<=\s)--?[a-z][a-z-]*", before)}
-            given |= {("render", option) for option in re.findall(r"(?<![\w-])--[a-z-]+", behind)} if asked[1] == "farm" else set()
+            given |= {("render", option)
+                      for option in re.findall(r"(?<![\w-])--[a-z-]+", behind)} if asked[1] == "farm" else set()
             check(asked[1] in verbs, f"{page.name}: {command}: there is no verb {asked[1]}")
             unknown = [option for verb, option in given if option not in options_of(verb)]
             check(not unknown, f"{page.name}: {command}: relume has no {unknown}")
@@ -88,9 +94,11 @@ for command, printed in commands_of(ROOT / "README.md"):
         continue
     ran += 1
     words = ("sh", "-c", f"{{ {command}; }} 2>&1")
-    done = run(*words, cwd=PLACE, env=env, timeout=200) if "xvfb-run" in command else on_display(*words, cwd=PLACE, env=env, timeout=200)
+    done = run(*words, cwd=PLACE, env=env, timeout=200) if "xvfb-run" in command else on_display(
+        *words, cwd=PLACE, env=env, timeout=200)
     check(done.returncode == 0, f"{command}: exit code {done.returncode}\n{done.stdout[-2000:]}")
-    check(printed is None or re.fullmatch(pattern_of(printed), done.stdout), f"{command} prints\n{done.stdout}and not\n" + "\n".join(printed or []))
+    check(printed is None or re.fullmatch(pattern_of(printed), done.stdout),
+          f"{command} prints\n{done.stdout}and not\n" + "\n".join(printed or []))
     for written in re.findall(r"-o (\S+\.(?:png|trace|exr))", command):
         found = list(PLACE.glob(re.sub(r"#+", "*", written)))
         check(found and all(f.stat().st_size for f in found), f"{command} writes {written}")

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Frames of a window while another one is read from keep their size, and have no reference; the others have one: tests/real/elsewhere.c."""
+"""Frames of a window while another one is read from keep their size, and have no reference; the others have one:
+tests/real/elsewhere.c."""
 from exr import Image
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, diff, finish, on_display, record, render, skip
 
@@ -10,7 +11,8 @@ said = record(trace, BUILD / "tests/real/elsewhere").stderr
 check(" 4 frames, " in said and said.count("another one to read from") == 1, f"it is said, once: {said}")
 render(trace, SCRATCH / "out", *AS_SHOWN)
 frames = {frame["frame"]: frame for frame in diff(trace, SCRATCH / "out")[1]["frames"]}
-check([frames[i]["outcome"] for i in range(4)] == ["extra", "extra", "passed", "passed"], f"outcomes: {[f['outcome'] for f in frames.values()]}")
+check([frames[i]["outcome"] for i in range(4)] == ["extra", "extra", "passed", "passed"],
+      f"outcomes: {[f['outcome'] for f in frames.values()]}")
 check(all(frame["failing_pixels"] == 0 for frame in (frames[2], frames[3])), "frames with a reference are the same")
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""
-A recording that the system stops: a full disk, a quota, a limit, a fault. It says so in one line, is whole up to there, its figures are
-those of the file, `record` exits with 5, and --quit-after ends the program, which would draw for ever.
+"""A recording that the system stops: a full disk, a quota, a limit, a fault. It says so in one line, is whole up to
+there, its figures are those of the file, `record` exits with 5, and --quit-after ends the program, which would draw for
+ever.
 """
 import contextlib
 import errno
@@ -23,57 +23,76 @@ GOES_ON = "the program keeps running"
 def recorded(trace, *options, program=("glxgears",), timeout=60, **variables):
     """What `record` says; a program that it does not end runs into the time limit."""
     env = dict(os.environ, **{name: str(value) for name, value in variables.items()})
-    return on_display("timeout", "--foreground", "-k", 5, timeout, RELUME, "record", "-o", trace, *options, "--", *program, env=env)
+    return on_display("timeout", "--foreground", "-k", 5, timeout, RELUME, "record", "-o", trace, *options, "--",
+                      *program, env=env)
 
 
 def check_whole(what, done, trace, reason, after):
     """One line says that the recording stopped, and its figures are those of the file."""
     said = done.stderr
     check(done.returncode == 5, f"{what}: exit code {done.returncode}, not 5: {said[-600:]}")
-    line = re.findall(rf"^relume: {re.escape(str(trace))}: {reason}: recording stopped after (\d+) frames?; {re.escape(after)}$", said, re.M)
+    line = re.findall(
+        rf"^relume: {re.escape(str(trace))}: {reason}: recording stopped after (\d+) frames?; {re.escape(after)}$",
+        said, re.M)
     check(len(line) == 1 and said.count("recording stopped") == 1, f"{what}: said once, in its words: {said[-600:]}")
     total = re.search(r": (\d+) frames?, (\d+) calls?, (\d+) bytes, .*stopped early: ", said)
     info = must(relume("info", trace)).stdout
     held = {name: int(re.search(rf"^{name} +(\d+)", info, re.M)[1]) for name in ("frames", "calls")}
-    check(total and line and {int(total[1]), int(line[0])} == {held["frames"]} and held["frames"] > 0 and int(total[2]) == held["calls"],
-          f"{what}: {total and total[0]} but {held} in the file")
-    check(total and int(total[3]) == trace.stat().st_size, f"{what}: {total and total[3]} bytes but {trace.stat().st_size}")
+    check(
+        total and line and {int(total[1]), int(line[0])} == {held["frames"]} and held["frames"] > 0
+        and int(total[2]) == held["calls"], f"{what}: {total and total[0]} but {held} in the file")
+    check(total and int(total[3]) == trace.stat().st_size,
+          f"{what}: {total and total[3]} bytes but {trace.stat().st_size}")
     dump = run("apitrace", "dump", "--color=never", trace)
-    check(dump.returncode == 0 and not dump.stderr and dump.stdout.count(" glXSwapBuffers(") == held["frames"], f"{what}: apitrace reads it: {dump.stderr}")
+    check(dump.returncode == 0 and not dump.stderr and dump.stdout.count(" glXSwapBuffers(") == held["frames"],
+          f"{what}: apitrace reads it: {dump.stderr}")
     return held["frames"]
 
 
 # Errors that a test cannot have from this machine, with a program that would draw for ever.
-for number, reason in ((errno.ENOSPC, "disk full"), (errno.EDQUOT, "disk quota exceeded"), (errno.EFBIG, "file size limit reached"),
-                       (errno.EIO, "cannot write: Input/output error")):
+for number, reason in ((errno.ENOSPC, "disk full"), (errno.EDQUOT, "disk quota exceeded"),
+                       (errno.EFBIG, "file size limit reached"), (errno.EIO, "cannot write: Input/output error")):
     trace = SCRATCH / f"e{number}.trace"
-    done = recorded(trace, "--env", FULL, "--quit-after", 1000000, FULL_NAME=".trace", FULL_BYTES=50000, FULL_ERRNO=number)
+    done = recorded(trace, "--env", FULL, "--quit-after", 1000000, FULL_NAME=".trace", FULL_BYTES=50000,
+                    FULL_ERRNO=number)
     check_whole(f"errno {number}", done, trace, reason, ENDS)
 
 # Also where frames end otherwise than by a swap.
 trace = SCRATCH / "flush.trace"
-done = recorded(trace, "--env", FULL, "--quit-after", 1000000, "--frame-end", "clear", FULL_NAME=".trace", FULL_BYTES=50000, FULL_ERRNO=errno.ENOSPC)
+done = recorded(trace, "--env", FULL, "--quit-after", 1000000, "--frame-end", "clear", FULL_NAME=".trace",
+                FULL_BYTES=50000, FULL_ERRNO=errno.ENOSPC)
 check(done.returncode == 5, f"frames that end with a clear: exit code {done.returncode}: {done.stderr[-600:]}")
 
 # The reference frames alone: the recording goes on to its end, and the exit code says that something is missing.
 trace = SCRATCH / "ref.trace"
-done = recorded(trace, "--env", FULL, "--quit-after", 40, "--ref", "color", FULL_NAME=".ref", FULL_BYTES=200000, FULL_ERRNO=errno.ENOSPC)
-check(done.returncode == 5 and done.stderr.count("ref.ref: disk full: no more reference frames; the recording goes on without them") == 1 and
-      ": 40 frames, " in done.stderr and " bytes of reference frames (stopped early), 0 calls not recorded" in done.stderr,
-      f"reference frames: exit code {done.returncode}: {done.stderr[-600:]}")
+done = recorded(trace, "--env", FULL, "--quit-after", 40, "--ref", "color", FULL_NAME=".ref", FULL_BYTES=200000,
+                FULL_ERRNO=errno.ENOSPC)
+check(
+    done.returncode == 5
+    and done.stderr.count("ref.ref: disk full: no more reference frames; the recording goes on without them") == 1
+    and ": 40 frames, " in done.stderr
+    and " bytes of reference frames (stopped early), 0 calls not recorded" in done.stderr,
+    f"reference frames: exit code {done.returncode}: {done.stderr[-600:]}")
 frames = SCRATCH / "ref.frames"
 must(relume("render", trace, "-f", "0-2", "--mode", "gl", "--device", "reference", "-o", frames / "ref.####.exr"))
 scored = relume("diff", trace, frames, "-f", "0-2")
-check(scored.returncode == 0 and "3 frames" in scored.stdout, f"what is there of them is whole: {scored.returncode}: {scored.stdout}{scored.stderr}")
+check(scored.returncode == 0 and "3 frames" in scored.stdout,
+      f"what is there of them is whole: {scored.returncode}: {scored.stdout}{scored.stderr}")
 
-# The limit of a file's size, whose signal would kill the program. Mesa 25 keeps its shaders in one large file, which would meet it first.
+# The limit of a file's size, whose signal would kill the program. Mesa 25 keeps its shaders in one large file, which
+# would meet it first.
 trace = SCRATCH / "limit.trace"
-done = on_display("sh", "-c", f"ulimit -f 160; MESA_SHADER_CACHE_DISABLE=true exec timeout 60 '{RELUME}' record --quit-after 1000000 -o '{trace}' -- glxgears")
+done = on_display(
+    "sh", "-c",
+    f"ulimit -f 160; MESA_SHADER_CACHE_DISABLE=true exec timeout 60 '{RELUME}' record --quit-after 1000000 -o "
+    f"'{trace}' -- glxgears"
+)
 check_whole("RLIMIT_FSIZE", done, trace, "file size limit reached", ENDS)
 
 @contextlib.contextmanager
 def small_disk(name):
-    """A folder that holds 200 KiB; None where nothing is to be mounted. One for each case: a file that is removed frees its room later."""
+    """A folder that holds 200 KiB; None where nothing is to be mounted. One for each case: a file that is removed frees
+    its room later."""
     folder = SCRATCH / name
     folder.mkdir()
     mounted = run("mount", "-t", "tmpfs", "-o", "size=200k", "none", folder).returncode == 0
@@ -98,8 +117,10 @@ with small_disk("before") as small:
     (small / "filler").write_bytes(bytes(200 << 10))
     plain = must(on_display("env", CHECKSUMS, "SHIM_FRAMES=30", "glxgears")).stdout
     done = recorded(small / "x.trace", "--env", CHECKSUMS, SHIM_FRAMES=30)
-    check(done.returncode == 5 and done.stderr.count("x.trace: disk full: recording stopped after 0 frames; the program keeps running") == 1 and
-          done.stdout == plain, f"a disk without any room: exit code {done.returncode}: {done.stderr}")
+    check(
+        done.returncode == 5
+        and done.stderr.count("x.trace: disk full: recording stopped after 0 frames; the program keeps running") == 1
+        and done.stdout == plain, f"a disk without any room: exit code {done.returncode}: {done.stderr}")
 
 # One that fills up: the program draws on, and what it shows is the same as without a recorder.
 with small_disk("during") as small:

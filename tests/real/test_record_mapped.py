@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Buffers that stay mapped while they are drawn from: what tests/real/persistent.c stores there between draws is in the trace, once."""
+"""Buffers that stay mapped while they are drawn from: what tests/real/persistent.c stores there between draws is in the
+trace, once."""
 from helpers import BUILD, check, check_replayed, check_same_pictures, finish, on_display, skip
 
 FRAMES, BYTES = 24, 96000 + 16000 + 8000  # of the large buffers, and of all that changes

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""A program that makes no recording: one line says why and what to do, and the exit code is the program's own failure or 5."""
+"""A program that makes no recording: one line says why and what to do, and the exit code is the program's own failure
+or 5."""
 import os
 import pathlib
 import shutil
@@ -17,7 +18,8 @@ def told(what, code, words, *program, start=run, env=None, options=()):
     trace = SCRATCH / "x.trace"
     done = start(RELUME, "record", "-o", trace, *options, "--", *program, env=env)
     ours = [line for line in done.stderr.splitlines() if line.startswith("relume: ")]
-    check(done.returncode == code and len(ours) == 1 and all(part in ours[0] for part in words), f"{what}: exit code {done.returncode}: {done.stderr}")
+    check(done.returncode == code and len(ours) == 1 and all(part in ours[0] for part in words),
+          f"{what}: exit code {done.returncode}: {done.stderr}")
     check(not trace.exists(), f"{what}: no file")
     return done
 
@@ -31,10 +33,13 @@ def built(name, text, *options):
 
 
 # No display; one that does not answer; no OpenGL at all.
-told("no display", 1, ["frames: nothing was recorded: the program loaded OpenGL and ended without calling it",
-                       "there is no display (DISPLAY and WAYLAND_DISPLAY are not set): 'xvfb-run -a relume record ...' makes one"], PROGRAM, env=BARE)
+told("no display", 1, [
+    "frames: nothing was recorded: the program loaded OpenGL and ended without calling it",
+    "there is no display (DISPLAY and WAYLAND_DISPLAY are not set): 'xvfb-run -a relume record ...' makes one"
+], PROGRAM, env=BARE)
 told("a display that is gone", 1, ["no X server answers at DISPLAY=:7171"], PROGRAM, env=dict(BARE, DISPLAY=":7171"))
-told("no OpenGL", 5, ["true: nothing was recorded: the program loaded no OpenGL (libGL, libEGL or libOSMesa)"], "true", start=on_display)
+told("no OpenGL", 5, ["true: nothing was recorded: the program loaded no OpenGL (libGL, libEGL or libOSMesa)"], "true",
+     start=on_display)
 told("no OpenGL, and a failure of its own", 7, ["loaded no OpenGL"], "sh", "-c", "exit 7", start=on_display)
 
 # Vulkan: the library counts, by its name.
@@ -45,19 +50,24 @@ told("Vulkan", 5, ["the program draws by Vulkan, and Relume records OpenGL", "Op
 # Programs that no recorder is loaded into.
 static = built("static", "int usleep(unsigned);\nint main(void)\n{\n\treturn usleep(700000);\n}\n", "-static")
 if static:
-    told("a static program", 5, ["static: nothing was recorded: the program is linked statically", "link it dynamically"], static)
-    told("one that a shell starts", 5, ["sh: nothing was recorded: process 'static' is linked statically"], "sh", "-c", f"{static}; :")
+    told("a static program", 5,
+         ["static: nothing was recorded: the program is linked statically", "link it dynamically"], static)
+    told("one that a shell starts", 5, ["sh: nothing was recorded: process 'static' is linked statically"], "sh", "-c",
+         f"{static}; :")
 # 32 bits: the head of such a file is enough, as it is not started.
 head = b"\x7fELF\x01\x01\x01" + bytes(9) + struct.pack("<HHIIIIIHHHHHH", 2, 3, 1, 0, 52, 0, 0, 52, 32, 1, 0, 0, 0)
 (SCRATCH / "old").write_bytes(head + struct.pack("<IIIIIIII", 3, 84, 84, 84, 0, 0, 4, 1))
 (SCRATCH / "old").chmod(0o755)
 if not pathlib.Path(RELUME).with_name("lib").joinpath("i386-linux-gnu/librelume.so").exists():
-    done = told("a program of 32 bits", 5, ["old: is a program of 32 bits", "'make i386' builds the other one"], SCRATCH / "old")
+    done = told("a program of 32 bits", 5, ["old: is a program of 32 bits", "'make i386' builds the other one"],
+                SCRATCH / "old")
     check("ld.so" not in done.stderr, f"without the loader's words: {done.stderr}")
 # A cleared environment: by `env -i`, as by sudo and sandboxes.
 sleeper = built("sleeper", "int usleep(unsigned);\nint main(void)\n{\n\treturn usleep(700000);\n}\n")
-told("env -i", 5, ["nothing was recorded: process 'sleeper' ran without the recorder: its environment was cleared (env -i, sudo)",
-                   "put 'relume record -- ' behind that"], "env", "-i", sleeper)
+told("env -i", 5, [
+    "nothing was recorded: process 'sleeper' ran without the recorder: its environment was cleared (env -i, sudo)",
+    "put 'relume record -- ' behind that"
+], "env", "-i", sleeper)
 
 # A namespace of its own hides the command's process, not the figures.
 if run("unshare", "-r", "true").returncode == 0:
@@ -69,8 +79,10 @@ if run("unshare", "-r", "true").returncode == 0:
     closes = f"import os; os.closerange(3, 1000); os.execvp('unshare', ['unshare', '-r', '{PROGRAM}'])"
     trace = SCRATCH / "closed.trace"
     done = on_display(RELUME, "record", "--quit-after", "5", "-o", trace, "--", sys.executable, "-c", closes)
-    check(done.returncode == 0 and "closed.trace: was recorded, but a sandbox kept the figures; 'relume info' shows what it holds" in done.stderr,
-          f"unshare -r without descriptors: exit code {done.returncode}: {done.stderr}")
+    check(
+        done.returncode == 0 and
+        "closed.trace: was recorded, but a sandbox kept the figures; 'relume info' shows what it holds" in done.stderr,
+        f"unshare -r without descriptors: exit code {done.returncode}: {done.stderr}")
     check("\nframes      5\n" in relume("info", trace).stdout, "and is whole")
 else:
     print("no user namespace to be had here: not tried")
@@ -79,10 +91,15 @@ else:
 if shutil.which("glxinfo"):
     trace = SCRATCH / "info.trace"
     done = on_display(RELUME, "record", "-o", trace, "--", "glxinfo", "-B")
-    check("the program uses a core profile of OpenGL 3 or later" in done.stderr, f"a core profile is named: {done.stderr}")
-without = built("without", "#include <GL/glx.h>\nint main(void)\n{\n\tDisplay *d = XOpenDisplay(NULL);\n\tint a, b;\n\treturn !d || !glXQueryVersion(d, &a, &b);\n}\n",
-                "-Wl,--no-as-needed", "-lGL", "-lX11")
+    check("the program uses a core profile of OpenGL 3 or later" in done.stderr,
+          f"a core profile is named: {done.stderr}")
+without = built(
+    "without",
+    "#include <GL/glx.h>\nint main(void)\n{\n\tDisplay *d = XOpenDisplay(NULL);\n\tint a, b;\n\treturn !d || "
+    "!glXQueryVersion(d, &a, &b);\n}\n",
+    "-Wl,--no-as-needed", "-lGL", "-lX11")
 if without:
     done = on_display(RELUME, "record", "-o", SCRATCH / "without.trace", "--", without)
-    check("without.trace: the program asked for OpenGL but made no context, so it drew nothing" in done.stderr, f"no context: {done.stderr}")
+    check("without.trace: the program asked for OpenGL but made no context, so it drew nothing" in done.stderr,
+          f"no context: {done.stderr}")
 finish()

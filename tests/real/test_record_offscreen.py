@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Programs without a window: EGL with a pbuffer, with no surface, on a device, and OSMesa. What is recorded is whole and is theirs."""
+"""Programs without a window: EGL with a pbuffer, with no surface, on a device, and OSMesa. What is recorded is whole
+and is theirs."""
 import re
 import subprocess
 
@@ -12,7 +13,8 @@ FRAMES, COLORS = 3, ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 def dump(trace):
     folder = SCRATCH / f"{trace.stem}.dump"
     folder.mkdir()
-    done = subprocess.run(["apitrace", "dump", "--color=never", "--blobs", trace], cwd=folder, capture_output=True, text=True, check=False)
+    done = subprocess.run(["apitrace", "dump", "--color=never", "--blobs", trace], cwd=folder, capture_output=True,
+                          text=True, check=False)
     check(done.returncode == 0 and not done.stderr, f"{trace.name}: apitrace reads it: {done.stderr}")
     return folder, done.stdout
 
@@ -25,12 +27,16 @@ for how, ends in (("pbuffer", "swap"), ("surfaceless", "finish"), ("device", "fi
     trace = SCRATCH / f"{how}.trace"
     record(trace, PROGRAM, how, options=("--ref", "color,depth", "--frame-end", ends))
     folder, calls = dump(trace)
-    check(len(re.findall(r"^\d+ (?:eglSwapBuffers|glFrameTerminatorGREMEDY)\(", calls, re.M)) == FRAMES, f"{how}: {FRAMES} frames")
+    check(
+        len(re.findall(r"^\d+ (?:eglSwapBuffers|glFrameTerminatorGREMEDY)\(", calls, re.M)) == FRAMES,
+        f"{how}: {FRAMES} frames")
     check(len(re.findall("relume:time ", calls)) == FRAMES, f"{how}: a time for each frame")
     read = [tuple((folder / name).read_bytes()[:3]) for name in re.findall(r'glReadPixels\(.*blob\("(.*)"\)', calls)]
     check(tuple(read) == COLORS, f"{how}: what the program read back is {read}")
     if how in ("pbuffer", "osmesa"):  # the others have no framebuffer of the window system's
-        check(len(render(trace, SCRATCH / how, "--mode", "gl", "--encoding", "display")) == FRAMES, f"{how}: {FRAMES} frames rendered")
+        check(
+            len(render(trace, SCRATCH / how, "--mode", "gl", "--encoding", "display")) == FRAMES,
+            f"{how}: {FRAMES} frames rendered")
         check_gates(diff(trace, SCRATCH / how)[1], FRAMES, how)
 if not tried:
     skip("neither EGL nor OSMesa is there")

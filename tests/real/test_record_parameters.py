@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Draws whose parameters and arrays lie partly in buffers, and restarts: what tests/real/parameters.c draws is in the trace."""
+"""Draws whose parameters and arrays lie partly in buffers, and restarts: what tests/real/parameters.c draws is in the
+trace."""
 from helpers import BUILD, check_replayed, check_same_pictures, finish, on_display, skip
 
 FRAMES = ("instances", "NV_primitive_restart", "glDrawArraysIndirect from memory", "glDrawArraysIndirect from a buffer",
-          "glDrawElementsIndirect from memory", "glDrawElementsIndirect from a buffer", "glArrayElement with colours in a buffer",
-          "glArrayElement with positions in a buffer")
+          "glDrawElementsIndirect from memory", "glDrawElementsIndirect from a buffer",
+          "glArrayElement with colours in a buffer", "glArrayElement with positions in a buffer")
 
 if on_display(BUILD / "tests/real/parameters").returncode == 77:
     skip("this GL lacks an extension")

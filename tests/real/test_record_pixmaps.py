@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Pixmaps (tests/real/pixmaps.c): frames drawn to one have references; one that X draws to is there as a texture, of both kinds and where
-recording begins later. Frames that can have no references are told."""
+"""Pixmaps (tests/real/pixmaps.c): frames drawn to one have references; one that X draws to is there as a texture, of
+both kinds and where recording begins later. Frames that can have no references are told."""
 import subprocess
 
-from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_gates, diff, finish, must, on_display, record, relume, render, skip
+from helpers import (
+    AS_SHOWN, BUILD, SCRATCH, check, check_gates, diff, finish, must, on_display, record, relume, render, skip)
 
 PROGRAM, FRAMES = BUILD / "tests/real/pixmaps", 3
 REF = ("--ref", "color,depth")
@@ -16,7 +17,8 @@ if on_display(PROGRAM, "drawn").returncode == 77 or on_display(PROGRAM).returnco
 def check_shown(how, *arguments, options=(), frames=FRAMES):
     trace = SCRATCH / f"{how}.trace"
     said = record(trace, PROGRAM, *arguments, options=(*REF, *options)).stderr
-    check(f" {frames} frames, " in said and "bytes of reference frames" in said and UNREAD not in said, f"{how}: record says: {said}")
+    check(f" {frames} frames, " in said and "bytes of reference frames" in said and UNREAD not in said,
+          f"{how}: record says: {said}")
     check(len(render(trace, SCRATCH / how, *AS_SHOWN)) == frames, f"{how}: {frames} frames rendered")
     check_gates(diff(trace, SCRATCH / how)[1], frames, how)
     info = must(relume("info", "--all", trace)).stdout
@@ -30,7 +32,10 @@ for how in "texture", "rectangle":
 check_shown("later", options=("--frames", "1-2"), frames=FRAMES - 1)
 
 trace = SCRATCH / "surfaceless.trace"
-if subprocess.run([BUILD / "tests/trace/offscreen", "surfaceless"], stderr=subprocess.DEVNULL, check=False).returncode != 77:
+if subprocess.run([BUILD / "tests/trace/offscreen", "surfaceless"], stderr=subprocess.DEVNULL,
+                  check=False).returncode != 77:
     said = record(trace, BUILD / "tests/trace/offscreen", "surfaceless", options=(*REF, "--frame-end", "finish")).stderr
-    check(said.count(UNREAD) == 1 and "bytes of reference frames" not in said, f"frames without a drawable: record says: {said}")
+    check(
+        said.count(UNREAD) == 1 and "bytes of reference frames" not in said,
+        f"frames without a drawable: record says: {said}")
 finish()

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""What relume record says of a program that draws, once and in its words: files that cannot be made, shaders, no frames."""
+"""What relume record says of a program that draws, once and in its words: files that cannot be made, shaders, no
+frames."""
 from helpers import BUILD, RELUME, SCRATCH, check, finish, must, on_display
 
 PROGRAM = BUILD / "tests/trace/frames"  # ten frames
@@ -19,11 +20,13 @@ said = told("plain.trace", PROGRAM)
 times(said, "plain.trace: 10 frames, ", 1, "a program of ten frames")
 times(said, "relume: ", 1, "one line")
 
-# Reference frames cannot be written: the recording goes on, the reason is said once, and the exit code says that they are missing.
+# Reference frames cannot be written: the recording goes on, the reason is said once, and the exit code says that they
+# are missing.
 (SCRATCH / "folder.ref").mkdir()
 said = told("folder.trace", PROGRAM, options=("--ref", "color"), code=5)
 times(said, "folder.trace: 10 frames, ", 1, "without reference frames")
-times(said, "folder.ref: cannot open: Is a directory: no more reference frames; the recording goes on without them", 1, "a folder in its place")
+times(said, "folder.ref: cannot open: Is a directory: no more reference frames; the recording goes on without them", 1,
+      "a folder in its place")
 times(said, "no more reference frames", 1, "said once")
 times(said, "bytes of reference frames", 0, "there are none")
 

@@ -19,7 +19,9 @@ def names(trace):
 
 def reduce(trace, new, command, *options):
     done = must(relume("reduce", trace, "-o", new, "--when", command, *options, timeout=300))
-    check(len(names(new)) == int(done.stdout.split(": ")[1].split(" of ")[0]), f"tells how many calls are left: {done.stdout}")
+    check(
+        len(names(new)) == int(done.stdout.split(": ")[1].split(" of ")[0]),
+        f"tells how many calls are left: {done.stdout}")
     check(not run("apitrace", "dump", new).stderr, f"apitrace reads {new.name}")
     return names(new)
 
@@ -37,7 +39,9 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
 
     done = reduce(out / "whole.trace", out / "part.trace", PART)
     dump = must(relume("dump", out / "part.trace")).stdout
-    check(done.count("glDrawElements") == 1 and "count = 3," in dump and "indices = blob(6)" in dump, f"a triangle of twelve: {dump}")
+    check(
+        done.count("glDrawElements") == 1 and "count = 3," in dump and "indices = blob(6)" in dump,
+        f"a triangle of twelve: {dump}")
     check(done.count("glTexImage2D") == 1 and "pixels = NULL" in dump, f"an image without its texels: {dump}")
 
     record(out / "pair.trace", corpus("two_triangles"), "--frames", 2)
@@ -53,19 +57,26 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
     done = must(relume(*by_frame, timeout=100))
     calls = must(relume("dump", out / "frame.trace")).stdout
     check("is still there" in done.stdout and "glBegin" in done.stderr, f"tells the fault: {done.stdout} {done.stderr}")
-    check(calls.count("glVertex2f") == 3 and calls.count("glColor3f") == 1 and calls.count("0.5") >= 1, f"what a wrong colour needs: {calls}")
+    check(
+        calls.count("glVertex2f") == 3 and calls.count("glColor3f") == 1 and calls.count("0.5") >= 1,
+        f"what a wrong colour needs: {calls}")
     frame_files = render(out / "frame.trace", out / "frame", "--mode", "gl", "--aov", "gl,id")
     check(len(frame_files) == 1, f"one frame is left: {frame_files}")
     code, score = diff(out / "pair.ref", frame_files[0], "-f", 0)
     check(code == 1 and score["frames"][0]["blame"], f"which fails still: {score['frames'][0]['outcome']}")
-    for wrong, why in (((*by_frame, "--when", "false"), "both"), (by_frame[:4], "neither"), ((*by_frame[:5], 7, *by_frame[6:]), "no such frame"),
-                       (("reduce", out / "pair.trace", *by_frame[2:6]), "a frame that passes")):
+    for wrong, why in (((*by_frame, "--when", "false"), "both"), (by_frame[:4], "neither"),
+                       ((*by_frame[:5], 7, *by_frame[6:]), "no such frame"), (("reduce", out / "pair.trace",
+                                                                               *by_frame[2:6]), "a frame that passes")):
         check(relume(*wrong).returncode == 2, why)
 
     done = relume("reduce", out / "whole.trace", "-o", out / "none.trace", "--when", ERROR)
     check(done.returncode == 2 and "nothing to look for" in done.stderr, f"a command that passes: {done.stderr}")
-    done = relume("reduce", out / "whole.trace", "-o", out / "none.trace", "--when", "[ -e '%s/second' ] && exit 4; touch '%s/second'; exit 3" % (out, out))
-    check(done.returncode == 2 and "with 3, then" not in done.stderr and "code 3, then with 4" in done.stderr, f"a fickle command: {done.stderr}")
-    check(relume("reduce", out / "missing.trace", "-o", out / "none.trace", "--when", "false").returncode == 3, "no such recording")
+    done = relume("reduce", out / "whole.trace", "-o", out / "none.trace", "--when",
+                  "[ -e '%s/second' ] && exit 4; touch '%s/second'; exit 3" % (out, out))
+    check(done.returncode == 2 and "with 3, then" not in done.stderr and "code 3, then with 4" in done.stderr,
+          f"a fickle command: {done.stderr}")
+    check(
+        relume("reduce", out / "missing.trace", "-o", out / "none.trace", "--when", "false").returncode == 3,
+        "no such recording")
     check(not (out / "none.trace").exists(), "nothing is written where nothing was found")
 finish()

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Recordings that were cut or damaged: `relume repair` keeps every call up to there, and other tools read the result to its end.
+"""Recordings that were cut or damaged: `relume repair` keeps every call up to there, and other tools read the result to
+its end.
 
 limit: 200 s
 """
@@ -22,7 +23,8 @@ def dump(path):
     """apitrace's text of a trace, without call numbers, and whatever it complains about."""
     done = run("apitrace", "dump", "--color=never", "--call-nos=no", "--arg-names=no", path)
     lines = [line for line in done.stdout.splitlines() if line.strip()]
-    return lines, done.stderr + "".join(line for line in lines if "// incomplete" in line) + "x" * (done.returncode != 0)
+    return lines, done.stderr + "".join(
+        line for line in lines if "// incomplete" in line) + "x" * (done.returncode != 0)
 
 
 def frames(lines):
@@ -42,7 +44,8 @@ def repaired(path, what):
     check(info.returncode == 0 and not info.stderr, f"{what}: relume reads it without a warning: {info.stderr}")
     found = re.match(r"kept  (\d+) calls?, (\d+) frames?", done.stdout)
     check(found and int(found[2]) == frames(lines), f"{what}: says how many frames there are: {done.stdout}")
-    check(f'"frames":{frames(lines)},' in info.stdout.replace(" ", ""), f"{what}: relume and apitrace count the same frames")
+    check(f'"frames":{frames(lines)},' in info.stdout.replace(" ", ""),
+          f"{what}: relume and apitrace count the same frames")
     check(not list(SCRATCH.glob("*.part")), f"{what}: no unfinished file is left")
     return lines
 
@@ -70,11 +73,15 @@ for trace in (live, ROOT / "tests/golden/cornell.trace"):
         lines = repaired(cut, f"{trace.name} cut at {i} of {CUTS + 1}")
         check(lines == whole[:len(lines)], f"{trace.name} cut at {i}: the calls are the recorded ones")
         shown = [line for line in reads if "// incomplete" not in line]
-        check(len(lines) >= len(shown), f"{trace.name} cut at {i}: as many calls as apitrace reads: {len(lines)} of {len(shown)}")
+        check(
+            len(lines) >= len(shown),
+            f"{trace.name} cut at {i}: as many calls as apitrace reads: {len(lines)} of {len(shown)}")
         kept.append(len(lines))
-    check(kept == sorted(kept) and kept[-1] > 0.8 * len(whole), f"{trace.name}: a later cut loses less: {kept} of {len(whole)}")
+    check(kept == sorted(kept) and kept[-1] > 0.8 * len(whole),
+          f"{trace.name}: a later cut loses less: {kept} of {len(whole)}")
 
-# A chunk in the middle whose bytes are lost: exactly the frames that end before it. The recorder ends a chunk with each frame.
+# A chunk in the middle whose bytes are lost: exactly the frames that end before it. The recorder ends a chunk with
+# each frame.
 data, (whole, _) = live.read_bytes(), dump(live)
 found = chunks(data)
 for i in (len(found) // 3, len(found) // 2, len(found) - 2):
@@ -95,7 +102,9 @@ check((SCRATCH / "new.trace").read_bytes()[:2] == b"at", "gzip: the result is in
 for what, damaged in (("cut", packed[:len(packed) // 2]), ("damaged", packed[:len(packed) // 2] + b"\xff" * 4000)):
     cut.write_bytes(damaged)
     lines = repaired(cut, f"gzip {what}")
-    check(len(lines) > len(whole) // 4 and lines == whole[:len(lines)], f"gzip {what}: {len(lines)} of {len(whole)} calls")
+    check(
+        len(lines) > len(whole) // 4 and lines == whole[:len(lines)],
+        f"gzip {what}: {len(lines)} of {len(whole)} calls")
 must(run("apitrace", "repack", "--brotli=1", live, SCRATCH / "brotli.trace"))
 packed = (SCRATCH / "brotli.trace").read_bytes()
 cut.write_bytes(packed)
@@ -106,16 +115,22 @@ check(len(lines) > len(whole) // 4 and lines == whole[:len(lines)], f"Brotli cut
 
 # Another recording in the same file: the first one is kept, and a line says how many bytes follow.
 other = (ROOT / "tests/golden/two_triangles.trace").read_bytes()
-odd = b"at" + struct.pack("<I", 1 << 16) + b"\x80\x80\x04" + bytes((1 << 16) - 3)  # read as a chunk, it is shorter than the file
-for what, first, second in (("itself", data, data), ("another one", data, other), ("one that begins with a chunk of 64 KiB", data, odd),
-                            ("gzip", gzip.compress(stream), other), ("gzip in gzip", gzip.compress(stream), gzip.compress(bytes(unpack(other)))),
-                            ("Brotli", packed, other)):
+odd = b"at" + struct.pack("<I", 1 << 16) + b"\x80\x80\x04" + bytes(
+    (1 << 16) - 3)  # read as a chunk, it is shorter than the file
+for what, first, second in (("itself", data, data), ("another one", data, other),
+                            ("one that begins with a chunk of 64 KiB",
+                             data, odd), ("gzip", gzip.compress(stream),
+                                          other), ("gzip in gzip", gzip.compress(stream),
+                                                   gzip.compress(bytes(unpack(other)))), ("Brotli", packed, other)):
     cut.write_bytes(first + second)
     check(repaired(cut, f"followed by {what}") == whole, f"followed by {what}: the first one is kept")
     done = relume("repair", "-o", SCRATCH / "new.trace", cut)
-    check(f"left  {len(second)} bytes of another recording" in done.stdout and " 0 of the file's" in done.stdout, f"followed by {what}: {done.stdout}")
+    check(f"left  {len(second)} bytes of another recording" in done.stdout and " 0 of the file's" in done.stdout,
+          f"followed by {what}: {done.stdout}")
     said = relume("info", cut).stderr
-    check(re.search(rf" {len(second)} bytes follow the recording after call \d+,", said) and said.count("\n") == 1, f"followed by {what}: info: {said}")
+    check(
+        re.search(rf" {len(second)} bytes follow the recording after call \d+,", said) and said.count("\n") == 1,
+        f"followed by {what}: info: {said}")
 
 # Nothing to save, and wrong usage: one line, and no file.
 new = SCRATCH / "none.trace"

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""relume render --noise, --time, --preview, --denoise: when sampling stops, what is shown meanwhile, and that no option disturbs another.
+"""relume render --noise, --time, --preview, --denoise: when sampling stops, what is shown meanwhile, and that no option
+disturbs another.
 
 limit: 300 s
 """
@@ -48,8 +49,10 @@ must(render("coarse.exr", "--noise", "0.2"))
 must(render("fine.exr", "--noise", "0.06"))
 must(render("again.exr", "--noise", "0.06", "--jobs", "1", "--threads", "1"))
 must(render("truth.exr", "--samples", "512"))
-check((SCRATCH / "fine.exr").read_bytes() == (SCRATCH / "again.exr").read_bytes(), "--noise: the same input gives the same bytes")
-check(0 < samples("coarse.exr") < samples("fine.exr") < 512, f"samples: {samples('coarse.exr')} and {samples('fine.exr')}")
+check((SCRATCH / "fine.exr").read_bytes() == (SCRATCH / "again.exr").read_bytes(),
+      "--noise: the same input gives the same bytes")
+check(0 < samples("coarse.exr") < samples("fine.exr") < 512,
+      f"samples: {samples('coarse.exr')} and {samples('fine.exr')}")
 truth = planes("truth.exr")
 for name, bar in (("coarse.exr", 0.2), ("fine.exr", 0.06)):
     check(bar / 6 < error(name, truth) < bar, f"{name}: noise {error(name, truth):.4f}, asked for {bar}")
@@ -65,8 +68,10 @@ check(planes("long.exr") == planes("eight.exr"), "much time: as many samples as 
 
 # A preview is whole whenever it is looked at, and gets better.
 preview = SCRATCH / "growing" / "1.exr"
-child = subprocess.Popen([RELUME, "render", trace, "-f", "1", "-o", SCRATCH / "killed.exr", "--mode", "path", "--samples", "65536", "--aov", "gl", "--preview", preview],
-                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+child = subprocess.Popen([
+    RELUME, "render", trace, "-f", "1", "-o", SCRATCH / "killed.exr", "--mode", "path", "--samples", "65536", "--aov",
+    "gl", "--preview", preview
+], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 seen = []
 begin = time.monotonic()
 while len(seen) < 6 and time.monotonic() - begin < 90 and child.poll() is None:
@@ -79,21 +84,27 @@ child.send_signal(signal.SIGTERM)
 check(child.wait(60) == 143, "SIGTERM ends it")
 check(len(seen) == 6, f"{len(seen)} previews were seen")
 first, last = (error("truth.exr", {"G": picture}) for picture in (seen[0], seen[-1]))
-check(last < 0.3 and last < max(first, 0.1), f"they are of the frame, and get better till truth.exr's own noise is left: off by {first:.3f}, then {last:.3f}")
+check(last < 0.3 and last < max(first, 0.1),
+      f"they are of the frame, and get better till truth.exr's own noise is left: off by {first:.3f}, then {last:.3f}")
 check(not list(preview.parent.glob("*.part")), "nothing is left half-written")
 
-# Denoised: the noise goes; a picture to look at is denoised, too; relume denoise has the same bytes without frames before and after.
+# Denoised: the noise goes; a picture to look at is denoised, too; relume denoise has the same bytes without frames
+# before and after.
 must(render("noisy.exr", "--samples", "4"))
 must(render("clean.exr", "--samples", "4", "--denoise"))
-check(off("clean.exr", truth) < 0.6 * off("noisy.exr", truth), f"noise {off('noisy.exr', truth):.4f} becomes {off('clean.exr', truth):.4f}")
+check(
+    off("clean.exr", truth) < 0.6 * off("noisy.exr", truth),
+    f"noise {off('noisy.exr', truth):.4f} becomes {off('clean.exr', truth):.4f}")
 must(relume("denoise", SCRATCH / "noisy.exr", "-o", SCRATCH / "later.exr"))
 check(planes("later.exr") == planes("clean.exr"), "relume denoise comes to the same")
 must(render("clean.png", "--samples", "4", "--denoise"))
 must(render("noisy.png", "--samples", "4"))
 check((SCRATCH / "clean.png").read_bytes() != (SCRATCH / "noisy.png").read_bytes(), "PNG files are denoised")
 
-for options, word in ((("--denoise", "--aov", "gl,N,Z"), "reflect"), (("--denoise", "--mode", "gl"), "mode gl"), (("--preview", "x.tif"), ".png"),
-                      (("--preview", SCRATCH / "bad.exr"), "own name"), (("--time", "0"), "seconds"), (("--noise", "-1"), "--noise")):
+for options, word in ((("--denoise", "--aov", "gl,N,Z"), "reflect"), (("--denoise", "--mode", "gl"), "mode gl"),
+                      (("--preview", "x.tif"), ".png"), (("--preview", SCRATCH / "bad.exr"), "own name"),
+                      (("--time", "0"), "seconds"), (("--noise", "-1"), "--noise")):
     bad = render("bad.exr", *options)
-    check(bad.returncode == 2 and word in bad.stderr and len(bad.stderr.strip().splitlines()) == 1, f"{options}: {bad.returncode} {bad.stderr}")
+    check(bad.returncode == 2 and word in bad.stderr and len(bad.stderr.strip().splitlines()) == 1,
+          f"{options}: {bad.returncode} {bad.stderr}")
 finish()

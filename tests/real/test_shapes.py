@@ -1,13 +1,14 @@
 #!/usr/bin/python3
-"""Shapes whose pixels hang on the last bits of Mesa's arithmetic: what tests/real/shapes.c draws is traced as it was rasterized.
+"""Shapes whose pixels hang on the last bits of Mesa's arithmetic: what tests/real/shapes.c draws is traced as it was
+rasterized.
 
 So are the quads of tests/trace/loops.c, which are not plane: the way they are cut shows.
 """
 from helpers import BUILD, SCRATCH, check_gates, check_same_pictures, diff, finish, record, render
 
 FRAMES = ("lines", "lines over themselves", "smooth lines over themselves", "smooth lines without a length",
-          "coplanar surfaces", "materials that change between Begin and End", "points and a distant light", "evaluated surfaces", "quads that are not whole",
-          "attenuated sprites off the axis")
+          "coplanar surfaces", "materials that change between Begin and End", "points and a distant light",
+          "evaluated surfaces", "quads that are not whole", "attenuated sprites off the axis")
 _, score = check_same_pictures("shapes", FRAMES)
 check_gates(score, len(FRAMES), "shapes", skip=("R1",))
 trace = SCRATCH / "loops.trace"

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""A program object whose uniforms two contexts set (tests/real/shared.c): what each draws with, as Mesa has it, from the start and from any frame."""
+"""A program object whose uniforms two contexts set (tests/real/shared.c): what each draws with, as Mesa has it, from
+the start and from any frame."""
 from helpers import check_alone, check_same_pictures, finish
 
-FRAMES = ("the same value", "no value", "another value", "another and back", "another element", "no program between", "another program between",
-          "linked again")
+FRAMES = ("the same value", "no value", "another value", "another and back", "another element", "no program between",
+          "another program between", "linked again")
 trace, _ = check_same_pictures("shared", FRAMES)
 for frame in (1, 4, 7):
     check_alone(trace, frame)

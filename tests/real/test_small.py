@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # limit: 500 s
-"""
-Small programs of single calls and rare uses are drawn as Mesa draws them, and nothing of them is left out: tests/real/small/, where each says
-what it is about. Run with names of programs: those alone.
+"""Small programs of single calls and rare uses are drawn as Mesa draws them, and nothing of them is left out:
+tests/real/small/, where each says what it is about. Run with names of programs: those alone.
 """
 import sys
 
 from exr import Image
-from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_same_pictures, diff, finish, must, on_display, record, relume, render
+from helpers import (
+    AS_SHOWN, BUILD, SCRATCH, check, check_same_pictures, diff, finish, must, on_display, record, relume, render)
 
 PROGRAMS = {
     "bare": ("lines", "a strip", "a wide loop", "points", "outlines"),
@@ -16,13 +16,14 @@ PROGRAMS = {
     "condition": ("draws", "clears and pixels", "lists and arrays", "inverted"),
     "copies": ("parts", "without alpha", "depths", "many of a large one"),
     "direct": ("matrices", "named textures", "units", "buffers and programs", "framebuffers"),
-    "open": ("a light that nothing attenuates", "a highlight without a power", "fog without length", "powers of programs", "known powers", "logarithms",
-             "powers of shaders", "places between pixels", "an offset of EXT", "between faces of a cube", "filtered there", "a level there",
-             "levels there"),
+    "open": ("a light that nothing attenuates", "a highlight without a power", "fog without length",
+             "powers of programs", "known powers", "logarithms", "powers of shaders", "places between pixels",
+             "an offset of EXT", "between faces of a cube", "filtered there", "a level there", "levels there"),
     "outward": ("far out", "hardly any w", "without w", "corners of different w", "a ground to the horizon"),
-    "resized": ("as it was opened", "larger, without a viewport", "scissored clears", "pixels", "views of parts", "smaller", "another window",
-                "that one smaller"),
-    "srgb": ("shades", "blends", "pixels", "lit and textured", "through sRGB", "through a plain texture", "through floats", "a pushed switch"),
+    "resized": ("as it was opened", "larger, without a viewport", "scissored clears", "pixels", "views of parts",
+                "smaller", "another window", "that one smaller"),
+    "srgb": ("shades", "blends", "pixels", "lit and textured", "through sRGB", "through a plain texture",
+             "through floats", "a pushed switch"),
 }
 
 for name in sys.argv[1:] or PROGRAMS:
@@ -38,7 +39,8 @@ if not sys.argv[1:]:
     trace = SCRATCH / "unended.trace"
     said = record(trace, BUILD / "tests/real/small/unended", options=("--ref", "color,depth")).stderr
     for what in "between glBegin and glEnd", "while a display list is made":
-        check(f"a frame ends {what}; such frames get no reference frames" in said, f"the recorder says why frames lack pixels: {said}")
+        check(f"a frame ends {what}; such frames get no reference frames" in said,
+              f"the recorder says why frames lack pixels: {said}")
     render(trace, SCRATCH / "unended", *AS_SHOWN)
     _, score = diff(trace, SCRATCH / "unended")
     outcomes = [frame["outcome"] for frame in score["frames"]]
@@ -46,17 +48,28 @@ if not sys.argv[1:]:
     trace = SCRATCH / "lacking.trace"
     record(trace, BUILD / "tests/real/small/lacking", options=())
     said = must(relume("info", trace)).stdout
-    check("glBegin: a shader reads or writes gl_ClipDistance, which is not done" in said, f"the draw and the name are told: {said}")
+    check("glBegin: a shader reads or writes gl_ClipDistance, which is not done" in said,
+          f"the draw and the name are told: {said}")
     for name in "glBindTexture", "glTexImage3D", "glTexParameteri":
         check(f"{name}: texture arrays and other targets of later GL" in said, f"what Relume lacks: {name}: {said}")
     check("GL errors" not in said, f"the program is not blamed: {said}")
     trace = SCRATCH / "outward.trace"
     files = render(trace, SCRATCH / "outward", "-f", "2-4")
     _, score = diff(trace, SCRATCH / "outward", "-f", "2-4")
-    check(all(frame["outcome"] == "passed" for frame in score["frames"]), f"traced with corners without w: {score['frames']}")
+    check(all(frame["outcome"] == "passed" for frame in score["frames"]),
+          f"traced with corners without w: {score['frames']}")
     mixed, ground = (Image(f, ["P.Y", "P.Z", "id", "shadow.G"]).planes for f in files[1:])
-    off = [abs(mixed["P.Z"][y][x] + 4 + (mixed["P.Y"][y][x] + 3) / 6) for y in range(48) for x in range(64) if mixed["id"][y][x]]
-    check(len(off) > 500 and max(off) < 1e-4, f"places between corners of different w: {len(off)} pixels, at most {max(off)} off")
+    off = [
+        abs(mixed["P.Z"][y][x] + 4 + (mixed["P.Y"][y][x] + 3) / 6)
+        for y in range(48)
+        for x in range(64)
+        if mixed["id"][y][x]
+    ]
+    check(
+        len(off) > 500 and max(off) < 1e-4,
+        f"places between corners of different w: {len(off)} pixels, at most {max(off)} off")
     dark = [ground["P.Z"][y][x] for y in range(48) for x in range(64) if ground["shadow.G"][y][x] < 0.5]
-    check(len(dark) > 20 and all(-6.5 < z < -3.5 for z in dark), f"a board's shadow on a ground to the horizon: {len(dark)} pixels, {dark[:4]}")
+    check(
+        len(dark) > 20 and all(-6.5 < z < -3.5 for z in dark),
+        f"a board's shadow on a ground to the horizon: {len(dark)} pixels, {dark[:4]}")
 finish()

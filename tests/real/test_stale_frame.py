@@ -28,13 +28,17 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         trace, ref, out = folder / "g.trace", folder / "g.ref", folder / "out"
-        for done in (relume("record", "-o", trace, "--ref", "color,depth", "--quit-after", FRAMES, "--", "glxgears", display=True),
-                     relume("render", trace, "-f", f"0,2,{STALE}", "-o", out / "g.####.exr"), relume("diff", trace, out, "-f", f"0,2,{STALE}")):
+        for done in (relume("record", "-o", trace, "--ref", "color,depth", "--quit-after", FRAMES, "--", "glxgears",
+                            display=True), relume("render", trace, "-f", f"0,2,{STALE}", "-o",
+                                                  out / "g.####.exr"), relume("diff", trace, out, "-f",
+                                                                              f"0,2,{STALE}")):
             assert done.returncode == 0, done.stdout + done.stderr
 
         shown = {kind: {frame: picture for frame, *picture in records(ref, kind)} for kind in (REF_COLOR, REF_DEPTH)}
-        ref.write_bytes(b"RELREF2\n" + b"".join(whole_record(kind, frame, *shown[kind][SHOWN if frame == STALE else frame])
-                                                for frame in shown[REF_COLOR] for kind in shown))
+        ref.write_bytes(b"RELREF2\n" + b"".join(
+            whole_record(kind, frame, *shown[kind][SHOWN if frame == STALE else frame])
+            for frame in shown[REF_COLOR]
+            for kind in shown))
 
         done = relume("diff", trace, out, "-f", f"0,2,{STALE}", "--json", "-")
         assert done.returncode == 1, done.stdout + done.stderr

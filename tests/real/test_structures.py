@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The same files, to the byte, from every acceleration structure, mirrors, glass and shadows included; and the builders' costs beside Embree's."""
+"""The same files, to the byte, from every acceleration structure, mirrors, glass and shadows included; and the
+builders' costs beside Embree's."""
 import json
 import subprocess
 
@@ -20,18 +21,25 @@ bad = relume("render", trace, "-o", SCRATCH / "no.#.exr", "--accel", "octree")
 check(bad.returncode == 2, f"--accel octree ends with {bad.returncode}")
 
 # Side by side: what is a matter of the trees alone is the same on every machine.
-trees = {tree["accel"]: tree for tree in json.loads(must(relume("bench", "--accel", "all", "--repeat", "1", "--json", timeout=300)).stdout)["trees"]}
+trees = {
+    tree["accel"]: tree for tree in json.loads(
+        must(relume("bench", "--accel", "all", "--repeat", "1", "--json", timeout=300)).stdout)["trees"]
+}
 check(list(trees) == ["bvh", "sbvh", "kd", "lbvh"], f"bench --accel all measures {list(trees)}")
 check(all(tree[figure] > 0 for tree in trees.values() for figure in tree if figure != "accel"), f"figures: {trees}")
 check(trees["sbvh"]["sah_cost"] <= trees["bvh"]["sah_cost"] < trees["lbvh"]["sah_cost"], f"costs: {trees}")
-check(trees["bvh"]["items_per_triangle"] == trees["lbvh"]["items_per_triangle"] == 1 < trees["kd"]["items_per_triangle"] < 5, f"items: {trees}")
+check(
+    trees["bvh"]["items_per_triangle"] == trees["lbvh"]["items_per_triangle"] == 1 < trees["kd"]["items_per_triangle"] <
+    5, f"items: {trees}")
 for arguments, code in ((("--accel", "octree"), 2), (("--accel", "kd", trace), 2)):
     bad = relume("bench", *arguments)
     check(bad.returncode == code and bad.stderr.count("\n") == 1, f"bench {arguments}: {bad.returncode} {bad.stderr!r}")
 
 # The short form of make show-build: costs are the same on every machine, times are not.
 path = SCRATCH / "build.json"
-must(subprocess.run([BUILD / "tests/bench/build", "--repeat", "1", "--json", path], capture_output=True, text=True, check=False))
+must(
+    subprocess.run([BUILD / "tests/bench/build", "--repeat", "1", "--json", path], capture_output=True, text=True,
+                   check=False))
 rows = json.loads(path.read_text())["rows"]
 costs = [row for row in rows if row["what"].endswith("SAH cost")]
 check(len(costs) == 4, f"{len(costs)} costs of builders")

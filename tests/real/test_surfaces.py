@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""relume look --sheet: the page knows what each pixel shows, and the same rules as relume pick; in a browser, pointing and clicking choose one."""
+"""relume look --sheet: the page knows what each pixel shows, and the same rules as relume pick; in a browser, pointing
+and clicking choose one."""
 import base64
 import json
 import re
@@ -22,7 +23,8 @@ data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</s
 scene = json.loads(must(relume("scene", trace, "--json", "-f", 1)).stdout)
 must(relume("render", trace, "-f", 1, "-o", SCRATCH / "f.####.exr", "--aov", "gl,id", "--mode", "gl"))
 image = Image(SCRATCH / "f.0001.exr")
-check((data["frame"], data["width"], data["height"]) == (1, 160, 120), f"the middle frame: {data['frame']}, {data['width']} x {data['height']}")
+check((data["frame"], data["width"], data["height"]) == (1, 160, 120),
+      f"the middle frame: {data['frame']}, {data['width']} x {data['height']}")
 check(not re.search(r"(src|href)=[\"']?(http|//|\w+\.)|@import|url\(", text), "the page needs no other file")
 
 # What each pixel shows, as channel id has it.
@@ -36,8 +38,10 @@ check(sorted(m["hash"] for m in data["meshes"]) == sorted(m["hash"] for m in sce
 for number in sorted(set(owners) - {0}):
     pixel, surface = owners.index(number), data["surfaces"][number - 1]
     picked = must(relume("pick", trace, "-f", 1, f"{pixel % 160},{pixel // 160}")).stdout
-    check(f"match: {surface['keys']}\n" in picked, f"{surface['name']}: the rule of relume pick: {surface['keys']}, {picked}")
-    check(all("# " + line in picked or line.startswith("without ") for line in surface["facts"].splitlines()), f"{surface['name']}: the same facts: {surface['facts']}")
+    check(f"match: {surface['keys']}\n" in picked,
+          f"{surface['name']}: the rule of relume pick: {surface['keys']}, {picked}")
+    check(all("# " + line in picked or line.startswith("without ") for line in surface["facts"].splitlines()),
+          f"{surface['name']}: the same facts: {surface['facts']}")
 
 
 def png_rows(url):
@@ -53,15 +57,19 @@ def png_rows(url):
 
 
 width, height, rows = png_rows(data["picture"])
-check((width, height, len(rows)) == (160, 120, 120 * (1 + 3 * 160)), f"the frame's picture: {width} x {height}, {len(rows)} bytes")
+check((width, height, len(rows)) == (160, 120, 120 * (1 + 3 * 160)),
+      f"the frame's picture: {width} x {height}, {len(rows)} bytes")
 for texture, shown in zip(scene["textures"], data["textures"]):
     check(png_rows(shown["picture"])[:2] == (texture["width"], texture["height"]), f"texture {shown['hash']} is shown")
 
 # With -o both are made; with neither there is nothing to do; what cannot be is refused, and leaves nothing.
 must(relume("look", trace, "-f", "0-1", "-o", SCRATCH / "rules.yaml", "--sheet", SCRATCH / "both.html"))
-check((SCRATCH / "rules.yaml").exists() and "frame\": 0" in (SCRATCH / "both.html").read_text(), "both, and the first frame asked for")
+check((SCRATCH / "rules.yaml").exists() and "frame\": 0" in (SCRATCH / "both.html").read_text(),
+      "both, and the first frame asked for")
 check(relume("look", trace).returncode == 2, "neither")
-check(relume("look", trace, "-f", 9, "--sheet", SCRATCH / "no.html").returncode == 2 and not list(SCRATCH.glob("no.html*")), "a frame that is not there")
+check(
+    relume("look", trace, "-f", 9, "--sheet", SCRATCH / "no.html").returncode == 2
+    and not list(SCRATCH.glob("no.html*")), "a frame that is not there")
 
 # Operated: pointing shows, a click keeps, a tile chooses.
 if shutil.which(browser.NAME):
@@ -92,9 +100,14 @@ addEventListener("load", () => setTimeout(() => {
     found = browser.said(SCRATCH, operated) or {}
     rule = f"surfaces:\n  - match: {data['surfaces'][0]['keys']}\n    reflect: 0.3\n"
     check(found.get("first") == [True, 0], f"at first: {found}")
-    check(found.get("shown") == [rule, data["surfaces"][0]["facts"], 160 * 120 - owners.count(1)], f"pointed at: {found}")
+    check(
+        found.get("shown") == [rule, data["surfaces"][0]["facts"], 160 * 120 - owners.count(1)], f"pointed at: {found}")
     check((found.get("left"), found.get("kept"), found.get("dropped")) == (True, rule, True), f"clicked: {found}")
-    check(found.get("texture", [""])[0] == f"surfaces:\n  - match: {{ texture: \"{data['textures'][0]['hash']}\" }}\n    reflect: 0.3\n", f"a texture: {found}")
+    check(
+        found.get(
+            "texture",
+            [""])[0] == f"surfaces:\n  - match: {{ texture: \"{data['textures'][0]['hash']}\" }}\n    reflect: 0.3\n",
+        f"a texture: {found}")
 else:
     print(f"no {browser.NAME} here: the page is not operated")
 

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""A trimmed recording shows the pictures of the whole one: by our renderer to the last bit, by apitrace, and with its references.
+"""A trimmed recording shows the pictures of the whole one: by our renderer to the last bit, by apitrace, and with its
+references.
 
 limit: 300 s
 """
@@ -23,8 +24,10 @@ def trimmed(trace, first, last, begins):
     new = SCRATCH / f"{trace.stem}-cut.trace"
     done = must(relume("trim", "-f", f"{first}-{last}", "-o", new, trace))
     said = SAID.search(done.stdout)
-    check(said and int(said[1]) == begins and int(said[2]) == last, f"{trace.stem}: begins with frame {begins}: {done.stdout}")
-    check(said and bool(said[8]) == (begins < first), f"{trace.stem}: says where it had to begin earlier: {done.stdout}")
+    check(said and int(said[1]) == begins and int(said[2]) == last,
+          f"{trace.stem}: begins with frame {begins}: {done.stdout}")
+    check(said and bool(said[8]) == (begins < first),
+          f"{trace.stem}: says where it had to begin earlier: {done.stdout}")
     check(begins == 0 or said and int(said[4]) < int(said[5]), f"{trace.stem}: calls were left out: {done.stdout}")
     info = relume("info", "--json", new)
     facts = json.loads(info.stdout or "{}")
@@ -83,7 +86,8 @@ for program, options in ((BUILD / "tests/trace/state", ()), (BUILD / "tests/benc
     new = trimmed(trace, 4, 5, 4)
     same_renders(trace, new, 4, 5, "--mode", "gl")
     same_replays(trace, new, 4, 1)
-    check(not options or new.stat().st_size < 0.4 * trace.stat().st_size, "arrays of draws that are left out are not there")
+    check(not options or new.stat().st_size < 0.4 * trace.stat().st_size,
+          "arrays of draws that are left out are not there")
     check(not new.with_suffix(".ref").exists(), f"{trace.stem}: no references")
 
 # Programs of the shared recordings; xss-noof paints over what it painted before.
@@ -95,15 +99,19 @@ for name, first, begins in (("xss-queens", 70, 70), ("xss-noof", 1, 0)):
         new = trimmed(trace, first, first + 1, begins)
         same_renders(trace, new, begins, first + 1, "--mode", "gl")
         facts = json.loads(relume("info", "--json", new).stdout)
-        check(facts["show_earlier"] == ([] if begins == first else [[1, first + 1]]), f"{name}: info says which frames show others: {facts['show_earlier']}")
+        check(facts["show_earlier"] == ([] if begins == first else [[1, first + 1]]),
+              f"{name}: info says which frames show others: {facts['show_earlier']}")
         check(not new.with_suffix(".ref").exists(), f"{name}: no references, and none of an older recording")
 
 # Frames that are not there, and wrong usage: the code, one line, and no file.
 trace, new = live["viewer"], SCRATCH / "none.trace"
 for options in (("-f", "3-40"), ("-f", "40"), ("-f", "1,5"), ("-f", "1-5x2"), ("-f", "x"), ()):
     done = relume("trim", *options, "-o", new, trace)
-    check(done.returncode == 2 and len(done.stderr.splitlines()) == 1 and not new.exists(), f"{options}: usage: {done.stderr}")
-check(relume("trim", "-f", "1", "-o", trace, trace).returncode == 2 and trace.stat().st_size > 1000, "the recording is not overwritten")
+    check(done.returncode == 2 and len(done.stderr.splitlines()) == 1 and not new.exists(),
+          f"{options}: usage: {done.stderr}")
+check(
+    relume("trim", "-f", "1", "-o", trace, trace).returncode == 2 and trace.stat().st_size > 1000,
+    "the recording is not overwritten")
 check(relume("trim", "-f", "1", "-o", "/dev/full/x", trace).returncode == 5, "a place where no file can be")
 check(relume("trim", "-f", "1", "-o", new, corpus("viewer")).returncode == 3 and not new.exists(), "not a trace")
 check(not list(SCRATCH.glob("*.part")), "no unfinished file is left")

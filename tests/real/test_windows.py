@@ -48,10 +48,12 @@ to = SCRATCH / "shaders.####.exr"
 done = relume("render", trace, "-o", to, "-f", "0-3", *AS_SHOWN)
 lines = done.stderr.splitlines()
 check(done.returncode == 6, f"missing draws: exit code {done.returncode}")
-check("missing, frames 0 to 9: glUseProgram: a shader samples texture units from 8 on" in lines[0], f"missing draws are foretold: {done.stderr}")
+check("missing, frames 0 to 9: glUseProgram: a shader samples texture units from 8 on" in lines[0],
+      f"missing draws are foretold: {done.stderr}")
 check("draws are missing" in lines[-1], f"missing draws: {done.stderr}")
 done = relume("render", trace, "-o", to, "-f", "0-3", "--allow-incomplete", *AS_SHOWN)
 check(done.returncode == 0, f"--allow-incomplete: exit code {done.returncode}")
 done = relume("diff", SCRATCH / "windows.trace", SCRATCH / "frames", "-f", "0-14", "--table")
-check("  10-14 missing" in done.stdout and done.stdout.count("missing") == 2, f"five frames that are missing have one row: {done.stdout}")
+check("  10-14 missing" in done.stdout and done.stdout.count("missing") == 2,
+      f"five frames that are missing have one row: {done.stdout}")
 finish()

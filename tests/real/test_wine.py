@@ -1,9 +1,7 @@
 #!/usr/bin/python3
-"""
-Programs of Windows under Wine (`make windows`): what they record passes every gate, three corpus programs show the very pixels of their Linux
-builds, and text, shared lists and a pbuffer by WGL are as they were shown. The same three of 32 bits, where `make i386` made a recorder for them,
-started by programs of either class.
-limit: 500 s
+"""Programs of Windows under Wine (`make windows`): what they record passes every gate, three corpus programs show the
+very pixels of their Linux builds, and text, shared lists and a pbuffer by WGL are as they were shown. The same three of
+32 bits, where `make i386` made a recorder for them, started by programs of either class. limit: 500 s
 """
 import json
 import os
@@ -11,7 +9,9 @@ import shutil
 
 import replayed
 import wine
-from helpers import AS_SHOWN, BUILD, RELUME, SCRATCH, check, check_gates, corpus, diff, finish, frames_of, must, on_display, record, relume, render, run, skip
+from helpers import (
+    AS_SHOWN, BUILD, RELUME, SCRATCH, check, check_gates, corpus, diff, finish, frames_of, must, on_display, record,
+    relume, render, run, skip)
 
 FRAMES = 10
 
@@ -60,9 +60,12 @@ if both != "wine":
     for shell, folder, alone in (("system32", "windows32", "tricks.32"), ("syswow64", "windows", "tricks")):
         trace = SCRATCH / f"{shell}.trace"
         options = ("tricks.exe", *wine.PROGRAMS["tricks"], "--frames", str(FRAMES))
-        must(on_display(RELUME, "record", "-o", trace, "--ref", "color", "--", both, f"C:\\windows\\{shell}\\cmd.exe", "/c", *options,
-                        cwd=BUILD / folder))
-        check(shown(trace) == shown(SCRATCH / f"{alone}.trace"), f"{folder} started from {shell}: pixels are those of the program alone")
+        must(
+            on_display(RELUME, "record", "-o", trace, "--ref", "color", "--", both, f"C:\\windows\\{shell}\\cmd.exe",
+                       "/c", *options, cwd=BUILD / folder))
+        check(
+            shown(trace) == shown(SCRATCH / f"{alone}.trace"),
+            f"{folder} started from {shell}: pixels are those of the program alone")
 else:
     print("not tried: programs of 32 bits ('make i386 windows' has not been run)")
 run("wineserver", "-k")

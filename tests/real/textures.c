@@ -1,6 +1,7 @@
 /*
- * Textures as piglit's tests have them, one matter a frame: internal formats, blocks, swizzles, wraps beyond the image; depth and
- * stencil values as pixels; levels, points and sprites; frames that are not cleared. Recorded by test_textures.py.
+ * Textures as piglit's tests have them, one matter a frame: internal formats, blocks, swizzles, wraps beyond the image;
+ * depth and stencil values as pixels; levels, points and sprites; frames that are not cleared. Recorded by
+ * test_textures.py.
  */
 #include "tests/trace/window.h"
 
@@ -49,8 +50,9 @@ static unsigned char colors[4][4][4];
 
 static void formats(void)
 {
-	static const int internal[] = { GL_RGBA8, GL_RGB5_A1, GL_RGBA4, GL_R3_G3_B2, GL_RED, GL_RG8, GL_SRGB8_ALPHA8, GL_SLUMINANCE8,
-		                        GL_LUMINANCE6_ALPHA2, GL_INTENSITY4, GL_RGB565, GL_RGBA16F };
+	static const int internal[] = { GL_RGBA8,  GL_RGB5_A1,      GL_RGBA4,       GL_R3_G3_B2,          GL_RED,
+		                        GL_RG8,    GL_SRGB8_ALPHA8, GL_SLUMINANCE8, GL_LUMINANCE6_ALPHA2, GL_INTENSITY4,
+		                        GL_RGB565, GL_RGBA16F };
 
 	for (int i = 0; i < 12; i++) {
 		texture();
@@ -62,8 +64,10 @@ static void formats(void)
 /* Texels beyond [0,1]: what they are multiplied with, and filtered, is not clamped. */
 static void numbers(void)
 {
-	static const int internal[] = { GL_RGBA32F, GL_RGBA16F, GL_RGB16F, GL_LUMINANCE32F_ARB, GL_INTENSITY16F_ARB, GL_RG32F,
-		                        GL_LUMINANCE_ALPHA16F_ARB, GL_R11F_G11F_B10F, GL_RGB9_E5, GL_RGBA8_SNORM, GL_RGB16_SNORM, GL_ALPHA32F_ARB };
+	static const int internal[] = {
+		GL_RGBA32F, GL_RGBA16F, GL_RGB16F, GL_LUMINANCE32F_ARB, GL_INTENSITY16F_ARB, GL_RG32F,
+		GL_LUMINANCE_ALPHA16F_ARB, GL_R11F_G11F_B10F, GL_RGB9_E5, GL_RGBA8_SNORM, GL_RGB16_SNORM, GL_ALPHA32F_ARB
+	};
 	float texels[8][8][4];
 
 	for (int i = 0; i < 256; i++)
@@ -80,7 +84,8 @@ static void numbers(void)
 	glDisable(GL_BLEND);
 }
 
-/* The same filtered, with a border and generated levels; an addition that is clamped, and an interpolation that is not. */
+/* The same filtered, with a border and generated levels; an addition that is clamped, and an interpolation that is
+ * not. */
 static void filtered_numbers(void)
 {
 	static const int internal[] = { GL_RGBA32F, GL_RGB16F, GL_LUMINANCE32F_ARB, GL_RGBA16_SNORM };
@@ -132,10 +137,12 @@ static void blocks(void)
 /* Blocks of one channel or two; the last of each kind filtered, and a part of it given anew. */
 static void channels(void)
 {
-	static const unsigned formats[9] = { GL_COMPRESSED_RED_RGTC1, GL_COMPRESSED_SIGNED_RED_RGTC1, GL_COMPRESSED_LUMINANCE_LATC1_EXT,
-		                             GL_COMPRESSED_SIGNED_LUMINANCE_LATC1_EXT, GL_COMPRESSED_RG_RGTC2, GL_COMPRESSED_SIGNED_RG_RGTC2,
-		                             GL_COMPRESSED_LUMINANCE_ALPHA_LATC2_EXT, GL_COMPRESSED_SIGNED_LUMINANCE_ALPHA_LATC2_EXT,
-		                             0x8837 /* COMPRESSED_LUMINANCE_ALPHA_3DC_ATI, which glext.h lacks */ };
+	static const unsigned formats[9] = {
+		GL_COMPRESSED_RED_RGTC1, GL_COMPRESSED_SIGNED_RED_RGTC1, GL_COMPRESSED_LUMINANCE_LATC1_EXT,
+		GL_COMPRESSED_SIGNED_LUMINANCE_LATC1_EXT, GL_COMPRESSED_RG_RGTC2, GL_COMPRESSED_SIGNED_RG_RGTC2,
+		GL_COMPRESSED_LUMINANCE_ALPHA_LATC2_EXT, GL_COMPRESSED_SIGNED_LUMINANCE_ALPHA_LATC2_EXT,
+		0x8837 /* COMPRESSED_LUMINANCE_ALPHA_3DC_ATI, which glext.h lacks */
+	};
 	unsigned char bytes[64];
 
 	glEnable(GL_BLEND);
@@ -242,8 +249,10 @@ static void generated_levels(void)
 /* The same of formats that Mesa may not be able to draw to; sizes are odd, so that it shows which texels count. */
 static void averaged_levels(void)
 {
-	static const int internal[12] = { GL_SLUMINANCE8, GL_SLUMINANCE8_ALPHA8, GL_RGB9_E5, GL_R3_G3_B2, GL_RGBA4, GL_LUMINANCE4_ALPHA4,
-		                          GL_RGBA8_SNORM, GL_LUMINANCE8_SNORM, GL_RGB5_A1, GL_RGBA2, GL_R11F_G11F_B10F, GL_RGB16F };
+	static const int internal[12] = {
+		GL_SLUMINANCE8, GL_SLUMINANCE8_ALPHA8, GL_RGB9_E5, GL_R3_G3_B2, GL_RGBA4,          GL_LUMINANCE4_ALPHA4,
+		GL_RGBA8_SNORM, GL_LUMINANCE8_SNORM,   GL_RGB5_A1, GL_RGBA2,    GL_R11F_G11F_B10F, GL_RGB16F
+	};
 	unsigned char texels[13 * 21 * 4];
 
 	for (int i = 0; i < 13 * 21 * 4; i++)
@@ -263,9 +272,12 @@ static void averaged_levels(void)
 /* A cube's levels, faces seen straight on and askew. */
 static void cube_levels(void)
 {
-	static const float corners[6][3][3] = { /* a corner of a face and the ways along its edges */
-		{ { 1, 1, 1 }, { 0, -2, 0 }, { 0, 0, -2 } }, { { -1, 1, -1 }, { 0, -2, 0 }, { 0, 0, 2 } }, { { -1, 1, -1 }, { 2, 0, 0 }, { 0, 0, 2 } },
-		{ { -1, -1, 1 }, { 2, 0, 0 }, { 0, 0, -2 } }, { { -1, 1, 1 }, { 2, 0, 0 }, { 0, -2, 0 } }, { { 1, 1, -1 }, { -2, 0, 0 }, { 0, -2, 0 } } };
+	static const float corners[6][3][3] = {
+		/* a corner of a face and the ways along its edges */
+		{ { 1, 1, 1 }, { 0, -2, 0 }, { 0, 0, -2 } }, { { -1, 1, -1 }, { 0, -2, 0 }, { 0, 0, 2 } },
+		{ { -1, 1, -1 }, { 2, 0, 0 }, { 0, 0, 2 } }, { { -1, -1, 1 }, { 2, 0, 0 }, { 0, 0, -2 } },
+		{ { -1, 1, 1 }, { 2, 0, 0 }, { 0, -2, 0 } }, { { 1, 1, -1 }, { -2, 0, 0 }, { 0, -2, 0 } }
+	};
 	unsigned name;
 
 	glDisable(GL_TEXTURE_2D);
@@ -283,8 +295,8 @@ static void cube_levels(void)
 				texels[i][1] = (unsigned char)(face * 50);
 				texels[i][2] = 128;
 			}
-			glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGB, 32 >> level, 32 >> level, 0, GL_RGB, GL_UNSIGNED_BYTE,
-			             texels);
+			glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGB, 32 >> level, 32 >> level, 0,
+			             GL_RGB, GL_UNSIGNED_BYTE, texels);
 		}
 	for (int i = 0; i < 12; i++) {
 		const float (*c)[3] = corners[i % 6];
@@ -294,7 +306,8 @@ static void cube_levels(void)
 		for (int k = 0; k < 4; k++) {
 			float u = k == 1 || k == 2 ? 0.95f : 0.05f, v = k >= 2 ? 0.95f : 0.05f;
 
-			glTexCoord3f(c[0][0] + u * c[1][0] + v * c[2][0], c[0][1] + u * c[1][1] + v * c[2][1], c[0][2] + u * c[1][2] + v * c[2][2]);
+			glTexCoord3f(c[0][0] + u * c[1][0] + v * c[2][0], c[0][1] + u * c[1][1] + v * c[2][1],
+			             c[0][2] + u * c[1][2] + v * c[2][2]);
 			glVertex2f(x + u * width, y + v * height);
 		}
 		glEnd();
@@ -335,7 +348,8 @@ static void points(void)
 /* What environments make of depths: alpha, luminance and intensity. */
 static void depth_environments(void)
 {
-	static const int modes[3] = { GL_ALPHA, GL_LUMINANCE, GL_INTENSITY }, environments[4] = { GL_REPLACE_EXT, GL_MODULATE, GL_ADD, GL_BLEND };
+	static const int modes[3] = { GL_ALPHA, GL_LUMINANCE, GL_INTENSITY },
+			 environments[4] = { GL_REPLACE_EXT, GL_MODULATE, GL_ADD, GL_BLEND };
 	static const float depths[4] = { 0.1f, 0.4f, 0.6f, 0.9f };
 
 	glEnable(GL_BLEND);
@@ -359,7 +373,8 @@ static void combine4(void)
 		                            { GL_SRC_COLOR, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_SRC_COLOR },
 		                            { GL_ONE_MINUS_SRC_COLOR, GL_SRC_COLOR, GL_SRC_COLOR, GL_SRC_ALPHA } };
 	static const int sources[3][4] = { { GL_TEXTURE, GL_PRIMARY_COLOR, GL_CONSTANT, GL_TEXTURE },
-		                           { GL_PRIMARY_COLOR, GL_TEXTURE, GL_TEXTURE, GL_ZERO }, { GL_PREVIOUS, GL_TEXTURE, GL_CONSTANT, GL_CONSTANT } };
+		                           { GL_PRIMARY_COLOR, GL_TEXTURE, GL_TEXTURE, GL_ZERO },
+		                           { GL_PREVIOUS, GL_TEXTURE, GL_CONSTANT, GL_CONSTANT } };
 	const float constant[4] = { 0.3f, 0.9f, 0.5f, 0.6f };
 
 	texture();
@@ -382,7 +397,8 @@ static void combine4(void)
 	glDisable(GL_BLEND);
 }
 
-/* Walls that lead out of the view on all sides, with texels much smaller than pixels: the last bits of coordinates choose one. */
+/* Walls that lead out of the view on all sides, with texels much smaller than pixels: the last bits of coordinates
+ * choose one. */
 static void walls(void)
 {
 	static const unsigned char board[2][2] = { { 255, 0 }, { 0, 255 } };
@@ -429,8 +445,10 @@ static void trail(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { formats, numbers, filtered_numbers, blocks, channels, swizzles, wraps, depth_and_stencil, generated_levels, cube_levels, points, averaged_levels,
-		                              depth_environments, combine4, walls, trail, trail, trail, trail, trail };
+	static void (*const frames[])(void) = {
+		formats, numbers, filtered_numbers, blocks, channels, swizzles, wraps, depth_and_stencil, generated_levels,
+		cube_levels, points, averaged_levels, depth_environments, combine4, walls, trail, trail, trail, trail, trail
+	};
 
 	for (int i = 0; i < 64; i++)
 		colors[i / 16][i / 4 % 4][i % 4] = (unsigned char)(i % 4 == 3 ? 255 - 12 * (i / 4) : i * 67 + i / 4 * 13);

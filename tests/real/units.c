@@ -1,7 +1,7 @@
 /*
- * Surfaces with several textures, one of which is their own colour, told apart by their sizes: a shadow by alpha (2 x 2), what is mirrored (8 x 8), and
- * the colour (4 x 4). A frame has the colour behind the shadow and the mirror; the next has the mirror first; the last has no colour. Recorded
- * by test_export.py.
+ * Surfaces with several textures, one of which is their own colour, told apart by their sizes: a shadow by alpha (2 x
+ * 2), what is mirrored (8 x 8), and the colour (4 x 4). A frame has the colour behind the shadow and the mirror; the
+ * next has the mirror first; the last has no colour. Recorded by test_export.py.
  */
 #include "tests/trace/window.h"
 
@@ -20,7 +20,8 @@ static void make_textures(void)
 	for (int i = 0; i < N_TEXTURES; i++) {
 		glBindTexture(GL_TEXTURE_2D, textures[i]);
 		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-		glTexImage2D(GL_TEXTURE_2D, 0, i == SHADOW ? GL_LUMINANCE_ALPHA : GL_RGBA, sizes[i], sizes[i], 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+		glTexImage2D(GL_TEXTURE_2D, 0, i == SHADOW ? GL_LUMINANCE_ALPHA : GL_RGBA, sizes[i], sizes[i], 0,
+		             GL_RGBA, GL_UNSIGNED_BYTE, texels);
 	}
 }
 

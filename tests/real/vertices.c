@@ -1,6 +1,6 @@
 /*
- * What vertices carry beyond the usual, one thing a frame: colours that are no numbers, positions whose w is not 1 under
- * lights and fog, planes that cut them away. Recorded by test_vertices.py.
+ * What vertices carry beyond the usual, one thing a frame: colours that are no numbers, positions whose w is not 1
+ * under lights and fog, planes that cut them away. Recorded by test_vertices.py.
  */
 #include <math.h>
 
@@ -30,7 +30,8 @@ static void puff(float x, float y, float size, float alpha)
 	glEnd();
 }
 
-/* As hufo_smoke draws its smoke: the square root of a negative number as alpha; within the window, and cut by its edge. */
+/* As hufo_smoke draws its smoke: the square root of a negative number as alpha; within the window, and cut by its
+ * edge. */
 static void no_numbers(void)
 {
 	glEnable(GL_BLEND);
@@ -62,10 +63,12 @@ static void panel(float x, float y, float w)
 	glEnd();
 }
 
-/* Distances to lights and viewer, spots and fog, where w differs from vertex to vertex; a light whose own w is not 1. */
+/* Distances to lights and viewer, spots and fog, where w differs from vertex to vertex; a light whose own w is not
+ * 1. */
 static void divided(void)
 {
-	static const float place[4] = { 10, 15, 6, 1 }, shared[4] = { 60, 10, 12, 2 }, down[3] = { 0, 0, -1 }, grey[4] = { 0.2f, 0.2f, 0.2f, 1 };
+	static const float place[4] = { 10, 15, 6, 1 }, shared[4] = { 60, 10, 12, 2 }, down[3] = { 0, 0, -1 },
+			   grey[4] = { 0.2f, 0.2f, 0.2f, 1 };
 
 	glLightfv(GL_LIGHT0, GL_POSITION, place);
 	glLightf(GL_LIGHT0, GL_LINEAR_ATTENUATION, 0.05f);
@@ -115,7 +118,8 @@ static void star(unsigned mode)
 	glEnd();
 }
 
-/* What planes leave, added to what they cut away: gaps and overlaps show; along diagonals through pixel centres, too. */
+/* What planes leave, added to what they cut away: gaps and overlaps show; along diagonals through pixel centres,
+ * too. */
 static void planes(void)
 {
 	static const unsigned modes[] = { GL_TRIANGLES, GL_LINES, GL_POINTS };
@@ -171,11 +175,12 @@ static void octagon(void)
 	glDisable(GL_BLEND);
 }
 
-/* All kinds of primitives, each vertex of another colour, under flat shading by either convention (ARB_provoking_vertex). */
+/* All kinds of primitives, each vertex of another colour, under flat shading by either convention
+ * (ARB_provoking_vertex). */
 static void provoking(void)
 {
-	static const unsigned modes[] = { GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON, GL_LINES,
-		                          GL_LINE_STRIP, GL_LINE_LOOP };
+	static const unsigned modes[] = { GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_QUADS,    GL_QUAD_STRIP,
+		                          GL_POLYGON,   GL_LINES,          GL_LINE_STRIP,   GL_LINE_LOOP };
 
 	glShadeModel(GL_FLAT);
 	for (int k = 0; k < 2; k++) {
@@ -186,7 +191,8 @@ static void provoking(void)
 			glBegin(modes[m]);
 			for (int i = 0; i < 12; i++) {
 				int round = m == 2 || m == 5 || m == 8;
-				float a = 0.5f * (float)i, x = round ? 3.2f * cosf(a) : (float)(i % 2 ? 3 : -3), y = round ? 10 * sinf(a) : 1.8f * (float)(i / 2) - 5;
+				float a = 0.5f * (float)i, x = round ? 3.2f * cosf(a) : (float)(i % 2 ? 3 : -3),
+				      y = round ? 10 * sinf(a) : 1.8f * (float)(i / 2) - 5;
 
 				if (m == 3 && i % 4 > 1)
 					x = -x;
@@ -205,12 +211,14 @@ static unsigned pack(int x, int y, int z, int w)
 	return (unsigned)(x & 1023) | (unsigned)(y & 1023) << 10 | (unsigned)(z & 1023) << 20 | (unsigned)(w & 3) << 30;
 }
 
-/* Positions, colours, normals and texture coordinates that come packed, one by one, positions and colours as arrays, too (ARB_vertex_type_2_10_10_10_rev). */
+/* Positions, colours, normals and texture coordinates that come packed, one by one, positions and colours as arrays,
+ * too (ARB_vertex_type_2_10_10_10_rev). */
 static void packed(void)
 {
 	static const int corners[4][2] = { { 4, 4 }, { 28, 4 }, { 28, 20 }, { 4, 20 } };
 	static const float beside[4] = { 0, 0.3f, 1, 0 }, white[4] = { 1, 1, 1, 1 };
-	static const unsigned char texels[2][2][4] = { { { 255, 0, 0, 255 }, { 0, 255, 0, 255 } }, { { 0, 0, 255, 255 }, { 255, 255, 0, 255 } } };
+	static const unsigned char texels[2][2][4] = { { { 255, 0, 0, 255 }, { 0, 255, 0, 255 } },
+		                                       { { 0, 0, 255, 255 }, { 255, 255, 0, 255 } } };
 	unsigned positions[4], colors[4], normals[4];
 
 	for (int i = 0; i < 4; i++) {

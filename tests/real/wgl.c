@@ -1,6 +1,6 @@
 /*
- * What WGL does otherwise than GLX, for test_wine.py: text by wglUseFontBitmaps, a display list of another context by wglShareLists, a
- * picture that is drawn in a pbuffer. Ten frames of 320 x 240.
+ * What WGL does otherwise than GLX, for test_wine.py: text by wglUseFontBitmaps, a display list of another context by
+ * wglShareLists, a picture that is drawn in a pbuffer. Ten frames of 320 x 240.
  */
 #include <windows.h>
 #include <GL/gl.h>
@@ -32,12 +32,20 @@ static void *find(const char *name)
 
 static void open_window(void)
 {
-	const WNDCLASSA kind = { .style = CS_OWNDC, .lpfnWndProc = DefWindowProcA, .hInstance = GetModuleHandleA(NULL), .lpszClassName = "wgl" };
-	const PIXELFORMATDESCRIPTOR wanted = { .nSize = sizeof(wanted), .nVersion = 1, .dwFlags = PFD_DRAW_TO_WINDOW | PFD_SUPPORT_OPENGL | PFD_DOUBLEBUFFER,
-		                               .iPixelType = PFD_TYPE_RGBA, .cColorBits = 24, .cDepthBits = 24 };
+	const WNDCLASSA kind = { .style = CS_OWNDC,
+		                 .lpfnWndProc = DefWindowProcA,
+		                 .hInstance = GetModuleHandleA(NULL),
+		                 .lpszClassName = "wgl" };
+	const PIXELFORMATDESCRIPTOR wanted = { .nSize = sizeof(wanted),
+		                               .nVersion = 1,
+		                               .dwFlags = PFD_DRAW_TO_WINDOW | PFD_SUPPORT_OPENGL | PFD_DOUBLEBUFFER,
+		                               .iPixelType = PFD_TYPE_RGBA,
+		                               .cColorBits = 24,
+		                               .cDepthBits = 24 };
 
 	expect(RegisterClassA(&kind), "a class of windows");
-	window_device = GetDC(CreateWindowA("wgl", "wgl", WS_POPUP | WS_VISIBLE, 0, 0, WIDTH, HEIGHT, NULL, NULL, kind.hInstance, NULL));
+	window_device = GetDC(CreateWindowA("wgl", "wgl", WS_POPUP | WS_VISIBLE, 0, 0, WIDTH, HEIGHT, NULL, NULL,
+	                                    kind.hInstance, NULL));
 	expect(SetPixelFormat(window_device, ChoosePixelFormat(window_device, &wanted), &wanted), "a pixel format");
 	window_context = wglCreateContext(window_device);
 	expect(wglMakeCurrent(window_device, window_context), "a context");
@@ -67,8 +75,10 @@ static void share_list(void)
 static void make_texture(void)
 {
 	static unsigned char pixels[SIDE * SIDE * 4];
-	const int attributes[] = { WGL_DRAW_TO_PBUFFER_ARB, 1, WGL_SUPPORT_OPENGL_ARB, 1, WGL_PIXEL_TYPE_ARB, WGL_TYPE_RGBA_ARB, WGL_COLOR_BITS_ARB, 24,
-		                   WGL_ALPHA_BITS_ARB, 8, WGL_DOUBLE_BUFFER_ARB, 1, 0 };
+	const int attributes[] = {
+		WGL_DRAW_TO_PBUFFER_ARB, 1, WGL_SUPPORT_OPENGL_ARB, 1, WGL_PIXEL_TYPE_ARB, WGL_TYPE_RGBA_ARB,
+		WGL_COLOR_BITS_ARB, 24, WGL_ALPHA_BITS_ARB, 8, WGL_DOUBLE_BUFFER_ARB, 1, 0
+	};
 	const PFNWGLCHOOSEPIXELFORMATARBPROC choose = find("wglChoosePixelFormatARB");
 	const PFNWGLCREATEPBUFFERARBPROC create = find("wglCreatePbufferARB");
 	const PFNWGLGETPBUFFERDCARBPROC get_device = find("wglGetPbufferDCARB");
@@ -136,7 +146,8 @@ int main(void)
 	make_texture();
 	SelectObject(window_device, GetStockObject(SYSTEM_FONT));
 	expect(wglUseFontBitmapsA(window_device, ' ', 96, GLYPHS), "letters as lists");
-	glGetError(); /* Mesa 22.3.6 is out of memory for a blank's bitmap, which has no bytes, and leaves the blank's list empty */
+	/* Mesa 22.3.6 is out of memory for a blank's bitmap, which has no bytes, and leaves the blank's list empty */
+	glGetError();
 	for (int frame = 0; frame < FRAMES; frame++) {
 		draw(frame);
 		expect(glGetError() == GL_NO_ERROR, "a frame without an error");

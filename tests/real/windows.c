@@ -1,6 +1,7 @@
 /*
- * Two windows of different sizes and colours, recorded by test_windows.py. One context draws to them in turn; with "shaders" a program
- * is current; with "threads" each has a thread and a context of its own, and both swap at the same time.
+ * Two windows of different sizes and colours, recorded by test_windows.py. One context draws to them in turn; with
+ * "shaders" a program is current; with "threads" each has a thread and a context of its own, and both swap at the same
+ * time.
  */
 #include <pthread.h>
 #include <string.h>
@@ -18,7 +19,8 @@ static Window make_window(Display *on, unsigned size)
 	Window made;
 
 	set.colormap = XCreateColormap(on, DefaultRootWindow(on), visual->visual, AllocNone);
-	made = XCreateWindow(on, DefaultRootWindow(on), 0, 0, size, size, 0, visual->depth, InputOutput, visual->visual, CWColormap, &set);
+	made = XCreateWindow(on, DefaultRootWindow(on), 0, 0, size, size, 0, visual->depth, InputOutput, visual->visual,
+	                     CWColormap, &set);
 	XMapWindow(on, made);
 	XSync(on, False);
 	return made;
@@ -38,7 +40,8 @@ static void draw(int which, int frame, unsigned size)
 static void make_program(void)
 {
 	const char *vertex = "uniform sampler2D heights;\n"
-			     "void main() { gl_Position = ftransform() + 0.001 * texture2DLod(heights, vec2(0.0), 0.0); gl_FrontColor = gl_Color; }\n";
+			     "void main() { gl_Position = ftransform() + 0.001 * texture2DLod(heights, vec2(0.0), "
+	                     "0.0); gl_FrontColor = gl_Color; }\n";
 	const GLuint shader = glCreateShader(GL_VERTEX_SHADER), program = glCreateProgram();
 
 	glShaderSource(shader, 1, &vertex, NULL);

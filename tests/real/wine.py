@@ -3,7 +3,8 @@ PROGRAMS = {"two_triangles": ("--animate", "camera"), "spheres": ("--animate", "
 
 
 def loader(build):
-    """Wine for programs of 32 and 64 bits, where it was built, with a recorder of each; otherwise that of the system, for 64 alone."""
+    """Wine for programs of 32 and 64 bits, where it was built, with a recorder of each; otherwise that of the system,
+    for 64 alone."""
     both = build / "wine32/usr/lib/wine/wine"
     return both if both.exists() and (build / "lib/i386-linux-gnu/librelume.so").exists() else "wine"
 

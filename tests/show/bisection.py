@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""tests/show/bisection.py BUILD [--only NAME] (as `make show-bisect`): ten pairs of recordings with one planted change, found at the very call.
+"""tests/show/bisection.py BUILD [--only NAME] (as `make show-bisect`): ten pairs of recordings with one planted change,
+found at the very call.
 
-Six pairs: a recording of a real program, and itself with one argument changed past its middle. Four pairs: a program of corpus/, and itself
-built with one line changed, left out or put in.
+Six pairs: a recording of a real program, and itself with one argument changed past its middle. Four pairs: a program of
+corpus/, and itself built with one line changed, left out or put in.
 """
 import argparse
 import pathlib
@@ -19,17 +20,22 @@ from table import Shown  # noqa: E402
 
 SHARED, AT = ROOT.parent / "shared/traces", 0.6
 EDITS = [("glxgears", "glRotatef", 0, 12.5), ("xss-queens", "glBlendFunc", 1, 1), ("neverball", "glBindTexture", 1, 3),
-         ("billard-gl", "glColor4f", 0, 0.125), ("rss-lattice", "glVertex3f", 1, 0.75), ("iv-SceneViewer", "glRotatef", 0, 33.5)]
+         ("billard-gl", "glColor4f", 0, 0.125), ("rss-lattice", "glVertex3f", 1, 0.75),
+         ("iv-SceneViewer", "glRotatef", 0, 33.5)]
 # A program, a line of it, what stands there instead, and the calls that part.
 BUILDS = [("spheres", "	glEnable(GL_LIGHT0);\n", "", "glEnable(cap = GL_LIGHT0)", None),
-          ("courtyard", "glBlendFunc(GL_SRC_ALPHA, GL_ONE);", "glBlendFunc(GL_ONE, GL_ONE);", "glBlendFunc(sfactor = GL_SRC_ALPHA", "glBlendFunc(sfactor = GL_ONE,"),
-          ("hall", "	glEnable(GL_CULL_FACE);\n", "	glEnable(GL_CULL_FACE);\n	glFrontFace(GL_CW);\n", None, "glFrontFace(mode = GL_CW)"),
-          ("still_life", "glFogf(GL_FOG_END, 22);", "glFogf(GL_FOG_END, 9);", "glFogf(pname = GL_FOG_END, param = 22)", "glFogf(pname = GL_FOG_END, param = 9)")]
+          ("courtyard", "glBlendFunc(GL_SRC_ALPHA, GL_ONE);", "glBlendFunc(GL_ONE, GL_ONE);",
+           "glBlendFunc(sfactor = GL_SRC_ALPHA", "glBlendFunc(sfactor = GL_ONE,"),
+          ("hall", "	glEnable(GL_CULL_FACE);\n", "	glEnable(GL_CULL_FACE);\n	glFrontFace(GL_CW);\n", None,
+           "glFrontFace(mode = GL_CW)"),
+          ("still_life", "glFogf(GL_FOG_END, 22);", "glFogf(GL_FOG_END, 9);", "glFogf(pname = GL_FOG_END, param = 22)",
+           "glFogf(pname = GL_FOG_END, param = 9)")]
 SIDE = re.compile(r"^    (good|bad) +(?:(\d+) )?(.*) \(frame (\d+)\)$", re.M)
 
 
 def run(*args, codes=(0,), **more):
-    done = subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, **more)
+    done = subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+                          **more)
     if done.returncode not in codes:
         sys.exit(f"{' '.join(map(str, args))}: exit code {done.returncode}\n{done.stderr}")
     return done.stdout
@@ -40,18 +46,24 @@ def bisect(relume, good, bad):
     text = run(relume, "bisect", good, bad, codes=(1,))
     seconds = time.monotonic() - begin
     picture = re.search(r"^first picture.*?: frame (\d+)|^pictures: .*", text, re.M)
-    return text, {side: (number, what, frame) for side, number, what, frame in SIDE.findall(text.split("\nthen at")[0])}, picture[0] if picture else "", seconds
+    return text, {
+        side: (number, what, frame) for side, number, what, frame in SIDE.findall(text.split("\nthen at")[0])
+    }, picture[0] if picture else "", seconds
 
 
 def edited(relume, work, name, call, argument, value):
     trace = Trace(SHARED / f"{name}.trace")
-    found = [i for i, (other, args) in enumerate(trace.calls) if other == call and args[argument].kind in ("number", "float", "double") and
-             abs(args[argument].value - value) > 0.01]
+    found = [
+        i for i, (other, args) in enumerate(trace.calls)
+        if other == call and args[argument].kind in ("number", "float",
+                                                     "double") and abs(args[argument].value - value) > 0.01
+    ]
     at = found[int(AT * len(found))]
     trace.change(trace.calls[at][1][argument], value)
     trace.save(work / "bad.trace")
     text, sides, picture, seconds = bisect(relume, SHARED / f"{name}.trace", work / "bad.trace")
-    good = all(sides[side][0] == str(at) and sides[side][1].startswith(f"{call}(") for side in ("good", "bad")) and "then at" not in text
+    good = all(sides[side][0] == str(at) and sides[side][1].startswith(f"{call}(")
+               for side in ("good", "bad")) and "then at" not in text
     return f"{name}: {call}, call {at} of {len(trace.calls)}", f"calls {sides['good'][0]} and {sides['bad'][0]}, {seconds:.1f} s; {picture}", good
 
 
@@ -68,7 +80,8 @@ def built(relume, work, name, line, instead, was, now):
         build(work / f"{side}.c", work / side)
         run(ROOT / "tests/xvfb.sh", relume, "record", "-o", work / f"{side}.trace", "--", work / side, "--frames", 3)
     text, sides, picture, seconds = bisect(relume, work / "good.trace", work / "bad.trace")
-    good = sides["good"][1].startswith(was or "nothing") and sides["bad"][1].startswith(now or "nothing") and "then at" not in text
+    good = sides["good"][1].startswith(was or "nothing") and sides["bad"][1].startswith(
+        now or "nothing") and "then at" not in text
     return f"{name}, built: {line.strip()} -> {instead.strip() or 'nothing'}", f"{sides['good'][1]} | {sides['bad'][1]}, {seconds:.1f} s; {picture}", good
 
 

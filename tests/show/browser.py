@@ -12,14 +12,19 @@ SAID = re.compile(r"FOUND(\{.*\})DNUOF")
 
 def command(work, page, *options):
     """How a page is opened; `work` keeps the browser's own files."""
-    return [NAME, "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run", f"--user-data-dir={work / 'profile'}",
-            "--host-resolver-rules=MAP * ~NOTFOUND", "--window-size=1600,1300", *options, f"file://{page}"]
+    return [
+        NAME, "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run",
+        f"--user-data-dir={work / 'profile'}", "--host-resolver-rules=MAP * ~NOTFOUND", "--window-size=1600,1300",
+        *options, f"file://{page}"
+    ]
 
 
 def said(work, page):
-    """What the page's script says by console.log("FOUND{...}DNUOF"): it is given its time, unlike by --dump-dom. None: nothing within a minute."""
-    child = subprocess.Popen(command(work, page, "--enable-logging=stderr"), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                             errors="replace", start_new_session=True)
+    """What the page's script says by console.log("FOUND{...}DNUOF"): it is given its time, unlike by --dump-dom. None:
+    nothing within a minute."""
+    child = subprocess.Popen(command(work, page,
+                                     "--enable-logging=stderr"), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                             stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True)
     watchdog = threading.Timer(60, child.kill)
     watchdog.start()
     found = next((m for m in (SAID.search(line) for line in child.stderr) if m), None)
@@ -33,7 +38,8 @@ def operate(work, report, at=""):
     """What operate.js finds in a report's page, opened at a frame ("#7")."""
     page = report / "operated.html"
     text = (report / "index.html").read_text()
-    text = text.replace("<body>", "<body><script>window.wrong = []; addEventListener('error', e => wrong.push(e.message));</script>", 1)
+    text = text.replace(
+        "<body>", "<body><script>window.wrong = []; addEventListener('error', e => wrong.push(e.message));</script>", 1)
     page.write_text(text.replace("</body>", f"<script>{(HERE / 'operate.js').read_text()}</script></body>"))
     return said(work, f"{page}{at}")
 
@@ -49,7 +55,8 @@ def accessible(work, report, scheme="light"):
 
 
 def printed(work, report):
-    """What the page's print style leaves: names of the parts that are shown, and whether a picture or table is wider than the paper."""
+    """What the page's print style leaves: names of the parts that are shown, and whether a picture or table is wider
+    than the paper."""
     page = report / "printed.html"
     script = """<script>
 addEventListener("load", () => setTimeout(() => {
@@ -58,13 +65,15 @@ addEventListener("load", () => setTimeout(() => {
 		back: getComputedStyle(document.body).backgroundColor }) + "DNUOF");
 }, 300));
 </script></body>"""
-    page.write_text((report / "index.html").read_text().replace("@media (prefers-color-scheme: dark)", "@media screen", 1)
-                    .replace("@media print", "@media screen", 1).replace("</body>", script))
+    page.write_text((report / "index.html").read_text().replace("@media (prefers-color-scheme: dark)", "@media screen",
+                                                                1).replace("@media print", "@media screen",
+                                                                           1).replace("</body>", script))
     return said(work, page)
 
 
 def narrow(work, report, width):
-    """How wide a report's page is on a screen of `width` pixels, in each of its views: in a frame, as no window of the browser is so narrow."""
+    """How wide a report's page is on a screen of `width` pixels, in each of its views: in a frame, as no window of the
+    browser is so narrow."""
     page, around = report / "narrow.html", report / "around.html"
     script = """<script>
 addEventListener("load", () => setTimeout(() => {

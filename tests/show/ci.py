@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/ci.py BUILD [--only PART...] (as `make show-ci`): does `relume ci` lead `git bisect run` to the commit that broke the picture?
+"""tests/show/ci.py BUILD [--only PART...] (as `make show-ci`): does `relume ci` lead `git bisect run` to the commit
+that broke the picture?
 
-The faults and the harmless variations are those of faults.py. For each there is a git repository's history of three commits: the
-approved program (corpus/still_life.c), the change, and another one that means nothing. Faults of OpenGL calls are changes of the program's
-source; those of frames are a renderer that makes such frames (ci_step.py). What gate B reports by design (other bytes on the approved
-device) is approved in the commit that makes it.
+The faults and the harmless variations are those of faults.py. For each there is a git repository's history of three
+commits: the approved program (corpus/still_life.c), the change, and another one that means nothing. Faults of OpenGL
+calls are changes of the program's source; those of frames are a renderer that makes such frames (ci_step.py). What gate
+B reports by design (other bytes on the approved device) is approved in the commit that makes it.
 
 Then: which files does --when-changed notice? Each file that some programs open is touched, alone (ci_touched.py).
 """
@@ -28,16 +29,24 @@ PLAN = """programs:
   command: [sh, -c, "cc -std=c11 -O2 -o still_life still_life.c -lglut -lGLU -lGL -lm && exec ./still_life --frames 2 --animate camera"]
   frames: 2
 """
-OFF = {"a light is off": "glEnable(GL_LIGHT1);", "no blending": "glEnable(GL_BLEND);", "no alpha test": "glEnable(GL_ALPHA_TEST);",
-       "no depth test": "glEnable(GL_DEPTH_TEST);", "no fog": "glEnable(GL_FOG);"}
-# The faults of faults.py that are in calls, as changes of the source: pairs of what is there and what comes instead, all at once.
+OFF = {
+    "a light is off": "glEnable(GL_LIGHT1);", "no blending": "glEnable(GL_BLEND);",
+    "no alpha test": "glEnable(GL_ALPHA_TEST);", "no depth test": "glEnable(GL_DEPTH_TEST);",
+    "no fog": "glEnable(GL_FOG);"
+}
+# The faults of faults.py that are in calls, as changes of the source: pairs of what is there and what comes instead,
+# all at once.
 CHANGES = {
     "a box is not drawn": [("glDrawElements(GL_TRIANGLES, 36,", "glDrawElements(GL_TRIANGLES, 0,")],
     "a list is not found": [("glCallList(sphere)", "glCallList(99)")],
-    "wrong textures": [("	glBindTexture(GL_TEXTURE_2D, textures[0]);\n	glEnable", "	glBindTexture(GL_TEXTURE_2D, textures[1]);\n	glEnable"),
-                       ("	glBindTexture(GL_TEXTURE_2D, textures[1]);\n	glBegin", "	glBindTexture(GL_TEXTURE_2D, textures[0]);\n	glBegin")],
-    "texture off by one texel": [("glTexCoord2f(corners[i][0] / 4,", "glTexCoord2f(corners[i][0] / 4 + 1.0f / TEXELS,")],
-    "texture not filtered": [("GL_TEXTURE_MAG_FILTER, i ? GL_NEAREST : GL_LINEAR", "GL_TEXTURE_MAG_FILTER, GL_NEAREST")],
+    "wrong textures": [("	glBindTexture(GL_TEXTURE_2D, textures[0]);\n	glEnable",
+                        "	glBindTexture(GL_TEXTURE_2D, textures[1]);\n	glEnable"),
+                       ("	glBindTexture(GL_TEXTURE_2D, textures[1]);\n	glBegin",
+                        "	glBindTexture(GL_TEXTURE_2D, textures[0]);\n	glBegin")],
+    "texture off by one texel": [("glTexCoord2f(corners[i][0] / 4,", "glTexCoord2f(corners[i][0] / 4 + 1.0f / TEXELS,")
+                                 ],
+    "texture not filtered": [("GL_TEXTURE_MAG_FILTER, i ? GL_NEAREST : GL_LINEAR", "GL_TEXTURE_MAG_FILTER, GL_NEAREST")
+                             ],
     "texture clamped, not repeated": [("GL_TEXTURE_WRAP_S, GL_REPEAT", "GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE")],
     "texture replaces, not modulates": [("GL_MODULATE", "GL_REPLACE")],
     "swapped winding": [("glFrontFace(GL_CCW)", "glFrontFace(GL_CW)")],
@@ -70,7 +79,8 @@ class Repository:
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
         nobody = {f"GIT_{who}_{what}": "show-ci" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
-        self.environment = dict(os.environ, GIT_CONFIG_GLOBAL=os.devnull, GIT_CONFIG_SYSTEM=os.devnull, STEP=str(ROOT / "tests/show/ci_step.py"), **nobody,
+        self.environment = dict(os.environ, GIT_CONFIG_GLOBAL=os.devnull, GIT_CONFIG_SYSTEM=os.devnull,
+                                STEP=str(ROOT / "tests/show/ci_step.py"), **nobody,
                                 LD_PRELOAD=str(build.resolve() / "tests/real/step_shim.so"))
         self.log = open(build / "show/ci.log", "w", encoding="utf-8")
         for name in ("still_life.c", "program.h"):
@@ -87,8 +97,8 @@ class Repository:
 
     def run(self, *command, codes=(0,)):
         command = [str(word) for word in command]
-        done = subprocess.run(command, cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              text=True, check=False)
+        done = subprocess.run(command, cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         self.log.write(f"$ {' '.join(command)}\n{done.stdout}exit code {done.returncode}\n")
         self.log.flush()
         if codes and done.returncode not in codes:
@@ -157,7 +167,8 @@ def harmless(r, name):
     else:
         r.write("renderer", f"harmless {name}\n")
     r.ci()
-    told = {"more": [], "baseline": False} if name in HARMLESS else json.loads((r.folder / "ci/s/varied.json").read_text(encoding="utf-8"))
+    told = {"more": [], "baseline": False} if name in HARMLESS else json.loads(
+        (r.folder / "ci/s/varied.json").read_text(encoding="utf-8"))
     if told["more"]:
         option, config = told["more"]
         assert option == "--config"
@@ -175,14 +186,16 @@ def touched(build):
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "data").mkdir(parents=True)
     for words in (("-shared", "-fPIC", "-DFACING=1", "-o", "libshape.so", "ci_shape.c"),
-                  ("-DSHINE=0", "-o", "viewer", "ci_viewer.c", "-L.", "-lshape", "-Wl,-rpath,$ORIGIN", "-lglut", "-lGL", "-lm")):
+                  ("-DSHINE=0", "-o", "viewer", "ci_viewer.c", "-L.", "-lshape", "-Wl,-rpath,$ORIGIN", "-lglut", "-lGL",
+                   "-lm")):
         words = [str(ROOT / "tests/real" / word) if word.endswith(".c") else word for word in words]
         subprocess.run(["cc", *words], cwd=folder, check=True)
     (folder / "model.obj").write_text("-1 -1 1 -1 0 1\n", encoding="utf-8")
     (folder / "hidden.dat").write_text("1\n", encoding="utf-8")
     (folder / "start").write_text("#!/bin/sh\nexec ./viewer model.obj 1\n", encoding="utf-8")
     (folder / "start").chmod(0o755)
-    for command in (("./viewer", "model.obj", "1"), ("./start",), ("env", "VIEWER_GREEN=0.5", "./viewer", "model.obj", "1")):
+    for command in (("./viewer", "model.obj", "1"), ("./start", ), ("env", "VIEWER_GREEN=0.5", "./viewer", "model.obj",
+                                                                    "1")):
         program = ci_touched.Touched((build / "relume").resolve(), folder, *command)
         for path in (None, *ci_touched.opened(command, folder)):
             if path and not program.can_touch(path):
@@ -191,7 +204,8 @@ def touched(build):
             verdict = program.verdict(path)
             wrong += [path] if verdict else []
             n += 1
-            print(f"{'WRONG' if verdict else 'ok   '} {' '.join(command)}: {path or 'nothing'} touched {verdict}", flush=True)
+            print(f"{'WRONG' if verdict else 'ok   '} {' '.join(command)}: {path or 'nothing'} touched {verdict}",
+                  flush=True)
         shutil.rmtree(program.kept)
     if skipped:
         print(f"{skipped} files were not touched: this system lets nobody mount")
@@ -202,23 +216,32 @@ def main(build, only):
     shown = Shown(build, "ci")
     if not only or "touched" in only:
         wrong, n = touched(build) if shutil.which("strace") else ([], 0)
-        shown.row("touched files: wrong verdicts", f"{len(wrong)} of {n}" if n else "there is no strace", "0", not wrong if n else None)
+        shown.row("touched files: wrong verdicts", f"{len(wrong)} of {n}" if n else "there is no strace", "0",
+                  not wrong if n else None)
         if only == ["touched"]:
             return shown.finish()
     r = Repository(build)
-    names = [[name for name, *_ in kind if not only or any(part in name for part in only)] for kind in (faults.FAULTS, faults.HARMLESS)]
+    names = [[name
+              for name, *_ in kind
+              if not only or any(part in name
+                                 for part in only)]
+             for kind in (faults.FAULTS, faults.HARMLESS)]
     found = {}
     for kind, judge, right in zip(names, (fault, harmless), ("changed", 0)):
         for name in kind:
             begin = time.monotonic()
             what = judge(r, name)
             found[judge, name] = what == right
-            print(f"{'ok   ' if what == right else 'WRONG'} {name:40} {what}, {time.monotonic() - begin:.1f} s", flush=True)
-    for kind, judge, what, least in zip(names, (fault, harmless), ("faults that git bisect finds at their commit", "harmless changes that pass"), (40, 20)):
+            print(f"{'ok   ' if what == right else 'WRONG'} {name:40} {what}, {time.monotonic() - begin:.1f} s",
+                  flush=True)
+    for kind, judge, what, least in zip(names, (fault, harmless),
+                                        ("faults that git bisect finds at their commit", "harmless changes that pass"),
+                                        (40, 20)):
         if only and not kind:
             continue
         n = sum(found[judge, name] for name in kind)
-        shown.row(what, f"{n} of {len(kind)}", f"all{'' if only else f', at least {least}'}", n == len(kind) and (bool(only) or n >= least))
+        shown.row(what, f"{n} of {len(kind)}", f"all{'' if only else f', at least {least}'}", n == len(kind)
+                  and (bool(only) or n >= least))
     return shown.finish()
 
 

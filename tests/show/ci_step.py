@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/ci_step.py RELUME VERB ARGUMENTS...: `relume render` or `relume diff` as show-ci has them in the folder where it runs.
+"""tests/show/ci_step.py RELUME VERB ARGUMENTS...: `relume render` or `relume diff` as show-ci has them in the folder
+where it runs.
 
-A file called "renderer" there names what of faults.py is wrong with the renderer ("fault NAME"), or is not ("harmless NAME"): the frame is
-rendered, then what belongs to that name is done to it. What variations need besides goes into varied.json beside the frames' folder.
+A file called "renderer" there names what of faults.py is wrong with the renderer ("fault NAME"), or is not ("harmless
+NAME"): the frame is rendered, then what belongs to that name is done to it. What variations need besides goes into
+varied.json beside the frames' folder.
 """
 import json
 import os

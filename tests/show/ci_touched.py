@@ -1,4 +1,5 @@
-"""Which files of a program does `relume ci --when-changed` notice? Each file that the program opens, as strace lists it, is touched alone."""
+"""Which files of a program does `relume ci --when-changed` notice? Each file that the program opens, as strace lists
+it, is touched alone."""
 import os
 import pathlib
 import re
@@ -12,8 +13,8 @@ NOT_WATCHED = "what the program opens beyond these is not watched: name it with 
 
 
 def on_display(*command, cwd, **more):
-    return subprocess.run([ROOT / "tests/xvfb.sh", *map(str, command)], cwd=cwd, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          text=True, check=False, timeout=300, **more)
+    return subprocess.run([ROOT / "tests/xvfb.sh", *map(str, command)], cwd=cwd, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, timeout=300, **more)
 
 
 def opened(command, cwd):
@@ -24,13 +25,15 @@ def opened(command, cwd):
     calls = OPENED.findall(log.read_text(errors="replace"))
     written = {os.path.realpath(cwd / path) for _, path, how in calls if re.search("O_(WRONLY|RDWR|CREAT)", how)}
     read = {os.path.realpath(cwd / path) for _, path, _ in calls} - written
-    return sorted(path for path in read if os.path.isfile(path) and not path.startswith(SYSTEM) and not path.startswith(str(log)))
+    return sorted(path for path in read
+                  if os.path.isfile(path) and not path.startswith(SYSTEM) and not path.startswith(str(log)))
 
 
 def own_mounts():
     """The command that gives another one mounts of its own; None where this system does not allow it."""
     command = ["unshare", "-m"] if os.geteuid() == 0 else ["unshare", "-rm"]
-    return command if subprocess.run([*command, "mount", "--bind", "/bin", "/bin"], stderr=subprocess.DEVNULL, check=False).returncode == 0 else None
+    return command if subprocess.run([*command, "mount", "--bind", "/bin", "/bin"], stderr=subprocess.DEVNULL,
+                                     check=False).returncode == 0 else None
 
 
 class Touched:
@@ -49,7 +52,8 @@ class Touched:
 
     def run(self, before=()):
         """With another file in place of one, where `before` mounts it."""
-        return on_display(*before, self.relume, "ci", "--when-changed", "-n", "p", "-f", "1", "-k", self.kept, "--", *self.command, cwd=self.folder).stdout
+        return on_display(*before, self.relume, "ci", "--when-changed", "-n", "p", "-f", "1", "-k", self.kept, "--",
+                          *self.command, cwd=self.folder).stdout
 
     def can_touch(self, path):
         return self.mounts or os.access(path, os.W_OK) and path.startswith(str(self.folder))

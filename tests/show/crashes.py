@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/crashes.py BUILD (as `make show-crashes`): two games on which the usual recorder crashes are recorded while they are played.
+"""tests/show/crashes.py BUILD (as `make show-crashes`): two games on which the usual recorder crashes are recorded
+while they are played.
 
-extremetuxracer in the race and foobillardplus, driven by xdotool. Each must end by its own means (SIGTERM), the trace be read to
-its end by apitrace, and its pictures, replayed by apitrace, equal those that the game itself showed, every fiftieth frame (the last
-of them are from the race and the shot). Needs a display: run under tests/xvfb.sh.
+extremetuxracer in the race and foobillardplus, driven by xdotool. Each must end by its own means (SIGTERM), the trace
+be read to its end by apitrace, and its pictures, replayed by apitrace, equal those that the game itself showed, every
+fiftieth frame (the last of them are from the race and the shot). Needs a display: run under tests/xvfb.sh.
 """
 import json
 import pathlib
@@ -29,8 +30,8 @@ def play(relume, name, trace):
     command = [relume, "record", "-o", trace, "--ref", "color", "--ref-every", EVERY]
     for variable in variables:
         command += ["--env", variable]
-    child = subprocess.Popen([str(c) for c in command + ["--", *program]], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                             stderr=subprocess.STDOUT, text=True, errors="replace")
+    child = subprocess.Popen([str(c) for c in command + ["--", *program]], stdin=subprocess.DEVNULL,
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
     for wait, key in script:
         if key:
             subprocess.run(["xdotool", "mousemove", "500", "400", "key", key], check=False)
@@ -48,15 +49,20 @@ def play(relume, name, trace):
 
 
 def compare(trace, build):
-    """(frames compared, frames that differ), every fiftieth frame but the first; glretrace has a visual like the game's."""
-    said = subprocess.run(["apitrace", "dump", "--color=never", "--grep=StringMarker", trace], capture_output=True, text=True, check=True)
+    """(frames compared, frames that differ), every fiftieth frame but the first; glretrace has a visual like the
+    game's."""
+    said = subprocess.run(["apitrace", "dump", "--color=never", "--grep=StringMarker", trace], capture_output=True,
+                          text=True, check=True)
     bits = re.findall(r"relume:bits ([\d ]+)", said.stdout)
-    ends = subprocess.run(["apitrace", "dump", "--color=never", "--calls=frame", trace], capture_output=True, text=True, check=True)
+    ends = subprocess.run(["apitrace", "dump", "--color=never", "--calls=frame", trace], capture_output=True, text=True,
+                          check=True)
     calls = [line.split()[0] for line in ends.stdout.splitlines() if "SwapBuffers" in line]
     shown = {n: picture for n, picture in reference_frames(trace.with_suffix(".ref")).items() if n and n < len(calls)}
     chosen = sorted(shown)
-    run = subprocess.run(["apitrace", "replay", "--headless", "-S", ",".join(calls[n] for n in chosen), "-s", "-", trace],
-                         env=with_visual(bits[-1] if bits else "", build), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+    run = subprocess.run(
+        ["apitrace", "replay", "--headless", "-S", ",".join(calls[n] for n in chosen), "-s", "-", trace],
+        env=with_visual(bits[-1] if bits else "",
+                        build), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
     at, differ = 0, 0
     for n in chosen:
         head = PICTURE.search(run.stdout, at)
@@ -78,11 +84,14 @@ def main(build):
         ended, (frames, calls) = play(build / "relume", name, trace)
         compared, differ = compare(trace, build) if frames else (0, 0)
         passed = ended and compared > 2 and not differ
-        rows.append({"what": f"{name}, played", "bar": "records, replays, 0 pictures differ", "peer": "apitrace trace crashes",
-                     "figure": f"{frames} frames, {calls} calls; {differ} of {compared} pictures differ" + ("" if ended else "; it crashed"),
-                     "passed": passed})
+        rows.append({
+            "what": f"{name}, played", "bar": "records, replays, 0 pictures differ", "peer": "apitrace trace crashes",
+            "figure": f"{frames} frames, {calls} calls; {differ} of {compared} pictures differ" +
+            ("" if ended else "; it crashed"), "passed": passed
+        })
         print(f"{'holds' if passed else 'FAILS'}  {name}: {rows[-1]['figure']}", flush=True)
-    (build / "show" / "crashes.json").write_text(json.dumps({"name": "crashes", "command": "make show-crashes", "rows": rows}, indent=1) + "\n")
+    (build / "show" / "crashes.json"
+     ).write_text(json.dumps({"name": "crashes", "command": "make show-crashes", "rows": rows}, indent=1) + "\n")
     return 0 if all(row["passed"] for row in rows) else 1
 
 

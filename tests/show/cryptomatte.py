@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/cryptomatte.py BUILD (as `make show-cryptomatte`): mattes that Blender's compositor makes of our frames, beside channel id.
+"""tests/show/cryptomatte.py BUILD (as `make show-cryptomatte`): mattes that Blender's compositor makes of our frames,
+beside channel id.
 
-Two programs are recorded and rendered with --aov cryptomatte. Blender's Cryptomatte node takes each object of the three manifests by its
-name. A draw's matte must be 1 where channel id has its number, else 0; a mesh's and a texture's where `relume scene` has draws with them.
+Two programs are recorded and rendered with --aov cryptomatte. Blender's Cryptomatte node takes each object of the three
+manifests by its name. A draw's matte must be 1 where channel id has its number, else 0; a mesh's and a texture's where
+`relume scene` has draws with them.
 """
 import json
 import pathlib
@@ -21,7 +23,8 @@ SIZE = "160x120"
 
 
 def run(*command):
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, errors="replace", check=False)
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, errors="replace",
+                          check=False)
     if done.returncode:
         sys.exit(f"{command[0]} exits with {done.returncode}:\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
     return done.stdout
@@ -30,7 +33,9 @@ def run(*command):
 def manifests(image):
     """{layer: [names]}"""
     text = {key: value[1].decode() for key, value in image.header.items() if key.startswith("cryptomatte/")}
-    return {text[key]: list(json.loads(text[key.replace("/name", "/manifest")])) for key in text if key.endswith("/name")}
+    return {
+        text[key]: list(json.loads(text[key.replace("/name", "/manifest")])) for key in text if key.endswith("/name")
+    }
 
 
 def draws_of(scene, layer, name):
@@ -39,11 +44,15 @@ def draws_of(scene, layer, name):
         material = scene["materials"][instance["material"]]
         if layer == "CryptoMesh":
             return scene["meshes"][instance["mesh"]]["hash"]
-        return scene["textures"][scene["units"][material["unit_first"]]["texture"]]["hash"] if material["unit_count"] else "untextured"
+        return scene["textures"][scene["units"][material["unit_first"]]
+                                 ["texture"]]["hash"] if material["unit_count"] else "untextured"
     if layer == "CryptoDraw":
         return {int(name.split()[1])}
     first = [instance["draw"] for instance in scene["instances"]] + [scene["n_draws"] + 1]
-    return {draw for i, instance in enumerate(scene["instances"]) if of(instance) == name for draw in range(first[i], first[i + 1])}
+    return {
+        draw for i, instance in enumerate(scene["instances"]) if of(instance) == name
+        for draw in range(first[i], first[i + 1])
+    }
 
 
 def compare(build, program):
@@ -57,8 +66,8 @@ def compare(build, program):
         image = Image(frame)
         names = manifests(image)
         wanted.write_text(json.dumps(names))
-        said = run("blender", "--background", "--factory-startup", "--python", ROOT / "tests/show/cryptomatte_in_blender.py", "--",
-                   frame, wanted, folder / "mattes")
+        said = run("blender", "--background", "--factory-startup", "--python",
+                   ROOT / "tests/show/cryptomatte_in_blender.py", "--", frame, wanted, folder / "mattes")
         told = re.search(r"^MATTES (.*)$", said, re.MULTILINE)
         if not told:
             sys.exit(f"Blender made no mattes:\n{said[-1500:]}")
@@ -85,11 +94,14 @@ def main(build):
         for layer, objects, wrong in found:
             print(f"{name + ', ' + layer:32}{objects:9}{wrong:20}", flush=True)
             good &= wrong == 0
-            rows.append({"what": f"{name}, {layer}: pixels of {objects} mattes that are not the frame's", "figure": wrong, "bar": 0,
-                         "peer": f"Blender {version}", "passed": wrong == 0})
+            rows.append({
+                "what": f"{name}, {layer}: pixels of {objects} mattes that are not the frame's", "figure": wrong,
+                "bar": 0, "peer": f"Blender {version}", "passed": wrong == 0
+            })
     out = build / "show" / "cryptomatte.json"
     out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_text(json.dumps({"name": "cryptomatte", "command": "make show-cryptomatte", "rows": rows}, indent=1) + "\n")
+    out.write_text(
+        json.dumps({"name": "cryptomatte", "command": "make show-cryptomatte", "rows": rows}, indent=1) + "\n")
     return 0 if good else 1
 
 

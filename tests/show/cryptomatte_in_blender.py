@@ -1,6 +1,7 @@
 """Run inside Blender: mattes of objects by the compositor's Cryptomatte node.
 
-Arguments after --: an OpenEXR file, a JSON file with {layer: [names]}, the folder for the mattes: LAYER.N.exr for the N-th name.
+Arguments after --: an OpenEXR file, a JSON file with {layer: [names]}, the folder for the mattes: LAYER.N.exr for the
+N-th name.
 """
 import json
 import pathlib

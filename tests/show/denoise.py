@@ -1,16 +1,18 @@
 #!/usr/bin/python3
-"""tests/show/denoise.py BUILD [--quick] (as `make show-denoise`): 16 samples denoised against many, beside no denoiser and OIDN.
+"""tests/show/denoise.py BUILD [--quick] (as `make show-denoise`): 16 samples denoised against many, beside no denoiser
+and OIDN.
 
-Runs in a virtual environment that has Intel's Open Image Denoise (pyoidn) and NVIDIA's FLIP (flip-evaluator). All denoisers get the same
-file: OIDN its beauty, albedo and normals. FLIP is the mean over the picture, of sRGB codes.
+Runs in a virtual environment that has Intel's Open Image Denoise (pyoidn) and NVIDIA's FLIP (flip-evaluator). All
+denoisers get the same file: OIDN its beauty, albedo and normals. FLIP is the mean over the picture, of sRGB codes.
 
-Flicker, over FRAMES frames of a camera and of a light that move: FLIP of each frame against what it would be with the error of the frame before.
-An error that stays where it is does not flicker.
+Flicker, over FRAMES frames of a camera and of a light that move: FLIP of each frame against what it would be with the
+error of the frame before. An error that stays where it is does not flicker.
 
 `relume denoise --oidn` and `relume render --oidn`, which is confined, load the same OIDN: their pictures are its own.
 
-Bars: each still picture, denoised, is no farther from the truth than 1.1 times what OIDN leaves; in both films it flickers less than without
-a denoiser, and with frames before and after less than without; --oidn departs from OIDN by at most 1 / 1000.
+Bars: each still picture, denoised, is no farther from the truth than 1.1 times what OIDN leaves; in both films it
+flickers less than without a denoiser, and with frames before and after less than without; --oidn departs from OIDN by
+at most 1 / 1000.
 """
 import json
 import os
@@ -26,13 +28,17 @@ from display import need_display
 from exr_numpy import Image
 
 SIZE, FILM_SIZE = "128x96", "64x48"
-SCENES = {"box": ("cornell", []), "spheres": ("spheres", []), "still life": ("still_life", []), "box, mirror": ("cornell", ["--mirror"])}
+SCENES = {
+    "box": ("cornell", []), "spheres": ("spheres", []), "still life": ("still_life", []),
+    "box, mirror": ("cornell", ["--mirror"])
+}
 FILMS = {"camera": ["--animate", "camera"], "light": ["--animate", "light"]}
 SAMPLES, MANY, FILM_MANY, FRAMES = 16, 4096, 256, 48
 
 
 def run(*command, env=None):
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, errors="replace", check=False, env=env)
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, errors="replace",
+                          check=False, env=env)
     if done.returncode:
         sys.exit(f"{command[0]} exits with {done.returncode}:\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
 
@@ -56,20 +62,24 @@ def flip(truth, picture):
 
 
 def by_oidn(path):
-    return pyoidn.denoise(colors(path), albedo=planes(path, *(f"albedo.{c}" for c in "RGB")), normal=planes(path, *(f"N.{c}" for c in "XYZ")), hdr=True)
+    return pyoidn.denoise(colors(path), albedo=planes(path, *(f"albedo.{c}" for c in "RGB")),
+                          normal=planes(path, *(f"N.{c}" for c in "XYZ")), hdr=True)
 
 
 def flicker(truths, pictures):
     """The error of each frame, put on the truth of the next, beside the next."""
-    return float(numpy.mean([flip(truths[i + 1] + pictures[i] - truths[i], pictures[i + 1]) for i in range(len(truths) - 1)]))
+    return float(
+        numpy.mean([flip(truths[i + 1] + pictures[i] - truths[i], pictures[i + 1]) for i in range(len(truths) - 1)]))
 
 
 def record(build, folder, program, size, frames, options):
-    run(build / "relume", "record", "-o", folder / "x.trace", "--", build / "corpus" / program, "--frames", frames + 1, "--size", size, *options)
+    run(build / "relume", "record", "-o", folder / "x.trace", "--", build / "corpus" / program, "--frames", frames + 1,
+        "--size", size, *options)
 
 
 def render(build, folder, name, frames, samples, *more, env=None):
-    run(build / "relume", "render", folder / "x.trace", "-f", frames, "-o", folder / name, "--mode", "path", "--samples", samples, *more, env=env)
+    run(build / "relume", "render", folder / "x.trace", "-f", frames, "-o", folder / name, "--mode", "path",
+        "--samples", samples, *more, env=env)
 
 
 def loaded(build, rows):
@@ -84,15 +94,23 @@ def loaded(build, rows):
         own, noisy = by_oidn(folder / "noisy.exr"), colors(folder / "noisy.exr")
         most = {n: float(numpy.abs(colors(folder / f"{n}.exr") - own).max()) for n in ("render", "denoise")}
     passed = max(most.values()) <= 1e-3 < float(numpy.abs(noisy - own).max())
-    print(f"\n--oidn departs from OIDN by {most['render']:.5f} in relume render, by {most['denoise']:.5f} in relume denoise, at most", flush=True)
-    rows.append({"what": "--oidn beside OIDN itself, most of any pixel: render; denoise", "figure": f"{most['render']:.5f}; {most['denoise']:.5f}",
-                 "bar": "0.001", "peer": None, "passed": passed})
+    print(
+        f"\n--oidn departs from OIDN by {most['render']:.5f} in relume render, by {most['denoise']:.5f} in relume "
+        f"denoise, at most",
+        flush=True)
+    rows.append({
+        "what": "--oidn beside OIDN itself, most of any pixel: render; denoise",
+        "figure": f"{most['render']:.5f}; {most['denoise']:.5f}", "bar": "0.001", "peer": None, "passed": passed
+    })
     return passed
 
 
 def stills(build, many, rows):
     good = True
-    print(f"{'FLIP at ' + SIZE:16}{'noisy':>9}{'ours':>9}{'OIDN':>9}{'OIDN, no guides':>17}   mean squared errors: noisy, ours, OIDN")
+    print(
+        f"{'FLIP at ' + SIZE:16}{'noisy':>9}{'ours':>9}{'OIDN':>9}{'OIDN, no guides':>17}   mean squared errors: "
+        f"noisy, ours, OIDN"
+    )
     for name, (program, options) in SCENES.items():
         with tempfile.TemporaryDirectory(prefix="relume-") as scratch:
             folder = pathlib.Path(scratch)
@@ -106,15 +124,24 @@ def stills(build, many, rows):
         squares = [float(((p - truth) ** 2).mean()) for p in (noisy, clean, oidn)]
         passed = figures[1] <= 1.1 * figures[2]
         good &= passed
-        print(f"{name:16}{figures[0]:9.4f}{figures[1]:9.4f}{figures[2]:9.4f}{figures[3]:17.4f}   {', '.join(f'{s:.6f}' for s in squares)}", flush=True)
-        rows.append({"what": f"{name}: FLIP of {SAMPLES} samples denoised against {many}", "figure": f"{figures[1]:.4f}", "bar": f"{1.1 * figures[2]:.4f}",
-                     "peer": f"OIDN {figures[2]:.4f} (without guides {figures[3]:.4f}); noisy {figures[0]:.4f}", "passed": passed})
+        print(
+            f"{name:16}{figures[0]:9.4f}{figures[1]:9.4f}{figures[2]:9.4f}{figures[3]:17.4f}   "
+            f"{', '.join(f'{s:.6f}' for s in squares)}",
+            flush=True)
+        rows.append({
+            "what": f"{name}: FLIP of {SAMPLES} samples denoised against {many}", "figure": f"{figures[1]:.4f}",
+            "bar": f"{1.1 * figures[2]:.4f}",
+            "peer": f"OIDN {figures[2]:.4f} (without guides {figures[3]:.4f}); noisy {figures[0]:.4f}", "passed": passed
+        })
     return good
 
 
 def films(build, many, frames, rows):
     good = True
-    print(f"\n{f'flicker, {frames} frames':16}{'noisy':>9}{'alone':>9}{'in time':>9}{'OIDN':>9}   FLIP: noisy, alone, in time, OIDN")
+    print(
+        f"\n{f'flicker, {frames} frames':16}{'noisy':>9}{'alone':>9}{'in time':>9}{'OIDN':>9}   FLIP: noisy, alone, "
+        f"in time, OIDN"
+    )
     for name, options in FILMS.items():
         with tempfile.TemporaryDirectory(prefix="relume-") as scratch:
             folder, span = pathlib.Path(scratch), f"1-{frames}"
@@ -123,16 +150,26 @@ def films(build, many, frames, rows):
             render(build, folder, "noisy/####.exr", span, SAMPLES, "--aov", "reflect,refract,albedo,N,Z,motion")
             run(build / "relume", "denoise", folder / "noisy", "-o", folder / "alone/####.exr", "--no-time")
             run(build / "relume", "denoise", folder / "noisy", "-o", folder / "time/####.exr")
-            told = {n: [colors(folder / n / f"{i:04}.exr") for i in range(1, frames + 1)] for n in ("truth", "noisy", "alone", "time")}
+            told = {
+                n: [colors(folder / n / f"{i:04}.exr")
+                    for i in range(1, frames + 1)]
+                for n in ("truth", "noisy", "alone", "time")
+            }
             told["oidn"] = [by_oidn(folder / "noisy" / f"{i:04}.exr") for i in range(1, frames + 1)]
         kinds = ("noisy", "alone", "time", "oidn")
         figures = {n: flicker(told["truth"], told[n]) for n in kinds}
         means = [float(numpy.mean([flip(t, p) for t, p in zip(told["truth"], told[n])])) for n in kinds]
         passed = figures["time"] < figures["alone"] < figures["noisy"]
         good &= passed
-        print(f"{name:16}" + "".join(f"{figures[n]:9.4f}" for n in kinds) + "   " + ", ".join(f"{m:.4f}" for m in means), flush=True)
-        rows.append({"what": f"flicker over {frames} frames, moving {name}: alone; in time", "figure": f"{figures['alone']:.4f}; {figures['time']:.4f}",
-                     "bar": f"below {figures['noisy']:.4f}; below alone", "peer": f"OIDN {figures['oidn']:.4f}; noisy {figures['noisy']:.4f}", "passed": passed})
+        print(
+            f"{name:16}" + "".join(f"{figures[n]:9.4f}" for n in kinds) + "   " + ", ".join(f"{m:.4f}" for m in means),
+            flush=True)
+        rows.append({
+            "what": f"flicker over {frames} frames, moving {name}: alone; in time",
+            "figure": f"{figures['alone']:.4f}; {figures['time']:.4f}",
+            "bar": f"below {figures['noisy']:.4f}; below alone",
+            "peer": f"OIDN {figures['oidn']:.4f}; noisy {figures['noisy']:.4f}", "passed": passed
+        })
     return good
 
 

@@ -1,17 +1,19 @@
 #!/usr/bin/python3
-"""tests/show/devices.py BUILD [--only PART]... (as `make show-devices`): the same pictures on every OpenCL implementation.
+"""tests/show/devices.py BUILD [--only PART]... (as `make show-devices`): the same pictures on every OpenCL
+implementation.
 
-Eight programs are recorded, rendered with each family of traversal kernels on PoCL and on Intel's runtime for CPUs, each compiling
-for AVX-512 (where the processor has it) and for AVX2, and scored: all gates on the last frames. The family of a line "no options" is
-what `relume render` takes there by itself. Times are processor time, which other work on the machine makes longer: where a bar is
-missed, the least of TRIES counts.
+Eight programs are recorded, rendered with each family of traversal kernels on PoCL and on Intel's runtime for CPUs,
+each compiling for AVX-512 (where the processor has it) and for AVX2, and scored: all gates on the last frames. The
+family of a line "no options" is what `relume render` takes there by itself. Times are processor time, which other work
+on the machine makes longer: where a bar is missed, the least of TRIES counts.
 
-  cold, kept  a whole run for one frame of the Cornell box, from an empty cache and once more; of it, kernels
-  slowest     the file that took longest to compile, or the kernel where that is compiled once it runs (tests/real/build_shim.c)
+  cold, kept  a whole run for one frame of the Cornell box, from an empty cache and once more; of it, kernels slowest
+  the file that took longest to compile, or the kernel where that is compiled once it runs (tests/real/build_shim.c)
   ms a frame  of each program: what its frames take after the first one, the replay between them counted
 
 Oclgrind interprets kernels and rusticl (Mesa's llvmpipe) is young: `relume devices --check` tells how far these come.
-Recordings stay in BUILD/show/parity, which `make show-parity` uses as well; --only takes parts of implementations' names.
+Recordings stay in BUILD/show/parity, which `make show-parity` uses as well; --only takes parts of implementations'
+names.
 """
 import argparse
 import dataclasses
@@ -80,9 +82,13 @@ def implementations(build, base):
     if wide:
         yield Implementation("PoCL, AVX-512", pocl, True)
     yield Implementation("PoCL, AVX2", pocl, True, shim if wide else ())
-    yield Implementation("Oclgrind", {**vendor_folder(base / "vendors-oclgrind", "/usr/lib/oclgrind/liboclgrind-rt-icd.so"),
-                                      "OCLGRIND_BUILD_OPTIONS": "-cl-opt-disable -D LANES_PORTABLE"}, False)
-    yield Implementation("rusticl", {**vendor_folder(base / "vendors-rusticl", "libRusticlOpenCL.so.1"), "RUSTICL_ENABLE": "llvmpipe"}, False)
+    yield Implementation(
+        "Oclgrind", {
+            **vendor_folder(base / "vendors-oclgrind", "/usr/lib/oclgrind/liboclgrind-rt-icd.so"), "OCLGRIND_BUILD_OPTIONS": "-cl-opt-disable -D LANES_PORTABLE"
+        }, False)
+    yield Implementation(
+        "rusticl", {**vendor_folder(base / "vendors-rusticl", "libRusticlOpenCL.so.1"), "RUSTICL_ENABLE": "llvmpipe"},
+        False)
 
 
 class Runner:
@@ -95,35 +101,39 @@ class Runner:
         self.folder.mkdir(parents=True)
         self.log = self.folder / "builds"
         self.caches = self.folder / "cache", self.folder / "pocl"
-        self.environment = dict(os.environ, **implementation.environment, BUILD_LOG=str(self.log), XDG_CACHE_HOME=str(self.caches[0]),
-                                POCL_CACHE_DIR=str(self.caches[1]),
+        self.environment = dict(os.environ, **implementation.environment, BUILD_LOG=str(self.log),
+                                XDG_CACHE_HOME=str(self.caches[0]), POCL_CACHE_DIR=str(self.caches[1]),
                                 LD_PRELOAD=":".join((str(build / "tests/real/build_shim.so"), *implementation.preload)))
 
     def run(self, *command, **more):
         """Exit code, lines of output, errors, and the processor time that was used when each line came."""
         errors, out, used = self.folder / "errors", [], []
         with open(errors, "w") as file:
-            process = subprocess.Popen([str(a) for a in command], env=dict(self.environment, **more), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                       stderr=file, text=True, errors="replace")
+            process = subprocess.Popen([str(a) for a in command], env=dict(self.environment,
+                                                                           **more), stdin=subprocess.DEVNULL,
+                                       stdout=subprocess.PIPE, stderr=file, text=True, errors="replace")
         late = threading.Timer(LIMIT_S, process.kill)
         late.start()
         for line in process.stdout:
-            used.append(time.clock_gettime(~process.pid << 3 | 2))  # the process' clock, as clock_getcpuclockid() names it
+            used.append(time.clock_gettime(~process.pid << 3
+                                           | 2))  # the process' clock, as clock_getcpuclockid() names it
             out.append(line)
         code = process.wait()
         late.cancel()
         return code, out, errors.read_text(errors="replace"), used
 
     def render(self, trace, frames, **more):
-        """Exit code, what was said last, processor time at the end of each frame and of all; {file or kernel: seconds} of what was built.
+        """Exit code, what was said last, processor time at the end of each frame and of all; {file or kernel: seconds}
+        of what was built.
 
         Without the sandbox: the shim writes a file of its own.
         """
         self.log.unlink(missing_ok=True)
         pictures = self.folder / "x"
         shutil.rmtree(pictures, ignore_errors=True)
-        code, lines, err, used = self.run(self.relume, "render", trace, "-f", ",".join(map(str, frames)), "-j", 1, "--progress", "json",
-                                          "--no-sandbox", "-o", pictures / "x.####.exr", *(("--kernels", self.family) if self.family else ()), **more)
+        code, lines, err, used = self.run(self.relume, "render", trace, "-f", ",".join(map(str, frames)), "-j", 1,
+                                          "--progress", "json", "--no-sandbox", "-o", pictures / "x.####.exr",
+                                          *(("--kernels", self.family) if self.family else ()), **more)
         built = {}
         for line in self.log.read_text().splitlines() if self.log.exists() else ():
             how, seconds, kernels = (line + " ").split(" ", 2)
@@ -151,7 +161,9 @@ class Runner:
     def score(self, reference, frames):
         """The gates that frames do not pass; "" where they pass all."""
         try:
-            scored = json.loads("".join(self.run(self.relume, "diff", reference, self.folder / "x", "-f", ",".join(map(str, frames)), "--json", "-")[1]))
+            scored = json.loads("".join(
+                self.run(self.relume, "diff", reference, self.folder / "x", "-f", ",".join(map(str, frames)), "--json",
+                         "-")[1]))
         except ValueError:
             return "not scored"
         missed = sorted({gate for frame in scored["frames"] for gate in scoring.missed_gates(frame, scoring.GATES)})
@@ -181,7 +193,8 @@ def show_family(build, base, implementation, family, recordings, table):
     rows = []
 
     def row(text, figure, bar, passed):
-        rows.append({"what": f"{what}: {text}", "figure": figure, "bar": bar, "peer": None, "passed": passed if bar else None})
+        rows.append(
+            {"what": f"{what}: {text}", "figure": figure, "bar": bar, "peer": None, "passed": passed if bar else None})
         print(f"{rows[-1]['what']}: {figure}" + (f" (bar: {bar})" if rows[-1]["bar"] else ""), flush=True)
 
     cornell = recordings["Cornell"]
@@ -190,18 +203,22 @@ def show_family(build, base, implementation, family, recordings, table):
     if code:
         row("first frame of the Cornell box", f"exit code {code}: {said}", f"at most {COLD_S} s", False)
         return rows
-    _, _, kept_s, found = runner.start(cornell.trace, cornell.references[0], lambda _, found: sum(found.values()) <= WARM_S, False)
+    _, _, kept_s, found = runner.start(cornell.trace, cornell.references[0],
+                                       lambda _, found: sum(found.values()) <= WARM_S, False)
     slowest = max(built, key=built.get)
-    row("first frame from an empty cache", f"{cold_s:.1f} s, kernels {sum(built.values()):.1f} s", f"at most {COLD_S} s", cold_s <= COLD_S)
-    row("the same again", f"{kept_s:.2f} s, kernels {sum(found.values()):.2f} s", f"kernels at most {WARM_S} s", sum(found.values()) <= WARM_S)
-    row("the file, or the kernel, that takes longest to compile", f"{built[slowest]:.1f} s ({slowest})", f"at most {FILE_S} s",
-        built[slowest] <= FILE_S)
+    row("first frame from an empty cache", f"{cold_s:.1f} s, kernels {sum(built.values()):.1f} s",
+        f"at most {COLD_S} s", cold_s <= COLD_S)
+    row("the same again", f"{kept_s:.2f} s, kernels {sum(found.values()):.2f} s", f"kernels at most {WARM_S} s",
+        sum(found.values()) <= WARM_S)
+    row("the file, or the kernel, that takes longest to compile", f"{built[slowest]:.1f} s ({slowest})",
+        f"at most {FILE_S} s", built[slowest] <= FILE_S)
     passed, missed, speeds = show_programs(runner, recordings)
     row("programs that pass all gates", f"{passed} of {len(recordings)}" + "".join(f"; {m}" for m in missed),
         f"{len(recordings)} of {len(recordings)}", passed == len(recordings))
     row("ms a frame", ", ".join(f"{name} {1e3 * s:.0f}" for name, s in speeds.items()), None, None)
-    table.append((what, f"{passed} of {len(recordings)}", f"{cold_s:.1f}", f"{built[slowest]:.1f}", f"{sum(found.values()):.2f}",
-                  *(f"{1e3 * speeds[name]:.0f}" if name in speeds else "-" for name in recordings)))
+    table.append(
+        (what, f"{passed} of {len(recordings)}", f"{cold_s:.1f}", f"{built[slowest]:.1f}", f"{sum(found.values()):.2f}",
+         *(f"{1e3 * speeds[name]:.0f}" if name in speeds else "-" for name in recordings)))
     return rows
 
 
@@ -210,7 +227,10 @@ def print_table(table, recordings):
     head = ("device, family", "gates", "cold s", "slowest s", "kept s", *(f"{name} ms" for name in recordings))
     widths = [max(len(line[i]) for line in (head, *table)) for i in range(len(head))]
     for line in (head, *table) if table else ():
-        print("  ".join(text.ljust(width) if i == 0 else text.rjust(width) for i, (text, width) in enumerate(zip(line, widths))), flush=True)
+        print(
+            "  ".join(
+                text.ljust(width) if i == 0 else text.rjust(width)
+                for i, (text, width) in enumerate(zip(line, widths))), flush=True)
 
 
 def show_checked(build, base, implementation):
@@ -225,11 +245,15 @@ def show_checked(build, base, implementation):
     for device in devices:
         for family in device["families"]:
             scenes = ", ".join(f"{scene} {state}" for scene, state in family["scenes"].items())
-            rows.append({"what": f"{implementation.name}, {family['kernels']}: relume devices --check, {CHECK_S} s a scene", "figure": scenes,
-                         "bar": None, "peer": None, "passed": None})
+            rows.append({
+                "what": f"{implementation.name}, {family['kernels']}: relume devices --check, {CHECK_S} s a scene",
+                "figure": scenes, "bar": None, "peer": None, "passed": None
+            })
     if not rows:
-        rows.append({"what": f"{implementation.name}: relume devices --check", "figure": f"exit code {code}: {err.strip()[-100:]}", "bar": None,
-                     "peer": None, "passed": None})
+        rows.append({
+            "what": f"{implementation.name}: relume devices --check",
+            "figure": f"exit code {code}: {err.strip()[-100:]}", "bar": None, "peer": None, "passed": None
+        })
     for row in rows:
         print(f"{row['what']}: {row['figure']}", flush=True)
     return rows
@@ -237,8 +261,10 @@ def show_checked(build, base, implementation):
 
 def record_all(build):
     """{name: recording}, or None in the place of one that cannot be made."""
-    listed = [programs.Program(name, "", (str(build / "corpus" / command[0]), *command[1:], "--frames", "8"), ref_every=1)
-              for name, command in CORPUS.items()]
+    listed = [
+        programs.Program(name, "", (str(build / "corpus" / command[0]), *command[1:], "--frames", "8"), ref_every=1)
+        for name, command in CORPUS.items()
+    ]
     listed += [program for program in programs.OPEN if program.name in LIVE]
     recordings = {}
     for program in listed:
@@ -269,7 +295,8 @@ def main():
         print(f"({implementation.name}: {time.monotonic() - begin:.0f} s)", flush=True)
     print_table(table, recordings)
     if not options.only:
-        (build / "show" / "devices.json").write_text(json.dumps({"name": "devices", "command": "make show-devices", "rows": rows}, indent=1) + "\n")
+        (build / "show" / "devices.json"
+         ).write_text(json.dumps({"name": "devices", "command": "make show-devices", "rows": rows}, indent=1) + "\n")
     return 1 if any(row["passed"] is False for row in rows) else 0
 
 

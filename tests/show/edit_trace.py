@@ -1,7 +1,7 @@
 """Change arguments of recorded calls, so that a trace says something else than the program did.
 
-The grammar is capture/format/trace.md. Only numbers and bytes are replaced where they stand; no call comes or goes, so that call
-numbers stay what they were.
+The grammar is capture/format/trace.md. Only numbers and bytes are replaced where they stand; no call comes or goes, so
+that call numbers stay what they were.
 """
 import pathlib
 import struct

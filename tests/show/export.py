@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""tests/show/export.py BUILD: frames exported as glTF and imported by Blender: everything arrives, and Blender says nothing.
+"""tests/show/export.py BUILD: frames exported as glTF and imported by Blender: everything arrives, and Blender says
+nothing.
 
 The recordings are those kept in tests/golden, and those of ../shared/traces where that folder is.
 """
@@ -17,8 +18,10 @@ FRAME = "5"
 
 
 def in_blender(files):
-    done = subprocess.run(["blender", "--background", "--factory-startup", "--python", ROOT / "tests/show/export_in_blender.py",
-                           "--", *files], capture_output=True, text=True, errors="replace")
+    done = subprocess.run([
+        "blender", "--background", "--factory-startup", "--python", ROOT / "tests/show/export_in_blender.py", "--",
+        *files
+    ], capture_output=True, text=True, errors="replace")
     found = [json.loads(line.split(" ", 1)[1]) for line in done.stdout.splitlines() if line.startswith("IMPORTED ")]
     if len(found) != len(files):
         sys.exit(f"Blender imported {len(found)} of {len(files)} files:\n{done.stdout}{done.stderr}")
@@ -37,11 +40,13 @@ def counts(glb):
 def main(build):
     rows, files, whole = [], [], []
     with tempfile.TemporaryDirectory(prefix="relume-") as scratch:
-        traces = sorted((ROOT / "tests/golden").glob("*.trace")) + sorted((ROOT.parent / "shared/traces").glob("*.trace"))
+        traces = sorted((ROOT / "tests/golden").glob("*.trace")) + sorted(
+            (ROOT.parent / "shared/traces").glob("*.trace"))
         for trace in traces:
             file = pathlib.Path(scratch, f"{trace.stem}.glb")
             frame = "1" if "golden" in trace.parts else FRAME
-            subprocess.run([build / "relume", "export", "-f", frame, "-o", file, trace], check=True, stderr=subprocess.DEVNULL)
+            subprocess.run([build / "relume", "export", "-f", frame, "-o", file, trace], check=True,
+                           stderr=subprocess.DEVNULL)
             files.append(file)
         for file, found in zip(files, in_blender(files)):
             expected = counts(Glb(file))
@@ -50,7 +55,8 @@ def main(build):
             whole.append(arrived and not said)
             figure = ", ".join(f"{found[key]} of {n} {key}" for key, n in expected.items()) + f", {len(said)} warnings"
             print(f"{file.stem}: {figure}" + "".join(f"\n    {line}" for line in said))
-            rows.append({"what": file.stem, "figure": figure, "bar": "all, 0 warnings", "peer": None, "passed": whole[-1]})
+            rows.append(
+                {"what": file.stem, "figure": figure, "bar": "all, 0 warnings", "peer": None, "passed": whole[-1]})
     version = subprocess.run(["blender", "--version"], capture_output=True, text=True).stdout.split("\n")[0]
     for row in rows:
         row["peer"] = version

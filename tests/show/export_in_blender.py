@@ -1,4 +1,5 @@
-"""Run inside Blender: import the .glb files named after "--"; one line of JSON each: what came in, and what was said."""
+"""Run inside Blender: import the .glb files named after "--"; one line of JSON each: what came in, and what was
+said."""
 import json
 import logging
 import sys
@@ -29,7 +30,13 @@ for path in sys.argv[sys.argv.index("--") + 1:]:
     except RuntimeError as error:
         said.append(str(error))
     meshes = [o.data for o in bpy.data.objects if o.type == "MESH"]
-    print("\nIMPORTED " + json.dumps({
-        "objects": len(meshes), "triangles": sum(len(p.vertices) - 2 for m in meshes for p in m.polygons),
-        "cameras": sum(o.type == "CAMERA" for o in bpy.data.objects), "lights": sum(o.type == "LIGHT" for o in bpy.data.objects),
-        "images": sum(i.has_data or i.size[0] > 0 for i in bpy.data.images), "said": said}), flush=True)
+    print(
+        "\nIMPORTED " + json.dumps({
+            "objects": len(meshes), "triangles": sum(len(p.vertices) - 2
+                                                     for m in meshes
+                                                     for p in m.polygons), "cameras": sum(o.type == "CAMERA"
+                                                                                          for o in bpy.data.objects),
+            "lights": sum(o.type == "LIGHT"
+                          for o in bpy.data.objects), "images": sum(i.has_data or i.size[0] > 0
+                                                                    for i in bpy.data.images), "said": said
+        }), flush=True)

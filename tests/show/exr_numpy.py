@@ -71,10 +71,11 @@ def write(path, image, compression="none"):
     names = sorted(image.planes)
     height, width = image.planes[names[0]].shape
     window = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    chlist = b"".join(n.encode() + b"\0" + struct.pack("<iB3xii", 1 if image.planes[n].dtype == DTYPES[1] else 2, 0, 1, 1)
-                      for n in names) + b"\0"
-    header = dict(image.header, channels=("chlist", chlist), dataWindow=("box2i", window), displayWindow=("box2i", window),
-                  compression=("compression", bytes([COMPRESSIONS[compression]])))
+    chlist = b"".join(
+        n.encode() + b"\0" + struct.pack("<iB3xii", 1 if image.planes[n].dtype == DTYPES[1] else 2, 0, 1, 1)
+        for n in names) + b"\0"
+    header = dict(image.header, channels=("chlist", chlist), dataWindow=("box2i", window),
+                  displayWindow=("box2i", window), compression=("compression", bytes([COMPRESSIONS[compression]])))
     out = bytearray(struct.pack("<II", 20000630, 2))
     for name, (kind, value) in header.items():
         out += name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
@@ -95,5 +96,6 @@ def write_png(path, codes):
 
     height, width, _ = codes.shape
     rows = b"".join(b"\0" + numpy.ascontiguousarray(row).tobytes() for row in codes)
-    pathlib.Path(path).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+    pathlib.Path(path).write_bytes(b"\x89PNG\r\n\x1a\n" +
+                                   chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
                                    chunk(b"IDAT", zlib.compress(rows, 6)) + chunk(b"IEND", b""))

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """tests/show/farm.py BUILD (as `make show-farm`): two nodes against one, and a farm that is killed at random.
 
-400 frames of glxgears, 640x480, on a real Slurm on this machine, each node one core. Bars: two nodes are 1.8 times as fast as one;
-after 50 kills of tasks, slurmd and slurmctld and `relume farm retry`, every frame is there, of the same bytes as a local
-run's, and none was rendered twice.
+400 frames of glxgears, 640x480, on a real Slurm on this machine, each node one core. Bars: two nodes are 1.8 times as
+fast as one; after 50 kills of tasks, slurmd and slurmctld and `relume farm retry`, every frame is there, of the same
+bytes as a local run's, and none was rendered twice.
 """
 import hashlib
 import json
@@ -33,7 +33,8 @@ def digests(folder):
 
 def render(work, relume, trace, *options):
     """Digests of the same frames without a farm."""
-    subprocess.run([relume, "render", trace, "-o", work / "local" / "x.####.exr", "--progress", "none", *options], check=True)
+    subprocess.run([relume, "render", trace, "-o", work / "local" / "x.####.exr", "--progress", "none", *options],
+                   check=True)
     found = digests(work / "local")
     shutil.rmtree(work / "local")
     return found
@@ -42,8 +43,8 @@ def render(work, relume, trace, *options):
 def submit(cluster, relume, trace, folder, chunk, *options):
     folder.mkdir()
     landings = kills.Landings(folder)
-    done = cluster.run(relume, "farm", "submit", trace, "-f", f"0-{FRAMES - 1}", "-o", folder / "x.####.exr", "--chunk", chunk,
-                       "--", "--threads", "1", *options)
+    done = cluster.run(relume, "farm", "submit", trace, "-f", f"0-{FRAMES - 1}", "-o", folder / "x.####.exr", "--chunk",
+                       chunk, "--", "--threads", "1", *options)
     if done.returncode:
         sys.exit(f"relume farm submit: {done.stderr}")
     return folder / "x.farm", landings
@@ -76,13 +77,23 @@ def show_kills(work, relume, trace, local, seed):
     same = sum(local.get(name) == digest for name, digest in frames.items())
     what = ", ".join(f"{n} {kind}" for kind, n in killer.done.items())
     return [
-        {"what": "random kills during the run", "figure": f"{killer.total()} ({what}; {retries} retries; seed {seed})",
-         "bar": f"{KILLS} at least", "peer": peer, "passed": killer.total() >= KILLS},
-        {"what": "frames after that", "figure": status, "bar": f"{FRAMES} of {FRAMES} whole", "peer": None,
-         "passed": status.startswith(f"frames {FRAMES} of {FRAMES} whole")},
-        {"what": "of the same bytes as a local run", "figure": f"{same}", "bar": f"{FRAMES}", "peer": None,
-         "passed": same == FRAMES == len(frames)},
-        {"what": "rendered twice", "figure": f"{twice}", "bar": "0", "peer": None, "passed": twice == 0 and len(counts) == FRAMES},
+        {
+            "what": "random kills during the run",
+            "figure": f"{killer.total()} ({what}; {retries} retries; seed {seed})", "bar": f"{KILLS} at least",
+            "peer": peer, "passed": killer.total() >= KILLS
+        },
+        {
+            "what": "frames after that", "figure": status, "bar": f"{FRAMES} of {FRAMES} whole", "peer": None,
+            "passed": status.startswith(f"frames {FRAMES} of {FRAMES} whole")
+        },
+        {
+            "what": "of the same bytes as a local run", "figure": f"{same}", "bar": f"{FRAMES}", "peer": None,
+            "passed": same == FRAMES == len(frames)
+        },
+        {
+            "what": "rendered twice", "figure": f"{twice}", "bar": "0", "peer": None, "passed": twice == 0
+            and len(counts) == FRAMES
+        },
     ]
 
 
@@ -96,16 +107,20 @@ def main(build):
     with tempfile.TemporaryDirectory(prefix="farm-") as scratch:
         work = pathlib.Path(scratch)
         trace = work / "gears.trace"
-        subprocess.run([ROOT / "tests/xvfb.sh", relume, "record", "-o", trace, "--quit-after", str(FRAMES), "--", "glxgears", "-geometry", "640x480"],
-                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        subprocess.run([
+            ROOT / "tests/xvfb.sh", relume, "record", "-o", trace, "--quit-after",
+            str(FRAMES), "--", "glxgears", "-geometry", "640x480"
+        ], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         local, local_killed = render(work, relume, trace), render(work, relume, trace, *KILLED)
         one, two = (seconds(work, relume, trace, n) for n in (1, 2))
         equal = digests(work / "nodes1") == digests(work / "nodes2") == local
         print(f"one node {one:.1f} s, two nodes {two:.1f} s", flush=True)
-        rows = [{"what": f"two nodes of one core against one, {FRAMES} frames of glxgears",
-                 "figure": f"{one / two:.2f} x ({one:.1f} s, {two:.1f} s; load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores)",
-                 "bar": f"{BAR} x", "peer": None, "passed": one / two >= BAR and equal},
-                *show_kills(work, relume, trace, local_killed, random.randrange(1 << 30))]
+        rows = [{
+            "what": f"two nodes of one core against one, {FRAMES} frames of glxgears",
+            "figure": f"{one / two:.2f} x ({one:.1f} s, {two:.1f} s; load {os.getloadavg()[0]:.1f} on "
+                      f"{os.cpu_count()} cores)",
+            "bar": f"{BAR} x", "peer": None, "passed": one / two >= BAR and equal
+        }, *show_kills(work, relume, trace, local_killed, random.randrange(1 << 30))]
     (build / "show").mkdir(exist_ok=True)
     result = {"name": "farm", "command": "make show-farm", "rows": rows}
     (build / "show" / "farm.json").write_text(json.dumps(result, indent=1) + "\n")

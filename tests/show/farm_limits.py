@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/farm_limits.py BUILD TRACE [FRAMES]: what limits a farm of 10,000 nodes? A simulation fed with measurements made here.
+"""tests/show/farm_limits.py BUILD TRACE [FRAMES]: what limits a farm of 10,000 nodes? A simulation fed with
+measurements made here.
 
-Measured on one core of this machine with the trace given: starting a task, reading past one frame, rendering one, looking
-whether a frame is whole, the sizes of trace and frame. Assumed, because one machine cannot show them: what a file server and
-Slurm's controller deliver (ASSUMED below). The simulation then runs FRAMES frames (default 1,000,000) on 10 to 10,000 nodes.
+Measured on one core of this machine with the trace given: starting a task, reading past one frame, rendering one,
+looking whether a frame is whole, the sizes of trace and frame. Assumed, because one machine cannot show them: what a
+file server and Slurm's controller deliver (ASSUMED below). The simulation then runs FRAMES frames (default 1,000,000)
+on 10 to 10,000 nodes.
 
 Every shared thing is a server with one queue; a node takes a task, reads the trace, seeks, renders, writes, and takes
 the next. "useful" is the share of the nodes' time that is spent rendering.
@@ -38,7 +40,8 @@ def timed(*command):
 def measure(relume, trace):
     """Seconds and bytes of this trace on one core."""
     def render(frames, *more):
-        return timed("taskset", "-c", "0", relume, "render", trace, "-f", frames, "-o", folder / "x.####.exr", "--threads", "1", *more)
+        return timed("taskset", "-c", "0", relume, "render", trace, "-f", frames, "-o", folder / "x.####.exr",
+                     "--threads", "1", *more)
 
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
@@ -50,8 +53,10 @@ def measure(relume, trace):
         empty, blank = render("0-20", "--skip-existing", "--dry-run"), render("0-20", "--dry-run")
         size = (folder / "x.0005.exr").stat().st_size
     frame = max((many - first) / 20, 1e-4)
-    return {"start": max(first - frame, 0), "frame": frame, "skip": max(late - first, 0) / last, "look": max(empty - blank, 0) / 21,
-            "trace": os.path.getsize(trace), "bytes": size, "frames": last + 1}
+    return {
+        "start": max(first - frame, 0), "frame": frame, "skip": max(late - first, 0) / last,
+        "look": max(empty - blank, 0) / 21, "trace": os.path.getsize(trace), "bytes": size, "frames": last + 1
+    }
 
 
 class Server:
@@ -74,7 +79,8 @@ def simulate(m, frames, nodes, chunk, seek):
 
     def task(first):
         count = min(chunk, frames - first)
-        return ((controller, 1), (ops, OPS_PER_TASK), (files, m["trace"]), (None, m["start"] + seek(first) + count * m["frame"]),
+        return ((controller,
+                 1), (ops, OPS_PER_TASK), (files, m["trace"]), (None, m["start"] + seek(first) + count * m["frame"]),
                 (ops, OPS_PER_FRAME * count), (files, m["bytes"] * count))
 
     tasks = (task(first) for first in range(0, frames, chunk))
@@ -99,8 +105,11 @@ def main(build, trace, frames=1_000_000):
     frames = int(frames)
     # A recording as long as the film: the trace grows with it.
     m["trace"] *= frames / m["frames"]
-    print(f"measured: start {m['start']:.2f} s, {m['frame']:.3f} s/frame, {1e3 * m['skip']:.3f} ms to read past a frame, "
-          f"{1e3 * m['look']:.2f} ms to look at one, {m['bytes'] / 1e6:.2f} MB/frame; trace of {frames:,} frames {m['trace'] / 1e9:.2f} GB")
+    print(
+        f"measured: start {m['start']:.2f} s, {m['frame']:.3f} s/frame, {1e3 * m['skip']:.3f} ms to read past a frame, "
+        f"{1e3 * m['look']:.2f} ms to look at one, {m['bytes'] / 1e6:.2f} MB/frame; trace of {frames:,} frames "
+        f"{m['trace'] / 1e9:.2f} GB"
+    )
     print("assumed:  " + ", ".join(f"{name} {rate:g}" for name, rate in ASSUMED.items()))
     print(f"status and retry look at every frame: {m['look'] * frames:.0f} s\n")
     ways = {

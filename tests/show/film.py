@@ -2,8 +2,8 @@
 """tests/show/film.py BUILD (as `make show-film`): films of a recorded program, made by ffmpeg and played in Chromium.
 
 glxgears is recorded live. Its frames are rendered in one run and as four tasks of a farm; films of both hold the same
-pictures. A report with the film is opened in Chromium, which must play it: frames of the video are drawn into a canvas and looked at.
-Screenshots stay in BUILD/show/film for people to look at.
+pictures. A report with the film is opened in Chromium, which must play it: frames of the video are drawn into a canvas
+and looked at. Screenshots stay in BUILD/show/film for people to look at.
 """
 import hashlib
 import json
@@ -40,8 +40,8 @@ addEventListener("load", async () => {
 
 
 def run(*command):
-    done = subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          text=True, timeout=900)
+    done = subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, timeout=900)
     if done.returncode:
         sys.exit(f"{command}: exit code {done.returncode}\n{done.stderr[-2000:]}")
     return done.stdout
@@ -49,7 +49,8 @@ def run(*command):
 
 def hashes(film):
     """Of each picture of a film, as ffmpeg reads it."""
-    return re.findall(r", (\w{32})$", run("ffmpeg", "-loglevel", "error", "-i", film, "-f", "framemd5", "-"), re.MULTILINE)
+    return re.findall(r", (\w{32})$", run("ffmpeg", "-loglevel", "error", "-i", film, "-f", "framemd5", "-"),
+                      re.MULTILINE)
 
 
 def main(build):
@@ -74,16 +75,21 @@ def main(build):
     found = browser.said(work, probed) or {}
     lines = [
         ("pictures of the film", len(one), 24, len(one) == 24),
-        ("of these not the same from four tasks", sum(a != b for a, b in zip(one, four)) + abs(len(one) - len(four)), 0, one == four),
+        ("of these not the same from four tasks", sum(a != b for a, b in zip(one, four)) + abs(len(one) - len(four)), 0,
+         one == four),
         ("the film's width in Chromium", found.get("width"), 604, found.get("width") == 604),
         ("its seconds", found.get("seconds"), 2, abs(found.get("seconds", 0) - 2) < 0.1),
         ("change from an eighth of it to the middle", found.get("moved"), "above 0.2", found.get("moved", 0) > 0.2),
-        ("largest layout of the film, MB", max((work / f"{name}.webm").stat().st_size for name in LAYOUTS) / 1e6, "below 2",
+        ("largest layout of the film, MB", max(
+            (work / f"{name}.webm").stat().st_size for name in LAYOUTS) / 1e6, "below 2",
          max((work / f"{name}.webm").stat().st_size for name in LAYOUTS) < 2e6),
     ]
     print(f"{'':46}{'figure':>10}{'bar':>12}")
     for name, figure, bar, good in lines:
-        print(f"{name:46}{figure if not isinstance(figure, float) else round(figure, 2)!s:>10}{bar:>12}  {'holds' if good else 'FALLS SHORT'}")
+        print(
+            f"{name:46}{figure if not isinstance(figure, float) else round(figure, 2)!s:>10}{bar:>12}  "
+            f"{'holds' if good else 'FALLS SHORT'}"
+        )
     peer = " ".join(run("ffmpeg", "-version").split()[:3])
     print(f"screenshot: {work / 'page.png'}; posters: {', '.join(p.name for p in sorted(work.glob('*.jpg')))}")
     (build / "show/film.json").write_text(json.dumps({

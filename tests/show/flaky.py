@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""tests/show/flaky.py BUILD (as `make show-flaky`): noise of five kinds told apart from five real regressions, by `relume diff REF RUN...`.
+"""tests/show/flaky.py BUILD (as `make show-flaky`): noise of five kinds told apart from five real regressions, by
+`relume diff REF RUN...`.
 
-Frames of a program of corpus/ are recorded live; each run is a copy of them. Some frames are noisy, each run in its own way; some are
-wrong, alike in every run; some are both. Some are neither.
+Frames of a program of corpus/ are recorded live; each run is a copy of them. Some frames are noisy, each run in its own
+way; some are wrong, alike in every run; some are both. Some are neither.
 """
 import json
 import pathlib
@@ -33,7 +34,8 @@ def grain(rng, frames, frame, run):
 def clock(rng, frames, frame, run):
     picture = frames[frame].astype(int)
     for digit in range(8):
-        picture[10:26, 12 + 14 * digit:24 + 14 * digit] = numpy.kron(rng.integers(0, 2, (4, 3)), numpy.ones((4, 4)))[:, :, None] * 255
+        picture[10:26, 12 + 14 * digit:24 + 14 * digit] = numpy.kron(rng.integers(0, 2, (4, 3)), numpy.ones(
+            (4, 4)))[:, :, None] * 255
     return picture
 
 
@@ -110,25 +112,40 @@ def main(build):
     relume, rows = (build / "relume").resolve(), []
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
-        run(ROOT / "tests/xvfb.sh", relume, "record", "-o", work / "s.trace", "--ref", "color", "--", build / "corpus/still_life", "--frames", len(CASES) + 1,
-            "--animate", "camera", "--size", "320x240")
+        run(ROOT / "tests/xvfb.sh", relume, "record", "-o", work / "s.trace", "--ref", "color", "--",
+            build / "corpus/still_life", "--frames",
+            len(CASES) + 1, "--animate", "camera", "--size", "320x240")
         frames = [picture for _, picture in colors(work / "s.ref")]
         for sub in ("ref", *(f"run{n}" for n in range(RUNS))):
             (work / sub).mkdir()
         plant(work, frames, numpy.random.default_rng(SEED))
         said = run(relume, "diff", work / "ref", *(work / f"run{n}" for n in range(RUNS)), codes=(0, 1))
     verdicts = {int(frame): verdict for frame, verdict in re.findall(r"^ +(\d+) (flaky|regression)", said, re.M)}
-    lines = {int(line.split()[0]): " ".join(line.split()) for line in said.splitlines() if re.match(r" +\d+ (flaky|reg)", line)}
+    lines = {
+        int(line.split()[0]): " ".join(line.split())
+        for line in said.splitlines()
+        if re.match(r" +\d+ (flaky|reg)", line)
+    }
     quarantined = " ".join(re.findall(r'frames: "([^"]*)"', said))
     for at, (noise, wrong) in enumerate(CASES):
         wanted = "regression" if wrong else "flaky" if noise else "steady"
         found = verdicts.get(at, "steady")
-        rows.append({"what": f"frame {at}: {name((noise, wrong))}", "figure": lines.get(at, found), "bar": wanted, "peer": None, "passed": found == wanted})
-    listed = {n for part in re.findall(r"\d+-?\d*", quarantined) for n in range(int(part.split("-")[0]), int(part.split("-")[-1]) + 1)}
+        rows.append({
+            "what": f"frame {at}: {name((noise, wrong))}", "figure": lines.get(at, found), "bar": wanted, "peer": None,
+            "passed": found == wanted
+        })
+    listed = {
+        n for part in re.findall(r"\d+-?\d*", quarantined) for n in range(int(part.split("-")[0]),
+                                                                          int(part.split("-")[-1]) + 1)
+    }
     wanted = {at for at, (noise, wrong) in enumerate(CASES) if noise and not wrong and noise is not dropped}
-    rows.append({"what": "quarantine proposed for frames", "figure": sorted(listed), "bar": sorted(wanted), "peer": None, "passed": listed == wanted})
+    rows.append({
+        "what": "quarantine proposed for frames", "figure": sorted(listed), "bar": sorted(wanted), "peer": None,
+        "passed": listed == wanted
+    })
     (build / "show").mkdir(exist_ok=True)
-    (build / "show/flaky.json").write_text(json.dumps({"name": "flaky", "command": "make show-flaky", "rows": rows}, indent=1))
+    (build / "show/flaky.json").write_text(
+        json.dumps({"name": "flaky", "command": "make show-flaky", "rows": rows}, indent=1))
     for row in rows:
         print("holds" if row["passed"] else "FAILS", row["what"], row["figure"], sep="  ")
     print(f"{sum(not row['passed'] for row in rows)} mistakes")

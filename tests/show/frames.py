@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """tests/show/frames.py BUILD [--only WORD]...: what whole frames cost, beside the rays in them and beside a rasteriser.
 
-A frame's processor time (user and system, whole processes) is what MANY frames take more than FEW, divided by how many more they are:
-starting up is measured apart. Ours and the peers' runs alternate; figures are medians. Peers: Embree's time for the same frames' own
-camera and shadow rays (tests/bench/frame_rays.c); glretrace -b -s, which replays the same calls on Mesa's llvmpipe and writes a PNG file a frame.
+A frame's processor time (user and system, whole processes) is what MANY frames take more than FEW, divided by how many
+more they are: starting up is measured apart. Ours and the peers' runs alternate; figures are medians. Peers: Embree's
+time for the same frames' own camera and shadow rays (tests/bench/frame_rays.c); glretrace -b -s, which replays the same
+calls on Mesa's llvmpipe and writes a PNG file a frame.
 
 --only picks parts by a word of theirs: whole, raster, cores, memory, start, pixels.
 """
@@ -23,8 +24,13 @@ SHARED = ROOT.parent / "shared/traces"
 FEW, MANY = 2, 12
 ROUNDS = 3
 SCENES = ("cornell", "spheres", "hall", "still_life")
-HACKS = {"superquadrics": ["/usr/libexec/xscreensaver/superquadrics", "-geometry", "640x480"], "glxgears": ["glxgears", "-geometry", "800x600"]}
-TRACES = {"neverball": 8, "openarena": 0}  # recordings of ../shared/traces, and the first frame of those that are compared; openarena: recorded in play
+HACKS = {
+    "superquadrics": ["/usr/libexec/xscreensaver/superquadrics", "-geometry", "640x480"],
+    "glxgears": ["glxgears", "-geometry", "800x600"]
+}
+TRACES = {
+    "neverball": 8, "openarena": 0
+}  # recordings of ../shared/traces, and the first frame of those that are compared; openarena: recorded in play
 SIZES = ("800x600", "1920x1080", "3840x2160")
 BARS = {"whole": 3, "raster": 1.0, "whitted": 0.5, "cores": 0.95, "memory": 1.5, "start": 0.25, "pixels": 1.2}
 
@@ -34,7 +40,8 @@ class Run:
 
     def __init__(self, command, **more):
         begin = time.monotonic()
-        process = subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **more)
+        process = subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True, **more)
         with process.stdout, process.stderr:
             self.said, complaint = process.stdout.read(), process.stderr.read()
         _, status, used = os.wait4(process.pid, 0)
@@ -52,7 +59,8 @@ class Show:
         self.folder = build / "show" / "frames"
         self.folder.mkdir(parents=True, exist_ok=True)
         self.scratch = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
-        device = json.loads(subprocess.run([build / "relume", "devices", "--json"], capture_output=True, text=True).stdout)[0]
+        device = json.loads(
+            subprocess.run([build / "relume", "devices", "--json"], capture_output=True, text=True).stdout)[0]
         self.device = f"{device['name']}, vectors of {device['width']}"
 
     def part(self, name):
@@ -63,7 +71,8 @@ class Show:
         passed = None if bar is None else figure <= bar if most else figure >= bar
         limit = None if bar is None else f"{'at most' if most else 'at least'} {bar}"
         self.rows.append({"what": what, "figure": text, "bar": limit, "peer": peer, "passed": passed})
-        print(f"{what:58}{text:34}{limit or '':16}{'' if passed is None else 'holds' if passed else 'FAILS'}", flush=True)
+        print(f"{what:58}{text:34}{limit or '':16}{'' if passed is None else 'holds' if passed else 'FAILS'}",
+              flush=True)
 
     # --- Recordings ------------------------------------------------------------------------------------------------
 
@@ -71,7 +80,8 @@ class Show:
         """Record a program once."""
         trace = self.folder / f"{name}.trace"
         if not trace.exists():
-            Run([self.build / "relume", "record", "-o", trace, "--quit-after", frames, "--", *command], env=dict(os.environ, vblank_mode="0"))
+            Run([self.build / "relume", "record", "-o", trace, "--quit-after", frames, "--", *command],
+                env=dict(os.environ, vblank_mode="0"))
         return trace
 
     def corpus(self, program, size="800x600", frames=MANY):
@@ -85,17 +95,23 @@ class Show:
             Run([self.build / "relume", "trim", "-f", f"{first}-{first + frames - 1}", "-o", out, trace])
             there = json.loads(Run([self.build / "relume", "info", "--json", out]).said)["frames"]
             if there != frames:
-                sys.exit(f"{out}: frames before {first} are kept as well, which peers would replay: take a recording that begins there")
+                sys.exit(
+                    f"{out}: frames before {first} are kept as well, which peers would replay: take a recording that "
+                    f"begins there"
+                )
         return out
 
     # --- Costs ------------------------------------------------------------------------------------------------------
 
     def render(self, trace, frames, *options):
-        return Run([self.build / "relume", "render", trace, "-f", f"0-{frames - 1}", "-o", self.scratch / "####.exr", "--progress", "none",
-                    *options])
+        return Run([
+            self.build / "relume", "render", trace, "-f", f"0-{frames - 1}", "-o", self.scratch / "####.exr",
+            "--progress", "none", *options
+        ])
 
     def replay(self, trace):
-        return Run(["glretrace", "-b", "-s", f"{self.scratch}/", trace], env=dict(os.environ, LIBGL_ALWAYS_SOFTWARE="1"))
+        return Run(["glretrace", "-b", "-s", f"{self.scratch}/", trace], env=dict(os.environ,
+                                                                                  LIBGL_ALWAYS_SOFTWARE="1"))
 
     def frame_ms(self, run, few=FEW, many=MANY):
         """A frame's processor time; run(n) renders so many."""
@@ -118,8 +134,8 @@ def show_whole(show):
 
         show.render(trace, 1)  # kernels are compiled once
         ours, peer = medians(ROUNDS, [lambda: show.frame_ms(lambda n: show.render(trace, n)), rays])
-        show.say(f"{name} 800x600, default channels: frame / its rays", ours / peer, f"{ours / peer:.1f} ({ours:.0f} / {peer:.0f} ms)",
-                 BARS["whole"], f"Embree, {peer:.1f} ms")
+        show.say(f"{name} 800x600, default channels: frame / its rays", ours / peer,
+                 f"{ours / peer:.1f} ({ours:.0f} / {peer:.0f} ms)", BARS["whole"], f"Embree, {peer:.1f} ms")
 
 
 def show_raster(show):
@@ -138,7 +154,8 @@ def show_raster(show):
             lambda: show.frame_ms(lambda n: show.render(trace, n, "--aov", "")),
             lambda: show.frame_ms(lambda n: show.replay(trace if n == MANY else few))])
         for what, ours, bar in (("gl", gl, BARS["raster"]), ("whitted, beauty alone", whitted, BARS["whitted"])):
-            show.say(f"{name}: glretrace / {what}", peer / ours, f"{peer / ours:.2f} ({peer:.0f} / {ours:.0f} ms)", bar, "glretrace", most=False)
+            show.say(f"{name}: glretrace / {what}", peer / ours, f"{peer / ours:.2f} ({peer:.0f} / {ours:.0f} ms)", bar,
+                     "glretrace", most=False)
 
 
 def show_cores(show):
@@ -163,8 +180,8 @@ def show_start(show):
     show.render(trace, 1)
     runs = [show.render(trace, 1) for _ in range(2 * ROUNDS + 1)]
     wall = statistics.median(run.wall for run in runs)
-    show.say("cornell, one frame, from exec to exit", wall, f"{wall:.2f} s ({statistics.median(run.cpu for run in runs):.2f} s processor)",
-             BARS["start"])
+    show.say("cornell, one frame, from exec to exit", wall,
+             f"{wall:.2f} s ({statistics.median(run.cpu for run in runs):.2f} s processor)", BARS["start"])
 
 
 def show_pixels(show):
@@ -190,8 +207,8 @@ def main():
     show = Show(arguments.build.absolute(), arguments.only)
     print(f"{show.device}; {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}", flush=True)
     try:
-        for name, part in (("whole", show_whole), ("raster", show_raster), ("cores", show_cores), ("memory", show_memory),
-                           ("start", show_start), ("pixels", show_pixels)):
+        for name, part in (("whole", show_whole), ("raster", show_raster), ("cores", show_cores),
+                           ("memory", show_memory), ("start", show_start), ("pixels", show_pixels)):
             if show.part(name):
                 part(show)
     finally:

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """tests/show/fuzz.py BUILD (as `make show-fuzz`): what all campaigns of libFuzzer came to, by target.
 
-`make fuzz` runs campaigns and adds to BUILD/fuzz/sums.json, `make fuzz-keep` moves that to tests/fuzz/sums.json. Nothing is run here.
-Edges: those that some input reached, of all that are linked with the target, other readers' and the sanitizers' among them.
+`make fuzz` runs campaigns and adds to BUILD/fuzz/sums.json, `make fuzz-keep` moves that to tests/fuzz/sums.json.
+Nothing is run here. Edges: those that some input reached, of all that are linked with the target, other readers' and
+the sanitizers' among them.
 """
 import json
 import pathlib
@@ -21,17 +22,28 @@ def main(build):
                 all_of[name] = max(all_of[name], value) if name in ("edges", "of") else all_of[name] + value
     print(f"{'target':<12} {'processor s':>12} {'runs':>12} {'edges':>8} {'of':>8} {'findings':>9}")
     for target, row in sorted(sums.items()):
-        print(f"{target:<12} {row['seconds']:>12.0f} {row['runs']:>12.0f} {row['edges']:>8} {row['of']:>8} {row['findings']:>9.0f}")
+        print(
+            f"{target:<12} {row['seconds']:>12.0f} {row['runs']:>12.0f} {row['edges']:>8} {row['of']:>8} "
+            f"{row['findings']:>9.0f}"
+        )
     hours = sum(row["seconds"] for row in sums.values()) / 3600
     edges = max((sums[t]["edges"] for t in ("calls", "replay", "snapshot") if t in sums), default=0)
     missing = {path.stem[5:] for path in (ROOT / "tests/fuzz").glob("fuzz_*.c")} - set(sums)
-    rows = [{"what": "processor hours over all targets", "figure": round(hours, 2), "bar": HOURS, "peer": None, "passed": hours >= HOURS},
-            {"what": "edges of the state machine", "figure": edges, "bar": STATE_EDGES, "peer": None, "passed": edges >= STATE_EDGES},
-            {"what": "targets that no campaign has run", "figure": " ".join(sorted(missing)) or 0, "bar": 0, "peer": None, "passed": not missing}]
+    rows = [{
+        "what": "processor hours over all targets", "figure": round(hours, 2), "bar": HOURS, "peer": None,
+        "passed": hours >= HOURS
+    }, {
+        "what": "edges of the state machine", "figure": edges, "bar": STATE_EDGES, "peer": None, "passed": edges
+        >= STATE_EDGES
+    }, {
+        "what": "targets that no campaign has run", "figure": " ".join(sorted(missing)) or 0, "bar": 0, "peer": None,
+        "passed": not missing
+    }]
     for row in rows:
         print(f"{'holds' if row['passed'] else 'FALLS SHORT'}  {row['what']}: {row['figure']} (bar {row['bar']})")
     (build / "show").mkdir(exist_ok=True)
-    (build / "show/fuzz.json").write_text(json.dumps({"name": "fuzz", "command": "make show-fuzz", "rows": rows}, indent=1))
+    (build / "show/fuzz.json").write_text(
+        json.dumps({"name": "fuzz", "command": "make show-fuzz", "rows": rows}, indent=1))
     return any(not row["passed"] for row in rows)
 
 

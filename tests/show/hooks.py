@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""tests/show/hooks.py BUILD (as `make show-hooks`): the examples of hooks/ rendered, what a hook that repeats the built-in costs, and what wrong
-hooks are told.
+"""tests/show/hooks.py BUILD (as `make show-hooks`): the examples of hooks/ rendered, what a hook that repeats the
+built-in costs, and what wrong hooks are told.
 
-Pictures are left as PNG in BUILD/show/hooks, to be looked at. Times are processor time of whole commands, medians of runs in turn with and
-without the hook, after one of each that compiles kernels.
+Pictures are left as PNG in BUILD/show/hooks, to be looked at. Times are processor time of whole commands, medians of
+runs in turn with and without the hook, after one of each that compiles kernels.
 """
 import json
 import os
@@ -21,27 +21,37 @@ SIZE, FRAMES, ROUNDS, BAR = "480x360", 12, 7, 1.1
 MIRRORS = "surfaces:\n  - { match: { lit: yes }, reflect: 0.3 }\n"
 CLOSEST = "struct relume_request closest_hit(struct relume_hit hit, struct relume_parameters parameters)\n{\n%s\n}\n"
 # name: the program, more options
-EXAMPLES = {"repeat": ("still_life",), "toon": ("still_life",), "car_paint": ("still_life",), "thin_lens": ("spheres", "--samples", "16"),
-            "fisheye": ("spheres",), "sunset": ("spheres", "--look", MIRRORS), "sphere": ("still_life",), "distance": ("still_life",),
-            "boxes": ("spheres",), "cutout": ("still_life",), "gobo": ("still_life",)}
+EXAMPLES = {
+    "repeat": ("still_life", ), "toon": ("still_life", ), "car_paint": ("still_life", ),
+    "thin_lens": ("spheres", "--samples", "16"), "fisheye": ("spheres", ), "sunset": ("spheres", "--look", MIRRORS),
+    "sphere": ("still_life", ), "distance": ("still_life", ), "boxes": ("spheres", ), "cutout": ("still_life", ),
+    "gobo": ("still_life", )
+}
 # what of it: hook, command in front, seconds, words that must be said
 WRONG = {
     "syntax": (CLOSEST % "\treturn relume_color(hit.color;", "wrong.cl:3:"),
     "a member that is not there": ("\n\n" + CLOSEST % "\treturn relume_color(hit.colour);", "wrong.cl:5:"),
     "a function that is not there": (CLOSEST % "\treturn relume_colour(hit.color);", "wrong.cl:3:"),
     "no stage": ("float f(void) { return 1; }\n", "defines none of the functions"),
-    "a parameter of no type": ("#pragma relume parameter vector v = 1\n" + CLOSEST % "\treturn relume_go_on();", "line 1: there is no type vector"),
-    "intersection without bounds": ("struct relume_request intersection(struct relume_crossing c, struct relume_parameters p)\n{\n\treturn relume_ignore();\n}\n",
-                                    "without bounds"),
-    "an endless loop": (CLOSEST % "\tvolatile int i = 0;\n\n\twhile (i >= 0)\n\t\ti = (i + 1) % 7;\n\treturn relume_go_on();", "endless loop"),
+    "a parameter of no type": ("#pragma relume parameter vector v = 1\n" + CLOSEST % "\treturn relume_go_on();",
+                               "line 1: there is no type vector"),
+    "intersection without bounds": (
+        "struct relume_request intersection(struct relume_crossing c, struct relume_parameters p)\n{\n\treturn "
+        "relume_ignore();\n}\n",
+        "without bounds"),
+    "an endless loop": (CLOSEST %
+                        "\tvolatile int i = 0;\n\n\twhile (i >= 0)\n\t\ti = (i + 1) % 7;\n\treturn relume_go_on();",
+                        "endless loop"),
 }
 BEYOND = CLOSEST % "\tvolatile float table[4];\n\n\tfor (int i = 0; i < 4 + (int)hit.front; i++)\n\t\ttable[i] = hit.color.x;\n\treturn relume_go_on();"
 
 
 def run(*command, good=True):
-    done = subprocess.run([str(part) for part in command], stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False)
+    done = subprocess.run([str(part) for part in command], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          errors="replace", check=False)
     if good and done.returncode:
-        sys.exit(f"{' '.join(map(str, command))}: exit code {done.returncode}:\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
+        sys.exit(
+            f"{' '.join(map(str, command))}: exit code {done.returncode}:\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
     return done
 
 
@@ -59,7 +69,8 @@ def look_file(work, options):
 
 def same(a, b):
     first, second = Image(a).planes, Image(b).planes
-    return first.keys() == second.keys() and all(numpy.array_equal(first[name], second[name], equal_nan=True) for name in first)
+    return first.keys() == second.keys() and all(
+        numpy.array_equal(first[name], second[name], equal_nan=True) for name in first)
 
 
 def processor_s(*command):
@@ -76,8 +87,8 @@ class Show:
         self.traces = {}
         for program in ("still_life", "spheres"):
             self.traces[program] = work / f"{program}.trace"
-            run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", self.traces[program], "--", build / "corpus" / program, "--frames", FRAMES,
-                "--size", SIZE)
+            run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", self.traces[program], "--",
+                build / "corpus" / program, "--frames", FRAMES, "--size", SIZE)
 
     def row(self, what, figure, bar, passed):
         self.rows.append({"what": what, "figure": figure, "bar": bar, "peer": None, "passed": passed})
@@ -88,7 +99,8 @@ class Show:
 
     def examples(self):
         found = {path.stem for path in (ROOT / "hooks").glob("*.cl")}
-        self.row("examples of hooks/ that are rendered here", len(found & EXAMPLES.keys()), len(found | EXAMPLES.keys()), found == EXAMPLES.keys())
+        self.row("examples of hooks/ that are rendered here", len(found & EXAMPLES.keys()),
+                 len(found | EXAMPLES.keys()), found == EXAMPLES.keys())
         for name, (program, *options) in EXAMPLES.items():
             rules = ROOT / f"hooks/{name}.look.yaml"
             options += ["--look", rules] if rules.exists() else []
@@ -99,27 +111,36 @@ class Show:
             a, b = (numpy.stack([Image(path).planes[c] for c in "RGB"]) for path in (hooked, plain))
             share = 100 * (abs(a - b).max(axis=0) > 0.01).mean()
             if name == "repeat":
-                self.row("example repeat: every number of every channel", "the same" if same(hooked, plain) else "other", "the same", same(hooked, plain))
+                self.row("example repeat: every number of every channel",
+                         "the same" if same(hooked, plain) else "other", "the same", same(hooked, plain))
             else:
-                self.row(f"example {name}: pixels that it changes, of a hundred", round(share, 1), "more than 1, and all finite", share > 1 and bool(numpy.isfinite(a).all()))
+                self.row(f"example {name}: pixels that it changes, of a hundred", round(share, 1),
+                         "more than 1, and all finite", share > 1 and bool(numpy.isfinite(a).all()))
 
     def repeat(self):
         hook = ("--hook", ROOT / "hooks/repeat.cl")
-        scenes = {"plain frames, still life": ("still_life",), "plain frames, spheres": ("spheres",),
-                  "with mirrors": ("spheres", "--look", MIRRORS), "with mirrors, 4 samples": ("still_life", "--look", MIRRORS, "--samples", "4"),
-                  "mode path, 4 samples": ("spheres", "--mode", "path", "--samples", "4")}
+        scenes = {
+            "plain frames, still life": ("still_life", ), "plain frames, spheres": ("spheres", ),
+            "with mirrors": ("spheres", "--look", MIRRORS),
+            "with mirrors, 4 samples": ("still_life", "--look", MIRRORS, "--samples", "4"),
+            "mode path, 4 samples": ("spheres", "--mode", "path", "--samples", "4")
+        }
         for what, (program, *options) in scenes.items():
             paths = [self.work / folder / "f.####.exr" for folder in ("without", "with")]
-            commands = [(self.build / "relume", "render", self.traces[program], "-o", path, *look_file(self.work, options), *more)
-                        for path, more in zip(paths, ((), hook))]
+            commands = [(self.build / "relume", "render", self.traces[program], "-o", path,
+                         *look_file(self.work, options), *more) for path, more in zip(paths, ((), hook))]
             for command in commands:
                 run(*command)
-            equal = sum(same(paths[0].with_name(f"f.{i:04}.exr"), paths[1].with_name(f"f.{i:04}.exr")) for i in range(FRAMES))
+            equal = sum(
+                same(paths[0].with_name(f"f.{i:04}.exr"), paths[1].with_name(f"f.{i:04}.exr")) for i in range(FRAMES))
             times = [[processor_s(*command) for command in commands] for _ in range(ROUNDS)]
             without, with_hook = (statistics.median(column) for column in zip(*times))
-            self.row(f"repeat, {what}: frames of the same numbers", f"{equal} of {FRAMES}", f"{FRAMES} of {FRAMES}", equal == FRAMES)
-            self.row(f"repeat, {what}: times the processor time ({without:.2f} s for {FRAMES} frames, with the hook {with_hook:.2f} s)",
-                     round(with_hook / without, 2), f"at most {BAR}", with_hook <= BAR * without)
+            self.row(f"repeat, {what}: frames of the same numbers", f"{equal} of {FRAMES}", f"{FRAMES} of {FRAMES}",
+                     equal == FRAMES)
+            self.row(
+                f"repeat, {what}: times the processor time ({without:.2f} s for {FRAMES} frames, with the hook "
+                f"{with_hook:.2f} s)",
+                round(with_hook / without, 2), f"at most {BAR}", with_hook <= BAR * without)
 
     def wrong(self):
         path = self.work / "wrong.cl"
@@ -129,10 +150,11 @@ class Show:
             said = done.returncode == 3 and words in done.stderr
             self.row(f"a wrong hook, {what}", words if said else done.stderr[-300:], words, said)
         path.write_text(BEYOND)
-        done = run("oclgrind", "--build-options", "-cl-opt-disable -D LANES_PORTABLE", "--max-errors", "2", self.build / "relume", "hook", "--check",
-                   "--seconds", 300, path, good=False)
+        done = run("oclgrind", "--build-options", "-cl-opt-disable -D LANES_PORTABLE", "--max-errors", "2",
+                   self.build / "relume", "hook", "--check", "--seconds", 300, path, good=False)
         said = "Invalid write of size 4" in done.stdout + done.stderr and "At line 6" in done.stdout + done.stderr
-        self.row("a wrong hook, a write beyond an array, under Oclgrind", "Invalid write of size 4, At line 6" if said else (done.stdout + done.stderr)[-300:],
+        self.row("a wrong hook, a write beyond an array, under Oclgrind",
+                 "Invalid write of size 4, At line 6" if said else (done.stdout + done.stderr)[-300:],
                  "the write and its line", said)
 
 
@@ -142,7 +164,8 @@ def main(build):
         show.examples()
         show.wrong()
         show.repeat()
-    (build / "show/hooks.json").write_text(json.dumps({"name": "hooks", "command": "make show-hooks", "rows": show.rows}, indent=1))
+    (build / "show/hooks.json").write_text(
+        json.dumps({"name": "hooks", "command": "make show-hooks", "rows": show.rows}, indent=1))
     return any(not row["passed"] for row in show.rows)
 
 

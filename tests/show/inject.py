@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """tests/show/inject.py BUILD [--only VERB] (as `make show-inject`): each call of the system fails once, in turn.
 
-The nth malloc, read, write, mmap, open and thread that the command makes itself fails (tests/real/inject_shim.c), for every n of a small
-index, info, scene, trim, render and diff; once, and from there on. The command must then do without, with the same result; or end with
-code 3 or 5 and one line that says why. No file is left half-written, and no memory behind: all runs have LeakSanitizer, where gcc brings it.
-The recorder under the same shim: the program's own pictures and its exit code do not change. (OpenCL's calls: show-device-faults.)
+The nth malloc, read, write, mmap, open and thread that the command makes itself fails (tests/real/inject_shim.c), for
+every n of a small index, info, scene, trim, render and diff; once, and from there on. The command must then do without,
+with the same result; or end with code 3 or 5 and one line that says why. No file is left half-written, and no memory
+behind: all runs have LeakSanitizer, where gcc brings it. The recorder under the same shim: the program's own pictures
+and its exit code do not change. (OpenCL's calls: show-device-faults.)
 """
 import argparse
 import concurrent.futures
@@ -28,7 +29,8 @@ LIMIT_S = 120  # by the clock, on a machine that does other things as well
 
 
 class Case:
-    """A command line; words @trace, @programs, @frames, @ref stand for inputs. made: patterns of the files that it makes, each of one."""
+    """A command line; words @trace, @programs, @frames, @ref stand for inputs. made: patterns of the files that it
+    makes, each of one."""
 
     def __init__(self, name, command, made=()):
         self.name, self.command, self.made = name, command, made
@@ -39,16 +41,22 @@ CASES = [
     Case("info", ["info", "@trace"]),
     Case("scene", ["scene", "-f", "0", "--json", "@trace"]),
     Case("trim", ["trim", "-f", "0", "-o", "new.trace", "@trace"], ["new.trace"]),
-    Case("diff", ["diff", "--json", "s.json", "--junit", "j.xml", "--report", "report", "@ref", "@frames"], ["s.json", "j.xml", "report/index.html"]),
-    Case("render", ["render", "@trace", "-f", "0", "--mode", "gl", "--aov", "gl", "-o", "out.####.exr", "--progress", "none"], ["out.0000.exr"]),
-    Case("render by programs", ["render", "@programs", "-f", "0", "-o", "out.####.exr", "--progress", "none"], ["out.0000.exr"]),
-    Case("approve", ["approve", "@frames", "approved"], [f"approved/*/{name}" for name in ("baseline.yaml", "frame.0000.exr", "frame.0001.exr")]),
+    Case("diff", ["diff", "--json", "s.json", "--junit", "j.xml", "--report", "report", "@ref", "@frames"],
+         ["s.json", "j.xml", "report/index.html"]),
+    Case("render",
+         ["render", "@trace", "-f", "0", "--mode", "gl", "--aov", "gl", "-o", "out.####.exr", "--progress", "none"],
+         ["out.0000.exr"]),
+    Case("render by programs", ["render", "@programs", "-f", "0", "-o", "out.####.exr", "--progress", "none"],
+         ["out.0000.exr"]),
+    Case("approve", ["approve", "@frames", "approved"],
+         [f"approved/*/{name}" for name in ("baseline.yaml", "frame.0000.exr", "frame.0001.exr")]),
 ]
 
 
 def leak_sanitizer():
     """Its library, to be preloaded; None: there is none."""
-    said = subprocess.run(["gcc", "-print-file-name=liblsan.so"], capture_output=True, text=True, check=False).stdout.strip()
+    said = subprocess.run(["gcc", "-print-file-name=liblsan.so"], capture_output=True, text=True,
+                          check=False).stdout.strip()
     return pathlib.Path(said) if "/" in said else None
 
 
@@ -65,7 +73,8 @@ def plain(out):
 
 class Trial:
     def __init__(self, build, inputs):
-        self.build, self.relume, self.shim, self.inputs = build.resolve(), (build / "relume").resolve(), (build / "tests/real/inject_shim.so").resolve(), inputs
+        self.build, self.relume, self.shim, self.inputs = build.resolve(), (build / "relume").resolve(), (
+            build / "tests/real/inject_shim.so").resolve(), inputs
         self.spared = (ROOT / "tests/lsan.supp").read_text()
 
     def run(self, case, inject=None, cache=None):
@@ -76,14 +85,17 @@ class Trial:
             if case.name != "index":
                 shutil.copy2(self.inputs / "x.trace.index", work)
             words = {"@trace": "x.trace", "@programs": "../programs.trace", "@frames": "../frames", "@ref": "../x.ref"}
-            env = {**runner.environment(self.build, folder), "XDG_CACHE_HOME": str(cache or self.inputs / "cache"),
-                   "LD_PRELOAD": " ".join(str(p) for p in (self.shim, leak_sanitizer()) if p), "INJECT_SPARED": self.spared,
-                   "LSAN_OPTIONS": "exitcode=0:print_suppressions=0", "SOURCE_DATE_EPOCH": "1000000000", "INJECT_COUNT": str(count)}
+            env = {
+                **runner.environment(self.build, folder), "XDG_CACHE_HOME": str(cache or self.inputs / "cache"),
+                "LD_PRELOAD": " ".join(str(p) for p in (self.shim, leak_sanitizer()) if p),
+                "INJECT_SPARED": self.spared, "LSAN_OPTIONS": "exitcode=0:print_suppressions=0",
+                "SOURCE_DATE_EPOCH": "1000000000", "INJECT_COUNT": str(count)
+            }
             if inject:
                 env["INJECT"] = inject
             try:
-                done = subprocess.run([self.relume, *(words.get(w, w) for w in case.command)], cwd=work, env=env, stdin=subprocess.DEVNULL,
-                                      capture_output=True, timeout=LIMIT_S, check=False)
+                done = subprocess.run([self.relume, *(words.get(w, w) for w in case.command)], cwd=work, env=env,
+                                      stdin=subprocess.DEVNULL, capture_output=True, timeout=LIMIT_S, check=False)
             except subprocess.TimeoutExpired:
                 return None, b"", b"", {}, [], {}
             files = {str(p.relative_to(work)): p for p in work.rglob("*") if p.is_file()}
@@ -91,10 +103,12 @@ class Trial:
             known = {"x.trace", "x.trace.index", "report/sheet.png", *made}
             counts = counts_of(count) if count.exists() else {}
             count.unlink(missing_ok=True)
-            return done.returncode, done.stdout, done.stderr, {n: digest(files[n]) for n in made}, sorted(set(files) - known), counts
+            return done.returncode, done.stdout, done.stderr, {n: digest(files[n])
+                                                               for n in made}, sorted(set(files) - known), counts
 
     def wrong(self, case, good, points):
-        """What is wrong at "CLASS:N", and at "CLASS:N+": [None: nothing]. Where the first run made no call after its Nth, it was both."""
+        """What is wrong at "CLASS:N", and at "CLASS:N+": [None: nothing]. Where the first run made no call after its
+        Nth, it was both."""
         found, calls = [], None
         for point in points:
             name, _, n = point.partition(":")
@@ -108,7 +122,10 @@ class Trial:
 
     @staticmethod
     def judge(case, good, inject, code, out, err, made, others):
-        said = [line for line in err.decode(errors="replace").splitlines() if line.startswith("relume:") and " warning: " not in line]
+        said = [
+            line for line in err.decode(errors="replace").splitlines()
+            if line.startswith("relume:") and " warning: " not in line
+        ]
         if code is None:
             return "hangs"
         if b"LeakSanitizer:DEADLYSIGNAL" in err:
@@ -120,17 +137,21 @@ class Trial:
         if others:
             return f"leaves {others}"
         if case.name == "diff" and code == 3:  # a frame that cannot be read is a result: here are two
-            return None if 1 <= len(said) <= 2 - (inject[-1] != "+") else f"exit code 3 with {len(said)} lines: {err[-400:]}"
+            return None if 1 <= len(said) <= 2 - (inject[-1]
+                                                  != "+") else f"exit code 3 with {len(said)} lines: {err[-400:]}"
         if any(made[n] != good[3][n] for n in made):
             return f"exit code {code}: another {[n for n in made if made[n] != good[3][n]]}"
         if case.name == "index" and b"cache/relume" in out:  # where it goes if it cannot lie beside the recording
             return None
-        if code == good[0] and said and (inject[-1] == "+" or not case.name.startswith("render")):  # another worker does a frame again
+        if code == good[0] and said and (inject[-1] == "+"
+                                         or not case.name.startswith("render")):  # another worker does a frame again
             return f"exit code {code} after {said}"
         if code == good[0]:
-            return None if set(made) == set(good[3]) and (plain(out) == plain(good[1]) or case.name == "diff") else f"exit code {code}, but not the same: {err[-300:]}"
+            return None if set(made) == set(good[3]) and (plain(out) == plain(
+                good[1]) or case.name == "diff") else f"exit code {code}, but not the same: {err[-300:]}"
         most = 2 if case.name.startswith("render") else 1  # each worker tells what became of it
-        return None if 1 <= len(said) <= most else f"exit code {code} with {len(said)} lines: {err.decode(errors='replace')[-400:]}"
+        return None if 1 <= len(
+            said) <= most else f"exit code {code} with {len(said)} lines: {err.decode(errors='replace')[-400:]}"
 
 
 def counts_of(path):
@@ -153,7 +174,8 @@ def points_of(counts, most):
 
 
 def places_of(counts, most):
-    """Each place in the code that makes such calls: all of them from there, and where there are several the last one."""
+    """Each place in the code that makes such calls: all of them from there, and where there are several the last
+    one."""
     for name in CLASSES:
         for at, n in enumerate(places_counts(counts, name), 1):
             yield f"{name}@{at}+"
@@ -163,7 +185,10 @@ def places_of(counts, most):
 
 def places_counts(counts, name):
     """How often each place made a call of the class."""
-    return [counts[key] for key in sorted((key for key in counts if key.startswith(f"{name}@")), key=lambda key: int(key[len(name) + 1:]))]
+    return [
+        counts[key] for key in sorted((key for key in counts
+                                       if key.startswith(f"{name}@")), key=lambda key: int(key[len(name) + 1:]))
+    ]
 
 
 def try_case(trial, case, most, workers, points_of=points_of):
@@ -191,7 +216,8 @@ def try_recorder(trial, build, most):
     record = [trial.relume, "record", "-o", "r.trace", "--ref", "color", "--", program]
 
     def run(env, *command):
-        done = subprocess.run([ROOT / "tests/xvfb.sh", "env", *env, *command], cwd=work, stdin=subprocess.DEVNULL, capture_output=True, timeout=LIMIT_S, check=False)
+        done = subprocess.run([ROOT / "tests/xvfb.sh", "env", *env, *command], cwd=work, stdin=subprocess.DEVNULL,
+                              capture_output=True, timeout=LIMIT_S, check=False)
         return done.returncode, done.stdout
 
     alone = run([], program)
@@ -210,12 +236,18 @@ def try_recorder(trial, build, most):
 
 def prepare(build, inputs):
     relume = (build / "relume").resolve()
-    made = [[ROOT / "tests/xvfb.sh", relume, "record", "-o", inputs / "x.trace", "--ref", "color", "--", build.resolve() / "corpus/two_triangles", "--frames", "2", "--size", "64x48"],
-            [ROOT / "tests/xvfb.sh", relume, "record", "-o", inputs / "programs.trace", "--", build.resolve() / "corpus/phong", "--by", "fragment", "--frames", "1", "--size", "64x48"],
-            [relume, "index", inputs / "x.trace"],
+    made = [[
+        ROOT / "tests/xvfb.sh", relume, "record", "-o", inputs / "x.trace", "--ref", "color", "--",
+        build.resolve() / "corpus/two_triangles", "--frames", "2", "--size", "64x48"
+    ],
+            [
+                ROOT / "tests/xvfb.sh", relume, "record", "-o", inputs / "programs.trace", "--",
+                build.resolve() / "corpus/phong", "--by", "fragment", "--frames", "1", "--size", "64x48"
+            ], [relume, "index", inputs / "x.trace"],
             [relume, "render", inputs / "x.trace", "-o", inputs / "frames/x.####.exr", "--mode", "gl", "--aov", "gl"]]
     for command in made:
-        done = subprocess.run([str(w) for w in command], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        done = subprocess.run([str(w) for w in command], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              check=False)
         if done.returncode:
             sys.exit(f"{command}: exit code {done.returncode}\n{done.stderr}")
 
@@ -234,7 +266,8 @@ def main(build, only, most):
             else:
                 n, wrong = try_case(trial, next(case for case in CASES if case.name == name), most, os.cpu_count())
             print(*wrong, sep="\n", end="\n" if wrong else "")
-            shown.row(f"relume {name}" + (", at most 60 of each class" if name == "record" else ""), f"{n} points, {len(wrong)} failures", "0 failures", n > 0 and not wrong)
+            shown.row(f"relume {name}" + (", at most 60 of each class" if name == "record" else ""),
+                      f"{n} points, {len(wrong)} failures", "0 failures", n > 0 and not wrong)
     return shown.finish()
 
 

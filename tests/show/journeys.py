@@ -44,8 +44,8 @@ def show_journeys(shown, build):
         seconds = float((re.search(r"^([\d.]+) s of processor time", done.stdout, re.M) or [0, "inf"])[1])
         checks = re.search(r"Checks: (\d+), Failures: (\d+)", done.stdout)
         figure = f"{int(checks[1]) - int(checks[2])} of {checks[1]} checks, {seconds:.1f} s" if checks else f"exit code {done.returncode}"
-        shown.row(f"{name.replace('_', ' ')}, from start to a picture", figure, f"all checks, {MOST_SECONDS} s of processor time",
-                  done.returncode == 0 and seconds <= MOST_SECONDS)
+        shown.row(f"{name.replace('_', ' ')}, from start to a picture", figure,
+                  f"all checks, {MOST_SECONDS} s of processor time", done.returncode == 0 and seconds <= MOST_SECONDS)
 
 
 def show_wrong_inputs(shown, build, tmp):
@@ -54,26 +54,31 @@ def show_wrong_inputs(shown, build, tmp):
     game = place / "game"
     game.write_text(f'#!/bin/sh\nexec "{build}/corpus/two_triangles" --frames 3 --size 160x120 "$@"\n')
     game.chmod(0o755)
-    for words in (["record", "-o", "game.trace", "--ref", "color,depth", "--", "./game"], ["render", "game.trace", "-o", "out/game.####.exr"]):
-        subprocess.run([build / "relume", *words], cwd=place, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                       stderr=subprocess.DEVNULL, check=True)
+    for words in (["record", "-o", "game.trace", "--ref", "color,depth", "--",
+                   "./game"], ["render", "game.trace", "-o", "out/game.####.exr"]):
+        subprocess.run([build / "relume", *words], cwd=place, env=env, stdin=subprocess.DEVNULL,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
     good = 0
     for outcome in wrong_inputs.try_all(build / "relume", place, env):
         good += not outcome.faults
-        print(f"       {outcome.typed}\n           {outcome.code}  {outcome.line.removeprefix('relume: ')}", *outcome.faults, sep="\n           FAULT: ")
-    shown.row("wrong inputs: one line, the right exit code, nothing half-written", f"{good} of {len(wrong_inputs.CASES)}", f"{WRONG} of {WRONG}",
-              good == len(wrong_inputs.CASES) == WRONG)
+        print(f"       {outcome.typed}\n           {outcome.code}  {outcome.line.removeprefix('relume: ')}",
+              *outcome.faults, sep="\n           FAULT: ")
+    shown.row("wrong inputs: one line, the right exit code, nothing half-written",
+              f"{good} of {len(wrong_inputs.CASES)}", f"{WRONG} of {WRONG}", good == len(wrong_inputs.CASES) == WRONG)
 
 
 def show_first_picture(shown, build, program, name, tmp):
     """Commands and seconds from a program to a picture by `--look auto`, without noise, kernels compiled before."""
     place, env = pathlib.Path(tmp), environment(build, tmp)
-    commands = ([build / "relume", "record", "-o", "game.trace", "--quit-after", "10", "--", *program],
-                [build / "relume", "render", "game.trace", "-f", "5", "--look", "auto", "--samples", "16", "--denoise", "-o", "nice.png"])
+    commands = ([build / "relume", "record", "-o", "game.trace", "--quit-after", "10", "--", *program], [
+        build / "relume", "render", "game.trace", "-f", "5", "--look", "auto", "--samples", "16", "--denoise", "-o",
+        "nice.png"
+    ])
     seconds, codes = [], []
     for command in commands:
         begin = time.monotonic()
-        done = subprocess.run(command, cwd=place, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        done = subprocess.run(command, cwd=place, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, check=False)
         seconds.append(time.monotonic() - begin)
         codes.append(done.returncode)
         if done.returncode:
@@ -83,9 +88,11 @@ def show_first_picture(shown, build, program, name, tmp):
     kept.parent.mkdir(parents=True, exist_ok=True)
     if picture.exists():
         kept.write_bytes(picture.read_bytes())
-    shown.row(f"{name} to a first nice picture (build/show/journeys/{name}.png)",
-              f"{len(commands)} commands, {sum(seconds):.1f} s ({seconds[0]:.1f} to record, {seconds[1]:.1f} to render)", "2 commands",
-              picture.exists() and codes == [0, 0])
+    shown.row(
+        f"{name} to a first nice picture (build/show/journeys/{name}.png)",
+        f"{len(commands)} commands, {sum(seconds):.1f} s ({seconds[0]:.1f} to record, {seconds[1]:.1f} to render)",
+        "2 commands",
+        picture.exists() and codes == [0, 0])
 
 
 def main():
@@ -97,7 +104,8 @@ def main():
     show_journeys(shown, build)
     with tempfile.TemporaryDirectory(prefix="relume-") as tmp:
         show_wrong_inputs(shown, build, tmp)
-    for name, program in (("hall", [build / "corpus/hall"]), ("spheres", [build / "corpus/spheres"]), ("glxgears", ["glxgears"])):
+    for name, program in (("hall", [build / "corpus/hall"]), ("spheres", [build / "corpus/spheres"]), ("glxgears",
+                                                                                                       ["glxgears"])):
         with tempfile.TemporaryDirectory(prefix="relume-") as tmp:
             show_first_picture(shown, build, program, name, tmp)
     return shown.finish()

@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""tests/show/kill.py BUILD [RUNS [SEED]] (as `make show-kill`): programs killed by SIGKILL at random moments lose no completed frame.
+"""tests/show/kill.py BUILD [RUNS [SEED]] (as `make show-kill`): programs killed by SIGKILL at random moments lose no
+completed frame.
 
-Each run records a program, waits for a random while after it has begun, and kills it, every second time together with the
-command that records it. How many frames it had completed is known from a counter outside of it (counter_shim.c). Its trace
-must hold at least as many frames, and `apitrace dump` and `relume info` must read it to the end; that it ends within a call
-of the frame in progress is all that apitrace may say. A program killed before its first call leaves a trace without calls.
+Each run records a program, waits for a random while after it has begun, and kills it, every second time together with
+the command that records it. How many frames it had completed is known from a counter outside of it (counter_shim.c).
+Its trace must hold at least as many frames, and `apitrace dump` and `relume info` must read it to the end; that it ends
+within a call of the frame in progress is all that apitrace may say. A program killed before its first call leaves a
+trace without calls.
 """
 import json
 import os
@@ -43,7 +45,10 @@ def kill_once(build, program, delay, both, folder):
     trace.unlink(missing_ok=True)
     counter.write_bytes(bytes(16))
     script = 'LD_PRELOAD="$1:$LD_PRELOAD"; export LD_PRELOAD; shift; exec "$@"'
-    command = [build / "relume", "record", "-o", trace, "--", "sh", "-c", script, "sh", build / "tests/real/counter_shim.so", *program]
+    command = [
+        build / "relume", "record", "-o", trace, "--", "sh", "-c", script, "sh", build / "tests/real/counter_shim.so",
+        *program
+    ]
     recorder = subprocess.Popen(list(map(str, command)), env=dict(os.environ, KILL_COUNTER=str(counter)),
                                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     pid, deadline = 0, time.monotonic() + PATIENCE_S
@@ -61,7 +66,8 @@ def kill_once(build, program, delay, both, folder):
     completed = read_counter(counter)[1]
     if not trace.exists():
         return completed, 0, "no trace" if completed else None
-    dump = subprocess.run(["apitrace", "dump", "--color=never", trace], stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    dump = subprocess.run(["apitrace", "dump", "--color=never", trace], stdin=subprocess.DEVNULL, capture_output=True,
+                          check=False)
     info = subprocess.run([build / "relume", "info", trace], stdin=subprocess.DEVNULL, capture_output=True, check=False)
     complaint, begun = None, trace.stat().st_size and (completed or b"\n0 " in dump.stdout)
     if trace.stat().st_size and (dump.returncode or dump.stderr not in (b"", CUT)):
@@ -84,19 +90,28 @@ def main(build, runs, seed):
             lost += max(0, completed - recorded)
             unreadable += complaint is not None
             if complaint or recorded < completed:
-                print(f"run {n}, {program[0]} killed after {delay:.3f} s: {completed} frames completed, {recorded} in the trace"
-                      f"{'; ' + complaint if complaint else ''}", flush=True)
-    rows = [{"what": f"{runs} runs killed (seed {seed}), {frames} frames completed: lost", "figure": lost, "bar": 0, "peer": None,
-             "passed": lost == 0 and frames > runs},
-            {"what": f"{runs} runs killed: traces that apitrace dump or relume info cannot read", "figure": unreadable, "bar": 0,
-             "peer": None, "passed": unreadable == 0}]
+                print(
+                    f"run {n}, {program[0]} killed after {delay:.3f} s: {completed} frames completed, {recorded} in "
+                    f"the trace"
+                    f"{'; ' + complaint if complaint else ''}", flush=True)
+    rows = [{
+        "what": f"{runs} runs killed (seed {seed}), {frames} frames completed: lost", "figure": lost, "bar": 0,
+        "peer": None, "passed": lost == 0 and frames > runs
+    }, {
+        "what": f"{runs} runs killed: traces that apitrace dump or relume info cannot read", "figure": unreadable,
+        "bar": 0, "peer": None, "passed": unreadable == 0
+    }]
     for row in rows:
         print(f"{row['what']}: {row['figure']} (bar {row['bar']})")
     (build / "show").mkdir(exist_ok=True)
     if runs >= 1000:
-        (build / "show/kill.json").write_text(json.dumps({"name": "kill", "command": "make show-kill", "rows": rows}, indent=1))
+        (build / "show/kill.json").write_text(
+            json.dumps({"name": "kill", "command": "make show-kill", "rows": rows}, indent=1))
     return 0 if all(row["passed"] for row in rows) else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 1000, int(sys.argv[3]) if len(sys.argv) > 3 else 1))
+    sys.exit(
+        main(sys.argv[1],
+             int(sys.argv[2]) if len(sys.argv) > 2 else 1000,
+             int(sys.argv[3]) if len(sys.argv) > 3 else 1))

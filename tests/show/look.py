@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""tests/show/look.py BUILD (as `make show-look`): what `relume look` finds in levels of corpus/rooms with lightmaps whose lights are known,
-and in corpus/tricks: how many lights, how far off, and what it costs; and what roles it gives beside labels written by hand (roles.py)."""
+"""tests/show/look.py BUILD (as `make show-look`): what `relume look` finds in levels of corpus/rooms with lightmaps
+whose lights are known, and in corpus/tricks: how many lights, how far off, and what it costs; and what roles it gives
+beside labels written by hand (roles.py)."""
 import json
 import math
 import pathlib
@@ -32,8 +33,14 @@ def distance(a, b):
 def solved_lights(text):
     """[(position, colour)] of lights that come of lightmaps, and the ambient light."""
     rules = re.split(r"^  - ", text.partition("\nlights:")[2].partition("\nworld:")[0], flags=re.M)
-    lights = [(numbers(r, "position")[:3], numbers(r, "diffuse")) for r in rules if r.startswith(("role: light of lightmaps", "role: light of vertex colours"))]
-    ambient = [numbers(r, "ambient") for r in rules if r.startswith(("role: ambient light of lightmaps", "role: ambient light of vertex colours"))]
+    lights = [(numbers(r, "position")[:3], numbers(r, "diffuse"))
+              for r in rules
+              if r.startswith(("role: light of lightmaps", "role: light of vertex colours"))]
+    ambient = [
+        numbers(r, "ambient")
+        for r in rules
+        if r.startswith(("role: ambient light of lightmaps", "role: ambient light of vertex colours"))
+    ]
     return lights, ambient[0] if ambient else None
 
 
@@ -45,7 +52,8 @@ def into_world(truth, position):
 
 
 def compare_lights(truth, text):
-    """Pair found lights with true ones, nearest first: how many, how far off as shares of the level's size and of their strength."""
+    """Pair found lights with true ones, nearest first: how many, how far off as shares of the level's size and of their
+    strength."""
     lights, ambient = solved_lights(text)
     left, found, off, strength_off = list(lights), 0, 0.0, 0.0
     for light in truth["lights"]:
@@ -58,8 +66,10 @@ def compare_lights(truth, text):
         off = max(off, distance(best[0], place) / truth["size"])
         strength_off = max(strength_off, *(abs(a - b) / b for a, b in zip(best[1], light["color"])))
     ambient_off = max(abs(a - truth["ambient"]) for a in ambient) / truth["ambient"] if ambient else 1.0
-    return {"found": found, "missed": len(truth["lights"]) - found, "invented": len(left), "off": off, "strength_off": strength_off,
-            "ambient_off": ambient_off}
+    return {
+        "found": found, "missed": len(truth["lights"]) - found, "invented": len(left), "off": off,
+        "strength_off": strength_off, "ambient_off": ambient_off
+    }
 
 
 def run(*args):
@@ -67,10 +77,12 @@ def run(*args):
 
 
 def must(done):
-    """A command that ended well, or the end of it all: with its name and its end, as one that was killed says nothing itself."""
+    """A command that ended well, or the end of it all: with its name and its end, as one that was killed says nothing
+    itself."""
     if done.returncode:
         end = f"signal {-done.returncode}" if done.returncode < 0 else f"code {done.returncode}"
-        print(f"{' '.join(done.args)}: ended with {end}: {done.stderr.strip() or 'no message'}", file=sys.stderr, flush=True)
+        print(f"{' '.join(done.args)}: ended with {end}: {done.stderr.strip() or 'no message'}", file=sys.stderr,
+              flush=True)
         sys.exit(1)
 
 
@@ -79,7 +91,9 @@ def study(build, work, program, *options):
     trace, rules = work / "x.trace", work / "x.look.yaml"
     for old in work.glob("x.*"):
         old.unlink()
-    must(run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", build / "corpus" / program, *options))
+    must(
+        run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", build / "corpus" / program,
+            *options))
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     must(run(build / "relume", "look", trace, "-o", rules))
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -93,8 +107,9 @@ def textures_alone(build, work, seed, cut):
     trace = work / "bare.trace"
     for old in work.glob("bare.*"):
         old.unlink()
-    must(run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--ref", "color,depth", "--", build / "corpus/rooms", "--seed", seed, "--frames", 2,
-             "--animate", "camera", "--lighting", cut))
+    must(
+        run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--ref", "color,depth", "--",
+            build / "corpus/rooms", "--seed", seed, "--frames", 2, "--animate", "camera", "--lighting", cut))
     must(run(build / "relume", "render", trace, "-f", 1, "-o", work / "bare/x.####.exr", "--aov", "gl,Z"))
     scored = json.loads(run(build / "relume", "diff", trace, work / "bare", "--json", "-").stdout)
     state = next(f for f in scored["frames"] if f["frame"] == 1)["gates"]["R1"]["state"]
@@ -112,18 +127,25 @@ def true_rules(truth, text):
     """The rules that were found, with the level's own lights in place of those found."""
     lights = [(truth["ambient"], (0, 0, 0), (0, 1, 0, 0))]
     lights += [(0, light["color"], (*into_world(truth, light["position"]), 1)) for light in truth["lights"]]
-    listed = "".join(f"  - on: unlit\n    space: world\n    position: {list(at)}\n    ambient: {[ambient] * 3}\n    diffuse: {list(color)}\n"
-                     "    specular: [0, 0, 0]\n    attenuation: [0, 0, 1]\n" for ambient, color, at in lights)
+    listed = "".join(
+        f"  - on: unlit\n    space: world\n    position: {list(at)}\n    ambient: {[ambient] * 3}\n    diffuse: "
+        f"{list(color)}\n"
+        "    specular: [0, 0, 0]\n    attenuation: [0, 0, 1]\n" for ambient, color, at in lights)
     return text.partition("\nlights:")[0] + "\nlights:\n" + listed + "world:" + text.partition("\nworld:")[2]
 
 
 def relight(build, work, truth, text):
-    """A level relit by what was found, beside the same by its own lights: mean FLIP, and the file that has the albedo."""
+    """A level relit by what was found, beside the same by its own lights: mean FLIP, and the file that has the
+    albedo."""
     for name, rules in (("true", true_rules(truth, text)), ("relit", text)):
         (work / "y.look.yaml").write_text(rules)
-        must(run(build / "relume", "render", work / "x.trace", "-f", 1, "-o", work / name / "x.####.exr", "--look", work / "y.look.yaml", "--aov", "gl,albedo"))
-    scored = json.loads(run(build / "relume", "diff", work / "true", work / "relit", "--channel", "beauty", "--json", "-").stdout)
-    return scored["frames"][0]["info"]["beauty_flip"], Image(work / "relit/x.0001.exr", {f"albedo.{c}" for c in "RGB"}).planes
+        must(
+            run(build / "relume", "render", work / "x.trace", "-f", 1, "-o", work / name / "x.####.exr", "--look",
+                work / "y.look.yaml", "--aov", "gl,albedo"))
+    scored = json.loads(
+        run(build / "relume", "diff", work / "true", work / "relit", "--channel", "beauty", "--json", "-").stdout)
+    return scored["frames"][0]["info"]["beauty_flip"], Image(work / "relit/x.0001.exr",
+                                                             {f"albedo.{c}" for c in "RGB"}).planes
 
 
 def main(build):
@@ -141,8 +163,8 @@ def main(build):
             scores, seconds = [], 0.0
             for seed in range(LEVELS):
                 truth = work / "truth.json"
-                text, took = study(build, work, "rooms", "--seed", seed, "--lights", 1 + seed % 6, "--frames", 2, "--animate", "camera",
-                                   "--lighting", lighting, "--truth", truth)
+                text, took = study(build, work, "rooms", "--seed", seed, "--lights", 1 + seed % 6, "--frames", 2,
+                                   "--animate", "camera", "--lighting", lighting, "--truth", truth)
                 scores.append(compare_lights(json.loads(truth.read_text()), text))
                 seconds += took
                 score = scores[-1]
@@ -151,26 +173,37 @@ def main(build):
                 if (seed, cut) not in textures:
                     textures[seed, cut] = textures_alone(build, work, seed, cut)
                 score["albedo_off"] = albedo_error(textures[seed, cut], albedo)
-                print(f"{lighting}, seed {seed}: {score['found']} found, {score['missed']} missed, {score['invented']} invented; off by {score['off']:.5f} of "
-                      f"the size, {score['strength_off']:.4f} of the strength, {score['ambient_off']:.4f} of the ambient, {score['albedo_off']:.4f} of the albedo; FLIP {score['flip']:.4f}; {took:.2f} s", flush=True)
+                print(
+                    f"{lighting}, seed {seed}: {score['found']} found, {score['missed']} missed, {score['invented']} "
+                    f"invented; off by {score['off']:.5f} of "
+                    f"the size, {score['strength_off']:.4f} of the strength, {score['ambient_off']:.4f} of the "
+                    f"ambient, {score['albedo_off']:.4f} of the albedo; FLIP {score['flip']:.4f}; {took:.2f} s",
+                    flush=True)
             total = {key: sum(s[key] for s in scores) for key in ("found", "missed", "invented")}
-            row(f"{lighting}: lights of {LEVELS} levels found, missed, invented", ", ".join(str(n) for n in total.values()), "none missed or invented",
-                not total["missed"] and not total["invented"])
-            row(f"{lighting}: farthest off, of the level's size", f"{max(s['off'] for s in scores):.4f}", PLACE, max(s["off"] for s in scores) <= PLACE)
+            row(f"{lighting}: lights of {LEVELS} levels found, missed, invented",
+                ", ".join(str(n) for n in total.values()), "none missed or invented", not total["missed"]
+                and not total["invented"])
+            row(f"{lighting}: farthest off, of the level's size", f"{max(s['off'] for s in scores):.4f}", PLACE,
+                max(s["off"] for s in scores) <= PLACE)
             row(f"{lighting}: strength off at most", f"{max(s['strength_off'] for s in scores):.4f}", STRENGTH,
                 max(s["strength_off"] for s in scores) <= STRENGTH)
-            row(f"{lighting}: mean FLIP of a relit level at most", f"{max(s['flip'] for s in scores):.4f}", FLIP, max(s["flip"] for s in scores) <= FLIP)
+            row(f"{lighting}: mean FLIP of a relit level at most", f"{max(s['flip'] for s in scores):.4f}", FLIP,
+                max(s["flip"] for s in scores) <= FLIP)
             off = max(s["albedo_off"] for s in scores)
-            row(f"{lighting}: albedo off the texture's texels, as Mesa filters them, at most", f"{off:.4f}", ALBEDO, off <= ALBEDO)
+            row(f"{lighting}: albedo off the texture's texels, as Mesa filters them, at most", f"{off:.4f}", ALBEDO, off
+                <= ALBEDO)
             row(f"{lighting}: processor seconds of a study", f"{seconds / LEVELS:.2f}", None, None)
-        for kind, key, true in (("planar", "position", (2, 2.5, -7, 1)), ("zpass", "position", (2, 2.5, -7, 1)), ("zfail", "position", (2, 2.5, -7, 1)),
-                                ("directional", "position", (0.4364358, 0.8728716, 0.2182179, 0)), ("mirror", "plane", (0, 0, 1, 11))):
+        for kind, key, true in (("planar", "position", (2, 2.5, -7, 1)), ("zpass", "position", (2, 2.5, -7, 1)),
+                                ("zfail", "position", (2, 2.5, -7, 1)), ("directional", "position",
+                                                                         (0.4364358, 0.8728716, 0.2182179,
+                                                                          0)), ("mirror", "plane", (0, 0, 1, 11))):
             found = numbers(study(build, work, "tricks", kind, "--frames", 3)[0], key) or [1e9] * 4
             off = distance(found, true) / distance(true, (0, 0, 0, 0))
             row(f"tricks {kind}: {'plane' if key == 'plane' else 'light'} off by", f"{off:.2g}", TRICK, off <= TRICK)
         roles.score(build, work, row)
     (build / "show").mkdir(parents=True, exist_ok=True)
-    (build / "show/look.json").write_text(json.dumps({"name": "look", "command": "make show-look", "rows": rows}, indent=1))
+    (build / "show/look.json").write_text(
+        json.dumps({"name": "look", "command": "make show-look", "rows": rows}, indent=1))
     return 1 if bad else 0
 
 

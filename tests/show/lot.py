@@ -1,13 +1,15 @@
 #!/usr/bin/python3
-"""tests/show/lot.py BUILD [--seed N] [--programs N] (as `make show-lot`): traced pictures of programs drawn by lot, to be looked at.
+"""tests/show/lot.py BUILD [--seed N] [--programs N] (as `make show-lot`): traced pictures of programs drawn by lot, to
+be looked at.
 
 Of the sweep's programs that are installed, some are drawn by lot, so that nobody chooses them. A late frame of each is
-rendered as it comes and with `--look auto`; BUILD/show/lot/NAME.png shows raster, default and auto side by side. Somebody looks
-at each, and writes into tests/show/lot.yaml what was seen under the seed: default and auto each better, equal or worse
-than the raster frame, and whether anything there is lit or casts a shadow. Where there is no seed yet, one is drawn,
-and its pictures have to be looked at.
+rendered as it comes and with `--look auto`; BUILD/show/lot/NAME.png shows raster, default and auto side by side.
+Somebody looks at each, and writes into tests/show/lot.yaml what was seen under the seed: default and auto each better,
+equal or worse than the raster frame, and whether anything there is lit or casts a shadow. Where there is no seed yet,
+one is drawn, and its pictures have to be looked at.
 
-The bars: no default picture worse, no auto picture worse, one of the two better on a third of those where anything is lit.
+The bars: no default picture worse, no auto picture worse, one of the two better on a third of those where anything is
+lit.
 """
 import argparse
 import pathlib
@@ -50,7 +52,8 @@ def show_verdicts(shown, seen, n):
     shown.row("programs drawn, with a picture, and looked at", f"{len(seen)} of {n}", f"{n}", len(seen) == n)
     for of in ("default", "auto"):
         worse = count(seen, of, "worse")
-        shown.row(f"{of}: worse than the raster frame", f"{len(worse)}: {', '.join(worse)}" if worse else "0", "0", not worse)
+        shown.row(f"{of}: worse than the raster frame", f"{len(worse)}: {', '.join(worse)}" if worse else "0", "0",
+                  not worse)
     lit = [name for name, line in seen.items() if line["lit"]]
     better = [name for name in lit if "better" in (seen[name]["default"], seen[name]["auto"])]
     shown.row("better, of those where anything is lit or casts", f"{len(better)} of {len(lit)}", f"{LEAST_BETTER:.0%}",

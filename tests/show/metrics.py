@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""tests/show/metrics.py BUILD (as `make show-metrics`, in its virtual environment): metrics against other implementations.
+"""tests/show/metrics.py BUILD (as `make show-metrics`, in its virtual environment): metrics against other
+implementations.
 
-Ten pairs of pictures: reference frames of two live recordings, each against five changed copies. FLIP against its authors'
-package, PSNR, SSIM and CIEDE2000 against scikit-image, MS-SSIM against its definition in SciPy, RMSE and MRSE against
-NumPy, Yee's metric against idiff -p, HDR-FLIP against the authors' package at the same exposures. Then time on one core for
-one pair of 1920 x 1080.
+Ten pairs of pictures: reference frames of two live recordings, each against five changed copies. FLIP against its
+authors' package, PSNR, SSIM and CIEDE2000 against scikit-image, MS-SSIM against its definition in SciPy, RMSE and MRSE
+against NumPy, Yee's metric against idiff -p, HDR-FLIP against the authors' package at the same exposures. Then time on
+one core for one pair of 1920 x 1080.
 """
 import json
 import os
@@ -32,8 +33,8 @@ SPEED_RUNS = 3
 
 
 def run(*command, **more):
-    done = subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          text=True, timeout=900, **more)
+    done = subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, timeout=900, **more)
     return done
 
 
@@ -110,8 +111,8 @@ def lab(codes):
 def flip_mean(a, b, kind, parameters=None):
     """Mean of the map of errors that FLIP's authors' package gives, and the mean that it gives itself.
 
-    The package sums a million errors in single precision: where they are large, its mean is off by some 1e-4 from the mean of
-    its own map. The map is what is compared, its mean taken in double precision.
+    The package sums a million errors in single precision: where they are large, its mean is off by some 1e-4 from the
+    mean of its own map. The map is what is compared, its mean taken in double precision.
     """
     errors, own, _ = flip_evaluator.evaluate(a, b, kind, applyMagma=False, parameters=parameters or {})
     return float(numpy.mean(errors, dtype="f8")), float(own)
@@ -189,7 +190,8 @@ def speed(build, work):
     pair = []
     for name in ("ref", "traced"):
         rgb = numpy.stack([exr.Image(work / f"{name}.exr").planes[f"gl.{c}"].astype("f8") for c in "RGB"], axis=-1)
-        codes = numpy.round(255 * numpy.where(rgb <= 0.0031308, 12.92 * rgb, 1.055 * numpy.maximum(rgb, 0) ** (1 / 2.4) - 0.055))
+        codes = numpy.round(
+            255 * numpy.where(rgb <= 0.0031308, 12.92 * rgb, 1.055 * numpy.maximum(rgb, 0)**(1 / 2.4) - 0.055))
         pair.append(numpy.clip(codes, 0, 255).astype("u1"))
         exr.write_png(work / f"{name}.png", pair[-1])
     floats = [p.astype("f4") / 255 for p in pair]
@@ -197,7 +199,8 @@ def speed(build, work):
     os.sched_setaffinity(0, core[:1])
     times = {"relume diff": [], "FLIP": [], "idiff -p": []}
     for _ in range(SPEED_RUNS):
-        times["relume diff"].append(cpu_seconds(lambda: run(build / "relume", "diff", work / "ref.exr", work / "traced.exr")))
+        times["relume diff"].append(
+            cpu_seconds(lambda: run(build / "relume", "diff", work / "ref.exr", work / "traced.exr")))
         times["FLIP"].append(cpu_seconds(lambda: flip_evaluator.evaluate(floats[0], floats[1], "LDR")))
         times["idiff -p"].append(cpu_seconds(lambda: run("idiff", "-p", work / "ref.png", work / "traced.png")))
     os.sched_setaffinity(0, core)
@@ -212,8 +215,8 @@ def main(build):
         (work / name).mkdir(parents=True)
     pairs = []
     for name, program in (("still_life", [build / "corpus/still_life", "--frames", "1"]), ("glxgears", ["glxgears"])):
-        must(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", work / f"{name}.trace", "--ref", "color", "--quit-after", 1,
-             "--", *program)
+        must(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", work / f"{name}.trace", "--ref", "color",
+             "--quit-after", 1, "--", *program)
         codes = last_reference(work / f"{name}.ref")
         pairs += [(codes, copy) for copy in changed_copies(codes)]
     for i, (a, b) in enumerate(pairs):
@@ -235,21 +238,29 @@ def main(build):
         rows.append({"what": f"{k}, 10 pairs: largest difference", "figure": f"{off:.2g}", "bar": f"{bar:g}",
                      "peer": peers.get(k, f"scikit-image {skimage.__version__}"), "passed": bool(off <= bar)})
     off, wanted, own = hdr_pair(build, work, work / "still_life.trace")
-    rows.append({"what": f"HDR-FLIP of gate B, mean {wanted:.7g} (by its own float sum {own:.7g}): difference", "figure": f"{off:.2g}", "bar": "0.0001",
-                 "peer": "flip-evaluator 1.7", "passed": bool(off <= 1e-4)})
+    rows.append({
+        "what": f"HDR-FLIP of gate B, mean {wanted:.7g} (by its own float sum {own:.7g}): difference",
+        "figure": f"{off:.2g}", "bar": "0.0001", "peer": "flip-evaluator 1.7", "passed": bool(off <= 1e-4)
+    })
     sharma = run(build / "tests/unit/test_metrics")
-    rows.append({"what": "CIEDE2000, Sharma's 34 pairs", "figure": "all within 5e-5" if sharma.returncode == 0 else "off",
-                 "bar": "5e-5, as printed", "peer": "Sharma, Wu and Dalal 2005", "passed": sharma.returncode == 0})
+    rows.append({
+        "what": "CIEDE2000, Sharma's 34 pairs", "figure": "all within 5e-5" if sharma.returncode == 0 else "off",
+        "bar": "5e-5, as printed", "peer": "Sharma, Wu and Dalal 2005", "passed": sharma.returncode == 0
+    })
     times = speed(build, work)
     for peer in ("FLIP", "idiff -p"):
         ratio = times[peer] / times["relume diff"]
-        rows.append({"what": f"1080p, all gates and FLIP twice, one core, CPU seconds: {times['relume diff']:.2f} against "
-                             f"{times[peer]:.2f}", "figure": f"{ratio:.2f} times as fast", "bar": ">= 1",
-                     "peer": {"FLIP": "flip-evaluator 1.7, evaluate() alone"}.get(peer, "idiff -p, PNG"), "passed": ratio >= 1})
-    (build / "show" / "metrics.json").write_text(json.dumps({"name": "metrics", "command": "make show-metrics", "rows": rows},
-                                                            indent=1) + "\n")
+        rows.append({
+            "what": f"1080p, all gates and FLIP twice, one core, CPU seconds: {times['relume diff']:.2f} against "
+            f"{times[peer]:.2f}", "figure": f"{ratio:.2f} times as fast", "bar": ">= 1",
+            "peer": {"FLIP": "flip-evaluator 1.7, evaluate() alone"}.get(peer, "idiff -p, PNG"), "passed": ratio >= 1
+        })
+    (build / "show" / "metrics.json"
+     ).write_text(json.dumps({"name": "metrics", "command": "make show-metrics", "rows": rows}, indent=1) + "\n")
     for row in rows:
-        print(f"{'holds' if row['passed'] else 'FAILS'}  {row['what']}: {row['figure']} (bar {row['bar']}; {row['peer']})")
+        print(
+            f"{'holds' if row['passed'] else 'FAILS'}  {row['what']}: {row['figure']} (bar {row['bar']}; {row['peer']})"
+        )
     return 0 if all(row["passed"] for row in rows) else 1
 
 

@@ -1,6 +1,6 @@
 /*
- * What schemata.py puts into sources: places where a mutant's text may stand for what was. Nothing of it is in the product. OpenCL C keeps
- * what was: mutants of shared text run in its C build.
+ * What schemata.py puts into sources: places where a mutant's text may stand for what was. Nothing of it is in the
+ * product. OpenCL C keeps what was: mutants of shared text run in its C build.
  */
 #pragma once
 

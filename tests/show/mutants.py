@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """tests/show/mutants.py BUILD (as `make show-mutants`): damaged files: no crash, no hang, bounded memory.
 
-20,000 mutants of recordings made here of programs of ours, glxgears and two screen savers, through all verbs that read one: most in
-one process (tests/fuzz/drive.c), some through the command itself (tests/fuzz/mutate.py, exit code 0 or 3). 5,000 of every other file that
-Relume reads, from files as it and others make them (tests/fuzz/seeds.py). What breaks is kept in BUILD/show/mutants/.
+20,000 mutants of recordings made here of programs of ours, glxgears and two screen savers, through all verbs that read
+one: most in one process (tests/fuzz/drive.c), some through the command itself (tests/fuzz/mutate.py, exit code 0 or 3).
+5,000 of every other file that Relume reads, from files as it and others make them (tests/fuzz/seeds.py). What breaks is
+kept in BUILD/show/mutants/.
 """
 import json
 import os
@@ -36,8 +37,8 @@ def record(build, folder):
         trace = folder / f"{name}.trace"
         if not trace.exists():
             # A program that `timeout` ends has recorded what it could; whether it did, unpacking tells.
-            subprocess.run([ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", *program], check=False,
-                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            subprocess.run([ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", *program],
+                           check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     return sorted(folder.glob("*.trace"))
 
 
@@ -45,10 +46,12 @@ def drive(build, folder, target, count, parts):
     """How many of so many mutants break the target."""
     pack = folder / f"{target}.pack"
     pack.write_bytes(b"".join(len(part).to_bytes(4, "little") + part for part in parts))
-    os.symlink(ROOT / "tests", folder / "tests") if not (folder / "tests").exists() else None  # targets read golden recordings
+    os.symlink(ROOT / "tests", folder /
+               "tests") if not (folder / "tests").exists() else None  # targets read golden recordings
     work = folder / "tmp"
     work.mkdir(exist_ok=True)
-    done = subprocess.run([build / "tests/fuzz/drive", "mutate", target, str(count), str(SEED), pack], capture_output=True, text=True, check=False, cwd=folder,
+    done = subprocess.run([build / "tests/fuzz/drive", "mutate", target,
+                           str(count), str(SEED), pack], capture_output=True, text=True, check=False, cwd=folder,
                           env=dict(os.environ, TMPDIR=str(work)))
     print(done.stdout.strip(), flush=True)
     return done.stdout.count(": input ") if done.returncode in (0, 1) else count
@@ -57,18 +60,21 @@ def drive(build, folder, target, count, parts):
 def compare_once(build, good, bad, mutate):
     """Exit code and seconds of one `relume diff`."""
     begin = time.monotonic()
-    code = subprocess.run([build / "relume", "diff", good, bad], check=False, preexec_fn=mutate.limit_memory, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.DEVNULL).returncode
+    code = subprocess.run([build / "relume", "diff", good, bad], check=False, preexec_fn=mutate.limit_memory,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
     return code, time.monotonic() - begin
 
 
 def compare(build, folder, count, parts, mutate):
+    """How many of so many damaged pictures break `relume diff`, which reads each in a process of its own: exit code 0
+    (as it was), 1 or 3, within 10 s and 2 GiB for ten of them at once. By the clock: what those processes use goes into
+    nobody's sums. Another try tells a hang from a machine that was busy.
     """
-    How many of so many damaged pictures break `relume diff`, which reads each in a process of its own: exit code 0 (as it was), 1 or 3, within 10 s and
-    2 GiB for ten of them at once. By the clock: what those processes use goes into nobody's sums. Another try tells a hang from a machine that was busy.
-    """
-    endings = (ROOT / "tests/fuzz/fuzz_oiio.c").read_text().partition("endings[] = {")[2].partition("}")[0].replace('"', "").replace(" ", "").split(",")
-    by_ending = {ending: [part[1:] for part in parts if endings[part[0] % len(endings)] == ending] for ending in endings}
+    endings = (ROOT / "tests/fuzz/fuzz_oiio.c").read_text().partition("endings[] = {")[2].partition("}")[0].replace(
+        '"', "").replace(" ", "").split(",")
+    by_ending = {
+        ending: [part[1:] for part in parts if endings[part[0] % len(endings)] == ending] for ending in endings
+    }
     by_ending = {ending: wholes for ending, wholes in by_ending.items() if wholes}
     good, bad = folder / "good", folder / "bad"
     rng = random.Random(SEED)
@@ -105,25 +111,31 @@ def main(build):
     def row(what, count, work):
         begin = time.monotonic()
         wrong = work()
-        rows.append({"what": what, "figure": f"{wrong} of {count} break a run", "bar": "0", "peer": None, "passed": wrong == 0})
-        print(f"{'holds' if not wrong else 'FAILS'}  {what}: {rows[-1]['figure']} ({time.monotonic() - begin:.0f} s)", flush=True)
+        rows.append(
+            {"what": what, "figure": f"{wrong} of {count} break a run", "bar": "0", "peer": None, "passed": wrong == 0})
+        print(f"{'holds' if not wrong else 'FAILS'}  {what}: {rows[-1]['figure']} ({time.monotonic() - begin:.0f} s)",
+              flush=True)
 
     traces = record(build, folder)
     streams = [bytes(mutate.unpack(trace.read_bytes(), HEAD)[:HEAD]) for trace in traces]
     share = COMMANDS // len(traces)
     for seed, trace in enumerate(traces):
-        row(f"{trace.stem}, by info and scene of the command", share, lambda trace=trace, seed=seed: mutate.main(trace, share, seed, HEAD))
+        row(f"{trace.stem}, by info and scene of the command", share,
+            lambda trace=trace, seed=seed: mutate.main(trace, share, seed, HEAD))
     count = TRACES - share * len(traces)
     parts = [bytes([seeds.STREAM | verb]) + stream for stream in streams for verb in range(seeds.VERBS)]
     row(f"{len(traces)} recordings, by {seeds.VERBS} verbs", count, lambda: drive(build, folder, "verbs", count, parts))
     seeds.make_seeds(build, build / "fuzz")
     for target in sorted(path.stem[5:] for path in (ROOT / "tests/fuzz").glob("fuzz_*.c")):
-        parts = [path.read_bytes() for path in sorted((build / f"fuzz/seeds_{target}").glob("*"))] + seeds.read_pack(ROOT / f"tests/fuzz/kept_{target}")
+        parts = [path.read_bytes() for path in sorted((build / f"fuzz/seeds_{target}").glob("*"))] + seeds.read_pack(
+            ROOT / f"tests/fuzz/kept_{target}")
         if target == "oiio":
-            row("pictures, by diff of the command", OTHERS, lambda parts=parts: compare(build, folder, OTHERS, parts, mutate))
+            row("pictures, by diff of the command", OTHERS,
+                lambda parts=parts: compare(build, folder, OTHERS, parts, mutate))
         elif target not in ("verbs", "replay", "calls"):
             row(target, OTHERS, lambda target=target, parts=parts: drive(build, folder, target, OTHERS, parts))
-    (build / "show" / "mutants.json").write_text(json.dumps({"name": "mutants", "command": "make show-mutants", "rows": rows}, indent=1))
+    (build / "show" / "mutants.json").write_text(
+        json.dumps({"name": "mutants", "command": "make show-mutants", "rows": rows}, indent=1))
     return any(not row["passed"] for row in rows)
 
 

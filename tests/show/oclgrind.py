@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 """tests/show/oclgrind.py BUILD (as `make show-oclgrind`): every kernel watched while it runs.
 
-tests/bench/tiny renders scenes of 7 x 7 pixels in which every shading kernel has work, once with each family of traversal
-kernels. oclgrind interprets the kernels and reports accesses out of bounds and data races; valgrind runs the C twins, whose
-shading is the same text, and reports decisions on values that nobody set.
+tests/bench/tiny renders scenes of 7 x 7 pixels in which every shading kernel has work, once with each family of
+traversal kernels. oclgrind interprets the kernels and reports accesses out of bounds and data races; valgrind runs the
+C twins, whose shading is the same text, and reports decisions on values that nobody set.
 
-oclgrind's own search for such values is not used: it names values that the host wrote into the middle of a buffer, although
-pictures agree with the twins'; why it does so was not found out.
-Its build goes without optimisation, which makes calls that it does not know, and without compilers' own functions.
+oclgrind's own search for such values is not used: it names values that the host wrote into the middle of a buffer,
+although pictures agree with the twins'; why it does so was not found out. Its build goes without optimisation, which
+makes calls that it does not know, and without compilers' own functions.
 """
 import json
 import pathlib
@@ -28,7 +28,8 @@ def oclgrind(build, family):
                              capture_output=True, text=True, check=False)
         said = log.read()
     pictures = len(re.findall(rf"^{family} \w+: ", run.stdout, re.MULTILINE))
-    problems = len(re.findall(r"^(?:Invalid|Read-write|Write-write|Work-group divergence|OCLGRIND)", said, re.MULTILINE))
+    problems = len(re.findall(r"^(?:Invalid|Read-write|Write-write|Work-group divergence|OCLGRIND)", said,
+                              re.MULTILINE))
     if said.strip() and not problems:
         problems = said.count("\n\n") + 1  # anything that is said is a problem
     if problems or run.returncode:
@@ -48,8 +49,10 @@ def main(build):
         run = subprocess.run(["valgrind", "-q", "--error-exitcode=9", build / "tests/bench/tiny", "reference", family],
                              capture_output=True, text=True, check=False)
         problems = len(re.findall(r"== (?:Conditional jump|Use of uninit|Invalid read|Invalid write)", run.stderr))
-        rows.append({"what": f"{family}, C twins: values that nobody set, invalid accesses", "figure": f"{problems}", "bar": "0",
-                     "peer": "Valgrind", "passed": problems == 0 and run.returncode == 0})
+        rows.append({
+            "what": f"{family}, C twins: values that nobody set, invalid accesses", "figure": f"{problems}", "bar": "0",
+            "peer": "Valgrind", "passed": problems == 0 and run.returncode == 0
+        })
     out = build / "show" / "oclgrind.json"
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(json.dumps({"name": "oclgrind", "command": "make show-oclgrind", "rows": rows}, indent=1) + "\n")

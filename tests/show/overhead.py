@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """tests/show/overhead.py BUILD (as `make show-overhead`): what recording costs, side by side with `apitrace trace`.
 
-Runs tests/bench/static_scene in its four ways and glxgears (unsynchronised) bare and under our recorder, in pairs that begin with
-the one and with the other in turn, and some of the pairs beside a run under apitrace. A figure is the median of what the runs of a
-pair, which other work on the machine slows alike, are to each other. The processor time of the program and its threads is given for
-information.
+Runs tests/bench/static_scene in its four ways and glxgears (unsynchronised) bare and under our recorder, in pairs that
+begin with the one and with the other in turn, and some of the pairs beside a run under apitrace. A figure is the median
+of what the runs of a pair, which other work on the machine slows alike, are to each other. The processor time of the
+program and its threads is given for information.
 """
 import json
 import os
@@ -54,14 +54,18 @@ def measure(build, how, folder):
     (ratio, used), (peer, peer_used) = ([statistics.median(column) for column in zip(*ratios[name])] for name in ratios)
     bar = TIME_BARS[how] or peer
     what = how if how == "glxgears" else f"10,000 triangles, {how}"
-    yield {"what": f"{what}: frame time over bare", "figure": f"{ratio:.2f}x", "bar": f"{bar:.2f}x", "peer": f"apitrace {peer:.2f}x",
-           "passed": ratio <= bar}
+    yield {
+        "what": f"{what}: frame time over bare", "figure": f"{ratio:.2f}x", "bar": f"{bar:.2f}x",
+        "peer": f"apitrace {peer:.2f}x", "passed": ratio <= bar
+    }
     yield {"what": f"{what}: processor time over bare", "figure": f"{used:.2f}x", "bar": None,
            "peer": f"apitrace {peer_used:.2f}x", "passed": None}
     if how in BYTES_BARS:
         times_smaller = theirs.stat().st_size / ours.stat().st_size
-        yield {"what": f"{what}: trace", "figure": f"1/{times_smaller:.3f} of the peer's", "bar": f"1/{BYTES_BARS[how]}",
-               "peer": f"apitrace {theirs.stat().st_size} bytes", "passed": times_smaller >= BYTES_BARS[how]}
+        yield {
+            "what": f"{what}: trace", "figure": f"1/{times_smaller:.3f} of the peer's", "bar": f"1/{BYTES_BARS[how]}",
+            "peer": f"apitrace {theirs.stat().st_size} bytes", "passed": times_smaller >= BYTES_BARS[how]
+        }
 
 
 def main(build):
@@ -70,7 +74,8 @@ def main(build):
     with tempfile.TemporaryDirectory() as folder:
         rows = [row for how in TIME_BARS for row in measure(build, how, pathlib.Path(folder))]
     (build / "show").mkdir(exist_ok=True)
-    (build / "show/overhead.json").write_text(json.dumps({"name": "overhead", "command": "make show-overhead", "rows": rows}, indent=1))
+    (build / "show/overhead.json").write_text(
+        json.dumps({"name": "overhead", "command": "make show-overhead", "rows": rows}, indent=1))
     for row in rows:
         print(f"{row['what']}: {row['figure']} (bar {row['bar']}; {row['peer']})")
     return 1 if any(row["passed"] is False for row in rows) else 0

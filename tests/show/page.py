@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """tests/show/page.py BUILD (as `make show-page`): the report's page with 1,000 frames, in Chromium.
 
-glxgears is recorded live for 1,000 frames. Its reference frames are scored against copies of themselves, all equal in one
-run, 200 of them damaged in another; each report is opened from disk without a network. A third one, of a few ray traced frames
-with all their channels, is operated: search, keys, views. Screenshots stay in BUILD/show/page for people to look at.
+glxgears is recorded live for 1,000 frames. Its reference frames are scored against copies of themselves, all equal in
+one run, 200 of them damaged in another; each report is opened from disk without a network. A third one, of a few ray
+traced frames with all their channels, is operated: search, keys, views. Screenshots stay in BUILD/show/page for people
+to look at.
 """
 import json
 import pathlib
@@ -26,8 +27,8 @@ N_FRAMES, N_DAMAGED = 1000, 200
 BAR_OPEN_S, BAR_MB = 3, 80
 
 def run(*command, check=True):
-    done = subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          text=True, timeout=900)
+    done = subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, timeout=900)
     if check and done.returncode:
         sys.exit(f"{command}: exit code {done.returncode}\n{done.stderr[-2000:]}")
     return done
@@ -57,8 +58,8 @@ def main(build):
     work, relume = build / "show" / "page", build / "relume"
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
-    run(ROOT / "tests/xvfb.sh", relume, "record", "-o", work / "gears.trace", "--ref", "color", "--quit-after", N_FRAMES, "--",
-        "glxgears")
+    run(ROOT / "tests/xvfb.sh", relume, "record", "-o", work / "gears.trace", "--ref", "color", "--quit-after",
+        N_FRAMES, "--", "glxgears")
     for name in ("equal", "damaged"):
         (work / name).mkdir()
     for frame, codes in colors(work / "gears.ref"):
@@ -77,12 +78,17 @@ def main(build):
         ready, wall = open_page(work, work / f"report-{name}", name)
         size = (work / f"report-{name}" / "index.html").stat().st_size / 1e6
         what = f"{N_FRAMES} frames of glxgears, {'all passed' if not code else f'{N_DAMAGED} failed'}"
-        rows.append({"what": f"{what}: seconds to a page that can be used", "figure": f"{ready} s; browser's start to end {wall:.1f} s",
-                     "bar": f"{BAR_OPEN_S} s", "peer": "Chromium, headless", "passed": ready is not None and ready <= BAR_OPEN_S})
-        rows.append({"what": f"{what}: size of the page (scored and written in {made:.0f} s)", "figure": f"{size:.1f} MB",
-                     "bar": f"{BAR_MB} MB", "peer": None, "passed": size <= BAR_MB and done.returncode == code})
-    run(ROOT / "tests/xvfb.sh", relume, "record", "-o", work / "s.trace", "--ref", "color,depth", "--", build / "corpus/still_life",
-        "--frames", "2", "--animate", "camera")
+        rows.append({
+            "what": f"{what}: seconds to a page that can be used",
+            "figure": f"{ready} s; browser's start to end {wall:.1f} s", "bar": f"{BAR_OPEN_S} s",
+            "peer": "Chromium, headless", "passed": ready is not None and ready <= BAR_OPEN_S
+        })
+        rows.append({
+            "what": f"{what}: size of the page (scored and written in {made:.0f} s)", "figure": f"{size:.1f} MB",
+            "bar": f"{BAR_MB} MB", "peer": None, "passed": size <= BAR_MB and done.returncode == code
+        })
+    run(ROOT / "tests/xvfb.sh", relume, "record", "-o", work / "s.trace", "--ref", "color,depth", "--",
+        build / "corpus/still_life", "--frames", "2", "--animate", "camera")
     run(relume, "render", work / "s.trace", "-o", work / "traced" / "s.####.exr")
     for name, frames in (("traced", work / "traced"), ("wrong", work / "wrong")):
         if name == "wrong":  # frame 0 under both numbers
@@ -94,12 +100,16 @@ def main(build):
         run(relume, "diff", work / "s.trace", frames, "--report", work / f"report-{name}", check=False)
         chromium(work, work / f"report-{name}" / "index.html", f"--screenshot={work / name}.png")
     found = browser.operate(work, work / "report-wrong") or {}
-    good = (found.get("errors") == [] and found["frames"] == 2 and len(found["side"]) == 5 and len(found["all"]) >= 9 and found["blinked_back"] == "reference" and
-            len(found["swipe"][0]) == 2 and found["nothing"] == 0 and found["all_again"] == 2 and
-            {"reference", "compared", "beauty", "shadow", "depth", "id", "flip"} <= set(found["all"]))
-    rows.append({"what": "keys, views, search and channels of a ray traced run", "figure": json.dumps(found), "bar": "all work",
-                 "peer": "Chromium, headless", "passed": bool(good)})
-    (build / "show" / "page.json").write_text(json.dumps({"name": "page", "command": "make show-page", "rows": rows}, indent=1) + "\n")
+    good = (found.get("errors") == [] and found["frames"] == 2 and len(found["side"]) == 5 and len(found["all"]) >= 9
+            and found["blinked_back"] == "reference" and len(found["swipe"][0]) == 2 and found["nothing"] == 0
+            and found["all_again"] == 2
+            and {"reference", "compared", "beauty", "shadow", "depth", "id", "flip"} <= set(found["all"]))
+    rows.append({
+        "what": "keys, views, search and channels of a ray traced run", "figure": json.dumps(found), "bar": "all work",
+        "peer": "Chromium, headless", "passed": bool(good)
+    })
+    (build / "show" /
+     "page.json").write_text(json.dumps({"name": "page", "command": "make show-page", "rows": rows}, indent=1) + "\n")
     for row in rows:
         print(f"{'holds' if row['passed'] else 'FAILS'}  {row['what']}: {row['figure']} (bar {row['bar']})")
     print(f"screenshots: {work}/*.png")

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
-"""tests/show/parity.py BUILD [--only PART]... [--record] (as `make show-parity`): does `gl` equal what OpenGL rasterized?
+"""tests/show/parity.py BUILD [--only PART]... [--record] (as `make show-parity`): does `gl` equal what OpenGL
+rasterized?
 
-- The open list of real programs and the corpus' scenes, recorded live with reference frames read back in the program: ten
-  frames each, all gates. Also whether `apitrace dump` reads each trace to its end, and whether glretrace draws its last
-  frame as the program did, bit for bit.
-- Three of these programs recorded by `apitrace trace` too: as many frames pass as of our own recording of them, both against
-  references made by glretrace.
-- The recordings of ../shared/traces where they are there, with references made by glretrace (never its first frame, which
-  is known to be wrong): R1 to R4 demanded of three, the others for information.
+- The open list of real programs and the corpus' scenes, recorded live with reference frames read back in the program:
+  ten frames each, all gates. Also whether `apitrace dump` reads each trace to its end, and whether glretrace draws its
+  last frame as the program did, bit for bit.
+- Three of these programs recorded by `apitrace trace` too: as many frames pass as of our own recording of them, both
+  against references made by glretrace.
+- The recordings of ../shared/traces where they are there, with references made by glretrace (never its first frame,
+  which is known to be wrong): R1 to R4 demanded of three, the others for information.
 Live recordings stay in BUILD/show/parity and are used again until --record asks for new ones.
 """
 import argparse
@@ -34,7 +35,8 @@ BY_APITRACE = ("glxgears", "queens", "lattice")
 
 def corpus(build):
     """The corpus' first scenes, as programs."""
-    for name, command in (("two_triangles", ("two_triangles", "--animate", "camera")), ("cornell", ("cornell", "--animate", "camera")),
+    for name, command in (("two_triangles", ("two_triangles", "--animate",
+                                             "camera")), ("cornell", ("cornell", "--animate", "camera")),
                           ("cornell, moving light", ("cornell", "--animate", "light", "--vbo"))):
         yield programs.Program(name, "", (str(build / "corpus" / command[0]), *command[1:]))
 
@@ -70,8 +72,8 @@ def show_live(build, folder, program, record_again):
         line.note = f"no recording (exit code {done.code}): {done.said[:120]}"
     else:
         must = LIVE_MUST if done.depth else tuple(g for g in LIVE_MUST if g not in ("R4", "R5"))
-        scoring.score_recording(scorer_in(build, folder, "scored"), line, done, scoring.N_FRAMES, "whitted", scoring.GATES, must,
-                                report=True)
+        scoring.score_recording(scorer_in(build, folder, "scored"), line, done, scoring.N_FRAMES, "whitted",
+                                scoring.GATES, must, report=True)
     return row(f"{program.name}, live", line, True, "Mesa llvmpipe, in the program")
 
 
@@ -95,22 +97,28 @@ def score_by_glretrace(build, folder, name, trace, frames):
 def show_trace(build, folder, trace, last_frame):
     first = max(1, last_frame - scoring.N_FRAMES + 1)
     line = score_by_glretrace(build, folder, "scored", trace, range(first, first + scoring.N_FRAMES))
-    return row(f"{trace.stem} of the shared traces, frames {first}-{first + scoring.N_FRAMES - 1}", line, trace.stem in DEMANDED_TRACES,
-               "Mesa llvmpipe, by glretrace")
+    return row(f"{trace.stem} of the shared traces, frames {first}-{first + scoring.N_FRAMES - 1}", line, trace.stem
+               in DEMANDED_TRACES, "Mesa llvmpipe, by glretrace")
 
 
 def show_by_apitrace(build, folder, program):
     """Both recorders' traces of one program, scored alike."""
     ours = recording.record(build / "relume", program, folder)
     theirs = recording.record_by_apitrace(program, folder)
-    result = {"what": f"{program.name}: our trace and that of apitrace trace score the same", "bar": "the same number, all",
-              "peer": "apitrace trace"}
+    result = {
+        "what": f"{program.name}: our trace and that of apitrace trace score the same", "bar": "the same number, all",
+        "peer": "apitrace trace"
+    }
     if ours.trace is None or theirs is None:
         return {**result, "figure": "not recorded, see the logs", "passed": False}
     frames = range(9, 9 + 4 * scoring.N_FRAMES, 4)
-    lines = [score_by_glretrace(build, folder, name, trace, frames) for name, trace in (("ours", ours.trace), ("theirs", theirs))]
-    figure = " / ".join(f"{line.passed} of {line.frames}, fidelity {line.fidelity:.3f} %{', ' + line.missed if line.missed else ''}"
-                        f"{', ' + line.note if line.note else ''}" for line in lines)
+    lines = [
+        score_by_glretrace(build, folder, name, trace, frames)
+        for name, trace in (("ours", ours.trace), ("theirs", theirs))
+    ]
+    figure = " / ".join(
+        f"{line.passed} of {line.frames}, fidelity {line.fidelity:.3f} %{', ' + line.missed if line.missed else ''}"
+        f"{', ' + line.note if line.note else ''}" for line in lines)
     return {**result, "figure": f"ours / theirs: {figure}",
             "passed": lines[0].good and lines[1].good and lines[0].passed == lines[1].passed}
 
@@ -146,7 +154,8 @@ def main():
                 name, last_frame = line.split("\t")[:2]
                 show(f"shared {name}", show_trace, TRACES / f"{name}.trace", int(last_frame))
     if not options.only:
-        (build / "show" / "parity.json").write_text(json.dumps({"name": "parity", "command": "make show-parity", "rows": rows}, indent=1) + "\n")
+        (build / "show" / "parity.json"
+         ).write_text(json.dumps({"name": "parity", "command": "make show-parity", "rows": rows}, indent=1) + "\n")
     print(f"details: {base}")
     return 1 if any(row["passed"] is False for row in rows) else 0
 

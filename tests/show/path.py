@@ -1,19 +1,21 @@
 #!/usr/bin/python3
-"""tests/show/path.py BUILD [--many N] (as `make show-path`): error against time of mode path, beside Blender's Cycles, on five scenes.
+"""tests/show/path.py BUILD [--many N] (as `make show-path`): error against time of mode path, beside Blender's Cycles,
+on five scenes.
 
-Cycles renders the frame that `relume export` writes, with OpenGL's physics: lights that weaken as it has them, the clear colour as sky, no
-ambient light, surfaces as Lambert has them but for mirrors, glass and what blends. So both renderers look for the same picture. Bounces (4), the bound on fireflies
-(off) and the pixel's filter (a box) are the same. Each is compared with itself at MANY samples: the mean squared error over the squared
-mean. MANY is 65,536 where somebody has the hours (--many 65536); by default it is what ten minutes allow, and the references' own noise,
-which is told, raises all errors alike.
+Cycles renders the frame that `relume export` writes, with OpenGL's physics: lights that weaken as it has them, the
+clear colour as sky, no ambient light, surfaces as Lambert has them but for mirrors, glass and what blends. So both
+renderers look for the same picture. Bounces (4), the bound on fireflies (off) and the pixel's filter (a box) are the
+same. Each is compared with itself at MANY samples: the mean squared error over the squared mean. MANY is 65,536 where
+somebody has the hours (--many 65536); by default it is what ten minutes allow, and the references' own noise, which is
+told, raises all errors alike.
 
-Time is processor time of all threads, which other work on the machine changes little. Starts are left out on both sides: Cycles' is that
-of its second render call, ours is what N samples take more than two, times N / (N - 2): the second loads kernels that the first has no
-need of. Where N samples are quick, the least of three is taken.
+Time is processor time of all threads, which other work on the machine changes little. Starts are left out on both
+sides: Cycles' is that of its second render call, ours is what N samples take more than two, times N / (N - 2): the
+second loads kernels that the first has no need of. Where N samples are quick, the least of three is taken.
 
-Bars: at the time that Cycles takes for SAMPLES our error is below its own, on the box and the hall; and on the box, where the scenes are the
-same to the last number, both references are equal within their noise. What ours would be at that time is read off between its numbers
-of samples, on logarithmic scales.
+Bars: at the time that Cycles takes for SAMPLES our error is below its own, on the box and the hall; and on the box,
+where the scenes are the same to the last number, both references are equal within their noise. What ours would be at
+that time is read off between its numbers of samples, on logarithmic scales.
 """
 import json
 import math
@@ -31,8 +33,9 @@ from exr_numpy import Image
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SIZE = (96, 72)
 SCENES = {  # name: program, options
-    "box": ("cornell", []), "box, mirror": ("cornell", ["--mesh", "--mirror"]), "spheres": ("spheres", []), "still life": ("still_life", []),
-    "hall": ("hall", [])}
+    "box": ("cornell", []), "box, mirror": ("cornell", ["--mesh", "--mirror"]), "spheres": ("spheres", []),
+    "still life": ("still_life", []), "hall": ("hall", [])
+}
 COUNTS, SAMPLES, MANY = (4, 16, 64), 16, 1024
 BARRED, EQUAL = ("box", "hall"), ("box",)
 
@@ -43,7 +46,8 @@ def run(command):
         told = resource.getrusage(resource.RUSAGE_CHILDREN)
         return told.ru_utime + told.ru_stime
     before = used()
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, errors="replace", check=False)
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, errors="replace",
+                          check=False)
     if done.returncode:
         sys.exit(f"{command[0]} exits with {done.returncode}:\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
     return done.stdout, used() - before
@@ -62,7 +66,10 @@ def ours(build, trace, folder, many):
     """{samples: (seconds, picture)}"""
     def render(samples):
         out = folder / f"ours.{samples}.exr"
-        _, seconds = run([build / "relume", "render", trace, "-f", "1", "-o", out, "--mode", "path", "--clamp", "0", "--samples", samples, "--aov", "gl"])
+        _, seconds = run([
+            build / "relume", "render", trace, "-f", "1", "-o", out, "--mode", "path", "--clamp", "0", "--samples",
+            samples, "--aov", "gl"
+        ])
         return colors(out), seconds
     render(2)  # kernels are compiled once
     start = min(render(2)[1] for _ in range(3))
@@ -78,13 +85,16 @@ def cycles(build, trace, folder, many):
     file, frame = folder / "scene.glb", folder / "scene.json"
     run([build / "relume", "export", "-f", "1", "-o", file, trace])
     frame.write_text(run([build / "relume", "scene", "--json", "-f", "1", trace])[0])
-    said, _ = run(["blender", "--background", "--factory-startup", "--python", ROOT / "tests/show/path_in_blender.py", "--", file, frame,
-                   folder / "cycles", *COUNTS, many])
+    said, _ = run([
+        "blender", "--background", "--factory-startup", "--python", ROOT / "tests/show/path_in_blender.py", "--", file,
+        frame, folder / "cycles", *COUNTS, many
+    ])
     told = re.search(r"^RENDERED (.*)$", said, re.MULTILINE)
     if not told:
         sys.exit(f"Blender did not render:\n{said[-1500:]}")
     told = json.loads(told.group(1))
-    return {int(n): (seconds, colors(folder / f"cycles.{n}.exr")) for n, seconds in told["seconds"].items()}, told["version"]
+    return {int(n): (seconds, colors(folder / f"cycles.{n}.exr"))
+            for n, seconds in told["seconds"].items()}, told["version"]
 
 
 def curve(found, many):
@@ -100,7 +110,8 @@ def at_time(points, seconds):
 
 
 def apart(mine, theirs, noise):
-    """By how much the pictures' mean brightness differs; and the mean squared difference, edges' pixels left out, beside what noise explains."""
+    """By how much the pictures' mean brightness differs; and the mean squared difference, edges' pixels left out,
+    beside what noise explains."""
     mean = float(mine.mean() / theirs.mean() - 1)
     off = ((mine - theirs) ** 2).mean(0) / theirs.mean() ** 2
     return mean, float(numpy.sort(off.ravel())[:off.size * 9 // 10].mean()), noise
@@ -109,12 +120,18 @@ def apart(mine, theirs, noise):
 def main(build, many):
     need_display()
     build, rows, good = build.resolve(), [], True
-    print(f"{SIZE[0]} x {SIZE[1]} pixels; seconds of the processor and error at {', '.join(map(str, COUNTS))} samples, against {many}")
+    print(
+        f"{SIZE[0]} x {SIZE[1]} pixels; seconds of the processor and error at {', '.join(map(str, COUNTS))} samples, "
+        f"against {many}"
+    )
     for name, (program, options) in SCENES.items():
         with tempfile.TemporaryDirectory(prefix="relume-") as scratch:
             folder = pathlib.Path(scratch)
             trace = folder / "scene.trace"
-            run([build / "relume", "record", "-o", trace, "--", build / "corpus" / program, "--frames", "2", "--size", "x".join(map(str, SIZE)), *options])
+            run([
+                build / "relume", "record", "-o", trace, "--", build / "corpus" / program, "--frames", "2", "--size",
+                "x".join(map(str, SIZE)), *options
+            ])
             mine = ours(build, trace, folder, many)
             theirs, version = cycles(build, trace, folder, many)
         here, there = curve(mine, many), curve(theirs, many)
@@ -123,19 +140,27 @@ def main(build, many):
         passed = figure < bar if name in BARRED else None
         good &= passed is not False
         for who, points in (("Relume", here), ("Cycles", there)):
-            print(f"{name if who == 'Relume' else '':14}{who:8}" + "".join(f"{s:9.2f} s {e:8.5f}" for s, e in points), flush=True)
+            print(f"{name if who == 'Relume' else '':14}{who:8}" + "".join(f"{s:9.2f} s {e:8.5f}" for s, e in points),
+                  flush=True)
         # noise falls by the number of samples at the least
         noise = sum(points[-1][1] * COUNTS[-1] / many for points in (here, there))
         mean, off, noise = apart(mine[many][1], theirs[many][1], noise)
         same = abs(mean) < 0.005 and off < 3 * noise if name in EQUAL else None
         good &= same is not False
-        print(f"{'':14}at {seconds:.2f} s {figure:.5f} and {bar:.5f}: {bar / figure:.2f} times less; references: means {100 * mean:+.2f} % apart, "
-              f"pixels {off:.6f}, their noise {noise:.6f}", flush=True)
-        rows.append({"what": f"{name}: error at the time that Cycles takes for {SAMPLES} samples, against {many}", "figure": f"{figure:.5f}",
-                     "bar": f"below {bar:.5f}" if name in BARRED else None, "peer": f"Cycles {version} {bar:.5f} in {seconds:.2f} s",
-                     "passed": passed})
-        rows.append({"what": f"{name}: references apart, mean; mean square of nine pixels in ten", "figure": f"{100 * mean:+.2f} %; {off:.6f}",
-                     "bar": f"0.5 %; {3 * noise:.6f}" if name in EQUAL else None, "peer": None, "passed": same})
+        print(
+            f"{'':14}at {seconds:.2f} s {figure:.5f} and {bar:.5f}: {bar / figure:.2f} times less; references: means "
+            f"{100 * mean:+.2f} % apart, "
+            f"pixels {off:.6f}, their noise {noise:.6f}", flush=True)
+        rows.append({
+            "what": f"{name}: error at the time that Cycles takes for {SAMPLES} samples, against {many}",
+            "figure": f"{figure:.5f}", "bar": f"below {bar:.5f}" if name in BARRED else None,
+            "peer": f"Cycles {version} {bar:.5f} in {seconds:.2f} s", "passed": passed
+        })
+        rows.append({
+            "what": f"{name}: references apart, mean; mean square of nine pixels in ten",
+            "figure": f"{100 * mean:+.2f} %; {off:.6f}", "bar": f"0.5 %; {3 * noise:.6f}" if name in EQUAL else None,
+            "peer": None, "passed": same
+        })
     out = build / "show" / "path.json"
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(json.dumps({"name": "path", "command": "make show-path", "rows": rows}, indent=1) + "\n")

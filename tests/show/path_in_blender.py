@@ -1,7 +1,8 @@
-"""Run inside Blender: import a .glb, make it what OpenGL would light, and render it with Cycles at several numbers of samples.
+"""Run inside Blender: import a .glb, make it what OpenGL would light, and render it with Cycles at several numbers of
+samples.
 
-Arguments after --: the file, the same frame as `relume scene --json` has it, the start of the pictures' names, the numbers of samples.
-Prints seconds of the processor of each.
+Arguments after --: the file, the same frame as `relume scene --json` has it, the start of the pictures' names, the
+numbers of samples. Prints seconds of the processor of each.
 """
 import json
 import math
@@ -29,11 +30,14 @@ def linear(display):
 
 def light_at(place):
     """The light of OpenGL's that is nearest to a place of Blender's, where z is up."""
-    return min(told["lights"], key=lambda l: (mathutils.Vector((l["position_eye"][0], -l["position_eye"][2], l["position_eye"][1])) - place).length)
+    return min(
+        told["lights"], key=lambda l: (mathutils.Vector(
+            (l["position_eye"][0], -l["position_eye"][2], l["position_eye"][1])) - place).length)
 
 
 def light_nodes(tree, strong):
-    """What a light sends, as OpenGL weakens its colour by the distance, the product in light's own numbers. Blender's light is white."""
+    """What a light sends, as OpenGL weakens its colour by the distance, the product in light's own numbers. Blender's
+    light is white."""
     def math_node(operation, *inputs):
         made = tree.nodes.new("ShaderNodeMath")
         made.operation = operation
@@ -44,9 +48,11 @@ def light_nodes(tree, strong):
                 tree.links.new(value, socket)
         return made.outputs[0]
     constant, linearly, squared = strong["attenuation"]
-    distance, together = tree.nodes.new("ShaderNodeLightPath").outputs["Ray Length"], tree.nodes.new("ShaderNodeCombineRGB")
+    distance, together = tree.nodes.new("ShaderNodeLightPath").outputs["Ray Length"], tree.nodes.new(
+        "ShaderNodeCombineRGB")
     sums = math_node("MULTIPLY_ADD", math_node("MULTIPLY_ADD", distance, squared, linearly), distance, constant)
-    for color, channel in zip(strong["diffuse"], together.inputs):  # sRGB's curve above its foot, where all of these lights are
+    for color, channel in zip(strong["diffuse"],
+                              together.inputs):  # sRGB's curve above its foot, where all of these lights are
         shown = math_node("ADD", math_node("DIVIDE", color / 1.055, sums), 0.055 / 1.055)
         tree.links.new(math_node("POWER", shown, 2.4), channel)
     return together.outputs[0]
@@ -54,7 +60,9 @@ def light_nodes(tree, strong):
 
 world = bpy.data.worlds.new("cleared")
 world.use_nodes = True
-world.node_tree.nodes["Background"].inputs["Color"].default_value = [*(linear(c) for c in told["clears"][0]["color"][:3]), 1]
+world.node_tree.nodes["Background"].inputs["Color"].default_value = [
+    *(linear(c) for c in told["clears"][0]["color"][:3]), 1
+]
 scene.world = world
 for item in [o for o in bpy.data.objects if o.type == "LIGHT"]:
     light, strong = item.data, light_at(item.matrix_world.translation)
@@ -66,11 +74,12 @@ for item in [o for o in bpy.data.objects if o.type == "LIGHT"]:
         falloff.inputs["Strength"].default_value = 1
         light.node_tree.links.new(falloff.outputs["Constant"], nodes["Emission"].inputs["Strength"])
         light.node_tree.links.new(light_nodes(light.node_tree, strong), nodes["Emission"].inputs["Color"])
-        light.color, light.energy = (1, 1, 1), 4 * math.pi ** 2  # a white surface that faces it shows the light's colour
+        light.color, light.energy = (1, 1, 1), 4 * math.pi**2  # a white surface that faces it shows the light's colour
         if light.type == "SPOT":
             light.spot_blend = 0
 for material in bpy.data.materials:
-    # OpenGL's surfaces scatter as Lambert has it, which the principled shader does not; mirrors, glass and what blends keep it
+    # OpenGL's surfaces scatter as Lambert has it, which the principled shader does not; mirrors, glass and what blends
+    # keep it
     nodes, links = material.node_tree.nodes, material.node_tree.links
     node = next((n for n in nodes if n.type == "BSDF_PRINCIPLED"), None)
     if not node or any(node.inputs[name].is_linked or node.inputs[name].default_value != value
@@ -89,7 +98,8 @@ scene.cycles.use_denoising = False
 scene.cycles.max_bounces = scene.cycles.diffuse_bounces = scene.cycles.glossy_bounces = scene.cycles.transmission_bounces = 4
 scene.cycles.sample_clamp_direct = scene.cycles.sample_clamp_indirect = 0
 scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 1
-scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = told["width"], told["height"], 100
+scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = told["width"], told[
+    "height"], 100
 scene.render.use_persistent_data = True
 scene.render.image_settings.file_format = "OPEN_EXR"
 scene.render.image_settings.color_depth = "32"

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/photons.py BUILD (as `make show-photons`): the light that mirrors and glass send (channels caustics), against closed forms, and a glass ball's
-against a path tracer of 65,536 paths a pixel (tests/truth/test_caustics.c), on the reference device and on the first OpenCL device.
+"""tests/show/photons.py BUILD (as `make show-photons`): the light that mirrors and glass send (channels caustics),
+against closed forms, and a glass ball's against a path tracer of 65,536 paths a pixel (tests/truth/test_caustics.c), on
+the reference device and on the first OpenCL device.
 
-The bar is for the energy: all of the light that comes to the wall, within 1 %. What pixels are off by is told beside the same of photons
-eight times as many."""
+The bar is for the energy: all of the light that comes to the wall, within 1 %. What pixels are off by is told beside
+the same of photons eight times as many."""
 import os
 import pathlib
 import re
@@ -18,13 +19,18 @@ PATHS = 65536
 def main(build):
     shown = Shown(build, "photons")
     for device, name in (("reference", "reference"), ("0", "first OpenCL device")):
-        done = subprocess.run([build / "tests/truth/test_caustics"], capture_output=True, text=True, check=False,
-                              env=os.environ | {"RELUME_TEST_DEVICE": device, "RELUME_CAUSTICS_SAMPLES": str(PATHS), "CK_DEFAULT_TIMEOUT": "1000"})
+        done = subprocess.run(
+            [build / "tests/truth/test_caustics"], capture_output=True, text=True, check=False, env=os.environ
+            | {"RELUME_TEST_DEVICE": device, "RELUME_CAUSTICS_SAMPLES": str(PATHS), "CK_DEFAULT_TIMEOUT": "1000"})
         forms = re.search(r"Checks: (\d+), Failures: (\d+), Errors: (\d+)", done.stdout)
-        shown.row(f"{name}: plate, mirror, ball", f"{forms[1]} tests, {forms[2]} fail" if forms else "no tests", "0 fail", done.returncode == 0)
-        for photons, energy, pixels, blocks in re.findall(r"(\d+) photons.*energy ([-+.\d]+) %.*pixels ([.\d]+) %.* ([.\d]+) %", done.stdout):
-            shown.row(f"{name}: a glass ball's caustic, {photons} photons", f"energy {energy} %", "1 %", abs(float(energy)) < 1)
-            shown.row(f"{name}: pixels off in the mean, of these blocks of 4 x 4", f"{pixels} %, {blocks} %", None, None)
+        shown.row(f"{name}: plate, mirror, ball", f"{forms[1]} tests, {forms[2]} fail" if forms else "no tests",
+                  "0 fail", done.returncode == 0)
+        for photons, energy, pixels, blocks in re.findall(
+                r"(\d+) photons.*energy ([-+.\d]+) %.*pixels ([.\d]+) %.* ([.\d]+) %", done.stdout):
+            shown.row(f"{name}: a glass ball's caustic, {photons} photons", f"energy {energy} %", "1 %",
+                      abs(float(energy)) < 1)
+            shown.row(f"{name}: pixels off in the mean, of these blocks of 4 x 4", f"{pixels} %, {blocks} %", None,
+                      None)
     return shown.finish()
 
 

@@ -1,15 +1,16 @@
 #!/usr/bin/python3
-"""tests/show/piglit.py BUILD record|parity [PART-OF-A-NAME...] (`make show-piglit-record`, `make show-piglit-parity`): the fixed-function part of piglit.
+"""tests/show/piglit.py BUILD record|parity [PART-OF-A-NAME...] (`make show-piglit-record`, `make show-piglit-parity`):
+the fixed-function part of piglit.
 
-record: every program runs once bare and once under the recorder; the verdicts, subtests included, must be the same. A program
-whose verdict differs runs twice more bare: one that does not agree with itself is unsteady and does not count.
-parity: the recordings of that campaign (made first where there are none by this recorder) are rendered, and the last frame of
-each is scored against what the program itself showed: R1, R1b, R2 and R3. Programs that draw with shaders or ARB programs
-are listed apart, and so are pictures of one colour only, which prove little.
+record: every program runs once bare and once under the recorder; the verdicts, subtests included, must be the same. A
+program whose verdict differs runs twice more bare: one that does not agree with itself is unsteady and does not count.
+parity: the recordings of that campaign (made first where there are none by this recorder) are rendered, and the last
+frame of each is scored against what the program itself showed: R1, R1b, R2 and R3. Programs that draw with shaders or
+ARB programs are listed apart, and so are pictures of one colour only, which prove little.
 
-Programs run as `piglit run --no-concurrency` runs them, on a window; piglit swaps nothing, so a frame ends where a program
-reads the pixels that it judges. Recordings lie in BUILD/show/piglit, every outcome in BUILD/show/piglit.tsv and piglit-parity.tsv.
-Needs a display: run under tests/xvfb.sh.
+Programs run as `piglit run --no-concurrency` runs them, on a window; piglit swaps nothing, so a frame ends where a
+program reads the pixels that it judges. Recordings lie in BUILD/show/piglit, every outcome in BUILD/show/piglit.tsv and
+piglit-parity.tsv. Needs a display: run under tests/xvfb.sh.
 """
 import ast
 import collections
@@ -31,7 +32,8 @@ from replayed import REF_COLOR, records  # noqa: E402
 
 PIGLIT = next(iter(pathlib.Path("/usr/lib").glob("*/piglit")), pathlib.Path("/usr/lib/piglit"))
 GROUPS = re.compile(
-    r"spec@(!opengl (1\.[0-5]|2\.[01])|arb_(depth_texture|draw_buffers|map_buffer_range|multisample|occlusion_query|pixel_buffer_object"
+    r"spec@(!opengl "
+    r"(1\.[0-5]|2\.[01])|arb_(depth_texture|draw_buffers|map_buffer_range|multisample|occlusion_query|pixel_buffer_object"
     r"|point_parameters|point_sprite|provoking_vertex|texture_compression|texture_cube_map|texture_env_crossbar|texture_rectangle"
     r"|vertex_array_object|vertex_buffer_object)|apple_vertex_array_object|ati_draw_buffers"
     r"|ext_(fog_coord|framebuffer_blit|framebuffer_object|packed_depth_stencil|texture_compression_s3tc|texture_env_combine"
@@ -45,17 +47,22 @@ PROGRAM_CALLS = {"glLinkProgram", "glLinkProgramARB", "glProgramStringARB", "glE
 
 
 def find_tests(parts, groups=GROUPS, lists=(("opengl", "gl"),), versions=None):
-    """[(name, command)] of the suite's lists and their kinds of tests, each command once. versions: of GLSL, of the compatibility profile alone."""
+    """[(name, command)] of the suite's lists and their kinds of tests, each command once. versions: of GLSL, of the
+    compatibility profile alone."""
     tests, seen = [], set()
-    for test, kind in ((test, kind) for file, kind in lists
-                       for test in xml.etree.ElementTree.parse(gzip.open(PIGLIT / "tests" / f"{file}.xml.gz")).getroot().iter("Test")
+    for test, kind in ((test, kind)
+                       for file, kind in lists
+                       for test in xml.etree.ElementTree.parse(gzip.open(PIGLIT / "tests" /
+                                                                         f"{file}.xml.gz")).getroot().iter("Test")
                        if test.get("type") == kind):
         name, options = test.get("name"), {option.get("name"): option.get("value") for option in test}
         if "command" not in options or not groups.match(name):
             continue
         if versions and (options.get("api") != "'compat'" or options.get("shader_version") not in versions):
             continue
-        command = tuple(str(PIGLIT / word) if kind == "shader" and "/" in word else word for word in ast.literal_eval(options["command"]))
+        command = tuple(
+            str(PIGLIT / word) if kind == "shader" and "/" in word else word
+            for word in ast.literal_eval(options["command"]))
         if not (PIGLIT / "bin" / command[0]).exists():
             continue  # the list names one that Debian's package does not have
         if command not in seen and (not parts or any(part in name for part in parts)):
@@ -66,8 +73,9 @@ def find_tests(parts, groups=GROUPS, lists=(("opengl", "gl"),), versions=None):
 
 def run(command, limit_s):
     """(exit code or "timeout", output)."""
-    child = subprocess.Popen(list(map(str, command)), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                             start_new_session=True, env=dict(os.environ, PIGLIT_SOURCE_DIR=str(PIGLIT)))
+    child = subprocess.Popen(list(map(str, command)), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                             stderr=subprocess.STDOUT, start_new_session=True,
+                             env=dict(os.environ, PIGLIT_SOURCE_DIR=str(PIGLIT)))
     try:
         out, _ = child.communicate(timeout=limit_s)
         return child.returncode, out.decode(errors="replace")
@@ -107,8 +115,10 @@ def campaign(build, tests, base):
         else:
             work = base / re.sub(r"\W+", "_", name)
             work.mkdir()
-            code, out = run([build / "relume", "record", "-o", work / "x.trace", "--frame-end", "readpixels", "--ref", "color,depth",
-                             "--max-size", MAX_TRACE_BYTES, "--", *program], LIMIT_S * 2)
+            code, out = run([
+                build / "relume", "record", "-o", work / "x.trace", "--frame-end", "readpixels", "--ref", "color,depth",
+                "--max-size", MAX_TRACE_BYTES, "--", *program
+            ], LIMIT_S * 2)
             row["recorded"] = verdict(code, out)
             row["frames"] = max([int(n) for n in re.findall(r"x\.trace: (\d+) frames?", out)] or [0])
             row["state"] = "same"
@@ -118,8 +128,10 @@ def campaign(build, tests, base):
                 (work / "output").write_text(out)
         rows.append(row)
         if row["state"] not in ("same", "unsteady") or number % 25 == 0 or number == len(tests):
-            print(f"{number}/{len(tests)} {time.monotonic() - begin:.0f} s: {name}: {row['state']}"
-                  + (f" ({brief(row['bare'])} -> {brief(row['recorded'])})" if row["state"] == "changed" else ""), flush=True)
+            print(
+                f"{number}/{len(tests)} {time.monotonic() - begin:.0f} s: {name}: {row['state']}" +
+                (f" ({brief(row['bare'])} -> {brief(row['recorded'])})" if row["state"] == "changed" else ""),
+                flush=True)
     (base / "runs.json").write_text(json.dumps({"fingerprint": fingerprint(build), "rows": rows}, indent=1))
     return rows
 
@@ -152,7 +164,8 @@ def write_table(path, columns, rows):
 
 def one_colour(path, frame):
     """1 where a reference frame shows one colour only."""
-    return any(number == frame and pixels == pixels[:4] * (width * height) for number, width, height, pixels in records(path, REF_COLOR))
+    return any(number == frame and pixels == pixels[:4] * (width * height)
+               for number, width, height, pixels in records(path, REF_COLOR))
 
 
 def score(build, work, row):
@@ -168,13 +181,17 @@ def score(build, work, row):
     row["left_out"] = "; ".join(call["call"] for call in info["unsupported"])[:300]
     row["one_colour"] = one_colour(work / "x.ref", int(last))
     shutil.rmtree(work / "frames", ignore_errors=True)
-    code, out = run([relume, "render", work / "x.trace", "--allow-incomplete", "--mode", "gl", "-f", last, "-o", work / "frames" / "x.####.exr"], RENDER_LIMIT_S)
+    code, out = run([
+        relume, "render", work / "x.trace", "--allow-incomplete", "--mode", "gl", "-f", last, "-o",
+        work / "frames" / "x.####.exr"
+    ], RENDER_LIMIT_S)
     (work / "log").write_text(out)
     if code != 0:
         row |= {"parity": "not rendered", "why": f"exit {code}"}
         return
-    done = subprocess.run([relume, "diff", work / "x.trace", work / "frames", "-f", last, "--json", "-"], stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    done = subprocess.run([relume, "diff", work / "x.trace", work / "frames", "-f", last, "--json", "-"],
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          check=False)
     try:
         frame = json.loads(done.stdout)["frames"][0]
         states = {gate: frame["gates"][gate]["state"] for gate in ("R1", "R1b", "R2", "R3")}
@@ -188,7 +205,8 @@ def score(build, work, row):
 
 
 def show(build, name, rows, target):
-    (build / "show" / f"{name}.json").write_text(json.dumps({"name": name, "command": f"make {target}", "rows": rows}, indent=1) + "\n")
+    (build / "show" /
+     f"{name}.json").write_text(json.dumps({"name": name, "command": f"make {target}", "rows": rows}, indent=1) + "\n")
     for row in rows:
         mark = {True: "holds", False: "FAILS", None: "-    "}[row["passed"]]
         print(f"{mark}  {row['what']}: {row['figure']}" + (f" (bar: {row['bar']})" if row["bar"] else ""))
@@ -210,20 +228,26 @@ def main(build, what, *parts):
         verdicts = collections.Counter(row["bare"].split()[0] for row in ran)
         changed = [row["name"] for row in rows if row["state"] == "changed"]
         unsteady = [row["name"] for row in rows if row["state"] == "unsteady"]
-        print("without the recorder:", ", ".join(f"{n} {v}" for v, n in verdicts.most_common()), f"; {len(rows) - len(ran)} hang")
+        print("without the recorder:", ", ".join(f"{n} {v}" for v, n in verdicts.most_common()),
+              f"; {len(rows) - len(ran)} hang")
         for name in unsteady:
             print(f"unsteady without the recorder: {name}")
-        return show(build, "piglit-record", [
-            {"what": f"verdicts of {len(ran)} programs that changed under the recorder", "figure": len(changed), "bar": "0", "peer": peer,
-             "passed": not changed and bool(ran)}], "show-piglit-record")
+        return show(build, "piglit-record", [{
+            "what": f"verdicts of {len(ran)} programs that changed under the recorder", "figure": len(changed),
+            "bar": "0", "peer": peer, "passed": not changed and bool(ran)
+        }], "show-piglit-record")
     rows = [row for row in recorded_rows(build, tests, base) if row["bare"].split()[0] == "pass" and row["frames"]]
     begin = time.monotonic()
     for number, row in enumerate(rows, 1):
         score(build, base / re.sub(r"\W+", "_", row["name"]), row)
         if row["parity"] != "passes" or number % 25 == 0 or number == len(rows):
-            print(f"{number}/{len(rows)} {time.monotonic() - begin:.0f} s: {row['name']}: {row['parity']} {row['why']}"[:160], flush=True)
+            print(
+                f"{number}/{len(rows)} {time.monotonic() - begin:.0f} s: {row['name']}: {row['parity']} {row['why']}"[:
+                                                                                                                      160],
+                flush=True)
         write_table(build / "show" / "piglit-parity.tsv",
-                    ("name", "command", "frame", "parity", "why", "fidelity", "programs", "one_colour", "left_out"), rows[:number])
+                    ("name", "command", "frame", "parity", "why", "fidelity", "programs", "one_colour", "left_out"),
+                    rows[:number])
     shown = []
     for title, chosen, bar in (
             ("last frames of fixed-function programs that pass R1 to R3",
@@ -232,8 +256,10 @@ def main(build, what, *parts):
             ("programs that draw with shaders", [r for r in rows if r["programs"]], None)):
         good = sum(r["parity"] == "passes" for r in chosen)
         share = good / len(chosen) if chosen else 0
-        shown.append({"what": title, "figure": f"{good} of {len(chosen)} ({100 * share:.1f} %)", "bar": f"{100 * bar:.0f} %" if bar else None,
-                      "peer": peer, "passed": share >= bar if bar else None})
+        shown.append({
+            "what": title, "figure": f"{good} of {len(chosen)} ({100 * share:.1f} %)",
+            "bar": f"{100 * bar:.0f} %" if bar else None, "peer": peer, "passed": share >= bar if bar else None
+        })
     return show(build, "piglit-parity", shown, "show-piglit-parity")
 
 

@@ -1,7 +1,8 @@
-"""The real programs that are recorded and scored: which package they come from, how they are started and what they are told.
+"""The real programs that are recorded and scored: which package they come from, how they are started and what they are
+told.
 
-All are Debian 12's, written by other people. A line per program; `keys` are steps for tests/show/recording.py:
-"wait SECONDS", "key NAME", "click X Y", "type TEXT", with the pointer in the middle of the screen (no window manager: the
+All are Debian 12's, written by other people. A line per program; `keys` are steps for tests/show/recording.py: "wait
+SECONDS", "key NAME", "click X Y", "type TEXT", with the pointer in the middle of the screen (no window manager: the
 keyboard's focus follows it). A program with keys, or one that is said to take `seconds`, is recorded for so long and
 its last frames are scored; the others are recorded for a number of frames, and frames spread over these are scored.
 """
@@ -40,18 +41,20 @@ def rss_glx(name):
 PLAYER = "fullscreen 0\nwidth 640\nheight 480\nplayer Player\n"
 
 OPEN = (
-    Program("glxgears", "mesa-utils", ("glxgears",)),
-    Program("SceneViewer", "inventor-clients", ("SceneViewer", WINDMILL), seconds=15,
-            ref_every=1),
-    Program("billard-gl", "billard-gl", ("billard-gl",), seconds=15),
+    Program("glxgears", "mesa-utils", ("glxgears", )),
+    Program("SceneViewer", "inventor-clients", ("SceneViewer", WINDMILL), seconds=15, ref_every=1),
+    Program("billard-gl", "billard-gl", ("billard-gl", ), seconds=15),
     Program("gltron", "gltron", ("gltron", "-s", "-2"), seconds=30,
             keys=("wait 4", "key Return", "wait 1", "key Return", "wait 1", "key Return")),
-    Program("neverball", "neverball", ("neverball",), seconds=60, files=((".neverball/neverballrc", PLAYER),),
-            keys=("wait 8", "key Return", "wait 3", "key Return", "wait 3", "key Return", "wait 4", "key Return", "wait 3", "key Return")),
-    Program("openarena", "openarena", ("openarena", "+set", "r_fullscreen", "0", "+set", "cl_renderer", "opengl1", "+set", "r_mode",
-                                       "3", "+set", "sv_pure", "0", "+devmap", "oa_dm1"), seconds=50),
-    # The mouse is the stick: let go, in the middle of the window, and the glider thrown again before it lands. It asks before it ends.
-    Program("crrcsim", "crrcsim", ("crrcsim",), seconds=40,
+    Program(
+        "neverball", "neverball", ("neverball", ), seconds=60, files=((".neverball/neverballrc", PLAYER), ),
+        keys=("wait 8", "key Return", "wait 3", "key Return", "wait 3", "key Return", "wait 4", "key Return", "wait 3",
+              "key Return")),
+    Program("openarena", "openarena", ("openarena", "+set", "r_fullscreen", "0", "+set", "cl_renderer", "opengl1",
+                                       "+set", "r_mode", "3", "+set", "sv_pure", "0", "+devmap", "oa_dm1"), seconds=50),
+    # The mouse is the stick: let go, in the middle of the window, and the glider thrown again before it lands. It asks
+    # before it ends.
+    Program("crrcsim", "crrcsim", ("crrcsim", ), seconds=40,
             keys=("wait 6", "click 320 240", *(8 * ("key r", "wait 2")), "key q", "wait 1", "click 359 264")),
     rss_glx("lattice"),
     xscreensaver("queens"),
@@ -70,8 +73,12 @@ NO_HACKS = {"xscreensaver-gl-visual", "mapscroller", "mapscroller.pl"}
 
 def installed(package, folder, leave_out=()):
     """The names of what a package put into a folder."""
-    listed = subprocess.run(["dpkg", "-L", package], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.split()
-    return sorted(pathlib.Path(p).name for p in listed if str(pathlib.Path(p).parent) == folder and pathlib.Path(p).name not in leave_out)
+    listed = subprocess.run(["dpkg", "-L", package], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                            text=True).stdout.split()
+    return sorted(
+        pathlib.Path(p).name
+        for p in listed
+        if str(pathlib.Path(p).parent) == folder and pathlib.Path(p).name not in leave_out)
 
 
 def sweep():
@@ -79,14 +86,17 @@ def sweep():
     programs = []
     for package in ("xscreensaver-gl", "xscreensaver-gl-extra"):
         for name in installed(package, "/usr/libexec/xscreensaver", NO_HACKS):
-            programs.append(xscreensaver(name, package, "xscreensaver, GLSL" if name in WITH_SHADERS else "xscreensaver, fixed function"))
+            programs.append(
+                xscreensaver(name, package,
+                             "xscreensaver, GLSL" if name in WITH_SHADERS else "xscreensaver, fixed function"))
     for name in installed("rss-glx", "/usr/libexec/xscreensaver"):
         if name != "drempels":  # ends by itself, recorded or not
             programs.append(rss_glx(name))
     for name in installed("inventor-demo", "/usr/lib/inventor"):
         if "." not in name:
-            programs.append(Program(f"iv-{name}", "inventor-demo", (f"/usr/lib/inventor/{name}",), seconds=10, ref_every=1,
-                                    group="Inventor"))
+            programs.append(
+                Program(f"iv-{name}", "inventor-demo", (f"/usr/lib/inventor/{name}", ), seconds=10, ref_every=1,
+                        group="Inventor"))
     programs.append(Program("iv-ivview", "inventor-clients", ("ivview", WINDMILL), seconds=10,
                             ref_every=1, group="Inventor"))
     for name in OSG_EXAMPLES:
@@ -125,23 +135,29 @@ MINETEST = "screen_w = 640\nscreen_h = 480\nenable_sound = false\nenable_shaders
 
 # Qt 5 composes their windows with a program; Avogadro and PyMOL draw with programs of their own, too.
 VIEWERS = [
-    Program("openscad", "openscad", ("openscad", "--viewall", "/usr/share/openscad/examples/Basics/CSG.scad"), seconds=12, ref_every=1,
+    Program("openscad", "openscad", ("openscad", "--viewall", "/usr/share/openscad/examples/Basics/CSG.scad"),
+            seconds=12, ref_every=1, group="Qt 5 viewers"),
+    Program("mm3d", "mm3d", ("mm3d", "knot.obj"), seconds=10, ref_every=1, files=(("knot.obj", knot()), ),
             group="Qt 5 viewers"),
-    Program("mm3d", "mm3d", ("mm3d", "knot.obj"), seconds=10, ref_every=1, files=(("knot.obj", knot()),), group="Qt 5 viewers"),
     Program("meshlab", "meshlab", ("meshlab", DODECAHEDRON), seconds=12, ref_every=1, group="Qt 5 viewers"),
-    Program("avogadro2", "avogadro", ("avogadro2", "methane.xyz"), seconds=12, ref_every=1, files=(("methane.xyz", METHANE),),
-            group="Qt 5 viewers"),
-    Program("pymol", "pymol", ("pymol", "-d", "fragment ala; show spheres; rock"), seconds=12, ref_every=1, group="Qt 5 viewers",
-            environment=(("PATH", "/usr/bin:/bin"),)),  # it asks for the python3 that Debian's modules belong to
+    Program("avogadro2", "avogadro", ("avogadro2", "methane.xyz"), seconds=12, ref_every=1,
+            files=(("methane.xyz", METHANE), ), group="Qt 5 viewers"),
+    Program("pymol", "pymol", ("pymol", "-d", "fragment ala; show spheres; rock"), seconds=12, ref_every=1,
+            group="Qt 5 viewers",
+            environment=(("PATH", "/usr/bin:/bin"), )),  # it asks for the python3 that Debian's modules belong to
 ]
 GAMES = [
-    Program("minetest", "minetest", ("minetest", "--go", "--name", "player", "--worldname", "world"), seconds=45, ref_every=5,
-            files=((".minetest/worlds/world/world.mt", WORLD), (".minetest/minetest.conf", MINETEST)), group="games, GLSL"),
-    Program("openarena-opengl2", "openarena", ("openarena", "+set", "r_fullscreen", "0", "+set", "cl_renderer", "opengl2", "+set", "r_mode",
-                                               "3", "+set", "sv_pure", "0", "+devmap", "oa_dm1"), seconds=50, group="games, GLSL"),
+    Program("minetest", "minetest", ("minetest", "--go", "--name", "player", "--worldname", "world"), seconds=45,
+            ref_every=5, files=((".minetest/worlds/world/world.mt", WORLD), (".minetest/minetest.conf", MINETEST)),
+            group="games, GLSL"),
+    Program("openarena-opengl2", "openarena",
+            ("openarena", "+set", "r_fullscreen", "0", "+set", "cl_renderer", "opengl2", "+set", "r_mode", "3", "+set",
+             "sv_pure", "0", "+devmap", "oa_dm1"), seconds=50, group="games, GLSL"),
 ]
-GROUPS = ["xscreensaver, fixed function", "xscreensaver, GLSL", "rss-glx", "Inventor", "OpenSceneGraph", "Qt 5 viewers", "games, GLSL", "others",
-          *more_programs.GROUPS]
+GROUPS = [
+    "xscreensaver, fixed function", "xscreensaver, GLSL", "rss-glx", "Inventor", "OpenSceneGraph", "Qt 5 viewers",
+    "games, GLSL", "others", *more_programs.GROUPS
+]
 # Those with shaders that need no model files.
-OSG_EXAMPLES = ("osgforest", "osgparametric", "osgparticleshader", "osgshaders", "osgshaderterrain", "osgshadow", "osgsimpleshaders",
-                "osgvertexprogram", "osgwidgetshader")
+OSG_EXAMPLES = ("osgforest", "osgparametric", "osgparticleshader", "osgshaders", "osgshaderterrain", "osgshadow",
+                "osgsimpleshaders", "osgvertexprogram", "osgwidgetshader")

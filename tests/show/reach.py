@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/reach.py BUILD (as `make show-reach`): programs that are not of OpenGL, X and 64 bits: three of each kind, one of
-Windows of 32 bits.
+"""tests/show/reach.py BUILD (as `make show-reach`): programs that are not of OpenGL, X and 64 bits: three of each kind,
+one of Windows of 32 bits.
 
-Each is recorded for ten frames with reference frames, rendered in mode gl and scored by all gates. Then recording's cost: processor time of the
-program and its threads, start included, recorded without reference frames over bare, in turn, the median of the ratios. Programs of 32 bits need
-`make i386 windows` first: where that has not been run, their lines say so, and fail. At last, what many blended fragments a pixel cost beside
-llvmpipe.
+Each is recorded for ten frames with reference frames, rendered in mode gl and scored by all gates. Then recording's
+cost: processor time of the program and its threads, start included, recorded without reference frames over bare, in
+turn, the median of the ratios. Programs of 32 bits need `make i386 windows` first: where that has not been run, their
+lines say so, and fail. At last, what many blended fragments a pixel cost beside llvmpipe.
 """
 import os
 import pathlib
@@ -32,7 +32,8 @@ def kinds(build):
     """(kind, name, command that --frames N may follow, gates that can be measured)"""
     for name, options in wine.PROGRAMS.items():
         yield "Wine", name, ["wine", build / f"windows/{name}.exe", *options], GATES
-    yield "Wine, 32 bits", "tricks", [wine.loader(build), build / "windows32/tricks.exe", *wine.PROGRAMS["tricks"]], GATES
+    yield "Wine, 32 bits", "tricks", [wine.loader(build), build / "windows32/tricks.exe",
+                                      *wine.PROGRAMS["tricks"]], GATES
     for name in ("shapes", "fixed", "sprites"):
         yield "OpenGL ES 1", name, [build / f"corpus/es/{name}"], tuple(g for g in GATES if g != "R5")
     for name, options in wine.PROGRAMS.items():
@@ -66,23 +67,29 @@ def cost(relume, work, command):
 
 def show(shown, build, kind, name, command, gates):
     if not pathlib.Path(command[1] if kind.startswith("Wine") else command[0]).exists():
-        shown.row(f"{kind}: {name}", "not built: 'make i386 windows' has not been run here, or cannot", f"{FRAMES} of {FRAMES} frames", False)
+        shown.row(f"{kind}: {name}", "not built: 'make i386 windows' has not been run here, or cannot",
+                  f"{FRAMES} of {FRAMES} frames", False)
         return
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
         line = score(build / "relume", work, command, gates)
-        shown.row(f"{kind}: {name}", f"{line.passed} of {FRAMES} frames pass {', '.join(gates)}" + (f" ({line.missed})" if line.missed else ""),
-                  f"{FRAMES} of {FRAMES} frames", line.passed == FRAMES)
+        shown.row(
+            f"{kind}: {name}",
+            f"{line.passed} of {FRAMES} frames pass {', '.join(gates)}" + (f" ({line.missed})" if line.missed else ""),
+            f"{FRAMES} of {FRAMES} frames", line.passed == FRAMES)
         ratio, bare = cost(build / "relume", work, command)
-        shown.row(f"{kind}: {name}: recorded over bare", f"{ratio:.2f} times the processor time ({bare:.2f} s for {MORE_FRAMES} frames)", None, None)
+        shown.row(f"{kind}: {name}: recorded over bare",
+                  f"{ratio:.2f} times the processor time ({bare:.2f} s for {MORE_FRAMES} frames)", None, None)
 
 
 def show_deep(shown, build):
-    """256 slices over 512 x 512 pixels, traced as the program shows them: processor time of a frame, in turn, the median of the ratios."""
+    """256 slices over 512 x 512 pixels, traced as the program shows them: processor time of a frame, in turn, the
+    median of the ratios."""
     relume, program = build / "relume", build / "tests/real/deep"
     with tempfile.TemporaryDirectory() as folder:
         trace, out = pathlib.Path(folder, "deep.trace"), pathlib.Path(folder, "x.####.exr")
-        subprocess.run([relume, "record", "-o", trace, "--", program, str(DEEP_FRAMES)], check=True, stderr=subprocess.DEVNULL)
+        subprocess.run([relume, "record", "-o", trace, "--", program,
+                        str(DEEP_FRAMES)], check=True, stderr=subprocess.DEVNULL)
 
         def ours(last):
             return spent_s([relume, "render", trace, "--mode", "gl", "-f", f"0-{last}", "-o", out])
@@ -91,11 +98,13 @@ def show_deep(shown, build):
         ratios = []
         for _ in range(3):
             frame_s = (ours(DEEP_FRAMES - 1) - ours(0)) / (DEEP_FRAMES - 1)
-            bare_s = (spent_s([program, str(4 * DEEP_FRAMES)]) - spent_s([program, str(DEEP_FRAMES)])) / (3 * DEEP_FRAMES)
+            bare_s = (spent_s([program, str(4 * DEEP_FRAMES)]) - spent_s([program, str(DEEP_FRAMES)])) / (3 *
+                                                                                                          DEEP_FRAMES)
             ratios.append((frame_s / bare_s, frame_s, bare_s))
         ratio, frame_s, bare_s = sorted(ratios)[1]
         shown.row("256 blended slices of a volume, 512 x 512",
-                  f"{ratio:.1f} times llvmpipe's processor time ({frame_s:.2f} s and {bare_s:.2f} s a frame)", f"at most {DEEP_BAR} times", ratio <= DEEP_BAR)
+                  f"{ratio:.1f} times llvmpipe's processor time ({frame_s:.2f} s and {bare_s:.2f} s a frame)",
+                  f"at most {DEEP_BAR} times", ratio <= DEEP_BAR)
 
 
 def main(build):
@@ -105,7 +114,8 @@ def main(build):
     with tempfile.TemporaryDirectory() as prefix:
         os.environ.update(wine.environment(prefix))
         if shutil.which("wineboot"):
-            subprocess.run([wine.loader(build), "wineboot", "-i"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+            subprocess.run([wine.loader(build), "wineboot", "-i"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                           check=True)
         for kind, name, command, gates in kinds(build):
             show(shown, build, kind, name, command, gates)
         show_deep(shown, build)

@@ -54,7 +54,11 @@ def drag(x, y, to_x, to_y, n=20):
     """Press the left button at a place, and let it go at another one, n moves and two seconds later."""
     subprocess.run(["xdotool", "mousemove", str(x), str(y), "mousedown", "1"], check=False)
     for i in range(1, n + 1):
-        subprocess.run(["xdotool", "mousemove", str(x + (to_x - x) * i // n), str(y + (to_y - y) * i // n), "sleep", str(2 / n)], check=False)
+        subprocess.run(
+            ["xdotool", "mousemove",
+             str(x + (to_x - x) * i // n),
+             str(y + (to_y - y) * i // n), "sleep",
+             str(2 / n)], check=False)
     subprocess.run(["xdotool", "mouseup", "1"], check=False)
 
 
@@ -102,8 +106,8 @@ def run_program(program, command, home, log):
         (home / name).write_text(text)
     environment = dict(os.environ, HOME=str(home), **dict(program.environment))
     with open(log, "w") as out:
-        process = subprocess.Popen(command, cwd=home, env=environment, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT,
-                                   start_new_session=True)
+        process = subprocess.Popen(command, cwd=home, env=environment, stdin=subprocess.DEVNULL, stdout=out,
+                                   stderr=subprocess.STDOUT, start_new_session=True)
         begin = time.monotonic()
         try:
             send(program.keys)
@@ -126,8 +130,11 @@ def record(relume, program, folder, again=False):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         how_long = [] if program.seconds else ["--quit-after", str(FRAMES)]
-        code = run_program(program, [str(relume), "record", "-o", str(folder / "live.trace"), "--ref", "color,depth", "--ref-every",
-                                     str(program.ref_every), *how_long, "--", *program.command], folder / "home", folder / "record.log")
+        code = run_program(program, [
+            str(relume), "record", "-o",
+            str(folder / "live.trace"), "--ref", "color,depth", "--ref-every",
+            str(program.ref_every), *how_long, "--", *program.command
+        ], folder / "home", folder / "record.log")
         done.write_text(json.dumps({"code": code}))
     trace = find(folder)
     said = (folder / "record.log").read_text(errors="replace").splitlines()
@@ -141,5 +148,6 @@ def record_by_apitrace(program, folder):
     if not peer.exists():
         api = "egl" if program.package.startswith("xscreensaver") else "gl"
         bounded = dataclasses.replace(program, seconds=program.seconds or PEER_S)
-        run_program(bounded, ["apitrace", "trace", "-a", api, "-o", str(peer), *program.command], folder / "home", folder / "apitrace.log")
+        run_program(bounded, ["apitrace", "trace", "-a", api, "-o",
+                              str(peer), *program.command], folder / "home", folder / "apitrace.log")
     return peer if peer.exists() else None

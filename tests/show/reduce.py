@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""tests/show/reduce.py BUILD [--only NAME] (as `make show-reduce`): faults put into real recordings, found again by `relume reduce`.
+"""tests/show/reduce.py BUILD [--only NAME] (as `make show-reduce`): faults put into real recordings, found again by
+`relume reduce`.
 
-A fault is one argument of one call, changed past the middle of the recording to a number that OpenGL does not know there. The command that
-fails: `relume info` finds an error of that call. Beside: how many calls `apitrace trim` keeps of the frame that has the fault.
+A fault is one argument of one call, changed past the middle of the recording to a number that OpenGL does not know
+there. The command that fails: `relume info` finds an error of that call. Beside: how many calls `apitrace trim` keeps
+of the frame that has the fault.
 
-Then faults of pictures (tests/show/faults.py), each a changed call of corpus/still_life: its frame is held against the reference frames of
-the unchanged program (`--frame`), and the change must be among what is left.
+Then faults of pictures (tests/show/faults.py), each a changed call of corpus/still_life: its frame is held against the
+reference frames of the unchanged program (`--frame`), and the change must be among what is left.
 """
 import argparse
 import json
@@ -22,10 +24,13 @@ from edit_trace import Trace  # noqa: E402
 from table import Shown  # noqa: E402
 
 SHARED = ROOT.parent / "shared/traces"
-FAULTS = [("glxgears", "glShadeModel", 0), ("xss-queens", "glEnable", 0), ("xss-lament", "glEnable", 0), ("iv-SceneViewer", "glEnable", 0),
-          ("rss-lattice", "glEnable", 0), ("billard-gl", "glEnable", 0), ("neverball", "glMatrixMode", 0), ("xss-noof", "glBegin", 0),
-          ("billard-gl", "glBlendFunc", 1), ("neverball", "glTexEnvi", 1)]
-PICTURES = {"wrong material": "glMaterialfv", "a light of another colour": "glLightfv", "an object is turned": "glRotatef"}
+FAULTS = [("glxgears", "glShadeModel", 0), ("xss-queens", "glEnable", 0), ("xss-lament", "glEnable", 0),
+          ("iv-SceneViewer", "glEnable", 0), ("rss-lattice", "glEnable", 0), ("billard-gl", "glEnable", 0),
+          ("neverball", "glMatrixMode", 0), ("xss-noof", "glBegin", 0), ("billard-gl", "glBlendFunc", 1),
+          ("neverball", "glTexEnvi", 1)]
+PICTURES = {
+    "wrong material": "glMaterialfv", "a light of another colour": "glLightfv", "an object is turned": "glRotatef"
+}
 WRONG, AT, MOST = 0x1234, 0.6, 50
 SAID = re.compile(r": (\d+) of (\d+) calls, .*; (\d+) trials? in (\d+) s")
 
@@ -40,7 +45,10 @@ def run(*args, codes=(0,)):
 def plant(source, call, argument, path):
     """Change one call of a recording; return the number of its frame."""
     trace = Trace(source)
-    found = [i for i, (name, args) in enumerate(trace.calls) if name == call and len(args) > argument and args[argument].kind == "number"]
+    found = [
+        i for i, (name, args) in enumerate(trace.calls)
+        if name == call and len(args) > argument and args[argument].kind == "number"
+    ]
     at = found[int(AT * len(found))]
     trace.change(trace.calls[at][1][argument], WRONG)
     trace.save(path)
@@ -51,16 +59,23 @@ def reduce_picture(shown, relume, build, name):
     frame, edit = faults.FRAME, next(what for fault, _, _, what in faults.FAULTS if fault == name)
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
-        run(ROOT / "tests/xvfb.sh", relume, "record", "-o", work / "good.trace", "--ref", "color,depth", "--", build.resolve() / "corpus/still_life", "--frames", 2, "--size", "96x64")
+        run(ROOT / "tests/xvfb.sh", relume, "record", "-o", work / "good.trace", "--ref", "color,depth", "--",
+            build.resolve() / "corpus/still_life", "--frames", 2, "--size", "96x64")
         trace = Trace(work / "good.trace")
         edit(trace)
         trace.save(work / "fault.trace")
-        done = run(relume, "reduce", work / "fault.trace", "--frame", frame, "--ref", work / "good.ref", "-o", work / "small.trace")
+        done = run(relume, "reduce", work / "fault.trace", "--frame", frame, "--ref", work / "good.ref", "-o",
+                   work / "small.trace")
         left, whole, trials, seconds = map(int, SAID.search(done).groups())
         good, kept = (run(relume, "dump", work / file).splitlines() for file in ("good.trace", "small.trace"))
-        new = [line.split(" ", 1)[1] for line in kept if line.split(" ", 1)[1] not in {other.split(" ", 1)[1] for other in good}]
+        new = [
+            line.split(" ", 1)[1]
+            for line in kept
+            if line.split(" ", 1)[1] not in {other.split(" ", 1)[1] for other in good}
+        ]
         has_it = any(line.startswith(PICTURES[name]) for line in new)
-        shown.row(f"{name}: {PICTURES[name]} of {whole} calls", f"{left} calls, {trials} trials, {seconds} s", f"at most {MOST}, with the change", left <= MOST and has_it)
+        shown.row(f"{name}: {PICTURES[name]} of {whole} calls", f"{left} calls, {trials} trials, {seconds} s",
+                  f"at most {MOST}, with the change", left <= MOST and has_it)
 
 
 def main(build, only):
@@ -78,10 +93,13 @@ def main(build, only):
                     f"! sed -n '/\"gl_errors\"/,/]/p' info.json | grep -q '\"call\": \"{call}\"'")
             said = SAID.search(run(relume, "reduce", work / "fault.trace", "-o", work / "small.trace", "--when", when))
             left, whole, trials, seconds = map(int, said.groups())
-            again = subprocess.run(["sh", "-c", when], cwd=work, env={"TRACE": str(work / "small.trace"), "PATH": "/usr/bin:/bin"}, check=False)
+            again = subprocess.run(["sh", "-c", when], cwd=work,
+                                   env={"TRACE": str(work / "small.trace"), "PATH": "/usr/bin:/bin"}, check=False)
             run("apitrace", "trim", f"--frames={frame}", "-o", work / "trim.trace", work / "fault.trace")
-            trimmed = json.loads(run(relume, "info", "--json", work / "trim.trace", codes=(0, 3)) or '{"calls": 0}')["calls"]
-            shown.row(f"{name}: {call} of {whole} calls", f"{left} calls, {trials} trials, {seconds} s", f"at most {MOST}, still failing", left <= MOST and again.returncode == 1,
+            trimmed = json.loads(run(relume, "info", "--json", work / "trim.trace", codes=(0, 3))
+                                 or '{"calls": 0}')["calls"]
+            shown.row(f"{name}: {call} of {whole} calls", f"{left} calls, {trials} trials, {seconds} s",
+                      f"at most {MOST}, still failing", left <= MOST and again.returncode == 1,
                       f"apitrace trim of frame {frame}: {trimmed} calls")
     return shown.finish()
 

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/relit.py BUILD [NAME...] (as `make show-relit`): programs of the corpus as their raster frame, as the beauty without rules, and as
-the beauty under the rules that `relume look` finds, side by side in BUILD/show/relit/NAME.png, to be looked at. Gate N must pass: no
-frame is darker than its shadows explain. Channels of OpenGL's own picture must be the same in both beauties. A relit frame costs at most
-twice a whitted one, of these and of all real programs (by name: cost), and a study of 1,000 frames at most what rendering 20 costs
-(study.py; by name: study). Then the same pictures of real programs, with what was seen when
-they were looked at (sheet.py), and of what portal culling leaves out (unseen.py; by name: unseen)."""
+"""tests/show/relit.py BUILD [NAME...] (as `make show-relit`): programs of the corpus as their raster frame, as the
+beauty without rules, and as the beauty under the rules that `relume look` finds, side by side in
+BUILD/show/relit/NAME.png, to be looked at. Gate N must pass: no frame is darker than its shadows explain. Channels of
+OpenGL's own picture must be the same in both beauties. A relit frame costs at most twice a whitted one, of these and of
+all real programs (by name: cost), and a study of 1,000 frames at most what rendering 20 costs (study.py; by name:
+study). Then the same pictures of real programs, with what was seen when they were looked at (sheet.py), and of what
+portal culling leaves out (unseen.py; by name: unseen)."""
 import itertools
 import json
 import pathlib
@@ -20,10 +21,12 @@ import unseen
 from display import need_display
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-PROGRAMS = {**{f"tricks-{kind}": ("tricks", kind) for kind in ("planar", "directional", "zpass", "zfail", "mirror")},
-            **{f"rooms-{lighting}": ("rooms", "--seed", 5, "--lighting", lighting, "--mirror", "--shadow", "--environment", "cube")
-               for lighting in ("multitexture", "pass", "opengl")},
-            "spheres": ("spheres",), "still_life": ("still_life",), "closed_hall": ("closed_hall",), "arena": ("arena",), "courtyard": ("courtyard", "--animate", "camera")}
+PROGRAMS = {
+    **{f"tricks-{kind}": ("tricks", kind) for kind in ("planar", "directional", "zpass", "zfail", "mirror")}, **{
+        f"rooms-{lighting}": ("rooms", "--seed", 5, "--lighting", lighting, "--mirror", "--shadow", "--environment", "cube") for lighting in ("multitexture", "pass", "opengl")
+    }, "spheres": ("spheres", ), "still_life": ("still_life", ), "closed_hall": ("closed_hall", ), "arena": ("arena", ),
+    "courtyard": ("courtyard", "--animate", "camera")
+}
 FRAME = 1
 FEW, RECORDED, MANY = 2, 8, 50 # frames
 QUICK_S = 0.5 # for RECORDED frames: what starting up takes varies by a good part of it
@@ -40,7 +43,8 @@ def run(*args):
 def sheet(frames, out):
     """Raster, beauty, relit: in display colours, side by side."""
     columns = []
-    for name, file, channels in (("gl", frames[0], "gl.R,gl.G,gl.B"), ("beauty", frames[0], "R,G,B"), ("relit", frames[1], "R,G,B")):
+    for name, file, channels in (("gl", frames[0], "gl.R,gl.G,gl.B"), ("beauty", frames[0], "R,G,B"),
+                                 ("relit", frames[1], "R,G,B")):
         picture = out.with_name(f"{out.stem}.{name}.png")
         run("oiiotool", file, "--ch", channels, "--colorconvert", "linear", "sRGB", "-o", picture)
         columns.append(picture)
@@ -64,8 +68,8 @@ def seconds(build, trace, folder, first, last, *look):
 
 
 def cost(build, trace, folder, first=0):
-    """A relit frame's processor time over that of one without rules; starting up is taken off, two workers' too. Least of three each, taken
-    in turns. Of quick frames there are more, where the recording has them."""
+    """A relit frame's processor time over that of one without rules; starting up is taken off, two workers' too. Least
+    of three each, taken in turns. Of quick frames there are more, where the recording has them."""
     rules = folder / "cost.look.yaml"
     run(build / "relume", "look", trace, "-o", rules)
     end = json.loads(run(build / "relume", "info", trace, "--json"))["frames"]
@@ -74,14 +78,17 @@ def cost(build, trace, folder, first=0):
     ways, times = ((), ("--look", rules)), {}
     for _ in range(3):
         for way, frames in itertools.product(range(2), (FEW, n)):
-            times.setdefault((way, frames), []).append(seconds(build, trace, folder, first, first + frames - 1, *ways[way]))
+            times.setdefault((way, frames),
+                             []).append(seconds(build, trace, folder, first, first + frames - 1, *ways[way]))
     more = [min(times[way, n]) - min(times[way, FEW]) for way in range(2)]
     return more[1] / max(more[0], 1e-3)
 
 
 def cost_row(name, times):
-    return {"what": f"{name}: processor time of a relit frame over a whitted one", "figure": round(times, 2), "bar": COST, "peer": None,
-            "passed": times <= COST}
+    return {
+        "what": f"{name}: processor time of a relit frame over a whitted one", "figure": round(times, 2), "bar": COST,
+        "peer": None, "passed": times <= COST
+    }
 
 
 def cost_rows(build, only):
@@ -110,8 +117,10 @@ def judge(build, only):
         rows.append(row)
     if not only:
         better = sum(verdicts[program.name] == "better" for program in programs.OPEN)
-        rows.append({"what": "programs of the open set that are better relit", "figure": f"{better} of {len(programs.OPEN)}", "bar": real.BETTER,
-                     "peer": None, "passed": better >= real.BETTER})
+        rows.append({
+            "what": "programs of the open set that are better relit", "figure": f"{better} of {len(programs.OPEN)}",
+            "bar": real.BETTER, "peer": None, "passed": better >= real.BETTER
+        })
         print(f"better relit: {better} of {len(programs.OPEN)} (bar: {real.BETTER})", flush=True)
     return rows
 
@@ -126,8 +135,8 @@ def main(build, only):
         with tempfile.TemporaryDirectory() as folder:
             work, frames = pathlib.Path(folder), []
             trace = work / "x.trace"
-            run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--ref", "color,depth", "--", build / "corpus" / program[0],
-                *program[1:], "--frames", RECORDED)
+            run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--ref", "color,depth", "--",
+                build / "corpus" / program[0], *program[1:], "--frames", RECORDED)
             for kind, look in (("beauty", ()), ("relit", ("--look", "auto"))):
                 run(build / "relume", "render", trace, "-f", FRAME, "-o", work / kind / "x.####.exr", *look)
                 frames.append(work / kind / f"x.{FRAME:04d}.exr")
@@ -136,10 +145,16 @@ def main(build, only):
             times = cost(build, trace, work)
         passed = harm == "passed" and raster == "passed"
         bad += not passed
-        rows.append({"what": f"{name}: gates N, R1 of the relit frame", "figure": f"{harm}, {raster}", "bar": "passed", "peer": None, "passed": passed})
+        rows.append({
+            "what": f"{name}: gates N, R1 of the relit frame", "figure": f"{harm}, {raster}", "bar": "passed",
+            "peer": None, "passed": passed
+        })
         rows.append(cost_row(name, times))
         bad += times > COST
-        print(f"{name}: gate N {harm}, gate R1 {raster}; {times:.2f} times the cost (bar: {COST}); look at {out}/{name}.png", flush=True)
+        print(
+            f"{name}: gate N {harm}, gate R1 {raster}; {times:.2f} times the cost (bar: {COST}); look at "
+            f"{out}/{name}.png",
+            flush=True)
     for row in cost_rows(build, only):
         rows.append(row)
         bad += not row["passed"]
@@ -153,7 +168,8 @@ def main(build, only):
     for row in judge(build, only):
         rows.append(row)
         bad += not row["passed"]
-    (build / "show/relit.json").write_text(json.dumps({"name": "relit", "command": "make show-relit", "rows": rows}, indent=1))
+    (build / "show/relit.json").write_text(
+        json.dumps({"name": "relit", "command": "make show-relit", "rows": rows}, indent=1))
     return 1 if bad else 0
 
 

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """tests/show/replay.py BUILD: how fast recordings are replayed without rendering, beside apitrace's dump and glretrace.
 
-Figures are processor time (user and system) of whole processes, medians of alternating runs: the machine's other load and the
-server's share do not count, and glretrace is spared what its X server does. Ours is `relume index --force`: every call is
-replayed, no frame's scene is built, and the checkpoints are written too.
+Figures are processor time (user and system) of whole processes, medians of alternating runs: the machine's other load
+and the server's share do not count, and glretrace is spared what its X server does. Ours is `relume index --force`:
+every call is replayed, no frame's scene is built, and the checkpoints are written too.
 """
 import json
 import os
@@ -36,8 +36,10 @@ def cpu_seconds(command):
 
 
 def measure(build, trace):
-    tools = {"relume": [build / "relume", "index", "--force", trace], "dump": ["apitrace", "dump", "--color=never", trace],
-             "glretrace": ["glretrace", "-b", trace]}
+    tools = {
+        "relume": [build / "relume", "index", "--force", trace], "dump": ["apitrace", "dump", "--color=never", trace],
+        "glretrace": ["glretrace", "-b", trace]
+    }
     times = {name: [] for name in tools}
     for _ in range(ROUNDS):
         for name, command in tools.items():
@@ -64,14 +66,18 @@ def main(build):
     rows = []
     version = subprocess.run(["apitrace", "version"], capture_output=True, text=True).stdout.strip()
     for trace in map(pathlib.Path, recordings(build)):
-        info = json.loads(subprocess.run([build / "relume", "info", "--json", trace], capture_output=True, text=True).stdout)
+        info = json.loads(
+            subprocess.run([build / "relume", "info", "--json", trace], capture_output=True, text=True).stdout)
         times = measure(build, trace)
         for peer, bar in BARS.items():
             ratio = times[peer] / times["relume"]
-            rows.append({"what": f"{trace.stem}, {info['frames']} frames, {info['calls']} calls: replay against {peer}",
-                         "figure": f"{ratio:.1f} times as fast", "bar": f"{bar}", "peer": version, "passed": ratio >= bar})
+            rows.append({
+                "what": f"{trace.stem}, {info['frames']} frames, {info['calls']} calls: replay against {peer}",
+                "figure": f"{ratio:.1f} times as fast", "bar": f"{bar}", "peer": version, "passed": ratio >= bar
+            })
             print(f"{rows[-1]['what']}: {rows[-1]['figure']} (bar {bar})", flush=True)
-    (build / "show" / "replay.json").write_text(json.dumps({"name": "replay", "command": "make show-replay", "rows": rows}, indent=1))
+    (build / "show" / "replay.json").write_text(
+        json.dumps({"name": "replay", "command": "make show-replay", "rows": rows}, indent=1))
     return 0 if all(row["passed"] for row in rows) else 1
 
 

@@ -1,4 +1,5 @@
-"""Roles that `relume look` gives to draws, beside labels written by hand (tests/look/labels.yaml): precision and recall per role."""
+"""Roles that `relume look` gives to draws, beside labels written by hand (tests/look/labels.yaml): precision and recall
+per role."""
 import collections
 import json
 import os
@@ -17,9 +18,11 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SHARED = ROOT.parent / "shared/traces"
 PRECISION, RECALL = 0.98, 0.9
 # What a rule's role is called in the labels; other roles say nothing about what a draw is.
-ROLES = {**{role: role for role in ("sky", "HUD", "particle", "view model", "planar shadow", "stencil mirror", "mirror", "decal", "blob shadow",
-                                    "lightmap in a second unit", "lightmap pass")},
-         "shadow volume (z-pass)": "shadow volume", "shadow volume (z-fail)": "shadow volume"}
+ROLES = {
+    **{
+        role: role for role in ("sky", "HUD", "particle", "view model", "planar shadow", "stencil mirror", "mirror", "decal", "blob shadow", "lightmap in a second unit", "lightmap pass")
+    }, "shadow volume (z-pass)": "shadow volume", "shadow volume (z-fail)": "shadow volume"
+}
 DST_COLOR, SRC_COLOR, ZERO = "GL_DST_COLOR", "GL_SRC_COLOR", "GL_ZERO"
 MAPPED = ("GL_SPHERE_MAP", "GL_REFLECTION_MAP")
 
@@ -49,7 +52,9 @@ def modelview_kind(m):
         singular = abs(three) < 1e-4
     else:
         far = sum(x * x for x in columns[3][:3]) ** 0.5 or 1
-        scaled = [[(x * far if r == 3 else x) / (far if c == 3 else 1) for r, x in enumerate(column)] for c, column in enumerate(columns)]
+        scaled = [[(x * far if r == 3 else x) / (far if c == 3 else 1)
+                   for r, x in enumerate(column)]
+                  for c, column in enumerate(columns)]
         singular = abs(fullness(scaled)) < 1e-5
     return "singular" if singular else "mirrored" if three < 0 else "plain"
 
@@ -59,16 +64,24 @@ def state(scene, instance, camera):
     m, view = scene["materials"][instance["material"]], scene["views"][instance["view"]]
     units = scene["units"][m["unit_first"]:m["unit_first"] + m["unit_count"]]
     p = view["projection"]
-    return {"instance": instance, "camera": camera, "points": scene["meshes"][instance["mesh"]]["position"], "mesh": scene["meshes"][instance["mesh"]]["hash"], "texture": [scene["textures"][u["texture"]]["hash"] for u in units],
-            "lit": bool(m["lighting"]), "textured": bool(units), "units": len(units), "blended": bool(m["blend"]), "alpha_tested": bool(m["alpha_test"]),
-            "depth_tested": bool(m["depth_test"]), "stencil_tested": bool(m["stencil_test"]), "parallel": p[3] == 0 and p[7] == 0 and p[11] == 0,
-            "environment_mapped": any(mode in MAPPED for u in units for mode in u["gen_mode"][:3]),
-            "multiplies": bool(m["blend"]) and (m["blend_src_rgb"], m["blend_dst_rgb"]) in ((DST_COLOR, ZERO), (ZERO, SRC_COLOR)),
-            "modelview": modelview_kind(instance["modelview"])}
+    return {
+        "instance": instance, "camera": camera, "points": scene["meshes"][instance["mesh"]]["position"],
+        "mesh": scene["meshes"][instance["mesh"]]["hash"],
+        "texture": [scene["textures"][u["texture"]]["hash"]
+                    for u in units], "lit": bool(m["lighting"]), "textured": bool(units), "units": len(units),
+        "blended": bool(m["blend"]), "alpha_tested": bool(m["alpha_test"]), "depth_tested": bool(m["depth_test"]),
+        "stencil_tested": bool(m["stencil_test"]), "parallel": p[3] == 0 and p[7] == 0 and p[11] == 0,
+        "environment_mapped": any(mode in MAPPED
+                                  for u in units
+                                  for mode in u["gen_mode"][:3]), "multiplies": bool(m["blend"])
+        and (m["blend_src_rgb"], m["blend_dst_rgb"]) in ((DST_COLOR, ZERO), (ZERO, SRC_COLOR)),
+        "modelview": modelview_kind(instance["modelview"])
+    }
 
 
 def camera_of(scene, world):
-    """What leads from the world into a frame's eye space, by the first mesh of the list `world` that it draws; None: it draws none."""
+    """What leads from the world into a frame's eye space, by the first mesh of the list `world` that it draws; None: it
+    draws none."""
     for anchor in world:
         for instance in scene["instances"]:
             if scene["meshes"][instance["mesh"]]["hash"].startswith(str(anchor["mesh"])):
@@ -101,11 +114,16 @@ def matches(wanted, has):
 
 
 def numbers(text):
-    return {n for part in text.split(",") for first, _, last in [part.partition("-")] for n in range(int(first), int(last or first) + 1)}
+    return {
+        n for part in text.split(",") for first, _, last in [part.partition("-")]
+        for n in range(int(first),
+                       int(last or first) + 1)
+    }
 
 
 def run(*args):
-    return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True).stdout
+    return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          check=True).stdout
 
 
 def trace_of(entry, build, work):
@@ -115,7 +133,8 @@ def trace_of(entry, build, work):
         return trace if trace.exists() else None
     if "record" in entry:
         program, *options = entry["record"]
-        run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", work / "labelled.trace", "--", build / "corpus" / program, *options)
+        run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", work / "labelled.trace", "--",
+            build / "corpus" / program, *options)
         return work / "labelled.trace"
     known = {p.name: p for p in programs.OPEN}
     program = known.get(entry["program"]) or programs.xscreensaver(entry["program"])
@@ -124,13 +143,15 @@ def trace_of(entry, build, work):
     folder = work / program.name
     script = f"import pathlib, programs, recording; recording.record({str(build / 'relume')!r}, {program!r}, pathlib.Path({str(folder)!r}))"
     script = script.replace("Program(", "programs.Program(", 1)
-    subprocess.run([ROOT / "tests/xvfb.sh", sys.executable, "-c", script], stdin=subprocess.DEVNULL, capture_output=True, check=True,
-                   cwd=ROOT / "tests/show", env=dict(os.environ, PATH=f"{os.environ['PATH']}:/usr/games:/usr/libexec/xscreensaver"))
+    subprocess.run([ROOT / "tests/xvfb.sh", sys.executable, "-c", script], stdin=subprocess.DEVNULL,
+                   capture_output=True, check=True, cwd=ROOT / "tests/show",
+                   env=dict(os.environ, PATH=f"{os.environ['PATH']}:/usr/games:/usr/libexec/xscreensaver"))
     return recording.find(folder)
 
 
 def compare(entry, trace, build, work):
-    """(role, what it is) for each draw of the labelled frame: what is found and what the label says, None where it is plain world."""
+    """(role, what it is) for each draw of the labelled frame: what is found and what the label says, None where it is
+    plain world."""
     rules = work / "labelled.look.yaml"
     run(build / "relume", "look", trace, "-o", rules)
     found_rules = yaml.safe_load(rules.read_text())
@@ -163,8 +184,10 @@ def score(build, work, row):
             print(f"{name}: not there, not compared", flush=True)
             continue
         seen = collections.Counter(compare(entry, trace, build, work))
-        print(f"{name}: " + ("; ".join(f"{n} draws are {label or 'world'}, found {found or 'world'}" for (found, label), n in sorted(seen.items(), key=str)
-                                       if found or label) or "no roles, none found"), flush=True)
+        print(
+            f"{name}: " + ("; ".join(f"{n} draws are {label or 'world'}, found {found or 'world'}"
+                                     for (found, label), n in sorted(seen.items(), key=str)
+                                     if found or label) or "no roles, none found"), flush=True)
         for (found, label), n in seen.items():
             counts[label][2] += n
             counts[found][1] += n
@@ -172,6 +195,7 @@ def score(build, work, row):
     for role, (right, found, labelled) in sorted(counts.items(), key=str):
         if role is None:
             continue
-        row(f"{role}: precision, of {found} draws", f"{right / found:.3f}" if found else "none found", PRECISION, right >= PRECISION * found if found else None)
+        row(f"{role}: precision, of {found} draws", f"{right / found:.3f}" if found else "none found", PRECISION,
+            right >= PRECISION * found if found else None)
         if labelled:
             row(f"{role}: recall, of {labelled} draws", f"{right / labelled:.3f}", RECALL, right >= RECALL * labelled)

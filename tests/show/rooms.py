@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""tests/show/rooms.py BUILD (as `make show-rooms`): levels of corpus/rooms: how many of 100 are sound, what each culling draws of the
-level that is kept, how many of 20 levels pass all gates on 5 frames, with all the tricks that the program knows; how many of 1,000 closed
-meshes, broken at random, scene/repair closes again. ONLY=levels or ONLY=repair: one of both."""
+"""tests/show/rooms.py BUILD (as `make show-rooms`): levels of corpus/rooms: how many of 100 are sound, what each
+culling draws of the level that is kept, how many of 20 levels pass all gates on 5 frames, with all the tricks that the
+program knows; how many of 1,000 closed meshes, broken at random, scene/repair closes again. ONLY=levels or ONLY=repair:
+one of both."""
 import argparse
 import json
 import pathlib
@@ -12,7 +13,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 LEVELS, FRAMES, MESHES = 20, 5, 1000
-CULLINGS, LIGHTINGS, ENVIRONMENTS = ("none", "frustum", "portal", "bsp", "octree"), ("multitexture", "pass", "opengl"), ("cube", "sphere")
+CULLINGS, LIGHTINGS, ENVIRONMENTS = ("none", "frustum", "portal", "bsp", "octree"), ("multitexture", "pass",
+                                                                                     "opengl"), ("cube", "sphere")
 
 
 def run(*args):
@@ -20,7 +22,8 @@ def run(*args):
 
 
 def record(build, trace, *options):
-    done = run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--ref", "color,depth", "--", build / "corpus/rooms", *options)
+    done = run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--ref", "color,depth", "--",
+               build / "corpus/rooms", *options)
     if done.returncode:
         sys.exit(done.stderr)
 
@@ -28,8 +31,9 @@ def record(build, trace, *options):
 def passing_frames(build, seed, work):
     """How many frames of a level pass all gates; which tricks it draws depends on its number."""
     trace, frames = work / f"{seed}.trace", work / f"{seed}"
-    record(build, trace, "--seed", seed, "--frames", FRAMES, "--animate", "camera", "--cull", CULLINGS[seed % 5], "--lighting", LIGHTINGS[seed % 3],
-           "--environment", ENVIRONMENTS[seed % 2], *(("--mirror",) if seed % 4 < 3 else ()), *(("--shadow",) if seed % 4 else ()))
+    record(build, trace, "--seed", seed, "--frames", FRAMES, "--animate", "camera", "--cull", CULLINGS[seed % 5],
+           "--lighting", LIGHTINGS[seed % 3], "--environment", ENVIRONMENTS[seed % 2],
+           *(("--mirror", ) if seed % 4 < 3 else ()), *(("--shadow", ) if seed % 4 else ()))
     run(build / "relume", "render", trace, "-o", frames / "f.####.exr")
     score = json.loads(run(build / "relume", "diff", trace, frames, "--json", "-").stdout)
     return score["counts"]["passed"]
@@ -38,26 +42,36 @@ def passing_frames(build, seed, work):
 def score_levels(build, row):
     done = run(build / "corpus/rooms", "--check", 100).stdout
     sound = int(re.search(r"(\d+) of 100 levels are sound", done)[1])
-    row("levels with every zone closed, no T-junction, each of 10,000 points in its leaf", f"{sound} of 100", "100 of 100", sound == 100)
+    row("levels with every zone closed, no T-junction, each of 10,000 points in its leaf", f"{sound} of 100",
+        "100 of 100", sound == 100)
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
-        record(build, work / "eleven.trace", "--level", ROOT / "corpus/rooms/eleven.level", "--frames", 1, "--truth", work / "truth.json")
+        record(build, work / "eleven.trace", "--level", ROOT / "corpus/rooms/eleven.level", "--frames", 1, "--truth",
+               work / "truth.json")
         truth = json.loads((work / "truth.json").read_text())
-        row("zones of corpus/rooms/eleven.level", len(truth["zones"]), 11, len(truth["zones"]) == 11, "the source's level: 11")
+        row("zones of corpus/rooms/eleven.level", len(truth["zones"]), 11,
+            len(truth["zones"]) == 11, "the source's level: 11")
         drawn = truth["polygons"]
-        row("polygons drawn: " + ", ".join(drawn), ", ".join(map(str, drawn.values())), None, None, "the source: 508 without, 200 with portals")
+        row("polygons drawn: " + ", ".join(drawn), ", ".join(map(str, drawn.values())), None, None,
+            "the source: 508 without, 200 with portals")
         passed = [passing_frames(build, seed, work) for seed in range(LEVELS)]
-        row("frames of 20 levels that pass all gates", f"{sum(passed)} of {LEVELS * FRAMES}", f"{LEVELS * FRAMES} of {LEVELS * FRAMES}",
+        row("frames of 20 levels that pass all gates", f"{sum(passed)} of {LEVELS * FRAMES}",
+            f"{LEVELS * FRAMES} of {LEVELS * FRAMES}",
             sum(passed) == LEVELS * FRAMES)
 
 
 def score_repair(build, row):
     """Of those that do not come back the test writes one line each."""
     done = run(build / "tests/unit/test_repair", MESHES)
-    closed, exact, worst = re.search(r"(\d+) of \d+ meshes closed, (\d+) with their volume within 1e-05; the worst volume is off by (\S+);", done.stdout).groups()
+    closed, exact, worst = re.search(
+        r"(\d+) of \d+ meshes closed, (\d+) with their volume within 1e-05; the worst volume is off by (\S+);",
+        done.stdout).groups()
     print(done.stderr, end="")
-    row("meshes broken at random that come back closed", f"{closed} of {MESHES}", f"{MESHES} of {MESHES}", int(closed) == MESHES)
-    row("of these with their volume within 1e-5", f"{exact} of {MESHES}, the worst off by {worst}", f"{MESHES} of {MESHES}", int(exact) == MESHES)
+    row("meshes broken at random that come back closed", f"{closed} of {MESHES}", f"{MESHES} of {MESHES}",
+        int(closed) == MESHES)
+    row("of these with their volume within 1e-5", f"{exact} of {MESHES}, the worst off by {worst}",
+        f"{MESHES} of {MESHES}",
+        int(exact) == MESHES)
 
 
 PARTS = {"levels": score_levels, "repair": score_repair}
@@ -76,7 +90,8 @@ def main(build, only):
         if not only or name in only:
             score(build, row)
     (build / "show").mkdir(parents=True, exist_ok=True)
-    (build / "show/rooms.json").write_text(json.dumps({"name": "rooms", "command": "make show-rooms", "rows": rows}, indent=1))
+    (build / "show/rooms.json").write_text(
+        json.dumps({"name": "rooms", "command": "make show-rooms", "rows": rows}, indent=1))
     return 1 if bad else 0
 
 

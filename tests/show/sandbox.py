@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/sandbox.py BUILD (as `make show-sandbox`): what a recording could reach, and what keeping it from that costs.
+"""tests/show/sandbox.py BUILD (as `make show-sandbox`): what a recording could reach, and what keeping it from that
+costs.
 
-A render with empty caches runs under strace: from the moment it is confined, no file outside the list below is opened, no socket, and of
-programs the linker alone. Then tests/real/test_confined.py: what tries to break out of each verb fails. Cost: processor time of the same
-frames with and without confinement, alternated; medians.
+A render with empty caches runs under strace: from the moment it is confined, no file outside the list below is opened,
+no socket, and of programs the linker alone. Then tests/real/test_confined.py: what tries to break out of each verb
+fails. Cost: processor time of the same frames with and without confinement, alternated; medians.
 """
 import json
 import os
@@ -16,14 +17,16 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-SYSTEM = ("/usr", "/lib", "/opt", "/sys", "/proc/self", "/proc/mounts", "/proc/cpuinfo", "/proc/meminfo", "/proc/stat", "/proc/filesystems", "/proc/driver", "/etc/ld.so.",
-          "/etc/OpenCL", "/etc/alternatives", "/etc/localtime", "/etc/locale.alias", "/etc/debian_version", "/etc/os-release",
-          "/dev/null", "/dev/zero", "/dev/full", "/dev/urandom", "/dev/random", "/dev/dri", "/dev/kfd", "/dev/nvidia", "/dev/shm")
+SYSTEM = ("/usr", "/lib", "/opt", "/sys", "/proc/self", "/proc/mounts", "/proc/cpuinfo", "/proc/meminfo", "/proc/stat",
+          "/proc/filesystems", "/proc/driver", "/etc/ld.so.", "/etc/OpenCL", "/etc/alternatives", "/etc/localtime",
+          "/etc/locale.alias", "/etc/debian_version", "/etc/os-release", "/dev/null", "/dev/zero", "/dev/full",
+          "/dev/urandom", "/dev/random", "/dev/dri", "/dev/kfd", "/dev/nvidia", "/dev/shm")
 ROUNDS, FRAMES, COST = 9, 12, 1.0
 
 
 def run(*args, **more):
-    done = subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, **more)
+    done = subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+                          **more)
     if done.returncode:
         sys.exit(f"{' '.join(map(str, args))}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
 
@@ -32,19 +35,25 @@ def traced(build, work):
     """What a confined render opens outside of its list, its sockets, and the programs that it starts."""
     env = dict(os.environ, XDG_CACHE_HOME=str(work / "cache"), POCL_CACHE_DIR=str(work / "cache/pocl"))
     log = work / "strace.log"
-    run("strace", "-f", "-s", 4096, "-o", log, "-e", "trace=open,openat,creat,socket,execve,landlock_restrict_self", build / "relume", "render",
-        work / "x.trace", "-f", 0, "-o", work / "frames/x.####.exr", env=env)
+    run("strace", "-f", "-s", 4096, "-o", log, "-e", "trace=open,openat,creat,socket,execve,landlock_restrict_self",
+        build / "relume", "render", work / "x.trace", "-f", 0, "-o", work / "frames/x.####.exr", env=env)
     lines = log.read_text().split("landlock_restrict_self", 1)[1].splitlines()[1:]
-    opened = {m.group(1) for line in lines if " = -1 " not in line and (m := re.search(r'open(?:at)?\((?:[\w-]+, )?"([^"]+)"', line))}
+    opened = {
+        m.group(1)
+        for line in lines
+        if " = -1 " not in line and (m := re.search(r'open(?:at)?\((?:[\w-]+, )?"([^"]+)"', line))
+    }
     programs = {m.group(1) for line in lines if "ENOENT" not in line and (m := re.search(r'execve\("([^"]+)"', line))}
     sockets = [line for line in lines if "socket(" in line and "= -1" not in line]
-    strangers = sorted(p for p in opened if p.startswith("/") and not p.startswith((*SYSTEM, str(work), str(build.resolve()))))
+    strangers = sorted(p for p in opened
+                       if p.startswith("/") and not p.startswith((*SYSTEM, str(work), str(build.resolve()))))
     return len(opened), strangers, sockets, sorted(programs)
 
 
 def seconds(build, work, *options):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    run(build / "relume", "render", work / "x.trace", "-f", f"0-{FRAMES - 1}", "-o", work / "cost/x.####.exr", "--progress", "none", *options)
+    run(build / "relume", "render", work / "x.trace", "-f", f"0-{FRAMES - 1}", "-o", work / "cost/x.####.exr",
+        "--progress", "none", *options)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
@@ -58,12 +67,14 @@ def main(build):
 
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
-        run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", work / "x.trace", "--", build / "corpus/cornell", "--frames", FRAMES)
+        run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", work / "x.trace", "--", build / "corpus/cornell",
+            "--frames", FRAMES)
         n, strangers, sockets, programs = traced(build, work)
         row(f"files opened once confined, of {n}, that are not the verb's own", len(strangers), 0, not strangers)
         print(*strangers, sep="\n")
         row("sockets opened", len(sockets), 0, not sockets)
-        row("programs started", " ".join(programs) or "none", "ld", all(p.rsplit("/", 1)[1].startswith("ld") for p in programs))
+        row("programs started", " ".join(programs) or "none", "ld",
+            all(p.rsplit("/", 1)[1].startswith("ld") for p in programs))
         done = subprocess.run([ROOT / "tests/real/test_confined.py"], capture_output=True, text=True, check=False,
                               env=dict(os.environ, RELUME_BUILD=str(build.resolve())))
         row("breaking out of eleven verbs", done.stdout.strip().splitlines()[-1], "no failure", done.returncode == 0)
@@ -72,7 +83,8 @@ def main(build):
         cost = 100 * (statistics.median(a for a, _ in pairs) / statistics.median(b for _, b in pairs) - 1)
         row(f"processor time of {FRAMES} frames of Cornell, confined", f"{cost:+.2f} %", f"{COST:+.2f} %", cost <= COST)
     (build / "show").mkdir(exist_ok=True)
-    (build / "show/sandbox.json").write_text(json.dumps({"name": "sandbox", "command": "make show-sandbox", "rows": rows}, indent=1))
+    (build / "show/sandbox.json").write_text(
+        json.dumps({"name": "sandbox", "command": "make show-sandbox", "rows": rows}, indent=1))
     return any(not r["passed"] for r in rows)
 
 

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/sanitize.py BUILD (as `make show-sanitize`): the recorder under ThreadSanitizer and under AddressSanitizer.
+"""tests/show/sanitize.py BUILD (as `make show-sanitize`): the recorder under ThreadSanitizer and under
+AddressSanitizer.
 
-Two threads, each with a context of its own, draw at once by immediate mode and client arrays and read pixels back; program and
-recorder are both built with the sanitizer (BUILD/sanitized). Mesa is not, so what happens inside it is left out of account.
-Every run must end with 0, record all frames, and report nothing; leaks are not asked for, as Mesa's would be all there is.
+Two threads, each with a context of its own, draw at once by immediate mode and client arrays and read pixels back;
+program and recorder are both built with the sanitizer (BUILD/sanitized). Mesa is not, so what happens inside it is left
+out of account. Every run must end with 0, record all frames, and report nothing; leaks are not asked for, as Mesa's
+would be all there is.
 """
 import json
 import pathlib
@@ -25,8 +27,10 @@ def reports(build, name, variant):
     symbols = subprocess.run(["nm", "-D", folder / "librelume.so"], capture_output=True, text=True, check=True).stdout
     if runtime not in symbols:
         sys.exit(f"{folder}/librelume.so is not built with the sanitizer")
-    run = subprocess.run([ROOT / "tests/xvfb.sh", folder / "relume", "record", "-o", folder / "x.trace", *variant, "--env", OPTIONS[name],
-                          "--", folder / "threads"], cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    run = subprocess.run([
+        ROOT / "tests/xvfb.sh", folder / "relume", "record", "-o", folder / "x.trace", *variant, "--env", OPTIONS[name],
+        "--", folder / "threads"
+    ], cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
     text = run.stdout + run.stderr
     n = len(re.findall(r"(?:WARNING|ERROR): (?:Thread|Address)Sanitizer", text))
     frames = re.search(r": (\d+) frames?,", text)
@@ -47,11 +51,15 @@ def main(build):
                 n, ok = reports(build, name, variant)
                 found += n
                 well = well and ok
-            rows.append({"what": f"{name} sanitizer, two threads and contexts{title}, {RUNS} runs", "peer": "GCC's runtime",
-                         "figure": f"{found} reports" + ("" if well else ", and a run failed"), "bar": "0 reports", "passed": well and not found})
+            rows.append({
+                "what": f"{name} sanitizer, two threads and contexts{title}, {RUNS} runs", "peer": "GCC's runtime",
+                "figure": f"{found} reports" + ("" if well else ", and a run failed"), "bar": "0 reports",
+                "passed": well and not found
+            })
             print(f"{'holds' if rows[-1]['passed'] else 'FAILS'}  {rows[-1]['what']}: {rows[-1]['figure']}", flush=True)
     (build / "show").mkdir(exist_ok=True)
-    (build / "show" / "sanitize.json").write_text(json.dumps({"name": "sanitize", "command": "make show-sanitize", "rows": rows}, indent=1) + "\n")
+    (build / "show" / "sanitize.json"
+     ).write_text(json.dumps({"name": "sanitize", "command": "make show-sanitize", "rows": rows}, indent=1) + "\n")
     return 0 if all(row["passed"] for row in rows) else 1
 
 

@@ -1,9 +1,10 @@
-"""Mutants of one program in one build (mutant schemata, after Untch, Offutt and Harrold, 1993): each place of a mutant (sites.py) holds what
-was and what is to be there instead, and RELUME_MUTANT=number says which mutant runs. With RELUME_MUTANTS=FILE none runs, and the file's
-byte of each mutant is set once it could be told from what was: 1 where its place is reached, 3 where its value would be another one (or
-nobody knows).
+"""Mutants of one program in one build (mutant schemata, after Untch, Offutt and Harrold, 1993): each place of a mutant
+(sites.py) holds what was and what is to be there instead, and RELUME_MUTANT=number says which mutant runs. With
+RELUME_MUTANTS=FILE none runs, and the file's byte of each mutant is set once it could be told from what was: 1 where
+its place is reached, 3 where its value would be another one (or nobody knows).
 
-libclang finds the expression around a place. What has no expression that is worked out at run time (tables, sizes, cases) is no place for a switch.
+libclang finds the expression around a place. What has no expression that is worked out at run time (tables, sizes,
+cases) is no place for a switch.
 """
 import pathlib
 import re
@@ -13,16 +14,22 @@ from clang import cindex
 
 HOUSE, HEADER = pathlib.Path(__file__).resolve().parent.parent.parent, "tests/show/mutant.h"
 IMPURE = re.compile(r"\+\+|--|(?<![=!<>])=(?!=)|\b(?!sizeof\b|return\b|if\b|defined\b)[A-Za-z_]\w*\s*\(")
-NUMBERS = {kind for kind in cindex.TypeKind.__dict__.values() if isinstance(kind, cindex.TypeKind) and 3 <= kind.value <= 23}
+NUMBERS = {
+    kind for kind in cindex.TypeKind.__dict__.values() if isinstance(kind, cindex.TypeKind) and 3 <= kind.value <= 23
+}
 CONSTANT = {cindex.CursorKind.ENUM_DECL, cindex.CursorKind.FIELD_DECL, cindex.CursorKind.CXX_UNARY_EXPR}
 
 
 class Parser:
     def __init__(self, root, build):
         self.root, self.index = root, cindex.Index.create()
-        resources = subprocess.run(["clang", "-print-resource-dir"], capture_output=True, text=True, check=True).stdout.strip()
-        self.flags = ["-std=c11", "-resource-dir", resources, f"-I{root}", f"-I{HOUSE}", f"-I{build}/gen", f"-I{build}/recorder/gen", "-isystem", "/usr/include/OpenEXR",
-                      "-isystem", "/usr/include/Imath", "-D_GNU_SOURCE", "-DCL_TARGET_OPENCL_VERSION=120", "-DGL_GLEXT_PROTOTYPES", "-w", "-ferror-limit=0"]
+        resources = subprocess.run(["clang", "-print-resource-dir"], capture_output=True, text=True,
+                                   check=True).stdout.strip()
+        self.flags = [
+            "-std=c11", "-resource-dir", resources, f"-I{root}", f"-I{HOUSE}", f"-I{build}/gen",
+            f"-I{build}/recorder/gen", "-isystem", "/usr/include/OpenEXR", "-isystem", "/usr/include/Imath",
+            "-D_GNU_SOURCE", "-DCL_TARGET_OPENCL_VERSION=120", "-DGL_GLEXT_PROTOTYPES", "-w", "-ferror-limit=0"
+        ]
 
     def parse(self, path, text):
         """The translation unit of a source; a header gets one that has nothing else."""
@@ -34,12 +41,17 @@ class Parser:
 
     def broken(self, path, text):
         """Offsets of errors in the file."""
-        return [d.location.offset for d in self.parse(path, text).diagnostics
-                if d.severity >= cindex.Diagnostic.Error and d.location.file and d.location.file.name == str(self.root / path)]
+        return [
+            d.location.offset
+            for d in self.parse(path, text).diagnostics
+            if d.severity >= cindex.Diagnostic.Error and d.location.file and d.location.file.name == str(self.root /
+                                                                                                         path)
+        ]
 
 
 def around(cursor, name, begin, end, found=None):
-    """The innermost expression of the file `name` that holds [begin, end); None: it is a constant one, or there is none."""
+    """The innermost expression of the file `name` that holds [begin, end); None: it is a constant one, or there is
+    none."""
     for i, child in enumerate(cursor.get_children()):
         extent = child.extent
         if not extent.start.file or extent.start.file.name != name or extent.start.offset > begin or extent.end.offset < end:
@@ -47,7 +59,8 @@ def around(cursor, name, begin, end, found=None):
         is_label = i == 0 and cursor.kind == cindex.CursorKind.CASE_STMT
         if is_label or child.kind in CONSTANT or child.kind == cindex.CursorKind.VAR_DECL and child.storage_class == cindex.StorageClass.STATIC:
             return None
-        return around(child, name, begin, end, child if child.kind.is_expression() and child.kind != cindex.CursorKind.INIT_LIST_EXPR else found)
+        return around(child, name, begin, end,
+                      child if child.kind.is_expression() and child.kind != cindex.CursorKind.INIT_LIST_EXPR else found)
     return found
 
 
@@ -56,8 +69,10 @@ class Change:
 
     def __init__(self, number, site, text, unit, name):
         self.number, self.site, self.begin, self.end, self.macro = number, site, site.begin, site.end, None
-        functions = [c for c in unit.cursor.get_children() if c.kind == cindex.CursorKind.FUNCTION_DECL and c.is_definition() and c.location.file.name == name
-                     and c.extent.start.offset <= site.begin < c.extent.end.offset]
+        functions = [
+            c for c in unit.cursor.get_children() if c.kind == cindex.CursorKind.FUNCTION_DECL and c.is_definition()
+            and c.location.file.name == name and c.extent.start.offset <= site.begin < c.extent.end.offset
+        ]
         inside = functions and around(functions[0], name, site.begin, site.end)
         if site.kind == "branch":
             self.macro = functions and "MUTANT_BRANCH"
@@ -66,9 +81,13 @@ class Change:
             return
         self.begin, self.end = inside.extent.start.offset, inside.extent.end.offset
         was, kind = text[self.begin:self.end], inside.type.get_canonical().kind
-        in_bits = inside.referenced and inside.referenced.kind == cindex.CursorKind.FIELD_DECL and inside.referenced.is_bitfield()
-        pure = (kind in NUMBERS and not in_bits and (inside.kind == cindex.CursorKind.BINARY_OPERATOR or site.kind != "operator" and site.kind != "comparison") and not IMPURE.search(was)
-                and site.was not in ("&&", "||") and inside.kind != cindex.CursorKind.CALL_EXPR and (site.instead != "/" or kind in (cindex.TypeKind.FLOAT, cindex.TypeKind.DOUBLE)))
+        in_bits = inside.referenced and inside.referenced.kind == cindex.CursorKind.FIELD_DECL and inside.referenced.is_bitfield(
+        )
+        pure = (kind in NUMBERS and not in_bits and (inside.kind == cindex.CursorKind.BINARY_OPERATOR
+                                                     or site.kind != "operator" and site.kind != "comparison")
+                and not IMPURE.search(was) and site.was not in ("&&", "||")
+                and inside.kind != cindex.CursorKind.CALL_EXPR
+                and (site.instead != "/" or kind in (cindex.TypeKind.FLOAT, cindex.TypeKind.DOUBLE)))
         self.macro = "MUTANT_VALUE" if pure else "MUTANT"
         self.instead = text[self.begin:site.begin] + site.instead + text[site.end:self.end]
 
@@ -106,6 +125,12 @@ def plant(parser, path, sites, number):
         wrong = parser.broken(path, planted)
         if not wrong:
             return planted, {c.number: c.site for c in changes}
-        bad = {min((e - b, n) for b, e, n in spans if b <= at < e)[1] if any(b <= at < e for b, e, _ in spans) else changes[0].number for at in wrong}
+        bad = {
+            min((e - b, n)
+                for b, e, n in spans
+                if b <= at < e)[1] if any(b <= at < e
+                                          for b, e, _ in spans) else changes[0].number
+            for at in wrong
+        }
         changes = [c for c in changes if c.number not in bad]
     return text, {}

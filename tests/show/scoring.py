@@ -44,8 +44,8 @@ class Scorer:
         """Exit code and output; code 124 where it ran past its limit."""
         command = list(map(str, command))
         try:
-            done = subprocess.run(command, cwd=self.work, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                  timeout=limit, text=True, errors="replace")
+            done = subprocess.run(command, cwd=self.work, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, timeout=limit, text=True, errors="replace")
             code, out, err = done.returncode, done.stdout, done.stderr
         except subprocess.TimeoutExpired:
             code, out, err = 124, "", f"stopped after {limit} s"
@@ -99,8 +99,8 @@ class Scorer:
             if batch != frames[:1] and last_s > SLOW_FRAME_S:
                 batch = batch[-(N_SLOW_FRAMES - 1):]
             begin = time.monotonic()
-            code, _, err = self.run(self.relume, "render", trace, "--allow-incomplete", "-f", ",".join(map(str, batch)), "--mode", mode, "-o",
-                                    pictures / "x.####.exr")
+            code, _, err = self.run(self.relume, "render", trace, "--allow-incomplete", "-f", ",".join(map(str, batch)),
+                                    "--mode", mode, "-o", pictures / "x.####.exr")
             # What rendering one frame takes, the replay of those before it left out.
             said = [line for line in err.splitlines() if line.startswith("rendered frame")]
             last_s = float(said[-1].split()[-2]) if said else time.monotonic() - begin
@@ -111,12 +111,14 @@ class Scorer:
 
     def diff(self, reference, frames, report):
         page = ["--report", self.work / "report"] if report else []
-        return self.json(self.relume, "diff", reference, self.work / "frames", "-f", ",".join(map(str, frames)), "--json", "-", *page)
+        return self.json(self.relume, "diff", reference, self.work / "frames", "-f", ",".join(map(str, frames)),
+                         "--json", "-", *page)
 
 
 def list_unhandled(info):
     """The calls that rendering does not execute: what `relume info` lacks pixels for is not among them."""
-    return ", ".join(f"{u['call']} {u['count']}" for u in info["unsupported"] if "only a renderer" not in str(u.get("why", "")))
+    return ", ".join(f"{u['call']} {u['count']}" for u in info["unsupported"]
+                     if "only a renderer" not in str(u.get("why", "")))
 
 
 def missed_gates(frame, gates, must=()):

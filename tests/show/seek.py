@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""tests/show/seek.py BUILD (as `make show-seek`): frame 9,000 of 10,000 begins as soon as frame 9; what the index costs; how busy
-the processor is and how much memory a long run takes.
+"""tests/show/seek.py BUILD (as `make show-seek`): frame 9,000 of 10,000 begins as soon as frame 9; what the index
+costs; how busy the processor is and how much memory a long run takes.
 
-Times are medians of runs that take turns, so that other work on the machine falls on both sides alike. They run from the command's
-start to the moment its first frame is handed to the device, opening the device included.
-Busy is processor time of the render process itself (user and system) over wall time and cores, from its first finished frame to
-its last. Work of others cannot add to that, but takes away from it; so the share of time that it has as many threads ready to run
-as there are cores (sampled every 5 ms, min(ready, cores) / cores) is printed beside it, and counts where the machine has other
-work: more than half a core's.
+Times are medians of runs that take turns, so that other work on the machine falls on both sides alike. They run from
+the command's start to the moment its first frame is handed to the device, opening the device included. Busy is
+processor time of the render process itself (user and system) over wall time and cores, from its first finished frame to
+its last. Work of others cannot add to that, but takes away from it; so the share of time that it has as many threads
+ready to run as there are cores (sampled every 5 ms, min(ready, cores) / cores) is printed beside it, and counts where
+the machine has other work: more than half a core's.
 """
 import json
 import os
@@ -28,8 +28,10 @@ FRAMES = 10000
 
 def begin_s(build, trace, frame, folder):
     """From the command's start to the moment its first frame is handed to the device."""
-    out = subprocess.run([build / "relume", "render", trace, "-f", str(frame), "-o", folder / "x.#.exr", "--progress", "json"],
-                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=True).stdout
+    out = subprocess.run(
+        [build / "relume", "render", trace, "-f",
+         str(frame), "-o", folder / "x.#.exr", "--progress", "json"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+        text=True, check=True).stdout
     return next(e["seconds"] for e in map(json.loads, out.splitlines()) if e["event"] == "start")
 
 
@@ -63,10 +65,12 @@ def resident(pid):
 
 
 def busy(build, trace, frames, folder, options=()):
-    """Share of all cores that rendering takes after its first frame, share that it is ready to take, cores that others take;
-    memory at a third of the run and at its end."""
-    child = subprocess.Popen([build / "relume", "render", trace, "-f", f"0-{frames - 1}", "-o", folder / "b.#.exr", "--progress",
-                              "json", *options], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    """Share of all cores that rendering takes after its first frame, share that it is ready to take, cores that others
+    take; memory at a third of the run and at its end."""
+    child = subprocess.Popen([
+        build / "relume", "render", trace, "-f", f"0-{frames - 1}", "-o", folder / "b.#.exr", "--progress", "json",
+        *options
+    ], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     first = last = None
     early = late = 0
     samples, over = [], threading.Event()
@@ -98,10 +102,12 @@ def main(build, long_frames):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         trace = folder / "gears.trace"
-        subprocess.run([build / "relume", "record", "-o", trace, "--quit-after", str(FRAMES), "--", "glxgears"], check=True,
-                       env=dict(os.environ, vblank_mode="0"), stdout=subprocess.DEVNULL)
-        index = json.loads(subprocess.run([build / "relume", "index", "--force", "--json", trace], check=True, text=True,
-                                          stdout=subprocess.PIPE).stdout)
+        subprocess.run([build / "relume", "record", "-o", trace, "--quit-after",
+                        str(FRAMES), "--", "glxgears"], check=True, env=dict(os.environ, vblank_mode="0"),
+                       stdout=subprocess.DEVNULL)
+        index = json.loads(
+            subprocess.run([build / "relume", "index", "--force", "--json", trace], check=True, text=True,
+                           stdout=subprocess.PIPE).stdout)
         assert index["frames"] >= FRAMES - 1, index
         start = time.monotonic()
         subprocess.run([build / "relume", "info", trace], check=True, stdout=subprocess.DEVNULL)
@@ -113,24 +119,33 @@ def main(build, long_frames):
         ratio = statistics.median(far) / statistics.median(near)
         share, ready, others, _, _ = busy(build, trace, 300, folder)
         counts = ready if others > 0.5 else share
-        rows = [{"what": f"frame 9,000 of {FRAMES} begins, over frame 9 (warm index; medians {statistics.median(far) * 1e3:.0f} and "
-                         f"{statistics.median(near) * 1e3:.0f} ms)", "figure": f"{ratio:.2f}x", "bar": "1.2x", "peer": None,
-                 "passed": ratio <= 1.2},
-                {"what": f"index of {FRAMES} frames: share of the trace's bytes, made in "
-                         f"{index['build_us'] / 1e6:.2f} s ('relume info', which executes and builds all frames: {info_s:.2f} s)",
-                 "figure": f"{100 * index['bytes'] / index['trace_bytes']:.1f} %", "bar": None, "peer": None, "passed": True},
-                {"what": f"cores busy while 300 frames are rendered, after the first (used {100 * share:.0f} %, ready to use "
-                         f"{100 * ready:.0f} %; others used {others:.1f} cores)",
-                 "figure": f"{100 * counts:.0f} %", "bar": "95 %", "peer": None, "passed": counts >= 0.95}]
+        rows = [{
+            "what": f"frame 9,000 of {FRAMES} begins, over frame 9 (warm index; medians "
+                    f"{statistics.median(far) * 1e3:.0f} and "
+            f"{statistics.median(near) * 1e3:.0f} ms)", "figure": f"{ratio:.2f}x", "bar": "1.2x", "peer": None,
+            "passed": ratio <= 1.2
+        }, {
+            "what": f"index of {FRAMES} frames: share of the trace's bytes, made in "
+            f"{index['build_us'] / 1e6:.2f} s ('relume info', which executes and builds all frames: {info_s:.2f} s)",
+            "figure": f"{100 * index['bytes'] / index['trace_bytes']:.1f} %", "bar": None, "peer": None, "passed": True
+        }, {
+            "what": f"cores busy while 300 frames are rendered, after the first (used {100 * share:.0f} %, ready to "
+                    f"use "
+            f"{100 * ready:.0f} %; others used {others:.1f} cores)", "figure": f"{100 * counts:.0f} %", "bar": "95 %",
+            "peer": None, "passed": counts >= 0.95
+        }]
         if long_frames:
             _, _, _, early, late = busy(build, trace, long_frames, folder, ("--mode", "gl", "--aov", "gl"))
-            rows.append({"what": f"peak memory over {long_frames} frames, over that of the first third ({early >> 20} MiB)",
-                         "figure": f"{late / early:.2f}x", "bar": "1.1x", "peer": None, "passed": late <= 1.1 * early})
+            rows.append({
+                "what": f"peak memory over {long_frames} frames, over that of the first third ({early >> 20} MiB)",
+                "figure": f"{late / early:.2f}x", "bar": "1.1x", "peer": None, "passed": late <= 1.1 * early
+            })
     for row in rows:
         print(f"{row['what']}: {row['figure']} (bar {row['bar']})")
     (build / "show").mkdir(exist_ok=True)
     if long_frames >= 3000:
-        (build / "show/seek.json").write_text(json.dumps({"name": "seek", "command": "make show-seek", "rows": rows}, indent=1))
+        (build / "show/seek.json").write_text(
+            json.dumps({"name": "seek", "command": "make show-seek", "rows": rows}, indent=1))
     return 0 if all(row["passed"] for row in rows) else 1
 
 

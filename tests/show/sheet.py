@@ -1,7 +1,8 @@
-"""The open programs: raster | beauty without rules | relit side by side, to be looked at, and what was seen there (tests/show/sheet.yaml).
+"""The open programs: raster | beauty without rules | relit side by side, to be looked at, and what was seen there
+(tests/show/sheet.yaml).
 
-A recording of ../shared/traces is taken where there is one; others are made once, in BUILD/show/relit/recordings. Of a shared recording
-what was seen counts only while the relit picture is about as bright as it was then.
+A recording of ../shared/traces is taken where there is one; others are made once, in BUILD/show/relit/recordings. Of a
+shared recording what was seen counts only while the relit picture is about as bright as it was then.
 """
 import json
 import subprocess
@@ -14,7 +15,10 @@ import programs
 import recording
 
 SHARED = recording.ROOT.parent / "shared/traces"
-NAMES = {"SceneViewer": "iv-SceneViewer", "lattice": "rss-lattice", "queens": "xss-queens", "lament": "xss-lament", "noof": "xss-noof"}
+NAMES = {
+    "SceneViewer": "iv-SceneViewer", "lattice": "rss-lattice", "queens": "xss-queens", "lament": "xss-lament",
+    "noof": "xss-noof"
+}
 SEEN = recording.ROOT / "tests/show/sheet.yaml"
 LATE = 0.75  # of the reference frames of a recording: by then a game has begun
 BETTER = 10  # of the open set
@@ -32,7 +36,10 @@ def find(build, program):
     """A recording, its good frame, and whether it is a shared one. (None, why, False): there is none"""
     name = NAMES.get(program.name, program.name)
     if (SHARED / f"{name}.trace").exists():
-        frames = dict(line.split("\t")[:2] for line in (SHARED / "frames.tsv").read_text().splitlines() if not line.startswith("#"))
+        frames = dict(
+            line.split("\t")[:2]
+            for line in (SHARED / "frames.tsv").read_text().splitlines()
+            if not line.startswith("#"))
         return SHARED / f"{name}.trace", int(frames[name]), True
     done = recording.record(build / "relume", program, build / "show/relit/recordings" / program.name)
     if done.trace is None or not done.references:
@@ -47,16 +54,20 @@ def late(done):
 
 def luminance(image, prefix=""):
     """The mean of the picture, in linear light."""
-    return float(sum(share * image.planes[f"{prefix}{c}"].astype("f8").mean() for c, share in zip("RGB", (0.2126, 0.7152, 0.0722))))
+    return float(
+        sum(share * image.planes[f"{prefix}{c}"].astype("f8").mean()
+            for c, share in zip("RGB", (0.2126, 0.7152, 0.0722))))
 
 
 def display(image, prefix=""):
     linear = numpy.clip(numpy.stack([image.planes[f"{prefix}{c}"].astype("f4") for c in "RGB"], axis=-1), 0, 1)
-    return numpy.rint(255 * numpy.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)).astype("u1")
+    return numpy.rint(255 *
+                      numpy.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear**(1 / 2.4) - 0.055)).astype("u1")
 
 
 def run(*command, good=(0,)):
-    done = subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    done = subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          check=False)
     if done.returncode not in good:
         raise RuntimeError(f"{' '.join(map(str, command))}: exit code {done.returncode}: {done.stderr.strip()}")
     return done.stdout
@@ -70,14 +81,16 @@ def render(build, trace, frame, out, *look):
 def side_by_side(path, beauty, other):
     """Write a sheet: raster | beauty | other, of two renderings of one frame."""
     gap = numpy.zeros((beauty.planes["R"].shape[0], 4, 3), "u1")
-    exr_numpy.write_png(path, numpy.concatenate((display(beauty, "gl."), gap, display(beauty), gap, display(other)), axis=1))
+    exr_numpy.write_png(path,
+                        numpy.concatenate((display(beauty, "gl."), gap, display(beauty), gap, display(other)), axis=1))
 
 
 def harm(build, picture, frame):
     """Gate N of a relit frame. It asks for no reference; diff does: OpenGL's own picture of the frame is one."""
     reference = picture.with_name(f"gl.{frame:04d}.png")
     exr_numpy.write_png(reference, display(exr_numpy.Image(picture), "gl."))
-    return json.loads(run(build / "relume", "diff", reference, picture, "--json", "-", good=(0, 1, 4)))["frames"][0]["gates"]["N"]["state"]
+    return json.loads(run(build / "relume", "diff", reference, picture, "--json", "-",
+                          good=(0, 1, 4)))["frames"][0]["gates"]["N"]["state"]
 
 
 def show(build, program, work):
@@ -90,8 +103,13 @@ def show(build, program, work):
     pictures = (render(build, trace, frame, work / "beauty.exr"), render(build, trace, frame, relit, "--look", rules))
     out = build / "show/relit" / f"{program.name}.png"
     side_by_side(out, *pictures)
-    return {"frame": frame, "shared": is_shared, "sheet": str(out), "N": harm(build, relit, frame),
-            "luminance": [round(luminance(pictures[0], "gl."), 5), round(luminance(pictures[0]), 5), round(luminance(pictures[1]), 5)]}
+    return {
+        "frame": frame, "shared": is_shared, "sheet": str(out), "N": harm(build, relit, frame), "luminance": [
+            round(luminance(pictures[0], "gl."), 5),
+            round(luminance(pictures[0]), 5),
+            round(luminance(pictures[1]), 5)
+        ]
+    }
 
 
 def is_stale(line, seen):
@@ -100,15 +118,20 @@ def is_stale(line, seen):
 
 
 def row(build, program, work):
-    """A row of the claim, and what somebody saw: better, equal, worse, or None where nobody has looked at this picture."""
+    """A row of the claim, and what somebody saw: better, equal, worse, or None where nobody has looked at this
+    picture."""
     seen, line = yaml.safe_load(SEEN.read_text())[program.name], show(build, program, work)
     if "error" in line:
         verdict, text = None, line["error"]
     else:
         stale = is_stale(line, seen)
         verdict = None if stale else seen["seen"]
-        text = (f"{'look again: ' + line['sheet'] if stale else seen['seen']}: {seen['why']}; mean luminance of raster, beauty, relit: "
-                f"{', '.join(map(str, line['luminance']))}; gate N {line['N']}")
+        text = (
+            f"{'look again: ' + line['sheet'] if stale else seen['seen']}: {seen['why']}; mean luminance of raster, "
+            f"beauty, relit: "
+            f"{', '.join(map(str, line['luminance']))}; gate N {line['N']}")
     print(f"{program.name}: {text}", flush=True)
-    return {"what": f"{program.name}: relit beside its raster frame", "figure": text, "bar": "not worse; gate N passed", "peer": None,
-            "passed": verdict in ("better", "equal") and line["N"] == "passed"}, verdict
+    return {
+        "what": f"{program.name}: relit beside its raster frame", "figure": text, "bar": "not worse; gate N passed",
+        "peer": None, "passed": verdict in ("better", "equal") and line["N"] == "passed"
+    }, verdict

@@ -1,5 +1,6 @@
-"""Places in C sources where a small change makes a mutant of the program: constants a little off, operators and comparisons swapped,
-branches never taken, arguments dropped. Found by tokens, without a parser: what does not compile is no mutant."""
+"""Places in C sources where a small change makes a mutant of the program: constants a little off, operators and
+comparisons swapped, branches never taken, arguments dropped. Found by tokens, without a parser: what does not compile
+is no mutant."""
 import dataclasses
 import hashlib
 import re
@@ -60,7 +61,8 @@ def off_by_a_little(number):
 
 def declares_size(tokens, i):
     """`struct x name[8]`: a longer array is none the worse."""
-    return (i >= 3 and tokens[i - 1][0] == "[" and tokens[i - 2].lastgroup == "name" and tokens[i - 3].lastgroup == "name" and tokens[i - 3][0] not in WORDS)
+    return (i >= 3 and tokens[i - 1][0] == "[" and tokens[i - 2].lastgroup == "name"
+            and tokens[i - 3].lastgroup == "name" and tokens[i - 3][0] not in WORDS)
 
 
 def arguments(tokens, opened):
@@ -91,7 +93,8 @@ def of_text(path, text):
             quiet = closing(tokens, i + 1)
         if not stack or "type" in stack or i <= quiet:
             continue
-        operand = before and before.lastgroup in ("name", "number") and before[0] not in WORDS or before and before[0] in ")]"
+        operand = before and before.lastgroup in ("name",
+                                                  "number") and before[0] not in WORDS or before and before[0] in ")]"
         if token.lastgroup == "number" and not declares_size(tokens, i):
             yield Site(path, "constant", token.start(), token.end(), off_by_a_little(word))
         elif word in OPERATORS and operand:
@@ -113,7 +116,8 @@ def find(root, path, seed):
     text, seen = (root / path).read_text(), {}
     for site in of_text(path, text):
         begin, end = text.rfind("\n", 0, site.begin) + 1, text.find("\n", site.end)
-        site.line, site.column, site.was = text.count("\n", 0, site.begin) + 1, site.begin - begin + 1, text[site.begin:site.end]
+        site.line, site.column, site.was = text.count("\n", 0,
+                                                      site.begin) + 1, site.begin - begin + 1, text[site.begin:site.end]
         key = (path, text[begin:end].strip(), site.begin - begin, site.kind, site.instead)
         seen[key] = seen.get(key, 0) + 1
         site.id = hashlib.sha256(repr((seed, key, seen[key])).encode()).hexdigest()[:12]

@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""tests/show/soak.py BUILD (as `make show-soak`): long runs stay flat, and what disturbs a run leaves no trace in what it makes.
+"""tests/show/soak.py BUILD (as `make show-soak`): long runs stay flat, and what disturbs a run leaves no trace in what
+it makes.
 
-24,000 frames of 64 x 48 pixels are rendered by one process, and 1,000 programs recorded by one: memory, descriptors and what lies in folders of
-caches and temporary files at the end are what they were after the first fifth. Then a render and a recording while the time of day jumps, a
-render that is stopped and continued all the time, and a render onto a disk that is full and then has room again. What they make must be
-the same as undisturbed, byte by byte. `make check` runs it with few frames (tests/real/test_soak.py).
+24,000 frames of 64 x 48 pixels are rendered by one process, and 1,000 programs recorded by one: memory, descriptors and
+what lies in folders of caches and temporary files at the end are what they were after the first fifth. Then a render
+and a recording while the time of day jumps, a render that is stopped and continued all the time, and a render onto a
+disk that is full and then has room again. What they make must be the same as undisturbed, byte by byte. `make check`
+runs it with few frames (tests/real/test_soak.py).
 """
 import hashlib
 import json
@@ -50,8 +52,10 @@ class Watch(threading.Thread):
             while True:
                 done = self.each() if self.each else 0
                 memory = int((proc / "statm").read_text().split()[1]) * os.sysconf("SC_PAGESIZE") / 1e6
-                self.looks.append((done, memory, len(os.listdir(proc / "fd")), sum(map(tree_bytes, self.folders)) / 1e6))
-                time.sleep(min(LOOK_S, 0.002 + (time.monotonic() - begin) / 100))  # a short run is looked at as often as a long one
+                self.looks.append(
+                    (done, memory, len(os.listdir(proc / "fd")), sum(map(tree_bytes, self.folders)) / 1e6))
+                time.sleep(min(LOOK_S, 0.002 +
+                               (time.monotonic() - begin) / 100))  # a short run is looked at as often as a long one
         except (OSError, IndexError):
             pass  # it has ended
 
@@ -85,15 +89,18 @@ class Soak:
         print(f"{'holds' if passed else 'FAILS'}  {what}: {figure} (bar {bar})", flush=True)
 
     def run(self, *args, **more):
-        return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, **{"env": self.env, **more})
+        return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              check=False, **{"env": self.env, **more})
 
     def record(self, trace, frames):
-        done = self.run(ROOT / "tests/xvfb.sh", self.relume, "record", "-o", trace, "--", self.build / "corpus/two_triangles", "--frames", frames,
-                        "--size", "64x48", "--animate", "camera")
+        done = self.run(ROOT / "tests/xvfb.sh", self.relume, "record", "-o", trace, "--",
+                        self.build / "corpus/two_triangles", "--frames", frames, "--size", "64x48", "--animate",
+                        "camera")
         if done.returncode:
             sys.exit(f"record: {done.stdout}{done.stderr}")
 
-    # --- Flat --------------------------------------------------------------------------------------------------------------
+    # --- Flat
+    # --------------------------------------------------------------------------------------------------------------
 
     def frames(self, count):
         trace, out = self.work / "long.trace", self.work / "frames"
@@ -110,16 +117,17 @@ class Soak:
 
         begin = time.monotonic()
         with open(self.work / "render.log", "w") as log:
-            run = subprocess.Popen([self.relume, "render", trace, "-o", out / "x.######.exr", *PART], stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                   env=self.env)
+            run = subprocess.Popen([self.relume, "render", trace, "-o", out / "x.######.exr", *PART],
+                                   stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=self.env)
             watch = Watch(run.pid, [self.work / "tmp", self.work / "cache"], tidy)
             watch.start()
             code = run.wait()
         watch.join()
         growth = watch.growth(count)
         left = [path.name for path in out.iterdir() if not path.name.endswith(".exr")]
-        self.row(f"{count} frames by one process, {time.monotonic() - begin:.0f} s: growth after the first fifth", words(growth),
-                 f"{GROWTH_MB} MB, 2 descriptors, 1 MB", code == 0 and tidy() == count and flat(growth) and not left)
+        self.row(f"{count} frames by one process, {time.monotonic() - begin:.0f} s: growth after the first fifth",
+                 words(growth), f"{GROWTH_MB} MB, 2 descriptors, 1 MB", code == 0 and tidy() == count and flat(growth)
+                 and not left)
         shutil.rmtree(out)
         trace.unlink()
 
@@ -131,13 +139,17 @@ class Soak:
         before = set(os.listdir("/dev/shm"))
         begin = time.monotonic()
         with open(self.work / "record.log", "w") as log:
-            display = subprocess.Popen([str(a) for a in (ROOT / "tests/xvfb.sh", self.relume, "record", "-o", out / "x.trace", "--", "sh", "-c", script, "sh",
-                                                         count, self.build / "corpus/two_triangles")], stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=self.env)
+            display = subprocess.Popen([
+                str(a) for a in (ROOT / "tests/xvfb.sh", self.relume, "record", "-o", out / "x.trace", "--", "sh", "-c",
+                                 script, "sh", count, self.build / "corpus/two_triangles")
+            ], stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=self.env)
             recorder = None
             while recorder is None and display.poll() is None:
                 time.sleep(LOOK_S)
-                recorder = next((int(p.name) for p in pathlib.Path("/proc").glob("[0-9]*") if is_recorder(p, out)), None)
-            watch = Watch(recorder or display.pid, [self.work / "tmp", self.work / "cache"], lambda: len(os.listdir(out)))
+                recorder = next((int(p.name) for p in pathlib.Path("/proc").glob("[0-9]*") if is_recorder(p, out)),
+                                None)
+            watch = Watch(recorder or display.pid, [self.work / "tmp", self.work / "cache"],
+                          lambda: len(os.listdir(out)))
             watch.start()
             code = display.wait()
         watch.join()
@@ -145,13 +157,16 @@ class Soak:
         info = self.run(self.relume, "info", "--json", traces[-1]) if traces else None
         growth = watch.growth(count)
         stray = [name for name in set(os.listdir("/dev/shm")) - before if "relume" in name]
-        self.row(f"{count} programs recorded by one process, {time.monotonic() - begin:.0f} s: growth after the first fifth", words(growth),
-                 f"{GROWTH_MB} MB, 2 descriptors, 1 MB", code == 0 and len(traces) == count and info.returncode == 0 and flat(growth) and not stray)
+        self.row(
+            f"{count} programs recorded by one process, {time.monotonic() - begin:.0f} s: growth after the first fifth",
+            words(growth), f"{GROWTH_MB} MB, 2 descriptors, 1 MB", code == 0 and len(traces) == count
+            and info.returncode == 0 and flat(growth) and not stray)
         if code:
             print((self.work / "record.log").read_text()[-2000:])
         shutil.rmtree(out)
 
-    # --- Disturbed ---------------------------------------------------------------------------------------------------------
+    # --- Disturbed
+    # ---------------------------------------------------------------------------------------------------------
 
     def digests(self, folder):
         return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.glob("*.exr")}
@@ -173,21 +188,25 @@ class Soak:
     def clock(self, trace, plain, count):
         jumping = dict(self.env, LD_PRELOAD=str(self.build / "tests/real/clock_shim.so"))
         done = self.render(trace, self.work / "clock", env=jumping)
-        self.row("rendered while the time of day jumps: frames that differ", differing(plain, self.digests(self.work / "clock")), 0,
-                 done.returncode == 0 and self.digests(self.work / "clock") == plain)
+        self.row("rendered while the time of day jumps: frames that differ",
+                 differing(plain, self.digests(self.work / "clock")), 0, done.returncode == 0
+                 and self.digests(self.work / "clock") == plain)
         again = self.work / "clock.trace"
         script = 'LD_PRELOAD="$1:$LD_PRELOAD"; export LD_PRELOAD; shift; exec "$@"'
-        done = self.run(ROOT / "tests/xvfb.sh", self.relume, "record", "-o", again, "--", "sh", "-c", script, "sh", jumping["LD_PRELOAD"],
-                        self.build / "corpus/two_triangles", "--frames", count, "--size", "64x48", "--animate", "camera")
+        done = self.run(ROOT / "tests/xvfb.sh", self.relume, "record", "-o", again, "--", "sh", "-c", script, "sh",
+                        jumping["LD_PRELOAD"], self.build / "corpus/two_triangles", "--frames", count, "--size",
+                        "64x48", "--animate", "camera")
         self.render(again, self.work / "clocked", "--aov", "gl")
         self.render(trace, self.work / "unclocked", "--aov", "gl")
         pixels, same = (pictures(self, folder) for folder in (self.work / "clocked", self.work / "unclocked"))
-        self.row("recorded while it jumps: frames whose pixels differ", differing(same, pixels), 0, done.returncode == 0 and pixels == same and len(same) == count)
+        self.row("recorded while it jumps: frames whose pixels differ", differing(same, pixels), 0, done.returncode == 0
+                 and pixels == same and len(same) == count)
 
     def stopped(self, trace, plain):
         out = self.work / "stopped"
-        run = subprocess.Popen([str(a) for a in (self.relume, "render", trace, "-o", out / "x.####.exr", *PART)], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL, env=self.env)
+        run = subprocess.Popen([str(a) for a in (self.relume, "render", trace, "-o", out / "x.####.exr", *PART)],
+                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                               env=self.env)
         stops = 0
         while run.poll() is None:
             run.send_signal(signal.SIGSTOP)
@@ -195,7 +214,8 @@ class Soak:
             run.send_signal(signal.SIGCONT)
             time.sleep(0.02)
             stops += 1
-        self.row(f"stopped and continued {stops} times: frames that differ", differing(plain, self.digests(out)), 0, run.returncode == 0 and stops > 2 and self.digests(out) == plain)
+        self.row(f"stopped and continued {stops} times: frames that differ", differing(plain, self.digests(out)), 0,
+                 run.returncode == 0 and stops > 2 and self.digests(out) == plain)
 
     def full(self, trace, plain):
         disk = self.work / "disk"
@@ -207,10 +227,12 @@ class Soak:
             done = self.render(trace, disk)
             torn = [p.name for p in disk.iterdir() if p.suffix != ".exr"]
             said = done.stderr.strip().splitlines()
-            self.row("rendered onto a full disk: exit code", done.returncode, 5, done.returncode == 5 and not torn and bool(said) and "No space" in done.stderr)
+            self.row("rendered onto a full disk: exit code", done.returncode, 5, done.returncode == 5 and not torn
+                     and bool(said) and "No space" in done.stderr)
             self.run("mount", "-o", "remount,size=64m", disk)
             done = self.render(trace, disk, "--skip-existing")
-            self.row("and again once it has room: frames that differ", differing(plain, self.digests(disk)), 0, done.returncode == 0 and self.digests(disk) == plain)
+            self.row("and again once it has room: frames that differ", differing(plain, self.digests(disk)), 0,
+                     done.returncode == 0 and self.digests(disk) == plain)
         finally:
             self.run("umount", disk)
 
@@ -225,7 +247,10 @@ def is_recorder(proc, out):
 
 def pictures(soak, folder):
     """Pixels alone: two recordings have other hashes."""
-    return {path.name: soak.run("oiiotool", "--info", "--hash", path).stdout.rpartition("SHA-1:")[2].split()[0] for path in sorted(folder.glob("*.exr"))}
+    return {
+        path.name: soak.run("oiiotool", "--info", "--hash", path).stdout.rpartition("SHA-1:")[2].split()[0]
+        for path in sorted(folder.glob("*.exr"))
+    }
 
 
 def differing(wanted, found):
@@ -245,7 +270,8 @@ def main(build):
     with tempfile.TemporaryDirectory() as folder:
         rows = soak(build, pathlib.Path(folder), FRAMES, PROGRAMS, DISTURBED)
     (build / "show").mkdir(exist_ok=True)
-    (build / "show/soak.json").write_text(json.dumps({"name": "soak", "command": "make show-soak", "rows": rows}, indent=1))
+    (build / "show/soak.json").write_text(
+        json.dumps({"name": "soak", "command": "make show-soak", "rows": rows}, indent=1))
     return any(not row["passed"] for row in rows)
 
 

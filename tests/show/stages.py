@@ -1,14 +1,15 @@
 #!/usr/bin/python3
-"""tests/show/stages.py BUILD [panels|piglit|glsl|cost|compile|glsl-all|real...] (`make show-programs`): vertices and fragments by programs, beside Mesa and beside fixed function.
+"""tests/show/stages.py BUILD [panels|piglit|glsl|cost|compile|glsl-all|real...] (`make show-programs`): vertices and
+fragments by programs, beside Mesa and beside fixed function.
 
-panels: tests/real/panels of programs, each instruction, binding, option and way in a panel, ten frames: those that pass all gates.
-piglit: its tests of ARB_vertex_program, ARB_fragment_program and ATI_fragment_shader: the last frame of each that passes on Mesa is scored, R1 to R3. Recordings
-lie in BUILD/show/stages, every outcome in BUILD/show/stages-*.tsv.
-glsl: the same of its shaders of GLSL 1.10 and 1.20 in the compatibility profile, one of ten; glsl-all, which has to be named: all 3,287.
-compile: from a pair of shaders' text to instructions.
-real, which has to be named (half an hour, the first time more): the sweep's programs that bring shaders, ten frames of each (tests/show/sweep.py).
-cost: a frame of the same knot, lit by fixed function and by programs: processor time, medians of runs side by side.
-Needs a display: run under tests/xvfb.sh.
+panels: tests/real/panels of programs, each instruction, binding, option and way in a panel, ten frames: those that pass
+all gates. piglit: its tests of ARB_vertex_program, ARB_fragment_program and ATI_fragment_shader: the last frame of each
+that passes on Mesa is scored, R1 to R3. Recordings lie in BUILD/show/stages, every outcome in BUILD/show/stages-*.tsv.
+glsl: the same of its shaders of GLSL 1.10 and 1.20 in the compatibility profile, one of ten; glsl-all, which has to be
+named: all 3,287. compile: from a pair of shaders' text to instructions. real, which has to be named (half an hour, the
+first time more): the sweep's programs that bring shaders, ten frames of each (tests/show/sweep.py). cost: a frame of
+the same knot, lit by fixed function and by programs: processor time, medians of runs side by side. Needs a display: run
+under tests/xvfb.sh.
 """
 import json
 import os
@@ -29,7 +30,9 @@ LISTS = (("opengl", "gl"), ("shader", "shader"))
 GLSL_VERSIONS = ("1.1", "1.2")
 GLSL_EVERY = 10
 PANELS = ("program", "vertex_program", "ati_shader", "shader")
-WAYS = {"fixed": "fixed function", "vertex": "a vertex program", "fragment": "a fragment program", "glsl": "GLSL, per pixel"}
+WAYS = {
+    "fixed": "fixed function", "vertex": "a vertex program", "fragment": "a fragment program", "glsl": "GLSL, per pixel"
+}
 PANEL_FRAMES = 10
 FRAMES = 8
 RUNS = 3
@@ -61,13 +64,18 @@ def score_panels(build, base):
     for name in PANELS:
         trace, frames = base / f"{name}.trace", base / name
         record(build, trace, build / "tests/real/panels" / name)
-        must(build / "relume", "render", trace, "--mode", "gl", "--encoding", "display", "--force", "-o", frames / f"{name}.####.exr")
-        done = subprocess.run([build / "relume", "diff", trace, frames, "--json", "-"], capture_output=True, text=True, check=False)
+        must(build / "relume", "render", trace, "--mode", "gl", "--encoding", "display", "--force", "-o",
+             frames / f"{name}.####.exr")
+        done = subprocess.run([build / "relume", "diff", trace, frames, "--json", "-"], capture_output=True, text=True,
+                              check=False)
         scored = json.loads(done.stdout)["frames"]
         failing = sum(frame["failing_pixels"] for frame in scored)
         good = sum(frame["outcome"] == "passed" for frame in scored)
-        rows.append({"what": f"panels/{name}: frames that pass all gates", "figure": f"{good} of {len(scored)}, {failing} pixels fail",
-                     "bar": str(PANEL_FRAMES), "peer": "Mesa llvmpipe", "passed": good == len(scored) >= PANEL_FRAMES})
+        rows.append({
+            "what": f"panels/{name}: frames that pass all gates",
+            "figure": f"{good} of {len(scored)}, {failing} pixels fail", "bar": str(PANEL_FRAMES),
+            "peer": "Mesa llvmpipe", "passed": good == len(scored) >= PANEL_FRAMES
+        })
     return rows
 
 
@@ -85,17 +93,24 @@ def score_tests(build, folder, tests, title):
     good = sum(row["parity"] == "passes" for row in rows)
     plain = sum(row["parity"] == "passes" and row["one_colour"] for row in rows)
     share = good / len(rows) if rows else 0
-    return [{"what": f"piglit's tests of {title} ({len(tests)} run, {len(rows)} pass on Mesa and read pixels): last frames that pass R1 to R3",
-             "figure": f"{good} of {len(rows)} ({100 * share:.1f} %), {plain} of these of one colour", "bar": f"{100 * BAR_PIGLIT:.0f} %",
-             "peer": "piglit on Mesa llvmpipe", "passed": share >= BAR_PIGLIT}]
+    return [{
+        "what": f"piglit's tests of {title} ({len(tests)} run, {len(rows)} pass on Mesa and read pixels): last frames "
+                f"that pass R1 to R3",
+        "figure": f"{good} of {len(rows)} ({100 * share:.1f} %), {plain} of these of one colour",
+        "bar": f"{100 * BAR_PIGLIT:.0f} %", "peer": "piglit on Mesa llvmpipe", "passed": share >= BAR_PIGLIT
+    }]
 
 
 def score_piglit(build, base):
-    return score_tests(build, base / "piglit", piglit.find_tests((), GROUPS, LISTS), "ARB programs and ATI fragment shaders")
+    return score_tests(build, base / "piglit", piglit.find_tests((), GROUPS, LISTS),
+                       "ARB programs and ATI fragment shaders")
 
 
 def score_glsl(build, base, every=GLSL_EVERY):
-    tests = [test for test in piglit.find_tests((), re.compile(""), LISTS[1:], GLSL_VERSIONS) if zlib.crc32(test[0].encode()) % every == 0]
+    tests = [
+        test for test in piglit.find_tests((), re.compile(""), LISTS[1:], GLSL_VERSIONS)
+        if zlib.crc32(test[0].encode()) % every == 0
+    ]
     return score_tests(build, base / "glsl", tests, f"GLSL 1.10 and 1.20, one of {every} by their names' CRC-32")
 
 
@@ -114,7 +129,8 @@ def score_cost(build, base):
     """What a frame more costs: all frames beside the first alone."""
     costs = {way: [] for way in WAYS}
     for way in WAYS:
-        record(build, base / f"{way}.trace", build / "corpus" / "phong", "--frames", FRAMES, "--size", "640x480", "--animate", "camera", "--by", way)
+        record(build, base / f"{way}.trace", build / "corpus" / "phong", "--frames", FRAMES, "--size", "640x480",
+               "--animate", "camera", "--by", way)
     for number in range(RUNS + 1): # the first compiles kernels
         for way in WAYS:
             def frames(last):
@@ -124,17 +140,21 @@ def score_cost(build, base):
             if number:
                 costs[way].append(took)
     median = {way: statistics.median(costs[way]) for way in WAYS}
-    return [{"what": f"a frame of a lit knot by {WAYS[way]}, of fixed function's {1000 * median['fixed']:.0f} ms of processor time",
-             "figure": f"{median[way] / median['fixed']:.2f} times", "bar": f"{BAR_COST} times", "peer": "fixed function",
-             "passed": median[way] <= BAR_COST * median["fixed"]} for way in WAYS if way != "fixed"]
+    return [{
+        "what": f"a frame of a lit knot by {WAYS[way]}, of fixed function's {1000 * median['fixed']:.0f} ms of "
+                f"processor time",
+        "figure": f"{median[way] / median['fixed']:.2f} times", "bar": f"{BAR_COST} times", "peer": "fixed function",
+        "passed": median[way] <= BAR_COST * median["fixed"]
+    } for way in WAYS if way != "fixed"]
 
 
 def score_compile(build, base):
     """Each run is a process: the first pair of shaders finds cold memory."""
     took = [[float(ms) for ms in must(build / "tests/bench/translate").split()] for _ in range(RUNS)]
-    return [{"what": f"a pair of shaders, text to instructions, {what}", "figure": f"{median:.2f} ms", "bar": f"{bar} ms", "peer": None,
-             "passed": median <= bar}
-            for what, bar, median in zip(("cold", "warm"), (BAR_COLD_MS, BAR_WARM_MS), map(statistics.median, zip(*took)))]
+    return [{
+        "what": f"a pair of shaders, text to instructions, {what}", "figure": f"{median:.2f} ms", "bar": f"{bar} ms",
+        "peer": None, "passed": median <= bar
+    } for what, bar, median in zip(("cold", "warm"), (BAR_COLD_MS, BAR_WARM_MS), map(statistics.median, zip(*took)))]
 
 
 def score_real(build, base):
@@ -143,15 +163,22 @@ def score_real(build, base):
     lines = []
     for program in chosen:
         lines.append(sweep.score(build, program, build / "show" / "sweep" / program.name, PANEL_FRAMES, False))
-        print(f"{program.name}: {lines[-1].passed} of {lines[-1].frames} frames {lines[-1].missed} {lines[-1].note}"[:200], flush=True)
+        print(
+            f"{program.name}: {lines[-1].passed} of {lines[-1].frames} frames {lines[-1].missed} {lines[-1].note}"[:
+                                                                                                                   200],
+            flush=True)
     good, frames = (sum(getattr(line, what) for line in lines) for what in ("passed", "frames"))
     unscored = sum(not line.frames for line in lines)
-    return [{"what": f"frames of {len(lines)} programs with shaders that pass all gates ({unscored} programs have none)",
-             "figure": f"{good} of {frames} ({100 * good / max(frames, 1):.1f} %)", "bar": f"{100 * BAR_REAL:.0f} %",
-             "peer": "Mesa llvmpipe, in the program", "passed": frames > 0 and not unscored and good >= BAR_REAL * frames}]
+    return [{
+        "what": f"frames of {len(lines)} programs with shaders that pass all gates ({unscored} programs have none)",
+        "figure": f"{good} of {frames} ({100 * good / max(frames, 1):.1f} %)", "bar": f"{100 * BAR_REAL:.0f} %",
+        "peer": "Mesa llvmpipe, in the program", "passed": frames > 0 and not unscored and good >= BAR_REAL * frames
+    }]
 
 
-PARTS = {"panels": score_panels, "piglit": score_piglit, "glsl": score_glsl, "cost": score_cost, "compile": score_compile}
+PARTS = {
+    "panels": score_panels, "piglit": score_piglit, "glsl": score_glsl, "cost": score_cost, "compile": score_compile
+}
 MORE_PARTS = {"glsl-all": score_all_glsl, "real": score_real}  # told apart: an hour
 
 

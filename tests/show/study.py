@@ -1,4 +1,5 @@
-"""What a study costs: 1,000 frames in at most the time of rendering 20 of them without rules, in processor time (issue 16)."""
+"""What a study costs: 1,000 frames in at most the time of rendering 20 of them without rules, in processor time (issue
+16)."""
 import resource
 import subprocess
 
@@ -7,7 +8,10 @@ import sheet
 
 FRAMES, RENDERED = 1000, 20
 # Recorded here, and shared recordings that are long enough.
-PROGRAMS = {"courtyard": ("courtyard", "--animate", "camera"), "rooms": ("rooms", "--seed", 5, "--lights", 6, "--lighting", "multitexture", "--walk")}
+PROGRAMS = {
+    "courtyard": ("courtyard", "--animate", "camera"),
+    "rooms": ("rooms", "--seed", 5, "--lights", 6, "--lighting", "multitexture", "--walk")
+}
 LONG = ("glxgears", "iv-SceneViewer")
 
 
@@ -26,8 +30,8 @@ def seconds(*command):
 def recordings(build, work):
     for name, program in PROGRAMS.items():
         trace = work / f"{name}.trace"
-        run(recording.ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", build / "corpus" / program[0], *program[1:],
-            "--frames", FRAMES)
+        run(recording.ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--",
+            build / "corpus" / program[0], *program[1:], "--frames", FRAMES)
         yield name, trace
     for name in LONG:
         if (sheet.SHARED / f"{name}.trace").exists():
@@ -40,8 +44,11 @@ def rows(build, work):
         middle = FRAMES // 2
         run(build / "relume", "render", trace, "-f", middle, "-o", work / "first.exr")
         study = seconds(build / "relume", "look", trace, "-f", f"0-{FRAMES - 1}", "-o", work / "study.look.yaml")
-        render = seconds(build / "relume", "render", trace, "-f", f"{middle}-{middle + RENDERED - 1}", "-o", work / "study.####.exr")
+        render = seconds(build / "relume", "render", trace, "-f", f"{middle}-{middle + RENDERED - 1}", "-o",
+                         work / "study.####.exr")
         text = f"{study:.2f} s; {RENDERED} frames are rendered in {render:.2f} s"
         print(f"{name}: a study of {FRAMES} frames takes {text}", flush=True)
-        yield {"what": f"{name}: processor time of a study of {FRAMES} frames over that of rendering {RENDERED}", "figure": round(study / render, 3),
-               "bar": 1, "peer": None, "passed": study <= render}
+        yield {
+            "what": f"{name}: processor time of a study of {FRAMES} frames over that of rendering {RENDERED}",
+            "figure": round(study / render, 3), "bar": 1, "peer": None, "passed": study <= render
+        }

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""tests/show/suites.py BUILD [--only SUITE] (as `make show-suites SUITE=...`): README's commands on the releases that we
-support.
+"""tests/show/suites.py BUILD [--only SUITE] (as `make show-suites SUITE=...`): README's commands on the releases that
+we support.
 
 For each suite debootstrap makes a chroot of its minimal variant with only `make` added (BUILD/suites/SUITE.bare, kept
 between runs). In a copy of it (BUILD/suites/SUITE, left for a look) `make demo` runs twice and `make check` once, as
 root, in a clone of what is committed. The second demo must install and compile nothing.
 
 The suite `arm64` cross-compiles for 64-bit ARM on bookworm, runs tests of unit/, gl/ and check/ under qemu-user, and
-renders recordings that were made on x86 with the reference device of both: all channels must have the same bytes. Two checks
-of test_foreign and test_reserve do nothing there: they limit memory, and would limit the emulator's.
+renders recordings that were made on x86 with the reference device of both: all channels must have the same bytes. Two
+checks of test_foreign and test_reserve do nothing there: they limit memory, and would limit the emulator's.
 
 The suite `container` builds packaging/Containerfile by buildah, on the bare chroot of bookworm as its base image, and
 renders in it.
@@ -213,7 +213,8 @@ def pixels(path):
 
 
 def same_pixels(suite, build, name):
-    """Whether the reference devices of this build and of the chroot's render a frame to the same bytes in all channels."""
+    """Whether the reference devices of this build and of the chroot's render a frame to the same bytes in all
+    channels."""
     ours, theirs = suite.logs / f"{name}.exr", suite.root / f"root/{name}.exr"
     options = "-f 1 --device reference"
     subprocess.run(
@@ -244,7 +245,9 @@ def show_arm64(suite, build, shown):
         suite.versions(),
     )
     printed = suite.run(
-        "check", BINFMT + f"cd relume && TESTS_EMULATED=1 TESTS_SLOWER={SLOWER} python3 tests/run.py build/arm64 unit/test_ gl/test_ $({CHECKS})"
+        "check", BINFMT +
+        f"cd relume && TESTS_EMULATED=1 TESTS_SLOWER={SLOWER} python3 tests/run.py build/arm64 unit/test_ gl/test_ "
+        f"$({CHECKS})"
     )[2]
     counted = re.findall(r"^(\d+) passed, (\d+) failed, (\d+) skipped$", printed, re.M)
     shown.row(
@@ -295,7 +298,8 @@ def show_container(suite, shown):
     shown.row("container: build", f"exit code {code}, {time.monotonic() - begin:.0f} s", "exit code 0", code == 0)
     container = buildah("from", "--pull-never", image)[1].strip()
     buildah("copy", container, clone / "tests/golden" / golden, "/work/")
-    code, printed = buildah("run", "--isolation", "chroot", container, "--", *f"relume render {golden} -f 1 -o a.exr".split())
+    code, printed = buildah("run", "--isolation", "chroot", container, "--",
+                            *f"relume render {golden} -f 1 -o a.exr".split())
     shown.row("container: render", printed.strip().split("\n")[-1], "exit code 0", code == 0)
 
 

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""tests/show/sweep.py BUILD [--only PART]... [--frames N] [--minutes M] [--again] [--record] (as `make show-sweep`): the sweep, a line a program.
+"""tests/show/sweep.py BUILD [--only PART]... [--frames N] [--minutes M] [--again] [--record] (as `make show-sweep`):
+the sweep, a line a program.
 
-Each program is recorded once, with reference frames read back in the program; recordings stay in BUILD/show/sweep/NAME and
-are used again until --record asks for new ones. Ten frames of each are rendered in `gl` mode and scored against what the
-program showed. BUILD/show/sweep.tsv holds a line for each program; what the present relume has scored already is not
-scored again, so that a run that was ended, or that ran out of its minutes, goes on where it stood. What fails stands once more
-at the end. The bar: 110 of xscreensaver's fixed-function hacks pass all gates on all frames.
+Each program is recorded once, with reference frames read back in the program; recordings stay in BUILD/show/sweep/NAME
+and are used again until --record asks for new ones. Ten frames of each are rendered in `gl` mode and scored against
+what the program showed. BUILD/show/sweep.tsv holds a line for each program; what the present relume has scored already
+is not scored again, so that a run that was ended, or that ran out of its minutes, goes on where it stood. What fails
+stands once more at the end. The bar: 110 of xscreensaver's fixed-function hacks pass all gates on all frames.
 """
 import argparse
 import dataclasses
@@ -52,12 +53,15 @@ def score(build, program, folder, n_frames, record_again):
     work = folder / "scored"
     work.mkdir(exist_ok=True)
     (work / "log").write_text("")
-    return scoring.score_recording(scoring.Scorer(build / "relume", work, work / "log"), line, done, n_frames, "gl", GATES)
+    return scoring.score_recording(scoring.Scorer(build / "relume", work, work / "log"), line, done, n_frames, "gl",
+                                   GATES)
 
 
 def tell(line):
     mark = "passes" if line["good"] == "True" else "FAILS "
-    parts = [f"{mark} {line['name']}: {line['passed']} of {line['frames']} frames, fidelity {float(line['fidelity']):.3f} %"]
+    parts = [
+        f"{mark} {line['name']}: {line['passed']} of {line['frames']} frames, fidelity {float(line['fidelity']):.3f} %"
+    ]
     for key, before in (("missed", ""), ("unhandled", "unhandled: "), ("note", "")):
         if line[key]:
             parts.append(before + line[key])
@@ -81,12 +85,19 @@ def rows_of(lines):
             continue
         good = sum(line["good"] == "True" for line in of_group)
         bar = HACKS_BAR if group == programs.GROUPS[0] else None
-        rows.append({"what": f"{group}: programs whose scored frames pass all gates", "figure": f"{good} of {len(of_group)}",
-                     "bar": str(bar) if bar else None, "peer": "Mesa llvmpipe, in the program", "passed": good >= bar if bar else None})
-    rows.append({"what": "traces that apitrace dump reads to the end", "figure": count(lines, "", lambda x: x["dump"] == "whole"),
-                 "bar": None, "peer": "apitrace", "passed": None})
-    rows.append({"what": "traces whose last frame glretrace draws as the program did",
-                 "figure": count(lines, "", lambda x: x["replay"] == "same"), "bar": None, "peer": "glretrace", "passed": None})
+        rows.append({
+            "what": f"{group}: programs whose scored frames pass all gates", "figure": f"{good} of {len(of_group)}",
+            "bar": str(bar) if bar else None, "peer": "Mesa llvmpipe, in the program",
+            "passed": good >= bar if bar else None
+        })
+    rows.append({
+        "what": "traces that apitrace dump reads to the end",
+        "figure": count(lines, "", lambda x: x["dump"] == "whole"), "bar": None, "peer": "apitrace", "passed": None
+    })
+    rows.append({
+        "what": "traces whose last frame glretrace draws as the program did",
+        "figure": count(lines, "", lambda x: x["replay"] == "same"), "bar": None, "peer": "glretrace", "passed": None
+    })
     return rows
 
 
@@ -124,7 +135,8 @@ def main():
     present = [lines[p.name] for p in chosen if p.name in lines and lines[p.name]["scored_by"] == this_relume]
     rows = rows_of(present)
     if not options.only:
-        (build / "show" / "sweep.json").write_text(json.dumps({"name": "sweep", "command": "make show-sweep", "rows": rows}, indent=1) + "\n")
+        (build / "show" / "sweep.json"
+         ).write_text(json.dumps({"name": "sweep", "command": "make show-sweep", "rows": rows}, indent=1) + "\n")
     for row in rows:
         print(f"{row['what']}: {row['figure']}" + (f" (bar {row['bar']})" if row["bar"] else ""))
     for line in present:

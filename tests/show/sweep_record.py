@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/sweep_record.py BUILD [--only PART]... (as `make show-sweep-record`): the recorder alone, on every program of the sweep.
+"""tests/show/sweep_record.py BUILD [--only PART]... (as `make show-sweep-record`): the recorder alone, on every program
+of the sweep.
 
-Each program is recorded anew with reference frames read back in the program. `apitrace dump` must read the trace to its end, and
-glretrace must draw the last frame as the program did, bit for bit; it is given a visual like the program's (replay/verbs/visual.c),
-and where its window is larger than the program's (a viewport reached beyond it) the program's part is compared.
-Programs that do not start here are told and not counted.
+Each program is recorded anew with reference frames read back in the program. `apitrace dump` must read the trace to its
+end, and glretrace must draw the last frame as the program did, bit for bit; it is given a visual like the program's
+(replay/verbs/visual.c), and where its window is larger than the program's (a viewport reached beyond it) the program's
+part is compared. Programs that do not start here are told and not counted.
 """
 import argparse
 import json
@@ -29,9 +30,11 @@ PICTURE = re.compile(rb"P6\n(?:#[^\n]*\n)*(\d+) (\d+)\n255\n")
 
 def look_up(trace):
     """The calls that end frames, and the bits of a pixel."""
-    dump = subprocess.run(["apitrace", "dump", "--color=never", "--grep=SwapBuffers|FrameTerminator|StringMarker", trace],
-                          capture_output=True, text=True, errors="replace", check=False).stdout
-    bits = re.findall(r"relume:bits ([\d ]+)", dump)  # of the last context: some make another one first, to ask it things
+    dump = subprocess.run(
+        ["apitrace", "dump", "--color=never", "--grep=SwapBuffers|FrameTerminator|StringMarker", trace],
+        capture_output=True, text=True, errors="replace", check=False).stdout
+    bits = re.findall(r"relume:bits ([\d ]+)",
+                      dump)  # of the last context: some make another one first, to ask it things
     calls = re.findall(r"^(\d+) (?:\w+SwapBuffers\w*|glFrameTerminator\w*)\(", dump, re.M)
     return calls, bits[-1] if bits else ""
 
@@ -51,7 +54,8 @@ def check_replay(trace, build):
     (wide, high), (width, height, want) = map(int, head.groups()), shown[last]
     if wide < width or high < height:
         return f"glretrace's picture is {wide} x {high}, the program's {width} x {height}"
-    got = b"".join(run.stdout[head.end() + (y * wide) * 3:head.end() + (y * wide + width) * 3] for y in range(high - height, high))
+    got = b"".join(run.stdout[head.end() + (y * wide) * 3:head.end() + (y * wide + width) * 3]
+                   for y in range(high - height, high))
     differ = sum(got[i:i + 3] != want[i:i + 3] for i in range(0, len(want), 3))
     return f"differs in {differ} of {width * height} pixels of frame {last}" if differ else "same"
 
@@ -83,20 +87,26 @@ def main():
             dump, replay = check(build, program, base / program.name)
             lines.append({"name": program.name, "dump": dump, "replay": replay})
             good = (dump, replay) == ("whole", "same")
-            print(f"{'holds' if good else 'no   ' if dump is None else 'FAILS'} {program.name}: {dump or ''} {replay}", flush=True)
+            print(f"{'holds' if good else 'no   ' if dump is None else 'FAILS'} {program.name}: {dump or ''} {replay}",
+                  flush=True)
             if not options.keep:
                 shutil.rmtree(base / program.name, ignore_errors=True)
     recorded = [line for line in lines if line["dump"] is not None]
     rows = []
     for what, key, value, peer in (("traces that apitrace dump reads to the end", "dump", "whole", "apitrace"),
-                                   ("traces whose last frame glretrace draws as the program did", "replay", "same", "glretrace")):
+                                   ("traces whose last frame glretrace draws as the program did", "replay", "same",
+                                    "glretrace")):
         good = sum(line[key] == value for line in recorded)
-        rows.append({"what": what, "figure": f"{good} of {len(recorded)}", "bar": "all", "peer": peer, "passed": good == len(recorded)})
+        rows.append({
+            "what": what, "figure": f"{good} of {len(recorded)}", "bar": "all", "peer": peer,
+            "passed": good == len(recorded)
+        })
         print(f"{what}: {good} of {len(recorded)} (bar: all)")
     if not options.only:
         (build / "show").mkdir(exist_ok=True)
-        (build / "show/sweep_record.json").write_text(json.dumps({"name": "sweep_record", "command": "make show-sweep-record",
-                                                                  "rows": rows, "programs": lines}, indent=1) + "\n")
+        (build / "show/sweep_record.json").write_text(
+            json.dumps({"name": "sweep_record", "command": "make show-sweep-record", "rows": rows, "programs": lines},
+                       indent=1) + "\n")
     return 0 if recorded and all(row["passed"] for row in rows) else 1
 
 

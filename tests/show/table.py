@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 """tests/show/table.py DIR: one table of all that `make show-*` measured; exits with 1 where a bar does not hold.
 
-Each DIR/NAME.json holds
-    {"name": "parity", "command": "make show-parity",
-     "rows": [{"what": "glxgears, 60 frames", "figure": "60 pass", "bar": "60 pass" or null, "peer": "Mesa 22.3.6" or null,
-               "passed": true, false, or null where nothing is demanded}]}
+Each DIR/NAME.json holds {"name": "parity", "command": "make show-parity", "rows": [{"what": "glxgears, 60 frames",
+"figure": "60 pass", "bar": "60 pass" or null, "peer": "Mesa 22.3.6" or null, "passed": true, false, or null where
+nothing is demanded}]}
 """
 import json
 import pathlib
@@ -19,12 +18,14 @@ class Shown:
 
     def row(self, what, figure, bar, passed, peer=None):
         self.rows.append({"what": what, "figure": figure, "bar": bar, "peer": peer, "passed": passed})
-        print({True: "holds", False: "FAILS", None: "-    "}[passed], what, figure, *([peer] if peer else []), sep="  ", flush=True)
+        print({True: "holds", False: "FAILS", None: "-    "}[passed], what, figure, *([peer] if peer else []), sep="  ",
+              flush=True)
 
     def finish(self):
         """The exit code."""
         self.path.parent.mkdir(exist_ok=True)
-        self.path.write_text(json.dumps({"name": self.name, "command": f"make show-{self.name}", "rows": self.rows}, indent=1))
+        self.path.write_text(
+            json.dumps({"name": self.name, "command": f"make show-{self.name}", "rows": self.rows}, indent=1))
         return not self.rows or any(row["passed"] is False for row in self.rows)
 
 
@@ -36,8 +37,8 @@ def main(folder):
         for row in shown["rows"]:
             bad += row["passed"] is False
             mark = {True: "holds", False: "FAILS", None: "-"}[row["passed"]]
-            rows.append((mark, f"{shown['name']}: {row['what']}", str(row["figure"]), str("" if row["bar"] is None else row["bar"]),
-                         str(row["peer"] or "")))
+            rows.append((mark, f"{shown['name']}: {row['what']}", str(row["figure"]),
+                         str("" if row["bar"] is None else row["bar"]), str(row["peer"] or "")))
     widths = [max(len(row[i]) for row in rows) for i in range(5)]
     for row in rows:
         print("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip())

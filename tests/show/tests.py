@@ -1,20 +1,23 @@
 #!/usr/bin/python3
-"""tests/show/tests.py BUILD [--only FOLDER] [--count N] [--seconds S] [--most S] (as `make show-tests`): which faults `make check` notices.
+"""tests/show/tests.py BUILD [--only FOLDER] [--count N] [--seconds S] [--most S] (as `make show-tests`): which faults
+`make check` notices.
 
-Mutants of our own sources, drawn by their names' digests (sites.py) in turn from each folder and of each kind: nobody picks places. All
-are compiled into one build of a clone of this tree, each behind a switch (schemata.py). One run of the tests tells which mutants each test could
-notice: it works something out that the mutant would work out otherwise. Each mutant then runs with those tests, quick ones and those that noticed others first,
-until one fails; a hang ends by a limit of processor time. It must fail with the mutant twice, and pass without it: one that fails now and
-then, or is skipped, does not count.
+Mutants of our own sources, drawn by their names' digests (sites.py) in turn from each folder and of each kind: nobody
+picks places. All are compiled into one build of a clone of this tree, each behind a switch (schemata.py). One run of
+the tests tells which mutants each test could notice: it works something out that the mutant would work out otherwise.
+Each mutant then runs with those tests, quick ones and those that noticed others first, until one fails; a hang ends by
+a limit of processor time. It must fail with the mutant twice, and pass without it: one that fails now and then, or is
+skipped, does not count.
 
-Kernels share their text with their C twins, so that both would be wrong alike: their mutants run where the twins are the device, and kernels/ref's
-beside a device. What is for devices alone (*.cl, packs, the text around hooks, which is compiled when one is there) and what is no expression
-(tables, sizes) is not tried. LEFT_OUT are tests that read sources, build the tree anew, start a farm, a browser or Wine, or take long; so are those that measure
-time or need more than SLOW_S of processor time.
+Kernels share their text with their C twins, so that both would be wrong alike: their mutants run where the twins are
+the device, and kernels/ref's beside a device. What is for devices alone (*.cl, packs, the text around hooks, which is
+compiled when one is there) and what is no expression (tables, sizes) is not tried. LEFT_OUT are tests that read
+sources, build the tree anew, start a farm, a browser or Wine, or take long; so are those that measure time or need more
+than SLOW_S of processor time.
 
-All is kept in BUILD/show/tests: a campaign may be stopped at any time, and goes on. Of a time that is given, half is for the first run of tests, which
-holds while the test and the places of mutants stand. A verdict holds while its source and its test stand; what was left meets tests that are new.
-tests/show/left.txt gives reasons.
+All is kept in BUILD/show/tests: a campaign may be stopped at any time, and goes on. Of a time that is given, half is
+for the first run of tests, which holds while the test and the places of mutants stand. A verdict holds while its source
+and its test stand; what was left meets tests that are new. tests/show/left.txt gives reasons.
 """
 import argparse
 import hashlib
@@ -38,15 +41,22 @@ from table import Shown  # noqa: E402
 
 SEED, BAR, SLOW_S = 1, 0.95, 20
 PASSED, FAILED, SKIPPED = range(3)
-FOLDERS = {"kernels": ("kernels/*.h", "kernels/camera/*.h", "kernels/gl/*.h", "kernels/frame/[!p]*.h", "kernels/frame/p[!a]*.h", "kernels/ref/*.c"), "replay": ("replay/**/*.c",),
-           "tracer": ("tracer/**/*.c",), "capture": ("capture/**/*.c",), "diff": ("diff/**/*.c",)}
-LEFT_OUT = ("unit/test_house", "harness/", "farm/", "real/test_page", "real/test_wine", "real/test_i386", "real/test_install", "real/test_crash", "real/test_hooks", "unit/test_schemata")
+FOLDERS = {
+    "kernels": ("kernels/*.h", "kernels/camera/*.h", "kernels/gl/*.h", "kernels/frame/[!p]*.h",
+                "kernels/frame/p[!a]*.h", "kernels/ref/*.c"), "replay": ("replay/**/*.c", ),
+    "tracer": ("tracer/**/*.c", ), "capture": ("capture/**/*.c", ), "diff": ("diff/**/*.c", )
+}
+LEFT_OUT = ("unit/test_house", "harness/", "farm/", "real/test_page", "real/test_wine", "real/test_i386",
+            "real/test_install", "real/test_crash", "real/test_hooks", "unit/test_schemata")
 QUICK = ("unit/", "gl/", "trace/", "fuzz/")
-FLAGS = ["CFLAGS=-O1 -g0 -w -fno-delete-null-pointer-checks", "CXXFLAGS=-O1 -g0 -w"]  # what a call promises of its arguments makes no mutant vanish
+FLAGS = ["CFLAGS=-O1 -g0 -w -fno-delete-null-pointer-checks",
+         "CXXFLAGS=-O1 -g0 -w"]  # what a call promises of its arguments makes no mutant vanish
 HOOK_TEXT = "kernels/frame/hook"
 # Where mutants of shared text run: in a build whose device is the twins, unless a test names one.
-TWINS = ("tracer/device/device.c", "\treturn choice && strcmp", '\treturn !choice ? getenv("RELUME_TWINS") != NULL : strcmp')
-TWINS_TESTS = ("golden/", "truth/", "look/", "real/test_panels", "real/test_textures", "real/test_shapes", "real/test_glass", "real/test_vertices", "real/test_samples", "unit/test_device")
+TWINS = ("tracer/device/device.c", "\treturn choice && strcmp",
+         '\treturn !choice ? getenv("RELUME_TWINS") != NULL : strcmp')
+TWINS_TESTS = ("golden/", "truth/", "look/", "real/test_panels", "real/test_textures", "real/test_shapes",
+               "real/test_glass", "real/test_vertices", "real/test_samples", "unit/test_device")
 
 
 def digest(*parts):
@@ -63,9 +73,13 @@ def sources(folder):
 
 
 def texts_of(test):
-    """A test's own sources: those of its name, and of the program or the folder that it records (test_panels: panels/)."""
+    """A test's own sources: those of its name, and of the program or the folder that it records (test_panels:
+    panels/)."""
     own = test.name.replace("/test_", "/")
-    return [p for pattern in (f"{test.name}.*", f"{own}.[ch]", f"{own}/*.[ch]") for p in sorted((ROOT / "tests").glob(pattern))]
+    return [
+        p for pattern in (f"{test.name}.*", f"{own}.[ch]", f"{own}/*.[ch]")
+        for p in sorted((ROOT / "tests").glob(pattern))
+    ]
 
 
 def drawn():
@@ -91,7 +105,8 @@ class Mutants:
         draw = drawn()
         sites_drawn = [next(draw) for _ in range(count * 4 // 3)]
         paths = sorted({site.path for site in sites_drawn})
-        of = digest(*(site.id for site in sites_drawn), *((ROOT / path).read_text() for path in (*paths, "tests/show/schemata.py")))
+        of = digest(*(site.id for site in sites_drawn),
+                    *((ROOT / path).read_text() for path in (*paths, "tests/show/schemata.py")))
         planted = folder / "planted.json"
         kept = json.loads(planted.read_text()) if planted.exists() else {}
         if kept.get("of") != of:
@@ -107,8 +122,8 @@ class Mutants:
         if TWINS[2] not in texts[TWINS[0]]:
             sys.exit(f"{TWINS[0]} chooses devices in another way: see tests/show/tests.py")
         self.write(build, texts)
-        if subprocess.run(["make", "-C", self.root, "BUILD=build", *FLAGS, "test-programs"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                          env={**os.environ, "MAKELEVEL": "0"}, check=False).returncode:
+        if subprocess.run(["make", "-C", self.root, "BUILD=build", *FLAGS, "test-programs"], stdin=subprocess.DEVNULL,
+                          stdout=subprocess.DEVNULL, env={**os.environ, "MAKELEVEL": "0"}, check=False).returncode:
             sys.exit(f"the mutants do not build: {self.root}")
         self.digest = digest(*(f"{number} {site.id}" for number, site in sorted(self.by_number.items())))
 
@@ -116,7 +131,8 @@ class Mutants:
         """The tree as it is now, with these texts; what is the same stays, and is not built again."""
         if not self.build.exists():
             shutil.copytree(build / "gen", self.build / "gen", copy_function=shutil.copy2)
-        tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "-co", "--exclude-standard"], capture_output=True, text=True, check=True).stdout.split("\0")[:-1]
+        tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "-co", "--exclude-standard"],
+                                 capture_output=True, text=True, check=True).stdout.split("\0")[:-1]
         changed = False
         for path in self.root.rglob("*") if self.root.exists() else ():
             if path.is_file() and self.build not in path.parents and not (ROOT / path.relative_to(self.root)).is_file():
@@ -134,7 +150,8 @@ class Mutants:
             shutil.copyfile(build / "gen/kernels.c", self.build / "gen/kernels.c")  # devices keep what was
 
     def test(self, test, limit_s, **env):
-        """(PASSED, FAILED or SKIPPED, seconds of processor time). A process of it that needs more than limit_s is ended."""
+        """(PASSED, FAILED or SKIPPED, seconds of processor time). A process of it that needs more than limit_s is
+        ended."""
         shutil.rmtree(self.build / "tests/cache", ignore_errors=True)  # what another mutant left
         begin, was = spent_s(), {name: os.environ.get(name) for name in env}
         soft, hard = resource.getrlimit(resource.RLIMIT_CPU)
@@ -154,10 +171,14 @@ class Campaign:
         folder.mkdir(parents=True, exist_ok=True)
         os.environ["POCL_CACHE_DIR"] = str(build / "tests/pocl-cache")
         self.mutants, self.most, self.file = Mutants(folder, build, count), most, folder / "verdicts.json"
-        self.tests = [t for t in runner.find_tests(self.mutants.build, []) if not t.serial and not any(part in t.name for part in LEFT_OUT)]
+        self.tests = [
+            t for t in runner.find_tests(self.mutants.build, [])
+            if not t.serial and not any(part in t.name for part in LEFT_OUT)
+        ]
         self.texts = {t.name: digest(*(p.read_text(errors="replace") for p in texts_of(t))) for t in self.tests}
         kept = json.loads(self.file.read_text()) if self.file.exists() else {}
-        self.verdicts, self.map = kept.get("verdicts", {}), kept.get("map", {}) if kept.get("of") == self.mutants.digest else {}
+        self.verdicts, self.map = kept.get("verdicts",
+                                           {}), kept.get("map", {}) if kept.get("of") == self.mutants.digest else {}
         self.flaky, self.sure = set(), {}
 
     def save(self):
@@ -177,7 +198,8 @@ class Campaign:
         for way in ("device", "twins"):
             for test in sorted(self.tests, key=lambda t: (not t.name.startswith(QUICK), t.command.suffix)):
                 key, of = f"{way} {test.name}", self.texts[test.name]
-                if self.map.get(key, {}).get("of") == of or way == "twins" and not any(part in test.name for part in TWINS_TESTS):
+                if self.map.get(key, {}).get("of") == of or way == "twins" and not any(part in test.name
+                                                                                       for part in TWINS_TESTS):
                     continue
                 if time.monotonic() > end:
                     print(f"{key} and those after it were not run yet")
@@ -185,14 +207,19 @@ class Campaign:
                 path.write_bytes(bytes(1 + max(self.mutants.by_number)))
                 outcome, seconds = self.mutants.test(test, SLOW_S, RELUME_MUTANTS=str(path), **self.env(way))
                 seen = path.read_bytes()
-                self.map[key] = {"of": of, "passed": outcome == PASSED, "seconds": round(seconds, 2), "reached": [n for n, what in enumerate(seen) if what],
-                                 "told": [n for n, what in enumerate(seen) if what & 2]}
+                self.map[key] = {
+                    "of": of, "passed": outcome == PASSED, "seconds": round(seconds, 2),
+                    "reached": [n for n, what in enumerate(seen) if what],
+                    "told": [n for n, what in enumerate(seen) if what & 2]
+                }
                 self.save()
 
     def tell(self):
         left_out = sorted(key for key, seen in self.map.items() if not seen["passed"])
-        print(f"{len(self.map) - len(left_out)} runs of tests, {sum(seen['seconds'] for seen in self.map.values()):.0f} s of processor time; skipped, over {SLOW_S} s, or failing "
-              f"without a mutant: {', '.join(left_out) or 'none'}", flush=True)
+        print(
+            f"{len(self.map) - len(left_out)} runs of tests, {sum(seen['seconds'] for seen in self.map.values()):.0f} "
+            f"s of processor time; skipped, over {SLOW_S} s, or failing "
+            f"without a mutant: {', '.join(left_out) or 'none'}", flush=True)
 
     def likely_first(self, site, able, way):
         noticed = {}
@@ -214,16 +241,26 @@ class Campaign:
         if before and before["of"] == of and before["by"] and before["text"] == self.texts.get(before["by"]):
             return before
         passed = before["passed"] if before and before["of"] == of else {}
-        verdict = {"folder": site.folder, "path": site.path, "told": site.told(), "of": of, "by": None, "passed": passed}
+        verdict = {
+            "folder": site.folder, "path": site.path, "told": site.told(), "of": of, "by": None, "passed": passed
+        }
         seen = {t.name: self.map[f"{way} {t.name}"] for t in self.tests if f"{way} {t.name}" in self.map}
-        able = [t for t in self.tests if t.name in seen and seen[t.name]["passed"] and number in seen[t.name]["told"] and t.name not in self.flaky]
+        able = [
+            t for t in self.tests
+            if t.name in seen and seen[t.name]["passed"] and number in seen[t.name]["told"] and t.name not in self.flaky
+        ]
         if not able:
-            return {**verdict, "why": "what no test can tell from what was" if any(number in s["reached"] for s in seen.values()) else "no test runs it"}
+            return {
+                **verdict, "why": "what no test can tell from what was" if any(
+                    number in s["reached"] for s in seen.values()) else "no test runs it"
+            }
         for test in self.likely_first(site, able, way):
             if passed.get(test.name) == self.texts[test.name]:
                 continue
             if spent_s() - begin > self.most:
-                return {**verdict, "why": f"{len(passed)} of {len(able)} tests that could tell it pass, {self.most:.0f} s"}
+                return {
+                    **verdict, "why": f"{len(passed)} of {len(able)} tests that could tell it pass, {self.most:.0f} s"
+                }
             limit_s = 5 + 5 * seen[test.name]["seconds"]
             mutated = {"RELUME_MUTANT": str(number), "RELUME_FIRST_FAILURE": "1", **self.env(way)}
             if self.mutants.test(test, limit_s, **mutated)[0] != FAILED:
@@ -231,7 +268,9 @@ class Campaign:
             elif not self.is_sure(test, way, limit_s):
                 self.flaky.add(test.name)
             elif self.mutants.test(test, limit_s, **mutated)[0] == FAILED:
-                return {**verdict, "by": test.name, "text": self.texts[test.name], "seconds": round(spent_s() - begin, 1)}
+                return {
+                    **verdict, "by": test.name, "text": self.texts[test.name], "seconds": round(spent_s() - begin, 1)
+                }
             else:
                 self.flaky.add(test.name)
         return {**verdict, "why": f"all {len(able)} tests that could tell it pass"}
@@ -245,13 +284,20 @@ def main(options):
     todo.tell()
     tried = {}
     for number, site in sorted(todo.mutants.by_number.items(), key=lambda item: item[1].id):
-        if options.only in (None, site.folder) and not site.path.startswith(HOOK_TEXT) and (time.monotonic() < end or site.id in todo.verdicts):
+        if options.only in (None, site.folder) and not site.path.startswith(HOOK_TEXT) and (time.monotonic() < end or
+                                                                                            site.id in todo.verdicts):
             tried[site.id] = verdict = todo.verdicts[site.id] if time.monotonic() > end else todo.judge(number, site)
             if verdict != todo.verdicts.get(site.id):
                 todo.verdicts[site.id] = verdict
                 todo.save()
-                print(f"{'noticed' if verdict['by'] else 'left':7}  {site.id}  {verdict['told']}  {verdict['by'] or verdict['why']}", flush=True)
-    reasons = dict(line.split(" ", 1) for line in (ROOT / "tests/show/left.txt").read_text().splitlines() if line and line[0] != "#")
+                print(
+                    f"{'noticed' if verdict['by'] else 'left':7}  {site.id}  {verdict['told']}  "
+                    f"{verdict['by'] or verdict['why']}",
+                    flush=True)
+    reasons = dict(
+        line.split(" ", 1)
+        for line in (ROOT / "tests/show/left.txt").read_text().splitlines()
+        if line and line[0] != "#")
     shown = Shown(options.build, "tests")
     for name, verdict in tried.items():
         if not verdict["by"]:
@@ -260,11 +306,14 @@ def main(options):
         of = [v for v in tried.values() if folder in ("all", v["folder"])]
         noticed = sum(v["by"] is not None for v in of)
         if of:
-            shown.row(f"{folder}: {len(of)} mutants", f"{noticed} noticed, {len(of) - noticed} left: {100 * noticed / len(of):.1f} %",
-                      f"{100 * BAR:.0f} %" if folder == "all" else None, noticed >= BAR * len(of) if folder == "all" else None)
+            shown.row(f"{folder}: {len(of)} mutants",
+                      f"{noticed} noticed, {len(of) - noticed} left: {100 * noticed / len(of):.1f} %",
+                      f"{100 * BAR:.0f} %" if folder == "all" else None,
+                      noticed >= BAR * len(of) if folder == "all" else None)
     told = len(tried) - sum(not verdict["by"] and name in reasons for name, verdict in tried.items())
     if told:
-        shown.row(f"without {len(tried) - told} that change no result (left.txt)", f"{noticed} of {told}: {100 * noticed / told:.1f} %", None, None)
+        shown.row(f"without {len(tried) - told} that change no result (left.txt)",
+                  f"{noticed} of {told}: {100 * noticed / told:.1f} %", None, None)
     return shown.finish()
 
 
@@ -273,6 +322,7 @@ if __name__ == "__main__":
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--only", help="a folder")
     parser.add_argument("--count", type=int, default=200, help="about so many mutants")
-    parser.add_argument("--seconds", type=float, default=1e9, help="by the clock; then it stops, and goes on the next time")
+    parser.add_argument("--seconds", type=float, default=1e9,
+                        help="by the clock; then it stops, and goes on the next time")
     parser.add_argument("--most", type=float, default=120, help="seconds of processor time for a mutant")
     sys.exit(main(parser.parse_args()))

@@ -1,14 +1,16 @@
 #!/usr/bin/python3
-"""tests/show/thesis.py BUILD (as `make show-thesis`): five scenes at 800 x 600, beside a thesis' figures and two renderers.
+"""tests/show/thesis.py BUILD (as `make show-thesis`): five scenes at 800 x 600, beside a thesis' figures and two
+renderers.
 
-The scenes are those of a thesis of 2016 on ray tracing for OpenGL programs: a Cornell box of 34 triangles; with a model of
-100,000; the same with a mirror wall; with a box of glass; a columned hall of 262,267 triangles. Its frames per second
-are a GTX 970's (and an Iris 6100's); ours are this machine's, so that these two only stand side by side.
+The scenes are those of a thesis of 2016 on ray tracing for OpenGL programs: a Cornell box of 34 triangles; with a model
+of 100,000; the same with a mirror wall; with a box of glass; a columned hall of 262,267 triangles. Its frames per
+second are a GTX 970's (and an Iris 6100's); ours are this machine's, so that these two only stand side by side.
 
-POV-Ray and Blender Cycles (1 sample a pixel, 4 bounces) render the same frame, exported by `relume export`; all three run
-one after the other on the same cores, and ratios are theirs to ours. What is compared: the whole time that a frame takes
-(decoding or reading, building, tracing, writing), and tracing alone: for us what tracer_render takes, trees included; for
-POV-Ray its own "Trace Time". Cycles does not tell them apart: both are its render call, the second of two, data kept.
+POV-Ray and Blender Cycles (1 sample a pixel, 4 bounces) render the same frame, exported by `relume export`; all three
+run one after the other on the same cores, and ratios are theirs to ours. What is compared: the whole time that a frame
+takes (decoding or reading, building, tracing, writing), and tracing alone: for us what tracer_render takes, trees
+included; for POV-Ray its own "Trace Time". Cycles does not tell them apart: both are its render call, the second of
+two, data kept.
 """
 import json
 import math
@@ -40,7 +42,8 @@ BAR = 15  # times POV-Ray, whole, and times Cycles
 
 
 def run(command, **more):
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, errors="replace", check=False, **more)
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, errors="replace",
+                          check=False, **more)
     if done.returncode:
         sys.exit(f"{command[0]} exits with {done.returncode}:\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
     return done
@@ -48,7 +51,9 @@ def run(command, **more):
 
 def ours(build, trace, folder):
     """Frames per second: whole, and in the tracer alone."""
-    command = [build / "relume", "render", trace, "-o", folder / "####.exr", "-f", f"0-{FRAMES - 1}", "--progress", "json"]
+    command = [
+        build / "relume", "render", trace, "-o", folder / "####.exr", "-f", f"0-{FRAMES - 1}", "--progress", "json"
+    ]
     run(command)  # kernels are compiled once
     begin = time.monotonic()
     run(command)
@@ -84,8 +89,9 @@ def pov_mesh(glb, node, primitive, out):
     faces = [index[i:i + 3] for i in range(0, len(index), 3)]
     named = sorted({tuple(c[:3]) for c in colors})
     if named:  # colours of faces: those of their first vertices
-        out.write(f"texture_list {{{len(named)}," + ",".join(
-            f"texture {{pigment {{rgb <{c[0]:.5g},{c[1]:.5g},{c[2]:.5g}> transmit {through:.5g}}}}}" for c in named) + "}\n")
+        out.write(f"texture_list {{{len(named)}," +
+                  ",".join(f"texture {{pigment {{rgb <{c[0]:.5g},{c[1]:.5g},{c[2]:.5g}> transmit {through:.5g}}}}}"
+                           for c in named) + "}\n")
         number = {c: i for i, c in enumerate(named)}
         out.write(f"face_indices {{{len(faces)}," + ",".join(
             f"<{a},{b},{c}>,{number[tuple(colors[a][:3])]}" for a, b, c in faces) + "}\n")
@@ -94,7 +100,10 @@ def pov_mesh(glb, node, primitive, out):
         out.write(f"pigment {{rgb <{base[0]:.5g},{base[1]:.5g},{base[2]:.5g}> transmit {through:.5g}}}\n")
     out.write(f"finish {{ambient 0.1 diffuse 0.8 reflection {{{pbr.get('metallicFactor', 0) * 0.9:.5g}}}}}\n")
     if through:
-        out.write(f"finish {{reflection {{0, 1 fresnel on}} conserve_energy}} interior {{ior {more['KHR_materials_ior']['ior']:.5g}}}\n")
+        out.write(
+            f"finish {{reflection {{0, 1 fresnel on}} conserve_energy}} interior "
+            f"{{ior {more['KHR_materials_ior']['ior']:.5g}}}\n"
+        )
     out.write("}\n")
 
 
@@ -116,7 +125,9 @@ def write_pov(glb, path):
 def povray(glb, folder):
     write_pov(glb, folder / "scene.pov")
     begin = time.monotonic()
-    said = run(["povray", f"+I{folder}/scene.pov", f"+O{folder}/pov.png", "+W800", "+H600", "-A", "-D", "-GD", "+GR", "+GS"]).stderr
+    said = run(
+        ["povray", f"+I{folder}/scene.pov", f"+O{folder}/pov.png", "+W800", "+H600", "-A", "-D", "-GD", "+GR",
+         "+GS"]).stderr
     whole = time.monotonic() - begin
     found = re.findall(r"Trace Time:.*\(([0-9.]+) seconds\)", said)
     if not found:
@@ -125,8 +136,10 @@ def povray(glb, folder):
 
 
 def blender(file, folder):
-    said = run(["blender", "--background", "--factory-startup", "--python", ROOT / "tests/show/thesis_in_blender.py", "--", file,
-                folder / "cycles.exr"]).stdout
+    said = run([
+        "blender", "--background", "--factory-startup", "--python", ROOT / "tests/show/thesis_in_blender.py", "--",
+        file, folder / "cycles.exr"
+    ]).stdout
     found = re.search(r"^RENDERED (.*)$", said, re.MULTILINE)
     if not found:
         sys.exit(f"Blender did not render:\n{said[-1500:]}")
@@ -138,17 +151,23 @@ def main(build):
     need_display()
     build = build.resolve()
     rows = []
-    print(f"{'frames/s at 800 x 600':24}{'whole':>8}{'traced':>8}   {'GTX 970':>8}{'Iris':>8}   {'POV whole':>10}{'traced':>8}"
-          f"{'Cycles':>8}   ratios: POV whole, traced; Cycles")
+    print(
+        f"{'frames/s at 800 x 600':24}{'whole':>8}{'traced':>8}   {'GTX 970':>8}{'Iris':>8}   "
+        f"{'POV whole':>10}{'traced':>8}"
+        f"{'Cycles':>8}   ratios: POV whole, traced; Cycles")
     for name, (program, options, gtx, iris) in SCENES.items():
         with tempfile.TemporaryDirectory(prefix="relume-") as scratch:
             folder = pathlib.Path(scratch)
             trace, file = folder / "scene.trace", folder / "scene.glb"
-            run([build / "relume", "record", "-o", trace, "--", build / "corpus" / program, "--frames", FRAMES, "--animate",
-                 "camera", *options])
+            run([
+                build / "relume", "record", "-o", trace, "--", build / "corpus" / program, "--frames", FRAMES,
+                "--animate", "camera", *options
+            ])
             run([build / "relume", "export", "-f", SHOWN, "-o", file, trace])
-            rounds = [(*ours(build, trace, folder), *povray(Glb(file), folder), *blender(file, folder)) for _ in range(ROUNDS)]
-            whole, traced, pov_whole, pov_traced, cycles = (statistics.median(column) for column in list(zip(*rounds))[:5])
+            rounds = [(*ours(build, trace, folder), *povray(Glb(file), folder), *blender(file, folder))
+                      for _ in range(ROUNDS)]
+            whole, traced, pov_whole, pov_traced, cycles = (statistics.median(column)
+                                                            for column in list(zip(*rounds))[:5])
             version = rounds[0][5]
             keep = build / "show" / "thesis"
             keep.mkdir(parents=True, exist_ok=True)
@@ -156,12 +175,19 @@ def main(build):
                                (folder / "cycles.exr", "cycles.exr")):
                 (keep / f"{name.replace(' ', '_').replace(',', '')}.{what}").write_bytes(kept.read_bytes())
         passed = whole / pov_whole >= BAR and traced / cycles >= BAR
-        print(f"{name:24}{whole:8.2f}{traced:8.2f}   {gtx:8.2f}{iris:8.2f}   {pov_whole:10.2f}{pov_traced:8.2f}{cycles:8.2f}   "
-              f"{whole / pov_whole:.1f}x, {traced / pov_traced:.1f}x; {traced / cycles:.1f}x  {'holds' if passed else 'FAILS'}", flush=True)
-        rows.append({"what": f"{name}: times POV-Ray whole, times Cycles", "figure": f"{whole / pov_whole:.1f}, {traced / cycles:.1f}",
-                     "bar": f"at least {BAR}",
-                     "peer": f"ours {whole:.2f}, {traced:.2f}; thesis {gtx} (GTX 970), {iris} (Iris 6100); POV-Ray {pov_whole:.2f}, {pov_traced:.2f}; "
-                             f"Cycles {version} {cycles:.2f}", "passed": passed})
+        print(
+            f"{name:24}{whole:8.2f}{traced:8.2f}   {gtx:8.2f}{iris:8.2f}   "
+            f"{pov_whole:10.2f}{pov_traced:8.2f}{cycles:8.2f}   "
+            f"{whole / pov_whole:.1f}x, {traced / pov_traced:.1f}x; {traced / cycles:.1f}x  "
+            f"{'holds' if passed else 'FAILS'}",
+            flush=True)
+        rows.append({
+            "what": f"{name}: times POV-Ray whole, times Cycles",
+            "figure": f"{whole / pov_whole:.1f}, {traced / cycles:.1f}", "bar": f"at least {BAR}",
+            "peer": f"ours {whole:.2f}, {traced:.2f}; thesis {gtx} (GTX 970), {iris} (Iris 6100); POV-Ray "
+                    f"{pov_whole:.2f}, {pov_traced:.2f}; "
+            f"Cycles {version} {cycles:.2f}", "passed": passed
+        })
     out = build / "show" / "thesis.json"
     out.write_text(json.dumps({"name": "thesis", "command": "make show-thesis", "rows": rows}, indent=1) + "\n")
     return 0 if all(row["passed"] for row in rows) else 1

@@ -1,5 +1,6 @@
-"""What portal culling leaves out, beside the whole level (corpus/rooms; the viewer walks through all rooms, so that other frames show it): does
-the culled recording have the shadows and mirrors of the whole one, by what other frames draw?"""
+"""What portal culling leaves out, beside the whole level (corpus/rooms; the viewer walks through all rooms, so that
+other frames show it): does the culled recording have the shadows and mirrors of the whole one, by what other frames
+draw?"""
 import pathlib
 import re
 import subprocess
@@ -17,7 +18,8 @@ NEAR = 2 # codes of 255
 
 def equal_share(first, second):
     """Per cent of the pixels that show the same, shadows and mirrors included."""
-    apart = numpy.abs(sheet.display(exr_numpy.Image(first)).astype(int) - sheet.display(exr_numpy.Image(second)).astype(int))
+    apart = numpy.abs(
+        sheet.display(exr_numpy.Image(first)).astype(int) - sheet.display(exr_numpy.Image(second)).astype(int))
     return float(100 * (apart.max(axis=-1) <= NEAR).mean())
 
 
@@ -25,22 +27,30 @@ def rows(build, work):
     """One row a seed: the worst frame, without and with what other frames draw."""
     for seed in SEEDS:
         for cull in ("none", "portal"):
-            sheet.run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", work / f"{cull}.trace", "--", build / "corpus/rooms", "--seed", seed, "--frames",
-                      FRAMES, "--walk", "--mirror", "--shadow", "--lighting", "opengl", "--cull", cull)
+            sheet.run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", work / f"{cull}.trace", "--",
+                      build / "corpus/rooms", "--seed", seed, "--frames", FRAMES, "--walk", "--mirror", "--shadow",
+                      "--lighting", "opengl", "--cull", cull)
         found, none = work / "found.look.yaml", work / "none.look.yaml"
         sheet.run(build / "relume", "look", work / "portal.trace", "-o", found)
         # Only what is out of sight: what else rules find differs a little, as the two recordings do.
-        unseen, world = re.search(r"\nunseen:\n(?:  .*\n)+", found.read_text()), re.search(r"\nworld:\n(?:  .*\n?)+", found.read_text())
+        unseen, world = re.search(r"\nunseen:\n(?:  .*\n)+",
+                                  found.read_text()), re.search(r"\nworld:\n(?:  .*\n?)+", found.read_text())
         found.write_text("spare: no" + (unseen[0] if unseen else "\n") + world[0])
         none.write_text("spare: no\n")
         shares = {"without": [], "with": []}
         for frame in SHOWN:
             for name, trace, rules in (("whole", "none", none), ("without", "portal", none), ("with", "portal", found)):
-                sheet.run(build / "relume", "render", work / f"{trace}.trace", "-f", frame, "-o", work / f"{name}.exr", "--look", rules)
+                sheet.run(build / "relume", "render", work / f"{trace}.trace", "-f", frame, "-o", work / f"{name}.exr",
+                          "--look", rules)
             for name, list_of in shares.items():
                 list_of.append(equal_share(work / "whole.exr", work / f"{name}.exr"))
-        print(f"rooms {seed}, culled: equals the whole level on {min(shares['with']):.2f} % of the pixels of its worst frame (without what other frames "
-              f"draw: {min(shares['without']):.2f} %; bar: {BAR} %)", flush=True)
-        yield {"what": f"rooms, seed {seed}: pixels of the culled recording that equal the whole one, worst of {len(SHOWN)} frames",
-               "figure": f"{min(shares['with']):.2f} % (without what other frames draw: {min(shares['without']):.2f} %)", "bar": f"{BAR} %", "peer": None,
-               "passed": min(shares["with"]) >= BAR}
+        print(
+            f"rooms {seed}, culled: equals the whole level on {min(shares['with']):.2f} % of the pixels of its worst "
+            f"frame (without what other frames "
+            f"draw: {min(shares['without']):.2f} %; bar: {BAR} %)", flush=True)
+        yield {
+            "what": f"rooms, seed {seed}: pixels of the culled recording that equal the whole one, worst of "
+                    f"{len(SHOWN)} frames",
+            "figure": f"{min(shares['with']):.2f} % (without what other frames draw: {min(shares['without']):.2f} %)",
+            "bar": f"{BAR} %", "peer": None, "passed": min(shares["with"]) >= BAR
+        }

@@ -8,8 +8,8 @@ static const float triangle[3][3] = { { -1, -1, 0 }, { 1, -1, 0 }, { 0, 1, 0 } }
 static const unsigned char colors[3][4] = { { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 } };
 
 /*
- * Enabled, too short for what is drawn, and of no use to it: texturing is off, so the GL does not look at texture coordinates.
- * Two of three elements are readable.
+ * Enabled, too short for what is drawn, and of no use to it: texturing is off, so the GL does not look at texture
+ * coordinates. Two of three elements are readable.
  */
 static void draw_with_short_array(void)
 {
@@ -44,7 +44,8 @@ int main(void)
 	glDrawRangeElements(GL_TRIANGLES, 0, 2, 3, GL_UNSIGNED_SHORT, indices);
 	glMultiDrawArrays(GL_TRIANGLES, first, counts, 2);
 	glMultiDrawElements(GL_LINES, (const GLsizei[]){ 2, 2 }, GL_UNSIGNED_SHORT, many, 2);
-	((PFNGLMULTIMODEDRAWARRAYSIBMPROC)glXGetProcAddress((const GLubyte *)"glMultiModeDrawArraysIBM"))(modes, first, counts, 2, 8);
+	((PFNGLMULTIMODEDRAWARRAYSIBMPROC)glXGetProcAddress((const GLubyte *)"glMultiModeDrawArraysIBM"))(modes, first,
+	                                                                                                  counts, 2, 8);
 	((PFNGLMULTIMODEDRAWELEMENTSIBMPROC)glXGetProcAddress((const GLubyte *)"glMultiModeDrawElementsIBM"))(
 		modes, (const GLsizei[]){ 2, 1 }, GL_UNSIGNED_SHORT, many, 2, 4);
 	glBegin(GL_TRIANGLES);

@@ -1,6 +1,6 @@
 /*
- * Contexts that come and go, each of which draws from a large array of the program's several times: what the recorder keeps of the array
- * goes with the context, so that the process does not grow. Run by tests/real/test_record_arrays.sh.
+ * Contexts that come and go, each of which draws from a large array of the program's several times: what the recorder
+ * keeps of the array goes with the context, so that the process does not grow. Run by tests/real/test_record_arrays.sh.
  */
 #include <unistd.h>
 

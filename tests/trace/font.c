@@ -1,6 +1,7 @@
 /*
- * Text by glXUseXFont: the X server's characters, made into lists while the unpack state is one that no bitmap of theirs has. An argument
- * names a folder with a font "tall", whose A is taller than what is recorded of a character, and whose B is a box.
+ * Text by glXUseXFont: the X server's characters, made into lists while the unpack state is one that no bitmap of
+ * theirs has. An argument names a folder with a font "tall", whose A is taller than what is recorded of a character,
+ * and whose B is a box.
  */
 #include "window.h"
 
@@ -48,7 +49,8 @@ int main(int argc, char **argv)
 	glPixelStorei(GL_UNPACK_SKIP_PIXELS, 3);
 	glPixelStorei(GL_UNPACK_LSB_FIRST, 1);
 	use_font("fixed", 0, 256, BASE);
-	use_font("cursor", 0, 256, CURSORS); /* characters of many sizes, left and below of where they stand; the last do not exist */
+	use_font("cursor", 0, 256, CURSORS); /* characters of many sizes, left and below of where they stand; the last
+	                                        do not exist */
 	expect(glIsList(BASE) && glIsList(CURSORS + 255) && !glIsList(BASE + 256), "a list for each character");
 	if (argc > 1)
 		use_tall_font(argv[1]);

@@ -1,6 +1,7 @@
 /*
- * Ten frames of which each leans on what earlier ones made, set and drew: the same pictures in every run. Nothing clears the
- * whole window after the first frame, but where an argument is given. For recordings that begin in the middle.
+ * Ten frames of which each leans on what earlier ones made, set and drew: the same pictures in every run. Nothing
+ * clears the whole window after the first frame, but where an argument is given. For recordings that begin in the
+ * middle.
  */
 #include "window.h"
 

@@ -3,8 +3,8 @@
  *
  *   keys FRAMES poll|wait|child|deaf
  *
- * poll: draws all the time. wait: draws its first frame, and another one for each press. child: draws into a window within
- * the one that takes keys. deaf: takes none.
+ * poll: draws all the time. wait: draws its first frame, and another one for each press. child: draws into a window
+ * within the one that takes keys. deaf: takes none.
  */
 #include <X11/keysym.h>
 
@@ -21,7 +21,8 @@ static void take_event(void)
 	if (event.type != KeyPress && event.type != KeyRelease)
 		return;
 	symbol = XLookupKeysym(&event.xkey, 0);
-	printf("%d %s %s %u\n", frame, event.type == KeyPress ? "press" : "release", XKeysymToString(symbol), event.xkey.state);
+	printf("%d %s %s %u\n", frame, event.type == KeyPress ? "press" : "release", XKeysymToString(symbol),
+	       event.xkey.state);
 	glClearColor(symbol == XK_space, event.type == KeyPress, 0, 1);
 }
 

@@ -1,6 +1,7 @@
 /*
- * leaver HOW: draws FRAMES frames and leaves without a word to anybody. HOW: _exit, abort, or fork: a child draws CHILD frames on
- * a display of its own and calls _exit, while its parent goes on for as many frames again. Run by test_record_durable.sh.
+ * leaver HOW: draws FRAMES frames and leaves without a word to anybody. HOW: _exit, abort, or fork: a child draws CHILD
+ * frames on a display of its own and calls _exit, while its parent goes on for as many frames again. Run by
+ * test_record_durable.sh.
  */
 #include "window.h"
 

@@ -1,6 +1,7 @@
 /*
- * Quads and line loops that repeat themselves from frame to frame, which drivers' lists may draw otherwise than immediate mode; with
- * the argument "back" lit faces whose back alone follows the colour, set in one run and in front of the next.
+ * Quads and line loops that repeat themselves from frame to frame, which drivers' lists may draw otherwise than
+ * immediate mode; with the argument "back" lit faces whose back alone follows the colour, set in one run and in front
+ * of the next.
  */
 #include "window.h"
 

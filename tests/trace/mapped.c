@@ -1,6 +1,7 @@
 /*
- * Persistent mappings that end without being unmapped: of buffers that are deleted, as many as can be followed at once, and of a context that
- * is destroyed. What is stored in one after them is recorded. One that is only read is not followed. Exits with 77 where the GL has none.
+ * Persistent mappings that end without being unmapped: of buffers that are deleted, as many as can be followed at once,
+ * and of a context that is destroyed. What is stored in one after them is recorded. One that is only read is not
+ * followed. Exits with 77 where the GL has none.
  */
 #include "window.h"
 

@@ -1,6 +1,6 @@
 /*
- * Client arrays that change in every way between draws, for twenty frames: recorded and replayed, the pictures must be the
- * program's. Run by tests/real/test_record_arrays.sh; calls the same draws in each frame with other data.
+ * Client arrays that change in every way between draws, for twenty frames: recorded and replayed, the pictures must be
+ * the program's. Run by tests/real/test_record_arrays.sh; calls the same draws in each frame with other data.
  */
 #include <sys/mman.h>
 

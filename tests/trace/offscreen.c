@@ -1,8 +1,8 @@
 /*
- * Programs without a window: offscreen pbuffer|surfaceless|device|osmesa. A triangle on a coloured ground, another one in each of
- * three frames; the first ends its frames by eglSwapBuffers, the others by glFinish. Where there is no surface it is drawn into a
- * framebuffer object. Each picture's middle is read back and checked by the program itself. Recorded by test_record_offscreen.py;
- * exits with 77 where the library or platform is not there.
+ * Programs without a window: offscreen pbuffer|surfaceless|device|osmesa. A triangle on a coloured ground, another one
+ * in each of three frames; the first ends its frames by eglSwapBuffers, the others by glFinish. Where there is no
+ * surface it is drawn into a framebuffer object. Each picture's middle is read back and checked by the program itself.
+ * Recorded by test_record_offscreen.py; exits with 77 where the library or platform is not there.
  */
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -14,9 +14,9 @@
 enum { SIDE = 32, FRAMES = 3 };
 /* After EGL/egl.h, EGL/eglext.h. */
 enum {
-	EGL_NONE_ = 0x3038, EGL_SURFACE_TYPE_ = 0x3033, EGL_PBUFFER_BIT_ = 1, EGL_RENDERABLE_TYPE_ = 0x3040, EGL_OPENGL_BIT_ = 8,
-	EGL_DEPTH_SIZE_ = 0x3025, EGL_RED_SIZE_ = 0x3024, EGL_HEIGHT_ = 0x3056, EGL_WIDTH_ = 0x3057, EGL_OPENGL_API_ = 0x30A2,
-	EGL_PLATFORM_SURFACELESS_ = 0x31DD, EGL_PLATFORM_DEVICE_ = 0x313F
+	EGL_NONE_ = 0x3038, EGL_SURFACE_TYPE_ = 0x3033, EGL_PBUFFER_BIT_ = 1, EGL_RENDERABLE_TYPE_ = 0x3040,
+	EGL_OPENGL_BIT_ = 8, EGL_DEPTH_SIZE_ = 0x3025, EGL_RED_SIZE_ = 0x3024, EGL_HEIGHT_ = 0x3056, EGL_WIDTH_ = 0x3057,
+	EGL_OPENGL_API_ = 0x30A2, EGL_PLATFORM_SURFACELESS_ = 0x31DD, EGL_PLATFORM_DEVICE_ = 0x313F
 };
 
 static unsigned char osmesa_pixels[SIDE * SIDE * 4];
@@ -72,7 +72,9 @@ static void begin_egl(const char *how)
 	if (!display || !EGL(unsigned, eglInitialize, void *, int *, int *)(display, &major, &minor))
 		give_up("display");
 	if (!EGL(unsigned, eglBindAPI, unsigned)(EGL_OPENGL_API_) ||
-	    !EGL(unsigned, eglChooseConfig, void *, const int *, void **, int, int *)(display, wanted, &config, 1, &n) || n < 1)
+	    !EGL(unsigned, eglChooseConfig, void *, const int *, void **, int, int *)(display, wanted, &config, 1,
+	                                                                              &n) ||
+	    n < 1)
 		give_up("configuration");
 	context = EGL(void *, eglCreateContext, void *, void *, void *, const int *)(display, config, NULL, NULL);
 	if (strcmp(how, "pbuffer") == 0)
@@ -87,9 +89,10 @@ static void begin_osmesa(void)
 
 	if (!library)
 		give_up("libOSMesa");
-	context = ((void *(*)(unsigned, int, int, int, void *))dlsym(library, "OSMesaCreateContextExt"))(GL_RGBA, 24, 8, 0, NULL);
-	if (!((unsigned char (*)(void *, void *, unsigned, int, int))dlsym(library, "OSMesaMakeCurrent"))(context, osmesa_pixels,
-	                                                                                                GL_UNSIGNED_BYTE, SIDE, SIDE))
+	context = ((void *(*)(unsigned, int, int, int, void *))dlsym(library, "OSMesaCreateContextExt"))(GL_RGBA, 24, 8,
+	                                                                                                 0, NULL);
+	if (!((unsigned char (*)(void *, void *, unsigned, int, int))dlsym(library, "OSMesaMakeCurrent"))(
+		    context, osmesa_pixels, GL_UNSIGNED_BYTE, SIDE, SIDE))
 		give_up("OSMesa context");
 	egl_library = library; /* where its gl* are */
 }
@@ -112,7 +115,8 @@ static void make_object(void)
 	GL(glBindFramebuffer, unsigned, unsigned)(GL_FRAMEBUFFER, object);
 	for (int i = 0; i < 2; i++) {
 		GL(glBindRenderbuffer, unsigned, unsigned)(GL_RENDERBUFFER, buffers[i]);
-		GL(glRenderbufferStorage, unsigned, unsigned, int, int)(GL_RENDERBUFFER, i ? GL_DEPTH_COMPONENT24 : GL_RGBA8, SIDE, SIDE);
+		GL(glRenderbufferStorage, unsigned, unsigned, int, int)
+		(GL_RENDERBUFFER, i ? GL_DEPTH_COMPONENT24 : GL_RGBA8, SIDE, SIDE);
 		GL(glFramebufferRenderbuffer, unsigned, unsigned, unsigned, unsigned)(GL_FRAMEBUFFER,
 		                                                                     i ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0,
 		                                                                     GL_RENDERBUFFER, buffers[i]);
@@ -134,7 +138,8 @@ static int draw(int frame)
 	GL(glVertex3f, float, float, float)(0.9f, -0.6f, 0);
 	GL(glVertex3f, float, float, float)(0.1f * (float)frame, 0.85f, 0);
 	GL(glEnd, void)();
-	GL(glReadPixels, int, int, int, int, unsigned, unsigned, void *)(SIDE / 2, SIDE / 2, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, got);
+	GL(glReadPixels, int, int, int, int, unsigned, unsigned, void *)
+	(SIDE / 2, SIDE / 2, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, got);
 	return memcmp(got, want[frame], 3) == 0;
 }
 

@@ -1,4 +1,5 @@
-/* Pixels in client memory under the unpack state, in buffers, in mappings; texts; lists; errors that stay the program's. */
+/* Pixels in client memory under the unpack state, in buffers, in mappings; texts; lists; errors that stay the
+ * program's. */
 #include "capture/relume.h"
 #include "window.h"
 

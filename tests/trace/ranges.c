@@ -1,4 +1,5 @@
-/* Which elements of arrays in memory draws read, and no others: of one vertex, of empty parts, of long lists of indices, of parameters in memory. */
+/* Which elements of arrays in memory draws read, and no others: of one vertex, of empty parts, of long lists of
+ * indices, of parameters in memory. */
 #include "window.h"
 
 enum { MANY = 9000, HIGHEST = 7 };
@@ -16,9 +17,16 @@ static void draw_many(unsigned type, const void *indices)
 	glDrawElements(GL_POINTS, MANY, type, indices);
 	glGenBuffers(1, &buffer);
 	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer);
-	glBufferData(GL_ELEMENT_ARRAY_BUFFER, MANY * (type == GL_UNSIGNED_BYTE ? 1 : type == GL_UNSIGNED_SHORT ? 2 : 4), indices, GL_STATIC_DRAW);
+	glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+	             MANY * (type == GL_UNSIGNED_BYTE  ? 1 :
+	                     type == GL_UNSIGNED_SHORT ? 2 :
+	                                                 4),
+	             indices, GL_STATIC_DRAW);
 	glDrawElements(GL_POINTS, MANY, type, (void *)0);
-	glDrawElements(GL_POINTS, MANY - 10, type, (void *)(type == GL_UNSIGNED_BYTE ? 4l : type == GL_UNSIGNED_SHORT ? 8l : 16l));
+	glDrawElements(GL_POINTS, MANY - 10, type,
+	               (void *)(type == GL_UNSIGNED_BYTE  ? 4l :
+	                        type == GL_UNSIGNED_SHORT ? 8l :
+	                                                    16l));
 	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
 }
 

@@ -1,6 +1,6 @@
 /*
- * Everything that changes what glReadPixels gives is set oddly, one thing at the end of each frame. The recorder reads frames back beside the
- * program, and leaves all of it as it was. With an argument nothing is set: the same pictures.
+ * Everything that changes what glReadPixels gives is set oddly, one thing at the end of each frame. The recorder reads
+ * frames back beside the program, and leaves all of it as it was. With an argument nothing is set: the same pictures.
  */
 #include "window.h"
 
@@ -9,7 +9,8 @@ enum { FRAMES = 9, BYTES = 64 * 48 * 4 };
 static const struct setting {
 	unsigned name;
 	int value;
-} packing[] = { { GL_PACK_SWAP_BYTES, 1 }, { GL_PACK_LSB_FIRST, 1 }, { GL_PACK_ROW_LENGTH, 80 }, { GL_PACK_SKIP_ROWS, 3 }, { GL_PACK_SKIP_PIXELS, 5 }, { GL_PACK_ALIGNMENT, 1 } };
+} packing[] = { { GL_PACK_SWAP_BYTES, 1 }, { GL_PACK_LSB_FIRST, 1 },   { GL_PACK_ROW_LENGTH, 80 },
+	        { GL_PACK_SKIP_ROWS, 3 },  { GL_PACK_SKIP_PIXELS, 5 }, { GL_PACK_ALIGNMENT, 1 } };
 static unsigned buffer, framebuffer;
 
 static void make_objects(void)
@@ -74,7 +75,10 @@ static void expect_set(int frame)
 	unsigned char bytes[BYTES];
 
 	for (int i = 0; i < 6; i++)
-		expect(asked(packing[i].name) == (i <= frame ? packing[i].value : packing[i].name == GL_PACK_ALIGNMENT ? 4 : 0), "packing as it was set");
+		expect(asked(packing[i].name) == (i <= frame                           ? packing[i].value :
+		                                  packing[i].name == GL_PACK_ALIGNMENT ? 4 :
+		                                                                         0),
+		       "packing as it was set");
 	expect(asked(GL_PIXEL_PACK_BUFFER_BINDING) == (frame >= 6 ? (int)buffer : 0), "the buffer stays bound");
 	if (frame >= 6) {
 		glGetBufferSubData(GL_PIXEL_PACK_BUFFER, 0, BYTES, bytes);
@@ -82,9 +86,14 @@ static void expect_set(int frame)
 			expect(bytes[i] == 7, "nothing is read into the program's buffer");
 	}
 	expect(asked(GL_FRAMEBUFFER_BINDING) == (frame == 7 ? (int)framebuffer : 0), "the framebuffer stays bound");
-	expect(asked_float(GL_RED_SCALE) == (frame == 8 ? 0.5f : 1) && asked_float(GL_GREEN_BIAS) == (frame == 8 ? 0.25f : 0) &&
-	       asked_float(GL_DEPTH_BIAS) == (frame == 8 ? 0.125f : 0) && asked(GL_MAP_COLOR) == (frame == 8), "pixel transfer as it was set");
-	expect(asked(GL_READ_BUFFER) == (frame == 8 ? GL_FRONT : frame == 7 ? GL_COLOR_ATTACHMENT0 : GL_BACK), "the buffer that is read");
+	expect(asked_float(GL_RED_SCALE) == (frame == 8 ? 0.5f : 1) &&
+	               asked_float(GL_GREEN_BIAS) == (frame == 8 ? 0.25f : 0) &&
+	               asked_float(GL_DEPTH_BIAS) == (frame == 8 ? 0.125f : 0) && asked(GL_MAP_COLOR) == (frame == 8),
+	       "pixel transfer as it was set");
+	expect(asked(GL_READ_BUFFER) == (frame == 8 ? GL_FRONT :
+	                                 frame == 7 ? GL_COLOR_ATTACHMENT0 :
+	                                              GL_BACK),
+	       "the buffer that is read");
 	expect(glGetError() == GL_NO_ERROR, "no error");
 }
 

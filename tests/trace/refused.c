@@ -7,14 +7,16 @@
 #define PAGE 4096
 #define RESERVED (8 << 20) /* bytes */
 
-/* Arrays where nothing is, of a few values and of more than there is memory; the last one has its first values alone. */
+/* Arrays where nothing is, of a few values and of more than there is memory; the last one has its first values
+ * alone. */
 static void pass_arrays(void)
 {
 	const float *nowhere = (const float *)8;
 	char *pages = mmap(NULL, RESERVED, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
 	const unsigned short *end = (const unsigned short *)(pages + PAGE) - 2;
 
-	expect(pages != MAP_FAILED && mprotect(pages, PAGE, PROT_READ | PROT_WRITE) == 0, "one page that can be read, and none behind it");
+	expect(pages != MAP_FAILED && mprotect(pages, PAGE, PROT_READ | PROT_WRITE) == 0,
+	       "one page that can be read, and none behind it");
 	memset(pages, 7, PAGE);
 	glPixelMapfv(GL_PIXEL_MAP_R_TO_R, 1 << 30, nowhere);
 	expect(glGetError() == GL_INVALID_VALUE, "no map is so long");

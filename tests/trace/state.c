@@ -1,7 +1,7 @@
 /*
- * Frames that go on from what earlier frames left: lists that move, turn and colour, called plainly, by number, between Begin and
- * End and while they are made; a texture that is written to a little each frame; attributes set without a draw; a raster position
- * that bitmaps move; client arrays. Every frame clears the window.
+ * Frames that go on from what earlier frames left: lists that move, turn and colour, called plainly, by number, between
+ * Begin and End and while they are made; a texture that is written to a little each frame; attributes set without a
+ * draw; a raster position that bitmaps move; client arrays. Every frame clears the window.
  */
 #include "window.h"
 

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Small GL programs, recorded and dumped by apitrace, compared with what they should give.
 
-NAME.c beside this file is the program, NAME.ref.txt its calls as `apitrace dump` prints them, without call numbers. Each
-line of it must come in this order; <name> matches anything, <=name> a number that is the same wherever it stands, "..." any
-number of lines. Run with --print NAME [OPTIONS of relume record] to see a dump.
+NAME.c beside this file is the program, NAME.ref.txt its calls as `apitrace dump` prints them, without call numbers.
+Each line of it must come in this order; <name> matches anything, <=name> a number that is the same wherever it stands,
+"..." any number of lines. Run with --print NAME [OPTIONS of relume record] to see a dump.
 """
 import os
 import pathlib
@@ -65,8 +65,9 @@ class Dumps(unittest.TestCase):
             here = at
             while anywhere and here < len(got) and not pattern.fullmatch(got[here]):
                 here += 1
-            self.assertTrue(here < len(got) and pattern.fullmatch(got[here]),
-                            f"{name}.ref.txt:{number}: {line}\nnot found; the dump goes on with\n" + "\n".join(got[at:at + 5]))
+            self.assertTrue(
+                here < len(got) and pattern.fullmatch(got[here]),
+                f"{name}.ref.txt:{number}: {line}\nnot found; the dump goes on with\n" + "\n".join(got[at:at + 5]))
             numbers |= pattern.fullmatch(got[here]).groupdict()
             at, anywhere = here + 1, False
 
@@ -96,8 +97,8 @@ class Dumps(unittest.TestCase):
 
     def test_frames_end_where_asked(self):
         """The terminator stands right before a clear or a reading, right after a flush or a finish."""
-        for end, call, frames in (("clear", "glClear(", 1), ("readpixels", "glReadPixels(", 2), ("flush", "glFlush(", 2),
-                                  ("finish", "glFinish(", 2)):
+        for end, call, frames in (("clear", "glClear(", 1), ("readpixels", "glReadPixels(", 2),
+                                  ("flush", "glFlush(", 2), ("finish", "glFinish(", 2)):
             got = [line for line in dump("readback", "--frame-end", end) if not line.startswith("glStringMarker")]
             at = [i for i, line in enumerate(got) if line.startswith("glFrameTerminatorGREMEDY() // fake")]
             self.assertEqual(len(at), frames, end)
@@ -111,7 +112,8 @@ class Dumps(unittest.TestCase):
 
     def test_what_frames_that_are_left_out_leave(self):
         got = dump("runs", "--frames", "2-2")
-        fan = ["glBegin(mode = GL_TRIANGLE_FAN)", "glColor3f(red = 0.25, green = 0.9166667, blue = 0)", "glEnd()"]  # of twelve colours the last
+        fan = ["glBegin(mode = GL_TRIANGLE_FAN)", "glColor3f(red = 0.25, green = 0.9166667, blue = 0)",
+               "glEnd()"]  # of twelve colours the last
         at = got.index(fan[0])
         self.assertEqual(got[at:at + 3], fan)
 

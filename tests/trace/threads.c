@@ -1,4 +1,5 @@
-/* Two threads, each with a window and a context of its own, drawing at the same time by functions from glXGetProcAddress. */
+/* Two threads, each with a window and a context of its own, drawing at the same time by functions from
+ * glXGetProcAddress. */
 #include <pthread.h>
 
 #include "window.h"

@@ -1,7 +1,7 @@
 /*
- * Textures and pixel rectangles that are uploaded again and again: two pictures that take turns, and a part of one of them under
- * other unpack states. Recorded and replayed, the pictures must be the program's, and each content be stored at most twice.
- * Run by tests/real/test_record_uploads.sh.
+ * Textures and pixel rectangles that are uploaded again and again: two pictures that take turns, and a part of one of
+ * them under other unpack states. Recorded and replayed, the pictures must be the program's, and each content be stored
+ * at most twice. Run by tests/real/test_record_uploads.sh.
  */
 #include "window.h"
 

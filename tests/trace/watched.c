@@ -1,8 +1,8 @@
 /*
- * Client arrays that stay the same for long and then change in every way that memory can change: by a store, from another
- * thread, by the kernel, by being given back, by being mapped anew, and in a child, whose memory is its own. Recorded and
- * replayed, the pictures must be the program's. With an argument the kernel is an older one, which cannot tell of stores: the program's
- * descriptors are the same afterwards. Run by tests/real/test_record_arrays.sh.
+ * Client arrays that stay the same for long and then change in every way that memory can change: by a store, from
+ * another thread, by the kernel, by being given back, by being mapped anew, and in a child, whose memory is its own.
+ * Recorded and replayed, the pictures must be the program's. With an argument the kernel is an older one, which cannot
+ * tell of stores: the program's descriptors are the same afterwards. Run by tests/real/test_record_arrays.sh.
  */
 #include <dirent.h>
 #include <errno.h>
@@ -22,7 +22,12 @@
 
 #include "window.h"
 
-enum { CELLS = 400, CORNERS = 6 * CELLS, DRAWS = 10, STILL = 9 /* frames between changes: long enough to be trusted */ };
+enum {
+	CELLS = 400,
+	CORNERS = 6 * CELLS,
+	DRAWS = 10,
+	STILL = 9 /* frames between changes: long enough to be trusted */
+};
 enum { CHANGES = 12, PAGE = 4096 };
 
 static struct corner {
@@ -51,7 +56,8 @@ static void shade(int i, int seed)
 
 static void map_anew(int seed)
 {
-	corners = mmap(corners, bytes_of(), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | (corners ? MAP_FIXED : 0), -1, 0);
+	corners = mmap(corners, bytes_of(), PROT_READ | PROT_WRITE,
+	               MAP_PRIVATE | MAP_ANONYMOUS | (corners ? MAP_FIXED : 0), -1, 0);
 	expect(corners != MAP_FAILED, "pages");
 	for (int i = 0; i < CORNERS; i++) {
 		place(i);
@@ -124,7 +130,8 @@ static void use_older_kernel(void)
 	};
 	struct sock_fprog program = { sizeof(rules) / sizeof(rules[0]), rules };
 
-	expect(prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0, "a filter of system calls");
+	expect(prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0,
+	       "a filter of system calls");
 }
 
 /* Descriptors of this process by which memory is watched. */
@@ -166,7 +173,8 @@ int main(int argc, char **argv)
 			glDrawArrays(GL_TRIANGLES, i * CORNERS / DRAWS, CORNERS / DRAWS);
 		}
 		expect(glGetError() == GL_NO_ERROR, "no error");
-		expect(fstat(0, &same) == 0 && same.st_dev == input.st_dev && same.st_ino == input.st_ino, "standard input is what it was");
+		expect(fstat(0, &same) == 0 && same.st_dev == input.st_dev && same.st_ino == input.st_ino,
+		       "standard input is what it was");
 		expect(argc == 1 || count_watching() == 0, "what cannot be used is closed");
 		end_frame();
 	}

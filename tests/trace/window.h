@@ -1,4 +1,5 @@
-/* A GLX window for the small programs of this folder, of 64 x 48 pixels unless a program says otherwise before it opens it. */
+/* A GLX window for the small programs of this folder, of 64 x 48 pixels unless a program says otherwise before it opens
+ * it. */
 #pragma once
 
 #include <GL/gl.h>
@@ -12,7 +13,8 @@
 static Display *display;
 static Window window;
 static unsigned window_size[2] = { 64, 48 };
-static const char *window_kind = "a plain one"; /* what not every GL has of it: Mesa 25 has neither samples nor accumulation buffers */
+static const char *window_kind = "a plain one"; /* what not every GL has of it: Mesa 25 has neither samples nor
+                                                   accumulation buffers */
 
 static inline void open_window_of(int *attributes)
 {
@@ -28,8 +30,8 @@ static inline void open_window_of(int *attributes)
 		exit(77);
 	}
 	set.colormap = XCreateColormap(display, DefaultRootWindow(display), visual->visual, AllocNone);
-	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, window_size[0], window_size[1], 0, visual->depth, InputOutput, visual->visual,
-	                       CWColormap, &set);
+	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, window_size[0], window_size[1], 0,
+	                       visual->depth, InputOutput, visual->visual, CWColormap, &set);
 	XMapWindow(display, window);
 	if (!glXMakeCurrent(display, window, glXCreateContext(display, visual, NULL, True)))
 		exit(1);

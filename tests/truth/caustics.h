@@ -31,7 +31,8 @@ static inline void begin(struct made *t, float x, float y, float z, float w)
 {
 	made_init(t, SIZE, SIZE, 0.2f);
 	made_add_light(t, x, y, z, w);
-	made_add_square(t, made_add_material(t, (float)ALBEDO), (float[3]){ 0, 0, (float)WALL }, (float[3]){ 1, 0, 0 }, (float[3]){ 0, 1, 0 }, 30, 1);
+	made_add_square(t, made_add_material(t, (float)ALBEDO), (float[3]){ 0, 0, (float)WALL }, (float[3]){ 1, 0, 0 },
+	                (float[3]){ 0, 1, 0 }, 30, 1);
 }
 
 /* Where the wall's pixels are. */

@@ -1,6 +1,6 @@
 /*
- * A frame is drawn band by band of rows; what comes out does not depend on how many bands there are. Frames with blending, stencil,
- * scissors, mirrors, glass, several samples a pixel, several passes, and pixels from before.
+ * A frame is drawn band by band of rows; what comes out does not depend on how many bands there are. Frames with
+ * blending, stencil, scissors, mirrors, glass, several samples a pixel, several passes, and pixels from before.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -42,8 +42,10 @@ static uint32_t stencilled(struct made *t, uint32_t func)
 
 	m = &t->materials[i];
 	m->stencil_test = 1;
-	m->stencil_front = (struct scene_stencil){ .func = func, .ref = 1, .compare_mask = 255, .write_mask = 255, .fail = GL_KEEP,
-		                                   .zfail = GL_KEEP, .zpass = GL_REPLACE };
+	m->stencil_front = (struct scene_stencil){
+		.func = func, .ref = 1, .compare_mask = 255, .write_mask = 255, .fail = GL_KEEP, .zfail = GL_KEEP,
+		.zpass = GL_REPLACE
+	};
 	m->stencil_back = m->stencil_front;
 	return i;
 }

@@ -65,7 +65,8 @@ START_TEST(test_wrong_files)
 END_TEST
 
 /* A scene rendered as a file's camera sees it. */
-static void render_from(const struct scene *scene, const char *text, uint32_t number, const char *mode, struct image *img)
+static void render_from(const struct scene *scene, const char *text, uint32_t number, const char *mode,
+                        struct image *img)
 {
 	struct camera *camera = NULL;
 	struct elsewhere elsewhere;
@@ -95,7 +96,8 @@ static void make_squares(struct made *t, float tangent)
 /* The recorded camera, said in full, makes the recorded picture, to the last bit. */
 START_TEST(test_own_camera)
 {
-	static const char *const own[] = { "space: eye\n", "place: [0, 0, 0]\nlook_at: [0, 0, -3]\nup: [0, 2, 0]\n", "turntable: { frames: 7 }\nplace: [0, 0, 0]\n" };
+	static const char *const own[] = { "space: eye\n", "place: [0, 0, 0]\nlook_at: [0, 0, -3]\nup: [0, 2, 0]\n",
+		                           "turntable: { frames: 7 }\nplace: [0, 0, 0]\n" };
 
 	for (int i = 0; i < 6; i++) {
 		struct image a, b;
@@ -107,7 +109,9 @@ START_TEST(test_own_camera)
 		render_from(&t.scene, own[i / 2], 0, "whitted", &b);
 		ck_assert_uint_eq(a.n_channels, b.n_channels);
 		for (size_t c = 0; c < a.n_channels; c++)
-			ck_assert_msg(memcmp(image_values(&a, c), image_values(&b, c), SIZE * SIZE * sizeof(float)) == 0, "case %d: %s", i, a.channels[c].name);
+			ck_assert_msg(memcmp(image_values(&a, c), image_values(&b, c), SIZE * SIZE * sizeof(float)) ==
+			                      0,
+			              "case %d: %s", i, a.channels[c].name);
 		image_free(&a);
 		image_free(&b);
 		made_free(&t);
@@ -128,11 +132,14 @@ static void count_lit(const struct image *img, int x0, int x1, int y0, int y1, i
 /* A square of 2 units, seen 4 units high on 64 pixels, is 32 x 32 of them, however far it is. */
 START_TEST(test_orthographic)
 {
-	static const struct { const char *text; int x0, x1, y0, y1; } views[] = {
+	static const struct { const char *text; int x0, x1, y0, y1;
+	} views[] = {
 		{ "kind: orthographic\nheight: 4\n", 16, 48, 16, 48 },
 		{ "height: 4\nplace: [0.5, -0.25, 20]\nlook_at: [0.5, -0.25, 0]\n", 8, 40, 12, 44 },
-		{ "height: 4\nplace: [0, 0, -30]\nlook_at: [0, 0, -10]\n", 16, 48, 16, 48 },             /* from behind */
-		{ "kind: orthographic\nlook_at: [0, 0, -10]\n", 32 - 6, 32 + 6, 32 - 6, 32 + 6 },         /* as large as in perspective, 10 units high there */
+		{ "height: 4\nplace: [0, 0, -30]\nlook_at: [0, 0, -10]\n", 16, 48, 16, 48 },      /* from behind */
+		{ "kind: orthographic\nlook_at: [0, 0, -10]\n", 32 - 6, 32 + 6, 32 - 6, 32 + 6 }, /* as large as in
+		                                                                                     perspective, 10
+		                                                                                     units high there */
 		{ "height: 4\nsize: [96, 48]\n", 48 - 12, 48 + 12, 24 - 12, 24 + 12 },
 		{ "height: 4\nnear: 11\n", 0, 0, 0, 0 },
 		{ "height: 4\nfar: 9\n", 0, 0, 0, 0 },
@@ -157,7 +164,8 @@ START_TEST(test_orthographic)
 }
 END_TEST
 
-/* What a square diffusely sends at its middle does not depend on who looks; its light stands. From the side it is a line, from behind dark. */
+/* What a square diffusely sends at its middle does not depend on who looks; its light stands. From the side it is a
+ * line, from behind dark. */
 START_TEST(test_turntable)
 {
 	struct camera *camera = NULL;
@@ -174,8 +182,10 @@ START_TEST(test_turntable)
 		struct image img;
 		float middle;
 
-		render_from(&t.scene, k % 2 ? "turntable: { frames: 12 }\n" : "turntable: { frames: 6, about: [0, 0, -10], degrees: -360 }\n", k % 2 ? k : (12 - k) / 2, "whitted",
-		            &img);
+		render_from(&t.scene,
+		            k % 2 ? "turntable: { frames: 12 }\n" :
+		                    "turntable: { frames: 6, about: [0, 0, -10], degrees: -360 }\n",
+		            k % 2 ? k : (12 - k) / 2, "whitted", &img);
 		middle = truth_at(&img, "G", SIZE / 2, SIZE / 2);
 		first = k ? first : middle;
 		if (k == 0)
@@ -193,7 +203,8 @@ END_TEST
 /* A light's shadow stays where it is on what it falls on. */
 START_TEST(test_shadow)
 {
-	static const char *const from[] = { "place: [0, 0, 0]\nlook_at: [0, 0, -20]\n", "place: [8, 0, -8]\nlook_at: [0, 0, -20]\n" };
+	static const char *const from[] = { "place: [0, 0, 0]\nlook_at: [0, 0, -20]\n",
+		                            "place: [8, 0, -8]\nlook_at: [0, 0, -20]\n" };
 	float shadow[2][2];
 
 	for (int k = 0; k < 2; k++) {
@@ -205,7 +216,8 @@ START_TEST(test_shadow)
 		made_add_light(&t, -12, 0, -8, 1);
 		grey = made_add_material(&t, 0.75f);
 		made_add_square(&t, grey, (const float[3]){ 0, 0, -20 }, right, up, 6, 1);
-		made_add_square(&t, grey, (const float[3]){ -6, 0, -14 }, right, up, 1, 1); /* between the light and the middle of the other */
+		/* between the light and the middle of the other */
+		made_add_square(&t, grey, (const float[3]){ -6, 0, -14 }, right, up, 1, 1);
 		render_from(&t.scene, from[k], 0, "whitted", &img);
 		shadow[k][0] = truth_at(&img, "shadow.G", SIZE / 2, SIZE / 2);
 		shadow[k][1] = truth_at(&img, "shadow.G", SIZE / 2 + 14, SIZE / 2);
@@ -219,7 +231,8 @@ START_TEST(test_shadow)
 }
 END_TEST
 
-/* HUDs are left out, what is behind all stays; a sky stays around the viewer; a ground without depth is part of the world. */
+/* HUDs are left out, what is behind all stays; a sky stays around the viewer; a ground without depth is part of the
+ * world. */
 START_TEST(test_what_stays)
 {
 	struct scene_view views[2];
@@ -306,7 +319,8 @@ END_TEST
 START_TEST(test_camera_in_projection)
 {
 	static const char text[] = "place: [2, 0, 1]\nlook_at: [0, 0, -10]\n";
-	static const float world[16] = { 0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 3, -2, 5, 1 }; /* eye space as it would be, from that of the draws */
+	/* eye space as it would be, from that of the draws */
+	static const float world[16] = { 0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 3, -2, 5, 1 };
 	static const float back[16] = { 0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, -5, 2, 3, 1 };
 	struct image a, b;
 	struct made t;
@@ -344,12 +358,20 @@ START_TEST(test_programs)
 	t.materials[0].lighting = 0;
 	render_from(&t.scene, text, 0, "gl", &a);
 	/* position = projection . vertex, as four sums; the vertex is one of eye space. Then its colour */
-	*head = (struct scene_program){ .n_instructions = 5, .n_constants = 20, .n_registers = SCENE_VERTEX_FIRST, .inputs = 1u << SCENE_VERTEX_POSITION,
+	*head = (struct scene_program){ .n_instructions = 5,
+		                        .n_constants = 20,
+		                        .n_registers = SCENE_VERTEX_FIRST,
+		                        .inputs = 1u << SCENE_VERTEX_POSITION,
 		                        .outputs = 1u << SCENE_RESULT_POSITION };
 	for (uint32_t c = 0; c < 4; c++)
-		at[c] = (struct scene_instruction){ .operation = SCENE_OP_MAD, .n = 4, .flags = SCENE_STEP_B | SCENE_STEP_C, .to = SCENE_VERTEX_RESULTS,
-			                            .a = 4 * SCENE_VERTEX_POSITION + c, .b = SCENE_PROGRAM_CONSTANT + 4 * c, .c = SCENE_VERTEX_RESULTS };
-	at[4] = (struct scene_instruction){ .operation = SCENE_OP_MOVE, .n = 4, .flags = SCENE_STEP_A, .to = SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_COLOR,
+		at[c] = (struct scene_instruction){
+			.operation = SCENE_OP_MAD, .n = 4, .flags = SCENE_STEP_B | SCENE_STEP_C, .to = SCENE_VERTEX_RESULTS,
+			.a = 4 * SCENE_VERTEX_POSITION + c, .b = SCENE_PROGRAM_CONSTANT + 4 * c, .c = SCENE_VERTEX_RESULTS
+		};
+	at[4] = (struct scene_instruction){ .operation = SCENE_OP_MOVE,
+		                            .n = 4,
+		                            .flags = SCENE_STEP_A,
+		                            .to = SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_COLOR,
 		                            .a = SCENE_PROGRAM_CONSTANT + 16 };
 	memcpy(at + 5, t.view.projection, sizeof(t.view.projection));
 	for (int c = 0; c < 4; c++)

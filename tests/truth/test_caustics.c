@@ -1,13 +1,13 @@
 /*
- * A glass ball's light (tracer/frame/photons.h) against a path tracer for this one scene, from the wall backwards, in formulas and no
- * triangles. RELUME_CAUSTICS_SAMPLES sets how many paths a pixel has there.
+ * A glass ball's light (tracer/frame/photons.h) against a path tracer for this one scene, from the wall backwards, in
+ * formulas and no triangles. RELUME_CAUSTICS_SAMPLES sets how many paths a pixel has there.
  */
 #include "tests/case.h"
 #include "tests/truth/caustics.h"
 
 /*
- * Off the view, between the wall's middle and a light, a disk that looks at the ball: photons start there evenly, and each place of it
- * sends as much in all directions.
+ * Off the view, between the wall's middle and a light, a disk that looks at the ball: photons start there evenly, and
+ * each place of it sends as much in all directions.
  */
 static const double ball[3] = { 3, 0, WALL + 3 }, lamp[3] = { 12, 0, WALL + 12 };
 #define BALL 0.8
@@ -43,7 +43,8 @@ static double ball_along(const struct way *w)
 	return -b - sqrt(root) > 1e-9 ? -b - sqrt(root) : -b + sqrt(root) > 1e-9 ? -b + sqrt(root) : -1;
 }
 
-/* Mirrored or bent at the ball's surface, as often as light goes there (Fresnel's equations, light of no direction of swing). */
+/* Mirrored or bent at the ball's surface, as often as light goes there (Fresnel's equations, light of no direction of
+ * swing). */
 static void bend(struct way *w, uint64_t *state)
 {
 	double n[3], cosine, eta = 1 / IOR, beyond, across, along, share = 1;
@@ -72,7 +73,8 @@ static void bend(struct way *w, uint64_t *state)
 			w->d[i] = eta * w->d[i] + (eta * cosine - beyond) * n[i];
 }
 
-/* What one way from a place of the wall finds of the lamp, by its disk's own brightness: 1 over the cosine there, or 0. */
+/* What one way from a place of the wall finds of the lamp, by its disk's own brightness: 1 over the cosine there, or
+ * 0. */
 static double follow(struct way w, uint64_t *state)
 {
 	double axis[3], size, toward, t, off = 0;
@@ -109,12 +111,14 @@ static double follow(struct way w, uint64_t *state)
 	return t > 0 && off < LAMP * LAMP ? 1 / toward : 0;
 }
 
-/* The light that comes to a place of the wall: ways evenly over the cone about the ball. The lamp's power: 1 at 17, by the square. */
+/* The light that comes to a place of the wall: ways evenly over the cone about the ball. The lamp's power: 1 at 17, by
+ * the square. */
 static double by_ball(double x, double y, unsigned samples, uint64_t *state)
 {
 	const double axis[3] = { ball[0] - x, ball[1] - y, ball[2] - WALL }, distance = sqrt(dot(axis, axis));
 	const double least = sqrt(1 - BALL * BALL / (distance * distance)), solid = 2 * M_PI * (1 - least);
-	const double z[3] = { axis[0] / distance, axis[1] / distance, axis[2] / distance }, size = sqrt(z[0] * z[0] + z[2] * z[2]);
+	const double z[3] = { axis[0] / distance, axis[1] / distance, axis[2] / distance },
+		     size = sqrt(z[0] * z[0] + z[2] * z[2]);
 	const double u[3] = { z[2] / size, 0, -z[0] / size }, v[3] = { z[1] * u[2], z[2] * u[0] - z[0] * u[2], -z[1] * u[0] };
 	double sum = 0;
 
@@ -148,7 +152,8 @@ static void check_ball(struct made *t, unsigned photons, const double (*ought)[S
 		}
 	for (int i = 0; i < SIZE / BLOCK * (SIZE / BLOCK); i++)
 		off_blocks += fabs(block[i / (SIZE / BLOCK)][i % (SIZE / BLOCK)]);
-	printf("a glass ball's caustic, %u photons, against %u paths a pixel: energy %+.2f %%; off in the mean: pixels %.2f %%, blocks of %d x %d %.2f %%\n",
+	printf("a glass ball's caustic, %u photons, against %u paths a pixel: energy %+.2f %%; off in the mean: pixels "
+	       "%.2f %%, blocks of %d x %d %.2f %%\n",
 	       photons, samples, 100 * (sum / all - 1), 100 * off / all, BLOCK, BLOCK, 100 * off_blocks / all);
 	fflush(stdout);
 	ck_assert_double_eq_tol(sum, all, 0.01 * all);
@@ -171,7 +176,8 @@ START_TEST(test_ball)
 	t.lights[0].attenuation[0] = 0;
 	t.lights[0].attenuation[2] = 1 / (17 * 17.0f);
 	t.lights[0].radius = (float)LAMP;
-	made_add_ball(&t, add_material(&t, 0, 1), (float[3]){ (float)ball[0], (float)ball[1], (float)ball[2] }, (float)BALL, 128, 0);
+	made_add_ball(&t, add_material(&t, 0, 1), (float[3]){ (float)ball[0], (float)ball[1], (float)ball[2] },
+	              (float)BALL, 128, 0);
 	for (unsigned photons = 1u << 20; photons <= (asked ? 1u << 23 : 1u << 20); photons *= 8)
 		check_ball(&t, photons, (const double (*)[SIZE])ought, samples);
 	made_free(&t);

@@ -1,6 +1,6 @@
 /*
- * The scenes of `relume devices --check` show what they are there for: without it each is another picture, by the bounds of the check.
- * A device that does not do it is found out.
+ * The scenes of `relume devices --check` show what they are there for: without it each is another picture, by the
+ * bounds of the check. A device that does not do it is found out.
  */
 #include <math.h>
 #include <stdio.h>
@@ -183,8 +183,9 @@ START_TEST(test_each_shows)
 	ck_assert_int_eq(check_compare(&want, &want, &n_differ, channel), OUTCOME_RIGHT);
 	ck_assert_uint_eq(n_differ, 0);
 	draw(changes[_i].scene, changes[_i].change, &found);
-	ck_assert_msg(check_compare(&want, &found, &n_differ, channel) == OUTCOME_WRONG, "%s without %s: %u pixels of %s differ",
-	              check_scene_names[changes[_i].scene], changes[_i].what, n_differ, channel);
+	ck_assert_msg(check_compare(&want, &found, &n_differ, channel) == OUTCOME_WRONG,
+	              "%s without %s: %u pixels of %s differ", check_scene_names[changes[_i].scene], changes[_i].what,
+	              n_differ, channel);
 	image_free(&want);
 	image_free(&found);
 }

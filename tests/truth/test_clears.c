@@ -1,6 +1,6 @@
 /*
- * Clears before all draws (GL 2.1 sec. 4.2.3): any of colour, depth and stencil, under masks and scissors, one after the other and
- * whole ones done at once, against a plain account of what each leaves.
+ * Clears before all draws (GL 2.1 sec. 4.2.3): any of colour, depth and stencil, under masks and scissors, one after
+ * the other and whole ones done at once, against a plain account of what each leaves.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -46,7 +46,8 @@ static void keep_account(const struct scene_clear *c, struct account *a)
 	for (int p = 0; p < PIXELS && c->target == 0; p++) {
 		int x = p % WIDTH, y = p / WIDTH;
 
-		if (x < c->scissor[0] || x >= c->scissor[0] + c->scissor[2] || y < c->scissor[1] || y >= c->scissor[1] + c->scissor[3])
+		if (x < c->scissor[0] || x >= c->scissor[0] + c->scissor[2] || y < c->scissor[1] ||
+		    y >= c->scissor[1] + c->scissor[3])
 			continue;
 		for (int i = 0; i < 4; i++)
 			if (c->buffers & 1 && c->color_mask >> i & 1)
@@ -65,7 +66,11 @@ START_TEST(test_clears_against_account)
 	struct tracer *tracer = NULL;
 	struct scene_clear clears[MOST];
 	struct account found, expected;
-	struct scene_picture picture = { .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .rgba = found.rgba, .depth = found.depth,
+	struct scene_picture picture = { .width = WIDTH,
+		                         .height = HEIGHT,
+		                         .depth_bits = 24,
+		                         .rgba = found.rgba,
+		                         .depth = found.depth,
 		                         .stencil = found.stencil };
 	struct made t;
 	uint32_t seed = 20;

@@ -3,14 +3,16 @@
 #include "tests/truth/caustics.h"
 
 /* A square off the wall's middle along `to`, its normal n in the plane of x and z. */
-static void add_square(struct made *t, uint32_t material, const double to[3], double distance, const double n[3], float r)
+static void add_square(struct made *t, uint32_t material, const double to[3], double distance, const double n[3],
+                       float r)
 {
 	const float centre[3] = { (float)(to[0] * distance), (float)(to[1] * distance), (float)(WALL + to[2] * distance) };
 
 	made_add_square(t, material, centre, (float[3]){ (float)n[2], 0, (float)-n[0] }, (float[3]){ 0, 1, 0 }, r, 4);
 }
 
-/* Photons on the wall against a truth for each of its places: all light within 1 %, and what pixels are off by, root mean square. */
+/* Photons on the wall against a truth for each of its places: all light within 1 %, and what pixels are off by, root
+ * mean square. */
 static void check_wall(struct made *t, double (*truth)(double x, double y), double noise)
 {
 	const struct tracer_options options = options_of(1u << 19);
@@ -32,7 +34,8 @@ static void check_wall(struct made *t, double (*truth)(double x, double y), doub
 	image_free(&img);
 }
 
-/* Parallel light straight through a plate: what is not mirrored at either side, or at both and both again (two bends, two mirrors: depth 4). */
+/* Parallel light straight through a plate: what is not mirrored at either side, or at both and both again (two bends,
+ * two mirrors: depth 4). */
 static double behind_plate(double x, double y)
 {
 	const double r = (IOR - 1) * (IOR - 1) / ((IOR + 1) * (IOR + 1));
@@ -58,19 +61,21 @@ START_TEST(test_plate)
 END_TEST
 
 /*
- * A flat mirror shows a second light behind it, as strong as its share of the first one's, at the whole way's length. The light weakens
- * by the square of the distance, from 1 at 50.
+ * A flat mirror shows a second light behind it, as strong as its share of the first one's, at the whole way's length.
+ * The light weakens by the square of the distance, from 1 at 50.
  */
 static double by_mirror(double x, double y)
 {
-	const double light[3] = { 0.6 * 50, 0, 0.8 * 50 }, square = (light[0] - x) * (light[0] - x) + y * y + light[2] * light[2];
+	const double light[3] = { 0.6 * 50, 0, 0.8 * 50 },
+		     square = (light[0] - x) * (light[0] - x) + y * y + light[2] * light[2];
 
 	return ALBEDO * 0.7 * 2500 / square * light[2] / sqrt(square);
 }
 
 START_TEST(test_mirror)
 {
-	static const double to[3] = { 0.6, 0, 0.8 }, on[3] = { -0.8, 0, 0.6 }; /* from the wall's middle; from the mirror to the light */
+	/* from the wall's middle; from the mirror to the light */
+	static const double to[3] = { 0.6, 0, 0.8 }, on[3] = { -0.8, 0, 0.6 };
 	double n[3], light[3], size = 0;
 	struct made t;
 
@@ -98,9 +103,9 @@ static double disk_part(double a)
 }
 
 /*
- * The same mirror, but low, and a light of some size: above and below lies a penumbra, in which a part of the light is seen in the mirror.
- * Another mirror comes first, and sends its light away: each has numbers of its own, and each photon its place on the light and its
- * direction.
+ * The same mirror, but low, and a light of some size: above and below lies a penumbra, in which a part of the light is
+ * seen in the mirror. Another mirror comes first, and sends its light away: each has numbers of its own, and each
+ * photon its place on the light and its direction.
  */
 START_TEST(test_penumbra_of_a_mirror)
 {
@@ -123,8 +128,10 @@ START_TEST(test_penumbra_of_a_mirror)
 	begin(&t, (float)light[0], (float)light[1], (float)light[2], 1);
 	t.lights[0].radius = (float)radius;
 	mirror = add_material(&t, 0.7f, 0);
-	made_add_square(&t, mirror, (float[3]){ (float)light[0], 30, (float)light[2] }, (float[3]){ 0.7f, -0.7f, 0 }, (float[3]){ 0, 0, 1 }, 3, 1);
-	made_add_square(&t, mirror, (float[3]){ (float)(to[0] * near), 0, (float)(WALL + to[2] * near) }, (float[3]){ (float)n[2], 0, (float)-n[0] }, up, 3, 4);
+	made_add_square(&t, mirror, (float[3]){ (float)light[0], 30, (float)light[2] }, (float[3]){ 0.7f, -0.7f, 0 },
+	                (float[3]){ 0, 0, 1 }, 3, 1);
+	made_add_square(&t, mirror, (float[3]){ (float)(to[0] * near), 0, (float)(WALL + to[2] * near) },
+	                (float[3]){ (float)n[2], 0, (float)-n[0] }, up, 3, 4);
 	truth_render_with(&t, &options, &img);
 	for (uint32_t y = 0; y < SIZE; y++) {
 		const double ought = disk_part((half - fabs(wall_at(y)) * far / (near + far)) / (radius * near / (near + far)));

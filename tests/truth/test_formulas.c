@@ -1,6 +1,7 @@
 /*
- * The formulas of kernels/gl/ at numbers that the specification gives in closed form (GL 2.1). Kernel and twin share their text, so that no
- * comparison of the two tells whether it is right; pictures by a real OpenGL (real/test_panels) tell the same of whole draws.
+ * The formulas of kernels/gl/ at numbers that the specification gives in closed form (GL 2.1). Kernel and twin share
+ * their text, so that no comparison of the two tells whether it is right; pictures by a real OpenGL (real/test_panels)
+ * tell the same of whole draws.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -17,15 +18,21 @@ static void check_vec4(struct vec4 have, const float wanted[4], const char *what
 	const float got[4] = { have.x, have.y, have.z, have.w };
 
 	for (int c = 0; c < 4; c++)
-		ck_assert_msg(fabsf(got[c] - wanted[c]) < ALMOST, "%s, row %zu: number %d is %g, not %g", what, row, c, got[c], wanted[c]);
+		ck_assert_msg(fabsf(got[c] - wanted[c]) < ALMOST, "%s, row %zu: number %d is %g, not %g", what, row, c,
+		              got[c], wanted[c]);
 }
 
-/* --- Lighting (sec. 2.14.1) ---------------------------------------------------------------------------------------------- */
+/* --- Lighting (sec. 2.14.1) -------------------------------------------------------------------------------------- */
 
 static struct scene_light plain_light(void)
 {
-	return (struct scene_light){ .ambient = { 0.25f, 0.125f, 0.5f, 1 }, .diffuse = { 0.5f, 0.75f, 1, 1 }, .specular = { 1, 0.5f, 0.25f, 1 }, .position_eye = { 0, 0, 1, 0 },
-		                     .spot_direction_eye = { 0, 0, -1 }, .spot_cutoff_deg = 180, .attenuation = { 1, 0, 0 } };
+	return (struct scene_light){ .ambient = { 0.25f, 0.125f, 0.5f, 1 },
+		                     .diffuse = { 0.5f, 0.75f, 1, 1 },
+		                     .specular = { 1, 0.5f, 0.25f, 1 },
+		                     .position_eye = { 0, 0, 1, 0 },
+		                     .spot_direction_eye = { 0, 0, -1 },
+		                     .spot_cutoff_deg = 180,
+		                     .attenuation = { 1, 0, 0 } };
 }
 
 /* Attenuation by distance, spots by angle. */
@@ -62,26 +69,34 @@ START_TEST(test_strength)
 }
 END_TEST
 
-static const struct scene_face face = { { 0.5f, 0.25f, 1, 0.5f }, { 0.25f, 0.5f, 0.125f, 0.75f }, { 0.5f, 1, 0.5f, 0.25f }, { 0.0625f, 0.03125f, 0, 1 }, 2 };
+static const struct scene_face face = { { 0.5f, 0.25f, 1, 0.5f },
+	                                { 0.25f, 0.5f, 0.125f, 0.75f },
+	                                { 0.5f, 1, 0.5f, 0.25f },
+	                                { 0.0625f, 0.03125f, 0, 1 },
+	                                2 };
 
 /* One light from the side, seen from the front: n.l = 0.6, n.h = 0.89443 or less. */
 static struct lit lit_by(struct scene_material *m, struct scene_light *light, uint32_t back)
 {
 	m->light_count = 1;
-	return light_vertex(m, light, light_list(0, 1), 0, v4(0, 0, -5, 1), v3(0, 0, 1), &face, v4(0.375f, 0.875f, 0.625f, 0.0625f), (int)back, (const struct vec3 *)0);
+	return light_vertex(m, light, light_list(0, 1), 0, v4(0, 0, -5, 1), v3(0, 0, 1), &face,
+	                    v4(0.375f, 0.875f, 0.625f, 0.0625f), (int)back, (const struct vec3 *)0);
 }
 
 static struct scene_material grey_material(void)
 {
-	return (struct scene_material){ .light_model_ambient = { 0.25f, 0.5f, 0.125f, 1 }, .color_material_mode = GL_AMBIENT_AND_DIFFUSE };
+	return (struct scene_material){ .light_model_ambient = { 0.25f, 0.5f, 0.125f, 1 },
+		                        .color_material_mode = GL_AMBIENT_AND_DIFFUSE };
 }
 
-/* Emission, ambient, diffuse and specular terms; which of them the vertex colour takes part in; the specular one kept apart. */
+/* Emission, ambient, diffuse and specular terms; which of them the vertex colour takes part in; the specular one kept
+ * apart. */
 START_TEST(test_light_terms)
 {
 	static const struct { uint32_t face, mode, tracked; } rows[] = {
-		{ 0, GL_DIFFUSE, 0 }, { GL_FRONT, GL_AMBIENT, 1 }, { GL_FRONT, GL_DIFFUSE, 2 }, { GL_FRONT_AND_BACK, GL_SPECULAR, 4 }, { GL_FRONT, GL_EMISSION, 8 },
-		{ GL_FRONT, GL_AMBIENT_AND_DIFFUSE, 3 }, { GL_BACK, GL_AMBIENT_AND_DIFFUSE, 0 },
+		{ 0, GL_DIFFUSE, 0 }, { GL_FRONT, GL_AMBIENT, 1 }, { GL_FRONT, GL_DIFFUSE, 2 },
+		{ GL_FRONT_AND_BACK, GL_SPECULAR, 4 }, { GL_FRONT, GL_EMISSION, 8 }, { GL_FRONT, GL_AMBIENT_AND_DIFFUSE, 3 },
+		{ GL_BACK, GL_AMBIENT_AND_DIFFUSE, 0 },
 	};
 	static const float vertex[4] = { 0.375f, 0.875f, 0.625f, 0.0625f };
 
@@ -103,10 +118,12 @@ START_TEST(test_light_terms)
 			m.local_viewer = (uint32_t)local;
 			memcpy(light.position_eye, (float[4]){ 0.8f, 0, 0.6f, 0 }, 16);
 			lit = lit_by(&m, &light, (uint32_t)back);
-			for (int c = 0; c < 3; c++) { /* the half-way vector is (0.8, 0, 1.6), wherever the viewer is: the vertex lies on the axis */
+			/* the half-way vector is (0.8, 0, 1.6), wherever the viewer is: the vertex lies on the axis */
+			for (int c = 0; c < 3; c++) {
 				const float shine = powf(1.6f / sqrtf(3.2f), face.shininess);
 
-				color[c] = emission[c] + ambient[c] * m.light_model_ambient[c] + ambient[c] * light.ambient[c] + 0.6f * diffuse[c] * light.diffuse[c];
+				color[c] = emission[c] + ambient[c] * m.light_model_ambient[c] +
+				           ambient[c] * light.ambient[c] + 0.6f * diffuse[c] * light.diffuse[c];
 				gloss[c] = shine * specular[c] * light.specular[c];
 				if (!apart) {
 					color[c] += gloss[c];
@@ -131,7 +148,9 @@ START_TEST(test_light_sides)
 
 	memcpy(light.position_eye, (float[4]){ 0, 0.8f, -0.6f, 0 }, 16);
 	lit = lit_by(&m, &light, 0);
-	check_vec4(lit.color, (float[4]){ 0.0625f + 0.125f + 0.125f, 0.03125f + 0.125f + 0.03125f, 0.125f + 0.5f, 0.75f }, "from behind", 0);
+	check_vec4(lit.color,
+	           (float[4]){ 0.0625f + 0.125f + 0.125f, 0.03125f + 0.125f + 0.03125f, 0.125f + 0.5f, 0.75f },
+	           "from behind", 0);
 	ck_assert_uint_eq(lit.lights, 0);
 	light = plain_light();
 	light.diffuse[0] = 20;
@@ -141,23 +160,29 @@ START_TEST(test_light_sides)
 	lit = lit_by(&m, &light, 0);
 	ck_assert_float_eq_tol(lit.color.x, 0.0625f + 0.125f + 0.125f + 5 + 0.5f, ALMOST);
 	m.local_viewer = 1; /* from (4, 0, 3) over 5: half-way (-0.8, 0, 1.6) */
-	lit = light_vertex(&m, &light, light_list(0, 1), 0, v4(4, 0, -3, 1), v3(0, 0, 1), &face, v4(0, 0, 0, 0), 0, (const struct vec3 *)0);
+	lit = light_vertex(&m, &light, light_list(0, 1), 0, v4(4, 0, -3, 1), v3(0, 0, 1), &face, v4(0, 0, 0, 0), 0,
+	                   (const struct vec3 *)0);
 	ck_assert_float_eq_tol(lit.color.x, 0.0625f + 0.125f + 0.125f + 5 + 0.5f * 0.8f, ALMOST);
 }
 END_TEST
 
-/* --- Generated coordinates, sizes of points (sec. 2.11.4, 3.3) ------------------------------------------------------------ */
+/* --- Generated coordinates, sizes of points (sec. 2.11.4, 3.3) --------------------------------------------------- */
 
 START_TEST(test_generated)
 {
 	static const struct { uint32_t mode; float wanted[4]; } rows[] = {
-		{ 0, { 0.125f, 0.25f, 0.375f, 0.5f } }, { GL_OBJECT_LINEAR, { 12, 13, 14, 15 } }, { GL_EYE_LINEAR, { 16, 18, 20, 22 } },
+		{ 0, { 0.125f, 0.25f, 0.375f, 0.5f } }, { GL_OBJECT_LINEAR, { 12, 13, 14, 15 } },
+		{ GL_EYE_LINEAR, { 16, 18, 20, 22 } },
 		/* u = (0, 0.6, -0.8), n = (0, 0, 1): r = (0, 0.6, 0.8), m = 2 sqrt(0.36 + 3.24) */
-		{ GL_SPHERE_MAP, { 0.5f, 0.5f + 0.6f / 3.7947332f, 0, 0 } }, { GL_REFLECTION_MAP, { 0, 0.6f, 0.8f, 0 } }, { GL_NORMAL_MAP, { 0, 0, 1, 0 } },
+		{ GL_SPHERE_MAP, { 0.5f, 0.5f + 0.6f / 3.7947332f, 0, 0 } }, { GL_REFLECTION_MAP, { 0, 0.6f, 0.8f, 0 } },
+		{ GL_NORMAL_MAP, { 0, 0, 1, 0 } },
 	};
 
 	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
-		for (uint32_t c = 0; c < (rows[i].mode == GL_SPHERE_MAP ? 2u : rows[i].mode == GL_REFLECTION_MAP || rows[i].mode == GL_NORMAL_MAP ? 3u : 4u); c++) {
+		for (uint32_t c = 0; c < (rows[i].mode == GL_SPHERE_MAP                                      ? 2u :
+		                          rows[i].mode == GL_REFLECTION_MAP || rows[i].mode == GL_NORMAL_MAP ? 3u :
+		                                                                                               4u);
+		     c++) {
 			struct scene_unit unit = { .unit = 0 };
 			float have;
 
@@ -166,8 +191,10 @@ START_TEST(test_generated)
 				memcpy(unit.gen_object_plane[k], (float[4]){ 1, 1, 2, (float)k }, 16);
 				memcpy(unit.gen_eye_plane[k], (float[4]){ 1, 1, 1, (float)k }, 16);
 			}
-			have = vertex_generate(&unit, c, 0.125f * (float)(c + 1), v4(1, 1, 5, 1), v4(4, 5, 7, 2), v3(0, 0.6f, -0.8f), v3(0, 0, 1));
-			ck_assert_msg(fabsf(have - rows[i].wanted[c]) < ALMOST, "mode %#x, coordinate %u: %g, not %g", rows[i].mode, c, have, rows[i].wanted[c]);
+			have = vertex_generate(&unit, c, 0.125f * (float)(c + 1), v4(1, 1, 5, 1), v4(4, 5, 7, 2),
+			                       v3(0, 0.6f, -0.8f), v3(0, 0, 1));
+			ck_assert_msg(fabsf(have - rows[i].wanted[c]) < ALMOST, "mode %#x, coordinate %u: %g, not %g",
+			              rows[i].mode, c, have, rows[i].wanted[c]);
 		}
 }
 END_TEST
@@ -175,8 +202,9 @@ END_TEST
 START_TEST(test_point_sizes)
 {
 	static const struct { float fade[3], least, most, wanted; } rows[] = {
-		{ { 1, 0, 0 }, 0, 100, 8 }, { { 4, 0, 0 }, 0, 100, 4 }, { { 0, 0.8f, 0 }, 0, 100, 4 }, { { 0, 0, 0.16f }, 0, 100, 4 }, { { 1, 0.2f, 0.08f }, 0, 100, 4 },
-		{ { 1, 0, 0 }, 9, 100, 9 }, { { 1, 0, 0 }, 0, 5, 5 }, { { 0.25f, 0, 0 }, 0, 12, 12 }, { { 0, 0, 0 }, 0, 100, 8 },
+		{ { 1, 0, 0 }, 0, 100, 8 }, { { 4, 0, 0 }, 0, 100, 4 }, { { 0, 0.8f, 0 }, 0, 100, 4 },
+		{ { 0, 0, 0.16f }, 0, 100, 4 }, { { 1, 0.2f, 0.08f }, 0, 100, 4 }, { { 1, 0, 0 }, 9, 100, 9 },
+		{ { 1, 0, 0 }, 0, 5, 5 }, { { 0.25f, 0, 0 }, 0, 12, 12 }, { { 0, 0, 0 }, 0, 100, 8 },
 	};
 
 	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) { /* at depth 5, which Mesa takes for the distance */
@@ -208,20 +236,24 @@ START_TEST(test_window)
 }
 END_TEST
 
-/* --- Texture environments (tables 3.22 to 3.25) ---------------------------------------------------------------------------- */
+/* --- Texture environments (tables 3.22 to 3.25) ------------------------------------------------------------------ */
 
 START_TEST(test_environments)
 {
-	static const uint32_t formats[] = { GL_ALPHA, GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_INTENSITY, GL_RGB, GL_RGBA, GL_RED, GL_RG };
+	static const uint32_t formats[] = { GL_ALPHA, GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_INTENSITY, GL_RGB, GL_RGBA,
+		                            GL_RED,   GL_RG };
 	static const uint32_t modes[] = { GL_REPLACE, GL_MODULATE, GL_DECAL, GL_BLEND, GL_ADD };
-	static const float p[4] = { 0.2f, 0.4f, 0.6f, 0.8f }, s[4] = { 0.5f, 0.25f, 0.75f, 0.3f }, e[4] = { 0.1f, 0.9f, 0.3f, 0.7f };
+	static const float p[4] = { 0.2f, 0.4f, 0.6f, 0.8f }, s[4] = { 0.5f, 0.25f, 0.75f, 0.3f },
+			   e[4] = { 0.1f, 0.9f, 0.3f, 0.7f };
 
 	for (size_t i = 0; i < 8 * 5; i++) {
 		const uint32_t format = formats[i % 8], mode = modes[i / 8];
-		const int colors = format != GL_ALPHA, alphas = format == GL_ALPHA || format == GL_LUMINANCE_ALPHA || format == GL_INTENSITY || format == GL_RGBA;
+		const int colors = format != GL_ALPHA, alphas = format == GL_ALPHA || format == GL_LUMINANCE_ALPHA ||
+		                                                format == GL_INTENSITY || format == GL_RGBA;
 		float wanted[4];
 
-		if (mode == GL_DECAL && (format == GL_ALPHA || format == GL_LUMINANCE || format == GL_LUMINANCE_ALPHA || format == GL_INTENSITY))
+		if (mode == GL_DECAL && (format == GL_ALPHA || format == GL_LUMINANCE || format == GL_LUMINANCE_ALPHA ||
+		                         format == GL_INTENSITY))
 			continue; /* undefined */
 		for (int c = 0; c < 4; c++) {
 			const int there = c < 3 ? colors : alphas;
@@ -246,25 +278,34 @@ END_TEST
 START_TEST(test_combiners)
 {
 	static const struct { uint32_t function; float wanted[4]; } rows[] = {
-		{ GL_REPLACE, { 0.2f, 0.4f, 0.6f, 0.8f } }, { GL_MODULATE, { 0.1f, 0.1f, 0.45f, 0.24f } }, { GL_ADD, { 0.7f, 0.65f, 1.35f, 1.1f } },
-		{ GL_ADD_SIGNED, { 0.2f, 0.15f, 0.85f, 0.6f } }, { GL_INTERPOLATE, { 0.47f, 0.385f, 0.705f, 0.65f } }, { GL_SUBTRACT, { -0.3f, 0.15f, -0.15f, 0.5f } },
-		{ GL_DOT3_RGB, { 0.2f, 0.2f, 0.2f, 0.2f } }, { GL_DOT3_RGBA, { 0.2f, 0.2f, 0.2f, 0.2f } }, { GL_MODULATE_ADD_ATI, { 0.52f, 0.61f, 0.93f, 0.86f } },
-		{ GL_MODULATE_SIGNED_ADD_ATI, { 0.02f, 0.11f, 0.43f, 0.36f } }, { GL_MODULATE_SUBTRACT_ATI, { -0.48f, 0.11f, -0.57f, 0.26f } },
+		{ GL_REPLACE, { 0.2f, 0.4f, 0.6f, 0.8f } }, { GL_MODULATE, { 0.1f, 0.1f, 0.45f, 0.24f } },
+		{ GL_ADD, { 0.7f, 0.65f, 1.35f, 1.1f } }, { GL_ADD_SIGNED, { 0.2f, 0.15f, 0.85f, 0.6f } },
+		{ GL_INTERPOLATE, { 0.47f, 0.385f, 0.705f, 0.65f } }, { GL_SUBTRACT, { -0.3f, 0.15f, -0.15f, 0.5f } },
+		{ GL_DOT3_RGB, { 0.2f, 0.2f, 0.2f, 0.2f } }, { GL_DOT3_RGBA, { 0.2f, 0.2f, 0.2f, 0.2f } },
+		{ GL_MODULATE_ADD_ATI, { 0.52f, 0.61f, 0.93f, 0.86f } },
+		{ GL_MODULATE_SIGNED_ADD_ATI, { 0.02f, 0.11f, 0.43f, 0.36f } },
+		{ GL_MODULATE_SUBTRACT_ATI, { -0.48f, 0.11f, -0.57f, 0.26f } },
 	};
-	const struct vec4 a = v4(0.2f, 0.4f, 0.6f, 0.8f), b = v4(0.5f, 0.25f, 0.75f, 0.3f), c = v4(0.1f, 0.9f, 0.3f, 0.7f), none = v4(0, 0, 0, 0);
+	const struct vec4 a = v4(0.2f, 0.4f, 0.6f, 0.8f), b = v4(0.5f, 0.25f, 0.75f, 0.3f),
+			  c = v4(0.1f, 0.9f, 0.3f, 0.7f), none = v4(0, 0, 0, 0);
 	const struct vec4 samples[SCENE_MAX_UNITS] = { none, none, b };
 
 	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
 		check_vec4(combine_function(rows[i].function, a, b, c), rows[i].wanted, "function", i);
-	check_vec4(combine_argument(GL_PREVIOUS, GL_SRC_COLOR, a, b, c, none, samples), (float[4]){ 0.2f, 0.4f, 0.6f, 0.8f }, "argument", 0);
-	check_vec4(combine_argument(GL_TEXTURE, GL_SRC_ALPHA, a, b, c, none, samples), (float[4]){ 0.3f, 0.3f, 0.3f, 0.3f }, "argument", 1);
-	check_vec4(combine_argument(GL_PRIMARY_COLOR, GL_ONE_MINUS_SRC_COLOR, a, b, c, none, samples), (float[4]){ 0.9f, 0.1f, 0.7f, 0.3f }, "argument", 2);
-	check_vec4(combine_argument(GL_CONSTANT, GL_ONE_MINUS_SRC_ALPHA, a, b, c, a, samples), (float[4]){ 0.2f, 0.2f, 0.2f, 0.2f }, "argument", 3);
-	check_vec4(combine_argument(GL_TEXTURE0 + 2, GL_SRC_COLOR, a, none, c, none, samples), (float[4]){ 0.5f, 0.25f, 0.75f, 0.3f }, "argument", 4);
+	check_vec4(combine_argument(GL_PREVIOUS, GL_SRC_COLOR, a, b, c, none, samples),
+	           (float[4]){ 0.2f, 0.4f, 0.6f, 0.8f }, "argument", 0);
+	check_vec4(combine_argument(GL_TEXTURE, GL_SRC_ALPHA, a, b, c, none, samples),
+	           (float[4]){ 0.3f, 0.3f, 0.3f, 0.3f }, "argument", 1);
+	check_vec4(combine_argument(GL_PRIMARY_COLOR, GL_ONE_MINUS_SRC_COLOR, a, b, c, none, samples),
+	           (float[4]){ 0.9f, 0.1f, 0.7f, 0.3f }, "argument", 2);
+	check_vec4(combine_argument(GL_CONSTANT, GL_ONE_MINUS_SRC_ALPHA, a, b, c, a, samples),
+	           (float[4]){ 0.2f, 0.2f, 0.2f, 0.2f }, "argument", 3);
+	check_vec4(combine_argument(GL_TEXTURE0 + 2, GL_SRC_COLOR, a, none, c, none, samples),
+	           (float[4]){ 0.5f, 0.25f, 0.75f, 0.3f }, "argument", 4);
 }
 END_TEST
 
-/* --- Textures (sec. 3.8.8) -------------------------------------------------------------------------------------------------- */
+/* --- Textures (sec. 3.8.8) --------------------------------------------------------------------------------------- */
 
 START_TEST(test_levels)
 {
@@ -279,7 +320,8 @@ START_TEST(test_levels)
 	ck_assert_float_eq_tol(texture_half_log2(1.01e-30f), -49.8f, 0.1f);
 	ck_assert_float_eq(texture_half_log2(INFINITY), 100);
 	ck_assert_float_eq(texture_lod(&unit, &slope, 0), 3);
-	ck_assert_float_eq(texture_lod(&unit, &slope, 1), 1); /* the short axis, 2 texels: the long one is not over four times as long */
+	/* the short axis, 2 texels: the long one is not over four times as long */
+	ck_assert_float_eq(texture_lod(&unit, &slope, 1), 1);
 	unit.max_anisotropy = 2;
 	ck_assert_float_eq(texture_lod(&unit, &slope, 1), 2);
 	unit.lod_bias = -1.5f;
@@ -308,8 +350,16 @@ START_TEST(test_gathered)
 {
 	uint32_t counts[4] = { 1, 0, 2, 1 }, first[4] = { 0, 1, 1, 3 }, pixels[4], after[4];
 	struct fragment sparse[8], list[4];
-	struct gather_arguments a = { .counts = counts, .first = first, .sparse = sparse, .slots = 2, .list = list, .pixels = pixels, .after = after, .width = 2,
-		                      .rectangle = { 0, 0, 2, 2 }, .first_pixel = 100 };
+	struct gather_arguments a = { .counts = counts,
+		                      .first = first,
+		                      .sparse = sparse,
+		                      .slots = 2,
+		                      .list = list,
+		                      .pixels = pixels,
+		                      .after = after,
+		                      .width = 2,
+		                      .rectangle = { 0, 0, 2, 2 },
+		                      .first_pixel = 100 };
 
 	for (uint32_t i = 0; i < 8; i++)
 		sparse[i] = (struct fragment){ .order = 10 * i };

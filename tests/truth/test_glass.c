@@ -1,6 +1,6 @@
 /*
- * Glass in closed form: Snell's law by a slab that moves what stands behind it, Fresnel's weights at one boundary, total
- * reflection, Beer's law; and the shadows of what lets light through.
+ * Glass in closed form: Snell's law by a slab that moves what stands behind it, Fresnel's weights at one boundary,
+ * total reflection, Beer's law; and the shadows of what lets light through.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -91,7 +91,8 @@ START_TEST(test_snell)
 }
 END_TEST
 
-/* One boundary before a glow, seen from either side: what comes through is 1 - F, and nothing at all past the critical angle. */
+/* One boundary before a glow, seen from either side: what comes through is 1 - F, and nothing at all past the critical
+ * angle. */
 START_TEST(test_fresnel)
 {
 	for (int i = 0; i < 2; i++)
@@ -141,7 +142,8 @@ START_TEST(test_total_reflection)
 }
 END_TEST
 
-/* A slab across the view: (1 - F)^2 exp(-absorb x thickness), and the light that goes to and fro within. At any scale. */
+/* A slab across the view: (1 - F)^2 exp(-absorb x thickness), and the light that goes to and fro within. At any
+ * scale. */
 START_TEST(test_beer)
 {
 	static const float scales[] = { 1e-3f, 1, 1e3f };

@@ -1,4 +1,5 @@
-/* Instructions of programs (scene/program.h) at numbers that are known, the four of a quad at once; kernels/gl/instructions.h. */
+/* Instructions of programs (scene/program.h) at numbers that are known, the four of a quad at once;
+ * kernels/gl/instructions.h. */
 #include <math.h>
 #include <string.h>
 
@@ -55,12 +56,14 @@ START_TEST(test_results)
 	uint32_t tried = 0;
 
 	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
-		const struct vec4 v = program_result(rows[i].operation, v4_load(rows[i].a), v4_load(rows[i].b), v4_load(rows[i].c), 15);
+		const struct vec4 v = program_result(rows[i].operation, v4_load(rows[i].a), v4_load(rows[i].b),
+		                                     v4_load(rows[i].c), 15);
 		const float have[4] = { v.x, v.y, v.z, v.w };
 
 		tried |= 1u << rows[i].operation;
 		for (int k = 0; k < 4; k++)
-			ck_assert_msg(fabsf(have[k] - rows[i].wanted[k]) <= 2e-6f * fmaxf(1, fabsf(have[k])), "operation %u, number %d: %.9g, not %.9g", rows[i].operation, k, have[k],
+			ck_assert_msg(fabsf(have[k] - rows[i].wanted[k]) <= 2e-6f * fmaxf(1, fabsf(have[k])),
+			              "operation %u, number %d: %.9g, not %.9g", rows[i].operation, k, have[k],
 			              rows[i].wanted[k]);
 	}
 	ck_assert_uint_eq(tried, (1u << SCENE_OP_KILL) - 1); /* all that have a result of numbers alone */
@@ -76,12 +79,15 @@ START_TEST(test_lanes)
 	for (uint32_t lanes = 0; lanes < 16; lanes++) {
 		const struct vec4 half = program_result(SCENE_OP_RECIPROCAL, v4(2, 2, 2, 2), v, v, lanes);
 
-		ck_assert(half.x == (lanes & 1 ? 0.5f : 0) && half.y == (lanes & 2 ? 0.5f : 0) && half.z == (lanes & 4 ? 0.5f : 0) && half.w == (lanes & 8 ? 0.5f : 0));
+		ck_assert(half.x == (lanes & 1 ? 0.5f : 0) && half.y == (lanes & 2 ? 0.5f : 0) &&
+		          half.z == (lanes & 4 ? 0.5f : 0) && half.w == (lanes & 8 ? 0.5f : 0));
 		run.registers[3] = v4(-1, -2, -3, -4);
 		program_keep(&run, 3, v, lanes);
 		for (uint32_t k = 0; k < 4; k++)
 			ck_assert_float_eq(program_of_four(run.registers[3], k), (float)(k + 1) * (lanes >> k & 1 ? 1 : -1));
-		ck_assert_uint_eq(program_true(v4(lanes & 1 ? 0.01f : 0, lanes & 2 ? -1 : 0, lanes & 4 ? 5 : 0, lanes & 8 ? 1 : -0.0f)), lanes);
+		ck_assert_uint_eq(program_true(v4(lanes & 1 ? 0.01f : 0, lanes & 2 ? -1 : 0, lanes & 4 ? 5 : 0,
+		                                  lanes & 8 ? 1 : -0.0f)),
+		                  lanes);
 	}
 	for (uint32_t k = 0; k < 4; k++)
 		program_set(&run, 8, k, v4_add(v, v4(10.0f * (float)k, 10.0f * (float)k, 10.0f * (float)k, 10.0f * (float)k)));

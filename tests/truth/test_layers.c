@@ -1,6 +1,6 @@
 /*
- * The channel "layers": how many fragments were blended into a pixel since it was last written over. Gate R1b allows half a
- * code for each, so that a wrong number would hide faults or find some where there are none.
+ * The channel "layers": how many fragments were blended into a pixel since it was last written over. Gate R1b allows
+ * half a code for each, so that a wrong number would hide faults or find some where there are none.
  *
  * Eight sheets, each from a strip of its own to the right border, drawn in order; the numbers are counted by hand.
  */
@@ -37,7 +37,8 @@ START_TEST(test_number_of_layers)
 	struct made t;
 
 	made_init(&t, SIZE, SIZE, 0);
-	uint32_t wall = made_add_material(&t, 0.5f), film = add_film(&t), discarded = add_film(&t), red = made_add_material(&t, 0.5f);
+	uint32_t wall = made_add_material(&t, 0.5f), film = add_film(&t), discarded = add_film(&t),
+		 red = made_add_material(&t, 0.5f);
 
 	t.materials[discarded].alpha_test = 1;
 	t.materials[discarded].alpha_func = GL_NEVER;

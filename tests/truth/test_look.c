@@ -100,7 +100,8 @@ START_TEST(test_matches)
 			const struct scene_material *m = &changed.materials[changed.instances[k].material];
 
 			ck_assert_msg((m->surface.reflect == 0.25f) == (cases[i].bits >> k & 1), "%s: square %u", cases[i].match, k);
-			ck_assert_uint_eq(m->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS, m->surface.reflect > 0 ? SCENE_HIDDEN_FROM_MIRRORS : 0u);
+			ck_assert_uint_eq(m->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS,
+			                  m->surface.reflect > 0 ? SCENE_HIDDEN_FROM_MIRRORS : 0u);
 		}
 		look_release(&changed);
 		rules_free(&look);
@@ -109,7 +110,8 @@ START_TEST(test_matches)
 }
 END_TEST
 
-/* A lightmap's place is taken by OpenGL's own lights where no rule is about lights: each surface has room for its own list of them. */
+/* A lightmap's place is taken by OpenGL's own lights where no rule is about lights: each surface has room for its own
+ * list of them. */
 START_TEST(test_lightmap_under_own_lights)
 {
 	struct scene_draw draws[5];
@@ -148,7 +150,8 @@ static void render_under(const struct made *t, const char *text, struct image *i
 	rules_free(&look);
 }
 
-/* Light from straight ahead: Lambert's cosine is 1. OpenGL's own picture is 0.5 above and the white current colour below. */
+/* Light from straight ahead: Lambert's cosine is 1. OpenGL's own picture is 0.5 above and the white current colour
+ * below. */
 START_TEST(test_lights)
 {
 	struct scene_draw draws[5];
@@ -182,7 +185,8 @@ START_TEST(test_lights)
 END_TEST
 
 /* A position in an object's space goes where the object was drawn. */
-/* GL's light or an added one, from aside on a wall with a plate before it: the plate throws a shadow, unless nothing stops the light. */
+/* GL's light or an added one, from aside on a wall with a plate before it: the plate throws a shadow, unless nothing
+ * stops the light. */
 START_TEST(test_light_that_nothing_stops)
 {
 	static const float right[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 };
@@ -199,7 +203,9 @@ START_TEST(test_light_that_nothing_stops)
 		int dark = 0;
 
 		if (way & 2)
-			snprintf(text, sizeof(text), "lights:\n- light: 0\n  off: yes\n- position: [0.6, 0, 1, 0]\n  shadows: %s\n", shadows);
+			snprintf(text, sizeof(text),
+			         "lights:\n- light: 0\n  off: yes\n- position: [0.6, 0, 1, 0]\n  shadows: %s\n",
+			         shadows);
 		else
 			snprintf(text, sizeof(text), "lights:\n- light: 0\n  shadows: %s\n", shadows);
 		render_under(&t, text, &img);

@@ -1,6 +1,6 @@
 /*
- * Light of a size, openness, and light between surfaces in closed form: the width and course of a penumbra, a plane under
- * a disk, a white furnace; pixels that are means of several pictures; light at pixels instead of vertices.
+ * Light of a size, openness, and light between surfaces in closed form: the width and course of a penumbra, a plane
+ * under a disk, a white furnace; pixels that are means of several pictures; light at pixels instead of vertices.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -25,8 +25,8 @@ static float disk_part(float a)
 }
 
 /*
- * A half plane between a spherical light and a floor: the penumbra is (receiver - blocker) / blocker x light width wide,
- * distances from the light, and what arrives within follows the part of the light's disk that is seen.
+ * A half plane between a spherical light and a floor: the penumbra is (receiver - blocker) / blocker x light width
+ * wide, distances from the light, and what arrives within follows the part of the light's disk that is seen.
  */
 START_TEST(test_penumbra)
 {
@@ -139,7 +139,8 @@ static void glow(struct made *t, uint32_t m, float emission)
 		t->materials[m].front.emission[c] = t->materials[m].back.emission[c] = emission;
 }
 
-/* A ball in a white surrounding returns what it reflects of it, whatever the ball's place; and a mirror and a glass ball all of it. */
+/* A ball in a white surrounding returns what it reflects of it, whatever the ball's place; and a mirror and a glass
+ * ball all of it. */
 START_TEST(test_white_furnace)
 {
 	struct tracer_options options = options_of(TRACER_PATH);
@@ -179,7 +180,8 @@ START_TEST(test_white_furnace)
 }
 END_TEST
 
-/* Within a ball that glows by e and reflects a: e (1 + a + a^2 + ...), as many terms as there are bounces, and one in `diffuse`. */
+/* Within a ball that glows by e and reflects a: e (1 + a + a^2 + ...), as many terms as there are bounces, and one in
+ * `diffuse`. */
 START_TEST(test_glowing_ball)
 {
 	const float e = 0.2f, a = 0.6f;
@@ -244,8 +246,9 @@ START_TEST(test_glowing_ball_in_linear_light)
 END_TEST
 
 /*
- * A plane under a light, seen from above: what GL shows where light falls straight is what linear light shows there; where it falls at an
- * angle, the cosine dims light and not codes. A pixel that is half lit in the mean is half as bright, not half the code.
+ * A plane under a light, seen from above: what GL shows where light falls straight is what linear light shows there;
+ * where it falls at an angle, the cosine dims light and not codes. A pixel that is half lit in the mean is half as
+ * bright, not half the code.
  */
 START_TEST(test_light_falls_in_linear_light)
 {
@@ -281,7 +284,8 @@ START_TEST(test_light_falls_in_linear_light)
 }
 END_TEST
 
-/* A pixel that an upright edge halves by 30 % is 30 % bright in the mean; GL's own picture stays that of pixel centres. */
+/* A pixel that an upright edge halves by 30 % is 30 % bright in the mean; GL's own picture stays that of pixel
+ * centres. */
 START_TEST(test_samples)
 {
 	struct tracer_options options = options_of(TRACER_WHITTED);
@@ -320,8 +324,8 @@ START_TEST(test_samples)
 END_TEST
 
 /*
- * The same edge with four samples: pixels along it have different ones, so that a column shows all quarters about as often as
- * evenly strewn samples would, and its mean comes out; moved all alike, all pixels would be the same.
+ * The same edge with four samples: pixels along it have different ones, so that a column shows all quarters about as
+ * often as evenly strewn samples would, and its mean comes out; moved all alike, all pixels would be the same.
  */
 START_TEST(test_samples_differ_from_pixel_to_pixel)
 {

@@ -1,6 +1,6 @@
 /*
- * Motion vectors in closed form: a viewer who steps aside, a square that turns, one whose vertices move, and what is new. And depth moves
- * nothing that stands in the middle.
+ * Motion vectors in closed form: a viewer who steps aside, a square that turns, one whose vertices move, and what is
+ * new. And depth moves nothing that stands in the middle.
  */
 #include <math.h>
 
@@ -78,7 +78,8 @@ static void was_there(float x, float y, float out[2])
 
 START_TEST(test_moved)
 {
-	static void (*const was[])(float x, float y, float out[2]) = { was_aside, was_nearer, was_turned, was_half, was_there };
+	static void (*const was[])(float x, float y, float out[2]) = { was_aside, was_nearer, was_turned, was_half,
+		                                                       was_there };
 	struct made before, now;
 	struct image img;
 	float *m;

@@ -1,6 +1,6 @@
 /*
- * Light followed from surface to surface in closed form, where it takes many samples: an integrating sphere, mirrors in a furnace; and
- * what a bound of a sample's light leaves.
+ * Light followed from surface to surface in closed form, where it takes many samples: an integrating sphere, mirrors in
+ * a furnace; and what a bound of a sample's light leaves.
  */
 #include <math.h>
 
@@ -41,9 +41,9 @@ static void add_half_ball(struct made *t, uint32_t material, float side)
 }
 
 /*
- * Points of a sphere send each other the same share of their light wherever they lie (the principle of the integrating sphere). One half
- * glows; the other, which the viewer sees, gets the mean. Numbers of different bounces must not depend on each other: each pixel
- * comes to the same.
+ * Points of a sphere send each other the same share of their light wherever they lie (the principle of the integrating
+ * sphere). One half glows; the other, which the viewer sees, gets the mean. Numbers of different bounces must not
+ * depend on each other: each pixel comes to the same.
  */
 START_TEST(test_integrating_sphere)
 {
@@ -71,15 +71,16 @@ START_TEST(test_integrating_sphere)
 		}
 	sum /= SIZE * SIZE;
 	squares = sqrt(squares / (SIZE * SIZE));
-	ck_assert_msg(fabs(sum) < 0.004 * (double)truth && squares < 0.07 * (double)truth, "off by %g in the mean, by %g a pixel; truth %g", sum, squares,
-	              (double)truth);
+	ck_assert_msg(fabs(sum) < 0.004 * (double)truth && squares < 0.07 * (double)truth,
+	              "off by %g in the mean, by %g a pixel; truth %g", sum, squares, (double)truth);
 	truth_check_closure(&img);
 	image_free(&img);
 	made_free(&t);
 }
 END_TEST
 
-/* Within a ball that glows by e, mirrors a share of r, evenly or roughly, and scatters a of the rest, each bounce keeps r + (1 - r) a. */
+/* Within a ball that glows by e, mirrors a share of r, evenly or roughly, and scatters a of the rest, each bounce keeps
+ * r + (1 - r) a. */
 START_TEST(test_furnace_with_mirror)
 {
 	const float e = 0.3f, a = 0.5f, r = 0.6f, keep = r + (1 - r) * a;
@@ -113,7 +114,8 @@ START_TEST(test_furnace_with_mirror)
 }
 END_TEST
 
-/* The part of what a point sees above it that a square fills, parallel and right above: of half its side, at a height. */
+/* The part of what a point sees above it that a square fills, parallel and right above: of half its side, at a
+ * height. */
 static double square_part(double half, double height)
 {
 	const double a = half / height, b = sqrt(1 + a * a);
@@ -121,7 +123,8 @@ static double square_part(double half, double height)
 	return 4 * a / b * atan(a / b) / M_PI;
 }
 
-/* The part of what a point at the origin sees above it (z) that a polygon fills, all of it above (J. H. Lambert, "Photometria", 1760). */
+/* The part of what a point at the origin sees above it (z) that a polygon fills, all of it above (J. H. Lambert,
+ * "Photometria", 1760). */
 static double polygon_part(const double (*corner)[3], int n)
 {
 	double sum = 0;
@@ -137,14 +140,15 @@ static double polygon_part(const double (*corner)[3], int n)
 }
 
 /*
- * A sheet that a square beside it lights at an angle, wherever its mesh has its origin, be it a corner; one behind it lights its other side, and this one
- * neither more nor less.
+ * A sheet that a square beside it lights at an angle, wherever its mesh has its origin, be it a corner; one behind it
+ * lights its other side, and this one neither more nor less.
  */
 START_TEST(test_squares_beside_and_behind)
 {
 	enum { SIDE = 8 };
 	static const float x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 }, z[3] = { 0, 0, 1 };
-	static const double beside[4][3] = { { 4, -1.5, 0.5 }, { 4, 1.5, 0.5 }, { 4, 1.5, 3.5 }, { 4, -1.5, 3.5 } }; /* from the sheet's middle */
+	/* from the sheet's middle */
+	static const double beside[4][3] = { { 4, -1.5, 0.5 }, { 4, 1.5, 0.5 }, { 4, 1.5, 3.5 }, { 4, -1.5, 3.5 } };
 	const float albedo = 0.8f, e = 0.9f, truth = albedo * e * (float)polygon_part(beside, 4);
 
 	for (int i = 0; i < 4; i++) {
@@ -177,7 +181,8 @@ START_TEST(test_squares_beside_and_behind)
 }
 END_TEST
 
-/* A floor under a square that glows, far and near, by its own material and by a rule, in OpenGL's numbers and in linear light. */
+/* A floor under a square that glows, far and near, by its own material and by a rule, in OpenGL's numbers and in linear
+ * light. */
 START_TEST(test_square_over_floor)
 {
 	static const float x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 };
@@ -199,7 +204,8 @@ START_TEST(test_square_over_floor)
 		made_add_square(&t, made_add_material(&t, albedo), (float[3]){ 0, 0, -10 }, x, y, 1, 1);
 		lamp = made_add_material(&t, 0);
 		if (by_rule)
-			t.materials[lamp].surface.emission[0] = t.materials[lamp].surface.emission[1] = t.materials[lamp].surface.emission[2] = e;
+			t.materials[lamp].surface.emission[0] = t.materials[lamp].surface.emission[1] =
+				t.materials[lamp].surface.emission[2] = e;
 		else
 			glow(&t, lamp, e);
 		made_add_square(&t, lamp, (float[3]){ 0, 0, height - 10 }, y, x, half, 3);
@@ -218,7 +224,8 @@ START_TEST(test_square_over_floor)
 }
 END_TEST
 
-/* A sphere of light over a floor: right under it what OpenGL's point gives; half of that where an edge hides half of the sphere. */
+/* A sphere of light over a floor: right under it what OpenGL's point gives; half of that where an edge hides half of
+ * the sphere. */
 START_TEST(test_sphere_over_floor)
 {
 	static const float x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 };

@@ -1,6 +1,7 @@
 /*
- * Per-fragment operations of kernels/gl/pixel.h and blend.h at numbers that the specification gives (GL 2.1 sec. 4.1): tests, stencil,
- * blending, logic operations, and what a pixel keeps of them. As test_formulas: kernel and twin share this text.
+ * Per-fragment operations of kernels/gl/pixel.h and blend.h at numbers that the specification gives (GL 2.1 sec. 4.1):
+ * tests, stencil, blending, logic operations, and what a pixel keeps of them. As test_formulas: kernel and twin share
+ * this text.
  */
 #include <math.h>
 #include <string.h>
@@ -14,8 +15,8 @@
 START_TEST(test_comparisons)
 {
 	static const struct { uint32_t func; int less, equal, greater; } rows[] = {
-		{ GL_NEVER, 0, 0, 0 }, { GL_LESS, 1, 0, 0 }, { GL_EQUAL, 0, 1, 0 }, { GL_LEQUAL, 1, 1, 0 }, { GL_GREATER, 0, 0, 1 }, { GL_NOTEQUAL, 1, 0, 1 },
-		{ GL_GEQUAL, 0, 1, 1 }, { GL_ALWAYS, 1, 1, 1 },
+		{ GL_NEVER, 0, 0, 0 }, { GL_LESS, 1, 0, 0 }, { GL_EQUAL, 0, 1, 0 }, { GL_LEQUAL, 1, 1, 0 }, { GL_GREATER, 0, 0, 1 },
+		{ GL_NOTEQUAL, 1, 0, 1 }, { GL_GEQUAL, 0, 1, 1 }, { GL_ALWAYS, 1, 1, 1 },
 	};
 	static const float ascending[] = { -INFINITY, -2, -1, -1e-30f, 0, 1e-30f, 0.5f, 1, 3, INFINITY };
 
@@ -33,13 +34,15 @@ END_TEST
 START_TEST(test_stencil_operations)
 {
 	static const struct { uint32_t op, value, wanted; } rows[] = {
-		{ GL_KEEP, 7, 7 }, { GL_ZERO, 7, 0 }, { GL_REPLACE, 7, 5 }, { GL_INCR, 7, 8 }, { GL_INCR, 255, 255 }, { GL_DECR, 7, 6 }, { GL_DECR, 0, 0 }, { GL_INVERT, 7, 248 },
-		{ GL_INCR_WRAP, 7, 8 }, { GL_INCR_WRAP, 255, 0 }, { GL_DECR_WRAP, 7, 6 }, { GL_DECR_WRAP, 0, 255 },
+		{ GL_KEEP, 7, 7 }, { GL_ZERO, 7, 0 }, { GL_REPLACE, 7, 5 }, { GL_INCR, 7, 8 }, { GL_INCR, 255, 255 },
+		{ GL_DECR, 7, 6 }, { GL_DECR, 0, 0 }, { GL_INVERT, 7, 248 }, { GL_INCR_WRAP, 7, 8 }, { GL_INCR_WRAP, 255, 0 },
+		{ GL_DECR_WRAP, 7, 6 }, { GL_DECR_WRAP, 0, 255 },
 	};
 
 	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
 		ck_assert_uint_eq(pixel_stencil_apply(rows[i].op, rows[i].value, 5, 255, 8), rows[i].wanted);
-		ck_assert_uint_eq(pixel_stencil_apply(rows[i].op, rows[i].value, 5, 0x3c, 8), (rows[i].value & 0xc3) | (rows[i].wanted & 0x3c));
+		ck_assert_uint_eq(pixel_stencil_apply(rows[i].op, rows[i].value, 5, 0x3c, 8),
+		                  (rows[i].value & 0xc3) | (rows[i].wanted & 0x3c));
 	}
 	ck_assert_uint_eq(pixel_stencil_apply(GL_INCR, 15, 0, 15, 4), 15);
 	ck_assert_uint_eq(pixel_stencil_apply(GL_REPLACE, 0, 0x35, 255, 4), 5);
@@ -49,9 +52,9 @@ END_TEST
 START_TEST(test_logic_operations)
 {
 	static const struct { uint32_t op, wanted; } rows[] = { /* of 1100 1100 over 1010 1010 */
-		{ GL_CLEAR, 0 }, { GL_AND, 0x88 }, { GL_AND_REVERSE, 0x44 }, { GL_COPY, 0xcc }, { GL_AND_INVERTED, 0x22 }, { GL_NOOP, 0xaa }, { GL_XOR, 0x66 }, { GL_OR, 0xee },
-		{ GL_NOR, 0x11 }, { GL_EQUIV, 0x99 }, { GL_INVERT, 0x55 }, { GL_OR_REVERSE, 0xdd }, { GL_COPY_INVERTED, 0x33 }, { GL_OR_INVERTED, 0xbb }, { GL_NAND, 0x77 },
-		{ GL_SET, 0xff },
+		{ GL_CLEAR, 0 }, { GL_AND, 0x88 }, { GL_AND_REVERSE, 0x44 }, { GL_COPY, 0xcc }, { GL_AND_INVERTED, 0x22 },
+		{ GL_NOOP, 0xaa }, { GL_XOR, 0x66 }, { GL_OR, 0xee }, { GL_NOR, 0x11 }, { GL_EQUIV, 0x99 }, { GL_INVERT, 0x55 },
+		{ GL_OR_REVERSE, 0xdd }, { GL_COPY_INVERTED, 0x33 }, { GL_OR_INVERTED, 0xbb }, { GL_NAND, 0x77 }, { GL_SET, 0xff },
 	};
 
 	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
@@ -59,7 +62,8 @@ START_TEST(test_logic_operations)
 }
 END_TEST
 
-static const float source[4] = { 0.2f, 0.4f, 0.6f, 0.8f }, destination[4] = { 1, 0.6f, 0.2f, 0.4f }, constant[4] = { 0.8f, 0.2f, 0.4f, 0.6f };
+static const float source[4] = { 0.2f, 0.4f, 0.6f, 0.8f }, destination[4] = { 1, 0.6f, 0.2f, 0.4f },
+		   constant[4] = { 0.8f, 0.2f, 0.4f, 0.6f };
 
 /* A factor for a channel, as table 4.2 has it. */
 static float factor_of(uint32_t factor, int c)
@@ -86,16 +90,22 @@ static float factor_of(uint32_t factor, int c)
 /* Every factor and equation, in 8 bits, in floats and in halves. */
 START_TEST(test_blending)
 {
-	static const uint32_t factors[] = { GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA,
-		                            GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA, GL_CONSTANT_COLOR, GL_ONE_MINUS_CONSTANT_COLOR, GL_CONSTANT_ALPHA,
-		                            GL_ONE_MINUS_CONSTANT_ALPHA, GL_SRC_ALPHA_SATURATE };
+	static const uint32_t factors[] = {
+		GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR, GL_SRC_ALPHA,
+		GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA, GL_CONSTANT_COLOR, GL_ONE_MINUS_CONSTANT_COLOR,
+		GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_SRC_ALPHA_SATURATE
+	};
 	static const uint32_t equations[] = { GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX };
 	enum { N = 15 };
 
 	for (unsigned i = 0; i < 5 * N * N * 3; i++) {
-		const uint32_t src = factors[i % N], dst = factors[i / N % N], equation = equations[i / N / N % 5], floats = i / N / N / 5;
-		struct scene_material m = { .blend = 1, .floats = floats, .blend_equation_rgb = equation, .blend_equation_alpha = equations[(i / N / N + 1) % 5],
-			                    .blend_src_rgb = src, .blend_dst_rgb = dst, .blend_src_alpha = dst, .blend_dst_alpha = src };
+		const uint32_t src = factors[i % N], dst = factors[i / N % N], equation = equations[i / N / N % 5],
+			       floats = i / N / N / 5;
+		struct scene_material m = {
+			.blend = 1, .floats = floats, .blend_equation_rgb = equation,
+			.blend_equation_alpha = equations[(i / N / N + 1) % 5], .blend_src_rgb = src, .blend_dst_rgb = dst,
+			.blend_src_alpha = dst, .blend_dst_alpha = src
+		};
 		struct vec4 have;
 		float got[4];
 
@@ -109,8 +119,11 @@ START_TEST(test_blending)
 			               of == GL_MIN ? fminf(source[c], destination[c]) : fmaxf(source[c], destination[c]);
 
 			wanted = floats ? wanted : fminf(fmaxf(wanted, 0), 1);
-			ck_assert_msg(fabsf(got[c] - wanted) < (floats == SCENE_FLOATS ? 1e-6f : floats ? 1.1e-3f : 1.01f / 255), "%#x %#x %#x, floats %u, channel %d: %g, not %g",
-			              src, dst, of, floats, c, got[c], wanted);
+			ck_assert_msg(fabsf(got[c] - wanted) < (floats == SCENE_FLOATS ? 1e-6f :
+			                                        floats                 ? 1.1e-3f :
+			                                                                 1.01f / 255),
+			              "%#x %#x %#x, floats %u, channel %d: %g, not %g", src, dst, of, floats, c, got[c],
+			              wanted);
 			if (floats == SCENE_HALVES)
 				ck_assert_float_eq(got[c], pixel_half(got[c]));
 		}
@@ -121,11 +134,21 @@ END_TEST
 /* Halves are cut off, the largest and the smallest, too. */
 START_TEST(test_halves)
 {
-	static const float rows[][2] = { { 1, 1 }, { 1.0009f, 1 }, { 1.00098f, 1.0009765625f }, { -3.1249f, -3.123046875f }, { 65504, 65504 }, { 65535, 65504 }, { 1e9f, 65504 },
-		                         { 5.9e-8f, 0 }, { 6e-8f, 5.9604645e-8f }, { 6.1e-5f, 6.097555e-5f }, { 0, 0 } };
+	static const float rows[][2] = { { 1, 1 },
+		                         { 1.0009f, 1 },
+		                         { 1.00098f, 1.0009765625f },
+		                         { -3.1249f, -3.123046875f },
+		                         { 65504, 65504 },
+		                         { 65535, 65504 },
+		                         { 1e9f, 65504 },
+		                         { 5.9e-8f, 0 },
+		                         { 6e-8f, 5.9604645e-8f },
+		                         { 6.1e-5f, 6.097555e-5f },
+		                         { 0, 0 } };
 
 	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
-		ck_assert_msg(fabsf(pixel_half(rows[i][0]) - rows[i][1]) <= 1e-7f * fabsf(rows[i][1]), "%g is %.9g, not %.9g", rows[i][0], pixel_half(rows[i][0]), rows[i][1]);
+		ck_assert_msg(fabsf(pixel_half(rows[i][0]) - rows[i][1]) <= 1e-7f * fabsf(rows[i][1]),
+		              "%g is %.9g, not %.9g", rows[i][0], pixel_half(rows[i][0]), rows[i][1]);
 	ck_assert(isinf(pixel_half(INFINITY)) && isnan(pixel_half(NAN)));
 }
 END_TEST
@@ -151,7 +174,9 @@ START_TEST(test_stencil_test)
 	for (size_t i = 0; i < 2 * sizeof(rows) / sizeof(rows[0]); i++) {
 		const size_t row = i / 2;
 		struct scene_material m = { .stencil_test = 1, .depth_test = 1, .depth_func = GL_LESS, .depth_write = 1 };
-		const struct scene_stencil used = { rows[row].func, rows[row].ref, rows[row].mask, 255, GL_DECR, GL_INVERT, GL_INCR }, other = { .func = GL_NEVER, .fail = GL_KEEP };
+		const struct scene_stencil used = { rows[row].func, rows[row].ref, rows[row].mask, 255,
+			                            GL_DECR,        GL_INVERT,     GL_INCR },
+					   other = { .func = GL_NEVER, .fail = GL_KEEP };
 		struct shaded s = fragment_of(1, rows[row].depth_passes ? 0.25f : 0.75f);
 		struct frame_pixel pixel = { .stencil = rows[row].stored, .depth = 0x800000 };
 
@@ -168,7 +193,11 @@ END_TEST
 /* Without their buffers, stencil and depth test let all pass. */
 START_TEST(test_depth_test)
 {
-	struct scene_material m = { .stencil_test = 1, .depth_test = 1, .depth_func = GL_NEVER, .depth_write = 1, .stencil_front = { .func = GL_NEVER } };
+	struct scene_material m = { .stencil_test = 1,
+		                    .depth_test = 1,
+		                    .depth_func = GL_NEVER,
+		                    .depth_write = 1,
+		                    .stencil_front = { .func = GL_NEVER } };
 	struct shaded s = fragment_of(1, 0.5f);
 	struct frame_pixel pixel = { .depth = 7 };
 
@@ -217,21 +246,40 @@ START_TEST(test_alpha_and_samples)
 END_TEST
 
 /*
- * What a pixel keeps: draw, layers, the surface; films that leave no depth are none where there is another. Colours that leave nothing of
- * those before, blended or not, are known.
+ * What a pixel keeps: draw, layers, the surface; films that leave no depth are none where there is another. Colours
+ * that leave nothing of those before, blended or not, are known.
  */
 START_TEST(test_marks)
 {
-	static const struct { uint32_t blend, logic, depth_write, mask, there; int is_surface; uint32_t layers, unknown; float alpha; } rows[] = {
-		{ 0, 0, 1, 15, 1, 1, 0, 0, 0.5f }, { 0, 0, 0, 15, 1, 1, 0, 0, 0.5f }, { 1, 0, 1, 15, 1, 1, 4, 1, 0.5f }, { 1, 0, 0, 15, 1, 0, 4, 1, 0.5f },
-		{ 1, 0, 0, 15, 0, 1, 4, 1, 0.5f }, { 1, 0, 1, 15, 1, 1, 4, 0, 1 }, { 1, 0, 1, 15, 1, 1, 4, 1, 254.0f / 255 }, { 1, 0, 1, 11, 1, 1, 4, 1, 1 },
-		{ 0, 0, 1, 3, 1, 1, 3, 1, 1 }, { 0, GL_XOR, 1, 15, 1, 1, 3, 1, 1 }, { 1, GL_XOR, 0, 15, 1, 0, 3, 1, 1 }, { 0, GL_COPY_INVERTED, 1, 15, 1, 1, 3, 0, 1 },
+	static const struct {
+		uint32_t blend, logic, depth_write, mask, there;
+		int is_surface;
+		uint32_t layers, unknown;
+		float alpha;
+	} rows[] = {
+		{ 0, 0, 1, 15, 1, 1, 0, 0, 0.5f },
+		{ 0, 0, 0, 15, 1, 1, 0, 0, 0.5f },
+		{ 1, 0, 1, 15, 1, 1, 4, 1, 0.5f },
+		{ 1, 0, 0, 15, 1, 0, 4, 1, 0.5f },
+		{ 1, 0, 0, 15, 0, 1, 4, 1, 0.5f },
+		{ 1, 0, 1, 15, 1, 1, 4, 0, 1 },
+		{ 1, 0, 1, 15, 1, 1, 4, 1, 254.0f / 255 },
+		{ 1, 0, 1, 11, 1, 1, 4, 1, 1 },
+		{ 0, 0, 1, 3, 1, 1, 3, 1, 1 },
+		{ 0, GL_XOR, 1, 15, 1, 1, 3, 1, 1 },
+		{ 1, GL_XOR, 0, 15, 1, 0, 3, 1, 1 },
+		{ 0, GL_COPY_INVERTED, 1, 15, 1, 1, 3, 0, 1 },
 	};
 
 	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
-		struct scene_material m = { .blend = rows[i].blend, .logic_op = rows[i].logic, .depth_write = rows[i].depth_write, .color_mask = rows[i].mask,
-			                     .blend_src_rgb = GL_SRC_ALPHA, .blend_dst_rgb = GL_ONE_MINUS_SRC_ALPHA, .blend_equation_rgb = GL_FUNC_ADD };
-		struct frame_pixel pixel = { .layers = 3, .unknown = PIXEL_UNKNOWN_COLOR, .surface = { .order = rows[i].there ? 5 : SCENE_NONE } };
+		struct scene_material m = {
+			.blend = rows[i].blend, .logic_op = rows[i].logic, .depth_write = rows[i].depth_write,
+			.color_mask = rows[i].mask, .blend_src_rgb = GL_SRC_ALPHA, .blend_dst_rgb = GL_ONE_MINUS_SRC_ALPHA,
+			.blend_equation_rgb = GL_FUNC_ADD
+		};
+		struct frame_pixel pixel = { .layers = 3,
+			                     .unknown = PIXEL_UNKNOWN_COLOR,
+			                     .surface = { .order = rows[i].there ? 5 : SCENE_NONE } };
 		struct fragment f = { .order = 9 };
 		struct shaded s = fragment_of(rows[i].alpha, 0);
 

@@ -1,4 +1,5 @@
-/* What a program makes of a colour that several lights made together: where one of them is blocked it gets the others', each light alone. */
+/* What a program makes of a colour that several lights made together: where one of them is blocked it gets the others',
+ * each light alone. */
 #include "tests/case.h"
 #include "tests/truth/scenes.h"
 
@@ -27,7 +28,8 @@ static void set_program(struct made *t, uint32_t material, float share, struct d
 	t->materials[material].fragment_program = 1;
 }
 
-/* Two lights from afar, straight down and from the right. One square above the picture's middle, and out of it, blocks the second. */
+/* Two lights from afar, straight down and from the right. One square above the picture's middle, and out of it, blocks
+ * the second. */
 START_TEST(test_two_lights)
 {
 	static const float down[4] = { 0, 0, 1, 0 }, slanted[4] = { 0.6f, 0, 0.8f, 0 };

@@ -86,8 +86,9 @@ START_TEST(test_enclosing_sphere)
 END_TEST
 
 /*
- * A small square of side 2 s halfway between a point light and a wall throws a shadow of side 4 s. Seen from the light's
- * side through a parallel view it is hidden behind the square up to 2 s; the rest of the shadow shows around it.
+ * A small square of side 2 s halfway between a point light and a wall throws a shadow of side 4 s. Seen from the
+ * light's side through a parallel view it is hidden behind the square up to 2 s; the rest of the shadow shows around
+ * it.
  */
 START_TEST(test_shadow_shape)
 {
@@ -224,8 +225,8 @@ START_TEST(test_corner_without_specks)
 END_TEST
 
 /*
- * A wall that stands on a floor, a light on one side of it: whatever the unit of length, the floor is dark right up to the wall
- * on the far side and bright right up to it on the near one; and the corner above has no specks.
+ * A wall that stands on a floor, a light on one side of it: whatever the unit of length, the floor is dark right up to
+ * the wall on the far side and bright right up to it on the near one; and the corner above has no specks.
  */
 START_TEST(test_shadows_at_any_scale)
 {
@@ -242,7 +243,8 @@ START_TEST(test_shadows_at_any_scale)
 		made_add_light(&t, 2 * s, 1 * s, -6 * s, 1);
 		floor = made_add_material(&t, 0.7f);
 		made_add_square(&t, floor, (float[3]){ 0, -1 * s, -6 * s }, (float[3]){ 0, 0, s }, (float[3]){ s, 0, 0 }, 3, 5);
-		made_add_square(&t, floor, (float[3]){ 0, -0.25f * s, -6 * s }, (float[3]){ 0, 0, 12 * s }, (float[3]){ 0, 0.75f * s, 0 }, 1, 1);
+		made_add_square(&t, floor, (float[3]){ 0, -0.25f * s, -6 * s }, (float[3]){ 0, 0, 12 * s },
+		                (float[3]){ 0, 0.75f * s, 0 }, 1, 1);
 		truth_render(&t, "whitted", &img);
 		for (uint32_t y = 0; y < SIZE; y++)
 			for (uint32_t x = 0; x < SIZE; x++) {
@@ -266,9 +268,10 @@ START_TEST(test_shadows_at_any_scale)
 END_TEST
 
 /*
- * A smooth line one pixel wide has a triangle's profile across, two pixels wide: the coverages of the pixels that a column of a level line
- * meets sum to 1, and of a line at 45 degrees that passes between two pixels' centres to 2 - sqrt(1/2). Here a square of two by two pieces,
- * cut into triangles, alpha 1, no blending: a column that meets three level lines and two diagonals, none of them where another is.
+ * A smooth line one pixel wide has a triangle's profile across, two pixels wide: the coverages of the pixels that a
+ * column of a level line meets sum to 1, and of a line at 45 degrees that passes between two pixels' centres to 2 -
+ * sqrt(1/2). Here a square of two by two pieces, cut into triangles, alpha 1, no blending: a column that meets three
+ * level lines and two diagonals, none of them where another is.
  */
 START_TEST(test_smooth_lines_cover_their_width)
 {

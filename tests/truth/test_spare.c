@@ -65,7 +65,8 @@ START_TEST(test_closed_room_is_lit_from_outside)
 
 		build_room(&t, k & 1, k & 2 ? 1 : 0);
 		dark = dark_share(&t, NULL);
-		ck_assert_msg(dark > 0.01f && dark < 0.5f, "room %d: %g of the floor is dark, not the table's shadow alone", k, (double)dark);
+		ck_assert_msg(dark > 0.01f && dark < 0.5f,
+		              "room %d: %g of the floor is dark, not the table's shadow alone", k, (double)dark);
 		ck_assert_float_eq(dark_share(&t, "spare: no\n"), 1);
 		ck_assert_float_eq(dark_share(&t, "surfaces:\n- shadows: yes\n"), 1);
 		made_free(&t);
@@ -92,7 +93,8 @@ START_TEST(test_depth_of_a_closed_room)
 		t.instances[copy].mesh = t.instances[i].mesh;
 	}
 	twice = dark_share(&t, NULL);
-	ck_assert_msg(fabsf(once - twice) < 0.02f, "%g of the floor is dark, %g with the walls' depth", (double)once, (double)twice);
+	ck_assert_msg(fabsf(once - twice) < 0.02f, "%g of the floor is dark, %g with the walls' depth", (double)once,
+	              (double)twice);
 	ck_assert_float_eq(dark_share(&t, "spare: no\n"), 1);
 	made_free(&t);
 }
@@ -155,7 +157,8 @@ START_TEST(test_roofs)
 }
 END_TEST
 
-/* Walls that OpenGL does not light, around a small lit square: a backdrop. The same wall within a lit plain: an object. */
+/* Walls that OpenGL does not light, around a small lit square: a backdrop. The same wall within a lit plain: an
+ * object. */
 START_TEST(test_unlit_walls)
 {
 	struct made t;
@@ -167,7 +170,8 @@ START_TEST(test_unlit_walls)
 	unlit = made_add_material(&t, 0.7f);
 	t.materials[unlit].lighting = 0;
 	made_add_square(&t, 0, (float[3]){ 0, 0, -6 }, z_axis, x_axis, 0.7f, 4);
-	memcpy(t.instances[0].modelview, (float[16]){ 1, 0, 0, 0, 0, 0.8f, 0.6f, 0, 0, -0.6f, 0.8f, 0, 0, -4, -1, 1 }, sizeof(t.instances[0].modelview));
+	memcpy(t.instances[0].modelview, (float[16]){ 1, 0, 0, 0, 0, 0.8f, 0.6f, 0, 0, -0.6f, 0.8f, 0, 0, -4, -1, 1 },
+	       sizeof(t.instances[0].modelview));
 	made_add_square(&t, unlit, (float[3]){ 3, 0, -6 }, minus_z, y_axis, 6, 1);
 	for (uint32_t blend = 0; blend < 2; blend++) {
 		t.materials[unlit].blend = blend; /* by an alpha of 1: opaque all the same */
@@ -193,12 +197,24 @@ END_TEST
 /* Two cards crossed at their middle do not shade each other; a wall beside them shades both. */
 static void build_cards(struct made *t, int wall)
 {
-	static const struct scene_unit unit = { .min_filter = GL_NEAREST, .mag_filter = GL_NEAREST, .wrap_s = GL_REPEAT, .wrap_t = GL_REPEAT,
-		                                .wrap_r = GL_REPEAT, .env_mode = GL_MODULATE, .max_lod = 1000,
+	static const struct scene_unit unit = { .min_filter = GL_NEAREST,
+		                                .mag_filter = GL_NEAREST,
+		                                .wrap_s = GL_REPEAT,
+		                                .wrap_t = GL_REPEAT,
+		                                .wrap_r = GL_REPEAT,
+		                                .env_mode = GL_MODULATE,
+		                                .max_lod = 1000,
 		                                .matrix = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 } };
 	static const uint8_t white[4] = { 255, 255, 255, 255 };
-	static const struct scene_texture texture = { .hash = { 7, 7 }, .target = GL_TEXTURE_2D, .base_format = GL_RGBA, .width = 1,
-		                                      .height = 1, .depth = 1, .n_levels = 1, .texels = white, .n_bytes = 4 };
+	static const struct scene_texture texture = { .hash = { 7, 7 },
+		                                      .target = GL_TEXTURE_2D,
+		                                      .base_format = GL_RGBA,
+		                                      .width = 1,
+		                                      .height = 1,
+		                                      .depth = 1,
+		                                      .n_levels = 1,
+		                                      .texels = white,
+		                                      .n_bytes = 4 };
 	static const struct scene_texture *textures[] = { &texture };
 	uint32_t cards, opaque;
 

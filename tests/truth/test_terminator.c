@@ -1,6 +1,6 @@
 /*
- * The border between light and shade on round shapes of few faces. Alone, a convex shape with smooth normals shades nothing of itself,
- * wherever the light stands and however large all is; something before it does shade it.
+ * The border between light and shade on round shapes of few faces. Alone, a convex shape with smooth normals shades
+ * nothing of itself, wherever the light stands and however large all is; something before it does shade it.
  */
 #include <math.h>
 
@@ -87,19 +87,21 @@ START_TEST(test_others_shade_it_alike_at_any_scale)
 		uint32_t lit, dark;
 
 		set_up(&t, s, 0.8f, 0);
-		made_add_square(&t, 0, (float[3]){ 2.4f * s, 0.2f * s, -3.4f * s }, (float[3]){ 0.7f * s, 0, -0.7f * s }, (float[3]){ 0, s, 0 },
-		                 0.6f, 1);
+		made_add_square(&t, 0, (float[3]){ 2.4f * s, 0.2f * s, -3.4f * s },
+		                (float[3]){ 0.7f * s, 0, -0.7f * s }, (float[3]){ 0, s, 0 }, 0.6f, 1);
 		dark = shaded_pixels(&t, &lit);
 		first = i == 0 ? dark : first;
 		ck_assert_uint_gt(dark, 100);
 		ck_assert_uint_lt(dark, lit / 2);
-		ck_assert_msg(abs((int)dark - (int)first) <= 3, "scale %g: %u pixels in shadow, %u at scale 1", (double)s, dark, first);
+		ck_assert_msg(abs((int)dark - (int)first) <= 3, "scale %g: %u pixels in shadow, %u at scale 1",
+		              (double)s, dark, first);
 		made_free(&t);
 	}
 }
 END_TEST
 
-/* A sheet alone, as fins are drawn: its corners' normals lie on both of its sides. Wherever the light stands, nothing is in its way. */
+/* A sheet alone, as fins are drawn: its corners' normals lie on both of its sides. Wherever the light stands, nothing
+ * is in its way. */
 START_TEST(test_thin_sheet_shades_nothing_of_itself)
 {
 	static const float corners[3][3] = { { -2, -1.5f, -6 }, { 2, -1, -6 }, { 0, 2, -6 } };
@@ -128,14 +130,17 @@ START_TEST(test_thin_sheet_shades_nothing_of_itself)
 }
 END_TEST
 
-/* In mode path a surface that shines behind a wall lights nothing of the side that is seen, whichever way its corners' normals lean. */
+/* In mode path a surface that shines behind a wall lights nothing of the side that is seen, whichever way its corners'
+ * normals lean. */
 START_TEST(test_lamp_behind_lights_nothing)
 {
 	static const float wall[3][3] = { { -4, -4, -6 }, { 4, -4, -6 }, { 0, 6, -6 } };
 	static const float lean[3][2] = { { 0, 1 }, { 0.95f, 0.3f }, { 0.95f, -0.3f } }; /* x and z */
 
 	for (int i = 0; i < 3; i++) {
-		const float normals[3][3] = { { lean[i][0], 0, lean[i][1] }, { lean[i][0], 0, lean[i][1] }, { lean[i][0], 0, lean[i][1] } };
+		const float normals[3][3] = { { lean[i][0], 0, lean[i][1] },
+			                      { lean[i][0], 0, lean[i][1] },
+			                      { lean[i][0], 0, lean[i][1] } };
 		const struct tracer_options options = { .mode = TRACER_PATH, .display = 1, .depth = 1, .rays = 16 };
 		uint32_t lamp;
 		struct image img;

@@ -1,11 +1,13 @@
-/* How much light a surface lets through at numbers that are known: glass by Fresnel's equations and absorption, stipples; kernels/frame/transparency.h. */
+/* How much light a surface lets through at numbers that are known: glass by Fresnel's equations and absorption,
+ * stipples; kernels/frame/transparency.h. */
 #include <math.h>
 #include <string.h>
 
 #include "kernels/frame/transparency.h"
 #include "tests/case.h"
 
-/* A triangle in the plane z = -4 that faces the eye; a ray meets its middle, from the front or from the back, at four units a step. */
+/* A triangle in the plane z = -4 that faces the eye; a ray meets its middle, from the front or from the back, at four
+ * units a step. */
 struct world {
 	struct geometry geometry;
 	struct scene_material material;
@@ -28,19 +30,27 @@ static void begin(struct world *w, int back)
 			memcpy(w->vertices[i].color[side], (float[4]){ 0.25f, 1, 0.0625f, 1 }, 16);
 		w->indices[i] = i;
 	}
-	w->material = (struct scene_material){ .front_face = GL_CCW, .polygon_stipple = SCENE_NONE, .alpha_func = GL_ALWAYS, .shade_model = GL_SMOOTH };
+	w->material = (struct scene_material){
+		.front_face = GL_CCW, .polygon_stipple = SCENE_NONE, .alpha_func = GL_ALWAYS, .shade_model = GL_SMOOTH
+	};
 	w->geometry.primitive_draw = w->geometry.crease = SCENE_NONE;
-	w->ray = (struct ray){ .o = { 1, 1, back ? -6 : 0 }, .d = { 0, 0, back ? 4 : -4 }, .t_min = back ? 0.25f : 0, .t_max = 10 };
+	w->ray = (struct ray){
+		.o = { 1, 1, back ? -6 : 0 }, .d = { 0, 0, back ? 4 : -4 }, .t_min = back ? 0.25f : 0, .t_max = 10
+	};
 	w->hit = (struct hit){ .t = back ? 0.5f : 1, .b1 = 1 / 3.0f, .b2 = 1 / 3.0f };
-	w->tables = (struct tables){ .geometries = &w->geometry, .materials = &w->material, .vertices = w->vertices, .indices = w->indices, .stipples = w->stipples };
+	w->tables = (struct tables){ .geometries = &w->geometry,
+		                     .materials = &w->material,
+		                     .vertices = w->vertices,
+		                     .indices = w->indices,
+		                     .stipples = w->stipples };
 }
 
 static void check_passes(const struct world *w, float red, float green, float blue, const char *what)
 {
 	const struct vec3 have = transparency_of_hit(&w->tables, &w->hit, &w->ray, 1);
 
-	ck_assert_msg(fabsf(have.x - red) < 1e-5f && fabsf(have.y - green) < 1e-5f && fabsf(have.z - blue) < 1e-5f, "%s: %g %g %g, not %g %g %g", what, have.x, have.y, have.z, red,
-	              green, blue);
+	ck_assert_msg(fabsf(have.x - red) < 1e-5f && fabsf(have.y - green) < 1e-5f && fabsf(have.z - blue) < 1e-5f,
+	              "%s: %g %g %g, not %g %g %g", what, have.x, have.y, have.z, red, green, blue);
 }
 
 START_TEST(test_opaque)
@@ -59,7 +69,8 @@ START_TEST(test_opaque)
 }
 END_TEST
 
-/* Glass: the root of its colour at each of two surfaces, what is not mirrored at right angles, and on the way out what the body leaves. */
+/* Glass: the root of its colour at each of two surfaces, what is not mirrored at right angles, and on the way out what
+ * the body leaves. */
 START_TEST(test_glass)
 {
 	for (int back = 0; back < 2; back++) {
@@ -71,7 +82,8 @@ START_TEST(test_glass)
 		w.material.surface.ior = 1.5f;
 		check_passes(&w, 0.5f * through, through, 0.25f * through, back ? "glass from behind" : "glass");
 		w.material.surface.absorb[1] = 2;
-		check_passes(&w, 0.5f * through, back ? through * expf(-2) : through, 0.25f * through, back ? "glass that absorbs, over a unit of length" : "glass on the way in");
+		check_passes(&w, 0.5f * through, back ? through * expf(-2) : through, 0.25f * through,
+		             back ? "glass that absorbs, over a unit of length" : "glass on the way in");
 		w.material.surface.ior = 0;
 		w.material.surface.transmit = 3;
 		check_passes(&w, 0.5f, back ? expf(-2) : 1, 0.25f, "of no index and all transparent");
@@ -82,7 +94,8 @@ END_TEST
 /* Fresnel's equations: at right angles, at Brewster's angle, beyond the critical angle. */
 START_TEST(test_fresnel)
 {
-	const float brewster = atanf(1.5f), across = (cosf(brewster) - 1.5f * sinf(brewster)) / (cosf(brewster) + 1.5f * sinf(brewster));
+	const float brewster = atanf(1.5f),
+		    across = (cosf(brewster) - 1.5f * sinf(brewster)) / (cosf(brewster) + 1.5f * sinf(brewster));
 	float beyond;
 
 	ck_assert_float_eq_tol(glass_fresnel(1 / 1.5f, 1, &beyond), 0.04f, 1e-6f);

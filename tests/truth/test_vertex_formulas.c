@@ -1,6 +1,7 @@
 /*
- * The vertex stage of kernels/gl/vertex.h, what vertex programs read, and questions about points of triangles (point.h, stages.h) at numbers
- * that are known: attributes from arrays and current ones, both sides' colours, which side is seen. As test_formulas.
+ * The vertex stage of kernels/gl/vertex.h, what vertex programs read, and questions about points of triangles (point.h,
+ * stages.h) at numbers that are known: attributes from arrays and current ones, both sides' colours, which side is
+ * seen. As test_formulas.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -47,7 +48,9 @@ static void begin(struct world *w, uint32_t attributes)
 	uint32_t at = 5;
 
 	memset(w, 0, sizeof(*w));
-	w->geometry = (struct geometry){ .attributes = attributes, .vertex_first = FIRST, .vertex_count = VERTICES, .texcoord_first = 3 };
+	w->geometry = (struct geometry){
+		.attributes = attributes, .vertex_first = FIRST, .vertex_count = VERTICES, .texcoord_first = 3
+	};
 	w->geometry.position = add(w, &at, 4);
 	w->geometry.normal = add(w, &at, 3);
 	w->geometry.color = add(w, &at, 4);
@@ -63,24 +66,43 @@ static void begin(struct world *w, uint32_t attributes)
 		w->units[0].matrix[k] = w->units[1].matrix[k] = k % 5 ? 0 : 1;
 	}
 	w->geometry.normal_matrix[0] = w->geometry.normal_matrix[5] = w->geometry.normal_matrix[10] = 1;
-	w->current = (struct scene_current){ .color = { 0.1f, 0.2f, 0.3f, 0.4f }, .secondary = { 0.5f, 0.6f, 0.7f, 1 }, .normal = { 0, 0, 1 }, .fog_coord = 0.25f };
+	w->current = (struct scene_current){ .color = { 0.1f, 0.2f, 0.3f, 0.4f },
+		                             .secondary = { 0.5f, 0.6f, 0.7f, 1 },
+		                             .normal = { 0, 0, 1 },
+		                             .fog_coord = 0.25f };
 	for (int u = 0; u < UNITS; u++)
 		memcpy(w->current.texcoord[u], (float[4]){ 0.1f, 0.2f, 0.3f, (float)u + 1 }, 16);
 	for (int i = 0; i < 6; i++)
 		memcpy(w->current.generics[i], (float[4]){ 0.9f, 0.8f, 0.7f, (float)i }, 16);
-	w->material = (struct scene_material){ .unit_count = UNITS, .point_size = 3, .point_size_max = 64, .point_attenuation = { 1, 0, 0 }, .fog_coord_source = GL_FOG_COORD,
-		                               .front = { .ambient = { 0.25f, 0, 0, 1 }, .diffuse = { 0.5f, 0, 0, 1 } }, .back = { .ambient = { 0, 0.5f, 0, 1 }, .diffuse = { 0, 0.25f, 0, 1 } } };
+	w->material = (struct scene_material){ .unit_count = UNITS,
+		                               .point_size = 3,
+		                               .point_size_max = 64,
+		                               .point_attenuation = { 1, 0, 0 },
+		                               .fog_coord_source = GL_FOG_COORD,
+		                               .front = { .ambient = { 0.25f, 0, 0, 1 }, .diffuse = { 0.5f, 0, 0, 1 } },
+		                               .back = { .ambient = { 0, 0.5f, 0, 1 },
+		                                         .diffuse = { 0, 0.25f, 0, 1 } } };
 	w->units[1].unit = 1;
-	w->light = (struct scene_light){ .ambient = { 1, 1, 1, 1 }, .diffuse = { 1, 1, 1, 1 }, .position_eye = { 0, 0, 1, 0 }, .spot_cutoff_deg = 180, .attenuation = { 1, 0, 0 } };
+	w->light = (struct scene_light){ .ambient = { 1, 1, 1, 1 },
+		                         .diffuse = { 1, 1, 1, 1 },
+		                         .position_eye = { 0, 0, 1, 0 },
+		                         .spot_cutoff_deg = 180,
+		                         .attenuation = { 1, 0, 0 } };
 	w->view = (struct view){ .viewport = { 0, 0, 64, 64 }, .depth_range = { 0, 1 } };
-	w->tables = (struct tables){ .attributes = w->attributes, .geometries = &w->geometry, .materials = &w->material, .units = w->units, .lights = &w->light,
+	w->tables = (struct tables){ .attributes = w->attributes,
+		                     .geometries = &w->geometry,
+		                     .materials = &w->material,
+		                     .units = w->units,
+		                     .lights = &w->light,
 		                     .currents = &w->current };
 }
 
 static void run(struct world *w)
 {
-	const struct vertex_arguments a = { .tables = w->tables, .owners = w->owners, .views = &w->view, .shaded = w->shaded, .windows = w->windows, .clips = w->clips,
-		                            .coords = w->coords, .height = 64 };
+	const struct vertex_arguments a = {
+		.tables = w->tables, .owners = w->owners, .views = &w->view, .shaded = w->shaded, .windows = w->windows,
+		.clips = w->clips, .coords = w->coords, .height = 64
+	};
 
 	for (uint32_t i = 0; i < 4 * (3 + UNITS * VERTICES + 1); i++)
 		w->coords[i] = -7;
@@ -98,7 +120,8 @@ static void check_floats(const float *have, const float *wanted, int n, const ch
 START_TEST(test_attributes)
 {
 	for (int arrays = 0; arrays < 2; arrays++) {
-		static const uint32_t all = SCENE_HAS_NORMAL | SCENE_HAS_COLOR | SCENE_HAS_SECONDARY | SCENE_HAS_FOG_COORD | SCENE_HAS_TEXCOORD | SCENE_HAS_TEXCOORD << 1;
+		static const uint32_t all = SCENE_HAS_NORMAL | SCENE_HAS_COLOR | SCENE_HAS_SECONDARY |
+		                            SCENE_HAS_FOG_COORD | SCENE_HAS_TEXCOORD | SCENE_HAS_TEXCOORD << 1;
 		struct world w;
 
 		begin(&w, arrays ? all : 0);
@@ -114,11 +137,15 @@ START_TEST(test_attributes)
 			check_floats(out->normal, arrays ? w.attributes + g->normal + 3 * v : w.current.normal, 3, "normal");
 			check_floats(out->color[0], arrays ? w.attributes + g->color + 4 * v : w.current.color, 4, "colour");
 			check_floats(out->color[1], out->color[0], 4, "the back's colour");
-			check_floats(out->secondary[1], arrays ? w.attributes + g->secondary + 4 * v : w.current.secondary, 4, "secondary colour");
+			check_floats(out->secondary[1],
+			             arrays ? w.attributes + g->secondary + 4 * v : w.current.secondary, 4,
+			             "secondary colour");
 			check_floats(&out->fog_coord, arrays ? w.attributes + g->fog_coord + v : &w.current.fog_coord, 1, "fog coordinate");
 			ck_assert_float_eq(out->size[0], 3);
 			for (uint32_t u = 0; u < UNITS; u++)
-				check_floats(w.coords + 4 * (3 + UNITS * v + u), arrays ? w.attributes + g->texcoord[u] + 4 * v : w.current.texcoord[u], 4, "texture coordinates");
+				check_floats(w.coords + 4 * (3 + UNITS * v + u),
+				             arrays ? w.attributes + g->texcoord[u] + 4 * v : w.current.texcoord[u], 4,
+				             "texture coordinates");
 		}
 		ck_assert_float_eq(w.coords[4 * 3 - 1], -7);
 		ck_assert_float_eq(w.coords[4 * (3 + UNITS * VERTICES)], -7); /* nothing beyond them is written */
@@ -163,7 +190,8 @@ START_TEST(test_inputs)
 	struct vec4 have;
 	const struct geometry *g = &w.geometry;
 
-	begin(&w, SCENE_HAS_NORMAL | SCENE_HAS_COLOR | SCENE_HAS_FOG_COORD | SCENE_HAS_TEXCOORD << 1 | SCENE_HAS_GENERIC << 1 | SCENE_HAS_GENERIC << 3);
+	begin(&w, SCENE_HAS_NORMAL | SCENE_HAS_COLOR | SCENE_HAS_FOG_COORD | SCENE_HAS_TEXCOORD << 1 |
+	                  SCENE_HAS_GENERIC << 1 | SCENE_HAS_GENERIC << 3);
 	for (uint32_t input = 0; input < N_SCENE_VERTEX_INPUTS; input++) {
 		const uint32_t v = 2, unit = input - SCENE_VERTEX_TEXCOORD, generic = input - SCENE_VERTEX_GENERIC;
 		float wanted[4] = { 0, 0, 0, 1 };
@@ -183,7 +211,11 @@ START_TEST(test_inputs)
 		else if (input < SCENE_VERTEX_GENERIC)
 			memcpy(wanted, unit == 1 ? w.attributes + g->texcoord[1] + 4 * v : w.current.texcoord[unit], 16);
 		else
-			memcpy(wanted, generic == 1 || generic == 3 ? w.attributes + g->generics + 4 * (VERTICES * (generic == 3) + v) : w.current.generics[generic], 16);
+			memcpy(wanted,
+			       generic == 1 || generic == 3 ?
+			               w.attributes + g->generics + 4 * (VERTICES * (generic == 3) + v) :
+			               w.current.generics[generic],
+			       16);
 		have = vertex_input(&w.tables, g, v, input);
 		check_floats((float[4]){ have.x, have.y, have.z, have.w }, wanted, 4, "input");
 	}
@@ -194,7 +226,11 @@ END_TEST
 static struct point point_of(struct world *w)
 {
 	static const float corners[3][2] = { { 0, 0 }, { 4, 0 }, { 0, 4 } };
-	struct point p = { .geometry = &w->geometry, .material = &w->material, .number = { 0, 1, 2 }, .weight = { 0.25f, 0.25f, 0.5f }, .front = 1 };
+	struct point p = { .geometry = &w->geometry,
+		           .material = &w->material,
+		           .number = { 0, 1, 2 },
+		           .weight = { 0.25f, 0.25f, 0.5f },
+		           .front = 1 };
 
 	w->material.front_face = GL_CCW;
 	for (uint32_t i = 0; i < 3; i++) {
@@ -225,7 +261,8 @@ START_TEST(test_normals)
 		for (uint32_t k = 0; k < 3; k++)
 			memcpy(w.shaded[k].normal, (float[3]){ turned ? -0.6f : 0.6f, 0, turned ? -0.8f : 0.8f }, 12);
 		n = point_normal(&p);
-		check_floats((float[3]){ n.x, n.y, n.z }, (float[3]){ lit ? 0.6f * side : 0, 0, (lit ? 0.8f : 1) * side }, 3, "normal");
+		check_floats((float[3]){ n.x, n.y, n.z },
+		             (float[3]){ lit ? 0.6f * side : 0, 0, (lit ? 0.8f : 1) * side }, 3, "normal");
 	}
 	for (uint32_t k = 0; k < 3; k++)
 		memset(w.shaded[k].normal, 0, 12);
@@ -239,7 +276,8 @@ START_TEST(test_normals)
 }
 END_TEST
 
-/* The other pixels of a quad see the same triangle, each at its own middle; the fragment's own pixel sees it as it is. */
+/* The other pixels of a quad see the same triangle, each at its own middle; the fragment's own pixel sees it as it
+ * is. */
 START_TEST(test_neighbours)
 {
 	static const float corners[3][2] = { { -1, -1 }, { 1, -1 }, { -1, 1 } };
@@ -287,7 +325,8 @@ START_TEST(test_clip_planes)
 }
 END_TEST
 
-/* What a plane leaves of a polygon: cut sides have a new corner; of one that crosses the plane more often than a polygon can, as many as there is room for. */
+/* What a plane leaves of a polygon: cut sides have a new corner; of one that crosses the plane more often than a
+ * polygon can, as many as there is room for. */
 START_TEST(test_cut_polygons)
 {
 	const struct userclip_plane plane = { { 1, -1, -1 } };
@@ -315,7 +354,8 @@ START_TEST(test_cut_polygons)
 }
 END_TEST
 
-/* The side that shows is that of the places in the window, however far away; of clip space where one of them has none. */
+/* The side that shows is that of the places in the window, however far away; of clip space where one of them has
+ * none. */
 START_TEST(test_sides_of_triangles)
 {
 	struct window_vertex windows[3] = { { 0, 0, 0, 0.01f }, { 256, 0, 0, 0.01f }, { 0, 256, 0, 0.01f } };
@@ -337,7 +377,8 @@ START_TEST(test_sides_of_triangles)
 }
 END_TEST
 
-/* Which draws a vertex program lights anew: lit ones of a program, that rules do not light, with lights that are asked for. */
+/* Which draws a vertex program lights anew: lit ones of a program, that rules do not light, with lights that are asked
+ * for. */
 START_TEST(test_lit_by_programs)
 {
 	for (unsigned i = 0; i < 32; i++) {
@@ -353,7 +394,8 @@ START_TEST(test_lit_by_programs)
 }
 END_TEST
 
-/* Lights that rays go to: those that light the vertices, or the point where it is lit anew, in mode path all that stand before it. */
+/* Lights that rays go to: those that light the vertices, or the point where it is lit anew, in mode path all that stand
+ * before it. */
 START_TEST(test_asked_lights)
 {
 	struct scene_light lights[4];

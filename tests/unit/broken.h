@@ -1,5 +1,6 @@
 /*
- * Closed meshes of many kinds, and ways to break them: what programs do to theirs. For tests of scene/repair. All comes from a seed.
+ * Closed meshes of many kinds, and ways to break them: what programs do to theirs. For tests of scene/repair. All comes
+ * from a seed.
  */
 #pragma once
 
@@ -51,11 +52,11 @@ static inline void broken_quad(struct broken *b, uint32_t one, uint32_t two, uin
 	broken_triangle(b, one, three, four);
 }
 
-/* --- Closed meshes, counter-clockwise outside -------------------------------------------------------------------------------- */
+/* --- Closed meshes, counter-clockwise outside -------------------------------------------------------------------- */
 
 /* A rope of rings, closed at both ends by a pole, or onto itself. place: of ring i of n, corner k of m */
-static inline void broken_rings(struct broken *b, uint32_t n, uint32_t m, int round, void (*place)(const double *how, double i, double k, double out[3]),
-                                const double *how)
+static inline void broken_rings(struct broken *b, uint32_t n, uint32_t m, int round,
+                                void (*place)(const double *how, double i, double k, double out[3]), const double *how)
 {
 	const uint32_t first = b->n_points;
 	double at[3];
@@ -111,8 +112,8 @@ static inline void broken_on_prism(const double *how, double i, double k, double
 }
 
 /*
- * Cells of a grid put together: boxes cut into squares, L, T and U, rooms with hollows, bodies that touch along an edge. Faces between a
- * cell that is there and one that is not.
+ * Cells of a grid put together: boxes cut into squares, L, T and U, rooms with hollows, bodies that touch along an
+ * edge. Faces between a cell that is there and one that is not.
  */
 static inline void broken_cells(struct broken *b, const uint32_t size[3], double share, const double *at[3])
 {
@@ -128,7 +129,8 @@ static inline void broken_cells(struct broken *b, const uint32_t size[3], double
 			for (uint32_t x = 0; x <= size[0]; x++)
 				broken_point(b, at[0][x], at[1][y], at[2][z]);
 	for (uint32_t i = 0; i < size[0] * size[1] * size[2] * 6; i++) {
-		const uint32_t cell[3] = { i / 6 % size[0], i / 6 / size[0] % size[1], i / 6 / size[0] / size[1] }, axis = i % 3, far = i / 3 % 2;
+		const uint32_t cell[3] = { i / 6 % size[0], i / 6 / size[0] % size[1], i / 6 / size[0] / size[1] },
+			       axis = i % 3, far = i / 3 % 2;
 		const uint32_t steps[3] = { 1, row, sheet }, u = steps[(axis + 1) % 3], v = steps[(axis + 2) % 3];
 		const uint32_t corner = first + cell[0] + cell[1] * row + cell[2] * sheet + far * steps[axis];
 		uint32_t next[3] = { cell[0] + 1, cell[1] + 1, cell[2] + 1 };
@@ -168,7 +170,8 @@ static inline void broken_make(struct broken *b, uint32_t kind)
 		const uint32_t from = b->n_triangles;
 
 		broken_rings(b, n, m, 0, broken_on_ball, how);
-		for (uint32_t outer = b->n_triangles, i = (broken_rings(b, n, m, 0, broken_on_ball, inner), outer); i < b->n_triangles && from < outer; i++) {
+		for (uint32_t outer = b->n_triangles, i = (broken_rings(b, n, m, 0, broken_on_ball, inner), outer);
+		     i < b->n_triangles && from < outer; i++) {
 			const uint32_t kept = b->index[3 * i];
 
 			b->index[3 * i] = b->index[3 * i + 1];
@@ -178,7 +181,7 @@ static inline void broken_make(struct broken *b, uint32_t kind)
 		broken_cells(b, size, kind == 3 ? 1 : 0.6, (const double *[3]){ lines[0], lines[1], lines[2] });
 }
 
-/* --- Where it stands, in floats ------------------------------------------------------------------------------------------------ */
+/* --- Where it stands, in floats ---------------------------------------------------------------------------------- */
 
 /* Turned, moved and scaled; then positions are what floats hold. @return the size of its box's diagonal */
 static inline double broken_place(struct broken *b)
@@ -191,7 +194,8 @@ static inline double broken_place(struct broken *b)
 		away[k] = broken_below(b, 2) ? 6 * (broken_next(b) - 0.5) : 0;
 	for (uint32_t p = 0; p < b->n_points; p++) {
 		const double *at = b->points[p];
-		const double x = turns ? at[0] * cos(turn) - at[1] * sin(turn) : at[0], y = turns ? at[0] * sin(turn) + at[1] * cos(turn) : at[1], z = at[2];
+		const double x = turns ? at[0] * cos(turn) - at[1] * sin(turn) : at[0],
+			     y = turns ? at[0] * sin(turn) + at[1] * cos(turn) : at[1], z = at[2];
 		const double placed[3] = { x, turns ? y * cos(tilt) - z * sin(tilt) : y, turns ? y * sin(tilt) + z * cos(tilt) : z };
 
 		for (int k = 0; k < 3; k++)
@@ -222,7 +226,7 @@ static inline double broken_volume(const struct broken *b)
 	return sum;
 }
 
-/* --- Ways to break it ---------------------------------------------------------------------------------------------------------- */
+/* --- Ways to break it -------------------------------------------------------------------------------------------- */
 
 /* Triangles are cut at places along one of their edges; the neighbour there is not, or elsewhere. */
 static inline void broken_cut(struct broken *b, double share)
@@ -308,8 +312,10 @@ static inline void broken_slivers(struct broken *b, double share)
 		if (broken_below(b, 2))
 			broken_triangle(b, one, two, two);
 		else
-			broken_triangle(b, one, two, broken_point(b, (float)(from[0] + along * (to[0] - from[0])), (float)(from[1] + along * (to[1] - from[1])),
-			                                          (float)(from[2] + along * (to[2] - from[2]))));
+			broken_triangle(b, one, two,
+			                broken_point(b, (float)(from[0] + along * (to[0] - from[0])),
+			                             (float)(from[1] + along * (to[1] - from[1])),
+			                             (float)(from[2] + along * (to[2] - from[2]))));
 	}
 }
 
@@ -358,7 +364,8 @@ static inline const struct scene_mesh *broken_mesh(struct broken *b)
 
 /**
  * A closed mesh, broken in some of these ways at random, in at least one.
- * @param weld    the tolerance as a share of the size; vertices move by less than half of it, so that two of one place are nearer than it
+ * @param weld    the tolerance as a share of the size; vertices move by less than half of it, so that two of one place
+ * are nearer than it
  * @param volume  receives what it was before
  */
 static inline const struct scene_mesh *broken_random(struct broken *b, uint64_t seed, double weld, double *volume)

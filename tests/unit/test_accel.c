@@ -1,4 +1,5 @@
-/* Trees: every item in one leaf, boxes around what is below, depth bounded; and meshes kept across frames by content. */
+/* Trees: every item in one leaf, boxes around what is below, depth bounded; and meshes kept across frames by
+ * content. */
 #include "tests/check/random_scene.h"
 
 #include "kernels/rays/compressed.h"
@@ -63,7 +64,8 @@ static void check_node8(uint32_t index, uint32_t depth)
 	}
 }
 
-/* Boxes hold what is below them, and are no more than two steps of their grid larger. @param below  receives the node's own box */
+/* Boxes hold what is below them, and are no more than two steps of their grid larger. @param below  receives the node's
+ * own box */
 static void check_node8c(uint32_t index, uint32_t depth, struct bvh_box *below)
 {
 	const struct node8c *node = &nodes8c[index];
@@ -185,7 +187,8 @@ static void check_cut_trees(const struct triangle *triangles, uint32_t n, uint32
 
 	for (int kd = 0; kd < 2; kd++) {
 		struct bvh_input in = { .boxes = boxes, .triangles = triangles, .n = n, .leaf_max = 4, .room = room, .threads = 1 };
-		struct tree first = { .nodes = nodes_first, .order = order_first }, other = { .nodes = nodes_other, .order = order_other };
+		struct tree first = { .nodes = nodes_first, .order = order_first },
+			    other = { .nodes = nodes_other, .order = order_other };
 
 		ck_assert_int_eq((kd ? bvh_build_kd : bvh_build_sbvh)(&in, &first), 0);
 		in.threads = 3;
@@ -299,7 +302,8 @@ START_TEST(meshes_are_kept_and_dropped)
 }
 END_TEST
 
-/* What accel_pool says is as it was, is: meshes come, move and go, and a copy is kept up as the tracer keeps its device's. */
+/* What accel_pool says is as it was, is: meshes come, move and go, and a copy is kept up as the tracer keeps its
+ * device's. */
 START_TEST(copies_are_kept_up)
 {
 	struct random_scene *s = random_scene_create(3);

@@ -1,4 +1,5 @@
-/* What relume approve makes of a baseline: frames in any order, their files, folders that are none of its own (diff/baseline). */
+/* What relume approve makes of a baseline: frames in any order, their files, folders that are none of its own
+ * (diff/baseline). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -112,15 +113,21 @@ START_TEST(test_files)
 }
 END_TEST
 
-/* A file that somebody has sorted otherwise is read all the same. Folders that are hidden, or hold no baseline, are somebody else's. */
+/* A file that somebody has sorted otherwise is read all the same. Folders that are hidden, or hold no baseline, are
+ * somebody else's. */
 START_TEST(test_other_folders)
 {
-	static const char sheet[] = "format: relume-baseline\nversion: 1\ndevice: \"a device\"\ntrace: \"0123\"\nrelume: \"\"\nsettings: \"\"\napproved_by: \"x\"\n"
+	static const char sheet[] = "format: relume-baseline\nversion: 1\ndevice: \"a device\"\ntrace: "
+	                            "\"0123\"\nrelume: \"\"\nsettings: \"\"\napproved_by: \"x\"\n"
 				    "approved_at: \"2001-09-09T01:46:40Z\"\nreason: \"\"\nframes:\n"
-				    "- {frame: 9, width: 2, height: 2, channels: \"A:1\"}\n- {frame: 2, width: 2, height: 2, channels: \"A:2\"}\n"
-				    "- {frame: 5, width: 2, height: 2, channels: \"A:3\"}\n- {frame: 4, width: 2, height: 2, channels: \"A:4\"}\n";
+				    "- {frame: 9, width: 2, height: 2, channels: \"A:1\"}\n- {frame: 2, width: 2, "
+	                            "height: 2, channels: \"A:2\"}\n"
+				    "- {frame: 5, width: 2, height: 2, channels: \"A:3\"}\n- {frame: 4, width: 2, "
+	                            "height: 2, channels: \"A:4\"}\n";
 
-	ck_assert_int_eq(mkdir("base", 0777) | mkdir("base/.git", 0777) | mkdir("base/notes", 0777) | mkdir("base/a_device", 0777), 0);
+	ck_assert_int_eq(mkdir("base", 0777) | mkdir("base/.git", 0777) | mkdir("base/notes", 0777) |
+	                         mkdir("base/a_device", 0777),
+	                 0);
 	said_write_file("base/.git/baseline.yaml", "format: another\n");
 	said_write_file("base/a_device/baseline.yaml", sheet);
 	check_frames(1 << 9 | 1 << 2 | 1 << 5 | 1 << 4);

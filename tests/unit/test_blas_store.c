@@ -27,7 +27,10 @@ static void make_soup(void)
 	static float positions[3 * N][4];
 	static uint32_t index[3 * N];
 	struct random_scene r = { .random = 7 };
-	struct scene_mesh mesh = { .kind = SCENE_TRIANGLES, .vertex_count = 3 * N, .primitive_count = N, .position = positions[0],
+	struct scene_mesh mesh = { .kind = SCENE_TRIANGLES,
+		                   .vertex_count = 3 * N,
+		                   .primitive_count = N,
+		                   .position = positions[0],
 		                   .index = index };
 
 	for (uint32_t i = 0; i < N; i++) {
@@ -190,7 +193,8 @@ START_TEST(a_damaged_file_is_no_tree)
 	tree_free(&got);
 	for (uint64_t length = 0; length <= bytes + 1; length += length < 70 ? 1 : bytes / 9) {
 		ck_assert_int_eq(truncate(path[0], (off_t)length), 0);
-		ck_assert_msg(length == bytes || blas_store_load(store, &key, &got) == 0, "a file cut to %llu bytes", (unsigned long long)length);
+		ck_assert_msg(length == bytes || blas_store_load(store, &key, &got) == 0, "a file cut to %llu bytes",
+		              (unsigned long long)length);
 		blas_store_save(store, &key, &tree);
 		ck_assert_int_eq(blas_store_load(store, &key, &got), 1);
 		tree_free(&got);
@@ -374,7 +378,8 @@ START_TEST(a_full_disk_is_one_line)
 }
 END_TEST
 
-/* The trees of a given mesh, by version. Where this fails, builders have changed: raise TREE_VERSION and give the new sums. */
+/* The trees of a given mesh, by version. Where this fails, builders have changed: raise TREE_VERSION and give the new
+ * sums. */
 START_TEST(other_trees_are_another_version)
 {
 	static const uint64_t sums[N_ACCEL_KINDS] = { [ACCEL_BVH] = 0x1b93a3dbc07afc84u, [ACCEL_SBVH] = 0x8a222f99c945d872u,

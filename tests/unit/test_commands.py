@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Every command of Khronos' registries has a wrapper or a stated reason; the generator's output depends on its input alone."""
+"""Every command of Khronos' registries has a wrapper or a stated reason; the generator's output depends on its input
+alone."""
 import os
 import pathlib
 import re
@@ -18,8 +19,8 @@ OLD = re.compile(r"GL_VERSION_(1_\d|2_[01])|GLX_VERSION_1_\d")
 
 
 def generate(overlay, directory):
-    return subprocess.run(["/usr/bin/python3", "-B", CAPTURE / "gen.py", overlay, directory], capture_output=True, text=True,
-                          check=False)
+    return subprocess.run(["/usr/bin/python3", "-B", CAPTURE / "gen.py", overlay, directory], capture_output=True,
+                          text=True, check=False)
 
 
 class Commands(unittest.TestCase):
@@ -53,7 +54,8 @@ class Commands(unittest.TestCase):
 
     def test_the_library_shows_every_command(self):
         library = pathlib.Path(os.environ.get("RELUME_BUILD", ROOT / "build"), "librelume.so")
-        symbols = subprocess.run(["nm", "-D", "--defined-only", library], capture_output=True, text=True, check=True).stdout
+        symbols = subprocess.run(["nm", "-D", "--defined-only", library], capture_output=True, text=True,
+                                 check=True).stdout
         shown = {line.split()[-1] for line in symbols.splitlines()}
         self.assertEqual(sorted(set(self.commands) - shown), [])
         extra = {s for s in shown - set(self.commands) if s not in ("dlsym", "relume_material", "relume_build_kd_tree")}
@@ -70,11 +72,12 @@ class Commands(unittest.TestCase):
     def test_errors_name_the_line(self):
         text = (CAPTURE / "overlay.txt").read_text()
         count = text.count("\n")
-        for line, complaint in (("frobnicate glBegin", "there is no statement"), ("arg glBegin nothing opaque", "no command has"),
-                                ("when glBeginn 1", "no command has"), ("arg glBegin( mode opaque", "no regular expression"),
-                                ("len COMPSIZE(x)", "len needs"), ("type GLfoo", "type needs"), ("pass glBegin", "pass needs"),
-                                ("header EGL/egl.h eglNonsense", "no such command"),
-                                ("header EGL/none.h egl\\w+", "No such file")):
+        for line, complaint in (("frobnicate glBegin", "there is no statement"),
+                                ("arg glBegin nothing opaque", "no command has"), ("when glBeginn 1", "no command has"),
+                                ("arg glBegin( mode opaque", "no regular expression"), ("len COMPSIZE(x)", "len needs"),
+                                ("type GLfoo", "type needs"), ("pass glBegin", "pass needs"),
+                                ("header EGL/egl.h eglNonsense", "no such command"), ("header EGL/none.h egl\\w+",
+                                                                                      "No such file")):
             with tempfile.TemporaryDirectory() as folder:
                 overlay = pathlib.Path(folder, "overlay.txt")
                 overlay.write_text(text + line + "\n")

@@ -47,12 +47,14 @@ START_TEST(test_linear)
 }
 END_TEST
 
-/* GL's numbers come out as the codes that GL rounds them to, in linear light and as they are, however near to a border they lie. */
+/* GL's numbers come out as the codes that GL rounds them to, in linear light and as they are, however near to a border
+ * they lie. */
 START_TEST(test_codes)
 {
 	for (int code = 0; code < 255; code++)
 		for (int i = -40; i <= 40; i++) {
-			float gl = ((float)code + 0.5f + 0.002f * (float)i) / 255.0f, want = rintf(gl * 255.0f), settled = compose_nudged(gl);
+			float gl = ((float)code + 0.5f + 0.002f * (float)i) / 255.0f, want = rintf(gl * 255.0f),
+			      settled = compose_nudged(gl);
 			float linear = compose_rounded(encode_linear(settled)), plain = compose_rounded(settled);
 
 			ck_assert_float_eq(rintf(image_display_from_linear(linear) * 255.0f), want);

@@ -1,4 +1,5 @@
-/* Devices: what a shared one has in common with its parent, what a profile counts, and what is kept of compiled kernels. */
+/* Devices: what a shared one has in common with its parent, what a profile counts, and what is kept of compiled
+ * kernels. */
 #include <dirent.h>
 #include <sched.h>
 #include <stdio.h>
@@ -50,8 +51,10 @@ START_TEST(test_profile)
 	ck_assert_int_eq(launch_reserve(dev, visibility, 3 * n), 0);
 	device_set_profile(dev, &profile);
 	ck_assert_int_eq(device_write(dev, occluded.buffer, 0, flags, sizeof(flags)), 0);
-	ck_assert_int_eq(launch_shadow_sum(dev, n, LAUNCH(shadow_sum, .rays = rays, .occluded = occluded, .weight = 0.5f, .first = 1, .through = 0,
-	                                                  .n = n, .visibility = visibility)), 0);
+	ck_assert_int_eq(launch_shadow_sum(dev, n,
+	                                   LAUNCH(shadow_sum, .rays = rays, .occluded = occluded, .weight = 0.5f,
+	                                          .first = 1, .through = 0, .n = n, .visibility = visibility)),
+	                 0);
 	device_set_profile(dev, NULL);
 	ck_assert_int_eq(device_read(dev, visibility.buffer, 0, out, sizeof(out)), 0);
 	ck_assert_float_eq(out[0], 0.5f);
@@ -82,8 +85,10 @@ static void run_kernel(struct device *dev)
 	ck_assert_int_eq(launch_upload(dev, occluded, flags, n), 0);
 	ck_assert_int_eq(launch_reserve(dev, rays, n), 0);
 	ck_assert_int_eq(launch_reserve(dev, visibility, 3 * n), 0);
-	ck_assert_int_eq(launch_shadow_sum(dev, n, LAUNCH(shadow_sum, .rays = rays, .occluded = occluded, .weight = 0.25f, .first = 1, .through = 0,
-	                                                  .n = n, .visibility = visibility)), 0);
+	ck_assert_int_eq(launch_shadow_sum(dev, n,
+	                                   LAUNCH(shadow_sum, .rays = rays, .occluded = occluded, .weight = 0.25f,
+	                                          .first = 1, .through = 0, .n = n, .visibility = visibility)),
+	                 0);
 	ck_assert_int_eq(device_read(dev, visibility.buffer, 0, out, sizeof(out)), 0);
 	ck_assert_float_eq(out[0], 0.25f);
 	ck_assert_float_eq(out[3], 0);
@@ -144,7 +149,8 @@ static void change_byte(const char *path, long at)
 
 static void make_folder(char *folder, size_t size)
 {
-	ck_assert_int_lt(snprintf(folder, size - 8, "%s/programs-XXXXXX", getenv("TMPDIR") ? getenv("TMPDIR") : "/tmp"), (int)size - 8);
+	ck_assert_int_lt(snprintf(folder, size - 8, "%s/programs-XXXXXX", getenv("TMPDIR") ? getenv("TMPDIR") : "/tmp"),
+	                 (int)size - 8);
 	ck_assert_ptr_nonnull(mkdtemp(folder));
 	strcat(folder, "/kept");
 }
@@ -244,12 +250,14 @@ static int count_pinned(const cpu_set_t *all)
 
 	ck_assert_ptr_nonnull(folder);
 	while ((entry = readdir(folder)))
-		n += entry->d_name[0] != '.' && sched_getaffinity(atoi(entry->d_name), sizeof(cores), &cores) == 0 && !CPU_EQUAL(&cores, all);
+		n += entry->d_name[0] != '.' && sched_getaffinity(atoi(entry->d_name), sizeof(cores), &cores) == 0 &&
+		     !CPU_EQUAL(&cores, all);
 	closedir(folder);
 	return n;
 }
 
-/* A core for each thread of PoCL: only where the process may use all cores (not 1), is asked to (not 2), and there are as many (not 3). */
+/* A core for each thread of PoCL: only where the process may use all cores (not 1), is asked to (not 2), and there are
+ * as many (not 3). */
 START_TEST(test_threads_stay_on_cores)
 {
 	const int n = (int)sysconf(_SC_NPROCESSORS_ONLN);

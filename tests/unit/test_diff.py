@@ -17,7 +17,8 @@ import zlib
 import jsonschema
 
 RELUME = os.environ.get("RELUME", "build/relume")
-SCHEMA = json.loads((pathlib.Path(__file__).resolve().parent.parent.parent / "diff/score/score.schema.json").read_text())
+SCHEMA = json.loads(
+    (pathlib.Path(__file__).resolve().parent.parent.parent / "diff/score/score.schema.json").read_text())
 WIDTH, HEIGHT = 48, 40
 
 
@@ -34,7 +35,8 @@ def picture(seed, width=WIDTH, height=HEIGHT):
 
 
 def drifted(rows):
-    """One code too bright all over, which FLIP sees, and one pixel beyond what R1 allows: it has 0.1 % to spare, P decides."""
+    """One code too bright all over, which FLIP sees, and one pixel beyond what R1 allows: it has 0.1 % to spare, P
+    decides."""
     rows = [bytes(b + 1 if b < 255 else b for b in row) for row in rows]
     return [bytes((rows[0][0] + 2,)) + rows[0][1:]] + rows[1:]
 
@@ -73,7 +75,9 @@ def read_png(path):
 
 def places(rows, wanted):
     """Where a picture is found within another one: (x, y)."""
-    return [(at.start() // 3, y) for y in range(len(rows) - len(wanted) + 1) for at in re.finditer(re.escape(wanted[0]), rows[y])
+    return [(at.start() // 3, y)
+            for y in range(len(rows) - len(wanted) + 1)
+            for at in re.finditer(re.escape(wanted[0]), rows[y])
             if all(rows[y + k][at.start():at.start() + len(row)] == row for k, row in enumerate(wanted))]
 
 
@@ -131,8 +135,9 @@ class Diff(unittest.TestCase):
         jsonschema.Draft202012Validator.check_schema(SCHEMA)
         write_png(self.traced / "b.3.png", picture(9))
         run = self.json(self.ref, self.traced, expect=1)
-        for path, value in ((("version",), 2), (("extra",), 1), (("frames", 0, "outcome"), "fine"), (("frames", 0, "fidelity"), 1.5),
-                            (("frames", 0, "gates", "R1", "figures"), []), (("frames", 0, "gates", "R9"), {}), (("counts", "passed"), -1)):
+        for path, value in ((("version", ), 2), (("extra", ), 1), (("frames", 0, "outcome"), "fine"),
+                            (("frames", 0, "fidelity"), 1.5), (("frames", 0, "gates", "R1", "figures"), []),
+                            (("frames", 0, "gates", "R9"), {}), (("counts", "passed"), -1)):
             changed = json.loads(json.dumps(run))
             at = changed
             for key in path[:-1]:
@@ -171,7 +176,8 @@ class Diff(unittest.TestCase):
     def test_missing_and_extra_frames(self):
         (self.traced / "b.2.png").unlink()
         self.assertEqual(self.outcomes(self.ref, self.traced, "--all", expect=1)[2], "missing")
-        self.assertEqual(self.outcomes(self.ref, self.traced, "--all", "-f", "2-9", expect=1), {2: "missing", 3: "passed", 4: "passed"})
+        self.assertEqual(self.outcomes(self.ref, self.traced, "--all", "-f", "2-9", expect=1),
+                         {2: "missing", 3: "passed", 4: "passed"})
         self.assertIn("not compared: 1 frame that the reference", self.diff(self.ref, self.traced, expect=0).stdout)
         self.assertEqual(list(self.outcomes(self.ref, self.traced / "b.3.png", expect=0)), [3])
         self.diff(self.ref, self.traced, "-f", "3-4", expect=0)
@@ -181,22 +187,32 @@ class Diff(unittest.TestCase):
         self.assertEqual(self.outcomes(self.ref, self.traced, expect=4)[7], "extra")
 
     def test_windows_of_exr(self):
-        """A picture is its display window: moved data fail, cropped data are compared where they are, overscan is left out, DWA is read."""
-        for name, edit in (("base", []), ("shift", ["--origin", "+5+3"]), ("crop", ["--crop", "20x21+20+10"]), ("dwaa", ["--compression", "dwaa:1"]),
-                           ("dwab", ["--compression", "dwab:1"]), ("piz", ["--compression", "piz"])):
+        """A picture is its display window: moved data fail, cropped data are compared where they are, overscan is left
+        out, DWA is read."""
+        for name, edit in (("base", []), ("shift", ["--origin", "+5+3"]), ("crop", ["--crop", "20x21+20+10"]),
+                           ("dwaa", ["--compression",
+                                     "dwaa:1"]), ("dwab", ["--compression",
+                                                           "dwab:1"]), ("piz", ["--compression", "piz"])):
             (self.dir / name).mkdir()
-            subprocess.run(["oiiotool", self.ref / "a.0003.png", *edit, "-d", "float", "-o", self.dir / name / "f.3.exr"], check=True)
+            subprocess.run(
+                ["oiiotool", self.ref / "a.0003.png", *edit, "-d", "float", "-o", self.dir / name / "f.3.exr"],
+                check=True)
         (self.dir / "over").mkdir()
-        subprocess.run(["oiiotool", self.ref / "a.0003.png", "--create", f"{WIDTH + 8}x{HEIGHT + 6}", "3", "--origin", "-4-3", "--paste", "+0+0", "--fullsize",
-                        f"{WIDTH}x{HEIGHT}+0+0", "-d", "float", "-o", self.dir / "over" / "f.3.exr"], check=True)
-        for name, wanted in (("base", "passed"), ("shift", "failed"), ("crop", "passed"), ("dwaa", "passed"), ("dwab", "passed"), ("piz", "passed"), ("over", "passed")):
+        subprocess.run([
+            "oiiotool", self.ref / "a.0003.png", "--create", f"{WIDTH + 8}x{HEIGHT + 6}", "3", "--origin", "-4-3",
+            "--paste", "+0+0", "--fullsize", f"{WIDTH}x{HEIGHT}+0+0", "-d", "float", "-o", self.dir / "over" / "f.3.exr"
+        ], check=True)
+        for name, wanted in (("base", "passed"), ("shift", "failed"), ("crop", "passed"), ("dwaa", "passed"),
+                             ("dwab", "passed"), ("piz", "passed"), ("over", "passed")):
             for pair in ((self.dir / "base", self.dir / name), (self.dir / name, self.dir / "base")):
-                self.assertEqual(self.outcomes(*pair, "--report", self.dir / "page", expect=int(wanted == "failed")), {3: wanted}, name)
+                self.assertEqual(self.outcomes(*pair, "--report", self.dir / "page", expect=int(wanted == "failed")),
+                                 {3: wanted}, name)
         damaged = bytearray((self.dir / "crop" / "f.3.exr").read_bytes())
         at = damaged.index(b"displayWindow\0box2i\0") + len(b"displayWindow\0box2i\0") + 4
         damaged[at:at + 16] = struct.pack("<4i", 1000, 1000, 1047, 1039)
         (self.dir / "crop" / "f.3.exr").write_bytes(damaged)
-        self.assertIn("shows nothing of its display window", self.diff(self.dir / "base", self.dir / "crop", expect=3).stderr)
+        self.assertIn("shows nothing of its display window",
+                      self.diff(self.dir / "base", self.dir / "crop", expect=3).stderr)
 
     def test_other_size_fails(self):
         write_png(self.traced / "b.1.png", picture(1, WIDTH + 1))
@@ -254,7 +270,10 @@ class Diff(unittest.TestCase):
             self.assertEqual("made from another recording" in " ".join(done.stdout.split()), said, done.stdout)
             self.assertIn("    V validity: ", done.stdout)
         (self.dir / "out").mkdir()
-        subprocess.run([RELUME, "render", "--device", "reference", "--mode", "gl", golden / "two_triangles.trace", "-o", self.dir / "out" / "####.exr"], check=True)
+        subprocess.run([
+            RELUME, "render", "--device", "reference", "--mode", "gl", golden / "two_triangles.trace", "-o",
+            self.dir / "out" / "####.exr"
+        ], check=True)
         (self.dir / "t.trace").write_bytes((golden / "cornell.trace").read_bytes())
         done = self.diff(self.dir / "t.trace", self.dir / "out", expect=1)
         self.assertIn("another recording: one of two_triangles of hash", " ".join(done.stdout.split()))
@@ -266,33 +285,43 @@ class Diff(unittest.TestCase):
         suite = xml.etree.ElementTree.parse(self.dir / "j.xml").getroot().find("testsuite")
         self.assertEqual([suite.get(k) for k in ("tests", "failures", "errors")], ["4", "1", "1"])
         failed = suite.find("testcase[failure]")
-        self.assertEqual([failed.get(k) for k in ("classname", "name", "file")], ["traced", "frame 3", str(self.traced / "b.3.png")])
-        self.assertRegex(failed.find("failure").get("message"), "^not as the reference: R1 interior colour: interior pixels over 2/255 ")
-        self.assertIn(f"\npicture: {self.traced}/b.3.png\nreference: {self.ref}/a.0003.png\n", failed.find("failure").text)
+        self.assertEqual([failed.get(k) for k in ("classname", "name", "file")],
+                         ["traced", "frame 3", str(self.traced / "b.3.png")])
+        self.assertRegex(
+            failed.find("failure").get("message"),
+            "^not as the reference: R1 interior colour: interior pixels over 2/255 ")
+        self.assertIn(f"\npicture: {self.traced}/b.3.png\nreference: {self.ref}/a.0003.png\n",
+                      failed.find("failure").text)
 
     def test_names(self):
-        """Pictures without a number, with one that another has, too, and in folders are matched by path; endings do not matter."""
+        """Pictures without a number, with one that another has, too, and in folders are matched by path; endings do not
+        matter."""
         for folder in (self.ref, self.traced):
             for n, name in enumerate(("login", "dark/login", "dark/menu.2", "5_on", "5_off")):
                 write_png(folder / f"{name}.png", picture(n))
-        self.assertEqual({f.get("name", f["frame"]): f["outcome"] for f in self.json(self.ref, self.traced, expect=0)["frames"]},
-                         dict.fromkeys([1, 2, 3, 4, "5_off", "5_on", "dark/login", "dark/menu.2", "login"], "passed"))
+        self.assertEqual(
+            {f.get("name", f["frame"]): f["outcome"] for f in self.json(self.ref, self.traced, expect=0)["frames"]},
+            dict.fromkeys([1, 2, 3, 4, "5_off", "5_on", "dark/login", "dark/menu.2", "login"], "passed"))
         write_png(self.traced / "login.png", picture(9))
         (self.traced / "dark/menu.2.png").rename(self.traced / "dark/new.png")
         (self.traced / "5_on.png").unlink()
         write_png(self.traced / "5_on.tif", picture(3))
         subprocess.run(["oiiotool", self.ref / "5_on.png", "-o", self.traced / "5_on.tif"], check=True)
-        out = self.diff(self.ref, self.traced, "--all", "--markdown", self.dir / "m.md", "--junit", self.dir / "j.xml", "--annotations", "--report", self.dir / "page",
-                        expect=1).stdout
-        for said in ("login: failed, ", "dark/menu.2: missing: ", "dark/new: extra: ", f"({self.traced}/login.png)", "10 frames", "::error title=relume diff%3A login failed::"):
+        out = self.diff(self.ref, self.traced, "--all", "--markdown", self.dir / "m.md", "--junit", self.dir / "j.xml",
+                        "--annotations", "--report", self.dir / "page", expect=1).stdout
+        for said in ("login: failed, ", "dark/menu.2: missing: ", "dark/new: extra: ", f"({self.traced}/login.png)",
+                     "10 frames", "::error title=relume diff%3A login failed::"):
             self.assertIn(said, " ".join(out.split()) if said == "dark/menu.2: missing: " else out)
         self.assertNotIn("5_on", out)
         self.assertIn("| login | failed |", (self.dir / "m.md").read_text())
-        self.assertEqual({c.get("name") for c in xml.etree.ElementTree.parse(self.dir / "j.xml").iter("testcase") if len(c)}, {"login", "dark/menu.2", "dark/new"})
+        self.assertEqual(
+            {c.get("name") for c in xml.etree.ElementTree.parse(self.dir / "j.xml").iter("testcase") if len(c)},
+            {"login", "dark/menu.2", "dark/new"})
         self.assertIn('"name": "dark/new"', (self.dir / "page/index.html").read_text())
         self.assertEqual(self.outcomes(self.ref, self.traced / "dark/../login.png", expect=1), {9: "failed"})
         write_png(self.dir / "other/new.png", picture(1))
-        self.assertIn("no numbered image, and none whose path", self.diff(self.ref, self.dir / "other", expect=3).stderr)
+        self.assertIn("no numbered image, and none whose path",
+                      self.diff(self.ref, self.dir / "other", expect=3).stderr)
         # beside a file of reference frames there is nothing to compare them with, and that is said
         (self.dir / "t.ref").write_bytes(b"RELREF2\n" + b"".join(ref_color(n, picture(n)) for n in range(1, 5)))
         self.assertIn("login.png: has no number", self.diff(self.dir / "t.ref", self.traced, expect=0).stderr)
@@ -342,10 +371,13 @@ class Diff(unittest.TestCase):
         write_png(self.dir / "m.png", white)
         self.diff(self.ref, self.traced, *self.config("rules:\n- mask: m.png\n"), expect=0)
         shutil.copy(self.ref / "a.0003.png", self.traced / "b.3.png")
-        subprocess.run(["oiiotool", self.ref / "a.0002.png", "--ch", "R,G,B,A=0.5", "-o", self.traced / "b.2.png"], check=True)
-        self.diff(self.ref, self.traced, *self.config("rules:\n- ignore_alpha: no\n"), expect=1)
-        subprocess.run(["oiiotool", self.ref / "a.0002.png", "--ch", "R,G,B,A=0.5", "--attrib", "oiio:UnassociatedAlpha", "1", "-o", self.traced / "b.2.tif"],
+        subprocess.run(["oiiotool", self.ref / "a.0002.png", "--ch", "R,G,B,A=0.5", "-o", self.traced / "b.2.png"],
                        check=True)
+        self.diff(self.ref, self.traced, *self.config("rules:\n- ignore_alpha: no\n"), expect=1)
+        subprocess.run([
+            "oiiotool", self.ref / "a.0002.png", "--ch", "R,G,B,A=0.5", "--attrib", "oiio:UnassociatedAlpha", "1", "-o",
+            self.traced / "b.2.tif"
+        ], check=True)
         (self.traced / "b.2.png").unlink()
         self.diff(self.ref, self.traced, *self.config("rules:\n- {frames: 2, ignore_alpha: yes}\n"), expect=0)
 
@@ -374,12 +406,14 @@ class Diff(unittest.TestCase):
                 if frame < 4 or n != 1:
                     write_png(run / f"f.{frame}.png", [bytes(row) for row in rows])
         rules = self.dir / "rules.yaml"
-        rules.write_text("rules:\n- {bars: [{gate: P, fail: 0.5}, {gate: R1, fail: 90}, {gate: R4, figure: 2, fail: 9000}]}\n"
-                         "flaky:\n- {frames: '1', gates: [R1], reason: a driver, expires: 2099-01-01}\n")
+        rules.write_text(
+            "rules:\n- {bars: [{gate: P, fail: 0.5}, {gate: R1, fail: 90}, {gate: R4, figure: 2, fail: 9000}]}\n"
+            "flaky:\n- {frames: '1', gates: [R1], reason: a driver, expires: 2099-01-01}\n")
         said = self.diff(self.ref, *runs, expect=1).stdout
         verdicts = dict(re.findall(r"^ +(\d+) (flaky|regression)", said, re.M))
         self.assertEqual(verdicts, {"2": "flaky", "3": "regression", "4": "flaky"}, said)
-        self.assertRegex(said, r"frames: \"2\", gates: \[R1[^]]*\], reason: .* in 4 of 4 runs, 16 pixels vary\", expires: 20\d\d-")
+        self.assertRegex(
+            said, r"frames: \"2\", gates: \[R1[^]]*\], reason: .* in 4 of 4 runs, 16 pixels vary\", expires: 20\d\d-")
         self.assertRegex(said, r"4 flaky +1 of 4  missing \(1\)")
         self.assertIn("1 steady, 2 flaky (50 %), 1 regression\n", said)
         said = self.diff("--config", rules, self.ref, *runs, expect=1).stdout
@@ -389,21 +423,29 @@ class Diff(unittest.TestCase):
         self.diff("-f", "1,2,4", "--quarantine", self.dir / "q.yaml", "--expires", "9", self.ref, *runs, expect=0)
         (self.dir / "approved.yaml").write_text((self.dir / "q.yaml").read_text())
         self.assertEqual(self.outcomes(self.ref, runs[0], "--config", self.dir / "approved.yaml", expect=1)[2], "flaky")
-        self.assertNotIn("expires:", self.diff("--config", self.dir / "approved.yaml", self.ref, *runs, expect=1).stdout)
+        self.assertNotIn("expires:",
+                         self.diff("--config", self.dir / "approved.yaml", self.ref, *runs, expect=1).stdout)
         self.diff("--json", "-", self.ref, *runs, expect=2)
         self.diff("--quarantine", "x", self.ref, runs[0], expect=2)
 
     def test_markdown(self):
         write_png(self.traced / "b.2.png", picture(9))
         for _ in range(2):  # what a job's earlier steps said stays
-            self.diff("--markdown", self.dir / "sum.md", "--report", self.dir / "report", self.ref, self.traced, expect=1)
+            self.diff("--markdown", self.dir / "sum.md", "--report", self.dir / "report", self.ref, self.traced,
+                      expect=1)
         text = (self.dir / "sum.md").read_text()
         self.assertEqual(text.count("### relume diff"), 2)
-        self.assertIn(f"3 passed, 1 failed of 4 frames; [page]({self.dir}/report/index.html), [contact sheet]({self.dir}/report/sheet.png)", text)
+        self.assertIn(
+            f"3 passed, 1 failed of 4 frames; [page]({self.dir}/report/index.html), [contact "
+            f"sheet]({self.dir}/report/sheet.png)",
+            text)
         self.assertRegex(text, r"\| 2 \| failed \| not as the reference: \*\*R1\*\* interior pixels")
         write_png(self.traced / "b.3.png", picture(30))
         self.diff("--markdown", self.dir / "two.md", self.ref, self.traced, expect=1)
-        self.assertEqual(len(re.findall(r"^\| 2-3 \| failed .* \(frame 3, the worst\) \|  \|$", (self.dir / "two.md").read_text(), re.M)), 1)
+        self.assertEqual(
+            len(
+                re.findall(r"^\| 2-3 \| failed .* \(frame 3, the worst\) \|  \|$", (self.dir / "two.md").read_text(),
+                           re.M)), 1)
 
     def test_flaky(self):
         write_png(self.traced / "b.2.png", drifted(picture(2)))

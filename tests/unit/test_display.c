@@ -1,4 +1,5 @@
-/* Codes of display pictures (tracer/image/display.h): the curve, the dither, what is brighter than white. real/test_display has the files. */
+/* Codes of display pictures (tracer/image/display.h): the curve, the dither, what is brighter than white.
+ * real/test_display has the files. */
 #include <math.h>
 #include <string.h>
 
@@ -31,7 +32,8 @@ static uint64_t show(const struct display_options *options, const char *encoding
 	return over;
 }
 
-/* Each of 64 pixels has a threshold of its own, in steps of 0.9 / 64: as many are rounded up as lie below it, in every square of 8 x 8. */
+/* Each of 64 pixels has a threshold of its own, in steps of 0.9 / 64: as many are rounded up as lie below it, in every
+ * square of 8 x 8. */
 START_TEST(test_dither)
 {
 	static const struct display_options options = { 0, 1, 0 };
@@ -65,15 +67,17 @@ END_TEST
 START_TEST(test_white)
 {
 	static const struct { const char *encoding; float value, exposure, white; int code; uint64_t over; } rows[] = {
-		{ "linear", 0.5f, 0, 1, 188, 0 }, { "linear", 1, 0, 1, 255, 0 }, { "linear", 1.01f, 0, 1, 255, SIDE * SIDE }, { "linear", 0.25f, 1, 1, 188, 0 },
-		{ "linear", 0.51f, 1, 1, 255, SIDE * SIDE }, { "linear", 2, -1, 1, 255, 0 }, { "linear", 3, 0, 4, 253, 0 }, { "linear", 4.01f, 0, 4, 255, SIDE * SIDE },
-		{ "display", 0.5f, 0, 1, 128, 0 }, { "display", 1.01f, 0, 1, 255, SIDE * SIDE }, { "linear", -1, 0, 1, 0, 0 }, { "linear", NAN, 0, 1, 0, 0 },
+		{ "linear", 0.5f, 0, 1, 188, 0 }, { "linear", 1, 0, 1, 255, 0 }, { "linear", 1.01f, 0, 1, 255, SIDE * SIDE },
+		{ "linear", 0.25f, 1, 1, 188, 0 }, { "linear", 0.51f, 1, 1, 255, SIDE * SIDE }, { "linear", 2, -1, 1, 255, 0 },
+		{ "linear", 3, 0, 4, 253, 0 }, { "linear", 4.01f, 0, 4, 255, SIDE * SIDE }, { "display", 0.5f, 0, 1, 128, 0 },
+		{ "display", 1.01f, 0, 1, 255, SIDE * SIDE }, { "linear", -1, 0, 1, 0, 0 }, { "linear", NAN, 0, 1, 0, 0 },
 	};
 
 	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
 		const struct display_options options = { rows[i].exposure, rows[i].white, 1 };
 
-		ck_assert_msg(show(&options, rows[i].encoding, rows[i].value) == rows[i].over, "row %zu: another number of pixels is brighter than white", i);
+		ck_assert_msg(show(&options, rows[i].encoding, rows[i].value) == rows[i].over,
+		              "row %zu: another number of pixels is brighter than white", i);
 		ck_assert_msg(codes[7][1] == rows[i].code, "row %zu: code %u, not %d", i, codes[7][1], rows[i].code);
 	}
 }

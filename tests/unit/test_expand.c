@@ -1,6 +1,7 @@
 /*
- * Lines, points and outlines of polygons as quads in the window (tracer/frame/expand.h; GL 2.1 sec. 3.3, 3.4, 3.5.4, 3.5.5): where they are,
- * what they carry, what is left of them. The last bits, which are llvmpipe's, are compared by real/test_shapes.
+ * Lines, points and outlines of polygons as quads in the window (tracer/frame/expand.h; GL 2.1
+ * sec. 3.3, 3.4, 3.5.4, 3.5.5): where they are, what they carry, what is left of them. The last bits, which are
+ * llvmpipe's, are compared by real/test_shapes.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -45,11 +46,19 @@ static void begin(struct drawn *d, enum scene_primitive kind, enum prepared_shap
 	memcpy(d->index, in_order, sizeof(in_order));
 	d->draws[0] = 7;
 	d->draws[1] = 8;
-	d->mesh = (struct scene_mesh){ .kind = kind, .vertex_count = 4, .primitive_count = each == 2 ? 2 : 1, .index = d->index, .primitive_draw = d->draws };
-	d->material = (struct scene_material){ .shade_model = GL_SMOOTH, .front_face = GL_CCW, .line_width = 1, .point_attenuation = { 1, 0, 0 } };
+	d->mesh = (struct scene_mesh){ .kind = kind,
+		                       .vertex_count = 4,
+		                       .primitive_count = each == 2 ? 2 : 1,
+		                       .index = d->index,
+		                       .primitive_draw = d->draws };
+	d->material = (struct scene_material){
+		.shade_model = GL_SMOOTH, .front_face = GL_CCW, .line_width = 1, .point_attenuation = { 1, 0, 0 }
+	};
 	d->view = (struct view){ .viewport = { 0, 0, SIDE, SIDE }, .depth_range = { 0, 1 } };
-	d->in = (struct expand_input){ .mesh = &d->mesh, .material = &d->material, .view = &d->view, .shape = shape, .width = SIDE, .height = SIDE, .depth_bits = 24,
-		                       .vertices = d->vertices, .dashed = &d->dashed };
+	d->in = (struct expand_input){
+		.mesh = &d->mesh, .material = &d->material, .view = &d->view, .shape = shape, .width = SIDE, .height = SIDE,
+		.depth_bits = 24, .vertices = d->vertices, .dashed = &d->dashed
+	};
 }
 
 static void expand(struct drawn *d, uint32_t quads)
@@ -75,11 +84,13 @@ static void check_box(const struct drawn *d, uint32_t quad, float left, float lo
 		ck_assert_msg(fabsf(box[c] - wanted[c]) < 0.51f, "quad %u: side %d at %g, not %g", quad, c, box[c], wanted[c]);
 }
 
-/* Plain ones, with samples, smooth ones: of their width across the greater direction or across themselves, each of its own draw. */
+/* Plain ones, with samples, smooth ones: of their width across the greater direction or across themselves, each of its
+ * own draw. */
 START_TEST(test_lines)
 {
 	static const struct { float ax, ay, bx, by, wide, across; } lines[] = {
-		{ 8, 20, 40, 20, 5, 0 }, { 40, 20, 8, 20, 5, 0 }, { 20, 8, 20, 40, 5, 0 }, { 8, 8, 40, 40, 4, 0.7071f }, { 40, 10, 10, 40, 8, 0.7071f }, { 10, 40, 40, 30, 1, 0.3f },
+		{ 8, 20, 40, 20, 5, 0 }, { 40, 20, 8, 20, 5, 0 }, { 20, 8, 20, 40, 5, 0 }, { 8, 8, 40, 40, 4, 0.7071f },
+		{ 40, 10, 10, 40, 8, 0.7071f }, { 10, 40, 40, 30, 1, 0.3f },
 	};
 
 	for (unsigned kind = 0; kind < 3; kind++)
@@ -89,7 +100,12 @@ START_TEST(test_lines)
 			const float length = hypotf(bx - ax, by - ay), dx = (bx - ax) / length, dy = (by - ay) / length;
 			/* by samples and smoothly across themselves; smooth ones are longer and wider by half a pixel */
 			const float more = kind == 2 ? 0.5f : 0, side = kind == 2 && lines[i].wide <= 1 ? 1 : half + more;
-			const float x = kind ? fabsf(dy) * side + fabsf(dx) * more : steep ? half : 0, y = kind ? fabsf(dx) * side + fabsf(dy) * more : steep ? 0 : half;
+			const float x = kind  ? fabsf(dy) * side + fabsf(dx) * more :
+			                steep ? half :
+			                        0,
+				    y = kind  ? fabsf(dx) * side + fabsf(dy) * more :
+			                steep ? 0 :
+			                        half;
 			struct drawn d;
 
 			begin(&d, SCENE_LINES, PREPARED_LINES);
@@ -105,7 +121,9 @@ START_TEST(test_lines)
 				check_box(&d, quad, fminf(ax, bx) - x, fminf(ay, by) - y, fmaxf(ax, bx) + x, fmaxf(ay, by) + y);
 				ck_assert_uint_eq(d.out.primitive_draw[2 * quad], 7 + quad);
 				ck_assert_uint_eq(d.out.primitive_draw[2 * quad + 1], 7 + quad);
-				ck_assert_float_eq_tol(d.out.vertices[4 * quad].clip[2] / d.out.vertices[4 * quad].clip[3], 0.5f * (float)quad, 1e-6f);
+				ck_assert_float_eq_tol(d.out.vertices[4 * quad].clip[2] /
+				                               d.out.vertices[4 * quad].clip[3],
+				                       0.5f * (float)quad, 1e-6f);
 			}
 			expanded_free(&d.out);
 		}
@@ -142,7 +160,8 @@ START_TEST(test_nothing_left)
 }
 END_TEST
 
-/* With samples, a line that is less than a pixel is drawn where its rectangle reaches over the left or lower border of one, whatever its direction. */
+/* With samples, a line that is less than a pixel is drawn where its rectangle reaches over the left or lower border of
+ * one, whatever its direction. */
 START_TEST(test_short_lines)
 {
 	uint32_t seed = 1, drawn = 0, tried = 0;
@@ -189,7 +208,8 @@ START_TEST(test_short_lines)
 }
 END_TEST
 
-/* Dashes: runs of the pattern's bits, each repeated by the factor, from the line's first end on; a strip goes on with them. */
+/* Dashes: runs of the pattern's bits, each repeated by the factor, from the line's first end on; a strip goes on with
+ * them. */
 START_TEST(test_stipples)
 {
 	static const uint8_t goes_on[2] = { 0, SCENE_CONTINUES };
@@ -218,7 +238,8 @@ START_TEST(test_stipples)
 }
 END_TEST
 
-/* Edges of a polygon, the last one first as in Mesa: those that the program drew; flat ones have the last corner's colour; a polygon offset moves their depth. */
+/* Edges of a polygon, the last one first as in Mesa: those that the program drew; flat ones have the last corner's
+ * colour; a polygon offset moves their depth. */
 START_TEST(test_outlines)
 {
 	static const uint8_t flags[] = { 5 };
@@ -293,7 +314,8 @@ START_TEST(test_points)
 }
 END_TEST
 
-/* As later versions of Mesa have them: ends right on a pixel's centre; widths and places that lie half way; sprites; smooth lines of next to no length. */
+/* As later versions of Mesa have them: ends right on a pixel's centre; widths and places that lie half way; sprites;
+ * smooth lines of next to no length. */
 START_TEST(test_versions_of_mesa)
 {
 	struct scene_unit unit = { .coord_replace = 1 };

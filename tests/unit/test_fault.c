@@ -12,7 +12,18 @@
 #include "tests/driver.h"
 #include "tracer/device/outcome.h"
 
-enum ending { IN_DRIVER, IN_BUILD, BETWEEN, EXITS_IN_DRIVER, EXITS_BETWEEN, ON_PURPOSE, IS_SENT, REFUSED, REFUSED_IN_VAIN, N_ENDINGS };
+enum ending {
+	IN_DRIVER,
+	IN_BUILD,
+	BETWEEN,
+	EXITS_IN_DRIVER,
+	EXITS_BETWEEN,
+	ON_PURPOSE,
+	IS_SENT,
+	REFUSED,
+	REFUSED_IN_VAIN,
+	N_ENDINGS
+};
 
 static void end(enum ending how, struct fault_journal *journal)
 {
@@ -101,7 +112,8 @@ static void compute(double seconds)
 		;
 }
 
-/* A call of half a second of work: an idle one hangs, a busy one only where it compiles; and one that has ended does not. */
+/* A call of half a second of work: an idle one hangs, a busy one only where it compiles; and one that has ended does
+ * not. */
 START_TEST(test_hangs)
 {
 	const int is_idle = _i & 1, compiles = _i & 2, ends = _i & 4;

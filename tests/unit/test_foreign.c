@@ -40,7 +40,9 @@ static void setup(void)
 	ck_assert_ptr_nonnull(mkdtemp(folder));
 	for (unsigned i = 0; i < sizeof(rgb); i++)
 		rgb[i] = (uint8_t)(i * 7u ^ i >> 5);
-	ck_assert_int_eq(display_save(&pixels, &(struct oiio_coding){ "png", .level = 1, .text = "relume:frame 12\n" }, path_of("good.png")), 0);
+	ck_assert_int_eq(display_save(&pixels, &(struct oiio_coding){ "png", .level = 1, .text = "relume:frame 12\n" },
+	                              path_of("good.png")),
+	                 0);
 }
 
 static void teardown(void)
@@ -121,7 +123,8 @@ START_TEST(reader_ended)
 	check_good();
 	ck_assert_int_eq(mkfifo(path_of("slow.png"), 0600), 0);
 	ck_assert_int_eq(pthread_create(&thread, NULL, read_slow, &code), 0);
-	while (__atomic_load_n(&code, __ATOMIC_ACQUIRE) > 0) { /* the first that is found may be on its way out with the picture before */
+	/* the first that is found may be on its way out with the picture before */
+	while (__atomic_load_n(&code, __ATOMIC_ACQUIRE) > 0) {
 		const pid_t reader = child_of(child_of(getpid()));
 
 		if (reader)

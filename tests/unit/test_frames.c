@@ -52,7 +52,8 @@ END_TEST
 START_TEST(test_open_ranges)
 {
 	static const struct { const char *text; uint64_t needed, of_20; } cases[] = {
-		{ "7", 7, 1 }, { "1-18", 18, 18 }, { "0-9x4", 8, 3 }, { "15-", 15, 5 }, { "3,15-x2", 15, 4 }, { "15-,17", 15, 5 }, { "25-", 25, 0 },
+		{ "7", 7, 1 }, { "1-18", 18, 18 }, { "0-9x4", 8, 3 }, { "15-", 15, 5 }, { "3,15-x2", 15, 4 }, { "15-,17", 15, 5 },
+		{ "25-", 25, 0 },
 	};
 
 	for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {

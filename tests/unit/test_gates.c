@@ -195,7 +195,8 @@ START_TEST(good_frame_passes_every_gate)
 {
 	expect_all_passed();
 	for (int g = 0; g < N_GATES; g++)
-		if (g != GATE_R1B && g != GATE_E3 && g != GATE_N && g != GATE_B) /* no layers, no range, no normals, nothing approved */
+		if (g != GATE_R1B && g != GATE_E3 && g != GATE_N && g != GATE_B) /* no layers, no range, no normals,
+		                                                                    nothing approved */
 			ck_assert_msg(state((enum score_gate_id)g) == SCORE_PASSED, "%s", score_gates[g].name);
 	ck_assert_double_eq(score.fidelity, 1);
 	ck_assert_double_eq(score.gates[GATE_P].value[0], 0);
@@ -527,7 +528,8 @@ END_TEST
 
 /* N */
 
-/* The traced frame's surfaces: all face the viewer; `fold`: the plane of the box turns away from the light that its normals face. */
+/* The traced frame's surfaces: all face the viewer; `fold`: the plane of the box turns away from the light that its
+ * normals face. */
 static void add_surfaces(int fold)
 {
 	static const char *const names[9] = { "albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z" };
@@ -537,7 +539,8 @@ static void add_surfaces(int fold)
 	for (int k = 0; k < 9; k++)
 		plane[k] = add(&traced, names[k]);
 	for (int i = 0; i < N; i++) {
-		const float x = (float)(i % WIDTH), at[6] = { 0, 0, 1, x, (float)(-i / WIDTH), fold && id[i] == 1 ? 0.5f * x : -10 * id[i] };
+		const float x = (float)(i % WIDTH),
+			    at[6] = { 0, 0, 1, x, (float)(-i / WIDTH), fold && id[i] == 1 ? 0.5f * x : -10 * id[i] };
 
 		for (int k = 0; k < 9; k++)
 			plane[k][i] = k < 3 ? 0.5f : at[k - 3];
@@ -586,7 +589,8 @@ START_TEST(dark_without_an_edge)
 }
 END_TEST
 
-/* A drawn shadow lies where the traced one falls: albedo is the film's, which is black, and says nothing of the floor's light. */
+/* A drawn shadow lies where the traced one falls: albedo is the film's, which is black, and says nothing of the floor's
+ * light. */
 START_TEST(dark_below_a_film)
 {
 	static const char *const albedo[3] = { "albedo.R", "albedo.G", "albedo.B" };
@@ -606,7 +610,8 @@ START_TEST(dark_below_a_film)
 }
 END_TEST
 
-/* A drawn shadow that the traced one takes the place of is of another place and normal; both end where the floor is lit. */
+/* A drawn shadow that the traced one takes the place of is of another place and normal; both end where the floor is
+ * lit. */
 START_TEST(dark_in_place_of_a_trick)
 {
 	static const char *const place[3] = { "P.X", "P.Y", "P.Z" };
@@ -677,7 +682,9 @@ static void brighten(float light, int where(int i))
 /* The box in one colour, as OpenGL shows it and as the surface has it. */
 static void color_box(float red, float other)
 {
-	static const char *const names[3][3] = { { "gl.R", "gl.G", "gl.B" }, { "albedo.R", "albedo.G", "albedo.B" }, { "R", "G", "B" } };
+	static const char *const names[3][3] = { { "gl.R", "gl.G", "gl.B" },
+		                                 { "albedo.R", "albedo.G", "albedo.B" },
+		                                 { "R", "G", "B" } };
 
 	for (int i = 0; i < N; i++)
 		for (int layer = 0; layer < 3 && on_box(i); layer++)
@@ -718,7 +725,8 @@ START_TEST(burnt_out)
 	ck_assert_int_eq(harm_of_light(0.5f, 0.5f, 0.5f, on_box), SCORE_FAILED); /* grey ends in white */
 	ck_assert_int_eq(harm_of_light(1, 1, 0.5f, on_box), SCORE_PASSED);       /* it was white */
 	for (int by = 15; by <= 16; by++) { /* codes that one sees at once */
-		const float dark = image_linear_from_display((float)(253 - by) / 255), light = image_linear_from_display(253.0f / 255);
+		const float dark = image_linear_from_display((float)(253 - by) / 255),
+			    light = image_linear_from_display(253.0f / 255);
 
 		ck_assert_int_eq(harm_of_light(dark, dark, light - dark, on_box), by == 16 ? SCORE_FAILED : SCORE_PASSED);
 	}
@@ -970,7 +978,9 @@ START_TEST(pixels_of_programs_are_counted)
 	d.other_texture = 1;
 	remake_traced(&d);
 	ck_assert_int_eq(image_set_attribute(&traced, "relume:programs", "%s",
-	                                     "program object 7=1-1;vertex program 3=2-2;program object 9=1-2;odd;none=900-901;fragment program 1="), 0);
+	                                     "program object 7=1-1;vertex program 3=2-2;program object "
+	                                     "9=1-2;odd;none=900-901;fragment program 1="),
+	                 0);
 	run();
 	ck_assert_uint_eq(score.n_programs, 3);
 	ck_assert_str_eq(score.programs[0].name, "program object 7");

@@ -1,4 +1,5 @@
-/* Heads that claim more than the file has are refused; honest ones pass. That readers take no memory for them: tests/fuzz/kept_oiio. */
+/* Heads that claim more than the file has are refused; honest ones pass. That readers take no memory for them:
+ * tests/fuzz/kept_oiio. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The house is as docs/architecture.md draws it (tests/house.py); and the drawing notices what it is there to notice."""
+"""The house is as docs/architecture.md draws it (tests/house.py); and the drawing notices what it is there to
+notice."""
 import os
 import pathlib
 import subprocess
@@ -26,10 +27,13 @@ class Drawn(unittest.TestCase):
         self.root = pathlib.Path(self.folder.name)
 
     def build(self, **more):
-        files = {"base/err.c": LEAF, "base/err.h": "int err_leaf(void);\n",
-                 "replay/machine/args.c": '#include "base/err.h"\nint arg(void) { return err_leaf(); }\n',
-                 "replay/machine/args.h": "int arg(void);\n",
-                 "replay/gl/light.c": '#include "base/err.h"\n#include "replay/machine/args.h"\nint light(void) { return arg() + err_leaf(); }\n'}
+        files = {
+            "base/err.c": LEAF, "base/err.h": "int err_leaf(void);\n",
+            "replay/machine/args.c": '#include "base/err.h"\nint arg(void) { return err_leaf(); }\n',
+            "replay/machine/args.h": "int arg(void);\n",
+            "replay/gl/light.c": '#include "base/err.h"\n#include "replay/machine/args.h"\nint light(void) { return '
+                                 'arg() + err_leaf(); }\n'
+        }
         files.update({name.replace("__", "/") + ".c": text for name, text in more.items()})
         for name, text in files.items():
             for folder in (self.root, self.root / "build"):
@@ -76,6 +80,15 @@ class Real(unittest.TestCase):
     def test_the_house_is_as_the_document_draws_it(self):
         faults = house.House(ROOT, BUILD).faults((ROOT / house.DRAWING).read_text(encoding="utf-8"))
         self.assertFalse(faults, "\n".join(faults))
+
+    def test_lines_have_at_most_120_columns(self):
+        listed = subprocess.run(["git", "-c", "safe.directory=*", "ls-files", "*.c", "*.h", "*.cl", "*.cpp"], cwd=ROOT,
+                                capture_output=True, text=True, check=False).stdout.split()
+        if not listed:
+            self.skipTest("no git checkout")
+        wide = [f"{name}:{number}" for name in listed
+                for number, line in enumerate((ROOT / name).read_text(encoding="utf-8").split("\n"), 1) if len(line) > 120]
+        self.assertFalse(wide, "\n".join(wide))
 
 
 if __name__ == "__main__":

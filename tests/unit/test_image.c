@@ -172,14 +172,16 @@ START_TEST(test_bands)
 
 	for (size_t i = 0; i < (size_t)width * height; i++) { /* rows that change, and rows that do not */
 		halves[i] = (uint16_t)(i < (size_t)width * 200 ? 14336 : i % 7);
-		img.channels[0].values[i] = img.channels[1].values[i] = i < (size_t)width * 100 || i > (size_t)width * 150 ? 1.0f : (float)(i % 5);
+		img.channels[0].values[i] = img.channels[1].values[i] =
+			i < (size_t)width * 100 || i > (size_t)width * 150 ? 1.0f : (float)(i % 5);
 	}
 	image_add_channel(&band, "gl.R", 0);
 	image_add_channel(&band, "Z", 1);
 	image_add_halves(&band, "R");
 	for (size_t k = 0; k < sizeof(ends) / sizeof(ends[0]); k++) {
 		const uint32_t first = k ? ends[k - 1] : 0;
-		const void *planes[] = { img.channels[0].values + first * width, img.channels[1].values + first * width, halves + first * width };
+		const void *planes[] = { img.channels[0].values + first * width, img.channels[1].values + first * width,
+			                 halves + first * width };
 
 		ck_assert_int_eq(image_take_rows(&band, planes, ends[k] - first), 0);
 	}
@@ -217,7 +219,8 @@ START_TEST(test_half_rounds_to_nearest_even)
 }
 END_TEST
 
-/* A file cut anywhere is refused or, where the cut is beyond the pixels, read; it never crashes and never half fills. */
+/* A file cut anywhere is refused or, where the cut is beyond the pixels, read; it never crashes and never half
+ * fills. */
 START_TEST(test_cut_file)
 {
 	struct image img = make_image(40, 40);
@@ -274,7 +277,8 @@ START_TEST(test_full_disk)
 		said_end(&said, text, sizeof(text));
 		ck_assert_int_eq(err, ERR_SYSTEM);
 		end = strchr(text, '\n');
-		ck_assert_msg(end && !end[1] && strstr(text, "full.exr: cannot be written: "), "after %d bytes: %s", (int)most[i], text);
+		ck_assert_msg(end && !end[1] && strstr(text, "full.exr: cannot be written: "), "after %d bytes: %s",
+		              (int)most[i], text);
 		ck_assert_int_eq(file_size(in_folder("full.exr")), -1);
 		image_free(&img);
 	}

@@ -27,17 +27,20 @@ class Layout(unittest.TestCase):
     def test_members(self):
         code, rows = self.run_layout(SOURCE)
         self.assertEqual(code, 0)
-        self.assertEqual([row.strip(" \t\\") for row in rows if row],
-                         ["SINGLE(apart, one)", "SINGLE(apart, two)", "PLACED(outer, a, float)", "PLACED(outer, b, int)",
-                          "PLACED(outer, c, float)", "PLACED(outer, inner, struct inner)", "PLACED(inner, at, void *)",
-                          "PLACED(inner, n, unsigned)", "PLACED(inner, m, unsigned)"])
+        self.assertEqual([row.strip(" \t\\") for row in rows if row], [
+            "SINGLE(apart, one)", "SINGLE(apart, two)", "PLACED(outer, a, float)", "PLACED(outer, b, int)",
+            "PLACED(outer, c, float)", "PLACED(outer, inner, struct inner)", "PLACED(inner, at, void *)",
+            "PLACED(inner, n, unsigned)", "PLACED(inner, m, unsigned)"
+        ])
 
     def test_text_changes_nothing(self):
-        other = SOURCE.replace("; ", ";\n\n    ").replace("int prototype", "long another").replace("(struct outer *outer)", "(void)")
+        other = SOURCE.replace("; ", ";\n\n    ").replace("int prototype",
+                                                          "long another").replace("(struct outer *outer)", "(void)")
         self.assertEqual(self.run_layout(SOURCE), self.run_layout(other))
 
     def test_new_members_are_refused(self):
-        for old, new in ("n, m[3];", "n, m[3]; struct inner *next;"), ("void *three;", "void *three; int four;"), ("void *three;", ""):
+        for old, new in ("n, m[3];", "n, m[3]; struct inner *next;"), ("void *three;",
+                                                                       "void *three; int four;"), ("void *three;", ""):
             code, said = self.run_layout(SOURCE.replace(old, new))
             self.assertEqual(code, 1, said)
             self.assertIn("rules: struct", said)

@@ -64,13 +64,15 @@ static void check_dropped(const char *folder)
 
 START_TEST(limits_end_a_process)
 {
-	const struct limits little = { 64 * MIB, 1000 }, brief = { 4096 * MIB, 0.3 }, enough = { 4096 * MIB, 1000 }, timeless = { 4096 * MIB, 0 };
+	const struct limits little = { 64 * MIB, 1000 }, brief = { 4096 * MIB, 0.3 }, enough = { 4096 * MIB, 1000 },
+			    timeless = { 4096 * MIB, 0 };
 	char folder[] = "/tmp/limits-XXXXXX", path[64], said[1024];
 
 	ck_assert_ptr_nonnull(mkdtemp(folder));
 	snprintf(path, sizeof(path), "%s/whole", folder);
 	ck_assert_int_eq(run(&little, 400 * MIB, 0, said, path), 5);
-	ck_assert_str_eq(said, "relume: x.trace: asks for more than 64 MiB of memory, the limit for a recording of its size; --no-sandbox lifts it\n");
+	ck_assert_str_eq(said, "relume: x.trace: asks for more than 64 MiB of memory, the limit for a recording of its "
+	                       "size; --no-sandbox lifts it\n");
 	check_dropped(folder);
 	ck_assert_ptr_nonnull(mkdtemp(strcpy(folder, "/tmp/limits-XXXXXX")));
 	snprintf(path, sizeof(path), "%s/whole", folder);

@@ -83,8 +83,8 @@ static void fill(uint8_t *pixels, int seed)
 				pixels[3 * (y * WIDTH + x) + c] = (uint8_t)((x * 3 + y * 2 + c * 40 + (x * y) % 23 * seed) % 256);
 }
 
-static double similarity(int (*metric)(const uint8_t *, const uint8_t *, uint32_t, uint32_t, double *), const uint8_t *one, const uint8_t *two,
-                         uint32_t width, uint32_t height)
+static double similarity(int (*metric)(const uint8_t *, const uint8_t *, uint32_t, uint32_t, double *),
+                         const uint8_t *one, const uint8_t *two, uint32_t width, uint32_t height)
 {
 	double out = -1;
 

@@ -21,9 +21,12 @@ static const struct options_row rows[] = {
 	{ .help = "What:" },
 	{ "output", 'o', "FILE", "where to", options_text, .at = offsetof(struct asked, output), .is_required = 1 },
 	{ "color", 0, "WORD", "red or green", options_word, .at = offsetof(struct asked, color), .words = colors },
-	{ "kind", 0, "WORD", "red or green, as text", options_text, .at = offsetof(struct asked, kind), .words = colors },
-	{ "flag", 'x', NULL, "a flag whose explanation is so long that it does not fit into one line of a hundred and fourteen columns, "
-	  "and has to go on below", options_flag, .at = offsetof(struct asked, flag) },
+	{ "kind", 0, "WORD", "red or green, as text", options_text, .at = offsetof(struct asked, kind),
+	  .words = colors },
+	{ "flag", 'x', NULL,
+	  "a flag whose explanation is so long that it does not fit into one line of a hundred and fourteen columns, "
+	  "and has to go on below",
+	  options_flag, .at = offsetof(struct asked, flag) },
 	{ "no-flag", 0, NULL, "the opposite", options_clear, .at = offsetof(struct asked, flag) },
 	{ "number", 'n', "N", "up to 9", options_number, .at = offsetof(struct asked, number), .most = 9 },
 	{ "a-name-that-is-very-long", 0, "M", "bytes", options_bytes, .at = offsetof(struct asked, bytes) },
@@ -84,8 +87,8 @@ START_TEST(wrong_usage_is_refused)
 {
 	static const char *const wrong[] = {
 		"", "t", "-o x", "-o x t u", "-o x t --none", "-o x t -n 10", "-o x t -n -1", "-o x t -n 1x", "-o x t --color blue",
-		"-o x t --kind blue", "-o x t --a-name 0", "-o x t --a-name 2X", "-o x t --a-name 2KK", "-o x t -f 3-1", "-o x t --color",
-		"-o x t --flag=1",
+		"-o x t --kind blue", "-o x t --a-name 0", "-o x t --a-name 2X", "-o x t --a-name 2KK", "-o x t -f 3-1",
+		"-o x t --color", "-o x t --flag=1",
 	};
 	struct options_line line;
 	struct asked a;
@@ -126,7 +129,8 @@ START_TEST(help_says_all)
 	                       "  -o, --output FILE  where to\n"
 	                       "      --color WORD   red or green\n"
 	                       "      --kind WORD    red or green, as text\n"
-	                       "  -x, --flag         a flag whose explanation is so long that it does not fit into one line of a hundred and\n"
+	                       "  -x, --flag         a flag whose explanation is so long that it does not fit into one "
+	                       "line of a hundred and\n"
 	                       "                     fourteen columns, and has to go on below\n"
 	                       "      --no-flag      the opposite\n"
 	                       "  -n, --number N     up to 9\n"

@@ -1,4 +1,5 @@
-/* What relume diff prints of scores: the table and its last line, what people read, Markdown, JUnit XML (diff/report). */
+/* What relume diff prints of scores: the table and its last line, what people read, Markdown, JUnit XML
+ * (diff/report). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -81,7 +82,10 @@ START_TEST(test_last_line)
 	run.counts[SCORE_FRAME_PASSED] = 1;
 	run.counts[SCORE_FRAME_MISSING] = 1;
 	text = table_of(&run);
-	check_says(text, "\n4 frames: 1 passed, 2 failed, 1 missing; lowest fidelity 70.000 % (frame 12); first wrong frame 10\n", 1);
+	check_says(text,
+	           "\n4 frames: 1 passed, 2 failed, 1 missing; lowest fidelity 70.000 % (frame 12); first wrong frame "
+	           "10\n",
+	           1);
 	free(text);
 	run = run_of(0);
 	text = table_of(&run);
@@ -160,13 +164,19 @@ START_TEST(test_summary)
 	run.counts[SCORE_FRAME_PASSED]--;
 	run.baseline = "approved";
 	text = summary_of(&run, NULL);
-	check_says(text, "frames 12-13: failed, fidelity 92.000 % in the worst, frame 12\n  not as the reference\n    R3 gross errors: pixels over 32/255 8 px (bar <= 4 px)\n", 1);
+	check_says(text,
+	           "frames 12-13: failed, fidelity 92.000 % in the worst, frame 12\n  not as the reference\n    R3 "
+	           "gross errors: pixels over 32/255 8 px (bar <= 4 px)\n",
+	           1);
 	check_says(text, "frame 14: failed, fidelity 91.000 %\n  not as the reference\n    R3 ", 1);
 	check_says(text, "  not as approved\n    B baseline: pixels off from the approved frame 3 %", 1);
 	check_says(text, "frame 30: extra: there is no reference for it\n", 1);
 	check_says(text, "Look at them: once more with --report DIR", 1);
 	check_says(text, "If they are right: relume approve -f 14 out approved\n", 1);
-	check_says(text, "\n30 frames: 25 passed, 4 failed, 1 extra; lowest fidelity 91.000 % (frame 14); first wrong frame 12\n", 1);
+	check_says(text,
+	           "\n30 frames: 25 passed, 4 failed, 1 extra; lowest fidelity 91.000 % (frame 14); first wrong frame "
+	           "12\n",
+	           1);
 	for (const char *line = text; *line; line += strcspn(line, "\n") + 1)
 		ck_assert_msg(strcspn(line, "\n") <= 100, "more than 100 columns: %.*s", (int)strcspn(line, "\n"), line);
 	free(text);
@@ -199,8 +209,12 @@ static char *junit_of(const struct output_run *run)
 /* A case names the recording, the frame, the picture and the reference, and says in words which comparison failed. */
 START_TEST(test_junit)
 {
-	struct set_entry entries[2][3] = { { { .frame = 10, .path = "ref/a.10.png" }, { .frame = 11, .path = "ref/a.11.png" }, { .frame = 12, .path = "ref/log<in.png", .name = "log<in" } },
-	                                   { { .frame = 10, .path = "out/a.10.png" }, { .frame = 11, .path = "out/a.11.png" }, { .frame = 12, .path = "out/log<in.png", .name = "log<in" } } };
+	struct set_entry entries[2][3] = { { { .frame = 10, .path = "ref/a.10.png" },
+		                             { .frame = 11, .path = "ref/a.11.png" },
+		                             { .frame = 12, .path = "ref/log<in.png", .name = "log<in" } },
+		                           { { .frame = 10, .path = "out/a.10.png" },
+		                             { .frame = 11, .path = "out/a.11.png" },
+		                             { .frame = 12, .path = "out/log<in.png", .name = "log<in" } } };
 	const struct set ref = { .entries = entries[0], .n_entries = 3 }, set = { .entries = entries[1], .n_entries = 3 };
 	struct output_run run = run_of(4);
 	char *text;
@@ -217,9 +231,15 @@ START_TEST(test_junit)
 	check_says(text, "<property name=\"reference\" value=\"a.ref\"/>", 1);
 	check_says(text, "<testcase classname=\"a\" name=\"frame 10\" file=\"out/a.10.png\"/>", 1);
 	check_says(text, "<testcase classname=\"a\" name=\"log&lt;in\" file=\"out/log&lt;in.png\">", 1);
-	check_says(text, "<failure message=\"not as the reference: R3 gross errors: pixels over 32/255 8 px (bar &lt;= 4 px)\">", 1);
+	check_says(
+		text,
+		"<failure message=\"not as the reference: R3 gross errors: pixels over 32/255 8 px (bar &lt;= 4 px)\">",
+		1);
 	check_says(text, "\nrecording: a\npicture: out/a.11.png\nreference: ref/a.11.png\n</failure>", 1);
-	check_says(text, "<testcase classname=\"a\" name=\"frame 13\">\n      <failure message=\"there is no picture to compare\">", 1);
+	check_says(text,
+	           "<testcase classname=\"a\" name=\"frame 13\">\n      <failure message=\"there is no picture to "
+	           "compare\">",
+	           1);
 	free(text);
 }
 END_TEST
@@ -244,14 +264,20 @@ START_TEST(test_markdown)
 	struct output_run run = run_of(40);
 	char *text = markdown_of(&run);
 
-	check_says(text, "### relume diff: a\n\n40 passed of 40 frames; [page](page/index.html), [contact sheet](page/sheet.png)\n", 1);
+	check_says(text,
+	           "### relume diff: a\n\n40 passed of 40 frames; [page](page/index.html), [contact "
+	           "sheet](page/sheet.png)\n",
+	           1);
 	check_says(text, "| frames |", 0);
 	free(text);
 	for (size_t i = 3; i < 23; i++)
 		fail_frame(&run, i, i == 9 ? 12 : 8);
 	text = markdown_of(&run);
 	check_says(text, "| frames | outcome |", 1);
-	check_says(text, "\n| 13-32 | failed | not as the reference: **R3** pixels over 32/255 12 px (bar \\<= 4 px) (frame 19, the worst) |  |\n", 1);
+	check_says(text,
+	           "\n| 13-32 | failed | not as the reference: **R3** pixels over 32/255 12 px (bar \\<= 4 px) (frame "
+	           "19, the worst) |  |\n",
+	           1);
 	check_says(text, "more", 0);
 	free(text);
 	run = run_of(60);
@@ -269,7 +295,9 @@ START_TEST(test_markdown)
 	scores[0].gates[GATE_B].value[0] = 5;
 	text = markdown_of(&run);
 	check_says(text, "[approved, now and difference](page/sheet.png)", 1);
-	check_says(text, "(bar \\<= 4 px)<br>not as approved: **B** pixels off from the approved frame 5 % (bar \\<= 0.01 %)", 1);
+	check_says(text,
+	           "(bar \\<= 4 px)<br>not as approved: **B** pixels off from the approved frame 5 % (bar \\<= 0.01 %)",
+	           1);
 	free(text);
 }
 END_TEST

@@ -34,8 +34,12 @@ static struct trace_reader *cut(const struct call *call, const char *in, size_t 
 }
 
 static const struct call_sig arrays = { 10, "glDrawArrays", 3, (const char *[]){ "mode", "first", "count" }, -1 };
-static const struct call_sig elements = { 11, "glDrawElements", 4, (const char *[]){ "mode", "count", "type", "indices" }, -1 };
-static const struct call_sig image = { 12, "glTexImage1D", 8, (const char *[]){ "target", "level", "internalformat", "width", "border", "format", "type", "pixels" }, -1 };
+static const struct call_sig elements = { 11, "glDrawElements", 4,
+	                                  (const char *[]){ "mode", "count", "type", "indices" }, -1 };
+static const struct call_sig image = {
+	12, "glTexImage1D", 8,
+	(const char *[]){ "target", "level", "internalformat", "width", "border", "format", "type", "pixels" }, -1
+};
 
 #define NUMBER(x) { .type = TRACE_UINT, .u = (x) }
 
@@ -89,7 +93,10 @@ END_TEST
 START_TEST(elements_by_place)
 {
 	static const uint8_t indices[] = { 0, 0, 1, 0, 2, 0, 3, 0, 4, 0, 5, 0 };
-	struct trace_value args[] = { NUMBER(GL_TRIANGLES), NUMBER(6), NUMBER(GL_UNSIGNED_SHORT), { .type = TRACE_BLOB, .count = 12, .blob = indices } };
+	struct trace_value args[] = { NUMBER(GL_TRIANGLES),
+		                      NUMBER(6),
+		                      NUMBER(GL_UNSIGNED_SHORT),
+		                      { .type = TRACE_BLOB, .count = 12, .blob = indices } };
 	const struct call call = { .sig = &elements, .n_args = 4, .args = args }, *got;
 	struct trace_reader *reader;
 	size_t n;
@@ -121,7 +128,13 @@ END_TEST
 START_TEST(texels)
 {
 	static const uint8_t bytes[4];
-	struct trace_value args[8] = { NUMBER(GL_TEXTURE_1D), NUMBER(0), NUMBER(GL_RGBA), NUMBER(1), NUMBER(0), NUMBER(GL_RGBA), NUMBER(GL_UNSIGNED_BYTE),
+	struct trace_value args[8] = { NUMBER(GL_TEXTURE_1D),
+		                       NUMBER(0),
+		                       NUMBER(GL_RGBA),
+		                       NUMBER(1),
+		                       NUMBER(0),
+		                       NUMBER(GL_RGBA),
+		                       NUMBER(GL_UNSIGNED_BYTE),
 		                       { .type = TRACE_BLOB, .count = 4, .blob = bytes } };
 	const struct call call = { .sig = &image, .n_args = 8, .args = args }, *got;
 	struct trace_reader *reader;

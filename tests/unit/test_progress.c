@@ -77,7 +77,9 @@ static void run_replay(void)
 START_TEST(test_replay)
 {
 	capture_stderr(run_replay);
-	ck_assert_str_eq(captured, "replayed 11 of 30 frames before frame 40: they show\nreplayed 2 of 9 frames before frame 50\n");
+	ck_assert_str_eq(
+		captured,
+		"replayed 11 of 30 frames before frame 40: they show\nreplayed 2 of 9 frames before frame 50\n");
 }
 END_TEST
 

@@ -156,7 +156,8 @@ START_TEST(test_cut_at_any_byte_keeps_whole_records)
 }
 END_TEST
 
-/* As the recorder writes: frames from `first` on, of two sizes and both kinds. at: receives where each frame's colours begin */
+/* As the recorder writes: frames from `first` on, of two sizes and both kinds. at: receives where each frame's colours
+ * begin */
 static void make_changes(uint64_t n_frames, size_t at[])
 {
 	struct ref_last last[2] = { 0 };
@@ -171,7 +172,8 @@ static void make_changes(uint64_t n_frames, size_t at[])
 		fill_color((uint8_t *)pixels[0], frame);
 		fill_depth((float *)pixels[1], frame);
 		for (unsigned k = 0; k < 2; k++) {
-			const struct ref_head head = { k ? REF_DEPTH : REF_COLOR, frame % 10 == 9 ? HEIGHT : WIDTH, frame % 10 == 9 ? WIDTH : HEIGHT, frame, 0 };
+			const struct ref_head head = { k ? REF_DEPTH : REF_COLOR, frame % 10 == 9 ? HEIGHT : WIDTH,
+				                       frame % 10 == 9 ? WIDTH : HEIGHT, frame, 0 };
 			const size_t bytes = ref_pack(&last[k], &head, file_bytes, pixels[k], before[k], planes, record);
 
 			ck_assert_uint_gt(bytes, sizeof(head));

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""What a release consists of: one version everywhere, documents whose links lead somewhere, CI files that run `make check`."""
+"""What a release consists of: one version everywhere, documents whose links lead somewhere, CI files that run `make
+check`."""
 import pathlib
 import re
 import shutil
@@ -12,7 +13,9 @@ import yaml
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SUITES = {"bookworm", "trixie"}
 README_LINES = 120
-PAGES = [ROOT / name for name in ("README.md", "HACKING.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md")] + sorted((ROOT / "docs").glob("*.md"))
+PAGES = [ROOT / name
+         for name in ("README.md", "HACKING.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md")] + sorted(
+             (ROOT / "docs").glob("*.md"))
 
 
 def text(name):
@@ -38,7 +41,8 @@ class Version(unittest.TestCase):
             self.assertRegex(day, r"^ - 20\d\d-\d\d-\d\d$", name)
 
     def test_no_other_file_states_it(self):
-        for name in ("base/version.h", "Makefile", "packaging/install.sh", "packaging/deb.sh", "packaging/relume.pc.in", "packaging/relume-rays.pc.in"):
+        for name in ("base/version.h", "Makefile", "packaging/install.sh", "packaging/deb.sh", "packaging/relume.pc.in",
+                     "packaging/relume-rays.pc.in"):
             self.assertNotIn(text("VERSION").strip(), text(name), name)
 
 
@@ -48,7 +52,8 @@ class Documents(unittest.TestCase):
 
     def test_links_lead_somewhere(self):
         for page in PAGES:
-            for target, anchor in re.findall(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]*))?\)", page.read_text(encoding="utf-8")):
+            for target, anchor in re.findall(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]*))?\)",
+                                             page.read_text(encoding="utf-8")):
                 there = (page.parent / target).resolve() if target else page
                 self.assertTrue(there.exists(), f"{page.name} links {target}")
                 if anchor:
@@ -56,8 +61,10 @@ class Documents(unittest.TestCase):
 
     def test_named_files_exist(self):
         for page in PAGES:
-            for name in re.findall(r"`((?:[a-z_-]+/)+[\w.-]+\.(?:h|c|cl|py|md|json|txt|yaml|yml|sh|jpg))`", page.read_text(encoding="utf-8")):
-                self.assertTrue("NAME" in name or name.startswith(("ci/", "build/")) or (ROOT / name).exists(), f"{page.name} names {name}")
+            for name in re.findall(r"`((?:[a-z_-]+/)+[\w.-]+\.(?:h|c|cl|py|md|json|txt|yaml|yml|sh|jpg))`",
+                                   page.read_text(encoding="utf-8")):
+                self.assertTrue("NAME" in name or name.startswith(("ci/", "build/")) or (ROOT / name).exists(),
+                                f"{page.name} names {name}")
 
     def test_each_document_is_in_the_readme(self):
         for page in PAGES[1:]:
@@ -92,7 +99,8 @@ class Servers(unittest.TestCase):
             steps = [step.get("run", step.get("uses", "")) for step in job["steps"]]
             self.assertEqual(steps[-1], "make check", name)
             checkout = next(i for i, step in enumerate(steps) if step.startswith("actions/checkout@"))
-            self.assertTrue(any(re.search(r"apt-get install .*\bgit make$", step) for step in steps[:checkout]), "bare images have no git and no make")
+            self.assertTrue(any(re.search(r"apt-get install .*\bgit make$", step) for step in steps[:checkout]),
+                            "bare images have no git and no make")
 
     def test_gitlab(self):
         jobs = yaml.safe_load(text(".gitlab-ci.yml"))
@@ -101,14 +109,18 @@ class Servers(unittest.TestCase):
             matrix = job["parallel"]["matrix"]
             self.check_suites(job["image"], "$SUITE", [suite for row in matrix for suite in row["SUITE"]])
             self.assertEqual(job["script"], ["make check"], name)
-            self.assertTrue(any(re.search(r"apt-get install .*\bgit make$", line) for line in job["before_script"]), name)
+            self.assertTrue(any(re.search(r"apt-get install .*\bgit make$", line) for line in job["before_script"]),
+                            name)
             self.assertNotIn("allow_failure", job, name)
 
     @unittest.skipUnless(shutil.which("check-jsonschema"), "check-jsonschema (PyPI) is not installed")
     def test_schemas(self):
-        for files, options in (((".github/workflows/check.yml", "packaging/recipes/github.yml"), ("--builtin-schema", "vendor.github-workflows")),
-                               ((".gitlab-ci.yml", "packaging/recipes/gitlab-ci.yml"), ("--builtin-schema", "vendor.gitlab-ci", "--data-transform", "gitlab-ci"))):
-            done = subprocess.run(["check-jsonschema", *options, *files], cwd=ROOT, capture_output=True, text=True, check=False)
+        for files, options in (((".github/workflows/check.yml", "packaging/recipes/github.yml"),
+                                ("--builtin-schema", "vendor.github-workflows")),
+                               ((".gitlab-ci.yml", "packaging/recipes/gitlab-ci.yml"),
+                                ("--builtin-schema", "vendor.gitlab-ci", "--data-transform", "gitlab-ci"))):
+            done = subprocess.run(["check-jsonschema", *options, *files], cwd=ROOT, capture_output=True, text=True,
+                                  check=False)
             self.assertEqual(done.returncode, 0, done.stdout)
 
 

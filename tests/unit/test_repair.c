@@ -1,5 +1,6 @@
 /*
- * scene/repair: closed meshes, broken at random, come back closed, with their volume; what is whole stays as it is, and what is open stays open.
+ * scene/repair: closed meshes, broken at random, come back closed, with their volume; what is whole stays as it is, and
+ * what is open stays open.
  *
  *   test_repair          as `make check` runs it
  *   test_repair COUNT    so many meshes, and the figures of `make show-rooms`
@@ -18,7 +19,8 @@ enum { FEW = 120 };
 #define VOLUME 1e-5
 
 struct score {
-	unsigned closed, exact, broken; /* all; of closed ones those with their volume; those that leaked or had a wrong volume before */
+	unsigned closed, exact, broken; /* all; of closed ones those with their volume; those that leaked or had a wrong
+	                                   volume before */
 	double worst;
 };
 
@@ -55,9 +57,12 @@ static void score_one(uint64_t seed, struct score *score, int tells)
 	if (closed)
 		score->worst = fmax(score->worst, fabs(is / volume - 1));
 	if (tells && !(closed && fabs(is / volume - 1) <= VOLUME))
-		fprintf(stderr, "mesh %u of kind %u, %u triangles: %s, volume off by %.2g; welded %u, junctions %u, dropped %u, turned %u, leaks %u, twisted %u\n", (unsigned)seed,
-		        (unsigned)(seed % BROKEN_KINDS), mesh->primitive_count, closed ? "closed" : "open", is / volume - 1, found.welded, found.junctions,
-		        found.dropped, found.turned, found.leaks, found.twisted);
+		fprintf(stderr,
+		        "mesh %u of kind %u, %u triangles: %s, volume off by %.2g; welded %u, junctions %u, dropped "
+		        "%u, turned %u, leaks %u, twisted %u\n",
+		        (unsigned)seed, (unsigned)(seed % BROKEN_KINDS), mesh->primitive_count,
+		        closed ? "closed" : "open", is / volume - 1, found.welded, found.junctions, found.dropped,
+		        found.turned, found.leaks, found.twisted);
 	free(repaired);
 	broken_free(&b);
 }
@@ -88,7 +93,8 @@ START_TEST(test_whole)
 		broken_make(&b, (uint32_t)(seed % BROKEN_KINDS));
 		broken_place(&b);
 		ck_assert_int_eq(repair_mesh(broken_mesh(&b), &wants, &found, &out), 0);
-		ck_assert_msg(!out && found.closed, "mesh %u: leaks %u, twisted %u, turned %u", (unsigned)seed, found.leaks, found.twisted, found.turned);
+		ck_assert_msg(!out && found.closed, "mesh %u: leaks %u, twisted %u, turned %u", (unsigned)seed,
+		              found.leaks, found.twisted, found.turned);
 		ck_assert_double_eq_tol(found.volume, broken_volume(&b), 1e-9 * found.volume);
 		broken_free(&b);
 	}
@@ -111,7 +117,8 @@ START_TEST(test_inside)
 	ck_assert_int_eq(repair_mesh(broken_mesh(&b), &wants, &found, &out), 0);
 	ck_assert(out && found.closed && found.shells == 2 && found.turned);
 	for (int i = 0; i < 1000; i++) {
-		const float at[3] = { (float)(2.4 * broken_next(&b) - 1.2), (float)(2.4 * broken_next(&b) - 1.2), (float)(2.4 * broken_next(&b) - 1.2) };
+		const float at[3] = { (float)(2.4 * broken_next(&b) - 1.2), (float)(2.4 * broken_next(&b) - 1.2),
+			              (float)(2.4 * broken_next(&b) - 1.2) };
 		const float far = sqrtf(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
 
 		if (fabsf(far - 1) > 0.01f && fabsf(far - 0.5f) > 0.01f) /* faces lie a little within the balls */
@@ -123,14 +130,19 @@ START_TEST(test_inside)
 END_TEST
 
 /* A box of twelve triangles; the first two are its bottom. */
-static const float cube[8][4] = { { 0, 0, 0, 1 }, { 1, 0, 0, 1 }, { 1, 1, 0, 1 }, { 0, 1, 0, 1 }, { 0, 0, 1, 1 }, { 1, 0, 1, 1 }, { 1, 1, 1, 1 }, { 0, 1, 1, 1 } };
-static const uint32_t sides[12][3] = { { 0, 3, 2 }, { 0, 2, 1 }, { 4, 5, 6 }, { 4, 6, 7 }, { 0, 1, 5 }, { 0, 5, 4 }, { 2, 3, 7 }, { 2, 7, 6 }, { 1, 2, 6 }, { 1, 6, 5 },
-	{ 3, 0, 4 }, { 3, 4, 7 } };
+static const float cube[8][4] = { { 0, 0, 0, 1 }, { 1, 0, 0, 1 }, { 1, 1, 0, 1 }, { 0, 1, 0, 1 },
+	                          { 0, 0, 1, 1 }, { 1, 0, 1, 1 }, { 1, 1, 1, 1 }, { 0, 1, 1, 1 } };
+static const uint32_t sides[12][3] = { { 0, 3, 2 }, { 0, 2, 1 }, { 4, 5, 6 }, { 4, 6, 7 }, { 0, 1, 5 }, { 0, 5, 4 },
+	                               { 2, 3, 7 }, { 2, 7, 6 }, { 1, 2, 6 }, { 1, 6, 5 }, { 3, 0, 4 }, { 3, 4, 7 } };
 
 /* An opening stays one, and is told; the way faces look is not changed unless asked for. */
 START_TEST(test_openings)
 {
-	const struct scene_mesh box = { .kind = SCENE_TRIANGLES, .vertex_count = 8, .primitive_count = 10, .position = cube[0], .index = sides[2] };
+	const struct scene_mesh box = { .kind = SCENE_TRIANGLES,
+		                        .vertex_count = 8,
+		                        .primitive_count = 10,
+		                        .position = cube[0],
+		                        .index = sides[2] };
 	uint32_t turned[12][3];
 	struct scene_mesh whole = box, *out;
 	struct repair_found found;
@@ -144,7 +156,9 @@ START_TEST(test_openings)
 	whole.primitive_count = 12;
 	ck_assert_int_eq(repair_mesh(&whole, &(struct repair_wants){ .weld = REPAIR_WELD }, &found, &out), 0);
 	ck_assert(!out && !found.closed && !found.leaks && found.twisted == 3);
-	ck_assert_int_eq(repair_mesh(&whole, &(struct repair_wants){ .weld = REPAIR_WELD, .turn = 1, .clockwise = 1 }, &found, &out), 0);
+	ck_assert_int_eq(repair_mesh(&whole, &(struct repair_wants){ .weld = REPAIR_WELD, .turn = 1, .clockwise = 1 },
+	                             &found, &out),
+	                 0);
 	ck_assert(out && found.closed && found.turned == 11);
 	ck_assert_double_eq_tol(found.volume, -1, 1e-12);
 	for (int f = 0; f < 12; f++)
@@ -157,7 +171,12 @@ END_TEST
 START_TEST(test_sheets)
 {
 	static const uint32_t both[4][3] = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 2, 1 }, { 0, 3, 2 } };
-	struct scene_mesh sheet = { .kind = SCENE_TRIANGLES, .vertex_count = 4, .primitive_count = 4, .position = cube[0], .index = both[0] }, *out;
+	struct scene_mesh sheet = { .kind = SCENE_TRIANGLES,
+		                    .vertex_count = 4,
+		                    .primitive_count = 4,
+		                    .position = cube[0],
+		                    .index = both[0] },
+			  *out;
 	float with_nan[9][4];
 	uint32_t index[13][3];
 	struct repair_found found;
@@ -169,7 +188,11 @@ START_TEST(test_sheets)
 	with_nan[1][0] = 1.000001f;
 	memcpy(index, sides, sizeof(sides));
 	memcpy(index[12], (uint32_t[3]){ 0, 8, 1 }, sizeof(index[12]));
-	sheet = (struct scene_mesh){ .kind = SCENE_TRIANGLES, .vertex_count = 9, .primitive_count = 13, .position = with_nan[0], .index = index[0] };
+	sheet = (struct scene_mesh){ .kind = SCENE_TRIANGLES,
+		                     .vertex_count = 9,
+		                     .primitive_count = 13,
+		                     .position = with_nan[0],
+		                     .index = index[0] };
 	ck_assert_int_eq(repair_mesh(&sheet, &(struct repair_wants){ .weld = REPAIR_WELD, .turn = 1 }, &found, &out), 0);
 	ck_assert(!out && found.closed);
 	with_nan[0][3] = 2; /* homogeneous: not repaired */
@@ -178,15 +201,24 @@ START_TEST(test_sheets)
 }
 END_TEST
 
-/* A wall that two smaller ones meet: its edge gets their corner, in between in all attributes; under flat shading the wall keeps its colour. */
+/* A wall that two smaller ones meet: its edge gets their corner, in between in all attributes; under flat shading the
+ * wall keeps its colour. */
 START_TEST(test_attributes)
 {
-	static const float position[6][4] = { { 0, 0, 0, 1 }, { 4, 0, 0, 1 }, { 0, 4, 0, 1 }, { 4, 0, 0, 1 }, { 1, 0, 0, 1 }, { 2, -3, 0, 1 } };
-	static const float color[6][4] = { { 0, 0, 0, 1 }, { 1, 1, 1, 1 }, { 0.5f, 0, 0, 1 }, { 0, 0, 1, 1 }, { 0, 0, 1, 1 }, { 0, 0, 1, 1 } };
+	static const float position[6][4] = { { 0, 0, 0, 1 }, { 4, 0, 0, 1 }, { 0, 4, 0, 1 },
+		                              { 4, 0, 0, 1 }, { 1, 0, 0, 1 }, { 2, -3, 0, 1 } };
+	static const float color[6][4] = { { 0, 0, 0, 1 }, { 1, 1, 1, 1 }, { 0.5f, 0, 0, 1 },
+		                           { 0, 0, 1, 1 }, { 0, 0, 1, 1 }, { 0, 0, 1, 1 } };
 	static const float texcoord[6][4] = { { 0, 0, 0, 1 }, { 8, 0, 0, 1 } };
 	static const uint32_t index[3][3] = { { 0, 1, 2 }, { 4, 5, 3 }, { 0, 5, 4 } };
-	const struct scene_mesh mesh = { .hash = { 1, 2 }, .kind = SCENE_TRIANGLES, .vertex_count = 6, .primitive_count = 3, .position = position[0], .color = color[0],
-		.texcoord = { texcoord[0] }, .index = index[0] };
+	const struct scene_mesh mesh = { .hash = { 1, 2 },
+		                         .kind = SCENE_TRIANGLES,
+		                         .vertex_count = 6,
+		                         .primitive_count = 3,
+		                         .position = position[0],
+		                         .color = color[0],
+		                         .texcoord = { texcoord[0] },
+		                         .index = index[0] };
 	const uint32_t same[2][3] = { { 0, 6, 2 }, { 6, 1, 2 } };
 	struct repair_found found;
 	struct scene_mesh *out;
@@ -205,7 +237,8 @@ START_TEST(test_attributes)
 }
 END_TEST
 
-/* Boxes of many squares with cracks become few triangles, with texture coordinates that go on evenly; where those do not, or on round bodies, none go. */
+/* Boxes of many squares with cracks become few triangles, with texture coordinates that go on evenly; where those do
+ * not, or on round bodies, none go. */
 START_TEST(test_merge)
 {
 	for (uint64_t seed = 0; seed < 30; seed++) {
@@ -233,7 +266,8 @@ START_TEST(test_merge)
 		b.mesh.hash[0] = b.mesh.hash[1] = seed + 1;
 		ck_assert_int_eq(repair_mesh(&b.mesh, &wants, &found, &out), 0);
 		if (seed % 3 == 1) {
-			ck_assert_msg(out && out->primitive_count <= 16, "%u triangles of %u, %u places merged", out ? out->primitive_count : 0, b.n_triangles, found.merged);
+			ck_assert_msg(out && out->primitive_count <= 16, "%u triangles of %u, %u places merged",
+			              out ? out->primitive_count : 0, b.n_triangles, found.merged);
 			ck_assert(is_closed(out, &is) && out->hash[0] != seed + 1 && out->hash[1] != seed + 1);
 			ck_assert_double_eq_tol(is, was, VOLUME * was);
 		} else {
@@ -282,8 +316,9 @@ static int show(unsigned count)
 
 	for (uint64_t seed = 0; seed < count; seed++)
 		score_one(seed, &score, 1);
-	printf("%u of %u meshes closed, %u with their volume within %g; the worst volume is off by %.2g; %u were broken\n", score.closed, count, score.exact, VOLUME,
-	       score.worst, score.broken);
+	printf("%u of %u meshes closed, %u with their volume within %g; the worst volume is off by %.2g; %u were "
+	       "broken\n",
+	       score.closed, count, score.exact, VOLUME, score.worst, score.broken);
 	return score.exact != count;
 }
 

@@ -1,4 +1,5 @@
-/* Memory that is there where malloc has none (capture/format/reserve.c): for one at a time, and never less than was asked for. */
+/* Memory that is there where malloc has none (capture/format/reserve.c): for one at a time, and never less than was
+ * asked for. */
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>

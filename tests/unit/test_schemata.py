@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Mutants behind switches (tests/show/schemata.py), of a small program in place of Relume: each one alone, and who could tell it."""
+"""Mutants behind switches (tests/show/schemata.py), of a small program in place of Relume: each one alone, and who
+could tell it."""
 import os
 import pathlib
 import subprocess
@@ -41,7 +42,8 @@ int main(int n, char **args)
 
 
 def run(env, *arguments):
-    done = subprocess.run(["./small", *arguments], cwd=SCRATCH, env={**os.environ, **env}, capture_output=True, text=True, check=False)
+    done = subprocess.run(["./small", *arguments], cwd=SCRATCH, env={**os.environ, **env}, capture_output=True,
+                          text=True, check=False)
     return done.stdout.strip() or f"code {done.returncode}"
 
 
@@ -62,8 +64,10 @@ class Schemata(unittest.TestCase):
         self.assertEqual(run({}), "16 1")
         for number, site in self.by_number.items():
             for arguments in ((), ("x",), ("x", "y")):
-                wanted = subprocess.run([f"single/{number}", *arguments], cwd=SCRATCH, capture_output=True, text=True, check=False)
-                self.assertEqual(run({"RELUME_MUTANT": str(number)}, *arguments), wanted.stdout.strip() or f"code {wanted.returncode}", site.told())
+                wanted = subprocess.run([f"single/{number}", *arguments], cwd=SCRATCH, capture_output=True, text=True,
+                                        check=False)
+                self.assertEqual(run({"RELUME_MUTANT": str(number)}, *arguments),
+                                 wanted.stdout.strip() or f"code {wanted.returncode}", site.told())
 
     def test_who_could_tell(self):
         seen = {}
@@ -75,9 +79,13 @@ class Schemata(unittest.TestCase):
                 seen.setdefault(number, []).append(what)
                 if number in self.by_number and run({"RELUME_MUTANT": str(number)}, *arguments) != alone:
                     self.assertEqual(what & 2, 2, f"{self.by_number[number].told()} changes what is printed")
-        of = {site.told().split(": ")[1] + f" line {site.line}": seen[number] for number, site in self.by_number.items()}
-        self.assertEqual(of["branch `next(&calls) + n > 3 && n > 2` -> `(next(&calls) + n > 3 && n > 2) && 0` line 18"], [0, 3], "not taken the first time")
-        self.assertEqual(of["comparison `>` -> `>=` line 18"], [0, 1], "n > 2 is reached with three alone, and there is as true")
+        of = {
+            site.told().split(": ")[1] + f" line {site.line}": seen[number] for number, site in self.by_number.items()
+        }
+        self.assertEqual(of["branch `next(&calls) + n > 3 && n > 2` -> `(next(&calls) + n > 3 && n > 2) && 0` line 18"],
+                         [0, 3], "not taken the first time")
+        self.assertEqual(of["comparison `>` -> `>=` line 18"], [0, 1],
+                         "n > 2 is reached with three alone, and there is as true")
         self.assertEqual(of["constant `9` -> `10` line 15"], [0, 0], "never reached")
 
     def test_places(self):

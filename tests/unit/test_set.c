@@ -1,4 +1,5 @@
-/* Sets of frames (diff/pictures/set.h): which files of a folder are frames, which of a pattern, what a trace names, what a record holds. */
+/* Sets of frames (diff/pictures/set.h): which files of a folder are frames, which of a pattern, what a trace names,
+ * what a record holds. */
 #include <fcntl.h>
 #include <snappy-c.h>
 #include <stdio.h>
@@ -23,7 +24,8 @@ static void check_set(const char *where, size_t n, const uint64_t frames[])
 	ck_assert_msg(set_open(where, &set) == 0, "%s: cannot be opened", where);
 	ck_assert_msg(set.n_entries == n, "%s: %zu frames, not %zu", where, set.n_entries, n);
 	for (size_t i = 0; i < n; i++) {
-		ck_assert_msg(set.entries[i].frame == frames[i], "%s: frame %zu is %d, not %d", where, i, (int)set.entries[i].frame, (int)frames[i]);
+		ck_assert_msg(set.entries[i].frame == frames[i], "%s: frame %zu is %d, not %d", where, i,
+		              (int)set.entries[i].frame, (int)frames[i]);
 		ck_assert_ptr_eq(set_find(&set, frames[i]), &set.entries[i]);
 	}
 	ck_assert_ptr_null(set_find(&set, 12345));
@@ -43,11 +45,13 @@ static void check_refused(const char *where, int err, const char *words)
 	ck_assert_ptr_null(set.entries);
 }
 
-/* The last number of an image's name is its frame; hidden files and other files are passed over, in folders but not where a pattern names them. */
+/* The last number of an image's name is its frame; hidden files and other files are passed over, in folders but not
+ * where a pattern names them. */
 START_TEST(test_folders)
 {
-	static const char *const names[] = { "a.0007.png", "a2.0010.EXR", "b3.jpeg", ".a.0001.png", "notes.0002.txt", "0004", "none.png", "x.0020.txt", "x.0021.txt",
-		                             ".x.0022.txt", "x.0023.txt.bak" };
+	static const char *const names[] = { "a.0007.png",     "a2.0010.EXR", "b3.jpeg",       ".a.0001.png",
+		                             "notes.0002.txt", "0004",        "none.png",      "x.0020.txt",
+		                             "x.0021.txt",     ".x.0022.txt", "x.0023.txt.bak" };
 
 	ck_assert_int_eq(mkdir("d", 0777), 0);
 	ck_assert_int_eq(chdir("d"), 0);
@@ -161,7 +165,8 @@ START_TEST(test_records)
 			const size_t from = (HEIGHT - 1 - at / WIDTH) * WIDTH + at % WIDTH;
 
 			for (size_t c = 0; c < 3; c++)
-				ck_assert_float_eq_tol(image_channel(&img, (const char[]){ "RGB"[c], 0 })[at], (float)((4 * from + c) % 6) / 5, 1e-6f);
+				ck_assert_float_eq_tol(image_channel(&img, (const char[]){ "RGB"[c], 0 })[at],
+				                       (float)((4 * from + c) % 6) / 5, 1e-6f);
 			if (i)
 				ck_assert_float_eq(image_channel(&img, "gl.depth")[at], 0.125f * (float)from);
 		}
@@ -192,7 +197,8 @@ START_TEST(test_reference_layers)
 		}
 		image_set_attribute(&img, "relume:encoding", "display");
 		ck_assert_int_eq(picture_take_reference(&img, asked[i], &picture), 0);
-		ck_assert_msg(picture.rgb[0] == codes[i], "asked for %s: %d, not %d", asked[i] ? asked[i] : "none", picture.rgb[0], codes[i]);
+		ck_assert_msg(picture.rgb[0] == codes[i], "asked for %s: %d, not %d", asked[i] ? asked[i] : "none",
+		              picture.rgb[0], codes[i]);
 		score_picture_free(&picture);
 		image_free(&img);
 	}

@@ -1,4 +1,5 @@
-/* Sizes of what arguments point to: pixel rectangles under every part of the unpack state, evaluator maps, lists, vectors. */
+/* Sizes of what arguments point to: pixel rectangles under every part of the unpack state, evaluator maps, lists,
+ * vectors. */
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <limits.h>
@@ -23,7 +24,9 @@ START_TEST(test_bitmaps_count_bits)
 {
 	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, GL_COLOR_INDEX, GL_BITMAP, 32, 32, 1 }), 128);
 	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, GL_COLOR_INDEX, GL_BITMAP, 9, 2, 1 }), 4 + 2);
-	ck_assert_int_eq(image_bytes(&(struct pixel_layout){ .alignment = 1, .skip_pixels = 7 }, &(struct pixel_box){ 2, GL_COLOR_INDEX, GL_BITMAP, 2, 1, 1 }), 2);
+	ck_assert_int_eq(image_bytes(&(struct pixel_layout){ .alignment = 1, .skip_pixels = 7 },
+	                             &(struct pixel_box){ 2, GL_COLOR_INDEX, GL_BITMAP, 2, 1, 1 }),
+	                 2);
 }
 END_TEST
 
@@ -31,11 +34,14 @@ START_TEST(test_layout_reaches_where_gl_reads)
 {
 	struct pixel_layout sub = { .alignment = 1, .row_length = 10, .skip_rows = 2, .skip_pixels = 3 };
 
-	ck_assert_int_eq(image_bytes(&sub, &(struct pixel_box){ 2, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 1 }), (2 + 2) * 40 + (3 + 4) * 4);
+	ck_assert_int_eq(image_bytes(&sub, &(struct pixel_box){ 2, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 1 }),
+	                 (2 + 2) * 40 + (3 + 4) * 4);
 	sub.image_height = 6;
 	sub.skip_images = 1;
-	ck_assert_int_eq(image_bytes(&sub, &(struct pixel_box){ 3, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 2 }), (6 + 6 + 2 + 2) * 40 + (3 + 4) * 4);
-	ck_assert_int_eq(image_bytes(&sub, &(struct pixel_box){ 2, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 1 }), (2 + 2) * 40 + (3 + 4) * 4);
+	ck_assert_int_eq(image_bytes(&sub, &(struct pixel_box){ 3, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 2 }),
+	                 (6 + 6 + 2 + 2) * 40 + (3 + 4) * 4);
+	ck_assert_int_eq(image_bytes(&sub, &(struct pixel_box){ 2, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 1 }),
+	                 (2 + 2) * 40 + (3 + 4) * 4);
 }
 END_TEST
 
@@ -54,7 +60,9 @@ START_TEST(test_nonsense_is_nothing)
 	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, GL_RGB, GL_UNSIGNED_BYTE, 3, 0, 1 }), 0);
 	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, 0xFFFF, GL_UNSIGNED_BYTE, 3, 3, 1 }), 0);
 	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, GL_RGB, 0xFFFF, 3, 3, 1 }), 0);
-	ck_assert_int_eq(image_bytes(&(struct pixel_layout){ 0 }, &(struct pixel_box){ 2, GL_RGB, GL_UNSIGNED_BYTE, 3, 3, 1 }), 0);
+	ck_assert_int_eq(
+		image_bytes(&(struct pixel_layout){ 0 }, &(struct pixel_box){ 2, GL_RGB, GL_UNSIGNED_BYTE, 3, 3, 1 }),
+		0);
 	ck_assert_int_eq(call_lists_bytes(-3, GL_INT), 0);
 	ck_assert_int_eq(call_lists_bytes(3, 0), 0);
 	ck_assert_int_eq(map1_count(GL_MAP1_VERTEX_3, 2, 4), 0);
@@ -66,12 +74,16 @@ END_TEST
 START_TEST(test_more_than_memory_is_nothing)
 {
 	const struct pixel_layout far = { .image_height = INT_MAX, .skip_images = INT_MAX, .alignment = 1 };
-	const struct pixel_layout wide = { .row_length = INT_MAX, .skip_rows = INT_MAX, .skip_pixels = INT_MAX, .alignment = 1 };
+	const struct pixel_layout wide = {
+		.row_length = INT_MAX, .skip_rows = INT_MAX, .skip_pixels = INT_MAX, .alignment = 1
+	};
 
 	ck_assert_int_eq(image_bytes(&far, &(struct pixel_box){ 3, GL_RGBA, GL_UNSIGNED_BYTE, 4, 1, 1 }), 0);
 	ck_assert_int_eq(image_bytes(&far, &(struct pixel_box){ 3, GL_RGBA, GL_UNSIGNED_BYTE, INT_MAX, 1, INT_MAX }), 0);
 	ck_assert_int_eq(image_bytes(&wide, &(struct pixel_box){ 2, GL_RGBA, GL_FLOAT, 1, 1, 1 }), 0);
-	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 3, GL_RGBA, GL_UNSIGNED_BYTE, INT_MAX, INT_MAX, INT_MAX }), 0);
+	ck_assert_int_eq(
+		image_bytes(&initial, &(struct pixel_box){ 3, GL_RGBA, GL_UNSIGNED_BYTE, INT_MAX, INT_MAX, INT_MAX }),
+		0);
 	ck_assert_int_eq(map2_count(GL_MAP2_VERTEX_4, INT_MAX, INT_MAX, INT_MAX, INT_MAX), 2LL * (INT_MAX - 1) * INT_MAX + 4);
 }
 END_TEST

@@ -11,7 +11,8 @@
 START_TEST(test_mirror_has_two_sides)
 {
 	struct tricks t = { .n = 0 };
-	struct trick_found front = { .kind = TRICK_MIRROR, .plane = { 0, 0.6, 0.8, -2 } }, back = { .kind = TRICK_MIRROR, .plane = { 0, -0.6, -0.8, 2 } };
+	struct trick_found front = { .kind = TRICK_MIRROR, .plane = { 0, 0.6, 0.8, -2 } },
+			   back = { .kind = TRICK_MIRROR, .plane = { 0, -0.6, -0.8, 2 } };
 	struct trick_found other = { .kind = TRICK_MIRROR, .plane = { 0, 0.6, 0.8, 2 } };
 
 	ck_assert_ptr_eq(tricks_note(&t, &front, 1), &t.found[0]);
@@ -29,7 +30,8 @@ END_TEST
 START_TEST(test_shadow_has_one_side)
 {
 	struct tricks t = { .n = 0 };
-	struct trick_found above = { .kind = TRICK_PLANAR_SHADOW, .light = { 0, 5, 0, 1 }, .plane = { 0, 1, 0, 0 } }, below = above;
+	struct trick_found above = { .kind = TRICK_PLANAR_SHADOW, .light = { 0, 5, 0, 1 }, .plane = { 0, 1, 0, 0 } },
+			   below = above;
 
 	below.plane[1] = -1;
 	tricks_note(&t, &above, 1);
@@ -57,7 +59,8 @@ START_TEST(test_one_rule_for_all_planes)
 
 	ck_assert_ptr_nonnull(second);
 	ck_assert_ptr_null(strstr(second + 1, "role:"));
-	ck_assert_ptr_nonnull(strstr(text, "4 draws in 1 frames are flattened away from one light each, 4 planes and lights in all; "));
+	ck_assert_ptr_nonnull(strstr(
+		text, "4 draws in 1 frames are flattened away from one light each, 4 planes and lights in all; "));
 	ck_assert(strstr(text, "left_out: yes") < second);
 	ck_assert_ptr_nonnull(strstr(second, "plane: [0, 1, 0, 4]"));
 	free(text);

@@ -12,12 +12,13 @@
 #include "tracer/accel/tlas.h"
 
 /*
- * A moving mesh of this many triangles or more keeps its tree, with new boxes, while that costs at most REFIT_COST times the
- * tree that was built. Below, building is as quick.
+ * A moving mesh of this many triangles or more keeps its tree, with new boxes, while that costs at most REFIT_COST
+ * times the tree that was built. Below, building is as quick.
  */
 #define REFIT_TRIANGLES 256
 #define REFIT_COST 1.25
-/* An unused BLAS stays for so many frames, and longer while such ones are at most this share: closing a gap moves all that follows. */
+/* An unused BLAS stays for so many frames, and longer while such ones are at most this share: closing a gap moves all
+ * that follows. */
 #define KEEP_FRAMES 16
 #define KEEP_SMALL_FRAMES 2 /* of fewer than SHARE_TRIANGLES, which are soon made again */
 #define UNUSED_SHARE 0.5
@@ -113,7 +114,7 @@ void accel_copied(struct accel *accel)
 		accel->same[part] = *pool_of(accel, part).n;
 }
 
-/* --- finding BLASes --- */
+/* --- finding BLASes ---------------------------------------------------------------------------------------------- */
 
 static size_t table_slot(const struct accel_cache *cache, const uint64_t hash[2])
 {
@@ -182,7 +183,8 @@ static int is_unused(const struct accel_cache *cache, const struct placed_blas *
 	return b->last_use + (b->blas.n[BLAS_TRIANGLES] < SHARE_TRIANGLES ? KEEP_SMALL_FRAMES : KEEP_FRAMES) < cache->frame;
 }
 
-/* Are BLASes that were not used for a while more than their share? n_baked: receives how many were baked for the last frame */
+/* Are BLASes that were not used for a while more than their share? n_baked: receives how many were baked for the last
+ * frame */
 static int much_is_unused(const struct accel *accel, size_t *n_baked)
 {
 	const struct accel_cache *cache = accel->cache;
@@ -197,7 +199,8 @@ static int much_is_unused(const struct accel *accel, size_t *n_baked)
 	return (double)unused > UNUSED_SHARE * (double)accel->n_triangles;
 }
 
-/* Remove BLASes that were not used for a while, if they are many, and those baked for the last frame; close the gaps. */
+/* Remove BLASes that were not used for a while, if they are many, and those baked for the last frame; close the
+ * gaps. */
 static int drop_unused(struct accel *accel)
 {
 	struct accel_cache *cache = accel->cache;
@@ -226,7 +229,7 @@ static int drop_unused(struct accel *accel)
 	return table_rebuild(cache);
 }
 
-/* --- building BLASes --- */
+/* --- building BLASes --------------------------------------------------------------------------------------------- */
 
 /* Copy a BLAS to the ends of the pools. */
 static int append(struct accel *accel, const struct blas *blas, struct placed_blas *placed)
@@ -252,7 +255,8 @@ static int append(struct accel *accel, const struct blas *blas, struct placed_bl
 	return err;
 }
 
-/* The same for two meshes of the same triangles with other vertices; 0 0: the tree is not to be fitted to other vertices. */
+/* The same for two meshes of the same triangles with other vertices; 0 0: the tree is not to be fitted to other
+ * vertices. */
 static void find_topology(const struct scene_mesh *mesh, const struct soup *soup, uint64_t out[2])
 {
 	out[0] = out[1] = 0;
@@ -261,8 +265,8 @@ static void find_topology(const struct scene_mesh *mesh, const struct soup *soup
 }
 
 /*
- * The BLAS whose tree fits a new mesh: one of the same triangles, not used in this frame, most recently used before. Of several,
- * each mesh finds its own, in the order in which they were first drawn. NULL: there is none.
+ * The BLAS whose tree fits a new mesh: one of the same triangles, not used in this frame, most recently used before. Of
+ * several, each mesh finds its own, in the order in which they were first drawn. NULL: there is none.
  */
 static struct placed_blas *find_moved(struct accel_cache *cache, enum accel_kind kind, const uint64_t topology[2])
 {
@@ -309,11 +313,12 @@ struct order {
 };
 
 /*
- * A tree for a soup: fitted, found or built. Moving meshes get a binned tree, which is quick to build and not kept on disk.
+ * A tree for a soup: fitted, found or built. Moving meshes get a binned tree, which is quick to build and not kept on
+ * disk.
  * @param own  receives 1 where the tree depends on what this accel saw before
  */
-static int find_tree(struct accel *accel, const struct soup *soup, const struct order *order, struct blas *blas, struct tree *out,
-                     int *own)
+static int find_tree(struct accel *accel, const struct soup *soup, const struct order *order, struct blas *blas,
+                     struct tree *out, int *own)
 {
 	struct placed_blas *moved = find_moved(accel->cache, order->kind, blas->topology);
 	int err = moved ? refit(accel, moved, soup, out) : 0;
@@ -327,7 +332,8 @@ static int find_tree(struct accel *accel, const struct soup *soup, const struct 
 		return 0;
 	}
 	accel->n_made++;
-	err = builders_make_tree(soup, moved ? ACCEL_BVH : order->kind, order->mesh->hash, moved || order->of_frame ? NULL : accel->store, out);
+	err = builders_make_tree(soup, moved ? ACCEL_BVH : order->kind, order->mesh->hash,
+	                         moved || order->of_frame ? NULL : accel->store, out);
 	if (!err && (blas->topology[0] | blas->topology[1]))
 		blas->built_cost = bvh_cost(out->nodes, out->n_nodes);
 	return err;
@@ -415,8 +421,9 @@ static int place_instance(struct accel *accel, const struct scene_mesh *mesh, co
                           struct instance *instance, struct bvh_box *box)
 {
 	const int baked = (instance->flags & INSTANCE_BAKED) != 0;
-	const struct order order = { mesh, baked ? eye_vertices + instance->vertex_first : (const float (*)[4])mesh->position, baked,
-		                     is_of_frame(instance), accel_kind_of(accel, instance) };
+	const struct order order = { mesh,
+		                     baked ? eye_vertices + instance->vertex_first : (const float(*)[4])mesh->position,
+		                     baked, is_of_frame(instance), accel_kind_of(accel, instance) };
 	struct placed_blas *placed = baked ? NULL : find_blas(accel->cache, mesh->hash, order.kind);
 	int err = 0;
 

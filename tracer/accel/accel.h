@@ -38,7 +38,8 @@ struct accel {
 	uint32_t *instance_list;
 	size_t n_top2, n_top8, n_instance_list;
 
-	unsigned wide;        /* which of ACCEL_ROWS and ACCEL_COMPRESSED to make; ACCEL_ROWS at first; fixed before the first frame */
+	unsigned wide; /* which of ACCEL_ROWS and ACCEL_COMPRESSED to make; ACCEL_ROWS at first; fixed before the first
+	                  frame */
 	enum accel_kind kind; /* of BLASes that the next frame finds or builds; ACCEL_BVH at first */
 	struct blas_store *store;  /* keeps trees for other runs; borrowed; NULL, as at first: nothing does */
 	struct blas_cache *shared; /* BLASes that other accels use too; borrowed; NULL, as at first: none */
@@ -54,19 +55,20 @@ void accel_destroy(struct accel **accel);
 /**
  * Find or build the BLASes of a frame's instances (accel->kind), then its TLASes.
  *
- * A BLAS stays across frames, found by its mesh's hash. Some frames after their last use BLASes go, once they are a good part of
- * all. A mesh that has moved, with the triangles of one that is here but other vertices, gets that tree with new boxes; where
- * that costs much more than the tree when it was built, it gets a binned one (ACCEL_BVH). BLASes of INSTANCE_BAKED instances live
- * for one frame. Triangles with a vertex that is not finite are left out. Those with a vertex at w <= 0 have no bounds: only
- * camera rays find them. Meshes must be of triangles: lines and points come as `extra` meshes.
+ * A BLAS stays across frames, found by its mesh's hash. Some frames after their last use BLASes go, once they are a
+ * good part of all. A mesh that has moved, with the triangles of one that is here but other vertices, gets that tree
+ * with new boxes; where that costs much more than the tree when it was built, it gets a binned one (ACCEL_BVH). BLASes
+ * of INSTANCE_BAKED instances live for one frame. Triangles with a vertex that is not finite are left out. Those with a
+ * vertex at w <= 0 have no bounds: only camera rays find them. Meshes must be of triangles: lines and points come as
+ * `extra` meshes.
  *
  * @param scene      meshes and views
- * @param extra      [n], or NULL: triangle meshes in place of the scene's own (screen geometry: x y in pixels); NULL entries
- *                   stand for the scene's own. Used during the call only. The hash should differ where the content does
- * @param eye_vertices  eye-space positions of the vertices of INSTANCE_BAKED instances, each at its instance.vertex_first;
- *                   NULL where there is no such instance
- * @param instances  [n]; the caller fills in matrices, flags, pad, view, vertex_first and scene_instance (BAKED and SCREEN
- *                   instances have identity matrices); this function fills in node2_first, node8_first, node8c_first,
+ * @param extra      [n], or NULL: triangle meshes in place of the scene's own (screen geometry: x y in pixels); NULL
+ * entries stand for the scene's own. Used during the call only. The hash should differ where the content does
+ * @param eye_vertices  eye-space positions of the vertices of INSTANCE_BAKED instances, each at its
+ * instance.vertex_first; NULL where there is no such instance
+ * @param instances  [n]; the caller fills in matrices, flags, pad, view, vertex_first and scene_instance (BAKED and
+ * SCREEN instances have identity matrices); this function fills in node2_first, node8_first, node8c_first,
  *                   triangle_first, triangle8_first and triangle8c_first
  * @param views      [scene->n_views]; this function fills in tlas_first and tlas_count
  * @param spaces     receives an array that accel owns, valid until the next call

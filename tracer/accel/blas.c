@@ -98,7 +98,8 @@ static int make_compressed(const struct tree *tree, struct blas *blas)
 	int err = nodes && triangles ? 0 : ERR_SYSTEM;
 
 	if (!err)
-		err = bvh_compress8(tree->nodes, tree->n_nodes, blas->parts[BLAS_TRIANGLES], tree->n_order, nodes, &n_nodes, triangles);
+		err = bvh_compress8(tree->nodes, tree->n_nodes, blas->parts[BLAS_TRIANGLES], tree->n_order, nodes,
+		                    &n_nodes, triangles);
 	if (!err)
 		cut_part(blas, BLAS_NODES8C, n_nodes);
 	return err;

@@ -1,6 +1,6 @@
 /*
- * A BLAS (bottom level acceleration structure): the trees over one mesh in every form that kernels walk. Its parts go into the
- * pools of struct accel.
+ * A BLAS (bottom level acceleration structure): the trees over one mesh in every form that kernels walk. Its parts go
+ * into the pools of struct accel.
  */
 #pragma once
 

@@ -48,7 +48,7 @@ static struct entry **find(struct blas_cache *cache, const struct blas_key *key)
 	return at;
 }
 
-/* --- By last use ---------------------------------------------------------------------------------------------------- */
+/* --- By last use ------------------------------------------------------------------------------------------------- */
 
 static void unlink_use(struct blas_cache *cache, struct entry *e)
 {
@@ -98,7 +98,7 @@ void blas_cache_destroy(struct blas_cache **cache)
 	free(g);
 }
 
-/* --- Acquiring and publishing --------------------------------------------------------------------------------------- */
+/* --- Acquiring and publishing ------------------------------------------------------------------------------------ */
 
 static struct entry *add(struct blas_cache *cache, const struct blas_key *key)
 {

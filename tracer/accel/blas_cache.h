@@ -1,8 +1,9 @@
 /*
- * BLASes that the workers of one process share, found by content. Whoever wants one first makes it; others wait for it and copy
- * it into their pools.
+ * BLASes that the workers of one process share, found by content. Whoever wants one first makes it; others wait for it
+ * and copy it into their pools.
  *
- * The cache keeps to a number of bytes; the BLAS unused for longest goes first. All functions may be called from any thread.
+ * The cache keeps to a number of bytes; the BLAS unused for longest goes first. All functions may be called from any
+ * thread.
  */
 #pragma once
 
@@ -31,8 +32,8 @@ void blas_cache_destroy(struct blas_cache **cache);
 /**
  * Find a BLAS; wait where someone else is making it.
  *
- * @param out  receives it; it stays as it is until blas_cache_release, which the caller owes. NULL: there is none; the caller makes
- *             it, and owes blas_cache_publish or blas_cache_abandon instead
+ * @param out  receives it; it stays as it is until blas_cache_release, which the caller owes. NULL: there is none; the
+ * caller makes it, and owes blas_cache_publish or blas_cache_abandon instead
  * @return 0 or ERR_SYSTEM (reported)
  */
 int blas_cache_acquire(struct blas_cache *cache, const struct blas_key *key, const struct blas **out);

@@ -81,7 +81,7 @@ static void hash_key(const struct blas_store_key *key, uint64_t out[2])
 	hash_bytes(all, sizeof(all), out);
 }
 
-/* --- Reading ------------------------------------------------------------------------------------------------------- */
+/* --- Reading ----------------------------------------------------------------------------------------------------- */
 
 /* Make a tree of a file's content. @return 0: it is none */
 static int unpack(const char *bytes, size_t n, uint32_t n_triangles, struct tree *out)
@@ -93,8 +93,8 @@ static int unpack(const char *bytes, size_t n, uint32_t n_triangles, struct tree
 	memcpy(&counts, bytes, sizeof(counts));
 	if (n != bytes_of(counts))
 		return 0;
-	*out = (struct tree){ malloc(counts.n_nodes * sizeof(*out->nodes) + 1), malloc(counts.n_order * sizeof(*out->order) + 1),
-		              counts.n_nodes, counts.n_order };
+	*out = (struct tree){ malloc(counts.n_nodes * sizeof(*out->nodes) + 1),
+		              malloc(counts.n_order * sizeof(*out->order) + 1), counts.n_nodes, counts.n_order };
 	if (!out->nodes || !out->order)
 		return 0;
 	bytes += sizeof(counts);
@@ -119,13 +119,14 @@ int blas_store_load(struct blas_store *store, const struct blas_store_key *key, 
 	found = unpack(bytes, n, key->n_triangles, out);
 	free(bytes);
 	if (found)
-		utimensat(AT_FDCWD, path, NULL, 0); /* the time of last use; where we may not set it, we may not remove files either */
+		/* the time of last use; where we may not set it, we may not remove files either */
+		utimensat(AT_FDCWD, path, NULL, 0);
 	else
 		tree_free(out);
 	return found;
 }
 
-/* --- Keeping the bound --------------------------------------------------------------------------------------------- */
+/* --- Keeping the bound ------------------------------------------------------------------------------------------- */
 
 /* Count the folder; where it exceeds its bound, trees unused for longest go. */
 static void keep_bound(struct blas_store *store)
@@ -136,7 +137,7 @@ static void keep_bound(struct blas_store *store)
 	store->counted = 1;
 }
 
-/* --- Writing ------------------------------------------------------------------------------------------------------- */
+/* --- Writing ----------------------------------------------------------------------------------------------------- */
 
 /* @return 0; an errno that says why it failed; -1 (reported) */
 static int save(struct blas_store *store, const char *path, const struct blas_store_key *key, const struct tree *tree)
@@ -150,7 +151,8 @@ static int save(struct blas_store *store, const char *path, const struct blas_st
 		return ENOMEM;
 	memcpy(bytes, &counts, sizeof(counts));
 	memcpy(bytes + sizeof(counts), tree->nodes, tree->n_nodes * sizeof(*tree->nodes));
-	memcpy(bytes + sizeof(counts) + tree->n_nodes * sizeof(*tree->nodes), tree->order, tree->n_order * sizeof(*tree->order));
+	memcpy(bytes + sizeof(counts) + tree->n_nodes * sizeof(*tree->nodes), tree->order,
+	       tree->n_order * sizeof(*tree->order));
 	if (!store->counted) {
 		part_sweep(path);
 		keep_bound(store);

@@ -1,11 +1,13 @@
 /*
  * Trees of meshes on disk: a folder of files, one per tree, that any number of threads, processes and machines share.
  *
- * Files appear whole and carry a checksum (base/kept.h). A file that is cut, damaged, of another version or of another byte order
- * counts as none, and is written again. A file's time is that of its last use; where the folder exceeds its bound, the files
- * unused for longest go. Each process counts what it adds: several may exceed the bound by a sixteenth each, for a while.
+ * Files appear whole and carry a checksum (base/kept.h). A file that is cut, damaged, of another version or of another
+ * byte order counts as none, and is written again. A file's time is that of its last use; where the folder exceeds its
+ * bound, the files unused for longest go. Each process counts what it adds: several may exceed the bound by a sixteenth
+ * each, for a while.
  *
- * Nothing here fails a run. Where the folder cannot be written (no right, no space), one warning says so and writing stops.
+ * Nothing here fails a run. Where the folder cannot be written (no right, no space), one warning says so and writing
+ * stops.
  */
 #pragma once
 

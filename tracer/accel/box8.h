@@ -1,7 +1,7 @@
 /*
- * Boxes for the builders, in vectors: -lo and hi side by side, so that one kind of comparison grows a box. Each half has a
- * fourth lane that goes along. The compiler's own operators do arithmetic and comparisons on vector types. This file has the rest,
- * for whatever the including file is compiled for: AVX, SSE2, or neither.
+ * Boxes for the builders, in vectors: -lo and hi side by side, so that one kind of comparison grows a box. Each half
+ * has a fourth lane that goes along. The compiler's own operators do arithmetic and comparisons on vector types. This
+ * file has the rest, for whatever the including file is compiled for: AVX, SSE2, or neither.
  */
 #pragma once
 

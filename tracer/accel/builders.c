@@ -29,7 +29,8 @@ static int build(const struct soup *soup, enum accel_kind kind, struct tree *tre
 	return builders[by].build(&in, tree);
 }
 
-int builders_make_tree(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct blas_store *store, struct tree *out)
+int builders_make_tree(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct blas_store *store,
+                       struct tree *out)
 {
 	const struct blas_store_key key = { { hash[0], hash[1] }, TREE_VERSION, kind, soup->n };
 	const int keep = store && soup->n >= builders[kind].keep_from;

@@ -1,18 +1,19 @@
 /*
- * The tree builders: one row each. From this list come enum accel_kind, the prototypes, what command lines and their help
- * know, and what `relume bench --accel all` measures. A new builder is its own .c, a row at the end, and a test
+ * The tree builders: one row each. From this list come enum accel_kind, the prototypes, what command lines and their
+ * help know, and what `relume bench --accel all` measures. A new builder is its own .c, a row at the end, and a test
  * (tests/unit/test_blas_store.c keeps a checksum of each builder's tree).
  *
  * Same input, same tree, whatever the number of threads.
  *
- *   BVH   The binned surface area heuristic (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies").
- *   SBVH  The same with spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding volume hierarchies"):
- *         a triangle may be in several leaves, each time with the box of a piece of it.
- *   KD    A kd-tree by the surface area heuristic (kd_split.h), as a binary tree whose sides bound what their cells hold. Cells
- *         never overlap: a triangle is in the leaf of every cell that it crosses, each time with the box of its piece there.
- *         Where no plane pays and a leaf would be too large, and where room or depth ends, it divides items as BVH does.
- *   LBVH  The quickest (Lauterbach, Garland, Sengupta, Luebke and Manocha 2009, "Fast BVH construction on GPUs"): items in the
- *         order of their centres on a Morton curve, divided where the curve's cells are; a subtree is one leaf where that is cheaper.
+ *   BVH   The binned surface area heuristic (Wald 2007, "On fast construction of SAH-based bounding volume
+ * hierarchies"). SBVH  The same with spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding
+ * volume hierarchies"): a triangle may be in several leaves, each time with the box of a piece of it. KD    A kd-tree
+ * by the surface area heuristic (kd_split.h), as a binary tree whose sides bound what their cells hold. Cells never
+ * overlap: a triangle is in the leaf of every cell that it crosses, each time with the box of its piece there. Where no
+ * plane pays and a leaf would be too large, and where room or depth ends, it divides items as BVH does. LBVH  The
+ * quickest (Lauterbach, Garland, Sengupta, Luebke and Manocha 2009, "Fast BVH construction on GPUs"): items in the
+ *         order of their centres on a Morton curve, divided where the curve's cells are; a subtree is one leaf where
+ * that is cheaper.
  */
 #pragma once
 
@@ -33,7 +34,8 @@
  */
 #define TREE_BUILDERS(ROW) \
 	ROW(BVH, "bvh", bvh_build_sah, 0, 16384, "binned") \
-	ROW(SBVH, "sbvh", bvh_build_sbvh, 0.25, 1024, "with spatial splits: some percent cheaper to trace, ten times the time to build") \
+	ROW(SBVH, "sbvh", bvh_build_sbvh, 0.25, 1024, "with spatial splits: some percent cheaper to trace, \
+	ten times the time to build") \
 	ROW(KD, "kd", bvh_build_kd, 3, 1024, "a kd-tree") \
 	ROW(LBVH, "lbvh", bvh_build_linear, 0, 65536, "along a Morton curve: the quickest to build")
 
@@ -44,8 +46,8 @@ enum accel_kind { TREE_BUILDERS(TREE_BUILDER_KIND) N_ACCEL_KINDS };
 /* What a builder builds from. */
 struct bvh_input {
 	const struct bvh_box *boxes;      /* [n], finite, lo <= hi */
-	const struct triangle *triangles; /* [n], in the boxes, which may be larger by what counts as a hit (kernels/rays/rays.h); NULL for
-	                                   * builders that cut none */
+	const struct triangle *triangles; /* [n], in the boxes, which may be larger by what counts as a hit
+	                                   * (kernels/rays/rays.h); NULL for builders that cut none */
 	uint32_t n;
 	uint32_t leaf_max; /* most items in a leaf, >= 1 */
 	uint32_t room;     /* most items in all leaves, >= n, for builders that cut */
@@ -54,8 +56,8 @@ struct bvh_input {
 
 /**
  * Build a tree.
- * @param out  nodes and order have room for max(room, 1) items each, max(n, 1) for builders that cut none. Filled in: both,
- *             n_nodes (at least 1) and n_order
+ * @param out  nodes and order have room for max(room, 1) items each, max(n, 1) for builders that cut none. Filled in:
+ * both, n_nodes (at least 1) and n_order
  * @return 0 or ERR_SYSTEM (reported)
  */
 typedef int tree_builder(const struct bvh_input *in, struct tree *out);
@@ -77,4 +79,5 @@ extern const char *const accel_kind_names[N_ACCEL_KINDS + 1];
  * @param out    receives the tree; free with tree_free, also after an error
  * @return 0 or ERR_SYSTEM (reported). That a tree cannot be kept is no error
  */
-int builders_make_tree(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct blas_store *store, struct tree *out);
+int builders_make_tree(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct blas_store *store,
+                       struct tree *out);

@@ -50,8 +50,8 @@ double bvh_cost(const struct node2 *nodes, uint32_t n_nodes)
 }
 
 /* The box of one side. The boxes of its child are right already. */
-static struct bvh_box fit_side(const struct node2 *nodes, const struct node2 *node, int side, const struct bvh_box *boxes,
-                               const uint32_t *order)
+static struct bvh_box fit_side(const struct node2 *nodes, const struct node2 *node, int side,
+                               const struct bvh_box *boxes, const uint32_t *order)
 {
 	struct bvh_box box;
 

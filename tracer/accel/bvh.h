@@ -1,10 +1,10 @@
 /*
- * Bounding volume hierarchies in flat node arrays (kernels/shared.h): what a tree is, what it costs, and its eight-wide form.
- * builders.h lists who builds them.
+ * Bounding volume hierarchies in flat node arrays (kernels/shared.h): what a tree is, what it costs, and its eight-wide
+ * form. builders.h lists who builds them.
  *
- * The root is node 0. It may have empty sides (BVH_EMPTY_LO > BVH_EMPTY_HI, count 0, child 0) where there are fewer than two
- * items; no other node2 has one. Any node8 may have empty lanes, behind those in use.
- * No path from the root to a leaf is longer than BVH_MAX_DEPTH nodes (kernels/shared.h): the kernels' stacks rely on it.
+ * The root is node 0. It may have empty sides (BVH_EMPTY_LO > BVH_EMPTY_HI, count 0, child 0) where there are fewer
+ * than two items; no other node2 has one. Any node8 may have empty lanes, behind those in use. No path from the root to
+ * a leaf is longer than BVH_MAX_DEPTH nodes (kernels/shared.h): the kernels' stacks rely on it.
  */
 #pragma once
 
@@ -23,13 +23,14 @@ void bvh_box_join(struct bvh_box *box, const struct bvh_box *other);
 
 /**
  * What a ray that meets the root is expected to pay (MacDonald and Booth 1990, "Heuristics for ray tracing using space
- * subdivision"): the sum over nodes of their area over the root's, times BVH_COST_NODE for an inner node and 1 for each item of a leaf.
+ * subdivision"): the sum over nodes of their area over the root's, times BVH_COST_NODE for an inner node and 1 for each
+ * item of a leaf.
  */
 double bvh_cost(const struct node2 *nodes, uint32_t n_nodes);
 
 /**
- * Fit the boxes of a tree to items that have moved; its structure stays. After spatial splits an item in several leaves counts
- * whole in each.
+ * Fit the boxes of a tree to items that have moved; its structure stays. After spatial splits an item in several leaves
+ * counts whole in each.
  *
  * @param nodes  children behind their parents, as all builders give them
  * @param boxes  of the items that `order` names

@@ -18,8 +18,8 @@ static int lane_is_used(const struct node8 *node, int lane)
 }
 
 /*
- * Which slot each lane goes to. Repeatedly take, of all lanes and slots left, the pair that fits best: the lane's middle lies
- * farthest along the slot's diagonal. -1: the lane is empty.
+ * Which slot each lane goes to. Repeatedly take, of all lanes and slots left, the pair that fits best: the lane's
+ * middle lies farthest along the slot's diagonal. -1: the lane is empty.
  */
 static void choose_slots(const struct node8 *node, int slot_of[8])
 {
@@ -122,11 +122,11 @@ static void quantise_axis(const struct node8 *in, int axis, const int slot_of[8]
 	out->exponents |= exponent << 8 * axis;
 }
 
-/* --- Which nodes become one ---------------------------------------------------------------------------------------- */
+/* --- Which nodes become one -------------------------------------------------------------------------------------- */
 
 /*
- * What a subtree costs as at most n children of one node, and how (Ylitie, Karras and Laine 2017, section 3.1): left[n] of
- * them go to its left side; 0: n - 1 children are as good. left[1] is for the eight children of a node of its own.
+ * What a subtree costs as at most n children of one node, and how (Ylitie, Karras and Laine 2017, section 3.1): left[n]
+ * of them go to its left side; 0: n - 1 children are as good. left[1] is for the eight children of a node of its own.
  */
 struct plan {
 	float cost[8]; /* [1..7] */
@@ -176,7 +176,7 @@ static void plan_node(const struct node2 *node, const struct plan *plans, float 
 	}
 }
 
-/* --- Nodes --------------------------------------------------------------------------------------------------------- */
+/* --- Nodes ------------------------------------------------------------------------------------------------------- */
 
 /* What a node is made from: a binary node, or items in a box that are too many for a leaf. */
 struct source {
@@ -196,7 +196,8 @@ struct compression {
 };
 
 /* Append one side of a binary node, as at most n children, to the lanes of a node in rows. */
-static void add_lanes(const struct compression *c, const struct node2 *node, int side, uint32_t n, struct node8 *out, uint32_t *lane)
+static void add_lanes(const struct compression *c, const struct node2 *node, int side, uint32_t n, struct node8 *out,
+                      uint32_t *lane)
 {
 	const struct plan *plan = &c->plans[node->child[side]];
 

@@ -1,10 +1,10 @@
 /*
- * Planes of a kd-tree (MacDonald and Booth 1990, "Heuristics for ray tracing using space subdivision"): cut a cell where that is
- * cheapest by the areas of both halves and the number of triangles in each. Triangles that the plane cuts go to both, each with
- * the box of its own piece ("perfect splits", Wald and Havran 2006, "On building fast kd-trees for ray tracing, and on doing that
- * in O(N log N)", sec. 2.2). Cells shrink to what they hold. Many triangles are binned by where they begin and end (Shevtsov,
- * Soupikov and Kapustin 2007, "Highly parallel fast KD-tree construction for interactive ray tracing of dynamic scenes"); few
- * give the planes themselves. For sah_build.inc.
+ * Planes of a kd-tree (MacDonald and Booth 1990, "Heuristics for ray tracing using space subdivision"): cut a cell
+ * where that is cheapest by the areas of both halves and the number of triangles in each. Triangles that the plane cuts
+ * go to both, each with the box of its own piece ("perfect splits", Wald and Havran 2006, "On building fast kd-trees
+ * for ray tracing, and on doing that in O(N log N)", sec. 2.2). Cells shrink to what they hold. Many triangles are
+ * binned by where they begin and end (Shevtsov, Soupikov and Kapustin 2007, "Highly parallel fast KD-tree construction
+ * for interactive ray tracing of dynamic scenes"); few give the planes themselves. For sah_build.inc.
  */
 #pragma once
 

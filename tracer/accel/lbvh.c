@@ -1,9 +1,9 @@
 /*
- * Linear bounding volume hierarchies (Lauterbach et al. 2009, "Fast BVH construction on GPUs"): items along a Morton curve, divided
- * wherever the highest bit changes.
+ * Linear bounding volume hierarchies (Lauterbach et al. 2009, "Fast BVH construction on GPUs"): items along a Morton
+ * curve, divided wherever the highest bit changes.
  *
- * One thread lays out the levels down to parts of GRAIN items. Then threads take parts, and fill a range of nodes for each.
- * The sorted codes alone decide what is in which node.
+ * One thread lays out the levels down to parts of GRAIN items. Then threads take parts, and fill a range of nodes for
+ * each. The sorted codes alone decide what is in which node.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -29,7 +29,8 @@ struct place {
 	uint32_t item;
 };
 
-/* A subtree that one thread fills: items first .. first + count - 1, nodes from `first` on, `used` of them in the end. */
+/* A subtree that one thread fills: items first .. first + count - 1, nodes from `first` on, `used` of them in the
+ * end. */
 struct part {
 	uint32_t first, count, depth;
 	uint32_t used, place; /* place: where its nodes go in the end */
@@ -53,7 +54,7 @@ struct build {
 	uint32_t *order;
 };
 
-/* --- Sorting ------------------------------------------------------------------------------------------------------- */
+/* --- Sorting ----------------------------------------------------------------------------------------------------- */
 
 static uint64_t spread(uint64_t x)
 {
@@ -181,7 +182,7 @@ static void sort(struct build *b, struct forks *forks, unsigned threads)
 	}
 }
 
-/* --- Nodes --------------------------------------------------------------------------------------------------------- */
+/* --- Nodes ------------------------------------------------------------------------------------------------------- */
 
 /* Where to divide items: behind the last one with a 0 in the highest bit of the code that changes. */
 static uint32_t find_split(const struct build *b, uint32_t first, uint32_t count, uint32_t depth)
@@ -216,8 +217,8 @@ static void set_side(struct node2 *node, int side, box8 box, uint32_t child, uin
 }
 
 /*
- * Write the subtree over some items, from the part's next node on. A subtree of at most leaf_max items that costs more than a leaf
- * becomes one, unless it `must` be a node.
+ * Write the subtree over some items, from the part's next node on. A subtree of at most leaf_max items that costs more
+ * than a leaf becomes one, unless it `must` be a node.
  * @return its cost, areas not divided; *child and *count_out are for its parent
  */
 static float emit(const struct build *b, struct part *part, uint32_t first, uint32_t count, uint32_t depth, int must,
@@ -265,14 +266,16 @@ static void fill_part(void *arg, const void *task)
 		const struct bvh_box *box = &b->boxes[b->from[i].item];
 
 		b->order[i] = b->from[i].item;
-		b->sorted[i] = box8_make((vec4){ -box->lo[0], -box->lo[1], -box->lo[2], 0 }, (vec4){ box->hi[0], box->hi[1], box->hi[2], 0 });
+		b->sorted[i] = box8_make((vec4){ -box->lo[0], -box->lo[1], -box->lo[2], 0 },
+		                         (vec4){ box->hi[0], box->hi[1], box->hi[2], 0 });
 	}
 	emit(b, part, part->first, part->count, part->depth, part->count == b->n, &part->box, &part->child, &part->n_items);
 }
 
-/* Write the levels above the parts into `nodes`, from 0 on. Sides that are parts hold the part's number for now, and count IS_PART. */
-static void lay_out(struct build *b, struct node2 *nodes, uint32_t *used, uint32_t first, uint32_t count, uint32_t depth,
-                    uint32_t *child, uint32_t *count_out)
+/* Write the levels above the parts into `nodes`, from 0 on. Sides that are parts hold the part's number for now, and
+ * count IS_PART. */
+static void lay_out(struct build *b, struct node2 *nodes, uint32_t *used, uint32_t first, uint32_t count,
+                    uint32_t depth, uint32_t *child, uint32_t *count_out)
 {
 	const uint32_t at = *used;
 	uint32_t ends[3] = { first, 0, first + count };
@@ -334,7 +337,8 @@ static void close_top(const struct build *b, uint32_t n_top)
 		}
 }
 
-/* Build over sorted items. @return how many nodes: the levels above the parts, then all parts in the order of their items */
+/* Build over sorted items. @return how many nodes: the levels above the parts, then all parts in the order of their
+ * items */
 static uint32_t build_nodes(struct build *b, struct forks *forks, unsigned threads)
 {
 	uint32_t n_top = 0, child, count, n;
@@ -361,7 +365,12 @@ int bvh_build_linear(const struct bvh_input *in, struct tree *out)
 	/* Each level divides parts of 2 * GRAIN items and more. */
 	const uint32_t most_parts = BVH_MAX_DEPTH * (n / (2 * GRAIN) + 1) + 1;
 	const unsigned threads = n < 2 * GRAIN ? 1 : in->threads;
-	struct build b = { .boxes = in->boxes, .n = n, .leaf_max = in->leaf_max, .out = out->nodes, .order = out->order, .chunk = 4 * GRAIN };
+	struct build b = { .boxes = in->boxes,
+		           .n = n,
+		           .leaf_max = in->leaf_max,
+		           .out = out->nodes,
+		           .order = out->order,
+		           .chunk = 4 * GRAIN };
 	struct forks forks = { 0 };
 	int err = 0;
 

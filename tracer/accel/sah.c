@@ -26,8 +26,8 @@ int bvh_build_sah(const struct bvh_input *in, struct tree *out)
 }
 
 /*
- * Chance decides where the topmost planes fall, as there are few between bins, and with it about a tenth of a tree's cost. The
- * binned builder is quick enough to try which number of bins suits the mesh.
+ * Chance decides where the topmost planes fall, as there are few between bins, and with it about a tenth of a tree's
+ * cost. The binned builder is quick enough to try which number of bins suits the mesh.
  */
 static int choose_bins(const struct bvh_input *in, struct tree *scratch, uint32_t *best)
 {

@@ -1,6 +1,6 @@
 /*
- * The builder by surface area (sah_build.inc), compiled for any processor (sah.c) and for AVX2 (sah_avx2.c): both give the same
- * tree. sah.c chooses.
+ * The builder by surface area (sah_build.inc), compiled for any processor (sah.c) and for AVX2 (sah_avx2.c): both give
+ * the same tree. sah.c chooses.
  */
 #pragma once
 

@@ -1,5 +1,6 @@
 /*
- * What the builders by surface area divide: references, which are boxes with their item. For sah_build.inc and its helpers.
+ * What the builders by surface area divide: references, which are boxes with their item. For sah_build.inc and its
+ * helpers.
  */
 #pragma once
 

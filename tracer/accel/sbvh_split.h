@@ -1,7 +1,7 @@
 /*
- * Spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding volume hierarchies"): where the sides of the
- * best division of a part still overlap, a plane cuts its space instead. Both sides then hold the triangles that it cuts, each
- * with the box of its own piece. For sah_build.inc.
+ * Spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding volume hierarchies"): where the sides
+ * of the best division of a part still overlap, a plane cuts its space instead. Both sides then hold the triangles that
+ * it cuts, each with the box of its own piece. For sah_build.inc.
  */
 #pragma once
 
@@ -12,7 +12,8 @@
 #include "tracer/accel/sah_part.h"
 
 #define SPATIAL_BINS 16
-/* Sides that overlap by less of the root's area are left alone (Stich et al. sec. 4.5; 1e-5 costs a quarter more time here). */
+/* Sides that overlap by less of the root's area are left alone (Stich et al. sec. 4.5; 1e-5 costs a quarter more time
+ * here). */
 #define SPATIAL_OVERLAP 1e-4f
 
 /* Pieces of what crosses each bin; items that begin and end in it. */
@@ -75,7 +76,8 @@ static inline void cut_triangle(const struct triangle *t, box8 whole, int axis, 
 		}
 	}
 	pad = RAYS_EDGE_SLACK * (vec4_max(e1, -e1) + vec4_max(e2, -e2)) +
-	      2.5e-7f * vec4_max(vec4_max(box8_hi(whole), -box8_hi(whole)), vec4_max(box8_negative_lo(whole), -box8_negative_lo(whole)));
+	      2.5e-7f * vec4_max(vec4_max(box8_hi(whole), -box8_hi(whole)),
+	                         vec4_max(box8_negative_lo(whole), -box8_negative_lo(whole)));
 	*left = piece_of(box8_make(box8_negative_lo(l) + pad, box8_hi(l) + pad), whole);
 	*right = piece_of(box8_make(box8_negative_lo(r) + pad, box8_hi(r) + pad), whole);
 }
@@ -96,7 +98,8 @@ static inline int spatial_bin_of(float x, float lo, float scale)
 }
 
 /* The cheapest plane across one axis, if cheaper than *best. */
-static inline void try_planes(const struct triangle *triangles, const box8 *refs, uint32_t n, box8 space, int axis, struct plane *best)
+static inline void try_planes(const struct triangle *triangles, const box8 *refs, uint32_t n, box8 space, int axis,
+                              struct plane *best)
 {
 	const float lo = -box8_negative_lo(space)[axis], width = box8_size(space)[axis], scale = SPATIAL_BINS / width;
 	struct spatial_bin bins[SPATIAL_BINS];
@@ -155,13 +158,14 @@ static inline struct plane find_plane(const struct triangle *triangles, const bo
 }
 
 /*
- * Sort references to both sides of a plane: the left side's to the front, the right side's behind them, up to `room` in all.
- * A triangle that is cut goes to both, or, with may_keep, whole to the one where that is cheaper (Stich et al. sec. 4.4).
- * The parts get their counts and boxes.
+ * Sort references to both sides of a plane: the left side's to the front, the right side's behind them, up to `room` in
+ * all. A triangle that is cut goes to both, or, with may_keep, whole to the one where that is cheaper (Stich et al.
+ * sec. 4.4). The parts get their counts and boxes.
  * @return 1; 0 where all would be on one side: the same references are there, in another order
  */
-static inline int partition_space(const struct triangle *triangles, box8 *refs, uint32_t n, uint32_t room, const struct plane *plane,
-                           int may_keep, struct sah_part *left, struct sah_part *right)
+static inline int partition_space(const struct triangle *triangles, box8 *refs, uint32_t n, uint32_t room,
+                                  const struct plane *plane, int may_keep, struct sah_part *left,
+                                  struct sah_part *right)
 {
 	box8 l = box8_empty(), r = l;
 	uint32_t n_left = 0, n_right = 0, n_cut, total = n;

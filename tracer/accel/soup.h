@@ -18,8 +18,8 @@ struct soup {
 };
 
 /**
- * Collect a mesh's triangles. Those with a vertex that is not finite are left out. Those with a vertex at w <= 0 have no bounds:
- * they get the largest box and no edges, so that only camera rays find them.
+ * Collect a mesh's triangles. Those with a vertex that is not finite are left out. Those with a vertex at w <= 0 have
+ * no bounds: they get the largest box and no edges, so that only camera rays find them.
  *
  * @param mesh       of triangles
  * @param positions  [mesh->vertex_count][4], homogeneous

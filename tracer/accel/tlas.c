@@ -168,7 +168,9 @@ int tlas_build(struct accel *accel, const struct scene *scene, const struct inst
 {
 	struct top top = { .boxes = malloc((n + 1) * sizeof(*top.boxes)), .items = malloc((n + 1) * sizeof(*top.items)),
 		           .order = malloc((n + 1) * sizeof(*top.order)) };
-	int err = top.boxes && top.items && top.order ? 0 : err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
+	int err = top.boxes && top.items && top.order ?
+	                  0 :
+	                  err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
 
 	if (!err)
 		err = make_room(accel, n);

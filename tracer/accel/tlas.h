@@ -1,6 +1,6 @@
 /*
- * The TLASes (top levels) of one frame: trees over instances, one for the camera rays of each view, one for the secondary rays of
- * each eye space and one for its skies.
+ * The TLASes (top levels) of one frame: trees over instances, one for the camera rays of each view, one for the
+ * secondary rays of each eye space and one for its skies.
  */
 #pragma once
 

@@ -9,8 +9,8 @@
 
 int tree_refit(const struct tree *old, const struct soup *soup, double most, struct tree *out)
 {
-	*out = (struct tree){ malloc(old->n_nodes * sizeof(*out->nodes)), malloc(old->n_order * sizeof(*out->order) + 1), old->n_nodes,
-		              old->n_order };
+	*out = (struct tree){ malloc(old->n_nodes * sizeof(*out->nodes)),
+		              malloc(old->n_order * sizeof(*out->order) + 1), old->n_nodes, old->n_order };
 	if (!out->nodes || !out->order)
 		return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
 	memcpy(out->nodes, old->nodes, old->n_nodes * sizeof(*out->nodes));
@@ -31,7 +31,8 @@ void tree_free(struct tree *tree)
 static int box_is_sound(const struct node2 *node, int side)
 {
 	for (int axis = 0; axis < 3; axis++)
-		if (!(node->lo[side][axis] >= -FLT_MAX && node->lo[side][axis] <= node->hi[side][axis] && node->hi[side][axis] <= FLT_MAX))
+		if (!(node->lo[side][axis] >= -FLT_MAX && node->lo[side][axis] <= node->hi[side][axis] &&
+		      node->hi[side][axis] <= FLT_MAX))
 			return 0;
 	return 1;
 }

@@ -1,6 +1,6 @@
 /*
- * The binary tree over a mesh's triangles. All builders make the same kind of nodes, so that every kernel walks every tree; no hit
- * depends on the tree that found it (kernels/rays/rays.h).
+ * The binary tree over a mesh's triangles. All builders make the same kind of nodes, so that every kernel walks every
+ * tree; no hit depends on the tree that found it (kernels/rays/rays.h).
  */
 #pragma once
 
@@ -29,7 +29,8 @@ int tree_refit(const struct tree *old, const struct soup *soup, double most, str
 void tree_free(struct tree *tree);
 
 /**
- * Can the kernels walk it, and wide nodes be made of it? Every index is in range, boxes are finite and none is inside out, each node is
- * below one other and behind it, leaves hold at most TREE_LEAF_TRIANGLES, and no path is longer than BVH_MAX_DEPTH.
+ * Can the kernels walk it, and wide nodes be made of it? Every index is in range, boxes are finite and none is inside
+ * out, each node is below one other and behind it, leaves hold at most TREE_LEAF_TRIANGLES, and no path is longer than
+ * BVH_MAX_DEPTH.
  */
 int tree_is_sound(const struct tree *tree, uint32_t n_triangles);

@@ -151,7 +151,8 @@ static int open_queue(struct cl_device *dev)
 {
 	cl_int code;
 
-	dev->queue = clCreateCommandQueue(dev->common->context, dev->common->id, dev->cpu ? 0 : CL_QUEUE_PROFILING_ENABLE, &code);
+	dev->queue = clCreateCommandQueue(dev->common->context, dev->common->id,
+	                                  dev->cpu ? 0 : CL_QUEUE_PROFILING_ENABLE, &code);
 	return dev->queue ? 0 : cl_report(&dev->common->said, code, "clCreateCommandQueue");
 }
 
@@ -250,10 +251,13 @@ void cl_close(struct cl_device **dev)
 
 int cl_report_lack(struct cl_device *dev)
 {
-	return __atomic_exchange_n(&dev->common->said, 1, __ATOMIC_RELAXED) ? ERR_SYSTEM : err_report(ERR_SYSTEM, "OpenCL", "%s", dev->lack);
+	return __atomic_exchange_n(&dev->common->said, 1, __ATOMIC_RELAXED) ?
+	               ERR_SYSTEM :
+	               err_report(ERR_SYSTEM, "OpenCL", "%s", dev->lack);
 }
 
-/* Note an OpenCL error. @return ERR_MEMORY where it says that there is too little of something; ERR_SYSTEM (reported) */
+/* Note an OpenCL error. @return ERR_MEMORY where it says that there is too little of something; ERR_SYSTEM
+ * (reported) */
 static int lack_or_report(struct cl_device *dev, cl_int code, const char *what)
 {
 	if (code != CL_MEM_OBJECT_ALLOCATION_FAILURE && code != CL_OUT_OF_RESOURCES && code != CL_INVALID_BUFFER_SIZE)
@@ -269,8 +273,10 @@ static int take_memory(struct cl_device *dev, size_t bytes)
 	uint64_t used;
 
 	if (bytes > c->buffer_bytes) {
-		snprintf(dev->lack, sizeof(dev->lack), "a buffer of %llu MiB is needed, and this device makes none of more than %llu: choose another "
-		         "--device", (unsigned long long)(bytes + 0xfffff) >> 20, (unsigned long long)c->buffer_bytes >> 20);
+		snprintf(dev->lack, sizeof(dev->lack),
+		         "a buffer of %llu MiB is needed, and this device makes none of more than %llu: choose another "
+		         "--device",
+		         (unsigned long long)(bytes + 0xfffff) >> 20, (unsigned long long)c->buffer_bytes >> 20);
 		return ERR_MEMORY;
 	}
 	pthread_mutex_lock(&c->lock);
@@ -280,7 +286,8 @@ static int take_memory(struct cl_device *dev, size_t bytes)
 	pthread_mutex_unlock(&c->lock);
 	if (used <= c->memory_bytes)
 		return 0;
-	snprintf(dev->lack, sizeof(dev->lack), "%llu MiB are needed on this device, which has %llu: fewer --jobs, or another --device",
+	snprintf(dev->lack, sizeof(dev->lack),
+	         "%llu MiB are needed on this device, which has %llu: fewer --jobs, or another --device",
 	         (unsigned long long)(used + 0xfffff) >> 20, (unsigned long long)c->memory_bytes >> 20);
 	return ERR_MEMORY;
 }
@@ -367,7 +374,8 @@ int cl_write(struct cl_device *dev, struct cl_buffer *buffer, size_t offset, con
 	if (bytes == 0)
 		return 0;
 	later = stage(dev, data, bytes);
-	code = clEnqueueWriteBuffer(dev->queue, buffer->mem, later ? CL_FALSE : CL_TRUE, offset, bytes, later ? later : data, 0, NULL, NULL);
+	code = clEnqueueWriteBuffer(dev->queue, buffer->mem, later ? CL_FALSE : CL_TRUE, offset, bytes,
+	                            later ? later : data, 0, NULL, NULL);
 	if (code == CL_MEM_OBJECT_ALLOCATION_FAILURE)
 		return lack_or_report(dev, code, "writing a buffer");
 	if (code == CL_SUCCESS && later)
@@ -379,7 +387,8 @@ int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset
 {
 	if (bytes == 0)
 		return 0;
-	return note_done(dev, clEnqueueReadBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL), "reading a buffer");
+	return note_done(dev, clEnqueueReadBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL),
+	                 "reading a buffer");
 }
 
 int cl_map(struct cl_device *dev, const struct cl_buffer *buffer, size_t bytes, int wait, const void **out)
@@ -389,7 +398,8 @@ int cl_map(struct cl_device *dev, const struct cl_buffer *buffer, size_t bytes, 
 	*out = NULL;
 	if (bytes == 0)
 		return 0;
-	*out = clEnqueueMapBuffer(dev->queue, buffer->mem, wait ? CL_TRUE : CL_FALSE, CL_MAP_READ, 0, bytes, 0, NULL, NULL, &code);
+	*out = clEnqueueMapBuffer(dev->queue, buffer->mem, wait ? CL_TRUE : CL_FALSE, CL_MAP_READ, 0, bytes, 0, NULL,
+	                          NULL, &code);
 	if (*out && !wait)
 		return 0;
 	return note_done(dev, code, "mapping a buffer");
@@ -397,7 +407,8 @@ int cl_map(struct cl_device *dev, const struct cl_buffer *buffer, size_t bytes, 
 
 int cl_unmap(struct cl_device *dev, const struct cl_buffer *buffer, const void *mapped)
 {
-	const cl_int code = mapped ? clEnqueueUnmapMemObject(dev->queue, buffer->mem, (void *)mapped, 0, NULL, NULL) : CL_SUCCESS;
+	const cl_int code = mapped ? clEnqueueUnmapMemObject(dev->queue, buffer->mem, (void *)mapped, 0, NULL, NULL) :
+	                             CL_SUCCESS;
 
 	return code == CL_SUCCESS ? 0 : cl_report(&dev->common->said, code, "unmapping a buffer");
 }
@@ -416,7 +427,9 @@ static int build_program(struct cl_common *c, size_t file, struct fault_place *p
 		c->early_err = 0;
 		return err;
 	}
-	return c->programs[file] ? 0 : cl_program_make(c->context, c->id, file, c->hook, &c->keeping, place, &c->said, &c->programs[file]);
+	return c->programs[file] ? 0 :
+	                           cl_program_make(c->context, c->id, file, c->hook, &c->keeping, place, &c->said,
+	                                           &c->programs[file]);
 }
 
 void cl_take_hook(struct cl_device *dev, const struct hook *hook)
@@ -541,7 +554,8 @@ int cl_run(struct cl_device *dev, enum kernel kernel, size_t n_items, const stru
 	}
 	fault_launch(dev->place, kernel);
 	code = dev->pocl ? cl_launch_wide(dev->queue, dev->kernels[kernel], n_items, GROUP_CPU, &dev->widened[kernel]) :
-	                   cl_launch(dev->queue, dev->kernels[kernel], n_items, dev->cpu ? GROUP_CPU : GROUP_GPU, dev->cpu ? NULL : &dev->paces[kernel]);
+	                   cl_launch(dev->queue, dev->kernels[kernel], n_items, dev->cpu ? GROUP_CPU : GROUP_GPU,
+	                             dev->cpu ? NULL : &dev->paces[kernel]);
 	if (code != CL_SUCCESS) {
 		if (!cl_error_exists(code))
 			fault_refuse(dev->place, code, 0, kernel_entries[kernel].name);

@@ -1,5 +1,6 @@
 /*
- * OpenCL 1.2 behind tracer/device/device.h: cl.c, cl_list.c and cl_program.c make all clXxx calls of the project. For device.c alone.
+ * OpenCL 1.2 behind tracer/device/device.h: cl.c, cl_list.c and cl_program.c make all clXxx calls of the project. For
+ * device.c alone.
  */
 #pragma once
 

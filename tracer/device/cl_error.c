@@ -34,8 +34,8 @@ const char *cl_error_name(cl_int code)
 /* OpenCL 1.2 has -1 to -19 and -30 to -68, later ones up to -72; extensions go on at -1000 and below. */
 int cl_error_exists(cl_int code)
 {
-	return (code <= -1 && code >= -19) || (code <= -30 && code >= -72) || (code <= -1000 && code >= -1200) || (code <= -2000 && code >= -2100) ||
-	       code == -9999; /* NVIDIA's, for an access outside of a buffer */
+	return (code <= -1 && code >= -19) || (code <= -30 && code >= -72) || (code <= -1000 && code >= -1200) ||
+	       (code <= -2000 && code >= -2100) || code == -9999; /* NVIDIA's, for an access outside of a buffer */
 }
 
 int cl_report(int *said, cl_int code, const char *what)

@@ -10,7 +10,8 @@ const char *cl_error_name(cl_int code);
 int cl_error_exists(cl_int code);
 
 /**
- * Report a device's first error. Those that follow say nothing new: a device that is gone refuses all that its queues are asked for.
+ * Report a device's first error. Those that follow say nothing new: a device that is gone refuses all that its queues
+ * are asked for.
  * @param said  of the device and all threads that use it, initially 0
  * @return ERR_SYSTEM
  */

@@ -32,8 +32,10 @@ static void learn(struct cl_pace *pace)
 	    clGetEventInfo(pace->measured, CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof(status), &status, NULL) != CL_SUCCESS ||
 	    status > CL_COMPLETE)
 		return;
-	if (clGetEventProfilingInfo(pace->measured, CL_PROFILING_COMMAND_START, sizeof(start), &start, NULL) == CL_SUCCESS &&
-	    clGetEventProfilingInfo(pace->measured, CL_PROFILING_COMMAND_END, sizeof(end), &end, NULL) == CL_SUCCESS && end > start) {
+	if (clGetEventProfilingInfo(pace->measured, CL_PROFILING_COMMAND_START, sizeof(start), &start, NULL) ==
+	            CL_SUCCESS &&
+	    clGetEventProfilingInfo(pace->measured, CL_PROFILING_COMMAND_END, sizeof(end), &end, NULL) == CL_SUCCESS &&
+	    end > start) {
 		items = PART_NS * (double)pace->n_measured / (double)(end - start);
 		if (items > MOST_GROWTH * (double)pace->most_items)
 			items = MOST_GROWTH * (double)pace->most_items;

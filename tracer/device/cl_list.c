@@ -52,8 +52,10 @@ int cl_list_find(cl_device_id ids[CL_LIST_MOST], size_t *n)
 	}
 	if (*n == 0 && n_platforms)
 		return err_report(ERR_SYSTEM, "OpenCL",
-		                  "%u driver%s installed, without a device here (%s); repair %s, or use --device reference (slow)",
-		                  n_platforms, n_platforms == 1 ? " is" : "s are", cl_error_name(said), n_platforms == 1 ? "it" : "them");
+		                  "%u driver%s installed, without a device here (%s); repair %s, or use --device "
+		                  "reference (slow)",
+		                  n_platforms, n_platforms == 1 ? " is" : "s are", cl_error_name(said),
+		                  n_platforms == 1 ? "it" : "them");
 	if (*n == 0)
 		return err_report(ERR_SYSTEM, "OpenCL",
 		                  "there is no driver here (%s); install the Debian package pocl-opencl-icd (CPU) or your "
@@ -77,7 +79,8 @@ enum device_type cl_list_type(cl_device_id id)
 	return type & CL_DEVICE_TYPE_CPU ? DEVICE_CPU : type & CL_DEVICE_TYPE_GPU ? DEVICE_GPU : DEVICE_ACCELERATOR;
 }
 
-/* Vectors of a CPU; of a GPU what runs in step, which two vendors tell (cl_nv_device_attribute_query, cl_amd_device_attribute_query). */
+/* Vectors of a CPU; of a GPU what runs in step, which two vendors tell (cl_nv_device_attribute_query,
+ * cl_amd_device_attribute_query). */
 static unsigned width_of(cl_device_id id)
 {
 	const cl_device_info of_gpu[] = { 0x4003 /* WARP_SIZE_NV */, 0x4043 /* WAVEFRONT_WIDTH_AMD */ };

@@ -1,6 +1,7 @@
 /*
- * Threads of a driver that stay on a core each. Linux often wakes both threads of a launch on one of two cores, and leaves them there for its
- * length. PoCL's own way (POCL_AFFINITY) ends the process where it has more threads than there are cores.
+ * Threads of a driver that stay on a core each. Linux often wakes both threads of a launch on one of two cores, and
+ * leaves them there for its length. PoCL's own way (POCL_AFFINITY) ends the process where it has more threads than
+ * there are cores.
  */
 #pragma once
 

@@ -16,9 +16,9 @@
 #include "tracer/hook/hook.h"
 
 /*
- * In front of every program. The C twins are compiled without contraction too, so that both decide the same. Packets are
- * wider than the registers of a machine without AVX-512: LLVM 21 (PoCL 7.1) takes what that does to calls for an error,
- * though a program has none that leave it.
+ * In front of every program. The C twins are compiled without contraction too, so that both decide the same. Packets
+ * are wider than the registers of a machine without AVX-512: LLVM 21 (PoCL 7.1) takes what that does to calls for an
+ * error, though a program has none that leave it.
  */
 static const char prelude[] = "#pragma OPENCL FP_CONTRACT OFF\n"
                               "#ifdef __clang__\n"
@@ -56,7 +56,7 @@ static struct around around_of(const struct kernel_file *kernels, const struct h
 	return (struct around){ hook->declarations, hook->text, hook->path };
 }
 
-/* --- Keeping ------------------------------------------------------------------------------------------------------- */
+/* --- Keeping ----------------------------------------------------------------------------------------------------- */
 
 static void platform_text(cl_device_id device, cl_platform_info what, char *text, size_t size)
 {
@@ -92,9 +92,10 @@ static void mix(uint64_t key[2], const void *bytes, size_t n)
 	key[1] = XXH64(bytes, n, key[1]);
 }
 
-/* All that a compiled program depends on; and a name for the device, so that a new text or driver takes the old file's place. */
-static void name_program(cl_device_id device, const struct kernel_file *kernels, struct around around, const struct cl_keeping *keeping,
-                         char path[PATH_MAX], uint64_t key[2])
+/* All that a compiled program depends on; and a name for the device, so that a new text or driver takes the old file's
+ * place. */
+static void name_program(cl_device_id device, const struct kernel_file *kernels, struct around around,
+                         const struct cl_keeping *keeping, char path[PATH_MAX], uint64_t key[2])
 {
 	static const cl_device_info of_device[] = { CL_DEVICE_NAME, CL_DEVICE_VENDOR, CL_DEVICE_VERSION, CL_DRIVER_VERSION };
 	static const cl_platform_info of_platform[] = { CL_PLATFORM_NAME, CL_PLATFORM_VERSION };
@@ -125,7 +126,8 @@ static void name_program(cl_device_id device, const struct kernel_file *kernels,
 		if (of_device[i] == CL_DEVICE_NAME)
 			name = XXH3_64bits_withSeed(text, sizeof(text), name);
 	}
-	snprintf(path, PATH_MAX, "%s/%.*s-%016llx.program", keeping->folder, (int)strcspn(base, "."), base, (unsigned long long)name);
+	snprintf(path, PATH_MAX, "%s/%.*s-%016llx.program", keeping->folder, (int)strcspn(base, "."), base,
+	         (unsigned long long)name);
 }
 
 /* What an earlier run left. @return NULL: nothing that the driver takes */
@@ -140,7 +142,8 @@ static cl_program find_program(cl_context context, cl_device_id device, const ch
 		return NULL;
 	program = clCreateProgramWithBinary(context, 1, &device, &n, (const unsigned char **)&bytes, &status, &code);
 	free(bytes);
-	if (program && (status != CL_SUCCESS || clBuildProgram(program, 1, &device, options_for(device), NULL, NULL) != CL_SUCCESS)) {
+	if (program && (status != CL_SUCCESS ||
+	                clBuildProgram(program, 1, &device, options_for(device), NULL, NULL) != CL_SUCCESS)) {
 		clReleaseProgram(program);
 		program = NULL;
 	}
@@ -165,7 +168,7 @@ static void leave_program(cl_program program, const char *path, const uint64_t k
 		keeping->folder[0] = '\0';
 }
 
-/* --- Building ------------------------------------------------------------------------------------------------------ */
+/* --- Building ---------------------------------------------------------------------------------------------------- */
 
 /* is_hook: it is a user's text that fails. @return ERR_INPUT or ERR_SYSTEM */
 static int report_build_log(cl_program program, cl_device_id device, const char *name, int is_hook)
@@ -178,7 +181,8 @@ static int report_build_log(cl_program program, cl_device_id device, const char 
 	if (log && clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) == CL_SUCCESS)
 		fprintf(stderr, "%s\n", log);
 	free(log);
-	return err_report(is_hook ? ERR_INPUT : ERR_SYSTEM, name, "the device's compiler refuses this file; its words are above");
+	return err_report(is_hook ? ERR_INPUT : ERR_SYSTEM, name,
+	                  "the device's compiler refuses this file; its words are above");
 }
 
 /* A compilation that somebody waits for. */
@@ -193,7 +197,8 @@ struct waiting {
 #define TERMINAL_S 1
 #define LINES_S 5
 
-/* Say after some seconds what takes so long: on a terminal each program, over a progress bar that may stand there; else once. */
+/* Say after some seconds what takes so long: on a terminal each program, over a progress bar that may stand there; else
+ * once. */
 static void *say_when_late(void *user)
 {
 	struct waiting *w = user;
@@ -231,8 +236,9 @@ static cl_int compile(cl_program program, cl_device_id device, const char *name,
 	return code;
 }
 
-static int build_program(cl_context context, cl_device_id device, const struct kernel_file *kernels, struct around around,
-                         struct cl_keeping *keeping, struct fault_place *place, int *said, cl_program *out)
+static int build_program(cl_context context, cl_device_id device, const struct kernel_file *kernels,
+                         struct around around, struct cl_keeping *keeping, struct fault_place *place, int *said,
+                         cl_program *out)
 {
 	const char *texts[] = { prelude, around.before, kernels->text, around.after };
 	cl_int code;
@@ -269,7 +275,8 @@ size_t cl_program_gathered(cl_device_id device, const struct cl_keeping *keeping
 	return file;
 }
 
-size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum device_family family, const char *kernel)
+size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum device_family family,
+                     const char *kernel)
 {
 	const size_t whole = cl_program_gathered(device, keeping, family);
 	size_t file = n_kernel_files;
@@ -285,8 +292,8 @@ size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum
 	return file;
 }
 
-int cl_program_make(cl_context context, cl_device_id device, size_t file, const struct hook *hook, struct cl_keeping *keeping,
-                    struct fault_place *place, int *said, cl_program *out)
+int cl_program_make(cl_context context, cl_device_id device, size_t file, const struct hook *hook,
+                    struct cl_keeping *keeping, struct fault_place *place, int *said, cl_program *out)
 {
 	const struct kernel_file *kernels = &kernel_files[file];
 	const struct around around = around_of(kernels, hook);

@@ -1,6 +1,6 @@
 /*
- * Programs of an OpenCL device: built from the text inside the command, or found where an earlier run left them compiled. For cl.c
- * alone.
+ * Programs of an OpenCL device: built from the text inside the command, or found where an earlier run left them
+ * compiled. For cl.c alone.
  */
 #pragma once
 
@@ -31,12 +31,13 @@ void cl_program_keep(cl_device_id device, const char *folder, int always, struct
 size_t cl_program_gathered(cl_device_id device, const struct cl_keeping *keeping, enum device_family family);
 
 /**
- * The file whose program a kernel should come from. PoCL wants few programs: it preprocesses each in every run, for 40 ms, unless it is
- * kept here. Others compile all kernels of a program at once, and want only those that a run needs.
+ * The file whose program a kernel should come from. PoCL wants few programs: it preprocesses each in every run, for 40
+ * ms, unless it is kept here. Others compile all kernels of a program at once, and want only those that a run needs.
  * @param family  the kernels that run beside it
  * @return its number in kernel_files, n_kernel_files: there is no such kernel
  */
-size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum device_family family, const char *kernel);
+size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum device_family family,
+                     const char *kernel);
 
 /**
  * Make the program of one file of kernels.
@@ -46,7 +47,8 @@ size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum
  * @param place    where this thread is at work (fault.h), or NULL. A refusal may end the process (fault_refuse)
  * @param said     as for cl_report
  * @param out      to be released by the caller
- * @return 0, ERR_INPUT where it is the hook that does not compile, or ERR_SYSTEM (reported, after the compiler's own words)
+ * @return 0, ERR_INPUT where it is the hook that does not compile, or ERR_SYSTEM (reported, after the compiler's own
+ * words)
  */
-int cl_program_make(cl_context context, cl_device_id device, size_t file, const struct hook *hook, struct cl_keeping *keeping,
-                    struct fault_place *place, int *said, cl_program *out);
+int cl_program_make(cl_context context, cl_device_id device, size_t file, const struct hook *hook,
+                    struct cl_keeping *keeping, struct fault_place *place, int *said, cl_program *out);

@@ -399,7 +399,7 @@ void device_release(struct device *dev, struct device_buffer **buffer)
 	*buffer = NULL;
 }
 
-/* --- Where the time goes ------------------------------------------------------------------------------------------- */
+/* --- Where the time goes ----------------------------------------------------------------------------------------- */
 
 static double clock_of(clockid_t clock)
 {
@@ -437,7 +437,7 @@ const char *device_kernel_name(enum kernel kernel)
 	return kernel_entries[kernel].name;
 }
 
-/* --- Copies and launches ------------------------------------------------------------------------------------------- */
+/* --- Copies and launches ----------------------------------------------------------------------------------------- */
 
 int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes)
 {
@@ -528,7 +528,8 @@ static kernel_twin *twin_of(const struct device *dev, enum kernel kernel)
 	return own ? (kernel_twin *)own : kernel_entries[kernel].twin;
 }
 
-static int run_reference(struct device *dev, enum kernel kernel, size_t n_items, const struct device_arg *args, size_t n_args)
+static int run_reference(struct device *dev, enum kernel kernel, size_t n_items, const struct device_arg *args,
+                         size_t n_args)
 {
 	kernel_twin *twin = twin_of(dev, kernel);
 	void *pointers[DEVICE_MAX_ARGS];

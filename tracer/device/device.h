@@ -1,6 +1,7 @@
 /*
- * A device: where kernels run and buffers live. It is an OpenCL device, or "reference": the scalar C twins of kernels/ref, in this
- * process. The tracer is written once against this header and does not know which one it has. launch.h launches kernels.
+ * A device: where kernels run and buffers live. It is an OpenCL device, or "reference": the scalar C twins of
+ * kernels/ref, in this process. The tracer is written once against this header and does not know which one it has.
+ * launch.h launches kernels.
  */
 #pragma once
 
@@ -65,8 +66,8 @@ int device_find(const struct device_description *list, size_t n, const char *cho
 
 /**
  * Open a device.
- * @param choice  NULL: the first GPU, else the first device found by OpenCL. "reference": the C twins. Else a number from
- *                `relume devices`, a type ("cpu", "gpu", "accelerator": the first of it), or part of a device's name.
+ * @param choice  NULL: the first GPU, else the first device found by OpenCL. "reference": the C twins. Else a number
+ * from `relume devices`, a type ("cpu", "gpu", "accelerator": the first of it), or part of a device's name.
  * @param threads compute threads where the device is a CPU, 0: all cores
  * @param out     owned by the caller, device_close
  * @return 0; ERR_SYSTEM (reported: no OpenCL device at all names the package to install); ERR_USAGE (no such choice)
@@ -84,16 +85,16 @@ int device_open_list(const char *choices, unsigned threads, struct device ***out
 void device_close_list(struct device ***devices, size_t *n);
 
 /**
- * The same device once more, with a queue of its own: a device is used by one thread at a time. Buffers belong to the one
- * that made them. The two may be closed in any order.
+ * The same device once more, with a queue of its own: a device is used by one thread at a time. Buffers belong to the
+ * one that made them. The two may be closed in any order.
  * @return 0 or ERR_SYSTEM (reported)
  */
 int device_share(struct device *dev, struct device **out);
 
 /**
- * Break off: from now on launches, device_write and device_read do nothing and return ERR_SYSTEM without a report. Any thread may call
- * this. A kernel that is running runs to its end. Buffers of the frame under way are in no certain state: make a new tracer after
- * device_resume.
+ * Break off: from now on launches, device_write and device_read do nothing and return ERR_SYSTEM without a report. Any
+ * thread may call this. A kernel that is running runs to its end. Buffers of the frame under way are in no certain
+ * state: make a new tracer after device_resume.
  */
 void device_interrupt(struct device *dev);
 void device_resume(struct device *dev);
@@ -117,24 +118,26 @@ void device_choose_family(struct device *dev, enum device_family family);
 extern const char *const device_family_names[N_DEVICE_FAMILIES + 1]; /* ended by NULL */
 
 /**
- * Keep compiled kernels in a folder, for other runs; processes may share it. Call it before the device's first kernel runs. PoCL keeps
- * them itself, and is left to it unless `always`. Does nothing on the reference device.
+ * Keep compiled kernels in a folder, for other runs; processes may share it. Call it before the device's first kernel
+ * runs. PoCL keeps them itself, and is left to it unless `always`. Does nothing on the reference device.
  * @param folder  copied
  */
 void device_keep_programs(struct device *dev, const char *folder, int always);
 
-/** From now on, one line on standard error says so where compiling takes long, be that a terminal or not. On a terminal it always does. */
+/** From now on, one line on standard error says so where compiling takes long, be that a terminal or not. On a terminal
+ * it always does. */
 void device_tell_compiling(struct device *dev);
 
 /**
- * Build the program that most frames' kernels come from, where there is one, on a thread of its own: PoCL takes 0.1 s to load what it
- * compiled before. Call it after device_choose_family, device_keep_programs and device_take_hook; only the first call counts.
+ * Build the program that most frames' kernels come from, where there is one, on a thread of its own: PoCL takes 0.1 s
+ * to load what it compiled before. Call it after device_choose_family, device_keep_programs and device_take_hook; only
+ * the first call counts.
  */
 void device_build_early(struct device *dev);
 
 /**
- * Leave what was compiled to the process's end, also when the device is closed: PoCL takes 20 ms to take a program apart. Call it once,
- * where no other device is opened afterwards.
+ * Leave what was compiled to the process's end, also when the device is closed: PoCL takes 20 ms to take a program
+ * apart. Call it once, where no other device is opened afterwards.
  */
 void device_leave_programs(struct device *dev);
 
@@ -145,7 +148,8 @@ int device_is_reference(const char *choice);
 
 /**
  * Take a hook's text into the kernels that call it; before the device's first kernel runs.
- * @param hook  kept until device_close of it and all shared from it; the reference device's is compiled (tracer/hook/host.h); NULL: none
+ * @param hook  kept until device_close of it and all shared from it; the reference device's is compiled
+ * (tracer/hook/host.h); NULL: none
  * @return 0 or ERR_USAGE (reported: the reference device compiles none)
  */
 int device_take_hook(struct device *dev, const struct hook *hook);
@@ -154,31 +158,32 @@ int device_take_hook(struct device *dev, const struct hook *hook);
 unsigned device_programs_found(const struct device *dev);
 
 /**
- * ERR_MEMORY, in what follows: the device has too little memory for what was asked for; less at once may do. It is not reported. A
- * launch may be done in part. Whoever cannot ask for less reports it here.
+ * ERR_MEMORY, in what follows: the device has too little memory for what was asked for; less at once may do. It is not
+ * reported. A launch may be done in part. Whoever cannot ask for less reports it here.
  * @return ERR_SYSTEM (reported: what was asked for, and what the device has)
  */
 int device_report_lack(struct device *dev);
 
 /**
  * Make a buffer at least so large; contents are lost where it grows. *buffer NULL: a new one. 0 bytes count as 16.
- * Drivers hand out memory that is not there and fail when it is used. So this device counts all buffers of its own and of those
- * shared from it.
+ * Drivers hand out memory that is not there and fail when it is used. So this device counts all buffers of its own and
+ * of those shared from it.
  * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */
 int device_reserve(struct device *dev, struct device_buffer **buffer, size_t bytes);
 void device_release(struct device *dev, struct device_buffer **buffer);
 
 /**
- * Copy into or out of a buffer, after all earlier kernels. What is written may be changed at once; what is read is there.
+ * Copy into or out of a buffer, after all earlier kernels. What is written may be changed at once; what is read is
+ * there.
  * @return 0, ERR_MEMORY (of device_write) or ERR_SYSTEM (reported)
  */
 int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes);
 int device_read(struct device *dev, const struct device_buffer *buffer, size_t offset, void *data, size_t bytes);
 
 /**
- * Look at the first bytes of a buffer, all earlier kernels done; on a CPU without a copy. No kernel may write to it until
- * device_unmap.
+ * Look at the first bytes of a buffer, all earlier kernels done; on a CPU without a copy. No kernel may write to it
+ * until device_unmap.
  * @param wait  0: it may not be there before a later call that waits
  * @return 0 or ERR_SYSTEM (reported; nothing is mapped)
  */

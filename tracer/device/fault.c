@@ -39,13 +39,15 @@ const char *fault_words(const struct fault *fault, char *text, size_t size)
 	case FAULT_SIGNAL: snprintf(text, size, "SIG%s in %.*s", name ? name : "?", n, fault->what); break;
 	case FAULT_EXIT: snprintf(text, size, "the driver ended the process in %.*s", n, fault->what); break;
 	case FAULT_HUNG: snprintf(text, size, "hung in %.*s", n, fault->what); break;
-	case FAULT_REFUSED: snprintf(text, size, "%s (%d) for %.*s", cl_error_name(fault->code), fault->code, n, fault->what); break;
+	case FAULT_REFUSED:
+		snprintf(text, size, "%s (%d) for %.*s", cl_error_name(fault->code), fault->code, n, fault->what);
+		break;
 	default: snprintf(text, size, "unknown"); break;
 	}
 	return text;
 }
 
-/* --- Who is at work -------------------------------------------------------------------------------------------------- */
+/* --- Who is at work ---------------------------------------------------------------------------------------------- */
 
 struct fault_place *fault_open(int device)
 {
@@ -131,7 +133,7 @@ void fault_done(struct fault_place *place)
 	atomic_store_explicit(&place->n_new, 0, memory_order_relaxed);
 }
 
-/* --- Noting a fault: called in signal handlers, so nothing here takes a lock or memory ---------------------------------- */
+/* --- Noting a fault: called in signal handlers, so nothing here takes a lock or memory --------------------------- */
 
 static void append(char *out, size_t size, const char *text)
 {
@@ -187,7 +189,10 @@ static void describe(const struct fault_place *place, int is_sure, enum fault_ki
 			f->frame = FAULT_NO_FRAME;
 		}
 	if (!f->what[0])
-		append(f->what, sizeof(f->what), place->device < 0 ? "the list of devices" : atomic_load(&place->launched) ? "kernels that had run before" : "a call of OpenCL");
+		append(f->what, sizeof(f->what),
+		       place->device < 0             ? "the list of devices" :
+		       atomic_load(&place->launched) ? "kernels that had run before" :
+		                                       "a call of OpenCL");
 	f->kind = kind;
 }
 
@@ -299,8 +304,8 @@ void fault_end(void)
 
 void fault_refuse(struct fault_place *place, int code, int is_build, const char *what)
 {
-	const int is_short = code == CL_DEVICE_NOT_AVAILABLE || code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
-	                     code == CL_OUT_OF_HOST_MEMORY;
+	const int is_short = code == CL_DEVICE_NOT_AVAILABLE || code == CL_MEM_OBJECT_ALLOCATION_FAILURE ||
+	                     code == CL_OUT_OF_RESOURCES || code == CL_OUT_OF_HOST_MEMORY;
 	const int is_lost = code == CL_INVALID_COMMAND_QUEUE || code == CL_INVALID_CONTEXT || code == CL_INVALID_DEVICE;
 
 	if (!state.is_watched || !state.refusals || !place || (is_build && (is_short || is_lost)))
@@ -311,7 +316,7 @@ void fault_refuse(struct fault_place *place, int code, int is_build, const char 
 	_exit(-ERR_SYSTEM);
 }
 
-/* --- Calls that do not come back ---------------------------------------------------------------------------------------- */
+/* --- Calls that do not come back --------------------------------------------------------------------------------- */
 
 static int is_hung(struct fault_place *p, double most_s, double passed_s)
 {

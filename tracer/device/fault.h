@@ -1,7 +1,8 @@
 /*
- * Faults of OpenCL drivers. A driver may end the process, hang in a call, or return an error code that does not exist. This file knows
- * which device and family is at work, blames the driver only where the driver is at fault, and notes it in memory that a parent process
- * shares (render/guard.h). The parent then starts a new process, with the next family of kernels.
+ * Faults of OpenCL drivers. A driver may end the process, hang in a call, or return an error code that does not exist.
+ * This file knows which device and family is at work, blames the driver only where the driver is at fault, and notes it
+ * in memory that a parent process shares (render/guard.h). The parent then starts a new process, with the next family
+ * of kernels.
  *
  * Who is to blame for a signal:
  *   - A thread between fault_enter and fault_leave is in the driver: the driver.
@@ -52,7 +53,8 @@ struct fault_place {
 	const char *_Atomic program; /* being built; NULL: none */
 	atomic_uint calls;    /* odd: a thread is in the driver */
 	atomic_uint launched; /* and not waited for */
-	atomic_uint n_new;    /* of these, kernels that have never been waited for: the driver may compile them at their first launch */
+	atomic_uint n_new;    /* of these, kernels that have never been waited for: the driver may compile them at their
+	                         first launch */
 	enum kernel new[FAULT_NEW];
 	unsigned char known[N_KERNELS];
 	/* Of fault_look: */
@@ -94,8 +96,8 @@ void fault_begin(struct fault_journal *journal, int refusals);
 void fault_arm(void);
 
 /**
- * In the parent: the process was ended by a signal, and nothing is noted, as where a driver put its own handlers before ours while it
- * compiled. Where a compilation was under way, note that.
+ * In the parent: the process was ended by a signal, and nothing is noted, as where a driver put its own handlers before
+ * ours while it compiled. Where a compilation was under way, note that.
  */
 void fault_guess(struct fault_journal *journal, int number);
 
@@ -103,14 +105,14 @@ void fault_guess(struct fault_journal *journal, int number);
 void fault_end(void);
 
 /**
- * The driver refuses a program or kernel: note it, and end the process with exit code 5. Returns where refusals do not end it, and where the
- * driver says of a build (is_build) that it is short of something, or that the device is lost.
+ * The driver refuses a program or kernel: note it, and end the process with exit code 5. Returns where refusals do not
+ * end it, and where the driver says of a build (is_build) that it is short of something, or that the device is lost.
  */
 void fault_refuse(struct fault_place *place, int code, int is_build, const char *what);
 
 /**
- * Look for a call that hangs: it has taken most_s, and either the process has used no processor time for the last fifth of that, or the
- * call compiles and the process has used most_s of processor time. Call it often, from one thread.
+ * Look for a call that hangs: it has taken most_s, and either the process has used no processor time for the last fifth
+ * of that, or the call compiles and the process has used most_s of processor time. Call it often, from one thread.
  * @param passed_s  since the last call, at most: time in which the process was stopped does not count
  * @return 1: a fault is noted, and the process must end
  */

@@ -1,5 +1,6 @@
 /*
- * Kernels are launched here, with arguments by name and type: for each kernel a function launch_NAME(device, work items, arguments).
+ * Kernels are launched here, with arguments by name and type: for each kernel a function launch_NAME(device, work
+ * items, arguments).
  *
  *     err = launch_credit(dev, n, LAUNCH(credit, .paths = paths, .radiance = radiance, .n = n, .shaded = shaded));
  *
@@ -40,12 +41,19 @@ LAUNCH_BUFFER(float)
 KERNEL_GROUPS(LAUNCH_STRUCT)
 KERNEL_LISTS(LAUNCH_STRUCT)
 
-/* A list's arguments, by name and all of them: as many initialisers as fields, and none twice (-Werror=override-init). */
-#define LAUNCH(list, ...) (&(const struct list##_launch){ __VA_ARGS__ } + 0 * LAUNCH_CHECK(list, LAUNCH_COUNT(__VA_ARGS__)))
+/* A list's arguments, by name and all of them: as many initialisers as fields, and none twice
+ * (-Werror=override-init). */
+#define LAUNCH(list, ...) \
+	(&(const struct list##_launch){ __VA_ARGS__ } + 0 * LAUNCH_CHECK(list, LAUNCH_COUNT(__VA_ARGS__)))
 #define LAUNCH_CHECK(list, n) \
-	sizeof(struct { int unused; _Static_assert((n) == LAUNCH_COUNT_##list, "an argument of this kernel is missing or too many"); })
-#define LAUNCH_COUNT(...) LAUNCH_COUNTED(__VA_ARGS__, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, 19, 18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)
-#define LAUNCH_COUNTED(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, a1, a2, a3, a4, count, ...) count
+	sizeof(struct { int unused; \
+	_Static_assert((n) == LAUNCH_COUNT_##list, "an argument of this kernel is missing or too many"); })
+#define LAUNCH_COUNT(...) \
+	LAUNCH_COUNTED(__VA_ARGS__, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, 19, 18, 17, 16, 15, 14, 13, 12, 11, 10, \
+	               9, 8, 7, 6, 5, 4, 3, 2, 1, 0)
+#define LAUNCH_COUNTED(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, a1, a2, a3, a4, \
+                       count, ...) \
+	count
 
 /**
  * Queue a kernel; kernels of a device run one after the other, in the order queued.

@@ -93,16 +93,19 @@ int outcome_best(const struct outcome *outcome, enum device_family preferred)
 
 const char *outcome_words(const struct outcome_family *family, char *text, size_t size)
 {
-	static const char *const words[N_OUTCOME_STATES] = { "not tried", "right", "wrong", "failed", "not done in time", "not for this kind of device" };
+	static const char *const words[N_OUTCOME_STATES] = {
+		"not tried", "right", "wrong", "failed", "not done in time", "not for this kind of device"
+	};
 
 	snprintf(text, size, family->where[0] ? "%s: %s" : "%s", words[family->state], family->where);
 	return text;
 }
 
-/* --- Faults of a run ------------------------------------------------------------------------------------------------ */
+/* --- Faults of a run --------------------------------------------------------------------------------------------- */
 
 /* Add a run's faults of a device to what is known of it. @return how many they are */
-static size_t add_faults(const struct outcome_run *run, const struct device_description *device, int only_builds, struct outcome *outcome)
+static size_t add_faults(const struct outcome_run *run, const struct device_description *device, int only_builds,
+                         struct outcome *outcome)
 {
 	size_t n = 0;
 
@@ -132,7 +135,8 @@ static struct outcome known_of(const struct device_description *device, const ch
 	return outcome;
 }
 
-static void remember(const struct device_description *device, const char *folder, const struct outcome_run *run, int only_builds)
+static void remember(const struct device_description *device, const char *folder, const struct outcome_run *run,
+                     int only_builds)
 {
 	struct outcome outcome = known_of(device, folder);
 
@@ -146,13 +150,17 @@ void outcome_remember_builds(const struct device *dev, const char *folder, const
 		remember(device_describe(dev), folder, run, 1);
 }
 
-static void say_choice(const struct device *dev, enum device_family preferred, enum device_family best, const struct outcome *outcome)
+static void say_choice(const struct device *dev, enum device_family preferred, enum device_family best,
+                       const struct outcome *outcome)
 {
 	char text[160];
 
 	if (outcome->families[preferred].state != OUTCOME_RIGHT && best != preferred)
-		err_warn(device_name(dev), "renders with --kernels %s: %s kernels are not right here (%s); 'relume devices --check' looks again",
-		         device_family_names[best], device_family_names[preferred], outcome_words(&outcome->families[preferred], text, sizeof(text)));
+		err_warn(device_name(dev),
+		         "renders with --kernels %s: %s kernels are not right here (%s); 'relume devices --check' "
+		         "looks again",
+		         device_family_names[best], device_family_names[preferred],
+		         outcome_words(&outcome->families[preferred], text, sizeof(text)));
 }
 
 void outcome_confirm(struct device *dev, const char *folder, const struct outcome_run *run)
@@ -173,7 +181,7 @@ void outcome_confirm(struct device *dev, const char *folder, const struct outcom
 	remember(device, folder, run, 0);
 }
 
-/* --- The choice ----------------------------------------------------------------------------------------------------- */
+/* --- The choice -------------------------------------------------------------------------------------------------- */
 
 /* Nothing is left. One line names each family and what is wrong with it. */
 static int refuse(const struct device *dev, const struct outcome *outcome)
@@ -185,8 +193,11 @@ static int refuse(const struct device *dev, const struct outcome *outcome)
 		if (outcome->families[i].state != OUTCOME_PASSED_OVER)
 			n += (size_t)snprintf(all + n, sizeof(all) - n, "%s%s %s", n ? "; " : "", device_family_names[i],
 			                      outcome_words(&outcome->families[i], text, sizeof(text)));
-	return err_report(ERR_SYSTEM, device_name(dev), "no kernels are right on this device (%s): choose another --device, or --device reference (slow); "
-	                  "'relume devices --check' looks again", all);
+	return err_report(
+		ERR_SYSTEM, device_name(dev),
+		"no kernels are right on this device (%s): choose another --device, or --device reference (slow); "
+		"'relume devices --check' looks again",
+		all);
 }
 
 static int take_asked(struct device *dev, enum device_family asked, const struct outcome *outcome, int is_fault)
@@ -196,11 +207,14 @@ static int take_asked(struct device *dev, enum device_family asked, const struct
 
 	outcome_words(family, text, sizeof(text));
 	if (is_fault)
-		return err_report(ERR_SYSTEM, device_name(dev), "--kernels %s does not work here (%s); without --kernels another family takes its place",
-		                  device_family_names[asked], text);
+		return err_report(
+			ERR_SYSTEM, device_name(dev),
+			"--kernels %s does not work here (%s); without --kernels another family takes its place",
+			device_family_names[asked], text);
 	if (family->state != OUTCOME_UNTRIED && family->state != OUTCOME_RIGHT && family->state != OUTCOME_PASSED_OVER)
-		err_warn(device_name(dev), "--kernels %s is not right here, by 'relume devices --check' or an earlier run (%s)", device_family_names[asked],
-		         text);
+		err_warn(device_name(dev),
+		         "--kernels %s is not right here, by 'relume devices --check' or an earlier run (%s)",
+		         device_family_names[asked], text);
 	device_choose_family(dev, asked);
 	return 0;
 }
@@ -213,7 +227,8 @@ int outcome_is_hopeless(const struct device *dev, int asked, const char *folder,
 	if (!device)
 		return 0;
 	outcome = known_of(device, folder);
-	return add_faults(run, device, 0, &outcome) && (asked >= 0 || outcome_best(&outcome, device_type_family(device->type)) < 0);
+	return add_faults(run, device, 0, &outcome) &&
+	       (asked >= 0 || outcome_best(&outcome, device_type_family(device->type)) < 0);
 }
 
 int outcome_choose(struct device *dev, int asked, const char *folder, const struct outcome_run *run)

@@ -1,10 +1,10 @@
 /*
- * What is known of the families of traversal kernels on a device: what `relume devices --check` found out, and what crashed, hung or was
- * refused in an earlier run. It is kept for later runs, and decides which family a device runs.
+ * What is known of the families of traversal kernels on a device: what `relume devices --check` found out, and what
+ * crashed, hung or was refused in an earlier run. It is kept for later runs, and decides which family a device runs.
  *
- * One file a device, in a cache folder (base/kept.h). It counts for the device's name, platform, driver and version, and for the text
- * of the kernels: with another driver or other kernels nothing is known again, and the next outcome takes the file's place. A file
- * that is cut or damaged counts as none.
+ * One file a device, in a cache folder (base/kept.h). It counts for the device's name, platform, driver and version,
+ * and for the text of the kernels: with another driver or other kernels nothing is known again, and the next outcome
+ * takes the file's place. A file that is cut or damaged counts as none.
  */
 #pragma once
 
@@ -23,7 +23,8 @@ enum outcome_state {
 
 struct outcome_family {
 	uint32_t state;    /* enum outcome_state */
-	char where[120];   /* the scenes that are not right, "mirror, glass", or what failed, "SIGABRT in camera_packet"; "" where all is right */
+	char where[120]; /* the scenes that are not right, "mirror, glass", or what failed, "SIGABRT in camera_packet";
+	                    "" where all is right */
 	double compile_s;  /* of all its kernels, nothing kept */
 	double frame_s;    /* of a frame, once all is compiled; 0: not measured */
 };
@@ -38,7 +39,8 @@ int outcome_read(const char *folder, const struct device_description *device, st
 /** Keep an outcome. Where the folder cannot be written, one warning says so. */
 void outcome_write(const char *folder, const struct device_description *device, const struct outcome *outcome);
 
-/** The fastest family that is right. Where none is: `preferred`, else the next one, that nothing is known against. -1: there is none */
+/** The fastest family that is right. Where none is: `preferred`, else the next one, that nothing is known against. -1:
+ * there is none */
 int outcome_best(const struct outcome *outcome, enum device_family preferred);
 
 /** "draws wrong pictures (mirror, glass)" and the like. @return text */
@@ -51,8 +53,8 @@ struct outcome_run {
 };
 
 /**
- * Have a device run the best family, as far as a folder and this run's faults tell; say so where that is not the one that suits its kind.
- * Where a fault of this run is the reason, outcome_confirm says it later.
+ * Have a device run the best family, as far as a folder and this run's faults tell; say so where that is not the one
+ * that suits its kind. Where a fault of this run is the reason, outcome_confirm says it later.
  * @param asked   a family to take whatever is known (it is said where it is not right); -1: none
  * @param folder  NULL: nothing is known
  * @return 0, or ERR_SYSTEM (reported): no family is right
@@ -65,7 +67,8 @@ int outcome_choose_known(struct device *dev);
 /** 1: faults of this run have left outcome_choose nothing. */
 int outcome_is_hopeless(const struct device *dev, int asked, const char *folder, const struct outcome_run *run);
 
-/** The device has made a picture with the family that outcome_choose took after a fault of this run: say why that one, and remember the faults. */
+/** The device has made a picture with the family that outcome_choose took after a fault of this run: say why that one,
+ * and remember the faults. */
 void outcome_confirm(struct device *dev, const char *folder, const struct outcome_run *run);
 
 /** Remember what a device's compiler did to programs in this run. Other faults may be a frame's: outcome_confirm. */

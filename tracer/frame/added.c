@@ -74,7 +74,10 @@ void added_take(struct job *job, const struct compose_request *request, const ui
 		for (int k = 0; k < N_TRACER_PARTS; k++) {
 			const uint32_t *at = &request->half_plane[parts[k].plane];
 
-			added->parts[k] += mark(&parts[k], (const uint16_t *[]){ halves + at[0] + first, halves + at[1] + first, halves + at[2] + first }, n, changed);
+			added->parts[k] += mark(&parts[k],
+			                        (const uint16_t *[]){ halves + at[0] + first, halves + at[1] + first,
+			                                              halves + at[2] + first },
+			                        n, changed);
 		}
 		for (uint32_t i = 0; i < n; i++)
 			added->changed += changed[i];

@@ -1,4 +1,5 @@
-/* How many pixels of a frame show what tracing adds to OpenGL's picture: counted while their planes are in a CPU's caches. */
+/* How many pixels of a frame show what tracing adds to OpenGL's picture: counted while their planes are in a CPU's
+ * caches. */
 #pragma once
 
 #include "tracer/frame/frame.h"

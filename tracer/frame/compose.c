@@ -86,7 +86,9 @@ static int run_compose(struct job *job, const struct compose_request *r)
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct compose_launch *a = LAUNCH(compose, .tables = frame_tables(tr), .windows = b->windows, .frame = b->frame,
-	                                        .cleared = b->cleared, .drawn = b->drawn, .sums = b->sums, .first_pixel = frame_first_pixel(job), .request = *r, .n = job->n_pixels, .halves = b->halves,
+	                                        .cleared = b->cleared, .drawn = b->drawn, .sums = b->sums,
+	                                        .first_pixel = frame_first_pixel(job), .request = *r, .n = job->n_pixels,
+	                                        .halves = b->halves,
 	                                        .floats = b->floats);
 
 	if (frame_in_packets(job) && !r->radiant)
@@ -95,8 +97,8 @@ static int run_compose(struct job *job, const struct compose_request *r)
 }
 
 /*
- * Eye space stands for the world. OpenEXR's worldToCamera is left-handed (+z forward); its worldToNDC has x and y in [0,1] with y
- * down. Both are for row vectors: their rows are our columns.
+ * Eye space stands for the world. OpenEXR's worldToCamera is left-handed (+z forward); its worldToNDC has x and y in
+ * [0,1] with y down. Both are for row vectors: their rows are our columns.
  */
 static int describe_camera(const struct job *job, struct image *img)
 {
@@ -133,7 +135,8 @@ static int describe_image(const struct job *job, struct image *img)
 	if (!err && job->scene->keeps_depth && !job->scene->needs_previous) /* gate R5 asks (diff/score/depth.c) */
 		err = image_set_attribute(img, "relume:unknown", "depth");
 	if (!err && dome_is_there(job)) /* gate N asks (diff/score/harm.c) */
-		err = image_set_attribute(img, "relume:dimmed", "%.3g", (double)(sqrtf(DOME_LEFT) * job->scene->dome.lit + 1 - job->scene->dome.lit));
+		err = image_set_attribute(img, "relume:dimmed", "%.3g",
+		                          (double)(sqrtf(DOME_LEFT) * job->scene->dome.lit + 1 - job->scene->dome.lit));
 	return err ? err : describe_camera(job, img);
 }
 
@@ -170,7 +173,8 @@ int compose_fetch(struct job *job, const struct compose_request *request, struct
 	size_t n = 0;
 	int err, unmapped;
 
-	err = device_map(job->tr->dev, b->floats.buffer, job->n_pixels * request->n_floats * sizeof(float), 0, &floats); /* the next one waits for both */
+	/* the next one waits for both */
+	err = device_map(job->tr->dev, b->floats.buffer, job->n_pixels * request->n_floats * sizeof(float), 0, &floats);
 	if (err)
 		return err;
 	err = device_map(job->tr->dev, b->halves.buffer, job->n_pixels * request->n_halves * sizeof(uint16_t), 1, &halves);

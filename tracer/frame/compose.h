@@ -18,7 +18,8 @@ int compose_fetch(struct job *job, const struct compose_request *request, struct
 
 /**
  * Fill in a band's rows. Bands come from the top.
- * @param job  its pixels stand in buffers.frame, the sums of all passes but this one, where there were several, in buffers.sums
+ * @param job  its pixels stand in buffers.frame, the sums of all passes but this one, where there were several, in
+ * buffers.sums
  * @param img  what compose_start made
  * @return 0 or ERR_SYSTEM (reported)
  */

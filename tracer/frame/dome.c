@@ -22,7 +22,8 @@ static int upload_directions(struct job *job, uint32_t first, uint32_t samples)
 	for (uint32_t i = 0; i < samples; i++)
 		for (uint32_t k = 0; k < DOME_BLOCK * DOME_BLOCK; k++)
 			dome_direction(&job->scene->dome, k, first + i, directions[i][k]);
-	return frame_upload(job->tr, dome_directions, directions[0][0], samples * sizeof(directions[0]) / sizeof(directions[0][0][0]));
+	return frame_upload(job->tr, dome_directions, directions[0][0],
+	                    samples * sizeof(directions[0]) / sizeof(directions[0][0][0]));
 }
 
 int dome_is_there(const struct job *job)
@@ -37,7 +38,8 @@ static int find(struct job *job, uint32_t samples, uint32_t n)
 	const struct frame_buffers *b = &tr->buffers;
 	const struct dome_find_launch *a =
 		LAUNCH(dome_find, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
-		       .pixels = b->pixels, .width = job->width, .shaded = b->shaded, .dome = job->scene->dome, .directions = b->dome_directions,
+		       .pixels = b->pixels, .width = job->width, .shaded = b->shaded, .dome = job->scene->dome,
+		       .directions = b->dome_directions,
 		       .samples = samples, .n = n, .places = b->dome_places, .rays = b->rays);
 
 	if (frame_in_packets(job))
@@ -46,17 +48,22 @@ static int find(struct job *job, uint32_t samples, uint32_t n)
 }
 
 /* What some rays of each of n fragments saw, to what others brought. first: which of them */
-static int look_around(struct job *job, const struct accel_space *space, union buffer_ray rays, uint32_t first, uint32_t samples, uint32_t n)
+static int look_around(struct job *job, const struct accel_space *space, union buffer_ray rays, uint32_t first,
+                       uint32_t samples, uint32_t n)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	int err = secondary_ask(job, space, 0, rays, samples * n);
 
-	return err ? err : launch_dome_sum(job->tr->dev, n, LAUNCH(dome_sum, .places = b->dome_places, .rays = rays, .visibility = b->visibility, .dome = job->scene->dome,
-	                                                           .samples = samples, .is_first = first == 0, .n = n, .sums = b->dome_sums));
+	return err ? err :
+	             launch_dome_sum(job->tr->dev, n,
+	                             LAUNCH(dome_sum, .places = b->dome_places, .rays = rays,
+	                                    .visibility = b->visibility, .dome = job->scene->dome, .samples = samples,
+	                                    .is_first = first == 0, .n = n, .sums = b->dome_sums));
 }
 
 /* Some rays of each fragment of the list. */
-static int look_from_list(struct job *job, const struct accel_space *space, uint32_t first, uint32_t samples, uint32_t n)
+static int look_from_list(struct job *job, const struct accel_space *space, uint32_t first, uint32_t samples,
+                          uint32_t n)
 {
 	int err = upload_directions(job, job->pass * rays_of(job) + first, samples);
 
@@ -70,13 +77,16 @@ static int light(struct job *job, struct camera_rectangle rectangle, uint32_t in
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	const struct dome_light_launch *a =
-		LAUNCH(dome_light, .places = b->dome_places, .sums = b->dome_sums, .pixels = b->pixels, .first = in_blocks ? b->pixels : b->first, .counts = b->counts,
-		       .rectangle = rectangle, .width = job->width, .first_pixel = frame_first_pixel(job), .dome = job->scene->dome,
-		       .in_blocks = in_blocks, .blocks = in_blocks ? b->blocks : b->counts, .n = n, .shaded = b->shaded, .factors = in_blocks ? b->dome_factors : b->dome_sums);
+	const struct dome_light_launch *a = LAUNCH(
+		dome_light, .places = b->dome_places, .sums = b->dome_sums, .pixels = b->pixels,
+		.first = in_blocks ? b->pixels : b->first, .counts = b->counts, .rectangle = rectangle,
+		.width = job->width, .first_pixel = frame_first_pixel(job), .dome = job->scene->dome,
+		.in_blocks = in_blocks, .blocks = in_blocks ? b->blocks : b->counts, .n = n, .shaded = b->shaded,
+		.factors = in_blocks ? b->dome_factors : b->dome_sums);
 
 	if (frame_in_packets(job))
-		return launch_dome_light_packet(tr->dev, dome_columns(job->width) * ((job->n_rows + CAMERA_TILE - 1) / CAMERA_TILE), a);
+		return launch_dome_light_packet(
+			tr->dev, dome_columns(job->width) * ((job->n_rows + CAMERA_TILE - 1) / CAMERA_TILE), a);
 	return launch_dome_light(tr->dev, n, a);
 }
 

@@ -18,7 +18,8 @@ int dome_light_list(struct job *job, const struct accel_space *space, struct cam
 /** Whether a plain frame with such light, if there is any, stays plain: its rays are traced at once. */
 int dome_suits_plain(const struct job *job);
 
-/** Make room for such light on a plain frame's n places, and say where it is looked for. samples: receives the rays of each */
+/** Make room for such light on a plain frame's n places, and say where it is looked for. samples: receives the rays of
+ * each */
 int dome_prepare_plain(struct job *job, uint32_t n, uint32_t *samples);
 
 /** What plain_dome's looks around saw, as factors for plain_shadow. @return 0, ERR_MEMORY or ERR_SYSTEM (reported) */

@@ -69,8 +69,8 @@ static int add_instance(const struct job *job, uint32_t transport, struct making
 	const float strength = emitter_strength(transport, &job->scene->materials[from->material], mesh->attributes);
 	int err = 0;
 
-	if (!(p->instances[i].flags & INSTANCE_SECONDARY) || p->instances[i].flags & INSTANCE_SKY || p->shapes[i] != PREPARED_FILLED ||
-	    !(strength > 0))
+	if (!(p->instances[i].flags & INSTANCE_SECONDARY) || p->instances[i].flags & INSTANCE_SKY ||
+	    p->shapes[i] != PREPARED_FILLED || !(strength > 0))
 		return 0;
 	for (uint32_t k = 0; k < mesh->primitive_count && !err; k++) {
 		const double light = triangle_area(mesh, from->modelview, k) * (double)strength;
@@ -95,7 +95,8 @@ static double box_area(const struct job *job, const struct accel_space *space)
 	return 2 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
 }
 
-/* All of a space, behind what the list has. Where they are half of what is around, rays find them by chance: none is asked for then. */
+/* All of a space, behind what the list has. Where they are half of what is around, rays find them by chance: none is
+ * asked for then. */
 static int add_space(const struct job *job, uint32_t transport, struct making *making, const struct accel_space *space,
                      struct emission_list *out)
 {

@@ -7,7 +7,8 @@
 
 /**
  * List the triangles of a frame that shine, space by space, on the device.
- * @param job        its geometry is placed; job->emissions receives a list for each space, empty where nothing is to be asked for
+ * @param job        its geometry is placed; job->emissions receives a list for each space, empty where nothing is to be
+ * asked for
  * @param transport  TRANSPORT_*: all but those of mode path have no lists
  * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */

@@ -38,7 +38,8 @@ int ended_count(struct job *job, struct image *img)
 	job->tr->undrawn.ended += n;
 	if (!err && n && img) {
 		draws = scene_draw_list(scene, is_ended, programs);
-		err = draws ? image_set_attribute(img, "relume:ended", "%s", draws) : err_report(ERR_SYSTEM, NULL, "out of memory for an attribute");
+		err = draws ? image_set_attribute(img, "relume:ended", "%s", draws) :
+		              err_report(ERR_SYSTEM, NULL, "out of memory for an attribute");
 		free(draws);
 	}
 	free(programs);

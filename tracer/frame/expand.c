@@ -64,7 +64,8 @@ static int polygon_of_mesh(const struct expand_input *in, struct expanded *out, 
 	cut = expand_is_cut(in, e);
 	n = expand_clip_triangle(in, e);
 	offset = n ? polygon_offset(in, e) : 0;
-	/* Mesa (22.3.6) starts the pattern anew with each triangle that planes cut, and draws the lines of whole ones from their last side on. */
+	/* Mesa (22.3.6) starts the pattern anew with each triangle that planes cut, and draws the lines of whole ones
+	 * from their last side on. */
 	if (n && (cut || !(flags & SCENE_CONTINUES)))
 		*in->dashed = 0;
 	for (int k = 0; k < n && !err; k++) {

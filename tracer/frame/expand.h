@@ -1,6 +1,6 @@
 /*
- * Lines (expand_line.h), points and pixel rectangles (expand_point.h) as triangles in the window, where Mesa's llvmpipe puts
- * them. Polygons drawn as lines or points (GL 2.1 sec. 3.5.4) go the same way, edge by edge.
+ * Lines (expand_line.h), points and pixel rectangles (expand_point.h) as triangles in the window, where Mesa's llvmpipe
+ * puts them. Polygons drawn as lines or points (GL 2.1 sec. 3.5.4) go the same way, edge by edge.
  */
 #pragma once
 
@@ -26,7 +26,8 @@ struct expand_input {
 	int guards;
 	const struct shaded_vertex *vertices; /* [mesh vertices] */
 	const float (*texcoords)[4];          /* [mesh vertices][unit_count] */
-	float *dashed; /* pixels since a line stipple started anew: goes on from one instance to the next, as in Mesa's draw module */
+	float *dashed; /* pixels since a line stipple started anew: goes on from one instance to the next, as in Mesa's
+	                  draw module */
 };
 
 /* What became of them: four vertices and two triangles a quad. */

@@ -47,7 +47,8 @@ void expand_project(const struct expand_input *in, struct expand_end *e)
 	e->z = scale_and_move((range[1] - range[0]) * 0.5f, c[2] * e->w_inv, (range[1] + range[0]) * 0.5f, fused);
 }
 
-/* Signed distances to the planes of the view volume: near, far, and four around, which `guards` has twice as far from the middle. */
+/* Signed distances to the planes of the view volume: near, far, and four around, which `guards` has twice as far from
+ * the middle. */
 static float clip_distance(const float *c, int plane, int guards)
 {
 	const float side = (plane & 1 ? -1.0f : 1.0f) * (guards && plane >= 2 ? 0.5f : 1.0f);
@@ -124,8 +125,10 @@ int expand_clip_line(const struct expand_input *in, struct expand_end *a, struct
 	return a->v.clip[3] > 0 && b->v.clip[3] > 0;
 }
 
-/* The place where a plane cuts the side between two corners at signed distances of different signs, from the nearer corner on as Mesa has it. */
-static struct expand_end cut_side(const struct expand_end *inside, float inner, const struct expand_end *outside, float outer)
+/* The place where a plane cuts the side between two corners at signed distances of different signs, from the nearer
+ * corner on as Mesa has it. */
+static struct expand_end cut_side(const struct expand_end *inside, float inner, const struct expand_end *outside,
+                                  float outer)
 {
 	const int from_outside = -outer < inner;
 	struct expand_end e = from_outside ? *outside : *inside;

@@ -15,7 +15,8 @@ struct expand_end {
 	int edge; /* of a polygon's corner: the edge to the next corner, and in point mode this corner, are drawn */
 };
 
-/* The planes that cut: the view volume's, then those of the program that are enabled (GL 2.1 sec. 2.12), which cut in eye space. */
+/* The planes that cut: the view volume's, then those of the program that are enabled (GL 2.1 sec. 2.12), which cut in
+ * eye space. */
 enum { EXPAND_VOLUME_PLANES = 6, EXPAND_PLANES = EXPAND_VOLUME_PLANES + SCENE_MAX_CLIP_PLANES };
 
 /** Vertex v with the colours of one side (0 front, 1 back); its place in the window stays to be found. */
@@ -40,12 +41,13 @@ enum { EXPAND_CORNERS = 3 + EXPAND_PLANES };
 int expand_is_cut(const struct expand_input *in, const struct expand_end corners[3]);
 
 /**
- * Cut a triangle to what can be seen. Of the edges that the planes make, those along the program's own are drawn, those along the view
- * volume's are not: Mesa (22.3.6) has it so, GL 2.1 sec. 3.5.4 draws none of either.
+ * Cut a triangle to what can be seen. Of the edges that the planes make, those along the program's own are drawn, those
+ * along the view volume's are not: Mesa (22.3.6) has it so, GL 2.1 sec. 3.5.4 draws none of either.
  * @param corners  the triangle's three; replaced by what is left, of which the first is still the first if it is there
  * @return how many corners; 0 where nothing is left
  */
 int expand_clip_triangle(const struct expand_input *in, struct expand_end corners[EXPAND_CORNERS]);
 
-/** The point at share s of a projected line. Mesa (22.3.6) has attributes linear in the window where it cuts lines into dashes. */
+/** The point at share s of a projected line. Mesa (22.3.6) has attributes linear in the window where it cuts lines into
+ * dashes. */
 struct expand_end expand_line_point(const struct expand_end *a, const struct expand_end *b, float s);

@@ -21,9 +21,9 @@ static int same_way(float place, float d, int is_y)
 
 /*
  * Does a line in direction (d_major, d_minor) draw the pixel of its end, which lies at (major, minor) in that pixel?
- * The diamond-exit rule (sec. 3.4.1: a line draws a pixel if it leaves its diamond) as llvmpipe has it. In doubt llvmpipe looks
- * where the line passes the pixel's middle, with the slope inverted, and for steep lines' second ends includes the low border.
- * edge: the minor coordinate from the pixel's border.
+ * The diamond-exit rule (sec. 3.4.1: a line draws a pixel if it leaves its diamond) as llvmpipe has it. In doubt
+ * llvmpipe looks where the line passes the pixel's middle, with the slope inverted, and for steep lines' second ends
+ * includes the low border. edge: the minor coordinate from the pixel's border.
  */
 static int draws_end(float major, float minor, float edge, float d_major, float d_minor, int first, int steep)
 {
@@ -39,8 +39,10 @@ static int draws_end(float major, float minor, float edge, float d_major, float 
 	return crossing < 1 && (crossing > 0 || (crossing == 0 && steep && !first));
 }
 
-/* How far to move an end along the major axis: the quad must cover the pixel's centre exactly if the line draws the end's pixel. */
-static float end_shift(const struct expand_input *in, float x, float y, float d_major, float d_minor, int first, int steep)
+/* How far to move an end along the major axis: the quad must cover the pixel's centre exactly if the line draws the
+ * end's pixel. */
+static float end_shift(const struct expand_input *in, float x, float y, float d_major, float d_minor, int first,
+                       int steep)
 {
 	float at[2] = { from_centre(x), from_centre(y) }, major = at[steep], minor = at[!steep];
 	float edge = steep ? x - floorf(x) : y - floorf(y);
@@ -58,8 +60,8 @@ static float end_shift(const struct expand_input *in, float x, float y, float d_
 #define EVERYWHERE 1e6f /* pixels: beyond all windows */
 
 /* Add an end's corner, with the end itself and the part of the line that is drawn: see GEOMETRY_LINE. */
-static void add_line_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int second, int32_t x,
-                            int32_t y, const float drawn[3])
+static void add_line_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int second,
+                            int32_t x, int32_t y, const float drawn[3])
 {
 	struct shaded_vertex *vertex = &out->vertices[out->n_vertices];
 
@@ -69,8 +71,8 @@ static void add_line_corner(const struct expand_input *in, struct expanded *out,
 }
 
 /* The line a -> b, projected, as a quad. */
-static void add_line(const struct expand_input *in, struct expanded *out, const struct expand_end *a, const struct expand_end *b,
-                     uint32_t draw)
+static void add_line(const struct expand_input *in, struct expanded *out, const struct expand_end *a,
+                     const struct expand_end *b, uint32_t draw)
 {
 	float dx = b->x - a->x, dy = b->y - a->y, width = fmaxf(in->material->line_width, 1);
 	int steep = !(fabsf(dx) >= fabsf(dy));
@@ -81,7 +83,8 @@ static void add_line(const struct expand_input *in, struct expanded *out, const 
 	if (d_major == 0)
 		return;
 	for (int i = 0; i < 2; i++) {
-		float along = end_shift(in, ends[i]->x, ends[i]->y, d_major, d_minor, i == 0, steep), across = along * (d_minor / d_major);
+		float along = end_shift(in, ends[i]->x, ends[i]->y, d_major, d_minor, i == 0, steep),
+		      across = along * (d_minor / d_major);
 
 		x[i] = expand_snap(in, ends[i]->x + (steep ? across : along));
 		y[i] = expand_snap(in, ends[i]->y + (steep ? along : across));
@@ -128,8 +131,8 @@ static float first_drawn(struct extent e)
 }
 
 /* The line a -> b under multisampling: a rectangle of the line's width along it (sec. 3.4.4). */
-static void add_line_rectangle(const struct expand_input *in, struct expanded *out, const struct expand_end *a, const struct expand_end *b,
-                               uint32_t draw)
+static void add_line_rectangle(const struct expand_input *in, struct expanded *out, const struct expand_end *a,
+                               const struct expand_end *b, uint32_t draw)
 {
 	float dx = a->x - b->x, dy = a->y - b->y, area = dx * dx + dy * dy;
 	float scale = fmaxf(in->material->line_width, 1) * 0.5f / sqrtf(area), drawn[3] = { 0, -EVERYWHERE, EVERYWHERE };
@@ -161,8 +164,9 @@ static void add_line_rectangle(const struct expand_input *in, struct expanded *o
 }
 
 /*
- * Half the length of a smooth line's quad, for its coverage, and the line's direction. Not divided by the length in Mesa 22.3: lines drawn back over
- * themselves show the last bits, and one of no length lies flat. In 25.0 that one is gone.
+ * Half the length of a smooth line's quad, for its coverage, and the line's direction. Not divided by the length in
+ * Mesa 22.3: lines drawn back over themselves show the last bits, and one of no length lies flat. In 25.0 that one is
+ * gone.
  */
 static float turn_smooth_line(const struct expand_input *in, float *dx, float *dy)
 {
@@ -179,8 +183,8 @@ static float turn_smooth_line(const struct expand_input *in, float *dx, float *d
 }
 
 /* A smooth line as Mesa's draw module makes it: longer by half a pixel at each end, wider by half a pixel a side. */
-static void add_smooth_line(const struct expand_input *in, struct expanded *out, const struct expand_end *a, const struct expand_end *b,
-                            uint32_t draw)
+static void add_smooth_line(const struct expand_input *in, struct expanded *out, const struct expand_end *a,
+                            const struct expand_end *b, uint32_t draw)
 {
 	float dx = b->x - a->x, dy = b->y - a->y, half_length = turn_smooth_line(in, &dx, &dy);
 	float half = in->material->line_width <= 1 ? 1 : 0.5f * in->material->line_width + 0.5f;
@@ -198,8 +202,8 @@ static void add_smooth_line(const struct expand_input *in, struct expanded *out,
 	expand_add_triangles(in, out, draw);
 }
 
-static int add_dash(const struct expand_input *in, struct expanded *out, const struct expand_end *a, const struct expand_end *b,
-                    uint32_t draw)
+static int add_dash(const struct expand_input *in, struct expanded *out, const struct expand_end *a,
+                    const struct expand_end *b, uint32_t draw)
 {
 	if (expand_reserve_quad(in, out))
 		return ERR_SYSTEM;
@@ -212,7 +216,8 @@ static int add_dash(const struct expand_input *in, struct expanded *out, const s
 	return 0;
 }
 
-int expand_edge(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset, uint32_t draw)
+int expand_edge(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b,
+                float offset, uint32_t draw)
 {
 	const uint32_t pattern = in->material->line_stipple & 0xffff, factor = in->material->line_stipple >> 16;
 	float length;
@@ -226,7 +231,8 @@ int expand_edge(const struct expand_input *in, struct expanded *out, struct expa
 	if (!factor)
 		return add_dash(in, out, a, b, draw);
 	length = in->material->multisample || in->material->line_smooth ?
-	                 sqrtf((b->x - a->x) * (b->x - a->x) + (b->y - a->y) * (b->y - a->y)) : fmaxf(fabsf(b->x - a->x), fabsf(b->y - a->y));
+	                 sqrtf((b->x - a->x) * (b->x - a->x) + (b->y - a->y) * (b->y - a->y)) :
+	                 fmaxf(fabsf(b->x - a->x), fabsf(b->y - a->y));
 	n = isfinite(length) ? (uint32_t)ceilf(length) : 0;
 	for (uint32_t i = 0; i <= n && !err; i++) {
 		int on = i < n && pattern >> (((uint32_t)*in->dashed + i) / factor & 15) & 1;

@@ -1,6 +1,7 @@
 /*
- * Lines as quads, where Mesa's llvmpipe puts them: of the line's width, cut at their ends by the diamond-exit rule (GL 2.1
- * sec. 3.4), under multisampling as rectangles along them, or smooth; whole or in the dashes of a stipple (sec. 3.4.2).
+ * Lines as quads, where Mesa's llvmpipe puts them: of the line's width, cut at their ends by the diamond-exit rule
+ * (GL 2.1 sec. 3.4), under multisampling as rectangles along them, or smooth; whole or in the dashes of a stipple
+ * (sec. 3.4.2).
  */
 #pragma once
 
@@ -12,4 +13,5 @@
  * @param offset  added to the depth of both ends
  * @return 0 or ERR_SYSTEM (reported)
  */
-int expand_edge(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset, uint32_t draw);
+int expand_edge(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b,
+                float offset, uint32_t draw);

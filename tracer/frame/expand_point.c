@@ -7,11 +7,13 @@
 #include "scene/mesa.h"
 #include "tracer/frame/expand_quad.h"
 
-static void add_smooth_point(const struct expand_input *in, struct expanded *out, const struct expand_end *e, uint32_t draw)
+static void add_smooth_point(const struct expand_input *in, struct expanded *out, const struct expand_end *e,
+                             uint32_t draw)
 {
 	const float *fade = in->material->point_attenuation, size = fmaxf(e->v.size[0], 1);
 	int attenuated = fade[0] != 1 || fade[1] != 0 || fade[2] != 0;
-	float radius = !attenuated && size <= 2 ? 1 : 0.5f * size, rim = 1 - 2 / radius + 1 / radius / radius; /* where it begins, squared */
+	float radius = !attenuated && size <= 2 ? 1 : 0.5f * size,
+	      rim = 1 - 2 / radius + 1 / radius / radius; /* where it begins, squared */
 
 	for (int k = 0; k < 4; k++) {
 		float x = k == 1 || k == 2 ? 1 : -1, y = k >= 2 ? 1 : -1;
@@ -29,12 +31,14 @@ static void add_point(const struct expand_input *in, struct expanded *out, const
 	/* Under multisampling Mesa 22.3 has a sprite's middle half a pixel off. */
 	float off = m->multisample && !(in->mesa & SCENE_MESA_SPRITES) ? 128 / (float)width : 0;
 
-	/* Without sprites and multisampling, points are whole pixels (sec. 3.3.1), their width and place rounded as llvmpipe does. */
+	/* Without sprites and multisampling, points are whole pixels (sec. 3.3.1), their width and place rounded as
+	 * llvmpipe does. */
 	if (!m->point_sprite && !m->point_smooth && !m->multisample) {
 		int32_t pixels = (width + 127) >> 8, middle = pixels & 1 ? 0 : 128;
 
 		x = (((expand_snap(in, e->x) + middle) >> 8) - pixels / 2) * 256;
-		y = (((expand_snap(in, e->y) - 1 + middle) >> 8) - pixels / 2) * 256; /* a place on an edge belongs to the pixel above */
+		y = (((expand_snap(in, e->y) - 1 + middle) >> 8) - pixels / 2) * 256; /* a place on an edge belongs to
+		                                                                         the pixel above */
 		width = pixels * 256;
 	}
 	for (int k = 0; k < 4; k++) {
@@ -43,7 +47,9 @@ static void add_point(const struct expand_input *in, struct expanded *out, const
 
 		for (uint32_t u = 0; u < m->unit_count && m->point_sprite; u++)
 			if (in->units[u].coord_replace)
-				memcpy(corner.texcoord[u], (float[4]){ (float)right + off, m->point_sprite == 2 ? (float)!low - off : (float)low + off, 0, 1 },
+				memcpy(corner.texcoord[u],
+				       (float[4]){ (float)right + off,
+				                   m->point_sprite == 2 ? (float)!low - off : (float)low + off, 0, 1 },
 				       sizeof(corner.texcoord[u]));
 		expand_add_corner(in, out, &corner, x + (right ? width : 0), y + (low ? width : 0));
 	}
@@ -78,8 +84,8 @@ int expand_corner(const struct expand_input *in, struct expanded *out, struct ex
 #define FARTHEST 32768.0f /* pixels from a window's corner: twice what any window has */
 
 /*
- * Rows or columns of a pixel rectangle that come near the window, and where they begin and end along its axis. Farther places do
- * not fit into 1/256 pixel. A single row or column that reaches that far ends there.
+ * Rows or columns of a pixel rectangle that come near the window, and where they begin and end along its axis. Farther
+ * places do not fit into 1/256 pixel. A single row or column that reaches that far ends there.
  */
 static void keep_near(float corner, float zoom, uint32_t n, float kept[2], float place[2])
 {
@@ -91,7 +97,8 @@ static void keep_near(float corner, float zoom, uint32_t n, float kept[2], float
 		place[i] = fminf(fmaxf(corner + kept[i] * zoom, -2 * FARTHEST), 2 * FARTHEST);
 }
 
-/* A place in the window by way of clip space and back, as Mesa has it, and to the same bits. scale: half the window's size, < 0 to turn it */
+/* A place in the window by way of clip space and back, as Mesa has it, and to the same bits. scale: half the window's
+ * size, < 0 to turn it */
 static float through_clip(float place, uint32_t size, float scale)
 {
 	return fmaf(scale, place / (float)size * 2 - 1, (float)size * 0.5f);
@@ -116,7 +123,8 @@ int expand_rectangle(const struct expand_input *in, struct expanded *out, uint32
 
 		expand_add_smooth_corner(in, out, &e, through_clip(x[right], in->width, (float)in->width * 0.5f),
 		                         through_clip(y[high], in->height, (float)in->height * -0.5f),
-		                         (float[4]){ column[right], row[high], (float)r->texture, (float)(r->kind + (r->from_top ? SCENE_FROM_TOP : 0)) });
+		                         (float[4]){ column[right], row[high], (float)r->texture,
+		                                     (float)(r->kind + (r->from_top ? SCENE_FROM_TOP : 0)) });
 	}
 	expand_add_triangles(in, out, draw);
 	return 0;

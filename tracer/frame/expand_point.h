@@ -1,6 +1,6 @@
 /*
- * Points as squares (GL 2.1 sec. 3.3), also under multisampling, and bitmaps and pixel rectangles (sec. 3.6.4, 3.7), where Mesa's
- * llvmpipe puts them.
+ * Points as squares (GL 2.1 sec. 3.3), also under multisampling, and bitmaps and pixel rectangles (sec. 3.6.4, 3.7),
+ * where Mesa's llvmpipe puts them.
  */
 #pragma once
 
@@ -10,7 +10,9 @@
 int expand_point(const struct expand_input *in, struct expanded *out, struct expand_end e, float offset, uint32_t draw);
 
 /** As expand_point for a polygon's corner, which has been clipped with its polygon. */
-int expand_corner(const struct expand_input *in, struct expanded *out, struct expand_end e, float offset, uint32_t draw);
+int expand_corner(const struct expand_input *in, struct expanded *out, struct expand_end e, float offset,
+                  uint32_t draw);
 
-/** Add a bitmap or pixel rectangle. Its first corner is vertex i of the mesh, in window coordinates. @return 0 or ERR_SYSTEM (reported) */
+/** Add a bitmap or pixel rectangle. Its first corner is vertex i of the mesh, in window coordinates. @return 0 or
+ * ERR_SYSTEM (reported) */
 int expand_rectangle(const struct expand_input *in, struct expanded *out, uint32_t i, uint32_t draw);

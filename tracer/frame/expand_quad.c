@@ -37,7 +37,8 @@ int32_t expand_snap(const struct expand_input *in, float pixels)
 	return expand_round(in, (pixels - 0.5f) * 256) + 128;
 }
 
-void expand_add_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int32_t x, int32_t y)
+void expand_add_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int32_t x,
+                       int32_t y)
 {
 	uint32_t at = out->n_vertices++, units = in->material->unit_count;
 	int32_t up = (int32_t)in->height * 256 - y;
@@ -60,8 +61,8 @@ void expand_add_corner(const struct expand_input *in, struct expanded *out, cons
 }
 
 /*
- * Corners are in the order of Mesa's draw module, which decides the last bits of interpolated values. Turning a triangle swaps
- * its first two, as llvmpipe does.
+ * Corners are in the order of Mesa's draw module, which decides the last bits of interpolated values. Turning a
+ * triangle swaps its first two, as llvmpipe does.
  */
 void expand_add_triangles(const struct expand_input *in, struct expanded *out, uint32_t draw)
 {
@@ -81,8 +82,8 @@ void expand_add_triangles(const struct expand_input *in, struct expanded *out, u
 	out->n_primitives += 2;
 }
 
-void expand_add_smooth_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, float x, float y,
-                              const float coverage[4])
+void expand_add_smooth_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, float x,
+                              float y, const float coverage[4])
 {
 	struct shaded_vertex *vertex = &out->vertices[out->n_vertices];
 	const float *v = in->view->viewport;

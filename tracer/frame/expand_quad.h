@@ -16,11 +16,12 @@ int32_t expand_round(const struct expand_input *in, float x);
 int32_t expand_snap(const struct expand_input *in, float pixels);
 
 /** Add a corner of a quad. x, y: in 1/256 pixel, y down. */
-void expand_add_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int32_t x, int32_t y);
+void expand_add_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int32_t x,
+                       int32_t y);
 
 /** A corner of a smooth quad: its place is not snapped for attributes. coverage: see GEOMETRY_SMOOTH_LINE */
-void expand_add_smooth_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, float x, float y,
-                              const float coverage[4]);
+void expand_add_smooth_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, float x,
+                              float y, const float coverage[4]);
 
 /** Two triangles over the last four corners, front side up. */
 void expand_add_triangles(const struct expand_input *in, struct expanded *out, uint32_t draw);

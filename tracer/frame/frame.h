@@ -1,7 +1,8 @@
 /*
  * What the files of this room share: the tracer with its buffers on the device, and a frame on its way through it.
  *
- * Every function that uses the device may return ERR_MEMORY (tracer/device/device.h). trace.c then asks for less, or reports it.
+ * Every function that uses the device may return ERR_MEMORY (tracer/device/device.h). trace.c then asks for less, or
+ * reports it.
  */
 #pragma once
 
@@ -20,18 +21,26 @@
 
 /* Those that a frame keeps from band to band, and those of a band. */
 #define FRAME_WHOLE_BUFFERS(X) \
-	X(geometry, geometries) X(scene_material, materials) X(scene_light, lights) X(scene_unit, units) X(scene_current, currents) \
+	X(geometry, geometries) X(scene_material, materials) X(scene_light, lights) X(scene_unit, units) \
+	X(scene_current, currents) \
 	X(uint, stipples) X(uint, programs) X(texture_image, textures) X(view, views) \
-	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) X(float, sums) X(emitter, emitters) X(float, parameters) X(hook_object, objects)
+	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) \
+	X(float, sums) X(emitter, emitters) X(float, parameters) X(hook_object, objects)
 #define FRAME_BAND_BUFFERS(X) \
 	X(uint, after) X(fragment, sparse) X(uint, counts) X(uint, first) \
 	X(fragment, fragments) X(uint, pixels) X(shaded, shaded) \
-	X(ray, rays) X(uint, occluded) X(float, visibility) X(uint, wanted) X(float, background) X(uint, places) X(uint, scan) \
+	X(ray, rays) X(uint, occluded) X(float, visibility) X(uint, wanted) X(float, background) X(uint, places) \
+	X(uint, scan) \
 	X(path, paths) X(ray, path_rays) X(hit, path_hits) X(path, next_paths) X(ray, next_path_rays) X(uint, next_counts) \
 	X(ray, sky_rays) X(hit, sky_hits) X(float, radiance) \
-	X(photon, photons) X(path, shadow_paths) X(ray, shadow_rays) X(hit, shadow_hits) X(path, next_shadow_paths) X(ray, next_shadow_rays) \
-	X(frame_pixel, cleared) X(uint, drawn) X(dome_place, dome_places) X(float, dome_sums) X(float, dome_directions) X(ray, dome_rays) X(float, dome_factors) X(uint, blocks) \
-	X(fragment, alone_fragments) X(uint, alone_pixels) X(shaded, alone_shaded) X(uint, leaving) X(uint, leaving_first) X(float, kept_visibility) X(float, kept_pixels) X(float, next_pixels) X(layer_clear, layer_clears) X(uint, colors) X(uint, depths) X(uint, unknown) X(half, halves) X(float, floats) X(hook_answer, answers)
+	X(photon, photons) X(path, shadow_paths) X(ray, shadow_rays) X(hit, shadow_hits) X(path, next_shadow_paths) \
+	X(ray, next_shadow_rays) \
+	X(frame_pixel, cleared) X(uint, drawn) X(dome_place, dome_places) X(float, dome_sums) X(float, dome_directions) \
+	X(ray, dome_rays) X(float, dome_factors) X(uint, blocks) \
+	X(fragment, alone_fragments) X(uint, alone_pixels) X(shaded, alone_shaded) X(uint, leaving) \
+	X(uint, leaving_first) X(float, kept_visibility) X(float, kept_pixels) X(float, next_pixels) \
+	X(layer_clear, layer_clears) X(uint, colors) X(uint, depths) X(uint, unknown) X(half, halves) X(float, floats) \
+	X(hook_answer, answers)
 
 struct frame_buffers {
 #define FRAME_FIELD(element, name) union buffer_##element name;
@@ -89,10 +98,11 @@ struct job {
 	float background[4];
 	uint32_t pass, n_passes; /* samples of a pixel; pass 0 is its centre, and the last to be traced */
 	uint32_t is_first;       /* of the passes that are summed up: there are no sums yet */
-	uint32_t is_placed;      /* state, vertices and trees of the pass before are on the device: only the picture is to be moved */
+	uint32_t is_placed; /* state, vertices and trees of the pass before are on the device: only the picture is to be
+	                       moved */
 	uint32_t turn;           /* which pixels take part in the other passes (sample_takes_part) */
 	struct tracer_added added;      /* of the picture's bands so far */
-	uint64_t unknown;               /* pixels so far that show or tested what was there before the scene and is not known */
+	uint64_t unknown; /* pixels so far that show or tested what was there before the scene and is not known */
 	struct image *image;            /* receive the bands of the last pass: one of the two, the other is NULL */
 	struct scene_picture *picture;
 };

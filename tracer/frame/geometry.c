@@ -13,7 +13,7 @@
 #include "tracer/frame/perspective.h"
 #include "tracer/frame/upload.h"
 
-/* --- Vertex stage ------------------------------------------------------------------------------------------------- */
+/* --- Vertex stage ------------------------------------------------------------------------------------------------ */
 
 /* Run the vertex stage, with room behind its results for the vertices of expanded lines and points. */
 static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra_texcoords)
@@ -21,7 +21,8 @@ static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra
 	struct tracer *tr = job->tr;
 	struct prepared *p = &job->prepared;
 	const struct frame_buffers *b = &tr->buffers;
-	size_t n = (size_t)p->n_vertices + extra_vertices + hook_objects_vertices(job), coords = (size_t)p->n_texcoords + extra_texcoords;
+	size_t n = (size_t)p->n_vertices + extra_vertices + hook_objects_vertices(job),
+	       coords = (size_t)p->n_texcoords + extra_texcoords;
 	const struct vertex_launch *a;
 	int err = frame_reserve(tr, vertices, n);
 
@@ -35,15 +36,17 @@ static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra
 		err = frame_reserve(tr, texcoords, 4 * (coords + hook_objects_texcoords(job)));
 	if (err)
 		return err;
-	a = LAUNCH(vertex, .tables = frame_tables(tr), .views = b->views, .owners = b->owners, .height = job->height, .n = p->n_vertices,
-	           .shaded = b->vertices, .windows = b->windows, .clips = b->clips, .coords = b->texcoords);
+	a = LAUNCH(vertex, .tables = frame_tables(tr), .views = b->views, .owners = b->owners, .height = job->height,
+	           .n = p->n_vertices, .shaded = b->vertices, .windows = b->windows, .clips = b->clips,
+	           .coords = b->texcoords);
 	err = frame_in_packets(job) ? launch_vertex_packet(tr->dev, (p->n_vertices + VERTEX_PACKET - 1) / VERTEX_PACKET, a) :
 	                              launch_vertex(tr->dev, p->n_vertices, a);
 	if (err || !p->has_vertex_programs)
 		return err;
 	return launch_vertex_program(tr->dev, p->n_vertices,
 	                             LAUNCH(vertex_program, .tables = frame_tables(tr), .views = b->views, .owners = b->owners,
-	                                    .height = job->height, .n = p->n_vertices, .shaded = b->vertices, .windows = b->windows,
+	                                    .height = job->height, .n = p->n_vertices, .shaded = b->vertices,
+	                                    .windows = b->windows,
 	                                    .clips = b->clips, .coords = b->texcoords, .programs = b->programs));
 }
 
@@ -64,7 +67,7 @@ static int upload_vertex_stage(struct job *job)
 	return err;
 }
 
-/* --- Lines and points ---------------------------------------------------------------------------------------------- */
+/* --- Lines and points -------------------------------------------------------------------------------------------- */
 
 /* Expand one instance's lines or points from what the vertex stage made of their vertices. */
 static int expand_instance(struct job *job, uint32_t i, float *dashed)
@@ -188,7 +191,7 @@ static int expand_all(struct job *job)
 	return err;
 }
 
-/* --- Trees ------------------------------------------------------------------------------------------------------ */
+/* --- Trees ------------------------------------------------------------------------------------------------------- */
 
 static const struct scene_mesh *mesh_of(const struct job *job, uint32_t i)
 {
@@ -196,8 +199,8 @@ static const struct scene_mesh *mesh_of(const struct job *job, uint32_t i)
 }
 
 /*
- * 1 where a program has left an instance's vertices where its modelview puts them: then its tree stays the mesh's, whatever the camera does.
- * eye: where they are
+ * 1 where a program has left an instance's vertices where its modelview puts them: then its tree stays the mesh's,
+ * whatever the camera does. eye: where they are
  */
 static int is_in_place(const struct job *job, uint32_t i, const float (*eye)[4])
 {
@@ -217,7 +220,8 @@ static int is_in_place(const struct job *job, uint32_t i, const float (*eye)[4])
 	return 1;
 }
 
-/* Eye-space positions of baked instances; *out is NULL where there are none. Those that a program left in place are baked no longer. */
+/* Eye-space positions of baked instances; *out is NULL where there are none. Those that a program left in place are
+ * baked no longer. */
 static int read_baked(struct job *job, float (**out)[4])
 {
 	struct prepared *p = &job->prepared;
@@ -246,8 +250,10 @@ static int read_baked(struct job *job, float (**out)[4])
 			continue;
 		if (is_in_place(job, i, (const float (*)[4])*out + g->vertex_first))
 			prepare_place(p, job->scene, i);
-		prepare_pad(p, i, p->instances[i].flags & INSTANCE_BAKED ? (const float (*)[4])*out + g->vertex_first :
-		                                                                       (const float (*)[4])mesh_of(job, i)->position, g->vertex_count);
+		prepare_pad(p, i,
+		            p->instances[i].flags & INSTANCE_BAKED ? (const float(*)[4]) * out + g->vertex_first :
+		                                                     (const float(*)[4])mesh_of(job, i)->position,
+		            g->vertex_count);
 	}
 	return err;
 }
@@ -355,6 +361,7 @@ int geometry_move(struct job *job)
 	int err = frame_upload(tr, views, p->views, p->n_views);
 
 	return err ? err : launch_window(tr->dev, p->n_vertices, LAUNCH(window, .geometries = b->geometries, .views = b->views,
-	                                                                .owners = b->owners, .clips = b->clips, .height = job->height,
+	                                                                .owners = b->owners, .clips = b->clips,
+	                                                                .height = job->height,
 	                                                                .n = p->n_vertices, .windows = b->windows));
 }

@@ -4,7 +4,8 @@
 #include "tracer/frame/frame.h"
 
 /**
- * Run the vertex stage, make triangles of lines and points, build the frame's trees; all of it on the device. Needs upload_state.
+ * Run the vertex stage, make triangles of lines and points, build the frame's trees; all of it on the device. Needs
+ * upload_state.
  * @return 0 or ERR_SYSTEM (reported)
  */
 int geometry_place(struct job *job);
@@ -13,7 +14,8 @@ int geometry_place(struct job *job);
 int geometry_can_move(const struct job *job);
 
 /**
- * Bring the views of a placed frame to the device after prepare_shift, and its vertices to where they are in their windows.
+ * Bring the views of a placed frame to the device after prepare_shift, and its vertices to where they are in their
+ * windows.
  * @return 0 or ERR_SYSTEM (reported)
  */
 int geometry_move(struct job *job);

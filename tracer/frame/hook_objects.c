@@ -7,7 +7,8 @@
 #include "base/err.h"
 #include "tracer/frame/hooks.h"
 
-/* Rays of a kind that may hit objects in a band of a CPU: as its pixels, twice; wide pictures have bands of more (trace.c). */
+/* Rays of a kind that may hit objects in a band of a CPU: as its pixels, twice; wide pictures have bands of more
+ * (trace.c). */
 #define ROOM 131072u
 #define ROOM_ROWS 64u
 
@@ -22,7 +23,8 @@ static int describe(const struct job *job, uint32_t i, struct hook_object *out)
 	const struct instance *instance = &job->prepared.instances[i];
 	const struct scene_mesh *mesh = mesh_of(job, i);
 
-	if (!(instance->flags & INSTANCE_SECONDARY) || instance->flags & (INSTANCE_BAKED | INSTANCE_SKY | INSTANCE_SCREEN) || mesh->vertex_count == 0 ||
+	if (!(instance->flags & INSTANCE_SECONDARY) ||
+	    instance->flags & (INSTANCE_BAKED | INSTANCE_SKY | INSTANCE_SCREEN) || mesh->vertex_count == 0 ||
 	    job->prepared.scene_views[instance->view].space != job->objects.space)
 		return 0;
 	*out = (struct hook_object){ .instance = i, .material = instance->material, .draw = instance->draw };
@@ -47,8 +49,10 @@ static int ask_bounds(struct job *job)
 	int err = frame_upload(tr, objects, o->list, o->n);
 
 	if (!err)
-		err = launch_hook_bounds(tr->dev, o->n, LAUNCH(hook_bounds, .parameters = tr->buffers.parameters, .words = job->options->hook->words,
-		                                               .n = o->n, .objects = tr->buffers.objects));
+		err = launch_hook_bounds(tr->dev, o->n,
+		                         LAUNCH(hook_bounds, .parameters = tr->buffers.parameters,
+		                                .words = job->options->hook->words, .n = o->n,
+		                                .objects = tr->buffers.objects));
 	return err ? err : device_read(tr->dev, tr->buffers.objects.buffer, 0, o->list, o->n * sizeof(*o->list));
 }
 
@@ -84,7 +88,10 @@ static int make_mesh(struct job_objects *o, uint32_t width)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (uint32_t i = 0; i < 3 * n; i++)
 		o->index[i] = i;
-	o->mesh = (struct scene_mesh){ .hash = { n, 0x6f626a65637473 }, .kind = SCENE_TRIANGLES, .vertex_count = 3 * n, .primitive_count = n,
+	o->mesh = (struct scene_mesh){ .hash = { n, 0x6f626a65637473 },
+		                       .kind = SCENE_TRIANGLES,
+		                       .vertex_count = 3 * n,
+		                       .primitive_count = n,
 		                       .index = o->index };
 	return 0;
 }
@@ -189,18 +196,22 @@ int hook_objects_intersect(struct job *job, const struct traverse_rays *rays, en
 
 	if (rays->n > job->objects.room)
 		return ERR_MEMORY;
-	return launch_hook_intersect(tr->dev, rays->n, LAUNCH(hook_intersect, .tables = frame_tables(tr), .views = b->views, .objects = b->objects,
-	                                                      .n_objects = job->objects.n, .rays = rays->rays, .parameters = b->parameters,
-	                                                      .words = job->options->hook->words, .alone = !rays->space->n_nodes,
-	                                                      .first_slot = (uint32_t)whose * job->objects.room, .n = rays->n, .hits = rays->hits,
-	                                                      .made = b->vertices, .made_coords = b->texcoords, .windows = b->windows));
+	return launch_hook_intersect(
+		tr->dev, rays->n,
+		LAUNCH(hook_intersect, .tables = frame_tables(tr), .views = b->views, .objects = b->objects,
+	               .n_objects = job->objects.n, .rays = rays->rays, .parameters = b->parameters,
+	               .words = job->options->hook->words, .alone = !rays->space->n_nodes,
+	               .first_slot = (uint32_t)whose * job->objects.room, .n = rays->n, .hits = rays->hits,
+	               .made = b->vertices, .made_coords = b->texcoords, .windows = b->windows));
 }
 
 int hook_objects_occlude(struct job *job, const struct traverse_rays *rays)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 
-	return launch_hook_occlude(job->tr->dev, rays->n, LAUNCH(hook_occlude, .objects = b->objects, .n_objects = job->objects.n, .rays = rays->rays,
-	                                                         .parameters = b->parameters, .words = job->options->hook->words,
-	                                                         .alone = !rays->space->n_nodes, .n = rays->n, .occluded = rays->occluded));
+	return launch_hook_occlude(job->tr->dev, rays->n,
+	                           LAUNCH(hook_occlude, .objects = b->objects, .n_objects = job->objects.n,
+	                                  .rays = rays->rays, .parameters = b->parameters,
+	                                  .words = job->options->hook->words, .alone = !rays->space->n_nodes,
+	                                  .n = rays->n, .occluded = rays->occluded));
 }

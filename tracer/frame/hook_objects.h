@@ -1,9 +1,10 @@
 /*
- * What a user's functions `bounds` and `intersection` stand for: instances whose triangles no ray meets, and whose shape the hook says
- * instead (kernels/frame/hook.h). They lie in the eye space of job.hooked; all its pixels are traced (hook_rays.h).
+ * What a user's functions `bounds` and `intersection` stand for: instances whose triangles no ray meets, and whose
+ * shape the hook says instead (kernels/frame/hook.h). They lie in the eye space of job.hooked; all its pixels are
+ * traced (hook_rays.h).
  *
- * Shading knows triangles alone. So a small triangle stands for each place that a ray hit, with the normal that the hook told: three
- * vertices behind the frame's own, in a slot of the ray. Rays of different kinds have slots apart.
+ * Shading knows triangles alone. So a small triangle stands for each place that a ray hit, with the normal that the
+ * hook told: three vertices behind the frame's own, in a slot of the ray. Rays of different kinds have slots apart.
  *
  * Functions return 0, ERR_MEMORY (more rays than slots: the frame's bands must be smaller) or ERR_SYSTEM (reported).
  */
@@ -14,7 +15,8 @@
 /* First rays keep their slots until the band is composed, others for a bounce. */
 enum hook_rays_of { HOOK_RAYS_FIRST, HOOK_RAYS_ON, HOOK_RAYS_TO_LIGHTS, N_HOOK_RAYS_OF };
 
-/** Ask for the bounds of all instances; those that have some are objects. After hooks_place, before vertices and trees. */
+/** Ask for the bounds of all instances; those that have some are objects. After hooks_place, before vertices and
+ * trees. */
 int hook_objects_find(struct job *job);
 void hook_objects_forget(struct job *job);
 

@@ -35,18 +35,23 @@ static int trace(struct job *job, const struct segment *segment, struct camera_r
 	int err;
 
 	if ((err = reserve(job, n)) ||
-	    (err = launch_hook_ray(tr->dev, n, LAUNCH(hook_ray, .views = b->views, .view_index = segment->view, .width = job->width,
-	                                              .height = job->height, .rectangle = segment_in_buffers(job, r),
-	                                              .first_pixel = frame_first_pixel(job), .turn = job->pass ? job->turn : SAMPLE_TURNS,
-	                                              .sample = job->pass, .frame_number = (uint32_t)job->scene->frame + 1,
-	                                              .parameters = b->parameters, .row = hooks_row(job), .n = n, .pixels = b->pixels,
-	                                              .shaded = b->shaded, .next_rays = b->next_path_rays, .next_paths = b->next_paths,
-	                                              .counts = b->next_counts))) ||
-	    (err = secondary_follow(job, secondary_space(job, segment->view, 0), secondary_space(job, segment->view, 1), 1, n, 1)))
+	    (err = launch_hook_ray(tr->dev, n,
+	                           LAUNCH(hook_ray, .views = b->views, .view_index = segment->view, .width = job->width,
+	                                  .height = job->height, .rectangle = segment_in_buffers(job, r),
+	                                  .first_pixel = frame_first_pixel(job),
+	                                  .turn = job->pass ? job->turn : SAMPLE_TURNS, .sample = job->pass,
+	                                  .frame_number = (uint32_t)job->scene->frame + 1, .parameters = b->parameters,
+	                                  .row = hooks_row(job), .n = n, .pixels = b->pixels, .shaded = b->shaded,
+	                                  .next_rays = b->next_path_rays, .next_paths = b->next_paths,
+	                                  .counts = b->next_counts))) ||
+	    (err = secondary_follow(job, secondary_space(job, segment->view, 0), secondary_space(job, segment->view, 1),
+	                            1, n, 1)))
 		return err;
 	for (uint32_t i = 0; i < job->n_samples && !err; i++)
-		err = launch_hook_store(tr->dev, n, LAUNCH(hook_store, .shaded = b->shaded, .pixels = b->pixels, .first_pixel = frame_first_pixel(job),
-		                                           .n = n, .frame = *frame_sample(job, i)));
+		err = launch_hook_store(tr->dev, n,
+		                        LAUNCH(hook_store, .shaded = b->shaded, .pixels = b->pixels,
+		                               .first_pixel = frame_first_pixel(job), .n = n,
+		                               .frame = *frame_sample(job, i)));
 	return err;
 }
 

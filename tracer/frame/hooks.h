@@ -1,4 +1,5 @@
-/* A user's hook at its stages of a frame: kernels/frame/hook.h. Functions return 0, ERR_MEMORY, ERR_INPUT or ERR_SYSTEM (reported). */
+/* A user's hook at its stages of a frame: kernels/frame/hook.h. Functions return 0, ERR_MEMORY, ERR_INPUT or ERR_SYSTEM
+ * (reported). */
 #pragma once
 
 #include "tracer/frame/frame.h"
@@ -12,7 +13,8 @@ int hooks_place(struct job *job);
 /** Where the row of parameters starts that rays have which meet no material. */
 uint32_t hooks_row(const struct job *job);
 
-/** Any hit and closest hit of all n fragments of the list: after their lights were asked. transport: TRANSPORT_*, here and below */
+/** Any hit and closest hit of all n fragments of the list: after their lights were asked. transport: TRANSPORT_*, here
+ * and below */
 int hooks_shade(struct job *job, const struct accel_space *space, uint32_t transport, uint32_t n);
 
 /** The rays that it asked for, in place of those that leave the fragments: before they are gathered. */

@@ -14,7 +14,8 @@
 #include "tracer/frame/secondary.h"
 #include "tracer/frame/segment.h"
 
-/* A round of looks at a band: layers_launch.n_looks, columns and asking, and the space that rays to lights go through. */
+/* A round of looks at a band: layers_launch.n_looks, columns and asking, and the space that rays to lights go
+ * through. */
 struct looks {
 	uint32_t n, most; /* most: that there is room for */
 	uint32_t layers;  /* of the block that has the most */
@@ -30,8 +31,9 @@ struct looks {
 /* Whether kernels know all that a material asks of the frame buffer. */
 static int is_known(const struct job *job, const struct scene_material *m)
 {
-	return !(m->stencil_test && pixel_stencil_bits(job->bits)) && !m->logic_op && !m->floats && !m->srgb && !m->samples_off && !m->alpha_to_coverage &&
-	       !m->alpha_to_one && !(m->surface.transmit > 0 && m->blend && !plain_has_mirrors(job));
+	return !(m->stencil_test && pixel_stencil_bits(job->bits)) && !m->logic_op && !m->floats && !m->srgb &&
+	       !m->samples_off && !m->alpha_to_coverage && !m->alpha_to_one &&
+	       !(m->surface.transmit > 0 && m->blend && !plain_has_mirrors(job));
 }
 
 static const struct accel_space *space_of(const struct job *job, const struct segment *segment)
@@ -66,7 +68,8 @@ static int keeps_uncleared(const struct job *job, uint32_t buffers)
 		const struct segment *segment = &job->prepared.segments[i];
 
 		for (uint32_t k = first; k < segment->clear_count; k++)
-			if (job->scene->clears[segment->clear_first + k].target == 0 && job->scene->clears[segment->clear_first + k].buffers & buffers)
+			if (job->scene->clears[segment->clear_first + k].target == 0 &&
+			    job->scene->clears[segment->clear_first + k].buffers & buffers)
 				return 0;
 	}
 	return 1;
@@ -95,7 +98,8 @@ static int suits_picture(const struct job *job)
 {
 	const struct scene *scene = job->scene;
 
-	if (job->picture->colors || job->picture->samples || (scene->needs_previous && !scene->start && !(cleared_buffers(job) & 2)))
+	if (job->picture->colors || job->picture->samples ||
+	    (scene->needs_previous && !scene->start && !(cleared_buffers(job) & 2)))
 		return 0;
 	for (uint32_t i = 0; i < scene->n_rectangles && scene->stencil_bits; i++)
 		if (scene->rectangles[i].kind == SCENE_STENCIL_PIXELS)
@@ -115,8 +119,8 @@ int layered_suits(const struct job *job)
 {
 	const struct prepared *p = &job->prepared;
 
-	if (!frame_in_packets(job) || !plain_is_simple(job) || !keeps_uncleared(job, 1) || dome_is_there(job) || p->has_fragment_programs ||
-	    p->has_vertex_programs)
+	if (!frame_in_packets(job) || !plain_is_simple(job) || !keeps_uncleared(job, 1) || dome_is_there(job) ||
+	    p->has_fragment_programs || p->has_vertex_programs)
 		return 0;
 	if ((job->scene->start && job->scene->start->colors) || !(job->image ? suits_image(job) : suits_picture(job)))
 		return 0;
@@ -140,7 +144,7 @@ int layered_has_columns(const struct job *job)
 	return columns && layered_suits(job);
 }
 
-/* --- Looks --------------------------------------------------------------------------------------------------------- */
+/* --- Looks ------------------------------------------------------------------------------------------------------- */
 
 /* A look's counts are 0 outside of its rectangle. */
 static int clear_look(struct job *job, const struct looks *looks)
@@ -198,13 +202,17 @@ static int go_on(struct job *job, const struct looks *looks)
 	const uint32_t from = plain_look_first(looks->columns, looks->n - 1, job->n_pixels);
 	const struct fragment *sparse;
 	const void *mapped;
-	int err = device_map(tr->dev, tr->buffers.sparse.buffer, ((size_t)from + job->n_pixels) * CAMERA_COLUMN_MAX * sizeof(*sparse), 1, &mapped);
+	int err = device_map(tr->dev, tr->buffers.sparse.buffer,
+	                     ((size_t)from + job->n_pixels) * CAMERA_COLUMN_MAX * sizeof(*sparse), 1, &mapped);
 
 	if (err)
 		return err;
 	sparse = mapped;
 	for (uint32_t i = 0; i < job->n_pixels; i++)
-		tr->counts[i] = tr->counts[i] == CAMERA_COLUMN_MAX ? sparse[((size_t)from + i) * CAMERA_COLUMN_MAX + CAMERA_COLUMN_MAX - 1].order + 1 : SCENE_NONE;
+		tr->counts[i] = tr->counts[i] == CAMERA_COLUMN_MAX ?
+		                        sparse[((size_t)from + i) * CAMERA_COLUMN_MAX + CAMERA_COLUMN_MAX - 1].order +
+		                                1 :
+		                        SCENE_NONE;
 	return device_unmap(tr->dev, tr->buffers.sparse.buffer, mapped);
 }
 
@@ -248,8 +256,9 @@ static void clear_segment(const struct job *job, const struct segment *segment, 
 		const struct camera_rectangle r = segment_in_buffers(job, segment_rectangle(job, clear->scissor));
 
 		if (clear->target == 0 && clear->buffers & 2)
-			looks->clears[looks->n_clears++] = (struct layer_clear){ looks->n, r.x0, r.y0, r.x1, r.y1, pixel_depth_steps(clear->depth, bits),
-			                                                         clamp01(clear->depth) };
+			looks->clears[looks->n_clears++] = (struct layer_clear){
+				looks->n, r.x0, r.y0, r.x1, r.y1, pixel_depth_steps(clear->depth, bits), clamp01(clear->depth)
+			};
 	}
 	looks->cleared++;
 }
@@ -300,7 +309,7 @@ static uint32_t place_blocks(struct job *job)
 	return next * PLAIN_WIDTH * PLAIN_ROWS;
 }
 
-/* --- Drawing ------------------------------------------------------------------------------------------------------- */
+/* --- Drawing ----------------------------------------------------------------------------------------------------- */
 
 /* What kernels leave for n fragments and their rays. */
 static int reserve_places(struct job *job, uint32_t n, uint32_t n_slots)
@@ -308,17 +317,18 @@ static int reserve_places(struct job *job, uint32_t n, uint32_t n_slots)
 	struct tracer *tr = job->tr;
 	int err;
 
-	if ((err = frame_reserve(tr, alone_fragments, n)) || (err = frame_reserve(tr, alone_pixels, n)) || (err = frame_reserve(tr, alone_shaded, n)) ||
-	    (err = frame_reserve(tr, leaving, n / PLAIN_WIDTH)) || (err = frame_reserve(tr, leaving_first, n / PLAIN_WIDTH)) ||
-	    (err = frame_reserve(tr, fragments, 1)) || (err = frame_reserve(tr, pixels, 1)) || (err = frame_reserve(tr, shaded, 1)) ||
+	if ((err = frame_reserve(tr, alone_fragments, n)) || (err = frame_reserve(tr, alone_pixels, n)) ||
+	    (err = frame_reserve(tr, alone_shaded, n)) || (err = frame_reserve(tr, leaving, n / PLAIN_WIDTH)) ||
+	    (err = frame_reserve(tr, leaving_first, n / PLAIN_WIDTH)) || (err = frame_reserve(tr, fragments, 1)) ||
+	    (err = frame_reserve(tr, pixels, 1)) || (err = frame_reserve(tr, shaded, 1)) ||
 	    (err = frame_reserve(tr, dome_places, 1)))
 		return err;
 	return secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
 }
 
 /* round: PLAIN_BEGINS and the like */
-static struct plain_launch launch_of(const struct job *job, const struct looks *looks, uint32_t round, uint32_t n, uint32_t n_slots,
-                                     const struct compose_request *request)
+static struct plain_launch launch_of(const struct job *job, const struct looks *looks, uint32_t round, uint32_t n,
+                                     uint32_t n_slots, const struct compose_request *request)
 {
 	static const struct camera_rectangle nowhere;
 	const struct frame_buffers *b = &job->tr->buffers;
@@ -327,8 +337,9 @@ static struct plain_launch launch_of(const struct job *job, const struct looks *
 	a.fragments = b->alone_fragments;
 	a.pixels = b->alone_pixels;
 	a.shaded = b->alone_shaded;
-	a.layers = *LAUNCH(layers, .counts = b->counts, .n_looks = looks->n, .columns = looks->columns, .asking = looks->asking,
-	                   .round = round, .clears = b->layer_clears, .n_clears = looks->n_clears, .before = b->kept_pixels, .after = b->next_pixels,
+	a.layers = *LAUNCH(layers, .counts = b->counts, .n_looks = looks->n, .columns = looks->columns,
+	                   .asking = looks->asking, .round = round, .clears = b->layer_clears,
+	                   .n_clears = looks->n_clears, .before = b->kept_pixels, .after = b->next_pixels,
 	                   .unknown = b->unknown, .mirrors = looks->space && plain_has_mirrors(job),
 	                   .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
 	                   .list_pixels = b->pixels, .list_shaded = b->shaded);
@@ -365,7 +376,8 @@ static int place_leaving(struct job *job, uint32_t n, uint32_t *n_list)
 	return err || !*n_list ? err : frame_reserve(tr, shaded, *n_list);
 }
 
-/* Paths from the list; then all planes where these are. The visibility of lights is kept: rays of paths have their own. */
+/* Paths from the list; then all planes where these are. The visibility of lights is kept: rays of paths have their
+ * own. */
 static int follow(struct job *job, const struct looks *looks, struct plain_launch a, uint32_t n_list)
 {
 	struct frame_buffers *b = &job->tr->buffers;
@@ -383,9 +395,11 @@ static int follow(struct job *job, const struct looks *looks, struct plain_launc
 }
 
 /* All planes without shadows and mirrors, and rays to lights; then what these change. */
-static int draw(struct job *job, const struct looks *looks, uint32_t round, uint32_t n, const struct compose_request *request)
+static int draw(struct job *job, const struct looks *looks, uint32_t round, uint32_t n,
+                const struct compose_request *request)
 {
-	const uint32_t blocks = plain_blocks(job->width, job->n_rows), n_slots = looks->space && n ? job->prepared.n_light_slots : 0;
+	const uint32_t blocks = plain_blocks(job->width, job->n_rows),
+		       n_slots = looks->space && n ? job->prepared.n_light_slots : 0;
 	uint32_t n_list = 0;
 	struct plain_launch a;
 	int err = reserve_places(job, n, n_slots);
@@ -431,9 +445,11 @@ static int keep_start(struct job *job)
 		err = device_write(job->tr->dev, b->colors.buffer, 0, start->rgba + 4 * first, job->n_pixels * sizeof(uint32_t));
 	if (!err)
 		err = frame_upload(job->tr, depths, start->depth + first, job->n_pixels);
-	return err ? err : launch_layered_start(job->tr->dev, (size_t)plain_columns(job->width) * job->n_rows,
-	                                        LAUNCH(layered_start, .colors = b->colors, .depths = b->depths, .width = job->width,
-	                                               .height = job->n_rows, .bits = job->bits, .kept = b->kept_pixels));
+	return err ? err :
+	             launch_layered_start(job->tr->dev, (size_t)plain_columns(job->width) * job->n_rows,
+	                                  LAUNCH(layered_start, .colors = b->colors, .depths = b->depths,
+	                                         .width = job->width, .height = job->n_rows, .bits = job->bits,
+	                                         .kept = b->kept_pixels));
 }
 
 /* What a round is, apart from the last. */
@@ -444,8 +460,10 @@ static uint32_t round_of(const struct job *job, int is_first)
 	return job->scene->start ? 0 : PLAIN_BEGINS | (is_unknown(job) ? PLAIN_UNKNOWN : 0);
 }
 
-/* A round of looks, as many as there is room for, and what they have found drawn. is_first: of the band. is_last: receives whether it was the last */
-static int draw_round(struct job *job, struct looks *looks, int is_first, int *is_last, const struct compose_request *request)
+/* A round of looks, as many as there is room for, and what they have found drawn. is_first: of the band. is_last:
+ * receives whether it was the last */
+static int draw_round(struct job *job, struct looks *looks, int is_first, int *is_last,
+                      const struct compose_request *request)
 {
 	struct frame_buffers *b = &job->tr->buffers;
 	union buffer_float kept;
@@ -504,7 +522,8 @@ static int draw_band(struct job *job, struct looks *looks)
 int layered_band(struct job *job)
 {
 	struct looks looks = { .clears = calloc(job->scene->n_clears + (size_t)1, sizeof(*looks.clears)) };
-	int err = looks.clears ? draw_band(job, &looks) : err_report(ERR_SYSTEM, NULL, "out of memory for %u clears", job->scene->n_clears);
+	int err = looks.clears ? draw_band(job, &looks) :
+	                         err_report(ERR_SYSTEM, NULL, "out of memory for %u clears", job->scene->n_clears);
 
 	free(looks.clears);
 	return err;

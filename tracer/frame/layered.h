@@ -1,7 +1,8 @@
 /*
- * Frames on CPUs that are like plain ones (plain.h) but for their draws: of several segments, blended, tested for alpha, not tested for
- * depth. The camera looks at all segments first; then two kernels draw all fragments of a pixel one over the other (kernels/frame/layered.cl).
- * Where these are more than PLAIN_LAYERS, both do so in rounds. Pictures as GL's frame buffer has them are made in the same way.
+ * Frames on CPUs that are like plain ones (plain.h) but for their draws: of several segments, blended, tested for
+ * alpha, not tested for depth. The camera looks at all segments first; then two kernels draw all fragments of a pixel
+ * one over the other (kernels/frame/layered.cl). Where these are more than PLAIN_LAYERS, both do so in rounds. Pictures
+ * as GL's frame buffer has them are made in the same way.
  */
 #pragma once
 

@@ -22,7 +22,8 @@ struct found {
 	int perspective; /* 0: the view has a perspective already, or something in it is not displaced */
 	float least_w, most_w; /* those above 0 */
 	double factor[2];      /* of x and y; 0: not known */
-	double sums[5];        /* of 1, w, w w, z and z w of all clip positions, each by the square of its larger number of the two */
+	double sums[5]; /* of 1, w, w w, z and z w of all clip positions, each by the square of its larger number of the
+	                   two */
 	int is_bent;           /* depths are not linear in w */
 	uint32_t vertices;     /* of the mesh that they are of */
 };
@@ -70,8 +71,8 @@ static double length_of(const double b[4][3], int k)
 }
 
 /*
- * The factors of a mesh that one matrix has moved: a turn, one scale and a shift, then the projection. Its rows for x, y and w are then as
- * long as the factors, and 1, times the scale.
+ * The factors of a mesh that one matrix has moved: a turn, one scale and a shift, then the projection. Its rows for x,
+ * y and w are then as long as the factors, and 1, times the scale.
  */
 static void find_factors(const struct scene_mesh *mesh, const float (*clip)[4], struct found *f)
 {
@@ -114,13 +115,15 @@ static int read_clips(const struct job *job, uint32_t i, float (**clip)[4])
 	*clip = calloc((size_t)g->vertex_count + 1, sizeof(**clip));
 	if (!*clip)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	return device_read(job->tr->dev, job->tr->buffers.clips.buffer, g->vertex_first * sizeof(**clip), *clip, g->vertex_count * sizeof(**clip));
+	return device_read(job->tr->dev, job->tr->buffers.clips.buffer, g->vertex_first * sizeof(**clip), *clip,
+	                   g->vertex_count * sizeof(**clip));
 }
 
 /* Sums by which depths are found as numbers that are linear in w. */
 static void add_depth(const float clip[4], double sums[5])
 {
-	const double z = (double)clip[2], w = (double)clip[3], largest = fmax(fabs(z), fabs(w)), share = 1 / (largest * largest);
+	const double z = (double)clip[2], w = (double)clip[3], largest = fmax(fabs(z), fabs(w)),
+		     share = 1 / (largest * largest);
 
 	if (!(largest > 0 && largest < (double)MOST_W))
 		return;
@@ -153,8 +156,9 @@ static int look_at(const struct job *job, uint32_t i, struct found *f)
 }
 
 /*
- * Depths that are linear in w and grow with it are the projection's: they cut off what is nearer than the program's own plane, and what lies
- * behind what is drawn. Of others it has none; from the eye on all is there, and columns tell what lies before what (perspective_check_depths).
+ * Depths that are linear in w and grow with it are the projection's: they cut off what is nearer than the program's own
+ * plane, and what lies behind what is drawn. Of others it has none; from the eye on all is there, and columns tell what
+ * lies before what (perspective_check_depths).
  */
 static void make_depths(const struct found *f, float out[16])
 {
@@ -186,7 +190,9 @@ static void find_views(const struct job *job, struct found *found)
 	for (uint32_t v = 0; v < s->n_views; v++) {
 		const float *m = s->views[v].projection;
 
-		found[v] = (struct found){ .perspective = m[3] == 0 && m[7] == 0 && m[11] == 0 && s->views[v].viewport[2] > 0, .least_w = FLT_MAX };
+		found[v] = (struct found){ .perspective = m[3] == 0 && m[7] == 0 && m[11] == 0 &&
+			                                  s->views[v].viewport[2] > 0,
+			                   .least_w = FLT_MAX };
 	}
 	for (uint32_t i = 0; i < p->n_instances; i++)
 		found[s->instances[p->instances[i].scene_instance].view].perspective &=

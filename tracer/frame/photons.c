@@ -48,7 +48,7 @@ struct photons {
 };
 #define CELLS (1u << 18)
 
-/* --- Beams --------------------------------------------------------------------------------------------------------- */
+/* --- Beams ------------------------------------------------------------------------------------------------------- */
 
 static struct vec3 eye_position(const struct instance *instance, const float o[4])
 {
@@ -151,9 +151,10 @@ static int find_beams(struct photons *p)
 	return err;
 }
 
-/* --- Sending ------------------------------------------------------------------------------------------------------- */
+/* --- Sending ----------------------------------------------------------------------------------------------------- */
 
-/* Parallel light: from beyond all surfaces, evenly over the ball's disk. @return the area that all photons of the beam share */
+/* Parallel light: from beyond all surfaces, evenly over the ball's disk. @return the area that all photons of the beam
+ * share */
 static float send_parallel(const struct photons *p, const struct beam *b, const float at[2], struct ray *ray)
 {
 	const struct vec3 d = v3_scale(v3_normalize(v3_load(b->light->position_eye)), -1);
@@ -164,15 +165,19 @@ static float send_parallel(const struct photons *p, const struct beam *b, const 
 	return (float)M_PI * b->radius * b->radius;
 }
 
-/* From a place, or a disk of the light's radius: evenly over the cone about the ball. @return its solid angle, weakened as a spot is */
+/* From a place, or a disk of the light's radius: evenly over the cone about the ball. @return its solid angle, weakened
+ * as a spot is */
 static float send_from_place(const struct beam *b, const float at[2][2], struct ray *ray)
 {
 	const struct scene_light *l = b->light;
 	const struct vec3 middle = v3_scale(v3_load(l->position_eye), 1 / l->position_eye[3]);
 	const struct vec3 disk = sample_disk(v3_normalize(v3_sub(b->centre, middle)), at[1][0], at[1][1]);
-	const struct vec3 from = v3_add(middle, v3_scale(disk, fmaxf(l->radius, 0))), to = v3_sub(b->centre, from), axis = v3_normalize(to);
-	const float share = b->radius / fmaxf(length_of(to), FLT_MIN), least = share < 1 ? sqrtf(1 - share * share) : -1; /* within it: all around */
-	const float cosine = 1 - at[0][0] * (1 - least), sine = sqrtf(fmaxf(1 - cosine * cosine, 0)), turn = 2 * (float)M_PI * at[0][1];
+	const struct vec3 from = v3_add(middle, v3_scale(disk, fmaxf(l->radius, 0))), to = v3_sub(b->centre, from),
+			  axis = v3_normalize(to);
+	const float share = b->radius / fmaxf(length_of(to), FLT_MIN),
+		    least = share < 1 ? sqrtf(1 - share * share) : -1; /* within it: all around */
+	const float cosine = 1 - at[0][0] * (1 - least), sine = sqrtf(fmaxf(1 - cosine * cosine, 0)),
+		    turn = 2 * (float)M_PI * at[0][1];
 	struct vec3 u, v, d;
 
 	sample_basis(axis, &u, &v);
@@ -205,7 +210,7 @@ static uint32_t make_photons(struct photons *p, uint32_t pass)
 	return n;
 }
 
-/* --- Finding ------------------------------------------------------------------------------------------------------- */
+/* --- Finding ----------------------------------------------------------------------------------------------------- */
 
 static int is_lit_by(const struct scene *scene, const struct scene_material *m, const struct scene_light *light)
 {
@@ -224,7 +229,8 @@ static void brightness(const struct photons *p, const struct photon *photon, flo
 	const float weakened = is_placed ? 1 / (l->attenuation[0] + d * (l->attenuation[1] + d * l->attenuation[2])) : 1;
 
 	for (int c = 0; c < 3; c++) {
-		const float shown = l->diffuse[c] * weakened, light = p->job->options->display ? shown : image_linear_from_display(shown);
+		const float shown = l->diffuse[c] * weakened,
+			    light = p->job->options->display ? shown : image_linear_from_display(shown);
 
 		out[c] = photon->weight[c] * light * sent->share * (is_placed ? d * d : 1);
 	}
@@ -271,14 +277,16 @@ static void sort_into_cells(struct photons *p, float radius)
 	memset(p->cells, 0xff, CELLS * sizeof(*p->cells));
 	for (uint32_t i = 0; i < p->n_found; i++) {
 		const float *at = p->found[i].position;
-		uint32_t *first = &p->cells[cell_of(cell_along(at[0], 2 * radius), cell_along(at[1], 2 * radius), cell_along(at[2], 2 * radius))];
+		uint32_t *first = &p->cells[cell_of(cell_along(at[0], 2 * radius), cell_along(at[1], 2 * radius),
+		                                    cell_along(at[2], 2 * radius))];
 
 		p->found[i].number = *first;
 		*first = i;
 	}
 }
 
-/* The cells about a point within a radius: two along each axis. A cell that is one of several, by its hash, is named once. */
+/* The cells about a point within a radius: two along each axis. A cell that is one of several, by its hash, is named
+ * once. */
 static uint32_t cells_about(const float at[3], float radius, uint32_t out[8])
 {
 	int32_t base[3];
@@ -299,7 +307,8 @@ static uint32_t cells_about(const float at[3], float radius, uint32_t out[8])
 }
 
 /* A photon's light, where it came to a point's surface within the radius. */
-static void gather_photon(const struct photon *photon, const float at[3], const float normal[3], float radius, float sum[3])
+static void gather_photon(const struct photon *photon, const float at[3], const float normal[3], float radius,
+                          float sum[3])
 {
 	float square = 0, height = 0, cosine = 0;
 
@@ -316,12 +325,14 @@ static void gather_photon(const struct photon *photon, const float at[3], const 
 		sum[i] += photon->weight[i];
 }
 
-static void gather(const struct photons *p, const float *const planes[9], float radius, float share, float *const out[3])
+static void gather(const struct photons *p, const float *const planes[9], float radius, float share,
+                   float *const out[3])
 {
 	const float scale = share / ((float)M_PI * radius * radius);
 
 	for (size_t i = 0; i < (size_t)p->job->width * p->job->height; i++) {
-		const float normal[3] = { planes[0][i], planes[1][i], planes[2][i] }, at[3] = { planes[3][i], planes[4][i], planes[5][i] };
+		const float normal[3] = { planes[0][i], planes[1][i], planes[2][i] },
+			    at[3] = { planes[3][i], planes[4][i], planes[5][i] };
 		uint32_t cells[8], n;
 		float sum[3] = { 0, 0, 0 };
 
@@ -336,7 +347,7 @@ static void gather(const struct photons *p, const float *const planes[9], float 
 	}
 }
 
-/* --- A frame ------------------------------------------------------------------------------------------------------- */
+/* --- A frame ----------------------------------------------------------------------------------------------------- */
 
 static int run_pass(struct photons *p, uint32_t pass)
 {

@@ -44,7 +44,8 @@ int picture_upload_start(struct job *job)
 }
 
 /* The band's pixels on the device, or those of one of their samples, rounded as GL's frame buffer is. */
-static int read_pixels(const struct job *job, union buffer_frame_pixel from, struct frame_pixel *pixels, struct scene_picture *picture)
+static int read_pixels(const struct job *job, union buffer_frame_pixel from, struct frame_pixel *pixels,
+                       struct scene_picture *picture)
 {
 	const struct scene *scene = job->scene;
 	int err = device_read(job->tr->dev, from.buffer, 0, pixels, job->n_pixels * sizeof(*pixels));
@@ -131,8 +132,10 @@ int picture_take_band(struct job *job, uint32_t stencil)
 	if (!err)
 		err = frame_reserve(tr, depths, job->n_pixels);
 	if (!err)
-		err = launch_layered_picture(tr->dev, rows, LAUNCH(layered_picture, .kept = b->kept_pixels, .width = job->width, .height = job->n_rows,
-		                                                   .bits = job->bits, .colors = b->colors, .depths = b->depths, .unknown = b->unknown));
+		err = launch_layered_picture(tr->dev, rows,
+		                             LAUNCH(layered_picture, .kept = b->kept_pixels, .width = job->width,
+		                                    .height = job->n_rows, .bits = job->bits, .colors = b->colors,
+		                                    .depths = b->depths, .unknown = b->unknown));
 	if (!err)
 		err = take_words(job, b->colors.buffer, job->picture->rgba + 4 * first);
 	if (!err)

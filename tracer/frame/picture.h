@@ -3,13 +3,16 @@
 
 #include "tracer/frame/frame.h"
 
-/** Put the band's pixels on the device that were there before the scene, or say that they are not known. @return 0 or ERR_SYSTEM (reported) */
+/** Put the band's pixels on the device that were there before the scene, or say that they are not known. @return 0 or
+ * ERR_SYSTEM (reported) */
 int picture_upload_start(struct job *job);
 
-/** What was drawn of the band into buffers.frame. @param picture  as for tracer_render_picture, but for `unknown` @return 0 or ERR_SYSTEM (reported) */
+/** What was drawn of the band into buffers.frame. @param picture  as for tracer_render_picture, but for `unknown`
+ * @return 0 or ERR_SYSTEM (reported) */
 int picture_read_band(const struct job *job, struct scene_picture *picture);
 
-/** Count the band's pixels in buffers.frame, or in buffers.unknown, that go into job->unknown. @return 0, ERR_MEMORY or ERR_SYSTEM (reported) */
+/** Count the band's pixels in buffers.frame, or in buffers.unknown, that go into job->unknown. @return 0, ERR_MEMORY or
+ * ERR_SYSTEM (reported) */
 int picture_count_band(struct job *job);
 int picture_count_rows(struct job *job);
 

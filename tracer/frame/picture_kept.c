@@ -93,8 +93,8 @@ static int is_of(const struct picture_kept *kept, const struct scene *scene)
 {
 	const struct scene_picture *p = kept->picture;
 
-	return p && kept->serial == scene->serial && kept->is_start_there == (scene->start != NULL) && p->width == scene->width &&
-	       p->height == scene->height;
+	return p && kept->serial == scene->serial && kept->is_start_there == (scene->start != NULL) &&
+	       p->width == scene->width && p->height == scene->height;
 }
 
 int picture_recall(const struct picture_kept *kept, const struct scene *scene, struct scene_picture *picture)
@@ -117,8 +117,8 @@ int picture_rest(const struct picture_kept *kept, const struct scene *scene, str
 	const uint32_t n_clears = scene->n_clears - kept->n_clears;
 
 	/* Pictures have 24 bits of depth at most. */
-	if (!is_of(kept, scene) || !kept->is_whole || !is_whole(scene) || scene->depth_bits > 24 || kept->n_instances > scene->n_instances ||
-	    kept->n_clears > scene->n_clears)
+	if (!is_of(kept, scene) || !kept->is_whole || !is_whole(scene) || scene->depth_bits > 24 ||
+	    kept->n_instances > scene->n_instances || kept->n_clears > scene->n_clears)
 		return 0;
 	*rest = *scene;
 	rest->instances += kept->n_instances;

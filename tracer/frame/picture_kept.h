@@ -1,4 +1,5 @@
-/* Pictures that the tracer holds itself. The one that was drawn last is kept: the scene that asks next is often the same. */
+/* Pictures that the tracer holds itself. The one that was drawn last is kept: the scene that asks next is often the
+ * same. */
 #pragma once
 
 #include "scene/scene.h"
@@ -24,8 +25,8 @@ void picture_keep(struct picture_kept *kept, const struct scene *scene, const st
 int picture_recall(const struct picture_kept *kept, const struct scene *scene, struct scene_picture *picture);
 
 /**
- * What was added to a scene since its picture was kept, as a scene that begins with that picture. A frame of n draws, each of which
- * copies pixels, would otherwise be drawn n times over.
+ * What was added to a scene since its picture was kept, as a scene that begins with that picture. A frame of n draws,
+ * each of which copies pixels, would otherwise be drawn n times over.
  * @param rest  receives a scene that borrows all arrays but its clears, which free() takes
  * @return 0: no picture of it is kept that the rest can be drawn over
  */

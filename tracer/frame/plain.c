@@ -58,8 +58,9 @@ int plain_suits(const struct job *job)
 	const struct prepared *p = &job->prepared;
 	const struct segment *segment = p->segments;
 
-	if (!job->image || !plain_is_simple(job) || job->scene->start || job->scene->needs_previous || !is_cleared_once(job) || plain_has_mirrors(job) ||
-	    !is_known(job) || p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN)
+	if (!job->image || !plain_is_simple(job) || job->scene->start || job->scene->needs_previous ||
+	    !is_cleared_once(job) || plain_has_mirrors(job) || !is_known(job) || p->n_segments != 1 ||
+	    segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN)
 		return 0;
 	for (uint32_t i = 0; i < segment->instance_count; i++) {
 		const struct scene_material *m = &job->scene->materials[p->instances[segment->instance_first + i].material];
@@ -83,7 +84,8 @@ static int has_fragment(const struct job *job, struct camera_rectangle r, uint32
 	return n != 0;
 }
 
-/* Give each block that has fragments its place. r: where they may be, counted from the band's first row; n: receives the pixels of these blocks */
+/* Give each block that has fragments its place. r: where they may be, counted from the band's first row; n: receives
+ * the pixels of these blocks */
 static int place_blocks(struct job *job, struct camera_rectangle r, uint32_t *n)
 {
 	struct tracer *tr = job->tr;
@@ -130,17 +132,19 @@ struct plain_launch plain_launch_of(const struct job *job, struct camera_rectang
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	const struct scene_dome none = { .reach = 0 };
-	const struct layers_launch *one = LAUNCH(layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .round = 0,
-	                                         .clears = b->layer_clears, .n_clears = 0, .before = b->visibility,
-	                                         .after = b->visibility, .unknown = b->counts, .mirrors = 0, .leaving = b->counts,
-	                                         .list_first = b->counts, .list = b->fragments, .list_pixels = b->pixels, .list_shaded = b->shaded);
+	const struct layers_launch *one = LAUNCH(
+		layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .round = 0,
+		.clears = b->layer_clears, .n_clears = 0, .before = b->visibility, .after = b->visibility,
+		.unknown = b->counts, .mirrors = 0, .leaving = b->counts, .list_first = b->counts, .list = b->fragments,
+		.list_pixels = b->pixels, .list_shaded = b->shaded);
 
 	return *LAUNCH(plain, .tables = frame_tables(job->tr), .views = b->views, .windows = b->windows, .sparse = b->sparse,
 	               .rectangle = segment_in_buffers(job, r), .width = job->width, .height = job->height,
 	               .first_pixel = frame_first_pixel(job), .bits = job->bits, .cleared = b->cleared, .request = *request,
-	               .visibility = b->visibility, .n_slots = n_slots, .blocks = b->blocks, .n = n, .fragments = b->fragments, .pixels = b->pixels,
-	               .shaded = b->shaded, .rays = b->rays, .programs = b->programs,
-	               .dome = none, .directions = b->visibility, .samples = 0, .places = b->dome_places, .looks = b->rays,
+	               .visibility = b->visibility, .n_slots = n_slots, .blocks = b->blocks, .n = n,
+	               .fragments = b->fragments, .pixels = b->pixels, .shaded = b->shaded, .rays = b->rays,
+	               .programs = b->programs, .dome = none, .directions = b->visibility, .samples = 0,
+	               .places = b->dome_places, .looks = b->rays,
 	               .factors = b->visibility, .layers = *one, .halves = b->halves, .floats = b->floats);
 }
 
@@ -233,16 +237,19 @@ static int draw_whole(struct job *job, struct camera_rectangle r, const struct c
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	const struct traverse_trees *t = &job->tr->trees;
-	const struct camera_rectangle band = { 0, (int32_t)job->row_first, (int32_t)job->width, (int32_t)(job->row_first + job->n_rows) };
+	const struct camera_rectangle band = { 0, (int32_t)job->row_first, (int32_t)job->width,
+		                               (int32_t)(job->row_first + job->n_rows) };
 	int err = reserve(job, job->n_pixels, 0);
 
 	if (err)
 		return err;
 	return launch_plain_whole(job->tr->dev, camera_packet_items(band),
-	                          LAUNCH(plain_whole, .pass = segment_camera_pass(job, job->prepared.segments, r, 0), .instances = t->instances, .top = t->top2,
-	                                 .instance_list = t->instance_list, .nodes = t->nodes8, .triangles = t->faces8, .tables = frame_tables(job->tr),
-	                                 .bits = job->bits, .cleared = b->cleared, .request = *request, .alone = b->fragments,
-	                                 .pixels = b->pixels, .shaded = b->shaded, .halves = b->halves, .floats = b->floats));
+	                          LAUNCH(plain_whole, .pass = segment_camera_pass(job, job->prepared.segments, r, 0),
+	                                 .instances = t->instances, .top = t->top2, .instance_list = t->instance_list,
+	                                 .nodes = t->nodes8, .triangles = t->faces8, .tables = frame_tables(job->tr),
+	                                 .bits = job->bits, .cleared = b->cleared, .request = *request,
+	                                 .alone = b->fragments, .pixels = b->pixels, .shaded = b->shaded,
+	                                 .halves = b->halves, .floats = b->floats));
 }
 
 /* In steps: the camera, then all that rays and programs have a say in. */

@@ -1,6 +1,6 @@
 /*
- * Plain frames: cleared and drawn once, each pixel its nearest fragment, no mirrors. From camera rays to channels in two kernels
- * (kernels/frame/plain.h), with rays to lights between them.
+ * Plain frames: cleared and drawn once, each pixel its nearest fragment, no mirrors. From camera rays to channels in
+ * two kernels (kernels/frame/plain.h), with rays to lights between them.
  */
 #pragma once
 
@@ -12,7 +12,7 @@ int plain_suits(const struct job *job);
 /** Draw the band into job->image. @return 0 or ERR_SYSTEM (reported) */
 int plain_band(struct job *job);
 
-/* --- For layered.c, which draws in the same way ---------------------------------------------------------------------- */
+/* --- For layered.c, which draws in the same way ------------------------------------------------------------------ */
 
 /** What both ways ask of a frame: one pass, lights without a size. */
 int plain_is_simple(const struct job *job);

@@ -6,7 +6,8 @@
 #include "base/err.h"
 
 #define POOL_LEAST_WORDS ((size_t)1 << 20)
-#define STAGE_WORDS ((size_t)1 << 18) /* items are written to the device so many words at a time, or one by one where they are larger */
+/* items are written to the device so many words at a time, or one by one where they are larger */
+#define STAGE_WORDS ((size_t)1 << 18)
 
 struct pool_entry {
 	uint64_t hash[2];
@@ -53,7 +54,8 @@ static void forget_all(struct pool *pool)
 	pool->n_entries = pool->used = 0;
 }
 
-/* Items on their way to the device, one behind the other: each write costs a thread of the device that is woken and waited for. */
+/* Items on their way to the device, one behind the other: each write costs a thread of the device that is woken and
+ * waited for. */
 struct stage {
 	uint32_t *words;
 	size_t room, n; /* words */
@@ -65,11 +67,14 @@ static int write_stage(const struct pool *pool, struct device *dev, struct stage
 	const size_t n = stage->n;
 
 	stage->n = 0;
-	return n == 0 ? 0 : device_write(dev, pool->buffer, (pool->used - n) * sizeof(*stage->words), stage->words, n * sizeof(*stage->words));
+	return n == 0 ? 0 :
+	                device_write(dev, pool->buffer, (pool->used - n) * sizeof(*stage->words), stage->words,
+	                             n * sizeof(*stage->words));
 }
 
 /* Take an item in behind all others. */
-static int add_item(struct pool *pool, struct device *dev, struct stage *stage, const struct pool_item *item, pool_fill *fill)
+static int add_item(struct pool *pool, struct device *dev, struct stage *stage, const struct pool_item *item,
+                    pool_fill *fill)
 {
 	int err = stage->n + item->words > stage->room ? write_stage(pool, dev, stage) : 0;
 

@@ -1,6 +1,6 @@
 /*
- * A device buffer that keeps arrays by content (vertex arrays, indices, texels) as long as they fit. A frame copies only what the
- * frame before did not have.
+ * A device buffer that keeps arrays by content (vertex arrays, indices, texels) as long as they fit. A frame copies
+ * only what the frame before did not have.
  */
 #pragma once
 

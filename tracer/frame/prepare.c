@@ -164,12 +164,12 @@ void prepare_fill_indices(const void *object, uint32_t *words)
 /* --- Instances --------------------------------------------------------------------------------------------------- */
 
 /*
- * Padding of an instance's boxes. Snapping moves vertices by up to 1/512 pixel on each axis, and camera rays must find every triangle
- * that covers a pixel centre then. The padding is that step at the farthest corner of the mesh's box, in object units, and a little
- * for the rounding of large coordinates.
+ * Padding of an instance's boxes. Snapping moves vertices by up to 1/512 pixel on each axis, and camera rays must find
+ * every triangle that covers a pixel centre then. The padding is that step at the farthest corner of the mesh's box, in
+ * object units, and a little for the rounding of large coordinates.
  */
-static float box_pad(const float (*positions)[4], uint32_t n, const float clip_from_box[16], const struct instance *instance,
-                     const struct view *view)
+static float box_pad(const float (*positions)[4], uint32_t n, const float clip_from_box[16],
+                     const struct instance *instance, const struct view *view)
 {
 	float lo[4] = { INFINITY, INFINITY, INFINITY, INFINITY }, hi[4] = { -INFINITY, -INFINITY, -INFINITY, -INFINITY };
 	float farthest = 0, size = 0, eye = 0, shrink = 0;
@@ -268,7 +268,8 @@ int prepare_is_displaced(const struct scene *scene, const struct scene_instance 
 {
 	const uint32_t program = scene->materials[instance->material].vertex_program;
 
-	return program && ((const struct scene_program *)(scene->programs + (program - 1)))->outputs >> SCENE_RESULT_POSITION & 1;
+	return program &&
+	       ((const struct scene_program *)(scene->programs + (program - 1)))->outputs >> SCENE_RESULT_POSITION & 1;
 }
 
 /* Largest coordinate of object space's origin in eye space; 0 where that is at infinity. */
@@ -288,8 +289,9 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	const struct scene_mesh *mesh = scene->meshes[from->mesh];
 	struct instance *instance = &p->instances[p->n_instances];
 	struct geometry *g = &p->geometries[p->n_instances];
-	uint32_t asked = m->surface.hidden & ~(SCENE_CARD | SCENE_FACETED | SCENE_DOME_LIT | SCENE_NEAR_MIRROR | SCENE_UNSHADED | SCENE_NO_NORMALS |
-	                                       SCENE_SHOWN_COUNTER | SCENE_SHOWN_CLOCKWISE);
+	uint32_t asked = m->surface.hidden &
+	                 ~(SCENE_CARD | SCENE_FACETED | SCENE_DOME_LIT | SCENE_NEAR_MIRROR | SCENE_UNSHADED |
+	                   SCENE_NO_NORMALS | SCENE_SHOWN_COUNTER | SCENE_SHOWN_CLOCKWISE);
 
 	p->shapes[p->n_instances] = shape;
 	mat4_sums[scene->views[from->view].x87].mul(g->clip_from_obj, scene->views[from->view].projection, from->modelview);
@@ -345,12 +347,12 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	if (instance->flags & (INSTANCE_PASS_COUNTER | INSTANCE_PASS_CLOCKWISE))
 		asked &= ~SCENE_ONE_SIDED;
 	if (instance->flags & INSTANCE_SECONDARY)
-		p->has_transparency |= m->blend || m->alpha_test || m->alpha_to_coverage || m->clip_plane_mask || m->surface.transmit > 0 ||
-		                       m->polygon_stipple != SCENE_NONE ||
-		                       asked;
+		p->has_transparency |= m->blend || m->alpha_test || m->alpha_to_coverage || m->clip_plane_mask ||
+		                       m->surface.transmit > 0 || m->polygon_stipple != SCENE_NONE || asked;
 }
 
-/* One scene instance in the shapes that its polygon modes give it; filled ones in the first pass, others in the second. */
+/* One scene instance in the shapes that its polygon modes give it; filled ones in the first pass, others in the
+ * second. */
 static void add_shapes(const struct scene *scene, struct prepared *p, struct segment *segment, uint32_t index,
                        int screen)
 {
@@ -396,10 +398,10 @@ static uint32_t draw_mode(const struct scene *scene, const struct scene_instance
 	if (scene->meshes[instance->mesh]->kind != SCENE_TRIANGLES || m->polygon_mode_front != GL_FILL ||
 	    m->polygon_mode_back != GL_FILL)
 		return CAMERA_COLUMN;
-	if (!m->depth_test || !m->depth_write || m->blend || m->alpha_test || m->stencil_test || m->logic_op || m->srgb ||
-	    (m->color_mask & 7) != 7 || m->clip_plane_mask || m->polygon_stipple != SCENE_NONE || m->samples_off || m->alpha_to_coverage ||
-	    m->surface.hidden & SCENE_LEFT_OUT || (m->polygon_offset & 4) || program_moves(scene, m) ||
-	    scene->depth_bits < 24) /* of more bits, 24 count (pixel_depth_steps) */
+	if (!m->depth_test || !m->depth_write || m->blend || m->alpha_test || m->stencil_test || m->logic_op ||
+	    m->srgb || (m->color_mask & 7) != 7 || m->clip_plane_mask || m->polygon_stipple != SCENE_NONE ||
+	    m->samples_off || m->alpha_to_coverage || m->surface.hidden & SCENE_LEFT_OUT || (m->polygon_offset & 4) ||
+	    program_moves(scene, m) || scene->depth_bits < 24) /* of more bits, 24 count (pixel_depth_steps) */
 		return CAMERA_COLUMN;
 	if (m->depth_func == GL_LESS)
 		return CAMERA_NEAREST_LESS;

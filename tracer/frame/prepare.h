@@ -1,6 +1,6 @@
 /*
- * A frame as the wavefront takes it: scene instances with their matrices and flags, and the frame's events in order, cut into
- * segments. One camera pass answers for each segment.
+ * A frame as the wavefront takes it: scene instances with their matrices and flags, and the frame's events in order,
+ * cut into segments. One camera pass answers for each segment.
  */
 #pragma once
 
@@ -61,7 +61,8 @@ int prepare_is_displaced(const struct scene *scene, const struct scene_instance 
 /** Place a filled instance by its modelview; bake it where that has no inverse, or is projective. */
 void prepare_place(struct prepared *p, const struct scene *scene, uint32_t instance);
 
-/** By how much camera rays widen an instance's boxes (struct instance): `positions`, in object space, or in eye space where it is baked. */
+/** By how much camera rays widen an instance's boxes (struct instance): `positions`, in object space, or in eye space
+ * where it is baked. */
 void prepare_pad(struct prepared *p, uint32_t instance, const float (*positions)[4], uint32_t n);
 
 /** Move the picture of a prepared frame: its views are as prepare_frame would have made them with this shift. */

@@ -28,7 +28,9 @@ static int scan(struct device *dev, const struct scan_list *list, uint32_t *sums
 	int err = launch_reserve(dev, *list->scratch, n_sums);
 
 	if (!err)
-		err = launch_scan_sum(dev, n_sums, LAUNCH(scan_sum, .counts = list->counts, .n = list->n, .full = list->full, .sums = *list->scratch));
+		err = launch_scan_sum(dev, n_sums,
+		                      LAUNCH(scan_sum, .counts = list->counts, .n = list->n, .full = list->full,
+		                             .sums = *list->scratch));
 	if (!err)
 		err = device_read(dev, list->scratch->buffer, 0, sums, n_sums * sizeof(*sums));
 	if (!err)
@@ -38,8 +40,10 @@ static int scan(struct device *dev, const struct scan_list *list, uint32_t *sums
 	err = launch_reserve(dev, *list->places, list->n);
 	if (!err)
 		err = device_write(dev, list->scratch->buffer, 0, sums, n_sums * sizeof(*sums));
-	return err ? err : launch_scan_place(dev, n_sums, LAUNCH(scan_place, .counts = list->counts, .n = list->n, .before = *list->scratch,
-	                                                         .places = *list->places));
+	return err ? err :
+	             launch_scan_place(dev, n_sums,
+	                               LAUNCH(scan_place, .counts = list->counts, .n = list->n,
+	                                      .before = *list->scratch, .places = *list->places));
 }
 
 int scan_counts(struct device *dev, const struct scan_list *list, uint32_t *total, int *is_full)

@@ -42,8 +42,8 @@ static uint32_t packs(uint32_t n)
 }
 
 /* Which of n rays meet anything in a space. */
-static int occlude(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays, union buffer_uint occluded,
-                   uint32_t n)
+static int occlude(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
+                   union buffer_uint occluded, uint32_t n)
 {
 	const struct traverse_rays r = { .space = space, .n = n, .to_lights = to_lights, .rays = rays, .occluded = occluded };
 	struct device *dev = job->tr->dev;
@@ -53,17 +53,19 @@ static int occlude(struct job *job, const struct accel_space *space, uint32_t to
 }
 
 /* Their nearest hits. whose: which rays they are */
-static int intersect(struct job *job, const struct accel_space *space, enum hook_rays_of whose, union buffer_ray rays, union buffer_hit hits,
-                     uint32_t n)
+static int intersect(struct job *job, const struct accel_space *space, enum hook_rays_of whose, union buffer_ray rays,
+                     union buffer_hit hits, uint32_t n)
 {
 	const struct traverse_rays r = { .space = space, .n = n, .rays = rays, .hits = hits };
 	struct device *dev = job->tr->dev;
-	int err = space->n_nodes ? traverse_rays(dev, traverse_families[device_family(dev)].intersect, &job->tr->trees, &r) : 0;
+	int err = space->n_nodes ?
+	                  traverse_rays(dev, traverse_families[device_family(dev)].intersect, &job->tr->trees, &r) :
+	                  0;
 
 	return err || !hook_objects_in(job, space) ? err : hook_objects_intersect(job, &r, whose);
 }
 
-/* --- Lists -------------------------------------------------------------------------------------------------------- */
+/* --- Lists ------------------------------------------------------------------------------------------------------- */
 
 /* A list of paths and their rays, and room for what comes of it. */
 struct list {
@@ -105,7 +107,9 @@ static int place(struct job *job, union buffer_uint counts, uint32_t n, uint32_t
 {
 	struct tracer *tr = job->tr;
 
-	return scan_counts(tr->dev, &(const struct scan_list){ counts, n, SCENE_NONE, &tr->buffers.places, &tr->buffers.scan }, total, NULL);
+	return scan_counts(tr->dev,
+	                   &(const struct scan_list){ counts, n, SCENE_NONE, &tr->buffers.places, &tr->buffers.scan },
+	                   total, NULL);
 }
 
 /* What came of a list's n paths, up to `slots` each, becomes the list. */
@@ -126,9 +130,10 @@ static int gather_list(struct job *job, const struct list *list, uint32_t slots,
 	                                  .rays = *list->rays, .paths = *list->paths));
 }
 
-/* --- Rays to lights ----------------------------------------------------------------------------------------------- */
+/* --- Rays to lights ---------------------------------------------------------------------------------------------- */
 
-static int start_walk(struct job *job, const struct list *list, union buffer_ray rays, uint32_t n_rays, float weight, uint32_t *n)
+static int start_walk(struct job *job, const struct list *list, union buffer_ray rays, uint32_t n_rays, float weight,
+                      uint32_t *n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -145,13 +150,16 @@ static int start_walk(struct job *job, const struct list *list, union buffer_ray
 		err = frame_reserve(tr, next_counts, *n);
 	if (err)
 		return err;
-	return launch_shadow_start(tr->dev, n_rays, LAUNCH(shadow_start, .occluded = b->occluded, .places = b->places, .rays = rays,
-	                                                   .weight = weight, .n = n_rays, .shadow_rays = *list->rays,
-	                                                   .shadow_paths = *list->paths));
+	return launch_shadow_start(tr->dev, n_rays,
+	                           LAUNCH(shadow_start, .occluded = b->occluded, .places = b->places, .rays = rays,
+	                                  .weight = weight, .n = n_rays, .shadow_rays = *list->rays,
+	                                  .shadow_paths = *list->paths));
 }
 
-/* The stopped ones of n_rays rays that shadow_sum has left go on through what lets light pass, from surface to surface. */
-static int walk_layers(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays, uint32_t n_rays, float weight)
+/* The stopped ones of n_rays rays that shadow_sum has left go on through what lets light pass, from surface to
+ * surface. */
+static int walk_layers(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
+                       uint32_t n_rays, float weight)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -176,8 +184,8 @@ static int walk_layers(struct job *job, const struct accel_space *space, uint32_
 }
 
 /* One of `samples` rounds of n_rays rays, already made, into buffers.visibility. to_lights: 0: they look around */
-static int ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays, uint32_t n_rays,
-               uint32_t sample, uint32_t samples)
+static int ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
+               uint32_t n_rays, uint32_t sample, uint32_t samples)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	const int through = job->prepared.has_transparency || hooks_has(job, HOOK_ANY_HIT);
@@ -186,7 +194,8 @@ static int ask(struct job *job, const struct accel_space *space, uint32_t to_lig
 
 	if (!err)
 		err = launch_shadow_sum(job->tr->dev, n_rays, LAUNCH(shadow_sum, .rays = rays, .weight = weight, .first = sample == 0,
-		                                                     .through = (uint32_t)through, .n = n_rays, .occluded = b->occluded,
+		                                                     .through = (uint32_t)through, .n = n_rays,
+		                                                     .occluded = b->occluded,
 		                                                     .visibility = b->visibility));
 	return err || !(to_lights || through) ? err : walk_layers(job, space, to_lights, rays, n_rays, weight);
 }
@@ -203,7 +212,8 @@ int secondary_reserve_rays(struct job *job, size_t n_rays)
 	return err;
 }
 
-int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays, uint32_t n_rays)
+int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
+                  uint32_t n_rays)
 {
 	return ask(job, space, to_lights, rays, n_rays, 0, 1);
 }
@@ -248,15 +258,18 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct emission_launch emission = emitters_of(job, space);
-	const uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4, all = n_rays + (emission.n_emitters ? n : 0);
+	const uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4,
+		       all = n_rays + (emission.n_emitters ? n : 0);
 	const int packets = frame_in_packets(job);
 	int err = secondary_reserve_rays(job, all);
 
 	if (!err)
 		err = frame_reserve(tr, wanted, n);
 	if (!err && !packets)
-		err = launch_want_lights(tr->dev, n, LAUNCH(want_lights, .tables = frame_tables(tr), .hits = b->path_hits,
-		                                            .rays = b->path_rays, .transport = transport, .n = n, .wanted = b->wanted));
+		err = launch_want_lights(tr->dev, n,
+		                         LAUNCH(want_lights, .tables = frame_tables(tr), .hits = b->path_hits,
+		                                .rays = b->path_rays, .transport = transport, .n = n,
+		                                .wanted = b->wanted));
 	for (uint32_t i = 0; i < samples && !err; i++) {
 		const struct hit_ray_launch *a =
 			LAUNCH(hit_ray, .tables = frame_tables(tr), .hits = b->path_hits, .rays = b->path_rays, .paths = b->paths,
@@ -265,17 +278,19 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 
 		err = packets ? launch_hit_ray_packet(tr->dev, packs(n), a) : launch_hit_ray(tr->dev, n_rays, a);
 		if (!err && all > n_rays)
-			err = launch_bounce_ray(tr->dev, n, LAUNCH(bounce_ray, .tables = frame_tables(tr), .hits = b->path_hits, .rays = b->path_rays,
-			                                           .paths = b->paths, .pixels = b->pixels, .emission = emission, .sample = job->pass,
-			                                           .frame = frame_number(job), .depth = job->options->depth, .first = n_rays, .n = n,
-			                                           .out = b->rays));
+			err = launch_bounce_ray(tr->dev, n,
+			                        LAUNCH(bounce_ray, .tables = frame_tables(tr), .hits = b->path_hits,
+			                               .rays = b->path_rays, .paths = b->paths, .pixels = b->pixels,
+			                               .emission = emission, .sample = job->pass,
+			                               .frame = frame_number(job), .depth = job->options->depth,
+			                               .first = n_rays, .n = n, .out = b->rays));
 		if (!err)
 			err = ask(job, space, 1, b->rays, all, i, samples);
 	}
 	return err || !hooks_has(job, HOOK_LIGHT) ? err : hooks_light_hits(job, transport, n);
 }
 
-/* --- Openness ------------------------------------------------------------------------------------------------------ */
+/* --- Openness ---------------------------------------------------------------------------------------------------- */
 
 int secondary_openness(struct job *job, const struct accel_space *space, uint32_t n)
 {
@@ -295,11 +310,12 @@ int secondary_openness(struct job *job, const struct accel_space *space, uint32_
 	}
 	if (err)
 		return err;
-	return launch_ao_shade(tr->dev, n, LAUNCH(ao_shade, .visibility = b->visibility,
-	                                          .over_gl = job->options->mode == TRACER_AO_PHONG, .n = n, .shaded = b->shaded));
+	return launch_ao_shade(tr->dev, n,
+	                       LAUNCH(ao_shade, .visibility = b->visibility,
+	                              .over_gl = job->options->mode == TRACER_AO_PHONG, .n = n, .shaded = b->shaded));
 }
 
-/* --- Paths --------------------------------------------------------------------------------------------------------- */
+/* --- Paths ------------------------------------------------------------------------------------------------------- */
 
 /* Which surfaces that shine each of n fragments sees, into buffers.visibility. */
 static int ask_emitters(struct job *job, const struct accel_space *space, uint32_t n)
@@ -311,14 +327,16 @@ static int ask_emitters(struct job *job, const struct accel_space *space, uint32
 
 	if (err || !emission.n_emitters)
 		return err;
-	err = launch_leave_ray(tr->dev, n, LAUNCH(leave_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-	                                          .fragments = b->fragments, .pixels = b->pixels, .width = job->width, .shaded = b->shaded,
-	                                          .emission = emission, .sample = job->pass, .frame = frame_number(job), .n = n,
-	                                          .rays = b->rays));
+	err = launch_leave_ray(tr->dev, n,
+	                       LAUNCH(leave_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
+	                              .fragments = b->fragments, .pixels = b->pixels, .width = job->width,
+	                              .shaded = b->shaded, .emission = emission, .sample = job->pass,
+	                              .frame = frame_number(job), .n = n, .rays = b->rays));
 	return err ? err : secondary_ask(job, space, 1, b->rays, n);
 }
 
-static int leave(struct job *job, const struct list *list, const struct accel_space *space, uint32_t transport, uint32_t n)
+static int leave(struct job *job, const struct list *list, const struct accel_space *space, uint32_t transport,
+                 uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -330,8 +348,9 @@ static int leave(struct job *job, const struct list *list, const struct accel_sp
 	if (err)
 		return err;
 	a = LAUNCH(leave, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
-	           .pixels = b->pixels, .width = job->width, .transport = transport, .sample = job->pass, .frame = frame_number(job),
-	           .emission = emitters_of(job, space), .visibility = b->visibility, .n = n, .shaded = b->shaded,
+	           .pixels = b->pixels, .width = job->width, .transport = transport, .sample = job->pass,
+	           .frame = frame_number(job), .emission = emitters_of(job, space), .visibility = b->visibility, .n = n,
+	           .shaded = b->shaded,
 	           .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
 	return frame_in_packets(job) ? launch_leave_packet(tr->dev, packs(n), a) : launch_leave(tr->dev, n, a);
 }
@@ -346,12 +365,14 @@ static int look_at_sky(struct job *job, const struct accel_space *sky, uint32_t 
 		return err;
 	err = frame_reserve(tr, sky_rays, n);
 	if (!err)
-		err = launch_sky_ray(tr->dev, n, LAUNCH(sky_ray, .hits = b->path_hits, .rays = b->path_rays, .n = n, .out = b->sky_rays));
+		err = launch_sky_ray(
+			tr->dev, n,
+			LAUNCH(sky_ray, .hits = b->path_hits, .rays = b->path_rays, .n = n, .out = b->sky_rays));
 	return err ? err : intersect(job, sky, HOOK_RAYS_ON, b->sky_rays, b->sky_hits, n);
 }
 
-static int shade_hits(struct job *job, const struct list *list, const struct accel_space *space, uint32_t has_sky, uint32_t transport,
-                      uint32_t n)
+static int shade_hits(struct job *job, const struct list *list, const struct accel_space *space, uint32_t has_sky,
+                      uint32_t transport, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -364,15 +385,18 @@ static int shade_hits(struct job *job, const struct list *list, const struct acc
 		err = frame_reserve(tr, radiance, 3 * (size_t)n);
 	if (err)
 		return err;
-	a = LAUNCH(shade_hit, .tables = frame_tables(tr), .hits = b->path_hits, .sky = b->sky_hits, .has_sky = has_sky, .rays = *list->rays,
-	           .paths = *list->paths, .pixels = b->pixels, .visibility = b->visibility, .n_slots = job->prepared.n_light_slots,
-	           .transport = transport, .sample = job->pass, .frame = frame_number(job), .emission = emitters_of(job, space),
-	           .depth = job->options->depth, .most = job->options->clamp, .background = b->background, .shaded = b->shaded,
-	           .n = n, .radiance = b->radiance, .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
+	a = LAUNCH(shade_hit, .tables = frame_tables(tr), .hits = b->path_hits, .sky = b->sky_hits, .has_sky = has_sky,
+	           .rays = *list->rays, .paths = *list->paths, .pixels = b->pixels, .visibility = b->visibility,
+	           .n_slots = job->prepared.n_light_slots, .transport = transport, .sample = job->pass,
+	           .frame = frame_number(job), .emission = emitters_of(job, space), .depth = job->options->depth,
+	           .most = job->options->clamp, .background = b->background, .shaded = b->shaded, .n = n,
+	           .radiance = b->radiance, .next_rays = *list->next_rays, .next_paths = *list->next_paths,
+	           .counts = b->next_counts);
 	return frame_in_packets(job) ? launch_shade_hit_packet(tr->dev, packs(n), a) : launch_shade_hit(tr->dev, n, a);
 }
 
-int secondary_follow(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t slots, uint32_t n, int see)
+int secondary_follow(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t slots,
+                     uint32_t n, int see)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -399,8 +423,9 @@ int secondary_follow(struct job *job, const struct accel_space *space, const str
 		if (!err && hooks_has(job, HOOK_ANY_HIT | HOOK_CLOSEST_HIT | HOOK_MISS))
 			err = hooks_hit(job, space, transport, n);
 		if (!err)
-			err = launch_credit(tr->dev, n, LAUNCH(credit, .paths = *list.paths, .radiance = b->radiance, .transport = transport, .n = n,
-			                                       .shaded = b->shaded));
+			err = launch_credit(tr->dev, n,
+			                    LAUNCH(credit, .paths = *list.paths, .radiance = b->radiance,
+			                           .transport = transport, .n = n, .shaded = b->shaded));
 		if (!err)
 			err = gather_list(job, &list, PATHS_PER_HIT, &n);
 	}
@@ -421,21 +446,24 @@ int secondary_paths(struct job *job, const struct accel_space *space, const stru
 	return err ? err : secondary_follow(job, space, sky, PATHS_PER_FRAGMENT, n, 0);
 }
 
-/* --- Photons ------------------------------------------------------------------------------------------------------- */
+/* --- Photons ----------------------------------------------------------------------------------------------------- */
 
 /* One way of n photons: to what they meet. photons: room for n */
-static int send(struct job *job, const struct list *list, const struct accel_space *space, uint32_t pass, uint32_t n, struct photon *photons)
+static int send(struct job *job, const struct list *list, const struct accel_space *space, uint32_t pass, uint32_t n,
+                struct photon *photons)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	int err;
 
-	if ((err = frame_reserve(tr, path_hits, n)) || (err = frame_reserve(tr, photons, n)) || (err = frame_reserve(tr, next_counts, n)) ||
-	    (err = reserve_next(job, list, (size_t)PATHS_PER_HIT * n)) || (err = intersect(job, space, HOOK_RAYS_ON, *list->rays, b->path_hits, n)) ||
-	    (err = launch_photon(tr->dev, n, LAUNCH(photon, .tables = frame_tables(tr), .hits = b->path_hits, .rays = *list->rays,
-	                                            .paths = *list->paths, .depth = job->options->depth, .pass = pass, .n = n,
-	                                            .photons = b->photons, .next_rays = *list->next_rays, .next_paths = *list->next_paths,
-	                                            .counts = b->next_counts))))
+	if ((err = frame_reserve(tr, path_hits, n)) || (err = frame_reserve(tr, photons, n)) ||
+	    (err = frame_reserve(tr, next_counts, n)) || (err = reserve_next(job, list, (size_t)PATHS_PER_HIT * n)) ||
+	    (err = intersect(job, space, HOOK_RAYS_ON, *list->rays, b->path_hits, n)) ||
+	    (err = launch_photon(tr->dev, n,
+	                         LAUNCH(photon, .tables = frame_tables(tr), .hits = b->path_hits, .rays = *list->rays,
+	                                .paths = *list->paths, .depth = job->options->depth, .pass = pass, .n = n,
+	                                .photons = b->photons, .next_rays = *list->next_rays,
+	                                .next_paths = *list->next_paths, .counts = b->next_counts))))
 		return err;
 	return device_read(tr->dev, b->photons.buffer, 0, photons, n * sizeof(*photons));
 }

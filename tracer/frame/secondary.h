@@ -1,4 +1,5 @@
-/* Rays from the fragments of the list: to lights, into the surroundings, mirrored, through glass. Functions return 0 or ERR_SYSTEM (reported). */
+/* Rays from the fragments of the list: to lights, into the surroundings, mirrored, through glass. Functions return 0 or
+ * ERR_SYSTEM (reported). */
 #pragma once
 
 #include "tracer/frame/frame.h"
@@ -16,7 +17,8 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 int secondary_reserve_rays(struct job *job, size_t n_rays);
 
 /** What becomes of rays that are there already, into buffers.visibility[ray]. to_lights: 0: they look around instead */
-int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays, uint32_t n_rays);
+int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
+                  uint32_t n_rays);
 
 /** How open the surroundings of all n fragments are, in place of their colours or over them. */
 int secondary_openness(struct job *job, const struct accel_space *space, uint32_t n);
@@ -25,11 +27,12 @@ int secondary_openness(struct job *job, const struct accel_space *space, uint32_
 int secondary_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n);
 
 /**
- * Follow paths: the next rays of n items, up to `slots` each (buffers.next_path_rays, next_paths and next_counts), bounce by bounce into the
- * parts of the fragments that they come from.
+ * Follow paths: the next rays of n items, up to `slots` each (buffers.next_path_rays, next_paths and next_counts),
+ * bounce by bounce into the parts of the fragments that they come from.
  * @param see  1: what the first of them hit is what their pixels show (hooks_see)
  */
-int secondary_follow(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t slots, uint32_t n, int see);
+int secondary_follow(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t slots,
+                     uint32_t n, int see);
 
 /**
  * Follow n photons, whose rays and paths stand in buffers.path_rays and paths (kernels/frame/photon.h).

@@ -46,8 +46,9 @@ static int clear_sample(struct job *job, const struct scene_clear *clear)
 	struct camera_rectangle r = segment_rectangle(job, clear->scissor);
 	uint32_t n = rectangle_area(r);
 
-	return launch_clear(job->tr->dev, n, LAUNCH(clear, .clear = *clear, .rectangle = segment_in_buffers(job, r), .width = job->width, .bits = job->bits,
-	                                            .n = n, .frame = *job->frame));
+	return launch_clear(job->tr->dev, n,
+	                    LAUNCH(clear, .clear = *clear, .rectangle = segment_in_buffers(job, r), .width = job->width,
+	                           .bits = job->bits, .n = n, .frame = *job->frame));
 }
 
 static int run_clear(struct job *job, const struct scene_clear *clear)
@@ -82,8 +83,11 @@ uint32_t segment_whole_clear(const struct job *job, struct scene_clear *out)
 	uint32_t n = 0;
 
 	/* Depth that nothing cleared is 0, as Mesa's is; GL does not say (GL 2.1 sec. 4.2.3). */
-	*out = (struct scene_clear){ .buffers = 7, .scissor = { 0, 0, (int32_t)job->width, (int32_t)job->height }, .color_mask = 15,
-		                     .stencil_mask = 0xffffffffu, .floats = job->scene->floats };
+	*out = (struct scene_clear){ .buffers = 7,
+		                     .scissor = { 0, 0, (int32_t)job->width, (int32_t)job->height },
+		                     .color_mask = 15,
+		                     .stencil_mask = 0xffffffffu,
+		                     .floats = job->scene->floats };
 	for (; job->prepared.n_segments && n < segment->clear_count; n++) {
 		const struct scene_clear *next = &job->scene->clears[segment->clear_first + n];
 
@@ -107,11 +111,14 @@ int segment_clear_one(struct job *job)
 	int err = frame_upload(job->tr, cleared, &nothing, 1);
 
 	segment_whole_clear(job, &clear);
-	return err ? err : launch_clear(job->tr->dev, 1, LAUNCH(clear, .clear = clear, .rectangle = one, .width = 1, .bits = job->bits, .n = 1,
-	                                                        .frame = job->tr->buffers.cleared));
+	return err ? err :
+	             launch_clear(job->tr->dev, 1,
+	                          LAUNCH(clear, .clear = clear, .rectangle = one, .width = 1, .bits = job->bits, .n = 1,
+	                                 .frame = job->tr->buffers.cleared));
 }
 
-/* Whether all pixels begin alike, are drawn to by resolve_packet alone (not by a hook's rays), and go into one picture. n_cleared: clears of all of them */
+/* Whether all pixels begin alike, are drawn to by resolve_packet alone (not by a hook's rays), and go into one picture.
+ * n_cleared: clears of all of them */
 static int clears_late(const struct job *job, uint32_t n_cleared)
 {
 	uint32_t n = 0;
@@ -147,13 +154,15 @@ int segment_clear_all(struct job *job, uint32_t *n_done)
 	return late ? segment_clear_one(job) : run_clear(job, &clear);
 }
 
-struct camera_pass_launch segment_camera_pass(const struct job *job, const struct segment *segment, struct camera_rectangle r, uint32_t first)
+struct camera_pass_launch segment_camera_pass(const struct job *job, const struct segment *segment,
+                                              struct camera_rectangle r, uint32_t first)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 
-	return *LAUNCH(camera_pass, .view_index = segment->view, .views = b->views, .width = job->width, .height = job->height, .rectangle = r,
-	               .first_pixel = frame_first_pixel(job) - first, .mode = segment->mode, .window = b->windows, .clip = b->clips,
-	               .after = b->after, .fragments = b->sparse, .counts = b->counts);
+	return *LAUNCH(camera_pass, .view_index = segment->view, .views = b->views, .width = job->width,
+	               .height = job->height, .rectangle = r, .first_pixel = frame_first_pixel(job) - first,
+	               .mode = segment->mode, .window = b->windows, .clip = b->clips, .after = b->after,
+	               .fragments = b->sparse, .counts = b->counts);
 }
 
 int segment_trace_camera(struct job *job, const struct segment *segment, struct camera_rectangle r, uint32_t first)
@@ -163,7 +172,8 @@ int segment_trace_camera(struct job *job, const struct segment *segment, struct 
 	return traverse_camera(job->tr->dev, traverse_families[device_family(job->tr->dev)].camera, &job->tr->trees, r, &pass);
 }
 
-/* Pixels across of the blocks that the list goes by: what one work item takes of their rays (RAYS_PER_ITEM) should stay together. */
+/* Pixels across of the blocks that the list goes by: what one work item takes of their rays (RAYS_PER_ITEM) should stay
+ * together. */
 #define LIST_BLOCK 8
 
 /* Up to `limit`, a step of blocks from `at` on; the first ends at a multiple. */
@@ -205,8 +215,8 @@ static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t 
 }
 
 /*
- * The same in the order of pixels, by the device itself, where a work item takes one fragment and all pixels count: then neither their counts nor
- * their places go over to the host.
+ * The same in the order of pixels, by the device itself, where a work item takes one fragment and all pixels count:
+ * then neither their counts nor their places go over to the host.
  */
 static int place_on_device(struct job *job, uint32_t slots, uint32_t *n_list, int *more)
 {
@@ -236,10 +246,11 @@ static int run_gather(struct job *job, struct camera_rectangle r, uint32_t slots
 		err = frame_reserve(tr, shaded, n_list);
 	if (err)
 		return err;
-	return launch_gather(tr->dev, n, LAUNCH(gather, .sparse = b->sparse, .counts = b->counts, .slots = slots, .first = b->first,
-	                                        .list = b->fragments, .pixels = b->pixels, .after = b->after,
-	                                        .rectangle = segment_in_buffers(job, r), .width = job->width,
-	                                        .first_pixel = frame_first_pixel(job), .n = n));
+	return launch_gather(tr->dev, n,
+	                     LAUNCH(gather, .sparse = b->sparse, .counts = b->counts, .slots = slots, .first = b->first,
+	                            .list = b->fragments, .pixels = b->pixels, .after = b->after,
+	                            .rectangle = segment_in_buffers(job, r), .width = job->width,
+	                            .first_pixel = frame_first_pixel(job), .n = n));
 }
 
 static int run_shade(struct job *job, uint32_t slots, uint32_t n)
@@ -250,8 +261,9 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 	const uint32_t albedo = transport >= TRANSPORT_DIFFUSE || (job->image && compose_asks(job->options, "albedo"));
 	const struct shade_launch *a =
 		LAUNCH(shade, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
-		       .pixels = b->pixels, .width = job->width, .height = job->height, .bits = job->bits, .visibility = b->visibility,
-		       .n_slots = slots, .transport = transport, .albedo = albedo, .n = n, .programs = b->programs, .output = job->scene->output,
+		       .pixels = b->pixels, .width = job->width, .height = job->height, .bits = job->bits,
+		       .visibility = b->visibility, .n_slots = slots, .transport = transport, .albedo = albedo, .n = n,
+		       .programs = b->programs, .output = job->scene->output,
 		       .shaded = b->shaded);
 	const int in_packets = frame_in_packets(job);
 	const uint32_t packets = (n + SHADE_PACKET - 1) / SHADE_PACKET;
@@ -268,10 +280,10 @@ static int run_resolve(struct job *job, struct camera_rectangle r)
 	const struct frame_buffers *b = &tr->buffers;
 	const int packets = frame_in_packets(job);
 	const uint32_t n = packets ? frame_columns(job->width) * (uint32_t)(r.y1 - r.y0) : rectangle_area(r);
-	const struct resolve_launch *a =
-		LAUNCH(resolve, .tables = frame_tables(tr), .fragments = b->fragments, .shaded = b->shaded, .first = b->first, .counts = b->counts,
-		       .rectangle = segment_in_buffers(job, r), .width = job->width, .bits = job->bits, .n = n, .cleared = b->cleared,
-		       .drawn = b->drawn, .frame = *job->frame);
+	const struct resolve_launch *a = LAUNCH(
+		resolve, .tables = frame_tables(tr), .fragments = b->fragments, .shaded = b->shaded, .first = b->first,
+		.counts = b->counts, .rectangle = segment_in_buffers(job, r), .width = job->width, .bits = job->bits,
+		.n = n, .cleared = b->cleared, .drawn = b->drawn, .frame = *job->frame);
 
 	return packets ? launch_resolve_packet(tr->dev, n, a) : launch_resolve(tr->dev, n, a);
 }
@@ -346,14 +358,14 @@ static int run_draws(struct job *job, const struct segment *segment)
 }
 
 /*
- * Where llvmpipe (Mesa 22.3.6, lp_sample_pos_4x) and Direct3D have four samples: 1/256 pixel right of and below a pixel's centre. Rows
- * count from the top of windows and from the bottom of framebuffer objects.
+ * Where llvmpipe (Mesa 22.3.6, lp_sample_pos_4x) and Direct3D have four samples: 1/256 pixel right of and below a
+ * pixel's centre. Rows count from the top of windows and from the bottom of framebuffer objects.
  */
 static const int32_t sample_places[SCENE_SAMPLES][2] = { { -32, -96 }, { 96, -32 }, { -96, 32 }, { 32, 96 } };
 
 /*
- * Under multisampling llvmpipe (22.3.6, lp_setup_add_scissor_planes) lets samples in the second half of the pixels before a scissor
- * rectangle pass, where they lie in the same tile. Columns and rows counted from where it counts.
+ * Under multisampling llvmpipe (22.3.6, lp_setup_add_scissor_planes) lets samples in the second half of the pixels
+ * before a scissor rectangle pass, where they lie in the same tile. Columns and rows counted from where it counts.
  */
 static int32_t leaks(int32_t first, int32_t place)
 {
@@ -413,16 +425,18 @@ int segment_merge_samples(struct job *job)
 	const struct frame_buffers *b = &job->tr->buffers;
 
 	return launch_merge_samples(job->tr->dev, job->n_pixels,
-	                            LAUNCH(merge_samples, .first = b->samples[0], .second = b->samples[1], .third = b->samples[2],
-	                                   .fourth = b->samples[3], .n = job->n_pixels, .frame = b->frame));
+	                            LAUNCH(merge_samples, .first = b->samples[0], .second = b->samples[1],
+	                                   .third = b->samples[2], .fourth = b->samples[3], .n = job->n_pixels,
+	                                   .frame = b->frame));
 }
 
 int segment_add_pass(struct job *job, uint32_t first)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 
-	return launch_add_pass(job->tr->dev, job->n_pixels, LAUNCH(add_pass, .frame = b->frame, .turn = job->turn, .first = first,
-	                                                           .first_pixel = frame_first_pixel(job),
-	                                                           .radiant = secondary_transport(job->options) == TRANSPORT_LINEAR, .n = job->n_pixels,
-	                                                           .sums = b->sums));
+	return launch_add_pass(job->tr->dev, job->n_pixels,
+	                       LAUNCH(add_pass, .frame = b->frame, .turn = job->turn, .first = first,
+	                              .first_pixel = frame_first_pixel(job),
+	                              .radiant = secondary_transport(job->options) == TRANSPORT_LINEAR,
+	                              .n = job->n_pixels, .sums = b->sums));
 }

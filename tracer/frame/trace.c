@@ -91,14 +91,17 @@ int tracer_check_aov(const char *aov)
 		for (int i = 0; compose_groups[i]; i++)
 			known |= strlen(compose_groups[i]) == n && strncmp(compose_groups[i], at, n) == 0;
 		if (!known)
-			return err_report(ERR_USAGE, NULL, "there is no channel group '%.*s'; there are gl, shadow, relight, reflect, refract, Z, N, "
-			                  "P, albedo, id, layers, cryptomatte, motion and caustics", (int)n, at);
+			return err_report(ERR_USAGE, NULL,
+			                  "there is no channel group '%.*s'; there are gl, shadow, relight, reflect, "
+			                  "refract, Z, N, "
+			                  "P, albedo, id, layers, cryptomatte, motion and caustics",
+			                  (int)n, at);
 		at += n + (at[n] == ',');
 	}
 	return 0;
 }
 
-/* --- Frames -------------------------------------------------------------------------------------------------------- */
+/* --- Frames ------------------------------------------------------------------------------------------------------ */
 
 /* Buffers of the band's pixels. */
 static int reserve_pixels(struct job *job)
@@ -132,8 +135,8 @@ static void count_undrawn(struct job *job)
 }
 
 /*
- * Rows of a band: whole tiles, and on a CPU so few that what is known of their pixels stays in its caches; a column may be eight fragments.
- * GPUs want many pixels at once.
+ * Rows of a band: whole tiles, and on a CPU so few that what is known of their pixels stays in its caches; a column may
+ * be eight fragments. GPUs want many pixels at once.
  */
 #define BAND_PIXELS_CPU 65536u
 #define BAND_PIXELS_COLUMNS 16384u
@@ -240,7 +243,8 @@ static void forget_frame(struct job *job)
 	job->is_placed = 0;
 }
 
-/* Bring what all bands need to the device: state, vertices, trees. A frame that is there already only moves, where that is enough. */
+/* Bring what all bands need to the device: state, vertices, trees. A frame that is there already only moves, where that
+ * is enough. */
 static int place_frame(struct job *job, const float shift[2])
 {
 	int err;
@@ -318,7 +322,7 @@ static int draw_picture(struct tracer *tracer, const struct scene *scene, struct
 	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
 }
 
-/* --- What frames begin with ---------------------------------------------------------------------------------------- */
+/* --- What frames begin with -------------------------------------------------------------------------------------- */
 
 /* A scene, and its start that was made here. */
 struct begun {
@@ -371,7 +375,7 @@ int tracer_render_picture(struct tracer *tracer, const struct scene *scene, stru
 	return err;
 }
 
-/* --- Samples ------------------------------------------------------------------------------------------------------- */
+/* --- Samples ----------------------------------------------------------------------------------------------------- */
 
 /* A frame's samples on their way: what was told and measured of them. */
 struct sampling {
@@ -407,7 +411,8 @@ static int show_preview(struct job *job, uint32_t passes)
 	return err;
 }
 
-/* After a pass: whether it was the last that is needed. passes: so many are summed up; one more is to come in any case */
+/* After a pass: whether it was the last that is needed. passes: so many are summed up; one more is to come in any
+ * case */
 static int is_enough(struct job *job, struct sampling *s, uint32_t passes, int *enough)
 {
 	const struct tracer_options *o = job->options;
@@ -431,7 +436,8 @@ static int is_enough(struct job *job, struct sampling *s, uint32_t passes, int *
 	return err;
 }
 
-/* All passes but the one through pixel centres. Where sampling may end early, in order: the first samples lie evenly by themselves. */
+/* All passes but the one through pixel centres. Where sampling may end early, in order: the first samples lie evenly by
+ * themselves. */
 static int sum_passes(struct job *job)
 {
 	const struct tracer_options *o = job->options;
@@ -457,7 +463,8 @@ static int sum_passes(struct job *job)
 }
 
 /* From scene->start on. unknown: receives how many pixels show something from before that is not there */
-static int draw_image(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options, struct image *img, uint64_t *unknown)
+static int draw_image(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
+                      struct image *img, uint64_t *unknown)
 {
 	struct tracer_options known = *options;
 	struct job job = { .tr = tracer, .scene = scene, .options = &known, .width = scene->width, .height = scene->height,
@@ -493,7 +500,9 @@ static int draw_image(struct tracer *tracer, const struct scene *scene, const st
 static int count_unknown(struct tracer *tracer, const struct scene *scene, uint64_t *unknown)
 {
 	struct scene_picture *picture = picture_blank(scene);
-	int err = picture ? draw_picture(tracer, scene, picture) : err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", scene->width, scene->height);
+	int err = picture ?
+	                  draw_picture(tracer, scene, picture) :
+	                  err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", scene->width, scene->height);
 
 	if (!err)
 		*unknown = picture->unknown;

@@ -1,11 +1,11 @@
 /*
  * The wavefront: a scene becomes a picture on a device.
  *
- * Per frame: vertex stage, acceleration structures, then band by band of rows. Buffers of pixels and of their fragments have a band's
- * size: they stay in a CPU's caches, and memory does not grow with the frame. Within a band segment follows segment (prepare.h) in draw
- * order. A segment clears, traces camera rays, gathers and shades fragments, lights those again whose shadow rays were stopped, follows
- * mirrors, and puts all through the per-fragment operations. A column of more fragments than one camera pass delivers takes several
- * passes.
+ * Per frame: vertex stage, acceleration structures, then band by band of rows. Buffers of pixels and of their fragments
+ * have a band's size: they stay in a CPU's caches, and memory does not grow with the frame. Within a band segment
+ * follows segment (prepare.h) in draw order. A segment clears, traces camera rays, gathers and shades fragments, lights
+ * those again whose shadow rays were stopped, follows mirrors, and puts all through the per-fragment operations. A
+ * column of more fragments than one camera pass delivers takes several passes.
  */
 #pragma once
 
@@ -22,29 +22,35 @@ enum tracer_mode {
 	TRACER_AO,       /* how open each surface is, as grey */
 	TRACER_AO_PHONG, /* the same over GL's picture */
 	TRACER_DIFFUSE,  /* whitted, and one bounce of light from surface to surface */
-	TRACER_PATH      /* light followed from surface to surface, no ambient light; linear but where `display` says otherwise */
+	TRACER_PATH      /* light followed from surface to surface, no ambient light; linear but where `display` says
+	                    otherwise */
 };
 
 struct tracer_options {
 	enum tracer_mode mode;
 	int display;      /* 1: channels keep GL's display-referred numbers; 0: linear light */
 	unsigned depth;   /* bounces at most */
-	unsigned samples; /* of a pixel, which is their mean; spread differently in each (kernels/frame/sample.h); 0 counts as 1 */
+	unsigned samples; /* of a pixel, which is their mean; spread differently in each (kernels/frame/sample.h); 0
+	                     counts as 1 */
 	double seconds;   /* where above 0, no sample begins that would end later; the picture then depends on time */
 	float noise;      /* where above 0, none begins once the picture is less noisy than this (noise.h) */
-	/* Where not NULL, shown a whole picture of the samples so far, now and then. @return 0, or ERR_* (reported), which ends the frame */
+	/* Where not NULL, shown a whole picture of the samples so far, now and then. @return 0, or ERR_* (reported),
+	 * which ends the frame */
 	int (*preview)(void *user, struct image *img);
 	void *preview_user;
 	/* Where not NULL, told after each sample how many there are. of: 0 where time or noise decides */
 	void (*sampled)(void *user, uint32_t done, uint32_t of);
 	void *sampled_user;
 	unsigned rays;    /* rays to each light that has a size, and into the surroundings, a sample; 0 counts as 16 */
-	float clamp;      /* of mode path: the most light that a path may bring, but by one mirror or glass alone; 0: no bound */
+	float clamp;      /* of mode path: the most light that a path may bring, but by one mirror or glass alone; 0: no
+	                     bound */
 	float reach;      /* of openness, eye-space units; 0: without end */
 	enum accel_kind accel; /* trees of meshes */
 	int accel_asked;       /* 0: nobody asked for these; they are kd-trees where the program called rtBuildKdTreeEXT */
-	struct blas_store *store;   /* where these are kept for other runs, or NULL; kept until the last tracer_render returns */
-	unsigned band_rows; /* rows of pixels that are drawn at a time; 0: as suits the device. The picture does not depend on it */
+	struct blas_store *store; /* where these are kept for other runs, or NULL; kept until the last tracer_render
+	                             returns */
+	unsigned band_rows; /* rows of pixels that are drawn at a time; 0: as suits the device. The picture does not
+	                       depend on it */
 	int relight;      /* 1: lit at each pixel (Phong), not between vertices */
 	const struct hook *hook; /* a user's functions at its stages, or NULL; the device has taken it (device_take_hook) */
 	unsigned photons; /* sent for channels caustics.*, whatever aov lists (photons.h); 0: there are none */

@@ -7,7 +7,8 @@
 const struct traverse_family traverse_families[N_DEVICE_FAMILIES] = {
 	[FAMILY_PACKETS] = { KERNEL_camera_packet, KERNEL_occlude_packet, KERNEL_intersect_packet, ACCEL_ROWS },
 	[FAMILY_BINARY] = { KERNEL_camera_wide, KERNEL_occlude_binary, KERNEL_intersect_binary, 0 },
-	[FAMILY_COMPRESSED] = { KERNEL_camera_compressed, KERNEL_occlude_compressed, KERNEL_intersect_compressed, ACCEL_COMPRESSED },
+	[FAMILY_COMPRESSED] = { KERNEL_camera_compressed, KERNEL_occlude_compressed, KERNEL_intersect_compressed,
+	                        ACCEL_COMPRESSED },
 };
 
 #define UPLOAD(element, name) \
@@ -69,7 +70,8 @@ int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_
 
 #define RAYS(list, top_of, nodes_of, triangles_of, ...) \
 	LAUNCH(list, .n_rays = r->n, .rays = r->rays, .top_first = r->space->top_of##_first, .top = t->top_of, \
-	       .instance_list = t->instance_list, .instances = t->instances, .nodes = t->nodes_of, .triangles = t->triangles_of, \
+	       .instance_list = t->instance_list, .instances = t->instances, .nodes = t->nodes_of, \
+	       .triangles = t->triangles_of, \
 	       __VA_ARGS__)
 #define OCCLUDE(list, top_of, nodes_of, triangles_of) \
 	RAYS(list, top_of, nodes_of, triangles_of, .to_lights = r->to_lights, .occluded = r->occluded)

@@ -8,7 +8,8 @@
 
 /* X(element, name): the pools of BLASes, and the TLASes, under their names in struct accel. */
 #define TRAVERSE_POOLS(X) \
-	X(node2, nodes2) X(node8, nodes8) X(node8c, nodes8c) X(triangle, triangles) X(triangle8, triangles8) X(triangle, triangles8c) \
+	X(node2, nodes2) X(node8, nodes8) X(node8c, nodes8c) X(triangle, triangles) X(triangle8, triangles8) \
+	X(triangle, triangles8c) \
 	X(face8, faces8)
 #define TRAVERSE_TLASES(X) X(node2, top2) X(node8, top8) X(uint, instance_list)
 
@@ -20,7 +21,8 @@ struct traverse_trees {
 	union buffer_instance instances;
 };
 
-/** Copy all pools to the device; or TLASes and instances, which change from frame to frame. @return 0 or ERR_SYSTEM (reported) */
+/** Copy all pools to the device; or TLASes and instances, which change from frame to frame. @return 0 or ERR_SYSTEM
+ * (reported) */
 int traverse_upload_pools(struct device *dev, const struct accel *accel, struct traverse_trees *trees);
 int traverse_upload_tlases(struct device *dev, const struct accel *accel, const struct instance *instances, size_t n,
                          struct traverse_trees *trees);
@@ -39,8 +41,8 @@ extern const struct traverse_family traverse_families[N_DEVICE_FAMILIES];
  * @param r       the view's camera_rectangle
  * @return 0 or ERR_SYSTEM (reported)
  */
-int traverse_camera(struct device *dev, enum kernel kernel, const struct traverse_trees *trees, struct camera_rectangle r,
-                    const struct camera_pass_launch *pass);
+int traverse_camera(struct device *dev, enum kernel kernel, const struct traverse_trees *trees,
+                    struct camera_rectangle r, const struct camera_pass_launch *pass);
 
 /* Rays through a space with something in it, and where the answers go: one of the two. */
 struct traverse_rays {
@@ -52,4 +54,5 @@ struct traverse_rays {
 };
 
 /** @return as traverse_camera */
-int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_trees *trees, const struct traverse_rays *r);
+int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_trees *trees,
+                  const struct traverse_rays *r);

@@ -210,5 +210,7 @@ int upload_trees(struct job *job)
 	struct tracer *tr = job->tr;
 	int err = upload_mesh_trees(tr, job->options->hook && job->options->hook->asks_boxes);
 
-	return err ? err : traverse_upload_tlases(tr->dev, tr->accel, job->prepared.instances, job->prepared.n_instances, &tr->trees);
+	return err ? err :
+	             traverse_upload_tlases(tr->dev, tr->accel, job->prepared.instances, job->prepared.n_instances,
+	                                    &tr->trees);
 }

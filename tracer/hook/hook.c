@@ -18,7 +18,7 @@ const char *const hook_stage_names[N_HOOK_STAGES] = { HOOK_STAGES(HOOK_STAGE_NAM
 static const char *const stage_macros[N_HOOK_STAGES] = { HOOK_STAGES(HOOK_STAGE_MACRO) };
 const char *const hook_type_names[N_HOOK_TYPES] = { "float", "int", "color" };
 
-/* --- Text ---------------------------------------------------------------------------------------------------------------- */
+/* --- Text -------------------------------------------------------------------------------------------------------- */
 
 /* The text with its comments blank, lines kept. */
 static char *without_comments(const char *text)
@@ -26,7 +26,9 @@ static char *without_comments(const char *text)
 	char *out = strdup(text);
 
 	for (char *at = out; at && *at; at++) {
-		const char *end = at[0] == '/' && at[1] == '/' ? strchr(at, '\n') : at[0] == '/' && at[1] == '*' ? strstr(at + 2, "*/") : at;
+		const char *end = at[0] == '/' && at[1] == '/' ? strchr(at, '\n') :
+		                  at[0] == '/' && at[1] == '*' ? strstr(at + 2, "*/") :
+		                                                 at;
 
 		if (end == at)
 			continue;
@@ -85,7 +87,7 @@ static int read_text(const char *path, char **out)
 	return 0;
 }
 
-/* --- Parameters ------------------------------------------------------------------------------------------------------------ */
+/* --- Parameters -------------------------------------------------------------------------------------------------- */
 
 static int is_known(const struct hook *h, const char *name)
 {
@@ -104,13 +106,19 @@ static int read_parameter(struct hook *h, unsigned line, const char *text)
 
 	if (h->n_parameters == HOOK_MAX_PARAMETERS)
 		return err_report(ERR_INPUT, h->path, "line %u: more than %d parameters", line, HOOK_MAX_PARAMETERS);
-	if (sscanf(text, " parameter %15[a-z] %47[A-Za-z0-9_] = %n", type, p->name, &n) != 2 || n == 0 || isdigit((unsigned char)p->name[0]))
-		return err_report(ERR_INPUT, h->path, "line %u: a parameter is declared as '#pragma relume parameter float NAME = VALUE', of "
-		                  "types float, int and color", line);
+	if (sscanf(text, " parameter %15[a-z] %47[A-Za-z0-9_] = %n", type, p->name, &n) != 2 || n == 0 ||
+	    isdigit((unsigned char)p->name[0]))
+		return err_report(
+			ERR_INPUT, h->path,
+			"line %u: a parameter is declared as '#pragma relume parameter float NAME = VALUE', of "
+			"types float, int and color",
+			line);
 	while (i < N_HOOK_TYPES && strcmp(hook_type_names[i], type) != 0)
 		i++;
 	if (i == N_HOOK_TYPES)
-		return err_report(ERR_INPUT, h->path, "line %u: there is no type %s of parameters; there are float, int and color", line, type);
+		return err_report(ERR_INPUT, h->path,
+		                  "line %u: there is no type %s of parameters; there are float, int and color", line,
+		                  type);
 	if (is_known(h, p->name))
 		return err_report(ERR_INPUT, h->path, "line %u: parameter %s is declared twice", line, p->name);
 	p->type = (enum hook_type)i;
@@ -119,11 +127,12 @@ static int read_parameter(struct hook *h, unsigned line, const char *text)
 	for (unsigned k = 0; k < p->words; k++, text = end) {
 		p->initial[k] = strtof(text, &end);
 		if (end == text)
-			return err_report(ERR_INPUT, h->path, "line %u: parameter %s takes %u number%s", line, p->name, p->words, plural(p->words));
+			return err_report(ERR_INPUT, h->path, "line %u: parameter %s takes %u number%s", line, p->name,
+			                  p->words, plural(p->words));
 	}
 	if (text[strspn(text, " \t\r")] != '\n' && text[strspn(text, " \t\r")] != '\0')
-		return err_report(ERR_INPUT, h->path, "line %u: parameter %s takes %u number%s, and nothing behind", line, p->name, p->words,
-		                  plural(p->words));
+		return err_report(ERR_INPUT, h->path, "line %u: parameter %s takes %u number%s, and nothing behind",
+		                  line, p->name, p->words, plural(p->words));
 	h->words += p->words;
 	h->n_parameters++;
 	return 0;
@@ -175,7 +184,7 @@ int hook_check_parameters(const struct hook *hook, const struct scene_parameter 
 	return 0;
 }
 
-/* --- Declarations ------------------------------------------------------------------------------------------------------------ */
+/* --- Declarations ------------------------------------------------------------------------------------------------ */
 
 /* The struct of parameters, and how it is read out of a row. */
 static void declare_parameters(const struct hook *h, FILE *out)
@@ -225,11 +234,15 @@ int hook_load(const char *path, struct hook **out)
 	for (int i = 0; i < N_HOOK_STAGES && !err; i++)
 		h->stages |= (unsigned)defines(bare, hook_stage_names[i]) << i;
 	if (!err && !h->stages)
-		err = err_report(ERR_INPUT, path, "defines none of the functions of a hook: ray_generation, bounds and intersection, any_hit, "
-		                 "closest_hit, miss, light");
+		err = err_report(
+			ERR_INPUT, path,
+			"defines none of the functions of a hook: ray_generation, bounds and intersection, any_hit, "
+			"closest_hit, miss, light");
 	if (!err && !(h->stages & HOOK_BOUNDS) != !(h->stages & HOOK_INTERSECTION))
-		err = err_report(ERR_INPUT, path, "defines %s without %s: there must be both", hook_stage_names[h->stages & HOOK_BOUNDS ? HOOK_NUMBER_BOUNDS :
-		                 HOOK_NUMBER_INTERSECTION], hook_stage_names[h->stages & HOOK_BOUNDS ? HOOK_NUMBER_INTERSECTION : HOOK_NUMBER_BOUNDS]);
+		err = err_report(
+			ERR_INPUT, path, "defines %s without %s: there must be both",
+			hook_stage_names[h->stages & HOOK_BOUNDS ? HOOK_NUMBER_BOUNDS : HOOK_NUMBER_INTERSECTION],
+			hook_stage_names[h->stages & HOOK_BOUNDS ? HOOK_NUMBER_INTERSECTION : HOOK_NUMBER_BOUNDS]);
 	if (!err)
 		h->asks_boxes = strstr(bare, "relume_box_tests") != NULL;
 	if (!err)

@@ -1,6 +1,6 @@
 /*
- * A user's hook: OpenCL C text whose functions stand in for stages of the wavefront. hooks/README.md is what its author reads;
- * kernels/frame/hook.h calls the functions.
+ * A user's hook: OpenCL C text whose functions stand in for stages of the wavefront. hooks/README.md is what its author
+ * reads; kernels/frame/hook.h calls the functions.
  *
  * Parameters are declared in the text, a line each, and set by rules (look/rules.h):
  *
@@ -16,7 +16,8 @@
 
 /* X(NAME, function): stages that a hook may have; bits of hook.stages. */
 #define HOOK_STAGES(X) \
-	X(RAY_GENERATION, ray_generation) X(BOUNDS, bounds) X(INTERSECTION, intersection) X(ANY_HIT, any_hit) X(CLOSEST_HIT, closest_hit) \
+	X(RAY_GENERATION, ray_generation) X(BOUNDS, bounds) X(INTERSECTION, intersection) X(ANY_HIT, any_hit) \
+	X(CLOSEST_HIT, closest_hit) \
 	X(MISS, miss) X(LIGHT, light)
 
 enum {

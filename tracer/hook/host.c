@@ -27,8 +27,9 @@ static const char *text_of(const char *name)
 static int write_text(const char *path, const struct hook *hook)
 {
 	FILE *file = fopen(path, "w");
-	int failed = !file || fprintf(file, "#pragma OPENCL FP_CONTRACT OFF\n%s\n%s\n%s\n%s", text_of("kernels/ref/host_builtins.h"),
-	                              hook->declarations, text_of("kernels/ref/hook_host.h"), hook->text) < 0;
+	int failed = !file || fprintf(file, "#pragma OPENCL FP_CONTRACT OFF\n%s\n%s\n%s\n%s",
+	                              text_of("kernels/ref/host_builtins.h"), hook->declarations,
+	                              text_of("kernels/ref/hook_host.h"), hook->text) < 0;
 
 	if (file)
 		failed |= fclose(file) != 0;
@@ -38,18 +39,24 @@ static int write_text(const char *path, const struct hook *hook)
 /* Interpreters and drivers of other compilers do not know OpenCL C. */
 static int run_clang(const struct hook *hook, const char *source, const char *library)
 {
-	const char *const words[] = { "clang", "-shared", "-fPIC", "-O2", "-ffp-contract=off", "-fno-math-errno", "-x", "cl", "-cl-std=CL1.2",
-		                      "-cl-no-stdinc", "-D__OPENCL_VERSION__=120", "-w", "-o", library, source, "-lm", NULL };
+	const char *const words[] = {
+		"clang", "-shared", "-fPIC", "-O2", "-ffp-contract=off", "-fno-math-errno", "-x", "cl", "-cl-std=CL1.2",
+		"-cl-no-stdinc", "-D__OPENCL_VERSION__=120", "-w", "-o", library, source, "-lm", NULL
+	};
 	pid_t child;
 	int status, code = posix_spawnp(&child, "clang", NULL, NULL, (char *const *)words, environ);
 
 	if (code == 0 && waitpid(child, &status, 0) < 0)
 		code = errno;
 	if (code == ENOENT || (code == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 127))
-		return err_report(ERR_USAGE, NULL, "the reference device compiles hooks with clang, which is not there; install it or choose an OpenCL device");
+		return err_report(ERR_USAGE, NULL,
+		                  "the reference device compiles hooks with clang, which is not there; install it or "
+		                  "choose an OpenCL device");
 	if (code)
 		return err_report(ERR_SYSTEM, "clang", "%s", strerror(code));
-	return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 0 : err_report(ERR_INPUT, hook->path, "clang refuses this file; its words are above");
+	return WIFEXITED(status) && WEXITSTATUS(status) == 0 ?
+	               0 :
+	               err_report(ERR_INPUT, hook->path, "clang refuses this file; its words are above");
 }
 
 int hook_compile_host(struct hook *hook)
@@ -58,7 +65,9 @@ int hook_compile_host(struct hook *hook)
 	char folder[PATH_MAX - 16], source[PATH_MAX], library[PATH_MAX];
 	int err;
 
-	if (snprintf(folder, sizeof(folder), "%s/relume-hook-XXXXXX", base && *base ? base : "/tmp") >= (int)sizeof(folder) || !mkdtemp(folder))
+	if (snprintf(folder, sizeof(folder), "%s/relume-hook-XXXXXX", base && *base ? base : "/tmp") >=
+	            (int)sizeof(folder) ||
+	    !mkdtemp(folder))
 		return err_report(ERR_SYSTEM, folder, "%s", strerror(errno));
 	snprintf(source, sizeof(source), "%s/hook.cl", folder);
 	snprintf(library, sizeof(library), "%s/hook.so", folder);

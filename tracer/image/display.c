@@ -43,11 +43,14 @@ enum display_kind display_kind_of(const char *path)
 
 int display_refuse(const char *path)
 {
-	return err_report(ERR_USAGE, NULL, "'%s' names no kind of picture: end it in .exr (OpenEXR, all channels), .png or .jpg (display "
-	                  "pictures)", path);
+	return err_report(
+		ERR_USAGE, NULL,
+		"'%s' names no kind of picture: end it in .exr (OpenEXR, all channels), .png or .jpg (display "
+		"pictures)",
+		path);
 }
 
-/* --- The curve ----------------------------------------------------------------------------------------------------- */
+/* --- The curve --------------------------------------------------------------------------------------------------- */
 
 static float code_of(const struct display_options *options, float linear)
 {
@@ -87,7 +90,7 @@ void display_destroy(struct display **display)
 	*display = NULL;
 }
 
-/* --- Codes --------------------------------------------------------------------------------------------------------- */
+/* --- Codes ------------------------------------------------------------------------------------------------------- */
 
 /* Bayer's matrix of 8 x 8: the bits of x ^ y and of y, interleaved from the last on. In 0 .. 63 */
 static uint32_t bayer(uint32_t x, uint32_t y)
@@ -99,7 +102,8 @@ static uint32_t bayer(uint32_t x, uint32_t y)
 	return place;
 }
 
-int display_codes(const struct display *display, const struct image *img, const char *layer, uint8_t *rgb, uint64_t *over)
+int display_codes(const struct display *display, const struct image *img, const char *layer, uint8_t *rgb,
+                  uint64_t *over)
 {
 	const char *encoding = image_attribute(img, "relume:encoding");
 	const int is_shown = encoding && strcmp(encoding, "display") == 0;
@@ -131,11 +135,12 @@ int display_codes(const struct display *display, const struct image *img, const 
 	return 0;
 }
 
-/* --- Files --------------------------------------------------------------------------------------------------------- */
+/* --- Files ------------------------------------------------------------------------------------------------------- */
 
 static void describe(const struct image *img, char *text, size_t size)
 {
-	static const char *const names[] = { "relume:frame", "relume:trace", "relume:program", "relume:settings", "relume:version", "relume:device" };
+	static const char *const names[] = { "relume:frame",    "relume:trace",   "relume:program",
+		                             "relume:settings", "relume:version", "relume:device" };
 	size_t n = 0;
 
 	text[0] = '\0';
@@ -168,8 +173,10 @@ int display_write(const struct display *display, const struct image *img, const 
 {
 	char text[2048];
 	struct oiio_pixels pixels = { malloc((size_t)img->width * img->height * 3), img->width, img->height };
-	const struct oiio_coding coding = { display_kind_of(path) == DISPLAY_PNG ? "png" : "jpg", PNG_LEVEL, JPEG_QUALITY, text };
-	int err = pixels.rgb ? display_codes(display, img, "", pixels.rgb, over) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	const struct oiio_coding coding = { display_kind_of(path) == DISPLAY_PNG ? "png" : "jpg", PNG_LEVEL,
+		                            JPEG_QUALITY, text };
+	int err = pixels.rgb ? display_codes(display, img, "", pixels.rgb, over) :
+	                       err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	describe(img, text, sizeof(text));
 	if (!err)

@@ -2,12 +2,13 @@
  * Display pictures: 8-bit codes for a screen, as PNG or JPEG, from linear light x.
  *
  *     y = x 2^exposure
- *     y = K + (1 - K) m t / (1 + (m - 1) t)    where y > K = 0.6;  t = (y - K) / (white - K), at most 1;  m = (white - K) / (1 - K)
- *     code = floor(255 sRGB(y) + 1/2 + d)      d: an ordered dither of 8 x 8 pixels, within 0.45; 0 where it is not wanted
+ *     y = K + (1 - K) m t / (1 + (m - 1) t)    where y > K = 0.6;  t = (y - K) / (white - K), at most 1;  m = (white -
+ * K) / (1 - K) code = floor(255 sRGB(y) + 1/2 + d)      d: an ordered dither of 8 x 8 pixels, within 0.45; 0 where it
+ * is not wanted
  *
- * The shoulder begins smoothly at K and reaches 1 at `white`. With white 1 it is a straight line: what GL drew looks as it did. The
- * dither is below half a code, so areas of a colour that has a code of its own stay plain. A code depends on its pixel alone, never on
- * other pixels or frames.
+ * The shoulder begins smoothly at K and reaches 1 at `white`. With white 1 it is a straight line: what GL drew looks as
+ * it did. The dither is below half a code, so areas of a colour that has a code of its own stay plain. A code depends
+ * on its pixel alone, never on other pixels or frames.
  */
 #pragma once
 
@@ -44,14 +45,15 @@ void display_destroy(struct display **display);
  * @param over   NULL, or receives how many pixels have a channel brighter than white
  * @return 0, or ERR_INPUT: there are no such channels (reported)
  */
-int display_codes(const struct display *display, const struct image *img, const char *layer, uint8_t *rgb, uint64_t *over);
+int display_codes(const struct display *display, const struct image *img, const char *layer, uint8_t *rgb,
+                  uint64_t *over);
 
 /** Write codes as a file that appears whole. @return 0 or ERR_SYSTEM (reported) */
 int display_save(const struct oiio_pixels *pixels, const struct oiio_coding *coding, const char *path);
 
 /**
- * Write R, G, B as a display picture; the file appears whole. Its description holds the picture's frame, trace, settings, version and
- * device, a line each, as oiio_read finds them. The same picture gives the same bytes.
+ * Write R, G, B as a display picture; the file appears whole. Its description holds the picture's frame, trace,
+ * settings, version and device, a line each, as oiio_read finds them. The same picture gives the same bytes.
  * @param path  ends in .png, .jpg or .jpeg
  * @param over  as display_codes
  * @return 0 or ERR_SYSTEM (reported)

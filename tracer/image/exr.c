@@ -41,7 +41,7 @@ static const char *reason(exr_result_t rc)
 	return exr_said[0] ? exr_said : exr_get_default_error_message(rc);
 }
 
-/* --- Attributes ------------------------------------------------------------------------------------------------ */
+/* --- Attributes -------------------------------------------------------------------------------------------------- */
 
 /* Attributes of the standard that hold a matrix; in struct image they are 16 numbers as text, in file order. */
 static int is_matrix(const char *name)
@@ -105,7 +105,7 @@ static int read_attributes(exr_context_t file, struct image *img)
 	return rc;
 }
 
-/* --- Writing --------------------------------------------------------------------------------------------------- */
+/* --- Writing ----------------------------------------------------------------------------------------------------- */
 
 static const struct image_channel *find_channel(const struct image *img, const char *name)
 {
@@ -204,7 +204,7 @@ int image_write_exr(const struct image *img, const char *path)
 	return err;
 }
 
-/* --- Reading --------------------------------------------------------------------------------------------------- */
+/* --- Reading ----------------------------------------------------------------------------------------------------- */
 
 /* Read size and channels; refuse what struct image cannot hold. */
 static int read_layout(exr_context_t file, struct image *img, const char *path, int32_t *y_first)
@@ -360,7 +360,8 @@ static int read_windows(exr_context_t file, struct image *img)
 {
 	exr_attr_box2i_t data, display;
 
-	if (exr_get_data_window(file, 0, &data) != EXR_ERR_SUCCESS || exr_get_display_window(file, 0, &display) != EXR_ERR_SUCCESS)
+	if (exr_get_data_window(file, 0, &data) != EXR_ERR_SUCCESS ||
+	    exr_get_display_window(file, 0, &display) != EXR_ERR_SUCCESS)
 		return 0;
 	if (memcmp(&data, &display, sizeof(data)) == 0)
 		return image_attribute(img, "relume:window") ? image_set_attribute(img, "relume:window", "%s", "") : 0;
@@ -397,7 +398,9 @@ int image_read_exr(struct image *img, const char *path)
 		if (rc == EXR_ERR_OUT_OF_MEMORY)
 			result = err_report(ERR_SYSTEM, path, "out of memory");
 		else if (rc != EXR_ERR_SUCCESS)
-			result = err_report(ERR_INPUT, path, "%s: %s", rc == EXR_ERR_FEATURE_NOT_IMPLEMENTED ? "is not supported" : "is damaged", reason(rc));
+			result = err_report(ERR_INPUT, path, "%s: %s",
+			                    rc == EXR_ERR_FEATURE_NOT_IMPLEMENTED ? "is not supported" : "is damaged",
+			                    reason(rc));
 	}
 	exr_finish(&file);
 	if (result)

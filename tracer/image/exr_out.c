@@ -29,7 +29,8 @@ static void flush(struct exr_out *out)
 }
 
 /* OpenEXRCore's exr_write_func_ptr_t. */
-static int64_t take(exr_const_context_t context, void *user, const void *buffer, uint64_t n, uint64_t at, exr_stream_error_func_ptr_t fail)
+static int64_t take(exr_const_context_t context, void *user, const void *buffer, uint64_t n, uint64_t at,
+                    exr_stream_error_func_ptr_t fail)
 {
 	struct exr_out *out = user;
 

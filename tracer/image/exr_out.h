@@ -16,7 +16,8 @@ struct exr_out {
 	unsigned char bytes[EXR_OUT_BYTES];
 };
 
-/** Create a file for `setup`, which exr_start_write gets. out: kept until exr_out_close. @return 0, or -1: out->reason says why not */
+/** Create a file for `setup`, which exr_start_write gets. out: kept until exr_out_close. @return 0, or -1: out->reason
+ * says why not */
 int exr_out_open(struct exr_out *out, const char *path, exr_context_initializer_t *setup);
 
 /** After exr_finish: all is written, or out->reason says why not. @return 0 or -1 */

@@ -12,9 +12,10 @@
 #include "base/optimize.h"
 
 /*
- * How often symbols come, as far as their codes go: a difference of 0 stands at 128, and most matches are as short or as long as can be.
- * With one table for all chunks the frames of twelve programs take 3 % more bytes than at ISA-L's level 1, which makes a table for each,
- * and less time. Level 1 of ISA-L 2.30 also made other bytes of the same rows, about once in 18,000 chunks.
+ * How often symbols come, as far as their codes go: a difference of 0 stands at 128, and most matches are as short or
+ * as long as can be. With one table for all chunks the frames of twelve programs take 3 % more bytes than at ISA-L's
+ * level 1, which makes a table for each, and less time. Level 1 of ISA-L 2.30 also made other bytes of the same rows,
+ * about once in 18,000 chunks.
  */
 static struct isal_hufftables codes;
 
@@ -66,7 +67,7 @@ static void split(struct streams *s, const uint16_t *restrict in, size_t n)
 	s->odd += n;
 }
 
-/* --- Lines of a channel -------------------------------------------------------------------------------------------- */
+/* --- Lines of a channel ------------------------------------------------------------------------------------------ */
 
 static size_t pairs_of(const struct exr_plane *p, uint32_t width)
 {
@@ -105,7 +106,7 @@ static const uint16_t *line_of(const struct exr_plane *p, size_t at, uint32_t wi
 	return room;
 }
 
-/* --- Chunks -------------------------------------------------------------------------------------------------------- */
+/* --- Chunks ------------------------------------------------------------------------------------------------------ */
 
 /* What a chunk without change comes from; 0: there is change. */
 static uint64_t name_constant(const struct exr_rows *r)
@@ -168,7 +169,8 @@ static size_t store(const struct exr_rows *r, uint8_t *out, uint16_t *room)
 static size_t deflate_bytes(uint8_t *in, size_t n, uint8_t *out)
 {
 	static pthread_once_t once = PTHREAD_ONCE_INIT;
-	struct isal_zstream z = { 0 }; /* isal_deflate_stateless_init() leaves hist_bits as it is: any window, so other bytes */
+	/* isal_deflate_stateless_init() leaves hist_bits as it is: any window, so other bytes */
+	struct isal_zstream z = { 0 };
 
 	pthread_once(&once, make_codes);
 	isal_deflate_stateless_init(&z);

@@ -1,8 +1,8 @@
 /*
- * Rows of a picture as a chunk of an OpenEXR file with "ZIP" compression. A chunk's bytes, line by line and channel by channel, are
- * split into those at even and at odd places. Each byte becomes its difference from the one before plus 128. All are deflated in
- * zlib's wrapping (OpenEXR, "Technical Introduction"; OpenEXR File Layout). ISA-L deflates four to eight times as fast as
- * libdeflate's level 4 does, into some 10 % more bytes.
+ * Rows of a picture as a chunk of an OpenEXR file with "ZIP" compression. A chunk's bytes, line by line and channel by
+ * channel, are split into those at even and at odd places. Each byte becomes its difference from the one before plus
+ * 128. All are deflated in zlib's wrapping (OpenEXR, "Technical Introduction"; OpenEXR File Layout). ISA-L deflates
+ * four to eight times as fast as libdeflate's level 4 does, into some 10 % more bytes.
  */
 #ifndef TRACER_IMAGE_EXR_PACK_H
 #define TRACER_IMAGE_EXR_PACK_H

@@ -1,6 +1,6 @@
 /*
- * Expanding OpenEXR's "ZIP" chunks by libdeflate, in place of OpenEXRCore's own step, which takes more than twice as long. exr_pack.h
- * tells what such a chunk holds.
+ * Expanding OpenEXR's "ZIP" chunks by libdeflate, in place of OpenEXRCore's own step, which takes more than twice as
+ * long. exr_pack.h tells what such a chunk holds.
  */
 #pragma once
 

@@ -28,7 +28,7 @@ static struct {
 	int channel;
 } server = { PTHREAD_MUTEX_INITIALIZER, -1 };
 
-/* --- In the picture's process ------------------------------------------------------------------------------------------- */
+/* --- In the picture's process ------------------------------------------------------------------------------------ */
 
 /* What comes before a picture's planes. */
 static void put_head(struct bytes *head, const struct image *img)
@@ -82,7 +82,7 @@ static void answer(const char *path, int pipe)
 	fflush(out);
 }
 
-/* --- In the server ------------------------------------------------------------------------------------------------------ */
+/* --- In the server ----------------------------------------------------------------------------------------------- */
 
 /* The next request: a path, and the pipe that its picture goes to. @return 0: there will be none */
 static int take_request(int channel, char path[PATH_MAX], int *pipe)
@@ -92,7 +92,9 @@ static int take_request(int channel, char path[PATH_MAX], int *pipe)
 		char room[CMSG_SPACE(sizeof(int))];
 	} control;
 	struct iovec text = { path, PATH_MAX - 1 };
-	struct msghdr message = { .msg_iov = &text, .msg_iovlen = 1, .msg_control = &control, .msg_controllen = sizeof(control) };
+	struct msghdr message = {
+		.msg_iov = &text, .msg_iovlen = 1, .msg_control = &control, .msg_controllen = sizeof(control)
+	};
 	ssize_t n;
 
 	do
@@ -129,7 +131,7 @@ static void serve(int channel)
 	_exit(0);
 }
 
-/* --- In the command ----------------------------------------------------------------------------------------------------- */
+/* --- In the command ---------------------------------------------------------------------------------------------- */
 
 /* server.lock is held. @return 0 or ERR_SYSTEM (reported) */
 static int start(void)
@@ -158,7 +160,9 @@ static int send_request(const char *path, int pipe)
 		char room[CMSG_SPACE(sizeof(int))];
 	} control = { .head = { CMSG_LEN(sizeof(int)), SOL_SOCKET, SCM_RIGHTS } };
 	struct iovec text = { (void *)path, strlen(path) };
-	const struct msghdr message = { .msg_iov = &text, .msg_iovlen = 1, .msg_control = &control, .msg_controllen = sizeof(control) };
+	const struct msghdr message = {
+		.msg_iov = &text, .msg_iovlen = 1, .msg_control = &control, .msg_controllen = sizeof(control)
+	};
 
 	memcpy(CMSG_DATA(&control.head), &pipe, sizeof(pipe));
 	return sendmsg(server.channel, &message, MSG_NOSIGNAL) == (ssize_t)text.iov_len ? 0 : -1;
@@ -241,7 +245,8 @@ static int take_answer(FILE *in, struct image *img, const char *path)
 	size_t n = 0;
 	int got = 1;
 
-	if (fread(&err, sizeof(err), 1, in) == 1 && fread(&n, sizeof(n), 1, in) == 1 && n <= (size_t)1 << 26 && (head = malloc(n + 1))) {
+	if (fread(&err, sizeof(err), 1, in) == 1 && fread(&n, sizeof(n), 1, in) == 1 && n <= (size_t)1 << 26 &&
+	    (head = malloc(n + 1))) {
 		c = (struct cursor){ .p = head, .end = head + n };
 		if (fread(head, 1, n, in) == n)
 			got = err ? (err == ERR_INPUT ? ERR_INPUT : ERR_SYSTEM) : take_picture(&c, in, img);

@@ -1,6 +1,6 @@
 /*
- * Pictures that others made. OpenImageIO and the readers behind it are large, and a damaged file may end them or write where it should not: each
- * picture is read in a process of its own, which can read that file and reach nothing else.
+ * Pictures that others made. OpenImageIO and the readers behind it are large, and a damaged file may end them or write
+ * where it should not: each picture is read in a process of its own, which can read that file and reach nothing else.
  */
 #pragma once
 

@@ -32,7 +32,8 @@ static int png_fits(FILE *file, uint64_t file_bytes)
 {
 	uint8_t head[8];
 
-	for (int err = fseek(file, 8, SEEK_SET); !err && fread(head, 1, 8, file) == 8; err = fseek(file, (long)number(head, 1) + 4, SEEK_CUR))
+	for (int err = fseek(file, 8, SEEK_SET); !err && fread(head, 1, 8, file) == 8;
+	     err = fseek(file, (long)number(head, 1) + 4, SEEK_CUR))
 		if (!fits(file, file_bytes, number(head, 1)))
 			return 0;
 	return 1;
@@ -56,9 +57,14 @@ static int type_has_size(const char *type, uint32_t size)
 	static const struct {
 		const char *name;
 		uint32_t bytes;
-	} fixed[] = { { "box2i", 16 }, { "box2f", 16 }, { "chromaticities", 32 }, { "compression", 1 }, { "double", 8 }, { "envmap", 1 }, { "float", 4 },
-		      { "int", 4 }, { "keycode", 28 }, { "lineOrder", 1 }, { "m33f", 36 }, { "m33d", 72 }, { "m44f", 64 }, { "m44d", 128 }, { "rational", 8 },
-		      { "tiledesc", 9 }, { "timecode", 8 }, { "v2i", 8 }, { "v2f", 8 }, { "v2d", 16 }, { "v3i", 12 }, { "v3f", 12 }, { "v3d", 24 } };
+	} fixed[] = { { "box2i", 16 },      { "box2f", 16 },   { "chromaticities", 32 },
+		      { "compression", 1 }, { "double", 8 },   { "envmap", 1 },
+		      { "float", 4 },       { "int", 4 },      { "keycode", 28 },
+		      { "lineOrder", 1 },   { "m33f", 36 },    { "m33d", 72 },
+		      { "m44f", 64 },       { "m44d", 128 },   { "rational", 8 },
+		      { "tiledesc", 9 },    { "timecode", 8 }, { "v2i", 8 },
+		      { "v2f", 8 },         { "v2d", 16 },     { "v3i", 12 },
+		      { "v3f", 12 },        { "v3d", 24 } };
 
 	for (size_t i = 0; i < sizeof(fixed) / sizeof(fixed[0]); i++)
 		if (strcmp(type, fixed[i].name) == 0)
@@ -66,7 +72,8 @@ static int type_has_size(const char *type, uint32_t size)
 	return 1;
 }
 
-/* OpenEXR file layout: after magic number and version, headers of attributes (name, type, size, value), an empty name at their end. */
+/* OpenEXR file layout: after magic number and version, headers of attributes (name, type, size, value), an empty name
+ * at their end. */
 static int exr_fits(FILE *file, uint64_t file_bytes, int parts)
 {
 	uint8_t size[4];
@@ -100,7 +107,8 @@ static int dpx_fits(FILE *file, uint64_t file_bytes, int big)
 	       fits(file, file_bytes, number(size, big));
 }
 
-/* GIF89a, sec. 18: width and height of the screen stand at 6. LZW's longest code of 12 bits stands for less than 4096 pixels. */
+/* GIF89a, sec. 18: width and height of the screen stand at 6. LZW's longest code of 12 bits stands for less than 4096
+ * pixels. */
 static int gif_fits(FILE *file, uint64_t file_bytes)
 {
 	uint8_t size[4];

@@ -24,8 +24,8 @@ struct image_attribute {
 struct image {
 	uint32_t width, height;
 	/*
-	 * 0: planes hold the whole picture. Else so many threads pack rows as they come (image_take_rows), and planes hold those from row
-	 * `first` on that are too few to be packed. Such an image can be written, and nothing else.
+	 * 0: planes hold the whole picture. Else so many threads pack rows as they come (image_take_rows), and planes
+	 * hold those from row `first` on that are too few to be packed. Such an image can be written, and nothing else.
 	 */
 	unsigned packers;
 	uint32_t first, taken; /* taken: so many rows have come, from the top */
@@ -46,7 +46,8 @@ void image_free(struct image *img);
  */
 float *image_add_channel(struct image *img, const char *name, int full_float);
 
-/** Add a channel of half floats, not set yet. @return its plane, as image_add_channel. Do not change it once floats were asked for */
+/** Add a channel of half floats, not set yet. @return its plane, as image_add_channel. Do not change it once floats
+ * were asked for */
 uint16_t *image_add_halves(struct image *img, const char *name);
 
 /**
@@ -85,8 +86,8 @@ int image_write_exr(const struct image *img, const char *path);
 int image_read_exr(struct image *img, const char *path);
 
 /**
- * Check the head of any OpenEXR file, tiled or of several parts, too. The reader behind OpenImageIO (OpenEXR 3.1.5) believes sizes in it, and
- * takes gigabytes for a file that is damaged there.
+ * Check the head of any OpenEXR file, tiled or of several parts, too. The reader behind OpenImageIO (OpenEXR 3.1.5)
+ * believes sizes in it, and takes gigabytes for a file that is damaged there.
  * @return 0, or ERR_INPUT (reported)
  */
 int image_check_exr(const char *path);
@@ -97,6 +98,7 @@ int image_exr_is_dwa(const char *path);
 /** A text attribute from the head of an OpenEXR file. @return 1, or 0: there is none, or it has no room in `text` */
 int image_exr_text(const char *path, const char *attribute, char *text, size_t size);
 
-/** sRGB's transfer function (IEC 61966-2-1): display-referred [0,1] to linear light and back; an odd function, also beyond [0,1]. */
+/** sRGB's transfer function (IEC 61966-2-1): display-referred [0,1] to linear light and back; an odd function, also
+ * beyond [0,1]. */
 float image_linear_from_display(float display);
 float image_display_from_linear(float linear);

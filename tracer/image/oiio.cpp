@@ -46,8 +46,8 @@ bool is_integer(const OIIO::TypeDesc &format)
 }
 
 /**
- * The most pixels that a file of so many bytes may hold, where the format packs runs at most: readers of these give pixels for what is not there.
- * 128 values a byte, a bit a pixel. Others end where their file does (read_part).
+ * The most pixels that a file of so many bytes may hold, where the format packs runs at most: readers of these give
+ * pixels for what is not there. 128 values a byte, a bit a pixel. Others end where their file does (read_part).
  */
 int64_t most_pixels(const std::string &format, uint64_t bytes)
 {
@@ -61,7 +61,8 @@ int64_t most_pixels(const std::string &format, uint64_t bytes)
 struct channel {
 	float *plane;
 	int from;
-	bool is_number; /* an unsigned integer of OpenEXR, which stands for itself; OpenImageIO makes parts of the largest one of it */
+	bool is_number; /* an unsigned integer of OpenEXR, which stands for itself; OpenImageIO makes parts of the
+	                   largest one of it */
 };
 
 /** Where all parts of a file lie together: each may have data of its own window in one display window. */
@@ -70,23 +71,27 @@ struct windows {
 	int n_parts;
 };
 
-/** Whether memory holds the channels of one part: a head claims what it likes, and too much of it is its file's defect. */
+/** Whether memory holds the channels of one part: a head claims what it likes, and too much of it is its file's
+ * defect. */
 bool has_room(const windows &all, int n_channels)
 {
-	void *volatile planes = calloc(size_t(all.width) * size_t(all.height), sizeof(float) * size_t(std::max(n_channels, 3)));
+	void *volatile planes = calloc(size_t(all.width) * size_t(all.height),
+	                               sizeof(float) * size_t(std::max(n_channels, 3)));
 
 	free(planes);
 	return planes != nullptr;
 }
 
 /** Channels of one part, all 0 yet; `prefix` (a part's name and a dot, or nothing) goes before their names. */
-int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &prefix, bool is_exr, std::vector<channel> &out, const char *path)
+int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &prefix, bool is_exr,
+             std::vector<channel> &out, const char *path)
 {
 	const bool grey = prefix.empty() && spec.nchannels <= 2 && spec.channel_name(0) != "R";
 	const auto add = [&](const char *name, int from) {
 		const OIIO::TypeDesc type = spec.channelformat(from);
 
-		out.push_back({ image_add_channel(img, name, type != OIIO::TypeDesc::HALF), from, is_exr && type == OIIO::TypeDesc::UINT32 });
+		out.push_back({ image_add_channel(img, name, type != OIIO::TypeDesc::HALF), from,
+		                is_exr && type == OIIO::TypeDesc::UINT32 });
 		return out.back().plane != nullptr;
 	};
 
@@ -109,17 +114,21 @@ int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &
 }
 
 /** Pixels of one part, in strips: a file that ends early costs what it holds, not what its head claims. */
-int read_part(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, int part, const windows &all, const std::vector<channel> &channels, const char *path)
+int read_part(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, int part, const windows &all,
+              const std::vector<channel> &channels, const char *path)
 {
-	const int rows = std::min(spec.tile_width ? std::max(spec.tile_height, 1) : STRIP_ROWS, spec.height), n = spec.nchannels;
+	const int rows = std::min(spec.tile_width ? std::max(spec.tile_height, 1) : STRIP_ROWS, spec.height),
+		  n = spec.nchannels;
 	const size_t width = size_t(spec.width);
 	std::vector<float> strip(width * size_t(rows) * size_t(n));
 
 	for (int y = 0; y < spec.height; y += rows) {
 		const int end = std::min(y + rows, spec.height);
-		const bool good = spec.tile_width
-			? in.read_tiles(part, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end, 0, 1, 0, n, OIIO::TypeDesc::FLOAT, strip.data())
-			: in.read_scanlines(part, 0, spec.y + y, spec.y + end, 0, 0, n, OIIO::TypeDesc::FLOAT, strip.data());
+		const bool good = spec.tile_width ?
+		                          in.read_tiles(part, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end,
+		                                        0, 1, 0, n, OIIO::TypeDesc::FLOAT, strip.data()) :
+		                          in.read_scanlines(part, 0, spec.y + y, spec.y + end, 0, 0, n,
+		                                            OIIO::TypeDesc::FLOAT, strip.data());
 
 		if (!good)
 			return err_report(ERR_INPUT, path, "%s", in.geterror().c_str());
@@ -128,7 +137,8 @@ int read_part(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, int part, const
 				const float value = strip[i * size_t(n) + size_t(c.from)];
 				const size_t row = size_t(spec.y - all.y + y) + i / width;
 
-				c.plane[row * size_t(all.width) + size_t(spec.x - all.x) + i % width] = c.is_number ? rintf(value * 4294967295.0f) : value;
+				c.plane[row * size_t(all.width) + size_t(spec.x - all.x) + i % width] =
+					c.is_number ? rintf(value * 4294967295.0f) : value;
 			}
 	}
 	return 0;
@@ -194,8 +204,12 @@ int find_windows(OIIO::ImageInput &in, bool all_parts, int64_t most, windows &ou
 			return err_report(ERR_INPUT, path, "not a picture of sane size: %d x %d x %d, %d channels", spec.width,
 			                  spec.height, spec.depth, spec.nchannels);
 		if (spec.deep)
-			return err_report(ERR_INPUT, path, "is not supported: part %d is deep, and several samples a pixel are no picture yet", part);
-		if (spec.full_x != first.full_x || spec.full_y != first.full_y || spec.full_width != first.full_width || spec.full_height != first.full_height)
+			return err_report(
+				ERR_INPUT, path,
+				"is not supported: part %d is deep, and several samples a pixel are no picture yet",
+				part);
+		if (spec.full_x != first.full_x || spec.full_y != first.full_y || spec.full_width != first.full_width ||
+		    spec.full_height != first.full_height)
 			return err_report(ERR_INPUT, path, "is not supported: part %d has another display window than the first one", part);
 		out.x = std::min(out.x, spec.x);
 		out.y = std::min(out.y, spec.y);
@@ -204,7 +218,8 @@ int find_windows(OIIO::ImageInput &in, bool all_parts, int64_t most, windows &ou
 		out.n_parts++;
 	}
 	if (x1 - out.x > most || y1 - out.y > most || (x1 - out.x) * (y1 - out.y) > most)
-		return err_report(ERR_INPUT, path, "is not supported: its parts lie %lld x %lld pixels apart", (long long)(x1 - out.x), (long long)(y1 - out.y));
+		return err_report(ERR_INPUT, path, "is not supported: its parts lie %lld x %lld pixels apart",
+		                  (long long)(x1 - out.x), (long long)(y1 - out.y));
 	out.width = int(x1 - out.x);
 	out.height = int(y1 - out.y);
 	return in.seek_subimage(0, 0) ? 0 : err_report(ERR_INPUT, path, "%s", in.geterror().c_str());
@@ -235,7 +250,9 @@ int read_image(struct image *img, const char *path)
 		const OIIO::ImageSpec spec = in->spec();
 
 		if (!has_room(all, spec.nchannels))
-			return err_report(ERR_INPUT, path, "%d x %d pixels of %d channels take more memory than there is", all.width, all.height, spec.nchannels);
+			return err_report(ERR_INPUT, path,
+			                  "%d x %d pixels of %d channels take more memory than there is", all.width,
+			                  all.height, spec.nchannels);
 		std::vector<channel> channels;
 		int err = add_part(img, spec, prefix_of(spec, part), all_parts, channels, path);
 		if (!err)
@@ -248,8 +265,8 @@ int read_image(struct image *img, const char *path)
 	/* Where the data lies, for place.h. */
 	if (all.x == first.full_x && all.y == first.full_y && all.width == first.full_width && all.height == first.full_height)
 		return 0;
-	return image_set_attribute(img, "relume:window", "%d %d %d %d", all.x - first.full_x, all.y - first.full_y, first.full_width,
-	                           first.full_height);
+	return image_set_attribute(img, "relume:window", "%d %d %d %d", all.x - first.full_x, all.y - first.full_y,
+	                           first.full_width, first.full_height);
 }
 
 int encode(const struct oiio_pixels *pixels, const struct oiio_coding *coding, uint8_t **out, size_t *out_bytes)
@@ -288,7 +305,8 @@ pid_t oiio_fork(void)
 
 	in_use.lock();
 	const int n_threads = pool->size();
-	pool->~thread_pool(); /* ends its threads and waits for them: a child would have none of them, but the locks that they held */
+	/* ends its threads and waits for them: a child would have none of them, but the locks that they held */
+	pool->~thread_pool();
 	const pid_t process = fork();
 	new (pool) OIIO::thread_pool(process ? n_threads : 0);
 	if (process == 0) {
@@ -336,7 +354,9 @@ int oiio_draw_text(const struct oiio_pixels *pixels, const struct oiio_label *la
 		OIIO::ImageBuf buf(OIIO::ImageSpec(int(pixels->width), int(pixels->height), 3, OIIO::TypeDesc::UINT8), pixels->rgb);
 		const float color[3] = { label->rgb[0] / 255.0f, label->rgb[1] / 255.0f, label->rgb[2] / 255.0f };
 
-		return OIIO::ImageBufAlgo::render_text(buf, label->x, label->y, label->text, label->size, FONT, color) ? 0 : ERR_SYSTEM;
+		return OIIO::ImageBufAlgo::render_text(buf, label->x, label->y, label->text, label->size, FONT, color) ?
+		               0 :
+		               ERR_SYSTEM;
 	} catch (const std::exception &) {
 		return ERR_SYSTEM;
 	}

@@ -1,6 +1,6 @@
 /*
- * OpenImageIO and the hundreds of libraries behind it, loaded when the first picture needs them: linked with the command,
- * they are most of the time that a short run takes. The bridge itself is oiio.cpp, in relume-oiio.so.
+ * OpenImageIO and the hundreds of libraries behind it, loaded when the first picture needs them: linked with the
+ * command, they are most of the time that a short run takes. The bridge itself is oiio.cpp, in relume-oiio.so.
  */
 #include "tracer/image/oiio.h"
 

@@ -98,7 +98,11 @@ void pack_destroy(struct pack **pack)
 
 int pack_until(struct pack *p, const struct image *img, const void *const *planes, uint32_t first, uint32_t end)
 {
-	struct work w = { .pack = p, .img = img, .first = planes ? first : img->first, .next = p->n_packed, .last = end == img->height ? p->n_chunks : end / PACK_ROWS };
+	struct work w = { .pack = p,
+		          .img = img,
+		          .first = planes ? first : img->first,
+		          .next = p->n_packed,
+		          .last = end == img->height ? p->n_chunks : end / PACK_ROWS };
 	struct helper helpers[MAX_HELPERS];
 	unsigned n = 1;
 

@@ -1,6 +1,6 @@
 /*
- * A picture's rows on their way into chunks of an OpenEXR file (exr_pack.h), packed by several threads. Its rows may come in bands,
- * from the top: what is packed needs no plane any more.
+ * A picture's rows on their way into chunks of an OpenEXR file (exr_pack.h), packed by several threads. Its rows may
+ * come in bands, from the top: what is packed needs no plane any more.
  */
 #pragma once
 
@@ -34,7 +34,8 @@ void pack_destroy(struct pack **pack);
 /**
  * Pack all whole chunks above a row that are not packed yet; at the picture's height all that are left.
  * @param img     the image of pack_create
- * @param planes  [n_channels] of each channel, in the image's order, rows from `first` on; NULL: the image's own planes hold them
+ * @param planes  [n_channels] of each channel, in the image's order, rows from `first` on; NULL: the image's own planes
+ * hold them
  * @return 0 or ERR_SYSTEM (reported)
  */
 int pack_until(struct pack *pack, const struct image *img, const void *const *planes, uint32_t first, uint32_t end);

@@ -17,7 +17,8 @@ static struct span overlap(int64_t first, uint32_t n_data, uint32_t n)
 {
 	const int64_t low = first > 0 ? first : 0, high = first + n_data < n ? first + n_data : n;
 
-	return high > low ? (struct span){ (uint32_t)low, (uint32_t)(low - first), (uint32_t)(high - low) } : (struct span){ 0 };
+	return high > low ? (struct span){ (uint32_t)low, (uint32_t)(low - first), (uint32_t)(high - low) } :
+	                    (struct span){ 0 };
 }
 
 static int fill(const struct image *img, struct span x, struct span y, struct image *out)
@@ -59,8 +60,10 @@ int image_place(struct image *img, const char *path)
 	x = overlap(first[0], img->width, out.width);
 	y = overlap(first[1], img->height, out.height);
 	if (!x.n || !y.n || (uint64_t)out.width * out.height > MAX_PIXELS)
-		return err_report(ERR_INPUT, path, "its data window (%u x %u at %lld, %lld) shows nothing of its display window (%u x %u)",
-		                  img->width, img->height, first[0], first[1], out.width, out.height);
+		return err_report(
+			ERR_INPUT, path,
+			"its data window (%u x %u at %lld, %lld) shows nothing of its display window (%u x %u)",
+			img->width, img->height, first[0], first[1], out.width, out.height);
 	err = fill(img, x, y, &out);
 	if (err) {
 		image_free(&out);

@@ -1,6 +1,6 @@
 /*
- * What some corpus programs need of GLUT, on WGL: a window of Windows, its pixel format and context, and a frame loop. Those that need no more
- * than OpenGL 1.1 are built with it by mingw-w64, unchanged.
+ * What some corpus programs need of GLUT, on WGL: a window of Windows, its pixel format and context, and a frame loop.
+ * Those that need no more than OpenGL 1.1 are built with it by mingw-w64, unchanged.
  */
 #pragma once
 
@@ -48,15 +48,21 @@ static inline void glutInitWindowSize(int width, int height)
 
 static inline int glutCreateWindow(const char *title)
 {
-	const WNDCLASSA kind = { .style = CS_OWNDC, .lpfnWndProc = glut_message, .hInstance = GetModuleHandleA(NULL), .lpszClassName = "corpus" };
-	const PIXELFORMATDESCRIPTOR wanted = { .nSize = sizeof(wanted), .nVersion = 1, .dwFlags = PFD_DRAW_TO_WINDOW | PFD_SUPPORT_OPENGL | PFD_DOUBLEBUFFER,
-		                               .iPixelType = PFD_TYPE_RGBA, .cColorBits = 24, .cDepthBits = 24,
-		                               .cStencilBits = glut.mode & GLUT_STENCIL ? 8 : 0 };
+	const WNDCLASSA kind = { .style = CS_OWNDC,
+		                 .lpfnWndProc = glut_message,
+		                 .hInstance = GetModuleHandleA(NULL),
+		                 .lpszClassName = "corpus" };
+	const PIXELFORMATDESCRIPTOR wanted = {
+		.nSize = sizeof(wanted), .nVersion = 1, .dwFlags = PFD_DRAW_TO_WINDOW | PFD_SUPPORT_OPENGL | PFD_DOUBLEBUFFER,
+		.iPixelType = PFD_TYPE_RGBA, .cColorBits = 24, .cDepthBits = 24,
+		.cStencilBits = glut.mode & GLUT_STENCIL ? 8 : 0
+	};
 	HWND window;
 	HGLRC context;
 
 	RegisterClassA(&kind);
-	window = CreateWindowA("corpus", title, WS_POPUP | WS_VISIBLE, 0, 0, glut.width, glut.height, NULL, NULL, kind.hInstance, NULL);
+	window = CreateWindowA("corpus", title, WS_POPUP | WS_VISIBLE, 0, 0, glut.width, glut.height, NULL, NULL,
+	                       kind.hInstance, NULL);
 	glut.device = GetDC(window);
 	SetPixelFormat(glut.device, ChoosePixelFormat(glut.device, &wanted), &wanted);
 	context = wglCreateContext(glut.device);

@@ -99,7 +99,8 @@ static void set_sized(struct gls_exec *x, struct gls_state *st, const struct cal
 }
 
 /* The same without a size. */
-static void set_unsized(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned index, int32_t size, unsigned pointer)
+static void set_unsized(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned index, int32_t size,
+                        unsigned pointer)
 {
 	set_pointer(x, st, c, index, size, arg_u(c, 0), (int32_t)arg_i(c, 1), pointer);
 }

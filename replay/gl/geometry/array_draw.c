@@ -21,8 +21,8 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls_geometry *g, const struct gls_sources *s,
-                      uint64_t element)
+static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls_geometry *g,
+                      const struct gls_sources *s, uint64_t element)
 {
 	if (g->n_vertices == g->room_vertices && gls_geometry_reserve(x, g, 1, 0))
 		return ERR_SYSTEM;
@@ -42,8 +42,8 @@ static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls
 }
 
 /* Read the vertices of a draw; elements NULL: count ones from first on. Each element becomes one vertex. */
-static int collect(struct gls_exec *x, const struct gls_state *st, const struct gls_sources *s, uint32_t mode, uint32_t first,
-                   uint32_t count, const uint32_t *elements)
+static int collect(struct gls_exec *x, const struct gls_state *st, const struct gls_sources *s, uint32_t mode,
+                   uint32_t first, uint32_t count, const uint32_t *elements)
 {
 	struct gls_geometry *g = &x->scratch.geometry;
 	uint32_t lo = UINT32_MAX, hi = 0, *number, *cut;
@@ -107,8 +107,12 @@ static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh,
 
 		a.point.size = point_size;
 		st->dirty |= GLS_DIRTY_MATERIAL;
-		gls_draw_event(x, st, &(struct gls_event){ .attribs = &a, .mesh = mesh, .values = (const float (*)[4])a.current.attribute,
-		                                           .command = x->command, .call_number = x->call->number });
+		gls_draw_event(x, st,
+		               &(struct gls_event){ .attribs = &a,
+		                                    .mesh = mesh,
+		                                    .values = (const float(*)[4])a.current.attribute,
+		                                    .command = x->command,
+		                                    .call_number = x->call->number });
 		st->dirty |= GLS_DIRTY_MATERIAL;
 		return;
 	}
@@ -116,9 +120,10 @@ static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh,
 	gls_draw_mesh(x, st, mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
 }
 
-/* The mesh of a draw, which the cache keeps. turned: quads cut the other way. @return NULL: nothing to draw, or out of memory (reported) */
-static struct gls_mesh *find_mesh(struct gls_exec *x, struct gls_state *st, struct gls_sources *s, uint32_t mode, uint32_t first,
-                                  uint32_t count, const uint32_t *elements, int turned, uint64_t key)
+/* The mesh of a draw, which the cache keeps. turned: quads cut the other way. @return NULL: nothing to draw, or out of
+ * memory (reported) */
+static struct gls_mesh *find_mesh(struct gls_exec *x, struct gls_state *st, struct gls_sources *s, uint32_t mode,
+                                  uint32_t first, uint32_t count, const uint32_t *elements, int turned, uint64_t key)
 {
 	struct gls_mesh *mesh = table_find(&x->caches.draws, key);
 
@@ -250,7 +255,8 @@ void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, 
 	uint32_t *elements;
 	int64_t begin = 0;
 
-	if (gls_refuses(x, st, type != GL_UNSIGNED_BYTE && type != GL_UNSIGNED_SHORT && type != GL_UNSIGNED_INT, GL_INVALID_ENUM))
+	if (gls_refuses(x, st, type != GL_UNSIGNED_BYTE && type != GL_UNSIGNED_SHORT && type != GL_UNSIGNED_INT,
+	                GL_INVALID_ENUM))
 		return;
 	if (!check_mode(x, st, mode, count) || count == 0 || (!x->want && !st->list))
 		return;
@@ -319,8 +325,8 @@ GLS_HANDLER(glDrawRangeElementsBaseVertex, ARRAY)
 	gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 3), arg_u(c, 4), arg(c, 5), (int32_t)arg_i(c, 6));
 }
 
-static void multi_draw_elements(struct gls_exec *x, struct gls_state *st, const struct call *c, int64_t stride, const struct trace_value *base,
-                                uint64_t n_base)
+static void multi_draw_elements(struct gls_exec *x, struct gls_state *st, const struct call *c, int64_t stride,
+                                const struct trace_value *base, uint64_t n_base)
 {
 	uint64_t n_count, n_indices;
 	const struct trace_value *count = arg_items(c, 1, &n_count), *indices = arg_items(c, 3, &n_indices);
@@ -342,7 +348,8 @@ GLS_HANDLER(glMultiDrawElementsBaseVertex, ARRAY)
 
 /* ---- ArrayElement: the calls it stands for (sec. 2.8), executed or kept in the list being made ---- */
 
-static void put_call(struct gls_exec *x, struct gls_state *st, const char *name, const struct trace_value *args, uint32_t n)
+static void put_call(struct gls_exec *x, struct gls_state *st, const char *name, const struct trace_value *args,
+                     uint32_t n)
 {
 	const uint32_t command = (uint32_t)gls_command_find(name);
 	struct call c = *x->call;

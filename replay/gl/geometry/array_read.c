@@ -14,7 +14,9 @@
 
 size_t gls_type_bytes(uint32_t type)
 {
-	return type <= GL_FLOAT || type == GL_HALF_FLOAT || type == GL_FIXED || type == GL_DOUBLE ? (size_t)type_bytes(type) : 0;
+	return type <= GL_FLOAT || type == GL_HALF_FLOAT || type == GL_FIXED || type == GL_DOUBLE ?
+	               (size_t)type_bytes(type) :
+	               0;
 }
 
 static unsigned components(const struct gls_array *array)
@@ -22,7 +24,8 @@ static unsigned components(const struct gls_array *array)
 	return array->size == GL_BGRA ? 4 : array->size < 1 || array->size > 4 ? 0 : (unsigned)array->size;
 }
 
-static int gls_source_open(struct gls_exec *x, struct gls_state *st, const struct gls_array *array, struct gls_source *s)
+static int gls_source_open(struct gls_exec *x, struct gls_state *st, const struct gls_array *array,
+                           struct gls_source *s)
 {
 	struct gls_buffer *b = gls_buffer_find(st, array->buffer);
 
@@ -71,8 +74,9 @@ uint64_t gls_sources_count(const struct gls_sources *s)
 }
 
 /*
- * An integer of an array as a number in [-1,1], as Mesa (22.3.6) fetches it: multiplied, where single calls divide, and the two lowest of a signed
- * type are both -1 (OpenGL 4.2 sec. 2.3.4), where single calls have the odd numbers of OpenGL 2.1 table 2.9.
+ * An integer of an array as a number in [-1,1], as Mesa (22.3.6) fetches it: multiplied, where single calls divide, and
+ * the two lowest of a signed type are both -1 (OpenGL 4.2 sec. 2.3.4), where single calls have the odd numbers of
+ * OpenGL 2.1 table 2.9.
  */
 static float normal(float value, float most)
 {

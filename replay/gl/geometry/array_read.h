@@ -28,11 +28,14 @@ size_t gls_type_bytes(uint32_t type);
 /** Element i as four floats, normalized if the array is. The caller has checked that it is there. */
 void gls_source_read(const struct gls_source *s, uint64_t i, float out[4]);
 
-/** Those of vertex programs only where one draws, or a list is made. @return the attributes that come from arrays, as in gls_geometry.varying */
+/** Those of vertex programs only where one draws, or a list is made. @return the attributes that come from arrays, as
+ * in gls_geometry.varying */
 uint32_t gls_sources_open_attributes(struct gls_exec *x, struct gls_state *st, struct gls_sources *s);
 /** Positions and edge flags too. @return 1; 0: there is nothing to draw from (counted) */
 int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_sources *s);
-/** How many vertices they hold: as many as the positions or, where these are one constant, the longest array of the others. */
+/** How many vertices they hold: as many as the positions or, where these are one constant, the longest array of the
+ * others. */
 uint64_t gls_sources_count(const struct gls_sources *s);
 /** A hash of all that a draw's mesh depends on. elements: a hash of the indices, or the first vertex. */
-uint64_t gls_sources_key(const struct gls_state *st, const struct gls_sources *s, uint32_t mode, uint64_t elements, uint64_t n_elements);
+uint64_t gls_sources_key(const struct gls_state *st, const struct gls_sources *s, uint32_t mode, uint64_t elements,
+                         uint64_t n_elements);

@@ -1,10 +1,10 @@
 /*
  * What a display list changes if nothing is drawn.
  *
- * A skipped frame needs only this of a list. Most lists of text and models change nothing: meshes, matrices between PushMatrix and
- * PopMatrix, textures and attributes that the next letter sets again. The effect of a list is the ops that remain, with those of the
- * lists it calls. Running it leaves the same bits as the whole list, in any state. If that cannot be said, there is no effect and the
- * list itself runs.
+ * A skipped frame needs only this of a list. Most lists of text and models change nothing: meshes, matrices between
+ * PushMatrix and PopMatrix, textures and attributes that the next letter sets again. The effect of a list is the ops
+ * that remain, with those of the lists it calls. Running it leaves the same bits as the whole list, in any state. If
+ * that cannot be said, there is no effect and the list itself runs.
  *
  * An effect holds as long as the lists and textures it was made of. The share group counts those that go (epoch).
  */
@@ -28,13 +28,16 @@
 #define MAX_MADE 16        /* effects made of one list; afterwards it changes too often */
 
 enum action {
-	KEEP,     /* reads or writes anything */
-	CHANGE,   /* the current matrix alone */
-	PUSH, POP,
-	BIND, CALL,
-	PASS,     /* attributes alone, kept */
-	DRAW,     /* a mesh: the attributes it sets alone */
-	LEAVE     /* what follows may mean anything else: the matrix stack, unit or edge flag may be others, Begin may be open */
+	KEEP,   /* reads or writes anything */
+	CHANGE, /* the current matrix alone */
+	PUSH,
+	POP,
+	BIND,
+	CALL,
+	PASS, /* attributes alone, kept */
+	DRAW, /* a mesh: the attributes it sets alone */
+	LEAVE /* what follows may mean anything else: the matrix stack, unit or edge flag may be others, Begin may be
+	         open */
 };
 
 struct maker {
@@ -43,7 +46,8 @@ struct maker {
 	uint8_t *action, *dead;
 	uint32_t *rest; /* of a DRAW: attributes that nobody has set again yet */
 	uint32_t n, room;
-	uint32_t last[N_GLS_ATTRIBUTES], bound[N_GLS_TEXTURE_TARGETS]; /* op + 1 that set it last, and nobody has read it since */
+	uint32_t last[N_GLS_ATTRIBUTES], bound[N_GLS_TEXTURE_TARGETS]; /* op + 1 that set it last, and nobody has read
+	                                                                  it since */
 	uint32_t push[MAX_PUSHES], depth, read; /* brackets that are open; the first `read` of them hold somebody who reads */
 	uint32_t most, nesting, looked;
 	int left, failed;
@@ -52,9 +56,9 @@ struct maker {
 static enum action action_of(const struct gls_op *op)
 {
 	static const uint8_t known[] = {
-		[GLS_ROLE_TRANSFORM] = CHANGE, [GLS_ROLE_CALL_LIST] = CALL, [GLS_ROLE_BIND_TEXTURE] = BIND, [GLS_ROLE_PUSH_MATRIX] = PUSH,
-		[GLS_ROLE_POP_MATRIX] = POP, [GLS_ROLE_SELECT] = LEAVE, [GLS_ROLE_EDGE_FLAG] = LEAVE, [GLS_ROLE_BEGIN] = LEAVE,
-		[GLS_ROLE_END] = LEAVE, [GLS_ROLE_MATERIAL] = KEEP, [GLS_ROLE_VERTEX_ATTRIB] = PASS,
+		[GLS_ROLE_TRANSFORM] = CHANGE, [GLS_ROLE_CALL_LIST] = CALL, [GLS_ROLE_BIND_TEXTURE] = BIND,
+		[GLS_ROLE_PUSH_MATRIX] = PUSH, [GLS_ROLE_POP_MATRIX] = POP, [GLS_ROLE_SELECT] = LEAVE, [GLS_ROLE_EDGE_FLAG] = LEAVE,
+		[GLS_ROLE_BEGIN] = LEAVE, [GLS_ROLE_END] = LEAVE, [GLS_ROLE_MATERIAL] = KEEP, [GLS_ROLE_VERTEX_ATTRIB] = PASS,
 	};
 	const struct gls_command *k = &gls_commands[op->command];
 
@@ -166,7 +170,9 @@ static void put_pop(struct maker *m, uint32_t at)
 
 static struct gls_list *called_by(const struct maker *m, const struct gls_op *op)
 {
-	return op->form == GLS_OP_CALL && op->n ? table_find(&m->st->share->lists, (uint32_t)gls_value_int(&op->args[0])) : NULL;
+	return op->form == GLS_OP_CALL && op->n ?
+	               table_find(&m->st->share->lists, (uint32_t)gls_value_int(&op->args[0])) :
+	               NULL;
 }
 
 /* 1 if some op of the list gives later ops another meaning. Such a list is called as it is. */
@@ -176,7 +182,8 @@ static int leaves(struct maker *m, const struct gls_list *list, uint32_t nesting
 		enum action action = action_of(&list->ops[i]);
 		const struct gls_list *called = action == CALL ? called_by(m, &list->ops[i]) : NULL;
 
-		if (++m->looked > MAX_LOOKED || action == LEAVE || (action == CALL && (!called || nesting == MAX_NESTING || leaves(m, called, nesting + 1))))
+		if (++m->looked > MAX_LOOKED || action == LEAVE ||
+		    (action == CALL && (!called || nesting == MAX_NESTING || leaves(m, called, nesting + 1))))
 			return 1;
 	}
 	return 0;
@@ -269,5 +276,7 @@ const struct gls_effect *gls_effect_of(const struct gls_exec *x, struct gls_stat
 			return NULL; /* a list that runs once is not worth it */
 		make(st, list);
 	}
-	return e->none || stack->depth + e->pushes >= stack->max || x->list_depth + e->nesting >= GLS_MAX_LIST_NESTING ? NULL : e;
+	return e->none || stack->depth + e->pushes >= stack->max || x->list_depth + e->nesting >= GLS_MAX_LIST_NESTING ?
+	               NULL :
+	               e;
 }

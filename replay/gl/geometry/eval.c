@@ -1,6 +1,6 @@
 /*
- * Evaluators (GL 2.1 sec. 5.1): Bezier curves and surfaces make vertices and their attributes. Grids and switches belong to attribute
- * groups (state/attrib.c); the maps do not.
+ * Evaluators (GL 2.1 sec. 5.1): Bezier curves and surfaces make vertices and their attributes. Grids and switches
+ * belong to attribute groups (state/attrib.c); the maps do not.
  */
 #include "replay/gl/geometry/eval.h"
 
@@ -32,10 +32,11 @@ struct gls_maps {
 	struct map map[2][N_TARGETS]; /* Map1's, Map2's */
 };
 
-/* Components of COLOR_4, INDEX, NORMAL, TEXTURE_COORD_1 .. 4, VERTEX_3, VERTEX_4 (table 5.1), and their initial constants. */
+/* Components of COLOR_4, INDEX, NORMAL, TEXTURE_COORD_1 .. 4, VERTEX_3, VERTEX_4 (table 5.1), and their initial
+ * constants. */
 static const unsigned sizes[N_TARGETS] = { 4, 1, 3, 1, 2, 3, 4, 3, 4 };
-static const float initial[N_TARGETS][4] = { { 1, 1, 1, 1 }, { 1 }, { 0, 0, 1 }, { 0 }, { 0, 0 }, { 0, 0, 0 }, { 0, 0, 0, 1 }, { 0, 0, 0 },
-	                                     { 0, 0, 0, 1 } };
+static const float initial[N_TARGETS][4] = { { 1, 1, 1, 1 }, { 1 },          { 0, 0, 1 }, { 0 },         { 0, 0 },
+	                                     { 0, 0, 0 },    { 0, 0, 0, 1 }, { 0, 0, 0 }, { 0, 0, 0, 1 } };
 enum { COLOR_4, INDEX, NORMAL, TEXTURE_COORD_1, TEXTURE_COORD_4 = TEXTURE_COORD_1 + 3, VERTEX_3, VERTEX_4 };
 
 void gls_maps_free(struct gls_maps *maps)
@@ -220,7 +221,8 @@ static void auto_normal(const struct map *m, unsigned size, const float t[2], co
 }
 
 /* The value of a map where it is on. @return 0: off */
-static int evaluate(const struct gls_state *st, unsigned which, unsigned target, const float u[2], float t[2], float out[4])
+static int evaluate(const struct gls_state *st, unsigned which, unsigned target, const float u[2], float t[2],
+                    float out[4])
 {
 	const struct gls_evaluator *e = &st->a.evaluator;
 	const struct map *m = st->maps ? &st->maps->map[which][target] : NULL;
@@ -290,7 +292,8 @@ GLS_FAMILY(glEvalCoord, INSIDE)
 
 /* ---- grids ---- */
 
-static void set_grid(struct gls_exec *x, struct gls_state *st, int64_t segments, float from, float to, int32_t *n, float grid[2])
+static void set_grid(struct gls_exec *x, struct gls_state *st, int64_t segments, float from, float to, int32_t *n,
+                     float grid[2])
 {
 	if (gls_refuses(x, st, segments < 1, GL_INVALID_VALUE))
 		return;
@@ -362,7 +365,8 @@ GLS_HANDLER(glEvalMesh1, STATE)
 	gls_end(x, st);
 }
 
-/* Sec. 5.1: points, lines both ways, or strips of triangles (Mesa draws these where the specification has strips of quads). */
+/* Sec. 5.1: points, lines both ways, or strips of triangles (Mesa draws these where the specification has strips of
+ * quads). */
 GLS_HANDLER(glEvalMesh2, STATE)
 {
 	uint32_t mode = arg_u(c, 0);

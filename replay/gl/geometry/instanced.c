@@ -1,7 +1,7 @@
 /*
- * Draws of several instances (GL 3.1 sec. 2.8.3, ARB_base_instance) and draws whose parameters lie in memory (ARB_draw_indirect,
- * ARB_multi_draw_indirect), as direct draws. Fixed function does not know
- * which instance it draws: all are the same.
+ * Draws of several instances (GL 3.1 sec. 2.8.3, ARB_base_instance) and draws whose parameters lie in memory
+ * (ARB_draw_indirect, ARB_multi_draw_indirect), as direct draws. Fixed function does not know which instance it draws:
+ * all are the same.
  */
 #include <string.h>
 
@@ -19,10 +19,13 @@ static int64_t count_instances(struct gls_exec *x, struct gls_state *st, int64_t
 {
 	if (instances < 0)
 		gls_error(x, st, GL_INVALID_VALUE);
-	return instances > 0 && !gls_is_beyond_measure(x, (uint64_t)instances, "draws of instances without end") ? instances : 0;
+	return instances > 0 && !gls_is_beyond_measure(x, (uint64_t)instances, "draws of instances without end") ?
+	               instances :
+	               0;
 }
 
-static void draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t first, int64_t count, int64_t instances)
+static void draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t first, int64_t count,
+                        int64_t instances)
 {
 	for (int64_t n = count_instances(x, st, instances); n > 0; n--)
 		gls_draw_arrays(x, st, mode, first, count);
@@ -36,9 +39,18 @@ static void draw_elements(struct gls_exec *x, struct gls_state *st, const struct
 }
 
 GLS_HANDLER(glDrawArraysInstanced, ARRAY) { draw_arrays(x, st, arg_u(c, 0), arg_i(c, 1), arg_i(c, 2), arg_i(c, 3)); }
-GLS_HANDLER(glDrawArraysInstancedBaseInstance, ARRAY) { draw_arrays(x, st, arg_u(c, 0), arg_i(c, 1), arg_i(c, 2), arg_i(c, 3)); }
-GLS_HANDLER(glDrawElementsInstanced, ARRAY) { draw_elements(x, st, c, arg_i(c, 1), arg_u(c, 2), arg(c, 3), arg_i(c, 4), 0); }
-GLS_HANDLER(glDrawElementsInstancedBaseInstance, ARRAY) { draw_elements(x, st, c, arg_i(c, 1), arg_u(c, 2), arg(c, 3), arg_i(c, 4), 0); }
+GLS_HANDLER(glDrawArraysInstancedBaseInstance, ARRAY)
+{
+	draw_arrays(x, st, arg_u(c, 0), arg_i(c, 1), arg_i(c, 2), arg_i(c, 3));
+}
+GLS_HANDLER(glDrawElementsInstanced, ARRAY)
+{
+	draw_elements(x, st, c, arg_i(c, 1), arg_u(c, 2), arg(c, 3), arg_i(c, 4), 0);
+}
+GLS_HANDLER(glDrawElementsInstancedBaseInstance, ARRAY)
+{
+	draw_elements(x, st, c, arg_i(c, 1), arg_u(c, 2), arg(c, 3), arg_i(c, 4), 0);
+}
 GLS_HANDLER(glDrawElementsInstancedBaseVertex, ARRAY)
 {
 	draw_elements(x, st, c, arg_i(c, 1), arg_u(c, 2), arg(c, 3), arg_i(c, 4), (int32_t)arg_i(c, 5));
@@ -53,7 +65,8 @@ GLS_HANDLER(glDrawElementsInstancedBaseVertexBaseInstance, ARRAY)
 enum { ARRAYS_WORDS = 4, ELEMENTS_WORDS = 5 }; /* of a command */
 
 /* The bytes of draw commands: in the recording, or in the bound buffer. NULL: they are not known (counted). */
-static const uint8_t *find_commands(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned argument, uint64_t bytes)
+static const uint8_t *find_commands(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned argument,
+                                    uint64_t bytes)
 {
 	size_t n = 0;
 	const uint8_t *found = arg_blob(c, argument, &n);
@@ -72,8 +85,8 @@ static const uint8_t *find_commands(struct gls_exec *x, struct gls_state *st, co
 	return NULL;
 }
 
-static void draw_indirect(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned argument, int elements, int64_t draws,
-                          int64_t stride)
+static void draw_indirect(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned argument,
+                          int elements, int64_t draws, int64_t stride)
 {
 	const uint64_t size = 4 * (elements ? ELEMENTS_WORDS : ARRAYS_WORDS);
 	const uint8_t *commands;

@@ -103,7 +103,8 @@ int gls_list_keep(struct gls_list *list, struct gls_op *op, const struct call *c
 }
 
 /* unpack: the state that pixels in client memory are read with, which is that of the moment (sec. 5.4). */
-static int keep_call(struct gls_list *list, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack)
+static int keep_call(struct gls_list *list, const struct call *c, uint32_t command,
+                     const struct gls_pixel_store *unpack)
 {
 	const int packs = gls_commands[command].kind == GLS_KIND_VERTEX;
 	struct gls_op *op = gls_list_add(list);

@@ -56,7 +56,8 @@ struct gls_list {
 	struct arena arena;
 	struct gls_effect effect;
 	uint32_t inlined, skipped; /* 1: effects of other lists may hold its ops; how often skipped frames called it */
-	uint64_t name[2], bytes, held; /* of its blob; held: of the blob and its meshes together, 0: not known yet (index/snapshot.h) */
+	uint64_t name[2], bytes, held; /* of its blob; held: of the blob and its meshes together, 0: not known yet
+	                                  (index/snapshot.h) */
 };
 #define GLS_MAX_LIST_NESTING 64
 void gls_list_free(struct gls_list *list);

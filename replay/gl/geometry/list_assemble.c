@@ -32,7 +32,8 @@ static int fits_batch(const struct gls_exec *assembler, const struct gls_op *op)
 
 	if (op->form == GLS_OP_MESH || k->role == GLS_ROLE_EDGE_FLAG)
 		return 0;
-	if (k->role == GLS_ROLE_VERTEX_ATTRIB && !open && (op->form != GLS_OP_CALL || !op->n || gls_value_int(&op->args[0]) == 0))
+	if (k->role == GLS_ROLE_VERTEX_ATTRIB && !open &&
+	    (op->form != GLS_OP_CALL || !op->n || gls_value_int(&op->args[0]) == 0))
 		return 0; /* meshes do not set it */
 	if (k->kind == GLS_KIND_VERTEX)
 		return 1;
@@ -48,7 +49,8 @@ static int fits_batch(const struct gls_exec *assembler, const struct gls_op *op)
  * Run ops [first, last) through the assembler, as far as they make a batch.
  * Its geometry is left with what was collected up to batch->end where `last` is that end.
  */
-static void collect_batch(struct gls_exec *assembler, const struct gls_list *list, uint32_t first, uint32_t last, struct batch *batch)
+static void collect_batch(struct gls_exec *assembler, const struct gls_list *list, uint32_t first, uint32_t last,
+                          struct batch *batch)
 {
 	struct trace_value args[GLS_MAX_PACKED + 1];
 	struct gls_geometry *g = &assembler->pending.geometry;
@@ -153,9 +155,9 @@ static int keep_ops(struct gls_exec *x, struct gls_list *out, const struct gls_l
 }
 
 /*
- * Some calls set again what the list itself has just set. Without them the batches on both sides become one mesh. Programs that send
- * every face by itself are full of such calls. Remembered are BindTexture, by target, and Material, by face and name. Any other call
- * but vertices clears the memory.
+ * Some calls set again what the list itself has just set. Without them the batches on both sides become one mesh.
+ * Programs that send every face by itself are full of such calls. Remembered are BindTexture, by target, and Material,
+ * by face and name. Any other call but vertices clears the memory.
  */
 #define N_REMEMBERED 16
 struct remembered {
@@ -199,7 +201,8 @@ static int is_redundant(struct remembered *r, const struct gls_op *op)
 	int material = op->form == GLS_OP_CALL && gls_op_is(op, GLS_ROLE_MATERIAL);
 	int texture = op->form == GLS_OP_CALL && gls_op_is(op, GLS_ROLE_BIND_TEXTURE);
 
-	if (op->form != GLS_OP_MESH && (k->kind == GLS_KIND_VERTEX || gls_op_is(op, GLS_ROLE_BEGIN) || gls_op_is(op, GLS_ROLE_END)))
+	if (op->form != GLS_OP_MESH &&
+	    (k->kind == GLS_KIND_VERTEX || gls_op_is(op, GLS_ROLE_BEGIN) || gls_op_is(op, GLS_ROLE_END)))
 		return 0;
 	if (!material && !texture) {
 		r->n = 0;

@@ -1,7 +1,7 @@
 /*
- * A finished list, made cheap to call. Calls that set again what the list has just set are dropped. Batches of Begin and End with
- * nothing but vertex attributes between become meshes. A batch stays as calls if a vertex needs an attribute that is known only when
- * the list is called.
+ * A finished list, made cheap to call. Calls that set again what the list has just set are dropped. Batches of Begin
+ * and End with nothing but vertex attributes between become meshes. A batch stays as calls if a vertex needs an
+ * attribute that is known only when the list is called.
  */
 #pragma once
 

@@ -6,5 +6,6 @@
 /** 1 where a type of vertex arrays is such a number. */
 int gls_is_packed(uint32_t type);
 
-/** Its four components; `normalized`: they stand for [0,1] or [-1,1], as in GL 4.2 (sec. 2.3.5.1), which Mesa follows. */
+/** Its four components; `normalized`: they stand for [0,1] or [-1,1], as in GL 4.2 (sec. 2.3.5.1), which Mesa
+ * follows. */
 void gls_unpack_packed(uint32_t value, uint32_t type, uint32_t normalized, float out[4]);

@@ -19,7 +19,8 @@ static void draw_pending(struct gls_exec *x)
 	const uint32_t list = x->drawn_list, command = x->command;
 
 	if (g->n_primitives && x->st) {
-		if (g->quads && !x->pending.list && gls_quads_turn(x->st, gls_shades_flat(x->st), g->position, g->index, g->n_primitives))
+		if (g->quads && !x->pending.list &&
+		    gls_quads_turn(x->st, gls_shades_flat(x->st), g->position, g->index, g->n_primitives))
 			gls_geometry_turn_quads(g);
 		mesh = gls_geometry_mesh(x, g);
 		x->drawn_list = x->pending.list;
@@ -55,8 +56,8 @@ void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attrib
 }
 
 /*
- * Materials may change between Begin and End (sec. 2.6.3): each vertex is lit with the one that is current then, so from there on
- * it is an attribute of the vertices.
+ * Materials may change between Begin and End (sec. 2.6.3): each vertex is lit with the one that is current then, so
+ * from there on it is an attribute of the vertices.
  */
 void gls_before_material(struct gls_exec *x, struct gls_state *st)
 {
@@ -163,7 +164,8 @@ static void cut_primitives(struct gls_exec *x, const struct gls_state *st)
 {
 	struct gls_geometry *g = &x->pending.geometry;
 
-	gls_geometry_cut(x, g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL, (int)st->a.lighting.first_provokes);
+	gls_geometry_cut(x, g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL,
+	                 (int)st->a.lighting.first_provokes);
 }
 
 void gls_end(struct gls_exec *x, struct gls_state *st)

@@ -1,7 +1,8 @@
 /*
  * Pending vertices (GL 2.1 sec. 2.6, 2.7): what Begin/End collects until somebody draws it.
  *
- * Pairs of Begin and End with the same kind of primitive share one mesh, as long as no state changes that draws look at.
+ * Pairs of Begin and End with the same kind of primitive share one mesh, as long as no state changes that draws look
+ * at.
  */
 #pragma once
 
@@ -15,9 +16,11 @@ void gls_flush(struct gls_exec *x);
 
 /** Set a current attribute. */
 void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4]);
-/** Set a generic attribute (sec. 2.7): 0 is a vertex where a Begin is open. A number that there is none of is the program's error. */
+/** Set a generic attribute (sec. 2.7): 0 is a vertex where a Begin is open. A number that there is none of is the
+ * program's error. */
 void gls_set_generic(struct gls_exec *x, struct gls_state *st, uint32_t number, const float value[4]);
-/** 0: nothing draws a vertex that comes now: no Begin is open (undefined, sec. 2.6.3; Mesa draws nothing), or no frame is wanted. */
+/** 0: nothing draws a vertex that comes now: no Begin is open (undefined, sec. 2.6.3; Mesa draws nothing), or no frame
+ * is wanted. */
 int gls_takes_vertices(const struct gls_exec *x, const struct gls_state *st);
 /** A vertex of the open Begin; ignored where gls_takes_vertices says so. */
 void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4]);

@@ -1,4 +1,5 @@
-/* The current raster position (GL 2.1 sec. 2.13): RasterPos takes a vertex's way to the window, WindowPos goes there at once. */
+/* The current raster position (GL 2.1 sec. 2.13): RasterPos takes a vertex's way to the window, WindowPos goes there at
+ * once. */
 #include <math.h>
 #include <string.h>
 

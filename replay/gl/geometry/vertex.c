@@ -47,8 +47,8 @@ static float normalize(float value, double exact, enum gls_suffix_type type)
 }
 
 /*
- * Read the components that the command's suffix tells, from argument `first` on. The others are those of (0, 0, 0, 1). Inlined, as it
- * runs for every vertex, and most families need a part of it only.
+ * Read the components that the command's suffix tells, from argument `first` on. The others are those of (0, 0, 0, 1).
+ * Inlined, as it runs for every vertex, and most families need a part of it only.
  */
 static inline __attribute__((always_inline)) void
 read_components(const struct gls_exec *x, const struct call *c, unsigned first, int normalized, float out[4])
@@ -107,7 +107,8 @@ GLS_FAMILY(glVertex, VERTEX)
 	gls_vertex(x, st, value);
 }
 
-/* Generic attribute 0 is the vertex between Begin and End (sec. 2.7). The others are for vertex programs, and so is it elsewhere. */
+/* Generic attribute 0 is the vertex between Begin and End (sec. 2.7). The others are for vertex programs, and so is it
+ * elsewhere. */
 GLS_FAMILY(glVertexAttrib, VERTEX, VERTEX_ATTRIB)
 {
 	float value[4];

@@ -1,7 +1,7 @@
 /*
- * Vertex array objects (GL 3.0 sec. 2.10, ARB_vertex_array_object, APPLE_vertex_array_object). The arrays and the element buffer of the
- * bound object are the context's own state; those of all others, 0 included, are in a table. A deleted buffer leaves the bound object
- * alone; the others look its name up when they draw.
+ * Vertex array objects (GL 3.0 sec. 2.10, ARB_vertex_array_object, APPLE_vertex_array_object). The arrays and the
+ * element buffer of the bound object are the context's own state; those of all others, 0 included, are in a table. A
+ * deleted buffer leaves the bound object alone; the others look its name up when they draw.
  */
 #include "replay/gl/geometry/vertexarray.h"
 
@@ -46,7 +46,8 @@ void gls_vertex_array_bind(struct gls_exec *x, struct gls_state *st, uint32_t na
 	struct gls_client_attribs *now = &st->client;
 	struct gls_vertex_array *old, *object;
 
-	if (name == now->vertex_array || !(old = find_or_make(x, st, now->vertex_array)) || !(object = find_or_make(x, st, name)))
+	if (name == now->vertex_array || !(old = find_or_make(x, st, now->vertex_array)) ||
+	    !(object = find_or_make(x, st, name)))
 		return;
 	memcpy(old->arrays, now->arrays, sizeof(old->arrays));
 	old->element_buffer = now->element_buffer;

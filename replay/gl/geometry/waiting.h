@@ -1,9 +1,10 @@
 /*
  * Colours of materials that wait. What glMaterial and glColor set outside of Begin and End lies in Mesa's vertex store
- * (22.3.6, vbo_exec_api.c) until that is emptied or looked at, and becomes current then. With COLOR_MATERIAL this shows:
- * a parameter that waits comes over the colour that Enable and ColorMaterial have copied there, unless the colour changes
- * as well; and where vertices carry no colours, the parameter counts (until Mesa 25.0, SCENE_MESA_TRACKS_COLORS). The
- * specification has it otherwise (GL 2.1 sec. 2.14.3), and so have other GLs: nothing waits there.
+ * (22.3.6, vbo_exec_api.c) until that is emptied or looked at, and becomes current then. With COLOR_MATERIAL this
+ * shows: a parameter that waits comes over the colour that Enable and ColorMaterial have copied there, unless the
+ * colour changes as well; and where vertices carry no colours, the parameter counts (until Mesa 25.0,
+ * SCENE_MESA_TRACKS_COLORS). The specification has it otherwise (GL 2.1 sec. 2.14.3), and so have other GLs: nothing
+ * waits there.
  */
 #pragma once
 

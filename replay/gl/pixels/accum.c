@@ -1,6 +1,6 @@
 /*
- * The accumulation buffer (GL 2.1 sec. 4.2.4): sums of pictures, kept as pixels. As in Mesa, values are 16 bits, 32767 for 1, rounded
- * towards 0; the colours of a drawable that can hold sRGB are summed in linear light.
+ * The accumulation buffer (GL 2.1 sec. 4.2.4): sums of pictures, kept as pixels. As in Mesa, values are 16 bits, 32767
+ * for 1, rounded towards 0; the colours of a drawable that can hold sRGB are summed in linear light.
  *
  * A frame that is not built leaves the sums missing, until the whole buffer is loaded or cleared.
  */
@@ -88,12 +88,13 @@ struct change {
 };
 
 /* p: the colours, or NULL */
-static void change_area(struct gls_exec *x, const struct gls_state *st, struct gls_drawable *d, const struct area *a, const struct change *by,
-                        const struct scene_picture *p)
+static void change_area(struct gls_exec *x, const struct gls_state *st, struct gls_drawable *d, const struct area *a,
+                        const struct change *by, const struct scene_picture *p)
 {
 	const int64_t width = a->x1 > a->x0 ? a->x1 - a->x0 : 0, height = a->y1 > a->y0 ? a->y1 - a->y0 : 0;
 
-	if (x->list_depth && gls_is_beyond_measure(x, (uint64_t)(width * height) / PIXELS_A_REPEAT, "lists that accumulate without end"))
+	if (x->list_depth &&
+	    gls_is_beyond_measure(x, (uint64_t)(width * height) / PIXELS_A_REPEAT, "lists that accumulate without end"))
 		return;
 	for (int64_t row = a->y0; row < a->y1; row++)
 		for (int64_t column = a->x0; column < a->x1; column++) {
@@ -103,14 +104,18 @@ static void change_area(struct gls_exec *x, const struct gls_state *st, struct g
 				float v = (float)clamp16((float)d->accum[at + c] * by->scale) + by->offset[c];
 
 				if (p && column < p->width && row < p->height)
-					v += (float)clamp16(value_of(st, p->rgba[4 * ((size_t)row * p->width + (size_t)column) + c], c) * by->factor * ONE);
+					v += (float)clamp16(
+						value_of(st, p->rgba[4 * ((size_t)row * p->width + (size_t)column) + c],
+					                 c) *
+						by->factor * ONE);
 				d->accum[at + c] = clamp16(v);
 			}
 		}
 }
 
 /* RETURN: only the scissor and the colour mask touch these fragments. */
-static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls_drawable *d, const struct area *a, float value)
+static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls_drawable *d, const struct area *a,
+                      float value)
 {
 	uint32_t width = (uint32_t)(a->x1 - a->x0), height = (uint32_t)(a->y1 - a->y0);
 	uint8_t *texels = gls_scratch(x, (size_t)width * height * 4);
@@ -123,8 +128,15 @@ static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls
 			texels[4 * (size_t)y * width + i] = (uint8_t)((st->srgb && i % 4 < 3 ? gls_srgb_from_linear(v) : v) * 255 + 0.5f);
 		}
 	if (texels)
-		gls_copy_rectangle(x, st, &(struct gls_rectangle){ .kind = SCENE_COLOR_PIXELS, .width = width, .height = height, .left = (float)a->x0,
-		                                                   .low = (float)a->y0, .zoom = { 1, 1 }, .texels = texels }, st->a.color.mask);
+		gls_copy_rectangle(x, st,
+		                   &(struct gls_rectangle){ .kind = SCENE_COLOR_PIXELS,
+		                                            .width = width,
+		                                            .height = height,
+		                                            .left = (float)a->x0,
+		                                            .low = (float)a->y0,
+		                                            .zoom = { 1, 1 },
+		                                            .texels = texels },
+		                   st->a.color.mask);
 }
 
 GLS_HANDLER(glAccum, STATE)
@@ -135,7 +147,8 @@ GLS_HANDLER(glAccum, STATE)
 	struct area area;
 	struct gls_drawable *d;
 
-	if (gls_refuses(x, st, op != GL_ACCUM && op != GL_LOAD && op != GL_RETURN && op != GL_MULT && op != GL_ADD, GL_INVALID_ENUM))
+	if (gls_refuses(x, st, op != GL_ACCUM && op != GL_LOAD && op != GL_RETURN && op != GL_MULT && op != GL_ADD,
+	                GL_INVALID_ENUM))
 		return;
 	if (!gls_renders(st))
 		return;

@@ -19,7 +19,8 @@ struct blit {
 	int64_t source[2], place[2], across[2]; /* as the call gives them: where both begin, how far the place goes */
 };
 
-static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind, const struct scene_picture *p)
+static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind,
+                     const struct scene_picture *p)
 {
 	uint32_t width = (uint32_t)(b->from[2] - b->from[0]), height = (uint32_t)(b->from[3] - b->from[1]);
 	size_t bytes = kind == SCENE_FLOAT_PIXELS ? 16 : 4;
@@ -37,19 +38,32 @@ static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit
 		stencil = p->stencil[at];
 		depth = p->depth_bits ? (float)p->depth[at] / (float)((1u << p->depth_bits) - 1) : 1;
 		gls_picture_color(p, at, v);
-		memcpy(texels + bytes * i, kind == SCENE_COLOR_PIXELS ? (const void *)(p->rgba + 4 * at) : kind == SCENE_FLOAT_PIXELS ? v :
-		                           kind == SCENE_DEPTH_PIXELS ? (const void *)&depth : (const void *)&stencil, bytes);
+		memcpy(texels + bytes * i,
+		       kind == SCENE_COLOR_PIXELS ? (const void *)(p->rgba + 4 * at) :
+		       kind == SCENE_FLOAT_PIXELS ? v :
+		       kind == SCENE_DEPTH_PIXELS ? (const void *)&depth :
+		                                    (const void *)&stencil,
+		       bytes);
 	}
 	if (texels)
-		gls_copy_rectangle(x, st, &(struct gls_rectangle){ .kind = kind, .width = width, .height = height, .left = b->corner[0], .low = b->corner[1],
-		                                                   .zoom = { b->zoom[0], b->zoom[1] }, .texels = texels }, 15);
+		gls_copy_rectangle(x, st,
+		                   &(struct gls_rectangle){ .kind = kind,
+		                                            .width = width,
+		                                            .height = height,
+		                                            .left = b->corner[0],
+		                                            .low = b->corner[1],
+		                                            .zoom = { b->zoom[0], b->zoom[1] },
+		                                            .texels = texels },
+		                   15);
 }
 
-/* What two neighbours hold of a point, whose pixels have their middles at halves: the lower one, and the share of the upper one. */
+/* What two neighbours hold of a point, whose pixels have their middles at halves: the lower one, and the share of the
+ * upper one. */
 static double find_lower(const struct blit *b, unsigned direction, uint32_t i, uint32_t size, size_t lower[2])
 {
 	const int64_t least = b->across[direction] < 0 ? b->across[direction] : 0;
-	const double from = (double)b->source[direction] + ((double)(least + (int64_t)i) + 0.5) / (double)b->zoom[direction] - 0.5;
+	const double from = (double)b->source[direction] +
+	                    ((double)(least + (int64_t)i) + 0.5) / (double)b->zoom[direction] - 0.5;
 	const double at = fmin(fmax(from, 0), (double)size - 1);
 
 	lower[0] = (size_t)at;
@@ -57,12 +71,15 @@ static double find_lower(const struct blit *b, unsigned direction, uint32_t i, u
 	return at - (double)lower[0];
 }
 
-/* Colours between those of the nearest four pixels, one for each pixel of the place; at the picture's border those of its last ones. */
-static void blit_between(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind, const struct scene_picture *p)
+/* Colours between those of the nearest four pixels, one for each pixel of the place; at the picture's border those of
+ * its last ones. */
+static void blit_between(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind,
+                         const struct scene_picture *p)
 {
 	const uint32_t width = (uint32_t)llabs(b->across[0]), height = (uint32_t)llabs(b->across[1]);
 	const size_t bytes = kind == SCENE_FLOAT_PIXELS ? 16 : 4;
-	const float corner[2] = { (float)(b->place[0] + (b->across[0] < 0 ? b->across[0] : 0)), (float)(b->place[1] + (b->across[1] < 0 ? b->across[1] : 0)) };
+	const float corner[2] = { (float)(b->place[0] + (b->across[0] < 0 ? b->across[0] : 0)),
+		                  (float)(b->place[1] + (b->across[1] < 0 ? b->across[1] : 0)) };
 	uint8_t *texels = gls_scratch(x, (size_t)width * height * bytes);
 
 	for (uint32_t i = 0; texels && i < width * height; i++) {
@@ -81,18 +98,26 @@ static void blit_between(struct gls_exec *x, struct gls_state *st, const struct 
 			texels[4 * i + c] = (uint8_t)lrintf(255 * fminf(fmaxf(mixed[c], 0), 1));
 	}
 	if (texels)
-		gls_copy_rectangle(x, st, &(struct gls_rectangle){ .kind = kind, .width = width, .height = height, .left = corner[0], .low = corner[1],
-		                                                   .zoom = { 1, 1 }, .texels = texels }, 15);
+		gls_copy_rectangle(x, st,
+		                   &(struct gls_rectangle){ .kind = kind,
+		                                            .width = width,
+		                                            .height = height,
+		                                            .left = corner[0],
+		                                            .low = corner[1],
+		                                            .zoom = { 1, 1 },
+		                                            .texels = texels },
+		                   15);
 }
 
 /*
- * One direction (0: x, 1: y): the source in ascending order, where its lower end goes, and the magnification. The call gives both
- * ends of the source, then of the place, for x and y in turn.
+ * One direction (0: x, 1: y): the source in ascending order, where its lower end goes, and the magnification. The call
+ * gives both ends of the source, then of the place, for x and y in turn.
  * @return 0: nothing is left
  */
 static int find_span(const struct call *c, unsigned direction, struct blit *b)
 {
-	int64_t s0 = arg_i32(c, direction), s1 = arg_i32(c, direction + 2), d0 = arg_i32(c, direction + 4), d1 = arg_i32(c, direction + 6);
+	int64_t s0 = arg_i32(c, direction), s1 = arg_i32(c, direction + 2), d0 = arg_i32(c, direction + 4),
+		d1 = arg_i32(c, direction + 6);
 
 	b->from[direction] = s0 < s1 ? s0 : s1;
 	b->from[direction + 2] = s0 < s1 ? s1 : s0;
@@ -101,7 +126,8 @@ static int find_span(const struct call *c, unsigned direction, struct blit *b)
 	b->source[direction] = s0;
 	b->place[direction] = d0;
 	b->across[direction] = d1 - d0;
-	return s0 != s1 && d0 != d1 && llabs(d1 - d0) <= GLS_MAX_RECTANGLE && b->from[direction + 2] - b->from[direction] <= GLS_MAX_RECTANGLE;
+	return s0 != s1 && d0 != d1 && llabs(d1 - d0) <= GLS_MAX_RECTANGLE &&
+	       b->from[direction + 2] - b->from[direction] <= GLS_MAX_RECTANGLE;
 }
 
 GLS_HANDLER(glBlitFramebuffer, OBJECT)
@@ -112,9 +138,11 @@ GLS_HANDLER(glBlitFramebuffer, OBJECT)
 	struct gls_frame *drawn;
 	int between;
 
-	if (gls_refuses(x, st, mask & ~(uint32_t)(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT), GL_INVALID_VALUE) ||
+	if (gls_refuses(x, st, mask & ~(uint32_t)(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT),
+	                GL_INVALID_VALUE) ||
 	    gls_refuses(x, st, arg_u(c, 9) != GL_NEAREST && arg_u(c, 9) != GL_LINEAR, GL_INVALID_ENUM) ||
-	    gls_refuses(x, st, arg_u(c, 9) == GL_LINEAR && mask & (GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT), GL_INVALID_OPERATION))
+	    gls_refuses(x, st, arg_u(c, 9) == GL_LINEAR && mask & (GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT),
+	                GL_INVALID_OPERATION))
 		return;
 	if (!find_span(c, 0, &b) || !find_span(c, 1, &b) || !x->want)
 		return;

@@ -23,7 +23,8 @@ struct copy {
 };
 
 /* Pixels into texels through pixel transfer (sec. 4.3.2, 3.6.5). Texels of places off the screen stay. */
-static void copy_pixels(const struct gls_state *st, const struct scene_picture *p, const struct copy *c, struct gls_level *l)
+static void copy_pixels(const struct gls_state *st, const struct scene_picture *p, const struct copy *c,
+                        struct gls_level *l)
 {
 	const struct gls_format *format = gls_format_find(l->internal_format);
 	uint8_t *stencil = gls_level_stencil(l);
@@ -88,7 +89,8 @@ static int fills_missing(const struct gls_level *l, const struct copy *c)
 	uint32_t all[4] = { 0, 0, l->width, l->height };
 	const uint32_t *part = l->missing_part[2] ? l->missing_part : all;
 
-	return l->depth == 1 && c->to[0] <= part[0] && c->to[1] <= part[1] && c->to[0] + c->size[0] >= (int64_t)part[0] + part[2] &&
+	return l->depth == 1 && c->to[0] <= part[0] && c->to[1] <= part[1] &&
+	       c->to[0] + c->size[0] >= (int64_t)part[0] + part[2] &&
 	       c->to[1] + c->size[1] >= (int64_t)part[1] + part[3];
 }
 
@@ -117,13 +119,18 @@ GLS_FAMILY(glCopyTexImage, STATE)
 {
 	unsigned face, n_dims = gls_commands[x->command].suffix.n;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
-	const struct gls_level_form form = { arg_u(c, 2), arg_i(c, 5), n_dims > 1 ? arg_i(c, 6) : 1, 1, arg_i(c, n_dims > 1 ? 7 : 6) };
-	const uint32_t wrong = gls_image_error(arg_u(c, 0), form.internal_format, arg_i(c, 1), (int64_t[2]){ form.width, form.height }, form.border,
-	                                       st->mesa);
+	const struct gls_level_form form = { arg_u(c, 2), arg_i(c, 5), n_dims > 1 ? arg_i(c, 6) : 1, 1,
+		                             arg_i(c, n_dims > 1 ? 7 : 6) };
+	const uint32_t wrong = gls_image_error(arg_u(c, 0), form.internal_format, arg_i(c, 1),
+	                                       (int64_t[2]){ form.width, form.height }, form.border, st->mesa);
 	struct gls_level *l;
 
 	/* Numbers of components are for TexImage alone. */
-	if (!t || gls_refuses(x, st, !gls_takes_target(n_dims, arg_u(c, 0)) || (form.internal_format >= 1 && form.internal_format <= 4), GL_INVALID_ENUM) ||
+	if (!t ||
+	    gls_refuses(x, st,
+	                !gls_takes_target(n_dims, arg_u(c, 0)) ||
+	                        (form.internal_format >= 1 && form.internal_format <= 4),
+	                GL_INVALID_ENUM) ||
 	    gls_refuses_by(x, st, wrong))
 		return;
 	l = gls_texture_specify(x, st, t, face, arg_i(c, 1), &form);
@@ -134,7 +141,8 @@ GLS_FAMILY(glCopyTexImage, STATE)
 
 GLS_FAMILY(glCopyTexSubImage, STATE)
 {
-	unsigned face, n_dims = gls_commands[x->command].suffix.n, after = 2 + n_dims; /* place; then the corner on the screen and the size */
+	/* place; then the corner on the screen and the size */
+	unsigned face, n_dims = gls_commands[x->command].suffix.n, after = 2 + n_dims;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
 	struct copy copy = { { arg_i32(c, after), arg_i32(c, after + 1) },

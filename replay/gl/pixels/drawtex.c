@@ -26,10 +26,15 @@ static void change_attributes(struct gls_attribs *a)
 }
 
 /* The 2D texture of a unit, and its first level; NULL where it is not enabled or has no texels. */
-static const struct gls_level *level_of(struct gls_exec *x, struct gls_state *st, unsigned unit, const struct gls_texture **out)
+static const struct gls_level *level_of(struct gls_exec *x, struct gls_state *st, unsigned unit,
+                                        const struct gls_texture **out)
 {
-	const struct gls_texture *t = st->a.texturing.units[unit].enabled >> GLS_TEXTURE_2D & 1 ? gls_texture_bound(x, st, unit, GLS_TEXTURE_2D) : NULL;
-	const struct gls_level *l = t && t->parameters.base_level < GLS_MAX_LEVELS ? &t->levels[0][t->parameters.base_level] : NULL;
+	const struct gls_texture *t = st->a.texturing.units[unit].enabled >> GLS_TEXTURE_2D & 1 ?
+	                                      gls_texture_bound(x, st, unit, GLS_TEXTURE_2D) :
+	                                      NULL;
+	const struct gls_level *l = t && t->parameters.base_level < GLS_MAX_LEVELS ?
+	                                    &t->levels[0][t->parameters.base_level] :
+	                                    NULL;
 
 	*out = t;
 	return l && l->width && l->height ? l : NULL;
@@ -114,8 +119,13 @@ GLS_FAMILY(glDrawTex, STATE)
 	mesh = make_rectangle(x, st, rect);
 	st->dirty = GLS_DIRTY_ALL;
 	if (mesh)
-		gls_draw_event(x, st, &(struct gls_event){ .attribs = &a, .mesh = mesh, .values = (const float (*)[4])a.current.attribute,
-		                                           .command = x->command, .call_number = x->call->number, .in_window = 1 });
+		gls_draw_event(x, st,
+		               &(struct gls_event){ .attribs = &a,
+		                                    .mesh = mesh,
+		                                    .values = (const float(*)[4])a.current.attribute,
+		                                    .command = x->command,
+		                                    .call_number = x->call->number,
+		                                    .in_window = 1 });
 	st->dirty = GLS_DIRTY_ALL;
 	gls_mesh_release(mesh);
 }

@@ -33,30 +33,42 @@ GLS_HANDLER(glBitmap, STATE)
 			memset(texels + 4 * (size_t)i, gls_unpack_bit(&p, i % p.width, i / p.width) ? 255 : 0, 4);
 		/* The lower left corner is rounded down to whole pixels; Mesa adds a little first, against rounding errors. */
 		if (texels)
-			gls_draw_rectangle(x, st, &(struct gls_rectangle){ .kind = SCENE_BITMAP, .width = p.width, .height = p.height,
-			                                                   .left = floorf(at[0] + 0.0001f - arg_f(c, 2)),
-			                                                   .low = floorf(at[1] + 0.0001f - arg_f(c, 3)), .zoom = { 1, 1 }, .texels = texels });
+			gls_draw_rectangle(x, st,
+			                   &(struct gls_rectangle){ .kind = SCENE_BITMAP,
+			                                            .width = p.width,
+			                                            .height = p.height,
+			                                            .left = floorf(at[0] + 0.0001f - arg_f(c, 2)),
+			                                            .low = floorf(at[1] + 0.0001f - arg_f(c, 3)),
+			                                            .zoom = { 1, 1 },
+			                                            .texels = texels });
 	}
 	at[0] += arg_f(c, 4);
 	at[1] += arg_f(c, 5);
 }
 
-/* Pixels drawn at the raster position, with PixelZoom. copied: they come from what is read; Mesa (22.3.6) keeps a window's rows from the top */
-static struct gls_rectangle at_raster_position(const struct gls_state *st, uint32_t kind, uint32_t width, uint32_t height,
-                                               const uint8_t *texels, int copied)
+/* Pixels drawn at the raster position, with PixelZoom. copied: they come from what is read; Mesa (22.3.6) keeps a
+ * window's rows from the top */
+static struct gls_rectangle at_raster_position(const struct gls_state *st, uint32_t kind, uint32_t width,
+                                               uint32_t height, const uint8_t *texels, int copied)
 {
 	const float *at = st->a.current.raster_position, *zoom = st->a.pixel.zoom;
 
-	return (struct gls_rectangle){ .kind = kind, .width = width, .height = height, .left = roundf(at[0]), .low = roundf(at[1]),
-		                       .zoom = { zoom[0], zoom[1] }, .texels = texels, .from_top = copied && !st->read_framebuffer };
+	return (struct gls_rectangle){ .kind = kind,
+		                       .width = width,
+		                       .height = height,
+		                       .left = roundf(at[0]),
+		                       .low = roundf(at[1]),
+		                       .zoom = { zoom[0], zoom[1] },
+		                       .texels = texels,
+		                       .from_top = copied && !st->read_framebuffer };
 }
 
 /*
  * Depths and stencil values at once (EXT_packed_depth_stencil).
  * @param texels  depths; stencil values are put in their place
  */
-static void draw_depth_stencil(struct gls_exec *x, struct gls_state *st, uint32_t width, uint32_t height, uint8_t *texels,
-                               const uint8_t *stencil, int copied)
+static void draw_depth_stencil(struct gls_exec *x, struct gls_state *st, uint32_t width, uint32_t height,
+                               uint8_t *texels, const uint8_t *stencil, int copied)
 {
 	struct gls_rectangle r = at_raster_position(st, SCENE_DEPTH_PIXELS, width, height, texels, copied);
 
@@ -79,7 +91,8 @@ static uint32_t kind_of(uint32_t format)
 /* 1 where a rectangle of this size is drawn at all. */
 static int is_drawable(const struct gls_exec *x, const struct gls_state *st, uint32_t width, uint32_t height)
 {
-	return st->a.current.raster_valid && width && height && width <= GLS_MAX_RECTANGLE && height <= GLS_MAX_RECTANGLE && x->want;
+	return st->a.current.raster_valid && width && height && width <= GLS_MAX_RECTANGLE &&
+	       height <= GLS_MAX_RECTANGLE && x->want;
 }
 
 GLS_HANDLER(glDrawPixels, STATE)
@@ -160,7 +173,10 @@ GLS_HANDLER(glCopyPixels, STATE)
 	size_t bytes;
 
 	if (gls_refuses(x, st, arg_i(c, 2) < 0 || arg_i(c, 3) < 0, GL_INVALID_VALUE) ||
-	    gls_refuses(x, st, arg_u(c, 4) != GL_COLOR && arg_u(c, 4) != GL_DEPTH && arg_u(c, 4) != GL_STENCIL && arg_u(c, 4) != GL_DEPTH_STENCIL, GL_INVALID_ENUM))
+	    gls_refuses(x, st,
+	                arg_u(c, 4) != GL_COLOR && arg_u(c, 4) != GL_DEPTH && arg_u(c, 4) != GL_STENCIL &&
+	                        arg_u(c, 4) != GL_DEPTH_STENCIL,
+	                GL_INVALID_ENUM))
 		return;
 	if (!is_drawable(x, st, width, height))
 		return;

@@ -16,10 +16,14 @@ GLS_FAMILY(glPixelStore, CLIENT)
 {
 #define AT(field) offsetof(struct gls_pixel_store, field)
 	static const struct { uint32_t pack, unpack; size_t place; } modes[] = {
-		{ GL_PACK_SWAP_BYTES, GL_UNPACK_SWAP_BYTES, AT(swap_bytes) }, { GL_PACK_LSB_FIRST, GL_UNPACK_LSB_FIRST, AT(lsb_first) },
-		{ GL_PACK_ROW_LENGTH, GL_UNPACK_ROW_LENGTH, AT(row_length) }, { GL_PACK_SKIP_ROWS, GL_UNPACK_SKIP_ROWS, AT(skip_rows) },
-		{ GL_PACK_SKIP_PIXELS, GL_UNPACK_SKIP_PIXELS, AT(skip_pixels) }, { GL_PACK_ALIGNMENT, GL_UNPACK_ALIGNMENT, AT(alignment) },
-		{ GL_PACK_IMAGE_HEIGHT, GL_UNPACK_IMAGE_HEIGHT, AT(image_height) }, { GL_PACK_SKIP_IMAGES, GL_UNPACK_SKIP_IMAGES, AT(skip_images) },
+		{ GL_PACK_SWAP_BYTES, GL_UNPACK_SWAP_BYTES, AT(swap_bytes) },
+		{ GL_PACK_LSB_FIRST, GL_UNPACK_LSB_FIRST, AT(lsb_first) },
+		{ GL_PACK_ROW_LENGTH, GL_UNPACK_ROW_LENGTH, AT(row_length) },
+		{ GL_PACK_SKIP_ROWS, GL_UNPACK_SKIP_ROWS, AT(skip_rows) },
+		{ GL_PACK_SKIP_PIXELS, GL_UNPACK_SKIP_PIXELS, AT(skip_pixels) },
+		{ GL_PACK_ALIGNMENT, GL_UNPACK_ALIGNMENT, AT(alignment) },
+		{ GL_PACK_IMAGE_HEIGHT, GL_UNPACK_IMAGE_HEIGHT, AT(image_height) },
+		{ GL_PACK_SKIP_IMAGES, GL_UNPACK_SKIP_IMAGES, AT(skip_images) },
 	};
 	uint32_t name = arg_u(c, 0);
 	int64_t value = arg_i(c, 1);
@@ -63,7 +67,8 @@ GLS_FAMILY(glPixelTransfer, STATE)
 
 		if (parameters[i].name != arg_u(c, 0))
 			continue;
-		memcpy((uint8_t *)&st->a.pixel + parameters[i].place, parameters[i].kind == FLOAT ? (const void *)&value : &word, sizeof(word));
+		memcpy((uint8_t *)&st->a.pixel + parameters[i].place,
+		       parameters[i].kind == FLOAT ? (const void *)&value : &word, sizeof(word));
 		return;
 	}
 	gls_error(x, st, GL_INVALID_ENUM);
@@ -112,7 +117,8 @@ GLS_FAMILY(glPixelMap, STATE)
 	m->size = size;
 	if (gls_client_store(x, st)->buffer)
 		gls_buffer_keep(x, gls_buffer_find(st, st->client.unpack.buffer));
-	if (gls_client_store(x, st)->buffer || arg(c, 2)->type == TRACE_BLOB ? buffered(st, c, size, type, m->values) : arg_floats(c, 2, m->values, size) < size)
+	if (gls_client_store(x, st)->buffer || arg(c, 2)->type == TRACE_BLOB ? buffered(st, c, size, type, m->values) :
+	                                                                       arg_floats(c, 2, m->values, size) < size)
 		gls_unsupported(x, "pixel maps beyond what the recording holds");
 	for (uint32_t i = 0; i < size && !indices && type != GLS_SUFFIX_F; i++)
 		m->values[i] /= type == GLS_SUFFIX_US ? 65535.0f : 4294967295.0f;

@@ -1,6 +1,6 @@
 /*
- * Pixels and texels that the program reads (GL 2.1 sec. 4.3.2, 6.1.4). In its own memory they are its own affair; in a buffer object they
- * are data of later calls (ARB_pixel_buffer_object).
+ * Pixels and texels that the program reads (GL 2.1 sec. 4.3.2, 6.1.4). In its own memory they are its own affair; in a
+ * buffer object they are data of later calls (ARB_pixel_buffer_object).
  */
 #include <math.h>
 #include <string.h>
@@ -26,8 +26,10 @@ struct reading {
 	struct gls_buffer *buffer; /* NULL: the program's memory */
 };
 
-/* Where an image goes that a call's argument `data` names. @return 0: nowhere that matters, or not done, or a GL error */
-static int find_place(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned data, const uint32_t size[3], struct reading *r)
+/* Where an image goes that a call's argument `data` names. @return 0: nowhere that matters, or not done, or a GL
+ * error */
+static int find_place(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned data,
+                      const uint32_t size[3], struct reading *r)
 {
 	const uint32_t format = arg_u(c, data - 2), type = arg_u(c, data - 1);
 	const uint64_t offset = (uint64_t)arg_i(c, data);
@@ -41,21 +43,26 @@ static int find_place(struct gls_exec *x, struct gls_state *st, const struct cal
 		return 0;
 	}
 	unit = r->to.packed ? r->to.packed->bytes : r->to.component;
-	return !gls_refuses(x, st, offset % (unit > 4 ? 4 : unit) || !gls_packing_lay(&r->to, &st->client.pack, size, offset, r->buffer->bytes),
+	return !gls_refuses(x, st,
+	                    offset % (unit > 4 ? 4 : unit) ||
+	                            !gls_packing_lay(&r->to, &st->client.pack, size, offset, r->buffer->bytes),
 	                    GL_INVALID_OPERATION);
 }
 
 /* Bytes between rows stay as they are. whole: every pixel was written */
 static void wrote(struct gls_exec *x, const struct reading *r, const uint32_t size[3], int whole)
 {
-	const int has_gaps = (size[1] > 1 && r->to.row != r->to.group * size[0]) || (size[2] > 1 && r->to.image != r->to.row * size[1]);
+	const int has_gaps = (size[1] > 1 && r->to.row != r->to.group * size[0]) ||
+	                     (size[2] > 1 && r->to.image != r->to.row * size[1]);
 
-	gls_buffer_fill(x, r->buffer, whole && !has_gaps ? (size_t)r->to.start : SIZE_MAX, whole && !has_gaps ? (size_t)r->to.end : 0);
+	gls_buffer_fill(x, r->buffer, whole && !has_gaps ? (size_t)r->to.start : SIZE_MAX,
+	                whole && !has_gaps ? (size_t)r->to.end : 0);
 }
 
 /* ---- ReadPixels ---- */
 
-static void pack_color(const struct gls_state *st, const struct reading *r, const struct scene_picture *p, size_t from, uint8_t *to)
+static void pack_color(const struct gls_state *st, const struct reading *r, const struct scene_picture *p, size_t from,
+                       uint8_t *to)
 {
 	struct gls_packed_color color = { .bytes = !p->colors && !gls_transfer_changes_colors(st) };
 
@@ -69,7 +76,8 @@ static uint8_t stencil_at(const struct gls_state *st, const struct scene_picture
 	return (uint8_t)gls_transfer_stencil(st, gls_transfer_index(st, p->stencil[from]) & 255);
 }
 
-static void pack_depth(const struct gls_state *st, const struct reading *r, const struct scene_picture *p, size_t from, uint8_t *to)
+static void pack_depth(const struct gls_state *st, const struct reading *r, const struct scene_picture *p, size_t from,
+                       uint8_t *to)
 {
 	const int changes = st->a.pixel.depth_scale != 1 || st->a.pixel.depth_bias != 0;
 	const double most = (double)((1u << p->depth_bits) - 1);
@@ -79,7 +87,8 @@ static void pack_depth(const struct gls_state *st, const struct reading *r, cons
 }
 
 /* Pixels of places off the screen stay. area: as of struct gls_area */
-static void pack_pixels(const struct gls_state *st, const struct reading *r, const struct scene_picture *p, const int64_t area[4])
+static void pack_pixels(const struct gls_state *st, const struct reading *r, const struct scene_picture *p,
+                        const int64_t area[4])
 {
 	const int64_t left = area[0] > 0 ? area[0] : 0, low = area[1] > 0 ? area[1] : 0;
 	const int64_t right = area[0] + area[2] < p->width ? area[0] + area[2] : p->width;
@@ -110,7 +119,10 @@ GLS_HANDLER(glReadPixels, OBJECT)
 	if (gls_refuses(x, st, area[2] < 0 || area[3] < 0, GL_INVALID_VALUE) || !find_place(x, st, c, 6, size, &r))
 		return;
 	looked = !r.to.colors ? 4u : r.to.format == GL_DEPTH_STENCIL ? 6u : r.to.format == GL_DEPTH_COMPONENT ? 2u : 1u;
-	p = gls_read_screen(x, st, &(struct gls_area){ { (int32_t)area[0], (int32_t)area[1], (int32_t)area[2], (int32_t)area[3] }, looked });
+	p = gls_read_screen(
+		x, st,
+		&(struct gls_area){ { (int32_t)area[0], (int32_t)area[1], (int32_t)area[2], (int32_t)area[3] },
+	                            looked });
 	if (p && p->colors && r.to.colors && r.to.colors->to[0] == 4) {
 		gls_unsupported(x, "luminance of floats read into a buffer object");
 		return;
@@ -127,9 +139,11 @@ GLS_HANDLER(glReadPixels, OBJECT)
 /* ---- GetTexImage ---- */
 
 /* A texel as table 6.1 has it: grey ones are red. Fewer bits than 8 are numbers of their own. */
-static void load_texel(const struct gls_level *l, const struct gls_format *f, const uint8_t *texel, struct gls_packed_color *color)
+static void load_texel(const struct gls_level *l, const struct gls_format *f, const uint8_t *texel,
+                       struct gls_packed_color *color)
 {
-	const int is_grey = l->base_format == GL_LUMINANCE || l->base_format == GL_LUMINANCE_ALPHA || l->base_format == GL_INTENSITY;
+	const int is_grey = l->base_format == GL_LUMINANCE || l->base_format == GL_LUMINANCE_ALPHA ||
+	                    l->base_format == GL_INTENSITY;
 
 	color->is_texel = 1;
 	color->bytes = l->texel_bytes == 4;

@@ -67,8 +67,9 @@ static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rect
 		a->texturing.units[u].gen_enabled = 0;
 	st->dirty = GLS_DIRTY_ALL;
 	if (mesh)
-		gls_draw_event(x, st, &(struct gls_event){ a, mesh, (const float (*)[4])values, x->command, x->call->number, &rectangle,
-		                                           image, 0 });
+		gls_draw_event(x, st,
+		               &(struct gls_event){ a, mesh, (const float(*)[4])values, x->command, x->call->number,
+		                                    &rectangle, image, 0 });
 	st->dirty = GLS_DIRTY_ALL;
 	gls_mesh_release(mesh);
 	gls_texture_image_release(image);

@@ -17,7 +17,8 @@ struct gls_rectangle {
 	uint32_t from_top;      /* as in struct scene_rectangle */
 };
 
-/** Draw with the raster position's colours, texture coordinates and distance; what else fragments go through is the state's. */
+/** Draw with the raster position's colours, texture coordinates and distance; what else fragments go through is the
+ * state's. */
 void gls_draw_rectangle(struct gls_exec *x, struct gls_state *st, const struct gls_rectangle *r);
 
 /** Draw depths whatever tests and colour mask say: only the mask of the depth buffer counts. */

@@ -1,4 +1,5 @@
-/* Images of textures (GL 2.1 sec. 3.8.1 - 3.8.3): TexImage, TexSubImage, compressed images, storage, copies and clears of levels. */
+/* Images of textures (GL 2.1 sec. 3.8.1 - 3.8.3): TexImage, TexSubImage, compressed images, storage, copies and clears
+ * of levels. */
 #include "replay/gl/pixels/teximage.h"
 
 #include <string.h>
@@ -48,8 +49,8 @@ static struct gls_level_form form_of(const struct call *c, unsigned n_dims)
 }
 
 /* The pixels of a TexImage or TexSubImage. format: the argument's number; type and data follow */
-static struct gls_pixels pixels_of(const struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned format,
-                                   unsigned n_dims, const int64_t size[3])
+static struct gls_pixels pixels_of(const struct gls_exec *x, struct gls_state *st, const struct call *c,
+                                   unsigned format, unsigned n_dims, const int64_t size[3])
 {
 	struct gls_pixels p = { .format = arg_u(c, format), .type = arg_u(c, format + 1), .width = (uint32_t)size[0],
 		.height = (uint32_t)size[1], .depth = n_dims > 2 ? (uint32_t)size[2] : 0, .store = gls_client_store(x, st) };
@@ -59,7 +60,8 @@ static struct gls_pixels pixels_of(const struct gls_exec *x, struct gls_state *s
 }
 
 /* Plain pixels as the format's texels. @return as gls_unpack_pixels */
-static int unpack_image(struct gls_exec *x, const struct gls_state *st, const struct gls_pixels *p, uint32_t internal_format, uint8_t *texels)
+static int unpack_image(struct gls_exec *x, const struct gls_state *st, const struct gls_pixels *p,
+                        uint32_t internal_format, uint8_t *texels)
 {
 	const struct gls_format *format = gls_format_find(internal_format);
 	const int rc = gls_unpack_pixels(x, st, p, internal_format, texels);
@@ -70,18 +72,21 @@ static int unpack_image(struct gls_exec *x, const struct gls_state *st, const st
 }
 
 /* Whether a TexImage with such pixels is refused. */
-static int refuses_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims, const struct gls_level_form *form)
+static int refuses_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims,
+                         const struct gls_level_form *form)
 {
 	const uint32_t format = arg_u(c, 4 + n_dims), wrong = gls_pixels_error(format, arg_u(c, 5 + n_dims), st->mesa),
-		       image = gls_image_error(arg_u(c, 0), form->internal_format, arg_i(c, 1), (int64_t[2]){ form->width, form->height }, form->border,
-		                               st->mesa);
+		       image = gls_image_error(arg_u(c, 0), form->internal_format, arg_i(c, 1),
+	                                       (int64_t[2]){ form->width, form->height }, form->border, st->mesa);
 
-	return gls_refuses(x, st, !gls_takes_target(n_dims, arg_u(c, 0)), GL_INVALID_ENUM) || gls_refuses_by(x, st, wrong) ||
-	       gls_refuses_by(x, st, image) || gls_refuses(x, st, !gls_formats_agree(form->internal_format, format), GL_INVALID_OPERATION);
+	return gls_refuses(x, st, !gls_takes_target(n_dims, arg_u(c, 0)), GL_INVALID_ENUM) ||
+	       gls_refuses_by(x, st, wrong) || gls_refuses_by(x, st, image) ||
+	       gls_refuses(x, st, !gls_formats_agree(form->internal_format, format), GL_INVALID_OPERATION);
 }
 
 /* A level's texels came of a command's bytes (argument i), all of them where it is whole: it misses what those miss. */
-static void take_missing(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned i, struct gls_level *l, int whole)
+static void take_missing(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned i,
+                         struct gls_level *l, int whole)
 {
 	const uint32_t missing = gls_pixel_missing(x, st, c, i);
 
@@ -120,7 +125,8 @@ GLS_FAMILY(glTexImage, STATE)
 }
 
 /* Copy values of so many bytes, one a texel, to a place in a level's texels or stencil. */
-static void place(const struct gls_level *l, uint8_t *to, size_t bytes, const int64_t at[3], const int64_t size[3], const uint8_t *from)
+static void place(const struct gls_level *l, uint8_t *to, size_t bytes, const int64_t at[3], const int64_t size[3],
+                  const uint8_t *from)
 {
 	for (int64_t z = 0; z < size[2]; z++)
 		for (int64_t y = 0; y < size[1]; y++)
@@ -154,7 +160,8 @@ GLS_FAMILY(glTexSubImage, STATE)
 	p = pixels_of(x, st, c, 2 + 2 * n_dims, n_dims, size);
 	wrong = gls_pixels_error(p.format, p.type, st->mesa);
 	if (gls_refuses_by(x, st, wrong) ||
-	    gls_refuses(x, st, !gls_formats_agree(l->internal_format, p.format) || !gls_part_is_whole(l, at, size), GL_INVALID_OPERATION))
+	    gls_refuses(x, st, !gls_formats_agree(l->internal_format, p.format) || !gls_part_is_whole(l, at, size),
+	                GL_INVALID_OPERATION))
 		return;
 	if (!p.data || !size[0] || !size[1] || !size[2])
 		return;
@@ -174,12 +181,13 @@ GLS_FAMILY(glTexSubImage, STATE)
 /* ---- compressed images, sec. 3.8.3 ---- */
 
 /* Texels of an image of blocks, slices one after the other. @return 0, or -1 (counted) */
-static int unpack_compressed(struct gls_exec *x, uint32_t internal_format, const int64_t size[3], const uint8_t *data, size_t n,
-                             uint8_t *texels)
+static int unpack_compressed(struct gls_exec *x, uint32_t internal_format, const int64_t size[3], const uint8_t *data,
+                             size_t n, uint8_t *texels)
 {
 	for (int64_t z = 0; z < size[2]; z++)
-		if (gls_decompress(internal_format, (uint32_t)size[0], (uint32_t)size[1], data + (size_t)z * (n / (size_t)size[2]),
-		                   n / (size_t)size[2], texels + gls_texel_bytes(internal_format) * (size_t)(z * size[0] * size[1]))) {
+		if (gls_decompress(internal_format, (uint32_t)size[0], (uint32_t)size[1],
+		                   data + (size_t)z * (n / (size_t)size[2]), n / (size_t)size[2],
+		                   texels + gls_texel_bytes(internal_format) * (size_t)(z * size[0] * size[1]))) {
 			gls_unsupported(x, "compressed images of this format");
 			return -1;
 		}
@@ -194,7 +202,9 @@ static void compressed_image(struct gls_exec *x, struct gls_state *st, const str
 	struct gls_level *l;
 	size_t n;
 	const uint8_t *pixels = gls_pixel_source(st, c, n_dims + 5, &n);
-	const uint32_t wrong = gls_compressed_error(form.internal_format, (int64_t[3]){ form.width, form.height, form.depth }, form.border, arg_i(c, 4 + n_dims));
+	const uint32_t wrong = gls_compressed_error(form.internal_format,
+	                                            (int64_t[3]){ form.width, form.height, form.depth }, form.border,
+	                                            arg_i(c, 4 + n_dims));
 
 	if (!t || gls_refuses_by(x, st, wrong))
 		return;
@@ -208,8 +218,8 @@ static void compressed_image(struct gls_exec *x, struct gls_state *st, const str
 }
 
 /* A level of a paletted image. first: texels of the levels before it */
-static void load_paletted(struct gls_exec *x, struct gls_state *st, const struct gls_palette *palette, struct gls_level *l,
-                          const uint8_t *data, size_t n, size_t first)
+static void load_paletted(struct gls_exec *x, struct gls_state *st, const struct gls_palette *palette,
+                          struct gls_level *l, const uint8_t *data, size_t n, size_t first)
 {
 	const struct gls_pixel_store tight = { .alignment = 1 };
 	const size_t count = (size_t)l->width * l->height, bytes = count * palette->entry_bytes;
@@ -227,7 +237,8 @@ static void load_paletted(struct gls_exec *x, struct gls_state *st, const struct
 }
 
 /* Levels 0 to -level at once (OES_compressed_paletted_texture). */
-static void paletted_images(struct gls_exec *x, struct gls_state *st, const struct call *c, const struct gls_palette *palette)
+static void paletted_images(struct gls_exec *x, struct gls_state *st, const struct call *c,
+                            const struct gls_palette *palette)
 {
 	unsigned face;
 	const int64_t last = -arg_i(c, 1);
@@ -280,7 +291,9 @@ GLS_FAMILY(glCompressedTexSubImage, STATE)
 		at[i] = arg_i32(c, 2 + i);
 		size[i] = arg_i32(c, 2 + n_dims + i);
 	}
-	if (gls_refuses(x, st, !l->texels || l->internal_format != arg_u(c, 2 + 2 * n_dims) || !gls_part_is_whole(l, at, size), GL_INVALID_OPERATION))
+	if (gls_refuses(x, st,
+	                !l->texels || l->internal_format != arg_u(c, 2 + 2 * n_dims) || !gls_part_is_whole(l, at, size),
+	                GL_INVALID_OPERATION))
 		return;
 	for (unsigned i = 0; i < 3; i++)
 		if (at[i] < 0 || size[i] < 0 || at[i] + size[i] > (i == 0 ? l->width : i == 1 ? l->height : l->depth)) {
@@ -366,7 +379,8 @@ static int is_inside(const struct gls_level *l, int64_t x, int64_t y, int64_t wi
 
 static void copy_image(struct gls_exec *x, struct gls_state *st, const struct call *c)
 {
-	struct gls_texture *from = table_find(&st->share->textures, arg_u(c, 0)), *to = table_find(&st->share->textures, arg_u(c, 6));
+	struct gls_texture *from = table_find(&st->share->textures, arg_u(c, 0)),
+			   *to = table_find(&st->share->textures, arg_u(c, 6));
 	int64_t width = arg_i(c, 12), height = arg_i(c, 13);
 
 	if (arg_u(c, 1) == GL_RENDERBUFFER || arg_u(c, 7) == GL_RENDERBUFFER) {

@@ -37,7 +37,8 @@ GLS_HANDLER(glBindProgramARB, STATE)
 	const uint32_t target = arg_u(c, 0), name = arg_u(c, 1);
 	const struct gls_program *p = table_find(&st->share->programs, gls_program_key(target, name));
 
-	if (gls_refuses(x, st, !is_target(target), GL_INVALID_ENUM) || gls_refuses(x, st, p && p->target != target, GL_INVALID_OPERATION))
+	if (gls_refuses(x, st, !is_target(target), GL_INVALID_ENUM) ||
+	    gls_refuses(x, st, p && p->target != target, GL_INVALID_OPERATION))
 		return;
 	*binding_of(st, target) = name;
 	bound(x, st, target);

@@ -1,4 +1,5 @@
-/* ATI_fragment_shader: objects, and the calls between Begin and End that a shader is made of (replay/programs/ati.h). */
+/* ATI_fragment_shader: objects, and the calls between Begin and End that a shader is made of
+ * (replay/programs/ati.h). */
 #include <stdlib.h>
 #include <string.h>
 
@@ -100,7 +101,11 @@ GLS_HANDLER(glSetFragmentShaderConstantATI, OBJECT)
 
 static void texture(struct gls_exec *x, struct gls_state *st, const struct call *c, enum ati_kind kind)
 {
-	keep(x, st, &(struct ati_call){ .kind = kind, .to = arg_u(c, 0), .arguments = { { .source = arg_u(c, 1) } }, .operation = arg_u(c, 2) });
+	keep(x, st,
+	     &(struct ati_call){ .kind = kind,
+	                         .to = arg_u(c, 0),
+	                         .arguments = { { .source = arg_u(c, 1) } },
+	                         .operation = arg_u(c, 2) });
 }
 
 GLS_HANDLER(glPassTexCoordATI, OBJECT) { texture(x, st, c, ATI_PASS); }

@@ -70,11 +70,13 @@ static uint32_t *bit_of(struct gls_state *st, uint32_t cap, uint32_t *bit)
 	return NULL;
 }
 
-/* The flag that a capability switches; *bit is 0 for a whole word. NULL: no capability. The commonest ones are found first. */
+/* The flag that a capability switches; *bit is 0 for a whole word. NULL: no capability. The commonest ones are found
+ * first. */
 static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 {
 	static const uint32_t targets[N_GLS_TEXTURE_TARGETS] = {
-		GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE, /* as enum gls_texture_target */
+		GL_TEXTURE_1D,       GL_TEXTURE_2D,        GL_TEXTURE_3D,
+		GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE, /* as enum gls_texture_target */
 	};
 
 	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
@@ -152,7 +154,8 @@ static void enable(struct gls_exec *x, struct gls_state *st, uint32_t cap, int o
 			*(cap == GL_PRIMITIVE_RESTART ? &st->client.restart : &st->client.restart_fixed) = on != 0;
 			return;
 		}
-		if (client_array_of(st, cap) >= 0 || cap == GL_PRIMITIVE_RESTART_NV) { /* not by the letter, but Mesa and others take it, and old programs use it */
+		/* not by the letter, but Mesa and others take it, and old programs use it */
+		if (client_array_of(st, cap) >= 0 || cap == GL_PRIMITIVE_RESTART_NV) {
 			enable_client(x, st, cap, (uint32_t)on);
 			return;
 		}
@@ -191,7 +194,8 @@ GLS_HANDLER(glHint, STATE)
 	const struct { uint32_t name, *word; } hints[] = {
 		{ GL_FOG_HINT, &h->fog }, { GL_PERSPECTIVE_CORRECTION_HINT, &h->perspective }, { GL_POINT_SMOOTH_HINT, &h->point },
 		{ GL_LINE_SMOOTH_HINT, &h->line }, { GL_POLYGON_SMOOTH_HINT, &h->polygon }, { GL_GENERATE_MIPMAP_HINT, &h->mipmap },
-		{ GL_TEXTURE_COMPRESSION_HINT, NULL }, { GL_FRAGMENT_SHADER_DERIVATIVE_HINT, NULL }, { GL_CLIP_VOLUME_CLIPPING_HINT_EXT, NULL },
+		{ GL_TEXTURE_COMPRESSION_HINT, NULL }, { GL_FRAGMENT_SHADER_DERIVATIVE_HINT, NULL },
+		{ GL_CLIP_VOLUME_CLIPPING_HINT_EXT, NULL },
 	};
 	for (size_t i = 0; i < sizeof(hints) / sizeof(hints[0]); i++)
 		if (hints[i].name == arg_u(c, 0)) {
@@ -249,12 +253,13 @@ static void restore_enables(struct gls_state *st, struct gls_attribs *old)
 
 /* Table 6.2. */
 static const struct { uint32_t bit, offset, bytes; } groups[] = {
-#define GROUP(bit, member) { GL_##bit##_BIT, offsetof(struct gls_attribs, member), sizeof(((struct gls_attribs *)0)->member) }
+#define GROUP(bit, member) \
+	{ GL_##bit##_BIT, offsetof(struct gls_attribs, member), sizeof(((struct gls_attribs *)0)->member) }
 	GROUP(CURRENT, current), GROUP(POINT, point), GROUP(LINE, line), GROUP(POLYGON, polygon),
 	GROUP(POLYGON_STIPPLE, polygon_stipple), GROUP(PIXEL_MODE, pixel), GROUP(LIGHTING, lighting), GROUP(FOG, fog),
 	GROUP(DEPTH_BUFFER, depth), GROUP(ACCUM_BUFFER, accum), GROUP(STENCIL_BUFFER, stencil), GROUP(VIEWPORT, viewport),
-	GROUP(TRANSFORM, transform), GROUP(COLOR_BUFFER, color), GROUP(HINT, hint), GROUP(EVAL, evaluator), GROUP(LIST, list_base),
-	GROUP(TEXTURE, texturing), GROUP(SCISSOR, scissor), GROUP(MULTISAMPLE, multisample),
+	GROUP(TRANSFORM, transform), GROUP(COLOR_BUFFER, color), GROUP(HINT, hint), GROUP(EVAL, evaluator),
+	GROUP(LIST, list_base), GROUP(TEXTURE, texturing), GROUP(SCISSOR, scissor), GROUP(MULTISAMPLE, multisample),
 #undef GROUP
 };
 

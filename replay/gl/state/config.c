@@ -1,7 +1,7 @@
 /*
- * Visuals and frame buffer configurations (GLX 1.4 sec. 3.3.3, EGL 1.5 sec. 3.4): how many bits a drawable has. Our own recordings say
- * so when a context is first made current (capture/format/trace.md). In other recordings the program's queries and requests tell. The
- * rest stays as gls_state_init has it.
+ * Visuals and frame buffer configurations (GLX 1.4 sec. 3.3.3, EGL 1.5 sec. 3.4): how many bits a drawable has. Our own
+ * recordings say so when a context is first made current (capture/format/trace.md). In other recordings the program's
+ * queries and requests tell. The rest stays as gls_state_init has it.
  */
 #include "replay/gl/state/config.h"
 
@@ -11,7 +11,12 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-enum { GLX_RGBA = 4, GLX_DOUBLEBUFFER = 5, GLX_STEREO = 6, GLX_USE_GL = 1 }; /* attributes without a value, visuals only */
+enum {
+	GLX_RGBA = 4,
+	GLX_DOUBLEBUFFER = 5,
+	GLX_STEREO = 6,
+	GLX_USE_GL = 1
+}; /* attributes without a value, visuals only */
 enum { GLX_ALPHA_SIZE = 11, GLX_DEPTH_SIZE = 12, GLX_STENCIL_SIZE = 13 };
 enum { EGL_ALPHA_SIZE = 0x3021, EGL_DEPTH_SIZE = 0x3025, EGL_STENCIL_SIZE = 0x3026, EGL_NONE = 0x3038 };
 
@@ -47,7 +52,8 @@ static int what_is(int64_t attribute)
 	}
 }
 
-/* A program that asks for alpha gets eight bits on every true-colour driver. One that does not gets a visual without alpha. */
+/* A program that asks for alpha gets eight bits on every true-colour driver. One that does not gets a visual without
+ * alpha. */
 static uint64_t alpha_wanted(const struct call *c, unsigned i, int visual)
 {
 	uint64_t n;
@@ -58,7 +64,8 @@ static uint64_t alpha_wanted(const struct call *c, unsigned i, int visual)
 
 		if (attribute == 0 || attribute == EGL_NONE)
 			break;
-		if (visual && (attribute == GLX_RGBA || attribute == GLX_DOUBLEBUFFER || attribute == GLX_STEREO || attribute == GLX_USE_GL))
+		if (visual && (attribute == GLX_RGBA || attribute == GLX_DOUBLEBUFFER || attribute == GLX_STEREO ||
+		               attribute == GLX_USE_GL))
 			continue;
 		if (what_is(attribute) == ALPHA && k + 1 < n)
 			return gls_value_int(&list[k + 1]) > 0 ? 8 : 0;

@@ -55,7 +55,9 @@ static void stencil_func(struct gls_exec *x, struct gls_state *st, uint32_t face
 static void stencil_op(struct gls_exec *x, struct gls_state *st, uint32_t face, uint32_t fail, uint32_t zfail,
                        uint32_t zpass)
 {
-	if (gls_refuses(x, st, !is_stencil_op(fail) || !is_stencil_op(zfail) || !is_stencil_op(zpass) || !gls_is_face(face), GL_INVALID_ENUM))
+	if (gls_refuses(x, st,
+	                !is_stencil_op(fail) || !is_stencil_op(zfail) || !is_stencil_op(zpass) || !gls_is_face(face),
+	                GL_INVALID_ENUM))
 		return;
 	for (unsigned side = 0; side < 2; side++) {
 		if (!changes_side(st, side, face))
@@ -175,14 +177,15 @@ GLS_HANDLER(glColorMask, STATE)
 /* ---- which buffer, and clearing (sec. 4.2) ---- */
 
 /*
- * Buffers of windows are none of framebuffer objects, nor the other way round. Windows have neither right nor auxiliary buffers here, as on
- * nearly every machine.
+ * Buffers of windows are none of framebuffer objects, nor the other way round. Windows have neither right nor auxiliary
+ * buffers here, as on nearly every machine.
  */
 static int refuses_buffer(struct gls_exec *x, struct gls_state *st, uint32_t buffer, uint32_t framebuffer)
 {
 	const int is_attachment = buffer >= GL_COLOR_ATTACHMENT0 && buffer < GL_COLOR_ATTACHMENT0 + 32;
 	const int is_window = buffer >= GL_FRONT_LEFT && buffer <= GL_AUX3;
-	const int is_absent = buffer == GL_FRONT_RIGHT || buffer == GL_BACK_RIGHT || buffer == GL_RIGHT || (buffer >= GL_AUX0 && buffer <= GL_AUX3);
+	const int is_absent = buffer == GL_FRONT_RIGHT || buffer == GL_BACK_RIGHT || buffer == GL_RIGHT ||
+	                      (buffer >= GL_AUX0 && buffer <= GL_AUX3);
 
 	return gls_refuses(x, st, !is_attachment && !is_window && buffer != GL_NONE, GL_INVALID_ENUM) ||
 	       gls_refuses(x, st, framebuffer ? is_window : is_attachment || is_absent, GL_INVALID_OPERATION);
@@ -200,7 +203,8 @@ GLS_HANDLER(glReadBuffer, STATE)
 {
 	const uint32_t buffer = arg_u(c, 0);
 
-	if (!gls_refuses(x, st, buffer == GL_FRONT_AND_BACK, GL_INVALID_ENUM) && !refuses_buffer(x, st, buffer, st->read_framebuffer))
+	if (!gls_refuses(x, st, buffer == GL_FRONT_AND_BACK, GL_INVALID_ENUM) &&
+	    !refuses_buffer(x, st, buffer, st->read_framebuffer))
 		st->a.pixel.read_buffer = buffer;
 }
 

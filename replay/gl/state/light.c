@@ -169,7 +169,10 @@ GLS_FAMILY(glFog, STATE)
 			fog->coord_source = token;
 		break;
 	case GL_FOG_DISTANCE_MODE_NV:
-		if (!gls_refuses(x, st, token != GL_EYE_RADIAL_NV && token != GL_EYE_PLANE && token != GL_EYE_PLANE_ABSOLUTE_NV, GL_INVALID_ENUM))
+		if (!gls_refuses(x, st,
+		                 token != GL_EYE_RADIAL_NV && token != GL_EYE_PLANE &&
+		                         token != GL_EYE_PLANE_ABSOLUTE_NV,
+		                 GL_INVALID_ENUM))
 			fog->distance_mode = token;
 		break;
 	default:

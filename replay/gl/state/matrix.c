@@ -127,9 +127,12 @@ static void project(struct gls_exec *x, struct gls_state *st, const struct call 
 
 	for (unsigned i = 0; i < 6; i++)
 		v[i] = arg_d(c, i);
-	if (gls_refuses(x, st, (perspective && (v[4] <= 0 || v[5] <= 0)) || v[4] == v[5] || v[0] == v[1] || v[2] == v[3], GL_INVALID_VALUE))
+	if (gls_refuses(x, st,
+	                (perspective && (v[4] <= 0 || v[5] <= 0)) || v[4] == v[5] || v[0] == v[1] || v[2] == v[3],
+	                GL_INVALID_VALUE))
 		return;
-	(perspective ? gls_sums(st)->frustum : gls_sums(st)->ortho)(m, (float)v[0], (float)v[1], (float)v[2], (float)v[3], (float)v[4], (float)v[5]);
+	(perspective ? gls_sums(st)->frustum : gls_sums(st)->ortho)(m, (float)v[0], (float)v[1], (float)v[2],
+	                                                            (float)v[3], (float)v[4], (float)v[5]);
 	multiply(st, m);
 }
 

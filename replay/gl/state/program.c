@@ -7,7 +7,8 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
-/* Fixed function gives every buffer the same colour (GL 2.1 sec. 3.11.2, 4.2.1); a shader's are in the order of the list. */
+/* Fixed function gives every buffer the same colour (GL 2.1 sec. 3.11.2, 4.2.1); a shader's are in the order of the
+ * list. */
 GLS_HANDLER(glDrawBuffers, STATE)
 {
 	uint32_t list[16] = { GL_NONE }, buffer = GL_NONE, also = 0;
@@ -17,7 +18,8 @@ GLS_HANDLER(glDrawBuffers, STATE)
 		if (list[i] != GL_NONE && (list[i - 1] == GL_NONE || list[i] <= list[i - 1]))
 			also |= GLS_OUT_OF_ORDER;
 	for (unsigned i = 0; i < n; i++) {
-		int is_pair = (buffer == GL_BACK_LEFT && list[i] == GL_FRONT_LEFT) || (buffer == GL_FRONT_LEFT && list[i] == GL_BACK_LEFT);
+		int is_pair = (buffer == GL_BACK_LEFT && list[i] == GL_FRONT_LEFT) ||
+		              (buffer == GL_FRONT_LEFT && list[i] == GL_BACK_LEFT);
 
 		if (is_pair && !st->draw_framebuffer)
 			buffer = GL_FRONT_AND_BACK;

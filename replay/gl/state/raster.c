@@ -41,7 +41,8 @@ GLS_FAMILY(glPointParameter, STATE)
 		memcpy(point->attenuation, v, sizeof(v));
 		break;
 	case GL_POINT_SPRITE_COORD_ORIGIN:
-		if (!gls_refuses(x, st, token_of_float(v[0]) != GL_UPPER_LEFT && token_of_float(v[0]) != GL_LOWER_LEFT, GL_INVALID_VALUE))
+		if (!gls_refuses(x, st, token_of_float(v[0]) != GL_UPPER_LEFT && token_of_float(v[0]) != GL_LOWER_LEFT,
+		                 GL_INVALID_VALUE))
 			point->sprite_origin = token_of_float(v[0]);
 		break;
 	default:
@@ -81,7 +82,8 @@ GLS_HANDLER(glPolygonMode, STATE)
 {
 	uint32_t face = arg_u(c, 0), mode = arg_u(c, 1);
 
-	if (gls_refuses(x, st, (mode != GL_POINT && mode != GL_LINE && mode != GL_FILL) || !gls_is_face(face), GL_INVALID_ENUM))
+	if (gls_refuses(x, st, (mode != GL_POINT && mode != GL_LINE && mode != GL_FILL) || !gls_is_face(face),
+	                GL_INVALID_ENUM))
 		return;
 	if (face != GL_BACK)
 		st->a.polygon.mode[0] = mode;
@@ -105,8 +107,8 @@ GLS_HANDLER(glPolygonOffsetEXT, STATE)
 }
 
 /*
- * 32 rows of 32 bits from row 0 (the lowest) up, unpacked as glDrawPixels unpacks bits; bit 31 becomes the leftmost pixel (sec. 3.5.2).
- * Memory is recorded as numbers, a byte each.
+ * 32 rows of 32 bits from row 0 (the lowest) up, unpacked as glDrawPixels unpacks bits; bit 31 becomes the leftmost
+ * pixel (sec. 3.5.2). Memory is recorded as numbers, a byte each.
  */
 GLS_HANDLER(glPolygonStipple, STATE)
 {

@@ -102,9 +102,10 @@ static void use_program(struct gls_exec *x, struct gls_state *st, uint32_t progr
 GLS_HANDLER(glUseProgram, STATE) { use_program(x, st, arg_u(c, 0)); }
 GLS_HANDLER(glUseProgramObjectARB, STATE) { use_program(x, st, arg_u(c, 0)); }
 
-/* --- Shaders ------------------------------------------------------------------------------------------------------------ */
+/* --- Shaders ----------------------------------------------------------------------------------------------------- */
 
-/* Arguments: the shader, how many strings, the strings, their lengths or NULL. A recording has them cut to these already. */
+/* Arguments: the shader, how many strings, the strings, their lengths or NULL. A recording has them cut to these
+ * already. */
 GLS_HANDLER(glShaderSource, NOW)
 {
 	struct gls_shader *s = find(st, arg_u(c, 0), 0);
@@ -136,7 +137,7 @@ GLS_HANDLER(glCompileShader, NOW)
 		gls_fail(x);
 }
 
-/* --- Programs ----------------------------------------------------------------------------------------------------------- */
+/* --- Programs ---------------------------------------------------------------------------------------------------- */
 
 GLS_HANDLER(glAttachShader, NOW)
 {
@@ -161,7 +162,8 @@ GLS_HANDLER(glDetachShader, NOW)
 
 	for (uint32_t i = 0; program && i < program->n_attached; i++)
 		if (program->attached[i] == arg_u(c, 1)) {
-			memmove(program->attached + i, program->attached + i + 1, (program->n_attached - i - 1) * sizeof(*program->attached));
+			memmove(program->attached + i, program->attached + i + 1,
+			        (program->n_attached - i - 1) * sizeof(*program->attached));
 			program->n_attached--;
 			detach(st, arg_u(c, 1));
 			return;
@@ -208,7 +210,8 @@ GLS_HANDLER(glGetAttribLocation, OBJECT)
 	for (uint32_t i = 0; i < program->n_attributes; i++)
 		if (strcmp(program->attributes[i].name, arg(c, 1)->str) == 0 && program->attributes[i].location == (uint32_t)location)
 			return;
-	if (gls_shader_locate_attribute(program, arg(c, 1)->str, (uint32_t)location) || (program->stages.linked && gls_shader_translate(program, 1)))
+	if (gls_shader_locate_attribute(program, arg(c, 1)->str, (uint32_t)location) ||
+	    (program->stages.linked && gls_shader_translate(program, 1)))
 		gls_fail(x);
 }
 
@@ -217,11 +220,12 @@ GLS_HANDLER(glGetUniformLocation, NOW)
 	struct gls_shader *program = find(st, arg_u(c, 0), 1);
 	const int64_t location = gls_value_int(&c->ret);
 
-	if (program && location >= 0 && arg(c, 1)->type == TRACE_STRING && gls_shader_locate_uniform(program, arg(c, 1)->str, (uint32_t)location))
+	if (program && location >= 0 && arg(c, 1)->type == TRACE_STRING &&
+	    gls_shader_locate_uniform(program, arg(c, 1)->str, (uint32_t)location))
 		gls_fail(x);
 }
 
-/* --- Uniforms ----------------------------------------------------------------------------------------------------------- */
+/* --- Uniforms ---------------------------------------------------------------------------------------------------- */
 
 /* What other contexts that drew with the program last hold; they do not look at what is set here. */
 static void let_others_hold(struct gls_exec *x, const struct gls_state *st, struct gls_stages *p)
@@ -230,14 +234,15 @@ static void let_others_hold(struct gls_exec *x, const struct gls_state *st, stru
 		const struct gls_state *other = &x->contexts[i]->state;
 
 		for (unsigned stage = 0; stage < N_GLS_STAGES && other != st && other->share == st->share; stage++)
-			if (other->drawn_program[stage] == st->program && other->drawn_links[stage] == p->links && gls_held_keep(p, other->handle, stage))
+			if (other->drawn_program[stage] == st->program && other->drawn_links[stage] == p->links &&
+			    gls_held_keep(p, other->handle, stage))
 				gls_fail(x);
 	}
 }
 
 /* Arguments: the location, then numbers from `first` on, or how many values and an array there. */
-static void set_uniform(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t first, uint32_t count, uint32_t rows,
-                        uint32_t columns, int transposed)
+static void set_uniform(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t first, uint32_t count,
+                        uint32_t rows, uint32_t columns, int transposed)
 {
 	struct gls_shader *program = find(st, st->program, 1);
 	const uint32_t each = rows * (columns ? columns : 1);

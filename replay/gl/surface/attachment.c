@@ -39,7 +39,11 @@ static int find_target(const struct gls_share *share, const struct gls_attachmen
 
 		if (!l || !l->texels || l->border || a->layer >= l->depth)
 			return 0;
-		*out = (struct target){ .width = l->width, .height = l->height, .format = l->internal_format, .texture = t, .level = l,
+		*out = (struct target){ .width = l->width,
+			                .height = l->height,
+			                .format = l->internal_format,
+			                .texture = t,
+			                .level = l,
 			                .first = (size_t)a->layer * l->width * l->height };
 	}
 	return out->width && out->height;
@@ -91,8 +95,8 @@ int gls_attachment_has_8_bits(const struct gls_share *share, const struct gls_at
 	}
 }
 
-int gls_attachments_describe(const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS], uint32_t colors,
-                             struct gls_surface *s)
+int gls_attachments_describe(const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS],
+                             uint32_t colors, struct gls_surface *s)
 {
 	struct target t;
 	int any = 0;
@@ -217,8 +221,9 @@ static void load_stencil(const struct target *t, const struct part *part, struct
 }
 
 /* What attachments hold of one sample, or of the mean (struct target). */
-static void load_sample(const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS], int color, int sample,
-                        const struct gls_surface *s, const struct part *part, struct scene_picture *p)
+static void load_sample(const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS],
+                        int color, int sample, const struct gls_surface *s, const struct part *part,
+                        struct scene_picture *p)
 {
 	struct target t;
 
@@ -229,7 +234,8 @@ static void load_sample(const struct gls_share *share, const struct gls_attachme
 				p->colors[4 * ((size_t)y * p->width + x) + 3] = 1;
 		}
 
-	/* A surface is as small as the smallest of what it draws to. A read buffer may be smaller still: then nothing is loaded. */
+	/* A surface is as small as the smallest of what it draws to. A read buffer may be smaller still: then nothing
+	 * is loaded. */
 	if (color >= 0 && find_target(share, &attached[color], &t) && t.width >= s->width && t.height >= s->height) {
 		t.sample = sample;
 		load_color(&t, part, p);
@@ -245,8 +251,8 @@ static void load_sample(const struct gls_share *share, const struct gls_attachme
 }
 
 struct gls_picture *gls_attachments_load(struct gls_exec *x, const struct gls_share *share,
-                                         const struct gls_attachment attached[N_GLS_ATTACHMENTS], int color, const struct gls_surface *s,
-                                         const struct gls_area *area)
+                                         const struct gls_attachment attached[N_GLS_ATTACHMENTS], int color,
+                                         const struct gls_surface *s, const struct gls_area *area)
 {
 	const struct part part = part_of(s, area);
 	struct gls_picture *p;
@@ -336,8 +342,9 @@ static void store_sample(struct gls_exec *x, const struct target *t, int attachm
 		store_stencil(x, t, p);
 }
 
-void gls_attachments_store(struct gls_exec *x, const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS],
-                           uint32_t which, const struct scene_picture *p)
+void gls_attachments_store(struct gls_exec *x, const struct gls_share *share,
+                           const struct gls_attachment attached[N_GLS_ATTACHMENTS], uint32_t which,
+                           const struct scene_picture *p)
 {
 	struct target t;
 

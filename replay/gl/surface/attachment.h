@@ -37,8 +37,8 @@ int gls_attachment_has_8_bits(const struct gls_share *share, const struct gls_at
  * Give a surface the size and bits that depth, stencil and these colours (1 << number) have together.
  * @return 0: nothing is attached there
  */
-int gls_attachments_describe(const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS], uint32_t colors,
-                             struct gls_surface *s);
+int gls_attachments_describe(const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS],
+                             uint32_t colors, struct gls_surface *s);
 
 /**
  * What depth, stencil and a colour (-1: none) hold, in the form of a surface.
@@ -46,9 +46,11 @@ int gls_attachments_describe(const struct gls_share *share, const struct gls_att
  * @return a reference; NULL: missing, or out of memory
  */
 struct gls_picture *gls_attachments_load(struct gls_exec *x, const struct gls_share *share,
-                                         const struct gls_attachment attached[N_GLS_ATTACHMENTS], int color, const struct gls_surface *s,
-                                         const struct gls_area *area);
+                                         const struct gls_attachment attached[N_GLS_ATTACHMENTS], int color,
+                                         const struct gls_surface *s, const struct gls_area *area);
 
-/** Attachments (1 << number) become what was drawn to them. p: NULL in a frame that is not built: they are missing from now on */
-void gls_attachments_store(struct gls_exec *x, const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS],
-                           uint32_t which, const struct scene_picture *p);
+/** Attachments (1 << number) become what was drawn to them. p: NULL in a frame that is not built: they are missing from
+ * now on */
+void gls_attachments_store(struct gls_exec *x, const struct gls_share *share,
+                           const struct gls_attachment attached[N_GLS_ATTACHMENTS], uint32_t which,
+                           const struct scene_picture *p);

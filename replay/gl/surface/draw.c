@@ -42,7 +42,8 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 	gls_shown_end(x, st, drawn);
 	n = added ? gls_program_current(st, keys) : 0;
 	for (unsigned i = 0; i < n; i++)
-		if (table_set(&x->counts.program_draws, keys[i], (void *)((uintptr_t)table_find(&x->counts.program_draws, keys[i]) + 1)))
+		if (table_set(&x->counts.program_draws, keys[i],
+		              (void *)((uintptr_t)table_find(&x->counts.program_draws, keys[i]) + 1)))
 			gls_fail(x);
 	if (added && (lack = gls_program_lack(st))) {
 		x->counts.programs++;
@@ -50,8 +51,8 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 	}
 }
 
-void gls_draw_mesh(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4], uint32_t command,
-                   uint64_t call_number)
+void gls_draw_mesh(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
+                   uint32_t command, uint64_t call_number)
 {
 	if (gls_is_drawn(x, st))
 		gls_draw_event(x, st, &(struct gls_event){ &st->a, mesh, values, command, call_number, NULL, NULL, 0 });

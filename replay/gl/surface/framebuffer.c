@@ -1,9 +1,9 @@
 /*
  * Framebuffer objects: render to texture.
  *
- * Attachments hold the truth. An object only collects events; they are rendered and written to its attachments when somebody looks at
- * one of these. Later events begin from the attachments. A frame that was not built leaves them missing, as a screen copy does
- * (copytex.c).
+ * Attachments hold the truth. An object only collects events; they are rendered and written to its attachments when
+ * somebody looks at one of these. Later events begin from the attachments. A frame that was not built leaves them
+ * missing, as a screen copy does (copytex.c).
  */
 #include "replay/gl/surface/framebuffer.h"
 
@@ -44,16 +44,18 @@ static uint32_t drawn_colors(const struct gls_framebuffer *fb)
 }
 
 /*
- * Render the events, and write the result to the attachments. Fixed function sends the same fragments to all colours (GL 2.1 sec.
- * 3.11.2), shaders may send others. Where these, or what was there before, show, the events are rendered once for each colour. Depth and
- * stencil are the same each time. Where there are no colours, nobody looks at what they were before.
+ * Render the events, and write the result to the attachments. Fixed function sends the same fragments to all colours
+ * (GL 2.1 sec. 3.11.2), shaders may send others. Where these, or what was there before, show, the events are rendered
+ * once for each colour. Depth and stencil are the same each time. Where there are no colours, nobody looks at what they
+ * were before.
  */
 static void update_colors(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
 	struct gls_surface *s = &fb->surface;
 	uint32_t left = drawn_colors(fb), others = 1u << DEPTH | 1u << STENCIL;
 	int color = left ? __builtin_ctz(left) : -1, loads = x->want && x->feedback.supply, shows = 1;
-	const struct gls_area depths = { { 0, 0, (int32_t)s->width, (int32_t)s->height }, (s->depth_bits ? 2u : 0) | (s->stencil_bits ? 4u : 0) };
+	const struct gls_area depths = { { 0, 0, (int32_t)s->width, (int32_t)s->height },
+		                         (s->depth_bits ? 2u : 0) | (s->stencil_bits ? 4u : 0) };
 	const struct scene_picture *p = NULL;
 
 	if (loads && !(s->picture = gls_attachments_load(x, share, fb->attached, color, s, NULL)))
@@ -71,7 +73,8 @@ static void update_colors(struct gls_exec *x, const struct gls_share *share, str
 		if ((shows = gls_surface_restart(x, s, next)))
 			p = gls_surface_read(x, s, NULL);
 	}
-	gls_attachments_store(x, share, fb->attached, p ? others | (color >= 0 ? 1u << color : 0) : others | drawn_colors(fb), p);
+	gls_attachments_store(x, share, fb->attached,
+	                      p ? others | (color >= 0 ? 1u << color : 0) : others | drawn_colors(fb), p);
 }
 
 /* The same where there are events; then begin anew. */
@@ -96,7 +99,8 @@ static const struct gls_attachment *only_color(const struct gls_share *share, co
 	return a && gls_attachment_has_8_bits(share, a) ? a : NULL;
 }
 
-struct gls_frame *gls_framebuffer_take_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t texture, uint32_t name)
+struct gls_frame *gls_framebuffer_take_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t texture,
+                                             uint32_t name)
 {
 	const struct gls_share *share = st->share;
 	struct gls_framebuffer *found = name ? table_find(&share->framebuffers, name) : NULL;
@@ -292,7 +296,9 @@ static void bind_read(struct gls_exec *x, struct gls_state *st, uint32_t name)
 
 static void bind_framebuffer(struct gls_exec *x, struct gls_state *st, uint32_t target, uint32_t name)
 {
-	if (gls_refuses(x, st, target != GL_FRAMEBUFFER && target != GL_DRAW_FRAMEBUFFER && target != GL_READ_FRAMEBUFFER, GL_INVALID_ENUM))
+	if (gls_refuses(x, st,
+	                target != GL_FRAMEBUFFER && target != GL_DRAW_FRAMEBUFFER && target != GL_READ_FRAMEBUFFER,
+	                GL_INVALID_ENUM))
 		return;
 	if (target != GL_READ_FRAMEBUFFER)
 		bind_draw(x, st, name);
@@ -329,7 +335,10 @@ static void attach(struct gls_exec *x, struct gls_state *st, const struct call *
 	struct gls_attachment kept = { 0 }; /* texture 0 detaches, whatever its level is */
 	int color = gls_attachment_color(point);
 
-	if (gls_refuses(x, st, color < 0 && point != GL_DEPTH_ATTACHMENT && point != GL_STENCIL_ATTACHMENT && point != GL_DEPTH_STENCIL_ATTACHMENT, GL_INVALID_ENUM))
+	if (gls_refuses(x, st,
+	                color < 0 && point != GL_DEPTH_ATTACHMENT && point != GL_STENCIL_ATTACHMENT &&
+	                        point != GL_DEPTH_STENCIL_ATTACHMENT,
+	                GL_INVALID_ENUM))
 		return;
 	if (gls_refuses(x, st, !fb || (a->texture && (!t || a->level >= GLS_MAX_LEVELS)), GL_INVALID_OPERATION))
 		return;
@@ -355,7 +364,8 @@ GLS_FAMILY(glFramebufferTexture, OBJECT)
 	unsigned face = 0;
 	const int target = gls_texture_target_of(arg_u(c, 2), &face);
 
-	if (!gls_refuses(x, st, arg_u(c, 3) && target < 0, GL_INVALID_ENUM) && !gls_refuses(x, st, t && (int)t->target != target, GL_INVALID_OPERATION) &&
+	if (!gls_refuses(x, st, arg_u(c, 3) && target < 0, GL_INVALID_ENUM) &&
+	    !gls_refuses(x, st, t && (int)t->target != target, GL_INVALID_OPERATION) &&
 	    !gls_refuses(x, st, t && arg_i32(c, 4) < 0, GL_INVALID_VALUE))
 		attach(x, st, c, &(struct gls_attachment){ arg_u(c, 3), 0, face, arg_u(c, 4), layer });
 }
@@ -364,7 +374,10 @@ GLS_HANDLER(glFramebufferTextureLayer, OBJECT)
 {
 	attach(x, st, c, &(struct gls_attachment){ arg_u(c, 2), 0, 0, arg_u(c, 3), arg_u(c, 4) });
 }
-GLS_HANDLER(glFramebufferRenderbuffer, OBJECT) { attach(x, st, c, &(struct gls_attachment){ .renderbuffer = arg_u(c, 3) }); }
+GLS_HANDLER(glFramebufferRenderbuffer, OBJECT)
+{
+	attach(x, st, c, &(struct gls_attachment){ .renderbuffer = arg_u(c, 3) });
+}
 
 static void bind_renderbuffer(struct gls_exec *x, struct gls_state *st, const struct call *c)
 {
@@ -392,7 +405,8 @@ GLS_HANDLER(glDeleteRenderbuffers, OBJECT)
 	}
 }
 
-static void storage(struct gls_exec *x, struct gls_state *st, uint32_t format, int64_t width, int64_t height, int64_t samples)
+static void storage(struct gls_exec *x, struct gls_state *st, uint32_t format, int64_t width, int64_t height,
+                    int64_t samples)
 {
 	struct gls_renderbuffer *r = st->renderbuffer ? table_find(&st->share->renderbuffers, st->renderbuffer) : NULL;
 
@@ -405,7 +419,8 @@ static void storage(struct gls_exec *x, struct gls_state *st, uint32_t format, i
 	update_sharing(x, st->share, &(struct gls_attachment){ .renderbuffer = st->renderbuffer }, NULL);
 	gls_picture_release(r->content);
 	*r = (struct gls_renderbuffer){ .internal_format = format, .width = (uint32_t)width, .height = (uint32_t)height,
-	                                .samples = samples > 0 ? SCENE_SAMPLES : 0 }; /* drivers give at least what is asked for */
+	/* drivers give at least what is asked for */
+	                                .samples = samples > 0 ? SCENE_SAMPLES : 0 };
 }
 
 GLS_HANDLER(glRenderbufferStorage, OBJECT) { storage(x, st, arg_u(c, 1), arg_i(c, 2), arg_i(c, 3), 0); }

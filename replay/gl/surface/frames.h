@@ -4,12 +4,13 @@
 struct gls_exec;
 struct scene;
 
-/** A wanted frame ended: the scene of the drawable that was swapped. @return a reference; NULL: out of memory, or x->feedback.rewind is set */
+/** A wanted frame ended: the scene of the drawable that was swapped. @return a reference; NULL: out of memory, or
+ * x->feedback.rewind is set */
 struct scene *gls_frame_finish(struct gls_exec *x);
 
 /**
- * A frame ended that was built only because later ones may show it. Its events stay with their surface: a hundred such frames are one
- * scene, rendered once if at all.
+ * A frame ended that was built only because later ones may show it. Its events stay with their surface: a hundred such
+ * frames are one scene, rendered once if at all.
  */
 void gls_frame_defer(struct gls_exec *x);
 
@@ -17,7 +18,8 @@ void gls_frame_defer(struct gls_exec *x);
 void gls_frame_end_deferred(struct gls_exec *x);
 
 /**
- * After a frame that was built: let drawables hold their pixels as pictures, so that a snapshot can keep them (replay/index/snapshot.h).
+ * After a frame that was built: let drawables hold their pixels as pictures, so that a snapshot can keep them
+ * (replay/index/snapshot.h).
  * @return 1; 0: it cannot keep all of them now
  */
 int gls_frame_settle(struct gls_exec *x);

@@ -1,12 +1,13 @@
 /*
- * The front buffer of a double-buffered window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10). A frame that ends with a swap shows
- * the back buffer, which is then in the front buffer, as GL has it (Mesa's software rasterizers leave there what was there before,
- * 22.3.6). One that ends without a swap shows the buffer that is drawn to at its end, also if it is the front buffer.
+ * The front buffer of a double-buffered window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10). A frame that ends with
+ * a swap shows the back buffer, which is then in the front buffer, as GL has it (Mesa's software rasterizers leave
+ * there what was there before, 22.3.6). One that ends without a swap shows the buffer that is drawn to at its end, also
+ * if it is the front buffer.
  *
- * Each has its own colours; both share depth and stencil. While nobody draws to the front buffer or reads it, it costs a reference to
- * what the last swap put there. Afterwards the two are apart: until the next swap both surfaces get every event, its colours where
- * DrawBuffer says so, its depth and stencil always. What the front buffer shows of earlier events is made only after the replay has
- * started again for it (x->feedback.fronts, surface.c).
+ * Each has its own colours; both share depth and stencil. While nobody draws to the front buffer or reads it, it costs
+ * a reference to what the last swap put there. Afterwards the two are apart: until the next swap both surfaces get
+ * every event, its colours where DrawBuffer says so, its depth and stencil always. What the front buffer shows of
+ * earlier events is made only after the replay has started again for it (x->feedback.fronts, surface.c).
  */
 #include "replay/gl/surface/front.h"
 
@@ -49,7 +50,8 @@ int gls_front_alone_is_drawn(const struct gls_state *st)
 
 int gls_front_is_read(const struct gls_state *st)
 {
-	return st->double_buffered && !st->read_framebuffer && (is_front_alone(st->a.pixel.read_buffer) || st->a.pixel.read_buffer == GL_LEFT);
+	return st->double_buffered && !st->read_framebuffer &&
+	       (is_front_alone(st->a.pixel.read_buffer) || st->a.pixel.read_buffer == GL_LEFT);
 }
 
 static int has_same_start(const struct gls_surface *a, const struct gls_surface *b)
@@ -69,17 +71,20 @@ static void merge(struct scene_picture *to, const struct scene_picture *colors, 
 /* The front buffer's colours, with depth and stencil as the back buffer's events leave them. */
 static struct gls_picture *start_of(struct gls_exec *x, struct gls_surface *front, struct gls_surface *back)
 {
-	const struct scene_picture *colors = gls_surface_read(x, front, NULL), *rest = colors ? gls_surface_read(x, back, NULL) : NULL;
+	const struct scene_picture *colors = gls_surface_read(x, front, NULL),
+				   *rest = colors ? gls_surface_read(x, back, NULL) : NULL;
 	struct gls_picture *p;
 
 	if (!rest)
 		return NULL;
-	p = gls_picture_make(x, &(struct gls_picture_form){ back->width, back->height, back->depth_bits, back->alpha_bits, back->samples, 0 });
+	p = gls_picture_make(x, &(struct gls_picture_form){ back->width, back->height, back->depth_bits,
+	                                                    back->alpha_bits, back->samples, 0 });
 	if (!p)
 		return NULL;
 	merge(&p->picture, colors, rest);
 	for (int i = 0; i < SCENE_SAMPLES && p->picture.samples; i++)
-		merge(&p->picture.samples[i], colors->samples ? &colors->samples[i] : colors, rest->samples ? &rest->samples[i] : rest);
+		merge(&p->picture.samples[i], colors->samples ? &colors->samples[i] : colors,
+		      rest->samples ? &rest->samples[i] : rest);
 	return p;
 }
 

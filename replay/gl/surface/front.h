@@ -6,7 +6,8 @@ struct gls_exec;
 struct gls_state;
 struct gls_surface;
 
-/** 1 where the context draws to its window's front buffer beside a back buffer; draws to nothing else; reads from it. */
+/** 1 where the context draws to its window's front buffer beside a back buffer; draws to nothing else; reads from
+ * it. */
 int gls_front_is_drawn(const struct gls_state *st);
 int gls_front_alone_is_drawn(const struct gls_state *st);
 int gls_front_is_read(const struct gls_state *st);

@@ -17,5 +17,6 @@ unsigned gls_targets_of(struct gls_exec *x, struct gls_state *st, struct gls_tar
  */
 const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state *st, const struct gls_area *area);
 
-/** The kind of pixels that colours for what is drawn to should come as, so that none is clamped needlessly: SCENE_*_PIXELS. */
+/** The kind of pixels that colours for what is drawn to should come as, so that none is clamped needlessly:
+ * SCENE_*_PIXELS. */
 uint32_t gls_color_pixels(struct gls_exec *x, struct gls_state *st);

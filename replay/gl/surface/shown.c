@@ -16,17 +16,20 @@
 
 #define PIXEL_SLACK 0.01f /* of a pixel, by which a corner may be off */
 
-/* --- Taking ---------------------------------------------------------------------------------------------------------------- */
+/* --- Taking ------------------------------------------------------------------------------------------------------ */
 
 /* The texture that a draw may show: unit 0's of two dimensions, or the only one that its program samples. */
-static const struct gls_texture *texture_of(struct gls_exec *x, struct gls_state *st, const struct gls_texturing *texturing)
+static const struct gls_texture *texture_of(struct gls_exec *x, struct gls_state *st,
+                                            const struct gls_texturing *texturing)
 {
 	struct program_stage stage;
 	uint32_t unit = GLS_MAX_UNITS;
 
 	if (!gls_program_runs_fragments(st, &stage))
-		return !st->program && !st->a.programs.vertex && !st->a.programs.fragment && !st->a.programs.ati && texturing->units[0].enabled >> GLS_TEXTURE_2D & 1 ?
-		       gls_texture_bound(x, st, 0, GLS_TEXTURE_2D) : NULL;
+		return !st->program && !st->a.programs.vertex && !st->a.programs.fragment && !st->a.programs.ati &&
+		                       texturing->units[0].enabled >> GLS_TEXTURE_2D & 1 ?
+		               gls_texture_bound(x, st, 0, GLS_TEXTURE_2D) :
+		               NULL;
 	for (uint32_t u = 0; u < GLS_MAX_UNITS; u++)
 		if (program_target(&stage, u)) {
 			if (unit < GLS_MAX_UNITS || program_target(&stage, u) != GLS_TEXTURE_2D + 1)
@@ -50,10 +53,12 @@ struct gls_frame *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, co
 
 struct gls_frame *gls_shown_by_blit(struct gls_exec *x, struct gls_state *st)
 {
-	return st->draw_framebuffer || !st->read_framebuffer ? NULL : gls_framebuffer_take_drawn(x, st, 0, st->read_framebuffer);
+	return st->draw_framebuffer || !st->read_framebuffer ?
+	               NULL :
+	               gls_framebuffer_take_drawn(x, st, 0, st->read_framebuffer);
 }
 
-/* --- Is it shown unchanged? -------------------------------------------------------------------------------------------------- */
+/* --- Is it shown unchanged? -------------------------------------------------------------------------------------- */
 
 static int blends_with_own_alpha(const struct scene_material *m)
 {
@@ -71,13 +76,15 @@ static uint32_t counted(uint32_t depth_bits)
 /* 1 where events give the same colours in the window as in their object. */
 static int suits(const struct scene *s, const struct gls_surface *window)
 {
-	if (s->needs_previous || s->start || s->floats || window->floats || s->width != window->width || s->height != window->height ||
-	    counted(s->depth_bits) != counted(window->depth_bits) || (s->samples > 1) != (window->samples > 1) || s->samples > 1)
+	if (s->needs_previous || s->start || s->floats || window->floats || s->width != window->width ||
+	    s->height != window->height || counted(s->depth_bits) != counted(window->depth_bits) ||
+	    (s->samples > 1) != (window->samples > 1) || s->samples > 1)
 		return 0;
 	for (uint32_t i = 0; i < s->n_instances; i++) {
 		const struct scene_material *m = &s->materials[s->instances[i].material];
 
-		if ((m->stencil_test && s->stencil_bits != window->stencil_bits) || (blends_with_own_alpha(m) && s->alpha_bits != window->alpha_bits))
+		if ((m->stencil_test && s->stencil_bits != window->stencil_bits) ||
+		    (blends_with_own_alpha(m) && s->alpha_bits != window->alpha_bits))
 			return 0;
 	}
 	return 1;
@@ -86,8 +93,9 @@ static int suits(const struct scene *s, const struct gls_surface *window)
 /* 1 where fragments land as they are. */
 static int passes_through(const struct scene_material *m)
 {
-	return !m->alpha_test && !m->stencil_test && !m->blend && !m->logic_op && (m->color_mask & 7) == 7 && !m->clip_plane_mask &&
-	       m->polygon_stipple == SCENE_NONE && m->polygon_mode_front == GL_FILL && m->polygon_mode_back == GL_FILL &&
+	return !m->alpha_test && !m->stencil_test && !m->blend && !m->logic_op && (m->color_mask & 7) == 7 &&
+	       !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && m->polygon_mode_front == GL_FILL &&
+	       m->polygon_mode_back == GL_FILL &&
 	       (!m->depth_test || m->depth_func == GL_ALWAYS || m->depth_func == GL_LESS || m->depth_func == GL_LEQUAL);
 }
 
@@ -107,11 +115,13 @@ static int is_white(const struct scene *s, const struct scene_instance *in, cons
 }
 
 /* The same by fixed function, of its only unit. */
-static int shows_fixed(const struct scene *s, const struct scene_instance *in, const struct scene_material *m, struct shown_program *out)
+static int shows_fixed(const struct scene *s, const struct scene_instance *in, const struct scene_material *m,
+                       struct shown_program *out)
 {
 	const struct scene_unit *u = &s->units[m->unit_first];
 
-	if (m->program || m->lighting || m->fog || m->color_sum || m->unit_count != 1 || (u->env_mode != GL_REPLACE && u->env_mode != GL_MODULATE))
+	if (m->program || m->lighting || m->fog || m->color_sum || m->unit_count != 1 ||
+	    (u->env_mode != GL_REPLACE && u->env_mode != GL_MODULATE))
 		return 0;
 	*out = (struct shown_program){ u->unit, { 4 * u->unit, 4 * u->unit + 1 } };
 	return is_white(s, in, m);
@@ -126,16 +136,18 @@ static const struct scene_unit *unit_of(const struct scene *s, const struct scen
 }
 
 /* 1 where fragments have the colours of texels, of *unit at coordinates that `out` receives. */
-static int shows_texels(const struct scene *s, const struct scene_instance *in, const struct scene_material *m, struct shown_program *out,
-                        const struct scene_unit **unit)
+static int shows_texels(const struct scene *s, const struct scene_instance *in, const struct scene_material *m,
+                        struct shown_program *out, const struct scene_unit **unit)
 {
 	if (m->fragment_program ? !shown_program_of(s, m, out) : !shows_fixed(s, in, m, out))
 		return 0;
 	*unit = unit_of(s, m, out->unit);
-	return *unit && !(*unit)->swizzle && !(*unit)->compare_mode && ((*unit)->min_filter == GL_NEAREST || (*unit)->min_filter == GL_LINEAR);
+	return *unit && !(*unit)->swizzle && !(*unit)->compare_mode &&
+	       ((*unit)->min_filter == GL_NEAREST || (*unit)->min_filter == GL_LINEAR);
 }
 
-/* Where a vertex is, in clip coordinates; all: [4 * SCENE_MAX_UNITS], the texture coordinates that a vertex program gives it. */
+/* Where a vertex is, in clip coordinates; all: [4 * SCENE_MAX_UNITS], the texture coordinates that a vertex program
+ * gives it. */
 static void place_of(const struct scene *s, const struct scene_instance *in, uint32_t v, float clip[4], float *all)
 {
 	float eye[4];
@@ -147,7 +159,8 @@ static void place_of(const struct scene *s, const struct scene_instance *in, uin
 }
 
 /* The texel that a vertex' coordinates by fixed function name. @return 0: they are generated, or of several units */
-static int texel_of(const struct scene *s, const struct scene_instance *in, uint32_t v, const struct shown_program *shown, float texel[2])
+static int texel_of(const struct scene *s, const struct scene_instance *in, uint32_t v,
+                    const struct shown_program *shown, float texel[2])
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	const struct scene_material *m = &s->materials[in->material];
@@ -165,7 +178,8 @@ static int texel_of(const struct scene *s, const struct scene_instance *in, uint
 }
 
 /* Where a corner lies in the window. @return 0: its texel lies elsewhere, or its depth is out of range */
-static int corner_at(const struct scene *s, const struct scene_instance *in, uint32_t v, const struct shown_program *shown, float out[2])
+static int corner_at(const struct scene *s, const struct scene_instance *in, uint32_t v,
+                     const struct shown_program *shown, float out[2])
 {
 	const float size[2] = { (float)s->width, (float)s->height };
 	float clip[4], texel[2], all[4 * SCENE_MAX_UNITS];
@@ -193,7 +207,8 @@ static int covers_window(const struct scene *s, const struct scene_view *view)
 }
 
 /* 1 where triangles bring each texel to its pixel, in all of the window. */
-static int is_whole_quad(const struct scene *s, const struct scene_instance *in, const struct shown_program *shown, const struct scene_texture *t)
+static int is_whole_quad(const struct scene *s, const struct scene_instance *in, const struct shown_program *shown,
+                         const struct scene_texture *t)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	const struct scene_material *m = &s->materials[in->material];
@@ -206,10 +221,12 @@ static int is_whole_quad(const struct scene *s, const struct scene_instance *in,
 		float twice;
 
 		for (uint32_t c = 0; c < 3; c++)
-			if (!corner_at(s, in, mesh->index[3 * p + c], shown, corner[c]) || corner[c][0] < -PIXEL_SLACK || corner[c][0] > right ||
-			    corner[c][1] < -PIXEL_SLACK || corner[c][1] > top)
+			if (!corner_at(s, in, mesh->index[3 * p + c], shown, corner[c]) ||
+			    corner[c][0] < -PIXEL_SLACK || corner[c][0] > right || corner[c][1] < -PIXEL_SLACK ||
+			    corner[c][1] > top)
 				return 0;
-		twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) - (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
+		twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
+		        (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
 		if (m->cull_face && m->cull_face != ((twice > 0) == (m->front_face == GL_CCW) ? GL_BACK : GL_FRONT))
 			return 0;
 		area += 0.5f * fabsf(twice);
@@ -241,8 +258,9 @@ static int is_whole_rectangle(const struct scene *s, const struct scene_instance
 	const struct scene_rectangle *r = &s->rectangles[in->rectangle - 1];
 	const float *corner = s->meshes[in->mesh]->position;
 
-	return r->kind == SCENE_COLOR_PIXELS && r->width == s->width && r->height == s->height && r->zoom[0] == 1 && r->zoom[1] == 1 &&
-	       corner[0] == 0 && corner[1] == 0 && (uint32_t)s->views[in->view].scissor[2] == s->width &&
+	return r->kind == SCENE_COLOR_PIXELS && r->width == s->width && r->height == s->height && r->zoom[0] == 1 &&
+	       r->zoom[1] == 1 && corner[0] == 0 && corner[1] == 0 &&
+	       (uint32_t)s->views[in->view].scissor[2] == s->width &&
 	       (uint32_t)s->views[in->view].scissor[3] == s->height;
 }
 
@@ -254,7 +272,7 @@ static int is_lit(const struct scene *s)
 	return 0;
 }
 
-/* --- Giving ---------------------------------------------------------------------------------------------------------------- */
+/* --- Giving ------------------------------------------------------------------------------------------------------ */
 
 /* What the context draws to, if that is a window's back buffer alone. */
 static struct gls_surface *window_of(struct gls_exec *x, struct gls_state *st)
@@ -275,8 +293,9 @@ void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct gls_frame *d
 	struct shown_program shown = { 0 };
 	float depth = 1;
 
-	whole = whole && (in->rectangle ? is_whole_rectangle(s, in) : passes_through(m) && shows_texels(s, in, m, &shown, &unit) &&
-	                                                               is_whole_quad(s, in, &shown, s->textures[unit->texture]));
+	whole = whole && (in->rectangle ? is_whole_rectangle(s, in) :
+	                                  passes_through(m) && shows_texels(s, in, m, &shown, &unit) &&
+	                                          is_whole_quad(s, in, &shown, s->textures[unit->texture]));
 	whole = whole && (!leaves_depth || left_depth(s, in, &depth));
 	if (whole && x->feedback.keeps_targets)
 		s->untraced_draw = is_lit(drawn->out) ? in->draw : 0;

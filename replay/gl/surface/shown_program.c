@@ -5,7 +5,7 @@
 #include "base/mat4.h"
 #include "kernels/gl/instructions.h"
 
-/* --- Fragments: what their registers hold, as far as that is the same for all of them ------------------------------------ */
+/* --- Fragments: what their registers hold, as far as that is the same for all of them ---------------------------- */
 
 enum held { NUMBER, INPUT, TEXEL, OTHER };
 
@@ -36,7 +36,8 @@ static int is_number(const struct value *v, float n)
 
 static struct value operand(const struct shading *s, uint32_t at, uint32_t negated)
 {
-	struct value v = at >= SCENE_PROGRAM_CONSTANT ? number(s->program.constants[at - SCENE_PROGRAM_CONSTANT]) : s->registers[at];
+	struct value v = at >= SCENE_PROGRAM_CONSTANT ? number(s->program.constants[at - SCENE_PROGRAM_CONSTANT]) :
+	                                                s->registers[at];
 
 	if (negated)
 		v = v.held == NUMBER ? number(-v.number) : other;
@@ -67,7 +68,8 @@ static struct value result(uint32_t operation, struct value a, struct value b, s
 	case SCENE_OP_CHOOSE: return a.held != NUMBER ? other : a.number != 0 ? b : c;
 	case SCENE_OP_SELECT: return a.held != NUMBER ? other : a.number < 0 ? b : c;
 	default:
-		if (a.held != NUMBER || (operation >= SCENE_OP_ADD && b.held != NUMBER) || operation == SCENE_OP_DX || operation == SCENE_OP_DY)
+		if (a.held != NUMBER || (operation >= SCENE_OP_ADD && b.held != NUMBER) || operation == SCENE_OP_DX ||
+		    operation == SCENE_OP_DY)
 			return other;
 		return number(program_number(operation, a.number, b.number));
 	}
@@ -77,8 +79,14 @@ static void compute(struct shading *s, const struct scene_instruction *in)
 {
 	for (uint32_t i = 0; i < in->n; i++) {
 		const struct value a = operand(s, in->a + (in->flags & SCENE_STEP_A ? i : 0), in->flags & SCENE_NEGATE_A);
-		const struct value b = in->operation >= SCENE_OP_ADD ? operand(s, in->b + (in->flags & SCENE_STEP_B ? i : 0), in->flags & SCENE_NEGATE_B) : a;
-		const struct value c = in->operation >= SCENE_OP_MAD ? operand(s, in->c + (in->flags & SCENE_STEP_C ? i : 0), in->flags & SCENE_NEGATE_C) : a;
+		const struct value b = in->operation >= SCENE_OP_ADD ?
+		                               operand(s, in->b + (in->flags & SCENE_STEP_B ? i : 0),
+		                                       in->flags & SCENE_NEGATE_B) :
+		                               a;
+		const struct value c = in->operation >= SCENE_OP_MAD ?
+		                               operand(s, in->c + (in->flags & SCENE_STEP_C ? i : 0),
+		                                       in->flags & SCENE_NEGATE_C) :
+		                               a;
 		struct value r = result(in->operation, a, b, c);
 
 		if (in->flags & SCENE_SATURATE && r.held != TEXEL) /* texels are in [0,1] */
@@ -93,8 +101,9 @@ static int sample(struct shading *s, const struct scene_instruction *in)
 	const struct value *c = &s->registers[in->a];
 	const uint32_t first = 4 * SCENE_INPUT_TEXCOORD;
 
-	if (s->samples++ || in->c & (SCENE_TEXTURE_BIASED | SCENE_TEXTURE_LEVEL) || (in->c & SCENE_TEXTURE_DIVIDED && !is_number(&c[3], 1)) ||
-	    c[0].held != INPUT || c[1].held != INPUT || c[0].which < first || c[1].which < first)
+	if (s->samples++ || in->c & (SCENE_TEXTURE_BIASED | SCENE_TEXTURE_LEVEL) ||
+	    (in->c & SCENE_TEXTURE_DIVIDED && !is_number(&c[3], 1)) || c[0].held != INPUT || c[1].held != INPUT ||
+	    c[0].which < first || c[1].which < first)
 		return 0;
 	*s->out = (struct shown_program){ in->b, { c[0].which - first, c[1].which - first } };
 	for (uint32_t i = 0; i < 4; i++)
@@ -102,16 +111,19 @@ static int sample(struct shading *s, const struct scene_instruction *in)
 	return 1;
 }
 
-/* Follow a program that goes one way, forwards, whatever the fragment. @return 0: it does not, or does what it may not */
+/* Follow a program that goes one way, forwards, whatever the fragment. @return 0: it does not, or does what it may
+ * not */
 static int follow(struct shading *s)
 {
 	for (uint32_t at = 0; at < s->program.head->n_instructions; at++) {
 		const struct scene_instruction *in = &s->program.instructions[at];
-		const int turns = in->operation == SCENE_OP_KILL || in->operation == SCENE_OP_MASK || in->operation == SCENE_OP_JUMP_NONE;
+		const int turns = in->operation == SCENE_OP_KILL || in->operation == SCENE_OP_MASK ||
+		                  in->operation == SCENE_OP_JUMP_NONE;
 		const struct value a = turns ? operand(s, in->a, in->flags & SCENE_NEGATE_A) : other;
 
 		if ((turns && a.held != NUMBER) || (in->operation == SCENE_OP_KILL && (a.number < 0 || in->n != 1)) ||
-		    (in->operation == SCENE_OP_MASK && a.number == 0) || in->operation == SCENE_OP_FETCH || in->operation == SCENE_OP_STORE)
+		    (in->operation == SCENE_OP_MASK && a.number == 0) || in->operation == SCENE_OP_FETCH ||
+		    in->operation == SCENE_OP_STORE)
 			return 0;
 		if (in->operation == SCENE_OP_JUMP || (in->operation == SCENE_OP_JUMP_NONE && a.number == 0)) {
 			if (in->to <= at)
@@ -143,7 +155,7 @@ int shown_program_of(const struct scene *s, const struct scene_material *m, stru
 	return 1;
 }
 
-/* --- Vertices ------------------------------------------------------------------------------------------------------------- */
+/* --- Vertices ---------------------------------------------------------------------------------------------------- */
 
 static struct vec4 attribute(const float *array, const float *current, uint32_t v)
 {
@@ -171,7 +183,8 @@ static struct vec4 input_of(const struct scene *s, const struct scene_instance *
 	return attribute(mesh->generics[input - SCENE_VERTEX_GENERIC], c->generics[input - SCENE_VERTEX_GENERIC], v);
 }
 
-int shown_program_vertex(const struct scene *s, const struct scene_instance *in, uint32_t v, float clip[4], float *coordinates)
+int shown_program_vertex(const struct scene *s, const struct scene_instance *in, uint32_t v, float clip[4],
+                         float *coordinates)
 {
 	const struct program program = program_at(s->programs + (s->materials[in->material].vertex_program - 1));
 	struct program_run run;

@@ -1,9 +1,10 @@
 /*
- * Pixels of surfaces. The supplier (replay.h) renders them from the scene of all events so far, and only when somebody asks.
+ * Pixels of surfaces. The supplier (replay.h) renders them from the scene of all events so far, and only when somebody
+ * asks.
  *
- * A frame may show what the one before left. A surface therefore keeps what it held before its events: as a picture where one was
- * made, else as the scene that would make it. After skipped frames nobody knows it. A frame that turns out to need it sets
- * x->feedback.rewind; replay.c then goes back and builds the frames before it.
+ * A frame may show what the one before left. A surface therefore keeps what it held before its events: as a picture
+ * where one was made, else as the scene that would make it. After skipped frames nobody knows it. A frame that turns
+ * out to need it sets x->feedback.rewind; replay.c then goes back and builds the frames before it.
  */
 #include "replay/gl/surface/surface.h"
 
@@ -24,8 +25,8 @@ static uint32_t kept_by(const struct scene *s)
 /* What a scene shows. NULL: it cannot be had */
 static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
 {
-	struct gls_picture *p = gls_picture_make(x, &(struct gls_picture_form){ s->width, s->height, s->depth_bits, s->alpha_bits,
-	                                                                         s->samples, s->floats });
+	struct gls_picture *p = gls_picture_make(x, &(struct gls_picture_form){ s->width, s->height, s->depth_bits,
+	                                                                        s->alpha_bits, s->samples, s->floats });
 
 	if (!p || !s->width || !s->height)
 		return p;
@@ -118,7 +119,8 @@ static int leave_start(const struct gls_surface *surface, struct scene *s)
 	return s->before != NULL;
 }
 
-/* Whether perhaps nothing from before shows: a sky covers it all. Depth that it leaves goes on, though, where it is there. */
+/* Whether perhaps nothing from before shows: a sky covers it all. Depth that it leaves goes on, though, where it is
+ * there. */
 static int may_cover_all(struct gls_exec *x, const struct gls_surface *surface, const struct scene *s)
 {
 	if (!surface->before)
@@ -133,7 +135,8 @@ static int may_cover_all(struct gls_exec *x, const struct gls_surface *surface, 
  * @param snapshot  receives a reference to what the scene shows, if that had to be rendered to find out; else NULL
  * @return 1: the scene is whole; 0: it is not, and cannot be made so now
  */
-static int find_start(struct gls_exec *x, struct gls_surface *surface, struct scene *s, int leaves, struct gls_picture **snapshot)
+static int find_start(struct gls_exec *x, struct gls_surface *surface, struct scene *s, int leaves,
+                      struct gls_picture **snapshot)
 {
 	*snapshot = NULL;
 	check_size(surface, s);
@@ -174,7 +177,8 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 	return 1;
 }
 
-const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface, const struct gls_area *area)
+const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface,
+                                             const struct gls_area *area)
 {
 	const struct gls_picture *kept;
 	struct gls_picture *snapshot = NULL;
@@ -194,7 +198,8 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 	if (kept && has_size(&kept->picture, s))
 		return &kept->picture;
 	/* What was there before need not be made where it is not looked at. */
-	in_part = s->needs_previous && !s->start && !surface->picture && (surface->before || surface->skipped) && gls_frame_knows(surface, area);
+	in_part = s->needs_previous && !s->start && !surface->picture && (surface->before || surface->skipped) &&
+	          gls_frame_knows(surface, area);
 	if (!in_part && !find_start(x, surface, s, 0, &snapshot))
 		return NULL;
 	if (!snapshot)
@@ -208,7 +213,8 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 static int has_outputs(const struct scene *s)
 {
 	for (uint32_t i = 0; i < s->n_materials; i++)
-		if (s->materials[i].fragment_program && ((const struct scene_program *)(s->programs + (s->materials[i].fragment_program - 1)))->n_data)
+		if (s->materials[i].fragment_program &&
+		    ((const struct scene_program *)(s->programs + (s->materials[i].fragment_program - 1)))->n_data)
 			return 1;
 	return 0;
 }

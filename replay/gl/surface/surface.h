@@ -12,7 +12,8 @@
  * @param area  what is looked at: other pixels need not be right; NULL: all
  * @return borrowed, valid until the surface's next event; NULL: not to be had (counted, or x->feedback.rewind is set)
  */
-const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface, const struct gls_area *area);
+const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface,
+                                             const struct gls_area *area);
 
 /**
  * Let the same events begin from another picture (takes the reference), and draw the next of several buffers.

@@ -50,7 +50,9 @@ static struct chain find_chain(const struct gls_texture *t, unsigned face)
 	d = t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1;
 	if (!w || !h || !d)
 		return none; /* nothing but borders */
-	for (n = 1; p->base_level + n < GLS_MAX_LEVELS && p->base_level + n <= p->max_level && (w > 1 || h > 1 || d > 1); n++) {
+	for (n = 1;
+	     p->base_level + n < GLS_MAX_LEVELS && p->base_level + n <= p->max_level && (w > 1 || h > 1 || d > 1);
+	     n++) {
 		w = half(w);
 		h = half(h);
 		d = half(d);
@@ -113,7 +115,8 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	int srgb = format && format->srgb && t->parameters.srgb_decode != GL_SKIP_DECODE_EXT;
 	uint32_t head[9] = { gls_texture_token(t->target), base->base_format, base->width - 2 * base->border,
 	                     t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border,
-	                     t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1, n_levels, base->border, (uint32_t)srgb,
+	                     t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1, n_levels, base->border,
+	                     (uint32_t)srgb,
 	                     base->texel_bytes };
 	const uint32_t texel_bytes = srgb ? 16 : base->texel_bytes;
 	struct gls_texture_image *image;
@@ -161,8 +164,8 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	return image;
 }
 
-struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t texel_bytes,
-                                                 const uint8_t *texels)
+struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t width, uint32_t height,
+                                                 uint32_t texel_bytes, const uint8_t *texels)
 {
 	struct gls_texture t = { .target = GLS_TEXTURE_2D };
 	struct gls_texture_image *image;

@@ -24,7 +24,10 @@ static int is_integer(uint32_t format)
 static int is_packed(uint32_t type)
 {
 	switch (type) {
-	case GL_UNSIGNED_INT_24_8: case GL_FLOAT_32_UNSIGNED_INT_24_8_REV: case GL_UNSIGNED_SHORT_8_8_MESA: case GL_UNSIGNED_SHORT_8_8_REV_MESA:
+	case GL_UNSIGNED_INT_24_8:
+	case GL_FLOAT_32_UNSIGNED_INT_24_8_REV:
+	case GL_UNSIGNED_SHORT_8_8_MESA:
+	case GL_UNSIGNED_SHORT_8_8_REV_MESA:
 	case GL_UNSIGNED_INT_10F_11F_11F_REV: case GL_UNSIGNED_INT_5_9_9_9_REV:
 		return 1;
 	default:
@@ -65,7 +68,8 @@ uint32_t gls_pixels_error(uint32_t format, uint32_t type, uint32_t mesa)
 {
 	if (is_integer(format))
 		return 0;
-	if (!is_format(format, mesa) || (type == GL_BITMAP && !is_index(format)) || (!is_packed(type) && !is_plain(type) && type != GL_BITMAP))
+	if (!is_format(format, mesa) || (type == GL_BITMAP && !is_index(format)) ||
+	    (!is_packed(type) && !is_plain(type) && type != GL_BITMAP))
 		return GL_INVALID_ENUM;
 	if (is_packed(type))
 		return goes_with(format, type) ? 0 : GL_INVALID_OPERATION;
@@ -100,8 +104,8 @@ int gls_takes_target(unsigned n_dims, uint32_t target)
 	return target == GL_TEXTURE_3D || target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY;
 }
 
-uint32_t gls_image_error(uint32_t target, uint32_t internal_format, int64_t level, const int64_t size[2], int64_t border,
-                         uint32_t mesa)
+uint32_t gls_image_error(uint32_t target, uint32_t internal_format, int64_t level, const int64_t size[2],
+                         int64_t border, uint32_t mesa)
 {
 	const uint32_t base = gls_base_format(internal_format);
 

@@ -10,7 +10,8 @@
 struct gls_level {
 	uint32_t width, height, depth; /* with border; 0: not specified */
 	uint32_t border, internal_format, base_format;
-	uint8_t *texels; /* owned, as in scene_texture, with border; a byte of stencil each comes after all of them where the format has it */
+	uint8_t *texels; /* owned, as in scene_texture, with border; a byte of stencil each comes after all of them
+	                    where the format has it */
 	size_t bytes;    /* of both */
 	uint32_t missing; /* number + 1 of the frame that drew to it and was not rendered; 0: nothing is missing */
 	uint32_t missing_part[4]; /* x, y, width, height of what misses pixels; width 0: all of it */

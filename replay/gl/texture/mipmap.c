@@ -1,6 +1,7 @@
 /*
- * Generated mipmaps (sec. 3.8.8 leaves the filter open). Mesa draws each level from the one below it with linear filtering: a texel's
- * centre lies between two texels in each direction. Weights are multiples of 1/256; results are rounded after each direction.
+ * Generated mipmaps (sec. 3.8.8 leaves the filter open). Mesa draws each level from the one below it with linear
+ * filtering: a texel's centre lies between two texels in each direction. Weights are multiples of 1/256; results are
+ * rounded after each direction.
  */
 #include "replay/gl/texture/mipmap.h"
 
@@ -34,9 +35,9 @@ static struct tap tap_at(uint32_t i, uint32_t size, uint32_t from, int exact)
 }
 
 /*
- * The same of a square that llvmpipe draws with floats, to the last bit: a mean may lie on a step of the format. The coordinate is a
- * plane over one of two triangles, through the vertex that its set-up begins with. other: texels of the level the other way; far: that
- * vertex lies where the coordinate is 1, else 0
+ * The same of a square that llvmpipe draws with floats, to the last bit: a mean may lie on a step of the format. The
+ * coordinate is a plane over one of two triangles, through the vertex that its set-up begins with. other: texels of the
+ * level the other way; far: that vertex lies where the coordinate is 1, else 0
  */
 static struct tap tap_drawn(uint32_t i, uint32_t size, uint32_t other, uint32_t from, int far)
 {
@@ -64,7 +65,8 @@ static void mix_texels(float a[4], const float b[4], float weight, int round)
 }
 
 /* floats: how many a texel is, 0: it is bytes */
-static void filter_texel(const struct gls_level *from, int floats, const float *linear, const struct tap t[3], float out[4])
+static void filter_texel(const struct gls_level *from, int floats, const float *linear, const struct tap t[3],
+                         float out[4])
 {
 	int round = !floats && !linear;
 
@@ -115,8 +117,9 @@ static void halve(const struct gls_level *from, uint32_t w, uint32_t h, uint8_t 
 }
 
 /*
- * Formats that Mesa cannot draw to it averages as they are stored, two by two texels. The last of an odd number of texels is left
- * out; integers are rounded down. In 25.0 colours that are encoded are averaged in linear light, as floats.
+ * Formats that Mesa cannot draw to it averages as they are stored, two by two texels. The last of an odd number of
+ * texels is left out; integers are rounded down. In 25.0 colours that are encoded are averaged in linear light, as
+ * floats.
  */
 static int is_averaged(const struct gls_format *f)
 {
@@ -126,7 +129,8 @@ static int is_averaged(const struct gls_format *f)
 static void average_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format,
                           const float *linear)
 {
-	const uint32_t n[3] = { from->width > to->width ? 2 : 1, from->height > to->height ? 2 : 1, from->depth > to->depth ? 2 : 1 };
+	const uint32_t n[3] = { from->width > to->width ? 2 : 1, from->height > to->height ? 2 : 1,
+		                from->depth > to->depth ? 2 : 1 };
 	const uint32_t count = n[0] * n[1] * n[2];
 
 	for (size_t i = 0; i < gls_level_count(to); i++) {
@@ -151,9 +155,10 @@ static void average_level(const struct gls_level *from, struct gls_level *to, co
 	}
 }
 
-/* The texels that a texel is a mean of, along each axis. The square's triangles meet along the diagonal from its first texel. */
-static void find_taps(const struct gls_level *from, const struct gls_level *to, int exact, uint32_t x, uint32_t y, uint32_t z,
-                      struct tap t[3])
+/* The texels that a texel is a mean of, along each axis. The square's triangles meet along the diagonal from its first
+ * texel. */
+static void find_taps(const struct gls_level *from, const struct gls_level *to, int exact, uint32_t x, uint32_t y,
+                      uint32_t z, struct tap t[3])
 {
 	const int above = (2 * (uint64_t)x + 1) * to->height < (2 * (uint64_t)y + 1) * to->width;
 

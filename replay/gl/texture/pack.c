@@ -17,7 +17,8 @@ int gls_packing_find(uint32_t format, uint32_t type, struct gls_packing *p)
 		.packed = gls_packed_find(type), .component = gls_component_bytes(type) };
 	if (!p->colors && format != GL_STENCIL_INDEX)
 		return 0;
-	if ((!p->component && !p->packed) || (format == GL_DEPTH_STENCIL) != is_both || (p->packed && (!p->colors || p->packed->n != p->colors->n)))
+	if ((!p->component && !p->packed) || (format == GL_DEPTH_STENCIL) != is_both ||
+	    (p->packed && (!p->colors || p->packed->n != p->colors->n)))
 		return 0;
 	p->group = p->packed ? p->packed->bytes : (p->colors ? p->colors->n : 1) * p->component;
 	return !(format == GL_STENCIL_INDEX && type == GL_HALF_FLOAT);
@@ -26,11 +27,14 @@ int gls_packing_find(uint32_t format, uint32_t type, struct gls_packing *p)
 /* No buffer is larger than this, so that no sum below exceeds 64 bits. */
 #define MOST ((uint64_t)INT32_MAX)
 
-int gls_packing_lay(struct gls_packing *p, const struct gls_pixel_store *store, const uint32_t size[3], uint64_t offset, uint64_t bytes)
+int gls_packing_lay(struct gls_packing *p, const struct gls_pixel_store *store, const uint32_t size[3], uint64_t offset,
+                    uint64_t bytes)
 {
-	const uint64_t alignment = (uint64_t)store->alignment, row_pixels = store->row_length > 0 ? (uint64_t)store->row_length : size[0];
+	const uint64_t alignment = (uint64_t)store->alignment,
+		       row_pixels = store->row_length > 0 ? (uint64_t)store->row_length : size[0];
 	const uint64_t rows = size[2] && store->image_height > 0 ? (uint64_t)store->image_height : size[1];
-	const uint64_t skip_images = size[2] ? (uint64_t)store->skip_images : 0, images = skip_images + (size[2] ? size[2] - 1 : 0);
+	const uint64_t skip_images = size[2] ? (uint64_t)store->skip_images : 0,
+		       images = skip_images + (size[2] ? size[2] - 1 : 0);
 
 	p->swap = store->swap_bytes;
 	p->row = (p->group * row_pixels + alignment - 1) / alignment * alignment;
@@ -39,8 +43,10 @@ int gls_packing_lay(struct gls_packing *p, const struct gls_pixel_store *store, 
 	p->image = p->row * rows;
 	if (p->image > MOST && images)
 		return 0;
-	p->start = offset + skip_images * p->image + (uint64_t)store->skip_rows * p->row + (uint64_t)store->skip_pixels * p->group;
-	p->end = p->start + (images - skip_images) * p->image + (uint64_t)(size[1] - 1) * p->row + (uint64_t)size[0] * p->group;
+	p->start = offset + skip_images * p->image + (uint64_t)store->skip_rows * p->row +
+	           (uint64_t)store->skip_pixels * p->group;
+	p->end = p->start + (images - skip_images) * p->image + (uint64_t)(size[1] - 1) * p->row +
+	         (uint64_t)size[0] * p->group;
 	return p->start <= p->end && p->end <= bytes; /* a damaged snapshot has any numbers */
 }
 
@@ -65,7 +71,8 @@ static float clamp(float v, float least)
 	return v > least ? v < 1 ? v : 1 : least;
 }
 
-/* A number of 32 bits. Mesa scales a float by the largest as a float, so that 1 comes out one too large: 0, or the least. */
+/* A number of 32 bits. Mesa scales a float by the largest as a float, so that 1 comes out one too large: 0, or the
+ * least. */
 static uint32_t long_number(float v, int is_signed, int bytes)
 {
 	const double most = is_signed ? INT32_MAX : UINT32_MAX;
@@ -134,7 +141,8 @@ static uint32_t long_depth(float depth, uint32_t steps, uint32_t bits)
 	return (uint32_t)((double)depth * 4294967295.0);
 }
 
-void gls_pack_depth(const struct gls_packing *p, float depth, uint32_t steps, uint32_t bits, uint8_t stencil, uint8_t *to)
+void gls_pack_depth(const struct gls_packing *p, float depth, uint32_t steps, uint32_t bits, uint8_t stencil,
+                    uint8_t *to)
 {
 	depth = clamp(depth, 0);
 	switch (p->type) {

@@ -23,9 +23,11 @@ int gls_palette_of(uint32_t internal_format, struct gls_palette *out)
 	return 1;
 }
 
-int gls_palette_expand(const struct gls_palette *p, const uint8_t *data, size_t n, size_t first, size_t count, uint8_t *out)
+int gls_palette_expand(const struct gls_palette *p, const uint8_t *data, size_t n, size_t first, size_t count,
+                       uint8_t *out)
 {
-	const size_t palette = p->entries * p->entry_bytes, begin = first * p->index_bits / 8, bytes = (count * p->index_bits + 7) / 8;
+	const size_t palette = p->entries * p->entry_bytes, begin = first * p->index_bits / 8,
+		     bytes = (count * p->index_bits + 7) / 8;
 
 	if (palette > n || begin > n - palette || bytes > n - palette - begin)
 		return -1;

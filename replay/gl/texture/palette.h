@@ -22,4 +22,5 @@ int gls_palette_of(uint32_t internal_format, struct gls_palette *out);
  * @param out    receives count * entry_bytes
  * @return 0, or -1: there are too few bytes
  */
-int gls_palette_expand(const struct gls_palette *p, const uint8_t *data, size_t n, size_t first, size_t count, uint8_t *out);
+int gls_palette_expand(const struct gls_palette *p, const uint8_t *data, size_t n, size_t first, size_t count,
+                       uint8_t *out);

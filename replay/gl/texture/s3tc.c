@@ -135,7 +135,8 @@ static void move_ends(const struct s3tc_texels *t, struct color ends[2])
 /* Ends that 5, 6 and 5 bits may not tell apart are moved apart. That red is compared with green is Mesa's. */
 static void part_ends(struct color ends[2])
 {
-	const int red = abs(ends[0].v[0] - ends[1].v[0]), green = abs(ends[0].v[1] - ends[1].v[1]), blue = abs(ends[0].v[2] - ends[1].v[2]);
+	const int red = abs(ends[0].v[0] - ends[1].v[0]), green = abs(ends[0].v[1] - ends[1].v[1]),
+		  blue = abs(ends[0].v[2] - ends[1].v[2]);
 	const int most = red > 2 * green ? red > blue ? red : blue : 2 * green > blue ? 2 * green : blue;
 	const int factor = most > 4 ? 2 : most > 2 ? 3 : 4, up = ends[1].v[1] >= ends[0].v[1];
 	struct color *a = &ends[up], *b = &ends[!up];
@@ -166,7 +167,8 @@ static unsigned code_four(const struct s3tc_texels *t, const struct color ends[2
 }
 
 /* The same with three colours, the ends the other way round, and a fourth code for what is transparent. */
-static unsigned code_three(enum s3tc_kind kind, const struct s3tc_texels *t, const struct color ends[2], uint32_t *codes)
+static unsigned code_three(enum s3tc_kind kind, const struct s3tc_texels *t, const struct color ends[2],
+                           uint32_t *codes)
 {
 	const struct color colors[3] = { ends[1], ends[0], mixed(&ends[0], 1, &ends[1]) };
 	const struct color tried[3] = { ends[0], ends[1], colors[2] };

@@ -81,7 +81,8 @@ static void s3tc_colors(const uint8_t *block, int through, int four, uint8_t out
 		put(&c[bits_at(block, 32 + 2 * i, 2)], out[i]);
 }
 
-/* Alpha of DXT5 and channels of RGTC: eight levels from one number to another; or six, then the lowest and the highest number. */
+/* Alpha of DXT5 and channels of RGTC: eight levels from one number to another; or six, then the lowest and the highest
+ * number. */
 static int channel(const uint8_t *block, unsigned i, int is_signed)
 {
 	int a0 = is_signed ? (int8_t)block[0] : block[0], a1 = is_signed ? (int8_t)block[1] : block[1];
@@ -130,7 +131,8 @@ static struct rgba color_555_1(const uint8_t *block, unsigned first, unsigned lo
 
 static struct rgba fxt1_mixed(const uint8_t *block, unsigned t)
 {
-	unsigned right = t / 16, code = bits_at(block, 2 * t, 2), low = bits_at(block, 125 + right, 1), first = 64 + 30 * right;
+	unsigned right = t / 16, code = bits_at(block, 2 * t, 2), low = bits_at(block, 125 + right, 1),
+		 first = 64 + 30 * right;
 	struct rgba c0, c1 = color_555_1(block, first + 15, low), none = { { 0, 0, 0, 0 } };
 
 	if (bits_at(block, 124, 1)) {
@@ -195,10 +197,12 @@ static void rgtc_texel(const struct gls_format *f, const uint8_t *block, unsigne
 	gls_format_store(f, v, 0, out);
 }
 
-int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n, uint8_t *out)
+int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n,
+                   uint8_t *out)
 {
 	const struct gls_format *f = gls_format_find(internal_format);
-	const uint32_t side = f ? gls_block_width(f) : 4, columns = (width + side - 1) / side, bytes = gls_texel_bytes(internal_format);
+	const uint32_t side = f ? gls_block_width(f) : 4, columns = (width + side - 1) / side,
+		       bytes = gls_texel_bytes(internal_format);
 	uint8_t texels[32][4];
 
 	if (!f || !f->block_bytes || n / f->block_bytes / (columns + !columns) < (height + 3) / 4)

@@ -12,10 +12,12 @@
  * @param out  width * height texels
  * @return 0; -1: too few bytes, or not a format of these
  */
-int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n, uint8_t *out);
+int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n,
+                   uint8_t *out);
 
 /**
- * Leave of a plain 2D image of 8 bits a channel what Mesa's compression leaves; of formats that are not compressed, all.
+ * Leave of a plain 2D image of 8 bits a channel what Mesa's compression leaves; of formats that are not compressed,
+ * all.
  * @param row  texels from one row to the next
  */
 void gls_recompress(const struct gls_format *f, uint32_t width, uint32_t height, uint32_t row, uint8_t *texels);

@@ -12,8 +12,8 @@
 
 static int is_source(uint32_t token)
 {
-	return token == GL_TEXTURE || token == GL_CONSTANT || token == GL_PRIMARY_COLOR || token == GL_PREVIOUS || token == GL_ZERO || token == GL_ONE ||
-	       (token >= GL_TEXTURE0 && token < GL_TEXTURE0 + SCENE_MAX_UNITS);
+	return token == GL_TEXTURE || token == GL_CONSTANT || token == GL_PRIMARY_COLOR || token == GL_PREVIOUS ||
+	       token == GL_ZERO || token == GL_ONE || (token >= GL_TEXTURE0 && token < GL_TEXTURE0 + SCENE_MAX_UNITS);
 }
 
 static int is_alpha_operand(uint32_t token)
@@ -29,7 +29,13 @@ static int is_rgb_operand(uint32_t token)
 static int is_alpha_combiner(uint32_t token)
 {
 	switch (token) {
-	case GL_REPLACE: case GL_MODULATE: case GL_ADD: case GL_ADD_SIGNED: case GL_INTERPOLATE: case GL_SUBTRACT: case GL_MODULATE_ADD_ATI:
+	case GL_REPLACE:
+	case GL_MODULATE:
+	case GL_ADD:
+	case GL_ADD_SIGNED:
+	case GL_INTERPOLATE:
+	case GL_SUBTRACT:
+	case GL_MODULATE_ADD_ATI:
 	case GL_MODULATE_SIGNED_ADD_ATI: case GL_MODULATE_SUBTRACT_ATI:
 		return 1;
 	default:
@@ -39,11 +45,13 @@ static int is_alpha_combiner(uint32_t token)
 
 static int is_rgb_combiner(uint32_t token)
 {
-	return is_alpha_combiner(token) || token == GL_DOT3_RGB || token == GL_DOT3_RGBA || token == GL_DOT3_RGB_EXT || token == GL_DOT3_RGBA_EXT;
+	return is_alpha_combiner(token) || token == GL_DOT3_RGB || token == GL_DOT3_RGBA || token == GL_DOT3_RGB_EXT ||
+	       token == GL_DOT3_RGBA_EXT;
 }
 
 /* One of a combiner's tokens. */
-static void set_token(struct gls_exec *x, struct gls_state *st, uint32_t *to, uint32_t token, int (*allows)(uint32_t token))
+static void set_token(struct gls_exec *x, struct gls_state *st, uint32_t *to, uint32_t token,
+                      int (*allows)(uint32_t token))
 {
 	if (!gls_refuses(x, st, !allows(token), GL_INVALID_ENUM))
 		*to = token;

@@ -9,8 +9,9 @@
 #include "scene/scene.h"
 
 /*
- * What Mesa stores of each format. Formats of 8 bits a channel or more keep 8 here. Of smaller ones, llvmpipe has R3_G3_B2 to RGB5_A1
- * as their names say (but RGBA2 with 4 bits); luminance and alpha always have 8 bits, but for LUMINANCE4_ALPHA4.
+ * What Mesa stores of each format. Formats of 8 bits a channel or more keep 8 here. Of smaller ones, llvmpipe has
+ * R3_G3_B2 to RGB5_A1 as their names say (but RGBA2 with 4 bits); luminance and alpha always have 8 bits, but for
+ * LUMINANCE4_ALPHA4.
  */
 #define FORMAT(name, base_format, ...) { .token = (name), .base = (base_format), __VA_ARGS__ }
 static const struct gls_format formats[] = {
@@ -134,9 +135,11 @@ uint32_t gls_format_depth_bits(uint32_t internal_format)
 
 uint32_t gls_format_stencil_bits(uint32_t internal_format)
 {
-	return internal_format == GL_DEPTH_STENCIL || internal_format == GL_DEPTH24_STENCIL8 || internal_format == GL_DEPTH32F_STENCIL8 ||
-	       internal_format == GL_STENCIL_INDEX ||
-	       (internal_format >= GL_STENCIL_INDEX1 && internal_format <= GL_STENCIL_INDEX16) ? 8 : 0;
+	return internal_format == GL_DEPTH_STENCIL || internal_format == GL_DEPTH24_STENCIL8 ||
+	                       internal_format == GL_DEPTH32F_STENCIL8 || internal_format == GL_STENCIL_INDEX ||
+	                       (internal_format >= GL_STENCIL_INDEX1 && internal_format <= GL_STENCIL_INDEX16) ?
+	               8 :
+	               0;
 }
 
 /* A colour as sampling a base format gives it (table 3.20). */
@@ -147,7 +150,9 @@ static void expand(uint32_t base, const float color[4], float out[4])
 	out[0] = has_color ? color[0] : 0;
 	out[1] = !has_color || base == GL_RED ? 0 : one ? color[0] : color[1];
 	out[2] = !has_color || base == GL_RED || base == GL_RG ? 0 : one ? color[0] : color[2];
-	out[3] = base == GL_INTENSITY ? color[0] : base == GL_ALPHA || base == GL_LUMINANCE_ALPHA || base == GL_RGBA ? color[3] : 1;
+	out[3] = base == GL_INTENSITY                                              ? color[0] :
+	         base == GL_ALPHA || base == GL_LUMINANCE_ALPHA || base == GL_RGBA ? color[3] :
+	                                                                             1;
 	if (base == GL_DEPTH_COMPONENT)
 		out[0] = color[0];
 }
@@ -203,7 +208,8 @@ static float few_bits(float value, int bits, int rounds)
 	return (rounds ? rintf(value / step) : truncf(value / step)) * step;
 }
 
-/* Numbers as a format holds them. EXT_packed_float and EXT_texture_shared_exponent leave the rounding open: it is Mesa's. */
+/* Numbers as a format holds them. EXT_packed_float and EXT_texture_shared_exponent leave the rounding open: it is
+ * Mesa's. */
 static void hold(uint32_t numbers, uint32_t mesa, float v[4])
 {
 	const int rounds = (mesa & SCENE_MESA_ROUNDS_SMALL_FLOATS) != 0;

@@ -1,6 +1,6 @@
 /*
- * Internal formats of textures and renderbuffers: what is kept of a colour. A texel is 4 bytes RGBA, or 4 floats where its format
- * holds numbers beyond [0,1]; a depth is one float.
+ * Internal formats of textures and renderbuffers: what is kept of a colour. A texel is 4 bytes RGBA, or 4 floats where
+ * its format holds numbers beyond [0,1]; a depth is one float.
  */
 #pragma once
 

@@ -92,7 +92,8 @@ static struct gls_texture *bound_if_any(const struct gls_state *st, uint32_t nam
 	return t && t->target == target ? t : NULL;
 }
 
-void gls_texture_save_parameters(const struct gls_state *st, struct gls_saved_texture saved[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS])
+void gls_texture_save_parameters(const struct gls_state *st,
+                                 struct gls_saved_texture saved[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS])
 {
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		for (unsigned target = 0; target < N_GLS_TEXTURE_TARGETS; target++) {
@@ -295,7 +296,8 @@ static const struct parameter *find_parameter(uint32_t name)
 	return NULL;
 }
 
-static void set_number(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, const struct parameter *p, float value)
+static void set_number(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, const struct parameter *p,
+                       float value)
 {
 	uint32_t word = p->kind == BOOLEAN ? value != 0 : token_of_float(value);
 
@@ -418,14 +420,16 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 		gls_unsupported(x, "textures of this internal format");
 		return NULL;
 	}
-	if (width < least || height < (t->target == GLS_TEXTURE_1D ? 0 : least) || depth < (t->target == GLS_TEXTURE_3D ? least : 0) ||
-	    width > MAX_SIZE + 2 || height > MAX_SIZE + 2 || depth > MAX_SIZE + 2 || (form->border != 0 && form->border != 1)) {
+	if (width < least || height < (t->target == GLS_TEXTURE_1D ? 0 : least) ||
+	    depth < (t->target == GLS_TEXTURE_3D ? least : 0) || width > MAX_SIZE + 2 || height > MAX_SIZE + 2 ||
+	    depth > MAX_SIZE + 2 || (form->border != 0 && form->border != 1)) {
 		gls_error(x, st, GL_INVALID_VALUE);
 		return NULL;
 	}
 	if (gls_refuses(x, st, width * height * depth * gls_texel_bytes(internal_format) >= MAX_BYTES, GL_OUT_OF_MEMORY))
 		return NULL;
-	bytes = (size_t)(width * height * depth) * (gls_texel_bytes(internal_format) + (gls_format_stencil_bits(internal_format) ? 1 : 0));
+	bytes = (size_t)(width * height * depth) *
+	        (gls_texel_bytes(internal_format) + (gls_format_stencil_bits(internal_format) ? 1 : 0));
 	free(l->texels);
 	*l = (struct gls_level){ .width = (uint32_t)width, .height = (uint32_t)height, .depth = (uint32_t)depth,
 		.border = (uint32_t)form->border, .internal_format = internal_format, .base_format = gls_base_format(internal_format),

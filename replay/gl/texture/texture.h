@@ -1,8 +1,8 @@
 /*
  * Texture objects and sampler objects (GL 2.1 sec. 3.8): their levels and parameters, and what is bound.
  *
- * A texture that is attached to a framebuffer object may be behind what was drawn to it: gls_texture_update (surface/framebuffer.h)
- * comes before anybody looks at it or changes it.
+ * A texture that is attached to a framebuffer object may be behind what was drawn to it: gls_texture_update
+ * (surface/framebuffer.h) comes before anybody looks at it or changes it.
  */
 #pragma once
 
@@ -50,11 +50,14 @@ static inline uint32_t gls_texture_token(uint32_t target)
 /** The object bound to a target of a unit; made where there is none yet. NULL: out of memory (reported) */
 struct gls_texture *gls_texture_bound(struct gls_exec *x, struct gls_state *st, unsigned unit, unsigned target);
 
-/** Where a unit's sampling parameters come from: the sampler object bound to it (GL 3.3 sec. 3.8.2), else the texture itself. */
+/** Where a unit's sampling parameters come from: the sampler object bound to it (GL 3.3 sec. 3.8.2), else the texture
+ * itself. */
 const struct gls_texture *gls_texture_sampler(const struct gls_state *st, unsigned unit, const struct gls_texture *t);
 
-/** The parameters of what is bound to each unit and target, for PushAttrib; they come back to objects that are still there. */
-void gls_texture_save_parameters(const struct gls_state *st, struct gls_saved_texture saved[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS]);
+/** The parameters of what is bound to each unit and target, for PushAttrib; they come back to objects that are still
+ * there. */
+void gls_texture_save_parameters(const struct gls_state *st,
+                                 struct gls_saved_texture saved[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS]);
 void gls_texture_restore_parameters(struct gls_state *st,
                                     const struct gls_saved_texture saved[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS]);
 

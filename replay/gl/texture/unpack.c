@@ -75,7 +75,8 @@ static void packed_components(const uint8_t *p, const struct gls_packed *t, int 
 
 size_t gls_pixel_bytes(const struct gls_pixel_store *s, const struct pixel_box *box)
 {
-	const struct pixel_layout layout = { s->row_length, s->image_height, s->skip_rows, s->skip_pixels, s->skip_images, s->alignment };
+	const struct pixel_layout layout = { s->row_length,  s->image_height, s->skip_rows,
+		                             s->skip_pixels, s->skip_images,  s->alignment };
 
 	return (size_t)image_bytes(&layout, box);
 }
@@ -119,7 +120,8 @@ static size_t place_of(const struct gls_pixels *p, size_t group, uint32_t x, uin
 int gls_unpack_bit(const struct gls_pixels *p, uint32_t x, uint32_t y)
 {
 	const struct gls_pixel_store *s = p->store;
-	size_t bit = (size_t)s->skip_pixels + x, at = ((size_t)s->skip_rows + y) * aligned(p, (row_pixels(p) + 7) / 8) + bit / 8;
+	size_t bit = (size_t)s->skip_pixels + x,
+	       at = ((size_t)s->skip_rows + y) * aligned(p, (row_pixels(p) + 7) / 8) + bit / 8;
 
 	return at < p->n && p->data[at] >> (s->lsb_first ? bit & 7 : 7 - (bit & 7)) & 1;
 }
@@ -308,7 +310,8 @@ struct unpacking {
 	unsigned low;
 };
 
-/* Pixels of brightness, two and two with one colour (MESA_ycbcr_texture), which no transfer changes. @return 0: no type of these */
+/* Pixels of brightness, two and two with one colour (MESA_ycbcr_texture), which no transfer changes. @return 0: no type
+ * of these */
 static int describe_ycbcr(struct unpacking *u)
 {
 	const uint32_t type = u->p->type;
@@ -398,7 +401,8 @@ static int unpack_row(const struct unpacking *u, size_t at, uint8_t *out)
 }
 
 /* Colour indices as the colours that maps make of them (sec. 3.6.5). @return 0, or -1: no type of indices */
-static int unpack_color_indices(const struct gls_state *st, const struct gls_pixels *p, const struct gls_format *to, uint8_t *out)
+static int unpack_color_indices(const struct gls_state *st, const struct gls_pixels *p, const struct gls_format *to,
+                                uint8_t *out)
 {
 	if (gls_unpack_indices(st, p, out))
 		return -1;
@@ -412,8 +416,8 @@ static int unpack_color_indices(const struct gls_state *st, const struct gls_pix
 	return 0;
 }
 
-int gls_unpack_pixels(struct gls_exec *x, const struct gls_state *st, const struct gls_pixels *p, uint32_t internal_format,
-                      uint8_t *out)
+int gls_unpack_pixels(struct gls_exec *x, const struct gls_state *st, const struct gls_pixels *p,
+                      uint32_t internal_format, uint8_t *out)
 {
 	const struct gls_pixel_store *s = p->store;
 	struct unpacking u = { .st = st, .p = p, .to = gls_format_find(internal_format) };

@@ -1,5 +1,6 @@
 /*
- * Pixels of the client as texels (GL 2.1 sec. 3.6.3 - 3.6.5): how they lie in memory, their formats and types, pixel transfer.
+ * Pixels of the client as texels (GL 2.1 sec. 3.6.3 - 3.6.5): how they lie in memory, their formats and types, pixel
+ * transfer.
  *
  * Bytes that the recording does not hold are read as 0.
  */
@@ -21,10 +22,12 @@ struct gls_pixels {
 	const uint8_t *data;                  /* borrowed */
 	size_t n;                             /* bytes there are */
 	const struct gls_pixel_store *store;  /* how they lie there; borrowed */
-	int drawn; /* by glDrawPixels: Mesa (22.3.6) neither shifts and offsets its indices nor scales and biases its depths of GL_FLOAT */
+	int drawn; /* by glDrawPixels: Mesa (22.3.6) neither shifts and offsets its indices nor scales and biases its
+	              depths of GL_FLOAT */
 };
 
-/** Bytes from a pixel pointer to the end of the last pixel that GL reads; 0 where there are none (capture/format/sizes.h). */
+/** Bytes from a pixel pointer to the end of the last pixel that GL reads; 0 where there are none
+ * (capture/format/sizes.h). */
 size_t gls_pixel_bytes(const struct gls_pixel_store *store, const struct pixel_box *box);
 
 /** The bytes of a pixel argument: client memory, or a place in the bound unpack buffer. NULL: there are none. */
@@ -39,8 +42,8 @@ uint32_t gls_pixel_missing(struct gls_exec *x, struct gls_state *st, const struc
  * @param out  width * height * depth texels of the internal format; one float each where its base is DEPTH_COMPONENT
  * @return 0; -1: this format and type are not done (counted); -2: too few bytes (those that are there were read)
  */
-int gls_unpack_pixels(struct gls_exec *x, const struct gls_state *st, const struct gls_pixels *p, uint32_t internal_format,
-                      uint8_t *out);
+int gls_unpack_pixels(struct gls_exec *x, const struct gls_state *st, const struct gls_pixels *p,
+                      uint32_t internal_format, uint8_t *out);
 
 /**
  * Pixels of COLOR_INDEX or STENCIL_INDEX (sec. 3.6.5): shifted, offset, through the maps.

@@ -43,7 +43,7 @@ static uint32_t add_name(struct flat *f, const struct parse_name *name)
 	return at;
 }
 
-/* --- Types -------------------------------------------------------------------------------------------------------- */
+/* --- Types ------------------------------------------------------------------------------------------------------- */
 
 static uint32_t type_of(struct flat *f, const struct parse_type *type);
 
@@ -87,7 +87,7 @@ static uint32_t type_of(struct flat *f, const struct parse_type *type)
 	return *type->number - 1;
 }
 
-/* --- Symbols and numbers ------------------------------------------------------------------------------------------ */
+/* --- Symbols and numbers ----------------------------------------------------------------------------------------- */
 
 static uint32_t add_numbers(struct flat *f, const double *numbers, uint32_t n)
 {
@@ -120,14 +120,10 @@ static const struct parse_type *whole_type(struct flat *f, const struct parse_sy
 static uint32_t symbol_of(struct flat *f, struct parse_symbol *s)
 {
 	const struct parse_type *type = whole_type(f, s);
-	struct glsl_symbol made = { .type = type_of(f, type),
-		                    .storage = s->storage,
-		                    .first = GLSL_NONE,
-		                    .flat = s->flat,
-		                    .straight = s->straight,
-		                    .location = s->location,
-		                    .binding = s->binding,
-		                    .declared = s->declared };
+	struct glsl_symbol made = {
+		.type = type_of(f, type), .storage = s->storage, .first = GLSL_NONE, .flat = s->flat, .straight = s->straight,
+		.location = s->location, .binding = s->binding, .declared = s->declared
+	};
 
 	if (s->number)
 		return s->number - 1;
@@ -140,7 +136,7 @@ static uint32_t symbol_of(struct flat *f, struct parse_symbol *s)
 	return s->number - 1;
 }
 
-/* --- Nodes -------------------------------------------------------------------------------------------------------- */
+/* --- Nodes ------------------------------------------------------------------------------------------------------- */
 
 static uint32_t add(struct flat *f, enum glsl_operator operation, uint32_t type, const uint32_t *children, uint32_t n,
                     uint32_t value)
@@ -170,7 +166,8 @@ static uint32_t function_of(struct flat *f, struct parse_function *function)
 	return function->number - 1;
 }
 
-/* (A B) v is A (B v), as in Mesa: in 22.3.6 however many matrices there are, in 25.0.7 without a look at what that makes. */
+/* (A B) v is A (B v), as in Mesa: in 22.3.6 however many matrices there are, in 25.0.7 without a look at what that
+ * makes. */
 static uint32_t times_vector(struct flat *f, struct parse_node *matrix, uint32_t vector, const struct parse_type *type,
                              bool is_taken_apart)
 {
@@ -260,7 +257,7 @@ static void flatten_function(struct flat *f, struct parse_function *function)
 	f->tree.functions[number].body = body;
 }
 
-/* --- All of it ---------------------------------------------------------------------------------------------------- */
+/* --- All of it --------------------------------------------------------------------------------------------------- */
 
 static struct parse_function *main_of(struct parse *p)
 {

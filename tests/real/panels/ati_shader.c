@@ -1,12 +1,15 @@
 /*
- * Fragment shaders of ATI_fragment_shader: each instruction, argument, change and texture, over a square that leans away.
+ * Fragment shaders of ATI_fragment_shader: each instruction, argument, change and texture, over a square that leans
+ * away.
  */
 #include "programs.h"
 
 #define CHANGES 16
 #define ONES 6 /* arguments that are the same for all */
 
-static const GLenum registers[6] = { GL_REG_0_ATI, GL_REG_1_ATI, GL_REG_2_ATI, GL_REG_3_ATI, GL_REG_4_ATI, GL_REG_5_ATI };
+static const GLenum registers[6] = {
+	GL_REG_0_ATI, GL_REG_1_ATI, GL_REG_2_ATI, GL_REG_3_ATI, GL_REG_4_ATI, GL_REG_5_ATI
+};
 
 static void begin(void)
 {
@@ -23,8 +26,10 @@ static void begin(void)
 /* The result, within what shows. */
 static void end(void)
 {
-	glColorFragmentOp3ATI(GL_MAD_ATI, registers[0], GL_NONE, GL_NONE, registers[0], GL_NONE, GL_NONE, GL_CON_6_ATI, GL_NONE, GL_NONE, GL_CON_7_ATI, GL_NONE, GL_NONE);
-	glAlphaFragmentOp3ATI(GL_MAD_ATI, registers[0], GL_NONE, registers[0], GL_NONE, GL_NONE, GL_CON_6_ATI, GL_NONE, GL_NONE, GL_CON_7_ATI, GL_NONE, GL_NONE);
+	glColorFragmentOp3ATI(GL_MAD_ATI, registers[0], GL_NONE, GL_NONE, registers[0], GL_NONE, GL_NONE, GL_CON_6_ATI,
+	                      GL_NONE, GL_NONE, GL_CON_7_ATI, GL_NONE, GL_NONE);
+	glAlphaFragmentOp3ATI(GL_MAD_ATI, registers[0], GL_NONE, registers[0], GL_NONE, GL_NONE, GL_CON_6_ATI, GL_NONE,
+	                      GL_NONE, GL_CON_7_ATI, GL_NONE, GL_NONE);
 	glEndFragmentShaderATI();
 	glEnable(GL_FRAGMENT_SHADER_ATI);
 }
@@ -57,7 +62,8 @@ static void instruction(int i)
 		glColorFragmentOp2ATI(twos[i - 1], a, GL_NONE, GL_NONE, a, GL_NONE, GL_NONE, b, GL_NONE, GL_NONE);
 		glAlphaFragmentOp2ATI(twos[i - 1], a, GL_NONE, a, GL_NONE, GL_NONE, b, GL_NONE, GL_NONE);
 	} else {
-		glColorFragmentOp3ATI(threes[i - 6], a, GL_NONE, GL_NONE, a, GL_NONE, GL_NONE, b, GL_NONE, GL_NONE, c, GL_NONE, GL_NONE);
+		glColorFragmentOp3ATI(threes[i - 6], a, GL_NONE, GL_NONE, a, GL_NONE, GL_NONE, b, GL_NONE, GL_NONE, c,
+		                      GL_NONE, GL_NONE);
 		glAlphaFragmentOp3ATI(threes[i - 6], a, GL_NONE, a, GL_NONE, GL_NONE, b, GL_NONE, GL_NONE, c, GL_NONE, GL_NONE);
 	}
 	end();
@@ -71,7 +77,8 @@ static void argument(int i)
 
 	begin();
 	set_registers();
-	glColorFragmentOp2ATI(GL_ADD_ATI, registers[0], GL_NONE, GL_NONE, registers[1], components[component], (GLuint)change, registers[2], GL_NONE, GL_NEGATE_BIT_ATI);
+	glColorFragmentOp2ATI(GL_ADD_ATI, registers[0], GL_NONE, GL_NONE, registers[1], components[component],
+	                      (GLuint)change, registers[2], GL_NONE, GL_NEGATE_BIT_ATI);
 	glAlphaFragmentOp1ATI(GL_MOV_ATI, registers[0], GL_NONE, registers[1], components[component], (GLuint)change);
 	end();
 }
@@ -79,7 +86,8 @@ static void argument(int i)
 /* Where results go: some of the colours, by factors, clamped. */
 static void destination(int i)
 {
-	static const GLuint factors[7] = { GL_NONE, GL_2X_BIT_ATI, GL_4X_BIT_ATI, GL_8X_BIT_ATI, GL_HALF_BIT_ATI, GL_QUARTER_BIT_ATI, GL_EIGHTH_BIT_ATI };
+	static const GLuint factors[7] = { GL_NONE,         GL_2X_BIT_ATI,      GL_4X_BIT_ATI,    GL_8X_BIT_ATI,
+		                           GL_HALF_BIT_ATI, GL_QUARTER_BIT_ATI, GL_EIGHTH_BIT_ATI };
 	static const GLuint masks[4] = { GL_NONE, GL_RED_BIT_ATI, GL_GREEN_BIT_ATI | GL_BLUE_BIT_ATI, GL_BLUE_BIT_ATI };
 	const int factor = choose(&i, 7), mask = choose(&i, 4), saturates = choose(&i, 2);
 	const GLuint change = factors[factor] | (saturates ? GL_SATURATE_BIT_ATI : 0);
@@ -94,7 +102,9 @@ static void destination(int i)
 /* What is no register: constants of the shader and of the context, colours. */
 static void source(int i)
 {
-	static const GLenum sources[ONES] = { GL_ZERO, GL_ONE, GL_PRIMARY_COLOR_ARB, GL_SECONDARY_INTERPOLATOR_ATI, GL_CON_0_ATI, GL_CON_1_ATI };
+	static const GLenum sources[ONES] = {
+		GL_ZERO, GL_ONE, GL_PRIMARY_COLOR_ARB, GL_SECONDARY_INTERPOLATOR_ATI, GL_CON_0_ATI, GL_CON_1_ATI
+	};
 
 	glSetFragmentShaderConstantATI(GL_CON_0_ATI, (const float[4]){ 0.2f, 0.9f, 0.1f + 0.1f * (float)i, 0.3f });
 	begin();
@@ -105,15 +115,20 @@ static void source(int i)
 }
 
 /*
- * Coordinates passed on or looked up by, each swizzle, each kind of texture; in a second pass by what the first has made, but for the cube: which
- * of two texels is nearest to a computed direction differs in one of 200 pixels.
+ * Coordinates passed on or looked up by, each swizzle, each kind of texture; in a second pass by what the first has
+ * made, but for the cube: which of two texels is nearest to a computed direction differs in one of 200 pixels.
  */
 static void texture(int i)
 {
-	static const GLenum swizzles[4] = { GL_SWIZZLE_STR_ATI, GL_SWIZZLE_STQ_ATI, GL_SWIZZLE_STR_DR_ATI, GL_SWIZZLE_STQ_DQ_ATI };
-	static const struct { GLenum target; unsigned image; } kinds[4] = { { GL_TEXTURE_2D, 0 }, { GL_TEXTURE_2D, 1 }, { GL_TEXTURE_CUBE_MAP, 2 }, { GL_TEXTURE_1D, 3 } };
+	static const GLenum swizzles[4] = { GL_SWIZZLE_STR_ATI, GL_SWIZZLE_STQ_ATI, GL_SWIZZLE_STR_DR_ATI,
+		                            GL_SWIZZLE_STQ_DQ_ATI };
+	static const struct {
+		GLenum target;
+		unsigned image;
+	} kinds[4] = { { GL_TEXTURE_2D, 0 }, { GL_TEXTURE_2D, 1 }, { GL_TEXTURE_CUBE_MAP, 2 }, { GL_TEXTURE_1D, 3 } };
 	const GLenum swizzle = swizzles[choose(&i, 4)];
-	const int asked = choose(&i, 4), samples = choose(&i, 2), passes = choose(&i, 2), kind = passes && asked == 2 ? 0 : asked;
+	const int asked = choose(&i, 4), samples = choose(&i, 2), passes = choose(&i, 2),
+		  kind = passes && asked == 2 ? 0 : asked;
 
 	glActiveTexture(GL_TEXTURE1);
 	glBindTexture(kinds[kind].target, images[kinds[kind].image]);
@@ -137,7 +152,8 @@ static void texture(int i)
 int main(void)
 {
 	static const struct table tables[] = {
-		{ 11, instruction, draw }, { 5 * CHANGES, argument, draw }, { 56, destination, draw }, { ONES, source, draw }, { 64, texture, draw },
+		{ 11, instruction, draw }, { 5 * CHANGES, argument, draw }, { 56, destination, draw }, { ONES, source, draw },
+		{ 64, texture, draw },
 	};
 
 	DRAW_TABLES(tables, make_images);

@@ -1,6 +1,7 @@
 /*
- * Plain images in formats that Mesa compresses as it takes them (EXT_texture_compression_s3tc; the generic formats of OpenGL 2.1 sec. 3.8.1):
- * a texel a pixel, so that each block shows what was kept of it. And those that come with less than a colour a texel.
+ * Plain images in formats that Mesa compresses as it takes them (EXT_texture_compression_s3tc; the generic formats of
+ * OpenGL 2.1 sec. 3.8.1): a texel a pixel, so that each block shows what was kept of it. And those that come with less
+ * than a colour a texel.
  */
 #include "panels.h"
 
@@ -42,9 +43,11 @@ static GLubyte texel(int image, int x, int y, int channel)
 	}
 }
 
-static const GLint formats[N_FORMATS] = { GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_COMPRESSED_RGBA_S3TC_DXT1_EXT, GL_COMPRESSED_RGBA_S3TC_DXT3_EXT,
-	                                  GL_COMPRESSED_RGBA_S3TC_DXT5_EXT, GL_COMPRESSED_RGB, GL_COMPRESSED_RGBA, GL_COMPRESSED_SRGB,
-	                                  GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT };
+static const GLint formats[N_FORMATS] = {
+	GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_COMPRESSED_RGBA_S3TC_DXT1_EXT, GL_COMPRESSED_RGBA_S3TC_DXT3_EXT,
+	GL_COMPRESSED_RGBA_S3TC_DXT5_EXT, GL_COMPRESSED_RGB, GL_COMPRESSED_RGBA, GL_COMPRESSED_SRGB,
+	GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT
+};
 
 static void image(int number)
 {
@@ -106,7 +109,8 @@ static void copied(int i)
 	glDrawPixels(SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 }
 
-/* Brightness, two and two with one colour (MESA_ycbcr_texture): both orders, swapped, filtered, of odd sizes, a part given anew. */
+/* Brightness, two and two with one colour (MESA_ycbcr_texture): both orders, swapped, filtered, of odd sizes, a part
+ * given anew. */
 static void ycbcr(int i)
 {
 	static const GLenum types[2] = { GL_UNSIGNED_SHORT_8_8_MESA, GL_UNSIGNED_SHORT_8_8_REV_MESA };
@@ -164,9 +168,10 @@ static void draw_copied(int i)
 
 int main(void)
 {
-	static const struct table tables[] = { { 96, whole, draw_colors }, { 96, whole, draw_alpha }, { 192, parts, draw_colors },
-		                                { 96, levels, draw_colors }, { 96, levels, draw_alpha }, { 96, copied, draw_copied },
-		                                { 160, ycbcr, draw_colors } };
+	static const struct table tables[] = { { 96, whole, draw_colors },  { 96, whole, draw_alpha },
+		                               { 192, parts, draw_colors }, { 96, levels, draw_colors },
+		                               { 96, levels, draw_alpha },  { 96, copied, draw_copied },
+		                               { 160, ycbcr, draw_colors } };
 
 	last_needs = "GL_MESA_ycbcr_texture";
 	DRAW_TABLES(tables, NULL);

@@ -32,8 +32,10 @@ static void fog_color(float r, float g, float b, float a)
 static void mode(int i)
 {
 	static const GLenum modes[3] = { GL_EXP, GL_EXP2, GL_LINEAR };
-	static const float densities[4] = { 0.1f, 0, 0.35f, 1.5f }, ranges[4][2] = { { 1, 8 }, { 0, 1 }, { 6, 2 }, { -1, 12 } };
-	const int m = choose(&i, 3), how = choose(&i, 4), by_coordinates = choose(&i, 2), sum = choose(&i, 2), texture = choose(&i, 2);
+	static const float densities[4] = { 0.1f, 0, 0.35f, 1.5f },
+			   ranges[4][2] = { { 1, 8 }, { 0, 1 }, { 6, 2 }, { -1, 12 } };
+	const int m = choose(&i, 3), how = choose(&i, 4), by_coordinates = choose(&i, 2), sum = choose(&i, 2),
+		  texture = choose(&i, 2);
 
 	glEnable(GL_FOG);
 	glFogi(GL_FOG_MODE, (GLint)modes[m]);
@@ -85,7 +87,8 @@ static void colored(int i)
 static void lit(int i)
 {
 	static const float white[4] = { 1, 1, 1, 1 }, bright[4] = { 2.5f, 1.5f, 0.8f, 1 };
-	const int apart = choose(&i, 2), vertex = choose(&i, 3), fragment = choose(&i, 3), m = choose(&i, 2), sum = choose(&i, 2);
+	const int apart = choose(&i, 2), vertex = choose(&i, 3), fragment = choose(&i, 3), m = choose(&i, 2),
+		  sum = choose(&i, 2);
 	static const GLenum clamps[3] = { GL_TRUE, GL_FALSE, GL_FIXED_ONLY };
 
 	mode(m + 6);
@@ -122,7 +125,9 @@ static void other(int i)
 
 static void draw_other(int i)
 {
-	static const unsigned char pixels[4 * 4] = { 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 128 }, bits[4] = { 0xf0, 0x90, 0x90, 0xf0 };
+	static const unsigned char
+		pixels[4 * 4] = { 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 128 },
+			   bits[4] = { 0xf0, 0x90, 0x90, 0xf0 };
 
 	if (i / 12 < 2) {
 		glBegin(i / 12 ? GL_LINES : GL_POINTS);
@@ -143,7 +148,11 @@ static void draw_other(int i)
 
 int main(void)
 {
-	static const struct table tables[] = { { 96, mode, draw_slope }, { 48, colored, draw_slope }, { 72, lit, draw_lit }, { 48, other, draw_other }, { 72, distance, draw_slope } };
+	static const struct table tables[] = { { 96, mode, draw_slope },
+		                               { 48, colored, draw_slope },
+		                               { 72, lit, draw_lit },
+		                               { 48, other, draw_other },
+		                               { 72, distance, draw_slope } };
 
 	DRAW_TABLES(tables, NULL);
 	return 0;

@@ -1,6 +1,6 @@
 /*
- * Per-fragment operations (OpenGL 2.1 sec. 4.1) and what decides on fragments before them: three squares, one above the other, of which
- * the upper two overlap.
+ * Per-fragment operations (OpenGL 2.1 sec. 4.1) and what decides on fragments before them: three squares, one above the
+ * other, of which the upper two overlap.
  */
 #include "panels.h"
 
@@ -29,9 +29,11 @@ static void draw_blended(int i)
 	square(2);
 }
 
-static const GLenum factors[15] = { GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR, GL_SRC_ALPHA,
-	                            GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA, GL_CONSTANT_COLOR, GL_ONE_MINUS_CONSTANT_COLOR,
-	                            GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_SRC_ALPHA_SATURATE };
+static const GLenum factors[15] = {
+	GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR, GL_SRC_ALPHA,
+	GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA, GL_CONSTANT_COLOR, GL_ONE_MINUS_CONSTANT_COLOR,
+	GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_SRC_ALPHA_SATURATE
+};
 
 /* Each factor of the source with each of the destination, for the first twelve and from the fourth on. */
 static void factor(int i, int first)
@@ -73,7 +75,8 @@ static void draw_equation(int i)
 	square(0);
 }
 
-static const GLenum comparisons[8] = { GL_NEVER, GL_LESS, GL_EQUAL, GL_LEQUAL, GL_GREATER, GL_NOTEQUAL, GL_GEQUAL, GL_ALWAYS };
+static const GLenum comparisons[8] = { GL_NEVER,   GL_LESS,     GL_EQUAL,  GL_LEQUAL,
+	                               GL_GREATER, GL_NOTEQUAL, GL_GEQUAL, GL_ALWAYS };
 
 static void draw_squares(int i)
 {
@@ -123,7 +126,8 @@ static void test(int i)
 	}
 }
 
-static const GLenum operations[8] = { GL_KEEP, GL_ZERO, GL_REPLACE, GL_INCR, GL_INCR_WRAP, GL_DECR, GL_DECR_WRAP, GL_INVERT };
+static const GLenum operations[8] = { GL_KEEP,      GL_ZERO, GL_REPLACE,   GL_INCR,
+	                              GL_INCR_WRAP, GL_DECR, GL_DECR_WRAP, GL_INVERT };
 
 /* Stencil functions, operations at each of their three places, masks and values at the ends of their range. */
 static void stencil(int i)
@@ -136,7 +140,8 @@ static void stencil(int i)
 	glClear(GL_STENCIL_BUFFER_BIT);
 	glStencilMask(place == 1 ? 0x37 : 0xff);
 	glStencilFunc(comparisons[function], 0x15, place == 2 ? 0x1c : 0xff);
-	glStencilOp(operations[place == 0 ? operation : 2], operations[place == 1 ? operation : 3], operations[place == 2 ? operation : 7]);
+	glStencilOp(operations[place == 0 ? operation : 2], operations[place == 1 ? operation : 3],
+	            operations[place == 2 ? operation : 7]);
 }
 
 /* What the stencil holds after, in four steps of it. */
@@ -236,9 +241,9 @@ static void draw_plain(int i)
 int main(void)
 {
 	static const struct table tables[] = {
-		{ 180, factor_low, draw_blended }, { 180, factor_high, draw_blended }, { 100, equation, draw_equation }, { 128, test, draw_squares },
-		{ 192, stencil, draw_stencilled }, { 64, sided, draw_sided },          { 72, clipped, draw_squares },
-		{ 72, nearby, draw_squares },          { 192, at_reference, draw_plain },
+		{ 180, factor_low, draw_blended }, { 180, factor_high, draw_blended }, { 100, equation, draw_equation },
+		{ 128, test, draw_squares }, { 192, stencil, draw_stencilled }, { 64, sided, draw_sided },
+		{ 72, clipped, draw_squares }, { 72, nearby, draw_squares }, { 192, at_reference, draw_plain },
 	};
 
 	DRAW_TABLES(tables, NULL);

@@ -1,6 +1,6 @@
 /*
- * Where Mesa departs from OpenGL, which a report tells: colours of back sides alone that are the vertices', as other panels have them for
- * both sides. Recorded by test_known.py.
+ * Where Mesa departs from OpenGL, which a report tells: colours of back sides alone that are the vertices', as other
+ * panels have them for both sides. Recorded by test_known.py.
  */
 #include "panels.h"
 

@@ -46,7 +46,8 @@ static void light(unsigned i, float x, float y, float z, float w)
 
 static void material(float shininess)
 {
-	const float ambient[4] = { 0.3f, 0.5f, 0.7f, 0.8f }, diffuse[4] = { 0.9f, 0.6f, 0.8f, 0.7f }, specular[4] = { 0.7f, 0.8f, 0.5f, 1 },
+	const float ambient[4] = { 0.3f, 0.5f, 0.7f, 0.8f }, diffuse[4] = { 0.9f, 0.6f, 0.8f, 0.7f },
+	specular[4] = { 0.7f, 0.8f, 0.5f, 1 },
 	            emission[4] = { 0.05f, 0, 0.1f, 0 };
 
 	glMaterialfv(GL_FRONT_AND_BACK, GL_AMBIENT, ambient);
@@ -60,7 +61,9 @@ static void material(float shininess)
 static void attenuation(int i)
 {
 	static const float constants[3] = { 1, 0.3f, 2 }, linears[4] = { 0, 0.25f, 1, 3 }, squares[4] = { 0, 0.1f, 0.6f, 2 };
-	static const float places[4][4] = { { 0.5f, 0.4f, 1.5f, 1 }, { -2, 1, 3, 1 }, { 1, 3, 2.4f, 2 }, { 0.3f, 0.5f, 0.8f, 0 } };
+	static const float places[4][4] = {
+		{ 0.5f, 0.4f, 1.5f, 1 }, { -2, 1, 3, 1 }, { 1, 3, 2.4f, 2 }, { 0.3f, 0.5f, 0.8f, 0 }
+	};
 	const int c = choose(&i, 3), l = choose(&i, 4), q = choose(&i, 4), p = choose(&i, 4);
 
 	material(12);
@@ -84,13 +87,16 @@ static void spot(int i)
 	glLightfv(GL_LIGHT0, GL_SPOT_DIRECTION, directions[d]);
 }
 
-/* Each colour of light, material and model alone: the light's three, the material's four, the model's; colours below 0 and above 1. */
+/* Each colour of light, material and model alone: the light's three, the material's four, the model's; colours below 0
+ * and above 1. */
 static void term(int i)
 {
-	static const float black[4] = { 0, 0, 0, 1 }, bright[4] = { 1.4f, 0.6f, 0.3f, 0.5f }, negative[4] = { -0.4f, 0.2f, 0.8f, -1 };
+	static const float black[4] = { 0, 0, 0, 1 }, bright[4] = { 1.4f, 0.6f, 0.3f, 0.5f },
+			   negative[4] = { -0.4f, 0.2f, 0.8f, -1 };
 	const int what = choose(&i, 8), how = choose(&i, 3), apart = choose(&i, 2), local = choose(&i, 2);
 	const float *color = how == 0 ? black : how == 1 ? bright : negative;
-	static const GLenum of_light[3] = { GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR }, of_material[4] = { GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_EMISSION };
+	static const GLenum of_light[3] = { GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR },
+			    of_material[4] = { GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_EMISSION };
 
 	material(6);
 	light(0, 0.8f, 0.7f, 1.4f, 1);
@@ -125,7 +131,8 @@ static void side(int i)
 {
 	static const GLenum modes[5] = { GL_EMISSION, GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_AMBIENT_AND_DIFFUSE };
 	static const GLenum faces[3] = { GL_FRONT, GL_BACK, GL_FRONT_AND_BACK };
-	const int mode = choose(&i, 5), face = choose(&i, 3), two = choose(&i, 2), clockwise = choose(&i, 2), tracked = choose(&i, 2);
+	const int mode = choose(&i, 5), face = choose(&i, 3), two = choose(&i, 2), clockwise = choose(&i, 2),
+		  tracked = choose(&i, 2);
 	static const float back[4] = { 0.1f, 0.9f, 0.2f, 1 };
 
 	material(9);
@@ -148,7 +155,8 @@ static void draw_side(int i)
 /* Normals of other lengths under matrices that stretch, turn and mirror. */
 static void normal(int i)
 {
-	static const float scales[6][3] = { { 1, 1, 1 }, { 0.5f, 0.5f, 0.5f }, { 1.1f, 1.1f, 1.1f }, { 0.9f, 0.4f, 1 }, { -0.8f, 0.8f, 0.8f }, { 0.7f, 0.9f, -0.5f } };
+	static const float scales[6][3] = { { 1, 1, 1 },       { 0.5f, 0.5f, 0.5f },  { 1.1f, 1.1f, 1.1f },
+		                            { 0.9f, 0.4f, 1 }, { -0.8f, 0.8f, 0.8f }, { 0.7f, 0.9f, -0.5f } };
 	const int scale = choose(&i, 6), how = choose(&i, 4), turn = choose(&i, 2);
 
 	material(15);
@@ -205,12 +213,17 @@ static void flat(int i)
 
 static void draw_flat(int i)
 {
-	static const GLenum primitives[9] = { GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON, GL_LINES, GL_LINE_STRIP, GL_LINE_LOOP };
+	static const GLenum primitives[9] = { GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN,
+		                              GL_QUADS,     GL_QUAD_STRIP,     GL_POLYGON,
+		                              GL_LINES,     GL_LINE_STRIP,     GL_LINE_LOOP };
 	const GLenum primitive = primitives[i / 4 % 9];
 
 	glBegin(primitive);
 	for (int k = 0; k < 6; k++) {
-		const float a = 1.0471976f * (float)(primitive == GL_TRIANGLE_STRIP || primitive == GL_QUAD_STRIP ? (k % 2 ? 5 - k / 2 : k / 2) : k) + 0.2f;
+		const float a = 1.0471976f * (float)(primitive == GL_TRIANGLE_STRIP || primitive == GL_QUAD_STRIP ?
+		                                             (k % 2 ? 5 - k / 2 : k / 2) :
+		                                             k) +
+		                0.2f;
 
 		glColor3f(noise((unsigned)k), noise((unsigned)k + 20), noise((unsigned)k + 40));
 		glNormal3f(0.6f * cosf(a), 0.6f * sinf(a), 0.8f);

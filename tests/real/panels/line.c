@@ -1,6 +1,6 @@
 /*
- * Lines in dashes (OpenGL 2.1 sec. 3.4.2): where the pattern starts anew and where it goes on, of lines and strips, of polygons drawn as lines,
- * whole and cut, by whatever way the vertices come.
+ * Lines in dashes (OpenGL 2.1 sec. 3.4.2): where the pattern starts anew and where it goes on, of lines and strips, of
+ * polygons drawn as lines, whole and cut, by whatever way the vertices come.
  */
 #include <math.h>
 
@@ -13,7 +13,8 @@ enum way { IMMEDIATE, LIST, ARRAYS, ELEMENTS, N_WAYS, TWO_IN_LIST = N_WAYS, N_ST
 static float corners[CORNERS][3];
 static int n_corners;
 
-/* Corners of a line that turns back and forth: sides of no whole number of pixels. reach: how far out they lie, the square's side being 1 */
+/* Corners of a line that turns back and forth: sides of no whole number of pixels. reach: how far out they lie, the
+ * square's side being 1 */
 static void zigzag(int n, float reach, unsigned seed)
 {
 	n_corners = n;
@@ -115,7 +116,8 @@ static void draw_strip(int i)
 	draw_corners(way, mode);
 }
 
-/* The same as wide, flat and smooth lines. Not smooth and flat at once: lines that are neither are flat after those with Mesa (22.3.6). */
+/* The same as wide, flat and smooth lines. Not smooth and flat at once: lines that are neither are flat after those
+ * with Mesa (22.3.6). */
 static void kinds(int i)
 {
 	static const GLenum modes[3] = { GL_LINE_STRIP, GL_LINES, GL_LINE_LOOP };
@@ -176,14 +178,16 @@ static void draw_shared(int i)
 /* Polygons drawn as lines: each mode, whole and cut, flat and smooth, by each way. */
 static void unfilled(int i)
 {
-	static const GLenum modes[6] = { GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON };
+	static const GLenum modes[6] = { GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN,
+		                         GL_QUADS,     GL_QUAD_STRIP,     GL_POLYGON };
 
 	mode = modes[choose(&i, 6)];
 	way = (enum way)choose(&i, N_WAYS);
 	glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
 	glShadeModel(choose(&i, 2) ? GL_FLAT : GL_SMOOTH);
 	pattern(2, choose(&i, 2));
-	round_of(mode == GL_TRIANGLES ? 6 : 8, choose(&i, 2) ? 1.5f : 0.85f, mode == GL_QUAD_STRIP || mode == GL_TRIANGLE_STRIP);
+	round_of(mode == GL_TRIANGLES ? 6 : 8, choose(&i, 2) ? 1.5f : 0.85f,
+	         mode == GL_QUAD_STRIP || mode == GL_TRIANGLE_STRIP);
 }
 
 /* Sides that are not drawn: of triangles, quads and polygons, whole and cut. */
@@ -209,11 +213,13 @@ static void draw_edges(int i)
 	glEdgeFlag(GL_TRUE);
 }
 
-/* Chains of lines shorter than a pixel: one end lies beside a pixel's centre, nearer than llvmpipe tells places apart. */
+/* Chains of lines shorter than a pixel: one end lies beside a pixel's centre, nearer than llvmpipe tells places
+ * apart. */
 static void short_chain(int i)
 {
 	const int by = choose(&i, 8), length = choose(&i, 3), beside = choose(&i, 2), width = choose(&i, 2);
-	const float angle = 0.7853982f * (float)by + 0.4f, step = 0.16f * (float)(1 + length), off = beside ? 0.0014f : -0.0014f;
+	const float angle = 0.7853982f * (float)by + 0.4f, step = 0.16f * (float)(1 + length),
+		    off = beside ? 0.0014f : -0.0014f;
 
 	glMatrixMode(GL_PROJECTION);
 	glLoadIdentity();
@@ -245,7 +251,8 @@ static void draw_chain(int i)
 /* Lines through an image with levels of detail, coarse and fine, near and far, by fixed function and by a program. */
 static void textured(int i)
 {
-	static const GLenum filters[4] = { GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_NEAREST, GL_NEAREST_MIPMAP_LINEAR };
+	static const GLenum filters[4] = { GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_NEAREST,
+		                           GL_NEAREST_MIPMAP_LINEAR };
 	const int width = choose(&i, 3), filter = choose(&i, 4);
 
 	glEnable(GL_TEXTURE_2D);
@@ -277,7 +284,8 @@ static void make_image_and_program(void)
 {
 	enum { SIDE = 64 };
 	static GLubyte texels[SIDE * SIDE];
-	static const char text[] = "!!ARBfp1.0\nTEMP t;\nTEX t, fragment.texcoord[0], texture[0], 2D;\nMUL result.color, t, fragment.color;\nEND\n";
+	static const char text[] = "!!ARBfp1.0\nTEMP t;\nTEX t, fragment.texcoord[0], texture[0], 2D;\nMUL "
+	                           "result.color, t, fragment.color;\nEND\n";
 
 	glProgramStringARB(GL_FRAGMENT_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB, (GLsizei)strlen(text), text);
 
@@ -290,9 +298,10 @@ static void make_image_and_program(void)
 
 int main(void)
 {
-	static const struct table tables[] = { { 120, strips, draw_strip }, { 108, kinds, draw_strip }, { 96, cut, draw_strip }, { 24, shared, draw_shared },
-		                                { 192, unfilled, draw_strip }, { 96, edges, draw_edges }, { 96, short_chain, draw_chain },
-		                                { 192, textured, draw_textured } };
+	static const struct table tables[] = { { 120, strips, draw_strip },     { 108, kinds, draw_strip },
+		                               { 96, cut, draw_strip },         { 24, shared, draw_shared },
+		                               { 192, unfilled, draw_strip },   { 96, edges, draw_edges },
+		                               { 96, short_chain, draw_chain }, { 192, textured, draw_textured } };
 
 	DRAW_TABLES(tables, make_image_and_program);
 	return 0;

@@ -1,6 +1,6 @@
 /*
- * Windows full of panels: each panel draws the same thing under a state of its own, so that one frame tries a whole table of modes,
- * functions, operands or terms of a chapter of the specification. Recorded by test_panels.py.
+ * Windows full of panels: each panel draws the same thing under a state of its own, so that one frame tries a whole
+ * table of modes, functions, operands or terms of a chapter of the specification. Recorded by test_panels.py.
  */
 #pragma once
 
@@ -73,12 +73,16 @@ static inline void draw_table(const struct table *t, int turn)
 	}
 }
 
-/** Opens the window, and draws each table as a frame; again, turned, until there are as many as PANEL_FRAMES in the environment asks for. */
+/** Opens the window, and draws each table as a frame; again, turned, until there are as many as PANEL_FRAMES in the
+ * environment asks for. */
 static inline void draw_tables(const struct table *tables, size_t n, void (*prepare)(void))
 {
 	const char *frames = getenv("PANEL_FRAMES");
 	const size_t most = frames ? (size_t)atoi(frames) : 0;
-	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8, None };
+	int attributes[] = {
+		GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8,
+		None
+	};
 
 	window_size[0] = ACROSS * PANEL;
 	window_size[1] = DOWN * PANEL;

@@ -1,12 +1,14 @@
 /*
- * Pixel rectangles and bitmaps (OpenGL 2.1 sec. 3.6, 3.7, 4.3.3): how they are unpacked, transferred, zoomed, and put into the window.
+ * Pixel rectangles and bitmaps (OpenGL 2.1 sec. 3.6, 3.7, 4.3.3): how they are unpacked, transferred, zoomed, and put
+ * into the window.
  */
 #include "panels.h"
 
 #include <math.h>
 
 enum { SIDE = 6 };
-static unsigned char all_bytes[4 * 4 * SIDE * SIDE + PANELS], *bytes; /* bytes: of this panel, as Mesa keeps what it drew by its place */
+static unsigned char all_bytes[4 * 4 * SIDE * SIDE + PANELS], *bytes; /* bytes: of this panel, as Mesa keeps what it
+                                                                         drew by its place */
 
 static void prepare(void)
 {
@@ -38,7 +40,8 @@ static void format(int i)
 
 static void draw_format(int i)
 {
-	static const GLenum formats[11] = { GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA, GL_RGB, GL_RGBA, GL_BGR, GL_BGRA, GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_ABGR_EXT };
+	static const GLenum formats[11] = { GL_RED, GL_GREEN, GL_BLUE,      GL_ALPHA,           GL_RGB,     GL_RGBA,
+		                            GL_BGR, GL_BGRA,  GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_ABGR_EXT };
 	static const GLenum types[6] = { GL_UNSIGNED_BYTE, GL_BYTE, GL_UNSIGNED_SHORT, GL_SHORT, GL_UNSIGNED_INT, GL_INT };
 	const int f = choose(&i, 11), t = choose(&i, 6);
 
@@ -50,9 +53,12 @@ static void draw_format(int i)
 
 static void draw_packed(int i)
 {
-	static const GLenum types[12] = { GL_UNSIGNED_BYTE_3_3_2, GL_UNSIGNED_BYTE_2_3_3_REV, GL_UNSIGNED_SHORT_5_6_5, GL_UNSIGNED_SHORT_5_6_5_REV,
-		                          GL_UNSIGNED_SHORT_4_4_4_4, GL_UNSIGNED_SHORT_4_4_4_4_REV, GL_UNSIGNED_SHORT_5_5_5_1, GL_UNSIGNED_SHORT_1_5_5_5_REV,
-		                          GL_UNSIGNED_INT_8_8_8_8, GL_UNSIGNED_INT_8_8_8_8_REV, GL_UNSIGNED_INT_10_10_10_2, GL_UNSIGNED_INT_2_10_10_10_REV };
+	static const GLenum types[12] = { GL_UNSIGNED_BYTE_3_3_2,     GL_UNSIGNED_BYTE_2_3_3_REV,
+		                          GL_UNSIGNED_SHORT_5_6_5,    GL_UNSIGNED_SHORT_5_6_5_REV,
+		                          GL_UNSIGNED_SHORT_4_4_4_4,  GL_UNSIGNED_SHORT_4_4_4_4_REV,
+		                          GL_UNSIGNED_SHORT_5_5_5_1,  GL_UNSIGNED_SHORT_1_5_5_5_REV,
+		                          GL_UNSIGNED_INT_8_8_8_8,    GL_UNSIGNED_INT_8_8_8_8_REV,
+		                          GL_UNSIGNED_INT_10_10_10_2, GL_UNSIGNED_INT_2_10_10_10_REV };
 	const int t = choose(&i, 12), order = choose(&i, 2), swap = choose(&i, 2);
 
 	place(-0.7f, -0.7f);
@@ -67,7 +73,8 @@ static void draw_packed(int i)
 static void draw_stored(int i)
 {
 	static const int alignments[4] = { 1, 2, 4, 8 };
-	const int alignment = choose(&i, 4), length = choose(&i, 3), rows = choose(&i, 2), columns = choose(&i, 2), bits = choose(&i, 2);
+	const int alignment = choose(&i, 4), length = choose(&i, 3), rows = choose(&i, 2), columns = choose(&i, 2),
+		  bits = choose(&i, 2);
 
 	place(-0.7f, -0.7f);
 	glPixelStorei(GL_UNPACK_ALIGNMENT, alignments[alignment]);
@@ -218,7 +225,8 @@ static void show_passing(void)
 static void draw_copied_depths(int i)
 {
 	static const GLenum kinds[3] = { GL_DEPTH, GL_STENCIL, GL_DEPTH_STENCIL };
-	const int x = choose(&i, 8), y = choose(&i, 8), kind = choose(&i, 3), shows_stencil = kind == 1 || (kind == 2 && x & 1);
+	const int x = choose(&i, 8), y = choose(&i, 8), kind = choose(&i, 3),
+		  shows_stencil = kind == 1 || (kind == 2 && x & 1);
 	float values[SIDE * SIDE];
 	GLfloat from[4];
 
@@ -336,8 +344,10 @@ static void give(int what, const unsigned char *pixels)
 static void draw_listed(int i)
 {
 	static const unsigned char nothing[sizeof(all_bytes)];
-	static const float map[16] = { 0.9f, 0.1f, 0.8f, 0.3f, 0.7f, 0, 1, 0.5f, 0.2f, 0.6f, 0.4f, 0.15f, 0.85f, 0.35f, 0.65f, 0.05f };
-	const int what = choose(&i, 6), in_buffer = choose(&i, 2) && what != 5; /* Mesa (22.3.6) takes a map's offset for a pointer */
+	static const float map[16] = { 0.9f, 0.1f, 0.8f, 0.3f,  0.7f,  0,     1,     0.5f,
+		                       0.2f, 0.6f, 0.4f, 0.15f, 0.85f, 0.35f, 0.65f, 0.05f };
+	/* Mesa (22.3.6) takes a map's offset for a pointer */
+	const int what = choose(&i, 6), in_buffer = choose(&i, 2) && what != 5;
 	const int is_laid_out = choose(&i, 2), twice = choose(&i, 2);
 	const size_t offset = what == 5 ? 8 : 3;
 	const unsigned char *from = what == 5 ? (const unsigned char *)map : all_bytes;
@@ -390,9 +400,10 @@ static void draw_listed(int i)
 int main(void)
 {
 	static const struct table tables[] = {
-		{ 66, format, draw_format },     { 48, format, draw_packed },   { 96, format, draw_stored }, { 16, transfer, draw_transferred },
-		{ 30, indexed, draw_indexed }, { 128, format, draw_zoomed }, { 16, format, draw_depths }, { 192, format, draw_copied_depths }, { 24, through, draw_through }, { 24, transfer, draw_transferred_texture },
-		{ 30, indexed, draw_indexed_texture }, { 48, format, draw_listed },
+		{ 66, format, draw_format }, { 48, format, draw_packed }, { 96, format, draw_stored },
+		{ 16, transfer, draw_transferred }, { 30, indexed, draw_indexed }, { 128, format, draw_zoomed },
+		{ 16, format, draw_depths }, { 192, format, draw_copied_depths }, { 24, through, draw_through },
+		{ 24, transfer, draw_transferred_texture }, { 30, indexed, draw_indexed_texture }, { 48, format, draw_listed },
 	};
 
 	DRAW_TABLES(tables, prepare);

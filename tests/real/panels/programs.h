@@ -1,11 +1,13 @@
 /*
- * What the panels of programs share: textures, state that is nothing's beginning, a square that leans away, programs in assembly.
+ * What the panels of programs share: textures, state that is nothing's beginning, a square that leans away, programs in
+ * assembly.
  */
 #pragma once
 
 #include "panels.h"
 
-static GLuint images[7]; /* of two dimensions with all levels, nearest, a cube, of one dimension, of three, depths, a cube with all levels */
+static GLuint images[7]; /* of two dimensions with all levels, nearest, a cube, of one dimension, of three, depths, a
+                            cube with all levels */
 
 static inline void fill(unsigned char *texels, unsigned n, unsigned seed)
 {
@@ -35,7 +37,8 @@ static inline void make_images(void)
 	glBindTexture(GL_TEXTURE_CUBE_MAP, images[2]);
 	set_filter(GL_TEXTURE_CUBE_MAP, GL_NEAREST);
 	for (unsigned face = 0; face < 6; face++)
-		glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels + 64 * face);
+		glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+		             texels + 64 * face);
 	glBindTexture(GL_TEXTURE_1D, images[3]);
 	glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
 	glTexImage1D(GL_TEXTURE_1D, 0, GL_RGBA, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
@@ -50,7 +53,8 @@ static inline void make_images(void)
 	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
 	for (int level = 0; level < 5; level++)
 		for (unsigned face = 0; face < 6; face++)
-			glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGBA, 16 >> level, 16 >> level, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels + 64 * face);
+			glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGBA, 16 >> level, 16 >> level, 0,
+			             GL_RGBA, GL_UNSIGNED_BYTE, texels + 64 * face);
 }
 
 /* State that programs read, none of it as it begins. */

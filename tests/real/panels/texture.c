@@ -1,5 +1,6 @@
 /*
- * Environments, combiners and generated coordinates (OpenGL 2.1 sec. 2.11.4, 3.8): a square that leans away, textured by one or two units.
+ * Environments, combiners and generated coordinates (OpenGL 2.1 sec. 2.11.4, 3.8): a square that leans away, textured
+ * by one or two units.
  */
 #include <math.h>
 
@@ -33,7 +34,8 @@ static void prepare(void)
 	for (unsigned face = 0; face < 6; face++)
 		for (int level = 0; level < 4; level++) {
 			fill(texels, sizeof(texels), 9000 + 100 * face + (unsigned)level);
-			glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGBA, 8 >> level, 8 >> level, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+			glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGBA, 8 >> level, 8 >> level, 0,
+			             GL_RGBA, GL_UNSIGNED_BYTE, texels);
 		}
 }
 
@@ -97,8 +99,8 @@ static void combine(GLenum function, GLenum function_alpha)
 	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-static const GLenum functions[10] = { GL_REPLACE, GL_MODULATE, GL_ADD, GL_ADD_SIGNED, GL_INTERPOLATE, GL_SUBTRACT, GL_DOT3_RGB, GL_DOT3_RGBA,
-	                              GL_DOT3_RGB_EXT, GL_DOT3_RGBA_EXT };
+static const GLenum functions[10] = { GL_REPLACE,  GL_MODULATE, GL_ADD,       GL_ADD_SIGNED,   GL_INTERPOLATE,
+	                              GL_SUBTRACT, GL_DOT3_RGB, GL_DOT3_RGBA, GL_DOT3_RGB_EXT, GL_DOT3_RGBA_EXT };
 
 /* Each function of colour and of alpha at each scale. */
 static void function(int i)
@@ -131,7 +133,9 @@ static void operand(int i)
 static void generated(int i)
 {
 	static const GLint modes[5] = { GL_OBJECT_LINEAR, GL_EYE_LINEAR, GL_SPHERE_MAP, GL_NORMAL_MAP, GL_REFLECTION_MAP };
-	static const float planes[4][4] = { { 0.5f, 0.1f, 0, 0.9f }, { 0, 0.6f, 0.3f, 0.4f }, { 0.2f, 0, 0.7f, 0.1f }, { 0.1f, 0.2f, 0, 1 } };
+	static const float planes[4][4] = {
+		{ 0.5f, 0.1f, 0, 0.9f }, { 0, 0.6f, 0.3f, 0.4f }, { 0.2f, 0, 0.7f, 0.1f }, { 0.1f, 0.2f, 0, 1 }
+	};
 	const int mode = choose(&i, 5), which = choose(&i, 4), matrix = choose(&i, 3), turn = choose(&i, 2);
 
 	unit(0, 4); /* filtered linearly: no ties */
@@ -169,7 +173,10 @@ static void draw_generated(int i)
 /* Each filter of a cube map beside each other one, larger and smaller than its texels. */
 static void cube(int i)
 {
-	static const GLint filters[6] = { GL_NEAREST, GL_LINEAR, GL_NEAREST_MIPMAP_NEAREST, GL_LINEAR_MIPMAP_NEAREST, GL_NEAREST_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_LINEAR };
+	static const GLint filters[6] = {
+		GL_NEAREST, GL_LINEAR, GL_NEAREST_MIPMAP_NEAREST, GL_LINEAR_MIPMAP_NEAREST, GL_NEAREST_MIPMAP_LINEAR,
+		GL_LINEAR_MIPMAP_LINEAR
+	};
 	const int smaller = choose(&i, 6), larger = choose(&i, 2), turn = choose(&i, 4), far = choose(&i, 3);
 
 	glEnable(GL_TEXTURE_CUBE_MAP);
@@ -186,7 +193,8 @@ static void draw_cube(int i)
 	(void)i;
 	glBegin(GL_QUADS);
 	for (int k = 0; k < 4; k++) {
-		const float u = k == 1 || k == 2 ? 1.0f : -1.0f, v = k >= 2 ? 1.0f : -1.0f, s = sinf(turned / 57.3f), c = cosf(turned / 57.3f);
+		const float u = k == 1 || k == 2 ? 1.0f : -1.0f, v = k >= 2 ? 1.0f : -1.0f, s = sinf(turned / 57.3f),
+			    c = cosf(turned / 57.3f);
 
 		glTexCoord3f(reach * u * c + s, reach * v, c - reach * u * s);
 		glVertex3f(u, v, -0.3f * v);
@@ -197,8 +205,8 @@ static void draw_cube(int i)
 int main(void)
 {
 	static const struct table tables[] = {
-		{ 180, environment, draw_square }, { 180, function, draw_square }, { 144, operand, draw_square }, { 120, generated, draw_generated },
-		{ 144, cube, draw_cube },
+		{ 180, environment, draw_square }, { 180, function, draw_square }, { 144, operand, draw_square },
+		{ 120, generated, draw_generated }, { 144, cube, draw_cube },
 	};
 
 	DRAW_TABLES(tables, prepare);

@@ -1,5 +1,6 @@
 /*
- * Programs that only ask, and names that extensions gave to what OpenGL 1.1 took over: a frame each. Recorded by test_small.py.
+ * Programs that only ask, and names that extensions gave to what OpenGL 1.1 took over: a frame each. Recorded by
+ * test_small.py.
  */
 #include "tests/trace/window.h"
 
@@ -20,7 +21,8 @@ static void ask_framebuffers(void)
 	GLint made;
 
 	expect(!glIsFramebufferEXT(1) && !glIsRenderbufferEXT(1) && !glIsQuery(1), "nothing of these is there");
-	glGetRenderbufferParameterivEXT(GL_RENDERBUFFER_EXT, GL_RENDERBUFFER_WIDTH_EXT, &made); /* an error: nothing is bound */
+	/* an error: nothing is bound */
+	glGetRenderbufferParameterivEXT(GL_RENDERBUFFER_EXT, GL_RENDERBUFFER_WIDTH_EXT, &made);
 	expect(glGetError() == GL_INVALID_OPERATION, "nothing is bound");
 	glRectf(-0.5f, -0.5f, 0.5f, 0.5f);
 }
@@ -82,7 +84,8 @@ static void delete_texture_object(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { ask_framebuffers, ask_shader_objects, use_texture_objects, delete_texture_object };
+	static void (*const frames[])(void) = { ask_framebuffers, ask_shader_objects, use_texture_objects,
+		                                delete_texture_object };
 
 	open_window();
 	draw_frames(frames, sizeof(frames) / sizeof(frames[0]), before);

@@ -1,12 +1,14 @@
 /*
- * A window without depth and stencil buffers, where llvmpipe cuts at twice the view: lines, points and outlines that leave it by a little and by
- * much. A frame each; recorded by test_small.py. Filled triangles are cut at the view there, too: some pixels of their edges differ.
+ * A window without depth and stencil buffers, where llvmpipe cuts at twice the view: lines, points and outlines that
+ * leave it by a little and by much. A frame each; recorded by test_small.py. Filled triangles are cut at the view
+ * there, too: some pixels of their edges differ.
  */
 #include "tests/trace/window.h"
 
 /* Ends of lines: within the view, and out of it on each side by less and by more than the view's size. */
-static const float ends[12][2] = { { 0.9f, -0.9f }, { 0.9f, 0.9f }, { -1.9f, 0 }, { 0.3f, -2.7f }, { 0, 0 }, { 1.3f, 1.7f },
-	                           { -0.4f, 0.2f }, { -3.1f, 1.1f }, { 0.2f, 0.7f }, { 0.1f, 5 }, { 1.1f, -0.2f }, { -1.2f, -0.6f } };
+static const float ends[12][2] = { { 0.9f, -0.9f }, { 0.9f, 0.9f }, { -1.9f, 0 },    { 0.3f, -2.7f },
+	                           { 0, 0 },        { 1.3f, 1.7f }, { -0.4f, 0.2f }, { -3.1f, 1.1f },
+	                           { 0.2f, 0.7f },  { 0.1f, 5 },    { 1.1f, -0.2f }, { -1.2f, -0.6f } };
 
 static void before(void)
 {

@@ -1,6 +1,7 @@
 /*
- * Colours and materials in any order, as a generator draws them: glColor and glMaterial between draws and in them, COLOR_MATERIAL on and off and of
- * other parameters, draws by Begin and by arrays, with colours of their own and without. A frame for each seed; recorded by test_small.py.
+ * Colours and materials in any order, as a generator draws them: glColor and glMaterial between draws and in them,
+ * COLOR_MATERIAL on and off and of other parameters, draws by Begin and by arrays, with colours of their own and
+ * without. A frame for each seed; recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 
@@ -14,8 +15,11 @@ static unsigned roll(unsigned n)
 	return (state >> 12) % n;
 }
 
-static const float palette[5][4] = { { 0.4f, 0.4f, 0.4f, 1 }, { 0.2f, 0.2f, 0.2f, 1 }, { 0.35f, 0.1f, 0.05f, 1 }, { 0.1f, 0.3f, 0.15f, 1 },
-	                              { 0.1f, 0.15f, 0.35f, 1 } };
+static const float palette[5][4] = { { 0.4f, 0.4f, 0.4f, 1 },
+	                             { 0.2f, 0.2f, 0.2f, 1 },
+	                             { 0.35f, 0.1f, 0.05f, 1 },
+	                             { 0.1f, 0.3f, 0.15f, 1 },
+	                             { 0.1f, 0.15f, 0.35f, 1 } };
 
 static void corners(int cell, float out[4][2])
 {
@@ -67,7 +71,8 @@ static void draw(int cell)
 	ways[roll(2)](cell, (int)roll(3));
 }
 
-/* Of the state, what changes, or is switched on once more: that leaves Mesa's vertex store alone, as all calls do that change nothing. */
+/* Of the state, what changes, or is switched on once more: that leaves Mesa's vertex store alone, as all calls do that
+ * change nothing. */
 static void change(void)
 {
 	static unsigned mode = 2, ambient = 5;

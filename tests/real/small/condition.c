@@ -1,6 +1,6 @@
 /*
- * Conditional rendering (NV_conditional_render): what is drawn, cleared and copied only where a query counted something. A frame each;
- * recorded by test_small.py.
+ * Conditional rendering (NV_conditional_render): what is drawn, cleared and copied only where a query counted
+ * something. A frame each; recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 

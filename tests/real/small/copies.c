@@ -1,6 +1,6 @@
 /*
- * Copies of parts of framebuffer objects: across their edges, of depth, of colours without alpha; and many small ones of a large object, which
- * take time by what is copied. A frame each; recorded by test_small.py.
+ * Copies of parts of framebuffer objects: across their edges, of depth, of colours without alpha; and many small ones
+ * of a large object, which take time by what is copied. A frame each; recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 
@@ -24,7 +24,8 @@ static void use_target(GLint format, int width, int height)
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
 	glGenTextures(1, &depths);
 	glBindTexture(GL_TEXTURE_2D, depths);
-	glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT, width == 64 ? depth : NULL);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+	             width == 64 ? depth : NULL);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
 	glGenFramebuffers(1, &framebuffer);
 	glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);

@@ -1,4 +1,5 @@
-/* EXT_direct_state_access: what is named is changed, and what is bound stays bound. A frame each; recorded by test_small.py. */
+/* EXT_direct_state_access: what is named is changed, and what is bound stays bound. A frame each; recorded by
+ * test_small.py. */
 #include "tests/trace/window.h"
 
 static GLubyte texels[2][16][4];
@@ -101,8 +102,10 @@ static void units(void)
 static void buffers_and_programs(void)
 {
 	static const float at[6] = { -1, -1, 0, -1, -1, 0.5f }, other[2] = { 0.2f, -0.6f };
-	static const char text[] = "!!ARBvp1.0\nMOV result.position, vertex.position;\nMOV result.color, program.local[3];\nEND\n";
-	static const char *const shader = "uniform vec4 c; uniform mat2 m; void main() { gl_FragColor = c + vec4(m[0], m[1]); }";
+	static const char text[] =
+		"!!ARBvp1.0\nMOV result.position, vertex.position;\nMOV result.color, program.local[3];\nEND\n";
+	static const char *const shader =
+		"uniform vec4 c; uniform mat2 m; void main() { gl_FragColor = c + vec4(m[0], m[1]); }";
 	static const float m[4] = { 0.1f, 0.2f, 0.3f, 0 };
 	GLuint buffer, program, of_glsl = glCreateProgram(), fragments = glCreateShader(GL_FRAGMENT_SHADER);
 

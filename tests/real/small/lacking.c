@@ -1,6 +1,6 @@
 /*
- * A shader that reads what Relume does not do, and a call after the draw that draws nothing itself; then a texture that is not done, which is
- * no error of this program. Recorded by test_small.py.
+ * A shader that reads what Relume does not do, and a call after the draw that draws nothing itself; then a texture that
+ * is not done, which is no error of this program. Recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 

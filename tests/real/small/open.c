@@ -1,5 +1,6 @@
 /*
- * What the specification leaves open, or where one rounding decides: as Mesa draws it. A frame each; recorded by test_small.py.
+ * What the specification leaves open, or where one rounding decides: as Mesa draws it. A frame each; recorded by
+ * test_small.py.
  */
 #include "tests/trace/window.h"
 
@@ -92,14 +93,18 @@ static void powers_of_programs(void)
 static void known_powers(void)
 {
 	static const char *const known[4] = {
-		"MOV r, {1, 0, 0, 0};\nLIT r, r;\nMOV o.x, r.z;\n", "PARAM p = {0, 0, 0, 0};\nPOW o.x, p.x, p.y;\nADD r, {0.25, 0, 0, 0}, p;\nPOW o.y, r.x, {0.5}.x;\n",
-		"SUB r, {1, 1, 1, 1}, {1, 1, 1, 1};\nPOW o.xyz, r.x, r.x;\nLIT o.x, program.env[0];\n", "LG2 r, {0.3}.x;\nEX2 o.x, r.x;\nLOG o.y, {0.4}.x;\nLIT r, {0.5, -2, 0, -3};\nMOV o.z, r.z;\n",
+		"MOV r, {1, 0, 0, 0};\nLIT r, r;\nMOV o.x, r.z;\n",
+		"PARAM p = {0, 0, 0, 0};\nPOW o.x, p.x, p.y;\nADD r, {0.25, 0, 0, 0}, p;\nPOW o.y, r.x, {0.5}.x;\n",
+		"SUB r, {1, 1, 1, 1}, {1, 1, 1, 1};\nPOW o.xyz, r.x, r.x;\nLIT o.x, program.env[0];\n",
+		"LG2 r, {0.3}.x;\nEX2 o.x, r.x;\nLOG o.y, {0.4}.x;\nLIT r, {0.5, -2, 0, -3};\nMOV o.z, r.z;\n",
 	};
 	char text[512];
 
 	glProgramEnvParameter4fARB(GL_VERTEX_PROGRAM_ARB, 0, 1, 0, 0, 0);
 	for (int i = 0; i < 4; i++) {
-		snprintf(text, sizeof(text), "!!ARBvp1.0\nTEMP r, o;\nMOV o, {0, 0, 0.2, 1};\n%sMOV result.color, o;\nMOV result.position, vertex.position;\nEND\n",
+		snprintf(text, sizeof(text),
+		         "!!ARBvp1.0\nTEMP r, o;\nMOV o, {0, 0, 0.2, 1};\n%sMOV result.color, o;\nMOV result.position, "
+		         "vertex.position;\nEND\n",
 		         known[i]);
 		use_program(text);
 		quad(0.45f * (float)i - 0.9f, 0);
@@ -128,8 +133,10 @@ static void powers_of_shaders(void)
 {
 	const GLuint program = glCreateProgram();
 
-	glAttachShader(program, compiled(GL_VERTEX_SHADER, "varying vec4 c;\nvoid main() { c = vec4(pow(gl_Color.r, gl_Color.g), 0.0, 0.5, 1.0);\n"
-	                                                   "gl_TexCoord[0] = gl_Color; gl_Position = gl_Vertex; }"));
+	glAttachShader(program,
+	               compiled(GL_VERTEX_SHADER,
+	                        "varying vec4 c;\nvoid main() { c = vec4(pow(gl_Color.r, gl_Color.g), 0.0, 0.5, 1.0);\n"
+	                        "gl_TexCoord[0] = gl_Color; gl_Position = gl_Vertex; }"));
 	glAttachShader(program, compiled(GL_FRAGMENT_SHADER, "varying vec4 c;\nvoid main() { gl_FragColor = vec4(c.r,\n"
 	                                                     "pow(gl_TexCoord[0].x, gl_TexCoord[0].y), c.b, 1.0); }"));
 	glLinkProgram(program);
@@ -187,7 +194,8 @@ static void use_cube(GLint filter)
 	for (GLenum i = 0; i < 6; i++)
 		glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + i, 0, GL_RGB, 4, 4, 0, GL_RGB, GL_UNSIGNED_BYTE, texels[i]);
 	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, filter);
-	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, filter == GL_NEAREST || filter == GL_NEAREST_MIPMAP_NEAREST ? GL_NEAREST : GL_LINEAR);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER,
+	                filter == GL_NEAREST || filter == GL_NEAREST_MIPMAP_NEAREST ? GL_NEAREST : GL_LINEAR);
 	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
 	glEnable(GL_TEXTURE_CUBE_MAP);
 }
@@ -195,7 +203,8 @@ static void use_cube(GLint filter)
 /* No direction at all, and those between two or three faces. */
 static void between_faces(GLint filter)
 {
-	static const float along[8][3] = { { 0, 0, 0 }, { 1, 1, 0 }, { 1, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 }, { -1, 1, 1 }, { -1, -1, -1 }, { -1, -1, 0 } };
+	static const float along[8][3] = { { 0, 0, 0 }, { 1, 1, 0 },  { 1, 0, 1 },    { 0, 1, 1 },
+		                           { 1, 1, 1 }, { -1, 1, 1 }, { -1, -1, -1 }, { -1, -1, 0 } };
 
 	use_cube(filter);
 	for (int i = 0; i < 8; i++) {
@@ -227,8 +236,8 @@ static void linear_levels(void)
 int main(void)
 {
 	static void (*const frames[])(void) = {
-		light_nothing_attenuates, highlight_without_power, fog_without_length, powers_of_programs, known_powers, logarithms, powers_of_shaders,
-		places_between_pixels, offset_of_ext, nearest, linear, nearest_level, linear_levels,
+		light_nothing_attenuates, highlight_without_power, fog_without_length, powers_of_programs, known_powers, logarithms,
+		powers_of_shaders, places_between_pixels, offset_of_ext, nearest, linear, nearest_level, linear_levels,
 	};
 
 	open_window();

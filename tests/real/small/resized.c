@@ -1,6 +1,6 @@
 /*
- * Windows whose size is not told by a viewport: it comes late, covers a part or never comes, and the context goes to another window.
- * Recorded by test_small.py.
+ * Windows whose size is not told by a viewport: it comes late, covers a part or never comes, and the context goes to
+ * another window. Recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 
@@ -52,7 +52,8 @@ static void go_to_another_window(void)
 
 	XGetWindowAttributes(display, window, &was);
 	set.colormap = was.colormap;
-	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, 150, 70, 0, was.depth, InputOutput, was.visual, CWColormap, &set);
+	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, 150, 70, 0, was.depth, InputOutput,
+	                       was.visual, CWColormap, &set);
 	XMapWindow(display, window);
 	glXMakeCurrent(display, window, glXGetCurrentContext());
 }

@@ -1,6 +1,6 @@
 /*
- * GL_FRAMEBUFFER_SRGB (EXT_framebuffer_sRGB): clears, shading, blending and pixels of a window that can hold sRGB, and framebuffer objects
- * of several formats. A frame each; recorded by test_small.py.
+ * GL_FRAMEBUFFER_SRGB (EXT_framebuffer_sRGB): clears, shading, blending and pixels of a window that can hold sRGB, and
+ * framebuffer objects of several formats. A frame each; recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 
@@ -46,7 +46,9 @@ static void shades(void)
 
 static void blends(void)
 {
-	static const GLenum factors[4][2] = { { GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA }, { GL_ONE, GL_ONE }, { GL_DST_COLOR, GL_ZERO },
+	static const GLenum factors[4][2] = { { GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA },
+		                              { GL_ONE, GL_ONE },
+		                              { GL_DST_COLOR, GL_ZERO },
 		                              { GL_ONE_MINUS_DST_COLOR, GL_SRC_COLOR } };
 
 	shades();

@@ -1,5 +1,6 @@
 /*
- * Frames that end where nothing can be read: between glBegin and glEnd, and while a list is made. Recorded by test_small.py.
+ * Frames that end where nothing can be read: between glBegin and glEnd, and while a list is made. Recorded by
+ * test_small.py.
  */
 #include "tests/trace/window.h"
 
