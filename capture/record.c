@@ -302,6 +302,8 @@ static void set_environment(const struct options *o, const char *recorder, int f
 	set_or_unset("RELUME_REF_EVERY", o->ref_every);
 	if (o->ref_exact)
 		setenv("LP_PERF", "no_rast_linear", 0);
+	/* Qt keeps compiled shaders from run to run, as binaries of one driver: no recording could be replayed elsewhere */
+	setenv("QT_DISABLE_SHADER_DISK_CACHE", "1", 0);
 	set_or_unset("RELUME_MAX_FRAMES", o->max_frames);
 	set_or_unset("RELUME_QUIT_AFTER", o->quit_after);
 	set_or_unset("RELUME_FRAME_END", o->frame_end);

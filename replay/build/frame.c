@@ -26,7 +26,7 @@ struct gls_scene {
 	atomic_uint refs;
 };
 
-static uint32_t mesh_slot(struct gls_exec *x, struct gls_frame *f, struct gls_mesh *mesh)
+uint32_t gls_frame_mesh(struct gls_exec *x, struct gls_frame *f, struct gls_mesh *mesh)
 {
 	struct scene *s = f->out;
 
@@ -193,7 +193,7 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 	f->last = st;
 	instance = &s->instances[s->n_instances];
 	memset(instance, 0, sizeof(*instance));
-	instance->mesh = mesh_slot(x, f, mesh);
+	instance->mesh = gls_frame_mesh(x, f, mesh);
 	instance->view = f->view;
 	instance->material = f->material;
 	if (x->failed)
@@ -364,7 +364,7 @@ static void describe(struct gls_exec *x, const struct gls_surface *surface, stru
 	s->n_draws = f->next_draw - 1;
 	s->width = surface->width;
 	s->height = surface->height;
-	s->depth_bits = surface->depth_bits;
+	s->depth_bits = surface->depth_bits ? surface->depth_bits : f->depth_bits;
 	s->stencil_bits = surface->stencil_bits;
 	s->alpha_bits = surface->alpha_bits;
 	s->samples = surface->samples;
@@ -373,7 +373,7 @@ static void describe(struct gls_exec *x, const struct gls_surface *surface, stru
 	s->samples_from_below = surface->samples_from_below;
 	s->needs_previous = f->looked || !(f->known.whole & 1);
 	s->is_first = !surface->picture && !surface->before && !surface->skipped;
-	s->keeps_depth = s->depth_bits && x->st && x->st->depth_used && !(f->known.whole & 2);
+	s->keeps_depth = surface->depth_bits && x->st && x->st->depth_used && !(f->known.whole & 2);
 }
 
 struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface)

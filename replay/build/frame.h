@@ -79,13 +79,15 @@ struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface);
 /** Take the scene out of the surface, which has no events then. @return a reference for the caller */
 struct scene *gls_frame_take(struct gls_exec *x, struct gls_surface *surface);
 /**
- * Let other events come in place of a surface's, which showed what these draw: their colours, the depth and stencil
- * values of its own. In shown.c.
- * @param drawn  the surface's afterwards
- * @param depth  that what showed them left everywhere; NULL: none
- * @return 1; 0: out of memory (reported), and `drawn` is the caller's still
+ * Let other events come in place of a surface's last one, which showed what these draw, in a rectangle of their
+ * window's size. Depth and stencil values are afterwards what they were there. In shown.c.
+ * @param drawn  borrowed
+ * @param rect   x, y, width, height on the surface
+ * @param depth  that what showed them left there; NULL: none
+ * @return 1; 0: out of memory (reported)
  */
-int gls_frame_precede(struct gls_exec *x, struct gls_surface *surface, struct gls_frame *drawn, const float *depth);
+int gls_frame_put(struct gls_exec *x, struct gls_surface *surface, const struct scene *drawn, const int32_t rect[4],
+                  const float *depth);
 /** Forget all events. */
 void gls_frame_drop(struct gls_surface *surface);
 /** Buffers, bits as in scene_clear, that some draw looked at where clears had not set them. The surface must have a

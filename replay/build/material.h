@@ -23,6 +23,8 @@ struct gls_frame {
 	const struct gls_state *last;
 	uint32_t next_draw, next_primitive;
 	uint32_t colored; /* 1: some event may change colours */
+	uint32_t depth_bits; /* for draws put into a surface without depth, whose own test none */
+	uint32_t put_end; /* instances up to this one left no depth or stencil values: the last was put there */
 	uint32_t looked;  /* buffers that some draw looked at where they were not known, bits as in scene_clear */
 	struct gls_known known; /* by clears so far */
 	uint64_t serial;  /* of the scene: what meshes and images remember their slots by */
@@ -42,7 +44,8 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 /** Attributes that the mesh does not have and the material looks at. */
 uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct scene_mesh *mesh,
                            const struct scene_material *m, const float (*values)[4]);
-/** The place of an image in the scene. */
+/** The place of a mesh in the scene, and of an image. */
+uint32_t gls_frame_mesh(struct gls_exec *x, struct gls_frame *f, struct gls_mesh *mesh);
 uint32_t gls_frame_texture(struct gls_exec *x, struct gls_frame *f, struct gls_texture_image *image);
 
 /** The part of a surface that the scissor leaves: x, y, width, height. */

@@ -1,50 +1,216 @@
-/* Events of one surface in front of those of another. */
+/* Events of one surface in place of another's last. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "replay/build/frame.h"
 #include "replay/build/material.h"
+#include "replay/build/mesh.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-/* Depth and stencil begin as a window's do: what drew the picture left others in its object. */
-static int add_clear(struct gls_frame *f, const struct scene_clear *clear, const struct scene_draw *name)
+/* How a scene is appended to another: the place of its window, and the first index of each array. */
+struct placed {
+	struct gls_frame *into;
+	const struct scene *from;
+	const int32_t *rect; /* x, y, width, height */
+	uint32_t instances, materials, units, lights, currents, views, stipples, programs, spaces, draws, primitives;
+	uint32_t *meshes, *textures; /* [from->n_meshes], [from->n_textures] */
+};
+
+/* Append n items to an array of n_items. @return 0 or ERR_SYSTEM (reported) */
+#define APPEND(p, member)                                                                                              \
+	append(&(p)->into->out->member, &(p)->into->room.member, &(p)->into->out->n_##member, (p)->from->member,       \
+	       (p)->from->n_##member, sizeof(*(p)->from->member))
+static int append(void *array, uint32_t *room, uint32_t *n, const void *items, uint32_t count, size_t size)
+{
+	uint8_t **p = array;
+
+	if (*n + count > *room)
+		*room = (uint32_t)memory_grow(array, *room, *n + count, size);
+	if (*n + count > *room)
+		return ERR_SYSTEM;
+	if (count)
+		memcpy(*p + *n * size, items, count * size);
+	*n += count;
+	return 0;
+}
+
+static int place_meshes_and_textures(struct gls_exec *x, struct placed *p)
+{
+	const struct scene *from = p->from;
+
+	p->meshes = calloc((size_t)from->n_meshes + from->n_textures + 1, sizeof(*p->meshes));
+	if (!p->meshes)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	p->textures = p->meshes + from->n_meshes;
+	for (uint32_t i = 0; i < from->n_meshes; i++)
+		p->meshes[i] = gls_frame_mesh(x, p->into, (struct gls_mesh *)(uintptr_t)from->meshes[i]);
+	for (uint32_t i = 0; i < from->n_textures; i++)
+		p->textures[i] =
+			gls_frame_texture(x, p->into, (struct gls_texture_image *)(uintptr_t)from->textures[i]);
+	return x->failed ? ERR_SYSTEM : 0;
+}
+
+static int place_materials(const struct placed *p)
+{
+	struct scene *s = p->into->out;
+	const int err = APPEND(p, units) || APPEND(p, lights) || APPEND(p, stipples) || APPEND(p, programs) ||
+	                APPEND(p, materials) || APPEND(p, currents);
+
+	for (uint32_t i = p->units; i < s->n_units && !err; i++)
+		s->units[i].texture = p->textures[s->units[i].texture];
+	for (uint32_t i = p->materials; i < s->n_materials && !err; i++) {
+		struct scene_material *m = &s->materials[i];
+
+		m->unit_first += p->units;
+		m->light_first += p->lights;
+		m->polygon_stipple += m->polygon_stipple == SCENE_NONE ? 0 : p->stipples;
+		m->fragment_program += m->fragment_program ? p->programs : 0;
+		m->vertex_program += m->vertex_program ? p->programs : 0;
+	}
+	return err ? ERR_SYSTEM : 0;
+}
+
+/* A part of the one window, cut to the other's place in it. */
+static void move_scissor(const struct placed *p, int32_t scissor[4])
+{
+	for (int k = 0; k < 2; k++) {
+		const int64_t first = scissor[k] > 0 ? scissor[k] : 0, end = (int64_t)scissor[k] + scissor[k + 2],
+			      last = end < p->rect[k + 2] ? end : p->rect[k + 2];
+
+		scissor[k] = (int32_t)first + p->rect[k];
+		scissor[k + 2] = last > first ? (int32_t)(last - first) : 0;
+	}
+}
+
+static int place_views(const struct placed *p)
+{
+	struct scene *s = p->into->out;
+	const int err = APPEND(p, views);
+
+	for (uint32_t i = p->views; i < s->n_views && !err; i++) {
+		const uintptr_t space = s->views[i].space + p->spaces;
+
+		s->views[i].viewport[0] += (float)p->rect[0];
+		s->views[i].viewport[1] += (float)p->rect[1];
+		move_scissor(p, s->views[i].scissor);
+		s->views[i].space = (uint32_t)space;
+		/* no draw of the window's finds them: nothing else has such keys */
+		if (table_set(&p->into->spaces, ((uint64_t)p->into->serial << 32) + space + 1, (void *)(space + 1)))
+			return ERR_SYSTEM;
+	}
+	return err ? ERR_SYSTEM : 0;
+}
+
+static int place_draws(const struct placed *p)
+{
+	struct gls_frame *f = p->into;
+	const uint32_t n = p->from->n_draws;
+
+	if (MEMORY_GROW(f->out->draws, f->room.draws, f->next_draw + n))
+		return ERR_SYSTEM;
+	memcpy(f->out->draws + f->next_draw, p->from->draws + 1, n * sizeof(*f->out->draws));
+	f->next_draw += n;
+	return 0;
+}
+
+static int place_events(const struct placed *p)
+{
+	struct scene *s = p->into->out;
+	const uint32_t first_clear = s->n_clears;
+
+	if (APPEND(p, instances) || APPEND(p, clears))
+		return ERR_SYSTEM;
+	for (uint32_t i = p->instances; i < s->n_instances; i++) {
+		struct scene_instance *in = &s->instances[i];
+
+		in->mesh = p->meshes[in->mesh];
+		in->material += p->materials;
+		in->view += p->views;
+		in->current += p->currents;
+		in->draw += p->draws;
+		in->first_primitive += p->primitives;
+	}
+	for (uint32_t i = first_clear; i < s->n_clears; i++) {
+		s->clears[i].before_instance += p->instances;
+		s->clears[i].draw += p->draws;
+		move_scissor(p, s->clears[i].scissor);
+	}
+	p->into->next_primitive += p->from->n_primitives;
+	return 0;
+}
+
+/* A clear of a rectangle's depth and stencil to what a surface's clears have left there; of 1 and 0 without them. */
+static struct scene_clear cleared(const struct scene *s, const int32_t rect[4])
+{
+	struct scene_clear out = { .scissor = { rect[0], rect[1], rect[2], rect[3] }, .buffers = 6, .stencil_mask = 255,
+		                   .depth = 1 };
+
+	for (uint32_t i = 0; i < s->n_clears; i++) {
+		const struct scene_clear *c = &s->clears[i];
+		const int32_t *part = c->scissor;
+
+		if (part[0] > rect[0] || part[1] > rect[1] || part[0] + part[2] < rect[0] + rect[2] ||
+		    part[1] + part[3] < rect[1] + rect[3])
+			continue;
+		if (c->buffers & 2)
+			out.depth = c->depth;
+		if (c->buffers & 4)
+			out.stencil = (out.stencil & ~c->stencil_mask) | (c->stencil & c->stencil_mask);
+	}
+	return out;
+}
+
+static int add_clear(struct gls_frame *f, struct scene_clear *clear, const struct scene_draw *name)
 {
 	struct scene *s = f->out;
 
 	if (MEMORY_GROW(s->clears, f->room.clears, s->n_clears + 1) || MEMORY_GROW(s->draws, f->room.draws, f->next_draw + 1))
 		return ERR_SYSTEM;
-	s->clears[s->n_clears] = *clear;
-	s->clears[s->n_clears].buffers &= 6;
-	s->clears[s->n_clears].before_instance = s->n_instances;
-	s->clears[s->n_clears++].draw = f->next_draw;
+	clear->before_instance = s->n_instances;
+	clear->draw = f->next_draw;
+	s->clears[s->n_clears++] = *clear;
 	s->draws[f->next_draw++] = *name;
 	return 0;
 }
 
-int gls_frame_precede(struct gls_exec *x, struct gls_surface *surface, struct gls_frame *drawn, const float *depth)
+int gls_frame_put(struct gls_exec *x, struct gls_surface *surface, const struct scene *drawn, const int32_t rect[4],
+                  const float *depth)
 {
-	struct gls_frame *old = surface->frame;
-	const struct scene *shown = old->out;
-	struct scene_clear whole = { .scissor = { 0, 0, (int32_t)surface->width, (int32_t)surface->height }, .depth = 1,
-		                         .buffers = 6, .stencil_mask = 255 };
-	int err = add_clear(drawn, &whole, &shown->draws[0]);
+	struct gls_frame *f = surface->frame;
+	struct scene *s = f->out;
+	const struct scene_draw name = s->draws[s->instances[s->n_instances - 1].draw];
+	struct scene_clear before = cleared(s, rect), after = before;
+	struct placed p = { .into = f, .from = drawn, .rect = rect };
+	int err;
 
-	for (uint32_t i = 0; i < shown->n_clears && !err; i++)
-		err = add_clear(drawn, &shown->clears[i], &shown->draws[shown->clears[i].draw]);
-	whole.depth = depth ? *depth : 1;
-	whole.buffers = 2;
-	if (depth && !err)
-		err = add_clear(drawn, &whole, &shown->draws[0]);
-	if (err) {
-		gls_fail(x);
-		return 0;
-	}
-	drawn->last = NULL;
-	drawn->known = old->known;
-	drawn->known.whole |= 1;
-	drawn->colored = 1;
-	surface->frame = drawn;
-	gls_frame_drop(&(struct gls_surface){ .frame = old });
-	return 1;
+	/* depth and stencil values of the picture's draws begin as an object's do, not as the window's are */
+	before.depth = 1;
+	before.stencil = 0;
+	if (depth)
+		after.depth = *depth;
+	f->next_primitive -= s->meshes[s->instances[--s->n_instances].mesh]->primitive_count;
+	err = add_clear(f, &before, &name);
+	p.instances = s->n_instances;
+	p.materials = s->n_materials;
+	p.units = s->n_units;
+	p.lights = s->n_lights;
+	p.currents = s->n_currents;
+	p.views = s->n_views;
+	p.stipples = s->n_stipples;
+	p.programs = s->n_programs;
+	p.spaces = (uint32_t)f->spaces.n;
+	p.draws = f->next_draw - 1;
+	p.primitives = f->next_primitive;
+	err = err || place_meshes_and_textures(x, &p) || place_materials(&p) || place_views(&p) || place_events(&p) ||
+	      place_draws(&p) || add_clear(f, &after, &name);
+	free(p.meshes);
+	s->kd_tree |= drawn->kd_tree;
+	f->depth_bits = drawn->depth_bits;
+	f->put_end = s->n_instances;
+	f->last = NULL;
+	f->colored = 1;
+	gls_known_clear(&f->known, 1, (const uint32_t[2]){ surface->width, surface->height }, rect);
+	return !err;
 }

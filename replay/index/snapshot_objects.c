@@ -25,6 +25,7 @@ static void put_texture(struct saver *s, void *value)
 	memcpy(&raw, t, LEVELS_BEGIN);
 	memcpy((char *)&raw + LEVELS_END, (const char *)t + LEVELS_END, sizeof(raw) - LEVELS_END);
 	raw.image = NULL;
+	raw.drawn = NULL;
 	raw.dirty = 1;
 	raw.hashed = 0;
 	bytes_put(s->out, &raw, LEVELS_BEGIN);
@@ -57,6 +58,7 @@ static void *get_texture(struct loader *l)
 	cursor_copy(&l->in, t, LEVELS_BEGIN);
 	cursor_copy(&l->in, (char *)t + LEVELS_END, sizeof(*t) - LEVELS_END);
 	t->image = NULL;
+	t->drawn = NULL;
 	t->dirty = 1;
 	t->hashed = 0;
 	for (uint64_t i; !loader_is_bad(l) && (i = cursor_u64(&l->in)) != UINT64_MAX;) {

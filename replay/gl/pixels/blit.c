@@ -135,7 +135,7 @@ GLS_HANDLER(glBlitFramebuffer, OBJECT)
 	struct blit b;
 	uint32_t mask = arg_u(c, 8);
 	const struct scene_picture *p;
-	struct gls_frame *drawn;
+	struct scene *drawn;
 	int between;
 
 	if (gls_refuses(x, st, mask & ~(uint32_t)(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT),

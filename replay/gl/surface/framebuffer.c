@@ -22,6 +22,7 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
 #include "replay/programs/program.h"
+#include "scene/release.h"
 
 #define MANY_EVENTS (1u << 16) /* that an object collects before they are written to its attachments */
 
@@ -77,19 +78,6 @@ static void update_colors(struct gls_exec *x, const struct gls_share *share, str
 	                      p ? others | (color >= 0 ? 1u << color : 0) : others | drawn_colors(fb), p);
 }
 
-/* The same where there are events; then begin anew. */
-static void update(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
-{
-	struct gls_surface *s = &fb->surface;
-
-	if (!s->frame)
-		return;
-	if (gls_frame_events(s) && gls_attachments_describe(share, fb->attached, drawn_colors(fb), s))
-		update_colors(x, share, fb);
-	gls_surface_free(s);
-	s->skipped = 0;
-}
-
 /* The color attachment that a frame's events drew to alone, if it holds 8 bits a channel; else NULL. */
 static const struct gls_attachment *only_color(const struct gls_share *share, const struct gls_framebuffer *fb)
 {
@@ -99,30 +87,52 @@ static const struct gls_attachment *only_color(const struct gls_share *share, co
 	return a && gls_attachment_has_8_bits(share, a) ? a : NULL;
 }
 
-struct gls_frame *gls_framebuffer_take_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t texture,
-                                             uint32_t name)
+/* The scene of all that an object's only colours hold, kept with a texture that is its first level; NULL: not known. */
+static struct scene *drawn_by(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
-	const struct gls_share *share = st->share;
-	struct gls_framebuffer *found = name ? table_find(&share->framebuffers, name) : NULL;
-	const struct gls_attachment *color;
-	struct gls_frame *frame;
+	const struct gls_attachment *color = only_color(share, fb);
+	struct gls_texture *t = color && color->texture && !color->level && !color->face && !color->layer ?
+	                                table_find(&share->textures, color->texture) :
+	                                NULL;
+	struct scene *drawn = color && fb->surface.frame ? gls_frame_scene(x, &fb->surface) : NULL;
 
-	for (size_t i = 0; texture && !found && i < share->framebuffers.room; i++) {
-		struct gls_framebuffer *fb = share->framebuffers.entries[i].value;
-
-		color = fb && fb->surface.frame ? only_color(share, fb) : NULL;
-		if (color && color->texture == texture && !color->level && !color->face && !color->layer)
-			found = fb;
+	if (t && drawn) {
+		scene_release(&t->drawn);
+		t->drawn = gls_scene_reference(drawn);
 	}
-	if (!found || !found->surface.frame || !gls_frame_events(&found->surface) || !only_color(share, found) ||
-	    !gls_attachments_describe(share, found->attached, drawn_colors(found), &found->surface))
-		return NULL;
-	update_colors(x, share, found);
-	frame = found->surface.frame;
-	found->surface.frame = NULL;
-	gls_surface_free(&found->surface);
-	found->surface.skipped = 0;
-	return frame;
+	return drawn ? drawn : t ? t->drawn : NULL;
+}
+
+/* Render an object's events, if there are any; then begin anew. @return what drew it, a reference, or NULL */
+static struct scene *update_drawn(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
+{
+	struct gls_surface *s = &fb->surface;
+	struct scene *drawn = NULL;
+
+	if (s->frame && gls_frame_events(s) && gls_attachments_describe(share, fb->attached, drawn_colors(fb), s))
+		update_colors(x, share, fb);
+	drawn = drawn_by(x, share, fb);
+	if (drawn)
+		gls_scene_reference(drawn);
+	if (s->frame) {
+		gls_surface_free(s);
+		s->skipped = 0;
+	}
+	return drawn;
+}
+
+static void update(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
+{
+	struct scene *drawn = fb->surface.frame ? update_drawn(x, share, fb) : NULL;
+
+	scene_release(&drawn);
+}
+
+struct scene *gls_framebuffer_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t name)
+{
+	struct gls_framebuffer *fb = table_find(&st->share->framebuffers, name);
+
+	return fb ? update_drawn(x, st->share, fb) : NULL;
 }
 
 /* Update all objects but one (NULL: all) to which this is attached. */

@@ -36,13 +36,10 @@ void gls_texture_update(struct gls_exec *x, const struct gls_state *st, const st
 void gls_units_update(struct gls_exec *x, struct gls_state *st, const struct gls_texturing *texturing);
 
 /**
- * Bring up to date what was drawn to, and take the events that did it: those to a texture's first level, or to an
- * object's only colours.
- * @param texture  its name, or 0: then `name` is that of an object
- * @return a frame, the caller's; NULL: there is none, or the colours have not 8 bits each
+ * Bring an object's only colours up to date, of 8 bits each.
+ * @return a reference to what drew all that it holds (struct gls_texture has it of textures); NULL: not known
  */
-struct gls_frame *gls_framebuffer_take_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t texture,
-                                             uint32_t name);
+struct scene *gls_framebuffer_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t name);
 
 /** Whether events of some object are not in its attachments yet. */
 int gls_framebuffers_wait(const struct gls_share *share);

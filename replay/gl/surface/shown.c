@@ -10,9 +10,12 @@
 #include "replay/gl/surface/screen.h"
 #include "replay/gl/surface/shown_program.h"
 #include "replay/gl/texture/texture.h"
+#include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 #include "replay/programs/program.h"
+#include "scene/program.h"
+#include "scene/release.h"
 
 #define PIXEL_SLACK 0.01f /* of a pixel, by which a corner may be off */
 
@@ -39,7 +42,7 @@ static const struct gls_texture *texture_of(struct gls_exec *x, struct gls_state
 	return unit < GLS_MAX_UNITS ? gls_texture_bound(x, st, unit, GLS_TEXTURE_2D) : NULL;
 }
 
-struct gls_frame *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, const struct gls_event *e)
+struct scene *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, const struct gls_event *e)
 {
 	const struct gls_texturing *texturing = &e->attribs->texturing;
 	const struct gls_texture *t;
@@ -48,14 +51,13 @@ struct gls_frame *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, co
 	    e->mesh->mesh.primitive_count > 2)
 		return NULL;
 	t = texture_of(x, st, texturing);
-	return t && t->attached ? gls_framebuffer_take_drawn(x, st, t->name, 0) : NULL;
+	gls_texture_update(x, st, t);
+	return t && t->drawn ? gls_scene_reference(t->drawn) : NULL;
 }
 
-struct gls_frame *gls_shown_by_blit(struct gls_exec *x, struct gls_state *st)
+struct scene *gls_shown_by_blit(struct gls_exec *x, struct gls_state *st)
 {
-	return st->draw_framebuffer || !st->read_framebuffer ?
-	               NULL :
-	               gls_framebuffer_take_drawn(x, st, 0, st->read_framebuffer);
+	return st->draw_framebuffer || !st->read_framebuffer ? NULL : gls_framebuffer_drawn(x, st, st->read_framebuffer);
 }
 
 /* --- Is it shown unchanged? -------------------------------------------------------------------------------------- */
@@ -73,18 +75,40 @@ static uint32_t counted(uint32_t depth_bits)
 	return depth_bits > 24 ? 24 : depth_bits;
 }
 
-/* 1 where events give the same colours in the window as in their object. */
-static int suits(const struct scene *s, const struct gls_surface *window)
+/* 1 where a program's fragments look at where they are. */
+static int looks_at_places(const struct scene *s, const struct scene_material *m)
 {
-	if (s->needs_previous || s->start || s->floats || window->floats || s->width != window->width ||
-	    s->height != window->height || counted(s->depth_bits) != counted(window->depth_bits) ||
-	    (s->samples > 1) != (window->samples > 1) || s->samples > 1)
+	const struct scene_program *program =
+		m->fragment_program ? (const struct scene_program *)(s->programs + m->fragment_program - 1) : NULL;
+
+	return program && program->inputs >> SCENE_INPUT_POSITION & 1;
+}
+
+/* 1 where an instance has the same colours elsewhere in the window. */
+static int moves(const struct scene *s, const struct scene_instance *in, const int32_t rect[4])
+{
+	const struct scene_material *m = &s->materials[in->material];
+
+	return !in->rectangle && !looks_at_places(s, m) &&
+	       (m->polygon_stipple == SCENE_NONE || (rect[0] % 32 == 0 && rect[1] % 32 == 0));
+}
+
+/*
+ * 1 where events give the same colours in a part of the window as in their object. A window without depth, as those of
+ * toolkits, gets the object's: its own draws test none.
+ */
+static int suits(const struct scene *s, const struct scene *window, const int32_t rect[4])
+{
+	if (s->needs_previous || s->start || s->floats || window->floats || (int32_t)s->width != rect[2] ||
+	    (int32_t)s->height != rect[3] || s->samples > 1 || window->samples > 1 ||
+	    (window->depth_bits && counted(s->depth_bits) != counted(window->depth_bits)))
 		return 0;
 	for (uint32_t i = 0; i < s->n_instances; i++) {
 		const struct scene_material *m = &s->materials[s->instances[i].material];
 
 		if ((m->stencil_test && s->stencil_bits != window->stencil_bits) ||
-		    (blends_with_own_alpha(m) && s->alpha_bits != window->alpha_bits))
+		    (blends_with_own_alpha(m) && s->alpha_bits != window->alpha_bits) ||
+		    ((rect[0] || rect[1]) && !moves(s, &s->instances[i], rect)))
 			return 0;
 	}
 	return 1;
@@ -177,11 +201,11 @@ static int texel_of(const struct scene *s, const struct scene_instance *in, uint
 	return m->fragment_program || at[3] != 0;
 }
 
-/* Where a corner lies in the window. @return 0: its texel lies elsewhere, or its depth is out of range */
+/* A corner's place in the window, and how far that is from its texel. @return 0: it is clipped */
 static int corner_at(const struct scene *s, const struct scene_instance *in, uint32_t v,
-                     const struct shown_program *shown, float out[2])
+                     const struct shown_program *shown, const struct scene_texture *t, float out[2], float off[2])
 {
-	const float size[2] = { (float)s->width, (float)s->height };
+	const float size[2] = { (float)t->width, (float)t->height }, *viewport = s->views[in->view].viewport;
 	float clip[4], texel[2], all[4 * SCENE_MAX_UNITS];
 
 	place_of(s, in, v, clip, all);
@@ -192,46 +216,63 @@ static int corner_at(const struct scene *s, const struct scene_instance *in, uin
 	if (!s->materials[in->material].vertex_program && !texel_of(s, in, v, shown, texel))
 		return 0;
 	for (int k = 0; k < 2; k++) {
-		out[k] = (clip[k] / clip[3] * 0.5f + 0.5f) * size[k];
-		if (!(fabsf(out[k] - texel[k] * size[k]) < PIXEL_SLACK))
+		out[k] = viewport[k] + (clip[k] / clip[3] * 0.5f + 0.5f) * viewport[k + 2];
+		if (out[k] < viewport[k] - PIXEL_SLACK || out[k] > viewport[k] + viewport[k + 2] + PIXEL_SLACK)
 			return 0;
+		off[k] = out[k] - texel[k] * size[k];
 	}
 	return 1;
 }
 
-static int covers_window(const struct scene *s, const struct scene_view *view)
+/* 1 where a part of the window is in it and the scissor leaves it whole. */
+static int is_left_whole(const struct scene *s, const struct scene_view *view, const int32_t rect[4])
 {
-	return view->viewport[0] == 0 && view->viewport[1] == 0 && view->viewport[2] == (float)s->width &&
-	       view->viewport[3] == (float)s->height && view->scissor[0] == 0 && view->scissor[1] == 0 &&
-	       (uint32_t)view->scissor[2] == s->width && (uint32_t)view->scissor[3] == s->height;
+	const int32_t *scissor = view->scissor;
+
+	return rect[0] >= scissor[0] && rect[1] >= scissor[1] && rect[0] + rect[2] <= scissor[0] + scissor[2] &&
+	       rect[1] + rect[3] <= scissor[1] + scissor[3] && rect[0] + rect[2] <= (int32_t)s->width &&
+	       rect[1] + rect[3] <= (int32_t)s->height;
 }
 
-/* 1 where triangles bring each texel to its pixel, in all of the window. */
+/* A triangle's area in pixels; 0 if it is not drawn, or its texels come to other pixels than rect says. */
+static float shown_area(const struct scene *s, const struct scene_instance *in, const uint32_t index[3],
+                        const struct shown_program *shown, const struct scene_texture *t, const int32_t rect[4])
+{
+	const struct scene_material *m = &s->materials[in->material];
+	float corner[3][2], off[2], twice;
+
+	for (uint32_t c = 0; c < 3; c++) {
+		if (!corner_at(s, in, index[c], shown, t, corner[c], off))
+			return 0;
+		for (int k = 0; k < 2; k++)
+			if (fabsf(off[k] - (float)rect[k]) >= PIXEL_SLACK || corner[c][k] < (float)rect[k] - PIXEL_SLACK ||
+			    corner[c][k] > (float)(rect[k] + rect[k + 2]) + PIXEL_SLACK)
+				return 0;
+	}
+	twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
+	        (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
+	if (m->cull_face && m->cull_face != ((twice > 0) == (m->front_face == GL_CCW) ? GL_BACK : GL_FRONT))
+		return 0;
+	return 0.5f * fabsf(twice);
+}
+
+/* 1 where triangles bring each texel to its pixel, in all of the part of the window that `rect` receives. */
 static int is_whole_quad(const struct scene *s, const struct scene_instance *in, const struct shown_program *shown,
-                         const struct scene_texture *t)
+                         const struct scene_texture *t, int32_t rect[4])
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
-	const struct scene_material *m = &s->materials[in->material];
-	const float right = (float)s->width + PIXEL_SLACK, top = (float)s->height + PIXEL_SLACK;
-	float area = 0, corner[3][2];
+	float area = 0, corner[2], off[2];
 
-	if (t->width != s->width || t->height != s->height || t->floats || !covers_window(s, &s->views[in->view]))
+	if (t->floats || !mesh->primitive_count || !corner_at(s, in, mesh->index[0], shown, t, corner, off) ||
+	    !(fabsf(off[0]) < (float)s->width) || !(fabsf(off[1]) < (float)s->height))
 		return 0;
-	for (uint32_t p = 0; p < mesh->primitive_count; p++) {
-		float twice;
-
-		for (uint32_t c = 0; c < 3; c++)
-			if (!corner_at(s, in, mesh->index[3 * p + c], shown, corner[c]) ||
-			    corner[c][0] < -PIXEL_SLACK || corner[c][0] > right || corner[c][1] < -PIXEL_SLACK ||
-			    corner[c][1] > top)
-				return 0;
-		twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
-		        (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
-		if (m->cull_face && m->cull_face != ((twice > 0) == (m->front_face == GL_CCW) ? GL_BACK : GL_FRONT))
-			return 0;
-		area += 0.5f * fabsf(twice);
-	}
-	return fabsf(area - (float)s->width * (float)s->height) < 1;
+	rect[0] = (int32_t)lrintf(off[0]);
+	rect[1] = (int32_t)lrintf(off[1]);
+	rect[2] = (int32_t)t->width;
+	rect[3] = (int32_t)t->height;
+	for (uint32_t p = 0; p < mesh->primitive_count; p++)
+		area += shown_area(s, in, mesh->index + 3 * (size_t)p, shown, t, rect);
+	return is_left_whole(s, &s->views[in->view], rect) && fabsf(area - (float)t->width * (float)t->height) < 1;
 }
 
 /* The depth that a quad leaves everywhere, into *depth. @return 0: it is not the same everywhere */
@@ -252,16 +293,34 @@ static int left_depth(const struct scene *s, const struct scene_instance *in, fl
 	return same;
 }
 
-/* 1 where a blit's pixels cover the window. */
-static int is_whole_rectangle(const struct scene *s, const struct scene_instance *in)
+/* 1 where a blit brings all of a picture, of this size, to the part of the window that `rect` receives. */
+static int is_whole_rectangle(const struct scene *s, const struct scene_instance *in, uint32_t width, uint32_t height,
+                              int32_t rect[4])
 {
 	const struct scene_rectangle *r = &s->rectangles[in->rectangle - 1];
 	const float *corner = s->meshes[in->mesh]->position;
 
-	return r->kind == SCENE_COLOR_PIXELS && r->width == s->width && r->height == s->height && r->zoom[0] == 1 &&
-	       r->zoom[1] == 1 && corner[0] == 0 && corner[1] == 0 &&
-	       (uint32_t)s->views[in->view].scissor[2] == s->width &&
-	       (uint32_t)s->views[in->view].scissor[3] == s->height;
+	rect[0] = (int32_t)corner[0];
+	rect[1] = (int32_t)corner[1];
+	rect[2] = (int32_t)r->width;
+	rect[3] = (int32_t)r->height;
+	return r->kind == SCENE_COLOR_PIXELS && r->width == width && r->height == height && r->zoom[0] == 1 &&
+	       r->zoom[1] == 1 && corner[0] == (float)rect[0] && corner[1] == (float)rect[1] &&
+	       is_left_whole(s, &s->views[in->view], rect);
+}
+
+/* 1 where draws before the last may have left depth or stencil values in the window. */
+static int has_depths(const struct gls_frame *window)
+{
+	const struct scene *s = window->out;
+
+	for (uint32_t i = window->put_end; i + 1 < s->n_instances; i++) {
+		const struct scene_material *m = &s->materials[s->instances[i].material];
+
+		if ((m->depth_test && m->depth_write) || m->stencil_test || s->instances[i].rectangle)
+			return 1;
+	}
+	return 0;
 }
 
 static int is_lit(const struct scene *s)
@@ -282,24 +341,26 @@ static struct gls_surface *window_of(struct gls_exec *x, struct gls_state *st)
 	return gls_targets_of(x, st, targets) == 1 && targets[0].colored ? targets[0].surface : NULL;
 }
 
-void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct gls_frame *drawn)
+void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct scene *drawn)
 {
-	struct gls_surface taken = { .frame = drawn }, *window = drawn ? window_of(x, st) : NULL;
+	struct gls_surface *window = drawn ? window_of(x, st) : NULL;
 	struct scene *s = window && window->frame ? gls_frame_scene(x, window) : NULL;
-	const struct scene_instance *in = s && s->n_instances == 1 ? &s->instances[0] : NULL;
+	const struct scene_instance *in = s && s->n_instances ? &s->instances[s->n_instances - 1] : NULL;
 	const struct scene_material *m = in ? &s->materials[in->material] : NULL;
-	int leaves_depth = m && m->depth_test && m->depth_write, whole = m && suits(drawn->out, window);
+	const int leaves_depth = m && m->depth_test && m->depth_write;
 	const struct scene_unit *unit = NULL;
 	struct shown_program shown = { 0 };
+	int32_t rect[4] = { 0 };
 	float depth = 1;
+	int is_shown = m && (in->rectangle ? is_whole_rectangle(s, in, drawn->width, drawn->height, rect) :
+	                                     passes_through(m) && shows_texels(s, in, m, &shown, &unit) &&
+	                                             is_whole_quad(s, in, &shown, s->textures[unit->texture], rect));
 
-	whole = whole && (in->rectangle ? is_whole_rectangle(s, in) :
-	                                  passes_through(m) && shows_texels(s, in, m, &shown, &unit) &&
-	                                          is_whole_quad(s, in, &shown, s->textures[unit->texture]));
-	whole = whole && (!leaves_depth || left_depth(s, in, &depth));
-	if (whole && x->feedback.keeps_targets)
-		s->untraced_draw = is_lit(drawn->out) ? in->draw : 0;
-	else if (whole && gls_frame_precede(x, window, drawn, leaves_depth ? &depth : NULL))
-		return;
-	gls_frame_drop(&taken);
+	is_shown = is_shown && suits(drawn, s, rect) && !has_depths(window->frame) &&
+	           (!m->depth_test || s->n_instances == 1) && (!leaves_depth || left_depth(s, in, &depth));
+	if (is_shown && x->feedback.keeps_targets)
+		s->untraced_draw = is_lit(drawn) ? in->draw : s->untraced_draw;
+	else if (is_shown && !gls_frame_put(x, window, drawn, rect, leaves_depth ? &depth : NULL))
+		gls_fail(x);
+	scene_release(&drawn);
 }

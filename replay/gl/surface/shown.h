@@ -1,29 +1,29 @@
 /*
- * Pictures of framebuffer objects that reach the window unchanged: by a textured quad that covers it, or a blit of all
- * of it. The window's scene is then what drew the picture, as if it had been drawn there; what the program draws over
- * it follows in order. OpenGL's own pixels stay the same; rays see the scene and not a flat quad.
+ * Pictures of framebuffer objects that reach the window unchanged, texel by pixel: by a textured quad, or a blit of all
+ * of it. The window's scene then has what drew the picture, as if it had been drawn there; what the program draws over
+ * it follows in order. Toolkits compose windows of several such pictures. OpenGL's own pixels stay the same; rays see
+ * the scene and not a flat quad. Frames that show a picture again, which nobody has drawn on since, have its scene too.
  *
- * It is left as it is where anything but the picture counts: another size, other bits of depth or samples, colours that
- * are not 8 bits each, blending with the object's own alpha, an object that shows what earlier frames left, a window
- * that was drawn on before.
+ * It is left as it is where anything but the picture counts: another scale, other bits of depth or samples, colours
+ * that are not 8 bits each, blending with the object's own alpha, an object that shows what earlier frames left,
+ * stipples and programs that tell one place of the window from another, pixels and bitmaps in a part of it, a window
+ * that has depths of its own.
  */
 #pragma once
 
 #include "replay/build/frame.h"
 
 /**
- * Before a draw looks at its textures: take the events that made the one that it may show. The texture is brought up to
- * date.
- * @return a frame to be given to gls_shown_end; NULL: there is none
+ * Before a draw looks at its textures: what drew the one that it may show. The texture is brought up to date.
+ * @return a reference to be given to gls_shown_end; NULL: it shows none
  */
-struct gls_frame *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, const struct gls_event *e);
+struct scene *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, const struct gls_event *e);
 
 /** The same before a blit reads. */
-struct gls_frame *gls_shown_by_blit(struct gls_exec *x, struct gls_state *st);
+struct scene *gls_shown_by_blit(struct gls_exec *x, struct gls_state *st);
 
 /**
- * After the draw or blit: where it was the window's first and showed the picture unchanged, its events come in its
- * place.
- * @param drawn  taken, whatever comes of it; NULL: nothing happens
+ * After the draw or blit: where it showed the picture unchanged, its events come in its place.
+ * @param drawn  a reference, taken; NULL: nothing happens
  */
-void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct gls_frame *drawn);
+void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct scene *drawn);

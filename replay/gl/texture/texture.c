@@ -66,6 +66,7 @@ void gls_texture_free(struct gls_texture *t)
 		for (unsigned level = 0; level < GLS_MAX_LEVELS; level++)
 			free(t->levels[face][level].texels);
 	gls_texture_image_release(t->image);
+	scene_release(&t->drawn);
 	free(t);
 }
 

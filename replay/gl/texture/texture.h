@@ -10,6 +10,7 @@
 #include "replay/gl/texture/level.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/state.h"
+#include "scene/release.h"
 
 struct gls_texture_image;
 
@@ -23,6 +24,7 @@ struct gls_texture {
 	uint32_t hashed;                 /* 1: the levels' hashes are of their texels (snapshot.c) */
 	uint32_t mipmapped;              /* the image was found for a filter that wants all levels */
 	struct gls_texture_image *image; /* a reference, or NULL: incomplete */
+	struct scene *drawn;             /* a reference: what drew all of level 0, and nobody changed it since; or NULL */
 };
 
 /** Texels or levels have changed. */
@@ -30,6 +32,7 @@ static inline void gls_texture_changed(struct gls_texture *t)
 {
 	t->dirty = 1;
 	t->hashed = 0;
+	scene_release(&t->drawn);
 }
 
 /** gls_texture_target of a GL token (texture or cube face), -1: none. `face` receives 0 .. 5. */

@@ -1,0 +1,41 @@
+#!/usr/bin/python3
+"""A view that a program draws into a framebuffer object and shows in a part of its window is traced as one that it
+draws there: tests/real/composed.c, whose frames show the same."""
+import numpy
+
+import exr
+from helpers import BUILD, RELUME, SCRATCH, check, check_gates, diff, finish, must, record, relume, render, run
+
+FRAMES = ("drawn there", "by quads", "shown again", "by a blit", "drawn on after")
+# the window's own depth is not that of the objects, as gates check
+PLANES = ("R", "G", "B", "gl.R", "gl.G", "gl.B", "Z", "P.X", "P.Y", "P.Z", "N.Y", "shadow.R", "layers")
+
+trace = SCRATCH / "composed.trace"
+record(trace, BUILD / "tests/real/composed")
+
+
+def planes_of(file):
+    image = exr.Image(file)
+    return {name: numpy.asarray(image.planes[name]) for name in PLANES}
+
+
+files = render(trace, SCRATCH / "composed")
+first, *others = [planes_of(file) for file in files]
+check(numpy.count_nonzero(first["shadow.R"] < 0.5) > 300, "the boxes throw shadows")
+for name, planes in zip(FRAMES[1:], others):
+    differ = {plane: int(numpy.count_nonzero(planes[plane] != first[plane])) for plane in PLANES}
+    check(not any(differ.values()), f"{name}: pixels that differ from views drawn in the window: {differ}")
+must(relume("render", trace, "-f", "2", "-o", SCRATCH / "alone.exr"))
+alone = planes_of(SCRATCH / "alone.exr")
+check(all((alone[name] == first[name]).all() for name in PLANES), "a frame rendered alone shows what earlier ones drew")
+check_gates(diff(trace, SCRATCH / "composed")[1], len(FRAMES), "composed")
+scenes = [must(relume("scene", trace, "-f", number)).stdout for number in "01"]
+listed = [text.count(", lit") for text in scenes]
+check(listed == [2, 2] or listed == [4, 4], f"scene lists the lit draws of both views: {listed}")
+
+# Qt's programs are compiled each time: as binaries from its cache they could not be translated
+kept = {"": "1", "QT_DISABLE_SHADER_DISK_CACHE=0": "0"}
+for setting, value in kept.items():
+    said = run("env", *setting.split(), RELUME, "record", "-o", SCRATCH / "none.trace", "--", "env").stdout
+    check(f"QT_DISABLE_SHADER_DISK_CACHE={value}" in said.splitlines(), f"Qt's cache of shaders: {value}")
+finish()
