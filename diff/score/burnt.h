@@ -5,8 +5,8 @@
  * share of the greatest than in albedo, by a quarter and 0.05, or both are full. A surface of full red in full light
  * keeps its colour, and is none. Highlights are burnt in OpenGL's picture, too, and a lamp that moves takes them along.
  * What counts is how many pixels are burnt in light (gl x shadow + relight, so what mirrors and glass show is none) and
- * were not in gl, by at least 16 codes, beyond those that were and are no longer. Bar: 1 % of the frame. Heads and
- * lamps of studios: 0 to 0.4 %; a lamp that was a third too strong 2.0 and 5.4 %.
+ * were not in gl, by at least 16 codes, beyond those that were and are no longer. Bar: 1 % of the frame. Lamps beside
+ * heads and models: 0 to 0.4 %; a lamp that was a third too strong 2.0 and 5.4 %.
  */
 #pragma once
 

@@ -19,7 +19,6 @@
 #include "look/study/shadows.h"
 #include "look/study/solve.h"
 #include "look/study/spared.h"
-#include "look/study/studio.h"
 #include "look/study/sun.h"
 #include "look/study/tricks.h"
 #include "look/study/volumes.h"
@@ -41,7 +40,6 @@ struct study {
 	struct floors floors;
 	struct spared spared;
 	struct seen seen;
-	struct studio studio;
 	unsigned lit, glossy; /* materials of all frames; of these, such as mirror a little */
 };
 
@@ -111,7 +109,6 @@ int study_add(struct study *study, const struct scene *scene)
 		err = seen_add(&study->seen, scene, &study->motion);
 	if (!err) {
 		dome_add(&study->dome, scene, &study->motion, study->roles.kinds.layers);
-		studio_add(&study->studio, scene, study->roles.kinds.layers);
 		note_gloss(study, scene);
 		cast_add(&study->cast, scene);
 	}
@@ -148,13 +145,10 @@ int study_write(const struct study *study, const char *trace, FILE *out)
 	const struct motion *m = &study->motion;
 	const struct lightmaps *maps = study->lightmaps.n ? &study->lightmaps : &study->baked;
 	double up[3];
-	int is_sunny, has_lamps, shines, is_studio, err;
+	int is_sunny, has_lamps, shines, err;
 
 	find_shining(study, up, &is_sunny, &has_lamps);
 	shines = is_sunny || has_lamps;
-	/* Tricks tell where lights are: these stand in the world. */
-	is_studio = !shines && !study->tricks.n && !study->lightmaps.n && !findings_relights(&study->solved) &&
-	            studio_write(&study->studio, NULL);
 	fprintf(out, "# Rules for %s, written by relume look after it studied %zu frames", trace, m->n_frames);
 	if (m->n_frames)
 		fprintf(out, " (%llu to %llu)", (unsigned long long)m->cameras[0].frame,
@@ -177,11 +171,9 @@ int study_write(const struct study *study, const char *trace, FILE *out)
 	if (shines)
 		lamps_write_surfaces(&study->lamps, m, out);
 	err = seen_write(&study->seen, m, out);
-	findings_write_lights(&study->tricks, maps, &study->solved, shines || is_studio, out);
+	findings_write_lights(&study->tricks, maps, &study->solved, shines, out);
 	if (shines)
 		sun_write_ambient(&study->sun, is_sunny ? up : NULL, out);
-	if (is_studio)
-		studio_write(&study->studio, out);
 	if (is_sunny)
 		sun_write_light(&study->sun, up, out);
 	if (has_lamps)
