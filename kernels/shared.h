@@ -222,9 +222,10 @@ SHARED_SIZE(struct shaded_vertex, 128);
 /*
  * Smooth ones: nothing else uses their vertices' color[1], so it holds their place for the coverage (stage_coverage).
  *   line   pixels across the line; half its width and a half; pixels along it from its middle; half its length and a
- * half. For lines shorter than a pixel the last two are smaller, so that lines fade as they get shorter. size[] holds
- * the corner's place in the window, in pixels, y from the top, not snapped: clip would lose the last bits point  x and
- * y in its circle of radius 1; where its rim begins, as the square of a radius
+ *          half. For lines shorter than a pixel the last two are smaller, so that lines fade as they get shorter.
+ *          size[] holds the corner's place in the window, in pixels, y from the top, not snapped: clip would lose the
+ *          last bits
+ *   point  x and y in its circle of radius 1; where its rim begins, as the square of a radius
  */
 #define GEOMETRY_SMOOTH_LINE 2u
 #define GEOMETRY_SMOOTH_POINT 4u

@@ -77,13 +77,17 @@
  *       - light: 0                # the light of OpenGL that changes; without this key a light is added
  *         off: no                 # yes: it is switched off
  *         position: [0, 5, 0, 1]  # a place; with 0 as fourth number a direction towards the light. In eye space,
- * unless # one of the next two keys says otherwise object: 90c2            # the position is in the space in which the
- * first mesh of this hash is drawn space: world            # the position is in the world that the list `world`
- * describes on: unlit               # lights only what OpenGL does not light (and rules say `lit: yes` about) diffuse:
- * [1, 1, 1]      # its colour; also ambient and specular attenuation: [1, 0, 0]  # constant, linear and quadratic, as
- * OpenGL has them spot: { direction: [0, 0, -1], cutoff: 30, exponent: 0 } # a cone, as OpenGL has it radius: 0.3 #
- * makes shadows soft: the radius of its sphere; for a direction, the tangent of # half its angle shadows: yes # no:
- * nothing blocks it sky:                        # light from all around, on solid things that no light above lights
+ *                                 unless # one of the next two keys says otherwise
+ *         object: 90c2            # the position is in the space in which the first mesh of this hash is drawn
+ *         space: world            # the position is in the world that the list `world` describes
+ *         on: unlit               # lights only what OpenGL does not light (and rules say `lit: yes` about)
+ *         diffuse: [1, 1, 1]      # its colour; also ambient and specular
+ *         attenuation: [1, 0, 0]  # constant, linear and quadratic, as OpenGL has them
+ *         spot: { direction: [0, 0, -1], cutoff: 30, exponent: 0 } # a cone, as OpenGL has it
+ *         radius: 0.3             # makes shadows soft: the radius of its sphere; for a direction, the tangent of
+ *                                 # half its angle
+ *         shadows: yes            # no: nothing blocks it
+ *     sky:                        # light from all around, on solid things that no light above lights
  *       reach: 20                 # how far away things dim it, in units of eye space; near ones dim it more
  *       up: [0, 1, 0]             # the direction that `light` comes from, with `ground` opposite; without it all is
  *                                 # `light`

@@ -6,14 +6,15 @@
  *
  *   sheets       What shows one side alone, by culling or lighting, blocks light on that side alone (look/sides.h).
  *   enclosures   A light that reaches less than a tenth of what it lights is shut out: by walls that are lit on both
- * sides, or have an outside as well. Surfaces that shut it out let all light through that comes from beyond. globes A
- * body around a lamp, which sees the side that nobody does, lets its light through (look/globes.h). backdrops    What
- * OpenGL does not light stops no light at infinity, unless it stands within the lit world: a tree on a lit hill casts
- *                a shadow, the walls around a lit figure do not.
+ *                sides, or have an outside as well. Surfaces that shut it out let all light through that comes from
+ *                beyond.
+ *   globes       A body around a lamp, which sees the side that nobody does, lets its light through (look/globes.h).
+ *   backdrops    What OpenGL does not light stops no light at infinity, unless it stands within the lit world: a tree
+ *                on a lit hill casts a shadow, the walls around a lit figure do not.
  *   flattened    What the program draws a shadow of throws no second one (look/flattened.h).
  *   cards        Crossed cut-out cards do not shade each other.
  *   terminator   Flat faces with smooth normals do not stop light that grazes them (kernels/frame/shadow.h); that is
- * found by the kernels.
+ *                found by the kernels.
  *
  * All of it is decided from the geometry of the whole frame, also where something else hides it, so that it changes
  * little as the camera moves.

@@ -13,7 +13,7 @@ struct look;
  * it is gone: most of it would lie in view with nothing before it.
  * @param look  its rules' scenes are there (look.unseen)
  * @param out   a copy that borrows what has not changed; unseen_release before the scene is. Where nothing is added, or
- * nobody knows where the frame's world is, instances is NULL
+ *              nobody knows where the frame's world is, instances is NULL
  * @return 0 or ERR_SYSTEM (reported)
  */
 int unseen_add(const struct look *look, const struct scene *scene, struct scene *out);

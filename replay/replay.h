@@ -30,9 +30,9 @@ void replay_close(struct replay **rp);
  * Execute the calls up to the end of the next frame.
  * @param want   0: execute only (skip a frame; cheaper), *scene is set to NULL. 1: build the frame's scene
  * @param scene  receives the frame's scene; the caller's, scene_release. NULL unless the return value is 1 and want was
- * 1
+ *               1
  * @return 1 a frame was finished; 0 the trace has no more frames (*scene NULL); ERR_INPUT (reported: damaged at a byte;
- * all frames that are whole before it were delivered) or ERR_SYSTEM (reported)
+ *         all frames that are whole before it were delivered) or ERR_SYSTEM (reported)
  */
 int replay_next_frame(struct replay *rp, int want, struct scene **scene);
 

@@ -11,11 +11,12 @@
  *                  alpha^2 = 2/(n+2) (Walter et al. 2007, Beckmann width); unlit draws are KHR_materials_unlit;
  *                  rtMaterialEXT's mirrors are metals, its glass KHR_materials_transmission. Colours become linear
  *   textures       the 2D or rectangle texture that holds a draw's colour (gltf_looks.h), level 0, as PNG; the texture
- * matrix is applied to the coordinates. The image's first row is t = 0, as glTF wants it lights KHR_lights_punctual, in
- * lux and candela; a light of diffuse colour 1 lights a white surface to a radiance of 1 W/(sr m^2), which is a
- * luminance of 683 cd/m^2 (683 lm/W), a positional one at the distance of the middle of what is drawn (glTF has inverse
- * squares only) What glTF has no words for is left out and counted: generated texture coordinates, other texture units,
- * blending other than by alpha, fog, stipples, draws without colour. Drawing order is lost.
+ *                  matrix is applied to the coordinates. The image's first row is t = 0, as glTF wants it
+ *   lights         KHR_lights_punctual, in lux and candela; a light of diffuse colour 1 lights a white surface to a
+ *                  radiance of 1 W/(sr m^2), which is a luminance of 683 cd/m^2 (683 lm/W), a positional one at the
+ *                  distance of the middle of what is drawn (glTF has inverse squares only)
+ * What glTF has no words for is left out and counted: generated texture coordinates, other texture units, blending
+ * other than by alpha, fog, stipples, draws without colour. Drawing order is lost.
  */
 #pragma once
 

@@ -10,7 +10,8 @@
  *     portal X0 Y0 Z0 X1 Y1 Z1                               a rectangle across a doorway; one extent is 0
  *     light X Y Z RED GREEN BLUE                             radiant at 1 m
  *     object X Y Z                                           the first turns and throws a shadow, the second mirrors
- * its surroundings start X Y Z YAW
+ *                                                            its surroundings
+ *     start X Y Z YAW
  */
 #pragma once
 

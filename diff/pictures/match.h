@@ -13,6 +13,6 @@
  * is none of files by name (a recording, a pattern), or `only_numbers`, pictures without a number are left out, and a
  * warning says so.
  * @return 0; ERR_INPUT (reported: no picture of a set has a number, or a path that another set has); ERR_USAGE
- * (reported: two pictures of one name, or of one number and no way to tell them apart); ERR_SYSTEM (reported)
+ *         (reported: two pictures of one name, or of one number and no way to tell them apart); ERR_SYSTEM (reported)
  */
 int set_match(struct set *const *sets, size_t n_sets, int only_numbers);

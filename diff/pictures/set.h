@@ -32,7 +32,7 @@ struct set {
  *
  * @param where  a .ref file; a trace (its NAME.ref is taken); a directory of images; a pattern with a frame number
  *               ("out/gears.####.exr"); or one image. In a directory the last number of a name is its frame; files
- * whose names are not those of images are passed over. Two images of one frame are an error.
+ *               whose names are not those of images are passed over. Two images of one frame are an error.
  * @param out    all zero; free with set_free
  * @return 0; ERR_INPUT (reported: missing, unreadable, or no image in it); ERR_USAGE (reported: two images of one
  *         frame); ERR_SYSTEM (reported)

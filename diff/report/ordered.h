@@ -11,7 +11,7 @@ enum { ORDERED_AHEAD = 16 };
  * Make piece `i`. Called on any thread, for several pieces at once.
  * @param out    a stream of its own for the piece; what was written is dropped on failure
  * @param spent  what all pieces up to i - ORDERED_AHEAD have cost together. This does not depend on scheduling: the
- * file is the same in every run
+ *               file is the same in every run
  * @param cost   receives what this one costs
  * @return 0 or ERR_* (reported); the run ends then
  */

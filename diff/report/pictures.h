@@ -62,7 +62,7 @@ int picture_take_reference(const struct image *img, const char *channel, struct 
 /**
  * Make one picture.
  * @param rgb            receives a buffer [height][width][3]; caller frees with free(). NULL where there is nothing to
- * show: no such channels, or an effect of one colour all over
+ *                       show: no such channels, or an effect of one colour all over
  * @param width, height  receive its size: the reference's, or the traced frame's where the sizes differ
  * @return 0 or ERR_SYSTEM (reported)
  */

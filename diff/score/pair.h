@@ -2,11 +2,12 @@
  * Two pictures that are compared: what both can hold decides what their codes are.
  *
  *   alpha    Compared where both have it, and between pictures of others also where one has it: the other one is
- * opaque. Colours are then multiplied by it, where their files do not hold them so (OpenEXR does): what is behind alpha
- * 0 is not seen. A frame and its reference are framebuffers: alpha is not compared where one lacks it. range    Between
- * two pictures of linear light, values below black and over white have codes beyond 0 and 255. Over white, a code is a
- * constant ratio, that of sRGB's curve at white (0.9 %): halves and floats of the same light differ by less than one. A
- * display picture ends at white, and so does what is compared with it.
+ *            opaque. Colours are then multiplied by it, where their files do not hold them so (OpenEXR does): what is
+ *            behind alpha 0 is not seen. A frame and its reference are framebuffers: alpha is not compared where one
+ *            lacks it.
+ *   range    Between two pictures of linear light, values below black and over white have codes beyond 0 and 255. Over
+ *            white, a code is a constant ratio, that of sRGB's curve at white (0.9 %): halves and floats of the same
+ *            light differ by less than one. A display picture ends at white, and so does what is compared with it.
  */
 #pragma once
 

@@ -10,12 +10,14 @@
  *   codes    display-referred numbers of 8 bits; linear channels go through sRGB's curve and are rounded half to even
  *   alpha    of pictures of others: compared, with colours multiplied by it; pictures without it are opaque (pair.h)
  *   range    between two linear pictures, values below 0 and above 1 have codes, too (pair.h); elsewhere they are
- * clamped rows     the top row first, as in image.h edges    a pixel is in the edge band when one of its 8 neighbours
- * has another id, or when window depth bends at it: |z[-1] - 2 z[0] + z[+1]| > SCORE_DEPTH_EPSILON + max(|z[+1] -
- * z[0]|, |z[0] - z[-1]|) / 8 along x or y. A plane has no second difference in window space (GL 2.1 equation 3.9 is
- * linear there): this finds creases and silhouettes, not slopes. It looks at the traced frame's id and depth, and at
- * the reference's depth if any. All other pixels are interior: further than 1 px from an edge. In pictures with neither
- * id nor depth, every pixel is interior.
+ *            clamped
+ *   rows     the top row first, as in image.h
+ *   edges    a pixel is in the edge band when one of its 8 neighbours has another id, or when window depth bends at it:
+ *            |z[-1] - 2 z[0] + z[+1]| > SCORE_DEPTH_EPSILON + max(|z[+1] - z[0]|, |z[0] - z[-1]|) / 8 along x or y. A
+ *            plane has no second difference in window space (GL 2.1 equation 3.9 is linear there): this finds creases
+ *            and silhouettes, not slopes. It looks at the traced frame's id and depth, and at the reference's depth if
+ *            any. All other pixels are interior: further than 1 px from an edge. In pictures with neither id nor depth,
+ *            every pixel is interior.
  */
 #pragma once
 

@@ -5,11 +5,11 @@
  * A pixel's ray runs from the unprojected near towards the unprojected far point of its centre, or of the place in the
  * pixel that the view samples (view.sample; "centre" stands for either). It goes through the view's TLAS and the
  * instances' BLASes, with boxes widened by instance.pad. camera_packet sends the frustum around a tile's rays instead,
- * a hundredth of a pixel wider. The triangles found are candidates. GL's own rule on window vertices (GL 2.1
- * sec. 3.5.1) decides which of them cover a pixel, so edges fall where the rasterizer puts them:
+ * a hundredth of a pixel wider. The triangles found are candidates. GL's own rule on window vertices (GL 2.1 sec.
+ * 3.5.1) decides which of them cover a pixel, so edges fall where the rasterizer puts them:
  *   - all three vertices have a place in the window: integer edge functions at the pixel centre in 1/256 pixel. A
- * centre on an edge belongs to the triangle on its right, or above where the edge is level, as in Mesa's llvmpipe for
- * windows and framebuffer objects. Pixels on a shared edge are covered once.
+ *     centre on an edge belongs to the triangle on its right, or above where the edge is level, as in Mesa's llvmpipe
+ *     for windows and framebuffer objects. Pixels on a shared edge are covered once.
  *   - else: the same on the clipped triangle's parts (kernels/gl/clip.h).
  * Screen instances (view.screen_first ..) are tested at the pixel centre as a point, whatever the projection.
  *

@@ -1,8 +1,10 @@
 /*
  * Light that goes from a light to a mirror or glass and on (H. W. Jensen, "Global Illumination using Photon Maps",
  * 1996): one work item follows one photon from surface to surface. Its path's fields mean other things than those of an
- * eye's path: target   the photon's number in its pass kind     the instance that it was sent to: one that meets
- * another first is that one's own light, or stopped density  the length of its way so far
+ * eye's path:
+ *   target   the photon's number in its pass
+ *   kind     the instance that it was sent to: one that meets another first is that one's own light, or stopped
+ *   density  the length of its way so far
  */
 #pragma once
 

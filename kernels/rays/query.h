@@ -4,12 +4,14 @@
  * from it, too. What it gives is compared with brute force (tests/query/).
  *
  *   all       triangles that a ray hits, by the rule of kernels/rays/rays.h; the nearest `most` of them, sorted by t,
- * then by number distance  the point of any triangle that is nearest to a point, at most `most` away box       first
- * contact of a moving box with a triangle, by separating axes: along each axis the box overlaps the triangle from one
- *             moment to another, and they meet when the last axis begins, unless one has ended by then (Ericson 2005,
- * "Real-Time Collision Detection", section 5.5.8). Triangles are surfaces: what lies within a closed mesh touches
- * nothing sphere    the same of a sphere: the distance of a moving point from a triangle is a convex function of its
- * way, whose tangent leads from before the contact to no more than the contact (Newton)
+ *             then by number
+ *   distance  the point of any triangle that is nearest to a point, at most `most` away
+ *   box       first contact of a moving box with a triangle, by separating axes: along each axis the box overlaps the
+ *             triangle from one moment to another, and they meet when the last axis begins, unless one has ended by
+ *             then (Ericson 2005, "Real-Time Collision Detection", section 5.5.8). Triangles are surfaces: what lies
+ *             within a closed mesh touches nothing
+ *   sphere    the same of a sphere: the distance of a moving point from a triangle is a convex function of its way,
+ *             whose tangent leads from before the contact to no more than the contact (Newton)
  *
  * Triangles without area count for distance, box and sphere as the segment or point that they are. Of several answers
  * that are equal the lowest triangle counts. A query with a NaN or an infinite number finds nothing.

@@ -4,13 +4,13 @@
  * channel shows it as if the program had stood there, and light stands where it stood.
  *
  * - Skies, drawn around the viewer before all that has depth, stay around the viewer; an orthographic view of what was
- * seen in perspective goes without.
+ *   seen in perspective goes without.
  * - What is drawn in parallel projection before the first thing in perspective, as a gradient behind it all, stays as
- * it is. What follows (HUDs), pixels and bitmaps, and what is drawn in other viewports, is left out. Where the program
- * looks at the world in parallel projection, other such projections count as these.
+ *   it is. What follows (HUDs), pixels and bitmaps, and what is drawn in other viewports, is left out. Where the
+ *   program looks at the world in parallel projection, other such projections count as these.
  * - Scissors and clears of parts of the window are dropped: they were cut for another view.
  * - Vertices that programs place are moved behind their programs, which shade them as the recorded camera saw them.
- * Where the recorded projection does not tell how they see, they are left out.
+ *   Where the recorded projection does not tell how they see, they are left out.
  * - Environments of sphere maps turn with the viewer, as OpenGL has them; those of reflection maps stand.
  */
 #pragma once

@@ -2,10 +2,12 @@
  * What draws are, told by all frames together:
  *
  *   sky         while the viewer walks, it turns with the world and comes along: its place, but for the turn, stays; or
- * it is painted before the world and all around (layer.h) view model  the viewer holds it: its modelview stays while
- * the camera moves particle    a blended texture on faces that all look at the viewer, in frames between which the
- * viewer turns, or on points decal, blob shadow   laid on surfaces (laid.h) HUD         in parallel projection over a
- * world in perspective, and not cut out by the stencil buffer
+ *               it is painted before the world and all around (layer.h)
+ *   view model  the viewer holds it: its modelview stays while the camera moves
+ *   particle    a blended texture on faces that all look at the viewer, in frames between which the viewer turns, or on
+ *               points
+ *   decal, blob shadow   laid on surfaces (laid.h)
+ *   HUD         in parallel projection over a world in perspective, and not cut out by the stencil buffer
  *
  * A role is given to all that has its mesh or its texture, and so only where all of that shows it.
  */

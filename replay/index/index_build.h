@@ -20,8 +20,8 @@ enum index_mode {
  * @param path   of the trace
  * @param hash   hash_name
  * @param fresh  a player of the trace that has executed nothing: it is run through where an index is made; NULL: one is
- * opened
+ *               opened
  * @return 0; ERR_INPUT or ERR_SYSTEM (reported). An index that can be made but not written is a warning: this process
- * has it, the next one makes it again
+ *         has it, the next one makes it again
  */
 int index_open(struct index **out, const char *path, const char *hash, enum index_mode mode, struct player *fresh);

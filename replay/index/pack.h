@@ -20,6 +20,6 @@ int pack_blob(const char *data, size_t n, char *out, size_t *packed);
 /**
  * @param n  bytes there were
  * @return the bytes: `packed` itself where they were not packed, else memory to be freed with free(); NULL: there are
- * not n of them, or out of memory
+ *         not n of them, or out of memory
  */
 char *unpack_blob(char *packed, size_t n_packed, size_t n);

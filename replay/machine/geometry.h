@@ -48,7 +48,8 @@ enum scene_primitive gls_mode_kind(uint32_t mode);
  * Cut vertices of a primitive mode as Mesa does, provoking vertex last.
  * @param elements  [count] vertex numbers, NULL: first .. first + count - 1
  * @param first_provokes  1: separate triangles, strips and fans follow FIRST_VERTEX_CONVENTION (ARB_provoking_vertex).
- * Lines have a direction: whoever draws them decides
+ *                        Lines have a
+ *                  direction: whoever draws them decides
  */
 int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count,
                      const uint32_t *elements, int first_provokes);

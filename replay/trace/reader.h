@@ -41,7 +41,8 @@ void trace_reader_close(struct trace_reader **r);
  * The next call.
  * @param call  receives it; NULL unless 1 is returned
  * @return 1; 0 at the end (a file that ends within an event is warned about once); ERR_INPUT (reported with the byte
- * and the call) where the bytes make no sense; ERR_SYSTEM. After 0 or an error every further call returns the same.
+ *         and the call) where the bytes make no sense; ERR_SYSTEM. After 0 or an error every further call returns the
+ *         same.
  */
 int trace_reader_next(struct trace_reader *r, const struct call **call);
 

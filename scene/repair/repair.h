@@ -3,12 +3,16 @@
  * nearly, faces twice or the wrong way round; light then leaks through, and glass has no inside.
  *
  *   weld        Places nearer to each other than a tolerance become one: the mean of those that differ. Vertices stay
- * as many as they were, with normals, texture coordinates and colours of their own; only their positions become equal,
- * bit for bit. junctions   An edge that other triangles' corners lie on, within the tolerance, gets them as corners of
- * its own. New vertices lie between the edge's two in all attributes. drop        Triangles without area, those
- * narrower than the tolerance where the mesh has open edges, and those that are there twice. turn        On request:
- * faces of a closed body look outwards, hollows inside it count; those of other meshes all to one side. merge       On
- * request: places go where triangles lie in one plane, or meet in a straight edge, and go on evenly (merge.h).
+ *               as many as they were, with normals, texture coordinates and colours of their own; only their positions
+ *               become equal, bit for bit.
+ *   junctions   An edge that other triangles' corners lie on, within the tolerance, gets them as corners of its own.
+ *               New vertices lie between the edge's two in all attributes.
+ *   drop        Triangles without area, those narrower than the tolerance where the mesh has open edges, and those that
+ *               are there twice.
+ *   turn        On request: faces of a closed body look outwards, hollows inside it count; those of other meshes all to
+ *               one side.
+ *   merge       On request: places go where triangles lie in one plane, or meet in a straight edge, and go on evenly
+ *               (merge.h).
  *
  * Nothing else is filled: a real opening stays, and is told as a leak. Triangles with a corner that is no number stay
  * as they are and count for nothing. The idea of tracing edges for closed bodies, with junctions mended on the way, is

@@ -14,10 +14,12 @@
  * Where the two disagree, geometry in double precision decides. In the plane across the ray, a triangle is sure to be
  * hit where the ray passes at least `band` inside of its outline, sure to be missed at least `band` outside, and on the
  * edge between. band is ROUNDING times 2^-24 times the largest coordinate of the ray's origin and the triangle, and of
- * one from the other: what single precision cannot tell apart. tie by edge      a triangle that only one side reports
- * has the ray on its edge tie by distance  both triangles are hit as far off as rounding tells (band over the cosine to
- * the surface) tie by end       the hit lies so close to t_min or t_max wrong            everything else: the side that
- * lacks a sure, nearer hit or has a sure miss Exit code 0 where ours is never wrong.
+ * one from the other: what single precision cannot tell apart.
+ *   tie by edge      a triangle that only one side reports has the ray on its edge
+ *   tie by distance  both triangles are hit as far off as rounding tells (band over the cosine to the surface)
+ *   tie by end       the hit lies so close to t_min or t_max
+ *   wrong            everything else: the side that lacks a sure, nearer hit or has a sure miss
+ * Exit code 0 where ours is never wrong.
  */
 #include "tests/bench/rtcore.h"
 #include <float.h>

@@ -1,10 +1,13 @@
 /*
  * An OpenCL device that is this process, preloaded before the ICD loader. Kernels are compiled by a command of the
  * caller's choice (with sanitizers, other rounding, nothing inlined: test_host.py), work items run one after the other,
- * the last one first. HOST_CL_COMPILE  the command: "clang OPTIONS", to which files are added HOST_CL_FOLDER   where
- * compiled programs are kept HOST_CL_FLUSH=1  numbers below 2^-126 count as 0 HOST_CL_WIDTH=N  says that its vectors
- * have so many floats; 8 New buffers are full of NaN; bytes behind their end must stay as they are. What
- * UndefinedBehaviorSanitizer finds ends the process.
+ * the last one first.
+ *   HOST_CL_COMPILE  the command: "clang OPTIONS", to which files are added
+ *   HOST_CL_FOLDER   where compiled programs are kept
+ *   HOST_CL_FLUSH=1  numbers below 2^-126 count as 0
+ *   HOST_CL_WIDTH=N  says that its vectors have so many floats; 8
+ * New buffers are full of NaN; bytes behind their end must stay as they are. What UndefinedBehaviorSanitizer finds ends
+ * the process.
  */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>

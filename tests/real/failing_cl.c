@@ -1,20 +1,28 @@
 /*
  * An OpenCL device that fails, or has less than it seems: preloaded before the ICD loader, with a real device
- * underneath. FAIL_CALL=N      the N-th call (from 1) fails; FAIL_NAME=clName: the N-th of this function FAIL_GONE=1
- * and so does every later one FAIL_CODE=-N     with this error; CL_OUT_OF_RESOURCES FAIL_ONLY=1      on the first
- * device used alone: others go on. Of launches only COUNT_CALLS=FILE leaves there the number of calls, the most memory
- * that was used, and the largest buffer's EDIT=THIS|THAT   compiles kernels that have THAT where their text has THIS
+ * underneath.
+ *   FAIL_CALL=N      the N-th call (from 1) fails; FAIL_NAME=clName: the N-th of this function
+ *   FAIL_GONE=1      and so does every later one
+ *   FAIL_CODE=-N     with this error; CL_OUT_OF_RESOURCES
+ *   FAIL_ONLY=1      on the first device used alone: others go on. Of launches only
+ *   COUNT_CALLS=FILE leaves there the number of calls, the most memory that was used, and the largest buffer's
+ *   EDIT=THIS|THAT   compiles kernels that have THAT where their text has THIS
  *   DIE=WORD         ends the process when such a kernel is to run
  *   HANG=WORD        never returns when such a kernel is to run
  *   FAULT=HOW,WHERE,WORD,N  the N-th (from 1) call of a kind goes wrong in this process. WHERE: build (of programs
- * whose text has WORD), create or launch (of kernels whose name has it), thread (as launch, in a thread of the driver's
- * own). HOW: abort, segv, exit, hang, spin (hangs and computes), code (returns an error that OpenCL does not have).
- * Several with ';' FAULT_MET=FILE   gets a line for each of these FAULT_WITH=WORD  only in processes that have made a
- * kernel whose name has this SLOW_BUILD=N     compiles for so many seconds and a half longer AS_TYPE=gpu      says that
- * it is a GPU (accelerator: one of these) AS_PLATFORM=NAME, AS_DRIVER=VERSION  says so AS_MEMORY=N      has so many
- * bytes of memory AS_BUFFER=N      makes no buffer that is larger MOST_ITEMS=N     cannot run launches of more work
- * items ITEM_NS=N        says that a work item takes so long. A launch of over a second is killed, and nothing works
- * after that
+ *                    whose text has WORD), create or launch (of kernels whose name has it), thread (as launch, in a thread of the driver's
+ *                    own). HOW: abort, segv, exit, hang, spin (hangs and computes), code (returns an error that OpenCL
+ *                    does not have). Several with ';'
+ *   FAULT_MET=FILE   gets a line for each of these
+ *   FAULT_WITH=WORD  only in processes that have made a kernel whose name has this
+ *   SLOW_BUILD=N     compiles for so many seconds and a half longer
+ *   AS_TYPE=gpu      says that it is a GPU (accelerator: one of these)
+ *   AS_PLATFORM=NAME, AS_DRIVER=VERSION  says so
+ *   AS_MEMORY=N      has so many bytes of memory
+ *   AS_BUFFER=N      makes no buffer that is larger
+ *   MOST_ITEMS=N     cannot run launches of more work items
+ *   ITEM_NS=N        says that a work item takes so long. A launch of over a second is killed, and nothing works after
+ *                    that
  */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>

@@ -3,14 +3,16 @@
  * kind of frames at a time:
  *
  *   window  a box on a floor under a lamp behind the viewer: alone; after a sheet over all of the window by no matrices
- * at all, which writes the depth of the clear; after one in pixels, without depth; before one in pixels in front of
- * all, of which nothing passes the alpha test iso     the same in parallel projection, a lamp above: alone; after a
- * sheet of another parallel projection, nearer than it unseen  the box alone; under sheets that are culled on both
- * sides, fail the depth test always, or have no colour and leave no depth drawn   a box on a floor: alone; with its
- * shadow flattened onto the floor from where the light is; from elsewhere leaning bodies whose normals lean over to a
- * light from which their faces turn away: a box of one normal a face; of those of a ball; a coarse ball; then the first
- * behind a board that stands in the light's way steps   boards that face the viewer one behind the other, of which a
- * pixel or two is seen of each; no light
+ *           at all, which writes the depth of the clear; after one in pixels, without depth; before one in pixels in
+ *           front of all, of which nothing passes the alpha test
+ *   iso     the same in parallel projection, a lamp above: alone; after a sheet of another parallel projection, nearer
+ *           than it
+ *   unseen  the box alone; under sheets that are culled on both sides, fail the depth test always, or have no colour
+ *           and leave no depth
+ *   drawn   a box on a floor: alone; with its shadow flattened onto the floor from where the light is; from elsewhere
+ *   leaning bodies whose normals lean over to a light from which their faces turn away: a box of one normal a face; of
+ *           those of a ball; a coarse ball; then the first behind a board that stands in the light's way
+ *   steps   boards that face the viewer one behind the other, of which a pixel or two is seen of each; no light
  */
 #include "tests/trace/window.h"
 

@@ -64,12 +64,13 @@ void accel_destroy(struct accel **accel);
  *
  * @param scene      meshes and views
  * @param extra      [n], or NULL: triangle meshes in place of the scene's own (screen geometry: x y in pixels); NULL
- * entries stand for the scene's own. Used during the call only. The hash should differ where the content does
+ *                   entries stand for the scene's own. Used during the call only. The hash should differ where the
+ *                   content does
  * @param eye_vertices  eye-space positions of the vertices of INSTANCE_BAKED instances, each at its
- * instance.vertex_first; NULL where there is no such instance
+ *                      instance.vertex_first; NULL where there is no such instance
  * @param instances  [n]; the caller fills in matrices, flags, pad, view, vertex_first and scene_instance (BAKED and
- * SCREEN instances have identity matrices); this function fills in node2_first, node8_first, node8c_first,
- *                   triangle_first, triangle8_first and triangle8c_first
+ *                   SCREEN instances have identity matrices); this function fills in node2_first, node8_first,
+ *                   node8c_first, triangle_first, triangle8_first and triangle8c_first
  * @param views      [scene->n_views]; this function fills in tlas_first and tlas_count
  * @param spaces     receives an array that accel owns, valid until the next call
  * @return 0 or ERR_SYSTEM (reported)

@@ -33,7 +33,7 @@ void blas_cache_destroy(struct blas_cache **cache);
  * Find a BLAS; wait where someone else is making it.
  *
  * @param out  receives it; it stays as it is until blas_cache_release, which the caller owes. NULL: there is none; the
- * caller makes it, and owes blas_cache_publish or blas_cache_abandon instead
+ *             caller makes it, and owes blas_cache_publish or blas_cache_abandon instead
  * @return 0 or ERR_SYSTEM (reported)
  */
 int blas_cache_acquire(struct blas_cache *cache, const struct blas_key *key, const struct blas **out);

@@ -6,14 +6,16 @@
  * Same input, same tree, whatever the number of threads.
  *
  *   BVH   The binned surface area heuristic (Wald 2007, "On fast construction of SAH-based bounding volume
- * hierarchies"). SBVH  The same with spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding
- * volume hierarchies"): a triangle may be in several leaves, each time with the box of a piece of it. KD    A kd-tree
- * by the surface area heuristic (kd_split.h), as a binary tree whose sides bound what their cells hold. Cells never
- * overlap: a triangle is in the leaf of every cell that it crosses, each time with the box of its piece there. Where no
- * plane pays and a leaf would be too large, and where room or depth ends, it divides items as BVH does. LBVH  The
- * quickest (Lauterbach, Garland, Sengupta, Luebke and Manocha 2009, "Fast BVH construction on GPUs"): items in the
- *         order of their centres on a Morton curve, divided where the curve's cells are; a subtree is one leaf where
- * that is cheaper.
+ *         hierarchies").
+ *   SBVH  The same with spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding volume
+ *         hierarchies"): a triangle may be in several leaves, each time with the box of a piece of it.
+ *   KD    A kd-tree by the surface area heuristic (kd_split.h), as a binary tree whose sides bound what their cells
+ *         hold. Cells never overlap: a triangle is in the leaf of every cell that it crosses, each time with the box of
+ *         its piece there. Where no plane pays and a leaf would be too large, and where room or depth ends, it divides
+ *         items as BVH does.
+ *   LBVH  The quickest (Lauterbach, Garland, Sengupta, Luebke and Manocha 2009, "Fast BVH construction on GPUs"): items
+ *         in the order of their centres on a Morton curve, divided where the curve's cells are; a subtree is one leaf
+ *         where that is cheaper.
  */
 #pragma once
 
@@ -57,7 +59,7 @@ struct bvh_input {
 /**
  * Build a tree.
  * @param out  nodes and order have room for max(room, 1) items each, max(n, 1) for builders that cut none. Filled in:
- * both, n_nodes (at least 1) and n_order
+ *             both, n_nodes (at least 1) and n_order
  * @return 0 or ERR_SYSTEM (reported)
  */
 typedef int tree_builder(const struct bvh_input *in, struct tree *out);

@@ -33,6 +33,6 @@ void forks_add(struct forks *forks, const void *task);
 /**
  * Do all tasks and those that they add; return when there are none.
  * @param threads  at most so many, the caller's own included; 0: as many as there are processors. Where a thread does
- * not start, the others do its work
+ *                 not start, the others do its work
  */
 void forks_run(struct forks *forks, unsigned threads, forks_do *run, void *arg);

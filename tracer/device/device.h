@@ -67,7 +67,8 @@ int device_find(const struct device_description *list, size_t n, const char *cho
 /**
  * Open a device.
  * @param choice  NULL: the first GPU, else the first device found by OpenCL. "reference": the C twins. Else a number
- * from `relume devices`, a type ("cpu", "gpu", "accelerator": the first of it), or part of a device's name.
+ *                from `relume devices`, a type ("cpu", "gpu", "accelerator": the first of it), or part of a device's
+ *                name.
  * @param threads compute threads where the device is a CPU, 0: all cores
  * @param out     owned by the caller, device_close
  * @return 0; ERR_SYSTEM (reported: no OpenCL device at all names the package to install); ERR_USAGE (no such choice)

@@ -2,9 +2,10 @@
  * Display pictures: 8-bit codes for a screen, as PNG or JPEG, from linear light x.
  *
  *     y = x 2^exposure
- *     y = K + (1 - K) m t / (1 + (m - 1) t)    where y > K = 0.6;  t = (y - K) / (white - K), at most 1;  m = (white -
- * K) / (1 - K) code = floor(255 sRGB(y) + 1/2 + d)      d: an ordered dither of 8 x 8 pixels, within 0.45; 0 where it
- * is not wanted
+ *     y = K + (1 - K) m t / (1 + (m - 1) t)    where y > K = 0.6;  t = (y - K) / (white - K), at most 1;
+ *                                              m = (white - K) / (1 - K)
+ *     code = floor(255 sRGB(y) + 1/2 + d)      d: an ordered dither of 8 x 8 pixels, within 0.45; 0 where it is not
+ *                                              wanted
  *
  * The shoulder begins smoothly at K and reaches 1 at `white`. With white 1 it is a straight line: what GL drew looks as
  * it did. The dither is below half a code, so areas of a colour that has a code of its own stay plain. A code depends

@@ -25,10 +25,10 @@ pid_t oiio_fork(void);
  * as the layer of its channels, and its unsigned integers as they are; other formats give their first picture.
  *
  * @param img  empty; filled on success: channels R G B and A where there are any, others by their own names; a grey
- *             picture gives R, G and B alike. Integer formats come as numbers in [0,1] with attribute
- *             relume:encoding = "display"; half and float formats as they are, "linear". Colours that are not
- * multiplied by alpha have attribute relume:alpha = "straight". A description as display_write leaves it gives the
- * attributes in it. Names longer than image.h's limit are an error, as are pictures above 2^28 pixels.
+ *             picture gives R, G and B alike. Integer formats come as numbers in [0,1] with attribute relume:encoding =
+ *             "display"; half and float formats as they are, "linear". Colours that are not multiplied by alpha have
+ *             attribute relume:alpha = "straight". A description as display_write leaves it gives the attributes in it.
+ *             Names longer than image.h's limit are an error, as are pictures above 2^28 pixels.
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */
 int oiio_read(struct image *img, const char *path);
