@@ -8,6 +8,7 @@
 #include "base/err.h"
 #include "base/mat4.h"
 #include "look/blockers.h"
+#include "look/carved.h"
 #include "look/corner.h"
 #include "look/cards.h"
 #include "look/flattened.h"
@@ -434,9 +435,12 @@ int spare_find(const struct scene *scene, unsigned said, struct spare *out)
 	if (!err && !(said & SPARE_TRICKS_KNOWN))
 		err = flattened_find(scene, !(said & SPARE_TRICKS_STAY), out->bits, &out->flattened);
 	if (!err)
+		out->carved = carved_find(scene, out->bits);
+	if (!err)
 		err = cards_find(scene, SCENE_CARD, out->bits, &out->cards);
 	free(a);
-	if (err || !(out->one_sided + out->flattened + out->enclosures + out->backdrops + out->cards)) {
+	if (err || !(out->one_sided + out->flattened + out->enclosures + out->backdrops + out->cards +
+	             out->carved)) {
 		free(out->bits);
 		out->bits = NULL;
 	}

@@ -12,6 +12,7 @@
  *   backdrops    What OpenGL does not light stops no light at infinity, unless it stands within the lit world: a tree
  *                on a lit hill casts a shadow, the walls around a lit figure do not.
  *   flattened    What the program draws a shadow of throws no second one (look/flattened.h).
+ *   carved       Draws that show a part of a body alone stop no light (look/carved.h).
  *   cards        Crossed cut-out cards do not shade each other.
  *   terminator   Flat faces with smooth normals do not stop light that grazes them (kernels/frame/shadow.h); that is
  *                found by the kernels.
@@ -41,7 +42,7 @@ enum {
 
 struct spare {
 	uint32_t *bits; /* [n_instances]: SCENE_ONE_SIDED and the like; NULL: nothing is spared */
-	uint32_t one_sided, flattened, enclosures, backdrops, cards; /* instances */
+	uint32_t one_sided, flattened, enclosures, backdrops, cards, carved; /* instances */
 	struct sides_lamp lamps[SPARE_MOST_LAMPS];
 	uint32_t n_lamps;
 	int kept; /* 1: rules keep all this from being spared (look_apply) */

@@ -69,7 +69,8 @@ struct scene_face {
 #define SCENE_SOLID 128u             /* its blending: that mixes in what stands for a mirror's picture */
 #define SCENE_DOME_LIT 256u          /* nothing: scene.dome lights it */
 #define SCENE_NEAR_MIRROR 512u       /* nothing: it mirrors what is there, and keeps its own colour where nothing is */
-#define SCENE_FILM 1024u             /* lights: it is more seen through than seen, and casts no shadow */
+/* lights: it casts no shadow, as it is more seen through than seen, or carved (look/carved.h) */
+#define SCENE_FILM 1024u
 #define SCENE_UNSHADED 2048u         /* nothing: it keeps the light that GL gives it, whatever stands in its way */
 #define SCENE_CREASED 8192u          /* nothing: its mesh has normals beside GL's, scene_mesh.crease */
 /* nothing: what lets light through here leads into a body, whichever side is shown */

@@ -10,9 +10,9 @@
  *   DIE=WORD         ends the process when such a kernel is to run
  *   HANG=WORD        never returns when such a kernel is to run
  *   FAULT=HOW,WHERE,WORD,N  the N-th (from 1) call of a kind goes wrong in this process. WHERE: build (of programs
- *                    whose text has WORD), create or launch (of kernels whose name has it), thread (as launch, in a thread of the driver's
- *                    own). HOW: abort, segv, exit, hang, spin (hangs and computes), code (returns an error that OpenCL
- *                    does not have). Several with ';'
+ *                    whose text has WORD), create or launch (of kernels whose name has it), thread (as launch, in a
+ *                    thread of the driver's own). HOW: abort, segv, exit, hang, spin (hangs and computes), code
+ *                    (returns an error that OpenCL does not have). Several with ';'
  *   FAULT_MET=FILE   gets a line for each of these
  *   FAULT_WITH=WORD  only in processes that have made a kernel whose name has this
  *   SLOW_BUILD=N     compiles for so many seconds and a half longer

@@ -7,8 +7,8 @@
  *           front of all, of which nothing passes the alpha test
  *   iso     the same in parallel projection, a lamp above: alone; after a sheet of another parallel projection, nearer
  *           than it
- *   unseen  the box alone; under sheets that are culled on both sides, fail the depth test always, or have no colour
- *           and leave no depth
+ *   unseen  the box alone; under sheets that are culled on both sides, fail the depth test always, have no colour and
+ *           leave no depth, or are drawn where the depth is theirs already, which is nowhere
  *   drawn   a box on a floor: alone; with its shadow flattened onto the floor from where the light is; from elsewhere
  *   leaning bodies whose normals lean over to a light from which their faces turn away: a box of one normal a face; of
  *           those of a ball; a coarse ball; then the first behind a board that stands in the light's way
@@ -181,9 +181,23 @@ static void draw_iso(void)
 	}
 }
 
+/* The depth of nothing, then all where that depth is. */
+static void carved_sheet(void)
+{
+	glEnable(GL_ALPHA_TEST);
+	glAlphaFunc(GL_GREATER, 0.5f);
+	glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+	sheet(-1.5f, 1.5f, 0);
+	glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+	glDisable(GL_ALPHA_TEST);
+	glDepthFunc(GL_EQUAL);
+	sheet(-1.5f, 1.5f, 0);
+	glDepthFunc(GL_LESS);
+}
+
 static void draw_unseen(void)
 {
-	for (int i = 0; i < 4; i++) {
+	for (int i = 0; i < 6; i++) {
 		begin_frame(0, sun);
 		world();
 		glPushMatrix();
@@ -204,6 +218,12 @@ static void draw_unseen(void)
 			sheet(-1.5f, 1.5f, 0);
 			glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 			glDepthMask(GL_TRUE);
+		} else if (i == 4) {
+			glDepthFunc(GL_EQUAL);
+			sheet(-1.5f, 1.5f, 0);
+			glDepthFunc(GL_LESS);
+		} else if (i == 5) {
+			carved_sheet();
 		}
 		glPopMatrix();
 		end_frame();
