@@ -1,5 +1,6 @@
 #include "render/picture.h"
 
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -8,6 +9,7 @@
 #include "look/apply/tell.h"
 #include "look/camera/camera.h"
 #include "look/camera/elsewhere.h"
+#include "look/camera/scaled.h"
 #include "look/unseen.h"
 #include "render/preview.h"
 
@@ -49,7 +51,7 @@ static int tell_role(void *user, const char *text)
 }
 
 /* A scene traced as its camera sees it, the recorded one or another. */
-static int trace_seen(const struct settings *settings, struct tracer *tracer, const struct scene *scene,
+static int trace_from(const struct settings *settings, struct tracer *tracer, const struct scene *scene,
                       uint64_t number, const struct tracer_options *options, struct image *img)
 {
 	struct elsewhere elsewhere;
@@ -69,6 +71,43 @@ static int trace_seen(const struct settings *settings, struct tracer *tracer, co
 		         "that is from elsewhere",
 		         (unsigned long long)scene->frame, elsewhere.without);
 	elsewhere_release(&elsewhere);
+	return err;
+}
+
+static void tell_unscaled(const char *trace, const struct scaled *scaled)
+{
+	static atomic_uint told;
+	const unsigned kept = (scaled->stipples ? 1u : 0) | (scaled->programs ? 2u : 0) | (scaled->starts ? 4u : 0),
+		       before = atomic_fetch_or(&told, kept), now = kept & ~before;
+
+	if (now & 1)
+		err_warn(trace, "--scale: stipples of polygons keep their pixels, from frame %llu on",
+		         (unsigned long long)scaled->scene.frame);
+	if (now & 2)
+		err_warn(trace, "--scale: programs of frame %llu look at pixels of the window, or set sizes of points; "
+		         "they know the recorded one", (unsigned long long)scaled->scene.frame);
+	if (now & 4)
+		err_warn(trace, "--scale: frame %llu begins with what earlier frames drew; its pixels are enlarged",
+		         (unsigned long long)scaled->scene.frame);
+}
+
+/* The same, in a window of the size that is asked for. */
+static int trace_seen(const struct settings *settings, struct tracer *tracer, const struct scene *scene,
+                      uint64_t number, const struct tracer_options *options, struct image *img)
+{
+	struct scaled scaled;
+	int err;
+
+	if (!(settings->scale > 0))
+		return trace_from(settings, tracer, scene, number, options, img);
+	err = scaled_make(scene, settings->scale, &scaled);
+	if (err)
+		return err;
+	tell_unscaled(settings->trace, &scaled);
+	err = trace_from(settings, tracer, &scaled.scene, number, options, img);
+	if (!err)
+		err = image_set_attribute(img, "relume:scale", "%g", (double)settings->scale);
+	scaled_release(&scaled);
 	return err;
 }
 

@@ -118,7 +118,8 @@ int pipeline_run(struct pipeline *p)
 	supply.cache = state.cache;
 	supply.number = &state.decoded;
 	replay_set_supplier(p->replay, supply_picture, &supply);
-	replay_leave_starts(p->replay);
+	if (!(p->settings->scale > 0))
+		replay_leave_starts(p->replay);
 	if (!err)
 		err = keep_pixels(p);
 	replay_set_tell(p->replay, tell_replay, &state);

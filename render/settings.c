@@ -265,6 +265,10 @@ static const struct options_row rows[] = {
 	  "HUDs are left out. "
 	  "'relume help camera-file' lists all keys",
 	  take_camera, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
+	{ "scale", 0, "X",
+	  "as in a window X times the size of the recorded one, HUDs, lines and points included: 4 makes 2560x1920 "
+	  "of 640x480. A warning names whatever keeps its pixels",
+	  options_real, AT(scale), .low = 1.f / 64, .high = 64 },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND",
 	  "how trees of meshes are built: " TREE_BUILDERS(
@@ -447,6 +451,13 @@ static int check_camera(const struct settings *s)
 	return 0;
 }
 
+static int check_scale(const struct settings *s)
+{
+	if (s->scale > 0 && s->motion)
+		return err_report(ERR_USAGE, NULL, "--scale: motion is known of recorded pixels alone (--aov motion)");
+	return 0;
+}
+
 static int check_preview(const struct settings *s)
 {
 	if (!s->preview)
@@ -522,6 +533,8 @@ int settings_parse(struct settings *s, int argc, char **argv)
 		err = check_caustics(s);
 	if (!err)
 		err = check_camera(s);
+	if (!err)
+		err = check_scale(s);
 	if (!err && s->denoise)
 		err = check_denoised(s);
 	if (!err)

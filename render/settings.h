@@ -35,6 +35,7 @@ struct settings {
 	struct hook *hook;      /* owned; NULL: none */
 	int look_auto;          /* 1: the rules are what a study of the recording finds */
 	struct camera *camera;  /* owned; NULL: the recorded one */
+	float scale;            /* pixels for one of the window's; 0: as many as recorded */
 	uint64_t turned;        /* of a turntable: the recorded frame; `frames` are its pictures (render.c) */
 	struct tracer_options tracer;
 	char *aov;                      /* owned: what of --aov the tracer makes; NULL: all */
