@@ -100,9 +100,8 @@ static const struct options_row rows[] = {
 	  "are off by up to 2/255; the program shows the exact ones, too",
 	  options_flag, AT(ref_exact) },
 	{ "frames", 0, "A-B",
-	  "record only the program's frames A to B, counted from 0 (\"A-\": to the end; \"A\": that one); the trace "
-	  "begins with all "
-	  "that they need and numbers them from 0; the program goes on",
+	  "record only the program's frames A to B, counted from 0 (\"A-\": to the end; \"A\": that one); the trace begins "
+	  "with all that they need and numbers them from 0; the program goes on",
 	  take_frames, .at = 0 },
 	{ "paused", 0, NULL, "begin with recording switched off", options_flag, AT(paused) },
 	{ "start-key", 0, "KEY", "the same; KEY switches as SIGUSR2 does (F9, Pause, r, ...: a name of X)",
@@ -112,10 +111,8 @@ static const struct options_row rows[] = {
 	  "Left@20-30; the program counts its frames from 0; may be repeated",
 	  press_take, AT(press) },
 	{ "frame-end", 0, "CALL",
-	  "also end a frame at: flush, finish, clear (of the color buffer), or readpixels after "
-	  "something was drawn (swap: nothing else; with OSMesa, flush and finish); such a frame is the buffer that is "
-	  "drawn to, "
-	  "front or back",
+	  "also end a frame at: flush, finish, clear (of the color buffer), or readpixels after something was drawn (swap: "
+	  "nothing else; with OSMesa, flush and finish); such a frame is the buffer that is drawn to, front or back",
 	  options_text, AT(frame_end), .words = frame_ends },
 	{ "max-frames", 0, "N", "end the recording after N frames; the program goes on", take_count, AT(max_frames) },
 	{ "max-size", 0, "BYTES",

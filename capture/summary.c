@@ -134,9 +134,8 @@ static void explain_stranger(const char *program, const struct watching *w)
 {
 	if (w->kind == EXECUTABLE_STATIC)
 		err_report(ERR_SYSTEM, program,
-		           "nothing was recorded: process '%s' is linked statically, so no recorder can be loaded into "
-		           "it; "
-		           "link it dynamically",
+		           "nothing was recorded: process '%s' is linked statically, so no recorder can be loaded into it; link it "
+		           "dynamically",
 		           w->name);
 	else if (w->kind == EXECUTABLE_32)
 		err_report(ERR_SYSTEM, program,
@@ -145,9 +144,8 @@ static void explain_stranger(const char *program, const struct watching *w)
 		           w->name);
 	else
 		err_report(ERR_SYSTEM, program,
-		           "nothing was recorded: process '%s' ran without the recorder: its environment was cleared "
-		           "(env -i, sudo), or "
-		           "a sandbox hides Relume's files; put 'relume record -- ' behind that, before the program "
+		           "nothing was recorded: process '%s' ran without the recorder: its environment was cleared (env -i, "
+		           "sudo), or a sandbox hides Relume's files; put 'relume record -- ' behind that, before the program "
 		           "itself",
 		           w->name);
 }
@@ -176,9 +174,8 @@ void summary_explain_nothing(const char *program, const struct recorder_stats *s
 		           "nothing was recorded: the program loaded OpenGL and ended without calling it%s", display);
 	else if (seen & SEEN_VULKAN)
 		err_report(ERR_SYSTEM, program,
-		           "nothing was recorded: the program draws by Vulkan, and Relume records OpenGL; choose the "
-		           "program's OpenGL "
-		           "renderer, where it has one");
+		           "nothing was recorded: the program draws by Vulkan, and Relume records OpenGL; choose the program's "
+		           "OpenGL renderer, where it has one");
 	else
 		err_report(ERR_SYSTEM, program,
 		           "nothing was recorded: the program loaded no OpenGL (libGL, libEGL or libOSMesa)%s",

@@ -85,9 +85,8 @@ static const struct options_row rows[] = {
 	  "each of these that one has",
 	  options_flag, .at = offsetof(struct options, all) },
 	{ "channel", 0, "LAYER",
-	  "what to compare with the reference: gl (default where there is one), beauty, any layer by what its "
-	  "channels' names begin with "
-	  "(view.diffuse, N), or a single channel (Z)",
+	  "what to compare with the reference: gl (default where there is one), beauty, any layer by what its channels' "
+	  "names begin with (view.diffuse, N), or a single channel (Z)",
 	  options_text, .at = offsetof(struct options, score.channel) },
 	{ "ignore-alpha", 0, NULL,
 	  "leave alpha out, and compare colours as they are stored: else pictures of others are compared with colours "

@@ -45,9 +45,8 @@ static const struct options_row rows[] = {
 	  "channels gl.*)",
 	  options_text, .at = offsetof(struct asked, raster) },
 	{ "fps", 0, "N",
-	  "show N frames a second (default: each as long as the program showed it, but at least for one of the 30 or "
-	  "60 pictures that a second "
-	  "has, and at most 2 s; 30 a second where the frames do not tell)",
+	  "show N frames a second (default: each as long as the program showed it, but at least for one of the 30 or 60 "
+	  "pictures that a second has, and at most 2 s; 30 a second where the frames do not tell)",
 	  options_number, .at = offsetof(struct asked, fps), .most = 240 },
 	{ "caption", 0, "TEXT", "a line below the pictures", options_text,
 	  .at = offsetof(struct asked, layout.caption) },

@@ -22,9 +22,8 @@ struct asked {
 
 static const struct options_row rows[] = {
 	{ "frames", 'f', "LIST",
-	  "frames to study, counted from 0: \"7\", \"1-500\", \"55-\" to the end, \"1-500x5\", with commas (default: "
-	  "all); of many "
-	  "only some, evenly spread",
+	  "frames to study, counted from 0: \"7\", \"1-500\", \"55-\" to the end, \"1-500x5\", with commas (default: all); "
+	  "of many only some, evenly spread",
 	  options_frames, .at = offsetof(struct asked, frames) },
 	{ "output", 'o', "FILE", "the rules, as NAME.look.yaml", options_text, .at = offsetof(struct asked, output),
 	  .use = CONFINE_MAKES },

@@ -20,8 +20,7 @@ struct asked {
 static const struct options_row rows[] = {
 	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct asked, frame) },
 	{ "device", 'd', "DEVICE",
-	  "a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference (default: the first "
-	  "GPU, "
+	  "a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference (default: the first GPU, "
 	  "else CPU)",
 	  options_text, .at = offsetof(struct asked, device) },
 	{ OPTIONS_NO_SANDBOX },

@@ -200,20 +200,18 @@ static const struct options_row rows[] = {
 	  .kind = RUN, .use = CONFINE_DRY },
 	{ .help = "How the picture is made:" },
 	{ "mode", 0, "MODE",
-	  "whitted: GL's picture with shadows, mirrors and glass (default); gl: GL's picture alone; normals; ao: "
-	  "how open surfaces are; ao-phong: the same over GL's picture; diffuse: whitted, and one bounce of light "
-	  "between surfaces; "
+	  "whitted: GL's picture with shadows, mirrors and glass (default); gl: GL's picture alone; normals; ao: how open "
+	  "surfaces are; ao-phong: the same over GL's picture; diffuse: whitted, and one bounce of light between surfaces; "
 	  "path: all bounces, followed in linear light (with --encoding display in GL's own numbers)",
 	  options_word, AT(tracer.mode), .words = settings_mode_names },
 	{ "encoding", 0, "E", "linear (default) or display (GL's own numbers)", options_word, AT(tracer.display),
 	  .words = encoding_names },
 	{ "aov", 0, "LIST",
-	  "channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,layers (default: all; "
-	  "gl is enough for scratch frames); with cryptomatte, which draw, mesh and texture a pixel shows, as "
-	  "compositors read it; with motion, by how many "
-	  "pixels right and down what a pixel shows has moved since the frame before; with caustics, the light that "
-	  "mirrors and glass send to matte "
-	  "surfaces (modes whitted, diffuse and path; no part of R G B)",
+	  "channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,layers (default: all; gl is "
+	  "enough for scratch frames); with cryptomatte, which draw, mesh and texture a pixel shows, as compositors read "
+	  "it; with motion, by how many pixels right and down what a pixel shows has moved since the frame before; with "
+	  "caustics, the light that mirrors and glass send to matte surfaces (modes whitted, diffuse and path; no part of R "
+	  "G B)",
 	  take_aov, .at = 0 },
 	{ "photons", 0, "N", "how many find --aov caustics (default 1048576)", options_number, AT(photons), .least = 1,
 	  .most = 1u << 30 },
@@ -224,8 +222,7 @@ static const struct options_row rows[] = {
 	  options_number, AT(tracer.samples), .least = 1, .most = MOST_SAMPLES },
 	{ "noise", 0, "X",
 	  "stop sampling a frame once its noise, the root mean square of its pixels' standard errors over the mean "
-	  "brightness, "
-	  "is at most X, as 0.02; --samples is the most (then 65536 by default)",
+	  "brightness, is at most X, as 0.02; --samples is the most (then 65536 by default)",
 	  options_real, AT(tracer.noise), .low = 0, .high = 1e30 },
 	{ "time", 0, "S",
 	  "begin no sample of a frame that would end later than S seconds after its first; one there is always. How "
@@ -253,17 +250,13 @@ static const struct options_row rows[] = {
 	  take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	{ "hook", 0, "FILE",
 	  "OpenCL C whose functions take the place of stages: ray_generation (other cameras), bounds and intersection "
-	  "(other shapes; "
-	  "modes whitted and path), any_hit, closest_hit, miss, light (modes whitted, diffuse and path). 'relume hook "
-	  "--check' tries them; "
-	  "'relume help hook-file' explains them",
+	  "(other shapes; modes whitted and path), any_hit, closest_hit, miss, light (modes whitted, diffuse and path). "
+	  "'relume hook --check' tries them; 'relume help hook-file' explains them",
 	  take_hook, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	{ "camera", 0, "FILE",
-	  "another camera, YAML: a recorded frame from elsewhere, in perspective or not, light and all things where "
-	  "they stand, or "
-	  "many pictures of one frame around it (turntable; -f names the frame, the pictures are numbered from 0). "
-	  "HUDs are left out. "
-	  "'relume help camera-file' lists all keys",
+	  "another camera, YAML: a recorded frame from elsewhere, in perspective or not, light and all things where they "
+	  "stand, or many pictures of one frame around it (turntable; -f names the frame, the pictures are numbered from "
+	  "0). HUDs are left out. 'relume help camera-file' lists all keys",
 	  take_camera, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	{ "scale", 0, "X",
 	  "as in a window X times the size of the recorded one, HUDs, lines and points included: 4 makes 2560x1920 "
@@ -281,8 +274,7 @@ static const struct options_row rows[] = {
 	{ "exposure", 0, "STOPS", "brighter by so many stops (default 0), the same for all frames", options_real,
 	  AT(display.exposure), .low = -30, .high = 30 },
 	{ "white", 0, "X",
-	  "the brightness that is shown as white; below it, highlights are compressed (default 1: what GL drew looks "
-	  "as it "
+	  "the brightness that is shown as white; below it, highlights are compressed (default 1: what GL drew looks as it "
 	  "did; 4 in the modes diffuse and path)",
 	  options_real, AT(display.white), .low = 1, .high = 10000 },
 	{ .help = "On what:" },
@@ -303,11 +295,9 @@ static const struct options_row rows[] = {
 	  "more ends the run",
 	  options_bytes, AT(memory_bytes), .kind = RUN },
 	{ "cache", 0, "DIR",
-	  "where trees of large meshes, compiled kernels, what 'relume devices --check' found and pixels that later "
-	  "frames begin with are "
-	  "kept for other runs; processes and machines may share it (default: relume/trees, kernels, devices and "
-	  "pixels in $XDG_CACHE_HOME, or in ~/.cache; "
-	  "PoCL keeps kernels itself)",
+	  "where trees of large meshes, compiled kernels, what 'relume devices --check' found and pixels that later frames "
+	  "begin with are kept for other runs; processes and machines may share it (default: relume/trees, kernels, devices "
+	  "and pixels in $XDG_CACHE_HOME, or in ~/.cache; PoCL keeps kernels itself)",
 	  take_folder, AT(cache), .kind = RUN, .use = CONFINE_FILLS },
 	{ "cache-size", 0, "M", "what that folder may hold: unused trees go first (default 2G)", options_bytes,
 	  AT(cache_bytes), .kind = RUN },
@@ -315,9 +305,8 @@ static const struct options_row rows[] = {
 	{ "timeout-per-frame", 0, "S", "give up a frame after so many seconds and go on with the next", take_seconds,
 	  AT(frame_s), .kind = RUN },
 	{ "timeout-driver", 0, "S",
-	  "a call of OpenCL that has taken S seconds (default 300) counts as hung where it used as much processor time "
-	  "to compile, or "
-	  "the process used none for a fifth of S; the run goes on with another family of kernels",
+	  "a call of OpenCL that has taken S seconds (default 300) counts as hung where it used as much processor time to "
+	  "compile, or the process used none for a fifth of S; the run goes on with another family of kernels",
 	  take_seconds, AT(driver_s), .kind = RUN },
 	{ "progress", 0, "WORD",
 	  "bar, lines, json (on standard output) or none (default: bar on a terminal, else lines)", take_progress,

@@ -130,8 +130,7 @@ int world_check(const struct world *world, const struct level *level, unsigned s
 		other_matter += world->bsp.leaves[leaf].solid != level_is_solid(level, p);
 	}
 	printf("level %u: %zu polygons, %zu zones, %zu open edges, %zu T-junctions, %zu leaves, of 10000 points %zu in "
-	       "another leaf, "
-	       "%zu of other matter\n",
+	       "another leaf, %zu of other matter\n",
 	       seed, world->mesh.n_faces, world->zones.n, world->zones.open_edges, t_junctions, world->bsp.n_leaves,
 	       other_leaf, other_matter);
 	return world->zones.n && !world->zones.open_edges && !t_junctions && !other_leaf && !other_matter;

@@ -471,9 +471,8 @@ static int write_json(const char *path, const struct tally *tally, const char *d
 		        v == WRONG_OURS ? (total(tally, -1, v) ? "false" : "true") : "null");
 	for (int a = 1; a < N_ACCEL_KINDS; a++)
 		fprintf(out,
-		        "    { \"what\": \"hits of %s that are not those of %s to the bit\", \"figure\": \"%llu rays, "
-		        "%llu wrong\", \"bar\": "
-		        "\"0 wrong\", \"passed\": %s },\n",
+		        "    { \"what\": \"hits of %s that are not those of %s to the bit\", \"figure\": \"%llu rays, %llu "
+		        "wrong\", \"bar\": \"0 wrong\", \"passed\": %s },\n",
 		        accel_kind_names[a], accel_kind_names[0], (unsigned long long)tally->differ[a],
 		        (unsigned long long)tally->wrong[a], tally->wrong[a] ? "false" : "true");
 	fprintf(out,

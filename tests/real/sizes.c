@@ -1,7 +1,7 @@
 /*
- * All kinds of things measured in pixels, in a window of 96x72 times the first argument: lines, stippled ones, points that shrink
- * with distance, a decal by polygon offset, clears and draws under a scissor, pixels under a
- * zoom. Recorded by test_scale.py, which holds one size against another.
+ * All kinds of things measured in pixels, in a window of 96x72 times the first argument: lines, stippled ones, points
+ * that shrink with distance, a decal by polygon offset, clears and draws under a scissor, pixels under a zoom. Recorded
+ * by test_scale.py, which holds one size against another.
  */
 #include <stdlib.h>
 

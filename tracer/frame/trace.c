@@ -92,9 +92,8 @@ int tracer_check_aov(const char *aov)
 			known |= strlen(compose_groups[i]) == n && strncmp(compose_groups[i], at, n) == 0;
 		if (!known)
 			return err_report(ERR_USAGE, NULL,
-			                  "there is no channel group '%.*s'; there are gl, shadow, relight, reflect, "
-			                  "refract, Z, N, "
-			                  "P, albedo, id, layers, cryptomatte, motion and caustics",
+			                  "there is no channel group '%.*s'; there are gl, shadow, relight, reflect, refract, Z, N, P, "
+			                  "albedo, id, layers, cryptomatte, motion and caustics",
 			                  (int)n, at);
 		at += n + (at[n] == ',');
 	}

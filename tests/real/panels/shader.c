@@ -634,9 +634,8 @@ static const char *const scenes[][2] = {
 	{ LAMP, "uniform sampler2D s; varying vec4 p; void main() { gl_FragColor = texture2DProj(s, p).r < p.z / p.w ? "
 	        "gl_Color * 0.3 : gl_Color; }" },
 	{ LAMP, "uniform sampler2D s; varying vec4 p; void main() { vec3 q = p.xyz / p.w; float lit = 0.0; for (int i "
-	        "= 0; i < 4; i++) "
-	        "lit += step(q.z, texture2D(s, q.xy + vec2(mod(float(i), 2.0), floor(float(i) * 0.5)) * 0.06).r); "
-	        "gl_FragColor = gl_Color * (0.2 + 0.2 * lit); }" },
+	        "= 0; i < 4; i++) lit += step(q.z, texture2D(s, q.xy + vec2(mod(float(i), 2.0), floor(float(i) * 0.5)) * "
+	        "0.06).r); gl_FragColor = gl_Color * (0.2 + 0.2 * lit); }" },
 	{ EYE, "uniform sampler2D t0; varying vec3 e; varying vec2 t; void main() { vec3 d = normalize(e); "
 	       "gl_FragColor = texture2D(t0, t + (texture2D(t0, t).a * 0.2 - 0.1) * d.xy); }" },
 	{ EYE, "uniform sampler2D t0, t1; varying vec3 e; varying vec2 t; void main() { vec2 by = e.xy / e.z * 0.03, "
@@ -650,9 +649,8 @@ static const char *const scenes[][2] = {
 	{ "varying vec3 n, v; void main() { n = gl_NormalMatrix * gl_Normal; v = vec3(gl_ModelViewMatrix * gl_Vertex); "
 	  "gl_Position = ftransform(); }",
 	  "uniform sampler1D d; varying vec3 n, v; void main() { vec3 m = normalize(n); float k = max(dot(m, "
-	  "normalize(vec3(0.2, 0.3, 1.0))), 0.0); "
-	  "gl_FragColor = dot(m, normalize(-v)) < 0.8 ? vec4(0.0, 0.0, 0.0, 1.0) : texture1D(d, k) * 0.5 + 0.5 * "
-	  "floor(k * 4.0) / 4.0; }" },
+	  "normalize(vec3(0.2, 0.3, 1.0))), 0.0); gl_FragColor = dot(m, normalize(-v)) < 0.8 ? vec4(0.0, 0.0, 0.0, 1.0) : "
+	  "texture1D(d, k) * 0.5 + 0.5 * floor(k * 4.0) / 4.0; }" },
 	{ "uniform sampler2D t0; void main() { vec4 v = gl_Vertex * vec4(0.7, 0.7, 1.0, 1.0); v.z += texture2D(t0, "
 	  "gl_MultiTexCoord0.xy).r * 0.6; " PLACE "}",
 	  NULL },
