@@ -77,17 +77,21 @@ static int trace_from(const struct settings *settings, struct tracer *tracer, co
 static void tell_unscaled(const char *trace, const struct scaled *scaled)
 {
 	static atomic_uint told;
-	const unsigned kept = (scaled->stipples ? 1u : 0) | (scaled->programs ? 2u : 0) | (scaled->starts ? 4u : 0),
+	const unsigned kept = (scaled->stipples ? 1u : 0) | (scaled->programs ? 2u : 0) | (scaled->starts ? 4u : 0) |
+	                      (scaled->narrow ? 8u : 0),
 		       before = atomic_fetch_or(&told, kept), now = kept & ~before;
 
 	if (now & 1)
-		err_warn(trace, "--scale: stipples of polygons keep their pixels, from frame %llu on",
+		err_warn(trace, "stipples of polygons keep their pixels, from frame %llu on",
 		         (unsigned long long)scaled->scene.frame);
 	if (now & 2)
-		err_warn(trace, "--scale: programs of frame %llu look at pixels of the window, or set sizes of points; "
+		err_warn(trace, "programs of frame %llu look at pixels of the window, or set sizes of points; "
 		         "they know the recorded one", (unsigned long long)scaled->scene.frame);
+	if (now & 8)
+		err_warn(trace, "--size: programs place what frame %llu shows; it is seen no farther than recorded",
+		         (unsigned long long)scaled->scene.frame);
 	if (now & 4)
-		err_warn(trace, "--scale: frame %llu begins with what earlier frames drew; its pixels are enlarged",
+		err_warn(trace, "frame %llu begins with what earlier frames drew; its pixels are enlarged",
 		         (unsigned long long)scaled->scene.frame);
 }
 
@@ -98,15 +102,15 @@ static int trace_seen(const struct settings *settings, struct tracer *tracer, co
 	struct scaled scaled;
 	int err;
 
-	if (!(settings->scale > 0))
+	if (!settings_resize(settings))
 		return trace_from(settings, tracer, scene, number, options, img);
-	err = scaled_make(scene, settings->scale, &scaled);
+	err = scaled_make(scene, settings->scale, settings->size, &scaled);
 	if (err)
 		return err;
 	tell_unscaled(settings->trace, &scaled);
 	err = trace_from(settings, tracer, &scaled.scene, number, options, img);
 	if (!err)
-		err = image_set_attribute(img, "relume:scale", "%g", (double)settings->scale);
+		err = image_set_attribute(img, "relume:recorded-size", "%ux%u", scene->width, scene->height);
 	scaled_release(&scaled);
 	return err;
 }

@@ -118,7 +118,7 @@ int pipeline_run(struct pipeline *p)
 	supply.cache = state.cache;
 	supply.number = &state.decoded;
 	replay_set_supplier(p->replay, supply_picture, &supply);
-	if (!(p->settings->scale > 0))
+	if (!settings_resize(p->settings))
 		replay_leave_starts(p->replay);
 	if (!err)
 		err = keep_pixels(p);

@@ -1,6 +1,7 @@
 #include "render/settings.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +12,7 @@
 #include "film/filter.h"
 #include "film/oidn.h"
 #include "look/camera/camera.h"
+#include "look/camera/scaled.h"
 #include "look/join.h"
 #include "look/rules.h"
 #include "tracer/accel/builders.h"
@@ -128,6 +130,18 @@ static int take_hook(const struct options_row *row, const char *value, void *out
 	(void)row;
 	hook_free(&s->hook);
 	return hook_load(value, &s->hook);
+}
+
+static int take_size(const struct options_row *row, const char *value, void *out)
+{
+	uint32_t *size = out;
+	char end;
+
+	if (sscanf(value, "%5" SCNu32 "x%5" SCNu32 "%c", &size[0], &size[1], &end) == 2 && size[0] && size[1] &&
+	    size[0] <= SCALED_MOST && size[1] <= SCALED_MOST)
+		return 0;
+	return err_report(ERR_USAGE, NULL, "--%s takes WIDTHxHEIGHT, up to %ux%u, not '%s'", row->name, SCALED_MOST,
+	                  SCALED_MOST, value);
 }
 
 static int take_camera(const struct options_row *row, const char *value, void *out)
@@ -262,6 +276,10 @@ static const struct options_row rows[] = {
 	  "as in a window X times the size of the recorded one, HUDs, lines and points included: 4 makes 2560x1920 "
 	  "of 640x480. A warning names whatever keeps its pixels",
 	  options_real, AT(scale), .low = 1.f / 64, .high = 64 },
+	{ "size", 0, "WxH",
+	  "as in a window of this size. One of another shape shows more to the sides, or above and below, and has "
+	  "HUDs in the middle",
+	  take_size, AT(size) },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND",
 	  "how trees of meshes are built: " TREE_BUILDERS(
@@ -440,10 +458,18 @@ static int check_camera(const struct settings *s)
 	return 0;
 }
 
+int settings_resize(const struct settings *s)
+{
+	return s->scale > 0 || s->size[0];
+}
+
 static int check_scale(const struct settings *s)
 {
-	if (s->scale > 0 && s->motion)
-		return err_report(ERR_USAGE, NULL, "--scale: motion is known of recorded pixels alone (--aov motion)");
+	if (s->scale > 0 && s->size[0])
+		return err_report(ERR_USAGE, NULL, "--scale and --size say the same: leave out one");
+	if (settings_resize(s) && s->motion)
+		return err_report(ERR_USAGE, NULL, "--%s: motion is known of recorded pixels alone (--aov motion)",
+		                  s->scale > 0 ? "scale" : "size");
 	return 0;
 }
 

@@ -35,7 +35,8 @@ struct settings {
 	struct hook *hook;      /* owned; NULL: none */
 	int look_auto;          /* 1: the rules are what a study of the recording finds */
 	struct camera *camera;  /* owned; NULL: the recorded one */
-	float scale;            /* pixels for one of the window's; 0: as many as recorded */
+	float scale;            /* pixels for one of the window's; 0: as many as recorded, or `size` */
+	uint32_t size[2];       /* pixels of pictures; 0: not given */
 	uint64_t turned;        /* of a turntable: the recorded frame; `frames` are its pictures (render.c) */
 	struct tracer_options tracer;
 	char *aov;                      /* owned: what of --aov the tracer makes; NULL: all */
@@ -51,6 +52,9 @@ struct settings {
 	struct options_line line; /* for settings_confine */
 	char hash[33]; /* of everything that decides about pictures but the trace and the version; explicit defaults count */
 };
+
+/** 1 where pictures have another size than the recorded window. */
+int settings_resize(const struct settings *s);
 
 /**
  * Parse a command line.

@@ -7,13 +7,19 @@
 #include <xxhash.h>
 
 #include "base/err.h"
+#include "base/mat4.h"
+#include "look/drawn.h"
 #include "scene/program.h"
+
+#define COVERS 0.999f /* a quad that reaches this far, from the middle to the window's edges, covers all */
 
 struct scaling {
 	const struct scene *from;
 	struct scaled *out;
-	float by[2]; /* whole pixels of the new window over those of the old one; nearly the factor */
 	float factor;
+	float by[2];    /* pixels of the new window for one of the old one; nearly the factor, so that whole is whole */
+	float shift[2]; /* where the old window's picture begins in the new one, pixels */
+	float share[2]; /* its width and height over the new window's; 1: all */
 };
 
 static int32_t edge(float at)
@@ -21,22 +27,99 @@ static int32_t edge(float at)
 	return (int32_t)lrintf(at);
 }
 
+static int is_whole(const struct scene *s, const int32_t part[4])
+{
+	return part[0] <= 0 && part[1] <= 0 && part[0] + part[2] >= (int32_t)s->width &&
+	       part[1] + part[3] >= (int32_t)s->height;
+}
+
 /* Edges go to the nearest pixel's, so that parts that met still meet. */
 static void scale_part(const struct scaling *a, int32_t part[4])
 {
+	const int32_t whole[4] = { 0, 0, (int32_t)a->out->scene.width, (int32_t)a->out->scene.height };
+
+	if (is_whole(a->from, part)) {
+		memcpy(part, whole, sizeof(whole));
+		return;
+	}
 	for (int k = 0; k < 2; k++) {
-		const int32_t low = edge((float)part[k] * a->by[k]), high = edge((float)(part[k] + part[k + 2]) * a->by[k]);
+		const int32_t low = edge((float)part[k] * a->by[k] + a->shift[k]),
+			      high = edge((float)(part[k] + part[k + 2]) * a->by[k] + a->shift[k]);
 
 		part[k] = low;
 		part[k + 2] = high - low;
 	}
 }
 
-static void scale_view(const struct scaling *a, struct scene_view *view)
+static int shows_window(const struct scene *s, const struct scene_view *view)
 {
+	return view->viewport[0] == 0 && view->viewport[1] == 0 && view->viewport[2] == (float)s->width &&
+	       view->viewport[3] == (float)s->height;
+}
+
+/* placed: 1: programs place what it shows. */
+static void scale_view(const struct scaling *a, struct scene_view *view, int placed)
+{
+	const int widens = shows_window(a->from, view) && !placed;
+
 	for (int k = 0; k < 4; k++)
-		view->viewport[k] *= a->by[k % 2];
+		view->viewport[k] = view->viewport[k] * a->by[k % 2] + (k < 2 ? a->shift[k] : 0);
 	scale_part(a, view->scissor);
+	a->out->narrow += placed && a->share[0] * a->share[1] < 1;
+	if (!widens)
+		return;
+	for (int k = 0; k < 2; k++) {
+		view->viewport[k] = 0;
+		view->viewport[k + 2] = (float)(k ? a->out->scene.height : a->out->scene.width);
+		for (int column = 0; column < 4; column++)
+			view->projection[4 * column + k] *= a->share[k];
+	}
+}
+
+/* 1 where a draw is a quad over all of the recorded window, in parallel projection. */
+static int covers_window(const struct scene *s, const struct scene_instance *in)
+{
+	const struct scene_view *view = &s->views[in->view];
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	float low[2] = { 2, 2 }, high[2] = { -2, -2 };
+
+	if (in->rectangle || mesh->primitive_count > 2 || mesh->kind != SCENE_TRIANGLES ||
+	    s->materials[in->material].vertex_program || !shows_window(s, view) || !drawn_in_parallel(view))
+		return 0;
+	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+		float eye[4], clip[4];
+
+		mat4_transform(eye, in->modelview, mesh->position + 4 * (size_t)v);
+		mat4_transform(clip, view->projection, eye);
+		for (int k = 0; k < 2; k++) {
+			low[k] = fminf(low[k], clip[k] / clip[3]);
+			high[k] = fmaxf(high[k], clip[k] / clip[3]);
+		}
+	}
+	return low[0] <= -COVERS && low[1] <= -COVERS && high[0] >= COVERS && high[1] >= COVERS;
+}
+
+/* A second view for each, which spreads the recorded one over all of the new window. */
+static void scale_views(const struct scaling *a)
+{
+	struct scene *s = &a->out->scene;
+	const uint32_t n = a->from->n_views;
+
+	for (uint32_t i = 0; i < n; i++) {
+		int placed = 0;
+
+		for (uint32_t k = 0; k < s->n_instances; k++)
+			placed |= s->instances[k].view == i && s->materials[s->instances[k].material].vertex_program != 0;
+		s->views[n + i] = s->views[i];
+		scale_view(a, &s->views[i], placed);
+		memcpy(s->views[n + i].viewport, (const float[]){ 0, 0, (float)s->width, (float)s->height },
+		       sizeof(s->views[i].viewport));
+		memcpy(s->views[n + i].scissor, s->views[i].scissor, sizeof(s->views[i].scissor));
+	}
+	s->n_views = 2 * n;
+	for (uint32_t i = 0; i < s->n_instances; i++)
+		if (a->share[0] * a->share[1] < 1 && covers_window(a->from, &a->from->instances[i]))
+			s->instances[i].view += n;
 }
 
 static int looks_at_window(const struct scene *s, const struct scene_material *m)
@@ -80,13 +163,22 @@ static int place_mesh(struct scaling *a, struct scene_instance *in)
 	*mesh = *from;
 	for (uint32_t v = 0; v < from->vertex_count; v++)
 		for (uint32_t k = 0; k < 4; k++)
-			position[4 * v + k] = from->position[4 * v + k] * (k < 2 ? a->by[k] : 1);
+			position[4 * v + k] = k < 2 ? from->position[4 * v + k] * a->by[k] + a->shift[k] :
+			                              from->position[4 * v + k];
 	mesh->position = position;
-	mesh->hash[0] ^= XXH3_64bits(a->by, sizeof(a->by));
+	mesh->hash[0] ^= XXH3_64bits(a->by, sizeof(a->by)) ^ XXH3_64bits(a->shift, sizeof(a->shift));
 	out->scene.meshes[out->scene.n_meshes] = mesh;
 	in->mesh = out->scene.n_meshes++;
 	out->n_placed++;
 	return 0;
+}
+
+/* Which of n old pixels is at a new one; the border's beyond it. */
+static size_t old_place(const struct scaling *a, int axis, uint32_t at, uint32_t n)
+{
+	const float old = floorf(((float)at + 0.5f - a->shift[axis]) / a->by[axis]);
+
+	return (size_t)fminf(fmaxf(old, 0), (float)(n - 1));
 }
 
 /* Each pixel of what was there before becomes several. */
@@ -106,8 +198,7 @@ static int scale_start(const struct scaling *a, const struct scene_picture *from
 	for (uint32_t y = 0; y < s->height; y++)
 		for (uint32_t x = 0; x < s->width; x++) {
 			const size_t p = (size_t)y * s->width + x,
-				     q = (size_t)((uint64_t)y * from->height / s->height) * from->width +
-			                 (size_t)((uint64_t)x * from->width / s->width);
+				     q = old_place(a, 1, y, from->height) * from->width + old_place(a, 0, x, from->width);
 
 			memcpy(to->rgba + 4 * p, from->rgba + 4 * q, 4);
 			to->depth[p] = from->depth[q];
@@ -140,7 +231,7 @@ static int copy_scene(const struct scaling *a)
 	out->before = NULL;
 	out->instances = copy_of(s->instances, s->n_instances, 0, sizeof(*s->instances));
 	out->materials = copy_of(s->materials, s->n_materials, 0, sizeof(*s->materials));
-	out->views = copy_of(s->views, s->n_views, 0, sizeof(*s->views));
+	out->views = copy_of(s->views, s->n_views, s->n_views, sizeof(*s->views));
 	out->clears = copy_of(s->clears, s->n_clears, 0, sizeof(*s->clears));
 	out->rectangles = copy_of(s->rectangles, s->n_rectangles, 0, sizeof(*s->rectangles));
 	out->meshes = copy_of(s->meshes, s->n_meshes, s->n_rectangles, sizeof(*s->meshes));
@@ -151,17 +242,16 @@ static int copy_scene(const struct scaling *a)
 	               err_report(ERR_SYSTEM, NULL, "out of memory");
 }
 
-static int scale_scene(struct scaling *a)
+static int scale_scene(struct scaling *a, const uint32_t size[2])
 {
 	struct scene *s = &a->out->scene;
 	int err = copy_scene(a);
 
 	if (err)
 		return err;
-	s->width = (uint32_t)edge((float)s->width * a->by[0]);
-	s->height = (uint32_t)edge((float)s->height * a->by[1]);
-	for (uint32_t i = 0; i < s->n_views; i++)
-		scale_view(a, &s->views[i]);
+	s->width = size[0];
+	s->height = size[1];
+	scale_views(a);
 	for (uint32_t i = 0; i < s->n_clears; i++)
 		scale_part(a, s->clears[i].scissor);
 	for (uint32_t i = 0; i < s->n_materials; i++)
@@ -175,24 +265,30 @@ static int scale_scene(struct scaling *a)
 	return err || !s->start ? err : scale_start(a, a->from->start);
 }
 
-int scaled_make(const struct scene *scene, float factor, struct scaled *out)
+int scaled_make(const struct scene *scene, float factor, const uint32_t size[2], struct scaled *out)
 {
-	const float size[2] = { (float)scene->width, (float)scene->height };
-	struct scaling a = { .from = scene, .out = out, .factor = factor };
+	const float old[2] = { (float)scene->width, (float)scene->height };
+	struct scaling a = { .from = scene, .out = out };
+	const int given = size[0] && size[1];
+	float pixels[2];
 	int err;
 
 	memset(out, 0, sizeof(*out));
+	a.factor = given ? fminf((float)size[0] / old[0], (float)size[1] / old[1]) : factor;
 	for (int k = 0; k < 2; k++) {
-		const float pixels = roundf(size[k] * factor);
+		const float picture = roundf(old[k] * a.factor);
 
-		if (!(pixels >= 1) || pixels > (float)SCALED_MOST)
-			return err_report(ERR_USAGE, NULL,
+		pixels[k] = given ? (float)size[k] : picture;
+		if (!(picture >= 1) || pixels[k] > (float)SCALED_MOST)
+			return err_report(ERR_INPUT, NULL,
 			                  "frame %llu is %ux%u: by %g it has no pixel, or more than %u on a side",
-			                  (unsigned long long)scene->frame, scene->width, scene->height, (double)factor,
-			                  SCALED_MOST);
-		a.by[k] = pixels / size[k];
+			                  (unsigned long long)scene->frame, scene->width, scene->height,
+			                  (double)a.factor, SCALED_MOST);
+		a.by[k] = picture / old[k];
+		a.shift[k] = floorf(0.5f * (pixels[k] - picture));
+		a.share[k] = picture / pixels[k];
 	}
-	err = scale_scene(&a);
+	err = scale_scene(&a, (const uint32_t[]){ (uint32_t)pixels[0], (uint32_t)pixels[1] });
 	if (err)
 		scaled_release(out);
 	return err;

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""`render --scale X` shows what the program would have drawn in a window of that size: programs recorded small and
-large (tests/real/sizes.c, corpus/), held against each other."""
+"""`render --scale X` and `--size WxH` show what the program would have drawn in a window of that size: programs recorded small
+and large (tests/real/sizes.c, corpus/), held against each other."""
 import numpy
 
 import exr
@@ -39,14 +39,28 @@ for name, *more in (("spheres", ), ("still_life", ), ("tricks", "planar")):
 sizes = BUILD / "tests/real/sizes"
 compare("sizes by 4", pictures("sizes1", (sizes, 1), "--scale", "4"), pictures("sizes4", (sizes, 4)))
 compare("sizes by 1/2", pictures("sizes4", (sizes, 4), "--scale", "0.5"), pictures("sizes2", (sizes, 2)))
+
+# A window of another shape shows more to both sides, or above and below, and in the middle what the recorded one does.
+for name, size, rows, columns in (("spheres-small", "480x120", slice(None), slice(160, 320)),
+                                  ("spheres-small", "160x240", slice(60, 180), slice(None)),
+                                  ("sizes1", "192x72", slice(None), slice(48, 144))):
+    shown = pictures(name, (), "--size", size)
+    middle = [{plane: numpy.asarray(values)[rows, columns] for plane, values in planes.items()} for planes in shown]
+    compare(f"{name} in {size}", middle, pictures(name, ()))
+    outer = numpy.asarray(shown[0]["gl.G"])
+    check(outer.shape[::-1] == tuple(map(int, size.split("x"))), f"{name} in {size}: {outer.shape}")
+    beside = numpy.count_nonzero(outer != outer[0, 0]) - numpy.count_nonzero(middle[0]["gl.G"] != outer[0, 0])
+    check(beside > 20 or name == "sizes1", f"{name} in {size}: more is seen beside the middle: {beside} pixels")
 odd = exr.Image(render(SCRATCH / "sizes1.trace", SCRATCH / "odd", "--scale", "1.37", "-f", 0)[0], PLANES)
 check((odd.width, odd.height) == (132, 99), f"96x72 by 1.37 is {odd.width}x{odd.height}")
 
 for what, options in (("too large", ("--scale", "64", "--mode", "gl")), ("motion", ("--scale", "2", "--aov", "gl,motion")),
-                      ("no number", ("--scale", "big"))):
+                      ("no number", ("--scale", "big")), ("no size", ("--size", "640")),
+                      ("both", ("--size", "640x480", "--scale", "2")), ("a size too large", ("--size", "99999x10"))):
     trace = SCRATCH / ("spheres-large.trace" if what == "too large" else "sizes1.trace")
     done = relume("render", trace, "-f", 0, "-o", SCRATCH / "no.exr", *options)
     ours = [line for line in done.stderr.splitlines() if line.startswith("relume: ")]
-    check(done.returncode == 2 and len(ours) == 1 and "scale" in ours[0] or "pixel" in ours[0], f"{what}: {done.stderr}")
+    check(done.returncode == (5 if what == "too large" else 2) and len(ours) == 1 and ("scale" in ours[0] or "size" in ours[0] or "pixel" in ours[0]),
+          f"{what}: {done.stderr}")
     check(not (SCRATCH / "no.exr").exists(), f"{what}: nothing is written")
 finish()
