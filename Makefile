@@ -351,7 +351,7 @@ picture: all $(BUILD)/corpus/glx/marbles
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. Group NAME of
 # packaging/deps.txt is what it alone needs installed, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := bisect ci crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject journeys kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms same sandbox sanitize seek \
+SCRIPTS := beyond bisect ci crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject journeys kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms same sandbox sanitize seek \
 	film lot soak sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := ci crashes frames mutants replay

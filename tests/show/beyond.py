@@ -1,0 +1,101 @@
+#!/usr/bin/python3
+"""tests/show/beyond.py BUILD [--only PART] (as `make show-beyond`): what a recording shows that the program never drew.
+
+size: programs recorded in a window of 320x240, rendered by `--scale 4`, against what Mesa draws of them in one of
+1280x960 (`relume raster`): frames that pass the gates of `relume diff`, and the lowest fidelity. What the larger
+picture costs beside one that was recorded at its size: processor time of whole runs, alternated.
+"""
+import argparse
+import json
+import os
+import pathlib
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+
+from display import need_display
+from table import Shown
+
+FACTOR, WIDTH, HEIGHT, FRAMES = 4, 320, 240, 3
+FIDELITY = 99.5  # per cent
+MOST_COST = 1.1
+RUNS = 5
+PROGRAMS = {
+    "spheres": (), "hall": (), "still_life": (), "courtyard": (), "street": (), "tree_cards": (), "cornell": (),
+    "two_triangles": (), "tricks": ("planar", ), "facets": ()
+}
+
+
+class Sizes:
+    def __init__(self, build, folder):
+        self.build, self.folder = build, pathlib.Path(folder)
+        self.relume = build / "relume"
+
+    def run(self, *args, check=True):
+        return subprocess.run([str(a) for a in args], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, check=check)
+
+    def record(self, name, width, height):
+        trace = self.folder / f"{name}-{width}.trace"
+        self.run(self.relume, "record", "-o", trace, "--", self.build / "corpus" / name, *PROGRAMS[name], "--frames",
+                 FRAMES, "--size", f"{width}x{height}")
+        return trace
+
+    def score(self, name):
+        """(frames that pass, frames, lowest fidelity in per cent)."""
+        small = self.record(name, WIDTH, HEIGHT)
+        large = self.record(name, WIDTH * FACTOR, HEIGHT * FACTOR)
+        self.run(self.relume, "raster", large, "-o", f"{name}.####.png")
+        self.run(self.relume, "render", small, "--scale", FACTOR, "--mode", "gl", "-o", f"{name}.####.exr")
+        scored = json.loads(
+            self.run(self.relume, "diff", f"{name}.####.png", f"{name}.####.exr", "--json", "-", check=False).stdout)
+        return (scored["counts"]["passed"], len(scored["frames"]),
+                100 * min(frame["fidelity"] for frame in scored["frames"]))
+
+    def seconds(self, trace, *options):
+        """Processor time of rendering all frames."""
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.run(self.relume, "render", trace, *options, "-o", "cost.####.exr")
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def show_sizes(shown, sizes):
+    for name in PROGRAMS:
+        passed, frames, fidelity = sizes.score(name)
+        shown.row(f"size: {name}, {WIDTH}x{HEIGHT} by {FACTOR} against one recorded so",
+                  f"{passed} of {frames} frames pass, fidelity {fidelity:.3f} %", f"all, {FIDELITY} %",
+                  passed == frames == FRAMES and fidelity >= FIDELITY, "Mesa")
+    for name in ("hall", "spheres"):
+        ways = ((sizes.folder / f"{name}-{WIDTH}.trace", "--scale", FACTOR),
+                (sizes.folder / f"{name}-{WIDTH * FACTOR}.trace", ))
+        for way in ways:  # compiles what they need
+            sizes.seconds(*way)
+        pairs = [[sizes.seconds(*way) for way in ways] for _ in range(RUNS)]
+        cost = statistics.median(scaled / recorded for scaled, recorded in pairs)
+        shown.row(f"size: {name}, processor time beside one recorded so", f"{cost:.2f} times", f"{MOST_COST} times",
+                  cost <= MOST_COST)
+
+
+PARTS = {"size": show_sizes}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build", type=lambda path: pathlib.Path(path).resolve())
+    parser.add_argument("--only", choices=PARTS)
+    args = parser.parse_args()
+    need_display()
+    os.environ.setdefault("POCL_CACHE_DIR", str(args.build / "tests/pocl-cache"))
+    shown = Shown(args.build, "beyond")
+    with tempfile.TemporaryDirectory(prefix="relume-") as folder:
+        for name, part in PARTS.items():
+            if args.only in (None, name):
+                part(shown, Sizes(args.build, folder))
+    return shown.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
