@@ -12,6 +12,7 @@
 #include "film/filter.h"
 #include "film/oidn.h"
 #include "look/camera/camera.h"
+#include "look/camera/lens.h"
 #include "look/camera/scaled.h"
 #include "look/join.h"
 #include "look/rules.h"
@@ -487,6 +488,20 @@ static int check_preview(const struct settings *s)
 }
 
 /* Whether the mode has the hook's stages. */
+/* A camera without a projection is a hook of its own. */
+static int add_lens(struct settings *s)
+{
+	char *text = NULL;
+	int err = s->camera ? lens_text(s->camera, &text) : 0;
+
+	if (!err && text && s->hook)
+		err = err_report(ERR_USAGE, s->camera->path, "its kind or aperture sends rays of its own: there is no --hook");
+	if (!err && text)
+		err = hook_make(s->camera->path, text, &s->hook);
+	free(text);
+	return err;
+}
+
 static int check_hook(struct settings *s)
 {
 	const enum tracer_mode mode = s->tracer.mode;
@@ -542,6 +557,8 @@ int settings_parse(struct settings *s, int argc, char **argv)
 		s->tracer.samples = MOST_SAMPLES;
 	s->denoise |= s->oidn;
 	err = choose_kind(s);
+	if (!err)
+		err = add_lens(s);
 	if (!err)
 		err = check_hook(s);
 	if (!err)

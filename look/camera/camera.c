@@ -30,6 +30,10 @@ static const cyaml_schema_field_t camera_fields[] = {
 	NUMBER(struct camera_keys, height),
 	NUMBER(struct camera_keys, near),
 	NUMBER(struct camera_keys, far),
+	NUMBER(struct camera_keys, aperture),
+	NUMBER(struct camera_keys, focus),
+	NUMBER(struct camera_keys, eyes),
+	NUMBER(struct camera_keys, converge),
 	CYAML_FIELD_SEQUENCE_FIXED("size", OPTIONAL_POINTER, struct camera_keys, size, &count, 2),
 	CYAML_FIELD_MAPPING_PTR("turntable", OPTIONAL_POINTER, struct camera_keys, turntable, turntable_fields),
 	CYAML_FIELD_END
@@ -90,24 +94,70 @@ static int check_places(const char *path, const struct camera_keys *k)
 	return err;
 }
 
+static int is_kind(const struct camera_keys *k, const char *kind)
+{
+	return k->kind && strcmp(k->kind, kind) == 0;
+}
+
+static int check_kind(const char *path, const struct camera_keys *k)
+{
+	static const char *const kinds[] = { "pinhole", "orthographic", "panorama", "cube", "stereo" };
+	int known = !k->kind;
+
+	for (size_t i = 0; i < sizeof(kinds) / sizeof(kinds[0]) && !known; i++)
+		known = strcmp(k->kind, kinds[i]) == 0;
+	if (!known)
+		return err_report(ERR_INPUT, path, "kind is pinhole, orthographic, panorama, cube or stereo, not '%s'",
+		                  k->kind);
+	if (k->field_of_view && k->height)
+		return err_report(
+			ERR_INPUT, path,
+			"field_of_view is for a pinhole, height for an orthographic view; there is one of them");
+	if (k->field_of_view && k->kind && !is_kind(k, "pinhole") && !is_kind(k, "stereo"))
+		return err_report(ERR_INPUT, path, "field_of_view is not for kind %s", k->kind);
+	if (k->height && k->kind && !is_kind(k, "orthographic"))
+		return err_report(ERR_INPUT, path, "height is not for kind %s", k->kind);
+	return 0;
+}
+
+/* What only cameras of look/camera/lens.h have. */
+static int check_lens(const char *path, const struct camera_keys *k)
+{
+	int err = check_numbers(path, "aperture", k->aperture, 1, 0, 1e30f);
+
+	if (!err)
+		err = check_numbers(path, "focus", k->focus, 1, 1e-30f, 1e30f);
+	if (!err)
+		err = check_numbers(path, "eyes", k->eyes, 1, 0, 1e30f);
+	if (!err)
+		err = check_numbers(path, "converge", k->converge, 1, 1e-30f, 1e30f);
+	if (!err && !k->aperture != !k->focus)
+		err = err_report(ERR_INPUT, path, "aperture and focus belong together; there is one of them");
+	if (!err && k->aperture && ((k->kind && !is_kind(k, "pinhole")) || k->height))
+		err = err_report(ERR_INPUT, path, "aperture is for a pinhole");
+	if (!err && k->eyes && !is_kind(k, "stereo") && !is_kind(k, "panorama"))
+		err = err_report(ERR_INPUT, path, "eyes are for kinds stereo and panorama");
+	if (!err && k->converge && !is_kind(k, "stereo"))
+		err = err_report(ERR_INPUT, path, "converge is for kind stereo");
+	return !err && is_kind(k, "stereo") && !k->eyes ?
+	               err_report(ERR_INPUT, path, "stereo needs eyes: the distance between them") :
+	               err;
+}
+
 static int check_all(const char *path, const struct camera_keys *k)
 {
 	int err = check_places(path, k);
 
-	if (!err && !is_word(k->kind, "pinhole", "orthographic"))
-		err = err_report(ERR_INPUT, path, "kind is pinhole or orthographic, not '%s'", k->kind);
+	if (!err)
+		err = check_kind(path, k);
+	if (!err)
+		err = check_lens(path, k);
 	if (!err && !is_word(k->space, "eye", "world"))
 		err = err_report(ERR_INPUT, path, "space is eye or world, not '%s'", k->space);
 	if (!err)
 		err = check_numbers(path, "field_of_view", k->field_of_view, 1, 0.01f, 179);
 	if (!err)
 		err = check_numbers(path, "height", k->height, 1, 1e-30f, 1e30f);
-	if (!err && k->field_of_view && k->height)
-		err = err_report(
-			ERR_INPUT, path,
-			"field_of_view is for a pinhole, height for an orthographic view; there is one of them");
-	if (!err && k->kind && strcmp(k->kind, k->field_of_view ? "orthographic" : k->height ? "pinhole" : "") == 0)
-		err = err_report(ERR_INPUT, path, "%s is not for kind %s", k->field_of_view ? "field_of_view" : "height", k->kind);
 	if (!err)
 		err = check_numbers(path, "near", k->near, 1, -1e30f, 1e30f);
 	if (!err)

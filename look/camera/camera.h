@@ -3,15 +3,23 @@
  * left out. Every key may be left out. An unknown key is an error, reported with its line.
  *
  * KEYS
- *     kind: pinhole               # or orthographic; default: the program's own projection
+ *     kind: pinhole               # default: the program's own projection. Others: orthographic; panorama (360 by
+ *                                 # 180 degrees, by equal angles); cube (left, front, right, and below them down,
+ *                                 # back, up); stereo (two eyes side by side). The last three, and aperture, are for
+ *                                 # modes whitted and path
  *     space: eye                  # the space of places and directions below. eye: the recorded camera's, which
  *                                 # stands at 0 0 0 and looks along -z, y up. world: the space that the list `world`
  *                                 # of a look file describes ('relume help look-file'). Default eye
  *     place: [0, 0, 0]            # where the camera stands; default: the recorded camera's place
  *     look_at: [0, 0, -1]         # what it looks at; default: what the recorded camera looks at
  *     up: [0, 1, 0]               # which way is up; default: y
- *     field_of_view: 45           # for a pinhole: degrees from top to bottom
+ *     field_of_view: 45           # for a pinhole: degrees from top to bottom; of stereo, default 60
  *     height: 10                  # for an orthographic view: units from top to bottom
+ *     aperture: 0.1               # of a pinhole: its radius, in units; blurs what is not in focus (--samples 64)
+ *     focus: 10                   # with aperture: how far off things are sharp
+ *     eyes: 0.06                  # of stereo, between both eyes, in units. Of a panorama: the left eye's above the
+ *                                 # right eye's; default 0: one eye
+ *     converge: 10                # of stereo: how far off both eyes show the same, at the screen. Default 10
  *     near: 0.1                   # where drawing begins along the line of sight, in units. Default for near and
  *                                 # far: what the program drew, and as much more as the way to the new place needs
  *     far: 100                    # where it ends
@@ -42,6 +50,12 @@
  *     height: 12
  *
  *     relume render game.trace -f 3 --camera plan.yaml -o plan.png
+ *
+ *     # around.yaml: all around the recorded camera, for a viewer of panoramas
+ *     kind: panorama
+ *     size: [2048, 1024]
+ *
+ *     relume render game.trace -f 3 --look auto --camera around.yaml -o around.png
  */
 #pragma once
 
@@ -57,7 +71,7 @@ struct camera {
 	const char *path; /* of the file, for messages; borrowed */
 	struct camera_keys {
 		const char *kind, *space;
-		const float *place, *look_at, *up, *field_of_view, *height, *near, *far;
+		const float *place, *look_at, *up, *field_of_view, *height, *near, *far, *aperture, *focus, *eyes, *converge;
 		const uint32_t *size;
 		struct camera_turntable *turntable;
 	} *keys;

@@ -218,11 +218,11 @@ static int declare(struct hook *h)
 	return fclose(out) ? err_report(ERR_SYSTEM, NULL, "out of memory") : 0;
 }
 
-int hook_load(const char *path, struct hook **out)
+int hook_make(const char *path, const char *own, struct hook **out)
 {
 	struct hook *h = calloc(1, sizeof(*h));
-	char *bare = NULL, *own = NULL;
-	int err = h ? read_text(path, &own) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	char *bare = NULL;
+	int err = h ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	*out = h;
 	if (!err) {
@@ -250,9 +250,20 @@ int hook_load(const char *path, struct hook **out)
 	if (!err)
 		err = declare(h);
 	free(bare);
-	free(own);
 	if (err)
 		hook_free(out);
+	return err;
+}
+
+int hook_load(const char *path, struct hook **out)
+{
+	char *own = NULL;
+	int err = read_text(path, &own);
+
+	*out = NULL;
+	if (!err)
+		err = hook_make(path, own, out);
+	free(own);
 	return err;
 }
 

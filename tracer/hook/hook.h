@@ -53,6 +53,13 @@ struct hook {
 };
 
 /**
+ * Make one of a text.
+ * @param path  that messages name; kept until hook_free
+ * @return as hook_load
+ */
+int hook_make(const char *path, const char *text, struct hook **out);
+
+/**
  * Read a file.
  * @param path  kept until hook_free
  * @return 0, ERR_INPUT (reported: the file, its line) or ERR_SYSTEM (reported)
