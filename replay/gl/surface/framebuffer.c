@@ -94,7 +94,7 @@ static struct scene *drawn_by(struct gls_exec *x, const struct gls_share *share,
 	struct gls_texture *t = color && color->texture && !color->level && !color->face && !color->layer ?
 	                                table_find(&share->textures, color->texture) :
 	                                NULL;
-	struct scene *drawn = color && fb->surface.frame ? gls_frame_scene(x, &fb->surface) : NULL;
+	struct scene *drawn = color && gls_frame_events(&fb->surface) ? gls_frame_scene(x, &fb->surface) : NULL;
 
 	if (t && drawn) {
 		scene_release(&t->drawn);
@@ -131,8 +131,9 @@ static void update(struct gls_exec *x, const struct gls_share *share, struct gls
 struct scene *gls_framebuffer_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t name)
 {
 	struct gls_framebuffer *fb = table_find(&st->share->framebuffers, name);
+	const int read = gls_attachment_color(st->a.pixel.read_buffer);
 
-	return fb ? update_drawn(x, st->share, fb) : NULL;
+	return fb && read >= 0 && drawn_colors(fb) == 1u << read ? update_drawn(x, st->share, fb) : NULL;
 }
 
 /* Update all objects but one (NULL: all) to which this is attached. */
