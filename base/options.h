@@ -71,8 +71,8 @@ int options_parse(const struct options_table *table, int argc, char **argv, void
 
 /** A row for verbs that read recordings, without its braces. */
 #define OPTIONS_NO_SANDBOX \
-	.name = "no-sandbox", .help = "for debugging: no limits of memory and time, \
-	and all rights that reading a recording does not need (files, sockets, programs)", .set = options_no_sandbox
+	.name = "no-sandbox", .help = "for debugging: no limits of memory and time, " \
+	"and all rights that reading a recording does not need (files, sockets, programs)", .set = options_no_sandbox
 
 /**
  * Keep the rights to the files that a command line names and those that verbs of this kind need; drop all others and

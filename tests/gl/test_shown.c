@@ -112,8 +112,8 @@ static void keep_targets(struct gl *gl)
 
 #define SAME "!!ARBvp1.0 MOV result.position, vertex.position; MOV result.texcoord[0], vertex.texcoord[0]; END"
 #define TWICE \
-	"!!ARBvp1.0 MOV result.position, vertex.position; ADD result.texcoord[0], vertex.texcoord[0], vertex.texcoord[0]; \
-	END"
+	"!!ARBvp1.0 MOV result.position, vertex.position; ADD result.texcoord[0], vertex.texcoord[0], vertex.texcoord[0]; " \
+	"END"
 #define LOOK(unit) "!!ARBfp1.0 TEX result.color, fragment.texcoord[" #unit "], texture[" #unit "], 2D; END"
 #define PAINT "!!ARBfp1.0 TEMP r; TEX r, fragment.texcoord[0], texture[0], 2D; MUL result.color, r, 0.5; END"
 

@@ -5,8 +5,8 @@
 #include "tests/trace/window.h"
 
 #define COUNT \
-	"uniform int most; float count() { float n = 0.0; for (int i = 0; i < most; i++) n = fract(n + 0.0078125); \
-	return n; }\n"
+	"uniform int most; float count() { float n = 0.0; for (int i = 0; i < most; i++) n = fract(n + 0.0078125); " \
+	"return n; }\n"
 
 static const char plain_vertex[] = "void main() { gl_Position = gl_Vertex; gl_FrontColor = vec4(0.0, 0.5, 0.0, 1.0); }";
 static const char plain_fragment[] = "void main() { gl_FragColor = gl_Color; }";

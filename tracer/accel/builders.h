@@ -36,8 +36,8 @@
  */
 #define TREE_BUILDERS(ROW) \
 	ROW(BVH, "bvh", bvh_build_sah, 0, 16384, "binned") \
-	ROW(SBVH, "sbvh", bvh_build_sbvh, 0.25, 1024, "with spatial splits: some percent cheaper to trace, \
-	ten times the time to build") \
+	ROW(SBVH, "sbvh", bvh_build_sbvh, 0.25, 1024, "with spatial splits: some percent cheaper to trace, " \
+	"ten times the time to build") \
 	ROW(KD, "kd", bvh_build_kd, 3, 1024, "a kd-tree") \
 	ROW(LBVH, "lbvh", bvh_build_linear, 0, 65536, "along a Morton curve: the quickest to build")
 

@@ -613,16 +613,16 @@ static void draw_unplaced(int i)
 
 /* --- What programs were written for ------------------------------------------------------------------------------ */
 
-#define EYE "varying vec3 e; varying vec2 t; \
-void main() { vec3 v = vec3(gl_ModelViewMatrix * gl_Vertex), n = gl_NormalMatrix * vec3(0.0, 0.0, 1.0), " \
-	"a = gl_NormalMatrix * vec3(1.0, 0.0, 0.0); e = vec3(dot(-v, a), dot(-v, cross(n, a)), dot(-v, n)); \
-	t = gl_MultiTexCoord2.xy * 0.4 + 0.5; gl_Position = ftransform(); }"
+#define EYE "varying vec3 e; varying vec2 t; " \
+	"void main() { vec3 v = vec3(gl_ModelViewMatrix * gl_Vertex), n = gl_NormalMatrix * vec3(0.0, 0.0, 1.0), " \
+	"a = gl_NormalMatrix * vec3(1.0, 0.0, 0.0); e = vec3(dot(-v, a), dot(-v, cross(n, a)), dot(-v, n)); " \
+	"t = gl_MultiTexCoord2.xy * 0.4 + 0.5; gl_Position = ftransform(); }"
 #define LAMP \
-	"varying vec4 p; void main() { p = gl_TextureMatrix[1] * gl_Vertex; gl_FrontColor = gl_Color; \
-	gl_Position = ftransform(); }"
+	"varying vec4 p; void main() { p = gl_TextureMatrix[1] * gl_Vertex; gl_FrontColor = gl_Color; " \
+	"gl_Position = ftransform(); }"
 #define PLACE \
-	"gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = vec4(v.xyz * 0.4 + 0.5, 1.0); \
-	gl_TexCoord[0] = gl_MultiTexCoord0; "
+	"gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = vec4(v.xyz * 0.4 + 0.5, 1.0); " \
+	"gl_TexCoord[0] = gl_MultiTexCoord0; "
 #define SHADOWS 4 /* the first of them have a shadow map */
 
 static const char *const scenes[][2] = {
