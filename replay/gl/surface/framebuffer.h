@@ -36,7 +36,7 @@ void gls_texture_update(struct gls_exec *x, const struct gls_state *st, const st
 void gls_units_update(struct gls_exec *x, struct gls_state *st, const struct gls_texturing *texturing);
 
 /**
- * Bring an object's only colours, of 8 bits each, up to date, if reads are of them.
+ * Bring an object's only colours, of 8 bits each, up to date, if the context reads these.
  * @return a reference to what drew all that it holds (struct gls_texture has it of textures); NULL: not known
  */
 struct scene *gls_framebuffer_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t name);
