@@ -2,11 +2,15 @@
 
 #include "scene/scene.h"
 
+int scene_is_whole(const struct scene *s, const int32_t part[4])
+{
+	return part[0] <= 0 && part[1] <= 0 && part[0] + part[2] >= (int32_t)s->width &&
+	       part[1] + part[3] >= (int32_t)s->height;
+}
+
 int scene_clears_window(const struct scene *s, const struct scene_clear *c)
 {
-	return c->target == 0 && c->scissor[0] <= 0 && c->scissor[1] <= 0 &&
-	       c->scissor[0] + c->scissor[2] >= (int32_t)s->width &&
-	       c->scissor[1] + c->scissor[3] >= (int32_t)s->height;
+	return c->target == 0 && scene_is_whole(s, c->scissor);
 }
 
 uint32_t scene_backdrop(const struct scene *s)

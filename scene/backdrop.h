@@ -6,6 +6,9 @@
 struct scene;
 struct scene_clear;
 
+/** 1 where a part (x, y, width, height) is all of the window. */
+int scene_is_whole(const struct scene *scene, const int32_t part[4]);
+
 /** 1 where a clear reaches all of the window. */
 int scene_clears_window(const struct scene *scene, const struct scene_clear *clear);
 

@@ -8,6 +8,10 @@
  */
 #pragma once
 
+#ifndef __OPENCL_VERSION__
+#include <stddef.h>
+#endif
+
 #include "scene/scene.h"
 
 #define SCENE_PROGRAM_REGISTERS 512u     /* at most */
@@ -70,6 +74,14 @@ struct scene_program {
 	uint32_t data, n_data; /* gl_FragData: its first register, how many colours it is; 0: all buffers have
 	                          SCENE_PROGRAM_COLOR */
 };
+
+#ifndef __OPENCL_VERSION__
+/** A program of scene.programs. @param number  as materials name it. @return NULL: none */
+static inline const struct scene_program *scene_program_of(const struct scene *scene, uint32_t number)
+{
+	return number ? (const struct scene_program *)(scene->programs + (number - 1)) : NULL;
+}
+#endif
 
 /* Four registers that hold what a light sends, before the first instruction: so a light that does not arrive can be
  * left out. */

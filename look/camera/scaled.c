@@ -9,6 +9,7 @@
 #include "base/err.h"
 #include "base/mat4.h"
 #include "look/drawn.h"
+#include "scene/backdrop.h"
 #include "scene/program.h"
 
 #define COVERS 0.999f /* a quad that reaches this far, from the middle to the window's edges, covers all */
@@ -27,18 +28,12 @@ static int32_t edge(float at)
 	return (int32_t)lrintf(at);
 }
 
-static int is_whole(const struct scene *s, const int32_t part[4])
-{
-	return part[0] <= 0 && part[1] <= 0 && part[0] + part[2] >= (int32_t)s->width &&
-	       part[1] + part[3] >= (int32_t)s->height;
-}
-
 /* Edges go to the nearest pixel's, so that parts that met still meet. */
 static void scale_part(const struct scaling *a, int32_t part[4])
 {
 	const int32_t whole[4] = { 0, 0, (int32_t)a->out->scene.width, (int32_t)a->out->scene.height };
 
-	if (is_whole(a->from, part)) {
+	if (scene_is_whole(a->from, part)) {
 		memcpy(part, whole, sizeof(whole));
 		return;
 	}
@@ -57,6 +52,11 @@ static int shows_window(const struct scene *s, const struct scene_view *view)
 	       view->viewport[3] == (float)s->height;
 }
 
+static int is_of_another_shape(const struct scaling *a)
+{
+	return a->share[0] * a->share[1] < 1;
+}
+
 /* placed: 1: programs place what it shows. */
 static void scale_view(const struct scaling *a, struct scene_view *view, int placed)
 {
@@ -65,7 +65,7 @@ static void scale_view(const struct scaling *a, struct scene_view *view, int pla
 	for (int k = 0; k < 4; k++)
 		view->viewport[k] = view->viewport[k] * a->by[k % 2] + (k < 2 ? a->shift[k] : 0);
 	scale_part(a, view->scissor);
-	a->out->narrow += placed && a->share[0] * a->share[1] < 1;
+	a->out->narrow += placed && is_of_another_shape(a);
 	if (!widens)
 		return;
 	for (int k = 0; k < 2; k++) {
@@ -99,35 +99,41 @@ static int covers_window(const struct scene *s, const struct scene_instance *in)
 	return low[0] <= -COVERS && low[1] <= -COVERS && high[0] >= COVERS && high[1] >= COVERS;
 }
 
-/* A second view for each, which spreads the recorded one over all of the new window. */
-static void scale_views(const struct scaling *a)
+/* A second view for each, which spreads the recorded one over all of the new window, for quads that cover the old. */
+static void spread_views(const struct scaling *a)
 {
 	struct scene *s = &a->out->scene;
 	const uint32_t n = a->from->n_views;
 
 	for (uint32_t i = 0; i < n; i++) {
-		int placed = 0;
-
-		for (uint32_t k = 0; k < s->n_instances; k++)
-			placed |= s->instances[k].view == i && s->materials[s->instances[k].material].vertex_program != 0;
-		s->views[n + i] = s->views[i];
-		scale_view(a, &s->views[i], placed);
+		s->views[n + i] = a->from->views[i];
 		memcpy(s->views[n + i].viewport, (const float[]){ 0, 0, (float)s->width, (float)s->height },
 		       sizeof(s->views[i].viewport));
 		memcpy(s->views[n + i].scissor, s->views[i].scissor, sizeof(s->views[i].scissor));
 	}
 	s->n_views = 2 * n;
 	for (uint32_t i = 0; i < s->n_instances; i++)
-		if (a->share[0] * a->share[1] < 1 && covers_window(a->from, &a->from->instances[i]))
+		if (covers_window(a->from, &a->from->instances[i]))
 			s->instances[i].view += n;
+}
+
+/* placed: [n_views], all 0 */
+static void scale_views(const struct scaling *a, uint8_t *placed)
+{
+	struct scene *s = &a->out->scene;
+
+	for (uint32_t i = 0; i < s->n_instances; i++)
+		placed[s->instances[i].view] |= s->materials[s->instances[i].material].vertex_program != 0;
+	for (uint32_t i = 0; i < a->from->n_views; i++)
+		scale_view(a, &s->views[i], placed[i]);
+	if (is_of_another_shape(a))
+		spread_views(a);
 }
 
 static int looks_at_window(const struct scene *s, const struct scene_material *m)
 {
-	const struct scene_program *fragments =
-		m->fragment_program ? (const struct scene_program *)(s->programs + m->fragment_program - 1) : NULL;
-	const struct scene_program *vertices =
-		m->vertex_program ? (const struct scene_program *)(s->programs + m->vertex_program - 1) : NULL;
+	const struct scene_program *fragments = scene_program_of(s, m->fragment_program);
+	const struct scene_program *vertices = scene_program_of(s, m->vertex_program);
 
 	return (fragments && fragments->inputs >> SCENE_INPUT_POSITION & 1) ||
 	       (vertices && vertices->outputs >> SCENE_RESULT_POINT_SIZE & 1);
@@ -245,13 +251,17 @@ static int copy_scene(const struct scaling *a)
 static int scale_scene(struct scaling *a, const uint32_t size[2])
 {
 	struct scene *s = &a->out->scene;
-	int err = copy_scene(a);
+	uint8_t *placed = calloc(a->from->n_views + (size_t)1, 1);
+	int err = placed ? copy_scene(a) : err_report(ERR_SYSTEM, NULL, "out of memory");
 
-	if (err)
+	if (err) {
+		free(placed);
 		return err;
+	}
 	s->width = size[0];
 	s->height = size[1];
-	scale_views(a);
+	scale_views(a, placed);
+	free(placed);
 	for (uint32_t i = 0; i < s->n_clears; i++)
 		scale_part(a, s->clears[i].scissor);
 	for (uint32_t i = 0; i < s->n_materials; i++)

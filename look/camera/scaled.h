@@ -1,7 +1,7 @@
 /*
  * A scene in a window of another size, as if the program had opened that one: viewports, scissors, clears, widths of
  * lines and sizes of points, factors of stipples, raster positions and zooms of pixels grow with it. Levels of detail
- * follow the new pixels, slopes of polygon offset are of the old ones.
+ * follow the new pixels, slopes of polygon offset the old ones.
  *
  * A window of another shape shows more to both sides, or above and below: what views of the whole window show grows as
  * far as the window lets it and is in the middle, HUDs too, and perspective views see on beyond it. A quad over all of

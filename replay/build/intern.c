@@ -9,12 +9,18 @@
 #include "replay/machine/errors.h"
 #include "scene/scene.h"
 
-/* Make room for as many items as wanted. @return 0 or ERR_SYSTEM (reported) */
-static int make_room(void *array, uint32_t *room, uint32_t wanted, size_t size)
+int gls_append(void *array, uint32_t *n, uint32_t *room, const void *items, uint32_t count, size_t size)
 {
-	if (wanted > *room)
-		*room = (uint32_t)memory_grow(array, *room, wanted, size);
-	return wanted > *room ? ERR_SYSTEM : 0;
+	uint8_t **p = array;
+
+	if (*n + count > *room)
+		*room = (uint32_t)memory_grow(array, *room, *n + count, size);
+	if (*n + count > *room)
+		return ERR_SYSTEM;
+	if (count)
+		memcpy(*p + *n * size, items, count * size);
+	*n += count;
+	return 0;
 }
 
 uint32_t gls_intern(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value,
@@ -35,11 +41,10 @@ uint32_t gls_intern_array(struct gls_exec *x, struct table *t, void *array, uint
 	for (; (found = (uintptr_t)table_find(t, hash)); hash++)
 		if (*n - (found - 1) >= count && memcmp(*p + (found - 1) * size, values, count * size) == 0)
 			return (uint32_t)(found - 1);
-	if (make_room(array, room, *n + count, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1))) {
+	found = *n;
+	if (gls_append(array, n, room, values, count, size) || table_set(t, hash, (void *)(found + 1))) {
 		gls_fail(x);
 		return SCENE_NONE;
 	}
-	memcpy(*p + *n * size, values, count * size);
-	*n += count;
-	return *n - count;
+	return (uint32_t)found;
 }

@@ -9,6 +9,9 @@
 
 struct gls_exec;
 
+/** Append `count` items to an array of n. @return 0 or ERR_SYSTEM (reported) */
+int gls_append(void *array, uint32_t *n, uint32_t *room, const void *items, uint32_t count, size_t size);
+
 /**
  * Find a value in an array, or append it. @return its index; SCENE_NONE: out of memory (reported)
  * @param t      hash -> index + 1

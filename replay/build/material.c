@@ -479,8 +479,7 @@ uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct
 {
 	static const float white[4] = { 1, 1, 1, 1 }, up[4] = { 0, 0, 1, 0 }, origin[4] = { 0, 0, 0, 1 };
 	struct scene *s = f->out;
-	const uint32_t inputs =
-		m->vertex_program ? ((const struct scene_program *)(s->programs + (m->vertex_program - 1)))->inputs : 0;
+	const uint32_t inputs = m->vertex_program ? scene_program_of(s, m->vertex_program)->inputs : 0;
 	struct scene_current current;
 	uint32_t varying = mesh->attributes, textured = 0;
 

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "replay/build/frame.h"
+#include "replay/build/intern.h"
 #include "replay/build/material.h"
 #include "replay/build/mesh.h"
 #include "replay/machine/errors.h"
@@ -14,27 +15,15 @@ struct placed {
 	struct gls_frame *into;
 	const struct scene *from;
 	const int32_t *rect; /* x, y, width, height */
-	uint32_t instances, materials, units, lights, currents, views, stipples, programs, spaces, draws, primitives;
+	struct scene first;     /* its counts: the first index of each array */
+	uint32_t spaces, draws, primitives;
 	uint32_t *meshes, *textures; /* [from->n_meshes], [from->n_textures] */
 };
 
-/* Append n items to an array of n_items. @return 0 or ERR_SYSTEM (reported) */
-#define APPEND(p, member)                                                                                              \
-	append(&(p)->into->out->member, &(p)->into->room.member, &(p)->into->out->n_##member, (p)->from->member,       \
-	       (p)->from->n_##member, sizeof(*(p)->from->member))
-static int append(void *array, uint32_t *room, uint32_t *n, const void *items, uint32_t count, size_t size)
-{
-	uint8_t **p = array;
-
-	if (*n + count > *room)
-		*room = (uint32_t)memory_grow(array, *room, *n + count, size);
-	if (*n + count > *room)
-		return ERR_SYSTEM;
-	if (count)
-		memcpy(*p + *n * size, items, count * size);
-	*n += count;
-	return 0;
-}
+/* @return 0 or ERR_SYSTEM (reported) */
+#define APPEND(p, member) \
+	gls_append(&(p)->into->out->member, &(p)->into->out->n_##member, &(p)->into->room.member, (p)->from->member, \
+	           (p)->from->n_##member, sizeof(*(p)->from->member))
 
 static int place_meshes_and_textures(struct gls_exec *x, struct placed *p)
 {
@@ -58,16 +47,16 @@ static int place_materials(const struct placed *p)
 	const int err = APPEND(p, units) || APPEND(p, lights) || APPEND(p, stipples) || APPEND(p, programs) ||
 	                APPEND(p, materials) || APPEND(p, currents);
 
-	for (uint32_t i = p->units; i < s->n_units && !err; i++)
+	for (uint32_t i = p->first.n_units; i < s->n_units && !err; i++)
 		s->units[i].texture = p->textures[s->units[i].texture];
-	for (uint32_t i = p->materials; i < s->n_materials && !err; i++) {
+	for (uint32_t i = p->first.n_materials; i < s->n_materials && !err; i++) {
 		struct scene_material *m = &s->materials[i];
 
-		m->unit_first += p->units;
-		m->light_first += p->lights;
-		m->polygon_stipple += m->polygon_stipple == SCENE_NONE ? 0 : p->stipples;
-		m->fragment_program += m->fragment_program ? p->programs : 0;
-		m->vertex_program += m->vertex_program ? p->programs : 0;
+		m->unit_first += p->first.n_units;
+		m->light_first += p->first.n_lights;
+		m->polygon_stipple += m->polygon_stipple == SCENE_NONE ? 0 : p->first.n_stipples;
+		m->fragment_program += m->fragment_program ? p->first.n_programs : 0;
+		m->vertex_program += m->vertex_program ? p->first.n_programs : 0;
 	}
 	return err ? ERR_SYSTEM : 0;
 }
@@ -89,7 +78,7 @@ static int place_views(const struct placed *p)
 	struct scene *s = p->into->out;
 	const int err = APPEND(p, views);
 
-	for (uint32_t i = p->views; i < s->n_views && !err; i++) {
+	for (uint32_t i = p->first.n_views; i < s->n_views && !err; i++) {
 		const uintptr_t space = s->views[i].space + p->spaces;
 
 		s->views[i].viewport[0] += (float)p->rect[0];
@@ -118,22 +107,21 @@ static int place_draws(const struct placed *p)
 static int place_events(const struct placed *p)
 {
 	struct scene *s = p->into->out;
-	const uint32_t first_clear = s->n_clears;
 
 	if (APPEND(p, instances) || APPEND(p, clears))
 		return ERR_SYSTEM;
-	for (uint32_t i = p->instances; i < s->n_instances; i++) {
+	for (uint32_t i = p->first.n_instances; i < s->n_instances; i++) {
 		struct scene_instance *in = &s->instances[i];
 
 		in->mesh = p->meshes[in->mesh];
-		in->material += p->materials;
-		in->view += p->views;
-		in->current += p->currents;
+		in->material += p->first.n_materials;
+		in->view += p->first.n_views;
+		in->current += p->first.n_currents;
 		in->draw += p->draws;
 		in->first_primitive += p->primitives;
 	}
-	for (uint32_t i = first_clear; i < s->n_clears; i++) {
-		s->clears[i].before_instance += p->instances;
+	for (uint32_t i = p->first.n_clears; i < s->n_clears; i++) {
+		s->clears[i].before_instance += p->first.n_instances;
 		s->clears[i].draw += p->draws;
 		move_scissor(p, s->clears[i].scissor);
 	}
@@ -192,14 +180,7 @@ int gls_frame_put(struct gls_exec *x, struct gls_surface *surface, const struct 
 		after.depth = *depth;
 	f->next_primitive -= s->meshes[s->instances[--s->n_instances].mesh]->primitive_count;
 	err = add_clear(f, &before, &name);
-	p.instances = s->n_instances;
-	p.materials = s->n_materials;
-	p.units = s->n_units;
-	p.lights = s->n_lights;
-	p.currents = s->n_currents;
-	p.views = s->n_views;
-	p.stipples = s->n_stipples;
-	p.programs = s->n_programs;
+	p.first = *s;
 	p.spaces = (uint32_t)f->spaces.n;
 	p.draws = f->next_draw - 1;
 	p.primitives = f->next_primitive;

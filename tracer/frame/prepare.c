@@ -382,12 +382,9 @@ static void add_shapes(const struct scene *scene, struct prepared *p, struct seg
 /* 1 where a program discards fragments or gives them another depth. */
 static int program_moves(const struct scene *scene, const struct scene_material *m)
 {
-	const struct scene_program *program;
+	const struct scene_program *program = scene_program_of(scene, m->fragment_program);
 
-	if (!m->fragment_program)
-		return 0;
-	program = (const struct scene_program *)(scene->programs + (m->fragment_program - 1));
-	return program->kills || program->sets_depth;
+	return program && (program->kills || program->sets_depth);
 }
 
 /* The camera mode that answers for a draw on its own. */

@@ -78,8 +78,7 @@ static uint32_t counted(uint32_t depth_bits)
 /* 1 where a program's fragments look at where they are. */
 static int looks_at_places(const struct scene *s, const struct scene_material *m)
 {
-	const struct scene_program *program =
-		m->fragment_program ? (const struct scene_program *)(s->programs + m->fragment_program - 1) : NULL;
+	const struct scene_program *program = scene_program_of(s, m->fragment_program);
 
 	return program && program->inputs >> SCENE_INPUT_POSITION & 1;
 }

@@ -213,8 +213,7 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 static int has_outputs(const struct scene *s)
 {
 	for (uint32_t i = 0; i < s->n_materials; i++)
-		if (s->materials[i].fragment_program &&
-		    ((const struct scene_program *)(s->programs + (s->materials[i].fragment_program - 1)))->n_data)
+		if (s->materials[i].fragment_program && scene_program_of(s, s->materials[i].fragment_program)->n_data)
 			return 1;
 	return 0;
 }
