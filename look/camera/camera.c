@@ -94,7 +94,7 @@ static int check_places(const char *path, const struct camera_keys *k)
 	return err;
 }
 
-static int is_kind(const struct camera_keys *k, const char *kind)
+int camera_is_kind(const struct camera_keys *k, const char *kind)
 {
 	return k->kind && strcmp(k->kind, kind) == 0;
 }
@@ -105,7 +105,7 @@ static int check_kind(const char *path, const struct camera_keys *k)
 	int known = !k->kind;
 
 	for (size_t i = 0; i < sizeof(kinds) / sizeof(kinds[0]) && !known; i++)
-		known = strcmp(k->kind, kinds[i]) == 0;
+		known = camera_is_kind(k, kinds[i]);
 	if (!known)
 		return err_report(ERR_INPUT, path, "kind is pinhole, orthographic, panorama, cube or stereo, not '%s'",
 		                  k->kind);
@@ -113,9 +113,9 @@ static int check_kind(const char *path, const struct camera_keys *k)
 		return err_report(
 			ERR_INPUT, path,
 			"field_of_view is for a pinhole, height for an orthographic view; there is one of them");
-	if (k->field_of_view && k->kind && !is_kind(k, "pinhole") && !is_kind(k, "stereo"))
+	if (k->field_of_view && k->kind && !camera_is_kind(k, "pinhole") && !camera_is_kind(k, "stereo"))
 		return err_report(ERR_INPUT, path, "field_of_view is not for kind %s", k->kind);
-	if (k->height && k->kind && !is_kind(k, "orthographic"))
+	if (k->height && k->kind && !camera_is_kind(k, "orthographic"))
 		return err_report(ERR_INPUT, path, "height is not for kind %s", k->kind);
 	return 0;
 }
@@ -133,13 +133,13 @@ static int check_lens(const char *path, const struct camera_keys *k)
 		err = check_numbers(path, "converge", k->converge, 1, 1e-30f, 1e30f);
 	if (!err && !k->aperture != !k->focus)
 		err = err_report(ERR_INPUT, path, "aperture and focus belong together; there is one of them");
-	if (!err && k->aperture && ((k->kind && !is_kind(k, "pinhole")) || k->height))
+	if (!err && k->aperture && ((k->kind && !camera_is_kind(k, "pinhole")) || k->height))
 		err = err_report(ERR_INPUT, path, "aperture is for a pinhole");
-	if (!err && k->eyes && !is_kind(k, "stereo") && !is_kind(k, "panorama"))
+	if (!err && k->eyes && !camera_is_kind(k, "stereo") && !camera_is_kind(k, "panorama"))
 		err = err_report(ERR_INPUT, path, "eyes are for kinds stereo and panorama");
-	if (!err && k->converge && !is_kind(k, "stereo"))
+	if (!err && k->converge && !camera_is_kind(k, "stereo"))
 		err = err_report(ERR_INPUT, path, "converge is for kind stereo");
-	return !err && is_kind(k, "stereo") && !k->eyes ?
+	return !err && camera_is_kind(k, "stereo") && !k->eyes ?
 	               err_report(ERR_INPUT, path, "stereo needs eyes: the distance between them") :
 	               err;
 }

@@ -86,5 +86,8 @@ void camera_free(struct camera **camera);
 /** Pictures of a turntable; 0: there is none, and each recorded frame becomes one. @param camera  NULL: none */
 uint32_t camera_pictures(const struct camera *camera);
 
+/** 1 where a file gives its camera this kind. */
+int camera_is_kind(const struct camera_keys *keys, const char *kind);
+
 /** 1 where places are those of the world. */
 int camera_is_in_world(const struct camera *camera);

@@ -2,7 +2,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/err.h"
 #include "look/camera/camera.h"
@@ -72,11 +71,11 @@ static const char thin[] =
 
 static const char *text_of(const struct camera_keys *k)
 {
-	if (k->kind && strcmp(k->kind, "panorama") == 0)
+	if (camera_is_kind(k, "panorama"))
 		return panorama;
-	if (k->kind && strcmp(k->kind, "stereo") == 0)
+	if (camera_is_kind(k, "stereo"))
 		return stereo;
-	if (k->kind && strcmp(k->kind, "cube") == 0)
+	if (camera_is_kind(k, "cube"))
 		return cube;
 	return k->aperture && *k->aperture > 0 ? thin : NULL;
 }

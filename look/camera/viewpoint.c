@@ -281,7 +281,7 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 	for (int i = 0; i < 3; i++)
 		out->sky_from_eye[12 + i] = 0.0f - moved[i];
 	out->was_parallel = drawn_in_parallel(&scene->views[out->main_view]);
-	out->is_parallel = k->kind          ? strcmp(k->kind, "orthographic") == 0 :
+	out->is_parallel = k->kind          ? camera_is_kind(k, "orthographic") :
 	                   k->height        ? 1 :
 	                   k->field_of_view ? 0 :
 	                                      out->was_parallel;
