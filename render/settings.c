@@ -487,7 +487,6 @@ static int check_preview(const struct settings *s)
 	return 0;
 }
 
-/* Whether the mode has the hook's stages. */
 /* A camera without a projection is a hook of its own. */
 static int add_lens(struct settings *s)
 {
@@ -502,6 +501,7 @@ static int add_lens(struct settings *s)
 	return err;
 }
 
+/* Whether the mode has the hook's stages. */
 static int check_hook(struct settings *s)
 {
 	const enum tracer_mode mode = s->tracer.mode;
