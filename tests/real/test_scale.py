@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""`render --scale X` and `--size WxH` show what the program would have drawn in a window of that size: programs recorded small
-and large (tests/real/sizes.c, corpus/), held against each other."""
+"""`render --scale X` and `--size WxH` show what the program would have drawn in a window of that size: programs
+recorded small and large (tests/real/sizes.c, corpus/), held against each other."""
 import numpy
 
 import exr
@@ -35,7 +35,8 @@ def compare(name, scaled, recorded):
 for name, *more in (("spheres", ), ("still_life", ), ("tricks", "planar")):
     small, large = ((corpus(name), *more, "--frames", 2, "--size", size) for size in ("160x120", "480x360"))
     compare(f"{name} by 3", pictures(f"{name}-small", small, "--scale", "3"), pictures(f"{name}-large", large))
-    compare(f"{name} by 1/3", pictures(f"{name}-large", large, "--scale", "0.33333334"), pictures(f"{name}-small", small))
+    compare(f"{name} by 1/3", pictures(f"{name}-large", large, "--scale", "0.33333334"),
+            pictures(f"{name}-small", small))
 sizes = BUILD / "tests/real/sizes"
 compare("sizes by 4", pictures("sizes1", (sizes, 1), "--scale", "4"), pictures("sizes4", (sizes, 4)))
 compare("sizes by 1/2", pictures("sizes4", (sizes, 4), "--scale", "0.5"), pictures("sizes2", (sizes, 2)))
@@ -54,13 +55,15 @@ for name, size, rows, columns in (("spheres-small", "480x120", slice(None), slic
 odd = exr.Image(render(SCRATCH / "sizes1.trace", SCRATCH / "odd", "--scale", "1.37", "-f", 0)[0], PLANES)
 check((odd.width, odd.height) == (132, 99), f"96x72 by 1.37 is {odd.width}x{odd.height}")
 
-for what, options in (("too large", ("--scale", "64", "--mode", "gl")), ("motion", ("--scale", "2", "--aov", "gl,motion")),
+for what, options in (("too large", ("--scale", "64", "--mode", "gl")),
+                      ("motion", ("--scale", "2", "--aov", "gl,motion")),
                       ("no number", ("--scale", "big")), ("no size", ("--size", "640")),
                       ("both", ("--size", "640x480", "--scale", "2")), ("a size too large", ("--size", "99999x10"))):
     trace = SCRATCH / ("spheres-large.trace" if what == "too large" else "sizes1.trace")
     done = relume("render", trace, "-f", 0, "-o", SCRATCH / "no.exr", *options)
     ours = [line for line in done.stderr.splitlines() if line.startswith("relume: ")]
-    check(done.returncode == (5 if what == "too large" else 2) and len(ours) == 1 and ("scale" in ours[0] or "size" in ours[0] or "pixel" in ours[0]),
+    check(done.returncode == (5 if what == "too large" else 2) and len(ours) == 1 and
+          any(word in ours[0] for word in ("scale", "size", "pixel")),
           f"{what}: {done.stderr}")
     check(not (SCRATCH / "no.exr").exists(), f"{what}: nothing is written")
 finish()

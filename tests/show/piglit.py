@@ -241,10 +241,8 @@ def main(build, what, *parts):
     for number, row in enumerate(rows, 1):
         score(build, base / re.sub(r"\W+", "_", row["name"]), row)
         if row["parity"] != "passes" or number % 25 == 0 or number == len(rows):
-            print(
-                f"{number}/{len(rows)} {time.monotonic() - begin:.0f} s: {row['name']}: {row['parity']} {row['why']}"[:
-                                                                                                                      160],
-                flush=True)
+            told = f"{number}/{len(rows)} {time.monotonic() - begin:.0f} s: {row['name']}: {row['parity']} {row['why']}"
+            print(told[:160], flush=True)
         write_table(build / "show" / "piglit-parity.tsv",
                     ("name", "command", "frame", "parity", "why", "fidelity", "programs", "one_colour", "left_out"),
                     rows[:number])

@@ -86,8 +86,8 @@ class Real(unittest.TestCase):
                                 capture_output=True, text=True, check=False).stdout.split()
         if not listed:
             self.skipTest("no git checkout")
-        wide = [f"{name}:{number}" for name in listed
-                for number, line in enumerate((ROOT / name).read_text(encoding="utf-8").split("\n"), 1) if len(line) > 120]
+        lines = {name: (ROOT / name).read_text(encoding="utf-8").split("\n") for name in listed}
+        wide = [f"{name}:{number}" for name in listed for number, line in enumerate(lines[name], 1) if len(line) > 120]
         self.assertFalse(wide, "\n".join(wide))
 
 
