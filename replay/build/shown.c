@@ -108,8 +108,10 @@ static int place_events(const struct placed *p)
 {
 	struct scene *s = p->into->out;
 
-	if (APPEND(p, instances) || APPEND(p, clears))
+	if (APPEND(p, instances) || APPEND(p, clears) || APPEND(p, rectangles))
 		return ERR_SYSTEM;
+	for (uint32_t i = p->first.n_rectangles; i < s->n_rectangles; i++)
+		s->rectangles[i].texture = p->textures[s->rectangles[i].texture];
 	for (uint32_t i = p->first.n_instances; i < s->n_instances; i++) {
 		struct scene_instance *in = &s->instances[i];
 
@@ -119,6 +121,7 @@ static int place_events(const struct placed *p)
 		in->current += p->first.n_currents;
 		in->draw += p->draws;
 		in->first_primitive += p->primitives;
+		in->rectangle += in->rectangle ? p->first.n_rectangles : 0;
 	}
 	for (uint32_t i = p->first.n_clears; i < s->n_clears; i++) {
 		s->clears[i].before_instance += p->first.n_instances;
@@ -188,6 +191,7 @@ int gls_frame_put(struct gls_exec *x, struct gls_surface *surface, const struct 
 	      place_draws(&p) || add_clear(f, &after, &name);
 	free(p.meshes);
 	s->kd_tree |= drawn->kd_tree;
+	s->shows_earlier |= drawn->shows_earlier;
 	f->depth_bits = drawn->depth_bits;
 	f->put_end = s->n_instances;
 	f->last = NULL;

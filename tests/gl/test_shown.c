@@ -143,4 +143,29 @@ START_TEST(test_quads)
 }
 END_TEST
 
-GL_TESTS("shown", test_quads)
+/* Pixels that an object's picture has are still its own, not the blit's that showed it. */
+START_TEST(test_pixels)
+{
+	static const uint8_t rgba[3][4] = { { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 } };
+	const struct scene_instance *in;
+	struct scene *s;
+	struct gl gl;
+
+	begin_to_draw(&gl);
+	gl_call(&gl, "glBindFramebuffer", "ei", GL_FRAMEBUFFER, 3);
+	gl_call(&gl, "glDrawPixels", "iieeb", 3, 1, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(rgba), rgba);
+	gl_call(&gl, "glBindFramebuffer", "ei", GL_DRAW_FRAMEBUFFER, 0);
+	gl_call(&gl, "glBlitFramebuffer", "iiiiiiiime", 0, 0, 64, 64, 0, 0, 64, 64, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 2);
+	in = &s->instances[1];
+	ck_assert(in->rectangle && in->rectangle <= s->n_rectangles);
+	ck_assert_uint_eq(s->rectangles[in->rectangle - 1].width, 3);
+	ck_assert_uint_eq(s->textures[s->rectangles[in->rectangle - 1].texture]->width, 3);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("shown", test_quads, test_pixels)

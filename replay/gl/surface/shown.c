@@ -98,7 +98,7 @@ static int moves(const struct scene *s, const struct scene_instance *in, const i
  */
 static int suits(const struct scene *s, const struct scene *window, const int32_t rect[4])
 {
-	if (s->needs_previous || s->start || s->floats || window->floats || (int32_t)s->width != rect[2] ||
+	if (s->needs_previous || s->start || s->output || s->floats || window->floats || (int32_t)s->width != rect[2] ||
 	    (int32_t)s->height != rect[3] || s->samples > 1 || window->samples > 1 ||
 	    (window->depth_bits && counted(s->depth_bits) != counted(window->depth_bits)))
 		return 0;
