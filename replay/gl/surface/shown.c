@@ -299,6 +299,8 @@ static int is_whole_rectangle(const struct scene *s, const struct scene_instance
 	const struct scene_rectangle *r = &s->rectangles[in->rectangle - 1];
 	const float *corner = s->meshes[in->mesh]->position;
 
+	if (!(corner[0] >= 0 && corner[0] < (float)s->width && corner[1] >= 0 && corner[1] < (float)s->height))
+		return 0; /* and no number beyond those that a pixel has */
 	rect[0] = (int32_t)corner[0];
 	rect[1] = (int32_t)corner[1];
 	rect[2] = (int32_t)r->width;
