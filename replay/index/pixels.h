@@ -1,7 +1,8 @@
 /*
  * Checkpoints with pixels. A frame that shows what earlier ones drew costs all frames back to where that is known. Who
  * has played them leaves what they drew: each checkpoint is an index with nothing else, TRACE-MAKER-FRAME.index in a
- * folder for such files. What is missing or damaged costs time alone.
+ * folder for such files. What is missing or damaged costs time alone. They hold no scenes: a frame that shows a picture
+ * whose scene is traced (surface/shown.h) goes back to the frames that drew it.
  */
 #pragma once
 

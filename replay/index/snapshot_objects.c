@@ -28,6 +28,7 @@ static void put_texture(struct saver *s, void *value)
 	raw.drawn = NULL;
 	raw.dirty = 1;
 	raw.hashed = 0;
+	raw.drawn_lost |= t->drawn != NULL;
 	bytes_put(s->out, &raw, LEVELS_BEGIN);
 	bytes_put(s->out, (const char *)&raw + LEVELS_END, sizeof(raw) - LEVELS_END);
 	for (unsigned i = 0; i < 6 * GLS_MAX_LEVELS; i++) {

@@ -1,7 +1,7 @@
 /*
  * A window of two views and a board over both, as toolkits compose them: each view a floor, a box over it and a lamp.
  * Frame after frame the same: drawn there, through framebuffer objects, shown again, by a blit, the objects drawn
- * later than shown. Recorded by test_composed.py.
+ * later than shown, and then shown again up to the number of frames that is given. Recorded by test_composed.py.
  */
 #include "tests/trace/window.h"
 
@@ -126,8 +126,10 @@ static void make_objects(void)
 	glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+	const int frames = argc > 1 ? atoi(argv[1]) : 5;
+
 	window_size[0] = 280;
 	window_size[1] = 140;
 	open_window();
@@ -135,7 +137,7 @@ int main(void)
 	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
 	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 	glEnable(GL_LIGHT0);
-	for (int frame = 0; frame < 5; frame++) {
+	for (int frame = 0; frame < frames; frame++) {
 		if (frame == 1 || frame == 3)
 			draw_objects();
 		glClearColor(0, 0.25f, 0, 1);
@@ -143,7 +145,7 @@ int main(void)
 		if (!frame)
 			draw_there();
 		for (int i = 0; frame && i < N_VIEWS; i++)
-			if (frame == 3 && i)
+			if (frame >= 3 && frame % 2 && i)
 				blit(i);
 			else
 				show(i);

@@ -6,6 +6,7 @@ import numpy
 import exr
 from helpers import BUILD, RELUME, SCRATCH, check, check_gates, diff, finish, must, record, relume, render, run
 
+KEPT = 32  # pixels are kept before this frame (replay/replay.c)
 FRAMES = ("drawn there", "by quads", "shown again", "by a blit", "drawn on after")
 # the window's own depth is not that of the objects, as gates check
 PLANES = ("R", "G", "B", "gl.R", "gl.G", "gl.B", "Z", "P.X", "P.Y", "P.Z", "N.Y", "shadow.R", "layers")
@@ -29,6 +30,17 @@ must(relume("render", trace, "-f", "2", "-o", SCRATCH / "alone.exr"))
 alone = planes_of(SCRATCH / "alone.exr")
 check(all((alone[name] == first[name]).all() for name in PLANES), "a frame rendered alone shows what earlier ones drew")
 check_gates(diff(trace, SCRATCH / "composed")[1], len(FRAMES), "composed")
+
+# from a checkpoint with pixels, which holds none of what drew them
+long = SCRATCH / "long.trace"
+record(long, BUILD / "tests/real/composed", KEPT + 4)
+for number in range(KEPT + 1, KEPT + 4):
+    said = must(relume("render", long, "-f", number, "-o", SCRATCH / "later.exr")).stderr
+    later = planes_of(SCRATCH / "later.exr")
+    check(number == KEPT + 1 or f"from frame {KEPT}\n" in said, f"frame {number} begins at kept pixels")
+    differ = {plane: int(numpy.count_nonzero(later[plane] != first[plane])) for plane in PLANES}
+    check(not any(differ.values()), f"frame {number} of {KEPT + 4}, alone: pixels that differ: {differ}")
+
 scenes = [must(relume("scene", trace, "-f", number)).stdout for number in "01"]
 listed = [text.count(", lit") for text in scenes]
 check(listed == [2, 2] or listed == [4, 4], f"scene lists the lit draws of both views: {listed}")

@@ -135,7 +135,7 @@ GLS_HANDLER(glBlitFramebuffer, OBJECT)
 	struct blit b;
 	uint32_t mask = arg_u(c, 8);
 	const struct scene_picture *p;
-	struct scene *drawn;
+	struct gls_drawn drawn = { NULL };
 	int between;
 
 	if (gls_refuses(x, st, mask & ~(uint32_t)(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT),
@@ -147,7 +147,8 @@ GLS_HANDLER(glBlitFramebuffer, OBJECT)
 	if (!find_span(c, 0, &b) || !find_span(c, 1, &b) || !x->want)
 		return;
 	between = arg_u(c, 9) == GL_LINEAR && (fabsf(b.zoom[0]) != 1 || fabsf(b.zoom[1]) != 1);
-	drawn = between ? NULL : gls_shown_by_blit(x, st);
+	if (!between)
+		drawn = gls_shown_by_blit(x, st);
 	p = gls_read_screen(x, st, NULL);
 	if (p && (!p->width || !p->height))
 		p = NULL; /* there is nothing to copy */

@@ -22,7 +22,7 @@ static int is_reached(const struct gls_target *target, const struct gls_event *e
 void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_event *e)
 {
 	struct gls_target targets[2];
-	struct scene *drawn;
+	struct gls_drawn drawn;
 	const char *lack;
 	uint64_t keys[SCENE_DRAW_PROGRAMS];
 	unsigned n, added = 0;

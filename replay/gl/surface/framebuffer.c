@@ -87,8 +87,16 @@ static const struct gls_attachment *only_color(const struct gls_share *share, co
 	return a && gls_attachment_has_8_bits(share, a) ? a : NULL;
 }
 
-/* The scene of all that an object's only colours hold, kept with a texture that is its first level; NULL: not known. */
-static struct scene *drawn_by(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
+struct gls_drawn gls_texture_drawn(const struct gls_texture *t)
+{
+	if (t && t->drawn)
+		return (struct gls_drawn){ .scene = gls_scene_reference(t->drawn) };
+	return t && t->drawn_lost ? (struct gls_drawn){ NULL, t->levels[0][0].width, t->levels[0][0].height } :
+	                            (struct gls_drawn){ NULL };
+}
+
+/* All draws of an object's only colours; a texture that is its first level keeps it. */
+static struct gls_drawn drawn_by(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
 	const struct gls_attachment *color = only_color(share, fb);
 	struct gls_texture *t = color && color->texture && !color->level && !color->face && !color->layer ?
@@ -99,21 +107,20 @@ static struct scene *drawn_by(struct gls_exec *x, const struct gls_share *share,
 	if (t && drawn) {
 		scene_release(&t->drawn);
 		t->drawn = gls_scene_reference(drawn);
+		t->drawn_lost = 0;
 	}
-	return drawn ? drawn : t ? t->drawn : NULL;
+	return drawn ? (struct gls_drawn){ .scene = gls_scene_reference(drawn) } : gls_texture_drawn(t);
 }
 
-/* Render an object's events, if there are any; then begin anew. @return what drew it, a reference, or NULL */
-static struct scene *update_drawn(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
+/* Render an object's events, if there are any; then begin anew. @return its draws */
+static struct gls_drawn update_drawn(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
 	struct gls_surface *s = &fb->surface;
-	struct scene *drawn = NULL;
+	struct gls_drawn drawn;
 
 	if (s->frame && gls_frame_events(s) && gls_attachments_describe(share, fb->attached, drawn_colors(fb), s))
 		update_colors(x, share, fb);
 	drawn = drawn_by(x, share, fb);
-	if (drawn)
-		gls_scene_reference(drawn);
 	if (s->frame) {
 		gls_surface_free(s);
 		s->skipped = 0;
@@ -123,17 +130,21 @@ static struct scene *update_drawn(struct gls_exec *x, const struct gls_share *sh
 
 static void update(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
-	struct scene *drawn = fb->surface.frame ? update_drawn(x, share, fb) : NULL;
+	struct gls_drawn drawn = { NULL };
 
-	scene_release(&drawn);
+	if (fb->surface.frame)
+		drawn = update_drawn(x, share, fb);
+	scene_release(&drawn.scene);
 }
 
-struct scene *gls_framebuffer_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t name)
+struct gls_drawn gls_framebuffer_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t name)
 {
 	struct gls_framebuffer *fb = table_find(&st->share->framebuffers, name);
 	const int read = gls_attachment_color(st->a.pixel.read_buffer);
 
-	return fb && read >= 0 && drawn_colors(fb) == 1u << read ? update_drawn(x, st->share, fb) : NULL;
+	if (!fb || read < 0 || drawn_colors(fb) != 1u << read)
+		return (struct gls_drawn){ NULL };
+	return update_drawn(x, st->share, fb);
 }
 
 /* Update all objects but one (NULL: all) to which this is attached. */

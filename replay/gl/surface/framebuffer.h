@@ -35,11 +35,20 @@ void gls_texture_update(struct gls_exec *x, const struct gls_state *st, const st
 /** The same of all textures that a draw with these units looks at. */
 void gls_units_update(struct gls_exec *x, struct gls_state *st, const struct gls_texturing *texturing);
 
+/* All draws of a picture. */
+struct gls_drawn {
+	struct scene *scene;    /* a reference, or NULL: not known */
+	uint32_t width, height; /* where a checkpoint did not hold that scene: the picture's; else 0 */
+};
+
+/** All draws of a texture (NULL: none), as it is now. */
+struct gls_drawn gls_texture_drawn(const struct gls_texture *t);
+
 /**
  * Bring an object's only colours, of 8 bits each, up to date, if the context reads these.
- * @return a reference to what drew all that it holds (struct gls_texture has it of textures); NULL: not known
+ * @return its draws
  */
-struct scene *gls_framebuffer_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t name);
+struct gls_drawn gls_framebuffer_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t name);
 
 /** Whether events of some object are not in its attachments yet. */
 int gls_framebuffers_wait(const struct gls_share *share);

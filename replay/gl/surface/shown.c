@@ -42,22 +42,24 @@ static const struct gls_texture *texture_of(struct gls_exec *x, struct gls_state
 	return unit < GLS_MAX_UNITS ? gls_texture_bound(x, st, unit, GLS_TEXTURE_2D) : NULL;
 }
 
-struct scene *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, const struct gls_event *e)
+struct gls_drawn gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, const struct gls_event *e)
 {
 	const struct gls_texturing *texturing = &e->attribs->texturing;
 	const struct gls_texture *t;
 
 	if (st->draw_framebuffer || !st->share->framebuffers.n || e->rectangle || e->mesh->mesh.kind != SCENE_TRIANGLES ||
 	    e->mesh->mesh.primitive_count > 2)
-		return NULL;
+		return (struct gls_drawn){ NULL };
 	t = texture_of(x, st, texturing);
 	gls_texture_update(x, st, t);
-	return t && t->drawn ? gls_scene_reference(t->drawn) : NULL;
+	return gls_texture_drawn(t);
 }
 
-struct scene *gls_shown_by_blit(struct gls_exec *x, struct gls_state *st)
+struct gls_drawn gls_shown_by_blit(struct gls_exec *x, struct gls_state *st)
 {
-	return st->draw_framebuffer || !st->read_framebuffer ? NULL : gls_framebuffer_drawn(x, st, st->read_framebuffer);
+	if (st->draw_framebuffer || !st->read_framebuffer)
+		return (struct gls_drawn){ NULL };
+	return gls_framebuffer_drawn(x, st, st->read_framebuffer);
 }
 
 /* --- Is it shown unchanged? -------------------------------------------------------------------------------------- */
@@ -342,9 +344,9 @@ static struct gls_surface *window_of(struct gls_exec *x, struct gls_state *st)
 	return gls_targets_of(x, st, targets) == 1 && targets[0].colored ? targets[0].surface : NULL;
 }
 
-void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct scene *drawn)
+void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct gls_drawn drawn)
 {
-	struct gls_surface *window = drawn ? window_of(x, st) : NULL;
+	struct gls_surface *window = drawn.scene || drawn.width ? window_of(x, st) : NULL;
 	struct scene *s = window && window->frame ? gls_frame_scene(x, window) : NULL;
 	const struct scene_instance *in = s && s->n_instances ? &s->instances[s->n_instances - 1] : NULL;
 	const struct scene_material *m = in ? &s->materials[in->material] : NULL;
@@ -353,15 +355,19 @@ void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct scene *drawn
 	struct shown_program shown = { 0 };
 	int32_t rect[4] = { 0 };
 	float depth = 1;
-	int is_shown = m && (in->rectangle ? is_whole_rectangle(s, in, drawn->width, drawn->height, rect) :
+	const uint32_t width = drawn.scene ? drawn.scene->width : drawn.width;
+	const uint32_t height = drawn.scene ? drawn.scene->height : drawn.height;
+	int is_shown = m && (in->rectangle ? is_whole_rectangle(s, in, width, height, rect) :
 	                                     passes_through(m) && shows_texels(s, in, m, &shown, &unit) &&
 	                                             is_whole_quad(s, in, &shown, s->textures[unit->texture], rect));
 
-	is_shown = is_shown && suits(drawn, s, rect) && !has_depths(window->frame) &&
+	is_shown = is_shown && (!drawn.scene || suits(drawn.scene, s, rect)) && !has_depths(window->frame) &&
 	           (!m->depth_test || s->n_instances == 1) && (!leaves_depth || left_depth(s, in, &depth));
-	if (is_shown && x->feedback.keeps_targets)
-		s->untraced_draw = is_lit(drawn) ? in->draw : s->untraced_draw;
-	else if (is_shown && !gls_frame_put(x, window, drawn, rect, leaves_depth ? &depth : NULL))
+	if (is_shown && !drawn.scene)
+		gls_rewind(x, "a texture has what they drew");
+	else if (is_shown && x->feedback.keeps_targets)
+		s->untraced_draw = is_lit(drawn.scene) ? in->draw : s->untraced_draw;
+	else if (is_shown && !gls_frame_put(x, window, drawn.scene, rect, leaves_depth ? &depth : NULL))
 		gls_fail(x);
-	scene_release(&drawn);
+	scene_release(&drawn.scene);
 }

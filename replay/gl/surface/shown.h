@@ -12,18 +12,20 @@
 #pragma once
 
 #include "replay/build/frame.h"
+#include "replay/gl/surface/framebuffer.h"
 
 /**
  * Before a draw looks at its textures: what drew the one that it may show. The texture is brought up to date.
- * @return a reference to be given to gls_shown_end; NULL: it shows none
+ * @return to be given to gls_shown_end
  */
-struct scene *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, const struct gls_event *e);
+struct gls_drawn gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, const struct gls_event *e);
 
 /** The same before a blit reads. */
-struct scene *gls_shown_by_blit(struct gls_exec *x, struct gls_state *st);
+struct gls_drawn gls_shown_by_blit(struct gls_exec *x, struct gls_state *st);
 
 /**
- * After the draw or blit: where it showed the picture unchanged, its events come in its place.
- * @param drawn  a reference, taken; NULL: nothing happens
+ * After the draw or blit: where it showed the picture unchanged, its events come in its place. Where a checkpoint did
+ * not hold them, the frames that drew it are played again.
+ * @param drawn  its reference is taken
  */
-void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct scene *drawn);
+void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct gls_drawn drawn);

@@ -25,6 +25,7 @@ struct gls_texture {
 	uint32_t mipmapped;              /* the image was found for a filter that wants all levels */
 	struct gls_texture_image *image; /* a reference, or NULL: incomplete */
 	struct scene *drawn;             /* a reference: what drew all of level 0, and nobody changed it since; or NULL */
+	uint32_t drawn_lost;             /* 1: there was such a scene, but checkpoints with pixels hold none */
 };
 
 /** Texels or levels have changed. */
@@ -33,6 +34,7 @@ static inline void gls_texture_changed(struct gls_texture *t)
 	t->dirty = 1;
 	t->hashed = 0;
 	scene_release(&t->drawn);
+	t->drawn_lost = 0;
 }
 
 /** gls_texture_target of a GL token (texture or cube face), -1: none. `face` receives 0 .. 5. */
