@@ -308,6 +308,15 @@ int replay_frame_count(struct replay *rp, uint64_t *n, int *damaged)
 	return 0;
 }
 
+int replay_frame_times(struct replay *rp, uint64_t n, uint64_t *out)
+{
+	int rc = have_index(rp, INDEX_KEEP);
+
+	for (uint64_t i = 0; i < n && !rc; i++)
+		out[i] = index_frame_time(rp->index, i);
+	return rc;
+}
+
 int replay_take_frame(struct replay *rp, const char *path, uint64_t frame, struct scene **scene)
 {
 	int rc = replay_seek(rp, frame);

@@ -51,6 +51,13 @@ int replay_seek(struct replay *rp, uint64_t frame);
 int replay_frame_count(struct replay *rp, uint64_t *n, int *damaged);
 
 /**
+ * When each frame ended, by the trace's index.
+ * @param out  [n]: of the first n frames (replay_frame_count), nanoseconds; 0 where the recording does not tell
+ * @return 0 or ERR_* (reported)
+ */
+int replay_frame_times(struct replay *rp, uint64_t n, uint64_t *out);
+
+/**
  * Go to a frame and build its scene.
  * @param path  of the trace, for messages
  * @return 0; ERR_USAGE (reported) where the trace has no such frame; else as replay_next_frame

@@ -208,6 +208,11 @@ void index_frame(const struct index *index, uint64_t frame, uint64_t *call, uint
 	*offset = frame < index->n_frames ? index->frames[frame].offset : 0;
 }
 
+uint64_t index_frame_time(const struct index *index, uint64_t frame)
+{
+	return frame < index->n_frames ? index->frames[frame].time_ns : 0;
+}
+
 /* The last checkpoint up to a frame, counted from 1; 0: none. */
 static size_t find_checkpoint(const struct index *index, uint64_t frame)
 {

@@ -60,6 +60,9 @@ size_t index_lacks(const struct index *index, const struct index_lack **out);
 /** The number of the call that ends a frame, and the unpacked bytes of the trace up to there. */
 void index_frame(const struct index *index, uint64_t frame, uint64_t *call, uint64_t *offset);
 
+/** When a frame ended (struct scene); 0: the recording does not tell. */
+uint64_t index_frame_time(const struct index *index, uint64_t frame);
+
 /** The last frame up to `frame` that has a checkpoint; 0 where none has: the trace's beginning. */
 uint64_t index_checkpoint(const struct index *index, uint64_t frame);
 

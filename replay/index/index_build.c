@@ -70,7 +70,7 @@ static int add_frame(struct index *index, struct player *p)
 	trace_reader_place(p->reader, &place);
 	if (MEMORY_GROW(index->frames, index->room_frames, index->n_frames + 1))
 		return ERR_SYSTEM;
-	index->frames[index->n_frames++] = (struct index_frame){ place.number - 1, place.offset };
+	index->frames[index->n_frames++] = (struct index_frame){ place.number - 1, place.offset, p->exec->time_ns };
 	return 0;
 }
 

@@ -29,11 +29,13 @@ void index_undelta(struct index_frame *frames, size_t n, int sign)
 		for (size_t i = n; i-- > 1;) {
 			frames[i].call -= frames[i - 1].call;
 			frames[i].offset -= frames[i - 1].offset;
+			frames[i].time_ns -= frames[i - 1].time_ns;
 		}
 	else
 		for (size_t i = 1; i < n; i++) {
 			frames[i].call += frames[i - 1].call;
 			frames[i].offset += frames[i - 1].offset;
+			frames[i].time_ns += frames[i - 1].time_ns;
 		}
 }
 

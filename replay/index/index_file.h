@@ -11,7 +11,7 @@
 #include "replay/index/index.h"
 #include "replay/index/snapshot.h"
 
-#define INDEX_MAGIC "RELIDX4\n" /* the number changes with this file's form */
+#define INDEX_MAGIC "RELIDX5\n" /* the number changes with this file's form */
 
 struct index_header {
 	char magic[8];
@@ -33,7 +33,7 @@ struct index_checkpoint {
 };
 
 struct index_frame {
-	uint64_t call, offset;
+	uint64_t call, offset, time_ns;
 };
 
 struct index {
