@@ -3,12 +3,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include "base/err.h"
-#include "base/table.h"
 #include "look/matrix.h"
+#include "look/followed.h"
 #include "scene/drawn.h"
 
 /* How far off its triangle's plane and sides a point of a mesh may seem, as a share of the triangle's size: positions
@@ -27,43 +25,17 @@ struct placed {
 struct vectors_frame {
 	struct placed *placed; /* [n], as the scene's instances */
 	uint32_t n, height;
-	struct table by_mesh, by_shape; /* of keys with the number of the same before -> index + 1 */
+	struct followed followed;
 };
-
-/* --- Which is which ---------------------------------------------------------------------------------------------- */
-
-static uint64_t key_of_mesh(const struct scene_mesh *mesh)
-{
-	return XXH3_64bits(mesh->hash, sizeof(mesh->hash));
-}
-
-/* Of its triangles, wherever they are. */
-static uint64_t key_of_shape(const struct scene_mesh *mesh)
-{
-	const uint64_t head[3] = { mesh->kind, mesh->vertex_count, mesh->primitive_count };
-
-	return XXH3_64bits_withSeed(mesh->index, (size_t)mesh->primitive_count * mesh->kind * sizeof(*mesh->index),
-	                            XXH3_64bits(head, sizeof(head)));
-}
-
-/* The key of the next with this one: they are counted. 0: out of memory (reported) */
-static uint64_t next_key(struct table *counts, uint64_t key)
-{
-	const uintptr_t before = (uintptr_t)table_find(counts, key);
-	const uint64_t parts[2] = { key, before };
-
-	return table_set(counts, key, (void *)(before + 1)) ? 0 : XXH3_64bits(parts, sizeof(parts));
-}
 
 /* --- Frames ------------------------------------------------------------------------------------------------------ */
 
-static int note_instance(const struct scene *scene, uint32_t i, struct table *counts, struct vectors_frame *f)
+static int note_instance(const struct scene *scene, uint32_t i, struct vectors_frame *f)
 {
 	const struct scene_instance *in = &scene->instances[i];
 	const struct scene_mesh *mesh = scene->meshes[in->mesh];
 	const struct scene_view *view = &scene->views[in->view];
 	struct placed *p = &f->placed[i];
-	const uint64_t by_mesh = next_key(counts, key_of_mesh(mesh)), by_shape = next_key(counts, key_of_shape(mesh));
 
 	memcpy(p->mesh, mesh->hash, sizeof(p->mesh));
 	matrix_from_floats(p->eye, in->modelview);
@@ -74,16 +46,12 @@ static int note_instance(const struct scene *scene, uint32_t i, struct table *co
 	if (!p->position)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	memcpy(p->position, mesh->position, (size_t)mesh->vertex_count * sizeof(*p->position));
-	if (!by_mesh || !by_shape || table_set(&f->by_mesh, by_mesh, (void *)((uintptr_t)i + 1)) ||
-	    table_set(&f->by_shape, by_shape, (void *)((uintptr_t)i + 1)))
-		return ERR_SYSTEM;
 	return 0;
 }
 
 struct vectors_frame *vectors_note(const struct scene *scene)
 {
 	struct vectors_frame *f = calloc(1, sizeof(*f));
-	struct table counts = { 0 };
 	int err = 0;
 
 	if (f)
@@ -93,11 +61,12 @@ struct vectors_frame *vectors_note(const struct scene *scene)
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++) {
 		f->n = i + 1;
 		if (!scene->instances[i].rectangle)
-			err = note_instance(scene, i, &counts, f);
+			err = note_instance(scene, i, f);
 	}
 	if (!err)
+		err = followed_note(&f->followed, scene);
+	if (!err)
 		f->height = scene->height;
-	table_free(&counts);
 	if (err && f)
 		vectors_free(&f);
 	return f;
@@ -113,8 +82,7 @@ void vectors_free(struct vectors_frame **frame)
 	for (uint32_t i = 0; i < f->n; i++)
 		free(f->placed[i].position);
 	free(f->placed);
-	table_free(&f->by_mesh);
-	table_free(&f->by_shape);
+	followed_free(&f->followed);
 	free(f);
 }
 
@@ -283,20 +251,13 @@ static void follow_triangles(struct work *w, uint32_t i)
 /* What each instance was in the frame before. */
 static int match_all(struct work *w)
 {
-	struct table counts = { 0 };
-	int err = 0;
+	uint32_t *found = malloc((w->scene->n_instances + (size_t)1) * sizeof(*found));
+	int err = found ? followed_find(&w->before->followed, w->scene, found) :
+	                  err_report(ERR_SYSTEM, NULL, "out of memory");
 
-	for (uint32_t i = 0; i < w->scene->n_instances && !err; i++) {
-		const struct scene_mesh *mesh = w->scene->meshes[w->scene->instances[i].mesh];
-		const uint64_t by_mesh = next_key(&counts, key_of_mesh(mesh)), by_shape = next_key(&counts, key_of_shape(mesh));
-		uintptr_t found = (uintptr_t)table_find(&w->before->by_mesh, by_mesh);
-
-		err = by_mesh && by_shape ? 0 : ERR_SYSTEM;
-		if (!found)
-			found = (uintptr_t)table_find(&w->before->by_shape, by_shape);
-		w->was[i] = found && !w->scene->instances[i].rectangle ? &w->before->placed[found - 1] : NULL;
-	}
-	table_free(&counts);
+	for (uint32_t i = 0; i < w->scene->n_instances && !err; i++)
+		w->was[i] = found[i] != SCENE_NONE ? &w->before->placed[found[i]] : NULL;
+	free(found);
 	return err;
 }
 

@@ -4,10 +4,9 @@
  * vector is 0.
  *
  * By nothing but what the recording has: a point goes back through its draw's modelview into its mesh, to that mesh's
- * place in the frame before, and through that draw's matrices onto the picture. The draw before is the one of the same
- * mesh, the n-th of them for the n-th; where there is none, of a mesh with the same triangles and other vertices, whose
- * points are followed triangle by triangle. What was not drawn before, pixel rectangles, and what nothing drew have no
- * vector. What hid a point then does not count.
+ * place in the frame before, and through that draw's matrices onto the picture. The draw before is its partner
+ * (look/followed.h); points of a mesh with other vertices are followed triangle by triangle. Draws without a partner,
+ * and pixels that nothing drew, have no vector. What hid a point then does not count.
  */
 #pragma once
 
