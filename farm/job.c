@@ -101,6 +101,23 @@ const struct options_table farm_options = {
 	.most = 1,
 };
 
+/* The value of an option of `relume render`, the last one; NULL where it is not given. */
+static const char *render_option(const struct farm_job *job, const char *option)
+{
+	const size_t n = strlen(option);
+	const char *value = NULL;
+
+	for (int i = 0; i < job->n_render; i++) {
+		const char *word = job->render[i];
+
+		if (strncmp(word, option, n) == 0 && word[n] == '=')
+			value = word + n + 1;
+		else if (strcmp(word, option) == 0 && i + 1 < job->n_render)
+			value = job->render[i + 1];
+	}
+	return value;
+}
+
 /* The options for frames, output and re-rendering belong before the "--", once. */
 static int check_render_options(const struct farm_job *job)
 {
@@ -115,6 +132,9 @@ static int check_render_options(const struct farm_job *job)
 				return err_report(ERR_USAGE, NULL, "%s does not belong after '--': the farm divides the frames itself",
 				                  ours[k]);
 		}
+	if (render_option(job, "--fps"))
+		return err_report(ERR_USAGE, NULL, "a farm divides recorded frames: there is no --fps ('relume render --chunk' "
+		                  "divides its pictures)");
 	return 0;
 }
 
@@ -152,23 +172,6 @@ static const char *recorded_reference(const struct farm_job *job)
 	if (snprintf(name, sizeof(name), "%.*s.ref", (int)n, job->trace) >= (int)sizeof(name) || access(name, R_OK) != 0)
 		return NULL;
 	return job->trace;
-}
-
-/* The value of an option of `relume render`, the last one; NULL where it is not given. */
-static const char *render_option(const struct farm_job *job, const char *option)
-{
-	const size_t n = strlen(option);
-	const char *value = NULL;
-
-	for (int i = 0; i < job->n_render; i++) {
-		const char *word = job->render[i];
-
-		if (strncmp(word, option, n) == 0 && word[n] == '=')
-			value = word + n + 1;
-		else if (strcmp(word, option) == 0 && i + 1 < job->n_render)
-			value = job->render[i + 1];
-	}
-	return value;
 }
 
 /* Only channels gl.*, from the recorded camera, can be scored. @return NULL if they are written, else why not */

@@ -84,6 +84,76 @@ static int take_scene(struct pipeline_state *state, struct shared_scene **out)
 	return more;
 }
 
+/* A recorded frame that a moment is at or behind (k 0) or before (1). @return 1; 0: the recording ends before it; ERR_*
+ */
+static int hold(struct pipeline_state *state, int k, uint64_t frame)
+{
+	struct shared_scene *shared;
+	int more;
+
+	if (state->held[k] && state->held_frame[k] == frame)
+		return 1;
+	pipeline_leave_scene(&state->held[k]);
+	state->held_frame[k] = frame;
+	if (!k && state->held[1] && state->held_frame[1] == frame) {
+		state->held[0] = state->held[1];
+		state->held[1] = NULL;
+		return 1;
+	}
+	shared = calloc(1, sizeof(*shared));
+	if (!shared)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	shared->users = 1;
+	more = replay_seek(state->p->replay, frame);
+	if (more == 1)
+		more = replay_next_frame(state->p->replay, 1, &shared->scene);
+	note_lacks(state->p);
+	if (more == 1)
+		state->held[k] = shared;
+	else
+		pipeline_leave_scene(&shared);
+	return more;
+}
+
+/* The scene between the frames that are held. @return 1 or ERR_SYSTEM (reported) */
+static int bridge(struct pipeline_state *state, double at, struct shared_scene *shared)
+{
+	shared->between = calloc(1, sizeof(*shared->between));
+	if (!shared->between)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (int k = 0; k < 2; k++) {
+		state->held[k]->users++;
+		shared->ends[k] = state->held[k];
+	}
+	shared->scene = &shared->between->scene;
+	return between_make(state->held[0]->scene, state->held[1]->scene, at, shared->between) ? ERR_SYSTEM : 1;
+}
+
+/* The scene of a picture's moment. As take_scene */
+static int take_moment(struct pipeline_state *state, uint64_t picture, struct shared_scene **out)
+{
+	uint64_t frame;
+	double at;
+	int more;
+
+	moments_at(&state->p->settings->moments, picture, &frame, &at);
+	more = hold(state, 0, frame);
+	if (more == 1 && at > 0)
+		more = hold(state, 1, frame + 1);
+	if (more != 1)
+		return more;
+	if (!(at > 0)) {
+		state->held[0]->users++;
+		*out = state->held[0];
+		return 1;
+	}
+	*out = calloc(1, sizeof(**out));
+	if (!*out)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	(*out)->users = 1;
+	return bridge(state, at, *out);
+}
+
 /* Have programs ready when the first scene is. */
 static void prepare_devices(const struct pipeline *p)
 {
@@ -101,7 +171,10 @@ static int hand_out(struct pipeline_state *state, uint64_t number)
 	state->decoded = number;
 	if (!state->begun)
 		prepare_devices(state->p);
-	more = state->turned ? 1 : go_to(state, settings_recorded_frame(state->p->settings, number));
+	if (state->turned || state->p->settings->moments.count)
+		more = 1;
+	else
+		more = go_to(state, settings_recorded_frame(state->p->settings, number));
 	if (more != 1)
 		return more;
 	seconds = progress_clock_s() - start;
@@ -110,7 +183,12 @@ static int hand_out(struct pipeline_state *state, uint64_t number)
 	shot = calloc(1, sizeof(*shot));
 	if (shot)
 		shot->number = number;
-	more = shot ? take_scene(state, &shot->of) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!shot)
+		more = err_report(ERR_SYSTEM, NULL, "out of memory");
+	else if (state->p->settings->moments.count)
+		more = take_moment(state, number, &shot->of);
+	else
+		more = take_scene(state, &shot->of);
 	if (more == 1)
 		shot->replay_s = seconds + progress_clock_s() - start;
 	if (more == 1 && !state->begun++ && state->p->carried->guard.attempt <= 1)

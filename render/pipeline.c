@@ -73,6 +73,8 @@ static int start_and_join(struct pipeline_state *state, struct worker *workers, 
 	for (struct shot *shot; (shot = queue_take(&state->shots));)
 		pipeline_drop_shot(&shot); /* every worker was gone */
 	pipeline_leave_scene(&state->turned);
+	for (int i = 0; i < 2; i++)
+		pipeline_leave_scene(&state->held[i]);
 	queue_close(&state->pictures);
 	for (unsigned i = 0; i < n_writers; i++)
 		pthread_join(writers[i], NULL);
@@ -118,7 +120,7 @@ int pipeline_run(struct pipeline *p)
 	supply.cache = state.cache;
 	supply.number = &state.decoded;
 	replay_set_supplier(p->replay, supply_picture, &supply);
-	if (!settings_resize(p->settings))
+	if (!settings_resize(p->settings) && !p->settings->moments.count)
 		replay_leave_starts(p->replay);
 	if (!err)
 		err = keep_pixels(p);

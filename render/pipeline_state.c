@@ -21,7 +21,13 @@ void pipeline_leave_scene(struct shared_scene **shared)
 	*shared = NULL;
 	if (!s || atomic_fetch_sub(&s->users, 1) != 1)
 		return;
-	scene_release(&s->scene);
+	if (s->between)
+		between_release(s->between);
+	else
+		scene_release(&s->scene);
+	free(s->between);
+	for (int i = 0; i < 2; i++)
+		pipeline_leave_scene(&s->ends[i]);
 	free(s);
 }
 

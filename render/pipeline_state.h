@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 
 #include "base/queue.h"
+#include "look/between/between.h"
 #include "render/alike.h"
 #include "render/earlier.h"
 #include "render/pipeline.h"
@@ -15,6 +16,8 @@
 /* A scene that one picture, or all of a turntable, are made of. */
 struct shared_scene {
 	struct scene *scene;
+	struct between *between;       /* whose scene it is, and */
+	struct shared_scene *ends[2];  /* the frames that it is between; NULL: it is a recorded one */
 	atomic_uint users;
 };
 
@@ -30,6 +33,8 @@ struct pipeline_state {
 	struct blas_cache *cache; /* BLASes that the workers share; NULL: there is only one */
 	struct queue shots, pictures;
 	struct shared_scene *turned; /* of a turntable, once it is decoded; NULL */
+	struct shared_scene *held[2]; /* frames about the last moment; NULL */
+	uint64_t held_frame[2];
 	pthread_mutex_t lock; /* of what follows, and of the progress */
 	atomic_int err;       /* the first failure */
 	int writer_said;      /* a writer has reported its failure */

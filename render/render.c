@@ -44,24 +44,28 @@ static int choose_frames(struct settings *s, struct replay *replay, struct exten
 	if (s->frames.n_ranges && frame_list_needed(&s->frames) >= x->end && !damaged)
 		return err_report(ERR_USAGE, s->trace, "has %llu frame%s, numbered from 0; frame %llu is not there",
 		                  (unsigned long long)x->end, plural(x->end), (unsigned long long)frame_list_needed(&s->frames));
-	if (s->n_chunks && !camera_pictures(s->camera))
+	if (s->n_chunks && !settings_number_pictures(s))
 		err = frame_list_chunk(&s->frames, x->end, s->chunk, s->n_chunks);
 	x->total = frame_list_count(&s->frames, x->end);
 	return err;
 }
 
-/* Of a turntable: its pictures take the place of the frame that it shows. */
-static int list_pictures(struct settings *s, struct extent *x)
+/* Pictures take the place of the frames that they show, of a turntable or at moments. */
+static int list_pictures(struct settings *s, struct replay *replay, struct extent *x)
 {
 	char range[32];
-	int err;
+	int err = 0;
 
 	if (x->short_of)
 		return 0;
-	if (x->total != 1 || !frame_list_next(&s->frames, 0, &s->turned))
-		return err_report(ERR_USAGE, s->camera->path, "a turntable shows one recorded frame; -f names it");
-	x->end = camera_pictures(s->camera);
-	snprintf(range, sizeof(range), "0-%u", camera_pictures(s->camera) - 1);
+	if (s->fps > 0)
+		err = moments_make(&s->moments, replay, s->trace, &s->frames, x->end, (double)s->fps, (double)s->recorded_fps);
+	else if (x->total != 1 || !frame_list_next(&s->frames, 0, &s->turned))
+		err = err_report(ERR_USAGE, s->camera->path, "a turntable shows one recorded frame; -f names it");
+	if (err)
+		return err;
+	x->end = s->fps > 0 ? s->moments.count : camera_pictures(s->camera);
+	snprintf(range, sizeof(range), "0-%llu", (unsigned long long)x->end - 1);
 	frame_list_free(&s->frames);
 	err = frame_list_parse(range, &s->frames);
 	if (!err && s->n_chunks)
@@ -289,8 +293,8 @@ static int render(struct settings *s, struct carried *carried)
 		err = choose_frames(s, p.replay, &x);
 	if (!err)
 		err = foretell(s, p.replay, x.end, &missing);
-	if (!err && camera_pictures(s->camera))
-		err = list_pictures(s, &x);
+	if (!err && settings_number_pictures(s))
+		err = list_pictures(s, p.replay, &x);
 	if (!err && s->look_auto && !s->dry_run)
 		err = look_from_study(s);
 	if (!err) {

@@ -281,6 +281,13 @@ static const struct options_row rows[] = {
 	  "as in a window of this size. One of another shape shows more to the sides, or above and below, and has "
 	  "HUDs in the middle",
 	  take_size, AT(size) },
+	{ "fps", 0, "N",
+	  "N pictures a second, numbered from 0, from the first frame of -f to the last. Between recorded frames things, "
+	  "camera and lights go from where they were to where they are, but for cuts",
+	  options_real, AT(fps), .low = 0.01f, .high = 10000 },
+	{ "recorded-fps", 0, "N",
+	  "with --fps: the recording has N frames a second (default: by the program's clock when it was recorded)",
+	  options_real, AT(recorded_fps), .low = 0.01f, .high = 10000 },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND",
 	  "how trees of meshes are built: " TREE_BUILDERS(
@@ -397,8 +404,9 @@ static int name_settings(struct settings *s, const struct options_line *line)
 	XXH3_128bits_reset(state);
 	for (size_t i = 0; i < table.n_rows && !err; i++) {
 		const int is_look = rows[i].set == take_look;
+		const int is_start = s->fps > 0 && rows[i].set == options_frames; /* pictures are counted from there */
 
-		if (!line->given[i] || rows[i].kind == RUN)
+		if (!line->given[i] || (rows[i].kind == RUN && !is_start))
 			continue;
 		XXH3_128bits_update(state, rows[i].name, strlen(rows[i].name) + 1);
 		for (unsigned k = 0; k < (is_look ? s->n_looks : 1) && !err; k++)
@@ -471,6 +479,17 @@ static int check_scale(const struct settings *s)
 	if (settings_resize(s) && s->motion)
 		return err_report(ERR_USAGE, NULL, "--%s: motion is known of recorded pixels alone (--aov motion)",
 		                  s->scale > 0 ? "scale" : "size");
+	return 0;
+}
+
+static int check_moments(const struct settings *s)
+{
+	if (s->recorded_fps > 0 && !(s->fps > 0))
+		return err_report(ERR_USAGE, NULL, "--recorded-fps is for --fps");
+	if (s->fps > 0 && s->motion)
+		return err_report(ERR_USAGE, NULL, "--fps: motion is known of recorded frames alone (--aov motion)");
+	if (s->fps > 0 && camera_pictures(s->camera))
+		return err_report(ERR_USAGE, s->camera->path, "a turntable shows one frame: there is no --fps");
 	return 0;
 }
 
@@ -549,7 +568,7 @@ int settings_parse(struct settings *s, int argc, char **argv)
 	if (err)
 		return err;
 	s->trace = s->line.words[0];
-	if (!frame_pattern_has_number(s->output) && (camera_pictures(s->camera) ||
+	if (!frame_pattern_has_number(s->output) && (settings_number_pictures(s) ||
 	    !(s->frames.n_ranges == 1 && s->frames.ranges[0].first == s->frames.ranges[0].last)))
 		return err_report(ERR_USAGE, NULL, "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})",
 		                  s->output);
@@ -567,6 +586,8 @@ int settings_parse(struct settings *s, int argc, char **argv)
 		err = check_camera(s);
 	if (!err)
 		err = check_scale(s);
+	if (!err)
+		err = check_moments(s);
 	if (!err && s->denoise)
 		err = check_denoised(s);
 	if (!err)
@@ -583,8 +604,15 @@ int settings_confine(const struct settings *s)
 	return err ? err : options_confine(&table, &s->line, CONFINE_TRACER, NULL);
 }
 
+int settings_number_pictures(const struct settings *s)
+{
+	return s->fps > 0 || camera_pictures(s->camera);
+}
+
 uint64_t settings_recorded_frame(const struct settings *s, uint64_t number)
 {
+	if (s->moments.count)
+		return moments_nearest(&s->moments, number);
 	return camera_pictures(s->camera) ? s->turned : number;
 }
 
@@ -602,5 +630,6 @@ void settings_free(struct settings *s)
 	rules_free(&s->look_after);
 	camera_free(&s->camera);
 	hook_free(&s->hook);
+	moments_free(&s->moments);
 	free(s->aov);
 }

@@ -9,6 +9,7 @@
 #include "base/frames.h"
 #include "base/options.h"
 #include "base/progress.h"
+#include "render/moments.h"
 #include "tracer/frame/trace.h"
 #include "tracer/image/display.h"
 
@@ -38,6 +39,8 @@ struct settings {
 	float scale;            /* pixels for one of the window's; 0: as many as recorded, or `size` */
 	uint32_t size[2];       /* pixels of pictures; 0: not given */
 	uint64_t turned;        /* of a turntable: the recorded frame; `frames` are its pictures (render.c) */
+	float fps, recorded_fps; /* 0: not given */
+	struct moments moments; /* with fps: `frames` are pictures (render.c) */
 	struct tracer_options tracer;
 	char *aov;                      /* owned: what of --aov the tracer makes; NULL: all */
 	int motion;                     /* 1: channels that render/vectors.h adds */
@@ -68,7 +71,10 @@ int settings_parse(struct settings *s, int argc, char **argv);
 int settings_confine(const struct settings *s);
 void settings_free(struct settings *s);
 
-/** The frame of the recording that a picture shows: its own, or that of a turntable. */
+/** 1 where pictures are numbered from 0, whatever the recorded frame: of a turntable, or with fps. */
+int settings_number_pictures(const struct settings *s);
+
+/** The frame of the recording that a picture shows: its own, that of a turntable, or the one nearest to its moment. */
 uint64_t settings_recorded_frame(const struct settings *s, uint64_t number);
 
 /** Take the noise out of a frame, where that is asked for. @return 0 or ERR_SYSTEM (reported) */

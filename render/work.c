@@ -33,10 +33,30 @@ static unsigned packer_count(struct pipeline_state *state)
 	return cores > (long)in_flight ? (unsigned)cores / in_flight : 1;
 }
 
-/* When the program showed the frame, as relume film wants to know. */
-static int tell_time(const struct scene *scene, struct image *img)
+/* When the program showed the frame, or would have shown the picture, as relume film wants to know. */
+static int tell_time(const struct moments *moments, const struct shot *shot, struct image *img)
 {
-	return scene->time_ns ? image_set_attribute(img, "relume:time", "%llu", (unsigned long long)scene->time_ns) : 0;
+	const uint64_t time = moments->count ? moments_time(moments, shot->number) : shot->of->scene->time_ns;
+
+	return time ? image_set_attribute(img, "relume:time", "%llu", (unsigned long long)time) : 0;
+}
+
+/* With --fps: how far behind which frame a picture is, and how a scene between two of them was made. */
+static int tell_moment(const struct moments *moments, const struct shot *shot, struct image *img)
+{
+	const struct between *b = shot->of->between;
+	uint64_t frame;
+	double at;
+	int err;
+
+	if (!moments->count)
+		return 0;
+	moments_at(moments, shot->number, &frame, &at);
+	err = image_set_attribute(img, "relume:moment", "%llu + %.6f", (unsigned long long)frame, at);
+	if (!err && b)
+		err = b->is_cut ? image_set_attribute(img, "relume:between", "cut") :
+		                  image_set_attribute(img, "relume:between", "%u draws followed, %u not", b->n_matched, b->n_alone);
+	return err;
 }
 
 /* A frame that a worker samples. */
@@ -80,7 +100,9 @@ static enum frame_end trace(struct worker *w, struct tracer *tracer, const struc
 	                               packer_count(w->state);
 	err = picture_render(settings, tracer, scene, shot->number, &listener, &picture->img);
 	if (!err && !w->state->turned)
-		err = tell_time(scene, &picture->img);
+		err = tell_time(&settings->moments, shot, &picture->img);
+	if (!err)
+		err = tell_moment(&settings->moments, shot, &picture->img);
 	if (!err)
 		err = programs_tell(scene, &picture->img);
 	if (!err && settings->motion)

@@ -15,7 +15,7 @@ int gate_validity(struct gate_frame *f)
 	const struct image *img = f->img;
 	const size_t n = (size_t)img->width * img->height;
 	const char *number = image_attribute(img, "relume:frame"), *recording = image_attribute(img, "relume:trace");
-	const char *program = image_attribute(img, "relume:program");
+	const char *program = image_attribute(img, "relume:program"), *moment = image_attribute(img, "relume:moment");
 	const char *odd_channel = NULL;
 	const float *planes[3];
 	char layers[96];
@@ -44,6 +44,8 @@ int gate_validity(struct gate_frame *f)
 	} else if (image_attribute(img, "relume:camera")) {
 		gate_fail(f, GATE_V, "made with --camera: the reference shows another view (camera %.100s)",
 		          image_attribute(img, "relume:camera"));
+	} else if (moment && ref->recording && ref->recording[0]) {
+		gate_fail(f, GATE_V, "made with --fps, of moment %.40s: the reference has recorded frames", moment);
 	} else if (img->width != ref->width || img->height != ref->height) {
 		gate_fail(f, GATE_V, "size %u x %u, but the reference is %u x %u", img->width, img->height, ref->width, ref->height);
 	} else if (!score_find_layer(img, f->layer, planes)) {
@@ -51,7 +53,7 @@ int gate_validity(struct gate_frame *f)
 		gate_fail(f, GATE_V, "there is no layer \"%.32s\", but %s (--channel)", f->layer, layers);
 	} else if (strcmp(f->layer, "gl") == 0 && !score_find_layer(img, "beauty", planes)) {
 		gate_fail(f, GATE_V, "a traced frame, but without channels R, G and B");
-	} else if (number && strtoull(number, NULL, 10) != f->score->frame) {
+	} else if (number && !moment && strtoull(number, NULL, 10) != f->score->frame) {
 		gate_fail(f, GATE_V, "the file says that it is frame %.20s, not %" PRIu64, number, f->score->frame);
 	} else if (n == 0) {
 		gate_fail(f, GATE_V, "the picture is empty");

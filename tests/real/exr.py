@@ -52,6 +52,12 @@ def _unzip(packed):
     return bytes(out)
 
 
+def attribute(path, name):
+    """An attribute's bytes, without the pixels; None where there is none."""
+    with open(path, "rb") as file:
+        return _attributes(file.read())[0].get(name)
+
+
 class Image:
     def __init__(self, path, wanted=None):
         """Read a file; `wanted`: only these channels (others are skipped, which is faster)."""

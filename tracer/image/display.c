@@ -140,7 +140,8 @@ int display_codes(const struct display *display, const struct image *img, const 
 static void describe(const struct image *img, char *text, size_t size)
 {
 	static const char *const names[] = { "relume:frame",    "relume:trace",   "relume:program",
-		                             "relume:settings", "relume:version", "relume:device" };
+		                             "relume:settings", "relume:version",  "relume:device",
+		                             "relume:moment" };
 	size_t n = 0;
 
 	text[0] = '\0';
