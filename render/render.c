@@ -56,7 +56,7 @@ static int list_pictures(struct settings *s, struct replay *replay, struct exten
 	char range[32];
 	int err = 0;
 
-	if (x->short_of)
+	if (x->short_of && (!(s->fps > 0) || !x->total))
 		return 0;
 	if (s->fps > 0)
 		err = moments_make(&s->moments, replay, s->trace, &s->frames, x->end, (double)s->fps, (double)s->recorded_fps);

@@ -75,6 +75,16 @@ check(len(clock) == 5 and text_of(clock[0], "relume:moment") == "0 + 0.000000", 
 times = [int(text_of(file, "relume:time")) for file in clock]
 check(all(abs(4.5 * (time - began) / (ended - began) - k) < 0.01 for k, time in enumerate(times)), "evenly, by it")
 
+torn = SCRATCH / "torn.trace"
+whole = traces[SLOW].read_bytes()
+torn.write_bytes(whole[:-6000] + bytes(500) + whole[-5500:])
+(SCRATCH / "torn").mkdir()
+done = relume("render", torn, *FILM, "-o", SCRATCH / "torn" / f"{SLOW}.####.exr")
+saved = sorted((SCRATCH / "torn").glob("*.exr"))
+check(done.returncode == 3 and 4 < len(saved) < COUNT and len(saved) % 4 == 1, f"up to the damage: {len(saved)} pictures")
+check(all(text_of(file, "relume:moment") == f"{k // 4} + {k % 4 / 4:.6f}" for k, file in enumerate(saved)),
+      "these are the same moments")
+
 done = relume("diff", traces[SLOW], SCRATCH / "film")
 check(done.returncode != 0 and "made with --fps" in done.stdout, "recorded frames do not judge moments")
 for options, words in ((("--recorded-fps", 15), "--recorded-fps is for --fps"),
