@@ -46,7 +46,7 @@ VERSIONS = {
 CROSS = "CC=aarch64-linux-gnu-gcc CXX=aarch64-linux-gnu-g++ AR=aarch64-linux-gnu-ar BUILD=build/arm64"
 CROSS_PACKAGES = (
     "gcc-aarch64-linux-gnu g++-aarch64-linux-gnu qemu-user-static git python3-jsonschema python3-numpy"
-    " openimageio-tools:arm64 python3-clang clang"
+    " python3-yaml openimageio-tools:arm64 python3-clang clang"
 )
 # Libraries are those of arm64; compilers and tools run here.
 INSTALL_CROSS = f"""
