@@ -14,6 +14,7 @@
 #include "look/flattened.h"
 #include "look/globes.h"
 #include "look/sides.h"
+#include "scene/box.h"
 #include "scene/draw_list.h"
 
 /* A light is shut out where it reaches less than this share of the area that it lights. A sun through a window reaches
@@ -305,17 +306,10 @@ struct ball {
 static struct ball ball_of(const struct scene *s, uint32_t instance)
 {
 	const struct scene_instance *in = &s->instances[instance];
-	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	float low[3], high[3], middle[4] = { 0, 0, 0, 1 }, eye[4], scale = 0;
 	struct ball ball = { .radius = 0 };
 
-	memcpy(low, mesh->position, sizeof(low));
-	memcpy(high, mesh->position, sizeof(high));
-	for (uint32_t v = 1; v < mesh->vertex_count; v++)
-		for (int k = 0; k < 3; k++) {
-			low[k] = fminf(low[k], mesh->position[4 * (size_t)v + (size_t)k]);
-			high[k] = fmaxf(high[k], mesh->position[4 * (size_t)v + (size_t)k]);
-		}
+	scene_box(s->meshes[in->mesh], low, high);
 	for (int k = 0; k < 3; k++) {
 		const float *column = in->modelview + 4 * k;
 

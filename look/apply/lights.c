@@ -4,6 +4,7 @@
 
 #include "base/mat4.h"
 #include "look/world.h"
+#include "scene/box.h"
 
 /* Between ambient light and what a program rounds to 8 bits. */
 #define SHADE (2.0f / 255)
@@ -118,16 +119,9 @@ static float strength_at(const struct scene_light *l, const float middle[4])
 /* The middle of an instance's box, in eye space. */
 static void middle_of(const struct scene *s, const struct scene_instance *in, float out[4])
 {
-	const struct scene_mesh *mesh = s->meshes[in->mesh];
-	float low[3] = { 0, 0, 0 }, high[3] = { 0, 0, 0 };
+	float low[3], high[3];
 
-	for (uint32_t v = 0; v < mesh->vertex_count; v++)
-		for (int k = 0; k < 3; k++) {
-			float x = mesh->position[4 * v + k];
-
-			low[k] = v && low[k] < x ? low[k] : x;
-			high[k] = v && high[k] > x ? high[k] : x;
-		}
+	scene_box(s->meshes[in->mesh], low, high);
 	mat4_transform(
 		out, in->modelview,
 		(const float[4]){ 0.5f * (low[0] + high[0]), 0.5f * (low[1] + high[1]), 0.5f * (low[2] + high[2]), 1 });

@@ -12,6 +12,7 @@
 #include "look/camera/programs.h"
 #include "look/camera/viewpoint.h"
 #include "look/drawn.h"
+#include "scene/box.h"
 #include "scene/skies.h"
 
 /* Of a sky's box: how far from its middle the viewer may be, and how flat it may be. */
@@ -47,16 +48,6 @@ static int is_of_world(const struct making *m, const struct scene_view *view)
 
 	return view->target == 0 && view->space == main_view->space && drawn_in_parallel(view) == m->viewpoint.was_parallel &&
 	       (!m->viewpoint.was_parallel || shows_as_much(m, view));
-}
-
-/* The box of a mesh and of those before it. */
-static void grow_box(const struct scene_mesh *mesh, float low[3], float high[3])
-{
-	for (uint32_t v = 0; v < mesh->vertex_count; v++)
-		for (int k = 0; k < 3; k++) {
-			low[k] = fminf(low[k], mesh->position[4 * (size_t)v + (size_t)k]);
-			high[k] = fmaxf(high[k], mesh->position[4 * (size_t)v + (size_t)k]);
-		}
 }
 
 /* 1 where a box is no flat one, and has the viewer in its middle along two axes at least, as a box or dome around him
@@ -98,7 +89,7 @@ static int find_skies(struct making *m)
 		                  memcmp(s->instances[end].modelview, modelview, sizeof(inverse)) == 0;
 		     end++)
 			if (m->skies[first])
-				grow_box(s->meshes[s->instances[end].mesh], low, high);
+				scene_box_grow(s->meshes[s->instances[end].mesh], low, high);
 		if (!m->skies[first])
 			continue;
 		mat4_invert(inverse, modelview);
