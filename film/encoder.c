@@ -14,6 +14,7 @@
 
 #include "base/err.h"
 #include "base/part.h"
+#include "film/matroska.h"
 
 extern char **environ;
 
@@ -21,6 +22,8 @@ struct encoder {
 	const char *path;
 	char part[PATH_MAX + 128];
 	size_t frame_bytes;
+	unsigned fps;
+	uint64_t n_pictures; /* written */
 	pid_t child;
 	int pipe; /* its standard input */
 };
@@ -34,7 +37,8 @@ static const struct kind {
 	  { "-f", "webm", "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used", "6",
 	    "-row-mt", "1", NULL } },
 	{ ".mp4",
-	  { "-f", "mp4", "-c:v", "libx264", "-crf", "17", "-preset", "medium", "-movflags", "+faststart", NULL } },
+	  { "-f", "mp4", "-c:v", "libx264", "-crf", "17", "-preset", "medium", "-movflags", "+faststart", "-strict",
+	    "unofficial", NULL } }, /* which lets it tell of panoramas */
 	{ ".mkv", { "-f", "matroska", "-c:v", "libx264", "-crf", "17", "-preset", "medium", NULL } },
 };
 #define N_KINDS (sizeof(kinds) / sizeof(kinds[0]))
@@ -81,17 +85,16 @@ static int spawn(char *const *argv, int input, pid_t *child)
 	return err;
 }
 
-static int start(struct encoder *e, uint32_t width, uint32_t height, unsigned fps)
+static int start(struct encoder *e)
 {
 	/* Pictures are sRGB; players assume BT.709: set its matrix and range. Odd sizes get one more row or column. */
 	static char filter[] = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
-	char size[32], rate[16];
+	char rate[16];
 	char *argv[64] = { "ffmpeg",       "-hide_banner", "-nostdin",
 		           "-loglevel",    "error",        "-y",
-		           "-f",           "rawvideo",     "-pix_fmt",
-		           "rgb24",        "-s",           size,
-		           "-r",           rate,           "-i",
-		           "pipe:0",       "-vf",          filter,
+		           "-f",           "matroska",     "-r",
+		           rate,           "-i",           "pipe:0",
+		           "-vf",          filter,
 		           "-colorspace",  "bt709",        "-color_primaries",
 		           "bt709",        "-color_trc",   "iec61966-2-1",
 		           "-color_range", "tv",           "-fflags",
@@ -100,8 +103,7 @@ static int start(struct encoder *e, uint32_t width, uint32_t height, unsigned fp
 	size_t n = 0;
 	int fds[2], err;
 
-	snprintf(size, sizeof(size), "%ux%u", width, height);
-	snprintf(rate, sizeof(rate), "%u", fps);
+	snprintf(rate, sizeof(rate), "%u", e->fps);
 	while (argv[n])
 		n++;
 	for (const char *const *o = kind_of(e->path)->options; *o; o++)
@@ -121,19 +123,35 @@ static int start(struct encoder *e, uint32_t width, uint32_t height, unsigned fp
 	               err_report(ERR_SYSTEM, "ffmpeg", "cannot start: %s", strerror(err));
 }
 
-int encoder_open(const char *path, uint32_t width, uint32_t height, unsigned fps, struct encoder **out)
+/* @return 0 or ERR_SYSTEM (reported) */
+static int send(struct encoder *e, const uint8_t *bytes, size_t size)
+{
+	for (size_t done = 0; done < size;) {
+		const ssize_t n = write(e->pipe, bytes + done, size - done);
+
+		if (n < 0 && errno != EINTR)
+			return err_report(ERR_SYSTEM, e->path, "ffmpeg takes no more pictures: %s", strerror(errno));
+		done += n > 0 ? (size_t)n : 0;
+	}
+	return 0;
+}
+
+int encoder_open(const char *path, uint32_t width, uint32_t height, unsigned fps, const struct matroska_view *view,
+                 struct encoder **out)
 {
 	struct encoder *e = *out = calloc(1, sizeof(*e));
+	uint8_t head[MATROSKA_HEADER_BYTES];
 	int err;
 
 	if (!e)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	e->path = path;
 	e->frame_bytes = (size_t)width * height * 3;
+	e->fps = fps;
 	signal(SIGPIPE, SIG_IGN); /* if ffmpeg ends early, encoder_write fails */
 	err = part_begin(path, e->part, sizeof(e->part));
 	if (!err) {
-		err = start(e, width, height, fps);
+		err = start(e);
 		if (err)
 			part_drop(e->part);
 	}
@@ -141,19 +159,16 @@ int encoder_open(const char *path, uint32_t width, uint32_t height, unsigned fps
 		free(e);
 		*out = NULL;
 	}
-	return err;
+	return err ? err : send(e, head, matroska_begin(head, width, height, view));
 }
 
 int encoder_write(struct encoder *encoder, const uint8_t *rgb)
 {
-	for (size_t done = 0; done < encoder->frame_bytes;) {
-		const ssize_t n = write(encoder->pipe, rgb + done, encoder->frame_bytes - done);
+	uint8_t head[MATROSKA_PICTURE_BYTES];
+	const double seconds = (double)encoder->n_pictures++ / encoder->fps;
+	int err = send(encoder, head, matroska_picture(head, encoder->frame_bytes, seconds));
 
-		if (n < 0 && errno != EINTR)
-			return err_report(ERR_SYSTEM, encoder->path, "ffmpeg takes no more pictures: %s", strerror(errno));
-		done += n > 0 ? (size_t)n : 0;
-	}
-	return 0;
+	return err ? err : send(encoder, rgb, encoder->frame_bytes);
 }
 
 int encoder_close(struct encoder **encoder, int err)

@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 struct encoder;
+struct matroska_view;
 
 /** 1 if a film of this name can be written; else 0, and the known endings are reported. */
 int encoder_knows(const char *path);
@@ -13,9 +14,11 @@ int encoder_knows(const char *path);
  * @param path           of the film, which appears once it is complete; kept until encoder_close
  * @param width, height  of all pictures
  * @param fps            pictures a second
+ * @param view           how they are to be seen, as the film tells players
  * @return 0 or ERR_SYSTEM (reported)
  */
-int encoder_open(const char *path, uint32_t width, uint32_t height, unsigned fps, struct encoder **out);
+int encoder_open(const char *path, uint32_t width, uint32_t height, unsigned fps,
+                 const struct matroska_view *view, struct encoder **out);
 
 /** Add a picture. @param rgb  [height][width][3]. @return 0 or ERR_SYSTEM (reported) */
 int encoder_write(struct encoder *encoder, const uint8_t *rgb);

@@ -16,6 +16,7 @@
 #include "diff/pictures/set.h"
 #include "film/encoder.h"
 #include "film/layout.h"
+#include "film/matroska.h"
 #include "film/rate.h"
 #include "tracer/image/display.h"
 
@@ -79,6 +80,7 @@ static const struct options_table table = {
 /* The film so far. */
 struct film {
 	const struct asked *asked;
+	struct layout layout;
 	struct set traced, raster;             /* raster: empty if the frames have their own */
 	struct display *of_traced, *of_raster; /* NULL: no frame read yet */
 	uint32_t width, height;                /* size of the frames */
@@ -108,10 +110,31 @@ static int fill(struct film *f, const struct display *display, const struct imag
 	return display_codes(display, img, layer, rgb, NULL);
 }
 
-/* The first frame determines size, tone curve and speed. */
+/* How the film is to be seen: as its frames are, if it shows nothing else. Their strip of labels is left out then. */
+static struct matroska_view choose_view(struct film *f, const struct image *img)
+{
+	const char *projection = image_attribute(img, "relume:projection"), *eyes = image_attribute(img, "relume:eyes");
+	const int is_panorama = projection && strcmp(projection, "panorama") == 0;
+	struct matroska_view view = { MATROSKA_MONO, is_panorama };
+
+	if (eyes)
+		view.stereo = strcmp(eyes, "side by side") == 0 ? MATROSKA_SIDE_BY_SIDE : MATROSKA_TOP_BOTTOM;
+	if (!is_panorama && !eyes)
+		return view;
+	if (f->layout.kind == LAYOUT_TRACED && !f->layout.caption) {
+		f->layout.no_labels = 1;
+		return view;
+	}
+	err_warn(f->traced.name, "players will not show the film as a panorama or for two eyes, as it shows more; "
+	                         "--layout traced without --caption does not");
+	return (struct matroska_view){ MATROSKA_MONO, 0 };
+}
+
+/* The first frame determines size, view, tone curve and speed. */
 static int begin(struct film *f, const struct image *img)
 {
 	const char *white = image_attribute(img, "relume:white");
+	const struct matroska_view view = choose_view(f, img);
 	struct display_options traced = f->asked->display;
 	size_t bytes;
 	int err;
@@ -125,7 +148,7 @@ static int begin(struct film *f, const struct image *img)
 		return err;
 	f->width = img->width;
 	f->height = img->height;
-	layout_size(&f->asked->layout, f->width, f->height, &f->picture.width, &f->picture.height);
+	layout_size(&f->layout, f->width, f->height, &f->picture.width, &f->picture.height);
 	bytes = (size_t)f->width * f->height * 3;
 	f->raster_rgb = malloc(bytes);
 	f->traced_rgb = malloc(bytes);
@@ -133,7 +156,8 @@ static int begin(struct film *f, const struct image *img)
 	if (!f->raster_rgb || !f->traced_rgb || !f->picture.rgb)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	err = folder_make_for(f->asked->output);
-	return err ? err : encoder_open(f->asked->output, f->picture.width, f->picture.height, f->fps, &f->encoder);
+	return err ? err : encoder_open(f->asked->output, f->picture.width, f->picture.height, f->fps, &view,
+	                                &f->encoder);
 }
 
 /* Show the held frame until `f->ends_s`. */
@@ -144,8 +168,8 @@ static int show(struct film *f)
 	int err = 0;
 
 	for (uint64_t first = f->n_pictures; f->n_pictures < end && !err; f->n_pictures++) {
-		if (f->n_pictures == first || layout_moves(f->asked->layout.kind))
-			layout_draw(&f->asked->layout, f->raster_rgb, f->traced_rgb, f->width, f->height,
+		if (f->n_pictures == first || layout_moves(f->layout.kind))
+			layout_draw(&f->layout, f->raster_rgb, f->traced_rgb, f->width, f->height,
 			            (double)f->n_pictures / f->fps, &f->picture);
 		err = encoder_write(f->encoder, f->picture.rgb);
 	}
@@ -179,7 +203,7 @@ static int let_go(struct film *f, uint64_t next_ns)
 
 static int take_frame(struct film *f, const struct set_entry *entry)
 {
-	const enum layout_kind kind = f->asked->layout.kind;
+	const enum layout_kind kind = f->layout.kind;
 	const struct set_entry *other = f->asked->raster ? set_find(&f->raster, entry->frame) : entry;
 	const char *where = entry->path ? entry->path : f->traced.name;
 	struct image img = { .width = 0 }, shown = { .width = 0 };
@@ -213,7 +237,7 @@ static int take_frame(struct film *f, const struct set_entry *entry)
 /* The film's picture of the held frame; both halves if they alternate. */
 static int write_poster(struct film *f)
 {
-	struct layout layout = f->asked->layout;
+	struct layout layout = f->layout;
 	const size_t stem = (size_t)(strrchr(f->asked->output, '.') - f->asked->output);
 	char path[4096];
 
@@ -281,7 +305,7 @@ static int run(struct film *f)
 
 static int make_film(const struct asked *asked)
 {
-	struct film f = { .asked = asked };
+	struct film f = { .asked = asked, .layout = asked->layout };
 	int err = encoder_knows(asked->output) ? set_open(asked->frames_of, &f.traced) : ERR_USAGE;
 
 	if (!err && asked->raster)

@@ -80,6 +80,15 @@ static const char *text_of(const struct camera_keys *k)
 	return k->aperture && *k->aperture > 0 ? thin : NULL;
 }
 
+const char *lens_eyes(const struct camera *camera)
+{
+	const struct camera_keys *k = camera->keys;
+
+	if (camera_is_kind(k, "stereo"))
+		return "side by side";
+	return camera_is_kind(k, "panorama") && k->eyes && *k->eyes > 0 ? "left above right" : NULL;
+}
+
 static double value_of(const float *key, double otherwise)
 {
 	return key ? (double)*key : otherwise;

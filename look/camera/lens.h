@@ -10,3 +10,6 @@ struct camera;
  * @return 0 or ERR_SYSTEM (reported)
  */
 int lens_text(const struct camera *camera, char **out);
+
+/** How two eyes' pictures are arranged: "side by side" or "left above right". NULL: there is one eye */
+const char *lens_eyes(const struct camera *camera);

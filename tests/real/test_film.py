@@ -2,9 +2,11 @@
 # limit: 300 s
 """relume film: which pictures it gives to ffmpeg, how long each stands, and the page that plays the film.
 
-A program named ffmpeg keeps the pictures as they come; `make show-film` runs the real one.
+A program named ffmpeg keeps the pictures, read by the real one; `make show-film` makes whole films.
 """
+import json
 import os
+import shutil
 
 import numpy
 
@@ -13,14 +15,21 @@ from helpers import SCRATCH, check, corpus, finish, must, record, relume, run
 
 bin_dir = SCRATCH / "bin"
 bin_dir.mkdir()
-(bin_dir / "ffmpeg").write_text("""#!/usr/bin/python3
-import shutil, sys
-assert "pipe:0" in sys.argv
+(bin_dir / "ffmpeg").write_text(f"""#!/usr/bin/python3
+import subprocess, sys
 if "broken" in sys.argv[-1]:
     sys.exit("no such encoder")
+kind, rate = (sys.argv[sys.argv.index(option) + 1] for option in ("-f", "-r"))
+shown = subprocess.run([{shutil.which("ffmpeg")!r}, "-loglevel", "error", "-f", kind, "-r", rate, "-i", "pipe:0",
+                        "-f", "image2pipe", "-c:v", "ppm", "pipe:1"], stdout=subprocess.PIPE, check=True).stdout
+size = shown.split(b"\\n", 2)[1]
+head = b"P6\\n" + size + b"\\n255\\n"
+width, height = map(int, size.split())
+length = len(head) + 3 * width * height
 with open(sys.argv[-1], "wb") as out:
-    out.write((sys.argv[sys.argv.index("-s") + 1] + " " + sys.argv[sys.argv.index("-r") + 1] + "\\n").encode())
-    shutil.copyfileobj(sys.stdin.buffer, out)
+    out.write(b"%dx%d %s\\n" % (width, height, rate.encode()))
+    for at in range(0, len(shown), length):
+        out.write(shown[at + len(head):at + length])
 """)
 (bin_dir / "ffmpeg").chmod(0o755)
 fake = dict(os.environ, PATH=f"{bin_dir}:{os.environ['PATH']}")
@@ -133,6 +142,27 @@ check(timed("unbound", 2, 2, 2) == (60, 4, True), "500 frames a second: each of 
 check(timed("monitor", 16.7, 16.7, 16.7) == (60, 4, False), "60 frames a second: no frame is dropped")
 check(timed("slow", 100, 100, 100) == (30, 12, False), "10 frames a second: three pictures each")
 check(timed("once", 100, 2, 100) == (30, 10, True), "a frame that came at once is seen, too")
+
+# Panoramas and pictures for two eyes are marked.
+for name, projection, eyes, seen in (("around", "panorama", None, ("Spherical Mapping", None)),
+                                     ("omni", "panorama", "left above right", ("Spherical Mapping", "top and bottom")),
+                                     ("stereo", "stereo", "side by side", (None, "side by side")),
+                                     ("cube", "cube", None, (None, None))):
+    (SCRATCH / name).mkdir()
+    eyes = ("--sattrib", "relume:eyes", eyes) if eyes else ()
+    must(run("oiiotool", frames / "s.0001.exr", "--sattrib", "relume:projection", projection, *eyes, "-d", "float", "-o",
+             SCRATCH / name / "s.0001.exr"))
+    for ending in ("mp4", "webm", "mkv"):
+        path = SCRATCH / f"{name}.{ending}"
+        must(relume("film", SCRATCH / name, "--layout", "traced", "--fps", "25", "-o", path))
+        stream = json.loads(must(run("ffprobe", "-v", "error", "-show_streams", "-of", "json", path)).stdout)["streams"][0]
+        sides = {side["side_data_type"]: side for side in stream.get("side_data_list", ())}
+        check(("Spherical Mapping" if "Spherical Mapping" in sides else None) == seen[0], f"{path.name}: {list(sides)}")
+        check(sides.get("Stereo 3D", {}).get("type") == seen[1],
+              f"{path.name}: eyes {sides.get('Stereo 3D')}")
+        check((stream["height"] == height) == (name != "cube"), f"{path.name}: no labels in panoramas")
+done = relume("film", SCRATCH / "around", "--fps", "25", "-o", SCRATCH / "beside.webm")
+check(done.returncode == 0 and "will not show the film as a panorama" in done.stderr, f"beside: {done.stderr}")
 
 # What cannot be.
 check("ffmpeg" in film("none.webm", code=5, env=dict(fake, PATH="/nowhere")), "without ffmpeg: its package is named")
