@@ -4,6 +4,7 @@
  *
  *   --frames N              exit after N frames (default: run until closed)
  *   --animate camera|light|none
+ *   --step N                each frame is what the N-th from there would be (default: 1)
  *   --vbo                   arrays from a buffer object where the program has arrays
  *   --mirror                make a mirror where the program has one to make
  *   --glass                 add something of glass where the program has it
@@ -33,31 +34,33 @@ struct program {
 	const char *title;
 	void (*draw)(void); /* one frame of `program_frame`, without the swap */
 	long frames;        /* 0: no end */
+	long step;          /* frames of time from one to the next */
 	int width, height;  /* of the window */
 	int animate_camera, animate_light, vbo, mirror, glass, mesh, ortho;
 	int stencil;        /* set before program_run: the window has a stencil buffer */
 	const char *model, *by; /* NULL: none given */
 };
 
-static struct program program = { .width = 800, .height = 600 };
+static struct program program = { .step = 1, .width = 800, .height = 600 };
 #define PROGRAM_WIDTH program.width
 #define PROGRAM_HEIGHT program.height
-static long program_frame; /* from 0 */
+static long program_frame; /* from 0, in steps */
 
 static void program_display(void)
 {
 	program.draw();
 	glFlush();
 	glutSwapBuffers();
-	if (++program_frame == program.frames)
+	program_frame += program.step;
+	if (program.frames && program_frame >= program.frames * program.step)
 		exit(0);
 	glutPostRedisplay();
 }
 
 static void program_usage(const char *name)
 {
-	fprintf(stderr, "usage: %s [--frames N] [--animate camera|light|none] [--vbo] [--mirror] [--glass] [--mesh] "
-	        "[--size WxH] [--ortho] [--model FILE] [--by HOW]\n", name);
+	fprintf(stderr, "usage: %s [--frames N] [--step N] [--animate camera|light|none] [--vbo] [--mirror] [--glass] "
+	        "[--mesh] [--size WxH] [--ortho] [--model FILE] [--by HOW]\n", name);
 	exit(2);
 }
 
@@ -86,6 +89,8 @@ static void program_parse(int argc, char **argv)
 			program_usage(argv[0]);
 		else if (strcmp(argv[i], "--frames") == 0 && atol(argv[i + 1]) > 0)
 			program.frames = atol(argv[++i]);
+		else if (strcmp(argv[i], "--step") == 0 && atol(argv[i + 1]) > 0)
+			program.step = atol(argv[++i]);
 		else if (strcmp(argv[i], "--size") == 0 && sscanf(argv[i + 1], "%dx%d", &program.width, &program.height) == 2)
 			i++;
 		else if (strcmp(argv[i], "--animate") == 0)

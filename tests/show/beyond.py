@@ -4,6 +4,9 @@
 size: programs recorded in a window of 320x240, rendered by `--scale 4`, against what Mesa draws of them in one of
 1280x960 (`relume raster`): frames that pass the gates of `relume diff`, and the lowest fidelity. What the larger
 picture costs beside one that was recorded at its size: processor time of whole runs, alternated.
+
+moment: programs recorded at a quarter of their rate, rendered by `--fps`, against the same programs recorded at all of
+it: FLIP's mean of pictures that were made, not recorded.
 """
 import argparse
 import json
@@ -28,7 +31,17 @@ PROGRAMS = {
 }
 
 
-class Sizes:
+STEP, MOMENTS = 4, 25
+MOST_FLIP = 0.02
+MOVING = {
+    "arena": ("camera", ), "blocks": ("camera", "light"), "board_fbo": ("camera", ), "closed_hall": ("camera", ),
+    "courtyard": ("camera", ), "facets": ("camera", ), "hall": ("camera", "light"),
+    "model_on_cube": ("camera", "light"), "phong": ("camera", ), "spheres": ("camera", "light"),
+    "tree_cards": ("camera", "light")
+}
+
+
+class Recordings:
     def __init__(self, build, folder):
         self.build, self.folder = build, pathlib.Path(folder)
         self.relume = build / "relume"
@@ -42,6 +55,21 @@ class Sizes:
         self.run(self.relume, "record", "-o", trace, "--", self.build / "corpus" / name, *PROGRAMS[name], "--frames",
                  FRAMES, "--size", f"{width}x{height}")
         return trace
+
+    def flips(self, name, what):
+        """FLIP's mean of each picture between recorded frames."""
+        traces = {step: self.folder / f"{name}-every-{step}.trace" for step in (1, STEP)}
+        for step, trace in traces.items():
+            self.run(self.relume, "record", "-o", trace, "--", self.build / "corpus" / name, "--animate", what,
+                     "--frames", (MOMENTS - 1) // step + 1, "--step", step, "--size", f"{WIDTH}x{HEIGHT}")
+        self.run(self.relume, "render", traces[1], "-o", f"{name}.shown.####.exr")
+        self.run(self.relume, "render", traces[STEP], "--recorded-fps", 1, "--fps", STEP, "-o", f"{name}.made.####.exr")
+        scored = json.loads(
+            self.run(self.relume, "diff", f"{name}.shown.####.exr", f"{name}.made.####.exr", "--channel", "beauty",
+                     "--json", "-", check=False).stdout)
+        flips = [frame["gates"]["P"]["figures"][0]["value"] for frame in scored["frames"]]
+        assert len(flips) == MOMENTS, scored
+        return [flip for number, flip in enumerate(flips) if number % STEP]
 
     def score(self, name):
         """(frames that pass, frames, lowest fidelity in per cent)."""
@@ -62,24 +90,31 @@ class Sizes:
         return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def show_sizes(shown, sizes):
+def show_sizes(shown, recordings):
     for name in PROGRAMS:
-        passed, frames, fidelity = sizes.score(name)
+        passed, frames, fidelity = recordings.score(name)
         shown.row(f"size: {name}, {WIDTH}x{HEIGHT} by {FACTOR} against one recorded so",
                   f"{passed} of {frames} frames pass, fidelity {fidelity:.3f} %", f"all, {FIDELITY} %",
                   passed == frames == FRAMES and fidelity >= FIDELITY, "Mesa")
     for name in ("hall", "spheres"):
-        ways = ((sizes.folder / f"{name}-{WIDTH}.trace", "--scale", FACTOR),
-                (sizes.folder / f"{name}-{WIDTH * FACTOR}.trace", ))
+        ways = ((recordings.folder / f"{name}-{WIDTH}.trace", "--scale", FACTOR),
+                (recordings.folder / f"{name}-{WIDTH * FACTOR}.trace", ))
         for way in ways:  # compiles what they need
-            sizes.seconds(*way)
-        pairs = [[sizes.seconds(*way) for way in ways] for _ in range(RUNS)]
+            recordings.seconds(*way)
+        pairs = [[recordings.seconds(*way) for way in ways] for _ in range(RUNS)]
         cost = statistics.median(scaled / recorded for scaled, recorded in pairs)
         shown.row(f"size: {name}, processor time beside one recorded so", f"{cost:.2f} times", f"{MOST_COST} times",
                   cost <= MOST_COST)
 
 
-PARTS = {"size": show_sizes}
+def show_moments(shown, recordings):
+    for name, what in ((name, what) for name, moving in MOVING.items() for what in moving):
+        flips = recordings.flips(name, what)
+        shown.row(f"moment: {name}, its {what} moving: FLIP's mean of {len(flips)} pictures between frames, at most",
+                  f"{max(flips):.4f}", f"{MOST_FLIP}", max(flips) <= MOST_FLIP, "the program at four times the rate")
+
+
+PARTS = {"size": show_sizes, "moment": show_moments}
 
 
 def main():
@@ -93,7 +128,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="relume-") as folder:
         for name, part in PARTS.items():
             if args.only in (None, name):
-                part(shown, Sizes(args.build, folder))
+                part(shown, Recordings(args.build, folder))
     return shown.finish()
 
 
