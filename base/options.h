@@ -16,7 +16,7 @@
 
 #include "base/confine.h"
 
-enum { OPTIONS_MAX_ROWS = 48 };
+enum { OPTIONS_MAX_ROWS = 64 };
 
 struct options_row {
 	const char *name;     /* long name; NULL: a heading, with `help` as its text */

@@ -42,14 +42,6 @@ static int is_there(const struct pipeline_state *state, uint64_t frame)
 	       stamp_check(&state->p->stamp, settings_recorded_frame(state->p->settings, frame), path) == STAMP_SAME;
 }
 
-/* Replay up to a frame. @return 1; 0: the recording ends before it; ERR_* */
-static int go_to(struct pipeline_state *state, uint64_t frame)
-{
-	const int more = state->p->settings->motion ? earlier_decode(&state->earlier, state->p->replay, frame) : 1;
-
-	return more == 1 ? replay_seek(state->p->replay, frame) : more;
-}
-
 /* What replay has met so far is known, should this process end before the report. */
 static void note_lacks(const struct pipeline *p)
 {
@@ -60,47 +52,52 @@ static void note_lacks(const struct pipeline *p)
 		p->carried->lacks |= !replay_is_rendered(&counts[i]);
 }
 
-/* The scene of the next frame, or the one that all pictures of a turntable are made of. @return 1; 0: the recording has
- * ended; ERR_* */
-static int take_scene(struct pipeline_state *state, struct shared_scene **out)
+/* The frames that a picture takes. */
+static void range_of(const struct settings *s, uint64_t number, uint64_t *low, uint64_t *high)
 {
-	struct shared_scene *shared = state->turned ? state->turned : calloc(1, sizeof(*shared));
-	int more = 1;
+	const struct moments *m = &s->moments;
+	double at;
 
-	if (!shared)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	shared->users++;
-	*out = shared;
-	if (state->turned)
-		return 1;
-	more = replay_next_frame(state->p->replay, 1, &shared->scene);
-	note_lacks(state->p);
-	if (more == 1 && state->p->settings->motion && earlier_note(&state->earlier, shared->scene))
-		more = ERR_SYSTEM;
-	if (more == 1 && camera_pictures(state->p->settings->camera)) {
-		shared->users++;
-		state->turned = shared;
-	}
-	return more;
+	moments_at(m, number, s->motion ? -1 : -0.5 * m->shutter, low, &at);
+	moments_at(m, number, 0.5 * m->shutter, high, &at);
+	*high += at > 0;
 }
 
-/* A recorded frame that a moment is at or behind (k 0) or before (1). @return 1; 0: the recording ends before it; ERR_*
- */
-static int hold(struct pipeline_state *state, int k, uint64_t frame)
+/* The frames that no picture from this one on takes. */
+static void let_go(struct pipeline_state *state, uint64_t number)
 {
-	struct shared_scene *shared;
+	uint64_t low, high;
+
+	range_of(state->p->settings, number, &low, &high);
+	while (state->held && (state->held_frame < low || state->held_frame > high)) {
+		struct shared_scene *next = state->held->next;
+
+		if (next)
+			next->users++;
+		shot_leave_scene(&state->held);
+		state->held = next;
+		state->held_frame++;
+	}
+}
+
+/* Replay up to the first frame that is not held. @return 1; 0: the recording ends before it; ERR_* */
+static int go_to(struct pipeline_state *state, uint64_t number)
+{
+	uint64_t low, high;
+
+	let_go(state, number);
+	range_of(state->p->settings, number, &low, &high);
+	if (state->held && state->held_frame != low)
+		shot_leave_scene(&state->held);
+	return state->held ? 1 : replay_seek(state->p->replay, low);
+}
+
+/* @param out  receives the frame, with one user. @return 1; 0: the recording ends before it; ERR_* */
+static int decode(struct pipeline_state *state, uint64_t frame, struct shared_scene **out)
+{
+	struct shared_scene *shared = calloc(1, sizeof(*shared));
 	int more;
 
-	if (state->held[k] && state->held_frame[k] == frame)
-		return 1;
-	pipeline_leave_scene(&state->held[k]);
-	state->held_frame[k] = frame;
-	if (!k && state->held[1] && state->held_frame[1] == frame) {
-		state->held[0] = state->held[1];
-		state->held[1] = NULL;
-		return 1;
-	}
-	shared = calloc(1, sizeof(*shared));
 	if (!shared)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	shared->users = 1;
@@ -109,49 +106,39 @@ static int hold(struct pipeline_state *state, int k, uint64_t frame)
 		more = replay_next_frame(state->p->replay, 1, &shared->scene);
 	note_lacks(state->p);
 	if (more == 1)
-		state->held[k] = shared;
+		*out = shared;
 	else
-		pipeline_leave_scene(&shared);
+		shot_leave_scene(&shared);
 	return more;
 }
 
-/* The scene between the frames that are held. @return 1 or ERR_SYSTEM (reported) */
-static int bridge(struct pipeline_state *state, double at, struct shared_scene *shared)
+/* The frames of a picture: those that are held, and the rest. As decode */
+static int take_frames(struct pipeline_state *state, struct shot *shot)
 {
-	shared->between = calloc(1, sizeof(*shared->between));
-	if (!shared->between)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	for (int k = 0; k < 2; k++) {
-		state->held[k]->users++;
-		shared->ends[k] = state->held[k];
+	const struct settings *s = state->p->settings;
+	struct shared_scene *last;
+	uint64_t high;
+	int more = 1;
+
+	range_of(s, shot->number, &shot->first, &high);
+	if (!state->held) {
+		more = decode(state, shot->first, &state->held);
+		state->held_frame = shot->first;
 	}
-	shared->scene = &shared->between->scene;
-	return between_make(state->held[0]->scene, state->held[1]->scene, at, shared->between) ? ERR_SYSTEM : 1;
-}
-
-/* The scene of a picture's moment. As take_scene */
-static int take_moment(struct pipeline_state *state, uint64_t picture, struct shared_scene **out)
-{
-	uint64_t frame;
-	double at;
-	int more;
-
-	moments_at(&state->p->settings->moments, picture, &frame, &at);
-	more = hold(state, 0, frame);
-	if (more == 1 && at > 0)
-		more = hold(state, 1, frame + 1);
+	last = state->held;
+	for (uint64_t frame = shot->first; more == 1 && frame < high; frame++, last = last->next) {
+		if (!last->next)
+			more = decode(state, frame + 1, &last->next);
+		if (more != 1 || last->after || !(s->fps > 0 || s->moments.shutter > 0))
+			continue;
+		last->after = interval_new(last->scene, last->next->scene);
+		more = last->after ? 1 : ERR_SYSTEM;
+	}
 	if (more != 1)
 		return more;
-	if (!(at > 0)) {
-		state->held[0]->users++;
-		*out = state->held[0];
-		return 1;
-	}
-	*out = calloc(1, sizeof(**out));
-	if (!*out)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	(*out)->users = 1;
-	return bridge(state, at, *out);
+	state->held->users++;
+	shot->of = state->held;
+	return 1;
 }
 
 /* Have programs ready when the first scene is. */
@@ -171,10 +158,7 @@ static int hand_out(struct pipeline_state *state, uint64_t number)
 	state->decoded = number;
 	if (!state->begun)
 		prepare_devices(state->p);
-	if (state->turned || state->p->settings->moments.count)
-		more = 1;
-	else
-		more = go_to(state, settings_recorded_frame(state->p->settings, number));
+	more = go_to(state, number);
 	if (more != 1)
 		return more;
 	seconds = progress_clock_s() - start;
@@ -185,10 +169,8 @@ static int hand_out(struct pipeline_state *state, uint64_t number)
 		shot->number = number;
 	if (!shot)
 		more = err_report(ERR_SYSTEM, NULL, "out of memory");
-	else if (state->p->settings->moments.count)
-		more = take_moment(state, number, &shot->of);
 	else
-		more = take_scene(state, &shot->of);
+		more = take_frames(state, shot);
 	if (more == 1)
 		shot->replay_s = seconds + progress_clock_s() - start;
 	if (more == 1 && !state->begun++ && state->p->carried->guard.attempt <= 1)
@@ -197,18 +179,28 @@ static int hand_out(struct pipeline_state *state, uint64_t number)
 		more = ERR_SYSTEM;
 	if (more == 1 && queue_put(&state->shots, shot))
 		return 1;
-	pipeline_drop_shot(&shot);
+	shot_drop(&shot);
 	pipeline_land(state);
 	return more;
 }
 
-/* The frame that a driver failed on, so that another family tries it before all others; UINT64_MAX: none. Motion wants
- * frames in their order. */
+/* The frame that a driver failed on, so that another family tries it before all others; UINT64_MAX: none. */
 static uint64_t first_of(const struct pipeline *p)
 {
 	const int64_t first = p->carried->first;
 
-	return first < 0 || p->settings->motion || carried_is_done(p->carried, (uint64_t)first) ? UINT64_MAX : (uint64_t)first;
+	return first < 0 || carried_is_done(p->carried, (uint64_t)first) ? UINT64_MAX : (uint64_t)first;
+}
+
+/* Frames that no picture behind one takes. */
+static void let_go_behind(struct pipeline_state *state, uint64_t number)
+{
+	uint64_t next;
+
+	if (frame_list_next(&state->p->settings->frames, number + 1, &next) && next < state->p->end)
+		let_go(state, next);
+	else
+		shot_leave_scene(&state->held);
 }
 
 int pipeline_decode(struct pipeline_state *state)
@@ -228,6 +220,7 @@ int pipeline_decode(struct pipeline_state *state)
 			pipeline_note(state, frame, "skipped", 0);
 		else
 			more = hand_out(state, frame);
+		let_go_behind(state, frame);
 	}
 	return more < 0 ? more : 0;
 }

@@ -65,24 +65,39 @@ void moments_free(struct moments *m)
 	*m = (struct moments){ .fps = 0 };
 }
 
-void moments_at(const struct moments *m, uint64_t picture, uint64_t *frame, double *at)
+/* The last frame up to a time, counted from m->first. */
+static uint64_t last_until(const struct moments *m, double seconds)
 {
-	const double time = (double)picture / m->fps;
-	uint64_t low = 0, high = m->n; /* the last frame up to then is in between */
+	uint64_t low = 0, high = m->n;
 
 	while (high - low > 1) {
 		const uint64_t middle = low + (high - low) / 2;
 
-		if (m->seconds[middle] <= time)
+		if (m->seconds[middle] <= seconds)
 			low = middle;
 		else
 			high = middle;
 	}
-	*at = high < m->n ? (time - m->seconds[low]) / (m->seconds[high] - m->seconds[low]) : 0;
-	if (*at > 1 - SNAP)
-		low = high;
-	if (*at < SNAP || *at > 1 - SNAP)
-		*at = 0;
+	return low;
+}
+
+void moments_at(const struct moments *m, uint64_t picture, double after, uint64_t *frame, double *at)
+{
+	const double last = (double)(m->n - 1);
+	double place = (double)picture - (double)m->first + after; /* in frames */
+	uint64_t low;
+
+	if (m->fps > 0) {
+		const double time = ((double)picture + after) / m->fps;
+
+		low = last_until(m, time);
+		place = (double)low;
+		if (low + 1 < m->n)
+			place += (time - m->seconds[low]) / (m->seconds[low + 1] - m->seconds[low]);
+	}
+	place = place > 0 ? place < last ? place : last : 0;
+	low = (uint64_t)(place + SNAP);
+	*at = place - (double)low > SNAP ? place - (double)low : 0;
 	*frame = m->first + low;
 }
 
@@ -96,6 +111,6 @@ uint64_t moments_nearest(const struct moments *m, uint64_t picture)
 	uint64_t frame;
 	double at;
 
-	moments_at(m, picture, &frame, &at);
+	moments_at(m, picture, 0, &frame, &at);
 	return at < 0.5 ? frame : frame + 1;
 }

@@ -1,22 +1,26 @@
 /*
- * Pictures at a rate of their own (--fps): which moment of the recording each is of. A moment is a recorded frame, or a
- * place between two (look/between/between.h). Time is the program's clock when it ended frames, or, with
- * --recorded-fps, their number.
+ * The moment of the recording that each picture shows: a recorded frame, a turntable's one frame, or, with a rate of
+ * their own (--fps), any moment between two frames (look/between/between.h). Time is then the program's clock when it
+ * ended frames, or, with --recorded-fps, their number.
  */
 #pragma once
 
 #include "base/frames.h"
 #include "replay/replay.h"
 
-/* All zero: there are none. */
 struct moments {
-	double fps;
-	uint64_t first, first_ns; /* frame, and when it ended; 0: not known */
-	double *seconds;  /* [n]: when it ended and those after it, from 0 on; owned */
-	uint64_t n, count; /* frames; pictures */
+	double fps;       /* pictures a second; 0: each shows a frame and has its number */
+	double shutter;   /* how long it is open, of the time from a picture to the next; 0: for a moment */
+	uint64_t first;   /* frame of the recording */
+	uint64_t n;       /* frames from there on; none before and behind them is looked at */
+	uint64_t first_ns; /* with fps: when the first ended; 0: not known */
+	double *seconds;  /* with fps, [n]: when frames ended, from 0 on; owned */
+	uint64_t count;   /* with fps: pictures */
 };
 
 /**
+ * Pictures at a rate of their own.
+ * @param m             shutter is there
  * @param frames        one run of frames; empty: all
  * @param end           frames that the recording has
  * @param recorded_fps  0: the clock counts
@@ -27,10 +31,14 @@ int moments_make(struct moments *m, struct replay *replay, const char *trace, co
                  uint64_t end, double fps, double recorded_fps);
 void moments_free(struct moments *m);
 
-/** A picture's moment. @param at  [0,1), how far behind *frame; 0 where that is the last one */
-void moments_at(const struct moments *m, uint64_t picture, uint64_t *frame, double *at);
+/**
+ * The moment of a picture, or one before or after it.
+ * @param after  share of the time from a picture to the next, from then on
+ * @param at     [0,1), how far behind *frame; 0 where that is the last one
+ */
+void moments_at(const struct moments *m, uint64_t picture, double after, uint64_t *frame, double *at);
 
-/** When a picture is shown, in nanoseconds, by the recorded clock of the first frame. Never 0 */
+/** With fps: when a picture is shown, in nanoseconds, by the recorded clock of the first frame. Never 0 */
 uint64_t moments_time(const struct moments *m, uint64_t picture);
 
 /** The recorded frame that is nearest. */

@@ -5,13 +5,14 @@
 #include <stdlib.h>
 
 #include "base/err.h"
-#include "look/apply/apply.h"
 #include "look/apply/tell.h"
 #include "look/camera/camera.h"
-#include "look/camera/elsewhere.h"
-#include "look/camera/scaled.h"
-#include "look/unseen.h"
+#include "look/camera/lens.h"
+#include "render/cryptomatte.h"
 #include "render/preview.h"
+#include "render/programs.h"
+#include "render/seen.h"
+#include "render/vectors.h"
 
 /* What gate N (diff/score/harm.c) wants to know of a frame. changed: the scene under the rules */
 static int tell_harm(const struct spare *found, const struct scene *scene, const struct scene *changed,
@@ -50,30 +51,6 @@ static int tell_role(void *user, const char *text)
 	return image_set_attribute(t->img, name, "%s", text);
 }
 
-/* A scene traced as its camera sees it, the recorded one or another. */
-static int trace_from(const struct settings *settings, struct tracer *tracer, const struct scene *scene,
-                      uint64_t number, const struct tracer_options *options, struct image *img)
-{
-	struct elsewhere elsewhere;
-	int err;
-
-	if (!settings->camera)
-		return tracer_render(tracer, scene, options, img);
-	err = elsewhere_make(settings->camera, settings->look, scene, (uint32_t)number, &elsewhere);
-	if (err)
-		return err;
-	err = tracer_render(tracer, &elsewhere.scene, options, img);
-	if (!err)
-		err = image_set_attribute(img, "relume:camera", "%s", elsewhere.told);
-	if (!err && elsewhere.without)
-		err_warn(settings->camera->path,
-		         "frame %llu: %u draws are left out: programs place their vertices, and nothing says where "
-		         "that is from elsewhere",
-		         (unsigned long long)scene->frame, elsewhere.without);
-	elsewhere_release(&elsewhere);
-	return err;
-}
-
 static void tell_unscaled(const char *trace, const struct scaled *scaled)
 {
 	static atomic_uint told;
@@ -95,55 +72,152 @@ static void tell_unscaled(const char *trace, const struct scaled *scaled)
 		         (unsigned long long)scaled->scene.frame);
 }
 
-/* The same, in a window of the size that is asked for. */
-static int trace_seen(const struct settings *settings, struct tracer *tracer, const struct scene *scene,
-                      uint64_t number, const struct tracer_options *options, struct image *img)
+/* Another camera and size, and draws that could not be seen from there. */
+static int tell_seen(const struct settings *settings, const struct seen *seen, struct image *img)
 {
-	struct scaled scaled;
-	int err;
+	int err = 0;
 
-	if (!settings_resize(settings))
-		return trace_from(settings, tracer, scene, number, options, img);
-	err = scaled_make(scene, settings->scale, settings->size, &scaled);
-	if (err)
-		return err;
-	tell_unscaled(settings->trace, &scaled);
-	err = trace_from(settings, tracer, &scaled.scene, number, options, img);
-	if (!err)
-		err = image_set_attribute(img, "relume:recorded-size", "%ux%u", scene->width, scene->height);
-	scaled_release(&scaled);
+	if (settings->camera)
+		err = image_set_attribute(img, "relume:camera", "%s", seen->elsewhere.told);
+	if (!err && settings->camera && settings->camera->keys->kind)
+		err = image_set_attribute(img, "relume:projection", "%s", settings->camera->keys->kind);
+	if (!err && settings->camera && lens_eyes(settings->camera))
+		err = image_set_attribute(img, "relume:eyes", "%s", lens_eyes(settings->camera));
+	if (!err && seen->elsewhere.without)
+		err_warn(settings->camera->path,
+		         "frame %llu: %u draws are left out: programs place their vertices, and nothing says where "
+		         "that is from elsewhere",
+		         (unsigned long long)seen->recorded->frame, seen->elsewhere.without);
+	if (!err && settings_resize(settings))
+		err = image_set_attribute(img, "relume:recorded-size", "%ux%u", seen->recorded->width, seen->recorded->height);
 	return err;
 }
 
-int picture_render(const struct settings *settings, struct tracer *tracer, const struct scene *scene, uint64_t number,
+/* When the program showed the frame, or would have shown the picture, as relume film wants to know. */
+static int tell_time(const struct settings *settings, const struct shot *shot, const struct scene *scene,
+                     struct image *img)
+{
+	const uint64_t time = settings->fps > 0 ? moments_time(&settings->moments, shot->number) : scene->time_ns;
+
+	return time && !camera_pictures(settings->camera) ?
+	               image_set_attribute(img, "relume:time", "%llu", (unsigned long long)time) :
+	               0;
+}
+
+/* With --fps: how far behind which frame a picture is, and how a scene between two of them was made. */
+static int tell_moment(const struct settings *settings, const struct shot *shot, const struct between *between,
+                       struct image *img)
+{
+	uint64_t frame;
+	double at;
+	int err = 0;
+
+	if (settings->moments.shutter > 0)
+		err = image_set_attribute(img, "relume:shutter", "%g", settings->moments.shutter);
+	if (err || !(settings->fps > 0))
+		return err;
+	moments_at(&settings->moments, shot->number, 0, &frame, &at);
+	err = image_set_attribute(img, "relume:moment", "%llu + %.6f", (unsigned long long)frame, at);
+	if (!err && shot_is_at_cut(shot, &settings->moments))
+		err = image_set_attribute(img, "relume:between", "cut");
+	else if (!err && at > 0)
+		err = image_set_attribute(img, "relume:between", "%u draws followed, %u not", between->n_matched,
+		                          between->n_alone);
+	return err;
+}
+
+/* Motion since the picture before. */
+static int add_vectors(const struct settings *settings, const struct shot *shot, const struct scene *scene,
+                       struct image *img)
+{
+	struct between room = { .n_owned = 0 };
+	struct vectors_frame *before = NULL;
+	const struct scene *was = NULL;
+	int err = 0;
+
+	if (shot->number > 0 && !shot_is_behind_cut(shot, &settings->moments))
+		err = shot_scene(shot, &settings->moments, -1, &room, &was);
+	if (!err && was) {
+		before = vectors_note(was);
+		err = before ? 0 : ERR_SYSTEM;
+	}
+	if (!err)
+		err = vectors_add(scene, before, img);
+	vectors_free(&before);
+	between_release(&room);
+	return err;
+}
+
+/* A picture while the shutter is open. */
+struct exposure {
+	const struct settings *settings;
+	const struct shot *shot;
+	struct seen seen; /* of the last sample */
+};
+
+static int expose(void *user, double away, const struct scene **scene)
+{
+	struct exposure *e = user;
+	const struct moments *m = &e->settings->moments;
+	int err;
+
+	seen_release(&e->seen);
+	err = shot_scene(e->shot, m, away * m->shutter, &e->seen.between, &e->seen.recorded);
+	if (!err)
+		err = seen_make(e->settings, e->shot->number, &e->seen);
+	*scene = e->seen.scene;
+	return err;
+}
+
+/* The report's attributes of a frame under rules. */
+static int tell_rules(const struct settings *settings, const struct seen *seen, struct image *img)
+{
+	int err = tell_harm(&seen->found, seen->recorded, &seen->changed, img);
+
+	return !err && settings->look ?
+	               look_tell(settings->look, seen->recorded, tell_role, &(struct telling){ img, 0 }) :
+	               err;
+}
+
+int picture_render(const struct settings *settings, struct tracer *tracer, const struct shot *shot,
                    const struct picture_listener *listener, struct image *img)
 {
-	struct preview preview = { settings, number };
+	struct preview preview = { settings, shot->number };
+	struct exposure exposure = { settings, shot, { .scene = NULL } };
 	struct tracer_options options = settings->tracer;
-	struct scene whole = { .instances = NULL }, changed = { .instances = NULL };
-	struct spare found = { .bits = NULL };
+	struct seen seen = { .scene = NULL };
 	int err;
 
 	options.preview = settings->preview ? preview_show : NULL;
 	options.preview_user = &preview;
 	options.sampled = listener->sampled;
 	options.sampled_user = listener->user;
-	if (options.mode == TRACER_GL)
-		return trace_seen(settings, tracer, scene, number, &options, img);
-	err = unseen_add(settings->look, scene, &whole);
+	options.expose = settings->moments.shutter > 0 ? expose : NULL;
+	options.expose_user = &exposure;
+	err = shot_scene(shot, &settings->moments, 0, &seen.between, &seen.recorded);
 	if (!err)
-		err = look_apply(settings->look, whole.instances ? &whole : scene, &changed, &found);
+		err = seen_make(settings, shot->number, &seen);
+	if (!err && settings_resize(settings))
+		tell_unscaled(settings->trace, &seen.scaled);
 	if (!err)
-		err = trace_seen(settings, tracer, &changed, number, &options, img);
+		err = tracer_render(tracer, seen.scene, &options, img);
+	if (!err)
+		err = tell_seen(settings, &seen, img);
 	if (!err)
 		err = settings_denoise(settings, img);
+	if (!err && settings->tracer.mode != TRACER_GL)
+		err = tell_rules(settings, &seen, img);
 	if (!err)
-		err = tell_harm(&found, scene, &changed, img);
-	if (!err && settings->look)
-		err = look_tell(settings->look, scene, tell_role, &(struct telling){ img, 0 });
-	if (changed.instances)
-		look_release(&changed);
-	spare_free(&found);
-	unseen_release(&whole);
+		err = tell_time(settings, shot, seen.recorded, img);
+	if (!err)
+		err = tell_moment(settings, shot, &seen.between, img);
+	if (!err)
+		err = programs_tell(seen.recorded, img);
+	if (!err && settings->motion)
+		err = add_vectors(settings, shot, seen.recorded, img);
+	if (!err && settings->cryptomatte)
+		err = cryptomatte_add(seen.recorded, img);
+	seen_release(&exposure.seen);
+	seen_release(&seen);
 	return err;
 }

@@ -1,8 +1,8 @@
-/* One picture of a scene: under the rules, from the recorded camera or another, with what a report is told of it. */
+/* One picture of a shot: under the rules, from the recorded camera or another, with attributes for reports. */
 #pragma once
 
 #include "render/settings.h"
-#include "scene/scene.h"
+#include "render/shot.h"
 #include "tracer/frame/trace.h"
 
 /* Told how many samples of a picture there are (tracer_options.sampled). */
@@ -13,10 +13,9 @@ struct picture_listener {
 
 /**
  * @param tracer  traces it; one picture at a time
- * @param number  the picture's: the frame's, or of a turntable
  * @param listener  called in this thread
  * @param img     filled; image_free, also after an error
  * @return 0; ERR_INPUT: the camera's file is not for this frame; ERR_SYSTEM (reported)
  */
-int picture_render(const struct settings *settings, struct tracer *tracer, const struct scene *scene, uint64_t number,
+int picture_render(const struct settings *settings, struct tracer *tracer, const struct shot *shot,
                    const struct picture_listener *listener, struct image *img);

@@ -71,10 +71,8 @@ static int start_and_join(struct pipeline_state *state, struct worker *workers, 
 	for (size_t i = 0; i < state->n_started; i++)
 		pthread_join(workers[i].thread, NULL);
 	for (struct shot *shot; (shot = queue_take(&state->shots));)
-		pipeline_drop_shot(&shot); /* every worker was gone */
-	pipeline_leave_scene(&state->turned);
-	for (int i = 0; i < 2; i++)
-		pipeline_leave_scene(&state->held[i]);
+		shot_drop(&shot); /* every worker was gone */
+	shot_leave_scene(&state->held);
 	queue_close(&state->pictures);
 	for (unsigned i = 0; i < n_writers; i++)
 		pthread_join(writers[i], NULL);
@@ -108,7 +106,6 @@ int pipeline_run(struct pipeline *p)
 
 	pthread_mutex_init(&state.lock, NULL);
 	pthread_cond_init(&state.landed, NULL);
-	earlier_init(&state.earlier);
 	if (!err)
 		err = queue_init(&state.shots, n, n);
 	if (!err)
@@ -120,7 +117,7 @@ int pipeline_run(struct pipeline *p)
 	supply.cache = state.cache;
 	supply.number = &state.decoded;
 	replay_set_supplier(p->replay, supply_picture, &supply);
-	if (!settings_resize(p->settings) && !p->settings->moments.count)
+	if (!settings_resize(p->settings) && !settings_mixes(p->settings))
 		replay_leave_starts(p->replay);
 	if (!err)
 		err = keep_pixels(p);
@@ -142,7 +139,6 @@ int pipeline_run(struct pipeline *p)
 			device_close(&workers[i].dev);
 	queue_free(&state.shots);
 	queue_free(&state.pictures);
-	earlier_free(&state.earlier);
 	pthread_cond_destroy(&state.landed);
 	pthread_mutex_destroy(&state.lock);
 	free(workers);

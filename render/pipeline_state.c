@@ -2,8 +2,6 @@
 
 #include <stdlib.h>
 
-#include "scene/release.h"
-
 void pipeline_fail(struct pipeline_state *state, int err)
 {
 	pthread_mutex_lock(&state->lock);
@@ -12,31 +10,6 @@ void pipeline_fail(struct pipeline_state *state, int err)
 	pthread_mutex_unlock(&state->lock);
 	watch_give_up(state->p->watch);
 	queue_close(&state->shots);
-}
-
-void pipeline_leave_scene(struct shared_scene **shared)
-{
-	struct shared_scene *s = *shared;
-
-	*shared = NULL;
-	if (!s || atomic_fetch_sub(&s->users, 1) != 1)
-		return;
-	if (s->between)
-		between_release(s->between);
-	else
-		scene_release(&s->scene);
-	free(s->between);
-	for (int i = 0; i < 2; i++)
-		pipeline_leave_scene(&s->ends[i]);
-	free(s);
-}
-
-void pipeline_drop_shot(struct shot **shot)
-{
-	if (*shot)
-		pipeline_leave_scene(&(*shot)->of);
-	free(*shot);
-	*shot = NULL;
 }
 
 void pipeline_land(struct pipeline_state *state)

@@ -5,36 +5,19 @@
 #include <stdatomic.h>
 
 #include "base/queue.h"
-#include "look/between/between.h"
 #include "render/alike.h"
-#include "render/earlier.h"
 #include "render/pipeline.h"
+#include "render/shot.h"
 #include "tracer/image/image.h"
 
 #define PIPELINE_PATH_BYTES 4096
-
-/* A scene that one picture, or all of a turntable, are made of. */
-struct shared_scene {
-	struct scene *scene;
-	struct between *between;       /* whose scene it is, and */
-	struct shared_scene *ends[2];  /* the frames that it is between; NULL: it is a recorded one */
-	atomic_uint users;
-};
-
-/* A picture to be made. */
-struct shot {
-	struct shared_scene *of;
-	uint64_t number; /* in file names: the frame's, or the turntable's picture's */
-	double replay_s; /* that playing the recording up to it has taken */
-};
 
 struct pipeline_state {
 	struct pipeline *p;
 	struct blas_cache *cache; /* BLASes that the workers share; NULL: there is only one */
 	struct queue shots, pictures;
-	struct shared_scene *turned; /* of a turntable, once it is decoded; NULL */
-	struct shared_scene *held[2]; /* frames about the last moment; NULL */
-	uint64_t held_frame[2];
+	struct shared_scene *held; /* frames that pictures to come take, and their first; NULL: none yet */
+	uint64_t held_frame;
 	pthread_mutex_t lock; /* of what follows, and of the progress */
 	atomic_int err;       /* the first failure */
 	int writer_said;      /* a writer has reported its failure */
@@ -49,7 +32,6 @@ struct pipeline_state {
 	uint64_t idle_bytes;  /* memory before the first frame */
 	pthread_cond_t landed;
 	int begun; /* a picture was handed out */
-	struct earlier earlier; /* for motion vectors */
 	struct alike alike;     /* why frames failed; under the lock */
 };
 
@@ -72,8 +54,6 @@ struct picture {
 /** The first failure ends the run; later ones only follow from it. */
 void pipeline_fail(struct pipeline_state *state, int err);
 
-void pipeline_leave_scene(struct shared_scene **shared);
-void pipeline_drop_shot(struct shot **shot);
 void pipeline_drop_picture(struct picture **picture);
 
 /** A picture is done with, made or not. */

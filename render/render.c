@@ -47,6 +47,7 @@ static int choose_frames(struct settings *s, struct replay *replay, struct exten
 	if (s->n_chunks && !settings_number_pictures(s))
 		err = frame_list_chunk(&s->frames, x->end, s->chunk, s->n_chunks);
 	x->total = frame_list_count(&s->frames, x->end);
+	s->moments = (struct moments){ .shutter = (double)s->shutter, .n = x->end };
 	return err;
 }
 
@@ -60,7 +61,9 @@ static int list_pictures(struct settings *s, struct replay *replay, struct exten
 		return 0;
 	if (s->fps > 0)
 		err = moments_make(&s->moments, replay, s->trace, &s->frames, x->end, (double)s->fps, (double)s->recorded_fps);
-	else if (x->total != 1 || !frame_list_next(&s->frames, 0, &s->turned))
+	else if (x->total == 1 && frame_list_next(&s->frames, 0, &s->moments.first))
+		s->moments.n = 1;
+	else
 		err = err_report(ERR_USAGE, s->camera->path, "a turntable shows one recorded frame; -f names it");
 	if (err)
 		return err;

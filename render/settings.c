@@ -288,6 +288,10 @@ static const struct options_row rows[] = {
 	{ "recorded-fps", 0, "N",
 	  "with --fps: the recording has N frames a second (default: by the program's clock when it was recorded)",
 	  options_real, AT(recorded_fps), .low = 0.01f, .high = 10000 },
+	{ "shutter", 0, "X",
+	  "motion blur: samples are spread over X of the time from a picture to the next, its own moment in the middle: "
+	  "0.5 is a film camera's. What --samples leaves as it is stays that of the moment",
+	  options_real, AT(shutter), .low = 0, .high = 1 },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND",
 	  "how trees of meshes are built: " TREE_BUILDERS(
@@ -486,10 +490,12 @@ static int check_moments(const struct settings *s)
 {
 	if (s->recorded_fps > 0 && !(s->fps > 0))
 		return err_report(ERR_USAGE, NULL, "--recorded-fps is for --fps");
-	if (s->fps > 0 && s->motion)
-		return err_report(ERR_USAGE, NULL, "--fps: motion is known of recorded frames alone (--aov motion)");
 	if (s->fps > 0 && camera_pictures(s->camera))
 		return err_report(ERR_USAGE, s->camera->path, "a turntable shows one frame: there is no --fps");
+	if (s->shutter > 0 && camera_pictures(s->camera))
+		return err_report(ERR_USAGE, s->camera->path, "a turntable shows one moment: there is no --shutter");
+	if (s->shutter > 0 && s->tracer.samples < 2)
+		return err_report(ERR_USAGE, NULL, "--shutter spreads samples over time: --samples says how many, as 32");
 	return 0;
 }
 
@@ -609,11 +615,14 @@ int settings_number_pictures(const struct settings *s)
 	return s->fps > 0 || camera_pictures(s->camera);
 }
 
+int settings_mixes(const struct settings *s)
+{
+	return s->fps > 0 || s->shutter > 0;
+}
+
 uint64_t settings_recorded_frame(const struct settings *s, uint64_t number)
 {
-	if (s->moments.count)
-		return moments_nearest(&s->moments, number);
-	return camera_pictures(s->camera) ? s->turned : number;
+	return moments_nearest(&s->moments, number);
 }
 
 int settings_denoise(const struct settings *s, struct image *img)

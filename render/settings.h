@@ -38,9 +38,8 @@ struct settings {
 	struct camera *camera;  /* owned; NULL: the recorded one */
 	float scale;            /* pixels for one of the window's; 0: as many as recorded, or `size` */
 	uint32_t size[2];       /* pixels of pictures; 0: not given */
-	uint64_t turned;        /* of a turntable: the recorded frame; `frames` are its pictures (render.c) */
-	float fps, recorded_fps; /* 0: not given */
-	struct moments moments; /* with fps: `frames` are pictures (render.c) */
+	float fps, recorded_fps, shutter; /* 0: not given */
+	struct moments moments; /* of pictures, which `frames` are with fps and of a turntable (render.c) */
 	struct tracer_options tracer;
 	char *aov;                      /* owned: what of --aov the tracer makes; NULL: all */
 	int motion;                     /* 1: channels that render/vectors.h adds */
@@ -71,10 +70,14 @@ int settings_parse(struct settings *s, int argc, char **argv);
 int settings_confine(const struct settings *s);
 void settings_free(struct settings *s);
 
+/** 1 where scenes between recorded frames are made. */
+int settings_mixes(const struct settings *s);
+
 /** 1 where pictures are numbered from 0, whatever the recorded frame: of a turntable, or with fps. */
 int settings_number_pictures(const struct settings *s);
 
-/** The frame of the recording that a picture shows: its own, that of a turntable, or the one nearest to its moment. */
+/** The frame of the recording that a picture shows: its own, that of a turntable, or the one nearest to its moment.
+ * Known once `moments` are. */
 uint64_t settings_recorded_frame(const struct settings *s, uint64_t number);
 
 /** Take the noise out of a frame, where that is asked for. @return 0 or ERR_SYSTEM (reported) */

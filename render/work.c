@@ -5,10 +5,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
-#include "render/cryptomatte.h"
 #include "render/picture.h"
-#include "render/programs.h"
-#include "render/vectors.h"
 
 enum frame_end { TRACED, LATE, EMPTY, STOPPED, BROKEN };
 
@@ -33,32 +30,6 @@ static unsigned packer_count(struct pipeline_state *state)
 	return cores > (long)in_flight ? (unsigned)cores / in_flight : 1;
 }
 
-/* When the program showed the frame, or would have shown the picture, as relume film wants to know. */
-static int tell_time(const struct moments *moments, const struct shot *shot, struct image *img)
-{
-	const uint64_t time = moments->count ? moments_time(moments, shot->number) : shot->of->scene->time_ns;
-
-	return time ? image_set_attribute(img, "relume:time", "%llu", (unsigned long long)time) : 0;
-}
-
-/* With --fps: how far behind which frame a picture is, and how a scene between two of them was made. */
-static int tell_moment(const struct moments *moments, const struct shot *shot, struct image *img)
-{
-	const struct between *b = shot->of->between;
-	uint64_t frame;
-	double at;
-	int err;
-
-	if (!moments->count)
-		return 0;
-	moments_at(moments, shot->number, &frame, &at);
-	err = image_set_attribute(img, "relume:moment", "%llu + %.6f", (unsigned long long)frame, at);
-	if (!err && b)
-		err = b->is_cut ? image_set_attribute(img, "relume:between", "cut") :
-		                  image_set_attribute(img, "relume:between", "%u draws followed, %u not", b->n_matched, b->n_alone);
-	return err;
-}
-
 /* A frame that a worker samples. */
 struct sampled {
 	struct pipeline_state *state;
@@ -76,7 +47,7 @@ static void note_sample(void *user, uint32_t done, uint32_t of)
 
 static enum frame_end trace(struct worker *w, struct tracer *tracer, const struct shot *shot, struct picture *picture)
 {
-	const struct scene *scene = shot->of->scene;
+	const struct scene *scene = shot->of->scene; /* all have its size */
 	const struct settings *settings = w->state->p->settings;
 	struct sampled sampled = { w->state, shot->number };
 	const struct picture_listener listener = { note_sample, &sampled };
@@ -98,17 +69,7 @@ static enum frame_end trace(struct worker *w, struct tracer *tracer, const struc
 	                                       settings->caustics || settings->denoise ?
 	                               0 :
 	                               packer_count(w->state);
-	err = picture_render(settings, tracer, scene, shot->number, &listener, &picture->img);
-	if (!err && !w->state->turned)
-		err = tell_time(&settings->moments, shot, &picture->img);
-	if (!err)
-		err = tell_moment(&settings->moments, shot, &picture->img);
-	if (!err)
-		err = programs_tell(scene, &picture->img);
-	if (!err && settings->motion)
-		err = vectors_add(scene, earlier_of(&w->state->earlier, scene->frame), &picture->img);
-	if (!err && settings->cryptomatte)
-		err = cryptomatte_add(scene, &picture->img);
+	err = picture_render(settings, tracer, shot, &listener, &picture->img);
 	late = watch_end(w->state->p->watch, w->seat);
 	picture->seconds = shot->replay_s + progress_clock_s() - start;
 	if (!err)
@@ -171,7 +132,7 @@ static void retire(struct pipeline_state *state, struct shot *shot)
 		return;
 	}
 	pipeline_fail(state, ERR_SYSTEM);
-	pipeline_drop_shot(&shot);
+	shot_drop(&shot);
 	pipeline_land(state);
 }
 
@@ -214,8 +175,7 @@ static int work_on(struct worker *w, struct tracer **tracer, struct shot *shot)
 		retire(state, shot);
 		return 0;
 	}
-	earlier_drop(&state->earlier, shot->number);
-	pipeline_drop_shot(&shot);
+	shot_drop(&shot);
 	note_frame(w, *tracer, outcome == TRACED, outcome == TRACED && image_attribute(&picture->img, "relume:dimmed"));
 	w->done += outcome == TRACED;
 	if (outcome == TRACED && queue_put(&state->pictures, picture))

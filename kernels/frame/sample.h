@@ -130,6 +130,13 @@ static inline void sample_shift(uint32_t turn, uint32_t index, float shift[2])
 	shift[1] = (sample_unit(sobol ^ sample_hash(SAMPLE_JITTER + 0x100u + turn)) - 0.5f) * 0.9921875f;
 }
 
+/* When the same sample is taken, while a shutter is open: [-0.5,0.5) of that time. Index 0 is its middle. */
+static inline float sample_time(uint32_t turn, uint32_t index)
+{
+	/* steps of the golden ratio, in 2^-32: evenly, and not as the places above */
+	return sample_unit(index * 2654435769u + (turn % SAMPLE_TURNS) * 0x40000000u + 0x80000000u) - 0.5f;
+}
+
 /* Two unit vectors that are at right angles to a unit vector and to each other. */
 static inline void sample_basis(struct vec3 n, struct vec3 *a, struct vec3 *b)
 {

@@ -8,8 +8,54 @@
 
 #include "base/err.h"
 #include "look/between/bridge.h"
+#include "look/between/couples.h"
+#include "look/between/mixed.h"
 #include "look/between/pose.h"
 #include "look/matrix.h"
+
+struct interval {
+	struct bridge bridges[2]; /* by base */
+	int is_cut;
+};
+
+/* A scene on its way. */
+struct making {
+	const struct bridge *b;
+	struct mixer mixer;
+	uint32_t *views; /* [views] of the base: the mixed view, or SCENE_NONE */
+};
+
+/* --- The interval ------------------------------------------------------------------------------------------------ */
+
+struct interval *interval_new(const struct scene *first, const struct scene *second)
+{
+	struct interval *v = calloc(1, sizeof(*v));
+	int err = v ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+
+	for (int k = 0; k < 2 && !err; k++)
+		err = couples_find(&v->bridges[k], k ? second : first, k ? first : second, k);
+	if (err)
+		interval_free(&v);
+	else
+		v->is_cut = first->width != second->width || first->height != second->height ||
+		            bridge_is_cut(&v->bridges[0]) || bridge_is_cut(&v->bridges[1]);
+	return v;
+}
+
+void interval_free(struct interval **interval)
+{
+	for (int k = 0; *interval && k < 2; k++)
+		bridge_end(&(*interval)->bridges[k]);
+	free(*interval);
+	*interval = NULL;
+}
+
+int interval_is_cut(const struct interval *interval)
+{
+	return interval->is_cut;
+}
+
+/* --- Places ------------------------------------------------------------------------------------------------------ */
 
 static void take(float out[16], const double part[16], const float place[16])
 {
@@ -22,89 +68,92 @@ static void take(float out[16], const double part[16], const float place[16])
 }
 
 /* The part of a couple's motion at this moment. @return 0: no body moves so */
-static int part_of(const struct bridge *b, const struct couple *c, int filmed, double out[16])
+static int part_of(const struct making *m, const struct couple *c, int filmed, double out[16])
 {
 	double own[16], part[16];
 
 	if (!c->moves)
 		return 0;
 	if (!filmed)
-		return pose_part(out, c->motion, b->mixer.at);
-	if (bridge_agrees(c, b->camera, c->motion)) {
-		memcpy(out, b->mixer.camera_part, sizeof(own));
+		return pose_part(out, c->motion, m->mixer.at);
+	if (bridge_agrees(c, m->b->camera, c->motion)) {
+		memcpy(out, m->mixer.camera_part, sizeof(own));
 		return 1;
 	}
-	matrix_mul(own, b->back, c->motion);
-	if (!pose_part(part, own, b->mixer.at))
+	matrix_mul(own, m->b->back, c->motion);
+	if (!pose_part(part, own, m->mixer.at))
 		return 0;
-	matrix_mul(out, b->mixer.camera_part, part);
+	matrix_mul(out, m->mixer.camera_part, part);
 	return 1;
 }
 
 /* A draw that flattens goes with the camera if that explains its motion, else number by number. */
-static void place_flat(const struct bridge *b, uint32_t i, int filmed, float out[16])
+static void place_flat(const struct making *m, uint32_t i, int filmed, float out[16])
 {
-	const float *first = bridge_place(b, i, b->mixer.first), *second = bridge_place(b, i, b->mixer.second);
+	const float *first = bridge_place(m->b, i, 0), *second = bridge_place(m->b, i, 1);
 	float moved[16], most = 0;
 	int goes = filmed;
 
 	if (filmed)
-		take(moved, b->camera, first);
+		take(moved, m->b->camera, first);
 	for (int k = 0; k < 16; k++)
 		most = fmaxf(most, fabsf(second[k]));
 	for (int k = 0; k < 16 && filmed; k++)
 		goes &= fabsf(moved[k] - second[k]) <= (float)BRIDGE_SAME * most;
 	if (goes) {
-		take(out, b->mixer.camera_part, first);
+		take(out, m->mixer.camera_part, first);
 		return;
 	}
 	for (int k = 0; k < 16; k++)
-		out[k] = first[k] + (float)b->mixer.at * (second[k] - first[k]);
+		out[k] = first[k] + (float)m->mixer.at * (second[k] - first[k]);
 }
 
 /* A draw without a partner goes with the camera. */
-static void place_alone(const struct bridge *b, uint32_t i)
+static void place_alone(const struct making *m, uint32_t i)
 {
-	const struct scene_instance *in = &b->mixer.base->instances[i];
-	struct scene_instance *out = &b->mixer.out->instances[i];
+	const struct scene_instance *in = &m->b->base->instances[i];
+	struct scene_instance *out = &m->mixer.out->instances[i];
 	double back[16];
 
-	if (b->views[in->view] != SCENE_NONE && !in->rectangle)
-		out->view = b->views[in->view];
-	if (!bridge_is_filmed(b, i))
+	if (m->views[in->view] != SCENE_NONE && !in->rectangle)
+		out->view = m->views[in->view];
+	if (!bridge_is_filmed(m->b, i))
 		return;
-	if (b->mixer.first == b->mixer.base)
-		take(out->modelview, b->mixer.camera_part, in->modelview);
-	else if (pose_part(back, b->back, 1 - b->mixer.at))
+	if (!m->b->is_back)
+		take(out->modelview, m->mixer.camera_part, in->modelview);
+	else if (pose_part(back, m->b->back, 1 - m->mixer.at))
 		take(out->modelview, back, in->modelview);
 }
 
 /* @return 0 or ERR_SYSTEM (reported) */
-static int place(struct bridge *b, uint32_t i)
+static int place(struct making *m, uint32_t i)
 {
-	struct mixer *m = &b->mixer;
+	const struct bridge *b = m->b;
 	const struct couple *c = &b->couples[i];
-	struct scene_instance *out = &m->out->instances[i];
-	const struct scene_instance *other = &m->other->instances[c->other];
+	struct scene_instance *out = &m->mixer.out->instances[i];
+	const struct scene_instance *other = &b->other->instances[c->other];
+	const float *first = bridge_place(b, i, 0);
 	const int filmed = bridge_is_filmed(b, i);
 	double part[16];
 
-	if (memcmp(bridge_place(b, i, m->first), bridge_place(b, i, m->second), sizeof(out->modelview)) == 0)
-		memcpy(out->modelview, m->base->instances[i].modelview, sizeof(out->modelview));
-	else if (part_of(b, c, filmed, part))
-		take(out->modelview, part, bridge_place(b, i, m->first));
-	else
-		place_flat(b, i, filmed, out->modelview);
-	out->mesh = mixed_mesh(m, out->mesh, other->mesh);
-	out->material = mixed_material(m, out->material, other->material);
-	out->current = mixed_current(m, out->current, other->current);
-	out->view = mixed_view(m, out->view, other->view);
-	b->views[m->base->instances[i].view] = out->view;
+	if (memcmp(first, bridge_place(b, i, 1), sizeof(out->modelview)) != 0) {
+		if (part_of(m, c, filmed, part))
+			take(out->modelview, part, first);
+		else
+			place_flat(m, i, filmed, out->modelview);
+	}
+	out->mesh = mixed_mesh(&m->mixer, out->mesh, other->mesh);
+	out->material = mixed_material(&m->mixer, out->material, other->material);
+	out->current = mixed_current(&m->mixer, out->current, other->current);
+	out->view = mixed_view(&m->mixer, out->view, other->view);
+	m->views[b->base->instances[i].view] = out->view;
 	return out->mesh == SCENE_NONE || out->material == SCENE_NONE || out->current == SCENE_NONE ||
 	                       out->view == SCENE_NONE ?
 	               ERR_SYSTEM :
 	               0;
 }
+
+/* --- The scene --------------------------------------------------------------------------------------------------- */
 
 /* Room for one more. */
 static void *copy_of(const void *items, size_t n, size_t size)
@@ -136,82 +185,56 @@ static int copy_scene(const struct scene *s, struct scene *out)
 	               err_report(ERR_SYSTEM, NULL, "out of memory");
 }
 
-static void name_scene(struct mixer *m)
+static void name_scene(const struct making *m)
 {
 	const struct {
-		uint64_t first, second;
+		uint64_t base, other;
 		double at;
-	} of = { m->first->serial, m->second->serial, m->at };
+	} of = { m->b->base->serial, m->b->other->serial, m->mixer.at };
 
-	m->out->serial = XXH3_64bits(&of, sizeof(of)) | 1; /* 0 is none */
-}
-
-static void free_bridge(struct bridge *b)
-{
-	mixed_end(&b->mixer);
-	free(b->couples);
-	free(b->boxes);
-	free(b->views);
-}
-
-static int make_bridge(struct bridge *b)
-{
-	const struct scene *s = b->mixer.base;
-
-	b->couples = calloc(s->n_instances + (size_t)1, sizeof(*b->couples));
-	b->boxes = calloc(s->n_meshes + (size_t)1, sizeof(*b->boxes));
-	b->views = malloc((s->n_views + (size_t)1) * sizeof(*b->views));
-	for (uint32_t i = 0; b->views && i < s->n_views; i++)
-		b->views[i] = SCENE_NONE;
-	return b->couples && b->boxes && b->views ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+	m->mixer.out->serial = XXH3_64bits(&of, sizeof(of)) | 1; /* 0 is none */
 }
 
 /* @return 0 or ERR_SYSTEM (reported) */
-static int cross(struct bridge *b, struct between *out)
+static int fill(struct making *m)
 {
-	const struct scene *s = b->mixer.base;
-	int err = bridge_couple(b);
+	const struct bridge *b = m->b;
+	const uint32_t n = b->base->n_instances;
+	int err = 0;
 
-	for (uint32_t i = 0; i < s->n_instances && !err; i++) {
-		out->n_matched += b->couples[i].other != SCENE_NONE;
-		out->n_alone += b->couples[i].other == SCENE_NONE && !s->instances[i].rectangle;
-	}
-	if (err)
-		return err;
-	out->is_cut = s->width != b->mixer.other->width || s->height != b->mixer.other->height || bridge_is_cut(b);
-	if (out->is_cut)
-		return 0;
-	for (uint32_t i = 0; i < s->n_instances && !err; i++)
+	if (b->space != SCENE_NONE && pose_part(m->mixer.camera_part, b->camera, m->mixer.at))
+		m->mixer.camera = b->camera;
+	for (uint32_t i = 0; i < b->base->n_views; i++)
+		m->views[i] = SCENE_NONE;
+	for (uint32_t i = 0; i < n && !err; i++)
 		if (b->couples[i].other != SCENE_NONE)
-			err = place(b, i);
-	for (uint32_t i = 0; i < s->n_instances && !err; i++)
+			err = place(m, i);
+	for (uint32_t i = 0; i < n && !err; i++)
 		if (b->couples[i].other == SCENE_NONE)
-			place_alone(b, i);
+			place_alone(m, i);
 	if (!err)
-		mixed_clears(&b->mixer);
+		mixed_clears(&m->mixer);
 	return err;
 }
 
-int between_make(const struct scene *first, const struct scene *second, double at, struct between *out)
+int between_make(const struct interval *interval, double at, int base, struct between *out)
 {
-	const int is_first = at < 0.5;
-	const struct scene *base = is_first ? first : second;
-	struct bridge b = { .mixer = { .base = base, .other = is_first ? second : first, .first = first,
-		                       .second = second, .at = at, .share = (float)(is_first ? at : 1 - at) } };
+	const struct bridge *b = &interval->bridges[base];
+	struct making m = { .b = b, .mixer = { .base = b->base, .other = b->other, .is_back = b->is_back, .at = at,
+		                                   .share = (float)(base ? 1 - at : at), .out = &out->scene } };
 	int err;
 
-	memset(out, 0, sizeof(*out));
-	b.mixer.out = &out->scene;
-	err = make_bridge(&b);
+	*out = (struct between){ .n_matched = b->n_matched, .n_alone = b->n_alone };
+	m.views = malloc((b->base->n_views + (size_t)1) * sizeof(*m.views));
+	err = m.views ? copy_scene(b->base, &out->scene) : err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err)
-		err = copy_scene(base, &out->scene);
+		err = fill(&m);
 	if (!err)
-		err = cross(&b, out);
-	if (!err)
-		name_scene(&b.mixer);
-	out->owned = b.mixer.owned;
-	out->n_owned = b.mixer.n_owned;
-	free_bridge(&b);
+		name_scene(&m);
+	mixed_end(&m.mixer);
+	free(m.views);
+	out->owned = m.mixer.owned;
+	out->n_owned = m.mixer.n_owned;
 	if (err)
 		between_release(out);
 	return err;

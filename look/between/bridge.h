@@ -1,36 +1,57 @@
 /*
  * Two frames while the scene between them is made: which draws are one, and how each moves (couples.c); whether a cut
- * separates them (cut.c).
+ * separates them (cut.c). One of the two is the base of what is made.
  */
 #pragma once
 
-#include "look/between/mixed.h"
+#include "scene/scene.h"
 
 #define BRIDGE_SAME 1e-4 /* two motions are one where they take no corner farther apart, of its distance */
 
-/* A draw of the nearer frame and the draw of the farther one that shows the same thing. */
+/* A draw of the base and the draw of the other frame that shows the same thing. */
 struct couple {
 	uint32_t other;      /* instance; SCENE_NONE: there is none */
+	int is_sure;         /* 1: no other draw comes into question */
 	int moves;           /* 1: `motion` is known */
 	double motion[16];   /* eye space, from the first frame to the second */
 	double corner[8][4]; /* the mesh's box, eye space of the first frame */
 	double size;         /* diagonal of that box */
 };
 
-struct bridge {
-	struct mixer mixer;
-	struct couple *couples; /* [instances] */
-	double (*boxes)[2][3];  /* [meshes] of the nearer frame, object space */
-	uint32_t *views;        /* [views] of the nearer frame: the mixed view, or SCENE_NONE */
-	double camera[16], back[16]; /* motion of the scene by the camera, and its inverse */
-	uint32_t space;         /* eye space of that camera; SCENE_NONE: it is not known */
+#define BRIDGE_MOTIONS 64u /* at most; others count for none */
+
+/* A motion that draws share, and its inverse. */
+struct motion {
+	double motion[16], back[16];
+	double weight;  /* their sizes */
+	uint32_t space; /* eye space of their views */
 };
 
-/** Find couples, their motions and the camera's. Arrays are there. @return 0 or ERR_SYSTEM (reported) */
-int bridge_couple(struct bridge *b);
+struct bridge {
+	const struct scene *base, *other; /* the scene's base; the other frame */
+	int is_back;                 /* 1: the base is the second in time */
+	struct couple *couples;      /* [instances] */
+	float (*boxes)[2][3];        /* [meshes] of the base, object space */
+	struct motion *motions;      /* [n_motions], the weightiest first */
+	unsigned n_motions;
+	double camera[16], back[16]; /* motion of the scene by the camera, and its inverse */
+	uint32_t space;              /* eye space of that camera; SCENE_NONE: it is not known */
+	uint32_t n_matched, n_alone; /* draws with a partner and without; pixel rectangles are not counted */
+};
 
-/** Modelview of a couple in one of its frames. */
-const float *bridge_place(const struct bridge *b, uint32_t i, const struct scene *frame);
+void bridge_end(struct bridge *b);
+
+/** Modelview of a couple in the first frame (second 0) or in the second (1). */
+const float *bridge_place(const struct bridge *b, uint32_t i, int second);
+
+/** A corner of the box about an instance's mesh: bit c of k is 1 for the upper end along axis c. Object space */
+void bridge_corner(const struct bridge *b, uint32_t i, int k, double out[4]);
+
+/** 1 if two draws, one of each frame, may show one thing. */
+int bridge_may_be_one(const struct bridge *b, uint32_t i, uint32_t other);
+
+/** Find the motion of a couple whose `other` is there. */
+void bridge_find_motion(struct bridge *b, uint32_t i);
 
 /** 1 if two motions are the same to a draw. */
 int bridge_agrees(const struct couple *c, const double a[16], const double b[16]);
@@ -38,5 +59,5 @@ int bridge_agrees(const struct couple *c, const double a[16], const double b[16]
 /** 1 if the camera that is known shows a draw. */
 int bridge_is_filmed(const struct bridge *b, uint32_t i);
 
-/** 1 if less than half of the depth-tested surface that the nearer frame shows is in view in the farther one. */
+/** 1 if less than half of the depth-tested surface that the base shows is in view in the other frame. */
 int bridge_is_cut(const struct bridge *b);

@@ -4,58 +4,124 @@
 
 #include "look/matrix.h"
 
-#define MOST_TRIANGLES 64u /* sampled of a draw */
+#define ALL_POINTS 32768u /* are looked at in a frame */
+#define MOST_POINTS 4096u /* in a triangle, at most */
+#define MOST_AREA 0.01    /* a point's, as it is shown: a hundredth of a square half as wide as the picture */
 
-/* The area of a triangle on the picture; 0: it is not there, its middle not in view, or a corner behind the viewer. */
-static double shown_area(const struct scene *s, const struct scene_instance *in, uint32_t triangle)
+/* A draw in a frame. */
+struct shown {
+	const struct scene_mesh *mesh;
+	double eye[16], projection[16];
+};
+
+static struct shown shown_of(const struct scene *s, uint32_t instance)
 {
-	const struct scene_mesh *mesh = s->meshes[in->mesh];
-	double eye[16], projection[16], at[3][2], middle[2] = { 0, 0 };
+	const struct scene_instance *in = &s->instances[instance];
+	struct shown d = { .mesh = s->meshes[in->mesh] };
 
-	matrix_from_floats(eye, in->modelview);
-	matrix_from_floats(projection, s->views[in->view].projection);
-	if (triangle >= mesh->primitive_count)
-		return 0;
+	matrix_from_floats(d.eye, in->modelview);
+	matrix_from_floats(d.projection, s->views[in->view].projection);
+	return d;
+}
+
+/* A triangle in clip space: the first corner, and the edges from there. */
+static void place(const struct shown *d, uint32_t triangle, double corner[4], double edge[2][4])
+{
+	double at[3][4];
+
 	for (int k = 0; k < 3; k++) {
-		const float *v = mesh->position + 4 * (size_t)mesh->index[3 * (size_t)triangle + (size_t)k];
+		const float *v = d->mesh->position + 4 * (size_t)d->mesh->index[3 * (size_t)triangle + (size_t)k];
 		const double object[4] = { (double)v[0], (double)v[1], (double)v[2], (double)v[3] };
-		double seen[4], clip[4];
+		double seen[4];
 
-		matrix_transform(seen, eye, object);
-		matrix_transform(clip, projection, seen);
-		if (!(clip[3] > 0))
-			return 0;
-		for (int i = 0; i < 2; i++) {
-			at[k][i] = clip[i] / clip[3];
-			middle[i] += at[k][i] / 3;
-		}
+		matrix_transform(seen, d->eye, object);
+		matrix_transform(at[k], d->projection, seen);
 	}
-	if (!(fabs(middle[0]) <= 1 && fabs(middle[1]) <= 1))
+	for (int i = 0; i < 4; i++) {
+		corner[i] = at[0][i];
+		edge[0][i] = at[1][i] - at[0][i];
+		edge[1][i] = at[2][i] - at[0][i];
+	}
+}
+
+/*
+ * How much of the picture a triangle takes per area of its own, 1 for the whole triangle, at a point (u, v) of its
+ * edges; pictures are 2 wide and 2 high. 0: the point is not in view
+ */
+static double shown_area(const double corner[4], const double edge[2][4], double u, double v)
+{
+	double at[4], along[2][2];
+
+	for (int i = 0; i < 4; i++)
+		at[i] = corner[i] + u * edge[0][i] + v * edge[1][i];
+	if (!(at[3] > 0 && fabs(at[0]) <= at[3] && fabs(at[1]) <= at[3]))
 		return 0;
-	return fabs((at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) - (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]));
+	for (int k = 0; k < 2; k++)
+		for (int i = 0; i < 2; i++)
+			along[k][i] = (edge[k][i] - at[i] / at[3] * edge[k][3]) / at[3];
+	return fabs(along[0][0] * along[1][1] - along[0][1] * along[1][0]) / 2;
+}
+
+/* Point k of n that lie evenly in a triangle (as kernels/frame/sample.h has its plain samples). */
+static void point_of(uint32_t k, double *u, double *v)
+{
+	*u = fmod(0.5 + k * 0.75487766624669276, 1);
+	*v = fmod(0.5 + k * 0.56984029099805327, 1);
+	if (*u + *v > 1) {
+		*u = 1 - *u;
+		*v = 1 - *v;
+	}
+}
+
+/* Add what a frame shows of a triangle, and how much of that is in view in another; was NULL: nothing is. */
+static void compare(const struct shown *now, const struct shown *was, uint32_t triangle, uint32_t n, double *all,
+                    double *kept)
+{
+	double corner[4], edge[2][4], old_corner[4], old_edge[2][4];
+
+	place(now, triangle, corner, edge);
+	if (was)
+		place(was, triangle, old_corner, old_edge);
+	for (uint32_t k = 0; k < n; k++) {
+		double u, v, area;
+
+		point_of(k, &u, &v);
+		area = fmin(MOST_AREA, shown_area(corner, (const double (*)[4])edge, u, v) / n);
+		*all += area;
+		if (was && area > 0 && shown_area(old_corner, (const double (*)[4])old_edge, u, v) > 0)
+			*kept += area;
+	}
+}
+
+/* 1 if a draw is part of the world: solid, and where its program says. */
+static int counts(const struct scene *s, uint32_t i)
+{
+	const struct scene_instance *in = &s->instances[i];
+
+	return s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle && s->materials[in->material].depth_test &&
+	       !s->materials[in->material].vertex_program && !s->views[in->view].target;
 }
 
 int bridge_is_cut(const struct bridge *b)
 {
-	const struct scene *s = b->mixer.base, *other = b->mixer.other;
+	const struct scene *s = b->base;
+	uint64_t n_triangles = 1;
 	double all = 0, kept = 0;
 
+	for (uint32_t i = 0; i < s->n_instances; i++)
+		n_triangles += counts(s, i) ? s->meshes[s->instances[i].mesh]->primitive_count : 0;
 	for (uint32_t i = 0; i < s->n_instances; i++) {
-		const struct scene_instance *in = &s->instances[i];
-		const struct scene_mesh *mesh = s->meshes[in->mesh];
-		const uint32_t step = mesh->primitive_count / MOST_TRIANGLES + 1;
+		const struct shown now = shown_of(s, i);
+		const uint32_t other = b->couples[i].other, step = (uint32_t)(n_triangles / ALL_POINTS) + 1,
+		               n = (uint32_t)fmin(MOST_POINTS, (double)(ALL_POINTS / n_triangles + 1));
+		struct shown was;
 
-		if (mesh->kind != SCENE_TRIANGLES || in->rectangle || !s->materials[in->material].depth_test ||
-		    s->materials[in->material].vertex_program || s->views[in->view].target)
+		if (!counts(s, i))
 			continue;
-		for (uint32_t t = 0; t < mesh->primitive_count; t += step) {
-			const double area = fmin(4, shown_area(s, in, t)) * step;
-
-			all += area;
-			if (area > 0 && b->couples[i].other != SCENE_NONE &&
-			    shown_area(other, &other->instances[b->couples[i].other], t) > 0)
-				kept += area;
-		}
+		if (other != SCENE_NONE)
+			was = shown_of(b->other, other);
+		for (uint32_t t = 0; t < now.mesh->primitive_count; t += step)
+			compare(&now, other != SCENE_NONE && t < was.mesh->primitive_count ? &was : NULL, t, n, &all, &kept);
 	}
 	return kept < all / 2;
 }

@@ -78,7 +78,7 @@ static uint32_t mix_program(struct mixer *m, uint32_t base, uint32_t other)
 
 static void place_light(const struct mixer *m, struct scene_light *out, const struct scene_light *other)
 {
-	const struct scene_light *first = m->first == m->base ? out : other, *second = first == out ? other : out;
+	const struct scene_light *first = m->is_back ? other : out, *second = m->is_back ? out : other;
 	double from[4], to[4], moved[4], off = 0, far = 0;
 
 	for (int k = 0; k < 4; k++) {
@@ -241,10 +241,8 @@ uint32_t mixed_view(struct mixer *m, uint32_t base, uint32_t other)
 	*out = *a;
 	if (memcmp(a->projection, b->projection, sizeof(a->projection)) != 0) {
 		mix(out->projection, b->projection, 16, m->share);
-		if (m->first == m->base)
-			mix_projection(m, out->projection, a->projection, b->projection);
-		else
-			mix_projection(m, out->projection, b->projection, a->projection);
+		mix_projection(m, out->projection, m->is_back ? b->projection : a->projection,
+		               m->is_back ? a->projection : b->projection);
 	}
 	return note(&m->views, base, other, number);
 }

@@ -1,6 +1,6 @@
 /*
  * Mixes of two frames' materials, views and meshes, for a moment between them. Numbers change linearly; enumerants and
- * switches are the nearer frame's. Each pair is mixed once.
+ * switches are the base's. Each pair is mixed once.
  */
 #pragma once
 
@@ -8,11 +8,11 @@
 #include "scene/scene.h"
 
 struct mixer {
-	const struct scene *base, *other; /* the nearer frame; the farther one */
-	const struct scene *first, *second; /* both in order of time */
+	const struct scene *base, *other; /* the scene's base; the other frame */
+	int is_back;       /* 1: the base is the second in time */
 	double at;         /* [0,1], from the first to the second */
-	float share;       /* share of the farther one, at most a half */
-	struct scene *out; /* arrays its own, with rooms below; begins as the nearer one */
+	float share;       /* share of the other frame */
+	struct scene *out; /* arrays its own, with rooms below; begins as the base */
 	uint32_t room_materials, room_units, room_lights, room_currents, room_views, room_meshes, room_programs;
 	void **owned; /* arrays and structs that mixed meshes need */
 	size_t n_owned, room_owned;
@@ -21,12 +21,12 @@ struct mixer {
 	double camera_part[16]; /* its part at this moment */
 };
 
-/* base: index in the nearer frame; other: in the farther one. @return index in out; SCENE_NONE: no memory (reported) */
+/* base: index in the base; other: in the other frame. @return index in out; SCENE_NONE: no memory (reported) */
 uint32_t mixed_material(struct mixer *m, uint32_t base, uint32_t other);
 uint32_t mixed_current(struct mixer *m, uint32_t base, uint32_t other);
 uint32_t mixed_view(struct mixer *m, uint32_t base, uint32_t other);
 
-/** Meshes with the same points give the nearer frame's, others that suit each other a new one. */
+/** Meshes with the same points give the base's, others that suit each other a new one. */
 uint32_t mixed_mesh(struct mixer *m, uint32_t base, uint32_t other);
 
 /** 1 if all points of two meshes are the same, whatever else is not. */

@@ -88,7 +88,6 @@ check(all(text_of(file, "relume:moment") == f"{k // 4} + {k % 4 / 4:.6f}" for k,
 done = relume("diff", traces[SLOW], SCRATCH / "film")
 check(done.returncode != 0 and "made with --fps" in done.stdout, "recorded frames do not judge moments")
 for options, words in ((("--recorded-fps", 15), "--recorded-fps is for --fps"),
-                       ((*FILM, "--aov", "motion"), "motion is known of recorded frames alone"),
                        ((*FILM, "-f", "1-9x2"), "from one frame to another")):
     done = relume("render", traces[SLOW], *options, "-o", SCRATCH / "x.####.exr")
     check(done.returncode == 2 and words in done.stderr, f"{' '.join(map(str, options))}: {done.stderr.strip()}")

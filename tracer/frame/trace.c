@@ -435,13 +435,51 @@ static int is_enough(struct job *job, struct sampling *s, uint32_t passes, int *
 	return err;
 }
 
+/* The scene of a sample while the shutter is open. It begins with what the frame begins with. */
+static int expose(struct job *job, const struct scene *frame, struct scene *exposed)
+{
+	const struct tracer_options *o = job->options;
+	const struct scene *scene;
+	int err;
+
+	forget_frame(job);
+	err = o->expose(o->expose_user, (double)sample_time(job->turn, job->pass), &scene);
+	if (err)
+		return err;
+	*exposed = *scene;
+	exposed->start = frame->start;
+	exposed->before = frame->before;
+	job->scene = exposed;
+	return 0;
+}
+
+/* One sample of all pixels. */
+static int sum_pass(struct job *job)
+{
+	const uint32_t is_path = job->options->mode == TRACER_PATH;
+	const struct scene *frame = job->scene;
+	struct scene exposed;
+	int err = 0;
+
+	for (job->turn = is_path ? SAMPLE_TURNS : 0; job->turn < SAMPLE_TURNS + is_path && !err; job->turn++) {
+		if (job->options->expose)
+			err = expose(job, frame, &exposed);
+		if (!err)
+			err = trace_pass(job);
+	}
+	if (job->options->expose)
+		forget_frame(job);
+	job->scene = frame;
+	return err;
+}
+
 /* All passes but the one through pixel centres. Where sampling may end early, in order: the first samples lie evenly by
  * themselves. */
 static int sum_passes(struct job *job)
 {
 	const struct tracer_options *o = job->options;
-	const uint32_t n = job->n_passes, is_path = o->mode == TRACER_PATH;
-	const int in_order = is_path || o->seconds > 0 || o->noise > 0 || o->preview;
+	const uint32_t n = job->n_passes;
+	const int in_order = o->mode == TRACER_PATH || o->seconds > 0 || o->noise > 0 || o->preview;
 	struct sampling s = { .start_s = progress_clock_s(), .next = 1 };
 	int err = 0, enough = 0;
 	uint32_t i = 1;
@@ -449,8 +487,7 @@ static int sum_passes(struct job *job)
 	for (; i < n && !err && !enough; i++) {
 		job->pass = in_order ? i : n - i;
 		job->is_first = i == 1;
-		for (job->turn = is_path ? SAMPLE_TURNS : 0; job->turn < SAMPLE_TURNS + is_path && !err; job->turn++)
-			err = trace_pass(job);
+		err = sum_pass(job);
 		if (!err && o->sampled)
 			o->sampled(o->sampled_user, i, o->seconds > 0 || o->noise > 0 ? 0 : n);
 		if (!err)

@@ -41,6 +41,11 @@ struct tracer_options {
 	/* Where not NULL, told after each sample how many there are. of: 0 where time or noise decides */
 	void (*sampled)(void *user, uint32_t done, uint32_t of);
 	void *sampled_user;
+	/* Gives the scene that a sample shows, or NULL: all show one. away: share of the time that the shutter is open,
+	 * [-0.5,0.5) from its middle. The scene has the frame's size, and lives until the next is asked for. @return 0 or
+	 * ERR_* (reported) */
+	int (*expose)(void *user, double away, const struct scene **scene);
+	void *expose_user;
 	unsigned rays;    /* rays to each light that has a size, and into the surroundings, a sample; 0 counts as 16 */
 	float clamp;      /* of mode path: the most light that a path may bring, but by one mirror or glass alone; 0: no
 	                     bound */

@@ -1,0 +1,20 @@
+/*
+ * Many draws of the same points, as of one wheel or crate at many places. A program may leave out one of them, and the
+ * n-th is another one then. So these are coupled in an order that begins with what is sure:
+ *   1. those whose shape in eye space only one has, in both frames: motions keep shapes;
+ *   2. those that a motion takes to their place, which draws of stage 1 and single ones have;
+ *   3. the rest: n-th to n-th, if both frames have as many and nothing above speaks against it; else to the nearest
+ *      that is left, of the same shape if there is one.
+ */
+#pragma once
+
+#include "look/between/bridge.h"
+
+struct crowds;
+
+/** Find crowds, and couple those of stage 1. Draws without a crowd are sure. @return 0 or ERR_SYSTEM (reported) */
+int crowds_find(struct bridge *b, struct crowds **crowds);
+
+/** Couple the others. b->motions and the camera are known. */
+void crowds_couple(struct bridge *b, const struct crowds *crowds);
+void crowds_free(struct crowds **crowds);
