@@ -97,15 +97,17 @@ static int clears_stencil(const struct gls_surface *d, const struct scene_clear 
 	return !d->stencil_bits || (clear->buffers & 4 && (clear->stencil_mask & 255) == 255);
 }
 
-static int touches_stencil(const struct scene *s)
+static int touches_stencil(const struct scene *s, const struct scene_instance *in)
 {
-	for (uint32_t i = 0; i < s->n_instances; i++) {
-		uint32_t rectangle = s->instances[i].rectangle;
+	return s->materials[in->material].stencil_test ||
+	       (in->rectangle && s->rectangles[in->rectangle - 1].kind == SCENE_STENCIL_PIXELS);
+}
 
-		if (s->materials[s->instances[i].material].stencil_test ||
-		    (rectangle && s->rectangles[rectangle - 1].kind == SCENE_STENCIL_PIXELS))
+static int has_stencil(const struct scene *s)
+{
+	for (uint32_t i = 0; i < s->n_instances; i++)
+		if (touches_stencil(s, &s->instances[i]))
 			return 1;
-	}
 	return 0;
 }
 
@@ -148,6 +150,32 @@ static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 	f->colored = old->colored;
 	d->frame = f;
 	free_frame(old);
+}
+
+/* The same, where the stencil buffer still has what some draws did to it: these stay. */
+static void forget_colors(struct gls_frame *f)
+{
+	struct scene *s = f->out;
+	uint32_t kept = 0, clear = 0;
+
+	f->next_primitive = 0;
+	f->put_end = 0;
+	f->last = NULL;
+	for (uint32_t i = 0; i < s->n_instances; i++) {
+		struct scene_instance *in = &s->instances[kept];
+
+		for (; clear < s->n_clears && s->clears[clear].before_instance <= i; clear++)
+			s->clears[clear].before_instance = kept;
+		if (!touches_stencil(s, &s->instances[i]))
+			continue;
+		*in = s->instances[i];
+		in->first_primitive = f->next_primitive;
+		f->next_primitive += s->meshes[in->mesh]->primitive_count;
+		kept++;
+	}
+	for (; clear < s->n_clears; clear++)
+		s->clears[clear].before_instance = kept;
+	s->n_instances = kept;
 }
 
 /* Make a frame's last instance a rectangle. */
@@ -249,8 +277,10 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	} else if (clears_all(d, &clear)) {
 		if (st->draw_framebuffer && clears_stencil(d, &clear)) /* nobody looks at its draw numbers: they need not pile up */
 			gls_frame_drop(d);
-		else if (d->frame && d->frame->out->n_instances && (clears_stencil(d, &clear) || !touches_stencil(d->frame->out)))
+		else if (d->frame && d->frame->out->n_instances && (clears_stencil(d, &clear) || !has_stencil(d->frame->out)))
 			forget_drawn(x, d);
+		else if (d->frame)
+			forget_colors(d->frame);
 	}
 	if (!(f = frame_of(x, d)))
 		return;

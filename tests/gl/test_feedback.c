@@ -548,6 +548,34 @@ START_TEST(test_clear_keeps_stencil)
 }
 END_TEST
 
+/* Clears that keep stencil values keep draws that left some, and no others. */
+START_TEST(test_clear_keeps_draws_of_stencil)
+{
+	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
+	struct gl gl = open_deep(&p);
+	struct scene *s;
+
+	gl_call(&gl, "glClear", "m", ALL);
+	for (int i = 0; i < 3; i++) {
+		gl_call(&gl, i == 1 ? "glEnable" : "glDisable", "e", GL_STENCIL_TEST);
+		triangle(&gl);
+	}
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	triangle(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 2);
+	ck_assert_uint_eq(s->n_primitives, 2);
+	for (uint32_t i = 0; i < 2; i++) {
+		ck_assert_uint_eq(s->instances[i].first_primitive, i);
+		ck_assert_uint_eq(s->instances[i].draw, i ? 6 : 3);
+		ck_assert_uint_eq(s->clears[i].before_instance, i);
+		ck_assert_uint_eq(s->materials[s->instances[i].material].stencil_test, !i);
+	}
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* What was read before the clear was rendered with what was drawn before it, and what is read after it without. */
 START_TEST(test_clear_after_reading)
 {
@@ -604,7 +632,7 @@ START_TEST(test_rasterizer_discard)
 END_TEST
 
 GL_TESTS("feedback", test_clear_drops_what_it_covers, test_clear_that_leaves_something, test_clear_keeps_stencil,
-         test_clear_after_reading, test_rasterizer_discard, test_copy_tex_image, test_copy_tex_sub_image,
-         test_previous_frame, test_skipped_frames, test_drawables, test_no_supplier, test_clears_of_parts,
-         test_parts_are_read, test_part_of_texture, test_skipped_depth, test_serials, test_starts_are_left,
-         test_few_are_held, test_looked_at_is_not_left)
+         test_clear_keeps_draws_of_stencil, test_clear_after_reading, test_rasterizer_discard, test_copy_tex_image,
+         test_copy_tex_sub_image, test_previous_frame, test_skipped_frames, test_drawables, test_no_supplier,
+         test_clears_of_parts, test_parts_are_read, test_part_of_texture, test_skipped_depth, test_serials,
+         test_starts_are_left, test_few_are_held, test_looked_at_is_not_left)
