@@ -7,8 +7,8 @@
  * The camera's motion is the one that more than half of the opaque things share, by size. Other motions are taken
  * relative to it: a thing that the camera carries keeps its place in the picture, and a wheel turns about its own axis.
  *
- * A cut is not bridged: if less than half of the surface that one of the frames shows is in view in the other one,
- * there is no scene between them.
+ * A cut is not bridged: if less than half of the surface that one of the frames shows is in the other one, at most half
+ * the picture away, there is no scene between them.
  */
 #pragma once
 

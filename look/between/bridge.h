@@ -59,5 +59,6 @@ int bridge_agrees(const struct couple *c, const double a[16], const double b[16]
 /** 1 if the camera that is known shows a draw. */
 int bridge_is_filmed(const struct bridge *b, uint32_t i);
 
-/** 1 if less than half of the depth-tested surface that the base shows is in view in the other frame. */
+/** 1 if less than half of the depth-tested surface that the base shows is within half a picture of there in the other
+ * frame. */
 int bridge_is_cut(const struct bridge *b);

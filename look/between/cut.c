@@ -6,6 +6,7 @@
 
 #define ALL_POINTS 32768u /* are looked at in a frame */
 #define MOST_POINTS 4096u /* in a triangle, at most */
+#define FAR 1.0           /* half the picture's width: what moves farther in a frame is not followed by eye */
 #define MOST_AREA 0.01    /* a point's, as it is shown: a hundredth of a square half as wide as the picture */
 
 /* A draw in a frame. */
@@ -45,21 +46,25 @@ static void place(const struct shown *d, uint32_t triangle, double corner[4], do
 }
 
 /*
- * How much of the picture a triangle takes per area of its own, 1 for the whole triangle, at a point (u, v) of its
- * edges; pictures are 2 wide and 2 high. 0: the point is not in view
+ * A point (u, v) of a triangle's edges on the picture, which is 2 wide and 2 high.
+ * @param area  receives how much of the picture the triangle would take if all of it were as here
+ * @return 0: it is behind the viewer
  */
-static double shown_area(const double corner[4], const double edge[2][4], double u, double v)
+static int show(const double corner[4], const double edge[2][4], double u, double v, double out[2], double *area)
 {
 	double at[4], along[2][2];
 
 	for (int i = 0; i < 4; i++)
 		at[i] = corner[i] + u * edge[0][i] + v * edge[1][i];
-	if (!(at[3] > 0 && fabs(at[0]) <= at[3] && fabs(at[1]) <= at[3]))
+	if (!(at[3] > 0))
 		return 0;
-	for (int k = 0; k < 2; k++)
-		for (int i = 0; i < 2; i++)
-			along[k][i] = (edge[k][i] - at[i] / at[3] * edge[k][3]) / at[3];
-	return fabs(along[0][0] * along[1][1] - along[0][1] * along[1][0]) / 2;
+	for (int i = 0; i < 2; i++) {
+		out[i] = at[i] / at[3];
+		for (int k = 0; k < 2; k++)
+			along[k][i] = (edge[k][i] - out[i] * edge[k][3]) / at[3];
+	}
+	*area = fabs(along[0][0] * along[1][1] - along[0][1] * along[1][0]) / 2;
+	return 1;
 }
 
 /* Point k of n that lie evenly in a triangle (as kernels/frame/sample.h has its plain samples). */
@@ -73,7 +78,7 @@ static void point_of(uint32_t k, double *u, double *v)
 	}
 }
 
-/* Add what a frame shows of a triangle, and how much of that is in view in another; was NULL: nothing is. */
+/* Add what a frame shows of a triangle, and how much of that is not far away in another; was NULL: nothing is. */
 static void compare(const struct shown *now, const struct shown *was, uint32_t triangle, uint32_t n, double *all,
                     double *kept)
 {
@@ -83,12 +88,15 @@ static void compare(const struct shown *now, const struct shown *was, uint32_t t
 	if (was)
 		place(was, triangle, old_corner, old_edge);
 	for (uint32_t k = 0; k < n; k++) {
-		double u, v, area;
+		double u, v, here[2], there[2], area, old_area;
 
 		point_of(k, &u, &v);
-		area = fmin(MOST_AREA, shown_area(corner, (const double (*)[4])edge, u, v) / n);
+		if (!show(corner, (const double (*)[4])edge, u, v, here, &area) || !(fabs(here[0]) <= 1 && fabs(here[1]) <= 1))
+			continue;
+		area = fmin(MOST_AREA, area / n);
 		*all += area;
-		if (was && area > 0 && shown_area(old_corner, (const double (*)[4])old_edge, u, v) > 0)
+		if (was && show(old_corner, (const double (*)[4])old_edge, u, v, there, &old_area) &&
+		    fmax(fabs(here[0] - there[0]), fabs(here[1] - there[1])) <= FAR)
 			*kept += area;
 	}
 }
