@@ -235,7 +235,7 @@ static uint32_t nearest(const struct bridge *b, const struct crowd *c, uint32_t 
 		double off;
 		int same;
 
-		if (c->is_taken[k] || !bridge_may_be_one(b, i, other) || (is_shaped && !has_shape(b->other, other, shape)))
+		if (c->is_taken[k] || (is_shaped && !has_shape(b->other, other, shape)) || !bridge_may_be_one(b, i, other))
 			continue;
 		off = distance(b, i, other, motion);
 		same = off <= most && is_same_mesh(b, i, other);

@@ -260,8 +260,9 @@ void mixed_clears(struct mixer *m)
 
 int mixed_same_points(const struct scene_mesh *a, const struct scene_mesh *b)
 {
-	return a == b || (a->kind == b->kind && a->vertex_count == b->vertex_count &&
-	                  memcmp(a->position, b->position, a->vertex_count * 4 * sizeof(float)) == 0);
+	return a == b || memcmp(a->hash, b->hash, sizeof(a->hash)) == 0 ||
+	       (a->kind == b->kind && a->vertex_count == b->vertex_count &&
+	        memcmp(a->position, b->position, a->vertex_count * 4 * sizeof(float)) == 0);
 }
 
 int mixed_suits(const struct scene_mesh *a, const struct scene_mesh *b)
