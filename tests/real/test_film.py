@@ -158,8 +158,11 @@ for name, projection, eyes, seen in (("around", "panorama", None, ("Spherical Ma
         stream = json.loads(must(run("ffprobe", "-v", "error", "-show_streams", "-of", "json", path)).stdout)["streams"][0]
         sides = {side["side_data_type"]: side for side in stream.get("side_data_list", ())}
         check(("Spherical Mapping" if "Spherical Mapping" in sides else None) == seen[0], f"{path.name}: {list(sides)}")
-        check(sides.get("Stereo 3D", {}).get("type") == seen[1],
-              f"{path.name}: eyes {sides.get('Stereo 3D')}")
+        eyes_told = sides.get("Stereo 3D", {}).get("type")
+        if ending == "mp4":  # a box beside the one of Spherical Video V2 makes ffprobe 7 unsure
+            box = path.read_bytes().partition(b"st3d")[2]
+            eyes_told = (None, "top and bottom", "side by side")[box[4] if box else 0]
+        check(eyes_told == seen[1], f"{path.name}: eyes {eyes_told}, not {seen[1]}")
         check((stream["height"] == height) == (name != "cube"), f"{path.name}: no labels in panoramas")
 done = relume("film", SCRATCH / "around", "--fps", "25", "-o", SCRATCH / "beside.webm")
 check(done.returncode == 0 and "will not show the film as a panorama" in done.stderr, f"beside: {done.stderr}")
