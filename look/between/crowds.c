@@ -177,7 +177,7 @@ int crowds_find(struct bridge *b, struct crowds **out)
 	free_lists(&others);
 	for (uint32_t i = 0; i < b->base->n_instances; i++)
 		b->couples[i].is_sure = 1;
-	for (uint32_t i = 0; i < crowds->n && !err; i++)
+	for (uint32_t i = 0; !err && i < crowds->n; i++)
 		single_out(b, &crowds->all[i]);
 	return err;
 }
