@@ -129,7 +129,7 @@ static int take_frames(struct pipeline_state *state, struct shot *shot)
 	for (uint64_t frame = shot->first; more == 1 && frame < high; frame++, last = last->next) {
 		if (!last->next)
 			more = decode(state, frame + 1, &last->next);
-		if (more != 1 || last->after || !(s->fps > 0 || s->moments.shutter > 0))
+		if (more != 1 || last->after || !settings_mixes(s))
 			continue;
 		last->after = interval_new(last->scene, last->next->scene);
 		more = last->after ? 1 : ERR_SYSTEM;

@@ -76,11 +76,11 @@ static int part_of(const struct making *m, const struct couple *c, int filmed, d
 		return 0;
 	if (!filmed)
 		return pose_part(out, c->motion, m->mixer.at);
-	if (bridge_agrees(c, m->b->camera, c->motion)) {
+	if (bridge_agrees(c, m->b->camera->motion, c->motion)) {
 		memcpy(out, m->mixer.camera_part, sizeof(own));
 		return 1;
 	}
-	matrix_mul(own, m->b->back, c->motion);
+	matrix_mul(own, m->b->camera->back, c->motion);
 	if (!pose_part(part, own, m->mixer.at))
 		return 0;
 	matrix_mul(out, m->mixer.camera_part, part);
@@ -95,7 +95,7 @@ static void place_flat(const struct making *m, uint32_t i, int filmed, float out
 	int goes = filmed;
 
 	if (filmed)
-		take(moved, m->b->camera, first);
+		take(moved, m->b->camera->motion, first);
 	for (int k = 0; k < 16; k++)
 		most = fmaxf(most, fabsf(second[k]));
 	for (int k = 0; k < 16 && filmed; k++)
@@ -121,7 +121,7 @@ static void place_alone(const struct making *m, uint32_t i)
 		return;
 	if (!m->b->is_back)
 		take(out->modelview, m->mixer.camera_part, in->modelview);
-	else if (pose_part(back, m->b->back, 1 - m->mixer.at))
+	else if (pose_part(back, m->b->camera->back, 1 - m->mixer.at))
 		take(out->modelview, back, in->modelview);
 }
 
@@ -202,8 +202,8 @@ static int fill(struct making *m)
 	const uint32_t n = b->base->n_instances;
 	int err = 0;
 
-	if (b->space != SCENE_NONE && pose_part(m->mixer.camera_part, b->camera, m->mixer.at))
-		m->mixer.camera = b->camera;
+	if (b->camera && pose_part(m->mixer.camera_part, b->camera->motion, m->mixer.at))
+		m->mixer.camera = b->camera->motion;
 	for (uint32_t i = 0; i < b->base->n_views; i++)
 		m->views[i] = SCENE_NONE;
 	for (uint32_t i = 0; i < n && !err; i++)

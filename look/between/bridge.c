@@ -66,7 +66,7 @@ int bridge_is_filmed(const struct bridge *b, uint32_t i)
 {
 	const struct scene_view *view = &b->base->views[b->base->instances[i].view];
 
-	return view->space == b->space && !view->target && !drawn_in_parallel(view);
+	return b->camera && view->space == b->camera->space && !view->target && !drawn_in_parallel(view);
 }
 
 int bridge_may_be_one(const struct bridge *b, uint32_t i, uint32_t other)

@@ -34,8 +34,7 @@ struct bridge {
 	float (*boxes)[2][3];        /* [meshes] of the base, object space */
 	struct motion *motions;      /* [n_motions], the weightiest first */
 	unsigned n_motions;
-	double camera[16], back[16]; /* motion of the scene by the camera, and its inverse */
-	uint32_t space;              /* eye space of that camera; SCENE_NONE: it is not known */
+	const struct motion *camera; /* the one of the scene by the camera, among these; NULL: it is not known */
 	uint32_t n_matched, n_alone; /* draws with a partner and without; pixel rectangles are not counted */
 };
 
@@ -50,7 +49,7 @@ void bridge_corner(const struct bridge *b, uint32_t i, int k, double out[4]);
 /** 1 if two draws, one of each frame, may show one thing. */
 int bridge_may_be_one(const struct bridge *b, uint32_t i, uint32_t other);
 
-/** Find the motion of a couple whose `other` is there. */
+/** Find the motion of a couple; its `other` is there. */
 void bridge_find_motion(struct bridge *b, uint32_t i);
 
 /** 1 if two motions are the same to a draw. */

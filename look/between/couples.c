@@ -58,7 +58,7 @@ static double gather_motions(struct bridge *b, int of)
 	return all;
 }
 
-/* Draws of which there is one alone say how the camera moves; without them, all do. */
+/* Sure draws say how the camera moves; without any, all do. */
 static void find_camera(struct bridge *b)
 {
 	double all = gather_motions(b, 1), part[16];
@@ -70,11 +70,8 @@ static void find_camera(struct bridge *b)
 		if (matrix_invert(b->motions[g].back, b->motions[g].motion))
 			b->motions[n++] = b->motions[g];
 	b->n_motions = n;
-	if (!n || !(b->motions[0].weight > all / 2) || !pose_part(part, b->motions[0].motion, 0.5))
-		return;
-	memcpy(b->camera, b->motions[0].motion, sizeof(b->camera));
-	memcpy(b->back, b->motions[0].back, sizeof(b->back));
-	b->space = b->motions[0].space;
+	if (n && b->motions[0].weight > all / 2 && pose_part(part, b->motions[0].motion, 0.5))
+		b->camera = &b->motions[0];
 }
 
 /* --- All together ------------------------------------------------------------------------------------------------ */
@@ -107,7 +104,7 @@ static int is_still(const struct bridge *b, uint32_t i)
 	const struct couple *c = &b->couples[i];
 
 	return memcmp(bridge_place(b, i, 0), bridge_place(b, i, 1), 16 * sizeof(float)) == 0 ||
-	       (c->moves && bridge_agrees(c, bridge_is_filmed(b, i) ? b->camera : matrix_identity, c->motion));
+	       (c->moves && bridge_agrees(c, bridge_is_filmed(b, i) ? b->camera->motion : matrix_identity, c->motion));
 }
 
 /* Draws without depth, such as letters, keep the base's place if they move: no evidence says which is which. */
@@ -125,7 +122,7 @@ int couples_find(struct bridge *b, const struct scene *base, const struct scene 
 	struct crowds *crowds = NULL;
 	int err = 0;
 
-	*b = (struct bridge){ .base = base, .other = other, .is_back = is_back, .space = SCENE_NONE };
+	*b = (struct bridge){ .base = base, .other = other, .is_back = is_back };
 	b->couples = calloc(base->n_instances + (size_t)1, sizeof(*b->couples));
 	b->boxes = calloc(base->n_meshes + (size_t)1, sizeof(*b->boxes));
 	b->motions = calloc(BRIDGE_MOTIONS, sizeof(*b->motions));

@@ -103,7 +103,7 @@ static int add_crowd(struct crowds *crowds, const struct lists *own, const struc
 
 /* --- Shapes ------------------------------------------------------------------------------------------------------ */
 
-/* What no motion changes of a modelview: the products of its columns. */
+/* The products of a modelview's columns: no motion changes them. */
 static void shape_of(const float m[16], double out[6])
 {
 	for (int k = 0, i = 0; i < 3; i++)
@@ -283,7 +283,6 @@ static int keeps_order(const struct bridge *b, const struct crowd *c)
 /* Stage 3. */
 static void couple_rest(struct bridge *b, struct crowd *c)
 {
-	const double *camera = b->is_back ? b->back : b->camera;
 	const int keeps = keeps_order(b, c);
 
 	for (uint32_t k = 0; k < c->n && keeps; k++)
@@ -295,7 +294,7 @@ static void couple_rest(struct bridge *b, struct crowd *c)
 
 			if (is_coupled(b, c, k))
 				continue;
-			rival = nearest(b, c, k, bridge_is_filmed(b, c->members[k]) ? camera : NULL, INFINITY, is_shaped);
+			rival = nearest(b, c, k, bridge_is_filmed(b, c->members[k]) ? way(b, b->camera) : NULL, INFINITY, is_shaped);
 			if (rival != SCENE_NONE)
 				couple(b, c, k, rival);
 		}

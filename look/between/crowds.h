@@ -1,7 +1,7 @@
 /*
  * Many draws of the same points, as of one wheel or crate at many places. A program may leave out one of them, and the
  * n-th is another one then. So these are coupled in an order that begins with what is sure:
- *   1. those whose shape in eye space only one has, in both frames: motions keep shapes;
+ *   1. draws with a shape in eye space that no other has, in either frame: motions keep shapes;
  *   2. those that a motion takes to their place, which draws of stage 1 and single ones have;
  *   3. the rest: n-th to n-th, if both frames have as many and nothing above speaks against it; else to the nearest
  *      that is left, of the same shape if there is one.

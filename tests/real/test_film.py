@@ -150,12 +150,13 @@ for name, projection, eyes, seen in (("around", "panorama", None, ("Spherical Ma
                                      ("cube", "cube", None, (None, None))):
     (SCRATCH / name).mkdir()
     eyes = ("--sattrib", "relume:eyes", eyes) if eyes else ()
-    must(run("oiiotool", frames / "s.0001.exr", "--sattrib", "relume:projection", projection, *eyes, "-d", "float", "-o",
-             SCRATCH / name / "s.0001.exr"))
+    must(run("oiiotool", frames / "s.0001.exr", "--sattrib", "relume:projection", projection, *eyes, "-d", "float",
+             "-o", SCRATCH / name / "s.0001.exr"))
     for ending in ("mp4", "webm", "mkv"):
         path = SCRATCH / f"{name}.{ending}"
         must(relume("film", SCRATCH / name, "--layout", "traced", "--fps", "25", "-o", path))
-        stream = json.loads(must(run("ffprobe", "-v", "error", "-show_streams", "-of", "json", path)).stdout)["streams"][0]
+        probed = must(run("ffprobe", "-v", "error", "-show_streams", "-of", "json", path)).stdout
+        stream = json.loads(probed)["streams"][0]
         sides = {side["side_data_type"]: side for side in stream.get("side_data_list", ())}
         check(("Spherical Mapping" if "Spherical Mapping" in sides else None) == seen[0], f"{path.name}: {list(sides)}")
         eyes_told = sides.get("Stereo 3D", {}).get("type")

@@ -11,7 +11,8 @@ from helpers import BUILD, SCRATCH, check, finish, record, relume, render
 WIDTH, HEIGHT = 192, 128
 FRAMES, TURN, STEP = 6, 30, 24  # degrees and pixels a frame
 MIDDLE, RADIUS = (60, 72), 45  # within the disc's edge
-DISC, SQUARE, BARS = (slice(8, 104), slice(12, 108)), (slice(112, 120), slice(0, WIDTH)), (slice(20, 90), slice(128, 172))
+DISC, SQUARE = (slice(8, 104), slice(12, 108)), (slice(112, 120), slice(0, WIDTH))
+BARS = (slice(20, 90), slice(128, 172))
 FINE = 8  # places in a pixel, to a side
 
 trace = SCRATCH / "turning.trace"
@@ -67,7 +68,8 @@ for mode in ("path", "gl"):
     check(error(picture, 1.75, 2.25) < 0.015, f"mode {mode} at 32 samples: {error(picture, 1.75, 2.25):.4f} off")
 ends = shutter("ends", "-f", "0,5", "--shutter", 1, "--samples", 64)
 for file, (first, last) in zip(ends, ((-0.5, 0.5), (4.5, 5.5))):
-    check(error(red(file), first, last) < 0.01, f"nothing moves before the first frame and behind the last: from {first}")
+    check(error(red(file), first, last) < 0.01,
+          f"nothing moves before the first frame and behind the last: from {first}")
 RATES = ("--recorded-fps", 10, "--fps", 3)
 slow = shutter("slow", *RATES, "--shutter", 0.6, "--samples", 64)
 check(error(red(slow[1]), 10 / 3 - 1, 10 / 3 + 1) < 0.01, "pictures of a rate: the shutter is open for two frames")
@@ -97,12 +99,14 @@ since = render(cut, SCRATCH / "since", *NARROW, "--fps", 15, "--recorded-fps", 1
 
 
 def same(a, b):
-    return all((numpy.asarray(exr.Image(a, "RGB").planes[name]) == exr.Image(b, "RGB").planes[name]).all() for name in "RGB")
+    planes = (exr.Image(a, "RGB").planes, exr.Image(b, "RGB").planes)
+    return all((numpy.asarray(planes[0][name]) == planes[1][name]).all() for name in "RGB")
 
 
 check(same(before, until[7]) and same(behind, since[0]), "no picture shows what is beyond a cut")
 
-for options, words in ((("--shutter", 0.5), "--samples says how many"), (("--shutter", 2, "--samples", 4), "--shutter")):
+for options, words in ((("--shutter", 0.5), "--samples says how many"),
+                       (("--shutter", 2, "--samples", 4), "--shutter")):
     done = relume("render", trace, *options, "-o", SCRATCH / "x.####.exr")
     check(done.returncode == 2 and words in done.stderr, f"{' '.join(map(str, options))}: {done.stderr.strip()}")
 finish()
