@@ -6,7 +6,7 @@ A test is a compiled tests/*/test_*.c (under BUILD) or an executable tests/*/tes
 leaves running is killed with it. Each test gets an empty TMPDIR, and finds the command through RELUME and RELUME_BUILD.
 
 A test that counts its checks as libcheck does ("100%: Checks: 5, Failures: 0, Errors: 0") counts as so many tests.
-Near the top of its source it may say, in a comment line of its own, "serial" (runs alone: it measures time) or
+Near the top of its source a comment may say "serial", on a line of its own (runs alone: it measures time), or
 "limit: 300 s" (default: 120 s). TESTS_SLOWER=10 allows ten times as long, as on emulated processors.
 
 The last line is "N passed, N failed, N skipped". Exits with 1 where a test failed or none ran.
@@ -35,7 +35,7 @@ class Test:
         self.command = build / "tests" / self.name if source.suffix == ".c" else source
         head = source.read_text(errors="replace")[:4000]
         self.serial = re.search(r"^[#/* \t]*serial[ */]*$", head, re.M) is not None
-        limit = re.search(r"^[#/* \t]*limit: (\d+) s\b", head, re.M)
+        limit = re.search(r"\blimit:[\s#/*]+(\d+) s\b", head)
         self.limit_s = SLOWER * (int(limit.group(1)) if limit else DEFAULT_LIMIT_S)
 
 

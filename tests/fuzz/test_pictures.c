@@ -1,7 +1,8 @@
 /*
  * Pictures of what calls in any order with any values draw (calls.h): kernels and C twins stay in one piece, and agree
- * to the last bit. Pictures that calls read go on from the one read before, and show what the whole scene does. limit:
- * 400 s
+ * to the last bit. Pictures that calls read go on from the one read before, and show what the whole scene does.
+ *
+ * limit: 400 s
  */
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """The runner notices every way in which a test can fail. Each case is a tree with one test, and what must come of
-it."""
+it.
+
+limit: 120 s"""
 import os
 import pathlib
 import subprocess
@@ -28,6 +30,8 @@ CASES = {
     "a script fails": ("echo the reason; exit 1", "0 passed, 1 failed, 0 skipped", "the reason"),
     "a script is killed": ("kill -SEGV $$", "0 passed, 1 failed, 0 skipped", "SIGSEGV"),
     "a script hangs": ("# limit: 1 s\nsleep 1000", "0 passed, 1 failed, 0 skipped", "not done after 1 s"),
+    "a limit is parted by the end of a line": ("# text, limit:\n# 1 s\nsleep 1000", "0 passed, 1 failed, 0 skipped",
+                                               "not done after 1 s"),
     "a script is skipped": ("echo first; echo no such thing here; exit 77", "0 passed, 0 failed, 1 skipped",
                             "skipped case/test_it: no such thing here"),
     "a script passes": ("exit 0", "1 passed, 0 failed, 0 skipped", ""),
