@@ -8,7 +8,6 @@
 #include <sys/stat.h>
 
 #include "base/err.h"
-#include "base/program.h"
 #include "base/memory.h"
 
 /* "frame 7: out/gears.0007.exr: leave", as printed by `relume render --dry-run`. */
@@ -40,34 +39,17 @@ static int count_line(const struct farm_job *job, const char *line, struct censu
 
 int census_take(const struct farm_job *job, struct census *out)
 {
-	char **argv = calloc((size_t)job->n_render + 12, sizeof(*argv)), *text = NULL;
+	char *text = NULL;
 	size_t room = 0;
-	int n = 0, rc;
+	int rc;
 
 	*out = (struct census){ .needs = calloc(job->n_tasks + 1, 1), .taken = time(NULL) };
-	if (!argv || !out->needs) {
-		free(argv);
+	if (!out->needs)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	}
-	argv[n++] = (char *)job->relume;
-	argv[n++] = "render";
-	for (int i = 0; i < job->n_render; i++)
-		argv[n++] = job->render[i];
-	argv[n++] = "-f";
-	argv[n++] = (char *)job->frames_text;
-	argv[n++] = "-o";
-	argv[n++] = (char *)job->output;
-	argv[n++] = "--skip-existing";
-	argv[n++] = "--dry-run";
-	argv[n++] = "--";
-	argv[n++] = (char *)job->trace;
-	rc = program_read(argv, 0, &text);
-	/* It has reported the error. */
-	rc = rc <= 0 ? rc : rc <= -ERR_SYSTEM ? -rc : ERR_SYSTEM;
+	rc = farm_job_rehearse(job, "--skip-existing", &text);
 	for (char *line = rc == 0 ? strtok(text, "\n") : NULL; line && !rc; line = strtok(NULL, "\n"))
 		rc = count_line(job, line, out, &room);
 	free(text);
-	free(argv);
 	return rc;
 }
 

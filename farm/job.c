@@ -132,10 +132,60 @@ static int check_render_options(const struct farm_job *job)
 				return err_report(ERR_USAGE, NULL, "%s does not belong after '--': the farm divides the frames itself",
 				                  ours[k]);
 		}
-	if (render_option(job, "--fps"))
-		return err_report(ERR_USAGE, NULL, "a farm divides recorded frames: there is no --fps ('relume render --chunk' "
-		                  "divides its pictures)");
 	return 0;
+}
+
+int farm_job_rehearse(const struct farm_job *job, const char *option, char **text)
+{
+	char **argv = calloc((size_t)job->n_render + 12, sizeof(*argv));
+	int n = 0, rc;
+
+	if (!argv)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	argv[n++] = (char *)job->relume;
+	argv[n++] = "render";
+	for (int i = 0; i < job->n_render; i++)
+		argv[n++] = job->render[i];
+	argv[n++] = "-f";
+	argv[n++] = (char *)job->frames_text;
+	argv[n++] = "-o";
+	argv[n++] = (char *)job->output;
+	if (option)
+		argv[n++] = (char *)option;
+	argv[n++] = "--dry-run";
+	argv[n++] = "--";
+	argv[n++] = (char *)job->trace;
+	rc = program_read(argv, 0, text);
+	free(argv);
+	/* It has reported the error. */
+	return rc <= 0 ? rc : rc <= -ERR_SYSTEM ? -rc : ERR_SYSTEM;
+}
+
+/*
+ * The numbers of the pictures. Only the options that may give them numbers of their own, from 0 on, cost a look at the
+ * trace.
+ */
+static int number_pictures(struct farm_job *job)
+{
+	uint64_t number = 0, n = 0;
+	int err = 0, is_counted = 1, length;
+	char *text = NULL;
+
+	if (render_option(job, "--fps") || render_option(job, "--camera"))
+		err = farm_job_rehearse(job, NULL, &text);
+	for (char *line = text && !err ? strtok(text, "\n") : NULL; line; line = strtok(NULL, "\n"))
+		if (sscanf(line, "frame %" SCNu64 ":", &number) == 1)
+			is_counted &= number == n++;
+	free(text);
+	if (err)
+		return err;
+	length = n && is_counted ? asprintf(&job->pictures_text, "0-%" PRIu64, n - 1) :
+	                           asprintf(&job->pictures_text, "%s", job->frames_text);
+	if (length < 0) {
+		job->pictures_text = NULL;
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	}
+	return frame_list_parse(job->pictures_text, &job->frames);
 }
 
 /* out/gears.####.exr -> out/gears.farm */
@@ -186,6 +236,8 @@ static const char *why_unscored(const struct farm_job *job)
 		return "--aov leaves out the channels gl.* that could be";
 	if (render_option(job, "--camera"))
 		return "--camera shows what the program did not";
+	if (render_option(job, "--fps"))
+		return "--fps shows moments that the program did not";
 	return NULL;
 }
 
@@ -230,7 +282,9 @@ int farm_job_parse(int argc, char **argv, struct farm_job *out)
 	if (!err)
 		err = check_render_options(out);
 	if (!err)
-		err = frame_list_parse(out->frames_text, &out->frames);
+		err = find_places(out);
+	if (!err)
+		err = number_pictures(out);
 	if (!err && !frame_pattern_has_number(out->output))
 		err = err_report(ERR_USAGE, NULL,
 		                 "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})", out->output);
@@ -252,8 +306,7 @@ int farm_job_parse(int argc, char **argv, struct farm_job *out)
 		return err_report(ERR_USAGE, NULL,
 		                  "--at-end does not go with --for make: put the command behind make's, as in 'make -f "
 		                  "FILE; COMMAND'");
-	err = name_folder(out);
-	return err ? err : find_places(out);
+	return name_folder(out);
 }
 
 void farm_job_free(struct farm_job *job)
@@ -262,6 +315,7 @@ void farm_job_free(struct farm_job *job)
 		free(job->words[i]);
 	free(job->words);
 	free(job->sbatch);
+	free(job->pictures_text);
 	frame_list_free(&job->frames);
 	*job = (struct farm_job){ 0 };
 }

@@ -39,7 +39,9 @@ struct farm_job {
 	int asked_engine;      /* --for, an enum farm_engine; -1: not given */
 
 	enum farm_engine engine;
-	struct frame_list frames;   /* frames_text, parsed; owned */
+	char *pictures_text;        /* the numbers in file names: frames_text, or those of pictures with numbers of their
+	                               own (--fps, a turntable); owned */
+	struct frame_list frames;   /* pictures_text, parsed; owned */
 	uint64_t n_frames, n_tasks; /* n_tasks: as many as it takes for no task to exceed `chunk` */
 
 	char directory[PATH_MAX]; /* directory of the command line; absolute */
@@ -53,7 +55,8 @@ struct farm_job {
 extern const struct options_table farm_options;
 
 /**
- * Make a job from the words after `submit` or `script`, in the current directory.
+ * Make a job from the words after `submit` or `script`, in the current directory. Where pictures have numbers of their
+ * own, the trace is asked for them.
  * @param out  zero-initialised; free with farm_job_free in any case
  * @return 0, 1 where help was printed, or ERR_* (reported)
  */
@@ -65,6 +68,14 @@ int farm_job_save(const struct farm_job *job);
 
 /** Find a job by its folder, and go to the directory where it was submitted. @return 0 or ERR_* (reported) */
 int farm_job_load(const char *folder, struct farm_job *out);
+
+/**
+ * Run `relume render --dry-run` for the whole job.
+ * @param option  one more option, or NULL
+ * @param text    receives its lines, one for each picture; owned by the caller
+ * @return 0 or ERR_* (reported)
+ */
+int farm_job_rehearse(const struct farm_job *job, const char *option, char **text);
 
 /** The number, from 1, of the task that a frame belongs to; 0 if the job does not have it. */
 uint64_t farm_job_task_of(const struct farm_job *job, uint64_t frame);

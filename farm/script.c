@@ -73,7 +73,7 @@ static void put_report(const struct farm_job *job, FILE *out)
 		return;
 	}
 	put_word(job, out, job->relume);
-	put_option(job, out, "diff -f", job->frames_text);
+	put_option(job, out, "diff -f", job->pictures_text);
 	snprintf(path, sizeof(path), "%s/report", job->folder);
 	put_option(job, out, "--report", path);
 	snprintf(path, sizeof(path), "%s/scores.json", job->folder);

@@ -76,7 +76,7 @@ static int print_task_frames(const struct farm_job *job, uint64_t task)
 	struct spans spans = { .out = stdout };
 	struct frame_list list = { 0 };
 	uint64_t frame = 0;
-	int err = frame_list_parse(job->frames_text, &list);
+	int err = frame_list_parse(job->pictures_text, &list);
 
 	if (!err && frame_list_chunk(&list, UINT64_MAX, task, job->n_tasks) == 0)
 		for (uint64_t from = 0; frame_list_next(&list, from, &frame); from = frame + 1)

@@ -93,6 +93,12 @@ check(len(made) == 4 and len({str(pixels(p)) for p in made}) == 4, "a turntable 
 done = relume("render", life, "-f", 2, "--camera", file, "--encoding", "display", "-o", SCRATCH / "table/life.####.exr",
               "--skip-existing", "--dry-run")
 check(done.stdout.count("leave") == 4, f"what is there is left: {done.stdout}")
+must(relume("farm", "submit", "--local", life, "-f", 2, "--chunk", 3, "-o", SCRATCH / "farm.####.exr", "--", "--camera",
+            file, "--encoding", "display"))
+check([p.read_bytes() for p in sorted(SCRATCH.glob("farm.*.exr"))] == [p.read_bytes() for p in made],
+      "a farm divides the pictures of a turntable")
+done = relume("farm", "status", SCRATCH / "farm.farm")
+check("frames 4 of 4 whole" in done.stdout, f"and counts them: {done.stdout}")
 
 # Nobody scores them.
 _, score = diff(life, SCRATCH / "moved", "--frames", 0)

@@ -91,8 +91,23 @@ for options, words in ((("--recorded-fps", 15), "--recorded-fps is for --fps"),
                        ((*FILM, "-f", "1-9x2"), "from one frame to another")):
     done = relume("render", traces[SLOW], *options, "-o", SCRATCH / "x.####.exr")
     check(done.returncode == 2 and words in done.stderr, f"{' '.join(map(str, options))}: {done.stderr.strip()}")
-done = relume("farm", "script", traces[SLOW], "-f", "0-15", "-o", SCRATCH / "x.####.exr", "--", *FILM)
-check(done.returncode == 2 and "there is no --fps" in done.stderr, f"farm: {done.stderr.strip()}")
+
+files = render(traces[SLOW], SCRATCH / "single", *FILM, "-f", "0-15")
+farm = SCRATCH / "farm"
+farm.mkdir()
+must(relume("farm", "submit", "--local", traces[SLOW], "-f", "0-15", "--chunk", 25, "-o", farm / f"{SLOW}.####.exr",
+            "--", *FILM))
+made = sorted(farm.glob("*.exr"))
+check([file.read_bytes() for file in made] == [file.read_bytes() for file in files], "a farm makes the same pictures")
+made[40].unlink()
+done = relume("farm", "status", farm / f"{SLOW}.farm")
+check(done.returncode == 1 and f"frames {COUNT - 1} of {COUNT} whole" in done.stdout and "frame 40\n" in done.stdout,
+      f"status knows which is missing: {done.stdout}")
+done = relume("farm", "retry", farm / f"{SLOW}.farm")
+check(done.returncode == 0 and made[40].read_bytes() == files[40].read_bytes(), f"retry makes it: {done.stderr}")
+script = must(relume("farm", "script", "--for", "make", traces[SLOW], "-f", "0-15", "--chunk", 25, "-o",
+                     farm / f"{SLOW}.####.exr", "--", *FILM)).stdout
+check("seq 1 3" in script and "--chunk $*/3" in script and "diff" not in script, f"three tasks: {script}")
 done = relume("render", traces[SLOW], *FILM, "-f", "1-15", "--skip-existing", "--dry-run", "-o",
               SCRATCH / "film" / f"{SLOW}.####.exr")
 check("leave" not in done.stdout, "pictures that are counted from another frame are not these")
