@@ -10,8 +10,7 @@ uint64_t followed_points(const struct scene_mesh *mesh)
 	return XXH3_64bits_withSeed(mesh->position, mesh->vertex_count * 4 * sizeof(float), mesh->kind);
 }
 
-/* The key of a mesh's triangles. */
-static uint64_t key_of_shape(const struct scene_mesh *mesh)
+uint64_t followed_triangles(const struct scene_mesh *mesh)
 {
 	const uint64_t head[3] = { mesh->kind, mesh->vertex_count, mesh->primitive_count };
 
@@ -35,7 +34,7 @@ static int next_keys(struct table *counts, const struct scene *scene, uint32_t i
 
 	keys[0] = next_key(counts, XXH3_64bits(mesh->hash, sizeof(mesh->hash)));
 	keys[1] = next_key(counts, followed_points(mesh));
-	keys[2] = next_key(counts, key_of_shape(mesh));
+	keys[2] = next_key(counts, followed_triangles(mesh));
 	return keys[0] && keys[1] && keys[2] ? 0 : ERR_SYSTEM;
 }
 

@@ -20,6 +20,9 @@ void followed_free(struct followed *p);
 /** The key of a mesh's points. */
 uint64_t followed_points(const struct scene_mesh *mesh);
 
+/** The key of a mesh's triangles: which points each has, wherever those are. */
+uint64_t followed_triangles(const struct scene_mesh *mesh);
+
 /**
  * Find those of another frame.
  * @param out  [scene.n_instances]: the sorted frame's instance, or SCENE_NONE

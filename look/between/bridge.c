@@ -69,6 +69,11 @@ int bridge_is_filmed(const struct bridge *b, uint32_t i)
 	return b->camera && view->space == b->camera->space && !view->target && !drawn_in_parallel(view);
 }
 
+const double *bridge_way(const struct bridge *b, const struct motion *m)
+{
+	return b->is_back ? m->back : m->motion;
+}
+
 int bridge_may_be_one(const struct bridge *b, uint32_t i, uint32_t other)
 {
 	const struct scene *s = b->base, *t = b->other;

@@ -58,6 +58,9 @@ int bridge_agrees(const struct couple *c, const double a[16], const double b[16]
 /** 1 if the camera that is known shows a draw. */
 int bridge_is_filmed(const struct bridge *b, uint32_t i);
 
+/** A motion, from the base to the other frame. */
+const double *bridge_way(const struct bridge *b, const struct motion *m);
+
 /** 1 if less than half of the depth-tested surface that the base shows is within half a picture of there in the other
  * frame. */
 int bridge_is_cut(const struct bridge *b);

@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 #include "look/between/crowds.h"
+#include "look/between/deforming.h"
 #include "look/between/pose.h"
 #include "look/drawn.h"
 #include "look/followed.h"
@@ -119,7 +120,7 @@ static void leave_flat(struct bridge *b)
 
 int couples_find(struct bridge *b, const struct scene *base, const struct scene *other, int is_back)
 {
-	struct crowds *crowds = NULL;
+	struct groups crowds = { .all = NULL }, deforming = { .all = NULL };
 	int err = 0;
 
 	*b = (struct bridge){ .base = base, .other = other, .is_back = is_back };
@@ -132,10 +133,14 @@ int couples_find(struct bridge *b, const struct scene *base, const struct scene 
 	if (!err)
 		err = crowds_find(b, &crowds);
 	if (!err)
+		err = deforming_find(b, &deforming);
+	if (!err) {
 		find_camera(b);
-	if (!err)
-		crowds_couple(b, crowds);
-	crowds_free(&crowds);
+		crowds_couple(b, &crowds);
+		err = deforming_couple(b, &deforming);
+	}
+	groups_free(&crowds);
+	groups_free(&deforming);
 	if (err)
 		return err;
 	leave_flat(b);

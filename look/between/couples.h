@@ -1,6 +1,6 @@
 /*
- * Which draws of two frames are one: by mesh and number (look/followed.h), then crowds (crowds.h); and the motion
- * of the camera, which more than half of the opaque things share, by size.
+ * Which draws of two frames are one: by mesh and number (look/followed.h), then crowds (crowds.h) and what deforms
+ * (deforming.h); and the motion of the camera, which more than half of the opaque things share, by size.
  */
 #pragma once
 

@@ -4,17 +4,14 @@
  *   1. draws with a shape in eye space that no other has, in either frame: motions keep shapes;
  *   2. those that a motion takes to their place, which draws of stage 1 and single ones have;
  *   3. the rest: n-th to n-th, if both frames have as many and nothing above speaks against it; else to the nearest
- *      that is left, of the same shape if there is one.
+ *      that is left and no farther than the draw's size, of the same shape if there is one.
  */
 #pragma once
 
-#include "look/between/bridge.h"
-
-struct crowds;
+#include "look/between/groups.h"
 
 /** Find crowds, and couple those of stage 1. Draws without a crowd are sure. @return 0 or ERR_SYSTEM (reported) */
-int crowds_find(struct bridge *b, struct crowds **crowds);
+int crowds_find(struct bridge *b, struct groups *crowds);
 
 /** Couple the others. b->motions and the camera are known. */
-void crowds_couple(struct bridge *b, const struct crowds *crowds);
-void crowds_free(struct crowds **crowds);
+void crowds_couple(struct bridge *b, const struct groups *crowds);

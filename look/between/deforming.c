@@ -1,0 +1,263 @@
+#include "look/between/deforming.h"
+
+#include <math.h>
+#include <stdlib.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/err.h"
+#include "base/table.h"
+#include "look/between/place.h"
+#include "look/followed.h"
+#include "look/matrix.h"
+#include "scene/box.h"
+
+#define ALONE 0.5 /* the price of a draw without a partner: a couple costs at most two of them */
+#define MOST_COMPARED (1u << 26) /* edges, of all pairs of a kind; of more, the n-th is compared with the n-th alone */
+
+/* --- Kinds ------------------------------------------------------------------------------------------------------- */
+
+/* The points of both frames. */
+struct points {
+	const struct scene *base;
+	struct table of[2]; /* the base's, the other's: keys -> anything */
+};
+
+/* @return 0 or ERR_SYSTEM (reported) */
+static int gather_points(struct table *t, const struct scene *s)
+{
+	int err = 0;
+
+	for (uint32_t i = 0; i < s->n_instances && !err; i++)
+		err = table_set(t, followed_points(s->meshes[s->instances[i].mesh]), t);
+	return err;
+}
+
+static uint64_t kind_of(const struct scene *s, uint32_t instance, const void *with)
+{
+	const struct points *points = with;
+	const struct scene_mesh *mesh = s->meshes[s->instances[instance].mesh];
+	uint64_t key = followed_triangles(mesh);
+
+	if (table_find(&points->of[s == points->base], followed_points(mesh)))
+		return 0;
+	for (int u = 0; u < SCENE_MAX_UNITS; u++)
+		if (mesh->texcoord[u])
+			key = XXH3_64bits_withSeed(mesh->texcoord[u], mesh->vertex_count * 4 * sizeof(float), key);
+	return key ? key : 1;
+}
+
+/* --- Edges ------------------------------------------------------------------------------------------------------- */
+
+static size_t edge_count(const struct scene *s, uint32_t i)
+{
+	const struct scene_mesh *mesh = s->meshes[s->instances[i].mesh];
+
+	return (size_t)mesh->primitive_count * mesh->kind;
+}
+
+/* Their lengths in eye space: no motion changes them. */
+static void measure_edges(const struct scene *s, uint32_t i, float *out)
+{
+	const struct scene_mesh *mesh = s->meshes[s->instances[i].mesh];
+	const size_t n = edge_count(s, i), corners = mesh->kind;
+	double to[16];
+
+	matrix_from_floats(to, s->instances[i].modelview);
+	for (size_t k = 0; k < n; k++) {
+		const float *a = mesh->position + 4 * (size_t)mesh->index[k];
+		const float *b = mesh->position + 4 * (size_t)mesh->index[(k + 1) % corners ? k + 1 : k + 1 - corners];
+		const double along[4] = { (double)b[0] - (double)a[0], (double)b[1] - (double)a[1], (double)b[2] - (double)a[2], 0 };
+		double moved[4];
+
+		matrix_transform(moved, to, along);
+		out[k] = (float)hypot(hypot(moved[0], moved[1]), moved[2]);
+	}
+}
+
+/* [0,1]: the share by which lengths differ. */
+static double stretch(const float *a, const float *b, size_t n)
+{
+	double off = 0, all = 0;
+
+	for (size_t k = 0; k < n; k++) {
+		off += fabs((double)a[k] - (double)b[k]);
+		all += fmax((double)a[k], (double)b[k]);
+	}
+	return all > 0 ? off / all : 0;
+}
+
+/* --- Prices ------------------------------------------------------------------------------------------------------ */
+
+/* A kind with the places of its draws in the other frame's eye space, and their edges: members, then rivals. */
+struct kind {
+	struct bridge *b;
+	struct group *g;
+	size_t n_edges;       /* each draw has */
+	struct place *places; /* [n + n_rivals] */
+	float *edges;         /* [n + n_rivals][n_edges] */
+};
+
+static void free_kind(struct kind *kind)
+{
+	free(kind->places);
+	free(kind->edges);
+}
+
+/* @return 0 or ERR_SYSTEM (reported): free_kind all the same */
+static int measure(struct kind *kind)
+{
+	const struct bridge *b = kind->b;
+	const size_t all = (size_t)kind->g->n + kind->g->n_rivals;
+
+	kind->n_edges = edge_count(b->base, kind->g->members[0]);
+	kind->places = calloc(all, sizeof(*kind->places));
+	kind->edges = calloc(all * kind->n_edges + 1, sizeof(*kind->edges));
+	if (!kind->places || !kind->edges)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (size_t k = 0; k < all; k++) {
+		const int is_member = k < kind->g->n;
+		const uint32_t i = is_member ? kind->g->members[k] : kind->g->rivals[k - kind->g->n];
+		const struct scene *s = is_member ? b->base : b->other;
+		const double *way = is_member && bridge_is_filmed(b, i) ? bridge_way(b, b->camera) : NULL;
+		float box[2][3];
+
+		scene_box(s->meshes[s->instances[i].mesh], box[0], box[1]);
+		place_find(&s->instances[i], (const float (*)[3])box, way, &kind->places[k]);
+		if (edge_count(s, i) == kind->n_edges)
+			measure_edges(s, i, kind->edges + k * kind->n_edges);
+	}
+	return 0;
+}
+
+/* The price of a couple. INFINITY: these are not one */
+static double price(const struct kind *kind, uint32_t member, uint32_t rival)
+{
+	const struct group *g = kind->g;
+	const struct place *a = &kind->places[member], *b = &kind->places[g->n + rival];
+	const double way = place_way(a, b), size = fmax(a->size, b->size);
+	const double cost = way / (way + size) + stretch(kind->edges + member * kind->n_edges,
+	                                                 kind->edges + ((size_t)g->n + rival) * kind->n_edges, kind->n_edges);
+
+	return cost <= 2 * ALONE && bridge_may_be_one(kind->b, g->members[member], g->rivals[rival]) ? cost : INFINITY;
+}
+
+/* --- Order ------------------------------------------------------------------------------------------------------- */
+
+/*
+ * The cheapest alignment of members and rivals (Needleman and Wunsch 1970), from the last ones to the first.
+ * steps: [n + 1][n_rivals + 1]: what is done next at a place in both: 0: couple them, 1: leave the member, 2: the rival
+ */
+static void align(const struct kind *kind, unsigned char *steps, double *row)
+{
+	const uint32_t n = kind->g->n, m = kind->g->n_rivals;
+
+	for (uint32_t j = 0; j <= m; j++) {
+		row[j] = ALONE * (m - j);
+		steps[(size_t)n * (m + 1) + j] = 2;
+	}
+	for (uint32_t i = n; i-- > 0;) {
+		double after = row[m]; /* the next member and the next rival */
+
+		row[m] += ALONE;
+		steps[(size_t)i * (m + 1) + m] = 1;
+		for (uint32_t j = m; j-- > 0;) {
+			const double both = after + price(kind, i, j), one = row[j] + ALONE, other = row[j + 1] + ALONE;
+
+			after = row[j];
+			row[j] = fmin(both, fmin(one, other));
+			steps[(size_t)i * (m + 1) + j] = both <= row[j] ? 0 : one <= row[j] ? 1 : 2;
+		}
+	}
+}
+
+/* @return 0 or ERR_SYSTEM (reported) */
+static int couple_by_alignment(const struct kind *kind)
+{
+	const uint32_t n = kind->g->n, m = kind->g->n_rivals;
+	unsigned char *steps = malloc((n + (size_t)1) * (m + (size_t)1));
+	double *row = malloc((m + (size_t)1) * sizeof(*row));
+	const int err = steps && row ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+
+	if (!err)
+		align(kind, steps, row);
+	for (uint32_t i = 0, j = 0; !err && i < n && j < m;) {
+		const int step = steps[(size_t)i * (m + 1) + j];
+
+		if (!step)
+			group_couple(kind->b, kind->g, i, j);
+		i += step != 2;
+		j += step != 1;
+	}
+	free(steps);
+	free(row);
+	return err;
+}
+
+static void couple_by_number(const struct kind *kind)
+{
+	for (uint32_t k = 0; k < kind->g->n && k < kind->g->n_rivals; k++)
+		if (price(kind, k, k) <= 2 * ALONE)
+			group_couple(kind->b, kind->g, k, k);
+}
+
+static void part(struct bridge *b, const struct group *g)
+{
+	for (uint32_t k = 0; k < g->n; k++)
+		group_part(b, g->members[k]);
+}
+
+/* @return 0 or ERR_SYSTEM (reported) */
+static int couple_kind(struct kind *kind)
+{
+	const uint64_t pairs = (uint64_t)kind->g->n * kind->g->n_rivals;
+
+	if (measure(kind))
+		return ERR_SYSTEM;
+	if (pairs * (kind->n_edges + 1) <= MOST_COMPARED)
+		return couple_by_alignment(kind);
+	couple_by_number(kind);
+	return 0;
+}
+
+/* --- All together ------------------------------------------------------------------------------------------------ */
+
+int deforming_couple(struct bridge *b, const struct groups *kinds)
+{
+	int err = 0;
+
+	for (uint32_t i = 0; i < kinds->n && !err; i++) {
+		struct kind kind = { .b = b, .g = &kinds->all[i] };
+
+		part(b, kind.g);
+		if (!kind.g->n_rivals)
+			continue;
+		err = couple_kind(&kind);
+		free_kind(&kind);
+	}
+	return err;
+}
+
+int deforming_find(struct bridge *b, struct groups *kinds)
+{
+	struct points points = { .base = b->base };
+	int err = gather_points(&points.of[0], b->base);
+
+	if (!err)
+		err = gather_points(&points.of[1], b->other);
+	if (!err)
+		err = groups_find(kinds, b, kind_of, &points);
+	table_free(&points.of[0]);
+	table_free(&points.of[1]);
+	for (uint32_t i = 0; i < kinds->n && !err; i++) {
+		struct kind kind = { .b = b, .g = &kinds->all[i] };
+
+		part(b, kind.g);
+		if (kind.g->n != 1 || kind.g->n_rivals != 1)
+			continue;
+		err = couple_kind(&kind);
+		b->couples[kind.g->members[0]].is_sure = 1;
+		free_kind(&kind);
+	}
+	return err;
+}

@@ -1,0 +1,65 @@
+/*
+ * One second of a shoal at a rate that is given: fish that swim past each other at different speeds, each of the same
+ * triangles, its points the program's own. Those out of the picture are not drawn. Recorded by test_shoal.py.
+ */
+#include <math.h>
+
+#include "tests/trace/window.h"
+
+#define FISH 9
+#define LONG 1.4f
+#define PARTS 10
+
+/* Its shade tells which one it is. */
+static void fish(int number, float time)
+{
+	const float shade = 0.2f + 0.8f * (float)number / (FISH - 1);
+
+	glColor3f(shade, 1 - shade, number % 2 ? 1 : 0.2f);
+	glBegin(GL_QUAD_STRIP);
+	for (int i = 0; i <= PARTS; i++) {
+		const float x = (float)i / PARTS, high = 0.05f + 0.3f * sinf(3 * x);
+		const float bent = 0.12f * x * sinf(5 * x - 9 * time - (float)number);
+
+		glVertex3f(LONG * x, bent - high, bent);
+		glVertex3f(LONG * x, bent + high, -bent);
+	}
+	glEnd();
+}
+
+static void draw_shoal(float time)
+{
+	for (int i = 0; i < FISH; i++) {
+		const float speed = (i % 2 ? 1.0f : -1.0f) * (6 + (float)i), deep = 4.0f + (float)i / 3;
+		const float x = speed * (time - 0.1f * (float)(i % 5)) + (i % 2 ? -3.0f : 2.0f);
+
+		if (fabsf(x + LONG / 2) > deep + 0.6f * LONG)
+			continue;
+		glPushMatrix();
+		glTranslatef(x, 0.8f * (float)(i % 4) - 1.2f, -deep);
+		fish(i, time);
+		glPopMatrix();
+	}
+}
+
+int main(int argc, char **argv)
+{
+	const int fps = argc > 1 ? atoi(argv[1]) : 15;
+
+	window_size[0] = 320;
+	window_size[1] = 240;
+	open_window();
+	glEnable(GL_DEPTH_TEST);
+	glClearColor(0.1f, 0.2f, 0.4f, 1);
+	for (int frame = 0; frame <= fps; frame++) {
+		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+		glMatrixMode(GL_PROJECTION);
+		glLoadIdentity();
+		glFrustum(-0.2, 0.2, -0.15, 0.15, 0.2, 30);
+		glMatrixMode(GL_MODELVIEW);
+		glLoadIdentity();
+		draw_shoal((float)frame / (float)fps);
+		end_frame();
+	}
+	return 0;
+}
