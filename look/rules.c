@@ -76,7 +76,7 @@ static const cyaml_schema_field_t spot_fields[] = {
 };
 
 static const cyaml_schema_field_t anchor_fields[] = {
-	TEXT(struct anchor, mesh), NUMBERS(struct anchor, at, 16), CYAML_FIELD_END
+	TEXT(struct anchor, mesh), NUMBERS(struct anchor, at, 16), COUNT(struct anchor, part), CYAML_FIELD_END
 };
 
 static const cyaml_schema_field_t light_fields[] = {

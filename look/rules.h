@@ -70,9 +70,10 @@
  *                                 # viewer is
  *       - mesh: 90c2              # its hash
  *         at: [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1] # where it stands: a matrix, column by column
+ *         part: 1                 # of the recording: nothing says where things of another part are. Default 0
  *     unseen:                     # what stands still but not every frame draws: mirrors and shadows have it in each
  *       - frame: 12               # a frame that draws it
- *         draws: 3-7,12           # with these draw numbers; needs `world`
+ *         draws: 3-7,12           # with these draw numbers; needs `world`. Frames of the same part get them
  *     lights:                     # a list of rules
  *       - light: 0                # the light of OpenGL that changes; without this key a light is added
  *         off: no                 # yes: it is switched off
@@ -195,6 +196,7 @@ struct gloss_rule {
 struct anchor {
 	const char *mesh;
 	const float *at;
+	const uint32_t *part;
 };
 
 struct unseen_rule {

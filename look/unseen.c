@@ -252,14 +252,15 @@ static int find_main_view(struct adding *a)
 	return most > 0;
 }
 
-static int add_frame(struct adding *a, uint32_t k, const float eye_from_world[16])
+static int add_frame(struct adding *a, uint32_t k, const float eye_from_world[16], uint32_t part)
 {
 	const struct scene *from = a->look->unseen[k].scene;
 	float then[16], world_from_then[16], now_from_then[16];
+	uint32_t part_then;
 	int err = 0;
 
-	if (!from || from->frame == a->scene->frame || !world_find(a->look->rules, from, then) ||
-	    !mat4_invert(world_from_then, then))
+	if (!from || from->frame == a->scene->frame || !world_find(a->look->rules, from, then, &part_then) ||
+	    part_then != part || !mat4_invert(world_from_then, then))
 		return 0;
 	mat4_mul(now_from_then, eye_from_world, world_from_then);
 	for (uint32_t i = 0; i < from->n_instances && !err; i++)
@@ -272,16 +273,18 @@ int unseen_add(const struct look *look, const struct scene *scene, struct scene 
 {
 	struct adding a = { .look = look, .scene = scene, .out = out };
 	float eye_from_world[16];
+	uint32_t part;
 	int err;
 
 	*out = (struct scene){ .instances = NULL };
-	if (!look || !look->rules->unseen_count || !find_main_view(&a) || !world_find(look->rules, scene, eye_from_world))
+	if (!look || !look->rules->unseen_count || !find_main_view(&a) ||
+	    !world_find(look->rules, scene, eye_from_world, &part))
 		return 0;
 	err = copy(&a);
 	if (!err)
 		err = blockers_create(scene, &a.blockers);
 	for (uint32_t k = 0; k < look->rules->unseen_count && !err; k++)
-		err = add_frame(&a, k, eye_from_world);
+		err = add_frame(&a, k, eye_from_world, part);
 	blockers_destroy(&a.blockers);
 	if (err || out->n_instances == scene->n_instances)
 		unseen_release(out);

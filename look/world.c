@@ -31,9 +31,10 @@ static int agree(const float a[16], const float b[16])
 	return 1;
 }
 
-int world_find(const struct rules *rules, const struct scene *scene, float eye_from_world[16])
+int world_find(const struct rules *rules, const struct scene *scene, float eye_from_world[16], uint32_t *part)
 {
 	float votes[MAX_VOTES][16];
+	uint32_t parts[MAX_VOTES];
 	int n = 0, best = 0, most = 0;
 
 	for (uint32_t a = 0; a < rules->world_count; a++) {
@@ -42,14 +43,16 @@ int world_find(const struct rules *rules, const struct scene *scene, float eye_f
 		if (!mat4_invert(world_from_mesh, rules->world[a].at))
 			continue;
 		for (uint32_t i = 0; i < scene->n_instances && n < MAX_VOTES; i++)
-			if (world_hash_begins(scene->meshes[scene->instances[i].mesh]->hash, rules->world[a].mesh))
+			if (world_hash_begins(scene->meshes[scene->instances[i].mesh]->hash, rules->world[a].mesh)) {
+				parts[n] = rules->world[a].part ? *rules->world[a].part : 0;
 				mat4_mul(votes[n++], scene->instances[i].modelview, world_from_mesh);
+			}
 	}
 	for (int i = 0; i < n; i++) {
 		int same = 0;
 
 		for (int k = 0; k < n; k++)
-			same += agree(votes[i], votes[k]);
+			same += parts[i] == parts[k] && agree(votes[i], votes[k]);
 		if (same > most) {
 			most = same;
 			best = i;
@@ -57,5 +60,7 @@ int world_find(const struct rules *rules, const struct scene *scene, float eye_f
 	}
 	if (n)
 		memcpy(eye_from_world, votes[best], sizeof(votes[best]));
+	if (n && part)
+		*part = parts[best];
 	return n > 0;
 }

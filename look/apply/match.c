@@ -113,7 +113,7 @@ int match_begin(struct applying *a)
 		a->lights_change |= lights_change_of(&a->rules->lights[k]);
 		in_world |= lights_in_world(&a->rules->lights[k]);
 	}
-	a->knows_world = world_find(a->rules, a->scene, a->eye_from_world);
+	a->knows_world = world_find(a->rules, a->scene, a->eye_from_world, NULL);
 	mat4_invert(a->world_from_eye, a->eye_from_world);
 	if (in_world && !a->knows_world) {
 		a->rules = &none; /* its lights stand nobody knows where */

@@ -75,7 +75,7 @@ static void measure_edges(const struct scene *s, uint32_t i, float *out)
 	}
 }
 
-/* [0,1]: the share by which lengths differ. */
+/* How much lengths differ, as a share of the longer ones. */
 static double stretch(const float *a, const float *b, size_t n)
 {
 	double off = 0, all = 0;

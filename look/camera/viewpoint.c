@@ -242,7 +242,7 @@ static int find_space(const struct camera *camera, const struct look *look, cons
                       const struct viewpoint *v, float out[16])
 {
 	memcpy(out, v->eye_from_recorded, 16 * sizeof(*out));
-	if (!camera_is_in_world(camera) || (look && world_find(look->rules, scene, out)))
+	if (!camera_is_in_world(camera) || (look && world_find(look->rules, scene, out, NULL)))
 		return 0;
 	return err_report(
 		ERR_INPUT, camera->path,

@@ -183,14 +183,41 @@ static int is_parallel(const struct scene *s, uint32_t i)
 	return drawn_in_parallel(&s->views[s->instances[i].view]);
 }
 
+/*
+ * A frame goes on with the part of the heaviest thing that stands, if more than half of what it draws has been seen
+ * before and stands. Else nothing says where the viewer has been taken: another part begins.
+ */
+static void choose_part(struct motion *m, const struct vote *votes, size_t n, double fresh,
+                        struct motion_camera *camera)
+{
+	double stands_still = 0, all = fresh, most = 0;
+
+	for (size_t i = 0; i < n; i++) {
+		const struct motion_thing *t = &m->things[votes[i].thing];
+
+		all += votes[i].weight;
+		if (!stands(t, camera->eye_from_world, votes[i].eye))
+			continue;
+		stands_still += votes[i].weight;
+		if (votes[i].weight > most) {
+			most = votes[i].weight;
+			camera->part = t->part;
+		}
+	}
+	if (!(stands_still > all / 2))
+		camera->part = m->n_parts++;
+}
+
 /* Each thing that was drawn before and is drawn again votes. Large ones count more, up to a bound: a far plane is no
- * world. What is drawn in parallel projection over a world in perspective is a HUD, and has no say. */
-static size_t collect_votes(const struct motion *m, const struct scene *s, struct vote *votes)
+ * world. What is drawn in parallel projection over a world in perspective is a HUD, and has no say. fresh: receives the
+ * weight of those that would vote but are drawn for the first time. */
+static size_t collect_votes(const struct motion *m, const struct scene *s, struct vote *votes, double *fresh)
 {
 	size_t n = 0;
 	double mean = 0;
 	int in_perspective = 0;
 
+	*fresh = 0;
 	for (uint32_t i = 0; i < s->n_instances; i++)
 		in_perspective |= m->of_instance[i] != SCENE_NONE && m->things[m->of_instance[i]].votes && !is_parallel(s, i);
 
@@ -199,13 +226,15 @@ static size_t collect_votes(const struct motion *m, const struct scene *s, struc
 		struct vote *v = &votes[n];
 		double inverse[16];
 
-		if (!t || !t->frames || !t->votes || (in_perspective && is_parallel(s, i)))
+		if (!t || !t->votes || (in_perspective && is_parallel(s, i)))
 			continue;
 		matrix_from_floats(v->eye, s->instances[i].modelview);
-		if (!matrix_invert(inverse, t->world))
-			continue;
-		v->thing = m->of_instance[i];
 		v->weight = t->size * matrix_scale(v->eye);
+		if (!t->frames || !matrix_invert(inverse, t->world)) {
+			*fresh += v->weight;
+			continue;
+		}
+		v->thing = m->of_instance[i];
 		matrix_mul(v->camera, v->eye, inverse);
 		mean += v->weight;
 		n++;
@@ -238,6 +267,7 @@ static void note_thing(struct motion *m, struct motion_thing *t, const double ey
 		matrix_mul(t->world, inverse, eye);
 	memcpy(t->eye, eye, sizeof(t->eye));
 	t->frames++;
+	t->part = camera->part;
 	t->last = m->n_frames + 1;
 	t->seen[m->n_frames / 64] |= 1ull << m->n_frames % 64;
 }
@@ -300,6 +330,8 @@ int motion_add(struct motion *m, const struct scene *scene)
 {
 	struct motion_camera camera = { .frame = scene->frame, .share = 0 };
 	struct vote *votes = malloc((scene->n_instances + (size_t)1) * sizeof(*votes));
+	double fresh;
+	size_t n;
 	int err = 0;
 
 	if (!votes)
@@ -312,8 +344,11 @@ int motion_add(struct motion *m, const struct scene *scene)
 	memcpy(camera.eye_from_world, m->n_frames ? motion_now(m)->eye_from_world : matrix_identity,
 	       sizeof(camera.eye_from_world));
 	err = place_things(m, scene);
-	if (!err)
-		choose_camera(m, votes, collect_votes(m, scene, votes), &camera);
+	if (!err) {
+		n = collect_votes(m, scene, votes, &fresh);
+		choose_camera(m, votes, n, &camera);
+		choose_part(m, votes, n, fresh, &camera);
+	}
 	free(votes);
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++) {
 		double eye[16];
@@ -347,4 +382,17 @@ void motion_free(struct motion *m)
 	table_free(&m->by_key);
 	table_free(&m->by_topology);
 	*m = (struct motion){ .n_things = 0 };
+}
+
+uint32_t motion_main_part(const struct motion *m, uint32_t *count)
+{
+	uint32_t counts[MOTION_MAX_FRAMES] = { 0 }, main = 0;
+
+	for (size_t i = 0; i < m->n_frames; i++)
+		counts[m->cameras[i].part]++;
+	for (uint32_t k = 0; k < m->n_parts; k++)
+		if (counts[k] > counts[main])
+			main = k;
+	*count = counts[main];
+	return main;
 }

@@ -31,6 +31,7 @@ struct motion_thing {
 	uint64_t seen[MOTION_MAX_FRAMES / 64]; /* bits of frames */
 	uint64_t last;         /* number of the frame that drew it last, counted from 1 */
 	uint32_t votes;        /* 1: it is of what decides about the camera: opaque, deep, in a view with depth */
+	uint32_t part;         /* the camera's, when it was seen last */
 };
 
 /* A mesh whose points move while its triangles stay, by triangles and texture coordinates. */
@@ -47,6 +48,7 @@ struct motion_camera {
 	double share;  /* of what had been seen before, by size, that stands still under it */
 	int witnessed; /* 0: nothing had been seen before; the camera is the last one's */
 	int moved;
+	uint32_t part; /* part of the recording: the camera is followed through it. Another one has another world space */
 };
 
 struct motion {
@@ -56,6 +58,7 @@ struct motion {
 	size_t n_shapes, room_shapes;
 	struct motion_camera *cameras; /* [n_frames] */
 	size_t n_frames, room_frames;
+	uint32_t n_parts;
 	struct table by_key, by_topology; /* -> index + 1 */
 	uint32_t *of_instance; /* [n] of the last frame: its thing, or SCENE_NONE */
 	size_t room_instances;
@@ -71,6 +74,9 @@ void motion_free(struct motion *m);
 
 /** The camera of the frame that was studied last. */
 const struct motion_camera *motion_now(const struct motion *m);
+
+/** The part of the recording that has most frames. count: receives how many */
+uint32_t motion_main_part(const struct motion *m, uint32_t *count);
 
 /** 1 where a thing stood still, as far as it was seen again. */
 int motion_is_static(const struct motion_thing *t);

@@ -35,19 +35,28 @@ void seen_free(struct seen *seen)
 	*seen = (struct seen){ .draws = NULL };
 }
 
-static int is_wanted(const struct motion *m, uint32_t thing, const unsigned char *covered)
+/* Only the recording's main part is asked: in others, nobody knows where its things stand. */
+struct asked {
+	const struct motion *motion;
+	uint32_t part, frames;  /* that have it */
+	unsigned char *covered; /* [things]: 1: some rule draws it */
+};
+
+static int is_wanted(const struct asked *a, uint32_t thing)
 {
-	return !covered[thing] && motion_is_static(&m->things[thing]) && m->things[thing].frames < m->n_frames;
+	const struct motion_thing *t = &a->motion->things[thing];
+
+	return !a->covered[thing] && motion_is_static(t) && t->part == a->part && t->frames < a->frames;
 }
 
 /* The frame that draws most of what no frame so far does. @return how many things */
-static size_t find_best(const struct seen *seen, const struct motion *m, const unsigned char *covered, uint32_t *best)
+static size_t find_best(const struct seen *seen, const struct asked *a, uint32_t *best)
 {
 	size_t most = 0, n = 0;
 
 	for (size_t i = 0; i < seen->n; i++) {
 		n = i && seen->draws[i].frame == seen->draws[i - 1].frame ? n : 0;
-		n += (size_t)is_wanted(m, seen->draws[i].thing, covered);
+		n += (size_t)is_wanted(a, seen->draws[i].thing);
 		if (n > most) {
 			most = n;
 			*best = seen->draws[i].frame;
@@ -57,8 +66,7 @@ static size_t find_best(const struct seen *seen, const struct motion *m, const u
 }
 
 /* A frame's draws as ranges; what they draw is covered then. */
-static void write_draws(const struct seen *seen, const struct motion *m, uint32_t frame, unsigned char *covered,
-                        FILE *out)
+static void write_draws(const struct seen *seen, const struct asked *a, uint32_t frame, FILE *out)
 {
 	uint32_t first = 0, last = 0;
 	const char *comma = "";
@@ -66,9 +74,9 @@ static void write_draws(const struct seen *seen, const struct motion *m, uint32_
 	for (size_t i = 0; i < seen->n; i++) {
 		const struct seen_draw *d = &seen->draws[i];
 
-		if (d->frame != frame || !is_wanted(m, d->thing, covered))
+		if (d->frame != frame || !is_wanted(a, d->thing))
 			continue;
-		covered[d->thing] = 1;
+		a->covered[d->thing] = 1;
 		if (first && d->draw == last + 1) {
 			last++;
 			continue;
@@ -83,13 +91,14 @@ static void write_draws(const struct seen *seen, const struct motion *m, uint32_
 
 int seen_write(const struct seen *seen, const struct motion *m, FILE *out)
 {
-	unsigned char *covered = calloc(m->n_things + 1, 1);
+	struct asked a = { .motion = m, .covered = calloc(m->n_things + 1, 1) };
 	uint32_t frame = 0;
 
-	if (!covered)
+	if (!a.covered)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	a.part = motion_main_part(m, &a.frames);
 	for (int i = 0; i < MOST_FRAMES; i++) {
-		const size_t n = find_best(seen, m, covered, &frame);
+		const size_t n = find_best(seen, &a, &frame);
 
 		if (!n)
 			break;
@@ -97,9 +106,9 @@ int seen_write(const struct seen *seen, const struct motion *m, FILE *out)
 		        "%s  - role: out of sight\n    why: \"%zu meshes stand still, and some frames leave them "
 		        "out\"\n    frame: %llu\n    draws: \"",
 		        i ? "" : "unseen:\n", n, (unsigned long long)m->cameras[frame].frame);
-		write_draws(seen, m, frame, covered, out);
+		write_draws(seen, &a, frame, out);
 		fprintf(out, "\"\n");
 	}
-	free(covered);
+	free(a.covered);
 	return 0;
 }

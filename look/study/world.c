@@ -56,7 +56,7 @@ static void write_anchor(const struct motion_thing *t, const uint64_t hash[2], i
 	fprintf(out, "  - mesh: \"%016" PRIx64 "%016" PRIx64 "\"\n    at: [", hash[1], hash[0]);
 	for (int i = 0; i < 16; i++)
 		fprintf(out, "%s%.9g", i ? ", " : "", t->world[i]);
-	fprintf(out, "]\n");
+	fprintf(out, "]\n    part: %u\n", t->part);
 }
 
 /* Those seen in most frames first; then each that shows a frame which has too few. */

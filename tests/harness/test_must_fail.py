@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """The runner notices every way in which a test can fail. Each case is a tree with one test, and what must come of
-it.
+it. Its own limit is named, as those of its cases are in its first lines.
 
 limit: 120 s"""
 import os

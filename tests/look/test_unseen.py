@@ -8,7 +8,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
 from exr import Image  # noqa: E402
-from helpers import SCRATCH, check, corpus, finish, must, record, relume, render  # noqa: E402
+from helpers import BUILD, SCRATCH, check, corpus, finish, must, record, relume, render  # noqa: E402
 
 FRAME, NEAR = 20, 2 / 255
 for cull in ("none", "portal"):
@@ -50,4 +50,11 @@ found.write_text(found.read_text().replace("unseen:\n", "unseen:\n  - frame: 3\n
 done = relume("render", SCRATCH / "portal.trace", "-f", FRAME, "-o", SCRATCH / "x.exr", "--look", found)
 check(done.returncode == 3 and "needs a frame and draws" in done.stderr,
       f"a rule without draws is no rule: {done.stderr}")
+
+stair = SCRATCH / "stair.trace"
+record(stair, BUILD / "tests/real/stair")
+must(relume("look", stair, "-o", found))
+parts = set(re.findall(r"\n    part: (\d+)", found.read_text()))
+check("unseen:" not in found.read_text(), f"a stair that gives place to another is not out of sight: {found.read_text()}")
+check(len(parts) == 3, f"each has a part of the recording: {parts}")
 finish()

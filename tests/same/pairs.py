@@ -36,7 +36,7 @@ class Verdict:
     def __str__(self):
         if self.same is not False or not self.picture:
             return self.why or "same"
-        at = f"pick -x {self.where[0]} -y {self.where[1]}"
+        at = f"pick {self.where[0]},{self.where[1]}"
         return f"{self.picture}: {100 * self.share:.3g} % of the pixels differ, first draw {self.draw} ({at})"
 
 

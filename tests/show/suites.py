@@ -272,6 +272,8 @@ def show_arm64(suite, build, shown):
 
 def show_container(suite, shown):
     """buildah's layers are below suite.root; the bare chroot is the base, so that no registry is asked."""
+    if not shutil.which("buildah"):
+        sys.exit("the suite container needs the Debian package buildah")
     clone = suite.root / "relume"
     subprocess.run(["git", "clone", "-q", ROOT, clone], check=True)
     store = ["buildah", "--root", suite.root / "layers", "--runroot", suite.root / "run"]

@@ -87,6 +87,8 @@ class Dumps(unittest.TestCase):
         self.compare("pixels", "--ref", "color,depth")
 
     def test_loaded_by_hand(self):
+        if subprocess.run([BUILD / "tests/trace/loaded"], check=False).returncode == 77:
+            self.skipTest("Mesa 26 has no OSMesa")
         self.compare("loaded")
 
     def test_refused(self):

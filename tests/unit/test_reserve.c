@@ -40,9 +40,13 @@ static void use_up_memory(struct rlimit *before)
 	getrlimit(RLIMIT_AS, before);
 	none = (struct rlimit){ 0, before->rlim_max };
 	setrlimit(RLIMIT_AS, &none);
-	for (size_t n = 1 << 20; n; n /= 2)
-		while (malloc(n))
-			;
+	for (size_t n = 1 << 20; n; n /= 2) {
+		void *volatile taken; /* a compiler may leave out a malloc that nobody looks at */
+
+		do
+			taken = malloc(n);
+		while (taken);
+	}
 }
 
 static void *take_as_well(void *unused)
