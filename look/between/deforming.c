@@ -12,7 +12,7 @@
 #include "look/matrix.h"
 #include "scene/box.h"
 
-#define ALONE 0.5 /* the price of a draw without a partner: a couple costs at most two of them */
+#define ALONE 0.5 /* the price of a draw without a partner, if one frame has more of them */
 #define MOST_COMPARED (1u << 26) /* edges, of all pairs of a kind; of more, the n-th is compared with the n-th alone */
 
 /* --- Kinds ------------------------------------------------------------------------------------------------------- */
@@ -94,6 +94,7 @@ struct kind {
 	struct bridge *b;
 	struct group *g;
 	size_t n_edges;       /* each draw has */
+	double alone;         /* the price of a draw without a partner */
 	struct place *places; /* [n + n_rivals] */
 	float *edges;         /* [n + n_rivals][n_edges] */
 };
@@ -130,16 +131,25 @@ static int measure(struct kind *kind)
 	return 0;
 }
 
+static double way_of(const struct kind *kind, uint32_t member, uint32_t rival)
+{
+	return place_way(&kind->places[member], &kind->places[kind->g->n + rival]);
+}
+
+static double size_of(const struct kind *kind, uint32_t member, uint32_t rival)
+{
+	return fmax(kind->places[member].size, kind->places[kind->g->n + rival].size);
+}
+
 /* The price of a couple. INFINITY: these are not one */
 static double price(const struct kind *kind, uint32_t member, uint32_t rival)
 {
 	const struct group *g = kind->g;
-	const struct place *a = &kind->places[member], *b = &kind->places[g->n + rival];
-	const double way = place_way(a, b), size = fmax(a->size, b->size);
+	const double way = way_of(kind, member, rival), size = size_of(kind, member, rival);
 	const double cost = way / (way + size) + stretch(kind->edges + member * kind->n_edges,
 	                                                 kind->edges + ((size_t)g->n + rival) * kind->n_edges, kind->n_edges);
 
-	return cost <= 2 * ALONE && bridge_may_be_one(kind->b, g->members[member], g->rivals[rival]) ? cost : INFINITY;
+	return cost <= 2 * kind->alone && bridge_may_be_one(kind->b, g->members[member], g->rivals[rival]) ? cost : INFINITY;
 }
 
 /* --- Order ------------------------------------------------------------------------------------------------------- */
@@ -153,16 +163,17 @@ static void align(const struct kind *kind, unsigned char *steps, double *row)
 	const uint32_t n = kind->g->n, m = kind->g->n_rivals;
 
 	for (uint32_t j = 0; j <= m; j++) {
-		row[j] = ALONE * (m - j);
+		row[j] = kind->alone * (m - j);
 		steps[(size_t)n * (m + 1) + j] = 2;
 	}
 	for (uint32_t i = n; i-- > 0;) {
 		double after = row[m]; /* the next member and the next rival */
 
-		row[m] += ALONE;
+		row[m] += kind->alone;
 		steps[(size_t)i * (m + 1) + m] = 1;
 		for (uint32_t j = m; j-- > 0;) {
-			const double both = after + price(kind, i, j), one = row[j] + ALONE, other = row[j + 1] + ALONE;
+			const double both = after + price(kind, i, j);
+			const double one = row[j] + kind->alone, other = row[j + 1] + kind->alone;
 
 			after = row[j];
 			row[j] = fmin(both, fmin(one, other));
@@ -171,8 +182,8 @@ static void align(const struct kind *kind, unsigned char *steps, double *row)
 	}
 }
 
-/* @return 0 or ERR_SYSTEM (reported) */
-static int couple_by_alignment(const struct kind *kind)
+/* partners: [n]: receives each member's rival, or SCENE_NONE. @return 0 or ERR_SYSTEM (reported) */
+static int find_partners(const struct kind *kind, uint32_t *partners)
 {
 	const uint32_t n = kind->g->n, m = kind->g->n_rivals;
 	unsigned char *steps = malloc((n + (size_t)1) * (m + (size_t)1));
@@ -185,7 +196,7 @@ static int couple_by_alignment(const struct kind *kind)
 		const int step = steps[(size_t)i * (m + 1) + j];
 
 		if (!step)
-			group_couple(kind->b, kind->g, i, j);
+			partners[i] = j;
 		i += step != 2;
 		j += step != 1;
 	}
@@ -194,11 +205,31 @@ static int couple_by_alignment(const struct kind *kind)
 	return err;
 }
 
-static void couple_by_number(const struct kind *kind)
+/* 1 if nothing but its price is needed. */
+static int is_cheap(const struct kind *kind, const uint32_t *partners, uint32_t member)
 {
-	for (uint32_t k = 0; k < kind->g->n && k < kind->g->n_rivals; k++)
-		if (price(kind, k, k) <= 2 * ALONE)
-			group_couple(kind->b, kind->g, k, k);
+	return partners[member] != SCENE_NONE && price(kind, member, partners[member]) <= 2 * ALONE;
+}
+
+/* Couple what is cheap, and dear ones that do not leave the nearest cheap ones before and behind them in the order. */
+static void couple_partners(const struct kind *kind, const uint32_t *partners)
+{
+	const uint32_t n = kind->g->n;
+	double reach = 0;
+
+	for (uint32_t i = 0; i < n; i++)
+		if (is_cheap(kind, partners, i)) {
+			group_couple(kind->b, kind->g, i, partners[i]);
+			reach = way_of(kind, i, partners[i]) + size_of(kind, i, partners[i]);
+		} else if (partners[i] != SCENE_NONE && way_of(kind, i, partners[i]) <= reach) {
+			group_couple(kind->b, kind->g, i, partners[i]);
+		}
+	reach = 0;
+	for (uint32_t i = n; i-- > 0;)
+		if (is_cheap(kind, partners, i))
+			reach = way_of(kind, i, partners[i]) + size_of(kind, i, partners[i]);
+		else if (partners[i] != SCENE_NONE && way_of(kind, i, partners[i]) <= reach)
+			group_couple(kind->b, kind->g, i, partners[i]);
 }
 
 static void part(struct bridge *b, const struct group *g)
@@ -210,14 +241,20 @@ static void part(struct bridge *b, const struct group *g)
 /* @return 0 or ERR_SYSTEM (reported) */
 static int couple_kind(struct kind *kind)
 {
-	const uint64_t pairs = (uint64_t)kind->g->n * kind->g->n_rivals;
+	const uint32_t n = kind->g->n, m = kind->g->n_rivals;
+	uint32_t *partners = malloc((n + (size_t)1) * sizeof(*partners));
+	int err = partners ? measure(kind) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	const int is_small = (uint64_t)n * m * (kind->n_edges + 1) <= MOST_COMPARED;
 
-	if (measure(kind))
-		return ERR_SYSTEM;
-	if (pairs * (kind->n_edges + 1) <= MOST_COMPARED)
-		return couple_by_alignment(kind);
-	couple_by_number(kind);
-	return 0;
+	kind->alone = n == m ? 2 * ALONE : ALONE;
+	for (uint32_t i = 0; !err && i < n; i++)
+		partners[i] = !is_small && i < m && price(kind, i, i) < INFINITY ? i : SCENE_NONE;
+	if (!err && is_small)
+		err = find_partners(kind, partners);
+	if (!err)
+		couple_partners(kind, partners);
+	free(partners);
+	return err;
 }
 
 /* --- All together ------------------------------------------------------------------------------------------------ */

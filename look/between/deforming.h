@@ -1,8 +1,11 @@
 /*
  * Draws that deform: whose points the other frame has nowhere, as those of fish or cloth, while their triangles and
- * texture coordinates stay. The price of a couple is 0 if nothing changes; it grows with the stretch of its edges,
- * as a share of their lengths, and with its way, as a share of its way and its size. A draw without a partner costs
- * half. So what moves far must keep its form. The cheapest alignment of both frames' orders is taken, kind by kind.
+ * texture coordinates stay. The price of a couple is 0 if nothing changes; it grows with the stretch of its edges, as a
+ * share of their lengths, and with its way, as a share of its way and its size: each of the two is less than 1. A draw
+ * without a partner costs half, or 1 if both frames have as many of its kind. The cheapest alignment of both frames'
+ * orders is taken, kind by kind. So what moves far must keep its form. A couple that costs more than 1 is none, unless
+ * it goes no farther than the nearest cheaper one in the order, and that one's size: patches of one surface that
+ * stretches.
  */
 #pragma once
 

@@ -1,6 +1,7 @@
 /*
  * One second of a shoal at a rate that is given: fish that swim past each other at different speeds, each of the same
- * triangles, its points the program's own. Those out of the picture are not drawn. Recorded by test_shoal.py.
+ * triangles, its points the program's own. Those out of the picture are not drawn. Behind them opens a ring of patches;
+ * the inner ones stretch to many times their size. Recorded by test_shoal.py.
  */
 #include <math.h>
 
@@ -25,6 +26,33 @@ static void fish(int number, float time)
 		glVertex3f(LONG * x, bent + high, -bent);
 	}
 	glEnd();
+}
+
+static void patch(const float radius[2], float from, float to)
+{
+	glPushMatrix();
+	glRotatef(from, 0, 0, 1);
+	glColor3f(0.6f + from / 900, 0.6f, 0.3f + from / 600);
+	glBegin(GL_QUADS);
+	for (int i = 0; i < 4; i++) {
+		const float angle = (i == 1 || i == 2 ? to - from : 0) * (float)M_PI / 180, far = radius[i / 2];
+
+		glVertex3f(far * cosf(angle), far * sinf(angle), -14);
+	}
+	glEnd();
+	glPopMatrix();
+}
+
+static void draw_ring(float time)
+{
+	for (int ring = 0; ring < 6; ring++)
+		for (int i = 0; i < 12; i++) {
+			const float power = 8 - 7 * time; /* all but the last ring are narrow at first */
+			const float radius[2] = { 6 * powf((float)ring / 6, power) + 0.02f,
+				                      6 * powf((float)(ring + 1) / 6, power) + 0.02f };
+
+			patch(radius, 30 * (float)i, 30 * (float)(i + 1));
+		}
 }
 
 static void draw_shoal(float time)
@@ -58,6 +86,7 @@ int main(int argc, char **argv)
 		glFrustum(-0.2, 0.2, -0.15, 0.15, 0.2, 30);
 		glMatrixMode(GL_MODELVIEW);
 		glLoadIdentity();
+		draw_ring((float)frame / (float)fps);
 		draw_shoal((float)frame / (float)fps);
 		end_frame();
 	}
