@@ -476,10 +476,21 @@ int settings_resize(const struct settings *s)
 	return s->scale > 0 || s->size[0];
 }
 
-static int check_scale(const struct settings *s)
+/* A window of the recorded size asks for nothing: its files are those without the option. */
+static void drop_scale(struct settings *s)
+{
+	s->scale = 0;
+	for (size_t i = 0; i < table.n_rows; i++)
+		if (rows[i].name && strcmp(rows[i].name, "scale") == 0)
+			s->line.given[i] = NULL;
+}
+
+static int check_scale(struct settings *s)
 {
 	if (s->scale > 0 && s->size[0])
 		return err_report(ERR_USAGE, NULL, "--scale and --size say the same: leave out one");
+	if (s->scale == 1)
+		drop_scale(s);
 	if (settings_resize(s) && s->motion)
 		return err_report(ERR_USAGE, NULL, "--%s: motion is known of recorded pixels alone (--aov motion)",
 		                  s->scale > 0 ? "scale" : "size");

@@ -55,6 +55,9 @@ for name, size, rows, columns in (("spheres-small", "480x120", slice(None), slic
 odd = exr.Image(render(SCRATCH / "sizes1.trace", SCRATCH / "odd", "--scale", "1.37", "-f", 0)[0], PLANES)
 check((odd.width, odd.height) == (132, 99), f"96x72 by 1.37 is {odd.width}x{odd.height}")
 
+plain, one = (render(SCRATCH / "sizes1.trace", SCRATCH / name, "-f", 0, *options)[0].read_bytes()
+              for name, options in (("plain", ()), ("one", ("--scale", "1"))))
+check(plain == one, "by 1 it is the same file as without")
 for what, options in (("too large", ("--scale", "64", "--mode", "gl")),
                       ("motion", ("--scale", "2", "--aov", "gl,motion")),
                       ("no number", ("--scale", "big")), ("no size", ("--size", "640")),
