@@ -67,9 +67,10 @@ static void measure_edges(const struct scene *s, uint32_t i, float *out)
 	for (size_t k = 0; k < n; k++) {
 		const float *a = mesh->position + 4 * (size_t)mesh->index[k];
 		const float *b = mesh->position + 4 * (size_t)mesh->index[(k + 1) % corners ? k + 1 : k + 1 - corners];
-		const double along[4] = { (double)b[0] - (double)a[0], (double)b[1] - (double)a[1], (double)b[2] - (double)a[2], 0 };
-		double moved[4];
+		double along[4] = { 0 }, moved[4];
 
+		for (int c = 0; c < 3; c++)
+			along[c] = (double)b[c] - (double)a[c];
 		matrix_transform(moved, to, along);
 		out[k] = (float)hypot(hypot(moved[0], moved[1]), moved[2]);
 	}
@@ -99,13 +100,7 @@ struct kind {
 	float *edges;         /* [n + n_rivals][n_edges] */
 };
 
-static void free_kind(struct kind *kind)
-{
-	free(kind->places);
-	free(kind->edges);
-}
-
-/* @return 0 or ERR_SYSTEM (reported): free_kind all the same */
+/* Fill in the rest of a kind. @return 0 or ERR_SYSTEM (reported) */
 static int measure(struct kind *kind)
 {
 	const struct bridge *b = kind->b;
@@ -146,10 +141,12 @@ static double price(const struct kind *kind, uint32_t member, uint32_t rival)
 {
 	const struct group *g = kind->g;
 	const double way = way_of(kind, member, rival), size = size_of(kind, member, rival);
-	const double cost = way / (way + size) + stretch(kind->edges + member * kind->n_edges,
-	                                                 kind->edges + ((size_t)g->n + rival) * kind->n_edges, kind->n_edges);
+	const float *edges = kind->edges + member * kind->n_edges, *others = kind->edges + (g->n + rival) * kind->n_edges;
+	const double cost = way / (way + size) + stretch(edges, others, kind->n_edges);
 
-	return cost <= 2 * kind->alone && bridge_may_be_one(kind->b, g->members[member], g->rivals[rival]) ? cost : INFINITY;
+	return cost <= 2 * kind->alone && bridge_may_be_one(kind->b, g->members[member], g->rivals[rival]) ?
+	               cost :
+	               INFINITY;
 }
 
 /* --- Order ------------------------------------------------------------------------------------------------------- */
@@ -205,31 +202,28 @@ static int find_partners(const struct kind *kind, uint32_t *partners)
 	return err;
 }
 
-/* 1 if nothing but its price is needed. */
-static int is_cheap(const struct kind *kind, const uint32_t *partners, uint32_t member)
+/*
+ * Couple a member if that is cheap, or if it does not leave the cheap one before it in this direction.
+ * reach: how far that one and its size go
+ */
+static void couple_partner(const struct kind *kind, uint32_t member, uint32_t rival, double *reach)
 {
-	return partners[member] != SCENE_NONE && price(kind, member, partners[member]) <= 2 * ALONE;
+	const double way = rival == SCENE_NONE ? INFINITY : way_of(kind, member, rival);
+
+	if (rival != SCENE_NONE && price(kind, member, rival) <= 2 * ALONE)
+		*reach = way + size_of(kind, member, rival);
+	if (way <= *reach && !group_is_coupled(kind->b, kind->g, member))
+		group_couple(kind->b, kind->g, member, rival);
 }
 
-/* Couple what is cheap, and dear ones that do not leave the nearest cheap ones before and behind them in the order. */
 static void couple_partners(const struct kind *kind, const uint32_t *partners)
 {
-	const uint32_t n = kind->g->n;
-	double reach = 0;
+	double forth = 0, back = 0;
 
-	for (uint32_t i = 0; i < n; i++)
-		if (is_cheap(kind, partners, i)) {
-			group_couple(kind->b, kind->g, i, partners[i]);
-			reach = way_of(kind, i, partners[i]) + size_of(kind, i, partners[i]);
-		} else if (partners[i] != SCENE_NONE && way_of(kind, i, partners[i]) <= reach) {
-			group_couple(kind->b, kind->g, i, partners[i]);
-		}
-	reach = 0;
-	for (uint32_t i = n; i-- > 0;)
-		if (is_cheap(kind, partners, i))
-			reach = way_of(kind, i, partners[i]) + size_of(kind, i, partners[i]);
-		else if (partners[i] != SCENE_NONE && way_of(kind, i, partners[i]) <= reach)
-			group_couple(kind->b, kind->g, i, partners[i]);
+	for (uint32_t i = 0; i < kind->g->n; i++)
+		couple_partner(kind, i, partners[i], &forth);
+	for (uint32_t i = kind->g->n; i-- > 0;)
+		couple_partner(kind, i, partners[i], &back);
 }
 
 static void part(struct bridge *b, const struct group *g)
@@ -239,21 +233,22 @@ static void part(struct bridge *b, const struct group *g)
 }
 
 /* @return 0 or ERR_SYSTEM (reported) */
-static int couple_kind(struct kind *kind)
+static int couple_kind(struct bridge *b, struct group *g)
 {
-	const uint32_t n = kind->g->n, m = kind->g->n_rivals;
-	uint32_t *partners = malloc((n + (size_t)1) * sizeof(*partners));
-	int err = partners ? measure(kind) : err_report(ERR_SYSTEM, NULL, "out of memory");
-	const int is_small = (uint64_t)n * m * (kind->n_edges + 1) <= MOST_COMPARED;
+	struct kind kind = { .b = b, .g = g, .alone = g->n == g->n_rivals ? 2 * ALONE : ALONE };
+	uint32_t *partners = malloc((g->n + (size_t)1) * sizeof(*partners));
+	int err = partners ? measure(&kind) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	const int is_small = (uint64_t)g->n * g->n_rivals * (kind.n_edges + 1) <= MOST_COMPARED;
 
-	kind->alone = n == m ? 2 * ALONE : ALONE;
-	for (uint32_t i = 0; !err && i < n; i++)
-		partners[i] = !is_small && i < m && price(kind, i, i) < INFINITY ? i : SCENE_NONE;
+	for (uint32_t i = 0; !err && i < g->n; i++)
+		partners[i] = !is_small && i < g->n_rivals && price(&kind, i, i) < INFINITY ? i : SCENE_NONE;
 	if (!err && is_small)
-		err = find_partners(kind, partners);
+		err = find_partners(&kind, partners);
 	if (!err)
-		couple_partners(kind, partners);
+		couple_partners(&kind, partners);
 	free(partners);
+	free(kind.places);
+	free(kind.edges);
 	return err;
 }
 
@@ -264,13 +259,9 @@ int deforming_couple(struct bridge *b, const struct groups *kinds)
 	int err = 0;
 
 	for (uint32_t i = 0; i < kinds->n && !err; i++) {
-		struct kind kind = { .b = b, .g = &kinds->all[i] };
-
-		part(b, kind.g);
-		if (!kind.g->n_rivals)
-			continue;
-		err = couple_kind(&kind);
-		free_kind(&kind);
+		part(b, &kinds->all[i]);
+		if (kinds->all[i].n_rivals)
+			err = couple_kind(b, &kinds->all[i]);
 	}
 	return err;
 }
@@ -287,14 +278,13 @@ int deforming_find(struct bridge *b, struct groups *kinds)
 	table_free(&points.of[0]);
 	table_free(&points.of[1]);
 	for (uint32_t i = 0; i < kinds->n && !err; i++) {
-		struct kind kind = { .b = b, .g = &kinds->all[i] };
+		struct group *g = &kinds->all[i];
 
-		part(b, kind.g);
-		if (kind.g->n != 1 || kind.g->n_rivals != 1)
+		part(b, g);
+		if (g->n != 1 || g->n_rivals != 1)
 			continue;
-		err = couple_kind(&kind);
-		b->couples[kind.g->members[0]].is_sure = 1;
-		free_kind(&kind);
+		err = couple_kind(b, g);
+		b->couples[g->members[0]].is_sure = 1;
 	}
 	return err;
 }

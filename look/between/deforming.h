@@ -1,6 +1,6 @@
 /*
- * Draws that deform: whose points the other frame has nowhere, as those of fish or cloth, while their triangles and
- * texture coordinates stay. The price of a couple is 0 if nothing changes; it grows with the stretch of its edges, as a
+ * Draws that deform, as fish or cloth do: the other frame has their points nowhere, but their triangles and texture
+ * coordinates. The price of a couple is 0 if nothing changes; it grows with the stretch of its edges, as a
  * share of their lengths, and with its way, as a share of its way and its size: each of the two is less than 1. A draw
  * without a partner costs half, or 1 if both frames have as many of its kind. The cheapest alignment of both frames'
  * orders is taken, kind by kind. So what moves far must keep its form. A couple that costs more than 1 is none, unless

@@ -55,6 +55,7 @@ stair = SCRATCH / "stair.trace"
 record(stair, BUILD / "tests/real/stair")
 must(relume("look", stair, "-o", found))
 parts = set(re.findall(r"\n    part: (\d+)", found.read_text()))
-check("unseen:" not in found.read_text(), f"a stair that gives place to another is not out of sight: {found.read_text()}")
+check("unseen:" not in found.read_text(),
+      f"a stair that gives place to another is not out of sight: {found.read_text()}")
 check(len(parts) == 3, f"each has a part of the recording: {parts}")
 finish()

@@ -80,12 +80,7 @@ int main(int argc, char **argv)
 	glEnable(GL_DEPTH_TEST);
 	glClearColor(0.1f, 0.2f, 0.4f, 1);
 	for (int frame = 0; frame <= fps; frame++) {
-		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-		glMatrixMode(GL_PROJECTION);
-		glLoadIdentity();
-		glFrustum(-0.2, 0.2, -0.15, 0.15, 0.2, 30);
-		glMatrixMode(GL_MODELVIEW);
-		glLoadIdentity();
+		begin_view();
 		draw_ring((float)frame / (float)fps);
 		draw_shoal((float)frame / (float)fps);
 		end_frame();

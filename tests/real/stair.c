@@ -59,12 +59,7 @@ int main(void)
 	for (int frame = 0; frame < FRAMES; frame++) {
 		const int phase = frame / 4;
 
-		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-		glMatrixMode(GL_PROJECTION);
-		glLoadIdentity();
-		glFrustum(-0.2, 0.2, -0.15, 0.15, 0.2, 30);
-		glMatrixMode(GL_MODELVIEW);
-		glLoadIdentity();
+		begin_view();
 		glTranslatef(0, -0.5f, -6);
 		glRotatef(20 + 2 * (float)frame, 0.5f, 1, 0);
 		glLightfv(GL_LIGHT0, GL_POSITION, (const float[]){ 1, 6, 5, 1 });

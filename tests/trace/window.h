@@ -49,6 +49,17 @@ static inline void end_frame(void)
 	glXSwapBuffers(display, window);
 }
 
+/** An empty window, seen through a frustum; eye space is object space. */
+static inline void begin_view(void)
+{
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glFrustum(-0.2, 0.2, -0.15, 0.15, 0.2, 30);
+	glMatrixMode(GL_MODELVIEW);
+	glLoadIdentity();
+}
+
 /** One function a frame, each after `before`. */
 static inline void draw_frames(void (*const *frames)(void), size_t n, void (*before)(void))
 {
