@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 #include <xxhash.h>
 
+#include "capture/format/call.h"
 #include "capture/gl/context.h"
 #include "capture/gl/skip.h"
 #include "capture/write/fake.h"
@@ -26,7 +27,7 @@ enum { FIRST_ROOM = 1 << 18, MAX_ROOM = 1 << 26 }; /* of a thread's buffer */
  * program a name that we take later. Names that programs choose themselves are far lower; if one does collide, we make
  * no more lists.
  */
-enum { FIRST_NAME = 0xFFFFFF, LAST_NAME = 0xF00000 };
+enum { FIRST_NAME = CALL_RUN_FIRST, LAST_NAME = CALL_RUN_LAST };
 
 struct run {
 	XXH128_hash_t hash;

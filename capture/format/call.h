@@ -34,6 +34,9 @@ struct call_sig {
 	int32_t command; /* index in the generated command table, -1: unknown there */
 };
 
+/* Names of the lists that our recorder makes of runs from Begin to End, from the first one down (trace.md). */
+enum { CALL_RUN_FIRST = 0xFFFFFF, CALL_RUN_LAST = 0xF00000 };
+
 struct call {
 	uint64_t number; /* ordinal of its ENTER event, from 0 */
 	uint64_t thread;

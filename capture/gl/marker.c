@@ -70,9 +70,10 @@ void marker_write_bits(void)
 	char text[64];
 
 	context_errors_before();
-	snprintf(text, sizeof(text), "relume:bits %d %d %d %d %d %d", context_get(GL_ALPHA_BITS), context_get(GL_DEPTH_BITS),
-	         context_get(GL_STENCIL_BITS), context_get(GL_FRAMEBUFFER_SRGB_CAPABLE_EXT), context_get(GL_SAMPLES),
-	         !context_has(HAS_DESKTOP) || context_get(GL_DOUBLEBUFFER) != 0);
+	snprintf(text, sizeof(text), "relume:bits %d %d %d %d %d %d %d", context_get(GL_ALPHA_BITS),
+	         context_get(GL_DEPTH_BITS), context_get(GL_STENCIL_BITS), context_get(GL_FRAMEBUFFER_SRGB_CAPABLE_EXT),
+	         context_get(GL_SAMPLES), !context_has(HAS_DESKTOP) || context_get(GL_DOUBLEBUFFER) != 0,
+	         context_has(HAS_DESKTOP) ? context_get(GL_ACCUM_RED_BITS) : 0);
 	context_errors_after();
 	marker_write(text);
 	marker_write_gl();

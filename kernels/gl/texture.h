@@ -373,7 +373,7 @@ static inline struct vec4 texture_cube_slope(struct vec4 c, struct vec4 step, fl
 /*
  * Slopes from the coordinates at a pixel of a 2x2 quad and at its neighbours there, before division by q. llvmpipe
  * takes them once for each quad, at its upper left pixel, but for texture_has_own_slopes: there each pixel has those of
- * its own face, row and column.
+ * its own face, row and column. It takes coordinates of rectangles as shares of the size, too, though they are texels.
  *
  * @param right  the pixel beside it, below: the one below or above it
  */
@@ -388,8 +388,6 @@ static inline struct texture_slope texture_slope(GLOBAL const struct texture_ima
 		slope.down = texture_cube_slope(at, v4_sub(below, at), size.x);
 		return slope;
 	}
-	if (image->target == GL_TEXTURE_RECTANGLE)
-		size = v4(1.0f, 1.0f, 0.0f, 0.0f);
 	if (image->target == GL_TEXTURE_1D)
 		size.y = 0.0f;
 	if (image->target != GL_TEXTURE_3D)

@@ -214,6 +214,23 @@ static void fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls
 }
 
 /*
+ * The matrix of a unit's coordinates. Mesa leaves coordinates that sprites replace to the sprites: they are all 0 where
+ * something else than a point is drawn while POINT_SPRITE is enabled, unless a program places the vertices.
+ */
+static const float *coordinate_matrix(const struct gls_state *st, const struct gls_event *e, unsigned u,
+                                      const struct program_stage *vertices)
+{
+	static const float zeros[16];
+
+	if (e->in_window)
+		return mat4_identity;
+	if (e->attribs->point.sprite && e->attribs->texturing.units[u].value.coord_replace && !vertices &&
+	    !(st->mesa & SCENE_MESA_IS_OTHER))
+		return zeros;
+	return st->texture[u].matrices[st->texture[u].depth];
+}
+
+/*
  * The units that a draw looks at.
  * program: that shades it; vertices: that places it; NULL: none
  * @return how many
@@ -226,7 +243,7 @@ static uint32_t fill_units(struct gls_exec *x, struct gls_frame *f, struct gls_s
 
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
 		const struct gls_unit *unit = &e->attribs->texturing.units[u];
-		const float *matrix = e->in_window ? mat4_identity : st->texture[u].matrices[st->texture[u].depth];
+		const float *matrix = coordinate_matrix(st, e, u, vertices);
 		const int of_fragments = program && !(program->code->enabled >> u & 1) ?
 		                                 (int)program_target(program, u) - 1 :
 		                                 enabled_target(unit);
@@ -352,7 +369,7 @@ static void fill_fragment_state(const struct gls_attribs *a, const struct gls_ta
 	m->unclamped = unclamped_by(a, d);
 }
 
-static void fill_raster_state(const struct gls_attribs *a, struct scene_material *m)
+static void fill_raster_state(const struct gls_attribs *a, int is_mesa, struct scene_material *m)
 {
 	m->cull_face = a->polygon.cull ? a->polygon.cull_face : 0;
 	m->front_face = a->polygon.front_face;
@@ -360,6 +377,8 @@ static void fill_raster_state(const struct gls_attribs *a, struct scene_material
 	m->polygon_mode_back = a->polygon.mode[1];
 	m->polygon_offset = (a->polygon.offset_point ? 1u : 0) | (a->polygon.offset_line ? 2u : 0) |
 	                    (a->polygon.offset_fill ? 4u : 0);
+	if (m->polygon_offset && is_mesa) /* llvmpipe offsets filled polygons for each of the three */
+		m->polygon_offset |= 4;
 	m->polygon_offset_factor = a->polygon.offset_factor;
 	m->polygon_offset_units = a->polygon.offset_units;
 	m->line_stipple = a->line.stipple ? a->line.stipple_factor << 16 | a->line.stipple_pattern : 0;
@@ -455,7 +474,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.fog_start = a->fog.start;
 	m.fog_end = a->fog.end;
 	gls_color_of(m.fog_color, a->fog.color, unclamped & 1);
-	fill_raster_state(a, &m);
+	fill_raster_state(a, gls_attributes_wait(st), &m);
 	m.polygon_stipple = fill_stipple(x, f, a);
 	fill_fragment_state(a, target, &m);
 	fill_multisample(&a->multisample, target->surface, &m);

@@ -161,7 +161,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 	const struct trace_value *v = arg(c, 1);
 	struct gls_drawable *drawable;
 	char text[192];
-	unsigned width, height, alpha, depth, stencil, srgb = 0, samples = 0, two_buffers = 1;
+	unsigned width, height, alpha, depth, stencil, srgb = 0, samples = 0, two_buffers = 1, accum = 1;
 	size_t n;
 
 	if (v->type != TRACE_STRING && v->type != TRACE_BLOB)
@@ -183,7 +183,8 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		st->mesa = scene_mesa_of(text + 10);
 	/* One comes with every frame of some programs, and sscanf measures the text before it looks at it. */
 	if (strncmp(text, "relume:bits", 11) == 0 &&
-	    sscanf(text, "relume:bits %u %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples, &two_buffers) >= 3 &&
+	    sscanf(text, "relume:bits %u %u %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples, &two_buffers,
+	           &accum) >= 3 &&
 	    alpha <= 32 && depth <= 32 && stencil <= 8 && samples <= 64) {
 		gls_flush(x);
 		x->is_ours = 1;
@@ -193,6 +194,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		st->srgb = srgb != 0;
 		st->samples = samples;
 		st->double_buffered = two_buffers != 0;
+		st->lacks_accum = !accum;
 		if (samples > 1 && samples != SCENE_SAMPLES)
 			gls_unsupported(x, "other than four samples a pixel: four are taken");
 		st->dirty |= GLS_DIRTY_ALL;

@@ -295,6 +295,8 @@ struct gls_waiting {
 	uint32_t placed;         /* 1: there have been vertices since it was emptied, */
 	uint32_t colored;        /* which carry colours */
 	uint32_t covers;         /* 1: what waited has covered the colours that COLOR_MATERIAL had copied */
+	uint8_t room[N_GLS_ATTRIBUTES];   /* components of an attribute that the store has room for; 0: it is not there */
+	uint8_t filled[N_GLS_ATTRIBUTES]; /* to how many they were last cut down */
 };
 
 struct gls_state {
@@ -340,6 +342,7 @@ struct gls_state {
 	uint64_t drawable, read_drawable;
 	uint32_t ever_current;
 	uint32_t alpha_bits, depth_bits, stencil_bits, samples, double_buffered;
+	uint32_t lacks_accum; /* 1: the drawable has no accumulation buffer */
 	uint32_t x87;  /* 1: the GL library's own code sums as mat4_sums[1] does */
 	uint32_t mesa; /* enum scene_mesa: what the Mesa that was recorded does otherwise than 22.3 */
 	uint32_t srgb; /* 1: it can hold sRGB colours */

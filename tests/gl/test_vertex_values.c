@@ -108,6 +108,15 @@ static const struct value values[] = {
 	{ "glSecondaryColorP3ui", "eu", { UNSIGNED, 341u << 20 }, GLS_ATTR_SECONDARY, { 0, 0, 1 / 3.0f, 1 } },
 };
 
+/* Empty Mesa's vertex store (replay/gl/geometry/waiting.h): the next components are filled up. */
+static void empty_store(struct gl *gl)
+{
+	gl_call(gl, "glBegin", "e", GL_POINTS);
+	gl_call(gl, "glEnd", "");
+	gl_call(gl, "glEnable", "e", GL_BLEND);
+	gl_call(gl, "glDisable", "e", GL_BLEND);
+}
+
 START_TEST(test_calls)
 {
 	struct gl gl = gl_open();
@@ -117,6 +126,7 @@ START_TEST(test_calls)
 		const float *have = gl_state(&gl)->a.current.attribute[v->attribute];
 		const unsigned n = v->attribute == GLS_ATTR_NORMAL || v->attribute == GLS_ATTR_SECONDARY ? 3 : 4;
 
+		empty_store(&gl);
 		gl_call(&gl, v->call, v->letters, v->args[0], v->args[1], v->args[2], v->args[3]);
 		ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
 		for (unsigned k = 0; k < n; k++)
@@ -125,6 +135,42 @@ START_TEST(test_calls)
 	}
 	gl_call(&gl, "glColorP4ui", "eu", GL_UNSIGNED_INT, 5u);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	gl_close(&gl);
+}
+END_TEST
+
+static float alpha_now(struct gl *gl)
+{
+	return gl_state(gl)->a.current.attribute[GLS_ATTR_COLOR][3];
+}
+
+/* Mesa's last components stay once they have been cut off before; in lists, and in another GL, they never do. */
+START_TEST(test_components)
+{
+	struct gl gl = gl_open();
+
+	for (int other = 0; other < 2; other++) {
+		if (other)
+			gl_call(&gl, "glStringMarkerGREMEDY", "is", 0, "relume:gl 4.6.0 NVIDIA 535.54, GeForce");
+		empty_store(&gl);
+		gl_call(&gl, "glColor4f", "ffff", 1.0, 1.0, 1.0, 0.25);
+		gl_call(&gl, "glColor3f", "fff", 1.0, 1.0, 1.0);
+		ck_assert_float_eq(alpha_now(&gl), 1);
+		gl_call(&gl, "glColor4f", "ffff", 1.0, 1.0, 1.0, 0.5);
+		gl_call(&gl, "glColor3ub", "uuu", 255, 255, 255);
+		ck_assert_float_eq(alpha_now(&gl), other ? 1 : 0.5f);
+		empty_store(&gl);
+		gl_call(&gl, "glColor3f", "fff", 1.0, 1.0, 1.0);
+		ck_assert_float_eq(alpha_now(&gl), 1);
+		gl_call(&gl, "glNewList", "ue", 1, GL_COMPILE);
+		for (int i = 0; i < 2; i++) {
+			gl_call(&gl, "glColor4f", "ffff", 1.0, 1.0, 1.0, 0.5);
+			gl_call(&gl, "glColor3f", "fff", 1.0, 1.0, 1.0);
+		}
+		gl_call(&gl, "glEndList", "");
+		gl_call(&gl, "glCallList", "u", 1);
+		ck_assert_float_eq(alpha_now(&gl), 1);
+	}
 	gl_close(&gl);
 }
 END_TEST
@@ -173,4 +219,4 @@ START_TEST(test_rectangles)
 }
 END_TEST
 
-GL_TESTS("vertex values", test_arrays, test_calls, test_places, test_rectangles)
+GL_TESTS("vertex values", test_arrays, test_calls, test_components, test_places, test_rectangles)

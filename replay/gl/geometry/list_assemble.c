@@ -58,6 +58,7 @@ static void collect_batch(struct gls_exec *assembler, const struct gls_list *lis
 
 	gls_geometry_clear(g);
 	assembler->st->begin_mode = 0;
+	memset(&assembler->st->waiting, 0, sizeof(assembler->st->waiting));
 	*batch = (struct batch){ .stop = first };
 	for (uint32_t i = first; i < last && fits_batch(assembler, &list->ops[i]); i++) {
 		const struct gls_op *op = &list->ops[i];
@@ -261,6 +262,7 @@ static struct gls_exec *find_assembler(struct gls_exec *x)
 	a->machine.path = x->path;
 	a->machine.want = 1;
 	a->machine.call = x->call;
+	a->machine.is_of_list = !(x->call->flags & CALL_FAKE);
 	a->machine.counts = x->counts; /* borrowed: what its calls meet counts as the program's */
 	a->machine.dispatch = x->dispatch;
 	a->machine.pending.mixes = 1;

@@ -12,7 +12,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-static void draw_pending(struct gls_exec *x)
+void gls_draw_pending(struct gls_exec *x)
 {
 	struct gls_geometry *g = &x->pending.geometry;
 	struct gls_mesh *mesh;
@@ -36,7 +36,7 @@ static void draw_pending(struct gls_exec *x)
 
 void gls_flush(struct gls_exec *x)
 {
-	draw_pending(x);
+	gls_draw_pending(x);
 	if (x->st && x->st->waiting.stored)
 		gls_waiting_take(x->st, 1);
 }
@@ -64,7 +64,7 @@ void gls_before_material(struct gls_exec *x, struct gls_state *st)
 	struct gls_geometry *g = &x->pending.geometry;
 
 	if (!st->begin_mode && g->n_vertices)
-		draw_pending(x);
+		gls_draw_pending(x);
 	else if (g->n_vertices && !(g->varying & SCENE_HAS_FACE))
 		gls_geometry_vary_face(x, g, st->a.lighting.face);
 	st->dirty |= GLS_DIRTY_MATERIAL;
@@ -146,7 +146,7 @@ void gls_begin(struct gls_exec *x, struct gls_state *st, uint32_t mode)
 		return;
 	if (g->n_vertices && (g->kind != kind || g->n_vertices > GLS_MAX_PENDING_VERTICES ||
 	                      (!p->mixes && g->quads != (mode == GL_QUADS))))
-		draw_pending(x);
+		gls_draw_pending(x);
 	gls_waiting_begin(st);
 	g->kind = kind;
 	g->quads = mode == GL_QUADS;

@@ -14,6 +14,9 @@ struct gls_state;
 /** Draw what is pending. Called before state changes that draws look at; the dispatcher does so for most commands. */
 void gls_flush(struct gls_exec *x);
 
+/** The same, but attributes that wait go on waiting (waiting.h). */
+void gls_draw_pending(struct gls_exec *x);
+
 /** Set a current attribute. */
 void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4]);
 /** Set a generic attribute (sec. 2.7): 0 is a vertex where a Begin is open. A number that there is none of is the

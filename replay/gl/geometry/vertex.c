@@ -4,8 +4,10 @@
 #include "base/norm.h"
 #include "capture/format/call.h"
 #include "replay/gl/geometry/pending.h"
+#include "replay/gl/geometry/waiting.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
 GLS_HANDLER(glBegin, INSIDE, BEGIN) { gls_begin(x, st, arg_u(c, 0)); }
@@ -15,11 +17,14 @@ GLS_HANDLER(glPrimitiveRestartNV, INSIDE) { gls_restart(x, st); }
 GLS_HANDLER(glEdgeFlag, VERTEX, EDGE_FLAG) { st->a.current.edge_flag = arg_i(c, 0) != 0; }
 GLS_HANDLER(glEdgeFlagv, VERTEX, EDGE_FLAG) { st->a.current.edge_flag = arg_i(c, 0) != 0; }
 
-/* Rect is a polygon of four corners (sec. 2.10). Mesa draws it as a quad. */
-GLS_FAMILY(glRect, STATE)
+/* Rect is a polygon of four corners (sec. 2.10). Mesa draws it as a quad between Begin and End. */
+GLS_FAMILY(glRect, INSIDE)
 {
 	float a[2] = { arg_f(c, 0), arg_f(c, 1) }, b[2] = { arg_f(c, 2), arg_f(c, 3) };
 
+	if (gls_refuses(x, st, st->begin_mode, GL_INVALID_OPERATION))
+		return;
+	gls_draw_pending(x);
 	if (gls_commands[x->command].suffix.array) {
 		a[0] = a[1] = b[0] = b[1] = 0;
 		arg_floats(c, 0, a, 2);
@@ -71,12 +76,20 @@ read_components(const struct gls_exec *x, const struct call *c, unsigned first, 
 		out[i] = normalize(out[i], items ? gls_value_double(&items[i]) : arg_d(c, first + i), suffix.type);
 }
 
+/* Set an attribute by a command; those of lists are stored otherwise. */
+static void set_components(struct gls_exec *x, struct gls_state *st, unsigned a, float value[4])
+{
+	if (!x->is_of_list && gls_attributes_wait(st))
+		gls_waiting_components(st, a, gls_commands[x->command].suffix.n, value);
+	gls_set_attribute(x, st, a, value);
+}
+
 static void attribute(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned a, int normalized)
 {
 	float value[4];
 
 	read_components(x, c, 0, normalized, value);
-	gls_set_attribute(x, st, a, value);
+	set_components(x, st, a, value);
 }
 
 GLS_FAMILY(glColor, VERTEX) { attribute(x, st, c, GLS_ATTR_COLOR, 1); }
@@ -94,7 +107,7 @@ GLS_FAMILY(glMultiTexCoord, VERTEX)
 	if (unit >= GLS_MAX_UNITS)
 		return; /* undefined (sec. 2.7); Mesa wraps it round */
 	read_components(x, c, 1, 0, value);
-	gls_set_attribute(x, st, GLS_ATTR_TEXCOORD + unit, value);
+	set_components(x, st, GLS_ATTR_TEXCOORD + unit, value);
 }
 
 GLS_FAMILY(glVertex, VERTEX)

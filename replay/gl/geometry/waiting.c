@@ -1,5 +1,7 @@
 #include "replay/gl/geometry/waiting.h"
 
+#include <string.h>
+
 #include "replay/machine/state.h"
 
 void gls_color_changed(struct gls_state *st)
@@ -29,6 +31,19 @@ void gls_waiting_touch(struct gls_state *st, int carries, int recolors)
 	w->touched = 1;
 	w->recolored |= recolors;
 	w->colored |= carries && (st->begin_mode || w->placed);
+}
+
+void gls_waiting_components(struct gls_state *st, unsigned attribute, unsigned n, float value[4])
+{
+	uint8_t *room = &st->waiting.room[attribute], *filled = &st->waiting.filled[attribute];
+	const float *last = st->a.current.attribute[attribute];
+
+	if (n > *room)
+		*room = *filled = (uint8_t)n;
+	else if (n < *filled)
+		*filled = (uint8_t)n;
+	else if (n == *filled)
+		memcpy(value + n, last + n, (*room - n) * sizeof(*value));
 }
 
 static void take_face(struct gls_state *st, unsigned side)
@@ -63,8 +78,10 @@ void gls_waiting_take(struct gls_state *st, int empties)
 		gls_color_changed(st);
 	w->touched = w->recolored = 0;
 	w->stored = !empties;
-	if (empties)
-		w->set[0] = w->set[1] = w->placed = w->colored = 0;
+	if (!empties)
+		return;
+	w->set[0] = w->set[1] = w->placed = w->colored = 0;
+	memset(w->room, 0, sizeof(w->room));
 }
 
 void gls_waiting_current(struct gls_state *st)

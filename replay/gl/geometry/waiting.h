@@ -21,6 +21,14 @@ void gls_waiting_touch(struct gls_state *st, int carries, int recolors);
 /** The current colour has changed: tracked material parameters follow it (sec. 2.14.3). */
 void gls_color_changed(struct gls_state *st);
 
+/**
+ * A command gives an attribute by n components. Mesa fills up the others with (0, 0, 0, 1) when commands give fewer
+ * than before, but not once more after one that gave as many as there is room for: then the last ones of that stay. So
+ * the alpha of glColor4f comes back with glColor3f.
+ * @param value  [4], filled up; in and out
+ */
+void gls_waiting_components(struct gls_state *st, unsigned attribute, unsigned n, float value[4]);
+
 /** What waits becomes current. @param empties  1: the store is emptied; else it is looked at */
 void gls_waiting_take(struct gls_state *st, int empties);
 

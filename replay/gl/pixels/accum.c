@@ -6,6 +6,7 @@
  */
 #include "replay/gl/pixels/accum.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "gl_tokens.h"
@@ -74,6 +75,12 @@ static int16_t clamp16(float v)
 	return (int16_t)(v < -ONE ? -ONE : v > ONE ? ONE : v == v ? v : 0);
 }
 
+/* A number that does not fit becomes another one, as Mesa's sums do: the specification leaves it open. */
+static int16_t wrap16(float v)
+{
+	return fabsf(v) < 0x1p31f ? (int16_t)(uint32_t)(int32_t)v : 0;
+}
+
 /* What a stored byte of a component (3: alpha) stands for. */
 static float value_of(const struct gls_state *st, uint8_t byte, unsigned component)
 {
@@ -101,14 +108,14 @@ static void change_area(struct gls_exec *x, const struct gls_state *st, struct g
 			size_t at = 4 * ((size_t)row * d->accum_width + (size_t)column);
 
 			for (unsigned c = 0; c < 4; c++) {
-				float v = (float)clamp16((float)d->accum[at + c] * by->scale) + by->offset[c];
+				float v = (float)wrap16((float)d->accum[at + c] * by->scale) + by->offset[c];
 
 				if (p && column < p->width && row < p->height)
-					v += (float)clamp16(
+					v += (float)wrap16(
 						value_of(st, p->rgba[4 * ((size_t)row * p->width + (size_t)column) + c],
 					                 c) *
 						by->factor * ONE);
-				d->accum[at + c] = clamp16(v);
+				d->accum[at + c] = wrap16(v);
 			}
 		}
 }
@@ -142,7 +149,7 @@ static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls
 GLS_HANDLER(glAccum, STATE)
 {
 	uint32_t op = arg_u(c, 0);
-	const float value = arg_f(c, 1), every = (float)clamp16(value * ONE);
+	const float value = arg_f(c, 1), every = (float)wrap16(value * ONE);
 	const struct scene_picture *p = NULL;
 	struct area area;
 	struct gls_drawable *d;
@@ -150,7 +157,7 @@ GLS_HANDLER(glAccum, STATE)
 	if (gls_refuses(x, st, op != GL_ACCUM && op != GL_LOAD && op != GL_RETURN && op != GL_MULT && op != GL_ADD,
 	                GL_INVALID_ENUM))
 		return;
-	if (!gls_renders(st))
+	if (gls_refuses(x, st, st->lacks_accum, GL_INVALID_OPERATION) || !gls_renders(st))
 		return;
 	if (!x->want) {
 		d = op == GL_RETURN || st->draw_framebuffer ? NULL : gls_drawable_of(x, st->drawable);
@@ -183,7 +190,7 @@ void gls_accum_clear(struct gls_exec *x, struct gls_state *st)
 	struct change to = { 0 };
 	int is_zero = 1;
 
-	if (!gls_renders(st))
+	if (st->lacks_accum || !gls_renders(st))
 		return;
 	if (!x->want && !st->draw_framebuffer && (d = gls_drawable_of(x, st->drawable)))
 		d->accum_missing = 1;

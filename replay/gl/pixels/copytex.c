@@ -41,7 +41,7 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 				continue;
 			if (l->base_format != GL_DEPTH_COMPONENT) {
 				gls_picture_color(p, from, v);
-				gls_transfer_color(st, v);
+				gls_transfer_color(st, 0, v);
 				gls_format_store(format, v, 0, texel);
 				continue;
 			}

@@ -158,7 +158,7 @@ static void copy_texel(const struct gls_state *st, const struct scene_picture *p
 		memcpy(texel, v, 4);
 	} else {
 		gls_picture_color(p, from, v);
-		gls_transfer_color(st, v);
+		gls_transfer_color(st, 1, v);
 		gls_format_store(gls_format_find(kind == SCENE_FLOAT_PIXELS ? GL_RGBA32F : GL_RGBA), v, 0, texel);
 	}
 }

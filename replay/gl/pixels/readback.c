@@ -67,7 +67,7 @@ static void pack_color(const struct gls_state *st, const struct reading *r, cons
 	struct gls_packed_color color = { .bytes = !p->colors && !gls_transfer_changes_colors(st) };
 
 	gls_picture_color(p, from, color.rgba);
-	gls_transfer_color(st, color.rgba);
+	gls_transfer_color(st, 0, color.rgba);
 	gls_pack_color(&r->to, &color, to);
 }
 

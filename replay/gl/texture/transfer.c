@@ -5,9 +5,18 @@
 #include "replay/machine/args.h"
 #include "replay/machine/state.h"
 
-void gls_transfer_color(const struct gls_state *st, float rgba[4])
+/* The entry of a map for a number in [0,1]. Mesa has maps of pixels that are drawn as textures of 256 texels. */
+static uint32_t entry_of(const struct gls_pixel_map *m, float v, int as_texture)
+{
+	uint32_t texel = v < 1 ? (uint32_t)(v * 256) : 255;
+
+	return as_texture ? texel * m->size / 256 : (uint32_t)(v * (float)(m->size - 1) + 0.5f);
+}
+
+void gls_transfer_color(const struct gls_state *st, int is_drawn, float rgba[4])
 {
 	const struct gls_pixel *p = &st->a.pixel;
+	const int as_texture = is_drawn && gls_attributes_wait(st);
 
 	for (unsigned i = 0; i < 4; i++) {
 		const struct gls_pixel_map *m = &st->pixel_maps[GL_PIXEL_MAP_R_TO_R - GL_PIXEL_MAP_I_TO_I + i];
@@ -15,7 +24,7 @@ void gls_transfer_color(const struct gls_state *st, float rgba[4])
 		rgba[i] = rgba[i] * p->scale[i] + p->bias[i];
 		if (p->map_color) {
 			float v = rgba[i] > 0 ? rgba[i] < 1 ? rgba[i] : 1 : 0;
-			rgba[i] = m->size ? m->values[(uint32_t)(v * (float)(m->size - 1) + 0.5f)] : 0;
+			rgba[i] = m->size ? m->values[entry_of(m, v, as_texture)] : 0;
 		}
 	}
 }

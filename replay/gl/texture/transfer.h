@@ -5,8 +5,8 @@
 
 struct gls_state;
 
-/** Scale and bias, then the colour maps. */
-void gls_transfer_color(const struct gls_state *st, float rgba[4]);
+/** Scale and bias, then the colour maps. @param is_drawn  1: by DrawPixels or CopyPixels */
+void gls_transfer_color(const struct gls_state *st, int is_drawn, float rgba[4]);
 /** 0: the state leaves colours as they are. */
 int gls_transfer_changes_colors(const struct gls_state *st);
 /** Scale, bias (neither where st is NULL), clamp to [0,1]. */

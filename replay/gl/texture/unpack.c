@@ -371,7 +371,7 @@ static void unpack_texel(const struct unpacking *u, const uint8_t *data, uint8_t
 			rgba[f->to[k]] = v[k];
 	}
 	if (u->transfers)
-		gls_transfer_color(u->st, rgba);
+		gls_transfer_color(u->st, (int)u->p->drawn, rgba);
 	gls_format_store(u->to, rgba, u->st->mesa, out);
 }
 

@@ -1,0 +1,282 @@
+/*
+ * Habits of Mesa where the specification has it otherwise, or leaves it open, each met by programs made at random
+ * (tests/generated): a frame each. Recorded by test_small.py.
+ */
+#include "tests/trace/window.h"
+
+static void before(void)
+{
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glOrtho(0, 64, 0, 48, -1, 1);
+	glMatrixMode(GL_MODELVIEW);
+	glColor4f(1, 1, 1, 1);
+}
+
+/* Filled polygons are offset for each of the three switches: the second of two sheets at one depth shows or does not.
+ */
+static void offset(GLenum which, float units)
+{
+	glEnable(GL_DEPTH_TEST);
+	glPolygonOffset(0, units);
+	glColor3f(1, 0, 0);
+	glRectf(4, 4, 40, 40);
+	glEnable(which);
+	glColor3f(0, 1, 0);
+	glRectf(20, 20, 60, 44);
+	glDisable(which);
+	glDisable(GL_DEPTH_TEST);
+}
+
+static void offset_lines(void)
+{
+	offset(GL_POLYGON_OFFSET_LINE, -10);
+}
+static void offset_points(void)
+{
+	offset(GL_POLYGON_OFFSET_POINT, -10);
+}
+static void offset_behind(void)
+{
+	offset(GL_POLYGON_OFFSET_LINE, 10);
+}
+
+/* Edge flags count in strips and fans, too. */
+static void outline(GLenum primitive)
+{
+	static const GLfloat corners[8][2] = { { 8, 8 },  { 8, 40 },  { 24, 8 },  { 24, 40 },
+		                               { 40, 8 }, { 40, 40 }, { 56, 12 }, { 56, 36 } };
+
+	glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+	glBegin(primitive);
+	for (int i = 0; i < 8; i++) {
+		glEdgeFlag((GLboolean)(i % 3 != 0));
+		glVertex2fv(corners[i]);
+	}
+	glEnd();
+	glEdgeFlag(GL_TRUE);
+	glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+static void outline_strip(void)
+{
+	outline(GL_TRIANGLE_STRIP);
+}
+static void outline_fan(void)
+{
+	outline(GL_TRIANGLE_FAN);
+}
+static void outline_quad_strip(void)
+{
+	outline(GL_QUAD_STRIP);
+}
+
+static void set_texture(GLenum target, int width, int height, GLint smaller, GLint larger)
+{
+	GLubyte texels[16 * 16 * 4];
+
+	for (int i = 0; i < width * height; i++) {
+		texels[4 * i] = (GLubyte)(i % width * 255 / width);
+		texels[4 * i + 1] = (GLubyte)(i / width * 255 / height);
+		texels[4 * i + 2] = (GLubyte)(i % 3 * 100);
+		texels[4 * i + 3] = 255;
+	}
+	glTexImage2D(target, 0, GL_RGBA, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+	glTexParameteri(target, GL_TEXTURE_MIN_FILTER, smaller);
+	glTexParameteri(target, GL_TEXTURE_MAG_FILTER, larger);
+	glEnable(target);
+}
+
+static void textured_square(float s, float t)
+{
+	glBegin(GL_QUADS);
+	glTexCoord2f(0, 0);
+	glVertex2f(4, 4);
+	glTexCoord2f(s, 0);
+	glVertex2f(60, 4);
+	glTexCoord2f(s, t);
+	glVertex2f(60, 44);
+	glTexCoord2f(0, t);
+	glVertex2f(4, 44);
+	glEnd();
+}
+
+/* While sprites replace coordinates, all but points have none. */
+static void leave_sprites_on(void)
+{
+	set_texture(GL_TEXTURE_2D, 16, 16, GL_NEAREST, GL_NEAREST);
+	glEnable(GL_POINT_SPRITE);
+	glTexEnvi(GL_POINT_SPRITE, GL_COORD_REPLACE, GL_TRUE);
+	textured_square(1, 1);
+	glPointSize(16);
+	glBegin(GL_POINTS);
+	glVertex2f(32, 24);
+	glEnd();
+	glTexEnvi(GL_POINT_SPRITE, GL_COORD_REPLACE, GL_FALSE);
+	glDisable(GL_POINT_SPRITE);
+	glDisable(GL_TEXTURE_2D);
+}
+
+/* Whether texels of rectangles are smaller than pixels is asked of coordinates times the size. */
+static void filter_rectangle(float texels)
+{
+	set_texture(GL_TEXTURE_RECTANGLE, 16, 8, GL_LINEAR, GL_NEAREST);
+	textured_square(texels, texels / 2);
+	glDisable(GL_TEXTURE_RECTANGLE);
+}
+
+static void filter_large_rectangle(void)
+{
+	filter_rectangle(10);
+}
+static void filter_huge_rectangle(void)
+{
+	filter_rectangle(1.5f);
+}
+
+/* The alpha of glColor4 comes back with glColor3, once that has been shortened. */
+static void mix_colors(GLenum primitive, int twice)
+{
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	for (int k = 0; k <= twice; k++) {
+		glBegin(primitive);
+		for (int i = 0; i < 12; i++) {
+			const float x = 4 + 5 * (float)(i / 4 * 4) + (i % 4 == 1 || i % 4 == 2 ? 14 : 0);
+			const float alpha = 0.2f + 0.06f * (float)i;
+
+			if (i % 3 == 1)
+				glColor4f(1, 0.5f, 0.2f, alpha);
+			else if (i % 5 == 0)
+				glColor4ub(100, 200, 255, (GLubyte)(255 * alpha));
+			else
+				glColor3f(0.2f, 1, 0.3f);
+			glVertex2f(x, (i % 4 < 2 ? 4 : 20) + 22 * (float)k);
+		}
+		glEnd();
+	}
+	glDisable(GL_BLEND);
+}
+
+static void mix_colors_of_quads(void)
+{
+	mix_colors(GL_QUADS, 1);
+}
+static void mix_colors_of_triangles(void)
+{
+	mix_colors(GL_TRIANGLES, 1);
+}
+
+static void mix_colors_between(void)
+{
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	for (int i = 0; i < 6; i++) {
+		if (i % 2)
+			glColor3f(1, 1, 0);
+		else
+			glColor4f(0, 1, 1, 0.25f + 0.1f * (float)i);
+		glRectf(4 + 9 * (float)i, 4, 12 + 9 * (float)i, 44);
+	}
+	glDisable(GL_BLEND);
+}
+
+static void mix_coordinates(void)
+{
+	set_texture(GL_TEXTURE_2D, 16, 16, GL_NEAREST, GL_NEAREST);
+	for (int i = 0; i < 3; i++) {
+		glBegin(GL_QUADS);
+		glTexCoord4f(0, 0, 0, 2);
+		glVertex2f(4 + 20 * (float)i, 4);
+		glTexCoord2f(1, 0);
+		glVertex2f(20 + 20 * (float)i, 4);
+		glTexCoord4f(1, 1, 0, 1.5f);
+		glVertex2f(20 + 20 * (float)i, 44);
+		glTexCoord2f(0, 1);
+		glVertex2f(4 + 20 * (float)i, 44);
+		glEnd();
+	}
+	glDisable(GL_TEXTURE_2D);
+}
+
+/* Which diagonal cuts a quad: clip planes count where they clip, and stipple counts. */
+static void colored_quad(void)
+{
+	glBegin(GL_QUADS);
+	glColor3f(1, 0, 0);
+	glVertex2f(8, 8);
+	glColor3f(0, 1, 0);
+	glVertex2f(56, 4);
+	glColor3f(0, 0, 1);
+	glVertex2f(50, 44);
+	glColor3f(1, 1, 1);
+	glVertex2f(4, 38);
+	glEnd();
+}
+
+static void clip_quad(double beyond)
+{
+	const double plane[4] = { 1, 0, 0, -beyond };
+
+	glClipPlane(GL_CLIP_PLANE2, plane);
+	glEnable(GL_CLIP_PLANE2);
+	colored_quad();
+	glDisable(GL_CLIP_PLANE2);
+}
+
+static void clip_beside(void)
+{
+	clip_quad(2);
+}
+static void clip_through(void)
+{
+	clip_quad(20);
+}
+
+static void stipple_quad(void)
+{
+	GLubyte pattern[128];
+
+	for (int i = 0; i < 128; i++)
+		pattern[i] = (GLubyte)(i / 4 % 2 ? 0x77 : 0xdd);
+	glPolygonStipple(pattern);
+	glEnable(GL_POLYGON_STIPPLE);
+	colored_quad();
+	glDisable(GL_POLYGON_STIPPLE);
+}
+
+/* Nothing happens without an accumulation buffer. */
+static void sum_nothing(void)
+{
+	colored_quad();
+	glAccum(GL_LOAD, 0.5f);
+	glAccum(GL_RETURN, 1);
+	expect(glGetError() == GL_INVALID_OPERATION, "there is no accumulation buffer");
+}
+
+int main(void)
+{
+	static void (*const frames[])(void) = { offset_lines,
+		                                offset_points,
+		                                offset_behind,
+		                                outline_strip,
+		                                outline_fan,
+		                                outline_quad_strip,
+		                                leave_sprites_on,
+		                                filter_large_rectangle,
+		                                filter_huge_rectangle,
+		                                mix_colors_of_quads,
+		                                mix_colors_of_triangles,
+		                                mix_colors_between,
+		                                mix_coordinates,
+		                                clip_beside,
+		                                clip_through,
+		                                stipple_quad,
+		                                sum_nothing };
+
+	open_window();
+	draw_frames(frames, sizeof(frames) / sizeof(frames[0]), before);
+	expect(glGetError() == GL_NO_ERROR, "no error");
+	return 0;
+}
