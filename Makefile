@@ -332,12 +332,17 @@ $(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl -lm -pthread
 
+# Legacy programs made at random.
+$(BUILD)/tests/generated/program: $(wildcard tests/generated/*.[ch]) $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -o $@ $(filter %.c,$^) -lGL -lX11 -lm
+
 # What check/test_host runs.
 HOST_TESTS := $(addprefix $(BUILD)/tests/check/test_,rays camera shade compose)
 
 # With ONLY, what other tests need is left alone.
 HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny $(BUILD)/tests/fuzz/drive $(HOST_TESTS)
-BUILT_FOR_TESTS := $(HELPERS) $(BUILD)/tests/same/relations $(addprefix $(BUILD)/tests/bench/,hits build queries)
+BUILT_FOR_TESTS := $(HELPERS) $(BUILD)/tests/same/relations $(BUILD)/tests/generated/program $(addprefix $(BUILD)/tests/bench/,hits build queries)
 check: all pages $(CORPUS) $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(BUILT_FOR_TESTS)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
@@ -351,7 +356,7 @@ picture: all $(BUILD)/corpus/glx/marbles
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. Group NAME of
 # packaging/deps.txt is what it alone needs installed, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := beyond bisect ci crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject journeys kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms same sandbox sanitize seek \
+SCRIPTS := beyond bisect ci crashes cryptomatte devices export farm faults flaky frames fuzz generated hooks inject journeys kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms same sandbox sanitize seek \
 	film lot soak sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := ci crashes frames mutants replay
@@ -363,6 +368,7 @@ show:
 NEEDS_ci = $(HELPERS)
 NEEDS_devices = $(HELPERS) $(BUILD)/show/devices/intel/ready
 NEEDS_frames := $(BUILD)/tests/bench/frame_rays
+NEEDS_generated := $(BUILD)/tests/generated/program
 NEEDS_inject = $(HELPERS)
 NEEDS_kill = $(HELPERS)
 NEEDS_oclgrind := $(BUILD)/tests/bench/tiny

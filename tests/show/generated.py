@@ -1,0 +1,128 @@
+#!/usr/bin/python3
+"""tests/show/generated.py BUILD [--first N] [--count N] [--only N]... (as `make show-generated`): legacy OpenGL programs
+made at random (tests/generated), recorded on Mesa, rendered in mode gl and scored by all gates. Each that fails is made
+smaller: the steps that are left fail still, and none of them can be left out.
+
+Program number N is the same one everywhere, so that a failure has a name: BUILD/tests/generated/program N shows it.
+Recordings lie in BUILD/show/generated, failures with their steps in failures.txt there. With --only, or as
+`make show-generated ONLY="17 23"`: these programs.
+"""
+import argparse
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from table import Shown  # noqa: E402
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+BATCH = 50
+BAR, BAR_HOURLY = 0.97, 1000
+UNABLE = "the program ends on Mesa without Relume, too"
+
+
+class Generator:
+    """Runs generated programs. Each is named "NUMBER" or "NUMBER:STEP,STEP"."""
+
+    def __init__(self, build, ref):
+        self.ref = ref
+        self.relume, self.program, self.work = build / "relume", build / "tests/generated/program", build / "show/generated"
+        self.work.mkdir(parents=True, exist_ok=True)
+
+    def run(self, *command):
+        return subprocess.run([*map(str, command)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, errors="replace", timeout=600)
+
+    def score(self, names, folder):
+        """{name: {gate: figure} for the gates that fail}, or a text if a program does not get that far."""
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        trace = folder / "all.trace"
+        done = self.run(ROOT / "tests/xvfb.sh", self.relume, "record", "-o", trace, "--ref", self.ref, "--",
+                        self.program, *names)
+        if done.returncode:
+            bare = len(names) == 1 and self.run(ROOT / "tests/xvfb.sh", self.program, *names).returncode
+            return self.apart(names, folder, UNABLE if bare else f"record: exit code {done.returncode}")
+        done = self.run(self.relume, "render", trace, "--mode", "gl", "--encoding", "display", "--aov", "gl,Z,layers,id", "-o",
+                        folder / "x.####.exr")
+        if done.returncode:
+            return self.apart(names, folder, f"render: exit code {done.returncode}: {done.stdout[-300:]}")
+        self.run(self.relume, "diff", trace, folder / "x.####.exr", "--json", folder / "score.json")
+        frames = json.loads((folder / "score.json").read_text())["frames"]
+        return {name: failures(frame) for name, frame in zip(names, frames)}
+
+    def apart(self, names, folder, text):
+        """The scores of a batch that did not get through, by halves."""
+        if len(names) == 1:
+            return {names[0]: text}
+        half = len(names) // 2
+        return {**self.score(names[:half], folder), **self.score(names[half:], folder)}
+
+    def steps(self, number):
+        lines = self.run(self.program, "--list", number).stdout.splitlines()
+        return {int(line.split()[0]): line.split()[1] for line in lines}
+
+    def reduce(self, number, folder):
+        """A few steps that fail still; none of them can be left out."""
+        steps = list(self.steps(number))
+        size = max(len(steps) // 2, 1)
+        while True:
+            parts = [steps[i:i + size] for i in range(0, len(steps), size)]
+            fewer = [[step for step in steps if step not in part] for part in parts]
+            names = [f"{number}:{','.join(map(str, left)) or 0}" for left in fewer]
+            bad = self.score(names, folder)
+            left = next((left for left, name in zip(fewer, names) if bad[name] and bad[name] is not UNABLE), None)
+            if left is not None:
+                steps = left
+                if not steps:
+                    return steps
+                size = min(size, max(len(steps) // 2, 1))
+            elif size == 1:
+                return steps
+            else:
+                size = size // 2
+
+
+def failures(frame):
+    """{gate: text of its first figure that is beyond its bar}"""
+    return {name: f"{gate['figures'][0]['value']:.4g}" for name, gate in frame["gates"].items()
+            if gate["state"] == "failed" and gate["figures"]}
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--first", type=int, default=1)
+    parser.add_argument("--count", type=int, default=5000)
+    parser.add_argument("--only", type=int, action="append")
+    parser.add_argument("--ref", default="color,depth", help="reference frames, as for relume record")
+    args = parser.parse_args()
+    numbers = args.only or range(args.first, args.first + args.count)
+    generator, shown = Generator(args.build.resolve(), args.ref), Shown(args.build, "generated")
+    begin, failed, unable = time.monotonic(), [], []
+    with open(generator.work / "failures.txt", "w", encoding="utf-8") as out:
+        for at in range(0, len(numbers), BATCH):
+            for name, bad in generator.score([str(n) for n in numbers[at:at + BATCH]], generator.work / "batch").items():
+                if bad is UNABLE:
+                    unable.append(name)
+                elif bad:
+                    failed.append(name)
+                    steps, left = generator.steps(name), generator.reduce(name, generator.work / "fewer")
+                    print(f"{name}:{','.join(map(str, left))}  {' '.join(steps[step] for step in left)}  {bad}",
+                          file=out, flush=True)
+    seconds, count = time.monotonic() - begin, len(numbers)
+    share = 1 - len(failed) / count
+    shown.row(f"programs {numbers[0]} to {numbers[-1]}: all gates pass", f"{100 * share:.2f} %",
+              f">= {100 * BAR:.0f} %", share >= BAR)
+    shown.row("programs that end on Mesa without Relume, too", len(unable), None, None)
+    if not args.only:
+        shown.row("programs an hour, failures made smaller", f"{count / seconds * 3600:.0f}", f">= {BAR_HOURLY}",
+                  count / seconds * 3600 >= BAR_HOURLY)
+    return shown.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
