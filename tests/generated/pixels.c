@@ -28,27 +28,17 @@ static void push_without_textures(void)
 	disable_textures();
 }
 
-/* Maps of red alone: those of blue and alpha have other values in Mesa each time. */
+/* Scale and bias. With maps, blue and alpha have no certain value in Mesa. */
 static void set_transfer(struct chance *chance)
 {
-	if (chance_of(chance, 2)) {
-		glPixelTransferf(GL_RED_SCALE, chance_between(chance, 0, 2));
-		glPixelTransferf(GL_GREEN_BIAS, chance_between(chance, -0.5f, 0.5f));
-	} else {
-		GLfloat map[8];
-
-		for (int i = 0; i < 8; i++)
-			map[i] = chance_between(chance, 0, 1);
-		glPixelMapfv(GL_PIXEL_MAP_R_TO_R, 8, map);
-		glPixelTransferi(GL_MAP_COLOR, GL_TRUE);
-	}
+	glPixelTransferf(GL_RED_SCALE, chance_between(chance, 0, 2));
+	glPixelTransferf(GL_GREEN_BIAS, chance_between(chance, -0.5f, 0.5f));
 }
 
 static void reset_transfer(void)
 {
 	glPixelTransferf(GL_RED_SCALE, 1);
 	glPixelTransferf(GL_GREEN_BIAS, 0);
-	glPixelTransferi(GL_MAP_COLOR, GL_FALSE);
 	glPixelZoom(1, 1);
 }
 
@@ -122,6 +112,7 @@ void step_accumulate(struct chance *chance, struct program *program)
 {
 	if (program->target_width != program->width || program->target_height != program->height)
 		return;
+	glFlush(); /* Mesa's bitmaps wait until the next draw, and Accum does not see them */
 	glAccum(GL_LOAD, chance_between(chance, 0.3f, 1));
 	step_draw(chance, program);
 	glAccum(GL_ACCUM, chance_between(chance, 0.1f, 0.7f));

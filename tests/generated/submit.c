@@ -198,6 +198,7 @@ static void submit_interleaved(struct chance *chance, const struct mesh *mesh)
 	glPopClientAttrib();
 }
 
+/* Edges count again behind it: Relume does not call lists with edge flags off, and says so. */
 void mesh_submit(struct chance *chance, const struct mesh *mesh)
 {
 	unsigned with = choose_attributes(chance);
@@ -213,4 +214,5 @@ void mesh_submit(struct chance *chance, const struct mesh *mesh)
 	default:
 		submit_immediate(chance, mesh, with);
 	}
+	glEdgeFlag(GL_TRUE);
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""tests/show/generated.py BUILD [--first N] [--count N] [--only N]... (as `make show-generated`): legacy OpenGL programs
-made at random (tests/generated), recorded on Mesa, rendered in mode gl and scored by all gates. Each that fails is made
+"""tests/show/generated.py BUILD [--first N] [--count N] [--only N]... (as `make show-generated`): legacy programs made
+at random (tests/generated), recorded on Mesa, rendered in mode gl and scored by all gates. Each that fails is made
 smaller: the steps that are left fail still, and none of them can be left out.
 
 Program number N is the same one everywhere, so that a failure has a name: BUILD/tests/generated/program N shows it.
@@ -29,7 +29,8 @@ class Generator:
 
     def __init__(self, build, ref):
         self.ref = ref
-        self.relume, self.program, self.work = build / "relume", build / "tests/generated/program", build / "show/generated"
+        self.relume, self.program = build / "relume", build / "tests/generated/program"
+        self.work = build / "show/generated"
         self.work.mkdir(parents=True, exist_ok=True)
 
     def run(self, *command):
@@ -46,8 +47,8 @@ class Generator:
         if done.returncode:
             bare = len(names) == 1 and self.run(ROOT / "tests/xvfb.sh", self.program, *names).returncode
             return self.apart(names, folder, UNABLE if bare else f"record: exit code {done.returncode}")
-        done = self.run(self.relume, "render", trace, "--mode", "gl", "--encoding", "display", "--aov", "gl,Z,layers,id", "-o",
-                        folder / "x.####.exr")
+        done = self.run(self.relume, "render", trace, "--mode", "gl", "--encoding", "display", "--aov",
+                        "gl,Z,layers,id", "-o", folder / "x.####.exr")
         if done.returncode:
             return self.apart(names, folder, f"render: exit code {done.returncode}: {done.stdout[-300:]}")
         self.run(self.relume, "diff", trace, folder / "x.####.exr", "--json", folder / "score.json")
@@ -105,7 +106,8 @@ def main():
     begin, failed, unable = time.monotonic(), [], []
     with open(generator.work / "failures.txt", "w", encoding="utf-8") as out:
         for at in range(0, len(numbers), BATCH):
-            for name, bad in generator.score([str(n) for n in numbers[at:at + BATCH]], generator.work / "batch").items():
+            names = [str(n) for n in numbers[at:at + BATCH]]
+            for name, bad in generator.score(names, generator.work / "batch").items():
                 if bad is UNABLE:
                     unable.append(name)
                 elif bad:

@@ -92,13 +92,14 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 	return 0;
 }
 
-/* point_size: in place of the state's; below 0: the state's own */
-static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, float point_size)
+/* kept: what a list keeps in place of mesh; point_size: in place of the state's; below 0: the state's own */
+static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, struct gls_mesh *kept,
+                float point_size)
 {
-	struct gls_op_mesh op = { .mesh = mesh, .n_draws = 1, .first_provokes = st->a.lighting.first_provokes };
+	struct gls_op_mesh op = { .mesh = kept, .n_draws = 1, .first_provokes = st->a.lighting.first_provokes };
 
 	if (st->list) {
-		atomic_fetch_add(&mesh->refs, 1);
+		atomic_fetch_add(&kept->refs, 1);
 		if (gls_list_append_mesh(x, st->list, &op) || st->list_mode == GL_COMPILE)
 			return;
 	}
@@ -158,8 +159,15 @@ static void draw_sized(struct gls_exec *x, struct gls_state *st, struct gls_sour
 		                 gls_sources_key(st, s, GL_POINTS, elements ? identity + begin : first + begin,
 		                                 (uint64_t)(end - begin) << 1 | (elements != NULL)));
 		if (mesh)
-			put(x, st, mesh, size[0] > 0 ? size[0] : 0);
+			put(x, st, mesh, mesh, size[0] > 0 ? size[0] : 0);
 	}
+}
+
+/* 1 if llvmpipe has the quads without indices. While a list is made, Mesa executes it (COMPILE_AND_EXECUTE) as vertices
+ * between Begin and End. */
+static int quads_come_in_order(const struct gls_state *st, const uint32_t *elements)
+{
+	return st->list ? st->list_mode == GL_COMPILE_AND_EXECUTE : !elements;
 }
 
 /*
@@ -170,7 +178,7 @@ static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32
                  const uint32_t *elements, uint64_t identity)
 {
 	struct gls_sources s;
-	struct gls_mesh *mesh;
+	struct gls_mesh *mesh, *kept;
 	uint64_t key;
 
 	if (!x->want && !st->list)
@@ -186,12 +194,12 @@ static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32
 		return;
 	}
 	key = gls_sources_key(st, &s, mode, elements ? identity : first, (uint64_t)count << 1 | (elements != NULL));
-	mesh = find_mesh(x, st, &s, mode, first, count, elements, 0, key);
-	if (mesh && mode == GL_QUADS && !elements && !st->list &&
+	mesh = kept = find_mesh(x, st, &s, mode, first, count, elements, 0, key);
+	if (mesh && mode == GL_QUADS && quads_come_in_order(st, elements) &&
 	    gls_quads_turn(st, gls_shades_flat(st), mesh->mesh.position, mesh->mesh.index, mesh->mesh.primitive_count))
 		mesh = find_mesh(x, st, &s, mode, first, count, elements, 1, ~key);
 	if (mesh)
-		put(x, st, mesh, -1);
+		put(x, st, mesh, kept, -1);
 }
 
 static int check_mode(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count)

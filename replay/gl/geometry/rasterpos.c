@@ -68,18 +68,11 @@ static struct vec3 eye_normal(const struct gls_state *st)
 {
 	float inverse[16];
 	const float *n = st->a.current.attribute[GLS_ATTR_NORMAL];
-	struct vec3 out;
 
 	mat4_invert(inverse, st->modelview.matrices[st->modelview.depth]);
-	out = v3(inverse[0] * n[0] + inverse[1] * n[1] + inverse[2] * n[2],
-	         inverse[4] * n[0] + inverse[5] * n[1] + inverse[6] * n[2],
-	         inverse[8] * n[0] + inverse[9] * n[1] + inverse[10] * n[2]);
-	if (st->a.transform.rescale_normal && !st->a.transform.normalize) {
-		float length = sqrtf(inverse[2] * inverse[2] + inverse[6] * inverse[6] + inverse[10] * inverse[10]);
-
-		out = length > 0 ? v3_scale(out, 1 / length) : out;
-	}
-	return st->a.transform.normalize ? v3_normalize(out) : out;
+	return v3(inverse[0] * n[0] + inverse[1] * n[1] + inverse[2] * n[2],
+	          inverse[4] * n[0] + inverse[5] * n[1] + inverse[6] * n[2],
+	          inverse[8] * n[0] + inverse[9] * n[1] + inverse[10] * n[2]);
 }
 
 static int is_clipped(const struct gls_state *st, const float eye[4], const float clip[4])

@@ -265,6 +265,7 @@ static const struct { uint32_t bit, offset, bytes; } groups[] = {
 
 GLS_HANDLER(glPopAttrib, STATE, SELECT)
 {
+	const uint32_t tracked = st->a.lighting.color_material;
 	struct gls_attribs *old;
 	uint32_t mask;
 
@@ -281,8 +282,13 @@ GLS_HANDLER(glPopAttrib, STATE, SELECT)
 		gls_texture_restore_parameters(st, st->attrib_stack[st->attrib_depth].textures);
 	if (mask & GL_ENABLE_BIT)
 		restore_enables(st, old);
-	if (st->a.lighting.color_material)
+	if (!st->a.lighting.color_material)
+		return;
+	/* Mesa's materials do not follow a colour that comes back: they do when COLOR_MATERIAL alone comes back. */
+	if (!gls_attributes_wait(st) || (!tracked && !(mask & GL_LIGHTING_BIT)))
 		gls_color_changed(st);
+	else
+		st->waiting.covers = 1;
 }
 
 GLS_HANDLER(glPushClientAttrib, NOW)

@@ -5,7 +5,8 @@
 #include "replay/machine/args.h"
 #include "replay/machine/state.h"
 
-/* The entry of a map for a number in [0,1]. Mesa has maps of pixels that are drawn as textures of 256 texels. */
+/* The entry of a map for a number in [0,1]. Mesa has maps of pixels that are drawn as textures of 256 texels (and blue
+ * and alpha of no certain value). */
 static uint32_t entry_of(const struct gls_pixel_map *m, float v, int as_texture)
 {
 	uint32_t texel = v < 1 ? (uint32_t)(v * 256) : 255;

@@ -246,6 +246,108 @@ static void stipple_quad(void)
 	glDisable(GL_POLYGON_STIPPLE);
 }
 
+/* The same in a list that is drawn while it is made, be it by vertices or by arrays and indices; not when it is called.
+ */
+static void list_quad(int by_arrays, int mode)
+{
+	static const GLfloat places[4][2] = { { 8, 8 }, { 56, 4 }, { 50, 44 }, { 4, 38 } };
+	static const GLubyte colors[4][4] = {
+		{ 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 }, { 255, 255, 255, 255 }
+	};
+	static const GLubyte order[4] = { 0, 1, 2, 3 };
+	const GLuint list = glGenLists(1);
+
+	glVertexPointer(2, GL_FLOAT, 0, places);
+	glColorPointer(4, GL_UNSIGNED_BYTE, 0, colors);
+	glEnableClientState(GL_VERTEX_ARRAY);
+	glEnableClientState(GL_COLOR_ARRAY);
+	glNewList(list, (GLenum)mode);
+	if (by_arrays)
+		glDrawElements(GL_QUADS, 4, GL_UNSIGNED_BYTE, order);
+	else
+		glDrawArrays(GL_QUADS, 0, 4);
+	glEndList();
+	glDisableClientState(GL_VERTEX_ARRAY);
+	glDisableClientState(GL_COLOR_ARRAY);
+	if (mode == GL_COMPILE)
+		glCallList(list);
+}
+
+static void make_list_of_arrays(void)
+{
+	list_quad(0, GL_COMPILE_AND_EXECUTE);
+}
+static void make_list_of_indices(void)
+{
+	list_quad(1, GL_COMPILE_AND_EXECUTE);
+}
+static void call_list_of_arrays(void)
+{
+	list_quad(0, GL_COMPILE);
+}
+
+/* A colour that PopAttrib brings back is no material's. */
+static void pop_color(GLbitfield groups)
+{
+	const GLfloat black[4] = { 0, 0, 0, 1 }, toward[4] = { 0, 0, 1, 0 };
+
+	glPushAttrib(GL_ALL_ATTRIB_BITS);
+	glLightModelfv(GL_LIGHT_MODEL_AMBIENT, black);
+	glLightfv(GL_LIGHT0, GL_POSITION, toward);
+	glEnable(GL_LIGHT0);
+	glEnable(GL_LIGHTING);
+	glColorMaterial(GL_FRONT_AND_BACK, GL_DIFFUSE);
+	glEnable(GL_COLOR_MATERIAL);
+	glNormal3f(0, 0, 1);
+	glColor3f(1, 0, 0);
+	glRectf(2, 2, 20, 46);
+	glPushAttrib(groups);
+	glDisable(GL_COLOR_MATERIAL);
+	if (groups != GL_ENABLE_BIT)
+		glEnable(GL_COLOR_MATERIAL);
+	glColor3f(0, 1, 0);
+	glRectf(22, 2, 40, 46);
+	glPopAttrib();
+	glRectf(42, 2, 62, 46);
+	glPopAttrib();
+}
+
+static void pop_current(void)
+{
+	pop_color(GL_CURRENT_BIT);
+}
+static void pop_current_and_lights(void)
+{
+	pop_color(GL_CURRENT_BIT | GL_LIGHTING_BIT);
+}
+static void pop_enabled(void)
+{
+	pop_color(GL_ENABLE_BIT);
+}
+static void pop_all(void)
+{
+	pop_color(GL_ALL_ATTRIB_BITS);
+}
+
+/* RasterPos lights with normals as they are, NORMALIZE or not. */
+static void light_bitmap(void)
+{
+	static const GLubyte bits[8] = { 255, 129, 129, 129, 129, 129, 129, 255 };
+	const GLfloat toward[4] = { 0, 0.6f, 0.8f, 0 };
+
+	glPushAttrib(GL_ALL_ATTRIB_BITS);
+	glLightfv(GL_LIGHT0, GL_POSITION, toward);
+	glEnable(GL_LIGHT0);
+	glEnable(GL_LIGHTING);
+	glEnable(GL_NORMALIZE);
+	for (int i = 0; i < 4; i++) {
+		glNormal3f(0, 0, 0.5f + 0.2f * (float)i);
+		glRasterPos2f(4 + 14 * (float)i, 10);
+		glBitmap(8, 8, 0, 0, 0, 0, bits);
+	}
+	glPopAttrib();
+}
+
 /* Nothing happens without an accumulation buffer. */
 static void sum_nothing(void)
 {
@@ -273,6 +375,14 @@ int main(void)
 		                                clip_beside,
 		                                clip_through,
 		                                stipple_quad,
+		                                make_list_of_arrays,
+		                                make_list_of_indices,
+		                                call_list_of_arrays,
+		                                pop_current,
+		                                pop_current_and_lights,
+		                                pop_enabled,
+		                                pop_all,
+		                                light_bitmap,
 		                                sum_nothing };
 
 	open_window();
