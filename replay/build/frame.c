@@ -10,6 +10,7 @@
 #include "base/mat4.h"
 #include "base/memory.h"
 #include "capture/format/call.h"
+#include "replay/build/currents.h"
 #include "replay/build/material.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/texture/image.h"

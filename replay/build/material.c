@@ -99,16 +99,31 @@ uint32_t gls_frame_view(struct gls_exec *x, const struct gls_surface *surface, c
 	return gls_intern(x, &f->views, &s->views, &s->n_views, &f->room.views, &view, sizeof(view));
 }
 
-/* The enabled target of highest precedence (sec. 3.8.15): cube map, 3D, rectangle, 2D, 1D. */
-static int enabled_target(const struct gls_unit *unit)
+static int is_complete(struct gls_exec *x, struct gls_state *st, unsigned unit, unsigned target)
+{
+	struct gls_texture *t = gls_texture_bound(x, st, unit, target);
+
+	return t && gls_texture_image_of(x, t, gls_texture_sampler(st, unit, t)->parameters.min_filter);
+}
+
+/*
+ * The enabled target of highest precedence (sec. 3.8.15): cube map, 3D, rectangle, 2D, 1D. If its texture is not
+ * complete, Mesa takes the next one that is.
+ */
+static int enabled_target(struct gls_exec *x, struct gls_state *st, const struct gls_unit *unit)
 {
 	static const unsigned order[] = { GLS_TEXTURE_CUBE, GLS_TEXTURE_3D, GLS_TEXTURE_RECTANGLE, GLS_TEXTURE_2D,
 	                                  GLS_TEXTURE_1D };
+	int first = -1;
 
-	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
-		if (unit->enabled >> order[i] & 1)
+	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++) {
+		if (!(unit->enabled >> order[i] & 1))
+			continue;
+		if (is_complete(x, st, unit->value.unit, order[i]) || !gls_attributes_wait(st))
 			return (int)order[i];
-	return -1;
+		first = first < 0 ? (int)order[i] : first;
+	}
+	return first;
 }
 
 uint32_t gls_frame_texture(struct gls_exec *x, struct gls_frame *f, struct gls_texture_image *image)
@@ -246,7 +261,7 @@ static uint32_t fill_units(struct gls_exec *x, struct gls_frame *f, struct gls_s
 		const float *matrix = coordinate_matrix(st, e, u, vertices);
 		const int of_fragments = program && !(program->code->enabled >> u & 1) ?
 		                                 (int)program_target(program, u) - 1 :
-		                                 enabled_target(unit);
+		                                 enabled_target(x, st, unit);
 		const int target = of_fragments >= 0 || !vertices ? of_fragments : (int)program_target(vertices, u) - 1;
 		const int counts = target > of_fragments ||
 		                   (program &&
@@ -490,32 +505,4 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 		m.clip_by_program = m.clip_plane_mask && !m.two_side && vertices.code->outputs >> SCENE_RESULT_CLIP_VERTEX & 1;
 	}
 	return gls_intern(x, &f->materials, &s->materials, &s->n_materials, &f->room.materials, &m, sizeof(m));
-}
-
-/* Attributes of the mesh, and those that nothing looks at, get GL's initial values, so that more currents are equal. */
-uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct scene_mesh *mesh,
-                           const struct scene_material *m, const float (*values)[4])
-{
-	static const float white[4] = { 1, 1, 1, 1 }, up[4] = { 0, 0, 1, 0 }, origin[4] = { 0, 0, 0, 1 };
-	struct scene *s = f->out;
-	const uint32_t inputs = m->vertex_program ? scene_program_of(s, m->vertex_program)->inputs : 0;
-	struct scene_current current;
-	uint32_t varying = mesh->attributes, textured = 0;
-
-	memset(&current, 0, sizeof(current));
-	for (uint32_t i = 0; i < m->unit_count; i++)
-		textured |= 1u << s->units[m->unit_first + i].unit;
-	textured |= inputs >> SCENE_VERTEX_TEXCOORD;
-	memcpy(current.color, varying & SCENE_HAS_COLOR ? white : values[GLS_ATTR_COLOR], 16);
-	memcpy(current.secondary, varying & SCENE_HAS_SECONDARY ? origin : values[GLS_ATTR_SECONDARY], 16);
-	memcpy(current.normal, varying & SCENE_HAS_NORMAL ? up : values[GLS_ATTR_NORMAL], 12);
-	for (unsigned u = 0; u < SCENE_MAX_UNITS; u++) {
-		int is_read = textured >> u & 1 && !(varying >> (GLS_ATTR_TEXCOORD + u) & 1);
-		memcpy(current.texcoord[u], is_read ? values[GLS_ATTR_TEXCOORD + u] : origin, 16);
-	}
-	for (unsigned i = 0; i < SCENE_MAX_GENERICS; i++)
-		memcpy(current.generics[i], inputs >> (SCENE_VERTEX_GENERIC + i) & 1 && !(varying >> (GLS_ATTR_GENERIC + i) & 1) ?
-		       values[GLS_ATTR_GENERIC + i] : origin, 16);
-	current.fog_coord = varying & SCENE_HAS_FOG_COORD ? 0 : values[GLS_ATTR_FOG_COORD][0];
-	return gls_intern(x, &f->currents, &s->currents, &s->n_currents, &f->room.currents, &current, sizeof(current));
 }

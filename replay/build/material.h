@@ -41,9 +41,6 @@ uint32_t gls_frame_view(struct gls_exec *x, const struct gls_surface *surface, c
 /** Everything else that the fragments of a draw depend on, with units and lights. */
 uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st,
                             const struct gls_event *e);
-/** Attributes that the mesh does not have and the material looks at. */
-uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct scene_mesh *mesh,
-                           const struct scene_material *m, const float (*values)[4]);
 /** The place of a mesh in the scene, and of an image. */
 uint32_t gls_frame_mesh(struct gls_exec *x, struct gls_frame *f, struct gls_mesh *mesh);
 uint32_t gls_frame_texture(struct gls_exec *x, struct gls_frame *f, struct gls_texture_image *image);

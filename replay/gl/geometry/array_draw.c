@@ -380,6 +380,11 @@ GLS_HANDLER(glArrayElement, CLIENT)
 	has_vertex = st->client.arrays[GLS_ARRAY_VERTEX].enabled || st->client.arrays[GLS_ARRAY_GENERIC0].enabled;
 	if (has_vertex ? !gls_sources_open(x, st, &s) : !gls_sources_open_attributes(x, st, &s))
 		return;
+	if (s.has_edges) {
+		gls_source_read(&s.edge, arg_u(c, 0), v);
+		args[0] = (struct trace_value){ .type = TRACE_UINT, .i = v[0] != 0 };
+		put_call(x, st, "glEdgeFlag", args, 1);
+	}
 	args[1] = (struct trace_value){ .type = TRACE_ARRAY, .count = 4, .items = numbers };
 	for (unsigned a = 0; a <= N_GLS_ATTRIBUTES; a++) {
 		int is_vertex = a == N_GLS_ATTRIBUTES;

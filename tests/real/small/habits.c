@@ -200,6 +200,64 @@ static void mix_coordinates(void)
 	glDisable(GL_TEXTURE_2D);
 }
 
+/* Coordinates that are the same all over a draw lie exactly on a texel's edge. */
+static void stay_on_edge(void)
+{
+	static const GLfloat corners[4][3] = { { -9, -6, -12 }, { 8, -7, -25 }, { 9, 6, -14 }, { -7, 8, -30 } };
+
+	set_texture(GL_TEXTURE_2D, 16, 16, GL_NEAREST, GL_NEAREST);
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glFrustum(-0.7, 0.7, -0.5, 0.5, 1, 50);
+	glMatrixMode(GL_MODELVIEW);
+	glTexCoord2f(0.4375f, 1.0625f);
+	glBegin(GL_QUADS);
+	for (int i = 0; i < 4; i++)
+		glVertex3fv(corners[i]);
+	glEnd();
+	glDisable(GL_TEXTURE_2D);
+}
+
+/* If the texture of the first target is not complete, that of the next one is taken. */
+static void leave_cube_map(void)
+{
+	const GLubyte texel[4] = { 255, 255, 255, 255 };
+	GLuint texture;
+
+	set_texture(GL_TEXTURE_2D, 16, 16, GL_NEAREST, GL_NEAREST);
+	glGenTextures(1, &texture);
+	glBindTexture(GL_TEXTURE_CUBE_MAP, texture);
+	glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X, 0, GL_RGBA, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, texel);
+	glEnable(GL_TEXTURE_CUBE_MAP);
+	textured_square(1, 1);
+	glDisable(GL_TEXTURE_CUBE_MAP);
+	glDeleteTextures(1, &texture);
+	glDisable(GL_TEXTURE_2D);
+}
+
+/* Edge flags of arrays, element by element. */
+static void outline_elements(void)
+{
+	static const struct {
+		GLfloat place[2];
+		GLboolean edge;
+	} corners[4] = { { { 8, 8 }, 1 }, { { 56, 4 }, 0 }, { { 50, 44 }, 1 }, { { 4, 38 }, 1 } };
+
+	glVertexPointer(2, GL_FLOAT, sizeof(corners[0]), corners[0].place);
+	glEdgeFlagPointer(sizeof(corners[0]), &corners[0].edge);
+	glEnableClientState(GL_VERTEX_ARRAY);
+	glEnableClientState(GL_EDGE_FLAG_ARRAY);
+	glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+	glBegin(GL_QUADS);
+	for (int i = 0; i < 4; i++)
+		glArrayElement(i);
+	glEnd();
+	glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+	glDisableClientState(GL_EDGE_FLAG_ARRAY);
+	glDisableClientState(GL_VERTEX_ARRAY);
+	glEdgeFlag(GL_TRUE);
+}
+
 /* Which diagonal cuts a quad: clip planes count where they clip, and stipple counts. */
 static void colored_quad(void)
 {
@@ -383,6 +441,9 @@ int main(void)
 		                                pop_enabled,
 		                                pop_all,
 		                                light_bitmap,
+		                                stay_on_edge,
+		                                leave_cube_map,
+		                                outline_elements,
 		                                sum_nothing };
 
 	open_window();
