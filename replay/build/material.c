@@ -235,7 +235,7 @@ static void fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls
 static const float *coordinate_matrix(const struct gls_state *st, const struct gls_event *e, unsigned u,
                                       const struct program_stage *vertices)
 {
-	static const float zeros[16];
+	static const float zeros[16] = { [15] = 1 };
 
 	if (e->in_window)
 		return mat4_identity;

@@ -17,7 +17,7 @@ PROGRAMS = {
     "copies": ("parts", "without alpha", "depths", "many of a large one"),
     "direct": ("matrices", "named textures", "units", "buffers and programs", "framebuffers"),
     "habits": ("lines' offset", "points' offset", "an offset to behind", "flags of a strip", "flags of a fan",
-               "flags of a quad strip", "sprites left on", "a large rectangle", "a huge rectangle", "alpha of quads",
+               "flags of a quad strip", "sprites left on", "blended ones", "a large rectangle", "a huge rectangle", "alpha of quads",
                "alpha of triangles", "alpha between", "coordinates of 4 and 2", "a clip plane beside",
                "a clip plane through", "stipple", "a list of arrays that is drawn at once", "one of indices",
                "one that is called", "a popped colour", "one with its lights", "a popped switch", "all popped",

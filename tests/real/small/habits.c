@@ -103,9 +103,9 @@ static void textured_square(float s, float t)
 }
 
 /* While sprites replace coordinates, all but points have none. */
-static void leave_sprites_on(void)
+static void leave_sprites(GLint filter)
 {
-	set_texture(GL_TEXTURE_2D, 16, 16, GL_NEAREST, GL_NEAREST);
+	set_texture(GL_TEXTURE_2D, 16, 16, filter, filter);
 	glEnable(GL_POINT_SPRITE);
 	glTexEnvi(GL_POINT_SPRITE, GL_COORD_REPLACE, GL_TRUE);
 	textured_square(1, 1);
@@ -116,6 +116,15 @@ static void leave_sprites_on(void)
 	glTexEnvi(GL_POINT_SPRITE, GL_COORD_REPLACE, GL_FALSE);
 	glDisable(GL_POINT_SPRITE);
 	glDisable(GL_TEXTURE_2D);
+}
+
+static void leave_sprites_on(void)
+{
+	leave_sprites(GL_NEAREST);
+}
+static void leave_blended_sprites_on(void)
+{
+	leave_sprites(GL_LINEAR);
 }
 
 /* Whether texels of rectangles are smaller than pixels is asked of coordinates times the size. */
@@ -424,6 +433,7 @@ int main(void)
 		                                outline_fan,
 		                                outline_quad_strip,
 		                                leave_sprites_on,
+		                                leave_blended_sprites_on,
 		                                filter_large_rectangle,
 		                                filter_huge_rectangle,
 		                                mix_colors_of_quads,
