@@ -312,6 +312,9 @@ int gls_quads_turn(const struct gls_state *st, int is_flat, const float *positio
 
 	if (is_flat || a->polygon.mode[0] != GL_FILL || a->polygon.mode[1] != GL_FILL || a->polygon.stipple)
 		return 0;
+	if (gls_draws_by_stages(a) && (a->polygon.offset_point || a->polygon.offset_line || a->polygon.offset_fill ||
+	                               (a->lighting.enabled && a->lighting.two_side)))
+		return 0;
 	gls_sums(st)->mul(mvp, st->projection.matrices[st->projection.depth], modelview);
 	for (uint32_t i = 0; i < 2 * n_primitives; i++) {
 		const float *corner = position + 4 * (size_t)index[6 * (size_t)(i / 4) + corners[i % 4]];

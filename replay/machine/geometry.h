@@ -55,8 +55,8 @@ int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, 
                      const uint32_t *elements, int first_provokes);
 /**
  * Cut quads the other way, from the first to the third vertex. The geometry holds nothing but quads. llvmpipe does so
- * with quads that come without indices (hence not from lists), are shaded smoothly, are not stippled and need no
- * clipping.
+ * with quads that come without indices (hence not from lists), are shaded smoothly and go through none of its
+ * stages: they are not stippled, need no clipping, and its setup does offsets and two sides.
  */
 void gls_geometry_turn_quads(struct gls_geometry *g);
 /**

@@ -58,6 +58,12 @@ void gls_set_face_colors(struct scene_face *face, unsigned colors, const float v
 		memcpy(face->emission, value, sizeof(face->emission));
 }
 
+int gls_draws_by_stages(const struct gls_attribs *a)
+{
+	return a->polygon.mode[0] != GL_FILL || a->polygon.mode[1] != GL_FILL || a->point.smooth || a->line.smooth ||
+	       (a->line.stipple && a->line.stipple_pattern != 0xffff);
+}
+
 int gls_attributes_wait(const struct gls_state *st)
 {
 	return !(st->mesa & SCENE_MESA_IS_OTHER);

@@ -42,6 +42,30 @@ static void offset_behind(void)
 	offset(GL_POLYGON_OFFSET_LINE, 10);
 }
 
+/* Each counts for its own polygons where llvmpipe goes by stages, as for stippled and smooth lines. */
+static void offset_beside(GLenum other)
+{
+	glEnable(other);
+	offset(GL_POLYGON_OFFSET_LINE, -10);
+	glDisable(other);
+}
+
+static void offset_beside_stipple(void)
+{
+	glLineStipple(1, 0x5555);
+	offset_beside(GL_LINE_STIPPLE);
+	glLineStipple(1, 0xffff);
+}
+
+static void offset_beside_whole_lines(void)
+{
+	offset_beside(GL_LINE_STIPPLE);
+}
+static void offset_beside_smooth_points(void)
+{
+	offset_beside(GL_POINT_SMOOTH);
+}
+
 /* Edge flags count in strips and fans, too. */
 static void outline(GLenum primitive)
 {
@@ -313,6 +337,37 @@ static void stipple_quad(void)
 	glDisable(GL_POLYGON_STIPPLE);
 }
 
+/* So do offsets, and sides that are lit apart, beside smooth lines. */
+static void quad_by_stages(GLenum other)
+{
+	const GLfloat light[4] = { 0, 0, 1, 0 };
+
+	glPushAttrib(GL_ALL_ATTRIB_BITS);
+	glEnable(other);
+	glEnable(GL_POLYGON_OFFSET_LINE);
+	colored_quad();
+	glDisable(GL_POLYGON_OFFSET_LINE);
+	glTranslatef(-20, 0, 0);
+	glLightfv(GL_LIGHT0, GL_POSITION, light);
+	glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_TRUE);
+	glEnable(GL_LIGHT0);
+	glEnable(GL_LIGHTING);
+	glEnable(GL_COLOR_MATERIAL);
+	glNormal3f(0, 0, 1);
+	colored_quad();
+	glTranslatef(20, 0, 0);
+	glPopAttrib();
+}
+
+static void quad_beside_smooth_lines(void)
+{
+	quad_by_stages(GL_LINE_SMOOTH);
+}
+static void quad_beside_dithering(void)
+{
+	quad_by_stages(GL_DITHER);
+}
+
 /* The same in a list that is drawn while it is made, be it by vertices or by arrays and indices; not when it is called.
  */
 static void list_quad(int by_arrays, int mode)
@@ -429,6 +484,9 @@ int main(void)
 	static void (*const frames[])(void) = { offset_lines,
 		                                offset_points,
 		                                offset_behind,
+		                                offset_beside_stipple,
+		                                offset_beside_whole_lines,
+		                                offset_beside_smooth_points,
 		                                outline_strip,
 		                                outline_fan,
 		                                outline_quad_strip,
@@ -443,6 +501,8 @@ int main(void)
 		                                clip_beside,
 		                                clip_through,
 		                                stipple_quad,
+		                                quad_beside_smooth_lines,
+		                                quad_beside_dithering,
 		                                make_list_of_arrays,
 		                                make_list_of_indices,
 		                                call_list_of_arrays,
