@@ -153,12 +153,22 @@ static uint32_t pack_swizzle(const uint32_t token[4])
 	return packed == (1u << 3 | 2u << 6 | 3u << 9) ? 0 : packed | SCENE_SWIZZLED;
 }
 
+/* The matrix of coordinates that are not there: 0, 0, 0, q. */
+static const float no_coordinates[16] = { [15] = 1 };
+
+static int blends_smaller(uint32_t min_filter)
+{
+	return min_filter == GL_LINEAR || min_filter == GL_LINEAR_MIPMAP_NEAREST || min_filter == GL_LINEAR_MIPMAP_LINEAR;
+}
+
 /* What coordinates are generated of, and what they go through. */
 static void fill_coordinates(const struct gls_unit *unit, const float *matrix, struct scene_unit *out)
 {
 	for (unsigned i = 0; i < 4; i++)
 		out->gen_mode[i] = unit->gen_enabled >> i & 1 ? unit->value.gen_mode[i] : 0;
 	memcpy(out->matrix, matrix, 64);
+	if (matrix == no_coordinates) /* llvmpipe divides 0 by 0 there, and takes the filter of what is made smaller */
+		out->mag_filter = blends_smaller(out->min_filter) ? GL_LINEAR : GL_NEAREST;
 }
 
 /* target: -1: none; matrix: of the unit's coordinates.  @return 1 if the unit textures */
@@ -235,13 +245,11 @@ static void fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls
 static const float *coordinate_matrix(const struct gls_state *st, const struct gls_event *e, unsigned u,
                                       const struct program_stage *vertices)
 {
-	static const float zeros[16] = { [15] = 1 };
-
 	if (e->in_window)
 		return mat4_identity;
 	if (e->attribs->point.sprite && e->attribs->texturing.units[u].value.coord_replace && !vertices &&
 	    !(st->mesa & SCENE_MESA_IS_OTHER))
-		return zeros;
+		return no_coordinates;
 	return st->texture[u].matrices[st->texture[u].depth];
 }
 

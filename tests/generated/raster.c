@@ -48,6 +48,20 @@ void step_line(struct chance *chance, struct program *program)
 	}
 }
 
+/* Sprites, and no longer: Mesa divides 0 by 0 for all else that is drawn while they are enabled. */
+static void draw_sprites(struct chance *chance)
+{
+	glEnable(GL_POINT_SPRITE);
+	glTexEnvi(GL_POINT_SPRITE, GL_COORD_REPLACE, (GLint)chance_below(chance, 2));
+	glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, (GLint)ONE_OF(chance, GL_LOWER_LEFT, GL_UPPER_LEFT));
+	glBegin(GL_POINTS);
+	for (unsigned i = 2 + chance_below(chance, 6); i; i--)
+		glVertex3f(chance_between(chance, -0.8f, 0.8f), chance_between(chance, -0.7f, 0.7f),
+		           chance_between(chance, -7, -4));
+	glEnd();
+	glDisable(GL_POINT_SPRITE);
+}
+
 void step_point(struct chance *chance, struct program *program)
 {
 	(void)program;
@@ -59,13 +73,8 @@ void step_point(struct chance *chance, struct program *program)
 		glPointParameterfv(GL_POINT_DISTANCE_ATTENUATION, attenuation);
 		glPointParameterf(GL_POINT_SIZE_MIN, chance_between(chance, 0, 3));
 	}
-	if (chance_of(chance, 4)) {
-		glEnable(GL_POINT_SPRITE);
-		glTexEnvi(GL_POINT_SPRITE, GL_COORD_REPLACE, (GLint)chance_below(chance, 2));
-		glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, (GLint)ONE_OF(chance, GL_LOWER_LEFT, GL_UPPER_LEFT));
-	} else {
-		glDisable(GL_POINT_SPRITE);
-	}
+	if (chance_of(chance, 2))
+		draw_sprites(chance);
 }
 
 void step_shade_model(struct chance *chance, struct program *program)

@@ -9,19 +9,36 @@ static unsigned choose_attributes(struct chance *chance)
 	return chance_of(chance, 2) ? WITH_ALL & ~(unsigned)WITH_EDGE : chance_below(chance, WITH_ALL + 1);
 }
 
-static void give_vertex(struct chance *chance, const struct vertex *vertex, unsigned with)
+enum { COLOR_4UB, COLOR_3FV, COLOR_4FV, N_COLORS };
+
+/* @return one of them, or N_COLORS: any for each vertex. Mesa begins a primitive again where an attribute grows, and
+ * with it strips and stipple, and loses vertices of lists. */
+static unsigned choose_color(struct chance *chance, GLenum primitive)
+{
+	GLint list = 0;
+
+	glGetIntegerv(GL_LIST_INDEX, &list);
+	return chance_below(chance,
+	                    (primitive == GL_TRIANGLES || primitive == GL_QUADS) && !list ? N_COLORS + 1 : N_COLORS);
+}
+
+static void give_color(const float color[4], unsigned command)
+{
+	if (command == COLOR_4UB)
+		glColor4ub((GLubyte)(color[0] * 255), (GLubyte)(color[1] * 255), (GLubyte)(color[2] * 255),
+		           (GLubyte)(color[3] * 255));
+	else if (command == COLOR_3FV)
+		glColor3fv(color);
+	else
+		glColor4fv(color);
+}
+
+static void give_vertex(struct chance *chance, const struct vertex *vertex, unsigned with, unsigned color)
 {
 	if (with & WITH_NORMAL)
 		glNormal3fv(vertex->normal);
-	if (with & WITH_COLOR) {
-		if (chance_of(chance, 4))
-			glColor4ub((GLubyte)(vertex->color[0] * 255), (GLubyte)(vertex->color[1] * 255),
-			           (GLubyte)(vertex->color[2] * 255), (GLubyte)(vertex->color[3] * 255));
-		else if (chance_of(chance, 2))
-			glColor3fv(vertex->color);
-		else
-			glColor4fv(vertex->color);
-	}
+	if (with & WITH_COLOR)
+		give_color(vertex->color, color == N_COLORS ? chance_below(chance, N_COLORS) : color);
 	if (with & WITH_TEXTURE) {
 		glTexCoord4fv(vertex->texture);
 		glMultiTexCoord2f(GL_TEXTURE1, vertex->texture[1], vertex->texture[0]);
@@ -43,9 +60,11 @@ static void give_vertex(struct chance *chance, const struct vertex *vertex, unsi
 
 static void submit_immediate(struct chance *chance, const struct mesh *mesh, unsigned with)
 {
+	const unsigned color = choose_color(chance, mesh->primitive);
+
 	glBegin(mesh->primitive);
 	for (unsigned i = 0; i < mesh->n_indices; i++)
-		give_vertex(chance, &mesh->vertices[mesh->indices[i]], with);
+		give_vertex(chance, &mesh->vertices[mesh->indices[i]], with, color);
 	glEnd();
 }
 

@@ -127,9 +127,9 @@ static void textured_square(float s, float t)
 }
 
 /* While sprites replace coordinates, all but points have none. */
-static void leave_sprites(GLint filter)
+static void leave_sprites(GLint smaller, GLint larger)
 {
-	set_texture(GL_TEXTURE_2D, 16, 16, filter, filter);
+	set_texture(GL_TEXTURE_2D, 16, 16, smaller, larger);
 	glEnable(GL_POINT_SPRITE);
 	glTexEnvi(GL_POINT_SPRITE, GL_COORD_REPLACE, GL_TRUE);
 	textured_square(1, 1);
@@ -144,11 +144,16 @@ static void leave_sprites(GLint filter)
 
 static void leave_sprites_on(void)
 {
-	leave_sprites(GL_NEAREST);
+	leave_sprites(GL_NEAREST, GL_NEAREST);
 }
 static void leave_blended_sprites_on(void)
 {
-	leave_sprites(GL_LINEAR);
+	leave_sprites(GL_LINEAR, GL_LINEAR);
+}
+
+static void leave_sprites_on_by_two_filters(void)
+{
+	leave_sprites(GL_NEAREST, GL_LINEAR);
 }
 
 /* Whether texels of rectangles are smaller than pixels is asked of coordinates times the size. */
@@ -492,6 +497,7 @@ int main(void)
 		                                outline_quad_strip,
 		                                leave_sprites_on,
 		                                leave_blended_sprites_on,
+		                                leave_sprites_on_by_two_filters,
 		                                filter_large_rectangle,
 		                                filter_huge_rectangle,
 		                                mix_colors_of_quads,
