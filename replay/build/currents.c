@@ -13,9 +13,9 @@
 #define MOST_TEXELS 1e6f /* from there on, floats do not tell a texel's middle from its ends */
 
 /*
- * Texture coordinates that are the same at all of a draw's fragments. Mesa samples there exactly; what is interpolated
- * is some last bits off, and of a pattern of noise where two texels meet. In the middle of a texel that takes no effect.
- * Blending texels has no such places.
+ * Texture coordinates that are the same at all of a draw's fragments. Mesa samples there exactly; interpolated ones are
+ * some last bits off, which makes a pattern of noise where two texels meet. In a texel's middle that has no effect.
+ * Filters that blend have no such places.
  */
 static void settle(const struct scene *s, const struct scene_unit *unit, float c[4])
 {

@@ -378,7 +378,7 @@ struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
 int gls_is_face(uint32_t token);
 /** 1 for NEVER to ALWAYS. */
 int gls_is_compare_func(uint32_t token);
-/** 1 if llvmpipe has its pipeline of stages do what its setup of triangles does otherwise, offsets and two sides. */
+/** 1 if llvmpipe leaves offsets and two sides to its pipeline of stages, and not to its setup of triangles. */
 int gls_draws_by_stages(const struct gls_attribs *a);
 /** 1 for Mesa, whose attributes wait between draws (gl/geometry/waiting.h). */
 int gls_attributes_wait(const struct gls_state *st);

@@ -24,7 +24,8 @@ void gls_color_changed(struct gls_state *st);
 /**
  * A command gives an attribute by n components. Mesa fills up the others with (0, 0, 0, 1) when commands give fewer
  * than before, but not once more after one that gave as many as there is room for: then the last ones of that stay. So
- * the alpha of glColor4f comes back with glColor3f.
+ * the alpha of glColor4f comes back with glColor3f. Runs that the recorder has made lists begin as if nothing had
+ * been given before.
  * @param value  [4], filled up; in and out
  */
 void gls_waiting_components(struct gls_state *st, unsigned attribute, unsigned n, float value[4]);

@@ -42,7 +42,7 @@ static void offset_behind(void)
 	offset(GL_POLYGON_OFFSET_LINE, 10);
 }
 
-/* Each counts for its own polygons where llvmpipe goes by stages, as for stippled and smooth lines. */
+/* Each counts for its own polygons where llvmpipe draws in stages, as for stippled and smooth lines. */
 static void offset_beside(GLenum other)
 {
 	glEnable(other);
@@ -173,53 +173,7 @@ static void filter_huge_rectangle(void)
 	filter_rectangle(1.5f);
 }
 
-/* The alpha of glColor4 comes back with glColor3, once that has been shortened. */
-static void mix_colors(GLenum primitive, int twice)
-{
-	glEnable(GL_BLEND);
-	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-	for (int k = 0; k <= twice; k++) {
-		glBegin(primitive);
-		for (int i = 0; i < 12; i++) {
-			const float x = 4 + 5 * (float)(i / 4 * 4) + (i % 4 == 1 || i % 4 == 2 ? 14 : 0);
-			const float alpha = 0.2f + 0.06f * (float)i;
-
-			if (i % 3 == 1)
-				glColor4f(1, 0.5f, 0.2f, alpha);
-			else if (i % 5 == 0)
-				glColor4ub(100, 200, 255, (GLubyte)(255 * alpha));
-			else
-				glColor3f(0.2f, 1, 0.3f);
-			glVertex2f(x, (i % 4 < 2 ? 4 : 20) + 22 * (float)k);
-		}
-		glEnd();
-	}
-	glDisable(GL_BLEND);
-}
-
-static void mix_colors_of_quads(void)
-{
-	mix_colors(GL_QUADS, 1);
-}
-static void mix_colors_of_triangles(void)
-{
-	mix_colors(GL_TRIANGLES, 1);
-}
-
-static void mix_colors_between(void)
-{
-	glEnable(GL_BLEND);
-	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-	for (int i = 0; i < 6; i++) {
-		if (i % 2)
-			glColor3f(1, 1, 0);
-		else
-			glColor4f(0, 1, 1, 0.25f + 0.1f * (float)i);
-		glRectf(4 + 9 * (float)i, 4, 12 + 9 * (float)i, 44);
-	}
-	glDisable(GL_BLEND);
-}
-
+/* The last coordinates come back as the alpha of colours does (kept.c). */
 static void mix_coordinates(void)
 {
 	set_texture(GL_TEXTURE_2D, 16, 16, GL_NEAREST, GL_NEAREST);
@@ -342,7 +296,7 @@ static void stipple_quad(void)
 	glDisable(GL_POLYGON_STIPPLE);
 }
 
-/* So do offsets, and sides that are lit apart, beside smooth lines. */
+/* Offsets count as well, and sides that are lit apart, beside smooth lines. */
 static void quad_by_stages(GLenum other)
 {
 	const GLfloat light[4] = { 0, 0, 1, 0 };
@@ -413,68 +367,6 @@ static void call_list_of_arrays(void)
 	list_quad(0, GL_COMPILE);
 }
 
-/* A colour that PopAttrib brings back is no material's. */
-static void pop_color(GLbitfield groups)
-{
-	const GLfloat black[4] = { 0, 0, 0, 1 }, toward[4] = { 0, 0, 1, 0 };
-
-	glPushAttrib(GL_ALL_ATTRIB_BITS);
-	glLightModelfv(GL_LIGHT_MODEL_AMBIENT, black);
-	glLightfv(GL_LIGHT0, GL_POSITION, toward);
-	glEnable(GL_LIGHT0);
-	glEnable(GL_LIGHTING);
-	glColorMaterial(GL_FRONT_AND_BACK, GL_DIFFUSE);
-	glEnable(GL_COLOR_MATERIAL);
-	glNormal3f(0, 0, 1);
-	glColor3f(1, 0, 0);
-	glRectf(2, 2, 20, 46);
-	glPushAttrib(groups);
-	glDisable(GL_COLOR_MATERIAL);
-	if (groups != GL_ENABLE_BIT)
-		glEnable(GL_COLOR_MATERIAL);
-	glColor3f(0, 1, 0);
-	glRectf(22, 2, 40, 46);
-	glPopAttrib();
-	glRectf(42, 2, 62, 46);
-	glPopAttrib();
-}
-
-static void pop_current(void)
-{
-	pop_color(GL_CURRENT_BIT);
-}
-static void pop_current_and_lights(void)
-{
-	pop_color(GL_CURRENT_BIT | GL_LIGHTING_BIT);
-}
-static void pop_enabled(void)
-{
-	pop_color(GL_ENABLE_BIT);
-}
-static void pop_all(void)
-{
-	pop_color(GL_ALL_ATTRIB_BITS);
-}
-
-/* RasterPos lights with normals as they are, NORMALIZE or not. */
-static void light_bitmap(void)
-{
-	static const GLubyte bits[8] = { 255, 129, 129, 129, 129, 129, 129, 255 };
-	const GLfloat toward[4] = { 0, 0.6f, 0.8f, 0 };
-
-	glPushAttrib(GL_ALL_ATTRIB_BITS);
-	glLightfv(GL_LIGHT0, GL_POSITION, toward);
-	glEnable(GL_LIGHT0);
-	glEnable(GL_LIGHTING);
-	glEnable(GL_NORMALIZE);
-	for (int i = 0; i < 4; i++) {
-		glNormal3f(0, 0, 0.5f + 0.2f * (float)i);
-		glRasterPos2f(4 + 14 * (float)i, 10);
-		glBitmap(8, 8, 0, 0, 0, 0, bits);
-	}
-	glPopAttrib();
-}
-
 /* Nothing happens without an accumulation buffer. */
 static void sum_nothing(void)
 {
@@ -500,9 +392,6 @@ int main(void)
 		                                leave_sprites_on_by_two_filters,
 		                                filter_large_rectangle,
 		                                filter_huge_rectangle,
-		                                mix_colors_of_quads,
-		                                mix_colors_of_triangles,
-		                                mix_colors_between,
 		                                mix_coordinates,
 		                                clip_beside,
 		                                clip_through,
@@ -512,11 +401,6 @@ int main(void)
 		                                make_list_of_arrays,
 		                                make_list_of_indices,
 		                                call_list_of_arrays,
-		                                pop_current,
-		                                pop_current_and_lights,
-		                                pop_enabled,
-		                                pop_all,
-		                                light_bitmap,
 		                                stay_on_edge,
 		                                leave_cube_map,
 		                                outline_elements,

@@ -1,0 +1,141 @@
+/*
+ * Values that Mesa keeps, or does not bring back, where the specification has it otherwise, each met by programs made
+ * at random (tests/generated): a frame each. Recorded by test_small.py.
+ */
+#include "tests/trace/window.h"
+
+static void before(void)
+{
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glOrtho(0, 64, 0, 48, -1, 1);
+	glMatrixMode(GL_MODELVIEW);
+	glColor4f(1, 1, 1, 1);
+}
+
+/* The alpha of glColor4 comes back with glColor3, once that has been shortened. */
+static void mix_colors(GLenum primitive, int twice)
+{
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	for (int k = 0; k <= twice; k++) {
+		glBegin(primitive);
+		for (int i = 0; i < 12; i++) {
+			const float x = 4 + 5 * (float)(i / 4 * 4) + (i % 4 == 1 || i % 4 == 2 ? 14 : 0);
+			const float alpha = 0.2f + 0.06f * (float)i;
+
+			if (i % 3 == 1)
+				glColor4f(1, 0.5f, 0.2f, alpha);
+			else if (i % 5 == 0)
+				glColor4ub(100, 200, 255, (GLubyte)(255 * alpha));
+			else
+				glColor3f(0.2f, 1, 0.3f);
+			glVertex2f(x, (i % 4 < 2 ? 4 : 20) + 22 * (float)k);
+		}
+		glEnd();
+	}
+	glDisable(GL_BLEND);
+}
+
+static void mix_colors_of_quads(void)
+{
+	mix_colors(GL_QUADS, 1);
+}
+static void mix_colors_of_triangles(void)
+{
+	mix_colors(GL_TRIANGLES, 0);
+}
+
+static void mix_colors_between(void)
+{
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	for (int i = 0; i < 6; i++) {
+		if (i % 2)
+			glColor3f(1, 1, 0);
+		else
+			glColor4f(0, 1, 1, 0.25f + 0.1f * (float)i);
+		glRectf(4 + 9 * (float)i, 4, 12 + 9 * (float)i, 44);
+	}
+	glDisable(GL_BLEND);
+}
+
+/* A colour that PopAttrib brings back is no material's. */
+static void pop_color(GLbitfield groups)
+{
+	const GLfloat black[4] = { 0, 0, 0, 1 }, toward[4] = { 0, 0, 1, 0 };
+
+	glPushAttrib(GL_ALL_ATTRIB_BITS);
+	glLightModelfv(GL_LIGHT_MODEL_AMBIENT, black);
+	glLightfv(GL_LIGHT0, GL_POSITION, toward);
+	glEnable(GL_LIGHT0);
+	glEnable(GL_LIGHTING);
+	glColorMaterial(GL_FRONT_AND_BACK, GL_DIFFUSE);
+	glEnable(GL_COLOR_MATERIAL);
+	glNormal3f(0, 0, 1);
+	glColor3f(1, 0, 0);
+	glRectf(2, 2, 20, 46);
+	glPushAttrib(groups);
+	glDisable(GL_COLOR_MATERIAL);
+	if (groups != GL_ENABLE_BIT)
+		glEnable(GL_COLOR_MATERIAL);
+	glColor3f(0, 1, 0);
+	glRectf(22, 2, 40, 46);
+	glPopAttrib();
+	glRectf(42, 2, 62, 46);
+	glPopAttrib();
+}
+
+static void pop_current(void)
+{
+	pop_color(GL_CURRENT_BIT);
+}
+static void pop_current_and_lights(void)
+{
+	pop_color(GL_CURRENT_BIT | GL_LIGHTING_BIT);
+}
+static void pop_enabled(void)
+{
+	pop_color(GL_ENABLE_BIT);
+}
+static void pop_all(void)
+{
+	pop_color(GL_ALL_ATTRIB_BITS);
+}
+
+/* RasterPos lights with normals as they are, NORMALIZE or not. */
+static void light_bitmap(void)
+{
+	static const GLubyte bits[8] = { 255, 129, 129, 129, 129, 129, 129, 255 };
+	const GLfloat toward[4] = { 0, 0.6f, 0.8f, 0 };
+
+	glPushAttrib(GL_ALL_ATTRIB_BITS);
+	glLightfv(GL_LIGHT0, GL_POSITION, toward);
+	glEnable(GL_LIGHT0);
+	glEnable(GL_LIGHTING);
+	glEnable(GL_NORMALIZE);
+	for (int i = 0; i < 4; i++) {
+		glNormal3f(0, 0, 0.5f + 0.2f * (float)i);
+		glRasterPos2f(4 + 14 * (float)i, 10);
+		glBitmap(8, 8, 0, 0, 0, 0, bits);
+	}
+	glPopAttrib();
+}
+
+int main(void)
+{
+	static void (*const frames[])(void) = { mix_colors_of_quads,
+		                                mix_colors_of_triangles,
+		                                mix_colors_between,
+		                                pop_current,
+		                                pop_current_and_lights,
+		                                pop_enabled,
+		                                pop_all,
+		                                light_bitmap };
+
+	open_window();
+	draw_frames(frames, sizeof(frames) / sizeof(frames[0]), before);
+	expect(glGetError() == GL_NO_ERROR, "no error");
+	return 0;
+}
