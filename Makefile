@@ -320,7 +320,7 @@ $(BUILD)/tests/same/relations: $(patsubst %.c,$(BUILD)/%.o,$(filter-out tests/sa
 
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c tests/check/host_cl.c) \
-	$(patsubst %,$(BUILD)/tests/%,real/back real/blocking real/closer real/composed real/cracks real/deep real/depths real/elsewhere real/empty real/endless real/errors real/front real/greedy real/growing real/kdtree real/layers real/leaving real/linear real/moments real/moved real/multisampled real/objects real/parameters real/parting real/parts real/persistent real/pixels real/pixmaps real/projections real/readbacks real/samples real/shapes real/shared real/sheets real/shoal real/sizes real/stair real/sums real/surfaces real/targets real/textures real/turning real/units real/vertices real/windows bench/static_scene) \
+	$(patsubst %,$(BUILD)/tests/%,real/back real/blocking real/closer real/composed real/cracks real/deep real/depths real/elsewhere real/empty real/endless real/errors real/front real/greedy real/growing real/kdtree real/layers real/leaving real/linear real/moments real/moved real/multisampled real/objects real/parameters real/parting real/parts real/persistent real/pixels real/pixmaps real/projections real/readbacks real/recut real/samples real/shapes real/shared real/sheets real/shoal real/sizes real/stair real/sums real/surfaces real/targets real/textures real/turning real/units real/vertices real/windows bench/static_scene) \
 	$(patsubst %.c,$(BUILD)/%,$(wildcard tests/real/panels/*.c tests/real/small/*.c)) \
 	$(patsubst %.c,$(BUILD)/%,$(filter-out $(wildcard tests/trace/test_*.c),$(wildcard tests/trace/*.c)))
 

@@ -15,8 +15,8 @@
 #include "look/solid.h"
 #include "look/world.h"
 
-/* Places of a mesh that are looked for, and how many of them prove that it is gone. */
-enum { PLACES = 6, PROOF = 2 };
+/* Places of a mesh in view that rays go to, and how many of them prove that it is gone. */
+enum { PLACES = 256, PROOF = 2 };
 /* A place lies in view if it is so far within the window's borders. */
 #define WITHIN 0.98f
 /* The same mesh stands there, by this share of how far off it is. */
@@ -100,26 +100,38 @@ static int is_in_view(const struct scene_view *view, const float at[3])
 	       fabsf(clip[2]) < clip[3];
 }
 
+/* 1 where a primitive lies in view and turns the side to the viewer that it showed when it was drawn. */
+static int is_to_be_seen(const struct scene_view *view, const struct scene_mesh *mesh, const float then[16],
+                         const float now[16], uint32_t primitive, float middle[3])
+{
+	float normal[3], before[3], turned[3];
+
+	find_middle(mesh, then, primitive, before, turned);
+	find_middle(mesh, now, primitive, middle, normal);
+	return facing(middle, normal) * facing(before, turned) > 0 && is_in_view(view, middle);
+}
+
 /*
- * 1 where a mesh is gone: it turns the side to the viewer that it showed when it was drawn, lies in view, and nothing
- * that the frame drew hides it. then, now: its modelviews
+ * 1 where a mesh is gone, or is another one now: places of it would be seen, and nothing that the frame drew hides
+ * them. A ground that is cut otherwise in each frame lies half above and half below itself. then, now: its modelviews
  */
 static int is_gone(const struct adding *a, const struct scene_mesh *mesh, const float then[16], const float now[16])
 {
 	const struct scene_view *view = &a->scene->views[a->main_view];
-	const uint32_t stride = mesh->primitive_count / PLACES + 1;
-	unsigned open = 0, all = 0;
+	uint32_t n = 0, next = 0, stride;
+	unsigned open = 0;
+	float middle[3];
 
-	for (uint32_t p = 0; p < mesh->primitive_count; p += stride, all++) {
+	for (uint32_t p = 0; p < mesh->primitive_count; p++)
+		n += (uint32_t)is_to_be_seen(view, mesh, then, now, p, middle);
+	stride = n / PLACES + 1;
+	for (uint32_t p = 0; p < mesh->primitive_count && n; p++) {
 		struct blocker_hit hits[BLOCKERS_MOST];
-		float middle[3], normal[3], before[3], turned[3];
 
-		find_middle(mesh, then, p, before, turned);
-		find_middle(mesh, now, p, middle, normal);
-		open += facing(middle, normal) * facing(before, turned) > 0 && is_in_view(view, middle) &&
-		        !blockers_on(a->blockers, view->space, (const float[3]){ 0, 0, 0 }, middle, 0.995f, hits);
+		if (is_to_be_seen(view, mesh, then, now, p, middle) && next++ % stride == 0)
+			open += !blockers_on(a->blockers, view->space, (const float[3]){ 0, 0, 0 }, middle, 0.995f, hits);
 	}
-	return open >= (all < PROOF ? all : PROOF) && 2 * open > all;
+	return open >= (mesh->primitive_count < PROOF ? mesh->primitive_count : PROOF);
 }
 
 /* --- A scene that grows ------------------------------------------------------------------------------------------ */

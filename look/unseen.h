@@ -10,7 +10,7 @@ struct look;
 
 /**
  * The scene with what it leaves out, for all rays but the camera's. A mesh stays out where the frame itself proves that
- * it is gone: most of it would lie in view with nothing before it.
+ * it is gone, or is another one now: some of it would lie in view with nothing before it.
  * @param look  its rules' scenes are there (look.unseen)
  * @param out   a copy that borrows what has not changed; unseen_release before the scene is. Where nothing is added, or
  *              nobody knows where the frame's world is, instances is NULL

@@ -58,4 +58,18 @@ parts = set(re.findall(r"\n    part: (\d+)", found.read_text()))
 check("unseen:" not in found.read_text(),
       f"a stair that gives place to another is not out of sight: {found.read_text()}")
 check(len(parts) == 3, f"each has a part of the recording: {parts}")
+
+ground = SCRATCH / "ground.trace"
+record(ground, BUILD / "tests/real/recut", options=())
+must(relume("look", ground, "-o", found))
+plain = re.sub(r"\nunseen:\n(?:  .*\n)+", "\n", found.read_text())
+check(plain != found.read_text(), f"the ground of the first frames is out of sight later: {found.read_text()}")
+none.write_text(plain)
+for frame in 8, 15:
+    with_it, alone = (Image(
+        render(ground, SCRATCH / f"ground-{rules.stem}", "-f", frame, "--look", rules, "--aov", "gl")[0],
+        ["R", "G", "B"]).planes for rules in (found, none))
+    check(
+        equal_share(with_it, alone) > 0.99,
+        f"no shadow of a ground that is cut otherwise now, in frame {frame}: {equal_share(with_it, alone)}")
 finish()
