@@ -53,6 +53,8 @@ class Generator:
             return self.apart(names, folder, f"render: exit code {done.returncode}: {done.stdout[-300:]}")
         self.run(self.relume, "diff", trace, folder / "x.####.exr", "--json", folder / "score.json")
         frames = json.loads((folder / "score.json").read_text())["frames"]
+        if len(frames) != len(names):
+            return self.apart(names, folder, f"diff: {len(frames)} frames")
         return {name: failures(frame) for name, frame in zip(names, frames)}
 
     def apart(self, names, folder, text):
