@@ -21,13 +21,15 @@ static void settle(const struct scene *s, const struct scene_unit *unit, float c
 {
 	const struct scene_texture *image = s->textures[unit->texture];
 	const uint32_t sizes[3] = { image->width, image->height, image->depth };
+	float inverse;
 
 	if (unit->mag_filter != GL_NEAREST || unit->min_lod > 0 || image->border || c[3] == 0 ||
 	    image->target == GL_TEXTURE_CUBE_MAP || memcmp(unit->matrix, mat4_identity, sizeof(unit->matrix)) != 0 ||
 	    unit->gen_mode[0] || unit->gen_mode[1] || unit->gen_mode[2] || unit->gen_mode[3])
 		return;
+	inverse = 1 / c[3]; /* as llvmpipe divides: the quotient may lie on the other side of an edge */
 	for (unsigned i = 0; i < 3; i++) {
-		const float size = image->target == GL_TEXTURE_RECTANGLE ? 1 : (float)sizes[i], at = c[i] / c[3] * size;
+		const float size = image->target == GL_TEXTURE_RECTANGLE ? 1 : (float)sizes[i], at = c[i] * inverse * size;
 
 		if (fabsf(at) < MOST_TEXELS)
 			c[i] = (floorf(at) + 0.5f) / size * c[3];
