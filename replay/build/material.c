@@ -114,12 +114,13 @@ static int enabled_target(struct gls_exec *x, struct gls_state *st, const struct
 {
 	static const unsigned order[] = { GLS_TEXTURE_CUBE, GLS_TEXTURE_3D, GLS_TEXTURE_RECTANGLE, GLS_TEXTURE_2D,
 	                                  GLS_TEXTURE_1D };
+	const int is_alone = !(unit->enabled & (unit->enabled - 1)) || !gls_is_mesa(st);
 	int first = -1;
 
 	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++) {
 		if (!(unit->enabled >> order[i] & 1))
 			continue;
-		if (is_complete(x, st, unit->value.unit, order[i]) || !gls_attributes_wait(st))
+		if (is_alone || is_complete(x, st, unit->value.unit, order[i]))
 			return (int)order[i];
 		first = first < 0 ? (int)order[i] : first;
 	}
@@ -248,7 +249,7 @@ static const float *coordinate_matrix(const struct gls_state *st, const struct g
 	if (e->in_window)
 		return mat4_identity;
 	if (e->attribs->point.sprite && e->attribs->texturing.units[u].value.coord_replace && !vertices &&
-	    !(st->mesa & SCENE_MESA_IS_OTHER))
+	    gls_is_mesa(st))
 		return no_coordinates;
 	return st->texture[u].matrices[st->texture[u].depth];
 }
@@ -497,7 +498,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.fog_start = a->fog.start;
 	m.fog_end = a->fog.end;
 	gls_color_of(m.fog_color, a->fog.color, unclamped & 1);
-	fill_raster_state(a, gls_attributes_wait(st), &m);
+	fill_raster_state(a, gls_is_mesa(st), &m);
 	m.polygon_stipple = fill_stipple(x, f, a);
 	fill_fragment_state(a, target, &m);
 	fill_multisample(&a->multisample, target->surface, &m);

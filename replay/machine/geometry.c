@@ -147,7 +147,10 @@ static void put_line(const struct cutter *c, uint32_t i, uint32_t j, unsigned ed
 	g->primitive_draw[g->n_primitives++] = g->n_draws;
 }
 
-/* edges: bit n is set if the edge from vertex n to the next belongs to the primitive; SCENE_CONTINUES */
+/*
+ * edges: bit n is set if the edge from vertex n to the next belongs to the primitive; SCENE_CONTINUES. In strips and
+ * fans all are boundaries (sec. 2.6.2), but Mesa asks the vertices' edge flags there, too.
+ */
 static void put_triangle(const struct cutter *c, uint32_t i, uint32_t j, uint32_t k, unsigned edges)
 {
 	struct gls_geometry *g = c->g;
@@ -156,32 +159,10 @@ static void put_triangle(const struct cutter *c, uint32_t i, uint32_t j, uint32_
 	index[0] = vertex_of(c, i);
 	index[1] = vertex_of(c, j);
 	index[2] = vertex_of(c, k);
+	edges &= g->edge[index[0]] | g->edge[index[1]] << 1 | g->edge[index[2]] << 2 | ~7u;
 	g->edge_flags[g->n_primitives] = (uint8_t)edges;
 	g->edges_told |= edges != 7;
 	g->primitive_draw[g->n_primitives++] = g->n_draws;
-}
-
-/* Edge flags of vertices, on those that the primitive has. */
-static unsigned flags(const struct cutter *c, uint32_t i, uint32_t j, uint32_t k, unsigned edges)
-{
-	const uint8_t *edge = c->g->edge;
-
-	return edges & (edge[vertex_of(c, i)] | edge[vertex_of(c, j)] << 1 | edge[vertex_of(c, k)] << 2);
-}
-
-/* A triangle of a strip or fan. All its edges are boundaries (sec. 2.6.2), but Mesa asks the vertices' flags, too. */
-static void put_of_strip(const struct cutter *c, uint32_t i, uint32_t j, uint32_t k, unsigned edges)
-{
-	put_triangle(c, i, j, k, flags(c, i, j, k, edges & 7) | (edges & ~7u));
-}
-
-/* The triangle with its provoking vertex last: i, or k as it is. */
-static void put_provoked(const struct cutter *c, uint32_t i, uint32_t j, uint32_t k, unsigned edges, int first_provokes)
-{
-	if (first_provokes)
-		put_triangle(c, j, k, i, (edges >> 1 | edges << 2) & 7);
-	else
-		put_triangle(c, i, j, k, edges);
 }
 
 int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count,
@@ -208,36 +189,36 @@ int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, 
 		if (mode == GL_LINE_LOOP && count > 1)
 			put_line(&c, count - 1, 0, SCENE_CONTINUES);
 		break;
-	case GL_TRIANGLES:
+	case GL_TRIANGLES: /* the provoking vertex is the last one */
 		for (i = 0; i + 2 < count; i += 3)
-			put_provoked(&c, i, i + 1, i + 2, flags(&c, i, i + 1, i + 2, 7), first_provokes);
+			put_triangle(&c, first_provokes ? i + 1 : i, first_provokes ? i + 2 : i + 1, first_provokes ? i : i + 2, 7);
 		break;
 	case GL_TRIANGLE_STRIP:
 		for (i = 2; i < count && first_provokes; i++)
-			put_of_strip(&c, i + (i & 1) - 1, i - (i & 1), i - 2, 7);
+			put_triangle(&c, i + (i & 1) - 1, i - (i & 1), i - 2, 7);
 		for (i = 2; i < count && !first_provokes; i++)
-			put_of_strip(&c, i + (i & 1) - 2, i - (i & 1) - 1, i, 7);
+			put_triangle(&c, i + (i & 1) - 2, i - (i & 1) - 1, i, 7);
 		break;
 	case GL_TRIANGLE_FAN:
 		for (i = 2; i < count; i++)
-			put_of_strip(&c, first_provokes ? i : 0, first_provokes ? 0 : i - 1, first_provokes ? i - 1 : i, 7);
+			put_triangle(&c, first_provokes ? i : 0, first_provokes ? 0 : i - 1, first_provokes ? i - 1 : i, 7);
 		break;
 	case GL_QUADS: /* llvmpipe has quads follow the last vertex in any case */
 		for (i = 0; i + 3 < count; i += 4) {
-			put_triangle(&c, i, i + 1, i + 3, flags(&c, i, i + 1, i + 3, 1 | 4));
-			put_triangle(&c, i + 1, i + 2, i + 3, flags(&c, i + 1, i + 2, i + 3, 1 | 2) | SCENE_CONTINUES);
+			put_triangle(&c, i, i + 1, i + 3, 1 | 4);
+			put_triangle(&c, i + 1, i + 2, i + 3, 1 | 2 | SCENE_CONTINUES);
 		}
 		break;
 	case GL_QUAD_STRIP:
 		for (i = 3; i < count; i += 2) {
-			put_of_strip(&c, i - 3, i - 2, i, 1 | 2 | SCENE_CONTINUES);
-			put_of_strip(&c, i - 1, i - 3, i, 1 | 4 | SCENE_EARLIER);
+			put_triangle(&c, i - 3, i - 2, i, 1 | 2 | SCENE_CONTINUES);
+			put_triangle(&c, i - 1, i - 3, i, 1 | 4 | SCENE_EARLIER);
 		}
 		break;
 	case GL_POLYGON: /* its first vertex is the provoking one, so each triangle ends with it */
 		for (i = 2; i < count; i++) {
 			unsigned edges = 1u | (i == count - 1 ? 2u : 0) | (i == 2 ? 4u : 0);
-			put_triangle(&c, i - 1, i, 0, flags(&c, i - 1, i, 0, edges) | (i > 2 ? SCENE_CONTINUES : 0));
+			put_triangle(&c, i - 1, i, 0, edges | (i > 2 ? SCENE_CONTINUES : 0));
 		}
 		break;
 	}
@@ -286,22 +267,6 @@ void gls_geometry_turn_quads(struct gls_geometry *g)
 	}
 }
 
-/* 1 if a clip plane leaves the vertex out. */
-static int is_cut_off(const struct gls_attribs *a, const float *modelview, const float *position)
-{
-	float eye[4];
-
-	mat4_transform(eye, modelview, position);
-	for (unsigned i = 0; i < GLS_MAX_CLIP_PLANES; i++) {
-		const float *plane = a->transform.clip_plane_eye[i];
-
-		if (a->transform.clip_plane_mask >> i & 1 &&
-		    plane[0] * eye[0] + plane[1] * eye[1] + plane[2] * eye[2] + plane[3] * eye[3] < 0)
-			return 1;
-	}
-	return 0;
-}
-
 int gls_quads_turn(const struct gls_state *st, int is_flat, const float *position, const uint32_t *index,
                    uint32_t n_primitives)
 {
@@ -318,12 +283,15 @@ int gls_quads_turn(const struct gls_state *st, int is_flat, const float *positio
 	gls_sums(st)->mul(mvp, st->projection.matrices[st->projection.depth], modelview);
 	for (uint32_t i = 0; i < 2 * n_primitives; i++) {
 		const float *corner = position + 4 * (size_t)index[6 * (size_t)(i / 4) + corners[i % 4]];
-		float c[4];
+		float c[4], eye[4];
 
 		mat4_transform(c, mvp, corner);
 		if (!(fabsf(c[0]) <= c[3] && fabsf(c[1]) <= c[3] && fabsf(c[2]) <= c[3]))
 			return 0;
-		if (a->transform.clip_plane_mask && is_cut_off(a, modelview, corner))
+		if (!a->transform.clip_plane_mask)
+			continue;
+		mat4_transform(eye, modelview, corner);
+		if (gls_is_beyond_clip_planes(a, eye))
 			return 0;
 	}
 	return 1;

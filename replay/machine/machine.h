@@ -110,7 +110,6 @@ struct gls_exec {
 	uint32_t command;             /* its index */
 	const struct gls_pixel_store *unpack; /* how its pixels lie in client memory; NULL: as the state says */
 	uint32_t drawn_list;          /* the outermost list being called; 0: none */
-	uint32_t is_of_list;          /* 1: calls are those of a list that the program made */
 	unsigned list_depth;
 	uint64_t repeated, repeated_frame; /* work that calls multiplied in that frame (gls_is_beyond_measure) */
 	uint64_t swapped;             /* drawable of the swap that ended the frame */

@@ -58,13 +58,25 @@ void gls_set_face_colors(struct scene_face *face, unsigned colors, const float v
 		memcpy(face->emission, value, sizeof(face->emission));
 }
 
+int gls_is_beyond_clip_planes(const struct gls_attribs *a, const float eye[4])
+{
+	for (unsigned i = 0; i < GLS_MAX_CLIP_PLANES; i++) {
+		const float *p = a->transform.clip_plane_eye[i];
+
+		if (a->transform.clip_plane_mask >> i & 1 &&
+		    p[0] * eye[0] + p[1] * eye[1] + p[2] * eye[2] + p[3] * eye[3] < 0)
+			return 1;
+	}
+	return 0;
+}
+
 int gls_draws_by_stages(const struct gls_attribs *a)
 {
 	return a->polygon.mode[0] != GL_FILL || a->polygon.mode[1] != GL_FILL || a->point.smooth || a->line.smooth ||
 	       (a->line.stipple && a->line.stipple_pattern != 0xffff);
 }
 
-int gls_attributes_wait(const struct gls_state *st)
+int gls_is_mesa(const struct gls_state *st)
 {
 	return !(st->mesa & SCENE_MESA_IS_OTHER);
 }

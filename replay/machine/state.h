@@ -378,10 +378,12 @@ struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
 int gls_is_face(uint32_t token);
 /** 1 for NEVER to ALWAYS. */
 int gls_is_compare_func(uint32_t token);
+/** 1 if an enabled clip plane leaves out a place in eye space. */
+int gls_is_beyond_clip_planes(const struct gls_attribs *a, const float eye[4]);
 /** 1 if llvmpipe leaves offsets and two sides to its pipeline of stages, and not to its setup of triangles. */
 int gls_draws_by_stages(const struct gls_attribs *a);
-/** 1 for Mesa, whose attributes wait between draws (gl/geometry/waiting.h). */
-int gls_attributes_wait(const struct gls_state *st);
+/** 1 if Mesa drew what was recorded, and where nothing is said (scene/mesa.h): its habits are followed. */
+int gls_is_mesa(const struct gls_state *st);
 enum { GLS_AMBIENT = 1, GLS_DIFFUSE = 2, GLS_SPECULAR = 4, GLS_EMISSION = 8 };
 /** Colours of a face that a material parameter names. @return 0: none */
 unsigned gls_face_colors(uint32_t parameter);

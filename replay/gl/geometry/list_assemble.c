@@ -262,7 +262,7 @@ static struct gls_exec *find_assembler(struct gls_exec *x)
 	a->machine.path = x->path;
 	a->machine.want = 1;
 	a->machine.call = x->call;
-	a->machine.is_of_list = !(x->call->flags & CALL_FAKE);
+	a->machine.drawn_list = x->st->list_name;
 	a->machine.counts = x->counts; /* borrowed: what its calls meet counts as the program's */
 	a->machine.dispatch = x->dispatch;
 	a->machine.pending.mixes = 1;

@@ -144,10 +144,8 @@ static void call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 	if (n == 0 || (x->list_depth > 0 && gls_is_beyond_measure(x, n, "lists that call lists without end")))
 		return;
 	c = gls_list_call(x);
-	if (x->list_depth++ == 0) {
+	if (x->list_depth++ == 0)
 		x->drawn_list = name;
-		x->is_of_list = name < CALL_RUN_LAST || name > CALL_RUN_FIRST;
-	}
 	for (const struct gls_op *op = ops; op < ops + n && !x->failed; op++) {
 		if (op->form == GLS_OP_MESH) {
 			run_mesh(x, st, op->mesh);
@@ -163,7 +161,7 @@ static void call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 		x->command = command; /* draws are those of the command that called the list */
 	}
 	if (--x->list_depth == 0)
-		x->drawn_list = x->is_of_list = 0;
+		x->drawn_list = 0;
 }
 
 /* What waits is the same after a list whether its draws are run or left out (effect.h). */

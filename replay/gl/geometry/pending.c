@@ -51,7 +51,7 @@ void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attrib
 	memcpy(current, value, 16);
 	x->pending.geometry.touched |= 1u << attribute;
 	gls_waiting_touch(st, is_color, recolors);
-	if (is_color && st->a.lighting.color_material && !gls_attributes_wait(st))
+	if (is_color && st->a.lighting.color_material && !gls_is_mesa(st))
 		gls_color_changed(st);
 }
 

@@ -80,14 +80,7 @@ static int is_clipped(const struct gls_state *st, const float eye[4], const floa
 	for (unsigned i = 0; i < 3; i++)
 		if (!(clip[i] <= clip[3] && clip[i] >= -clip[3]))
 			return 1;
-	for (unsigned i = 0; i < GLS_MAX_CLIP_PLANES; i++) {
-		const float *p = st->a.transform.clip_plane_eye[i];
-
-		if (st->a.transform.clip_plane_mask >> i & 1 &&
-		    p[0] * eye[0] + p[1] * eye[1] + p[2] * eye[2] + p[3] * eye[3] < 0)
-			return 1;
-	}
-	return clip[3] == 0;
+	return gls_is_beyond_clip_planes(&st->a, eye) || clip[3] == 0;
 }
 
 static void raster_pos(struct gls_state *st, const float obj[4])

@@ -76,10 +76,16 @@ read_components(const struct gls_exec *x, const struct call *c, unsigned first, 
 		out[i] = normalize(out[i], items ? gls_value_double(&items[i]) : arg_d(c, first + i), suffix.type);
 }
 
+/* 1 if a list that the program made is called or assembled, and not a run that the recorder made one. */
+static int is_of_list(const struct gls_exec *x)
+{
+	return x->drawn_list && (x->drawn_list < CALL_RUN_LAST || x->drawn_list > CALL_RUN_FIRST);
+}
+
 /* Set an attribute by a command; those of lists are stored otherwise. */
 static void set_components(struct gls_exec *x, struct gls_state *st, unsigned a, float value[4])
 {
-	if (!x->is_of_list && gls_attributes_wait(st))
+	if (!is_of_list(x) && gls_is_mesa(st))
 		gls_waiting_components(st, a, gls_commands[x->command].suffix.n, value);
 	gls_set_attribute(x, st, a, value);
 }

@@ -63,7 +63,7 @@ void gls_waiting_take(struct gls_state *st, int empties)
 	struct gls_waiting *w = &st->waiting;
 	const struct gls_lighting *l = &st->a.lighting;
 
-	if (!gls_attributes_wait(st))
+	if (!gls_is_mesa(st))
 		return;
 	if (!w->touched && !empties)
 		return;

@@ -285,7 +285,7 @@ GLS_HANDLER(glPopAttrib, STATE, SELECT)
 	if (!st->a.lighting.color_material)
 		return;
 	/* Mesa's materials do not follow a colour that comes back: they do when COLOR_MATERIAL alone comes back. */
-	if (!gls_attributes_wait(st) || (!tracked && !(mask & GL_LIGHTING_BIT)))
+	if (!gls_is_mesa(st) || (!tracked && !(mask & GL_LIGHTING_BIT)))
 		gls_color_changed(st);
 	else
 		st->waiting.covers = 1;

@@ -100,7 +100,7 @@ GLS_HANDLER(glPolygonOffset, STATE)
 /* The bias is in units of depth, not of its resolution. Mesa's libGL has the name, and nothing behind it. */
 GLS_HANDLER(glPolygonOffsetEXT, STATE)
 {
-	if (!(st->mesa & SCENE_MESA_IS_OTHER))
+	if (gls_is_mesa(st))
 		return;
 	st->a.polygon.offset_factor = arg_f(c, 0);
 	st->a.polygon.offset_units = arg_f(c, 1) * 16777215.0f;

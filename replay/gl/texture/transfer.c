@@ -17,7 +17,7 @@ static uint32_t entry_of(const struct gls_pixel_map *m, float v, int as_texture)
 void gls_transfer_color(const struct gls_state *st, int is_drawn, float rgba[4])
 {
 	const struct gls_pixel *p = &st->a.pixel;
-	const int as_texture = is_drawn && gls_attributes_wait(st);
+	const int as_texture = is_drawn && gls_is_mesa(st);
 
 	for (unsigned i = 0; i < 4; i++) {
 		const struct gls_pixel_map *m = &st->pixel_maps[GL_PIXEL_MAP_R_TO_R - GL_PIXEL_MAP_I_TO_I + i];
