@@ -30,6 +30,8 @@ struct adding {
 	size_t room_instances, room_materials, room_units, room_lights, room_currents, room_meshes, room_textures;
 	struct blockers *blockers; /* of the scene */
 	uint32_t main_view;        /* through which the viewer looks at the world */
+	float (*places)[3];        /* in view, where rays go */
+	size_t room_places;
 };
 
 /* --- What may be added ------------------------------------------------------------------------------------------- */
@@ -114,24 +116,25 @@ static int is_to_be_seen(const struct scene_view *view, const struct scene_mesh 
 /*
  * 1 where a mesh is gone, or is another one now: places of it would be seen, and nothing that the frame drew hides
  * them. A ground that is cut otherwise in each frame lies half above and half below itself. then, now: its modelviews
+ * @return ERR_SYSTEM: out of memory
  */
-static int is_gone(const struct adding *a, const struct scene_mesh *mesh, const float then[16], const float now[16])
+static int is_gone(struct adding *a, const struct scene_mesh *mesh, const float then[16], const float now[16])
 {
 	const struct scene_view *view = &a->scene->views[a->main_view];
-	uint32_t n = 0, next = 0, stride;
+	const unsigned proof = mesh->primitive_count < PROOF ? mesh->primitive_count : PROOF;
+	size_t n = 0;
 	unsigned open = 0;
-	float middle[3];
 
+	if (MEMORY_GROW(a->places, a->room_places, mesh->primitive_count))
+		return ERR_SYSTEM;
 	for (uint32_t p = 0; p < mesh->primitive_count; p++)
-		n += (uint32_t)is_to_be_seen(view, mesh, then, now, p, middle);
-	stride = n / PLACES + 1;
-	for (uint32_t p = 0; p < mesh->primitive_count && n; p++) {
+		n += (size_t)is_to_be_seen(view, mesh, then, now, p, a->places[n]);
+	for (size_t i = 0; i < n && open < proof; i += n / PLACES + 1) {
 		struct blocker_hit hits[BLOCKERS_MOST];
 
-		if (is_to_be_seen(view, mesh, then, now, p, middle) && next++ % stride == 0)
-			open += !blockers_on(a->blockers, view->space, (const float[3]){ 0, 0, 0 }, middle, 0.995f, hits);
+		open += !blockers_on(a->blockers, view->space, (const float[3]){ 0, 0, 0 }, a->places[i], 0.995f, hits);
 	}
-	return open >= (mesh->primitive_count < PROOF ? mesh->primitive_count : PROOF);
+	return open >= proof;
 }
 
 /* --- A scene that grows ------------------------------------------------------------------------------------------ */
@@ -198,8 +201,11 @@ static int add_instance(struct adding *a, const struct scene *from, const struct
 	int err;
 
 	mat4_mul(added.modelview, now_from_then, in->modelview);
-	if (is_drawn(a->scene, mesh, added.modelview) || is_gone(a, mesh, in->modelview, added.modelview))
+	if (is_drawn(a->scene, mesh, added.modelview))
 		return 0;
+	err = is_gone(a, mesh, in->modelview, added.modelview);
+	if (err)
+		return err < 0 ? err : 0;
 	added.mesh = a->out->n_meshes;
 	added.material = a->out->n_materials;
 	added.view = hidden;
@@ -298,6 +304,7 @@ int unseen_add(const struct look *look, const struct scene *scene, struct scene 
 	for (uint32_t k = 0; k < look->rules->unseen_count && !err; k++)
 		err = add_frame(&a, k, eye_from_world, part);
 	blockers_destroy(&a.blockers);
+	free(a.places);
 	if (err || out->n_instances == scene->n_instances)
 		unseen_release(out);
 	return err ? err_report(ERR_SYSTEM, NULL, "out of memory") : 0;
