@@ -1,5 +1,3 @@
-#include <string.h>
-
 #include "tests/generated/generated.h"
 
 void step_draw(struct chance *chance, struct program *program)
@@ -18,8 +16,8 @@ void step_draw(struct chance *chance, struct program *program)
  * calls itself. */
 void step_list(struct chance *chance, struct program *program)
 {
-	unsigned slot = chance_below(chance, sizeof(program->lists) / sizeof(program->lists[0]));
-	GLuint inner = program->lists[(slot + 1) % 4];
+	unsigned slot = chance_below(chance, MOST_LISTS);
+	GLuint inner = program->lists[(slot + 1) % MOST_LISTS];
 	GLfloat color[4];
 
 	program->lists[slot] = glGenLists(1);
@@ -46,14 +44,14 @@ void step_list(struct chance *chance, struct program *program)
 
 void step_call_lists(struct chance *chance, struct program *program)
 {
-	GLubyte offsets[4];
+	GLubyte offsets[MOST_LISTS];
 	GLuint base = 0;
 	GLsizei n = 0;
 
-	for (int i = 0; i < 4; i++)
+	for (int i = 0; i < MOST_LISTS; i++)
 		if (program->lists[i] && (!base || program->lists[i] < base))
 			base = program->lists[i];
-	for (int i = 0; i < 4; i++)
+	for (int i = 0; i < MOST_LISTS; i++)
 		if (program->lists[i] && program->lists[i] - base < 256)
 			offsets[n++] = (GLubyte)(program->lists[i] - base);
 	glPushMatrix();

@@ -13,7 +13,7 @@
 	((const GLenum[]){  \
 		__VA_ARGS__ }[chance_below(chance, sizeof((const GLenum[]){ __VA_ARGS__ }) / sizeof(GLenum))])
 
-enum { MOST_UNITS = 3, MOST_TEXTURES = 6, MOST_VERTICES = 512, MOST_INDICES = 2048 };
+enum { MOST_UNITS = 3, MOST_TEXTURES = 6, MOST_LISTS = 4, MOST_VERTICES = 512, MOST_INDICES = 2048 };
 
 /* A sequence of random numbers (splitmix64). */
 struct chance {
@@ -27,7 +27,7 @@ struct program {
 	GLuint textures[MOST_TEXTURES];
 	GLenum targets[MOST_TEXTURES]; /* their targets; 0: no texture */
 	unsigned pushed_matrices, pushed_attributes;
-	GLuint lists[4]; /* each draws something; 0: none */
+	GLuint lists[MOST_LISTS]; /* each draws something; 0: none */
 };
 
 struct vertex {
@@ -87,6 +87,8 @@ step step_draw_pixels, step_bitmap, step_copy_pixels, step_accumulate;
 /* target.c */
 step step_framebuffer;
 
+/* texture.c: a new texture in a slot, in place of an old one, bound to its target. */
+void renew_texture(struct program *program, unsigned slot, GLenum target);
 /* texture.c: no unit textures any more; unit 0 is the active one. */
 void disable_textures(void);
 

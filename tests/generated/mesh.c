@@ -29,6 +29,20 @@ static void add_index(struct mesh *mesh, unsigned index)
 		mesh->indices[mesh->n_indices++] = index;
 }
 
+/* Quads, or two triangles each, between the vertices of rows + 1 rows of columns + 1. */
+static void add_grid(struct mesh *mesh, unsigned columns, unsigned rows, int quads)
+{
+	mesh->primitive = quads ? GL_QUADS : GL_TRIANGLES;
+	for (unsigned j = 0; j < rows; j++)
+		for (unsigned i = 0; i < columns; i++) {
+			unsigned a = j * (columns + 1) + i, b = a + 1, c = b + columns + 1, d = c - 1;
+			unsigned two[6] = { a, b, c, a, c, d }, one[4] = { a, b, c, d };
+
+			for (int k = 0; k < (quads ? 4 : 6); k++)
+				add_index(mesh, quads ? one[k] : two[k]);
+		}
+}
+
 /* A sheet of columns by rows in the plane z = 0, bent by height. */
 static void make_sheet(struct chance *chance, struct mesh *mesh)
 {
@@ -47,15 +61,7 @@ static void make_sheet(struct chance *chance, struct mesh *mesh)
 			vertex->texture[1] = y * 0.5f + 0.5f;
 			vertex->texture[2] = bend;
 		}
-	mesh->primitive = quads ? GL_QUADS : GL_TRIANGLES;
-	for (unsigned j = 0; j < rows; j++)
-		for (unsigned i = 0; i < columns; i++) {
-			unsigned a = j * (columns + 1) + i, b = a + 1, c = b + columns + 1, d = c - 1;
-			unsigned two[6] = { a, b, c, a, c, d }, one[4] = { a, b, c, d };
-
-			for (int k = 0; k < (quads ? 4 : 6); k++)
-				add_index(mesh, quads ? one[k] : two[k]);
-		}
+	add_grid(mesh, columns, rows, quads);
 }
 
 /* Strips: a ribbon around the y axis. */
@@ -105,7 +111,6 @@ static void make_ball(struct chance *chance, struct mesh *mesh)
 {
 	unsigned columns = 3 + chance_below(chance, 12), rows = 2 + chance_below(chance, 10);
 
-	mesh->primitive = GL_TRIANGLES;
 	for (unsigned j = 0; j <= rows; j++)
 		for (unsigned i = 0; i <= columns; i++) {
 			float around = 6.2831853f * (float)i / (float)columns,
@@ -116,14 +121,7 @@ static void make_ball(struct chance *chance, struct mesh *mesh)
 			vertex->texture[0] = (float)i / (float)columns * 2;
 			vertex->texture[1] = (float)j / (float)rows;
 		}
-	for (unsigned j = 0; j < rows; j++)
-		for (unsigned i = 0; i < columns; i++) {
-			unsigned a = j * (columns + 1) + i, b = a + 1, c = b + columns + 1, d = c - 1;
-			unsigned two[6] = { a, b, c, a, c, d };
-
-			for (int k = 0; k < 6; k++)
-				add_index(mesh, two[k]);
-		}
+	add_grid(mesh, columns, rows, 0);
 }
 
 static void make_box(struct chance *chance, struct mesh *mesh)

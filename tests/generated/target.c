@@ -1,4 +1,4 @@
-#include <stdio.h>
+#include <stddef.h>
 
 #include "tests/generated/generated.h"
 
@@ -10,11 +10,7 @@ void step_framebuffer(struct chance *chance, struct program *program)
 	GLint viewport[4];
 	GLuint framebuffer, renderbuffer = 0;
 
-	if (program->textures[slot])
-		glDeleteTextures(1, &program->textures[slot]);
-	glGenTextures(1, &program->textures[slot]);
-	program->targets[slot] = GL_TEXTURE_2D;
-	glBindTexture(GL_TEXTURE_2D, program->textures[slot]);
+	renew_texture(program, slot, GL_TEXTURE_2D);
 	glTexImage2D(GL_TEXTURE_2D, 0, (GLint)ONE_OF(chance, GL_RGBA8, GL_RGB8), size, size, 0, GL_RGBA,
 	             GL_UNSIGNED_BYTE, NULL);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, (GLint)ONE_OF(chance, GL_NEAREST, GL_LINEAR));

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Programs made at random (tests/generated/program.c) are recorded and drawn as Mesa draws them: a few of those of `make
-show-generated`, and each kind of step.
+"""Programs made at random (tests/generated/program.c) are recorded and drawn as Mesa draws them: a few of those of
+`make show-generated`, and each kind of step.
 
 limit: 300 s
 """

@@ -140,6 +140,15 @@ static void make_texture(struct chance *chance, GLenum target)
 		glTexParameterf(target, GL_TEXTURE_MIN_LOD, chance_between(chance, 0, 2));
 }
 
+void renew_texture(struct program *program, unsigned slot, GLenum target)
+{
+	if (program->textures[slot])
+		glDeleteTextures(1, &program->textures[slot]);
+	glGenTextures(1, &program->textures[slot]);
+	program->targets[slot] = target;
+	glBindTexture(target, program->textures[slot]);
+}
+
 void disable_textures(void)
 {
 	for (unsigned unit = 0; unit < MOST_UNITS; unit++) {
@@ -165,11 +174,7 @@ void step_texture(struct chance *chance, struct program *program)
 		return;
 	}
 	if (!program->targets[slot] || chance_of(chance, 2)) {
-		if (program->textures[slot])
-			glDeleteTextures(1, &program->textures[slot]);
-		glGenTextures(1, &program->textures[slot]);
-		program->targets[slot] = target;
-		glBindTexture(target, program->textures[slot]);
+		renew_texture(program, slot, target);
 		make_texture(chance, target);
 	} else {
 		target = program->targets[slot];
@@ -301,11 +306,7 @@ void step_texture_copy(struct chance *chance, struct program *program)
 	int width = 1 << (3 + chance_below(chance, 4)), height = 1 << (3 + chance_below(chance, 4));
 	int x = (int)chance_below(chance, 20), y = (int)chance_below(chance, 20);
 
-	if (program->textures[slot])
-		glDeleteTextures(1, &program->textures[slot]);
-	glGenTextures(1, &program->textures[slot]);
-	program->targets[slot] = GL_TEXTURE_2D;
-	glBindTexture(GL_TEXTURE_2D, program->textures[slot]);
+	renew_texture(program, slot, GL_TEXTURE_2D);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
 	while (width + x > program->target_width)
 		width /= 2;

@@ -140,12 +140,7 @@ int main(int argc, char **argv)
 {
 	const int fps = argc > 1 ? atoi(argv[1]) : 15, numbered = 60 / fps;
 
-	window_size[0] = 320;
-	window_size[1] = 240;
-	open_window();
-	glEnable(GL_DEPTH_TEST);
-	glEnable(GL_LIGHTING);
-	glEnable(GL_LIGHT0);
+	open_lit_window(320, 240);
 	glEnable(GL_LIGHT1);
 	glEnable(GL_NORMALIZE);
 	glLightfv(GL_LIGHT1, GL_DIFFUSE, (const float[]){ 0.5f, 0.5f, 0.1f, 1 });

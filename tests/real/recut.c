@@ -60,12 +60,7 @@ static void post(int number)
 
 int main(void)
 {
-	window_size[0] = 160;
-	window_size[1] = 120;
-	open_window();
-	glEnable(GL_DEPTH_TEST);
-	glEnable(GL_LIGHTING);
-	glEnable(GL_LIGHT0);
+	open_lit_window(160, 120);
 	glEnable(GL_NORMALIZE);
 	for (int frame = 0; frame < FRAMES; frame++) {
 		const int moved = frame < STANDING ? 0 : frame - STANDING + 1;

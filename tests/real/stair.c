@@ -50,12 +50,7 @@ static void steps(int count, float up)
 
 int main(void)
 {
-	window_size[0] = 160;
-	window_size[1] = 120;
-	open_window();
-	glEnable(GL_DEPTH_TEST);
-	glEnable(GL_LIGHTING);
-	glEnable(GL_LIGHT0);
+	open_lit_window(160, 120);
 	for (int frame = 0; frame < FRAMES; frame++) {
 		const int phase = frame / 4;
 

@@ -8,14 +8,13 @@ Recordings lie in BUILD/show/generated, failures with their steps in failures.tx
 `make show-generated ONLY="17 23"`: these programs.
 """
 import argparse
-import json
 import pathlib
 import shutil
-import subprocess
 import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from scoring import Scorer  # noqa: E402
 from table import Shown  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -24,38 +23,34 @@ BAR, BAR_HOURLY = 0.97, 1000
 UNABLE = "the program ends on Mesa without Relume, too"
 
 
-class Generator:
+class Generator(Scorer):
     """Runs generated programs. Each is named "NUMBER" or "NUMBER:STEP,STEP"."""
 
     def __init__(self, build, ref):
-        self.ref = ref
-        self.relume, self.program = build / "relume", build / "tests/generated/program"
-        self.work = build / "show/generated"
-        self.work.mkdir(parents=True, exist_ok=True)
-
-    def run(self, *command):
-        return subprocess.run([*map(str, command)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, errors="replace", timeout=600)
+        build = build.resolve()
+        work = build / "show/generated"
+        work.mkdir(parents=True, exist_ok=True)
+        super().__init__(build / "relume", work, work / "log")
+        self.program, self.ref = build / "tests/generated/program", ref
 
     def score(self, names, folder):
         """{name: {gate: figure} for the gates that fail}, or a text if a program does not get that far."""
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
-        trace = folder / "all.trace"
-        done = self.run(ROOT / "tests/xvfb.sh", self.relume, "record", "-o", trace, "--ref", self.ref, "--",
-                        self.program, *names)
-        if done.returncode:
-            bare = len(names) == 1 and self.run(ROOT / "tests/xvfb.sh", self.program, *names).returncode
-            return self.apart(names, folder, UNABLE if bare else f"record: exit code {done.returncode}")
-        done = self.run(self.relume, "render", trace, "--mode", "gl", "--encoding", "display", "--aov",
-                        "gl,Z,layers,id", "-o", folder / "x.####.exr")
-        if done.returncode:
-            return self.apart(names, folder, f"render: exit code {done.returncode}: {done.stdout[-300:]}")
-        self.run(self.relume, "diff", trace, folder / "x.####.exr", "--json", folder / "score.json")
-        frames = json.loads((folder / "score.json").read_text())["frames"]
-        if len(frames) != len(names):
-            return self.apart(names, folder, f"diff: {len(frames)} frames")
-        return {name: failures(frame) for name, frame in zip(names, frames)}
+        trace, pictures = folder / "all.trace", folder / "x.####.exr"
+        code, _, _ = self.run(ROOT / "tests/xvfb.sh", self.relume, "record", "-o", trace, "--ref", self.ref, "--",
+                              self.program, *names)
+        if code:
+            bare = len(names) == 1 and self.run(ROOT / "tests/xvfb.sh", self.program, *names)[0]
+            return self.apart(names, folder, UNABLE if bare else f"record: exit code {code}")
+        code, _, err = self.run(self.relume, "render", trace, "--mode", "gl", "--encoding", "display", "--aov",
+                                "gl,Z,layers,id", "-o", pictures)
+        if code:
+            return self.apart(names, folder, f"render: exit code {code}: {err[-300:]}")
+        scored = self.json(self.relume, "diff", trace, pictures, "--json", "-") or {"frames": []}
+        if len(scored["frames"]) != len(names):
+            return self.apart(names, folder, f"diff: {len(scored['frames'])} frames")
+        return {name: failures(frame) for name, frame in zip(names, scored["frames"])}
 
     def apart(self, names, folder, text):
         """The scores of a batch that did not get through, by halves."""
@@ -65,7 +60,7 @@ class Generator:
         return {**self.score(names[:half], folder), **self.score(names[half:], folder)}
 
     def steps(self, number):
-        lines = self.run(self.program, "--list", number).stdout.splitlines()
+        lines = self.run(self.program, "--list", number)[1].splitlines()
         return {int(line.split()[0]): line.split()[1] for line in lines}
 
     def reduce(self, number, folder):
@@ -104,7 +99,7 @@ def main():
     parser.add_argument("--ref", default="color,depth", help="reference frames, as for relume record")
     args = parser.parse_args()
     numbers = args.only or range(args.first, args.first + args.count)
-    generator, shown = Generator(args.build.resolve(), args.ref), Shown(args.build, "generated")
+    generator, shown = Generator(args.build, args.ref), Shown(args.build, "generated")
     begin, failed, unable = time.monotonic(), [], []
     with open(generator.work / "failures.txt", "w", encoding="utf-8") as out:
         for at in range(0, len(numbers), BATCH):

@@ -44,6 +44,17 @@ static inline void open_window(void)
 	open_window_of(attributes);
 }
 
+/** A window of that size, with depth test and one light. */
+static inline void open_lit_window(unsigned width, unsigned height)
+{
+	window_size[0] = width;
+	window_size[1] = height;
+	open_window();
+	glEnable(GL_DEPTH_TEST);
+	glEnable(GL_LIGHTING);
+	glEnable(GL_LIGHT0);
+}
+
 static inline void end_frame(void)
 {
 	glXSwapBuffers(display, window);
@@ -58,6 +69,17 @@ static inline void begin_view(void)
 	glFrustum(-0.2, 0.2, -0.15, 0.15, 0.2, 30);
 	glMatrixMode(GL_MODELVIEW);
 	glLoadIdentity();
+}
+
+/** An empty window whose pixels are object space, and white as the colour. */
+static inline void begin_pixels(void)
+{
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glOrtho(0, window_size[0], 0, window_size[1], -1, 1);
+	glMatrixMode(GL_MODELVIEW);
+	glColor4f(1, 1, 1, 1);
 }
 
 /** One function a frame, each after `before`. */

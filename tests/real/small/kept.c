@@ -4,16 +4,6 @@
  */
 #include "tests/trace/window.h"
 
-static void before(void)
-{
-	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-	glMatrixMode(GL_PROJECTION);
-	glLoadIdentity();
-	glOrtho(0, 64, 0, 48, -1, 1);
-	glMatrixMode(GL_MODELVIEW);
-	glColor4f(1, 1, 1, 1);
-}
-
 /* The alpha of glColor4 comes back with glColor3, once that has been shortened. */
 static void mix_colors(GLenum primitive, int twice)
 {
@@ -135,7 +125,7 @@ int main(void)
 		                                light_bitmap };
 
 	open_window();
-	draw_frames(frames, sizeof(frames) / sizeof(frames[0]), before);
+	draw_frames(frames, sizeof(frames) / sizeof(frames[0]), begin_pixels);
 	expect(glGetError() == GL_NO_ERROR, "no error");
 	return 0;
 }
