@@ -14,6 +14,7 @@
 #include "gl_tokens.h"
 #include "replay/gl/dispatch.h"
 #include "replay/gl/surface/drawable.h"
+#include "replay/gl/surface/frames.h"
 #include "replay/index/index_build.h"
 #include "replay/index/pixels.h"
 #include "replay/machine/commands.h"
@@ -27,7 +28,18 @@
 #define FIRST_BACK 16
 #define LONGER_BACK 8
 #define ALL_BACK UINT64_MAX
-#define PIXELS_EVERY 32 /* of the frames that are built on the way one is kept (index/pixels.h) */
+/* The shortest way between two checkpoints with pixels: PIXELS_SHARE times as long as writing one takes, and
+ * PIXELS_FRAMES frames if these wait to be drawn. */
+#define PIXELS_SHARE 4
+#define PIXELS_FRAMES 8
+
+/* How checkpoints with pixels are kept. */
+struct keeping {
+	uint64_t frame;   /* the first frame after the last one, or that the way began with */
+	double since_s;   /* when it began */
+	double frame_s;   /* seconds that each frame before the last one took, drawn */
+	double writing_s; /* seconds that writing the last one took */
+};
 
 struct replay {
 	struct player player;
@@ -41,6 +53,7 @@ struct replay {
 	struct index *index; /* once it was needed */
 	struct pixels pixels;
 	uint64_t back;       /* so many frames before a wanted one are built where player.build_all is set */
+	struct keeping keeping;
 };
 
 int replay_open(struct replay **out, const char *path)
@@ -115,7 +128,7 @@ static int restore(struct replay *rp, uint64_t checkpoint, int has_pixels)
 
 	if (rc)
 		return rc;
-	rc = has_pixels ? pixels_restore(&rp->pixels, checkpoint, rp->player.reader, x) :
+	rc = has_pixels ? pixels_restore(&rp->pixels, rp->index, checkpoint, rp->player.reader, x) :
 	                  index_restore(rp->index, checkpoint, rp->player.reader, x);
 	if (!rc) {
 		player_use(&rp->player, x);
@@ -164,15 +177,44 @@ static void tell_back(const struct player *p, uint64_t frame, const struct gls_f
 	         p->exec->frame);
 }
 
-/* Keep pixels now and then, between frames that are built on the way to another. @return 1 or ERR_SYSTEM (reported) */
+/* Whether the way since the last checkpoint is long enough for another one. Frames that wait to be drawn count as long
+ * as those before it took; a few of them are let wait, because drawing them at once is cheaper (gls_frame_defer). */
+static int is_far(const struct keeping *k, uint64_t frame)
+{
+	const double frames = (double)(frame - k->frame), least_s = PIXELS_SHARE * k->writing_s;
+
+	return progress_clock_s() - k->since_s >= least_s || (frames >= PIXELS_FRAMES && frames * k->frame_s >= least_s);
+}
+
+/*
+ * Keep pixels between frames that are built on the way to another, as often as that takes little beside drawing them:
+ * whoever begins there later goes no farther than from one checkpoint to the next.
+ * @return 1 or ERR_SYSTEM (reported)
+ */
 static int keep_pixels(struct replay *rp)
 {
 	struct gls_exec *x = rp->player.exec;
+	struct keeping *k = &rp->keeping;
+	double drawn_s;
+	int rc;
 
-	return rp->player.build_all && !x->feedback.rewind && x->frame % PIXELS_EVERY == 0 &&
-	                       pixels_keep(&rp->pixels, rp->player.reader, x) ?
-	               ERR_SYSTEM :
-	               1;
+	if (!rp->player.build_all || x->feedback.rewind || x->frame == k->frame || !is_far(k, x->frame))
+		return 1;
+	rc = gls_frame_settle(x) ? have_index(rp, INDEX_KEEP) : x->failed;
+	drawn_s = progress_clock_s();
+	if (!rc && !x->feedback.rewind)
+		rc = pixels_keep(&rp->pixels, rp->index, rp->player.reader, x);
+	k->frame_s = (drawn_s - k->since_s) / (double)(x->frame - k->frame);
+	k->since_s = progress_clock_s();
+	k->writing_s = k->since_s - drawn_s;
+	k->frame = x->frame;
+	return rc ? rc : 1;
+}
+
+static void begin_way(struct replay *rp)
+{
+	rp->player.told_s = rp->keeping.since_s = progress_clock_s();
+	rp->keeping.frame = rp->player.exec->frame;
 }
 
 /* Build all up to a frame, from where the player is now, and keep pixels on the way. As replay_next_frame */
@@ -184,7 +226,7 @@ static int play_again(struct replay *rp, uint64_t frame, int want, const struct 
 	int rc = 1;
 
 	tell_back(p, frame, found);
-	p->told_s = progress_clock_s();
+	begin_way(rp);
 	while (rc == 1 && !p->exec->feedback.rewind && p->exec->frame <= frame) {
 		rc = player_try_frame(p, want && p->exec->frame == frame, scene);
 		if (rc == 1 && p->exec->frame <= frame)
@@ -194,17 +236,21 @@ static int play_again(struct replay *rp, uint64_t frame, int want, const struct 
 	return rc;
 }
 
-/* Go to the last pixels before a frame that lie no farther back than what else is begun with, nor than the player is.
- * @return 1; 0: there are none */
+/*
+ * Go to the last pixels before a frame, which are all that it can need, unless that way is more than twice as long as
+ * the one to be tried without them, or than the way from where the player is now.
+ * @return 1; 0: there are none
+ */
 static int jump_to_pixels(struct replay *rp, uint64_t frame)
 {
 	const struct gls_exec *x = rp->player.exec;
 	uint64_t begin = beginning_of(rp, frame), kept;
 
-	if (x->feedback.fronts || !pixels_find(&rp->pixels, frame, &kept))
+	if (x->feedback.fronts || !pixels_find(&rp->pixels, frame, &kept) || have_index(rp, INDEX_KEEP) != 0)
 		return 0;
-	begin = begin && have_index(rp, INDEX_KEEP) == 0 ? index_checkpoint(rp->index, begin) : 0;
-	return kept >= begin && (kept > x->frame || x->frame > frame || x->feedback.rewind) && restore(rp, kept, 1) == 0;
+	begin = begin ? index_checkpoint(rp->index, begin) : 0;
+	return frame - kept <= 2 * (frame - begin) && (kept > x->frame || x->frame > frame || x->feedback.rewind) &&
+	       restore(rp, kept, 1) == 0;
 }
 
 /*
@@ -257,7 +303,7 @@ int replay_seek(struct replay *rp, uint64_t frame)
 		rc = jump(rp, beginning_of(rp, frame), frame >= rp->player.exec->frame);
 	rc = rc ? rc : 1;
 	from = rp->player.exec->frame;
-	rp->player.told_s = progress_clock_s();
+	begin_way(rp);
 	while (rc == 1 && rp->player.exec->frame < frame) {
 		rc = replay_next_frame(rp, 0, &none);
 		if (rc == 1)

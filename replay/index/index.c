@@ -145,7 +145,8 @@ static void forget(struct index *index)
 	free(index->lacks);
 	free(index->signatures);
 	table_free(&index->known);
-	*index = (struct index){ .trace = index->trace, .path = index->path, .file = index->file, .header = index->header };
+	*index = (struct index){ .trace = index->trace, .path = index->path, .file = index->file, .header = index->header,
+		                 .base = index->base };
 }
 
 int index_load(struct index *index)

@@ -74,7 +74,8 @@ static int have_blob(void *user, const uint64_t name[2])
 {
 	const struct index *index = user;
 
-	return find_blob(&index->known, index->blobs, name) || find_blob(&index->waiting, index->staged, name);
+	return find_blob(&index->known, index->blobs, name) || find_blob(&index->waiting, index->staged, name) ||
+	       (index->base && have_blob(index->base, name));
 }
 
 int index_stage_blob(void *user, const uint64_t name[2], const void *data, size_t n)
@@ -128,6 +129,8 @@ uint8_t *index_get_blob(void *user, const uint64_t name[2], size_t n)
 	char *packed = NULL, *data = NULL;
 	uint64_t hash[2];
 
+	if (!blob && index->base)
+		return index_get_blob(index->base, name, n);
 	if (!blob || !index->file || blob->packed > index->end || !(packed = malloc(blob->packed + 1)) ||
 	    pread(fileno(index->file), packed, blob->packed, (off_t)blob->offset) != (ssize_t)blob->packed)
 		goto fail;

@@ -55,6 +55,7 @@ struct index {
 	uint8_t *signatures;
 	size_t n_signatures;
 	double build_s; /* 0: it was there */
+	struct index *base; /* of the same trace, borrowed: blobs that it has are not kept again; NULL: none */
 
 	/* The checkpoint that is being weighed. Its new blobs are written behind the others; they stay if it does. */
 	uint64_t added; /* their bytes */

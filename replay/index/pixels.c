@@ -12,13 +12,16 @@
 #include "base/folder.h"
 #include "base/folder_bound.h"
 #include "base/hash.h"
+#include "base/memory.h"
 #include "base/part.h"
 #include "replay/gl/surface/frames.h"
 #include "replay/index/index_file.h"
 
 #define NAMES "*-*-*.index"               /* as path_of makes them */
-#define MOST_BYTES ((uint64_t)256 << 20) /* of a checkpoint */
-#define MOST_ALL ((uint64_t)1 << 30)     /* of all */
+/* The most bytes that a checkpoint takes, those of one trace, and all in the folder. */
+#define MOST_BYTES ((uint64_t)256 << 20)
+#define MOST_TRACE ((uint64_t)512 << 20)
+#define MOST_ALL ((uint64_t)1 << 30)
 
 uint64_t pixels_maker(const char *device)
 {
@@ -45,20 +48,26 @@ static int path_of(const struct pixels *p, uint64_t frame, char out[PATH_MAX])
 
 /* --- Finding ----------------------------------------------------------------------------------------------------- */
 
-int pixels_find(const struct pixels *p, uint64_t frame, uint64_t *found)
+/* Whether a file of the folder is a checkpoint of this trace and maker. frame: receives its frame */
+static int is_own(const struct pixels *p, const char *name, uint64_t *frame)
 {
 	char prefix[64];
 	const int n = snprintf(prefix, sizeof(prefix), "%.32s-%016" PRIx64 "-", p->trace, p->maker);
+	int end = 0;
+
+	return strncmp(name, prefix, (size_t)n) == 0 && sscanf(name + n, "%" SCNu64 ".index%n", frame, &end) == 1 && end &&
+	       !name[n + end];
+}
+
+int pixels_find(const struct pixels *p, uint64_t frame, uint64_t *found)
+{
 	DIR *all = p->folder ? opendir(p->folder) : NULL;
 	int any = 0;
 
 	for (struct dirent *e; all && (e = readdir(all));) {
 		uint64_t number;
-		int end = 0;
 
-		if (strncmp(e->d_name, prefix, (size_t)n) != 0 ||
-		    sscanf(e->d_name + n, "%" SCNu64 ".index%n", &number, &end) != 1 || !end || e->d_name[n + end] ||
-		    number > frame || (any && number < *found))
+		if (!is_own(p, e->d_name, &number) || number > frame || (any && number < *found))
 			continue;
 		*found = number;
 		any = 1;
@@ -68,7 +77,8 @@ int pixels_find(const struct pixels *p, uint64_t frame, uint64_t *found)
 	return any;
 }
 
-int pixels_restore(const struct pixels *p, uint64_t frame, struct trace_reader *reader, struct gls_exec *x)
+int pixels_restore(const struct pixels *p, struct index *base, uint64_t frame, struct trace_reader *reader,
+                   struct gls_exec *x)
 {
 	struct index *index = NULL;
 	char path[PATH_MAX];
@@ -78,6 +88,8 @@ int pixels_restore(const struct pixels *p, uint64_t frame, struct trace_reader *
 		return ERR_INPUT;
 	rc = index_create(&index, p->path, p->trace);
 	if (!rc)
+		index->base = base;
+	if (!rc)
 		rc = index_open_file(index, path) ? index_restore(index, frame, reader, x) : ERR_INPUT;
 	index_close(&index);
 	if (rc == ERR_INPUT)
@@ -86,6 +98,58 @@ int pixels_restore(const struct pixels *p, uint64_t frame, struct trace_reader *
 }
 
 /* --- Keeping ----------------------------------------------------------------------------------------------------- */
+
+/* A checkpoint that is there. */
+struct one {
+	uint64_t frame, bytes;
+};
+
+static int by_frame(const void *a, const void *b)
+{
+	const uint64_t x = ((const struct one *)a)->frame, y = ((const struct one *)b)->frame;
+
+	return (x > y) - (x < y);
+}
+
+/* All checkpoints of this trace and maker, by frame. @return to be freed; NULL: none, or no memory */
+static struct one *list_own(const struct pixels *p, size_t *n, uint64_t *bytes)
+{
+	DIR *all = opendir(p->folder);
+	struct one *list = NULL, one;
+	size_t room = 0;
+	struct stat info;
+
+	*n = 0;
+	*bytes = 0;
+	for (struct dirent *e; all && (e = readdir(all));) {
+		if (!is_own(p, e->d_name, &one.frame) || fstatat(dirfd(all), e->d_name, &info, 0) ||
+		    MEMORY_GROW(list, room, *n + 1))
+			continue;
+		one.bytes = (uint64_t)info.st_size;
+		*bytes += one.bytes;
+		list[(*n)++] = one;
+	}
+	if (all)
+		closedir(all);
+	if (list)
+		qsort(list, *n, sizeof(*list), by_frame);
+	return list;
+}
+
+/* Remove every second checkpoint of a trace that has too many bytes of them: none is far from the next, whichever
+ * frames they began with. */
+static void thin_out(const struct pixels *p)
+{
+	char path[PATH_MAX];
+	uint64_t bytes;
+	size_t n;
+	struct one *list = list_own(p, &n, &bytes);
+
+	for (size_t i = 1; i < n && bytes > MOST_TRACE; i += 2)
+		if (path_of(p, list[i].frame, path))
+			unlink(path);
+	free(list);
+}
 
 /* index: with its file, which is begun. @return 0; 1: not worth its bytes, or the file is lost; ERR_SYSTEM
  * (reported) */
@@ -102,7 +166,7 @@ static int write_index(struct index *index, struct trace_reader *reader, struct 
 	return rc || index->file ? rc : 1;
 }
 
-int pixels_keep(const struct pixels *p, struct trace_reader *reader, struct gls_exec *x)
+int pixels_keep(const struct pixels *p, struct index *base, struct trace_reader *reader, struct gls_exec *x)
 {
 	char path[PATH_MAX], part[PATH_MAX];
 	struct index *index = NULL;
@@ -113,6 +177,8 @@ int pixels_keep(const struct pixels *p, struct trace_reader *reader, struct gls_
 	if (!gls_frame_settle(x))
 		return x->failed;
 	rc = index_create(&index, p->path, p->trace);
+	if (!rc)
+		index->base = base;
 	if (!rc && index_begin_file(index, path, part)) {
 		rc = write_index(index, reader, x);
 		if (!rc)
@@ -120,6 +186,7 @@ int pixels_keep(const struct pixels *p, struct trace_reader *reader, struct gls_
 		part_drop(part);
 	}
 	index_close(&index);
+	thin_out(p);
 	folder_keep_bound(p->folder, NAMES, MOST_ALL, MOST_ALL);
 	return rc < 0 ? rc : 0;
 }

@@ -6,6 +6,7 @@
  */
 #pragma once
 
+#include "replay/index/index.h"
 #include "replay/machine/machine.h"
 #include "replay/trace/reader.h"
 
@@ -21,9 +22,17 @@ uint64_t pixels_maker(const char *device);
 /** The last frame up to `frame` that has a checkpoint. @return 1; 0: none has */
 int pixels_find(const struct pixels *p, uint64_t frame, uint64_t *found);
 
-/** As index_restore; a checkpoint that cannot be read is removed. */
-int pixels_restore(const struct pixels *p, uint64_t frame, struct trace_reader *reader, struct gls_exec *x);
+/**
+ * As index_restore; a checkpoint that cannot be read is removed.
+ * @param base  the trace's index, which holds whatever a checkpoint shares with it; NULL: not to be had
+ */
+int pixels_restore(const struct pixels *p, struct index *base, uint64_t frame, struct trace_reader *reader,
+                   struct gls_exec *x);
 
-/** Keep one after a frame that was built, where all pixels are known, and room is. @return 0 or ERR_SYSTEM
- * (reported) */
-int pixels_keep(const struct pixels *p, struct trace_reader *reader, struct gls_exec *x);
+/**
+ * Keep a checkpoint after a frame that was built, if all its pixels are known and there is room. If a trace has more
+ * of them than fit, every second one is removed.
+ * @param base  as in pixels_restore
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int pixels_keep(const struct pixels *p, struct index *base, struct trace_reader *reader, struct gls_exec *x);
