@@ -132,11 +132,14 @@ static int place_events(const struct placed *p)
 	return 0;
 }
 
-/* A clear of a rectangle's depth and stencil to what a surface's clears have left there; of 1 and 0 without them. */
-static struct scene_clear cleared(const struct scene *s, const int32_t rect[4])
+/*
+ * A clear of a rectangle's depth and stencil to what a surface's clears have left there. Without them its depth is 1 as
+ * earlier frames have cleared it, or 0 as Mesa makes windows (22.3.6) if the context has never used it.
+ */
+static struct scene_clear cleared(const struct gls_exec *x, const struct scene *s, const int32_t rect[4])
 {
 	struct scene_clear out = { .scissor = { rect[0], rect[1], rect[2], rect[3] }, .buffers = 6, .stencil_mask = 255,
-		                   .depth = 1 };
+		                   .depth = x->st && !x->st->depth_used ? 0 : 1 };
 
 	for (uint32_t i = 0; i < s->n_clears; i++) {
 		const struct scene_clear *c = &s->clears[i];
@@ -172,7 +175,7 @@ int gls_frame_put(struct gls_exec *x, struct gls_surface *surface, const struct 
 	struct gls_frame *f = surface->frame;
 	struct scene *s = f->out;
 	const struct scene_draw name = s->draws[s->instances[s->n_instances - 1].draw];
-	struct scene_clear before = cleared(s, rect), after = before;
+	struct scene_clear before = cleared(x, s, rect), after = before;
 	struct placed p = { .into = f, .from = drawn, .rect = rect };
 	int err;
 

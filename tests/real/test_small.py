@@ -15,6 +15,7 @@ PROGRAMS = {
     "colors": tuple(f"seed {seed}" for seed in range(1, 13)),
     "condition": ("draws", "clears and pixels", "lists and arrays", "inverted"),
     "copies": ("parts", "without alpha", "depths", "many of a large one"),
+    "depthless": ("an object's picture", "over a quad", "one with depth"),
     "direct": ("matrices", "named textures", "units", "buffers and programs", "framebuffers"),
     "habits": ("lines' offset", "points' offset", "an offset to behind", "beside stipple",
                "beside stipple without gaps", "beside smooth points", "flags of a strip", "flags of a fan",
