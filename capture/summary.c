@@ -132,7 +132,12 @@ static void find_display(char *out, size_t size)
 /* A process that ran without the recorder. */
 static void explain_stranger(const char *program, const struct watching *w)
 {
-	if (w->kind == EXECUTABLE_STATIC)
+	if (w->stranger_rights)
+		err_report(ERR_SYSTEM, program,
+		           "nothing was recorded: process '%s' has the rights of its file's owner or group, so no recorder is "
+		           "loaded into it; 'relume record -- ' before that file itself runs it without them",
+		           w->name);
+	else if (w->kind == EXECUTABLE_STATIC)
 		err_report(ERR_SYSTEM, program,
 		           "nothing was recorded: process '%s' is linked statically, so no recorder can be loaded into it; link it "
 		           "dynamically",

@@ -51,6 +51,24 @@ static void read_name(pid_t pid, char *out, size_t size)
 		fclose(file);
 }
 
+/* 1 where a process is set-user-ID or set-group-ID (proc(5): anyone may read that, though not its memory or file). */
+static int has_rights(pid_t pid)
+{
+	char path[64], line[200];
+	unsigned real, effective;
+	int has = 0;
+	FILE *file;
+
+	snprintf(path, sizeof(path), "/proc/%d/status", (int)pid);
+	file = fopen(path, "re");
+	while (file && fgets(line, sizeof(line), file))
+		if (sscanf(line, "Uid: %u %u", &real, &effective) == 2 || sscanf(line, "Gid: %u %u", &real, &effective) == 2)
+			has |= real != effective;
+	if (file)
+		fclose(file);
+	return has;
+}
+
 static void look_at(pid_t pid, struct watching *w)
 {
 	char path[64];
@@ -60,6 +78,14 @@ static void look_at(pid_t pid, struct watching *w)
 
 	w->seen |= seen;
 	if (seen & SEEN_RECORDER)
+		return;
+	if (has_rights(pid) && !w->stranger_rights) {
+		w->stranger = pid;
+		w->stranger_seen = seen;
+		w->stranger_rights = 1;
+		read_name(pid, w->name, sizeof(w->name));
+	}
+	if (w->stranger_rights)
 		return;
 	snprintf(path, sizeof(path), "/proc/%d/exe", (int)pid);
 	kind = executable_kind(path);

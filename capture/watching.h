@@ -10,6 +10,7 @@ struct watching {
 	pid_t stranger;         /* a process without a recorder, one with OpenGL or Vulkan before others; 0: there is none */
 	unsigned stranger_seen; /* its SEEN_* */
 	enum executable_kind kind;
+	int stranger_rights; /* 1: it has the rights of its file's owner or group */
 	char name[64];
 };
 

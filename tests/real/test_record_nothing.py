@@ -68,6 +68,18 @@ told("env -i", 5, [
     "nothing was recorded: process 'sleeper' ran without the recorder: its environment was cleared (env -i, sudo)",
     "put 'relume record -- ' behind that"
 ], "env", "-i", sleeper)
+# A script that starts a program with its group's rights, as old games have for their scores.
+if os.geteuid() == 0 and sleeper:
+    granted = SCRATCH / "granted"
+    shutil.copy(sleeper, granted)
+    os.chown(granted, 0, 60)
+    granted.chmod(0o2755)
+    told("a set-group-ID program", 5, [
+        "nothing was recorded: process 'granted' has the rights of its file's owner or group",
+        "'relume record -- ' before that file itself"
+    ], "sh", "-c", f"{granted}; :")
+    done = run(RELUME, "record", "-o", SCRATCH / "granted.trace", "--", granted)
+    check("runs without the rights of its file's owner or group" in done.stderr, f"and so it does: {done.stderr}")
 
 # A namespace of its own hides the command's process, not the figures.
 if run("unshare", "-r", "true").returncode == 0:
