@@ -40,10 +40,10 @@ RECORDER_SRC := $(wildcard capture/gen/*.c capture/client/*.c capture/gl/*.c cap
 RECORDER_GEN := tables/commands tables/enums thunks
 RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/format/sizes.c capture/format/reserve.c capture/format/ref_pack.c) \
 	$(patsubst %,$(BUILD)/recorder/gen/%.o,$(RECORDER_GEN))
-VISUAL_SRC := replay/verbs/visual.c
-REPLAY_SRC := $(filter-out $(VISUAL_SRC),$(wildcard replay/*.c replay/*/*.c replay/*/*/*.c))
-COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base bisect capture capture/format ci film query scene scene/repair look look/* kernels/ref tracer/* render render/bench render/check farm)) \
-	$(wildcard diff/*.c diff/*/*.c)
+VISUAL_SRC := verbs/recording/visual.c
+REPLAY_SRC := $(wildcard replay/*.c replay/*/*.c replay/*/*/*.c)
+COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base capture capture/format ci scene scene/repair look look/* kernels/ref tracer/*)) \
+	$(wildcard diff/*.c diff/*/*.c) $(filter-out $(VISUAL_SRC),$(wildcard verbs/*/*.c verbs/*/*/*.c))
 COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c $(BUILD)/gen/page.c $(BUILD)/gen/manual.c $(BUILD)/gen/surfaces.c
 
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
@@ -61,11 +61,11 @@ all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/r
 $(BUILD)/relume: $(COMMAND_OBJ)
 	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) $(if $(SAN),,-static-libstdc++ -static-libgcc) -o $@ $^ $(LIBS:-lsnappy=-l:libsnappy.a)
 
-# The same without its main function, for other programs: query/relume-rays.h.
+# The same without its main function, for other programs: verbs/query/relume-rays.h.
 RAYS_OBJ := $(filter-out $(BUILD)/relume.o,$(COMMAND_OBJ))
-$(BUILD)/librelume-rays.so: $(RAYS_OBJ) query/exports.map
+$(BUILD)/librelume-rays.so: $(RAYS_OBJ) verbs/query/exports.map
 	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -shared -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-soname,librelume-rays.so \
-		-Wl,--version-script=query/exports.map -o $@ $(RAYS_OBJ) $(LIBS:-lsnappy=-l:libsnappy.a)
+		-Wl,--version-script=verbs/query/exports.map -o $@ $(RAYS_OBJ) $(LIBS:-lsnappy=-l:libsnappy.a)
 
 $(BUILD)/%.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -251,9 +251,9 @@ $(BUILD)/gen/manual.c: packaging/manual.py | $(GENERATED_H)
 -include $(BUILD)/gen/manual.dep
 
 # The page of relume look --sheet, as the report's.
-$(BUILD)/gen/surfaces.c: render/surfaces.html
+$(BUILD)/gen/surfaces.c: verbs/render/surfaces.html
 	@mkdir -p $(@D)
-	$(Q)(echo '#include "render/surfaces.h"'; echo 'const char surfaces_page[] ='; sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $<; echo ';') >$@
+	$(Q)(echo '#include "verbs/render/surfaces.h"'; echo 'const char surfaces_page[] ='; sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $<; echo ';') >$@
 
 # Rebuilt when flags change.
 FLAGS := $(CC) $(CPPFLAGS) $(ALL_CFLAGS) $(CXX) $(ALL_CXXFLAGS)
@@ -470,8 +470,8 @@ FUZZ_SECONDS ?= 3600
 FUZZ_CC ?= clang
 FUZZ_CXX ?= clang++
 FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
-FUZZ_SRC := $(filter-out tracer/image/oiio_load.c,$(wildcard $(patsubst %,%/*.c,base capture/format scene scene/repair look look/apply farm $(addprefix diff/,rules baseline score pictures) \
-	$(addprefix tracer/,image device) kernels/ref))) $(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(REPLAY_SRC) render/stamp.c \
+FUZZ_SRC := $(filter-out tracer/image/oiio_load.c $(VISUAL_SRC),$(wildcard $(patsubst %,%/*.c,base capture/format scene scene/repair look look/apply verbs/farm verbs/recording $(addprefix diff/,rules baseline score pictures) \
+	$(addprefix tracer/,image device) kernels/ref))) $(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(REPLAY_SRC) verbs/render/stamp.c \
 	$(addprefix capture/write/,pages.c values.c) $(addprefix tests/fuzz/,calls.c stream.c target.c)
 FUZZ_GEN := $(patsubst $(BUILD)/%.c,$(BUILD)/fuzz/objects/%.o,$(filter-out %/page.c %/surfaces.c,$(COMMAND_GEN)) $(BUILD)/gen/fuzz_commands.c) $(BUILD)/fuzz/objects/gen/enums.o
 FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/tracer/image/oiio.o $(FUZZ_GEN)

@@ -8,10 +8,10 @@
 #include "base/nearest.h"
 #include "base/verbs.h"
 #include "base/version.h"
-#include "bisect/wrong.h"
 #include "diff/diff.h"
 #include "replay/draw_names.h"
-#include "replay/verbs/reduce.h"
+#include "verbs/bisect/wrong.h"
+#include "verbs/recording/reduce.h"
 
 /* diff/ opens no replay: replay/ tells it what draws were. */
 static int diff_with_names(int argc, char **argv)

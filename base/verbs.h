@@ -8,25 +8,25 @@
 #pragma once
 
 int record_main(int argc, char **argv);  /* capture/record.c */
-int info_main(int argc, char **argv);    /* replay/verbs/info.c */
-int index_main(int argc, char **argv);   /* replay/verbs/index.c */
-int dump_main(int argc, char **argv);    /* replay/verbs/dump.c */
-int scene_main(int argc, char **argv);   /* replay/verbs/scene.c */
-int trim_main(int argc, char **argv);    /* replay/verbs/trim.c */
-int repair_main(int argc, char **argv);  /* replay/verbs/repair.c */
-int bisect_main(int argc, char **argv);  /* bisect/bisect.c */
-int export_main(int argc, char **argv);  /* replay/verbs/export.c */
-int look_main(int argc, char **argv);    /* render/look.c */
-int render_main(int argc, char **argv);  /* render/render.c */
-int hook_main(int argc, char **argv);    /* render/hook.c */
-int query_main(int argc, char **argv);  /* query/query.c */
-int pick_main(int argc, char **argv);    /* render/pick.c */
+int info_main(int argc, char **argv);    /* verbs/recording/info.c */
+int index_main(int argc, char **argv);   /* verbs/recording/index.c */
+int dump_main(int argc, char **argv);    /* verbs/recording/dump.c */
+int scene_main(int argc, char **argv);   /* verbs/recording/scene.c */
+int trim_main(int argc, char **argv);    /* verbs/recording/trim.c */
+int repair_main(int argc, char **argv);  /* verbs/recording/repair.c */
+int bisect_main(int argc, char **argv);  /* verbs/bisect/bisect.c */
+int export_main(int argc, char **argv);  /* verbs/recording/export.c */
+int look_main(int argc, char **argv);    /* verbs/render/look.c */
+int render_main(int argc, char **argv);  /* verbs/render/render.c */
+int hook_main(int argc, char **argv);    /* verbs/render/hook.c */
+int query_main(int argc, char **argv);   /* verbs/query/query.c */
+int pick_main(int argc, char **argv);    /* verbs/render/pick.c */
 int ci_main(int argc, char **argv);      /* ci/ci.c */
-int farm_main(int argc, char **argv);    /* farm/farm.c */
-int devices_main(int argc, char **argv); /* render/devices.c */
-int bench_main(int argc, char **argv);   /* render/bench/bench.c */
-int raster_main(int argc, char **argv);  /* replay/verbs/raster.c */
-int film_main(int argc, char **argv);    /* film/film.c */
-int denoise_main(int argc, char **argv); /* film/denoise.c */
+int farm_main(int argc, char **argv);    /* verbs/farm/farm.c */
+int devices_main(int argc, char **argv); /* verbs/render/devices.c */
+int bench_main(int argc, char **argv);   /* verbs/render/bench/bench.c */
+int raster_main(int argc, char **argv);  /* verbs/recording/raster.c */
+int film_main(int argc, char **argv);    /* verbs/film/film.c */
+int denoise_main(int argc, char **argv); /* verbs/film/denoise.c */
 int approve_main(int argc, char **argv); /* diff/baseline/approve.c */
-/* relume diff and reduce get functions of stages that they must not include: diff/diff.h, replay/verbs/reduce.h. */
+/* relume diff and reduce get functions of stages that they must not include: diff/diff.h, verbs/recording/reduce.h. */

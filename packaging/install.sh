@@ -39,7 +39,7 @@ fi
 place 644 "$build/relume-oiio.so" lib/relume/relume-oiio.so
 place 644 "$build/librelume-rays.so" lib/relume/librelume-rays.so
 place 644 capture/relume.h include/relume.h
-place 644 query/relume-rays.h include/relume-rays.h
+place 644 verbs/query/relume-rays.h include/relume-rays.h
 place 644 "$build/relume.pc" share/pkgconfig/relume.pc
 place 644 "$build/relume-rays.pc" share/pkgconfig/relume-rays.pc
 place 644 diff/score/score.schema.json share/relume/score.schema.json
@@ -50,8 +50,8 @@ done
 for page in "$build"/pages/man/*.[15]; do
 	place 644 "$page" "share/man/man${page##*.}/${page##*/}"
 done
-for example in hooks/*.cl hooks/*.yaml; do
-	place 644 "$example" "share/doc/relume/examples/$example"
+for example in corpus/hooks/*.cl corpus/hooks/*.yaml; do
+	place 644 "$example" "share/doc/relume/examples/${example#corpus/}"
 done
 for recipe in packaging/recipes/*; do
 	place 644 "$recipe" "share/doc/relume/examples/ci/${recipe##*/}"

@@ -23,7 +23,7 @@ FORMATS = (
     Format("camera", "look/camera/camera.h", "a camera for recorded frames, for relume render --camera"),
     Format("diff", "diff/rules/rules.h", "how relume diff compares frames: relume-diff.yaml"),
     Format("ci", "ci/plan.h", "the programs that relume ci records: relume-ci.yaml"),
-    Format("hook", "hooks/README.md", "functions of your own in the ray tracer, for relume render --hook"),
+    Format("hook", "corpus/hooks/README.md", "functions of your own in the ray tracer, for relume render --hook"),
 )
 
 
@@ -115,7 +115,7 @@ def c_string(text):
 
 def main(out, dep):
     c = [
-        "/* Made by packaging/manual.py from headers, hooks/README.md and packaging/examples.txt. */",
+        "/* Made by packaging/manual.py from headers, corpus/hooks/README.md and packaging/examples.txt. */",
         '#include "base/manual.h"', "", "#include <stddef.h>", ""
     ]
     c.append("const struct manual_text manual_formats[] = {")

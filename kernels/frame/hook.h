@@ -1,7 +1,7 @@
 /*
- * Where a user's functions are called (tracer/hook/hook.h reads them, hooks/README.md is for who writes them). Each
- * takes plain structs and says what is to become of a ray; kernels do it. Nothing here is compiled unless a hook is
- * there.
+ * Where a user's functions are called (tracer/hook/hook.h reads them, corpus/hooks/README.md is for who writes them).
+ * Each takes plain structs and says what is to become of a ray; kernels do it. Nothing here is compiled unless a hook
+ * is there.
  *
  *   hook_ray        ray generation: a pixel's first ray, in place of the camera's
  *   hook_see        what these rays hit first, for channels Z, N, P and id

@@ -1,6 +1,6 @@
 /*
- * Shapes that a user's hook tells by its functions bounds and intersection (hooks/README.md), in place of instances'
- * triangles.
+ * Shapes that a user's hook tells by its functions bounds and intersection (corpus/hooks/README.md), in place of
+ * instances' triangles.
  *
  *   hook_bounds     bounds of what intersection is asked about
  *   hook_intersect  intersection: after the nearest triangle was found

@@ -1,6 +1,6 @@
 /*
- * What a user's hook is compiled with: structs, requests, and what its functions may call (hooks/README.md). Nothing
- * here is compiled unless a hook is there, but for what the C twins need.
+ * What a user's hook is compiled with: structs, requests, and what its functions may call (corpus/hooks/README.md).
+ * Nothing here is compiled unless a hook is there, but for what the C twins need.
  */
 #pragma once
 
@@ -92,7 +92,7 @@ static inline uint32_t hook_box_tests(const struct hook_trees *a, struct vec3 fr
 
 #ifdef __OPENCL_VERSION__
 
-/* --- For hooks: hooks/README.md ---------------------------------------------------------------------------------- */
+/* --- For hooks: corpus/hooks/README.md --------------------------------------------------------------------------- */
 
 struct relume_ray {
 	float4 origin, direction;

@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include "query/relume-rays.h"
+#include "verbs/query/relume-rays.h"
 
 #define BRUTE_ROUNDING 64
 

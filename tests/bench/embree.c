@@ -24,8 +24,8 @@
 
 #include "base/err.h"
 #include "base/progress.h"
-#include "render/bench/bench.h"
 #include "tests/bench/hall_mesh.h"
+#include "verbs/render/bench/bench.h"
 
 #define WIDTH 1600
 #define HEIGHT 1200

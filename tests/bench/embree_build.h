@@ -6,7 +6,7 @@
 
 #include "tests/bench/rtcore.h"
 
-#include "render/bench/bench.h"
+#include "verbs/render/bench/bench.h"
 
 struct embree_build;
 

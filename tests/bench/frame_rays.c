@@ -19,9 +19,9 @@
 #include <xmmintrin.h>
 
 #include "base/mat4.h"
-#include "render/bench/bench.h"
 #include "replay/replay.h"
 #include "scene/release.h"
+#include "verbs/render/bench/bench.h"
 
 #define MAX_REPEATS 99
 #define STREAM 256 /* rays of a call of the stream */

@@ -5,7 +5,7 @@
 
 #include "base/err.h"
 #include "corpus/hall.h"
-#include "render/bench/bench.h"
+#include "verbs/render/bench/bench.h"
 
 /** @return 0 or ERR_SYSTEM (reported); bench_mesh_free frees it */
 static inline int hall_mesh_create(struct bench_mesh *out)

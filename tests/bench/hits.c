@@ -30,8 +30,8 @@
 
 #include "base/err.h"
 #include "kernels/rays/rays.h"
-#include "render/bench/bench.h"
 #include "tracer/frame/traverse.h"
+#include "verbs/render/bench/bench.h"
 
 #define ROUNDING 32
 #define N_SCENES 4

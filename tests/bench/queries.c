@@ -1,5 +1,5 @@
 /*
- * Queries of query/relume-rays.h: their answers beside those of all triangles one by one, and their rates beside
+ * Queries of verbs/query/relume-rays.h: their answers beside those of all triangles one by one, and their rates beside
  * Embree's. A program of its own: the command never links Embree.
  *
  * usage: queries [--count N] [--seed N] [--rates 0] [--device NAME] [--models DIR] [--json FILE] [--command TEXT]
@@ -19,8 +19,8 @@
 
 #include "base/err.h"
 #include "base/progress.h"
-#include "render/bench/bench.h"
 #include "tests/bench/brute.h"
+#include "verbs/render/bench/bench.h"
 
 #define N_TRIANGLES 600u
 #define MOST 8u

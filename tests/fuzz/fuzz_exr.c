@@ -1,9 +1,9 @@
 /* OpenEXR frames, as `diff`, `denoise`, `film` and `--skip-existing` read them. */
 #include <unistd.h>
 
-#include "render/stamp.h"
 #include "tests/fuzz/target.h"
 #include "tracer/image/image.h"
+#include "verbs/render/stamp.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -6,9 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "farm/job.h"
-#include "farm/script.h"
 #include "tests/fuzz/target.h"
+#include "verbs/farm/job.h"
+#include "verbs/farm/script.h"
 
 static char home[4096];
 static FILE *nowhere;

@@ -10,7 +10,7 @@
 #include "tests/case.h"
 #include "tests/fuzz/calls.h"
 #include "tests/fuzz/kept.h"
-#include "render/supply.h"
+#include "verbs/render/supply.h"
 #include "tracer/frame/picture_kept.h"
 
 #define N_PARTS 13

@@ -84,7 +84,7 @@ def reference_depths(path):
 
 def with_visual(bits, build):
     """An environment in which glretrace takes a visual like the program's, whose relume:bits marker says `bits`: see
-    replay/verbs/visual.c."""
+    verbs/recording/visual.c."""
     alpha, depth, stencil, _, samples = (bits.split() + ["0"] * 5)[:5]
     libraries = os.pathsep.join([str(build / "visual"), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])])
     return dict(os.environ, LD_LIBRARY_PATH=libraries,

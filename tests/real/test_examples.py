@@ -101,7 +101,7 @@ for verb, line in commands:
 game = PLACE / "game"
 game.write_text(f'#!/bin/sh\nexec "{corpus("spheres")}" --frames 10 --size 160x120 --animate camera "$@"\n')
 game.chmod(0o755)
-for hook in (ROOT / "hooks").glob("*.cl"):
+for hook in (ROOT / "corpus/hooks").glob("*.cl"):
     shutil.copy(hook, PLACE)
 env = {**os.environ, "PATH": f"{PLACE / 'bin'}:{os.environ['PATH']}", "XDG_CACHE_HOME": str(BUILD / "tests/cache")}
 must(on_display(RELUME, "record", "-o", PLACE / "good.trace", "--", game, cwd=PLACE, env=env))

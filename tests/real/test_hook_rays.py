@@ -120,15 +120,15 @@ check(gone > sum(plain.at("id", x, y) == BOX for y in range(120) for x in range(
       f"where nothing is met the box is gone, with its shadow and in the mirror: {gone}")
 CHOSEN.write_text(CHOSEN.read_text().replace(f"'{BOX}'", f"'{BALL}'"))
 CHOSEN.write_text(CHOSEN.read_text().replace("chosen", "sphere"))
-ball = picture("ball", None, "--hook", ROOT / "hooks/sphere.cl", "--look", CHOSEN)
+ball = picture("ball", None, "--hook", ROOT / "corpus/hooks/sphere.cl", "--look", CHOSEN)
 check(
     differing(ball, traced, most=0.03) < PIXELS / 50,
     f"a sphere in place of a ball of many faces: {differing(ball, traced, most=0.03)} pixels differ")
 
 # The reference device compiles the same text.
 for name in ("cutout", "distance", "gobo"):
-    rules = ROOT / f"hooks/{name}.look.yaml"
-    options = ("--hook", ROOT / f"hooks/{name}.cl", *(("--look", rules) if rules.exists() else ()))
+    rules = ROOT / f"corpus/hooks/{name}.look.yaml"
+    options = ("--hook", ROOT / f"corpus/hooks/{name}.cl", *(("--look", rules) if rules.exists() else ()))
     pair = [
         picture(f"{name}_{device}", None, *options, "--device", device, channels="RGBZ")
         for device in ("cpu", "reference")
@@ -147,6 +147,6 @@ done = relume("hook", "--check", "--device", "reference", hook("member", {"any_h
 check(done.returncode == 3 and "member.cl:4:" in done.stderr,
       f"the reference device names the line: {done.returncode}, {done.stderr}")
 for example in ("cutout", "gobo", "sphere", "distance", "boxes"):
-    done = relume("hook", "--check", ROOT / f"hooks/{example}.cl")
+    done = relume("hook", "--check", ROOT / f"corpus/hooks/{example}.cl")
     check(done.returncode == 0 and "it runs" in done.stdout, f"{example}: {done.stdout}{done.stderr}")
 finish()

@@ -43,7 +43,7 @@ def differing(a, b, channels="RGB", most=0.0):
 plain = picture("plain", wanted=("R", "G", "B", "gl.R", "gl.G", "gl.B", "Z", "id"))
 
 # A hook that gives the built-in's colour back.
-repeat = ROOT / "hooks/repeat.cl"
+repeat = ROOT / "corpus/hooks/repeat.cl"
 for name, options in (("repeat", ()), ("mirrors", ("--look", MIRRORS)), ("path", ("--mode", "path", "--aov", "gl"))):
     picture(name, *options, wanted=None)
     picture(f"{name}_hook", *options, "--hook", repeat, wanted=None)
@@ -104,9 +104,9 @@ check(
     differing(plain, traced, most=0.02) < 0.04,
     f"the same rays: {differing(plain, traced, most=0.02):.3f} of the pixels differ")
 check(differing(plain, traced, "Z", most=0.02 * abs(plain.at("Z", *middle))) < 0.04, "and their distances")
-fisheye = picture("fisheye", "--hook", ROOT / "hooks/fisheye.cl")
+fisheye = picture("fisheye", "--hook", ROOT / "corpus/hooks/fisheye.cl")
 check(all(fisheye.at(c, 0, 0) == 0 for c in "RGB"), "nothing beyond a fisheye's disk")
-lens = picture("lens", "--hook", ROOT / "hooks/thin_lens.cl", "--samples", 2)
+lens = picture("lens", "--hook", ROOT / "corpus/hooks/thin_lens.cl", "--samples", 2)
 check(differing(plain, lens) > 0.2, "a lens blurs")
 
 # What is refused.
@@ -115,7 +115,7 @@ for options, words in ((("--mode", "gl", "--hook", own), "mode gl has no stage")
     done = relume("render", CORNELL, "-f", 1, "-o", SCRATCH / "x.####.exr", *options)
     check(done.returncode == 2 and words in done.stderr, f"{words}: {done.returncode}, {done.stderr}")
 for example in ("toon", "car_paint"):
-    done = relume("hook", "--check", ROOT / f"hooks/{example}.cl")
+    done = relume("hook", "--check", ROOT / f"corpus/hooks/{example}.cl")
     check(done.returncode == 0 and "it runs" in done.stdout, f"{example}: {done.stdout}{done.stderr}")
 for name, text, words in (("member", "\n" + CLOSEST % "\treturn relume_color(hit.colour);",
                            "member.cl:4:"), ("none", "float f(void) { return 1; }\n", "defines none"),

@@ -128,7 +128,7 @@ for recipe in ("github.yml", "gitlab-ci.yml"):
     check(yaml.safe_load(text) and "relume ci" in text, f"the recipe {recipe} is YAML that runs relume ci")
 # The help texts themselves say every option that the verbs' tables have.
 tables = {
-    f"--{name}" for folder in ("capture", "diff", "farm", "render", "replay") for source in (ROOT / folder).rglob("*.c")
+    f"--{name}" for folder in ("capture", "diff", "replay", "verbs") for source in (ROOT / folder).rglob("*.c")
     for name in re.findall(r"\{ \"([a-z][a-z-]+)\", (?:0|'\w'), (?:NULL|\"[^\"]+\"), \"", source.read_text())
 }
 check(

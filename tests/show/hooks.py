@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""tests/show/hooks.py BUILD (as `make show-hooks`): the examples of hooks/ rendered, what a hook that repeats the
-built-in costs, and what wrong hooks are told.
+"""tests/show/hooks.py BUILD (as `make show-hooks`): the examples of corpus/hooks/ rendered, what a hook that repeats
+the built-in costs, and what wrong hooks are told.
 
 Pictures are left as PNG in BUILD/show/hooks, to be looked at. Times are processor time of whole commands, medians of
 runs in turn with and without the hook, after one of each that compiles kernels.
@@ -98,16 +98,17 @@ class Show:
         run(self.build / "relume", "render", self.traces[program], "-o", out, *look_file(self.work, options))
 
     def examples(self):
-        found = {path.stem for path in (ROOT / "hooks").glob("*.cl")}
-        self.row("examples of hooks/ that are rendered here", len(found & EXAMPLES.keys()),
+        found = {path.stem for path in (ROOT / "corpus/hooks").glob("*.cl")}
+        self.row("examples of corpus/hooks/ that are rendered here", len(found & EXAMPLES.keys()),
                  len(found | EXAMPLES.keys()), found == EXAMPLES.keys())
         for name, (program, *options) in EXAMPLES.items():
-            rules = ROOT / f"hooks/{name}.look.yaml"
+            rules = ROOT / f"corpus/hooks/{name}.look.yaml"
             options += ["--look", rules] if rules.exists() else []
             hooked, plain = self.work / f"{name}.exr", self.work / f"{name}_plain.exr"
             self.render(program, plain, "-f", 1, *options)
-            self.render(program, hooked, "-f", 1, *options, "--hook", ROOT / f"hooks/{name}.cl")
-            self.render(program, self.pictures / f"{name}.png", "-f", 1, *options, "--hook", ROOT / f"hooks/{name}.cl")
+            hook = ("--hook", ROOT / f"corpus/hooks/{name}.cl")
+            self.render(program, hooked, "-f", 1, *options, *hook)
+            self.render(program, self.pictures / f"{name}.png", "-f", 1, *options, *hook)
             a, b = (numpy.stack([Image(path).planes[c] for c in "RGB"]) for path in (hooked, plain))
             share = 100 * (abs(a - b).max(axis=0) > 0.01).mean()
             if name == "repeat":
@@ -118,7 +119,7 @@ class Show:
                          "more than 1, and all finite", share > 1 and bool(numpy.isfinite(a).all()))
 
     def repeat(self):
-        hook = ("--hook", ROOT / "hooks/repeat.cl")
+        hook = ("--hook", ROOT / "corpus/hooks/repeat.cl")
         scenes = {
             "plain frames, still life": ("still_life", ), "plain frames, spheres": ("spheres", ),
             "with mirrors": ("spheres", "--look", MIRRORS),

@@ -4,8 +4,8 @@ of the sweep.
 
 Each program is recorded anew with reference frames read back in the program. `apitrace dump` must read the trace to its
 end, and glretrace must draw the last frame as the program did, bit for bit; it is given a visual like the program's
-(replay/verbs/visual.c), and where its window is larger than the program's (a viewport reached beyond it) the program's
-part is compared. Programs that do not start here are told and not counted.
+(verbs/recording/visual.c), and where its window is larger than the program's (a viewport reached beyond it) the
+program's part is compared. Programs that do not start here are told and not counted.
 """
 import argparse
 import json

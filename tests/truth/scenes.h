@@ -1,4 +1,4 @@
-/* What the truth tests do with scenes built by hand (render/check/made.h). */
+/* What the truth tests do with scenes built by hand (verbs/render/check/made.h). */
 #pragma once
 
 #include <check.h>
@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "render/check/made.h"
+#include "verbs/render/check/made.h"
 #include "tracer/device/device.h"
 #include "tracer/image/image.h"
 #include "tracer/frame/trace.h"

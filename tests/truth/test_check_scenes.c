@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "render/check/check.h"
 #include "tests/case.h"
 #include "tests/truth/scenes.h"
+#include "verbs/render/check/check.h"
 
 enum { WIDTH = 93, HEIGHT = 67, RINGS = 12 };
 

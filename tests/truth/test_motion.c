@@ -4,9 +4,9 @@
  */
 #include <math.h>
 
-#include "render/vectors.h"
 #include "tests/case.h"
 #include "tests/truth/scenes.h"
+#include "verbs/render/vectors.h"
 
 #define SIZE 64
 

@@ -1,5 +1,5 @@
-/* bisect/align: what is left between hunks agrees, and short scripts are the shortest there are. */
-#include "bisect/align.h"
+/* verbs/bisect/align: what is left between hunks agrees, and short scripts are the shortest there are. */
+#include "verbs/bisect/align.h"
 
 #include <stdlib.h>
 

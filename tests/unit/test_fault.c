@@ -7,10 +7,10 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "render/check/apart.h"
 #include "tests/case.h"
 #include "tests/driver.h"
 #include "tracer/device/outcome.h"
+#include "verbs/render/check/apart.h"
 
 enum ending {
 	IN_DRIVER,

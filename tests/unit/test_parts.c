@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include "gl_tokens.h"
-#include "replay/verbs/parts.h"
 #include "tests/case.h"
+#include "verbs/recording/parts.h"
 
 static char from[] = "/tmp/test_parts.XXXXXX", to[sizeof(from) + 4];
 

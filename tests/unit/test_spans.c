@@ -1,9 +1,9 @@
-/* farm/spans: frame numbers in words. */
+/* verbs/farm/spans: frame numbers in words. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "farm/spans.h"
 #include "tests/case.h"
+#include "verbs/farm/spans.h"
 
 /* The frames of a list that ends with -1, in words. */
 static void check_words(const int *frames, const char *words)

@@ -1,8 +1,8 @@
 /*
  * Faults of OpenCL drivers. A driver may end the process, hang in a call, or return an error code that does not exist.
  * This file knows which device and family is at work, blames the driver only where the driver is at fault, and notes it
- * in memory that a parent process shares (render/guard.h). The parent then starts a new process, with the next family
- * of kernels.
+ * in memory that a parent process shares (verbs/render/guard.h). The parent then starts a new process, with the next
+ * family of kernels.
  *
  * Who is to blame for a signal:
  *   - A thread between fault_enter and fault_leave is in the driver: the driver.

@@ -1,6 +1,6 @@
 /*
- * A user's hook: OpenCL C text whose functions stand in for stages of the wavefront. hooks/README.md is what its author
- * reads; kernels/frame/hook.h calls the functions.
+ * A user's hook: OpenCL C text whose functions stand in for stages of the wavefront. corpus/hooks/README.md is what its
+ * author reads; kernels/frame/hook.h calls the functions.
  *
  * Parameters are declared in the text, a line each, and set by rules (look/rules.h):
  *

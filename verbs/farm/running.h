@@ -1,0 +1,14 @@
+/* Who works on a job's frames: one run at a time, or each would overwrite what the other rendered. */
+#pragma once
+
+#include "verbs/farm/job.h"
+
+/**
+ * Take the job's folder for a new run. Refuses if an earlier one still renders there, and reports which and what to do.
+ * @param replace  1: end the earlier run's Slurm jobs first, and wait until they are gone
+ * @return 0; ERR_USAGE or ERR_SYSTEM (reported)
+ */
+int running_claim(const struct farm_job *job, int replace);
+
+/** The process that runs the job's script without Slurm, as "4711". @return 1, or 0 where there is none */
+int running_process(const struct farm_job *job, char *out, size_t size);

@@ -1,0 +1,7 @@
+/* The thread that plays the recording and hands out pictures to be made. */
+#pragma once
+
+#include "verbs/render/pipeline_state.h"
+
+/** Hand out all pictures that the settings ask for. @return 0 or ERR_* (reported) */
+int pipeline_decode(struct pipeline_state *state);

@@ -1,0 +1,21 @@
+/* One picture of a shot: under the rules, from the recorded camera or another, with attributes for reports. */
+#pragma once
+
+#include "tracer/frame/trace.h"
+#include "verbs/render/settings.h"
+#include "verbs/render/shot.h"
+
+/* Told how many samples of a picture there are (tracer_options.sampled). */
+struct picture_listener {
+	void (*sampled)(void *user, uint32_t done, uint32_t of);
+	void *user;
+};
+
+/**
+ * @param tracer  traces it; one picture at a time
+ * @param listener  called in this thread
+ * @param img     filled; image_free, also after an error
+ * @return 0; ERR_INPUT: the camera's file is not for this frame; ERR_SYSTEM (reported)
+ */
+int picture_render(const struct settings *settings, struct tracer *tracer, const struct shot *shot,
+                   const struct picture_listener *listener, struct image *img);

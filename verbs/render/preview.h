@@ -1,0 +1,18 @@
+/* A frame's picture while its samples still come in: a file that is always whole, made anew now and then. */
+#pragma once
+
+#include "tracer/image/image.h"
+#include "verbs/render/settings.h"
+
+struct preview {
+	const struct settings *settings; /* preview: the file's name */
+	uint64_t frame;
+};
+
+/**
+ * tracer_options.preview: write the file.
+ * @param user  struct preview
+ * @param img   denoised where the settings ask for it
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int preview_show(void *user, struct image *img);
