@@ -1,4 +1,4 @@
-/* relume ci: record programs, render what they drew, and gate the frames: what a continuous integration runs. */
+/* relume ci: record programs, render the recordings and gate the frames, for continuous integration. */
 #include <errno.h>
 #include <limits.h>
 #include <signal.h>
@@ -26,9 +26,9 @@ struct texts {
 
 struct asked {
 	const char *file, *kept, *baseline;
-	struct ci_program program; /* of the command line; its name may be that of one of the file */
+	struct ci_program program; /* from the command line; its name may select a program of the file */
 	struct texts environment, press, data;
-	unsigned jobs; /* 0: as many as suit the machine */
+	unsigned jobs; /* 0: choose a number that suits the machine */
 	int when_changed, own_displays, bisects;
 };
 
@@ -56,31 +56,32 @@ static int take_name(const struct options_row *row, const char *value, void *out
 #define AT(member) .at = offsetof(struct asked, member)
 
 static const struct options_row rows[] = {
-	{ "name", 'n', "NAME", "the folder of its results (default: the program's name); without PROGRAM: the only one of "
-	  "the file to run", take_name, AT(program.name) },
+	{ "name", 'n', "NAME", "name of the results folder (default: the program's name); without PROGRAM: the only one "
+	  "of the file to run", take_name, AT(program.name) },
 	{ "frames", 'f', "N", "frames to record, from the program's first (default 10)", options_number,
 	  AT(program.frames), .most = CI_MOST_FRAMES },
 	{ "env", 0, "NAME=VALUE", "set a variable for the program; may be repeated", take_text, AT(environment) },
-	{ "press", 0, "KEY@FRAME", "press a key, which this frame is the first to show, as in 'relume record --press'; "
+	{ "press", 0, "KEY@FRAME", "press KEY so that FRAME is the first to show it, as in 'relume record --press'; "
 	  "may be repeated", take_text, AT(press) },
-	{ "when-changed", 0, NULL, "record only where something watched has changed, and say what is watched: the program, "
-	  "the libraries that the loader lists, the files that its arguments name, --data, --env, --press and --frames",
+	{ "when-changed", 0, NULL, "record only if a watched input has changed, and list what is watched: the program, "
+	  "its libraries as the loader lists them, files named by its arguments, --data, --env, --press and --frames",
 	  options_flag, AT(when_changed) },
-	{ "data", 0, "FILE", "a file or a folder that the program reads besides; may be repeated", take_text,
+	{ "data", 0, "FILE", "another file or folder that the program reads; may be repeated", take_text,
 	  AT(data) },
 	{ "kept", 'k', "DIR", "recordings, frames and results, kept between runs (default: ci)", options_text,
 	  AT(kept) },
-	{ "baseline", 'b', "DIR", "approved frames, a folder for each program (default: approved)", options_text,
+	{ "baseline", 'b', "DIR", "approved frames, with a subfolder for each program (default: approved)", options_text,
 	  AT(baseline) },
-	{ "config", 0, "FILE", "tolerances, masks, flaky frames, as in 'relume diff --config'", options_text,
+	{ "config", 0, "FILE", "tolerances, masks and flaky frames, as in 'relume diff --config'", options_text,
 	  AT(program.config) },
-	{ "jobs", 'j', "N", "programs to run at a time (default: one for each processor core); they share the display one "
-	  "after the other", options_number, AT(jobs), .least = 1, .most = CI_MOST_JOBS },
-	{ "xvfb", 0, NULL, "record each program on a display of its own (by xvfb-run), several at a time", options_flag,
+	{ "jobs", 'j', "N", "programs to run at a time (default: one per processor core); they take turns on the "
+	  "display", options_number, AT(jobs), .least = 1, .most = CI_MOST_JOBS },
+	{ "xvfb", 0, NULL, "record each program on its own display (by xvfb-run), several at a time", options_flag,
 	  AT(own_displays) },
-	{ "bisect", 0, NULL, "for 'git bisect run relume ci --bisect': exit with 125, which skips a commit, where pictures "
-	  "could not be compared or nobody has approved them", options_flag, AT(bisects) },
-	{ "programs", 0, "FILE", "without PROGRAM: what to run (default: relume-ci.yaml)", options_text, AT(file) },
+	{ "bisect", 0, NULL, "for 'git bisect run relume ci --bisect': exit with 125, which skips the commit, if pictures "
+	  "could not be compared or are not approved", options_flag, AT(bisects) },
+	{ "programs", 0, "FILE", "without PROGRAM: list of programs to run (default: relume-ci.yaml)", options_text,
+	  AT(file) },
 };
 
 static const struct options_table table = {
@@ -111,7 +112,7 @@ static const struct options_table table = {
 	.stops = 1,
 };
 
-/* The worse of two exit codes: what kept a comparison from being made goes before what it found. */
+/* The worse of two exit codes: a failure to compare ranks above any result of a comparison. */
 static int worse(int a, int b)
 {
 	static const int order[] = { 0, -ERR_BASELINE, -ERR_FAILED, -ERR_INCOMPLETE, -ERR_USAGE, -ERR_INPUT,
@@ -122,7 +123,7 @@ static int worse(int a, int b)
 		rank_a++;
 	while (rank_b < n && order[rank_b] != b)
 		rank_b++;
-	return rank_a > rank_b ? a : b; /* an interrupted step has a code of its own */
+	return rank_a > rank_b ? a : b; /* an interrupted step's code is in no list and wins */
 }
 
 static const char *verdict_of(int code)
@@ -131,7 +132,7 @@ static const char *verdict_of(int code)
 		: code == -ERR_BASELINE ? "not approved yet" : "could not be compared";
 }
 
-/* The programs of the file to run: those of one name, or all. The caller frees it. */
+/* Programs of the file to run: those named `name`, or all if it is NULL. The caller frees the list. */
 static const struct ci_program **choose(const struct ci_plan *plan, const char *name, size_t *n)
 {
 	const struct ci_program **chosen = calloc(plan->n_programs, sizeof(*chosen));
@@ -151,7 +152,7 @@ static void add_summary(const struct ci_run *run, const struct ci_program *progr
 		server_add_summary(path);
 }
 
-/* Programs share a display one after the other, which takes a lock where several run at a time. */
+/* Programs share one display in turn, so parallel jobs need a lock. */
 static int run_programs(struct ci_run *run, const struct ci_program *const *programs, size_t n, size_t n_jobs)
 {
 	int *codes = calloc(n, sizeof(*codes)), code = 0, err;
@@ -234,7 +235,7 @@ int ci_main(int argc, char **argv)
 	int err = options_parse(&table, argc, argv, &asked, &line);
 	int code;
 
-	signal(SIGCHLD, SIG_DFL); /* ignored, it would leave no status */
+	signal(SIGCHLD, SIG_DFL); /* if ignored, no exit status would be left to read */
 	code = err ? err > 0 ? 0 : -err : run_all(&asked, &line);
 	if (asked.bisects && !err && code && code != -ERR_FAILED)
 		code = BISECT_SKIPS;

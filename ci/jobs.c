@@ -1,3 +1,4 @@
+/* Runs the programs of a plan in parallel, and prints their output in the order of the plan. */
 #include "ci/jobs.h"
 
 #include <errno.h>
@@ -13,7 +14,7 @@
 
 struct job {
 	const char *name;
-	FILE *said; /* by all its processes */
+	FILE *said; /* output of all its processes */
 	pid_t pid;  /* 0: not started, or done */
 };
 
@@ -29,7 +30,7 @@ static int start(const struct ci_run *run, const struct ci_program *program, str
 	job->name = program->name;
 	job->said = tmpfile();
 	if (!job->said)
-		return err_report(ERR_SYSTEM, program->name, "no temporary file for what it prints: %s", strerror(errno));
+		return err_report(ERR_SYSTEM, program->name, "no temporary file for its output: %s", strerror(errno));
 	fflush(stdout);
 	job->pid = fork();
 	if (job->pid < 0)
@@ -46,7 +47,7 @@ static int start(const struct ci_run *run, const struct ci_program *program, str
 	return 0;
 }
 
-/* Wait for one of them. @return its number; n: none is running */
+/* Wait until any job ends. @return its index; n if none is running */
 static size_t wait_for_any(struct job *jobs, size_t n, int *codes)
 {
 	int status;
@@ -58,7 +59,7 @@ static size_t wait_for_any(struct job *jobs, size_t n, int *codes)
 		if (jobs[i].pid == pid) {
 			jobs[i].pid = 0;
 			codes[i] = WIFEXITED(status) ? WEXITSTATUS(status)
-				: -err_report(ERR_SYSTEM, jobs[i].name, "signal %d ended it", WTERMSIG(status));
+				: -err_report(ERR_SYSTEM, jobs[i].name, "ended by signal %d", WTERMSIG(status));
 			return i;
 		}
 	return n;

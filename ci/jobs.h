@@ -1,4 +1,4 @@
-/* Programs of a plan in several processes. */
+/* Runs the programs of a plan, several at a time. */
 #pragma once
 
 #include <stddef.h>
@@ -8,12 +8,13 @@
 enum { CI_MOST_JOBS = 1024 };
 
 /**
- * Run programs, each in a process of its own, at most `n_jobs` at a time. What a program and its steps print appears
- * together once it is done, in the order of the plan, on standard output. A single one prints as it goes.
- * @param codes  receives the exit code of each
+ * Run programs, each in a process of its own, at most `n_jobs` at a time. The output of a program and its steps is
+ * printed to standard output when the program is done, in the order of the plan. A single program's output is not
+ * delayed.
+ * @param codes  receives each program's exit code
  * @return 0 or ERR_SYSTEM (reported)
  */
 int jobs_run(const struct ci_run *run, const struct ci_program *const *programs, size_t n, size_t n_jobs, int *codes);
 
-/** How many at a time suit this machine. */
+/** Number of jobs that suits this machine: its processor cores. */
 size_t jobs_default(void);

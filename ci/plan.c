@@ -1,3 +1,4 @@
+/* Reads relume-ci.yaml and checks its programs. */
 #include "ci/plan.h"
 
 #include <stdlib.h>

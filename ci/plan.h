@@ -1,17 +1,17 @@
 /*
- * The programs that 'relume ci' records, where its command line names none: relume-ci.yaml, or --programs FILE.
- * Paths count from the folder in which 'relume ci' runs. An unknown key is an error, reported with its line.
+ * The programs that 'relume ci' records if its command line names none: relume-ci.yaml, or --programs FILE.
+ * Paths are relative to the folder that 'relume ci' runs in. An unknown key is an error, reported with its line.
  *
  * KEYS
- *     baseline: approved          # the folder of approved frames; --baseline overrules it; default approved
+ *     baseline: approved          # folder of approved frames; --baseline overrides it; default approved
  *     programs:                   # a list
- *       - name: viewer            # the folder of its results; default: the program's name
+ *       - name: viewer            # name of its results folder; default: the program's name
  *         command: [./viewer, model.obj] # the program and its arguments
  *         frames: 20              # frames to record, from its first on; default 10
- *         press: [space@10, Left@12-15] # keys, and the first frame that shows each ('relume record --press')
- *         environment: [LIBGL_ALWAYS_SOFTWARE=1] # variables that are set for it
- *         data: [textures, shaders/phong.vert] # files and folders that it reads, besides those that its command
- *                                 # names; --when-changed watches them
+ *         press: [space@10, Left@12-15] # keys, each with the first frame that shows it ('relume record --press')
+ *         environment: [LIBGL_ALWAYS_SOFTWARE=1] # variables to set for the program
+ *         data: [textures, shaders/phong.vert] # files and folders that it reads but its command does not name;
+ *                                 # --when-changed watches them
  *         config: viewer-diff.yaml # tolerances, masks and flaky frames ('relume help diff-file')
  *
  * EXAMPLES
@@ -35,18 +35,18 @@ struct ci_program {
 	char **press;       /* KEY@FRAME */
 	char **data;
 	char *config;       /* NULL: none */
-	uint32_t frames;    /* 0 in a file: left out */
+	uint32_t frames;    /* 0 in a file: the default */
 	uint32_t n_command, n_environment, n_press, n_data;
 };
 
 struct ci_plan {
-	char *baseline; /* NULL: left out */
+	char *baseline; /* NULL: not given */
 	struct ci_program *programs;
 	uint32_t n_programs;
 };
 
 /**
- * Read a file, and fill in what it leaves out.
+ * Read a file, and fill in defaults.
  * @param out  free with ci_plan_free
  * @return 0, ERR_INPUT (reported, with the line) or ERR_SYSTEM (reported)
  */
@@ -54,8 +54,8 @@ int ci_plan_read(const char *path, struct ci_plan **out);
 void ci_plan_free(struct ci_plan **plan);
 
 /**
- * Check a program, and name it after its command where it has no name: a name becomes a folder, and part of a glob.
+ * Check a program, and name it after its command if it has no name. The name becomes a folder and part of a glob.
  * @param where  the file, for messages; NULL: the command line
- * @return 0 or ERR_USAGE, with a file ERR_INPUT (reported)
+ * @return 0; ERR_USAGE, or ERR_INPUT for a file (reported)
  */
 int ci_program_check(struct ci_program *program, const char *where);

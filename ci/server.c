@@ -1,3 +1,4 @@
+/* Output for CI servers (GitHub Actions): the job summary, and error marks in the log. */
 #include "ci/server.h"
 
 #include <errno.h>

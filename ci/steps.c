@@ -1,3 +1,4 @@
+/* Records, renders and compares one program, each by a relume command in a process of its own. */
 #include "ci/steps.h"
 
 #include <ctype.h>
@@ -26,7 +27,7 @@ struct steps {
 	const struct ci_program *program;
 	char out[PATH_MAX / 2]; /* KEPT/NAME */
 	char trace[PATH_MAX];
-	uint64_t n_frames;      /* of the recording */
+	uint64_t n_frames;      /* frames in the recording */
 };
 
 static char *path_in(const struct steps *s, const char *name, char out[PATH_MAX])
@@ -40,7 +41,7 @@ static void say(const struct steps *s, const char *step)
 	printf("%s: %s", s->program->name, step);
 }
 
-/* Results of an earlier run would pass for those of this one. */
+/* Remove the results of an earlier run, which would pass for those of this one. */
 static void clear_results(const struct steps *s)
 {
 	static const char *const files[] = { "junit.xml", "scores.json", "summary.md" };
@@ -52,7 +53,7 @@ static void clear_results(const struct steps *s)
 		folder_remove(path);
 }
 
-/* A step that failed is a result, too: the server shows it where it shows frames that failed. */
+/* Report a failed step as a result, so that the server shows it along with failed frames. */
 static void write_error(const struct steps *s, const char *step, int code)
 {
 	char path[PATH_MAX];
@@ -79,7 +80,7 @@ static void write_error(const struct steps *s, const char *step, int code)
 
 /* --- Record ------------------------------------------------------------------------------------------------------ */
 
-/* Have the display for this process alone, or give it back. */
+/* Lock the display for this process (F_WRLCK), or unlock it (F_UNLCK). */
 static void hold_display(const struct steps *s, short type)
 {
 	struct flock lock = { .l_type = type, .l_whence = SEEK_SET };
@@ -126,7 +127,7 @@ static int record(const struct steps *s)
 	free(argv);
 	if (code < 0)
 		return -code;
-	/* The program's own code, or that of record, which has said why. */
+	/* Either the program's own code, or that of 'relume record', which has reported the reason. */
 	return code ? -err_report(ERR_SYSTEM, p->name, "'%s' was not recorded: 'relume record' ended with exit code %d",
 	                          p->command[0], code) :
 	              0;
@@ -135,15 +136,18 @@ static int record(const struct steps *s)
 static void say_watched(const struct steps *s, const struct watched *w)
 {
 	say(s, "");
-	printf("watched: %zu file%s, listed in %s/inputs; what the program opens beyond these is not watched: "
-	       "name it with --data\n", w->n_files, plural(w->n_files), s->out);
+	printf("watched: %zu file%s, listed in %s/inputs; other files that the program opens are not watched: "
+	       "name them with --data\n", w->n_files, plural(w->n_files), s->out);
 	if (w->not_watched[0]) {
 		say(s, "");
-		printf("not watched: folders that its arguments name (%s)\n", w->not_watched);
+		printf("not watched: folders named by its arguments (%s)\n", w->not_watched);
 	}
 }
 
-/* Record, unless all that is watched is as it was. What changes while it is recorded has changed the next time. */
+/*
+ * Record, unless all watched inputs are as they were. An input that changes while it is recorded counts as changed next
+ * time.
+ */
 static int record_if_changed(const struct steps *s, const char *program)
 {
 	char kept[PATH_MAX], why[PATH_MAX + 64];
@@ -160,7 +164,7 @@ static int record_if_changed(const struct steps *s, const char *program)
 		say_watched(s, &w);
 	}
 	if (!code && !changed) {
-		say(s, "recorded nothing: all that is watched is the same\n");
+		say(s, "recorded nothing: no watched input has changed\n");
 	} else if (!code) {
 		say(s, "record");
 		printf(s->run->when_changed ? " %u frame%s: %s\n" : " %u frame%s\n", s->program->frames,
@@ -191,7 +195,7 @@ static int count_frames(struct steps *s)
 		: -err_report(ERR_SYSTEM, s->program->name, "'%s' showed no frame", s->program->command[0]);
 }
 
-/* The number in NAME.0012.exr. @return 1; 0: another file */
+/* Parse the number in NAME.0012.exr. @return 1; 0 for any other file */
 static int parse_frame(const struct steps *s, const char *name, uint64_t *frame)
 {
 	const size_t n = strlen(s->program->name);
@@ -203,7 +207,7 @@ static int parse_frame(const struct steps *s, const char *name, uint64_t *frame)
 	return strcmp(end, ".exr") == 0;
 }
 
-/* Frames of a longer recording would be proposed for approval. */
+/* Remove frames of a longer, earlier recording, which would be proposed for approval. */
 static void remove_stale_frames(const struct steps *s)
 {
 	char folder[PATH_MAX], path[PATH_MAX + NAME_MAX + 2];
@@ -246,7 +250,7 @@ static int compare(const struct steps *s)
 	size_t n = 0;
 	int code;
 
-	/* Approved frames beyond those asked for do not count; below, they are missing where the program drew fewer. */
+	/* Ignore approved frames beyond those requested; an approved frame below that limit is missing if not drawn. */
 	snprintf(list, sizeof(list), "0-%u", s->program->frames - 1);
 	snprintf(baseline, sizeof(baseline), "%s/%s", s->run->baseline, s->program->name);
 	while (argv[n])
@@ -268,7 +272,7 @@ static int compare(const struct steps *s)
 	}
 	if (code == -ERR_BASELINE) {
 		say(s, "");
-		printf("nobody has approved all of these frames; once they are right: relume approve %s %s\n", frames,
+		printf("not all of these frames are approved; once they are right, run: relume approve %s %s\n", frames,
 		       baseline);
 	}
 	return code;
@@ -291,7 +295,7 @@ int ci_run_program(const struct ci_run *run, const struct ci_program *program)
 	if (program_find(program->command[0], path, sizeof(path)))
 		code = record_if_changed(&s, path);
 	else
-		code = -err_report(ERR_SYSTEM, program->name, "there is no program '%s'", program->command[0]);
+		code = -err_report(ERR_SYSTEM, program->name, "program not found: '%s'", program->command[0]);
 	if (!code)
 		code = count_frames(&s);
 	if (!code) {

@@ -1,3 +1,4 @@
+/* Lists and hashes the inputs of a recording, and compares them with those of the last one. */
 #include "ci/watched.h"
 
 #include <dirent.h>
@@ -25,10 +26,10 @@ struct collector {
 	const struct ci_program *program;
 	struct watched *watched;
 	FILE *lines, *folders;
-	struct table added; /* device and number of a file, as a hash: libraries are those of several programs */
+	struct table added; /* files by a hash of device and inode: programs share libraries */
 };
 
-/* A line: quoted, as a name may hold any byte. */
+/* Write one line. The value is quoted, as a name may hold any byte. */
 static void put(struct collector *c, const char *kind, const char *value)
 {
 	fprintf(c->lines, "%s ", kind);
@@ -50,7 +51,7 @@ static int is_folder(const char *path)
 	return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-/* 1 where a file was added before, by whatever name. */
+/* 1 if this file was added before, under any name. Adds it. */
 static int is_added(struct collector *c, const char *path, int *err)
 {
 	uint64_t key[2] = { 0, 0 };
@@ -85,7 +86,7 @@ static int add_file(struct collector *c, const char *path)
 
 /* --- Programs and their libraries ------------------------------------------------------------------------------- */
 
-/* The loader that a program names (PT_INTERP). @return 1; 0: no program, or one that needs none */
+/* Find the loader that a program names (PT_INTERP). @return 1; 0: not a program, or it needs no loader */
 static int find_loader(const unsigned char *head, size_t n, char *out, size_t size)
 {
 	const int is_64 = n > EI_CLASS && head[EI_CLASS] == ELFCLASS64;
@@ -116,7 +117,7 @@ static int find_loader(const unsigned char *head, size_t n, char *out, size_t si
 	return 0;
 }
 
-/* The loader lists "\tlibm.so.6 => /lib/libm.so.6 (0x7f...)"; what has no path is of the kernel, or missing. */
+/* The loader lists "\tlibm.so.6 => /lib/libm.so.6 (0x7f...)". An entry without a path is the kernel's, or missing. */
 static int add_libraries(struct collector *c, const char *loader, const char *program)
 {
 	const uint32_t n = c->program->n_environment;
@@ -135,7 +136,7 @@ static int add_libraries(struct collector *c, const char *loader, const char *pr
 	if (code < 0)
 		return code;
 	if (code) {
-		err_warn(program, "its libraries cannot be listed: it is recorded");
+		err_warn(program, "its libraries cannot be listed, so it is recorded");
 		c->watched->is_unknown = 1;
 	}
 	for (char *line = code ? NULL : strtok(text, "\n"); !err && line; line = strtok(NULL, "\n")) {
@@ -151,7 +152,7 @@ static int add_libraries(struct collector *c, const char *loader, const char *pr
 	return err;
 }
 
-/* A file, and what it takes to run it: libraries of a program, the interpreter of a script. */
+/* Add a file and what it needs to run: a program's libraries, a script's interpreter. */
 static int add_runnable(struct collector *c, const char *path, int depth)
 {
 	unsigned char head[HEAD_BYTES + 1] = { 0 };
@@ -169,7 +170,7 @@ static int add_runnable(struct collector *c, const char *path, int depth)
 	if (memcmp(head, "#!", 2) != 0)
 		return 0;
 	head[strcspn((char *)head, "\n")] = '\0';
-	/* "#!/usr/bin/env python3": each word of the line that is a program */
+	/* "#!/usr/bin/env python3": follow each word that is a program */
 	for (word = strtok_r((char *)head + 2, " \t", &rest); word && !err; word = strtok_r(NULL, " \t", &rest))
 		if (program_find(word, other, sizeof(other)))
 			err = add_runnable(c, other, depth + 1);
@@ -196,7 +197,7 @@ static int add_data(struct collector *c, const char *path, int depth)
 
 		if (!err && strcmp(names[i]->d_name, ".") != 0 && strcmp(names[i]->d_name, "..") != 0) {
 			if (snprintf(inner, sizeof(inner), "%s/%s", path, names[i]->d_name) >= (int)sizeof(inner))
-				err = err_report(ERR_INPUT, path, "a name in it is too long");
+				err = err_report(ERR_INPUT, path, "a path in it is too long");
 			else
 				err = add_data(c, inner, depth + 1);
 		}
@@ -206,7 +207,7 @@ static int add_data(struct collector *c, const char *path, int depth)
 	return err;
 }
 
-/* "model.obj", "--model=model.obj" */
+/* Add a file that an argument names: "model.obj" or "--model=model.obj". */
 static int add_argument(struct collector *c, const char *word)
 {
 	const char *value = strchr(word, '=');
@@ -217,7 +218,7 @@ static int add_argument(struct collector *c, const char *word)
 	return is_file(value) ? add_runnable(c, value, 1) : 0;
 }
 
-/* --- All of it -------------------------------------------------------------------------------------------------- */
+/* --- All inputs -------------------------------------------------------------------------------------------------- */
 
 static int collect(struct collector *c, const char *program)
 {
@@ -267,7 +268,7 @@ void watched_free(struct watched *w)
 	*w = (struct watched){ 0 };
 }
 
-/* 1 where a text has this line. */
+/* 1 if a text has this line. */
 static int has_line(const char *text, const char *line, size_t n)
 {
 	for (const char *at = text; (at = strstr(at, "\n")); at++)
@@ -276,7 +277,7 @@ static int has_line(const char *text, const char *line, size_t n)
 	return strncmp(text, line, n) == 0 && text[n] == '\n';
 }
 
-/* Lines of one text that another lacks; the first is described. */
+/* Count the lines of one text that another lacks, and describe the first in `why`. */
 static size_t compare(const char *text, const char *other, const char *verb, char *why, size_t size)
 {
 	size_t n_different = 0;
@@ -316,11 +317,11 @@ int watched_changed(const struct watched *w, const char *kept, char *why, size_t
 	size_t n = 0;
 
 	if (!before)
-		snprintf(why, size, "there is no whole recording yet");
+		snprintf(why, size, "there is no complete recording yet");
 	else if (w->is_unknown)
 		snprintf(why, size, "its libraries are not known");
 	else if (strcmp(before, w->text) != 0) {
-		/* The same lines in another order are another command. */
+		/* The same lines in another order are a different command. */
 		snprintf(why, size, "the order of its arguments has changed");
 		n = compare(w->text, before, "has changed", why, size);
 		n = n ? n : compare(before, w->text, "is gone", why, size);

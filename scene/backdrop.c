@@ -1,3 +1,4 @@
+/* Finds a frame's backdrop: the draws before a clear that drops their depth and keeps their colours. */
 #include "scene/backdrop.h"
 
 #include "scene/scene.h"

@@ -1,4 +1,4 @@
-/* What a frame draws first, and then clears the depth of: a picture of what is far, whatever its size. */
+/* A backdrop: a picture of distant things that a frame draws first, of whatever size, before it clears the depth. */
 #pragma once
 
 #include <stdint.h>
@@ -6,15 +6,15 @@
 struct scene;
 struct scene_clear;
 
-/** 1 where a part (x, y, width, height) is all of the window. */
+/** 1 if a rectangle (x, y, width, height) covers the whole window. */
 int scene_is_whole(const struct scene *scene, const int32_t part[4]);
 
-/** 1 where a clear reaches all of the window. */
+/** 1 if a clear reaches the whole window. */
 int scene_clears_window(const struct scene *scene, const struct scene_clear *clear);
 
 /**
- * How many of the first instances are a backdrop: they are followed by a clear of the window's depth that keeps the
- * colours, and by more instances than they are. (A view model is drawn after such a clear, too; what stands before it
- * is the world.)
+ * Number of leading instances that are a backdrop. They are followed by a clear of the window's depth that keeps the
+ * colours, and then by more instances than they are themselves. (The same clear also precedes a view model, but there
+ * the instances before it are the world.)
  */
 uint32_t scene_backdrop(const struct scene *scene);

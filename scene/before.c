@@ -1,3 +1,4 @@
+/* Keeps the scene that a frame starts from, and releases it as soon as it is known not to show. */
 #include "scene/before.h"
 
 #include <pthread.h>
@@ -62,7 +63,7 @@ const struct scene *scene_before_use(struct scene_before *before)
 	return scene;
 }
 
-/* With its lock: what nobody needs or uses. NULL: there is still somebody */
+/* The scene, taken out, if it neither shows nor is in use; else NULL. The lock must be held. */
 static struct scene *take_needless(struct scene_before *b)
 {
 	struct scene *scene = b->is_needless && !b->users ? b->scene : NULL;

@@ -1,3 +1,4 @@
+/* Bounding boxes of meshes. */
 #include "scene/box.h"
 
 #include <math.h>

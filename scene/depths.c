@@ -1,3 +1,4 @@
+/* Finds draws that write depth and no colour. */
 #include "scene/depths.h"
 
 #include <string.h>
@@ -35,7 +36,7 @@ static int is_depth_alone(const struct scene *s, const struct scene_instance *in
 	       s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle;
 }
 
-/* A colour that stops light, or some of it, by itself; passes that add light do not. */
+/* 1 if a material's own colour covers what is behind it, wholly or in part; passes that only add light do not. */
 static int is_body(const struct scene_material *m)
 {
 	return m->color_mask & 7 && m->depth_test && (!m->blend || m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA);

@@ -1,3 +1,4 @@
+/* Describes a surface: its draw, mesh, textures and material. */
 #include "scene/describe.h"
 
 #include <inttypes.h>
@@ -58,7 +59,7 @@ static void write_lighting(FILE *out, const struct scene_material *m)
 	fprintf(out, ", shininess %.3g", (double)m->front.shininess);
 }
 
-/* What rtMaterialEXT said. */
+/* Write the properties that rtMaterialEXT set. */
 static void write_surface(FILE *out, const struct scene_surface *s)
 {
 	if (s->reflect > 0)

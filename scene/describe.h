@@ -1,4 +1,4 @@
-/* What is known of one surface of a frame, as lines for people. */
+/* Describes one surface of a frame in text. */
 #pragma once
 
 #include <stdio.h>
@@ -7,6 +7,6 @@
 
 /**
  * Write an instance's draw, call, mesh, textures and material, a line each.
- * @param before  what each line begins with
+ * @param before  prefix of each line
  */
 void scene_describe(FILE *out, const struct scene *scene, uint32_t instance, const char *before);

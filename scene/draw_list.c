@@ -1,3 +1,4 @@
+/* Writes the draws of chosen instances as ranges: "3,7-9". */
 #include "scene/draw_list.h"
 
 #include <stdio.h>
@@ -8,7 +9,7 @@ char *scene_draw_list(const struct scene *scene, scene_draw_chooser *is, const v
 	char *text = NULL;
 	size_t size;
 	FILE *out = open_memstream(&text, &size);
-	uint32_t first = 0, next = 0; /* of the range that is not written yet */
+	uint32_t first = 0, next = 0; /* bounds of the range that is not yet written */
 	int any = 0;
 
 	for (uint32_t i = 0; out && i <= scene->n_instances; i++) {

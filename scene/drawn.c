@@ -1,3 +1,4 @@
+/* Finds the instance of a draw by binary search. */
 #include "scene/drawn.h"
 
 uint32_t scene_instance_of(const struct scene *scene, uint32_t draw)

@@ -1,3 +1,4 @@
+/* Writes a glTF file: its JSON, then the binary chunk. */
 #include "scene/gltf_parts.h"
 
 #include <errno.h>
@@ -100,7 +101,7 @@ static void write_mesh(struct json *j, const struct gltf *g, const struct gltf_p
 	json_end(j, '}');
 }
 
-/* glTF knows no CLAMP and no CLAMP_TO_BORDER. */
+/* glTF has neither CLAMP nor CLAMP_TO_BORDER. */
 static uint32_t wrap_of(uint32_t wrap)
 {
 	return wrap == GL_REPEAT || wrap == GL_MIRRORED_REPEAT ? wrap : GL_CLAMP_TO_EDGE;
@@ -121,7 +122,7 @@ static void write_camera(struct json *j, const struct scene_view *v)
 	const float *p = v->projection;
 	int perspective = gltf_camera_kind(p) == 1;
 	const char *kind = perspective ? "perspective" : "orthographic";
-	/* Inverse of GL 2.1 sec. 2.11.2's Frustum and Ortho. */
+	/* the inverse of Frustum and Ortho (GL 2.1 sec. 2.11.2) */
 	float near = perspective ? p[14] / (p[10] - 1) : (p[14] + 1) / p[10];
 	float far = perspective ? p[14] / (p[10] + 1) : (p[14] - 1) / p[10];
 
@@ -134,7 +135,7 @@ static void write_camera(struct json *j, const struct scene_view *v)
 	} else {
 		json_key_float(j, "xmag", 1 / (double)p[0]);
 		json_key_float(j, "ymag", 1 / (double)p[5]);
-		far -= fminf(near, 0); /* glTF wants 0 <= near; what lies behind the viewer is lost */
+		far -= fminf(near, 0); /* glTF requires 0 <= near; geometry behind the viewer is lost */
 		near = fmaxf(near, 0);
 	}
 	json_key_float(j, "znear", (double)near);
@@ -145,12 +146,12 @@ static void write_camera(struct json *j, const struct scene_view *v)
 }
 
 /*
- * Lumen that a watt makes (at 555 nm): KHR_lights_punctual counts in candela and lux. Programs that render in watts
- * divide by this number again (Blender's importer, "standard" light units), so that a radiance of 1 stays one.
+ * Lumen per watt (at 555 nm): KHR_lights_punctual counts in candela and lux. Programs that render in watts divide by
+ * this number again (Blender's importer, "standard" light units), so a radiance of 1 stays 1.
  */
 #define LUMEN_PER_WATT 683.0
 
-/* A light as KHR_lights_punctual wants it: a white surface facing it at the middle of its space has its diffuse
+/* Write a light for KHR_lights_punctual: a white surface that faces it at the middle of its space gets its diffuse
  * colour. */
 static void write_light(struct json *j, const struct scene_light *l, const float middle[3])
 {
@@ -162,7 +163,7 @@ static void write_light(struct json *j, const struct scene_light *l, const float
 		double d = (double)(l->position_eye[i] / l->position_eye[3] - middle[i]);
 		d2 += d * d;
 	}
-	if (positional) /* GL 2.1 eq. 2.4 has more than the inverse square */
+	if (positional) /* GL 2.1 eq. 2.4 has more terms than the inverse square */
 		intensity *= d2 / ((double)l->attenuation[0] + (double)l->attenuation[1] * sqrt(d2) + (double)l->attenuation[2] * d2);
 	for (int i = 0; i < 3; i++)
 		color[i] = gltf_linear(l->diffuse[i] / most);
@@ -178,7 +179,7 @@ static void write_light(struct json *j, const struct scene_light *l, const float
 	json_end(j, '}');
 }
 
-/* A light's node: glTF's lights shine along their own -z. */
+/* Write a light's node: glTF's lights shine along their own -z. */
 static void write_light_node(struct json *j, const struct scene_light *l, uint32_t number)
 {
 	float m[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 }, *x = m, *y = m + 4, *z = m + 8;
@@ -189,7 +190,7 @@ static void write_light_node(struct json *j, const struct scene_light *l, uint32
 		m[12 + i] = positional ? l->position_eye[i] / l->position_eye[3] : 0;
 	}
 	gltf_normalise(z);
-	/* Any axis at a right angle to z: that of the smallest component, turned. */
+	/* any axis perpendicular to z: that of the smallest component, turned */
 	x[0] = fabsf(z[0]) < 0.9f ? 0 : -z[2];
 	x[1] = fabsf(z[0]) < 0.9f ? z[2] : 0;
 	x[2] = fabsf(z[0]) < 0.9f ? -z[1] : z[0];
@@ -239,7 +240,7 @@ static void write_nodes(struct json *j, const struct gltf *g)
 	}
 }
 
-/* Cameras, or lights, in the order of their nodes. Empty arrays are not allowed (glTF 2.0 sec. 5.17). */
+/* Write cameras or lights in the order of their nodes. Empty arrays are not allowed (glTF 2.0 sec. 5.17). */
 static void write_of_kind(struct json *j, const struct gltf *g, enum gltf_node_kind kind, const char *name)
 {
 	int any = 0;
@@ -365,7 +366,7 @@ static void write_text(struct json *j, const struct gltf *g)
 	json_end(j, '}');
 }
 
-/* A chunk of a .glb (glTF 2.0 sec. 4.4.3): length, type, bytes, filled up to a multiple of 4. */
+/* Write a chunk of a .glb (glTF 2.0 sec. 4.4.3): length, type, bytes, padded to a multiple of 4. */
 static int write_chunk(FILE *out, uint32_t type, const void *bytes, size_t n, char filler)
 {
 	const uint32_t head[2] = { (uint32_t)((n + 3) & ~(size_t)3), type };

@@ -1,3 +1,4 @@
+/* Converts GL materials to glTF's metallic-roughness ones. */
 #include "scene/gltf_looks.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 #include "gl_tokens.h"
 #include "scene/png_pack.h"
 
-/* Level 0 as PNG. */
+/* Store level 0 as PNG. */
 static uint32_t put_image(struct gltf *g, const struct scene_texture *t)
 {
 	uint32_t piece = SCENE_NONE;
@@ -23,7 +24,7 @@ static uint32_t put_image(struct gltf *g, const struct scene_texture *t)
 	return piece;
 }
 
-/* The number of a unit's texture with its sampler; its picture is stored once. */
+/* The number of a unit's texture with its sampler. Each image is stored once. */
 static uint32_t put_sampled(struct gltf *g, const struct scene_unit *u)
 {
 	struct gltf_sampled s = { u->texture, SCENE_NONE, u->wrap_s, u->wrap_t, u->min_filter, u->mag_filter };
@@ -40,8 +41,8 @@ static uint32_t put_sampled(struct gltf *g, const struct scene_unit *u)
 	return GLTF_PUSH(g, sampled, s);
 }
 
-/* 1 where a unit lets its texture's colour through, not its alpha alone as for shadows and fades (GL 2.1 sec.
- * 3.8.13). */
+/* 1 if a unit lets its texture's colour through, and not only its alpha as for shadows and fades (GL 2.1 sec. 3.8.13).
+ * */
 static int shows_color(const struct scene_unit *u)
 {
 	const int n = u->combine_rgb == GL_REPLACE ? 1 : u->combine_rgb == GL_INTERPOLATE ? 3 : 2;
@@ -53,11 +54,11 @@ static int shows_color(const struct scene_unit *u)
 	return u->env_mode != GL_COMBINE;
 }
 
-/* How likely a texture is the surface's own colour; 0: it is not, or glTF cannot place it. */
+/* Likelihood that a texture is the surface's own colour; 0: it is not, or glTF cannot place it. */
 static int rank(const struct scene_texture *t, const struct scene_mesh *mesh, const struct scene_unit *u)
 {
 	const int has_colors = t->base_format == GL_RGB || t->base_format == GL_RGBA;
-	const int is_own = mesh->texcoord[u->unit] != NULL; /* else one texel colours all of it */
+	const int is_own = mesh->texcoord[u->unit] != NULL; /* else one texel colours the whole mesh */
 
 	if ((t->target != GL_TEXTURE_2D && t->target != GL_TEXTURE_RECTANGLE) || t->base_format == GL_DEPTH_COMPONENT ||
 	    u->gen_mode[0] || u->gen_mode[1] || !shows_color(u))
@@ -95,7 +96,7 @@ uint32_t gltf_put_look(struct gltf *g, const struct scene_material *m, const str
 	const struct scene_face *f = &m->front;
 	float base[4] = { 1, 1, 1, 1 };
 
-	memset(&look, 0, sizeof(look)); /* looks are compared by their bytes */
+	memset(&look, 0, sizeof(look)); /* padding must be equal, as looks are compared by their bytes */
 	if (m->lighting && !m->color_material)
 		memcpy(base, f->diffuse, sizeof(base));
 	else if (!vertex_colors)

@@ -1,3 +1,4 @@
+/* Collects a glTF file's meshes, nodes, cameras and lights from a scene. */
 #include "scene/gltf_parts.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@ static float determinant(const float m[16])
 	return m[0] * (m[5] * m[10] - m[9] * m[6]) - m[4] * (m[1] * m[10] - m[9] * m[2]) + m[8] * (m[1] * m[6] - m[5] * m[2]);
 }
 
-/* Whether a matrix is a translation, rotation and scale: columns at right angles, none zero, last row 0 0 0 1. */
+/* 1 if a matrix is a translation, rotation and scale: columns at right angles, none zero, last row 0 0 0 1. */
 static int is_trs(const float m[16])
 {
 	if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
@@ -29,7 +30,7 @@ static int is_trs(const float m[16])
 	return isfinite(m[12]) && isfinite(m[13]) && isfinite(m[14]);
 }
 
-/* All vertices have w = 1, so that a node's matrix can move them. */
+/* 1 if all vertices have w = 1, so that a node's matrix can move them. */
 static int is_affine(const struct scene_mesh *m)
 {
 	for (uint32_t v = 0; v < m->vertex_count; v++)
@@ -47,8 +48,8 @@ static uint32_t put_accessor(struct gltf *g, uint32_t piece, uint32_t component,
 		((struct gltf_accessor){ .piece = piece, .component = component, .count = count, .type = type }));
 }
 
-/* Positions, in object space or baked into eye space; a vertex at infinity or behind becomes NaN, for put_indices to
- * see. */
+/* Write positions in object space, or baked into eye space. A vertex at or beyond infinity becomes NaN; put_indices
+ * then drops its primitives. */
 static uint32_t put_positions(struct gltf *g, const struct scene_mesh *m, const float *baked)
 {
 	uint32_t piece, number;
@@ -115,7 +116,7 @@ static uint32_t put_colors(struct gltf *g, const struct scene_mesh *m)
 	return put_accessor(g, piece, GL_FLOAT, m->vertex_count, "VEC4");
 }
 
-/* Texture coordinates after the texture matrix. In rectangle textures they count texels (ARB_texture_rectangle). */
+/* Write texture coordinates after the texture matrix. Rectangle textures count texels (ARB_texture_rectangle). */
 static uint32_t put_texcoords(struct gltf *g, const struct scene_mesh *m, const struct scene_unit *u,
                               const float current[4])
 {
@@ -140,8 +141,8 @@ static uint32_t put_texcoords(struct gltf *g, const struct scene_mesh *m, const 
 }
 
 /*
- * Primitives with an infinite vertex are counted and left out. So are triangles with one corner twice: they cover
- * nothing. `flipped` turns triangles over.
+ * Write indices. Primitives with an infinite vertex are counted and dropped. Triangles with one corner twice are
+ * dropped as well: they cover nothing. `flipped` reverses the winding.
  */
 static uint32_t put_indices(struct gltf *g, const struct scene_mesh *m, uint32_t position, int flipped)
 {
@@ -171,7 +172,7 @@ static uint32_t put_indices(struct gltf *g, const struct scene_mesh *m, uint32_t
 	return n ? put_accessor(g, piece, GL_UNSIGNED_INT, n, "SCALAR") : SCENE_NONE;
 }
 
-/* glTF wants numbers, and vertices in no primitive may still be infinite or NaN. */
+/* Replace NaN by numbers: glTF requires them even for vertices that no primitive uses. */
 static void mend_positions(struct gltf *g, uint32_t position)
 {
 	const struct gltf_accessor *a = &g->accessors[position];
@@ -189,7 +190,7 @@ static int writes_color(const struct scene_material *m)
 	return (m->color_mask & 7) && m->cull_face != GL_FRONT_AND_BACK;
 }
 
-/* The glTF mesh of an instance: one made before where all that goes into it is the same. */
+/* The glTF mesh of an instance; an earlier mesh is reused if all its inputs are the same. */
 static uint32_t put_part(struct gltf *g, uint32_t number)
 {
 	const struct scene_instance *in = &g->s->instances[number];
@@ -205,7 +206,8 @@ static uint32_t put_part(struct gltf *g, uint32_t number)
 	const struct scene_unit *unit;
 	int vertex_colors;
 
-	/* A node's mirroring matrix turns front faces over in glTF (sec. 3.7.4), but not in GL, which looks at the window. */
+	/* In glTF a mirroring node matrix turns front faces over (sec. 3.7.4). In GL it does not: GL looks at the
+	 * window. */
 	p.flipped = (mat->front_face == GL_CW) != (as_node && determinant(in->modelview) < 0);
 	for (uint32_t i = 0; i < g->n_parts; i++)
 		if (memcmp(&g->parts[i], &p, offsetof(struct gltf_part, position)) == 0)
@@ -231,7 +233,7 @@ static uint32_t put_part(struct gltf *g, uint32_t number)
 
 /* ---- nodes ---- */
 
-/* A perspective (1) or parallel (2) projection along -z, as Frustum and Ortho make them; 0: anything else. */
+/* 1 for a perspective, 2 for a parallel projection along -z, as Frustum and Ortho make them; 0 for any other. */
 int gltf_camera_kind(const float p[16])
 {
 	if (p[11] == -1 && p[15] == 0 && p[0] > 0 && p[5] > 0 && p[10] < -1)
@@ -269,7 +271,7 @@ static void put_instances(struct gltf *g, struct gltf_space *space)
 		space->middle[k] = weight > 0 ? (float)(middle[k] / weight) : 0;
 }
 
-/* One camera for each projection of a space. */
+/* Add one camera for each projection of a space. */
 static void put_cameras(struct gltf *g, const struct gltf_space *space)
 {
 	for (uint32_t v = 0; v < g->s->n_views; v++) {
@@ -283,7 +285,7 @@ static void put_cameras(struct gltf *g, const struct gltf_space *space)
 	}
 }
 
-/* Every light that something in the space is lit by, once. */
+/* Add each light that lights something in the space, once. */
 static void put_lights(struct gltf *g, const struct gltf_space *space)
 {
 	uint32_t first = g->n_nodes;

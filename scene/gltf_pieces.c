@@ -1,3 +1,4 @@
+/* Growing arrays of a glTF file's contents. */
 #include "scene/gltf_pieces.h"
 
 #include <math.h>

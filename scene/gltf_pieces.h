@@ -1,6 +1,6 @@
 /*
- * What a glTF file holds: the binary chunk, and the numbered things that refer to it. gltf_parts.c gathers them from a
- * scene, with the materials of gltf_looks.c; gltf.c writes the text.
+ * The contents of a glTF file: the binary chunk, and the numbered objects that refer to it. gltf_parts.c collects them
+ * from a scene, with the materials of gltf_looks.c; gltf.c writes the text.
  */
 #pragma once
 
@@ -8,7 +8,7 @@
 
 enum { GLTF_VERTICES = 34962, GLTF_INDICES = 34963 }; /* bufferView.target: ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER */
 
-/* A piece of the binary chunk: vertices, indices or a picture. */
+/* A piece of the binary chunk: vertices, indices or an image. */
 struct gltf_piece {
 	size_t offset, n_bytes;
 	uint32_t target;
@@ -29,9 +29,9 @@ struct gltf_look {
 	uint32_t texture; /* index into gltf.sampled, or SCENE_NONE */
 };
 
-/* A texture with its sampler: a glTF image, sampler and texture of one number. */
+/* A texture with its sampler: a glTF image, a sampler and a texture that share one number. */
 struct gltf_sampled {
-	uint32_t texture; /* of the scene */
+	uint32_t texture; /* index in the scene */
 	uint32_t piece;   /* its PNG */
 	uint32_t wrap_s, wrap_t, min_filter, mag_filter;
 };
@@ -39,8 +39,8 @@ struct gltf_sampled {
 /* A glTF mesh: a mesh of the scene with one material and one set of current attributes. */
 struct gltf_part {
 	uint32_t mesh, material, current, flipped;
-	uint32_t baked; /* the instance whose eye space the vertices are in, or SCENE_NONE: object space */
-	uint32_t position, normal, color, texcoord, index; /* accessors or SCENE_NONE */
+	uint32_t baked; /* the instance whose eye space the vertices are in; SCENE_NONE: object space */
+	uint32_t position, normal, color, texcoord, index; /* accessors, or SCENE_NONE */
 	uint32_t look;
 };
 
@@ -48,16 +48,16 @@ enum gltf_node_kind { GLTF_INSTANCE, GLTF_CAMERA, GLTF_LIGHT };
 
 struct gltf_node {
 	enum gltf_node_kind kind;
-	uint32_t index; /* of the scene's instance, view or light */
-	uint32_t part;  /* of an instance */
+	uint32_t index; /* index of the scene's instance, view or light */
+	uint32_t part;  /* index of an instance's part */
 };
 
-/* Views with one eye space: a glTF scene. */
+/* Views that share an eye space: a glTF scene. */
 struct gltf_space {
 	uint32_t space; /* scene_view.space */
 	uint32_t node_first, node_count;
 	uint64_t n_primitives;
-	float middle[3]; /* eye space, of what is drawn */
+	float middle[3]; /* middle of the drawn geometry, in eye space */
 };
 
 struct gltf {
@@ -77,22 +77,22 @@ struct gltf {
 	uint32_t n_pieces, n_accessors, n_looks, n_sampled, n_parts, n_nodes, n_spaces;
 };
 
-/** Append one item to a growing array; its number, or SCENE_NONE out of memory. */
+/** Append one item to a growing array. Yields its index, or SCENE_NONE if out of memory. */
 #define GLTF_PUSH(g, array, value) \
 	(gltf_grow((g), (void **)&(g)->array, (g)->n_##array, \
 	sizeof(*(g)->array)) ? SCENE_NONE : ((g)->array[(g)->n_##array] = (value), (g)->n_##array++))
 int gltf_grow(struct gltf *g, void **items, uint32_t n, size_t size);
 
-/** Room for a piece, at a multiple of 4 bytes; NULL out of memory. Valid until the next call. */
+/** Reserve a piece, aligned to 4 bytes; NULL if out of memory. Valid until the next call. */
 void *gltf_put_piece(struct gltf *g, size_t n, uint32_t target, uint32_t *number);
 
-/** The piece made last needs fewer bytes. */
+/** Shorten the last piece to n bytes. */
 void gltf_shrink_piece(struct gltf *g, uint32_t piece, size_t n);
 
 void gltf_free(struct gltf *g);
 
-/** GL's display-referred numbers are linear in glTF (IEC 61966-2-1). */
+/** From GL's display-referred values to glTF's linear ones (IEC 61966-2-1). */
 float gltf_linear(float v);
 
-/** To length 1; (0, 0, 1) where there is no direction. */
+/** Scale to length 1; (0, 0, 1) if there is no direction. */
 void gltf_normalise(float v[3]);

@@ -1,3 +1,4 @@
+/* Writes a scene as JSON or as text. */
 #include "scene/json.h"
 
 #include <inttypes.h>
@@ -23,7 +24,7 @@ static void write_clears(FILE *out, const struct scene *s, uint32_t *next, uint3
 	}
 }
 
-/* The start of a hash, which names a mesh or texture in rules. */
+/* The first digits of a hash, which name a mesh or texture in rules. */
 static unsigned start_of(const uint64_t hash[2])
 {
 	return (unsigned)(hash[1] >> 32);
@@ -83,7 +84,7 @@ void scene_write_text(FILE *out, const struct scene *s)
 
 /* ---- JSON: a row for each field, by its name ---- */
 
-/* FACTORS: tokens of which 0 and 1 are GL_ZERO and GL_ONE. */
+/* FACTORS: tokens whose values 0 and 1 are GL_ZERO and GL_ONE. */
 enum kind { UINTS, TOKENS, FACTORS, INTS, FLOATS, FACE, STENCIL, SURFACE };
 
 struct field {
@@ -105,7 +106,7 @@ struct field {
 	sizeof(MEMBER(type, member)) }
 #define FIELD(owner, member) ROW(struct scene_##owner, member)
 #define SCENE_FIELD(member) ROW(struct scene, member)
-/* Numbers that are GL tokens: only scene.h's comments tell. */
+/* Rows of GL tokens; their type does not distinguish them from plain numbers. */
 #define TOKEN_ROW(owner, member, kind) \
 	{ #member, kind, IS_ARRAY(MEMBER(struct scene_##owner, member)), offsetof(struct scene_##owner, member), \
 	sizeof(MEMBER(struct scene_##owner, member)) }

@@ -1,4 +1,4 @@
-/* A scene as JSON, whose names are those of scene.h, or as text for people: one line per event. */
+/* Writes a scene as JSON with the names of scene.h, or as text for people with one line per event. */
 #pragma once
 
 #include <stdio.h>
@@ -7,7 +7,7 @@
 
 /**
  * Write a scene as one JSON object and a newline.
- * @param vertices  1: with the arrays of its meshes
+ * @param vertices  1: include the arrays of its meshes
  */
 void scene_write_json(FILE *out, const struct scene *scene, int vertices);
 

@@ -1,3 +1,4 @@
+/* Maps a GL's version string to its differences from Mesa 22.3. */
 #include "scene/mesa.h"
 
 #include <limits.h>

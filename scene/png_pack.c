@@ -1,3 +1,4 @@
+/* Packs pixels and textures as PNG. */
 #include "scene/png_pack.h"
 
 #include <png.h>
@@ -21,7 +22,7 @@ int png_pack(const struct png_pixels *p, uint8_t **out, size_t *n)
 	return err_report(ERR_SYSTEM, NULL, "out of memory");
 }
 
-/* Four floats as a colour of four bytes. */
+/* Clamp texels of four floats to four bytes. */
 static void clamp_texels(const struct scene_texture *t, size_t n, uint8_t *out)
 {
 	const float *v = (const float *)(const void *)t->texels;

@@ -1,10 +1,10 @@
 /*
- * Programs of a draw's vertices and fragments (ARB_vertex_program, ARB_fragment_program), as replay/programs/
+ * Programs of a draw's vertices and fragments (ARB_vertex_program, ARB_fragment_program, GLSL), as replay/programs/
  * translates them and kernels run them (kernels/gl/instructions.h): instructions on registers of one number each.
- * scene.programs holds them as words: a struct scene_program, its instructions, its constants. A material names its
- * two, scene_material.vertex_program and .fragment_program.
+ * scene.programs holds each as words: a struct scene_program, its instructions, its constants. A material refers to its
+ * two by scene_material.vertex_program and .fragment_program.
  *
- * Registers: a stage's inputs, four for each, then its outputs, then the program's own. All but inputs begin as 0.
+ * Registers: a stage's inputs, four for each, then its outputs, then temporaries. All but inputs start at 0.
  */
 #pragma once
 
@@ -14,48 +14,48 @@
 
 #include "scene/scene.h"
 
-#define SCENE_PROGRAM_REGISTERS 512u     /* at most */
-#define SCENE_PROGRAM_INSTRUCTIONS 65536u /* at most; fewer than SCENE_PROGRAM_STEPS */
-#define SCENE_PROGRAM_CONSTANT 0x10000u  /* added to a constant's number where an operand is one */
-/* instructions in loops that a fragment or vertex runs at most; then its program ends */
+#define SCENE_PROGRAM_REGISTERS 512u     /* most registers of a program */
+#define SCENE_PROGRAM_INSTRUCTIONS 65536u /* most instructions of a program; fewer than SCENE_PROGRAM_STEPS */
+#define SCENE_PROGRAM_CONSTANT 0x10000u  /* added to a constant's number to make it an operand */
+/* most instructions that a fragment or vertex runs in loops; its program then ends */
 #define SCENE_PROGRAM_STEPS 0x40000u
 
 /* --- Fragments: outputs are SCENE_PROGRAM_COLOR and SCENE_PROGRAM_DEPTH, four registers each --------------------- */
 
 enum scene_program_input {
 	SCENE_INPUT_COLOR, SCENE_INPUT_SECONDARY,
-	SCENE_INPUT_FOG,      /* its coordinate, 0, 0, 1 */
+	SCENE_INPUT_FOG,      /* fog coordinate, 0, 0, 1 */
 	SCENE_INPUT_POSITION, /* in the window; w is 1 / clip w */
-	SCENE_INPUT_FACE,     /* 1 where the front of its triangle shows, 0, 0, 0 */
-	SCENE_INPUT_TEXCOORD, /* of unit 0; others follow */
+	SCENE_INPUT_FACE,     /* 1 if the front of its triangle shows, 0, 0, 0 */
+	SCENE_INPUT_TEXCOORD, /* unit 0; the other units follow */
 	N_SCENE_INPUTS = SCENE_INPUT_TEXCOORD + SCENE_MAX_UNITS
 };
 #define SCENE_PROGRAM_COLOR (4u * N_SCENE_INPUTS)
 #define SCENE_PROGRAM_DEPTH (SCENE_PROGRAM_COLOR + 4u)
-#define SCENE_PROGRAM_FIRST (SCENE_PROGRAM_DEPTH + 4u) /* of the program's own */
+#define SCENE_PROGRAM_FIRST (SCENE_PROGRAM_DEPTH + 4u) /* the first temporary */
 
 /* --- Vertices: attributes in object space, as the program's calls gave them -------------------------------------- */
 
 enum scene_vertex_input {
 	SCENE_VERTEX_POSITION, SCENE_VERTEX_NORMAL, SCENE_VERTEX_COLOR, SCENE_VERTEX_SECONDARY,
-	SCENE_VERTEX_FOG,      /* its coordinate, 0, 0, 1 */
-	SCENE_VERTEX_TEXCOORD, /* of unit 0; others follow */
-	SCENE_VERTEX_GENERIC = SCENE_VERTEX_TEXCOORD + SCENE_MAX_UNITS, /* attribute 1; others follow. 0 is the position */
+	SCENE_VERTEX_FOG,      /* fog coordinate, 0, 0, 1 */
+	SCENE_VERTEX_TEXCOORD, /* unit 0; the other units follow */
+	SCENE_VERTEX_GENERIC = SCENE_VERTEX_TEXCOORD + SCENE_MAX_UNITS, /* attribute 1; others follow. Attribute 0 is
+	                                                                   the position */
 	N_SCENE_VERTEX_INPUTS = SCENE_VERTEX_GENERIC + SCENE_MAX_GENERICS
 };
 
-/* What the fragment stage reads, fixed function or a program: TEXCOORD is SCENE_INPUT_TEXCOORD there, whatever it
- * means. */
+/* Outputs, as read by the fragment stage, fixed function or program. TEXCOORD arrives there as SCENE_INPUT_TEXCOORD. */
 enum scene_vertex_output {
 	SCENE_RESULT_POSITION, /* clip coordinates */
 	SCENE_RESULT_COLOR, SCENE_RESULT_SECONDARY, SCENE_RESULT_BACK_COLOR, SCENE_RESULT_BACK_SECONDARY,
-	SCENE_RESULT_FOG, SCENE_RESULT_POINT_SIZE, /* the first of four */
-	SCENE_RESULT_CLIP_VERTEX, /* in eye space: clip planes clip by it */
-	SCENE_RESULT_TEXCOORD, /* of unit 0; others follow */
+	SCENE_RESULT_FOG, SCENE_RESULT_POINT_SIZE, /* the first of four numbers */
+	SCENE_RESULT_CLIP_VERTEX, /* in eye space: tested against clip planes */
+	SCENE_RESULT_TEXCOORD, /* unit 0; the other units follow */
 	N_SCENE_VERTEX_OUTPUTS = SCENE_RESULT_TEXCOORD + SCENE_MAX_UNITS
 };
 #define SCENE_VERTEX_RESULTS (4u * N_SCENE_VERTEX_INPUTS) /* the first output */
-#define SCENE_VERTEX_FIRST (SCENE_VERTEX_RESULTS + 4u * N_SCENE_VERTEX_OUTPUTS) /* of the program's own */
+#define SCENE_VERTEX_FIRST (SCENE_VERTEX_RESULTS + 4u * N_SCENE_VERTEX_OUTPUTS) /* the first temporary */
 
 /* --- Both -------------------------------------------------------------------------------------------------------- */
 
@@ -63,45 +63,45 @@ struct scene_program {
 	uint32_t n_instructions;
 	uint32_t n_constants; /* numbers */
 	uint32_t n_registers;
-	uint32_t inputs;      /* bits 1 << scene_program_input or scene_vertex_input: those that it reads */
+	uint32_t inputs;      /* bits 1 << scene_program_input or scene_vertex_input: the inputs that it reads */
 	uint32_t kills;       /* 1: it may discard fragments */
 	uint32_t sets_depth;  /* 1: register SCENE_PROGRAM_DEPTH is the fragment's depth */
-	uint32_t outputs;     /* bits 1 << scene_vertex_output: those that count. Without a position it is fixed function's */
-	uint32_t across;      /* 1: it asks how numbers change from pixel to pixel: all four count. Else each by itself */
+	uint32_t outputs;     /* bits 1 << scene_vertex_output: those it writes. Without a position, fixed function gives it */
+	uint32_t across;      /* 1: it takes differences between pixels, so the four of a quad run together; else each
+	                         runs alone */
 	uint32_t n_lights;    /* struct scene_program_light, between instructions and constants */
-	uint32_t ended; /* 0; kernels set it to 1 where the program reached SCENE_PROGRAM_STEPS: what it made is not
-	                   what it means */
-	uint32_t data, n_data; /* gl_FragData: its first register, how many colours it is; 0: all buffers have
+	uint32_t ended; /* 0; kernels set it to 1 if the program reached SCENE_PROGRAM_STEPS, when its results are not
+	                   as intended */
+	uint32_t data, n_data; /* gl_FragData: its first register and its number of colours; 0: all buffers get
 	                          SCENE_PROGRAM_COLOR */
 };
 
 #ifndef __OPENCL_VERSION__
-/** A program of scene.programs. @param number  as materials name it. @return NULL: none */
+/** A program of scene.programs. @param number  as in a material. @return NULL: none */
 static inline const struct scene_program *scene_program_of(const struct scene *scene, uint32_t number)
 {
 	return number ? (const struct scene_program *)(scene->programs + (number - 1)) : NULL;
 }
 #endif
 
-/* Four registers that hold what a light sends, before the first instruction: so a light that does not arrive can be
- * left out. */
+/* Four registers that receive a light's colour before the first instruction, so that a blocked light can be skipped. */
 struct scene_program_light {
-	uint32_t to, from; /* the first register; the first number among the constants. The fourth number is left as it is */
-	uint32_t slot;         /* in the material's list of lights */
+	uint32_t to, from; /* its first register; its first number among the constants. The fourth number is unchanged */
+	uint32_t slot;         /* index in the material's list of lights */
 };
 
 /*
- * X(enumerator): to = f(a, b, c). Those before ADD take a alone, those before MAD a and b. What is true is 1, what is
- * not is 0; all but 0 counts as true.
+ * X(enumerator): to = f(a, b, c). Operations before ADD take a alone, those before MAD a and b. True results are 1,
+ * false ones 0; any number but 0 counts as true.
  *
- * The four run in step, and those of a mask take part: what they compute is kept, what others would is not. All do
- * until MASK says else.
+ * The four pixels of a quad run in step. Results are kept only for the pixels in the current mask: all of them until
+ * MASK changes it.
  */
 #define SCENE_OPERATIONS(X) \
 	X(MOVE) X(ABSOLUTE) X(FLOOR) X(FRACTION) X(RECIPROCAL) X(INVERSE_ROOT) X(EXP2) X(LOG2) X(SINE) X(COSINE) \
 	X(SQUARE_ROOT) X(TRUNCATE) \
-	X(ROUND) /* to the even one where two are as near */ \
-	X(DX) X(DY) /* by how much it is more one pixel to the right, or up */ \
+	X(ROUND) /* halfway cases to the even number */ \
+	X(DX) X(DY) /* difference to the next pixel to the right, or above */ \
 	X(ADD) X(MULTIPLY) X(MINIMUM) X(MAXIMUM) X(LESS) X(GREATER_EQUAL) X(POWER) X(DIVIDE) X(EQUAL) X(NOT_EQUAL) \
 	X(AND) X(AND_NOT) /* a and not b */ \
 	X(MAD)    /* a b + c */ \

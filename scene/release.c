@@ -1,3 +1,4 @@
+/* Releases a scene through its maker's callback. */
 #include "scene/release.h"
 
 #include <stddef.h>

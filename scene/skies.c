@@ -1,3 +1,4 @@
+/* Finds the draws that are a frame's sky. */
 #include "scene/skies.h"
 
 #include <stdlib.h>
@@ -7,7 +8,7 @@
 #include "scene/depths.h"
 #include "scene/scene.h"
 
-/* Whether a clear before an instance drops all depth. next: the first clear that was not looked at */
+/* 1 if a clear before an instance drops all depth. next: the first clear not yet examined */
 static int drops_depth(const struct scene *s, uint32_t instance, uint32_t *next)
 {
 	int drops = 0;
@@ -17,7 +18,7 @@ static int drops_depth(const struct scene *s, uint32_t instance, uint32_t *next)
 	return drops;
 }
 
-/* What was laid into the depth buffer without colours so far. */
+/* Instances so far that wrote depth without colour. */
 struct laid {
 	uint32_t *instances, n;
 };
@@ -48,7 +49,7 @@ static size_t count_spaces(const struct scene *s)
 int scene_find_skies(const struct scene *scene, uint8_t *skies)
 {
 	const size_t n_spaces = count_spaces(scene);
-	uint8_t *deep = calloc(n_spaces + 1, 1); /* [space]: something of it leaves colour and depth */
+	uint8_t *deep = calloc(n_spaces + 1, 1); /* [space]: 1 if something in it leaves colour and depth */
 	struct laid laid = { malloc((scene->n_instances + (size_t)1) * sizeof(*laid.instances)), 0 };
 	const int has_room = deep && laid.instances;
 	const uint32_t backdrop = scene_backdrop(scene);

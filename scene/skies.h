@@ -1,4 +1,4 @@
-/* What is drawn before all else, and stands farther away than all else. */
+/* Skies: surfaces drawn before everything else, and farther away than everything else. */
 #pragma once
 
 #include <stdint.h>
@@ -6,10 +6,10 @@
 struct scene;
 
 /**
- * Which instances are skies: drawn in perspective before anything of their eye space that leaves colour and depth, and
- * leaving no depth themselves, so that all that is seen else is in front of them. A backdrop leaves none either: a
- * clear takes it (scene/backdrop.h). What colours a depth pre-pass is none (scene/depths.h). A clear of the window's
- * depth begins anew.
+ * Find the instances that are skies. A sky is drawn in perspective, before anything of its eye space that leaves colour
+ * and depth, and leaves no depth itself, so everything else seen is in front of it. A backdrop leaves no depth either,
+ * as a clear drops it (scene/backdrop.h). Draws that colour a depth pre-pass are not skies (scene/depths.h). After a
+ * clear of the window's depth, skies may follow again.
  * @param skies  [n_instances], all 0; receives 1 for each
  * @return 0; -1: out of memory
  */

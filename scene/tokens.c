@@ -1,3 +1,4 @@
+/* Table of the GL tokens in a scene's fields. */
 #include "scene/tokens.h"
 
 #include <stddef.h>

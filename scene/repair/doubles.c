@@ -1,3 +1,4 @@
+/* Drops degenerate triangles, and duplicates with the same or the opposite winding. */
 #include "scene/repair/doubles.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 struct triple {
 	uint32_t p[3];
 	uint32_t face;
-	int odd; /* 1: the triangle runs against that order */
+	int odd; /* 1: the triangle winds the other way */
 };
 
 static int compare_places(const struct triple *a, const struct triple *b)
@@ -55,7 +56,7 @@ static int is_none(const struct shape_face *f)
 	return f->p[0] != SCENE_NONE && (f->p[0] == f->p[1] || f->p[1] == f->p[2] || f->p[2] == f->p[0]);
 }
 
-/* All triangles' places, sorted. marks: [n_faces], receives 1 for triangles that are none. @return NULL: out of memory
+/* Sorted places of all triangles. marks: [n_faces], receives 1 for degenerate triangles. @return NULL: out of memory
  * (reported) */
 static struct triple *list_triples(const struct shape *s, uint8_t **marks, size_t *n)
 {
@@ -125,7 +126,8 @@ int doubles_drop_narrow(struct shape *s)
 
 /* --- Back to back ------------------------------------------------------------------------------------------------ */
 
-/* Of each corner's edge: its triangles, and those that run as this one less those that run against it. */
+/* For the edge of a corner: its number of triangles, and how many run along as this one less how many run against
+ * it. */
 struct around {
 	int all, along;
 };
@@ -149,9 +151,9 @@ static int count_around(const struct shape *s, struct around *around)
 }
 
 /*
- * Mark one of each two triangles back to back of which an edge has an odd number of triangles: the one that neighbours
- * run along with.
- * @return how many
+ * If two triangles are back to back and an edge of theirs has an odd number of triangles, mark the one that its
+ * neighbours run along with.
+ * @return number of marks
  */
 static uint32_t mark_backs(const struct triple *list, size_t n, const struct around *around, uint8_t *marks)
 {
@@ -181,7 +183,7 @@ int doubles_drop_backs(struct shape *s)
 	uint32_t marked = 1;
 	int err = 0;
 
-	while (marked && !err) { /* the outer ones of many side by side first */
+	while (marked && !err) { /* peel stacks of triangles from the outside */
 		uint8_t *marks;
 		size_t n;
 		struct triple *list = list_triples(s, &marks, &n);

@@ -1,3 +1,4 @@
+/* Tests by the winding number whether a mesh holds a place. */
 #include "scene/repair/holds.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@ static double dot(const double a[3], const double b[3])
 
 int holds_place(const struct scene_mesh *mesh, const float at[3])
 {
-	double around = 0; /* half the solid angles */
+	double around = 0; /* half the sum of the solid angles */
 
 	for (size_t f = 0; f < mesh->primitive_count; f++) {
 		double to[3][3], length[3], volume = 0;

@@ -1,3 +1,4 @@
+/* Finds corners that lie on open edges, by a tree of boxes, and cuts the triangles there. */
 #include "scene/repair/junctions.h"
 
 #include <math.h>
@@ -9,12 +10,13 @@
 #include "scene/repair/doubles.h"
 #include "scene/repair/shape.h"
 
-/* --- Places of open edges, as a tree: the range [first, end) of a sorted list halves until few are left ---------- */
+/* --- Tree of open edges' places: halves of the range [first, end) of a sorted list, down to LEAF places
+ * ------------ */
 
 enum { LEAF = 4 };
 
 struct place {
-	uint64_t order; /* bits of x, y and z in turn: what is near in it is near in space, mostly */
+	uint64_t order; /* interleaved bits of x, y and z, so that neighbours in order are mostly neighbours in space */
 	uint32_t point;
 };
 
@@ -26,7 +28,7 @@ struct tree {
 	const struct shape *s;
 	struct place *places;
 	size_t n;
-	struct box *boxes; /* of node i; its halves are 2i + 1 and 2i + 2 */
+	struct box *boxes; /* box of node i; its halves are 2i + 1 and 2i + 2 */
 };
 
 static int compare_places(const void *a, const void *b)
@@ -77,7 +79,7 @@ static void find_boxes(struct tree *t, size_t node, size_t first, size_t end)
 	}
 }
 
-/* marks: [n_points], 1 for each place that is in the tree */
+/* marks: [n_points], 1 for each place to put into the tree */
 static int plant(struct tree *t, const struct shape *s, const uint8_t *marks)
 {
 	struct box all = nowhere;
@@ -110,10 +112,10 @@ static void fell(struct tree *t)
 	free(t->boxes);
 }
 
-/* --- Which of them lie on an edge -------------------------------------------------------------------------------- */
+/* --- Places on an edge ------------------------------------------------------------------------------------------- */
 
 struct on_edge {
-	double along; /* from a, in its length */
+	double along; /* distance from a, in units of length */
 	uint32_t point;
 };
 
@@ -125,7 +127,7 @@ struct asking {
 	size_t n, room;
 };
 
-/* 1 where the edge comes as near to a box as the tolerance, or a little farther. */
+/* 1 if the edge comes within the tolerance of a box, or slightly beyond. */
 static int is_near(const struct asking *q, const struct box *box)
 {
 	double near = 0, far = q->length;
@@ -188,7 +190,7 @@ static int compare_along(const void *a, const void *b)
 	return one->point < other->point ? -1 : one->point > other->point;
 }
 
-/* The places on an edge, from a to b, in q's list. */
+/* List the places on an edge in q->list, from a to b. */
 static int ask_edge(struct asking *q, uint32_t a, uint32_t b)
 {
 	const struct shape *s = q->tree->s;
@@ -214,16 +216,16 @@ static int ask_edge(struct asking *q, uint32_t a, uint32_t b)
 	return err;
 }
 
-/* --- Triangles cut there ----------------------------------------------------------------------------------------- */
+/* --- Cutting triangles ------------------------------------------------------------------------------------------- */
 
-/* Places along an edge in one of its triangles' sense. */
+/* Places along an edge, in the direction of one of its triangles. */
 struct cuts {
 	const uint32_t *at;
 	ptrdiff_t step;
 	uint32_t n;
 };
 
-/* All edges' places, from a to b, and where each triangle's edge has its own. */
+/* All edges' places, from a to b, and the range of each triangle's edge among them. */
 struct cutting {
 	struct shape *s;
 	uint32_t *points;
@@ -255,8 +257,8 @@ static int make_vertex(struct shape *s, uint32_t a, uint32_t b, uint32_t point, 
 	return 0;
 }
 
-/* 1 where an edge of a triangle is cut before another: that with more places, or with lower ends. Which corner is first
- * changes nothing. */
+/* 1 if one edge of a triangle is cut before another: the edge with more places, or with lower ends. The order of
+ * corners does not matter. */
 static int is_before(const struct shape_face *f, const struct cuts on[3], int k, int other)
 {
 	const uint32_t a = f->p[k], b = f->p[(k + 1) % 3], c = f->p[other], d = f->p[(other + 1) % 3];
@@ -268,8 +270,8 @@ static int is_before(const struct shape_face *f, const struct cuts on[3], int k,
 }
 
 /*
- * Cut a triangle at the middle of its places on the edge that has most, and its halves again. Corners keep their turn:
- * the last is last. The same triangle, turned or turned over, is cut into the same parts.
+ * Cut a triangle at the middle place of the edge that has most places, then cut its halves. The order of corners is
+ * kept, so the last stays last. The same triangle, rotated or mirrored, is cut into the same parts.
  */
 static int cut(struct cutting *c, struct shape_face f, const struct cuts on[3])
 {
@@ -355,8 +357,9 @@ static int find_cuts(struct cutting *c, const struct tree *tree, const struct sh
 }
 
 /*
- * marks: [n_points], receives 1 for ends of open edges: not half their triangles run each way, or their number is odd,
- * where two back to back count once. backs: [n_faces], 1 for the second of such two. @return how many edges
+ * Mark the ends of open edges: the triangles do not run half each way, or their number is odd when two back to back
+ * count as one.
+ * marks: [n_points], receives 1. backs: [n_faces], 1 for the second of two back to back. @return number of open edges
  */
 static size_t mark_open(const struct shape *s, const struct shape_edge *edges, size_t n, const uint8_t *backs,
                         uint8_t *marks)

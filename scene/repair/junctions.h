@@ -1,4 +1,4 @@
-/* Corners on other triangles' edges. */
+/* Mends T-junctions: corners that lie on other triangles' edges. */
 #pragma once
 
 #include <stdint.h>
@@ -6,8 +6,8 @@
 struct shape;
 
 /**
- * Give edges the corners of open edges that lie on them, all triangles of an edge alike.
- * @param found  receives how many corners edges got
+ * Insert corners of open edges into the edges they lie on, alike for all triangles of an edge.
+ * @param found  receives the number of corners inserted
  * @return 0 or ERR_SYSTEM (reported)
  */
 int junctions_mend(struct shape *s, uint32_t *found);

@@ -1,3 +1,4 @@
+/* Removes vertices of flat regions by edge collapses. */
 #include "scene/repair/merge.h"
 
 #include <math.h>
@@ -7,9 +8,9 @@
 #include "base/err.h"
 #include "scene/repair/shape.h"
 
-/* Triangles around a place: of more it stays. Passes: each takes away what is not side by side. */
+/* MOST_AROUND: a place with more triangles stays. PASSES: each pass removes only places that are not neighbours. */
 enum { MOST_AROUND = 32, PASSES = 24 };
-/* Attributes go on evenly where they are off by no more than this share of 1 or of themselves. */
+/* Attributes are linear if they deviate by no more than this share of 1 or of their size. */
 #define EVEN 1e-4
 
 struct merging {
@@ -17,17 +18,17 @@ struct merging {
 	struct shape_attribute list[SHAPE_MOST_ATTRIBUTES];
 	size_t n_attributes;
 	uint32_t *first, *around; /* faces of place p: around[first[p] .. first[p + 1]) */
-	uint8_t *locked;          /* [n_points]: `around` lacks faces that it has got */
+	uint8_t *locked;          /* [n_points]: 1 if `around` lacks faces that the place has gained */
 	uint8_t *gone;            /* [n_faces] */
 };
 
-/* A place with its triangles, each with the place as corner `at`. */
+/* A place with its triangles; the place is corner `at` of each. */
 struct ring {
 	uint32_t p, n, faces[MOST_AROUND], at[MOST_AROUND], next[MOST_AROUND], previous[MOST_AROUND];
-	int side[MOST_AROUND]; /* which plane */
+	int side[MOST_AROUND]; /* index of its plane */
 	int sides;
 	double normal[2][3];
-	const struct shape_face *ref[2]; /* of each plane the first triangle */
+	const struct shape_face *ref[2]; /* the first triangle of each plane */
 };
 
 static double dot(const double a[3], const double b[3])
@@ -35,7 +36,7 @@ static double dot(const double a[3], const double b[3])
 	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* @return 0: it is no whole disk around the place */
+/* Collect the triangles around a place. @return 0: they do not form a complete disk */
 static int find_ring(const struct merging *m, uint32_t p, struct ring *r)
 {
 	*r = (struct ring){ .p = p };
@@ -65,7 +66,7 @@ static int find_ring(const struct merging *m, uint32_t p, struct ring *r)
 	return r->n >= 3;
 }
 
-/* 1 where a face lies in a plane of the ring. */
+/* 1 if a face lies in a plane of the ring. */
 static int is_in_plane(const struct merging *m, const struct ring *r, const struct shape_face *f, int side)
 {
 	double own[3], to[3];
@@ -81,7 +82,7 @@ static int is_in_plane(const struct merging *m, const struct ring *r, const stru
 	return 1;
 }
 
-/* Which plane each face lies in. @return 0: there are more than two */
+/* Assign each face to a plane. @return 0: there are more than two planes */
 static int find_planes(const struct merging *m, struct ring *r)
 {
 	for (uint32_t i = 0; i < r->n; i++) {
@@ -106,7 +107,7 @@ static int find_planes(const struct merging *m, struct ring *r)
 	return 1;
 }
 
-/* Weights of a triangle's corners for a place in its plane. */
+/* Barycentric weights of a place in a triangle's plane. */
 static void weigh(const struct shape *s, const struct shape_face *f, const double at[3], double out[3])
 {
 	double whole[3], part[3];
@@ -124,7 +125,7 @@ static void weigh(const struct shape *s, const struct shape_face *f, const doubl
 	}
 }
 
-/* 1 where a triangle's attributes are what its plane's first one has there, going on evenly, and both are of one
+/* 1 if a triangle's attributes continue those of its plane's first triangle linearly, and both come from the same
  * draw. */
 static int goes_on(const struct merging *m, const struct shape_face *ref, const struct shape_face *f)
 {
@@ -154,7 +155,7 @@ static int goes_on(const struct merging *m, const struct shape_face *ref, const 
 	return 1;
 }
 
-/* 1 where q is an end of the straight edge between the ring's two planes; of one plane every neighbour does. */
+/* 1 if q is an end of the straight edge between the ring's two planes; with one plane, any neighbour qualifies. */
 static int is_along(const struct merging *m, const struct ring *r, uint32_t q)
 {
 	uint32_t ends[2], n = 0;
@@ -190,7 +191,7 @@ static int is_neighbour(const struct ring *r, uint32_t p)
 	return 0;
 }
 
-/* 1 where the place may become q: the surface stays one, and no triangle turns over or gets narrow. */
+/* 1 if the place may collapse to q: the surface stays connected, and no triangle flips or becomes narrow. */
 static int can_become(const struct merging *m, const struct ring *r, uint32_t q)
 {
 	uint32_t shared = 0;
@@ -240,7 +241,7 @@ static void become(struct merging *m, const struct ring *r, uint32_t q)
 	m->locked[r->p] = m->locked[q] = 1;
 }
 
-/* @return 1 where the place went */
+/* Remove a place if possible. @return 1: removed */
 static int take_away(struct merging *m, uint32_t p)
 {
 	struct ring r;

@@ -1,3 +1,4 @@
+/* Runs the steps of a repair, and builds the resulting mesh. */
 #include "scene/repair/repair.h"
 
 #include <math.h>
@@ -11,10 +12,10 @@
 #include "scene/repair/shape.h"
 #include "scene/repair/turn.h"
 
-/* Edges that were cut may lie beside further corners. */
+/* Mending is repeated, as the new edges may meet further corners. */
 enum { ROUNDS = 4 };
 
-/* --- What the mesh is now ---------------------------------------------------------------------------------------- */
+/* --- The state of the mesh --------------------------------------------------------------------------------------- */
 
 static double volume_of(const struct shape *s)
 {
@@ -60,7 +61,7 @@ static int tell(const struct shape *s)
 	return err;
 }
 
-/* --- The mesh that comes of it ----------------------------------------------------------------------------------- */
+/* --- The resulting mesh ------------------------------------------------------------------------------------------ */
 
 static void fill_positions(const struct shape *s, float *out)
 {
@@ -127,12 +128,12 @@ static int build(const struct shape *s, struct scene_mesh **out)
 		if (copy.primitive_draw)
 			index[3 * s->n_faces + f] = s->mesh->primitive_draw[s->faces[f].from];
 	}
-	copy.edge_flags = NULL; /* of polygons drawn as lines */
+	copy.edge_flags = NULL; /* these belong to polygons drawn as lines */
 	copy.crease = NULL;
 	copy.vertex_count = (uint32_t)vertices;
 	copy.primitive_count = (uint32_t)s->n_faces;
 	memcpy(&bits, &s->wants->weld, sizeof(bits));
-	/* another mesh for all caches, and so is that merged of this one */
+	/* a hash of its own for all caches, and another after merging */
 	copy.hash[0] = (copy.hash[0] ^ wants) * 0x9E3779B97F4A7C15u;
 	copy.hash[1] = (copy.hash[1] ^ bits) * 0x9E3779B97F4A7C15u;
 	*made = copy;
@@ -166,7 +167,7 @@ static int is_whole(const struct scene_mesh *mesh)
 	return 1;
 }
 
-/* 1 where an edge has not as many triangles one way as the other. */
+/* *open: 1 if some edge has not as many triangles one way as the other. */
 static int is_open(const struct shape *s, int *open)
 {
 	struct shape_edge *edges;
@@ -180,7 +181,7 @@ static int is_open(const struct shape *s, int *open)
 	return err;
 }
 
-/* All steps but merging. */
+/* Run all steps but merging. */
 static int close_cracks(struct shape *s)
 {
 	int open = 0, err = doubles_drop(s);
@@ -199,7 +200,7 @@ static int changes(const struct repair_found *found)
 	return found->welded || found->junctions || found->dropped || found->turned || found->merged;
 }
 
-/* Merge what is closed already, in a mesh of its own as attributes of new vertices must be there. mesh: repaired or
+/* Merge after cracks are closed, in a second mesh, as merging reads the attributes of new vertices. mesh: repaired or
  * not; out: as for repair_mesh */
 static int merge(const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found,
                  struct scene_mesh **out)

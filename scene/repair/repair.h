@@ -1,58 +1,59 @@
 /*
- * Meshes without cracks: what rays need and rasterization forgives. Programs draw T-junctions, corners that meet only
- * nearly, faces twice or the wrong way round; light then leaks through, and glass has no inside.
+ * Closes cracks in meshes, which rays need and rasterization does not. Programs draw T-junctions, corners that only
+ * nearly meet, and faces twice or wound the wrong way; light then leaks through, and glass has no inside.
  *
- *   weld        Places nearer to each other than a tolerance become one: the mean of those that differ. Vertices stay
- *               as many as they were, with normals, texture coordinates and colours of their own; only their positions
- *               become equal, bit for bit.
- *   junctions   An edge that other triangles' corners lie on, within the tolerance, gets them as corners of its own.
- *               New vertices lie between the edge's two in all attributes.
- *   drop        Triangles without area, those narrower than the tolerance where the mesh has open edges, and those that
- *               are there twice.
- *   turn        On request: faces of a closed body look outwards, hollows inside it count; those of other meshes all to
- *               one side.
- *   merge       On request: places go where triangles lie in one plane, or meet in a straight edge, and go on evenly
- *               (merge.h).
+ *   weld        Places closer together than a tolerance become one, at the mean of those that differ. The vertices
+ *               remain, with their own normals, texture coordinates and colours; only their positions become equal,
+ *               bit for bit.
+ *   junctions   An edge that other triangles' corners lie on, within the tolerance, gets these corners. New vertices
+ *               interpolate all attributes of the edge's ends.
+ *   drop        Triangles without area and duplicates are dropped, as are triangles narrower than the tolerance if the
+ *               mesh has open edges.
+ *   turn        On request: faces of a closed body are turned outwards, taking hollows into account; those of other
+ *               meshes all to one side.
+ *   merge       On request: places are removed where triangles lie in one plane, or meet in a straight edge, and
+ *               attributes are linear (merge.h).
  *
- * Nothing else is filled: a real opening stays, and is told as a leak. Triangles with a corner that is no number stay
- * as they are and count for nothing. The idea of tracing edges for closed bodies, with junctions mended on the way, is
- * seed B's (a thesis on scene management, 2008).
+ * Nothing else is filled: a real opening stays, and is reported as a leak. Triangles with a NaN or infinite corner are
+ * left as they are and ignored. Tracing edges to find closed bodies, and mending junctions on the way, follows seed B
+ * (a thesis on scene management, 2008).
  */
 #pragma once
 
 #include "scene/scene.h"
 
-/* The tolerance, as a share of the mesh's size, where nobody asks for another. */
+/* Default tolerance, as a share of the mesh's size. */
 #define REPAIR_WELD 4e-6f
 #define REPAIR_MOST_WELD 0.01f
 
 struct repair_wants {
-	float weld; /* the tolerance: a share of the diagonal of the mesh's box, and what floats round; 0: equal
-	               positions only. At most REPAIR_MOST_WELD */
+	float weld; /* tolerance: a share of the diagonal of the mesh's box, plus float rounding; 0: equal positions
+	               only. At most REPAIR_MOST_WELD */
 	int turn;
-	int clockwise; /* 1: faces are seen clockwise from outside; else counter-clockwise */
+	int clockwise; /* 1: faces wind clockwise seen from outside; else counter-clockwise */
 	int merge;
-	int flat;      /* 1: the last vertex of a triangle gives its colour, so new vertices take their triangle's */
+	int flat;      /* 1: a triangle's last vertex gives its colour, so new vertices take their triangle's */
 };
 
-/* What was done, and what the mesh is now. */
+/* The repairs made, and the resulting mesh. */
 struct repair_found {
 	uint32_t welded;    /* vertices that moved */
-	uint32_t junctions; /* places that edges got as corners */
+	uint32_t junctions; /* places inserted into edges */
 	uint32_t dropped, turned; /* triangles */
-	uint32_t merged;    /* places that went */
-	uint32_t leaks;     /* edges of an odd number of triangles */
-	uint32_t twisted;   /* edges of an even number, of which not half run each way: neighbours look to different sides */
-	uint32_t shells;    /* parts that hang together by edges of two triangles */
-	float leak_at[3];   /* the middle of the longest edge that leaks, in object space */
-	int closed;         /* 1: no leaks, nothing twisted, and there are triangles */
-	double volume;      /* where closed, in object space; counter-clockwise outside counts as positive */
+	uint32_t merged;    /* places removed */
+	uint32_t leaks;     /* edges with an odd number of triangles */
+	uint32_t twisted;   /* edges with an even number, not half each way: neighbours face different sides */
+	uint32_t shells;    /* parts connected by edges of two triangles */
+	float leak_at[3];   /* middle of the longest leaking edge, in object space */
+	int closed;         /* 1: has triangles, no leaks, nothing twisted */
+	double volume;      /* if closed, in object space; positive if counter-clockwise outside */
 };
 
 /**
- * @param mesh   of triangles, all w 1; of another one nothing is repaired, and `found` is all 0
+ * Repair a mesh.
+ * @param mesh   triangles, all w 1; any other mesh is not repaired, and `found` is all 0
  * @param found  filled
- * @param out    receives a copy, to be given to free(): one block; NULL where nothing changed
+ * @param out    receives a copy in one block, freed by free(); NULL if nothing changed
  * @return 0 or ERR_SYSTEM (reported)
  */
 int repair_mesh(const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found,

@@ -1,3 +1,4 @@
+/* The mesh under repair: its triangles, places and edges. */
 #include "scene/repair/shape.h"
 
 #include <math.h>

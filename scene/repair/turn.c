@@ -1,3 +1,4 @@
+/* Turns the faces of each shell to one side, and of closed bodies outwards. */
 #include "scene/repair/turn.h"
 
 #include <math.h>
@@ -7,17 +8,17 @@
 #include "base/err.h"
 #include "scene/repair/shape.h"
 
-/* A part of the mesh. */
+/* A connected part of the mesh. */
 struct shell {
 	uint32_t first, end; /* in `order` */
 	double low[3], high[3];
-	double area, turned; /* of all its faces, and of those that are turned */
-	uint32_t largest;    /* face */
+	double area, turned; /* area of all its faces, and of those turned */
+	uint32_t largest;    /* its largest face */
 };
 
 struct turning {
 	struct shape *s;
-	uint32_t *partner; /* [3 x faces]: the other use of an edge of two; SCENE_NONE */
+	uint32_t *partner; /* [3 x faces]: the edge's other use; SCENE_NONE unless it has two */
 	uint8_t *turned;   /* [faces] */
 	uint8_t *seen;     /* [faces] */
 	uint32_t *order;   /* faces, shell by shell */
@@ -66,8 +67,8 @@ static void add_to_shell(const struct turning *t, struct shell *shell, uint32_t 
 		}
 }
 
-/* One shell, from a face on, all its faces turned as that one is. at: where `order` goes on. @return the same after
- * it */
+/* Collect one shell from a start face, turning all its faces as that one is. at: next position in `order`. @return the
+ * position after it */
 static uint32_t gather(struct turning *t, uint32_t start, uint32_t at)
 {
 	struct shell *shell = &t->shells[t->n_shells++];
@@ -94,7 +95,7 @@ static uint32_t gather(struct turning *t, uint32_t start, uint32_t at)
 	return at;
 }
 
-/* 1 where a ray meets a triangle beyond its start (Moeller and Trumbore 1997). */
+/* 1 if a ray meets a triangle beyond its start (Moeller and Trumbore 1997). */
 static int meets(const struct shape *s, const struct shape_face *f, const double from[3], const double d[3])
 {
 	const double *a = s->points[f->p[0]];
@@ -135,8 +136,8 @@ static int meets_box(const struct shell *shell, const double from[3], const doub
 	return near <= far * (1 + 1e-9);
 }
 
-/* 1 where a shell's faces look inwards: its largest face looks into what an odd number of faces encloses, by most of
- * three rays. */
+/* 1 if a shell faces inwards: most of three rays from its largest face, to the side it faces, cross an odd number of
+ * faces. */
 static int looks_inwards(const struct turning *t, const struct shell *shell)
 {
 	static const double aside[3][3] = { { 0.13, 0.071, -0.037 }, { -0.053, 0.117, 0.089 }, { 0.023, -0.101, 0.149 } };
@@ -161,7 +162,7 @@ static int looks_inwards(const struct turning *t, const struct shell *shell)
 	return odd >= 2;
 }
 
-/* The last corner stays the last: under flat shading it gives the colour. */
+/* Keep the last corner last: under flat shading it gives the colour. */
 static void turn_face(struct shape_face *f)
 {
 	const uint32_t v = f->v[0], p = f->p[0];

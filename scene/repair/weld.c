@@ -1,3 +1,4 @@
+/* Welds vertices that are closer together than the tolerance: sorts them along a direction, and joins neighbours. */
 #include "scene/repair/weld.h"
 
 #include <math.h>
@@ -7,17 +8,17 @@
 #include "base/err.h"
 #include "scene/repair/shape.h"
 
-/* Along this direction few places of a mesh are side by side, as programs' walls and rows of vertices never stand
- * across it. */
+/* Along this direction few places coincide, as walls and rows of vertices in programs are hardly ever perpendicular to
+ * it. */
 static const double skew[3] = { 0.6270473, 0.5391827, 0.5623719 };
-/* What rounding to floats adds to a distance, as a share of the largest coordinate. */
+/* Error that rounding to floats adds to a distance, as a share of the largest coordinate. */
 #define RESOLVED 2.4e-7
 
-/* A vertex on its way into a place. */
+/* A vertex during welding. */
 struct seat {
-	double along; /* the skew direction */
+	double along; /* position along the skew direction */
 	uint32_t vertex;
-	uint32_t root; /* the seat that it joins, which may join another */
+	uint32_t root; /* the seat it is joined to, which may itself be joined to another */
 };
 
 static const float *position(const struct shape *s, uint32_t vertex)
@@ -48,7 +49,7 @@ static double distance(const float *a, const float *b)
 	return sqrt(x * x + y * y + z * z);
 }
 
-/* Vertices that triangles have, and how large the mesh is. @return how many */
+/* List the vertices that triangles use, and measure the mesh. @return their number */
 static uint32_t list_seats(struct shape *s, struct seat *seats)
 {
 	const struct scene_mesh *mesh = s->mesh;
@@ -77,8 +78,8 @@ static uint32_t list_seats(struct shape *s, struct seat *seats)
 	return n;
 }
 
-/* Join what is near enough. Equal positions follow each other, but for others of the same sum; only the first of each
- * looks further. */
+/* Join seats within the tolerance. Equal positions are adjacent, except for others with the same sum; only the first of
+ * equal positions searches on. */
 static void join(const struct shape *s, struct seat *seats, uint32_t n)
 {
 	for (uint32_t i = 0; i < n; i++)
@@ -97,7 +98,7 @@ static void join(const struct shape *s, struct seat *seats, uint32_t n)
 	}
 }
 
-/* A place is where its vertices are, or the mean of their positions. sums: [n][4] */
+/* Move each place to the position of its vertices, or to their mean. sums: [n][4] */
 static void settle(struct shape *s, struct seat *seats, uint32_t n, double (*sums)[4])
 {
 	for (uint32_t i = 0; i < n; i++) {
@@ -117,7 +118,7 @@ static void settle(struct shape *s, struct seat *seats, uint32_t n, double (*sum
 			       sizeof(*s->points));
 		s->point_of[seats[i].vertex] = root == i ? s->n_points - 1 : s->point_of[seats[root].vertex];
 		if (distance(position(s, seats[i].vertex), position(s, seats[root].vertex)) > 0)
-			for (int k = 0; k < 3; k++) /* the place of its root is no longer its root's alone */
+			for (int k = 0; k < 3; k++) /* the place is no longer at its root's position */
 				s->points[s->point_of[seats[i].vertex]][k] = (float)(sums[root][k] / sums[root][3]);
 	}
 	for (uint32_t i = 0; i < n; i++)

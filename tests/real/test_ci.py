@@ -158,14 +158,14 @@ def test_opened():
     check(os.path.realpath(SCRATCH / "hidden.dat") in opened - watched, "strace lists the file that nothing names")
     check(
         f"watched: {len(watched)} files" in done.stdout
-        and "what the program opens beyond these is not watched: name it with --data" in done.stdout,
+        and "other files that the program opens are not watched: name them with --data" in done.stdout,
         f"the other {len(opened - watched)} files are said not to be watched: {said(done)}")
     unnamed = {path for path in opened - watched if path.startswith(str(SCRATCH))}
     done = ci("viewer", *(word for path in sorted(unnamed) for word in ("--data", path)), *VIEWER)
     check(f"watched: {len(watched) + len(unnamed)} files" in done.stdout and NOTHING not in done.stdout,
           f"named, they are watched: {said(done)}")
     done = ci("viewer", "--", "./viewer", "model.obj", "3", "data")
-    check("folders that its arguments name (data)" in done.stdout,
+    check("folders named by its arguments (data)" in done.stdout,
           f"a folder among the arguments is named: {said(done)}")
     done = ci("viewer", "--", "env", "VIEWER_GREEN=0.9", "./viewer", "model.obj", "3")
     check("libshape.so" in (KEPT / "viewer/inputs").read_text(),

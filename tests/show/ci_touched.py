@@ -9,7 +9,7 @@ import subprocess
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SYSTEM = ("/proc", "/sys", "/dev")
 OPENED = re.compile(r'(openat\(AT_FDCWD, |open\(|execve\()"([^"]+)"(.*) = \d+$', re.M)
-NOT_WATCHED = "what the program opens beyond these is not watched: name it with --data"
+NOT_WATCHED = "other files that the program opens are not watched: name them with --data"
 
 
 def on_display(*command, cwd, **more):
