@@ -35,7 +35,7 @@ struct options {
 	struct score_options score;
 };
 
-/** "shadow=1:40": per cent, either bound may be empty. */
+/** "shadow=1:40": per cent; either bound may be empty. */
 static int parse_effects(const struct options_row *row, const char *text, void *out)
 {
 	struct score_options *options = out;
@@ -64,7 +64,7 @@ static int parse_effects(const struct options_row *row, const char *text, void *
 	options->ranges[options->n_ranges++] = range;
 	return 0;
 wrong:
-	return err_report(ERR_USAGE, NULL, "'%s' is no range of an effect; write shadow=1:40 or any=0.5:", text);
+	return err_report(ERR_USAGE, NULL, "'%s' is not a range of an effect; write shadow=1:40 or any=0.5:", text);
 }
 
 static int want_yee(const struct options_row *row, const char *value, void *out)
@@ -78,52 +78,52 @@ static int want_yee(const struct options_row *row, const char *value, void *out)
 
 static const struct options_row rows[] = {
 	{ "frames", 'f', "LIST",
-	  "frames that must be there and pass, as in 10-60 or 1-500x5 (default: those of TRACED)", options_frames,
+	  "frames that must exist and pass, as in 10-60 or 1-500x5 (default: those of TRACED)", options_frames,
 	  .at = offsetof(struct options, frames) },
 	{ "all", 0, NULL,
-	  "every frame that REF, TRACED or the approved frames have must be there and pass; with --frames: "
-	  "each of these that one has",
+	  "every frame of REF, TRACED or the approved frames must exist and pass; with --frames: every "
+	  "listed frame that one of them has",
 	  options_flag, .at = offsetof(struct options, all) },
 	{ "channel", 0, "LAYER",
-	  "what to compare with the reference: gl (default where there is one), beauty, any layer by what its channels' "
-	  "names begin with (view.diffuse, N), or a single channel (Z)",
+	  "layer to compare with the reference: gl (default if present), beauty, any layer by the prefix of its channels' "
+	  "names (view.diffuse, N), or a single channel (Z)",
 	  options_text, .at = offsetof(struct options, score.channel) },
 	{ "ignore-alpha", 0, NULL,
-	  "leave alpha out, and compare colours as they are stored: else pictures of others are compared with colours "
-	  "multiplied by alpha, and one without alpha is opaque",
+	  "ignore alpha and compare colours as stored; by default, pictures from other programs are compared with colours "
+	  "multiplied by alpha, and pictures without alpha are opaque",
 	  options_flag, .at = offsetof(struct options, score.ignore_alpha) },
 	{ "effects", 0, "E=LO:HI",
 	  "gate E3: effect E (shadow, relight, reflect, refract, any) must touch LO to HI per cent of the "
-	  "pixels; either may be left out; may be given several times",
+	  "pixels; either bound may be omitted; may be repeated",
 	  parse_effects, .at = offsetof(struct options, score) },
-	{ "baseline", 0, "DIR", "gate B: compare with the frames that 'relume approve' put there", options_text,
+	{ "baseline", 0, "DIR", "gate B: compare with the frames that 'relume approve' stored in DIR", options_text,
 	  .at = offsetof(struct options, baseline), .use = CONFINE_READS },
 	{ "config", 0, "FILE",
-	  "bars, masks, flaky frames (default: relume-diff.yaml where there is one); 'relume help diff-file' has its "
+	  "bars, masks, flaky frames (default: relume-diff.yaml if it exists); 'relume help diff-file' lists its "
 	  "keys",
 	  options_text, .at = offsetof(struct options, config) },
-	{ "yee", 0, NULL, "measure Yee's metric as well, which is slow", want_yee,
+	{ "yee", 0, NULL, "also measure Yee's metric, which is slow", want_yee,
 	  .at = offsetof(struct options, score) },
-	{ "report", 0, "DIR", "DIR/index.html, one file with all pictures in it, and DIR/sheet.png, a contact sheet",
+	{ "report", 0, "DIR", "write DIR/index.html, a page with all pictures in it, and DIR/sheet.png, a contact sheet",
 	  options_text, .at = offsetof(struct options, report), .use = CONFINE_FILLS },
-	{ "film", 0, "FILM", "a film of 'relume film' that the report's page plays; it becomes part of the page",
+	{ "film", 0, "FILM", "include FILM, made by 'relume film', in the report's page",
 	  options_text, .at = offsetof(struct options, film), .use = CONFINE_READS },
 	{ "table", 0, NULL,
-	  "the whole table: a line for each frame, a column for each gate, 170 columns (default: what failed, why, and "
-	  "what to do)",
+	  "print the full table: a line for each frame, a column for each gate, 170 columns wide (default: what failed, why, "
+	  "and what to do)",
 	  options_flag, .at = offsetof(struct options, table) },
-	{ "json", 0, "FILE", "every figure and bar as JSON; - for standard output, instead of what people read",
+	{ "json", 0, "FILE", "write every figure and bar as JSON; - writes to standard output, in place of the text",
 	  options_text, .at = offsetof(struct options, json), .use = CONFINE_WRITES },
-	{ "junit", 0, "FILE", "JUnit XML, one case for each frame, with the files to look at", options_text,
+	{ "junit", 0, "FILE", "write JUnit XML, one case for each frame, with the files to look at", options_text,
 	  .at = offsetof(struct options, junit), .use = CONFINE_WRITES },
-	{ "markdown", 0, "FILE", "a summary for a merge request, as Markdown; added to FILE where it is there",
+	{ "markdown", 0, "FILE", "write a Markdown summary for a merge request; appended if FILE exists",
 	  options_text, .at = offsetof(struct options, markdown), .use = CONFINE_WRITES },
 	{ "annotations", 0, NULL, "print workflow commands (::error, ::warning) that CI servers show beside a change",
 	  options_flag, .at = offsetof(struct options, annotations) },
 	{ "quarantine", 0, "FILE",
-	  "of several runs: write the entries that are proposed for flaky frames (default: standard output)",
+	  "with several runs: write proposed entries for flaky frames to FILE (default: standard output)",
 	  options_text, .at = offsetof(struct options, quarantine), .use = CONFINE_WRITES },
-	{ "expires", 0, "DAYS", "days after which these expire (default 30)", options_number,
+	{ "expires", 0, "DAYS", "days until proposed entries expire (default 30)", options_number,
 	  .at = offsetof(struct options, expires), .most = 3650 },
 	{ OPTIONS_NO_SANDBOX },
 };
@@ -142,18 +142,18 @@ static const struct options_table table = {
 		"        Images are a folder (the last number in a name is its frame), a pattern such as\n"
 		"        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their "
 	        "colours.\n"
-		"        Of two folders, pictures without a number, and those in their folders, are matched by path: "
+		"        Between two folders, pictures without a number and those in subfolders are matched by path: "
 	        "login.png, dark/login.exr.\n"
-		"RUN     the same frames once more. With several, frames whose failures are noise are told apart from "
-	        "regressions: of each pixel\n"
-		"        the value nearest to REF between what the runs show is taken, and what still fails is a "
-	        "regression. REF may be\n"
-		"        approved frames. Entries for `flaky:` of relume-diff.yaml are proposed, and what it allows "
-	        "needlessly is named.\n",
+		"RUN     the same frames again. With several runs, frames whose failures are noise are distinguished from "
+	        "regressions: for each\n"
+		"        pixel, the value nearest to REF within the range of the runs is used, and a failure that remains is a "
+	        "regression.\n"
+		"        REF may be approved frames. Entries for `flaky:` of relume-diff.yaml are proposed, and those no longer "
+	        "needed are listed.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 all frames passed; 1 a frame failed or is missing; 3 an input cannot be read;\n"
 		 "4 there are traced frames without a reference or an approved frame, and all others passed.\n"
-		 "Of several runs: 0 no regressions, 1 a frame is a regression, 3 an input cannot be read.\n",
+		 "With several runs: 0 no regressions, 1 a frame is a regression, 3 an input cannot be read.\n",
 	.takes = "REF and TRACED, --baseline DIR and TRACED, or REF and up to 32 runs",
 	.least = 1,
 	.most = RUNS_MOST + 1,
@@ -170,22 +170,22 @@ static int parse_options(int argc, char **argv, struct options *o, struct option
 	if (line->n_words == 1 && !o->baseline)
 		return options_misuse(&table);
 	if (o->film && !o->report)
-		return err_report(ERR_USAGE, NULL, "--film is for the page of --report DIR");
+		return err_report(ERR_USAGE, NULL, "--film needs --report DIR");
 	if (o->film && access(o->film, R_OK) != 0)
 		return err_report(ERR_INPUT, o->film, "%s", strerror(errno));
 	if (line->n_words > 2 && (o->report || o->json || o->junit || o->annotations || o->markdown || o->baseline))
 		return err_report(ERR_USAGE, NULL,
-		                  "of several runs there is a table: --report, --json, --junit, --markdown, "
-		                  "--annotations and --baseline are for one");
+		                  "--report, --json, --junit, --markdown, --annotations and --baseline cannot be used when "
+		                  "comparing several runs");
 	if (line->n_words <= 2 && o->quarantine)
-		return err_report(ERR_USAGE, NULL, "--quarantine is for several runs");
+		return err_report(ERR_USAGE, NULL, "--quarantine needs several runs");
 	o->reference = line->n_words >= 2 ? line->words[0] : NULL;
 	o->traced = line->words[line->n_words - 1];
 	return 0;
 }
 
-/** Give the blamed draws their calls' names. What the trace does not tell stays unnamed: the scores stand without
- * it. */
+/** Give the blamed draws the names of their calls. Draws that the trace does not name stay unnamed: the scores are
+ * valid without. */
 static int name_blamed_draws(const char *trace, draw_namer *namer, struct output_run *run)
 {
 	struct draw_name *names = calloc(run->n_scores * SCORE_MAX_BLAME, sizeof(*names));
@@ -205,7 +205,8 @@ static int name_blamed_draws(const char *trace, draw_namer *namer, struct output
 	return 0;
 }
 
-/** "relume" and all words of the verb, for the page; the caller's, NULL without memory. getopt has sorted the words. */
+/** "relume" and all words of the command line, for the page; caller frees; NULL if out of memory. getopt has sorted
+ * them. */
 static char *join_command(int argc, char **argv)
 {
 	size_t size = sizeof("relume");
@@ -222,7 +223,7 @@ static char *join_command(int argc, char **argv)
 	return text;
 }
 
-/** The recording's name, which the globs of a configuration match: the file without folder and extension. */
+/** The recording's name, which the globs of a configuration match: the file name without extension. */
 static void name_run(const char *path, char *out, size_t size)
 {
 	size_t n = strlen(path);
@@ -248,7 +249,7 @@ static int exit_code(const struct output_run *run)
 	return 0;
 }
 
-/** Everything that is compared, and how. */
+/** Open the sets, the baseline and the settings. */
 static int open_all(struct options *o, const struct options_line *line, struct set *ref, struct set *traced,
                     struct baseline *baseline, struct score_rules **settings)
 {
@@ -265,7 +266,7 @@ static int open_all(struct options *o, const struct options_line *line, struct s
 		err = set_open_named(o->traced, traced);
 	if (!err && o->baseline && access(o->baseline, F_OK) != 0)
 		err_warn(o->baseline,
-		         "there is no such folder, so all frames are new; 'relume approve TRACED %s' makes it",
+		         "no such folder, so all frames are new; create it with 'relume approve TRACED %s'",
 		         o->baseline);
 	if (!err && o->baseline)
 		err = baseline_open(o->baseline, baseline);
@@ -276,7 +277,7 @@ static int match_all(const struct options *o, struct set *ref, struct set *trace
 {
 	struct set *const sets[] = { ref, traced };
 
-	/* Two single images are a pair whatever their names. */
+	/* Two single images are a pair, whatever their names. */
 	if (ref->is_single && traced->is_single) {
 		ref->entries[0].frame = traced->entries[0].frame;
 		return 0;
@@ -405,7 +406,7 @@ static int compare_runs(struct options *o, const struct options_line *line)
 	return err;
 }
 
-/* Which frames are compared, and how many more there would be with --all. */
+/* List the frames to compare, and count those that only --all would add. */
 static int list_frames(const struct options *o, const struct set *ref, const struct set *traced,
                        const struct baseline *baseline, uint64_t **frames, struct output_run *run)
 {

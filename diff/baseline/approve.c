@@ -1,4 +1,4 @@
-/* relume approve: make traced frames the ones that later frames are compared with. */
+/* relume approve: store traced frames as approved ones, for comparison with later frames. */
 #include "base/verbs.h"
 
 #include <errno.h>
@@ -30,11 +30,11 @@ struct options {
 static const struct options_row rows[] = {
 	{ "frames", 'f', "LIST", "frames to approve, as in 10-60 or 1-500x5 (default: all)", options_frames,
 	  .at = offsetof(struct options, frames) },
-	{ "hashes", 0, NULL, "keep only the hashes of the channels: small, but comparable on the same device only",
+	{ "hashes", 0, NULL, "store only hashes of the channels: small, but comparable only on the same device",
 	  options_flag, .at = offsetof(struct options, hashes) },
 	{ "by", 0, "NAME", "who approves (default: the user)", options_text, .at = offsetof(struct options, by) },
 	{ "reason", 0, "TEXT", "why", options_text, .at = offsetof(struct options, reason) },
-	{ "dry-run", 'n', NULL, "print what would change, and change nothing", options_flag,
+	{ "dry-run", 'n', NULL, "print what would change, without changing anything", options_flag,
 	  .at = offsetof(struct options, dry_run) },
 };
 
@@ -43,12 +43,12 @@ static const struct options_table table = {
 	.head = "usage: relume approve [OPTIONS] TRACED BASELINE\n"
 	        "\n"
 	        "Approve traced frames: 'relume diff --baseline BASELINE' compares later ones with them.\n"
-	        "What changes is printed frame by frame.\n"
+	        "Changes are printed frame by frame.\n"
 	        "\n"
 	        "TRACED    frames that 'relume render' wrote: a folder, a pattern, or one file\n"
-	        "BASELINE  a folder that holds a folder for each device\n",
+	        "BASELINE  a folder with a subfolder for each device\n",
 	OPTIONS_ROWS(rows),
-	.notes = "The day is taken from SOURCE_DATE_EPOCH where that is set.\n",
+	.notes = "The date is taken from SOURCE_DATE_EPOCH if it is set.\n",
 	.takes = "TRACED and BASELINE", .least = 2, .most = 2,
 };
 
@@ -68,15 +68,15 @@ static void format_day(char *out, size_t size)
 	strftime(out, size, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &day));
 }
 
-/* A file of the baseline that changes. */
+/* A change to a file of the baseline. */
 struct planned {
 	const char *from; /* the frame to copy; borrowed */
-	char *to;         /* where; NULL: nowhere */
-	char *part;       /* the copy, while not all are made; NULL: none */
-	char *old;        /* an approved frame that goes, as the new one has another name or is not stored; NULL: none */
+	char *to;         /* its destination; NULL: none */
+	char *part;       /* the copy under an unfinished name, until all are made; NULL: none */
+	char *old;        /* an approved frame to remove, as the new one has another name or is not stored; NULL: none */
 };
 
-/* A variant in the making: what is approved already, and what is new. Strings are owned. */
+/* A variant being updated: frames approved before, and new ones. Strings are owned. */
 struct update {
 	const struct options *options;
 	char *folder;
@@ -84,7 +84,7 @@ struct update {
 	uint32_t n_new, n_changed, n_same;
 	struct planned *planned; /* owned, with its names */
 	size_t n_planned, room;
-	FILE *said;              /* what is printed once all is done */
+	FILE *said;              /* text to print once everything is done */
 };
 
 static void free_update(struct update *u)
@@ -103,7 +103,7 @@ static void free_update(struct update *u)
 	free(u->folder);
 }
 
-/** Begin with what is approved for this device. */
+/** Begin with the frames already approved for this device. */
 static int begin_update(struct update *u, const struct baseline *b, const char *device)
 {
 	int own = baseline_variant_of(b, device);
@@ -125,7 +125,7 @@ static int begin_update(struct update *u, const struct baseline *b, const char *
 	return 0;
 }
 
-/** Say how a frame's picture changes, where the approved one is stored. */
+/** Report how a frame's picture changes, if the approved one is stored. */
 static void print_change(const struct update *u, const struct baseline_frame *old, const struct image *img)
 {
 	struct score_picture was = { 0 }, now = { 0 };
@@ -160,7 +160,7 @@ static void print_change(const struct update *u, const struct baseline_frame *ol
 
 /* --- Files: all or none ------------------------------------------------------------------------------------------ */
 
-/* @param to  a name for an unfinished file */
+/* @param to  name of an unfinished file */
 static int copy_file(const char *from, const char *to)
 {
 	FILE *in = fopen(from, "rb"), *out = fopen(to, "wb");
@@ -172,7 +172,7 @@ static int copy_file(const char *from, const char *to)
 		if (fwrite(block, 1, n, out) < n)
 			err = err_report(ERR_SYSTEM, to, "cannot be written: %s", strerror(errno));
 	if (!err && ferror(in))
-		err = err_report(ERR_INPUT, from, "cannot be read whole");
+		err = err_report(ERR_INPUT, from, "cannot be read completely");
 	if (in)
 		fclose(in);
 	if (out && fclose(out) && !err)
@@ -180,7 +180,7 @@ static int copy_file(const char *from, const char *to)
 	return err;
 }
 
-/* FOLDER/NAME; NULL without memory, and where there is no name. */
+/* FOLDER/NAME; NULL if out of memory or without a name. */
 static char *path_of(const char *folder, const char *name)
 {
 	char *path = NULL;
@@ -200,7 +200,7 @@ static int plan(struct update *u, const char *from, const char *name, const char
 	return (name && !p->to) || (goes && !p->old) ? err_report(ERR_SYSTEM, u->folder, "out of memory") : 0;
 }
 
-/* Copy a frame under a name for an unfinished file. */
+/* Copy a frame to an unfinished file. */
 static int copy_frame(struct planned *p)
 {
 	char part[PATH_MAX + 128];
@@ -211,7 +211,7 @@ static int copy_frame(struct planned *p)
 	return err ? err : copy_file(p->from, p->part);
 }
 
-/* Copy all that is new under other names; only when all of it is there, it takes its place. */
+/* Copy all new frames to unfinished files, and rename them only once all are complete. */
 static int carry_out(struct update *u)
 {
 	const int failed = folder_try_early(u->folder, 0);
@@ -291,7 +291,7 @@ static const char *attribute_or(const struct image *img, const char *name, const
 	return text ? text : otherwise;
 }
 
-/** The first frame gives device and provenance; all others must come from the same device and trace. */
+/** The first frame sets device and provenance; all others must come from the same device and trace. */
 static int approve_all(const struct options *o, struct set *set, const struct baseline *b)
 {
 	size_t n_text;
@@ -312,7 +312,7 @@ static int approve_all(const struct options *o, struct set *set, const struct ba
 		if (!err)
 			err = set_read(set, entry, &img);
 		if (!err && !image_attribute(&img, "relume:device"))
-			err = err_report(ERR_INPUT, entry->path, "not a traced frame: there is no attribute relume:device");
+			err = err_report(ERR_INPUT, entry->path, "not a traced frame: it has no attribute relume:device");
 		if (!err && !u.folder) {
 			snprintf(device, sizeof(device), "%s", image_attribute(&img, "relume:device"));
 			snprintf(trace, sizeof(trace), "%s", attribute_or(&img, "relume:trace", ""));
@@ -323,7 +323,7 @@ static int approve_all(const struct options *o, struct set *set, const struct ba
 		}
 		if (!err && (strcmp(device, image_attribute(&img, "relume:device")) != 0 ||
 		             strcmp(trace, attribute_or(&img, "relume:trace", "")) != 0))
-			err = err_report(ERR_USAGE, entry->path, "this frame is of another device or trace than the first one");
+			err = err_report(ERR_USAGE, entry->path, "this frame comes from another device or trace than the first one");
 		if (!err && !(channels = baseline_hash_channels(&img)))
 			err = err_report(ERR_SYSTEM, entry->path, "out of memory");
 		if (!err)
@@ -331,7 +331,7 @@ static int approve_all(const struct options *o, struct set *set, const struct ba
 		image_free(&img);
 	}
 	if (!err && !u.folder)
-		err = err_report(ERR_USAGE, set->name, "none of the frames asked for is there");
+		err = err_report(ERR_USAGE, set->name, "none of the requested frames exists");
 	if (!err) {
 		format_day(day, sizeof(day));
 		u.variant.device = device;

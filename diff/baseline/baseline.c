@@ -1,3 +1,4 @@
+/* Reads and writes baseline.yaml, and looks up a frame's approved version. */
 #include "diff/baseline/baseline.h"
 
 #include <ctype.h>
@@ -29,7 +30,7 @@ static const cyaml_schema_value_t frame_schema = {
 	CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct baseline_frame, frame_fields)
 };
 
-/* Texts of struct baseline_variant, as the file has them. */
+/* Text members of struct baseline_variant, under their names in the file. */
 #define TEXTS(ROW) ROW(device) ROW(trace) ROW(relume) ROW(settings) ROW(approved_by) ROW(approved_at) ROW(reason)
 #define FIELD(member) \
 	CYAML_FIELD_STRING_PTR(#member, CYAML_FLAG_POINTER, struct baseline_variant, member, 0, CYAML_UNLIMITED),
@@ -66,13 +67,13 @@ static int add_variant(struct baseline *b, const char *folder)
 	if (snprintf(path, sizeof(path), "%s/baseline.yaml", folder) >= (int)sizeof(path))
 		return err_report(ERR_INPUT, folder, "the name is too long");
 	if (access(path, F_OK) != 0)
-		return 0; /* some other folder */
+		return 0; /* an unrelated folder */
 	err = config_load(path, &variant_schema, (void **)&v);
 	if (!err && (strcmp(v->format, "relume-baseline") != 0 || v->version != 1))
-		err = err_report(ERR_INPUT, path, "format %s %u is none that this version knows", v->format, v->version);
+		err = err_report(ERR_INPUT, path, "unknown format %s %u", v->format, v->version);
 	for (uint32_t i = 0; !err && i < v->n_frames; i++)
 		if (v->frames[i].file && strchr(v->frames[i].file, '/'))
-			err = err_report(ERR_INPUT, path, "frame %" PRIu64 ": a file of another folder", v->frames[i].frame);
+			err = err_report(ERR_INPUT, path, "frame %" PRIu64 ": its file is in another folder", v->frames[i].frame);
 	folders[b->n_variants] = err ? NULL : strdup(folder);
 	if (!err && !folders[b->n_variants])
 		err = err_report(ERR_SYSTEM, folder, "out of memory");
@@ -184,7 +185,7 @@ char *baseline_folder(const char *dir, const char *device)
 	return text;
 }
 
-/** Walk two sorted lists of channel hashes: names that differ, and whether both have the same names. */
+/** Compare two sorted lists of channel hashes: which names differ, and whether both have the same names. */
 static void compare_lists(const char *now, const char *was, struct score_approved *out)
 {
 	size_t used = 0;
@@ -243,7 +244,7 @@ int baseline_look_up(const struct baseline *b, const struct image *img, uint64_t
 	return set_read_picture(path, was);
 }
 
-/** Text between double quotes, as YAML has it. */
+/** Write text between double quotes, as YAML requires. */
 static void write_text(FILE *out, const char *key, const char *text)
 {
 	struct json json = { .out = out };
@@ -253,7 +254,7 @@ static void write_text(FILE *out, const char *key, const char *text)
 	fputc('\n', out);
 }
 
-/** A file's name: without quotes where YAML takes it for text all the same. */
+/** Write a file's name, without quotes if YAML reads it as text anyway. */
 static void write_name(FILE *out, const char *name)
 {
 	fputs("file: ", out);

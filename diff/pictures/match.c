@@ -1,3 +1,4 @@
+/* Matches the pictures of sets: by number, else by path. */
 #include "diff/pictures/match.h"
 
 #include <inttypes.h>
@@ -22,7 +23,7 @@ static int compare_names(const void *a, const void *b)
 	return strcmp(x->name, y->name);
 }
 
-/* Is there a picture of that name in another set? */
+/* 1 if another set has a picture of that name. */
 static int is_elsewhere(struct set *const *sets, size_t n_sets, size_t own, const char *name)
 {
 	for (size_t s = 0; s < n_sets; s++)
@@ -32,7 +33,7 @@ static int is_elsewhere(struct set *const *sets, size_t n_sets, size_t own, cons
 	return 0;
 }
 
-/* Has another set a picture that goes by that number? */
+/* 1 if another set has a picture that is matched by that number. */
 static int is_wanted(struct set *const *sets, size_t n_sets, size_t own, uint64_t frame)
 {
 	for (size_t s = 0; s < n_sets; s++)
@@ -42,7 +43,7 @@ static int is_wanted(struct set *const *sets, size_t n_sets, size_t own, uint64_
 	return 0;
 }
 
-/* The pictures of a number go by their names, in all sets. */
+/* Match all pictures with this number by name, in all sets. */
 static void forget_number(struct set *const *sets, size_t n_sets, uint64_t frame)
 {
 	for (size_t s = 0; s < n_sets; s++)
@@ -51,7 +52,7 @@ static void forget_number(struct set *const *sets, size_t n_sets, uint64_t frame
 				sets[s]->entries[i].has_number = 0;
 }
 
-/* Numbers that two pictures of a set have. Names tell them apart where other sets have these, or nothing of that
+/* Find numbers that two pictures of a set share. Names distinguish them if other sets have the names, or not the
  * number. */
 static int find_doubles(struct set *const *sets, size_t n_sets, size_t own)
 {
@@ -63,7 +64,7 @@ static int find_doubles(struct set *const *sets, size_t n_sets, size_t own)
 
 		if (a->frame != b->frame || !a->has_number || !b->has_number)
 			continue;
-		/* Alone, a set is compared with a baseline, which has numbers. */
+		/* a single set is compared with a baseline, which has numbers */
 		if (n_sets == 1 || (is_wanted(sets, n_sets, own, a->frame) && !is_elsewhere(sets, n_sets, own, a->name) &&
 		                    !is_elsewhere(sets, n_sets, own, b->name)))
 			return err_report(ERR_USAGE, set->name, "two images of frame %" PRIu64 ", %s and %s; name one series by a "
@@ -73,7 +74,7 @@ static int find_doubles(struct set *const *sets, size_t n_sets, size_t own)
 	return 0;
 }
 
-/* A frame of ours says in its file which one it is. */
+/* Take the number of a Relume frame from its file. */
 static void number_by_file(struct set_entry *entry)
 {
 	char text[24];
@@ -84,7 +85,7 @@ static void number_by_file(struct set_entry *entry)
 	entry->has_number = 1;
 }
 
-/* Leave pictures without a number out. */
+/* Drop pictures without a number. */
 static int drop_named(struct set *set)
 {
 	size_t n = 0, dropped = 0;
@@ -99,8 +100,8 @@ static int drop_named(struct set *set)
 			continue;
 		}
 		if (!dropped++)
-			err_warn(entry->path, "has no number%s, and is not compared: what it would be compared with goes by numbers",
-			         strchr(entry->name, '/') ? " of a frame of this folder" : "");
+			err_warn(entry->path, "has no number%s and is not compared: the other side is matched by number",
+			         strchr(entry->name, '/') ? " of a frame in this folder" : "");
 		free(entry->path);
 		free(entry->name);
 	}
@@ -108,7 +109,7 @@ static int drop_named(struct set *set)
 	return n ? 0 : err_report(ERR_INPUT, set->name, "there is no numbered image");
 }
 
-/* A number for each name, after all others. */
+/* Number all names, after all numbers in use. */
 static int number_names(struct set *const *sets, size_t n_sets)
 {
 	struct set_entry *all;
@@ -144,7 +145,7 @@ static int number_names(struct set *const *sets, size_t n_sets)
 	return 0;
 }
 
-/* A set of names alone, none of which is in another set, is not what was meant. */
+/* Report an error if a set has no numbers, and no name in common with another set. */
 static int check_common(struct set *const *sets, size_t n_sets, size_t own)
 {
 	const struct set *set = sets[own];
@@ -152,7 +153,7 @@ static int check_common(struct set *const *sets, size_t n_sets, size_t own)
 	for (size_t i = 0; i < set->n_entries; i++)
 		if (set->entries[i].has_number || is_elsewhere(sets, n_sets, own, set->entries[i].name))
 			return 0;
-	return err_report(ERR_INPUT, set->name, "there is no numbered image, and none whose path %s has",
+	return err_report(ERR_INPUT, set->name, "contains no numbered image, and none with a path that %s has",
 	                  sets[own ? 0 : n_sets - 1]->name);
 }
 
@@ -161,7 +162,7 @@ static int finish(struct set *set)
 	qsort(set->entries, set->n_entries, sizeof(*set->entries), compare_numbers);
 	for (size_t i = 1; i < set->n_entries; i++)
 		if (set->entries[i].frame == set->entries[i - 1].frame)
-			return err_report(ERR_USAGE, set->name, "two pictures of the name %s, %s and %s", set->entries[i].name,
+			return err_report(ERR_USAGE, set->name, "two pictures named %s: %s and %s", set->entries[i].name,
 			                  set->entries[i - 1].path, set->entries[i].path);
 	for (size_t i = 0; i < set->n_entries; i++)
 		if (set->entries[i].has_number) {

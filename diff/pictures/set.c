@@ -1,3 +1,4 @@
+/* Finds the frames of a .ref file, a folder, a pattern or an image, and reads them. */
 #include "diff/pictures/set.h"
 
 #include <dirent.h>
@@ -53,7 +54,7 @@ static const char *extension_of(const char *path)
 
 static int is_image_name(const char *path)
 {
-	/* Formats of OpenImageIO that hold pictures; which of them it reads depends on how it was built. */
+	/* picture formats of OpenImageIO; which of them it reads depends on its build */
 	static const char *const known[] = {
 		"exr", "png", "jpg", "jpe", "jpeg", "tif", "tiff", "tx", "bmp", "dib", "tga", "tpic", "ppm", "pgm", "pbm", "pnm",
 		"pfm", "hdr", "rgbe", "webp", "dpx", "cin", "sgi", "rgb", "rgba", "bw", "int", "inta", "gif", "psd", "pdd", "psb",
@@ -71,7 +72,7 @@ static int is_digit(char c)
 	return c >= '0' && c <= '9';
 }
 
-/** The last number in a file name before its extension; 0 where there is none. */
+/** The last number in a file name before its extension; 0 if none. */
 static int number_of_name(const char *name, uint64_t *frame)
 {
 	const char *end = strrchr(name, '.'), *start;
@@ -88,7 +89,7 @@ static int number_of_name(const char *name, uint64_t *frame)
 	return 1;
 }
 
-/** The frame that makes the pattern expand to this path; 0 where none does. */
+/** Find the frame whose expansion of the pattern is this path; 0 if none. */
 static int number_by_pattern(const char *pattern, const char *path, uint64_t *frame)
 {
 	for (const char *p = path; *p; p++) {
@@ -111,7 +112,7 @@ static int compare_entries(const void *a, const void *b)
 	return (x->frame > y->frame) - (x->frame < y->frame);
 }
 
-/** Give the last entry its name: what follows `skip` letters of its path, without the ending. */
+/** Give the last entry its name: its path from letter `skip` on, without extension. */
 static int name_entry(struct set *set, size_t skip, int has_number)
 {
 	struct set_entry *entry = &set->entries[set->n_entries - 1];
@@ -136,7 +137,7 @@ static int sort_entries(struct set *set)
 	return 0;
 }
 
-/** List the images of a folder that a pattern names; NULL: that have a number. */
+/** List the images of a folder that match a pattern; NULL: those with a number. */
 static int open_folder(struct set *set, const char *folder, const char *pattern)
 {
 	DIR *dir = opendir(folder[0] ? folder : ".");
@@ -162,8 +163,8 @@ static int open_folder(struct set *set, const char *folder, const char *pattern)
 
 enum { MOST_DEPTH = 16 };
 
-/** List all images of a folder and of those in it, with their names. @param root  length of the set's own folder, its
- * slash included */
+/** List all images of a folder and its subfolders, with names. @param root  length of the set's own folder and its
+ * slash */
 static int open_tree(struct set *set, const char *folder, size_t root, int depth)
 {
 	char page[4096];
@@ -171,7 +172,7 @@ static int open_tree(struct set *set, const char *folder, size_t root, int depth
 	int err = 0;
 
 	if (depth && snprintf(page, sizeof(page), "%s/index.html", folder) < (int)sizeof(page) && access(page, F_OK) == 0)
-		return 0; /* a report of ours */
+		return 0; /* a report of relume diff */
 	dir = opendir(folder);
 	if (!dir)
 		return err_report(ERR_INPUT, folder, "%s", strerror(errno));
@@ -188,7 +189,7 @@ static int open_tree(struct set *set, const char *folder, size_t root, int depth
 			if (depth < MOST_DEPTH)
 				err = open_tree(set, path, root, depth + 1);
 			else
-				err_warn(path, "is too deep, and left out");
+				err_warn(path, "is nested too deep and is skipped");
 		} else if (is_image_name(file->d_name)) {
 			const int has_number = depth == 0 && number_of_name(file->d_name, &frame);
 
@@ -207,7 +208,7 @@ static int open_named(struct set *set, const char *folder)
 	int err = open_tree(set, folder, n + (folder[n - 1] != '/'), 0);
 
 	if (!err && set->n_entries == 0)
-		err = err_report(ERR_INPUT, folder, "there is no picture in it");
+		err = err_report(ERR_INPUT, folder, "contains no picture");
 	return err;
 }
 
@@ -235,13 +236,13 @@ static int open_ref(struct set *set, const char *path)
 		if (set->ref.entries[i].kind == REF_COLOR)
 			err = add_entry(set, set->ref.entries[i].frame, NULL);
 	if (!err && set->n_entries == 0)
-		err = err_report(ERR_INPUT, path, "there is no colour frame in it");
+		err = err_report(ERR_INPUT, path, "contains no colour frame");
 	if (!err)
 		qsort(set->entries, set->n_entries, sizeof(*set->entries), compare_entries);
 	return err;
 }
 
-/** NAME.ref beside NAME.trace. */
+/** Open NAME.ref beside NAME.trace. */
 static int open_trace(struct set *set, const char *trace)
 {
 	const char *extension = extension_of(trace);
@@ -265,7 +266,7 @@ static int open_trace(struct set *set, const char *trace)
 	return err ? err : open_ref(set, path);
 }
 
-/** The first bytes of a file, zeros where it has not so many. @return 0, or ERR_SYSTEM (reported): it cannot be read */
+/** Read the first bytes of a file, zeros beyond its end. @return 0, or ERR_SYSTEM (reported): it cannot be read */
 static int read_head(const char *path, uint8_t head[8])
 {
 	FILE *f = fopen(path, "rb");
@@ -297,8 +298,8 @@ static int open_set(const char *where, int with_names, struct set *out)
 	} else if (S_ISDIR(st.st_mode)) {
 		err = with_names ? open_named(out, where) : open_folder(out, where, NULL);
 	} else if ((err = read_head(where, head))) {
-		/* nothing is known of it */
-	} else if (ref_begins(head)) { /* whatever its name */
+		/* unknown until read */
+	} else if (ref_begins(head)) { /* its name may be anything */
 		err = open_ref(out, where);
 	} else if (strcasecmp(extension_of(where), "ref") == 0) {
 		err = err_report(ERR_INPUT, where, "not a file of reference frames");
@@ -338,7 +339,7 @@ const struct set_entry *set_find(const struct set *set, uint64_t frame)
 	return bsearch(&key, set->entries, set->n_entries, sizeof(key), compare_entries);
 }
 
-/** Put one record's pixels into the image, turned upside down: top row first. */
+/** Copy a record's pixels into the image, flipped: top row first. */
 static int add_record(const struct set *set, enum ref_kind kind, uint64_t frame, struct image *img)
 {
 	const struct ref_entry *entry = ref_find(&set->ref, kind, frame);
@@ -383,7 +384,7 @@ int set_read_picture(const char *path, struct image *img)
 	uint8_t head[8];
 	int err = read_head(path, head);
 	const int is_exr = memcmp(head, "\x76\x2f\x31\x01", 4) == 0;
-	/* Version field, bits 9, 11 and 12: it is tiled, deep or of several parts, which image.h does not read. */
+	/* Version field, bits 9, 11 and 12: tiled, deep or multi-part files, which image.h does not read. */
 	const int is_plain = is_exr && (head[5] & 0x1a) == 0;
 
 	if (err)
@@ -405,7 +406,7 @@ int set_read(const struct set *set, const struct set_entry *entry, struct image 
 
 	if (entry->path) {
 		err = set_read_picture(entry->path, img);
-		if (!err && entry->name && !entry->has_number) /* matched by its path: gate V asks for the number of the match */
+		if (!err && entry->name && !entry->has_number) /* matched by path: gate V expects the number of the match */
 			err = image_set_attribute(img, "relume:frame", "%" PRIu64, entry->frame);
 		if (err)
 			image_free(img);

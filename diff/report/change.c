@@ -1,3 +1,4 @@
+/* Finds the approved version of a frame, and marks where they differ. */
 #include "diff/report/change.h"
 
 #include <string.h>
@@ -5,7 +6,7 @@
 #include "base/err.h"
 #include "diff/score/approved.h"
 
-/* Other channels than those of colour: the same device gives the same numbers. */
+/* Mark differences in channels other than colours: the same device gives the same numbers. */
 static void mark_numbers(const struct image *now, const struct image *was, uint8_t *off)
 {
 	const size_t n = (size_t)now->width * now->height;

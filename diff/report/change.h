@@ -1,4 +1,4 @@
-/* What changed since a frame was approved, for pictures of it. */
+/* The difference between a frame and its approved version, for pictures. */
 #pragma once
 
 #include "diff/baseline/baseline.h"
@@ -6,13 +6,13 @@
 
 struct change {
 	struct image image;            /* the approved frame; no channels: none, or its pixels are not stored */
-	struct score_picture was, now; /* beauty of the approved and of the traced frame; rgb NULL where there is none */
-	uint8_t *off; /* [height][width] of both: 1 where gate B sees a change; NULL: of two sizes, or unchanged */
+	struct score_picture was, now; /* beauty of the approved and the traced frame; rgb NULL: none */
+	uint8_t *off; /* [height][width] of both: 1 where gate B sees a change; NULL: sizes differ, or unchanged */
 };
 
 /**
  * Find the approved frame of a traced one.
- * @param ignore  [height][width]: 1 where nothing is compared; NULL: nowhere
+ * @param ignore  [height][width]: 1 where nothing is compared; NULL: compare everywhere
  * @param out     all zero; free with change_free in any case
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */

@@ -1,3 +1,4 @@
+/* Groups consecutive frames with the same result. */
 #include "diff/report/groups.h"
 
 #include "diff/score/gates.h"
@@ -22,7 +23,7 @@ static int is_worse(const struct score *a, const struct score *b)
 	       (a->fidelity <= b->fidelity && a->gates[GATE_B].value[0] > b->gates[GATE_B].value[0]);
 }
 
-/* @return 1 where the frame goes on with a group */
+/* @return 1 if the frame continues a group */
 static int goes_on(const struct output_run *run, struct group *group, const struct score *s)
 {
 	if (output_is_named(run, s->frame) || s->frame != group->last + 1 || s->outcome != group->worst->outcome ||

@@ -1,4 +1,4 @@
-/* Frames in a row that came out alike: one line for all of them. */
+/* Groups consecutive frames with the same result, to be printed as one line. */
 #pragma once
 
 #include "diff/report/output.h"
@@ -6,16 +6,16 @@
 struct group {
 	uint64_t first, last;
 	const struct score *worst; /* the lowest fidelity, then most pixels off from the approved frame */
-	unsigned failed;           /* bit g: gate g, in each of them */
+	unsigned failed;           /* bit g: gate g failed in each of them */
 };
 
 /**
- * Gather frames that did not pass.
+ * Group the frames that did not pass.
  * @param out   [most]
- * @param left  receives how many of these frames are in no group, as there are more than `most`
- * @return how many groups there are
+ * @param left  receives the number of frames left over, as there are more than `most` groups
+ * @return number of groups
  */
 size_t groups_make(const struct output_run *run, struct group *out, size_t most, uint64_t *left);
 
-/** Which comparison a gate belongs to: "not as approved", "not as the reference", "by itself". */
+/** The comparison that a gate belongs to, in words for people. */
 const char *groups_comparison(int gate);

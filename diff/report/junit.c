@@ -1,3 +1,4 @@
+/* Writes JUnit XML. */
 #include "diff/report/junit.h"
 
 #include <inttypes.h>
@@ -18,7 +19,7 @@ static void put_escaped(const char *text, FILE *out)
 		case '<': fputs("&lt;", out); break;
 		case '>': fputs("&gt;", out); break;
 		case '"': fputs("&quot;", out); break;
-		default: fputc(*p < 0x20 ? ' ' : *p, out); /* other control characters are no XML at all */
+		default: fputc(*p < 0x20 ? ' ' : *p, out); /* XML allows no other control characters */
 		}
 	}
 }
@@ -30,8 +31,8 @@ static void put_attribute(const char *name, const char *value, FILE *out)
 	fputc('"', out);
 }
 
-/* The first gate that failed decides the message: "not as approved: pixels off from the approved frame 6.5 % (bar <=
- * 0.01 %)" */
+/* Write the message for the first gate that failed: "not as approved: pixels off from the approved frame 6.5 % (bar <=
+ * 0.01 %)". */
 static void put_message(const struct score *s, FILE *out)
 {
 	char text[MOST_TEXT];
@@ -68,7 +69,7 @@ static void put_files(const struct output_run *run, uint64_t frame, FILE *out)
 	fputc('\n', out);
 }
 
-/* All gates that failed, and the draw that is to blame. */
+/* Write all gates that failed, and the draw to blame. */
 static void put_failure(const struct output_run *run, const struct score *s, FILE *out)
 {
 	char text[MOST_TEXT];

@@ -1,3 +1,4 @@
+/* Writes a comparison as Markdown. */
 #include "diff/report/markdown.h"
 
 #include <errno.h>
@@ -11,7 +12,7 @@
 
 enum { MOST_GROUPS = 20, MOST_TEXT = 512 };
 
-/* Text in a cell of a table. */
+/* Write text for a table cell. */
 static void put(const char *text, FILE *out)
 {
 	for (; *text; text++) {

@@ -1,3 +1,4 @@
+/* Makes pieces in threads, and writes each as soon as all before it are written. */
 #include "diff/report/ordered.h"
 
 #include <pthread.h>
@@ -18,15 +19,15 @@ struct ordered {
 	FILE *out;
 	size_t n;
 
-	pthread_mutex_t lock; /* over all below */
-	pthread_cond_t moved; /* a piece was written, or the run is over */
+	pthread_mutex_t lock; /* guards all members below */
+	pthread_cond_t moved; /* a piece was written, or the run has ended */
 	struct piece pieces[ORDERED_AHEAD]; /* piece i at i % ORDERED_AHEAD */
 	size_t taken, written;
-	size_t spent[ORDERED_AHEAD]; /* by all pieces up to i, at i % ORDERED_AHEAD */
+	size_t spent[ORDERED_AHEAD]; /* total cost of all pieces up to i, at i % ORDERED_AHEAD */
 	int err;
 };
 
-/** Write what is ready, as far as no piece is missing. Holds the lock. */
+/** Write finished pieces up to the first missing one. The lock must be held. */
 static void write_ready(struct ordered *o)
 {
 	while (o->written < o->n && o->pieces[o->written % ORDERED_AHEAD].is_made) {
@@ -73,7 +74,7 @@ static void *make_pieces(void *arg)
 			continue;
 		}
 		o->taken++;
-		/* piece i - ORDERED_AHEAD is written, and none that would take its place */
+		/* piece i - ORDERED_AHEAD is written, and nothing has replaced its cost yet */
 		size_t spent = i < ORDERED_AHEAD ? 0 : o->spent[i % ORDERED_AHEAD];
 
 		pthread_mutex_unlock(&o->lock);
@@ -98,7 +99,7 @@ int ordered_write(size_t n, ordered_make *make, void *context, FILE *out)
 	long cores = sysconf(_SC_NPROCESSORS_ONLN);
 	int n_threads = 0;
 
-	/* this thread works, too; one that does not start is no loss but time */
+	/* this thread works as well; if another does not start, only time is lost */
 	while (n_threads + 1 < ORDERED_AHEAD && n_threads + 1 < cores &&
 	       pthread_create(&threads[n_threads], NULL, make_pieces, &o) == 0)
 		n_threads++;

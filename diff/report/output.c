@@ -1,3 +1,4 @@
+/* Text of figures, names and blame for all reports; JSON; workflow commands. */
 #include "diff/report/output.h"
 
 #include <errno.h>
@@ -19,7 +20,7 @@ void output_gate_text(const struct score *s, enum score_gate_id id, char *out, s
 
 	out[0] = '\0';
 	for (int f = 0; gate->state != SCORE_NOT_MEASURED && f < info->n_figures && used < size; f++) {
-		/* a figure that holds is left out where the note says what else is wrong */
+		/* omit a figure that passes if the note gives another reason */
 		if (gate->state == SCORE_FAILED && gate->note[0] && gate->value[f] == gate->bar[f])
 			continue;
 		const char *unit = info->figures[f].unit, *space = unit[0] ? " " : "";
@@ -40,7 +41,7 @@ const char *output_file(const struct set *set, uint64_t frame)
 	return entry ? entry->path ? entry->path : set->name : NULL;
 }
 
-/* The name of a picture that is matched by it; NULL: it has a number. */
+/* Name of a picture that was matched by name; NULL: it has a number. */
 static const char *name_of(const struct output_run *run, uint64_t frame)
 {
 	const struct set_entry *entry = run->set ? set_find(run->set, frame) : NULL;
@@ -103,13 +104,13 @@ const struct score *output_first_wrong(const struct output_run *run)
 	return NULL;
 }
 
-/* JSON. */
+/* --- JSON -------------------------------------------------------------------------------------------------------- */
 
 static void json_string(const char *text, FILE *out)
 {
 	fputc('"', out);
 	for (const unsigned char *p = (const unsigned char *)text; *p; p++) {
-		/* "<" is written as an escape too, so that the text may stand inside an HTML script */
+		/* "<" is escaped as well, so that the text may be embedded in an HTML script */
 		if (*p == '"' || *p == '\\')
 			fprintf(out, "\\%c", *p);
 		else if (*p < 0x20 || *p == '<')
@@ -147,7 +148,7 @@ static void json_gate(const struct score_gate *gate, const struct score_gate_inf
 
 static const struct {
 	const char *name;
-	size_t at; /* in struct score_info */
+	size_t at; /* offset in struct score_info */
 } infos[] = {
 #define INFO(name) { #name, offsetof(struct score_info, name) }
 	INFO(gl_psnr_db), INFO(gl_ssim), INFO(gl_rmse), INFO(gl_mrse), INFO(gl_yee), INFO(beauty_flip), INFO(beauty_psnr_db),
@@ -261,9 +262,9 @@ int output_json(const struct output_run *run, const char *path)
 	return part_close(&file, 0);
 }
 
-/* Annotations. */
+/* --- Annotations ------------------------------------------------------------------------------------------------- */
 
-/** Text as the value of a workflow command: %, CR and LF are escaped. */
+/** Write text as the value of a workflow command: %, CR and LF are escaped. */
 static void annotation_text(const char *text, FILE *out)
 {
 	for (const char *p = text; *p; p++) {
@@ -278,7 +279,7 @@ static void annotation_text(const char *text, FILE *out)
 	}
 }
 
-/** The same as the value of a property: what separates properties is escaped, too. */
+/** Write text as a property's value: separators of properties are escaped as well. */
 static void annotation_property(const char *text, FILE *out)
 {
 	for (; *text; text++)

@@ -1,3 +1,4 @@
+/* Makes a report's pictures of one frame. */
 #include "diff/report/pictures.h"
 
 #include <stdlib.h>
@@ -21,13 +22,13 @@ int picture_take_reference(const struct image *img, const char *channel, struct 
 
 	for (size_t i = 0; channel && i < img->n_channels; i++)
 		has_layers |= strchr(img->channels[i].name, '.') != NULL;
-	/* in a picture of many layers, the one that is asked for is meant */
+	/* in a picture with layers, plain colours do not replace the requested one */
 	for (size_t i = 0; err == ERR_INPUT && i < sizeof(layers) / sizeof(layers[0]) - (size_t)has_layers; i++)
 		err = score_picture_from_image(img, layers[i], out);
 	return err;
 }
 
-/* The reference and what is compared with it. */
+/* Read the reference and the layer compared with it. */
 static int take_reference(struct picture_frame *out)
 {
 	const char *channel = out->settings.options.channel;
@@ -107,7 +108,7 @@ static void fill_difference(const struct score_picture *a, const struct score_pi
 	}
 }
 
-/* Red where something is marked, over a dimmed picture in grey: red things in it are not marked. */
+/* Mark pixels in red over a dimmed grey picture, so that red objects do not look marked. */
 static void fill_marked(const struct score_picture *under, const uint8_t *marked, uint8_t *rgb, size_t n)
 {
 	for (size_t i = 0; i < n; i++) {
@@ -150,7 +151,7 @@ static void fill_normal(const float *const planes[3], uint8_t *rgb, size_t n)
 		}
 }
 
-/* Grey from black (far, and the background) to white (near), linear between the frame's own extremes. */
+/* Grey from black (far, and the background) to white (near), linear between the frame's extremes. */
 static void fill_depth(const float *depth, uint8_t *rgb, size_t n)
 {
 	float lo = 1, hi = 0;
@@ -171,7 +172,7 @@ static void fill_depth(const float *depth, uint8_t *rgb, size_t n)
 static void fill_id(const float *id, uint8_t *rgb, size_t n)
 {
 	for (size_t i = 0; i < n; i++) {
-		/* Knuth's multiplicative hash: neighbours in number are far apart in colour. */
+		/* Knuth's multiplicative hash: adjacent numbers get distant colours. */
 		uint32_t h = (uint32_t)(id[i] > 0 && id[i] < 1e9f ? id[i] : 0) * 2654435761u;
 
 		rgb[3 * i] = h ? (uint8_t)(64 + (h >> 24) % 192) : 0;
@@ -180,7 +181,7 @@ static void fill_id(const float *id, uint8_t *rgb, size_t n)
 	}
 }
 
-/** A colour layer of the traced frame; `effect` layers that show nothing are left out. */
+/** A colour layer of the traced frame; `effect` layers without any effect are omitted. */
 static int make_layer(const struct picture_frame *f, const char *layer, int effect, uint8_t **rgb)
 {
 	struct score_picture picture = { 0 };
@@ -211,7 +212,7 @@ static int make_copy(const struct score_picture *picture, uint8_t **rgb, uint32_
 	return 0;
 }
 
-/** Pictures that are computed into a fresh buffer. */
+/** Pictures computed into a new buffer. */
 static int make_map(const struct picture_frame *f, enum picture_kind kind, uint8_t **rgb)
 {
 	const size_t n = (size_t)f->image.width * f->image.height;

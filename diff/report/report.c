@@ -1,3 +1,4 @@
+/* Writes the report's page: data, pictures and film inserted into page.html. */
 #include "diff/report/report.h"
 
 #include <errno.h>
@@ -16,13 +17,13 @@
 #include "diff/report/roles.h"
 #include "tracer/image/oiio.h"
 
-/* Where the data goes in the page. */
+/* markers in the page for the data and the pictures */
 #define DATA_MARKER "/*DATA*/"
 #define PICTURES_MARKER "<!--PICTURES-->"
 
 enum { PASSED_SAMPLE = 12, PNG_LEVEL = 6, THUMBNAIL = 80, BLAMED = 3, BLAME_SIZE = 200 };
 #define PICTURE_BUDGET ((size_t)64 << 20)
-#define PASSED_BUDGET ((size_t)16 << 20) /* of frames that passed, beyond the sample: pages stay quick to open */
+#define PASSED_BUDGET ((size_t)16 << 20) /* for frames that passed, beyond the sample: pages stay quick to open */
 
 static void write_png(const char *name, const uint8_t *png, size_t bytes, FILE *out, size_t *used)
 {
@@ -32,7 +33,7 @@ static void write_png(const char *name, const uint8_t *png, size_t bytes, FILE *
 	*used += bytes / 3 * 4;
 }
 
-/** Encode a picture and write it; rgb is freed. */
+/** Encode a picture and write it; frees rgb. */
 static int write_picture(const char *name, uint8_t *rgb, uint32_t width, uint32_t height, FILE *out, size_t *used)
 {
 	uint8_t *png;
@@ -49,7 +50,7 @@ static int write_picture(const char *name, uint8_t *rgb, uint32_t width, uint32_
 }
 
 /*
- * Where a window of a box shows most marked pixels: a box of scattered ones may be empty nearly everywhere.
+ * Place a window in a box where it shows most marked pixels: the box of scattered pixels may be mostly empty.
  * @param corner  the box's first pixel; receives the window's
  */
 static void place_window(const uint8_t *marked, uint32_t width, const uint32_t box[2], const uint32_t size[2],
@@ -74,7 +75,7 @@ static void place_window(const uint8_t *marked, uint32_t width, const uint32_t b
 		}
 }
 
-/* Three pictures of a blamed draw's surroundings, side by side: before, now, and what fails. */
+/* Write three pictures of a blamed draw's surroundings, side by side: before, now, and failing pixels. */
 static int write_blame(const struct picture_frame *frame, const struct score *s, unsigned number, FILE *out,
                        size_t *used)
 {
@@ -120,7 +121,7 @@ static int write_blame(const struct picture_frame *frame, const struct score *s,
 	return write_picture(name, out_rgb, width, size[1], out, used);
 }
 
-/* The frame as it is now, small, for the list: the beauty where it is not the approved one, else what was compared. */
+/* Write a thumbnail of the current frame: the beauty if it differs from the approved one, else the compared layer. */
 static int write_thumbnail(const struct picture_frame *frame, FILE *out, size_t *used)
 {
 	const struct score_picture *shown = frame->change.off || !frame->compared.rgb ? &frame->change.now : &frame->compared;
@@ -145,7 +146,7 @@ static int write_thumbnail(const struct picture_frame *frame, FILE *out, size_t 
 	return write_picture("thumbnail", rgb, w, h, out, used);
 }
 
-/* Letters that JSON and HTML take as they are. */
+/* Write text with the characters that JSON and HTML accept unescaped. */
 static void write_text(const char *text, FILE *out)
 {
 	for (; *text; text++)
@@ -155,7 +156,7 @@ static void write_text(const char *text, FILE *out)
 			fputc(*text, out);
 }
 
-/* What rules said of the frame, and a picture of each. */
+/* Write the rules' findings for the frame, each with a picture. */
 static int write_roles(const struct picture_frame *frame, FILE *out, size_t *used)
 {
 	struct role role;
@@ -180,17 +181,17 @@ static int write_roles(const struct picture_frame *frame, FILE *out, size_t *use
 	return err;
 }
 
-/* The frames with pictures on the page: those that did not pass come first. */
+/* Frames with pictures on the page; those that did not pass come first. */
 struct pictures {
 	const struct picture_sources *from;
 	const struct score **scores;
-	size_t n_first; /* so many are shown first: all that did not pass, and of those that passed a few, evenly spread */
+	size_t n_first; /* number shown first: all that did not pass, and an evenly spread sample of those that passed */
 	size_t n;
 };
 
 /**
- * One frame's pictures as a block of JSON that the page reads when the frame is looked at, and only then. Without
- * `whole`, only the thumbnail. *used: what they take.
+ * Write one frame's pictures as a block of JSON, which the page reads only when the frame is viewed. Without `whole`,
+ * only the thumbnail. *used: size of the pictures.
  */
 static int write_pictures(const struct pictures *p, const struct score *s, int whole, FILE *out, size_t *used)
 {
@@ -220,7 +221,7 @@ fail:
 	return err;
 }
 
-/** What is beyond the budget has a thumbnail. */
+/** Frames beyond the budget only get a thumbnail. */
 static int make_pictures(void *context, size_t i, size_t spent, FILE *out, size_t *cost)
 {
 	const struct pictures *p = context;
@@ -228,7 +229,7 @@ static int make_pictures(void *context, size_t i, size_t spent, FILE *out, size_
 	return write_pictures(p, p->scores[i], spent < (i < p->n_first ? PICTURE_BUDGET : PASSED_BUDGET), out, cost);
 }
 
-/* Frames that passed: a few evenly spread (is_sample), or all others. */
+/* Add frames that passed: an evenly spread sample (is_sample), or all others. */
 static void add_passed(const struct output_run *run, int is_sample, struct pictures *p)
 {
 	const uint64_t n_passed = run->counts[SCORE_FRAME_PASSED];
@@ -237,14 +238,14 @@ static void add_passed(const struct output_run *run, int is_sample, struct pictu
 	for (size_t i = 0; i < run->n_scores; i++) {
 		if (run->scores[i].outcome != SCORE_FRAME_PASSED)
 			continue;
-		/* the k-th sample is taken at place k * n / SAMPLE */
+		/* the k-th sample is taken at position k * n / SAMPLE */
 		if ((n_passed <= PASSED_SAMPLE || seen * PASSED_SAMPLE % n_passed < PASSED_SAMPLE) == is_sample)
 			p->scores[p->n++] = &run->scores[i];
 		seen++;
 	}
 }
 
-/* Without a reference and without approved frames there are figures, and nothing to show a picture beside. */
+/* Without a reference and without approved frames there are figures, but no pictures to show side by side. */
 static int has_pictures(const struct output_run *run)
 {
 	return run->reference || run->baseline;
@@ -272,12 +273,12 @@ static int write_all_pictures(const struct picture_sources *from, FILE *out)
 	return err;
 }
 
-/* The film that goes with the frames, as the page plays it. */
+/* Write the film of the frames, for the page to play. */
 static int write_film(const char *path, FILE *out)
 {
 	const size_t n = strlen(path);
 	const char *kind = n > 4 && strcasecmp(path + n - 4, ".mp4") == 0 ? "mp4" : "webm";
-	uint8_t piece[3 * 4096]; /* whole groups of base64 */
+	uint8_t piece[3 * 4096]; /* complete base64 groups */
 	FILE *film = fopen(path, "rb");
 	size_t got;
 	int err = 0;

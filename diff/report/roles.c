@@ -1,3 +1,4 @@
+/* Reads the rules' findings from a frame's attributes, and paints them. */
 #include "diff/report/roles.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 #include "base/err.h"
 #include "base/frames.h"
 
-/* One field up to a tab. @return what follows */
+/* Take a field up to a tab. @return the text after it */
 static const char *take(const char *text, char *out, size_t room)
 {
 	const size_t n = strcspn(text, "\t");
@@ -39,7 +40,7 @@ static int is_list(const char *text)
 	return *text && strspn(text, "0123456789-,") == strlen(text);
 }
 
-/* What the role's draws show, and the rest at a fifth. */
+/* Paint the role's draws as they are, and the rest at a fifth. */
 static int paint_surface(const struct picture_frame *f, const struct role *role, uint8_t *rgb, size_t n)
 {
 	struct frame_list draws = { .n_ranges = 0 };
@@ -52,13 +53,13 @@ static int paint_surface(const struct picture_frame *f, const struct role *role,
 		for (size_t c = 3 * i; c < 3 * i + 3; c++)
 			rgb[c] = has ? f->compared.rgb[c] : f->compared.rgb[c] / 5;
 		if (has)
-			rgb[3 * i] = (uint8_t)(rgb[3 * i] < 205 ? rgb[3 * i] + 50 : 255); /* black things show, too */
+			rgb[3 * i] = (uint8_t)(rgb[3 * i] < 205 ? rgb[3 * i] + 50 : 255); /* make black surfaces visible */
 	}
 	frame_list_free(&draws);
 	return err;
 }
 
-/* How much each pixel faces the light. */
+/* Paint how much each pixel faces the light. */
 static void paint_light(const float at[4], const float *const normal[3], const float *const place[3], uint8_t *rgb,
                         size_t n)
 {

@@ -1,7 +1,7 @@
 /*
- * The contact sheet: one row for each of a few frames, one column for each picture, labels above. With a baseline, the
- * approved frame, what it is now and the difference come first; the reference's columns follow where one of the frames
- * differs from it.
+ * The contact sheet: one row for each of a few frames, one column for each picture, labels above. With a baseline,
+ * approved, now and difference come first; the reference's columns follow if one of the frames differs from the
+ * reference.
  */
 #include "diff/report/report.h"
 
@@ -23,8 +23,8 @@ struct sheet {
 	enum picture_kind columns[MAX_COLUMNS];
 	int n_columns;
 	uint8_t *rgb;
-	uint32_t width, height;       /* of the sheet */
-	uint32_t cell_w, cell_h;      /* of one picture in it */
+	uint32_t width, height;       /* size of the sheet */
+	uint32_t cell_w, cell_h;      /* size of one picture in it */
 };
 
 static void draw_text(struct sheet *sheet, uint32_t x, uint32_t y, const char *text, int warn)
@@ -33,11 +33,11 @@ static void draw_text(struct sheet *sheet, uint32_t x, uint32_t y, const char *t
 	struct oiio_label label = { text, (int)x, (int)(y + LABEL - 6), LETTERS, { 0 } };
 
 	memcpy(label.rgb, colors[warn], sizeof(label.rgb));
-	/* without a font: no labels */
+	/* draws no label without a font */
 	oiio_draw_text(&(struct oiio_pixels){ sheet->rgb, sheet->width, sheet->height }, &label);
 }
 
-/** Copy a picture into a cell, shrunk by means of whole boxes where it is larger. */
+/** Copy a picture into a cell, reduced by box averages if it is larger. */
 static void draw_picture(struct sheet *sheet, uint32_t left, uint32_t top, const uint8_t *rgb, uint32_t width,
                          uint32_t height)
 {
@@ -60,7 +60,7 @@ static void draw_picture(struct sheet *sheet, uint32_t left, uint32_t top, const
 	}
 }
 
-/** Up to MAX_ROWS compared frames: the failed ones with the lowest fidelity first, then passed ones evenly spread. */
+/** Choose up to MAX_ROWS compared frames: failed ones by lowest fidelity first, then passed ones evenly spread. */
 static size_t choose_frames(const struct output_run *run, const struct score *out[MAX_ROWS])
 {
 	size_t n = 0, passed = 0, seen = 0;
@@ -107,7 +107,7 @@ static void choose_columns(const struct output_run *run, const struct score *con
 
 	for (size_t i = 0; i < n_rows; i++) {
 		shows_reference |= run->reference && fails_beside(rows[i], 1);
-		/* Else it is what is compared, or there already. */
+		/* else the beauty is the compared layer, or shown already */
 		shows_beauty |= !run->baseline && strcmp(rows[i]->layer, "beauty") != 0;
 	}
 	for (size_t c = 0; run->baseline && c < sizeof(of_change) / sizeof(of_change[0]); c++)
@@ -117,7 +117,7 @@ static void choose_columns(const struct output_run *run, const struct score *con
 			sheet->columns[sheet->n_columns++] = of_reference[c];
 }
 
-/* A cell's label. @param picture  what the row is called @return 1 where it says that something failed */
+/* Write a cell's label. @param picture  name of the row @return 1 if it reports a failure */
 static int label(const struct sheet *sheet, int column, const struct score *s, const struct picture_frame *frame,
                  const char *picture, char out[LABEL_SIZE])
 {
@@ -181,7 +181,7 @@ int sheet_write(const struct picture_sources *from, const char *path)
 	int err = 0;
 
 	for (size_t i = 0; i < n_rows; i++) {
-		/* the largest frame, shrunk to MAX_CELL with its shape kept */
+		/* the largest frame, reduced to MAX_CELL with its aspect ratio kept */
 		double scale = rows[i]->width > MAX_CELL ? (double)MAX_CELL / rows[i]->width : 1;
 		uint32_t w = (uint32_t)(rows[i]->width * scale), h = (uint32_t)(rows[i]->height * scale);
 

@@ -1,3 +1,4 @@
+/* Prints the summary of a comparison, 100 columns wide. */
 #include "diff/report/summary.h"
 
 #include <inttypes.h>
@@ -18,7 +19,7 @@ static int compare_names(const void *a, const void *b)
 	return strverscmp(((const struct score_program *)a)->name, ((const struct score_program *)b)->name);
 }
 
-/* A line for each of the application's own programs: pixels of all frames. @return 0 or ERR_SYSTEM (reported) */
+/* Print a line for each of the application's own programs, summed over frames. @return 0 or ERR_SYSTEM (reported) */
 static int print_programs(const struct output_run *run, FILE *out)
 {
 	struct score_program *all;
@@ -51,7 +52,7 @@ static int print_programs(const struct output_run *run, FILE *out)
 	return 0;
 }
 
-/* One line: counts by outcome and the worst frame. */
+/* Print one line: counts by outcome and the worst frame. */
 static void print_counts(const struct output_run *run, FILE *out)
 {
 	const struct score *worst = NULL;
@@ -77,7 +78,7 @@ static void print_counts(const struct output_run *run, FILE *out)
 	}
 	fputc('\n', out);
 	if (run->n_unmatched)
-		fprintf(out, "not compared: %" PRIu64 " frame%s that the reference or the baseline has, and TRACED has not; --all "
+		fprintf(out, "not compared: %" PRIu64 " frame%s of the reference or the baseline that TRACED lacks; --all "
 		        "demands %s\n", run->n_unmatched, plural(run->n_unmatched), run->n_unmatched == 1 ? "it" : "them");
 }
 
@@ -91,7 +92,7 @@ int summary_close(const struct output_run *run, FILE *out)
 
 /* --- Lines of 100 columns ---------------------------------------------------------------------------------------- */
 
-/* Bytes of UTF-8 that begin no letter take no column. */
+/* Columns of UTF-8 text: continuation bytes take none. */
 static int columns_of(const char *text, size_t n)
 {
 	int columns = 0;
@@ -101,8 +102,8 @@ static int columns_of(const char *text, size_t n)
 	return columns;
 }
 
-/* Text after `indent` spaces, broken between words; further lines are two columns deeper. A word that is too long has a
- * line of its own. */
+/* Print text indented by `indent` spaces, broken between words; further lines are indented by two more. A word that is
+ * too long gets its own line. */
 static void put_text(const char *text, int indent, FILE *out)
 {
 	int at = fprintf(out, "%*s", indent, "");
@@ -217,7 +218,7 @@ static void put_warnings(const struct output_run *run, FILE *out)
 
 /* --- What to do -------------------------------------------------------------------------------------------------- */
 
-/* "3-5,9": the frames that a person may approve, at most some ranges of them. @return 0: there are none */
+/* List the frames that a person may approve, "3-5,9", up to some number of ranges. @return 0: there are none */
 static int list_approvable(const struct output_run *run, char *out, size_t size)
 {
 	size_t n = 0;

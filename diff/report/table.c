@@ -1,3 +1,4 @@
+/* Prints the full table of a comparison. */
 #include "diff/report/table.h"
 
 #include <inttypes.h>
@@ -10,15 +11,14 @@
 #include "diff/report/summary.h"
 #include "diff/score/gates.h"
 
-/* Indices of scores: frames that did not pass come first; each part is in the order of frames. out has n_scores
- * elements. */
+/* Sort indices of scores: frames that did not pass first, each part by frame. out has n_scores elements. */
 static void order_scores(const struct output_run *run, size_t *out)
 {
 	size_t n = 0;
 
 	for (int passed = 0; passed < 2; passed++)
 		for (size_t i = 0; i < run->n_scores; i++)
-			if ((run->scores[i].outcome == SCORE_FRAME_PASSED) == passed) /* what did not pass is of interest */
+			if ((run->scores[i].outcome == SCORE_FRAME_PASSED) == passed) /* frames that did not pass matter most */
 				out[n++] = i;
 }
 
@@ -44,7 +44,7 @@ static void print_failure(const struct score *s, FILE *out)
 	}
 }
 
-/** The figures that have a column: values, "-" where they were not measured, "!" behind them where the gate failed; or
+/** Print the figures that have a column: values, "-" if not measured, "!" after them if the gate failed; or
  * headings. */
 static void print_columns(const struct score *s, FILE *out)
 {
@@ -60,7 +60,7 @@ static void print_columns(const struct score *s, FILE *out)
 		}
 }
 
-/* What the columns are. */
+/* Print the meaning of the columns. */
 static void print_legend(FILE *out)
 {
 	fputs("legend: - not measured; ! failed; fidelity: pixels that pass R1, R1b or R2; beauty: FLIP of the beauty "
@@ -77,7 +77,7 @@ static void print_legend(FILE *out)
 		}
 }
 
-/* What the table says of a frame, but for its number. */
+/* Print a frame's row, without its number. */
 static void print_row(const struct output_run *run, const struct score *s, FILE *out)
 {
 	fprintf(out, " %-10s", score_outcome_names[s->outcome]);
@@ -103,7 +103,7 @@ static void print_row(const struct output_run *run, const struct score *s, FILE 
 		print_failure(s, out);
 }
 
-/* Frames in a row that failed alike. */
+/* Consecutive frames that failed alike. */
 struct rows {
 	uint64_t first, last;
 	char *text; /* NULL: none */
@@ -122,7 +122,7 @@ static void end_rows(struct rows *rows, FILE *out)
 	rows->text = NULL;
 }
 
-/* One row for frames that follow each other and fail with the same figures. Each frame that passed has its own. */
+/* Add a row for consecutive frames that fail with the same figures. Each frame that passed has its own. */
 static int add_row(struct rows *rows, const struct output_run *run, const struct score *s, FILE *out)
 {
 	size_t size;
@@ -162,7 +162,7 @@ int table_write(const struct output_run *run, FILE *out)
 	end_rows(&rows, out);
 	free(order);
 
-	/* How it was measured: notes of the first frame that was compared, where gates were not measured or by other means. */
+	/* Notes on the method, from the first compared frame: gates not measured, or measured by other means. */
 	for (size_t i = 0; i < run->n_scores; i++) {
 		const struct score *s = &run->scores[i];
 

@@ -1,11 +1,11 @@
-/* The whole table of `relume diff --table`: wide, for those who know the gates. */
+/* The full table of `relume diff --table`: wide, for readers who know the gates. */
 #pragma once
 
 #include "diff/report/output.h"
 
 /**
- * A line for each frame, those that did not pass first, with failing figures beside their bars; what was not measured;
+ * Print a line for each frame, those that did not pass first, with failing figures and their bars; gates not measured;
  * a legend; a summary.
- * @return 0, or ERR_SYSTEM (reported): there was no memory for all of it
+ * @return 0, or ERR_SYSTEM (reported): out of memory for parts of it
  */
 int table_write(const struct output_run *run, FILE *out);

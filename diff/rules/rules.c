@@ -1,3 +1,4 @@
+/* Reads relume-diff.yaml, and applies its rules to a frame. */
 #include "diff/rules/rules.h"
 
 #include <fnmatch.h>
@@ -15,11 +16,11 @@
 #include "diff/score/gates.h"
 #include "tracer/image/foreign.h"
 
-/* As the file has it. */
+/* Contents of the file. */
 
 struct yaml_bar {
 	enum score_gate_id gate;
-	uint32_t figure; /* from 1 */
+	uint32_t figure; /* counted from 1 */
 	double *fail, *warn, *better;
 };
 
@@ -33,7 +34,7 @@ struct yaml_rectangle {
 };
 
 struct yaml_rule {
-	char *name, *inherits; /* of a preset */
+	char *name, *inherits; /* only in presets */
 	char *match, *frames, *preset;
 	double codes;
 	char *channel, *mask;
@@ -108,7 +109,7 @@ static const cyaml_schema_value_t gate_schema = {
 	CYAML_VALUE_ENUM(CYAML_FLAG_STRICT, enum score_gate_id, gate_names, CYAML_ARRAY_LEN(gate_names))
 };
 
-/* What presets and rules have in common. */
+/* Keys shared by presets and rules. */
 #define RULE_FIELDS \
 	CYAML_FIELD_FLOAT("codes", CYAML_FLAG_OPTIONAL, struct yaml_rule, codes), \
 	OPTIONAL_STRING("channel", struct yaml_rule, channel), \
@@ -160,7 +161,7 @@ static const cyaml_schema_field_t file_fields[] = {
 static const cyaml_schema_value_t file_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct yaml_file,
 	                                                              file_fields) };
 
-/* What is made of it. */
+/* The file with everything resolved. */
 struct score_rules {
 	char *path;
 	struct yaml_file *file;
@@ -170,7 +171,7 @@ struct score_rules {
 	char *baseline;
 };
 
-/** A path from the file, relative to where the file lies; the caller's. */
+/** A path from the file, relative to the file's folder; caller frees. */
 static char *resolve_path(const char *file, const char *path)
 {
 	const char *slash = strrchr(file, '/');
@@ -198,11 +199,11 @@ static int check_rule(const struct score_rules *s, const struct yaml_rule *rule,
 			return err_report(ERR_INPUT, s->path, "gate %s has %d figure%s, not %u", score_gates[b->gate].name,
 			                  score_gates[b->gate].n_figures, plural(score_gates[b->gate].n_figures), b->figure);
 		if (!b->fail && !b->warn && !b->better)
-			return err_report(ERR_INPUT, s->path, "a bar of gate %s says neither fail, warn nor better",
+			return err_report(ERR_INPUT, s->path, "a bar of gate %s needs fail, warn or better",
 			                  score_gates[b->gate].name);
 	}
 	if (rule->codes < 0 || rule->codes > 255)
-		return err_report(ERR_INPUT, s->path, "codes: %g is not in 0 to 255", rule->codes);
+		return err_report(ERR_INPUT, s->path, "codes: %g is not between 0 and 255", rule->codes);
 	if (rule->mask) {
 		char *path = resolve_path(s->path, rule->mask);
 		int err = path ? foreign_read(mask, path) : err_report(ERR_SYSTEM, s->path, "out of memory");
@@ -215,7 +216,7 @@ static int check_rule(const struct score_rules *s, const struct yaml_rule *rule,
 	return 0;
 }
 
-/** Presets are known, and inherit from presets that stand before them: there is no circle. */
+/** Check that presets exist, and inherit only from presets defined before them, so without cycles. */
 static int check_presets(const struct score_rules *s)
 {
 	const struct yaml_file *f = s->file;
@@ -226,7 +227,7 @@ static int check_presets(const struct score_rules *s)
 		if (find_preset(f, f->presets[i].name) != &f->presets[i])
 			return err_report(ERR_INPUT, s->path, "two presets are named '%s'", f->presets[i].name);
 		if (parent && (!find_preset(f, parent) || find_preset(f, parent) >= &f->presets[i]))
-			return err_report(ERR_INPUT, s->path, "preset '%s' inherits '%s', which does not stand before it",
+			return err_report(ERR_INPUT, s->path, "preset '%s' inherits '%s', which must be defined before it",
 			                  f->presets[i].name, parent);
 	}
 	for (uint32_t i = 0; i < f->n_rules; i++)
@@ -245,13 +246,13 @@ static int check_flaky(struct score_rules *s)
 		const char *end = strptime(f->expires, "%Y-%m-%d", &day);
 
 		if (!end || *end || strlen(f->expires) != 10)
-			return err_report(ERR_INPUT, s->path, "expires: '%s' is no day; write 2027-01-31", f->expires);
+			return err_report(ERR_INPUT, s->path, "expires: '%s' is not a date; write it as 2027-01-31", f->expires);
 		if (f->n_gates == 0)
 			return err_report(ERR_INPUT, s->path, "a flaky entry (%s) names no gates", f->reason);
 		strftime(today, sizeof(today), "%Y-%m-%d", gmtime(&now));
 		s->is_expired[i] = strcmp(today, f->expires) > 0;
 		if (s->is_expired[i])
-			err_warn(s->path, "a flaky entry has expired on %s and counts no more: %s", f->expires, f->reason);
+			err_warn(s->path, "a flaky entry expired on %s and no longer applies: %s", f->expires, f->reason);
 	}
 	return 0;
 }

@@ -1,3 +1,4 @@
+/* Composite of several runs: the value nearest to the reference within their range. */
 #include "diff/runs/composite.h"
 
 #include <stdlib.h>
@@ -8,10 +9,11 @@
 
 enum { NEIGHBOURHOOD = 16, MIN_SHARE = 4, NUMBERS = 4 };
 
-/* What the runs showed of each number: codes of colours and alpha (pair.h), or window depth. */
+/* Range of each number over the runs: codes of colours and alpha (pair.h), or window depth. */
 struct range {
 	int16_t *low, *high;       /* [n][NUMBERS] */
-	uint8_t *off, *spread;     /* [n]: codes from the reference, and between runs, of the worst channel */
+	uint8_t *off, *spread;     /* [n]: distance from the reference and spread of the runs, in codes, for the worst
+	                              channel */
 	float *near, *far;         /* [n]; NULL: the reference has no depth */
 };
 
@@ -58,14 +60,13 @@ static void find_varying(const struct range *r, const struct score_picture *ref,
 		}
 }
 
-/* The nearest to what is wanted between two bounds. */
+/* The number nearest to `wanted` between two bounds. */
 static double nearest(double wanted, double low, double high)
 {
 	return wanted < low ? low : wanted > high ? high : wanted;
 }
 
-/* Where runs disagree about a pixel, its neighbours' values are within what they show as well: edges tremble by a
- * pixel. */
+/* If runs disagree about a pixel, extend its range by its neighbours' values: edges shift by a pixel. */
 static int loosen(struct range *r, const struct score_picture *ref, int codes)
 {
 	const size_t n = NUMBERS * (size_t)ref->width * ref->height;
@@ -121,7 +122,7 @@ static void measure(const struct range *r, const struct score_picture *ref, size
 	}
 }
 
-/* Is it likely to be noise that a pixel is off in all runs? */
+/* 1 if it is likely to be noise that a pixel is off in all runs. */
 static int is_noise(const struct range *r, const struct score_picture *ref, uint32_t x, uint32_t y)
 {
 	const size_t at = (size_t)y * ref->width + x;
@@ -140,8 +141,7 @@ static int is_noise(const struct range *r, const struct score_picture *ref, uint
 	return MIN_SHARE * alike <= varying;
 }
 
-/* Replace the numbers of pixel i that have other codes. Colours stay as the picture stores them: multiplied by alpha,
- * or not. */
+/* Replace those numbers of pixel i that have other codes. Colours stay as stored: multiplied by alpha or not. */
 static void put_pixel(const struct score_picture *was, size_t i, const int16_t code[NUMBERS])
 {
 	const struct score_numbers *to = &was->numbers;
@@ -216,7 +216,7 @@ int composite_make(struct image *base, const char *layer, struct score_picture *
 		if (!err)
 			widen(&r, &p, pixels, used++ == 0);
 		score_picture_free(&p);
-		err = err == ERR_INPUT ? 0 : err; /* it lacks the layer: validity says so */
+		err = err == ERR_INPUT ? 0 : err; /* it lacks the layer, which validity reports */
 	}
 	*varying = (struct composite_varying){ .pixels = 0 };
 	if (!err && used) {

@@ -1,3 +1,4 @@
+/* Judges frames over several runs, proposes flaky entries, and lists allowances that no run needed. */
 #include "diff/runs/runs.h"
 
 #include <inttypes.h>
@@ -11,7 +12,7 @@
 #include "diff/report/pictures.h"
 #include "diff/score/gates.h"
 
-/* Gates that look at the compared layer and depth alone: a composite can be scored by them. */
+/* Gates that use only the compared layer and depth, so that a composite can be scored by them. */
 static const unsigned composed = 1u << GATE_R1 | 1u << GATE_R1B | 1u << GATE_R2 | 1u << GATE_R3 | 1u << GATE_R4 |
                                  1u << GATE_R5 | 1u << GATE_P;
 
@@ -44,7 +45,7 @@ static void count(const struct runs *r, size_t frame, struct runs_frame *out)
 			out->steady_gates |= 1u << g;
 }
 
-/* The run that is nearest to the reference: what gates look at beside colours and depth comes from it. */
+/* The run nearest to the reference; it supplies the data of gates that look at more than colours and depth. */
 static size_t best_run(const struct runs *r, size_t frame)
 {
 	size_t best = r->n;
@@ -56,14 +57,14 @@ static size_t best_run(const struct runs *r, size_t frame)
 	return best;
 }
 
-/* One frame, as all runs show it. */
+/* One frame in all runs. */
 struct shown {
 	const struct runs *runs;
 	size_t frame, best;
-	struct image *images; /* [runs->n]; empty where a run has none */
+	struct image *images; /* [runs->n]; empty if a run lacks it */
 };
 
-/* Score what the runs have in common. */
+/* Score the composite of the runs. */
 static int judge_common(const struct shown *f, struct runs_frame *out)
 {
 	static const struct baseline none = { .dir = NULL };
@@ -123,7 +124,7 @@ int runs_judge(const struct runs *r, struct runs_frame *out)
 	return err;
 }
 
-/* --- What is said ------------------------------------------------------------------------------------------------ */
+/* --- Output ------------------------------------------------------------------------------------------------------ */
 
 static void put_gates(const struct runs_frame *f, FILE *out)
 {
@@ -170,7 +171,7 @@ void runs_table(const struct runs *r, const struct runs_frame *frames, FILE *out
 	        plural(counts[RUNS_REGRESSION]));
 }
 
-/* The frames from `first` on that fail the same gates as it does, as a list; they are not asked for again. */
+/* List the frames from `first` on that fail the same gates; each is listed only once. */
 static void put_alike(const struct runs *r, const struct runs_frame *frames, size_t first, uint8_t *done, FILE *out)
 {
 	const char *between = "";
@@ -201,7 +202,7 @@ size_t runs_quarantine(const struct runs *r, const struct runs_frame *frames, un
 	strftime(day, sizeof(day), "%Y-%m-%d", gmtime(&end));
 	for (size_t i = 0; done && i < r->n_frames; i++)
 		done[i] = frames[i].verdict != RUNS_FLAKY || !frames[i].unknown_gates ||
-			output_is_named(&r->runs[0], frames[i].frame); /* entries go by numbers, which these have none of */
+			output_is_named(&r->runs[0], frames[i].frame); /* entries list numbers, which named pictures lack */
 	for (size_t i = 0; done && i < r->n_frames; i++) {
 		const struct runs_frame *f = &frames[i];
 		const char *between = "";
@@ -229,12 +230,12 @@ size_t runs_quarantine(const struct runs *r, const struct runs_frame *frames, un
 	return n;
 }
 
-/* --- What the rules need not allow ------------------------------------------------------------------------------- */
+/* --- Allowances that are not needed ------------------------------------------------------------------------------ */
 
 struct use {
 	struct score_rules_entry entry;
-	uint64_t frames; /* that it applied to, of all runs */
-	double worst;    /* of a bar: the worst figure */
+	uint64_t frames; /* number of frames it applied to, over all runs */
+	double worst;    /* for a bar: the worst figure */
 	int is_needed;
 };
 
@@ -245,7 +246,7 @@ struct uses {
 	int err;
 };
 
-/* Is a figure beyond a bar? */
+/* 1 if a figure is beyond a bar. */
 static int is_beyond(const struct score_figure *figure, double value, double bar)
 {
 	return figure->at_least ? !(value >= bar) : !(value <= bar);
@@ -261,7 +262,7 @@ static void note(void *user, const struct score_rules_entry *entry)
 	size_t i = 0;
 
 	if (!entry->reason && !(isfinite(entry->fail) && is_beyond(figure, entry->fail, usual)))
-		return; /* it is no looser than without it */
+		return; /* it is no looser than the default */
 	while (i < u->n && u->list[i].entry.key != entry->key)
 		i++;
 	if (i == u->n) {
@@ -298,12 +299,12 @@ int runs_unneeded(const struct runs *r, FILE *out)
 			continue;
 		if (e->reason)
 			fprintf(out,
-			        "not needed any more: the flaky entry \"%s\": none of its gates failed in %" PRIu64
+			        "no longer needed: the flaky entry \"%s\": none of its gates failed in %" PRIu64
 			        " pictures\n",
 			        e->reason, u.list[i].frames);
 		else
 			fprintf(out,
-			        "not needed any more: %s's bar %g for %s: the worst of %" PRIu64
+			        "no longer needed: %s's bar %g for %s: the worst of %" PRIu64
 			        " pictures is %g, the usual bar %g\n",
 			        e->of, e->fail, score_gates[e->gate].name, u.list[i].frames, u.list[i].worst,
 			        score_gates[e->gate].figures[e->figure].bar);

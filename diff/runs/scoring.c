@@ -1,3 +1,4 @@
+/* Lists frames, and scores them in threads. */
 #include "diff/runs/scoring.h"
 
 #include <pthread.h>
@@ -12,7 +13,7 @@
 #include "diff/report/pictures.h"
 #include "diff/rules/rules.h"
 
-/* More frames asked for by number than anybody has: a slip of the finger, not a list of missing ones. */
+/* A number beyond this in a list of frames means an open range, not a list of missing frames. */
 #define MAX_ASKED 1000000
 
 static int compare_frames(const void *a, const void *b)
@@ -22,7 +23,7 @@ static int compare_frames(const void *a, const void *b)
 	return (x > y) - (x < y);
 }
 
-/* A list of frames in the making. */
+/* A list of frames being collected. */
 struct gathered {
 	const struct frame_list *asked;
 	uint64_t *frames;
@@ -50,7 +51,7 @@ int scoring_list(const struct set *const *sets, size_t n_sets, const struct base
                  const struct scoring_asked *asked, uint64_t **out, size_t *n_out)
 {
 	const int is_named = asked->frames->n_ranges && !asked->all;
-	/* Of an open range, those that are there are meant. */
+	/* an open range means the frames that exist */
 	const int is_closed = is_named && frame_list_last(asked->frames) < MAX_ASKED;
 	const uint64_t last = is_closed ? frame_list_last(asked->frames) + 1 : 0;
 	const int everywhere = asked->all || (is_named && !last);
@@ -82,25 +83,25 @@ int scoring_list(const struct set *const *sets, size_t n_sets, const struct base
 	return 0;
 }
 
-/* What the threads share. Each takes the next frame; memory grows with threads, not with frames. */
+/* State shared by the threads. Each takes the next frame; memory grows with threads, not with frames. */
 struct work {
 	struct scoring all;
 	const uint64_t *frames;
 	struct output_run *run;
 
-	pthread_mutex_t lock; /* over all below */
+	pthread_mutex_t lock; /* guards all members below */
 	struct progress progress;
 	size_t next;
 	int err;
 };
 
-/** Stands in for a reference where there is none: the size alone. */
+/** Replaces a missing reference: only its size. */
 static struct score_picture picture_of_size(const struct image *img)
 {
 	return (struct score_picture){ .width = img->width, .height = img->height };
 }
 
-/** A frame that failed only gates known to be flaky is no failure. */
+/** A frame that failed only gates known to be flaky does not fail. */
 static void judge_flaky(const struct score_rules_frame *settings, struct score *s)
 {
 	unsigned failed = 0;
@@ -144,7 +145,7 @@ int scoring_image(const struct scoring *w, uint64_t frame, struct score_picture 
 	return err;
 }
 
-/** Score one frame, whatever became of it. @return 0, or ERR_SYSTEM (reported) */
+/** Score one frame, whatever the outcome. @return 0, or ERR_SYSTEM (reported) */
 static int score_one(struct work *w, uint64_t frame, struct score *out)
 {
 	const struct set_entry *r = set_find(w->all.ref, frame), *t = set_find(w->all.traced, frame);
@@ -211,9 +212,9 @@ int scoring_all(struct set *ref, struct set *traced, const struct baseline *base
 	long cores = sysconf(_SC_NPROCESSORS_ONLN);
 	int n = 0;
 
-	/* frames take milliseconds, and what matters of them is said at the end */
+	/* frames take milliseconds, and important messages come at the end */
 	progress_begin_style(&w.progress, "scored", run->n_scores, isatty(STDERR_FILENO) ? PROGRESS_BAR : PROGRESS_NONE);
-	/* this thread works, too; one that does not start is no loss but time */
+	/* this thread works as well; if another does not start, only time is lost */
 	while (n < MAX_THREADS && n + 1 < cores && (size_t)n + 1 < run->n_scores &&
 	       pthread_create(&threads[n], NULL, score_frames, &w) == 0)
 		n++;

@@ -1,4 +1,4 @@
-/* Scoring sets of frames: which frames there are, and each of them in threads. */
+/* Lists the frames of sets, and scores them in threads. */
 #pragma once
 
 #include "base/frames.h"
@@ -6,21 +6,21 @@
 #include "diff/pictures/set.h"
 #include "diff/report/output.h"
 
-/* What frames are scored with. */
+/* Inputs of scoring. */
 struct scoring {
 	struct set *ref, *traced;
 	const struct baseline *baseline;
 	const struct output_run *run;
 };
 
-/* Which frames to score. */
+/* The frames requested. */
 struct scoring_asked {
-	const struct frame_list *frames; /* -f; empty: none is named */
-	int all; /* 1: of those, or where none is named of all, each that any set or the baseline has */
+	const struct frame_list *frames; /* -f; empty: none listed */
+	int all; /* 1: all frames of any set or the baseline; if frames are listed, those of them */
 };
 
 /**
- * The frames to score. Without `all` those that are named, and where none is, those of the last set.
+ * List the frames to score: without `all`, the listed ones, or those of the last set if none are listed.
  * @param out, n_out  receive them in order; free with free()
  * @return 0, ERR_USAGE (reported: none) or ERR_SYSTEM (reported)
  */
@@ -28,8 +28,8 @@ int scoring_list(const struct set *const *sets, size_t n_sets, const struct base
                  const struct scoring_asked *asked, uint64_t **out, size_t *n_out);
 
 /**
- * Score an image that is there, against a reference, an approved frame, or both.
- * @param picture  the reference; where there is none, of the image's size and without pixels
+ * Score an image in memory against a reference, an approved frame, or both.
+ * @param picture  the reference; if there is none, of the image's size and without pixels
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */
 int scoring_image(const struct scoring *all, uint64_t frame, struct score_picture *picture, const struct image *image,
@@ -38,7 +38,7 @@ int scoring_image(const struct scoring *all, uint64_t frame, struct score_pictur
 /**
  * Score frames.
  * @param frames  [run->n_scores]
- * @param run     its scores, counts and seconds are filled in
+ * @param run     scores, counts and seconds are filled in
  * @return 0 or ERR_SYSTEM (reported)
  */
 int scoring_all(struct set *ref, struct set *traced, const struct baseline *baseline, const uint64_t *frames,

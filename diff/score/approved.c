@@ -1,4 +1,4 @@
-/* Gate B: the traced frame against the one that was approved. */
+/* Gate B: compares the traced frame with the approved one. */
 #include "diff/score/approved.h"
 
 #include <inttypes.h>
@@ -10,12 +10,12 @@
 #include "diff/score/measures.h"
 #include "diff/score/picture.h"
 
-#define OFF_RELATIVE 0x1p-9  /* as far as a half can be off by two roundings */
+#define OFF_RELATIVE 0x1p-9  /* largest error of a half after two roundings */
 #define OFF_ABSOLUTE 0x1p-14 /* linear; a fifth of the darkest display code */
 
 static const char *const layers[] = { "beauty", "gl", "shadow", "relight", "reflect", "refract" };
 
-/** 1 where two numbers of a colour channel differ by more than other builds of a device's compiler explain. */
+/** 1 if two numbers of a colour channel differ by more than another build of the device's compiler can explain. */
 static int is_off(float a, float b)
 {
 	double size = fmax(fabs((double)a), fabs((double)b));
@@ -35,7 +35,7 @@ void approved_mark(const struct image *now, const struct image *was, uint8_t *of
 					off[i] |= is_off(now_rgb[c][i], was_rgb[c][i]);
 }
 
-/* The figures, where both have colours. *n_off: pixels that differ. */
+/* Measure the figures, if both have colours. *n_off: pixels that differ. */
 static int measure_colors(struct gate_frame *f, const struct image *was, uint64_t *n_off)
 {
 	const struct image *img = f->img;
@@ -100,7 +100,7 @@ int gate_baseline(struct gate_frame *f)
 	if (!approved->same_channels) {
 		gate_fail(f, GATE_B, "the channels are not the approved ones: %.90s", approved->changed);
 	} else if (approved->same_device) {
-		/* the same device gives the same bytes */
+		/* the same device must give the same bytes */
 		gate_fail(f, GATE_B, "the same device, but other hashes: %.90s", approved->changed);
 	} else {
 		gate_note(f, GATE_B, "another device; %" PRIu64 " pixels off", off);

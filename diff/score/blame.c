@@ -1,4 +1,4 @@
-/* Which draws hold the pixels that fail. */
+/* Finds the draws that hold the failing pixels. */
 #include "diff/score/measures.h"
 
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 /* One failing pixel. */
 struct vote {
 	uint32_t draw;
-	uint32_t at; /* pixel */
+	uint32_t at; /* pixel index */
 };
 
 static int compare_votes(const void *a, const void *b)
@@ -25,7 +25,7 @@ static uint32_t draw_at(const float *ids, size_t i)
 	return ids[i] > 0 && ids[i] < 4294967040.0f ? (uint32_t)ids[i] : 0;
 }
 
-/** Keep the draws with most failing pixels, in falling order; of equal ones, the one that came first. */
+/** Keep the draws with most failing pixels, in falling order; among equals, the first. */
 static void add_blame(struct score *s, const struct score_blame *blame)
 {
 	uint32_t at = s->n_blame;
@@ -42,7 +42,7 @@ static void add_blame(struct score *s, const struct score_blame *blame)
 	s->blame[at] = *blame;
 }
 
-/** Sort votes by draw, and blame each draw for its own. */
+/** Sort votes by draw, and blame each draw for its failing pixels. */
 static void count_votes(struct vote *votes, size_t n, uint32_t width, int is_approved, struct score *s)
 {
 	qsort(votes, n, sizeof(*votes), compare_votes);
@@ -82,8 +82,8 @@ int gate_blame(const struct gate_frame *f)
 	if (!votes)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 
-	/* A draw that is missing shows nothing to blame it by. Where an approved frame shows another draw, that one
-	 * goes first. */
+	/* A missing draw has no pixels to blame it by. Where the approved frame shows another draw, blame that one
+	 * first. */
 	for (size_t i = 0; old && i < n; i++)
 		if (blamed[i] && draw_at(old, i) != draw_at(traced->id, i))
 			votes[moved++] = (struct vote){ draw_at(old, i), (uint32_t)i };

@@ -1,3 +1,4 @@
+/* Gate N, third figure: counts pixels that light burns out. */
 #include "diff/score/burnt.h"
 
 #include <math.h>
@@ -7,17 +8,17 @@
 #include "diff/score/picture.h"
 #include "tracer/image/image.h"
 
-#define FULL (250 / 255.0f) /* as displays show it; shadows of what is near leave no more of a full channel */
-#define BRIGHT_CODES 16     /* a step that one sees at once */
+#define FULL (250 / 255.0f) /* as displayed; ambient shadows of nearby things leave no more of a full channel */
+#define BRIGHT_CODES 16     /* a clearly visible step */
 
 struct burnt {
 	const float *gl[3], *shadow[3], *relight[3], *albedo[3];
-	const float *layers; /* NULL: the frame does not say */
+	const float *layers; /* NULL: the frame has no such channel */
 	int is_display;
 	float full; /* FULL in linear light */
 };
 
-/* What a frame holds as light: least and greatest channel, and luminance. */
+/* Light at a pixel: least and greatest channel, and luminance. */
 struct seen {
 	float least, most, luminance;
 };
@@ -33,11 +34,10 @@ static struct seen see(const struct burnt *b, const float color[3])
 		              .luminance = 0.2126f * linear[0] + 0.7152f * linear[1] + 0.0722f * linear[2] };
 }
 
-/* own: the surface's colour. @return which share of the greatest channel the least has at least, where a colour is
- * washed out */
+/* own: the surface's colour. @return the ratio of least to greatest channel above which a colour is washed out */
 static float share_of(const struct burnt *b, size_t i, struct seen own)
 {
-	const int is_film = b->layers && b->layers[i] > 0; /* albedo is the film's alone */
+	const int is_film = b->layers && b->layers[i] > 0; /* the albedo is that of the film alone */
 
 	return is_film || !(own.most > 0) ? 1 : 1.25f * own.least / own.most + 0.05f;
 }
@@ -47,7 +47,7 @@ static int is_burnt(const struct burnt *b, struct seen color, float share)
 	return color.most >= b->full && color.least >= fminf(share, b->full) * color.most;
 }
 
-/* @return 1: burnt by light; -1: in OpenGL's picture alone; 0: in none, or in both */
+/* @return 1: burnt by light; -1: burnt in OpenGL's picture only; 0: in neither, or in both */
 static int compare(const struct burnt *b, size_t i)
 {
 	float gl[3], light[3], albedo[3], share;

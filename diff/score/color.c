@@ -1,4 +1,4 @@
-/* Gates R1, R1b, R2 and R3: how many pixels are off in colour. Gate P: how it looks. */
+/* Gates R1, R1b, R2 and R3: how many pixels are off in colour. Gate P: perceived difference. */
 #include "diff/score/measures.h"
 
 #include <inttypes.h>
@@ -39,8 +39,8 @@ void gate_count_colors(struct gate_frame *f)
 	                          fmax(1, (double)(c->count[INTERIOR] + c->count[BLENDED] + c->count[BAND]));
 }
 
-/* Enter the share of pixels of one kind that fail, or that pass where the bar is a lower bound. none: the note where
- * there are none */
+/* Measure the share of pixels of one kind that fail, or that pass if the bar is a lower bound. none: the note if there
+ * are no such pixels */
 static int measure_kind(struct gate_frame *f, enum score_gate_id id, int kind, const char *none, const char *pixels)
 {
 	const uint64_t n = f->colors.count[kind], failing = f->colors.failing[kind];
@@ -85,7 +85,7 @@ int gate_gross(struct gate_frame *f)
 	return 0;
 }
 
-/* 1 where somebody has set a bar of their own. */
+/* 1 if options set a bar for the gate. */
 static int has_own_bar(const struct score_options *options, enum score_gate_id id)
 {
 	for (size_t i = 0; i < options->n_bars; i++)
@@ -94,7 +94,8 @@ static int has_own_bar(const struct score_options *options, enum score_gate_id i
 	return 0;
 }
 
-/* FLIP sees a drift of 1/255 over all of a picture, which rasterizers differ by: alone it decides nothing. */
+/* FLIP sees a drift of 1/255 over a whole picture, a difference usual among rasterizers: such a drift alone does not
+ * fail. */
 int gate_perceptual(struct gate_frame *f)
 {
 	struct score_gate *g = &f->score->gates[GATE_P];

@@ -5,11 +5,11 @@
 
 #include "diff/score/picture.h"
 
-/* How far depth may be off, plus slope / 256: llvmpipe snaps vertices to 1/256 pixel. */
+/* Depth tolerance; slope / 256 is added, as llvmpipe snaps vertices to 1/256 pixel. */
 #define OFF_24 0x1p-23
 #define OFF_16 0x1p-16
 
-/** How much depth changes over one pixel, along x plus along y. */
+/** Change of depth over one pixel, along x plus along y. */
 static double slope_at(const float *depth, int width, int height, int x, int y)
 {
 	const float *z = depth + (size_t)y * (size_t)width + x;

@@ -1,4 +1,4 @@
-/* Gates E1 to E3: does what the beauty adds to OpenGL's picture add up, has it a reason, is there enough of it. */
+/* Gates E1 to E3: do the effects add up to the beauty, do they explain its differences, and is there enough of each? */
 #include "diff/score/measures.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #include "diff/score/picture.h"
 
-/* E1: how far a sum may be off, relative to its size. */
+/* E1: tolerance of a sum, relative to its size. */
 #define OFF_HALF 0x1p-9
 #define OFF_FLOAT 1e-5
 
@@ -22,7 +22,7 @@ static const struct image_channel *find_channel(const struct image *img, const c
 	return NULL;
 }
 
-/** 1 where all numbers of a channel are halves, however the file stores them: other tools widen what they rewrite. */
+/** 1 if all numbers of a channel are halves, however stored: other tools widen them when rewriting a file. */
 static int holds_halves(const struct image_channel *channel, size_t n)
 {
 	for (size_t i = 0; i < n; i++) {
@@ -35,7 +35,7 @@ static int holds_halves(const struct image_channel *channel, size_t n)
 	return 1;
 }
 
-/** The stored value of an effect channel, or what its absence means. */
+/** The stored value of an effect channel, or the default if it is absent. */
 static double effect_at(const struct image_channel *channel, size_t i, double absent)
 {
 	return channel ? (double)channel->values[i] : absent;
@@ -45,8 +45,8 @@ static double effect_at(const struct image_channel *channel, size_t i, double ab
 enum { LAYER_BEAUTY, LAYER_GL, LAYER_SHADOW, LAYER_RELIGHT, LAYER_REFLECT, LAYER_REFRACT, N_LAYERS };
 
 /**
- * 1 where the renderer was told to leave out channels that could explain a difference: a sum that does not close then
- * says nothing. The file holds the renderer's --aov list; a file without one holds every effect there was.
+ * 1 if the renderer left out channels that could explain a difference, so that a sum that does not close means nothing.
+ * The file holds the renderer's --aov list; a file without one holds every effect that occurred.
  */
 static int left_out_effects(const struct image *img, const char **first)
 {
@@ -69,14 +69,14 @@ static int left_out_effects(const struct image *img, const char **first)
 	return 0;
 }
 
-/* The layers of a frame, and how far sums of them may be off. */
+/* The layers of a frame, and the tolerance of their sums. */
 struct layers {
 	const struct image_channel *channels[3][N_LAYERS];
 	double relative, absolute;
 	int any_effect;
 };
 
-/** @return 0 where beauty or gl is missing */
+/** @return 0 if beauty or gl is missing */
 static int find_layers(const struct image *img, struct layers *out)
 {
 	static const char *const names[N_LAYERS] = { "", "gl", "shadow", "relight", "reflect", "refract" };
@@ -103,7 +103,7 @@ static int find_layers(const struct image *img, struct layers *out)
 	return 1;
 }
 
-/* What is to be said of one pixel: bits of effects that touch it, then these. */
+/* Findings for one pixel: bits of the effects that touch it, then these. */
 enum { PIXEL_OPEN = 1 << N_SCORE_EFFECTS, PIXEL_DIFFERS = 2 << N_SCORE_EFFECTS };
 
 static unsigned look_at_pixel(const struct layers *l, size_t i, double *worst)
@@ -163,7 +163,7 @@ void gate_count_effects(struct gate_frame *f)
 		f->score->info.effect_share[k] = (double)touched[k] / (double)n;
 }
 
-/** 1 where sums of layers say something; else the gate's note says why not. */
+/** 1 if sums of layers are meaningful; else the gate's note says why not. */
 static int can_close(struct gate_frame *f, enum score_gate_id id)
 {
 	const char *left_out = NULL;
@@ -209,7 +209,7 @@ int gate_ranges(struct gate_frame *f)
 		const struct score_range *r = &f->options->ranges[k];
 		double share = f->score->info.effect_share[r->effect];
 
-		/* an unset bound is NAN, and nothing lies beyond it */
+		/* an unset bound is NAN, so nothing is beyond it */
 		if (share < r->low || share > r->high) {
 			outside++;
 			gate_note(f, GATE_E3, "%s touches %.3f %% of the pixels", score_effect_names[r->effect], 100 * share);

@@ -1,6 +1,6 @@
 /*
- * FLIP, as the paper has it: filter both pictures as the eye does, compare colours by HyAB, compare edges and points,
- * and let features amplify colour. Section numbers are those of Andersson et al. 2020.
+ * FLIP, following the paper: filter both pictures as the eye does, compare colours by HyAB, compare edges and points,
+ * and let features amplify colour. Section numbers refer to Andersson et al. 2020.
  */
 #include "diff/score/flip.h"
 
@@ -11,10 +11,11 @@
 #include "base/err.h"
 #include "diff/score/picture.h"
 
-/* Pictures are compared in bands of rows: all planes of a band stay in the cache. Filters reach HALO rows further. */
+/* Pictures are compared in bands of rows, so that all planes of a band stay in the cache. Filters reach HALO rows
+ * further. */
 enum { MAX_RADIUS = 16, HALO = MAX_RADIUS, BAND = 128 };
 
-/* Weights of one axis, index radius is the centre. */
+/* Weights of one axis; index radius is the centre. */
 struct kernel {
 	int radius;
 	float w[2 * MAX_RADIUS + 1];
@@ -44,8 +45,8 @@ static void multiply(const float m[3][3], const float v[3], float out[3])
 		out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
 }
 
-/* Of a normal positive number: a third of its exponent, and two steps of Halley's, each of which leaves the cube of an
- * error. */
+/* Cube root of a normal positive number: starts at a third of its exponent, and refines by two steps of Halley's
+ * method, each cubing the error. */
 static float cube_root(float t)
 {
 	uint32_t bits;
@@ -125,8 +126,8 @@ static int clamp(int v, int end)
 	return v < 0 ? 0 : v >= end ? end - 1 : v;
 }
 
-/* Compiled once more for vectors of eight floats, chosen where the processor has them; sums are the same. Sanitizers
- * know no such functions. */
+/* Compiled twice: the version for vectors of eight floats is chosen if the processor has them; the sums are the same.
+ * Sanitizers do not support such functions. */
 #if defined(__x86_64__) && defined(__has_attribute) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #if __has_attribute(target_clones)
 #define WIDER __attribute__((target_clones("avx2", "default")))
@@ -137,8 +138,8 @@ static int clamp(int v, int end)
 #endif
 
 /*
- * Filters along x and y. Both add one tap after the other to LANES neighbouring pixels at once, which compilers turn
- * into vector instructions without being allowed to reorder sums; a padded row takes the edges out of the inner loop.
+ * Filters along x and y. Both add the taps one by one to LANES neighbouring pixels at once, which compilers vectorize
+ * without having to reorder sums; a padded row keeps the edges out of the inner loop.
  */
 enum { LANES = 16 };
 
@@ -189,7 +190,7 @@ WIDER static void filter_y(const float *in, float *out, int width, int height, c
 	}
 }
 
-/* To YCxCz, a linear form of L*a*b* (sec. 4.1). Y of the paper's features is (plane 0 + 16) / 116. */
+/* Convert to YCxCz, a linear form of L*a*b* (sec. 4.1). Y of the paper's features is (plane 0 + 16) / 116. */
 static void put_ycxcz(const float linear[3], const struct planes *out, size_t i)
 {
 	float xyz[3];
@@ -212,7 +213,7 @@ static void fill_from_codes(const uint8_t *rgb, const struct planes *out, size_t
 		put_ycxcz((const float[]){ linear[rgb[3 * i]], linear[rgb[3 * i + 1]], linear[rgb[3 * i + 2]] }, out, i);
 }
 
-/* A rational fit of the ACES film curve (Narkowicz 2015, scaled by 0.6), as HDR-FLIP has it; linear in and out. */
+/* A rational fit of the ACES film curve (Narkowicz 2015, scaled by 0.6), as in HDR-FLIP; linear in and out. */
 static float film_curve(float x)
 {
 	float y;
@@ -234,7 +235,7 @@ static void fill_from_linear(const float *const rgb[3], float exposure, const st
 
 /*
  * Contrast sensitivity (sec. 4.1.1): g(x) = a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees, in two dimensions. Each
- * term is separable; a sum of two (Cz) is filtered term by term with their shares of the two-dimensional sum.
+ * term is separable; a sum of two (Cz) is filtered term by term, weighted by their shares of the two-dimensional sum.
  */
 static void filter_contrast(const struct planes *pic, int width, int height, float *scratch, float *term,
                             float *padded)
@@ -276,7 +277,7 @@ static void filter_contrast(const struct planes *pic, int width, int height, flo
 	}
 }
 
-/* Filtered YCxCz to Hunt-adjusted L*a*b*, by way of linear RGB clamped to [0,1]; in place. */
+/* Convert filtered YCxCz to Hunt-adjusted L*a*b*, via linear RGB clamped to [0,1]; in place. */
 static void lab_from_ycxcz(const struct planes *pic, size_t n_pixels)
 {
 	for (size_t i = 0; i < n_pixels; i++) {
@@ -312,10 +313,10 @@ static float largest_color_error(void)
 	return powf(hyab(a, b), 0.7f);
 }
 
-/* Rows of both pictures that are compared at a time. */
+/* Rows of both pictures that are compared at once. */
 struct band {
 	int top, height;   /* rows of the picture that the planes hold */
-	int first, n_rows; /* rows to give errors for, within these; the others feed the filters */
+	int first, n_rows; /* rows among these to compute errors for; the others feed the filters */
 };
 
 /* Twelve planes of a band, and a padded row. */
@@ -353,7 +354,7 @@ static void find_features(const struct workspace *w, int picture, int width, int
 		filter_y(w->scratch, out, width, height, &smooth);
 		filter_y(w->part, w->scratch, width, height, derivative);
 		for (size_t i = 0; i < n; i++)
-			out[i] = length(out[i], w->scratch[i]) / 116; /* offsets do not matter to derivatives */
+			out[i] = length(out[i], w->scratch[i]) / 116; /* constant offsets do not affect derivatives */
 	}
 }
 
@@ -385,7 +386,8 @@ static struct band band_at(int y, int height)
 	return b;
 }
 
-/** From filled planes to errors of the band's rows. `error` keeps what is larger in it where `is_maximum`. */
+/** Compute errors of the band's rows from filled planes. With `is_maximum`, `error` keeps larger values it already
+ * has. */
 static void compare_band(const struct workspace *w, uint32_t width, const struct band *b, int is_maximum, float *error)
 {
 	const size_t skipped = (size_t)b->first * width, n = (size_t)b->n_rows * width;
@@ -439,7 +441,7 @@ int flip_compare(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t he
 	for (int y = 0; y < (int)height; y += BAND) {
 		const struct band band = band_at(y, (int)height);
 		const size_t at = 3 * (size_t)band.top * width, n_filled = (size_t)band.height * width;
-		float *to = error ? error + (size_t)y * width : w.part; /* no filter needs it any more when errors are written */
+		float *to = error ? error + (size_t)y * width : w.part; /* free by the time errors are written */
 
 		fill_from_codes(a + at, &w.pics[0], n_filled);
 		fill_from_codes(b + at, &w.pics[1], n_filled);
@@ -497,7 +499,7 @@ int flip_compare_hdr(const float *const a[3], const float *const b[3], uint32_t 
 
 void flip_magma(float value, uint8_t rgb[3])
 {
-	/* Every eighth of the map's 256 entries, and its last; straight lines between are within 2 codes of the rest. */
+	/* Every eighth of the map's 256 entries, and its last; linear interpolation is within 2 codes of the others. */
 	static const uint8_t MAGMA[33][3] = {
 		{ 0, 0, 4 }, { 3, 3, 18 }, { 10, 8, 34 }, { 19, 13, 52 }, { 29, 17, 71 }, { 41, 17, 90 }, { 54, 16, 107 },
 		{ 68, 15, 118 }, { 81, 18, 124 }, { 93, 23, 127 }, { 106, 28, 129 }, { 118, 33, 129 }, { 131, 38, 129 },
@@ -508,7 +510,7 @@ void flip_magma(float value, uint8_t rgb[3])
 	};
 	float at = (value > 0 ? value < 1 ? value : 1 : 0) * 255 / 8; /* NaN counts as 0 */
 	int i = (int)at;
-	/* the last step is one entry short */
+	/* the last interval is one entry shorter */
 	float part = i == 31 ? (at - 31) * 8 / 7 : at - (float)i;
 
 	for (int c = 0; c < 3; c++)

@@ -1,4 +1,4 @@
-/* FLIP and HDR-FLIP: how different two pictures look when flipped between. */
+/* FLIP and HDR-FLIP: perceived difference of two pictures when flipped between. */
 #pragma once
 
 #include <stdint.h>
@@ -11,17 +11,16 @@
  * Alternating Images", HPG 2020).
  *
  * @param a, b   [height][width][3], codes (sRGB)
- * @param error  receives [height][width], [0,1]; NULL: only the mean is wanted
+ * @param error  receives [height][width], [0,1]; NULL: compute only the mean
  * @param mean   receives the mean
  * @return 0 or ERR_SYSTEM (reported)
  */
 int flip_compare(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, float *error, double *mean);
 
 /**
- * The same for linear pictures of any range: the largest error over four exposures from 2^0.083 to 2^3.557 of a film
- * curve (Andersson et al., "Visualizing Errors in Rendered High Dynamic Range Images", Eurographics 2021). The
- * exposures are fixed, where its authors derive them from the reference: frames stay comparable, and black ones have a
- * score.
+ * FLIP for linear pictures of any range: the largest error over four exposures from 2^0.083 to 2^3.557 of a film curve
+ * (Andersson et al., "Visualizing Errors in Rendered High Dynamic Range Images", Eurographics 2021). The exposures are
+ * fixed, whereas the authors derive them from the reference: frames stay comparable, and black ones have a score.
  *
  * @param a, b   planes R, G, B of linear Rec.709, [height][width] each
  */

@@ -1,9 +1,9 @@
 /*
- * The gates, one row each. From this list come enum score_gate_id, the order in which gates are measured, their default
- * bars, the keys of relume-diff.yaml, the columns of the table, and what JSON, JUnit XML and the page show.
+ * The gates, one row each. This list defines enum score_gate_id, the order of measuring, the default bars, the keys of
+ * relume-diff.yaml, the columns of the table, and the contents of JSON, JUnit XML and the page.
  *
- * A new gate is a row, its measure function (in a file of its own where it is large), and its name in
- * score.schema.json, which tests hold against what `relume diff --json` writes.
+ * A new gate needs a row, its measure function (in its own file if large), and its name in score.schema.json, which
+ * tests compare with the output of `relume diff --json`.
  */
 #pragma once
 
@@ -12,7 +12,7 @@
  *   id               GATE_id
  *   name, title      for people and files
  *   measure          int measure(struct gate_frame *): 0 or ERR_SYSTEM (reported)
- *   needs_reference  1: not measured where frames are compared with approved ones alone
+ *   needs_reference  1: not measured if frames are compared with approved ones only
  *   figures          struct score_figure: { name, unit, at_least, bar, share, column }
  */
 #define SCORE_GATES(ROW) \
@@ -34,6 +34,6 @@
 	ROW(B, "B", "baseline", gate_baseline, 0, { "pixels off from the approved frame", "%", 0, 0.01, 0, "B %" }, \
 	    { "HDR-FLIP mean", "", 0, 0.01, 0, "B FLIP" })
 
-/* ROW(id, name): the effects that E3 and the figures tell apart; "any" is the last. */
+/* ROW(id, name): effects distinguished by E3 and the figures; "any" is the last. */
 #define SCORE_EFFECTS(ROW) \
 	ROW(SHADOW, "shadow") ROW(RELIGHT, "relight") ROW(REFLECT, "reflect") ROW(REFRACT, "refract") ROW(ANY, "any")

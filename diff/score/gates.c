@@ -1,3 +1,4 @@
+/* Names and bars of the gates, and recording of measurements. */
 #include "diff/score/gates.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@ const struct score_gate_info score_gates[N_GATES] = { SCORE_GATES(GATE_INFO) };
 #define EFFECT_NAME(id, name) name,
 const char *const score_effect_names[N_SCORE_EFFECTS] = { SCORE_EFFECTS(EFFECT_NAME) };
 
-/** 1 where a value is on the good side of a bound. */
+/** 1 if a value is on the good side of a bound. */
 static int is_within(int at_least, double value, double bound)
 {
 	return at_least ? value >= bound : value <= bound;

@@ -1,6 +1,4 @@
-/*
- * What the gates share: their names and bars, what they look at, and entering what they measured.
- */
+/* Shared parts of the gates: names and bars, their inputs, and recording of measurements. */
 #pragma once
 
 #include "diff/score/maps.h"
@@ -10,9 +8,9 @@ struct score_figure {
 	const char *name;   /* "share over 2/255" */
 	const char *unit;   /* "%", "px", "" */
 	int at_least;       /* 1: the bar is a lower bound, 0: an upper one */
-	double bar;         /* the default one */
-	double share;       /* the bar is no lower than this share of the frame's pixels */
-	const char *column; /* its heading in the table; NULL: it has none */
+	double bar;         /* the default */
+	double share;       /* lower limit of the bar, as a share of the frame's pixels */
+	const char *column; /* heading of its column in the table; NULL: no column */
 };
 
 struct score_gate_info {
@@ -26,41 +24,40 @@ struct score_gate_info {
 extern const struct score_gate_info score_gates[N_GATES];
 extern const char *const score_effect_names[N_SCORE_EFFECTS];
 
-/* A frame, as the gates see it. */
+/* Inputs and intermediate results of a frame's gates. */
 struct gate_frame {
-	const struct score_picture *ref; /* rgb NULL: there is no reference */
+	const struct score_picture *ref; /* rgb NULL: no reference */
 	const struct image *img;
 	const struct score_options *options;
-	const struct score_approved *approved; /* NULL: there is none */
-	const char *layer;                     /* of img, that is compared */
+	const struct score_approved *approved; /* NULL: none */
+	const char *layer;                     /* the layer of img to compare */
 	struct score *score;
 
-	/* Not yet there when validity is measured. */
+	/* Not yet filled when validity is measured. */
 	struct score_picture traced; /* the layer */
 	struct score_maps maps;      /* empty without a reference */
 	uint8_t *blamed;             /* [height][width]: gates set 1 where a pixel fails */
 
-	/* Interior, blended and band pixels, as color.c counts them. */
+	/* Counts of interior, blended and band pixels (color.c). */
 	struct gate_colors {
 		uint64_t count[3], failing[3], gross;
-		uint64_t by_alpha[3], by_range[3]; /* of the failing ones, by kind: by alpha alone, and by values below
-		                                      black or over white alone */
-		uint64_t beyond; /* further off than R1 allows, edges not excused */
+		uint64_t by_alpha[3], by_range[3]; /* failing pixels of each kind that differ only in alpha, and only in
+		                                      values below black or over white */
+		uint64_t beyond; /* pixels off by more than R1 allows, including edges */
 	} colors;
-	/* Pixels where the channels do not add up, as effects.c counts them. */
+	/* Pixels where the channels do not add up (effects.c). */
 	struct gate_closure {
 		int has_layers;  /* 0: beauty or gl is missing, and nothing is counted */
 		int any_effect;  /* 1: there is an effect channel */
-		double relative; /* how far numbers may be off */
-		double worst;    /* largest error, in units of what is allowed */
+		double relative; /* relative tolerance of sums */
+		double worst;    /* largest error, in multiples of the tolerance */
 		uint64_t open, unexplained;
 	} closure;
 };
 
 /**
- * Enter one figure beside its bar, or beside the one that options give in its place. The gate fails where any figure
- * misses its bar (NaN misses every bar) or is better than was thought possible. It warns where it misses only the
- * bar for warnings.
+ * Record one figure with its bar, or with the bar that options set. The gate fails if any figure misses its bar (NaN
+ * misses every bar) or is better than its `better` bound. It warns if a figure only misses the bar for warnings.
  */
 void gate_measure(const struct gate_frame *f, enum score_gate_id id, int figure, double value);
 

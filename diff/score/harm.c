@@ -1,28 +1,29 @@
 /*
- * Gate N: is a frame darker than its shadows explain? Two figures; the third is burnt.h's.
+ * Gate N: is a frame darker than its shadows explain? Two figures; for the third see burnt.h.
  *
- * Dark without an edge. A shadow that something casts ends somewhere: beside it the same surface is lit. Where a light
- * was shut out altogether, the dark ends at outlines, or where OpenGL itself shows no light. Pixels are dark that lose
- * at least DARK_CODES and 30 % of their light; those that touch form a patch. A pixel's neighbour is an edge where it
- * is not dark, lies on the same surface (the same draw, or normals within 37 degrees, and in its plane as far as depth
- * goes) and shows more light of its own colour than the dark one by a quarter, at once or, as a wide light's shadow
- * ends, within PENUMBRA pixels of it. Where a film is blended over either, the colour is not known (albedo is the
- * film's, as black as a drawn shadow's), and the light itself is compared. Light is gl x shadow + relight: of a drawn
- * shadow that gives way to a traced one, gl x shadow still has both. A patch is explained where its edges are as long
- * as a quarter of a square's side of its area; patches below LEAST_PATCH pixels say nothing. Bar: 2 % of the frame. An
- * honest room in the shade of its own walls took 1.1 % (rooms lit by OpenGL), seventeen other frames up to 0.03 %; a
- * closed hall 82 %, a lit figure between unlit walls 3.4 %.
+ * Dark without an edge. A shadow cast by something ends somewhere: beside it the same surface is lit. If a light was
+ * blocked entirely by mistake, the dark ends at outlines, or where OpenGL itself shows no light. Pixels are dark if
+ * they lose at least DARK_CODES and 30 % of their light; adjacent ones form a patch. A pixel's neighbour is an edge if
+ * it is not dark, lies on the same surface (the same draw, or normals within 37 degrees, and in its plane as far as
+ * depth tells) and shows a quarter more light per unit of its own colour than the dark pixel, either at once or, as in
+ * the penumbra of a wide light, within PENUMBRA pixels. If a film is blended over either pixel, the colour is not known
+ * (the albedo is the film's, as black as a drawn shadow's), and the light itself is compared. Light is gl x shadow +
+ * relight: where a drawn shadow is replaced by a traced one, gl x shadow still has both. A patch is explained if its
+ * edges are at least a quarter as long as the side of a square of its area; patches below LEAST_PATCH pixels are
+ * ignored. Bar: 2 % of the frame. A correct room in the shade of its own walls took 1.1 % (rooms lit by OpenGL),
+ * seventeen other frames up to 0.03 %; a closed hall 82 %, a lit figure between unlit walls 3.4 %.
  *
- * Known faults. Pixels that lost light to what is no shadow: flat faces that stop light which their smooth normals face
- * (the shadow terminator: the normal faces a light, the pixels' own plane turns away, and no light from all around that
- * things near by dim explains it), dark ones of crossed cards that shade each other (attribute relume:cards), and lit
- * pictures of framebuffer objects that no ray saw (relume:targets). Bar: 0.3 % of the frame, for shadows of others that
- * fall on such places: up to 0.08 % (the hall). Low-poly blocks took 0.7 %, trees of crossed cards 2 % and more.
+ * Known faults. Pixels that lost light to something other than a shadow: flat faces that block light which their smooth
+ * normals face (the shadow terminator: the normal faces a light, the plane of the pixels does not, and light from all
+ * around, dimmed by nearby things, does not explain it); dark pixels of crossed cards that shade each other (attribute
+ * relume:cards); and lit pictures of framebuffer objects that no ray saw (relume:targets). Bar: 0.3 % of the frame,
+ * because genuine shadows may fall on such places: up to 0.08 % (the hall). Low-poly blocks took 0.7 %, trees of
+ * crossed cards 2 % and more.
  *
- * The renderer says in attributes what a picture cannot show: relume:lights, places in eye space; relume:dimmed, the
- * least share of display codes that light from all around leaves; relume:cards and relume:targets, draw numbers, where
- * rules kept these from being spared; relume:left-out, draws of tricks that traced light takes the place of: what lies
- * below them is the surface. Frames without them are judged by what they hold.
+ * The renderer stores in attributes what a picture cannot show. relume:lights: places in eye space. relume:dimmed: the
+ * least share of display codes that light from all around leaves. relume:cards and relume:targets: draw numbers, if
+ * rules kept these from being spared. relume:left-out: draws of faked effects that traced light replaces; the surface
+ * is what lies below them. Frames without attributes are judged by their contents.
  */
 #include "diff/score/measures.h"
 
@@ -36,8 +37,8 @@
 #include "diff/score/burnt.h"
 #include "diff/score/picture.h"
 
-#define DARK_CODES 16    /* a step that one sees at once */
-#define DARK_SHARE 0.7f  /* of the light that is left */
+#define DARK_CODES 16    /* a clearly visible step */
+#define DARK_SHARE 0.7f  /* share of the light that remains */
 #define LEAST_PATCH 64u
 #define PENUMBRA 32 /* pixels */
 #define EDGE_PER_SIDE 0.25
@@ -47,16 +48,16 @@ struct harm {
 	const struct gate_frame *f;
 	uint32_t width, height;
 	const float *gl[3], *shadow[3], *albedo[3], *normal[3], *place[3], *id;
-	const float *relight[3]; /* [0] NULL: nothing is lit anew */
-	const float *layers; /* NULL: the frame does not say */
-	struct frame_list left_out; /* draws that are no surface */
+	const float *relight[3]; /* [0] NULL: nothing is relit */
+	const float *layers; /* NULL: the frame has no such channel */
+	struct frame_list left_out; /* draws that are not surfaces */
 	float lights[MOST_LIGHTS][4];
 	int n_lights;
 	int is_display;
-	float dimmed; /* 1: there is no light from all around */
-	float *light;  /* [n]: luminance of what no mirror adds to */
-	uint8_t *dark; /* [n]: 1; 2: of a patch that was seen */
-	uint32_t *patch; /* [n]: room for one */
+	float dimmed; /* 1: no light from all around */
+	float *light;  /* [n]: luminance without mirrors */
+	uint8_t *dark; /* [n]: 1: dark; 2: dark, and in a patch already seen */
+	uint32_t *patch; /* [n]: buffer for one patch */
 };
 
 static int find_planes(const struct image *img, const char *layer, const char *letters, const float *planes[3])
@@ -93,13 +94,13 @@ static float gl_light(const struct harm *h, size_t i)
 	return luminance(h->gl[0][i], h->gl[1][i], h->gl[2][i]);
 }
 
-/* Light for each unit of a surface's own colour. */
+/* Light per unit of a surface's own colour. */
 static float shade(const struct harm *h, size_t i)
 {
 	return h->light[i] / fmaxf(luminance(h->albedo[0][i], h->albedo[1][i], h->albedo[2][i]), 1e-4f);
 }
 
-/* 1 where a pixel shows more light than another by a quarter. */
+/* 1 if a pixel shows a quarter more light than another. */
 static int is_lighter(const struct harm *h, size_t i, size_t than)
 {
 	if (h->layers && (h->layers[i] > 0 || h->layers[than] > 0))
@@ -139,13 +140,13 @@ static void normal_at(const struct harm *h, size_t i, float out[3])
 		out[k] = h->normal[k][i];
 }
 
-/* 1 where a pixel's place and normal are a trick's: where it was drawn says nothing of what lies below. */
+/* 1 if a pixel's place and normal belong to a faked effect, and so are not those of the surface below. */
 static int is_left_out(const struct harm *h, size_t i)
 {
 	return h->left_out.n_ranges && h->id[i] >= 1 && frame_list_contains(&h->left_out, (uint64_t)h->id[i]);
 }
 
-/* 1 where two pixels beside each other show one surface. */
+/* 1 if two adjacent pixels show one surface. */
 static int is_same_surface(const struct harm *h, size_t i, size_t other)
 {
 	float apart[3], normal[3], normal_there[3];
@@ -159,8 +160,8 @@ static int is_same_surface(const struct harm *h, size_t i, size_t other)
 	       fabsf(dot(apart, normal)) < 0.3f * sqrtf(dot(apart, apart));
 }
 
-/* 1 where a shadow ends beside a dark pixel, at once or over a penumbra: towards x + dx, y + dy the surface goes on and
- * shows more light. */
+/* 1 if a shadow ends beside a dark pixel, at once or over a penumbra: towards x + dx, y + dy the surface continues with
+ * more light. */
 static int is_edge(const struct harm *h, uint32_t dark, int dx, int dy)
 {
 	uint32_t x = dark % h->width, y = dark / h->width, i = dark;
@@ -179,7 +180,7 @@ static int is_edge(const struct harm *h, uint32_t dark, int dx, int dy)
 	return 0;
 }
 
-/* The patch that a dark pixel belongs to, into h->patch; *edge: the length of its edges. @return its size */
+/* Collect the patch of a dark pixel in h->patch; *edge: the length of its edges. @return its size */
 static uint32_t collect_patch(const struct harm *h, uint32_t start, uint64_t *edge)
 {
 	uint32_t n = 0;
@@ -204,7 +205,7 @@ static uint32_t collect_patch(const struct harm *h, uint32_t start, uint64_t *ed
 	return n;
 }
 
-/* Pixels of patches that no edge explains; they are blamed. */
+/* Count and blame the pixels of patches that no edge explains. */
 static uint64_t count_unbounded(const struct harm *h, uint32_t n)
 {
 	uint64_t unbounded = 0;
@@ -241,7 +242,7 @@ static void read_lights(struct harm *h)
 	}
 }
 
-/* The plane of a pixel and its neighbours in the same draw, on its normal's side. @return 0: it has none */
+/* Plane of a pixel and its neighbours in the same draw, on its normal's side. @return 0: none */
 static int plane_at(const struct harm *h, uint32_t i, const float normal[3], float out[3])
 {
 	const uint32_t x = i % h->width, y = i / h->width;
@@ -262,7 +263,7 @@ static int plane_at(const struct harm *h, uint32_t i, const float normal[3], flo
 	return length > 0 && dot(out, normal) > 0.5f; /* else the neighbours lie on another face */
 }
 
-/* 1 where a pixel is darker than what light from all around leaves, however close things stand. */
+/* 1 if a pixel is darker than light from all around leaves it, however close occluders are. */
 static int is_darker_than_dimmed(const struct harm *h, uint32_t i)
 {
 	if (h->is_display)
@@ -270,7 +271,7 @@ static int is_darker_than_dimmed(const struct harm *h, uint32_t i)
 	return score_code_from_linear(h->light[i]) < h->dimmed * score_code_from_linear(gl_light(h, i));
 }
 
-/* 1 where a dark pixel's normal faces a light from which its own plane turns away. */
+/* 1 if a dark pixel's normal faces a light that its own plane faces away from. */
 static int is_terminator(const struct harm *h, uint32_t i)
 {
 	float normal[3], plane[3];
@@ -291,7 +292,7 @@ static int is_terminator(const struct harm *h, uint32_t i)
 	return 0;
 }
 
-/* Pixels of draws that an attribute names, blamed. dark: 1: dark ones alone */
+/* Count and blame the pixels of draws that an attribute lists. dark: 1: only dark ones */
 static uint64_t count_named(const struct harm *h, const char *attribute, uint32_t n, int dark)
 {
 	const char *text = image_attribute(h->f->img, attribute);
@@ -309,7 +310,7 @@ static uint64_t count_named(const struct harm *h, const char *attribute, uint32_
 	return count;
 }
 
-/* Pixels with a known fault; they are blamed. */
+/* Count and blame pixels with a known fault. */
 static uint64_t count_faults(const struct harm *h, uint32_t n)
 {
 	uint64_t faults = count_named(h, "relume:cards", n, 1) + count_named(h, "relume:targets", n, 0);

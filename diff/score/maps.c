@@ -1,3 +1,4 @@
+/* Computes the maps of the colour gates: differences, edge band, failing pixels. */
 #include "diff/score/maps.h"
 
 #include <math.h>
@@ -6,9 +7,9 @@
 #include "base/err.h"
 #include "diff/score/pair.h"
 
-#define BAR_PER_LAYER 0.5    /* R1b: more for each blended layer */
+#define BAR_PER_LAYER 0.5    /* R1b: added for each blended layer */
 
-/** The smallest difference of one pixel of `a` to the 3x3 pixels around the same place in `b`. */
+/** The smallest difference of one pixel of `a` from the 3x3 pixels around the same place in `b`. */
 static int nearest_difference(const struct score_picture *a, const struct score_picture *b, int x, int y)
 {
 	const int width = (int)a->width, height = (int)a->height;
@@ -36,7 +37,7 @@ int score_depth_is_16_bit(const float *depth, size_t n)
 	return 1;
 }
 
-/** Does depth bend at the middle of three samples in a row? See "edges" in score.h. */
+/** 1 if depth bends at the middle of three samples in a row. See "edges" in score.h. */
 static int depth_bends(double before, double at, double after, double epsilon)
 {
 	double rise = fmax(fabs(after - at), fabs(at - before));
@@ -125,6 +126,6 @@ int score_make_maps(const struct score_picture *ref, const struct score_picture 
 
 void score_maps_free(struct score_maps *maps)
 {
-	free(maps->difference); /* the first of one block */
+	free(maps->difference); /* start of the block that holds all of them */
 	*maps = (struct score_maps){ 0 };
 }

@@ -1,4 +1,4 @@
-/* The measure functions of gate_table.h, and what is counted for several of them at once. */
+/* The measure functions of gate_table.h, and counts shared by several of them. */
 #pragma once
 
 #include "diff/score/gates.h"
@@ -12,8 +12,8 @@ void gate_count_colors(struct gate_frame *f);
 /** Fill f->closure and the shares of effects (effects.c). */
 void gate_count_effects(struct gate_frame *f);
 
-/** Which draws hold the blamed pixels (blame.c). @return 0 or ERR_SYSTEM (reported) */
+/** Find the draws that hold the blamed pixels (blame.c). @return 0 or ERR_SYSTEM (reported) */
 int gate_blame(const struct gate_frame *f);
 
-/** How well pixels agree where a program ran, program by program (programs.c). @return 0 or ERR_SYSTEM (reported) */
+/** Measure how well pixels agree for each program that ran (programs.c). @return 0 or ERR_SYSTEM (reported) */
 int gate_programs(const struct gate_frame *f);

@@ -1,3 +1,4 @@
+/* Picture metrics: PSNR, RMSE, SSIM, CIEDE2000. */
 #include "diff/score/metrics.h"
 
 #include <math.h>
@@ -6,7 +7,7 @@
 
 #include "base/err.h"
 
-/** sRGB's transfer function for all codes, in double precision: metrics are compared to a millionth. */
+/** sRGB's transfer function for all codes, in double precision: tests compare metrics to a millionth. */
 static void fill_linear(double linear[256])
 {
 	for (int i = 0; i < 256; i++) {
@@ -55,7 +56,7 @@ double metric_mrse(const uint8_t *ref, const uint8_t *test, size_t n_pixels)
 	return n_pixels ? sum / (3.0 * (double)n_pixels) : 0;
 }
 
-/* Structural similarity. */
+/* --- Structural similarity --------------------------------------------------------------------------------------- */
 
 enum { SSIM_SIZE = 11, MS_SCALES = 5 };
 
@@ -75,8 +76,8 @@ static void make_window(double w[SSIM_SIZE])
 }
 
 /*
- * Weighted moments of the windows of one row of windows: means of a, b, a^2, b^2, ab. `columns` is [5][width] scratch:
- * the vertical sums, from which the horizontal ones follow.
+ * Weighted moments of one row of windows: means of a, b, a^2, b^2, ab. `columns` is [5][width] scratch for the vertical
+ * sums, whose horizontal sums are the moments.
  */
 static void sum_columns(const double *a, const double *b, uint32_t width, uint32_t y, const double *w, double *columns)
 {
@@ -94,13 +95,13 @@ static void sum_columns(const double *a, const double *b, uint32_t width, uint32
 	}
 }
 
-/** Mean SSIM, and mean of its contrast and structure part, of two planes in [0,255]. `columns`: [5][width] scratch. */
 /* Two planes of luma, and room for sum_columns. */
 struct plane_pair {
 	double *a, *b, *columns;
 	uint32_t width, height;
 };
 
+/** Mean SSIM, and mean of its contrast and structure part, of two planes in [0,255]. */
 static void ssim_of_planes(const struct plane_pair *p, double *ssim, double *contrast)
 {
 	const uint32_t width = p->width, height = p->height;
@@ -142,7 +143,7 @@ static void halve(double *plane, uint32_t width, uint32_t height)
 		for (uint32_t x = 0; x < width / 2; x++) {
 			const double *p = plane + 2 * (size_t)y * width + 2 * x;
 
-			/* written behind what is still to be read */
+			/* overwrites only samples already read */
 			plane[(size_t)y * (width / 2) + x] = (p[0] + p[1] + p[width] + p[width + 1]) / 4;
 		}
 	}
@@ -171,7 +172,7 @@ static int ssim_over_scales(const uint8_t *a, const uint8_t *b, uint32_t width, 
 			result = ssim;
 			break;
 		}
-		/* a negative mean has no real power: the pictures have nothing in common at this scale */
+		/* a negative mean has no real power; it means that the pictures have nothing in common at this scale */
 		result *= pow(fmax(scale == n_scales - 1 ? ssim : contrast, 0), exponents[scale]);
 		halve(memory, width, height);
 		halve(memory + n, width, height);
@@ -193,7 +194,7 @@ int metric_ms_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t 
 	return ssim_over_scales(a, b, width, height, MS_SCALES, out);
 }
 
-/* Colour difference. */
+/* --- Colour difference ------------------------------------------------------------------------------------------- */
 
 void metric_lab_from_linear(const double rgb[3], double lab[3])
 {
@@ -286,8 +287,8 @@ static uint8_t digit_of(double number, int shift)
 }
 
 /*
- * The number that would be at `rank` if they were sorted; moves them. Numbers from 0 on sort as their bits do, so each
- * step counts eight bits of those that the steps before have left.
+ * The number at `rank` in sorted order; reorders them. Numbers from 0 on sort like their bits, so each step counts
+ * eight bits of the numbers that remain.
  */
 static double select_rank(double *numbers, size_t n, size_t rank)
 {

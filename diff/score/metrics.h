@@ -1,17 +1,17 @@
-/* Metrics between two pictures, [height][width][3] codes. Those that return an int need memory: 0, or ERR_SYSTEM
- * (reported). */
+/* Metrics between two pictures, [height][width][3] codes. Functions that return an int allocate memory: 0, or
+ * ERR_SYSTEM (reported). */
 #pragma once
 
 #include <stddef.h>
 #include <stdint.h>
 
-/** Peak signal-to-noise ratio over all channels, dB; INFINITY where equal. */
+/** Peak signal-to-noise ratio over all channels, dB; INFINITY if equal. */
 double metric_psnr_db(const uint8_t *a, const uint8_t *b, size_t n_pixels);
 
 /** Root of the mean squared difference over all channels, in [0,1]. */
 double metric_rmse(const uint8_t *a, const uint8_t *b, size_t n_pixels);
 
-/** Mean relative squared error over all channels, (test - ref)^2 / (ref^2 + 0.01), of linear numbers. */
+/** Mean relative squared error over all channels, (test - ref)^2 / (ref^2 + 0.01), of linear values. */
 double metric_mrse(const uint8_t *ref, const uint8_t *test, size_t n_pixels);
 
 /**
@@ -29,5 +29,5 @@ void metric_lab_from_linear(const double rgb[3], double lab[3]);
 /** Colour difference CIEDE2000 (Sharma, Wu and Dalal 2005), all k = 1. */
 double metric_ciede2000(const double lab1[3], const double lab2[3]);
 
-/** 95th percentile of CIEDE2000 over all pixels; NAN where there are none. */
+/** 95th percentile of CIEDE2000 over all pixels; NAN without pixels. */
 int metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels, double *out);

@@ -1,3 +1,4 @@
+/* Computes the codes of a pair of pictures. */
 #include "diff/score/pair.h"
 
 #include <math.h>
@@ -5,11 +6,11 @@
 
 #include "base/err.h"
 
-/* Codes for one e-fold of light: 255 sRGB(x) rises so fast at white. */
+/* Codes for a factor of e in light: the slope of 255 sRGB(x) at white. */
 #define CODES_OVER_WHITE (255 * 1.055f / 2.4f)
-#define NOT_A_NUMBER INT16_MAX /* differs from all codes by far */
+#define NOT_A_NUMBER INT16_MAX /* differs by far from all codes */
 
-/* A linear number as a code that is not clamped. */
+/* A linear number as an unclamped code. */
 static int wide_code(float linear)
 {
 	const float x = fabsf(linear);
@@ -30,7 +31,7 @@ float score_number_of(int code, int is_display)
 static int is_alpha_compared(const struct score_numbers *a, const struct score_numbers *b)
 {
 	if (a->is_frame != b->is_frame)
-		return 0; /* nobody sees a framebuffer's alpha: a screenshot need not have it */
+		return 0; /* a framebuffer's alpha is invisible, and a screenshot may lack it */
 	return a->is_frame ? a->alpha && b->alpha : a->alpha || b->alpha;
 }
 
@@ -43,7 +44,7 @@ static int has_beyond(const struct score_numbers *n, size_t pixels)
 	return 0;
 }
 
-/* What pixel i's colours are multiplied by. */
+/* Factor of pixel i's colours. */
 static float weight_of(const struct score_numbers *n, int with_alpha, size_t i)
 {
 	return with_alpha && n->alpha && n->is_straight ? n->alpha[i] : 1;

@@ -1,3 +1,4 @@
+/* Extracts layers of an image, and converts numbers to display codes. */
 #include "diff/score/picture.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 
 #include "base/err.h"
 
-/* What the formula gives. Written so that NaN gives 0; lrintf rounds half to even. */
+/* Code by the formula, which the tables below reproduce. NaN gives 0; lrintf rounds half to even. */
 static uint8_t calculated_code(float linear)
 {
 	const float display = image_display_from_linear(linear);
@@ -15,7 +16,7 @@ static uint8_t calculated_code(float linear)
 	return (uint8_t)lrintf(255 * (display > 0 ? display < 1 ? display : 1 : 0));
 }
 
-/* Of positive numbers, the leading bits: exponent and six of the fraction. Few codes meet in one such cell. */
+/* Table cell of a positive number, by its leading bits: exponent and six of the fraction. A cell contains few codes. */
 static uint32_t cell_of(float positive)
 {
 	uint32_t bits;
@@ -24,7 +25,7 @@ static uint32_t cell_of(float positive)
 	return bits >> 17;
 }
 
-/* Codes without powers: the least number of each code, and the first code of each cell. */
+/* Tables of codes that avoid pow(): the least number of each code, and the first code of each cell. */
 enum { CELLS = 127 << 6 };
 
 static struct {
@@ -65,7 +66,7 @@ uint8_t score_code_from_linear(float linear)
 
 	pthread_once(&once, make_codes);
 	if (!(linear >= codes.least[1]))
-		return 0; /* NaN, too */
+		return 0; /* or NaN */
 	if (linear >= codes.least[255])
 		return 255;
 	for (code = codes.first[cell_of(linear)]; linear >= codes.least[code + 1];)
@@ -85,7 +86,7 @@ static int is_display(const struct image *img)
 	return encoding && strcmp(encoding, "display") == 0;
 }
 
-/* Channels NAME.X of a layer, or of the layer without a name; those of `suffixes` must all be there. */
+/* Find channels NAME.X of a layer, or of the layer without a name; all `suffixes` must exist. */
 static int find_channels(const struct image *img, const char *layer, const char suffixes[3], const float *planes[3])
 {
 	for (int c = 0; c < 3; c++) {

@@ -1,4 +1,4 @@
-/* How well a frame's pixels agree where draws ran the application's own programs. */
+/* Measures how well pixels agree for draws that ran the application's own programs. */
 #include "diff/score/measures.h"
 
 #include <stdio.h>
@@ -11,7 +11,7 @@
 
 #define MOST_DRAWS ((size_t)1 << 24)
 
-/* Pixels of draws in the list. marked: [n] room, by draw number */
+/* Count the pixels of draws in the list. marked: [n] scratch, by draw number */
 static void count(const struct gate_frame *f, const struct frame_list *draws, uint8_t *marked, size_t n,
                   struct score_program *program)
 {
@@ -29,7 +29,7 @@ static void count(const struct gate_frame *f, const struct frame_list *draws, ui
 		}
 }
 
-/* One past the highest draw number of a pixel. */
+/* One past the highest draw number in the frame. */
 static size_t end_of_draws(const struct gate_frame *f)
 {
 	const size_t n = (size_t)f->ref->width * f->ref->height;
@@ -41,7 +41,7 @@ static size_t end_of_draws(const struct gate_frame *f)
 	return end;
 }
 
-/* text: "program object 7=1-4,9-9", which is taken apart. What is not such a text counts nothing. */
+/* Parse text "program object 7=1-4,9-9", which is modified. Anything else counts nothing. */
 static void add(const struct gate_frame *f, char *text, uint8_t *marked, size_t n)
 {
 	struct score *s = f->score;

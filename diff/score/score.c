@@ -1,3 +1,4 @@
+/* Scores one frame: prepares what the gates share, and runs them. */
 #include "diff/score/score.h"
 
 #include <math.h>
@@ -19,7 +20,7 @@ const char *const score_state_names[N_SCORE_STATES] = { "not measured", "passed"
 #define GATE_MEASURE(id, name, title, measure, ...) [GATE_##id] = measure,
 static int (*const measures[N_GATES])(struct gate_frame *f) = { SCORE_GATES(GATE_MEASURE) };
 
-/** What is ignored is equal, for all that looks at whole pictures. */
+/** Make ignored pixels equal, for measures of whole pictures. */
 static void copy_ignored(const struct score_picture *ref, const struct score_picture *to)
 {
 	const size_t n = (size_t)ref->width * ref->height;
@@ -38,8 +39,8 @@ static int measure_beauty(const struct gate_frame *f)
 	int err = score_picture_from_image(f->img, "beauty", &beauty);
 
 	if (err)
-		return err == ERR_INPUT ? 0 : err; /* there is none */
-	if (strcmp(f->layer, "beauty") == 0) /* as it was compared: premultiplied where alpha counts */
+		return err == ERR_INPUT ? 0 : err; /* no such layer */
+	if (strcmp(f->layer, "beauty") == 0) /* the beauty as compared: premultiplied if alpha counts */
 		memcpy(beauty.rgb, f->traced.rgb, 3 * n);
 	copy_ignored(ref, &beauty);
 	err = flip_compare(ref->rgb, beauty.rgb, ref->width, ref->height, NULL, &s->info.beauty_flip);
@@ -52,7 +53,7 @@ static int measure_beauty(const struct gate_frame *f)
 	return err;
 }
 
-/** Figures that never decide. */
+/** Measure the figures that do not affect the outcome. */
 static int measure_info(const struct gate_frame *f)
 {
 	const struct score_picture *ref = f->ref, *traced = &f->traced;
@@ -68,7 +69,7 @@ static int measure_info(const struct gate_frame *f)
 	return err ? err : measure_beauty(f);
 }
 
-/** What the gates on colour and effects count. */
+/** Compute what the colour and effect gates count. */
 static int prepare(struct gate_frame *f, struct score_picture *ref)
 {
 	const size_t n = (size_t)f->ref->width * f->ref->height;
@@ -92,7 +93,7 @@ static int prepare(struct gate_frame *f, struct score_picture *ref)
 	return err;
 }
 
-/** Everything that is measured on a valid frame. */
+/** Measure everything on a valid frame. */
 static int measure_frame(struct gate_frame *f, struct score_picture *ref)
 {
 	int err = prepare(f, ref);

@@ -1,4 +1,4 @@
-/* Gate R4: which pixels are covered at all, whatever their colour. */
+/* Gate R4: compares which pixels are covered, whatever their colour. */
 #include "diff/score/measures.h"
 
 #include <inttypes.h>
@@ -8,11 +8,11 @@
 #include "base/err.h"
 #include "diff/score/picture.h"
 
-/* A pixel is covered where it differs from the background by more than HIGH, not covered up to LOW: fog or blending
- * that fades into the background must not flip between the two by rounding. */
+/* A pixel is covered if it differs from the background by more than HIGH, and not covered up to LOW. The gap keeps
+ * rounding from flipping pixels where fog or blending fades into the background. */
 enum { COVER_LOW = 2, COVER_HIGH = 4 };
 
-/** The most frequent colour among pixels of `chosen` (NULL: all), packed; 0 where there is no such pixel. */
+/** The most frequent colour among `chosen` pixels (NULL: all), packed; 0 if there are none. */
 static int find_background(const uint8_t *rgb, const uint8_t *chosen, size_t n, uint8_t color[3], int *found)
 {
 	uint32_t *counts = calloc(1 << 24, sizeof(*counts)), most = 0;
@@ -35,7 +35,7 @@ static int find_background(const uint8_t *rgb, const uint8_t *chosen, size_t n, 
 	return 0;
 }
 
-/** Size of the largest group of marked pixels that touch, corners included. Clears the marks. */
+/** Size of the largest group of marked pixels that touch, including at corners. Clears the marks. */
 static int largest_blob(uint8_t *marks, int width, int height, uint64_t *largest)
 {
 	const size_t n = (size_t)width * (size_t)height;
@@ -61,7 +61,7 @@ static int largest_blob(uint8_t *marks, int width, int height, uint64_t *largest
 					size_t i = (size_t)v * (size_t)width + (size_t)u;
 
 					if (marks[i]) {
-						marks[i] = 0; /* each pixel is pushed once: the stack holds n */
+						marks[i] = 0; /* each pixel is pushed once, so the stack holds n */
 						stack[top++] = (uint32_t)i;
 					}
 				}
@@ -73,7 +73,7 @@ static int largest_blob(uint8_t *marks, int width, int height, uint64_t *largest
 	return 0;
 }
 
-/** Depth of the background: what the traced frame holds where nothing was drawn; GL's default where all is covered. */
+/** Depth of the background: that of undrawn pixels in the traced frame; GL's default if all are covered. */
 static float background_depth(const struct score_picture *traced, size_t n)
 {
 	for (size_t i = 0; traced->id && i < n; i++)
@@ -82,7 +82,7 @@ static float background_depth(const struct score_picture *traced, size_t n)
 	return 1;
 }
 
-/* How surely a pixel shows more than the background: 0 not, 1 maybe, 2 surely. */
+/* How surely a pixel is covered: 0 not, 1 maybe, 2 surely. */
 static int coverage(const struct score_picture *pic, size_t i, int use_depth, float far_depth,
                     const uint8_t *background)
 {
@@ -108,7 +108,7 @@ int gate_silhouette(struct gate_frame *f)
 		err_report(ERR_SYSTEM, NULL, "out of memory");
 		goto fail;
 	}
-	/* The background's colour, on each side, where the traced frame drew nothing. */
+	/* Find the background's colour on each side, among pixels where the traced frame drew nothing. */
 	for (size_t i = 0; i < n; i++)
 		marks[i] = traced->id ? traced->id[i] == 0 : use_depth ? traced->depth[i] == far_depth : 1;
 	err = find_background(ref->rgb, marks, n, background[0], &found[0]);

@@ -1,4 +1,4 @@
-/* Gate V: is the frame a valid answer to the reference at all? */
+/* Gate V: can the frame be compared with the reference at all? */
 #include "diff/score/measures.h"
 
 #include <inttypes.h>
@@ -8,7 +8,7 @@
 
 #include "diff/score/picture.h"
 
-/** The first reason why the frame is no valid answer to the reference, in the gate's note; counts odd numbers. */
+/** Note the first reason why the frame cannot be compared, and count NaN and infinite numbers. */
 int gate_validity(struct gate_frame *f)
 {
 	const struct score_picture *ref = f->ref;

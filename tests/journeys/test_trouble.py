@@ -21,7 +21,7 @@ check((PLACE / "saved.0001.png").read_bytes() == (PLACE / "homeless.png").read_b
 typed("relume record -o bad.trace -- ./game --animate light")
 said = typed("relume bisect --report parts whole.trace bad.trace", code=1, says="first picture that differs")
 check("glLightfv" in said, f"the call that differs is named: {said[:1000]}")
-typed("relume diff --baseline nowhere saved.0001.png", code=4, says="there is no such folder")
+typed("relume diff --baseline nowhere saved.0001.png", code=4, says="no such folder")
 seen("saved.0001.png")
 check((PLACE / "parts/index.html").stat().st_size > 1000, "a page shows the difference")
 end()

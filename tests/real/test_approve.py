@@ -27,7 +27,7 @@ check(found == ["new"] * 3, f"nothing is approved yet: {found}")
 done = relume("diff", trace, out, "--baseline", base)
 said = [line for line in done.stderr.splitlines() if str(base) in line]
 check(
-    done.returncode == 4 and len(said) == 1 and "there is no such folder" in said[0]
+    done.returncode == 4 and len(said) == 1 and "no such folder" in said[0]
     and f"relume approve TRACED {base}" in said[0], f"a baseline that is not there: {done.stderr}")
 shutil.copy(out / "c.0002.exr", SCRATCH / "view.exr")
 got, score = diff(trace, SCRATCH / "view.exr")

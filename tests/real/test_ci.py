@@ -56,7 +56,7 @@ def test_programs():
     page, cases, failures = kept("box")
     check(page and cases == 3 and failures == 3, f"and the page and results tell: {page}, {failures} of {cases}")
     done = ci("box", "--", "no-such-program")
-    check(done.returncode == 5 and "no program 'no-such-program'" in done.stderr, f"no such program: {said(done)}")
+    check(done.returncode == 5 and "program not found: 'no-such-program'" in done.stderr, f"no such program: {said(done)}")
     error = xml.etree.ElementTree.parse(KEPT / "box/junit.xml").getroot().find(".//error")
     check(not (KEPT / "box/report").exists() and error is not None,
           "the page of an earlier run is gone; the results tell of the error")

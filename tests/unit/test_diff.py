@@ -178,7 +178,7 @@ class Diff(unittest.TestCase):
         self.assertEqual(self.outcomes(self.ref, self.traced, "--all", expect=1)[2], "missing")
         self.assertEqual(self.outcomes(self.ref, self.traced, "--all", "-f", "2-9", expect=1),
                          {2: "missing", 3: "passed", 4: "passed"})
-        self.assertIn("not compared: 1 frame that the reference", self.diff(self.ref, self.traced, expect=0).stdout)
+        self.assertIn("not compared: 1 frame of the reference", self.diff(self.ref, self.traced, expect=0).stdout)
         self.assertEqual(list(self.outcomes(self.ref, self.traced / "b.3.png", expect=0)), [3])
         self.diff(self.ref, self.traced, "-f", "3-4", expect=0)
         self.assertEqual(self.outcomes(self.ref, self.traced, "-f", "3-6", expect=1)[6], "missing")
@@ -320,13 +320,13 @@ class Diff(unittest.TestCase):
         self.assertIn('"name": "dark/new"', (self.dir / "page/index.html").read_text())
         self.assertEqual(self.outcomes(self.ref, self.traced / "dark/../login.png", expect=1), {9: "failed"})
         write_png(self.dir / "other/new.png", picture(1))
-        self.assertIn("no numbered image, and none whose path",
+        self.assertIn("no numbered image, and none with a path",
                       self.diff(self.ref, self.dir / "other", expect=3).stderr)
         # beside a file of reference frames there is nothing to compare them with, and that is said
         (self.dir / "t.ref").write_bytes(b"RELREF2\n" + b"".join(ref_color(n, picture(n)) for n in range(1, 5)))
         self.assertIn("login.png: has no number", self.diff(self.dir / "t.ref", self.traced, expect=0).stderr)
         write_png(self.traced / "login.tif", picture(9))
-        self.assertIn("two pictures of the name login", self.diff(self.ref, self.traced, expect=2).stderr)
+        self.assertIn("two pictures named login", self.diff(self.ref, self.traced, expect=2).stderr)
 
     def test_report(self):
         write_png(self.traced / "b.3.png", picture(9))
@@ -464,8 +464,8 @@ class Diff(unittest.TestCase):
                            ("rules:\n- bars:\n  - gate: R9\n    fail: 1\n", "line 3: "),
                            ("rules:\n- bars: [{gate: R1, fail: x}]\n", "line 2: "),
                            ("rules:\n- preset: none\n", "no preset 'none'"),
-                           ("presets:\n- {name: a, inherits: b}\n- {name: b, inherits: a}\n", "does not stand before"),
-                           ("flaky:\n- {gates: [P], reason: x, expires: 2030-13-01}\n", "is no day"),
+                           ("presets:\n- {name: a, inherits: b}\n- {name: b, inherits: a}\n", "must be defined before"),
+                           ("flaky:\n- {gates: [P], reason: x, expires: 2030-13-01}\n", "is not a date"),
                            ("rules:\n- mask: none.png\n", "none.png"),
                            ("rules:\n- bars: [{gate: R1, figure: 3, fail: 1}]\n", "has 1 figure")):
             done = self.diff(self.ref, self.traced, *self.config(text), expect=3)
