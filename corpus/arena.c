@@ -1,7 +1,7 @@
 /*
- * A lit figure in an arena. Walls and floor are only textured, without OpenGL's lighting: the walls are a backdrop. The
- * light is meant for the figure, and shines through a wall. With --by ball, a lantern that OpenGL does not light hangs
- * beside the figure, and a lit ball hops below it every third frame: what is lit then reaches as far as the lantern.
+ * A lit figure in an arena. Walls and floor are textured but not lit by OpenGL: the walls are a backdrop. The light is
+ * meant for the figure, and shines through a wall. With --by ball, an unlit lantern hangs beside the figure, and a lit
+ * ball hops below it every third frame: the lit geometry then extends to the lantern.
  *
  *   cc -o arena corpus/arena.c -lglut -lGLU -lGL -lm
  */
@@ -38,7 +38,7 @@ static void init(void)
 	program_perspective(50, 0.1, 60);
 }
 
-/** A wall of the arena from one corner of the floor to the next. */
+/** A wall of the arena between two corners of the floor. */
 static void draw_wall(float x0, float z0, float x1, float z1)
 {
 	glBegin(GL_QUADS);

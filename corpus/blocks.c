@@ -1,6 +1,6 @@
 /*
- * Low-poly shapes with smooth normals on a plate, in low light: where the light grazes, the shapes' flat faces stop
- * light that their normals say arrives. That border between light and shade is the shadow terminator.
+ * Low-poly shapes with smooth normals on a plate, in low light. Where the light grazes, the shapes' flat faces block
+ * light that their normals face. That border between light and shade is the shadow terminator.
  *
  *   cc -o blocks corpus/blocks.c -lglut -lGLU -lGL -lm
  */

@@ -1,12 +1,12 @@
 /*
- * A lit board with pieces, drawn into a framebuffer object of the window's size, brought to the window, and a score
+ * A lit board with pieces, drawn into a framebuffer object of the window's size and brought to the window, with a score
  * drawn over it.
  *
  *   cc -o board_fbo corpus/board_fbo.c -lglut -lGLU -lGL -lm
  *
- * --by quad (default): one textured quad that covers the window; shader: the same as toolkits compose their windows, by
- * a trivial program from arrays; blit: glBlitFramebuffer; copy: the board is drawn in the window's back buffer, copied
- * by glCopyTexSubImage2D, and comes back as the quad after a clear.
+ * --by quad (default): one textured quad that covers the window. shader: the same by arrays and a trivial program, as
+ * toolkits compose their windows. blit: glBlitFramebuffer. copy: the board is drawn in the window's back buffer, copied
+ * by glCopyTexSubImage2D, and drawn again as the quad after a clear.
  */
 #include <math.h>
 

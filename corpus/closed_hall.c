@@ -1,7 +1,6 @@
 /*
- * A closed hall, lit from outside by two directional lights. OpenGL knows no shadows, so their light passes walls and
- * ceiling, and programs of the time lit rooms this way. Traced to the letter, the whole hall lies in the ceiling's
- * shadow.
+ * A closed hall, lit from outside by two directional lights. OpenGL has no shadows, so their light passes walls and
+ * ceiling, and programs of the time lit rooms this way. Traced literally, the whole hall lies in the ceiling's shadow.
  *
  *   cc -o closed_hall corpus/closed_hall.c -lglut -lGLU -lGL -lm
  */
@@ -27,7 +26,7 @@ static void init(void)
 	program_perspective(60, 0.1, 50);
 }
 
-/** A wall by its corner and two edges; its front is where right x up points. */
+/** A wall by its corner and two edges; it faces along right x up. */
 static void wall(const float at[3], const float right[3], const float up[3])
 {
 	glNormal3f(right[1] * up[2] - right[2] * up[1], right[2] * up[0] - right[0] * up[2],

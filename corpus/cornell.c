@@ -1,7 +1,7 @@
 /*
  * A Cornell box of exactly 34 triangles: five walls and two boxes, one positional light below the ceiling. Vertex,
  * normal and colour arrays drawn by glDrawArrays, from client memory or from a buffer object (--vbo). With --mirror the
- * red wall is a mirror where a recorder listens, and an ordinary wall otherwise. --glass adds a box of glass in front,
+ * red wall is a mirror under a recorder, and an ordinary wall otherwise. --glass adds a box of glass in front,
  * --mesh a model of 100,000 triangles (or --model's) on the short box.
  *
  *   cc -o cornell corpus/cornell.c -lglut -lGLU -lGL -lm
@@ -24,7 +24,7 @@ static struct mesh model;
 
 static const float white[3] = { 0.8f, 0.8f, 0.8f }, red[3] = { 0.8f, 0.1f, 0.1f }, green[3] = { 0.1f, 0.7f, 0.15f };
 
-/** Two triangles; corners run counter-clockwise as seen from the side that the normal points to. */
+/** Two triangles; corners run counter-clockwise seen from the side of the normal. */
 static void add_quad(const float corners[4][3], const float color[3])
 {
 	static const int order[6] = { 0, 1, 2, 0, 2, 3 };
@@ -56,10 +56,10 @@ static void add_walls(void)
 	add_quad((const float[4][3]){ { -1, -1, -1 }, { 1, -1, -1 }, { 1, 1, -1 }, { -1, 1, -1 } }, white);
 }
 
-/** A box so far above the floor, turned about the vertical. */
+/** A box at height `bottom`, rotated about the vertical. */
 static void add_box(float x, float z, float half_width, float bottom, float height, float turn_deg)
 {
-	/* corners by bit: 1 right, 2 top, 4 front */
+	/* bits of a corner: 1 right, 2 top, 4 front */
 	static const int faces[6][4] = { { 4, 5, 7, 6 }, { 1, 0, 2, 3 }, { 5, 1, 3, 7 },
 	                                 { 0, 4, 6, 2 }, { 6, 7, 3, 2 }, { 0, 1, 5, 4 } };
 	float c = cosf(turn_deg * 0.01745329252f), s = sinf(turn_deg * 0.01745329252f);
@@ -81,7 +81,7 @@ static void add_box(float x, float z, float half_width, float bottom, float heig
 
 static GLuint buffer; /* 0: client memory */
 
-/** Arrays of the box and its walls. */
+/** Set the arrays of the box and its walls. */
 static void point_at_box(void)
 {
 	const char *base = buffer ? NULL : (const char *)vertices;
@@ -100,7 +100,7 @@ static void init(void)
 	add_walls();
 	add_box(-0.35f, -0.35f, 0.3f, 0, 1.2f, 18);
 	add_box(0.37f, 0.3f, 0.3f, 0, 0.6f, -17);
-	add_box(-0.3f, 0.6f, 0.22f, 0.02f, 0.7f, 30); /* the glass; a gap keeps its bottom apart from the floor */
+	add_box(-0.3f, 0.6f, 0.22f, 0.02f, 0.7f, 30); /* the glass; a gap separates its bottom from the floor */
 	if (program.mesh)
 		model = mesh_load(program.model, 500, 100);
 

@@ -1,9 +1,8 @@
 /*
- * A courtyard without OpenGL's lighting, as games drew theirs: a sky about the viewer, textured ground, walls, pillars
- * and crates, sparks that face the viewer, something held in the viewer's hand, and a bar that tells the viewer's
- * health.
+ * A courtyard without OpenGL's lighting, as games drew it: a sky around the viewer, textured ground, walls, pillars and
+ * crates, sparks that face the viewer, an object in the viewer's hand, and a bar for the viewer's health.
  *
- * courtyard lit: OpenGL lights all from a lamp over the crates, the sky too.
+ * courtyard lit: OpenGL lights everything from a lamp over the crates, including the sky.
  *
  *   cc -o courtyard corpus/courtyard.c -lglut -lGLU -lGL -lm
  */
@@ -46,8 +45,8 @@ static void init(void)
 	glBlendFunc(GL_SRC_ALPHA, GL_ONE);
 }
 
-/** A side of a box, at distance 1 along an axis, with its texture `repeat` times; seen from within where that is
- * negative. */
+/** A side of a box, at distance 1 along an axis, with its texture repeated `repeat` times; negative: seen from
+ * inside. */
 static void draw_side(int axis, float sign, float repeat)
 {
 	static const float corners[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
@@ -97,8 +96,7 @@ static void draw_world(void)
 	draw_box(3, 0.6f, -3, 1.2f, 1.2f, 1.2f, 1);
 }
 
-/** Sparks rise beside the crates; each faces the viewer, whatever way that looks. They leave depth, as careless
- * programs have it. */
+/** Sparks rise beside the crates; each always faces the viewer. They write depth, as careless programs do. */
 static void draw_sparks(void)
 {
 	float m[16];
@@ -122,7 +120,7 @@ static void draw_sparks(void)
 	glDisable(GL_BLEND);
 }
 
-/** In the hand, whatever way the viewer looks; then a bar in window space. */
+/** Draw the object in the hand, whatever the view's direction; then a bar in window space. */
 static void draw_viewer(void)
 {
 	glLoadIdentity();
@@ -142,7 +140,7 @@ static void draw_viewer(void)
 	glEnable(GL_TEXTURE_2D);
 }
 
-/** A lamp before the pillars. */
+/** A lamp in front of the pillars. */
 static void light(void)
 {
 	const float place[4] = { 0, 1.2f, -3, 1 }, dim[4] = { 0.5f, 0.5f, 0.5f, 1 };

@@ -1,9 +1,9 @@
 /*
- * A ball and a die above a floor, lit by a lamp. The ball is made of flat faces, as many programs save normals:
+ * A ball and a die above a floor, lit by a lamp. The ball is made of flat faces, as in many programs that save normals:
  *
  *   --by faces  each face has its own normal (default)
  *   --by flat   glShadeModel(GL_FLAT)
- *   --by round  normals of the ball that is meant
+ *   --by round  normals of a round ball
  *
  *   cc -o facets corpus/facets.c -lglut -lGLU -lGL -lm
  */
@@ -30,7 +30,7 @@ static void init(void)
 	program_perspective(45, 0.5, 60);
 }
 
-/** A place on the unit ball, by steps around and down. */
+/** A point on the unit ball, by steps around and down. */
 static void place(float around, float down, float out[3])
 {
 	const float turn = around * 6.2831853f / AROUND, fall = down * 3.1415927f / DOWN;

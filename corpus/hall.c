@@ -1,7 +1,6 @@
 /*
- * A vaulted hall between two rows of fluted columns, made by code, of exactly 262,267 triangles: as many as the Sponza
- * model has with which ray tracers are compared. Textured, mipmapped, two lights, indexed arrays (--vbo: in buffer
- * objects).
+ * A generated vaulted hall between two rows of fluted columns, with exactly 262,267 triangles, as many as the Sponza
+ * model used for comparing ray tracers. Textured, mipmapped, two lights, indexed arrays (--vbo: in buffer objects).
  *
  *   cc -o hall corpus/hall.c -lglut -lGLU -lGL -lm
  */
@@ -10,7 +9,7 @@
 
 enum { TEXTURE_SIZE = 128 };
 
-/** A number in [0,1] that looks random and is the same for the same place. */
+/** A pseudo-random number in [0,1], always the same for the same place. */
 static float noise(unsigned x, unsigned y)
 {
 	unsigned h = x * 374761393u + y * 668265263u;

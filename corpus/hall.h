@@ -1,6 +1,6 @@
 /*
- * The geometry of the hall (hall.c): a vaulted hall between two rows of fluted columns, made by code, of exactly
- * 262,267 triangles: as many as the Sponza model has with which ray tracers are compared. Knows no OpenGL.
+ * Geometry of the hall (hall.c): a generated vaulted hall between two rows of fluted columns, with exactly 262,267
+ * triangles, as many as the Sponza model used for comparing ray tracers. Does not use OpenGL.
  */
 #pragma once
 
@@ -18,7 +18,7 @@ struct vertex {
 	float texcoord[2], normal[3], position[3];
 };
 
-/* One part of the hall, of one texture. */
+/* One part of the hall, with one texture. */
 static struct part_mesh {
 	struct vertex *vertices;
 	unsigned *indices;
@@ -36,7 +36,7 @@ static void floor_surface(float u, float v, const float at[2], float out[3])
 	out[2] = half_length * (1 - 2 * v);
 }
 
-/** A wall along the hall; at[0] is -1 for the left one, 1 for the right one. */
+/** A side wall; at[0] is -1 for the left one, 1 for the right one. */
 static void wall_surface(float u, float v, const float at[2], float out[3])
 {
 	out[0] = at[0] * half_width;
@@ -44,7 +44,7 @@ static void wall_surface(float u, float v, const float at[2], float out[3])
 	out[2] = at[0] * half_length * (2 * u - 1);
 }
 
-/** The wall at an end; at[0] is -1 for the far one. */
+/** An end wall; at[0] is -1 for the far one. */
 static void end_surface(float u, float v, const float at[2], float out[3])
 {
 	float x = 2 * u - 1;
@@ -62,7 +62,7 @@ static void vault_surface(float u, float v, const float at[2], float out[3])
 	out[2] = half_length * (1 - 2 * v);
 }
 
-/** Base, fluted shaft that swells a little, capital. */
+/** Base, fluted and slightly swelling shaft, capital. */
 static void column_surface(float u, float v, const float at[2], float out[3])
 {
 	float shaft = fminf(1, fmaxf(0, (v - 0.1f) / 0.8f));
@@ -79,7 +79,7 @@ static void column_surface(float u, float v, const float at[2], float out[3])
 	out[2] = at[1] + radius * sinf(turn * u);
 }
 
-/** The band of stone that spans two columns: a half ring, its section a rounded square. */
+/** The stone band between two columns: a half ring, its section a rounded square. */
 static void arch_surface(float u, float v, const float at[2], float out[3])
 {
 	float section = turn * v, c = cosf(section), s = sinf(section);
@@ -90,7 +90,7 @@ static void arch_surface(float u, float v, const float at[2], float out[3])
 	out[2] = at[1] - radius * cosf(turn / 2 * u);
 }
 
-/** Where the surface is, and its normal from how it changes. */
+/** A point of the surface, with a normal from finite differences. */
 static struct vertex sample(surface *f, float u, float v, const float at[2])
 {
 	const float step = 1e-3f;
@@ -130,7 +130,7 @@ static void add_triangle(struct part_mesh *part, unsigned a, unsigned b, unsigne
 	}
 }
 
-/** A surface as a grid of 2 * nu * nv triangles; its texture is repeated so many times each way. */
+/** A surface as a grid of 2 * nu * nv triangles; its texture repeats repeat_u by repeat_v times. */
 static void add_grid(enum part where, surface *f, float at0, float at1, unsigned nu, unsigned nv, float repeat_u,
                      float repeat_v)
 {
@@ -155,7 +155,7 @@ static void add_grid(enum part where, surface *f, float at0, float at1, unsigned
 		}
 }
 
-/** A round slab's top, as a fan of so many triangles as are missing. */
+/** The top of a round slab: a fan of ROSETTE_PETALS triangles, which completes N_TRIANGLES. */
 static void add_rosette(void)
 {
 	struct vertex v = { { 0.5f, 0.5f }, { 0, 1, 0 }, { 0, 0.05f, 0 } };
@@ -176,7 +176,7 @@ static void add_rosette(void)
 	}
 }
 
-/** The knot that stands on it. */
+/** The knot on the slab. */
 static void add_statue(void)
 {
 	struct part_mesh *part = &parts[PART_MARBLE];

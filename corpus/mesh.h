@@ -1,6 +1,6 @@
 /*
- * Triangle meshes for the corpus programs: read from an OBJ file, or a knot made by code where there is none. Indexed,
- * with one smooth normal per vertex, scaled to fit the cube from -1 to 1.
+ * Triangle meshes for the corpus programs: read from an OBJ file, or a generated knot. Indexed, with one smooth normal
+ * per vertex, scaled to fit the cube from -1 to 1.
  */
 #pragma once
 
@@ -19,7 +19,7 @@ struct mesh {
 
 static void *mesh_grow(void *array, size_t count, size_t element_bytes)
 {
-	/* Room grows at powers of two. */
+	/* Capacity is a power of two. */
 	if (count & (count - 1))
 		return array;
 	array = realloc(array, (count ? 2 * count : 1) * element_bytes);
@@ -48,7 +48,7 @@ static void mesh_add_triangle(struct mesh *m, unsigned a, unsigned b, unsigned c
 	m->n_triangles++;
 }
 
-/** A face line of an OBJ file ("f 1/1/1 2//2 -1"): its polygon as a fan. Only positions count. */
+/** A face line of an OBJ file ("f 1/1/1 2//2 -1"): its polygon as a fan. Only positions are used. */
 static int mesh_read_face(struct mesh *m, char *text)
 {
 	unsigned fan[3];
@@ -91,7 +91,7 @@ static int mesh_read_obj(struct mesh *m, const char *path)
 	return bad || m->n_triangles == 0 ? -1 : 0;
 }
 
-/** Where a (2,3) torus knot is at angle t. */
+/** Point of a (2,3) torus knot at angle t. */
 static void mesh_knot_center(float t, float out[3])
 {
 	float r = 2 + cosf(3 * t);
@@ -110,7 +110,7 @@ static void mesh_make_knot(struct mesh *m, unsigned along, unsigned around)
 		float t = turn * (float)i / (float)along;
 		float c[3], ahead[3], u[3], v[3], w[3], length;
 
-		/* u along the tube; v and w across it */
+		/* u along the tube, v and w across it */
 		mesh_knot_center(t, c);
 		mesh_knot_center(t + step, ahead);
 		for (int k = 0; k < 3; k++) {
@@ -162,7 +162,7 @@ static void mesh_fit(struct mesh *m)
 			m->positions[i][k] = (2 * m->positions[i][k] - low[k] - high[k]) / size;
 }
 
-/** One normal per vertex: the mean of its triangles' normals, larger ones counting more. */
+/** One normal per vertex: the mean of its triangles' normals, weighted by area. */
 static void mesh_add_normals(struct mesh *m)
 {
 	m->normals = (float(*)[3])calloc(m->n_vertices, sizeof(*m->normals));
@@ -191,8 +191,8 @@ static void mesh_add_normals(struct mesh *m)
 }
 
 /**
- * The model to show: the OBJ file, or the knot of 2 * along * around triangles where `path` is NULL. Exits with a line
- * on standard error on failure.
+ * Load the model to show: the OBJ file, or if `path` is NULL, a knot of 2 * along * around triangles. On failure, exits
+ * with a line on standard error.
  */
 static inline struct mesh mesh_load(const char *path, unsigned along, unsigned around)
 {
@@ -209,7 +209,7 @@ static inline struct mesh mesh_load(const char *path, unsigned along, unsigned a
 	return m;
 }
 
-/** A display list that draws it by glVertex calls. */
+/** A display list that draws the mesh by glVertex calls. */
 static inline GLuint mesh_compile(const struct mesh *m)
 {
 	const GLuint list = glGenLists(1);

@@ -1,6 +1,6 @@
 /*
- * A model on a cube on a plate, one light from the side: the plain scene that shows whether a shadow falls where it
- * should. The model is drawn from client arrays, the cube and the plate in immediate mode.
+ * A model on a cube on a plate, one light from the side: a plain scene to check that shadows fall where they should.
+ * The model is drawn from client arrays, the cube and the plate in immediate mode.
  *
  *   cc -o model_on_cube corpus/model_on_cube.c -lglut -lGLU -lGL -lm
  */
@@ -21,7 +21,7 @@ static void init(void)
 	program_perspective(40, 1, 50);
 }
 
-/** The plate in pieces, so that lighting at its vertices varies across it. */
+/** The plate in pieces, as lighting at vertices must vary across it. */
 static void draw_plate(void)
 {
 	enum { PIECES = 16 };
@@ -40,7 +40,7 @@ static void draw_plate(void)
 	}
 }
 
-/** GLUT's cube leaves the arrays changed, so they are set for each draw. */
+/** GLUT's cube changes the arrays, so they are set for each draw. */
 static void draw_model(void)
 {
 	glVertexPointer(3, GL_FLOAT, 0, model.positions);

@@ -1,8 +1,8 @@
 /*
  * A knot above a floor, lit by a lamp: by fixed function (--by fixed), by a vertex program that computes the same light
- * (--by vertex), or by a fragment program that lights each fragment with the normal that a vertex program hands on
- * (--by fragment; --by glsl: the same in GLSL 1.10). The floor is fixed function's. Engines had matrices of their own:
- * --by own draws all by a vertex program whose parameters hold them, under OpenGL's identity.
+ * (--by vertex), or by a fragment program that lights each fragment with the normal from a vertex program (--by
+ * fragment; --by glsl: the same in GLSL 1.10). The floor uses fixed function. Engines had their own matrices: --by own
+ * draws everything by a vertex program whose parameters hold them, while OpenGL's are the identity.
  *
  *   cc -o phong corpus/phong.c -lglut -lGLU -lGL -lm
  */
@@ -25,7 +25,7 @@ static const char own_space[] =
 	"DP3 n.x, mv[0], vertex.normal; DP3 n.y, mv[1], vertex.normal; DP3 n.z, mv[2], vertex.normal;\n"
 	"DP3 n.w, n, n; RSQ n.w, n.w; MUL n.xyz, n, n.w;\n";
 
-/* Of a light in e's space and a normal n: colour c. Both stages have these instructions. */
+/* Colour c from a light in the space of e, with normal n. Both stages use these instructions. */
 static const char light[] =
 	"SUB l, state.light[0].position, e; DP3 l.w, l, l; RSQ l.w, l.w; MUL l.xyz, l, l.w; ADD h, l, { 0, 0, 1, 0 };\n"
 	"DP3 h.w, h, h; RSQ h.w, h.w; MUL h.xyz, h, h.w; DP3 l.x, n, l; DP3 l.y, n, h; MOV l.w, "
@@ -134,7 +134,7 @@ static void draw_floor(void)
 	glEnd();
 }
 
-/* Put OpenGL's matrices into parameters, and the identity in their place. The lamp stays where it is before the eye. */
+/* Move OpenGL's matrices into parameters, and load the identity. The lamp keeps its place in eye space. */
 static void take_matrices(void)
 {
 	float p[16], m[16];

@@ -1,18 +1,18 @@
 /*
- * What the corpus programs share: options, an 800x600 double-buffered window by GLUT, and a frame loop. Its time is the
- * frame's number, so that every run draws the same pictures.
+ * Options, window and frame loop of the corpus programs: an 800x600 double-buffered window by GLUT. Time is the frame
+ * number, so every run draws the same pictures.
  *
  *   --frames N              exit after N frames (default: run until closed)
  *   --animate camera|light|none
- *   --step N                each frame is what the N-th from there would be (default: 1)
- *   --vbo                   arrays from a buffer object where the program has arrays
- *   --mirror                make a mirror where the program has one to make
- *   --glass                 add something of glass where the program has it
- *   --mesh                  add the model where the program can do without
- *   --model FILE            an OBJ file where the program shows a model (default: a generated knot)
- *   --size WxH              of the window (default: 800x600)
- *   --ortho                 parallel projection where the program has a choice
- *   --by HOW                by which way, where the program has several
+ *   --step N                show only every N-th frame (default: 1)
+ *   --vbo                   take arrays from a buffer object (programs with arrays)
+ *   --mirror                add a mirror (programs that have one)
+ *   --glass                 add a glass object (programs that have one)
+ *   --mesh                  add the model (programs where it is optional)
+ *   --model FILE            show an OBJ file (programs with a model; default: a generated knot)
+ *   --size WxH              window size (default: 800x600)
+ *   --ortho                 parallel projection (programs with a choice)
+ *   --by HOW                method of drawing (programs with several)
  */
 #pragma once
 
@@ -33,18 +33,18 @@ enum { RT_MATTE_EXT, RT_MIRROR_EXT, RT_GLASS_EXT };
 struct program {
 	const char *title;
 	void (*draw)(void); /* one frame of `program_frame`, without the swap */
-	long frames;        /* 0: no end */
-	long step;          /* frames of time from one to the next */
-	int width, height;  /* of the window */
+	long frames;        /* 0: unlimited */
+	long step;          /* frame numbers from one frame to the next */
+	int width, height;  /* size of the window */
 	int animate_camera, animate_light, vbo, mirror, glass, mesh, ortho;
-	int stencil;        /* set before program_run: the window has a stencil buffer */
-	const char *model, *by; /* NULL: none given */
+	int stencil;        /* set before program_run: 1: the window has a stencil buffer */
+	const char *model, *by; /* NULL: not given */
 };
 
 static struct program program = { .step = 1, .width = 800, .height = 600 };
 #define PROGRAM_WIDTH program.width
 #define PROGRAM_HEIGHT program.height
-static long program_frame; /* from 0, in steps */
+static long program_frame; /* from 0, in multiples of program.step */
 
 static void program_display(void)
 {
@@ -122,7 +122,7 @@ static void program_run(int argc, char **argv, const char *title, void (*init)(v
 	glutMainLoop();
 }
 
-/** A perspective projection that suits the window; the modelview matrix is current afterwards. */
+/** Set a perspective projection for the window's shape; the modelview matrix is current afterwards. */
 static inline void program_perspective(double fovy_deg, double near, double far)
 {
 	glMatrixMode(GL_PROJECTION);
@@ -131,13 +131,13 @@ static inline void program_perspective(double fovy_deg, double near, double far)
 	glMatrixMode(GL_MODELVIEW);
 }
 
-/** The ambient and diffuse colour of both sides of what is drawn next. */
+/** Set the ambient and diffuse colour of both sides. */
 static inline void program_color(float red, float green, float blue)
 {
 	glMaterialfv(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE, (const float[]){ red, green, blue, 1 });
 }
 
-/** How far something has moved by this frame, at so much a frame; 0 where it stands still. */
+/** Distance moved up to this frame, at a_frame per frame; 0 if not animated. */
 static inline float program_moved(int is_animated, float a_frame)
 {
 	return is_animated ? a_frame * (float)program_frame : 0;

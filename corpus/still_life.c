@@ -1,8 +1,8 @@
 /*
- * One of everything that a fault can break, each in a draw of its own: a textured floor, a box from client arrays, a
- * lit sphere in a display list, an unlit pyramid, a fence by alpha test, two panes of coloured glass by blending, fog,
- * two lights, culling. The projection is a glFrustum and every transformation is one call, so that a recording is
- * easily edited.
+ * One of everything that a fault can break, each in its own draw: a textured floor, a box from client arrays, a lit
+ * sphere in a display list, an unlit pyramid, a fence by alpha test, two panes of coloured glass by blending, fog, two
+ * lights, culling. The projection is a glFrustum and every transformation is one call, so that a recording is easy to
+ * edit.
  *
  *   cc -o still_life corpus/still_life.c -lglut -lGLU -lGL -lm
  */

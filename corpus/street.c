@@ -1,12 +1,11 @@
 /*
- * A street at dusk, as games drew it: a sky about the viewer that is painted first and leaves no depth, a lit ball that
- * rolls over a blob of shadow, a mark on the ground, a lamp that shows its bulb by bright texels. The viewer stands
- * still.
+ * A street at dusk, as games drew it: a sky around the viewer, drawn first and without depth, a lit ball that rolls
+ * over a blob shadow, a mark on the ground, a lamp whose bulb is bright texels. The viewer does not move.
  *
  *   cc -o street corpus/street.c -lglut -lGLU -lGL -lm
  *
  * --by unlit draws it without OpenGL's lights, --by plain with neither blob nor mark, --by thrown with the blob as a
- * texture unit of the ground, whose coordinates come of places.
+ * texture unit of the ground, its coordinates generated from positions.
  */
 #include <math.h>
 
@@ -31,7 +30,7 @@ static void make_texel(int texture, int x, int y, GLubyte *out)
 	if (texture == SKY && sun < 1)
 		memset(out, 255, 3);
 	if (texture == LAMP && y < SIZE / 4)
-		out[0] = out[1] = out[2] = 60; /* its socket */
+		out[0] = out[1] = out[2] = 60; /* the bulb's socket */
 }
 
 static void init(void)
@@ -59,13 +58,13 @@ static void init(void)
 	glLightfv(GL_LIGHT0, GL_DIFFUSE, (const float[]){ 0.6f, 0.5f, 0.4f, 1 });
 }
 
-/** Four sides and the top of a box about the viewer; each shows the same dusk, with the sun in the one ahead. */
+/** Four sides and the top of a box around the viewer; each shows the same dusk, the one ahead with the sun. */
 static void draw_sky(void)
 {
 	glBindTexture(GL_TEXTURE_2D, textures[SKY]);
 	glDepthMask(GL_FALSE);
 	for (int side = 0; side < 4; side++) {
-		const float u = side ? 0 : 1; /* without the sun the rest of the texture: its left edge */
+		const float u = side ? 0 : 1; /* sides without the sun use only the texture's left edge */
 
 		glPushMatrix();
 		glRotatef(90.0f * (float)side, 0, 1, 0);
@@ -86,7 +85,7 @@ static void draw_sky(void)
 	glDepthMask(GL_TRUE);
 }
 
-/** A square on the ground, or one that is laid on it. */
+/** A square of the ground, or one lying on it. */
 static void draw_ground(int texture, float x, float z, float half, float repeat)
 {
 	glBindTexture(GL_TEXTURE_2D, textures[texture]);
@@ -99,7 +98,7 @@ static void draw_ground(int texture, float x, float z, float half, float repeat)
 	glEnd();
 }
 
-/** The ground with the ball's blob in its first unit, its own texture in the next. */
+/** The ground with the ball's blob in its first texture unit, its own texture in the next. */
 static void draw_ground_under(float ball)
 {
 	const GLenum coords[2] = { GL_S, GL_T };
@@ -136,7 +135,7 @@ static void draw_ground_under(float ball)
 	glActiveTexture(GL_TEXTURE0);
 }
 
-/** What lies on the ground: the mark, then the ball's blob. */
+/** Draw the decals on the ground: the mark, then the ball's blob. */
 static void draw_laid(float ball, int is_lit)
 {
 	glEnable(GL_BLEND);
@@ -153,7 +152,7 @@ static void draw_laid(float ball, int is_lit)
 	glDisable(GL_BLEND);
 }
 
-/** A ball of quads, all of them one draw. */
+/** A ball of quads in a single draw. */
 static void draw_ball(float radius)
 {
 	enum { AROUND = 24, UP = 12 };
@@ -182,7 +181,7 @@ static void draw_things(float ball)
 	glTranslatef(ball, 0.6f, -4);
 	draw_ball(0.6f);
 	glPopMatrix();
-	glPushMatrix(); /* the lamp's post */
+	glPushMatrix(); /* the lamp post */
 	glTranslatef(2.6f, 2.4f, -5);
 	glRotatef(90, 1, 0, 0);
 	gluCylinder(quadric, 0.07, 0.07, 2.4, 8, 1);
@@ -190,7 +189,7 @@ static void draw_things(float ball)
 	gluDeleteQuadric(quadric);
 }
 
-/** A bulb that no light lights: bright texels alone. */
+/** An unlit bulb: only bright texels. */
 static void draw_lamp(void)
 {
 	glDisable(GL_LIGHTING);

@@ -1,6 +1,6 @@
 /*
- * Trees as games drew them: two crossed cards each, cut out by the alpha test, lit, all in one draw; and a hut. Each
- * card stands in the other one's light.
+ * Trees as games drew them, and a hut. Each tree is two crossed cards, cut out by the alpha test and lit; all trees are
+ * one draw. Each card blocks the other's light.
  *
  *   cc -o tree_cards corpus/tree_cards.c -lglut -lGLU -lGL -lm
  */

@@ -1,9 +1,9 @@
 /*
- * A cube over a floor, and what stood for light in its day: a shadow flattened onto the floor, a shadow volume in the
- * stencil buffer, a mirror drawn as the world behind it; or none of these, and a mirror by rtMaterialEXT. The light is
- * at (2, 4, 1) of the world, or far away in that direction; the mirror is the plane z = -3. From frame 1 on the viewer
- * moves around. On a grid or gravel the shadow is flattened, too, but the floor is one picture without OpenGL's light:
- * dark, with bright lines, or with grain.
+ * A cube over a floor, and effects that replaced traced light: a shadow flattened onto the floor, a shadow volume in
+ * the stencil buffer, a mirror drawn as the world behind it; or none of these, or a mirror by rtMaterialEXT. The light
+ * is at (2, 4, 1) of the world, or infinitely far in that direction; the mirror is the plane z = -3. From frame 1 on
+ * the viewer moves around. `grid` and `gravel` also flatten the shadow, but their floor is a single picture without
+ * OpenGL's light: dark with bright lines, or grainy.
  *
  *   cc -o tricks corpus/tricks.c -lglut -lGLU -lGL -lm
  *   tricks planar|directional|zpass|zfail|mirror|none|traced-mirror|grid|gravel [--frames N]
@@ -20,7 +20,7 @@ static int kind;
 static float light[4] = { 2, 4, 1, 1 };
 static const float corners[8][3] = { { -1, -1, -1 }, { 1, -1, -1 }, { -1, 1, -1 }, { 1, 1, -1 },
 	                             { -1, -1, 1 },  { 1, -1, 1 },  { -1, 1, 1 },  { 1, 1, 1 } };
-/* Each face's corners against the clock, seen from outside, and its normal. */
+/* Corners of each face, counter-clockwise seen from outside, and its normal. */
 static const int faces[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 },
 	                         { 2, 6, 7, 3 }, { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
 static const float normals[6][3] = { { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 }, { 0, 0, -1 }, { 0, 0, 1 } };
@@ -43,7 +43,7 @@ static void place_cube(void)
 	glScalef(0.6f, 0.6f, 0.6f);
 }
 
-/* In small squares, as OpenGL lights vertices. */
+/* The floor in small squares, as OpenGL lights vertices. */
 static void draw_floor(void)
 {
 	glBegin(GL_QUADS);
@@ -71,7 +71,7 @@ static void make_picture(void)
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
 }
 
-/* One square, as nothing lights its vertices. It has no normal: the last one is the cube's. */
+/* The floor as one unlit square. It sets no normal: the cube's last one is current. */
 static void draw_picture(void)
 {
 	glDisable(GL_LIGHTING);
@@ -128,7 +128,7 @@ static void flat_shadow(void)
 {
 	glEnable(GL_POLYGON_OFFSET_FILL);
 	glPolygonOffset(-1, -1);
-	glEnable(GL_STENCIL_TEST); /* each pixel is darkened once */
+	glEnable(GL_STENCIL_TEST); /* darken each pixel once */
 	glStencilFunc(GL_EQUAL, 0, ~0u);
 	glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
 	glEnable(GL_BLEND);
@@ -144,7 +144,7 @@ static void flat_shadow(void)
 	glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-/* The light in the cube's space. */
+/* The light's position in the cube's space. */
 static void light_of_cube(float out[3])
 {
 	const float c = cosf(20 * 3.14159265f / 180), s = sinf(20 * 3.14159265f / 180);
@@ -155,7 +155,7 @@ static void light_of_cube(float out[3])
 	out[2] = (s * x + c * z) / 0.6f;
 }
 
-/* Each lit face and its sides to infinity: faces between lit ones cancel each other. */
+/* Each lit face, with its sides extended to infinity: sides between two lit faces cancel. */
 static void volume(void)
 {
 	float l[3];
@@ -218,7 +218,7 @@ static void volume_shadow(void)
 	for (int side = 0; side < 2; side++) {
 		const GLenum counts = side ? GL_DECR_WRAP : GL_INCR_WRAP;
 
-		/* z-pass: front faces count up, back faces down; z-fail: the other way round */
+		/* z-pass: front faces increment, back faces decrement; z-fail: the reverse */
 		glCullFace((kind == ZPASS) == (side == 0) ? GL_BACK : GL_FRONT);
 		if (kind == ZPASS)
 			glStencilOp(GL_KEEP, GL_KEEP, counts);

@@ -1,6 +1,6 @@
 /*
- * Two white triangles on black: the first thing to record. Unlit, immediate mode; any difference between the traced and
- * the rasterized frame is a fault of the recording or of the coverage rule.
+ * Two white triangles on black: the first program to record. Unlit, immediate mode; any difference between the traced
+ * and the rasterized frame is an error of the recording or of the coverage rule.
  *
  *   cc -o two_triangles corpus/two_triangles.c -lglut -lGLU -lGL -lm
  */

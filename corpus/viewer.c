@@ -1,5 +1,5 @@
 /*
- * An OBJ viewer as they were written: the mesh in a display list of glVertex calls, or as indexed arrays in buffer
+ * A typical OBJ viewer: the mesh in a display list of glVertex calls, or as indexed arrays in buffer
  * objects (--vbo), turning in front of a headlight; perspective or parallel projection (--ortho).
  *
  *   cc -o viewer corpus/viewer.c -lglut -lGLU -lGL -lm
@@ -58,7 +58,7 @@ static void init(void)
 
 static void draw(void)
 {
-	float light[4] = { 2, 0, 0, 10 }; /* a tenth of that: where the viewer is */
+	float light[4] = { 2, 0, 0, 10 }; /* divided by w = 10: the viewer's place */
 
 	if (program.animate_light)
 		light[0] = 30 * sinf(0.1f * (float)program_frame);

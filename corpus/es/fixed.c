@@ -1,7 +1,7 @@
 /*
  * cc fixed.c -lEGL -lGLESv1_CM -lX11
  *
- * OpenGL ES 1.0 as processors without floats used it: every number is 16.16 fixed point, arrays included. Lit cubes,
+ * OpenGL ES 1.0 as on processors without floating point: all numbers are 16.16 fixed point, arrays included. Lit cubes,
  * fog, blending, a textured quad by combiners, wide lines, points, depth range, scissored clears.
  */
 #include "window.h"

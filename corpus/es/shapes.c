@@ -1,7 +1,7 @@
 /*
  * cc shapes.c -lEGL -lGLESv1_CM -lX11 -lm
  *
- * OpenGL ES 1.1 by floats: a lit torus from buffer objects with short indices, a textured floor of bytes from client
+ * OpenGL ES 1.1 in floats: a lit torus from buffer objects with short indices, a textured floor of bytes from client
  * memory, a second texture by combiners, fog, a user clip plane, two lights.
  */
 #include <math.h>

@@ -4,8 +4,8 @@
  * Extensions of OpenGL ES 1's age: draw texture with crop rectangles, paletted textures, point sprites with an array of
  * sizes, a framebuffer object, separate blending, a cube map by reflection.
  *
- * The current colour is set once: Mesa (22.3.6) draws textures with the colour that was current when arrays were drawn
- * last.
+ * The current colour is set once: Mesa (22.3.6) draws textures with the colour that was current when arrays were last
+ * drawn.
  */
 #include <math.h>
 
@@ -32,7 +32,7 @@ static void *find(const char *name)
 	return found;
 }
 
-/* Sixteen colours of 24 bits, two texels a byte, the left one in the high half. */
+/* Sixteen colours of 24 bits, two texels a byte, the left texel in the high half. */
 static void make_sheet(void)
 {
 	static GLubyte image[16 * 3 + SHEET * SHEET / 2];

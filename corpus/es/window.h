@@ -1,6 +1,6 @@
 /*
- * A window of OpenGL ES 1 on X11, and the frame loop that the programs of this folder share. `--frames N` ends after N
- * frames; the same pictures in every run.
+ * A window with OpenGL ES 1 on X11, and the frame loop of the programs in this folder. `--frames N` ends after N
+ * frames; every run draws the same pictures.
  */
 #pragma once
 
@@ -14,7 +14,7 @@
 
 enum { WIDTH = 400, HEIGHT = 300 };
 
-/* Each program defines these: state once, then a picture for each number. */
+/* Each program defines these: state once, then a picture for each frame number. */
 static void set_up(void);
 static void draw_frame(int frame);
 
@@ -24,10 +24,10 @@ static void fail(const char *what)
 	exit(1);
 }
 
-/* Not an error of the program's: Mesa is also built without OpenGL ES 1. */
+/* Not the program's fault: Mesa may be built without OpenGL ES 1. */
 static void lack(void)
 {
-	fprintf(stderr, "skipped: no OpenGL ES 1 context is to be had here\n");
+	fprintf(stderr, "skipped: no OpenGL ES 1 context here\n");
 	exit(77);
 }
 

@@ -1,7 +1,7 @@
 /*
- * What `make demo` shows: marbles on a board of two woods, a camera that goes slowly around them. OpenGL 1.1 and GLX
- * alone, for machines without GLUT: a display list, a texture, one light. It knows nothing of mirrors, glass and
- * shadows; marbles.look.yaml says what its draws are made of.
+ * The program of `make demo`: marbles on a board of two woods, with a camera that moves slowly around them. Uses only
+ * OpenGL 1.1 and GLX, for machines without GLUT: a display list, a texture, one light. It has no mirrors, glass or
+ * shadows; marbles.look.yaml gives its draws their materials.
  *
  *   cc -o marbles corpus/glx/marbles.c -lGL -lX11 -lm
  *
@@ -54,7 +54,7 @@ static void make_ball(void)
 	glEndList();
 }
 
-/* Squares of light and dark wood, with a grain. */
+/* Paint squares of light and dark wood, with a grain. */
 static void make_board(void)
 {
 	static GLubyte texels[TEXELS][TEXELS][3];

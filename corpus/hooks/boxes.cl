@@ -1,6 +1,6 @@
 /*
- * A heat map of what rays cost: how many boxes of the binary trees a ray asks on its way to the surface, from blue over
- * green and yellow to red at `most`. Trees of other builders (--accel) can be looked at beside each other.
+ * A heat map of the cost of rays: the number of boxes of the binary trees that a ray tests on its way to the surface,
+ * from blue over green and yellow to red at `most`. Use it to compare trees of other builders (--accel).
  */
 #pragma relume parameter float most = 200
 

@@ -1,7 +1,6 @@
 /*
- * Car paint: a coloured base that turns darker and bluer at the sides, flakes that glitter, and a clear coat that
- * mirrors more the flatter it is looked at. Surfaces are painted where rules say `paint: 1`
- * (car_paint.look.yaml).
+ * Car paint: a coloured base that turns darker and bluer towards grazing angles, glittering flakes, and a clear coat
+ * that mirrors more at grazing angles. Applies where rules set `paint: 1` (car_paint.look.yaml).
  */
 #pragma relume parameter int paint = 0
 #pragma relume parameter color base = 0.7 0.03 0.03

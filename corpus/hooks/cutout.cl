@@ -1,6 +1,6 @@
 /*
- * Round holes in a grid, in whatever rules say `cut: 1` about (cutout.look.yaml). What is a hole for the camera
- * is one for mirrors and for light, too. The grid lies in the object's own space and moves with it.
+ * Round holes in a grid, on surfaces where rules set `cut: 1` (cutout.look.yaml). Holes for the camera are also
+ * holes for mirrors and light. The grid is in object space and moves with the object.
  */
 #pragma relume parameter int cut = 0
 #pragma relume parameter float spacing = 0.5

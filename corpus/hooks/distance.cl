@@ -1,14 +1,14 @@
 /*
- * A shape told by its distance alone, in place of what rules say `shape: 1` about (distance.look.yaml): the frame
- * of a box with a ball that melts into it, fitted into the box of the mesh that was drawn. The ray steps as far as the
- * distance says that nothing is (J. C. Hart, "Sphere tracing", The Visual Computer 12, 1996).
+ * A shape given only by its distance function, on surfaces where rules set `shape: 1` (distance.look.yaml): the
+ * frame of a box merged smoothly with a ball, fitted into the box of the drawn mesh. The ray advances by the distance
+ * known to be empty (J. C. Hart, "Sphere tracing", The Visual Computer 12, 1996).
  */
 #pragma relume parameter int shape = 0
 #pragma relume parameter float thickness = 0.12
 #pragma relume parameter float ball = 0.85
 #pragma relume parameter float melt = 0.2
 
-/* A cube without what three square bars through it would take: at most as far as it is. */
+/* A cube minus three square bars through it: a lower bound of the distance. */
 static float frame_at(float4 p, float half_size, float thickness)
 {
 	const float4 q = fabs(p) - half_size;
@@ -17,7 +17,7 @@ static float frame_at(float4 p, float half_size, float thickness)
 	return max(cube, -bars - thickness);
 }
 
-/* In a cube from -1 to 1. */
+/* The shape's distance, in a cube from -1 to 1. */
 static float distance_at(float4 p, struct relume_parameters parameters)
 {
 	const float frame = frame_at(p, 0.95f, 2.0f * parameters.thickness), ball = length(p) - parameters.ball;
@@ -45,7 +45,7 @@ struct relume_request intersection(struct relume_crossing crossing, struct relum
 	for (int i = 0; i < 160; i++) {
 		p = o + t * d;
 		step = distance_at(p, parameters);
-		/* Rays that start on the surface leave it: only what comes nearer is a hit. */
+		/* Rays may start on the surface and leave it: only an approach counts as a hit. */
 		if (step < 2e-4f) {
 			normal = (float4)(distance_at(p + (float4)(e, 0.0f, 0.0f, 0.0f), parameters) -
 			                          distance_at(p - (float4)(e, 0.0f, 0.0f, 0.0f), parameters),

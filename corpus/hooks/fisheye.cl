@@ -1,5 +1,5 @@
-/* A fisheye camera: angles from the middle of the view grow evenly towards the border of a disk, and beyond it nothing
- * is seen. */
+/* A fisheye camera: angles from the middle of the view grow evenly towards the border of a disk; nothing is visible
+ * beyond it. */
 #pragma relume parameter float degrees = 180
 
 struct relume_ray ray_generation(struct relume_pixel pixel, struct relume_parameters parameters)

@@ -1,7 +1,6 @@
 /*
- * A gobo: bars stand in the way of each light as those of a window, and its panes tint it. The bars of a lamp are
- * `panes` to its distance, across a spot's axis or straight below; those before light at infinity are `size` / `panes`
- * apart.
+ * A gobo: window bars in front of each light, and tinted panes. The bars of a lamp are spaced by 1 / `panes` of the
+ * distance to it, across a spot's axis or a vertical one; those of light at infinity by `size` / `panes`.
  */
 #pragma relume parameter float panes = 2
 #pragma relume parameter float bar = 0.12

@@ -1,4 +1,4 @@
-/* The built-in closest hit, said once more: the picture is the same to the bit. A start for hooks of one's own. */
+/* The built-in closest hit, repeated: the picture is the same to the bit. A starting point for your own hooks. */
 
 struct relume_request closest_hit(struct relume_hit hit, struct relume_parameters parameters)
 {

@@ -1,6 +1,6 @@
 /*
- * Spheres in place of what rules say `sphere: 1` about (sphere.look.yaml): each fills the box of the mesh that
- * was drawn, in that mesh's space, with its material. So a few flat faces, or a box, become round to the last pixel.
+ * Spheres on surfaces where rules set `sphere: 1` (sphere.look.yaml): each fills the box of the drawn mesh, in
+ * that mesh's space, with its material. A box, or a few flat faces, thus becomes exactly round.
  */
 #pragma relume parameter int sphere = 0
 

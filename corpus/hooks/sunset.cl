@@ -1,4 +1,4 @@
-/* A sky for rays that hit nothing: from the horizon's colour to the zenith's. Mirrors show it, and cameras of hooks. */
+/* A sky for rays that hit nothing: from the horizon's colour to the zenith's. Seen in mirrors and by hooks' cameras. */
 #pragma relume parameter color horizon = 1 0.55 0.3
 #pragma relume parameter color zenith = 0.15 0.25 0.6
 

@@ -1,5 +1,5 @@
-/* A camera with a thin lens: what lies `focus` in front of the viewer is sharp, all else is not. Give it samples
- * (--samples 64). */
+/* A camera with a thin lens: objects at distance `focus` from the viewer are sharp, all others blurred. Use many
+ * samples (--samples 64). */
 #pragma relume parameter float focus = 10
 #pragma relume parameter float radius = 0.1
 

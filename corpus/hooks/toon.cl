@@ -9,7 +9,7 @@ struct relume_request closest_hit(struct relume_hit hit, struct relume_parameter
 	float4 light = (float4)(parameters.ambient);
 
 	if (relume_lights(&hit) == 0)
-		return relume_go_on(); /* what OpenGL does not light stays as it is */
+		return relume_go_on(); /* surfaces that OpenGL does not light are unchanged */
 	if (-dot(hit.normal, hit.direction) < parameters.outline)
 		return relume_color(albedo * 0.1f);
 	for (uint i = 0; i < relume_lights(&hit); i++) {

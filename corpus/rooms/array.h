@@ -1,10 +1,10 @@
-/* Arrays that grow at powers of two. */
+/* Growing arrays; capacity is a power of two. */
 #pragma once
 
 #include <stdio.h>
 #include <stdlib.h>
 
-/** Room for one more item after `n`; the program ends where memory does. */
+/** Room for one more item after `n`; ends the program if out of memory. */
 static inline void *array_grow(void *items, size_t n, size_t bytes)
 {
 	if (n & (n - 1))
@@ -17,6 +17,6 @@ static inline void *array_grow(void *items, size_t n, size_t bytes)
 	return items;
 }
 
-/** Append an item; `items` and `n` are changed. */
+/** Append an item; changes `items` and `n`. */
 #define ARRAY_PUSH(items, n, item) \
 	((items) = array_grow((items), (n), sizeof(*(items))), (items)[(n)] = (item), (n)++)

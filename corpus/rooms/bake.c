@@ -1,9 +1,10 @@
+/* Computes lightmaps. */
 #include "bake.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Metres from one texel to the next, if the wall is not too large for that. */
+/* Metres between texels, if MAX_SIZE texels then cover the wall. */
 #define TEXEL 0.375
 enum { MAX_SIZE = 64 };
 
@@ -16,7 +17,7 @@ static unsigned size_of(double length)
 	return size;
 }
 
-/* Texels stand on the wall's rim as well: their centres reach from one end to the other. */
+/* The outermost texels are on the wall's rim: their centres span the wall from end to end. */
 static void lay_out(struct lightmap *map, const struct mesh *mesh, const struct face *face)
 {
 	double low[2] = { HUGE_VAL, HUGE_VAL }, high[2] = { -HUGE_VAL, -HUGE_VAL };
@@ -38,7 +39,7 @@ static void lay_out(struct lightmap *map, const struct mesh *mesh, const struct 
 	map->v0 = low[1] - 0.5 * map->dv / map->height;
 }
 
-/* The light at a place. A texel behind a neighbour's wall takes the light of the nearest place before it. */
+/* The light at a place. A texel behind a neighbouring wall takes the light of the nearest place in front of it. */
 static void light_at(const struct level *level, const struct bsp *bsp, struct vec p, struct vec n, unsigned char out[3])
 {
 	double sum[3] = { BAKE_AMBIENT, BAKE_AMBIENT, BAKE_AMBIENT };
@@ -56,7 +57,7 @@ static void light_at(const struct level *level, const struct bsp *bsp, struct ve
 		out[k] = (unsigned char)(255 * fmin(1, sum[k]) + 0.5);
 }
 
-/* A place of the wall's plane moved to the nearest one in the wall, a little inwards. */
+/* Move a place in the wall's plane to the nearest one on the wall, slightly inwards. */
 static struct vec move_inside(const struct mesh *mesh, const struct face *face, struct vec p)
 {
 	const double inwards = 0.01;

@@ -1,8 +1,8 @@
 /*
- * Lightmaps: for each wall the light that reaches it, computed once in plain C.
+ * Lightmaps: the light that reaches each wall, computed once in plain C.
  *
- * A texel holds AMBIENT + sum over lights of color x max(0, cos) x visible / d^2, d in metres, each channel cut off
- * at 1. Walls are matte; light that they throw back is not there.
+ * A texel holds AMBIENT + sum over lights of color x max(0, cos) x visible / d^2, d in metres, each channel clamped to
+ * 1. Walls are matte and reflect no light onto each other.
  */
 #pragma once
 
@@ -21,7 +21,7 @@ struct lightmap {
 void bake_face(struct lightmap *map, const struct level *level, const struct mesh *mesh, const struct bsp *bsp,
                const struct face *face);
 
-/** The light at a point of a wall, as its lightmap has it there. */
+/** The light at a point of a wall, as in its lightmap. */
 void bake_point(const struct level *level, const struct mesh *mesh, const struct bsp *bsp, const struct face *face,
                 struct vec p, unsigned char out[3]);
 

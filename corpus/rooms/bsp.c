@@ -1,3 +1,4 @@
+/* Builds a leaf BSP and answers queries. */
 #include "bsp.h"
 
 #include <math.h>
@@ -5,7 +6,7 @@
 
 #include "array.h"
 
-/* A wall, or what of it lies in the space at hand. */
+/* A wall, or the part of it in the current space. */
 struct piece {
 	struct winding w;
 	struct plane plane;
@@ -26,7 +27,7 @@ static int is_in_plane(const struct piece *piece, struct plane plane)
 	return 1;
 }
 
-/* Few walls cut, and as many in front as behind. */
+/* Prefer planes that cut few walls and balance both sides. */
 static double cost_of(const struct pieces *pieces, struct plane plane)
 {
 	size_t front = 0, back = 0, cut = 0;
@@ -50,7 +51,7 @@ static struct plane choose_plane(const struct pieces *pieces)
 {
 	struct plane best = pieces->items[0].plane;
 	double least = HUGE_VAL;
-	size_t step = pieces->n / 64 + 1; /* so many are tried at most */
+	size_t step = pieces->n / 64 + 1; /* tries at most 64 planes */
 
 	for (size_t i = 0; i < pieces->n; i += step) {
 		double cost = cost_of(pieces, pieces->items[i].plane);
@@ -69,8 +70,8 @@ static int add_leaf(struct bsp *bsp, int solid)
 	return ~(int)(bsp->n_leaves - 1);
 }
 
-/* Divide a space by the plane of one of its walls. A side without walls is all solid or all empty, as that wall
- * says. */
+/* Divide a space by the plane of one of its walls. A side without walls is all solid or all empty, depending on that
+ * wall. */
 static int build_node(struct bsp *bsp, struct pieces *pieces)
 {
 	struct pieces side[2] = { { .n = 0 }, { .n = 0 } };
@@ -99,7 +100,7 @@ static int build_node(struct bsp *bsp, struct pieces *pieces)
 
 /* --- Walls of leaves --------------------------------------------------------------------------------------------- */
 
-/* Let a wall down to the leaves before it. */
+/* Pass a wall down to the leaves in front of it. */
 static void list_face(struct bsp *bsp, int child, unsigned face, const struct piece *piece)
 {
 	if (child < 0) {
@@ -140,7 +141,7 @@ void bsp_build(struct bsp *bsp, const struct mesh *mesh)
 	}
 }
 
-/* --- Asking ------------------------------------------------------------------------------------------------------ */
+/* --- Queries ----------------------------------------------------------------------------------------------------- */
 
 unsigned bsp_find(const struct bsp *bsp, struct vec p)
 {
@@ -176,7 +177,7 @@ int bsp_sees(const struct bsp *bsp, struct vec from, struct vec to)
 	return sees_below(bsp, bsp->n_nodes ? 0 : ~0, from, to);
 }
 
-/* The leaf below a child that holds the point, every one being asked; -1: none does. */
+/* Find the leaf below a child that contains the point, by asking each; -1: none. */
 static int find_below(const struct bsp *bsp, int child, struct vec p, int holds)
 {
 	int front, back;

@@ -1,6 +1,6 @@
 /*
- * A leaf BSP over the walls. Each node is a wall's plane, each leaf a convex space, solid or empty. Walls are kept
- * whole: a leaf lists the walls that bound it, and a wall may bound several leaves.
+ * A leaf BSP over the walls. Each node is a wall's plane, each leaf a convex space, solid or empty. Walls are not cut:
+ * a leaf lists the walls that bound it, and a wall may bound several leaves.
  */
 #pragma once
 
@@ -14,7 +14,7 @@ struct bsp_node {
 
 struct bsp_leaf {
 	int solid;
-	struct box box;   /* of the level's part that is in it */
+	struct box box;   /* box of the level's part inside it */
 	unsigned *faces;  /* owned */
 	size_t n_faces;
 };
@@ -28,13 +28,13 @@ struct bsp {
 
 void bsp_build(struct bsp *bsp, const struct mesh *mesh);
 
-/** The leaf that a point is in. */
+/** The leaf that contains a point. */
 unsigned bsp_find(const struct bsp *bsp, struct vec p);
 
-/** 1 where nothing solid lies between two empty points. */
+/** 1 if nothing solid is between two empty points. */
 int bsp_sees(const struct bsp *bsp, struct vec from, struct vec to);
 
-/** The same as bsp_find by asking each leaf whether the point is on its side of every plane above it. */
+/** As bsp_find, but asks each leaf whether the point is on its side of every plane above it. */
 unsigned bsp_find_slowly(const struct bsp *bsp, struct vec p);
 
 void bsp_free(struct bsp *bsp);

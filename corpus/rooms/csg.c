@@ -1,3 +1,4 @@
+/* Computes a level's surface, and its portals. */
 #include "csg.h"
 
 #include <math.h>
@@ -5,9 +6,9 @@
 
 #include "array.h"
 
-/* How far from a polygon its two sides are looked at. */
+/* Distance from a polygon where its two sides are sampled. */
 #define BESIDE 1e-3
-/* Smaller ones are slivers that rounding left. */
+/* Smaller polygons are slivers from rounding. */
 #define MIN_AREA 1e-6
 
 struct windings {
@@ -15,7 +16,7 @@ struct windings {
 	size_t n;
 };
 
-/* Cut by the planes of a brush: into what lies in it, and what lies in front of each plane in turn. */
+/* Cut windings by a brush: into the part inside it, and the parts in front of each plane in turn. */
 static void cut_by_brush(struct windings *list, const struct brush *b)
 {
 	size_t n = list->n;
@@ -40,7 +41,7 @@ static void cut_by_brush(struct windings *list, const struct brush *b)
 	}
 }
 
-/* 1 where a later brush has a side here, too, and so makes the same polygon. */
+/* 1 if a later brush also has a side here, and so makes the same polygon. */
 static int is_made_later(const struct level *level, size_t brush, struct plane plane, struct vec centre)
 {
 	for (size_t i = brush + 1; i < level->n_brushes; i++) {
@@ -68,7 +69,7 @@ static struct winding side_of_brush(const struct brush *b, int side)
 	return w;
 }
 
-/* What of a polygon of one brush's side is surface, its front towards what is empty. */
+/* Add the parts of a brush's side that are surface, facing empty space. */
 static void add_surface(const struct level *level, size_t brush, struct plane plane, const struct winding *w,
                         struct mesh *mesh)
 {
@@ -114,7 +115,7 @@ void csg_build(const struct level *level, struct mesh *mesh)
 
 /* --- Portals ----------------------------------------------------------------------------------------------------- */
 
-/* Two faces for each piece of a portal that is not in a wall. */
+/* Add two faces for each piece of a portal outside walls. */
 static void add_portal(const struct level *level, size_t portal, struct mesh *mesh)
 {
 	struct windings list = { .n = 0 };
@@ -135,7 +136,7 @@ static void add_portal(const struct level *level, size_t portal, struct mesh *me
 	free(list.items);
 }
 
-/* 1 where the line in which a wall meets a plane runs along the rim of a portal in that plane. */
+/* 1 if a wall meets a portal's plane along the portal's rim. */
 static int meets_rim(const struct mesh *mesh, const struct winding *wall, const struct face *portal)
 {
 	struct winding front;

@@ -1,14 +1,14 @@
-/* Brushes into the surface between solid and empty. */
+/* Computes the surface between solid and empty space from brushes. */
 #pragma once
 
 #include "level.h"
 #include "mesh.h"
 
-/** Add the polygons where solid meets empty to a mesh, as cut by the brushes: many, and not merged. */
+/** Add polygons to a mesh where solid meets empty, in the pieces that the brushes cut: many, not merged. */
 void csg_build(const struct level *level, struct mesh *mesh);
 
 /**
- * Add the level's portals as far as they lie in what is empty, each as two faces, and cut the walls along their rims.
- * The mesh is merged.
+ * Add the parts of the level's portals in empty space, each as two faces, and cut the walls along their rims. The mesh
+ * must be merged.
  */
 void portals_cut(const struct level *level, struct mesh *mesh);

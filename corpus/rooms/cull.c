@@ -1,3 +1,4 @@
+/* Five ways of culling. */
 #include "cull.h"
 
 #include <math.h>
@@ -45,7 +46,7 @@ static int box_is_outside(struct box box, const struct frustum *f)
 	return 0;
 }
 
-/* What of a face lies in a frustum; empty: nothing. */
+/* The part of a face inside a frustum; may be empty. */
 static struct winding clip_to_frustum(const struct mesh *mesh, const struct face *face, const struct frustum *f)
 {
 	struct winding w = mesh_winding(mesh, face);
@@ -61,7 +62,7 @@ static void show(const struct world *world, unsigned face, const struct frustum 
 		visible[face] = clip_to_frustum(&world->mesh, &world->mesh.faces[face], f).n != 0;
 }
 
-/* --- Ways -------------------------------------------------------------------------------------------------------- */
+/* --- Methods ----------------------------------------------------------------------------------------------------- */
 
 static void cull_frustum(const struct world *world, const struct frustum *f, unsigned char *visible)
 {
@@ -91,7 +92,7 @@ static void cull_octree(const struct world *world, unsigned node, const struct f
 		cull_octree(world, n->first_child + i, f, visible);
 }
 
-/* The frustum from the eye through what of a portal is in sight. */
+/* The frustum from the eye through the visible part of a portal. */
 static struct frustum frustum_through(struct vec eye, const struct winding *hole)
 {
 	struct frustum f = { .n_planes = 0 };
@@ -105,7 +106,7 @@ static struct frustum frustum_through(struct vec eye, const struct winding *hole
 	return f;
 }
 
-/* The other side of a portal's face. */
+/* The other face of a portal. */
 static const struct face *back_of(const struct mesh *mesh, const struct face *portal)
 {
 	struct winding w = mesh_winding(mesh, portal);
@@ -120,7 +121,7 @@ static const struct face *back_of(const struct mesh *mesh, const struct face *po
 	return NULL;
 }
 
-/* Everything of a zone, and of the zones that are seen through its portals. */
+/* Mark the faces of a zone, and of the zones visible through its portals. */
 static void cull_zone(const struct world *world, struct vec eye, unsigned zone, const struct frustum *f, int away,
                       unsigned char *visible)
 {
@@ -137,7 +138,7 @@ static void cull_zone(const struct world *world, struct vec eye, unsigned zone, 
 		if (face->portal == NO_PORTAL || away == MAX_PORTALS_AWAY || plane_distance(face->plane, eye) < -ON_PLANE ||
 		    !(back = back_of(mesh, face)))
 			continue;
-		if (plane_distance(face->plane, eye) < 0.01) { /* the eye is in the portal: there is no smaller frustum */
+		if (plane_distance(face->plane, eye) < 0.01) { /* the eye is in the portal, which does not narrow the frustum */
 			cull_zone(world, eye, back->zone, f, MAX_PORTALS_AWAY, visible);
 			continue;
 		}
@@ -164,7 +165,7 @@ size_t cull(const struct world *world, const struct view *view, enum culling how
 		cull_octree(world, 0, &f, visible);
 	else if (zone < world->zones.n)
 		cull_zone(world, view->eye, (unsigned)zone, &f, 0, visible);
-	else /* asked for, or the eye is in a wall */
+	else /* by choice, or because the eye is in a wall */
 		for (size_t i = 0; i < world->mesh.n_faces; i++)
 			visible[i] = world->mesh.faces[i].portal == NO_PORTAL;
 	for (size_t i = 0; i < world->mesh.n_faces; i++)

@@ -1,4 +1,4 @@
-/* What has to be drawn: walls that may be seen from a place, found in five ways. None leaves out a wall that shows. */
+/* Culling: finds the walls that may be visible from a viewpoint, in five ways. None drops a visible wall. */
 #pragma once
 
 #include "bsp.h"
@@ -11,7 +11,7 @@ extern const char *const culling_names[N_CULLINGS];
 
 enum { FRUSTUM_MAX_PLANES = WINDING_MAX };
 
-/* The space that is looked into: in front of all planes. */
+/* A visible space: in front of all planes. */
 struct frustum {
 	struct plane planes[FRUSTUM_MAX_PLANES];
 	int n_planes;
@@ -22,7 +22,7 @@ struct view {
 	double yaw_deg, pitch_deg, field_deg, aspect; /* yaw 0 looks along -z, 90 along +x; the field is vertical */
 };
 
-/* A level with all that was made of it. */
+/* A level with everything computed from it. */
 struct world {
 	struct mesh mesh;
 	struct zones zones;
@@ -33,7 +33,8 @@ struct world {
 struct frustum frustum_of(const struct view *view);
 
 /**
- * @param visible  [n_faces] receives 1 for what is to be drawn, 0 for the rest and for portals
- * @return how many
+ * Find the faces to draw.
+ * @param visible  [n_faces] receives 1 for faces to draw, 0 for others and for portals
+ * @return number of faces to draw
  */
 size_t cull(const struct world *world, const struct view *view, enum culling how, unsigned char *visible);

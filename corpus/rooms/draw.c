@@ -1,3 +1,4 @@
+/* Draws a level: textures, walls in each kind of lighting, frames. */
 #define GL_GLEXT_PROTOTYPES
 #include "draw.h"
 
@@ -7,14 +8,14 @@
 #include <stdlib.h>
 
 enum { TEXELS = 64 };
-/* Metres between vertices that have light as their colours, at most. */
+/* Largest distance in metres between vertices whose colours hold light. */
 #define COLORS_APART 1.0
 
 static GLuint textures[N_TEXTURES + 1], *map_names;
 
 /* --- Textures ---------------------------------------------------------------------------------------------------- */
 
-/* A number in [0,1] that looks random and is the same for the same place. */
+/* A pseudo-random number in [0,1], always the same for the same place. */
 static double noise(unsigned x, unsigned y)
 {
 	unsigned h = x * 374761393u + y * 668265263u;
@@ -104,7 +105,7 @@ void draw_face_plain(const struct mesh *mesh, const struct face *face)
 	glEnd();
 }
 
-/* One metre of wall is half a texture; unit 1, or the only one in a second pass, gets the lightmap's. */
+/* A texture covers two metres of wall; unit 1, or the only unit in a second pass, has the lightmap. */
 static void draw_face(const struct drawing *d, size_t which, int base, int lightmap)
 {
 	const struct mesh *mesh = &d->world->mesh;
@@ -132,7 +133,7 @@ static void draw_face(const struct drawing *d, size_t which, int base, int light
 	glEnd();
 }
 
-/* A corner of a wall whose colour is the light there. */
+/* A corner of a wall with the light there as colour. */
 static void draw_lit_corner(const struct drawing *d, const struct face *face, struct vec p)
 {
 	GLubyte color[3];
@@ -147,7 +148,7 @@ static void draw_lit_corner(const struct drawing *d, const struct face *face, st
 	glVertex3dv(&p.x);
 }
 
-/* A triangle, halved across its longest edge until that is short. */
+/* A triangle, halved across its longest edge until that is short enough. */
 static void draw_halves(const struct drawing *d, const struct face *face, struct vec a, struct vec b, struct vec c)
 {
 	const struct vec ab = vec_sub(b, a), bc = vec_sub(c, b), ca = vec_sub(a, c);
@@ -178,7 +179,7 @@ static void draw_in_colors(const struct drawing *d, const struct face *face)
 	glColor3f(1, 1, 1);
 }
 
-/* All visible walls, texture by texture. */
+/* Draw all visible walls, texture by texture. */
 static void draw_walls(const struct drawing *d, const unsigned char *visible, int base, int lightmap)
 {
 	const struct mesh *mesh = &d->world->mesh;
@@ -252,7 +253,7 @@ const struct face *draw_mirror_of(const struct mesh *mesh)
 
 /* --- Frames ------------------------------------------------------------------------------------------------------ */
 
-/* OpenGL's lights are the level's: 1 / d^2, as the lightmaps have it. */
+/* Use the level's lights as OpenGL's, with 1 / d^2 as in the lightmaps. */
 static void place_lights(const struct level *level)
 {
 	for (unsigned i = 0; i < level->n_lights && i < 8; i++) {

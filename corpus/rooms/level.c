@@ -1,3 +1,4 @@
+/* Reads levels from files, or generates them from a seed. */
 #include "level.h"
 
 #include <stdio.h>
@@ -17,7 +18,7 @@ static void add_plane(struct brush *b, struct vec n, double d)
 	b->planes[b->n_planes++] = (struct plane){ vec_scale(n, 1 / length), d / length };
 }
 
-/* The corners of a brush bound it. */
+/* Add a brush, bounded by its corners. */
 static void add_brush(struct level *level, struct brush b)
 {
 	b.box = box_empty();
@@ -166,12 +167,12 @@ void level_read(struct level *level, const char *path)
 	fclose(in);
 }
 
-/* --- Levels from a number ---------------------------------------------------------------------------------------- */
+/* --- Generated levels --------------------------------------------------------------------------------------------- */
 
 enum { GRID_X = 4, GRID_Z = 3, CELL = 12 };
 #define EYE_HEIGHT 1.7
 
-/* A number in [0, n), from a generator of 32 bits (Marsaglia 2003, "Xorshift RNGs"). */
+/* A number in [0, n), from a 32-bit generator (Marsaglia 2003, "Xorshift RNGs"). */
 static unsigned pick(unsigned *state, unsigned n)
 {
 	*state ^= *state << 13;
@@ -180,7 +181,7 @@ static unsigned pick(unsigned *state, unsigned n)
 	return (*state >> 8) % n;
 }
 
-/* What stands in a room: a pillar, a block that floats, a cone, a ramp, or nothing. */
+/* Furnish a room: a pillar, a floating block, a cone, a ramp, or nothing. */
 static void furnish(struct level *level, unsigned *state, const double room[6])
 {
 	double x = 0.5 * (room[0] + room[3]), z = 0.5 * (room[2] + room[5]);
@@ -206,7 +207,7 @@ static void furnish(struct level *level, unsigned *state, const double room[6])
 	}
 }
 
-/* A doorway between two neighbours along x (axis 0) or z (axis 2), and the portal across its middle. */
+/* Add a doorway between two neighbours along x (axis 0) or z (axis 2), and a portal across its middle. */
 static void join(struct level *level, const double a[6], const double b[6], int axis)
 {
 	int across = 2 - axis;
@@ -229,7 +230,7 @@ static void join(struct level *level, const double a[6], const double b[6], int 
 	add_portal(level, portal);
 }
 
-/* Where a doorway is, at a viewer's height. */
+/* Position of a doorway, at a viewer's height. */
 static struct vec doorway_of(const double a[6], const double b[6], int axis)
 {
 	int across = 2 - axis;
@@ -239,14 +240,14 @@ static struct vec doorway_of(const double a[6], const double b[6], int axis)
 	return axis ? vec(at, EYE_HEIGHT, along) : vec(along, EYE_HEIGHT, at);
 }
 
-/* Through a doorway and to the corner beyond it, which nothing stands in. */
+/* Walk through a doorway and to the corner beyond it, which is always free. */
 static void walk_on(struct level *level, struct vec doorway, const double room[6])
 {
 	ARRAY_PUSH(level->path, level->n_path, doorway);
 	ARRAY_PUSH(level->path, level->n_path, vec(room[0] + 1.2, EYE_HEIGHT, room[2] + 1.2));
 }
 
-/* Along the first row; from each of its rooms down to the last row, and back. */
+/* Walk along the first row, from each of its rooms to the last row and back. */
 static void walk_rooms(struct level *level, double rooms[GRID_Z][GRID_X][6])
 {
 	ARRAY_PUSH(level->path, level->n_path, level->start);
@@ -260,7 +261,7 @@ static void walk_rooms(struct level *level, double rooms[GRID_Z][GRID_X][6])
 	}
 }
 
-/* A panel before a room's wall at its greatest z, on the side that one looks at from the start. */
+/* Hang a panel on the wall of greatest z in a room, facing the start. */
 static void hang_mirror(struct level *level, const double room[6])
 {
 	add_brush(level, brush_box(1, (double[]){ room[0] + 1, 0.5, room[5] - 0.125, room[0] + 3.5, 2.5, room[5] },

@@ -1,3 +1,4 @@
+/* Welds, merges and repairs the polygons of a level. */
 #include "mesh.h"
 
 #include <math.h>
@@ -43,7 +44,7 @@ static void grow_cells(struct mesh *mesh)
 		insert_cell(mesh, i);
 }
 
-/* The point at a place, made where there is none. It may be filed in any cell that the place is near to. */
+/* Find or create the point at a place. It may be stored in any cell near the place. */
 static unsigned find_point(struct mesh *mesh, struct vec p)
 {
 	grow_cells(mesh);
@@ -103,7 +104,7 @@ struct winding mesh_winding(const struct mesh *mesh, const struct face *face)
 
 /* --- Merging ----------------------------------------------------------------------------------------------------- */
 
-/* How a corner turns as seen from the front: positive, to the left; 0, not at all. */
+/* Turn at a corner, seen from the front: positive to the left, 0 straight. */
 static double turn_at(const struct mesh *mesh, const struct face *face, unsigned i)
 {
 	struct vec a = mesh->points[face->v[(i + face->n - 1) % face->n]], b = mesh->points[face->v[i]];
@@ -122,15 +123,15 @@ static void drop_straight_corners(const struct mesh *mesh, struct face *face)
 }
 
 /*
- * Both polygons along a shared edge, which runs from a's corner i and against it from b's corner k, as one. Fails where
- * that is not convex. b is left without corners.
+ * Join two polygons along a shared edge, which runs from a's corner i and in reverse from b's corner k. Fails if the
+ * result is not convex. b is left without corners.
  */
 static int join_faces(const struct mesh *mesh, struct face *a, unsigned i, struct face *b, unsigned k)
 {
 	struct face joined = { .plane = a->plane, .texture = a->texture, .portal = a->portal };
 	size_t n = 0;
 
-	for (unsigned c = 1; c <= a->n; c++) /* from the edge's end round to its begin */
+	for (unsigned c = 1; c <= a->n; c++) /* from the edge's end around to its start */
 		ARRAY_PUSH(joined.v, n, a->v[(i + c) % a->n]);
 	for (unsigned c = 2; c < b->n; c++)
 		ARRAY_PUSH(joined.v, n, b->v[(k + c) % b->n]);
@@ -153,7 +154,7 @@ static int can_join(const struct face *a, const struct face *b)
 	       fabs(a->plane.d - b->plane.d) < WELD;
 }
 
-/* Join a face with one neighbour that comes after it. @return 1 where it grew */
+/* Join a face with a later neighbour. @return 1 if it grew */
 static int grow_face(struct mesh *mesh, size_t which)
 {
 	struct face *a = &mesh->faces[which];
@@ -181,7 +182,7 @@ void mesh_merge(struct mesh *mesh)
 
 /* --- T-junctions ------------------------------------------------------------------------------------------------- */
 
-/* The first point between the ends of an edge; 1 where there is one. */
+/* Find the first point between the ends of an edge. @return 1 if there is one */
 static int point_between(const struct mesh *mesh, unsigned from, unsigned to, unsigned *out)
 {
 	struct vec a = mesh->points[from], d = vec_sub(mesh->points[to], a);
@@ -202,7 +203,7 @@ static int point_between(const struct mesh *mesh, unsigned from, unsigned to, un
 	return found;
 }
 
-/* Points that no face has are no corners. */
+/* Drop points that belong to no face. */
 static void drop_unused_points(struct mesh *mesh)
 {
 	unsigned *place = calloc(mesh->n_points + 1, sizeof(*place));
@@ -225,7 +226,7 @@ static void drop_unused_points(struct mesh *mesh)
 	free(place);
 	free(mesh->cells);
 	mesh->cells = NULL;
-	mesh->n_cells = 0; /* no point is looked for from here on */
+	mesh->n_cells = 0; /* no point is looked up after this */
 }
 
 void mesh_repair(struct mesh *mesh)

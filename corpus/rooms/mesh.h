@@ -1,7 +1,7 @@
 /*
- * The surface of a level: convex polygons on shared points, their fronts towards what is empty.
+ * The surface of a level: convex polygons on shared points, facing empty space.
  *
- * It is made in steps, in this order: csg_build, mesh_merge, portals_cut, mesh_repair; then zones_find.
+ * Built by these steps, in order: csg_build, mesh_merge, portals_cut, mesh_repair; then zones_find.
  */
 #pragma once
 
@@ -9,7 +9,7 @@
 
 #include "winding.h"
 
-/* Points nearer than this are one. */
+/* Points closer than this are one. */
 #define WELD 1e-4
 
 enum { NO_PORTAL = -1 };
@@ -19,7 +19,7 @@ struct face {
 	unsigned n;
 	struct plane plane;
 	int texture;
-	int portal;    /* its number; NO_PORTAL: it is a wall. A portal has two faces, one for each side. */
+	int portal;    /* its number; NO_PORTAL: a wall. A portal has two faces, one for each side. */
 	unsigned zone; /* in front of it */
 };
 
@@ -28,23 +28,23 @@ struct mesh {
 	size_t n_points;
 	struct face *faces;
 	size_t n_faces;
-	unsigned *cells; /* hash table from places to points, n + 1; 0: empty */
+	unsigned *cells; /* hash table from places to points, as n + 1; 0: empty */
 	size_t n_cells;
 };
 
-/** Add a face. Its corners are welded to points that are there; a face that this collapses is left out. */
+/** Add a face. Its corners are welded to existing points; a face that collapses is dropped. */
 void mesh_add(struct mesh *mesh, const struct winding *w, struct plane plane, int texture, int portal);
 
-/** Remove faces without corners, which steps leave behind. */
+/** Remove faces without corners, left by earlier steps. */
 void mesh_sweep(struct mesh *mesh);
 
-/** Join neighbours in one plane, of one texture, wherever the polygon that results is convex. */
+/** Join neighbours in one plane with one texture if the resulting polygon is convex. */
 void mesh_merge(struct mesh *mesh);
 
-/** Insert points that lie on an edge between its ends into the polygon: no T-junction is left. */
+/** Insert points that lie on an edge between its ends into the polygon, so that no T-junction is left. */
 void mesh_repair(struct mesh *mesh);
 
-/** How many points lie on edges between their ends. */
+/** Number of points on edges between their ends. */
 size_t mesh_count_t_junctions(const struct mesh *mesh);
 
 struct winding mesh_winding(const struct mesh *mesh, const struct face *face);

@@ -1,3 +1,4 @@
+/* Builds an octree over the walls. */
 #include "octree.h"
 
 #include <stdlib.h>

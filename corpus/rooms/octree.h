@@ -1,12 +1,12 @@
-/* An octree over the walls: a wall stands in every leaf that its box reaches into, whole. */
+/* An octree over the walls; every leaf lists, uncut, each wall whose box reaches into it. */
 #pragma once
 
 #include "mesh.h"
 
 struct octree_node {
 	struct box box;
-	unsigned first_child; /* of eight; 0: a leaf */
-	unsigned *faces;      /* owned, of a leaf */
+	unsigned first_child; /* first of eight; 0: a leaf */
+	unsigned *faces;      /* owned; leaves only */
 	size_t n_faces;
 };
 

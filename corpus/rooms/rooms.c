@@ -1,6 +1,5 @@
 /*
- * Rooms, doorways and what stands in them, made of brushes and drawn as engines of about 2000 drew such levels. See
- * README.md.
+ * Rooms, doorways and furniture made of brushes, drawn as engines of about 2000 drew such levels. See README.md.
  *
  *   cd corpus/rooms && cc -o rooms *.c -lglut -lGLU -lGL -lm
  */
@@ -25,7 +24,7 @@ static void usage(void)
 	exit(2);
 }
 
-/* The place of a word in a list that NULL ends. */
+/* Index of a word in a list that ends with NULL. */
 static int choice(const char *word, const char *const *words)
 {
 	for (int i = 0; words[i]; i++)
@@ -53,7 +52,7 @@ static int check_levels(unsigned n)
 	return sound == n ? 0 : 1;
 }
 
-/* Take our own options out; what is left is program.h's. @return the file for what is true, or NULL */
+/* Parse and remove this program's options; program.h parses the rest. @return the file for --truth, or NULL */
 static const char *parse(int *argc, char **argv)
 {
 	static const char *const lightings[] = { "multitexture", "pass", "opengl", "colors", "paint", "none", "white", NULL };

@@ -1,3 +1,4 @@
+/* The first object: a torus, and its shadow volume. */
 #include <GL/gl.h>
 
 #include "draw.h"
@@ -25,8 +26,8 @@ static struct vec torus_point(int around, int across, struct vec *normal)
 	return vec_mad(vec(0.5 * cos(a), 0.5 * sin(a), 0), *normal, 0.2);
 }
 
-/* Corners of a triangle, counter-clockwise from outside, as (around, across); a quad's lower triangle, then its upper
- * one. */
+/* Corners of a triangle, counter-clockwise from outside, as (around, across); first a quad's lower triangle, then its
+ * upper one. */
 static void torus_triangle(int i, int corners[3][2])
 {
 	int around = i / 2 / TORUS_ACROSS, across = i / 2 % TORUS_ACROSS;
@@ -38,7 +39,7 @@ static void torus_triangle(int i, int corners[3][2])
 	}
 }
 
-/* The same triangles as those of the shadow volume's caps: depths then agree to the last bit. */
+/* Draws the same triangles as the shadow volume's caps, so that depths agree to the last bit. */
 void torus_draw(void)
 {
 	glBegin(GL_TRIANGLES);
@@ -106,7 +107,7 @@ void torus_draw_shadow_volume(struct vec light, double reach)
 			put(near[k]);
 		for (int k = 2; k >= 0; k--)
 			put(far[k]);
-		for (int k = 0; k < 3; k++) { /* sides along the outline */
+		for (int k = 0; k < 3; k++) { /* sides along the silhouette */
 			int next = (k + 1) % 3;
 
 			if (faces_light(across_edge(i, k), light))

@@ -1,3 +1,4 @@
+/* Effects that replaced traced light: environment maps, a planar mirror, stencil shadows. */
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glu.h>
 #include <GL/glext.h>
@@ -23,7 +24,7 @@ static GLuint make_map(GLenum target, GLenum first, int n)
 	return name;
 }
 
-/* The inverse of the view's rotation: from eye space to the world's directions. */
+/* Inverse of the view's rotation: from eye space to world directions. */
 static void turn_texture_matrix(const float view[16])
 {
 	float m[16] = { 0 };
@@ -37,7 +38,7 @@ static void turn_texture_matrix(const float view[16])
 	glMatrixMode(GL_MODELVIEW);
 }
 
-/* The cube map on the disc that GL_SPHERE_MAP looks things up in: a direction that the eye sees by a ball's normal. */
+/* Paint the cube map on the disc that GL_SPHERE_MAP samples, by the normals of a ball. */
 static void paint_sphere_map(const float view[16])
 {
 	enum { RINGS = 24, SECTORS = 48 };
@@ -161,7 +162,7 @@ void trick_planar_mirror(struct drawing *d, long frame)
 
 	if (!mirror)
 		return;
-	/* where the mirror is */
+	/* mark the mirror's pixels */
 	glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 	glDepthMask(GL_FALSE);
 	glEnable(GL_STENCIL_TEST);
@@ -171,7 +172,7 @@ void trick_planar_mirror(struct drawing *d, long frame)
 	glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 	glDepthMask(GL_TRUE);
 
-	/* the world behind it, turned over, as far as it is before the mirror */
+	/* the reflected world in those pixels, clipped to the mirror's front */
 	glStencilFunc(GL_EQUAL, 1, ~0u);
 	glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 	glPushMatrix();
@@ -186,7 +187,7 @@ void trick_planar_mirror(struct drawing *d, long frame)
 	glPopMatrix();
 	glDisable(GL_STENCIL_TEST);
 
-	/* the mirror over it, and before what is drawn later */
+	/* blend the mirror over it, and restore its depth for later draws */
 	glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 	glEnable(GL_BLEND);
 	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -208,7 +209,7 @@ static const struct light *nearest_light(const struct level *level, struct vec p
 	return best;
 }
 
-/* A point of the world in the space of a rotation and a translation. */
+/* Transform a world point into the space of a rotation and a translation. */
 static struct vec into_object(const float m[16], struct vec p)
 {
 	struct vec q = vec(p.x - m[12], p.y - m[13], p.z - m[14]);
@@ -217,7 +218,7 @@ static struct vec into_object(const float m[16], struct vec p)
 	           m[8] * q.x + m[9] * q.y + m[10] * q.z);
 }
 
-/* Count back faces up and front faces down, where they lie behind what is drawn. */
+/* Count back faces up and front faces down where they fail the depth test. */
 static void draw_volume(struct vec light, GLenum culled, GLenum counts)
 {
 	glCullFace(culled);

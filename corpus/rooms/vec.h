@@ -59,7 +59,7 @@ static inline double vec_at(struct vec a, int axis)
 	return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }
 
-/** Any two unit vectors at right angles to a unit vector and to each other, u x v = n. */
+/** Two unit vectors perpendicular to a unit vector and to each other, u x v = n. */
 static inline void vec_frame(struct vec n, struct vec *u, struct vec *v)
 {
 	*u = vec_unit(fabs(n.y) < 0.7 ? vec(n.z, 0, -n.x) : vec(0, -n.z, n.y));
@@ -97,7 +97,7 @@ static inline void box_add(struct box *box, struct vec p)
 	box->max = vec(fmax(box->max.x, p.x), fmax(box->max.y, p.y), fmax(box->max.z, p.z));
 }
 
-/** 1 where two boxes share a point, or come as near as `slack`. */
+/** 1 if two boxes share a point, or come within `slack`. */
 static inline int box_meets(struct box a, struct box b, double slack)
 {
 	return a.min.x <= b.max.x + slack && b.min.x <= a.max.x + slack && a.min.y <= b.max.y + slack &&

@@ -1,3 +1,4 @@
+/* Convex polygons: cutting, area, plane, box. */
 #include "winding.h"
 
 #include <stddef.h>

@@ -1,6 +1,6 @@
 /*
- * Convex polygons as points, counter-clockwise as seen from the front of their plane: what brushes are made of and cut
- * by.
+ * Convex polygons as lists of points, counter-clockwise seen from the front of their plane. The sides of brushes, and
+ * the results of cutting them.
  */
 #pragma once
 
@@ -8,22 +8,21 @@
 
 enum { WINDING_MAX = 64 };
 
-/* Nearer than this to a plane is on it. */
+/* A point closer than this to a plane lies on it. */
 #define ON_PLANE 1e-5
 
 struct winding {
-	int n; /* 0: nothing is left */
+	int n; /* 0: empty */
 	struct vec p[WINDING_MAX];
 };
 
-/** A square in the plane, so large that it holds every level. */
+/** A square in the plane, large enough to contain every level. */
 struct winding winding_of_plane(struct plane plane);
 
 /**
  * Cut a winding by a plane.
- * @param front, back  receive the parts; empty where there is none. A winding in the plane is in neither. Either may be
- * NULL.
- * @return 1 where both parts are there
+ * @param front, back  receive the parts, which may be empty. A winding in the plane is in neither. Either may be NULL.
+ * @return 1 if both parts exist
  */
 int winding_split(const struct winding *w, struct plane plane, struct winding *front, struct winding *back);
 

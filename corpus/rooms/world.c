@@ -1,3 +1,4 @@
+/* Builds a world, writes its facts as JSON, and checks it. */
 #include "world.h"
 
 #include <stdio.h>

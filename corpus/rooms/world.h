@@ -1,4 +1,4 @@
-/* A level made into a world, what is known of it, and whether it is sound. */
+/* Builds a world from a level, writes facts about it, and checks it. */
 #pragma once
 
 #include "cull.h"
@@ -6,18 +6,18 @@
 
 void world_build(struct world *world, const struct level *level);
 
-/** The view from the level's start in a frame: it turns by so many degrees. */
-/** A viewer who has walked so many metres along the level's path, and has turned; at its end they stay. */
+/** The view of a viewer who has walked `metres` along the level's path, and turned; stays at the path's end. */
 struct view world_walk(const struct level *level, double metres, double turned_deg);
 
+/** The view from the level's start, turned by some degrees. */
 struct view world_view(const struct level *level, double turned_deg);
 
-/** What is true of the level, as JSON: lights, mirror, zones, polygons drawn by each culling from the start. */
+/** Write facts about the level as JSON: lights, mirror, zones, polygons drawn by each culling from the start. */
 void world_write_truth(const struct world *world, const struct level *level, const char *path);
 
 /**
- * Is every zone closed, no T-junction left, and does the BSP find for 10,000 points the leaf that asking every leaf
- * finds, solid where the brushes are solid? Prints a line.
+ * Check a world: every zone is closed, there are no T-junctions, and for 10,000 points the BSP finds the same leaf as
+ * asking every leaf, solid where the brushes are solid. Prints a line.
  * @return 1 or 0
  */
 int world_check(const struct world *world, const struct level *level, unsigned seed);

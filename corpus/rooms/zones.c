@@ -1,3 +1,4 @@
+/* Finds zones by walking over edges. */
 #include "zones.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@
 /* --- Edges ------------------------------------------------------------------------------------------------------- */
 
 struct edge {
-	uint64_t key; /* begin and end */
+	uint64_t key; /* start and end */
 	unsigned face, corner;
 };
 
@@ -57,8 +58,8 @@ static const struct edge *first_edge(const struct edge *edges, size_t n, uint64_
 }
 
 /*
- * The angle about an edge from one face through what is empty in front of it to another one that runs along the edge
- * the other way, (0, 2 pi]: from the back of a portal to its front it is the whole way round.
+ * Angle about an edge from one face, through the empty space in front of it, to another face that runs along the edge
+ * in reverse, (0, 2 pi]: from the back of a portal to its front it is a full turn.
  */
 static double dihedral(const struct mesh *mesh, const struct face *from, const struct face *to, unsigned corner)
 {
@@ -69,7 +70,7 @@ static double dihedral(const struct mesh *mesh, const struct face *from, const s
 	return angle < 1e-6 ? angle + 6.28318530717958647692 : angle;
 }
 
-/* The next face across an edge, as seen from in front of this one; the number of faces: there is none. */
+/* The next face across an edge, as seen from in front of this one; the number of faces: none. */
 static unsigned neighbour(const struct mesh *mesh, const struct edge *edges, size_t n_edges, const struct edge *edge)
 {
 	uint64_t key = edge->key << 32 | edge->key >> 32;
@@ -90,14 +91,14 @@ static unsigned neighbour(const struct mesh *mesh, const struct edge *edges, siz
 /* --- Shells ------------------------------------------------------------------------------------------------------ */
 
 struct shell {
-	double volume; /* positive around what is empty */
+	double volume; /* positive around empty space */
 	struct box box;
-	unsigned face; /* one of its */
+	unsigned face; /* any of its faces */
 	size_t n_faces;
 	unsigned zone;
 };
 
-/* The member that stands for a face's set (union-find with path halving). */
+/* The representative of a face's set (union-find with path halving). */
 static unsigned root_of(unsigned *parent, unsigned i)
 {
 	while (parent[i] != i)
@@ -105,7 +106,7 @@ static unsigned root_of(unsigned *parent, unsigned i)
 	return i;
 }
 
-/* The volume between a face and the origin, negative where the front looks away from the origin. */
+/* Signed volume between a face and the origin, negative if it faces away from the origin. */
 static double volume_under(const struct mesh *mesh, const struct face *face)
 {
 	struct winding w = mesh_winding(mesh, face);
@@ -113,7 +114,7 @@ static double volume_under(const struct mesh *mesh, const struct face *face)
 	return -winding_area(&w) * face->plane.d / 3;
 }
 
-/* Number the sets, and find what bounds each. parent becomes the number of each face's shell. */
+/* Number the sets, and find their bounds. parent becomes the number of each face's shell. */
 static struct shell *list_shells(const struct mesh *mesh, unsigned *parent, size_t *n)
 {
 	unsigned *number = malloc((mesh->n_faces + 1) * sizeof(*number));
@@ -136,14 +137,14 @@ static struct shell *list_shells(const struct mesh *mesh, unsigned *parent, size
 			box_add(&shell->box, mesh->points[mesh->faces[f].v[k]]);
 	}
 	for (unsigned f = 0; f < mesh->n_faces; f++)
-		number[f] = number[root_of(parent, f)]; /* roots come first in their sets or last: neither matters */
+		number[f] = number[root_of(parent, f)]; /* roots may come first or last in their sets */
 	for (unsigned f = 0; f < mesh->n_faces; f++)
 		parent[f] = number[f];
 	free(number);
 	return shells;
 }
 
-/* 1 where a ray meets a face: the hit lies on the inner side of all edges. */
+/* 1 if a ray meets a face: the hit lies on the inner side of all edges. */
 static int meets_face(const struct mesh *mesh, const struct face *face, struct vec from, struct vec d, double *t)
 {
 	double slope = vec_dot(face->plane.n, d);
@@ -167,7 +168,7 @@ static int meets_face(const struct mesh *mesh, const struct face *face, struct v
 /* No edge of a level lies in this direction. */
 static const struct vec odd_direction = { 0.5773107, 0.3187411, 0.7517391 };
 
-/* How often a ray from a point crosses a shell, odd: the point is in it. */
+/* Parity of a ray's crossings of a shell; odd: the point is in it. */
 static int is_in_shell(const struct mesh *mesh, const unsigned *shell_of, unsigned shell, struct vec p)
 {
 	int crossings = 0;
@@ -178,7 +179,7 @@ static int is_in_shell(const struct mesh *mesh, const unsigned *shell_of, unsign
 	return crossings & 1;
 }
 
-/* The smallest shell around what is empty that a solid's shell lies in. */
+/* The smallest shell around empty space that contains a solid's shell. */
 static unsigned zone_around(const struct mesh *mesh, const unsigned *shell_of, const struct shell *shells, size_t n,
                             const struct shell *inner)
 {

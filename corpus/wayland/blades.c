@@ -1,9 +1,9 @@
 /*
  * cc blades.c -lwayland-client -lwayland-egl -lEGL -lGL -lm
  *
- * Fixed-function OpenGL on Wayland: a lit wheel from a display list before a textured wall. `--frames N` ends after N
- * frames; the same pictures in every run. The window has no role, so that no shell is needed: it is drawn to and never
- * shown.
+ * Fixed-function OpenGL on Wayland: a lit wheel from a display list in front of a textured wall. `--frames N` ends
+ * after N frames; every run draws the same pictures. The window has no role, so it needs no shell: it is drawn to but
+ * never shown.
  */
 #include <EGL/egl.h>
 #include <GL/gl.h>

@@ -1,6 +1,6 @@
 /*
- * What some corpus programs need of GLUT, on WGL: a window of Windows, its pixel format and context, and a frame loop.
- * Those that need no more than OpenGL 1.1 are built with it by mingw-w64, unchanged.
+ * The part of GLUT that some corpus programs need, on WGL: a Windows window, its pixel format and context, and a frame
+ * loop. Programs that need only OpenGL 1.1 are built with it by mingw-w64, unchanged.
  */
 #pragma once
 
