@@ -1,32 +1,32 @@
-# Relume. Everything made lands in $(BUILD). `make demo` and `make check` are all the set-up there is.
-#   make                    build; says which packages are missing, installs nothing
+# Relume. All output goes to $(BUILD). `make demo` and `make check` need no other set-up.
+#   make                    build; lists missing packages, installs nothing
 #   make demo               install what this needs; record, ray trace and score a real program
 #   make check              install what tests need, run all of them on all cores; ONLY="part of a name" runs some
 #   make deps               install the Debian packages of both; make deps-GROUP: of one group of packaging/deps.txt
-#   make bench              the traversal kernels beside Embree's
-#   make show               all figures beside their bars
-#   make install            into PREFIX (/usr/local), below DESTDIR; make uninstall takes it away again
-#   make deb                a Debian package, looked at by lintian
+#   make bench              compare the traversal kernels with Embree's
+#   make show               print all figures with their bars
+#   make install            into PREFIX (/usr/local), below DESTDIR; make uninstall reverses it
+#   make deb                a Debian package, checked by lintian
 #   V=1                     show commands
-#   SAN=address,undefined   sanitizer build, in a folder of its own
+#   SAN=address,undefined   sanitizer build, in its own folder
 #   BUILD=DIR               build elsewhere
 SAN ?=
 BUILD ?= build$(if $(SAN),/san)
-# Tests use all cores unless -j says otherwise.
+# Tests use all cores unless -j is given.
 ifneq ($(filter check,$(MAKECMDGOALS)),)
 MAKEFLAGS += -j$(shell nproc)
 endif
-# Exists once all packages are there that a build needs; and the groups of packages (packaging/deps.txt) that goals install.
+# HAVE exists once all packages that a build needs are installed. INSTALLING: groups (packaging/deps.txt) that the goals install.
 HAVE := $(BUILD)/have
 INSTALLING := $(if $(filter-out show-suites,$(filter bench check deps fuzz fuzz-keep golden-update show show-% test-programs,$(MAKECMDGOALS))),check) \
 	$(filter deb picture,$(MAKECMDGOALS))
 PYTHON := /usr/bin/python3
 Q := $(if $(V),,@)
-# A machine may carry a python of its own in PATH; the generators need only Debian's.
+# PATH may have another python; the generators need only Debian's.
 
 CFLAGS ?= -O2 -g
 CXXFLAGS ?= -O2 -g
-# { NULL } is a whole initializer to GCC; clang would have it written out.
+# To GCC { NULL } is a complete initializer; clang warns about missing fields.
 WARNINGS := -Wall -Wextra $(if $(findstring clang,$(shell { $(CC) --version; } 2>/dev/null)),-Wno-missing-field-initializers)
 SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
 CPPFLAGS += -I. -I$(BUILD)/gen -isystem /usr/include/OpenEXR -isystem /usr/include/Imath -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120
@@ -35,7 +35,7 @@ ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXX
 LIBS_OIIO := -Wl,--as-needed -lOpenImageIO -lOpenImageIO_Util -lstdc++
 LIBS := -Wl,--as-needed -lOpenEXRCore -lOpenCL -lsnappy -lpng -lbrotlidec -lz -ldeflate -lisal -lxxhash -lcyaml -lseccomp -ldl -lm -pthread
 
-# The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
+# The recorder is linked from few files, so that little of Relume runs inside the traced program. The sizes are shared.
 RECORDER_SRC := $(wildcard capture/gen/*.c capture/client/*.c capture/gl/*.c capture/write/*.c)
 RECORDER_GEN := tables/commands tables/enums thunks
 RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/format/sizes.c capture/format/reserve.c capture/format/ref_pack.c) \
@@ -48,20 +48,20 @@ COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handl
 
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
-# The bridge to OpenImageIO, which the command loads when a picture needs it, and what of the command it calls.
+# The bridge to OpenImageIO, loaded when a picture needs it, and the parts of the command that it calls.
 OIIO_OBJ := $(addprefix $(BUILD)/,$(addprefix tracer/image/,oiio.o heads.o image.o pack.o exr_pack.o) base/err.o base/memory.o)
 
-# Programs of ours to record: plain OpenGL programs, built as anybody would build them.
+# Programs to record: plain OpenGL programs, built as anybody would build them.
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c corpus/glx/*.c corpus/wayland/*.c)) $(BUILD)/corpus/rooms
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c tests/bench/translate.c tests/fuzz/drive.c tests/fuzz/make_seeds.c)
 
 all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/relume-oiio.so $(BUILD)/visual/libGL.so.1
 
-# Snappy and its C++ inside, as in the recorder: the loader takes a third of a start to find the symbols of C++.
+# Snappy and its C++ inside, as in the recorder: looking up C++ symbols takes the loader a third of the start-up time.
 $(BUILD)/relume: $(COMMAND_OBJ)
 	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) $(if $(SAN),,-static-libstdc++ -static-libgcc) -o $@ $^ $(LIBS:-lsnappy=-l:libsnappy.a)
 
-# The same without its main function, for other programs: verbs/query/relume-rays.h.
+# The same code without its main function, for other programs: verbs/query/relume-rays.h.
 RAYS_OBJ := $(filter-out $(BUILD)/relume.o,$(COMMAND_OBJ))
 $(BUILD)/librelume-rays.so: $(RAYS_OBJ) verbs/query/exports.map
 	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -shared -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-soname,librelume-rays.so \
@@ -78,28 +78,28 @@ $(BUILD)/%.o: %.cpp $(BUILD)/flags
 $(BUILD)/relume-oiio.so: $(OIIO_OBJ)
 	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -shared -Wl,-Bsymbolic -o $@ $^ $(LIBS_OIIO) $(LIBS)
 
-# Stands before libGL, under its name, for glretrace.
+# Replaces libGL, under its name, for glretrace.
 $(BUILD)/visual/libGL.so.1: $(VISUAL_SRC) $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CPPFLAGS) $(filter-out $(SANFLAGS),$(ALL_CFLAGS)) $(LDFLAGS) -shared -fPIC -Wl,-soname,libGL.so.1 -o $@ $< \
 		-Wl,--no-as-needed -l:libGLX.so.0 -l:libOpenGL.so.0 -ldl
 
-# The recorder lives in other people's programs: no sanitizer of ours, nothing shown but the commands of GL, Snappy and its
-# C++ inside, no symbol of its own that the program could replace.
+# The recorder runs in other programs: no sanitizer, no exported symbols but the commands of GL, Snappy and its
+# C++ linked in, no symbol of its own that the program could replace.
 RECORDER_CFLAGS = $(filter-out $(SANFLAGS),$(ALL_CFLAGS)) -I$(BUILD)/recorder/gen -fvisibility=hidden
 $(BUILD)/librelume.so: $(RECORDER_OBJ) capture/gen/exports.map
 	$(Q)$(CXX) -shared $(LDFLAGS) -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-z,defs -Wl,--version-script=capture/gen/exports.map \
 		-o $@ $(RECORDER_OBJ) -l:libsnappy.a -ldl -pthread
 
-# The recorder for programs of 32 bits, beside the other one where the loader looks for either (capture/record.c).
+# The recorder for 32-bit programs, beside the other one where the loader looks for either (capture/record.c).
 DEPS_i386 := gcc-multilib g++-multilib libsnappy-dev:i386 libx11-6:i386 libgl1:i386 libgl1-mesa-dri:i386 libglu1-mesa:i386 libglut3.12:i386 mesa-utils-bin:i386
 I386_CFLAGS = $(filter-out $(SANFLAGS),$(ALL_CFLAGS)) -m32 -D_FILE_OFFSET_BITS=64 -Wno-psabi -I$(BUILD)/recorder/gen -fvisibility=hidden
 I386_OBJ := $(patsubst $(BUILD)/recorder/%,$(BUILD)/i386/%,$(RECORDER_OBJ))
 LIBRELUMES := $(BUILD)/lib/i386-linux-gnu/librelume.so $(BUILD)/lib/x86_64-linux-gnu/librelume.so
 i386: $(LIBRELUMES) $(addprefix $(BUILD)/i386/,windows two_triangles spheres tricks)
 
-# Packages of both architectures have one version: where the newest is not there for both (an archive's index may be behind), that of the
-# release itself. Nothing that is installed may go for that: apt then says what is in the way.
+# Both architectures must have the same package version: if the newest is not available for both (an archive's index may lag), use that of the
+# release itself. No installed package may be removed for this: apt then reports the conflict.
 $(BUILD)/deps.i386: Makefile | $(HAVE)
 	@mkdir -p $(@D)
 	@if [ "$$(dpkg-query -W -f '$${db:Status-Status}\n' $(DEPS_i386) 2>/dev/null | grep -cx installed)" != $(words $(DEPS_i386)) ]; then \
@@ -130,7 +130,7 @@ $(BUILD)/lib/x86_64-linux-gnu/librelume.so: $(BUILD)/librelume.so
 	@mkdir -p $(@D)
 	$(Q)ln -sf ../../librelume.so $@
 
-# Programs for its test and for show-reach.
+# Programs for the test of the 32-bit recorder and for show-reach.
 $(BUILD)/i386/windows: tests/real/windows.c tests/trace/window.h | $(BUILD)/deps.i386
 	@mkdir -p $(@D)
 	$(Q)$(CC) -m32 -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -o $@ $< -l:libGL.so.1 -l:libX11.so.6 -lm -pthread
@@ -139,7 +139,7 @@ $(BUILD)/i386/%: corpus/%.c corpus/program.h | $(BUILD)/deps.i386
 	@mkdir -p $(@D)
 	$(Q)$(CC) -m32 -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -o $@ $< -l:libglut.so.3.12 -l:libGLU.so.1 -l:libGL.so.1 -lm
 
-# Programs of Windows, for Wine: corpus programs as they are, also of 32 bits, and one of their own kind of windows.
+# Windows programs, for Wine: unchanged corpus programs, also as 32-bit ones, and one with Windows' own kinds of windows.
 WINDOWS := $(addprefix $(BUILD)/windows/,two_triangles.exe spheres.exe tricks.exe wgl.exe)
 WINE32 := $(BUILD)/wine32/usr/lib/wine/wine
 WINDOWS32 := $(foreach p,two_triangles spheres tricks,$(BUILD)/windows32/$p.exe $(BUILD)/i386/sse/$p) $(WINE32)
@@ -154,8 +154,8 @@ $(BUILD)/windows/%.exe: corpus/%.c corpus/program.h corpus/windows/GL/glut.h | $
 	@mkdir -p $(@D)
 	$(Q)x86_64$(MINGW) -Icorpus/windows -o $@ $< -lglu32 -lopengl32 -lgdi32
 
-# Windows' programs of 32 bits have twins on Linux, for Mesa's pixels of 32 bits are not those of 64. Both calculate by SSE: the x87 rounds to
-# other widths in each of the two systems.
+# 32-bit Windows programs have twins on Linux, as Mesa's 32-bit pixels differ from its 64-bit ones. Both use SSE: the x87 rounds to
+# different widths on the two systems.
 SSE := -msse2 -mfpmath=sse
 $(BUILD)/i386/sse/%: corpus/%.c corpus/program.h | $(BUILD)/deps.i386
 	@mkdir -p $(@D)
@@ -165,9 +165,9 @@ $(BUILD)/windows32/%.exe: corpus/%.c corpus/program.h corpus/windows/GL/glut.h |
 	@mkdir -p $(@D)
 	$(Q)i686$(MINGW) $(SSE) -Icorpus/windows -o $@ $< -lglu32 -lopengl32 -lgdi32
 
-# Wine for both classes, in a folder: Debian's wine32 is unpacked, not installed, for half of i386 comes with it, in the versions that this
-# system has of the same packages, which an archive may lack. It has the version of the wine64 that it starts, and no fonts: with FreeType
-# of i386 it waits for ever in NtGdiOpenDCW, recorded or not.
+# Wine for both classes, in a folder. Debian's wine32 is unpacked, not installed: installing it needs half of i386, in the package versions of
+# this system, which an archive may lack. It has the same version as the wine64 that starts it, and no fonts: with i386's FreeType it waits
+# forever in NtGdiOpenDCW, recorded or not.
 $(WINE32): | $(BUILD)/deps.windows $(BUILD)/deps.i386
 	$(Q)rm -rf $(BUILD)/wine32 $(BUILD)/wine32.new && mkdir -p $(BUILD)/wine32.new
 	$(Q)version=$$(dpkg-query -W -f '$${Version}' wine64) && cd $(BUILD)/wine32.new && \
@@ -178,7 +178,7 @@ $(WINE32): | $(BUILD)/deps.windows $(BUILD)/deps.i386
 	$(Q)mkdir $(BUILD)/wine32.new/usr/lib/x86_64-linux-gnu && ln -s /usr/lib/x86_64-linux-gnu/wine $(BUILD)/wine32.new/usr/lib/x86_64-linux-gnu/wine
 	$(Q)mv $(BUILD)/wine32.new $(BUILD)/wine32
 
-# The recorder alone with a sanitizer, for the threads test: it then needs a program that brings the sanitizer's runtime.
+# Only the recorder with a sanitizer, for the threads test: it then needs a program linked with the sanitizer's runtime.
 SANITIZED_CFLAGS = -std=c11 $(WARNINGS) -O1 -g -fPIC -pthread -fvisibility=hidden -fno-omit-frame-pointer -I$(BUILD)/recorder/gen
 $(BUILD)/sanitized/%/librelume.so: $(RECORDER_OBJ) capture/gen/exports.map $(BUILD)/relume
 	@mkdir -p $(@D)
@@ -202,7 +202,7 @@ $(BUILD)/recorder/%.o: %.c $(BUILD)/recorder/gen/stamp $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CPPFLAGS) $(RECORDER_CFLAGS) -c -o $@ $<
 
-# Generated headers come before whatever includes them; the .d files know the rest.
+# Generated headers are built before files that include them; the .d files have the other dependencies.
 GENERATED_H := $(BUILD)/gen/gl_tokens.h $(BUILD)/gen/layout.h $(BUILD)/gen/version_number.h
 $(COMMAND_OBJ) $(TESTS:=.o): | $(GENERATED_H)
 $(GENERATED_H): | $(HAVE)
@@ -215,7 +215,7 @@ $(BUILD)/gen/version_number.h: VERSION
 	@mkdir -p $(@D)
 	$(Q)printf '/* Made by the Makefile from VERSION. */\n#define RELUME_VERSION "%s"\n' "$$(cat $<)" >$@
 
-# What snapshots keep of the state machine: those of another layout are not read (replay/index/layout.txt).
+# Members of the state machine that snapshots save: snapshots of another layout are not read (replay/index/layout.txt).
 LAYOUT := replay/index/layout
 $(BUILD)/gen/layout.h: $(LAYOUT).py $(LAYOUT).txt $(BUILD)/gen/gl_tokens.h
 	@mkdir -p $(@D)
@@ -223,14 +223,14 @@ $(BUILD)/gen/layout.h: $(LAYOUT).py $(LAYOUT).txt $(BUILD)/gen/gl_tokens.h
 		$(PYTHON) -B $(LAYOUT).py $(LAYOUT).txt $@
 -include $(BUILD)/gen/layout.dep
 
-# Written anew when a handler's line changes; left alone, and so not compiled again, when another one does.
+# Rewritten if a handler's line changes; left alone, and so not recompiled, if other lines do.
 $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c: $(BUILD)/gen/%.c: replay/gen.py replay/overlay.txt capture/gen/overlay.txt capture/gen/registry.py $(REPLAY_SRC) | $(GENERATED_H)
 	$(Q)$(PYTHON) -B replay/gen.py $@ $* replay/overlay.txt capture/gen/overlay.txt $(sort $(REPLAY_SRC))
 
 $(BUILD)/gen/%.o: $(BUILD)/gen/%.c $(BUILD)/flags
 	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -c -o $@ $<
 
-# Kernels travel as text inside the command.
+# Kernels are embedded in the command as text.
 KERNELS := $(wildcard kernels/*/*.cl)
 HOST_TEXTS := kernels/ref/host_builtins.h kernels/ref/hook_host.h # hooks of the reference device: tracer/hook/host.h
 $(BUILD)/gen/kernels.c: kernels/embed.py $(KERNELS) $(HOST_TEXTS) | $(GENERATED_H)
@@ -238,19 +238,19 @@ $(BUILD)/gen/kernels.c: kernels/embed.py $(KERNELS) $(HOST_TEXTS) | $(GENERATED_
 	$(Q)$(PYTHON) kernels/embed.py $@ $(@:.c=.dep) . $(BUILD)/gen -- $(KERNELS) $(HOST_TEXTS)
 -include $(BUILD)/gen/kernels.dep
 
-# The report's page, as one string of C.
+# The report's page, as a C string.
 $(BUILD)/gen/page.c: diff/report/page.html diff/report/page.js
 	@mkdir -p $(@D)
 	$(Q)(echo '#include "diff/report/report.h"'; echo 'const char report_page[] ='; \
 		sed -e '/^\/\*SCRIPT\*\/$$/{r diff/report/page.js' -e 'd}' $< | sed 's/[\\"]/\\&/g; s/.*/"&\\n"/'; echo ';') >$@
 
-# Texts of `relume help` about files, and examples.
+# Texts of `relume help` about file formats, and examples.
 $(BUILD)/gen/manual.c: packaging/manual.py | $(GENERATED_H)
 	@mkdir -p $(@D)
 	$(Q)$(PYTHON) -B $< $@ $(@:.c=.dep)
 -include $(BUILD)/gen/manual.dep
 
-# The page of relume look --sheet, as the report's.
+# The page of relume look --sheet, as a C string.
 $(BUILD)/gen/surfaces.c: verbs/render/surfaces.html
 	@mkdir -p $(@D)
 	$(Q)(echo '#include "verbs/render/surfaces.h"'; echo 'const char surfaces_page[] ='; sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $<; echo ';') >$@
@@ -264,7 +264,7 @@ $(BUILD)/flags: | $(HAVE)
 	@mkdir -p $(@D)
 	@echo '$(FLAGS)' >$@
 
-# Nothing is compiled before the packages that it needs are there. `make` only says which are missing; INSTALLING goals install them first.
+# Nothing is compiled before the packages it needs are installed. `make` only lists missing ones; INSTALLING goals install them first.
 $(HAVE): packaging/deps.txt | $(INSTALLING:%=$(BUILD)/deps.%)
 	@mkdir -p $(@D)
 	@packaging/deps.sh need build
@@ -278,7 +278,7 @@ $(BUILD)/deps.%: packaging/deps.txt
 	@packaging/deps.sh install $* 2>$@.log || { tail -n 20 $@.log; exit 1; }
 	@touch $@
 
-# Programs that Debian has, beside those of the group.
+# Debian programs, in addition to those of the group.
 $(BUILD)/deps.lot $(BUILD)/deps.sweep $(BUILD)/deps.sweep-record: $(BUILD)/deps.%: packaging/deps.txt tests/show/more_programs.py | $(BUILD)/deps.check
 	@packaging/deps.sh install $* -- $$($(PYTHON) -B tests/show/more_programs.py) 2>$@.log || { tail -n 20 $@.log; exit 1; }
 	@touch $@
@@ -303,7 +303,7 @@ $(BUILD)/corpus/rooms: $(wildcard corpus/rooms/*.[ch]) corpus/program.h $(BUILD)
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -o $@ $(filter %.c,$^) -lglut -lGLU -lGL -lm
 
-# Tests are linked with everything of the command but its main function, and with the bridge itself.
+# Tests are linked with all of the command but its main function, and with the bridge directly.
 $(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/tracer/image/oiio_load.o,$(COMMAND_OBJ)) $(BUILD)/tracer/image/oiio.o
 	@rm -f $@
 	$(Q)$(AR) rcs $@ $^
@@ -315,10 +315,10 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 
 LIBS_test_blend := -lEGL -lGL
 
-# Tells recordings otherwise.
+# Rewrites recordings so that they draw the same picture by other calls.
 $(BUILD)/tests/same/relations: $(patsubst %.c,$(BUILD)/%.o,$(filter-out tests/same/relations.c,$(wildcard tests/same/*.c)))
 
-# What tests preload or record: programs that are not linked with anything of ours.
+# Libraries and programs that tests preload or record: not linked with any part of Relume.
 HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c tests/check/host_cl.c) \
 	$(patsubst %,$(BUILD)/tests/%,real/back real/blocking real/closer real/composed real/cracks real/deep real/depths real/elsewhere real/empty real/endless real/errors real/front real/greedy real/growing real/kdtree real/layers real/leaving real/linear real/moments real/moved real/multisampled real/objects real/parameters real/parting real/parts real/persistent real/pixels real/pixmaps real/projections real/readbacks real/recut real/samples real/shapes real/shared real/sheets real/shoal real/sizes real/stair real/sums real/surfaces real/targets real/textures real/turning real/units real/vertices real/windows bench/static_scene) \
 	$(patsubst %.c,$(BUILD)/%,$(wildcard tests/real/panels/*.c tests/real/small/*.c)) \
@@ -332,15 +332,15 @@ $(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl -lm -pthread
 
-# Legacy programs made at random.
+# Randomly generated legacy programs.
 $(BUILD)/tests/generated/program: $(wildcard tests/generated/*.[ch]) $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -o $@ $(filter %.c,$^) -lGL -lX11 -lm
 
-# What check/test_host runs.
+# Programs that check/test_host runs.
 HOST_TESTS := $(addprefix $(BUILD)/tests/check/test_,rays camera shade compose)
 
-# With ONLY, what other tests need is left alone.
+# With ONLY, prerequisites of other tests are not built.
 HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny $(BUILD)/tests/fuzz/drive $(HOST_TESTS)
 BUILT_FOR_TESTS := $(HELPERS) $(BUILD)/tests/same/relations $(BUILD)/tests/generated/program $(addprefix $(BUILD)/tests/bench/,hits build queries)
 check: all pages $(CORPUS) $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(BUILT_FOR_TESTS)
@@ -349,12 +349,12 @@ check: all pages $(CORPUS) $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(fore
 demo:
 	@corpus/demo.sh $(BUILD)
 
-# The picture at the head of README.md.
+# The picture at the top of README.md.
 picture: all $(BUILD)/corpus/glx/marbles
 	@corpus/picture.sh $(BUILD)
 
-# Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. Group NAME of
-# packaging/deps.txt is what it alone needs installed, NEEDS_NAME what must be built; those ON_SCREEN need a display.
+# Figures with their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails if a figure misses its bar. Group NAME of
+# packaging/deps.txt lists packages that only it needs, NEEDS_NAME its build prerequisites; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
 SCRIPTS := beyond bisect ci crashes cryptomatte devices export farm faults flaky frames fuzz generated hooks inject journeys kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms same sandbox sanitize seek \
 	film lot soak sweep sweep-record thesis
@@ -386,11 +386,11 @@ NEEDS_sanitize := $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so 
 $(SCRIPTS:%=show-%): show-%: all $$(CORPUS) $$(NEEDS_$$*) $(BUILD)/deps.$$*
 	@$(if $(filter $*,$(ON_SCREEN)),tests/xvfb.sh) $(PYTHON) -B tests/show/$(or $(SCRIPT_$*),$(subst -,_,$*)).py $(BUILD) $(ONLY:%=--only %)
 
-# What the house looks like: circles, sizes, repetitions.
+# Measures of the source: cycles, sizes, repetitions.
 show-house: all
 	@$(PYTHON) -B tests/house.py $(BUILD) --count --json $(BUILD)/show/house.json
 
-# Benches beside Embree, which is linked here and nowhere else: the traversal kernels (bench: without a bar), whole frames against the
+# Benchmarks against Embree, which is linked only here: the traversal kernels (bench: without a bar), whole frames against the
 # rays in them and a rasteriser, hits ray by ray and queries one by one (the tests of those names in tests/check run fewer), the builders of acceleration structures.
 MODELS ?= ../shared/models
 BENCHES := $(addprefix $(BUILD)/tests/bench/,embree frame_rays hits build queries)
@@ -408,7 +408,7 @@ show-rays show-rays-avx2: $(BUILD)/tests/bench/embree
 show-hits: $(BUILD)/tests/bench/hits
 show-query: $(BUILD)/tests/bench/queries
 show-build: $(BUILD)/tests/bench/build
-# As on a processor without AVX-512: PoCL compiles for such a one, and Embree is held to AVX2.
+# As on a processor without AVX-512: PoCL compiles for such a processor, and Embree is limited to AVX2.
 show-rays-avx2: $(BUILD)/tests/real/avx2_shim.so
 show-rays-avx2: NARROW = LD_PRELOAD=$(abspath $(BUILD)/tests/real/avx2_shim.so) POCL_CACHE_DIR=$(abspath $(BUILD)/tests/pocl-cache-avx2)
 show-rays-avx2: BARS := --bars 1 --isa avx2
@@ -417,7 +417,7 @@ show-rays show-rays-avx2 show-hits show-query show-build:
 	@mkdir -p $(BUILD)/show
 	@$(NARROW) $< --models $(MODELS) $(BARS) --json $(BUILD)/show/$(@:show-%=%).json --command "make $@"
 
-# Packages of PyPI in virtual environments of their own: metrics beside other implementations, and Intel's OpenCL.
+# PyPI packages in separate virtual environments: other implementations of metrics, and Intel's OpenCL.
 $(BUILD)/show/venv/ready: | $(BUILD)/deps.metrics
 	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q flip-evaluator==1.7 scikit-image==0.26.0
 	@touch $@
@@ -437,35 +437,35 @@ show-denoise: all $(BUILD)/show/denoise/venv/ready
 show-metrics: all $(CORPUS) $(BUILD)/tests/unit/test_metrics $(BUILD)/show/venv/ready
 	@$(BUILD)/show/venv/bin/python -B tests/show/metrics.py $(BUILD)
 
-# Kernels built for this processor with the freedoms of OpenCL C, beside their C twins.
+# Kernels built for this processor with the freedoms of OpenCL C, compared with their C twins.
 show-host: all $(HELPERS) $(HOST_TESTS) $(BUILD)/tests/bench/tiny
 	@$(PYTHON) tests/check/test_host.py $(BUILD)
 
-# Tests whose whole campaigns take minutes: every call of OpenCL fails once; a batch meets every fault.
+# Tests whose full runs take minutes: every OpenCL call fails once; a batch meets every fault.
 show-device-faults show-batch-faults: show-%: all $(HELPERS)
 	@tests/xvfb.sh $(PYTHON) tests/real/test_$(subst -,_,$*).py $(BUILD)
 
-# Not part of `make show`: piglit is 2 GB large, and each takes a quarter of an hour or more.
+# Not part of `make show`: piglit takes 2 GB, and each target a quarter of an hour or more.
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
 
-# The same of its tests of ARB programs and of GLSL, panels of ours, what programs cost; ONLY=real: programs of other people.
+# Piglit's tests of ARB programs and GLSL, Relume's own panels, and the cost of programs; ONLY=real: third-party programs.
 show-programs: all $(HELPERS) $(CORPUS) $(BUILD)/tests/bench/translate $(BUILD)/deps.piglit $(if $(filter real,$(ONLY)),$(BUILD)/deps.programs)
 	@tests/xvfb.sh $(PYTHON) -B tests/show/stages.py $(BUILD) $(ONLY)
 
-# Not part of `make show`: faults put into our own sources, each behind a switch, and the tests run: hours. It goes on where it was stopped.
+# Not part of `make show`: puts faults into the sources, each behind a switch, and runs the tests; takes hours. Resumes where it was stopped.
 TESTS_SECONDS ?=
 test-programs: all $(TESTS) $(BUILT_FOR_TESTS)
 show-tests: all
 	@$(PYTHON) -B tests/show/tests.py $(BUILD) $(ONLY:%=--only %) $(TESTS_SECONDS:%=--seconds %)
 
-# Not part of `make show`: README's commands in bare chroots of Debian's releases, and arm64 under qemu-user.
-# Needs root, and most of an hour for each; SUITE=NAME for one.
+# Not part of `make show`: the README's commands in bare chroots of Debian's releases, and arm64 under qemu-user.
+# Needs root, and most of an hour for each; SUITE=NAME runs one.
 SUITE ?=
 show-suites: $(BUILD)/deps.suites $(if $(filter-out arm64,$(SUITE)),,all)
 	@$(PYTHON) -B tests/show/suites.py $(BUILD) $(SUITE:%=--only %)
 
-# libFuzzer under sanitizers, a target for each reader: tests/fuzz/fuzz_NAME.c. What they find worth keeping goes into tests/fuzz/kept*.
+# libFuzzer under sanitizers, a target for each reader: tests/fuzz/fuzz_NAME.c. Findings worth keeping go into tests/fuzz/kept*.
 FUZZ_SECONDS ?= 3600
 FUZZ_CC ?= clang
 FUZZ_CXX ?= clang++
@@ -500,8 +500,8 @@ $(BUILD)/fuzz/parts.a: $(FUZZ_OBJ)
 $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%): $(BUILD)/fuzz/%: $(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.o $(BUILD)/fuzz/parts.a
 	$(Q)$(FUZZ_CXX) -fsanitize=fuzzer,address,undefined -pthread -o $@ $^ $(LIBS_OIIO) $(LIBS)
 
-# The same targets in one program, without libFuzzer: what was kept, and mutants. Each is named anew for that. Of the command it has what they have:
-# it does not link where FUZZ_SRC lacks something.
+# The same targets in one program without libFuzzer, for kept inputs and mutants; each gets another entry name. Linked with the same parts of the
+# command as they are, so a file missing from FUZZ_SRC is a link error.
 DRIVE_OBJ := $(patsubst %,$(BUILD)/tests/fuzz/targets/%.o,$(filter-out calls replay,$(FUZZ_TARGETS)))
 $(BUILD)/tests/fuzz/targets/%.o: tests/fuzz/fuzz_%.c $(BUILD)/flags | $(GENERATED_H)
 	@mkdir -p $(@D)
@@ -524,15 +524,15 @@ $(BUILD)/gen/fuzz_commands.c: tests/fuzz/gen_commands.py replay/gen.py capture/g
 fuzz: all $(HELPERS) $(CORPUS) $(BUILD)/tests/fuzz/make_seeds $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
 	@tests/xvfb.sh tests/fuzz/campaign.py $(BUILD) run $(FUZZ_SECONDS) $(ONLY)
 
-# Small ones: what only large ones reach is found again from recordings.
+# Keeps small inputs: paths that only large ones reach are covered from recordings again.
 fuzz-keep: $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
 	@tests/fuzz/campaign.py $(BUILD) keep $(ONLY)
 
-# Only in a commit of its own.
+# Only in a separate commit.
 golden-update: all
 	@$(PYTHON) tests/golden/test_golden.py --update
 
-# Man pages and shell completion come from the command's own help texts, and from those about files.
+# Man pages and shell completion are made from the command's help texts and those about file formats.
 $(BUILD)/pages/stamp: packaging/pages.py packaging/manual.py $(wildcard packaging/debian/changelog) $(BUILD)/relume
 	$(Q)rm -rf $(@D)
 	$(Q)$(PYTHON) -B packaging/pages.py $(BUILD)/relume $(@D)
@@ -556,7 +556,7 @@ clean:
 FORCE:
 .PHONY: picture all i386 windows deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-programs test-programs show-tests show-suites \
 	golden-update clean FORCE
-# Objects are kept, also those that only a pattern names.
+# Keep objects, including those that only a pattern rule names.
 .PRECIOUS: $(BUILD)/%.o
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
 	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(patsubst %.c,$(BUILD)/%.d,$(wildcard tests/same/*.c)) $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(DRIVE_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)

@@ -129,7 +129,7 @@ static int refuse(const char *typed, int is_help)
 	                  nearest.word ? nearest.word : "", nearest.word ? "'?" : "");
 }
 
-/* What was printed may still be on its way: a full disk is told by the exit code. */
+/* Buffered output may not be written yet: a full disk must show in the exit code. */
 static int finish(int code)
 {
 	if ((fflush(stdout) || ferror(stdout)) && code == 0)

@@ -1,6 +1,6 @@
 #!/bin/sh
-# packaging/deb.sh BUILD (as `make deb`): build the Debian package from a copy of the tree, and have lintian look at it.
-# Leaves BUILD/deb/*.deb; exits with lintian's code, which tells errors and warnings.
+# packaging/deb.sh BUILD (as `make deb`): build the Debian package from a copy of the tree, and check it by lintian.
+# Leaves BUILD/deb/*.deb; exits with lintian's code, which reports errors and warnings.
 set -eu
 cd "$(dirname "$0")/.."
 version=$(cat VERSION)

@@ -2,10 +2,10 @@
 # packaging/deps.sh list|need|install GROUP... [-- PACKAGE...]
 #
 #   list      print the packages of groups (packaging/deps.txt), as this release names them
-#   need      install nothing; where packages are missing, say which, and how to install them, and exit with 1
-#   install   install what is missing, with sudo where this is not root
+#   need      install nothing; if packages are missing, list them, print the command that installs them, and exit with 1
+#   install   install missing packages, with sudo unless run by root
 #
-# Needs a POSIX shell, awk, and apt. Where there is no dpkg, `need` passes: the compiler then names what it lacks.
+# Needs a POSIX shell, awk, and apt. Without dpkg, `need` passes: the compiler then reports what is missing.
 set -u
 list=$(dirname "$0")/deps.txt
 verb=$1
@@ -18,7 +18,7 @@ while [ $# -gt 0 ]; do
 	shift
 done
 
-# The entries of the groups, a line each, without repetition.
+# The entries of the groups, one per line, without duplicates.
 entries() {
 	awk -v groups="$groups" -v more="$more" '
 		/^[a-z0-9-]+:/ { name = $1; sub(":", "", name); $1 = ""; has[name] = has[name] " " $0 }
@@ -40,14 +40,14 @@ is_installed() {
 	case $installed in *" $1 "*) return 0 ;; *) return 1 ;; esac
 }
 
-# Asked of apt when the first package is not installed, which takes a second.
+# Queries apt once the first missing package is found; this takes a second.
 is_known() {
 	# shellcheck disable=SC2086
 	: "${known:= $(apt-cache --no-all-versions show $names 2>/dev/null | sed -n 's/^Package: //p' | tr '\n' ' ') }"
 	case $known in *" $1 "*) return 0 ;; *) return 1 ;; esac
 }
 
-# choose: of each entry the package that is installed, or that the release has; sets $all, $missing, $lacking.
+# choose: pick for each entry the package that is installed, or that the release has; sets $all, $missing, $lacking.
 choose() {
 	names=$(entries | sed 's/?$//' | tr '|' '\n')
 	# shellcheck disable=SC2086 # one word a package
@@ -102,7 +102,7 @@ install)
 	choose
 	if [ -z "$missing" ] && [ -z "$lacking" ]; then exit 0; fi
 	export DEBIAN_FRONTEND=noninteractive
-	# An index that cannot be read stops nothing that is known without it.
+	# An unreadable index does not stop packages that are known without it.
 	$sudo apt-get -q update >&2
 	choose
 	say_lacking

@@ -1,7 +1,7 @@
 #!/bin/sh
-# packaging/install.sh install|uninstall BUILD PREFIX [DESTDIR]: put everything into its place, or take it away again.
+# packaging/install.sh install|uninstall BUILD PREFIX [DESTDIR]: install everything, or remove it again.
 #
-# One list serves both, so that nothing is left behind. Files appear whole: install(1) into place, then rename.
+# Both use one list, so nothing is left behind. Files appear complete: install(1) beside the target, then rename.
 set -eu
 cd "$(dirname "$0")/.."
 verb=$1 build=$2 prefix=$3 root=${4-}$3
@@ -10,7 +10,7 @@ verb=$1 build=$2 prefix=$3 root=${4-}$3
 place() {
 	if [ "$verb" = uninstall ]; then
 		rm -f "$root/$3"
-		# Folders that are ours alone go when they are empty.
+		# Remove folders that belong only to Relume, once empty.
 		case $3 in
 		lib/relume/lib/*) rmdir "$root/${3%/*}" "$root/lib/relume/lib" 2>/dev/null || : ;;
 		share/doc/relume/examples/*) rmdir "$root/${3%/*}" "$root/share/doc/relume/examples" "$root/share/doc/relume" 2>/dev/null || : ;;
@@ -28,9 +28,9 @@ sed "s|@PREFIX@|$prefix|; s|@VERSION@|$version|" packaging/relume.pc.in >"$build
 sed "s|@PREFIX@|$prefix|; s|@VERSION@|$version|" packaging/relume-rays.pc.in >"$build/relume-rays.pc"
 
 place 755 "$build/relume" bin/relume
-place 644 "$build/visual/libGL.so.1" lib/relume/visual/libGL.so.1 # before its neighbours, whose folder goes with the last of them
+place 644 "$build/visual/libGL.so.1" lib/relume/visual/libGL.so.1 # before its neighbours: their folder is removed with the last of them
 place 644 "$build/librelume.so" lib/relume/librelume.so
-# The recorder for programs of 32 bits, where `make i386` has built it: the loader then picks between two folders (capture/record.c).
+# The recorder for 32-bit programs, if `make i386` has built it: the loader then picks between two folders (capture/record.c).
 i386=lib/i386-linux-gnu/librelume.so
 if [ "$verb" = uninstall ] || [ -e "$build/$i386" ]; then
 	place 644 "$build/$i386" "lib/relume/$i386"

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""packaging/manual.py OUT.c OUT.dep: the texts of `relume help NAME-file` and of all EXAMPLES, as strings of C.
+"""packaging/manual.py OUT.c OUT.dep: the texts of `relume help NAME-file` and of all EXAMPLES, as C strings.
 
-The text about a file format is the first comment of the header that reads it, or a page of Markdown (FORMATS). The
-examples of all verbs are packaging/examples.txt. pages.py makes man pages of the same.
+The text about a file format is the first comment of the header that reads it, or a Markdown page (FORMATS). The
+examples of all verbs are in packaging/examples.txt. pages.py makes man pages from the same texts.
 
-A text has headings (a line in capitals; "## Title"), paragraphs, and blocks indented by four: below KEYS a key a line
-with what it means ("key: value  # text"), elsewhere lines to type. Tables of Markdown are lists of terms.
+A text has headings (a line in capitals; "## Title"), paragraphs, and blocks indented by four: below KEYS, a key per line
+with its meaning ("key: value  # text"), elsewhere lines to type. Markdown tables are lists of terms.
 """
 import collections
 import pathlib
@@ -23,7 +23,7 @@ FORMATS = (
     Format("camera", "look/camera/camera.h", "a camera for recorded frames, for relume render --camera"),
     Format("diff", "diff/rules/rules.h", "how relume diff compares frames: relume-diff.yaml"),
     Format("ci", "ci/plan.h", "the programs that relume ci records: relume-ci.yaml"),
-    Format("hook", "corpus/hooks/README.md", "functions of your own in the ray tracer, for relume render --hook"),
+    Format("hook", "corpus/hooks/README.md", "your own functions in the ray tracer, for relume render --hook"),
 )
 
 
@@ -98,7 +98,7 @@ def plain(blocks):
 
 
 def examples():
-    """The examples by verb: their lines, of which "# ..." says what the command below it does."""
+    """The lines of each verb's examples; "# ..." describes the command below it."""
     found, lines = {}, None
     for line in (ROOT / EXAMPLES).read_text().split("\n"):
         if re.fullmatch(r"\[\w+\]", line):

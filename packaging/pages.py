@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""packaging/pages.py RELUME OUT: man pages and shell completion, made from what the command itself says.
+"""packaging/pages.py RELUME OUT: man pages and shell completion, made from the command's help texts.
 
 Reads `relume help` and every verb's --help; nothing here knows a verb or an option by name. Pages about formats of
 files come from the same texts as `relume help NAME-file` (manual.py). Writes
@@ -7,7 +7,7 @@ files come from the same texts as `relume help NAME-file` (manual.py). Writes
     OUT/man/relume.1, OUT/man/relume-VERB.1, OUT/man/relume-NAME.5
     OUT/bash/relume, OUT/zsh/_relume, OUT/fish/relume.fish
 
-Same texts, same bytes: their day is SOURCE_DATE_EPOCH's, else that of the newest entry of Debian's changelog.
+Same texts, same bytes: the date is SOURCE_DATE_EPOCH's, else that of the newest entry of Debian's changelog.
 """
 import datetime
 import email.utils
@@ -26,7 +26,7 @@ FILES = re.compile(r"TRACE|FILE|DIR|PATTERN|\.\w+|REF|PATH|FOLDER")
 
 
 class Help:
-    """A help text in parts: usage lines, then blocks: ("text", lines) or ("options", [option])."""
+    """The parts of a help text: usage lines, then blocks: ("text", lines) or ("options", [option])."""
 
     def __init__(self, text):
         lines = text.rstrip("\n").split("\n")
@@ -83,12 +83,12 @@ def page(name, section, about, body, others):
 
 
 def as_typed(lines):
-    """Lines that are kept as they are."""
+    """Lines to print unchanged."""
     return [".PP", ".RS 4", ".nf", *(roff(line) for line in lines), ".fi", ".RE"]
 
 
 def examples_of(lines):
-    """Examples of a help text: "# ..." says what the commands below it do."""
+    """Examples of a help text: "# ..." describes the commands below it."""
     out, commands = [], []
     for line in [*(line.strip() for line in lines), "# "]:
         if line.startswith("# "):
@@ -135,18 +135,18 @@ def body_of_help(help):
         elif heading == "OPTIONS":
             out.append(".SH NOTES")
             heading = "NOTES"
-        # Columns are kept as they stand; running text is set anew.
+        # Columns are kept unchanged; running text is refilled.
         columns = any(re.search(r"^ |\S {2,}\S", line) for line in lines)
         out += [".PP", *([".nf"] if columns else []), *(roff(line) for line in lines), *([".fi"] if columns else [])]
     return out
 
 
 def keys_of(lines):
-    """Keys of a file and what they mean, those of a key below it and further in."""
+    """Keys of a file with their meanings; keys within a key follow it, indented."""
     out, depths = [], [0]
     for line in lines:
         code, _, text = re.fullmatch(r"(.*?)(\s*# (.*))?", line).groups()
-        if not code.strip():  # more about the key above
+        if not code.strip():  # continues the key above
             out.append(roff(text))
             continue
         depth = len(code) - len(code.lstrip())
