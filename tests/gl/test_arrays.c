@@ -100,18 +100,20 @@ START_TEST(test_buffers)
 	gl_call(&gl, "glEnableClientState", "e", GL_VERTEX_ARRAY);
 	gl_call(&gl, "glEnableClientState", "e", GL_COLOR_ARRAY);
 	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_UNSIGNED_BYTE, (uint64_t)1);
-	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_UNSIGNED_BYTE, (uint64_t)0); /* index 9: beyond the end */
+	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_UNSIGNED_BYTE, (uint64_t)0); /* index 9: zeros */
 	gl_call(&gl, "glBindBuffer", "eu", GL_ARRAY_BUFFER, 3u);
 	gl_call_address(&gl, 0x7000, "glMapBuffer", "ee", GL_ARRAY_BUFFER, GL_WRITE_ONLY);
 	gl_call(&gl, "memcpy", "pbi", (uint64_t)0x7000 + 16, sizeof(nine), &nine, 4);
 	gl_call(&gl, "glUnmapBuffer", "e", GL_ARRAY_BUFFER);
 	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_UNSIGNED_BYTE, (uint64_t)1);
 	s = gl_swap(&gl);
-	ck_assert_uint_eq(s->n_instances, 2);
+	ck_assert_uint_eq(s->n_instances, 3);
 	ck_assert_floats(12, s->meshes[0]->position, 0, 0, 5, 1, 1, 0, 5, 1, 0, 1, 5, 1);
 	ck_assert_floats(4, s->meshes[0]->color + 8, 0, 0, 1, 1);
-	ck_assert_floats(5, s->meshes[1]->position, 0, 0, 5, 1, 9);
-	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	ck_assert_floats(8, s->meshes[1]->position, 0, 0, 0, 1, 0, 0, 5, 1);
+	ck_assert_floats(8, s->meshes[1]->color, 0, 0, 0, 0, 1, 0, 0, 1);
+	ck_assert_floats(5, s->meshes[2]->position, 0, 0, 5, 1, 9);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
 	scene_release(&s);
 	gl_close(&gl);
 }

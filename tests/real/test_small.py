@@ -11,6 +11,7 @@ from helpers import (
 
 PROGRAMS = {
     "bare": ("lines", "a strip", "a wide loop", "points", "outlines"),
+    "beyond": ("arrays", "indices", "colours of four", "all of a draw", "colours alone"),
     "asks": ("framebuffers", "shader objects", "texture objects of EXT", "one deleted"),
     "colors": tuple(f"seed {seed}" for seed in range(1, 13)),
     "condition": ("draws", "clears and pixels", "lists and arrays", "inverted"),

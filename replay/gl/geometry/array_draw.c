@@ -21,6 +21,10 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
+/* Vertices of a draw beyond the end of its buffer object: more of them add primitives without extent. A multiple of what
+ * each kind of primitive takes. */
+#define MOST_BEYOND 12
+
 static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls_geometry *g,
                       const struct gls_sources *s, uint64_t element)
 {
@@ -46,8 +50,8 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
                    uint32_t first, uint32_t count, const uint32_t *elements)
 {
 	struct gls_geometry *g = &x->scratch.geometry;
+	const uint32_t end = (uint32_t)gls_sources_end(s);
 	uint32_t lo = UINT32_MAX, hi = 0, *number, *cut;
-	uint64_t n = gls_sources_count(s);
 
 	gls_geometry_clear(g);
 	g->kind = gls_mode_kind(mode);
@@ -64,12 +68,14 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 		return 0;
 	}
 	for (uint32_t i = 0; i < count; i++) {
-		lo = elements[i] < lo ? elements[i] : lo;
-		hi = elements[i] > hi ? elements[i] : hi;
-	}
-	if (count && hi >= n) {
-		gls_unsupported(x, "indices beyond the end of an array");
-		return ERR_INPUT;
+		const uint32_t element = elements[i] < end ? elements[i] : end;
+
+		lo = element < lo ? element : lo;
+		hi = element > hi ? element : hi;
+		if (elements[i] >= gls_sources_count(s) && !s->vertex.array->buffer) {
+			gls_unsupported(x, "indices beyond the end of an array");
+			return ERR_INPUT;
+		}
 	}
 	/* Vertices in order of first use: the mesh does not depend on where in the arrays it lies. */
 	cut = gls_scratch(x, ((size_t)count + (hi - lo) + 1) * sizeof(*cut));
@@ -78,10 +84,11 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 	number = cut + count;
 	memset(number, 0xff, ((size_t)(hi - lo) + 1) * sizeof(*number));
 	for (uint32_t i = 0; i < count; i++) {
-		uint32_t *slot = &number[elements[i] - lo];
+		const uint32_t element = elements[i] < end ? elements[i] : end;
+		uint32_t *slot = &number[element - lo];
 		if (*slot == UINT32_MAX) {
 			*slot = g->n_vertices;
-			if (add_vertex(x, st, g, s, elements[i]))
+			if (add_vertex(x, st, g, s, element))
 				return ERR_SYSTEM;
 		}
 		cut[i] = *slot;
@@ -186,8 +193,13 @@ static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32
 	if (!count || !gls_sources_open(x, st, &s))
 		return;
 	if (!elements && (uint64_t)first + count > gls_sources_count(&s)) {
-		gls_unsupported(x, "draws beyond the end of an array");
-		return;
+		const uint64_t end = gls_sources_end(&s), there = end > first ? end - first : 0;
+
+		if (!s.vertex.array->buffer) {
+			gls_unsupported(x, "draws beyond the end of an array");
+			return;
+		}
+		count = count < there + MOST_BEYOND ? count : (uint32_t)(there + MOST_BEYOND);
 	}
 	if (mode == GL_POINTS && s.has_sizes) {
 		draw_sized(x, st, &s, first, count, elements, identity);

@@ -73,6 +73,19 @@ uint64_t gls_sources_count(const struct gls_sources *s)
 	return most;
 }
 
+uint64_t gls_sources_end(const struct gls_sources *s)
+{
+	uint64_t most = s->vertex.stride ? source_count(&s->vertex) : 0;
+
+	for (uint32_t present = s->present; present; present &= present - 1) {
+		const struct gls_source *attribute = &s->attributes[__builtin_ctz(present)];
+		const uint64_t n = attribute->stride ? source_count(attribute) : 0;
+
+		most = n > most ? n : most;
+	}
+	return most;
+}
+
 /*
  * An integer of an array as a number in [-1,1], as Mesa (22.3.6) fetches it: multiplied, where single calls divide, and
  * the two lowest of a signed type are both -1 (OpenGL 4.2 sec. 2.3.4), where single calls have the odd numbers of
@@ -128,7 +141,6 @@ static float read_component(const uint8_t *p, uint32_t type, uint32_t normalized
 	}
 }
 
-/* Element i, missing components 0 0 0 1; beyond the end all of them. */
 void gls_source_read(const struct gls_source *s, uint64_t i, float out[4])
 {
 	const struct gls_array *array = s->array;
@@ -138,7 +150,7 @@ void gls_source_read(const struct gls_source *s, uint64_t i, float out[4])
 	uint32_t packed;
 
 	out[0] = out[1] = out[2] = 0;
-	out[3] = 1;
+	out[3] = i < source_count(s) || n < 4;
 	if (i >= source_count(s))
 		return;
 	p = s->bytes + i * s->stride;

@@ -25,7 +25,8 @@ struct gls_sources {
 
 /** Bytes of a component; 0: no type. */
 size_t gls_type_bytes(uint32_t type);
-/** Element i as four floats, normalized if the array is. The caller has checked that it is there. */
+/** Element i as four floats, normalized if the array is. Missing components are 0, 0, 0, 1; beyond the array's end those
+ * that it would have are 0, as Mesa (22.3.6) reads buffer objects. */
 void gls_source_read(const struct gls_source *s, uint64_t i, float out[4]);
 
 /** Those of vertex programs only where one draws, or a list is made. @return the attributes that come from arrays, as
@@ -36,6 +37,8 @@ int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_source
 /** How many vertices they hold: as many as the positions or, where these are one constant, the longest array of the
  * others. */
 uint64_t gls_sources_count(const struct gls_sources *s);
+/** The first element that no array has: it and all that follow are the same vertex. */
+uint64_t gls_sources_end(const struct gls_sources *s);
 /** A hash of all that a draw's mesh depends on. elements: a hash of the indices, or the first vertex. */
 uint64_t gls_sources_key(const struct gls_state *st, const struct gls_sources *s, uint32_t mode, uint64_t elements,
                          uint64_t n_elements);
