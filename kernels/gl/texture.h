@@ -87,7 +87,8 @@ static inline void texture_wrap(uint32_t wrap, float s, int normalized, uint32_t
 	*i1 = texture_place(wrap, first + 1, n, border);
 }
 
-/* Where a texel of a level is stored; no coordinate may be outside. `layer`: slice of a 3D image or face of a cube. */
+/* Where a texel of a level is stored; no coordinate may be outside. `layer`: slice of a 3D image, face of a cube, or
+ * image of an array. */
 static inline GLOBAL const uint32_t *texture_words(const struct tables *t, GLOBAL const struct texture_image *image,
                                                    uint32_t level, int x, int y, int layer)
 {
@@ -186,7 +187,8 @@ static inline int texture_is_plain(GLOBAL const struct texture_image *image, GLO
 	       (image->target != GL_TEXTURE_3D || texture_wrap_is_plain(unit->wrap_r));
 }
 
-/* One level, filtered linearly in 8 bits. c: coordinates, already divided by q; face: of a cube, else 0. */
+/* One level, filtered linearly in 8 bits. c: coordinates, already divided by q; face: of a cube, layer of an
+ * array, else 0. */
 static inline uint32_t texture_level_8(const struct tables *t, GLOBAL const struct texture_image *image,
                                        GLOBAL const struct scene_unit *unit, uint32_t level, struct vec4 c, int face)
 {
@@ -243,7 +245,7 @@ static inline struct vec4 texture_depth(GLOBAL const struct scene_unit *unit, fl
 	return v4(d, d, d, unit->depth_mode == GL_INTENSITY ? d : 1.0f);
 }
 
-/* One level with one filter. c: coordinates, already divided by q; face: of a cube, else 0. */
+/* One level with one filter. c: coordinates, already divided by q; face: as in texture_level_8. */
 static inline struct vec4 texture_level(const struct tables *t, GLOBAL const struct texture_image *image,
                                         GLOBAL const struct scene_unit *unit, uint32_t level, int linear,
                                         struct vec4 c, int face)
@@ -506,6 +508,8 @@ static inline struct vec4 texture_filtered(const struct tables *t, GLOBAL const 
 		c = texture_cube(c, &face);
 	} else {
 		c = v4_scale(c, 1.0f / c.w);
+		if (image->target == GL_TEXTURE_2D_ARRAY)
+			face = texture_int(M_MIN(M_MAX(M_RINT(c.z), 0.0f), (float)(image->depth - 1u)));
 	}
 	if (anisotropic && unit->min_filter != GL_NEAREST) {
 		int nearest = unit->min_filter == GL_NEAREST_MIPMAP_NEAREST || unit->min_filter == GL_LINEAR_MIPMAP_NEAREST;

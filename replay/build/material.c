@@ -117,7 +117,7 @@ static int enabled_target(struct gls_exec *x, struct gls_state *st, const struct
 	const int is_alone = !(unit->enabled & (unit->enabled - 1)) || !gls_is_mesa(st);
 	int first = -1;
 
-	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++) {
+	for (unsigned i = 0; i < sizeof(order) / sizeof(*order); i++) {
 		if (!(unit->enabled >> order[i] & 1))
 			continue;
 		if (is_alone || is_complete(x, st, unit->value.unit, order[i]))

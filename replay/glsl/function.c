@@ -399,7 +399,8 @@ static uint32_t sampler_of(struct glsl_writer *w, const struct glsl_value *v)
 		                            [GLSL_TEXTURE_2D] = GLS_TEXTURE_2D,
 		                            [GLSL_TEXTURE_3D] = GLS_TEXTURE_3D,
 		                            [GLSL_TEXTURE_CUBE] = GLS_TEXTURE_CUBE,
-		                            [GLSL_TEXTURE_RECTANGLE] = GLS_TEXTURE_RECTANGLE };
+		                            [GLSL_TEXTURE_RECTANGLE] = GLS_TEXTURE_RECTANGLE,
+		                            [GLSL_TEXTURE_2D_ARRAY] = GLS_TEXTURE_2D_ARRAY };
 	const struct glsl_type *t = glsl_type_of(w, v->type);
 	struct program_code *code = w->code;
 	const uint32_t number = v->at[0] - SCENE_PROGRAM_CONSTANT;
@@ -427,7 +428,8 @@ struct glsl_value glsl_sample(struct glsl_writer *w, const struct glsl_node *nod
 		                               [GLSL_TEXTURE_2D] = 2,
 		                               [GLSL_TEXTURE_3D] = 3,
 		                               [GLSL_TEXTURE_CUBE] = 3,
-		                               [GLSL_TEXTURE_RECTANGLE] = 2 };
+		                               [GLSL_TEXTURE_RECTANGLE] = 2,
+		                               [GLSL_TEXTURE_2D_ARRAY] = 3 };
 	const bool divided = node->operation == GLSL_TEXTURE_PROJ || node->operation == GLSL_TEXTURE_PROJ_LOD;
 	const bool of_vertices = w->stage == GLSL_VERTEX_STAGE; /* they have no neighbours: level 0, unless they name one */
 	const bool levelled = of_vertices || node->operation == GLSL_TEXTURE_LOD || node->operation == GLSL_TEXTURE_PROJ_LOD;

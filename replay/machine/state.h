@@ -102,7 +102,9 @@ struct gls_multisample {
 
 /* Tables 6.14 - 6.18: texturing. */
 enum gls_texture_target {
-	GLS_TEXTURE_1D, GLS_TEXTURE_2D, GLS_TEXTURE_3D, GLS_TEXTURE_CUBE, GLS_TEXTURE_RECTANGLE, N_GLS_TEXTURE_TARGETS
+	GLS_TEXTURE_1D, GLS_TEXTURE_2D, GLS_TEXTURE_3D, GLS_TEXTURE_CUBE, GLS_TEXTURE_RECTANGLE,
+	GLS_TEXTURE_2D_ARRAY, /* programs alone look it up (EXT_texture_array) */
+	N_GLS_TEXTURE_TARGETS
 };
 struct gls_unit {
 	uint32_t enabled;                       /* bits 1 << gls_texture_target */

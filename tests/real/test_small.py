@@ -27,6 +27,7 @@ PROGRAMS = {
                "no accumulation buffer"),
     "kept": ("alpha of quads", "alpha of triangles", "alpha between", "a popped colour", "one with its lights",
              "a popped switch", "all popped", "bitmaps' normals"),
+    "layers": ("nearest", "linear", "levels", "parts", "one that is drawn to"),
     "open": ("a light that nothing attenuates", "a highlight without a power", "fog without length",
              "powers of programs", "known powers", "logarithms", "powers of shaders", "places between pixels",
              "an offset of EXT", "between faces of a cube", "filtered there", "a level there", "levels there"),
@@ -63,7 +64,7 @@ if not sys.argv[1:]:
     check("glBegin: a shader reads or writes gl_ClipDistance, which is not done" in said,
           f"the draw and the name are told: {said}")
     for name in "glBindTexture", "glTexImage3D", "glTexParameteri":
-        check(f"{name}: texture arrays and other targets of later GL" in said, f"what Relume lacks: {name}: {said}")
+        check(f"{name}: texture targets of later GL" in said, f"what Relume lacks: {name}: {said}")
     check("GL errors" not in said, f"the program is not blamed: {said}")
     trace = SCRATCH / "outward.trace"
     files = render(trace, SCRATCH / "outward", "-f", "2-4")

@@ -77,11 +77,11 @@ static void fill_texels(const void *object, uint32_t *words)
 static uint32_t level_words(const struct scene_texture *t, uint32_t level)
 {
 	uint32_t w = t->width >> level ? t->width >> level : 1, h = t->height >> level ? t->height >> level : 1;
-	uint32_t d = t->depth >> level ? t->depth >> level : 1;
+	uint32_t d = t->target == GL_TEXTURE_2D_ARRAY ? t->depth : t->depth >> level ? t->depth >> level : 1;
 
 	w += 2 * t->border;
 	h = t->target == GL_TEXTURE_1D ? 1 : h + 2 * t->border;
-	d = t->target == GL_TEXTURE_3D ? d + 2 * t->border : t->target == GL_TEXTURE_CUBE_MAP ? 6 : 1;
+	d = t->target == GL_TEXTURE_3D ? d + 2 * t->border : t->target == GL_TEXTURE_CUBE_MAP ? 6 : d;
 	return w * h * d * (t->floats ? 4 : 1);
 }
 

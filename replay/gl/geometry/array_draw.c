@@ -21,8 +21,8 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-/* Vertices of a draw beyond the end of its buffer object: more of them add primitives without extent. A multiple of what
- * each kind of primitive takes. */
+/* The most vertices of a draw beyond the end of its buffer object: more would add primitives without extent. A multiple
+ * of the vertices of each kind of primitive. */
 #define MOST_BEYOND 12
 
 static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls_geometry *g,

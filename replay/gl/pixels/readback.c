@@ -200,7 +200,7 @@ GLS_HANDLER(glGetTexImage, OBJECT)
 		return;
 	size[0] = l->width;
 	size[1] = l->height;
-	size[2] = t->target == GLS_TEXTURE_3D ? l->depth : 0;
+	size[2] = t->target == GLS_TEXTURE_3D || t->target == GLS_TEXTURE_2D_ARRAY ? l->depth : 0;
 	if (!find_place(x, st, c, 4, size, &r))
 		return;
 	if (gls_refuses(x, st, !r.to.colors || (r.to.colors->to[0] == 5) != (l->base_format == GL_DEPTH_COMPONENT) ||

@@ -74,12 +74,12 @@ static uint32_t *bit_of(struct gls_state *st, uint32_t cap, uint32_t *bit)
  * first. */
 static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 {
-	static const uint32_t targets[N_GLS_TEXTURE_TARGETS] = {
+	static const uint32_t targets[] = {
 		GL_TEXTURE_1D,       GL_TEXTURE_2D,        GL_TEXTURE_3D,
 		GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE, /* as enum gls_texture_target */
 	};
 
-	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
+	for (unsigned i = 0; i < sizeof(targets) / sizeof(*targets); i++)
 		if (cap == targets[i]) {
 			*bit = 1u << i;
 			return &st->a.texturing.units[st->a.texturing.active].enabled;

@@ -47,20 +47,21 @@ static struct chain find_chain(const struct gls_texture *t, unsigned face)
 		return none;
 	w = base->width - 2 * base->border;
 	h = t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border;
-	d = t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1;
+	d = gls_texture_depth(t, base);
 	if (!w || !h || !d)
 		return none; /* nothing but borders */
 	for (n = 1;
-	     p->base_level + n < GLS_MAX_LEVELS && p->base_level + n <= p->max_level && (w > 1 || h > 1 || d > 1);
+	     p->base_level + n < GLS_MAX_LEVELS && p->base_level + n <= p->max_level &&
+	     (w > 1 || h > 1 || (d > 1 && t->target == GLS_TEXTURE_3D));
 	     n++) {
 		w = half(w);
 		h = half(h);
-		d = half(d);
+		d = t->target == GLS_TEXTURE_3D ? half(d) : d;
 		level = base + n;
 		if (!level->texels || level->border != base->border || level->internal_format != base->internal_format ||
 		    level->width != w + 2 * base->border ||
 		    (t->target != GLS_TEXTURE_1D && level->height != h + 2 * base->border) ||
-		    (t->target == GLS_TEXTURE_3D && level->depth != d + 2 * base->border))
+		    gls_texture_depth(t, level) != d)
 			return (struct chain){ n, 0 };
 	}
 	return (struct chain){ n, 1 };
@@ -115,7 +116,7 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	int srgb = format && format->srgb && t->parameters.srgb_decode != GL_SKIP_DECODE_EXT;
 	uint32_t head[9] = { gls_texture_token(t->target), base->base_format, base->width - 2 * base->border,
 	                     t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border,
-	                     t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1, n_levels, base->border,
+	                     gls_texture_depth(t, base), n_levels, base->border,
 	                     (uint32_t)srgb,
 	                     base->texel_bytes };
 	const uint32_t texel_bytes = srgb ? 16 : base->texel_bytes;

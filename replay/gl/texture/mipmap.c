@@ -70,7 +70,7 @@ static void filter_texel(const struct gls_level *from, int floats, const float *
 {
 	int round = !floats && !linear;
 
-	for (unsigned z = 0; z < (from->depth > 1 ? 2u : 1u); z++) {
+	for (unsigned z = 0; z < (t[2].weight > 0 ? 2u : 1u); z++) {
 		float slice[4] = { 0 };
 
 		for (unsigned y = 0; y < (from->height > 1 ? 2u : 1u); y++) {
@@ -179,8 +179,9 @@ static void generate_level(const struct gls_level *from, struct gls_level *to, c
 		return;
 	}
 	if (!floats && !linear && !format->bits[0] && !format->bits[3] && from->width == 2 * to->width &&
-	    from->height == 2 * to->height && from->depth == 1) {
-		halve(from, to->width, to->height, to->texels);
+	    from->height == 2 * to->height && from->depth == to->depth) {
+		/* rows of layers follow each other */
+		halve(from, to->width, to->height * to->depth, to->texels);
 		return;
 	}
 	for (size_t i = 0; i < gls_level_count(to); i++) {
@@ -216,10 +217,10 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 	for (uint32_t l = t->parameters.base_level + 1; format && l < GLS_MAX_LEVELS && l <= t->parameters.max_level; l++) {
 		struct gls_level *to = &t->levels[face][l];
 		uint32_t w = from->width > 1 ? from->width / 2 : 1, h = from->height > 1 ? from->height / 2 : 1;
-		uint32_t d = from->depth > 1 ? from->depth / 2 : 1;
+		uint32_t d = t->target != GLS_TEXTURE_3D || from->depth == 1 ? from->depth : from->depth / 2;
 		uint8_t *texels;
 
-		if (from->width == 1 && from->height == 1 && from->depth == 1)
+		if (from->width == 1 && from->height == 1 && (from->depth == 1 || t->target != GLS_TEXTURE_3D))
 			break;
 		if (from->border) {
 			gls_unsupported(x, "generated mipmaps of textures with borders");

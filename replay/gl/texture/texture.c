@@ -125,7 +125,7 @@ void gls_texture_restore_parameters(struct gls_state *st,
 static int is_later_target(uint32_t token)
 {
 	switch (token) {
-	case GL_TEXTURE_1D_ARRAY: case GL_TEXTURE_2D_ARRAY: case GL_TEXTURE_CUBE_MAP_ARRAY: case GL_TEXTURE_BUFFER:
+	case GL_TEXTURE_1D_ARRAY: case GL_TEXTURE_CUBE_MAP_ARRAY: case GL_TEXTURE_BUFFER:
 	case GL_TEXTURE_2D_MULTISAMPLE: case GL_TEXTURE_2D_MULTISAMPLE_ARRAY:
 		return 1;
 	default:
@@ -136,7 +136,7 @@ static int is_later_target(uint32_t token)
 void gls_texture_no_target(struct gls_exec *x, struct gls_state *st, uint32_t token)
 {
 	if (is_later_target(token))
-		gls_unsupported(x, "texture arrays and other targets of later GL");
+		gls_unsupported(x, "texture targets of later GL");
 	else
 		gls_error(x, st, GL_INVALID_ENUM);
 }

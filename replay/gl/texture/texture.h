@@ -47,9 +47,16 @@ static inline uint32_t gls_texture_token(uint32_t target)
 {
 	static const uint32_t tokens[N_GLS_TEXTURE_TARGETS] = {
 		GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE,
+		GL_TEXTURE_2D_ARRAY,
 	};
 
 	return tokens[target];
+}
+
+/** Layers of a level, without borders; 1: its target has none. */
+static inline uint32_t gls_texture_depth(const struct gls_texture *t, const struct gls_level *l)
+{
+	return t->target == GLS_TEXTURE_3D ? l->depth - 2 * l->border : t->target == GLS_TEXTURE_2D_ARRAY ? l->depth : 1;
 }
 
 /** The object bound to a target of a unit; made where there is none yet. NULL: out of memory (reported) */

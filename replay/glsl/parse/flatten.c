@@ -78,7 +78,8 @@ static uint32_t type_of(struct flat *f, const struct parse_type *type)
 		t.first = add_members(f, type->structure);
 	}
 	if (type->kind == GLSL_SAMPLER)
-		t.texture = type->texture & (PARSE_LAYERED | PARSE_INT_TEXTURE | PARSE_UINT_TEXTURE) ?
+		t.texture = type->texture == (GLSL_TEXTURE_2D | PARSE_LAYERED) ? GLSL_TEXTURE_2D_ARRAY :
+		            type->texture & (PARSE_LAYERED | PARSE_INT_TEXTURE | PARSE_UINT_TEXTURE) ?
 		                    GLSL_TEXTURE_OTHER :
 		                    dimension;
 	GROW(f, types, type_room);

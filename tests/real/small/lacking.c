@@ -7,6 +7,7 @@
 int main(void)
 {
 	const char *text = "#version 130\nvoid main() { gl_Position = ftransform(); gl_ClipDistance[0] = 1.0; }";
+	static const GLubyte texels[6 * 4];
 	GLuint shader, program, texture;
 	GLint links;
 
@@ -28,11 +29,11 @@ int main(void)
 	glEnd();
 	glPopMatrix();
 	glUseProgram(0);
-	glTexImage3D(GL_PROXY_TEXTURE_2D_ARRAY, 0, GL_RGB, 1, 1, 1, 0, GL_RGB, GL_UNSIGNED_BYTE, NULL);
+	glTexImage3D(GL_PROXY_TEXTURE_CUBE_MAP_ARRAY, 0, GL_RGB, 1, 1, 6, 0, GL_RGB, GL_UNSIGNED_BYTE, NULL);
 	glGenTextures(1, &texture);
-	glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
-	glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGB, 1, 1, 1, 0, GL_RGB, GL_UNSIGNED_BYTE, "abc");
-	glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	glBindTexture(GL_TEXTURE_CUBE_MAP_ARRAY, texture);
+	glTexImage3D(GL_TEXTURE_CUBE_MAP_ARRAY, 0, GL_RGB, 1, 1, 6, 0, GL_RGB, GL_UNSIGNED_BYTE, texels);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
 	expect(glGetError() == GL_NO_ERROR, "no error");
 	end_frame();
 	return 0;
