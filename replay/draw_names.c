@@ -8,7 +8,7 @@
 #include "scene/release.h"
 #include "scene/scene.h"
 
-/* Where references that Mesa made depart from OpenGL. */
+/* Names draws for reports, and points out where references made by Mesa depart from OpenGL. */
 static const char *known_of(const struct scene *scene, const struct scene_instance *drawn)
 {
 	const struct scene_material *m = &scene->materials[drawn->material];
@@ -21,7 +21,7 @@ static const char *known_of(const struct scene *scene, const struct scene_instan
 	return NULL;
 }
 
-/* What the scene tells of a draw: program object, the texels of its first texture, and what is known of it. */
+/* Describe a draw from the scene: its program object, the texels of its first texture, and any known departure. */
 static void describe_draw(const struct scene *scene, struct draw_name *name)
 {
 	const struct scene_instance *found = NULL;

@@ -23,8 +23,8 @@
 #include "replay/programs/program.h"
 #include "scene/release.h"
 
-#define FEW_FRAMES 8    /* a way so short is executed, without the index */
-/* frames that are built before one that needs their pixels, and how much longer the way is where they do not do */
+#define FEW_FRAMES 8    /* distances up to this are executed, without the index */
+/* Frames to rebuild first when a frame needs earlier pixels; each retry goes LONGER_BACK times further back. */
 #define FIRST_BACK 16
 #define LONGER_BACK 8
 #define ALL_BACK UINT64_MAX
@@ -44,13 +44,13 @@ struct keeping {
 struct replay {
 	struct player player;
 	char hash[33];
-	struct replay_count *counts; /* what the last query answered */
+	struct replay_count *counts; /* result of the last query */
 	size_t room;
-	struct replay_program *programs; /* the same of replay_programs */
+	struct replay_program *programs; /* result of the last replay_programs */
 	size_t programs_room;
-	int lacks_counts; /* 1: some were left out, as memory was short */
+	int lacks_counts; /* 1: some counts were left out because memory ran out */
 	struct replay_context *contexts;
-	struct index *index; /* once it was needed */
+	struct index *index; /* opened on first use */
 	struct pixels pixels;
 	uint64_t back;       /* so many frames before a wanted one are built where player.build_all is set */
 	struct keeping keeping;
@@ -120,7 +120,7 @@ static int have_index(struct replay *rp, enum index_mode mode)
 	return rp->index ? 0 : index_open(&rp->index, rp->player.path, rp->hash, mode, NULL);
 }
 
-/* has_pixels: the checkpoint is one of pixels.h */
+/* has_pixels: the checkpoint is one made by pixels.h */
 static int restore(struct replay *rp, uint64_t checkpoint, int has_pixels)
 {
 	struct gls_exec *x;
@@ -138,13 +138,13 @@ static int restore(struct replay *rp, uint64_t checkpoint, int has_pixels)
 	return rc;
 }
 
-/* Begin at the checkpoint of a frame, or (0) at the beginning of the trace. */
+/* Start at a frame's checkpoint, or, if 0, at the beginning of the trace. */
 static int begin_at(struct replay *rp, uint64_t checkpoint)
 {
 	return checkpoint ? restore(rp, checkpoint, 0) : player_start_again(&rp->player);
 }
 
-/* Go to the last checkpoint before a frame. may_stay: not where that leads back */
+/* Go to the last checkpoint before a frame. may_stay: stay where we are if the jump would lead back */
 static int jump(struct replay *rp, uint64_t frame, int may_stay)
 {
 	int rc = frame ? have_index(rp, INDEX_KEEP) : 0;
@@ -155,19 +155,19 @@ static int jump(struct replay *rp, uint64_t frame, int may_stay)
 	rc = begin_at(rp, checkpoint);
 	if (rc != ERR_INPUT || !frame)
 		return rc;
-	/* The index is damaged in a part that opening it does not read. */
+	/* A part of the index is damaged that is not read when it is opened. */
 	index_close(&rp->index);
 	rc = have_index(rp, INDEX_FORCE);
 	return rc ? rc : begin_at(rp, index_checkpoint(rp->index, frame));
 }
 
-/* Where to begin for a frame: at it, or where what it shows may be from. */
+/* Frame to start from: `frame` itself, or an earlier one whose pixels it may show. */
 static uint64_t beginning_of(const struct replay *rp, uint64_t frame)
 {
 	return !rp->player.build_all ? frame : frame > rp->back ? frame - rp->back : 0;
 }
 
-/* Why a frame takes so long, and what it waits for. */
+/* Report why a frame takes long, and how far the replay goes back. */
 static void tell_back(const struct player *p, uint64_t frame, const struct gls_feedback *found)
 {
 	err_warn(p->path,
@@ -217,7 +217,7 @@ static void begin_way(struct replay *rp)
 	rp->keeping.frame = rp->player.exec->frame;
 }
 
-/* Build all up to a frame, from where the player is now, and keep pixels on the way. As replay_next_frame */
+/* Build every frame from the player's position up to `frame`, saving pixels on the way. As replay_next_frame */
 static int play_again(struct replay *rp, uint64_t frame, int want, const struct gls_feedback *found,
                       struct scene **scene)
 {
@@ -254,8 +254,9 @@ static int jump_to_pixels(struct replay *rp, uint64_t frame)
 }
 
 /*
- * A frame needs pixels of skipped ones: build those before it, ever more of them until what it shows is known. From the
- * trace's beginning a second time where only the first one finds out that the program looks at front buffers.
+ * A frame needs pixels of skipped frames: build more and more of the frames before it, until all that it shows is
+ * known. Start over from the trace's beginning if only the first pass there finds out that the program reads front
+ * buffers.
  */
 static int go_back(struct replay *rp, uint64_t frame, int want, struct scene **scene)
 {
@@ -271,7 +272,7 @@ static int go_back(struct replay *rp, uint64_t frame, int want, struct scene **s
 		p->why = found.rewind_why;
 		p->build_all = 1;
 		if (!tried && jump_to_pixels(rp, frame)) {
-			tried = 1; /* another try would end as this one */
+			tried = 1; /* a further try would end the same way */
 			rc = 0;
 		} else {
 			rc = jump(rp, beginning_of(rp, frame), 0);
@@ -313,7 +314,7 @@ int replay_seek(struct replay *rp, uint64_t frame)
 	return rc;
 }
 
-/* A supplier that renders nothing: whatever was there before may show. */
+/* A supplier that renders nothing: earlier contents may show through. */
 static int know_nothing(void *user, const struct scene *scene, struct scene_picture *picture)
 {
 	size_t n = (size_t)scene->width * scene->height;
@@ -435,7 +436,7 @@ static int more_often(const void *a, const void *b)
 	return strcmp(l->name, r->name);
 }
 
-/* What was counted by command, and by name where the call is in no table, most frequent first. */
+/* Counts by command, and by name if the call is in no table, most frequent first. */
 static size_t collect(struct replay *rp, const uint64_t *counts,
                       const char *(*why)(const struct gls_exec *x, unsigned command), const struct table *unknown,
                       const struct replay_count **out)

@@ -10,12 +10,12 @@
 #include "replay/machine/state.h"
 #include "scene/program.h"
 
-#define MOST_TEXELS 1e6f /* from there on, floats do not tell a texel's middle from its ends */
+#define MOST_TEXELS 1e6f /* above this, floats cannot tell a texel's centre from its edges */
 
 /*
- * Texture coordinates that are the same at all of a draw's fragments. Mesa samples there exactly; interpolated ones are
- * some last bits off, which makes a pattern of noise where two texels meet. In a texel's middle that has no effect.
- * Filters that blend have no such places.
+ * Texture coordinates that are constant over a draw's fragments. Mesa samples exactly there. Interpolated ones differ
+ * in the last bits, which causes noise where two texels meet, so they are moved to the texel's centre, where this has
+ * no effect. Filters that blend texels have no such places.
  */
 static void settle(const struct scene *s, const struct scene_unit *unit, float c[4])
 {
@@ -27,7 +27,7 @@ static void settle(const struct scene *s, const struct scene_unit *unit, float c
 	    image->target == GL_TEXTURE_CUBE_MAP || memcmp(unit->matrix, mat4_identity, sizeof(unit->matrix)) != 0 ||
 	    unit->gen_mode[0] || unit->gen_mode[1] || unit->gen_mode[2] || unit->gen_mode[3])
 		return;
-	inverse = 1 / c[3]; /* as llvmpipe divides: the quotient may lie on the other side of an edge */
+	inverse = 1 / c[3]; /* as llvmpipe divides: the exact quotient may fall on the other side of an edge */
 	for (unsigned i = 0; i < 3; i++) {
 		const float size = image->target == GL_TEXTURE_RECTANGLE ? 1 : (float)sizes[i], at = c[i] * inverse * size;
 
@@ -36,7 +36,7 @@ static void settle(const struct scene *s, const struct scene_unit *unit, float c
 	}
 }
 
-/* Attributes of the mesh, and those that nothing looks at, get GL's initial values, so that more currents are equal. */
+/* Attributes that the mesh has or that nothing uses get GL's initial values, so that more currents are equal. */
 uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct scene_mesh *mesh,
                            const struct scene_material *m, const float (*values)[4])
 {

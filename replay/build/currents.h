@@ -8,6 +8,6 @@ struct gls_frame;
 struct scene_material;
 struct scene_mesh;
 
-/** Attributes that the mesh does not have and the material looks at: their place in the scene. */
+/** Store the attributes that the material uses and the mesh lacks. @return their index in the scene */
 uint32_t gls_frame_current(struct gls_exec *x, struct gls_frame *f, const struct scene_mesh *mesh,
                            const struct scene_material *m, const float (*values)[4]);

@@ -1,4 +1,4 @@
-/* The events of a surface become a scene (scene/scene.h). */
+/* Turns the events of a surface into a scene (scene/scene.h). */
 #include "replay/build/frame.h"
 
 #include <stdlib.h>
@@ -21,9 +21,9 @@
 #include "scene/before.h"
 #include "scene/release.h"
 
-/* The caller of replay_next_frame and surfaces hold references. */
+/* A scene with a reference count: the caller of replay_next_frame and surfaces hold references. */
 struct gls_scene {
-	struct scene scene; /* first */
+	struct scene scene; /* must be first */
 	atomic_uint refs;
 };
 
@@ -45,7 +45,7 @@ uint32_t gls_frame_mesh(struct gls_exec *x, struct gls_frame *f, struct gls_mesh
 	return mesh->slot;
 }
 
-/* st: its programs run the draws; NULL: they are no draws that programs run */
+/* st: its programs run the draws; NULL: not draws that programs run */
 static int name_draws(const struct gls_exec *x, struct gls_frame *f, const struct gls_state *st, uint32_t command,
                       uint64_t call_number, uint32_t n)
 {
@@ -64,7 +64,7 @@ static int name_draws(const struct gls_exec *x, struct gls_frame *f, const struc
 	return 0;
 }
 
-/* The buffers that a draw of this material reads; bits as in scene_clear. */
+/* The buffers that a draw with this material reads; bits as in scene_clear. */
 static uint32_t looks_at(const struct scene_material *m)
 {
 	return (m->color_mask ? 1u : 0) | (m->depth_test && m->depth_func != GL_ALWAYS ? 2u : 0) | (m->stencil_test ? 4u : 0);
@@ -72,27 +72,27 @@ static uint32_t looks_at(const struct scene_material *m)
 
 static struct gls_frame *frame_of(struct gls_exec *x, struct gls_surface *surface);
 
-/* 1 if a clear reaches all of the surface. */
+/* 1 if a clear covers the whole surface. */
 static int covers(const struct gls_surface *d, const struct scene_clear *clear)
 {
 	return !clear->scissor[0] && !clear->scissor[1] && (uint32_t)clear->scissor[2] >= d->width &&
 	       (uint32_t)clear->scissor[3] >= d->height;
 }
 
-/* 1 if nothing of the surface's depths remains. */
+/* 1 if a clear replaces all depths. */
 static int clears_depth(const struct gls_surface *d, const struct scene_clear *clear)
 {
 	return covers(d, clear) && (!d->depth_bits || clear->buffers & 2);
 }
 
-/* 1 if nothing of its depths and colours remains. */
+/* 1 if a clear replaces all depths and colours. */
 static int clears_all(const struct gls_surface *d, const struct scene_clear *clear)
 {
 	return clears_depth(d, clear) && clear->buffers & 1 && (clear->color_mask & 7) == 7 &&
 	       (!d->alpha_bits || clear->color_mask & 8);
 }
 
-/* 1 if nothing of its stencil values remains. */
+/* 1 if a clear replaces all stencil values. */
 static int clears_stencil(const struct gls_surface *d, const struct scene_clear *clear)
 {
 	return !d->stencil_bits || (clear->buffers & 4 && (clear->stencil_mask & 255) == 255);
@@ -116,8 +116,8 @@ static struct gls_frame *make_frame(struct gls_exec *x);
 static void free_frame(struct gls_frame *f);
 
 /*
- * Nothing that was drawn shows any more. Begin with an empty scene, so that old draws cast no shadows. Draws keep their
- * numbers and names; clears keep what they did to the stencil buffer.
+ * Nothing drawn so far is visible any more. Start an empty scene, so that old draws cast no shadows. Draws keep their
+ * numbers and names; clears keep their effect on the stencil buffer.
  */
 static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 {
@@ -126,7 +126,7 @@ static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 
 	if (!f)
 		return;
-	/* Nothing looked at the stencil buffer in between: what counts is from the last clear of all of it on. */
+	/* Nothing read the stencil buffer in between, so only events since its last complete clear matter. */
 	while (first > 0 && !(covers(d, &old->out->clears[--first]) && clears_stencil(d, &old->out->clears[first])))
 		;
 	for (uint32_t i = first; i < old->out->n_clears; i++) {
@@ -153,7 +153,7 @@ static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 	free_frame(old);
 }
 
-/* The same, where the stencil buffer still has what some draws did to it: these stay. */
+/* As forget_drawn, if the stencil buffer still has the effect of some draws: these are kept. */
 static void forget_colors(struct gls_frame *f)
 {
 	struct scene *s = f->out;
@@ -179,7 +179,7 @@ static void forget_colors(struct gls_frame *f)
 	s->n_instances = kept;
 }
 
-/* Make a frame's last instance a rectangle. */
+/* Turn a frame's last instance into a rectangle. */
 static void add_rectangle(struct gls_exec *x, struct gls_frame *f, const struct gls_event *e)
 {
 	struct scene *s = f->out;
@@ -268,15 +268,16 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	clear.floats = d->floats;
 	if (d->srgb && st->a.color.framebuffer_srgb)
 		gls_encode_color(clear.color);
-	if (!st->a.depth.write) /* masks count for Clear too (sec. 4.2.3) */
+	if (!st->a.depth.write) /* write masks apply to Clear as well (sec. 4.2.3) */
 		clear.buffers &= ~2u;
 	clear.depth = st->a.depth.clear;
 	clear.stencil = st->a.stencil.clear;
 	clear.stencil_mask = st->a.stencil.side[0].write_mask;
 	if (d->frame && !target->colored && !d->frame->colored && clears_depth(d, &clear) && clears_stencil(d, &clear)) {
-		gls_frame_drop(d); /* colours are still those that it began with */
+		gls_frame_drop(d); /* colours still have their initial values */
 	} else if (clears_all(d, &clear)) {
-		if (st->draw_framebuffer && clears_stencil(d, &clear)) /* nobody looks at its draw numbers: they need not pile up */
+		if (st->draw_framebuffer && clears_stencil(d, &clear)) /* nobody reads a framebuffer object's draw
+		                                                          numbers: they need not accumulate */
 			gls_frame_drop(d);
 		else if (d->frame && d->frame->out->n_instances && (clears_stencil(d, &clear) || !has_stencil(d->frame->out)))
 			forget_drawn(x, d);
@@ -301,7 +302,7 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	                (const uint32_t[2]){ d->width, d->height }, clear.scissor);
 }
 
-/* ---- a frame's beginning and end ---- */
+/* ---- beginning and end of a frame ---- */
 
 static void free_frame(struct gls_frame *f)
 {
@@ -341,8 +342,10 @@ static void release_reference(struct scene *s)
 	free(s);
 }
 
-/* Of scenes, whichever state machine makes them: a replay that goes back has another one, and the same supplier
- * (picture_recall). */
+/*
+ * Serial numbers are unique across state machines: a replay that goes back uses another machine with the same supplier
+ * (picture_recall).
+ */
 static uint64_t next_serial(void)
 {
 	static atomic_ullong last;
@@ -375,7 +378,7 @@ fail:
 	return NULL;
 }
 
-/* The events of a surface; NULL: out of memory. */
+/* The frame of a surface; NULL: out of memory. */
 static struct gls_frame *frame_of(struct gls_exec *x, struct gls_surface *surface)
 {
 	if (!surface->frame)
@@ -383,7 +386,7 @@ static struct gls_frame *frame_of(struct gls_exec *x, struct gls_surface *surfac
 	return surface->frame;
 }
 
-/* Frame, surface and counts of the scene so far. */
+/* Fill in the frame, surface and counts of the scene so far. */
 static void describe(struct gls_exec *x, const struct gls_surface *surface, struct gls_frame *f)
 {
 	struct scene *s = f->out;
@@ -459,7 +462,7 @@ void gls_frame_keep_snapshot(struct gls_surface *surface, struct gls_picture *p,
 	f->snapshot_in_part = in_part;
 }
 
-/* Tests of draws may have looked anywhere; colours count only where they are read. */
+/* Tests of draws may have read anywhere; colours matter only where they are read. */
 int gls_frame_knows(const struct gls_surface *surface, const struct gls_area *area)
 {
 	const struct gls_frame *f = surface->frame;

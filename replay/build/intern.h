@@ -1,5 +1,7 @@
-/* The arrays of a scene: equal values are stored once. Where memory is short the replay ends after this call
- * (gls_fail): it is asked once, where a draw is added (frame.c). */
+/*
+ * The arrays of a scene: equal values are stored once. If memory runs out the replay ends after this call (gls_fail);
+ * the one place that checks is where a draw is added (frame.c).
+ */
 #pragma once
 
 #include <stddef.h>
@@ -19,6 +21,6 @@ int gls_append(void *array, uint32_t *n, uint32_t *room, const void *items, uint
  */
 uint32_t gls_intern(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value,
                     size_t size);
-/** The same for values that must lie together. @return the first one's index; 0 if count is 0 */
+/** As gls_intern, for values that must be contiguous. @return index of the first; 0 if count is 0 */
 uint32_t gls_intern_array(struct gls_exec *x, struct table *t, void *array, uint32_t *n, uint32_t *room,
                           const void *values, uint32_t count, size_t size);

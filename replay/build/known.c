@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* From x0, y0 up to x1, y1. */
+/* From x0, y0 up to, but excluding, x1, y1. */
 struct box {
 	int64_t x0, y0, x1, y1;
 };
@@ -12,7 +12,7 @@ static struct box box_of(const int32_t part[4])
 	return (struct box){ part[0], part[1], (int64_t)part[0] + part[2], (int64_t)part[1] + part[3] };
 }
 
-/* 1 where the first n parts together cover a box: what the last one leaves of it, the others must. */
+/* 1 if the first n parts together cover a box: the others must cover what the last one leaves uncovered. */
 static int is_covered(const struct box *b, const int32_t (*parts)[4], uint32_t n)
 {
 	struct box p, left[4];

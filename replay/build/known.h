@@ -1,7 +1,7 @@
 /*
- * Which pixels of a surface are known without what was there before: those that clears have reached, by buffer. Whole
- * clears are a bit; clears of parts (one viewport of several, a corner that becomes a texture) are kept as rectangles,
- * as far as there is room. What finds no room counts as not known.
+ * The pixels of a surface that do not depend on earlier contents, by buffer: those that clears have covered. A complete
+ * clear is a bit; partial clears (one viewport of several, a corner that becomes a texture) are kept as rectangles
+ * while there is room. The rest counts as unknown.
  */
 #pragma once
 
@@ -11,18 +11,20 @@
 
 /* All zero: nothing is known. */
 struct gls_known {
-	uint32_t whole; /* buffers, bits as in scene_clear */
-	uint32_t n[3];  /* of parts, of each buffer */
+	uint32_t whole; /* buffers known completely, bits as in scene_clear */
+	uint32_t n[3];  /* number of parts, by buffer */
 	int32_t parts[3][GLS_KNOWN_PARTS][4]; /* x, y, width, height */
 };
 
 /**
- * A clear.
- * @param buffers  that it sets whatever they held
+ * Note a clear.
+ * @param buffers  buffers that it sets completely, whatever they held
  * @param all      the surface's width and height
- * @param part     x, y, width, height of what it reaches
+ * @param part     x, y, width, height of the area it covers
  */
 void gls_known_clear(struct gls_known *k, uint32_t buffers, const uint32_t all[2], const int32_t part[4]);
 
-/** Those of `buffers` that are not known in all of a rectangle (x, y, width, height); an empty one is known. */
+/**
+ * The members of `buffers` that are not known everywhere in a rectangle (x, y, width, height); an empty one is known.
+ */
 uint32_t gls_known_lacks(const struct gls_known *k, uint32_t buffers, const int32_t part[4]);

@@ -38,9 +38,9 @@ void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *sciss
 }
 
 /*
- * Views share their eye space (scene.h) where their viewport rectangles are equal. A parallel projection has no eye: it
- * shares coordinates only with views that show x and y alike, so that a window's are not the world's. Programs bring
- * matrices of their own, and GL's then tell nothing.
+ * Views with equal viewport rectangles share their eye space (scene.h). A parallel projection has no eye: it shares
+ * coordinates only with views that show the same x and y, so that window coordinates are not confused with the world's.
+ * Programs use matrices of their own, and GL's say nothing about those.
  */
 static uint32_t space_of(struct gls_exec *x, struct gls_frame *f, const struct scene_view *view, int is_programmed)
 {
@@ -60,7 +60,7 @@ static uint32_t space_of(struct gls_exec *x, struct gls_frame *f, const struct s
 	return (uint32_t)(found - 1);
 }
 
-/* Window coordinates, depth included, as the eye's. */
+/* A view whose eye coordinates are window coordinates, depth included. */
 static void fill_window_view(const struct gls_surface *surface, struct scene_view *view)
 {
 	const float width = (float)surface->width, height = (float)surface->height;
@@ -154,7 +154,7 @@ static uint32_t pack_swizzle(const uint32_t token[4])
 	return packed == (1u << 3 | 2u << 6 | 3u << 9) ? 0 : packed | SCENE_SWIZZLED;
 }
 
-/* The matrix of coordinates that are not there: 0, 0, 0, q. */
+/* The matrix used if there are no coordinates: 0, 0, 0, q. */
 static const float no_coordinates[16] = { [15] = 1 };
 
 static int blends_smaller(uint32_t min_filter)
@@ -162,17 +162,17 @@ static int blends_smaller(uint32_t min_filter)
 	return min_filter == GL_LINEAR || min_filter == GL_LINEAR_MIPMAP_NEAREST || min_filter == GL_LINEAR_MIPMAP_LINEAR;
 }
 
-/* What coordinates are generated of, and what they go through. */
+/* How coordinates are generated and transformed. */
 static void fill_coordinates(const struct gls_unit *unit, const float *matrix, struct scene_unit *out)
 {
 	for (unsigned i = 0; i < 4; i++)
 		out->gen_mode[i] = unit->gen_enabled >> i & 1 ? unit->value.gen_mode[i] : 0;
 	memcpy(out->matrix, matrix, 64);
-	if (matrix == no_coordinates) /* llvmpipe divides 0 by 0 there, and takes the filter of what is made smaller */
+	if (matrix == no_coordinates) /* llvmpipe divides 0 by 0 there, and uses the minification filter */
 		out->mag_filter = blends_smaller(out->min_filter) ? GL_LINEAR : GL_NEAREST;
 }
 
-/* target: -1: none; matrix: of the unit's coordinates.  @return 1 if the unit textures */
+/* target: -1: none; matrix: the unit's texture matrix.  @return 1 if the unit is textured */
 static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_unit *unit,
                      int target, const float *matrix, struct scene_unit *out)
 {
@@ -208,7 +208,7 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	return 1;
 }
 
-/* Let fixed function pass a unit by. */
+/* Disable a unit for fixed function. */
 static void pass_by(struct scene_unit *unit)
 {
 	unit->env_mode = GL_COMBINE;
@@ -219,8 +219,8 @@ static void pass_by(struct scene_unit *unit)
 }
 
 /*
- * A program samples black from a unit that has no texture, or no complete one. What
- * stands in for the program where it does not run passes the unit by.
+ * A program samples black from a unit without a complete texture. Where fixed function replaces a program that is not
+ * run, the unit is disabled.
  */
 static void fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls_unit *unit, const float *matrix,
                        struct scene_unit *out)
@@ -240,8 +240,8 @@ static void fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls
 }
 
 /*
- * The matrix of a unit's coordinates. Mesa leaves coordinates that sprites replace to the sprites: they are all 0 where
- * something else than a point is drawn while POINT_SPRITE is enabled, unless a program places the vertices.
+ * The matrix of a unit's coordinates. Mesa leaves coordinates that sprites replace to the sprites: if POINT_SPRITE is
+ * enabled and something other than a point is drawn, they are all 0, unless a program positions the vertices.
  */
 static const float *coordinate_matrix(const struct gls_state *st, const struct gls_event *e, unsigned u,
                                       const struct program_stage *vertices)
@@ -255,9 +255,8 @@ static const float *coordinate_matrix(const struct gls_state *st, const struct g
 }
 
 /*
- * The units that a draw looks at.
- * program: that shades it; vertices: that places it; NULL: none
- * @return how many
+ * Fill in the units that a draw uses. program: the fragment program; vertices: the vertex program; NULL: none
+ * @return number of units
  */
 static uint32_t fill_units(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_event *e,
                            const struct program_stage *program, const struct program_stage *vertices,
@@ -288,7 +287,7 @@ static uint32_t fill_units(struct gls_exec *x, struct gls_frame *f, struct gls_s
 	return n;
 }
 
-/* Numbers of the state are clamped for drawables that could hold no others (ARB_color_buffer_float). */
+/* State values are clamped unless the drawable can hold values outside [0,1] (ARB_color_buffer_float). */
 static float clamped(float value, uint32_t unclamped)
 {
 	return unclamped ? value : value < 0 ? 0 : value > 1 ? 1 : value;
@@ -309,7 +308,7 @@ static uint32_t unclamped_by(const struct gls_attribs *a, const struct gls_surfa
 	return fragments | vertices << 1;
 }
 
-/* which: 1 << number */
+/* which: bit set of lights, 1 << number */
 static uint32_t fill_lights(struct gls_exec *x, struct gls_frame *f, const struct gls_lighting *l, uint32_t which,
                             uint32_t *count)
 {
@@ -343,8 +342,8 @@ static uint32_t fill_stipple(struct gls_exec *x, struct gls_frame *f, const stru
 }
 
 /*
- * color: the current one, which vertices may have instead; covered: 1: they have none, and the material's own has come
- * over it (gl/geometry/waiting.h)
+ * color: the current colour, which vertices may override; covered: 1: they do not, and the material's own colour has
+ * replaced it (gl/geometry/waiting.h)
  */
 static void fill_lighting(const struct gls_lighting *l, const float color[4], int covered, struct scene_material *m)
 {
@@ -401,7 +400,8 @@ static void fill_raster_state(const struct gls_attribs *a, int is_mesa, struct s
 	m->polygon_mode_back = a->polygon.mode[1];
 	m->polygon_offset = (a->polygon.offset_point ? 1u : 0) | (a->polygon.offset_line ? 2u : 0) |
 	                    (a->polygon.offset_fill ? 4u : 0);
-	if (m->polygon_offset && is_mesa && !gls_draws_by_stages(a)) /* its setup asks for none of the three */
+	if (m->polygon_offset && is_mesa && !gls_draws_by_stages(a)) /* llvmpipe's triangle setup checks none of the
+	                                                                three enables */
 		m->polygon_offset |= 4;
 	m->polygon_offset_factor = a->polygon.offset_factor;
 	m->polygon_offset_units = a->polygon.offset_units;
@@ -423,7 +423,7 @@ static void fill_raster_state(const struct gls_attribs *a, int is_mesa, struct s
 }
 
 /*
- * Multisampling (sec. 3.2.1) replaces smoothing. GL leaves open which samples SAMPLE_COVERAGE keeps; Mesa keeps the
+ * Multisampling (sec. 3.2.1) replaces smoothing. GL does not say which samples SAMPLE_COVERAGE keeps; Mesa keeps the
  * first ones (st_update_sample_state).
  */
 static void fill_multisample(const struct gls_multisample *a, const struct gls_surface *d, struct scene_material *m)
@@ -441,7 +441,7 @@ static void fill_multisample(const struct gls_multisample *a, const struct gls_s
 	}
 }
 
-/* What a vertex program takes the place of. */
+/* The state that a vertex program replaces. */
 static void fill_vertex_stage(const struct gls_state *st, const struct program_code *code, struct scene_material *m)
 {
 	static const float attenuation[3] = { 1, 0, 0 };
@@ -452,7 +452,7 @@ static void fill_vertex_stage(const struct gls_state *st, const struct program_c
 	memcpy(m->point_attenuation, attenuation, sizeof(attenuation));
 }
 
-/* 1 where material parameters that waited count in place of the colour that COLOR_MATERIAL has them follow. */
+/* 1 if waiting material parameters override the colour that COLOR_MATERIAL makes them follow. */
 static int covers_color(const struct gls_state *st, const struct gls_event *e)
 {
 	return st->waiting.covers && !(st->mesa & SCENE_MESA_TRACKS_COLORS) && !st->waiting.colored && !e->mesh->mesh.color;

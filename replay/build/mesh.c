@@ -8,7 +8,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-#define MESH_KEEP_FRAMES 120             /* frames that an unused mesh is kept */
+#define MESH_KEEP_FRAMES 120             /* number of frames that an unused mesh is kept */
 #define MESH_KEEP_BYTES ((size_t)64 << 20) /* cache size below which nothing is dropped */
 
 static void hash_attribute(XXH3_state_t *hash, const float *values, uint32_t n, unsigned width)
@@ -70,7 +70,7 @@ static struct gls_mesh *build(const struct gls_geometry *g, XXH128_hash_t hash)
 	if (!m)
 		return NULL;
 	memset(m, 0, sizeof(*m));
-	memset((uint8_t *)m + bytes - 64, 0, 64); /* what rounding up left over: equal meshes are equal bytes */
+	memset((uint8_t *)m + bytes - 64, 0, 64); /* padding, so that equal meshes have equal bytes */
 	mesh = &m->mesh;
 	arrays[GLS_ATTR_NORMAL] = &mesh->normal;
 	arrays[GLS_ATTR_COLOR] = &mesh->color;
@@ -152,7 +152,7 @@ void gls_mesh_release(struct gls_mesh *mesh)
 		free(mesh);
 }
 
-/* Drop meshes that the cache alone holds and nobody drew for some frames; all: every mesh. */
+/* Drop meshes that only the cache holds and that were not drawn for some frames; all: every mesh. */
 static void drop_unused(struct gls_exec *x, int all)
 {
 	for (size_t i = 0; i < x->caches.meshes.room;) {
@@ -163,12 +163,12 @@ static void drop_unused(struct gls_exec *x, int all)
 			continue;
 		}
 		x->caches.mesh_bytes -= m->bytes;
-		table_remove(&x->caches.meshes, e.key); /* may move another one into this place: look again */
+		table_remove(&x->caches.meshes, e.key); /* may move another entry here: look at this place again */
 		gls_mesh_release(m);
 	}
 }
 
-/* Array draws remember meshes by key, without references (array_draw.c). Forget those first. */
+/* Array draws refer to meshes by key, without references (array_draw.c). Drop those entries first. */
 static void forget_draws(struct gls_exec *x)
 {
 	table_free(&x->caches.draws);

@@ -30,7 +30,7 @@ static const float *light_color(const struct scene_light *light, uint32_t part)
 	return part == GLS_AMBIENT ? light->ambient : part == GLS_DIFFUSE ? light->diffuse : light->specular;
 }
 
-/* x y z of length 1. */
+/* Scale x y z to length 1. */
 static void normalize(float v[3])
 {
 	const float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -53,10 +53,11 @@ static void fill_light(const struct scene_light *light, uint32_t part, float out
 	case PROGRAM_LIGHT_DIRECTION:
 		memcpy(out, light->spot_direction_eye, 12);
 		normalize(out);
-		out[3] = fmaxf(cosf(light->spot_cutoff_deg * (float)(3.14159265358979323846 / 180)), 0); /* as Mesa (22.3.6) has it */
+		out[3] = fmaxf(cosf(light->spot_cutoff_deg * (float)(3.14159265358979323846 / 180)), 0); /* as in Mesa
+		                                                                                            (22.3.6) */
 		break;
 	case PROGRAM_LIGHT_CUTOFF: out[0] = light->spot_cutoff_deg; break;
-	default: /* half-way between the light and the viewer, both at infinity */
+	default: /* halfway between the light and the viewer, both at infinity */
 		memcpy(out, light->position_eye, 12);
 		normalize(out);
 		out[2] += 1;
@@ -87,7 +88,7 @@ static void fill_matrix(const struct gls_state *st, const struct program_constan
 		out[k] = c->part & PROGRAM_TRANSPOSED ? m[4 * c->row + k] : m[4 * k + c->row];
 }
 
-/* The colour that a face has where no light falls, emission included. */
+/* A face's colour without any light, emission included. */
 static void fill_scene_color(const struct gls_lighting *l, const struct scene_face *face, float out[4])
 {
 	for (unsigned k = 0; k < 3; k++)
@@ -160,13 +161,13 @@ static void fill(const struct gls_state *st, const struct gls_attribs *a, const 
 	}
 }
 
-/* A size of points counts where the state says so. */
+/* A program's point size counts only if the state enables it. */
 static uint32_t outputs_of(const struct gls_state *st, const struct program_code *code)
 {
 	return st->a.programs.point_size ? code->outputs : code->outputs & ~(1u << SCENE_RESULT_POINT_SIZE);
 }
 
-/* Textures are looked up by their units, which samplers hold. */
+/* Samplers hold texture units: look textures up by them. */
 static void name_units(const struct program_stage *stage, struct scene_instruction *instructions)
 {
 	for (uint32_t i = 0; i < stage->code->n_instructions; i++)

@@ -1,4 +1,4 @@
-/* What a draw saw of its programs: each with the numbers of its constants. */
+/* The programs of a draw, each with the values of its constants. */
 #pragma once
 
 #include <stdint.h>
@@ -10,15 +10,15 @@ struct program_stage;
 struct gls_state;
 
 /**
- * 1 where what is drawn is shaded flat. Programs in assembly know no flat colours before Mesa 25.0, and only those that
- * read colours do then.
+ * 1 if draws are flat shaded. Assembly programs ignore flat shading before Mesa 25.0; from then on it applies only to
+ * those that read colours.
  */
 int gls_shades_flat(const struct gls_state *st);
 
 /**
- * Put a stage's program into the scene of a frame, with its constants as they are now.
+ * Put a stage's program into the scene of a frame, with the present values of its constants.
  * @param lights  1 << number of each in the material's list
- * @return 1 + where it begins in scene.programs; 0: out of memory (gls_fail)
+ * @return 1 + its first index in scene.programs; 0: out of memory (gls_fail)
  */
 uint32_t gls_program_build(struct gls_exec *x, struct gls_frame *f, const struct gls_state *st,
                            const struct gls_attribs *a, const struct program_stage *stage, uint32_t lights);

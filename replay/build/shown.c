@@ -1,4 +1,4 @@
-/* Events of one surface in place of another's last. */
+/* Replace the last event of a surface by the events of another one. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-/* How a scene is appended to another: the place of its window, and the first index of each array. */
+/* A scene being appended to another: where its window goes, and the first index of each array. */
 struct placed {
 	struct gls_frame *into;
 	const struct scene *from;
@@ -61,7 +61,7 @@ static int place_materials(const struct placed *p)
 	return err ? ERR_SYSTEM : 0;
 }
 
-/* A part of the one window, cut to the other's place in it. */
+/* Clip a scissor rectangle to its window, and move it to the window's place in the surface. */
 static void move_scissor(const struct placed *p, int32_t scissor[4])
 {
 	for (int k = 0; k < 2; k++) {
@@ -85,7 +85,7 @@ static int place_views(const struct placed *p)
 		s->views[i].viewport[1] += (float)p->rect[1];
 		move_scissor(p, s->views[i].scissor);
 		s->views[i].space = (uint32_t)space;
-		/* no draw of the window's finds them: nothing else has such keys */
+		/* these keys are used nowhere else, so that no draw of the window finds them */
 		if (table_set(&p->into->spaces, ((uint64_t)p->into->serial << 32) + space + 1, (void *)(space + 1)))
 			return ERR_SYSTEM;
 	}
@@ -179,7 +179,7 @@ int gls_frame_put(struct gls_exec *x, struct gls_surface *surface, const struct 
 	struct placed p = { .into = f, .from = drawn, .rect = rect };
 	int err;
 
-	/* depth and stencil values of the picture's draws begin as an object's do, not as the window's are */
+	/* initial depth and stencil values are those of a framebuffer object, not the window's */
 	before.depth = 1;
 	before.stencil = 0;
 	if (depth)

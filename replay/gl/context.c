@@ -1,4 +1,4 @@
-/* Contexts, their state with the initial values of GL 2.1 chapter 6, and what they share. */
+/* Contexts, their state with the initial values of GL 2.1 chapter 6, and the objects they share. */
 #include "replay/gl/context.h"
 
 #include <stdlib.h>
@@ -58,7 +58,7 @@ static void init_unit(struct gls_unit *unit, uint32_t index)
 	v->env_mode = GL_MODULATE;
 	v->combine_rgb = v->combine_alpha = GL_MODULATE;
 	for (unsigned i = 0; i < 4; i++) {
-		/* the fourth as Mesa has it */
+		/* the fourth as in Mesa */
 		static const uint32_t sources[] = { GL_TEXTURE, GL_PREVIOUS, GL_CONSTANT, GL_CONSTANT };
 		v->source_rgb[i] = v->source_alpha[i] = sources[i];
 		v->operand_rgb[i] = i < 2 ? GL_SRC_COLOR : GL_SRC_ALPHA;
@@ -148,7 +148,7 @@ struct gls_share *gls_share_create(void)
 	return share;
 }
 
-/* One context fewer. */
+/* Drop the reference of one context. */
 static void release_share(struct gls_share *share)
 {
 	if (--share->refs)

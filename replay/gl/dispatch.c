@@ -1,4 +1,4 @@
-/* Calls to handlers: what a command's kind asks for happens here. On top of all chapters. */
+/* Dispatches calls to handlers, and does what a command's kind requires. The top layer of the chapters. */
 #include "replay/gl/dispatch.h"
 
 #include <stdlib.h>
@@ -26,7 +26,7 @@
 
 enum { OUTSIDE = 1, DRAW_PENDING = 2, STALE = 4 };
 
-/* glEnable and glDisable of what is switched so already. */
+/* 1 for a glEnable or glDisable that changes nothing. */
 static int changes_nothing(struct gls_state *st, const struct call *c, uint32_t command)
 {
 	const int enables = gls_handlers[command] == gls_glEnable;
@@ -36,7 +36,7 @@ static int changes_nothing(struct gls_state *st, const struct call *c, uint32_t 
 
 static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack)
 {
-	/* What each kind asks for (commands.h); all of it means outside Begin/End. */
+	/* Requirements of each kind (commands.h); they apply outside Begin/End. */
 	static const uint8_t rules[] = {
 		[GLS_KIND_STATE] = OUTSIDE | DRAW_PENDING | STALE, [GLS_KIND_MATRIX] = OUTSIDE | DRAW_PENDING,
 		[GLS_KIND_ARRAY] = OUTSIDE | DRAW_PENDING, [GLS_KIND_NOW] = OUTSIDE,
@@ -70,7 +70,7 @@ static int is_kept_in_lists(uint32_t kind)
 static int switch_thread(struct gls_exec *x, uint64_t thread)
 {
 	if (thread >= MAX_THREADS)
-		return err_report(ERR_INPUT, x->path, "call %llu: thread number %llu makes no sense",
+		return err_report(ERR_INPUT, x->path, "call %llu: thread number %llu is invalid",
 		                  (unsigned long long)x->call->number, (unsigned long long)thread);
 	if (x->st)
 		gls_flush(x);
@@ -131,7 +131,7 @@ int gls_exec_call(struct gls_exec *x, const struct call *c)
 	return x->failed;
 }
 
-/* ---- life ---- */
+/* ---- creation and destruction ---- */
 
 int gls_exec_create(struct gls_exec **out, const char *path)
 {

@@ -7,7 +7,7 @@
 #include "replay/glsl/operators.h"
 #include "replay/glsl/state.h"
 
-#define MAX_DEPTH 600 /* of expressions and statements, functions' own included */
+#define MAX_DEPTH 600 /* nesting of expressions and statements, including those of called functions */
 
 static const struct glsl_node *node_of(const struct glsl_writer *w, uint32_t node)
 {
@@ -36,7 +36,7 @@ bool glsl_has_effects(const struct glsl_writer *w, uint32_t node)
 	return false;
 }
 
-/* Numbers that nothing changes any more. */
+/* A copy of a value in registers that no assignment changes. */
 static struct glsl_value kept(struct glsl_writer *w, const struct glsl_value *v)
 {
 	struct glsl_value copy = glsl_fresh(w, v->type);
@@ -54,7 +54,7 @@ static struct glsl_value of_numbers(struct glsl_writer *w, uint32_t type, uint32
 	struct glsl_value v = glsl_value_of(w, type, n);
 
 	if (first + n > w->tree->n_numbers)
-		glsl_fail(w, "a shader's constants are not whole");
+		glsl_fail(w, "a shader's constants are incomplete");
 	else if (v.at)
 		glsl_numbers(w, w->tree->numbers + first, n, v.at);
 	return v;
@@ -84,11 +84,11 @@ struct glsl_value glsl_variable(struct glsl_writer *w, uint32_t symbol)
 		*v = glsl_fresh(w, s->type);
 	}
 	if (!v->at)
-		glsl_fail_at(w, "a shader has the variable ", name, ", which is not done");
+		glsl_fail_at(w, "a shader has the variable ", name, ", which is not supported");
 	return *v;
 }
 
-/* --- Places ------------------------------------------------------------------------------------------------------ */
+/* --- Assignable places ------------------------------------------------------------------------------------------ */
 
 static struct glsl_value slice(struct glsl_writer *w, const struct glsl_value *v, uint32_t type, uint32_t first)
 {
@@ -101,7 +101,7 @@ static struct glsl_value slice(struct glsl_writer *w, const struct glsl_value *v
 	return (struct glsl_value){ type, n, v->at + first };
 }
 
-/* Numbers of one element of what is indexed. */
+/* Number of floats per element of an indexed type. */
 static uint32_t stride_of(const struct glsl_writer *w, uint32_t type)
 {
 	const struct glsl_type *t = glsl_type_of(w, type);
@@ -109,7 +109,7 @@ static uint32_t stride_of(const struct glsl_writer *w, uint32_t type)
 	return t->kind == GLSL_ARRAY ? glsl_type_of(w, t->first)->numbers : t->columns ? t->rows : 1;
 }
 
-/* An element that is chosen when the program runs: all elements must lie equally far from each other. */
+/* Index an element at run time: all elements must be evenly spaced. */
 static void choose_element(struct glsl_writer *w, struct glsl_place *p, uint32_t type, uint32_t index)
 {
 	const uint32_t stride = stride_of(w, p->value.type), n = glsl_type_of(w, type)->numbers;
@@ -123,7 +123,7 @@ static void choose_element(struct glsl_writer *w, struct glsl_place *p, uint32_t
 	for (uint32_t i = 0; i < count; i++)
 		for (uint32_t k = 0; k < n; k++)
 			if (p->value.at[i * stride + k] != first.at[k] + i * step || step > 4096) {
-				glsl_fail(w, "a shader indexes what lies in several places");
+				glsl_fail(w, "a shader indexes a value whose elements are not evenly spaced");
 				return;
 			}
 	offset = glsl_one(w, SCENE_OP_MULTIPLY, index, glsl_number(w, (float)step), 0);
@@ -133,7 +133,7 @@ static void choose_element(struct glsl_writer *w, struct glsl_place *p, uint32_t
 	p->offset = offset;
 	p->value = first;
 	if (p->limit > 0xffff)
-		glsl_fail(w, "a shader has a larger array than is done");
+		glsl_fail(w, "a shader has an array that is too large");
 }
 
 static struct glsl_place index_of(struct glsl_writer *w, const struct glsl_node *n)
@@ -154,7 +154,7 @@ static struct glsl_place index_of(struct glsl_writer *w, const struct glsl_node 
 	}
 	index = glsl_expression(w, child(w, n, 1));
 	if (!glsl_stopped(w) && glsl_type_of(w, n->type)->kind == GLSL_SAMPLER)
-		glsl_fail(w, "a shader chooses a sampler when it runs");
+		glsl_fail(w, "a shader indexes samplers dynamically");
 	if (!glsl_stopped(w))
 		choose_element(w, &p, n->type, index.at[0]);
 	return p;
@@ -199,8 +199,7 @@ struct glsl_place glsl_place_of(struct glsl_writer *w, uint32_t node)
 	}
 }
 
-/* Numbers of a place whose element is chosen at run time, a row of them at a time. @return how many from `first` on are
- * one */
+/* A place with a run-time index is accessed one row at a time. @return number of consecutive numbers from `first` on */
 static uint32_t row_of(const struct glsl_value *v, uint32_t first)
 {
 	uint32_t n = 1;
@@ -234,12 +233,13 @@ void glsl_store(struct glsl_writer *w, const struct glsl_place *p, const struct 
 	if (glsl_stopped(w))
 		return;
 	if (p->value.n != v->n || p->value.at[0] >= SCENE_PROGRAM_CONSTANT) {
-		glsl_fail(w, "a shader assigns what cannot be assigned");
+		glsl_fail(w, "a shader assigns to something that is not a variable");
 		return;
 	}
 	if (p->offset == GLSL_NONE) {
 		glsl_copy(w, p->value.at, v->at, v->n);
-		w->barrier = w->code->n_instructions; /* what comes next may read the variable, which must not go elsewhere */
+		w->barrier = w->code->n_instructions; /* later code may read the variable, so its last write must not be
+		                                         redirected */
 		return;
 	}
 	for (uint32_t i = 0; i < v->n; i++)
@@ -253,7 +253,7 @@ void glsl_store(struct glsl_writer *w, const struct glsl_place *p, const struct 
 
 /* --- Conversions and constructors -------------------------------------------------------------------------------- */
 
-/* Numbers of one kind as those of another. */
+/* Convert numbers of one kind to another. */
 static struct glsl_value converted(struct glsl_writer *w, const struct glsl_value *v, uint32_t kind)
 {
 	const struct glsl_type *from = glsl_type_of(w, v->type);
@@ -311,7 +311,7 @@ static struct glsl_value construct(struct glsl_writer *w, uint32_t type, struct 
 		for (uint32_t k = 0; k < a[i].n && at < v.n; k++)
 			v.at[at++] = a[i].at[k];
 	if (at < v.n)
-		glsl_fail(w, "a shader constructs a value of too few numbers");
+		glsl_fail(w, "a shader has a constructor with too few values");
 	return v;
 }
 
@@ -361,14 +361,14 @@ static struct glsl_value choice(struct glsl_writer *w, const struct glsl_node *n
 		a[i] = glsl_expression(w, child(w, n, i));
 	v = glsl_fresh(w, n->type);
 	if (glsl_stopped(w) || a[1].n != v.n || a[2].n != v.n) {
-		glsl_fail(w, "a shader mixes sizes");
+		glsl_fail(w, "a shader has operands of different sizes");
 		return v;
 	}
 	glsl_write(w, SCENE_OP_CHOOSE, 0, v.at[0], v.n, glsl_spread(w, &a[0], v.n), a[1].at, a[2].at);
 	return v;
 }
 
-/* What has its children's values for arguments. */
+/* Operations whose arguments are the values of their children. */
 static struct glsl_value of_children(struct glsl_writer *w, const struct glsl_node *n)
 {
 	struct glsl_value *a = glsl_alloc(w, (n->count + 1) * sizeof(*a)), none = { n->type, 0, NULL }, v;
@@ -448,13 +448,13 @@ struct glsl_value glsl_expression(struct glsl_writer *w, uint32_t node)
 	struct glsl_value v = { 0 };
 
 	if (node == GLSL_NONE || w->depth == MAX_DEPTH)
-		glsl_fail(w, "a shader nests deeper than is done");
+		glsl_fail(w, "a shader is nested too deeply");
 	if (glsl_stopped(w))
 		return v;
 	w->depth++;
 	v = expression(w, node);
 	w->depth--;
 	if (!glsl_stopped(w) && !v.at && glsl_type_of(w, w->tree->nodes[node].type)->numbers)
-		glsl_fail(w, "a shader has an expression that is not done");
+		glsl_fail(w, "a shader has an unsupported expression");
 	return v;
 }

@@ -5,13 +5,13 @@
 #include "base/err.h"
 #include "replay/glsl/makers.h"
 
-/* A product of two numbers, as an instruction has it. */
+/* A product of two numbers. */
 struct product {
-	uint32_t at; /* the instruction that makes it */
+	uint32_t at; /* the instruction that computes it */
 	uint32_t factors[2];
 };
 
-/* The sum of two terms is shared * (others[0] + others[1]). */
+/* The factored form of a sum of two terms: shared * (others[0] + others[1]). */
 struct sharing {
 	uint32_t shared, others[2];
 };
@@ -21,7 +21,7 @@ static bool is_negated(const struct scene_instruction *in)
 	return !(in->flags & SCENE_NEGATE_A) != !(in->flags & SCENE_NEGATE_B);
 }
 
-/* Whether an operand before instruction `since` is still the same before instruction `at`. */
+/* True if an operand has the same value before instructions `since` and `at`. */
 static bool is_kept(const struct program_code *code, uint32_t since, uint32_t at, uint32_t operand)
 {
 	for (; since < at; since++)
@@ -30,7 +30,7 @@ static bool is_kept(const struct program_code *code, uint32_t since, uint32_t at
 	return true;
 }
 
-/* The product that operand r is before instruction `at`. @return whether it is one */
+/* Find the product that operand r holds before instruction `at`. @return true if it is one */
 static bool find_product(const struct program_code *code, const uint8_t *targets, uint32_t at, uint32_t r,
                          struct product *p)
 {
@@ -45,7 +45,7 @@ static bool find_product(const struct program_code *code, const uint8_t *targets
 	return true;
 }
 
-/* The two products whose sum is an instruction's number i. */
+/* Find the two products that result i of an instruction is the sum of. */
 static bool find_products(const struct program_code *code, const uint8_t *targets, uint32_t at, uint32_t i,
                           struct product p[2])
 {
@@ -61,8 +61,10 @@ static bool find_products(const struct program_code *code, const uint8_t *target
 	return find_product(code, targets, at, glsl_operand(in, 2, i), &p[0]);
 }
 
-/* The factor that an instruction's number i has twice. @return whether there is one, and all operands can be read
- * there */
+/*
+ * Find the factor shared by the products in result i of an instruction. @return true if there is one, and all operands
+ * are still available there
+ */
 static bool find_sharing(const struct program_code *code, const uint8_t *targets, uint32_t at, uint32_t i,
                          struct sharing *s)
 {
@@ -87,8 +89,10 @@ static bool find_sharing(const struct program_code *code, const uint8_t *targets
 	return false;
 }
 
-/* Make an instruction's first number, of which the factor is known, the product. The sum has a register of its own:
- * sums of it may share, too. */
+/*
+ * Turn an instruction's first result, whose factor is known, into the product. The sum gets a register of its own, so
+ * that sums of it can be factored as well.
+ */
 static int share(struct program_code *code, uint32_t at, const struct sharing *s)
 {
 	const uint32_t flags = code->instructions[at].flags, sum = code->n_registers;
@@ -143,5 +147,5 @@ int glsl_share_factors(struct program_code *code)
 		glsl_note_targets(code, targets);
 	}
 	free(targets);
-	return err == ERR_INPUT ? 0 : err; /* without room for more, the rest stays as it is */
+	return err == ERR_INPUT ? 0 : err; /* if there is no room for more instructions, the rest is left unchanged */
 }

@@ -5,7 +5,7 @@
 #include "replay/glsl/operators.h"
 #include "replay/machine/state.h"
 
-/* Number i of a value; a scalar's, whichever. */
+/* Number i of a value; a scalar's only number for any i. */
 static uint32_t part(const struct glsl_value *v, uint32_t i)
 {
 	return v->at[v->n == 1 ? 0 : i];
@@ -44,7 +44,7 @@ static uint32_t sub(struct glsl_writer *w, uint32_t a, uint32_t b)
 	return to;
 }
 
-/* From the last number on, as Mesa adds them up. */
+/* Sums from the last number to the first, as Mesa does. */
 static uint32_t dot(struct glsl_writer *w, const struct glsl_value *a, const struct glsl_value *b)
 {
 	const uint32_t last = (a->n < b->n ? a->n : b->n) - 1;
@@ -55,7 +55,7 @@ static uint32_t dot(struct glsl_writer *w, const struct glsl_value *a, const str
 	return sum;
 }
 
-/* --- Of one number ----------------------------------------------------------------------------------------------- */
+/* --- Functions of one number ------------------------------------------------------------------------------------ */
 
 /* The sign of x: -1, 0 or 1. */
 static uint32_t sign_of(struct glsl_writer *w, uint32_t x)
@@ -77,7 +77,7 @@ static uint32_t arc_sine(struct glsl_writer *w, uint32_t x, double p0, double p1
 	return mul(w, sign_of(w, x), sub(w, half, sum));
 }
 
-/* Its do_atan. */
+/* Mesa's do_atan, builtin_functions.cpp */
 static uint32_t arc_tangent(struct glsl_writer *w, uint32_t x)
 {
 	static const double factors[] = { 0.0536813784310406, -0.1173503194786851, 0.1938924977115610,
@@ -160,9 +160,9 @@ static uint32_t of_one(struct glsl_writer *w, uint32_t operation, uint32_t x)
 	}
 }
 
-/* --- Of several, component by component -------------------------------------------------------------------------- */
+/* --- Functions of several numbers, component by component ------------------------------------------------------- */
 
-/* atan(y, x), as builtin_functions.cpp has it but for what it does about numbers near the largest ones. */
+/* atan(y, x), as in builtin_functions.cpp except for its treatment of numbers near the largest ones. */
 static uint32_t arc_tangent_of_two(struct glsl_writer *w, uint32_t y, uint32_t x)
 {
 	const uint32_t zero = num(w, 0), left = two(w, SCENE_OP_GREATER_EQUAL, zero, x);
@@ -237,7 +237,7 @@ static void refract(struct glsl_writer *w, struct glsl_value *v, const struct gl
 		v->at[c] = glsl_one(w, SCENE_OP_CHOOSE, none, zero, sub(w, mul(w, eta, i->at[c]), mul(w, factor, n->at[c])));
 }
 
-/* @return 1 if the node is one of geometry's */
+/* @return 1 if the operation is a geometric one */
 static int of_vectors(struct glsl_writer *w, uint32_t operation, struct glsl_value *v, const struct glsl_value *a)
 {
 	struct glsl_value d;
@@ -274,7 +274,7 @@ static int of_vectors(struct glsl_writer *w, uint32_t operation, struct glsl_val
 
 /* --- Matrices ---------------------------------------------------------------------------------------------------- */
 
-/* Of the rows and columns that are left in bits, n of each; m: n_all x n_all. */
+/* The determinant of the submatrix of m (n_all x n_all) that has the n rows and n columns in the bit sets. */
 static uint32_t determinant(struct glsl_writer *w, const struct glsl_value *m, uint32_t n_all, uint32_t rows,
                             uint32_t columns)
 {
@@ -333,7 +333,7 @@ static int of_matrices(struct glsl_writer *w, uint32_t operation, struct glsl_va
 
 /* --- All of them ------------------------------------------------------------------------------------------------- */
 
-/* ANY, ALL: whether one is, or all are. */
+/* ANY, ALL: reduce a vector with an operation. */
 static uint32_t folded(struct glsl_writer *w, enum scene_operation operation, const struct glsl_value *v)
 {
 	uint32_t all = v->at[0];
@@ -343,7 +343,7 @@ static uint32_t folded(struct glsl_writer *w, enum scene_operation operation, co
 	return all;
 }
 
-/* What fixed function makes of a vertex. */
+/* The fixed-function position of a vertex. */
 static void transform(struct glsl_writer *w, struct glsl_value *v)
 {
 	for (uint32_t r = 0; r < 4; r++) {
@@ -370,7 +370,7 @@ struct glsl_value glsl_call_builtin(struct glsl_writer *w, const struct glsl_nod
 		return v;
 	}
 	if (node->operation == GLSL_OTHER || !n || !v.n || (n > 1 && !a[1].n)) {
-		glsl_fail(w, "a shader calls a function that is not done");
+		glsl_fail(w, "a shader calls an unsupported function");
 		return v;
 	}
 	if (node->operation == GLSL_ANY || node->operation == GLSL_ALL) {
@@ -384,7 +384,7 @@ struct glsl_value glsl_call_builtin(struct glsl_writer *w, const struct glsl_nod
 		       n == 1                        ? of_one(w, node->operation, part(&a[0], i)) :
 		                                       of_several(w, node, a, n, i);
 		if (made == GLSL_NONE)
-			glsl_fail(w, "a shader calls a function that is not done");
+			glsl_fail(w, "a shader calls an unsupported function");
 		v.at[i] = made;
 	}
 	return v;
@@ -392,7 +392,7 @@ struct glsl_value glsl_call_builtin(struct glsl_writer *w, const struct glsl_nod
 
 /* --- Textures ---------------------------------------------------------------------------------------------------- */
 
-/* The number of a sampler in the code, which is added where it is new. */
+/* The index of a sampler in the code; new ones are appended. */
 static uint32_t sampler_of(struct glsl_writer *w, const struct glsl_value *v)
 {
 	static const uint32_t targets[] = { [GLSL_TEXTURE_1D] = GLS_TEXTURE_1D,
@@ -407,14 +407,14 @@ static uint32_t sampler_of(struct glsl_writer *w, const struct glsl_value *v)
 
 	if (t->kind != GLSL_SAMPLER || t->texture >= GLSL_TEXTURE_OTHER || v->at[0] < SCENE_PROGRAM_CONSTANT ||
 	    number >= w->uniforms->n_values) {
-		glsl_fail(w, "a shader samples a kind of texture that is not done");
+		glsl_fail(w, "a shader samples an unsupported kind of texture");
 		return 0;
 	}
 	for (uint32_t i = 0; i < code->n_samplers; i++)
 		if (code->samplers[i].uniform == number)
 			return i;
 	if (code->n_samplers == PROGRAM_MAX_SAMPLERS) {
-		glsl_fail(w, "a shader has more samplers than are done");
+		glsl_fail(w, "a shader has too many samplers");
 		return 0;
 	}
 	code->samplers[code->n_samplers] = (struct program_sampler){ number, targets[t->texture] };
@@ -431,9 +431,10 @@ struct glsl_value glsl_sample(struct glsl_writer *w, const struct glsl_node *nod
 		                               [GLSL_TEXTURE_RECTANGLE] = 2,
 		                               [GLSL_TEXTURE_2D_ARRAY] = 3 };
 	const bool divided = node->operation == GLSL_TEXTURE_PROJ || node->operation == GLSL_TEXTURE_PROJ_LOD;
-	const bool of_vertices = w->stage == GLSL_VERTEX_STAGE; /* they have no neighbours: level 0, unless they name one */
+	const bool of_vertices = w->stage == GLSL_VERTEX_STAGE; /* no neighbouring pixels: level 0, unless the call
+	                                                           gives one */
 	const bool levelled = of_vertices || node->operation == GLSL_TEXTURE_LOD || node->operation == GLSL_TEXTURE_PROJ_LOD;
-	const bool fourth = n > 2 || of_vertices; /* is the level's */
+	const bool fourth = n > 2 || of_vertices; /* the level */
 	struct glsl_value v = glsl_value_of(w, node->type, glsl_type_of(w, node->type)->numbers);
 	struct scene_instruction in = { .operation = SCENE_OP_TEXTURE, .n = 1 };
 	const uint32_t zero = glsl_number(w, 0);

@@ -7,13 +7,13 @@ static const char *name_of(const struct glsl_tree *tree, uint32_t symbol)
 	return tree->names + tree->symbols[symbol].name;
 }
 
-/* An input that the text declares: of the vertex stage an attribute, of the fragment stage a varying. */
+/* 1 for an input declared in the text: an attribute in the vertex stage, a varying in the fragment stage. */
 static int is_declared_input(const struct glsl_tree *tree, uint32_t symbol)
 {
 	return tree->symbols[symbol].storage == GLSL_INPUT && strncmp(name_of(tree, symbol), "gl_", 3) != 0;
 }
 
-/* Bits of the numbers of gl_TexCoord that a tree names. */
+/* Bit set of the gl_TexCoord components that a tree uses. */
 static uint32_t coordinates_of(const struct glsl_tree *tree)
 {
 	uint32_t taken = 0;
@@ -49,16 +49,16 @@ void glsl_links_place(struct glsl_links *links, const struct glsl_tree *tree, co
 		if (!is_declared_input(tree, i))
 			continue;
 		if (s->flat || s->straight)
-			*why = "a shader has inputs that are not interpolated in perspective";
+			*why = "a shader has inputs without perspective interpolation";
 		else if (links->n == GLSL_MAX_LINKS || n > GLSL_LINK_NUMBERS)
-			*why = "a program has more varyings than are done";
+			*why = "a program has too many varyings";
 		else
 			links->list[links->n].name = name_of(tree, i);
 		for (uint32_t k = 0; k < GLSL_LINK_NUMBERS && found < n && !*why; k++)
 			if (!(links->taken >> k & 1))
 				links->list[links->n].at[found++] = k;
 		if (*why || found < n) {
-			*why = *why ? *why : "a program has more varyings than are done";
+			*why = *why ? *why : "a program has too many varyings";
 			return;
 		}
 		for (uint32_t k = 0; k < n; k++)
@@ -69,7 +69,7 @@ void glsl_links_place(struct glsl_links *links, const struct glsl_tree *tree, co
 
 #define N_LOCATIONS (SCENE_MAX_GENERICS + 1)
 
-/* How many locations an attribute takes. */
+/* Number of locations that an attribute takes. */
 static uint32_t slots_of(const struct glsl_tree *tree, const struct glsl_symbol *s)
 {
 	const struct glsl_type *t = &tree->types[s->type];
@@ -78,13 +78,13 @@ static uint32_t slots_of(const struct glsl_tree *tree, const struct glsl_symbol 
 	return t->numbers / rows + (t->numbers % rows != 0);
 }
 
-/* Bits of locations; 0: there are not so many. */
+/* Bit set of locations; 0: out of range. */
 static uint32_t slot_bits(uint32_t location, uint32_t slots)
 {
 	return location < N_LOCATIONS && slots <= N_LOCATIONS - location ? ((1u << slots) - 1) << location : 0;
 }
 
-/* The largest attribute without a location, of these the first in the text; GLSL_NONE: all have one. */
+/* The largest attribute without a location, the first in the text among equals; GLSL_NONE: all have one. */
 static uint32_t next_unplaced(const struct glsl_writer *w, const uint8_t *used)
 {
 	const struct glsl_tree *tree = w->tree;
@@ -129,7 +129,7 @@ void glsl_links_locate(struct glsl_writer *w, const uint8_t *used)
 		while (slot_bits(at, slots) & taken)
 			at++;
 		if (!slot_bits(at, slots))
-			return; /* no machine has linked it */
+			return; /* no implementation could have linked it */
 		links->locations[next] = at;
 		taken |= slot_bits(at, slots);
 	}
@@ -142,7 +142,8 @@ static struct glsl_value attribute(struct glsl_writer *w, const struct glsl_symb
 	const uint32_t location = w->links->locations[s - w->tree->symbols], rows = t->rows ? t->rows : 1;
 
 	if (!slot_bits(location, slots_of(w->tree, s)))
-		return glsl_row(w, s->type, glsl_registers(w, v.n)); /* no machine has linked it: nothing sets it */
+		return glsl_row(w, s->type, glsl_registers(w, v.n)); /* no implementation could have linked it: nothing
+		                                                        sets it */
 	for (uint32_t i = 0; i < v.n && v.at; i++) {
 		const uint32_t at = location + i / rows;
 
@@ -159,7 +160,8 @@ struct glsl_value glsl_linked(struct glsl_writer *w, const struct glsl_symbol *s
 
 	if (w->stage == GLSL_VERTEX_STAGE && s->storage == GLSL_INPUT)
 		return attribute(w, s);
-	if (w->stage == GLSL_FRAGMENT_STAGE && s->storage == GLSL_OUTPUT) { /* GLSL 1.30: the colour has a name of its own */
+	if (w->stage == GLSL_FRAGMENT_STAGE && s->storage == GLSL_OUTPUT) { /* since GLSL 1.30 colour outputs have
+	                                                                       user-defined names */
 		if (n > 4 || w->links->n_colors++)
 			glsl_fail(w, "a shader draws to several buffers at once");
 		return glsl_row(w, s->type, SCENE_PROGRAM_COLOR);
@@ -172,5 +174,5 @@ struct glsl_value glsl_linked(struct glsl_writer *w, const struct glsl_symbol *s
 				v.at[k] = first + w->links->list[i].at[k];
 			return v;
 		}
-	return glsl_fresh(w, s->type); /* the other stage does not have it */
+	return glsl_fresh(w, s->type); /* the other stage does not write it */
 }

@@ -75,7 +75,10 @@ int gls_shader_add_text(struct gls_shader *program, uint32_t type, const char *t
 	return 0;
 }
 
-/* Give a uniform's element its location, and those after it the next ones, as Mesa does, where nothing has these. */
+/*
+ * Set the location of a uniform's element, and give the following elements the next locations unless these are taken,
+ * as Mesa does.
+ */
 static int set_locations(struct gls_shader *program, uint64_t location, uint64_t number, uint32_t element)
 {
 	const uint32_t first = element;
@@ -87,7 +90,7 @@ static int set_locations(struct gls_shader *program, uint64_t location, uint64_t
 	return err;
 }
 
-/* Locations that the texts give. */
+/* Set locations that are given in the texts. */
 static int set_given_locations(struct gls_shader *program)
 {
 	int err = 0;
@@ -121,7 +124,7 @@ int gls_shader_translate(struct gls_shader *program, int keeps)
 	if (err && !program->stages.why)
 		program->stages.why = "a program's shaders could not be translated";
 	if (program->other_stages)
-		program->stages.why = "a program has shaders of another stage than vertices and fragments";
+		program->stages.why = "a program has shaders other than vertex and fragment shaders";
 	program->stages.linked = 1;
 	program->stages.links += !keeps;
 	gls_held_free(&program->stages);

@@ -7,7 +7,7 @@ const uint32_t *glsl_spread(struct glsl_writer *w, const struct glsl_value *v, u
 	if (v->n == n || glsl_stopped(w))
 		return v->at;
 	if (v->n != 1) {
-		glsl_fail(w, "a shader mixes sizes");
+		glsl_fail(w, "a shader has operands of different sizes");
 		return NULL;
 	}
 	at = glsl_alloc(w, n * sizeof(*at));
@@ -37,7 +37,7 @@ static struct glsl_value divide(struct glsl_writer *w, uint32_t type, const stru
 	return glsl_by_component(w, SCENE_OP_TRUNCATE, 0, type, &v, NULL);
 }
 
-/* a - b floor(a / b); of whole numbers, the division is cut off. */
+/* a - b floor(a / b); for integers, a - b trunc(a / b). */
 static struct glsl_value modulo(struct glsl_writer *w, uint32_t type, const struct glsl_value *a,
                                 const struct glsl_value *b)
 {
@@ -49,7 +49,7 @@ static struct glsl_value modulo(struct glsl_writer *w, uint32_t type, const stru
 	return glsl_by_component(w, SCENE_OP_ADD, SCENE_NEGATE_B, type, a, &v);
 }
 
-/* Whether all numbers are equal. */
+/* True if all numbers are equal. */
 static struct glsl_value all_equal(struct glsl_writer *w, uint32_t type, const struct glsl_value *a,
                                    const struct glsl_value *b, bool negated)
 {
@@ -57,7 +57,7 @@ static struct glsl_value all_equal(struct glsl_writer *w, uint32_t type, const s
 	uint32_t all = GLSL_NONE;
 
 	if (a->n != b->n)
-		glsl_fail(w, "a shader mixes sizes");
+		glsl_fail(w, "a shader has operands of different sizes");
 	for (uint32_t i = 0; i < a->n && !glsl_stopped(w); i++) {
 		const uint32_t one = glsl_one(w, SCENE_OP_EQUAL, a->at[i], b->at[i], 0);
 
@@ -70,7 +70,7 @@ static struct glsl_value all_equal(struct glsl_writer *w, uint32_t type, const s
 	return v;
 }
 
-/* From the last number on, as Mesa adds them up. */
+/* Sums from the last number to the first, as Mesa does. */
 static uint32_t dot(struct glsl_writer *w, const uint32_t *a, const uint32_t *b, uint32_t n)
 {
 	const uint32_t to = glsl_registers(w, 1);
@@ -80,7 +80,7 @@ static uint32_t dot(struct glsl_writer *w, const uint32_t *a, const uint32_t *b,
 	return to;
 }
 
-/* to = the matrix' columns, each times its number, added up. */
+/* to = the sum of the matrix' columns, each times its number. */
 static void combine(struct glsl_writer *w, uint32_t to, const struct glsl_value *m, const uint32_t *numbers)
 {
 	const struct glsl_type *t = glsl_type_of(w, m->type);
@@ -113,7 +113,7 @@ static struct glsl_value of_matrices(struct glsl_writer *w, uint32_t operation, 
 		for (uint32_t c = 0; c < y->columns; c++)
 			combine(w, v.at[0] + c * x->rows, a, b->at + c * y->rows);
 	else
-		glsl_fail(w, "a shader mixes sizes");
+		glsl_fail(w, "a shader has operands of different sizes");
 	return v;
 }
 
@@ -121,7 +121,7 @@ struct glsl_value glsl_binary(struct glsl_writer *w, uint32_t operation, uint32_
                               const struct glsl_value *b)
 {
 	static const struct {
-		uint32_t operation, flags, turned; /* enum scene_operation; turned: b and a */
+		uint32_t operation, flags, turned; /* enum scene_operation; turned: operands are swapped */
 	} plain[N_GLSL_OPERATORS] = {
 		[GLSL_ADD] = { SCENE_OP_ADD, 0, 0 }, [GLSL_SUBTRACT] = { SCENE_OP_ADD, SCENE_NEGATE_B, 0 },
 		[GLSL_MULTIPLY] = { SCENE_OP_MULTIPLY, 0, 0 }, [GLSL_VECTOR_EQUAL] = { SCENE_OP_EQUAL, 0, 0 },
@@ -146,7 +146,7 @@ struct glsl_value glsl_binary(struct glsl_writer *w, uint32_t operation, uint32_
 	default: break;
 	}
 	if (operation >= N_GLSL_OPERATORS || !plain[operation].operation) {
-		glsl_fail(w, "a shader has an operator that is not done");
+		glsl_fail(w, "a shader has an unsupported operator");
 		return *a;
 	}
 	return glsl_by_component(w, plain[operation].operation, plain[operation].flags, type,

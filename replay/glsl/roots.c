@@ -11,8 +11,10 @@ static int is_literal(const struct program_code *code, uint32_t operand)
 	       code->constants[(operand - SCENE_PROGRAM_CONSTANT) / 4].source == PROGRAM_LITERAL;
 }
 
-/* Whether register r, which instruction `at` has made, is multiplied by a number of the shader's text next: Mesa then
- * has (a c) b of (a b) c. */
+/*
+ * True if register r, written by instruction `at`, is next multiplied by a literal: Mesa then turns (a b) c into (a c)
+ * b.
+ */
 static int is_scaled(const struct program_code *code, uint32_t at, uint32_t r)
 {
 	for (uint32_t i = at + 1; i < code->n_instructions && !glsl_is_jump(&code->instructions[i]); i++) {
@@ -28,8 +30,10 @@ static int is_scaled(const struct program_code *code, uint32_t at, uint32_t r)
 	return 0;
 }
 
-/* The square root of which an instruction's number i is the square. @return the root's number, or `at`: it is something
- * else */
+/*
+ * The instruction that computes the square root whose square is result i of instruction `at`; `at` itself if there is
+ * none
+ */
 static uint32_t find_root(const struct program_code *code, const uint8_t *targets, uint32_t at, uint32_t i)
 {
 	const struct scene_instruction *in = &code->instructions[at], *root;
@@ -45,7 +49,7 @@ static uint32_t find_root(const struct program_code *code, const uint8_t *target
 	return other.is_made && other.at == made.at && !is_scaled(code, at, in->to + i) ? made.at : at;
 }
 
-/* Keep a root's argument, which may be overwritten, in a register of its own: an instruction before it. */
+/* Insert an instruction before a root that keeps its argument, which may be overwritten, in a register of its own. */
 static int keep_argument(struct program_code *code, uint32_t root)
 {
 	struct scene_instruction keep = code->instructions[root];
@@ -60,7 +64,7 @@ static int keep_argument(struct program_code *code, uint32_t root)
 	return err;
 }
 
-/* An instruction's first number, of which the root is known. */
+/* Replace an instruction's first result, whose root is known. */
 static int square(struct program_code *code, uint32_t at, uint32_t root)
 {
 	int err = code->instructions[at].n > 1 ? glsl_split(code, at, 1) : 0;
@@ -100,5 +104,5 @@ int glsl_square_roots(struct program_code *code)
 		glsl_note_targets(code, targets);
 	}
 	free(targets);
-	return err == ERR_INPUT ? 0 : err; /* without room for more, the rest stays as it is */
+	return err == ERR_INPUT ? 0 : err; /* if there is no room for more instructions, the rest is left unchanged */
 }

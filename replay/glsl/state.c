@@ -5,13 +5,13 @@
 
 #include "replay/machine/state.h"
 
-/* n numbers of a constant, from number `from` on. */
+/* n numbers of a constant, starting at number `from`. */
 struct piece {
 	enum program_source source;
 	uint32_t part, from, n;
 };
 
-/* Structures' members, in the order of their numbers; an array's element is another light, unit or plane. */
+/* Members of structures, in the order of their numbers; an array has one element for each light, unit or plane. */
 static const struct state {
 	const char *name;
 	uint32_t face;    /* or row */
@@ -77,7 +77,7 @@ static const struct state {
 	{ "gl_ObjectPlaneQ", 3, 0, { { PROGRAM_TEXGEN, 1, 0, 4 } } },
 };
 
-/* A column of what is written out as rows: matrices of GLSL are columns. */
+/* Matrices are stored by rows; this is a column, as in GLSL. */
 static const struct {
 	const char *name;
 	uint32_t index, part;
@@ -100,7 +100,7 @@ static const struct {
 	{ "gl_TextureMatrixInverseTranspose", PROGRAM_TEXTURE_MATRIX, PROGRAM_INVERTED },
 };
 
-/* How many elements a type has, one where it is no array, and their type. */
+/* Number of elements of an array and their type; for other types one, and the type itself. */
 static uint32_t elements_of(const struct glsl_writer *w, uint32_t type, const struct glsl_type **element)
 {
 	const struct glsl_type *t = glsl_type_of(w, type);
@@ -150,7 +150,7 @@ static struct glsl_value state(struct glsl_writer *w, const struct glsl_symbol *
 	return v;
 }
 
-/* Inputs and outputs that stand in registers of the stage. */
+/* Inputs and outputs in fixed registers of the stage. */
 static const struct place {
 	const char *name;
 	uint32_t first;
@@ -178,7 +178,7 @@ static const struct place {
 	{ "gl_TexCoord", SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_TEXCOORD },
 };
 
-/* @return the first one's register; GLSL_NONE: it is none of them */
+/* @return the first register; GLSL_NONE: not one of these */
 static uint32_t place_of(const struct glsl_writer *w, const char *name)
 {
 	const int is_vertex = w->stage == GLSL_VERTEX_STAGE;
@@ -191,7 +191,7 @@ static uint32_t place_of(const struct glsl_writer *w, const char *name)
 	return GLSL_NONE;
 }
 
-/* A colour for each buffer. */
+/* gl_FragData: a colour for each buffer. */
 static struct glsl_value data(struct glsl_writer *w, const struct glsl_symbol *s)
 {
 	const uint32_t n = glsl_type_of(w, s->type)->numbers;
@@ -210,7 +210,7 @@ struct glsl_value glsl_builtin(struct glsl_writer *w, const struct glsl_symbol *
 
 	if (place != GLSL_NONE &&
 	    glsl_type_of(w, s->type)->numbers > (strcmp(name, "gl_TexCoord") == 0 ? 4 * SCENE_MAX_UNITS : 4)) {
-		glsl_fail(w, "a shader has more texture coordinates than there are");
+		glsl_fail(w, "a shader uses too many texture coordinates");
 		return (struct glsl_value){ 0 };
 	}
 	if (place != GLSL_NONE)
@@ -225,11 +225,11 @@ struct glsl_value glsl_builtin(struct glsl_writer *w, const struct glsl_symbol *
 	for (unsigned i = 0; i < sizeof(states) / sizeof(states[0]); i++)
 		if (strcmp(name, states[i].name) == 0)
 			return state(w, s, &states[i]);
-	glsl_fail_at(w, "a shader reads or writes ", name, ", which is not done");
+	glsl_fail_at(w, "a shader reads or writes ", name, ", which is not supported");
 	return (struct glsl_value){ 0 };
 }
 
-/* --- What is not read goes --------------------------------------------------------------------------------------- */
+/* --- Removal of unused constants -------------------------------------------------------------------------------- */
 
 static void mark(struct program_code *code, uint8_t *used, uint32_t operand, uint32_t n, uint32_t n_inputs)
 {
@@ -240,7 +240,7 @@ static void mark(struct program_code *code, uint8_t *used, uint32_t operand, uin
 			used[(operand - SCENE_PROGRAM_CONSTANT + k) / 4] = 1;
 }
 
-/* How many numbers operand k of an instruction stands for. */
+/* Number of numbers that operand k of an instruction reads. */
 static uint32_t span_of(const struct scene_instruction *in, unsigned k)
 {
 	if (k == 0 && in->operation == SCENE_OP_FETCH)

@@ -1,8 +1,8 @@
 /*
- * Statements (GLSL 1.20 sec. 6). The four pixels of a quad run in step: where they part, those that take no part are
- * masked, and what nobody takes part in is jumped over. A mask is a register with 1 for each pixel that is in it; masks
- * of what encloses a statement are levels. Break, continue and return take pixels out of the masks up to what they
- * leave.
+ * Statements (GLSL 1.20 sec. 6). The four pixels of a quad run in lockstep: if their control flow diverges, the
+ * inactive ones are masked, and code that no pixel executes is jumped over. A mask is a register with 1 for each active
+ * pixel; the masks of enclosing statements form levels. Break, continue and return remove pixels from the masks of all
+ * levels that they leave.
  */
 #include "replay/glsl/statement.h"
 
@@ -31,7 +31,7 @@ static uint32_t count_of(const struct glsl_writer *w, uint32_t node, uint32_t op
 
 /* --- Masks ------------------------------------------------------------------------------------------------------- */
 
-/* The operand that says who takes part now. */
+/* The operand that holds the current mask. */
 static uint32_t mask_now(struct glsl_writer *w)
 {
 	return w->n_levels ? w->levels[w->n_levels - 1].mask : glsl_number(w, 1);
@@ -43,7 +43,7 @@ static void set_mask(struct glsl_writer *w)
 	w->barrier = w->code->n_instructions;
 }
 
-/* A mask is written for all pixels, whoever takes part. */
+/* Write a mask for all pixels, whichever are active. */
 static void write_mask(struct glsl_writer *w, enum scene_operation operation, uint32_t to, uint32_t a, uint32_t b)
 {
 	glsl_append(w, &(struct scene_instruction){
@@ -61,12 +61,12 @@ static uint32_t new_mask(struct glsl_writer *w, enum scene_operation operation, 
 static void push_level(struct glsl_writer *w, enum glsl_level_kind kind, uint32_t mask)
 {
 	if (w->n_levels == GLSL_MAX_LEVELS)
-		glsl_fail(w, "a shader nests deeper than is done");
+		glsl_fail(w, "a shader is nested too deeply");
 	else
 		w->levels[w->n_levels++] = (struct glsl_level){ kind, mask };
 }
 
-/* @return the number of a jump whose place is still to be said. none_of: a mask; GLSL_NONE: in any case */
+/* @return index of a jump whose target is not set yet. none_of: jump if this mask is empty; GLSL_NONE: always */
 static uint32_t jump(struct glsl_writer *w, uint32_t none_of)
 {
 	return glsl_append(
@@ -74,7 +74,7 @@ static uint32_t jump(struct glsl_writer *w, uint32_t none_of)
 	                                        .a = none_of == GLSL_NONE ? 0 : none_of });
 }
 
-/* A jump leads to what comes next. */
+/* Set the target of a jump to the next instruction. */
 static void land(struct glsl_writer *w, uint32_t jump)
 {
 	if (glsl_stopped(w))
@@ -83,7 +83,7 @@ static void land(struct glsl_writer *w, uint32_t jump)
 	w->barrier = w->code->n_instructions;
 }
 
-/* Those who take part now leave all levels down to one of this kind. */
+/* Remove the active pixels from all levels down to one of this kind. */
 static void leave(struct glsl_writer *w, enum glsl_level_kind kind)
 {
 	const uint32_t zero = glsl_number(w, 0);
@@ -123,7 +123,7 @@ static void branch_value(struct glsl_writer *w, uint32_t node, const struct glsl
 		glsl_copy(w, result->at, v.at, v.n);
 }
 
-/* One or the other, by a condition. Where it is the same for all pixels, nobody is masked. */
+/* One of two branches, by a condition. If that is the same for all pixels, no mask is needed. */
 static void write_if(struct glsl_writer *w, uint32_t condition, uint32_t yes, uint32_t no, branch *write,
                      const struct glsl_value *result)
 {
@@ -182,7 +182,7 @@ struct glsl_value glsl_choose(struct glsl_writer *w, const struct glsl_node *n)
 
 /* --- Loops ------------------------------------------------------------------------------------------------------- */
 
-/* Those for whom the test fails leave the loop. */
+/* Pixels that fail the test leave the loop. */
 static void write_test(struct glsl_writer *w, uint32_t test, uint32_t running)
 {
 	const uint32_t top = w->top;
@@ -229,7 +229,7 @@ static void write_loop(struct glsl_writer *w, const struct glsl_node *n)
 	set_mask(w);
 }
 
-/* Those whose value is a label's, or who come from the label before, take part from there on. */
+/* Activate pixels whose value equals the label's, and those that fall through from the label before. */
 static void write_label(struct glsl_writer *w, uint32_t running, uint32_t inside, uint32_t matches)
 {
 	const uint32_t in = new_mask(w, SCENE_OP_MAXIMUM, inside, matches);
@@ -249,7 +249,7 @@ static void write_switch(struct glsl_writer *w, const struct glsl_node *n)
 	if (glsl_stopped(w))
 		return;
 	value = glsl_one(w, SCENE_OP_MOVE, v.at[0], 0, 0);
-	/* whoever matches nothing takes part from the default on */
+	/* pixels that match no label become active at the default */
 	for (uint32_t i = 0; i < body->count && !glsl_stopped(w); i++) {
 		const struct glsl_node *label = &w->tree->nodes[child(w, body, i)];
 
@@ -285,7 +285,7 @@ static void write_switch(struct glsl_writer *w, const struct glsl_node *n)
 
 /* --- Functions --------------------------------------------------------------------------------------------------- */
 
-/* Registers for the variables of a function, before its first statement. */
+/* Allocate registers for a function's variables, before its first statement. */
 static void place_variables(struct glsl_writer *w, uint32_t node)
 {
 	const struct glsl_node *n;
@@ -312,7 +312,7 @@ static void forget_variables(struct glsl_writer *w, uint32_t node)
 		forget_variables(w, child(w, n, i));
 }
 
-/* The only return of a function, where that is the last thing it does; NULL: there is none, or there are others. */
+/* The return at the end of a function, if it is the only one; NULL: there is none, or there are others. */
 static const struct glsl_node *last_return(const struct glsl_writer *w, uint32_t body)
 {
 	const struct glsl_node *last = &w->tree->nodes[body];
@@ -355,7 +355,7 @@ static void write_return(struct glsl_writer *w, const struct glsl_node *n)
 		leave(w, GLSL_LEVEL_RETURN);
 }
 
-/* 1 where a value may stand for a parameter as it is: nothing can change it while the function runs. */
+/* 1 if a value can be used as the parameter without a copy, because nothing can change it while the function runs. */
 static int may_stand(const struct glsl_writer *w, const struct glsl_value *v, uint32_t symbol, uint32_t argument)
 {
 	const uint32_t operation = w->tree->nodes[argument].operation;
@@ -476,7 +476,7 @@ void glsl_statement(struct glsl_writer *w, uint32_t node)
 	if (glsl_stopped(w))
 		return;
 	if (w->depth >= 600) {
-		glsl_fail(w, "a shader nests deeper than is done");
+		glsl_fail(w, "a shader is nested too deeply");
 		return;
 	}
 	w->depth++;

@@ -19,7 +19,7 @@ static const char *name_of(const struct glsl_tree *tree, uint32_t symbol)
 	return tree->names + tree->symbols[symbol].name;
 }
 
-/* --- What is reached --------------------------------------------------------------------------------------------- */
+/* --- Reachable code -------------------------------------------------------------------------------------------- */
 
 /* The symbol that an assignment changes; GLSL_NONE: none */
 static uint32_t root_of(const struct glsl_tree *tree, uint32_t node)
@@ -39,7 +39,7 @@ static void note_written(struct glsl_writer *w, uint32_t node)
 		w->written[symbol] = 1;
 }
 
-/* Go through all that runs, functions once. reached: [n_functions]; used: [n_symbols] */
+/* Walk through all code that can run, each function once. reached: [n_functions]; used: [n_symbols] */
 static void walk(struct glsl_writer *w, uint32_t node, uint8_t *reached, uint8_t *used)
 {
 	const struct glsl_tree *tree = w->tree;
@@ -67,7 +67,7 @@ static void walk(struct glsl_writer *w, uint32_t node, uint8_t *reached, uint8_t
 	}
 }
 
-/* Variables of all that main reaches, but for functions' own. */
+/* Allocate the variables that main reaches, except those of functions. */
 static void place_all(struct glsl_writer *w)
 {
 	uint8_t *reached = glsl_alloc(w, w->tree->n_functions), *used = glsl_alloc(w, w->tree->n_symbols);
@@ -85,7 +85,7 @@ static void place_all(struct glsl_writer *w)
 
 /* --- Stages ------------------------------------------------------------------------------------------------------ */
 
-/* 1 where a node is what fixed function makes of a vertex by a matrix of this name. */
+/* 1 if a node is the product of a matrix of this name and gl_Vertex, as in fixed function. */
 static int is_fixed_place(const struct glsl_tree *tree, const struct glsl_node *n, const char *matrix)
 {
 	const struct glsl_node *m, *v;
@@ -100,7 +100,7 @@ static int is_fixed_place(const struct glsl_tree *tree, const struct glsl_node *
 	       strcmp(name_of(tree, v->value), "gl_Vertex") == 0;
 }
 
-/* 1 where all that happens to a result is that main sets it so, whatever else there is. */
+/* 1 if main always assigns this product to a result, and nothing else does. */
 static int keeps_place(const struct glsl_tree *tree, const char *result, const char *matrix)
 {
 	const struct glsl_node *body = &tree->nodes[tree->functions[tree->main].body];
@@ -112,7 +112,7 @@ static int keeps_place(const struct glsl_tree *tree, const char *result, const c
 		const struct glsl_node *n = &tree->nodes[tree->children[body->first + i]];
 
 		if (n->operation == GLSL_RETURN || n->operation == GLSL_SELECTION || n->operation == GLSL_LOOP)
-			break; /* which may leave main */
+			break; /* it may leave main */
 		kept += n->operation == GLSL_ASSIGN && n->value == GLSL_ASSIGN &&
 		        tree->nodes[tree->children[n->first]].operation == GLSL_SYMBOL &&
 		        strcmp(name_of(tree, tree->nodes[tree->children[n->first]].value), result) == 0 &&
@@ -129,7 +129,7 @@ static int is_written(const struct glsl_writer *w, const char *name)
 	return 0;
 }
 
-/* Back faces have the front's colours where a shader gives them none of their own, as llvmpipe does it. */
+/* Back faces use the front colours if the shader does not write back colours, as in llvmpipe. */
 static void copy_front(struct glsl_writer *w, const char *back, uint32_t to, uint32_t from)
 {
 	if (!is_written(w, back))
@@ -140,7 +140,7 @@ static void copy_front(struct glsl_writer *w, const char *back, uint32_t to, uin
 		                                            .a = SCENE_VERTEX_RESULTS + 4 * from });
 }
 
-/* What a light sends lies in registers, where the tracer can leave it out (struct scene_program_light). */
+/* Copy colours emitted by lights to registers, so that the tracer can omit them (struct scene_program_light). */
 static void name_lights(struct glsl_writer *w)
 {
 	struct program_code *code = w->code;
@@ -238,7 +238,7 @@ int glsl_translate(const struct glsl_sources *sources, struct program_code code[
 		for (uint32_t i = 0; i < sources->n_texts[stage]; i++)
 			n += strlen(sources->texts[stage][i]);
 		if (n > MAX_SOURCE)
-			*why = "a shader is longer than is done";
+			*why = "a shader is too long";
 		else if (sources->n_texts[stage])
 			err = glsl_parse(sources->texts[stage], sources->n_texts[stage], stage, sources->products_once,
 			                 &trees[stage], message, why);

@@ -14,7 +14,7 @@ struct naming {
 	struct glsl_uniforms *u;
 	const struct glsl_tree *tree;
 	const char *why;
-	uint32_t location; /* of the next one; GLSL_NONE: the text does not say */
+	uint32_t location; /* of the next one; GLSL_NONE: not given */
 	char name[MAX_NAME];
 };
 
@@ -24,7 +24,7 @@ static int add_one(struct naming *n, const struct glsl_type *t, uint32_t length,
 	char *name;
 
 	if (u->n == MAX_UNIFORMS) {
-		n->why = "a program has more uniforms than are done";
+		n->why = "a program has too many uniforms";
 		return 0;
 	}
 	name = strdup(n->name);
@@ -37,7 +37,7 @@ static int add_one(struct naming *n, const struct glsl_type *t, uint32_t length,
 	return 0;
 }
 
-/* Names of a type's parts, n.name being its own; `first` its first number. */
+/* Add the parts of a type, which is called n.name and starts at number `first`. */
 static int add_parts(struct naming *n, uint32_t type, uint32_t first)
 {
 	const struct glsl_type *t = &n->tree->types[type], *element = t->kind == GLSL_ARRAY ? &n->tree->types[t->first] : NULL;
@@ -55,7 +55,7 @@ static int add_parts(struct naming *n, uint32_t type, uint32_t first)
 		int err;
 
 		if (length >= (int)(MAX_NAME - end)) {
-			n->why = "a uniform has a longer name than is done";
+			n->why = "the name of a uniform is too long";
 			return 0;
 		}
 		err = add_parts(n, part, first);
@@ -75,7 +75,7 @@ static int add_root(struct naming *n, const struct glsl_symbol *s)
 	char *kept;
 
 	if (strlen(name) >= MAX_NAME || first + padded > 65536) {
-		n->why = "a program has more uniforms than are done";
+		n->why = "a program has too many uniforms";
 		return 0;
 	}
 	kept = strdup(name);
@@ -88,7 +88,8 @@ static int add_root(struct naming *n, const struct glsl_symbol *s)
 	memset(u->values + first, 0, padded * sizeof(float));
 	if (s->first != GLSL_NONE && s->first + numbers <= n->tree->n_numbers)
 		memcpy(u->values + first, n->tree->numbers + s->first, numbers * sizeof(float));
-	for (uint32_t i = 0; i < numbers && s->binding != GLSL_NONE; i++) /* an array's samplers have units in a row */
+	for (uint32_t i = 0; i < numbers && s->binding != GLSL_NONE; i++) /* samplers of an array get consecutive
+	                                                                     units */
 		u->values[first + i] = (float)(s->binding + i);
 	u->n_values += padded;
 	strcpy(n->name, name);

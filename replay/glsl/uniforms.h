@@ -1,6 +1,7 @@
 /*
- * What of a program has locations: attributes, and uniforms, numbers in a row, in the order in which its stages were
- * met. A translation has them as its first constants, four numbers each, so that both stages read the same ones.
+ * Attributes and uniforms of a program: variables that have locations. The numbers of uniforms are stored
+ * consecutively, in the order in which the stages use them. In translated code they are the first constants, four
+ * numbers each, so that both stages read the same ones.
  */
 #pragma once
 
@@ -9,22 +10,22 @@
 
 #include "replay/glsl/tree/tree.h"
 
-/* A generic attribute of the vertex stage, as the program has bound it or was told. */
+/* A generic attribute of the vertex stage, with the location that the program bound or queried. */
 struct glsl_attribute {
-	char *name; /* owned by whoever has the list */
+	char *name; /* owned by the owner of the list */
 	uint32_t location;
 };
 
-/* One that has a location: a number, vector, matrix or sampler, or an array of such. */
+/* A uniform with a location of its own: a number, vector, matrix or sampler, or an array of these. */
 struct glsl_uniform {
-	char *name;       /* owned; "lights[2].color"; without the brackets of an array of numbers */
-	uint32_t kind, rows, columns, texture; /* as of struct glsl_type */
-	uint32_t length;  /* of an array; else 1 */
-	uint32_t first;   /* number */
-	uint32_t location; /* of its first element, as the text gives it; GLSL_NONE: it does not */
+	char *name;       /* owned; for example "lights[2].color"; without the brackets of an array of numbers */
+	uint32_t kind, rows, columns, texture; /* as in struct glsl_type */
+	uint32_t length;  /* of an array; otherwise 1 */
+	uint32_t first;   /* index of its first number */
+	uint32_t location; /* of its first element, as given in the text; GLSL_NONE: not given */
 };
 
-/* One as the text declares it. */
+/* A uniform as declared in the text. */
 struct glsl_uniform_root {
 	char *name; /* owned */
 	uint32_t first, numbers;
@@ -33,23 +34,23 @@ struct glsl_uniform_root {
 struct glsl_uniforms {
 	struct glsl_uniform *list;       /* owned */
 	struct glsl_uniform_root *roots; /* owned */
-	float *values;                   /* owned; samplers: units. There are some zeros behind, to a whole number of fours */
+	float *values;                   /* owned; units for samplers. Padded with zeros to a multiple of four */
 	uint32_t n, room, n_roots, root_room, n_values, value_room;
 };
 
 /**
- * Add the uniforms that a stage names, built-in ones aside; those of this name are there once.
- * @param why  receives NULL, or what stands in the way
+ * Add the uniforms of a stage, except built-in ones; those already present are shared.
+ * @param why  receives NULL, or why the program cannot be run
  * @return 0 or ERR_SYSTEM (reported)
  */
 int glsl_uniforms_add(struct glsl_uniforms *u, const struct glsl_tree *tree, const char **why);
 
-/** The first number of what the text calls so; GLSL_NONE: there is none. */
+/** Index of the first number of a declared uniform; GLSL_NONE: there is none of this name. */
 uint32_t glsl_uniforms_find(const struct glsl_uniforms *u, const char *name);
 
 /**
- * What a location of this name sets.
- * @param element  receives the element of its array that is the first one set
+ * Find a uniform by the name that a program uses to ask for a location.
+ * @param element  receives the index of the element that the name refers to
  * @return NULL: there is none of this name
  */
 const struct glsl_uniform *glsl_uniforms_named(const struct glsl_uniforms *u, const char *name, uint32_t *element);

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "replay/glsl/writer.h"
 
-#define MAX_MEMORY ((size_t)64 << 20) /* of operands */
+#define MAX_MEMORY ((size_t)64 << 20) /* for operands */
 
 void glsl_fail(struct glsl_writer *w, const char *why)
 {
@@ -27,7 +27,7 @@ void *glsl_alloc(struct glsl_writer *w, size_t n)
 	void *block;
 
 	if (n > MAX_MEMORY - w->memory) {
-		glsl_fail(w, "a shader is larger than is done");
+		glsl_fail(w, "a shader is too large");
 		return NULL;
 	}
 	w->memory += n;
@@ -45,7 +45,7 @@ uint32_t glsl_registers(struct glsl_writer *w, uint32_t n)
 	const uint32_t first = w->top;
 
 	if (n > SCENE_PROGRAM_REGISTERS - first) {
-		glsl_fail(w, "a shader keeps more numbers at once than are done");
+		glsl_fail(w, "a shader uses too many registers");
 		return SCENE_PROGRAM_FIRST;
 	}
 	w->top += n;
@@ -83,8 +83,10 @@ static int is_number(const struct glsl_writer *w, uint32_t place, float value)
 	       memcmp(&c->value[place % 4], &value, sizeof(value)) == 0;
 }
 
-/* Behind the last number, where the last constant is a literal with room (its part says how many of the four are in
- * use), else in a new one. */
+/*
+ * Append to the last constant if that is a literal with room (its part is the number of used components), otherwise to
+ * a new constant.
+ */
 static uint32_t add_number(struct glsl_writer *w, float value)
 {
 	struct program_constant *last = w->code->n_constants ? &w->code->constants[w->code->n_constants - 1] : NULL;
@@ -149,13 +151,13 @@ uint32_t glsl_append(struct glsl_writer *w, const struct scene_instruction *in)
 		return 0;
 	err = program_append(w->code, in);
 	if (err == ERR_INPUT)
-		glsl_fail(w, "a shader has more instructions than are done");
+		glsl_fail(w, "a shader has too many instructions");
 	else
 		w->err = err;
 	return w->code->n_instructions - 1;
 }
 
-/* How operands follow each other: 1 in a row, 0 all the same, -1 neither. */
+/* The stride of operands: 1 consecutive, 0 all the same, -1 neither. */
 static int step_of(const uint32_t *at, uint32_t n)
 {
 	int row = 1, alike = 1;
@@ -201,8 +203,7 @@ uint32_t glsl_one(struct glsl_writer *w, enum scene_operation operation, uint32_
 	return to;
 }
 
-/* 1 where the last instruction has made the operands, all of them and nothing else, so that it can as well write to
- * registers from `to` on. */
+/* 1 if the last instruction computed exactly these operands, so that it can write to registers from `to` on instead. */
 static int is_last_made(const struct glsl_writer *w, uint32_t to, const uint32_t *from, uint32_t n)
 {
 	struct scene_instruction *in;

@@ -27,7 +27,7 @@ int index_place(const struct index *index, int cached, char out[PATH_MAX])
 	return n > 0 && n < PATH_MAX;
 }
 
-/* ---- the trace ---- */
+/* ---- identifying the trace ---- */
 
 static int describe_trace(const char *path, const char *hash, struct index_header *header)
 {
@@ -44,7 +44,7 @@ static int describe_trace(const char *path, const char *hash, struct index_heade
 	return 0;
 }
 
-/* Is an index with this header current: of this trace and this layout? */
+/* Does an index with this header match this trace and this layout? */
 static int is_current(const char *path, const struct index_header *found, const struct index_header *wanted)
 {
 	uint64_t whole[2];
@@ -116,11 +116,11 @@ int index_open_file(struct index *index, const char *path)
 	if (!file)
 		return 0;
 	if (fread(&found, sizeof(found), 1, file) != 1 || memcmp(found.magic, INDEX_MAGIC, sizeof(found.magic)) != 0) {
-		err_warn(path, "is no index; it is made anew");
+		err_warn(path, "is not an index; rebuilding it");
 	} else if (!is_current(index->trace, &found, &index->header)) {
-		err_warn(path, "is of another trace or another build; it is made anew");
+		err_warn(path, "out of date; rebuilding it");
 	} else if (!(toc = read_toc(file, &found)) || get_toc(index, toc, found.toc_bytes)) {
-		err_warn(path, "is damaged; it is made anew");
+		err_warn(path, "damaged; rebuilding it");
 	} else {
 		index->header = found;
 		index->file = file;

@@ -1,14 +1,13 @@
 /*
- * The index of a trace: where its frames are, and checkpoints of the GL state machine. Rendering begins at a
+ * The index of a trace: the positions of its frames, and checkpoints of the GL state machine. Rendering starts at a
  * checkpoint, so that frame 90 000 costs no more than frame 9.
  *
- * It lies beside the trace as TRACE.index, or, where that folder cannot be written, as HASH.index in
- * $XDG_CACHE_HOME/relume
- * (~/.cache/relume). It names the trace by size, time, the hash of its first MiB and the hash of all of it; the last is
- * compared only where the time differs. An index is stale where the trace or the layout of snapshots (snapshot.h) has
- * changed.
+ * The file is TRACE.index beside the trace, or, if that folder is not writable, HASH.index in $XDG_CACHE_HOME/relume
+ * (~/.cache/relume). It identifies the trace by size, time, the hash of its first MiB and the hash of the whole; the
+ * last is compared only if the time differs. An index is out of date if the trace or the layout of snapshots
+ * (snapshot.h) has changed.
  *
- * This header is about an index that is there. index_build.h opens or makes one.
+ * This header reads an existing index. index_build.h opens or builds one.
  */
 #pragma once
 
@@ -20,56 +19,60 @@
 struct index;
 
 /**
- * An index of a trace that knows nothing yet but which trace.
+ * Create the index of a trace, without contents.
  * @param hash  hash_name
  * @return 0, ERR_INPUT or ERR_SYSTEM (reported)
  */
 int index_create(struct index **out, const char *path, const char *hash);
 
-/** Open the file that is there. @return 1 opened; 0 none is there, or it is stale or damaged (said) */
+/** Load an existing file. @return 1 loaded; 0 there is none, or it is out of date or damaged (reported) */
 int index_load(struct index *index);
 
-/** Where its file may lie: beside the trace, or (cached 1) in the cache folder. @return 0 where there is no such
- * place */
+/**
+ * Path of the index file: beside the trace, or, if cached is 1, in the cache folder. @return 0 if there is no such
+ * place
+ */
 int index_place(const struct index *index, int cached, char out[PATH_MAX]);
 
 void index_close(struct index **index);
 
 struct index_facts {
-	const char *path;       /* of the index; NULL: it is not kept */
-	uint64_t frames, calls; /* whole frames; calls executed */
-	int damaged;            /* 1: the trace is damaged behind its last whole frame */
+	const char *path;       /* of the index; NULL: not saved */
+	uint64_t frames, calls; /* complete frames; calls executed */
+	int damaged;            /* 1: the trace is damaged after its last complete frame */
 	uint64_t checkpoints, blobs;
 	uint64_t bytes;         /* of the index */
-	double build_s;         /* seconds it took to make; 0: it was there */
+	double build_s;         /* seconds spent building it; 0: loaded from a file */
 };
 struct index_facts index_facts(const struct index *index);
 
 /** A command that replays do not execute, or only in part. */
 struct index_lack {
-	char name[64], why[128]; /* of the command; what is missing, "": all of it */
+	char name[64], why[128]; /* of the command; the part that is missing, "": all of it */
 	uint64_t first, last;    /* frames that call it */
-	uint64_t stays;          /* 1: frames behind the last one may lack it as well */
+	uint64_t stays;          /* 1: frames after the last one may lack it as well */
 	uint64_t seen;           /* private */
 };
 
-/** What the trace's frames lack, in the order in which it is met. Found without building scenes: what only drawing
- * shows is not there. */
+/**
+ * Commands that the trace's frames lack, in order of first use. Found without building scenes, so that whatever only
+ * drawing reveals is not included.
+ */
 size_t index_lacks(const struct index *index, const struct index_lack **out);
 
-/** The number of the call that ends a frame, and the unpacked bytes of the trace up to there. */
+/** The number of the call that ends a frame, and that call's position in the unpacked trace in bytes. */
 void index_frame(const struct index *index, uint64_t frame, uint64_t *call, uint64_t *offset);
 
-/** When a frame ended (struct scene); 0: the recording does not tell. */
+/** When a frame ended (struct scene); 0: the recording does not say. */
 uint64_t index_frame_time(const struct index *index, uint64_t frame);
 
-/** The last frame up to `frame` that has a checkpoint; 0 where none has: the trace's beginning. */
+/** The last frame up to `frame` that has a checkpoint; 0 if none has: the trace's beginning. */
 uint64_t index_checkpoint(const struct index *index, uint64_t frame);
 
 /**
- * Begin at a checkpoint.
- * @param reader  of the same trace; goes on with the first call of that frame
- * @param x       as gls_exec_create made it; gets the state
- * @return 0, ERR_INPUT or ERR_SYSTEM (reported). On failure destroy x, and seek the reader before it is read
+ * Restore the state at a checkpoint.
+ * @param reader  of the same trace; continues with the first call of that frame
+ * @param x       as gls_exec_create made it; receives the state
+ * @return 0, ERR_INPUT or ERR_SYSTEM (reported). On failure destroy x, and seek the reader before using it again
  */
 int index_restore(struct index *index, uint64_t checkpoint, struct trace_reader *reader, struct gls_exec *x);

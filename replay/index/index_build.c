@@ -20,8 +20,8 @@
 #include "replay/play/player.h"
 #include "replay/programs/program.h"
 
-#define SPACING_BYTES ((uint64_t)1 << 20) /* of calls between checkpoints: some milliseconds */
-#define ALWAYS_BYTES ((uint64_t)256 << 10) /* an index may have so many, however small the trace */
+#define SPACING_BYTES ((uint64_t)1 << 20) /* bytes of calls between checkpoints: some milliseconds */
+#define ALWAYS_BYTES ((uint64_t)256 << 10) /* size that an index may always have, however small the trace */
 
 /* ---- checkpoints ---- */
 
@@ -55,7 +55,7 @@ int index_add_checkpoint(struct index *index, struct trace_reader *reader, struc
 	return rc < 0 ? rc : 0;
 }
 
-/* Add a checkpoint if it is worth its bytes (index_build.h). */
+/* Add a checkpoint if it is worth its size (index_build.h). */
 static int add_checkpoint(struct index *index, struct player *p)
 {
 	const uint64_t most = trace_reader_offset(p->reader) + ALWAYS_BYTES;
@@ -74,7 +74,7 @@ static int add_frame(struct index *index, struct player *p)
 	return 0;
 }
 
-/* The entry of a command. NULL: no memory */
+/* The entry of a command, created if necessary. NULL: out of memory */
 static struct index_lack *find_lack(struct index *index, const char *name)
 {
 	struct index_lack *l;
@@ -90,7 +90,7 @@ static struct index_lack *find_lack(struct index *index, const char *name)
 	return l;
 }
 
-/* A command is not executed; `seen` differs from that of the frame before where this frame calls it. */
+/* Note that a command is not executed. `seen` differs from that of the previous frame if this frame calls it. */
 static int note_lack(struct index *index, const char *name, const char *why, uint64_t seen, int stays)
 {
 	const uint64_t frame = index->n_frames - 1;
@@ -107,8 +107,8 @@ static int note_lack(struct index *index, const char *name, const char *why, uin
 }
 
 /*
- * What is missing of draws by a program that is not run and may draw, as it stays current from frame to frame; NULL:
- * nothing. command: receives the call that made it so
+ * The part missing from draws by a program that is not run and may draw again, because it stays current across frames;
+ * NULL: none. command: receives the call that made it current
  */
 static const char *program_lack(const struct gls_exec *x, const char **command)
 {
@@ -123,7 +123,7 @@ static const char *program_lack(const struct gls_exec *x, const char **command)
 	return NULL;
 }
 
-/* What the frame that has just ended lacks. programs: what was counted by the end of the frame before */
+/* Note what the frame that has just ended lacks. programs: its count at the end of the previous frame */
 static int note_lacks(struct index *index, const struct gls_exec *x, uint64_t *programs)
 {
 	const struct gls_counts *counts = &x->counts;
@@ -147,22 +147,22 @@ static int note_lacks(struct index *index, const struct gls_exec *x, uint64_t *p
 	return rc;
 }
 
-/* The least distance between checkpoints: looking at a large state takes time as well. */
+/* The minimum distance between checkpoints: measuring a large state takes time as well. */
 static uint64_t spacing(uint64_t state_bytes)
 {
 	return state_bytes / 4 > SPACING_BYTES ? state_bytes / 4 : SPACING_BYTES;
 }
 
 /*
- * The least distance from a checkpoint to a larger one. To restore a byte more of state takes as long as to replay a
- * byte and a quarter of calls (medians of recordings of eight programs).
+ * The minimum distance from a checkpoint to a larger one. Restoring one more byte of state takes as long as replaying a
+ * byte and a quarter of calls (medians over recordings of eight programs).
  */
 static uint64_t soonest(uint64_t grown_bytes)
 {
 	return grown_bytes + grown_bytes / 4;
 }
 
-/* How large is the state that a checkpoint would keep? */
+/* Measure the size of the state that a checkpoint would save. */
 static int measure(struct player *p, uint64_t *bytes)
 {
 	const struct snapshot_blobs scale = { .count = bytes };
@@ -178,8 +178,9 @@ static int measure(struct player *p, uint64_t *bytes)
 
 static int scan(struct index *index, struct player *p)
 {
-	uint64_t next = SPACING_BYTES; /* the next checkpoint stands there or later */
-	uint64_t last = 0, kept = 0, programs = 0, bytes; /* place and state bytes of the last checkpoint; state bytes now */
+	uint64_t next = SPACING_BYTES; /* earliest position of the next checkpoint */
+	uint64_t last = 0, kept = 0, programs = 0, bytes; /* position and state size of the last checkpoint; current
+	                                                     state size */
 	struct scene *none;
 	int rc;
 
@@ -246,7 +247,8 @@ int index_write_toc(struct index *index)
 	h->toc_bytes = toc.n;
 	if (fwrite(packed, 1, n, index->file) == n && fseek(index->file, 0, SEEK_SET) == 0 &&
 	    fwrite(h, sizeof(*h), 1, index->file) == 1 && fflush(index->file) == 0 &&
-	    ftruncate(fileno(index->file), (off_t)(h->toc_offset + n)) == 0) /* blobs may have been staged and dropped there */
+	    ftruncate(fileno(index->file), (off_t)(h->toc_offset + n)) == 0) /* blobs may have been staged and dropped
+	                                                                        there */
 		rc = 0;
 	else
 		index_lose_file(index);
@@ -274,7 +276,7 @@ int index_begin_file(struct index *index, const char *path, char part[PATH_MAX])
 	return 0;
 }
 
-/* The same beside the trace, or in the cache folder. path: receives the final name */
+/* Begin the index file beside the trace, or in the cache folder. path: receives the final name */
 static int begin_file(struct index *index, int cached, char path[PATH_MAX], char part[PATH_MAX])
 {
 	char folder[PATH_MAX];
@@ -318,7 +320,7 @@ static int make(struct index *index, struct player *fresh)
 	} else if (kept) {
 		const int has_name = rename(part, path) == 0;
 
-		if (!has_name) /* this process has it all the same */
+		if (!has_name) /* this process can use the index even so */
 			err_warn(index->trace, "its index cannot be renamed into place: %s; the next run makes it again", strerror(errno));
 		part_drop(part);
 		if (has_name && !(index->path = strdup(path)))

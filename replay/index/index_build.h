@@ -1,8 +1,8 @@
 /*
- * Makes the index of a trace, by replaying it once.
+ * Builds the index of a trace, by replaying it once.
  *
- * A checkpoint stands a MiB of calls after the one before it at least; later where the state is large, where restoring
- * it would take longer than the calls since the last one, or where the index would outgrow the trace.
+ * Checkpoints are at least one MiB of calls apart; more if the state is large, so that restoring it is never slower
+ * than replaying the calls since the last checkpoint, and the index does not outgrow the trace.
  */
 #pragma once
 
@@ -11,17 +11,16 @@
 struct player;
 
 enum index_mode {
-	INDEX_KEEP, /* use the one that is there, else make one */
-	INDEX_FORCE /* make one */
+	INDEX_KEEP, /* use an existing one, else build one */
+	INDEX_FORCE /* build one */
 };
 
 /**
- * Open the index of a trace, or make it: where there is none, where it is stale, and where it is damaged.
+ * Open the index of a trace, or build it if there is none, or if it is out of date or damaged.
  * @param path   of the trace
  * @param hash   hash_name
- * @param fresh  a player of the trace that has executed nothing: it is run through where an index is made; NULL: one is
- *               opened
- * @return 0; ERR_INPUT or ERR_SYSTEM (reported). An index that can be made but not written is a warning: this process
- *         has it, the next one makes it again
+ * @param fresh  a player of the trace that has executed nothing: used if an index is built; NULL: one is opened
+ * @return 0; ERR_INPUT or ERR_SYSTEM (reported). Failing to write the index is only a warning: this process can use it,
+ *         and the next one builds it again
  */
 int index_open(struct index **out, const char *path, const char *hash, enum index_mode mode, struct player *fresh);

@@ -6,7 +6,7 @@
 #include "replay/index/index_file.h"
 #include "replay/play/player.h"
 
-/* Is the state of a replay the one that a checkpoint keeps? */
+/* Compare the state of a replay with the one that a checkpoint saved. */
 static int compare_state(struct index *index, const struct index_checkpoint *c, struct player *p, const char *way)
 {
 	struct bytes state = { .n = 0 };
@@ -40,7 +40,7 @@ static int run_to(struct player *p, uint64_t frame)
 	return rc == 1 ? 0 : rc ? rc : ERR_INPUT;
 }
 
-/* A player at a checkpoint. */
+/* Open a player at a checkpoint. */
 static int begin_at(struct index *index, const struct index_checkpoint *c, struct player *p)
 {
 	int rc = player_open(p, index->trace);

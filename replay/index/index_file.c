@@ -41,7 +41,7 @@ void index_undelta(struct index_frame *frames, size_t n, int sign)
 
 /* ---- blobs ---- */
 
-/* A blob by its name. `t` maps the low half of a name, or the next free key, to a place in `blobs` + 1. */
+/* Find a blob by its name. `t` maps the low half of a name, or the next free key, to 1 + an index in `blobs`. */
 static const struct index_blob *find_blob(const struct table *t, const struct index_blob *blobs, const uint64_t name[2])
 {
 	uint64_t key = name[0];

@@ -13,7 +13,7 @@ size_t pack_room(size_t n)
 	return snappy_max_compressed_length(n);
 }
 
-/* Does a piece from the middle lose a quarter at least? */
+/* Does a piece from the middle shrink by at least a quarter? */
 static int is_worth_packing(const char *data, size_t n)
 {
 	char packed[SAMPLE_BYTES + SAMPLE_BYTES / 6 + 32]; /* snappy_max_compressed_length */

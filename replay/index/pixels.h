@@ -1,8 +1,8 @@
 /*
- * Checkpoints with pixels. A frame that shows what earlier ones drew costs all frames back to where that is known. Who
- * has played them leaves what they drew: each checkpoint is an index with nothing else, TRACE-MAKER-FRAME.index in a
- * folder for such files. What is missing or damaged costs time alone. They hold no scenes: a frame that shows a picture
- * whose scene is traced (surface/shown.h) goes back to the frames that drew it.
+ * Checkpoints with pixels. A frame that shows what earlier ones drew costs all frames back to where the pixels are
+ * known. When these have been played, their pixels are saved: each checkpoint is an index that holds nothing else,
+ * TRACE-MAKER-FRAME.index in a folder for such files. A missing or damaged file only costs time. The files hold no
+ * scenes: a frame that shows a picture whose scene is traced (surface/shown.h) goes back to the frames that drew it.
  */
 #pragma once
 
@@ -11,12 +11,12 @@
 #include "replay/trace/reader.h"
 
 struct pixels {
-	const char *path, *trace; /* of the trace; hash_name of it. Borrowed */
-	char *folder;             /* made on first use; NULL: nothing is kept, and nothing found */
+	const char *path, *trace; /* path of the trace; its hash_name. Borrowed */
+	char *folder;             /* created on first use; NULL: nothing is saved or found */
 	uint64_t maker;           /* of the pixels */
 };
 
-/** The maker of pixels that this build makes on a device. */
+/** Identifier of the pixels that this build makes on a device. */
 uint64_t pixels_maker(const char *device);
 
 /** The last frame up to `frame` that has a checkpoint. @return 1; 0: none has */

@@ -61,7 +61,7 @@ static const struct snapshot_table drawables = { NULL, 40, put_drawable, get_dra
 
 /* ---- saving ---- */
 
-/* Place of a context among all, from 1; 0: none. */
+/* 1 + index of a context; 0: none. */
 static uint64_t context_number(const struct gls_exec *x, const struct gls_context *ctx)
 {
 	for (size_t i = 0; i < x->n_contexts; i++)
@@ -70,7 +70,7 @@ static uint64_t context_number(const struct gls_exec *x, const struct gls_contex
 	return 0;
 }
 
-/* The first context of a share group stands for it. */
+/* A share group is identified by its first context. */
 static uint64_t share_number(const struct gls_exec *x, const struct gls_share *share)
 {
 	uint64_t i = 0;
@@ -172,7 +172,7 @@ const char *snapshot_place(struct gls_exec *x, size_t at)
 
 /* ---- loading ---- */
 
-/* The window system's name: contexts keep static strings. */
+/* The window system's name, as a static string, which contexts refer to. */
 static const char *get_api(struct loader *l)
 {
 	static const char *const names[] = { "GLX", "EGL", "WGL", "CGL", "OSMesa" };
@@ -209,7 +209,7 @@ static void get_context(struct loader *l)
 	if (share > x->n_contexts)
 		l->in.failed = 1;
 	if (loader_is_bad(l))
-		share = x->n_contexts; /* so that there is one to be released */
+		share = x->n_contexts; /* so that there is one to release */
 	if (share < x->n_contexts) {
 		ctx->state.share = x->contexts[share]->state.share;
 		ctx->state.share->refs++;

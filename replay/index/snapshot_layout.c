@@ -7,7 +7,7 @@
 #include "replay/machine/commands.h"
 #include "replay/index/snapshot_parts.h"
 
-#define FORM 1 /* raise it when snapshots say something else though no struct has changed */
+#define FORM 1 /* raise it if the meaning of snapshots changes though no struct does */
 
 uint64_t snapshot_layout(void)
 {

@@ -1,10 +1,10 @@
-/* What snapshots are made of, as a number. */
+/* Identifies the layout of snapshots by a number. */
 #pragma once
 
 #include <stdint.h>
 
 /**
- * Names what snapshots are made of: names, offsets and sizes of the members of all structs that are saved, and the
- * commands that lists hold by number. A build reads snapshots of equal layouts only.
+ * Hash of the layout of snapshots: names, offsets and sizes of the members of all saved structs, and the commands that
+ * lists refer to by number. A build reads only snapshots whose layout equals its own.
  */
 uint64_t snapshot_layout(void);

@@ -8,7 +8,7 @@
 
 #define MAX_VALUE_DEPTH 17
 
-/* ---- meshes: one block of memory; its pointers are saved as distances from its beginning, NULL as 0 ---- */
+/* ---- meshes: one block of memory; pointers are saved as offsets from its beginning, NULL as 0 ---- */
 
 #define N_MESH_ARRAYS (6 + SCENE_MAX_UNITS + 3)
 
@@ -56,7 +56,7 @@ static void put_mesh(struct saver *s, const struct gls_mesh *mesh)
 	free(copy);
 }
 
-/* Make distances pointers again. @return 0: one leads out of the block */
+/* Turn offsets back into pointers. @return 0: one is outside the block */
 static int relocate(struct gls_mesh *mesh, size_t n)
 {
 	struct mesh_array arrays[N_MESH_ARRAYS];
@@ -64,7 +64,7 @@ static int relocate(struct gls_mesh *mesh, size_t n)
 
 	if (mesh->bytes != n || (m->kind != SCENE_TRIANGLES && m->kind != SCENE_LINES && m->kind != SCENE_POINTS))
 		return 0;
-	m->crease = NULL; /* replays make none */
+	m->crease = NULL; /* not used in replays */
 	mesh_arrays(m, arrays);
 	for (unsigned i = 0; i < N_MESH_ARRAYS; i++) {
 		uintptr_t distance = (uintptr_t)*arrays[i].at;
@@ -83,7 +83,7 @@ static int relocate(struct gls_mesh *mesh, size_t n)
 	return 1;
 }
 
-/* A mesh of the cache, with a reference for the caller. */
+/* A mesh in the cache, with a reference for the caller. */
 static struct gls_mesh *get_mesh(struct loader *l)
 {
 	struct gls_mesh *mesh, *known;
@@ -110,7 +110,7 @@ static struct gls_mesh *get_mesh(struct loader *l)
 		atomic_fetch_add(&known->refs, 1);
 		return known;
 	}
-	atomic_init(&mesh->refs, 2); /* the cache and the caller */
+	atomic_init(&mesh->refs, 2); /* one for the cache, one for the caller */
 	mesh->used_frame = l->x->frame;
 	mesh->slot_frame = 0;
 	mesh->slot = 0;
@@ -245,7 +245,7 @@ static void get_op(struct loader *l, struct gls_list *list, struct gls_op *op)
 	op->n = (uint32_t)cursor_u64(&l->in);
 	if (op->command >= n_gls_commands || op->form > GLS_OP_MESH || op->n > (uint64_t)(l->in.end - l->in.p) / 4 ||
 	    (op->form != GLS_OP_MESH && !gls_commands[op->command].kind) || /* nothing runs it */
-	    (op->form != GLS_OP_MESH && op->form != GLS_OP_CALL && op->n > 16)) /* what unpack_call has room for */
+	    (op->form != GLS_OP_MESH && op->form != GLS_OP_CALL && op->n > 16)) /* the room in unpack_call */
 		l->in.failed = 1;
 	if (op->form == GLS_OP_CALL) {
 		op->args = args = take(l, &list->arena, op->n * sizeof(*args));
@@ -255,7 +255,7 @@ static void get_op(struct loader *l, struct gls_list *list, struct gls_op *op)
 			op->unpack = unpack = take(l, &list->arena, sizeof(*unpack));
 			if (unpack)
 				cursor_copy(&l->in, unpack, sizeof(*unpack));
-			l->in.failed |= unpack && unpack->alignment < 1; /* divided by */
+			l->in.failed |= unpack && unpack->alignment < 1; /* used as a divisor */
 		}
 		return;
 	}
@@ -280,7 +280,7 @@ static void get_op(struct loader *l, struct gls_list *list, struct gls_op *op)
 
 /* ---- lists ---- */
 
-/* A list is a blob of its own: most lists are the same at every checkpoint, and none changes once it is whole. */
+/* A list is a blob of its own: most lists are the same at every checkpoint, and none changes once it is complete. */
 static void put_list(struct saver *s, void *value)
 {
 	struct gls_list *list = value;
@@ -333,7 +333,7 @@ static void *get_list(struct loader *l)
 	for (; list->n < list->room && !loader_is_bad(l); list->n++) {
 		get_op(l, list, &list->ops[list->n]);
 		if (loader_is_bad(l) && list->ops[list->n].form == GLS_OP_MESH && !list->ops[list->n].mesh)
-			list->ops[list->n].form = GLS_OP_CALL; /* nothing to free there */
+			list->ops[list->n].form = GLS_OP_CALL; /* owns nothing to free */
 	}
 	outer.failed |= l->in.failed;
 	l->in = outer;

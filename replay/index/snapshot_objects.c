@@ -12,11 +12,11 @@
 
 /* ---- textures ---- */
 
-/* A texture is saved as it lies but for its levels: what is before them, and what is behind. */
+/* A texture is saved as it is in memory except for its levels: the part before them, then the part after. */
 #define LEVELS_BEGIN offsetof(struct gls_texture, levels)
 #define LEVELS_END (LEVELS_BEGIN + sizeof(((struct gls_texture *)0)->levels))
 
-/* Each level that is there follows its number. Most are the same at every checkpoint: their names are found once. */
+/* Each existing level follows its number. Most are the same at every checkpoint, so their names are computed once. */
 static void put_texture(struct saver *s, void *value)
 {
 	static const struct gls_level none;
@@ -144,7 +144,7 @@ static void *get_buffer(struct loader *l)
 static const struct snapshot_table buffers = { "buffer", sizeof(struct gls_buffer), put_buffer, get_buffer,
 	                                       drop_buffer };
 
-/* ---- framebuffer objects and renderbuffers: what was drawn to them is missing (gls_framebuffer_skip) ---- */
+/* ---- framebuffer objects and renderbuffers: their pixels are not saved (gls_framebuffer_skip) ---- */
 
 static void put_framebuffer(struct saver *s, void *value)
 {
@@ -207,7 +207,7 @@ static const struct snapshot_table renderbuffers = {
 	"renderbuffer", sizeof(struct gls_renderbuffer), put_renderbuffer, get_renderbuffer, drop_renderbuffer
 };
 
-/* ---- programs: their texts are translated again ---- */
+/* ---- programs: saved as source, translated again ---- */
 
 static void put_program(struct saver *s, void *value)
 {
@@ -259,7 +259,7 @@ static void *get_program(struct loader *l)
 static const struct snapshot_table programs = { "program", sizeof(((struct gls_program *)0)->target) + 16, put_program,
 	                                        get_program, drop_program };
 
-/* ---- all that contexts share ---- */
+/* ---- all shared objects ---- */
 
 void snapshot_put_share(struct saver *s, const struct gls_share *share)
 {

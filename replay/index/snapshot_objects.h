@@ -1,4 +1,6 @@
-/* What contexts share, in a snapshot: lists, textures, buffers, programs, framebuffer objects, renderbuffers. */
+/*
+ * Objects that contexts share, in a snapshot: lists, textures, buffers, programs, framebuffer objects, renderbuffers.
+ */
 #pragma once
 
 #include "replay/index/snapshot_parts.h"

@@ -46,7 +46,7 @@ static int by_key(const void *a, const void *b)
 	return (l->key > r->key) - (l->key < r->key);
 }
 
-/* Entries of a table in ascending order of their keys, so that equal tables are equal bytes. */
+/* Entries of a table in ascending order of keys, so that equal tables are equal bytes. */
 static struct table_entry *sorted(struct saver *s, const struct table *t)
 {
 	struct table_entry *entries = malloc((t->n + 1) * sizeof(*entries));

@@ -1,6 +1,6 @@
 /*
- * What the parts of a snapshot have in common (snapshot.c, _state, _objects, _lists). Each part saves and loads, in the
- * same order. layout.txt names what becomes of every pointer.
+ * Shared by the parts of a snapshot (snapshot.c, _state, _objects, _lists). Each part saves and loads in the same
+ * order. layout.txt lists how each pointer is treated.
  */
 #pragma once
 
@@ -21,21 +21,21 @@ struct saver {
 	struct gls_exec *x;
 	const struct snapshot_blobs *blobs;
 	struct bytes *out;
-	uint64_t held; /* bytes of all blobs so far */
+	uint64_t held; /* total size of blobs so far */
 	int has_pixels; /* snapshot_save_pixels */
 	int err;
-	size_t wanted; /* snapshot_place: the byte that is asked about, SIZE_MAX else */
+	size_t wanted; /* snapshot_place: the byte asked for, otherwise SIZE_MAX */
 	char place[96];
 };
 
-/** Say what comes next, so that snapshot_place can name a byte. */
+/** Name the section that follows, so that snapshot_place can describe a byte. */
 void saver_section(struct saver *s, const char *what, uint64_t number);
 
 void saver_blob(struct saver *s, const void *data, size_t n);
 /** @param name  hash_bytes */
 void saver_named_blob(struct saver *s, const uint64_t name[2], const void *data, size_t n);
 
-/* ---- loading: nothing read is believed ---- */
+/* ---- loading: all data is validated ---- */
 
 struct loader {
 	struct gls_exec *x;
@@ -47,25 +47,25 @@ struct loader {
 
 int loader_is_bad(const struct loader *l);
 
-/** n bytes of zeros, to be freed with free(); NULL: the loader is bad, or becomes so. */
+/** n zeroed bytes, to be freed with free(); NULL: the loader is bad, or becomes so. */
 void *loader_alloc(struct loader *l, size_t n);
 
-/** A count of things that take so many bytes each at least: no more than there can be. */
+/** Read a count of things of at least `bytes` bytes each; fails if more than the data can hold. */
 uint64_t loader_count(struct loader *l, size_t bytes);
 
-/** @return a blob's bytes, to be freed with free(), or NULL where there are none; *n receives how many */
+/** @return a blob's bytes, to be freed with free(), or NULL if there are none; *n receives their number */
 uint8_t *loader_blob(struct loader *l, size_t *n);
 
-/* ---- tables, in ascending order of their keys: equal tables are equal bytes ---- */
+/* ---- tables, in ascending order of keys, so that equal tables are equal bytes ---- */
 
 struct snapshot_table {
-	const char *what;   /* for snapshot_place; NULL: values are not named one by one */
-	size_t least_bytes; /* of an entry */
+	const char *what;   /* for snapshot_place; NULL: values are not named individually */
+	size_t least_bytes; /* minimum size of an entry */
 	void (*put)(struct saver *s, void *value);
 	void *(*get)(struct loader *l); /* NULL: the loader is bad, or there is nothing to keep */
-	void (*drop)(void *value);      /* frees one that cannot be kept */
+	void (*drop)(void *value);      /* frees a value that cannot be kept */
 };
 void saver_table(struct saver *s, const struct table *t, const struct snapshot_table *how);
 void loader_table(struct loader *l, struct table *t, const struct snapshot_table *how);
 
-extern const struct snapshot_table snapshot_numbers; /* values are numbers and no pointers */
+extern const struct snapshot_table snapshot_numbers; /* values are numbers, not pointers */

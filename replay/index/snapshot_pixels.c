@@ -35,7 +35,7 @@ void snapshot_put_picture(struct saver *s, const struct gls_picture *picture)
 		put_planes(s, &p->samples[i]);
 }
 
-/* A plane of so many bytes. */
+/* Read a plane of `bytes` bytes. */
 static void get_plane(struct loader *l, void *to, size_t bytes)
 {
 	size_t n;
@@ -47,7 +47,7 @@ static void get_plane(struct loader *l, void *to, size_t bytes)
 	free(data);
 }
 
-/* All but the first, which is read already. */
+/* Read all planes but the first, which is read already. */
 static void get_planes(struct loader *l, struct scene_picture *p)
 {
 	const size_t n = (size_t)p->width * p->height;
@@ -74,7 +74,7 @@ struct gls_picture *snapshot_get_picture(struct loader *l)
 	form.floats = cursor_u64(&l->in) != 0;
 	form.samples = cursor_u64(&l->in) ? SCENE_SAMPLES : 1;
 	lacks = (uint32_t)cursor_u64(&l->in);
-	first = loader_blob(l, &n); /* before room is made: a number alone asks for none */
+	first = loader_blob(l, &n); /* before memory is allocated: a size alone must not cause an allocation */
 	if (form.width > GLS_MAX_DRAWABLE || form.height > GLS_MAX_DRAWABLE || n != (size_t)4 * form.width * form.height)
 		l->in.failed = 1;
 	picture = loader_is_bad(l) ? NULL : gls_picture_make(l->x, &form);

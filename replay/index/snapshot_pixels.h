@@ -1,9 +1,9 @@
-/* Pictures in a snapshot: what drawables and renderbuffers hold, each of its planes a blob. */
+/* Pictures in a snapshot: the contents of drawables and renderbuffers, one blob for each plane. */
 #pragma once
 
 #include "replay/index/snapshot_parts.h"
 
-/** picture: NULL where there is none */
+/** picture: NULL if there is none */
 void snapshot_put_picture(struct saver *s, const struct gls_picture *picture);
 
 /** @return a reference, or NULL: there is none, or the loader is bad */

@@ -8,14 +8,14 @@
 #include "replay/index/snapshot_parts.h"
 #include "replay/programs/held.h"
 
-/* A text, or that there is none. */
+/* Save a text, or the fact that there is none. */
 static void put_text(struct saver *s, const char *text)
 {
 	bytes_put_u64(s->out, text != NULL);
 	saver_blob(s, text, text ? strlen(text) : 0);
 }
 
-/* To be freed with free(); NULL: there is none, or the loader is bad. */
+/* Read a text, to be freed with free(); NULL: there is none, or the loader is bad. */
 static char *get_text(struct loader *l)
 {
 	const uint64_t is_there = cursor_u64(&l->in);
@@ -60,7 +60,7 @@ static void put_shader(struct saver *s, void *value)
 	}
 }
 
-/* What contexts hold of its uniforms. */
+/* Values of its uniforms. */
 static void get_held(struct loader *l, struct gls_shader *sh)
 {
 	for (uint64_t n = loader_count(l, 24); n && !loader_is_bad(l); n--) {
@@ -104,7 +104,7 @@ static void get_texts(struct loader *l, struct gls_shader *sh)
 		}
 }
 
-/* The program as it was linked, with what its uniforms held. */
+/* The program as it was linked, with its uniforms' values at that time. */
 static void get_program(struct loader *l, struct gls_shader *sh)
 {
 	uint8_t *values;

@@ -1,4 +1,4 @@
-/* Shader and program objects of GLSL in a snapshot: their texts are translated again. */
+/* Shader and program objects of GLSL in a snapshot: saved as source, translated again. */
 #pragma once
 
 struct loader;

@@ -6,7 +6,7 @@
 #include "replay/gl/geometry/eval.h"
 #include "replay/gl/geometry/vertexarray.h"
 
-/* ---- what fits ---- */
+/* ---- range checks ---- */
 
 static int store_fits(const struct gls_pixel_store *s)
 {
@@ -14,7 +14,7 @@ static int store_fits(const struct gls_pixel_store *s)
 	int fits = s->alignment == 1 || s->alignment == 2 || s->alignment == 4 || s->alignment == 8;
 
 	for (size_t i = 0; i < sizeof(counts) / sizeof(counts[0]); i++)
-		fits &= counts[i] >= 0 && counts[i] <= 1 << 24; /* as glPixelStore takes them */
+		fits &= counts[i] >= 0 && counts[i] <= 1 << 24; /* the range that glPixelStore accepts */
 	return fits;
 }
 
@@ -35,7 +35,7 @@ static void put_array_memory(struct saver *s, const struct gls_array *arrays)
 		saver_blob(s, arrays[i].client, arrays[i].client ? arrays[i].client_bytes : 0);
 }
 
-/* Pointers that were read mean nothing: each array gets its bytes, or none. */
+/* Pointers read from the file are meaningless: each array gets its bytes, or none. */
 static void get_array_memory(struct loader *l, struct gls_array *arrays)
 {
 	for (unsigned i = 0; i < N_GLS_ARRAYS; i++) {
@@ -48,7 +48,7 @@ static void get_array_memory(struct loader *l, struct gls_array *arrays)
 	}
 }
 
-/* Leave out pointers to client memory: it belongs to the arrays in use and not to those on a stack. */
+/* Clear pointers to client memory: it belongs to the arrays in use and not to those on a stack. */
 static void forget_memory(struct gls_array *arrays)
 {
 	for (unsigned i = 0; i < N_GLS_ARRAYS; i++) {
@@ -102,7 +102,7 @@ static uint64_t context_of(const struct gls_exec *x, const struct gls_state *st)
 	return i;
 }
 
-/* Matrices above the top are not read again. They differ where lists that drew nothing were cut short (effect.c). */
+/* Matrices above the top are never read again. They differ if lists that drew nothing were cut short (effect.c). */
 static void clear_unused(struct gls_matrix_stack *stack)
 {
 	memset(stack->matrices[stack->depth + 1], 0, (GLS_MAX_MATRICES - 1 - stack->depth) * sizeof(stack->matrices[0]));
@@ -149,13 +149,13 @@ static int depth_fits(const struct gls_matrix_stack *loaded, const struct gls_ma
 	return loaded->max == made->max && loaded->depth < made->max;
 }
 
-/* Client state of a context or of its stack: what is a place in an array, a divisor or a size. */
+/* Client state, current or on the stack: check array indices, divisors and sizes. */
 static int client_fits(const struct gls_client_attribs *c)
 {
 	return store_fits(&c->pack) && store_fits(&c->unpack) && c->active_texture < GLS_MAX_UNITS && arrays_fit(c->arrays);
 }
 
-/* Attributes of a context or of its stack: which unit is selected, and each unit's own number. */
+/* Attributes, current or on the stack: check the selected unit, and each unit's own number. */
 static int attribs_fit(const struct gls_attribs *a)
 {
 	int fits = a->texturing.active < GLS_MAX_UNITS;
@@ -165,7 +165,7 @@ static int attribs_fit(const struct gls_attribs *a)
 	return fits;
 }
 
-/* Do all numbers fit that are places in arrays? */
+/* Check all numbers that are used as array indices. */
 static int state_fits(const struct gls_state *raw, const struct gls_state *made)
 {
 	int fits = depth_fits(&raw->modelview, &made->modelview) && depth_fits(&raw->projection, &made->projection) &&

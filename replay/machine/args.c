@@ -29,7 +29,7 @@ int64_t gls_value_truncated(const struct trace_value *v)
 	return d >= -9e18 && d <= 9e18 ? (int64_t)d : 0;
 }
 
-/* The elements of an array argument, or one number; none where it is neither. */
+/* The elements of an array argument, or the argument itself if it is one number; otherwise none. */
 static const struct trace_value *number_or_items(const struct call *c, unsigned i, uint64_t *n)
 {
 	const struct trace_value *v = arg(c, i);

@@ -1,4 +1,4 @@
-/* What buffer objects miss: pixels that were read into them in frames that nobody rendered. */
+/* Unknown contents of buffer objects: pixels that were read into them in frames that were not rendered. */
 #include "replay/machine/buffer.h"
 
 #include "replay/machine/errors.h"

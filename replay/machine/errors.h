@@ -1,4 +1,4 @@
-/* What can go wrong in a handler: errors of the program, calls that are not done yet, failures of ours. */
+/* Failures in a handler: GL errors of the program, calls that are not supported yet, and our own failures. */
 #pragma once
 
 #include <stdbool.h>
@@ -9,10 +9,10 @@ struct gls_exec;
 struct gls_state;
 struct table;
 
-/** The program made a GL error in the current call. The handler changes nothing else. */
+/** Record a GL error of the program in the current call. The handler must change nothing else. */
 void gls_error(struct gls_exec *x, struct gls_state *st, uint32_t error);
 
-/** The same where it is `wrong`. @return wrong */
+/** As gls_error, if `wrong`. @return wrong */
 static inline bool gls_refuses(struct gls_exec *x, struct gls_state *st, bool wrong, uint32_t error)
 {
 	if (wrong)
@@ -20,43 +20,48 @@ static inline bool gls_refuses(struct gls_exec *x, struct gls_state *st, bool wr
 	return wrong;
 }
 
-/** The same with what a table or a rule says: 0 is no error. @return whether there is one */
+/** As gls_error, with an error code from a table or rule; 0 is no error. @return true if there was an error */
 static inline bool gls_refuses_by(struct gls_exec *x, struct gls_state *st, uint32_t error)
 {
 	return gls_refuses(x, st, error != 0, error);
 }
 
-/** A program's reason, as a string that lives as long as what is counted: the program may be linked again, or go. */
+/**
+ * Copy a program's reason into storage that lives as long as the counts: the program may be linked again or deleted.
+ */
 const char *gls_reason(struct gls_exec *x, const char *why);
 
-/** Count the current call as not done. why: the part that is missing; lives as long as what is counted. */
+/** Count the current call as unsupported. why: the part that is missing; must live as long as the counts. */
 void gls_unsupported(struct gls_exec *x, const char *why);
 
-/** What gls_unsupported says of calls that need pixels where nothing renders. */
+/** Reason for gls_unsupported: the call needs rendered pixels, and there is no renderer. */
 extern const char gls_needs_renderer[];
 
-/** What it says of draws by shaders or programs. */
+/** Reason for gls_unsupported: the draw uses shaders or programs. */
 extern const char gls_programs[];
 
-/** The frame needs pixels of skipped frames: the replay goes back (gls_feedback). why: what shows them, a static
- * string. */
+/**
+ * The frame needs pixels of skipped frames: make the replay go back (gls_feedback). why: what shows those pixels, a
+ * static string.
+ */
 void gls_rewind(struct gls_exec *x, const char *why);
 
-/** Scratch memory of n bytes, valid until the next call of this; NULL: out of memory (reported). */
+/** Scratch memory of n bytes, valid until the next call of gls_scratch; NULL: out of memory (reported). */
 void *gls_scratch(struct gls_exec *x, size_t n);
-/** An object of n bytes, all zero, under its name in a table, which owns it. @return NULL: out of memory (reported) */
+/** Create an object of n zeroed bytes under `name` in a table, which owns it. @return NULL: out of memory (reported) */
 void *gls_object_create(struct gls_exec *x, struct table *t, uint64_t name, size_t n);
-/** Report that memory is short. The replay ends after this call. */
+/** Report that memory ran out. The replay ends after this call. */
 void gls_out_of_memory(struct gls_exec *x, size_t bytes);
 /** End the replay after this call, for a failure that is already reported. */
 void gls_fail(struct gls_exec *x);
 
 /**
- * Bound the work that a few calls can ask for. Lists that call themselves, or each other twice, run longer than anybody
- * waits, in a driver too; so do draws of endless instances. A frame may multiply its work by so much for each call
- * recorded so far that no program comes near it.
- * @param n    more work: operations of a list called by a list, instances, some points of evaluated meshes
- * @param why  what to count the call as if it is too much
- * @return 1 if it is too much
+ * Limit the work that a few calls can ask for. Lists that call themselves, or call each other twice, run longer than
+ * anybody would wait, in a driver as well; so do draws with endless instances. The amount by which a frame may multiply
+ * its work is a fixed number for each call recorded so far, far above what real programs reach.
+ *
+ * @param n    additional work: operations of a list called by a list, instances, some points of evaluated meshes
+ * @param why  reason to count the call under if the limit is exceeded
+ * @return 1 if the limit is exceeded
  */
 int gls_is_beyond_measure(struct gls_exec *x, uint64_t n, const char *why);

@@ -3,7 +3,7 @@
 #include "gl_tokens.h"
 #include "replay/machine/args.h"
 
-/* 1 where a parameter's value is no number (OpenGL ES 1.1 sec. 2.3: it is not converted). */
+/* 1 if a parameter's value is not a number (OpenGL ES 1.1 sec. 2.3: it is not converted). */
 static int is_unscaled(uint32_t pname)
 {
 	switch (pname) {

@@ -73,7 +73,7 @@ int gls_geometry_reserve(struct gls_exec *x, struct gls_geometry *g, uint32_t n_
 	return rc;
 }
 
-/* Let something vary, if there is room for it. bit: of g->varying */
+/* Make something vary, if there is room for it. bit: of g->varying */
 static int vary(struct gls_exec *x, struct gls_geometry *g, uint32_t bit)
 {
 	g->varying |= bit;
@@ -112,7 +112,7 @@ enum scene_primitive gls_mode_kind(uint32_t mode)
 	return mode < sizeof(kinds) ? kinds[mode] : 0;
 }
 
-/* ---- cutting ---- */
+/* ---- splitting primitives ---- */
 
 struct cutter {
 	struct gls_geometry *g;
@@ -148,8 +148,8 @@ static void put_line(const struct cutter *c, uint32_t i, uint32_t j, unsigned ed
 }
 
 /*
- * edges: bit n is set if the edge from vertex n to the next belongs to the primitive; SCENE_CONTINUES. In strips and
- * fans all are boundaries (sec. 2.6.2), but Mesa asks the vertices' edge flags there, too.
+ * edges: bit n is set if the edge from vertex n to the next is a boundary edge; or SCENE_CONTINUES. In strips and fans
+ * every edge is a boundary (sec. 2.6.2), but Mesa applies the vertices' edge flags there as well.
  */
 static void put_triangle(const struct cutter *c, uint32_t i, uint32_t j, uint32_t k, unsigned edges)
 {
@@ -203,7 +203,7 @@ int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, 
 		for (i = 2; i < count; i++)
 			put_triangle(&c, first_provokes ? i : 0, first_provokes ? 0 : i - 1, first_provokes ? i - 1 : i, 7);
 		break;
-	case GL_QUADS: /* llvmpipe has quads follow the last vertex in any case */
+	case GL_QUADS: /* llvmpipe always takes a quad's last vertex as the provoking one */
 		for (i = 0; i + 3 < count; i += 4) {
 			put_triangle(&c, i, i + 1, i + 3, 1 | 4);
 			put_triangle(&c, i + 1, i + 2, i + 3, 1 | 2 | SCENE_CONTINUES);
@@ -225,7 +225,7 @@ int gls_geometry_cut(struct gls_exec *x, struct gls_geometry *g, uint32_t mode, 
 	return 0;
 }
 
-/* Where the draw that begins with this primitive ends. is_loop: its last line leads back to its first vertex */
+/* End of the draw that begins with this primitive. is_loop: receives 1 if its last line returns to its first vertex */
 static uint32_t end_of_draw(const struct gls_geometry *g, uint32_t first, int *is_loop)
 {
 	uint32_t end = first + 1;
@@ -261,7 +261,7 @@ void gls_geometry_turn_quads(struct gls_geometry *g)
 		uint8_t first = g->edge_flags[i], second = g->edge_flags[i + 1];
 
 		memcpy(index, (uint32_t[6]){ a, b, c, a, c, d }, 6 * sizeof(*index));
-		/* they were a-b, (b-d), d-a and b-c, c-d, (d-b); they are a-b, b-c, (c-a) and (a-c), c-d, d-a */
+		/* before: a-b, (b-d), d-a and b-c, c-d, (d-b); now: a-b, b-c, (c-a) and (a-c), c-d, d-a */
 		g->edge_flags[i] = (uint8_t)((first & 1) | (second & 1) << 1);
 		g->edge_flags[i + 1] = (uint8_t)((second & (2 | SCENE_CONTINUES)) | (first & 4));
 	}
@@ -270,7 +270,7 @@ void gls_geometry_turn_quads(struct gls_geometry *g)
 int gls_quads_turn(const struct gls_state *st, int is_flat, const float *position, const uint32_t *index,
                    uint32_t n_primitives)
 {
-	static const unsigned corners[4] = { 0, 1, 2, 4 }; /* of the six indices of its two triangles */
+	static const unsigned corners[4] = { 0, 1, 2, 4 }; /* in the six indices of a quad's two triangles */
 	const struct gls_attribs *a = &st->a;
 	const float *modelview = st->modelview.matrices[st->modelview.depth];
 	float mvp[16];

@@ -1,5 +1,7 @@
-/* The machine that executes calls: what it knows while it runs a recording. The chapters of replay/gl/ and the index
- * see it. */
+/*
+ * The machine that executes calls, with all it knows while it plays a recording. The chapters of replay/gl/ and the
+ * index use it.
+ */
 #pragma once
 
 #include <stddef.h>
@@ -17,65 +19,66 @@ struct gls_context {
 	uint64_t handle, share_handle; /* addresses in the program */
 	const char *api;               /* "GLX", "EGL" ... */
 	uint64_t calls;                /* made while it was current */
-	int destroyed, shares;         /* 1: it lives until it is released; another context shares its objects */
+	int destroyed, shares;         /* 1: released as soon as nothing uses it; 1: another context shares its
+	                                  objects */
 	struct gls_state state;
 };
 
-/* Calls met so far, by command. */
+/* Calls executed so far, by command. */
 struct gls_counts {
 	uint64_t *calls, *unsupported, *errors; /* [n_gls_commands] */
-	const char **why;                       /* [n_gls_commands] the part that is not done; NULL: all of it */
+	const char **why;                       /* [n_gls_commands] the part that is not supported; NULL: all of it */
 	uint32_t *error_code;                   /* [n_gls_commands] the last one */
-	struct table unknown;                   /* name -> count, of calls in no table */
-	uint64_t programs;                      /* draws by one that is not run */
-	struct table program_draws;             /* gls_program_current -> draws, of all that are used */
+	struct table unknown;                   /* name -> count, for calls that are in no table */
+	uint64_t programs;                      /* draws by a program that is not run */
+	struct table program_draws;             /* gls_program_current -> number of draws, for every program used */
 	uint64_t programs_used;                 /* calls that make a program object current that is not run */
-	const char *programs_why;               /* what stood in the way of the last one; lives as long as these */
-	char **reasons;                         /* owned: what programs said that may be gone by now */
+	const char *programs_why;               /* why the last one is not run; lives as long as these counts */
+	char **reasons;                         /* owned: reasons copied from programs that may be gone */
 	uint32_t n_reasons, reason_room;
-	uint64_t window;                        /* of the first frame */
-	int several_windows;                    /* 1: another frame ended in another one */
+	uint64_t window;                        /* where the first frame ended */
+	int several_windows;                    /* 1: another frame ended in a different window */
 };
 
 /* Vertices of gls_exec.st that are not drawn yet (gl/geometry/pending.h). */
 struct gls_pending {
 	struct gls_geometry geometry;
-	uint64_t call; /* number of the call that began them */
+	uint64_t call; /* number of the first call that contributed */
 	uint32_t command, list; /* that call's command, and the list it came from */
-	int mixes; /* 1: quads may join other polygons, as they do in lists */
+	int mixes; /* 1: quads may be mixed with other polygons, as in lists */
 };
 
-/* Contents that were met before, found by hash. */
+/* Contents seen before, found by hash. */
 struct gls_caches {
 	struct table meshes;     /* low half of the hash -> struct gls_mesh (chains by probing the high half) */
 	struct table draws;      /* key of an array draw -> struct gls_mesh */
 	struct table images;     /* texture contents */
 	size_t mesh_bytes, image_bytes;
-	uint64_t versions;       /* of buffers: the last one */
+	uint64_t versions;       /* last version given to a buffer */
 };
 
-/* Memory for whoever needs it during one call. */
+/* Memory that any function may use during one call. */
 struct gls_scratch {
 	uint8_t *bytes;
 	size_t room;
 	uint32_t *elements; /* indices of the draw being executed */
 	size_t elements_room;
-	struct gls_geometry geometry; /* of array draws and rectangles */
+	struct gls_geometry geometry; /* for array draws and rectangles */
 };
 
-/* Pixels that were drawn and are needed (gl/surface/surface.h). */
+/* Rendered pixels that the program reads back (gl/surface/surface.h). */
 struct gls_feedback {
-	scene_supply *supply; /* NULL: nobody makes pixels */
+	scene_supply *supply; /* NULL: no renderer */
 	void *supply_user;
-	int keeps_targets; /* 1: pictures of framebuffer objects stay pictures (surface/shown.h) */
-	int leaves_starts; /* 1: who renders frames makes what they begin with (scene/before.h) */
-	int fronts;        /* 1: something reads front buffers */
-	int missing;       /* 1: some texture lacks pixels that were drawn in skipped frames */
-	int shows_earlier; /* 1: the frame used a buffer that lacks what an earlier frame read into it */
-	int shows_through; /* 1: some frame showed what was there before it */
-	int rewind;        /* 1: a frame needs pixels of skipped frames: the replay must build those before it */
-	const char *rewind_why; /* what it needs them for; a static string */
-	uint32_t rewind_command; /* the call that found out */
+	int keeps_targets; /* 1: pictures of framebuffer objects are drawn as pictures (surface/shown.h) */
+	int leaves_starts; /* 1: the renderer of a frame supplies its initial contents (scene/before.h) */
+	int fronts;        /* 1: the program reads front buffers */
+	int missing;       /* 1: some texture lacks pixels of skipped frames */
+	int shows_earlier; /* 1: the frame used a buffer that lacks pixels of an earlier frame */
+	int shows_through; /* 1: some frame showed contents from before it */
+	int rewind;        /* 1: a frame needs pixels of skipped frames: the replay must build the frames before it */
+	const char *rewind_why; /* what needs them; a static string */
+	uint32_t rewind_command; /* the call that needs them */
 	uint64_t rewind_call;    /* its number */
 };
 
@@ -88,11 +91,11 @@ typedef void gls_dispatcher(struct gls_exec *x, const struct call *c, uint32_t c
 struct gls_exec {
 	const char *path;    /* of the trace, for messages */
 	int want;            /* 1: build scenes */
-	int failed;          /* ERR_*: we failed (errors.h) */
+	int failed;          /* ERR_*: our own failure (errors.h) */
 	uint64_t frame;      /* being executed */
-	uint64_t time_ns;    /* when it ended, as the recorder says; 0: not known */
+	uint64_t time_ns;    /* when it ended, according to the recorder; 0: unknown */
 	int frame_ended;     /* set by swaps */
-	int is_ours;         /* 1: our recorder has left its mark */
+	int is_ours;         /* 1: the recording has our recorder's mark */
 
 	struct gls_context **contexts; /* owned, in order of creation */
 	size_t n_contexts;
@@ -102,22 +105,22 @@ struct gls_exec {
 	size_t n_threads;
 	uint64_t thread;
 	struct table drawables;
-	struct table configs; /* of drawables, see config.c */
-	uint32_t egl_api;     /* what eglBindAPI has chosen; 0: nothing */
+	struct table configs; /* of drawables (config.c) */
+	uint32_t egl_api;     /* chosen by eglBindAPI; 0: none */
 	struct table maps;    /* mapped address -> struct gls_buffer */
 
 	const struct call *call;      /* being executed */
 	uint32_t command;             /* its index */
-	const struct gls_pixel_store *unpack; /* how its pixels lie in client memory; NULL: as the state says */
+	const struct gls_pixel_store *unpack; /* layout of its pixels in client memory; NULL: the state's */
 	uint32_t drawn_list;          /* the outermost list being called; 0: none */
 	unsigned list_depth;
-	uint64_t repeated, repeated_frame; /* work that calls multiplied in that frame (gls_is_beyond_measure) */
+	uint64_t repeated, repeated_frame; /* work multiplied by calls in that frame (gls_is_beyond_measure) */
 	uint64_t swapped;             /* drawable of the swap that ended the frame */
 	int unswapped;                /* 1: it ended without a swap */
 
-	gls_dispatcher *dispatch; /* how handlers reach gl/dispatch.c, which stands above them; `command` is then what
-	                             was run */
-	struct gls_exec *assembler;   /* the machine in which lists are assembled (list_assemble.h); NULL: none yet */
+	gls_dispatcher *dispatch; /* lets handlers call gl/dispatch.c, which is a layer above; `command` is then the one
+	                             that was run */
+	struct gls_exec *assembler;   /* the machine that assembles lists (list_assemble.h); NULL: none yet */
 
 	struct gls_pending pending;
 	struct gls_caches caches;
@@ -127,8 +130,10 @@ struct gls_exec {
 	struct gls_counts counts;
 };
 
-/** How pixels of the current call lie in client memory. A list keeps the layout of the moment when it was made
- * (sec. 5.4). */
+/**
+ * Layout of the current call's pixels in client memory. A list keeps the layout that was set when it was compiled (sec.
+ * 5.4).
+ */
 static inline const struct gls_pixel_store *gls_client_store(const struct gls_exec *x, const struct gls_state *st)
 {
 	return x->unpack ? x->unpack : &st->client.unpack;

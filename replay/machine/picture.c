@@ -1,4 +1,4 @@
-/* Pictures: pixels that were rendered. */
+/* Pictures: rendered pixels. */
 #include "replay/machine/picture.h"
 
 #include <stdlib.h>
@@ -32,8 +32,8 @@ struct gls_picture *gls_picture_reference(struct gls_picture *p)
 }
 
 /*
- * All 0, but for alpha that is not there, which is 1. So does Mesa's memory begin; GL does not say how.
- * @return 0: out of memory, with whatever was allocated
+ * All 0, except that alpha is 1 if the surface has none. Mesa's memory starts this way; GL leaves it undefined.
+ * @return 0: out of memory, with some arrays possibly allocated
  */
 static int make_arrays(struct scene_picture *p, const struct gls_picture_form *form)
 {

@@ -1,4 +1,4 @@
-/* Pictures: pixels that were rendered, shared by reference. */
+/* Pictures: rendered pixels, shared by reference. */
 #pragma once
 
 #include <stdatomic.h>
@@ -11,22 +11,25 @@ struct gls_exec;
 
 /* Freed with the last reference, in any thread. */
 struct gls_picture {
-	struct scene_picture picture; /* first */
+	struct scene_picture picture; /* must be first */
 	atomic_uint refs;
-	uint32_t lacks; /* buffers that hold what skipped frames drew, which is not known; bits as in scene_clear */
+	uint32_t lacks; /* buffers whose contents come from skipped frames and are unknown; bits as in scene_clear */
 };
 
-/* What a picture has room for. */
+/* The planes of a picture. */
 struct gls_picture_form {
 	uint32_t width, height, depth_bits, alpha_bits;
-	uint32_t samples; /* of a pixel; more than one: each has a picture of its own, beside their mean */
-	uint32_t floats;  /* 1: colours are there as floats, too */
+	uint32_t samples; /* per pixel; if more than one, each has a picture of its own beside their mean */
+	uint32_t floats;  /* 1: colours are also stored as floats */
 };
 
-/** A black picture, with depths far and stencil 0. @return a reference; NULL: out of memory (reported) */
+/**
+ * Create a black picture, with depth at the far plane and stencil 0. @return a reference; NULL: out of memory
+ * (reported)
+ */
 struct gls_picture *gls_picture_make(struct gls_exec *x, const struct gls_picture_form *form);
-/** One more reference; NULL stays NULL. */
+/** Add a reference; NULL stays NULL. */
 struct gls_picture *gls_picture_reference(struct gls_picture *p);
 void gls_picture_release(struct gls_picture *p);
-/** The colour of a place in a picture. */
+/** The colour at a place in a picture. */
 void gls_picture_color(const struct scene_picture *p, size_t place, float out[4]);

@@ -12,7 +12,7 @@
 #include "replay/gl/surface/frames.h"
 #include "replay/gl/texture/image.h"
 
-#define TELL_S 10 /* between lines that tell how far a replay from the start has come */
+#define TELL_S 10 /* seconds between progress messages of a replay from the start */
 
 int player_open(struct player *p, const char *path)
 {
@@ -139,7 +139,7 @@ int player_start_again(struct player *p)
 
 	if (rc)
 		return rc;
-	table_free(&p->exec->counts.unknown); /* its keys go with the reader */
+	table_free(&p->exec->counts.unknown); /* its keys belong to the reader */
 	player_use(p, x);
 	trace_reader_close(&p->reader);
 	return trace_reader_open(&p->reader, p->path, gls_command_find);

@@ -1,12 +1,11 @@
-/* Who is told how far a replay has come that leads to a frame. */
+/* Callback that reports the progress of a replay towards a frame. */
 #pragma once
 
 #include <stdint.h>
 
 /**
- * @param frame   the one that is wanted
- * @param played  so many of the frames before it, of `of`
- * @param why     whose pixels frames need, so that those before them are drawn, too; NULL: frames before this one are
- * skipped
+ * @param frame   the wanted frame
+ * @param played  number of earlier frames played so far, out of `of`
+ * @param why     which pixels are needed, so that earlier frames are drawn as well; NULL: earlier frames are skipped
  */
 typedef void replay_tell(void *user, uint64_t frame, uint64_t played, uint64_t of, const char *why);

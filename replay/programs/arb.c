@@ -99,7 +99,7 @@ static void take_option(struct arb_parser *p)
 	else if (arb_is(name, n, "ARB_fog_exp2"))
 		p->fog = ARB_FOG_EXP2;
 	else
-		arb_fail(&p->words, "an ARB program has an option that is not done yet");
+		arb_fail(&p->words, "an ARB program has an unsupported option");
 }
 
 static void take_statement(struct arb_parser *p, const char *name, size_t n)
@@ -123,7 +123,7 @@ static void take_statement(struct arb_parser *p, const char *name, size_t n)
 	arb_expect(&p->words, ';');
 }
 
-/* The fog that an option asks for (section 3.11.4.5.1), over the colour that the program has left. */
+/* The fog that an option selects (section 3.11.4.5.1), applied to the program's colour. */
 static void add_fog(struct arb_parser *p)
 {
 	struct emitter *e = &p->emitter;
@@ -153,7 +153,7 @@ static void add_fog(struct arb_parser *p)
 		emit_vector(e, SCENE_OP_EXP2, &factor, &x, NULL, NULL);
 		x.negated = 0;
 	}
-	/* f own + (1 - f) fog, from what the own colour is more than the fog's */
+	/* f own + (1 - f) fog, computed as fog + f (own - fog) */
 	back = fog;
 	back.negated = 15;
 	emit_vector(e, SCENE_OP_MOVE, &(struct emit_target){ SCENE_PROGRAM_COLOR, 15, 1 }, &own, NULL, NULL);
@@ -161,8 +161,10 @@ static void add_fog(struct arb_parser *p)
 	emit_vector(e, SCENE_OP_MAD, &rgb, &own, &x, &fog);
 }
 
-/* 1 where an attribute is called by its number and by its name: as Mesa (22.3.6) counts them, not in
- * ARB_vertex_program's order. */
+/*
+ * 1 if an attribute is used both by number and by name, with the aliases of Mesa (22.3.6), which differ from those of
+ * ARB_vertex_program.
+ */
 static int is_named_twice(const struct arb_parser *p)
 {
 	const uint32_t first = (1u << SCENE_VERTEX_TEXCOORD) - 1;
@@ -214,7 +216,7 @@ int program_translate_arb(const char *text, size_t n, int is_vertex, struct prog
 	if (!p->words.why)
 		take_program(p);
 	if (p->emitter.err == ERR_INPUT)
-		arb_fail(&p->words, "an ARB program has more instructions than are done");
+		arb_fail(&p->words, "an ARB program has too many instructions");
 	*why = p->words.why;
 	err = p->emitter.err == ERR_SYSTEM ? ERR_SYSTEM : 0;
 	if (!err && !p->words.why)

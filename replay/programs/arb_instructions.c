@@ -11,7 +11,7 @@ static struct emit_target part_of(const struct emit_target *to, uint32_t mask)
 	return (struct emit_target){ to->first, to->mask & mask, to->saturates };
 }
 
-/* Move what was computed aside to where it belongs. */
+/* Move a result from temporary registers to its target. */
 static void move_from(struct arb_parser *p, const struct emit_target *to, uint32_t first)
 {
 	const struct emit_source from = emit_four(first);
@@ -84,7 +84,8 @@ static void do_xpd(struct arb_parser *p, const struct emit_target *to, const str
 	a[1].negated ^= 15;
 	emit_vector(&p->emitter, SCENE_OP_MULTIPLY, &product, &a[1], &b[1], NULL);
 	emit_vector(&p->emitter, SCENE_OP_MAD, &result, &a[0], &b[0], &d);
-	emit_vector(&p->emitter, SCENE_OP_MOVE, &last_one, &one, NULL, NULL); /* not said; Mesa has it so */
+	emit_vector(&p->emitter, SCENE_OP_MOVE, &last_one, &one, NULL, NULL); /* undefined in the specification; Mesa
+	                                                                         writes 1 */
 }
 
 static void do_scs(struct arb_parser *p, const struct emit_target *to, const struct emit_source s[3])
@@ -98,7 +99,7 @@ static void do_scs(struct arb_parser *p, const struct emit_target *to, const str
 	move_from(p, &result, aside);
 }
 
-/* 1, max(x, 0), x > 0 ? max(y, 0) to the power of w within 128 : 0, 1 */
+/* 1, max(x, 0), x > 0 ? max(y, 0) to the power of w clamped to +-128 : 0, 1 */
 static void do_lit(struct arb_parser *p, const struct emit_target *to, const struct emit_source s[3])
 {
 	struct emitter *e = &p->emitter;
@@ -123,7 +124,7 @@ static void do_lit(struct arb_parser *p, const struct emit_target *to, const str
 	move_from(p, to, aside);
 }
 
-/* 2 to the power of x's whole part, the rest of x, 2 to the power of x, 1 */
+/* 2 to the power of floor(x), the fraction of x, 2 to the power of x, 1 */
 static void do_exp(struct arb_parser *p, const struct emit_target *to, const struct emit_source s[3])
 {
 	struct emitter *e = &p->emitter;
@@ -142,7 +143,7 @@ static void do_exp(struct arb_parser *p, const struct emit_target *to, const str
 	move_from(p, to, e->scratch + 4);
 }
 
-/* The whole part of the logarithm of |x|, |x| as a number between 1 and 2, the logarithm, 1 */
+/* floor(log2(|x|)), the mantissa of |x| in [1,2), log2(|x|), 1 */
 static void do_log(struct arb_parser *p, const struct emit_target *to, const struct emit_source s[3])
 {
 	struct emitter *e = &p->emitter;
@@ -193,7 +194,7 @@ static const struct {
 	{ "SUB", 2, IN_BOTH, OTHERWISE, 0, do_sub }, { "XPD", 2, IN_BOTH, OTHERWISE, 0, do_xpd },
 };
 
-/* SWZ: each component by itself, or a constant 0 or 1. */
+/* SWZ: each component selected separately, or a constant 0 or 1. */
 static void take_extended_swizzle(struct arb_parser *p, const struct emit_target *to)
 {
 	struct arb_words *w = &p->words;
@@ -232,10 +233,10 @@ static void take_texture(struct arb_parser *p, const struct emit_target *to, uin
 	} targets[] = { { "1D", GLS_TEXTURE_1D },          { "2D", GLS_TEXTURE_2D },
 		        { "3D", GLS_TEXTURE_3D },          { "CUBE", GLS_TEXTURE_CUBE },
 		        { "RECT", GLS_TEXTURE_RECTANGLE }, { "SHADOW1D", GLS_TEXTURE_1D },
-		        { "SHADOW2D", GLS_TEXTURE_2D },    { "SHADOWRECT", GLS_TEXTURE_RECTANGLE } }; /* whether depths
-	                                                                                                 are compared,
-	                                                                                                 the texture
-	                                                                                                 says */
+		        { "SHADOW2D", GLS_TEXTURE_2D },    { "SHADOWRECT", GLS_TEXTURE_RECTANGLE } }; /* the texture
+		                                                                                         itself says
+		                                                                                         whether depths
+		                                                                                         are compared */
 	struct arb_words *w = &p->words;
 	const struct emit_source at = arb_take_source(p);
 	uint32_t unit, *target;
@@ -259,10 +260,10 @@ static void take_texture(struct arb_parser *p, const struct emit_target *to, uin
 		emit_texture(&p->emitter, to, &at, unit, flags);
 		return;
 	}
-	arb_fail(w, "an ARB program samples a kind of texture that is not done yet");
+	arb_fail(w, "an ARB program samples an unsupported kind of texture");
 }
 
-/* 1 where the name, in fragment programs with or without _SAT, is this one. */
+/* 1 if the name is this word, in fragment programs with or without _SAT. */
 static bool is_instruction(const struct arb_parser *p, const char *name, size_t n, const char *word, int *saturates)
 {
 	*saturates = !p->is_vertex && n > 4 && memcmp(name + n - 4, "_SAT", 4) == 0;
@@ -289,7 +290,7 @@ static void take_plain_instruction(struct arb_parser *p, size_t i, int saturates
 		            instructions[i].n_sources > 2 ? &s[2] : NULL);
 }
 
-/* ARL: the whole part of a number, as an address. */
+/* ARL: the floor of a number, as an address. */
 static void take_address_load(struct arb_parser *p)
 {
 	const uint32_t first = arb_take_address(p);
@@ -342,6 +343,6 @@ void arb_take_instruction(struct arb_parser *p, const char *name, size_t n)
 		take_extended_swizzle(p, &to);
 		return;
 	}
-	arb_fail(&p->words, "an ARB program has an instruction that is not known");
+	arb_fail(&p->words, "an ARB program has an unknown instruction");
 }
 

@@ -6,7 +6,7 @@
 #include "replay/machine/state.h"
 #include "replay/programs/arb_state.h"
 
-#define ARB_MAX_OFFSET 4096u /* of an address, as in Mesa */
+#define ARB_MAX_OFFSET 4096u /* largest offset to an address, as in Mesa */
 
 
 /* --- Registers and constants ------------------------------------------------------------------------------------ */
@@ -16,7 +16,7 @@ uint32_t arb_new_registers(struct arb_parser *p)
 	struct program_code *code = p->emitter.code;
 
 	if (code->n_registers + 4 > SCENE_PROGRAM_REGISTERS) {
-		arb_fail(&p->words, "an ARB program keeps more numbers at once than are done");
+		arb_fail(&p->words, "an ARB program uses too many registers");
 		return code->n_registers - 4;
 	}
 	code->n_registers += 4;
@@ -52,7 +52,7 @@ struct arb_symbol *arb_new_symbol(struct arb_parser *p)
 
 	s.n = arb_name(&p->words, &s.name);
 	if (!s.n || arb_find_symbol(p, s.name, s.n) || p->n_symbols == ARB_MAX_SYMBOLS) {
-		arb_fail(&p->words, p->n_symbols == ARB_MAX_SYMBOLS ? "an ARB program has more names than are done" :
+		arb_fail(&p->words, p->n_symbols == ARB_MAX_SYMBOLS ? "an ARB program declares too many names" :
 		                                                      arb_bad_grammar);
 		return &nowhere;
 	}
@@ -62,7 +62,7 @@ struct arb_symbol *arb_new_symbol(struct arb_parser *p)
 
 /* --- Operands ---------------------------------------------------------------------------------------------------- */
 
-/* After `color`: 1 where the secondary one is meant. What follows may be a swizzle. */
+/* After `color`: 1 if the secondary colour is meant. A swizzle may follow. */
 static uint32_t takes_secondary(struct arb_words *w)
 {
 	const struct arb_words before = *w;
@@ -76,7 +76,7 @@ static uint32_t takes_secondary(struct arb_words *w)
 	return 0;
 }
 
-/* The unit of `texcoord`. */
+/* Parse the unit of `texcoord`. */
 static uint32_t take_unit(struct arb_words *w)
 {
 	return arb_peek(w) == '[' ? arb_subscript(w, SCENE_MAX_UNITS) : 0;
@@ -94,7 +94,7 @@ static uint32_t take_named_attribute(struct arb_words *w)
 		return SCENE_VERTEX_FOG;
 	if (arb_takes_name(w, "texcoord"))
 		return SCENE_VERTEX_TEXCOORD + take_unit(w);
-	arb_fail(w, arb_bad_grammar); /* weights and matrix indices belong to extensions that Mesa has not */
+	arb_fail(w, arb_bad_grammar); /* weights and matrix indices belong to extensions that Mesa does not have */
 	return 0;
 }
 
@@ -141,7 +141,7 @@ uint32_t arb_take_input(struct arb_parser *p)
 	return 4 * input;
 }
 
-/* After `result.color`: one of four. */
+/* After `result.color`: parse which of the four colours is meant. */
 static uint32_t take_color_result(struct arb_words *w)
 {
 	const struct arb_words before = *w;
@@ -188,7 +188,7 @@ uint32_t arb_take_output(struct arb_parser *p)
 	}
 	if (arb_takes_name(w, "depth")) {
 		p->emitter.code->sets_depth = 1;
-		return SCENE_PROGRAM_DEPTH - 2; /* the third component is what counts */
+		return SCENE_PROGRAM_DEPTH - 2; /* only the third component counts */
 	}
 	if (!arb_takes_name(w, "color"))
 		arb_fail(w, arb_bad_grammar);
@@ -204,7 +204,7 @@ int arb_component_of(const struct arb_parser *p, char c)
 	return at ? (int)(at - letters) % 4 : -1;
 }
 
-/* A constant in the text: {x, y, z, w}, or a number for all four. */
+/* A literal constant: {x, y, z, w}, or one number for all four. */
 static void take_literal(struct arb_words *w, struct program_constant *to)
 {
 	uint32_t i = 0;
@@ -246,14 +246,13 @@ uint32_t arb_take_binding(struct arb_parser *p, int in_array)
 		take_literal(w, &bound[0]);
 	}
 	if (p->n_elements + n > ARB_MAX_ELEMENTS)
-		arb_fail(w, "an ARB program has more parameters than are done");
+		arb_fail(w, "an ARB program has too many parameters");
 	for (uint32_t i = 0; i < n && !w->why; i++)
 		p->elements[p->n_elements++] = in_array ? element(p, &bound[i]) : arb_constant(p, &bound[i]);
 	return w->why ? 0 : n;
 }
 
-/* After an array's `[`, where a name comes: an element that an address finds, offset included. @return its first
- * register */
+/* After an array's `[`, if a name follows: an element at an address plus an offset. @return its first register */
 static uint32_t take_fetched(struct arb_parser *p, const struct arb_symbol *array)
 {
 	struct arb_words *w = &p->words;

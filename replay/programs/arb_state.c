@@ -9,9 +9,9 @@ struct part {
 	uint32_t number;
 };
 
-static const char not_known[] = "an ARB program uses state that programs do not get yet";
+static const char not_known[] = "an ARB program uses unsupported state";
 
-/* Take one of the names. @return its number */
+/* Parse one of the names. @return its number */
 static uint32_t take_part(struct arb_words *w, const struct part *parts, uint32_t n)
 {
 	for (uint32_t i = 0; i < n; i++)
@@ -22,7 +22,7 @@ static uint32_t take_part(struct arb_words *w, const struct part *parts, uint32_
 }
 #define TAKE_PART(w, parts) take_part(w, parts, sizeof(parts) / sizeof((parts)[0]))
 
-/* A range of numbers in brackets, or one. @return how many, from *first on */
+/* Parse a range of numbers in brackets, or one number. @return their count, from *first on */
 static uint32_t take_range(struct arb_words *w, uint32_t limit, uint32_t *first)
 {
 	uint32_t last;
@@ -39,7 +39,7 @@ static uint32_t take_range(struct arb_words *w, uint32_t limit, uint32_t *first)
 	return w->why ? 0 : last - *first + 1;
 }
 
-/* .front or .back; the front where neither comes. */
+/* Parse .front or .back; the default is front. */
 static uint32_t take_face(struct arb_words *w)
 {
 	if (arb_takes_name(w, "back")) {

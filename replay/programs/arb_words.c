@@ -5,7 +5,7 @@
 #include <string.h>
 
 const char arb_bad_grammar[] = "an ARB program breaks the grammar",
-	   arb_too_much[] = "an ARB program uses more than there is";
+	   arb_too_much[] = "an ARB program exceeds a limit";
 
 void arb_fail(struct arb_words *w, const char *why)
 {

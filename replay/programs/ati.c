@@ -6,16 +6,16 @@
 #include "replay/programs/emit.h"
 
 #define REGISTERS 6u
-#define MAX_CALLS 64u /* two passes of six textures and sixteen halves of instructions, and constants */
+#define MAX_CALLS 64u /* two passes of six textures and sixteen half instructions, and the constants */
 
 struct translator {
 	struct emitter emitter;
-	const struct ati_call *constants[ATI_CONSTANTS]; /* NULL: the context's */
-	uint32_t registers[REGISTERS], aside[3], value;  /* the first of four each */
+	const struct ati_call *constants[ATI_CONSTANTS]; /* NULL: the context's constant */
+	uint32_t registers[REGISTERS], aside[3], value;  /* the first of four registers each */
 	const char *why;
 };
 
-static const char not_known[] = "an ATI fragment shader has what is not known";
+static const char not_known[] = "an ATI fragment shader has an unknown operation or argument";
 
 static struct emit_source literal(struct translator *t, const float value[4])
 {
@@ -74,7 +74,10 @@ static uint32_t register_of(struct translator *t, uint32_t token)
 	return 0;
 }
 
-/* An argument, changed in the extension's order: complement, bias, twice, negation. aside: room */
+/*
+ * An argument with its modifiers applied in the extension's order: complement, bias, double, negate. aside: temporary
+ * registers
+ */
 static struct emit_source argument(struct translator *t, const struct ati_argument *a, uint32_t aside)
 {
 	const struct emit_target to = { aside, 15, 0 };
@@ -125,7 +128,7 @@ static uint32_t arguments_of(uint32_t operation)
 	}
 }
 
-/* Four numbers = f(arguments). */
+/* Emit four numbers = f(arguments). */
 static void compute(struct translator *t, uint32_t operation, const struct emit_target *to,
                     const struct emit_source s[3])
 {
@@ -149,14 +152,14 @@ static void compute(struct translator *t, uint32_t operation, const struct emit_
 		emit_vector(e, SCENE_OP_ADD, to, &s[1], &last, NULL);
 		emit_vector(e, SCENE_OP_MAD, to, &s[0], &value, &s[2]);
 		break;
-	case GL_CND_ATI: /* the third above a half ? first : second */
+	case GL_CND_ATI: /* third > 0.5 ? first : second */
 		last.negated ^= 15;
 		emit_vector(e, SCENE_OP_ADD, to, &half, &last, NULL);
 		emit_vector(e, SCENE_OP_SELECT, to, &value, &s[0], &s[1]);
 		break;
 	case GL_CND0_ATI: emit_vector(e, SCENE_OP_SELECT, to, &s[2], &s[1], &s[0]); break;
 	case GL_DOT2_ADD_ATI:
-		last = emit_splat(&s[1], 2); /* as Mesa (22.3.6) has it; the extension says the third argument's blue */
+		last = emit_splat(&s[1], 2); /* as in Mesa (22.3.6); the extension says the third argument's blue */
 		emit_dot(e, to, &s[0], &s[1], 2, 0);
 		emit_vector(e, SCENE_OP_ADD, to, &value, &last, NULL);
 		break;
@@ -176,7 +179,7 @@ static float scale_of(uint32_t change)
 	return 1;
 }
 
-/* Half an instruction: of colours or of alpha. */
+/* Translate half an instruction: the colour half or the alpha half. */
 static void take_arithmetic(struct translator *t, const struct ati_call *c)
 {
 	const uint32_t rgb = c->mask & 7 ? c->mask & 7 : 7; /* GL_RED_BIT_ATI, GL_GREEN_BIT_ATI, GL_BLUE_BIT_ATI */
@@ -198,7 +201,7 @@ static void take_arithmetic(struct translator *t, const struct ati_call *c)
 	emit_vector(&t->emitter, SCENE_OP_MOVE, &to, &result, NULL, NULL);
 }
 
-/* Coordinates, or a sample of the unit that has the register's number. */
+/* Translate texture coordinates, or a sample of the unit with the register's number. */
 static void take_texture(struct translator *t, const struct ati_call *c)
 {
 	const uint32_t from = c->arguments[0].source, r = register_of(t, c->to);
@@ -246,7 +249,7 @@ int program_translate_ati(const struct ati_call *calls, size_t n, struct program
 	code->n_registers = SCENE_PROGRAM_FIRST;
 	for (unsigned i = 0; i < sizeof(rooms) / sizeof(rooms[0]); i++, code->n_registers += 4) {
 		*rooms[i] = code->n_registers;
-		code->n_registers += rooms[i] == &t.emitter.scratch ? 4 : 0; /* which are eight */
+		code->n_registers += rooms[i] == &t.emitter.scratch ? 4 : 0; /* eight registers in all */
 	}
 	for (unsigned i = 0; i < REGISTERS; i++, code->n_registers += 4)
 		t.registers[i] = code->n_registers;
@@ -254,7 +257,7 @@ int program_translate_ati(const struct ati_call *calls, size_t n, struct program
 		if (calls[i].kind == ATI_CONSTANT)
 			t.constants[(calls[i].to - GL_CON_0_ATI) % ATI_CONSTANTS] = &calls[i];
 	if (n > MAX_CALLS)
-		t.why = "an ATI fragment shader has more instructions than there are";
+		t.why = "an ATI fragment shader has too many instructions";
 	for (size_t i = 0; i < n && !t.why && !t.emitter.err; i++) {
 		if (calls[i].kind == ATI_COLOR || calls[i].kind == ATI_ALPHA)
 			take_arithmetic(&t, &calls[i]);

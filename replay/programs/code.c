@@ -63,7 +63,7 @@ uint32_t program_operands(uint32_t operation)
 	}
 }
 
-/* 1 where a constant is light that comes from a light itself. */
+/* 1 if a constant is a colour that a light emits. */
 static int is_sent(const struct program_constant *c)
 {
 	return (c->source == PROGRAM_LIGHT && (c->part == PROGRAM_LIGHT_DIFFUSE || c->part == PROGRAM_LIGHT_SPECULAR)) ||

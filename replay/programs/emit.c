@@ -20,8 +20,10 @@ static void append(struct emitter *e, const struct scene_instruction *in)
 		e->err = program_append(e->code, in);
 }
 
-/* How the components from `first` on follow each other in a source: 1 in a row, 0 all the same, -1 neither. count: of
- * them */
+/*
+ * The stride of a source's components from `first` on: 1 consecutive, 0 all the same, -1 neither. count: number of
+ * components
+ */
 static int step_of(const struct emit_source *s, uint32_t first, uint32_t count)
 {
 	int row = 1, same = 1;
@@ -35,7 +37,7 @@ static int step_of(const struct emit_source *s, uint32_t first, uint32_t count)
 	return same ? 0 : row ? 1 : -1;
 }
 
-/* The most components from `first` on that one instruction can do. */
+/* The largest number of components from `first` on that one instruction can process. */
 static uint32_t run_of(const struct emit_target *to, const struct emit_source *const sources[3], uint32_t first)
 {
 	uint32_t n = 1;
@@ -47,7 +49,7 @@ static uint32_t run_of(const struct emit_target *to, const struct emit_source *c
 	return n;
 }
 
-/* 1 where a component is written before another one is computed from it. */
+/* 1 if a component is written before another one is computed from it. */
 static int overlaps(const struct emit_target *to, const struct emit_source *const sources[3])
 {
 	for (unsigned k = 0; k < 3; k++)
@@ -111,7 +113,7 @@ void emit_dot(struct emitter *e, const struct emit_target *to, const struct emit
 	const struct emit_target sum = { e->scratch, 1, 0 };
 	const struct emit_source four = emit_four(e->scratch), result = emit_splat(&four, 0), last = emit_splat(b, 3);
 
-	for (uint32_t i = n; i-- > 0;) { /* Mesa (22.3.6) adds them up from the last on */
+	for (uint32_t i = n; i-- > 0;) { /* Mesa (22.3.6) sums from the last component to the first */
 		const struct emit_source x = emit_splat(a, i), y = emit_splat(b, i);
 
 		emit_vector(e, i + 1 < n ? SCENE_OP_MAD : SCENE_OP_MULTIPLY, &sum, &x, &y, i + 1 < n ? &result : NULL);

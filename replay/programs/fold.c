@@ -7,14 +7,14 @@
 #include "kernels/gl/instructions.h"
 #include "replay/programs/code.h"
 
-/* What is known of a program's numbers so far. */
+/* Values of a program's registers known so far. */
 struct known {
 	const struct program_code *code;
 	float value[SCENE_PROGRAM_REGISTERS];
 	uint8_t is_known[SCENE_PROGRAM_REGISTERS];
 };
 
-/* One of an instruction's operands, for its number i. @return whether it is known */
+/* The value of an instruction's operand for result i. @return 1 if it is known */
 static int look_up(const struct known *known, uint32_t operand, uint32_t i, uint32_t flags, uint32_t step,
                    uint32_t negate, float *value)
 {
@@ -52,7 +52,7 @@ static float folded(uint32_t operation, float a, float b)
 	}
 }
 
-/* Number i of an instruction. @return whether it is known */
+/* Result i of an instruction. @return 1 if it is known */
 static int result_of(const struct known *known, const struct scene_instruction *in, uint32_t i, float *value)
 {
 	const uint32_t n = program_operands(in->operation);
@@ -70,13 +70,16 @@ static int result_of(const struct known *known, const struct scene_instruction *
 	return 1;
 }
 
-/* How many numbers an instruction writes that are not its operands' alone, from `to` on: 0 where all n are computed. */
+/*
+ * Number of registers from `to` on that receive new values from outside the instruction's operands; 0 if results can be
+ * computed.
+ */
 static uint32_t brings_in(const struct scene_instruction *in)
 {
 	return in->operation == SCENE_OP_TEXTURE ? 4 : in->operation == SCENE_OP_FETCH ? in->n : 0;
 }
 
-/* An instruction's results become constants, and it a move. */
+/* Turn an instruction's results into constants, and the instruction into a move. */
 static int fold(struct program_code *code, struct scene_instruction *in, const float value[4])
 {
 	struct program_constant c = { .source = PROGRAM_LITERAL };

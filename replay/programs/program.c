@@ -31,7 +31,7 @@ int gls_program_reserve(struct gls_program *p, uint32_t n)
 	return 0;
 }
 
-/* How many parameters of its own a program reads at most. */
+/* The largest number of local parameters that a program reads. */
 static uint32_t locals_of(const struct program_code *code)
 {
 	uint32_t n = 0;
@@ -95,7 +95,7 @@ static const struct gls_stages *linked(const struct gls_state *st)
 	return table_find(&st->share->shaders, st->program);
 }
 
-/* What stands in the way of the program object that is used. */
+/* Why the program object in use cannot be run. */
 static const char *lack_of_shaders(const struct gls_state *st)
 {
 	const struct gls_stages *p = linked(st);
@@ -114,8 +114,10 @@ static const char *lack_of_shaders(const struct gls_state *st)
 	               NULL;
 }
 
-/* 1 where an ATI fragment shader takes the place of fixed function: a program in assembly comes before it, and one
- * without calls is none. */
+/*
+ * 1 if an ATI fragment shader replaces fixed function: assembly programs take precedence, and a shader without calls
+ * does not count.
+ */
 static int is_by_ati(const struct gls_state *st)
 {
 	const struct gls_program *p = st->a.programs.ati && !st->a.programs.fragment && !st->ati_open ?
@@ -125,7 +127,7 @@ static int is_by_ati(const struct gls_state *st)
 	return p && p->source;
 }
 
-/* What stands in the way of the programs in assembly, or of ATI's, that are current. */
+/* Why the current assembly programs, or ATI's shaders, cannot be run. */
 static const char *lack_of_assembly(const struct gls_state *st)
 {
 	const char *lack = st->a.programs.vertex ? lack_of(st, GL_VERTEX_PROGRAM_ARB) : NULL;

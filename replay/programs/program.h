@@ -1,4 +1,4 @@
-/* Program objects of ARB_fragment_program, ARB_vertex_program and ATI_fragment_shader, as the state keeps them. */
+/* Program objects of ARB_fragment_program, ARB_vertex_program and ATI_fragment_shader, as part of the GL state. */
 #pragma once
 
 #include <stddef.h>
@@ -12,59 +12,62 @@ struct gls_exec;
 
 struct gls_program {
 	uint32_t target; /* GL token */
-	char *source;    /* owned, as the program gave it; NULL: it has given none. GL_FRAGMENT_SHADER_ATI: struct
-	                    ati_call, one behind the other */
+	char *source;    /* owned, as the application passed it; NULL: none yet. GL_FRAGMENT_SHADER_ATI: an array of
+	                    struct ati_call */
 	size_t source_bytes;
-	float (*local)[4]; /* owned: n_locals, at least as many as its code reads; those beyond are 0 */
+	float (*local)[4]; /* owned: n_locals, at least as many as the code reads; those never set are 0 */
 	uint32_t n_locals;
-	struct program_code code; /* empty where there is a reason */
-	const char *why;          /* what stands in the way of running it; a static string, NULL: nothing */
+	struct program_code code; /* empty if `why` is set */
+	const char *why;          /* why the program cannot be run; a static string, NULL: it can */
 };
 
 void gls_program_free(struct gls_program *p);
 
 /**
- * Give it a text, of n bytes, and translate it.
- * @return 0; 1: the text is wrong, which is an error; a good one before it stays, as in Mesa (22.3.6); or ERR_SYSTEM
- * (reported)
+ * Set the program's text, of n bytes, and translate it.
+ * @return 0; 1: the text is invalid, which is a GL error; an earlier valid text is kept, as in Mesa (22.3.6); or
+ *         ERR_SYSTEM (reported)
  */
 int gls_program_set(struct gls_program *p, const char *text, size_t n);
 
-/** Have room for n parameters. @return 0, or ERR_SYSTEM (reported) */
+/** Make room for n parameters. @return 0, or ERR_SYSTEM (reported) */
 int gls_program_reserve(struct gls_program *p, uint32_t n);
 
-/** Where an object stands in gls_share.programs; those that nobody has named are one of each target. ATI's have names
- * of their own. */
+/**
+ * Key of an object in gls_share.programs; each target has one unnamed object. ATI's shaders have a separate name space.
+ */
 static inline uint64_t gls_program_key(uint32_t target, uint32_t name)
 {
 	return name && target != GL_FRAGMENT_SHADER_ATI ? name : (uint64_t)target << 32 | name;
 }
 
-/** The object bound to a target; NULL: there is none of this name. */
+/** The object bound to a target; NULL: no object has this name. */
 struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t target);
 
 /**
- * 1 where OpenGL refuses to draw: a program in assembly is enabled that has no text. As in Mesa (22.3), rectangles of
- * pixels need none for vertices.
+ * 1 if OpenGL refuses to draw because an enabled assembly program has no text. As in Mesa (22.3), rectangles of pixels
+ * need no vertex program.
  */
 int gls_program_is_refused(const struct gls_state *st, int is_rectangle);
 
 /**
- * What is missing of draws with the programs that are current: a static string; NULL: nothing.
- * Where a program cannot run, they are rendered as fixed function.
+ * What is not supported in draws with the current programs: a static string; NULL: nothing. If a program cannot be run,
+ * they are rendered as fixed function.
  */
 const char *gls_program_lack(const struct gls_state *st);
 
-/** Which programs draw, as numbers: the kind (0: a program object of GLSL, else the target of one in assembly) << 32 |
- * its name. @return how many */
+/**
+ * Identify the programs that draw: (0 for a GLSL program object, else the target of an assembly program) << 32 | name.
+ * @return number of keys
+ */
 unsigned gls_program_current(const struct gls_state *st, uint64_t keys[SCENE_DRAW_PROGRAMS]);
 
-/** What such a number is of, in words: a static string. */
+/** The kind of program that a key identifies, in words: a static string. */
 const char *gls_program_kind(uint64_t key);
 
-/** A draw comes: note which program object runs. */
+/** Note which program object runs, before a draw. */
 void gls_program_draws(struct gls_state *st);
 
-/** The programs that run a stage of what is drawn now. @return 1; 0: fixed function runs it */
+/** The program that runs this stage of current draws. @return 1; 0: fixed function runs the stage */
 int gls_program_runs_vertices(const struct gls_state *st, struct program_stage *stage);
 int gls_program_runs_fragments(const struct gls_state *st, struct program_stage *stage);

@@ -14,9 +14,9 @@
 #include "base/memory.h"
 
 #define PIECE_BYTES (1u << 20)
-#define READ_BYTES (64u << 10) /* of the file at once, at least */
-#define SMALL_BYTES (64u << 10) /* unpacked, below which chunks are delivered together */
-#define CHUNK_MAX_BYTES (64u << 20) /* unpacked; recorders write 1 MiB */
+#define READ_BYTES (64u << 10) /* minimum size of a read from the file */
+#define SMALL_BYTES (64u << 10) /* chunks up to this unpacked size are delivered together */
+#define CHUNK_MAX_BYTES (64u << 20) /* unpacked size; recorders write 1 MiB */
 
 enum container_kind { CONTAINER_SNAPPY, CONTAINER_GZIP, CONTAINER_BROTLI };
 
@@ -24,15 +24,15 @@ struct container {
 	char *path;
 	FILE *file;
 	uint64_t size, offset;
-	uint64_t piece; /* offset of the first chunk last delivered */
+	uint64_t piece; /* offset of the first chunk in the last piece */
 	enum container_kind kind;
 	int cut, ended;
-	int delivered; /* Brotli: some of it is read already */
+	int delivered; /* Brotli: some data was delivered, so the file is a trace */
 	uint8_t *packed, *unpacked;
 	size_t packed_room, unpacked_room;
-	uint64_t behind; /* bytes of the file behind the end of the trace */
-	size_t at, end; /* Snappy: bytes of `packed` that were read and not unpacked yet */
-	XXH3_state_t *hash; /* of all that was read of the file; NULL: nobody wants it, or it was not read in order */
+	uint64_t behind; /* bytes of the file after the end of the trace */
+	size_t at, end; /* Snappy: range of `packed` that was read and not unpacked yet */
+	XXH3_state_t *hash; /* of all bytes read from the file; NULL: not wanted, or the file was not read in order */
 	z_stream gzip;
 	BrotliDecoderState *brotli;
 	const uint8_t *brotli_next;
@@ -49,7 +49,7 @@ static int reserve(uint8_t **buffer, size_t *room, size_t bytes)
 	return 0;
 }
 
-/* Name files that people take for traces by mistake. */
+/* Recognize files that are mistaken for traces. */
 static const char *foreign_kind(const uint8_t *head, size_t n)
 {
 	static const struct {
@@ -63,8 +63,9 @@ static const char *foreign_kind(const uint8_t *head, size_t n)
 		{ "\x7f""ELF", 4, "a program" },
 		{ "#!", 2, "a script" },
 		{ "PK\x03\x04", 4, "a ZIP archive" },
-		{ "RELREF", 6, "a file of reference frames (the trace lies beside it)" },
-		{ "\x28\xb5\x2f\xfd", 4, "a trace packed with zstd ('apitrace repack' with no option makes one that can be read)" },
+		{ "RELREF", 6, "a file of reference frames (the trace is beside it)" },
+		{ "\x28\xb5\x2f\xfd", 4, "a trace packed with zstd, which Relume cannot read; "
+		  "'apitrace repack' without options converts it" },
 	};
 
 	for (size_t i = 0; i < sizeof(kinds) / sizeof(kinds[0]); i++)
@@ -73,8 +74,10 @@ static const char *foreign_kind(const uint8_t *head, size_t n)
 	return NULL;
 }
 
-/* Read the file's next bytes; fewer: it ends. @return 0, or ERR_SYSTEM (reported): a disk that fails is no end, and no
- * damage either */
+/*
+ * Read the file's next bytes; fewer: it ends. @return 0, or ERR_SYSTEM (reported): a failing disk is neither the end of
+ * the file nor damage
+ */
 static int read_file(struct container *c, void *to, size_t most, size_t *n)
 {
 	*n = fread(to, 1, most, c->file);
@@ -108,7 +111,7 @@ static int detect(struct container *c)
 			return err_report(ERR_SYSTEM, c->path, "out of memory");
 		return 0;
 	}
-	c->kind = CONTAINER_BROTLI; /* it has no magic: anything else is taken for it */
+	c->kind = CONTAINER_BROTLI; /* Brotli has no magic number: it is assumed for everything else */
 	c->brotli = BrotliDecoderCreateInstance(NULL, NULL, NULL);
 	return c->brotli ? 0 : err_report(ERR_SYSTEM, c->path, "out of memory");
 }
@@ -134,7 +137,7 @@ int container_open(struct container **out, const char *path)
 		                                                       : "is not a plain file");
 		goto fail;
 	}
-	setvbuf(c->file, NULL, _IONBF, 0); /* it is read in large pieces */
+	setvbuf(c->file, NULL, _IONBF, 0); /* reads are large anyway */
 	c->size = (uint64_t)info.st_size;
 	rc = detect(c);
 	if (rc)
@@ -165,8 +168,8 @@ void container_close(struct container **c)
 }
 
 /*
- * Unpack as much of a cut raw Snappy block as is there (format_description.txt of Snappy: tags, literals, copies).
- * The library's own decoder gives all or nothing.
+ * Unpack as much as there is of a truncated raw Snappy block (format_description.txt of Snappy: tags, literals,
+ * copies). Snappy's own decoder unpacks complete blocks only.
  */
 static size_t unpack_cut_block(const uint8_t *in, size_t n, uint8_t *out, size_t room)
 {
@@ -215,7 +218,10 @@ static size_t unpack_cut_block(const uint8_t *in, size_t n, uint8_t *out, size_t
 	return made;
 }
 
-/* Have n bytes of the file at packed + at. @return as many as there are, or n; 0 with *rc set: ERR_SYSTEM (reported) */
+/*
+ * Make n bytes of the file available at packed + at. @return n, or fewer if the file ends; 0 with *rc set: ERR_SYSTEM
+ * (reported)
+ */
 static size_t have(struct container *c, size_t n, int *rc)
 {
 	size_t left = c->end - c->at, got;
@@ -236,10 +242,10 @@ static size_t have(struct container *c, size_t n, int *rc)
 	return c->end < n ? c->end : n;
 }
 
-/* Is there another trace where a chunk should begin: the magic number, and a chunk? *rc as of have() */
+/* Does another trace begin here instead of a chunk? Checks for the magic number and a chunk. *rc as of have() */
 static int begins_trace(struct container *c, int *rc)
 {
-	const size_t got = have(c, 11, rc); /* a varint of 32 bits takes five */
+	const size_t got = have(c, 11, rc); /* a 32-bit varint takes five */
 	const uint8_t *p = c->packed + c->at;
 	size_t unpacked;
 
@@ -249,9 +255,9 @@ static int begins_trace(struct container *c, int *rc)
 }
 
 /*
- * Unpack the chunk at c->offset behind what is unpacked already.
- * @param made  bytes of that; counts up
- * @param why   receives what is wrong with it
+ * Unpack the chunk at c->offset, and append it to what is unpacked already.
+ * @param made  number of bytes unpacked; increased
+ * @param why   receives what is wrong with the chunk
  * @return 1; 0 there is none; ERR_INPUT (not reported: nothing was read); ERR_SYSTEM
  */
 static int add_chunk(struct container *c, size_t *made, const char **why)
@@ -281,15 +287,15 @@ static int add_chunk(struct container *c, size_t *made, const char **why)
 		return rc;
 	length = got - 4;
 	packed = (const char *)c->packed + c->at + 4;
-	*why = "no Snappy chunk";
+	*why = "not a Snappy chunk";
 	if (snappy_uncompressed_length(packed, length, &unpacked) != SNAPPY_OK)
 		return c->cut ? 0 : ERR_INPUT;
-	*why = "a chunk that claims to hold too much";
+	*why = "a Snappy chunk with an impossible size";
 	if (unpacked > CHUNK_MAX_BYTES)
 		return ERR_INPUT;
 	if (reserve(&c->unpacked, &c->unpacked_room, *made + unpacked + 1))
 		return ERR_SYSTEM;
-	*why = "a Snappy chunk that does not unpack";
+	*why = "a Snappy chunk that cannot be unpacked";
 	if (c->cut)
 		unpacked = unpack_cut_block((const uint8_t *)packed, length, c->unpacked + *made, unpacked);
 	else if (snappy_uncompress(packed, length, (char *)c->unpacked + *made, &unpacked) != SNAPPY_OK)
@@ -300,7 +306,7 @@ static int add_chunk(struct container *c, size_t *made, const char **why)
 	return 1;
 }
 
-/* Join chunks to a piece of some size: our recorder ends a chunk with each frame, and many frames are short. */
+/* Join chunks to pieces of a reasonable size: our recorder ends a chunk with each frame, and many frames are short. */
 static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
 {
 	const char *why = "";
@@ -313,7 +319,7 @@ static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
 	while (rc == 1 && made < SMALL_BYTES && !c->cut);
 	*data = c->unpacked;
 	*size = made;
-	if (rc == ERR_INPUT && made) /* what stands before the damage; the next call meets it again */
+	if (rc == ERR_INPUT && made) /* deliver the data before the damage; the next call reports it */
 		return 1;
 	c->ended = rc <= 0 || c->cut;
 	if (rc == ERR_INPUT && begins_trace(c, &failed)) {
@@ -357,9 +363,9 @@ static int next_gzip(struct container *c, const uint8_t **data, size_t *size)
 		}
 		rc = inflate(z, Z_NO_FLUSH);
 		if (rc != Z_OK && rc != Z_STREAM_END && z->avail_out < PIECE_BYTES)
-			break; /* what stands before the damage; the next call meets it again */
+			break; /* deliver the data before the damage; the next call reports it */
 		if (rc != Z_OK && rc != Z_STREAM_END)
-			return err_report(ERR_INPUT, c->path, "damaged before byte %llu: the gzip stream does not unpack (%s)",
+			return err_report(ERR_INPUT, c->path, "damaged before byte %llu: the gzip stream cannot be unpacked (%s)",
 			                  (unsigned long long)c->offset, z->msg ? z->msg : "no reason given");
 	}
 	c->ended = rc == Z_STREAM_END || c->cut;
@@ -388,7 +394,7 @@ static int next_brotli(struct container *c, const uint8_t **data, size_t *size)
 		if (rc == BROTLI_DECODER_RESULT_ERROR && room < PIECE_BYTES)
 			break; /* as with gzip */
 		if (rc == BROTLI_DECODER_RESULT_ERROR && c->delivered)
-			return err_report(ERR_INPUT, c->path, "damaged before byte %llu: the Brotli stream does not unpack",
+			return err_report(ERR_INPUT, c->path, "damaged before byte %llu: the Brotli stream cannot be unpacked",
 			                  (unsigned long long)c->offset);
 		if (rc == BROTLI_DECODER_RESULT_ERROR)
 			return err_report(ERR_INPUT, c->path, "not a trace: neither Snappy chunks nor gzip, and no Brotli stream "
@@ -452,7 +458,7 @@ int container_seek(struct container *c, uint64_t offset)
 int container_hash_begin(struct container *c)
 {
 	if (c->kind != CONTAINER_SNAPPY || !(c->hash = XXH3_createState()))
-		return 0; /* container_hash_end reads it once more */
+		return 0; /* container_hash_end will read the file again */
 	XXH3_128bits_reset(c->hash);
 	return hash_file(c->path, c->offset + (c->end - c->at), c->hash);
 }

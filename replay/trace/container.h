@@ -1,6 +1,4 @@
-/*
- * The bytes inside a trace's container: Snappy chunks, gzip or Brotli, delivered piece by piece.
- */
+/* The bytes in a trace's container: Snappy chunks, gzip or Brotli, delivered piece by piece. */
 #pragma once
 
 #include <stddef.h>
@@ -8,36 +6,36 @@
 
 struct container;
 
-/** @return 0, ERR_INPUT (reported: missing, not a file, empty, plainly something else) or ERR_SYSTEM (reported) */
+/** @return 0, ERR_INPUT (reported: missing, not a file, empty, of a recognized other kind) or ERR_SYSTEM (reported) */
 int container_open(struct container **out, const char *path);
 void container_close(struct container **c);
 
 /**
- * The next piece of the logical stream.
- * @param data, size  receive it; valid until the next call. 1 byte at least
- * @return 1; 0 at the end; ERR_INPUT (reported) where the container is damaged; ERR_SYSTEM
+ * The next piece of the unpacked stream.
+ * @param data, size  receive it; valid until the next call. At least 1 byte
+ * @return 1; 0 at the end; ERR_INPUT (reported) if the container is damaged; ERR_SYSTEM
  */
 int container_next(struct container *c, const uint8_t **data, size_t *size);
 
-/** Where the piece delivered last begins in the file; UINT64_MAX: reading cannot start there (gzip, Brotli). */
+/** Offset in the file of the last piece delivered; UINT64_MAX: reading cannot start there (gzip, Brotli). */
 uint64_t container_piece(const struct container *c);
 
 /**
- * Go on from such a place, or (offset 0) from the beginning.
+ * Continue from such an offset, or, if 0, from the beginning.
  * @return 0 or ERR_SYSTEM (reported)
  */
 int container_seek(struct container *c, uint64_t offset);
 
-/** 1: the file ended within a chunk or stream. What could be unpacked of it was delivered. */
+/** 1: the file ends within a chunk or stream. All that could be unpacked of it was delivered. */
 int container_is_cut(const struct container *c);
 
-/** Bytes of the file behind the end of the trace, once that is reached: another one follows. 0: none */
+/** Number of bytes in the file after the end of the trace, once it has been reached: another trace follows. 0: none */
 uint64_t container_behind(const struct container *c);
 
 /**
- * Hash the file as hash_whole does. Snappy chunks that are read in order from now on are hashed on the way; hash_end
- * reads the rest of the file, or all of it where the container was sought or is of another kind. After hash_end nothing
- * more is delivered.
+ * Hash the file as hash_whole does. Snappy chunks that are read in order from now on are hashed while they are read;
+ * hash_end reads the rest of the file, or all of it after a seek or for another kind of container. After hash_end
+ * nothing more is delivered.
  * @return 0, ERR_INPUT or ERR_SYSTEM (reported)
  */
 int container_hash_begin(struct container *c);

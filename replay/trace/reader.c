@@ -19,7 +19,7 @@ int trace_reader_next(struct trace_reader *r, const struct call **call)
 	return 1;
 }
 
-/* ---- coming back ---- */
+/* ---- seeking ---- */
 
 int trace_reader_place(const struct trace_reader *r, struct trace_place *place)
 {
@@ -53,7 +53,7 @@ int trace_reader_seek(struct trace_reader *r, const struct trace_place *place, c
 			return r->status < 0 ? r->status : err_report(ERR_INPUT, r->path, "is shorter than its index says");
 	} while (r->piece_start + (uint64_t)(r->end - r->piece) < place->offset);
 	if (place->offset < r->piece_start)
-		return err_report(ERR_INPUT, r->path, "its index names a place that is not there");
+		return err_report(ERR_INPUT, r->path, "its index refers to a place that does not exist");
 	r->p = r->piece + (place->offset - r->piece_start);
 	r->next_number = place->number;
 	return 0;
@@ -72,7 +72,7 @@ static int read_header(struct trace_reader *r)
 	if (r->version >= 6)
 		semantic = reader_uint(r);
 	if (r->status == 0 && semantic > r->version)
-		return err_report(ERR_INPUT, r->path, "not a trace: its header makes no sense");
+		return err_report(ERR_INPUT, r->path, "not a trace: its header is invalid");
 	while (r->version >= 6 && r->status == 0) {
 		const char *name = reader_string(r, &r->sigs, NULL), *value;
 		if (!name || !*name)

@@ -7,8 +7,8 @@
 #include "replay/trace/reader_sigs.h"
 #include "replay/trace/reader_values.h"
 
-#define MAX_PENDING 1024       /* calls that have not returned */
-#define ARENA_KEEP (64u << 20) /* a call's memory that is kept for the next one */
+#define MAX_PENDING 1024       /* maximum number of calls that have not returned */
+#define ARENA_KEEP (64u << 20) /* memory of a call that is kept for the next one */
 
 /* ---- details ---- */
 
@@ -45,7 +45,7 @@ static void read_details(struct trace_reader *r, struct reader_call *p)
 		case TRACE_DETAIL_ARGUMENT:
 			index = reader_uint(r);
 			if (index >= READER_MAX_ARGS) {
-				reader_fail(r, "an argument's number is out of all measure");
+				reader_fail(r, "an argument number that is too large");
 				return;
 			}
 			for (; call->n_args <= index; call->n_args++)
@@ -73,7 +73,7 @@ static void read_details(struct trace_reader *r, struct reader_call *p)
 	}
 }
 
-/* Arguments from the `first` on are not recorded so far. */
+/* Mark arguments from `first` on as not recorded so far. */
 static inline void forget_args(struct reader_call *p, uint32_t first)
 {
 	for (; first < p->call.n_args; first++)
@@ -81,10 +81,10 @@ static inline void forget_args(struct reader_call *p, uint32_t first)
 }
 
 /*
- * Details at p as long as they are quick ones.
- * @param known  arguments that hold something already; those after them do when this returns
- * @param whole  receives 1: these were all; 0: read_details goes on
- * @return behind them
+ * Read details at p as long as they have the common, short form.
+ * @param known  number of arguments that are set; the others are set when this returns
+ * @param whole  receives 1: these were all; 0: read_details must continue
+ * @return the position after them
  */
 static inline const uint8_t *quick_details(struct trace_reader *r, const uint8_t *p, struct reader_call *pending,
                                            uint32_t known, int *whole)
@@ -160,7 +160,7 @@ void reader_release_call(struct reader_call *p)
 	p->in_use = 0;
 }
 
-/* A call; its arguments are not read yet. */
+/* Start a call; its arguments are not read yet. */
 static inline void begin_call(struct reader_call *p, uint64_t thread, const struct call_sig *sig)
 {
 	p->call = (struct call){
@@ -168,7 +168,7 @@ static inline void begin_call(struct reader_call *p, uint64_t thread, const stru
 	};
 }
 
-/* The details of an ENTER event, from r->p on, and its end. */
+/* Read the details of an ENTER event from r->p on, up to its end. */
 static void end_enter(struct trace_reader *r, struct reader_call *p)
 {
 	read_details(r, p);
@@ -197,7 +197,7 @@ static void read_enter(struct trace_reader *r)
 	end_enter(r, p);
 }
 
-/* @return the call that has returned, or NULL: failed, or a call that nobody knows */
+/* @return the call that has returned, or NULL: reading failed, or its ENTER is unknown */
 static struct reader_call *read_leave(struct trace_reader *r)
 {
 	uint64_t number = reader_uint(r);
@@ -210,7 +210,7 @@ static struct reader_call *read_leave(struct trace_reader *r)
 			p = r->pending[i];
 	if (p) {
 		read_details(r, p);
-		/* Cut within the return: the call itself is whole, and end_of_calls delivers it. */
+		/* Truncated within the return: the call itself is complete, and end_of_calls delivers it. */
 		return r->status ? NULL : p;
 	}
 	memset(&unknown, 0, sizeof(unknown));
@@ -220,9 +220,9 @@ static struct reader_call *read_leave(struct trace_reader *r)
 }
 
 /*
- * The next call, if its ENTER begins the quick way and its LEAVE follows at once. Whatever is not so is left to the
- * usual way, which goes on where r->p is then.
- * @return the call that has returned, or NULL: the next event is to be read, or failed
+ * The fast path for a call whose ENTER has the common form and whose LEAVE follows immediately. Otherwise reading
+ * continues at r->p with the general functions.
+ * @return the call that has returned, or NULL: read the next event, or reading failed
  */
 static struct reader_call *quick_call(struct trace_reader *r)
 {
@@ -263,7 +263,7 @@ static struct reader_call *quick_call(struct trace_reader *r)
 	return r->status ? NULL : entered;
 }
 
-/* At the end: calls that were entered and never left, in order. */
+/* At the end: deliver calls that were entered and never returned, in order. */
 static struct reader_call *end_of_calls(struct trace_reader *r)
 {
 	struct reader_call *oldest = NULL;
@@ -291,7 +291,7 @@ static struct reader_call *end_of_calls(struct trace_reader *r)
 	return oldest;
 }
 
-/* The usual way. @return the call that has returned by it, or NULL */
+/* Read any event. @return the call that it completes, or NULL */
 static struct reader_call *read_event(struct trace_reader *r)
 {
 	unsigned event = reader_byte(r);

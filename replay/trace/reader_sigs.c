@@ -9,9 +9,9 @@
 #define MAX_ID (1u << 20)
 #define MAX_NAMES 65536u
 
-/* ---- where they are kept ---- */
+/* ---- storage ---- */
 
-/* The slot of an id, or NULL (failed). An empty slot: the signature follows. */
+/* The slot of an id, or NULL (failed). If the slot is empty, the definition follows. */
 static void **slot_of(struct trace_reader *r, enum trace_sig_kind kind, uint64_t id)
 {
 	struct reader_sigs *t = &r->tables[kind];
@@ -19,7 +19,7 @@ static void **slot_of(struct trace_reader *r, enum trace_sig_kind kind, uint64_t
 	if (r->status)
 		return NULL;
 	if (id >= MAX_ID) {
-		reader_fail(r, "a signature's number is out of all measure");
+		reader_fail(r, "a signature number that is too large");
 		return NULL;
 	}
 	if (id >= t->n) {
@@ -38,7 +38,10 @@ static void **slot_of(struct trace_reader *r, enum trace_sig_kind kind, uint64_t
 	return &t->items[id];
 }
 
-/* A signature is whole: note where it ends, so that one knows before which places of the file it stands. */
+/*
+ * Store a complete signature, with the position where it ends, so that a seek can tell which signatures precede a
+ * place.
+ */
 static void define(struct trace_reader *r, enum trace_sig_kind kind, uint64_t id, void *sig)
 {
 	if (MEMORY_GROW(r->definitions, r->definitions_room, r->n_definitions + 1)) {
@@ -55,7 +58,7 @@ static int32_t find_command(const struct trace_reader *r, const char *name)
 	return r->find ? r->find(name) : -1;
 }
 
-/* ---- reading them ---- */
+/* ---- reading ---- */
 
 static const char **read_names(struct trace_reader *r, uint64_t n)
 {
@@ -79,7 +82,7 @@ int64_t reader_tagged_int(struct trace_reader *r)
 
 	if (tag != TRACE_SINT && tag != TRACE_UINT) {
 		if (r->status == 0)
-			reader_fail(r, "an enum's value is no number");
+			reader_fail(r, "an enum value that is not a number");
 		return 0;
 	}
 	value = reader_uint(r);
@@ -180,11 +183,11 @@ int reader_frame_sig(struct trace_reader *r)
 
 	if (!slot || *slot)
 		return 0;
-	define(r, TRACE_SIG_FRAME, id, r); /* seen; nobody wants what it says */
+	define(r, TRACE_SIG_FRAME, id, r); /* only marks it as seen; the contents are not needed */
 	return 1;
 }
 
-/* ---- as bytes, for an index ---- */
+/* ---- serializing, for an index ---- */
 
 static void put_texts(struct bytes *b, const char **texts, uint32_t n)
 {
@@ -248,7 +251,7 @@ static const char **get_texts(struct trace_reader *r, struct cursor *c, uint32_t
 	return texts;
 }
 
-/* A signature as trace_reader_signatures wrote it, in the reader's memory; NULL: no such thing. */
+/* A signature as trace_reader_signatures wrote it, in the reader's memory; NULL: invalid. */
 static void *get_signature(struct trace_reader *r, struct cursor *c, uint64_t kind, uint64_t id)
 {
 	struct call_sig *call;
@@ -309,7 +312,7 @@ int reader_learn_sigs(struct trace_reader *r, const uint8_t *signatures, size_t 
 		slot = slot_of(r, (enum trace_sig_kind)kind, id);
 		sig = slot ? get_signature(r, &c, kind, id) : NULL;
 		if (!sig || c.failed || r->status)
-			return err_report(ERR_INPUT, r->path, "its index holds no signatures where they should be");
+			return err_report(ERR_INPUT, r->path, "the signatures in its index are invalid");
 		if (*slot)
 			continue;
 		define(r, (enum trace_sig_kind)kind, id, sig);

@@ -4,7 +4,7 @@
 
 static const struct trace_value *read_items(struct trace_reader *r, struct arena *a, uint64_t n, unsigned depth)
 {
-	/* Room for what is there at most: an item takes a byte at least, and the count is not believed. */
+	/* Memory for no more items than there can be: an item takes at least one byte, and the count is not trusted. */
 	size_t room = n < 4096 ? (size_t)n : 4096;
 	struct trace_value *items = reader_alloc(r, a, (room + !room) * sizeof(*items));
 

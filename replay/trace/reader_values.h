@@ -4,20 +4,21 @@
 #include "replay/trace/reader_sigs.h"
 
 /**
- * Any value.
- * @param a      what it points to goes here
- * @param depth  values it lies in
+ * Read any value.
+ * @param a      memory for data that it points to
+ * @param depth  nesting depth
  */
 void reader_value(struct trace_reader *r, struct arena *a, struct trace_value *v, unsigned depth);
 
 /**
- * The quick way. Nearly all that a trace holds are short numbers, known enums and floats within a piece. These
- * functions read them without looking for the piece's end at every byte, and without a store to the reader that the
- * compiler could not keep in a register. Anything else they leave, untouched, to reader_value.
+ * The fast path. Nearly all data in a trace is short numbers, known enums and floats within one piece. These functions
+ * read such values without checking for the piece's end at every byte, and without stores to the reader that keep the
+ * compiler from using registers. They leave anything else, unread, to reader_value.
  */
-#define READER_QUICK_BYTES 32 /* more than any value without items takes: tag, two numbers and a tag between them */
+#define READER_QUICK_BYTES 32 /* more than any value without items takes: a tag, and two numbers with a tag between
+                                 them */
 
-/** A float at p, behind its tag. @return behind it */
+/** Read a float at p, after its tag. @return the position after it */
 static inline const uint8_t *reader_quick_float(const uint8_t *p, struct trace_value *v)
 {
 	*v = (struct trace_value){ .type = TRACE_FLOAT };
@@ -25,8 +26,10 @@ static inline const uint8_t *reader_quick_float(const uint8_t *p, struct trace_v
 	return p + sizeof(v->f);
 }
 
-/** A quick value at p, of which READER_QUICK_BYTES can be read. @return behind it; NULL: not a quick one, v is
- * untouched */
+/**
+ * Read a simple value at p; READER_QUICK_BYTES must be readable. @return the position after it; NULL: not a simple one,
+ * v is unchanged
+ */
 static inline const uint8_t *reader_quick_scalar(const struct trace_reader *r, const uint8_t *p, struct trace_value *v)
 {
 	unsigned tag = *p++, sign;
@@ -80,5 +83,5 @@ static inline const uint8_t *reader_quick_scalar(const struct trace_reader *r, c
 	return p;
 }
 
-/** An array of quick values: the vectors and matrices of GL. As reader_quick_scalar. */
+/** Read an array of simple values, such as GL's vectors and matrices. As reader_quick_scalar. */
 const uint8_t *reader_quick_array(struct trace_reader *r, const uint8_t *p, struct arena *a, struct trace_value *v);

@@ -11,7 +11,7 @@
 #include "base/err.h"
 #include "base/part.h"
 
-#define CHUNK_BYTES ((size_t)1 << 20) /* apitrace's reader has room for no more */
+#define CHUNK_BYTES ((size_t)1 << 20) /* limit of apitrace's reader */
 
 struct known { /* a signature that has been written */
 	const void *sig;
@@ -24,9 +24,9 @@ struct trace_out {
 	FILE *file;
 	int rc;
 	uint64_t bytes, n_calls, n_ids[N_TRACE_SIG_KINDS];
-	struct known *known; /* open addressing, at most half full */
+	struct known *known; /* hash table with open addressing, at most half full */
 	size_t n_known, room;
-	size_t n; /* bytes of the chunk */
+	size_t n; /* number of bytes in the chunk */
 	uint8_t chunk[CHUNK_BYTES];
 	char packed[];
 };
@@ -115,7 +115,7 @@ static struct known *slot_of(struct known *known, size_t room, const void *sig)
 	return &known[at];
 }
 
-/* Write a signature's number. @return 1 where it is met for the first time: what it says follows */
+/* Write a signature's number. @return 1 if this is its first use: the definition must follow */
 static int put_signature(struct trace_out *o, enum trace_sig_kind kind, const void *sig)
 {
 	struct known *slot;
@@ -154,7 +154,7 @@ static void put_names(struct trace_out *o, const char *name, const char *const *
 		put_text(o, names[i]);
 }
 
-/* Of an enum or a bitmask. */
+/* Write the signature of an enum or a bitmask. */
 static void put_values_signature(struct trace_out *o, enum trace_sig_kind kind, const struct trace_values_sig *sig)
 {
 	if (!put_signature(o, kind, sig))
@@ -213,7 +213,7 @@ static void put_value(struct trace_out *o, const struct trace_value *v)
 	case TRACE_OPAQUE:
 		put_uint(o, v->u);
 		break;
-	default: /* null, truth and pairs: all is said */
+	default: /* null, booleans and pairs: the tag says it all */
 		break;
 	}
 	if (v->type == TRACE_WSTRING)

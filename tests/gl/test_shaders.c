@@ -136,10 +136,10 @@ START_TEST(test_reasons)
 		  "texture" },
 		{ "uniform float a[60000]; void main() { float b[600]; b[int(a[3])] = a[2]; gl_FragColor = vec4(b[1]); "
 		  "}",
-		  "at once" },
+		  "too many registers" },
 		{ "uniform int k; void main() { int i = k; gl_FragColor = vec4(float(i << 2)); }", "compile" },
 		{ "#version 130\nuniform int k; void main() { int i = k; gl_FragColor = vec4(float(i << 2)); }",
-		  "not done" },
+		  "unsupported" },
 		{ "void main() { gl_FragColor = gl_TexCoord[9]; }", "texture coordinates" },
 		{ "uniform sampler2D t[2]; uniform int k; void main() { gl_FragColor = texture2D(t[k], "
 		  "gl_TexCoord[0].xy); }",

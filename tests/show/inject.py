@@ -68,7 +68,7 @@ def digest(path):
 
 
 def plain(out):
-    return [line for line in out.splitlines() if not line.startswith(b"made in")]
+    return [line for line in out.splitlines() if not line.startswith(b"built in")]
 
 
 class Trial:

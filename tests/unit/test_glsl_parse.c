@@ -124,8 +124,8 @@ START_TEST(test_overloads)
 		{ "float y = g(true);", "no function 'g'" },
 		{ "float y = f();", "no function 'f'" },
 		{ "float y = h(1.0);", "'h' is not declared" },
-		{ "vec2 y = f(1.0);", "a value of type float stands where vec2 is wanted" },
-		{ "float f = 1.0; f(2.0);", "'f' is no function" },
+		{ "vec2 y = f(1.0);", "a value of type float where vec2 is expected" },
+		{ "float f = 1.0; f(2.0);", "'f' is not a function" },
 	};
 	char text[1024];
 
@@ -135,10 +135,10 @@ START_TEST(test_overloads)
 		check_refused(text, cases[i].why);
 	}
 	check_refused("#version 120\nvoid f(float x, int y) {} void f(int x, float y) {} void main() { f(1, 1); }",
-	              "may mean several");
+	              "is ambiguous");
 	check_refused("#version 120\nfloat sin(int x) { return 1.0; } void main() { gl_FragColor = vec4(sin(1.0)); }",
 	              "no function 'sin'");
-	check_refused("#version 120\nvoid f(out float x) { x = 1.0; } void main() { f(1.0); }", "no variable");
+	check_refused("#version 120\nvoid f(out float x) { x = 1.0; } void main() { f(1.0); }", "not a variable");
 	check_taken(
 	        "#version 120\nvoid f(out int x) { x = 1; } void main() { float y; f(y); gl_FragColor = vec4(y); }");
 	check_refused("#version 110\nfloat f(float x) { return x; } void main() { gl_FragColor = vec4(f(1)); }",
@@ -163,11 +163,11 @@ START_TEST(test_names)
 		{ "void main() { for (int i = 0; i < 2; i++) {} gl_FragColor = vec4(float(i)); }",
 		  "'i' is not declared" },
 		{ "void main() { if (true) int b = 1; gl_FragColor = vec4(float(b)); }", "'b' is not declared" },
-		{ "float gl_mine; void main() {}", "a name that the language keeps" },
+		{ "float gl_mine; void main() {}", "a reserved name" },
 		{ "struct S { float x; }; void main() { S S = S(1.0); gl_FragColor = vec4(S.x); }", NULL },
 		{ "struct S { float x; } s; void main() { gl_FragColor = vec4(s.y); }", "S has no member 'y'" },
 		{ "const float a; void main() {}", "has no value" },
-		{ "const float a = 1.0; void main() { a = 2.0; }", "is no variable" },
+		{ "const float a = 1.0; void main() { a = 2.0; }", "is not a variable" },
 		{ "uniform float u; void main() { u = 2.0; }", "'u' cannot be assigned" },
 		{ "void main() { vec2 v; v.xx = vec2(1.0); }", "assigned twice" },
 		{ "void main() { float half = 1.0; }", "'half' is not expected" },
@@ -177,31 +177,31 @@ START_TEST(test_names)
 		{ "float a[]; float a[2]; void main() { a[1] = 1.0; }", NULL },
 		{ "float a[]; void f() { a[3] = 1.0; } float a[2]; void main() {}", "indexed beyond its length" },
 		{ "float a[0]; void main() {}", "not above 0" },
-		{ "uniform sampler2D s; sampler2D t; void main() {}", "'t' is no uniform" },
+		{ "uniform sampler2D s; sampler2D t; void main() {}", "'t' is not a uniform" },
 		{ "attribute vec4 a; void main() {}", "has attributes" },
-		{ "varying bool b; void main() {}", "bool cannot be handed" },
-		{ "void main() { break; }", "stands where it cannot" },
-		{ "void main() { return 1.0; }", "returns nothing" },
-		{ "float f() { return; } void main() {}", "returns a value" },
-		{ "void main() { if (1) ; }", "a bool is wanted, not int" },
-		{ "void main() { gl_FragColor = vec4(1.0)", "the text ends too early" },
+		{ "varying bool b; void main() {}", "bool cannot be passed" },
+		{ "void main() { break; }", "is not allowed here" },
+		{ "void main() { return 1.0; }", "is void, but returns a value" },
+		{ "float f() { return; } void main() {}", "does not return a value here" },
+		{ "void main() { if (1) ; }", "a bool is expected, not int" },
+		{ "void main() { gl_FragColor = vec4(1.0)", "unexpected end of the text" },
 		{ "void main() { int i = 1 +; }", "';' is not expected" },
-		{ "void main() { gl_FragColor = vec4(1.0); gl_FragData[0] = vec4(1.0); }", "names of two kinds" },
+		{ "void main() { gl_FragColor = vec4(1.0); gl_FragData[0] = vec4(1.0); }", "two kinds of output" },
 		{ "void f() {}", "no main function" },
 		{ "", "no main function" },
-		{ "void main() { vec2 v = vec3(1.0); }", "a value of type vec3 stands where vec2" },
+		{ "void main() { vec2 v = vec3(1.0); }", "a value of type vec3 where vec2" },
 		{ "void main() { vec3 v = vec3(1.0, 2.0); }", "too few values" },
 		{ "void main() { vec2 v = vec2(1.0, 2.0, 3.0); }", "more values than" },
-		{ "/* no end", "line 1: a comment does not end" },
-		{ "void main() { 08; }", "'08' is no number" },
+		{ "/* no end", "line 1: a comment is not closed" },
+		{ "void main() { 08; }", "'08' is not a number" },
 		{ "@", "'@' is not expected" },
 	};
 
 	for (unsigned i = 0; i < sizeof(cases) / sizeof(cases[0]); i++)
 		check_refused(cases[i].text, cases[i].why);
-	check_refused("#version 130\nvoid main() { switch (1) { case 1: case 1: break; } }", "two cases of one value");
-	check_refused("#version 130\nin int i; void main() {}", "whole numbers reach a shader of fragments flat alone");
-	check_why(GLSL_VERTEX_STAGE, "void main() { discard; }", "stands where it cannot");
+	check_refused("#version 130\nvoid main() { switch (1) { case 1: case 1: break; } }", "two cases with the same value");
+	check_refused("#version 130\nin int i; void main() {}", "an integer input of a fragment shader is not flat");
+	check_why(GLSL_VERTEX_STAGE, "void main() { discard; }", "is not allowed here");
 	check_why(GLSL_VERTEX_STAGE, "void main() { gl_Position = dFdx(gl_Vertex); }", "'dFdx' is not declared");
 }
 END_TEST
@@ -218,7 +218,7 @@ START_TEST(test_units)
 		{ { "uniform float u; void f(); void main() { f(); gl_FragColor = vec4(u); }",
 		    "#version 120\nuniform float u; float g; void f() { g = 2 * u; }" },
 		  NULL },
-		{ { "uniform float u; void main() {}", "uniform vec2 u;" }, "'u' is declared in two ways" },
+		{ { "uniform float u; void main() {}", "uniform vec2 u;" }, "'u' is declared in different ways" },
 		{ { "void f() {} void main() {}", "void f() {}" }, "do not link here: 'f' is defined twice" },
 		{ { "float a[]; void main() { a[1] = 1.0; }", "float a[3]; void f() { a[2] = 1.0; }" }, NULL },
 		{ { "float a[]; void main() { a[4] = 1.0; }", "float a[3];" }, "indexed beyond its length" },
@@ -232,7 +232,7 @@ START_TEST(test_units)
 		  NULL },
 		{ { "struct S { float x; }; uniform S s; void main() { gl_FragColor = vec4(s.x); }",
 		    "struct S { float y; }; uniform S s;" },
-		  "in two ways" },
+		  "in different ways" },
 	};
 
 	for (unsigned i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
@@ -265,7 +265,7 @@ START_TEST(test_shared_nodes)
 	for (unsigned i = 0; i < 40; i++)
 		strcat(text, ", u, u)");
 	strcat(text, "); }");
-	check_refused(text, "larger than is done");
+	check_refused(text, "too large");
 }
 END_TEST
 

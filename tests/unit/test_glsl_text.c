@@ -33,14 +33,14 @@ START_TEST(test_macros)
 	for (unsigned i = 0; i < sizeof(cases) / sizeof(cases[0]); i++)
 		check_value("120", cases[i].lines, cases[i].expression, cases[i].value);
 	check_refused("#define f(x) x + f\nvoid main() { gl_FragColor = vec4(f(1)); }", "'f' is not declared");
-	check_refused("#define A 1\n#define A 2\nvoid main() {}", "line 2: the macro 'A' is defined otherwise");
+	check_refused("#define A 1\n#define A 2\nvoid main() {}", "line 2: the macro 'A' is already defined differently");
 	check_refused("#define GL_A 1\nvoid main() {}", "line 1: 'GL_A' cannot be a macro");
 	check_refused("#define f(x) x\nvoid main() { gl_FragColor = vec4(f(1.0, 2.0)); }",
 	              "line 2: a macro is called with too many");
 	check_refused("#define f(x, y) x\nvoid main() { gl_FragColor = vec4(f(1.0)); }",
 	              "line 2: a macro is called with too few");
-	check_refused("#define f(x) x\nvoid main() { gl_FragColor = vec4(f(1.0; }", "a macro's arguments do not end");
-	check_refused("#define A 1 ## -\nvoid main() { int i = A; }", "'1-' is no token");
+	check_refused("#define f(x) x\nvoid main() { gl_FragColor = vec4(f(1.0; }", "a macro's arguments are not closed");
+	check_refused("#define A 1 ## -\nvoid main() { int i = A; }", "'1-', made by '##', is not a token");
 	check_refused("#define f(x, x) x\nvoid main() {}", "two parameters");
 }
 END_TEST
@@ -99,11 +99,11 @@ START_TEST(test_conditions)
 	                "#version 120\n#ifndef A\n  #  define A\n#ifdef A\nuniform float r = 4.0;\n#endif\n#endif\n"
 	                "" MAIN) ==
 	        4);
-	check_refused("#if 1\nvoid main() {}", "an '#if' does not end");
+	check_refused("#if 1\nvoid main() {}", "an '#if' has no '#endif'");
 	check_refused("void main() {}\n#endif", "line 2: '#endif' has no '#if'");
 	check_refused("#if 1\n#else\n#else\n#endif\nvoid main() {}", "line 3: '#else' has no '#if'");
 	check_refused("\n#error on purpose, 2 words\nvoid main() {}", "line 2: #error on purpose, 2 words");
-	check_refused("#nonsense\nvoid main() {}", "'#nonsense' is no directive");
+	check_refused("#nonsense\nvoid main() {}", "'#nonsense' is not a directive");
 	check_taken("#pragma optimize(off)\n#\nvoid main() { gl_FragColor = vec4(1.0); }");
 }
 END_TEST
@@ -114,13 +114,13 @@ START_TEST(test_versions_and_extensions)
 	check_refused("#version 110\nvoid main() { gl_FragColor = vec4(1.0) * 2; }",
 	              "line 2: an operator does not take vec4 and int");
 	check_taken("#version 120\nvoid main() { gl_FragColor = vec4(1.0) * 2; }");
-	check_refused("void main() {}\n#version 120", "line 2: '#version' stands behind something else");
-	check_refused("#version 125\nvoid main() {}", "line 1: '#version' names none");
-	check_refused("#version 120 core\nvoid main() {}", "line 1: '#version' names none");
+	check_refused("void main() {}\n#version 120", "line 2: '#version' is not at the beginning");
+	check_refused("#version 125\nvoid main() {}", "line 1: '#version' has an unknown version");
+	check_refused("#version 120 core\nvoid main() {}", "line 1: '#version' has an unknown version");
 	check_taken("#version 150 compatibility\nvoid main() { gl_FragColor = gl_Color; }");
 	check_refused("#version 150\nvoid main() { gl_FragColor = gl_Color; }", "'gl_Color' is not declared");
 	check_refused("#extension GL_NOBODY_nothing : require\nvoid main() {}",
-	              "line 1: the extension 'GL_NOBODY_nothing' is not known");
+	              "line 1: the extension 'GL_NOBODY_nothing' is unknown");
 	check_taken(
 	        "#extension GL_NOBODY_nothing : enable\n#extension all : warn\n"
 	        "void main() { gl_FragColor = vec4(1.0); }");
@@ -189,26 +189,26 @@ START_TEST(test_limits)
 	        "#define a5 a4+a4+a4+a4+a4+a4+a4+a4+a4+a4\n"
 	        "#define a6 a5+a5+a5+a5+a5+a5+a5+a5+a5+a5\nvoid main() { gl_FragColor = vec4(a6); }";
 
-	check_refused(bomb, "longer text than is done");
+	check_refused(bomb, "too much text");
 	check_repeated("#define f(x) x x\nvoid main() { ", "f(", "1.0", 5000, "");
-	check_repeated("void main() { float x = ", "(", "", 100000, "nests deeper");
-	check_repeated("void main() { float x = ", "-", "1.0; }", 100000, "nests deeper");
-	check_repeated("void main() ", "{", "", 100000, "nests deeper");
-	check_repeated("void main() { ", "if (true) ", ";}", 100000, "nests deeper");
-	check_repeated("uniform float u; void main() { float x = u", " + u", "; }", 20000, "nests deeper");
-	check_repeated("void main() { vec4 v; v = v", ".xyzw", "; }", 20000, "nests deeper");
+	check_repeated("void main() { float x = ", "(", "", 100000, "nested too deeply");
+	check_repeated("void main() { float x = ", "-", "1.0; }", 100000, "nested too deeply");
+	check_repeated("void main() ", "{", "", 100000, "nested too deeply");
+	check_repeated("void main() { ", "if (true) ", ";}", 100000, "nested too deeply");
+	check_repeated("uniform float u; void main() { float x = u", " + u", "; }", 20000, "nested too deeply");
+	check_repeated("void main() { vec4 v; v = v", ".xyzw", "; }", 20000, "nested too deeply");
 	check_repeated(
 	        "#extension GL_AMD_shader_trinary_minmax : require\n"
 	        "uniform float u; void main() { gl_FragColor = vec4(",
-	        "mid3(u, u, ", "", 40, "ends too early");
-	check_repeated("", "#if 1\n", "void main() {}", 50000, "does not end");
-	check_repeated("#if ", "(", "\n", 100000, "nests deeper");
+	        "mid3(u, u, ", "", 40, "unexpected end");
+	check_repeated("", "#if 1\n", "void main() {}", 50000, "has no '#endif'");
+	check_repeated("#if ", "(", "\n", 100000, "nested too deeply");
 	check_repeated("void main() { float x", "yyyyyyyyyy", " = z; }", 10000, "'z' is not declared");
-	check_repeated("void main() { float x = 1", "0000000000", ".0; }", 10000, "a number is longer");
-	check_refused("float a[2000000000]; void main() { a[1] = 1.0; }", "larger array than is done");
+	check_repeated("void main() { float x = 1", "0000000000", ".0; }", 10000, "a number has too many digits");
+	check_refused("float a[2000000000]; void main() { a[1] = 1.0; }", "an array that is too large");
 	check_refused("float a[65536]; struct S { float x[65536]; float y; } s; void main() { a[1] = 1.0; }",
-	              "larger array than is done");
-	check_refused("float a[]; void main() { a[2000000000] = 1.0; }", "larger array than is done");
+	              "an array that is too large");
+	check_refused("float a[]; void main() { a[2000000000] = 1.0; }", "an array that is too large");
 }
 END_TEST
 

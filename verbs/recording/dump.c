@@ -1,4 +1,4 @@
-/* relume dump: a trace's calls as text, in the manner of `apitrace dump`. */
+/* relume dump: print a trace's calls as text, in the style of `apitrace dump`. */
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -32,7 +32,7 @@ static const struct options_table table = {
 	.verb = "dump",
 	.head = "usage: relume dump [OPTIONS] TRACE\n"
 	        "\n"
-	        "Print one line per call: number, thread (@n, where it is not 0), name and arguments.\n",
+	        "Print one line per call: number, thread (@n, unless it is 0), name and arguments.\n",
 	OPTIONS_ROWS(rows),
 	.takes = "one trace", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
@@ -56,7 +56,7 @@ int dump_main(int argc, char **argv)
 	while ((rc = trace_reader_next(reader, &call)) == 1) {
 		if (frame_list_contains(&o.calls, call->number))
 			print_call(stdout, call);
-		/* Calls come in the order they returned: those of other threads may still be on their way. */
+		/* Calls come in the order in which they returned: earlier calls of other threads may still follow. */
 		if (last < UINT64_MAX && call->number > last + 1024)
 			break;
 	}

@@ -10,27 +10,27 @@
 
 enum { MAX_THREADS = 256, MAX_ATTRIBUTES = 64, MAX_ITEMS = 16, ATTRIBUTE_ARGS = 6 };
 
-/* A call that sets a current attribute, kept until it is known whether it is the last one. */
+/* A call that sets a current attribute, held until it is known whether it is the last one. */
 struct attribute {
 	struct call call;
 	struct trace_value args[ATTRIBUTE_ARGS], items[MAX_ITEMS];
-	int64_t target; /* of its first argument, where that says which attribute */
+	int64_t target; /* first argument, if that selects the attribute */
 };
 
 struct early {
 	struct trace_out *out;
 	uint64_t n_put;
 	struct {
-		uint8_t compiling;  /* a display list */
-		uint8_t selecting;  /* or in feedback mode: nothing is drawn anyway */
-		uint8_t begin_held; /* Begin was met and not written yet; it is where something must stand in it */
-		uint8_t drawing;    /* Begin was written, and End was not */
-		uint8_t discarding; /* RASTERIZER_DISCARD is on by us */
-		uint8_t discards;   /* and by the program */
+		uint8_t compiling;  /* 1: in a display list */
+		uint8_t selecting;  /* 1: in selection or feedback mode, where nothing is drawn */
+		uint8_t begin_held; /* 1: Begin is held back until something has to be written inside it */
+		uint8_t drawing;    /* 1: Begin was written, and End was not */
+		uint8_t discarding; /* 1: we have enabled RASTERIZER_DISCARD */
+		uint8_t discards;   /* 1: the program has enabled it */
 		struct call begin;
 		struct trace_value mode;
 	} threads[MAX_THREADS];
-	struct attribute attributes[MAX_ATTRIBUTES]; /* of one thread, in the order of their calls */
+	struct attribute attributes[MAX_ATTRIBUTES]; /* all of one thread, in call order */
 	size_t n_attributes;
 };
 
@@ -72,7 +72,7 @@ static int put_attributes(struct early *e)
 	return rc;
 }
 
-/* glEnable or glDisable, made up. */
+/* Write a glEnable or glDisable that is not in the original. */
 static int put_discard(struct early *e, uint64_t thread, int on)
 {
 	static const char *arg_names[] = { "cap" }, *names[] = { "GL_RASTERIZER_DISCARD" };
@@ -98,7 +98,7 @@ static int put_held_begin(struct early *e, uint64_t thread)
 	return put(e, &e->threads[thread].begin);
 }
 
-/* A call that is not seen, whatever it draws. */
+/* Write a call whose drawing must not be visible. */
 static int put_unseen(struct early *e, const struct call *call)
 {
 	uint64_t thread = call->thread;
@@ -110,8 +110,10 @@ static int put_unseen(struct early *e, const struct call *call)
 	return rc ? rc : put(e, call);
 }
 
-/* Any other call. Only some leave discarding as it is: those that neither read nor write pixels, nor change
- * contexts. */
+/*
+ * Write any other call. Discarding may stay enabled only for calls that neither read nor write pixels, nor change
+ * contexts.
+ */
 static int put_plain(struct early *e, const struct call *call)
 {
 	uint32_t kind = kind_of(call);
@@ -125,13 +127,13 @@ static int put_plain(struct early *e, const struct call *call)
 
 /* ---- calls of earlier frames ---- */
 
-/* 1 where the first argument says which attribute it is that is set. */
+/* 1 if the first argument selects the attribute that is set. */
 static int has_target(const struct call *call)
 {
 	return begins_with(call, "glMultiTexCoord") || begins_with(call, "glVertexAttrib");
 }
 
-/* Keep a call instead of an earlier one of the same attribute. @return 1 kept; 0 it is not of the usual form */
+/* Hold a call, replacing an earlier one for the same attribute. @return 1 held; 0 the call has an unusual form */
 static int hold_attribute(struct early *e, const struct call *call)
 {
 	int64_t target = has_target(call) ? number(call, 0) : 0;
@@ -166,7 +168,7 @@ static int hold_attribute(struct early *e, const struct call *call)
 		if (call->args[i].type == TRACE_ARRAY)
 			memcpy(a->items, call->args[i].items, (size_t)call->args[i].count * sizeof(a->items[0]));
 	}
-	/* Held ones move in their array: where their values are is said anew for all. */
+	/* The held calls may have moved in their array: update their pointers. */
 	for (size_t i = 0; i < e->n_attributes; i++) {
 		struct attribute *held = &e->attributes[i];
 
@@ -178,7 +180,7 @@ static int hold_attribute(struct early *e, const struct call *call)
 	return 1;
 }
 
-/* A bitmap moves the raster position; without a picture it does nothing else (GL 2.1 sec. 3.7). */
+/* A bitmap moves the raster position; without an image it does nothing else (GL 2.1 sec. 3.7). */
 static int put_move(struct early *e, const struct call *call)
 {
 	struct trace_value args[7];
@@ -193,7 +195,7 @@ static int put_move(struct early *e, const struct call *call)
 	return put_plain(e, &move);
 }
 
-/* Recorders write arrays in client memory before each draw: those of draws that are left out need not be there. */
+/* Recorders write client arrays before each draw: if the draw is dropped, they are not needed. */
 static int is_array_of_draw(const struct call *call)
 {
 	size_t n = strlen(call->sig->name);
@@ -215,7 +217,7 @@ static int is_time(const struct call *call)
 	return 0;
 }
 
-/* Lists are kept as they are. One that runs while it is made is not seen. */
+/* Lists are kept unchanged. The drawing of one that executes while it is compiled is discarded. */
 static int put_list_call(struct early *e, const struct call *call)
 {
 	uint64_t thread = call->thread;
@@ -250,7 +252,7 @@ static int put_begin_end(struct early *e, const struct call *call)
 	return held;
 }
 
-/* A clear of no buffers draws nothing, and makes glretrace's window known (capture/gl/context.c). */
+/* A clear of no buffers draws nothing, and creates glretrace's window (capture/gl/context.c). */
 static int is_clear_of_none(const struct call *call)
 {
 	return is(call, "glClear") && call->n_args == 1 && gls_value_int(&call->args[0]) == 0;
@@ -277,7 +279,7 @@ static int put_one(struct early *e, const struct call *call)
 	return is(call, "glBitmap") ? put_move(e, call) : put_plain(e, call);
 }
 
-/* What calls say about the state that decides about others. */
+/* Track the state that decides how later calls are treated. */
 static void follow(struct early *e, const struct call *call)
 {
 	uint64_t thread = call->thread;

@@ -1,4 +1,4 @@
-/* relume export: a frame as glTF 2.0. */
+/* relume export: write a frame as glTF 2.0. */
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ struct export {
 
 static const struct options_row rows[] = {
 	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct export, frame) },
-	{ "output", 'o', "FILE", "the file; appears when it is whole", options_text,
+	{ "output", 'o', "FILE", "the file, created when complete", options_text,
 	  .at = offsetof(struct export, output), .is_required = 1, .use = CONFINE_MAKES },
 	{ OPTIONS_NO_SANDBOX },
 };
@@ -32,7 +32,7 @@ static const struct options_table table = {
 	.head = "usage: relume export [OPTIONS] -o FILE.glb TRACE\n"
 	        "\n"
 	        "Write one frame as binary glTF 2.0, for modellers and other renderers: meshes, materials, textures,\n"
-	        "cameras and lights. What glTF has no words for is left out and named.\n",
+	        "cameras and lights. What glTF cannot express is left out and listed.\n",
 	OPTIONS_ROWS(rows),
 	.takes = "one trace and -o FILE.glb", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
@@ -46,7 +46,7 @@ static void report_losses(const char *where, const struct gltf_losses *l)
 		{ l->no_color, "draws write no colour: left out" },
 		{ l->texgen, "draws generate texture coordinates: exported without that texture" },
 		{ l->more_units, "draws use several textures: exported with one" },
-		{ l->blended, "draws blend otherwise than by source alpha: exported as blended by source alpha" },
+		{ l->blended, "draws use other blending than source alpha: exported with source alpha" },
 		{ l->fogged, "draws are in fog: exported without" },
 		{ l->infinite, "vertices are at infinity or behind it: their primitives are left out" },
 	};
@@ -75,14 +75,14 @@ static int write_file(const char *path, const struct scene *scene)
 	return 0;
 }
 
-/* The one kind of glTF that is written. */
+/* Binary glTF is the only form that is written. */
 static int check_name(const char *path)
 {
 	const char *ending = strrchr(path, '.');
 
 	return ending && strcasecmp(ending, ".glb") == 0 ?
 	               0 :
-	               err_report(ERR_USAGE, NULL, "'%s' names no binary glTF; end it in .glb", path);
+	               err_report(ERR_USAGE, NULL, "'%s' is not a binary glTF file; its name must end in .glb", path);
 }
 
 int export_main(int argc, char **argv)

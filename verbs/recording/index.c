@@ -1,4 +1,4 @@
-/* relume index: make, describe or check the index of a trace. */
+/* relume index: build, describe or check the index of a trace. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <sys/stat.h>
@@ -17,11 +17,11 @@ struct asked {
 };
 
 static const struct options_row rows[] = {
-	{ "force", 0, NULL, "make it anew even where it is current", options_flag,
+	{ "force", 0, NULL, "rebuild it even if it is up to date", options_flag,
 	  .at = offsetof(struct asked, force) },
 	{ "check", 0, NULL,
-	  "compare what every checkpoint restores with what the recording's calls lead to (exit code 1 where they "
-	  "differ)",
+	  "compare the state that each checkpoint restores with the state that replaying the calls reaches (exit "
+	  "code 1 if they differ)",
 	  options_flag, .at = offsetof(struct asked, check) },
 	{ "json", 'j', NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
 	{ OPTIONS_NO_SANDBOX },
@@ -30,12 +30,10 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "index",
 	.head = "usage: relume index [OPTIONS] TRACE\n"
-		"\n"
-		"Make the index of a recording, which lets 'relume render' begin at any frame at once. It is made on "
-	        "first need\n"
-		"anyway, and made anew where it is damaged or the recording has changed. It lies beside the recording "
-	        "as\n"
-		"TRACE.index, or in $XDG_CACHE_HOME/relume (~/.cache/relume) where that folder cannot be written.\n",
+	        "\n"
+	        "Build the index of a recording, which lets 'relume render' start at any frame at once. It is built on\n"
+	        "first need anyway, and rebuilt if it is damaged or the recording has changed. The file is TRACE.index\n"
+	        "beside the recording, or in $XDG_CACHE_HOME/relume (~/.cache/relume) if that folder is not writable.\n",
 	OPTIONS_ROWS(rows),
 	.takes = "one trace",
 	.least = 1,
@@ -55,14 +53,14 @@ static void print_text(const char *trace, const struct index_facts *f)
 	uint64_t bytes = file_bytes(trace);
 
 	printf("trace        %s\n", trace);
-	printf("index        %s\n", f->path ? f->path : "kept nowhere");
-	printf("frames       %" PRIu64 "%s\n", f->frames, f->damaged ? ", then the trace is damaged" : "");
+	printf("index        %s\n", f->path ? f->path : "not saved");
+	printf("frames       %" PRIu64 "%s\n", f->frames, f->damaged ? ", after which the trace is damaged" : "");
 	printf("calls        %" PRIu64 "\n", f->calls);
-	printf("checkpoints  %" PRIu64 ", of %" PRIu64 " things kept once each\n", f->checkpoints, f->blobs);
+	printf("checkpoints  %" PRIu64 ", sharing %" PRIu64 " blobs\n", f->checkpoints, f->blobs);
 	printf("bytes        %" PRIu64 ", %.2f %% of the trace's\n", f->bytes,
 	       bytes ? 100.0 * (double)f->bytes / (double)bytes : 0.0);
 	if (f->build_s > 0)
-		printf("made in      %.3f s\n", f->build_s);
+		printf("built in     %.3f s\n", f->build_s);
 }
 
 static void print_json(const char *trace, const struct index_facts *f)
@@ -109,7 +107,7 @@ int index_main(int argc, char **argv)
 		else
 			print_text(line.words[0], &facts);
 		if (!facts.path)
-			rc = err_report(ERR_SYSTEM, line.words[0], "its index is kept nowhere");
+			rc = err_report(ERR_SYSTEM, line.words[0], "its index could not be saved");
 		else if (o.check)
 			rc = index_check(index);
 	}

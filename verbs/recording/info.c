@@ -1,4 +1,4 @@
-/* relume info: what a trace holds. */
+/* relume info: describe a trace. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 
 #define TOP_CALLS 20
 
-/* Frames that may show what was there before them, in ranges. */
+/* Frames that may show earlier contents, as ranges. */
 struct frame_ranges {
 	uint64_t (*ranges)[2];
 	size_t n, room;
@@ -51,7 +51,7 @@ struct asked {
 };
 
 static const struct options_row rows[] = {
-	{ "all", 'a', NULL, "every command that was called, not only the most frequent", options_flag,
+	{ "all", 'a', NULL, "list every command that was called, not only the most frequent ones", options_flag,
 	  .at = offsetof(struct asked, all) },
 	{ "json", 'j', NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
 	{ OPTIONS_NO_SANDBOX },
@@ -61,14 +61,14 @@ static const struct options_table table = {
 	.verb = "info",
 	.head = "usage: relume info [OPTIONS] TRACE\n"
 	        "\n"
-	        "Say what a trace holds: frames, calls, contexts, drawable size, frames that may show what earlier ones\n"
-	        "drew (uncleared screens, screen copies), what Relume does not execute yet, and the GL errors that the\n"
-	        "program itself made.\n",
+	        "Describe a trace: frames, calls, contexts, drawable size, frames that may show what earlier ones drew\n"
+	        "(uncleared screens, screen copies), calls that Relume does not support yet, and the GL errors that the\n"
+	        "program itself caused.\n",
 	OPTIONS_ROWS(rows),
 	.takes = "one trace", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
 
-/* What becomes of a recording when it is rendered, one line each. */
+/* How a recording is rendered, one line for each peculiarity. */
 static void print_needs(const struct replay_needs *needs)
 {
 	if (needs->programs)
@@ -76,7 +76,7 @@ static void print_needs(const struct replay_needs *needs)
 		       " draw%s by shaders or programs that are not run\n",
 		       needs->programs, plural(needs->programs));
 	if (needs->several_windows)
-		puts("windows     several: frames are in the order of their swaps");
+		puts("windows     several: frames are in the order of their buffer swaps");
 	if (needs->single_buffered)
 		puts("buffers     one: frames end where the program flushes");
 }
@@ -101,7 +101,7 @@ static void print_counts(const char *title, const struct replay_count *counts, s
 		printf("              and %zu more (--all lists them)\n", n - limit);
 }
 
-/* How many entries at the end are not done by replays alone. */
+/* Number of entries at the end that only a renderer supports. */
 static size_t count_rendered(const struct replay_count *counts, size_t n)
 {
 	size_t rendered = 0;
@@ -142,11 +142,11 @@ static void print_text(struct replay *rp, const char *path, size_t limit, const 
 	n_rendered = count_rendered(counts, n);
 	if (n == n_rendered)
 		puts("\nevery call is executed");
-	print_counts("not done yet", counts, n - n_rendered, (size_t)-1);
+	print_counts("not supported yet", counts, n - n_rendered, (size_t)-1);
 	if (n_rendered)
-		print_counts("done by 'relume render' alone", counts + (n - n_rendered), n_rendered, (size_t)-1);
+		print_counts("supported by 'relume render' only", counts + (n - n_rendered), n_rendered, (size_t)-1);
 	n = replay_gl_errors(rp, &counts);
-	print_counts("GL errors that the program made", counts, n, (size_t)-1);
+	print_counts("GL errors that the program caused", counts, n, (size_t)-1);
 }
 
 static void json_counts(struct json *j, const char *name, const struct replay_count *counts, size_t n, const char *why)
@@ -240,9 +240,9 @@ int info_main(int argc, char **argv)
 		rc = replay_open(&rp, line.words[0]);
 	if (rc)
 		return rc > 0 ? 0 : -rc;
-	/* Frames are built, so that what drawing does not do yet is found as well. */
+	/* Build the frames, so that unsupported drawing is found as well. */
 	while ((rc = replay_next_frame(rp, 1, &scene)) == 1) {
-		/* The first frame begins with an empty window. */
+		/* The first frame starts with an empty window. */
 		rc = scene->frame && (scene->needs_previous || scene->shows_earlier) ? add_frame(&earlier, scene->frame) : 0;
 		scene_release(&scene);
 		if (rc)

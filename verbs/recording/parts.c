@@ -6,11 +6,11 @@
 
 enum { NO_ARGUMENT = -1, MOST_ARGUMENTS = 16, MOST_VERTICES = 1 << 24 };
 
-/* Draws and images, and the places of their arguments. */
+/* Draws and images, with the indices of their arguments. */
 static const struct shape {
 	const char *name;
-	int first, count, type, indices; /* of a draw, whose first argument is the mode */
-	int pixels;                      /* of an image */
+	int first, count, type, indices; /* for a draw, whose first argument is the mode */
+	int pixels;                      /* for an image */
 } shapes[] = {
 	{ "glDrawArrays", 1, 2, NO_ARGUMENT, NO_ARGUMENT, NO_ARGUMENT },
 	{ "glDrawArraysEXT", 1, 2, NO_ARGUMENT, NO_ARGUMENT, NO_ARGUMENT },
@@ -23,8 +23,10 @@ static const struct shape {
 	{ "glTexImage3DEXT", NO_ARGUMENT, NO_ARGUMENT, NO_ARGUMENT, NO_ARGUMENT, 9 },
 };
 
-/* By mode (GL 2.1 sec. 2.6.1): vertices from one part to the next, and those beyond them that a part needs. A loop, a
- * fan and a polygon stay whole. */
+/*
+ * By mode (GL 2.1 sec. 2.6.1): vertices from one part to the next, and the number of further vertices that a part
+ * needs. Loops, fans and polygons are not divided.
+ */
 static const struct step {
 	uint32_t step, beyond;
 } steps[] = {
@@ -64,7 +66,7 @@ static uint64_t index_bytes(const struct call *call, const struct shape *s)
 	}
 }
 
-/* Can the indices, which lie in the call or in a buffer, be cut? */
+/* Can the indices be divided? They are in the call or in a buffer. */
 static int has_indices(const struct call *call, const struct shape *s, uint64_t count)
 {
 	const struct trace_value *v = &call->args[s->indices];
@@ -93,8 +95,10 @@ size_t parts_count(const struct call *call)
 	return (count - step->beyond + step->step - 1) / step->step;
 }
 
-/* The next run of parts that stay. end: where the last one ended, receives the end of this one @return where it begins;
- * n: there is none */
+/*
+ * The next run of remaining parts. end: end of the previous run; receives the end of this one @return its beginning; n:
+ * there is none
+ */
 static size_t next_run(const uint8_t *in, size_t n, size_t *end)
 {
 	size_t begin = *end;
@@ -118,7 +122,7 @@ size_t parts_calls(const struct call *call, const uint8_t *in)
 	return calls;
 }
 
-/* The draw with the parts from begin to end alone. */
+/* The draw reduced to the parts from begin to end. */
 static void cut(const struct call *call, const struct shape *s, size_t begin, size_t end, struct trace_value *args)
 {
 	const struct step *step = step_of(call);

@@ -1,6 +1,6 @@
 /*
- * relume raster: reference frames of a trace by a real OpenGL. apitrace's glretrace replays the trace and saves the
- * back buffer just before the calls that end the frames asked for; the replay says which calls these are.
+ * relume raster: make reference frames of a trace with a real OpenGL. apitrace's glretrace replays the trace and saves
+ * the back buffer just before the calls that end the frames asked for; our replay finds these calls.
  */
 #include "base/plural.h"
 #include "base/verbs.h"
@@ -37,9 +37,9 @@ struct frame_end {
 struct frame_ends {
 	struct frame_end *ends;
 	size_t n, capacity;
-	int skipped_first; /* frame 0 was asked for, too */
-	int single_buffered; /* some context has no back buffer */
-	char visual[64];   /* bits of a pixel, as visual.c takes them */
+	int skipped_first; /* 1: frame 0 was asked for as well */
+	int single_buffered; /* 1: some context has no back buffer */
+	char visual[64];   /* bits per pixel, in the format of visual.c */
 };
 
 static const struct options_row rows[] = {
@@ -52,14 +52,12 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "raster",
 	.head = "usage: relume raster [OPTIONS] TRACE -o PATTERN.png\n"
-		"\n"
-		"Make reference frames of a trace with a real OpenGL: apitrace's glretrace, on the display there is, "
-	        "or on an\n"
-		"Xvfb with Mesa's software rasterizer where there is none. 'relume diff' takes the images as its REF.\n"
-		"Its visual has the bits of depth, stencil and alpha and the samples that the program's pixels had, "
-	        "where there is\n"
-		"such a visual. The first frame of another recorder's trace is left out: glretrace does not show it "
-	        "reliably.\n",
+	        "\n"
+	        "Make reference frames of a trace with a real OpenGL: apitrace's glretrace, on the current display, or\n"
+	        "on Xvfb with Mesa's software rasterizer if there is none. 'relume diff' takes the images as its REF.\n"
+	        "If the display has such a visual, it has the same depth, stencil and alpha bits and the same number of\n"
+	        "samples as the program's. The first frame of another recorder's trace is left out, because glretrace\n"
+	        "does not show it reliably.\n",
 	OPTIONS_ROWS(rows),
 	.takes = "one trace and -o PATTERN.png",
 	.least = 1,
@@ -91,7 +89,7 @@ static int add_end(struct frame_ends *ends, uint64_t frame, uint64_t call)
 	return 0;
 }
 
-/* The visual of the context that draws most. */
+/* Find the visual of the context that draws most. */
 static void find_visual(struct replay *rp, struct frame_ends *ends)
 {
 	const struct replay_context *contexts, *most = NULL;
@@ -123,10 +121,10 @@ static int find_frame_ends(const struct options *o, struct frame_ends *ends)
 			err = add_end(ends, frame, replay_call_count(rp) - 1);
 	}
 	if (!err && rc < 0 && ends->n == 0)
-		err = rc; /* a damaged trace gives the frames in front of the damage */
+		err = rc; /* a damaged trace provides the frames before the damage */
 	if (!err && ends->n == 0)
 		err = err_report(ERR_USAGE, o->trace, "%s", ends->skipped_first
-		                 ? "the first frame alone cannot be had: it is not reliable"
+		                 ? "the first frame cannot be made alone: it is not reliable"
 		                 : "the trace has none of the frames asked for");
 	if (!err && last != UINT64_MAX && replay_frame(rp) <= last)
 		err_warn(o->trace, "the trace has %" PRIu64 " frame%s", replay_frame(rp), plural(replay_frame(rp)));
@@ -138,7 +136,7 @@ static int find_frame_ends(const struct options *o, struct frame_ends *ends)
 	return err;
 }
 
-/* A child process and what it says. */
+/* Child processes and their output. */
 
 /** Run a command with its output in a file, and wait for it. @return its exit code, 128 + signal, or ERR_SYSTEM */
 static int run_command(char *const argv[], const char *log)
@@ -162,13 +160,13 @@ static int run_command(char *const argv[], const char *log)
 	return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/** The last line of a file that says anything. */
+/** The last line of a file that is not empty. */
 static void last_line(const char *path, char *out, size_t size)
 {
 	char line[512];
 	FILE *f = fopen(path, "r");
 
-	snprintf(out, size, "it said nothing");
+	snprintf(out, size, "no output");
 	while (f && fgets(line, sizeof(line), f)) {
 		line[strcspn(line, "\r\n")] = '\0';
 		if (line[0])
@@ -179,7 +177,7 @@ static void last_line(const char *path, char *out, size_t size)
 }
 
 /**
- * Start an X server of our own on a display number that it chooses; sets DISPLAY.
+ * Start an X server on a display number that it chooses; sets DISPLAY.
  * @return its process, or -1 (reported)
  */
 static pid_t start_display(void)
@@ -205,14 +203,14 @@ static pid_t start_display(void)
 		_exit(127);
 	}
 	close(fds[1]);
-	/* The number comes with a newline when the server is ready; the pipe ends where there is no server. */
+	/* The server writes the number and a newline when it is ready; the pipe ends if it fails to start. */
 	while (n < (ssize_t)sizeof(number) - 1 && !memchr(number, '\n', (size_t)n) &&
 	       (got = read(fds[0], number + n, sizeof(number) - 1 - (size_t)n)) > 0)
 		n += got;
 	close(fds[0]);
 	if (n <= 1) {
 		waitpid(pid, NULL, 0);
-		err_report(ERR_SYSTEM, NULL, "there is no display, and Xvfb does not start; set DISPLAY, or install the "
+		err_report(ERR_SYSTEM, NULL, "there is no display, and Xvfb failed to start; set DISPLAY, or install the "
 		           "Debian package xvfb");
 		return -1;
 	}
@@ -231,7 +229,7 @@ static void stop_display(pid_t pid)
 	waitpid(pid, NULL, 0);
 }
 
-/** The calls, for glretrace: a file with one list. */
+/** Write the calls for glretrace, as a file with one list. */
 static int write_call_set(const struct frame_ends *ends, const char *path)
 {
 	FILE *f = fopen(path, "w");
@@ -245,7 +243,7 @@ static int write_call_set(const struct frame_ends *ends, const char *path)
 	return 0;
 }
 
-/* glretrace takes visuals with the program's bits: visual.c stands before libGL. */
+/* Preload visual.c, so that glretrace uses visuals with the program's bits. */
 static int set_visual(const char *visual)
 {
 	const char *others = getenv("LD_LIBRARY_PATH");
@@ -270,7 +268,9 @@ static int run_glretrace(const struct options *o, const struct frame_ends *ends,
 	snprintf(prefix, sizeof(prefix), "%s/", folder);
 	snprintf(calls, sizeof(calls), "@%s/calls", folder);
 	snprintf(log, sizeof(log), "%s/log", folder);
-	/* llvmpipe's quick rasterizer of windows without depth is off by up to 2/255, and not in every frame alike. */
+	/*
+	 * llvmpipe's fast rasterizer for windows without depth is off by up to 2/255, and differs from frame to frame.
+	 */
 	setenv("LP_PERF", "no_rast_linear", 0);
 	code = set_visual(ends->visual);
 	if (!code)
@@ -286,7 +286,7 @@ static int run_glretrace(const struct options *o, const struct frame_ends *ends,
 	return 0;
 }
 
-/** Give the snapshots their frames' names. */
+/** Rename the snapshots to their frames' names. */
 static int name_frames(const struct options *o, const struct frame_ends *ends, const char *folder)
 {
 	struct progress progress;
@@ -308,7 +308,7 @@ static int name_frames(const struct options *o, const struct frame_ends *ends, c
 	return err;
 }
 
-/** Make the output's folder, and a scratch folder beside the output: pictures arrive by rename. */
+/** Create the output's folder, and a scratch folder beside the output so that pictures can be moved by rename. */
 static int make_scratch(const char *output, char *out, size_t size)
 {
 	const char *slash = strrchr(output, '/');
@@ -356,7 +356,7 @@ int raster_main(int argc, char **argv)
 	if (!err && ends.skipped_first)
 		err_warn(o.trace, "frame 0 is left out: the first frame of a replay is not reliable");
 	if (!err && ends.single_buffered)
-		err_warn(o.trace, "the program draws to a window with one buffer, of which glretrace may give black pictures; "
+		err_warn(o.trace, "the program draws to a single-buffered window; glretrace may save black pictures of it; "
 		         "'relume record --ref color' keeps what it showed");
 	if (!err)
 		err = raster(&o, &ends);

@@ -1,8 +1,8 @@
 /*
- * relume reduce: the smallest recording with which a command still fails, or a frame still shows a fault.
+ * relume reduce: find the smallest recording that still makes a command fail, or still shows the fault of a frame.
  *
- * Calls are left out in steps (enum level), ever finer ones, as long as the command ends with the exit code that it
- * ends with on the whole recording. What belongs together (Begin and End, Push and Pop) goes together.
+ * Calls are left out in ever finer steps (enum level), as long as the command ends with the same exit code as on the
+ * whole recording. Calls that belong together (Begin and End, Push and Pop) are left out together.
  */
 #include "verbs/recording/reduce.h"
 
@@ -35,49 +35,49 @@
 enum { MOST_AT_ONCE = 64, MOST_NESTED = 256, ALWAYS = 0, MOST_SECONDS = 24 * 3600, MOST_UNITS = 1 << 30 };
 #define NO_FRAME UINT64_MAX
 
-/* What is left out as one. */
+/* Size of the units that are left out. */
 enum level {
-	FRAMES, /* what a frame draws, and its end */
-	DRAWS,  /* a draw; all from a Begin to its End */
-	BLOCKS, /* a display list; what draws in one; pairs; any other call */
-	CALLS,  /* calls between Begin and End, and in display lists, too */
-	PARTS,  /* of calls that stay: primitives, texels (parts.h) */
+	FRAMES, /* everything a frame draws, and its end */
+	DRAWS,  /* a draw; a Begin up to its End */
+	BLOCKS, /* a display list; its drawing; pairs; any other call */
+	CALLS,  /* also calls between Begin and End, and in display lists */
+	PARTS,  /* parts of the remaining calls: primitives, texels (parts.h) */
 	N_LEVELS
 };
 static const char *const level_names[N_LEVELS] = { "frames", "draws", "blocks", "calls", "primitives and images" };
 
-/* Of one call of the recording. */
+/* A call of the recording. */
 struct place {
-	uint64_t number; /* in the recording */
-	int32_t command; /* in gls_commands, or -1 */
+	uint64_t number; /* call number in the recording */
+	int32_t command; /* index in gls_commands, or -1 */
 	uint32_t frame;
-	uint32_t begin, list, pair; /* the call, counted from 1, that begins what it is in or ends; 0: none */
+	uint32_t begin, list, pair; /* index + 1 of the call that begins what this call is in, or ends; 0: none */
 	uint32_t parts;  /* parts_count */
 };
 
 struct reduce {
 	const char *path, *new;
-	const char *when;         /* NULL: a frame is asked for */
-	uint64_t frame;           /* NO_FRAME: a command is */
-	const char *reference;    /* of the frame */
+	const char *when;         /* the command; NULL: reduce by a frame */
+	uint64_t frame;           /* NO_FRAME: reduce by a command */
+	const char *reference;    /* for the frame */
 	reduce_note *note_fault;
 	reduce_again *again;
-	size_t fault;             /* place of its call */
+	size_t fault;             /* index in `calls` of the fault's call */
 	struct planted {
-		uint64_t frame, call; /* of the fault's first call, in what was written last */
-		size_t calls;         /* how many it has become */
+		uint64_t frame, call; /* place of the fault's first call in the last recording written */
+		size_t calls;         /* number of calls it has become */
 	} planted;
 	unsigned at_once, limit_s;
 	struct place *calls; /* [n] */
 	size_t n, room;
 	uint8_t *kept;       /* [n] */
-	uint32_t *unit; /* [n]: what a call is left out with at this level, or (PARTS) its first part, counted from 1;
-	                   ALWAYS: it stays */
+	uint32_t *unit; /* [n]: number of the unit that a call is left out with at this level, or, for PARTS, of its
+	                   first part, from 1; ALWAYS: never left out */
 	enum level level;
-	uint8_t *parts;      /* units of PARTS, once they are known; NULL: calls are whole */
+	uint8_t *parts;      /* one per unit of PARTS, once they are known; NULL: calls are not divided */
 	char folder[PATH_MAX - 64];
-	uint64_t written;    /* calls of what was written last */
-	int code;            /* of the command, on the whole recording; of a trial that has the fault */
+	uint64_t written;    /* number of calls in the last recording written */
+	int code;            /* exit code of the command on the whole recording; or of a trial that shows the fault */
 	uint64_t trials;
 };
 
@@ -91,7 +91,7 @@ static const struct {
 };
 enum { PAIR_BEGIN, PAIR_LIST, N_PAIRS = sizeof(pairs) / sizeof(pairs[0]) };
 
-/* Calls that are open, innermost last; counted from 1. */
+/* Unfinished calls, as index + 1, innermost last. */
 struct open_calls {
 	uint32_t at[MOST_NESTED];
 	unsigned n;
@@ -147,14 +147,16 @@ static int read_calls(struct reduce *r)
 	return rc;
 }
 
-/* The parts of a call that stay. NULL: it is whole, or left out */
+/* The remaining parts of a call. NULL: it is complete, or left out */
 static const uint8_t *parts_in(const struct reduce *r, const uint8_t *in, size_t i)
 {
 	return in && r->level == PARTS && r->unit[i] != ALWAYS ? in + (r->unit[i] - 1) : NULL;
 }
 
-/* in: units; NULL: all that is kept. @return how many calls a call becomes: 0 or 1, or, of a draw that lacks
- * primitives, any number */
+/*
+ * in: units; NULL: everything kept. @return number of calls that a call becomes: 0 or 1, or any number for a draw
+ * without some primitives
+ */
 static size_t becomes(const struct reduce *r, const uint8_t *in, size_t i, const struct call *call)
 {
 	const uint8_t *parts = parts_in(r, in, i);
@@ -162,7 +164,7 @@ static size_t becomes(const struct reduce *r, const uint8_t *in, size_t i, const
 	return parts ? parts_calls(call, parts) : r->kept[i] && (!in || r->unit[i] == ALWAYS || in[r->unit[i] - 1]);
 }
 
-/* Write the recording, but for calls of units that are not in. Notes where the fault's call is in it. */
+/* Write the recording without the calls of units that are not in `in`. Notes the place of the fault's call. */
 static int write_calls(struct reduce *r, const uint8_t *in, const char *path, uint64_t *bytes)
 {
 	struct trace_reader *reader = NULL;
@@ -179,7 +181,7 @@ static int write_calls(struct reduce *r, const uint8_t *in, const char *path, ui
 
 		rc = trace_reader_next(reader, &call);
 		if (rc != 1) {
-			rc = rc ? rc : err_report(ERR_INPUT, r->path, "has changed while it was read");
+			rc = rc ? rc : err_report(ERR_INPUT, r->path, "changed while it was being read");
 			break;
 		}
 		n = becomes(r, in, i, call);
@@ -209,8 +211,7 @@ static void note_path(const struct reduce *r, char out[PATH_MAX])
 	snprintf(out, PATH_MAX, "%s/fault", r->folder);
 }
 
-/* Has the trial's recording that was written last the fault? A draw in several pieces is not looked at. @return as
- * reduce_again */
+/* Does the last trial recording show the fault? A draw that was split is not looked at. @return as reduce_again */
 static int ask(const struct reduce *r, const char *trace)
 {
 	char note[PATH_MAX];
@@ -219,7 +220,7 @@ static int ask(const struct reduce *r, const char *trace)
 	return r->planted.calls == 1 ? r->again(note, trace, r->planted.frame, r->planted.call) : 0;
 }
 
-/* @return a process that ends with this one; 0 within it; ERR_SYSTEM (reported) */
+/* Fork a process that dies with this one. @return its process; 0 in the child; ERR_SYSTEM (reported) */
 static pid_t start_process(void)
 {
 	const pid_t pid = fork();
@@ -233,8 +234,10 @@ static pid_t start_process(void)
 	return pid;
 }
 
-/* Start the command, or the search for the fault, on the trial's recording that was written last. @return its process;
- * below 0: ERR_SYSTEM (reported) */
+/*
+ * Start the command, or the search for the fault, on the last trial recording. @return its process; below 0: ERR_SYSTEM
+ * (reported)
+ */
 static pid_t start(const struct reduce *r, size_t i)
 {
 	char trace[PATH_MAX], folder[PATH_MAX];
@@ -282,7 +285,7 @@ static void clear(const struct reduce *r, size_t i)
 	folder_remove(path);
 }
 
-/* Run the command on some sets side by side. codes: receive exit codes, as finish */
+/* Run the command on some sets in parallel. codes: receive exit codes, as finish */
 static int run_all(struct reduce *r, uint8_t *const *sets, size_t n, int *codes)
 {
 	pid_t pids[MOST_AT_ONCE];
@@ -318,7 +321,7 @@ static int test(void *user, uint8_t *const *sets, size_t n, int *fails)
 	return err;
 }
 
-/* Note the fault of the frame: in a process of its own, since a device outlives no fork. */
+/* Note the fault of the frame, in a process of its own because a device does not survive a fork. */
 static int note_fault(struct reduce *r)
 {
 	const pid_t pid = start_process();
@@ -346,7 +349,7 @@ static int note_fault(struct reduce *r)
 	return code ? code : r->fault < r->n ? 0 : err_report(ERR_INPUT, r->path, "has no call %" PRIu64, call);
 }
 
-/* What the command says of the whole recording, twice. */
+/* Run the command on the whole recording, twice. */
 static int find_fault(struct reduce *r)
 {
 	const time_t begin = time(NULL);
@@ -361,14 +364,15 @@ static int find_fault(struct reduce *r)
 	if (err)
 		return err;
 	if (!r->when && !(codes[0] == 1 && codes[1] == 1))
-		return err_report(ERR_USAGE, r->path, "frame %" PRIu64 " shows its fault once, and not again in a copy", r->frame);
+		return err_report(ERR_USAGE, r->path, "frame %" PRIu64 " shows its fault in the recording but not in a copy of it",
+		                  r->frame);
 	if (codes[0] == 0)
 		return err_report(
 			ERR_USAGE, r->path,
 			"the command ends with exit code 0 on the whole recording: there is nothing to look for");
 	if (codes[0] != codes[1] || codes[0] < 0 || codes[0] == 127)
 		return err_report(ERR_USAGE, r->path,
-		                  "the command ends with exit code %d, then with %d on the same recording", codes[0],
+		                  "the command ends with exit code %d and then with %d on the same recording", codes[0],
 		                  codes[1]);
 	r->code = codes[0];
 	if (r->limit_s == MOST_SECONDS)
@@ -383,7 +387,7 @@ static int draws(const struct place *p)
 	return p->begin || (p->command >= 0 && gls_commands[p->command].drawing);
 }
 
-/* The call, counted from 1, that names what a call is left out with. */
+/* The call that identifies the unit of a call, as index + 1. */
 static uint32_t name_of(const struct reduce *r, size_t i, enum level level)
 {
 	const struct place *p = &r->calls[i];
@@ -397,8 +401,10 @@ static uint32_t name_of(const struct reduce *r, size_t i, enum level level)
 	}
 }
 
-/* Number the units of what is kept. numbers: room for one per call @return how many units; SIZE_MAX: out of memory
- * (reported) */
+/*
+ * Number the units of what is kept. numbers: room for one per call @return number of units; SIZE_MAX: out of memory
+ * (reported)
+ */
 static size_t number_units(struct reduce *r, enum level level)
 {
 	uint32_t *numbers = calloc(r->n + 2, sizeof(*numbers));
@@ -455,7 +461,7 @@ static int reduce_level(struct reduce *r, enum level level)
 	return err;
 }
 
-/* --- The verb ---------------------------------------------------------------------------------------------------- */
+/* --- The command ------------------------------------------------------------------------------------------------- */
 
 static int reduce(struct reduce *r)
 {
@@ -490,46 +496,41 @@ static int reduce(struct reduce *r)
 
 static const struct options_row rows[] = {
 	{ "when", 'w', "COMMAND",
-	  "a command of the shell that fails on the recording $TRACE; it runs in a folder of its own, which goes "
-	  "afterwards",
+	  "a shell command that fails on the recording $TRACE; it runs in a temporary folder",
 	  options_text, AT(when) },
-	{ "frame", 'f', "N", "instead: the fault of a frame, which fails its gates in mode gl", options_frame,
+	{ "frame", 'f', "N", "instead of a command: reduce to the fault of a frame that fails its gates in mode gl",
+	  options_frame,
 	  AT(frame) },
 	{ "ref", 0, "REF",
-	  "what the frame is compared with, as for 'relume diff' (default: TRACE's own reference frames)", options_text,
+	  "reference to compare the frame with, as for 'relume diff' (default: TRACE's own reference frames)", options_text,
 	  AT(reference) },
-	{ "output", 'o', "FILE", "the recording to write; it appears when it is whole", options_text, AT(new),
+	{ "output", 'o', "FILE", "the recording to write, created when complete", options_text, AT(new),
 	  .is_required = 1 },
-	{ "jobs", 'j', "N", "commands that run at once (default: one for each core)", options_number, AT(at_once),
+	{ "jobs", 'j', "N", "number of commands to run at once (default: one per core)", options_number, AT(at_once),
 	  .most = MOST_AT_ONCE },
 	{ "timeout", 0, "S",
-	  "seconds after which a command counts as passed (default: ten, and five times what the whole recording "
-	  "takes)",
+	  "seconds after which a command counts as passed (default: ten plus five times the time that the whole "
+	  "recording takes)",
 	  options_number, AT(limit_s), .most = 86400 },
 };
 
 static const struct options_table table = {
 	.verb = "reduce",
 	.head = "usage: relume reduce TRACE --when COMMAND -o NEW\n"
-		"       relume reduce TRACE --frame N [--ref REF] -o NEW\n"
-		"\n"
-		"Find the smallest recording with which a command still fails: it leaves out frames, then draws, "
-	        "calls, primitives of draws from\n"
-		"arrays and texels of images, as long as COMMAND ends with the same exit code as on TRACE. NEW runs in "
-	        "apitrace's tools as TRACE\n"
-		"does. No call of it can be left out alone.\n"
-		"\n"
-		"Of a frame that fails its gates it takes the draw that is to blame: this draw must go on to show the "
-	        "same colours at the\n"
-		"sixteen pixels that are worst. What makes a program's picture wrong stays. Where relume itself is "
-	        "wrong about a call, its\n"
-		"picture may not need that call; a command that draws with a real OpenGL as well keeps it.\n"
-		"\n"
-		"What a command may ask: does the last frame still look different on Mesa?\n"
-		"\n"
-		"    relume reduce x.trace -o small.trace --when 'relume raster \"$TRACE\" -o r.####.png &&\n"
-		"        relume render \"$TRACE\" --mode gl --aov gl -o g.####.exr && relume diff r.####.png "
-	        "g.####.exr'\n",
+	        "       relume reduce TRACE --frame N [--ref REF] -o NEW\n"
+	        "\n"
+	        "Find the smallest recording with which a command still fails: leave out frames, then draws, calls,\n"
+	        "primitives of draws from arrays and texels of images, as long as COMMAND ends with the same exit code\n"
+	        "as on TRACE. apitrace's tools can play NEW as they can TRACE. None of its calls can be left out alone.\n"
+	        "\n"
+	        "For a frame that fails its gates, the draw to blame is looked for: it must keep showing the same colours\n"
+	        "at the sixteen worst pixels. This keeps whatever makes a program's picture wrong. If Relume itself treats\n"
+	        "a call wrongly, its picture may not need that call; a command that also draws with a real OpenGL keeps it.\n"
+	        "\n"
+	        "An example of a command: does the last frame still look different on Mesa?\n"
+	        "\n"
+	        "    relume reduce x.trace -o small.trace --when 'relume raster \"$TRACE\" -o r.####.png &&\n"
+	        "        relume render \"$TRACE\" --mode gl --aov gl -o g.####.exr && relume diff r.####.png g.####.exr'\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 done, 2 wrong usage or TRACE does not fail, 3 an input cannot be read, 5 the system "
 	         "failed.\n",

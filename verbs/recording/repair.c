@@ -1,4 +1,4 @@
-/* relume repair: what is whole of a trace that was cut or damaged, as a trace of its own. */
+/* relume repair: save the intact part of a truncated or damaged trace as a new trace. */
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -15,7 +15,7 @@ struct asked {
 };
 
 static const struct options_row rows[] = {
-	{ "output", 'o', "FILE", "the recording to write; it appears when it is whole",
+	{ "output", 'o', "FILE", "the recording to write, created when complete",
 	  options_text, .at = offsetof(struct asked, new), .is_required = 1, .use = CONFINE_WRITES },
 	{ OPTIONS_NO_SANDBOX },
 };
@@ -23,18 +23,15 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "repair",
 	.head = "usage: relume repair -o NEW TRACE\n"
-		"\n"
-		"Save what can be read of a recording that was cut (a full disk, a machine that went down) or damaged: "
-	        "every call up\n"
-		"to there that had returned. NEW is whole and packed in Snappy chunks, whatever TRACE was packed in. "
-	        "What follows\n"
-		"damage cannot be read: calls are only known by what stands before them. Damage that leaves the bytes "
-	        "readable but\n"
-		"changes what they say goes unnoticed, as recordings hold no checksums. Where another recording "
-	        "follows in the same\n"
-		"file, the first one is kept, and a line says how many bytes the other one has.\n",
+	        "\n"
+	        "Save what can be read of a recording that was cut short (a full disk, a machine that went down) or\n"
+	        "damaged: every call that had returned before that point. NEW is complete and packed in Snappy chunks,\n"
+	        "whatever TRACE was packed in. Nothing after the damage can be read, because calls depend on what comes\n"
+	        "before them. Damage that changes bytes but leaves them readable goes unnoticed, as recordings have no\n"
+	        "checksums. If another recording follows in the same file, only the first is kept, and a line says how\n"
+	        "many bytes the other one has.\n",
 	OPTIONS_ROWS(rows),
-	.notes = "Exit codes: 0 there is a whole recording now, 3 nothing could be saved.\n",
+	.notes = "Exit codes: 0 NEW is a complete recording, 3 nothing could be saved.\n",
 	.takes = "one trace and -o with the file to write",
 	.least = 1,
 	.most = 1,
@@ -43,7 +40,7 @@ static const struct options_table table = {
 
 struct saved {
 	uint64_t calls, frames;
-	uint64_t bytes; /* of the unpacked stream, to the end of the last call that is kept */
+	uint64_t bytes; /* of the unpacked stream, up to the end of the last call kept */
 };
 
 /* @return 0 at the end of what can be read, or ERR_SYSTEM */
@@ -81,7 +78,7 @@ static int repair(const char *path, const char *new)
 	if (!rc)
 		rc = save_calls(r, out, &saved);
 	if (!rc && saved.calls == 0)
-		rc = err_report(ERR_INPUT, path, "no call of it is whole; there is nothing to save");
+		rc = err_report(ERR_INPUT, path, "it has no complete call; there is nothing to save");
 	if (!rc)
 		rc = trace_out_finish(&out, NULL);
 	if (!rc) {

@@ -1,4 +1,4 @@
-/* relume scene: the scene of a frame, as text or JSON. */
+/* relume scene: print the scene of a frame, as text or JSON. */
 #include <stdio.h>
 
 #include "base/options.h"
@@ -16,7 +16,7 @@ static const struct options_row rows[] = {
 	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct asked, frame) },
 	{ "json", 'j', NULL, "everything, as JSON; otherwise one line per instance", options_flag,
 	  .at = offsetof(struct asked, json) },
-	{ "vertices", 'v', NULL, "with --json: the meshes' arrays too", options_flag,
+	{ "vertices", 'v', NULL, "with --json: include the meshes' arrays", options_flag,
 	  .at = offsetof(struct asked, vertices) },
 	{ OPTIONS_NO_SANDBOX },
 };

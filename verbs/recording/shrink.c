@@ -5,7 +5,7 @@
 
 #include "base/err.h"
 
-/* What is still in, in order, and room for the sets of one test. */
+/* The things still in the set, in order, and memory for the sets of one test. */
 struct work {
 	size_t *left, n_left, n, at_once;
 	uint8_t **sets;
@@ -37,7 +37,7 @@ static void end(struct work *w)
 	free(w->left);
 }
 
-/* Leave out pieces of a size, once each. changed: receives 1 where any could be. */
+/* Try to remove each piece of this size once. changed: receives 1 if any could be removed. */
 static int leave_out(struct work *w, size_t size, int *changed)
 {
 	size_t stop = w->n_left;

@@ -1,8 +1,8 @@
 /*
- * relume trim: some frames of a trace as a trace of their own.
+ * relume trim: cut some frames of a trace out as a new trace.
  *
- * It keeps all calls of the frames asked for, and of the frames before them what makes objects and state (early.h).
- * Frames may show what earlier frames drew. Then the new trace begins early enough to hold those as well.
+ * It keeps all calls of the frames asked for, and, of the frames before them, the calls that create objects and state
+ * (early.h). If the frames show what earlier frames drew, the new trace starts early enough to include those as well.
  */
 #include <inttypes.h>
 #include <limits.h>
@@ -24,14 +24,14 @@
 
 struct trim {
 	const char *path, *new;
-	uint64_t wanted, first, last; /* frames; wanted: the first that was asked for, first: that is kept */
+	uint64_t wanted, first, last; /* frames; wanted: the first one asked for, first: the first one kept */
 	struct trace_out *out;
 	uint64_t n_calls, n_kept;
 };
 
-/* ---- from which frame on ---- */
+/* ---- the first frame to keep ---- */
 
-/* Do frames from `from` on need pixels of those before? @return as replay_needs_skipped */
+/* Do frames from `from` on need pixels of earlier ones? @return as replay_needs_skipped */
 static int needs_earlier(const struct trim *t, uint64_t from)
 {
 	struct replay *rp = NULL;
@@ -46,7 +46,7 @@ static int needs_earlier(const struct trim *t, uint64_t from)
 	return rc;
 }
 
-/* Ever longer steps back: a program that never clears its window must be kept from its beginning anyway. */
+/* Step back in growing steps: a program that never clears its window must be kept from its beginning anyway. */
 static int find_first(struct trim *t)
 {
 	struct replay *rp = NULL;
@@ -56,9 +56,9 @@ static int find_first(struct trim *t)
 	rc = rc ? rc : replay_frame_count(rp, &frames, &damaged);
 	replay_close(&rp);
 	if (!rc && !frames)
-		rc = err_report(ERR_INPUT, t->path, "it has no frame that ends");
+		rc = err_report(ERR_INPUT, t->path, "it has no complete frame");
 	if (!rc && t->last == UINT64_MAX && t->wanted != UINT64_MAX)
-		t->last = t->wanted < frames ? frames - 1 : t->wanted; /* to the end */
+		t->last = t->wanted < frames ? frames - 1 : t->wanted; /* to the end of the trace */
 	if (!rc && t->last >= frames)
 		rc = err_report(ERR_USAGE, t->path,
 		                "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
@@ -86,7 +86,7 @@ static int copy_calls(struct trim *t, struct trace_reader *r)
 
 		rc = trace_reader_next(r, &call);
 		if (rc <= 0) {
-			rc = rc ? rc : err_report(ERR_INPUT, t->path, "has changed while it was read");
+			rc = rc ? rc : err_report(ERR_INPUT, t->path, "changed while it was being read");
 			break;
 		}
 		ends = call->sig->command >= 0 && gls_commands[call->sig->command].drawing == GLS_ENDS;
@@ -104,7 +104,7 @@ static int copy_calls(struct trim *t, struct trace_reader *r)
 
 /* ---- reference frames ---- */
 
-/* The .ref beside a trace. @return 0, or ERR_USAGE (reported: the name is too long) */
+/* Path of the reference frames beside a trace, TRACE.ref. @return 0, or ERR_USAGE (reported: the name is too long) */
 static int ref_beside(const char *trace, char out[PATH_MAX])
 {
 	size_t n = strlen(trace), end = n > 6 && strcmp(trace + n - 6, ".trace") == 0 ? n - 6 : n;
@@ -129,7 +129,7 @@ static int copy_references(const struct trim *t, const char *from, const char *t
 	return rc ? rc : 1;
 }
 
-/* ---- the verb ---- */
+/* ---- the command ---- */
 
 static void say(const struct trim *t, uint64_t bytes, uint64_t whole_bytes)
 {
@@ -138,7 +138,7 @@ static void say(const struct trim *t, uint64_t bytes, uint64_t whole_bytes)
 	       t->new, t->first, t->last, t->last - t->first, t->n_kept, t->n_calls, bytes, whole_bytes);
 	if (t->first < t->wanted)
 		printf("%s: frame %" PRIu64 " may show what was drawn from frame %" PRIu64
-		       " on, which are kept as well; it is frame %" PRIu64 " now\n",
+		       " on; those frames are kept as well, and it is now frame %" PRIu64 "\n",
 		       t->new, t->wanted, t->first, t->wanted - t->first);
 }
 
@@ -160,7 +160,7 @@ static int trim(struct trim *t)
 		have_ref = copy_references(t, ref, new_ref);
 		rc = have_ref < 0 ? have_ref : trace_out_finish(&t->out, &bytes);
 		if (have_ref <= 0 || rc)
-			unlink(new_ref); /* of an older recording of that name, or it has nothing to lie beside */
+			unlink(new_ref); /* left by an older recording of that name, or there is no trace for it */
 	}
 	if (!rc)
 		say(t, bytes, whole_bytes);
@@ -182,7 +182,7 @@ static int take_frames(const struct options_row *row, const char *text, void *ou
 		t->wanted = list.ranges[0].first;
 		t->last = list.ranges[0].last;
 	} else {
-		rc = err_report(ERR_USAGE, NULL, "trim keeps frames that follow each other: FIRST-LAST, not '%s'", text);
+		rc = err_report(ERR_USAGE, NULL, "trim keeps a range of consecutive frames, FIRST-LAST, not '%s'", text);
 	}
 	frame_list_free(&list);
 	return rc;
@@ -190,7 +190,7 @@ static int take_frames(const struct options_row *row, const char *text, void *ou
 
 static const struct options_row rows[] = {
 	{ "frames", 'f', "RANGE", "the frames to keep: 100-120, or 7", take_frames, .at = 0, .is_required = 1 },
-	{ "output", 'o', "FILE", "the recording to write; it appears when it is whole",
+	{ "output", 'o', "FILE", "the recording to write, created when complete",
 	  options_text, .at = offsetof(struct trim, new), .is_required = 1, .use = CONFINE_WRITES },
 	{ OPTIONS_NO_SANDBOX },
 };
@@ -198,15 +198,12 @@ static const struct options_row rows[] = {
 static const struct options_table table = {
 	.verb = "trim",
 	.head = "usage: relume trim -f FIRST-LAST -o NEW TRACE\n"
-		"\n"
-		"Cut a recording down to some of its frames. NEW needs nothing but itself: it holds all calls of these "
-	        "frames, and of\n"
-		"the frames before them those that make objects and state, so that it shows the same pictures, here "
-	        "and in apitrace's\n"
-		"tools. Its frames are counted from 0. Where FIRST may show what earlier frames drew (a screen that is "
-	        "not cleared, or\n"
-		"is copied), NEW begins with the frame from which on nothing does, and trim says so.\n"
-		"Reference frames that lie beside TRACE (TRACE with .ref) are cut with it.\n",
+	        "\n"
+	        "Cut a recording down to some of its frames. NEW is self-contained: it holds all calls of these frames,\n"
+	        "and the calls of earlier frames that create objects and state, so that it shows the same pictures, here\n"
+	        "and in apitrace's tools. Its frames are counted from 0. If FIRST may show what earlier frames drew (a\n"
+	        "screen that is not cleared, or is copied), NEW begins early enough to include those frames, and trim\n"
+	        "says so. Reference frames beside TRACE (TRACE.ref) are cut to match.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 done, 2 wrong usage or no such frames, 3 TRACE cannot be read, 5 NEW cannot be "
 	         "written.\n",

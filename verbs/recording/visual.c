@@ -1,11 +1,11 @@
 /*
  * Runs inside glretrace, before libGL. glretrace chooses its own visual (24 bits of depth, 8 of stencil and alpha)
- * whatever the program had. Where surfaces lie close together, another precision of depth shows another surface.
+ * whatever the program used. If surfaces are close together, a different depth precision shows a different surface.
  * RELUME_VISUAL="ALPHA DEPTH STENCIL SAMPLES", as in a trace's relume:bits marker, gives it configurations with exactly
  * these bits, if there are any.
  *
- * From a window with several samples a pixel it reads what the window shows, their mean; glReadPixels need not give
- * that (capture/gl/reference.c).
+ * For a multisampled window it reads the mean of the samples, which is what the window shows; glReadPixels need not
+ * return that (capture/gl/reference.c).
  */
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>

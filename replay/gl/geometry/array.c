@@ -1,4 +1,4 @@
-/* Vertex arrays (GL 2.1 sec. 2.8): where they are, and what those in client memory hold. */
+/* Vertex arrays (GL 2.1 sec. 2.8): pointers, and copies of client memory. */
 #include <stdlib.h>
 #include <string.h>
 #define XXH_INLINE_ALL
@@ -12,7 +12,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
 
-/* The array lies in client memory, whose bytes are copied. */
+/* Set the contents of an array in client memory, as a copy. */
 static void set_client(struct gls_exec *x, struct gls_array *array, const uint8_t *data, size_t n)
 {
 	uint64_t hash = XXH3_64bits(data, n);
@@ -44,7 +44,7 @@ static void set_pointer(struct gls_exec *x, struct gls_state *st, const struct c
 
 	if (gls_refuses(x, st, stride < 0, GL_INVALID_VALUE))
 		return;
-	/* GL 3.3 sec. 2.8. Mesa (22.3.6) takes normals for three components, and refuses them, too. */
+	/* GL 3.3 sec. 2.8. Mesa (22.3.6) gives normals three components, so it refuses them as well. */
 	if (gls_refuses(x, st, gls_is_packed(type) && size != 4 && size != GL_BGRA, GL_INVALID_OPERATION))
 		return;
 	array->size = size;
@@ -56,14 +56,15 @@ static void set_pointer(struct gls_exec *x, struct gls_state *st, const struct c
 	} else if (arg_is_offset(c, pointer)) {
 		array->buffer = st->client.array_buffer;
 		array->offset = (uint64_t)gls_value_int(v);
-		if (!array->buffer) { /* an address in the program: the bytes come before the draw, or were lost */
+		if (!array->buffer) { /* an address in the program: its contents are recorded before the draw, or were
+		                         lost */
 			array->client_bytes = 0;
 			array->version = 0;
 		}
 	}
 }
 
-/* The array of a generic attribute; -1: there is none (the program's error). */
+/* The array of a generic attribute; -1: there is none (GL error). */
 static int generic_array(struct gls_exec *x, struct gls_state *st, uint32_t number)
 {
 	if (gls_refuses(x, st, number > SCENE_MAX_GENERICS, GL_INVALID_VALUE))
@@ -92,13 +93,13 @@ GLS_HANDLER(glVertexAttribPointer, CLIENT)
 	st->client.arrays[array].normalized = arg_u(c, 3) != 0;
 }
 
-/* Arguments: size, type, stride, what else there is, and the pointer. */
+/* Arguments: size, type, stride, possibly others, and the pointer. */
 static void set_sized(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned index, unsigned pointer)
 {
 	set_pointer(x, st, c, index, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), pointer);
 }
 
-/* The same without a size. */
+/* As set_sized, without a size. */
 static void set_unsized(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned index, int32_t size,
                         unsigned pointer)
 {
@@ -118,7 +119,7 @@ GLS_HANDLER(glEdgeFlagPointer, CLIENT)
 	set_pointer(x, st, c, GLS_ARRAY_EDGE_FLAG, 1, GL_UNSIGNED_BYTE, (int32_t)arg_i(c, 0), 1);
 }
 
-/* EXT_vertex_array: a count in front of the pointer. */
+/* EXT_vertex_array: a count precedes the pointer. */
 GLS_HANDLER(glVertexPointerEXT, CLIENT) { set_sized(x, st, c, GLS_ARRAY_VERTEX, 4); }
 GLS_HANDLER(glColorPointerEXT, CLIENT) { set_sized(x, st, c, GLS_ATTR_COLOR, 4); }
 GLS_HANDLER(glTexCoordPointerEXT, CLIENT) { set_sized(x, st, c, GLS_ATTR_TEXCOORD + st->client.active_texture, 4); }

@@ -45,7 +45,7 @@ static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls
 	return 0;
 }
 
-/* Read the vertices of a draw; elements NULL: count ones from first on. Each element becomes one vertex. */
+/* Read the vertices of a draw; elements NULL: `count` of them from `first` on. Each element becomes one vertex. */
 static int collect(struct gls_exec *x, const struct gls_state *st, const struct gls_sources *s, uint32_t mode,
                    uint32_t first, uint32_t count, const uint32_t *elements)
 {
@@ -77,7 +77,7 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 			return ERR_INPUT;
 		}
 	}
-	/* Vertices in order of first use: the mesh does not depend on where in the arrays it lies. */
+	/* Number vertices in order of first use, so that the mesh does not depend on its position in the arrays. */
 	cut = gls_scratch(x, ((size_t)count + (hi - lo) + 1) * sizeof(*cut));
 	if (!cut)
 		return ERR_SYSTEM;
@@ -99,7 +99,7 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 	return 0;
 }
 
-/* kept: what a list keeps in place of mesh; point_size: in place of the state's; below 0: the state's own */
+/* kept: what a list stores instead of `mesh`; point_size: overrides the state's unless negative */
 static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, struct gls_mesh *kept,
                 float point_size)
 {
@@ -128,8 +128,10 @@ static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh,
 	gls_draw_mesh(x, st, mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
 }
 
-/* The mesh of a draw, which the cache keeps. turned: quads cut the other way. @return NULL: nothing to draw, or out of
- * memory (reported) */
+/*
+ * The mesh of a draw, owned by the cache. turned: quads are split along the other diagonal. @return NULL: nothing to
+ * draw, or out of memory (reported)
+ */
 static struct gls_mesh *find_mesh(struct gls_exec *x, struct gls_state *st, struct gls_sources *s, uint32_t mode,
                                   uint32_t first, uint32_t count, const uint32_t *elements, int turned, uint64_t key)
 {
@@ -142,11 +144,11 @@ static struct gls_mesh *find_mesh(struct gls_exec *x, struct gls_state *st, stru
 	mesh = gls_geometry_mesh(x, &x->scratch.geometry);
 	if (mesh && table_set(&x->caches.draws, key, mesh))
 		gls_fail(x);
-	gls_mesh_release(mesh); /* the cache's own reference stays */
+	gls_mesh_release(mesh); /* the cache still has its own reference */
 	return mesh;
 }
 
-/* Points with an array of sizes: those in a row that have the same size are one draw. */
+/* Draw points with an array of sizes: consecutive points of the same size form one draw. */
 static void draw_sized(struct gls_exec *x, struct gls_state *st, struct gls_sources *s, uint32_t first, uint32_t count,
                        const uint32_t *elements, uint64_t identity)
 {
@@ -170,16 +172,18 @@ static void draw_sized(struct gls_exec *x, struct gls_state *st, struct gls_sour
 	}
 }
 
-/* 1 if llvmpipe has the quads without indices. While a list is made, Mesa executes it (COMPILE_AND_EXECUTE) as vertices
- * between Begin and End. */
+/*
+ * 1 if llvmpipe receives the quads without indices. While a list is compiled, Mesa executes them (COMPILE_AND_EXECUTE)
+ * as vertices between Begin and End.
+ */
 static int quads_come_in_order(const struct gls_state *st, const uint32_t *elements)
 {
 	return st->list ? st->list_mode == GL_COMPILE_AND_EXECUTE : !elements;
 }
 
 /*
- * Draw, or keep in the list being made.
- * @param elements  [count], NULL: first ..; `identity` tells different ones apart (a hash, or version and offset)
+ * Draw, or add to the list being compiled.
+ * @param elements  [count], NULL: first ..; `identity` distinguishes different ones (a hash, or version and offset)
  */
 static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32_t first, uint32_t count,
                  const uint32_t *elements, uint64_t identity)
@@ -258,7 +262,7 @@ static void multi_draw_arrays(struct gls_exec *x, struct gls_state *st, const st
 GLS_HANDLER(glMultiDrawArrays, ARRAY) { multi_draw_arrays(x, st, c, 0); }
 GLS_HANDLER(glMultiModeDrawArraysIBM, ARRAY) { multi_draw_arrays(x, st, c, arg_i(c, 4)); }
 
-/* Whether an index of so many bytes ends a primitive and begins the next (NV_primitive_restart, GL 3.1 sec. 2.8.3). */
+/* 1 if an index of this size ends a primitive and begins the next (NV_primitive_restart, GL 3.1 sec. 2.8.3). */
 static int is_restart(const struct gls_client_attribs *client, uint32_t index, size_t bytes)
 {
 	return (client->restart && index == client->restart_index) ||
@@ -291,7 +295,7 @@ void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, 
 		gls_buffer_draws(x, st, b);
 	}
 	if (!bytes || n / size < (uint64_t)count) {
-		gls_unsupported(x, "indices that the recording does not hold");
+		gls_unsupported(x, "indices that are not in the recording");
 		return;
 	}
 	elements = x->scratch.elements;
@@ -304,7 +308,7 @@ void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, 
 		x->scratch.elements = elements;
 		x->scratch.elements_room = (size_t)count;
 	}
-	/* Where the indices come from a buffer, its version and the offset name them as well as a hash. */
+	/* Indices in a buffer are identified by its version and their offset; no hash is needed. */
 	if (b)
 		identity = XXH3_64bits((uint64_t[]){ b->version, offset, type, (uint64_t)base }, 32);
 	else
@@ -366,7 +370,7 @@ GLS_HANDLER(glMultiDrawElementsBaseVertex, ARRAY)
 	multi_draw_elements(x, st, c, 0, base, n);
 }
 
-/* ---- ArrayElement: the calls it stands for (sec. 2.8), executed or kept in the list being made ---- */
+/* ---- ArrayElement: the equivalent calls (sec. 2.8), executed or added to the list being compiled ---- */
 
 static void put_call(struct gls_exec *x, struct gls_state *st, const char *name, const struct trace_value *args,
                      uint32_t n)
@@ -388,7 +392,7 @@ GLS_HANDLER(glArrayElement, CLIENT)
 	float v[4];
 	int has_vertex;
 
-	/* Without positions it sets the current values only. */
+	/* Without positions it only sets current values. */
 	has_vertex = st->client.arrays[GLS_ARRAY_VERTEX].enabled || st->client.arrays[GLS_ARRAY_GENERIC0].enabled;
 	if (has_vertex ? !gls_sources_open(x, st, &s) : !gls_sources_open_attributes(x, st, &s))
 		return;

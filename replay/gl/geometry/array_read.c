@@ -45,7 +45,7 @@ static int gls_source_open(struct gls_exec *x, struct gls_state *st, const struc
 	return s->element && s->bytes && s->n >= s->element;
 }
 
-/* Four floats for every vertex; they are not copied. */
+/* The same four floats for every vertex; they are not copied. */
 static struct gls_source constant_source(const float value[4])
 {
 	static const struct gls_array array = { .enabled = 1, .size = 4, .type = GL_FLOAT };
@@ -87,8 +87,8 @@ uint64_t gls_sources_end(const struct gls_sources *s)
 }
 
 /*
- * An integer of an array as a number in [-1,1], as Mesa (22.3.6) fetches it: multiplied, where single calls divide, and
- * the two lowest of a signed type are both -1 (OpenGL 4.2 sec. 2.3.4), where single calls have the odd numbers of
+ * An integer of an array as a number in [-1,1], as Mesa (22.3.6) fetches it: by multiplication, while single calls
+ * divide. The two lowest values of a signed type both become -1 (OpenGL 4.2 sec. 2.3.4), while single calls follow
  * OpenGL 2.1 table 2.9.
  */
 static float normal(float value, float most)
@@ -200,9 +200,9 @@ int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_source
 			gls_unsupported(x, "draws without arrays");
 			return 0;
 		}
-		s->vertex = constant_source(st->a.current.generic0); /* a program finds positions elsewhere */
+		s->vertex = constant_source(st->a.current.generic0); /* a program gets positions from elsewhere */
 	} else if (!gls_source_open(x, st, vertex, &s->vertex)) {
-		gls_unsupported(x, "arrays whose contents the recording does not hold");
+		gls_unsupported(x, "arrays whose contents are not in the recording");
 		return 0;
 	}
 	s->has_sizes = arrays[GLS_ARRAY_POINT_SIZE].enabled && gls_source_open(x, st, &arrays[GLS_ARRAY_POINT_SIZE], &s->size);

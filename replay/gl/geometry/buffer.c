@@ -38,7 +38,7 @@ static uint32_t *binding_at(struct gls_state *st, size_t i)
 	return (uint32_t *)((char *)&st->client + bindings[i].offset);
 }
 
-/* Where the name of the buffer bound to a target is kept; NULL: a target that no draw looks at. */
+/* The name of the buffer bound to a target; NULL: a target that draws do not use. */
 static uint32_t *binding(struct gls_state *st, uint32_t target)
 {
 	for (size_t i = 0; i < N_BINDINGS; i++)
@@ -74,7 +74,7 @@ GLS_HANDLER(glBindBuffer, CLIENT)
 	make_buffer(x, st, *name);
 }
 
-/* x->maps holds the buffers that are mapped, each under the one address where it is. */
+/* x->maps holds the mapped buffers, each under its address. */
 static void unmap_buffer(struct gls_exec *x, struct gls_buffer *b)
 {
 	if (b && b->mapped)
@@ -131,7 +131,7 @@ static void set_data(struct gls_exec *x, struct gls_state *st, const struct call
 	gls_buffer_fill(x, b, 0, SIZE_MAX);
 }
 
-/* GL_STREAM_DRAW to GL_DYNAMIC_COPY, three of every four. */
+/* GL_STREAM_DRAW to GL_DYNAMIC_COPY; every fourth value is unused. */
 static int is_usage(uint32_t usage)
 {
 	return usage >= GL_STREAM_DRAW && usage <= GL_DYNAMIC_COPY && (usage - GL_STREAM_DRAW) % 4 < 3;
@@ -215,7 +215,7 @@ GLS_HANDLER(glMapBufferRange, CLIENT)
 
 GLS_HANDLER(glUnmapBuffer, CLIENT) { unmap_buffer(x, bound_buffer(x, st, arg_u(c, 0))); }
 
-/* What the program wrote into a mapped buffer, as recorders tell it. */
+/* Data that the program wrote into a mapped buffer, as recorders store it. */
 GLS_HANDLER(memcpy, WINDOW)
 {
 	uint64_t to = (uint64_t)arg_i(c, 0);

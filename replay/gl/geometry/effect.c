@@ -1,12 +1,13 @@
 /*
- * What a display list changes if nothing is drawn.
+ * The effect of a display list if nothing is drawn.
  *
- * A skipped frame needs only this of a list. Most lists of text and models change nothing: meshes, matrices between
- * PushMatrix and PopMatrix, textures and attributes that the next letter sets again. The effect of a list is the ops
- * that remain, with those of the lists it calls. Running it leaves the same bits as the whole list, in any state. If
- * that cannot be said, there is no effect and the list itself runs.
+ * A skipped frame needs no more than the effect. Most lists of text and models change nothing: they have meshes,
+ * matrices between PushMatrix and PopMatrix, and textures and attributes that the next letter sets again. The effect of
+ * a list consists of the ops that remain, including those of the lists it calls. Running it produces the same bits as
+ * the whole list, in any state. If this cannot be guaranteed, there is no effect and the list itself runs.
  *
- * An effect holds as long as the lists and textures it was made of. The share group counts those that go (epoch).
+ * An effect is valid as long as the lists and textures that it was derived from. The share group counts deletions
+ * (epoch).
  */
 #include "replay/gl/geometry/effect.h"
 
@@ -21,34 +22,33 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
 
-#define MAX_OPS (1u << 16) /* of a list, those of inlined lists included */
-#define MAX_NESTING 8      /* of lists inlined */
-#define MAX_LOOKED (4 * MAX_OPS) /* bounds the search where lists call many lists that hold little */
+#define MAX_OPS (1u << 16) /* per list, including ops of inlined lists */
+#define MAX_NESTING 8      /* nesting depth of inlined lists */
+#define MAX_LOOKED (4 * MAX_OPS) /* bounds the search if lists call many lists with few ops */
 #define MAX_PUSHES 32
-#define MAX_MADE 16        /* effects made of one list; afterwards it changes too often */
+#define MAX_MADE 16        /* most effects derived from one list; beyond that it changes too often */
 
 enum action {
-	KEEP,   /* reads or writes anything */
-	CHANGE, /* the current matrix alone */
+	KEEP,   /* may read or write anything */
+	CHANGE, /* changes only the current matrix */
 	PUSH,
 	POP,
 	BIND,
 	CALL,
-	PASS, /* attributes alone, kept */
-	DRAW, /* a mesh: the attributes it sets alone */
-	LEAVE /* what follows may mean anything else: the matrix stack, unit or edge flag may be others, Begin may be
-	         open */
+	PASS, /* only sets attributes; compiled into lists */
+	DRAW, /* a mesh: only its attributes matter */
+	LEAVE /* may change the meaning of what follows: matrix stack, texture unit, edge flag, an open Begin */
 };
 
 struct maker {
 	struct gls_state *st;
 	const struct gls_op **ops;
 	uint8_t *action, *dead;
-	uint32_t *rest; /* of a DRAW: attributes that nobody has set again yet */
+	uint32_t *rest; /* for a DRAW: attributes that no later op has set again */
 	uint32_t n, room;
-	uint32_t last[N_GLS_ATTRIBUTES], bound[N_GLS_TEXTURE_TARGETS]; /* op + 1 that set it last, and nobody has read
+	uint32_t last[N_GLS_ATTRIBUTES], bound[N_GLS_TEXTURE_TARGETS]; /* 1 + op that set it last, if nothing has read
 	                                                                  it since */
-	uint32_t push[MAX_PUSHES], depth, read; /* brackets that are open; the first `read` of them hold somebody who reads */
+	uint32_t push[MAX_PUSHES], depth, read; /* unclosed pushes; the first `read` of them contain an op that reads */
 	uint32_t most, nesting, looked;
 	int left, failed;
 };
@@ -92,7 +92,7 @@ static int make_room(struct maker *m)
 	return 0;
 }
 
-/* An op reads whatever was set before. */
+/* An op may read anything set before it. */
 static void read_all(struct maker *m)
 {
 	memset(m->last, 0, sizeof(m->last));
@@ -116,7 +116,7 @@ static void put_draw(struct maker *m, uint32_t at)
 	}
 }
 
-/* The target of a bind that neither fails nor makes an object; -1: it may. */
+/* The target of a bind that neither fails nor creates an object; -1: it may. */
 static int target_of(const struct maker *m, const struct gls_op *op)
 {
 	uint32_t token = op->form == GLS_OP_CALL && op->n == 2 ? (uint32_t)gls_value_int(&op->args[0]) : 0, name;
@@ -158,7 +158,7 @@ static void put_push(struct maker *m, uint32_t at)
 static void put_pop(struct maker *m, uint32_t at)
 {
 	if (m->depth == 0)
-		return; /* its push came before the list: earlier changes may be dead as well, but stay */
+		return; /* its push came before the list: earlier changes may be redundant as well, but are kept */
 	m->depth--;
 	if (m->depth < m->read) {
 		m->read = m->depth;
@@ -175,7 +175,7 @@ static struct gls_list *called_by(const struct maker *m, const struct gls_op *op
 	               NULL;
 }
 
-/* 1 if some op of the list gives later ops another meaning. Such a list is called as it is. */
+/* 1 if some op of the list may change the meaning of later ops. Such a list is called unchanged. */
 static int leaves(struct maker *m, const struct gls_list *list, uint32_t nesting)
 {
 	for (uint32_t i = 0; i < list->n; i++) {
@@ -273,7 +273,7 @@ const struct gls_effect *gls_effect_of(const struct gls_exec *x, struct gls_stat
 		return NULL;
 	if (e->epoch != st->share->epoch + 1) {
 		if (!list->skipped++)
-			return NULL; /* a list that runs once is not worth it */
+			return NULL; /* a list that runs only once is not worth it */
 		make(st, list);
 	}
 	return e->none || stack->depth + e->pushes >= stack->max || x->list_depth + e->nesting >= GLS_MAX_LIST_NESTING ?

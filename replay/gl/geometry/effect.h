@@ -1,10 +1,12 @@
-/* What is left of a display list in frames that are skipped. */
+/* Shortcuts for display lists in frames that are skipped. */
 #pragma once
 
 struct gls_exec;
 struct gls_list;
 struct gls_state;
 
-/** What to run instead of a list that is called now: its effect, borrowed until lists or textures go; NULL: the list
- * itself. */
+/**
+ * What to run instead of a called list: its effect, borrowed until lists or textures are deleted; NULL: run the list
+ * itself.
+ */
 const struct gls_effect *gls_effect_of(const struct gls_exec *x, struct gls_state *st, struct gls_list *list);

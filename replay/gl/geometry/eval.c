@@ -1,5 +1,5 @@
 /*
- * Evaluators (GL 2.1 sec. 5.1): Bezier curves and surfaces make vertices and their attributes. Grids and switches
+ * Evaluators (GL 2.1 sec. 5.1): Bezier curves and surfaces generate vertices and their attributes. Grids and enables
  * belong to attribute groups (state/attrib.c); the maps do not.
  */
 #include "replay/gl/geometry/eval.h"
@@ -18,10 +18,12 @@
 #include "replay/machine/machine.h"
 
 #define MAX_ORDER 30
-#define POINTS_A_REPEAT 64 /* that count as much as an operation of a list (gls_is_beyond_measure) */
-#define N_TARGETS 9 /* of each dimension, in the order of their tokens */
+#define POINTS_A_REPEAT 64 /* this many count as one operation of a list (gls_is_beyond_measure) */
+#define N_TARGETS 9 /* per dimension, in the order of their tokens */
 
-/* A map: points[u][v][size] for Map2, points[u][size] for Map1. order[0] == 0: not defined, which is GL's constant. */
+/*
+ * A map: points[u][v][size] for Map2, points[u][size] for Map1. order[0] == 0: not defined, so GL's constant applies.
+ */
 struct map {
 	uint32_t order[2];
 	float from[2], to[2];
@@ -29,11 +31,13 @@ struct map {
 };
 
 struct gls_maps {
-	struct map map[2][N_TARGETS]; /* Map1's, Map2's */
+	struct map map[2][N_TARGETS]; /* of Map1, of Map2 */
 };
 
-/* Components of COLOR_4, INDEX, NORMAL, TEXTURE_COORD_1 .. 4, VERTEX_3, VERTEX_4 (table 5.1), and their initial
- * constants. */
+/*
+ * Number of components of COLOR_4, INDEX, NORMAL, TEXTURE_COORD_1 .. 4, VERTEX_3, VERTEX_4 (table 5.1), and their
+ * initial constants.
+ */
 static const unsigned sizes[N_TARGETS] = { 4, 1, 3, 1, 2, 3, 4, 3, 4 };
 static const float initial[N_TARGETS][4] = { { 1, 1, 1, 1 }, { 1 },          { 0, 0, 1 }, { 0 },         { 0, 0 },
 	                                     { 0, 0, 0 },    { 0, 0, 0, 1 }, { 0, 0, 0 }, { 0, 0, 0, 1 } };
@@ -48,7 +52,7 @@ void gls_maps_free(struct gls_maps *maps)
 
 /* ---- snapshots ---- */
 
-/* Floats of a map's points. */
+/* Number of floats in a map's points. */
 static size_t map_size(const struct map *m, unsigned target)
 {
 	return (size_t)m->order[0] * m->order[1] * sizes[target];
@@ -164,7 +168,7 @@ static void curve(const float *points, uint32_t n, size_t stride, unsigned size,
 	}
 }
 
-/* A surface at (u, v), the direction of fewer points first. */
+/* A surface at (u, v), evaluated first in the direction with fewer points. */
 static void surface(const float *points, const uint32_t order[2], unsigned size, const float t[2], float *out)
 {
 	float between[MAX_ORDER * 4];
@@ -180,7 +184,7 @@ static void surface(const float *points, const uint32_t order[2], unsigned size,
 	}
 }
 
-/* How a surface changes along direction d: the surface of its points' differences, less one in that direction. */
+/* The derivative of a surface in direction d: the surface of its points' differences, one fewer in that direction. */
 static void derivative(const struct map *m, unsigned size, const float t[2], unsigned d, float *out)
 {
 	float points[MAX_ORDER * MAX_ORDER * 4];
@@ -200,7 +204,7 @@ static void derivative(const struct map *m, unsigned size, const float t[2], uns
 	surface(points, order, size, t, out);
 }
 
-/* Normals of themselves (sec. 5.1, AUTO_NORMAL): across the surface at a point. */
+/* Analytic normals (sec. 5.1, AUTO_NORMAL): perpendicular to the surface at a point. */
 static void auto_normal(const struct map *m, unsigned size, const float t[2], const float at[4], float normal[4])
 {
 	float du[4], dv[4], length;
@@ -220,7 +224,7 @@ static void auto_normal(const struct map *m, unsigned size, const float t[2], co
 		normal[k] /= length;
 }
 
-/* The value of a map where it is on. @return 0: off */
+/* Evaluate a map if it is enabled. @return 0: it is disabled */
 static int evaluate(const struct gls_state *st, unsigned which, unsigned target, const float u[2], float t[2],
                     float out[4])
 {
@@ -242,7 +246,10 @@ static int evaluate(const struct gls_state *st, unsigned which, unsigned target,
 	return 1;
 }
 
-/* EvalCoord: enabled maps replace current values for this one vertex; the current values themselves stay (sec. 5.1). */
+/*
+ * EvalCoord: enabled maps replace current values for this one vertex; the current values themselves do not change (sec.
+ * 5.1).
+ */
 static void eval_coord(struct gls_exec *x, struct gls_state *st, unsigned which, float u, float v)
 {
 	float at[2] = { u, v }, t[2] = { 0, 0 }, position[4] = { 0, 0, 0, 1 }, value[4];
@@ -317,7 +324,7 @@ GLS_FAMILY(glMapGrid, STATE)
 		set_grid(x, st, arg_i(c, 3), arg_f(c, 4), arg_f(c, 5), &e->grid2_segments[1], e->grid2 + 2);
 }
 
-/* The grid's place i; the last one exactly (sec. 5.1). */
+/* Coordinate i of the grid; the last one is exact (sec. 5.1). */
 static float grid_at(const float grid[2], int32_t segments, int64_t i)
 {
 	return i == segments ? grid[1] : grid[0] + (float)i * ((grid[1] - grid[0]) / (float)segments);
@@ -340,7 +347,7 @@ static void point_2(struct gls_exec *x, struct gls_state *st, int64_t i, int64_t
 GLS_HANDLER(glEvalPoint1, INSIDE) { point_1(x, st, arg_i(c, 0)); }
 GLS_HANDLER(glEvalPoint2, INSIDE) { point_2(x, st, arg_i(c, 0), arg_i(c, 1)); }
 
-/* 1 if there is something to draw, of a bearable size: 2^20 points a mesh, four times as many a frame. */
+/* 1 if there is something to draw, within limits: 2^20 points per mesh, four times as many per frame. */
 static int mesh_fits(struct gls_exec *x, int64_t across, int64_t along)
 {
 	if (!x->want || across <= 0 || along <= 0)
@@ -365,8 +372,10 @@ GLS_HANDLER(glEvalMesh1, STATE)
 	gls_end(x, st);
 }
 
-/* Sec. 5.1: points, lines both ways, or strips of triangles (Mesa draws these where the specification has strips of
- * quads). */
+/*
+ * Sec. 5.1: points, lines in both directions, or triangle strips (Mesa uses these where the specification has quad
+ * strips).
+ */
 GLS_HANDLER(glEvalMesh2, STATE)
 {
 	uint32_t mode = arg_u(c, 0);

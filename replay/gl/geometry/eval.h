@@ -8,5 +8,7 @@ struct gls_maps;
 void gls_maps_free(struct gls_maps *maps);
 /** Save a context's maps in a snapshot; NULL is allowed. */
 void gls_maps_save(const struct gls_maps *maps, struct bytes *out);
-/** Load them; the caller owns them. @return NULL: there are none; or in->failed is set: bytes or memory are missing */
+/**
+ * Load maps, which the caller owns. @return NULL: there are none; or in->failed is set: too few bytes, or out of memory
+ */
 struct gls_maps *gls_maps_load(struct cursor *in);

@@ -1,7 +1,7 @@
 /*
- * Draws of several instances (GL 3.1 sec. 2.8.3, ARB_base_instance) and draws whose parameters lie in memory
- * (ARB_draw_indirect, ARB_multi_draw_indirect), as direct draws. Fixed function does not know which instance it draws:
- * all are the same.
+ * Draws with several instances (GL 3.1 sec. 2.8.3, ARB_base_instance) and draws with parameters in memory
+ * (ARB_draw_indirect, ARB_multi_draw_indirect), turned into direct draws. Fixed function does not know which instance
+ * it draws: all are equal.
  */
 #include <string.h>
 
@@ -14,7 +14,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
 
-/* How often to draw; 0: an error, or more than any program means (counted). */
+/* Number of times to draw; 0: an error, or beyond any reasonable number (counted). */
 static int64_t count_instances(struct gls_exec *x, struct gls_state *st, int64_t instances)
 {
 	if (instances < 0)
@@ -62,9 +62,9 @@ GLS_HANDLER(glDrawElementsInstancedBaseVertexBaseInstance, ARRAY)
 
 /* ---- parameters in memory ---- */
 
-enum { ARRAYS_WORDS = 4, ELEMENTS_WORDS = 5 }; /* of a command */
+enum { ARRAYS_WORDS = 4, ELEMENTS_WORDS = 5 }; /* words per command */
 
-/* The bytes of draw commands: in the recording, or in the bound buffer. NULL: they are not known (counted). */
+/* The bytes of draw commands: in the recording, or in the bound buffer. NULL: unknown (counted). */
 static const uint8_t *find_commands(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned argument,
                                     uint64_t bytes)
 {
@@ -81,7 +81,7 @@ static const uint8_t *find_commands(struct gls_exec *x, struct gls_state *st, co
 	}
 	if (found && n >= bytes)
 		return found;
-	gls_unsupported(x, "indirect draws whose parameters the recording does not hold");
+	gls_unsupported(x, "indirect draws whose parameters are not in the recording");
 	return NULL;
 }
 

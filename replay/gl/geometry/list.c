@@ -102,7 +102,7 @@ int gls_list_keep(struct gls_list *list, struct gls_op *op, const struct call *c
 	return 0;
 }
 
-/* unpack: the state that pixels in client memory are read with, which is that of the moment (sec. 5.4). */
+/* unpack: state for reading pixels in client memory; list compilation uses the current one (sec. 5.4). */
 static int keep_call(struct gls_list *list, const struct call *c, uint32_t command,
                      const struct gls_pixel_store *unpack)
 {
@@ -135,7 +135,7 @@ static int extent_of(const struct call *c, int8_t i)
 	return i < 0 ? 1 : (int)arg_i(c, (unsigned)i);
 }
 
-/* Bytes of pixels that a command reads, at most. */
+/* Upper bound on the bytes of pixels that a command reads. */
 static size_t pixel_bytes(const struct gls_pixel_args *a, const struct call *c, const struct gls_pixel_store *s)
 {
 	const struct pixel_box box = {
@@ -150,10 +150,10 @@ static size_t pixel_bytes(const struct gls_pixel_args *a, const struct call *c, 
 }
 
 /*
- * Pixels are read when the list is made, also those in a buffer (sec. 5.4, ARB_pixel_buffer_object): put them in the
- * place of their offset.
+ * Pixels are read when the list is compiled, including those in a buffer (sec. 5.4, ARB_pixel_buffer_object): replace
+ * their offset by the data.
  * @param args  [MAX_ARGS]; receives the arguments
- * @return 1 where the call reads a buffer
+ * @return 1 if the call reads a buffer
  */
 static int take_pixels(struct gls_exec *x, struct gls_state *st, const struct call *c, const struct gls_pixel_args *a,
                        struct trace_value *args)

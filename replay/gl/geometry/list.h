@@ -1,7 +1,7 @@
 /*
- * Display lists (GL 2.1 sec. 5.4): what they hold.
+ * Contents of display lists (GL 2.1 sec. 5.4).
  *
- * While a list is made, its calls are kept; numbers of vertices are packed. list_assemble.h makes it cheap to call.
+ * While a list is compiled, its calls are stored; vertex data is packed. list_assemble.h then makes it cheap to call.
  */
 #pragma once
 
@@ -19,35 +19,36 @@ struct trace_value;
 
 enum gls_op_form { GLS_OP_CALL, GLS_OP_FLOATS, GLS_OP_FLOAT_ARRAY, GLS_OP_MESH };
 
-/* One call of a list. Its arguments lie in the list's arena. */
+/* One call of a list. Its arguments are in the list's arena. */
 struct gls_op {
 	uint16_t form;
 	uint16_t command;
-	uint32_t n; /* arguments, or floats */
+	uint32_t n; /* number of arguments, or of floats */
 	union {
-		const struct trace_value *args; /* CALL */
-		const float *floats;            /* FLOATS, FLOAT_ARRAY */
-		const struct gls_op_mesh *mesh; /* MESH */
+		const struct trace_value *args; /* for CALL */
+		const float *floats;            /* for FLOATS, FLOAT_ARRAY */
+		const struct gls_op_mesh *mesh; /* for MESH */
 	};
-	const struct gls_pixel_store *unpack; /* how pixels among the arguments lie; NULL: there are none */
+	const struct gls_pixel_store *unpack; /* layout of pixels among the arguments; NULL: none */
 };
 
-/* A batch of Begin and End, or an array draw, assembled when the list was made. */
+/* A batch of Begin/End pairs, or an array draw, assembled when the list was compiled. */
 struct gls_op_mesh {
-	struct gls_mesh *mesh; /* a reference, or NULL: only attributes */
-	uint32_t before, after; /* attributes set before the first vertex, and to be set after the last: 1 << attribute */
+	struct gls_mesh *mesh; /* a reference, or NULL: attributes only */
+	uint32_t before, after; /* bit sets of attributes to set before the first vertex, and after the last: 1 <<
+	                           attribute */
 	const float (*before_values)[4], (*after_values)[4]; /* in ascending order of attribute */
 	uint32_t n_draws;
-	uint32_t first_provokes; /* as it was cut */
+	uint32_t first_provokes; /* convention by which it was split */
 };
 
-/* What a list changes if nothing is drawn (effect.c). All zero: not made yet. */
+/* The effect of a list if nothing is drawn (effect.c). All zero: not derived yet. */
 struct gls_effect {
-	struct gls_op *ops; /* owned; what they point to belongs to the lists they come from */
+	struct gls_op *ops; /* owned; their data belongs to the lists they come from */
 	uint32_t n;
-	uint32_t pushes, nesting; /* room on the matrix stack and in nested lists that the ops left out would need */
-	uint32_t n_made, none;    /* how often it was made; 1: there is none */
-	uint64_t epoch;           /* of the share group when it was made, + 1 */
+	uint32_t pushes, nesting; /* room on the matrix stack and in nested lists that the omitted ops would need */
+	uint32_t n_made, none;    /* times it was derived; 1: there is no effect */
+	uint64_t epoch;           /* 1 + epoch of the share group when it was derived */
 };
 
 struct gls_list {
@@ -55,38 +56,39 @@ struct gls_list {
 	uint32_t n, room;
 	struct arena arena;
 	struct gls_effect effect;
-	uint32_t inlined, skipped; /* 1: effects of other lists may hold its ops; how often skipped frames called it */
-	uint64_t name[2], bytes, held; /* of its blob; held: of the blob and its meshes together, 0: not known yet
+	uint32_t inlined, skipped; /* 1: effects of other lists may contain its ops; number of calls from skipped
+	                              frames */
+	uint64_t name[2], bytes, held; /* of its blob; held: size of the blob and its meshes together, 0: unknown
 	                                  (index/snapshot.h) */
 };
 #define GLS_MAX_LIST_NESTING 64
 void gls_list_free(struct gls_list *list);
-/** Keep a call in the list being compiled. @return 0 or ERR_SYSTEM (reported) */
+/** Add a call to the list being compiled. @return 0 or ERR_SYSTEM (reported) */
 int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t command);
-/** Keep a mesh in it. Takes the reference. @return 0 or ERR_SYSTEM (reported) */
+/** Add a mesh to a list. Takes the reference. @return 0 or ERR_SYSTEM (reported) */
 int gls_list_append_mesh(struct gls_exec *x, struct gls_list *list, const struct gls_op_mesh *mesh);
 
-/* ---- ops, for those who make and run lists ---- */
+/* ---- ops, for code that compiles and runs lists ---- */
 
-#define GLS_MAX_PACKED 16 /* floats of a packed op */
+#define GLS_MAX_PACKED 16 /* most floats in a packed op */
 
-/** One more op, all zero; NULL: out of memory. */
+/** Add an op, all zero; NULL: out of memory. */
 struct gls_op *gls_list_add(struct gls_list *list);
 /**
- * Keep a call in an op, arguments ready for a handler. Floats take eight times their bytes this way.
- * @param unpack  how pixels among them lie; NULL: there are none
+ * Store a call in an op, with arguments ready for a handler. Floats take eight times their size in this form.
+ * @param unpack  layout of pixels among them; NULL: none
  * @return 0 or ERR_SYSTEM
  */
 int gls_list_keep(struct gls_list *list, struct gls_op *op, const struct call *c, const struct gls_pixel_store *unpack);
-/** What the calls of a list have in common. */
+/** The members that all calls of a list have in common. */
 struct call gls_list_call(const struct gls_exec *x);
 /**
- * An op as the call it was.
- * @param args  room for GLS_MAX_PACKED values and one more
+ * Restore the call that an op was made from.
+ * @param args  room for GLS_MAX_PACKED + 1 values
  * @param c     as gls_list_call made it
  */
 void gls_op_unpack(const struct gls_op *op, struct trace_value *args, struct call *c);
-/** 1 if the op calls a command of this role. */
+/** 1 if the op calls a command with this role. */
 static inline int gls_op_is(const struct gls_op *op, enum gls_role role)
 {
 	return op->form != GLS_OP_MESH && gls_commands[op->command].role == role;

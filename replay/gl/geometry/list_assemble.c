@@ -14,15 +14,15 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-/* Pairs of Begin and End with nothing but vertex attributes between. */
+/* A sequence of Begin/End pairs with only vertex attributes in between. */
 struct batch {
 	uint32_t known; /* attributes set before the first vertex */
 	uint32_t set;   /* attributes set anywhere in it */
-	uint32_t end;   /* op after the last whole End; 0: there is none */
-	uint32_t stop;  /* op that did not fit, or whose vertex needs a value that is not known yet */
+	uint32_t end;   /* op after the last complete End; 0: there is none */
+	uint32_t stop;  /* op that does not fit, or whose vertex needs an unknown value */
 };
 
-/* May the op be part of a batch? */
+/* 1 if the op may be part of a batch. */
 static int fits_batch(const struct gls_exec *assembler, const struct gls_op *op)
 {
 	const struct gls_command *k = &gls_commands[op->command];
@@ -34,7 +34,7 @@ static int fits_batch(const struct gls_exec *assembler, const struct gls_op *op)
 		return 0;
 	if (k->role == GLS_ROLE_VERTEX_ATTRIB && !open &&
 	    (op->form != GLS_OP_CALL || !op->n || gls_value_int(&op->args[0]) == 0))
-		return 0; /* meshes do not set it */
+		return 0; /* meshes cannot set it */
 	if (k->kind == GLS_KIND_VERTEX)
 		return 1;
 	if (gls_op_is(op, GLS_ROLE_END))
@@ -46,8 +46,8 @@ static int fits_batch(const struct gls_exec *assembler, const struct gls_op *op)
 }
 
 /*
- * Run ops [first, last) through the assembler, as far as they make a batch.
- * Its geometry is left with what was collected up to batch->end where `last` is that end.
+ * Run ops [first, last) through the assembler, as far as they form a batch. If `last` is the end of the batch, its
+ * geometry is left in the assembler.
  */
 static void collect_batch(struct gls_exec *assembler, const struct gls_list *list, uint32_t first, uint32_t last,
                           struct batch *batch)
@@ -70,14 +70,14 @@ static void collect_batch(struct gls_exec *assembler, const struct gls_list *lis
 		batch->set |= touched | g->touched;
 		batch->stop = i;
 		if (n && g->n_vertices > n && touched & ~batch->known)
-			return; /* an earlier vertex has a value that is not known yet: it may be this one's or another */
+			return; /* an earlier vertex uses an unknown value, which may equal this one or not */
 		batch->stop = i + 1;
 		if (gls_op_is(op, GLS_ROLE_END))
 			batch->end = i + 1;
 	}
 }
 
-/* Values of a mask's attributes, in ascending order, in the list's arena. */
+/* Copy the values of a mask's attributes, in ascending order, to the list's arena. */
 static const float (*keep_values(struct gls_list *list, uint32_t mask, const float (*values)[4]))[4]
 {
 	float (*kept)[4] = arena_alloc(&list->arena, (size_t)(__builtin_popcount(mask) + 1) * sizeof(*kept));
@@ -140,7 +140,7 @@ static int keep_op(struct gls_list *list, const struct gls_op *from, const struc
 	return 0;
 }
 
-/* Keep ops that make no batch as they are: up to where it stopped, and on to the End of a Begin that is open there. */
+/* Copy ops that form no batch: up to where it stopped, and on to the End of an open Begin. */
 static int keep_ops(struct gls_exec *x, struct gls_list *out, const struct gls_list *list, uint32_t stop, uint32_t *at)
 {
 	int open = 0;
@@ -157,8 +157,8 @@ static int keep_ops(struct gls_exec *x, struct gls_list *out, const struct gls_l
 
 /*
  * Some calls set again what the list itself has just set. Without them the batches on both sides become one mesh.
- * Programs that send every face by itself are full of such calls. Remembered are BindTexture, by target, and Material,
- * by face and name. Any other call but vertices clears the memory.
+ * Programs that send every face separately are full of such calls. BindTexture, by target, and Material, by face and
+ * name, are remembered. Any other call except vertices makes them forgotten.
  */
 #define N_REMEMBERED 16
 struct remembered {
@@ -181,7 +181,7 @@ static int equal_args(const struct gls_op *a, const struct gls_op *b)
 	return 1;
 }
 
-/* Do both set something in common? Materials: face and name; textures: the target. */
+/* 1 if both set something in common. Materials: face and name; textures: the target. */
 static int overlap(const struct gls_op *a, const struct gls_op *b, int material)
 {
 	int64_t p, q;
@@ -229,7 +229,7 @@ static void drop_redundant(struct gls_list *list)
 	uint32_t n = 0;
 
 	for (uint32_t i = 0; i < list->n; i++) {
-		list->ops[n] = list->ops[i]; /* moved before it is remembered where it stands */
+		list->ops[n] = list->ops[i]; /* moved first, because its place is remembered */
 		n += !is_redundant(&known, &list->ops[n]);
 	}
 	list->n = n;
@@ -243,14 +243,14 @@ static int has_begin(const struct gls_list *list)
 	return 0;
 }
 
-/* ---- the assembler: a machine of its own, with one context, that vertices are run through ---- */
+/* ---- the assembler: a separate machine with one context that vertices are run through ---- */
 
 struct assembler {
-	struct gls_exec machine; /* first */
+	struct gls_exec machine; /* must be first */
 	struct gls_state state;
 };
 
-/* Ready for a list that is made now; NULL: out of memory. */
+/* The assembler, ready for the list being compiled; NULL: out of memory. */
 static struct gls_exec *find_assembler(struct gls_exec *x)
 {
 	struct assembler *a = (struct assembler *)x->assembler;
@@ -263,7 +263,7 @@ static struct gls_exec *find_assembler(struct gls_exec *x)
 	a->machine.want = 1;
 	a->machine.call = x->call;
 	a->machine.drawn_list = x->st->list_name;
-	a->machine.counts = x->counts; /* borrowed: what its calls meet counts as the program's */
+	a->machine.counts = x->counts; /* borrowed: its calls are counted as the program's */
 	a->machine.dispatch = x->dispatch;
 	a->machine.pending.mixes = 1;
 	a->machine.st = &a->state;
@@ -279,7 +279,7 @@ void gls_assembler_free(struct gls_exec *assembler)
 	free(assembler);
 }
 
-/* The same list with its batches assembled, in an arena of its own. The old one is freed. */
+/* Copy a list with its batches assembled, into a new arena. The old one is freed. */
 static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 {
 	struct gls_exec *assembler = find_assembler(x);
@@ -293,7 +293,8 @@ static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 			failed = keep_ops(x, out, list, batch.stop, &i) != 0;
 			continue;
 		}
-		if (batch.stop > batch.end) /* once more up to its end: what came after it left traces in the geometry */
+		if (batch.stop > batch.end) /* run it again up to its end: what came after it has changed the
+		                               geometry */
 			collect_batch(assembler, list, i, batch.end, &batch);
 		failed = keep_batch(x, assembler, out, &batch) != 0;
 		i = batch.end;

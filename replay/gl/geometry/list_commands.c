@@ -1,4 +1,4 @@
-/* The commands of display lists (GL 2.1 sec. 5.4): making, deleting, calling. */
+/* Display list commands (GL 2.1 sec. 5.4): compiling, deleting, calling. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +16,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-/* ---- making and deleting ---- */
+/* ---- compiling and deleting ---- */
 
 GLS_HANDLER(glNewList, NOW)
 {
@@ -28,7 +28,7 @@ GLS_HANDLER(glNewList, NOW)
 		return;
 	if (gls_refuses(x, st, st->list, GL_INVALID_OPERATION))
 		return;
-	if (!(c->flags & CALL_FAKE)) /* the recorder's own were no lists there */
+	if (!(c->flags & CALL_FAKE)) /* calls made up by the recorder were not lists in the program */
 		gls_waiting_take(st, 0);
 	st->list = calloc(1, sizeof(*st->list));
 	if (!st->list) {
@@ -82,7 +82,7 @@ GLS_HANDLER(glDeleteLists, NOW)
 	for (size_t i = 0; i < lists->room;) {
 		const struct table_entry *e = &lists->entries[i];
 		if (e->value && e->key - first < (uint64_t)range)
-			remove_list(st, (uint32_t)e->key); /* another may move here */
+			remove_list(st, (uint32_t)e->key); /* another entry may move here */
 		else
 			i++;
 	}
@@ -90,13 +90,13 @@ GLS_HANDLER(glDeleteLists, NOW)
 
 GLS_HANDLER(glListBase, STATE) { st->a.list_base = arg_u(c, 0); }
 
-/* Its lists are made by the calls that our recorder writes before it; what other recorders write has none. */
+/* Our recorder writes the calls that make its lists before it; other recorders' traces do not have them. */
 GLS_HANDLER(glXUseXFont, WINDOW)
 {
 	const struct gls_list *list = x->st ? table_find(&x->st->share->lists, (uint32_t)arg_i(c, 3)) : NULL;
 
 	if (!list || !list->n)
-		gls_unsupported(x, "a font of the X server that the trace does not hold");
+		gls_unsupported(x, "a font of the X server that is not in the trace");
 }
 
 /* ---- calling ---- */
@@ -117,7 +117,7 @@ static void run_mesh(struct gls_exec *x, struct gls_state *st, const struct gls_
 	if (!st->a.current.edge_flag && op->mesh)
 		gls_unsupported(x, "edge flags that are off when a list is called");
 	if (op->mesh && op->first_provokes != st->a.lighting.first_provokes && st->a.lighting.shade_model == GL_FLAT)
-		gls_unsupported(x, "lists made under another glProvokingVertex than they are called under");
+		gls_unsupported(x, "lists compiled with another glProvokingVertex than they are called with");
 	st->waiting.colored = op->before >> GLS_ATTR_COLOR & 1;
 	if (op->mesh)
 		gls_draw_mesh(x, st, op->mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
@@ -158,13 +158,13 @@ static void call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 			gls_op_unpack(op, args, &c);
 		}
 		x->dispatch(x, &c, op->command, op->unpack);
-		x->command = command; /* draws are those of the command that called the list */
+		x->command = command; /* draws are attributed to the command that called the list */
 	}
 	if (--x->list_depth == 0)
 		x->drawn_list = 0;
 }
 
-/* What waits is the same after a list whether its draws are run or left out (effect.h). */
+/* Leave waiting attributes in the same state after a list whether its draws run or are omitted (effect.h). */
 static void begin_lists(struct gls_state *st)
 {
 	if (st->begin_mode)
@@ -186,7 +186,7 @@ GLS_HANDLER(glCallList, INSIDE, CALL_LIST)
 	end_lists(st);
 }
 
-/* Bytes of an element of CallLists (sec. 5.4); 0: no type. */
+/* Number of bytes of an element of CallLists (sec. 5.4); 0: not a valid type. */
 static uint32_t element_value(uint32_t type, const uint8_t *p)
 {
 	uint16_t u16;

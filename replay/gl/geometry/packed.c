@@ -30,8 +30,7 @@ void gls_unpack_packed(uint32_t value, uint32_t type, uint32_t normalized, float
 	}
 }
 
-/* Arguments from `first` on: the type, then the number or an array of one. @return 0: no such type (the program's
- * error) */
+/* Arguments from `first` on: the type, then the number or an array of one. @return 0: not a valid type (GL error) */
 static int read_packed(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned first, unsigned value,
                        uint32_t normalized, float out[4])
 {

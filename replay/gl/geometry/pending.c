@@ -24,7 +24,8 @@ void gls_draw_pending(struct gls_exec *x)
 			gls_geometry_turn_quads(g);
 		mesh = gls_geometry_mesh(x, g);
 		x->drawn_list = x->pending.list;
-		x->command = x->pending.command; /* what cannot be drawn is a matter of what drew, not of the call that comes next */
+		x->command = x->pending.command; /* unsupported features are attributed to the call that drew, not to
+		                                    the current one */
 		if (mesh)
 			gls_draw_mesh(x, x->st, mesh, (const float (*)[4])g->constant, x->pending.command, x->pending.call);
 		x->drawn_list = list;
@@ -56,8 +57,8 @@ void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attrib
 }
 
 /*
- * Materials may change between Begin and End (sec. 2.6.3): each vertex is lit with the one that is current then, so
- * from there on it is an attribute of the vertices.
+ * Materials may change between Begin and End (sec. 2.6.3). Each vertex is lit with the material current at that time,
+ * so from here on the material is a vertex attribute.
  */
 void gls_before_material(struct gls_exec *x, struct gls_state *st)
 {
@@ -159,7 +160,7 @@ void gls_begin(struct gls_exec *x, struct gls_state *st, uint32_t mode)
 	st->begin_mode = mode + 1;
 }
 
-/* Cut what the open Begin has collected into triangles, lines or points. */
+/* Split the vertices of the open Begin into triangles, lines or points. */
 static void cut_primitives(struct gls_exec *x, const struct gls_state *st)
 {
 	struct gls_geometry *g = &x->pending.geometry;

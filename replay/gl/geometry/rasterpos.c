@@ -1,5 +1,7 @@
-/* The current raster position (GL 2.1 sec. 2.13): RasterPos takes a vertex's way to the window, WindowPos goes there at
- * once. */
+/*
+ * The current raster position (GL 2.1 sec. 2.13): RasterPos is transformed like a vertex, WindowPos sets window
+ * coordinates.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -19,7 +21,7 @@ static void clamp_color(float out[4], struct vec4 c)
 		out[i] = v[i] > 0 ? v[i] < 1 ? v[i] : 1 : 0;
 }
 
-/* Colours as a vertex has them; always the front ones. */
+/* Colours as for a vertex; always the front ones. */
 static void set_colors(struct gls_state *st, struct vec4 eye, struct vec3 normal)
 {
 	struct gls_current *c = &st->a.current;
@@ -95,7 +97,7 @@ static void raster_pos(struct gls_state *st, const float obj[4])
 	c->raster_valid = !is_clipped(st, eye, clip);
 	if (!c->raster_valid)
 		return;
-	/* In Mesa's order of operations (22.3.6, rastpos.c): pictures go to the pixel whose middle is nearest. */
+	/* Operations in Mesa's order (22.3.6, rastpos.c): images are placed at the pixel whose centre is nearest. */
 	w_inverse = 1 / clip[3];
 	for (unsigned i = 0; i < 2; i++)
 		c->raster_position[i] = clip[i] * w_inverse * (0.5f * rect[2 + i]) + (0.5f * rect[2 + i] + rect[i]);
@@ -106,7 +108,7 @@ static void raster_pos(struct gls_state *st, const float obj[4])
 	set_texcoords(st, v4_load(obj), v4_load(eye), normal);
 }
 
-/* Sec. 2.13: no lighting, no generation of texture coordinates, no clipping. */
+/* Sec. 2.13: without lighting, texture coordinate generation or clipping. */
 static void window_pos(struct gls_state *st, const float at[4])
 {
 	struct gls_current *c = &st->a.current;

@@ -17,7 +17,7 @@ GLS_HANDLER(glPrimitiveRestartNV, INSIDE) { gls_restart(x, st); }
 GLS_HANDLER(glEdgeFlag, VERTEX, EDGE_FLAG) { st->a.current.edge_flag = arg_i(c, 0) != 0; }
 GLS_HANDLER(glEdgeFlagv, VERTEX, EDGE_FLAG) { st->a.current.edge_flag = arg_i(c, 0) != 0; }
 
-/* Rect is a polygon of four corners (sec. 2.10). Mesa draws it as a quad between Begin and End. */
+/* Rect is a polygon with four corners (sec. 2.10). Mesa draws it as a quad between Begin and End. */
 GLS_FAMILY(glRect, INSIDE)
 {
 	float a[2] = { arg_f(c, 0), arg_f(c, 1) }, b[2] = { arg_f(c, 2), arg_f(c, 3) };
@@ -37,7 +37,7 @@ GLS_FAMILY(glRect, INSIDE)
 	gls_end(x, st);
 }
 
-/* Table 2.9: how an integer stands for a number in [0,1] or [-1,1]. `value` is `exact` as a float. */
+/* Table 2.9: map an integer to [0,1] or [-1,1]. `value` is `exact` as a float. */
 static float normalize(float value, double exact, enum gls_suffix_type type)
 {
 	switch (type) {
@@ -52,8 +52,8 @@ static float normalize(float value, double exact, enum gls_suffix_type type)
 }
 
 /*
- * Read the components that the command's suffix tells, from argument `first` on. The others are those of (0, 0, 0, 1).
- * Inlined, as it runs for every vertex, and most families need a part of it only.
+ * Read as many components as the command's suffix says, from argument `first` on. The others are those of (0, 0, 0, 1).
+ * Inlined because it runs for every vertex, and most families need only a part of it.
  */
 static inline __attribute__((always_inline)) void
 read_components(const struct gls_exec *x, const struct call *c, unsigned first, int normalized, float out[4])
@@ -76,13 +76,13 @@ read_components(const struct gls_exec *x, const struct call *c, unsigned first, 
 		out[i] = normalize(out[i], items ? gls_value_double(&items[i]) : arg_d(c, first + i), suffix.type);
 }
 
-/* 1 if a list that the program made is called or assembled, and not a run that the recorder made one. */
+/* 1 if a list of the program is called or assembled, as opposed to a list that the recorder made of a run of calls. */
 static int is_of_list(const struct gls_exec *x)
 {
 	return x->drawn_list && (x->drawn_list < CALL_RUN_LAST || x->drawn_list > CALL_RUN_FIRST);
 }
 
-/* Set an attribute by a command; those of lists are stored otherwise. */
+/* Set an attribute by a command; lists store attributes in another way. */
 static void set_components(struct gls_exec *x, struct gls_state *st, unsigned a, float value[4])
 {
 	if (!is_of_list(x) && gls_is_mesa(st))
@@ -111,7 +111,7 @@ GLS_FAMILY(glMultiTexCoord, VERTEX)
 	float value[4];
 
 	if (unit >= GLS_MAX_UNITS)
-		return; /* undefined (sec. 2.7); Mesa wraps it round */
+		return; /* undefined (sec. 2.7); Mesa wraps it */
 	read_components(x, c, 1, 0, value);
 	set_components(x, st, GLS_ATTR_TEXCOORD + unit, value);
 }
@@ -126,8 +126,10 @@ GLS_FAMILY(glVertex, VERTEX)
 	gls_vertex(x, st, value);
 }
 
-/* Generic attribute 0 is the vertex between Begin and End (sec. 2.7). The others are for vertex programs, and so is it
- * elsewhere. */
+/*
+ * Between Begin and End, generic attribute 0 is the vertex (sec. 2.7). Elsewhere, like the other attributes, it is for
+ * vertex programs.
+ */
 GLS_FAMILY(glVertexAttrib, VERTEX, VERTEX_ATTRIB)
 {
 	float value[4];

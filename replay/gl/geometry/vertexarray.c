@@ -1,7 +1,7 @@
 /*
  * Vertex array objects (GL 3.0 sec. 2.10, ARB_vertex_array_object, APPLE_vertex_array_object). The arrays and the
- * element buffer of the bound object are the context's own state; those of all others, 0 included, are in a table. A
- * deleted buffer leaves the bound object alone; the others look its name up when they draw.
+ * element buffer of the bound object are the context's own state; those of all other objects, 0 included, are in a
+ * table. Deleting a buffer does not affect the bound object; the others look its name up when they draw.
  */
 #include "replay/gl/geometry/vertexarray.h"
 
@@ -53,7 +53,7 @@ void gls_vertex_array_bind(struct gls_exec *x, struct gls_state *st, uint32_t na
 	old->element_buffer = now->element_buffer;
 	memcpy(now->arrays, object->arrays, sizeof(now->arrays));
 	now->element_buffer = object->element_buffer;
-	memset(object, 0, sizeof(*object)); /* its memory is the context's now */
+	memset(object, 0, sizeof(*object)); /* the context has taken over its memory */
 	now->vertex_array = name;
 }
 

@@ -1,10 +1,9 @@
 /*
- * Colours of materials that wait. What glMaterial and glColor set outside of Begin and End lies in Mesa's vertex store
- * (22.3.6, vbo_exec_api.c) until that is emptied or looked at, and becomes current then. With COLOR_MATERIAL this
- * shows: a parameter that waits comes over the colour that Enable and ColorMaterial have copied there, unless the
- * colour changes as well; and where vertices carry no colours, the parameter counts (until Mesa 25.0,
- * SCENE_MESA_TRACKS_COLORS). The specification has it otherwise (GL 2.1 sec. 2.14.3), and so have other GLs: nothing
- * waits there.
+ * Material colours that wait. In Mesa, values set by glMaterial and glColor outside Begin and End stay in the vertex
+ * store (22.3.6, vbo_exec_api.c) until that is emptied or read, and only then become current. With COLOR_MATERIAL this
+ * is visible: a waiting parameter overwrites the colour that Enable and ColorMaterial have copied, unless the colour
+ * changes as well; and for vertices without colours, the parameter is used (until Mesa 25.0, SCENE_MESA_TRACKS_COLORS).
+ * This differs from the specification (GL 2.1 sec. 2.14.3) and from other GLs, where nothing waits.
  */
 #pragma once
 
@@ -12,29 +11,32 @@
 
 struct gls_state;
 
-/** glMaterial has set colours of a side. @param colors  GLS_AMBIENT and so on */
+/** Note that glMaterial has set colours of a side. @param colors  GLS_AMBIENT and so on */
 void gls_waiting_set(struct gls_state *st, unsigned side, unsigned colors, const float value[4]);
 
-/** A current attribute is set. @param recolors  1: it is the colour, and another one; carries: 1: it is the colour */
+/**
+ * Note that a current attribute is set. @param carries  1: it is the colour; recolors: 1: it is the colour, and has
+ * changed
+ */
 void gls_waiting_touch(struct gls_state *st, int carries, int recolors);
 
-/** The current colour has changed: tracked material parameters follow it (sec. 2.14.3). */
+/** The current colour has changed: update the material parameters that track it (sec. 2.14.3). */
 void gls_color_changed(struct gls_state *st);
 
 /**
- * A command gives an attribute by n components. Mesa fills up the others with (0, 0, 0, 1) when commands give fewer
- * than before, but not once more after one that gave as many as there is room for: then the last ones of that stay. So
- * the alpha of glColor4f comes back with glColor3f. Runs that the recorder has made lists begin as if nothing had
- * been given before.
- * @param value  [4], filled up; in and out
+ * A command sets an attribute with n components. If that is fewer than in the command before, Mesa sets the others to
+ * (0, 0, 0, 1), but only the first time: once a command has given as many components as the store has room for, later
+ * shorter ones keep its last components. The alpha of glColor4f can therefore come back with glColor3f. Runs that the
+ * recorder has turned into lists begin as if nothing had been set before.
+ * @param value  [4], completed; in and out
  */
 void gls_waiting_components(struct gls_state *st, unsigned attribute, unsigned n, float value[4]);
 
-/** What waits becomes current. @param empties  1: the store is emptied; else it is looked at */
+/** Make waiting values current. @param empties  1: the store is emptied; 0: it is only read */
 void gls_waiting_take(struct gls_state *st, int empties);
 
 /** A list has set attributes: they are current at once. */
 void gls_waiting_current(struct gls_state *st);
 
-/** A Begin: what waited before it is no vertex's own. */
+/** At a Begin: values that waited before it do not belong to a vertex. */
 void gls_waiting_begin(struct gls_state *st);

@@ -1,8 +1,8 @@
 /*
- * The accumulation buffer (GL 2.1 sec. 4.2.4): sums of pictures, kept as pixels. As in Mesa, values are 16 bits, 32767
- * for 1, rounded towards 0; the colours of a drawable that can hold sRGB are summed in linear light.
+ * The accumulation buffer (GL 2.1 sec. 4.2.4): sums of pictures, stored as pixels. As in Mesa, values have 16 bits,
+ * 32767 for 1, and are rounded towards 0; colours of a drawable that can hold sRGB are summed in linear light.
  *
- * A frame that is not built leaves the sums missing, until the whole buffer is loaded or cleared.
+ * A frame that is not built leaves the sums unknown, until the whole buffer is loaded or cleared.
  */
 #include "replay/gl/pixels/accum.h"
 
@@ -21,13 +21,13 @@
 #include "replay/machine/machine.h"
 
 #define ONE 32767.0f
-#define PIXELS_A_REPEAT 256 /* that count as much as an operation of a list (gls_is_beyond_measure) */
+#define PIXELS_A_REPEAT 256 /* this many count as one operation of a list (gls_is_beyond_measure) */
 
 struct area {
 	int64_t x0, y0, x1, y1;
 };
 
-/* The drawable. area: what the scissor leaves of it. NULL: none, or out of memory */
+/* The drawable. area: its part within the scissor. NULL: none, or out of memory */
 static struct gls_drawable *drawable_of(struct gls_exec *x, struct gls_state *st, struct area *area)
 {
 	struct gls_drawable *d = st->draw_framebuffer ? NULL : gls_drawable_of(x, st->drawable);
@@ -45,7 +45,7 @@ static struct gls_drawable *drawable_of(struct gls_exec *x, struct gls_state *st
 	return d;
 }
 
-/* The same, with a buffer of its present size. */
+/* As drawable_of, with a buffer of the drawable's present size. */
 static struct gls_drawable *open_buffer(struct gls_exec *x, struct gls_state *st, struct area *area)
 {
 	struct gls_drawable *d = drawable_of(x, st, area);
@@ -75,13 +75,13 @@ static int16_t clamp16(float v)
 	return (int16_t)(v < -ONE ? -ONE : v > ONE ? ONE : v == v ? v : 0);
 }
 
-/* A number that does not fit becomes another one, as Mesa's sums do: the specification leaves it open. */
+/* Overflow wraps round, as in Mesa: the specification leaves it undefined. */
 static int16_t wrap16(float v)
 {
 	return fabsf(v) < 0x1p31f ? (int16_t)(uint32_t)(int32_t)v : 0;
 }
 
-/* What a stored byte of a component (3: alpha) stands for. */
+/* The value of a stored byte of a component (3: alpha). */
 static float value_of(const struct gls_state *st, uint8_t byte, unsigned component)
 {
 	float v = (float)byte / 255;
@@ -89,7 +89,7 @@ static float value_of(const struct gls_state *st, uint8_t byte, unsigned compone
 	return st->srgb && component < 3 ? gls_linear_from_srgb(v) : v;
 }
 
-/* What becomes of a value: value * scale + offset + colour * factor. */
+/* A change of a value: value * scale + offset + colour * factor. */
 struct change {
 	float scale, offset[4], factor;
 };
@@ -120,7 +120,7 @@ static void change_area(struct gls_exec *x, const struct gls_state *st, struct g
 		}
 }
 
-/* RETURN: only the scissor and the colour mask touch these fragments. */
+/* RETURN: these fragments are only affected by the scissor and the colour mask. */
 static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls_drawable *d, const struct area *a,
                       float value)
 {
@@ -172,7 +172,7 @@ GLS_HANDLER(glAccum, STATE)
 	if (op == GL_LOAD && is_whole(d, &area))
 		d->accum_missing = 0;
 	if (op == GL_RETURN && d->accum_missing && x->feedback.supply)
-		gls_rewind(x, "the accumulation buffer has what they put there");
+		gls_rewind(x, "the accumulation buffer holds sums of them");
 	else if (op == GL_RETURN)
 		give_back(x, st, d, &area, value);
 	else if (op == GL_ADD)

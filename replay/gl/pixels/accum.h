@@ -4,5 +4,5 @@
 struct gls_exec;
 struct gls_state;
 
-/** Clear what the scissor lets through of the accumulation buffer, to the value of ClearAccum. */
+/** Clear the accumulation buffer within the scissor, to the value of ClearAccum. */
 void gls_accum_clear(struct gls_exec *x, struct gls_state *st);

@@ -1,4 +1,4 @@
-/* BlitFramebuffer (GL 3.0 sec. 4.3.2): a pixel rectangle that only the scissor touches. */
+/* BlitFramebuffer (GL 3.0 sec. 4.3.2): a pixel rectangle affected only by the scissor. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,8 @@
 struct blit {
 	int64_t from[4]; /* x0 y0 x1 y1, ascending */
 	float corner[2], zoom[2];
-	int64_t source[2], place[2], across[2]; /* as the call gives them: where both begin, how far the place goes */
+	int64_t source[2], place[2], across[2]; /* as given in the call: where both begin, and the extent of the
+	                                           destination */
 };
 
 static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind,
@@ -57,8 +58,7 @@ static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit
 		                   15);
 }
 
-/* What two neighbours hold of a point, whose pixels have their middles at halves: the lower one, and the share of the
- * upper one. */
+/* The two pixels around a point, whose centres are at halves: the lower one, and the weight of the upper one. */
 static double find_lower(const struct blit *b, unsigned direction, uint32_t i, uint32_t size, size_t lower[2])
 {
 	const int64_t least = b->across[direction] < 0 ? b->across[direction] : 0;
@@ -71,8 +71,10 @@ static double find_lower(const struct blit *b, unsigned direction, uint32_t i, u
 	return at - (double)lower[0];
 }
 
-/* Colours between those of the nearest four pixels, one for each pixel of the place; at the picture's border those of
- * its last ones. */
+/*
+ * Bilinear filtering of the nearest four pixels for each pixel of the destination; beyond the border the last ones are
+ * repeated.
+ */
 static void blit_between(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind,
                          const struct scene_picture *p)
 {
@@ -110,8 +112,8 @@ static void blit_between(struct gls_exec *x, struct gls_state *st, const struct 
 }
 
 /*
- * One direction (0: x, 1: y): the source in ascending order, where its lower end goes, and the magnification. The call
- * gives both ends of the source, then of the place, for x and y in turn.
+ * One direction (0: x, 1: y): the source in ascending order, the destination of its lower end, and the magnification.
+ * The call gives both ends of the source, then of the destination, for x and y in turn.
  * @return 0: nothing is left
  */
 static int find_span(const struct call *c, unsigned direction, struct blit *b)
@@ -151,7 +153,7 @@ GLS_HANDLER(glBlitFramebuffer, OBJECT)
 		drawn = gls_shown_by_blit(x, st);
 	p = gls_read_screen(x, st, NULL);
 	if (p && (!p->width || !p->height))
-		p = NULL; /* there is nothing to copy */
+		p = NULL; /* nothing to copy */
 	if (p && mask & GL_COLOR_BUFFER_BIT && between)
 		blit_between(x, st, &b, gls_color_pixels(x, st), p);
 	else if (p && mask & GL_COLOR_BUFFER_BIT)

@@ -5,7 +5,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
 
-/* Modes that draw where nothing was counted (ARB_conditional_render_inverted). */
+/* 1 for modes that draw if nothing was counted (ARB_conditional_render_inverted). */
 static int is_inverted(uint32_t mode)
 {
 	return mode >= GL_QUERY_WAIT_INVERTED && mode <= GL_QUERY_BY_REGION_NO_WAIT_INVERTED;
@@ -21,7 +21,7 @@ GLS_HANDLER(glBeginConditionalRender, OBJECT)
 	if (gls_refuses(x, st, st->conditional, GL_INVALID_OPERATION))
 		return;
 	if (!st->answered)
-		gls_unsupported(x, "what the query counted, which the recording does not hold: drawn in any case");
+		gls_unsupported(x, "the query's result is not in the recording: drawn in any case");
 	st->conditional = 1;
 	st->left_out = st->answered && (st->answer != 0) == is_inverted(mode);
 	st->answered = 0;

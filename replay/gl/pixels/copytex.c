@@ -1,4 +1,4 @@
-/* Textures out of the screen (GL 2.1 sec. 3.8.2): CopyTexImage, CopyTexSubImage. */
+/* Copies from the screen to textures (GL 2.1 sec. 3.8.2): CopyTexImage, CopyTexSubImage. */
 #include <string.h>
 
 #include "gl_tokens.h"
@@ -17,12 +17,14 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
 
-/* A rectangle of the screen, and where it goes in a level. */
+/* A rectangle of the screen, and its destination in a level. */
 struct copy {
 	int64_t from[2], size[2], to[3];
 };
 
-/* Pixels into texels through pixel transfer (sec. 4.3.2, 3.6.5). Texels of places off the screen stay. */
+/*
+ * Convert pixels to texels through pixel transfer (sec. 4.3.2, 3.6.5). Texels for places off the screen are unchanged.
+ */
 static void copy_pixels(const struct gls_state *st, const struct scene_picture *p, const struct copy *c,
                         struct gls_level *l)
 {
@@ -55,7 +57,7 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 		               l->texels + l->texel_bytes * (size_t)((c->to[2] * l->height + c->to[1]) * l->width + c->to[0]));
 }
 
-/* Make a part hold the place of a copy, beside what it holds already. */
+/* Extend a part to include the destination of a copy. */
 static void unite(uint32_t part[4], const struct copy *c, int is_first)
 {
 	for (int k = 0; k < 2; k++) {
@@ -70,7 +72,7 @@ static void unite(uint32_t part[4], const struct copy *c, int is_first)
 	}
 }
 
-/* What a copy would have written, in a level of one layer. */
+/* Mark the destination of a copy as missing, in a level of one layer. */
 static void lose_part(struct gls_level *l, const struct copy *c, uint32_t missing)
 {
 	int is_first = !l->missing;
@@ -83,7 +85,7 @@ static void lose_part(struct gls_level *l, const struct copy *c, uint32_t missin
 	l->missing = missing;
 }
 
-/* 1 where a copy writes all that is missing. */
+/* 1 if a copy overwrites everything that is missing. */
 static int fills_missing(const struct gls_level *l, const struct copy *c)
 {
 	uint32_t all[4] = { 0, 0, l->width, l->height };
@@ -94,7 +96,7 @@ static int fills_missing(const struct gls_level *l, const struct copy *c)
 	       c->to[1] + c->size[1] >= (int64_t)part[1] + part[3];
 }
 
-/* Copy to a level. Where no pixels are to be had, the level is missing from now on. */
+/* Copy to a level. If the pixels are not available, the level is missing from now on. */
 static void copy_screen(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face, int64_t level,
                         const struct copy *c)
 {
@@ -125,7 +127,7 @@ GLS_FAMILY(glCopyTexImage, STATE)
 	                                       (int64_t[2]){ form.width, form.height }, form.border, st->mesa);
 	struct gls_level *l;
 
-	/* Numbers of components are for TexImage alone. */
+	/* Numbers of components are valid for TexImage only. */
 	if (!t ||
 	    gls_refuses(x, st,
 	                !gls_takes_target(n_dims, arg_u(c, 0)) ||
@@ -134,14 +136,14 @@ GLS_FAMILY(glCopyTexImage, STATE)
 	    gls_refuses_by(x, st, wrong))
 		return;
 	l = gls_texture_specify(x, st, t, face, arg_i(c, 1), &form);
-	if (l) /* the border is read, too: the given corner is its corner */
+	if (l) /* the border is copied as well: the given corner is its corner */
 		copy_screen(x, st, t, face, arg_i(c, 1),
 		            &(struct copy){ { arg_i32(c, 3), arg_i32(c, 4) }, { l->width, l->height }, { 0 } });
 }
 
 GLS_FAMILY(glCopyTexSubImage, STATE)
 {
-	/* place; then the corner on the screen and the size */
+	/* destination; then the corner on the screen and the size */
 	unsigned face, n_dims = gls_commands[x->command].suffix.n, after = 2 + n_dims;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;

@@ -1,4 +1,4 @@
-/* OES_draw_texture: a rectangle of the window, textured by the crop rectangles of what is bound. */
+/* OES_draw_texture: a rectangle of the window, textured with the crop rectangles of the bound textures. */
 #include <string.h>
 
 #include "gl_tokens.h"
@@ -12,7 +12,7 @@
 #include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
 
-/* What the vertices of a rectangle would go through has been gone through. */
+/* Disable the per-vertex operations, which do not apply to this rectangle. */
 static void change_attributes(struct gls_attribs *a)
 {
 	a->lighting.enabled = a->lighting.color_material = 0;
@@ -25,7 +25,7 @@ static void change_attributes(struct gls_attribs *a)
 		a->texturing.units[u].gen_enabled = 0;
 }
 
-/* The 2D texture of a unit, and its first level; NULL where it is not enabled or has no texels. */
+/* The 2D texture of a unit, and its first level; NULL if it is not enabled or has no texels. */
 static const struct gls_level *level_of(struct gls_exec *x, struct gls_state *st, unsigned unit,
                                         const struct gls_texture **out)
 {
@@ -40,7 +40,7 @@ static const struct gls_level *level_of(struct gls_exec *x, struct gls_state *st
 	return l && l->width && l->height ? l : NULL;
 }
 
-/* Texture coordinates of corner (right, top) for each unit that has a 2D texture with texels. */
+/* Set the texture coordinates of corner (right, top) for each unit with a 2D texture that has texels. */
 static void set_coordinates(struct gls_exec *x, struct gls_state *st, struct gls_geometry *g, int right, int top)
 {
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
@@ -60,7 +60,7 @@ static void set_coordinates(struct gls_exec *x, struct gls_state *st, struct gls
 	}
 }
 
-/* Bits of texture coordinates that a rectangle gives. */
+/* Bit set of the texture coordinates that a rectangle has. */
 static uint32_t textured_units(struct gls_exec *x, struct gls_state *st)
 {
 	uint32_t bits = 0;

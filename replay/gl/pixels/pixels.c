@@ -1,4 +1,4 @@
-/* Pixels drawn as pixels (GL 2.1 sec. 3.6, 3.7, 4.3.3): Bitmap, DrawPixels, CopyPixels. */
+/* Pixel drawing (GL 2.1 sec. 3.6, 3.7, 4.3.3): Bitmap, DrawPixels, CopyPixels. */
 #include <math.h>
 #include <string.h>
 
@@ -31,7 +31,10 @@ GLS_HANDLER(glBitmap, STATE)
 		texels = gls_scratch(x, (size_t)p.width * p.height * 4);
 		for (uint32_t i = 0; texels && i < p.width * p.height; i++)
 			memset(texels + 4 * (size_t)i, gls_unpack_bit(&p, i % p.width, i / p.width) ? 255 : 0, 4);
-		/* The lower left corner is rounded down to whole pixels; Mesa adds a little first, against rounding errors. */
+		/*
+		 * The lower left corner is rounded down to whole pixels; Mesa first adds a little, against rounding
+		 * errors.
+		 */
 		if (texels)
 			gls_draw_rectangle(x, st,
 			                   &(struct gls_rectangle){ .kind = SCENE_BITMAP,
@@ -46,8 +49,10 @@ GLS_HANDLER(glBitmap, STATE)
 	at[1] += arg_f(c, 5);
 }
 
-/* Pixels drawn at the raster position, with PixelZoom. copied: they come from what is read; Mesa (22.3.6) keeps a
- * window's rows from the top */
+/*
+ * A rectangle at the raster position, with PixelZoom. copied: source pixels come from the read buffer; Mesa (22.3.6)
+ * keeps a window's rows from the top
+ */
 static struct gls_rectangle at_raster_position(const struct gls_state *st, uint32_t kind, uint32_t width,
                                                uint32_t height, const uint8_t *texels, int copied)
 {
@@ -64,8 +69,8 @@ static struct gls_rectangle at_raster_position(const struct gls_state *st, uint3
 }
 
 /*
- * Depths and stencil values at once (EXT_packed_depth_stencil).
- * @param texels  depths; stencil values are put in their place
+ * Draw depths and stencil values together (EXT_packed_depth_stencil).
+ * @param texels  depths; overwritten by stencil values
  */
 static void draw_depth_stencil(struct gls_exec *x, struct gls_state *st, uint32_t width, uint32_t height,
                                uint8_t *texels, const uint8_t *stencil, int copied)
@@ -88,7 +93,7 @@ static uint32_t kind_of(uint32_t format)
 	       format == GL_DEPTH_COMPONENT || format == GL_DEPTH ? SCENE_DEPTH_PIXELS : SCENE_COLOR_PIXELS;
 }
 
-/* 1 where a rectangle of this size is drawn at all. */
+/* 1 if a rectangle of this size is drawn at all. */
 static int is_drawable(const struct gls_exec *x, const struct gls_state *st, uint32_t width, uint32_t height)
 {
 	return st->a.current.raster_valid && width && height && width <= GLS_MAX_RECTANGLE &&
@@ -129,7 +134,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 	if (!indices || gls_unpack_indices(st, &p, texels)) {
 		rc = gls_unpack_pixels(x, st, &p, kind == SCENE_DEPTH_PIXELS ? GL_DEPTH_COMPONENT :
 		                                  kind == SCENE_FLOAT_PIXELS ? GL_RGBA32F : GL_RGBA, texels);
-		if (rc == -2 && p.store->buffer) /* nor is anything drawn (sec. 4.3.1, ARB_pixel_buffer_object) */
+		if (rc == -2 && p.store->buffer) /* then nothing is drawn (sec. 4.3.1, ARB_pixel_buffer_object) */
 			gls_error(x, st, GL_INVALID_OPERATION);
 		if (rc == -1 || (rc == -2 && p.store->buffer))
 			return;
@@ -138,7 +143,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 	gls_draw_rectangle(x, st, &r);
 }
 
-/* A pixel of the screen as a texel; 0 off the screen, where nothing is defined. */
+/* A pixel of the screen as a texel; 0 off the screen, where the value is undefined. */
 static void copy_texel(const struct gls_state *st, const struct scene_picture *p, uint32_t kind, int64_t x, int64_t y,
                        uint8_t *texel)
 {

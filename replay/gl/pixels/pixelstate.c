@@ -82,7 +82,7 @@ GLS_HANDLER(glPixelZoom, STATE)
 
 /* ---- pixel maps, sec. 3.6.3 ---- */
 
-/* Numbers in the bound unpack buffer. @return 0, or -1: it is too small */
+/* Read numbers from the bound unpack buffer. @return 0, or -1: it is too small */
 static int buffered(struct gls_state *st, const struct call *c, uint32_t size, enum gls_suffix_type type, float *out)
 {
 	size_t n, bytes = type == GLS_SUFFIX_US ? 2 : 4;
@@ -107,7 +107,7 @@ GLS_FAMILY(glPixelMap, STATE)
 	const enum gls_suffix_type type = gls_commands[x->command].suffix.type;
 	uint32_t which = arg_u(c, 0) - GL_PIXEL_MAP_I_TO_I, size = arg_u(c, 1);
 	struct gls_pixel_map *m = &st->pixel_maps[which < N_GLS_PIXEL_MAPS ? which : 0];
-	int indices = which < 2; /* I_TO_I and S_TO_S hold indices, the rest colours */
+	int indices = which < 2; /* I_TO_I and S_TO_S map to indices, the others to colours */
 
 	if (gls_refuses(x, st, which >= N_GLS_PIXEL_MAPS, GL_INVALID_ENUM))
 		return;
@@ -119,7 +119,7 @@ GLS_FAMILY(glPixelMap, STATE)
 		gls_buffer_keep(x, gls_buffer_find(st, st->client.unpack.buffer));
 	if (gls_client_store(x, st)->buffer || arg(c, 2)->type == TRACE_BLOB ? buffered(st, c, size, type, m->values) :
 	                                                                       arg_floats(c, 2, m->values, size) < size)
-		gls_unsupported(x, "pixel maps beyond what the recording holds");
+		gls_unsupported(x, "pixel maps that are not in the recording");
 	for (uint32_t i = 0; i < size && !indices && type != GLS_SUFFIX_F; i++)
 		m->values[i] /= type == GLS_SUFFIX_US ? 65535.0f : 4294967295.0f;
 }

@@ -1,6 +1,6 @@
 /*
- * Pixels and texels that the program reads (GL 2.1 sec. 4.3.2, 6.1.4). In its own memory they are its own affair; in a
- * buffer object they are data of later calls (ARB_pixel_buffer_object).
+ * Pixels and texels that the program reads (GL 2.1 sec. 4.3.2, 6.1.4). A replay ignores reads into the program's
+ * memory; those into a buffer object are data for later calls (ARB_pixel_buffer_object).
  */
 #include <math.h>
 #include <string.h>
@@ -20,14 +20,16 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
 
-/* What is read, and where it goes. */
+/* The layout and destination of a read. */
 struct reading {
 	struct gls_packing to;
 	struct gls_buffer *buffer; /* NULL: the program's memory */
 };
 
-/* Where an image goes that a call's argument `data` names. @return 0: nowhere that matters, or not done, or a GL
- * error */
+/*
+ * Find the destination of an image that argument `data` of a call refers to. @return 0: not needed, unsupported, or a
+ * GL error
+ */
 static int find_place(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned data,
                       const uint32_t size[3], struct reading *r)
 {
@@ -49,7 +51,7 @@ static int find_place(struct gls_exec *x, struct gls_state *st, const struct cal
 	                    GL_INVALID_OPERATION);
 }
 
-/* Bytes between rows stay as they are. whole: every pixel was written */
+/* Mark bytes as written; those between rows do not change. whole: every pixel was written */
 static void wrote(struct gls_exec *x, const struct reading *r, const uint32_t size[3], int whole)
 {
 	const int has_gaps = (size[1] > 1 && r->to.row != r->to.group * size[0]) ||
@@ -86,7 +88,7 @@ static void pack_depth(const struct gls_state *st, const struct reading *r, cons
 	               changes ? 0 : p->depth_bits, r->to.format == GL_DEPTH_STENCIL ? stencil_at(st, p, from) : 0, to);
 }
 
-/* Pixels of places off the screen stay. area: as of struct gls_area */
+/* Pixels for places off the screen are unchanged. area: as in struct gls_area */
 static void pack_pixels(const struct gls_state *st, const struct reading *r, const struct scene_picture *p,
                         const int64_t area[4])
 {
@@ -138,7 +140,10 @@ GLS_HANDLER(glReadPixels, OBJECT)
 
 /* ---- GetTexImage ---- */
 
-/* A texel as table 6.1 has it: grey ones are red. Fewer bits than 8 are numbers of their own. */
+/*
+ * A texel as in table 6.1: luminance is returned as red. Components with fewer than 8 bits are returned with that
+ * precision.
+ */
 static void load_texel(const struct gls_level *l, const struct gls_format *f, const uint8_t *texel,
                        struct gls_packed_color *color)
 {
@@ -193,7 +198,7 @@ GLS_HANDLER(glGetTexImage, OBJECT)
 	if (!st->client.pack.buffer)
 		return;
 	if (!x->want && st->draw_framebuffer)
-		gls_framebuffer_skip(x, st); /* its pixels are not there */
+		gls_framebuffer_skip(x, st); /* its pixels are not available */
 	t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
 	if (!l || !l->texels)
@@ -216,7 +221,7 @@ GLS_HANDLER(glGetTexImage, OBJECT)
 	}
 }
 
-/* ---- what is not done ---- */
+/* ---- unsupported reads ---- */
 
 static void into_buffer(struct gls_exec *x, const struct gls_state *st, const char *what)
 {
@@ -224,7 +229,7 @@ static void into_buffer(struct gls_exec *x, const struct gls_state *st, const ch
 		gls_unsupported(x, what);
 }
 
-/* Only texels are kept of compressed images. */
+/* Compressed images are stored as texels only. */
 GLS_HANDLER(glGetCompressedTexImage, NOW) { into_buffer(x, st, "compressed images read into a buffer object"); }
 GLS_HANDLER(glGetPolygonStipple, NOW) { into_buffer(x, st, "stipples read into a buffer object"); }
 GLS_FAMILY(glGetPixelMap, NOW) { into_buffer(x, st, "pixel maps read into a buffer object"); }

@@ -1,4 +1,4 @@
-/* Rectangles of pixels as events: a point, with a picture. */
+/* Pixel rectangles as events: a point, with a picture. */
 #include "replay/gl/pixels/rectangle.h"
 
 #include <string.h>
@@ -12,7 +12,7 @@
 #include "replay/machine/machine.h"
 #include "scene/mesa.h"
 
-/* A mesh of one point. @return a reference; NULL: out of memory (reported) */
+/* A mesh with one point. @return a reference; NULL: out of memory (reported) */
 static struct gls_mesh *point_at(struct gls_exec *x, float left, float low, float depth)
 {
 	struct gls_geometry *g = &x->scratch.geometry;
@@ -33,7 +33,7 @@ static struct gls_mesh *point_at(struct gls_exec *x, float left, float low, floa
 	return mesh;
 }
 
-/* a: the attributes to draw with, which this may change */
+/* a: attributes to draw with; may be modified */
 static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rectangle *r, struct gls_attribs *a)
 {
 	const struct scene_rectangle rectangle = { .kind = r->kind, .width = r->width, .height = r->height,
@@ -42,7 +42,7 @@ static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rect
 	struct gls_texture_image *image;
 	struct gls_mesh *mesh;
 	float values[N_GLS_ATTRIBUTES][4];
-	/* Mesa 25 adds the current secondary colour to bitmaps, others add none. */
+	/* Mesa 25 adds the current secondary colour to bitmaps, other versions do not. */
 	const uint32_t sums = r->kind == SCENE_BITMAP && st->mesa & SCENE_MESA_BITMAP_SUMS;
 
 	if (!x->want || !r->width || !r->height)
@@ -54,15 +54,16 @@ static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rect
 	if (!sums)
 		memcpy(values[GLS_ATTR_SECONDARY], c->raster_secondary, 16);
 	memcpy(values[GLS_ATTR_TEXCOORD], c->raster_texcoord, sizeof(c->raster_texcoord));
-	values[GLS_ATTR_FOG_COORD][0] = 0; /* Mesa (22.3.6) has the fog at the viewer, other than sec. 3.10 and 2.13 say */
-	/* What a vertex would go through has been gone through. */
+	values[GLS_ATTR_FOG_COORD][0] = 0; /* Mesa (22.3.6) uses the fog at the viewer, contrary to sec. 3.10 and
+	                                      2.13 */
+	/* Disable per-vertex operations, which do not apply to a rectangle. */
 	a->fog.color_sum &= sums;
 	a->lighting.enabled = a->lighting.color_material = 0;
 	a->lighting.shade_model = GL_SMOOTH;
 	a->fog.coord_source = GL_FOG_COORD;
 	a->transform.clip_plane_mask = 0;
 	a->point.smooth = a->point.sprite = 0;
-	a->multisample.enabled = 0; /* Mesa draws them to whole pixels */
+	a->multisample.enabled = 0; /* Mesa draws them without multisampling */
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		a->texturing.units[u].gen_enabled = 0;
 	st->dirty = GLS_DIRTY_ALL;

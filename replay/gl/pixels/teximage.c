@@ -1,5 +1,7 @@
-/* Images of textures (GL 2.1 sec. 3.8.1 - 3.8.3): TexImage, TexSubImage, compressed images, storage, copies and clears
- * of levels. */
+/*
+ * Texture images (GL 2.1 sec. 3.8.1 - 3.8.3): TexImage, TexSubImage, compressed images, storage, copies and clears of
+ * levels.
+ */
 #include "replay/gl/pixels/teximage.h"
 
 #include <string.h>
@@ -41,14 +43,14 @@ struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state 
 
 /* ---- images, sec. 3.8.1, 3.8.2 ---- */
 
-/* Arguments of TexImage and CompressedTexImage. */
+/* The form given by the arguments of TexImage and CompressedTexImage. */
 static struct gls_level_form form_of(const struct call *c, unsigned n_dims)
 {
 	return (struct gls_level_form){ arg_u(c, 2), arg_i(c, 3), n_dims > 1 ? arg_i(c, 4) : 1, n_dims > 2 ? arg_i(c, 5) : 1,
 		                        arg_i(c, 3 + n_dims) };
 }
 
-/* The pixels of a TexImage or TexSubImage. format: the argument's number; type and data follow */
+/* The pixels of a TexImage or TexSubImage. format: number of that argument; type and data follow */
 static struct gls_pixels pixels_of(const struct gls_exec *x, struct gls_state *st, const struct call *c,
                                    unsigned format, unsigned n_dims, const int64_t size[3])
 {
@@ -59,7 +61,7 @@ static struct gls_pixels pixels_of(const struct gls_exec *x, struct gls_state *s
 	return p;
 }
 
-/* Plain pixels as the format's texels. @return as gls_unpack_pixels */
+/* Convert uncompressed pixels to the format's texels. @return as gls_unpack_pixels */
 static int unpack_image(struct gls_exec *x, const struct gls_state *st, const struct gls_pixels *p,
                         uint32_t internal_format, uint8_t *texels)
 {
@@ -71,7 +73,7 @@ static int unpack_image(struct gls_exec *x, const struct gls_state *st, const st
 	return rc;
 }
 
-/* Whether a TexImage with such pixels is refused. */
+/* 1 if a TexImage with such pixels is a GL error. */
 static int refuses_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims,
                          const struct gls_level_form *form)
 {
@@ -84,7 +86,10 @@ static int refuses_image(struct gls_exec *x, struct gls_state *st, const struct 
 	       gls_refuses(x, st, !gls_formats_agree(form->internal_format, format), GL_INVALID_OPERATION);
 }
 
-/* A level's texels came of a command's bytes (argument i), all of them where it is whole: it misses what those miss. */
+/*
+ * A level received texels from a command's argument i, all of them if `whole`: those missing in the source are missing
+ * in the level.
+ */
 static void take_missing(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned i,
                          struct gls_level *l, int whole)
 {
@@ -95,7 +100,7 @@ static void take_missing(struct gls_exec *x, struct gls_state *st, const struct 
 	x->feedback.missing |= missing != 0;
 }
 
-/* 1 where a part is all of a level. */
+/* 1 if a part covers a whole level. */
 static int is_whole(const struct gls_level *l, const int64_t size[3])
 {
 	return size[0] == l->width && size[1] == l->height && size[2] == l->depth;
@@ -124,7 +129,7 @@ GLS_FAMILY(glTexImage, STATE)
 	gls_texture_level_changed(x, t, face, arg_i(c, 1));
 }
 
-/* Copy values of so many bytes, one a texel, to a place in a level's texels or stencil. */
+/* Copy values of `bytes` bytes, one per texel, to a place in a level's texels or stencil. */
 static void place(const struct gls_level *l, uint8_t *to, size_t bytes, const int64_t at[3], const int64_t size[3],
                   const uint8_t *from)
 {
@@ -180,7 +185,7 @@ GLS_FAMILY(glTexSubImage, STATE)
 
 /* ---- compressed images, sec. 3.8.3 ---- */
 
-/* Texels of an image of blocks, slices one after the other. @return 0, or -1 (counted) */
+/* Decode a block-compressed image, slice by slice. @return 0, or -1 (counted) */
 static int unpack_compressed(struct gls_exec *x, uint32_t internal_format, const int64_t size[3], const uint8_t *data,
                              size_t n, uint8_t *texels)
 {
@@ -217,7 +222,7 @@ static void compressed_image(struct gls_exec *x, struct gls_state *st, const str
 		gls_texture_level_changed(x, t, face, arg_i(c, 1));
 }
 
-/* A level of a paletted image. first: texels of the levels before it */
+/* Load a level of a paletted image. first: number of texels in the levels before it */
 static void load_paletted(struct gls_exec *x, struct gls_state *st, const struct gls_palette *palette,
                           struct gls_level *l, const uint8_t *data, size_t n, size_t first)
 {
@@ -236,7 +241,7 @@ static void load_paletted(struct gls_exec *x, struct gls_state *st, const struct
 	                  l->internal_format, l->texels);
 }
 
-/* Levels 0 to -level at once (OES_compressed_paletted_texture). */
+/* Load levels 0 to -level together (OES_compressed_paletted_texture). */
 static void paletted_images(struct gls_exec *x, struct gls_state *st, const struct call *c,
                             const struct gls_palette *palette)
 {
@@ -312,7 +317,7 @@ GLS_FAMILY(glCompressedTexSubImage, STATE)
 
 /* ---- ARB_texture_storage: all levels at once, without texels ---- */
 
-/* A side of a level; minification stops at 1. */
+/* The size of a level along one side, at least 1. */
 static int64_t side(const struct call *c, unsigned i, int64_t level)
 {
 	return arg_i(c, i) >> level ? arg_i(c, i) >> level : 1;
@@ -331,7 +336,7 @@ GLS_FAMILY(glTexStorage, STATE)
 			                                              n_dims > 2 ? side(c, 5, level) : 1, 0 });
 }
 
-/* ---- ARB_clear_texture: one pixel, as TexImage would take it, all over a level ---- */
+/* ---- ARB_clear_texture: fills a level with one pixel, in TexImage's format ---- */
 
 GLS_HANDLER(glClearTexImage, OBJECT)
 {
@@ -357,9 +362,9 @@ GLS_HANDLER(glClearTexImage, OBJECT)
 	}
 }
 
-/* ---- ARB_copy_image, NV_copy_image: texels as they are, slice by slice ---- */
+/* ---- ARB_copy_image, NV_copy_image: copies of raw texels, slice by slice ---- */
 
-/* The image of a texture's level that holds place z, and its slice there. NULL: there is none. */
+/* The image of a texture's level that contains place z, and the slice within it. NULL: there is none. */
 static struct gls_level *slice_of(struct gls_texture *t, int64_t level, int64_t z, size_t *slice)
 {
 	int cube = t && t->target == GLS_TEXTURE_CUBE;

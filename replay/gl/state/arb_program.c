@@ -1,4 +1,4 @@
-/* Programs in assembly (ARB_vertex_program, ARB_fragment_program): objects, their texts and parameters. */
+/* Assembly programs (ARB_vertex_program, ARB_fragment_program): objects, texts and parameters. */
 #include <string.h>
 
 #include "gl_tokens.h"
@@ -19,7 +19,7 @@ static uint32_t *binding_of(struct gls_state *st, uint32_t target)
 	return target == GL_VERTEX_PROGRAM_ARB ? &st->arb_vertex : &st->arb_fragment;
 }
 
-/* The bound object, made where there is none yet. NULL: out of memory (reported) */
+/* The bound object, created if necessary. NULL: out of memory (reported) */
 static struct gls_program *bound(struct gls_exec *x, struct gls_state *st, uint32_t target)
 {
 	struct gls_program *p = gls_program_bound(st, target);
@@ -77,7 +77,7 @@ GLS_HANDLER(glProgramStringARB, OBJECT)
 	gls_refuses(x, st, refused > 0, GL_INVALID_OPERATION);
 }
 
-/* The parameters of a target that a call sets, n from number `first` on. @return the first; NULL: none */
+/* The n parameters of a target that a call sets, from number `first` on. @return the first; NULL: none */
 static float (*env_of(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t n))[4]
 {
 	const uint32_t target = arg_u(c, 0), first = arg_u(c, 1);
@@ -104,7 +104,7 @@ static float (*local_of(struct gls_exec *x, struct gls_state *st, const struct c
 	return p ? &p->local[first] : NULL;
 }
 
-/* Four numbers for a parameter, as floats of their own or as an array. */
+/* Set a parameter from four floats, given as arguments or as an array. */
 static void set_parameter(const struct call *c, float (*parameter)[4])
 {
 	for (unsigned i = 0; parameter && c->n_args > 3 && i < 4; i++)
@@ -113,7 +113,7 @@ static void set_parameter(const struct call *c, float (*parameter)[4])
 		arg_floats(c, 2, *parameter, 4);
 }
 
-/* EXT_gpu_program_parameters: so many, four numbers each. */
+/* EXT_gpu_program_parameters: set a number of parameters, four floats each. */
 typedef float (*parameters_of(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t n))[4];
 
 static void set_parameters(struct gls_exec *x, struct gls_state *st, const struct call *c, parameters_of *of)

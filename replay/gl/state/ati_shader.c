@@ -1,5 +1,4 @@
-/* ATI_fragment_shader: objects, and the calls between Begin and End that a shader is made of
- * (replay/programs/ati.h). */
+/* ATI_fragment_shader: objects, and the calls between Begin and End that define a shader (replay/programs/ati.h). */
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +12,7 @@
 #include "replay/programs/ati.h"
 #include "replay/programs/program.h"
 
-/* The bound object, made where there is none yet. NULL: out of memory (reported) */
+/* The bound object, created if necessary. NULL: out of memory (reported) */
 static struct gls_program *bound(struct gls_exec *x, struct gls_state *st)
 {
 	struct gls_program *p = gls_program_bound(st, GL_FRAGMENT_SHADER_ATI);
@@ -26,7 +25,7 @@ static struct gls_program *bound(struct gls_exec *x, struct gls_state *st)
 	return p;
 }
 
-/* Keep a call of the shader that is being made. */
+/* Store a call of the shader being defined. */
 static void keep(struct gls_exec *x, struct gls_state *st, const struct ati_call *call)
 {
 	struct gls_program *p;
@@ -111,7 +110,7 @@ static void texture(struct gls_exec *x, struct gls_state *st, const struct call 
 GLS_HANDLER(glPassTexCoordATI, OBJECT) { texture(x, st, c, ATI_PASS); }
 GLS_HANDLER(glSampleMapATI, OBJECT) { texture(x, st, c, ATI_SAMPLE); }
 
-/* n: of arguments */
+/* n: number of arguments */
 static void arithmetic(struct gls_exec *x, struct gls_state *st, const struct call *c, enum ati_kind kind, uint32_t n)
 {
 	const uint32_t has_mask = kind == ATI_COLOR;

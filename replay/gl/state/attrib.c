@@ -16,8 +16,10 @@
 
 /* ---- enables ---- */
 
-/* Capabilities with a word of struct gls_attribs of their own, the commonest first: GL_ENABLE_BIT saves all of them,
- * whichever group they belong to. */
+/*
+ * Capabilities with a separate word in struct gls_attribs, the most common first: GL_ENABLE_BIT saves all of them,
+ * whichever group they belong to.
+ */
 static const struct { uint32_t cap, offset; } capabilities[] = {
 #define CAPABILITY(cap, member) { GL_##cap, offsetof(struct gls_attribs, member) }
 	CAPABILITY(BLEND, color.blend), CAPABILITY(LIGHTING, lighting.enabled), CAPABILITY(DEPTH_TEST, depth.enabled),
@@ -46,7 +48,7 @@ static uint32_t *word_at(struct gls_attribs *a, size_t offset)
 	return (uint32_t *)((char *)a + offset);
 }
 
-/* The bit of a word that a capability switches. NULL: it is no bit. */
+/* The word and bit for a capability. NULL: not stored as a bit. */
 static uint32_t *bit_of(struct gls_state *st, uint32_t cap, uint32_t *bit)
 {
 	struct gls_attribs *a = &st->a;
@@ -58,7 +60,7 @@ static uint32_t *bit_of(struct gls_state *st, uint32_t cap, uint32_t *bit)
 		{ GL_MAP2_COLOR_4, GL_MAP2_VERTEX_4, &a->evaluator.map2 },
 	};
 
-	if (cap == GL_TEXTURE_GEN_STR_OES) { /* OpenGL ES: s, t and r at once */
+	if (cap == GL_TEXTURE_GEN_STR_OES) { /* OpenGL ES: s, t and r together */
 		*bit = 7;
 		return &unit->gen_enabled;
 	}
@@ -70,13 +72,15 @@ static uint32_t *bit_of(struct gls_state *st, uint32_t cap, uint32_t *bit)
 	return NULL;
 }
 
-/* The flag that a capability switches; *bit is 0 for a whole word. NULL: no capability. The commonest ones are found
- * first. */
+/*
+ * The flag of a capability; *bit is 0 if it is a whole word. NULL: not a capability. The most common ones are found
+ * first.
+ */
 static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 {
 	static const uint32_t targets[] = {
 		GL_TEXTURE_1D,       GL_TEXTURE_2D,        GL_TEXTURE_3D,
-		GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE, /* as enum gls_texture_target */
+		GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE, /* in the order of enum gls_texture_target */
 	};
 
 	for (unsigned i = 0; i < sizeof(targets) / sizeof(*targets); i++)
@@ -104,7 +108,7 @@ int gls_is_switched(struct gls_state *st, uint32_t cap, int on)
 	return flag && ((bit ? *flag & bit : *flag) != 0) == on;
 }
 
-/* Capabilities that change nothing here. */
+/* Capabilities without effect here. */
 static int is_harmless_cap(uint32_t cap)
 {
 	switch (cap) {
@@ -154,7 +158,7 @@ static void enable(struct gls_exec *x, struct gls_state *st, uint32_t cap, int o
 			*(cap == GL_PRIMITIVE_RESTART ? &st->client.restart : &st->client.restart_fixed) = on != 0;
 			return;
 		}
-		/* not by the letter, but Mesa and others take it, and old programs use it */
+		/* not in the specification, but Mesa and others accept it, and old programs use it */
 		if (client_array_of(st, cap) >= 0 || cap == GL_PRIMITIVE_RESTART_NV) {
 			enable_client(x, st, cap, (uint32_t)on);
 			return;
@@ -206,7 +210,7 @@ GLS_HANDLER(glHint, STATE)
 	gls_error(x, st, GL_INVALID_ENUM);
 }
 
-/* The program has read the error, so the next one counts as the first again. */
+/* Once the program has read the error, the next one is recorded again. */
 GLS_HANDLER(glGetError, NOW) { st->error = 0; }
 
 GLS_HANDLER(glRenderMode, OBJECT)
@@ -284,7 +288,7 @@ GLS_HANDLER(glPopAttrib, STATE, SELECT)
 		restore_enables(st, old);
 	if (!st->a.lighting.color_material)
 		return;
-	/* Mesa's materials do not follow a colour that comes back: they do when COLOR_MATERIAL alone comes back. */
+	/* In Mesa, materials do not track a restored colour; they do if only COLOR_MATERIAL is restored. */
 	if (!gls_is_mesa(st) || (!tracked && !(mask & GL_LIGHTING_BIT)))
 		gls_color_changed(st);
 	else

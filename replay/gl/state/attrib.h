@@ -6,7 +6,7 @@
 gls_handler gls_glEnable, gls_glDisable;
 
 /**
- * 1 where a capability is switched so already. Mesa (22.3.6, enable.c) then returns before it empties its vertex store
+ * 1 if a capability already has this state. Mesa (22.3.6, enable.c) then returns before it empties its vertex store
  * (waiting.h).
  */
 int gls_is_switched(struct gls_state *st, uint32_t cap, int on);

@@ -1,7 +1,7 @@
 /*
- * Visuals and frame buffer configurations (GLX 1.4 sec. 3.3.3, EGL 1.5 sec. 3.4): how many bits a drawable has. Our own
- * recordings say so when a context is first made current (capture/format/trace.md). In other recordings the program's
- * queries and requests tell. The rest stays as gls_state_init has it.
+ * Visuals and frame buffer configurations (GLX 1.4 sec. 3.3.3, EGL 1.5 sec. 3.4): the number of bits in a drawable. Our
+ * own recordings have a marker for this when a context is first made current (capture/format/trace.md). In other
+ * recordings the bits are taken from the program's queries and requests. The rest keeps gls_state_init's values.
  */
 #include "replay/gl/state/config.h"
 
@@ -16,14 +16,14 @@ enum {
 	GLX_DOUBLEBUFFER = 5,
 	GLX_STEREO = 6,
 	GLX_USE_GL = 1
-}; /* attributes without a value, visuals only */
+}; /* attributes without a value, in visuals only */
 enum { GLX_ALPHA_SIZE = 11, GLX_DEPTH_SIZE = 12, GLX_STENCIL_SIZE = 13 };
 enum { EGL_ALPHA_SIZE = 0x3021, EGL_DEPTH_SIZE = 0x3025, EGL_STENCIL_SIZE = 0x3026, EGL_NONE = 0x3038 };
 
-/* An entry of x->configs: three counts of bits, each with bit 7 set where it is known. */
+/* An entry of x->configs: three bit counts, each with bit 7 set if it is known. */
 enum { ALPHA = 0, DEPTH = 8, STENCIL = 16, KNOWN = 128 };
 
-/* What stands for a configuration: its address, or a visual's number. */
+/* The key of a configuration: its address, or a visual's number. */
 static uint64_t key_of(const struct trace_value *v)
 {
 	while (v->type == TRACE_ARRAY && v->count)
@@ -52,8 +52,10 @@ static int what_is(int64_t attribute)
 	}
 }
 
-/* A program that asks for alpha gets eight bits on every true-colour driver. One that does not gets a visual without
- * alpha. */
+/*
+ * A program that asks for alpha gets eight bits from every true-colour driver. One that does not gets a visual without
+ * alpha.
+ */
 static uint64_t alpha_wanted(const struct call *c, unsigned i, int visual)
 {
 	uint64_t n;
@@ -97,7 +99,7 @@ void gls_config_apply(struct gls_exec *x, struct gls_state *st, const struct tra
 
 GLS_HANDLER(glXChooseVisual, WINDOW)
 {
-	if (arg(c, 2)->type == TRACE_ARRAY) /* our own recorder leaves it out */
+	if (arg(c, 2)->type == TRACE_ARRAY) /* our own recorder omits it */
 		note(x, key_of(&c->ret), ALPHA, alpha_wanted(c, 2, 1));
 }
 
@@ -108,7 +110,7 @@ GLS_HANDLER(glXChooseFBConfig, WINDOW)
 			note(x, key_of(&c->ret.items[i]), ALPHA, 8);
 }
 
-/* The visual of a configuration has its bits. */
+/* The visual of a configuration has the same bits. */
 GLS_HANDLER(glXGetVisualFromFBConfig, WINDOW)
 {
 	uintptr_t known = (uintptr_t)table_find(&x->configs, key_of(arg(c, 1)));

@@ -5,5 +5,5 @@ struct gls_exec;
 struct gls_state;
 struct trace_value;
 
-/** Give a context the bits of the visual or configuration that it is made for, as far as they are known. */
+/** Set a context's bits to those of the visual or configuration that it is created for, as far as they are known. */
 void gls_config_apply(struct gls_exec *x, struct gls_state *st, const struct trace_value *config);

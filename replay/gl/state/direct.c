@@ -1,7 +1,7 @@
 /*
- * EXT_direct_state_access: commands that name what they change, in place of what is bound or selected. Each selects it,
- * runs the command that it is called after, and puts the selection back. Mapping of buffers by name is not done: the
- * recorder does not follow it.
+ * EXT_direct_state_access: commands that name the object they change, instead of using the bound or selected one. Each
+ * selects the object, runs the command that it is named after, and restores the selection. Mapping of buffers by name
+ * is not supported, because the recorder does not track it.
  */
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +17,7 @@
 
 #define MAX_ARGS 16u
 
-/* The command that one is called after: the first beginning that fits is replaced, the rest stays without EXT. */
+/* The command that a command is named after: the first matching prefix is replaced, the rest is kept without EXT. */
 static int32_t namesake_of(const char *name)
 {
 	static const char *const beginnings[][2] = {
@@ -64,13 +64,13 @@ static void run_with(struct gls_exec *x, const struct call *c, const char *name,
 	run(x, c, name, args, 2);
 }
 
-/* Without its first argument, which said what is meant. */
+/* Run without the first argument, which named the object. */
 static void run_rest(struct gls_exec *x, const struct call *c)
 {
 	run(x, c, NULL, c->args + 1, c->n_args - 1);
 }
 
-/* With a target in place of the name. */
+/* Run with a target in place of the name. */
 static void run_on(struct gls_exec *x, const struct call *c, uint32_t target)
 {
 	struct trace_value args[MAX_ARGS];
@@ -119,7 +119,8 @@ static void on_texture(struct gls_exec *x, struct gls_state *st, const struct ca
 
 	if (target >= 0)
 		run_with(x, c, "glBindTexture", gls_texture_token((uint32_t)target), arg_u(c, 0));
-	if (target < 0 || unit->bound[target] == arg_u(c, 0)) /* else it is no such texture, and the error is there */
+	if (target < 0 || unit->bound[target] == arg_u(c, 0)) /* otherwise the texture has another target, and the error
+	                                                         has been raised */
 		run_rest(x, c);
 	if (target >= 0)
 		unit->bound[target] = bound;
@@ -161,7 +162,7 @@ GLS_FAMILY(glCompressedMultiTexImageEXT, STATE) { on_unit(x, st, c); }
 GLS_FAMILY(glCompressedMultiTexSubImageEXT, STATE) { on_unit(x, st, c); }
 GLS_HANDLER(glGenerateMultiTexMipmapEXT, STATE) { on_unit(x, st, c); }
 
-/* glEnableIndexedEXT and glDisableIndexedEXT of a unit's capability: the unit's number comes second. */
+/* glEnableIndexedEXT and glDisableIndexedEXT of a unit's capability: the second argument is the unit. */
 static void switch_unit(struct gls_exec *x, struct gls_state *st, const struct call *c, const char *name)
 {
 	const uint32_t active = st->a.texturing.active, unit = arg_u(c, 1);
@@ -178,7 +179,7 @@ static void switch_unit(struct gls_exec *x, struct gls_state *st, const struct c
 GLS_HANDLER(glEnableIndexedEXT, STATE) { switch_unit(x, st, c, "glEnable"); }
 GLS_HANDLER(glDisableIndexedEXT, STATE) { switch_unit(x, st, c, "glDisable"); }
 
-/* ---- buffers, renderbuffers, framebuffer objects: by a target that drawing does not look at ---- */
+/* ---- buffers, renderbuffers, framebuffer objects: through a target that draws do not use ---- */
 
 static void on_bound(struct gls_exec *x, const struct call *c, const char *bind, uint32_t target, uint32_t bound)
 {

@@ -30,7 +30,7 @@ static int is_stencil_op(uint32_t op)
 	       op == GL_INCR_WRAP || op == GL_DECR_WRAP;
 }
 
-/* Sides that a call without a face argument changes: both, or the active one where EXT_stencil_two_side is on. */
+/* 1 if a call without a face argument changes this side: both, or the active one if EXT_stencil_two_side is enabled. */
 static int changes_side(const struct gls_state *st, unsigned side, uint32_t face)
 {
 	if (face == GL_FRONT_AND_BACK)
@@ -174,10 +174,10 @@ GLS_HANDLER(glColorMask, STATE)
 		st->a.color.mask |= (uint32_t)(arg_i(c, i) != 0) << i;
 }
 
-/* ---- which buffer, and clearing (sec. 4.2) ---- */
+/* ---- buffer selection and clear values (sec. 4.2) ---- */
 
 /*
- * Buffers of windows are none of framebuffer objects, nor the other way round. Windows have neither right nor auxiliary
+ * Buffers of windows are not valid for framebuffer objects, nor the reverse. Windows have neither right nor auxiliary
  * buffers here, as on nearly every machine.
  */
 static int refuses_buffer(struct gls_exec *x, struct gls_state *st, uint32_t buffer, uint32_t framebuffer)

@@ -73,7 +73,7 @@ GLS_FAMILY(glLightModel, STATE)
 	}
 }
 
-/* ---- materials, sec. 2.14.2: colours that follow the current one cannot be set ---- */
+/* ---- materials, sec. 2.14.2: colours that track the current colour cannot be set ---- */
 
 GLS_FAMILY(glMaterial, INSIDE, MATERIAL)
 {
@@ -130,7 +130,7 @@ GLS_HANDLER(glShadeModel, STATE)
 		st->a.lighting.shade_model = model;
 }
 
-/* ARB_provoking_vertex (GL 3.2 sec. 2.21): which vertex of a primitive gives it its colour under FLAT. */
+/* ARB_provoking_vertex (GL 3.2 sec. 2.21): the vertex of a primitive that determines its colour under FLAT. */
 GLS_HANDLER(glProvokingVertex, STATE)
 {
 	uint32_t mode = arg_u(c, 0);
@@ -161,7 +161,7 @@ GLS_FAMILY(glFog, STATE)
 	case GL_FOG_START: fog->start = v[0]; break;
 	case GL_FOG_END: fog->end = v[0]; break;
 	case GL_FOG_INDEX: fog->index = v[0]; break;
-	case GL_FOG_COLOR: /* clamped when it is used, and Mesa's shaders see it clamped */
+	case GL_FOG_COLOR: /* clamped when it is used, but Mesa's shaders see the clamped value */
 		arg_color(x, c, 1, fog->color);
 		break;
 	case GL_FOG_COORD_SRC:

@@ -9,7 +9,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
 
-/* The current matrix, about to change. */
+/* The current matrix, for modification. */
 static float *change_matrix(struct gls_state *st)
 {
 	struct gls_matrix_stack *stack = gls_current_stack(st);
@@ -28,7 +28,7 @@ static void multiply(struct gls_state *st, const float m[16])
 	gls_sums(st)->mul(top, top, m);
 }
 
-/* 16 numbers; missing ones leave the identity's. */
+/* Read 16 numbers; missing ones are those of the identity. */
 static void read_matrix(const struct call *c, unsigned i, float m[16])
 {
 	memcpy(m, mat4_identity, 16 * sizeof(float));
@@ -150,7 +150,7 @@ GLS_HANDLER(glViewport, STATE)
 		return;
 	for (unsigned i = 0; i < 4; i++)
 		rect[i] = (float)arg_i(c, i);
-	/* The only record of the window's size in traces of other recorders; see trace.md. */
+	/* In traces of other recorders this is the only information on the window's size; see trace.md. */
 	if (drawable && !drawable->fixed && !st->draw_framebuffer && rect[0] >= 0 && rect[1] >= 0) {
 		if (rect[0] + rect[2] > (float)drawable->width && rect[0] + rect[2] <= 16384)
 			drawable->width = (uint32_t)(rect[0] + rect[2]);

@@ -1,4 +1,4 @@
-/* Later things that a fixed-function program may use: several draw buffers. */
+/* Later features that fixed-function programs may use: several draw buffers. */
 #include "gl_tokens.h"
 #include "replay/gl/surface/attachment.h"
 #include "replay/machine/args.h"
@@ -7,8 +7,10 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
-/* Fixed function gives every buffer the same colour (GL 2.1 sec. 3.11.2, 4.2.1); a shader's are in the order of the
- * list. */
+/*
+ * Fixed function writes the same colour to every buffer (GL 2.1 sec. 3.11.2, 4.2.1); a shader's outputs follow the
+ * order of the list.
+ */
 GLS_HANDLER(glDrawBuffers, STATE)
 {
 	uint32_t list[16] = { GL_NONE }, buffer = GL_NONE, also = 0;

@@ -15,7 +15,7 @@
 #include "replay/machine/state.h"
 #include "scene/mesa.h"
 
-enum { SIDE = 32 }; /* of a polygon stipple */
+enum { SIDE = 32 }; /* rows and columns of a polygon stipple */
 
 GLS_HANDLER(glPointSize, STATE)
 {
@@ -97,7 +97,7 @@ GLS_HANDLER(glPolygonOffset, STATE)
 	st->a.polygon.offset_units = arg_f(c, 1);
 }
 
-/* The bias is in units of depth, not of its resolution. Mesa's libGL has the name, and nothing behind it. */
+/* The bias is in units of depth, not of its resolution. Mesa's libGL exports the function, but it does nothing. */
 GLS_HANDLER(glPolygonOffsetEXT, STATE)
 {
 	if (gls_is_mesa(st))
@@ -107,8 +107,8 @@ GLS_HANDLER(glPolygonOffsetEXT, STATE)
 }
 
 /*
- * 32 rows of 32 bits from row 0 (the lowest) up, unpacked as glDrawPixels unpacks bits; bit 31 becomes the leftmost
- * pixel (sec. 3.5.2). Memory is recorded as numbers, a byte each.
+ * 32 rows of 32 bits from row 0 (the lowest) up, unpacked like glDrawPixels bits; bit 31 becomes the leftmost pixel
+ * (sec. 3.5.2). Memory is recorded as numbers, one per byte.
  */
 GLS_HANDLER(glPolygonStipple, STATE)
 {
@@ -124,7 +124,7 @@ GLS_HANDLER(glPolygonStipple, STATE)
 	if (p.data && !numbers && arg(c, 0)->type != TRACE_BLOB)
 		gls_buffer_keep(x, gls_buffer_find(st, st->client.unpack.buffer));
 	if (!p.data || p.n < wanted)
-		gls_unsupported(x, "stipples beyond what the recording holds");
+		gls_unsupported(x, "stipples that are not in the recording");
 	for (uint32_t row = 0; row < SIDE && p.data && p.n >= wanted; row++) {
 		st->a.polygon_stipple[row] = 0;
 		for (uint32_t bit = 0; bit < SIDE; bit++)

@@ -1,4 +1,4 @@
-/* Shader and program objects of GLSL (GL 2.1 sec. 2.15), and their twins of ARB_shader_objects. */
+/* GLSL shader and program objects (GL 2.1 sec. 2.15), and the equivalent commands of ARB_shader_objects. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@
 #include "replay/programs/program.h"
 #include "scene/mesa.h"
 
-/* A shader, or a program; NULL: there is none of this name. */
+/* A shader, or a program; NULL: none with this name. */
 static struct gls_shader *find(const struct gls_state *st, uint32_t name, int wants_program)
 {
 	struct gls_shader *s = table_find(&st->share->shaders, name);
@@ -23,7 +23,7 @@ static struct gls_shader *find(const struct gls_state *st, uint32_t name, int wa
 	return s && (s->type == 0) == wants_program ? s : NULL;
 }
 
-/* The name that the program was given. */
+/* Create an object under the name that was returned to the program. */
 static void create(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t type)
 {
 	const uint32_t name = (uint32_t)gls_value_int(&c->ret);
@@ -51,7 +51,7 @@ static void remove_object(struct gls_state *st, uint32_t name)
 		gls_shader_free(s);
 }
 
-/* One program fewer has it. */
+/* A program no longer uses a shader. */
 static void detach(struct gls_state *st, uint32_t name)
 {
 	struct gls_shader *s = find(st, name, 0);
@@ -60,7 +60,7 @@ static void detach(struct gls_state *st, uint32_t name)
 		remove_object(st, name);
 }
 
-/* It goes, or waits for the last one that uses it. */
+/* Delete an object, or mark it until nothing uses it any more. */
 static void delete(struct gls_state *st, uint32_t name)
 {
 	struct gls_shader *s = table_find(&st->share->shaders, name);
@@ -104,8 +104,10 @@ GLS_HANDLER(glUseProgramObjectARB, STATE) { use_program(x, st, arg_u(c, 0)); }
 
 /* --- Shaders ----------------------------------------------------------------------------------------------------- */
 
-/* Arguments: the shader, how many strings, the strings, their lengths or NULL. A recording has them cut to these
- * already. */
+/*
+ * Arguments: the shader, the number of strings, the strings, their lengths or NULL. In a recording the strings are
+ * already cut to these lengths.
+ */
 GLS_HANDLER(glShaderSource, NOW)
 {
 	struct gls_shader *s = find(st, arg_u(c, 0), 0);
@@ -199,7 +201,7 @@ GLS_HANDLER(glBindAttribLocation, NOW)
 		gls_fail(x);
 }
 
-/* What the program was told: the linker of the machine that ran it has chosen. */
+/* The location that was returned to the program: the linker of the original machine chose it. */
 GLS_HANDLER(glGetAttribLocation, OBJECT)
 {
 	struct gls_shader *program = find(st, arg_u(c, 0), 1);
@@ -227,7 +229,7 @@ GLS_HANDLER(glGetUniformLocation, NOW)
 
 /* --- Uniforms ---------------------------------------------------------------------------------------------------- */
 
-/* What other contexts that drew with the program last hold; they do not look at what is set here. */
+/* Save the values of other contexts that drew with the program last; they do not see what is set here. */
 static void let_others_hold(struct gls_exec *x, const struct gls_state *st, struct gls_stages *p)
 {
 	for (size_t i = 0; i < x->n_contexts; i++) {
@@ -240,7 +242,7 @@ static void let_others_hold(struct gls_exec *x, const struct gls_state *st, stru
 	}
 }
 
-/* Arguments: the location, then numbers from `first` on, or how many values and an array there. */
+/* Arguments: the location, then numbers from `first` on, or the number of values and an array. */
 static void set_uniform(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t first, uint32_t count,
                         uint32_t rows, uint32_t columns, int transposed)
 {

@@ -1,4 +1,4 @@
-/* Pixels between attachments and pictures. */
+/* Transfers pixels between attachments and pictures. */
 #include "replay/gl/surface/attachment.h"
 
 #include <math.h>
@@ -13,14 +13,14 @@
 
 enum { DEPTH = GLS_ATTACHMENT_DEPTH, STENCIL = GLS_ATTACHMENT_STENCIL };
 
-/* An attachment, found. */
+/* The object behind an attachment. */
 struct target {
 	uint32_t width, height, format;
 	struct gls_renderbuffer *renderbuffer; /* either this, */
 	struct gls_texture *texture;           /* or these three */
 	struct gls_level *level;
-	size_t first; /* texel of the level */
-	int sample;   /* of a renderbuffer's pixels, from 1 on; 0: the mean of all */
+	size_t first; /* index of the first texel in the level */
+	int sample;   /* number of a renderbuffer's sample, from 1 on; 0: the mean of all */
 };
 
 /* @return 0: nothing is attached, or it has no pixels */
@@ -125,19 +125,19 @@ int gls_attachments_describe(const struct gls_share *share, const struct gls_att
 	return any;
 }
 
-/* The picture of a target's sample; NULL: there is none. */
+/* The picture of a target's sample; NULL: none. */
 static struct scene_picture *sample_of(const struct target *t, struct scene_picture *p)
 {
 	return !p || !t->sample ? p : p->samples ? &p->samples[t->sample - 1] : NULL;
 }
 
-/* What a renderbuffer holds, or NULL. */
+/* The contents of a renderbuffer, or NULL. */
 static struct scene_picture *held_by(const struct target *t)
 {
 	return sample_of(t, t->renderbuffer->content ? &t->renderbuffer->content->picture : NULL);
 }
 
-/* Pixels of a picture: from x0 and y0 on, before x1 and y1. */
+/* A part of a picture: from x0 and y0 on, before x1 and y1. */
 struct part {
 	uint32_t x0, y0, x1, y1;
 };
@@ -147,7 +147,7 @@ static uint32_t within(int64_t at, uint32_t size)
 	return at < 0 ? 0 : at < size ? (uint32_t)at : size;
 }
 
-/* area: NULL: all of it */
+/* area: NULL: everything */
 static struct part part_of(const struct gls_surface *s, const struct gls_area *area)
 {
 	const int32_t *r = area ? area->rect : NULL;
@@ -196,14 +196,15 @@ static void load_depth(const struct target *t, const struct part *part, struct s
 
 			if (t->level) {
 				memcpy(&value, t->level->texels + 4 * (t->first + from), 4);
-				*to = (uint32_t)rintf(fminf(fmaxf(value, 0), 1) * steps); /* they may be floats of any value */
+				*to = (uint32_t)rintf(fminf(fmaxf(value, 0), 1) * steps); /* float depths may have any
+				                                                             value */
 			} else if (held_by(t)) {
 				*to = held_by(t)->depth[from];
 			}
 		}
 }
 
-/* Where an attachment keeps its stencil values, or NULL. */
+/* The stencil values of an attachment, or NULL. */
 static uint8_t *stencil_of(const struct target *t)
 {
 	if (t->renderbuffer)
@@ -220,7 +221,7 @@ static void load_stencil(const struct target *t, const struct part *part, struct
 		       part->x1 - part->x0);
 }
 
-/* What attachments hold of one sample, or of the mean (struct target). */
+/* Load one sample from the attachments, or the mean (struct target). */
 static void load_sample(const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS],
                         int color, int sample, const struct gls_surface *s, const struct part *part,
                         struct scene_picture *p)
@@ -234,8 +235,10 @@ static void load_sample(const struct gls_share *share, const struct gls_attachme
 				p->colors[4 * ((size_t)y * p->width + x) + 3] = 1;
 		}
 
-	/* A surface is as small as the smallest of what it draws to. A read buffer may be smaller still: then nothing
-	 * is loaded. */
+	/*
+	 * A surface is as small as the smallest attachment it draws to. A read buffer may be even smaller: then nothing
+	 * is loaded.
+	 */
 	if (color >= 0 && find_target(share, &attached[color], &t) && t.width >= s->width && t.height >= s->height) {
 		t.sample = sample;
 		load_color(&t, part, p);
@@ -261,7 +264,7 @@ struct gls_picture *gls_attachments_load(struct gls_exec *x, const struct gls_sh
 	for (int i = 0; i < N_GLS_ATTACHMENTS; i++)
 		if ((i >= DEPTH || i == color) && find_target(share, &attached[i], &t) && is_missing(&t))
 			return NULL;
-	/* Where it is read in part, the rest is not even touched: alpha, too, is set there alone. */
+	/* If only a part is read, the rest is not even touched: alpha, too, is set in that part only. */
 	p = gls_picture_make(x, &(struct gls_picture_form){ s->width, s->height, s->depth_bits, 8, s->samples,
 	                                                    s->floats });
 	if (!p)
@@ -272,7 +275,7 @@ struct gls_picture *gls_attachments_load(struct gls_exec *x, const struct gls_sh
 	return p;
 }
 
-/* Where a renderbuffer keeps what was drawn; made where there is no room yet. NULL: out of memory */
+/* The picture of a renderbuffer, created if necessary. NULL: out of memory */
 static struct scene_picture *content_of(struct gls_exec *x, const struct target *t)
 {
 	struct gls_renderbuffer *r = t->renderbuffer;

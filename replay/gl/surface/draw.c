@@ -1,4 +1,4 @@
-/* Drawing and clearing: from the state to the surfaces that it draws to. */
+/* Draws and clears: applies the state to the surfaces that it draws to. */
 #include "replay/gl/surface/draw.h"
 
 #include "replay/build/mesh.h"
@@ -9,7 +9,7 @@
 #include "replay/machine/machine.h"
 #include "replay/programs/program.h"
 
-/* 1 where an event can change a surface. If its colours go elsewhere, only depth and stencil count. */
+/* 1 if an event can change a surface. If its colours go elsewhere, only depth and stencil matter. */
 static int is_reached(const struct gls_target *target, const struct gls_event *e)
 {
 	const struct gls_attribs *a = e->attribs;

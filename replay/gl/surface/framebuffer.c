@@ -1,9 +1,9 @@
 /*
  * Framebuffer objects: render to texture.
  *
- * Attachments hold the truth. An object only collects events; they are rendered and written to its attachments when
- * somebody looks at one of these. Later events begin from the attachments. A frame that was not built leaves them
- * missing, as a screen copy does (copytex.c).
+ * Attachments have the actual contents. An object only collects events; they are rendered and stored in its attachments
+ * when something reads one of these. Later events start from the attachments. A frame that is not built leaves them
+ * missing, as with a screen copy (copytex.c).
  */
 #include "replay/gl/surface/framebuffer.h"
 
@@ -24,13 +24,13 @@
 #include "replay/programs/program.h"
 #include "scene/release.h"
 
-#define MANY_EVENTS (1u << 16) /* that an object collects before they are written to its attachments */
+#define MANY_EVENTS (1u << 16) /* most events an object collects before they are stored in its attachments */
 
 enum { DEPTH = GLS_ATTACHMENT_DEPTH, STENCIL = GLS_ATTACHMENT_STENCIL };
 
-/* ---- bringing attachments up to date ---- */
+/* ---- updating attachments ---- */
 
-/* Colours (1 << number): a draw buffer, and others beside it. */
+/* Bit set of colours (1 << number): a draw buffer and others. */
 static uint32_t colors_of(uint32_t buffer, uint32_t others)
 {
 	int color = gls_attachment_color(buffer);
@@ -38,17 +38,17 @@ static uint32_t colors_of(uint32_t buffer, uint32_t others)
 	return (others & ~GLS_OUT_OF_ORDER) | (color >= 0 ? 1u << color : 0);
 }
 
-/* Those that the collected events draw to. */
+/* The colours that the collected events draw to. */
 static uint32_t drawn_colors(const struct gls_framebuffer *fb)
 {
 	return colors_of(fb->drawn_buffer, fb->drawn_too);
 }
 
 /*
- * Render the events, and write the result to the attachments. Fixed function sends the same fragments to all colours
- * (GL 2.1 sec. 3.11.2), shaders may send others. Where these, or what was there before, show, the events are rendered
- * once for each colour. Depth and stencil are the same each time. Where there are no colours, nobody looks at what they
- * were before.
+ * Render the events, and store the result in the attachments. Fixed function sends the same fragments to all colours
+ * (GL 2.1 sec. 3.11.2), shaders may send different ones. If these differ, or earlier contents show through, the events
+ * are rendered once for each colour. Depth and stencil are the same each time. Without colour attachments, their
+ * earlier contents are not needed.
  */
 static void update_colors(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
@@ -78,7 +78,7 @@ static void update_colors(struct gls_exec *x, const struct gls_share *share, str
 	                      p ? others | (color >= 0 ? 1u << color : 0) : others | drawn_colors(fb), p);
 }
 
-/* The color attachment that a frame's events drew to alone, if it holds 8 bits a channel; else NULL. */
+/* The only colour attachment that a frame's events drew to, if it has 8 bits per channel; else NULL. */
 static const struct gls_attachment *only_color(const struct gls_share *share, const struct gls_framebuffer *fb)
 {
 	const uint32_t colors = drawn_colors(fb);
@@ -95,7 +95,7 @@ struct gls_drawn gls_texture_drawn(const struct gls_texture *t)
 	                            (struct gls_drawn){ NULL };
 }
 
-/* All draws of an object's only colours; a texture that is its first level keeps it. */
+/* The draws that made an object's only colour attachment; a texture with this as its level 0 keeps them. */
 static struct gls_drawn drawn_by(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
 	const struct gls_attachment *color = only_color(share, fb);
@@ -112,7 +112,7 @@ static struct gls_drawn drawn_by(struct gls_exec *x, const struct gls_share *sha
 	return drawn ? (struct gls_drawn){ .scene = gls_scene_reference(drawn) } : gls_texture_drawn(t);
 }
 
-/* Render an object's events, if there are any; then begin anew. @return its draws */
+/* Render an object's events, if any, and start over. @return its draws */
 static struct gls_drawn update_drawn(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
 	struct gls_surface *s = &fb->surface;
@@ -147,7 +147,7 @@ struct gls_drawn gls_framebuffer_drawn(struct gls_exec *x, const struct gls_stat
 	return update_drawn(x, st->share, fb);
 }
 
-/* Update all objects but one (NULL: all) to which this is attached. */
+/* Update all objects except one (NULL: all) that share this attachment. */
 static void update_sharing(struct gls_exec *x, const struct gls_share *share, const struct gls_attachment *what,
                            const struct gls_framebuffer *but)
 {
@@ -181,7 +181,7 @@ void gls_units_update(struct gls_exec *x, struct gls_state *st, const struct gls
 				gls_texture_update(x, st, gls_texture_bound(x, st, u, target));
 }
 
-/* ---- what is drawn to and read ---- */
+/* ---- drawing and reading ---- */
 
 static struct gls_framebuffer *find(struct gls_exec *x, struct gls_state *st, uint32_t name)
 {
@@ -276,7 +276,7 @@ void gls_renderbuffer_free(struct gls_renderbuffer *r)
 	free(r);
 }
 
-/* A texture or renderbuffer is deleted. */
+/* Detach a deleted texture or renderbuffer. */
 static void detach(struct gls_exec *x, struct gls_state *st, const struct gls_attachment *what)
 {
 	update_sharing(x, st->share, what, NULL);
@@ -354,7 +354,7 @@ static void attach(struct gls_exec *x, struct gls_state *st, const struct call *
 	uint32_t name = arg_u(c, 0) == GL_READ_FRAMEBUFFER ? st->read_framebuffer : st->draw_framebuffer, point = arg_u(c, 1);
 	struct gls_texture *t = a->texture ? table_find(&st->share->textures, a->texture) : NULL;
 	struct gls_framebuffer *fb = name ? find(x, st, name) : NULL;
-	struct gls_attachment kept = { 0 }; /* texture 0 detaches, whatever its level is */
+	struct gls_attachment kept = { 0 }; /* texture 0 detaches, whatever the level */
 	int color = gls_attachment_color(point);
 
 	if (gls_refuses(x, st,
@@ -437,11 +437,11 @@ static void storage(struct gls_exec *x, struct gls_state *st, uint32_t format, i
 		return;
 	}
 	if (samples > 1 && gls_format_floats(format))
-		gls_unsupported(x, "floats of several samples a pixel: their means are clamped");
+		gls_unsupported(x, "multisampled floats: their means are clamped");
 	update_sharing(x, st->share, &(struct gls_attachment){ .renderbuffer = st->renderbuffer }, NULL);
 	gls_picture_release(r->content);
 	*r = (struct gls_renderbuffer){ .internal_format = format, .width = (uint32_t)width, .height = (uint32_t)height,
-	/* drivers give at least what is asked for */
+	/* drivers provide at least as many as requested */
 	                                .samples = samples > 0 ? SCENE_SAMPLES : 0 };
 }
 
@@ -449,11 +449,11 @@ GLS_HANDLER(glRenderbufferStorage, OBJECT) { storage(x, st, arg_u(c, 1), arg_i(c
 GLS_HANDLER(glRenderbufferStorageMultisample, OBJECT)
 {
 	if (arg_i(c, 1) > SCENE_SAMPLES)
-		gls_unsupported(x, "more than four samples a pixel: four are taken");
+		gls_unsupported(x, "more than four samples per pixel: four are taken");
 	storage(x, st, arg_u(c, 2), arg_i(c, 3), arg_i(c, 4), arg_i(c, 1));
 }
 
-/* ---- deletion of textures: they may be attached ---- */
+/* ---- deletion of textures, which may be attached ---- */
 
 GLS_HANDLER(glDeleteTextures, OBJECT)
 {

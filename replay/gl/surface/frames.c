@@ -1,4 +1,4 @@
-/* Ends of frames: one is shown, deferred, or skipped. */
+/* Ends of frames: a frame is shown, deferred or skipped. */
 #include "replay/gl/surface/frames.h"
 
 #include "replay/build/frame.h"
@@ -11,9 +11,9 @@
 #include "scene/release.h"
 
 /*
- * Of deferred frames, before their scene ends. Each frame may draw over the one before, and so many fragments of a
- * pixel take longer than pictures in between: a frame of 4 draws over 800 x 600 pixels 67 ms with 2^14, 39 with 2^7, 33
- * with 2^5.
+ * Most events of deferred frames before their scene ends. Each frame may draw over the previous one, and many fragments
+ * per pixel take longer than intermediate pictures: a frame of 4 draws over 800 x 600 pixels takes 67 ms with 2^14, 39
+ * with 2^7, 33 with 2^5.
  */
 #define MANY_EVENTS 64u
 
@@ -24,7 +24,7 @@ static struct gls_drawable *swapped(struct gls_exec *x)
 	return gls_window_of(x, x->st ? x->st : &none, x->swapped);
 }
 
-/* What the frame that has ended shows: the back buffer, but for a frame without a swap that drew to the front. */
+/* The surface that a finished frame shows: the back buffer, unless it ended without a swap and drew to the front. */
 static struct gls_surface *shown(struct gls_exec *x, struct gls_drawable *d)
 {
 	return x->unswapped && x->st && gls_front_is_drawn(x->st) ? gls_front_part(x, d) : &d->surface;

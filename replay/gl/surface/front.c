@@ -1,13 +1,13 @@
 /*
  * The front buffer of a double-buffered window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10). A frame that ends with
- * a swap shows the back buffer, which is then in the front buffer, as GL has it (Mesa's software rasterizers leave
- * there what was there before, 22.3.6). One that ends without a swap shows the buffer that is drawn to at its end, also
- * if it is the front buffer.
+ * a swap shows the back buffer, which is then also in the front buffer, as GL requires (Mesa's software rasterizers
+ * leave the old contents there, 22.3.6). A frame that ends without a swap shows the buffer that is drawn to at its end,
+ * even if it is the front buffer.
  *
- * Each has its own colours; both share depth and stencil. While nobody draws to the front buffer or reads it, it costs
- * a reference to what the last swap put there. Afterwards the two are apart: until the next swap both surfaces get
- * every event, its colours where DrawBuffer says so, its depth and stencil always. What the front buffer shows of
- * earlier events is made only after the replay has started again for it (x->feedback.fronts, surface.c).
+ * The buffers have separate colours, and share depth and stencil. While nothing draws to the front buffer or reads it,
+ * it is just a reference to the result of the last swap. Afterwards the two are separate: until the next swap both
+ * surfaces get every event, its colours according to DrawBuffer, its depth and stencil always. Earlier contents of the
+ * front buffer are available only after the replay has started again for them (x->feedback.fronts, surface.c).
  */
 #include "replay/gl/surface/front.h"
 
@@ -68,7 +68,7 @@ static void merge(struct scene_picture *to, const struct scene_picture *colors, 
 	memcpy(to->stencil, rest->stencil, n);
 }
 
-/* The front buffer's colours, with depth and stencil as the back buffer's events leave them. */
+/* The front buffer's colours, with depth and stencil as left by the back buffer's events. */
 static struct gls_picture *start_of(struct gls_exec *x, struct gls_surface *front, struct gls_surface *back)
 {
 	const struct scene_picture *colors = gls_surface_read(x, front, NULL),
@@ -101,7 +101,7 @@ struct gls_surface *gls_front_part(struct gls_exec *x, struct gls_drawable *d)
 	if (known)
 		return front;
 	if (x->feedback.fronts && !(start = start_of(x, front, back)))
-		return front; /* x->feedback.rewind or x->failed says why */
+		return front; /* x->feedback.rewind or x->failed is set */
 	gls_surface_free(front);
 	front->picture = start;
 	front->skipped = !start && x->feedback.supply;

@@ -1,4 +1,4 @@
-/* What a context draws to and reads from: a framebuffer object, or a window's back or front buffer. */
+/* The surfaces that a context draws to and reads from: a framebuffer object, or a window's back or front buffer. */
 #include "replay/gl/surface/screen.h"
 
 #include "gl_tokens.h"
@@ -11,7 +11,7 @@
 static void describe(struct gls_surface *s, const struct gls_drawable *d, const struct gls_state *st)
 {
 	if (s->deferred && (s->width != d->width || s->height != d->height)) {
-		gls_surface_free(s); /* a window of another size keeps nothing */
+		gls_surface_free(s); /* contents are lost if the window's size changes */
 		s->deferred = 0;
 	}
 	s->width = d->width;
@@ -34,7 +34,7 @@ struct gls_drawable *gls_window_of(struct gls_exec *x, const struct gls_state *s
 	return d;
 }
 
-/* What the context draws to; NULL: out of memory, or an incomplete framebuffer object. */
+/* The surface that the context draws to; NULL: out of memory, or an incomplete framebuffer object. */
 static struct gls_surface *surface_of(struct gls_exec *x, struct gls_state *st)
 {
 	struct gls_drawable *d;

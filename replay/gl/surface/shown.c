@@ -17,11 +17,11 @@
 #include "scene/program.h"
 #include "scene/release.h"
 
-#define PIXEL_SLACK 0.01f /* of a pixel, by which a corner may be off */
+#define PIXEL_SLACK 0.01f /* tolerance of a corner's position, in pixels */
 
-/* --- Taking ------------------------------------------------------------------------------------------------------ */
+/* --- Before the draw -------------------------------------------------------------------------------------------- */
 
-/* The texture that a draw may show: unit 0's of two dimensions, or the only one that its program samples. */
+/* The texture that a draw may show: unit 0's 2D texture, or the only one that its program samples. */
 static const struct gls_texture *texture_of(struct gls_exec *x, struct gls_state *st,
                                             const struct gls_texturing *texturing)
 {
@@ -62,7 +62,7 @@ struct gls_drawn gls_shown_by_blit(struct gls_exec *x, struct gls_state *st)
 	return gls_framebuffer_drawn(x, st, st->read_framebuffer);
 }
 
-/* --- Is it shown unchanged? -------------------------------------------------------------------------------------- */
+/* --- Is the picture shown unchanged? ----------------------------------------------------------------------------- */
 
 static int blends_with_own_alpha(const struct scene_material *m)
 {
@@ -71,13 +71,13 @@ static int blends_with_own_alpha(const struct scene_material *m)
 	                    m->blend_dst_rgb == GL_ONE_MINUS_DST_ALPHA);
 }
 
-/* Depth bits that count (struct scene_picture). */
+/* The depth bits that take effect (struct scene_picture). */
 static uint32_t counted(uint32_t depth_bits)
 {
 	return depth_bits > 24 ? 24 : depth_bits;
 }
 
-/* 1 where a program's fragments look at where they are. */
+/* 1 if a program's fragments depend on their window position. */
 static int looks_at_places(const struct scene *s, const struct scene_material *m)
 {
 	const struct scene_program *program = scene_program_of(s, m->fragment_program);
@@ -85,7 +85,7 @@ static int looks_at_places(const struct scene *s, const struct scene_material *m
 	return program && program->inputs >> SCENE_INPUT_POSITION & 1;
 }
 
-/* 1 where an instance has the same colours elsewhere in the window. */
+/* 1 if an instance has the same colours elsewhere in the window. */
 static int moves(const struct scene *s, const struct scene_instance *in, const int32_t rect[4])
 {
 	const struct scene_material *m = &s->materials[in->material];
@@ -95,8 +95,8 @@ static int moves(const struct scene *s, const struct scene_instance *in, const i
 }
 
 /*
- * 1 where events give the same colours in a part of the window as in their object. A window without depth, as those of
- * toolkits, gets the object's: its own draws test none.
+ * 1 if events give the same colours in a part of the window as in their object. A window without depth, as toolkits
+ * use, gets the object's depth buffer: its own draws do not test depth.
  */
 static int suits(const struct scene *s, const struct scene *window, const int32_t rect[4])
 {
@@ -115,7 +115,7 @@ static int suits(const struct scene *s, const struct scene *window, const int32_
 	return 1;
 }
 
-/* 1 where fragments land as they are. */
+/* 1 if fragments are written unchanged. */
 static int passes_through(const struct scene_material *m)
 {
 	return !m->alpha_test && !m->stencil_test && !m->blend && !m->logic_op && (m->color_mask & 7) == 7 &&
@@ -124,7 +124,7 @@ static int passes_through(const struct scene_material *m)
 	       (!m->depth_test || m->depth_func == GL_ALWAYS || m->depth_func == GL_LESS || m->depth_func == GL_LEQUAL);
 }
 
-/* 1 where a quad's colour leaves texels as they are. */
+/* 1 if a quad's colour leaves texels unchanged. */
 static int is_white(const struct scene *s, const struct scene_instance *in, const struct scene_material *m)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
@@ -139,7 +139,7 @@ static int is_white(const struct scene *s, const struct scene_instance *in, cons
 	return mesh->color || (color[0] == 1 && color[1] == 1 && color[2] == 1);
 }
 
-/* The same by fixed function, of its only unit. */
+/* 1 if fixed function, with a single unit, shows texels unchanged. */
 static int shows_fixed(const struct scene *s, const struct scene_instance *in, const struct scene_material *m,
                        struct shown_program *out)
 {
@@ -160,7 +160,7 @@ static const struct scene_unit *unit_of(const struct scene *s, const struct scen
 	return NULL;
 }
 
-/* 1 where fragments have the colours of texels, of *unit at coordinates that `out` receives. */
+/* 1 if fragments have the colours of *unit's texels, at the coordinates stored in `out`. */
 static int shows_texels(const struct scene *s, const struct scene_instance *in, const struct scene_material *m,
                         struct shown_program *out, const struct scene_unit **unit)
 {
@@ -171,8 +171,9 @@ static int shows_texels(const struct scene *s, const struct scene_instance *in, 
 	       ((*unit)->min_filter == GL_NEAREST || (*unit)->min_filter == GL_LINEAR);
 }
 
-/* Where a vertex is, in clip coordinates; all: [4 * SCENE_MAX_UNITS], the texture coordinates that a vertex program
- * gives it. */
+/*
+ * The position of a vertex in clip coordinates; all: [4 * SCENE_MAX_UNITS], texture coordinates from a vertex program.
+ */
 static void place_of(const struct scene *s, const struct scene_instance *in, uint32_t v, float clip[4], float *all)
 {
 	float eye[4];
@@ -183,7 +184,7 @@ static void place_of(const struct scene *s, const struct scene_instance *in, uin
 	mat4_transform(clip, s->views[in->view].projection, eye);
 }
 
-/* The texel that a vertex' coordinates by fixed function name. @return 0: they are generated, or of several units */
+/* The texel at a vertex' fixed-function coordinates. @return 0: they are generated, or belong to several units */
 static int texel_of(const struct scene *s, const struct scene_instance *in, uint32_t v,
                     const struct shown_program *shown, float texel[2])
 {
@@ -202,7 +203,7 @@ static int texel_of(const struct scene *s, const struct scene_instance *in, uint
 	return m->fragment_program || at[3] != 0;
 }
 
-/* A corner's place in the window, and how far that is from its texel. @return 0: it is clipped */
+/* A corner's window position, and its distance from its texel. @return 0: it is clipped */
 static int corner_at(const struct scene *s, const struct scene_instance *in, uint32_t v,
                      const struct shown_program *shown, const struct scene_texture *t, float out[2], float off[2])
 {
@@ -225,7 +226,7 @@ static int corner_at(const struct scene *s, const struct scene_instance *in, uin
 	return 1;
 }
 
-/* 1 where a part of the window is in it and the scissor leaves it whole. */
+/* 1 if a part of the window is inside the view and entirely within the scissor. */
 static int is_left_whole(const struct scene *s, const struct scene_view *view, const int32_t rect[4])
 {
 	const int32_t *scissor = view->scissor;
@@ -235,7 +236,7 @@ static int is_left_whole(const struct scene *s, const struct scene_view *view, c
 	       rect[1] + rect[3] <= (int32_t)s->height;
 }
 
-/* A triangle's area in pixels; 0 if it is not drawn, or its texels come to other pixels than rect says. */
+/* A triangle's area in pixels; 0 if it is not drawn, or maps texels to other pixels than `rect` says. */
 static float shown_area(const struct scene *s, const struct scene_instance *in, const uint32_t index[3],
                         const struct shown_program *shown, const struct scene_texture *t, const int32_t rect[4])
 {
@@ -257,7 +258,7 @@ static float shown_area(const struct scene *s, const struct scene_instance *in, 
 	return 0.5f * fabsf(twice);
 }
 
-/* 1 where triangles bring each texel to its pixel, in all of the part of the window that `rect` receives. */
+/* 1 if triangles map every texel to its pixel, over the whole part of the window that `rect` receives. */
 static int is_whole_quad(const struct scene *s, const struct scene_instance *in, const struct shown_program *shown,
                          const struct scene_texture *t, int32_t rect[4])
 {
@@ -276,7 +277,7 @@ static int is_whole_quad(const struct scene *s, const struct scene_instance *in,
 	return is_left_whole(s, &s->views[in->view], rect) && fabsf(area - (float)t->width * (float)t->height) < 1;
 }
 
-/* The depth that a quad leaves everywhere, into *depth. @return 0: it is not the same everywhere */
+/* The depth that a quad leaves, if it is constant. @return 0: it is not */
 static int left_depth(const struct scene *s, const struct scene_instance *in, float *depth)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
@@ -294,7 +295,7 @@ static int left_depth(const struct scene *s, const struct scene_instance *in, fl
 	return same;
 }
 
-/* 1 where a blit brings all of a picture, of this size, to the part of the window that `rect` receives. */
+/* 1 if a blit maps a whole picture, of this size, to the part of the window that `rect` receives. */
 static int is_whole_rectangle(const struct scene *s, const struct scene_instance *in, uint32_t width, uint32_t height,
                               int32_t rect[4])
 {
@@ -302,7 +303,7 @@ static int is_whole_rectangle(const struct scene *s, const struct scene_instance
 	const float *corner = s->meshes[in->mesh]->position;
 
 	if (!(corner[0] >= 0 && corner[0] < (float)s->width && corner[1] >= 0 && corner[1] < (float)s->height))
-		return 0; /* and no number beyond those that a pixel has */
+		return 0; /* and no number outside a pixel's range */
 	rect[0] = (int32_t)corner[0];
 	rect[1] = (int32_t)corner[1];
 	rect[2] = (int32_t)r->width;
@@ -312,7 +313,7 @@ static int is_whole_rectangle(const struct scene *s, const struct scene_instance
 	       is_left_whole(s, &s->views[in->view], rect);
 }
 
-/* 1 where draws before the last may have left depth or stencil values in the window. */
+/* 1 if draws before the last may have left depth or stencil values in the window. */
 static int has_depths(const struct gls_frame *window)
 {
 	const struct scene *s = window->out;
@@ -334,9 +335,9 @@ static int is_lit(const struct scene *s)
 	return 0;
 }
 
-/* --- Giving ------------------------------------------------------------------------------------------------------ */
+/* --- After the draw --------------------------------------------------------------------------------------------- */
 
-/* What the context draws to, if that is a window's back buffer alone. */
+/* The surface that the context draws to, if that is only a window's back buffer. */
 static struct gls_surface *window_of(struct gls_exec *x, struct gls_state *st)
 {
 	struct gls_target targets[2];

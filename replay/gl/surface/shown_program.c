@@ -5,13 +5,13 @@
 #include "base/mat4.h"
 #include "kernels/gl/instructions.h"
 
-/* --- Fragments: what their registers hold, as far as that is the same for all of them ---------------------------- */
+/* --- Fragments: contents of registers, as far as they are the same for all fragments ----------------------------- */
 
 enum held { NUMBER, INPUT, TEXEL, OTHER };
 
 struct value {
 	enum held held;
-	uint32_t which; /* INPUT: its register; TEXEL: the component */
+	uint32_t which; /* INPUT: the register; TEXEL: the component */
 	float number;
 };
 
@@ -89,13 +89,13 @@ static void compute(struct shading *s, const struct scene_instruction *in)
 		                               a;
 		struct value r = result(in->operation, a, b, c);
 
-		if (in->flags & SCENE_SATURATE && r.held != TEXEL) /* texels are in [0,1] */
+		if (in->flags & SCENE_SATURATE && r.held != TEXEL) /* texels are in [0,1] already */
 			r = r.held == NUMBER ? number(r.number < 0 ? 0 : r.number > 1 ? 1 : r.number) : other;
 		s->registers[in->to + i] = r;
 	}
 }
 
-/* @return 0: not of one place of one texture */
+/* @return 0: does not sample one place of one texture */
 static int sample(struct shading *s, const struct scene_instruction *in)
 {
 	const struct value *c = &s->registers[in->a];
@@ -111,8 +111,9 @@ static int sample(struct shading *s, const struct scene_instruction *in)
 	return 1;
 }
 
-/* Follow a program that goes one way, forwards, whatever the fragment. @return 0: it does not, or does what it may
- * not */
+/*
+ * Follow a program that is straight-line code for all fragments. @return 0: it is not, or uses unsupported operations
+ */
 static int follow(struct shading *s)
 {
 	for (uint32_t at = 0; at < s->program.head->n_instructions; at++) {

@@ -1,5 +1,7 @@
-/* Whether programs show a texture as it is: what a fragment program does to its texels, and where a vertex program puts
- * what. */
+/*
+ * Analyses whether programs show a texture unchanged: how a fragment program uses its texels, and where a vertex
+ * program places them.
+ */
 #pragma once
 
 #include <stdint.h>
@@ -7,15 +9,19 @@
 #include "scene/scene.h"
 
 struct shown_program {
-	uint32_t unit;           /* whose texels the fragments' colours are */
-	uint32_t coordinates[2]; /* numbers among all texture coordinates, four of unit 0 first, that say where */
+	uint32_t unit;           /* the unit whose texels become the fragments' colours */
+	uint32_t coordinates[2]; /* components that address the texture, numbered over all texture coordinates, four per
+	                            unit */
 };
 
-/** @return 1 if a material's fragment program colours each fragment by a texel, unchanged, discards none and leaves
- * depth alone */
+/**
+ * @return 1 if a material's fragment program outputs texels unchanged, discards no fragment and does not write depth
+ */
 int shown_program_of(const struct scene *s, const struct scene_material *m, struct shown_program *out);
 
-/** What a vertex program makes of vertex v. @param coordinates  [4 * SCENE_MAX_UNITS]. @return 0: its place is fixed
- * function's; clip is of no use */
+/**
+ * Run a vertex program for vertex v. @param coordinates  [4 * SCENE_MAX_UNITS]. @return 0: the position is computed by
+ * fixed function; clip is not set
+ */
 int shown_program_vertex(const struct scene *s, const struct scene_instance *in, uint32_t v, float clip[4],
                          float *coordinates);

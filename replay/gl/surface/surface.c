@@ -1,10 +1,10 @@
 /*
- * Pixels of surfaces. The supplier (replay.h) renders them from the scene of all events so far, and only when somebody
- * asks.
+ * Pixels of surfaces. The supplier (replay.h) renders them from the scene of all events so far, and only on demand.
  *
- * A frame may show what the one before left. A surface therefore keeps what it held before its events: as a picture
- * where one was made, else as the scene that would make it. After skipped frames nobody knows it. A frame that turns
- * out to need it sets x->feedback.rewind; replay.c then goes back and builds the frames before it.
+ * A frame may show what the previous one left. A surface therefore keeps its contents from before its events: as a
+ * picture if one was rendered, otherwise as the scene that would produce it. After skipped frames the contents are
+ * unknown. A frame that turns out to need them sets x->feedback.rewind; replay.c then goes back and builds the frames
+ * before it.
  */
 #include "replay/gl/surface/surface.h"
 
@@ -16,13 +16,13 @@
 #include "scene/program.h"
 #include "scene/release.h"
 
-/* Buffers that a scene need not have set everywhere: what it does not show may be from before it. */
+/* Buffers that a scene may not have set everywhere, so that earlier contents may show. */
 static uint32_t kept_by(const struct scene *s)
 {
 	return (s->keeps_depth ? 2u : 0) | (s->stencil_bits ? 4u : 0);
 }
 
-/* What a scene shows. NULL: it cannot be had */
+/* Render a scene. NULL: not possible */
 static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
 {
 	struct gls_picture *p = gls_picture_make(x, &(struct gls_picture_form){ s->width, s->height, s->depth_bits,
@@ -69,7 +69,7 @@ static int has_size(const struct scene_picture *p, const struct scene *s)
 	return p->width == s->width && p->height == s->height;
 }
 
-/* A window of another size keeps nothing, even where its size has changed within a frame. */
+/* Drop earlier contents if the window's size has changed, even within a frame. */
 static void check_size(struct gls_surface *surface, struct scene *s)
 {
 	if ((surface->picture && !has_size(&surface->picture->picture, s)) ||
@@ -81,7 +81,7 @@ static void check_size(struct gls_surface *surface, struct scene *s)
 	}
 }
 
-/* What a surface began with, from the scene that shows it. @return 0: it cannot be had */
+/* Render a surface's initial contents from the scene that shows them. @return 0: not possible */
 static int make_picture(struct gls_exec *x, struct gls_surface *surface)
 {
 	surface->picture = render(x, surface->before);
@@ -108,9 +108,9 @@ int gls_surface_settle(struct gls_exec *x, struct gls_surface *surface)
 	return !gls_frame_events(surface) && (!surface->before || make_picture(x, surface));
 }
 
-#define MOST_HELD 16u /* scenes in a row, should nobody render them */
+#define MOST_HELD 16u /* most scenes in a chain, in case none is rendered */
 
-/* Leave what a scene begins with to who renders it, where only colours of it may show. @return 0: it cannot be */
+/* Leave a scene's initial contents to its renderer, if only colours of them may show. @return 0: not possible */
 static int leave_start(const struct gls_surface *surface, struct scene *s)
 {
 	if (!surface->before || gls_frame_looked(surface) & 6 || scene_before_held(surface->before->before) >= MOST_HELD)
@@ -119,8 +119,7 @@ static int leave_start(const struct gls_surface *surface, struct scene *s)
 	return s->before != NULL;
 }
 
-/* Whether perhaps nothing from before shows: a sky covers it all. Depth that it leaves goes on, though, where it is
- * there. */
+/* 1 if perhaps nothing earlier shows, because a sky covers it all. Depth, if there is any, is kept even so. */
 static int may_cover_all(struct gls_exec *x, const struct gls_surface *surface, const struct scene *s)
 {
 	if (!surface->before)
@@ -130,10 +129,10 @@ static int may_cover_all(struct gls_exec *x, const struct gls_surface *surface, 
 }
 
 /*
- * Give a surface's scene what was there before it, where that shows through.
- * @param leaves    whether that may be left to who renders it
- * @param snapshot  receives a reference to what the scene shows, if that had to be rendered to find out; else NULL
- * @return 1: the scene is whole; 0: it is not, and cannot be made so now
+ * Give a surface's scene its initial contents, if they show through.
+ * @param leaves    1: the renderer may be left to do this
+ * @param snapshot  receives a reference to the scene's picture, if it had to be rendered to find out; else NULL
+ * @return 1: the scene is complete; 0: it is not, and cannot be completed now
  */
 static int find_start(struct gls_exec *x, struct gls_surface *surface, struct scene *s, int leaves,
                       struct gls_picture **snapshot)
@@ -141,7 +140,7 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 	*snapshot = NULL;
 	check_size(surface, s);
 	if (s->start && ((const struct gls_picture *)s->start)->lacks & gls_frame_looked(surface)) {
-		gls_rewind(x, "depth or stencil that they left is looked at");
+		gls_rewind(x, "depth or stencil values that they left are used");
 		return 0;
 	}
 	if (!s->needs_previous || s->start || (!surface->picture && !surface->before && !surface->skipped))
@@ -171,7 +170,7 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 	}
 	s->start = &gls_picture_reference(surface->picture)->picture;
 	if (surface->picture->lacks & gls_frame_looked(surface)) {
-		gls_rewind(x, "depth or stencil that they left is looked at");
+		gls_rewind(x, "depth or stencil values that they left are used");
 		return 0;
 	}
 	return 1;
@@ -197,7 +196,7 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 	kept = gls_frame_snapshot(surface, area);
 	if (kept && has_size(&kept->picture, s))
 		return &kept->picture;
-	/* What was there before need not be made where it is not looked at. */
+	/* Initial contents need not be rendered if they are not read. */
 	in_part = s->needs_previous && !s->start && !surface->picture && (surface->before || surface->skipped) &&
 	          gls_frame_knows(surface, area);
 	if (!in_part && !find_start(x, surface, s, 0, &snapshot))
@@ -209,7 +208,7 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 	return snapshot ? &snapshot->picture : NULL;
 }
 
-/* Whether programs have colours of their own for buffers beside the first. */
+/* 1 if programs write different colours to further buffers. */
 static int has_outputs(const struct scene *s)
 {
 	for (uint32_t i = 0; i < s->n_materials; i++)

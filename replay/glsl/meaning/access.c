@@ -13,13 +13,13 @@ static const struct parse_type *element_of(struct parse *p, const struct parse_t
 	return parse_type(p, t->kind, 1, 0);
 }
 
-/* An array's length that the text has not said is what its largest index needs. */
+/* An array declared without a length gets the length that its largest index needs. */
 static void note_index(struct parse *p, const struct parse_node *of, double index)
 {
 	if (of->operation != GLSL_SYMBOL)
-		parse_error(p, "an array without a length is indexed inside something else");
+		parse_error(p, "an array without a length is indexed inside another type");
 	if (index >= PARSE_MAX_NUMBERS)
-		parse_refuse(p, "a shader has a larger array than is done");
+		parse_refuse(p, "a shader has an array that is too large");
 	if (of->symbol->length <= index)
 		of->symbol->length = (uint32_t)index + 1;
 }
@@ -31,7 +31,7 @@ struct parse_node *parse_index(struct parse *p, struct parse_node *of, struct pa
 	const bool is_open = t->kind == GLSL_ARRAY && !t->length;
 
 	if ((index->type->kind != GLSL_INT && index->type->kind != GLSL_UINT) || !parse_type_is_scalar(index->type))
-		parse_error(p, "an index is of type %s", parse_type_text(p, index->type));
+		parse_error(p, "an index has type %s", parse_type_text(p, index->type));
 	if (is_open && !parse_is_constant(index))
 		parse_error(p, "an array is declared without a length and indexed by a variable");
 	if (parse_is_constant(index)) {
@@ -59,7 +59,7 @@ static struct parse_node *swizzle(struct parse *p, struct parse_node *of, const 
 		const uint32_t component = at ? (uint32_t)(at - sets) % 4 : 4;
 
 		if (name->n > 4 || component >= of->type->rows || (i && (uint32_t)(at - sets) / 4 != set))
-			parse_error(p, "'%s' names no components of %s", name->text, parse_type_text(p, of->type));
+			parse_error(p, "'%s' does not select components of %s", name->text, parse_type_text(p, of->type));
 		set = (uint32_t)(at - sets) / 4;
 		packed |= component << 3 * i;
 	}

@@ -1,4 +1,4 @@
-/* Parts of values: elements, members, components. */
+/* Access to parts of values: elements, members, components. */
 #pragma once
 
 #include "replay/glsl/meaning/nodes.h"

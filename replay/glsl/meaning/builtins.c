@@ -10,15 +10,16 @@
 #define LATER(name, operation, version, extensions, forms) { #name, GLSL_##operation, version, extensions, forms }
 
 /*
- * A form is a letter for the result and one for each argument. F I U B: a number or vector of this kind, V W X Y: a
- * vector, all of one size; f i u b: a number; 2 3 4: a vector of floats; M: a matrix, all of one size, Q: a square one,
- * T: one with rows and columns turned; p q: vectors of sizes of their own, R: the matrix that they make.
+ * The signature of a function is a letter for the result and one for each argument. F I U B: a scalar or vector of this
+ * kind, V W X Y: a vector, all of the same size; f i u b: a scalar; 2 3 4: a vector of floats; M: a matrix, all of the
+ * same size, Q: a square one, T: its transpose's type; p q: vectors of independent sizes, R: the matrix of their outer
+ * product.
  */
 static const struct row {
 	const char *name;
 	enum glsl_operator operation;
-	uint16_t version, extensions; /* from which on, or with which it is there */
-	const char *forms; /* with spaces between */
+	uint16_t version, extensions; /* first version, or extensions, that have it */
+	const char *forms; /* separated by spaces */
 } rows[] = {
 	ROW(radians, RADIANS, "FF"), ROW(degrees, DEGREES, "FF"), ROW(sin, SIN, "FF"), ROW(cos, COS, "FF"),
 	ROW(tan, TAN, "FF"), ROW(asin, ASIN, "FF"), ROW(acos, ACOS, "FF"), ROW(atan, ATAN, "FF FFF"),
@@ -53,20 +54,20 @@ static const struct row {
 	ROW(ftransform, FTRANSFORM, "4"),
 }, of_fragments[] = {
 	ROW(dFdx, DPDX, "FF"), ROW(dFdy, DPDY, "FF"), ROW(fwidth, FWIDTH, "FF"),
-}, of_three[] = { /* AMD_shader_trinary_minmax: of two, twice or more */
+}, of_three[] = { /* AMD_shader_trinary_minmax: each is made of functions of two arguments */
 	LATER(min3, MIN, 999, PARSE_TRINARY, "FFFF IIII UUUU"),
 	LATER(max3, MAX, 999, PARSE_TRINARY, "FFFF IIII UUUU"),
 	LATER(mid3, CLAMP, 999, PARSE_TRINARY, "FFFF IIII UUUU"),
 };
 
-/* What the arguments that were looked at make of a form's letters. */
+/* Sizes and types bound to a signature's letters by the arguments so far. */
 struct form {
-	uint32_t size;                  /* of vectors and numbers; 0: not known */
+	uint32_t size;                  /* of vectors and scalars; 0: unknown */
 	const struct parse_type *given; /* the last matrix */
 	uint32_t sizes[2];              /* of p and q */
 };
 
-/* The row behind another one that has a name; `list` says which table the search is in. */
+/* The next row with this name; `list` says which table the search is in. */
 static const struct row *next_row(const struct parse *p, const char *name, const struct row *row, unsigned *list)
 {
 	static const struct {
@@ -95,7 +96,7 @@ bool parse_is_builtin(const struct parse *p, const char *name)
 	return next_row(p, name, NULL, &list) != NULL;
 }
 
-/* --- Forms -------------------------------------------------------------------------------------------------------- */
+/* --- Signatures --------------------------------------------------------------------------------------------------- */
 
 static enum glsl_kind kind_of(char letter)
 {
@@ -106,7 +107,7 @@ static enum glsl_kind kind_of(char letter)
 	return at ? kinds[(at - letters) / 3] : GLSL_FLOAT;
 }
 
-/* The type that a letter asks for, by what an argument has; NULL: it cannot be. */
+/* The type that a letter requires, given the type of the argument; NULL: no match. */
 static const struct parse_type *wanted(struct parse *p, struct form *form, char letter, const struct parse_type *given)
 {
 	const bool is_matrix = given->kind == GLSL_FLOAT && given->columns;
@@ -157,7 +158,10 @@ static const struct parse_type *result_of(struct parse *p, const struct form *fo
 	}
 }
 
-/* types: receives those of the arguments. @return whether the arguments are of them, or can become so */
+/*
+ * types: receives the types of the parameters. @return true if the arguments have these types or can be converted to
+ * them
+ */
 static bool takes(struct parse *p, const char *letters, const struct parse_nodes *arguments, bool exactly,
                   struct form *form, const struct parse_type *types[MOST_ARGUMENTS])
 {

@@ -1,10 +1,10 @@
-/* Functions that the language has (GLSL 1.50 sec. 8), but for those that sample textures. */
+/* Built-in functions of the language (GLSL 1.50 sec. 8), except those that sample textures. */
 #pragma once
 
 #include "replay/glsl/meaning/nodes.h"
 
-/** Whether the language has a function of this name here. */
+/** True if the language has a function of this name in the current version. */
 bool parse_is_builtin(const struct parse *p, const char *name);
 
-/** A call. @return NULL: none of the name takes these arguments */
+/** A call. @return NULL: no function of this name takes these arguments */
 struct parse_node *parse_builtin_call(struct parse *p, const char *name, const struct parse_nodes *arguments);

@@ -3,5 +3,5 @@
 
 #include "replay/glsl/meaning/nodes.h"
 
-/** A value of a type made of others. An array without a length takes that of its values. */
+/** Construct a value of a type. An array without a length gets its length from the number of values. */
 struct parse_node *parse_construct(struct parse *p, const struct parse_type *type, const struct parse_nodes *values);

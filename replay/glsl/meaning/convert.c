@@ -7,7 +7,7 @@ void parse_need_place(struct parse *p, const struct parse_node *node)
 	struct parse_symbol *s = parse_node_root(node);
 
 	if (!s)
-		parse_error(p, "what is assigned is no variable");
+		parse_error(p, "the target of an assignment is not a variable");
 	if (s->is_fixed || s->storage == GLSL_UNIFORM || s->storage == GLSL_INPUT || s->storage == GLSL_CONSTANT_VALUE)
 		parse_error(p, "'%s' cannot be assigned", s->name->text);
 	s->is_assigned = true;
@@ -44,7 +44,7 @@ struct parse_node *parse_convert(struct parse *p, struct parse_node *node, enum 
 struct parse_node *parse_convert_to(struct parse *p, struct parse_node *node, const struct parse_type *to)
 {
 	if (!parse_may_convert(p, node->type, to))
-		parse_error(p, "a value of type %s stands where %s is wanted", parse_type_text(p, node->type),
+		parse_error(p, "a value of type %s where %s is expected", parse_type_text(p, node->type),
 		            parse_type_text(p, to));
 	return node->type == to ? node : parse_convert(p, node, to->kind);
 }

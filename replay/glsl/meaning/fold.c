@@ -41,7 +41,7 @@ static double of_bits(enum parse_bits bits, enum glsl_kind kind, double a, doubl
 	}
 }
 
-/* Whole numbers' products are right in 64 bits and would not be in a double. */
+/* Products of integers fit into 64 bits, but are not exact as doubles. */
 static double product(enum glsl_kind kind, double a, double b)
 {
 	return kind == GLSL_FLOAT ? a * b : (double)(uint32_t)((uint64_t)(int64_t)a * (uint64_t)(int64_t)b);
@@ -70,10 +70,7 @@ static double of_two(enum glsl_operator operation, enum glsl_kind kind, double a
 	}
 }
 
-/*
- * Sums of products, in the order in which a shader that runs would make them: of a matrix' columns, or of a dot
- * product.
- */
+/* Sums of products, in the order in which the shader would compute them: by a matrix' columns, or as a dot product. */
 static void times(const struct parse_type *x, const double *a, const struct parse_type *y, const double *b, double *to)
 {
 	const uint32_t rows = x->columns ? x->rows : 1, inner = x->columns ? x->columns : x->rows,

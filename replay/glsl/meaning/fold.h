@@ -1,17 +1,14 @@
-/*
- * Values of operators that are known when the text is read. Floats are rounded to 32 bits at each step, as Mesa does
- * it; whole numbers wrap.
- */
+/* Constant folding of operators. Floats are rounded to 32 bits at each step, as in Mesa; integers wrap. */
 #pragma once
 
 #include "replay/glsl/meaning/nodes.h"
 
-/** A number as its kind keeps it. */
+/** A number as rounded or wrapped to its kind. */
 double parse_fold_rounded(enum glsl_kind kind, double value);
 
 struct parse_node *parse_fold_convert(struct parse *p, const struct parse_node *node, const struct parse_type *to);
 
-/* Operators whose nodes are GLSL_OTHER, as their values are not done. */
+/* Operators whose nodes are GLSL_OTHER, because they are not translated. */
 enum parse_bits {
 	PARSE_NO_BITS,
 	PARSE_BIT_AND,
@@ -23,14 +20,16 @@ enum parse_bits {
 };
 
 /**
- * Of one or two constants. `bits` counts where the operation is GLSL_OTHER.
- * @param type  of the value
+ * Fold an operation on one or two constants. `bits` matters only if the operation is GLSL_OTHER.
+ * @param type  of the result
  * @param b     NULL: there is one operand
  */
 struct parse_node *parse_fold(struct parse *p, enum glsl_operator operation, enum parse_bits bits,
                               const struct parse_type *type, const struct parse_node *a, const struct parse_node *b);
 
-/** A value made of others' numbers (GLSL 1.20 sec. 5.4). values: of the value's kind, unless it is an array or a
- * structure */
+/**
+ * Fold a constructor (GLSL 1.20 sec. 5.4). values: converted to the result's kind, unless that is an array or a
+ * structure
+ */
 struct parse_node *parse_fold_construct(struct parse *p, const struct parse_type *type,
                                         const struct parse_nodes *values);

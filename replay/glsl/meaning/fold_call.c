@@ -6,7 +6,7 @@
 
 #define PI 3.14159265358979323846f
 
-/* --- Of one number ------------------------------------------------------------------------------------------------ */
+/* --- Functions of one number -------------------------------------------------------------------------------------- */
 
 static float sign_of(float x)
 {
@@ -75,11 +75,11 @@ static float of_one(enum glsl_operator operation, float x)
 	case GLSL_FRACT: return x - floorf(x);
 	case GLSL_IS_NAN: return isnan(x) != 0;
 	case GLSL_IS_INF: return isinf(x) != 0;
-	default: return 0; /* slopes: the same number everywhere */
+	default: return 0; /* derivatives of a constant */
 	}
 }
 
-/* --- Of several, component by component; whole numbers are exact in doubles --------------------------------------- */
+/* --- Functions of several numbers, by component; integers are exact in doubles ------------------------------------ */
 
 static float smooth_step(float x, float y, float z)
 {
@@ -131,7 +131,7 @@ static void refract(const double *i, const double *n, float eta, uint32_t size, 
 		to[c] = k < 0 ? 0 : eta * (float)i[c] - factor * (float)n[c];
 }
 
-/* @return false: the function is none of geometry's */
+/* @return false: not a geometric function */
 static bool of_vectors(enum glsl_operator operation, double *to, const struct parse_nodes *arguments)
 {
 	const uint32_t n = arguments->at[0]->type->numbers;
@@ -173,7 +173,7 @@ static bool of_vectors(enum glsl_operator operation, double *to, const struct pa
 	}
 }
 
-/* Of the rows and columns that are left in bits; m: n x n. */
+/* The determinant of the submatrix of m (n x n) that has the rows and columns in the bit sets. */
 static float determinant(const double *m, uint32_t n, uint32_t rows, uint32_t columns)
 {
 	uint32_t column = 0;
@@ -216,7 +216,7 @@ static void outer_product(const struct parse_node *c, const struct parse_node *r
 		to[i] = (float)c->numbers[i % c->type->rows] * (float)r->numbers[i / c->type->rows];
 }
 
-/* @return false: the function is none of matrices' */
+/* @return false: not a matrix function */
 static bool of_matrices(enum glsl_operator operation, double *to, const struct parse_nodes *arguments)
 {
 	const struct parse_node *m = arguments->at[0];

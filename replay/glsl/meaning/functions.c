@@ -50,11 +50,11 @@ struct parse_function *parse_declare_function(struct parse *p, struct parse_name
 		parse_error(p, "main has parameters or returns a value");
 	f->result = f->result ? f->result : result;
 	if (f->result != result)
-		parse_error(p, "'%s' is declared with another type already", name->text);
+		parse_error(p, "'%s' is already declared with another type", name->text);
 	for (uint32_t i = 0; i < n; i++)
 		if (f->parameters[i]->storage != parameters[i]->storage ||
 		    f->parameters[i]->is_fixed != parameters[i]->is_fixed)
-			parse_error(p, "'%s' is declared with other parameters already", name->text);
+			parse_error(p, "'%s' is already declared with other parameters", name->text);
 	if (defines && f->body) {
 		if (f->unit == p->n_units)
 			parse_error(p, "'%s' is defined twice", name->text);
@@ -97,7 +97,7 @@ static struct parse_function *choose(struct parse *p, struct parse_name *name, c
 	for (struct parse_function *f = name->functions; f; f = f->next)
 		if (takes(p, f, arguments, false)) {
 			if (found)
-				parse_error(p, "a call of '%s' may mean several functions", name->text);
+				parse_error(p, "a call of '%s' is ambiguous", name->text);
 			found = f;
 		}
 	if (!found)
@@ -118,7 +118,7 @@ static struct parse_node *assignment(struct parse *p, struct parse_node *to, str
 	return node;
 }
 
-/* A call, and after it what its results become of other types. */
+/* A call, followed by the conversion of its output parameters. */
 static struct parse_node *call(struct parse *p, struct parse_function *f, const struct parse_nodes *arguments)
 {
 	struct parse_nodes given = { 0 }, all = { 0 };
@@ -166,8 +166,8 @@ struct parse_node *parse_call(struct parse *p, struct parse_name *name, const st
 	struct parse_node *node = NULL;
 
 	if (name->binding && p->version >= 120)
-		parse_error(p, "'%s' is no function", name->text);
-	if (name->functions) { /* which hide the language's own */
+		parse_error(p, "'%s' is not a function", name->text);
+	if (name->functions) { /* these hide built-in functions */
 		struct parse_function *f = choose(p, name, arguments);
 
 		note_call(p, f);
@@ -184,7 +184,9 @@ struct parse_node *parse_call(struct parse *p, struct parse_name *name, const st
 	return node;
 }
 
-/* --- Circles ------------------------------------------------------------------------------------------------------ */
+/*
+ * --- Recursion -----------------------------------------------------------------------------------------------------
+ */
 
 static void check(struct parse *p, struct parse_function *f)
 {

@@ -18,7 +18,7 @@ struct parse_node *parse_node_of(struct parse *p, enum glsl_operator operation, 
 		if (node->children[i] && node->children[i]->depth > node->depth)
 			node->depth = node->children[i]->depth;
 	if (++node->depth > PARSE_MAX_DEPTH)
-		parse_refuse(p, "a shader nests deeper than is done");
+		parse_refuse(p, "a shader is nested too deeply");
 	return node;
 }
 

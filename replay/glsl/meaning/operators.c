@@ -3,7 +3,7 @@
 #include "replay/glsl/meaning/convert.h"
 #include "replay/glsl/meaning/fold.h"
 
-/* A value of two constants, or a node. */
+/* A folded value, or a node. */
 static struct parse_node *made(struct parse *p, enum glsl_operator operation, enum parse_bits bits,
                                const struct parse_type *type, struct parse_node *a, struct parse_node *b)
 {
@@ -17,7 +17,7 @@ _Noreturn static void mismatch(struct parse *p, const struct parse_node *a, cons
 	parse_error(p, "an operator does not take %s and %s", parse_type_text(p, a->type), parse_type_text(p, b->type));
 }
 
-/* Both become of one kind of number, where the language converts one. */
+/* Convert both operands to a common kind of number, if the language allows it. */
 static void unify(struct parse *p, struct parse_node **a, struct parse_node **b)
 {
 	const struct parse_type *x = (*a)->type, *y = (*b)->type;
@@ -32,7 +32,7 @@ static void unify(struct parse *p, struct parse_node **a, struct parse_node **b)
 		mismatch(p, *a, *b);
 }
 
-/* Products that are none of components. @return GLSL_MULTIPLY: it is one of components */
+/* Matrix products. @return GLSL_MULTIPLY: the product is component-wise */
 static enum glsl_operator product_of(struct parse *p, const struct parse_type *x, const struct parse_type *y,
                                      const struct parse_type **type)
 {
@@ -73,7 +73,7 @@ static struct parse_node *arithmetic(struct parse *p, enum glsl_operator operati
 	return made(p, operation, bits, parse_type_is_scalar(x) ? y : x, a, b);
 }
 
-/* Of whole numbers alone, and not in all versions. */
+/* Integer operators, which not all versions have. */
 static struct parse_node *of_whole_numbers(struct parse *p, uint32_t sign, struct parse_node *a, struct parse_node *b)
 {
 	static const struct {
@@ -151,7 +151,7 @@ struct parse_node *parse_operate(struct parse *p, uint32_t sign, struct parse_no
 void parse_need_bool(struct parse *p, const struct parse_node *node)
 {
 	if (node->type->kind != GLSL_BOOL || !parse_type_is_scalar(node->type))
-		parse_error(p, "a bool is wanted, not %s", parse_type_text(p, node->type));
+		parse_error(p, "a bool is expected, not %s", parse_type_text(p, node->type));
 }
 
 struct parse_node *parse_operate_before(struct parse *p, uint32_t sign, struct parse_node *a)

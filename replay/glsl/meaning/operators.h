@@ -1,23 +1,23 @@
-/* Operators: types of their operands and values (GLSL 1.20 sec. 5). */
+/* Operators: the types of their operands and results (GLSL 1.20 sec. 5). */
 #pragma once
 
 #include "replay/glsl/meaning/nodes.h"
 
-/** A sign between two operands; none that assigns. */
+/** A binary operator other than assignment. */
 struct parse_node *parse_operate(struct parse *p, uint32_t sign, struct parse_node *a, struct parse_node *b);
 
-/** + - ! ~ before an operand. */
+/** Unary + - ! ~. */
 struct parse_node *parse_operate_before(struct parse *p, uint32_t sign, struct parse_node *a);
 
-/** ++ and --, before or behind. */
+/** Prefix and postfix ++ and --. */
 struct parse_node *parse_increment(struct parse *p, enum glsl_operator operation, struct parse_node *a);
 
-/** = and those that operate as well; sign: the operator's without '=', 0: none. */
+/** = and compound assignments; sign: the operator without '=', 0: none. */
 struct parse_node *parse_assign(struct parse *p, uint32_t sign, struct parse_node *to, struct parse_node *value);
 
 /** condition ? a : b */
 struct parse_node *parse_choose(struct parse *p, struct parse_node *condition, struct parse_node *a,
                                 struct parse_node *b);
 
-/** End unless a node is a bool. */
+/** Report an error unless a node is a bool. */
 void parse_need_bool(struct parse *p, const struct parse_node *node);

@@ -31,7 +31,7 @@ void parse_bind(struct parse *p, struct parse_name *name, struct parse_symbol *s
 	struct parse_binding *b;
 
 	if (!p->is_prelude && strncmp(name->text, "gl_", 3) == 0)
-		parse_error(p, "'%s' is a name that the language keeps", name->text);
+		parse_error(p, "'%s' is a reserved name", name->text);
 	if ((name->binding && name->binding->scope == p->scope) ||
 	    (p->scope == 1 && p->version >= 120 && name->functions))
 		parse_error(p, "'%s' is declared twice", name->text);

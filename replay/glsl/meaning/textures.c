@@ -5,11 +5,11 @@
 #include "replay/glsl/meaning/convert.h"
 #include "replay/glsl/text/type_names.h"
 
-/* A function, by the parts of its name. */
+/* A texture function, decoded from its name. */
 struct sampling {
-	enum glsl_operator operation; /* GLSL_OTHER: it is not done */
-	bool is_shadow, is_old;       /* is_old: named after its kind of texture, as before GLSL 1.30 */
-	uint32_t texture;             /* of an old one; with the bits of type_names.h */
+	enum glsl_operator operation; /* GLSL_OTHER: not supported */
+	bool is_shadow, is_old;       /* is_old: named after a kind of texture, as before GLSL 1.30 */
+	uint32_t texture;             /* for is_old; with the bits of type_names.h */
 };
 
 static bool skips(const char **name, const char *part)
@@ -21,7 +21,7 @@ static bool skips(const char **name, const char *part)
 	return is_there;
 }
 
-/* @return false: it names no kind of texture */
+/* @return false: not a kind of texture */
 static bool read_texture(const char **name, uint32_t *texture)
 {
 	if (skips(name, "1D"))
@@ -105,7 +105,7 @@ bool parse_is_texture_call(const struct parse *p, const char *name)
 	return read_name(p, name, &s);
 }
 
-/* Numbers of a place in a texture, with its layer and what a depth is compared with. */
+/* Number of texture coordinates, including the layer and the depth to compare with. */
 static uint32_t place_size(uint32_t texture)
 {
 	static const uint32_t sizes[] = {
@@ -116,7 +116,7 @@ static uint32_t place_size(uint32_t texture)
 
 	if (!(texture & PARSE_SHADOW))
 		return n;
-	return n < 2 ? 3 : n + 1; /* one dimension leaves the second number out */
+	return n < 2 ? 3 : n + 1; /* 1D coordinates leave the second component unused */
 }
 
 static bool is_place(uint32_t texture, bool divided, uint32_t n)
@@ -139,7 +139,7 @@ static const struct parse_type *result_of(struct parse *p, const struct sampling
 	return parse_type(p, kind, texture & PARSE_SHADOW && !s->is_old ? 1 : 4, 0);
 }
 
-/* Functions that are not done: as far as their results' types are needed to read on. */
+/* Unsupported functions: only their result types are needed, to parse what follows. */
 static struct parse_node *other_call(struct parse *p, const char *name, const struct sampling *s,
                                      const struct parse_nodes *arguments)
 {

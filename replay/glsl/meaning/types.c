@@ -17,9 +17,9 @@ static const struct parse_type *intern(struct parse *p, const struct parse_type 
 		    t->structure == wanted->structure)
 			return t;
 	if (wanted->depth > PARSE_MAX_DEPTH)
-		parse_refuse(p, "a shader nests deeper than is done");
+		parse_refuse(p, "a shader is nested too deeply");
 	if (wanted->numbers > PARSE_MAX_NUMBERS)
-		parse_refuse(p, "a shader has a larger array than is done");
+		parse_refuse(p, "a shader has an array that is too large");
 	t = parse_alloc(p, sizeof(*t));
 	*t = *wanted;
 	t->number = parse_alloc(p, sizeof(*t->number));
@@ -47,7 +47,7 @@ const struct parse_type *parse_type_sampler(struct parse *p, uint32_t texture)
 const struct parse_type *parse_type_array(struct parse *p, const struct parse_type *element, uint32_t length)
 {
 	if (length > PARSE_MAX_NUMBERS)
-		parse_refuse(p, "a shader has a larger array than is done");
+		parse_refuse(p, "a shader has an array that is too large");
 	return intern(p, &(struct parse_type){ .kind = GLSL_ARRAY,
 	                                       .length = length,
 	                                       .element = element,
@@ -84,7 +84,7 @@ const struct parse_type *parse_type_structure(struct parse *p, struct parse_name
 		t.holds_array |= members[i].type->holds_array;
 		t.holds_whole |= members[i].type->holds_whole;
 		if (t.numbers > PARSE_MAX_NUMBERS)
-			parse_refuse(p, "a shader has a larger array than is done");
+			parse_refuse(p, "a shader has an array that is too large");
 	}
 	return intern(p, &t);
 }

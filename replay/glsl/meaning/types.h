@@ -1,4 +1,4 @@
-/* Types: one object of each, so that equal types are equal pointers. */
+/* Types. Equal types are the same object, so that pointers can be compared. */
 #pragma once
 
 #include "replay/glsl/text/context.h"
@@ -8,7 +8,7 @@ struct parse_member {
 	const struct parse_type *type;
 };
 
-/* One of these for each name with members of these names and types, whichever unit and scope it is in. */
+/* One object for each combination of a name and members, whichever unit and scope it is in. */
 struct parse_structure {
 	struct parse_structure *next;
 	struct parse_name *name;
@@ -19,11 +19,11 @@ struct parse_structure {
 struct parse_type {
 	struct parse_type *next;
 	enum glsl_kind kind;
-	uint32_t rows, columns;  /* as of struct glsl_type */
+	uint32_t rows, columns;  /* as in struct glsl_type */
 	uint32_t texture;        /* with the bits of type_names.h */
-	uint32_t length;         /* of an array; 0: the text has not said it yet */
-	uint32_t depth, numbers; /* depth: how far arrays and structures nest */
-	uint32_t *number;        /* 1 + that in the tree; 0: none yet */
+	uint32_t length;         /* of an array; 0: not known yet */
+	uint32_t depth, numbers; /* depth: nesting depth of arrays and structures */
+	uint32_t *number;        /* 1 + index in the tree; 0: not in the tree yet */
 	const struct parse_type *element;
 	struct parse_structure *structure;
 	bool holds_sampler, holds_array, holds_whole; /* holds_whole: int or uint */
@@ -48,5 +48,5 @@ static inline bool parse_type_is_vector(const struct parse_type *t)
 	return t->kind >= GLSL_FLOAT && t->kind <= GLSL_BOOL && t->rows > 1 && !t->columns;
 }
 
-/** How a message names a type: text that lives as long as the stage. */
+/** The name of a type in messages; lives as long as the stage. */
 const char *parse_type_text(struct parse *p, const struct parse_type *t);

@@ -12,7 +12,7 @@
 
 /* --- Variables ---------------------------------------------------------------------------------------------------- */
 
-/* An array without a length, or the language's own variable, is declared again. */
+/* Redeclare a built-in variable, or an array without a length. */
 static void redeclare(struct parse *p, struct parse_symbol *s, const struct parse_qualifiers *q,
                       const struct parse_type *type, enum glsl_storage storage)
 {
@@ -22,7 +22,7 @@ static void redeclare(struct parse *p, struct parse_symbol *s, const struct pars
 	if (!s->is_built_in && !(type->kind == GLSL_ARRAY && s->type->kind == GLSL_ARRAY))
 		parse_error(p, "'%s' is declared twice", s->name->text);
 	if ((type != s->type && !gets_length) || storage != s->storage)
-		parse_error(p, "'%s' is declared otherwise already", s->name->text);
+		parse_error(p, "'%s' is already declared differently", s->name->text);
 	if (type == s->type && !s->is_built_in && !(type->kind == GLSL_ARRAY && !type->length))
 		parse_error(p, "'%s' is declared twice", s->name->text);
 	if (gets_length && type->length &&
@@ -31,10 +31,10 @@ static void redeclare(struct parse *p, struct parse_symbol *s, const struct pars
 	if (gets_length && type->length)
 		s->type = type;
 	if (s->is_built_in && (q->flat || q->straight))
-		parse_refuse(p, "a shader has inputs that are not interpolated in perspective");
+		parse_refuse(p, "a shader has inputs without perspective interpolation");
 }
 
-/* What another unit of the stage calls so. */
+/* The symbol of the same name in another unit of the stage. */
 static struct parse_symbol *shared_symbol(struct parse *p, struct parse_symbol *s, const struct parse_type *type,
                                           enum glsl_storage storage)
 {
@@ -42,7 +42,7 @@ static struct parse_symbol *shared_symbol(struct parse *p, struct parse_symbol *
 	                        type->element == s->type->element;
 
 	if (storage != s->storage || (type != s->type && !(are_arrays && (!type->length || !s->type->length))))
-		parse_link_error(p, "'%s' is declared in two ways", s->name->text);
+		parse_link_error(p, "'%s' is declared in different ways", s->name->text);
 	if (are_arrays && type->length)
 		s->type = type;
 	if (s->type->kind == GLSL_ARRAY && s->type->length && s->type->length < s->length)
@@ -80,7 +80,7 @@ static void check_type(struct parse *p, const struct parse_name *name, const str
 	if (type->kind == GLSL_VOID)
 		parse_error(p, "'%s' is void", name->text);
 	if (type->holds_sampler && storage != GLSL_UNIFORM)
-		parse_error(p, "the sampler '%s' is no uniform", name->text);
+		parse_error(p, "the sampler '%s' is not a uniform", name->text);
 	for (const struct parse_type *t = type->kind == GLSL_ARRAY ? type->element : NULL; t && t->kind == GLSL_ARRAY;
 	     t = t->element)
 		if (!t->length)
@@ -88,7 +88,7 @@ static void check_type(struct parse *p, const struct parse_name *name, const str
 	parse_check_link(p, q, storage, type);
 }
 
-/* @return what sets a variable when the shader runs; NULL: nothing needs to */
+/* @return the node that initializes a variable at run time; NULL: none is needed */
 static struct parse_node *initialize(struct parse *p, struct parse_symbol *s, struct parse_node *value)
 {
 	struct parse_node *node;
@@ -97,7 +97,7 @@ static struct parse_node *initialize(struct parse *p, struct parse_symbol *s, st
 	    value->type->element == s->type->element)
 		s->type = value->type;
 	if (s->type->kind == GLSL_ARRAY && p->version < 120)
-		parse_error(p, "an array has a value from its declaration on, which needs GLSL 1.20");
+		parse_error(p, "an initializer of an array needs GLSL 1.20");
 	value = parse_convert_to(p, value, s->type);
 	if (s->storage == GLSL_UNIFORM || s->storage == GLSL_CONSTANT_VALUE) {
 		if (parse_is_constant(value)) {
@@ -105,7 +105,7 @@ static struct parse_node *initialize(struct parse *p, struct parse_symbol *s, st
 			return NULL;
 		}
 		if (s->storage == GLSL_UNIFORM || p->scope <= 1 || !parse_has(p, 420, PARSE_PACK))
-			parse_error(p, "'%s' has no constant value", s->name->text);
+			parse_error(p, "the initializer of '%s' is not constant", s->name->text);
 		s->storage = GLSL_LOCAL;
 		s->is_fixed = true;
 	}
@@ -120,11 +120,11 @@ static enum glsl_storage storage_of(struct parse *p, const struct parse_qualifie
 		return parse_global_storage(p, q);
 	if (q->is_attribute || q->is_uniform || q->is_varying || q->is_in || q->is_out || q->flat || q->smooth ||
 	    q->straight)
-		parse_error(p, "a variable in a function has a kind of storage that is none of functions");
+		parse_error(p, "a local variable has an invalid storage qualifier");
 	return q->is_const ? GLSL_CONSTANT_VALUE : GLSL_LOCAL;
 }
 
-/* One variable, from behind its name on. */
+/* Parse one variable, starting after its name. */
 static void read_variable(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *type,
                           struct parse_name *name, struct parse_nodes *list)
 {
@@ -137,10 +137,10 @@ static void read_variable(struct parse *p, const struct parse_qualifiers *q, con
 	s = declare(p, name, q, type, storage);
 	if (parse_accept(p, '=')) {
 		if (storage == GLSL_INPUT || storage == GLSL_OUTPUT || (storage == GLSL_UNIFORM && p->version < 120))
-			parse_error(p, "'%s' cannot have a value from its declaration on", name->text);
+			parse_error(p, "'%s' cannot have an initializer", name->text);
 		if (parse_is_sign(&p->now, '{'))
-			parse_refuse(p, "a shader has lists of values in braces, which are not done");
-		value = parse_assignment(p); /* in which the name is still what it was */
+			parse_refuse(p, "a shader has initializer lists, which are not supported");
+		value = parse_assignment(p); /* the new variable is not in scope here yet */
 	} else if (storage == GLSL_CONSTANT_VALUE) {
 		parse_error(p, "the constant '%s' has no value", name->text);
 	}
@@ -173,7 +173,7 @@ void parse_local_declaration(struct parse *p, struct parse_nodes *list)
 		parse_variables(p, &q, type, name, list);
 		return;
 	}
-	parse_prototype(p, &q, type, name); /* GLSL 1.10 has them in functions, too */
+	parse_prototype(p, &q, type, name); /* GLSL 1.10 also allows them in functions */
 	parse_expect(p, ';');
 }
 
@@ -190,7 +190,9 @@ struct parse_node *parse_condition_variable(struct parse *p)
 	return list.at[0];
 }
 
-/* --- Others ------------------------------------------------------------------------------------------------------- */
+/*
+ * --- Other declarations --------------------------------------------------------------------------------------------
+ */
 
 void parse_block(struct parse *p, const struct parse_qualifiers *q)
 {

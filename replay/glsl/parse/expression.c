@@ -47,11 +47,11 @@ uint32_t parse_constant_length(struct parse *p)
 
 	if (!parse_is_constant(node) || !parse_type_is_scalar(node->type) ||
 	    (node->type->kind != GLSL_INT && node->type->kind != GLSL_UINT))
-		parse_error(p, "an array's length is no constant whole number");
+		parse_error(p, "an array's length is not a constant integer");
 	if (!(node->numbers[0] > 0))
 		parse_error(p, "an array's length is not above 0");
 	if (node->numbers[0] > PARSE_MAX_NUMBERS)
-		parse_refuse(p, "a shader has a larger array than is done");
+		parse_refuse(p, "a shader has an array that is too large");
 	return (uint32_t)node->numbers[0];
 }
 
@@ -66,7 +66,7 @@ const struct parse_type *parse_array_lengths(struct parse *p, const struct parse
 		parse_error(p, "an array of void");
 	length = parse_is_sign(&p->now, ']') ? 0 : parse_constant_length(p);
 	parse_expect(p, ']');
-	type = parse_array_lengths(p, type); /* the first bracket is the outermost array */
+	type = parse_array_lengths(p, type); /* the first bracket belongs to the outermost array */
 	if (type->kind == GLSL_ARRAY && !parse_has(p, 430, PARSE_ARRAYS))
 		parse_error(p, "an array of arrays needs GLSL 4.30");
 	parse_leave(p);
@@ -75,7 +75,7 @@ const struct parse_type *parse_array_lengths(struct parse *p, const struct parse
 
 /* --- Operands ----------------------------------------------------------------------------------------------------- */
 
-/* Behind '(', up to ')'. */
+/* Parse arguments after '(', up to ')'. */
 static struct parse_nodes arguments_of(struct parse *p)
 {
 	struct parse_nodes list = { 0 };
@@ -101,7 +101,7 @@ static struct parse_node *variable(struct parse *p, struct parse_name *name)
 	if (!s)
 		parse_error(p, "'%s' is not declared", name->text);
 	if (s->is_block)
-		parse_refuse(p, "a shader has blocks of uniforms or of inputs, which are not done");
+		parse_refuse(p, "a shader has uniform or input blocks, which are not supported");
 	return s->storage == GLSL_CONSTANT_VALUE ? parse_node_numbers(p, s->type, s->numbers) : parse_node_symbol(p, s);
 }
 
@@ -199,7 +199,7 @@ static struct parse_node *unary(struct parse *p)
 	return node;
 }
 
-/* How strongly a sign binds its operands; 0: it is no operator between two. */
+/* Precedence of a binary operator; 0: not one. */
 static uint32_t strength(const struct parse_token *token)
 {
 	switch (token->kind == PARSE_SIGN ? token->sign : 0) {
@@ -250,7 +250,7 @@ static struct parse_node *conditional(struct parse *p)
 	return parse_choose(p, node, yes, parse_assignment(p));
 }
 
-/* The operator that an assigning sign has with it; 0: none. */
+/* The operator of a compound assignment; 0: none. */
 static uint32_t operator_of(uint32_t sign)
 {
 	return sign > 0xffff ? sign & 0xffff : sign & 0xff;

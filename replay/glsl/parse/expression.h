@@ -1,22 +1,21 @@
-/* Expressions (GLSL 1.50 sec. 5, grammar in sec. 9). */
+/* Parser for expressions (GLSL 1.50 sec. 5, grammar in sec. 9). */
 #pragma once
 
 #include "replay/glsl/meaning/nodes.h"
 
 struct parse_node *parse_expression(struct parse *p);
 
-/** One without commas of its own. */
+/** An expression without top-level commas. */
 struct parse_node *parse_assignment(struct parse *p);
 
-/** A whole number that is known now, and may be an array's length. */
+/** A constant integer that is valid as an array's length. */
 uint32_t parse_constant_length(struct parse *p);
 
-/** [..] behind a type or a name, if any: the type that it makes. [] is length 0 */
+/** Parse any [..] after a type or a name. @return the resulting type; [] gives length 0 */
 const struct parse_type *parse_array_lengths(struct parse *p, const struct parse_type *type);
 
-/** A type of the language, or a structure's name, without brackets. @return NULL: the token names none; nothing was
- * taken */
+/** Parse a built-in type or a structure's name, without brackets. @return NULL: not a type; nothing was consumed */
 const struct parse_type *parse_named_type(struct parse *p);
 
-/** Whether a token names a type. */
+/** True if a token names a type. */
 bool parse_names_type(const struct parse *p, const struct parse_token *token);

@@ -11,7 +11,7 @@
 #define MAX_NODES 200000
 #define N_KEPT 256
 
-/* Numbers that are in the tree already. */
+/* Numbers already in the tree. */
 struct kept {
 	struct kept *next;
 	const double *numbers;
@@ -20,13 +20,13 @@ struct kept {
 
 struct flat {
 	struct parse *p;
-	struct glsl_tree tree; /* in the arena */
+	struct glsl_tree tree; /* allocated from the arena */
 	struct kept *kept[N_KEPT];
 	uint32_t type_room, member_room, symbol_room, node_room, function_room, child_room, number_room, name_room;
 	uint32_t depth;
 };
 
-/* Room behind a list of the tree. */
+/* Make room at the end of a list of the tree. */
 #define GROW(f, list, room)                                                                                            \
 	((f)->tree.list = parse_grow((f)->p, (f)->tree.list, (f)->tree.n_##list, &(f)->room, sizeof(*(f)->tree.list)))
 
@@ -99,7 +99,7 @@ static uint32_t add_numbers(struct flat *f, const double *numbers, uint32_t n)
 		if (k->numbers == numbers && k->n == n)
 			return k->first;
 	if (first + n > MAX_NODES)
-		parse_refuse(f->p, "a shader has more numbers than are done");
+		parse_refuse(f->p, "a shader has too many constants");
 	for (uint32_t i = 0; i < n; i++) {
 		GROW(f, numbers, number_room);
 		f->tree.numbers[f->tree.n_numbers++] = (float)numbers[i];
@@ -110,7 +110,7 @@ static uint32_t add_numbers(struct flat *f, const double *numbers, uint32_t n)
 	return first;
 }
 
-/* What an array without a length has become. */
+/* The final type of an array declared without a length. */
 static const struct parse_type *whole_type(struct flat *f, const struct parse_symbol *s)
 {
 	if (s->type->kind != GLSL_ARRAY || s->type->length)
@@ -145,7 +145,7 @@ static uint32_t add(struct flat *f, enum glsl_operator operation, uint32_t type,
 	const uint32_t first = f->tree.n_children;
 
 	if (f->tree.n_nodes >= MAX_NODES)
-		parse_refuse(f->p, "a shader is larger than is done");
+		parse_refuse(f->p, "a shader is too large");
 	for (uint32_t i = 0; i < n; i++) {
 		GROW(f, children, child_room);
 		f->tree.children[f->tree.n_children++] = children[i];
@@ -167,8 +167,7 @@ static uint32_t function_of(struct flat *f, struct parse_function *function)
 	return function->number - 1;
 }
 
-/* (A B) v is A (B v), as in Mesa: in 22.3.6 however many matrices there are, in 25.0.7 without a look at what that
- * makes. */
+/* (A B) v becomes A (B v), as in Mesa: in 22.3.6 for any number of matrices, in 25.0.7 not again for the result. */
 static uint32_t times_vector(struct flat *f, struct parse_node *matrix, uint32_t vector, const struct parse_type *type,
                              bool is_taken_apart)
 {
@@ -178,7 +177,7 @@ static uint32_t times_vector(struct flat *f, struct parse_node *matrix, uint32_t
 	uint32_t both[2], made;
 
 	if (++f->depth > PARSE_MAX_DEPTH)
-		parse_refuse(f->p, "a shader nests deeper than is done");
+		parse_refuse(f->p, "a shader is nested too deeply");
 	if (product->operation != GLSL_MATRIX_TIMES_MATRIX || !is_taken_apart) {
 		both[0] = flatten(f, matrix);
 		both[1] = vector;
@@ -224,7 +223,7 @@ static uint32_t flatten(struct flat *f, struct parse_node *node)
 	uint32_t made;
 
 	if (++f->depth > PARSE_MAX_DEPTH)
-		parse_refuse(f->p, "a shader nests deeper than is done");
+		parse_refuse(f->p, "a shader is nested too deeply");
 	if (node->operation == GLSL_SYMBOL && node->symbol->product)
 		made = flatten(f, node->symbol->product);
 	else if (node->operation == GLSL_SYMBOL)
@@ -301,7 +300,7 @@ void parse_flatten(struct parse *p, struct glsl_tree *tree)
 	f->p = p;
 	parse_check_calls(p);
 	if (is_assigned(p, "gl_FragColor") + is_assigned(p, "gl_FragData") + p->assigns_color > 1)
-		parse_link_error(p, "colours are assigned by names of two kinds");
+		parse_link_error(p, "colours are assigned through two kinds of output");
 	parse_find_products(p);
 	f->tree.main = function_of(f, main_of(p));
 	for (uint32_t i = 0; i < p->root->n; i++)

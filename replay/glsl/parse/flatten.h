@@ -1,7 +1,7 @@
-/* From nodes with pointers to the tree that the translation reads. */
+/* Converts nodes with pointers to the tree that the translator reads. */
 #pragma once
 
 #include "replay/glsl/meaning/nodes.h"
 
-/** Fill a tree that is all zero with what the stage has: p->root. It owns its arrays. */
+/** Fill in an all-zero tree from p->root. The tree owns its arrays. */
 void parse_flatten(struct parse *p, struct glsl_tree *tree);

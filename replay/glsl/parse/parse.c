@@ -8,7 +8,7 @@
 #include "replay/glsl/parse/flatten.h"
 #include "replay/glsl/parse/unit.h"
 
-/* What may end early is a function of its own: no variable of it is needed afterwards. */
+/* Everything that may longjmp is in this function, so that none of its variables are needed afterwards. */
 static void read_all(struct parse *p, const char *const *texts, uint32_t n, struct glsl_tree *tree)
 {
 	p->root = parse_alloc(p, sizeof(*p->root));

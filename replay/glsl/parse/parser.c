@@ -39,7 +39,7 @@ bool parse_accept(struct parse *p, uint32_t sign)
 _Noreturn void parse_unexpected(struct parse *p)
 {
 	if (p->now.kind == PARSE_END)
-		parse_error(p, "the text ends too early");
+		parse_error(p, "unexpected end of the text");
 	parse_error(p, "'%.*s' is not expected here", (int)(p->now.n < 60 ? p->now.n : 60), p->now.text);
 }
 

@@ -4,10 +4,10 @@
 #define VERTEX (1u << GLSL_VERTEX_STAGE)
 #define FRAGMENT (1u << GLSL_FRAGMENT_STAGE)
 
-/* Lengths are Mesa's (22.3.6). Other limits are large: the program was linked when it was recorded. */
+/* Array lengths are Mesa's (22.3.6). Other limits are generous: the program did link when it was recorded. */
 static const struct {
 	uint32_t stages, version, extensions;
-	bool is_old; /* the core profile does not have it */
+	bool is_old; /* not in the core profile */
 	const char *text;
 } parts[] = {
 	{ BOTH, 0, 0, false,

@@ -2,7 +2,7 @@
 
 #include "replay/glsl/meaning/functions.h"
 
-#define MOST_STATEMENTS 64 /* between a product and its use: texts can be long */
+#define MOST_STATEMENTS 64 /* largest distance between a product and its use: texts can be long */
 #define MAX_NODES 200000
 
 static void count(struct parse *p, const struct parse_node *node, uint32_t *n)
@@ -10,7 +10,7 @@ static void count(struct parse *p, const struct parse_node *node, uint32_t *n)
 	if (!node)
 		return;
 	if (++*n > MAX_NODES)
-		parse_refuse(p, "a shader is larger than is done");
+		parse_refuse(p, "a shader is too large");
 	if (node->operation == GLSL_SYMBOL)
 		node->symbol->named++;
 	for (uint32_t i = 0; i < node->n; i++)
@@ -26,7 +26,7 @@ static bool names(const struct parse_node *node, const struct parse_symbol *s)
 	return found;
 }
 
-/* Whether nothing in it branches, calls, or counts up or down. */
+/* True if a node has no branches, calls, increments or decrements. */
 static bool is_straight(const struct parse_node *node)
 {
 	const enum glsl_operator operation = node ? node->operation : GLSL_SEQUENCE;
@@ -38,7 +38,7 @@ static bool is_straight(const struct parse_node *node)
 	return straight;
 }
 
-/* Whether it assigns something that a product names. product: NULL: anything */
+/* True if a node assigns something that a product uses. product: NULL: anything */
 static bool writes(const struct parse_node *node, const struct parse_node *product)
 {
 	bool found = false;
@@ -53,7 +53,7 @@ static bool writes(const struct parse_node *node, const struct parse_node *produ
 	return found;
 }
 
-/* Whether a variable is a factor of a product of matrices, or before a vector. */
+/* True if a variable is a factor of a product of matrices, or multiplied by a vector. */
 static bool is_factor(const struct parse_node *node, const struct parse_symbol *s)
 {
 	bool found = false;
@@ -83,7 +83,7 @@ static bool is_used_straight(const struct parse_nodes *statements, uint32_t next
 	return false;
 }
 
-/* Statements one after the other, those of sequences inside among them. */
+/* Flatten nested sequences into one list of statements. */
 static void list(struct parse *p, const struct parse_node *sequence, struct parse_nodes *statements)
 {
 	for (uint32_t i = 0; i < sequence->n; i++)

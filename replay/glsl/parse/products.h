@@ -1,11 +1,11 @@
 /*
- * Variables that stand for a product of matrices without effects: set once, and named once more, as a factor, in a
- * statement that follows straight, with nothing of the product changed by then. Mesa (22.3.6) puts the product there,
- * and does it from a vector on.
+ * Finds variables that hold a product of matrices, without side effects: assigned once, and used once, as a factor, in
+ * straight-line code that follows, with no operand of the product changed in between. Mesa (22.3.6) substitutes the
+ * product, and then multiplies starting from the vector.
  */
 #pragma once
 
 #include "replay/glsl/meaning/nodes.h"
 
-/** Set symbol.product of all of them in p->root. Ends where that holds more nodes than are done. */
+/** Set symbol.product for all of these in p->root. Reports an error if that has too many nodes. */
 void parse_find_products(struct parse *p);

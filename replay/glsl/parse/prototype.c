@@ -24,13 +24,13 @@ static struct parse_symbol *read_parameter(struct parse *p)
 	type = parse_array_lengths(p, type);
 	if (type->kind == GLSL_VOID || (type->kind == GLSL_ARRAY && !type->length) ||
 	    (type->holds_sampler && storage != GLSL_IN))
-		parse_error(p, "a parameter is of type %s", parse_type_text(p, type));
+		parse_error(p, "a parameter has type %s", parse_type_text(p, type));
 	s = parse_symbol(p, name, type, storage);
 	s->is_fixed = q.is_const || type->holds_sampler;
 	return s;
 }
 
-/* Behind '(', up to ')'. */
+/* Parse parameters after '(', up to ')'. */
 static struct parameters read_parameters(struct parse *p)
 {
 	struct parameters list = { 0 };
@@ -53,7 +53,7 @@ struct parse_function *parse_prototype(struct parse *p, const struct parse_quali
 	const struct parameters list = read_parameters(p);
 
 	if (q->any_storage)
-		parse_error(p, "the function '%s' has a kind of storage", name->text);
+		parse_error(p, "the function '%s' has a storage qualifier", name->text);
 	if (result->holds_sampler || (result->kind == GLSL_ARRAY && (!result->length || p->version < 120)))
 		parse_error(p, "'%s' returns %s", name->text, parse_type_text(p, result));
 	return parse_declare_function(p, name, result, list.at, list.n, parse_is_sign(&p->now, '{'));

@@ -14,11 +14,11 @@ static uint32_t layout_number(struct parse *p)
 	node = parse_assignment(p);
 	if (!parse_is_constant(node) || node->type->kind != GLSL_INT || !parse_type_is_scalar(node->type) ||
 	    node->numbers[0] < 0 || node->numbers[0] > PARSE_MAX_NUMBERS)
-		parse_error(p, "a layout has a number that is not done");
+		parse_error(p, "a layout has an unsupported number");
 	return (uint32_t)node->numbers[0];
 }
 
-/* Behind `layout`. */
+/* Parse the rest of a `layout`. */
 static void read_layout(struct parse *p, struct parse_qualifiers *q)
 {
 	static const char *const harmless[] = { "std140",         "shared",        "packed",
@@ -35,7 +35,7 @@ static void read_layout(struct parse *p, struct parse_qualifiers *q)
 			parse_unexpected(p);
 		parse_advance(p);
 		if (parse_is_word(&word, "origin_upper_left") || parse_is_word(&word, "pixel_center_integer"))
-			parse_refuse(p, "a shader counts gl_FragCoord in another way than is done");
+			parse_refuse(p, "a shader has an unsupported layout of gl_FragCoord");
 		if (parse_is_word(&word, "location"))
 			q->location = layout_number(p);
 		else if (parse_is_word(&word, "binding"))
@@ -88,7 +88,7 @@ struct parse_qualifiers parse_qualifiers(struct parse *p)
 			return q;
 		}
 		if (twice || (to && *to))
-			parse_error(p, "'%s' stands here twice", p->now.name->text);
+			parse_error(p, "'%s' is repeated", p->now.name->text);
 		if (to)
 			*to = true;
 		parse_advance(p);
@@ -101,15 +101,15 @@ enum glsl_storage parse_global_storage(struct parse *p, const struct parse_quali
 	const unsigned n = q->is_const + q->is_attribute + q->is_uniform + q->is_varying + q->is_in + q->is_out;
 
 	if (n > 1)
-		parse_error(p, "a variable has several kinds of storage");
+		parse_error(p, "a variable has several storage qualifiers");
 	if ((q->is_in || q->is_out) && !parse_has(p, 130, 0))
 		parse_error(p, "'in' and 'out' outside of functions need GLSL 1.30");
 	if (q->location != GLSL_NONE && !q->is_uniform && !(is_vertex ? q->is_in || q->is_attribute : q->is_out))
-		parse_refuse(p, "a shader has locations of what goes from stage to stage, which are not done");
+		parse_refuse(p, "a shader has locations of varyings, which are not supported");
 	if (q->is_invariant && !(q->is_varying || (is_vertex ? q->is_out : q->is_in || q->is_out)))
-		parse_error(p, "a variable that is not handed on is invariant");
+		parse_error(p, "a variable that is not an output is invariant");
 	if (q->is_attribute && !is_vertex)
-		parse_error(p, "a shader of fragments has attributes");
+		parse_error(p, "a fragment shader has attributes");
 	if (q->is_const)
 		return GLSL_CONSTANT_VALUE;
 	if (q->is_uniform)
@@ -122,11 +122,11 @@ enum glsl_storage parse_global_storage(struct parse *p, const struct parse_quali
 enum glsl_storage parse_parameter_storage(struct parse *p, const struct parse_qualifiers *q)
 {
 	if (q->is_attribute || q->is_uniform || q->is_varying || q->is_invariant || (q->is_const && q->is_out))
-		parse_error(p, "a parameter has a kind of storage that is none of parameters");
+		parse_error(p, "a parameter has an invalid storage qualifier");
 	return q->is_out ? q->is_in ? GLSL_INOUT : GLSL_OUT : GLSL_IN;
 }
 
-/* The kind of number inside arrays; GLSL_STRUCT where there are several. */
+/* The kind of an array's numbers; GLSL_STRUCT if there are several. */
 static enum glsl_kind kind_inside(const struct parse_type *type)
 {
 	while (type->kind == GLSL_ARRAY)
@@ -143,10 +143,10 @@ void parse_check_link(struct parse *p, const struct parse_qualifiers *q, enum gl
 		return;
 	if (type->holds_sampler || kind == GLSL_BOOL ||
 	    (kind != GLSL_FLOAT && p->version < 130 && !(p->extensions & PARSE_GPU_SHADER4)))
-		parse_error(p, "%s cannot be handed to or from a stage", parse_type_text(p, type));
+		parse_error(p, "%s cannot be passed to or from a stage", parse_type_text(p, type));
 	if (storage == GLSL_INPUT && p->stage == GLSL_VERTEX_STAGE &&
 	    (kind == GLSL_STRUCT || (type->kind == GLSL_ARRAY && p->version < 130)))
-		parse_error(p, "an attribute is of type %s", parse_type_text(p, type));
+		parse_error(p, "an attribute has type %s", parse_type_text(p, type));
 	if (storage == GLSL_INPUT && p->stage == GLSL_FRAGMENT_STAGE && type->holds_whole && !q->flat)
-		parse_error(p, "whole numbers reach a shader of fragments flat alone");
+		parse_error(p, "an integer input of a fragment shader is not flat");
 }

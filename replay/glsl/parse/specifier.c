@@ -24,7 +24,7 @@ void parse_members(struct parse *p, bool is_block, struct parse_members *list)
 				if (list->at[i].name == name)
 					parse_error(p, "there are two members '%s'", name->text);
 			if (list->n >= PARSE_MAX_NUMBERS / 16)
-				parse_refuse(p, "a shader has a structure with more members than are done");
+				parse_refuse(p, "a structure in a shader has too many members");
 			list->at = parse_grow(p, list->at, list->n, &list->room, sizeof(*list->at));
 			list->at[list->n++] = (struct parse_member){ name, own };
 		} while (parse_accept(p, ','));
@@ -32,7 +32,7 @@ void parse_members(struct parse *p, bool is_block, struct parse_members *list)
 	} while (!parse_accept(p, '}'));
 }
 
-/* Behind `struct`. */
+/* Parse a structure after `struct`. */
 static const struct parse_type *read_structure(struct parse *p)
 {
 	struct parse_name *name = parse_is_sign(&p->now, '{') ? parse_name(p, "", 0) : parse_identifier(p);

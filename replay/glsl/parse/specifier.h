@@ -1,4 +1,4 @@
-/* Types as declarations name them, structures among them (GLSL 1.50 sec. 4.1). */
+/* Type specifiers, including structures (GLSL 1.50 sec. 4.1). */
 #pragma once
 
 #include "replay/glsl/parse/qualifiers.h"
@@ -8,11 +8,11 @@ struct parse_members {
 	uint32_t n, room;
 };
 
-/** Members of a structure or of a block, up to '}'. */
+/** Parse the members of a structure or block, up to '}'. */
 void parse_members(struct parse *p, bool is_block, struct parse_members *list);
 
-/** A type with its brackets, which may declare a structure. Ends where the token begins none. */
+/** Parse a type with its brackets, which may declare a structure. Reports an error if there is no type. */
 const struct parse_type *parse_specifier(struct parse *p);
 
-/** Whether the token that is looked at begins a declaration, in a function. */
+/** True if the current token begins a declaration in a function. */
 bool parse_begins_declaration(struct parse *p);

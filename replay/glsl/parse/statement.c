@@ -10,7 +10,7 @@
 #include "replay/glsl/parse/specifier.h"
 #include "replay/glsl/text/keywords.h"
 
-#define MOST_COMPARED 4096 /* labels of a switch */
+#define MOST_COMPARED 4096 /* maximum number of labels in a switch */
 
 static struct parse_node *statement(struct parse *p);
 
@@ -25,7 +25,7 @@ static struct parse_node *of_type_void(struct parse *p, enum glsl_operator opera
 	return parse_node(p, operation, parse_type(p, GLSL_VOID, 0, 0), n, a, b, c);
 }
 
-/* One in a scope of its own. */
+/* A statement in a scope of its own. */
 static struct parse_node *scoped_statement(struct parse *p)
 {
 	struct parse_node *node;
@@ -36,7 +36,7 @@ static struct parse_node *scoped_statement(struct parse *p)
 	return node;
 }
 
-/* The body of a loop: its variables are in the scope of the loop's head. */
+/* The body of a loop, whose variables are in the same scope as those of the loop's head. */
 static struct parse_node *loop_body(struct parse *p)
 {
 	struct parse_node *node;
@@ -137,14 +137,14 @@ static struct parse_node *read_label(struct parse *p, bool is_case, const struct
 
 	if (value && (!parse_is_constant(value) || !parse_type_is_scalar(value->type) ||
 	              (value->type->kind != GLSL_INT && value->type->kind != GLSL_UINT)))
-		parse_error(p, "a case is no constant whole number");
+		parse_error(p, "a case label is not a constant integer");
 	if (value)
 		value = parse_convert(p, value, type->kind);
 	parse_expect(p, ':');
 	return of_type_void(p, is_case ? GLSL_CASE : GLSL_DEFAULT, is_case, value, NULL, NULL);
 }
 
-/* The last label is of a value that no other one has. */
+/* Report an error if the last label's value is a duplicate. */
 static void check_label(struct parse *p, const struct parse_nodes *list)
 {
 	const struct parse_node *last = list->at[list->n - 1];
@@ -152,7 +152,7 @@ static void check_label(struct parse *p, const struct parse_nodes *list)
 	for (uint32_t i = 0; last->operation == GLSL_CASE && i + 1 < list->n && i < MOST_COMPARED; i++)
 		if (list->at[i]->operation == GLSL_CASE &&
 		    list->at[i]->children[0]->numbers[0] == last->children[0]->numbers[0])
-			parse_error(p, "a switch has two cases of one value");
+			parse_error(p, "a switch has two cases with the same value");
 }
 
 static struct parse_node *read_switch(struct parse *p)
@@ -164,7 +164,7 @@ static struct parse_node *read_switch(struct parse *p)
 	parse_expect(p, '(');
 	value = parse_expression(p);
 	if (!parse_type_is_scalar(value->type) || (value->type->kind != GLSL_INT && value->type->kind != GLSL_UINT))
-		parse_error(p, "a switch is by %s", parse_type_text(p, value->type));
+		parse_error(p, "a switch has a value of type %s", parse_type_text(p, value->type));
 	parse_expect(p, ')');
 	parse_expect(p, '{');
 	parse_scope_open(p);
@@ -196,10 +196,10 @@ static struct parse_node *read_return(struct parse *p)
 
 	if (!parse_is_sign(&p->now, ';')) {
 		if (type->kind == GLSL_VOID)
-			parse_error(p, "'%s' returns nothing, and here it does", p->inside->name->text);
+			parse_error(p, "'%s' is void, but returns a value here", p->inside->name->text);
 		value = parse_convert_to(p, parse_expression(p), type);
 	} else if (type->kind != GLSL_VOID) {
-		parse_error(p, "'%s' returns a value, and here it does not", p->inside->name->text);
+		parse_error(p, "'%s' does not return a value here", p->inside->name->text);
 	}
 	p->returns = true;
 	parse_expect(p, ';');
@@ -209,7 +209,7 @@ static struct parse_node *read_return(struct parse *p)
 static struct parse_node *read_jump(struct parse *p, enum glsl_operator operation, bool may_stand)
 {
 	if (!may_stand)
-		parse_error(p, "a break, continue or discard stands where it cannot");
+		parse_error(p, "a break, continue or discard is not allowed here");
 	parse_expect(p, ';');
 	return of_type_void(p, operation, 0, NULL, NULL, NULL);
 }

@@ -3,5 +3,5 @@
 
 #include "replay/glsl/meaning/nodes.h"
 
-/** Behind '{', up to '}', in the scope that there is. @return a GLSL_SEQUENCE */
+/** Parse statements after '{', up to '}', in the current scope. @return a GLSL_SEQUENCE */
 struct parse_node *parse_statements(struct parse *p);

@@ -33,7 +33,7 @@ static void read_body(struct parse *p, struct parse_function *f)
 	parse_nodes_add(p, p->root, place);
 }
 
-/* Behind the name and '('. */
+/* Parse a function after its name and '('. */
 static void read_function(struct parse *p, const struct parse_qualifiers *q, const struct parse_type *result,
                           struct parse_name *name)
 {
@@ -47,7 +47,7 @@ static void read_function(struct parse *p, const struct parse_qualifiers *q, con
 
 /* --- All declarations --------------------------------------------------------------------------------------------- */
 
-/* invariant NAME, NAME; */
+/* Parse invariant NAME, NAME; */
 static void read_invariant(struct parse *p)
 {
 	do {
@@ -58,7 +58,7 @@ static void read_invariant(struct parse *p)
 		if (!s)
 			parse_error(p, "'%s' is not declared", name->text);
 		if (s->storage != GLSL_OUTPUT && !(s->storage == GLSL_INPUT && p->stage == GLSL_FRAGMENT_STAGE))
-			parse_error(p, "'%s' is not handed from stage to stage", name->text);
+			parse_error(p, "'%s' is not passed between stages", name->text);
 	} while (parse_accept(p, ','));
 	parse_expect(p, ';');
 }

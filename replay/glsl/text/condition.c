@@ -6,7 +6,7 @@
 struct reading {
 	struct parse *p;
 	const struct parse_token *at, *end;
-	uint32_t unread; /* above 0: the value decides nothing, as behind `0 &&` */
+	uint32_t unread; /* above 0: the value is not used, as after `0 &&` */
 };
 
 static bool takes(struct reading *r, uint32_t sign)
@@ -96,7 +96,7 @@ static int32_t operand(struct reading *r)
 		const struct parse_literal number = parse_literal(r->p, r->at++);
 
 		if (number.kind == GLSL_FLOAT)
-			parse_error(r->p, "a condition has a number that is not whole");
+			parse_error(r->p, "a condition has a number that is not an integer");
 		value = (int32_t)(uint32_t)(int64_t)number.value;
 	} else if (r->at < r->end && r->at->kind == PARSE_NAME) {
 		r->at++;
@@ -128,7 +128,7 @@ static int32_t level(struct reading *r, uint32_t lowest)
 	return left;
 }
 
-/* `defined X` and `defined(X)` are numbers before macros are expanded. */
+/* Replace `defined X` and `defined(X)` by numbers, before macros are expanded. */
 static struct parse_tokens without_defined(struct parse *p, const struct parse_token *tokens, uint32_t n)
 {
 	struct parse_tokens list = { 0 };
@@ -167,6 +167,6 @@ int32_t parse_condition(struct parse *p, const struct parse_token *tokens, uint3
 	r.end = list.at + list.n;
 	value = level(&r, 1);
 	if (r.at < r.end)
-		parse_error(p, "a condition goes on behind its end");
+		parse_error(p, "a condition is followed by something else");
 	return value;
 }

@@ -15,7 +15,7 @@ void *parse_alloc(struct parse *p, size_t n)
 
 	p->bytes += n;
 	if (p->bytes > MAX_BYTES)
-		parse_refuse(p, "a shader takes more memory than is done");
+		parse_refuse(p, "a shader takes too much memory");
 	at = arena_alloc(&p->arena, n ? n : 1);
 	if (!at) {
 		p->err = err_report(ERR_SYSTEM, NULL, "out of memory for a shader");
@@ -94,7 +94,7 @@ _Noreturn void parse_link_error(struct parse *p, const char *format, ...)
 void parse_enter(struct parse *p)
 {
 	if (++p->depth > PARSE_MAX_NESTED)
-		parse_refuse(p, "a shader nests deeper than is done");
+		parse_refuse(p, "a shader is nested too deeply");
 }
 
 void parse_leave(struct parse *p)

@@ -6,16 +6,13 @@
 #include "replay/glsl/text/lexer.h"
 #include "replay/glsl/text/macro.h"
 
-/* An #if that has not ended. */
+/* An #if without its #endif so far. */
 struct parse_condition {
 	struct parse_condition *outer;
-	bool skips, done, in_else; /* skips: this part is not read; done: one was, or none may be */
+	bool skips, done, in_else; /* skips: this part is skipped; done: a part was taken, or none may be */
 };
 
-/*
- * Extensions that Mesa (22.3.6) has and that change nothing but names or what is not done, and those that the parser
- * asks for.
- */
+/* Extensions of Mesa (22.3.6) that only add names or unsupported features, and those that the parser checks for. */
 static const struct {
 	const char *name;
 	uint32_t bit;
@@ -55,7 +52,7 @@ static const struct {
 	{ "GL_KHR_blend_equation_advanced", PARSE_PLAIN_EXTENSION },
 };
 
-/* A directive's other tokens. */
+/* The other tokens of a directive's line. */
 static struct parse_tokens line_of(struct parse *p)
 {
 	struct parse_tokens list = { 0 };
@@ -77,7 +74,7 @@ static uint32_t number_of(struct parse *p, const struct parse_token *token)
 	                                                                  (struct parse_literal){ GLSL_FLOAT, 0 };
 
 	if (number.kind == GLSL_FLOAT || number.value < 0)
-		parse_error(p, "a directive lacks a whole number");
+		parse_error(p, "a directive lacks an integer");
 	return (uint32_t)number.value;
 }
 
@@ -95,7 +92,7 @@ static void set_version(struct parse *p, const struct parse_token *tokens, uint3
 		is_known |= known[i] == version;
 	if (!is_known || (version >= 300 && version < 330) != es || n > 2 || (n == 2 && version < 150) ||
 	    (n == 2 && !es && !parse_is_word(&tokens[1], "core") && !parse_is_word(&tokens[1], "compatibility")))
-		parse_error(p, "'#version' names none that is known");
+		parse_error(p, "'#version' has an unknown version");
 	p->version = version;
 	p->is_es = es || version == 100;
 	p->is_core = p->is_es || (version >= 150 && !(n == 2 && parse_is_word(&tokens[1], "compatibility")));
@@ -112,17 +109,17 @@ static void set_extension(struct parse *p, const struct parse_token *tokens, uin
 	enables = parse_is_word(behaviour, "require") || parse_is_word(behaviour, "enable") ||
 	          parse_is_word(behaviour, "warn");
 	if (!enables && !parse_is_word(behaviour, "disable"))
-		parse_error(p, "'#extension' has no such behaviour");
+		parse_error(p, "'#extension' has an unknown behaviour");
 	if (parse_is_word(&tokens[0], "all")) {
 		if (enables && !parse_is_word(behaviour, "warn"))
-			parse_error(p, "'#extension all' can warn and disable alone");
+			parse_error(p, "'#extension all' can only warn or disable");
 		bits = ~0u;
 	}
 	for (unsigned i = 0; i < sizeof(extensions) / sizeof(extensions[0]); i++)
 		if (parse_is_word(&tokens[0], extensions[i].name))
 			bits = extensions[i].bit;
 	if (!bits && parse_is_word(behaviour, "require"))
-		parse_error(p, "the extension '%s' is not known", tokens[0].name->text);
+		parse_error(p, "the extension '%s' is unknown", tokens[0].name->text);
 	p->extensions = enables ? p->extensions | bits : p->extensions & ~bits;
 }
 
@@ -172,7 +169,9 @@ static bool read_condition(struct parse *p, const struct parse_tokens *line)
 	return true;
 }
 
-/* --- All of them -------------------------------------------------------------------------------------------------- */
+/*
+ * --- Other directives ----------------------------------------------------------------------------------------------
+ */
 
 static void set_line(struct parse *p, const struct parse_tokens *line)
 {
@@ -182,7 +181,7 @@ static void set_line(struct parse *p, const struct parse_tokens *line)
 		parse_error(p, "'#line' lacks its number");
 	if (list.n == 2)
 		number_of(p, &list.at[1]);
-	p->place.line = number_of(p, &list.at[0]) - 1; /* the end of this line counts */
+	p->place.line = number_of(p, &list.at[0]) - 1; /* the end of this line counts as well */
 }
 
 static void undefine(struct parse *p, const struct parse_tokens *line)
@@ -214,9 +213,9 @@ static void read_directive(struct parse *p, bool may_be_version)
 		            line.n > 1 ? (int)(line.at[line.n - 1].text + line.at[line.n - 1].n - line.at[1].text) : 0,
 		            line.n > 1 ? line.at[1].text : "");
 	else if (parse_is_word(word, "version") && !may_be_version)
-		parse_error(p, "'#version' stands behind something else");
+		parse_error(p, "'#version' is not at the beginning");
 	else if (!parse_is_word(word, "pragma") && !parse_is_word(word, "version"))
-		parse_error(p, "'#%.*s' is no directive", (int)word->n, word->text);
+		parse_error(p, "'#%.*s' is not a directive", (int)word->n, word->text);
 }
 
 void parse_directive_read(struct parse *p, struct parse_token *token)
@@ -227,7 +226,7 @@ void parse_directive_read(struct parse *p, struct parse_token *token)
 		parse_lex(p, &p->place, token);
 		p->line = token->line;
 		if (token->kind == PARSE_END && p->conditions)
-			parse_error(p, "an '#if' does not end");
+			parse_error(p, "an '#if' has no '#endif'");
 		if (parse_is_sign(token, '#') && token->first)
 			read_directive(p, begins);
 		else if (token->kind == PARSE_END || !p->conditions || !p->conditions->skips)

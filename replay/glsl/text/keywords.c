@@ -23,7 +23,7 @@ static const struct {
 	{ "subroutine", PARSE_SUBROUTINE, 400 },
 };
 
-/* Of all versions; further ones come with GLSL 1.30 and are no names in programs that run. */
+/* Reserved in all versions. GLSL 1.30 reserves more, which programs that run do not use as names. */
 static const char reserved[] =
 	" asm class union enum typedef template this packed goto inline noinline volatile public static extern"
 	" external interface long short half fixed input output hvec2 hvec3 hvec4 fvec2 fvec3 fvec4"

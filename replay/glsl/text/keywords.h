@@ -1,4 +1,4 @@
-/* Words that are no names (GLSL 1.50 sec. 3.6), and from which version on. */
+/* Keywords (GLSL 1.50 sec. 3.6), and the versions that introduced them. */
 #pragma once
 
 #include <stdint.h>
@@ -42,8 +42,8 @@ enum parse_keyword {
 	PARSE_SUBROUTINE
 };
 
-/** What a text is in any version: enum parse_keyword */
+/** The keyword that a text is in any version: enum parse_keyword */
 uint32_t parse_keyword_of(const char *text);
 
-/** The version that a keyword comes with; before it the word is a name. */
+/** The version that introduced a keyword; before it the word is an ordinary name. */
 uint32_t parse_keyword_version(uint32_t keyword);

@@ -50,7 +50,7 @@ static void skip_space(struct parse *p, struct parse_place *place, struct parse_
 				place->line += *at == '\n';
 			p->line = place->line;
 			if (!*at)
-				parse_error(p, "a comment does not end");
+				parse_error(p, "a comment is not closed");
 			place->at = at + 1;
 		} else if (*at != ' ' && *at != '\t' && *at != '\v' && *at != '\f') {
 			return;
@@ -59,7 +59,7 @@ static void skip_space(struct parse *p, struct parse_place *place, struct parse_
 	}
 }
 
-/* Characters of a number, right or wrong. */
+/* Length of a number, well-formed or not. */
 static uint32_t number_length(const char *at)
 {
 	const bool is_hexadecimal = at[0] == '0' && (at[1] | 32) == 'x';
@@ -124,7 +124,7 @@ static struct parse_literal float_literal(struct parse *p, const struct parse_to
 	if (strcmp(end, "f") == 0 || strcmp(end, "F") == 0)
 		end++;
 	if (*end)
-		parse_error(p, "'%.*s' is no number", (int)token->n, token->text);
+		parse_error(p, "'%.*s' is not a number", (int)token->n, token->text);
 	return (struct parse_literal){ GLSL_FLOAT, value };
 }
 
@@ -136,7 +136,7 @@ struct parse_literal parse_literal(struct parse *p, const struct parse_token *to
 	bool is_hexadecimal;
 
 	if (token->n >= sizeof(text))
-		parse_error(p, "a number is longer than is done");
+		parse_error(p, "a number has too many digits");
 	memcpy(text, token->text, token->n);
 	text[token->n] = 0;
 	is_hexadecimal = text[0] == '0' && (text[1] | 32) == 'x';
@@ -146,7 +146,7 @@ struct parse_literal parse_literal(struct parse *p, const struct parse_token *to
 	if (is_unsigned && end[0] && !end[1])
 		end += parse_has(p, 130, PARSE_GPU_SHADER4);
 	if (*end || value > UINT32_MAX || (is_hexadecimal && !text[2]))
-		parse_error(p, "'%.*s' is no number", (int)token->n, token->text);
+		parse_error(p, "'%.*s' is not a number", (int)token->n, token->text);
 	return (struct parse_literal){ is_unsigned ? GLSL_UINT : GLSL_INT,
 		                       is_unsigned ? (double)value : (double)(int32_t)(uint32_t)value };
 }

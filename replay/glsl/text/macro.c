@@ -5,13 +5,13 @@
 
 #include "replay/glsl/text/lexer.h"
 
-#define MAX_EXPANDED (1u << 20) /* tokens that macros make of a text */
+#define MAX_EXPANDED (1u << 20) /* maximum number of tokens that macros expand to */
 
-/* Tokens that are read before the text goes on. */
+/* Tokens to be read before the text continues. */
 struct parse_input {
 	struct parse_input *below;
 	const struct parse_token *at, *end;
-	struct parse_macro *macro; /* which is busy until they are read; NULL: none */
+	struct parse_macro *macro; /* the macro they come from, busy until they are read; NULL: none */
 	bool stops;                /* nothing below it is read */
 };
 
@@ -39,7 +39,7 @@ static bool is_same(const struct parse_macro *a, const struct parse_macro *b)
 	return same;
 }
 
-/* @return how many tokens the parameters take, with their brackets */
+/* @return number of tokens in the parameter list, including brackets */
 static uint32_t read_parameters(struct parse *p, struct parse_macro *macro, const struct parse_token *tokens,
                                 uint32_t n)
 {
@@ -61,7 +61,7 @@ static uint32_t read_parameters(struct parse *p, struct parse_macro *macro, cons
 			return i;
 	}
 	if (i == n)
-		parse_error(p, "a macro's parameters do not end");
+		parse_error(p, "a macro's parameters are not closed");
 	return i + 1;
 }
 
@@ -86,9 +86,9 @@ void parse_macro_define(struct parse *p, const struct parse_token *tokens, uint3
 	}
 	if (macro->n_body && (parse_is_sign(&macro->body[0], PARSE_SIGN2('#', '#')) ||
 	                      parse_is_sign(&macro->body[macro->n_body - 1], PARSE_SIGN2('#', '#'))))
-		parse_error(p, "'##' stands at an end of a macro");
+		parse_error(p, "'##' is at an end of a macro");
 	if (name->macro && (name->macro->is_line || name->macro->busy || !is_same(name->macro, macro)))
-		parse_error(p, "the macro '%s' is defined otherwise already", name->text);
+		parse_error(p, "the macro '%s' is already defined differently", name->text);
 	name->macro = macro;
 }
 
@@ -118,7 +118,7 @@ static void push(struct parse *p, const struct parse_token *tokens, uint32_t n, 
 	p->input = input;
 }
 
-/* Drop inputs that were read. @return the one to read on from; NULL: the text */
+/* Drop inputs that have been read. @return the one to continue from; NULL: the text */
 static struct parse_input *input_now(struct parse *p)
 {
 	while (p->input && p->input->at == p->input->end && !p->input->stops) {
@@ -153,7 +153,7 @@ static bool is_called(struct parse *p)
 	return parse_is_sign(&token, '(');
 }
 
-/* What stands between a call's brackets, by commas. @return [macro->n_parameters] */
+/* The arguments of a call, separated by commas. @return [macro->n_parameters] */
 static struct parse_tokens *arguments_of(struct parse *p, const struct parse_macro *macro)
 {
 	struct parse_tokens *list = parse_alloc(p, (macro->n_parameters + 1) * sizeof(*list));
@@ -164,7 +164,7 @@ static struct parse_tokens *arguments_of(struct parse *p, const struct parse_mac
 	for (;;) {
 		take(p, &token);
 		if (token.kind == PARSE_END)
-			parse_error(p, "a macro's arguments do not end");
+			parse_error(p, "a macro's arguments are not closed");
 		if (parse_is_sign(&token, ')') && !depth--)
 			break;
 		depth += parse_is_sign(&token, '(');
@@ -176,7 +176,7 @@ static struct parse_tokens *arguments_of(struct parse *p, const struct parse_mac
 		if (!macro->n_parameters)
 			parse_error(p, "a macro without parameters is called with arguments");
 		if (++p->n_expanded > MAX_EXPANDED)
-			parse_refuse(p, "a shader's macros make a longer text than is done");
+			parse_refuse(p, "a shader's macros expand to too much text");
 		parse_tokens_add(p, &list[at], &token);
 	}
 	if (macro->n_parameters && at + 1 < macro->n_parameters)
@@ -184,7 +184,7 @@ static struct parse_tokens *arguments_of(struct parse *p, const struct parse_mac
 	return list;
 }
 
-/* Two tokens become one. */
+/* Paste two tokens into one. */
 static void paste(struct parse *p, struct parse_token *left, const struct parse_token *right)
 {
 	char *text = parse_alloc(p, left->n + right->n + 1);
@@ -195,7 +195,7 @@ static void paste(struct parse *p, struct parse_token *left, const struct parse_
 	memcpy(text + left->n, right->text, right->n);
 	parse_lex(p, &place, &both);
 	if (*place.at || both.kind == PARSE_ODD)
-		parse_error(p, "'%s' is no token, which '##' makes", text);
+		parse_error(p, "'%s', made by '##', is not a token", text);
 	both.spaced = left->spaced;
 	both.line = left->line;
 	*left = both;
@@ -206,7 +206,7 @@ static void add_all(struct parse *p, struct parse_tokens *to, const struct parse
 	for (uint32_t i = 0; i < from->n; i++) {
 		p->n_expanded++;
 		if (p->n_expanded > MAX_EXPANDED)
-			parse_refuse(p, "a shader's macros make a longer text than is done");
+			parse_refuse(p, "a shader's macros expand to too much text");
 		if (i == 0 && pasted && to->n)
 			paste(p, &to->at[to->n - 1], &from->at[0]);
 		else
@@ -276,7 +276,7 @@ struct parse_tokens parse_macro_expand(struct parse *p, const struct parse_token
 	push(p, tokens, n, NULL, true);
 	for (parse_macro_next(p, &token); token.kind != PARSE_END; parse_macro_next(p, &token)) {
 		if (++p->n_expanded > MAX_EXPANDED)
-			parse_refuse(p, "a shader's macros make a longer text than is done");
+			parse_refuse(p, "a shader's macros expand to too much text");
 		parse_tokens_add(p, &list, &token);
 	}
 	p->input = p->input->below;

@@ -1,11 +1,10 @@
-/* Macros (GLSL 1.50 sec. 3.3; what that leaves to C++ is as there): what is defined, and tokens with macros expanded.
- */
+/* Macros (GLSL 1.50 sec. 3.3, which refers to C++ for the rest): definitions and expansion. */
 #pragma once
 
 #include "replay/glsl/text/context.h"
 
 struct parse_macro {
-	bool is_function, busy; /* busy: its text is being read; it does not expand there */
+	bool is_function, busy; /* busy: being expanded, so not expanded again inside */
 	bool is_line;           /* __LINE__ */
 	uint32_t n_parameters, n_body;
 	struct parse_name **parameters;
@@ -19,14 +18,14 @@ struct parse_tokens {
 };
 void parse_tokens_add(struct parse *p, struct parse_tokens *list, const struct parse_token *token);
 
-/** Define what a directive's line says behind its first word. tokens: at least one */
+/** Define a macro from a directive's line after its first word. tokens: at least one */
 void parse_macro_define(struct parse *p, const struct parse_token *tokens, uint32_t n);
 
-/** Define a word as a number. */
+/** Define a macro with a number as its value. */
 void parse_macro_set(struct parse *p, const char *name, uint32_t value);
 
-/** The next token of the unit, macros expanded. */
+/** The next token of the unit, with macros expanded. */
 void parse_macro_next(struct parse *p, struct parse_token *token);
 
-/** A list with macros expanded. */
+/** Expand macros in a list of tokens. */
 struct parse_tokens parse_macro_expand(struct parse *p, const struct parse_token *tokens, uint32_t n);
