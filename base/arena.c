@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-#define FIRST_BYTES (1u << 10) /* of the first block: most display lists are short */
-#define BLOCK_BYTES (64u << 10) /* of later ones, each four times the one before until then */
+#define FIRST_BYTES (1u << 10) /* size of the first block: most display lists are short */
+#define BLOCK_BYTES (64u << 10) /* maximum size of later ones, each four times the one before */
 
 struct arena_block {
 	struct arena_block *next;

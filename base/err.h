@@ -35,7 +35,10 @@ int err_report(int code, const char *where, const char *fmt, ...) __attribute__(
  */
 void err_share(int *said);
 
-/** Is the last line of standard error a bar from now on (1, else 0)? Lines then replace it, and it is drawn again. */
+/**
+ * Tell the printer whether the last line of standard error is a progress bar (1) or not (0). Lines then replace the
+ * bar, which is drawn again.
+ */
 void err_clear_bar(int stands);
 
 /* Lines printed so far by processes that do the same work in turn. Lives in memory they share; initially all 0. */

@@ -114,7 +114,7 @@ int frame_list_parse(const char *text, struct frame_list *out)
 		}
 		if (!parse_range(&p, &list.ranges[list.n_ranges]) || (*p != ',' && *p != '\0')) {
 			frame_list_free(&list);
-			return err_report(ERR_USAGE, NULL, "'%s' is no frame range; write 7, 1-500, 55-, 1-500x5, "
+			return err_report(ERR_USAGE, NULL, "'%s' is not a frame range; write 7, 1-500, 55-, 1-500x5, "
 			                  "or several with commas", text);
 		}
 		list.n_ranges++;
@@ -243,7 +243,7 @@ int frame_number_parse(const char *text, uint64_t *frame)
 
 	*frame = strtoull(text, &end, 10);
 	if (end == text || *end || *text == '-')
-		return err_report(ERR_USAGE, NULL, "'%s' is no frame number", text);
+		return err_report(ERR_USAGE, NULL, "'%s' is not a frame number", text);
 	return 0;
 }
 
@@ -252,7 +252,7 @@ int frame_chunk_parse(const char *text, uint64_t *i, uint64_t *n)
 	const char *p = text;
 
 	if (!parse_number(&p, i) || *p++ != '/' || !parse_number(&p, n) || *p || *i < 1 || *i > *n)
-		return err_report(ERR_USAGE, NULL, "'%s' is no chunk; write i/n with i from 1 to n, as in 3/50", text);
+		return err_report(ERR_USAGE, NULL, "'%s' is not a chunk; write i/n with i from 1 to n, as in 3/50", text);
 	return 0;
 }
 

@@ -8,9 +8,9 @@
 #include <unistd.h>
 
 #define LARGE_PAGE ((uintptr_t)2 << 20)
-#define HEAP_BYTES (64 << 20)   /* that is asked for at once; addresses, and no memory until it is touched */
-#define KEEP_BYTES (256 << 20)  /* free at the heap's end, beyond which it is given back */
-#define MAPPED_BYTES ((size_t)16 << 20) /* from which on a block has pages of its own */
+#define HEAP_BYTES (64 << 20)   /* requested at once; only addresses, until the memory is touched */
+#define KEEP_BYTES (256 << 20)  /* free memory at the heap's end above which it is returned */
+#define MAPPED_BYTES ((size_t)16 << 20) /* blocks of this size or more are mapped separately */
 
 int memory_resize(void *array, size_t n, size_t item_bytes)
 {
@@ -37,7 +37,7 @@ void memory_widen_heap(void)
 	void *volatile blocks[2]; /* volatile, or the compiler removes malloc and free */
 
 	for (int i = 0; i < 2; i++)
-		blocks[i] = malloc(MAPPED_BYTES - ((size_t)1 << 20)); /* more would have pages of its own */
+		blocks[i] = malloc(MAPPED_BYTES - ((size_t)1 << 20)); /* a larger block would be mapped separately */
 	for (int i = 0; i < 2; i++)
 		free(blocks[i]);
 }
@@ -50,7 +50,7 @@ void memory_use_large_pages(void)
 	mallopt(M_MMAP_THRESHOLD, (int)MAPPED_BYTES);
 	mallopt(M_TRIM_THRESHOLD, KEEP_BYTES);
 	mallopt(M_TOP_PAD, HEAP_BYTES);
-	block = malloc(1 << 20); /* more than there is: the heap grows */
+	block = malloc(1 << 20); /* more than is available: the heap grows */
 	free(block);
 	mallopt(M_TOP_PAD, (int)LARGE_PAGE);
 	end = (uintptr_t)sbrk(0);

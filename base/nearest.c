@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#define MAX_LETTERS 40 /* words of more letters are compared by these */
+#define MAX_LETTERS 40 /* longer words are compared by their first letters only */
 
 static size_t least(size_t a, size_t b)
 {

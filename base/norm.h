@@ -1,4 +1,4 @@
-/* Integers that stand for [-1,1]: GL's colours and normals (GL 2.1 table 2.9). */
+/* Integers that represent [-1,1]: GL's colours and normals (GL 2.1 table 2.9). */
 #pragma once
 
 /** A signed 32-bit integer. */

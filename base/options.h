@@ -89,7 +89,7 @@ int options_misuse(const struct options_table *table);
 void options_print_help(const struct options_table *table, FILE *out);
 
 /* Setters for the common kinds of values; each comment gives the type of `out`. */
-int options_no_sandbox(const struct options_row *row, const char *value, void *out); /* nothing */
+int options_no_sandbox(const struct options_row *row, const char *value, void *out); /* none */
 int options_text(const struct options_row *row, const char *value, void *out); /* const char *, borrowed; of `words` if
                                                                                   any */
 int options_flag(const struct options_row *row, const char *value, void *out);   /* int: 1 */

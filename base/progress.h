@@ -55,15 +55,15 @@ void progress_step(struct progress *p, uint64_t frame, const char *text);
 void progress_start(const struct progress *p, uint64_t frame, double seconds);
 
 /**
- * `played` of the `of` earlier frames that are replayed for a frame, but not rendered, are done. A bar shows it at
+ * Report that `played` of the `of` earlier frames replayed for a frame, but not rendered, are done. A bar shows it at
  * once, lines every ten seconds.
  * @param why  why the frame needs them, borrowed until the next call; NULL: they are only on the way
  */
 void progress_replay(struct progress *p, uint64_t frame, uint64_t played, uint64_t of, const char *why);
 
 /**
- * `done` samples of the current frame are finished. A bar shows it at once, lines every ten seconds.
- * @param of  samples in all; 0: not known in advance
+ * Report that `done` samples of the current frame are finished. A bar shows it at once, lines every ten seconds.
+ * @param of  total number of samples; 0: not known in advance
  */
 void progress_sample(struct progress *p, uint64_t frame, uint32_t done, uint32_t of);
 

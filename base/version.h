@@ -1,5 +1,7 @@
-/* Relume's version: RELUME_VERSION, made from the file VERSION. Frames carry it; a frame of another version is rendered
- * again. */
+/*
+ * Relume's version: RELUME_VERSION, generated from the file VERSION. Frames record it; a frame of another version is
+ * rendered again.
+ */
 #pragma once
 
 #include "version_number.h"

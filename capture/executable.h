@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 enum executable_kind {
-	EXECUTABLE_OTHER,  /* a script, or what cannot be read */
+	EXECUTABLE_OTHER,  /* a script, or an unreadable file */
 	EXECUTABLE_NATIVE, /* dynamic, of this command's class */
 	EXECUTABLE_32,     /* dynamic, 32 bits, but this command has 64 */
 	EXECUTABLE_STATIC  /* no interpreter: nothing is preloaded into it */

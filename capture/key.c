@@ -48,7 +48,7 @@ int key_find(const char *option, const char *name, struct key_code *out)
 		return err_report(ERR_SYSTEM, NULL, "%s needs libX11.so.6", option);
 	symbol = x.string_to_keysym(name);
 	if (!symbol)
-		return err_report(ERR_USAGE, NULL, "%s: X knows no key '%s'; names are like F9, Pause, r", option, name);
+		return err_report(ERR_USAGE, NULL, "%s: X has no key '%s'; names are like F9, Pause, r", option, name);
 	display = x.open_display(NULL);
 	if (!display)
 		return err_report(ERR_SYSTEM, NULL, "%s: no X display can be opened", option);

@@ -10,7 +10,7 @@ enum { KEY_SHIFT = 1, KEY_CONTROL = 4, KEY_ALT = 8 }; /* ShiftMask, ControlMask,
 
 struct key_code {
 	int code;
-	unsigned state; /* KEY_SHIFT where the name is what the key gives with Shift: "A", "plus" */
+	unsigned state; /* KEY_SHIFT if the key gives this name only with Shift: "A", "plus" */
 };
 
 /**

@@ -26,7 +26,7 @@ int press_take(const struct options_row *row, const char *text, void *out);
 /**
  * Look the keys up on the keyboard of DISPLAY, and list them for the recorder.
  * @param quit_after  the program ends after this many frames, so no key may have a later one; 0: no end
- * @param out         receives the list, the caller's; NULL where there are no keys
+ * @param out         receives the list, the caller's; NULL if there are no keys
  * @return 0, ERR_USAGE or ERR_SYSTEM (reported)
  */
 int press_plan(const struct press_list *keys, uint64_t quit_after, char **out);

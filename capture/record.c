@@ -92,32 +92,32 @@ static const struct options_row rows[] = {
 	{ "output", 'o', "NAME.trace",
 	  "the trace to write, replacing an older one (default: PROGRAM.trace in the current directory)", options_text,
 	  AT(output) },
-	{ "ref", 0, "KINDS", "keep what the program showed in NAME.ref: color, depth, or color,depth", options_text,
+	{ "ref", 0, "KINDS", "save what the program shows in NAME.ref: color, depth, or color,depth", options_text,
 	  AT(ref), .words = ref_kinds },
-	{ "ref-every", 0, "N", "only every Nth frame of these", take_count, AT(ref_every) },
+	{ "ref-every", 0, "N", "save only every Nth of these frames", take_count, AT(ref_every) },
 	{ "ref-exact", 0, NULL,
-	  "switch off Mesa llvmpipe's quick rasterizer (LP_PERF=no_rast_linear): in windows without depth its colours "
-	  "are off by up to 2/255; the program shows the exact ones, too",
+	  "switch off Mesa llvmpipe's fast rasterizer (LP_PERF=no_rast_linear): in windows without depth its colours "
+	  "are off by up to 2/255; the program then shows the exact ones as well",
 	  options_flag, AT(ref_exact) },
 	{ "frames", 0, "A-B",
-	  "record only the program's frames A to B, counted from 0 (\"A-\": to the end; \"A\": that one); the trace begins "
-	  "with all that they need and numbers them from 0; the program goes on",
+	  "record only the program's frames A to B, counted from 0 (\"A-\": to the end; \"A\": only that one); the trace "
+	  "begins with everything they need and numbers them from 0; the program keeps running",
 	  take_frames, .at = 0 },
-	{ "paused", 0, NULL, "begin with recording switched off", options_flag, AT(paused) },
-	{ "start-key", 0, "KEY", "the same; KEY switches as SIGUSR2 does (F9, Pause, r, ...: a name of X)",
+	{ "paused", 0, NULL, "start with recording switched off", options_flag, AT(paused) },
+	{ "start-key", 0, "KEY", "as --paused; KEY then switches recording as SIGUSR2 does (an X key name: F9, Pause, r, ...)",
 	  options_text, AT(start_key) },
 	{ "press", 0, "KEY@FRAME",
-	  "press a key of X's name once the frame before FRAME is shown, as in space@10, Control+s@5, or held as in "
-	  "Left@20-30; the program counts its frames from 0; may be repeated",
+	  "press a key (X key name) once the frame before FRAME is shown, as in space@10, Control+s@5, or hold it, as "
+	  "in Left@20-30; frames of the program count from 0; may be repeated",
 	  press_take, AT(press) },
 	{ "frame-end", 0, "CALL",
 	  "also end a frame at: flush, finish, clear (of the color buffer), or readpixels after something was drawn (swap: "
-	  "nothing else; with OSMesa, flush and finish); such a frame is the buffer that is drawn to, front or back",
+	  "nothing else; with OSMesa, flush and finish); such a frame shows the buffer drawn to, front or back",
 	  options_text, AT(frame_end), .words = frame_ends },
-	{ "max-frames", 0, "N", "end the recording after N frames; the program goes on", take_count, AT(max_frames) },
+	{ "max-frames", 0, "N", "end the recording after N frames; the program keeps running", take_count, AT(max_frames) },
 	{ "max-size", 0, "BYTES",
 	  "end the recording after the first frame that makes the trace this large (K, M and G count 1024, 1024^2, "
-	  "1024^3); the program goes on",
+	  "1024^3); the program keeps running",
 	  options_bytes, AT(max_bytes) },
 	{ "no-children", 0, NULL, "record only this process, not those that it starts", options_flag, AT(no_children) },
 	{ "quit-after", 0, "N",
@@ -165,7 +165,7 @@ static int set_trace(struct options *o, const char *name)
 	return 0;
 }
 
-/* Fills `o`; returns 0, ERR_* (reported), or 1 where the help text was asked for. */
+/* Fills `o`; returns 0, ERR_* (reported), or 1 if the help text was printed. */
 static int parse(int argc, char **argv, struct options *o)
 {
 	struct options_line line;
@@ -176,7 +176,7 @@ static int parse(int argc, char **argv, struct options *o)
 	if (!line.n_words)
 		return err_report(ERR_USAGE, NULL, "no program to record; 'relume record --help' shows how");
 	if (o->output && (!*o->output || o->output[strlen(o->output) - 1] == '/'))
-		return err_report(ERR_USAGE, NULL, "'%s' is no name for a trace", o->output);
+		return err_report(ERR_USAGE, NULL, "'%s' is not a name for a trace", o->output);
 	if (o->ref_exact && !o->ref)
 		return err_report(ERR_USAGE, NULL, "--ref-exact is about what --ref keeps; say --ref color as well");
 	o->paused |= o->start_key != NULL;
@@ -213,7 +213,7 @@ static int find_recorder(char *out, size_t size)
 	return rc;
 }
 
-/* Remove an earlier recording, and find out before the start whether the folder can be written. */
+/* Remove an earlier recording, and check before the start whether the folder is writable. */
 static int clear_output(const struct options *o)
 {
 	char path[PATH_MAX];
@@ -221,7 +221,7 @@ static int clear_output(const struct options *o)
 	int fd;
 
 	if (stat(o->trace, &st) == 0 && !S_ISREG(st.st_mode))
-		return err_report(ERR_SYSTEM, o->trace, "is there and is no file");
+		return err_report(ERR_SYSTEM, o->trace, "exists and is not a file");
 	if (folder_make_for(o->trace))
 		return ERR_SYSTEM;
 	if (unlink(o->trace) && errno != ENOENT)
@@ -246,7 +246,7 @@ static int clear_output(const struct options *o)
 	}
 }
 
-/* The figures lie in a nameless file, which the program opens through our process. Nothing is left behind. */
+/* The statistics are in an anonymous file, which the program opens through our process. Nothing is left behind. */
 struct figures {
 	struct recorder_stats *stats;
 	int fd;
@@ -354,7 +354,7 @@ static int wait_for_child(const struct recorder_stats *stats, struct watching *w
 	return status;
 }
 
-/* Returns the program's wait status, or -1 with errno where it cannot be started. */
+/* Returns the program's wait status, or -1 with errno if it cannot be started. */
 static int run_program(const struct options *o, const char *recorder, const struct figures *figures,
                        struct watching *watching)
 {
@@ -419,7 +419,7 @@ static int exit_code(const struct recorder_stats *stats, int status)
 		if (stats->processes[i].failed || stats->processes[i].lost_references)
 			return ERR_SYSTEM;
 	if (was_told_to_quit(stats))
-		return 0; /* however it took the signal */
+		return 0; /* however it reacted to the signal */
 	return WIFSIGNALED(status) ? -(128 + WTERMSIG(status)) : -WEXITSTATUS(status);
 }
 
@@ -439,7 +439,7 @@ static int check_keys(const struct options *o, const struct recorder_stats *stat
 	                          stats->keys_pressed, o->press.n);
 }
 
-/* A 32-bit program whose recorder was not built: the loader would warn in its own words, and record nothing. */
+/* A 32-bit program without a recorder: the loader would only warn, and nothing would be recorded. */
 static int check_class(const char *program, const char *recorder)
 {
 	char path[PATH_MAX];
@@ -449,10 +449,10 @@ static int check_class(const char *program, const char *recorder)
 		return 0;
 	return err_report(
 		ERR_SYSTEM, program,
-		"is a program of 32 bits, and only the recorder for 64 is here; 'make i386' builds the other one");
+		"is a 32-bit program, but only the 64-bit recorder is installed; 'make i386' builds the other one");
 }
 
-/* No recorder has reported. As exit_code, but never success where there is no recording. */
+/* No recorder has reported. As exit_code, but never success without a recording. */
 static int explain_nothing(const struct options *o, const struct recorder_stats *stats, const struct watching *watching,
                            int status)
 {
@@ -464,7 +464,7 @@ static int explain_nothing(const struct options *o, const struct recorder_stats 
 		return code ? code : ERR_SYSTEM;
 	}
 	err_warn(o->trace, "was recorded, but a sandbox kept the figures; 'relume info' shows what it holds");
-	return o->quit_after && (code == -128 - SIGTERM) ? 0 : code; /* so the recorder ends a program */
+	return o->quit_after && (code == -128 - SIGTERM) ? 0 : code; /* this is how the recorder ends a program */
 }
 
 static int record(int argc, char **argv, struct options *o)

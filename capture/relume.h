@@ -19,12 +19,13 @@ extern "C" {
 #endif
 
 enum rtMaterialKindEXT {
-	RT_MATTE_EXT = 0,  /* as OpenGL lights it; the initial state */
-	RT_MIRROR_EXT = 1, /* amount: part of the light that is reflected, [0,1] */
-	RT_GLASS_EXT = 2   /* amount: part that is let through, [0,1]; ior: index of refraction, 1.5 for window glass */
+	RT_MATTE_EXT = 0,  /* as lit by OpenGL; the initial state */
+	RT_MIRROR_EXT = 1, /* amount: fraction of the light that is reflected, [0,1] */
+	RT_GLASS_EXT = 2   /* amount: fraction of the light that is transmitted, [0,1]; ior: index of refraction, 1.5
+	                      for window glass */
 };
 
-/** The material of what is drawn until the next call, in every context. */
+/** Set the material of everything drawn until the next call, in every context. */
 static inline void rtMaterialEXT(enum rtMaterialKindEXT kind, float amount, float ior)
 {
 	void (*record)(int, float, float);

@@ -3,5 +3,5 @@
 
 #include <stddef.h>
 
-/** The name of a sidecar (".ref"), or of a further process' trace (".1.trace"): NAME.trace with another ending. */
+/** The name of a sidecar (".ref"), or of a further process' trace (".1.trace"): NAME.trace with its ending replaced. */
 void sidecar_name(char *out, size_t size, const char *trace, const char *suffix);

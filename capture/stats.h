@@ -21,7 +21,8 @@ struct stats_process {
 	_Atomic int32_t failed; /* errno of what ended the recording early; 0: nothing did */
 	_Atomic int32_t programs; /* 1: it made shaders or programs current */
 	_Atomic int32_t windows;  /* 1: its frames come from one window; 2: from several */
-	_Atomic int32_t quit;   /* 1: it ended the program: after the frames asked for, or as nothing more can be recorded */
+	_Atomic int32_t quit;   /* 1: it ended the program: after the frames asked for, or because nothing more could be
+	                           recorded */
 	_Atomic int32_t contexts; /* 1: it made a context current; 2: one of a core profile */
 	_Atomic int32_t lost_references; /* 1: reference frames ended early */
 	_Atomic uint64_t ends[N_FRAME_TRIGGERS]; /* frames so far, recorded or not (swap); calls that would have ended
@@ -39,7 +40,7 @@ enum { SEEN_RECORDER = 1, SEEN_GL = 2, SEEN_VULKAN = 4 };
 struct recorder_stats {
 	_Atomic uint32_t seen;    /* SEEN_* */
 	_Atomic uint32_t toggles; /* requests to the command to switch recording on or off */
-	_Atomic uint32_t keys_pressed, keys_lost; /* keys of --press that a window took, and that none did */
+	_Atomic uint32_t keys_pressed, keys_lost; /* keys of --press that a window received, and that none did */
 	_Atomic uint32_t n_processes, n_unknown; /* may exceed the tables; what does not fit is lost */
 	struct stats_process processes[STATS_MAX_PROCESSES];
 	struct stats_unknown unknown[STATS_MAX_UNKNOWN];

@@ -15,7 +15,7 @@
 #include "capture/executable.h"
 #include "capture/sidecar.h"
 
-/* Why a recording has no frame, and what gives it some. */
+/* Explain why a recording has no frame, and which option gives it some. */
 static void explain_no_frame(const struct stats_process *p)
 {
 	static const char *const names[] = FRAME_TRIGGER_NAMES;
@@ -34,13 +34,13 @@ static void explain_no_frame(const struct stats_process *p)
 		}
 	if (p->calls && !p->contexts) {
 		err_warn(p->path, "the program asked for OpenGL but made no context, so it drew nothing; 'glxinfo -B' "
-		                  "tells whether the display has OpenGL");
+		                  "shows whether the display has OpenGL");
 		return;
 	}
 	err_warn(p->path, p->calls ? "the program swapped no buffers, so there is no frame" : "the program drew nothing");
 }
 
-/* Warn of features that matter for rendering. */
+/* Warn about features that matter for rendering. */
 static void explain_needs(const struct stats_process *p)
 {
 	if (p->programs)
@@ -94,7 +94,7 @@ void summary_print(const struct recorder_stats *stats)
 
 /* --- Nothing was recorded ---------------------------------------------------------------------------------------- */
 
-/* 1 where a server listens at this machine's X display of that number, or the display is another machine's. */
+/* 1 if a server listens at this machine's X display of that number, or the display is on another machine. */
 static int display_answers(const char *display)
 {
 	struct sockaddr_un address = { .sun_family = AF_UNIX };
@@ -144,7 +144,7 @@ static void explain_stranger(const char *program, const struct watching *w)
 		           w->name);
 	else if (w->kind == EXECUTABLE_32)
 		err_report(ERR_SYSTEM, program,
-		           "nothing was recorded: process '%s' is a program of 32 bits; 'make i386' builds the "
+		           "nothing was recorded: process '%s' is a 32-bit program; 'make i386' builds the "
 		           "recorder for it",
 		           w->name);
 	else
@@ -179,8 +179,8 @@ void summary_explain_nothing(const char *program, const struct recorder_stats *s
 		           "nothing was recorded: the program loaded OpenGL and ended without calling it%s", display);
 	else if (seen & SEEN_VULKAN)
 		err_report(ERR_SYSTEM, program,
-		           "nothing was recorded: the program draws by Vulkan, and Relume records OpenGL; choose the program's "
-		           "OpenGL renderer, where it has one");
+		           "nothing was recorded: the program draws with Vulkan, but Relume records OpenGL; choose the program's "
+		           "OpenGL renderer, if it has one");
 	else
 		err_report(ERR_SYSTEM, program,
 		           "nothing was recorded: the program loaded no OpenGL (libGL, libEGL or libOSMesa)%s",

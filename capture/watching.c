@@ -6,11 +6,11 @@
 
 #include "capture/stats.h"
 
-enum { MOST_DEEP = 32 }; /* generations */
+enum { MOST_DEEP = 32 }; /* levels of child processes */
 
 /*
- * SEEN_* of the files that a process has mapped; 0 as well where it has ended or belongs to somebody else.
- * *mapped: whether its loader has done its work.
+ * SEEN_* of the files that a process has mapped; 0 also if it has ended or belongs to another user. *mapped: whether
+ * its loader is done.
  */
 static unsigned read_maps(pid_t pid, int *mapped)
 {
@@ -51,7 +51,7 @@ static void read_name(pid_t pid, char *out, size_t size)
 		fclose(file);
 }
 
-/* 1 where a process is set-user-ID or set-group-ID (proc(5): anyone may read that, though not its memory or file). */
+/* 1 if a process is set-user-ID or set-group-ID (proc(5): readable by anyone, unlike its memory or file). */
 static int has_rights(pid_t pid)
 {
 	char path[64], line[200];
@@ -89,7 +89,7 @@ static void look_at(pid_t pid, struct watching *w)
 		return;
 	snprintf(path, sizeof(path), "/proc/%d/exe", (int)pid);
 	kind = executable_kind(path);
-	/* One that starts right now is none yet. */
+	/* A process that is just starting does not count yet. */
 	if ((kind != EXECUTABLE_STATIC && !mapped) || kind == EXECUTABLE_OTHER || (w->stranger && (w->stranger_seen || !seen)))
 		return;
 	w->stranger = pid;

@@ -1,17 +1,20 @@
 #!/usr/bin/python3
 """Writes the sources that come from Khronos' registries.
 
-usage: gen.py OUT tokens                                                every GL enum as a #define (gl_tokens.h) gen.py
-OUT commands OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...    what is known of each command (machine/commands.h) gen.py OUT
-handlers OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...    their handlers, in the same order (gl/dispatch.h)
+usage: gen.py OUT tokens
+           every GL enum as a #define (gl_tokens.h)
+       gen.py OUT commands OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...
+           the table of commands (machine/commands.h)
+       gen.py OUT handlers OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...
+           their handlers, in the same order (gl/dispatch.h)
 
 A handler is a line GLS_HANDLER(glName, KIND) or GLS_HANDLER(glName, KIND, ROLE) in a source of replay/.
 GLS_FAMILY(glName, ...) handles all commands whose names are glName and a suffix (GL 2.1 sec. 2.3);
-GLS_FAMILY(glNameEXT, ...) those with the suffix before EXT. A command without a handler takes that of the command that
-the registry calls its alias, or that of the command which does the same by another suffix (glFrustumfOES, glFrustumx:
-glFrustum); else the excuse that overlay.txt gives; else it is one that only asks; else it is counted when met. The
-lines "draws" and "ends" of capture/gen/overlay.txt say which commands do nothing but draw, or end a frame; its lines
-"arg" which arguments are pixels.
+GLS_FAMILY(glNameEXT, ...) those with the suffix before EXT. For a command without a handler, the first of these applies:
+the handler of the command that the registry calls its alias, or of the one that does the same under another suffix
+(glFrustumfOES, glFrustumx: glFrustum); the excuse that overlay.txt gives; it is only a query; it is counted when called.
+In capture/gen/overlay.txt, the lines "draws" and "ends" list commands that only draw, or end a frame; the lines "arg" say
+which arguments are pixels.
 """
 import re
 import sys
@@ -29,13 +32,13 @@ def tokens(out):
     _, enums = registry.read("gl.xml")
     lines = ["/* Made by replay/gen.py from Khronos' gl.xml. Included by C and OpenCL C: #defines only. */",
              "#pragma once"]
-    # Numbers beyond 32 bits are limits of later GL, and no token that a struct of ours holds.
+    # Values beyond 32 bits are limits of later GL, and never stored as tokens.
     lines += [f"#define {name} 0x{value:X}" for name, value in enums.items() if 0 <= value <= 0xFFFFFFFF]
     write(out, lines)
 
 
 def expand(pattern):
-    """The names that a pattern such as glUniform{1,2}{f,i}{,v} stands for."""
+    """The names that a pattern such as glUniform{1,2}{f,i}{,v} expands to."""
     braces = re.search(r"{([^}]*)}", pattern)
     if not braces:
         return [pattern]
@@ -46,7 +49,7 @@ def expand(pattern):
 
 
 def read_overlay(path):
-    """{command: why it needs nothing done}"""
+    """{command: why it needs no handler}"""
     excuses, reason = {}, None
     with open(path) as source:
         for number, line in enumerate(source, 1):
@@ -83,7 +86,7 @@ def read_handlers(paths):
 
 
 def handled(handlers, names):
-    """{command: (function, kind, role, what its suffix says: struct gls_suffix)}"""
+    """{command: (function, kind, role, its struct gls_suffix)}"""
     found = {}
     for what, stem, kind, role in sorted(handlers):
         if what == "HANDLER":

@@ -1,3 +1,7 @@
+/*
+ * Playing and seeking: executes frames, jumps to checkpoints, goes back for pixels of skipped frames, and collects
+ * statistics.
+ */
 #include "replay/replay.h"
 
 #include <inttypes.h>
@@ -28,17 +32,19 @@
 #define FIRST_BACK 16
 #define LONGER_BACK 8
 #define ALL_BACK UINT64_MAX
-/* The shortest way between two checkpoints with pixels: PIXELS_SHARE times as long as writing one takes, and
- * PIXELS_FRAMES frames if these wait to be drawn. */
+/*
+ * The minimum distance between two checkpoints with pixels: PIXELS_SHARE times as long as writing one takes, and
+ * PIXELS_FRAMES frames if these are still to be drawn.
+ */
 #define PIXELS_SHARE 4
 #define PIXELS_FRAMES 8
 
-/* How checkpoints with pixels are kept. */
+/* Progress since the last checkpoint with pixels. */
 struct keeping {
-	uint64_t frame;   /* the first frame after the last one, or that the way began with */
-	double since_s;   /* when it began */
-	double frame_s;   /* seconds that each frame before the last one took, drawn */
-	double writing_s; /* seconds that writing the last one took */
+	uint64_t frame;   /* first frame after the last checkpoint, or the frame that the replay began at */
+	double since_s;   /* when that frame began */
+	double frame_s;   /* seconds to draw each frame before the last checkpoint */
+	double writing_s; /* seconds to write the last checkpoint */
 };
 
 struct replay {
@@ -52,7 +58,7 @@ struct replay {
 	struct replay_context *contexts;
 	struct index *index; /* opened on first use */
 	struct pixels pixels;
-	uint64_t back;       /* so many frames before a wanted one are built where player.build_all is set */
+	uint64_t back;       /* number of frames built before a wanted one if player.build_all is set */
 	struct keeping keeping;
 };
 
@@ -177,8 +183,10 @@ static void tell_back(const struct player *p, uint64_t frame, const struct gls_f
 	         p->exec->frame);
 }
 
-/* Whether the way since the last checkpoint is long enough for another one. Frames that wait to be drawn count as long
- * as those before it took; a few of them are let wait, because drawing them at once is cheaper (gls_frame_defer). */
+/*
+ * 1 if the distance from the last checkpoint is large enough for another one. Frames that are still to be drawn count
+ * as long as earlier ones took; a few of them may wait, because drawing them together is cheaper (gls_frame_defer).
+ */
 static int is_far(const struct keeping *k, uint64_t frame)
 {
 	const double frames = (double)(frame - k->frame), least_s = PIXELS_SHARE * k->writing_s;
@@ -187,8 +195,8 @@ static int is_far(const struct keeping *k, uint64_t frame)
 }
 
 /*
- * Keep pixels between frames that are built on the way to another, as often as that takes little beside drawing them:
- * whoever begins there later goes no farther than from one checkpoint to the next.
+ * Save pixels between frames that are rebuilt on the way to another, as often as the cost is small compared with
+ * drawing: a later replay then goes back no further than to the nearest checkpoint.
  * @return 1 or ERR_SYSTEM (reported)
  */
 static int keep_pixels(struct replay *rp)
@@ -237,8 +245,8 @@ static int play_again(struct replay *rp, uint64_t frame, int want, const struct 
 }
 
 /*
- * Go to the last pixels before a frame, which are all that it can need, unless that way is more than twice as long as
- * the one to be tried without them, or than the way from where the player is now.
+ * Go to the last saved pixels before a frame, which are all that it can need, unless that is more than twice as far as
+ * an attempt without them would go, or further than the player's position.
  * @return 1; 0: there are none
  */
 static int jump_to_pixels(struct replay *rp, uint64_t frame)

@@ -154,7 +154,7 @@ struct replay_lack {
  */
 long replay_lacks(struct replay *rp, struct replay_lack **out);
 
-/** What the frames so far require of a renderer. */
+/** Requirements of the frames so far on a renderer. */
 struct replay_needs {
 	uint64_t programs;   /* draws by shaders or programs that are not run */
 	int several_windows; /* 1: frames end in different windows */
@@ -193,11 +193,11 @@ size_t replay_gl_errors(struct replay *rp, const struct replay_count **out);
 /** A context of the recorded program. */
 struct replay_context {
 	uint64_t handle;        /* its address in the program */
-	uint32_t width, height; /* of the drawable it last drew to */
+	uint32_t width, height; /* size of the drawable it last drew to */
 	const char *api;        /* "GLX", "EGL" */
 	uint64_t calls;         /* executed in it */
 	int shares;             /* 1: shares its objects with another one */
-	uint32_t alpha_bits, depth_bits, stencil_bits, samples; /* of the drawable's pixels, as far as the trace says */
+	uint32_t alpha_bits, depth_bits, stencil_bits, samples; /* per pixel of the drawable, as far as the trace says */
 };
 
 /** Contexts met so far in the order they were created; as above. */

@@ -48,7 +48,7 @@ void array_state_refresh(void);
 
 /** 1 if a pointer set now would be an offset in a bound buffer. */
 int array_state_pointer_is_offset(void);
-/** The buffer that they are offsets in. */
+/** The buffer that such an offset refers to. */
 unsigned array_state_buffer(void);
 /** The client's active texture unit. */
 unsigned array_state_unit(void);

@@ -21,7 +21,7 @@
 #include "capture/write/writer.h"
 #include "real.h"
 
-enum { MAX_ARRAY_BYTES = 1 << 30 }; /* a garbage index makes a larger one */
+enum { MAX_ARRAY_BYTES = 1 << 30 }; /* a larger size comes from a garbage index */
 
 /* A slot's array as last set in the trace. Nothing is written if the draw needs the same one. */
 struct written {

@@ -15,7 +15,7 @@
 #include "tables/commands.h"
 
 enum { N_ENTRIES = 1 << 13, FIRST_NAME = 0x60000000 }; /* names that no program gets from glGenBuffers */
-#define MAX_OWNED_BYTES (512l << 20) /* of one context, on replay */
+#define MAX_OWNED_BYTES (512l << 20) /* per context, on replay */
 #define MAX_COPIED_BYTES (64l << 20)
 
 struct content_entry {
@@ -97,7 +97,8 @@ unsigned content_buffer(unsigned target, const void *data, long bytes, int *boun
 	hash = XXH3_128bits(data, (size_t)bytes);
 	entry = &t->entries[hash.low64 % N_ENTRIES];
 	if (entry->bytes != bytes || !XXH128_isEqual(entry->hash, hash)) {
-		*entry = (struct content_entry){ hash, bytes, 0 }; /* a buffer that lived here is forgotten, not wrong */
+		*entry = (struct content_entry){ hash, bytes, 0 }; /* a buffer that was in this entry is forgotten, but
+		                                                      remains valid */
 		return 0;
 	}
 	if (!entry->buffer && t->owned_bytes + bytes <= MAX_OWNED_BYTES) {

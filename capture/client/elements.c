@@ -154,11 +154,11 @@ static void record_element(int slot, const struct array *a, int index)
 int elements_in_buffer(int index)
 {
 	if (!writer_active() || !array_state.known || !array_state.n_client)
-		return 1; /* all arrays lie in buffers: readers do it themselves */
+		return 1; /* all arrays are in buffers: readers can execute the call themselves */
 	for (int slot = 0; slot < N_ARRAYS && index >= 0; slot++) {
 		const struct array *a = &array_state.arrays[slot];
 
-		/* Arrays in buffers come before a vertex of client memory, and after all else. */
+		/* Write arrays in buffers before a vertex from client memory, and after everything else. */
 		if (apart && slot == ARRAY_VERTEX && a->enabled && !a->buffer)
 			fake_call(CMD_glArrayElement, "i", index);
 		if (a->enabled && !a->buffer && a->pointer)

@@ -1,9 +1,9 @@
-/* Runs inside the traced program. Indices of draws: which vertices they use, and how they are written. */
+/* Runs inside the traced program. Indices of draws: the vertices that they use, and how they are written. */
 #pragma once
 
 #include <stdint.h>
 
-enum { INDICES_MAX_BYTES = 1 << 30 }; /* more comes from a count that is garbage */
+enum { INDICES_MAX_BYTES = 1 << 30 }; /* a larger size comes from a garbage count */
 
 /** Vertices from `first` to `last`; last < 0: none. */
 struct indices_range {

@@ -31,7 +31,7 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static struct map maps[MAX_MAPS];
 static _Atomic int n_maps;
 
-/* `own`: 1 where `from` is the recorder's own memory, not the program's. */
+/* `own`: 1 if `from` is the recorder's own memory, not the program's. */
 static void record_memory(const uint8_t *to, const uint8_t *from, long bytes, int own)
 {
 	uint8_t *p = to && bytes > 0 ? writer_enter_memcpy() : NULL;

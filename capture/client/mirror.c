@@ -20,7 +20,7 @@ enum { PATIENCE = 16, SAMPLE = 8 };     /* after PATIENCE new contents in a row,
 enum { CREDIT = 64 }; /* mirrors that may be made before their array is drawn again; refunded when it is */
 enum { WATCH_AFTER = 64, WATCH_NEVER = 1 << 30 }; /* draws in a row that found the same bytes */
 enum { REWRITTEN = 8 };                 /* times that most watched pages were written with the same bytes */
-#define MAX_MIRRORED_BYTES (256l << 20) /* of one context, here and on replay */
+#define MAX_MIRRORED_BYTES (256l << 20) /* per context, here and on replay */
 
 struct mirror {
 	const uint8_t *data;

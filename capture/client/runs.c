@@ -19,8 +19,8 @@
 #include "tables/enums.h"
 
 enum { N_SLOTS = 1 << 14, N_PROBES = 8, MIN_BYTES = 128, MAX_LISTS = 1 << 14, CREDIT = 16, BLOCK_BYTES = 1 << 20 };
-enum { FIRST_ROOM = 1 << 18, MAX_ROOM = 1 << 26 }; /* of a thread's buffer */
-#define MAX_KEPT_BYTES (128l << 20)                /* of one context */
+enum { FIRST_ROOM = 1 << 18, MAX_ROOM = 1 << 26 }; /* size of a thread's buffer */
+#define MAX_KEPT_BYTES (128l << 20)                /* per context */
 
 /*
  * Names of lists, counted down. A GL that allocates the name after the highest one in use (Mesa) then never gives the
@@ -284,9 +284,9 @@ static struct run *look_up(struct runs_table *t, const uint8_t *records, size_t 
 }
 
 /*
- * Mesa's lists do not draw quite what they hold. They split quads along the other diagonal, which shows in the last bit
- * of some pixels, and line loops go astray. A list that is called between Begin and End draws as immediate mode does,
- * so Begin and End of these stay outside the list.
+ * Mesa does not draw lists exactly as immediate mode. It splits quads along the other diagonal, which shows in the last
+ * bit of some pixels, and draws line loops wrongly. A list called between Begin and End draws as immediate mode does,
+ * so for these primitives Begin and End stay outside the list.
  */
 static int stays_outside(const uint8_t *records)
 {

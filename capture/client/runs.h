@@ -43,7 +43,7 @@ int runs_diverge(void);
 /** Make more room. @return 0: there is none; the run so far has been written and is no longer kept */
 int runs_grow(void);
 
-/** 1 where this thread keeps a run. */
+/** 1 if this thread keeps a run. */
 static inline int runs_open(void)
 {
 	return runs_self.open;

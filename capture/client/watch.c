@@ -32,8 +32,8 @@ enum { FAULTS_USER_ONLY = 1 };
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static struct {
-	int faults, pages;       /* descriptors; open where `pid` is not 0 */
-	_Atomic int tried, pid;  /* a child has other memory */
+	int faults, pages;       /* descriptors; open if `pid` is not 0 */
+	_Atomic int tried, pid;  /* a forked child has other memory */
 	struct watch watches[MAX_WATCHES];
 } all;
 
@@ -79,7 +79,7 @@ static int scan(struct scan *s, uintptr_t from, uintptr_t end, struct scanned *o
 	return ioctl(all.pages, SCAN_PAGES, s);
 }
 
-/* 1 where all of it is present private memory, and now protected. */
+/* 1 if all of it is present private memory, and now protected. */
 static int protect(const struct watch *w)
 {
 	struct scan written = { .flags = SCAN_PROTECT, .category_mask = PAGE_WRITTEN, .return_mask = PAGE_WRITTEN };

@@ -18,7 +18,7 @@ enum { MAX_SIDE = 65536 };
 
 static int add_entry(struct ref_file *ref, const struct ref_entry *entry)
 {
-	/* Grows at powers of two, so n_entries tells the capacity. */
+	/* The array grows at powers of two, so n_entries implies its capacity. */
 	if ((ref->n_entries & (ref->n_entries - 1)) == 0) {
 		if (memory_resize(&ref->entries, ref->n_entries ? ref->n_entries * 2 : 1, sizeof(*entry)))
 			return ERR_SYSTEM;

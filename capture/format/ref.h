@@ -22,7 +22,7 @@
 #define REF_MAGIC_WHOLE "RELREF1\n"
 #define REF_MAGIC_BYTES 8
 #define REF_CHANGED 0x100u   /* added to a record's kind */
-#define REF_MOST_CHANGED 15u /* records that build one upon the other, after one that is whole */
+#define REF_MOST_CHANGED 15u /* most records in a chain of differences, after a whole one */
 
 enum ref_kind { REF_COLOR = 1, REF_DEPTH = 2 };
 

@@ -1,7 +1,7 @@
 /*
- * Snappy is C++: if malloc fails it throws, and nobody catches that. Its temporary memory (175 KB at most, for chunks
- * of any size) then comes from here, for one caller at a time. These are C++'s operators new and delete, for the
- * command and the recorder only: no library and no program sees them.
+ * Snappy is C++: if malloc fails it throws, and nothing catches that. Its temporary memory (175 KB at most, for chunks
+ * of any size) therefore comes from here, for one caller at a time. These are C++'s operators new and delete, for the
+ * command and the recorder only: no library or program sees them.
  */
 #include <sched.h>
 #include <stdatomic.h>

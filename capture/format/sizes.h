@@ -1,13 +1,13 @@
 /*
- * How much memory an argument points to: a function for each form that Khronos' registry leaves open (COMPSIZE). They
- * call no GL and use no state, so the recorder, the replay and the tests share them. A size that overflows a long, or
- * makes no sense, is 0.
+ * The size of the memory that an argument points to: a function for each form that Khronos' registry leaves open
+ * (COMPSIZE). They call no GL and use no state, so the recorder, the replay and the tests share them. A size that
+ * overflows a long, or is invalid, is 0.
  */
 #pragma once
 
 #include <string.h>
 
-/** How pixels lie in memory (GL 2.1 sec. 3.6.1, table 3.1). All zero but alignment 4 is GL's initial state. */
+/** The layout of pixels in memory (GL 2.1 sec. 3.6.1, table 3.1). GL's initial state is all zero except alignment 4. */
 struct pixel_layout {
 	int row_length, image_height, skip_rows, skip_pixels, skip_images, alignment;
 };
@@ -30,7 +30,7 @@ struct pixel_box {
 
 /**
  * Bytes from the pointer to the end of the last pixel that GL reads.
- * @return 0 if there are no pixels, or format, type or layout make no sense
+ * @return 0 if there are no pixels, or format, type or layout are invalid
  */
 long image_bytes(const struct pixel_layout *layout, const struct pixel_box *box);
 

@@ -1,8 +1,7 @@
 /*
- * Runs inside the traced program. dlsym is ours too: a program that looks up GL finds the recorder's entry points.
- *
- * Lookups of the next definition (RTLD_NEXT) keep their meaning: libraries that wrap GL themselves make them, and we
- * are loaded before all of these.
+ * Runs inside the traced program. Overrides dlsym as well, so that a program that looks up GL finds the recorder's
+ * entry points. Lookups of the next definition (RTLD_NEXT) are unchanged: libraries that wrap GL themselves make them,
+ * and we are loaded before all of these.
  */
 #include <dlfcn.h>
 #include <string.h>
@@ -10,7 +9,7 @@
 #include "capture/gl/resolve.h"
 #include "thunks.h"
 
-/* By hand: the C library's functions are among what a sanitizer replaces. */
+/* Written out, because a sanitizer replaces functions of the C library. */
 __attribute__((RESOLVE_BEFORE_ALL)) static int begins_with(const char *name, const char *prefix)
 {
 	while (*prefix && *name == *prefix) {
@@ -56,7 +55,7 @@ static void *look_up_gl(void *handle, const char *name)
 	switch (whose(found)) {
 	case 1:
 		return resolve_substitute(entry_points, name, found);
-	case 2: /* found us: only where the GL here has it as well */
+	case 2: /* one of ours: returned only if the real GL has the function as well */
 		command = resolve_number(name);
 		return command == N_COMMANDS || resolve_exists(command) ? found : NULL;
 	default:
@@ -65,10 +64,10 @@ static void *look_up_gl(void *handle, const char *name)
 }
 
 /*
- * The real dlsym is left by a jump, so that it sees its caller and not us: with RTLD_NEXT the answer depends on it. The
- * optimizer does so at any level from -O2 on, which is asked for here whatever the rest is built with.
+ * The real dlsym is called by a jump, so that it sees our caller instead of us: with RTLD_NEXT the result depends on
+ * the caller. The optimizer makes such jumps from -O2 on, which is requested here whatever the other flags are.
  */
-#ifndef __clang__ /* which does so without being asked, but at -O0 */
+#ifndef __clang__ /* which makes such jumps without being asked, except at -O0 */
 __attribute__((optimize("O2")))
 #endif
 __attribute__((visibility("default"), RESOLVE_BEFORE_ALL)) void *dlsym(void *restrict handle, const char *restrict name)

@@ -5,9 +5,9 @@ enumerants.
     gen.py OVERLAY OUTPUT-DIRECTORY
 
 writes tables/commands.h and .c (numbers, names and shapes of commands), tables/enums.h and .c (names by value), real.h
-(typed calls of the real functions), thunks.h and .c, and commands.txt (one line a command: recorded, or passed through
-and why). The same input gives the same bytes. A thunk is thin: it calls what hooks.h lists; every decision is in
-overlay.txt or there.
+(typed calls of the real functions), thunks.h and .c, and commands.txt (one line per command: recorded, or passed through
+and why). The same input gives the same bytes. A thunk is thin: it calls functions that hooks.h lists; every decision is
+in overlay.txt or in those functions.
 """
 import os
 import re
@@ -80,7 +80,7 @@ class Overlay:
         try:
             return re.compile(text)
         except re.error as error:
-            return self.fail(number, f"'{text}' is no regular expression: {error}")
+            return self.fail(number, f"'{text}' is not a regular expression: {error}")
 
     def header(self, number, file, names):
         try:
@@ -402,7 +402,7 @@ class Generator:
     # Enumerants
 
     def plain_enums(self):
-        """{value: name} of what is no flag, the plainest name of each value."""
+        """{value: name} of all that are not flags, with the plainest name of each value."""
         best = {}
         for order, enum in enumerate(self.enums):
             vendor = enum.name.rsplit("_", 1)[-1] in self.overlay.suffixes
@@ -415,7 +415,7 @@ class Generator:
 
 
 def write(directory, name, lines):
-    """Only where it changed, so that nothing is rebuilt without need."""
+    """Write only if the text changed, so that nothing is rebuilt needlessly."""
     path, text = os.path.join(directory, name), "\n".join(lines) + "\n"
     try:
         with open(path, encoding="utf-8") as stream:
@@ -466,7 +466,7 @@ def main(overlay_path, directory):
     write(directory, "thunks.h", [head] + prototypes)
     names = gen.plain_enums()
 
-    # One signature a name, written where it is first used: index in enum_entries is the signature's number.
+    # One signature per name, written where it is first used: index in enum_entries is the signature's number.
     enums = [
         BANNER + '#include "tables/enums.h"\n\n#include <stddef.h>\n', "const struct enum_entry enum_entries[] = {",
         "\t{ NULL, 0 },"

@@ -1,4 +1,4 @@
-/* Runs inside the traced program. All that the generated thunks call; for them alone. */
+/* Runs inside the traced program. Declares everything that the generated thunks call, and is for them only. */
 #pragma once
 
 #include "capture/client/array_state.h"

@@ -1,7 +1,7 @@
 """Khronos' XML registries (Debian package khronos-api) and headers as plain Python objects, for the generators of
 capture/ and replay/.
 
-Standard library only. Everything comes back in a fixed order, so that what is generated from it is the same each time.
+Standard library only. Results have a fixed order, so that generated files are the same each time.
 """
 import re
 import xml.etree.ElementTree as ElementTree
@@ -82,7 +82,7 @@ def read_header(file_name):
 
 
 def read_prototype(text):
-    """name, Command of one prototype: "void *OSMesaCreateContext(GLenum format, void *sharelist)". None: it is no
+    """name, Command of one prototype: "void *OSMesaCreateContext(GLenum format, void *sharelist)". None: not a
     prototype."""
     match = re.fullmatch(r"(.+?)\s*\b(\w+)\((.*)\)", text)
     return match and _prototype(match.groups())
@@ -103,7 +103,7 @@ class Enum:
 
 
 def read_enums(file_name):
-    """Every enumerant of one registry with its groups, in the registry's order. Values that are no numbers are left
+    """Every enumerant of one registry with its groups, in the registry's order. Values that are not numbers are left
     out."""
     found = []
     for block in ElementTree.parse(f"{DIRECTORY}/{file_name}").getroot().iterfind("enums"):

@@ -8,7 +8,7 @@
 #include "capture/gl/marker.h"
 #include "real.h"
 
-#define UNANSWERED 0xffffffffu /* the query is none, or still counts: the call itself is an error */
+#define UNANSWERED 0xffffffffu /* not a valid query, or still counting: the call itself is an error */
 
 void condition_write(unsigned query)
 {

@@ -1,4 +1,6 @@
-/* Runs inside the traced program. Conditional rendering: the query's count, which the format has no place for. */
+/*
+ * Runs inside the traced program. Conditional rendering: records the query's result, which the format has no place for.
+ */
 #pragma once
 
 /** Before glBeginConditionalRender: write its query's result. The driver now waits for the result in any mode. */

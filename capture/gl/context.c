@@ -61,7 +61,7 @@ int context_get_level(unsigned target, int level, unsigned pname)
 	return value;
 }
 
-/* 1 where `list` holds `name` as a whole word. */
+/* 1 if `list` contains `name` as a whole word. */
 static int has_word(const char *list, const char *name)
 {
 	size_t n = strlen(name);
@@ -196,7 +196,7 @@ void context_destroyed(void *handle)
 	for (struct context *c = contexts; c; c = c->next) {
 		if (c->handle != handle || !handle || c == current)
 			continue;
-		c->handle = NULL; /* the address may come back as another context */
+		c->handle = NULL; /* the address may be reused for another context */
 		for (int i = 0; i < N_CONTEXT_SLOTS; i++)
 			if (c->slots[i].data)
 				c->slots[i].release(c->slots[i].data);

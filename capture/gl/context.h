@@ -31,7 +31,7 @@ enum context_feature { /* features that can be queried without a GL error */
 	               HAS_RESTART_NV = 1 << 20,
 	               HAS_CONVENTIONAL =
 	                       1 << 21 /* matrices, lights and arrays of positions: fixed function, and OpenGL ES 1 */,
-	               HAS_POINT_SIZES = 1 << 22 /* an array of them */
+	               HAS_POINT_SIZES = 1 << 22 /* point size arrays */
 };
 
 /** Data that other files keep for each context. */

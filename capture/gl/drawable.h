@@ -9,7 +9,7 @@ struct drawable {
 	unsigned long window; /* X window or pixmap to ask the size of; 0: the size cannot change */
 	int width, height;    /* when it was asked; 0: not yet */
 	uint64_t asked_ns;
-	int marked_width, marked_height; /* as trace number `marked_epoch` has them (writer_epoch) */
+	int marked_width, marked_height; /* as written in trace number `marked_epoch` (writer_epoch) */
 	unsigned marked_epoch;
 	int held_width, held_height; /* size of its buffers at the end of its last frame */
 };

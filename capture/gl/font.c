@@ -46,7 +46,7 @@ static void find_xlib(void)
 			x_found = 0;
 }
 
-/* A character's metrics; NULL where the font has no such character. */
+/* A character's metrics; NULL if the font lacks the character. */
 static const XCharStruct *find_character(const XFontStruct *font, unsigned code)
 {
 	unsigned columns = font->max_char_or_byte2 - font->min_char_or_byte2 + 1;

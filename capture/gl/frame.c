@@ -33,17 +33,16 @@ static struct {
 
 static __thread struct {
 	struct drawable_target target;
-	int draws;             /* counted among the threads that do */
-	int in_primitive;      /* between Begin and End, where no call of ours may come */
-	int unswapped;         /* the frame that ends does so without a swap */
+	int draws;             /* 1: counted among the threads that draw */
+	int in_primitive;      /* 1: between Begin and End, where we must not write calls of our own */
+	int unswapped;         /* 1: the frame ends without a swap */
 	int drawn, primitives; /* since the last frame: anything at all, anything but clears */
 	int viewport[2];       /* size of the last one that reached beyond the window */
 } self __attribute__((tls_model("initial-exec")));
 
 /* Frames */
 
-/* 1 where the frame that ends may be one to be read back: with several threads nobody knows its number before it has
- * ended. */
+/* 1 if the frame that ends may be one to read back: with several threads its number is unknown until it has ended. */
 static int may_be_read(void)
 {
 	return reference_wanted(writer_frames()) || (threads > 1 && reference_wanted(0));
@@ -287,9 +286,9 @@ static void frame_recorded(uint64_t frames)
 	if ((wish.max_frames && frames >= wish.max_frames) || (wish.quit_after && frames >= wish.quit_after)) {
 		end_recording();
 	} else if (wish.max_bytes && writer_bytes() >= wish.max_bytes) {
-		report_say("the trace has reached its largest size after %llu frame%s; recording ends, the program %s",
+		report_say("the trace has reached its maximum size after %llu frame%s; recording ends, the program %s",
 		           (unsigned long long)frames, frames == 1 ? "" : "s",
-		           wish.quit_after ? "as well (--quit-after)" : "goes on");
+		           wish.quit_after ? "ends as well (--quit-after)" : "keeps running");
 		end_recording();
 	}
 }

@@ -77,6 +77,6 @@ void marker_write_bits(void)
 	context_errors_after();
 	marker_write(text);
 	marker_write_gl();
-	if (FLT_EVAL_METHOD == 2) /* built for the processors that this distribution builds its GL library for, too */
+	if (FLT_EVAL_METHOD == 2) /* this build uses the x87, so the distribution's GL library does as well */
 		marker_write("relume:x87");
 }

@@ -84,9 +84,9 @@ void reading_end(const struct reading_state *s)
 }
 
 /*
- * A window with several samples a pixel shows their mean. glReadPixels need not: Mesa's software rasterizers return one
- * sample (22.3.6). So a blit into a temporary renderbuffer makes what the window will show, as the driver does at the
- * swap.
+ * A multisampled window shows the mean of a pixel's samples. glReadPixels need not return it: Mesa's software
+ * rasterizers return one sample (22.3.6). So a blit into a temporary renderbuffer computes what the window will show,
+ * as the driver does at the swap.
  */
 static void read_resolved(int width, int height, void *pixels)
 {
@@ -126,7 +126,7 @@ void reading_colors(int width, int height, void *pixels)
 		real_glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
 }
 
-/* 1 where the buffers have a pixel there: the same is read over any two values. */
+/* 1 if the buffers have a pixel there: reading it overwrites two different values alike. */
 static int has_pixel(int x, int y)
 {
 	uint32_t pixel[2] = { 0, ~0u };

@@ -18,10 +18,13 @@ void reading_begin(struct reading_state *s);
 void reading_end(const struct reading_state *s);
 
 /**
- * In between: a size at most as large as what the window's buffers hold, down from the one given. glReadPixels leaves
- * memory alone for pixels that they do not have (Mesa 22.3.6).
+ * Call in between: reduce the given size to that of the window's buffers. glReadPixels leaves memory unchanged for
+ * pixels that they do not have (Mesa 22.3.6).
  */
 void reading_held(int *width, int *height);
 
-/** In between: what the window shows, RGBA with 8 bits each, rows from the bottom up; the mean of a pixel's samples. */
+/**
+ * Call in between: read what the window shows, RGBA with 8 bits each, rows from the bottom up; the mean of a pixel's
+ * samples.
+ */
 void reading_colors(int width, int height, void *pixels);

@@ -37,7 +37,7 @@ static struct {
 	pthread_mutex_t lock;
 } r = { .lock = PTHREAD_MUTEX_INITIALIZER };
 
-/* A frame's pixels, colour and depth, which wait for its number. */
+/* A frame's pixels, colour and depth, until its number is known. */
 struct readback {
 	struct readback *next;
 	struct pages pixels[2];
@@ -119,7 +119,7 @@ static int make_ready(void)
 	return 0;
 }
 
-/* Room for a kind's pixels of the frame that waits; NULL: there is none (said) */
+/* Room for a kind's pixels of the current frame; NULL: there is none (reported) */
 static uint8_t *place_pixels(enum ref_kind kind, int width, int height)
 {
 	const unsigned k = kind == REF_DEPTH;
@@ -131,7 +131,7 @@ static uint8_t *place_pixels(enum ref_kind kind, int width, int height)
 	return waiting->pixels[k].at;
 }
 
-/* 1 where the window has a back buffer and yet is drawn to its front buffer. */
+/* 1 if the window has a back buffer, but its front buffer is drawn to. */
 static int draws_to_front(void)
 {
 	int buffer = context_has(HAS_DESKTOP) && context_get(GL_DOUBLEBUFFER) ? context_get(GL_DRAW_BUFFER) : GL_BACK;
@@ -148,17 +148,17 @@ static enum unread why_unread(int width, int height)
 		return NO_SIZE;
 	if (!context_has(HAS_FIXED_FUNCTION))
 		return IS_READ;
-	if (!context_get(GL_MATRIX_MODE)) /* never 0: between glBegin and glEnd nothing can be asked */
+	if (!context_get(GL_MATRIX_MODE)) /* never 0: between glBegin and glEnd nothing can be queried */
 		return IN_BEGIN;
 	/* A list that is being compiled would take the selection of the buffer. */
 	return context_get(GL_LIST_INDEX) ? IN_LIST : IS_READ;
 }
 
-/* The first time. */
+/* Report the first occurrence only. */
 static void say_unread(enum unread why)
 {
 	static const char *const words[] = {
-		[NO_SIZE] = "in what is neither a window nor a pixmap, or in one that is gone, or with another one to read from",
+		[NO_SIZE] = "in something that is neither a window nor a pixmap, or no longer exists, or with another read drawable",
 		[IN_LIST] = "while a display list is made", [IN_BEGIN] = "between glBegin and glEnd",
 	};
 	static atomic_int said[sizeof(words) / sizeof(words[0])];
@@ -188,8 +188,8 @@ void reference_read(int width, int height, int unswapped)
 		real_glReadBuffer(GL_FRONT);
 	if (r.color && !r.failed && (pixels = place_pixels(REF_COLOR, width, height)))
 		reading_colors(width, height, pixels);
-	if (r.depth && !r.failed && context_has(HAS_DESKTOP) && context_get(GL_DEPTH_BITS) > 0 && /* OpenGL ES reads no
-	                                                                                             depth */
+	/* OpenGL ES cannot read depth */
+	if (r.depth && !r.failed && context_has(HAS_DESKTOP) && context_get(GL_DEPTH_BITS) > 0 &&
 	    (pixels = place_pixels(REF_DEPTH, width, height)))
 		real_glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, pixels);
 	reading_end(&state);
@@ -199,8 +199,10 @@ done:
 	errno = saved;
 }
 
-/* Add a kind's record to r.records, which hold `bytes` so far, and keep its pixels for the next one. Returns its bytes;
- * 0: no memory (said) */
+/*
+ * Append a kind's record to r.records, which hold `bytes` so far, and keep its pixels for the next one. Returns its
+ * size; 0: out of memory (reported)
+ */
 static size_t pack_record(struct readback *read, enum ref_kind kind, uint64_t frame, size_t bytes)
 {
 	const unsigned k = kind == REF_DEPTH;

@@ -26,9 +26,9 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static struct texture textures[MAX_TEXTURES]; /* drawn to, as far as we know; under the lock */
 static int n_textures;
 
-static const struct pixel_layout close_layout = { .alignment = 1 }; /* rows lie close */
+static const struct pixel_layout close_layout = { .alignment = 1 }; /* rows tightly packed */
 
-/* Textures that hold what was drawn */
+/* Textures with drawn contents */
 
 static void note_texture(unsigned target, unsigned name)
 {
@@ -92,7 +92,7 @@ enum {
 };
 static int store_initial(unsigned i)
 {
-	return store_names[i] == GL_UNPACK_ALIGNMENT; /* 1: rows lie close; all others 0 */
+	return store_names[i] == GL_UNPACK_ALIGNMENT; /* 1: rows tightly packed; all others 0 */
 }
 
 void restore_make_neutral(int back)
@@ -118,7 +118,7 @@ void restore_make_neutral(int back)
 
 /* Textures */
 
-/* Rows lie close on both sides. 0 where there is no such level. */
+/* Rows are tightly packed on both sides. 0 if there is no such level. */
 static int restore_level(unsigned target, int level)
 {
 	int width = context_get_level(target, level, GL_TEXTURE_WIDTH),
@@ -230,7 +230,7 @@ static void draw_pixels(int width, int height, unsigned format, unsigned type)
 	munmap(pixels, (size_t)bytes);
 }
 
-/* `framebuffer`: what the program draws to; 0 is the window. */
+/* `framebuffer`: bound for drawing by the program; 0 is the window. */
 static void restore_window(int width, int height, unsigned framebuffer)
 {
 	unsigned draw_target = context_has(HAS_READ_FRAMEBUFFER) ? GL_DRAW_FRAMEBUFFER : GL_FRAMEBUFFER;
@@ -272,7 +272,7 @@ void restore_drawn(int width, int height)
 	drawable_make_size_known(); /* its clear was left out with its frame */
 	restore_make_neutral(0);
 	reading_begin(&state);
-	real_glPixelStorei(GL_PACK_ALIGNMENT, 1); /* put back with all else */
+	real_glPixelStorei(GL_PACK_ALIGNMENT, 1); /* restored with everything else */
 	pthread_mutex_lock(&lock);
 	for (int i = 0; i < n_textures; i++)
 		restore_texture(&textures[i]);

@@ -20,6 +20,6 @@ void restore_drawn(int width, int height);
 
 /**
  * Write calls that set the state that pixels pass through on their way in.
- * @param back  0: to its initial value (rows lie close); 1: back to the program's
+ * @param back  0: to its initial value (rows tightly packed); 1: back to the program's
  */
 void restore_make_neutral(int back);

@@ -30,7 +30,7 @@ void lock_take_shared(void)
 	if (lock_owner > NO_OWNER) {
 		lock_owner = NO_OWNER;
 		if (membarrier(MEMBARRIER_CMD_PRIVATE_EXPEDITED))
-			usleep(NO_MEMBARRIER_US); /* forbidden meanwhile: after this time every store has been seen */
+			usleep(NO_MEMBARRIER_US); /* membarrier was forbidden in the meantime: after this time every store has been seen */
 		while (atomic_load_explicit(&lock_owner_inside, memory_order_acquire))
 			sched_yield();
 	}

@@ -22,7 +22,7 @@ static ssize_t copy_by_file(void *to, const void *from, size_t bytes)
 	return n;
 }
 
-/* One copy by the kernel. Returns its bytes, 0 where the start is unreadable. */
+/* One copy by the kernel. Returns its size, 0 if the start is unreadable. */
 static size_t copy(void *to, const void *from, size_t bytes)
 {
 	struct iovec local = { to, bytes }, remote = { (void *)from, bytes };
@@ -59,7 +59,7 @@ size_t pages_read(void *to, const void *from, size_t bytes)
 
 size_t pages_text_bytes(const char *text)
 {
-	char part[PAGE / 16]; /* a piece lies in one page, so it is readable as a whole or not at all */
+	char part[PAGE / 16]; /* a piece lies within one page, so it is readable as a whole or not at all */
 	size_t bytes = 0;
 
 	for (;;) {

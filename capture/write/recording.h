@@ -17,17 +17,17 @@ extern struct recording {
 	uint64_t n_calls;
 	_Atomic uint64_t n_frames;
 	struct stats_process *process; /* never NULL once recording */
-	int quits; /* 1: the program ends with the recording, also where that fails */
+	int quits; /* 1: the program ends with the recording, even if that fails */
 } recording __attribute__((visibility("hidden")));
 
 /** Create the trace and a row of figures for it. The state says whether it worked. */
 void recording_open(const char *name);
 
 /**
- * The chunk is complete up to p: hand it over. Ends the recording, and says so once, where the file has failed. Keeps
+ * The chunk is complete up to p: hand it over. Ends the recording, with one message, if the file has failed. Keeps
  * errno.
  * @param now  1: return only when it is in the file
- * @return where to go on
+ * @return the position to continue at
  */
 uint8_t *recording_spill(uint8_t *p, int now);
 

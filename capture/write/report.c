@@ -16,7 +16,7 @@
 #include "tables/commands.h"
 
 static struct recorder_stats *stats;
-static struct stats_process own_process; /* used if the command maps no statistics file */
+static struct stats_process own_process; /* used if the command has mapped no statistics file */
 
 void report_say(const char *fmt, ...)
 {
@@ -32,7 +32,7 @@ void report_say(const char *fmt, ...)
 		n = (int)sizeof(text) - 2;
 	text[n++] = '\n';
 	if (write(STDERR_FILENO, text, (size_t)n) < 0)
-		errno = saved; /* nobody listens */
+		errno = saved; /* nobody reads it */
 	errno = saved;
 }
 
@@ -71,7 +71,7 @@ static int look_at_library(struct dl_phdr_info *info, size_t size, void *nothing
 	return 0;
 }
 
-/* A program that made no call: which libraries did it have? */
+/* For a program that made no call: note which libraries it has loaded. */
 __attribute__((destructor)) static void report_libraries(void)
 {
 	if (stats)
@@ -87,7 +87,7 @@ struct stats_process *report_new_process(void)
 
 void report_unknown(unsigned command)
 {
-	static _Atomic uint8_t slots[N_COMMANDS]; /* 1-based place in the table of figures, 255: it is full */
+	static _Atomic uint8_t slots[N_COMMANDS]; /* 1-based index in the statistics, 255: the table is full */
 	uint8_t slot = slots[command];
 
 	if (!stats || slot == 255)

@@ -13,13 +13,13 @@ void report_say(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
  */
 void report_open(const char *path, const char *descriptor);
 
-/** Figures of a new process. Never NULL. */
+/** Statistics of a new process. Never NULL. */
 struct stats_process *report_new_process(void);
 
 /** Count a command that was passed through and not recorded. */
 void report_unknown(unsigned command);
 
-/** Count a key of `record --press`: one that a window took, or that none did. */
+/** Count a key of `record --press`: one that a window received, or that none did. */
 void report_key(int is_taken);
 
 /** How often the command's signal or key switched recording on or off. */

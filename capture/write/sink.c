@@ -38,7 +38,7 @@ static struct {
 	_Atomic pid_t thread;             /* 0: there is none */
 	int tried;                        /* to start it */
 
-	/* Used by the thread where chunks wait for it, else by the caller. */
+	/* Used by the thread if chunks wait for it, else by the caller. */
 	char *packed;
 	int fd;
 	dev_t device;
@@ -219,7 +219,7 @@ static void *pack_chunks(void *nothing)
 	return NULL;
 }
 
-/* It takes no signals of the program. Where it cannot start, the caller does its work. */
+/* Signals are blocked in it. If it cannot be started, the caller does its work. */
 static void start_thread(void)
 {
 	pthread_attr_t attributes;
@@ -233,7 +233,7 @@ static void start_thread(void)
 	pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
 	sigfillset(&all);
 	pthread_sigmask(SIG_SETMASK, &all, &before);
-	sink.thread = -1; /* on its way */
+	sink.thread = -1; /* being started */
 	if (pthread_create(&thread, &attributes, pack_chunks, NULL))
 		sink.thread = 0;
 	pthread_sigmask(SIG_SETMASK, &before, NULL);

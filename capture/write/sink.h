@@ -1,5 +1,5 @@
 /*
- * Runs inside the traced program. Where the trace goes: chunks of plain bytes in, packed chunks in the file.
+ * Runs inside the traced program. The end of the trace: takes chunks of plain bytes, writes packed chunks to the file.
  *
  * A thread packs and writes full chunks while the program continues. At the end of a frame the rest is handed over
  * before the swap and awaited after it, so the kernel has every frame that was swapped, and packing costs no time if

@@ -9,7 +9,7 @@
 struct command {
 	const char *name;
 	unsigned n_args;
-	const char *arg_names; /* one after the other, each with its NUL */
+	const char *arg_names; /* concatenated, each with its NUL */
 	/*
 	 * One letter for each argument of a command that may be in a run (runs.h); else NULL. f d: floats of 4 and 8
 	 * bytes; b s i, B S I: signed and unsigned integers of 1, 2, 4; e: enumerant, p: a primitive's, t: truth, y:
@@ -17,7 +17,7 @@ struct command {
 	 * or enumerant. A digit before it: an array of that length; '*': as many as there are bytes.
 	 */
 	const char *shape;
-	int draws; /* 1: does nothing but draw, or end a frame */
+	int draws; /* 1: only draws, or ends a frame */
 };
 extern const struct command commands[]; /* sorted by name */
 
@@ -31,4 +31,4 @@ struct bits_entry {
 	const struct enum_entry *flags;
 };
 extern const struct enum_entry enum_entries[]; /* the index is the signature's number, 0 is unused */
-extern const uint16_t enum_index[0x10000];     /* value -> index in enum_entries, 0 where it has no name */
+extern const uint16_t enum_index[0x10000];     /* value -> index in enum_entries, 0 if it has no name */

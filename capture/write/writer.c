@@ -28,7 +28,7 @@ static _Atomic unsigned epoch;
 
 static char wanted_path[STATS_PATH_BYTES]; /* RELUME_TRACE */
 static _Atomic uint32_t n_threads;
-static int only_this_process; /* no child of it gets a trace */
+static int only_this_process; /* 1: its children get no trace */
 
 /* initial-exec: reached without a call, as the library is loaded from the start. */
 static __thread struct {

@@ -90,7 +90,7 @@ void writer_note_quit(void);
 /** The program ends with the recording (--quit-after): an error that ends the recording says so. */
 void writer_will_quit(void);
 
-/** 1 where an error has ended the recording. */
+/** 1 if an error has ended the recording. */
 int writer_has_failed(void);
 /** An error has ended the reference frames. */
 void writer_note_lost_references(void);

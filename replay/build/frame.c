@@ -276,8 +276,8 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	if (d->frame && !target->colored && !d->frame->colored && clears_depth(d, &clear) && clears_stencil(d, &clear)) {
 		gls_frame_drop(d); /* colours still have their initial values */
 	} else if (clears_all(d, &clear)) {
-		if (st->draw_framebuffer && clears_stencil(d, &clear)) /* nobody reads a framebuffer object's draw
-		                                                          numbers: they need not accumulate */
+		/* nobody reads a framebuffer object's draw numbers: they need not accumulate */
+		if (st->draw_framebuffer && clears_stencil(d, &clear))
 			gls_frame_drop(d);
 		else if (d->frame && d->frame->out->n_instances && (clears_stencil(d, &clear) || !has_stencil(d->frame->out)))
 			forget_drawn(x, d);

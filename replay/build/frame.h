@@ -43,8 +43,8 @@ struct gls_event {
 	const float (*values)[4];  /* values of attributes that the mesh lacks */
 	uint32_t command;
 	uint64_t call_number;
-	const struct scene_rectangle *rectangle; /* of pixels, at the mesh's only point; its texture is filled in. NULL:
-	                                            not a rectangle */
+	const struct scene_rectangle *rectangle; /* at the mesh's only point; its texture is filled in. NULL: not a
+	                                            rectangle of pixels */
 	struct gls_texture_image *image;         /* its pixels */
 	int in_window; /* 1: positions are window coordinates, and texture coordinates are final: no matrix applies */
 };

@@ -1,3 +1,4 @@
+/* Copies the state that a draw reads into a scene's views, materials, units and lights. */
 #include "replay/build/material.h"
 
 #include <stdlib.h>
@@ -400,8 +401,8 @@ static void fill_raster_state(const struct gls_attribs *a, int is_mesa, struct s
 	m->polygon_mode_back = a->polygon.mode[1];
 	m->polygon_offset = (a->polygon.offset_point ? 1u : 0) | (a->polygon.offset_line ? 2u : 0) |
 	                    (a->polygon.offset_fill ? 4u : 0);
-	if (m->polygon_offset && is_mesa && !gls_draws_by_stages(a)) /* llvmpipe's triangle setup checks none of the
-	                                                                three enables */
+	/* llvmpipe's triangle setup checks none of the three enables */
+	if (m->polygon_offset && is_mesa && !gls_draws_by_stages(a))
 		m->polygon_offset |= 4;
 	m->polygon_offset_factor = a->polygon.offset_factor;
 	m->polygon_offset_units = a->polygon.offset_units;

@@ -18,17 +18,16 @@ struct gls_frame {
 			draws, rectangles, programs;
 	} room;
 	struct table materials, units, lights, currents, views, stipples, programs, spaces; /* hash -> index + 1 */
-	uint32_t material, view; /* of the last draw, valid while its context's state is not dirty */
+	uint32_t material, view; /* the last draw's, valid while its context's state is not dirty */
 	int is_programmed;       /* the view's gls_frame_is_programmed */
 	const struct gls_state *last;
 	uint32_t next_draw, next_primitive;
 	uint32_t colored; /* 1: some event may change colours */
 	uint32_t depth_bits; /* for draws copied into a surface without depth, whose own depth test is off */
-	uint32_t put_end; /* instances before this one left no depth or stencil values: the last of them was copied
-	                     there */
+	uint32_t put_end; /* instances before this one left no depth or stencil values: the last of them was copied there */
 	uint32_t looked;  /* buffers that some draw read where they were unknown, bits as in scene_clear */
 	struct gls_known known; /* areas known through clears so far */
-	uint64_t serial;  /* of the scene: meshes and images use it to remember their slots */
+	uint64_t serial;  /* the scene's: meshes and images use it to remember their slots */
 	struct gls_picture *snapshot; /* a reference: picture of the first snapshot_events events, or NULL */
 	uint64_t snapshot_events;
 	int snapshot_in_part;         /* 1: it is valid only where `known` says so */

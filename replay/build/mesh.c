@@ -1,3 +1,4 @@
+/* The cache of meshes: collected vertices are hashed, and equal ones share a mesh. */
 #include "replay/build/mesh.h"
 
 #include <stdlib.h>

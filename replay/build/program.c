@@ -1,3 +1,4 @@
+/* Puts programs into a scene, with the values that their constants have for a draw. */
 #include "replay/build/program.h"
 
 #include <math.h>
@@ -53,8 +54,7 @@ static void fill_light(const struct scene_light *light, uint32_t part, float out
 	case PROGRAM_LIGHT_DIRECTION:
 		memcpy(out, light->spot_direction_eye, 12);
 		normalize(out);
-		out[3] = fmaxf(cosf(light->spot_cutoff_deg * (float)(3.14159265358979323846 / 180)), 0); /* as in Mesa
-		                                                                                            (22.3.6) */
+		out[3] = fmaxf(cosf(light->spot_cutoff_deg * (float)(3.14159265358979323846 / 180)), 0); /* as in Mesa (22.3.6) */
 		break;
 	case PROGRAM_LIGHT_CUTOFF: out[0] = light->spot_cutoff_deg; break;
 	default: /* halfway between the light and the viewer, both at infinity */

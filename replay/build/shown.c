@@ -133,8 +133,9 @@ static int place_events(const struct placed *p)
 }
 
 /*
- * A clear of a rectangle's depth and stencil to what a surface's clears have left there. Without them its depth is 1 as
- * earlier frames have cleared it, or 0 as Mesa makes windows (22.3.6) if the context has never used it.
+ * A clear of a rectangle's depth and stencil to the values that a surface's clears left there. If there were none, the
+ * depth is 1, as cleared by earlier frames, or, if the context has never used depth, 0, as in Mesa's new windows
+ * (22.3.6).
  */
 static struct scene_clear cleared(const struct gls_exec *x, const struct scene *s, const int32_t rect[4])
 {

@@ -1,5 +1,4 @@
-/* Window systems: contexts, drawables and frame ends, as far as a recording of GLX 1.4, EGL or OSMesa shows them; our
- * own markers. */
+/* Window systems: contexts, drawables and frame ends, from calls of GLX 1.4, EGL or OSMesa; our recorder's markers. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +29,7 @@ static void set_current(struct gls_exec *x, struct gls_context *ctx, uint64_t dr
 	ctx->state.dirty = GLS_DIRTY_ALL;
 }
 
-/* A context that was made before the recording began. */
+/* Find a context; create it if that happened before the recording began. */
 static struct gls_context *find_or_create(struct gls_exec *x, uint64_t handle, const char *api)
 {
 	struct gls_context *ctx = gls_context_find(x, handle);
@@ -50,7 +49,7 @@ static void make_current(struct gls_exec *x, const struct call *c, unsigned draw
 	uint64_t handle = (uint64_t)arg_i(c, context);
 
 	if (c->ret.type != TRACE_NONE && gls_value_int(&c->ret) == 0)
-		return; /* it failed: the old one stays current */
+		return; /* it failed: the old context stays current */
 	set_current(x, handle ? find_or_create(x, handle, api) : NULL, (uint64_t)arg_i(c, drawable), (uint64_t)arg_i(c, read));
 }
 
@@ -58,12 +57,12 @@ static void destroy_context(struct gls_exec *x, const struct call *c, unsigned c
 {
 	struct gls_context *ctx = gls_context_find(x, (uint64_t)arg_i(c, context));
 
-	/* Current ones live on until they are released (GLX 1.4 sec. 3.3.7); the handle may come back for a new one. */
+	/* A current context lives until it is released (GLX 1.4 sec. 3.3.7); its handle may be reused for a new one. */
 	if (ctx)
 		ctx->destroyed = 1;
 }
 
-/* A swap ends the drawable's frame, and the trace's. */
+/* A swap ends the drawable's frame, which is also the trace's. */
 static void swap(struct gls_exec *x, uint64_t drawable)
 {
 	gls_flush(x);
@@ -86,8 +85,9 @@ GLS_HANDLER(glXCopyContext, WINDOW) { gls_unsupported(x, "the copy of state betw
 
 enum { EGL_OPENGL_ES_API = 0x30A0, EGL_CONTEXT_CLIENT_VERSION = 0x3098 };
 
-/* EGL 1.5 sec. 3.7: what eglBindAPI has chosen, OpenGL ES where nothing was. Recordings that begin late may lack the
- * call. */
+/*
+ * EGL 1.5 sec. 3.7: the API chosen by eglBindAPI, by default OpenGL ES. Recordings that begin late may lack the call.
+ */
 static int is_es(const struct gls_exec *x, const struct call *c)
 {
 	uint64_t n;
@@ -106,8 +106,10 @@ GLS_HANDLER(eglCreateContext, WINDOW)
 {
 	struct gls_context *ctx = create_context(x, c, arg_i(c, 2), arg(c, 1), "EGL");
 
-	/* Mesa (22.3.6) clamps the colours of OpenGL ES' vertices after interpolation alone, other than OpenGL ES 1.1
-	 * sec. 2.12.2 says. */
+	/*
+	 * Mesa (22.3.6) clamps OpenGL ES vertex colours only after interpolation, contrary to OpenGL ES 1.1 sec.
+	 * 2.12.2.
+	 */
 	if (ctx && is_es(x, c))
 		ctx->state.a.lighting.clamp = GL_FALSE;
 }
@@ -181,7 +183,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		st->x87 = 1;
 	if (strncmp(text, "relume:gl ", 10) == 0)
 		st->mesa = scene_mesa_of(text + 10);
-	/* One comes with every frame of some programs, and sscanf measures the text before it looks at it. */
+	/* Some programs write a marker with every frame, and sscanf measures the text before it parses it. */
 	if (strncmp(text, "relume:bits", 11) == 0 &&
 	    sscanf(text, "relume:bits %u %u %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples, &two_buffers,
 	           &accum) >= 3 &&
@@ -196,7 +198,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		st->double_buffered = two_buffers != 0;
 		st->lacks_accum = !accum;
 		if (samples > 1 && samples != SCENE_SAMPLES)
-			gls_unsupported(x, "other than four samples a pixel: four are taken");
+			gls_unsupported(x, "other than four samples per pixel: four are taken");
 		st->dirty |= GLS_DIRTY_ALL;
 	}
 	if (strncmp(text, "relume:drawable", 15) != 0 || sscanf(text, "relume:drawable %u %u", &width, &height) != 2 ||

@@ -238,8 +238,7 @@ void glsl_store(struct glsl_writer *w, const struct glsl_place *p, const struct 
 	}
 	if (p->offset == GLSL_NONE) {
 		glsl_copy(w, p->value.at, v->at, v->n);
-		w->barrier = w->code->n_instructions; /* later code may read the variable, so its last write must not be
-		                                         redirected */
+		w->barrier = w->code->n_instructions; /* later code may read the variable, so its last write must not be redirected */
 		return;
 	}
 	for (uint32_t i = 0; i < v->n; i++)

@@ -431,8 +431,8 @@ struct glsl_value glsl_sample(struct glsl_writer *w, const struct glsl_node *nod
 		                               [GLSL_TEXTURE_RECTANGLE] = 2,
 		                               [GLSL_TEXTURE_2D_ARRAY] = 3 };
 	const bool divided = node->operation == GLSL_TEXTURE_PROJ || node->operation == GLSL_TEXTURE_PROJ_LOD;
-	const bool of_vertices = w->stage == GLSL_VERTEX_STAGE; /* no neighbouring pixels: level 0, unless the call
-	                                                           gives one */
+	/* no neighbouring pixels: level 0, unless the call gives one */
+	const bool of_vertices = w->stage == GLSL_VERTEX_STAGE;
 	const bool levelled = of_vertices || node->operation == GLSL_TEXTURE_LOD || node->operation == GLSL_TEXTURE_PROJ_LOD;
 	const bool fourth = n > 2 || of_vertices; /* the level */
 	struct glsl_value v = glsl_value_of(w, node->type, glsl_type_of(w, node->type)->numbers);

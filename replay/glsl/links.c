@@ -142,8 +142,7 @@ static struct glsl_value attribute(struct glsl_writer *w, const struct glsl_symb
 	const uint32_t location = w->links->locations[s - w->tree->symbols], rows = t->rows ? t->rows : 1;
 
 	if (!slot_bits(location, slots_of(w->tree, s)))
-		return glsl_row(w, s->type, glsl_registers(w, v.n)); /* no implementation could have linked it: nothing
-		                                                        sets it */
+		return glsl_row(w, s->type, glsl_registers(w, v.n)); /* no implementation could have linked it: nothing sets it */
 	for (uint32_t i = 0; i < v.n && v.at; i++) {
 		const uint32_t at = location + i / rows;
 
@@ -160,8 +159,8 @@ struct glsl_value glsl_linked(struct glsl_writer *w, const struct glsl_symbol *s
 
 	if (w->stage == GLSL_VERTEX_STAGE && s->storage == GLSL_INPUT)
 		return attribute(w, s);
-	if (w->stage == GLSL_FRAGMENT_STAGE && s->storage == GLSL_OUTPUT) { /* since GLSL 1.30 colour outputs have
-	                                                                       user-defined names */
+	/* since GLSL 1.30 colour outputs have user-defined names */
+	if (w->stage == GLSL_FRAGMENT_STAGE && s->storage == GLSL_OUTPUT) {
 		if (n > 4 || w->links->n_colors++)
 			glsl_fail(w, "a shader draws to several buffers at once");
 		return glsl_row(w, s->type, SCENE_PROGRAM_COLOR);

@@ -20,7 +20,7 @@ struct glsl_links {
 	uint32_t n_colors; /* number of colour outputs of the fragment stage, other than built-in ones */
 	const struct glsl_attribute *attributes;
 	uint32_t n_attributes;
-	uint32_t *locations; /* of the vertex stage's symbols, by symbol number; GLSL_NONE: none */
+	uint32_t *locations; /* by number of the vertex stage's symbols; GLSL_NONE: none */
 };
 
 /** Reserve the components of gl_TexCoord that a tree uses. */

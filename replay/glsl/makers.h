@@ -35,7 +35,7 @@ bool glsl_writes(const struct scene_instruction *in, uint32_t r);
 bool glsl_is_jump(const struct scene_instruction *in);
 
 /**
- * Insert an instruction before another one; jumps to the latter then lead to the inserted one.
+ * Insert an instruction before another one; jumps to the old instruction then lead to the inserted one.
  * @return 0, ERR_SYSTEM (reported), or ERR_INPUT: there is no room
  */
 int glsl_insert(struct program_code *code, uint32_t at, struct scene_instruction instruction);

@@ -9,12 +9,11 @@
 #include "replay/glsl/translate.h"
 
 struct gls_shader {
-	struct gls_stages stages; /* of a program, as last linked */
+	struct gls_stages stages; /* for a program, as last linked */
 	uint32_t type;        /* GL token; 0: a program object */
 	uint32_t deleted;     /* 1: freed as soon as nothing uses it */
-	uint32_t uses;        /* of a shader: number of programs it is attached to */
-	char *source, *compiled; /* of a shader, owned: the current text, and the text at the last compilation; NULL:
-	                            none */
+	uint32_t uses;        /* number of programs that a shader is attached to */
+	char *source, *compiled; /* for a shader, owned: the current text, and the text at the last compilation; NULL: none */
 
 	/* Members of a program. */
 	uint32_t *attached;   /* owned; names */

@@ -1,3 +1,6 @@
+/*
+ * Translates a program: finds the code that can run, allocates variables, and writes the instructions of both stages.
+ */
 #include "replay/glsl/translate.h"
 
 #include <stdlib.h>

@@ -14,7 +14,7 @@ struct naming {
 	struct glsl_uniforms *u;
 	const struct glsl_tree *tree;
 	const char *why;
-	uint32_t location; /* of the next one; GLSL_NONE: not given */
+	uint32_t location; /* the next one's; GLSL_NONE: not given */
 	char name[MAX_NAME];
 };
 
@@ -88,8 +88,7 @@ static int add_root(struct naming *n, const struct glsl_symbol *s)
 	memset(u->values + first, 0, padded * sizeof(float));
 	if (s->first != GLSL_NONE && s->first + numbers <= n->tree->n_numbers)
 		memcpy(u->values + first, n->tree->numbers + s->first, numbers * sizeof(float));
-	for (uint32_t i = 0; i < numbers && s->binding != GLSL_NONE; i++) /* samplers of an array get consecutive
-	                                                                     units */
+	for (uint32_t i = 0; i < numbers && s->binding != GLSL_NONE; i++) /* samplers of an array get consecutive units */
 		u->values[first + i] = (float)(s->binding + i);
 	u->n_values += padded;
 	strcpy(n->name, name);

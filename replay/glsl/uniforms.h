@@ -1,7 +1,7 @@
 /*
  * Attributes and uniforms of a program: variables that have locations. The numbers of uniforms are stored
- * consecutively, in the order in which the stages use them. In translated code they are the first constants, four
- * numbers each, so that both stages read the same ones.
+ * consecutively, ordered by first use in the stages. In translated code they are the first constants, four numbers
+ * each, so that both stages read the same ones.
  */
 #pragma once
 
@@ -20,9 +20,9 @@ struct glsl_attribute {
 struct glsl_uniform {
 	char *name;       /* owned; for example "lights[2].color"; without the brackets of an array of numbers */
 	uint32_t kind, rows, columns, texture; /* as in struct glsl_type */
-	uint32_t length;  /* of an array; otherwise 1 */
+	uint32_t length;  /* array length; otherwise 1 */
 	uint32_t first;   /* index of its first number */
-	uint32_t location; /* of its first element, as given in the text; GLSL_NONE: not given */
+	uint32_t location; /* location of its first element, as given in the text; GLSL_NONE: not given */
 };
 
 /* A uniform as declared in the text. */

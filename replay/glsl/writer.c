@@ -1,3 +1,4 @@
+/* Registers, constants and instructions of the code being written. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

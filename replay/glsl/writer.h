@@ -48,14 +48,13 @@ struct glsl_writer {
 	char *message;   /* [GLSL_MESSAGE] storage for a reason that contains a name */
 	int err;         /* ERR_SYSTEM: out of memory (reported) */
 	uint32_t top;    /* first free register */
-	uint32_t barrier; /* instructions before this one must not be changed: a jump leads past them, or they set
-	                     variables */
+	uint32_t barrier; /* instructions before this one must not be changed: a jump leads past them, or they set variables */
 	struct glsl_value *variables; /* [n_symbols]; .at NULL: not allocated yet */
 	uint8_t *written;             /* [n_symbols] 1: assigned somewhere */
 	uint8_t *running;             /* [n_functions] 1: being translated */
 	struct glsl_level levels[GLSL_MAX_LEVELS];
 	uint32_t n_levels;
-	struct glsl_value result; /* of the function being translated */
+	struct glsl_value result; /* result of the function being translated */
 	const struct glsl_node *last_return; /* its only return, at its end; NULL: it has others */
 	uint32_t depth;
 	/* Let expressions call statement.c, which is a layer above. */

@@ -1,3 +1,4 @@
+/* Identifies, opens and uses an existing index. */
 #include "replay/index/index_file.h"
 
 #include <errno.h>

@@ -37,18 +37,18 @@ int index_place(const struct index *index, int cached, char out[PATH_MAX]);
 void index_close(struct index **index);
 
 struct index_facts {
-	const char *path;       /* of the index; NULL: not saved */
+	const char *path;       /* path of the index; NULL: not saved */
 	uint64_t frames, calls; /* complete frames; calls executed */
 	int damaged;            /* 1: the trace is damaged after its last complete frame */
 	uint64_t checkpoints, blobs;
-	uint64_t bytes;         /* of the index */
+	uint64_t bytes;         /* size of the index */
 	double build_s;         /* seconds spent building it; 0: loaded from a file */
 };
 struct index_facts index_facts(const struct index *index);
 
 /** A command that replays do not execute, or only in part. */
 struct index_lack {
-	char name[64], why[128]; /* of the command; the part that is missing, "": all of it */
+	char name[64], why[128]; /* the command; the part that is missing, "": all of it */
 	uint64_t first, last;    /* frames that call it */
 	uint64_t stays;          /* 1: frames after the last one may lack it as well */
 	uint64_t seen;           /* private */

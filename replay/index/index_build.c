@@ -1,3 +1,4 @@
+/* Scans a trace for its index, and decides which checkpoints are worth their size. */
 #include "replay/index/index_build.h"
 
 #include <errno.h>
@@ -247,8 +248,7 @@ int index_write_toc(struct index *index)
 	h->toc_bytes = toc.n;
 	if (fwrite(packed, 1, n, index->file) == n && fseek(index->file, 0, SEEK_SET) == 0 &&
 	    fwrite(h, sizeof(*h), 1, index->file) == 1 && fflush(index->file) == 0 &&
-	    ftruncate(fileno(index->file), (off_t)(h->toc_offset + n)) == 0) /* blobs may have been staged and dropped
-	                                                                        there */
+	    ftruncate(fileno(index->file), (off_t)(h->toc_offset + n)) == 0) /* blobs may have been staged and dropped there */
 		rc = 0;
 	else
 		index_lose_file(index);

@@ -1,3 +1,4 @@
+/* Blobs of an index file: finding, staging, keeping and reading them. */
 #include "replay/index/index_file.h"
 
 #include <errno.h>

@@ -31,7 +31,7 @@ struct index_blob {
 struct index_checkpoint {
 	uint64_t frame;
 	struct trace_place place;
-	uint64_t name[2], bytes; /* of the snapshot */
+	uint64_t name[2], bytes; /* the snapshot's */
 };
 
 struct index_frame {
@@ -40,8 +40,8 @@ struct index_frame {
 
 struct index {
 	char *trace, *path;
-	FILE *file; /* of blobs; NULL: cannot be written */
-	uint64_t end; /* of the blobs written so far */
+	FILE *file; /* holds the blobs; NULL: cannot be written */
+	uint64_t end; /* end of the blobs written so far */
 	struct index_header header;
 	struct index_blob *blobs;
 	struct table known; /* low half of a name -> 1 + number of its blob */
@@ -56,8 +56,9 @@ struct index {
 	int damaged;
 	uint8_t *signatures;
 	size_t n_signatures;
-	double build_s; /* 0: it was there */
-	struct index *base; /* of the same trace, borrowed: blobs that it has are not kept again; NULL: none */
+	double build_s; /* 0: loaded from a file */
+	struct index *base; /* an index of the same trace, borrowed: blobs that it has are not stored again; NULL:
+	                       none */
 
 	/* The checkpoint being added. Its new blobs are written after the others, and are kept if it is. */
 	uint64_t added; /* size of the new blobs */

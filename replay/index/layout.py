@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """layout.py TXT OUT <PREPROCESSED: the members of the structs that a snapshot keeps, as a list for the C compiler.
 
-TXT (layout.txt) says what becomes of every member. OUT defines SNAPSHOT_MEMBERS(PLACED, SINGLE), a list of
-PLACED(struct, member, type of its elements) for structs that are saved as they lie, and of SINGLE(struct, member) for
-members that are saved one by one: snapshot_layout.c hashes their names, offsets and sizes. Comments and prototypes
-change nothing.
+TXT (layout.txt) says how every member is treated. OUT defines SNAPSHOT_MEMBERS(PLACED, SINGLE), a list of
+PLACED(struct, member, type of its elements) for structs that are saved as they are in memory, and of
+SINGLE(struct, member) for members that are saved individually: snapshot_layout.c hashes their names, offsets and sizes.
+Comments and prototypes have no effect.
 """
 import re
 import sys
@@ -24,7 +24,7 @@ def structs_of(text):
 
 def members_of(body):
     members = []
-    body = re.sub(r"\bunion\s*\{([^{}]*)\}\s*;", r"\1", body)  # the members of an anonymous one are the struct's own
+    body = re.sub(r"\bunion\s*\{([^{}]*)\}\s*;", r"\1", body)  # members of an anonymous union belong to the struct
     body = re.sub(r"\(\s*\*\s*(\w+)\)\s*\([^()]*\)", r"*\1", body)  # a function pointer
     for declaration in body.split(";"):
         match = re.match(r"\s*((?:const |struct |enum |union )*\w+(?: int| long| char)*)\b(.*)", declaration, re.S)

@@ -8,7 +8,7 @@
 
 struct member {
 	const char *owner, *name;
-	const char *type;           /* of an element, as in C: "float", "struct gls_light"; "void *": a pointer */
+	const char *type;           /* element type, as in C: "float", "struct gls_light"; "void *": a pointer */
 	size_t offset, bytes, each; /* each: size of an element in bytes */
 };
 

@@ -18,7 +18,7 @@
 #include "replay/index/index_file.h"
 
 #define NAMES "*-*-*.index"               /* as path_of makes them */
-/* The most bytes that a checkpoint takes, those of one trace, and all in the folder. */
+/* Size limits of one checkpoint, of those of a trace, and of all in the folder. */
 #define MOST_BYTES ((uint64_t)256 << 20)
 #define MOST_TRACE ((uint64_t)512 << 20)
 #define MOST_ALL ((uint64_t)1 << 30)
@@ -48,7 +48,7 @@ static int path_of(const struct pixels *p, uint64_t frame, char out[PATH_MAX])
 
 /* --- Finding ----------------------------------------------------------------------------------------------------- */
 
-/* Whether a file of the folder is a checkpoint of this trace and maker. frame: receives its frame */
+/* 1 if a file in the folder is a checkpoint of this trace and maker. frame: receives its frame */
 static int is_own(const struct pixels *p, const char *name, uint64_t *frame)
 {
 	char prefix[64];
@@ -99,7 +99,7 @@ int pixels_restore(const struct pixels *p, struct index *base, uint64_t frame, s
 
 /* --- Keeping ----------------------------------------------------------------------------------------------------- */
 
-/* A checkpoint that is there. */
+/* An existing checkpoint. */
 struct one {
 	uint64_t frame, bytes;
 };
@@ -111,7 +111,7 @@ static int by_frame(const void *a, const void *b)
 	return (x > y) - (x < y);
 }
 
-/* All checkpoints of this trace and maker, by frame. @return to be freed; NULL: none, or no memory */
+/* All checkpoints of this trace and maker, by frame. @return to be freed; NULL: none, or out of memory */
 static struct one *list_own(const struct pixels *p, size_t *n, uint64_t *bytes)
 {
 	DIR *all = opendir(p->folder);
@@ -136,8 +136,10 @@ static struct one *list_own(const struct pixels *p, size_t *n, uint64_t *bytes)
 	return list;
 }
 
-/* Remove every second checkpoint of a trace that has too many bytes of them: none is far from the next, whichever
- * frames they began with. */
+/*
+ * If the checkpoints of a trace are too large, delete every second one: the rest stay close to each other, whichever
+ * frames they began at.
+ */
 static void thin_out(const struct pixels *p)
 {
 	char path[PATH_MAX];
@@ -151,8 +153,7 @@ static void thin_out(const struct pixels *p)
 	free(list);
 }
 
-/* index: with its file, which is begun. @return 0; 1: not worth its bytes, or the file is lost; ERR_SYSTEM
- * (reported) */
+/* index: with its file, which is begun. @return 0; 1: not worth its size, or the file is lost; ERR_SYSTEM (reported) */
 static int write_index(struct index *index, struct trace_reader *reader, struct gls_exec *x)
 {
 	int rc = index_add_checkpoint(index, reader, x, MOST_BYTES, snapshot_save_pixels);

@@ -13,7 +13,7 @@
 struct pixels {
 	const char *path, *trace; /* path of the trace; its hash_name. Borrowed */
 	char *folder;             /* created on first use; NULL: nothing is saved or found */
-	uint64_t maker;           /* of the pixels */
+	uint64_t maker;           /* pixels_maker */
 };
 
 /** Identifier of the pixels that this build makes on a device. */
@@ -23,15 +23,15 @@ uint64_t pixels_maker(const char *device);
 int pixels_find(const struct pixels *p, uint64_t frame, uint64_t *found);
 
 /**
- * As index_restore; a checkpoint that cannot be read is removed.
- * @param base  the trace's index, which holds whatever a checkpoint shares with it; NULL: not to be had
+ * As index_restore; a checkpoint that cannot be read is deleted.
+ * @param base  the trace's index, which holds the blobs that checkpoints share with it; NULL: not available
  */
 int pixels_restore(const struct pixels *p, struct index *base, uint64_t frame, struct trace_reader *reader,
                    struct gls_exec *x);
 
 /**
- * Keep a checkpoint after a frame that was built, if all its pixels are known and there is room. If a trace has more
- * of them than fit, every second one is removed.
+ * Save a checkpoint after a frame that was built, if all its pixels are known and there is room. If the checkpoints of
+ * a trace grow too large, every second one is deleted.
  * @param base  as in pixels_restore
  * @return 0 or ERR_SYSTEM (reported)
  */

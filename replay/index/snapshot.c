@@ -1,3 +1,4 @@
+/* Saves and loads the machine with its contexts and drawables; the other snapshot_*.c files do the parts. */
 #include "replay/index/snapshot.h"
 
 #include <stdlib.h>

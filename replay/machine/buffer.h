@@ -15,8 +15,7 @@ struct gls_buffer {
 	uint64_t version; /* changes with the contents; unique among all buffers */
 	uint64_t mapped;  /* address returned to the program; 0: not mapped */
 	size_t map_offset, map_bytes;
-	uint32_t missing; /* 1 + number of the skipped frame whose pixels were read into it; 0: all contents are
-	                     known */
+	uint32_t missing; /* 1 + number of the skipped frame whose pixels were read into it; 0: all contents are known */
 	size_t missing_from, missing_to; /* range of bytes that contains all unknown ones */
 };
 

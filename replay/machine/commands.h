@@ -16,7 +16,7 @@ struct gls_state;
 
 typedef void gls_handler(struct gls_exec *x, struct gls_state *st, const struct call *c);
 
-/* What the dispatcher does before a handler runs. */
+/* The work of the dispatcher before a handler runs. */
 enum gls_kind {
 	GLS_KIND_NONE,
 	GLS_KIND_VERTEX, /* vertex attributes: allowed anywhere, compiled into lists, pending vertices stay pending */
@@ -25,15 +25,13 @@ enum gls_kind {
 	                    and view dirty */
 	GLS_KIND_MATRIX, /* as STATE, but only the current matrix changes */
 	GLS_KIND_ARRAY,  /* draws from client state: outside Begin/End only; a list stores what was drawn */
-	GLS_KIND_CLIENT, /* client state: allowed anywhere, never compiled into lists, does not affect pending
-	                    vertices */
+	GLS_KIND_CLIENT, /* client state: allowed anywhere, never compiled into lists, does not affect pending vertices */
 	GLS_KIND_NOW,    /* outside Begin/End only, never compiled into lists: client state, queries */
-	GLS_KIND_OBJECT, /* as NOW, for objects that draws use: draws pending vertices first, marks material and view
-	                    dirty */
+	GLS_KIND_OBJECT, /* as NOW, for objects that draws use: draws pending vertices first, marks material and view dirty */
 	GLS_KIND_WINDOW  /* window system and memory: needs no context, st may be NULL */
 };
 
-/* What display lists need to know about a command. */
+/* The role of a command in display lists. */
 enum gls_role {
 	GLS_ROLE_NONE,
 	GLS_ROLE_BEGIN, GLS_ROLE_END,

@@ -57,8 +57,8 @@ void gls_fail(struct gls_exec *x);
 
 /**
  * Limit the work that a few calls can ask for. Lists that call themselves, or call each other twice, run longer than
- * anybody would wait, in a driver as well; so do draws with endless instances. The amount by which a frame may multiply
- * its work is a fixed number for each call recorded so far, far above what real programs reach.
+ * anybody would wait, in a driver as well; draws with endless instances do too. A frame's limit on multiplied work
+ * grows with each call recorded so far, and is far above what real programs reach.
  *
  * @param n    additional work: operations of a list called by a list, instances, some points of evaluated meshes
  * @param why  reason to count the call under if the limit is exceeded

@@ -19,8 +19,7 @@ struct gls_context {
 	uint64_t handle, share_handle; /* addresses in the program */
 	const char *api;               /* "GLX", "EGL" ... */
 	uint64_t calls;                /* made while it was current */
-	int destroyed, shares;         /* 1: released as soon as nothing uses it; 1: another context shares its
-	                                  objects */
+	int destroyed, shares;         /* 1: released as soon as nothing uses it; 1: another context shares its objects */
 	struct gls_state state;
 };
 
@@ -36,7 +35,7 @@ struct gls_counts {
 	const char *programs_why;               /* why the last one is not run; lives as long as these counts */
 	char **reasons;                         /* owned: reasons copied from programs that may be gone */
 	uint32_t n_reasons, reason_room;
-	uint64_t window;                        /* where the first frame ended */
+	uint64_t window;                        /* drawable of the first frame's end */
 	int several_windows;                    /* 1: another frame ended in a different window */
 };
 
@@ -77,7 +76,7 @@ struct gls_feedback {
 	int shows_earlier; /* 1: the frame used a buffer that lacks pixels of an earlier frame */
 	int shows_through; /* 1: some frame showed contents from before it */
 	int rewind;        /* 1: a frame needs pixels of skipped frames: the replay must build the frames before it */
-	const char *rewind_why; /* what needs them; a static string */
+	const char *rewind_why; /* why it needs them; a static string */
 	uint32_t rewind_command; /* the call that needs them */
 	uint64_t rewind_call;    /* its number */
 };
@@ -89,7 +88,7 @@ typedef void gls_dispatcher(struct gls_exec *x, const struct call *c, uint32_t c
                             const struct gls_pixel_store *unpack);
 
 struct gls_exec {
-	const char *path;    /* of the trace, for messages */
+	const char *path;    /* path of the trace, for messages */
 	int want;            /* 1: build scenes */
 	int failed;          /* ERR_*: our own failure (errors.h) */
 	uint64_t frame;      /* being executed */
@@ -99,13 +98,13 @@ struct gls_exec {
 
 	struct gls_context **contexts; /* owned, in order of creation */
 	size_t n_contexts;
-	struct gls_context *current; /* of the thread whose call is executed */
+	struct gls_context *current; /* current context of the thread whose call is executed */
 	struct gls_state *st;        /* &current->state or NULL */
 	struct gls_context **threads; /* current context of each thread */
 	size_t n_threads;
 	uint64_t thread;
 	struct table drawables;
-	struct table configs; /* of drawables (config.c) */
+	struct table configs; /* bits of visuals and configurations (config.c) */
 	uint32_t egl_api;     /* chosen by eglBindAPI; 0: none */
 	struct table maps;    /* mapped address -> struct gls_buffer */
 

@@ -277,8 +277,7 @@ struct gls_saved_texture {
 struct gls_saved_attribs {
 	uint32_t mask;
 	struct gls_attribs attribs;
-	struct gls_saved_texture textures[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS]; /* all 0 unless the mask has
-	                                                                            TEXTURE_BIT */
+	struct gls_saved_texture textures[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS]; /* all 0 unless the mask has TEXTURE_BIT */
 };
 struct gls_saved_client {
 	uint32_t mask;
@@ -300,8 +299,7 @@ struct gls_waiting {
 	uint32_t placed;         /* 1: vertices were specified since it was emptied */
 	uint32_t colored;        /* 1: they have colours */
 	uint32_t covers;         /* 1: waiting parameters have replaced the colours that COLOR_MATERIAL had copied */
-	uint8_t room[N_GLS_ATTRIBUTES];   /* number of components the store has room for, by attribute; 0: not in the
-	                                     store */
+	uint8_t room[N_GLS_ATTRIBUTES];   /* number of components the store has room for, by attribute; 0: not in the store */
 	uint8_t filled[N_GLS_ATTRIBUTES]; /* number of components they were last reduced to */
 };
 
@@ -318,19 +316,17 @@ struct gls_state {
 	struct table vertex_arrays; /* name (0: none bound) -> struct gls_vertex_array, owned */
 
 	struct gls_pixel_map pixel_maps[N_GLS_PIXEL_MAPS];
-	struct gls_maps *maps; /* of evaluators (eval.c), owned; NULL: none defined yet */
+	struct gls_maps *maps; /* evaluator maps (eval.c), owned; NULL: none defined yet */
 	uint32_t render_mode; /* GL_RENDER, GL_SELECT, GL_FEEDBACK */
 	uint32_t rasterizer_discard; /* GL 3.0 sec. 3.1: draws and clears are discarded */
 	uint32_t conditional, left_out; /* 1: within conditional rendering; 1: draws are discarded by it */
-	uint32_t answered, answer;      /* 1: the recorder knows the result of the next conditional's query; that
-	                                   result */
+	uint32_t answered, answer;      /* 1: the recorder knows the result of the next conditional's query; that result */
 	uint32_t begin_mode;  /* 1 + primitive mode between Begin and End, otherwise 0 */
 	struct gls_waiting waiting;
 	uint32_t program, arb_vertex, arb_fragment, ati_fragment;
 	uint32_t ati_open;        /* 1: between Begin and EndFragmentShaderATI */
 	float ati_constants[8][4]; /* for fragment shaders that do not set their own */
-	float program_env[2][GLS_MAX_PROGRAM_PARAMETERS][4]; /* environment parameters of ARB programs: fragment,
-	                                                        vertex */
+	float program_env[2][GLS_MAX_PROGRAM_PARAMETERS][4]; /* environment parameters of ARB programs: fragment, vertex */
 	struct gls_matrix_stack program_matrix[GLS_MAX_PROGRAM_MATRICES];
 	uint32_t draw_framebuffer, read_framebuffer, renderbuffer;
 	struct gls_share *share;
@@ -343,7 +339,7 @@ struct gls_state {
 	struct gls_list *list;
 	uint32_t list_name, list_mode;
 
-	uint64_t handle; /* of the context */
+	uint64_t handle; /* handle of the context */
 	uint32_t drawn_program[2], drawn_links[2]; /* by enum gls_stage: the program object of the last draw, 0: none;
 	                                              its link count, as in struct gls_stages */
 

@@ -1,3 +1,4 @@
+/* Parses ARB assembly programs statement by statement. */
 #include "replay/programs/arb.h"
 
 #include <stdlib.h>

@@ -84,8 +84,8 @@ static void do_xpd(struct arb_parser *p, const struct emit_target *to, const str
 	a[1].negated ^= 15;
 	emit_vector(&p->emitter, SCENE_OP_MULTIPLY, &product, &a[1], &b[1], NULL);
 	emit_vector(&p->emitter, SCENE_OP_MAD, &result, &a[0], &b[0], &d);
-	emit_vector(&p->emitter, SCENE_OP_MOVE, &last_one, &one, NULL, NULL); /* undefined in the specification; Mesa
-	                                                                         writes 1 */
+	/* undefined in the specification; Mesa writes 1 */
+	emit_vector(&p->emitter, SCENE_OP_MOVE, &last_one, &one, NULL, NULL);
 }
 
 static void do_scs(struct arb_parser *p, const struct emit_target *to, const struct emit_source s[3])

@@ -1,3 +1,4 @@
+/* Parses the operands of ARB assembly programs: registers, constants and arrays. */
 #include "replay/programs/arb_parser.h"
 
 #include <string.h>

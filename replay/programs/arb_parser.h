@@ -24,8 +24,7 @@ struct arb_parser {
 	uint32_t n_symbols, n_elements;
 	uint32_t fetched[3], n_fetched;      /* registers that hold the instruction's operands fetched by address */
 	uint32_t numbered, named; /* bits: vertex attributes used by number, 1 << number; by name, as inputs */
-	int is_vertex, is_invariant;         /* 1: a vertex program; 1: one that leaves the position to fixed
-	                                        function */
+	int is_vertex, is_invariant;         /* 1: a vertex program; 1: one that leaves the position to fixed function */
 	enum { ARB_NO_FOG, ARB_FOG_LINEAR, ARB_FOG_EXP, ARB_FOG_EXP2 } fog;
 };
 

@@ -32,13 +32,13 @@ enum program_source {
 enum program_light_part {
 	PROGRAM_LIGHT_AMBIENT, PROGRAM_LIGHT_DIFFUSE, PROGRAM_LIGHT_SPECULAR, PROGRAM_LIGHT_POSITION,
 	PROGRAM_LIGHT_ATTENUATION,
-	PROGRAM_LIGHT_DIRECTION, /* of a spotlight; fourth component: cosine of its cutoff */
+	PROGRAM_LIGHT_DIRECTION, /* a spotlight's; fourth component: cosine of its cutoff */
 	PROGRAM_LIGHT_HALF,      /* half-way vector of a light at infinity */
-	PROGRAM_LIGHT_CUTOFF     /* of a spotlight, degrees */
+	PROGRAM_LIGHT_CUTOFF     /* a spotlight's, degrees */
 };
 enum program_matrix {
 	PROGRAM_MODELVIEW, PROGRAM_PROJECTION, PROGRAM_MVP,
-	PROGRAM_TEXTURE_MATRIX,                                          /* of unit 0; the other units follow */
+	PROGRAM_TEXTURE_MATRIX,                                          /* unit 0; the other units follow */
 	PROGRAM_OWN_MATRIX = PROGRAM_TEXTURE_MATRIX + SCENE_MAX_UNITS    /* GL_MATRIX0_ARB; the others follow */
 };
 enum { PROGRAM_SHININESS = 16 };                         /* in addition to GLS_AMBIENT to GLS_EMISSION */

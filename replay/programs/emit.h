@@ -47,8 +47,8 @@ void emit_texture(struct emitter *e, const struct emit_target *to, const struct 
                   uint32_t flags);
 
 /**
- * Fetch element `address` + offset of an array, four numbers, zeros if out of range; address takes two operands. array:
- * its first constant
+ * Fetch element number address + offset, two operands, of an array: four numbers, zeros if out of range. array: its
+ * first constant
  */
 void emit_fetch(struct emitter *e, uint32_t to, uint32_t array, uint32_t elements, uint32_t address, uint32_t offset);
 

@@ -57,8 +57,7 @@ int gls_held_reads(const struct gls_stages *p, enum gls_stage stage, uint32_t fi
 		const uint32_t operands[] = { in->a, in->b, in->c };
 
 		for (uint32_t k = 0; k < program_operands(in->operation); k++) {
-			const uint32_t number = operands[k] - SCENE_PROGRAM_CONSTANT; /* huge if the operand is a
-			                                                                 register */
+			const uint32_t number = operands[k] - SCENE_PROGRAM_CONSTANT; /* huge if the operand is a register */
 			const struct program_constant *c = number / 4 < code->n_constants ? &code->constants[number / 4] : NULL;
 			const uint32_t width = in->operation == SCENE_OP_TEXTURE ? 4 : in->flags & SCENE_STEP_A << k ? in->n : 1;
 			const uint32_t from = c ? c->index * 4 + number % 4 : 0;

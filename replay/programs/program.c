@@ -1,3 +1,4 @@
+/* Selects the programs that run for a draw, and gives the reason if one cannot run. */
 #include "replay/programs/program.h"
 
 #include <stdlib.h>

@@ -51,8 +51,8 @@ struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t targe
 int gls_program_is_refused(const struct gls_state *st, int is_rectangle);
 
 /**
- * What is not supported in draws with the current programs: a static string; NULL: nothing. If a program cannot be run,
- * they are rendered as fixed function.
+ * The reason why draws with the current programs are not fully supported: a static string; NULL: they are. If a program
+ * cannot be run, they are rendered as fixed function.
  */
 const char *gls_program_lack(const struct gls_state *st);
 

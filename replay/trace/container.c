@@ -1,3 +1,4 @@
+/* Unpacks the containers of traces: Snappy chunks, gzip and Brotli. */
 #include "replay/trace/container.h"
 
 #include <brotli/decode.h>
@@ -32,7 +33,7 @@ struct container {
 	size_t packed_room, unpacked_room;
 	uint64_t behind; /* bytes of the file after the end of the trace */
 	size_t at, end; /* Snappy: range of `packed` that was read and not unpacked yet */
-	XXH3_state_t *hash; /* of all bytes read from the file; NULL: not wanted, or the file was not read in order */
+	XXH3_state_t *hash; /* hash of all bytes read from the file; NULL: not wanted, or the file was not read in order */
 	z_stream gzip;
 	BrotliDecoderState *brotli;
 	const uint8_t *brotli_next;
@@ -168,8 +169,8 @@ void container_close(struct container **c)
 }
 
 /*
- * Unpack as much as there is of a truncated raw Snappy block (format_description.txt of Snappy: tags, literals,
- * copies). Snappy's own decoder unpacks complete blocks only.
+ * Unpack a truncated raw Snappy block as far as it goes (format_description.txt of Snappy: tags, literals, copies).
+ * Snappy's own decoder unpacks complete blocks only.
  */
 static size_t unpack_cut_block(const uint8_t *in, size_t n, uint8_t *out, size_t room)
 {

@@ -42,4 +42,4 @@ int container_hash_begin(struct container *c);
 int container_hash_end(struct container *c, uint64_t out[2]);
 
 uint64_t container_offset(const struct container *c); /* bytes of the file used so far */
-uint64_t container_size(const struct container *c);   /* of the file */
+uint64_t container_size(const struct container *c);   /* size of the file */

@@ -1,3 +1,4 @@
+/* Opens traces, reads them call by call, and seeks. */
 #include "replay/trace/reader.h"
 
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /*
  * Reads apitrace's traces (formats 0 .. 6) call by call, as a stream: memory use does not grow with the file.
  *
- * Containers: Snappy chunks (what recorders write), one gzip stream, one Brotli stream. Calls come in the order in
- * which they returned. A call and everything it points to belong to the reader and are valid until the next
- * trace_reader_next; signatures live as long as the reader. Nothing in the file is trusted: a file truncated at any
- * byte delivers every complete call.
+ * Containers: Snappy chunks (what recorders write), one gzip stream, one Brotli stream. Calls are ordered by their
+ * return. A call and everything it points to belong to the reader and are valid until the next trace_reader_next;
+ * signatures live as long as the reader. Nothing in the file is trusted: a file truncated at any byte delivers every
+ * complete call.
  *
  * The reader does not know what calls mean.
  */
@@ -48,11 +48,10 @@ int trace_reader_next(struct trace_reader *r, const struct call **call);
 
 /** A place between two calls that the reader can return to. */
 struct trace_place {
-	uint64_t piece; /* offset in the file of the container's piece that holds it; UINT64_MAX: reading cannot start
-	                   there */
+	uint64_t piece; /* offset in the file of the container's piece that holds it; UINT64_MAX: reading cannot start there */
 	uint64_t piece_start; /* unpacked bytes before that piece */
 	uint64_t offset;      /* unpacked bytes before the place */
-	uint64_t number;      /* of the next call */
+	uint64_t number;      /* number of the next call */
 };
 
 /**

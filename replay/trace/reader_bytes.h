@@ -98,8 +98,7 @@ static inline const uint8_t *reader_quick_uint(const uint8_t *p, uint64_t *value
 	if (!last)
 		return NULL;
 	w &= (last ^ (last - 1)) & 0x7f7f7f7f7f7f7f7fu;
-	w = (w & 0x007f007f007f007fu) | (w & 0x7f007f007f007f00u) >> 1; /* groups of 7 bits become groups of 14, 28,
-	                                                                   56 */
+	w = (w & 0x007f007f007f007fu) | (w & 0x7f007f007f007f00u) >> 1; /* groups of 7 bits become groups of 14, 28, 56 */
 	w = (w & 0x00003fff00003fffu) | (w & 0x3fff00003fff0000u) >> 2;
 	*value = (w & 0x0fffffffu) | (w & 0x0fffffff00000000u) >> 4;
 	return p + (__builtin_ctzll(last) >> 3) + 1;

@@ -1,3 +1,4 @@
+/* Encodes calls as a new trace. */
 #include "replay/trace/trace_out.h"
 
 #include <errno.h>

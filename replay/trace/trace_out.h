@@ -2,9 +2,8 @@
  * Writes calls from a reader to a new trace: format 6 in Snappy chunks of 1 MiB (capture/format/trace.md), whatever the
  * container of the original.
  *
- * Calls are renumbered from 0, in the order in which they are written. Each is written as a whole: its return
- * immediately follows its arguments. Stack traces are dropped. The file appears under its name when it is complete
- * (base/part.h).
+ * Calls are renumbered from 0 in the order they are written. Each is written as a whole: its return immediately follows
+ * its arguments. Stack traces are dropped. The file appears under its name when it is complete (base/part.h).
  *
  * The recorder has a separate writer (capture/write/writer.h), which encodes the C values of a running program with
  * generated tables. This one encodes values that carry their type, with names from the trace.

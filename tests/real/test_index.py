@@ -62,20 +62,20 @@ if (last - near) % 7 == 0:
     check((SCRATCH / f"near.{last}.exr").read_bytes() == (SCRATCH / f"jump.{last}.exr").read_bytes(),
           "the same bytes by a jump and step by step")
 
-# Another trace under the same name, damage, and what is no index: noticed and made anew.
+# Another trace under the same name, damage, and a file that is not an index: noticed, and the index is rebuilt.
 good = index_of(live).read_bytes()
 for what, data in (("its middle", good[:len(good) // 2] + b"\0" * 64 + good[len(good) // 2 + 64:]),
                    ("its end", good[:-40]), ("its head", b"RELIDX3\n" + bytes(200) + good[208:]),
                    ("all of it", b"no index"), ("everything", b"")):
     index_of(live).write_bytes(data)
     done = must(relume("render", live, "-f", "399", "-o", SCRATCH / "x.#.exr"))
-    check("anew" in done.stderr or "damaged" in done.stderr or index_of(live).read_bytes() == data,
+    check("rebuilding it" in done.stderr or "damaged" in done.stderr or index_of(live).read_bytes() == data,
           f"damage of {what} is said: {done.stderr}")
     found, said = facts(live, "--check")
     check(found["frames"] == 400, f"damage of {what}: the index is right again: {found} {said}")
 shutil.copy(trace, live)
 found, said = facts(live)
-check("another trace" in said and found["frames"] == last + 1, f"another trace under the same name: {said}")
+check("out of date; rebuilding it" in said and found["frames"] == last + 1, f"another trace under the same name: {said}")
 os.utime(live)
 found, said = facts(live)
 check(not said and found["build_us"] == 0, f"a copy with another time is the same trace: {said}")

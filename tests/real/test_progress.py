@@ -51,7 +51,7 @@ check("rendered frame 0" not in shown, "no plain lines on a terminal")
 trace, frame = SCRATCH / "front.trace", 13
 record(trace, BUILD / "tests/real/front", options=("--frame-end", "flush"))
 command = [RELUME, "render", str(trace), "-f", str(frame), "-o", str(SCRATCH / "front.####.exr")]
-why = r"what they drew is not cleared, and shows"
+why = r"their drawing is not cleared, and shows"
 done = must(relume(*command[1:], "--progress", "json"))
 check(
     re.search(

@@ -44,7 +44,7 @@ told("no OpenGL, and a failure of its own", 7, ["loaded no OpenGL"], "sh", "-c",
 
 # Vulkan: the library counts, by its name.
 vulkan = built("libvulkan.so.1", "int nothing;\n", "-shared", "-fPIC")
-told("Vulkan", 5, ["the program draws by Vulkan, and Relume records OpenGL", "OpenGL renderer"],
+told("Vulkan", 5, ["the program draws with Vulkan, but Relume records OpenGL", "OpenGL renderer"],
      sys.executable, "-c", f"import ctypes; ctypes.CDLL('{vulkan}')", start=on_display)
 
 # Programs that no recorder is loaded into.
@@ -59,7 +59,7 @@ head = b"\x7fELF\x01\x01\x01" + bytes(9) + struct.pack("<HHIIIIIHHHHHH", 2, 3, 1
 (SCRATCH / "old").write_bytes(head + struct.pack("<IIIIIIII", 3, 84, 84, 84, 0, 0, 4, 1))
 (SCRATCH / "old").chmod(0o755)
 if not pathlib.Path(RELUME).with_name("lib").joinpath("i386-linux-gnu/librelume.so").exists():
-    done = told("a program of 32 bits", 5, ["old: is a program of 32 bits", "'make i386' builds the other one"],
+    done = told("a program of 32 bits", 5, ["old: is a 32-bit program", "'make i386' builds the other one"],
                 SCRATCH / "old")
     check("ld.so" not in done.stderr, f"without the loader's words: {done.stderr}")
 # A cleared environment: by `env -i`, as by sudo and sandboxes.

@@ -27,17 +27,17 @@ expect 2 "--frames takes" --frames 10x -- true
 expect 2 "--frames takes" --frames 9-3 -- true
 expect 2 "--frames takes" --frames -3 -- true
 expect 5 "no X display" --start-key F9 --env DISPLAY= -- true
-expect 2 "knows no key" --start-key F99x -- true
+expect 2 "has no key"  --start-key F99x -- true
 expect 2 "--frame-end takes" --frame-end sometimes -- true
 expect 2 "number of bytes" --max-size 5X -- true
 expect 2 "number of bytes" --max-size 0 -- true
 expect 2 "number of bytes" --max-size 99999999999999999999G -- true
-expect 2 "'' is no name for a trace" -o "" -- true
-expect 2 "is no name for a trace" -o "$TMPDIR/" -- true
+expect 2 "'' is not a name for a trace" -o "" -- true
+expect 2 "is not a name for a trace" -o "$TMPDIR/" -- true
 expect 5 "No such file" -o /proc/no/such/folder.trace -- true
 expect 5 "loaded no OpenGL" -o "$TMPDIR/made/for/it.trace" -- true
 [ -d "$TMPDIR/made/for" ] || { echo "the trace's folder was not made"; bad=1; }
-expect 5 "is no file" -o "$TMPDIR" -- true
+expect 5 "is not a file" -o "$TMPDIR" -- true
 expect 5 "cannot start" -o "$TMPDIR/x.trace" -- "$TMPDIR/no-such-program"
 expect 5 "true: nothing was recorded: the program loaded no OpenGL" -o "$TMPDIR/x.trace" -- true
 expect 7 "nothing was recorded: the program loaded no OpenGL" -o "$TMPDIR/x.trace" -- sh -c 'exit 7'

@@ -56,7 +56,7 @@ int dump_main(int argc, char **argv)
 	while ((rc = trace_reader_next(reader, &call)) == 1) {
 		if (frame_list_contains(&o.calls, call->number))
 			print_call(stdout, call);
-		/* Calls come in the order in which they returned: earlier calls of other threads may still follow. */
+		/* Calls are ordered by their return: earlier calls of other threads may still follow. */
 		if (last < UINT64_MAX && call->number > last + 1024)
 			break;
 	}

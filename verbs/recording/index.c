@@ -54,7 +54,7 @@ static void print_text(const char *trace, const struct index_facts *f)
 
 	printf("trace        %s\n", trace);
 	printf("index        %s\n", f->path ? f->path : "not saved");
-	printf("frames       %" PRIu64 "%s\n", f->frames, f->damaged ? ", after which the trace is damaged" : "");
+	printf("frames       %" PRIu64 "%s\n", f->frames, f->damaged ? "; the trace is damaged after these" : "");
 	printf("calls        %" PRIu64 "\n", f->calls);
 	printf("checkpoints  %" PRIu64 ", sharing %" PRIu64 " blobs\n", f->checkpoints, f->blobs);
 	printf("bytes        %" PRIu64 ", %.2f %% of the trace's\n", f->bytes,

@@ -55,9 +55,9 @@ static const struct options_table table = {
 	        "\n"
 	        "Make reference frames of a trace with a real OpenGL: apitrace's glretrace, on the current display, or\n"
 	        "on Xvfb with Mesa's software rasterizer if there is none. 'relume diff' takes the images as its REF.\n"
-	        "If the display has such a visual, it has the same depth, stencil and alpha bits and the same number of\n"
-	        "samples as the program's. The first frame of another recorder's trace is left out, because glretrace\n"
-	        "does not show it reliably.\n",
+	        "Frames have the same bits of depth, stencil and alpha and the same number of samples as the program's,\n"
+	        "if the display has such a visual. The first frame of another recorder's trace is left out, because\n"
+	        "glretrace does not show it reliably.\n",
 	OPTIONS_ROWS(rows),
 	.takes = "one trace and -o PATTERN.png",
 	.least = 1,

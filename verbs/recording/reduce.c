@@ -499,8 +499,7 @@ static const struct options_row rows[] = {
 	  "a shell command that fails on the recording $TRACE; it runs in a temporary folder",
 	  options_text, AT(when) },
 	{ "frame", 'f', "N", "instead of a command: reduce to the fault of a frame that fails its gates in mode gl",
-	  options_frame,
-	  AT(frame) },
+	  options_frame, AT(frame) },
 	{ "ref", 0, "REF",
 	  "reference to compare the frame with, as for 'relume diff' (default: TRACE's own reference frames)", options_text,
 	  AT(reference) },
@@ -509,8 +508,7 @@ static const struct options_row rows[] = {
 	{ "jobs", 'j', "N", "number of commands to run at once (default: one per core)", options_number, AT(at_once),
 	  .most = MOST_AT_ONCE },
 	{ "timeout", 0, "S",
-	  "seconds after which a command counts as passed (default: ten plus five times the time that the whole "
-	  "recording takes)",
+	  "seconds until a command counts as passed (default: ten plus five times as long as the whole recording)",
 	  options_number, AT(limit_s), .most = 86400 },
 };
 
@@ -519,7 +517,7 @@ static const struct options_table table = {
 	.head = "usage: relume reduce TRACE --when COMMAND -o NEW\n"
 	        "       relume reduce TRACE --frame N [--ref REF] -o NEW\n"
 	        "\n"
-	        "Find the smallest recording with which a command still fails: leave out frames, then draws, calls,\n"
+	        "Find the smallest recording that still makes a command fail: leave out frames, then draws, calls,\n"
 	        "primitives of draws from arrays and texels of images, as long as COMMAND ends with the same exit code\n"
 	        "as on TRACE. apitrace's tools can play NEW as they can TRACE. None of its calls can be left out alone.\n"
 	        "\n"

@@ -40,7 +40,7 @@ static const struct options_table table = {
 
 struct saved {
 	uint64_t calls, frames;
-	uint64_t bytes; /* of the unpacked stream, up to the end of the last call kept */
+	uint64_t bytes; /* unpacked bytes up to the end of the last call kept */
 };
 
 /* @return 0 at the end of what can be read, or ERR_SYSTEM */

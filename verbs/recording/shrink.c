@@ -1,3 +1,4 @@
+/* Delta debugging, with several tests at once. */
 #include "verbs/recording/shrink.h"
 
 #include <stdlib.h>

@@ -56,8 +56,7 @@ static void set_pointer(struct gls_exec *x, struct gls_state *st, const struct c
 	} else if (arg_is_offset(c, pointer)) {
 		array->buffer = st->client.array_buffer;
 		array->offset = (uint64_t)gls_value_int(v);
-		if (!array->buffer) { /* an address in the program: its contents are recorded before the draw, or were
-		                         lost */
+		if (!array->buffer) { /* an address in the program: its contents are recorded before the draw, or were lost */
 			array->client_bytes = 0;
 			array->version = 0;
 		}

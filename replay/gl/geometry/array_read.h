@@ -25,8 +25,8 @@ struct gls_sources {
 
 /** Bytes of a component; 0: not a valid type. */
 size_t gls_type_bytes(uint32_t type);
-/** Element i as four floats, normalized if the array is. Missing components are 0, 0, 0, 1. Beyond the array's end, the array's
- * components are 0, as Mesa (22.3.6) reads buffer objects. */
+/** Element i as four floats, normalized if the array is. Missing components are 0, 0, 0, 1. Beyond the array's end, all
+ * components that it has are 0, as Mesa (22.3.6) reads buffer objects. */
 void gls_source_read(const struct gls_source *s, uint64_t i, float out[4]);
 
 /**

@@ -1,3 +1,4 @@
+/* Buffer object commands (GL 2.1 sec. 2.9): data, copies and mappings. */
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>

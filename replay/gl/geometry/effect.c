@@ -35,7 +35,7 @@ enum action {
 	POP,
 	BIND,
 	CALL,
-	PASS, /* only sets attributes; compiled into lists */
+	PASS, /* only sets attributes */
 	DRAW, /* a mesh: only its attributes matter */
 	LEAVE /* may change the meaning of what follows: matrix stack, texture unit, edge flag, an open Begin */
 };

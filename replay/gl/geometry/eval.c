@@ -31,7 +31,7 @@ struct map {
 };
 
 struct gls_maps {
-	struct map map[2][N_TARGETS]; /* of Map1, of Map2 */
+	struct map map[2][N_TARGETS]; /* for Map1, for Map2 */
 };
 
 /*

@@ -1,3 +1,4 @@
+/* Stores calls in display lists, with the pixels that they read. */
 #include "replay/gl/geometry/list.h"
 
 #include <stdlib.h>
@@ -13,7 +14,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-enum { MAX_ARGS = 16 }; /* of a command that reads pixels */
+enum { MAX_ARGS = 16 }; /* most arguments of a command that reads pixels */
 
 static int all_floats(const struct trace_value *v, uint64_t n)
 {

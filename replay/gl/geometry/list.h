@@ -35,11 +35,10 @@ struct gls_op {
 /* A batch of Begin/End pairs, or an array draw, assembled when the list was compiled. */
 struct gls_op_mesh {
 	struct gls_mesh *mesh; /* a reference, or NULL: attributes only */
-	uint32_t before, after; /* bit sets of attributes to set before the first vertex, and after the last: 1 <<
-	                           attribute */
+	uint32_t before, after; /* bit sets of attributes to set before the first vertex, and after the last: 1 << attribute */
 	const float (*before_values)[4], (*after_values)[4]; /* in ascending order of attribute */
 	uint32_t n_draws;
-	uint32_t first_provokes; /* convention by which it was split */
+	uint32_t first_provokes; /* convention used to split it */
 };
 
 /* The effect of a list if nothing is drawn (effect.c). All zero: not derived yet. */
@@ -56,9 +55,8 @@ struct gls_list {
 	uint32_t n, room;
 	struct arena arena;
 	struct gls_effect effect;
-	uint32_t inlined, skipped; /* 1: effects of other lists may contain its ops; number of calls from skipped
-	                              frames */
-	uint64_t name[2], bytes, held; /* of its blob; held: size of the blob and its meshes together, 0: unknown
+	uint32_t inlined, skipped; /* 1: effects of other lists may contain its ops; number of calls from skipped frames */
+	uint64_t name[2], bytes, held; /* its blob's; held: size of the blob and its meshes together, 0: unknown
 	                                  (index/snapshot.h) */
 };
 #define GLS_MAX_LIST_NESTING 64

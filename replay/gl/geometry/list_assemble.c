@@ -293,8 +293,7 @@ static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 			failed = keep_ops(x, out, list, batch.stop, &i) != 0;
 			continue;
 		}
-		if (batch.stop > batch.end) /* run it again up to its end: what came after it has changed the
-		                               geometry */
+		if (batch.stop > batch.end) /* run it again up to its end: what came after it has changed the geometry */
 			collect_batch(assembler, list, i, batch.end, &batch);
 		failed = keep_batch(x, assembler, out, &batch) != 0;
 		i = batch.end;

@@ -1,3 +1,4 @@
+/* Collects the vertices between Begin and End, and draws them as meshes. */
 #include "replay/gl/geometry/pending.h"
 
 #include <string.h>

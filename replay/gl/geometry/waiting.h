@@ -24,9 +24,9 @@ void gls_waiting_touch(struct gls_state *st, int carries, int recolors);
 void gls_color_changed(struct gls_state *st);
 
 /**
- * A command sets an attribute with n components. If that is fewer than in the command before, Mesa sets the others to
- * (0, 0, 0, 1), but only the first time: once a command has given as many components as the store has room for, later
- * shorter ones keep its last components. The alpha of glColor4f can therefore come back with glColor3f. Runs that the
+ * A command sets an attribute with n components. The first time that a command gives fewer components than before, Mesa
+ * sets the others to those of (0, 0, 0, 1). It does not repeat this after a longer command in between: the last
+ * components of that one are then kept. The alpha of glColor4f can therefore come back with glColor3f. Runs that the
  * recorder has turned into lists begin as if nothing had been set before.
  * @param value  [4], completed; in and out
  */

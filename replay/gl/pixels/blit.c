@@ -16,8 +16,7 @@
 struct blit {
 	int64_t from[4]; /* x0 y0 x1 y1, ascending */
 	float corner[2], zoom[2];
-	int64_t source[2], place[2], across[2]; /* as given in the call: where both begin, and the extent of the
-	                                           destination */
+	int64_t source[2], place[2], across[2]; /* as given in the call: where both begin, and the extent of the destination */
 };
 
 static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind,

@@ -54,8 +54,7 @@ static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rect
 	if (!sums)
 		memcpy(values[GLS_ATTR_SECONDARY], c->raster_secondary, 16);
 	memcpy(values[GLS_ATTR_TEXCOORD], c->raster_texcoord, sizeof(c->raster_texcoord));
-	values[GLS_ATTR_FOG_COORD][0] = 0; /* Mesa (22.3.6) uses the fog at the viewer, contrary to sec. 3.10 and
-	                                      2.13 */
+	values[GLS_ATTR_FOG_COORD][0] = 0; /* Mesa (22.3.6) uses the fog at the viewer, contrary to sec. 3.10 and 2.13 */
 	/* Disable per-vertex operations, which do not apply to a rectangle. */
 	a->fog.color_sum &= sums;
 	a->lighting.enabled = a->lighting.color_material = 0;

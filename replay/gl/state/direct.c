@@ -119,8 +119,8 @@ static void on_texture(struct gls_exec *x, struct gls_state *st, const struct ca
 
 	if (target >= 0)
 		run_with(x, c, "glBindTexture", gls_texture_token((uint32_t)target), arg_u(c, 0));
-	if (target < 0 || unit->bound[target] == arg_u(c, 0)) /* otherwise the texture has another target, and the error
-	                                                         has been raised */
+	/* otherwise the texture has another target, and the error has been raised */
+	if (target < 0 || unit->bound[target] == arg_u(c, 0))
 		run_rest(x, c);
 	if (target >= 0)
 		unit->bound[target] = bound;

@@ -13,7 +13,7 @@ struct gls_surface;
 /* The object at an attachment point: a renderbuffer, or an image of a texture; neither: nothing. */
 struct gls_attachment {
 	uint32_t texture, renderbuffer; /* names */
-	uint32_t face, level, layer;    /* of the texture */
+	uint32_t face, level, layer;    /* within the texture */
 };
 enum { GLS_ATTACHMENT_DEPTH = 8, GLS_ATTACHMENT_STENCIL, N_GLS_ATTACHMENTS }; /* below: colour attachments */
 

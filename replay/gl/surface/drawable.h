@@ -12,8 +12,7 @@ struct gls_drawable {
 	uint32_t width, height;
 	int fixed; /* 1: the recorder gave the size (relume:drawable); 0: it is guessed from viewports */
 	struct gls_surface surface; /* the back buffer, or the only one */
-	struct gls_surface front;   /* the front buffer beside a back buffer; without events while not separate
-	                               (front.c) */
+	struct gls_surface front;   /* the front buffer beside a back buffer; without events while not separate (front.c) */
 	int parted;                 /* 1: separate, so both get every event */
 	int16_t *accum; /* owned: the accumulation buffer, [height][width][4], see accum.c; NULL: all 0 */
 	uint32_t accum_width, accum_height;

@@ -161,7 +161,7 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 		gls_picture_release(*snapshot);
 		*snapshot = NULL;
 		if (surface->skipped) {
-			gls_rewind(x, "what they drew is not cleared, and shows");
+			gls_rewind(x, "their drawing is not cleared, and shows");
 			x->feedback.fronts |= surface->is_front;
 			return 0;
 		}

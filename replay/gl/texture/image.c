@@ -14,7 +14,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-#define IMAGE_KEEP_FRAMES 8                  /* frames that an unused image is kept */
+#define IMAGE_KEEP_FRAMES 8                  /* number of frames that an unused image is kept */
 #define IMAGE_KEEP_BYTES ((size_t)64 << 20) /* cache size below which nothing is dropped */
 
 static uint32_t half(uint32_t size)
@@ -27,10 +27,10 @@ static int is_mipmapped(uint32_t filter)
 	return filter != GL_NEAREST && filter != GL_LINEAR;
 }
 
-/* Levels of a texture that continue each other. */
+/* Consecutive levels of a texture that are consistent with each other. */
 struct chain {
-	uint32_t n;   /* from the base level on; 0: no base image */
-	int complete; /* 1: down to one texel, or to the last level that the parameters allow */
+	uint32_t n;   /* number of levels, from the base level on; 0: no base image */
+	int complete; /* 1: reaches down to one texel, or to the last level that the parameters allow */
 };
 
 static struct chain find_chain(const struct gls_texture *t, unsigned face)
@@ -49,7 +49,7 @@ static struct chain find_chain(const struct gls_texture *t, unsigned face)
 	h = t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border;
 	d = gls_texture_depth(t, base);
 	if (!w || !h || !d)
-		return none; /* nothing but borders */
+		return none; /* only borders */
 	for (n = 1;
 	     p->base_level + n < GLS_MAX_LEVELS && p->base_level + n <= p->max_level &&
 	     (w > 1 || h > 1 || (d > 1 && t->target == GLS_TEXTURE_3D));
@@ -67,7 +67,7 @@ static struct chain find_chain(const struct gls_texture *t, unsigned face)
 	return (struct chain){ n, 1 };
 }
 
-/* The levels that all faces have. */
+/* The levels that all faces have in common. */
 static struct chain find_chains(const struct gls_texture *t)
 {
 	struct chain all = find_chain(t, 0);
@@ -94,7 +94,7 @@ static int is_cube_complete(const struct gls_texture *t)
 	return 1;
 }
 
-/* As llvmpipe samples them. In eight bits, what is dark would lack the steps that a buffer of sRGB shows. */
+/* Decode as llvmpipe does when it samples. With eight bits, dark colours would lack steps that an sRGB buffer shows. */
 static void decode_srgb(uint8_t *to, const uint8_t *from, size_t n_texels)
 {
 	float linear[256], texel[4];
@@ -147,7 +147,7 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 		gls_out_of_memory(x, bytes);
 		return NULL;
 	}
-	atomic_init(&image->refs, 2); /* the cache's and the caller's */
+	atomic_init(&image->refs, 2); /* one for the cache, one for the caller */
 	image->texture = (struct scene_texture){ .hash = { hash.low64, hash.high64 }, .target = head[0],
 		.base_format = head[1], .width = head[2], .height = head[3], .depth = head[4], .n_levels = n_levels,
 		.border = base->border, .floats = texel_bytes == 16, .n_bytes = bytes };
@@ -202,7 +202,7 @@ void gls_texture_image_release(struct gls_texture_image *image)
 		free(image);
 }
 
-/* Screen copies make a new image each frame. */
+/* Limit the cache's size: screen copies create a new image each frame. */
 void gls_image_cache_trim(struct gls_exec *x)
 {
 	if (x->caches.image_bytes < IMAGE_KEEP_BYTES || x->frame % IMAGE_KEEP_FRAMES)
@@ -215,7 +215,7 @@ void gls_image_cache_trim(struct gls_exec *x)
 			continue;
 		}
 		x->caches.image_bytes -= image->texture.n_bytes;
-		table_remove(&x->caches.images, e.key); /* may move another one into this place: look again */
+		table_remove(&x->caches.images, e.key); /* may move another entry here: look at this place again */
 		gls_texture_image_release(image);
 	}
 }

@@ -13,14 +13,14 @@ static int is_index(uint32_t format)
 	return format == GL_COLOR_INDEX || format == GL_STENCIL_INDEX;
 }
 
-/* EXT_texture_integer's: fixed function cannot show them, and they are not looked at further. */
+/* Formats of EXT_texture_integer: fixed function cannot show them, so they are not checked further. */
 static int is_integer(uint32_t format)
 {
 	return (format >= GL_RED_INTEGER && format <= GL_BGRA_INTEGER) || format == GL_RG_INTEGER ||
 	       (format >= GL_LUMINANCE_INTEGER_EXT && format <= GL_LUMINANCE_ALPHA_INTEGER_EXT);
 }
 
-/* Types that hold a pixel in one word. */
+/* 1 for types that pack a pixel into one word. */
 static int is_packed(uint32_t type)
 {
 	switch (type) {
@@ -35,7 +35,7 @@ static int is_packed(uint32_t type)
 	}
 }
 
-/* Whether pixels of a format can be of a packed type. */
+/* 1 if pixels of a format can have a packed type. */
 static int goes_with(uint32_t format, uint32_t type)
 {
 	const struct gls_client_format *f = gls_client_format_find(format);
@@ -46,7 +46,7 @@ static int goes_with(uint32_t format, uint32_t type)
 		return format == GL_DEPTH_STENCIL;
 	case GL_UNSIGNED_SHORT_8_8_MESA: case GL_UNSIGNED_SHORT_8_8_REV_MESA:
 		return format == GL_YCBCR_MESA;
-	case GL_UNSIGNED_INT_2_10_10_10_REV: /* of RGB, too, and the two bits are nothing */
+	case GL_UNSIGNED_INT_2_10_10_10_REV: /* valid for RGB as well, with the two bits ignored */
 		return format == GL_RGB || (f && f->n == 4);
 	default:
 		return packed && packed->n == 4 ? f && f->n == 4 : format == GL_RGB;
@@ -117,7 +117,7 @@ uint32_t gls_image_error(uint32_t target, uint32_t internal_format, int64_t leve
 	return target == GL_TEXTURE_3D && has_depth(base) ? GL_INVALID_OPERATION : 0;
 }
 
-/* No image of this side can be made; sides below it make no sum that 64 bits cannot hold. */
+/* Images of this size or more cannot be created; products of smaller sizes fit in 64 bits. */
 #define MOST_SIDE ((int64_t)1 << 19)
 
 uint32_t gls_compressed_error(uint32_t internal_format, const int64_t size[3], int64_t border, int64_t n_bytes)

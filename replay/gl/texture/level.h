@@ -1,4 +1,4 @@
-/* One image of a texture: a level of a mipmap, of a face where the texture is a cube (GL 2.1 sec. 3.8.1). */
+/* One image of a texture: a mipmap level, per face for a cube map (GL 2.1 sec. 3.8.1). */
 #pragma once
 
 #include <stddef.h>
@@ -10,13 +10,13 @@
 struct gls_level {
 	uint32_t width, height, depth; /* with border; 0: not specified */
 	uint32_t border, internal_format, base_format;
-	uint8_t *texels; /* owned, as in scene_texture, with border; a byte of stencil each comes after all of them
-	                    where the format has it */
-	size_t bytes;    /* of both */
-	uint32_t missing; /* number + 1 of the frame that drew to it and was not rendered; 0: nothing is missing */
-	uint32_t missing_part[4]; /* x, y, width, height of what misses pixels; width 0: all of it */
+	uint8_t *texels; /* owned, as in scene_texture, with border; for formats with stencil, one byte of stencil per
+	                    texel follows all texels */
+	size_t bytes;    /* size of texels and stencil together */
+	uint32_t missing; /* 1 + number of the skipped frame that drew to it; 0: nothing is missing */
+	uint32_t missing_part[4]; /* x, y, width, height of the part that is missing; width 0: all of it */
 	uint32_t texel_bytes; /* gls_texel_bytes of the internal format */
-	uint64_t hash[2]; /* XXH3-128 of the texels, where the texture is hashed */
+	uint64_t hash[2]; /* XXH3-128 of the texels, valid if the texture is hashed */
 };
 
 static inline size_t gls_level_count(const struct gls_level *l)
@@ -24,14 +24,14 @@ static inline size_t gls_level_count(const struct gls_level *l)
 	return (size_t)l->width * l->height * l->depth;
 }
 
-/* All of a level misses pixels (missing, as above), or none does (0). */
+/* Mark a whole level as missing (`missing` as above), or as complete (0). */
 static inline void gls_level_lose(struct gls_level *l, uint32_t missing)
 {
 	l->missing = missing;
 	memset(l->missing_part, 0, sizeof(l->missing_part));
 }
 
-/* Stencil values of a level, NULL where it has none. */
+/* Stencil values of a level, NULL if it has none. */
 static inline uint8_t *gls_level_stencil(const struct gls_level *l)
 {
 	size_t texels = l->texel_bytes * gls_level_count(l);

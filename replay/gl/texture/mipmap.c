@@ -1,5 +1,5 @@
 /*
- * Generated mipmaps (sec. 3.8.8 leaves the filter open). Mesa draws each level from the one below it with linear
+ * Generated mipmaps (sec. 3.8.8 does not specify the filter). Mesa draws each level from the one below it with linear
  * filtering: a texel's centre lies between two texels in each direction. Weights are multiples of 1/256; results are
  * rounded after each direction.
  */
@@ -20,10 +20,10 @@
 
 struct tap {
 	uint32_t first, second;
-	float weight; /* of the second, [0,1) */
+	float weight; /* the second one's, [0,1) */
 };
 
-/* exact: as floats are filtered; else in 1/256 texel */
+/* exact: as floats are filtered; otherwise in 1/256 texel */
 static struct tap tap_at(uint32_t i, uint32_t size, uint32_t from, int exact)
 {
 	double place = (i + 0.5) / size * from;
@@ -35,9 +35,9 @@ static struct tap tap_at(uint32_t i, uint32_t size, uint32_t from, int exact)
 }
 
 /*
- * The same of a square that llvmpipe draws with floats, to the last bit: a mean may lie on a step of the format. The
- * coordinate is a plane over one of two triangles, through the vertex that its set-up begins with. other: texels of the
- * level the other way; far: that vertex lies where the coordinate is 1, else 0
+ * As tap_at, for a square that llvmpipe draws with floats, exact to the last bit, because a mean may fall on a step of
+ * the format. The coordinate is a plane over one of two triangles, computed from the vertex that triangle setup starts
+ * with. other: the level's size in the other direction; far: 1: the coordinate is 1 at that vertex, 0: it is 0
  */
 static struct tap tap_drawn(uint32_t i, uint32_t size, uint32_t other, uint32_t from, int far)
 {
@@ -50,7 +50,7 @@ static struct tap tap_drawn(uint32_t i, uint32_t size, uint32_t other, uint32_t 
 	return t;
 }
 
-/* Texels as numbers: bytes of a colour (in linear light where they are encoded), its floats, or one depth. */
+/* Texels as numbers: bytes of a colour (in linear light if they are encoded), its floats, or one depth. */
 static void load_texel(const uint8_t *texel, int floats, const float *linear, float out[4])
 {
 	memcpy(out, texel, 4 * (size_t)floats);
@@ -64,7 +64,7 @@ static void mix_texels(float a[4], const float b[4], float weight, int round)
 		a[k] = round ? floorf(a[k] + (b[k] - a[k]) * weight + 0.5f) : fmaf(weight, b[k] - a[k], a[k]);
 }
 
-/* floats: how many a texel is, 0: it is bytes */
+/* floats: number of floats per texel, 0: bytes */
 static void filter_texel(const struct gls_level *from, int floats, const float *linear, const struct tap t[3],
                          float out[4])
 {
@@ -99,7 +99,7 @@ static uint32_t mean_bytes(uint32_t a, uint32_t b)
 	return (a | b) - (((a ^ b) >> 1) & 0x7f7f7f7fu);
 }
 
-/* The same of a plane that is halved both ways, by bytes. */
+/* Halve a plane in both directions, by bytes. */
 static void halve(const struct gls_level *from, uint32_t w, uint32_t h, uint8_t *out)
 {
 	for (uint32_t y = 0; y < h; y++) {
@@ -117,9 +117,8 @@ static void halve(const struct gls_level *from, uint32_t w, uint32_t h, uint8_t 
 }
 
 /*
- * Formats that Mesa cannot draw to it averages as they are stored, two by two texels. The last of an odd number of
- * texels is left out; integers are rounded down. In 25.0 colours that are encoded are averaged in linear light, as
- * floats.
+ * Formats that Mesa cannot render to are averaged as stored, two by two texels. If the size is odd, the last texel is
+ * ignored; integers are rounded down. In 25.0 encoded colours are averaged in linear light, as floats.
  */
 static int is_averaged(const struct gls_format *f)
 {
@@ -149,14 +148,16 @@ static void average_level(const struct gls_level *from, struct gls_level *to, co
 			if (linear && c < 3)
 				v[c] = gls_srgb_from_linear(v[c]);
 			else if (!format->numbers && !linear)
-				v[c] = floorf(v[c] * 255 + 0.0625f) / 255; /* the mean of eight texels has eighths */
+				v[c] = floorf(v[c] * 255 + 0.0625f) / 255; /* the mean of eight texels has steps of an eighth */
 		}
 		gls_format_store(format, v, 0, to->texels + to->texel_bytes * i);
 	}
 }
 
-/* The texels that a texel is a mean of, along each axis. The square's triangles meet along the diagonal from its first
- * texel. */
+/*
+ * The texels that a texel is the mean of, along each axis. The square's triangles meet along the diagonal from its
+ * first texel.
+ */
 static void find_taps(const struct gls_level *from, const struct gls_level *to, int exact, uint32_t x, uint32_t y,
                       uint32_t z, struct tap t[3])
 {
@@ -167,7 +168,7 @@ static void find_taps(const struct gls_level *from, const struct gls_level *to, 
 	t[2] = tap_at(z, to->depth, from->depth, exact);
 }
 
-/* linear: what bytes of encoded colours are in linear light, else NULL. has_linear_means: as SCENE_MESA_LINEAR_MEANS */
+/* linear: linear values for bytes of encoded colours, else NULL. has_linear_means: as SCENE_MESA_LINEAR_MEANS */
 static void generate_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format,
                            const float *linear, int has_linear_means)
 {
@@ -242,7 +243,7 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 		               (x->st->mesa & SCENE_MESA_LINEAR_MEANS) != 0);
 		from = to;
 	}
-	/* Compressed at last: each level was the mean of one that was not. */
+	/* Compress last: each level is computed from uncompressed texels. */
 	for (uint32_t l = t->parameters.base_level + 1; format && format->s3tc && from >= &t->levels[face][l]; l++)
 		for (uint32_t z = 0; z < t->levels[face][l].depth; z++)
 			recompress(&t->levels[face][l], z, format);

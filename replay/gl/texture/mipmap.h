@@ -6,8 +6,8 @@
 struct gls_exec;
 struct gls_texture;
 
-/** Make all levels above the base level from it. */
+/** Generate all levels above the base level. */
 void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned face);
 
-/** A level has new texels: generate the levels above it where the texture asks for that (GENERATE_MIPMAP). */
+/** A level's texels have changed: generate the levels above it if the texture has GENERATE_MIPMAP. */
 void gls_texture_level_changed(struct gls_exec *x, struct gls_texture *t, unsigned face, int64_t level);

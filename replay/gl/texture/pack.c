@@ -7,7 +7,7 @@
 #include "gl_tokens.h"
 #include "replay/machine/state.h"
 
-/* ---- where pixels lie ---- */
+/* ---- layout ---- */
 
 int gls_packing_find(uint32_t format, uint32_t type, struct gls_packing *p)
 {
@@ -47,7 +47,7 @@ int gls_packing_lay(struct gls_packing *p, const struct gls_pixel_store *store, 
 	           (uint64_t)store->skip_pixels * p->group;
 	p->end = p->start + (images - skip_images) * p->image + (uint64_t)(size[1] - 1) * p->row +
 	         (uint64_t)size[0] * p->group;
-	return p->start <= p->end && p->end <= bytes; /* a damaged snapshot has any numbers */
+	return p->start <= p->end && p->end <= bytes; /* a damaged snapshot may hold any numbers */
 }
 
 static void store(const struct gls_packing *p, uint32_t value, size_t n, uint8_t *to)
@@ -71,8 +71,10 @@ static float clamp(float v, float least)
 	return v > least ? v < 1 ? v : 1 : least;
 }
 
-/* A number of 32 bits. Mesa scales a float by the largest as a float, so that 1 comes out one too large: 0, or the
- * least. */
+/*
+ * A 32-bit integer. Mesa scales a float by the largest integer as a float, so that 1 overflows: the result is 0, or the
+ * minimum.
+ */
 static uint32_t long_number(float v, int is_signed, int bytes)
 {
 	const double most = is_signed ? INT32_MAX : UINT32_MAX;
@@ -133,7 +135,7 @@ void gls_pack_color(const struct gls_packing *p, const struct gls_packed_color *
 
 /* ---- depths and stencil values ---- */
 
-/* The same steps of 32 bits: they are repeated. */
+/* Expand a stored depth to 32 bits by repeating its bits. */
 static uint32_t long_depth(float depth, uint32_t steps, uint32_t bits)
 {
 	if (bits >= 16 && bits < 32)

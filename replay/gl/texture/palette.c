@@ -6,7 +6,7 @@
 
 int gls_palette_of(uint32_t internal_format, struct gls_palette *out)
 {
-	/* In the order of the tokens, first of 4 bits and then of 8. */
+	/* In the order of the tokens: first those with 4-bit indices, then those with 8 bits. */
 	static const struct { uint32_t format, type; size_t bytes; } kinds[] = {
 		{ GL_RGB, GL_UNSIGNED_BYTE, 3 }, { GL_RGBA, GL_UNSIGNED_BYTE, 4 }, { GL_RGB, GL_UNSIGNED_SHORT_5_6_5, 2 },
 		{ GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4, 2 }, { GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1, 2 },

@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A colour beyond this alpha is opaque where a block has but one bit of it. */
+/* With one bit of alpha, colours above this alpha are opaque. */
 #define CUT_ALPHA 127
 
-static const int weights[3] = { 4, 16, 1 }; /* of R, G and B in how far colours lie apart */
+static const int weights[3] = { 4, 16, 1 }; /* for R, G and B in colour distances */
 
 struct color {
 	int v[3];
@@ -44,7 +44,7 @@ static void swap(struct color ends[2])
 	ends[1] = first;
 }
 
-/* The mean of two colours, one of them `share` times. */
+/* The mean of two colours, with the first weighted by `share`. */
 static struct color mixed(const struct color *a, int share, const struct color *b)
 {
 	struct color c;
@@ -62,7 +62,7 @@ static void four_colors(const struct color ends[2], struct color out[4])
 	out[3] = mixed(&ends[1], 2, &ends[0]);
 }
 
-/* The nearest of n colours, the first of several. @return how far it lies */
+/* The nearest of n colours, the first one among equals. @return its distance */
 static unsigned nearest(const uint8_t *texel, const struct color *colors, unsigned n, unsigned *code)
 {
 	unsigned least = ~0u;
@@ -83,7 +83,10 @@ static int is_clear(enum s3tc_kind kind, const uint8_t *texel)
 	return kind == S3TC_RGBA && texel[3] <= CUT_ALPHA;
 }
 
-/* The darkest and the brightest texel. @return 1 if some are transparent: these do not count, unless as the first */
+/*
+ * The darkest and the brightest texel. @return 1 if some texels are transparent: these are ignored, except for the
+ * first
+ */
 static int find_ends(enum s3tc_kind kind, const struct s3tc_texels *t, struct color ends[2])
 {
 	const struct color black = { { 0 } };
@@ -108,7 +111,7 @@ static int find_ends(enum s3tc_kind kind, const struct s3tc_texels *t, struct co
 	return clear;
 }
 
-/* Move both ends by how far the texels lie from the colours they get, each as much as it has a share in them. */
+/* Move both ends by the errors of the texels, each in proportion to its weight. */
 static void move_ends(const struct s3tc_texels *t, struct color ends[2])
 {
 	static const int shares[4][2] = { { 3, 0 }, { 0, 3 }, { 2, 1 }, { 1, 2 } };
@@ -132,7 +135,7 @@ static void move_ends(const struct s3tc_texels *t, struct color ends[2])
 			ends[end].v[k] = limited(ends[end].v[k] + off[end][k] / (n[end] ? n[end] : 1));
 }
 
-/* Ends that 5, 6 and 5 bits may not tell apart are moved apart. That red is compared with green is Mesa's. */
+/* Separate ends that may be equal in 5, 6 and 5 bits. The comparison of red with green is Mesa's. */
 static void part_ends(struct color ends[2])
 {
 	const int red = abs(ends[0].v[0] - ends[1].v[0]), green = abs(ends[0].v[1] - ends[1].v[1]),
@@ -151,7 +154,7 @@ static void part_ends(struct color ends[2])
 	moved[2] = limited(moved[2] + factor * blue);
 }
 
-/* Two bits a texel, with four colours. @return how far all lie from what they get */
+/* Choose two bits per texel, with four colours. @return total error */
 static unsigned code_four(const struct s3tc_texels *t, const struct color ends[2], uint32_t *codes)
 {
 	struct color colors[4];
@@ -166,7 +169,7 @@ static unsigned code_four(const struct s3tc_texels *t, const struct color ends[2
 	return sum;
 }
 
-/* The same with three colours, the ends the other way round, and a fourth code for what is transparent. */
+/* As code_four, with three colours, the ends swapped, and a fourth code for transparent texels. */
 static unsigned code_three(enum s3tc_kind kind, const struct s3tc_texels *t, const struct color ends[2],
                            uint32_t *codes)
 {
@@ -222,14 +225,14 @@ static void encode_colors(enum s3tc_kind kind, const struct s3tc_texels *t, uint
 
 /* ---- alpha in levels ---- */
 
-/* A way to say the alpha of texels: two numbers, and three bits each. */
+/* An encoding of the texels' alpha: two numbers, and three bits per texel. */
 struct levels {
 	int first, second;
 	uint8_t codes[16];
-	unsigned off; /* the sum of squares of what is lost */
+	unsigned off; /* sum of squared errors */
 };
 
-/* Code of a level: the ends come first. */
+/* The code of a level: the ends come first. */
 static uint8_t level_code(int level, int steps)
 {
 	return (uint8_t)(level == 0 ? 0 : level == steps ? 1 : level + 1);
@@ -240,7 +243,7 @@ static int level_value(int from, int to, int level, int steps)
 	return (from * (steps - level) + to * level) / steps;
 }
 
-/* Where one level ends and the next begins. */
+/* The value that the next level begins with. */
 static int level_end(int from, int to, int level, int steps)
 {
 	return (from * (2 * steps - (2 * level + 1)) + to * (2 * level + 1)) / (2 * steps);
@@ -262,7 +265,7 @@ static int is_inside(const struct s3tc_texels *t, unsigned i)
 	return i % 4 < t->width && i / 4 < t->height;
 }
 
-/* Eight levels, from the highest alpha down to the lowest. */
+/* Eight levels, from the highest alpha to the lowest. */
 static void code_eight(const struct s3tc_texels *t, int low, int high, struct levels *out)
 {
 	*out = (struct levels){ high, low, { 0 }, 0 };
@@ -287,7 +290,7 @@ static int level_of_six(int a, int low, int high)
 	return level;
 }
 
-/* Six levels, and codes for 0 and 255. none, all: what counts as these */
+/* Six levels, and codes for 0 and 255. none, all: limits below and above which these codes are used */
 static void code_six(const struct s3tc_texels *t, int low, int high, int none, int all, struct levels *out)
 {
 	*out = (struct levels){ low, high, { 0 }, 0 };
@@ -305,7 +308,7 @@ static void code_six(const struct s3tc_texels *t, int low, int high, int none, i
 	}
 }
 
-/* Other ends for six levels: moved by how far the texels lie from their levels, what is close to 0 and 255 left out. */
+/* Try other ends for six levels: moved by the texels' errors, without those close to 0 and 255. */
 static void move_levels(const struct s3tc_texels *t, int *low, int *high)
 {
 	const int close = (*high - *low) / 28;
@@ -351,7 +354,7 @@ static void put_levels(const struct levels *l, uint8_t *block)
 
 static void encode_levels(const struct s3tc_texels *t, uint8_t *block)
 {
-	int low = 255, high = 0, none = 0, all = 0; /* low, high: of what is neither 0 nor 255 */
+	int low = 255, high = 0, none = 0, all = 0; /* low, high: range of the values other than 0 and 255 */
 	struct levels best, other;
 
 	for (unsigned i = 0; i < 16; i++) {

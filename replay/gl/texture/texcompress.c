@@ -1,6 +1,8 @@
 /*
- * Compressed textures (GL 2.1 sec. 3.8.3): blocks of EXT_texture_compression_s3tc, 3DFX_texture_compression_FXT1,
- * ARB_texture_compression_rgtc, EXT_texture_compression_latc and ATI_texture_compression_3dc as texels.
+ * Compressed textures (GL 2.1 sec. 3.8.3): decodes blocks of EXT_texture_compression_s3tc,
+ * 3DFX_texture_compression_FXT1, ARB_texture_compression_rgtc, EXT_texture_compression_latc and
+ * ATI_texture_compression_3dc to texels.
+ *
  * Bits are numbered as in the extensions: bit 0 is the lowest of the first byte.
  */
 #include "replay/gl/texture/texcompress.h"
@@ -23,13 +25,13 @@ static unsigned bits_at(const uint8_t *block, unsigned first, unsigned n)
 	return value;
 }
 
-/* Few bits as eight: the highest are repeated below. */
+/* Expand to eight bits by repeating the highest bits. */
 static unsigned wide(unsigned value, unsigned bits)
 {
 	return (value << (8 - bits) | value >> (2 * bits - 8)) & 255;
 }
 
-/* Between two numbers, part / of on the way, as llvmpipe interpolates: by 255ths over 256, rounded down. */
+/* Interpolate two numbers by part / of, as llvmpipe does: by 255ths over 256, rounded down. */
 static int between(int a, int b, int part, int of)
 {
 	return a + (((b - a) * (part * 255 / of)) >> 8);
@@ -42,7 +44,7 @@ static struct rgba third(struct rgba a, struct rgba b, int part)
 	return a;
 }
 
-/* The same for FXT1, as Mesa does it: rounded to nearest, halves down. */
+/* Interpolate for FXT1, as Mesa does: rounded to nearest, halves down. */
 static struct rgba blend(struct rgba a, struct rgba b, unsigned part, unsigned of)
 {
 	for (unsigned i = 0; i < 4; i++)
@@ -63,7 +65,7 @@ static struct rgba color_565(unsigned word)
 	return (struct rgba){ { wide(word >> 11, 5), wide(word >> 5 & 63, 6), wide(word & 31, 5), 255 } };
 }
 
-/* Colours of a block, 8 bytes. through: the fourth colour may be transparent; four: there are always four colours */
+/* Colours of a block of 8 bytes. through: the fourth colour may be transparent; four: there are always four colours */
 static void s3tc_colors(const uint8_t *block, int through, int four, uint8_t out[16][4])
 {
 	unsigned w0 = bits_at(block, 0, 16), w1 = bits_at(block, 16, 16);
@@ -81,8 +83,7 @@ static void s3tc_colors(const uint8_t *block, int through, int four, uint8_t out
 		put(&c[bits_at(block, 32 + 2 * i, 2)], out[i]);
 }
 
-/* Alpha of DXT5 and channels of RGTC: eight levels from one number to another; or six, then the lowest and the highest
- * number. */
+/* Alpha of DXT5 and channels of RGTC: eight levels between two numbers; or six, followed by the minimum and maximum. */
 static int channel(const uint8_t *block, unsigned i, int is_signed)
 {
 	int a0 = is_signed ? (int8_t)block[0] : block[0], a1 = is_signed ? (int8_t)block[1] : block[1];
@@ -104,9 +105,9 @@ static void s3tc_block(enum s3tc_kind kind, const uint8_t *block, uint8_t out[16
 		out[i][3] = (uint8_t)(kind == S3TC_BITS ? wide(bits_at(block, 4 * i, 4), 4) : (unsigned)channel(block, i, 0));
 }
 
-/* ---- FXT1: 8x4 texels, the left half's sixteen first ---- */
+/* ---- FXT1: 8x4 texels, first the sixteen of the left half ---- */
 
-/* Few bits as eight, rounded. */
+/* Expand to eight bits, rounded. */
 static unsigned scaled(unsigned value, unsigned bits)
 {
 	unsigned most = (1u << bits) - 1;
@@ -120,7 +121,7 @@ static struct rgba color_555(const uint8_t *block, unsigned first)
 		                scaled(bits_at(block, first, 5), 5), 255 } };
 }
 
-/* The same with a sixth bit of green. */
+/* A 555 colour with a sixth bit of green. */
 static struct rgba color_555_1(const uint8_t *block, unsigned first, unsigned low)
 {
 	struct rgba c = color_555(block, first);
@@ -179,7 +180,7 @@ static void fxt1_block(uint32_t format, const uint8_t *block, uint8_t out[32][4]
 	}
 }
 
-/* ---- RGTC, LATC and 3DC: one or two channels of 4x4 texels ---- */
+/* ---- RGTC, LATC and 3DC: 4x4 texels with one or two channels ---- */
 
 static int is_rgtc(uint32_t base)
 {

@@ -7,17 +7,17 @@
 #include "replay/gl/texture/texformat.h"
 
 /**
- * A compressed 2D image as texels of its internal format.
- * @param n    bytes of data
+ * Decode a compressed 2D image to texels of its internal format.
+ * @param n    size of data in bytes
  * @param out  width * height texels
- * @return 0; -1: too few bytes, or not a format of these
+ * @return 0; -1: too few bytes, or another format
  */
 int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n,
                    uint8_t *out);
 
 /**
- * Leave of a plain 2D image of 8 bits a channel what Mesa's compression leaves; of formats that are not compressed,
- * all.
+ * Apply the loss of Mesa's compression to a plain 2D image with 8 bits per channel; does nothing for formats that are
+ * not compressed.
  * @param row  texels from one row to the next
  */
 void gls_recompress(const struct gls_format *f, uint32_t width, uint32_t height, uint32_t row, uint8_t *texels);

@@ -49,7 +49,7 @@ static int is_rgb_combiner(uint32_t token)
 	       token == GL_DOT3_RGBA_EXT;
 }
 
-/* One of a combiner's tokens. */
+/* Set one of a combiner's tokens. */
 static void set_token(struct gls_exec *x, struct gls_state *st, uint32_t *to, uint32_t token,
                       int (*allows)(uint32_t token))
 {

@@ -9,9 +9,9 @@
 #include "scene/scene.h"
 
 /*
- * What Mesa stores of each format. Formats of 8 bits a channel or more keep 8 here. Of smaller ones, llvmpipe has
- * R3_G3_B2 to RGB5_A1 as their names say (but RGBA2 with 4 bits); luminance and alpha always have 8 bits, but for
- * LUMINANCE4_ALPHA4.
+ * The bits that Mesa stores for each format. Formats with 8 or more bits per channel have 8 here. Smaller ones,
+ * R3_G3_B2 to RGB5_A1, are stored as their names say in llvmpipe (but RGBA2 with 4 bits); luminance and alpha always
+ * have 8 bits, except in LUMINANCE4_ALPHA4.
  */
 #define FORMAT(name, base_format, ...) { .token = (name), .base = (base_format), __VA_ARGS__ }
 static const struct gls_format formats[] = {
@@ -142,7 +142,7 @@ uint32_t gls_format_stencil_bits(uint32_t internal_format)
 	               0;
 }
 
-/* A colour as sampling a base format gives it (table 3.20). */
+/* A colour as sampling a base format returns it (table 3.20). */
 static void expand(uint32_t base, const float color[4], float out[4])
 {
 	int has_color = base != GL_ALPHA, one = base == GL_LUMINANCE || base == GL_LUMINANCE_ALPHA || base == GL_INTENSITY;
@@ -178,7 +178,7 @@ uint32_t gls_texel_bytes(uint32_t internal_format)
 	return f && f->numbers ? 16 : 4;
 }
 
-/* Few bits as eight: they are repeated. */
+/* Expand to eight bits by repetition. */
 static uint8_t widen(unsigned value, unsigned bits)
 {
 	unsigned v = value << (8 - bits);
@@ -188,7 +188,7 @@ static uint8_t widen(unsigned value, unsigned bits)
 	return (uint8_t)v;
 }
 
-/* A number as 8 bits, after it was kept in fewer. */
+/* A number as 8 bits, after rounding it to fewer. */
 static uint8_t coarse(float value, unsigned bits)
 {
 	float steps = (float)((1u << bits) - 1);
@@ -197,7 +197,10 @@ static uint8_t coarse(float value, unsigned bits)
 	return widen((unsigned)(value * steps + 0.5f), bits);
 }
 
-/* A float as one with this many bits of mantissa and 5 of exponent holds it; the lowest exponent has no leading one. */
+/*
+ * A float rounded to this number of mantissa bits and 5 exponent bits; with the lowest exponent there is no leading
+ * one.
+ */
 static float few_bits(float value, int bits, int rounds)
 {
 	int exponent;
@@ -208,8 +211,10 @@ static float few_bits(float value, int bits, int rounds)
 	return (rounds ? rintf(value / step) : truncf(value / step)) * step;
 }
 
-/* Numbers as a format holds them. EXT_packed_float and EXT_texture_shared_exponent leave the rounding open: it is
- * Mesa's. */
+/*
+ * Round numbers to a format. EXT_packed_float and EXT_texture_shared_exponent do not specify the rounding: it is
+ * Mesa's.
+ */
 static void hold(uint32_t numbers, uint32_t mesa, float v[4])
 {
 	const int rounds = (mesa & SCENE_MESA_ROUNDS_SMALL_FLOATS) != 0;
@@ -239,7 +244,7 @@ static void hold(uint32_t numbers, uint32_t mesa, float v[4])
 			v[i] = v[i] > 0 ? v[i] < 65408 ? v[i] : 65408 : 0;
 			most = v[i] > most ? v[i] : most;
 		}
-		/* nine bits of the largest, the others in its steps */
+		/* nine bits for the largest, the others in the same steps */
 		for (step = ldexpf(1, (most >= ldexpf(1, -16) ? ilogbf(most) : -16) - 8); floorf(most / step + 0.5f) > 511;)
 			step *= 2;
 		for (unsigned i = 0; i < 3; i++)
@@ -270,7 +275,7 @@ void gls_format_store(const struct gls_format *f, const float rgba[4], uint32_t 
 	memcpy(out, v, sizeof(v));
 }
 
-/* 8 bits in fewer, as llvmpipe draws them: more than four are cut off, four and fewer rounded. */
+/* Reduce 8 bits as llvmpipe does when drawing: to more than four by truncation, to four or fewer by rounding. */
 static uint8_t drawn(unsigned v, unsigned bits)
 {
 	return widen(bits > 4 ? v >> (8 - bits) : ((v >> bits) * ((1u << bits) - 1) + (1u << (7 - bits))) >> (8 - bits), bits);

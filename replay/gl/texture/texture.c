@@ -13,7 +13,7 @@
 #include "replay/machine/machine.h"
 
 #define MAX_SIZE 16384
-#define MAX_BYTES ((int64_t)1 << 31) /* llvmpipe (Mesa 22.3) refuses images of this size and more */
+#define MAX_BYTES ((int64_t)1 << 31) /* llvmpipe (Mesa 22.3) rejects images of this size or more */
 
 int gls_texture_target_of(uint32_t token, unsigned *face)
 {
@@ -30,7 +30,7 @@ int gls_texture_target_of(uint32_t token, unsigned *face)
 
 /* ---- objects, sec. 3.8.12 ---- */
 
-/* Table 6.17 and its kin. */
+/* Initial values of table 6.17 and similar tables. */
 static struct gls_texture_parameters initial_parameters(uint32_t target)
 {
 	const int rectangle = target == GLS_TEXTURE_RECTANGLE;
@@ -85,7 +85,7 @@ struct gls_texture *gls_texture_bound(struct gls_exec *x, struct gls_state *st, 
 	return st->share->defaults[target];
 }
 
-/* What is bound; NULL where nobody has asked for it yet. */
+/* The bound object; NULL if it has not been created yet. */
 static struct gls_texture *bound_if_any(const struct gls_state *st, uint32_t name, unsigned target)
 {
 	struct gls_texture *t = name ? table_find(&st->share->textures, name) : st->share->defaults[target];
@@ -101,7 +101,7 @@ void gls_texture_save_parameters(const struct gls_state *st,
 			uint32_t name = st->a.texturing.units[u].bound[target];
 			const struct gls_texture *t = bound_if_any(st, name, target);
 
-			if (t || !name) /* nobody has asked for the default object yet: it has its initial state */
+			if (t || !name) /* a default object that has not been created yet has its initial state */
 				saved[u][target] = (struct gls_saved_texture){ 1, name, t ? t->parameters : initial_parameters(target) };
 		}
 }
@@ -121,7 +121,7 @@ void gls_texture_restore_parameters(struct gls_state *st,
 		}
 }
 
-/* Targets of GL 3.0 and later, which Mesa and others know in any context. */
+/* Targets of GL 3.0 and later, which Mesa and others accept in any context. */
 static int is_later_target(uint32_t token)
 {
 	switch (token) {
@@ -190,7 +190,7 @@ GLS_HANDLER(glBindTexture, STATE, BIND_TEXTURE)
 	gls_active_unit(st)->bound[target] = name;
 }
 
-GLS_HANDLER(glPrioritizeTextures, STATE) {} /* residence of textures; nothing is drawn differently */
+GLS_HANDLER(glPrioritizeTextures, STATE) {} /* texture residence; does not affect drawing */
 
 /* ---- parameters, sec. 3.8.4 ---- */
 
@@ -253,13 +253,13 @@ static int is_at_least_one(const struct gls_texture *t __attribute__((unused)), 
 	return value >= 1;
 }
 
-/* A parameter of one number: its place in struct gls_texture_parameters, and what it may be. */
+/* A parameter with one number: its place in struct gls_texture_parameters, and its valid values. */
 struct parameter {
 	uint32_t name;
 	enum { TOKEN, FLOAT, BOOLEAN } kind;
 	size_t place;
 	int (*allows)(const struct gls_texture *t, float value); /* NULL: anything */
-	uint32_t error;                                          /* of what is not allowed */
+	uint32_t error;                                          /* for invalid values */
 	uint32_t changes_image;
 };
 
@@ -344,7 +344,7 @@ GLS_FAMILY(glTexParameter, STATE) { set_parameter(x, st, addressed(x, st, arg_u(
 
 /* ---- sampler objects, GL 3.3 sec. 3.8.2 ---- */
 
-/* A sampler object is a texture without levels. In the table of textures its key lies beyond all names of textures. */
+/* A sampler object is a texture without levels. Its key in the table of textures is above all texture names. */
 #define SAMPLER_KEY(name) ((uint64_t)1 << 32 | (name))
 
 const struct gls_texture *gls_texture_sampler(const struct gls_state *st, unsigned unit, const struct gls_texture *t)
@@ -417,7 +417,9 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 	size_t bytes;
 
 	if (!gls_base_format(internal_format)) {
-		/* Mesa takes more formats than GL 2.1 has; the others hold no colours that fixed function could use. */
+		/*
+		 * Mesa accepts more formats than GL 2.1 has; the others have no colours that fixed function could use.
+		 */
 		gls_unsupported(x, "textures of this internal format");
 		return NULL;
 	}

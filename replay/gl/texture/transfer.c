@@ -5,8 +5,10 @@
 #include "replay/machine/args.h"
 #include "replay/machine/state.h"
 
-/* The entry of a map for a number in [0,1]. Mesa has maps of pixels that are drawn as textures of 256 texels (and blue
- * and alpha of no certain value). */
+/*
+ * The entry of a map for a number in [0,1]. For pixels that are drawn, Mesa stores maps as textures of 256 texels
+ * (where blue and alpha are undefined).
+ */
 static uint32_t entry_of(const struct gls_pixel_map *m, float v, int as_texture)
 {
 	uint32_t texel = v < 1 ? (uint32_t)(v * 256) : 255;

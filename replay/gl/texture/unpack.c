@@ -1,4 +1,4 @@
-/* Client pixels to texels. */
+/* Conversion of client pixels to texels. */
 #include "replay/gl/texture/unpack.h"
 
 #include <string.h>
@@ -26,7 +26,7 @@ static uint32_t load(const uint8_t *p, size_t n, int swap)
 	return value;
 }
 
-/* One component as a float (table 2.9); of packed depth and stencil the depth. */
+/* One component as a float (table 2.9); for packed depth and stencil the depth. */
 static float plain_component(const uint8_t *p, uint32_t type, int swap)
 {
 	size_t bytes = gls_component_bytes(type);
@@ -71,7 +71,7 @@ static void packed_components(const uint8_t *p, const struct gls_packed *t, int 
 	}
 }
 
-/* ---- where pixels lie ---- */
+/* ---- memory layout ---- */
 
 size_t gls_pixel_bytes(const struct gls_pixel_store *s, const struct pixel_box *box)
 {
@@ -95,7 +95,7 @@ const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsi
 	return b->data + offset;
 }
 
-/* How many pixels a row has in memory. */
+/* Number of pixels in a row in memory. */
 static size_t row_pixels(const struct gls_pixels *p)
 {
 	return p->store->row_length > 0 ? (size_t)p->store->row_length : p->width;
@@ -109,7 +109,7 @@ static size_t aligned(const struct gls_pixels *p, size_t row)
 	return (row + alignment - 1) / alignment * alignment;
 }
 
-/* Where a pixel of a 2D image begins. group: bytes of a pixel */
+/* Offset of a pixel in a 2D image. group: size of a pixel in bytes */
 static size_t place_of(const struct gls_pixels *p, size_t group, uint32_t x, uint32_t y)
 {
 	const struct gls_pixel_store *s = p->store;
@@ -141,12 +141,12 @@ void gls_unpack_stencil(const struct gls_pixels *p, uint8_t *out)
 		for (uint32_t x = 0; x < p->width; x++) {
 			size_t at = place_of(p, group, x, y);
 
-			/* the lowest byte of the last word, where there is a word */
+			/* the lowest byte of the last word, if there is a word */
 			*out++ = group >= 4 && at <= p->n && group <= p->n - at ? p->data[at + group - (p->store->swap_bytes ? 1 : 4)] : 0;
 		}
 }
 
-/* A colour or stencil index, shifted and offset. size: bytes of one, where it is no bit */
+/* A colour or stencil index, shifted and offset. size: its size in bytes, unless it is a bit */
 static uint32_t index_at(const struct gls_state *st, const struct gls_pixels *p, size_t size, uint32_t x, uint32_t y)
 {
 	size_t at = place_of(p, size, x, y);
@@ -185,11 +185,9 @@ int gls_unpack_indices(const struct gls_state *st, const struct gls_pixels *p, u
 	return 0;
 }
 
-/* ---- bytes and floats that pixel transfer leaves alone ---- */
+/* ---- bytes and floats that pixel transfer does not change ---- */
 
-/*
- * They only change places. For each of a texel's four bytes: which component of the pixel it is, or one of these.
- */
+/* These are only rearranged. For each of a texel's four bytes: the number of a pixel's component, or one of these. */
 enum { ZERO_BYTE = 4, FULL_BYTE };
 
 static void places_of(const struct gls_client_format *f, uint32_t base, uint8_t place[4])
@@ -216,7 +214,7 @@ static void places_of(const struct gls_client_format *f, uint32_t base, uint8_t 
 		place[3] = place[0];
 }
 
-/* Places as factors: a component times its factor stands in all its places of a texel; `rest` has the other bytes. */
+/* Places as factors: a component times its factor appears in all its places in a texel; `rest` has the other bytes. */
 struct spread {
 	uint32_t member[4], rest;
 };
@@ -294,24 +292,26 @@ static void unpack_bytes(const uint8_t *from, unsigned n, uint32_t width, const 
 
 /* ---- any pixels ---- */
 
-/* What a command's pixels are and become. */
+/* The source and destination formats of a command's pixels. */
 struct unpacking {
 	const struct gls_state *st;
 	const struct gls_pixels *p;
 	const struct gls_client_format *from;
 	const struct gls_packed *packed; /* NULL: each component has bytes of its own */
-	size_t component, group;     /* bytes of a component, of a pixel */
+	size_t component, group;     /* size in bytes of a component, of a pixel */
 	const struct gls_format *to;
-	size_t step;                 /* bytes of a texel */
+	size_t step;                 /* size in bytes of a texel */
 	int transfers, is_depth;
-	int is_plain;                /* 1: components only change places: */
+	int is_plain;                /* 1: components are only rearranged: */
 	uint8_t place[4];
-	int ycbcr;                   /* 1: brightness is the byte `low` of each two */
+	int ycbcr;                   /* 1: luma is byte `low` of each pair */
 	unsigned low;
 };
 
-/* Pixels of brightness, two and two with one colour (MESA_ycbcr_texture), which no transfer changes. @return 0: no type
- * of these */
+/*
+ * Pixels in luma, where each two share a colour (MESA_ycbcr_texture); pixel transfer does not change them. @return 0:
+ * not one of these types
+ */
 static int describe_ycbcr(struct unpacking *u)
 {
 	const uint32_t type = u->p->type;
@@ -323,7 +323,7 @@ static int describe_ycbcr(struct unpacking *u)
 	return u->to->token == GL_YCBCR_MESA && (type == GL_UNSIGNED_SHORT_8_8_MESA || type == GL_UNSIGNED_SHORT_8_8_REV_MESA);
 }
 
-/* @return 0: no format and type that this file knows */
+/* @return 0: unsupported format and type */
 static int describe(struct unpacking *u)
 {
 	const struct gls_pixels *p = u->p;
@@ -375,7 +375,7 @@ static void unpack_texel(const struct unpacking *u, const uint8_t *data, uint8_t
 	gls_format_store(u->to, rgba, u->st->mesa, out);
 }
 
-/* @return 0, or -2: some bytes are not there */
+/* @return 0, or -2: some bytes are not available */
 static int unpack_row(const struct unpacking *u, size_t at, uint8_t *out)
 {
 	size_t n = u->p->n;
@@ -400,13 +400,13 @@ static int unpack_row(const struct unpacking *u, size_t at, uint8_t *out)
 	return rc;
 }
 
-/* Colour indices as the colours that maps make of them (sec. 3.6.5). @return 0, or -1: no type of indices */
+/* Convert colour indices to colours through the maps (sec. 3.6.5). @return 0, or -1: not a type of indices */
 static int unpack_color_indices(const struct gls_state *st, const struct gls_pixels *p, const struct gls_format *to,
                                 uint8_t *out)
 {
 	if (gls_unpack_indices(st, p, out))
 		return -1;
-	/* from the last on: texels may be larger than colours */
+	/* backwards, because texels may be larger than colours */
 	for (size_t i = (size_t)p->width * p->height * (p->depth ? p->depth : 1); i-- > 0;) {
 		float v[4];
 

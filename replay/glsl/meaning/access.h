@@ -3,11 +3,11 @@
 
 #include "replay/glsl/meaning/nodes.h"
 
-/** of[index] */
+/** The element of[index]. */
 struct parse_node *parse_index(struct parse *p, struct parse_node *of, struct parse_node *index);
 
-/** of.name: a member, or components */
+/** The member, or components, of.name. */
 struct parse_node *parse_member(struct parse *p, struct parse_node *of, const struct parse_name *name);
 
-/** of.length() */
+/** The call of.length(). */
 struct parse_node *parse_length(struct parse *p, const struct parse_node *of);

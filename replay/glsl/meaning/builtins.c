@@ -62,9 +62,9 @@ static const struct row {
 
 /* Sizes and types bound to a signature's letters by the arguments so far. */
 struct form {
-	uint32_t size;                  /* of vectors and scalars; 0: unknown */
+	uint32_t size;                  /* for vectors and scalars; 0: unknown */
 	const struct parse_type *given; /* the last matrix */
-	uint32_t sizes[2];              /* of p and q */
+	uint32_t sizes[2];              /* for p and q */
 };
 
 /* The next row with this name; `list` says which table the search is in. */

@@ -70,7 +70,7 @@ static double of_two(enum glsl_operator operation, enum glsl_kind kind, double a
 	}
 }
 
-/* Sums of products, in the order in which the shader would compute them: by a matrix' columns, or as a dot product. */
+/* Sums of products, in the shader's order: by a matrix' columns, or as a dot product. */
 static void times(const struct parse_type *x, const double *a, const struct parse_type *y, const double *b, double *to)
 {
 	const uint32_t rows = x->columns ? x->rows : 1, inner = x->columns ? x->columns : x->rows,

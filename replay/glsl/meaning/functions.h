@@ -9,7 +9,7 @@ struct parse_function {
 	struct parse_name *name;
 	const struct parse_type *result;
 	uint32_t n, unit;                 /* number of parameters; unit: the last unit that declared it */
-	struct parse_symbol **parameters; /* of its definition, or of its first declaration */
+	struct parse_symbol **parameters; /* those of its definition, or of its first declaration */
 	struct parse_node *body;          /* NULL: not defined */
 	struct parse_function **calls;    /* functions that it calls, possibly with duplicates */
 	uint32_t n_calls, call_room;

@@ -7,8 +7,7 @@
 #include "replay/glsl/meaning/nodes.h"
 
 struct parse_binding {
-	struct parse_binding *outer, *last; /* outer: of the same name, in an outer scope; last: bound before this
-	                                       one */
+	struct parse_binding *outer, *last; /* outer: of the same name, in an outer scope; last: bound before this one */
 	struct parse_name *name;
 	uint32_t scope;
 	struct parse_symbol *symbol;   /* a variable, or */

@@ -21,7 +21,7 @@ struct parse_type {
 	enum glsl_kind kind;
 	uint32_t rows, columns;  /* as in struct glsl_type */
 	uint32_t texture;        /* with the bits of type_names.h */
-	uint32_t length;         /* of an array; 0: not known yet */
+	uint32_t length;         /* array length; 0: not known yet */
 	uint32_t depth, numbers; /* depth: nesting depth of arrays and structures */
 	uint32_t *number;        /* 1 + index in the tree; 0: not in the tree yet */
 	const struct parse_type *element;

@@ -15,7 +15,7 @@
 #include "base/arena.h"
 #include "replay/glsl/tree/tree.h"
 
-#define PARSE_MAX_DEPTH 400     /* of nodes: deep enough for any real shader, and safe for the stack */
+#define PARSE_MAX_DEPTH 400     /* for nodes: deep enough for any real shader, and safe for the stack */
 #define PARSE_MAX_NESTED 1000   /* nesting of brackets, blocks and directives in the text */
 #define PARSE_MAX_NUMBERS 65536 /* per type */
 #define PARSE_NAMES 1024
@@ -97,7 +97,7 @@ struct parse {
 	struct parse_condition *conditions;
 	struct parse_input *input;
 	uint32_t n_expanded;
-	uint32_t line;                                            /* of the last token */
+	uint32_t line;                                            /* the last token's */
 	void (*read)(struct parse *p, struct parse_token *token); /* next token before macro expansion: lets macro.c
 	                                                             call directive.c, which is a layer above */
 	struct parse_token now, next;                             /* current token and lookahead */

@@ -1,4 +1,7 @@
-/* Preprocessor directives: they select which parts of a unit are read, and in which version (GLSL 1.50 sec. 3.3). */
+/*
+ * Preprocessor directives: they select the parts of a unit that are read, and the language version (GLSL 1.50 sec.
+ * 3.3).
+ */
 #pragma once
 
 #include "replay/glsl/text/context.h"

@@ -21,10 +21,10 @@ enum glsl_texture {
 struct glsl_type {
 	uint32_t kind;    /* enum glsl_kind */
 	uint32_t rows;    /* components of a vector or of a matrix' column; 1: a scalar */
-	uint32_t columns; /* of a matrix; 0: not a matrix */
-	uint32_t length;  /* of an array; or number of members of a structure */
+	uint32_t columns; /* matrix columns; 0: not a matrix */
+	uint32_t length;  /* array length; or number of members of a structure */
 	uint32_t first;   /* type of an array's elements; or index of a structure's first member in glsl_tree.members */
-	uint32_t texture; /* of a sampler: enum glsl_texture */
+	uint32_t texture; /* for a sampler: enum glsl_texture */
 	uint32_t numbers; /* count of numbers in a value; a sampler counts as one */
 };
 
@@ -42,10 +42,9 @@ struct glsl_symbol {
 	uint32_t name, type;
 	uint32_t storage;  /* enum glsl_storage */
 	uint32_t first;    /* index of its initial value in glsl_tree.numbers; GLSL_NONE: none */
-	uint32_t flat, straight; /* flat: an input that is not interpolated; straight: interpolated linearly in the
-	                            window */
-	uint32_t location;       /* of an input or a uniform, from its `layout`; GLSL_NONE: not given */
-	uint32_t binding;        /* of a sampler: its initial unit; GLSL_NONE: not given */
+	uint32_t flat, straight; /* flat: an input that is not interpolated; straight: interpolated linearly in the window */
+	uint32_t location;       /* `layout` location of an input or a uniform; GLSL_NONE: not given */
+	uint32_t binding;        /* initial unit of a sampler; GLSL_NONE: not given */
 	uint32_t declared;       /* ascending in source order */
 };
 
