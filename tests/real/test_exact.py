@@ -34,7 +34,7 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
     check(done.returncode == 0, f"raster beside --ref-exact: {done.stdout}")
     record(out / "single.trace", PROGRAM, "single", options=("--frame-end", "flush"))
     done = on_display(RELUME, "raster", out / "single.trace", "-f", 0, "-o", out / "single/r.####.png")
-    check("draws to a window with one buffer" in done.stderr, f"raster of one buffer: {done.stderr}")
+    check("draws to a single-buffered window" in done.stderr, f"raster of one buffer: {done.stderr}")
     check("buffers     one" in relume("info", out / "single.trace").stdout, "info of one buffer")
     print(f"largest differences: {codes}, exit codes of diff: {code}")
     check(relume("record", "--ref-exact", "--", "true").returncode == 2, "--ref-exact without --ref")

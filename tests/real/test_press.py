@@ -77,7 +77,7 @@ def test_lost():
     done = press("space@3", "a@9", program=(KEYS, "5", "poll"), quit_after=None)
     check(done.returncode == 5 and "--press: 1 of 2 keys were pressed" in done.stderr, f"it ends before: {said(done)}")
     for wrong, why in (("space", "takes a key and the frame"), ("@3", "takes a key"), ("space@0", "from 1 on"),
-                       ("space@5-4", "takes a key"), ("space@x", "takes a key"), ("spac@3", "knows no key"),
+                       ("space@5-4", "takes a key"), ("space@x", "takes a key"), ("spac@3", "has no key"),
                        ("space@14", "ends after 14 frames")):
         done = press(wrong)
         check(done.returncode == 2 and why in done.stderr and done.stderr.count("\n") == 1,

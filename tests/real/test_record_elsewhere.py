@@ -8,7 +8,7 @@ if on_display(BUILD / "tests/real/elsewhere").returncode == 77:
     skip("no other window can be read from")
 trace = SCRATCH / "elsewhere.trace"
 said = record(trace, BUILD / "tests/real/elsewhere").stderr
-check(" 4 frames, " in said and said.count("another one to read from") == 1, f"it is said, once: {said}")
+check(" 4 frames, " in said and said.count("another read drawable") == 1, f"it is said, once: {said}")
 render(trace, SCRATCH / "out", *AS_SHOWN)
 frames = {frame["frame"]: frame for frame in diff(trace, SCRATCH / "out")[1]["frames"]}
 check([frames[i]["outcome"] for i in range(4)] == ["extra", "extra", "passed", "passed"],

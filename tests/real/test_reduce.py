@@ -73,7 +73,7 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
     check(done.returncode == 2 and "nothing to look for" in done.stderr, f"a command that passes: {done.stderr}")
     done = relume("reduce", out / "whole.trace", "-o", out / "none.trace", "--when",
                   "[ -e '%s/second' ] && exit 4; touch '%s/second'; exit 3" % (out, out))
-    check(done.returncode == 2 and "with 3, then" not in done.stderr and "code 3, then with 4" in done.stderr,
+    check(done.returncode == 2 and "with 3, then" not in done.stderr and "code 3 and then with 4" in done.stderr,
           f"a fickle command: {done.stderr}")
     check(
         relume("reduce", out / "missing.trace", "-o", out / "none.trace", "--when", "false").returncode == 3,

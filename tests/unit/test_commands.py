@@ -74,7 +74,7 @@ class Commands(unittest.TestCase):
         count = text.count("\n")
         for line, complaint in (("frobnicate glBegin", "there is no statement"),
                                 ("arg glBegin nothing opaque", "no command has"), ("when glBeginn 1", "no command has"),
-                                ("arg glBegin( mode opaque", "no regular expression"), ("len COMPSIZE(x)", "len needs"),
+                                ("arg glBegin( mode opaque", "not a regular expression"), ("len COMPSIZE(x)", "len needs"),
                                 ("type GLfoo", "type needs"), ("pass glBegin", "pass needs"),
                                 ("header EGL/egl.h eglNonsense", "no such command"), ("header EGL/none.h egl\\w+",
                                                                                       "No such file")):
