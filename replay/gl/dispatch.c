@@ -88,6 +88,18 @@ static int switch_thread(struct gls_exec *x, uint64_t thread)
 	return 0;
 }
 
+/* 1 for the recorder's own markers: they say what is so now, whatever list is being made. Materials, which the program
+ * sets by capture/relume.h, belong to its lists. */
+static int is_recorders_own(const struct gls_command *k, const struct call *c)
+{
+	static const char own[] = "relume:", material[] = "relume:material ";
+	const struct trace_value *v = k->role == GLS_ROLE_MARKER ? arg(c, 1) : NULL;
+	const char *text = !v ? NULL : v->type == TRACE_STRING ? v->str : v->type == TRACE_BLOB ? (const char *)v->blob : NULL;
+
+	return text && v->count >= sizeof(own) - 1 && memcmp(text, own, sizeof(own) - 1) == 0 &&
+	       !(v->count >= sizeof(material) - 1 && memcmp(text, material, sizeof(material) - 1) == 0);
+}
+
 int gls_exec_call(struct gls_exec *x, const struct call *c)
 {
 	const struct gls_command *k;
@@ -120,7 +132,7 @@ int gls_exec_call(struct gls_exec *x, const struct call *c)
 			x->without_context++;
 			return 0;
 		}
-		if (x->st->list && is_kept_in_lists(k->kind)) {
+		if (x->st->list && is_kept_in_lists(k->kind) && !is_recorders_own(k, c)) {
 			if (gls_list_append(x, x->st, c, (uint32_t)command))
 				return ERR_SYSTEM;
 			if (x->st->list_mode == GL_COMPILE)

@@ -158,7 +158,7 @@ static void set_surface(struct gls_exec *x, struct gls_state *st, const char *te
 	st->dirty |= GLS_DIRTY_MATERIAL;
 }
 
-GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
+GLS_HANDLER(glStringMarkerGREMEDY, INSIDE, MARKER)
 {
 	const struct trace_value *v = arg(c, 1);
 	struct gls_drawable *drawable;

@@ -128,7 +128,7 @@ int main(int argc, char **argv)
 }
 """)
 must(
-    run("cc", "-Wall", "-Werror", f"-I{ROOT / 'query'}", SCRATCH / "mine.c", "-o", SCRATCH / "mine", f"-L{BUILD}",
+    run("cc", "-Wall", "-Werror", f"-I{ROOT / 'verbs/query'}", SCRATCH / "mine.c", "-o", SCRATCH / "mine", f"-L{BUILD}",
         f"-Wl,-rpath,{BUILD.resolve()}", "-lrelume-rays"))
 for device in ((), ("reference",)):
     done = run(SCRATCH / "mine", *device)

@@ -25,7 +25,7 @@ static const struct {
 	{ "GL_ARB_arrays_of_arrays", PARSE_ARRAYS }, { "GL_ARB_gpu_shader5", PARSE_GPU_SHADER5 },
 	{ "GL_ARB_draw_instanced", PARSE_INSTANCED }, { "GL_EXT_draw_instanced", PARSE_PLAIN_EXTENSION },
 	{ "GL_ARB_fragment_coord_conventions", PARSE_COORD_LAYOUT },
-	{ "GL_ARB_uniform_buffer_object", PARSE_BLOCKS }, { "GL_EXT_shadow_samplers", PARSE_PLAIN_EXTENSION },
+	{ "GL_ARB_uniform_buffer_object", PARSE_BLOCKS },
 	{ "GL_EXT_texture_array", PARSE_GPU_SHADER4 }, { "GL_ARB_separate_shader_objects", PARSE_LOCATIONS },
 	{ "GL_ARB_conservative_depth", PARSE_COORD_LAYOUT },
 	{ "GL_AMD_conservative_depth", PARSE_COORD_LAYOUT },
@@ -44,12 +44,10 @@ static const struct {
 	{ "GL_AMD_vertex_shader_layer", PARSE_PLAIN_EXTENSION },
 	{ "GL_AMD_vertex_shader_viewport_index", PARSE_PLAIN_EXTENSION },
 	{ "GL_ARB_viewport_array", PARSE_PLAIN_EXTENSION }, { "GL_ARB_cull_distance", PARSE_PLAIN_EXTENSION },
-	{ "GL_ARB_vertex_attrib_64bit", PARSE_PLAIN_EXTENSION },
-	{ "GL_ARB_gpu_shader_fp64", PARSE_PLAIN_EXTENSION },
 	{ "GL_MESA_shader_integer_functions", PARSE_GPU_SHADER5 },
-	{ "GL_OES_standard_derivatives", PARSE_PLAIN_EXTENSION },
-	{ "GL_EXT_separate_shader_objects", PARSE_LOCATIONS },
 	{ "GL_KHR_blend_equation_advanced", PARSE_PLAIN_EXTENSION },
+	{ "GL_EXT_shader_integer_mix", PARSE_PLAIN_EXTENSION }, { "GL_ARB_shader_stencil_export", PARSE_PLAIN_EXTENSION },
+	{ "GL_EXT_shader_framebuffer_fetch", PARSE_PLAIN_EXTENSION },
 };
 
 /* The other tokens of a directive's line. */
