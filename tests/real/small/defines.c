@@ -1,5 +1,5 @@
 /*
- * Macros of extensions that the preprocessor of GLSL has, or has not: a bar each, in a frame of each version; recorded
+ * Which extensions the preprocessor of GLSL defines: a bar for each, in a frame for each version; recorded
  * by test_small.py.
  */
 #include "tests/trace/window.h"
