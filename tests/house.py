@@ -1,15 +1,14 @@
 #!/usr/bin/python3
-"""The house as it is: which file calls and includes which, drawn from object files and #include lines.
+"""The dependency graph of the sources, derived from object files and #include lines.
 
-usage: house.py BUILD [--root DIR]           check: circles, and arrows that docs/architecture.md does not show
-       house.py BUILD --dot                  the drawing, for Graphviz: files in folders, arrows between folders
-       house.py BUILD --text                 the drawing as docs/architecture.md shows it
-       house.py BUILD --count [--json FILE]  the figures of `make show-house` beside their bars
+usage: house.py BUILD [--root DIR]           check for cycles and for arrows that docs/architecture.md does not show
+       house.py BUILD --dot                  the graph for Graphviz: files in folders, arrows between folders
+       house.py BUILD --text                 the graph as docs/architecture.md shows it
+       house.py BUILD --count [--json FILE]  the figures of `make show-house` with their limits
 
 An arrow goes from a file to what it uses: a symbol that another object file defines, or a header. A folder's arrows are
-those of its files. docs/architecture.md shows one line for each folder: `folder -> folders`. The check fails on a
-circle between files or between folders, on an arrow that the document does not show, and on one that it shows and
-nobody uses any more.
+those of its files. docs/architecture.md shows one line for each folder: `folder -> folders`. The check fails on a cycle
+between files or folders, on an arrow missing from the document, and on a documented arrow that no file uses any more.
 """
 import argparse
 import collections
@@ -42,14 +41,14 @@ SAME_LINES = 6
 
 
 def sources(root):
-    """Files of the house, as paths below root, without tests and programs to record."""
+    """Source files as paths below root, without tests and the programs to record."""
     files = [root / "relume.c"
              ] + [f for stage in STAGES for f in sorted((root / stage).rglob("*")) if f.suffix in SOURCES]
     return [f.relative_to(root).as_posix() for f in files if f.is_file()]
 
 
 def unit(path):
-    """A file without its suffix: what a .c and its .h have in common."""
+    """A path without its suffix, so that a .c file and its .h share a name."""
     return path.rpartition(".")[0]
 
 
@@ -58,7 +57,7 @@ def folder(name):
 
 
 def objects(build, known):
-    """[(object file, unit, the program that it is linked into)]"""
+    """[(object file, unit, program it is linked into)]"""
     found = []
     for path in sorted(build.rglob("*.o")):
         name = path.relative_to(build).as_posix()[:-2]
@@ -70,12 +69,12 @@ def objects(build, known):
 
 
 def symbol_arrows(build, known):
-    """{unit: {unit: symbols}}: who uses what another object file of the same program defines."""
+    """{unit: {unit: symbols}}: symbols that each unit uses from other object files of the same program."""
     defined, wanted = collections.defaultdict(set), []
     for path, name, part in objects(build, known):
         for line in subprocess.run(["nm", path], capture_output=True, text=True, check=True).stdout.splitlines():
             kind, symbol = line.split()[-2:]
-            if kind == "U" and not symbol.startswith(("_Zn", "_Zd")):  # C++'s new and delete are nobody's
+            if kind == "U" and not symbol.startswith(("_Zn", "_Zd")):  # C++'s new and delete come from its runtime
                 wanted.append((part, name, symbol))
             elif kind in "TDBRVWC":
                 defined[part, symbol].add(name)
@@ -97,7 +96,7 @@ def include_arrows(root, files):
 
 
 def circles(arrows):
-    """Strongly connected parts of more than one node (Tarjan 1972)."""
+    """Strongly connected components with more than one node (Tarjan 1972)."""
     order, low, stack, found = {}, {}, [], []
 
     def visit(node):
@@ -144,7 +143,7 @@ class House:
         self.folder_circles = circles(self.folders)
 
     def text(self):
-        """The diagram: a line for each folder, those that see least first."""
+        """The graph as text, a line per folder, those with the fewest dependencies first."""
         names = sorted(set(self.folders) | {o for others in self.folders.values() for o in others})
         lines, done = [], set()
         while len(done) < len(names):
@@ -167,7 +166,7 @@ class House:
         return "\n".join(lines + ["}"])
 
     def faults(self, drawing):
-        """What is wrong, a line each. @param drawing  the text of DRAWING"""
+        """Violations, one per line. @param drawing  the text of DRAWING"""
         lines = ["circle between files: " + " ".join(part) for part in self.file_circles]
         lines += ["circle between folders: " + " ".join(part) for part in self.folder_circles]
         shown = {(a, b) for a, others in SHOWN.findall(drawing) for b in others.split()}
@@ -197,14 +196,14 @@ def functions(text):
 
 
 def significant(text):
-    """[(line number, line)] of what says something: no comment, no lone brace, no include."""
+    """[(line number, line)] of the lines that count: no comments, lone braces or includes."""
     text = re.sub(r"/\*.*?\*/", lambda m: "\n" * m[0].count("\n"), text, flags=re.S)
     lines = [(n, " ".join(line.split("//")[0].split())) for n, line in enumerate(text.split("\n"), 1)]
     return [(n, line) for n, line in lines if re.search(r"\w", line) and not line.startswith("#include")]
 
 
 def repeated(root, files):
-    """Pairs of places that share SAME_LINES lines in a row; a longer run is one pair."""
+    """Pairs of places that share SAME_LINES consecutive lines; a longer match is one pair."""
     places = collections.defaultdict(list)
     for file in files:
         lines = significant((root / file).read_text(encoding="utf-8"))
@@ -215,7 +214,7 @@ def repeated(root, files):
 
 
 def counts(house):
-    """[(name, figure, bar, detail)]; a bar is the most there may be, None: told only"""
+    """[(name, figure, bar, detail)]; bar is the largest figure allowed, or None if the figure is only reported"""
     root, files = house.root, house.files
     text = {file: (root / file).read_text(encoding="utf-8") for file in files}
     headers = {f: t.count("\n") for f, t in text.items() if f.endswith(".h")}

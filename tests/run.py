@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 """Run the tests: tests/run.py BUILD [PART-OF-A-NAME...]
 
-A test is a compiled tests/*/test_*.c (under BUILD) or an executable tests/*/test_*.sh or .py. It passes with exit code
-0, is skipped with 77 (its last line says why), and fails with anything else, or when its time is over. What a test
-leaves running is killed with it. Each test gets an empty TMPDIR, and finds the command through RELUME and RELUME_BUILD.
+A test is a compiled tests/*/test_*.c (under BUILD) or an executable tests/*/test_*.sh or .py. Exit code 0 means passed,
+77 skipped (the last line of output gives the reason); anything else, or a timeout, is a failure. Processes that a test
+leaves running are killed. Each test gets an empty TMPDIR, and finds the command through RELUME and RELUME_BUILD.
 
-A test that counts its checks as libcheck does ("100%: Checks: 5, Failures: 0, Errors: 0") counts as so many tests.
-Near the top of its source a comment may say "serial", on a line of its own (runs alone: it measures time), or
-"limit: 300 s" (default: 120 s). TESTS_SLOWER=10 allows ten times as long, as on emulated processors.
+A test that reports its checks as libcheck does ("100%: Checks: 5, Failures: 0, Errors: 0") counts as that number of
+tests. A comment near the top of its source may say "serial" on a line of its own (run alone, because it measures time)
+or "limit: 300 s" (default: 120 s). TESTS_SLOWER=10 multiplies all limits by ten, as needed on emulated processors.
 
-The last line is "N passed, N failed, N skipped". Exits with 1 where a test failed or none ran.
+The last line is "N passed, N failed, N skipped". The exit code is 1 if a test failed or none ran.
 """
 import concurrent.futures
 import os
@@ -46,46 +46,46 @@ def find_tests(build, parts):
 
 
 def kill_session(leader):
-    """Kill every process of a session, whatever process group it moved to."""
+    """Kill every process of a session, including those that moved to another process group."""
     for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
         try:
             fields = stat.read_text(errors="replace").rpartition(")")[2].split()
             if int(fields[3]) == leader:
                 os.kill(int(stat.parent.name), signal.SIGKILL)
         except (OSError, IndexError, ValueError):
-            pass  # it ended meanwhile
+            pass  # it has already ended
 
 
 def vendor_files():
-    """The .icd files that name OpenCL's implementations here."""
+    """The .icd files that name the OpenCL implementations installed here."""
     place = pathlib.Path(
         os.environ.get("OCL_ICD_VENDORS") or os.environ.get("OPENCL_VENDOR_PATH") or "/etc/OpenCL/vendors")
     return sorted(place.glob("*.icd")) if place.is_dir() else []
 
 
 def environment(build, tmp):
-    # Check's own limit of 4 s a test is for a machine that does nothing else.
+    # Check's own limit of 4 s per test assumes an idle machine.
     env = dict(os.environ, RELUME=str(build / "relume"), RELUME_BUILD=str(build), TMPDIR=tmp, CK_DEFAULT_TIMEOUT="30",
                CK_TIMEOUT_MULTIPLIER=str(SLOWER))
-    # Where several implementations of OpenCL are installed tests mean PoCL, unless they take one of RELUME_VENDORS.
+    # If several OpenCL implementations are installed, tests use PoCL unless they choose one of RELUME_VENDORS.
     files = vendor_files()
     env["RELUME_VENDORS"] = ":".join(map(str, files))
     pocl = [f for f in files if "pocl" in f.read_text()]
     if len(files) > 1 and pocl:
-        # A folder: not every loader takes the name of a file.
+        # OCL_ICD_VENDORS must be a folder: not every loader accepts a file name.
         alone = build / "tests" / "vendors"
         alone.mkdir(parents=True, exist_ok=True)
         (alone / "pocl.icd").write_text(pocl[0].read_text())
         env["OCL_ICD_VENDORS"] = str(alone)
-    # Kernels are compiled once for all tests, though many have a scratch home.
+    # Compile kernels once for all tests, even though many tests have a temporary home.
     env.setdefault("POCL_CACHE_DIR", str(build / "tests" / "pocl-cache"))
-    # Trees and indices go where they harm nobody, and last from one run to the next.
+    # Cache trees and indices below the build folder, where they outlive a run and cannot affect the user's cache.
     env["XDG_CACHE_HOME"] = str(build / "tests" / "cache")
-    # Leaks of Mesa, PoCL and the like are not ours.
+    # Leaks in Mesa, PoCL and other libraries are not ours to fix.
     env.setdefault("LSAN_OPTIONS", f"suppressions={build / 'lsan.supp'}:print_suppressions=0")
-    # Some tests load libraries before all others.
+    # Some tests preload libraries before the sanitizer's.
     env.setdefault("ASAN_OPTIONS", "verify_asan_link_order=0")
-    # OpenImageIO brings OpenBLAS, whose threads confuse the leak check of forked tests.
+    # OpenImageIO pulls in OpenBLAS, whose threads confuse the leak check of forked tests.
     env.setdefault("OPENBLAS_NUM_THREADS", "1")
     env.setdefault("UBSAN_OPTIONS", "print_stacktrace=1")
     return env
@@ -132,7 +132,7 @@ def main(argv):
         sys.exit(__doc__)
     build = pathlib.Path(argv[1]).resolve()
     tests = find_tests(build, argv[2:])
-    shutil.copy(ROOT / "tests" / "lsan.supp", build)  # where a command in its sandbox may read it
+    shutil.copy(ROOT / "tests" / "lsan.supp", build)  # a sandboxed command can read it here
     passed = failed = skipped = 0
     reasons = []
 

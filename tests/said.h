@@ -1,4 +1,4 @@
-/* What is reported on stderr while something is tried. */
+/* Captures what a tested function reports on stderr. */
 #pragma once
 
 #include <check.h>
@@ -20,7 +20,7 @@ static inline struct said said_begin(void)
 	return s;
 }
 
-/** @param out  receives what was said since, as much as there is room for */
+/** @param out  receives the text since said_begin(), cut to size */
 static inline void said_end(struct said *s, char *out, size_t size)
 {
 	dup2(s->stderr_was, 2);
@@ -30,7 +30,6 @@ static inline void said_end(struct said *s, char *out, size_t size)
 	fclose(s->log);
 }
 
-/** Write a file of some text. */
 static inline void said_write_file(const char *path, const char *text)
 {
 	FILE *f = fopen(path, "w");

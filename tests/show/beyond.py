@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""tests/show/beyond.py BUILD [--only PART] (as `make show-beyond`): what a recording shows that the program never drew.
+"""tests/show/beyond.py BUILD [--only PART] (as `make show-beyond`): pictures that go beyond what the program drew.
 
-size: programs recorded in a window of 320x240, rendered by `--scale 4`, against what Mesa draws of them in one of
-1280x960 (`relume raster`): frames that pass the gates of `relume diff`, and the lowest fidelity. What the larger
-picture costs beside one that was recorded at its size: processor time of whole runs, alternated.
+size: programs recorded in a 320x240 window and rendered with `--scale 4`, compared with Mesa's picture in a 1280x960
+window (`relume raster`): number of frames that pass the gates of `relume diff`, and the lowest fidelity. Also the cost
+relative to rendering a recording made at the larger size: processor time of whole runs, alternated.
 
-moment: programs recorded at a quarter of their rate, rendered by `--fps`, against the same programs recorded at all of
-it: FLIP's mean of pictures that were made, not recorded.
+moment: programs recorded at a quarter of their rate and rendered with `--fps`, compared with the same programs recorded
+at the full rate: mean FLIP of the pictures between recorded frames.
 """
 import argparse
 import json
@@ -57,7 +57,7 @@ class Recordings:
         return trace
 
     def flips(self, name, what):
-        """FLIP's mean of each picture between recorded frames."""
+        """Mean FLIP of each picture between recorded frames."""
         traces = {step: self.folder / f"{name}-every-{step}.trace" for step in (1, STEP)}
         for step, trace in traces.items():
             self.run(self.relume, "record", "-o", trace, "--", self.build / "corpus" / name, "--animate", what,
@@ -99,7 +99,7 @@ def show_sizes(shown, recordings):
     for name in ("hall", "spheres"):
         ways = ((recordings.folder / f"{name}-{WIDTH}.trace", "--scale", FACTOR),
                 (recordings.folder / f"{name}-{WIDTH * FACTOR}.trace", ))
-        for way in ways:  # compiles what they need
+        for way in ways:  # the first run compiles the kernels
             recordings.seconds(*way)
         pairs = [[recordings.seconds(*way) for way in ways] for _ in range(RUNS)]
         cost = statistics.median(scaled / recorded for scaled, recorded in pairs)

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """tests/show/bisection.py BUILD [--only NAME] (as `make show-bisect`): ten pairs of recordings with one planted change,
-found at the very call.
+each located at the exact call.
 
-Six pairs: a recording of a real program, and itself with one argument changed past its middle. Four pairs: a program of
-corpus/, and itself built with one line changed, left out or put in.
+Six pairs are a recording of a real program and a copy with one argument changed in its second half. Four pairs are a
+program of corpus/ and a build of it with one line changed, removed or added.
 """
 import argparse
 import pathlib
@@ -22,7 +22,7 @@ SHARED, AT = ROOT.parent / "shared/traces", 0.6
 EDITS = [("glxgears", "glRotatef", 0, 12.5), ("xss-queens", "glBlendFunc", 1, 1), ("neverball", "glBindTexture", 1, 3),
          ("billard-gl", "glColor4f", 0, 0.125), ("rss-lattice", "glVertex3f", 1, 0.75),
          ("iv-SceneViewer", "glRotatef", 0, 33.5)]
-# A program, a line of it, what stands there instead, and the calls that part.
+# A program, one of its lines, the replacement, and the calls that diverge.
 BUILDS = [("spheres", "	glEnable(GL_LIGHT0);\n", "", "glEnable(cap = GL_LIGHT0)", None),
           ("courtyard", "glBlendFunc(GL_SRC_ALPHA, GL_ONE);", "glBlendFunc(GL_ONE, GL_ONE);",
            "glBlendFunc(sfactor = GL_SRC_ALPHA", "glBlendFunc(sfactor = GL_ONE,"),

@@ -1,4 +1,4 @@
-"""The report's page in Chromium, without a network: opened, looked at, operated (operate.js)."""
+"""The report's page in Chromium without a network: opened, photographed, and operated by operate.js."""
 import json
 import pathlib
 import re
@@ -11,7 +11,7 @@ SAID = re.compile(r"FOUND(\{.*\})DNUOF")
 
 
 def command(work, page, *options):
-    """How a page is opened; `work` keeps the browser's own files."""
+    """Command line that opens a page; `work` holds the browser's profile."""
     return [
         NAME, "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run",
         f"--user-data-dir={work / 'profile'}", "--host-resolver-rules=MAP * ~NOTFOUND", "--window-size=1600,1300",
@@ -20,8 +20,8 @@ def command(work, page, *options):
 
 
 def said(work, page):
-    """What the page's script says by console.log("FOUND{...}DNUOF"): it is given its time, unlike by --dump-dom. None:
-    nothing within a minute."""
+    """Text that the page's script prints by console.log("FOUND{...}DNUOF"), or None after a minute without any. Unlike
+    --dump-dom, this waits for the script."""
     child = subprocess.Popen(command(work, page,
                                      "--enable-logging=stderr"), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                              stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True)
@@ -35,7 +35,7 @@ def said(work, page):
 
 
 def operate(work, report, at=""):
-    """What operate.js finds in a report's page, opened at a frame ("#7")."""
+    """The result of operate.js in a report's page, opened at a frame ("#7")."""
     page = report / "operated.html"
     text = (report / "index.html").read_text()
     text = text.replace(
@@ -45,18 +45,17 @@ def operate(work, report, at=""):
 
 
 def accessible(work, report, scheme="light"):
-    """What accessible.js finds wrong in a report's page under a colour scheme."""
+    """Accessibility faults that accessible.js finds in a report's page under a colour scheme."""
     page = report / "accessible.html"
     text = (report / "index.html").read_text()
-    if scheme == "dark":  # as if the screen asked for it
+    if scheme == "dark":  # as if the system preferred dark
         text = text.replace("@media (prefers-color-scheme: dark)", "@media screen", 1)
     page.write_text(text.replace("</body>", f"<script>{(HERE / 'accessible.js').read_text()}</script></body>"))
     return said(work, page)
 
 
 def printed(work, report):
-    """What the page's print style leaves: names of the parts that are shown, and whether a picture or table is wider
-    than the paper."""
+    """The names of the parts that the page's print style keeps, and whether a picture or table is wider than the paper."""
     page = report / "printed.html"
     script = """<script>
 addEventListener("load", () => setTimeout(() => {
@@ -72,8 +71,8 @@ addEventListener("load", () => setTimeout(() => {
 
 
 def narrow(work, report, width):
-    """How wide a report's page is on a screen of `width` pixels, in each of its views: in a frame, as no window of the
-    browser is so narrow."""
+    """Width of a report's page on a screen of `width` pixels, in each of its views. An iframe is used because no
+    browser window can be that narrow."""
     page, around = report / "narrow.html", report / "around.html"
     script = """<script>
 addEventListener("load", () => setTimeout(() => {

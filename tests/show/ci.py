@@ -2,12 +2,12 @@
 """tests/show/ci.py BUILD [--only PART...] (as `make show-ci`): does `relume ci` lead `git bisect run` to the commit
 that broke the picture?
 
-The faults and the harmless variations are those of faults.py. For each there is a git repository's history of three
-commits: the approved program (corpus/still_life.c), the change, and another one that means nothing. Faults of OpenGL
-calls are changes of the program's source; those of frames are a renderer that makes such frames (ci_step.py). What gate
-B reports by design (other bytes on the approved device) is approved in the commit that makes it.
+The faults and harmless variations are those of faults.py. Each gets a git repository with a history of three commits:
+the approved program (corpus/still_life.c), the change, and an unrelated commit. Faults in OpenGL calls are changes to
+the program's source; faults in frames come from a renderer that produces such frames (ci_step.py). A change that gate B
+reports by design (different bytes on the approved device) is approved in the commit that makes it.
 
-Then: which files does --when-changed notice? Each file that some programs open is touched, alone (ci_touched.py).
+Then --when-changed is tested: each file that some programs open is touched, one at a time (ci_touched.py).
 """
 import argparse
 import json
@@ -34,8 +34,7 @@ OFF = {
     "no alpha test": "glEnable(GL_ALPHA_TEST);", "no depth test": "glEnable(GL_DEPTH_TEST);",
     "no fog": "glEnable(GL_FOG);"
 }
-# The faults of faults.py that are in calls, as changes of the source: pairs of what is there and what comes instead,
-# all at once.
+# Faults of faults.py that concern calls, as source changes: lists of (old text, new text), all applied together.
 CHANGES = {
     "a box is not drawn": [("glDrawElements(GL_TRIANGLES, 36,", "glDrawElements(GL_TRIANGLES, 0,")],
     "a list is not found": [("glCallList(sphere)", "glCallList(99)")],
@@ -66,13 +65,13 @@ CHANGES = {
     "wrong depth range": [("glDepthRange(0, 1)", "glDepthRange(0, 0.9)")],
     **{name: [(call, "")] for name, call in OFF.items()},
 }
-# Harmless variations that are changes of the source as well: other bytes, so they are approved.
+# Harmless variations that are also source changes. They alter the frame's bytes, so they are approved.
 HARMLESS = {"edges off by 1/1000 pixel": [("glFrustum(-0.4, 0.4,", "glFrustum(-0.399999, 0.400001,")],
             "edges off by 1/4000 pixel": [("glFrustum(-0.4, 0.4,", "glFrustum(-0.40000025, 0.39999975,")]}
 
 
 class Repository:
-    """A git repository whose only branch begins with the approved program, tagged "good"."""
+    """A git repository whose single branch starts with the approved program, tagged "good"."""
 
     def __init__(self, build):
         self.relume, self.folder = (build / "relume").resolve(), build.resolve() / "show/ci"
@@ -106,7 +105,7 @@ class Repository:
         return done
 
     def ci(self, *codes):
-        """From scratch, as on a machine of its own."""
+        """Run without a cache, as on a fresh machine."""
         shutil.rmtree(self.folder / "ci", ignore_errors=True)
         return self.run(self.relume, "ci", codes=codes).returncode
 
@@ -122,7 +121,7 @@ class Repository:
         self.run("git", "checkout", "-q", "-f", "-B", "main", "good")
 
     def end(self):
-        """The last commit, which means nothing."""
+        """Add the last commit, which is unrelated to the picture."""
         self.write("README", "a still life\n")
         self.commit("say what it is", "last")
 
@@ -138,7 +137,7 @@ class Repository:
         source.write_text(text, encoding="utf-8")
 
     def first_bad(self):
-        """The tag of the commit that git bisect finds."""
+        """Tag of the commit that git bisect blames."""
         shutil.rmtree(self.folder / "ci", ignore_errors=True)
         self.run("git", "bisect", "start", "last", "good")
         self.run("git", "bisect", "run", self.relume, "ci", "--bisect", codes=())
@@ -160,7 +159,7 @@ def fault(r, name):
 
 
 def harmless(r, name):
-    """The exit code of `relume ci` at the commit that changes what means nothing."""
+    """Exit code of `relume ci` at the commit with the harmless change."""
     r.begin()
     if name in HARMLESS:
         r.change(name, HARMLESS[name])
@@ -181,7 +180,7 @@ def harmless(r, name):
 
 
 def touched(build):
-    """What is wrong with verdicts about files that programs open, and how many there are."""
+    """Wrong verdicts about files that programs open, and the number of verdicts."""
     folder, wrong, n, skipped = build.resolve() / "show/ci_touched", [], 0, 0
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "data").mkdir(parents=True)

@@ -1,10 +1,9 @@
 #!/usr/bin/python3
-"""tests/show/ci_step.py RELUME VERB ARGUMENTS...: `relume render` or `relume diff` as show-ci has them in the folder
-where it runs.
+"""tests/show/ci_step.py RELUME VERB ARGUMENTS...: stands in for `relume render` or `relume diff` in show-ci.
 
-A file called "renderer" there names what of faults.py is wrong with the renderer ("fault NAME"), or is not ("harmless
-NAME"): the frame is rendered, then what belongs to that name is done to it. What variations need besides goes into
-varied.json beside the frames' folder.
+A file called "renderer" in the current folder names an entry of faults.py: a broken renderer ("fault NAME") or a
+harmless change ("harmless NAME"). The frame is rendered, then altered as that entry says. Further options that
+variations need are written to varied.json beside the frames' folder.
 """
 import json
 import os
@@ -20,7 +19,7 @@ import faults  # noqa: E402
 
 
 class Rendered(faults.Suite):
-    """What faults.py makes by itself, of frames that `relume ci` has just rendered."""
+    """The interface of faults.py's runs, for frames that `relume ci` has just rendered."""
 
     def __init__(self, relume, trace, frames):
         self.relume, self.trace, self.work = relume, trace.resolve(), frames.resolve().parent
@@ -56,7 +55,7 @@ def main(relume, verb, *words):
         return code
     told = json.loads((pathlib.Path(words[-1]).parent / "varied.json").read_text(encoding="utf-8"))
     words = [*words[:-2], told.get("reference", words[-2]), words[-1]]
-    if pathlib.Path(words[-2]).is_dir():  # pictures, of the frame that is varied
+    if pathlib.Path(words[-2]).is_dir():  # these are pictures of the varied frame
         words[words.index("-f") + 1] = str(faults.FRAME)
     return subprocess.run([relume, verb, *words], check=False).returncode
 

@@ -1,5 +1,5 @@
-"""Which files of a program does `relume ci --when-changed` notice? Each file that the program opens, as strace lists
-it, is touched alone."""
+"""Which files of a program does `relume ci --when-changed` watch? Each file that the program opens, as listed by
+strace, is touched in turn."""
 import os
 import pathlib
 import re
@@ -18,7 +18,7 @@ def on_display(*command, cwd, **more):
 
 
 def opened(command, cwd):
-    """Regular files that a program reads, and does not write, by their real paths."""
+    """Regular files that a program reads and does not write, by their real paths."""
     log = cwd / "opened"
     done = on_display("strace", "-f", "-e", "trace=open,openat,execve", "-o", log, *command, cwd=cwd)
     assert done.returncode == 0, done.stdout
@@ -30,14 +30,14 @@ def opened(command, cwd):
 
 
 def own_mounts():
-    """The command that gives another one mounts of its own; None where this system does not allow it."""
+    """Command prefix that runs another command in a mount namespace of its own, or None if this system forbids it."""
     command = ["unshare", "-m"] if os.geteuid() == 0 else ["unshare", "-rm"]
     return command if subprocess.run([*command, "mount", "--bind", "/bin", "/bin"], stderr=subprocess.DEVNULL,
                                      check=False).returncode == 0 else None
 
 
 class Touched:
-    """A program that `relume ci` has recorded once, in a folder that it may fill."""
+    """A program that `relume ci` has recorded once, in a scratch folder."""
 
     def __init__(self, relume, folder, *command):
         self.relume, self.folder, self.command = relume, folder, command
@@ -51,7 +51,7 @@ class Touched:
         return self.folder / "kept"
 
     def run(self, before=()):
-        """With another file in place of one, where `before` mounts it."""
+        """Run with one file replaced by another; `before` is the command that mounts the replacement."""
         return on_display(*before, self.relume, "ci", "--when-changed", "-n", "p", "-f", "1", "-k", self.kept, "--",
                           *self.command, cwd=self.folder).stdout
 
@@ -59,7 +59,7 @@ class Touched:
         return self.mounts or os.access(path, os.W_OK) and path.startswith(str(self.folder))
 
     def verdict(self, path):
-        """"" where it is right, else what is wrong. `path` None: nothing is touched."""
+        """"" if the verdict is right, else a description of the fault. With `path` None, nothing is touched."""
         whole = self.folder / "whole"
         shutil.rmtree(whole, ignore_errors=True)
         shutil.copytree(self.kept, whole)

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/crashes.py BUILD (as `make show-crashes`): two games on which the usual recorder crashes are recorded
-while they are played.
+"""tests/show/crashes.py BUILD (as `make show-crashes`): two games that crash apitrace are recorded while they are
+played.
 
-extremetuxracer in the race and foobillardplus, driven by xdotool. Each must end by its own means (SIGTERM), the trace
-be read to its end by apitrace, and its pictures, replayed by apitrace, equal those that the game itself showed, every
-fiftieth frame (the last of them are from the race and the shot). Needs a display: run under tests/xvfb.sh.
+xdotool drives extremetuxracer into its race and plays foobillardplus. Each game must end normally on SIGTERM, apitrace
+must read its trace to the end, and every fiftieth frame, replayed by apitrace, must equal the picture that the game
+showed (the last of them show the race and the shot). Needs a display: run under tests/xvfb.sh.
 """
 import json
 import pathlib
@@ -49,7 +49,7 @@ def play(relume, name, trace):
 
 
 def compare(trace, build):
-    """(frames compared, frames that differ), every fiftieth frame but the first; glretrace has a visual like the
+    """(frames compared, frames that differ) over every fiftieth frame but the first; glretrace uses a visual like the
     game's."""
     said = subprocess.run(["apitrace", "dump", "--color=never", "--grep=StringMarker", trace], capture_output=True,
                           text=True, check=True)

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/cryptomatte.py BUILD (as `make show-cryptomatte`): mattes that Blender's compositor makes of our frames,
-beside channel id.
+"""tests/show/cryptomatte.py BUILD (as `make show-cryptomatte`): mattes that Blender's compositor extracts from our
+frames, compared with channel id.
 
-Two programs are recorded and rendered with --aov cryptomatte. Blender's Cryptomatte node takes each object of the three
-manifests by its name. A draw's matte must be 1 where channel id has its number, else 0; a mesh's and a texture's where
-`relume scene` has draws with them.
+Two programs are recorded and rendered with --aov cryptomatte. Blender's Cryptomatte node extracts each object of the
+three manifests by its name. A draw's matte must be 1 where channel id has its number and 0 elsewhere. The matte of a
+mesh or texture must be 1 where `relume scene` lists draws that use it.
 """
 import json
 import pathlib
@@ -39,7 +39,7 @@ def manifests(image):
 
 
 def draws_of(scene, layer, name):
-    """The numbers in channel id of those draws that an object is made of."""
+    """The numbers in channel id of the draws that belong to an object."""
     def of(instance):
         material = scene["materials"][instance["material"]]
         if layer == "CryptoMesh":

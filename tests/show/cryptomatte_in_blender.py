@@ -11,7 +11,7 @@ import sys
 import bpy
 import numpy
 
-if not hasattr(numpy, "bool"):  # Debian 12's Blender 3.4.1 names an alias that its NumPy 1.24 no longer has
+if not hasattr(numpy, "bool"):  # Debian 12's Blender 3.4.1 uses an alias that NumPy 1.24 has removed
     numpy.bool = bool
 
 path, wanted, folder = sys.argv[sys.argv.index("--") + 1:]
@@ -44,7 +44,7 @@ at = window.index(b"dataWindow\0box2i\0") + 21
 x0, y0, x1, y1 = (int.from_bytes(window[at + 4 * k:at + 4 * k + 4], "little", signed=True) for k in range(4))
 scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = x1 - x0 + 1, y1 - y0 + 1, 100
 bpy.ops.render.render()
-for file in pathlib.Path(folder).glob("*.*.*.exr"):  # the frame's number stands behind each name
+for file in pathlib.Path(folder).glob("*.*.*.exr"):  # the frame's number follows each name
     layer, i, _ = file.name.split(".", 2)
     shutil.move(file, file.with_name(f"{layer}.{i}.exr"))
 print("\nMATTES " + json.dumps({"version": bpy.app.version_string}), flush=True)

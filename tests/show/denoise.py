@@ -1,14 +1,15 @@
 #!/usr/bin/python3
-"""tests/show/denoise.py BUILD [--quick] (as `make show-denoise`): 16 samples denoised against many, beside no denoiser
-and OIDN.
+"""tests/show/denoise.py BUILD [--quick] (as `make show-denoise`): 16 denoised samples against many, compared with no
+denoiser and with OIDN.
 
 Runs in a virtual environment that has Intel's Open Image Denoise (pyoidn) and NVIDIA's FLIP (flip-evaluator). All
-denoisers get the same file: OIDN its beauty, albedo and normals. FLIP is the mean over the picture, of sRGB codes.
+denoisers get the same file; OIDN reads its beauty, albedo and normals. FLIP is the mean over the picture, computed on
+sRGB codes.
 
-Flicker, over FRAMES frames of a camera and of a light that move: FLIP of each frame against what it would be with the
-error of the frame before. An error that stays where it is does not flicker.
+Flicker is measured over FRAMES frames with a moving camera and with a moving light: FLIP of each frame against the same
+frame with the previous frame's error. A constant error does not flicker.
 
-`relume denoise --oidn` and `relume render --oidn`, which is confined, load the same OIDN: their pictures are its own.
+`relume denoise --oidn` and `relume render --oidn`, which is confined, load the same OIDN, and must give its pictures.
 
 Bars: each still picture, denoised, is no farther from the truth than 1.1 times what OIDN leaves; in both films it
 flickers less than without a denoiser, and with frames before and after less than without; --oidn departs from OIDN by
@@ -67,7 +68,7 @@ def by_oidn(path):
 
 
 def flicker(truths, pictures):
-    """The error of each frame, put on the truth of the next, beside the next."""
+    """Each frame's error, added to the next frame's truth, and that next frame."""
     return float(
         numpy.mean([flip(truths[i + 1] + pictures[i] - truths[i], pictures[i + 1]) for i in range(len(truths) - 1)]))
 
@@ -83,7 +84,7 @@ def render(build, folder, name, frames, samples, *more, env=None):
 
 
 def loaded(build, rows):
-    """OIDN as relume loads it, beside itself."""
+    """OIDN loaded by relume, compared with OIDN itself."""
     env = os.environ | {"LD_LIBRARY_PATH": str(pathlib.Path(pyoidn.__file__).parent / "oidn/lib")}
     with tempfile.TemporaryDirectory(prefix="relume-") as scratch:
         folder = pathlib.Path(scratch)

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/devices.py BUILD [--only PART]... (as `make show-devices`): the same pictures on every OpenCL
+"""tests/show/devices.py BUILD [--only PART]... (as `make show-devices`): the same pictures from every OpenCL
 implementation.
 
 Eight programs are recorded, rendered with each family of traversal kernels on PoCL and on Intel's runtime for CPUs,
-each compiling for AVX-512 (where the processor has it) and for AVX2, and scored: all gates on the last frames. The
-family of a line "no options" is what `relume render` takes there by itself. Times are processor time, which other work
-on the machine makes longer: where a bar is missed, the least of TRIES counts.
+each compiling for AVX-512 (where the processor has it) and for AVX2, and scored: all gates on the last frames. A line
+"no options" uses the family that `relume render` chooses there. Times are processor time, which other load lengthens:
+if a bar is missed, the least of TRIES counts.
 
   cold, kept  a whole run for one frame of the Cornell box, from an empty cache and once more; of it, kernels slowest
   the file that took longest to compile, or the kernel where that is compiled once it runs (tests/real/build_shim.c)
@@ -33,12 +33,12 @@ import recording
 import scoring
 from display import need_display
 
-FAMILIES = (None, "binary", "compressed")  # None: no options
+FAMILIES = (None, "binary", "compressed")  # None: no --family option
 N_FRAMES = 2
 TRIES = 3
-LIMIT_S = 900  # for one command
-CHECK_S = 60  # for a scene of --check
-COLD_S, WARM_S, FILE_S = 20, 0.2, 10  # bars: first frame, kept kernels, one file
+LIMIT_S = 900  # per command
+CHECK_S = 60  # per scene of --check
+COLD_S, WARM_S, FILE_S = 20, 0.2, 10  # limits: first frame, cached kernels, one file
 LIVE = ("glxgears", "neverball", "queens", "superquadrics")
 CORPUS = {"Cornell": ("cornell", "--animate", "camera"), "spheres": ("spheres", "--animate", "camera"),
           "glass": ("still_life", "--animate", "camera"), "hall": ("hall", "--animate", "camera")}
@@ -48,7 +48,7 @@ CORPUS = {"Cornell": ("cornell", "--animate", "camera"), "spheres": ("spheres", 
 class Implementation:
     name: str
     environment: dict
-    demanded: bool  # its bars count
+    demanded: bool  # its limits count
     preload: tuple = ()
 
 
@@ -63,7 +63,7 @@ def vendor_folder(folder, library):
 
 
 def intel_environment(base):
-    """Intel's runtime out of its virtual environment, without the loader that comes with it."""
+    """Intel's runtime from its virtual environment, without the loader that ships with it."""
     libraries = base / "intel-lib"
     libraries.mkdir(exist_ok=True)
     for file in (base / "intel" / "lib").iterdir():
@@ -92,7 +92,7 @@ def implementations(build, base):
 
 
 class Runner:
-    """Runs the command on one implementation, with caches of its own."""
+    """Runs the command on one implementation, with separate caches."""
 
     def __init__(self, build, base, implementation, family):
         self.relume, self.implementation, self.family = build / "relume", implementation, family
@@ -106,7 +106,7 @@ class Runner:
                                 LD_PRELOAD=":".join((str(build / "tests/real/build_shim.so"), *implementation.preload)))
 
     def run(self, *command, **more):
-        """Exit code, lines of output, errors, and the processor time that was used when each line came."""
+        """Exit code, lines of output, errors, and the processor time used when each line arrived."""
         errors, out, used = self.folder / "errors", [], []
         with open(errors, "w") as file:
             process = subprocess.Popen([str(a) for a in command], env=dict(self.environment,
@@ -116,17 +116,17 @@ class Runner:
         late.start()
         for line in process.stdout:
             used.append(time.clock_gettime(~process.pid << 3
-                                           | 2))  # the process' clock, as clock_getcpuclockid() names it
+                                           | 2))  # the clock id of the process, as clock_getcpuclockid() computes it
             out.append(line)
         code = process.wait()
         late.cancel()
         return code, out, errors.read_text(errors="replace"), used
 
     def render(self, trace, frames, **more):
-        """Exit code, what was said last, processor time at the end of each frame and of all; {file or kernel: seconds}
-        of what was built.
+        """Exit code, last message, processor time at the end of each frame and in total; {file or kernel: build
+        seconds}.
 
-        Without the sandbox: the shim writes a file of its own.
+        Runs without the sandbox, because the shim writes a file.
         """
         self.log.unlink(missing_ok=True)
         pictures = self.folder / "x"
@@ -144,7 +144,9 @@ class Runner:
         return code, (err.splitlines() or [""])[-1][:120], times, built
 
     def start(self, trace, frame, bars_hold, cold):
-        """The same for one frame: of some runs the least time, of the whole run and of each file; until bars hold."""
+        """The same for one frame, repeated until the limits hold: the least time over the runs, for the whole run and
+        for each file.
+        """
         least_s, least = None, {}
         for _ in range(TRIES):
             for cache in self.caches if cold else ():
@@ -159,7 +161,7 @@ class Runner:
         return 0, "", least_s, least
 
     def score(self, reference, frames):
-        """The gates that frames do not pass; "" where they pass all."""
+        """Names of the gates that frames fail; "" if all pass."""
         try:
             scored = json.loads("".join(
                 self.run(self.relume, "diff", reference, self.folder / "x", "-f", ",".join(map(str, frames)), "--json",
@@ -171,7 +173,7 @@ class Runner:
 
 
 def show_programs(runner, recordings):
-    """How many programs pass all gates, the others' names and what is wrong, {program: seconds a frame}."""
+    """Number of programs that pass all gates, the others' names and faults, {program: seconds per frame}."""
     passed, missed, speeds = 0, [], {}
     for name, done in recordings.items():
         if done is None:
@@ -223,7 +225,7 @@ def show_family(build, base, implementation, family, recordings, table):
 
 
 def print_table(table, recordings):
-    """All families of all implementations, a line each."""
+    """All families of all implementations, one per line."""
     head = ("device, family", "gates", "cold s", "slowest s", "kept s", *(f"{name} ms" for name in recordings))
     widths = [max(len(line[i]) for line in (head, *table)) for i in range(len(head))]
     for line in (head, *table) if table else ():
@@ -234,7 +236,7 @@ def print_table(table, recordings):
 
 
 def show_checked(build, base, implementation):
-    """How far an implementation comes that is too slow for whole frames."""
+    """How far an implementation gets that is too slow for whole frames."""
     runner = Runner(build, base, implementation, None)
     code, out, err, _ = runner.run(build / "relume", "devices", "--check", "--json", "--timeout", CHECK_S)
     try:
@@ -260,7 +262,7 @@ def show_checked(build, base, implementation):
 
 
 def record_all(build):
-    """{name: recording}, or None in the place of one that cannot be made."""
+    """{name: recording}, or None for a recording that cannot be made."""
     listed = [
         programs.Program(name, "", (str(build / "corpus" / command[0]), *command[1:], "--frames", "8"), ref_every=1)
         for name, command in CORPUS.items()

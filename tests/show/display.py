@@ -1,4 +1,4 @@
-"""A display for the figures that need one."""
+"""A display for scripts that need one."""
 import os
 import pathlib
 import sys
@@ -7,6 +7,6 @@ XVFB = pathlib.Path(__file__).resolve().parent.parent / "xvfb.sh"
 
 
 def need_display():
-    """Start the running script again on a display of its own, unless it has one; returns only where it has."""
+    """Restart the running script under Xvfb unless it has a display; returns only if there is one."""
     if "DISPLAY_IS_OURS" not in os.environ:
         os.execve(XVFB, [str(XVFB), sys.executable, "-B", *sys.argv], dict(os.environ, DISPLAY_IS_OURS="1"))

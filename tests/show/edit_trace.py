@@ -1,7 +1,7 @@
-"""Change arguments of recorded calls, so that a trace says something else than the program did.
+"""Change arguments of recorded calls, so that a trace differs from the program's calls in known places.
 
-The grammar is capture/format/trace.md. Only numbers and bytes are replaced where they stand; no call comes or goes, so
-that call numbers stay what they were.
+The grammar is in capture/format/trace.md. Numbers and bytes are overwritten in place. No call is added or removed, so
+call numbers do not change.
 """
 import pathlib
 import struct
@@ -21,7 +21,7 @@ def put_uint(value):
 
 
 class Value:
-    """A value and where its changeable bytes stand: [start, end)."""
+    """A value and the range of its changeable bytes: [start, end)."""
 
     def __init__(self, kind, value, start, end):
         self.kind, self.value, self.start, self.end = kind, value, start, end
@@ -41,7 +41,7 @@ class Trace:
         pathlib.Path(path).write_bytes(pack(bytes(out + self.data[at:])))
 
     def change(self, value, new):
-        """Put another number, or other bytes, in the place of a value."""
+        """Overwrite a value with another number or other bytes."""
         if value.kind == "float":
             new = struct.pack("<f", new)
         elif value.kind == "double":
@@ -142,7 +142,7 @@ class Trace:
         at += 1
         while at < len(self.data):
             kind = self.data[at]
-            first, at = uint(self.data, at + 1)  # thread, or number of the call that returns
+            first, at = uint(self.data, at + 1)  # a thread number, or the number of the call that returns
             if kind == 1:
                 at = self._details(at, {})
                 continue

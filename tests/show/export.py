@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""tests/show/export.py BUILD: frames exported as glTF and imported by Blender: everything arrives, and Blender says
-nothing.
+"""tests/show/export.py BUILD: frames exported as glTF and imported by Blender, which must find everything and print no
+warning.
 
-The recordings are those kept in tests/golden, and those of ../shared/traces where that folder is.
+The recordings are those in tests/golden, and those in ../shared/traces if that folder exists.
 """
 import json
 import pathlib
@@ -29,7 +29,7 @@ def in_blender(files):
 
 
 def counts(glb):
-    """What Blender must find: the default scene's nodes; it keeps triangles without area, and unlit ones."""
+    """Counts that Blender must report, from the default scene's nodes; it keeps unlit triangles and those without area."""
     nodes = [glb.json["nodes"][n] for n in glb.json["scenes"][glb.json["scene"]]["nodes"]]
     primitives = [glb.json["meshes"][n["mesh"]]["primitives"][0] for n in nodes if "mesh" in n]
     return {"objects": len(primitives), "cameras": sum("camera" in n for n in nodes),

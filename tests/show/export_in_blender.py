@@ -1,5 +1,5 @@
-"""Run inside Blender: import the .glb files named after "--"; one line of JSON each: what came in, and what was
-said."""
+"""Run inside Blender: import the .glb files named after "--", and print a line of JSON for each with the imported
+objects and the messages."""
 import json
 import logging
 import sys
@@ -7,7 +7,7 @@ import sys
 import bpy
 import numpy
 
-if not hasattr(numpy, "bool"):  # Debian 12's Blender 3.4.1 names an alias that its NumPy 1.24 no longer has
+if not hasattr(numpy, "bool"):  # Debian 12's Blender 3.4.1 uses an alias that NumPy 1.24 has removed
     numpy.bool = bool
 
 said = []

@@ -1,4 +1,4 @@
-"""Read and write OpenEXR files of one scan-line part as numpy planes, keeping types and attributes; write PNG."""
+"""Read and write single-part scan-line OpenEXR files as numpy planes, preserving types and attributes; write PNG."""
 import pathlib
 import struct
 import sys

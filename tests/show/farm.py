@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/farm.py BUILD (as `make show-farm`): two nodes against one, and a farm that is killed at random.
+"""tests/show/farm.py BUILD (as `make show-farm`): two nodes against one, and a farm whose processes are killed at
+random.
 
-400 frames of glxgears, 640x480, on a real Slurm on this machine, each node one core. Bars: two nodes are 1.8 times as
-fast as one; after 50 kills of tasks, slurmd and slurmctld and `relume farm retry`, every frame is there, of the same
-bytes as a local run's, and none was rendered twice.
+400 frames of glxgears, 640x480, on a real Slurm on this machine, one core per node. Bars: two nodes are 1.8 times as
+fast as one; after 50 kills of tasks, slurmd and slurmctld and `relume farm retry`, every frame exists, has the same
+bytes as in a local run, and was rendered only once.
 """
 import hashlib
 import json
@@ -24,7 +25,7 @@ import kills  # noqa: E402
 
 FRAMES, KILLS, BAR = 400, 50, 1.8
 CHUNK, CHUNK_KILLED = 20, 10
-KILLED = ("--samples", "4")  # frames that take long enough for so many kills to meet them
+KILLED = ("--samples", "4")  # frames slow enough for all KILLS to hit one
 
 
 def digests(folder):
@@ -32,7 +33,7 @@ def digests(folder):
 
 
 def render(work, relume, trace, *options):
-    """Digests of the same frames without a farm."""
+    """Digests of the same frames rendered without a farm."""
     subprocess.run([relume, "render", trace, "-o", work / "local" / "x.####.exr", "--progress", "none", *options],
                    check=True)
     found = digests(work / "local")
@@ -61,7 +62,7 @@ def seconds(work, relume, trace, n_nodes):
                 sys.exit(f"not done after 1800 s: {cluster.queue()}")
         spent = time.monotonic() - begin
         for number in re.findall(r"\d+", (work / f"nodes{n_nodes}/x.farm/slurm").read_text()):
-            cluster.run("scancel", number)  # the report is not what is measured
+            cluster.run("scancel", number)  # the report is not part of the measurement
         return spent
 
 
@@ -87,7 +88,7 @@ def show_kills(work, relume, trace, local, seed):
             "passed": status.startswith(f"frames {FRAMES} of {FRAMES} whole")
         },
         {
-            "what": "of the same bytes as a local run", "figure": f"{same}", "bar": f"{FRAMES}", "peer": None,
+            "what": "frames equal to a local run, byte for byte", "figure": f"{same}", "bar": f"{FRAMES}", "peer": None,
             "passed": same == FRAMES == len(frames)
         },
         {

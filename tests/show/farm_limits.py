@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""tests/show/farm_limits.py BUILD TRACE [FRAMES]: what limits a farm of 10,000 nodes? A simulation fed with
+"""tests/show/farm_limits.py BUILD TRACE [FRAMES]: what limits a farm of 10,000 nodes? A simulation based on
 measurements made here.
 
-Measured on one core of this machine with the trace given: starting a task, reading past one frame, rendering one,
-looking whether a frame is whole, the sizes of trace and frame. Assumed, because one machine cannot show them: what a
-file server and Slurm's controller deliver (ASSUMED below). The simulation then runs FRAMES frames (default 1,000,000)
-on 10 to 10,000 nodes.
+Measured on one core with the given trace: starting a task, skipping a frame, rendering a frame, checking whether a
+frame is complete, and the sizes of trace and frame. Assumed, because one machine cannot show it: the throughput of a
+file server and of Slurm's controller (ASSUMED below). The simulation runs FRAMES frames (default 1,000,000) on 10 to
+10,000 nodes.
 
-Every shared thing is a server with one queue; a node takes a task, reads the trace, seeks, renders, writes, and takes
-the next. "useful" is the share of the nodes' time that is spent rendering.
+Every shared resource is a server with one queue. A node takes a task, reads the trace, seeks, renders, writes, and
+takes the next task. "useful" is the share of the nodes' time spent rendering.
 """
 import heapq
 import os
@@ -25,11 +25,11 @@ ASSUMED = {
 }
 NODES = (10, 100, 1000, 10000)
 CHUNKS = (10, 50, 250)
-OPS_PER_FRAME, OPS_PER_TASK = 3, 200  # create, rename, look; libraries, kernels and the lock
+OPS_PER_FRAME, OPS_PER_TASK = 3, 200  # create, rename, check; libraries, kernels and the lock
 
 
 def timed(*command):
-    """Seconds of processor time: what a quiet core would take, whoever else works here."""
+    """Seconds of processor time, which do not depend on other load."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run([str(c) for c in command], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                    stdin=subprocess.DEVNULL)
@@ -38,7 +38,7 @@ def timed(*command):
 
 
 def measure(relume, trace):
-    """Seconds and bytes of this trace on one core."""
+    """Seconds and bytes for this trace on one core."""
     def render(frames, *more):
         return timed("taskset", "-c", "0", relume, "render", trace, "-f", frames, "-o", folder / "x.####.exr",
                      "--threads", "1", *more)
@@ -48,7 +48,7 @@ def measure(relume, trace):
         dump = subprocess.run([relume, "render", trace, "-o", folder / "x.####.exr", "--dry-run"], check=True,
                               stdout=subprocess.PIPE, text=True).stdout
         last = dump.count("\n") - 1
-        render("0-1")  # compiles the kernels, once for all
+        render("0-1")  # compiles the kernels for all later runs
         first, many, late = render("0"), render("0-20"), render(str(last))
         empty, blank = render("0-20", "--skip-existing", "--dry-run"), render("0-20", "--dry-run")
         size = (folder / "x.0005.exr").stat().st_size
@@ -60,7 +60,7 @@ def measure(relume, trace):
 
 
 class Server:
-    """Serves one after the other, in the order of their coming."""
+    """A server that handles requests in order of arrival."""
 
     def __init__(self, rate):
         self.rate, self.free, self.busy = rate, 0.0, 0.0
@@ -73,7 +73,7 @@ class Server:
 
 
 def simulate(m, frames, nodes, chunk, seek):
-    """seek(frame): seconds to get to a frame. Returns seconds in all, the useful share, how busy each server was."""
+    """Returns total seconds, the useful share, and the load of each server. seek(frame): seconds to reach a frame."""
     servers = {name: Server(rate) for name, rate in ASSUMED.items()}
     files, ops, controller = servers.values()
 
@@ -84,7 +84,7 @@ def simulate(m, frames, nodes, chunk, seek):
                 (ops, OPS_PER_FRAME * count), (files, m["bytes"] * count))
 
     tasks = (task(first) for first in range(0, frames, chunk))
-    # Events in the order of time: a node has come so far with its steps.
+    # Events in order of time: a node and the steps it has completed.
     events = [(0.0, node, ()) for node in range(nodes)]
     end = 0.0
     while events:
@@ -103,7 +103,7 @@ def main(build, trace, frames=1_000_000):
     os.environ.setdefault("POCL_CACHE_DIR", str(pathlib.Path(build, "show", "pocl-cache").resolve()))
     m = measure(relume, trace)
     frames = int(frames)
-    # A recording as long as the film: the trace grows with it.
+    # Scale the recording to the length of the film.
     m["trace"] *= frames / m["frames"]
     print(
         f"measured: start {m['start']:.2f} s, {m['frame']:.3f} s/frame, {1e3 * m['skip']:.3f} ms to read past a frame, "

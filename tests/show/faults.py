@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""tests/show/faults.py BUILD [PART-OF-A-NAME...] (as `make show-faults`): does relume diff find what is wrong, and only
-that?
+"""tests/show/faults.py BUILD [PART-OF-A-NAME...] (as `make show-faults`): does relume diff find real faults, and only
+those?
 
-Records corpus/still_life live with its reference frames, renders and approves it. Then 40 faults: calls of the
-recording are changed and it is rendered again (what a broken replayer or tracer would show), or the frame's file is
-damaged. Each is scored against the unchanged recording and the approved frame; the gate that is there for it must fail,
-and where the fault sits in a draw, that draw must be blamed first. Then 20 variations that mean nothing, none of which
-may fail. `idiff` compares each with the approved frame, at the setting that serves it best on these very pairs.
+Records corpus/still_life live with its reference frames, renders and approves it. Then come 40 faults: either calls of
+the recording are changed and it is rendered again (as a broken replayer or tracer would do), or the frame's file is
+damaged. Each is scored against the unchanged recording and the approved frame. The gate for that fault must fail; if
+the fault is in one draw, that draw must be blamed first. Then come 20 harmless variations, and none may fail. `idiff`
+compares each with the approved frame, at the setting that works best on these very pairs.
 """
 import json
 import os
@@ -26,7 +26,7 @@ import exr_numpy as exr  # noqa: E402
 from replayed import REF_COLOR, records  # noqa: E402
 
 FRAME = 1
-FLOOR, BOX, SPHERE, PYRAMID, FENCE, PANES = 2, 3, 4, 5, 6, (7, 8)  # draw numbers; 1 is the clear, blending concerns two
+FLOOR, BOX, SPHERE, PYRAMID, FENCE, PANES = 2, 3, 4, 5, 6, (7, 8)  # draw numbers; 1 is the clear, and two draws blend
 GL = {
     "DITHER": 0x0BD0, "LIGHT1": 0x4001, "BLEND": 0x0BE2, "ALPHA_TEST": 0x0BC0, "DEPTH_TEST": 0x0B71, "FOG": 0x0B60,
     "LIGHTING": 0x0B50, "CW": 0x0900, "FLAT": 0x1D00, "ONE": 1, "REPLACE": 0x1E01, "NEAREST": 0x2600, "LINEAR": 0x2601,
@@ -85,7 +85,7 @@ def box_vertex(t):
 
 def floor_texel(t):
     for a in t.find("glTexCoord2f"):
-        if abs(a[1].value) > 1.01:  # the floor's corners; the fence has t of 0 and 1
+        if abs(a[1].value) > 1.01:  # floor corners have larger coordinates; the fence has t of 0 and 1
             t.change(a[0], a[0].value + 1 / 16)
 
 
@@ -105,7 +105,7 @@ def tiny_shift(parts):
 
 def fence_texture(t):
     hits = t.find("glBindTexture")
-    for a in hits[4:]:  # after the textures are made: floor, fence, floor, fence
+    for a in hits[4:]:  # after the textures are created, in the order floor, fence, floor, fence
         t.change(a[1], 3 - a[1].value)
 
 
@@ -130,7 +130,7 @@ def linear(x):
 
 
 def rebuild(image):
-    """The beauty that belongs to changed gl and effect channels, rounded as the file rounds."""
+    """The beauty that results from changed gl and effect channels, rounded as in the file."""
     for c in "RGB":
         p = {
             n: image.planes[f"{n}.{c}"].astype(numpy.float64)
@@ -224,7 +224,7 @@ def truncated(image):
 
 MISSING = object()
 
-# name, gates of which one must fail ("" where the frame's outcome says it), draw to blame (None: none), what to do
+# name, gates that must include a failure ("" if the frame's outcome is the fault), draw to blame (None: none), edit
 FAULTS = [
     ("a box is not drawn", ("R3", "R4"), BOX, scalar("glDrawElements", {}, 1, 0)),
     ("a list is not found", ("R3", "R4"), SPHERE, scalar("glCallList", {0: 1}, 0, 99)),
@@ -265,7 +265,7 @@ FAULTS = [
     ("mirrored", ("R3", "R4"), None, every(lambda p: p[:, ::-1])),
     ("gamma twice", ("R1", "P"), None, on_gl(lambda p: linear(display(display(p))))),
     ("a drift of 1/255", ("B", ), None,
-     on_gl(lambda p: linear(numpy.minimum(display(p) + 1 / 255, 1)))),  # R1 allows it, so P does
+     on_gl(lambda p: linear(numpy.minimum(display(p) + 1 / 255, 1)))),  # R1 allows it, P must too
     ("a drift of 3/255", ("P", ), None, on_gl(lambda p: linear(numpy.minimum(display(p) + 3 / 255, 1)))),
     ("red and blue swapped", ("R1", "R3"), None, swap_colors),
     ("the shadows are gone", ("B", ), FLOOR, drop_shadow),
@@ -274,9 +274,9 @@ FAULTS = [
     ("coarse depth", ("R5", ), None, quantized_depth),
 ]
 
-# Variations. Each takes the run and gives the reference, the frame's file, more options, and whether it is compared
-# with the approved frame (what moves edges on the approved device is other bytes, and so a finding for B; it is none
-# for the rest).
+# Harmless variations. Each takes the run and returns the reference, the frame's file, further options, and whether to
+# compare with the approved frame. A variation that moves edges changes bytes on the approved device, which gate B
+# reports by design.
 
 def rendered(*options, env=None, edit=None, baseline=True, more=()):
     def vary(s, folder):
@@ -316,7 +316,7 @@ def png_reference(s, folder):
 
 
 def repacked(s, folder):
-    Trace(s.trace).save(folder / "s.trace")  # other chunks, nothing compressed
+    Trace(s.trace).save(folder / "s.trace")  # different chunk sizes, no compression
     shutil.copy(s.trace.with_suffix(".ref"), folder / "s.ref")
     return folder / "s.trace", s.render(folder / "s.trace", folder), (), True
 
@@ -406,15 +406,15 @@ class Suite:
         return folder / "s.0001.exr"
 
     def reference(self):
-        """The reference frame as codes, from the .ref file."""
+        """The reference frame as codes, read from the .ref file."""
         for frame, width, height, pixels in records(self.trace.with_suffix(".ref"), REF_COLOR):
             if frame == FRAME:
                 return numpy.frombuffer(pixels, "u1").reshape(height, width, 4)[::-1, :, :3]
         sys.exit(f"{self.trace}: no reference of frame {FRAME}")
 
     def score(self, reference, file, more=(), baseline=True):
-        """One frame as --json has it, and the exit code. Gate V knows frames of a changed trace where the trace names
-        the reference."""
+        """One frame as --json reports it, and the exit code. Gate V scores frames of a changed trace only if the trace
+        names the reference."""
         options = ("--baseline", self.base) if baseline else ()
         frames = reference.with_suffix(".ref") if reference.suffix == ".trace" else reference
         done = self.run(self.relume, "diff", frames, file.parent / "s.####.exr", "-f", FRAME, "--json", "-", *options,
@@ -424,7 +424,7 @@ class Suite:
 
 
 def make_fault(s, folder, what):
-    """The frame's file as the fault leaves it."""
+    """Write the frame's file with the fault applied."""
     path = folder / "s.0001.exr"
     if what.__module__ == __name__ and getattr(what, "__code__", None) and what.__code__.co_varnames[:1] == ("t",):
         trace = folder / "s.trace"
@@ -454,7 +454,7 @@ def judge_fault(code, frame, gates, draw):
 
 
 def idiff_figures(good, other):
-    """What idiff looks at: the largest difference of a pixel's channels; None where it fails whatever its setting."""
+    """idiff's measure for each pixel: the largest difference of its channels; None if idiff fails at any setting."""
     try:
         a, b = exr.Image(good), exr.Image(other)
     except (ValueError, zlib.error, struct_error):
@@ -473,7 +473,9 @@ from struct import error as struct_error  # noqa: E402
 
 
 def best_idiff(s, pairs):
-    """The setting with most right answers, found by idiff's own rule on colour channels, then asked of idiff itself."""
+    """The setting with the most right answers, found by applying idiff's rule to colour channels and confirmed by idiff
+    itself.
+    """
     figures = [(idiff_figures(s.good_colors, p), bad) for p, bad in pairs]
     best = (-1, None)
     for fail in (0, 0.0005, 0.001, 0.002, 0.004, 0.008, 0.016, 0.03, 0.06, 0.12):
@@ -494,8 +496,8 @@ def best_idiff(s, pairs):
 
 
 def colors(s, path, out):
-    """What idiff is given: beauty and gl, so that ids and positions do not decide. A file that cannot be read stays
-    itself."""
+    """Input for idiff: beauty and gl only, so that ids and positions have no influence. Unreadable files are passed as
+    they are."""
     try:
         image = exr.Image(path)
     except (ValueError, zlib.error, struct_error):

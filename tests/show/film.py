@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/film.py BUILD (as `make show-film`): films of a recorded program, made by ffmpeg and played in Chromium.
+"""tests/show/film.py BUILD (as `make show-film`): films of a recorded program, encoded by ffmpeg and played in
+Chromium.
 
-glxgears is recorded live. Its frames are rendered in one run and as four tasks of a farm; films of both hold the same
-pictures. A report with the film is opened in Chromium, which must play it: frames of the video are drawn into a canvas
-and looked at. Screenshots stay in BUILD/show/film for people to look at.
+glxgears is recorded live. Its frames are rendered in one run and as four tasks of a farm; films of both must hold the
+same pictures. A report with the film is opened in Chromium, which must play it: video frames are drawn into a canvas
+and examined. Screenshots are left in BUILD/show/film for inspection.
 """
 import hashlib
 import json
@@ -19,7 +20,8 @@ import browser  # noqa: E402
 
 LAYOUTS = ("side", "wipe", "alternate")
 
-# Run in the page by a second script: what the video is, and how much its picture changes from an eighth to the middle.
+# Runs in the page as a second script: reports the video's properties, and how much its picture changes between one
+# eighth and the middle.
 PLAY = """<script>
 addEventListener("load", async () => {
 	const video = document.querySelector("video"), canvas = document.createElement("canvas"), found = {};
@@ -48,7 +50,7 @@ def run(*command):
 
 
 def hashes(film):
-    """Of each picture of a film, as ffmpeg reads it."""
+    """Hash of each picture of a film, as decoded by ffmpeg."""
     return re.findall(r", (\w{32})$", run("ffmpeg", "-loglevel", "error", "-i", film, "-f", "framemd5", "-"),
                       re.MULTILINE)
 
@@ -75,7 +77,7 @@ def main(build):
     found = browser.said(work, probed) or {}
     lines = [
         ("pictures of the film", len(one), 24, len(one) == 24),
-        ("of these not the same from four tasks", sum(a != b for a, b in zip(one, four)) + abs(len(one) - len(four)), 0,
+        ("pictures that differ when made by four tasks", sum(a != b for a, b in zip(one, four)) + abs(len(one) - len(four)), 0,
          one == four),
         ("the film's width in Chromium", found.get("width"), 604, found.get("width") == 604),
         ("its seconds", found.get("seconds"), 2, abs(found.get("seconds", 0) - 2) < 0.1),

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""tests/show/flaky.py BUILD (as `make show-flaky`): noise of five kinds told apart from five real regressions, by
-`relume diff REF RUN...`.
+"""tests/show/flaky.py BUILD (as `make show-flaky`): `relume diff REF RUN...` must distinguish five kinds of noise from
+five real regressions.
 
-Frames of a program of corpus/ are recorded live; each run is a copy of them. Some frames are noisy, each run in its own
-way; some are wrong, alike in every run; some are both. Some are neither.
+Frames of a program of corpus/ are recorded live; each run is a copy of them. Some frames are noisy, differently in each
+run; some are wrong in the same way in every run; some are both, and some neither.
 """
 import json
 import pathlib
@@ -22,7 +22,7 @@ from page import colors  # noqa: E402
 RUNS, SEED = 5, 1
 
 
-# Noise: what run `run` shows of frame `frame`. None: it lacks the frame.
+# Noise: the picture of frame `frame` in run `run`. None: the run lacks the frame.
 
 def grain(rng, frames, frame, run):
     picture = frames[frame].astype(int)

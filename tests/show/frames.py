@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""tests/show/frames.py BUILD [--only WORD]...: what whole frames cost, beside the rays in them and beside a rasteriser.
+"""tests/show/frames.py BUILD [--only WORD]...: cost of whole frames, compared with that of their rays and with a
+rasteriser.
 
-A frame's processor time (user and system, whole processes) is what MANY frames take more than FEW, divided by how many
-more they are: starting up is measured apart. Ours and the peers' runs alternate; figures are medians. Peers: Embree's
-time for the same frames' own camera and shadow rays (tests/bench/frame_rays.c); glretrace -b -s, which replays the same
-calls on Mesa's llvmpipe and writes a PNG file a frame.
+A frame's processor time (user and system, whole processes) is the difference between runs of MANY and FEW frames,
+divided by the difference in frames; start-up is measured separately. Our runs and the peers' alternate; figures are
+medians. Peers: Embree's time for the same frames' camera and shadow rays (tests/bench/frame_rays.c); glretrace -b -s,
+which replays the same calls on Mesa's llvmpipe and writes a PNG file per frame.
 
---only picks parts by a word of theirs: whole, raster, cores, memory, start, pixels.
+--only selects parts by a word of their names: whole, raster, cores, memory, start, pixels.
 """
 import argparse
 import json
@@ -30,13 +31,13 @@ HACKS = {
 }
 TRACES = {
     "neverball": 8, "openarena": 0
-}  # recordings of ../shared/traces, and the first frame of those that are compared; openarena: recorded in play
+}  # recordings of ../shared/traces, each with the first frame to compare; openarena: recorded in play
 SIZES = ("800x600", "1920x1080", "3840x2160")
 BARS = {"whole": 3, "raster": 1.0, "whitted": 0.5, "cores": 0.95, "memory": 1.5, "start": 0.25, "pixels": 1.2}
 
 
 class Run:
-    """A finished process: its processor time, wall time and most memory."""
+    """A finished process: its processor time, wall time and peak memory."""
 
     def __init__(self, command, **more):
         begin = time.monotonic()
@@ -67,7 +68,7 @@ class Show:
         return not self.only or name in self.only
 
     def say(self, what, figure, text, bar, peer=None, most=True):
-        """One row. most: the figure may be at most the bar; else it must be at least that."""
+        """Print one row. With `most` the figure must be at most the bar; otherwise it must be at least the bar."""
         passed = None if bar is None else figure <= bar if most else figure >= bar
         limit = None if bar is None else f"{'at most' if most else 'at least'} {bar}"
         self.rows.append({"what": what, "figure": text, "bar": limit, "peer": peer, "passed": passed})
@@ -89,7 +90,7 @@ class Show:
                            [self.build / "corpus" / program, "--frames", frames, "--animate", "camera", "--size", size])
 
     def cut(self, trace, frames, first=0):
-        """The first frames of a recording, for peers that only replay whole ones."""
+        """Cut the first frames off a recording, for peers that can only replay whole ones."""
         out = self.folder / f"{trace.stem}.{frames}.trace"
         if not out.exists():
             Run([self.build / "relume", "trim", "-f", f"{first}-{first + frames - 1}", "-o", out, trace])
@@ -114,12 +115,12 @@ class Show:
                                                                                   LIBGL_ALWAYS_SOFTWARE="1"))
 
     def frame_ms(self, run, few=FEW, many=MANY):
-        """A frame's processor time; run(n) renders so many."""
+        """A frame's processor time; run(n) renders n frames."""
         return 1e3 * (run(many).cpu - run(few).cpu) / (many - few)
 
 
 def medians(rounds, measures):
-    """Run all measures in turn, several times; the median of each."""
+    """Run all measurements in turn, several times; returns the median of each."""
     figures = [[measure() for measure in measures] for _ in range(rounds)]
     return [statistics.median(column) for column in zip(*figures)]
 
@@ -132,7 +133,7 @@ def show_whole(show):
             said = Run([show.build / "tests/bench/frame_rays", trace, MANY // 2, 5]).said.split()
             return float(said[0]) + float(said[1])
 
-        show.render(trace, 1)  # kernels are compiled once
+        show.render(trace, 1)  # compile the kernels before measuring
         ours, peer = medians(ROUNDS, [lambda: show.frame_ms(lambda n: show.render(trace, n)), rays])
         show.say(f"{name} 800x600, default channels: frame / its rays", ours / peer,
                  f"{ours / peer:.1f} ({ours:.0f} / {peer:.0f} ms)", BARS["whole"], f"Embree, {peer:.1f} ms")

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""tests/show/fuzz.py BUILD (as `make show-fuzz`): what all campaigns of libFuzzer came to, by target.
+"""tests/show/fuzz.py BUILD (as `make show-fuzz`): the totals of all libFuzzer campaigns, by target.
 
-`make fuzz` runs campaigns and adds to BUILD/fuzz/sums.json, `make fuzz-keep` moves that to tests/fuzz/sums.json.
-Nothing is run here. Edges: those that some input reached, of all that are linked with the target, other readers' and
-the sanitizers' among them.
+`make fuzz` runs campaigns and adds to BUILD/fuzz/sums.json; `make fuzz-keep` moves that to tests/fuzz/sums.json.
+Nothing is run here. The edges column counts those that some input reached, out of all edges linked into the target,
+including those of other readers and of the sanitizers.
 """
 import json
 import pathlib

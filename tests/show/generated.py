@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/generated.py BUILD [--first N] [--count N] [--only N]... (as `make show-generated`): legacy programs made
-at random (tests/generated), recorded on Mesa, rendered in mode gl and scored by all gates. Each that fails is made
-smaller: the steps that are left fail still, and none of them can be left out.
+"""tests/show/generated.py BUILD [--first N] [--count N] [--only N]... (as `make show-generated`): random legacy
+programs (tests/generated), recorded on Mesa, rendered in mode gl and scored by all gates. Each failing program is
+reduced to a minimal list of steps that still fails.
 
-Program number N is the same one everywhere, so that a failure has a name: BUILD/tests/generated/program N shows it.
-Recordings lie in BUILD/show/generated, failures with their steps in failures.txt there. With --only, or as
-`make show-generated ONLY="17 23"`: these programs.
+Program number N is the same on every machine, so a number identifies a failure: BUILD/tests/generated/program N shows
+it. Recordings are in BUILD/show/generated, failures with their steps in failures.txt there. With --only, or as `make
+show-generated ONLY="17 23"`, only these programs run.
 """
 import argparse
 import pathlib
@@ -34,7 +34,7 @@ class Generator(Scorer):
         self.program, self.ref = build / "tests/generated/program", ref
 
     def score(self, names, folder):
-        """{name: {gate: figure} for the gates that fail}, or a text if a program does not get that far."""
+        """{name: {gate: figure} for the gates that fail}, or a message if a program does not get that far."""
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         trace, pictures = folder / "all.trace", folder / "x.####.exr"
@@ -53,7 +53,7 @@ class Generator(Scorer):
         return {name: failures(frame) for name, frame in zip(names, scored["frames"])}
 
     def apart(self, names, folder, text):
-        """The scores of a batch that did not get through, by halves."""
+        """Scores of a failed batch, found by halving it."""
         if len(names) == 1:
             return {names[0]: text}
         half = len(names) // 2
@@ -64,7 +64,7 @@ class Generator(Scorer):
         return {int(line.split()[0]): line.split()[1] for line in lines}
 
     def reduce(self, number, folder):
-        """A few steps that fail still; none of them can be left out."""
+        """A short list of steps that still fails; no step can be removed."""
         steps = list(self.steps(number))
         size = max(len(steps) // 2, 1)
         while True:
@@ -85,7 +85,7 @@ class Generator(Scorer):
 
 
 def failures(frame):
-    """{gate: text of its first figure that is beyond its bar}"""
+    """{gate: text of its first figure that exceeds its bar}"""
     return {name: f"{gate['figures'][0]['value']:.4g}" for name, gate in frame["gates"].items()
             if gate["state"] == "failed" and gate["figures"]}
 

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""tests/show/hooks.py BUILD (as `make show-hooks`): the examples of corpus/hooks/ rendered, what a hook that repeats
-the built-in costs, and what wrong hooks are told.
+"""tests/show/hooks.py BUILD (as `make show-hooks`): the examples of corpus/hooks/ rendered, the cost of a hook that repeats
+the built-in code, and the error messages for wrong hooks.
 
-Pictures are left as PNG in BUILD/show/hooks, to be looked at. Times are processor time of whole commands, medians of
-runs in turn with and without the hook, after one of each that compiles kernels.
+Pictures are left as PNG in BUILD/show/hooks for inspection. Times are processor time of whole commands: medians of runs
+that alternate with and without the hook, after one run of each to compile kernels.
 """
 import json
 import os
@@ -20,14 +20,14 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SIZE, FRAMES, ROUNDS, BAR = "480x360", 12, 7, 1.1
 MIRRORS = "surfaces:\n  - { match: { lit: yes }, reflect: 0.3 }\n"
 CLOSEST = "struct relume_request closest_hit(struct relume_hit hit, struct relume_parameters parameters)\n{\n%s\n}\n"
-# name: the program, more options
+# name: program, further options
 EXAMPLES = {
     "repeat": ("still_life", ), "toon": ("still_life", ), "car_paint": ("still_life", ),
     "thin_lens": ("spheres", "--samples", "16"), "fisheye": ("spheres", ), "sunset": ("spheres", "--look", MIRRORS),
     "sphere": ("still_life", ), "distance": ("still_life", ), "boxes": ("spheres", ), "cutout": ("still_life", ),
     "gobo": ("still_life", )
 }
-# what of it: hook, command in front, seconds, words that must be said
+# fault: hook, wrapper command, seconds, words that the message must contain
 WRONG = {
     "syntax": (CLOSEST % "\treturn relume_color(hit.color;", "wrong.cl:3:"),
     "a member that is not there": ("\n\n" + CLOSEST % "\treturn relume_color(hit.colour);", "wrong.cl:5:"),
@@ -56,7 +56,7 @@ def run(*command, good=True):
 
 
 def look_file(work, options):
-    """Options, with the text of rules as a file."""
+    """Options, with the rules written to a file."""
     out = []
     for option in options:
         if str(option).endswith("\n"):

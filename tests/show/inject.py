@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/inject.py BUILD [--only VERB] (as `make show-inject`): each call of the system fails once, in turn.
+"""tests/show/inject.py BUILD [--only VERB] (as `make show-inject`): each system call fails once, in turn.
 
-The nth malloc, read, write, mmap, open and thread that the command makes itself fails (tests/real/inject_shim.c), for
-every n of a small index, info, scene, trim, render and diff; once, and from there on. The command must then do without,
-with the same result; or end with code 3 or 5 and one line that says why. No file is left half-written, and no memory
-behind: all runs have LeakSanitizer, where gcc brings it. The recorder under the same shim: the program's own pictures
-and its exit code do not change. (OpenCL's calls: show-device-faults.)
+The nth malloc, read, write, mmap, open or thread creation of the command fails (tests/real/inject_shim.c), for every n
+of a small index, info, scene, trim, render and diff; first only that call, then that call and all later ones. The
+command must either reach the same result anyway, or end with code 3 or 5 and one line that gives the reason. It must
+leave no partial file and leak no memory: all runs use LeakSanitizer if gcc provides it. The recorder runs under the
+same shim: the program's pictures and exit code must not change. (OpenCL calls: show-device-faults.)
 """
 import argparse
 import concurrent.futures
@@ -25,12 +25,12 @@ import run as runner  # noqa: E402
 from table import Shown  # noqa: E402
 
 CLASSES = ("malloc", "read", "write", "mmap", "open", "thread")
-LIMIT_S = 120  # by the clock, on a machine that does other things as well
+LIMIT_S = 120  # wall time, on a machine that may be busy
 
 
 class Case:
-    """A command line; words @trace, @programs, @frames, @ref stand for inputs. made: patterns of the files that it
-    makes, each of one."""
+    """A command line; words @trace, @programs, @frames, @ref are replaced by inputs. made: a pattern for each file that
+    it writes."""
 
     def __init__(self, name, command, made=()):
         self.name, self.command, self.made = name, command, made
@@ -54,7 +54,7 @@ CASES = [
 
 
 def leak_sanitizer():
-    """Its library, to be preloaded; None: there is none."""
+    """Path of the LeakSanitizer library for LD_PRELOAD, or None if there is none."""
     said = subprocess.run(["gcc", "-print-file-name=liblsan.so"], capture_output=True, text=True,
                           check=False).stdout.strip()
     return pathlib.Path(said) if "/" in said else None
@@ -62,7 +62,7 @@ def leak_sanitizer():
 
 def digest(path):
     text = path.read_bytes()
-    if path.suffix in (".json", ".xml", ".html"):  # how long it took, and where
+    if path.suffix in (".json", ".xml", ".html"):  # timings and host names differ
         text = b"\n".join(line for line in text.splitlines() if b"seconds" not in line and b"time=" not in line)
     return hashlib.sha256(text).hexdigest()
 
@@ -107,8 +107,8 @@ class Trial:
                                                                for n in made}, sorted(set(files) - known), counts
 
     def wrong(self, case, good, points):
-        """What is wrong at "CLASS:N", and at "CLASS:N+": [None: nothing]. Where the first run made no call after its
-        Nth, it was both."""
+        """Faults at "CLASS:N" and at "CLASS:N+" (None: no fault). If the first run made no call after its Nth, it
+        covered both."""
         found, calls = [], None
         for point in points:
             name, _, n = point.partition(":")
@@ -136,20 +136,20 @@ class Trial:
             return f"exit code {code}, and leaks: {err.decode(errors='replace')[:900]}"
         if others:
             return f"leaves {others}"
-        if case.name == "diff" and code == 3:  # a frame that cannot be read is a result: here are two
+        if case.name == "diff" and code == 3:  # for diff, an unreadable frame is a result, and there are two of them
             return None if 1 <= len(said) <= 2 - (inject[-1]
                                                   != "+") else f"exit code 3 with {len(said)} lines: {err[-400:]}"
         if any(made[n] != good[3][n] for n in made):
             return f"exit code {code}: another {[n for n in made if made[n] != good[3][n]]}"
-        if case.name == "index" and b"cache/relume" in out:  # where it goes if it cannot lie beside the recording
+        if case.name == "index" and b"cache/relume" in out:  # the fallback location
             return None
         if code == good[0] and said and (inject[-1] == "+"
-                                         or not case.name.startswith("render")):  # another worker does a frame again
+                                         or not case.name.startswith("render")):  # another worker retries
             return f"exit code {code} after {said}"
         if code == good[0]:
             return None if set(made) == set(good[3]) and (plain(out) == plain(
                 good[1]) or case.name == "diff") else f"exit code {code}, but not the same: {err[-300:]}"
-        most = 2 if case.name.startswith("render") else 1  # each worker tells what became of it
+        most = 2 if case.name.startswith("render") else 1  # each worker reports its own failure
         return None if 1 <= len(
             said) <= most else f"exit code {code} with {len(said)} lines: {err.decode(errors='replace')[-400:]}"
 
@@ -163,7 +163,7 @@ def counts_of(path):
 
 
 def points_of(counts, most):
-    """Every n of each class, once and from there on; of more than `most`, evenly spread ones."""
+    """Every n of each class, alone and from there on; if there are more than `most`, evenly spaced ones."""
     for name in CLASSES:
         n = counts.get(name, 0)
         step = max(1, -(-n // most)) if most else 1
@@ -174,8 +174,7 @@ def points_of(counts, most):
 
 
 def places_of(counts, most):
-    """Each place in the code that makes such calls: all of them from there, and where there are several the last
-    one."""
+    """For each place in the code that makes such calls: all of its calls, and the last one if there are several."""
     for name in CLASSES:
         for at, n in enumerate(places_counts(counts, name), 1):
             yield f"{name}@{at}+"
@@ -192,8 +191,8 @@ def places_counts(counts, name):
 
 
 def try_case(trial, case, most, workers, points_of=points_of):
-    """(points tried, [what is wrong]). points_of: which ones, of counts"""
-    trial.run(case)  # what is kept for later runs is there now
+    """(points tried, [faults]). points_of: selects points from the counts"""
+    trial.run(case)  # the files that later runs reuse now exist
     good = trial.run(case)
     if good[0] != 0 or len(good[3]) != len(case.made):
         return 0, [f"{case.name} does not work: {good}"]
@@ -209,7 +208,7 @@ def try_case(trial, case, most, workers, points_of=points_of):
 
 
 def try_recorder(trial, build, most):
-    """Record a program while the recorder's calls fail: the program must not notice."""
+    """Record a program while the recorder's calls fail; the program must not be affected."""
     shim, work = trial.shim, trial.inputs / "record"
     work.mkdir()
     program, count = (build / "tests/trace/pixels").resolve(), work / "count"

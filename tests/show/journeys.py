@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""tests/show/journeys.py BUILD (as `make show-journeys`): what people meet who are new to it.
+"""tests/show/journeys.py BUILD (as `make show-journeys`): the experience of new users.
 
-The five journeys of tests/journeys, each with its processor time; forty wrong inputs, a line each: what was typed, the
-exit code and what was said; and how many commands and seconds lie between a program and a first picture without noise.
+Runs the five journeys of tests/journeys and prints the processor time of each; prints forty wrong inputs, each with its
+exit code and message; and counts the commands and seconds from a program to its first noise-free picture.
 """
 import argparse
 import os
@@ -18,7 +18,7 @@ from table import Shown
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 JOURNEYS = ("developer", "ci_engineer", "farm_td", "artist", "trouble")
-MOST_SECONDS = 30  # of processor time, kernels compiled before
+MOST_SECONDS = 30  # limit in processor time, kernels already compiled
 WRONG = 40
 sys.path.insert(0, str(ROOT / "tests/journeys"))
 import wrong_inputs  # noqa: E402
@@ -37,7 +37,7 @@ def journey(build, name):
 
 
 def show_journeys(shown, build):
-    for name in JOURNEYS:  # compiles their kernels
+    for name in JOURNEYS:  # compiles the kernels
         journey(build, name)
     for name in JOURNEYS:
         done = journey(build, name)
@@ -68,7 +68,7 @@ def show_wrong_inputs(shown, build, tmp):
 
 
 def show_first_picture(shown, build, program, name, tmp):
-    """Commands and seconds from a program to a picture by `--look auto`, without noise, kernels compiled before."""
+    """Commands and seconds from a program to a noise-free picture with `--look auto`, kernels already compiled."""
     place, env = pathlib.Path(tmp), environment(build, tmp)
     commands = ([build / "relume", "record", "-o", "game.trace", "--quit-after", "10", "--", *program], [
         build / "relume", "render", "game.trace", "-f", "5", "--look", "auto", "--samples", "16", "--denoise", "-o",

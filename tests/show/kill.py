@@ -2,11 +2,11 @@
 """tests/show/kill.py BUILD [RUNS [SEED]] (as `make show-kill`): programs killed by SIGKILL at random moments lose no
 completed frame.
 
-Each run records a program, waits for a random while after it has begun, and kills it, every second time together with
-the command that records it. How many frames it had completed is known from a counter outside of it (counter_shim.c).
-Its trace must hold at least as many frames, and `apitrace dump` and `relume info` must read it to the end; that it ends
-within a call of the frame in progress is all that apitrace may say. A program killed before its first call leaves a
-trace without calls.
+Each run records a program and kills it at a random time after its start, in every second run together with the
+recording command. A counter outside the process (counter_shim.c) knows how many frames were completed. The trace must
+hold at least that number of frames, and `apitrace dump` and `relume info` must read it to the end; the only complaint
+allowed is apitrace's, that the trace ends inside a call of the frame in progress. A program killed before its first
+call leaves a trace without calls.
 """
 import json
 import os
@@ -23,9 +23,9 @@ import time
 from display import need_display
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-MAX_WAIT_S = 0.5  # from the start of the program to its death
-PATIENCE_S = 60   # for it to start
-CUT = b"warning: unexpected end of file while reading trace\n"  # in the frame that was not completed
+MAX_WAIT_S = 0.5  # from the program's start to its death
+PATIENCE_S = 60   # for the program to start
+CUT = b"warning: unexpected end of file while reading trace\n"  # in the incomplete frame
 FRAME_END = re.compile(rb"^[0-9]+ glXSwapBuffers\(", re.M)
 
 

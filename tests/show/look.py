@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""tests/show/look.py BUILD (as `make show-look`): what `relume look` finds in levels of corpus/rooms with lightmaps
-whose lights are known, and in corpus/tricks: how many lights, how far off, and what it costs; and what roles it gives
-beside labels written by hand (roles.py)."""
+"""tests/show/look.py BUILD (as `make show-look`): results of `relume look` on lightmapped levels of corpus/rooms whose
+lights are known, and on corpus/tricks: number of lights, their errors, and the cost. Also the roles it assigns,
+compared with labels written by hand (roles.py)."""
 import json
 import math
 import pathlib
@@ -31,7 +31,7 @@ def distance(a, b):
 
 
 def solved_lights(text):
-    """[(position, colour)] of lights that come of lightmaps, and the ambient light."""
+    """[(position, colour)] of lights recovered from lightmaps, and the ambient light."""
     rules = re.split(r"^  - ", text.partition("\nlights:")[2].partition("\nworld:")[0], flags=re.M)
     lights = [(numbers(r, "position")[:3], numbers(r, "diffuse"))
               for r in rules
@@ -45,15 +45,15 @@ def solved_lights(text):
 
 
 def into_world(truth, position):
-    """A place of the level in world space, the eye space of the first frame: moved to the start, turned by its yaw."""
+    """Transform a place of the level into world space, which is the first frame's eye space."""
     turned, start = math.radians(truth["start_yaw"]), truth["start"]
     x, y, z = (p - s for p, s in zip(position, start))
     return [math.cos(turned) * x + math.sin(turned) * z, y, -math.sin(turned) * x + math.cos(turned) * z]
 
 
 def compare_lights(truth, text):
-    """Pair found lights with true ones, nearest first: how many, how far off as shares of the level's size and of their
-    strength."""
+    """Pair found lights with true ones, nearest first: the numbers found, missed and invented; errors relative to the
+    level's size and the lights' strength."""
     lights, ambient = solved_lights(text)
     left, found, off, strength_off = list(lights), 0, 0.0, 0.0
     for light in truth["lights"]:
@@ -77,8 +77,8 @@ def run(*args):
 
 
 def must(done):
-    """A command that ended well, or the end of it all: with its name and its end, as one that was killed says nothing
-    itself."""
+    """Require that a command succeeds, or exit with its name and how it ended, because a killed command prints no
+    message."""
     if done.returncode:
         end = f"signal {-done.returncode}" if done.returncode < 0 else f"code {done.returncode}"
         print(f"{' '.join(done.args)}: ended with {end}: {done.stderr.strip() or 'no message'}", file=sys.stderr,
@@ -87,7 +87,7 @@ def must(done):
 
 
 def study(build, work, program, *options):
-    """Record a program and study it: the rules, and processor seconds of the study."""
+    """Record a program and study it; returns the rules and the study's processor seconds."""
     trace, rules = work / "x.trace", work / "x.look.yaml"
     for old in work.glob("x.*"):
         old.unlink()
@@ -101,9 +101,10 @@ def study(build, work, program, *options):
 
 
 def textures_alone(build, work, seed, cut):
-    """A level's picture with nothing but its textures, which Mesa drew the same: what albedo is.
+    """A level's picture with only its textures, which Mesa draws identically: the reference for albedo.
 
-    cut: "none" or "white", as walls are cut into small triangles where those carry light in their colours."""
+    cut: "none", or "white" where walls are cut into small triangles because their vertex colours carry the light.
+    """
     trace = work / "bare.trace"
     for old in work.glob("bare.*"):
         old.unlink()
@@ -119,12 +120,12 @@ def textures_alone(build, work, seed, cut):
 
 
 def albedo_error(bare, albedo):
-    """How far a pixel's albedo is from its texture at most."""
+    """The largest difference between a pixel's albedo and its texture."""
     return max(abs(a - b) for c in "RGB" for p, q in zip(bare[f"gl.{c}"], albedo[f"albedo.{c}"]) for a, b in zip(p, q))
 
 
 def true_rules(truth, text):
-    """The rules that were found, with the level's own lights in place of those found."""
+    """The rules found, with their lights replaced by the level's true ones."""
     lights = [(truth["ambient"], (0, 0, 0), (0, 1, 0, 0))]
     lights += [(0, light["color"], (*into_world(truth, light["position"]), 1)) for light in truth["lights"]]
     listed = "".join(
@@ -135,8 +136,8 @@ def true_rules(truth, text):
 
 
 def relight(build, work, truth, text):
-    """A level relit by what was found, beside the same by its own lights: mean FLIP, and the file that has the
-    albedo."""
+    """A level relit by the lights found, compared with the same level under its true lights: mean FLIP, and the file
+    with albedo."""
     for name, rules in (("true", true_rules(truth, text)), ("relit", text)):
         (work / "y.look.yaml").write_text(rules)
         must(

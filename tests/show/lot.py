@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""tests/show/lot.py BUILD [--seed N] [--programs N] (as `make show-lot`): traced pictures of programs drawn by lot, to
-be looked at.
+"""tests/show/lot.py BUILD [--seed N] [--programs N] (as `make show-lot`): traced pictures of randomly drawn programs,
+for inspection.
 
-Of the sweep's programs that are installed, some are drawn by lot, so that nobody chooses them. A late frame of each is
-rendered as it comes and with `--look auto`; BUILD/show/lot/NAME.png shows raster, default and auto side by side.
-Somebody looks at each, and writes into tests/show/lot.yaml what was seen under the seed: default and auto each better,
-equal or worse than the raster frame, and whether anything there is lit or casts a shadow. Where there is no seed yet,
-one is drawn, and its pictures have to be looked at.
+Some of the sweep's installed programs are drawn at random, so that nobody chooses them. A late frame of each is
+rendered with default settings and with `--look auto`; BUILD/show/lot/NAME.png shows raster, default and auto side by
+side. Someone inspects each sheet and enters the result in tests/show/lot.yaml under the seed: whether default and auto
+are better than the raster frame, equal or worse, and whether the scene is lit or has shadows. Without a seed a new one
+is drawn, and its pictures have to be inspected.
 
-The bars: no default picture worse, no auto picture worse, one of the two better on a third of those where anything is
+The bars: no default picture worse, no auto picture worse, and one of the two better for a third of the scenes that are
 lit.
 """
 import argparse
@@ -31,7 +31,7 @@ LEAST_BETTER = 1 / 3
 
 
 def picture(build, program, folder):
-    """The sheet of a program: its path. Raises RuntimeError where there is none."""
+    """Make a program's sheet; returns its path. Raises RuntimeError if there is none."""
     done = recording.record(build / "relume", program, folder)
     if done.trace is None or not done.references:
         raise RuntimeError(f"no recording: {done.said[:120]}")

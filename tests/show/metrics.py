@@ -2,10 +2,10 @@
 """tests/show/metrics.py BUILD (as `make show-metrics`, in its virtual environment): metrics against other
 implementations.
 
-Ten pairs of pictures: reference frames of two live recordings, each against five changed copies. FLIP against its
-authors' package, PSNR, SSIM and CIEDE2000 against scikit-image, MS-SSIM against its definition in SciPy, RMSE and MRSE
-against NumPy, Yee's metric against idiff -p, HDR-FLIP against the authors' package at the same exposures. Then time on
-one core for one pair of 1920 x 1080.
+Ten pairs of pictures: reference frames of two live recordings, each against five changed copies. FLIP is compared with
+its authors' package; PSNR, SSIM and CIEDE2000 with scikit-image; MS-SSIM with its definition in SciPy; RMSE and MRSE
+with NumPy; Yee's metric with idiff -p; HDR-FLIP with the authors' package at the same exposures. Then the time on one
+core for one pair of 1920 x 1080.
 """
 import json
 import os
@@ -77,7 +77,7 @@ def luma(codes):
 
 
 def ssim_maps(a, b):
-    """SSIM and its contrast and structure part, means over whole windows; by definition, with SciPy's filter."""
+    """SSIM and its contrast-structure term, means over whole windows; computed from the definition with SciPy's filter."""
     def blur(x):
         return scipy.ndimage.gaussian_filter(x, 1.5, truncate=5 / 1.5)[5:-5, 5:-5]
 
@@ -99,7 +99,7 @@ def ms_ssim(a, b):
 
 
 def lab(codes):
-    # sRGB's primaries and white before rounding: scikit-image's own matrix is rounded to six digits
+    # sRGB's primaries and white at full precision; scikit-image's own matrix is rounded to six digits
     m = numpy.array(((10135552 / 24577794, 8788810 / 24577794, 4435075 / 24577794),
                      (2613072 / 12288897, 8788810 / 12288897, 887015 / 12288897),
                      (1425312 / 73733382, 8788810 / 73733382, 70074185 / 73733382)))
@@ -109,10 +109,10 @@ def lab(codes):
 
 
 def flip_mean(a, b, kind, parameters=None):
-    """Mean of the map of errors that FLIP's authors' package gives, and the mean that it gives itself.
+    """The mean of the error map returned by FLIP's authors' package, and the mean that the package reports.
 
-    The package sums a million errors in single precision: where they are large, its mean is off by some 1e-4 from the
-    mean of its own map. The map is what is compared, its mean taken in double precision.
+    The package sums a million errors in single precision. If they are large, its mean differs by about 1e-4 from the
+    mean of its map. The comparison uses the map's mean in double precision.
     """
     errors, own, _ = flip_evaluator.evaluate(a, b, kind, applyMagma=False, parameters=parameters or {})
     return float(numpy.mean(errors, dtype="f8")), float(own)
@@ -143,7 +143,7 @@ def ours(frame):
 
 
 def hdr_pair(build, work, trace):
-    """HDR-FLIP of gate B: a rendered frame, brightened four times, as if another device had made it."""
+    """HDR-FLIP of gate B: a rendered frame, made four times as bright, as if rendered by another device."""
     relume = build / "relume"
     must(relume, "render", trace, "-f", "0", "-o", work / "hdr" / "h.####.exr")
     must(relume, "approve", work / "hdr", work / "approved")
@@ -171,7 +171,7 @@ def cpu_seconds(function):
 
 
 def large(image):
-    """The frame at 1920 x 1080, by its nearest pixels."""
+    """The frame scaled to 1920 x 1080 by nearest neighbour."""
     h, w = image.planes["R"].shape
     y, x = numpy.arange(1080) * h // 1080, numpy.arange(1920) * w // 1920
     for c in image.planes:

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""More of Debian 12's programs, recorded in use: a game in play, a model loaded and turned. As a command: prints their
-packages.
+"""More of Debian 12's programs, recorded in use: a game in play, a model loaded and rotated. Run as a command, prints
+their packages.
 
-A line each: group, name, packages, command, and what programs.Program takes besides. Not here: what asks for OpenGL 3
-or newer, for a joystick, for sound, for a network or for data that Debian does not have; what draws to one buffer and
-never ends a frame; what is stuck in its menus without a person.
+One line each: group, name, packages, command, and further arguments of programs.Program. Excluded are programs that
+need OpenGL 3 or newer, a joystick, sound, a network or data that Debian lacks; those that draw to a single buffer and
+never end a frame; and those that cannot leave their menus without a person.
 """
 import os
 import shutil
@@ -13,7 +13,7 @@ GAMES, SCIENCE, CAD, TEACHING, DESKTOP = GROUPS = "more games", "more science", 
 
 
 def hold(*names):
-    """Keys pressed for long enough to be seen by a program that looks once a frame, and a second after each."""
+    """Hold each key long enough for a program that polls once per frame, and wait a second after it."""
     return tuple(step for name in names for step in (f"keydown {name}", "wait 0.2", f"keyup {name}", "wait 1"))
 
 
@@ -224,12 +224,12 @@ TABLE = (
 
 
 def packages():
-    """All that TABLE names."""
+    """All packages that TABLE names."""
     return sorted({one for _, _, package, *_ in TABLE for one in package.split()})
 
 
 def more(program):
-    """The programs of this table that are installed: program is programs.Program."""
+    """The installed programs of this table; program is programs.Program."""
     there = []
     for group, name, package, command, besides in TABLE:
         if shutil.which(command[0], path=os.environ["PATH"] + ":/usr/games"):

@@ -1,6 +1,6 @@
 /*
- * What schemata.py puts into sources: places where a mutant's text may stand for what was. Nothing of it is in the
- * product. OpenCL C keeps what was: mutants of shared text run in its C build.
+ * Switches that schemata.py inserts into sources, each choosing between the original text and a mutant's. Never part of
+ * the product. OpenCL C keeps the original: mutants of shared text run in its C build.
  */
 #pragma once
 
@@ -15,9 +15,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* One for all files of a program or library. */
+/* One instance for all files of a program or library. */
 #define MUTANT_SHARED __attribute__((weak, visibility("hidden")))
-MUTANT_SHARED int mutant_at = 0; /* its number; 0: none, -1: seen ones are noted */
+MUTANT_SHARED int mutant_at = 0; /* active mutant; 0: none, -1: record reached mutants */
 MUTANT_SHARED unsigned char *mutant_seen = 0;
 
 MUTANT_SHARED __attribute__((constructor)) void mutant_begin(void)
@@ -39,7 +39,7 @@ MUTANT_SHARED __attribute__((constructor)) void mutant_begin(void)
 	close(fd);
 }
 
-/* Whether mutant n runs; what: what is noted where none does. */
+/* Whether mutant n is active. what: value recorded when none is active. */
 static inline int mutant_runs(int n, int what)
 {
 	if (__builtin_expect(!mutant_at, 1))
@@ -51,7 +51,7 @@ static inline int mutant_runs(int n, int what)
 
 #define MUTANT(n, was, instead) (mutant_runs(n, 3) ? instead : was)
 #define MUTANT_BRANCH(n, was) (was && !mutant_runs(n, 3))
-/* Numbers that can be worked out twice. */
+/* For values whose expression can be evaluated twice. */
 #define MUTANT_VALUE(n, was, instead) ({ \
 	__auto_type mutant_was_##n = was; \
 	if (__builtin_expect(mutant_at, 0) && mutant_runs(n, mutant_at < 0 && mutant_was_##n != instead ? 3 : 1)) \

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/mutants.py BUILD (as `make show-mutants`): damaged files: no crash, no hang, bounded memory.
+"""tests/show/mutants.py BUILD (as `make show-mutants`): damaged files cause no crash or hang, and memory stays bounded.
 
-20,000 mutants of recordings made here of programs of ours, glxgears and two screen savers, through all verbs that read
-one: most in one process (tests/fuzz/drive.c), some through the command itself (tests/fuzz/mutate.py, exit code 0 or 3).
-5,000 of every other file that Relume reads, from files as it and others make them (tests/fuzz/seeds.py). What breaks is
-kept in BUILD/show/mutants/.
+20,000 mutants of recordings made here (our programs, glxgears and two screen savers) go through all verbs that read a
+recording: most in one process (tests/fuzz/drive.c), some through the command itself (tests/fuzz/mutate.py, exit code 0
+or 3). 5,000 mutants of every other kind of file that Relume reads, derived from files that it and other tools write
+(tests/fuzz/seeds.py). Failing inputs are kept in BUILD/show/mutants/.
 """
 import json
 import os
@@ -16,7 +16,7 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-HEAD = 100_000  # bytes of the unpacked stream: a frame or more of each
+HEAD = 100_000  # bytes of the unpacked stream: at least one frame of each
 TRACES, COMMANDS, OTHERS = 20_000, 1_000, 5_000
 SEED = 1
 AT_ONCE = 10   # damaged pictures
@@ -36,18 +36,18 @@ def record(build, folder):
         program = [str(build / command[0]) if "/" in command[0] and command[0][0] != "/" else command[0], *command[1:]]
         trace = folder / f"{name}.trace"
         if not trace.exists():
-            # A program that `timeout` ends has recorded what it could; whether it did, unpacking tells.
+            # A program stopped by `timeout` has been recorded up to then; unpacking checks that.
             subprocess.run([ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", *program],
                            check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     return sorted(folder.glob("*.trace"))
 
 
 def drive(build, folder, target, count, parts):
-    """How many of so many mutants break the target."""
+    """The number of `count` mutants that break the target."""
     pack = folder / f"{target}.pack"
     pack.write_bytes(b"".join(len(part).to_bytes(4, "little") + part for part in parts))
     os.symlink(ROOT / "tests", folder /
-               "tests") if not (folder / "tests").exists() else None  # targets read golden recordings
+               "tests") if not (folder / "tests").exists() else None  # targets read the golden recordings
     work = folder / "tmp"
     work.mkdir(exist_ok=True)
     done = subprocess.run([build / "tests/fuzz/drive", "mutate", target,
@@ -66,9 +66,9 @@ def compare_once(build, good, bad, mutate):
 
 
 def compare(build, folder, count, parts, mutate):
-    """How many of so many damaged pictures break `relume diff`, which reads each in a process of its own: exit code 0
-    (as it was), 1 or 3, within 10 s and 2 GiB for ten of them at once. By the clock: what those processes use goes into
-    nobody's sums. Another try tells a hang from a machine that was busy.
+    """The number of `count` damaged pictures that break `relume diff`, which reads each in a separate process. It must
+    exit with 0 (undamaged), 1 or 3, within 10 s and 2 GiB, ten at once. The limit is wall time, since these processes
+    appear in no other measurement; a second try distinguishes a hang from a busy machine.
     """
     endings = (ROOT / "tests/fuzz/fuzz_oiio.c").read_text().partition("endings[] = {")[2].partition("}")[0].replace(
         '"', "").replace(" ", "").split(",")

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""tests/show/oclgrind.py BUILD (as `make show-oclgrind`): every kernel watched while it runs.
+"""tests/show/oclgrind.py BUILD (as `make show-oclgrind`): every kernel checked while it runs.
 
-tests/bench/tiny renders scenes of 7 x 7 pixels in which every shading kernel has work, once with each family of
-traversal kernels. oclgrind interprets the kernels and reports accesses out of bounds and data races; valgrind runs the
-C twins, whose shading is the same text, and reports decisions on values that nobody set.
+tests/bench/tiny renders scenes of 7 x 7 pixels that exercise every shading kernel, once with each family of traversal
+kernels. oclgrind interprets the kernels and reports out-of-bounds accesses and data races. valgrind runs the C twins,
+whose shading is the same text, and reports branches on uninitialised values.
 
-oclgrind's own search for such values is not used: it names values that the host wrote into the middle of a buffer,
-although pictures agree with the twins'; why it does so was not found out. Its build goes without optimisation, which
-makes calls that it does not know, and without compilers' own functions.
+oclgrind's own check for uninitialised values is not used: for an unknown reason it reports values that the host wrote
+into the middle of a buffer, although the pictures agree with the twins'. The build for oclgrind disables optimisation,
+which emits calls that oclgrind does not know, and compiler built-ins.
 """
 import json
 import pathlib
@@ -31,7 +31,7 @@ def oclgrind(build, family):
     problems = len(re.findall(r"^(?:Invalid|Read-write|Write-write|Work-group divergence|OCLGRIND)", said,
                               re.MULTILINE))
     if said.strip() and not problems:
-        problems = said.count("\n\n") + 1  # anything that is said is a problem
+        problems = said.count("\n\n") + 1  # any message is a problem
     if problems or run.returncode:
         print(said[:3000], run.stdout[-500:], run.stderr[-500:], sep="\n")
     return pictures if run.returncode == 0 else 0, problems

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/overhead.py BUILD (as `make show-overhead`): what recording costs, side by side with `apitrace trace`.
+"""tests/show/overhead.py BUILD (as `make show-overhead`): the cost of recording, compared with `apitrace trace`.
 
-Runs tests/bench/static_scene in its four ways and glxgears (unsynchronised) bare and under our recorder, in pairs that
-begin with the one and with the other in turn, and some of the pairs beside a run under apitrace. A figure is the median
-of what the runs of a pair, which other work on the machine slows alike, are to each other. The processor time of the
-program and its threads is given for information.
+Runs tests/bench/static_scene in its four modes and glxgears (without vertical sync), bare and under our recorder. Runs
+form pairs whose order alternates; some pairs are accompanied by a run under apitrace. A figure is the median of the
+ratios within pairs, because other load slows both runs of a pair alike. The processor time of the program and its
+threads is given for information.
 """
 import json
 import os
@@ -19,8 +19,8 @@ from display import need_display
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 ROUNDS, PEER_ROUNDS = 27, 9
 GEARS_FRAMES = 1000
-TIME_BARS = {"immediate": 1.5, "arrays": 1.1, "elements": 1.1, "changing": None, "glxgears": 1.1}  # None: the peer's
-STATIC_BYTES_BAR = 50  # apitrace's trace is at least so many times as large
+TIME_BARS = {"immediate": 1.5, "arrays": 1.1, "elements": 1.1, "changing": None, "glxgears": 1.1}  # None: no limit
+STATIC_BYTES_BAR = 50  # minimum ratio of apitrace's trace size to ours
 BYTES_BARS = {"immediate": STATIC_BYTES_BAR, "arrays": STATIC_BYTES_BAR, "elements": STATIC_BYTES_BAR, "changing": 1}
 
 

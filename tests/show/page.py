@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """tests/show/page.py BUILD (as `make show-page`): the report's page with 1,000 frames, in Chromium.
 
-glxgears is recorded live for 1,000 frames. Its reference frames are scored against copies of themselves, all equal in
-one run, 200 of them damaged in another; each report is opened from disk without a network. A third one, of a few ray
-traced frames with all their channels, is operated: search, keys, views. Screenshots stay in BUILD/show/page for people
-to look at.
+glxgears is recorded live for 1,000 frames. Its reference frames are scored against copies of themselves: in one run all
+are equal, in another 200 are damaged. Each report is opened from disk without a network. A third report, of a few ray
+traced frames with all their channels, is operated: search, keys, views. Screenshots are left in BUILD/show/page for
+inspection.
 """
 import json
 import pathlib
@@ -44,7 +44,7 @@ def colors(path):
 
 
 def open_page(work, report, name):
-    """Seconds to a page that can be used, as it measures itself, and by the clock with the browser's start."""
+    """Seconds until the page can be used: as measured by the page, and by the clock including the browser's start."""
     begin = time.monotonic()
     dom = chromium(work, report / "index.html", "--dump-dom").stdout
     wall = time.monotonic() - begin
@@ -91,7 +91,7 @@ def main(build):
         build / "corpus/still_life", "--frames", "2", "--animate", "camera")
     run(relume, "render", work / "s.trace", "-o", work / "traced" / "s.####.exr")
     for name, frames in (("traced", work / "traced"), ("wrong", work / "wrong")):
-        if name == "wrong":  # frame 0 under both numbers
+        if name == "wrong":  # frame 0 in both states
             frames.mkdir()
             shutil.copy(work / "traced" / "s.0000.exr", frames / "s.0000.exr")
             data = (work / "traced" / "s.0000.exr").read_bytes()

@@ -1,15 +1,15 @@
 #!/usr/bin/python3
-"""tests/show/parity.py BUILD [--only PART]... [--record] (as `make show-parity`): does `gl` equal what OpenGL
-rasterized?
+"""tests/show/parity.py BUILD [--only PART]... [--record] (as `make show-parity`): does `gl` equal OpenGL's raster
+picture?
 
-- The open list of real programs and the corpus' scenes, recorded live with reference frames read back in the program:
-  ten frames each, all gates. Also whether `apitrace dump` reads each trace to its end, and whether glretrace draws its
-  last frame as the program did, bit for bit.
-- Three of these programs recorded by `apitrace trace` too: as many frames pass as of our own recording of them, both
-  against references made by glretrace.
-- The recordings of ../shared/traces where they are there, with references made by glretrace (never its first frame,
-  which is known to be wrong): R1 to R4 demanded of three, the others for information.
-Live recordings stay in BUILD/show/parity and are used again until --record asks for new ones.
+- The open list of real programs and the scenes of corpus/, recorded live with reference frames read back in the
+  program: ten frames each, all gates. Also whether `apitrace dump` reads each trace to its end, and whether glretrace
+  draws its last frame exactly as the program did.
+- Three of these programs are also recorded by `apitrace trace`: the same number of frames must pass as in our own
+  recording, both against references made by glretrace.
+- The recordings of ../shared/traces if present, with references made by glretrace (never its first frame, which is
+  known to be wrong): three must pass R1 to R4, the others are for information. Live recordings stay in
+  BUILD/show/parity and are reused until --record asks for new ones.
 """
 import argparse
 import dataclasses
@@ -34,7 +34,7 @@ BY_APITRACE = ("glxgears", "queens", "lattice")
 
 
 def corpus(build):
-    """The corpus' first scenes, as programs."""
+    """The first scenes of corpus/, as programs."""
     for name, command in (("two_triangles", ("two_triangles", "--animate",
                                              "camera")), ("cornell", ("cornell", "--animate", "camera")),
                           ("cornell, moving light", ("cornell", "--animate", "light", "--vbo"))):
@@ -102,7 +102,7 @@ def show_trace(build, folder, trace, last_frame):
 
 
 def show_by_apitrace(build, folder, program):
-    """Both recorders' traces of one program, scored alike."""
+    """The traces of one program by both recorders, scored alike."""
     ours = recording.record(build / "relume", program, folder)
     theirs = recording.record_by_apitrace(program, folder)
     result = {

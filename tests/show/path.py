@@ -1,21 +1,21 @@
 #!/usr/bin/python3
-"""tests/show/path.py BUILD [--many N] (as `make show-path`): error against time of mode path, beside Blender's Cycles,
-on five scenes.
+"""tests/show/path.py BUILD [--many N] (as `make show-path`): error against time of mode path, compared with Blender's
+Cycles, on five scenes.
 
-Cycles renders the frame that `relume export` writes, with OpenGL's physics: lights that weaken as it has them, the
-clear colour as sky, no ambient light, surfaces as Lambert has them but for mirrors, glass and what blends. So both
-renderers look for the same picture. Bounces (4), the bound on fireflies (off) and the pixel's filter (a box) are the
-same. Each is compared with itself at MANY samples: the mean squared error over the squared mean. MANY is 65,536 where
-somebody has the hours (--many 65536); by default it is what ten minutes allow, and the references' own noise, which is
-told, raises all errors alike.
+Cycles renders the frame that `relume export` writes, with OpenGL's lighting: its attenuation of lights, the clear
+colour as sky, no ambient light, Lambertian surfaces except for mirrors, glass and blending. Both renderers therefore
+converge to the same picture. Bounces (4), the bound on fireflies (off) and the pixel filter (a box) are the same. Each
+renderer is compared with itself at MANY samples: the mean squared error over the squared mean. MANY can be 65,536 if
+hours are available (--many 65536); the default fits into ten minutes. The noise of the references is printed; it raises
+all errors alike.
 
-Time is processor time of all threads, which other work on the machine changes little. Starts are left out on both
-sides: Cycles' is that of its second render call, ours is what N samples take more than two, times N / (N - 2): the
-second loads kernels that the first has no need of. Where N samples are quick, the least of three is taken.
+Time is processor time of all threads, which other load changes little. Start-up is excluded on both sides: Cycles' time
+is that of its second render call; ours is the time of N samples minus that of two, times N / (N - 2), because the
+second sample loads kernels that the first does not need. For short runs the least of three is used.
 
-Bars: at the time that Cycles takes for SAMPLES our error is below its own, on the box and the hall; and on the box,
-where the scenes are the same to the last number, both references are equal within their noise. What ours would be at
-that time is read off between its numbers of samples, on logarithmic scales.
+Bars: in the time that Cycles takes for SAMPLES, our error is below its own on the box and the hall. On the box, where
+both scenes are numerically identical, the references agree within their noise. Our error at that time is interpolated
+between sample counts on logarithmic scales.
 """
 import json
 import math
@@ -41,7 +41,7 @@ BARRED, EQUAL = ("box", "hall"), ("box",)
 
 
 def run(command):
-    """What it says, and its seconds on the processor."""
+    """The command's output, and its processor seconds."""
     def used():
         told = resource.getrusage(resource.RUSAGE_CHILDREN)
         return told.ru_utime + told.ru_stime
@@ -71,7 +71,7 @@ def ours(build, trace, folder, many):
             samples, "--aov", "gl"
         ])
         return colors(out), seconds
-    render(2)  # kernels are compiled once
+    render(2)  # compile the kernels before measuring
     start = min(render(2)[1] for _ in range(3))
     found = {}
     for samples in (*COUNTS, many):
@@ -98,20 +98,20 @@ def cycles(build, trace, folder, many):
 
 
 def curve(found, many):
-    """[(seconds, error)] by samples."""
+    """[(seconds, error)] by number of samples."""
     return [(found[n][0], error(found[n][1], found[many][1])) for n in COUNTS]
 
 
 def at_time(points, seconds):
-    """The error at a time, by the two points about it or those at the end."""
+    """The error at a time, extrapolated or interpolated from the two nearest points."""
     i = min(max(sum(s < seconds for s, _ in points), 1), len(points) - 1)
     (s0, e0), (s1, e1) = points[i - 1:i + 1]
     return math.exp(math.log(e0) + math.log(e1 / e0) * math.log(seconds / s0) / math.log(s1 / s0))
 
 
 def apart(mine, theirs, noise):
-    """By how much the pictures' mean brightness differs; and the mean squared difference, edges' pixels left out,
-    beside what noise explains."""
+    """The relative difference of the pictures' means, and the mean squared difference without edge pixels, with the
+    part that noise explains."""
     mean = float(mine.mean() / theirs.mean() - 1)
     off = ((mine - theirs) ** 2).mean(0) / theirs.mean() ** 2
     return mean, float(numpy.sort(off.ravel())[:off.size * 9 // 10].mean()), noise
@@ -142,7 +142,7 @@ def main(build, many):
         for who, points in (("Relume", here), ("Cycles", there)):
             print(f"{name if who == 'Relume' else '':14}{who:8}" + "".join(f"{s:9.2f} s {e:8.5f}" for s, e in points),
                   flush=True)
-        # noise falls by the number of samples at the least
+        # noise falls at least in proportion to the number of samples
         noise = sum(points[-1][1] * COUNTS[-1] / many for points in (here, there))
         mean, off, noise = apart(mine[many][1], theirs[many][1], noise)
         same = abs(mean) < 0.005 and off < 3 * noise if name in EQUAL else None

@@ -1,8 +1,7 @@
-"""Run inside Blender: import a .glb, make it what OpenGL would light, and render it with Cycles at several numbers of
-samples.
+"""Run inside Blender: import a .glb, give it OpenGL's lighting, and render it with Cycles at several sample counts.
 
-Arguments after --: the file, the same frame as `relume scene --json` has it, the start of the pictures' names, the
-numbers of samples. Prints seconds of the processor of each.
+Arguments after --: the file, the same frame as printed by `relume scene --json`, the prefix of the pictures' names, the
+sample counts. Prints the processor seconds of each.
 """
 import json
 import math
@@ -13,7 +12,7 @@ import bpy
 import mathutils
 import numpy
 
-if not hasattr(numpy, "bool"):  # Debian 12's Blender 3.4.1 names an alias that its NumPy 1.24 no longer has
+if not hasattr(numpy, "bool"):  # Debian 12's Blender 3.4.1 uses an alias that NumPy 1.24 has removed
     numpy.bool = bool
 
 path, told, out, *counts = sys.argv[sys.argv.index("--") + 1:]
@@ -29,15 +28,15 @@ def linear(display):
 
 
 def light_at(place):
-    """The light of OpenGL's that is nearest to a place of Blender's, where z is up."""
+    """The OpenGL light nearest to a place in Blender's coordinates, where z is up."""
     return min(
         told["lights"], key=lambda l: (mathutils.Vector(
             (l["position_eye"][0], -l["position_eye"][2], l["position_eye"][1])) - place).length)
 
 
 def light_nodes(tree, strong):
-    """What a light sends, as OpenGL weakens its colour by the distance, the product in light's own numbers. Blender's
-    light is white."""
+    """Nodes for a light's emission: its colour attenuated with distance as in OpenGL, the product in sRGB codes. The
+    Blender light itself is white."""
     def math_node(operation, *inputs):
         made = tree.nodes.new("ShaderNodeMath")
         made.operation = operation
@@ -52,7 +51,7 @@ def light_nodes(tree, strong):
         "ShaderNodeCombineRGB")
     sums = math_node("MULTIPLY_ADD", math_node("MULTIPLY_ADD", distance, squared, linearly), distance, constant)
     for color, channel in zip(strong["diffuse"],
-                              together.inputs):  # sRGB's curve above its foot, where all of these lights are
+                              together.inputs):  # the upper segment of sRGB's curve, which covers all of these lights
         shown = math_node("ADD", math_node("DIVIDE", color / 1.055, sums), 0.055 / 1.055)
         tree.links.new(math_node("POWER", shown, 2.4), channel)
     return together.outputs[0]
@@ -74,12 +73,12 @@ for item in [o for o in bpy.data.objects if o.type == "LIGHT"]:
         falloff.inputs["Strength"].default_value = 1
         light.node_tree.links.new(falloff.outputs["Constant"], nodes["Emission"].inputs["Strength"])
         light.node_tree.links.new(light_nodes(light.node_tree, strong), nodes["Emission"].inputs["Color"])
-        light.color, light.energy = (1, 1, 1), 4 * math.pi**2  # a white surface that faces it shows the light's colour
+        light.color, light.energy = (1, 1, 1), 4 * math.pi**2  # a white surface that faces the light shows its colour
         if light.type == "SPOT":
             light.spot_blend = 0
 for material in bpy.data.materials:
-    # OpenGL's surfaces scatter as Lambert has it, which the principled shader does not; mirrors, glass and what blends
-    # keep it
+    # OpenGL's surfaces are Lambertian, unlike the principled shader; mirrors, glass and blended surfaces keep that
+    # shader
     nodes, links = material.node_tree.nodes, material.node_tree.links
     node = next((n for n in nodes if n.type == "BSDF_PRINCIPLED"), None)
     if not node or any(node.inputs[name].is_linked or node.inputs[name].default_value != value

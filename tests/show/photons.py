@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/photons.py BUILD (as `make show-photons`): the light that mirrors and glass send (channels caustics),
-against closed forms, and a glass ball's against a path tracer of 65,536 paths a pixel (tests/truth/test_caustics.c), on
+"""tests/show/photons.py BUILD (as `make show-photons`): light from mirrors and glass (channels caustics) against closed
+forms, and a glass ball's caustic against a path tracer with 65,536 paths per pixel (tests/truth/test_caustics.c), on
 the reference device and on the first OpenCL device.
 
-The bar is for the energy: all of the light that comes to the wall, within 1 %. What pixels are off by is told beside
-the same of photons eight times as many."""
+The bar is for energy: the light that reaches the wall must be right within 1 %. The error per pixel is printed for
+information, for the same number of photons and for eight times as many.
+"""
 import os
 import pathlib
 import re

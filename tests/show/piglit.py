@@ -2,14 +2,14 @@
 """tests/show/piglit.py BUILD record|parity [PART-OF-A-NAME...] (`make show-piglit-record`, `make show-piglit-parity`):
 the fixed-function part of piglit.
 
-record: every program runs once bare and once under the recorder; the verdicts, subtests included, must be the same. A
-program whose verdict differs runs twice more bare: one that does not agree with itself is unsteady and does not count.
-parity: the recordings of that campaign (made first where there are none by this recorder) are rendered, and the last
-frame of each is scored against what the program itself showed: R1, R1b, R2 and R3. Programs that draw with shaders or
-ARB programs are listed apart, and so are pictures of one colour only, which prove little.
+record: every program runs once bare and once under the recorder; the verdicts, including those of subtests, must be the
+same. If they differ, the program runs bare twice more; if its bare verdicts disagree, it is unsteady and does not
+count. parity: the recordings of that campaign (made first if this recorder has made none) are rendered, and the last
+frame of each is scored against the program's own picture: R1, R1b, R2 and R3. Programs that draw with shaders or ARB
+programs are listed separately, and so are pictures of a single colour, which prove little.
 
-Programs run as `piglit run --no-concurrency` runs them, on a window; piglit swaps nothing, so a frame ends where a
-program reads the pixels that it judges. Recordings lie in BUILD/show/piglit, every outcome in BUILD/show/piglit.tsv and
+Programs run as under `piglit run --no-concurrency`, in a window. piglit never swaps, so a frame ends where a program
+reads the pixels that it judges. Recordings are in BUILD/show/piglit, all outcomes in BUILD/show/piglit.tsv and
 piglit-parity.tsv. Needs a display: run under tests/xvfb.sh.
 """
 import ast
@@ -39,7 +39,7 @@ GROUPS = re.compile(
     r"|ext_(fog_coord|framebuffer_blit|framebuffer_object|packed_depth_stencil|texture_compression_s3tc|texture_env_combine"
     r"|texture_lod_bias|texture_srgb|texture_swizzle|vertex_array_bgra)|mesa_pack_invert|nv_primitive_restart"
     r"|nv_texture_env_combine4|sgis_generate_mipmap|3dfx_texture_compression_fxt1)@")
-LIMIT_S = 40        # some hang on llvmpipe without any recorder
+LIMIT_S = 40        # some hang on llvmpipe even without a recorder
 RENDER_LIMIT_S = 120
 MAX_TRACE_BYTES = 200 << 20
 BAR_PARITY = 0.9
@@ -47,8 +47,8 @@ PROGRAM_CALLS = {"glLinkProgram", "glLinkProgramARB", "glProgramStringARB", "glE
 
 
 def find_tests(parts, groups=GROUPS, lists=(("opengl", "gl"),), versions=None):
-    """[(name, command)] of the suite's lists and their kinds of tests, each command once. versions: of GLSL, of the
-    compatibility profile alone."""
+    """[(name, command)] from the suite's lists and their kinds of tests, each command once. versions: of GLSL,
+    compatibility profile only."""
     tests, seen = [], set()
     for test, kind in ((test, kind)
                        for file, kind in lists
@@ -64,7 +64,7 @@ def find_tests(parts, groups=GROUPS, lists=(("opengl", "gl"),), versions=None):
             str(PIGLIT / word) if kind == "shader" and "/" in word else word
             for word in ast.literal_eval(options["command"]))
         if not (PIGLIT / "bin" / command[0]).exists():
-            continue  # the list names one that Debian's package does not have
+            continue  # listed, but missing from Debian's package
         if command not in seen and (not parts or any(part in name for part in parts)):
             seen.add(command)
             tests.append((name, command))
@@ -86,7 +86,7 @@ def run(command, limit_s):
 
 
 def verdict(code, output):
-    """One line: the verdict, the subtests' and, for a program that ends otherwise, how."""
+    """One line: the verdict, the subtests' verdicts and, after an abnormal end, its cause."""
     result, subtests = "none", {}
     for line in re.findall(r"^PIGLIT: (\{.*\})\s*$", output, re.M):
         said = json.loads(line)
@@ -137,7 +137,7 @@ def campaign(build, tests, base):
 
 
 def recorded_rows(build, tests, base):
-    """What a campaign of this recorder left, or a new campaign."""
+    """Rows from a campaign of this recorder, or from a new campaign."""
     try:
         kept = json.loads((base / "runs.json").read_text())
     except (OSError, ValueError):
@@ -150,7 +150,7 @@ def recorded_rows(build, tests, base):
 
 
 def brief(said):
-    """A verdict without the subtests that pass."""
+    """A verdict without the passing subtests."""
     result, *subtests = said.split(" ")
     odd = [s for s in re.findall(r"\S[^=]*=\w+", " ".join(subtests)) if not s.endswith("=pass")]
     return " ".join([result, *odd]) + (f" of {said.count('=')} subtests" if "=" in said else "")
@@ -163,13 +163,13 @@ def write_table(path, columns, rows):
 
 
 def one_colour(path, frame):
-    """1 where a reference frame shows one colour only."""
+    """1 if a reference frame has only one colour."""
     return any(number == frame and pixels == pixels[:4] * (width * height)
                for number, width, height, pixels in records(path, REF_COLOR))
 
 
 def score(build, work, row):
-    """Fill a row with what became of its last frame."""
+    """Add the score of its last frame to a row."""
     last, relume = str(row["frames"] - 1), build / "relume"
     row["frame"] = last
     code, out = run([relume, "info", "--json", "--all", work / "x.trace"], RENDER_LIMIT_S)

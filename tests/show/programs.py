@@ -1,10 +1,9 @@
-"""The real programs that are recorded and scored: which package they come from, how they are started and what they are
-told.
+"""The real programs that are recorded and scored: their packages, command lines and input.
 
-All are Debian 12's, written by other people. A line per program; `keys` are steps for tests/show/recording.py: "wait
-SECONDS", "key NAME", "click X Y", "type TEXT", with the pointer in the middle of the screen (no window manager: the
-keyboard's focus follows it). A program with keys, or one that is said to take `seconds`, is recorded for so long and
-its last frames are scored; the others are recorded for a number of frames, and frames spread over these are scored.
+All are packages of Debian 12. One line per program; `keys` are steps for tests/show/recording.py: "wait SECONDS", "key
+NAME", "click X Y", "type TEXT", with the pointer in the middle of the screen (no window manager: the keyboard's focus
+follows it). A program with keys, or one that is said to take `seconds`, is recorded for so long and its last frames are
+scored; the others are recorded for a number of frames, and frames spread over these are scored.
 """
 import dataclasses
 import math
@@ -23,9 +22,9 @@ class Program:
     command: tuple
     keys: tuple = ()
     seconds: float = 0  # record for so long instead of a number of frames
-    ref_every: int = 5  # a reference frame of so many
+    ref_every: int = 5  # frames per reference frame
     files: tuple = ()  # (name below the home folder, text) that must be there before the start
-    group: str = ""  # what the sweep counts it under
+    group: str = ""  # its group in the sweep's counts
     environment: tuple = ()
 
 
@@ -34,7 +33,7 @@ def xscreensaver(name, package="xscreensaver-gl", group="xscreensaver, fixed fun
 
 
 def rss_glx(name):
-    # Without --vsync 0 these programs end by themselves.
+    # Without --vsync 0 these programs exit on their own.
     return Program(name, "rss-glx", (name, "--vsync", "0", "--geometry", "640x480"), group="rss-glx")
 
 
@@ -52,8 +51,8 @@ OPEN = (
               "key Return")),
     Program("openarena", "openarena", ("openarena", "+set", "r_fullscreen", "0", "+set", "cl_renderer", "opengl1",
                                        "+set", "r_mode", "3", "+set", "sv_pure", "0", "+devmap", "oa_dm1"), seconds=50),
-    # The mouse is the stick: let go, in the middle of the window, and the glider thrown again before it lands. It asks
-    # before it ends.
+    # The mouse is the stick: release it in the middle of the window, and launch the glider again before it lands. The
+    # program asks before it quits.
     Program("crrcsim", "crrcsim", ("crrcsim", ), seconds=40,
             keys=("wait 6", "click 320 240", *(8 * ("key r", "wait 2")), "key q", "wait 1", "click 359 264")),
     rss_glx("lattice"),
@@ -65,14 +64,14 @@ OPEN = (
     xscreensaver("noof", "xscreensaver-gl-extra"),
 )
 
-# Hacks that bring shaders of their own (GLSL): told apart in the count.
+# Hacks with GLSL shaders of their own, counted separately.
 WITH_SHADERS = {"etruscanvenus", "hypertorus", "klein", "projectiveplane", "romanboy", "sphereeversion"}
 # Installed beside the hacks and no hacks: a helper, and two that need the network.
 NO_HACKS = {"xscreensaver-gl-visual", "mapscroller", "mapscroller.pl"}
 
 
 def installed(package, folder, leave_out=()):
-    """The names of what a package put into a folder."""
+    """Names of the files that a package installed in a folder."""
     listed = subprocess.run(["dpkg", "-L", package], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                             text=True).stdout.split()
     return sorted(
@@ -82,7 +81,7 @@ def installed(package, folder, leave_out=()):
 
 
 def sweep():
-    """Every program of the sweep that is installed, in a fixed order."""
+    """All installed programs of the sweep, in a fixed order."""
     programs = []
     for package in ("xscreensaver-gl", "xscreensaver-gl-extra"):
         for name in installed(package, "/usr/libexec/xscreensaver", NO_HACKS):
@@ -90,7 +89,7 @@ def sweep():
                 xscreensaver(name, package,
                              "xscreensaver, GLSL" if name in WITH_SHADERS else "xscreensaver, fixed function"))
     for name in installed("rss-glx", "/usr/libexec/xscreensaver"):
-        if name != "drempels":  # ends by itself, recorded or not
+        if name != "drempels":  # exits on its own, even without the recorder
             programs.append(rss_glx(name))
     for name in installed("inventor-demo", "/usr/lib/inventor"):
         if "." not in name:
@@ -111,7 +110,7 @@ def sweep():
 
 
 def knot(along=96, around=16):
-    """A trefoil knot as an OBJ file's text."""
+    """Text of an OBJ file with a trefoil knot."""
     lines = []
     for i in range(along):
         t = 2 * math.pi * i / along
@@ -133,7 +132,7 @@ METHANE = "5\nmethane\nC 0 0 0\nH .63 .63 .63\nH -.63 -.63 .63\nH -.63 .63 -.63\
 WORLD = "gameid = minetest\nbackend = sqlite3\nplayer_backend = sqlite3\nauth_backend = sqlite3\n"
 MINETEST = "screen_w = 640\nscreen_h = 480\nenable_sound = false\nenable_shaders = true\nfixed_map_seed = 7\nfps_max = 10\nviewing_range = 40\n"
 
-# Qt 5 composes their windows with a program; Avogadro and PyMOL draw with programs of their own, too.
+# Qt 5 composes their windows with a shader program; Avogadro and PyMOL also draw with programs of their own.
 VIEWERS = [
     Program("openscad", "openscad", ("openscad", "--viewall", "/usr/share/openscad/examples/Basics/CSG.scad"),
             seconds=12, ref_every=1, group="Qt 5 viewers"),
@@ -144,7 +143,7 @@ VIEWERS = [
             files=(("methane.xyz", METHANE), ), group="Qt 5 viewers"),
     Program("pymol", "pymol", ("pymol", "-d", "fragment ala; show spheres; rock"), seconds=12, ref_every=1,
             group="Qt 5 viewers",
-            environment=(("PATH", "/usr/bin:/bin"), )),  # it asks for the python3 that Debian's modules belong to
+            environment=(("PATH", "/usr/bin:/bin"), )),  # needs the python3 that Debian's modules belong to
 ]
 GAMES = [
     Program("minetest", "minetest", ("minetest", "--go", "--name", "player", "--worldname", "world"), seconds=45,
@@ -158,6 +157,6 @@ GROUPS = [
     "xscreensaver, fixed function", "xscreensaver, GLSL", "rss-glx", "Inventor", "OpenSceneGraph", "Qt 5 viewers",
     "games, GLSL", "others", *more_programs.GROUPS
 ]
-# Those with shaders that need no model files.
+# Examples with shaders that need no model files.
 OSG_EXAMPLES = ("osgforest", "osgparametric", "osgparticleshader", "osgshaders", "osgshaderterrain", "osgshadow",
                 "osgsimpleshaders", "osgvertexprogram", "osgwidgetshader")

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/reach.py BUILD (as `make show-reach`): programs that are not of OpenGL, X and 64 bits: three of each kind,
-one of Windows of 32 bits.
+"""tests/show/reach.py BUILD (as `make show-reach`): programs beyond OpenGL, X and 64 bits: three of each kind, and one
+32-bit Windows program.
 
-Each is recorded for ten frames with reference frames, rendered in mode gl and scored by all gates. Then recording's
-cost: processor time of the program and its threads, start included, recorded without reference frames over bare, in
-turn, the median of the ratios. Programs of 32 bits need `make i386 windows` first: where that has not been run, their
-lines say so, and fail. At last, what many blended fragments a pixel cost beside llvmpipe.
+Each is recorded for ten frames with reference frames, rendered in mode gl and scored by all gates. Then the cost of
+recording: processor time of the program and its threads, start included, recorded without reference frames over bare;
+runs alternate, and the figure is the median of the ratios. 32-bit programs need `make i386 windows` first; without it
+their lines say so, and fail. Finally, the cost of many blended fragments per pixel, compared with llvmpipe.
 """
 import os
 import pathlib
@@ -41,7 +41,7 @@ def kinds(build):
 
 
 def spent_s(command):
-    """Processor time of a command that succeeds, and of its children."""
+    """Processor time of a command and its children; the command must succeed."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -49,7 +49,7 @@ def spent_s(command):
 
 
 def score(relume, work, command, gates):
-    """Frames that pass, and which gates do not."""
+    """Number of frames that pass, and the gates that fail."""
     trace = work / "ten.trace"
     scorer = Scorer(relume, work, work / "log")
     if scorer.run(relume, "record", "-o", trace, "--ref", "color,depth", "--", *command, "--frames", FRAMES)[0]:
@@ -83,8 +83,8 @@ def show(shown, build, kind, name, command, gates):
 
 
 def show_deep(shown, build):
-    """256 slices over 512 x 512 pixels, traced as the program shows them: processor time of a frame, in turn, the
-    median of the ratios."""
+    """256 slices over 512 x 512 pixels, traced with the program's own blending: median of the ratios of processor time
+    per frame, in alternating runs."""
     relume, program = build / "relume", build / "tests/real/deep"
     with tempfile.TemporaryDirectory() as folder:
         trace, out = pathlib.Path(folder, "deep.trace"), pathlib.Path(folder, "x.####.exr")
@@ -94,7 +94,7 @@ def show_deep(shown, build):
         def ours(last):
             return spent_s([relume, "render", trace, "--mode", "gl", "-f", f"0-{last}", "-o", out])
 
-        ours(0)  # kernels are compiled
+        ours(0)  # compiles the kernels
         ratios = []
         for _ in range(3):
             frame_s = (ours(DEEP_FRAMES - 1) - ours(0)) / (DEEP_FRAMES - 1)

@@ -1,4 +1,6 @@
-"""Recording one real program with reference frames, and keeping the recording: what replays does not record again."""
+"""Record one real program with reference frames, and keep the recording, so that changes to replay do not need a new
+one.
+"""
 import dataclasses
 import json
 import os
@@ -10,20 +12,20 @@ import subprocess
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-PATIENCE_S = 15  # for a program that was told to end
-FRAMES = 55  # of a program that needs no keys: with a reference of five, 0, 5, ... 50
-LONGEST_S = 120  # for so many frames
-PEER_S = 10  # the usual recorder cannot end after a number of frames
+PATIENCE_S = 15  # for a program to exit after SIGTERM
+FRAMES = 55  # without keys: references at frames 0, 5, ... 50
+LONGEST_S = 120  # limit for that number of frames
+PEER_S = 10  # apitrace cannot stop after a number of frames
 REF_HEADER = struct.Struct("<IIIQQ")
 
 
 @dataclasses.dataclass
 class Recording:
     trace: pathlib.Path
-    references: list  # frame numbers that have a colour picture, ascending
-    depth: bool  # they have a depth picture, too
-    code: int  # of `relume record`
-    said: str = ""  # its last lines
+    references: list  # numbers of frames with a colour picture, ascending
+    depth: bool  # they also have a depth picture
+    code: int  # exit code of `relume record`
+    said: str = ""  # last lines of its output
 
     @property
     def reference(self):
@@ -31,7 +33,7 @@ class Recording:
 
 
 def list_references(path):
-    """The frames of a .ref file (capture/format/ref.h), and whether they have depth."""
+    """Numbers of the frames in a .ref file (capture/format/ref.h), and whether they have depth."""
     frames, depth = [], False
     if not path.exists():
         return frames, depth
@@ -42,7 +44,7 @@ def list_references(path):
             kind, _, _, frame, packed = REF_HEADER.unpack(header)
             if file.tell() + packed > size:
                 break
-            kind &= 0xff  # what is above says how pixels are packed
+            kind &= 0xff  # the upper bits describe pixel packing
             if kind == 1:
                 frames.append(frame)
             depth = depth or kind == 2
@@ -51,7 +53,9 @@ def list_references(path):
 
 
 def drag(x, y, to_x, to_y, n=20):
-    """Press the left button at a place, and let it go at another one, n moves and two seconds later."""
+    """Press the left button at one place, move the pointer in n steps, and release it at another place two seconds
+    later.
+    """
     subprocess.run(["xdotool", "mousemove", str(x), str(y), "mousedown", "1"], check=False)
     for i in range(1, n + 1):
         subprocess.run(
@@ -63,7 +67,7 @@ def drag(x, y, to_x, to_y, n=20):
 
 
 def send(steps):
-    """Do what a person would: see tests/show/programs.py."""
+    """Send a person's input; tests/show/programs.py lists the steps."""
     subprocess.run(["xdotool", "mousemove", "400", "300"], check=False)
     for step in steps:
         what, _, value = step.partition(" ")
@@ -84,7 +88,7 @@ def send(steps):
 
 
 def end(process):
-    """End what we started and its children: they are a process group of their own."""
+    """End a process that we started and its children, which form a separate process group."""
     process.terminate()
     try:
         process.wait(PATIENCE_S)
@@ -98,7 +102,7 @@ def end(process):
 
 
 def run_program(program, command, home, log):
-    """Run a recorder's command line with the program behind it; return the exit code."""
+    """Run a program under a recorder's command line; returns the exit code."""
     shutil.rmtree(home, ignore_errors=True)
     home.mkdir(parents=True)
     for name, text in program.files:
@@ -118,13 +122,13 @@ def run_program(program, command, home, log):
 
 
 def find(folder):
-    """The recording that a folder holds: of several processes' the one that drew most."""
+    """The recording in a folder; if several processes were recorded, the one that drew most."""
     traces = sorted(folder.glob("live*.trace"), key=lambda p: (p.with_suffix(".ref").exists(), p.stat().st_size))
     return traces[-1] if traces else None
 
 
 def record(relume, program, folder, again=False):
-    """Record a program into a folder, or find the recording that lies there."""
+    """Record a program into a folder, or return the recording already there."""
     done = folder / "recording.json"
     if again or not done.exists():
         shutil.rmtree(folder, ignore_errors=True)
@@ -143,7 +147,7 @@ def record(relume, program, folder, again=False):
 
 
 def record_by_apitrace(program, folder):
-    """The same program recorded by the usual recorder; None where that fails."""
+    """The same program recorded by apitrace, or None if that fails."""
     peer = folder / "apitrace.trace"
     if not peer.exists():
         api = "egl" if program.package.startswith("xscreensaver") else "gl"

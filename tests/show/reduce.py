@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""tests/show/reduce.py BUILD [--only NAME] (as `make show-reduce`): faults put into real recordings, found again by
+"""tests/show/reduce.py BUILD [--only NAME] (as `make show-reduce`): faults planted in real recordings, isolated by
 `relume reduce`.
 
-A fault is one argument of one call, changed past the middle of the recording to a number that OpenGL does not know
-there. The command that fails: `relume info` finds an error of that call. Beside: how many calls `apitrace trim` keeps
-of the frame that has the fault.
+A fault is one argument of one call in the second half of the recording, changed to a number that OpenGL does not accept
+there. The failing command is `relume info`, which reports an error of that call. For comparison: the number of calls
+that `apitrace trim` keeps for the frame with the fault.
 
-Then faults of pictures (tests/show/faults.py), each a changed call of corpus/still_life: its frame is held against the
-reference frames of the unchanged program (`--frame`), and the change must be among what is left.
+Then faults in pictures (tests/show/faults.py), each a changed call of corpus/still_life: its frame is compared with the
+reference frames of the unchanged program (`--frame`), and the reduced recording must contain the change.
 """
 import argparse
 import json
@@ -43,7 +43,7 @@ def run(*args, codes=(0,)):
 
 
 def plant(source, call, argument, path):
-    """Change one call of a recording; return the number of its frame."""
+    """Change one call of a recording; returns the number of its frame."""
     trace = Trace(source)
     found = [
         i for i, (name, args) in enumerate(trace.calls)

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/relit.py BUILD [NAME...] (as `make show-relit`): programs of the corpus as their raster frame, as the
-beauty without rules, and as the beauty under the rules that `relume look` finds, side by side in
-BUILD/show/relit/NAME.png, to be looked at. Gate N must pass: no frame is darker than its shadows explain. Channels of
-OpenGL's own picture must be the same in both beauties. A relit frame costs at most twice a whitted one, of these and of
-all real programs (by name: cost), and a study of 1,000 frames at most what rendering 20 costs (study.py; by name:
-study). Then the same pictures of real programs, with what was seen when they were looked at (sheet.py), and of what
-portal culling leaves out (unseen.py; by name: unseen)."""
+"""tests/show/relit.py BUILD [NAME...] (as `make show-relit`): programs of the corpus as raster frame, beauty without
+rules, and beauty under the rules of `relume look`, side by side in BUILD/show/relit/NAME.png, for inspection. Gate N
+must pass: no frame is darker than its shadows explain. Channels of OpenGL's own picture must be the same in both
+beauties. A relit frame may cost at most twice a whitted one, for these and all real programs (by name: cost). A study
+of 1,000 frames may cost at most as much as rendering 20 (study.py; by name: study). Then come the same pictures of real
+programs, with the verdicts of people who inspected them (sheet.py), and of levels with portal culling (unseen.py; by
+name: unseen)."""
 import itertools
 import json
 import pathlib
@@ -28,9 +28,9 @@ PROGRAMS = {
     "courtyard": ("courtyard", "--animate", "camera")
 }
 FRAME = 1
-FEW, RECORDED, MANY = 2, 8, 50 # frames
-QUICK_S = 0.5 # for RECORDED frames: what starting up takes varies by a good part of it
-COST = 2 # times a frame without rules
+FEW, RECORDED, MANY = 2, 8, 50 # frame counts
+QUICK_S = 0.5 # for RECORDED frames; below this, start-up time varies by too large a share
+COST = 2 # maximum ratio to a frame without rules
 
 
 def run(*args):
@@ -41,7 +41,7 @@ def run(*args):
 
 
 def sheet(frames, out):
-    """Raster, beauty, relit: in display colours, side by side."""
+    """Raster, beauty and relit side by side, in display colours."""
     columns = []
     for name, file, channels in (("gl", frames[0], "gl.R,gl.G,gl.B"), ("beauty", frames[0], "R,G,B"),
                                  ("relit", frames[1], "R,G,B")):
@@ -60,7 +60,7 @@ def gate(build, trace, folder):
 
 
 def seconds(build, trace, folder, first, last, *look):
-    """Processor time of frames `first` to `last`, rules studied before."""
+    """Processor time of frames `first` to `last`, with rules studied beforehand."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     run(build / "relume", "render", trace, "-f", f"{first}-{last}", "-o", folder / "cost.####.exr", *look)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -68,8 +68,9 @@ def seconds(build, trace, folder, first, last, *look):
 
 
 def cost(build, trace, folder, first=0):
-    """A relit frame's processor time over that of one without rules; starting up is taken off, two workers' too. Least
-    of three each, taken in turns. Of quick frames there are more, where the recording has them."""
+    """Ratio of a relit frame's processor time to that of a frame without rules, both after subtracting start-up, with
+    two workers. The least of three alternating runs each. For fast frames more of them are rendered, if the recording
+    has them."""
     rules = folder / "cost.look.yaml"
     run(build / "relume", "look", trace, "-o", rules)
     end = json.loads(run(build / "relume", "info", trace, "--json"))["frames"]

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""tests/show/replay.py BUILD: how fast recordings are replayed without rendering, beside apitrace's dump and glretrace.
+"""tests/show/replay.py BUILD: speed of replay without rendering, compared with apitrace's dump and glretrace.
 
-Figures are processor time (user and system) of whole processes, medians of alternating runs: the machine's other load
-and the server's share do not count, and glretrace is spared what its X server does. Ours is `relume index --force`:
-every call is replayed, no frame's scene is built, and the checkpoints are written too.
+Figures are processor time (user and system) of whole processes, medians of alternating runs. Other load and the X
+server's share do not count, so glretrace is spared its server's work. Ours is `relume index --force`: every call is
+replayed and checkpoints are written, but no frame's scene is built.
 """
 import json
 import os
@@ -18,7 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 ROUNDS = 3
 BARS = {"dump": 10, "glretrace": 2}
 SHARED = ROOT.parent / "shared/traces"
-# Large: of hundreds of thousands of calls.
+# "Large": recordings of hundreds of thousands of calls.
 PROGRAMS = {
     "superquadrics": ["timeout", "6", "/usr/libexec/xscreensaver/superquadrics", "-geometry", "320x240"],
     "glxgears": ["timeout", "6", "glxgears", "-geometry", "100x100"],
@@ -58,7 +58,7 @@ def recordings(build):
         yield trace
     for name in ("neverball", "billard-gl", "rss-lattice"):
         if (SHARED / f"{name}.trace").exists():
-            # In a folder that can be written, so that the index lies beside each alike.
+            # Copied to a writable folder, so that the index is beside the recording in all cases.
             yield shutil.copy(SHARED / f"{name}.trace", folder)
 
 

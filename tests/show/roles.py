@@ -1,5 +1,5 @@
-"""Roles that `relume look` gives to draws, beside labels written by hand (tests/look/labels.yaml): precision and recall
-per role."""
+"""Roles that `relume look` assigns to draws, compared with labels written by hand (tests/look/labels.yaml): precision
+and recall per role."""
 import collections
 import json
 import os
@@ -17,7 +17,7 @@ import yaml
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SHARED = ROOT.parent / "shared/traces"
 PRECISION, RECALL = 0.98, 0.9
-# What a rule's role is called in the labels; other roles say nothing about what a draw is.
+# The labels' names for rules' roles; other roles do not classify a draw.
 ROLES = {
     **{
         role: role for role in ("sky", "HUD", "particle", "view model", "planar shadow", "stencil mirror", "mirror", "decal", "blob shadow", "lightmap in a second unit", "lightmap pass")
@@ -28,7 +28,7 @@ MAPPED = ("GL_SPHERE_MAP", "GL_REFLECTION_MAP")
 
 
 def fullness(rows):
-    """The volume that vectors span over what they could, by Gauss."""
+    """Volume spanned by the vectors, relative to the largest they could span; by Gaussian elimination."""
     rows, volume, most = [list(r) for r in rows], 1.0, 1.0
     for r in rows:
         most *= sum(x * x for x in r) ** 0.5
@@ -60,7 +60,7 @@ def modelview_kind(m):
 
 
 def state(scene, instance, camera):
-    """What rules match, of an instance of `relume scene --json --vertices`."""
+    """The properties that rules match, for an instance of `relume scene --json --vertices`."""
     m, view = scene["materials"][instance["material"]], scene["views"][instance["view"]]
     units = scene["units"][m["unit_first"]:m["unit_first"] + m["unit_count"]]
     p = view["projection"]
@@ -80,8 +80,8 @@ def state(scene, instance, camera):
 
 
 def camera_of(scene, world):
-    """What leads from the world into a frame's eye space, by the first mesh of the list `world` that it draws; None: it
-    draws none."""
+    """Transform from the world into a frame's eye space, from the first mesh of the list `world` that the frame draws;
+    None if it draws none."""
     for anchor in world:
         for instance in scene["instances"]:
             if scene["meshes"][instance["mesh"]]["hash"].startswith(str(anchor["mesh"])):
@@ -94,7 +94,7 @@ def matrix(numbers16):
 
 
 def lies_in(plane, has):
-    """1 where most points of a draw lie in a plane of the world, as look/plane.c has it."""
+    """1 if most points of a draw lie in a plane of the world, by the rule of look/plane.c."""
     points = matrix(has["instance"]["modelview"]) @ numpy.array(has["points"], float).reshape(-1, 4).T
     off = abs(numpy.array(plane) @ numpy.linalg.inv(has["camera"]) @ points)
     return (off <= 1e-3 * abs(points).sum(axis=0)).mean() >= 0.9
@@ -127,7 +127,7 @@ def run(*args):
 
 
 def trace_of(entry, build, work):
-    """The recording that an entry of the labels is about, made where it is not there; None: it cannot be had."""
+    """The recording for an entry of the labels, made if missing; None if it cannot be made."""
     if "trace" in entry:
         trace = SHARED / f"{entry['trace']}.trace"
         return trace if trace.exists() else None
@@ -150,20 +150,20 @@ def trace_of(entry, build, work):
 
 
 def compare(entry, trace, build, work):
-    """(role, what it is) for each draw of the labelled frame: what is found and what the label says, None where it is
-    plain world."""
+    """(role, true role) of each draw in the labelled frame: the role found, and that of the label; None means ordinary
+    world geometry."""
     rules = work / "labelled.look.yaml"
     run(build / "relume", "look", trace, "-o", rules)
     found_rules = yaml.safe_load(rules.read_text())
     rules = found_rules["surfaces"]
     frame = entry["frame"]
-    if frame == "last": # of a program that is played by hand, so to speak: which frame it is depends on the machine
+    if frame == "last": # the program is played, so frame numbers depend on the machine's speed
         frame = int(re.search(r"^frames +(\d+)", run(build / "relume", "info", trace), re.M)[1]) - 2
     scene = json.loads(run(build / "relume", "scene", trace, "-f", frame, "--json", "--vertices"))
     camera = camera_of(scene, found_rules.get("world") or [])
     for instance in scene["instances"]:
         if not scene["materials"][instance["material"]]["color_mask"] & 7:
-            continue # it shows nothing
+            continue # the draw is not visible
         has, found, label = state(scene, instance, camera), None, None
         for rule in rules:
             if rule.get("role") in ROLES and matches(rule.get("match", {}), has):
@@ -175,7 +175,7 @@ def compare(entry, trace, build, work):
 
 
 def score(build, work, row):
-    """Print a row for the precision and for the recall of each role; row(what, figure, bar, passed)."""
+    """Print a row for the precision and one for the recall of each role; row(what, figure, bar, passed)."""
     counts = collections.defaultdict(lambda: [0, 0, 0]) # right, found, labelled
     for entry in yaml.safe_load((ROOT / "tests/look/labels.yaml").read_text()):
         name = entry.get("trace") or entry.get("program") or " ".join(str(x) for x in entry["record"][:2])

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""tests/show/rooms.py BUILD (as `make show-rooms`): levels of corpus/rooms: how many of 100 are sound, what each
-culling draws of the level that is kept, how many of 20 levels pass all gates on 5 frames, with all the tricks that the
-program knows; how many of 1,000 closed meshes, broken at random, scene/repair closes again. ONLY=levels or ONLY=repair:
-one of both."""
+"""tests/show/rooms.py BUILD (as `make show-rooms`): levels of corpus/rooms: how many of 100 are sound, how much each
+kind of culling draws of the stored level, and how many of 20 levels, with all the program's tricks, pass all gates on 5
+frames. Also how many of 1,000 closed meshes, broken at random, scene/repair closes again. ONLY=levels or ONLY=repair
+selects one part."""
 import argparse
 import json
 import pathlib
@@ -29,7 +29,7 @@ def record(build, trace, *options):
 
 
 def passing_frames(build, seed, work):
-    """How many frames of a level pass all gates; which tricks it draws depends on its number."""
+    """Number of a level's frames that pass all gates; its tricks depend on its number."""
     trace, frames = work / f"{seed}.trace", work / f"{seed}"
     record(build, trace, "--seed", seed, "--frames", FRAMES, "--animate", "camera", "--cull", CULLINGS[seed % 5],
            "--lighting", LIGHTINGS[seed % 3], "--environment", ENVIRONMENTS[seed % 2],
@@ -61,7 +61,7 @@ def score_levels(build, row):
 
 
 def score_repair(build, row):
-    """Of those that do not come back the test writes one line each."""
+    """The test writes one line for each mesh that is not closed again."""
     done = run(build / "tests/unit/test_repair", MESHES)
     closed, exact, worst = re.search(
         r"(\d+) of \d+ meshes closed, (\d+) with their volume within 1e-05; the worst volume is off by (\S+);",
@@ -69,7 +69,7 @@ def score_repair(build, row):
     print(done.stderr, end="")
     row("meshes broken at random that come back closed", f"{closed} of {MESHES}", f"{MESHES} of {MESHES}",
         int(closed) == MESHES)
-    row("of these with their volume within 1e-5", f"{exact} of {MESHES}, the worst off by {worst}",
+    row("meshes closed with their volume within 1e-5", f"{exact} of {MESHES}, the worst off by {worst}",
         f"{MESHES} of {MESHES}",
         int(exact) == MESHES)
 

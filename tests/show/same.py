@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/same.py BUILD [--only NAME...] (as `make show-same`): is a scene's picture the same, however it is told?
+"""tests/show/same.py BUILD [--only NAME...] (as `make show-same`): is the picture of a scene independent of the calls
+that draw it?
 
-All relations of tests/same/relations.c over a frame of each recording: those of tests/golden, programs of corpus/ and
-tests/real/panels recorded here, and, where they are, recordings of ../shared/traces and programs of ../shared/faults.
-A pair that differs is named with the draw that differs first; one to which a relation does not apply has a reason.
-NAME is part of a recording's or of a relation's name.
+Applies all relations of tests/same/relations.c to a frame of each recording: those of tests/golden, programs of corpus/
+and tests/real/panels recorded here, and, if present, recordings of ../shared/traces and programs of ../shared/faults. A
+pair that differs is reported with the first differing draw; a pair that a relation does not apply to is listed with the
+reason. NAME is part of a recording's or relation's name.
 """
 import collections
 import concurrent.futures
@@ -19,7 +20,7 @@ sys.path.insert(0, str(ROOT / "tests/same"))
 from pairs import Told, run  # noqa: E402
 from table import Shown  # noqa: E402
 
-# Programs below BUILD, and their options. Of all of them frame 1 is looked at.
+# Programs below BUILD with their options. Frame 1 of each is used.
 SMALL = [f"corpus/{line} --frames 3 --size 400x300" for line in (
     "arena", "blocks", "board_fbo --by quad", "board_fbo --by blit", "closed_hall", "courtyard", "courtyard lit",
     "facets", "hall", "model_on_cube", "phong", "phong --by glsl", "phong --by vertex", "spheres", "still_life",
@@ -27,11 +28,11 @@ SMALL = [f"corpus/{line} --frames 3 --size 400x300" for line in (
     "viewer --ortho")]
 PROGRAMS = SMALL + [f"corpus/{name} --frames 3" for name in ("glx/marbles", "rooms", "es/fixed", "es/shapes")] + [
     f"tests/real/panels/{name}" for name in ("light", "fog", "texture")]
-FAULTS = {"passes1": 1, "bulb3": 0, "sky3dn": 0, "grow": 0}  # of ../shared/faults: a frame that is as it should be
+FAULTS = {"passes1": 1, "bulb3": 0, "sky3dn": 0, "grow": 0}  # from ../shared/faults: a frame without the fault
 
 
 def record(build, path, *command):
-    """A recording that is made when it is looked at."""
+    """Make a recording when it is first needed."""
     def make():
         done = run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", path, "--", *command)
         if path.exists() and not done.returncode:
@@ -41,7 +42,7 @@ def record(build, path, *command):
 
 
 def recordings(build, work):
-    """(name, trace or how it is made, frame) of all that are there."""
+    """(name, trace or how to make it, frame) of all available recordings."""
     for trace in sorted((ROOT / "tests/golden").glob("*.trace")):
         yield trace.stem, trace, 1
     for line in PROGRAMS:
@@ -59,7 +60,7 @@ def recordings(build, work):
 
 
 def look(build, work, only, name, trace, frame):
-    """[(relation, verdict)] of a recording."""
+    """[(relation, verdict)] for a recording."""
     trace = trace() if callable(trace) else trace
     if not trace:
         return []
@@ -89,7 +90,7 @@ def main(build, only):
     for reason, n in sorted(reasons.items()):
         print(f"does not apply to {n}: {reason}")
     n = counts[True] + counts[False]
-    shown.row(f"pairs of pictures of one scene, told in two ways, of {counts['recordings']} recordings, that differ",
+    shown.row(f"pairs of pictures of one scene, drawn in two ways, of {counts['recordings']} recordings, that differ",
               f"{len(differ)} of {n}", 0, n > 0 and not differ, f"worst: {max(differ)[1]}" if differ else None)
     shown.row("pairs to which a relation does not apply, each with its reason", counts[None], None, None)
     return shown.finish()

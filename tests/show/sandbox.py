@@ -1,10 +1,9 @@
 #!/usr/bin/python3
-"""tests/show/sandbox.py BUILD (as `make show-sandbox`): what a recording could reach, and what keeping it from that
-costs.
+"""tests/show/sandbox.py BUILD (as `make show-sandbox`): what a recording could access, and the cost of confinement.
 
-A render with empty caches runs under strace: from the moment it is confined, no file outside the list below is opened,
-no socket, and of programs the linker alone. Then tests/real/test_confined.py: what tries to break out of each verb
-fails. Cost: processor time of the same frames with and without confinement, alternated; medians.
+A render with empty caches runs under strace. Once confined, it must open no file outside the list below and no socket,
+and start no program except the linker. Then tests/real/test_confined.py tries to break out of each verb; all attempts
+must fail. Cost: processor time of the same frames with and without confinement, alternated; medians.
 """
 import json
 import os
@@ -32,7 +31,7 @@ def run(*args, **more):
 
 
 def traced(build, work):
-    """What a confined render opens outside of its list, its sockets, and the programs that it starts."""
+    """Files outside its list that a confined render opens, its sockets, and the programs that it starts."""
     env = dict(os.environ, XDG_CACHE_HOME=str(work / "cache"), POCL_CACHE_DIR=str(work / "cache/pocl"))
     log = work / "strace.log"
     run("strace", "-f", "-s", 4096, "-o", log, "-e", "trace=open,openat,creat,socket,execve,landlock_restrict_self",

@@ -2,10 +2,10 @@
 """tests/show/sanitize.py BUILD (as `make show-sanitize`): the recorder under ThreadSanitizer and under
 AddressSanitizer.
 
-Two threads, each with a context of its own, draw at once by immediate mode and client arrays and read pixels back;
-program and recorder are both built with the sanitizer (BUILD/sanitized). Mesa is not, so what happens inside it is left
-out of account. Every run must end with 0, record all frames, and report nothing; leaks are not asked for, as Mesa's
-would be all there is.
+Two threads, each with a context of its own, draw concurrently by immediate mode and client arrays and read pixels back.
+Program and recorder are built with the sanitizer (BUILD/sanitized); Mesa is not, so faults inside it go unnoticed.
+Every run must exit with 0, record all frames, and report nothing. Leaks are not checked, since all reports would
+concern Mesa.
 """
 import json
 import pathlib
@@ -21,7 +21,7 @@ VARIANTS = {"": [], ", reference frames": ["--ref", "color,depth"], ", frames 5-
 
 
 def reports(build, name, variant):
-    """What the sanitizer reported, and whether everything went well besides."""
+    """The sanitizer's reports, and whether everything else succeeded."""
     folder = build / "sanitized" / name
     runtime = f"__{'t' if name == 'thread' else 'a'}san_"
     symbols = subprocess.run(["nm", "-D", folder / "librelume.so"], capture_output=True, text=True, check=True).stdout

@@ -1,10 +1,10 @@
-"""Mutants of one program in one build (mutant schemata, after Untch, Offutt and Harrold, 1993): each place of a mutant
-(sites.py) holds what was and what is to be there instead, and RELUME_MUTANT=number says which mutant runs. With
-RELUME_MUTANTS=FILE none runs, and the file's byte of each mutant is set once it could be told from what was: 1 where
-its place is reached, 3 where its value would be another one (or nobody knows).
+"""All mutants of one program in one build (mutant schemata, after Untch, Offutt and Harrold, 1993). Each mutated place
+(sites.py) holds the original and the replacement, and RELUME_MUTANT=number selects the mutant that runs. With
+RELUME_MUTANTS=FILE none runs; instead, the file's byte for each mutant is set once the mutant could be distinguished: 1
+if its place is reached, 3 if its value would differ (or cannot be compared).
 
-libclang finds the expression around a place. What has no expression that is worked out at run time (tables, sizes,
-cases) is no place for a switch.
+libclang finds the expression around a place. A place without an expression evaluated at run time (tables, sizes, cases)
+gets no switch.
 """
 import pathlib
 import re
@@ -32,7 +32,7 @@ class Parser:
         ]
 
     def parse(self, path, text):
-        """The translation unit of a source; a header gets one that has nothing else."""
+        """The translation unit of a source; a header is parsed alone in one."""
         whole, unsaved = str(self.root / path), [(str(self.root / path), text)]
         if path.endswith(".h"):
             whole = str(self.root / "of-a-header.c")
@@ -40,7 +40,7 @@ class Parser:
         return self.index.parse(whole, args=self.flags, unsaved_files=unsaved)
 
     def broken(self, path, text):
-        """Offsets of errors in the file."""
+        """Offsets of compile errors in the file."""
         return [
             d.location.offset
             for d in self.parse(path, text).diagnostics
@@ -50,8 +50,7 @@ class Parser:
 
 
 def around(cursor, name, begin, end, found=None):
-    """The innermost expression of the file `name` that holds [begin, end); None: it is a constant one, or there is
-    none."""
+    """The innermost expression of the file `name` that contains [begin, end); None if constant or missing."""
     for i, child in enumerate(cursor.get_children()):
         extent = child.extent
         if not extent.start.file or extent.start.file.name != name or extent.start.offset > begin or extent.end.offset < end:
@@ -93,7 +92,7 @@ class Change:
 
 
 def render(text, changes, begin=0, end=None, spans=None, at=0):
-    """Text with its changes, one within the other; spans receives (begin, end, number) in what it becomes."""
+    """Text with its nested changes applied; spans receives (begin, end, number) as positions in the new text."""
     end, out = len(text) if end is None else end, []
     todo = sorted((c for c in changes if begin <= c.begin and c.end <= end), key=lambda c: (c.begin, -c.end, c.number))
     while todo:
@@ -112,9 +111,9 @@ def render(text, changes, begin=0, end=None, spans=None, at=0):
 
 
 def plant(parser, path, sites, number):
-    """(text with as many of the sites as can be switched, {number: site}) numbered from `number`."""
+    """(text with switches at as many sites as possible, {number: site}), numbered from `number`."""
     text = (parser.root / path).read_text()
-    if not text.isascii():  # offsets are of bytes
+    if not text.isascii():  # libclang's offsets count bytes
         return text, {}
     unit, name = parser.parse(path, text), str(parser.root / path)
     changes = [c for c in (Change(number + i, site, text, unit, name) for i, site in enumerate(sites)) if c.macro]

@@ -1,4 +1,4 @@
-"""From a recording to a line of figures: is the trace whole, does it replay to the same picture, does `gl` equal it?"""
+"""From a recording to a line of figures: is the trace complete, is the replayed picture the same, does `gl` equal it?"""
 import dataclasses
 import json
 import shutil
@@ -7,26 +7,26 @@ import time
 
 GATES = ("V", "R1", "R1b", "R2", "R3", "R4", "R5", "E1", "E2", "P")
 N_FRAMES = 10
-SLOW_FRAME_S = 20  # a program whose frame takes longer is scored on fewer frames
+SLOW_FRAME_S = 20  # a program with slower frames is scored on fewer frames
 N_SLOW_FRAMES = 2
-LIMIT_S = 600  # for one command
+LIMIT_S = 600  # per command
 
 
 @dataclasses.dataclass
 class Line:
-    """What is said about one program."""
+    """Results for one program."""
     name: str
     group: str = ""
-    frames: int = 0  # scored
-    passed: int = 0  # of these
-    fidelity: float = 0  # per cent, of the worst frame
-    missed: str = ""  # gates that failed, and on how many frames
+    frames: int = 0  # frames scored
+    passed: int = 0  # frames that pass
+    fidelity: float = 0  # per cent, for the worst frame
+    missed: str = ""  # failed gates, each with the number of frames
     not_measured: str = ""
-    unhandled: str = ""  # commands that are not executed, and how often
-    dump: str = ""  # apitrace dump: whole, or what it says
-    replay: str = ""  # glretrace's picture of the last frame against the program's own
-    blame: str = ""  # the draws that hold most failing pixels
-    frame_s: float = 0  # rendering one frame
+    unhandled: str = ""  # commands that replay does not execute, each with its count
+    dump: str = ""  # apitrace dump: complete, or its message
+    replay: str = ""  # glretrace's picture of the last frame, compared with the program's own
+    blame: str = ""  # the draws with most failing pixels
+    frame_s: float = 0  # time to render one frame
     note: str = ""
 
     @property
@@ -35,13 +35,13 @@ class Line:
 
 
 class Scorer:
-    """Runs the commands for one recording; all that they say goes to the log."""
+    """Runs the commands for one recording; all output goes to the log."""
 
     def __init__(self, relume, work, log):
         self.relume, self.work, self.log = relume, work, log
 
     def run(self, *command, limit=LIMIT_S):
-        """Exit code and output; code 124 where it ran past its limit."""
+        """Exit code and output; code 124 after a timeout."""
         command = list(map(str, command))
         try:
             done = subprocess.run(command, cwd=self.work, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -69,8 +69,8 @@ class Scorer:
         return "whole" if code == 0 and not said else (said[-1] if said else f"exit code {code}")
 
     def check_replay(self, recording):
-        """glretrace's picture of the last frame that has a reference must be the program's own, bit for bit."""
-        # a program that was killed may have left the reference of a frame that it did not come to swap
+        """glretrace's picture of the last frame with a reference must equal the program's own, bit for bit."""
+        # a killed program may have left a reference for a frame that it never swapped
         whole = (self.info(recording.trace) or {"frames": 0})["frames"]
         frames = [f for f in recording.references if 0 < f < whole]
         if not frames:
@@ -89,19 +89,19 @@ class Scorer:
         return f"differs: {100 - 100 * frame['fidelity']:.3f} % of frame {frames[-1]}, worst {frame['worst_code']}/255"
 
     def render(self, trace, frames, mode):
-        """Render frames, fewer where that is slow. Returns (frames rendered, seconds a frame, what went wrong)."""
+        """Render frames, fewer if that is slow. Returns (frames rendered, seconds per frame, error)."""
         pictures = self.work / "frames"
         shutil.rmtree(pictures, ignore_errors=True)
         done, last_s = [], 0
         for batch in (frames[:1], frames[:1], frames[1:]):
             if not batch or (batch == done and last_s <= SLOW_FRAME_S):
-                continue # the first frame again where it was slow: kernels may have been compiled for it
+                continue # repeat a slow first frame: it may have compiled kernels
             if batch != frames[:1] and last_s > SLOW_FRAME_S:
                 batch = batch[-(N_SLOW_FRAMES - 1):]
             begin = time.monotonic()
             code, _, err = self.run(self.relume, "render", trace, "--allow-incomplete", "-f", ",".join(map(str, batch)),
                                     "--mode", mode, "-o", pictures / "x.####.exr")
-            # What rendering one frame takes, the replay of those before it left out.
+            # Time to render one frame, without the replay of earlier frames.
             said = [line for line in err.splitlines() if line.startswith("rendered frame")]
             last_s = float(said[-1].split()[-2]) if said else time.monotonic() - begin
             done += [frame for frame in batch[:len(said)] if frame not in done]
@@ -116,16 +116,16 @@ class Scorer:
 
 
 def list_unhandled(info):
-    """The calls that rendering does not execute: what `relume info` lacks pixels for is not among them."""
+    """Calls that rendering does not execute, except those that `relume info` lists as lacking pixels."""
     return ", ".join(f"{u['call']} {u['count']}" for u in info["unsupported"]
                      if "only a renderer" not in str(u.get("why", "")))
 
 
 def missed_gates(frame, gates, must=()):
-    """The gates that a frame does not pass, each with what became of it: "R3 failed", "R4 not measured".
+    """The gates that a frame does not pass, with the reason: "R3 failed", "R4 not measured".
 
-    R1 and R1b share the interior pixels, plain and blended: a frame may have one kind only, but not neither. Of the
-    others, those in `must` have to be measured.
+    R1 and R1b share the interior pixels, plain and blended: a frame may lack one kind, but not both. Of the other
+    gates, those in `must` have to be measured.
     """
     state = {g: frame["gates"][g]["state"] for g in gates}
     missed = [f"{g} failed" for g, s in state.items() if s == "failed"]
@@ -137,13 +137,13 @@ def missed_gates(frame, gates, must=()):
 
 
 def tell_blame(scored):
-    """The draws that hold most of the failing pixels, of the worst frame."""
+    """The draws with most of the failing pixels in the worst frame."""
     worst = min(scored["frames"], key=lambda f: f["fidelity"])
     return "; ".join(f"draw {b['draw']} {b.get('call', '')} {b['pixels']} px" for b in worst["blame"][:3])
 
 
 def summarize(line, scored, gates, must=()):
-    """Fill a line's figures from what diff printed."""
+    """Fill in a line's figures from diff's output."""
     missed, unmeasured = {}, {}
     for frame in scored["frames"]:
         bad = missed_gates(frame, gates, must)
@@ -163,7 +163,7 @@ def summarize(line, scored, gates, must=()):
 
 
 def check_once(recording, what, check):
-    """What a check of the trace alone says; kept beside the trace, which does not change."""
+    """Result of a check that depends on the trace alone; cached beside the trace, which does not change."""
     kept = recording.trace.with_name(f"{what}.txt")
     if not kept.exists():
         kept.write_text(check())
@@ -171,7 +171,7 @@ def check_once(recording, what, check):
 
 
 def score_recording(scorer, line, recording, n_frames, mode, gates, must=(), report=False):
-    """Everything about one recording, into one line; report: diff's page as well."""
+    """Score one recording completely, into one line; report: also write diff's page."""
     info = scorer.info(recording.trace)
     if info is None:
         line.note = "relume info cannot read the trace"

@@ -1,13 +1,12 @@
 #!/usr/bin/python3
-"""tests/show/seek.py BUILD (as `make show-seek`): frame 9,000 of 10,000 begins as soon as frame 9; what the index
-costs; how busy the processor is and how much memory a long run takes.
+"""tests/show/seek.py BUILD (as `make show-seek`): frame 9,000 of 10,000 starts as soon as frame 9; cost of the index;
+processor load and memory of a long run.
 
-Times are medians of runs that take turns, so that other work on the machine falls on both sides alike. They run from
-the command's start to the moment its first frame is handed to the device, opening the device included. Busy is
-processor time of the render process itself (user and system) over wall time and cores, from its first finished frame to
-its last. Work of others cannot add to that, but takes away from it; so the share of time that it has as many threads
-ready to run as there are cores (sampled every 5 ms, min(ready, cores) / cores) is printed beside it, and counts where
-the machine has other work: more than half a core's.
+Times are medians of alternating runs, so that other load affects both sides alike. They run from the command's start
+until its first frame is handed to the device, including opening the device. Busy is processor time of the render
+process itself (user and system) over wall time and cores, from its first finished frame to its last. Other load cannot
+increase it, but reduces it. Therefore the share of cores that the process is ready to use (sampled every 5 ms,
+min(ready, cores) / cores) is printed beside it, and is used if other load exceeds half a core.
 """
 import json
 import os
@@ -27,7 +26,7 @@ FRAMES = 10000
 
 
 def begin_s(build, trace, frame, folder):
-    """From the command's start to the moment its first frame is handed to the device."""
+    """Time from the command's start until its first frame is handed to the device."""
     out = subprocess.run(
         [build / "relume", "render", trace, "-f",
          str(frame), "-o", folder / "x.#.exr", "--progress", "json"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
@@ -41,7 +40,7 @@ def cpu_s(pid):
 
 
 def machine_s():
-    """Processor time of all processes so far."""
+    """Processor time of all processes since boot."""
     fields = pathlib.Path("/proc/stat").read_text().split("\n", 1)[0].split()[1:]
     return sum(int(fields[i]) for i in (0, 1, 2, 5, 6)) / os.sysconf("SC_CLK_TCK")
 
@@ -65,8 +64,8 @@ def resident(pid):
 
 
 def busy(build, trace, frames, folder, options=()):
-    """Share of all cores that rendering takes after its first frame, share that it is ready to take, cores that others
-    take; memory at a third of the run and at its end."""
+    """Share of all cores that rendering uses after its first frame, share that it is ready to use, cores that other
+    processes use; memory at a third of the run and at its end."""
     child = subprocess.Popen([
         build / "relume", "render", trace, "-f", f"0-{frames - 1}", "-o", folder / "b.#.exr", "--progress", "json",
         *options

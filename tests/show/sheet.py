@@ -1,8 +1,9 @@
-"""The open programs: raster | beauty without rules | relit side by side, to be looked at, and what was seen there
+"""The open programs: raster | beauty without rules | relit side by side, with the verdicts of people who inspected them
 (tests/show/sheet.yaml).
 
-A recording of ../shared/traces is taken where there is one; others are made once, in BUILD/show/relit/recordings. Of a
-shared recording what was seen counts only while the relit picture is about as bright as it was then.
+A recording of ../shared/traces is used if there is one; others are made once, in BUILD/show/relit/recordings. The
+verdict on a shared recording counts only while the relit picture has about the same brightness as when it was
+inspected.
 """
 import json
 import subprocess
@@ -20,10 +21,10 @@ NAMES = {
     "noof": "xss-noof"
 }
 SEEN = recording.ROOT / "tests/show/sheet.yaml"
-LATE = 0.75  # of the reference frames of a recording: by then a game has begun
-BETTER = 10  # of the open set
+LATE = 0.75  # position among a recording's reference frames; by then a game has begun
+BETTER = 10  # minimum number of programs of the open set
 SAME_BRIGHTNESS = 0.02
-# Beside the open set: it was better without rules, and must stay so.
+# Not in the open set: it was once better without rules, and must not become so again.
 RACE = programs.Program("extremetuxracer", "extremetuxracer", ("etr",), seconds=60, ref_every=20,
                         keys=("wait 8", *(4 * ("key Return", "wait 3"))))
 
@@ -33,7 +34,7 @@ def all_programs():
 
 
 def find(build, program):
-    """A recording, its good frame, and whether it is a shared one. (None, why, False): there is none"""
+    """A recording, a representative frame, and whether it is a shared one; or (None, reason, False)"""
     name = NAMES.get(program.name, program.name)
     if (SHARED / f"{name}.trace").exists():
         frames = dict(
@@ -48,12 +49,12 @@ def find(build, program):
 
 
 def late(done):
-    """The frame of a recording with references that is looked at."""
+    """The frame to inspect in a recording with references."""
     return done.references[int(LATE * (len(done.references) - 1))]
 
 
 def luminance(image, prefix=""):
-    """The mean of the picture, in linear light."""
+    """Mean of the picture in linear light."""
     return float(
         sum(share * image.planes[f"{prefix}{c}"].astype("f8").mean()
             for c, share in zip("RGB", (0.2126, 0.7152, 0.0722))))
@@ -79,14 +80,16 @@ def render(build, trace, frame, out, *look):
 
 
 def side_by_side(path, beauty, other):
-    """Write a sheet: raster | beauty | other, of two renderings of one frame."""
+    """Write a sheet: raster | beauty | other, from two renderings of one frame."""
     gap = numpy.zeros((beauty.planes["R"].shape[0], 4, 3), "u1")
     exr_numpy.write_png(path,
                         numpy.concatenate((display(beauty, "gl."), gap, display(beauty), gap, display(other)), axis=1))
 
 
 def harm(build, picture, frame):
-    """Gate N of a relit frame. It asks for no reference; diff does: OpenGL's own picture of the frame is one."""
+    """Gate N of a relit frame. The gate needs no reference, but diff does: OpenGL's own picture of the frame serves as
+    one.
+    """
     reference = picture.with_name(f"gl.{frame:04d}.png")
     exr_numpy.write_png(reference, display(exr_numpy.Image(picture), "gl."))
     return json.loads(run(build / "relume", "diff", reference, picture, "--json", "-",
@@ -94,7 +97,7 @@ def harm(build, picture, frame):
 
 
 def show(build, program, work):
-    """A program's sheet, and what there is to be said of it: mean luminance of raster, beauty and relit, gate N."""
+    """A program's sheet with its figures: mean luminance of raster, beauty and relit, and gate N."""
     trace, frame, is_shared = find(build, program)
     if trace is None:
         return {"error": frame}
@@ -113,13 +116,12 @@ def show(build, program, work):
 
 
 def is_stale(line, seen):
-    """Whether a picture is no longer the one that was looked at."""
+    """Whether a picture has changed since it was inspected."""
     return line["shared"] and abs(line["luminance"][2] - seen["relit"]) > SAME_BRIGHTNESS * max(seen["relit"], 1e-3)
 
 
 def row(build, program, work):
-    """A row of the claim, and what somebody saw: better, equal, worse, or None where nobody has looked at this
-    picture."""
+    """A row of the claim, with the verdict: better, equal, worse, or None if nobody has inspected this picture."""
     seen, line = yaml.safe_load(SEEN.read_text())[program.name], show(build, program, work)
     if "error" in line:
         verdict, text = None, line["error"]

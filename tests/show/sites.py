@@ -1,6 +1,6 @@
-"""Places in C sources where a small change makes a mutant of the program: constants a little off, operators and
-comparisons swapped, branches never taken, arguments dropped. Found by tokens, without a parser: what does not compile
-is no mutant."""
+"""Places in C sources where a small change makes a mutant: constants changed slightly, operators and comparisons
+swapped, branches disabled, arguments dropped. Found from tokens, without a parser; a change that does not compile is
+discarded."""
 import dataclasses
 import hashlib
 import re
@@ -13,7 +13,7 @@ OPERATORS = {"+": "-", "-": "+", "*": "/", "/": "*", "<<": ">>", ">>": "<<", "&"
 COMPARISONS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&"}
 KINDS = ("constant", "operator", "comparison", "branch", "argument")
 WORDS = {"if", "for", "while", "switch", "return", "sizeof", "case", "else", "do", "goto", "default"}
-PROMISES = {"assert", "_Static_assert", "static_assert"}  # what holds anyway
+PROMISES = {"assert", "_Static_assert", "static_assert"}  # always true
 
 
 @dataclasses.dataclass
@@ -50,7 +50,7 @@ def off_by_a_little(number):
     digits = number.rstrip("uUlL") if number[:2].lower() == "0x" else number.rstrip("uUlLfF")
     suffix = number[len(digits):]
     if digits == "1":
-        return "0" + suffix  # a truth that is 2 is as true
+        return "0" + suffix  # any other nonzero value is equally true
     if digits[:2].lower() == "0x":
         return f"{int(digits, 16) + 1:#x}{suffix}"
     if digits.isdigit():
@@ -60,13 +60,13 @@ def off_by_a_little(number):
 
 
 def declares_size(tokens, i):
-    """`struct x name[8]`: a longer array is none the worse."""
+    """`struct x name[8]`: a longer array changes nothing."""
     return (i >= 3 and tokens[i - 1][0] == "[" and tokens[i - 2].lastgroup == "name"
             and tokens[i - 3].lastgroup == "name" and tokens[i - 3][0] not in WORDS)
 
 
 def arguments(tokens, opened):
-    """(begin, end) of each argument of a call, in tokens."""
+    """(begin, end) of each argument of a call, as token indices."""
     end, depth, begin = closing(tokens, opened), 0, opened + 1
     for i in range(opened, end + 1):
         depth += (tokens[i][0] in "([{") - (tokens[i][0] in ")]}")
@@ -112,7 +112,7 @@ def of_text(path, text):
 
 
 def find(root, path, seed):
-    """The sites of a file, each with a name that holds while its line stands."""
+    """The sites of a file, each with a name that stays valid until its line changes."""
     text, seen = (root / path).read_text(), {}
     for site in of_text(path, text):
         begin, end = text.rfind("\n", 0, site.begin) + 1, text.find("\n", site.end)

@@ -1,12 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/soak.py BUILD (as `make show-soak`): long runs stay flat, and what disturbs a run leaves no trace in what
-it makes.
+"""tests/show/soak.py BUILD (as `make show-soak`): long runs do not grow, and disturbances do not affect the output.
 
-24,000 frames of 64 x 48 pixels are rendered by one process, and 1,000 programs recorded by one: memory, descriptors and
-what lies in folders of caches and temporary files at the end are what they were after the first fifth. Then a render
-and a recording while the time of day jumps, a render that is stopped and continued all the time, and a render onto a
-disk that is full and then has room again. What they make must be the same as undisturbed, byte by byte. `make check`
-runs it with few frames (tests/real/test_soak.py).
+One process renders 24,000 frames of 64 x 48 pixels, and another records 1,000 programs. At the end, memory, descriptors
+and the contents of cache and temporary folders must be as they were after the first fifth. Then come a render and a
+recording while the system clock jumps, a render that is repeatedly stopped and continued, and a render to a disk that
+is full and then has room again. Their output must equal that of an undisturbed run, byte for byte. `make check` runs
+this with few frames (tests/real/test_soak.py).
 """
 import hashlib
 import json
@@ -22,8 +21,8 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FRAMES, PROGRAMS = 24_000, 1_000
-DISTURBED = 60          # frames of the other parts
-GROWTH_MB = 8           # beyond what the first fifth took; a page of each allocator's arena may come late
+DISTURBED = 60          # frame count of the other parts
+GROWTH_MB = 8           # above the first fifth's peak; each allocator arena may gain a page later
 LOOK_S = 0.05
 PART = ("--mode", "gl", "--progress", "none")
 
@@ -35,12 +34,12 @@ def tree_bytes(folder):
             try:
                 total += os.lstat(os.path.join(place, name)).st_size
             except OSError:
-                pass  # it went meanwhile
+                pass  # it has disappeared
     return total
 
 
 class Watch(threading.Thread):
-    """Memory, descriptors and folders of a process over its life; `each` is called at each look."""
+    """Samples memory, descriptors and folders of a process over its life; `each` is called at each sample."""
 
     def __init__(self, pid, folders, each=None):
         super().__init__(daemon=True)
@@ -55,12 +54,12 @@ class Watch(threading.Thread):
                 self.looks.append(
                     (done, memory, len(os.listdir(proc / "fd")), sum(map(tree_bytes, self.folders)) / 1e6))
                 time.sleep(min(LOOK_S, 0.002 +
-                               (time.monotonic() - begin) / 100))  # a short run is looked at as often as a long one
+                               (time.monotonic() - begin) / 100))  # sample short runs as often as long ones
         except (OSError, IndexError):
             pass  # it has ended
 
     def growth(self, total):
-        """(MB, descriptors, MB on disk) that the rest took beyond the first fifth's largest; None: too few looks"""
+        """(MB, descriptors, MB on disk) of growth beyond the first fifth's peak; None: too few samples"""
         early = [look for look in self.looks if total * 0.02 < look[0] <= total * 0.2]
         late = [look for look in self.looks if total * 0.2 < look[0] <= total * 0.98]
         if not early or not late:
@@ -99,8 +98,8 @@ class Soak:
         if done.returncode:
             sys.exit(f"record: {done.stdout}{done.stderr}")
 
-    # --- Flat
-    # --------------------------------------------------------------------------------------------------------------
+    # --- No growth
+    # ---------------------------------------------------------------------------------------------------------
 
     def frames(self, count):
         trace, out = self.work / "long.trace", self.work / "frames"
@@ -109,7 +108,7 @@ class Soak:
         seen = [0]
 
         def tidy():
-            """Count finished frames, and take them away: thousands of files are not what is looked at."""
+            """Count and delete finished frames, since thousands of files are not under test."""
             for path in list(out.glob("x.*.exr")):
                 path.unlink(missing_ok=True)
                 seen[0] += 1
@@ -132,7 +131,7 @@ class Soak:
         trace.unlink()
 
     def programs(self, count):
-        """One `relume record` of a shell that runs them: each makes a trace of its own."""
+        """One `relume record` of a shell that runs the programs; each makes a trace of its own."""
         out = self.work / "programs"
         out.mkdir()
         script = 'i=0; while [ $i -lt $1 ]; do "$2" --frames 2 --size 64x48 >/dev/null || exit 1; i=$((i+1)); done'
@@ -246,7 +245,7 @@ def is_recorder(proc, out):
 
 
 def pictures(soak, folder):
-    """Pixels alone: two recordings have other hashes."""
+    """The pixels only, since hashes of two recordings differ."""
     return {
         path.name: soak.run("oiiotool", "--info", "--hash", path).stdout.rpartition("SHA-1:")[2].split()[0]
         for path in sorted(folder.glob("*.exr"))

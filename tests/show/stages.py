@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 """tests/show/stages.py BUILD [panels|piglit|glsl|cost|compile|glsl-all|real...] (`make show-programs`): vertices and
-fragments by programs, beside Mesa and beside fixed function.
+fragments by programs, compared with Mesa and with fixed function.
 
-panels: tests/real/panels of programs, each instruction, binding, option and way in a panel, ten frames: those that pass
-all gates. piglit: its tests of ARB_vertex_program, ARB_fragment_program and ATI_fragment_shader: the last frame of each
-that passes on Mesa is scored, R1 to R3. Recordings lie in BUILD/show/stages, every outcome in BUILD/show/stages-*.tsv.
-glsl: the same of its shaders of GLSL 1.10 and 1.20 in the compatibility profile, one of ten; glsl-all, which has to be
-named: all 3,287. compile: from a pair of shaders' text to instructions. real, which has to be named (half an hour, the
-first time more): the sweep's programs that bring shaders, ten frames of each (tests/show/sweep.py). cost: a frame of
-the same knot, lit by fixed function and by programs: processor time, medians of runs side by side. Needs a display: run
-under tests/xvfb.sh.
+panels: tests/real/panels of programs, with a panel for each instruction, binding, option and interface, ten frames:
+those that pass all gates. piglit: its tests of ARB_vertex_program, ARB_fragment_program and ATI_fragment_shader: the
+last frame of each test that passes on Mesa is scored, R1 to R3. Recordings are in BUILD/show/stages, all outcomes in
+BUILD/show/stages-*.tsv. glsl: the same for its shaders of GLSL 1.10 and 1.20 in the compatibility profile, one in ten;
+glsl-all, only if named: all 3,287. compile: time from the text of a pair of shaders to instructions. real, only if
+named (half an hour, longer the first time): the sweep's programs that use shaders, ten frames of each
+(tests/show/sweep.py). cost: a frame of the same knot, lit by fixed function and by programs: processor time, medians of
+alternating runs. Needs a display: run under tests/xvfb.sh.
 """
 import json
 import os
@@ -42,7 +42,7 @@ BAR_COLD_MS = 1000
 BAR_WARM_MS = 10
 BAR_REAL = 0.9
 REAL_GROUPS = ("xscreensaver, GLSL", "OpenSceneGraph", "Qt 5 viewers", "games, GLSL")
-REAL_NAMES = ("hyperspace",)  # rss-glx's
+REAL_NAMES = ("hyperspace",)  # from rss-glx
 
 
 def must(*command, **more):
@@ -80,7 +80,7 @@ def score_panels(build, base):
 
 
 def score_tests(build, folder, tests, title):
-    """The last frames of piglit's tests."""
+    """Score the last frames of piglit's tests."""
     ran = piglit.recorded_rows(build, tests, folder)
     rows = [row for row in ran if row["bare"].split()[0] == "pass" and row["frames"]]
     for row in rows:
@@ -126,12 +126,12 @@ def processor_s(*command):
 
 
 def score_cost(build, base):
-    """What a frame more costs: all frames beside the first alone."""
+    """Cost of an additional frame: all frames minus the first alone."""
     costs = {way: [] for way in WAYS}
     for way in WAYS:
         record(build, base / f"{way}.trace", build / "corpus" / "phong", "--frames", FRAMES, "--size", "640x480",
                "--animate", "camera", "--by", way)
-    for number in range(RUNS + 1): # the first compiles kernels
+    for number in range(RUNS + 1): # the first run compiles the kernels
         for way in WAYS:
             def frames(last):
                 return processor_s(build / "relume", "render", base / f"{way}.trace", "-f", f"0-{last}", "--force",
@@ -149,7 +149,7 @@ def score_cost(build, base):
 
 
 def score_compile(build, base):
-    """Each run is a process: the first pair of shaders finds cold memory."""
+    """Each run is a new process, so the first pair of shaders finds a cold cache."""
     took = [[float(ms) for ms in must(build / "tests/bench/translate").split()] for _ in range(RUNS)]
     return [{
         "what": f"a pair of shaders, text to instructions, {what}", "figure": f"{median:.2f} ms", "bar": f"{bar} ms",
@@ -158,7 +158,7 @@ def score_compile(build, base):
 
 
 def score_real(build, base):
-    """Recordings and the lines of each are the sweep's."""
+    """Uses the sweep's recordings and lines."""
     chosen = [p for p in programs.sweep() if p.group in REAL_GROUPS or p.name in REAL_NAMES]
     lines = []
     for program in chosen:
@@ -179,7 +179,7 @@ def score_real(build, base):
 PARTS = {
     "panels": score_panels, "piglit": score_piglit, "glsl": score_glsl, "cost": score_cost, "compile": score_compile
 }
-MORE_PARTS = {"glsl-all": score_all_glsl, "real": score_real}  # told apart: an hour
+MORE_PARTS = {"glsl-all": score_all_glsl, "real": score_real}  # only if named: they take an hour
 
 
 def main(build, *parts):

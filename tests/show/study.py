@@ -1,5 +1,4 @@
-"""What a study costs: 1,000 frames in at most the time of rendering 20 of them without rules, in processor time (issue
-16)."""
+"""Cost of a study: 1,000 frames in at most the processor time of rendering 20 of them without rules."""
 import resource
 import subprocess
 
@@ -7,7 +6,7 @@ import recording
 import sheet
 
 FRAMES, RENDERED = 1000, 20
-# Recorded here, and shared recordings that are long enough.
+# Programs recorded here, and shared recordings that are long enough.
 PROGRAMS = {
     "courtyard": ("courtyard", "--animate", "camera"),
     "rooms": ("rooms", "--seed", 5, "--lights", 6, "--lighting", "multitexture", "--walk")
@@ -20,7 +19,7 @@ def run(*command):
 
 
 def seconds(*command):
-    """Processor time of a command, all its threads' together."""
+    """Processor time of a command, summed over its threads."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     run(*command)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -39,7 +38,7 @@ def recordings(build, work):
 
 
 def rows(build, work):
-    """A row for each recording. The index is made before: each command that seeks needs it, once."""
+    """A row for each recording. The index is made beforehand, because every command that seeks needs it once."""
     for name, trace in recordings(build, work):
         middle = FRAMES // 2
         run(build / "relume", "render", trace, "-f", middle, "-o", work / "first.exr")

@@ -29,7 +29,7 @@ from table import Shown
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 DEMO_FRAMES = 60
-# The share of tests that must pass; 1: none may fail. Testing is a canary: it changes every day.
+# Share of tests that must pass; 1: none may fail. Testing is a canary: it changes every day.
 SUITES = {"bookworm": 1.0, "trixie": 1.0, "testing": 0.95}
 VERSIONS = {
     "GCC": "gcc",
@@ -48,7 +48,7 @@ CROSS_PACKAGES = (
     "gcc-aarch64-linux-gnu g++-aarch64-linux-gnu qemu-user-static git python3-jsonschema python3-numpy"
     " python3-yaml openimageio-tools:arm64 python3-clang clang"
 )
-# Libraries are those of arm64; compilers and tools run here.
+# Libraries are arm64; compilers and tools are native.
 INSTALL_CROSS = f"""
 dpkg --add-architecture arm64 && apt-get -q update &&
 cd relume && libraries=$(packaging/deps.sh list build -- check | grep -E '^lib|-dev$|^check$' | grep -vE '^libc6-dev$' |
@@ -56,18 +56,18 @@ cd relume && libraries=$(packaging/deps.sh list build -- check | grep -E '^lib|-
 apt-get -q -y --no-install-recommends install gcc g++ python3 khronos-api opencl-headers libc6-dev \\
     {CROSS_PACKAGES} $libraries
 """
-# The kernel starts programs of arm64 by qemu; the entry goes with the mount namespace's end or by hand.
+# The kernel starts arm64 programs through qemu. The entry disappears with the mount namespace, or is removed by hand.
 BINFMT = """
 mount -t binfmt_misc binfmt_misc /proc/sys/fs/binfmt_misc
 [ -e /proc/sys/fs/binfmt_misc/qemu-aarch64 ] ||
 	cat /usr/lib/binfmt.d/qemu-aarch64.conf >/proc/sys/fs/binfmt_misc/register
 """
 SLOWER = 8  # emulated processors
-# Those that draw by themselves: the others compare with Embree, or compile kernels by clang.
+# Checks that need neither Embree nor kernels compiled by clang.
 CHECKS = "ls tests/check/test_*.c | sed 's|tests/||; s|[.]c$||'"
 GOLDEN = ("cornell", "two_triangles")
 
-# Mounts and processes end with their namespaces, whatever becomes of this script.
+# Mounts and processes end with their namespaces, even if this script is killed.
 INSIDE = """
 mount --rbind --make-rslave /dev "$0/dev" && mount --rbind --make-rslave /sys "$0/sys" &&
 mount -t proc proc "$0/proc" &&
@@ -82,7 +82,7 @@ class Suite:
         self.bare = folder / f"{self.release}.bare"
 
     def run(self, log, command):
-        """Run a shell command in the chroot; return (exit code, seconds, what it printed)."""
+        """Run a shell command in the chroot; returns (exit code, seconds, output)."""
         begin = time.monotonic()
         with open(self.logs / f"{log}.log", "w+", encoding="utf-8", errors="replace") as out:
             code = subprocess.run(
@@ -119,7 +119,7 @@ class Suite:
                 stderr=out,
                 check=True,
             )
-        # A mirror of a suite that changes every day may be behind.
+        # A mirror of a suite that changes daily may lag behind.
         (partial / "etc/apt/apt.conf.d/90-behind").write_text('Acquire::Check-Valid-Until "false";\n')
         partial.rename(self.bare)
 
@@ -164,7 +164,7 @@ def show_demo(suite, shown):
     frames = f"{scored[2]} of {scored[1]} frames" if scored else "no frames scored"
     shown.row(
         f"{suite.name}: make demo",
-        f"{frames}, exit code {code}, {seconds:.0f} s, of which {seconds_of('install', printed)} s install "
+        f"{frames}, exit code {code}, {seconds:.0f} s, {seconds_of('install', printed)} s to install "
         f"{suite.packages() - before} packages",
         f"{DEMO_FRAMES} of {DEMO_FRAMES}, exit code 0",
         code == 0 and frames == f"{DEMO_FRAMES} of {DEMO_FRAMES} frames",
@@ -204,7 +204,7 @@ def show_check(suite, least, shown):
 
 
 def pixels(path):
-    """The digest of all channels' bytes. Those of the file are others: ISA-L finds other matches on arm64."""
+    """Digest of all channels' pixels. The files differ, because ISA-L finds other matches on arm64."""
     printed = subprocess.run(
         ["oiiotool", "--hash", "--info", "-v", path], capture_output=True, text=True, check=False
     ).stdout
@@ -213,7 +213,7 @@ def pixels(path):
 
 
 def same_pixels(suite, build, name):
-    """Whether the reference devices of this build and of the chroot's render a frame to the same bytes in all
+    """Whether the reference devices of this build and of the chroot's build render a frame to the same bytes in all
     channels."""
     ours, theirs = suite.logs / f"{name}.exr", suite.root / f"root/{name}.exr"
     options = "-f 1 --device reference"
@@ -271,7 +271,7 @@ def show_arm64(suite, build, shown):
 
 
 def show_container(suite, shown):
-    """buildah's layers are below suite.root; the bare chroot is the base, so that no registry is asked."""
+    """buildah keeps its layers below suite.root; the bare chroot is the base image, so no registry is contacted."""
     if not shutil.which("buildah"):
         sys.exit("the suite container needs the Debian package buildah")
     clone = suite.root / "relume"

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 """tests/show/sweep.py BUILD [--only PART]... [--frames N] [--minutes M] [--again] [--record] (as `make show-sweep`):
-the sweep, a line a program.
+the sweep, one line per program.
 
 Each program is recorded once, with reference frames read back in the program; recordings stay in BUILD/show/sweep/NAME
-and are used again until --record asks for new ones. Ten frames of each are rendered in `gl` mode and scored against
-what the program showed. BUILD/show/sweep.tsv holds a line for each program; what the present relume has scored already
-is not scored again, so that a run that was ended, or that ran out of its minutes, goes on where it stood. What fails
-stands once more at the end. The bar: 110 of xscreensaver's fixed-function hacks pass all gates on all frames.
+and are reused until --record asks for new ones. Ten frames of each are rendered in `gl` mode and scored against the
+program's own picture. BUILD/show/sweep.tsv holds a line for each program. Programs that the present relume has already
+scored are skipped, so a run that was stopped or ran out of its minutes continues from there. Failures are listed again
+at the end. The bar: 110 of xscreensaver's fixed-function hacks pass all gates on all frames.
 """
 import argparse
 import dataclasses
@@ -106,9 +106,9 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--only", action="append", default=[], help="part of a program's name")
     parser.add_argument("--frames", type=int, default=scoring.N_FRAMES)
-    parser.add_argument("--minutes", type=float, default=120, help="begin no other program after so many")
-    parser.add_argument("--again", action="store_true", help="score what this relume has scored already, too")
-    parser.add_argument("--record", action="store_true", help="record anew")
+    parser.add_argument("--minutes", type=float, default=120, help="start no new program after this time")
+    parser.add_argument("--again", action="store_true", help="score again, even with the same relume")
+    parser.add_argument("--record", action="store_true", help="record again")
     options = parser.parse_args()
     need_display()
     os.nice(15)

@@ -2,10 +2,10 @@
 """tests/show/sweep_record.py BUILD [--only PART]... (as `make show-sweep-record`): the recorder alone, on every program
 of the sweep.
 
-Each program is recorded anew with reference frames read back in the program. `apitrace dump` must read the trace to its
-end, and glretrace must draw the last frame as the program did, bit for bit; it is given a visual like the program's
-(verbs/recording/visual.c), and where its window is larger than the program's (a viewport reached beyond it) the
-program's part is compared. Programs that do not start here are told and not counted.
+Each program is recorded again with reference frames read back in the program. `apitrace dump` must read the trace to
+its end, and glretrace must draw the last frame exactly as the program did. glretrace gets a visual like the program's
+(verbs/recording/visual.c); if its window is larger (because a viewport reached beyond the program's), only the program's
+part is compared. Programs that do not start here are listed and not counted.
 """
 import argparse
 import json
@@ -29,18 +29,18 @@ PICTURE = re.compile(rb"P6\n(?:#[^\n]*\n)*(\d+) (\d+)\n255\n")
 
 
 def look_up(trace):
-    """The calls that end frames, and the bits of a pixel."""
+    """The calls that end frames, and the format of a pixel."""
     dump = subprocess.run(
         ["apitrace", "dump", "--color=never", "--grep=SwapBuffers|FrameTerminator|StringMarker", trace],
         capture_output=True, text=True, errors="replace", check=False).stdout
     bits = re.findall(r"relume:bits ([\d ]+)",
-                      dump)  # of the last context: some make another one first, to ask it things
+                      dump)  # from the last context: some programs first create one only for queries
     calls = re.findall(r"^(\d+) (?:\w+SwapBuffers\w*|glFrameTerminator\w*)\(", dump, re.M)
     return calls, bits[-1] if bits else ""
 
 
 def check_replay(trace, build):
-    """Is glretrace's picture of the last frame that has a reference the program's own?"""
+    """Does glretrace's picture of the last frame with a reference equal the program's own?"""
     calls, bits = look_up(trace)
     shown = {n: picture for n, picture in reference_frames(trace.with_suffix(".ref")).items() if n < len(calls)}
     if not shown:
@@ -61,7 +61,7 @@ def check_replay(trace, build):
 
 
 def check(build, program, folder):
-    """(what apitrace dump says, what glretrace's picture is), or (None, why there is no recording)."""
+    """(apitrace dump's verdict, that on glretrace's picture), or (None, the reason for having no recording)."""
     done = recording.record(build / "relume", program, folder, True)
     if done.trace is None or not done.references:
         return None, f"no recording (exit code {done.code}): {done.said[:120]}"

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""tests/show/table.py DIR: one table of all that `make show-*` measured; exits with 1 where a bar does not hold.
+"""tests/show/table.py DIR: one table of all `make show-*` measurements; exits with 1 if a bar does not hold.
 
 Each DIR/NAME.json holds {"name": "parity", "command": "make show-parity", "rows": [{"what": "glxgears, 60 frames",
-"figure": "60 pass", "bar": "60 pass" or null, "peer": "Mesa 22.3.6" or null, "passed": true, false, or null where
-nothing is demanded}]}
+"figure": "60 pass", "bar": "60 pass" or null, "peer": "Mesa 22.3.6" or null, "passed": true, false, or null if nothing
+is required}]}
 """
 import json
 import pathlib
@@ -11,7 +11,7 @@ import sys
 
 
 class Shown:
-    """The rows of show-NAME: each is printed as it comes, and all are written at the end."""
+    """The rows of show-NAME: each is printed at once, and all are written at the end."""
 
     def __init__(self, build, name):
         self.path, self.name, self.rows = build / "show" / f"{name}.json", name, []

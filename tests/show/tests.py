@@ -1,23 +1,24 @@
 #!/usr/bin/python3
 """tests/show/tests.py BUILD [--only FOLDER] [--count N] [--seconds S] [--most S] (as `make show-tests`): which faults
-`make check` notices.
+does `make check` notice?
 
-Mutants of our own sources, drawn by their names' digests (sites.py) in turn from each folder and of each kind: nobody
-picks places. All are compiled into one build of a clone of this tree, each behind a switch (schemata.py). One run of
-the tests tells which mutants each test could notice: it works something out that the mutant would work out otherwise.
-Each mutant then runs with those tests, quick ones and those that noticed others first, until one fails; a hang ends by
-a limit of processor time. It must fail with the mutant twice, and pass without it: one that fails now and then, or is
-skipped, does not count.
+Mutants of our own sources are drawn by the digests of their names (sites.py), taking folders and kinds in turn, so that
+nobody chooses the places. All are compiled into one build of a clone of this tree, each behind a switch (schemata.py).
+One run of the tests determines which mutants each test could notice: those whose code it runs with a different result.
+Each mutant then runs with those tests until one fails, fast tests and those that noticed others first; a limit on
+processor time ends a hang. The test must fail with the mutant twice and pass without it; intermittent failures and
+skipped tests do not count.
 
-Kernels share their text with their C twins, so that both would be wrong alike: their mutants run where the twins are
-the device, and kernels/ref's beside a device. What is for devices alone (*.cl, packs, the text around hooks, which is
-compiled when one is there) and what is no expression (tables, sizes) is not tried. LEFT_OUT are tests that read
-sources, build the tree anew, start a farm, a browser or Wine, or take long; so are those that measure time or need more
-than SLOW_S of processor time.
+Kernels share their text with their C twins, so both would be wrong alike: mutants of that text run where the twins are
+the device, and those of kernels/ref where a real device is compared with them. Not tried: code for devices only (*.cl,
+packs, the text around hooks, which is compiled only for a hook) and places without an expression (tables, sizes).
+LEFT_OUT lists tests that read sources, rebuild the tree, start a farm, a browser or Wine, or take long. Tests that
+measure time or need more than SLOW_S of processor time are left out, too.
 
-All is kept in BUILD/show/tests: a campaign may be stopped at any time, and goes on. Of a time that is given, half is
-for the first run of tests, which holds while the test and the places of mutants stand. A verdict holds while its source
-and its test stand; what was left meets tests that are new. tests/show/left.txt gives reasons.
+All results are kept in BUILD/show/tests: a campaign can be stopped at any time and resumed. Half of a given time limit
+goes to the first run of the tests, whose results hold until the test or the mutants' places change. A verdict holds
+until its source or its test changes; surviving mutants are tried with new tests. tests/show/left.txt gives reasons for
+survivors.
 """
 import argparse
 import hashlib
@@ -50,9 +51,9 @@ LEFT_OUT = ("unit/test_house", "harness/", "farm/", "real/test_page", "real/test
             "real/test_install", "real/test_crash", "real/test_hooks", "unit/test_schemata")
 QUICK = ("unit/", "gl/", "trace/", "fuzz/")
 FLAGS = ["CFLAGS=-O1 -g0 -w -fno-delete-null-pointer-checks",
-         "CXXFLAGS=-O1 -g0 -w"]  # what a call promises of its arguments makes no mutant vanish
+         "CXXFLAGS=-O1 -g0 -w"]  # the compiler must not use promises about arguments to remove a mutant
 HOOK_TEXT = "kernels/frame/hook"
-# Where mutants of shared text run: in a build whose device is the twins, unless a test names one.
+# Mutants of shared text run in a build whose device is the twins, unless a test names a device.
 TWINS = ("tracer/device/device.c", "\treturn choice && strcmp",
          '\treturn !choice ? getenv("RELUME_TWINS") != NULL : strcmp')
 TWINS_TESTS = ("golden/", "truth/", "look/", "real/test_panels", "real/test_textures", "real/test_shapes",
@@ -73,7 +74,7 @@ def sources(folder):
 
 
 def texts_of(test):
-    """A test's own sources: those of its name, and of the program or the folder that it records (test_panels:
+    """A test's own sources: those with its name, and those of the program or folder that it records (test_panels:
     panels/)."""
     own = test.name.replace("/test_", "/")
     return [
@@ -83,7 +84,7 @@ def texts_of(test):
 
 
 def drawn():
-    """Sites in turn: kind by kind, folder by folder, the lowest names first."""
+    """Sites in a fixed order: by kind and folder in turn, lowest digests first."""
     queues = {(kind, folder): [] for kind in sites.KINDS for folder in FOLDERS}
     for folder in FOLDERS:
         for path in sources(folder):
@@ -97,11 +98,11 @@ def drawn():
 
 
 class Mutants:
-    """The clone with all mutants in one build."""
+    """The clone, with all mutants in one build."""
 
     def __init__(self, folder, build, count):
         self.root, self.build = folder / "clone", folder / "clone/build"
-        # Some cannot be switched: a third more are drawn.
+        # Some cannot be switched, so a third more are drawn.
         draw = drawn()
         sites_drawn = [next(draw) for _ in range(count * 4 // 3)]
         paths = sorted({site.path for site in sites_drawn})
@@ -128,7 +129,7 @@ class Mutants:
         self.digest = digest(*(f"{number} {site.id}" for number, site in sorted(self.by_number.items())))
 
     def write(self, build, texts):
-        """The tree as it is now, with these texts; what is the same stays, and is not built again."""
+        """Write the present tree with these texts; unchanged files are kept, and so not rebuilt."""
         if not self.build.exists():
             shutil.copytree(build / "gen", self.build / "gen", copy_function=shutil.copy2)
         tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "-co", "--exclude-standard"],
@@ -147,12 +148,11 @@ class Mutants:
                     shutil.copymode(here, there)
                     changed = True
         if changed:
-            shutil.copyfile(build / "gen/kernels.c", self.build / "gen/kernels.c")  # devices keep what was
+            shutil.copyfile(build / "gen/kernels.c", self.build / "gen/kernels.c")  # devices keep the original
 
     def test(self, test, limit_s, **env):
-        """(PASSED, FAILED or SKIPPED, seconds of processor time). A process of it that needs more than limit_s is
-        ended."""
-        shutil.rmtree(self.build / "tests/cache", ignore_errors=True)  # what another mutant left
+        """(PASSED, FAILED or SKIPPED, processor seconds). Processes that need more than limit_s are ended."""
+        shutil.rmtree(self.build / "tests/cache", ignore_errors=True)  # left by another mutant
         begin, was = spent_s(), {name: os.environ.get(name) for name in env}
         soft, hard = resource.getrlimit(resource.RLIMIT_CPU)
         os.environ.update(env)
@@ -193,7 +193,7 @@ class Campaign:
         return {"RELUME_TWINS": "1"} if way == "twins" else {}
 
     def see(self, end):
-        """Run each test once, until a time: which mutants it could notice."""
+        """Run each test once, within a time limit, and note the mutants that it could notice."""
         path = self.file.with_name("seen")
         for way in ("device", "twins"):
             for test in sorted(self.tests, key=lambda t: (not t.name.startswith(QUICK), t.command.suffix)):
@@ -229,13 +229,13 @@ class Campaign:
         return sorted(able, key=lambda t: (0.2 + self.map[f"{way} {t.name}"]["seconds"]) / (1 + noticed.get(t.name, 0)))
 
     def is_sure(self, test, way, limit_s):
-        """Whether a test passes without a mutant: asked once in a campaign."""
+        """Whether a test passes without a mutant; checked once per campaign."""
         if (way, test.name) not in self.sure:
             self.sure[way, test.name] = self.mutants.test(test, limit_s, **self.env(way))[0] == PASSED
         return self.sure[way, test.name]
 
     def judge(self, number, site):
-        """The verdict of a mutant. Tests that passed before are not run again."""
+        """The verdict on a mutant. Tests that passed before are not repeated."""
         way, begin, before = self.way(site), spent_s(), self.verdicts.get(site.id)
         of = digest((ROOT / site.path).read_text())
         if before and before["of"] == of and before["by"] and before["text"] == self.texts.get(before["by"]):
@@ -251,7 +251,7 @@ class Campaign:
         ]
         if not able:
             return {
-                **verdict, "why": "what no test can tell from what was" if any(
+                **verdict, "why": "no test can distinguish it" if any(
                     number in s["reached"] for s in seen.values()) else "no test runs it"
             }
         for test in self.likely_first(site, able, way):
@@ -321,8 +321,8 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--only", help="a folder")
-    parser.add_argument("--count", type=int, default=200, help="about so many mutants")
+    parser.add_argument("--count", type=int, default=200, help="approximate number of mutants")
     parser.add_argument("--seconds", type=float, default=1e9,
-                        help="by the clock; then it stops, and goes on the next time")
+                        help="wall time limit; the next run continues")
     parser.add_argument("--most", type=float, default=120, help="seconds of processor time for a mutant")
     sys.exit(main(parser.parse_args()))

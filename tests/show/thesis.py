@@ -1,16 +1,16 @@
 #!/usr/bin/python3
-"""tests/show/thesis.py BUILD (as `make show-thesis`): five scenes at 800 x 600, beside a thesis' figures and two
-renderers.
+"""tests/show/thesis.py BUILD (as `make show-thesis`): five scenes at 800 x 600, compared with the figures of a thesis
+and with two renderers.
 
-The scenes are those of a thesis of 2016 on ray tracing for OpenGL programs: a Cornell box of 34 triangles; with a model
-of 100,000; the same with a mirror wall; with a box of glass; a columned hall of 262,267 triangles. Its frames per
-second are a GTX 970's (and an Iris 6100's); ours are this machine's, so that these two only stand side by side.
+The scenes are those of a 2016 thesis on ray tracing for OpenGL programs: a Cornell box of 34 triangles; with a model of
+100,000; the same with a mirror wall; with a box of glass; a columned hall of 262,267 triangles. The thesis gives frames
+per second on a GTX 970 (and an Iris 6100); ours are from this machine, so the two are only shown side by side.
 
-POV-Ray and Blender Cycles (1 sample a pixel, 4 bounces) render the same frame, exported by `relume export`; all three
-run one after the other on the same cores, and ratios are theirs to ours. What is compared: the whole time that a frame
-takes (decoding or reading, building, tracing, writing), and tracing alone: for us what tracer_render takes, trees
-included; for POV-Ray its own "Trace Time". Cycles does not tell them apart: both are its render call, the second of
-two, data kept.
+POV-Ray and Blender Cycles (1 sample per pixel, 4 bounces) render the same frame, exported by `relume export`. All three
+run in turn on the same cores, and the ratios are theirs to ours. Two times are compared: the whole frame (decoding or
+reading, building, tracing, writing), and tracing alone. For us, tracing is the time of tracer_render, including trees;
+for POV-Ray it is its own "Trace Time". Cycles does not separate them: both are its render call, the second of two, with
+data kept.
 """
 import json
 import math
@@ -37,8 +37,8 @@ SCENES = {  # name: program, options, the thesis' frames per second on a GTX 970
 }
 FRAMES = 5
 SHOWN = 2
-ROUNDS = 3  # of which medians are taken
-BAR = 15  # times POV-Ray, whole, and times Cycles
+ROUNDS = 3  # figures are their medians
+BAR = 15  # minimum ratios to POV-Ray (whole frame) and to Cycles
 
 
 def run(command, **more):
@@ -50,18 +50,18 @@ def run(command, **more):
 
 
 def ours(build, trace, folder):
-    """Frames per second: whole, and in the tracer alone."""
+    """Frames per second: whole frames, and the tracer alone."""
     command = [
         build / "relume", "render", trace, "-o", folder / "####.exr", "-f", f"0-{FRAMES - 1}", "--progress", "json"
     ]
-    run(command)  # kernels are compiled once
+    run(command)  # compile the kernels before measuring
     begin = time.monotonic()
     run(command)
     whole = FRAMES / (time.monotonic() - begin)
     lines = run([*command, "--jobs", "1"]).stdout
     seconds = sorted(told["seconds"] for told in map(json.loads, lines.splitlines()) if told["event"] == "frame")
     if len(seconds) != FRAMES:
-        sys.exit(f"{len(seconds)} of {FRAMES} frames told their time:\n{lines}")
+        sys.exit(f"{len(seconds)} of {FRAMES} frames reported their time:\n{lines}")
     return whole, 1 / seconds[FRAMES // 2]
 
 
@@ -88,7 +88,7 @@ def pov_mesh(glb, node, primitive, out):
     base = pbr["baseColorFactor"]
     faces = [index[i:i + 3] for i in range(0, len(index), 3)]
     named = sorted({tuple(c[:3]) for c in colors})
-    if named:  # colours of faces: those of their first vertices
+    if named:  # faces have the colours of their first vertices
         out.write(f"texture_list {{{len(named)}," +
                   ",".join(f"texture {{pigment {{rgb <{c[0]:.5g},{c[1]:.5g},{c[2]:.5g}> transmit {through:.5g}}}}}"
                            for c in named) + "}\n")
@@ -108,7 +108,7 @@ def pov_mesh(glb, node, primitive, out):
 
 
 def write_pov(glb, path):
-    """The frame in POV-Ray's words, in eye space; without textures, which spares POV-Ray the look-ups."""
+    """The frame as a POV-Ray scene in eye space, without textures, which spares POV-Ray the look-ups."""
     with open(path, "w", encoding="ascii") as out:
         out.write("#version 3.7;\nglobal_settings {assumed_gamma 1 max_trace_level 5}\n")
         camera = glb.json["cameras"][0]["perspective"]

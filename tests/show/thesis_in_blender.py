@@ -6,7 +6,7 @@ import time
 import bpy
 import numpy
 
-if not hasattr(numpy, "bool"):  # Debian 12's Blender 3.4.1 names an alias that its NumPy 1.24 no longer has
+if not hasattr(numpy, "bool"):  # Debian 12's Blender 3.4.1 uses an alias that NumPy 1.24 has removed
     numpy.bool = bool
 
 path, out = sys.argv[sys.argv.index("--") + 1:][:2]

@@ -1,6 +1,5 @@
-"""What portal culling leaves out, beside the whole level (corpus/rooms; the viewer walks through all rooms, so that
-other frames show it): does the culled recording have the shadows and mirrors of the whole one, by what other frames
-draw?"""
+"""Geometry that portal culling leaves out (corpus/rooms; the viewer walks through all rooms, so other frames draw it).
+With the geometry of other frames, does the culled recording show the shadows and mirrors of the whole level?"""
 import pathlib
 import re
 import subprocess
@@ -13,18 +12,18 @@ import sheet
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SEEDS, FRAMES, SHOWN = (5, 7), 120, (6, 40, 90)
 BAR = 99 # per cent of the pixels
-NEAR = 2 # codes of 255
+NEAR = 2 # codes, of 255
 
 
 def equal_share(first, second):
-    """Per cent of the pixels that show the same, shadows and mirrors included."""
+    """Percentage of equal pixels, shadows and mirrors included."""
     apart = numpy.abs(
         sheet.display(exr_numpy.Image(first)).astype(int) - sheet.display(exr_numpy.Image(second)).astype(int))
     return float(100 * (apart.max(axis=-1) <= NEAR).mean())
 
 
 def rows(build, work):
-    """One row a seed: the worst frame, without and with what other frames draw."""
+    """One row per seed: the worst frame, with and without the geometry of other frames."""
     for seed in SEEDS:
         for cull in ("none", "portal"):
             sheet.run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", work / f"{cull}.trace", "--",
@@ -32,7 +31,7 @@ def rows(build, work):
                       "--lighting", "opengl", "--cull", cull)
         found, none = work / "found.look.yaml", work / "none.look.yaml"
         sheet.run(build / "relume", "look", work / "portal.trace", "-o", found)
-        # Only what is out of sight: what else rules find differs a little, as the two recordings do.
+        # Keep only the rules for unseen geometry: the others differ slightly between the two recordings.
         unseen, world = re.search(r"\nunseen:\n(?:  .*\n)+",
                                   found.read_text()), re.search(r"\nworld:\n(?:  .*\n?)+", found.read_text())
         found.write_text("spare: no" + (unseen[0] if unseen else "\n") + world[0])
