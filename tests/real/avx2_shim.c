@@ -1,8 +1,8 @@
 /*
- * A processor without AVX-512: preloaded, it shows a program no more of this one than a Haswell has, so that PoCL
- * compiles kernels as on a Haswell, whichever LLVM it has inside. The processor faults on CPUID (arch_prctl(2),
- * ARCH_SET_CPUID), and a handler answers instead. A processor that cannot do that ends the program with code 77. Give
- * PoCL a POCL_CACHE_DIR apart: 3.1 tells kernels' processors apart by their name alone.
+ * Hides AVX-512. Preloaded, it makes CPUID report a Haswell, so that PoCL compiles kernels as on a Haswell, whatever
+ * LLVM version it contains. The processor faults on CPUID (arch_prctl(2), ARCH_SET_CPUID), and a handler supplies the
+ * answer. If the processor cannot do that, the program exits with code 77. Give PoCL a separate POCL_CACHE_DIR: version
+ * 3.1 distinguishes processors only by name.
  */
 #include <asm/prctl.h>
 #include <cpuid.h>
@@ -14,16 +14,16 @@
 #include <ucontext.h>
 #include <unistd.h>
 
-#define HASWELL 0x306c3u /* its family, model and stepping: Intel's manual, volume 2, CPUID leaf 1 */
+#define HASWELL 0x306c3u /* family, model and stepping: Intel's manual, volume 2, CPUID leaf 1 */
 
-/* Bits of leaf 7 that say AVX-512 or what grew out of it. */
+/* Bits of leaf 7 for AVX-512 and its later extensions. */
 #define LEAF7_EBX (1u << 16 | 1u << 17 | 1u << 21 | 1u << 26 | 1u << 27 | 1u << 28 | 1u << 30 | 1u << 31)
 #define LEAF7_ECX (1u << 1 | 1u << 6 | 1u << 11 | 1u << 12 | 1u << 14)
 #define LEAF7_EDX (1u << 2 | 1u << 3 | 1u << 8 | 1u << 23)
 #define LEAF7_1_EAX (1u << 5)
 #define LEAF7_1_EDX (1u << 19)
 
-static struct sigaction others; /* what other faults do */
+static struct sigaction others; /* handler for all other faults */
 
 typedef int set_function(int, const struct sigaction *, struct sigaction *);
 
@@ -32,7 +32,7 @@ static int set_action(int number, const struct sigaction *action, struct sigacti
 	return ((set_function *)dlsym(RTLD_NEXT, "sigaction"))(number, action, before);
 }
 
-/* LLVM has a handler of its own while it writes files. */
+/* LLVM installs a handler of its own while it writes files. */
 int sigaction(int number, const struct sigaction *action, struct sigaction *before)
 {
 	const struct sigaction was = others;
@@ -70,7 +70,7 @@ static void on_fault(int number, siginfo_t *info, void *context)
 	const unsigned char *at = (const unsigned char *)registers[REG_RIP];
 	uint32_t out[4];
 
-	/* A fault at an address is another one; code at the end of a page is not read past it. */
+	/* A fault with an address has another cause. Do not read code beyond the end of its page. */
 	if (info->si_code != SI_KERNEL || at[0] != 0x0f || at[1] != 0xa2) {
 		set_action(number, &others, NULL);
 		return;

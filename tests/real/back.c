@@ -1,6 +1,6 @@
 /*
- * 240 frames, each with one more stripe of a window that is cleared by every 20th, but by none after frame 140. A
- * texture of noise for each fills the recording, so that it has checkpoints. Recorded by test_back.py.
+ * 240 frames, each adding a stripe to the window. Every 20th frame clears it, but none after frame 140 does. A noise
+ * texture per frame enlarges the recording, so that it has checkpoints. Recorded by test_back.py.
  */
 #include <stdint.h>
 

@@ -1,13 +1,15 @@
 /*
- * What stands in light's way, and what only seems to. tests/look/test_blocking.py records one kind of frames at a time:
+ * Objects that block light, and others that only seem to. tests/look/test_blocking.py records one kind of frame at a
+ * time:
  *
  *   far      a floor around the viewer, 0, 3,000, 30,000 and 100,000 units from the origin; the last one again in
  *            units of 1/10,000
  *   plane    a floor of one quad, of half size 100, 10,000, 100,000; the first and the last one with a box
  *   passes   boxes on a floor under two lights: at once; depth first, then light by light under GL_EQUAL; the same by
- *            a list under GL_LEQUAL, whose first light replaces; boxes by depth, and then blended by their alpha
- *   sky      a box on a floor: alone; after 18 draws of a sky about the viewer, whose depth is cleared; before a
- *            clear of the depth and a hand in front of the light
+ *            a list under GL_LEQUAL, whose first light replaces; boxes by depth, and then blended by their
+ *            alpha
+ *   sky      a box on a floor: alone; after 18 draws of a sky around the viewer, whose depth is then cleared;
+ *            before a depth clear and a hand in front of the light
  *   globe    a lamp over a floor: alone; in an unlit globe of twelve strips; in a lit one of one draw; in a lit box
  *            of six draws; in an unlit globe without normals; beside a globe
  */
@@ -20,7 +22,7 @@
 static const float box_faces[6][4] = { { 0, 0, 1, 0 },   { 90, 0, 1, 0 }, { 180, 0, 1, 0 },
 	                               { 270, 0, 1, 0 }, { 90, 1, 0, 0 }, { -90, 1, 0, 0 } };
 
-/* Each face is a draw of its own. Boxes stand a little above floors: no two surfaces are equally far. */
+/* Each face is a separate draw. Boxes float slightly above floors, so that no two surfaces have the same depth. */
 static void box(float x, float y, float z, float half)
 {
 	for (int k = 0; k < 6; k++) {
@@ -38,7 +40,7 @@ static void box(float x, float y, float z, float half)
 	}
 }
 
-/* Tiles of a unit around (x, y, z), and a unit below. */
+/* Unit tiles around (x, y, z), one unit below. */
 static void tiles(float x, float y, float z, float unit)
 {
 	glNormal3f(0, 1, 0);
@@ -237,7 +239,7 @@ static void corner(int around, int down, float r, int normals)
 	glVertex3f(r * x, r * y, r * z);
 }
 
-/* Strips from pole to pole, one draw each or all in one. */
+/* Strips from pole to pole, each a draw or all in one draw. */
 static void globe(float r, int is_one, int normals)
 {
 	if (is_one)

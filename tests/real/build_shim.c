@@ -1,14 +1,14 @@
 /*
- * What an OpenCL compiler takes: preloaded before the ICD loader, it writes a line for each program into the file that
- * BUILD_LOG names, at the end of the process:
+ * Measures OpenCL compilation. Preloaded before the ICD loader, it writes a line per program into the file named by
+ * BUILD_LOG when the process ends:
  *
  *     source|binary SECONDS KERNELS
  *     launch SECONDS KERNEL
  *
- * Seconds of processor time of the whole process, in building, in making kernels, and in the first launch of each, as
- * some compile there; kernels with ';' between them. PoCL compiles a kernel in a thread of its own, once the launch is
- * queued: with BUILD_FINISH a first launch counts until it has ended, with what it runs, and has a line of its own. Run
- * one frame at a time: what other threads do meanwhile counts, too.
+ * Seconds are processor time of the whole process spent on building, on creating kernels, and on the first launch of
+ * each kernel, because some implementations compile then. KERNELS are separated by ';'. PoCL compiles a kernel in a
+ * separate thread once the launch is queued: with BUILD_FINISH, a first launch counts until it has finished, including
+ * its execution, and has a line of its own. Run one frame at a time: the time of other threads counts, too.
  */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -32,7 +32,7 @@ static cl_kernel launched[MOST_KERNELS];
 static struct {
 	double seconds;
 	char kernel[64];
-} launches[MOST_KERNELS]; /* the first of each, with BUILD_FINISH */
+} launches[MOST_KERNELS]; /* first launch of each, with BUILD_FINISH */
 static int n_programs, n_launched;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
@@ -44,7 +44,7 @@ static double clock_s(void)
 	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Add to a program's account; open one where there is none. */
+/* Add to a program's account, creating it if necessary. */
 static void spend(cl_program program, int is_binary, double seconds)
 {
 	int i = 0;
@@ -119,7 +119,7 @@ cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint 
 		i = MOST_KERNELS;
 	pthread_mutex_unlock(&lock);
 	if (i < MOST_KERNELS && getenv("BUILD_FINISH"))
-		clFinish(queue); /* what came before is not counted */
+		clFinish(queue); /* exclude earlier work */
 	begin = clock_s();
 	code = REAL(clEnqueueNDRangeKernel)(queue, kernel, dimensions, offset, global, local, n, wait, event);
 	if (i < MOST_KERNELS && getenv("BUILD_FINISH")) {

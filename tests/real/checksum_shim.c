@@ -1,7 +1,7 @@
 /*
  * Preloaded into a program by test_record_same_pixels.sh: prints a checksum of every frame, and ends the program after
- * SHIM_FRAMES of them. The clock that glxgears turns its wheels by stands still but for 20 ms a frame, so that two runs
- * must draw the same.
+ * SHIM_FRAMES frames. The clock that turns glxgears' wheels advances only 20 ms per frame, so that two runs draw the
+ * same.
  */
 #include <dlfcn.h>
 #include <stdint.h>

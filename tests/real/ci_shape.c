@@ -1,4 +1,4 @@
-/* The library that ci_viewer.c links: which way its triangle faces. */
+/* A library that ci_viewer.c links; it decides which way the triangle faces. */
 float shape_facing(void)
 {
 	return FACING;

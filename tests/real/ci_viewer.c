@@ -1,6 +1,6 @@
 /*
- * A viewer as test_ci.py records it: what it draws depends on a file that its argument names, on one that nothing
- * names, on a library that it links, on a variable, on itself (SHINE), and on key s, which makes things half as large.
+ * A viewer for test_ci.py. Its picture depends on a file named by its argument, on one that nothing names, on a library
+ * that it links, on a variable, on its own code (SHINE), and on key s, which halves all sizes.
  *
  *   cc -DSHINE=0 -o viewer tests/real/ci_viewer.c -L. -lshape -lglut -lGL -lm
  */
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-float shape_facing(void); /* of libshape.so: 1 or -1 */
+float shape_facing(void); /* in libshape.so: 1 or -1 */
 
 static float points[6], scale = 1;
 static int frame, frames;

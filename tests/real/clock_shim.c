@@ -1,5 +1,5 @@
-/* The time of day jumps by a day, forwards and backwards, at every tenth question (LD_PRELOAD; tests/show/soak.py). The
- * monotonic clock does not. */
+/* Makes the time of day jump by a day, forwards or backwards, at every tenth query (LD_PRELOAD; tests/show/soak.py).
+ * The monotonic clock is unaffected. */
 #include <dlfcn.h>
 #include <stddef.h>
 #include <sys/time.h>

@@ -1,7 +1,6 @@
 /*
- * A program that is hard on recorders: after its third frame it closes every descriptor but the standard ones, its
- * display's included ones spared, and opens a file of its own for each number that became free. Run by
- * test_record_durable.sh.
+ * A program that is hard on recorders. After its third frame it closes all regular files except the standard
+ * descriptors, and opens a file of its own for each number that became free. Run by test_record_durable.sh.
  */
 #include <GL/gl.h>
 #include <GL/glx.h>
@@ -12,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Regular files that are not ours: only these are closed, as the GL library needs its own descriptors. */
+/* Close regular files that others opened. Other descriptors stay open, because the GL library needs its own. */
 static void close_files(void)
 {
 	for (int fd = 3; fd < 1024; fd++) {

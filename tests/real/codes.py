@@ -1,5 +1,4 @@
-"""Pictures as codes of 8 bits, read by oiiotool. It writes them as OpenEXR: its PPM stands on its head in some
-versions."""
+"""Pictures as 8-bit codes, read by oiiotool. It writes OpenEXR, because some versions turn PPM upside down."""
 import numpy
 
 from exr import Image
@@ -7,7 +6,7 @@ from helpers import SCRATCH, must, run
 
 
 def codes(picture, *steps):
-    """Codes with their fractions, [channel][row][column], after more steps of oiiotool's."""
+    """Codes with fractions, [channel][row][column], after further oiiotool steps."""
     raw = SCRATCH / "codes.exr"
     must(run("oiiotool", picture, "--ch", "R,G,B", *steps, "-d", "float", "--compression", "none", "-o", raw))
     picture = Image(raw)

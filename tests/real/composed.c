@@ -1,7 +1,8 @@
 /*
- * A window of two views and a board over both, as toolkits compose them: each view a floor, a box over it and a lamp.
- * Frame after frame the same: drawn there, through framebuffer objects, shown again, by a blit, the objects drawn
- * later than shown, and then shown again up to the number of frames that is given. Recorded by test_composed.py.
+ * A window with two views and a board over both, as toolkits compose them; each view has a floor, a box on it and a
+ * lamp. All frames look the same but are made differently: drawn directly; through framebuffer objects; the objects
+ * shown again; by a blit; with objects drawn after they are shown; and then shown again up to the given number of
+ * frames. Recorded by test_composed.py.
  */
 #include "tests/trace/window.h"
 
@@ -19,7 +20,7 @@ static void box(float x, float y, float z, float r)
 	glEnd();
 }
 
-/* Into the viewport and scissor that are set. */
+/* Draws into the current viewport and scissor. */
 static void view(int number)
 {
 	const float lamp[4] = { number ? -1.0f : 1.0f, 3, 1, 1 };
@@ -98,7 +99,7 @@ static void blit(int number)
 	glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
 }
 
-/* Half transparent, over a part of both views. */
+/* Half transparent, covering part of both views. */
 static void board(void)
 {
 	glViewport(0, 0, window_size[0], window_size[1]);

@@ -1,5 +1,5 @@
 /*
- * Preloaded before the recorder by tests/show/kill.py: counts the frames whose swap has come back to the program, in a
+ * Preloaded before the recorder by tests/show/kill.py: counts the frames whose swap has returned to the program, in a
  * file that outlives it (KILL_COUNTER: process number, then frames, 8 bytes each).
  */
 #include <dlfcn.h>

@@ -1,8 +1,8 @@
 /*
- * A room without windows, seen from inside, and a lamp above its roof. Frame 0: the roof's halves meet in a T-junction,
- * whose corner does not lie quite on the edge, and light falls through. Frame 1: a die between the viewer and bright
- * stripes; the faces that look away from him are the wrong way round. Frame 2: the same die as it should be. Frame 3:
- * all its faces are the wrong way round. Recorded by test_cracks.py.
+ * A room without windows, seen from inside, and a lamp above its roof. Frame 0: the roof's halves meet in a T-junction
+ * whose corner is not exactly on the edge, so that light leaks through. Frame 1: a die between the viewer and bright
+ * stripes; its faces that are turned away from the viewer have reversed winding. Frame 2: the same die with correct
+ * winding. Frame 3: all its faces reversed. Recorded by test_cracks.py.
  */
 #include "tests/trace/window.h"
 
@@ -51,7 +51,7 @@ static void draw_stripes(void)
 	glEnd();
 }
 
-/* Sides 1, 2 and 5 look away from the viewer. turned: a bit for each side that is clockwise */
+/* Sides 1, 2 and 5 face away from the viewer. turned: a bit for each side with clockwise winding */
 static void draw_die(unsigned turned)
 {
 	static const int sides[6][4] = { { 4, 5, 7, 6 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 },

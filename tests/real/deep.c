@@ -1,7 +1,7 @@
 /*
- * Deep blending: pixels under far more fragments than a camera kernel finds at once, slices of a texture of three
- * dimensions for the most part. Recorded by test_deep.py. With a number: so many frames of 256 slices that fill 512 x
- * 512 pixels, for show-reach.
+ * Deep blending: pixels under far more fragments than a camera kernel collects at once, most of them slices of a 3D
+ * texture. Recorded by test_deep.py. With a number N as argument: N frames of 256 slices that fill 512 x 512 pixels,
+ * for show-reach.
  */
 #include "tests/trace/window.h"
 
@@ -34,7 +34,7 @@ static void slice(float z)
 	}
 }
 
-/* Slices of a cube, turned a little and seen in perspective. */
+/* Slices of a cube, slightly rotated and in perspective. */
 static void slices(int backwards, int at_once)
 {
 	glPushMatrix();

@@ -1,6 +1,6 @@
 /*
- * Depth that the frame does not clear: never cleared and never looked at, compared with as it began, written, kept by a
- * frame that does not look at it, and cleared. Recorded by test_depths.py.
+ * Depth buffers that a frame does not clear: neither cleared nor used; compared with the initial depth; written; kept
+ * by a frame that does not use depth; and cleared. Recorded by test_depths.py.
  */
 #include "tests/trace/window.h"
 

@@ -1,5 +1,5 @@
-/* Two frames while pixels are read from another window, smaller than the one that is drawn, and two with one for both.
- * Recorded by test_record_elsewhere.py. */
+/* Two frames with the read drawable set to another, smaller window, and two with one window for both reading and
+ * drawing. Recorded by test_record_elsewhere.py. */
 #include "tests/trace/window.h"
 
 static void draw(void)

@@ -1,5 +1,5 @@
-/* Three frames, the second of a window without pixels, as its markers say; or so many such frames in its place.
- * Recorded by test_empty.py. */
+/* Three frames; the second has a window without pixels, as its markers say. An argument gives another number of such
+ * frames in its place. Recorded by test_empty.py. */
 #include "tests/trace/window.h"
 
 static void mark(const char *text)

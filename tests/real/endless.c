@@ -1,6 +1,6 @@
 /*
- * Three programs, a stripe of the window each: a short loop, a loop in the fragment stage that is longer than is run,
- * and the same loop in the vertex stage. Frame 0 draws the first alone. Recorded by test_endless.py.
+ * Three programs, each drawing a stripe of the window: a short loop, a fragment shader loop beyond the limit, and the
+ * same loop in a vertex shader. Frame 0 draws only the first. Recorded by test_endless.py.
  */
 #include "tests/trace/window.h"
 

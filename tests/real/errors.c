@@ -1,6 +1,6 @@
 /*
- * Calls at the borders of what OpenGL takes, one after the other, and what glGetError says after each: "CALL ERROR" a
- * line. Recorded by test_errors.py, where the replay has to find the same ones wrong.
+ * Calls at the limits of what OpenGL accepts, each followed by glGetError; prints "CALL ERROR" lines. Recorded by
+ * test_errors.py, where the replay has to report the same errors.
  */
 #include "tests/trace/window.h"
 

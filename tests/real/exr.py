@@ -1,7 +1,7 @@
-"""A reader of the OpenEXR files that the tests look into: one part, scan lines, ZIP or uncompressed, half or float.
+"""A reader for the OpenEXR files that tests examine: one part, scan lines, ZIP or uncompressed, half or float.
 
-After the file layout document of openexr.com; nothing of Relume's own reader or writer is used, so that it is a second
-opinion on what was written.
+Follows the file layout document of openexr.com. It shares nothing with Relume's own reader and writer, so it is an
+independent check of their files.
 """
 import array
 import struct
@@ -42,7 +42,9 @@ def _channels(chlist):
 
 
 def _unzip(packed):
-    """ZIP of OpenEXR: deflate over bytes split into even and odd ones, each the difference to the one before."""
+    """Undo OpenEXR's ZIP: deflate over bytes split into even and odd ones, each stored as the difference from its
+    predecessor.
+    """
     raw = bytearray(zlib.decompress(packed))
     for i in range(1, len(raw)):
         raw[i] = (raw[i - 1] + raw[i] - 128) & 255
@@ -53,14 +55,14 @@ def _unzip(packed):
 
 
 def attribute(path, name):
-    """An attribute's bytes, without the pixels; None where there is none."""
+    """An attribute's bytes, without the pixels; None if missing."""
     with open(path, "rb") as file:
         return _attributes(file.read())[0].get(name)
 
 
 class Image:
     def __init__(self, path, wanted=None):
-        """Read a file; `wanted`: only these channels (others are skipped, which is faster)."""
+        """Read a file; `wanted`: only these channels (skipping the others saves time)."""
         with open(path, "rb") as file:
             data = file.read()
         self.attributes, at = _attributes(data)

@@ -1,28 +1,27 @@
 /*
- * An OpenCL device that fails, or has less than it seems: preloaded before the ICD loader, with a real device
- * underneath.
- *   FAIL_CALL=N      the N-th call (from 1) fails; FAIL_NAME=clName: the N-th of this function
- *   FAIL_GONE=1      and so does every later one
- *   FAIL_CODE=-N     with this error; CL_OUT_OF_RESOURCES
- *   FAIL_ONLY=1      on the first device used alone: others go on. Of launches only
- *   COUNT_CALLS=FILE leaves there the number of calls, the most memory that was used, and the largest buffer's
- *   EDIT=THIS|THAT   compiles kernels that have THAT where their text has THIS
- *   DIE=WORD         ends the process when such a kernel is to run
- *   HANG=WORD        never returns when such a kernel is to run
+ * An OpenCL device that fails or has limited resources: preloaded before the ICD loader, on top of a real device.
+ *   FAIL_CALL=N      the N-th call (from 1) fails; FAIL_NAME=clName: the N-th call of this function
+ *   FAIL_GONE=1      all later calls fail, too
+ *   FAIL_CODE=-N     error code; default CL_OUT_OF_RESOURCES
+ *   FAIL_ONLY=1      only on the first device used; others work. For launches only
+ *   COUNT_CALLS=FILE receives the number of calls, the peak memory, and the size of the largest buffer
+ *   EDIT=THIS|THAT   replaces THIS by THAT in the text of kernels
+ *   DIE=WORD         ends the process when a kernel with WORD in its name is launched
+ *   HANG=WORD        never returns when such a kernel is launched
  *   FAULT=HOW,WHERE,WORD,N  the N-th (from 1) call of a kind goes wrong in this process. WHERE: build (of programs
- *                    whose text has WORD), create or launch (of kernels whose name has it), thread (as launch, in a
- *                    thread of the driver's own). HOW: abort, segv, exit, hang, spin (hangs and computes), code
- *                    (returns an error that OpenCL does not have). Several with ';'
- *   FAULT_MET=FILE   gets a line for each of these
- *   FAULT_WITH=WORD  only in processes that have made a kernel whose name has this
- *   SLOW_BUILD=N     compiles for so many seconds and a half longer
- *   AS_TYPE=gpu      says that it is a GPU (accelerator: one of these)
- *   AS_PLATFORM=NAME, AS_DRIVER=VERSION  says so
- *   AS_MEMORY=N      has so many bytes of memory
- *   AS_BUFFER=N      makes no buffer that is larger
- *   MOST_ITEMS=N     cannot run launches of more work items
- *   ITEM_NS=N        says that a work item takes so long. A launch of over a second is killed, and nothing works after
- *                    that
+ *                    whose text contains WORD), create or launch (of kernels whose name contains
+ *                    it), thread (as launch,
+ *                    in a thread of the driver's own). HOW: abort, segv, exit, hang, spin (hangs and
+ *                    computes), code
+ *                    (returns an error that OpenCL does not define). Separate several faults by ';'
+ *   FAULT_MET=FILE   receives a line for each of these
+ *   FAULT_WITH=WORD  only in processes that have created a kernel whose name contains WORD
+ *   SLOW_BUILD=N     compiling takes N and a half seconds longer
+ *   AS_TYPE=gpu      the device claims to be a GPU (accelerator: likewise)
+ *   AS_PLATFORM=NAME, AS_DRIVER=VERSION  reported instead of the real ones
+ *   AS_MEMORY=N      reports N bytes of memory
+ *   AS_BUFFER=N      refuses larger buffers
+ *   MOST_ITEMS=N     refuses launches of more work items
  */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -50,7 +49,7 @@ static unsigned long long number(const char *name)
 	return text ? strtoull(text, NULL, 10) : 0;
 }
 
-/* Whether what is done on a queue's device may fail. */
+/* Whether calls on a queue's device may fail. */
 static int is_chosen(cl_command_queue queue)
 {
 	cl_device_id device = NULL, none = NULL;
@@ -61,7 +60,7 @@ static int is_chosen(cl_command_queue queue)
 	return atomic_compare_exchange_strong(&first, &none, device) || none == device;
 }
 
-/* How a call ends before it begins, or CL_SUCCESS. */
+/* The error of a call that must fail, or CL_SUCCESS. */
 static cl_int fate(const char *name)
 {
 	const char *only = getenv("FAIL_NAME"), *code = getenv("FAIL_CODE");
@@ -88,9 +87,9 @@ __attribute__((destructor)) static void leave_count(void)
 	}
 }
 
-/* --- Calls that do nothing but fail ------------------------------------------------------------------------------ */
+/* --- Calls that only fail --------------------------------------------------------------------------------------- */
 
-/* Functions that return a code, and those that return an object and put the code at the end. */
+/* CODE is for functions that return a code, OBJECT for those that return an object and pass the code last. */
 #define CODE(name, parameters, ...) \
 	cl_int name parameters \
 	{ \
@@ -148,9 +147,9 @@ OBJECT(void *, clEnqueueMapBuffer,
         const cl_event *events, cl_event *event, cl_int *code),
        q, m, wait, how, at, size, n, events, event)
 
-/* --- Calls that a device answers otherwise ----------------------------------------------------------------------- */
+/* --- Calls with changed results --------------------------------------------------------------------------------- */
 
-/* Whether a kernel's name holds the word that a variable names. */
+/* Whether a kernel's name contains the word in an environment variable. */
 static int is_named(const char *variable, cl_kernel kernel)
 {
 	const char *word = getenv(variable);
@@ -165,18 +164,18 @@ static int is_named(const char *variable, cl_kernel kernel)
 #define MOST_FAULTS 8
 #define RUBBISH (-12345)
 
-static atomic_int has_kernel; /* of FAULT_WITH */
-static int met_file = -1;     /* of FAULT_MET */
+static atomic_int has_kernel; /* for FAULT_WITH */
+static int met_file = -1;     /* for FAULT_MET */
 static atomic_long met[MOST_FAULTS];
 
-/* Before a sandbox is there. */
+/* Opened before the sandbox is set up. */
 __attribute__((constructor)) static void open_met(void)
 {
 	if (getenv("FAULT_MET"))
 		met_file = open(getenv("FAULT_MET"), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
 }
 
-/* Goes wrong. @return what the call returns */
+/* Apply the fault. @return the code that the call returns */
 static cl_int go_wrong(const char *how)
 {
 	static int *volatile nowhere;
@@ -203,7 +202,7 @@ static void *go_wrong_apart(void *how)
 	return NULL;
 }
 
-/* A call of a kind, on something with a name or text. */
+/* Check a call against FAULT. text: name or source of its object */
 static cl_int meet(const char *where, const char *text)
 {
 	const char *all = getenv("FAULT");
@@ -239,7 +238,7 @@ cl_kernel clCreateKernel(cl_program program, const char *name, cl_int *code)
 	return *code ? NULL : REAL(clCreateKernel)(program, name, code);
 }
 
-/* The last launches that somebody measures. */
+/* The most recent launches with profiling events. */
 #define N_LAUNCHES 256
 static struct launch {
 	cl_event event;
@@ -322,7 +321,7 @@ cl_int clReleaseMemObject(cl_mem mem)
 	return REAL(clReleaseMemObject)(mem);
 }
 
-/* A text with its first `this` replaced; NULL: there is none. */
+/* A text with its first `this` replaced, or NULL if it has none. */
 static char *edited(const char *text, const char *this, size_t n, const char *that)
 {
 	const char *at = memmem(text, strlen(text), this, n);
@@ -333,7 +332,7 @@ static char *edited(const char *text, const char *this, size_t n, const char *th
 	return out;
 }
 
-/* Texts end with a 0, as ours do. */
+/* Relume passes texts that end with a 0. */
 cl_program clCreateProgramWithSource(cl_context context, cl_uint n, const char **texts, const size_t *lengths,
                                      cl_int *code)
 {
@@ -364,7 +363,7 @@ cl_int clBuildProgram(cl_program program, cl_uint n, const cl_device_id *devices
 	return code ? code : REAL(clBuildProgram)(program, n, devices, options, notify, user);
 }
 
-/* A text in place of the real one. */
+/* Return a text in place of the real one. */
 static void say(const char *text, size_t size, void *value, size_t *needed)
 {
 	if (value && size)

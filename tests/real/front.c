@@ -1,8 +1,8 @@
 /*
- * Two buffers of a window, one thing a frame: drawn to the front buffer, to both, read from it and copied, with the one
- * depth buffer that they share. Recorded by test_front.py, where frames end with each swap and each flush. Mesa's
- * software rasterizers leave in the front buffer what was drawn there before a swap (22.3.6), so that its colours are
- * cleared after each; tests/gl/test_front.c looks at what a swap puts there.
+ * Front and back buffers, one aspect per frame: drawing to the front buffer or to both, reading and copying from it,
+ * and the depth buffer that they share. Recorded by test_front.py, where frames end with each swap and each flush.
+ * Mesa's software rasterizers (22.3.6) leave the front buffer's old contents after a swap, so its colours are cleared
+ * after each; tests/gl/test_front.c tests the contents after a swap.
  */
 #include "tests/trace/window.h"
 
@@ -21,7 +21,7 @@ static void clear(float r, float g, float b)
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
-/* The back buffer alone. */
+/* Back buffer only. */
 static void back(void)
 {
 	glEnable(GL_DEPTH_TEST);
@@ -36,7 +36,7 @@ static void clear_colors(float r, float g, float b)
 	glClear(GL_COLOR_BUFFER_BIT);
 }
 
-/* A rubber band over what is there. */
+/* A rubber band over the picture. */
 static void band(void)
 {
 	glDrawBuffer(GL_FRONT);
@@ -46,14 +46,14 @@ static void band(void)
 	glLogicOp(GL_XOR);
 	panel(2, 20, 0, 50, 4, 1, 1, 1);
 	glFlush();
-	panel(20, 2, 0, 4, 40, 1, 1, 1); /* on what the band before left */
+	panel(20, 2, 0, 4, 40, 1, 1, 1); /* over the previous band */
 	glFlush();
 	glDisable(GL_COLOR_LOGIC_OP);
 	glEnable(GL_DEPTH_TEST);
 	glDrawBuffer(GL_BACK);
 }
 
-/* What is drawn to the front buffer is not in the picture, but hides by its depth what is. */
+/* Drawing to the front buffer does not change the picture, but its depth hides later drawing. */
 static void hides(void)
 {
 	clear(0, 0.2f, 0.2f);
@@ -64,7 +64,7 @@ static void hides(void)
 	end_frame();
 }
 
-/* Depths of what the back buffer got, some of them from an earlier frame. */
+/* Depths from the back buffer, some of them from an earlier frame. */
 static void hidden(void)
 {
 	clear(0.4f, 0, 0);
@@ -83,7 +83,10 @@ static void hidden(void)
 	glDrawBuffer(GL_BACK);
 }
 
-/* Both at once: the picture of the back buffer, then that of the front buffer, which lacks what came between. */
+/*
+ * Draw to both at once: the picture of the back buffer, then that of the front buffer, which lacks the drawing in
+ * between.
+ */
 static void both(void)
 {
 	glDrawBuffer(GL_FRONT_AND_BACK);
@@ -98,7 +101,7 @@ static void both(void)
 	end_frame();
 }
 
-/* As the extension and GL 2.0 say it. */
+/* With glDrawBuffers, of the extension and of GL 2.0. */
 static void listed(void)
 {
 	static const GLenum two[] = { GL_BACK_LEFT, GL_FRONT_LEFT }, one[] = { GL_FRONT_LEFT };
@@ -112,7 +115,7 @@ static void listed(void)
 	end_frame();
 }
 
-/* Pixels of the front buffer, in the back buffer. */
+/* Copy pixels from the front to the back buffer. */
 static void copied(void)
 {
 	glDisable(GL_DEPTH_TEST);
@@ -129,7 +132,7 @@ static void copied(void)
 	end_frame();
 }
 
-/* Never a swap: a clear of its own, and more on what is there. */
+/* No swaps: a clear of its own, then further drawing. */
 static void alone(void)
 {
 	glDrawBuffer(GL_FRONT);
@@ -143,7 +146,7 @@ static void alone(void)
 	glDrawBuffer(GL_BACK);
 }
 
-/* A flush after a primitive that a display list ends. */
+/* A flush after a primitive that ends in a display list. */
 static void ended_by_list(void)
 {
 	const GLuint list = glGenLists(1);

@@ -1,6 +1,6 @@
 /*
- * Preloaded into a program by test_record_full.py: writes at an offset (pwrite) to files whose name ends with FULL_NAME
- * fail with errno FULL_ERRNO once they would reach beyond FULL_BYTES, after a part of them, as on a disk that fills up.
+ * Simulates a full disk; preloaded into a program by test_record_full.py. A pwrite to a file whose name ends with
+ * FULL_NAME writes up to FULL_BYTES and then fails with errno FULL_ERRNO.
  */
 #include <dlfcn.h>
 #include <errno.h>

@@ -1,6 +1,6 @@
-"""A reader of binary glTF 2.0 that believes nothing: whatever the specification forbids raises ValueError.
+"""A strict reader of binary glTF 2.0: any violation of the specification raises ValueError.
 
-After the text of the specification (Khronos, 2.0.1, sections 3 to 5), for the rules that Relume's files can break.
+Covers the rules in the specification (Khronos, 2.0.1, sections 3 to 5) that Relume's files could break.
 """
 import json
 import math
@@ -45,7 +45,7 @@ class Glb:
                 for value in item:
                     walk(value)
         walk(self.json)
-        need(found == used, f"extensions used {found} and told {used} (3.12)")
+        need(found == used, f"extensions used {found} , declared {used} (3.12)")
 
     def _check_accessors(self):
         for view in self.json["bufferViews"]:
@@ -53,7 +53,7 @@ class Glb:
                  "bufferView's end (5.11)")
         for i, accessor in enumerate(self.json["accessors"]):
             values = self.values(i)
-            need(all(math.isfinite(v) for row in values for v in row), "a number that is none (3.6.2.2)")
+            need(all(math.isfinite(v) for row in values for v in row), "not a number (3.6.2.2)")
             for name, pick in (("min", min), ("max", max)):
                 if name in accessor:
                     need(
@@ -86,7 +86,7 @@ class Glb:
                 need(abs(product) <= 1e-3 * math.hypot(*a) * math.hypot(*b) > 0, "matrix that decomposes (3.5.3)")
 
     def values(self, accessor):
-        """All of an accessor, as tuples."""
+        """All elements of an accessor, as tuples."""
         a = self.json["accessors"][accessor]
         view = self.json["bufferViews"][a["bufferView"]]
         letter, size = COMPONENTS[a["componentType"]]
@@ -98,7 +98,7 @@ class Glb:
                                self.bin[view["byteOffset"]:view["byteOffset"] + a["count"] * width * size]))
 
     def triangles_eye(self):
-        """Corners of all triangles in the space of the scene, by node name."""
+        """Corners of all triangles in scene space, by node name."""
         found = {}
         for node in self.json["nodes"]:
             if "mesh" not in node:
@@ -114,5 +114,5 @@ class Glb:
 
 
 def shorter(value):
-    """A float as JSON shows it with nine digits."""
+    """A float rounded to nine digits, as in JSON."""
     return float(f"{value:.9g}")

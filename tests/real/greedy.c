@@ -1,5 +1,5 @@
-/* Textures of floats out of bytes that are all the same: a recording of some hundred kilobytes that needs gigabytes.
- * Recorded by test_limits.py. */
+/* Float textures whose bytes are all equal: a recording of a few hundred kilobytes that needs gigabytes. Recorded by
+ * test_limits.py. */
 #include "tests/trace/window.h"
 
 enum { SIDE = 2048, TEXTURES = 40 };

@@ -1,5 +1,5 @@
-/* A window that grows, shrinks and grows between frames, each drawn whole at the size that it has then, and once within
-   one. Recorded by test_record_growing.py. */
+/* A window that grows, shrinks and grows again, between frames and once within a frame. Each frame fills the window
+ * at its current size. Recorded by test_record_growing.py. */
 #include "tests/trace/window.h"
 
 static void resize(int width, int height)
@@ -27,7 +27,7 @@ int main(void)
 		resize(sizes[i][0], sizes[i][1]);
 		draw(sizes[i][0], sizes[i][1]);
 	}
-	glClear(GL_COLOR_BUFFER_BIT); /* by which Mesa gives this frame the size that the window still has */
+	glClear(GL_COLOR_BUFFER_BIT); /* this makes Mesa use the window's old size for this frame */
 	resize(110, 140);
 	draw(110, 140);
 	draw(110, 140);

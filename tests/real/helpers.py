@@ -1,4 +1,4 @@
-"""What the end-to-end tests share: running the command, recording programs, counting checks as libcheck does."""
+"""Shared by the end-to-end tests: running the command, recording programs, counting checks like libcheck."""
 import json
 import os
 import pathlib
@@ -19,7 +19,7 @@ _results = []
 
 
 def check(good, what):
-    """Count one check; say what was wrong where it failed, and leave where RELUME_FIRST_FAILURE is set."""
+    """Count one check; report a failure, and exit at once if RELUME_FIRST_FAILURE is set."""
     _results.append(bool(good))
     if not good:
         print(f"wrong: {what}", flush=True)
@@ -29,7 +29,7 @@ def check(good, what):
 
 
 def finish():
-    """Print the count and leave."""
+    """Print the count and exit."""
     failed = _results.count(False)
     share = 100 * (len(_results) - failed) // max(len(_results), 1)
     print(f"{share}%: Checks: {len(_results)}, Failures: {failed}, Errors: 0")
@@ -42,7 +42,7 @@ def skip(why):
 
 
 def run(*args, timeout=100, **more):
-    """Run a program; return code, stdout and stderr as text."""
+    """Run a program; returns its code, stdout and stderr as text."""
     return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, text=True, errors="replace", timeout=timeout, **more)
 
@@ -52,10 +52,10 @@ def relume(*args, **more):
 
 
 def must(done):
-    """The result of run, where all else depends on its success."""
+    """Run a command that the rest of the test depends on."""
     if done.returncode != 0:
         print(f"{' '.join(done.args)}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
-        check(False, "a step that the rest depends on")
+        check(False, "required step")
         finish()
     return done
 
@@ -65,8 +65,8 @@ def on_display(*args, **more):
 
 
 def record(trace, *program, options=("--ref", "color,depth"), optional=False):
-    """Record a program on a display of its own. Where it says that this machine's GL cannot run it (exit code 77), the
-    test is skipped; where it is optional, None is returned instead."""
+    """Record a program on a private display. If it reports that this machine's GL cannot run it (exit code 77), the
+    test is skipped, or None is returned if `optional` is set."""
     done = on_display(RELUME, "record", "-o", trace, *options, "--", *program)
     if done.returncode == 77 and (optional or False not in _results):
         why = next((line for line in done.stderr.splitlines() if line.startswith("skipped: ")),
@@ -83,14 +83,14 @@ def corpus(name):
 
 
 def render(trace, folder, *options):
-    """Render frames as NAME.0000.exr into a folder; return the files in order."""
+    """Render frames as NAME.0000.exr into a folder; returns the files in order."""
     folder.mkdir(exist_ok=True)
     must(relume("render", trace, "-o", folder / f"{trace.stem}.####.exr", *options, timeout=300))
     return sorted(folder.glob("*.exr"))
 
 
 def diff(trace, folder, *options):
-    """Score; return the exit code and what --json says."""
+    """Score; returns the exit code and the --json output."""
     done = relume("diff", trace, folder, "--json", "-", *options, timeout=300)
     try:
         score = json.loads(done.stdout)
@@ -104,7 +104,7 @@ def diff(trace, folder, *options):
 
 
 def check_gates(score, n_frames, what, skip=()):
-    """Every frame is scored, and passes every gate but those to skip."""
+    """Require that every frame is scored, and passes every gate except those to skip."""
     check(len(score["frames"]) == n_frames, f"{what}: {len(score['frames'])} frames scored of {n_frames}")
     for frame in score["frames"]:
         for gate in GATES:
@@ -118,8 +118,8 @@ def frames_of(trace):
 
 
 def check_same_pictures(name, frames, *options):
-    """Record tests/real/NAME with options of `record`, trace it in mode gl, and check frame by frame that no pixel
-    fails; `frames` says what each shows. Returns the trace and what `diff` says.
+    """Record tests/real/NAME with options of `record`, trace it in mode gl, and require that no pixel of any frame
+    fails; `frames` describes each frame. Returns the trace and diff's output.
     """
     trace = SCRATCH / f"{pathlib.Path(name).name}.trace"
     record(trace, BUILD / "tests/real" / name, options=("--ref", "color,depth", *options))
@@ -129,14 +129,14 @@ def check_same_pictures(name, frames, *options):
     for frame, what in zip(score["frames"], frames):
         known = sum(b["pixels"]
                     for b in frame.get("blame", ())
-                    if "known" in b)  # of the Mesa at hand: replay/draw_names.c
+                    if "known" in b)  # departures of this version of Mesa: replay/draw_names.c
         check(frame["failing_pixels"] == known,
-              f"{name}: {what}: {frame['failing_pixels']} pixels fail, of which {known} are known")
+              f"{name}: {what}: {frame['failing_pixels']} pixels fail, {known} of them known")
     return trace, score
 
 
 def check_replayed(trace, first):
-    """apitrace reads a trace to its end, and glretrace draws each frame from the first to look at on as the program
+    """apitrace must read a trace to its end, and glretrace must draw every frame, from the given one on, as the program
     did."""
     dump = must(run("apitrace", "dump", "--color=never", trace))
     check(not dump.stderr and "// incomplete" not in dump.stdout,
@@ -146,10 +146,12 @@ def check_replayed(trace, first):
 
 
 def check_alone(trace, *numbers):
-    """Frames that show what earlier ones left are the same where only they are asked for. After check_same_pictures."""
+    """Frames that show the contents of earlier ones must be the same if they alone are requested. Call after
+    check_same_pictures.
+    """
     folder = SCRATCH / f"alone{numbers[0]}"
     render(trace, folder, *AS_SHOWN, "-f", ",".join(map(str, numbers)))
     for number in numbers:
         name = f"{trace.stem}.{number:04}.exr"
         check((folder / name).read_bytes() == (frames_of(trace) / name).read_bytes(),
-              f"frame {number} is the same whether earlier ones were asked for or not")
+              f"frame {number} is the same with and without earlier ones")

@@ -1,10 +1,11 @@
 /*
- * Preloaded. Makes one call of the system fail: INJECT="CLASS:N" the Nth of a class (from 1) that the command or the
- * recorder makes itself, "CLASS:N+" that one and all after it, "CLASS@N:M" the Mth one from the Nth place in the code
- * that makes such calls, "CLASS@N+" all from there. What libraries do for themselves is left alone. INJECT_COUNT names
- * a file that receives lines "CLASS COUNT" and "CLASS@N COUNT" for each class and place as a process ends.
+ * Preloaded: makes system calls fail. INJECT="CLASS:N" fails the Nth call of a class (from 1) that the command or
+ * recorder makes itself, "CLASS:N+" that call and all later ones, "CLASS@N:M" the Mth call from the Nth call site of
+ * the class, and "CLASS@N+" all calls from that site. Calls that libraries make for themselves are unaffected. When a
+ * process ends, the file named by INJECT_COUNT receives lines "CLASS COUNT" and "CLASS@N COUNT" for each class and
+ * site.
  *
- * Memory is taken from the next library that has it: LeakSanitizer's, if that is preloaded after this one.
+ * Memory comes from the next library that provides it: LeakSanitizer's, if that is preloaded after this one.
  * INJECT_SPARED holds its suppressions, since a confined command cannot read them from a file.
  */
 #include <dlfcn.h>
@@ -54,8 +55,8 @@ static int take_range(struct dl_phdr_info *info, size_t size, void *first)
 	return 0;
 }
 
-/* What LeakSanitizer asks the program: suppressions, and whether to look for no leaks (a linker that a driver starts is
- * not ours). */
+/* LeakSanitizer's queries: the suppressions, and whether to skip leak checks (a linker started by a driver is not
+ * ours). */
 const char *__lsan_default_suppressions(void);
 int __lsan_is_turned_off(void);
 
@@ -106,7 +107,7 @@ static void end(void)
 	}
 }
 
-/* A process that was forked ends so. */
+/* Forked processes end here. */
 void _exit(int code)
 {
 	end();
@@ -114,7 +115,7 @@ void _exit(int code)
 	__builtin_unreachable();
 }
 
-/* The number of a place, by the order of their first calls. nth: receives which of its own this is */
+/* Number of a call site, in the order of first calls. nth: receives the count of calls from that site */
 static unsigned long number_place(enum class class, uintptr_t at, unsigned long *nth)
 {
 	for (unsigned long i = 0; i < MOST_PLACES; i++) {
@@ -128,7 +129,7 @@ static unsigned long number_place(enum class class, uintptr_t at, unsigned long 
 	return 0;
 }
 
-/* Does this call fail? by: where it returns to */
+/* Whether this call fails. by: its return address */
 static int fails(enum class class, const void *by)
 {
 	const uintptr_t at = (uintptr_t)by;
@@ -150,7 +151,7 @@ static int fails(enum class class, const void *by)
 #define BY __builtin_return_address(0)
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
-/* The same, found once: memory is asked for often. */
+/* Looked up once, because memory is requested often. */
 static __typeof__(&malloc) next_malloc;
 static __typeof__(&calloc) next_calloc;
 static __typeof__(&realloc) next_realloc;
@@ -198,7 +199,7 @@ FILE *open_memstream(char **out, size_t *n) { return fails(MEMORY, BY) ? NULL : 
 ssize_t read(int fd, void *to, size_t n) { return fails(READ, BY) ? -1 : REAL(read)(fd, to, n); }
 ssize_t pread(int fd, void *to, size_t n, off_t at) { return fails(READ, BY) ? -1 : REAL(pread)(fd, to, n, at); }
 
-/* A stream that fails stays in error, as the real one does. */
+/* A failed stream keeps its error state, as with the real fread. */
 size_t fread(void *to, size_t size, size_t n, FILE *f)
 {
 	if (!fails(READ, BY))

@@ -14,7 +14,7 @@ def last_mallocs(counts, most):
 
 
 def last_places(counts, most):
-    """The same, and always."""
+    """The call sites of malloc that were reached last, with all their calls failing."""
     n = len(inject.places_counts(counts, "malloc"))
     return [f"malloc@{n - i}+" for i in range(most)]
 

@@ -1,7 +1,7 @@
 /*
- * Preloaded into the command by test_confined.py: as if a recording had taken the process over. When the command opens
- * a recording or its references it tries what a stranger would, and prints "intruder: WHAT: ERRNO" for each attempt, 0
- * for those that succeed.
+ * Preloaded into the command by test_confined.py: acts as if a recording had taken over the process. When the command
+ * opens a recording or its references, the shim tries what an attacker would, and prints "intruder: WHAT: ERRNO" for
+ * each attempt; 0 means success.
  */
 #include <dlfcn.h>
 #include <errno.h>
@@ -37,7 +37,7 @@ static void start_program(void)
 	tell("exec", errno ? -1 : 0);
 }
 
-/* SECRET and VICTIM are files of another folder, NEW is none yet, PREY a process. */
+/* SECRET and VICTIM are files in another folder, NEW does not exist yet, PREY is a process. */
 static void intrude(void)
 {
 	static int done;

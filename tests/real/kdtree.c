@@ -1,6 +1,6 @@
 /*
- * A bowl of 3200 triangles that stays and one that breathes, the same three frames over; rtBuildKdTreeEXT is called in
- * the second. Recorded by test_kdtree.py.
+ * A static bowl of 3200 triangles and an animated one, the same in all three frames; rtBuildKdTreeEXT is called in the
+ * second. Recorded by test_kdtree.py.
  */
 #include <math.h>
 

@@ -1,8 +1,7 @@
 /*
- * Frames of several looks (kernels/frame/plain.h): walls over each other in a lit room, blended by all factors, tested
- * for alpha and depth by all functions, written in part; and a second projection over them. From frame 5 on colours are
- * not cleared: a sky covers what was there before, or it shows; frame 8 copies what it has drawn so far. Recorded by
- * test_layers.py.
+ * Frames of several looks (kernels/frame/plain.h): overlapping walls in a lit room, with all blend factors, all alpha
+ * and depth functions and write masks; and a second projection over them. From frame 5 on colours are not cleared: the
+ * old picture is covered by a sky, or shows; frame 8 copies its own picture so far. Recorded by test_layers.py.
  */
 #include "tests/trace/window.h"
 
@@ -28,7 +27,7 @@ static GLenum factor(int n)
 	return factors[below(n)];
 }
 
-/* How a wall goes into the frame buffer. kind: of the frame */
+/* Fragment state for a wall. kind: that of the frame */
 static void choose(int kind)
 {
 	const int usual = below(3) == 0;
@@ -73,7 +72,7 @@ static void project(int perspective)
 	glMatrixMode(GL_MODELVIEW);
 }
 
-/* All of the window in one colour, by a blending that leaves nothing of what was there. */
+/* Fill the window with one colour, using a blend mode that keeps nothing of the old contents. */
 static void sky(void)
 {
 	glDisable(GL_DEPTH_TEST);
@@ -85,7 +84,7 @@ static void sky(void)
 	glRectf(-3, -3, 3, 3);
 }
 
-/* What is there so far as a texture, on a wall. */
+/* Copy the picture so far to a texture, and show it on a wall. */
 static void copy(void)
 {
 	glDisable(GL_BLEND);
@@ -103,7 +102,7 @@ int main(void)
 {
 	static const float place[] = { 1, 2, 1, 1 };
 
-	window_size[0] = 75; /* rows end within sixteen pixels */
+	window_size[0] = 75; /* rows do not end at a multiple of sixteen pixels */
 	window_size[1] = 53;
 	open_window();
 	glEnable(GL_LIGHT0);
@@ -124,7 +123,7 @@ int main(void)
 		for (int i = 0; i < (frame > 2 ? 50 : 14); i++) {
 			project(i < (frame == 4 ? 25 : 10) || frame == 3);
 			choose(frame);
-			if (frame == 4 && i >= 25) { /* what lies over all, which rays do not see */
+			if (frame == 4 && i >= 25) { /* an overlay that rays do not see */
 				glDisable(GL_DEPTH_TEST);
 				glDisable(GL_LIGHTING);
 			}

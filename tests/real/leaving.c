@@ -1,7 +1,6 @@
 /*
- * leaving [DEPTH_BITS]: triangles that leave the view volume on all sides, behind the viewer too, under matrices made
- * by every call that makes one, some of them drawn twice with polygon offset, and smooth lines. Recorded by
- * test_leaving.py.
+ * leaving [DEPTH_BITS]: triangles that leave the view volume on all sides and behind the viewer, under matrices made by
+ * every call that makes one; some are drawn twice with polygon offset; and smooth lines. Recorded by test_leaving.py.
  */
 #include "tests/trace/window.h"
 
@@ -15,7 +14,7 @@ static void quad(const float *corners)
 	glEnd();
 }
 
-/* A ground, two walls along it that pass the viewer, and a far one. */
+/* A ground, a wall along each side that passes the viewer, and a far wall. */
 static void hall(int offset, const float *side)
 {
 	static const float ground[12] = { -100, -0.1f, 1000, 400, -0.1f, 1000, 275, -0.1f, -50, -100, -0.1f, -50 };
@@ -33,7 +32,7 @@ static void hall(int offset, const float *side)
 	quad(far);
 	if (!offset)
 		return;
-	/* the same place again: it shows where the offset brings it nearer */
+	/* the same place again: visible if the offset brings it nearer */
 	glEnable(GL_POLYGON_OFFSET_FILL);
 	glPolygonOffset(offset > 0 ? -1.0f : 0.5f, offset > 0 ? 0.0f : -3.0f);
 	glColor3f(0, 0, 0.4f);
@@ -63,7 +62,7 @@ static void rails(void)
 	glDisable(GL_LINE_SMOOTH);
 }
 
-/* A lit panel in front whose normals are so short that their squares are nothing. */
+/* A lit panel in front; the squares of its short normals underflow. */
 static void faint(void)
 {
 	static const float short_normal[3] = { 1.88677596e-21f, 1e-21f, 2e-21f }, away[3] = { -2e-21f, -1e-21f, -1e-21f };
@@ -85,7 +84,8 @@ static void faint(void)
 
 static void frame(int n)
 {
-	static const float blue[3] = { 0.4f, 0.2f, 1 }, between[3] = { 0.9f, 0.3f, 0.1f }; /* two numbers of 8 bits each */
+	static const float blue[3] = { 0.4f, 0.2f, 1 }, between[3] = { 0.9f, 0.3f, 0.1f }; /* two numbers of 8 bits
+	                                                                                    * each */
 	const float angle = 31.0f * (float)n, transposed[16] = { 1, 0, 0, 0, 0, 0.8f, -0.6f, 0, 0, 0.6f, 0.8f, 0, 0, 0, 0, 1 };
 
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

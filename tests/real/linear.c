@@ -1,6 +1,6 @@
 /*
- * Films over each other in a window without depth, which Mesa's llvmpipe draws by its quick rasterizer. Recorded by
- * test_exact.py. With an argument the window has one buffer.
+ * Overlapping films in a window without depth, which Mesa's llvmpipe draws with its fast rasterizer. Recorded by
+ * test_exact.py. With an argument the window is single-buffered.
  */
 #include "tests/trace/window.h"
 

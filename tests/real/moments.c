@@ -1,7 +1,7 @@
 /*
- * One second of pictures that are a function of time, at a rate that is given. A camera walks and turns in a room;
- * there are a spinning box, one with a lamp, a flag that waves (its vertices are the program's), a thing that the
- * camera carries, and a row of numbers over the picture. At 0.5 s is a cut. Recorded by test_moments.py.
+ * One second of pictures that are a function of time, at a given rate. A camera walks and turns in a room with a
+ * spinning box, a box that carries a lamp, a waving flag (animated by the program), an object that the camera carries,
+ * and a row of digits over the picture. There is a cut at 0.5 s. Recorded by test_moments.py.
  */
 #include <math.h>
 
@@ -69,7 +69,7 @@ static float lamp_place(float time)
 	return 2 * time - 0.8f;
 }
 
-/* Before anything is drawn: OpenGL keeps where lights were. */
+/* Called before drawing, because OpenGL transforms light positions when they are set. */
 static void lights(float time)
 {
 	glPushMatrix();

@@ -1,6 +1,6 @@
 /*
- * A triangle over a lit floor, between it and the light: its vertices where the program has them, then a unit off, so
- * that a vertex program brings each to the same place. Recorded by test_moved.py.
+ * A triangle between a lit floor and the light: first with its vertices in place, then moved by one unit, with a vertex
+ * program that moves them back. Recorded by test_moved.py.
  */
 #include <string.h>
 
@@ -31,7 +31,7 @@ static void floor_below(void)
 	glDisable(GL_LIGHTING);
 }
 
-/* All numbers are sums of eighths, so that they are the same on either way. */
+/* All numbers are sums of eighths, so that both ways give exactly the same result. */
 static void triangle(float x, float y, float z)
 {
 	glColor3f(0.8f, 0.5f, 0.2f);

@@ -1,7 +1,7 @@
 /*
- * A window with four samples a pixel, and what the X server shows of it: edges in all directions, multisampling on,
- * off, and on again. Each frame's window is read from the server after the swap, as RGB rows from the top one down, and
- * appended to the file named by the argument. Exits with 77 where there is no such visual.
+ * A window with four samples per pixel, as displayed by the X server: edges in all directions, with multisampling on,
+ * off, and on again. After each swap the window is read from the server, as RGB rows from the top down, and appended to
+ * the file named by the argument. Exits with 77 if there is no such visual.
  */
 #include <math.h>
 
@@ -42,7 +42,7 @@ static void draw(int frame)
 
 static unsigned framebuffer, renderbuffer;
 
-/* State that a reader of the window has to leave as it is. */
+/* State that reading the window must not change. */
 static void set_state(int on)
 {
 	if (on && !framebuffer) {
@@ -75,7 +75,7 @@ static void expect_state(void)
 	expect(glGetError() == GL_NO_ERROR, "there is no error");
 }
 
-/* What the server has of the window. */
+/* The server's copy of the window. */
 static void append_shown(FILE *file)
 {
 	XImage *image;

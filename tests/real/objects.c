@@ -1,7 +1,6 @@
 /*
- * Vertex array objects, one thing a frame: each keeps its arrays, which of them are enabled and its element buffer,
- * from the first frame to the last, whatever is done to the others and to the context's own. Recorded by
- * test_objects.py.
+ * Vertex array objects, one aspect per frame: each keeps its arrays, their enabled flags and its element buffer from
+ * the first frame to the last, whatever happens to the others and to the default object. Recorded by test_objects.py.
  */
 #include "tests/trace/window.h"
 
@@ -49,10 +48,10 @@ static void both(void)
 	glColor3f(1, 1, 1);
 	draw(objects[0]);
 	glColor3f(0.4f, 1, 0.8f);
-	draw(objects[1]); /* has no colours */
+	draw(objects[1]); /* has no colour array */
 }
 
-/* The context's own, in its memory. */
+/* Default object, with arrays in client memory. */
 static void own(void)
 {
 	static const float line[] = { 2, 40, 62, 44 };
@@ -77,7 +76,7 @@ static void without_colors(void)
 	draw(objects[0]);
 }
 
-/* A deleted object leaves nothing bound. */
+/* Deleting the bound object leaves the default one bound. */
 static void deleted(void)
 {
 	glBindVertexArray(objects[1]);

@@ -1,7 +1,7 @@
 /*
- * Draws that say by other ways what they draw, one a frame: parameters in memory and in buffers, several at a time,
- * instances, glArrayElement of arrays that lie partly in buffers, and primitives that begin anew by
- * NV_primitive_restart's own state. Recorded by test_record_buffers.py. Exits with 77 where GL lacks one of them.
+ * Indirect and unusual draws, one per frame: parameters in memory and in buffers, multiple draws, instances,
+ * glArrayElement with some arrays in buffers, and NV_primitive_restart's own state. Recorded by test_record_buffers.py.
+ * Exits with 77 if GL lacks one of them.
  */
 #include "tests/trace/window.h"
 
@@ -23,7 +23,7 @@ static void fill(int frame)
 		order[i] = (unsigned short)((i * 5 + frame) % N);
 }
 
-/* Positions in client memory, or in the buffer, and colours as well. */
+/* Positions in client memory or in the buffer, and likewise colours. */
 static void point(int buffered_positions, int buffered_colors)
 {
 	glBindBuffer(GL_ARRAY_BUFFER, array_buffer);
@@ -37,7 +37,7 @@ static void point(int buffered_positions, int buffered_colors)
 	glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
-/* In a buffer, or where they are. */
+/* Copies parameters into a buffer, or returns them as they are. */
 static const void *indirect(const void *commands, long bytes, int buffered)
 {
 	glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffered ? indirect_buffer : 0);
@@ -99,7 +99,7 @@ static void draw_elements_of_arrays(int buffered_positions)
 	for (int i = 0; i < N; i++)
 		glArrayElement((i * 5 + 2) % N);
 	glEnd();
-	glDrawArrays(GL_TRIANGLES, 0, 3); /* both are enabled as before */
+	glDrawArrays(GL_TRIANGLES, 0, 3); /* both arrays are still enabled */
 }
 
 static void draw_restarted(void)

@@ -1,6 +1,6 @@
 /*
- * Six frames of textured squares, drawn from a list and from an array, with one thing changed: `parting WHAT`. Recorded
- * by test_bisect.py, which must find that thing and nothing else.
+ * Six frames of textured squares, drawn from a list and from an array, with one change: `parting WHAT`. Recorded by
+ * test_bisect.py, which must find that change and no other.
  */
 #include "tests/trace/window.h"
 

@@ -1,8 +1,8 @@
 /*
- * Frames that depend on nothing earlier, though no clear covers the window or a texture is copied in parts: two views
- * with a clear each; a corner that becomes a texture before the rest is cleared; a texture larger than what is copied
- * to it; opaque squares over all of the window, and such that are blended. The last three frames do depend on earlier
- * ones. Recorded by test_parts.py.
+ * Frames that depend on no earlier one although no clear covers the whole window, or a texture is copied in parts: two
+ * views with a clear each; a corner copied to a texture before the rest is cleared; a texture larger than the copied
+ * region; opaque squares that cover the window, some with blending. The last three frames do depend on earlier ones.
+ * Recorded by test_parts.py.
  */
 #include "tests/trace/window.h"
 
@@ -44,7 +44,7 @@ static void two_views(int frame, int width)
 	glViewport(0, 0, SIZE, SIZE);
 }
 
-/* The window's lower left 48 x 48 pixels are drawn and become three quarters of a texture; then it is shown. */
+/* Draw the window's lower left 48 x 48 pixels, copy them to three quarters of a texture, then show it. */
 static void corner(int frame, int copied)
 {
 	glEnable(GL_SCISSOR_TEST);
@@ -62,7 +62,7 @@ static void corner(int frame, int copied)
 	glDisable(GL_TEXTURE_2D);
 }
 
-/* With an alpha of 1, or of less, where they are blended */
+/* Opaque tiles, or blended ones of lower alpha */
 static void tiles(int frame, float alpha)
 {
 	glClear(GL_DEPTH_BUFFER_BIT);
@@ -104,11 +104,11 @@ int main(void)
 		else if (frame < 8)
 			blended_tiles(frame, 1);
 		else if (frame == 8)
-			two_views(frame, SIZE / 2 - 1); /* a column is left from before */
+			two_views(frame, SIZE / 2 - 1); /* old contents: one column */
 		else if (frame == 9)
-			corner(frame, 32); /* so is some of the texture */
+			corner(frame, 32); /* and part of the texture */
 		else
-			blended_tiles(frame, 0.9f); /* so is a little of all */
+			blended_tiles(frame, 0.9f); /* and a share of every pixel */
 		end_frame();
 	}
 	return 0;

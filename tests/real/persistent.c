@@ -1,12 +1,12 @@
 /*
- * Buffers that stay mapped while they are drawn from (ARB_buffer_storage): vertices, indices and pixels that are stored
- * between draws, in small and in large buffers, after few and after many frames without a change, with and without
- * explicit flushes, up to deletion without unmapping. Recorded and replayed, the pictures must be the program's. Exits
- * with 77 where GL lacks the extension.
+ * Buffers that stay mapped while they are drawn from (ARB_buffer_storage): vertices, indices and pixels are written
+ * between draws, in small and in large buffers, after few and after many unchanged frames, with and without explicit
+ * flushes, and finally the buffer is deleted while mapped. The replayed pictures must equal the program's. Exits with
+ * 77 if GL lacks the extension.
  */
 #include "tests/trace/window.h"
 
-enum { FRAMES = 24, CELLS = 2000 /* 16 vertices each: many pages */, SMALL = 64 };
+enum { FRAMES = 24, CELLS = 2000 /* 16 vertices each, filling many pages */, SMALL = 64 };
 
 struct corner {
 	float position[2];
@@ -15,7 +15,7 @@ struct corner {
 
 static const unsigned persistent = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT, coherent = GL_MAP_COHERENT_BIT;
 
-/* A buffer, bound to the target and mapped. */
+/* Create a buffer, bind it to the target and map it. */
 static void *map_new(unsigned target, unsigned *name, long bytes, const void *data, unsigned access)
 {
 	void *mapped;
@@ -53,7 +53,7 @@ static void point_at(unsigned buffer)
 	glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(struct corner), (void *)sizeof(float[2]));
 }
 
-/* Another triangle in each of three draws, one of them with corners from glArrayElement. */
+/* A different triangle in each of three draws, one of them with glArrayElement. */
 static void draw_small(struct corner *corners, unsigned buffer, int frame)
 {
 	point_at(buffer);
@@ -134,7 +134,7 @@ int main(void)
 		point_at(names[2]);
 		glDrawArrays(GL_TRIANGLES, 0, 3);
 		draw_textured(pixels, frame);
-		if (frame == 20) { /* what a mapping held last is there once it has ended */
+		if (frame == 20) { /* the last contents of a mapping remain after it has ended */
 			store_cell(large, 1000, 3);
 			glBindBuffer(GL_ARRAY_BUFFER, names[0]);
 			glUnmapBuffer(GL_ARRAY_BUFFER);

@@ -1,7 +1,6 @@
 /*
- * Pixels drawn as pixels and pixels that feed back, one thing a frame: bitmaps in lists, lit raster positions,
- * pixel rectangles with zoom and scale, copies of the screen, stencil and depth values, frames without a clear, smooth
- * lines and points. Recorded by test_pixels.py.
+ * Pixel operations, one per frame: bitmaps in lists, lit raster positions, pixel rectangles with zoom and scale, copies
+ * of the screen, stencil and depth values, frames without a clear, smooth lines and points. Recorded by test_pixels.py.
  */
 #include "tests/trace/window.h"
 
@@ -26,9 +25,9 @@ static void text(void)
 	for (int i = 0; i < 4; i++)
 		glCallList(1);
 	glWindowPos2i(5, 5);
-	glPixelStorei(GL_UNPACK_ALIGNMENT, 4); /* not what the list was made with */
+	glPixelStorei(GL_UNPACK_ALIGNMENT, 4); /* differs from the value when the list was made */
 	glCallList(1);
-	glRasterPos2f(70, 10); /* outside: invalid, and nothing is drawn */
+	glRasterPos2f(70, 10); /* outside: the position is invalid, and nothing is drawn */
 	glCallList(1);
 }
 
@@ -54,7 +53,7 @@ static void rectangles(void)
 	glRasterPos2f(2, 2);
 	glDrawPixels(16, 16, GL_RGBA, GL_UNSIGNED_BYTE, image);
 	glRasterPos2f(22, 20);
-	glPixelZoom(2.61f, -1.37f); /* no pixel centre on a border between two */
+	glPixelZoom(2.61f, -1.37f); /* no pixel centre is on a border between two pixels */
 	glDrawPixels(16, 16, GL_RGBA, GL_UNSIGNED_BYTE, image);
 	glPixelZoom(1, 1);
 	glPixelTransferf(GL_RED_SCALE, 0.5f);

@@ -1,7 +1,7 @@
 /*
- * Pixmaps: "drawn" draws three frames to one, without a window and without swaps. Else three frames in a window, of a
- * pixmap that X draws to, as a texture (GLX_EXT_texture_from_pixmap): of two dimensions, or a rectangle where
- * "rectangle" is asked for. Recorded by test_record_pixmaps.py; exits with 77 where the server cannot do that.
+ * Pixmaps. With "drawn": three frames drawn to a pixmap, without a window or swaps. Otherwise three frames in a window,
+ * textured by a pixmap that X draws to (GLX_EXT_texture_from_pixmap): two-dimensional, or a rectangle texture with the
+ * argument "rectangle". Recorded by test_record_pixmaps.py; exits with 77 if the server lacks support.
  */
 #include "tests/trace/window.h"
 
@@ -48,7 +48,7 @@ static void draw_to_pixmap(void)
 	}
 }
 
-/* What X draws: bars, and a corner that no turn brings back. */
+/* X draws bars and an asymmetric corner, which shows any rotation or flip. */
 static void paint(Pixmap pixmap, int frame)
 {
 	static const unsigned long colors[] = { 0xff2010, 0x30ff20, 0x4050ff, 0xe0e0e0 };
@@ -120,7 +120,7 @@ static void draw_pixmap(int is_rectangle)
 	glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
 	glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 	glEnable(target);
-	glPixelStorei(GL_UNPACK_ROW_LENGTH, 7); /* of the program's own uploads; it must be there still */
+	glPixelStorei(GL_UNPACK_ROW_LENGTH, 7); /* state of the program's own uploads, which must be preserved */
 	for (int frame = 0; frame < FRAMES; frame++) {
 		GLint row = 0;
 

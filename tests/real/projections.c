@@ -1,16 +1,16 @@
 /*
- * Planes that pass through each other, placed by programs that know their projection themselves, one a frame: depths
- * that are linear in w, some of which grow towards the viewer, and depths that are not. The floor comes from behind the
- * viewer where they are linear. Recorded by test_projections.py.
+ * Intersecting planes, placed by shaders with built-in projections, one per frame: some depths are linear in w (several
+ * of these grow towards the viewer), others are not. The floor starts behind the viewer if depth is linear. Recorded by
+ * test_projections.py.
  */
 #include <math.h>
 
 #include "tests/trace/window.h"
 
-enum { LINEAR = 5 }; /* so many, from the first on */
+enum { LINEAR = 5 }; /* the first LINEAR ones are */
 
 static const struct {
-	const char *of;     /* a depth, by a vertex in eye space, e, and w */
+	const char *of;     /* depth as an expression of w and a vertex in eye space, e */
 	GLenum func;
 } depths[] = {
 	{ "-1.002 * e.z - 0.02", GL_LESS }, { "-1.5 * e.z - 1.2", GL_LESS }, { "0.4 * w - 0.3", GL_LESS },
@@ -36,7 +36,7 @@ static GLuint program_of(const char *depth)
 	return program;
 }
 
-/* Strips of a plane side by side, a mesh each. */
+/* A plane as adjacent strips, each a mesh. */
 static void plane(int k)
 {
 	enum { STRIPS = 6 };

@@ -1,12 +1,12 @@
 /*
- * Pixels are read into buffer objects and drawn from there, one kind a frame: colours, luminance, depths, packed types,
- * rows with gaps, texels, colours of vertices, and pixels of the frame before. Recorded by test_readbacks.py.
+ * Pixels are read into buffer objects and drawn from there, one kind per frame: colours, luminance, depths, packed
+ * types, rows with gaps, texels, vertex colours, and pixels of the previous frame. Recorded by test_readbacks.py.
  */
 #include "tests/trace/window.h"
 
 enum { SIDE = 16, BYTES = 8192 };
 
-/* A square of one colour: a byte is it or it is not. */
+/* A square with a single colour, so that bytes must match exactly. */
 static void rect(unsigned i, float x, float y, float size, float z)
 {
 	glColor4ub((unsigned char)(37 * i + 9), (unsigned char)(91 * i + 51), (unsigned char)(200 - 53 * i),
@@ -19,7 +19,7 @@ static void rect(unsigned i, float x, float y, float size, float z)
 	glEnd();
 }
 
-/* What all frames begin with; the buffer, 5, holds something of its own. */
+/* Start of every frame; buffer 5 has contents of its own. */
 static void begin(void)
 {
 	static unsigned char bytes[BYTES];
@@ -40,7 +40,7 @@ static void begin(void)
 	glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 5);
 }
 
-/* Draw a place of the buffer beside what was drawn. */
+/* Draw an offset of the buffer beside the original. */
 static void draw(int column, int row, unsigned format, unsigned type, size_t offset)
 {
 	glWindowPos2i(17 * column, 17 * row);
@@ -85,7 +85,7 @@ static void packed(void)
 	copy(2, 1, GL_RGBA, GL_UNSIGNED_INT_10_10_10_2);
 }
 
-/* Signed numbers, as what they are: bytes to be seen. */
+/* Signed numbers, drawn as bytes. */
 static void numbers(void)
 {
 	static const unsigned types[] = { GL_BYTE, GL_SHORT, GL_INT, GL_UNSIGNED_INT };
@@ -95,7 +95,7 @@ static void numbers(void)
 		draw(1 + i % 2, i / 2, GL_RGBA, GL_UNSIGNED_BYTE, 0);
 	}
 	glReadPixels(0, 0, SIDE, SIDE, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, NULL);
-	glColorMask(1, 0, 1, 1); /* the last bits of depths may be others */
+	glColorMask(1, 0, 1, 1); /* the lowest bits of depths may differ */
 	draw(0, 1, GL_RGBA, GL_UNSIGNED_BYTE, 0);
 	glColorMask(1, 1, 1, 1);
 }
@@ -110,7 +110,7 @@ static void depths(void)
 	}
 }
 
-/* Rows with gaps, off the first place, their bytes swapped; and partly off the screen. */
+/* Rows with gaps, skipped pixels and swapped bytes; also partly outside the screen. */
 static void storage(void)
 {
 	glPixelStorei(GL_PACK_ROW_LENGTH, 21);
@@ -167,7 +167,7 @@ static void textures(void)
 	textured(17, 0);
 }
 
-/* Colours of vertices from pixels. */
+/* Vertex colours from pixels. */
 static void vertices(void)
 {
 	static const float corners[8] = { 20, 4, 60, 4, 60, 40, 20, 40 };

@@ -1,6 +1,6 @@
 #!/bin/sh
-# record_and_replay.sh FRAMES PROGRAM ARGUMENTS...: record a program live, read its trace to the end with apitrace, replay it,
-# and compare the pictures with what the program itself showed. Run under tests/xvfb.sh.
+# record_and_replay.sh FRAMES PROGRAM ARGUMENTS...: record a program live, read its trace to the end with apitrace,
+# replay it, and compare the pictures with the program's own. Run under tests/xvfb.sh.
 set -eu
 frames=$1
 shift

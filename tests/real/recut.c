@@ -1,6 +1,6 @@
 /*
- * A hilly ground that is cut coarsely while the viewer does not move, and finely after that, otherwise in each frame.
- * Posts on it are the same in all. Recorded by tests/look/test_unseen.py.
+ * A hilly ground, tessellated coarsely while the viewer is still; later finely, and differently in each frame. The
+ * posts on it never change. Recorded by tests/look/test_unseen.py.
  */
 #include <math.h>
 
@@ -21,7 +21,7 @@ static void corner(float x, float z)
 	glVertex3f(x, y, z);
 }
 
-/* across by 2 across squares, from z = 2 to z = -14. */
+/* `across` squares wide and twice as many deep, from z = 2 to z = -14. */
 static void ground(int across)
 {
 	const float size = 8.0f / (float)across;

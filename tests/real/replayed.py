@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""replayed.py NAME [FIRST]: do a trace's pictures, replayed by apitrace, equal those that the program itself showed?
+"""replayed.py NAME [FIRST]: do a trace's pictures, replayed by apitrace, equal the program's own?
 
-Compares every colour frame of NAME.ref from frame FIRST on (2: apitrace's first pictures are known to be unreliable, it
-resizes its window then) with `apitrace replay` of NAME.trace, pixel by pixel. Exits with 1 where one differs or none is
-there.
+Compares every colour frame of NAME.ref, from frame FIRST on, pixel by pixel with `apitrace replay` of NAME.trace.
+(FIRST is 2 for most programs: apitrace's first pictures are unreliable, because it resizes its window then.) Exits with
+1 if a frame differs or there is none.
 """
 import array
 import ctypes
@@ -25,7 +25,7 @@ def unpack(packed, size):
 
 
 def changed(before, planes):
-    """Pixels of which four planes of bytes tell what has changed."""
+    """Pixels decoded from four planes of bytes, each stored as its change."""
     n = len(planes) // 4
     changes = bytearray(len(planes))
     for k in range(4):
@@ -37,7 +37,7 @@ def records(path, wanted):
     """(frame, width, height, bytes with the bottom row first) of a .ref file's records of one kind."""
     with open(path, "rb") as stream:
         data = stream.read()
-    at, last = 8, (0, b"")  # where the last record of this kind begins, and its pixels
+    at, last = 8, (0, b"")  # start of the last record of this kind, and its pixels
     while at + HEAD.size <= len(data):
         kind, width, height, frame, size = HEAD.unpack_from(data, at)
         begin, at = at, at + HEAD.size + size
@@ -55,7 +55,7 @@ def records(path, wanted):
 
 
 def whole_record(kind, frame, width, height, pixels):
-    """A record that holds all its pixels."""
+    """A record that contains all its pixels."""
     snappy = ctypes.CDLL("libsnappy.so.1")
     snappy.snappy_max_compressed_length.restype = ctypes.c_size_t
     size = ctypes.c_size_t(snappy.snappy_max_compressed_length(ctypes.c_size_t(len(pixels))))
@@ -83,7 +83,7 @@ def reference_depths(path):
 
 
 def with_visual(bits, build):
-    """An environment in which glretrace takes a visual like the program's, whose relume:bits marker says `bits`: see
+    """Environment that gives glretrace a visual like the program's, from `bits` of the relume:bits marker: see
     verbs/recording/visual.c."""
     alpha, depth, stencil, _, samples = (bits.split() + ["0"] * 5)[:5]
     libraries = os.pathsep.join([str(build / "visual"), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])])
@@ -101,7 +101,7 @@ def replayed_frames(path):
         if start < 0:
             return pictures
         lines, at = [], start + 3
-        while len(lines) < 2:  # size, then the largest value; comments between
+        while len(lines) < 2:  # size and largest value, with comments between
             end = data.index(b"\n", at)
             if not data[at:at + 1] == b"#":
                 lines.append(data[at:end])

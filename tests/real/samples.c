@@ -1,11 +1,9 @@
-/*
- * A window of four samples a pixel (GL 2.1 sec. 3.2.1), one thing a frame. Recorded by test_samples.py.
- */
+/* A window with four samples per pixel (GL 2.1 sec. 3.2.1), one aspect per frame. Recorded by test_samples.py. */
 #include <math.h>
 
 #include "tests/trace/window.h"
 
-enum { WIDTH = 112, HEIGHT = 84, LEAVES = 14 }; /* more than one of llvmpipe's tiles of 64 x 64 */
+enum { WIDTH = 112, HEIGHT = 84, LEAVES = 14 }; /* larger than one of llvmpipe's 64 x 64 tiles */
 
 static void reset(int clears)
 {
@@ -40,7 +38,7 @@ static void leaf(int i, float depth)
 	glVertex3f(0.71f * cosf(next), 0.53f * sinf(next), depth);
 }
 
-/* A fan of triangles whose edges are shared, of all slopes, each of its own colours. */
+/* A fan of triangles with shared edges of all slopes, each with colours of its own. */
 static void fan(void)
 {
 	glBegin(GL_TRIANGLES);
@@ -49,7 +47,7 @@ static void fan(void)
 	glEnd();
 }
 
-/* Surfaces that go through each other: depth is each sample's own. */
+/* Intersecting surfaces, whose depth differs between samples. */
 static void crossing(void)
 {
 	glTranslatef(0, 0, -3);
@@ -66,7 +64,7 @@ static void crossing(void)
 	}
 }
 
-/* A floor from the viewer to the horizon, which leaves the view on all sides, and steep strips that do. */
+/* A floor from the viewer to the horizon that leaves the view on all sides, and steep strips that do, too. */
 static void floor_and_strips(void)
 {
 	glBegin(GL_QUADS);
@@ -114,8 +112,8 @@ static void lines(void)
 	glDisable(GL_LINE_STIPPLE);
 }
 
-/* Lines that begin a little before a tile does, where they are cut off. y: of a border between tiles; away: where they
- * come from */
+/* Lines that start just outside a tile and are clipped there. y: position of a border between tiles; away: of the
+ * lines' other ends */
 static void lines_near(float y, float away)
 {
 	glLoadIdentity();
@@ -139,7 +137,7 @@ static void lines_at_tiles(void)
 	lines_near(HEIGHT - 64, 9);
 }
 
-/* Points, smooth or not: squares of their very size. */
+/* Points, smooth or not, as squares of exactly their size. */
 static void points(void)
 {
 	glRotatef(9, 0.3f, 0.5f, 1);
@@ -191,7 +189,7 @@ static void textured(void)
 	glDisable(GL_TEXTURE_2D);
 }
 
-/* Alpha says how many samples are covered. */
+/* Alpha determines how many samples are covered. */
 static void alpha_to_coverage(void)
 {
 	glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
@@ -234,7 +232,7 @@ static void blended(void)
 	glDisable(GL_BLEND);
 }
 
-/* What is drawn without multisampling covers whole pixels, among what is not. */
+/* Drawing without multisampling covers whole pixels, between multisampled drawing. */
 static void disabled(void)
 {
 	fan();
@@ -251,7 +249,7 @@ static void disabled(void)
 	fan();
 }
 
-/* Stencil of each sample, and alpha test. */
+/* Stencil per sample, and alpha test. */
 static void stencilled(void)
 {
 	glEnable(GL_STENCIL_TEST);
@@ -275,7 +273,7 @@ static void stencilled(void)
 	glDisable(GL_STENCIL_TEST);
 }
 
-/* Bitmaps and pixel rectangles, beside and over edges, with depth. */
+/* Bitmaps and pixel rectangles, beside edges and across them, with depth. */
 static void pixels(void)
 {
 	static const unsigned char letter[8] = { 0x81, 0x42, 0x24, 0x18, 0x18, 0x24, 0x42, 0xff };
@@ -314,7 +312,7 @@ static void scissored(void)
 	glDisable(GL_SCISSOR_TEST);
 }
 
-/* Few pixels: these cuts are made where samples are, while Mesa snaps their corners, which shows at one sample in
+/* Covers few pixels: our cuts are exact at samples, while Mesa rounds their corners, which affects one sample in
  * thousands. */
 static void cut_by_planes(void)
 {
@@ -331,7 +329,7 @@ static void cut_by_planes(void)
 	glDisable(GL_CLIP_PLANE1);
 }
 
-/* Faces as lines and points, pushed off what they lie on. */
+/* Faces as lines and points, with polygon offset from the surface below. */
 static void outlines(void)
 {
 	glTranslatef(0, 0, -3);
@@ -361,7 +359,7 @@ static void outlines(void)
 	glLineWidth(1);
 }
 
-/* The bound texture over the lower left of the window, texel by pixel. */
+/* Draw the bound texture over the window's lower left, one texel per pixel. */
 static void show_texture(int size)
 {
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -384,7 +382,7 @@ static void show_texture(int size)
 	glDisable(GL_TEXTURE_2D);
 }
 
-/* The window as a texture: resolved. */
+/* The window copied to a texture, which resolves it. */
 static void copied(void)
 {
 	fan();
@@ -393,7 +391,7 @@ static void copied(void)
 	show_texture(32);
 }
 
-/* A framebuffer object of four samples a pixel. */
+/* A framebuffer object with four samples per pixel. */
 static void bind_samples(GLuint object, const GLuint *buffers)
 {
 	glBindFramebuffer(GL_FRAMEBUFFER, object);
@@ -408,8 +406,8 @@ static void bind_samples(GLuint object, const GLuint *buffers)
 	glViewport(0, 0, 80, 80);
 }
 
-/* Its pixels into a framebuffer object of a texture (EXT_framebuffer_blit, EXT_framebuffer_multisample), and into the
- * window. */
+/* Resolve its pixels into a framebuffer object with a texture (EXT_framebuffer_blit, EXT_framebuffer_multisample),
+ * and into the window. */
 static void resolve_into(GLuint object, GLuint texture)
 {
 	glBindFramebuffer(GL_DRAW_FRAMEBUFFER, object);
@@ -455,7 +453,7 @@ static void object(void)
 	resolve_into(objects[1], texture);
 }
 
-/* Over what the frame before left of each sample: colours and depth. */
+/* Draw over the samples of the previous frame, colours and depth. */
 static void over_the_last(void)
 {
 	glEnable(GL_BLEND);
@@ -466,7 +464,7 @@ static void over_the_last(void)
 	glDisable(GL_BLEND);
 }
 
-/* A framebuffer object that is left and drawn to again keeps each sample's own. */
+/* A framebuffer object keeps its samples while another is bound. */
 static void object_again(void)
 {
 	GLuint buffers[2], objects[2], texture;

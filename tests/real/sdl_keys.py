@@ -1,5 +1,5 @@
-"""sdl_keys.py FRAMES: what tests/trace/keys.c does, in a window of SDL 2; 77 where it cannot be had. Keys are polled as
-well."""
+"""sdl_keys.py FRAMES: like tests/trace/keys.c, in an SDL 2 window; also polls keys. Exits with 77 if there is no SDL
+display."""
 import ctypes
 import sys
 

@@ -1,13 +1,12 @@
-"""
-What CI servers document of what they read.
+"""Formats that CI servers read, as documented.
 
 GitHub, "Workflow commands for GitHub Actions": a line `::NAME KEY=VALUE,KEY=VALUE::MESSAGE`; in the message %, CR and
 LF are escaped (%25 %0D %0A), in values also : and , (%3A %2C). error, warning and notice take file, line, endLine, col,
 endColumn and title.
 
-GitLab, "Unit test reports": JUnit XML of which it reads testsuite, testcase (classname, name, file, time), failure,
-error, system-out and skipped; the key of a case is its classname and name: of several with the same key in a job only
-the first counts. The elements and attributes are those of JUnit's schema as Jenkins publishes it (xunit-plugin,
+GitLab, "Unit test reports": JUnit XML; it reads testsuite, testcase (classname, name, file, time), failure, error,
+system-out and skipped. A case is identified by its classname and name: if a job has several with the same key, only the
+first counts. The elements and attributes are those of JUnit's schema as Jenkins publishes it (xunit-plugin,
 junit-10.xsd).
 """
 import re
@@ -20,7 +19,7 @@ ESCAPED_VALUE = r"(?:[^%\r\n:,]|%25|%0D|%0A|%3A|%2C)+"
 COMMAND = re.compile(rf"::(\w+)(?: (\w+={ESCAPED_VALUE}(?:,\w+={ESCAPED_VALUE})*))?::({ESCAPED})")
 
 COUNT, SECONDS, TEXT = r"\d+", r"\d+(\.\d+)?", r"(?s:.+)"
-# element: (its attributes, required ones with *), and the elements that it holds
+# element: (its attributes, required ones with *), and its child elements
 JUNIT = {
     "testsuites": ({
         "name": TEXT, "time": SECONDS, "tests": COUNT, "failures": COUNT, "errors": COUNT, "disabled": COUNT
@@ -43,7 +42,7 @@ JUNIT = {
 
 
 def annotations(text):
-    """(kind, {key: value}, message) of each mark; ValueError where a line that begins with "::" is none."""
+    """(kind, {key: value}, message) of each annotation; ValueError if a line that begins with "::" is malformed."""
     found = []
     for line in text.splitlines():
         if not line.startswith("::"):
@@ -51,7 +50,7 @@ def annotations(text):
         match = COMMAND.fullmatch(line)
         values = dict(pair.split("=", 1) for pair in (match[2] or "").split(",") if pair) if match else {}
         if not match or match[1] not in MARKS or not values.keys() <= MARK_KEYS or not match[3]:
-            raise ValueError(f"no workflow command that marks: {line!r}")
+            raise ValueError(f"not an annotation command: {line!r}")
         found.append((match[1], values, match[3]))
     return found
 
@@ -75,7 +74,7 @@ def _wrong(element):
 
 
 def junit_faults(*paths):
-    """What is wrong with the reports of one job; [] where nothing is."""
+    """Faults in the reports of one job; [] if there are none."""
     wrong, keys = [], set()
     for path in paths:
         root = xml.etree.ElementTree.parse(path).getroot()
@@ -86,7 +85,7 @@ def junit_faults(*paths):
             for name, kind in (("tests", None), ("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
                 counted = sum(kind is None or case.find(kind) is not None for case in cases)
                 if int(suite.get(name, counted)) != counted:
-                    wrong.append(f"{path}: {name}={suite.get(name)}, and there are {counted}")
+                    wrong.append(f"{path}: {name}={suite.get(name)}, but counted {counted}")
         for case in root.iter("testcase"):
             key = (case.get("classname"), case.get("name"))
             wrong += [f"{path}: GitLab drops a second {key}"] if key in keys else []

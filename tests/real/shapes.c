@@ -1,7 +1,7 @@
 /*
- * Shapes whose pixels hang on the last bits of Mesa's arithmetic, one thing a frame: lines of all slopes and widths,
- * lines, smooth ones too, drawn over themselves under GL_LESS, turned and coplanar surfaces, materials that change
- * between Begin and End, points, evaluators, quads that are not whole. Recorded by test_shapes.py.
+ * Shapes whose pixels depend on the last bits of Mesa's arithmetic, one kind per frame: lines of all slopes and widths;
+ * lines, also smooth ones, drawn twice under GL_LESS; rotated and coplanar surfaces; material changes between Begin and
+ * End; points; evaluators; incomplete quads. Recorded by test_shapes.py.
  */
 #include <math.h>
 
@@ -39,7 +39,7 @@ static void spokes(void)
 	glLineWidth(1);
 }
 
-/* A net of wide lines, twice: where both times have the same depth the first one stays. */
+/* A net of wide lines, drawn twice: at equal depth the first one remains. */
 static void net(void)
 {
 	glTranslatef(0.1f, 0, -3);
@@ -63,19 +63,19 @@ static void net(void)
 	glLineWidth(1);
 }
 
-/* The same smooth: their borders, which cover pixels in part, write depth too. */
+/* The same smooth: their rims, which cover pixels partly, also write depth. */
 static void smooth_net(void)
 {
 	glEnable(GL_LINE_SMOOTH);
 	glEnable(GL_BLEND);
 	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-	glTranslatef(-0.2f, -0.05f, -0.3f); /* all of it in the view */
+	glTranslatef(-0.2f, -0.05f, -0.3f); /* completely in view */
 	net();
 	glDisable(GL_BLEND);
 	glDisable(GL_LINE_SMOOTH);
 }
 
-/* As fieldlines draws: strips whose vertices are all given twice, so that every other smooth line has no length. */
+/* As fieldlines draws: strips with every vertex doubled, so that every other smooth line has zero length. */
 static void smooth_dots(void)
 {
 	glEnable(GL_LINE_SMOOTH);
@@ -94,7 +94,7 @@ static void smooth_dots(void)
 	glDisable(GL_LINE_SMOOTH);
 }
 
-/* Surfaces that lie in each other: which one is seen is decided by the last bit of their depths. */
+/* Coplanar surfaces: the last bit of their depths determines which one is visible. */
 static void coplanar(void)
 {
 	glTranslatef(0, 0, -4);
@@ -112,7 +112,7 @@ static void coplanar(void)
 	}
 }
 
-/* Each vertex keeps the material that was current when it was given (GL 2.1 sec. 2.6.3). */
+/* Each vertex uses the material that was current when it was passed (GL 2.1 sec. 2.6.3). */
 static void materials(void)
 {
 	static const float where[4] = { 0.3f, 0.2f, 1, 0 };
@@ -138,7 +138,7 @@ static void materials(void)
 	glDisable(GL_LIGHTING);
 }
 
-/* Points of all sizes, and a light that is too far away for numbers to hold the distance. */
+/* Points of all sizes, and a light so far away that its distance overflows. */
 static void points(void)
 {
 	static const float far_away[4] = { 0, 20, -1, -3e-34f }, near[4] = { 0, 0, 1, 0 };
@@ -163,7 +163,7 @@ static void points(void)
 	glDisable(GL_LIGHT1);
 }
 
-/* Sprites that get smaller with their distance, far from where the eye looks. */
+/* Sprites whose size shrinks with distance, far from the middle of the view. */
 static void far_sprites(void)
 {
 	static const float fade[3] = { 0, 0, 1 }, whole[3] = { 1, 0, 0 };
@@ -197,7 +197,7 @@ static void far_sprites(void)
 	glDisable(GL_BLEND);
 }
 
-/* A surface of Bezier's, lit by normals of its own, and its net (GL 2.1 sec. 5.1). */
+/* A Bezier surface, lit with generated normals, and its net (GL 2.1 sec. 5.1). */
 static void evaluated(void)
 {
 	static const float where[4] = { 0.4f, 0.5f, 1, 0 };
@@ -226,8 +226,8 @@ static void evaluated(void)
 	glEvalMesh2(GL_LINE, 0, 9, 0, 7);
 }
 
-/* Bent quads, smooth, in view: how they are cut shows. Vertices of a quad that is not whole, far out of view, change
- * nothing. */
+/* Smooth, non-planar quads in view, which show how they are split. Vertices of an incomplete quad, far out of view,
+ * have no effect. */
 static void incomplete_quads(void)
 {
 	float position[7][3], color[7][3];

@@ -1,6 +1,6 @@
 /*
- * A program object of two contexts, whose uniforms both set: what a context draws with that sets what the other has set
- * already. Mesa goes on with the older values (replay/programs/held.h). Recorded by test_shared.py.
+ * A program object used by two contexts that both set its uniforms: after one sets them, the other must draw with the
+ * new values. Mesa continues with the old ones (replay/programs/held.h). Recorded by test_shared.py.
  */
 #include "tests/trace/window.h"
 
@@ -51,7 +51,7 @@ static void square(float x, float y)
 	glEnd();
 }
 
-/* The first context draws in red; the second sets green, and draws. Then the first goes on. */
+/* The first context draws in red; the second sets green and draws. Then the first draws again. */
 static void begin(void)
 {
 	use(0);
@@ -94,7 +94,7 @@ static void drawn_between(void)
 	the_same();
 }
 
-/* The last one: Mesa (22.3.6) reads memory that is gone when the other context goes on. */
+/* Must come last: Mesa (22.3.6) reads freed memory when the other context draws again. */
 static void linked_again(void)
 {
 	glLinkProgram(program);
@@ -106,7 +106,7 @@ int main(void)
 {
 	static void (*const between[])(void) = { the_same,      nothing,      another,       there_and_back,
 		                                 other_element, none_between, drawn_between, linked_again };
-	/* as the window has them */
+	/* the windows' visual */
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, None };
 
 	open_window();

@@ -1,18 +1,22 @@
 /*
- * Sheets that are in nobody's light, and shadows that the program draws itself. tests/look/test_sheets.py records one
- * kind of frames at a time:
+ * Sheets that must not block light, and shadows that the program draws itself. tests/look/test_sheets.py records one
+ * kind of frame at a time:
  *
- *   window  a box on a floor under a lamp behind the viewer: alone; after a sheet over all of the window by no matrices
- *           at all, which writes the depth of the clear; after one in pixels, without depth; before one in pixels in
- *           front of all, of which nothing passes the alpha test
- *   iso     the same in parallel projection, a lamp above: alone; after a sheet of another parallel projection, nearer
- *           than it
- *   unseen  the box alone; under sheets that are culled on both sides, fail the depth test always, have no colour and
- *           leave no depth, or are drawn where the depth is theirs already, which is nowhere
- *   drawn   a box on a floor: alone; with its shadow flattened onto the floor from where the light is; from elsewhere
- *   leaning bodies whose normals lean over to a light from which their faces turn away: a box of one normal a face; of
- *           those of a ball; a coarse ball; then the first behind a board that stands in the light's way
- *   steps   boards that face the viewer one behind the other, of which a pixel or two is seen of each; no light
+ *   window  a box on a floor under a lamp behind the viewer: alone; after a sheet that covers the window, drawn with
+ *           identity matrices, which writes the clear depth; after one in pixel coordinates, without depth;
+ *           before one
+ *           in pixel coordinates in front of everything, whose fragments all fail the alpha test
+ *   iso     the same in parallel projection, with a lamp above: alone; after a sheet in another parallel projection,
+ *           nearer than the box
+ *   unseen  the box alone; under sheets that are culled on both sides, always fail the depth test, write neither
+ *   colour
+ *           nor depth, or are drawn under GL_EQUAL where no pixel has their depth
+ *   drawn   a box on a floor: alone; with its shadow flattened onto the floor, from the light; from another position
+ *   leaning bodies whose normals lean towards a light that their faces turn away from: a box with one normal per
+ *   face;
+ *           one with the normals of a ball; a coarse ball; then the first behind a board that blocks the
+ *           light
+ *   steps   boards that face the viewer one behind the other, each visible in a pixel or two; no light
  */
 #include "tests/trace/window.h"
 
@@ -103,7 +107,7 @@ static void world(void)
 	upright();
 }
 
-/* A square at z, from low to high on both axes. */
+/* A square at depth z, from low to high on both axes. */
 static void sheet(float low, float high, float z)
 {
 	const float corners[4][3] = { { low, low, z }, { high, low, z }, { high, high, z }, { low, high, z } };
@@ -114,7 +118,7 @@ static void sheet(float low, float high, float z)
 	glEnable(GL_LIGHTING);
 }
 
-/* Parallel projection of the window from 0 to size; 0: identity. */
+/* Parallel projection of the window from 0 to size; with 0, the identity. */
 static void own_matrices(double size)
 {
 	glMatrixMode(GL_PROJECTION);
@@ -181,7 +185,7 @@ static void draw_iso(void)
 	}
 }
 
-/* The depth of nothing, then all where that depth is. */
+/* Draw the clear depth, then a sheet that passes only where that depth is. */
 static void carved_sheet(void)
 {
 	glEnable(GL_ALPHA_TEST);
@@ -242,7 +246,7 @@ static void draw_drawn(void)
 	}
 }
 
-/* A point of a ball or a box around the middle, with a normal between the face's own and what it leans to. */
+/* A point of a ball or box around the origin, with a normal between the face's own and `lean`. */
 static void corner(const float face[3], const float at[3], const float lean[3], float share)
 {
 	float n[3];
@@ -253,7 +257,7 @@ static void corner(const float face[3], const float at[3], const float lean[3], 
 	glVertex3fv(at);
 }
 
-/* A box of one draw. lean: NULL: to the corner itself */
+/* A box drawn at once. lean: the direction that normals lean to; NULL: that of the corner */
 static void leaning_box(const float lean[3], float share)
 {
 	static const float around[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };

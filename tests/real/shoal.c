@@ -1,7 +1,7 @@
 /*
- * One second of a shoal at a rate that is given: fish that swim past each other at different speeds, each of the same
- * triangles, its points the program's own. Those out of the picture are not drawn. Behind them opens a ring of patches;
- * the inner ones stretch to many times their size. Recorded by test_shoal.py.
+ * One second of a shoal at a given rate: fish that swim past each other at different speeds, all with the same
+ * triangles and with vertices computed by the program. Fish outside the picture are not drawn. Behind them a ring of
+ * patches opens; the inner ones stretch to many times their size. Recorded by test_shoal.py.
  */
 #include <math.h>
 
@@ -11,7 +11,7 @@
 #define LONG 1.4f
 #define PARTS 10
 
-/* Its shade tells which one it is. */
+/* The shade identifies the fish. */
 static void fish(int number, float time)
 {
 	const float shade = 0.2f + 0.8f * (float)number / (FISH - 1);
@@ -47,7 +47,7 @@ static void draw_ring(float time)
 {
 	for (int ring = 0; ring < 6; ring++)
 		for (int i = 0; i < 12; i++) {
-			const float power = 8 - 7 * time; /* all but the last ring are narrow at first */
+			const float power = 8 - 7 * time; /* all rings but the last are narrow at first */
 			const float radius[2] = { 6 * powf((float)ring / 6, power) + 0.02f,
 				                      6 * powf((float)(ring + 1) / 6, power) + 0.02f };
 

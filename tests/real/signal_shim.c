@@ -1,5 +1,5 @@
-/* Preloaded into `relume record`: SIGUSR1 arrives at the last moment, when the program has ended and its handler is
- * about to be given back. */
+/* Preloaded into `relume record`: sends SIGUSR1 at the last moment, when the program has ended and the old signal
+ * handler is about to be restored. */
 #include <dlfcn.h>
 #include <signal.h>
 #include <stddef.h>

@@ -1,13 +1,13 @@
 /*
- * All kinds of things measured in pixels, in a window of 96x72 times the first argument: lines, stippled ones, points
- * that shrink with distance, a decal by polygon offset, clears and draws under a scissor, pixels under a zoom. Recorded
- * by test_scale.py, which holds one size against another.
+ * Features measured in pixels, in a window of 96x72 times the first argument: lines, stippled lines, points that shrink
+ * with distance, a decal with polygon offset, clears and draws under a scissor, zoomed pixels. Recorded by
+ * test_scale.py, which compares the sizes.
  */
 #include <stdlib.h>
 
 #include "tests/trace/window.h"
 
-static int times; /* pixels for one of 96x72 */
+static int times; /* scale relative to 96x72 */
 
 static void lines(void)
 {
@@ -41,7 +41,7 @@ static void points(void)
 	glEnd();
 }
 
-/* A steep floor, and a decal in its plane that polygon offset brings before it. */
+/* A steep floor, and a coplanar decal that polygon offset moves in front of it. */
 static void decal(void)
 {
 	for (int i = 0; i < 2; i++) {

@@ -1,6 +1,6 @@
 /*
- * A stair that rises by a third of a step every four frames, and is one step shorter then. Two boxes on it rise
- * as well, while the viewer turns. Recorded by tests/look/test_unseen.py.
+ * A staircase that rises by a third of a step every four frames, and then loses one step. Two boxes on it rise as well,
+ * while the viewer turns. Recorded by tests/look/test_unseen.py.
  */
 #include "tests/trace/window.h"
 

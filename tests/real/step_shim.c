@@ -1,6 +1,6 @@
 /*
- * Preloaded into `relume ci`: runs the program that STEP names in place of `relume render` and `relume diff`, with
- * their command line as its arguments, where the folder holds a file called "renderer". So a test breaks a step without
+ * Preloaded into `relume ci`: if the folder holds a file called "renderer", runs the program that STEP names instead of
+ * `relume render` and `relume diff`, with their command line as its arguments. A test can thus break a step without
  * breaking the command.
  */
 #include <dlfcn.h>

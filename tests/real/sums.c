@@ -1,5 +1,5 @@
 /*
- * Sums in the accumulation buffer, kept from frame to frame, and left alone by selection and feedback. Recorded by
+ * The accumulation buffer: sums are kept from frame to frame, and unaffected by selection and feedback. Recorded by
  * test_sums.py.
  */
 #include "tests/trace/window.h"
@@ -21,7 +21,7 @@ static void panel(int x, int y, int size, float r, float g, float b, float a)
 	glRecti(x, y, x + size, y + size);
 }
 
-/* Loaded, scaled, added to, and given back through a scissor and a mask; sums are kept for the next frame. */
+/* Load, multiply, accumulate, and return through a scissor and a mask; sums are kept for the next frame. */
 static void sums(void)
 {
 	panel(4, 4, 30, 1, 0, 0.2f, 1);
@@ -29,14 +29,14 @@ static void sums(void)
 	glClear(GL_COLOR_BUFFER_BIT);
 	panel(14, 14, 30, 0, 1, 0.6f, 1);
 	glAccum(GL_ACCUM, 0.6f);
-	glEnable(GL_BLEND); /* which RETURN does not look at */
+	glEnable(GL_BLEND); /* RETURN ignores blending */
 	glBlendFunc(GL_ONE, GL_ONE);
 	glAccum(GL_RETURN, 1);
 	glDisable(GL_BLEND);
-	panel(48, 30, 12, 1, 0.8f, 0.2f, 1); /* over what came back */
+	panel(48, 30, 12, 1, 0.8f, 0.2f, 1); /* over the returned colours */
 }
 
-/* What the frame before left in the buffer. */
+/* Continue with the buffer of the previous frame. */
 static void more_sums(void)
 {
 	glAccum(GL_MULT, 0.5f);

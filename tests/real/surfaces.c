@@ -1,12 +1,12 @@
 /*
- * Surfaces on top of each other: one frame each of textures filtered anisotropically, environments of GL_COMBINE on
- * three units, and polygon offset. Walls and floors lead out of the view. Recorded by test_families.py.
+ * Overlapping surfaces, a frame each: anisotropically filtered textures, GL_COMBINE environments on three units, and
+ * polygon offset. Walls and floors extend out of the view. Recorded by test_families.py.
  */
 #include "tests/trace/window.h"
 
 static unsigned char colors[64 * 64 * 4];
 
-/* A texture with all its levels, at a unit. */
+/* Bind a texture with all its levels to a unit. */
 static void texture(unsigned unit, int format, int width, int height, int wrap, int min_filter, float anisotropy)
 {
 	unsigned name;
@@ -23,7 +23,7 @@ static void texture(unsigned unit, int format, int width, int height, int wrap, 
 	glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, colors);
 }
 
-/* A square of the plane z = 0 with the same coordinates for all units, in the colours of a quarter each. */
+/* A square in the plane z = 0 with the same coordinates for all units, and another colour in each quarter. */
 static void square(float times)
 {
 	glBegin(GL_QUADS);
@@ -38,7 +38,7 @@ static void square(float times)
 	glEnd();
 }
 
-/* Wall i of four around the viewer, some of it behind them; `layer` moves it. */
+/* Wall i of four around the viewer, partly behind them; `layer` moves it. */
 static void wall(int i, float layer, float times)
 {
 	glLoadIdentity();
@@ -67,7 +67,7 @@ static void reset(void)
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-/* Footprints of all shapes; sizes that are powers of two and others; a lower layer shines through. */
+/* Footprints of all shapes; power-of-two sizes and others; a lower layer shines through. */
 static void anisotropic(void)
 {
 	static const int filters[4] = { GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR,
@@ -86,7 +86,7 @@ static void anisotropic(void)
 		}
 }
 
-/* Each function and operand, with sources of the unit, of others, and of none. */
+/* Each function and operand, with sources from the same unit, from others, and from none. */
 static void combined(void)
 {
 	static const int functions[8] = { GL_REPLACE,     GL_MODULATE, GL_ADD,      GL_ADD_SIGNED,
@@ -122,7 +122,7 @@ static void combined(void)
 	}
 }
 
-/* Layers in one plane, told apart by their offsets alone. */
+/* Coplanar layers that only their offsets separate. */
 static void offset(void)
 {
 	static const float offsets[4][2] = { { 0, 0 }, { -1, -2 }, { 1.5f, 1 }, { -2, 3 } };

@@ -1,7 +1,7 @@
 /*
- * What is drawn to, one thing a frame: a window with alpha, whose stored alpha blends look at; textures and
+ * Draw targets, one kind per frame: a window with alpha, whose stored alpha is used by blending; textures and
  * renderbuffers as colour, depth and stencil, drawn with, copied and kept from frame to frame. Recorded by
- * test_targets.py; sums.c has what takes an accumulation buffer.
+ * test_targets.py; sums.c covers the accumulation buffer.
  */
 #include "tests/trace/window.h"
 
@@ -22,7 +22,7 @@ static void panel(int x, int y, int size, float r, float g, float b, float a)
 	glRecti(x, y, x + size, y + size);
 }
 
-/* Factors that are the stored alpha, masks that keep it, and a test program's usual trick: alpha drawn first. */
+/* Blend factors that use the stored alpha, masks that preserve it, and a common trick: drawing alpha first. */
 static void stored_alpha(void)
 {
 	glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
@@ -72,7 +72,7 @@ static void make_objects(void)
 	glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-/* Draw to an object from here on, or to the window again. */
+/* Draw to an object from now on, or to the window again. */
 static void draw_to(unsigned object, int width, int height)
 {
 	glBindFramebuffer(GL_FRAMEBUFFER, object);
@@ -97,7 +97,10 @@ static void show(unsigned texture, int x, int y, int width, int height)
 	glDisable(GL_TEXTURE_2D);
 }
 
-/* Depth, stencil and scissor of the object's own, then its texture on the window; and drawn on without a clear. */
+/*
+ * Draw with the object's own depth, stencil and scissor, then show its texture in the window; later draw to it without
+ * a clear.
+ */
 static void render_to_texture(void)
 {
 	draw_to(objects[0], 32, 16);
@@ -122,7 +125,7 @@ static void render_to_texture(void)
 	show(colors[0], 32, 24, 32, 16);
 }
 
-/* A depth texture as a picture, and the colours of the last frame still there. */
+/* A depth texture as a picture; the previous frame's colours are preserved. */
 static void depth_texture(void)
 {
 	draw_to(objects[1], 32, 32);
@@ -139,7 +142,7 @@ static void depth_texture(void)
 	show(colors[0], 0, 32, 32, 16);
 }
 
-/* Levels made of what was drawn, and drawn to one by one; by the extension's own names. */
+/* Levels generated from a drawn picture, and levels drawn individually; uses the extension's names. */
 static void levels(void)
 {
 	unsigned tex, fb;
@@ -173,7 +176,7 @@ static void levels(void)
 	glDeleteTextures(1, &tex);
 }
 
-/* Faces of a cube and layers of a volume. */
+/* Faces of a cube and layers of a 3D texture. */
 static void layers(void)
 {
 	unsigned tex[2], fb;
@@ -239,7 +242,7 @@ static void layers(void)
 	glDeleteTextures(2, tex);
 }
 
-/* Copies into and out of objects, between objects and the window, flipped and to another place. */
+/* Copies into and out of objects, between objects and the window, flipped and moved. */
 static void copies(void)
 {
 	panel(2, 2, 10, 1, 0, 1, 1);
@@ -256,8 +259,7 @@ static void copies(void)
 	show(colors[1], 32, 16, 32, 32);
 }
 
-/* Blits between pixels: halved and turned over in another object, once more as large in the window, and cut by its
- * border. */
+/* Scaled blits: halved and mirrored in another object, doubled in the window, and clipped by its border. */
 static void scaled(void)
 {
 	glBindFramebuffer(GL_FRAMEBUFFER, objects[1]);
@@ -273,8 +275,8 @@ static void scaled(void)
 	show(colors[0], 2, 34, 16, 16);
 }
 
-/* Colours that one object has at a time, each with a past of its own: cleared together, drawn over with and without
- * depth. */
+/* An object with several colour attachments, each with a history of its own: cleared together, drawn over with and
+ * without depth. */
 static void several(void)
 {
 	static const unsigned both[2] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT2 };
@@ -307,7 +309,7 @@ static void several(void)
 	glTranslatef(0, 0, 3);
 	panel(12, 12, 30, 0.2f, 0.6f, 1, 0.4f);
 	glTranslatef(0, 0, -2);
-	panel(2, 20, 30, 1, 0.6f, 0, 0.6f); /* behind it in part */
+	panel(2, 20, 30, 1, 0.6f, 0, 0.6f); /* partly behind */
 	glLoadIdentity();
 	glDisable(GL_BLEND);
 	glDisable(GL_DEPTH_TEST);
@@ -317,7 +319,7 @@ static void several(void)
 	glViewport(0, 0, 64, 48);
 	show(tex[0], 0, 0, 32, 24);
 	show(tex[1], 32, 0, 32, 24);
-	glBindFramebuffer(GL_FRAMEBUFFER, fb); /* both drawn to again */
+	glBindFramebuffer(GL_FRAMEBUFFER, fb); /* both are drawn to again */
 	glDrawBuffers(2, both);
 	glViewport(0, 0, 32, 24);
 	glColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_TRUE);
@@ -337,8 +339,8 @@ static void several(void)
 }
 
 /*
- * Objects of floats: what is cleared, drawn, blended and copied beyond [0,1] stays so, but where the program asks for
- * colours to be clamped. Shown dimmed, panel by panel.
+ * Floating-point objects: values outside [0,1] are preserved by clears, draws, blending and copies, unless the program
+ * enables clamping. Shown dimmed, panel by panel.
  */
 static void floats(void)
 {
@@ -403,7 +405,7 @@ static void floats(void)
 		glWindowPos2i(12, 22);
 		glCopyPixels(2, 22, 8, 8, GL_COLOR);
 	}
-	/* what a renderbuffer holds is kept from one object to the other, and copied to a texture */
+	/* a renderbuffer's contents are kept when it moves to another object, and copied to a texture */
 	glGenRenderbuffers(1, &held);
 	glBindRenderbuffer(GL_RENDERBUFFER, held);
 	glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA16F, 32, 32);
@@ -416,7 +418,7 @@ static void floats(void)
 	glBlendFunc(GL_ONE, GL_ONE);
 	panel(8, 8, 16, 0.25f, 0.25f, 0.5f, 0);
 	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-	for (int k = 0; k < 400; k++) /* what each stores is cut off to a half: that adds up */
+	for (int k = 0; k < 400; k++) /* each store truncates to a half float, which adds up */
 		panel(0, 0, 8, 0.9f, 0.4f, 0.7f, 0.005f);
 	glDisable(GL_BLEND);
 	glGenTextures(1, &copy);
@@ -443,7 +445,7 @@ static void floats(void)
 	glDisable(GL_TEXTURE_2D);
 }
 
-/* Objects of few bits: what is drawn to them loses its low bits, and is rounded to four of them alone. */
+/* Objects with few bits: drawing loses the low bits; only four-bit formats are rounded. */
 static void few_bits(void)
 {
 	static const int formats[4] = { GL_RGB5_A1, GL_RGBA4, GL_R3_G3_B2, GL_RGB565 };
@@ -467,7 +469,7 @@ static void few_bits(void)
 	}
 }
 
-/* Selection and feedback leave buffers as they are, but move the raster position; blits are no rendering. */
+/* Selection and feedback leave buffers unchanged but move the raster position; blits are not rendering. */
 static void not_rendered(void)
 {
 	static const unsigned char bits[8] = { 255, 129, 165, 129, 165, 153, 129, 255 };

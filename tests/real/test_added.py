@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The last lines of a run: on how many pixels tracing added what, as the channels have it, whether the file holds them
-or not."""
+"""The last lines of a run: on how many pixels tracing added each kind of light. They must match the channels, whether
+the file contains these or not."""
 import re
 
 from exr import Image
@@ -11,7 +11,7 @@ LINE = re.compile(r"^  tracing added (.*)$", re.M)
 
 
 def shares(images):
-    """Per cent of the pixels that show each part, by the channels."""
+    """Percentage of pixels where each kind contributes, from the channels."""
     counts, pixels = dict.fromkeys(PARTS, 0), 0
     for image in images:
         pixels += image.width * image.height
@@ -40,24 +40,24 @@ for program, options in (("spheres", ()), ("still_life", ()), ("still_life", ("-
         for name, share in shares(map(Image, sorted(SCRATCH.glob(f"{program}.*.exr")))).items()
     }
     check(wanted and said(text) == wanted, f"{program} {options}: {said(text)}, by the channels {wanted}: {text}")
-    check(said(render(trace, "x.####.png", *options)) == wanted, f"{program} {options}: pictures to look at: the same")
+    check(said(render(trace, "x.####.png", *options)) == wanted, f"{program} {options}: display pictures: the same")
     check(
         said(render(trace, "x.####.exr", "--aov", "gl", "-j", 1, *options)) == wanted,
-        f"{program} {options}: files without these channels: the same")
+        f"{program} {options}: files without these channels: the same lines")
     check(
         said(render(trace, "x.####.exr", "--skip-existing", "--aov", "gl", *options)) is None,
-        f"{program} {options}: nothing traced, nothing said")
+        f"{program} {options}: nothing traced, no line")
     check("tracing added" not in render(trace, "x.####.exr", "--progress", "none", *options),
           f"{program} {options}: --progress none")
 check("glass" in said(render(SCRATCH / "spheres.trace", "x.####.exr")), "spheres: glass is named")
 check("other light" in wanted, f"lit at each pixel: {wanted}")
-check("tracing added" not in render(trace, "x.####.exr", "--mode", "gl"), "mode gl adds nothing by its nature")
+check("tracing added" not in render(trace, "x.####.exr", "--mode", "gl"), "mode gl never adds anything")
 check("light from surface to surface on" in render(trace, "x.####.exr", "--mode", "path", "--samples", "2", "-f", 0),
       "mode path")
 two = SCRATCH / "two.trace"
 record(two, corpus("two_triangles"), "--frames", "1", "--size", "160x120", options=())
 text = render(two, "two.####.png")
 check("tracing added nothing" in text and "--look auto" in text and "--mode path" in text and "brighter" not in text,
-      f"what to try where nothing is added: {text}")
+      f"advice if nothing is added: {text}")
 
 finish()

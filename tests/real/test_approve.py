@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 600 s
-"""relume approve: provenance, what it prints, and what relume diff makes of approved frames."""
+"""relume approve: provenance, output, and how relume diff scores approved frames."""
 import os
 import re
 import shutil
@@ -23,7 +23,7 @@ def outcomes(code, *args):
 
 
 found, frames = outcomes(4, trace, out, "--baseline", base)
-check(found == ["new"] * 3, f"nothing is approved yet: {found}")
+check(found == ["new"] * 3, f"no approved frame yet: {found}")
 done = relume("diff", trace, out, "--baseline", base)
 said = [line for line in done.stderr.splitlines() if str(base) in line]
 check(
@@ -32,7 +32,7 @@ check(
 shutil.copy(out / "c.0002.exr", SCRATCH / "view.exr")
 got, score = diff(trace, SCRATCH / "view.exr")
 check([(f["frame"], f["outcome"]) for f in score["frames"]] == [(2, "passed")],
-      f"a frame without a number in its name says which one it is: {score['frames']}")
+      f"frame number from the file, not its name: {score['frames']}")
 text = approve(out, base, "-n")
 check(not base.exists() and "frame 1: new" in text and "nothing was written" in text, f"a dry run: {text}")
 env = dict(os.environ, SOURCE_DATE_EPOCH="1000000000")
@@ -54,7 +54,7 @@ check(found == ["passed"] * 3 and frames[0]["gates"]["R1"]["state"] == "not meas
 found, _ = outcomes(0, "--baseline", base, "--report", SCRATCH / "page", out)
 check(found == ["passed"] * 3 and (SCRATCH / "page/index.html").exists(), f"a page without references: {found}")
 
-# Other pixels of the same device: a failure; approving them says what changed.
+# Other pixels from the same device are a failure; approving them reports the change.
 shutil.copy(out / "c.0001.exr", SCRATCH / "kept.exr")
 render(trace, SCRATCH / "gl", "--mode", "gl", "-f", "1")
 shutil.copy(SCRATCH / "gl" / "c.0001.exr", out / "c.0001.exr")
@@ -65,7 +65,7 @@ text = approve(out, base, "-n")
 check(re.search(r"frame 1: changed: \d+ of \d+ pixels", text) and "2 as approved before" in text, f"an update: {text}")
 shutil.copy(SCRATCH / "kept.exr", out / "c.0001.exr")
 
-# The C twins are another device: its frames are compared number by number.
+# The C twins count as another device: frames are compared numerically.
 render(trace, SCRATCH / "twins", "--device", "reference")
 found, frames = outcomes(0, trace, SCRATCH / "twins", "--baseline", base)
 check(found == ["passed"] * 3, f"another device: {found}")
@@ -80,7 +80,7 @@ check(found == ["passed", "passed"], f"only what is there is scored: {found}")
 found, _ = outcomes(1, "--baseline", base, "--all", out)
 check(found == ["passed", "passed", "missing"], f"an approved frame without a traced one: {found}")
 
-# All or nothing: what cannot be approved is the last of them.
+# All or nothing: here the last frame cannot be approved.
 half, mixed = SCRATCH / "half", SCRATCH / "mixed"
 mixed.mkdir()
 shutil.copy(out / "c.0000.exr", mixed / "a.0000.exr")
@@ -97,15 +97,15 @@ done = relume("approve", SCRATCH / "gl01", base)
 check(done.returncode == 3 and before == {path: path.read_bytes() for path in base.rglob("*") if path.is_file()},
       f"a damaged frame: {done.stdout}{done.stderr}")
 
-# Pictures are approved as what they are.
+# Pictures are approved in their own format.
 must(relume("render", trace, "-o", SCRATCH / "png" / "c.####.png"))
 approve(SCRATCH / "png", SCRATCH / "base_png")
 stored = sorted(path.name for path in (SCRATCH / "base_png").glob("*/frame.*"))
-check(stored == [f"frame.{i:04}.png" for i in range(3)], f"PNG frames are stored as PNG: {stored}")
+check(stored == [f"frame.{i:04}.png" for i in range(3)], f"PNG frames are stored as PNG files: {stored}")
 check(all(path.read_bytes()[:4] == b"\x89PNG" for path in (SCRATCH / "base_png").glob("*/frame.*")),
-      "and are PNG files")
+      "they begin like PNG files")
 found, _ = outcomes(0, "--baseline", SCRATCH / "base_png", SCRATCH / "png")
-check(found == ["passed"] * 3, f"and are compared: {found}")
+check(found == ["passed"] * 3, f"PNG frames are compared: {found}")
 shutil.copy(SCRATCH / "png" / "c.0000.png", SCRATCH / "png" / "c.0001.png")
 found, frames = outcomes(1, "--baseline", SCRATCH / "base_png", "--report", SCRATCH / "page_png", SCRATCH / "png")
 check(found[1] == "failed" and '"approved": "data:image/png' in (SCRATCH / "page_png/index.html").read_text(),
@@ -115,5 +115,5 @@ sheet.write_text(sheet.read_text().replace("version: 1", "version: one"))
 done = relume("diff", trace, out, "--baseline", base)
 check(done.returncode == 3 and "line 2" in done.stderr, f"a damaged file: {done.stderr}")
 check(relume("approve", trace, base).returncode != 0, "a trace is no set of traced frames")
-check(relume("approve", out).returncode == 2, "two names are wanted")
+check(relume("approve", out).returncode == 2, "two names are required")
 finish()

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 500 s
-"""Bad input of every verb: one clear line, the right exit code, nothing left under a final name."""
+"""Bad input to every verb: one clear line, the right exit code, and no file under a final name."""
 import pathlib
 import random
 import re
@@ -30,7 +30,7 @@ def left_behind():
 
 
 def refused(done, code, what):
-    """One line on standard error, the exit code, and no file made."""
+    """Require one line on standard error, the exit code, and no new file."""
     lines = [line for line in done.stderr.splitlines() if not PROGRESS.match(line)]
     check(done.returncode == code, f"{what}: exit code {done.returncode}, expected {code}: {done.stderr}")
     check(len(lines) == 1 and lines[0].startswith("relume: "), f"{what}: one line that begins with 'relume: ': {lines}")
@@ -48,7 +48,7 @@ record(good, corpus("two_triangles"), "--frames", "3")
 frames = SCRATCH / "frames"
 render(good, frames)
 
-# Each verb that reads a trace, with the trace's place left open.
+# Each verb that reads a trace, with the trace's name as a parameter.
 READERS = {
     "info": lambda t: ["info", t],
     "dump": lambda t: ["dump", t],
@@ -80,7 +80,7 @@ check(listed.returncode == 0 and [line.split(":")[0] for line in listed.stdout.s
       f"from 1 to the end: {listed.stdout}")
 refused(relume("render", good, "-f", "9-", "-o", WORK / "x.####.exr"), USAGE, "a range that begins behind the end")
 
-# A plain file where a folder should be: not even root can write below it.
+# A plain file instead of a folder: not even root can write below it.
 blocked = SCRATCH / "good.trace"
 refused(relume("render", good, "-o", blocked / "x.####.exr"), SYSTEM, "render into a file")
 refused(relume("diff", good, frames, "--report", blocked / "report"), SYSTEM, "diff's report into a file")
@@ -96,7 +96,7 @@ empty_folder = SCRATCH / "none"
 empty_folder.mkdir()
 refused(relume("diff", good, empty_folder), INPUT, "diff with a folder without frames")
 
-# A trace cut anywhere is read up to its last whole call, or refused; never worse.
+# A trace cut at any point is read up to its last whole call, or refused.
 data = good.read_bytes()
 rng = random.Random(1)
 cut = SCRATCH / "cut.trace"

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""test_batch_faults.py [BUILD] (with BUILD as `make show-batch-faults`): what goes wrong while frames are rendered.
+"""test_batch_faults.py [BUILD] (with BUILD as `make show-batch-faults`): faults while frames are rendered.
 
-A full disk, a folder that cannot be written, a recording that is cut while it is rendered, one that disappears, a
-device that fails: each ends with its exit code and a line that says what it was, every file that is there is whole,
-nothing unfinished is left, and the same command with --skip-existing goes on once the fault is gone.
+A full disk, a read-only folder, a recording that is truncated during the run, one that disappears, a device that fails.
+Each run must end with the right exit code and a line that names the fault; all files must be complete, with no partial
+ones; and the same command with --skip-existing must continue once the fault is gone.
 
 limit: 300 s
 """
@@ -40,16 +40,17 @@ frame_bytes = min(map(len, whole.values()))
 
 
 def judge(what, done, folder, code, words):
-    """A fault has happened: look at what came of it, then take it away and go on."""
+    """Check the consequences of a fault, then remove it and continue the run."""
     left = files(folder)
     lines = [line for line in done.stderr.splitlines() if line.startswith("relume: ") and "warning" not in line]
     good = [check(done.returncode == code, f"{what}: exit code {done.returncode} and not {code}: {done.stderr}"),
-            check(any(words in line for line in lines), f"{what}: a line says '{words}': {done.stderr}"),
-            check(all(whole.get(name) == data for name, data in left.items()), f"{what}: nothing torn: {sorted(left)}")]
+            check(any(words in line for line in lines), f"{what}: a line contains '{words}': {done.stderr}"),
+            check(all(whole.get(name) == data for name, data in left.items()),
+                  f"{what}: no partial file: {sorted(left)}")]
     rows.append({
-        "what": f"{what}: exit code, line, files torn",
+        "what": f"{what}: exit code, line, partial files",
         "figure": f"{done.returncode}, {lines[0][8:80] if lines else ''}, "
-        f"{sum(whole.get(n) != d for n, d in left.items())}", "bar": f"{code}, one that says it, 0", "peer": None,
+        f"{sum(whole.get(n) != d for n, d in left.items())}", "bar": f"{code}, one that names it, 0", "peer": None,
         "passed": all(good)
     })
     return left
@@ -57,11 +58,11 @@ def judge(what, done, folder, code, words):
 
 def goes_on(what, folder):
     must(relume(*command(trace, folder, "--skip-existing")))
-    check(files(folder) == whole, f"{what}: the same command with --skip-existing goes on")
+    check(files(folder) == whole, f"{what}: the same command with --skip-existing continues")
 
 
-# A disk that is full: no file may grow beyond half a frame (without PoCL, whose compiler writes files too); then a
-# real one of two frames and a half, where one can be mounted.
+# A full disk: first with files limited to half a frame (without PoCL, whose compiler writes files too); then on a real
+# file system of two and a half frames, if one can be mounted.
 folder = SCRATCH / "limited"
 limit = frame_bytes // 2
 done = run(RELUME, *command(trace, folder, "--device", "reference"),
@@ -75,22 +76,22 @@ if run("mount", "-t", "tmpfs", "-o", f"size={size}k", "none", folder).returncode
     try:
         done = relume(*command(trace, folder))
         left = judge("full disk", done, folder, 5, "cannot be written")
-        check(left, "full disk: what fitted is there")
+        check(left, "full disk: frames that fitted exist")
         must(run("mount", "-o", "remount,size=64m", folder))
         goes_on("full disk", folder)
     finally:
         run("umount", "-l", folder)
 else:
-    print("no tmpfs can be mounted here: the full disk was the limit of a file's size alone")
+    print("no tmpfs can be mounted here: the full disk was only simulated by a limit on file size")
 
-# A folder that cannot be written: for root as well where it is in the way itself.
+# A folder that cannot be written; a file in its place stops root, too.
 (SCRATCH / "plain").write_text("a file where a folder should be\n")
 done = relume(*command(trace, SCRATCH / "plain"))
 judge("output folder is a file", done, SCRATCH / "plain", 5, "Not a directory")
 done = relume(*command(trace, pathlib.Path("/proc/self/fdinfo")))
 judge("output folder cannot be written", done, SCRATCH / "nothing", 5, "cannot be written")
 
-# A recording that is cut behind its index's back, and one that is not there any more.
+# A recording that is truncated after it was indexed, and one that has disappeared.
 cut = SCRATCH / "cut.trace"
 cut.write_bytes(trace.read_bytes())
 must(relume("index", cut))
@@ -98,13 +99,13 @@ shim = dict(os.environ, LD_PRELOAD=str(BUILD / "tests/real/failing_cl.so"))
 with open(cut, "r+b") as file:
     file.truncate(trace.stat().st_size // 2)
 done = relume(*command(cut, SCRATCH / "cutted"))
-check(done.returncode in (0, 3), f"a cut recording: exit code {done.returncode}: {done.stderr}")
+check(done.returncode in (0, 3), f"a truncated recording: exit code {done.returncode}: {done.stderr}")
 check("anew" in done.stderr or "cut" in done.stderr or "whole frame" in done.stderr,
-      f"a cut recording is said: {done.stderr}")
+      f"a truncated recording is reported: {done.stderr}")
 cut.unlink()
 judge("recording is gone", relume(*command(cut, SCRATCH / "gone")), SCRATCH / "gone", 3, "cannot be read")
 
-# A device that fails at once, and one that fails in the middle.
+# A device that fails at the first launch, and one that fails later.
 for after in (0, 40):
     folder = SCRATCH / f"device{after}"
     done = relume(*command(trace, folder), env=dict(shim, FAIL_CALL=str(after + 1), FAIL_NAME="clEnqueueNDRangeKernel",

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""relume bisect: two recordings of a program with one thing changed part at that call, and nowhere else."""
+"""relume bisect: two recordings of a program with one change diverge at that call, and nowhere else."""
 import re
 import tempfile
 
 from helpers import BUILD, RELUME, SCRATCH, check, finish, must, on_display, pathlib, relume
 
-# What is changed: calls that part, in both; frame; what is said beside; first frame whose picture differs. None: it is
-# the same.
+# change: first differing call in either recording; frame; the state reported; first frame whose picture differs. None:
+# no difference.
 CASES = {
     "nothing": None,
     "numbers": None,
@@ -48,7 +48,7 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
         check(done.returncode == 1, f"{what}: exit code {done.returncode}: {done.stderr}")
         check(found["good"][0].startswith(a) and found["bad"][0].startswith(b), f"{what}: the call: {done.stdout}")
         check(found["bad"][1] == frame, f"{what}: frame {frame}: {found}")
-        check(beside in done.stdout and "then at" not in done.stdout, f"{what}: what it changes, once: {done.stdout}")
+        check(beside in done.stdout and "then at" not in done.stdout, f"{what}: the changed state, once: {done.stdout}")
         check(f"frame {seen} of good" in done.stdout or (seen is None and "the same in all 4" in done.stdout),
               f"{what}: its picture: {done.stdout}")
 
@@ -69,5 +69,5 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
     check(relume("bisect", good, out / "missing.trace").returncode == 125, "no such recording")
     (out / "cut.trace").write_bytes(good.read_bytes()[:300])
     check(relume("bisect", good, out / "cut.trace").returncode in (1, 125), "a recording that was cut")
-    check(relume("bisect", good).returncode == 2, "one recording is none to compare with")
+    check(relume("bisect", good).returncode == 2, "one recording cannot be compared")
 finish()

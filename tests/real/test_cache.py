@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Trees kept on disk: the same frames to the byte with and without, by two runs at once, from damaged files, and
-without a folder."""
+"""Trees cached on disk: frames are the same to the byte with and without the cache, with two runs at once, with damaged
+files, and without a folder."""
 import os
 import subprocess
 
@@ -9,12 +9,12 @@ from helpers import RELUME, SCRATCH, check, corpus, finish, must, record, relume
 
 TRACE = SCRATCH / "cache.trace"
 FOLDER = SCRATCH / "trees"
-# Mode gl is the quickest; its candidates come from the same trees.
+# Mode gl is the fastest; its candidates come from the same trees.
 OPTIONS = ("--mode", "gl", "--accel", "sbvh", "-f", "0", "--progress", "none")
 
 
 def render(name, *options, env=None):
-    """Render; return the frame's bytes and what was said."""
+    """Render; returns the frame's bytes and the output."""
     done = must(relume("render", TRACE, "-o", SCRATCH / f"{name}.#.exr", *OPTIONS, *options, env=env))
     return (SCRATCH / f"{name}.0.exr").read_bytes(), done.stderr
 
@@ -28,14 +28,14 @@ home = dict(os.environ, XDG_CACHE_HOME=str(SCRATCH / "home"))
 want, said = render("without", "--no-cache", env=home)
 check(not kept(SCRATCH / "home"), f"--no-cache leaves {kept(SCRATCH / 'home')}")
 
-check(render("first", "--cache", FOLDER)[0] == want, "a run that keeps a tree: another frame")
+check(render("first", "--cache", FOLDER)[0] == want, "a run that stores a tree: another frame")
 files = kept(FOLDER)
 check(len(files) == 1 and files[0].suffix == ".tree", f"kept: {files}")
 whole, inode = files[0].read_bytes(), files[0].stat().st_ino
 os.utime(files[0], (1, 1))
 check(render("again", "--cache", FOLDER)[0] == want, "a run that finds a tree: another frame")
 check(files[0].stat().st_ino == inode and files[0].stat().st_mtime > 1,
-      "what is found is noted as used, and not written again")
+      "a cached tree is marked as used, and not rewritten")
 
 render("default", env=home)
 check([f.name for f in kept(SCRATCH / "home") if f.is_file()] == [files[0].name],
@@ -46,7 +46,7 @@ for what, text in (("cut", whole[:len(whole) // 2]),
     files[0].write_bytes(text)
     frame, said = render(what, "--cache", FOLDER)
     check(frame == want, f"{what} file: another frame")
-    check(files[0].read_bytes() == whole, f"{what} file is not mended")
+    check(files[0].read_bytes() == whole, f"{what} file is not replaced")
 
 shared = SCRATCH / "shared"
 runs = [
@@ -60,7 +60,7 @@ check([f.name for f in kept(shared)] == [files[0].name] and kept(shared)[0].read
 
 frame, said = render("nowhere", "--cache", "/dev/null/trees")
 check(frame == want, "without a folder: another frame")
-check(said.count("\n") == 1 and "/dev/null/trees" in said, f"a folder that cannot be: {said!r}")
+check(said.count("\n") == 1 and "/dev/null/trees" in said, f"an impossible folder: {said!r}")
 frame, said = render("little", "--cache", SCRATCH / "little", "--cache-size", "100K")
 check(frame == want and not said and not kept(SCRATCH / "little"),
       f"a tree larger than the cache: {kept(SCRATCH / 'little')} {said!r}")

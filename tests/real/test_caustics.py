@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Channels caustics of a real program: where light by way of glass falls, whatever else is asked for, and what is
-refused."""
+"""The caustics channels of a real program: the position of light focused by glass, independence of other channels, and
+refused combinations."""
 from exr import Image
 from helpers import SCRATCH, check, corpus, finish, must, record, relume
 
@@ -21,15 +21,15 @@ def brightest(image):
 
 all_channels = render("all.exr", "--aov", "caustics")
 check({"R", "gl.R", "shadow.R", "caustics.R", "caustics.G", "caustics.B"} <= set(all_channels.names),
-      f"beside all others: {all_channels.names}")
+      f"with all other channels: {all_channels.names}")
 value, x, y = brightest(all_channels)
 floor, above = all_channels.planes["albedo.R"][y][x], [v for row in all_channels.planes["caustics.R"][:6] for v in row]
 check(value > floor > 0,
-      f"the ball focuses: {value:.2f} at {x}, {y}, where a light by itself gives {floor:.2f} at most")
+      f"the ball focuses: {value:.2f} at {x}, {y}, where a light alone gives {floor:.2f} at most")
 check(max(above) == 0, "the sky gathers none")
 few = render("few.exr", "--aov", "gl,caustics")
 check("shadow.R" not in few.names and few.planes["caustics.G"] == all_channels.planes["caustics.G"],
-      f"the same by themselves: {few.names}")
+      f"the same channels alone: {few.names}")
 render("again.exr", "--aov", "caustics")
 check((SCRATCH / "again.exr").read_bytes() == (SCRATCH / "all.exr").read_bytes(), "the same bytes in another run")
 pairs = [(a, b)
@@ -38,7 +38,7 @@ pairs = [(a, b)
          for a, b in zip(*rows)]
 off, total = sum(abs(a - b) for a, b in pairs), sum(a for a, _ in pairs)
 check(off < 0.005 * total,
-      f"an OpenCL device's are the reference's, but for photons at edges: off by {off:.4f} of {total:.2f}")
+      f"an OpenCL device agrees with the reference, except for photons at edges: off by {off:.4f} of {total:.2f}")
 for options in (("--aov", "caustics", "--mode", "gl"), ("--aov", "caustics", "--mode", "ao"), ("--photons", "1000")):
     check(
         relume("render", trace, "-f", "1", "-o", SCRATCH / "x.exr", *options).returncode == 2,

@@ -1,8 +1,7 @@
 #!/usr/bin/python3
 # limit: 1200 s
-"""`relume devices --check`: every family on every OpenCL implementation that is installed draws what the C twins draw;
-which family `relume render` takes after an outcome, where one loses work items, crashes, hangs; a kept outcome that is
-damaged."""
+"""`relume devices --check`: every family on every installed OpenCL implementation must draw like the C twins. Also: the
+family that `relume render` uses after one loses work items, crashes or hangs; and a damaged stored outcome."""
 import json
 import os
 import pathlib
@@ -12,7 +11,7 @@ from helpers import BUILD, RELUME, SCRATCH, check, corpus, finish, must, record,
 
 FAMILIES = ["packets", "binary", "compressed"]
 SCENES = ["opaque", "gl", "blended", "stencil", "mirror", "glass", "ao", "path", "linear"]
-# Kernels are compiled once for all tests.
+# Compile kernels once for all tests.
 ENV = dict(os.environ, POCL_KERNEL_CACHE="1")
 
 
@@ -21,7 +20,7 @@ def fake(**more):
 
 
 def checked(cache, env=ENV, *options):
-    """Run --check; return the exit code, devices as JSON, and what was said."""
+    """Run --check; returns the exit code, devices as JSON, and the output."""
     done = run(RELUME, "devices", "--check", "--json", "--cache", cache, *options, env=env, timeout=1000)
     try:
         return done.returncode, json.loads(done.stdout), done.stderr
@@ -34,7 +33,7 @@ def states(device):
     return {family["kernels"]: family["state"] for family in device["families"]}
 
 
-# --- The matrix: device x family x scene, each implementation by itself.
+# --- The matrix: device x family x scene, each implementation separately.
 for vendor in (pathlib.Path(name) for name in os.environ.get("RELUME_VENDORS", "").split(":") if name):
     folder = SCRATCH / vendor.stem
     folder.mkdir()
@@ -55,14 +54,14 @@ for vendor in (pathlib.Path(name) for name in os.environ.get("RELUME_VENDORS", "
             check(family["frame_ms"] > 0 and family["compile_s"] >= 0,
                   f"{device['name']}, {family['kernels']}: times {family}")
 
-# --- A device of another type: packets are passed over, and the rest is right.
+# --- A device of another type: packets are skipped, and the other families are right.
 as_gpu = SCRATCH / "as-gpu"
 code, (device,), said = checked(as_gpu, fake(AS_TYPE="gpu"))
 check(code == 0 and not said and states(device) == {"packets": "passed over", "binary": "right", "compressed": "right"},
       f"as a GPU: {code}, {device}, {said}")
 check(set(device["families"][0]["scenes"].values()) == {"not tried"}, f"packets on a GPU: {device['families'][0]}")
 
-# --- What render makes of it, on PoCL.
+# --- Effect on render, with PoCL.
 trace = SCRATCH / "two.trace"
 record(trace, corpus("two_triangles"), "--frames", "1", options=())
 
@@ -84,9 +83,9 @@ done, want = render(SCRATCH / "nothing")
 check(done.returncode == 0 and not done.stderr, f"without an outcome: {done.stderr}")
 
 done, found = render(as_gpu, "--kernels", "packets", env=fake(AS_TYPE="gpu"))
-check(done.returncode == 0 and found == want and not done.stderr, f"packets on a GPU all the same: {done.stderr}")
+check(done.returncode == 0 and found == want and not done.stderr, f"packets on a GPU on request: {done.stderr}")
 
-# The family that suits a CPU loses lanes: another one is taken, and render says so once; the pictures are the same.
+# The family chosen for a CPU loses lanes: another one is used, and render reports it once; the pictures are the same.
 LOST = fake(EDIT="(uint)(lanes >> i) & 1u|(uint)(lanes >> i) & i & 1u")
 lost = SCRATCH / "lost"
 code, (device,), said = checked(lost, LOST)
@@ -94,16 +93,16 @@ check(code == 1 and states(device) == {"packets": "wrong", "binary": "right", "c
       f"packets lose lanes: {code}, {device}")
 scenes = device["families"][0]["scenes"]
 check(scenes["ao"] == "wrong" and set(scenes.values()) <= {"right", "wrong"},
-      f"packets that ask whether light is blocked lose lanes: {scenes}")
+      f"shadow packets lose lanes: {scenes}")
 check(device["kernels"] in ("binary", "compressed"), f"packets lose lanes, and the device runs {device['kernels']}")
 listed = must(relume("devices", "--cache", lost, env=ENV)).stdout
-check(f"kernels: {device['kernels']}, as checked" in listed, f"the list says what render takes: {listed}")
+check(f"kernels: {device['kernels']}, as checked" in listed, f"the list names render's choice: {listed}")
 done, found = render(lost, env=LOST)
 check(
     done.returncode == 0
     and said_once(done, f"--kernels {device['kernels']}", "packets", "relume devices --check", "wrong"),
     f"packets are wrong: {done.stderr}")
-check(found == want, "another family after an outcome: another picture")
+check(found == want, "another family after an outcome: the picture differs")
 done, found = render(lost, "--kernels", "packets")
 check(done.returncode == 0 and found == want and said_once(done, "warning", "--kernels packets", "wrong"),
       f"--kernels packets all the same: {done.stderr}")
@@ -114,7 +113,7 @@ check(done.returncode == 0 and found and not done.stderr, f"the reference device
 done, found = render(None, "--no-cache")
 check(done.returncode == 0 and found == want and not done.stderr, f"--no-cache: {done.stderr}")
 
-# Damaged, cut or of another driver, an outcome counts as none; the next check writes it anew.
+# An outcome that is damaged, cut or from another driver is ignored; the next check rewrites it.
 (kept,) = lost.glob("*.outcome")
 whole = kept.read_bytes()
 for what, data in (("damaged", whole[:60] + bytes([whole[60] ^ 1]) + whole[61:]), ("cut", whole[:100]), ("empty", b"")):
@@ -128,7 +127,7 @@ kept.write_bytes(b"")
 code, (device,), said = checked(lost, fake(DIE="compressed", HANG="occlude_packet"), "--timeout", "60")
 check(code == 1 and states(device) == {"packets": "late", "binary": "right", "compressed": "failed"},
       f"one crashes, one hangs: {code}, {device}")
-# Beside it stand kernels that were launched with it, if any: the driver may have been at work on these.
+# Kernels that were launched with it, if any, are listed too: the driver may have been executing them.
 check(re.search(r"SIGABRT in .*camera_compressed", device["families"][2]["where"]),
       f"the kernel that crashes is named: {device['families'][2]}")
 check(device["kernels"] == "binary", f"one crashes, one hangs, and the device runs {device['kernels']}")
@@ -137,18 +136,18 @@ done, found = render(lost)
 check(done.returncode == 0 and found == want and said_once(done, "not done in time", "--kernels binary"),
       f"one crashes, one hangs: {done.stderr}")
 
-# None is right: an error that names the way out.
+# If no family is right: an error that names the way out.
 code, (device,), said = checked(SCRATCH / "none", fake(DIE="resolve"))
 check(code == 5 and device["kernels"] == "none" and "--device reference" in said,
-      f"none is right: {code}, {device}, {said}")
+      f"no family is right: {code}, {device}, {said}")
 done, found = render(SCRATCH / "none")
 check(done.returncode == 5 and not found and said_once(done, "--device reference", "relume devices --check"),
-      f"none is right: {done.returncode}, {done.stderr}")
+      f"no family is right: {done.returncode}, {done.stderr}")
 done, found = render(SCRATCH / "none", "--device", "reference")
-check(done.returncode == 0 and found and not done.stderr, f"none is right, --device reference: {done.stderr}")
+check(done.returncode == 0 and found and not done.stderr, f"no family is right, --device reference: {done.stderr}")
 done, found = render(SCRATCH / "none", "--kernels", "binary")
 check(done.returncode == 0 and found == want and said_once(done, "warning"),
-      f"none is right, one is asked for: {done.stderr}")
+      f"no family is right, one is requested: {done.stderr}")
 
 for options, words in ((("--device", "no such name"), "relume devices"), (("--timeout", "soon"), "--timeout")):
     done = relume("devices", "--check", *options)

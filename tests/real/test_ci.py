@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 900 s
-"""relume ci, on glxgears, on a program of the corpus and on a viewer of its own: new, approved, unchanged, changed;
-whatever changes is recorded."""
+"""relume ci on glxgears, on a program of the corpus and on a viewer written for this test: new, approved, unchanged and
+changed pictures; any change causes a recording."""
 import os
 import re
 import random
@@ -39,10 +39,10 @@ def approve(name):
 
 
 def test_programs():
-    """The way of a program: nobody has approved it; approved; the same; another picture; gone."""
+    """Life of a program: not approved; approved; unchanged; another picture; removed."""
     for name, program in (("glxgears", ["glxgears"]), ("box", [corpus("cornell"), "--frames", "3"])):
         done = ci(name, "--", *program)
-        check(done.returncode == 4, f"{name}: frames that nobody approved: {said(done)}")
+        check(done.returncode == 4, f"{name}: unapproved frames: {said(done)}")
         check(kept(name)[:2] == (True, 3), f"{name}: page and results are kept: {kept(name)}")
         approve(name)
         before = {f: f.stat().st_mtime_ns for f in (KEPT / name).rglob("*.exr")}
@@ -54,19 +54,19 @@ def test_programs():
     done = ci("box", "--", corpus("cornell"), "--frames", "3", "--mirror")
     check(done.returncode == 1, f"a changed picture fails: {said(done)}")
     page, cases, failures = kept("box")
-    check(page and cases == 3 and failures == 3, f"and the page and results tell: {page}, {failures} of {cases}")
+    check(page and cases == 3 and failures == 3, f"page and results show the failure: {page}, {failures} of {cases}")
     done = ci("box", "--", "no-such-program")
     check(done.returncode == 5 and "program not found: 'no-such-program'" in done.stderr, f"no such program: {said(done)}")
     error = xml.etree.ElementTree.parse(KEPT / "box/junit.xml").getroot().find(".//error")
     check(not (KEPT / "box/report").exists() and error is not None,
-          "the page of an earlier run is gone; the results tell of the error")
+          "the page of an earlier run is gone; the results name the error")
     done = ci("box", "--", "false")
     check(done.returncode == 5 and "ended with exit code 1" in done.stderr, f"a program that fails: {said(done)}")
     done = ci("box", "--", "true")
     check(done.returncode == 5 and "nothing was recorded" in done.stderr, f"a program without pictures: {said(done)}")
 
 
-# --- Whatever changes is recorded
+# --- Any change causes a recording
 # ---------------------------------------------------------------------------------------
 
 def build_shape(facing):
@@ -87,7 +87,7 @@ def write(name, text):
 
 VIEWER = ("--", "./viewer", "model.obj", "3")
 MODEL, OTHER = "-1 -1 1 -1 0 1\n", "-1 -1 1 -1 0 0.5\n"
-# What changes, how, and back again; options that it takes for both.
+# Thing to change, how to change it and back; options needed for both.
 CHANGES = {
     "the file that its argument names": (lambda: write("model.obj", OTHER), lambda: write("model.obj", MODEL), ()),
     "a library that it links": (lambda: build_shape(-1), lambda: build_shape(1), ()),
@@ -100,8 +100,8 @@ CHANGES = {
 
 
 def test_changes():
-    """Each thing that is watched is touched, alone: recorded again, and the pictures tell; back again: the approved
-    pictures. Nothing touched: nothing recorded."""
+    """Each watched thing is changed, one at a time: the program is recorded again and its pictures differ. Changed
+    back: the approved pictures. Without a change, nothing is recorded."""
     (SCRATCH / "data/deep").mkdir(parents=True)
     write("data/deep/file", "1\n")
     for _, back, _ in CHANGES.values():
@@ -129,7 +129,7 @@ def test_changes():
     check(NOTHING not in done.stdout and done.returncode == 0, f"another argument: {said(done)}")
     done = on_display(RELUME, "ci", "-n", "viewer", "-f", "3", "-k", KEPT, "-b", APPROVED, "--", "./viewer", "copy.obj",
                       "3", timeout=300, cwd=SCRATCH)
-    check("record 3 frames" in done.stdout and done.returncode == 0, f"by default it records always: {said(done)}")
+    check("record 3 frames" in done.stdout and done.returncode == 0, f"by default it always records: {said(done)}")
     (KEPT / "viewer/viewer.trace").unlink()
     done = ci("viewer", "--", "./viewer", "copy.obj", "3")
     check(NOTHING not in done.stdout and done.returncode == 0, f"the recording is gone: {said(done)}")
@@ -139,7 +139,7 @@ def test_changes():
 
 
 def test_opened():
-    """What the program opens, as strace lists it, is watched, or said not to be."""
+    """Every file that the program opens, as listed by strace, is watched, or reported as not watched."""
     if not shutil.which("strace"):
         print("no strace here: what a program opens is not listed")
         return
@@ -154,7 +154,7 @@ def test_opened():
     lines = (KEPT / "viewer/inputs").read_text()
     watched = {os.path.realpath(SCRATCH / path) for path in re.findall(r'^file \w+ "(.*)"$', lines, re.M)}
     ours = {os.path.realpath(SCRATCH / name) for name in ("viewer", "libshape.so", "model.obj")}
-    check(ours <= opened & watched, f"what it opens and is watched: {ours - opened}, {ours - watched}")
+    check(ours <= opened & watched, f"files opened and watched: {ours - opened}, {ours - watched}")
     check(os.path.realpath(SCRATCH / "hidden.dat") in opened - watched, "strace lists the file that nothing names")
     check(
         f"watched: {len(watched)} files" in done.stdout
@@ -173,8 +173,8 @@ def test_opened():
 
 
 def test_touched():
-    """The short form of what show-ci does: a few of the files that a program opens are touched, alone; those are
-    recorded that are watched."""
+    """The short form of show-ci: some of the files that a program opens are touched, one at a time; only watched ones
+    cause a recording."""
     if not shutil.which("strace"):
         print("no strace here: what a program opens is not touched")
         return
@@ -202,7 +202,7 @@ def test_touched():
 
 
 def test_press():
-    """Keys arrive at their frames, run after run, and count for what is watched."""
+    """Keys arrive at their frames in every run, and count as a watched input."""
     pressed = ("--press", "s@1", "--press", "s@2")
     check(ci("keys", *pressed, *VIEWER).returncode == 4, "a program with keys")
     approve("keys")
@@ -223,8 +223,8 @@ def test_press():
 
 
 def test_frames():
-    """Fewer frames than before: none of the old ones is left to approve or is missing; fewer than approved because the
-    program ends early: they are."""
+    """If fewer frames are requested, old ones are neither offered for approval nor missing; if the program ends early,
+    they are missing."""
     check(ci("viewer", "--", "./viewer", "model.obj", "12", frames=12).returncode == 4, "12 frames: 9 are new")
     approve("viewer")
     done = ci("viewer", "--", "./viewer", "model.obj", "12", frames=8)
@@ -244,14 +244,16 @@ TIMED = """programs:
 
 
 def in_turn(all_of_file):
-    """Whatever runs at a time, the lines of a program come together."""
+    """Lines of a program stay together, regardless of how many run in parallel."""
     done = all_of_file("--jobs", "4")
     names = [line.split(":")[0] for line in done.stdout.splitlines() if line.startswith(("one:", "two:"))]
     check(names == sorted(names[:-2]) + ["one", "two"], f"in turn: {said(done)}")
 
 
 def test_jobs():
-    """Several at a time: one after the other on a display, each with its own keys; what a server reads."""
+    """Several programs at once: on a shared display one after the other, each with its own keys; and the reports for CI
+    servers.
+    """
     write("hidden.dat", "1\n")
     write("relume-ci.yaml", TIMED)
     write(
@@ -271,7 +273,7 @@ def test_jobs():
     done = server("-j", "4")
     times = (SCRATCH / "times").read_text().splitlines()
     check(done.returncode == 5 and len(times) == 6 and all(times[i][5:] == times[i + 1][3:] for i in (0, 2, 4)),
-          f"one at a time on the display: {times}")
+          f"one at a time on a display: {times}")
     check("a: not approved yet\nb: not approved yet\nc: not approved yet\nd: could not be compared\n" in done.stdout,
           f"all of them: {said(done)}")
     summaries = re.findall(r"^### .*", (SCRATCH / "step-summary").read_text(), re.M)
@@ -304,7 +306,7 @@ def test_jobs():
 
 
 def test_bisect():
-    """What git bisect run reads: 125 where nothing can be told."""
+    """Exit codes for git bisect run: 125 if a commit cannot be judged."""
     (SCRATCH / "relume-ci.yaml").unlink(missing_ok=True)
     check(ci("bisected", "--bisect", *VIEWER).returncode == 125, "--bisect, nobody has approved it")
     approve("bisected")
@@ -315,8 +317,7 @@ def test_bisect():
 
 
 def test_file():
-    """All programs of relume-ci.yaml in one run; one of them by name; what is wrong in the file is named with its
-    line."""
+    """All programs of relume-ci.yaml in one run; one of them by name; errors in the file name the line."""
     write("relume-ci.yaml", f"""baseline: approved2
 programs:
 - name: one

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The short form of `make show-ci`: git bisect finds a fault of a program and one of a renderer at their commits; a
+"""The short form of `make show-ci`: git bisect finds a program's fault and a renderer's fault at their commits; a
 harmless change passes."""
 import sys
 
@@ -11,7 +11,7 @@ sys.path.insert(0, str(ROOT / "tests/show"))
 import ci  # noqa: E402
 import faults  # noqa: E402
 
-if len(sys.argv) == 1:  # on a display, as `make show-ci` is
+if len(sys.argv) == 1:  # needs a display, like `make show-ci`
     done = on_display(sys.executable, __file__, "here", timeout=390)
     print(done.stdout, done.stderr, sep="")
     sys.exit(done.returncode)
@@ -19,7 +19,7 @@ if len(sys.argv) == 1:  # on a display, as `make show-ci` is
 for name in ("relume", "tests"):
     (SCRATCH / name).symlink_to(BUILD / name)
 names = {fault[0] for fault in faults.FAULTS}
-check(ci.CHANGES.keys() <= names, f"changes of the source that are no faults: {ci.CHANGES.keys() - names}")
+check(ci.CHANGES.keys() <= names, f"source changes without a fault: {ci.CHANGES.keys() - names}")
 repository = ci.Repository(SCRATCH)
 for name in ("a light of another colour", "one NaN in a normal"):
     found = ci.fault(repository, name)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A recording that takes the process over reaches nothing: tests/real/intruder_shim.c stands for it. Without
-confinement it reaches all."""
+"""A recording that takes over the process gains access to nothing; tests/real/intruder_shim.c acts as one. Without
+confinement it gains access to everything."""
 import ctypes
 import os
 import re
@@ -34,7 +34,7 @@ def landlocked():
 
 
 def intrude(work, *args):
-    """Exit code, and what each attempt came to: errno, 0 where it succeeded."""
+    """Exit code, and the errno of each attempt, 0 for success."""
     other = work / "other"
     shutil.rmtree(other, ignore_errors=True)
     other.mkdir()
@@ -54,7 +54,7 @@ def intrude(work, *args):
 if not landlocked():
     skip("this kernel's Landlock cannot refuse truncation")
 if b"__asan_init" in pathlib.Path(RELUME).read_bytes():
-    skip("sanitizers do not go with what is preloaded")
+    skip("sanitizers conflict with the preloaded shim")
 
 with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
     work = pathlib.Path(folder)
@@ -67,7 +67,7 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
         check(set(attempts) == {*FILES, *CALLS}, f"{verb}: attempts {attempts}")
         check(
             all(attempts.values()) and kept,
-            f"{verb}: done in spite of confinement: {[w for w, n in attempts.items() if n == 0]}")
+            f"{verb}: succeeded despite confinement: {[w for w, n in attempts.items() if n == 0]}")
         reports = done.stderr.replace("intruder", "")
         check("confine" not in reports and "Landlock" not in reports, f"{verb}: {reports}")
     for out in ("new/x.####.exr", "new/er/x.####.exr", f"{work}/new/x.####.exr"):
@@ -76,6 +76,6 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
               f"no such recording, {out}: {done}")
     for verb in ("info", "render", "diff"):
         done, attempts, kept = intrude(work, *VERBS[verb], "--no-sandbox")
-        attempts.pop("io_uring") # kernels may refuse it to all
+        attempts.pop("io_uring") # kernels may refuse it to everyone
         check(done.returncode == 0 and not any(attempts.values()) and not kept, f"{verb} --no-sandbox: {attempts}")
 finish()

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The Cornell box: every gate on every frame, a shadow where the geometry demands one, a mirror that mirrors."""
+"""The Cornell box: every gate on every frame, geometrically correct shadows, and a mirror with the right reflection."""
 import math
 
 from exr import Image
@@ -8,12 +8,12 @@ from helpers import SCRATCH, check, check_gates, corpus, diff, finish, record, r
 
 WIDTH, HEIGHT = 800, 600
 EYE, LIGHT, FLOOR = (0.0, 0.0, 3.6), (0.0, 0.85, 0.0), -1.0
-# x, z, half width, height, turn in degrees: as in corpus/cornell.c
+# x, z, half width, height, rotation in degrees: as in corpus/cornell.c
 BOXES = ((-0.35, -0.35, 0.3, 1.2, 18), (0.37, 0.3, 0.3, 0.6, -17))
 
 
 def segment_meets_box(a, b, box):
-    """Whether the segment from a to b passes through a box (slabs in the box's own frame)."""
+    """Whether the segment from a to b passes through a box (slab test in the box's own frame)."""
     x, z, half, height, turn = box
     c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
 
@@ -35,7 +35,7 @@ def segment_meets_box(a, b, box):
 
 
 def floor_point(x, y):
-    """Where the ray through a pixel centre meets the floor of the room, or None."""
+    """The point of the floor seen through a pixel centre, or None."""
     tangent = math.tan(math.radians(45) / 2)
     direction = ((2 * (x + 0.5) / WIDTH - 1) * tangent * WIDTH / HEIGHT, (1 - 2 * (y + 0.5) / HEIGHT) * tangent, -1.0)
     if direction[1] >= 0:
@@ -46,7 +46,7 @@ def floor_point(x, y):
 
 
 def expected_shadow(x, y):
-    """True in shadow, False in light, None where the pixel does not show the floor."""
+    """True in shadow, False in light, None if the pixel does not show the floor."""
     p = floor_point(x, y)
     if p is None or any(segment_meets_box(EYE, p, box) for box in BOXES):
         return None
@@ -104,11 +104,11 @@ def display(linear):
 
 
 def mirrored(channel, x, y):
-    """What the mirror shows: a tenth of the pixel is the wall itself, mixed in OpenGL's own numbers."""
+    """The reflected colour: a tenth of the pixel is the wall itself, mixed in display codes."""
     return (display(after.at(channel, x, y)) - 0.1 * display(after.at(f"gl.{channel}", x, y))) / 0.9
 
 
-# From here the mirror shows the back wall, the floor and the boxes, which are all grey; the wall itself is red.
+# From here the mirror shows the back wall, the floor and the boxes, all grey; the wall itself is red.
 tinted = sum(abs(mirrored("R", x, y) - mirrored("B", x, y)) > 0.05 for x, y in spots)
 check(tinted <= len(spots) // 1000,
       f"the mirror shows the grey of the room: {tinted} of {len(spots)} pixels are tinted")

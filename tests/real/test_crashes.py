@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 900 s
-"""OpenCL drivers that crash, hang or return rubbish while `relume render` runs: another family of kernels takes over,
-one line says so, and the next run does not try again. A frame that no family can draw fails alone. Signals reach the
-process that works, and nothing outlives it."""
+"""OpenCL drivers that crash, hang or return garbage during `relume render`: another family of kernels takes over, one
+line reports it, and the next run skips the failed family. If no family can draw a frame, only that frame fails. Signals
+reach the worker process, and no process outlives the run."""
 import collections
 import json
 import os
@@ -14,8 +14,8 @@ import time
 from helpers import BUILD, RELUME, SCRATCH, check, corpus, finish, must, record, relume
 
 SHIM = str(BUILD / "tests/real/failing_cl.so")
-ENV = dict(os.environ, POCL_KERNEL_CACHE="1")  # kernels are compiled once for all tests
-PACKETS = "camera_packet.cl"  # in the text of packets' program alone
+ENV = dict(os.environ, POCL_KERNEL_CACHE="1")  # compile kernels once for all tests
+PACKETS = "camera_packet.cl"  # occurs only in the text of the packets' program
 LIMIT = ("--timeout-driver", "5")
 met = SCRATCH / "met"
 
@@ -34,7 +34,7 @@ def n_met():
 
 
 def render(of, cache, env, *options):
-    """Render into an empty folder; return what was said and all files that are there, hidden ones too."""
+    """Render into an empty folder; returns the output and all files, including hidden ones."""
     out = SCRATCH / "frames"
     out.mkdir(exist_ok=True)
     for old in out.iterdir():
@@ -49,7 +49,7 @@ def one_line(done, code, *words):
 
 
 want = {}
-for family in ("compressed", "binary", "packets"):  # fills PoCL's cache as well
+for family in ("compressed", "binary", "packets"):  # also fills PoCL's cache
     done, want[family] = render(trace, "sound", ENV, "--kernels", family)
     check(done.returncode == 0 and len(want[family]) == 6 and not done.stderr, f"{family}: {done.stderr}")
 check(want["packets"] == want["binary"], "families draw the same")
@@ -98,7 +98,7 @@ done, found = render(trace, "cache0", dict(ENV, LD_PRELOAD=SHIM, AS_DRIVER="100"
 check(done.returncode == 0 and not done.stderr and found.keys() == want.keys(),
       f"a driver that is repaired: {done.stderr}")
 
-# Both of the first two.
+# Both of the first two families.
 met.unlink(missing_ok=True)
 done, found = render(trace, "two", faulty(f"abort,build,{PACKETS};abort,launch,camera_wide"))
 check(
@@ -109,7 +109,7 @@ check(
     one_line(done, 0, "--kernels compressed") and found == want and n_met() == 2,
     f"two families, again: {n_met()}: {done.stderr}")
 
-# Nothing is kept; one family is asked for.
+# Nothing is stored if one family is requested.
 for _ in range(2):
     met.unlink(missing_ok=True)
     done, found = render(trace, None, faulty("abort,launch,camera_packet"))
@@ -119,8 +119,7 @@ check(
     one_line(done, 5, "--kernels packets", "SIGABRT in camera_packet") and not found,
     f"--kernels packets: exit code {done.returncode}: {done.stderr}")
 
-# --- None is left
-# ------------------------------------------------------------------------------------------------------
+# --- No family is left ------------------------------------------------------------------------------------------------
 
 for what, fault, again in (("all programs", "abort,build,", 0), ("all launches", "abort,launch,", 3)):
     met.unlink(missing_ok=True)
@@ -141,11 +140,11 @@ count = collections.Counter(e["frame"] for e in events if e["event"] == "frame")
 check(one_line(done, 0, "--kernels binary") and found == want, f"in the middle: {done.stderr}")
 check(
     count == {i: 1 for i in range(6)} and [e["event"] for e in events].count("begin") == 1 and events[-1]["done"] == 6,
-    f"each frame is told once: {done.stdout}")
+    f"each frame is reported once: {done.stdout}")
 
 done, whole = render(pixels, "sound", ENV, "--mode", "gl")
 done, found = render(pixels, "alone", faulty("abort,launch,gather"), "--mode", "gl")
-missing = set(whole) - set(found)  # frame 3 reads pixels, and so may others do when they are played again
+missing = set(whole) - set(found)  # frame 3 reads pixels; frames replayed for it may fail, too
 check(done.returncode == 5 and "x.3.exr" in missing and len(found) > 2 and found.items() <= whole.items(),
       f"one frame fails alone: exit code {done.returncode}, {list(found)}")
 check(
@@ -154,14 +153,14 @@ check(
     f"a line for each frame that failed: {missing}: {done.stderr}")
 done, found = render(pixels, "alone", ENV, "--mode", "gl")
 check(done.returncode == 0 and not done.stderr and found == whole,
-      f"nothing is held against families that made other frames: {done.stderr}")
+      f"families that made other frames are not blamed: {done.stderr}")
 
 # --- Signals
 # -----------------------------------------------------------------------------------------------------------
 
 
 def start_hung():
-    """A run whose driver hangs, with its worker process."""
+    """A run whose driver hangs, and its worker process."""
     met.unlink(missing_ok=True)
     parent = subprocess.Popen([
         RELUME, "render", trace, "-o", SCRATCH / "hung/x.#.exr", "--progress", "none", "--cache", SCRATCH / "hung-cache"
@@ -206,8 +205,8 @@ os.kill(worker, signal.SIGSEGV)
 found, said = ended(parent)
 check(found == -signal.SIGSEGV and not said,
       f"a signal from elsewhere ends the run, and blames nobody: {found}, {said}")
-# The frame under way beside the one that hangs may have landed: whole, or not at all.
+# The frame rendered beside the one that hangs may exist, but only completely.
 left = {p.name: p.read_bytes() for p in (SCRATCH / "hung").glob("*")}
 check(left.items() <= want.items(), f"nothing half-written is left: {list(left)}")
-check(not list((SCRATCH / "hung-cache").glob("*.outcome")), "and nothing is remembered")
+check(not list((SCRATCH / "hung-cache").glob("*.outcome")), "no outcome is stored")
 finish()

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Cryptomatte of draws, meshes and textures: numbers and manifest by the specification, mattes beside channel id."""
+"""Cryptomatte of draws, meshes and textures: numbers and manifest as specified, mattes compared with channel id."""
 import json
 import struct
 
@@ -28,7 +28,7 @@ def murmur(text):
 
 
 def number(name):
-    """As the specification keeps it from being no finite float."""
+    """The specification's adjustment of a hash to a finite float."""
     h = murmur(name)
     return h ^ 1 << 23 if h >> 23 & 255 in (0, 255) else h
 
@@ -47,9 +47,9 @@ must(relume("render", trace, "-o", SCRATCH / "few.####.exr", "--aov", "gl,crypto
 must(relume("render", trace, "-o", SCRATCH / "plain.####.exr"))
 image, few, plain = (Image(SCRATCH / f"{name}.0000.exr") for name in ("all", "few", "plain"))
 added = {f"{layer}00.{c}" for layer in ("CryptoDraw", "CryptoMesh", "CryptoTexture") for c in "RGBA"}
-check(set(image.names) == set(plain.names) | added, f"beside all other channels: {set(image.names) ^ set(plain.names)}")
-check(added | {"id", "gl.R", "R"} <= set(few.names) and "N.X" not in few.names, f"beside those asked for: {few.names}")
-check(all(image.planes[name] == plain.planes[name] for name in plain.names), "which are the same")
+check(set(image.names) == set(plain.names) | added, f"with all other channels: {set(image.names) ^ set(plain.names)}")
+check(added | {"id", "gl.R", "R"} <= set(few.names) and "N.X" not in few.names, f"beyond those requested: {few.names}")
+check(all(image.planes[name] == plain.planes[name] for name in plain.names), "the requested ones are the same")
 
 scene = json.loads(must(relume("scene", trace, "--json", "--frame", "0")).stdout)
 hashes = {kind: {thing["hash"] for thing in scene[kind]} for kind in ("meshes", "textures")}
@@ -83,6 +83,6 @@ for layer, known in (("CryptoDraw", None), ("CryptoMesh", hashes["meshes"]), ("C
 check(len({name for (layer, _), name in seen.items() if layer == "CryptoMesh"}) > 2, "several meshes")
 check(
     relume("render", trace, "-o", SCRATCH / "x.####.exr", "--aov", "cryptomate").returncode == 2,
-    "another word is none of them")
+    "an unknown word is refused")
 check(relume("render", trace, "-o", SCRATCH / "x.####.png", "--aov", "cryptomatte").returncode == 2, "a PNG holds none")
 finish()

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Pixels under many blended fragments: what tests/real/deep.c draws is traced as it was rasterized, whichever kernels
-trace it."""
+"""Pixels under many blended fragments: tests/real/deep.c traced must equal its raster picture, with every family of
+kernels."""
 from helpers import AS_SHOWN, SCRATCH, check, check_same_pictures, diff, finish, render
 
 FRAMES = ("slices, a draw each", "the same, nearest first", "slices in one draw, of no power of two",

@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""relume denoise on frames of known light: how much noise goes, what stays sharp, what moves along, and what it
-refuses."""
+"""relume denoise on frames with known light: reduction of noise, sharpness, motion, and refused input."""
 import os
 import random
 import struct
@@ -14,7 +13,7 @@ MOTION = ("motion.X", "motion.Y", "motion.A")
 
 
 def write(path, planes):
-    """Floats, not packed."""
+    """Stored as floats, uncompressed."""
     names = sorted(planes)
     channels = b"".join(n.encode() + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for n in names) + b"\0"
     window = struct.pack("<4i", 0, 0, WIDTH - 1, HEIGHT - 1)
@@ -35,7 +34,7 @@ def write(path, planes):
 
 
 def light_at(x, y, frame):
-    """A wall whose shadow's edge, in the upper half, and whose pattern move by SPEED pixels a frame; a floor below."""
+    """A wall whose shadow edge (in the upper half) and pattern move by SPEED pixels per frame; a floor below."""
     return 0.2 if y < HEIGHT // 2 and x - SPEED * frame < WIDTH // 2 else 1.0
 
 
@@ -44,8 +43,7 @@ def albedo_at(x, frame):
 
 
 def make(folder, left_out=(), other_border=1.0):
-    """other_border: how much brighter the wall's last row is in all frames but the third: there samples of a pixel may
-    lie on the floor."""
+    """other_border: factor on the wall's last row in all frames but the third, whose samples may hit the floor."""
     folder.mkdir()
     for frame in range(FRAMES):
         noise = random.Random(frame)
@@ -68,7 +66,7 @@ def make(folder, left_out=(), other_border=1.0):
 
 
 def error(path, frame, part=lambda x, y: True):
-    """The mean squared error of the light, beside its own square."""
+    """Mean squared error of the light, relative to its mean square."""
     red = Image(path).planes["R"]
     sums = [0, 0]
     for y in range(HEIGHT):
@@ -85,9 +83,9 @@ must(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "time.####.exr"))
 must(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "space.####.exr", "--no-time"))
 noisy, time, space = (error(path, 2)
                       for path in (SCRATCH / "noisy/0002.exr", SCRATCH / "time.0002.exr", SCRATCH / "space.0002.exr"))
-check(time < noisy / 12, f"with time: {noisy:.4f} becomes {time:.4f}")
-check(space < noisy / 8, f"without: {noisy:.4f} becomes {space:.4f}")
-check(time < space, f"time helps: {time:.5f} and {space:.5f}")
+check(time < noisy / 12, f"with neighbouring frames: {noisy:.4f} becomes {time:.4f}")
+check(space < noisy / 8, f"without them: {noisy:.4f} becomes {space:.4f}")
+check(time < space, f"neighbouring frames help: {time:.5f} and {space:.5f}")
 edge = WIDTH // 2 + SPEED * 2
 near = error(SCRATCH / "time.0002.exr", 2, lambda x, y: y < HEIGHT // 2 and abs(x - edge) < 4)
 check(near < 0.03, f"the shadow's edge stays where it is: {near:.4f}")
@@ -107,11 +105,11 @@ check(image.attributes.get("relume:time") == b"7", "attributes stay")
 
 must(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "one.exr", "-f", "2"))
 check((SCRATCH / "one.exr").read_bytes() == (SCRATCH / "time.0002.exr").read_bytes(),
-      "a frame alone is the same as in a row")
+      "a frame alone is the same as in a sequence")
 
 make(SCRATCH / "still", MOTION)
 must(relume("denoise", SCRATCH / "still", "-o", SCRATCH / "still.####.exr"))
-check(abs(error(SCRATCH / "still.0002.exr", 2) - space) < 1e-6, "without motion vectors each frame is by itself")
+check(abs(error(SCRATCH / "still.0002.exr", 2) - space) < 1e-6, "without motion vectors each frame is denoised alone")
 
 make(SCRATCH / "poor", ("albedo.G",))
 poor = relume("denoise", SCRATCH / "poor", "-o", SCRATCH / "poor.####.exr")
@@ -121,7 +119,7 @@ check(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "x.png").returncode =
 check(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "x.exr").returncode == 2, "five frames need five names")
 check(relume("denoise", SCRATCH / "none", "-o", SCRATCH / "x.####.exr").returncode == 3, "a folder that is not there")
 
-# Open Image Denoise itself is asked in make show-denoise
+# Open Image Denoise itself is compared by make show-denoise
 with_oidn = relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "oidn.####.exr", "--oidn")
 check(with_oidn.returncode == 0 or with_oidn.returncode == 5 and "not installed" in with_oidn.stderr,
       f"--oidn: {with_oidn.returncode} {with_oidn.stderr}")

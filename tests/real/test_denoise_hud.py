@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Denoising leaves a HUD as it is: what lies behind it has another albedo, and light that is taken for its own would
-run over it in boxes."""
+"""Denoising leaves a HUD unchanged: its albedo differs from that of the surface behind it, and light mistaken for its
+own would smear in boxes."""
 from exr import Image
 from helpers import SCRATCH, check, corpus, finish, must, record, relume
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Depth that a frame does not clear is what Mesa has there, or R5 says that nobody knows it: tests/real/depths.c."""
+"""Depth that a frame does not clear must be Mesa's depth, or R5 must report it as unknown: tests/real/depths.c."""
 from helpers import check, check_same_pictures, finish
 
 FRAMES = ("never cleared", "never cleared again", "compared with what it began with", "compared with what was written",

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """test_device_faults.py [BUILD] (with BUILD as `make show-device-faults`): devices with little memory, with a watchdog,
-and that fail.
+and failing calls.
 
-Frames that need more memory than a device has are drawn in smaller bands, and launches that a watchdog would kill in
-parts: the same bytes. Where that does not help, and where a call of OpenCL fails, the run ends with exit code 5 and one
-line; frames that are there are whole. Every call is tried by `make show-device-faults`, one in some twenty by the test.
+If a frame needs more memory than the device has, it is drawn in smaller bands; if a watchdog would kill a launch, it is
+split. Both must give the same bytes. If that does not help, or if an OpenCL call fails, the run ends with exit code 5
+and one line; files that exist are complete. `make show-device-faults` tries every call; the test tries about one in
+twenty.
 
 limit: 300 s
 """
@@ -54,7 +55,7 @@ def render(trace, name, env, *options):
                   *options, env=env, timeout=250)
 
 
-# --- Little memory, and a watchdog: PoCL underneath ------------------------------------------------------------------
+# --- Little memory, and a watchdog: on top of PoCL -------------------------------------------------------------------
 
 scene = SCRATCH / "scene.trace"
 record(scene, corpus("still_life"), "--frames", "2", options=())
@@ -87,12 +88,12 @@ for what, env in SMALL.items():
     done = render(scene, folder, fake(**env), *FRAMES)
     same = files(SCRATCH / folder) == whole
     check(done.returncode == 0 and not done.stderr, f"{what}: exit code {done.returncode}: {done.stderr}")
-    check(same, f"{what}: another picture")
+    check(same, f"{what}: the picture differs")
     rows.append({
         "what": f"a device with {what}", "figure": "the same bytes" if same else "another picture",
         "bar": "the same bytes", "peer": "", "passed": done.returncode == 0 and same
     })
-# Too little for the smallest band; work items so slow that any launch is killed.
+# Too little for the smallest band; work items so slow that every launch is killed.
 for what, env, words in (("100 KB of memory", {"AS_MEMORY": "100000"}, "are needed on this device, which has 0"),
                          ("2 MiB of memory", {"AS_MEMORY": str(2 << 20)}, "are needed on this device, which has 2"),
                          ("buffers of 2 KB", {"AS_BUFFER": "2000"}, "makes none of more than 0"),
@@ -104,13 +105,13 @@ for what, env, words in (("100 KB of memory", {"AS_MEMORY": "100000"}, "are need
           f"{what}: exit code {done.returncode}: {done.stderr}")
     check(not files(SCRATCH / folder), f"{what}: something was written: {list(files(SCRATCH / folder))}")
     needed = re.search(r"(\d+) MiB are needed on this device, which has (\d+)", done.stderr)
-    check(not needed or int(needed[1]) > int(needed[2]), f"{what}: more is needed than there is: {done.stderr}")
+    check(not needed or int(needed[1]) > int(needed[2]), f"{what}: needs more than available: {done.stderr}")
 
-# --- Every call of OpenCL that may fail: a device in this process, which starts quickly ------------------------------
+# --- Every OpenCL call that may fail: a device in this process, which starts quickly ---------------------------------
 
 
 def try_call(trace, want, kind, n, gone, code):
-    """What is wrong where call n fails; "" where all is as it should be."""
+    """The fault in the outcome when call n fails; "" if there is none."""
     folder = f"{trace.stem}-{kind}-{n}-{gone}"
     env = host.environment(BUILD, ["-O0", "-march=native"], [SHIM], FAIL_CALL=str(n), FAIL_CODE=code)
     if gone:
@@ -126,7 +127,7 @@ def try_call(trace, want, kind, n, gone, code):
     torn = [name for name, image in got.items() if want.get(name) != image]
     if torn:
         return f"torn, or another picture: {torn}: {done.stderr}"
-    if done.returncode == 0:  # a program or kernel that is refused costs a line: another family draws the same
+    if done.returncode == 0:  # a refused program or kernel costs one line: another family draws the same
         taken_over = len(lines_of(done)) == 1 and "renders with --kernels" in done.stderr
         return "" if got.keys() == want.keys() and (not done.stderr
                                                     or taken_over) else f"exit code 0, {list(got)}: {done.stderr}"
@@ -134,7 +135,7 @@ def try_call(trace, want, kind, n, gone, code):
 
 
 def try_calls(trace, kind):
-    """Render with each call failing, once and from then on. Returns how many were tried, and what went wrong."""
+    """Render with each call failing, once and from then on. Returns the number of tries and the faults."""
     env = host.environment(BUILD, ["-O0", "-march=native"], [SHIM], COUNT_CALLS=str(COUNT))
     if kind == "gpu":
         env["AS_TYPE"] = kind
@@ -158,9 +159,9 @@ if shutil.which("clang"):
     for kind in ("cpu", "gpu"):
         tried, wrong = try_calls(calls, kind)
         check(tried and not wrong,
-              f"calls that fail on a {kind}: {len(wrong)} of {tried} end badly; (call, gone, code): {wrong[:5]}")
+              f"calls that fail on a {kind}: {len(wrong)} of {tried} end wrongly; (call, gone, code): {wrong[:5]}")
         rows.append({
-            "what": f"calls of OpenCL that fail on a {kind}: ends that are not exit code 5 and one line, or the same "
+            "what": f"OpenCL calls that fail on a {kind}: ends other than exit code 5 with one line, or the same "
                     f"picture",
             "figure": f"{len(wrong)} of {tried}", "bar": "0", "peer": "", "passed": not wrong
         })

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A frame that no device can render is one bad frame: the others are rendered, and the exit code says so
-(tests/real/empty.c). Many that fail alike are told once, with their range."""
+"""A frame that no device can render is one bad frame: the others are rendered, and the exit code reports it
+(tests/real/empty.c). Many frames with the same fault are reported once, with their range."""
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, finish, record, relume
 
 trace = SCRATCH / "empty.trace"

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
-"""A program whose loops run longer than is done is ended, and never silently: the frame names its draws, the run says
-it and ends as one with missing draws; `relume diff` tells how many pixels of each program are right
-(tests/real/endless.c).
+"""A program whose loops exceed the limit is stopped, and never silently: the frame names the draws, the run reports
+them and ends as with missing draws, and `relume diff` counts the correct pixels of each program (tests/real/endless.c).
 """
 from exr import Image
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, diff, finish, must, record, relume
@@ -12,9 +11,9 @@ for device in ("reference", "cpu"):
     done = relume("render", trace, "-o", frames / "x.####.exr", "--device", device, "--force", *AS_SHOWN)
     check(done.returncode == 6, f"{device}: exit code {done.returncode}: {done.stderr}")
     check("ended: programs of 2 draws, after 262144 instructions in loops" in done.stderr,
-          f"{device}: the run says: {done.stderr}")
+          f"{device}: the run reports: {done.stderr}")
     attributes = [Image(frames / f"x.{i:04}.exr").attributes for i in range(2)]
-    check("relume:ended" not in attributes[0], f"{device}: no program of frame 0 is ended: {attributes[0]}")
+    check("relume:ended" not in attributes[0], f"{device}: no program of frame 0 is stopped: {attributes[0]}")
     check(attributes[1].get("relume:ended") == b"3-4",
           f"{device}: frame 1 names its draws: {attributes[1].get('relume:ended')}")
 done = relume("render", trace, "-o", SCRATCH / "alone.####.exr", "-f", "0", *AS_SHOWN)
@@ -23,8 +22,8 @@ _, score = diff(trace, frames)
 told = [[(p["name"], p["pixels"], p["failing"]) for p in f["programs"]] for f in score["frames"]]
 check([len(t) for t in told] == [1, 3] and all(p[1] == 64 for t in told for p in t), f"pixels of each program: {told}")
 check([p[2] for p in told[0]] == [0], f"frame 0's program is right: {told[0]}")
-check([p[2] for p in told[1]] == [0, 64, 64], f"of frame 1's programs the last two are wrong: {told[1]}")
+check([p[2] for p in told[1]] == [0, 64, 64], f"the last two programs of frame 1 are wrong: {told[1]}")
 said = relume("diff", trace, frames).stdout
 first, last = told[1][0][0], told[1][2][0]
-check(f"{first}: 100.000 % of 64 px" in said and f"{last}: 0.000 % of 64 px" in said, f"the table tells it: {said}")
+check(f"{first}: 100.000 % of 64 px" in said and f"{last}: 0.000 % of 64 px" in said, f"the table shows it: {said}")
 finish()

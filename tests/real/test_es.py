@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""OpenGL ES 1 (corpus/es): what three programs record passes every gate that needs no depth, which OpenGL ES cannot
-read back. Nothing is missing or an error, apitrace reads the recordings, and a frame rendered alone is the same.
+"""OpenGL ES 1 (corpus/es): recordings of three programs pass every gate that needs no depth, which OpenGL ES cannot
+read back. There are no missing draws or errors, apitrace reads the recordings, and a frame rendered alone is the same.
 """
 import json
 
@@ -16,7 +16,7 @@ for name in ("shapes", "fixed", "sprites"):
     info = json.loads(must(relume("info", "--json", trace)).stdout)
     check(info["frames"] == FRAMES, f"{name}: {info['frames']} frames")
     check(all("only a renderer" in u.get("why", "") for u in info["unsupported"]),
-          f"{name}: not done: {info['unsupported']}")
+          f"{name}: unsupported: {info['unsupported']}")
     check(not info["gl_errors"], f"{name}: errors: {info['gl_errors']}")
     dump = must(run("apitrace", "dump", "--color=never", trace))
     check(not dump.stderr, f"{name}: apitrace reads all of it: {dump.stderr}")

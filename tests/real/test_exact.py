@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""llvmpipe's quick rasterizer: neither `record --ref-exact` nor `raster` shows what it makes: tests/real/linear.c."""
+"""llvmpipe's fast rasterizer: neither `record --ref-exact` nor `raster` may use it: tests/real/linear.c."""
 import json
 import os
 import tempfile
@@ -11,7 +11,7 @@ PROGRAM = BUILD / "tests/real/linear"
 
 
 def compare(trace, *references):
-    """The largest difference of any frame, in codes, and diff's exit code."""
+    """The largest difference in any frame, in codes, and diff's exit code."""
     done = relume("diff", trace, *references, "--json", out / "score.json")
     score = json.loads((out / "score.json").read_text())
     return max(f["worst_code"] for f in score["frames"]), done.returncode
@@ -27,11 +27,11 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
         codes[name], code[name] = compare(out / f"{name}.trace", out / name)
     check(code["exact"] == 0, f"exit codes of diff: {code}")
     check(codes["exact"] < codes["quick"] or codes["quick"] == 0,
-          f"largest differences: {codes}")  # 0: Mesa 25 has no quick way for these
+          f"largest differences: {codes}")  # 0: Mesa 25 does not use the fast path for these
     check(codes["exact"] <= 1, f"largest difference with --ref-exact: {codes}")
     must(on_display(RELUME, "raster", out / "quick.trace", "-o", out / "raster/r.####.png"))
     done = relume("diff", out / "exact.trace", out / "raster")
-    check(done.returncode == 0, f"raster beside --ref-exact: {done.stdout}")
+    check(done.returncode == 0, f"raster against --ref-exact: {done.stdout}")
     record(out / "single.trace", PROGRAM, "single", options=("--frame-end", "flush"))
     done = on_display(RELUME, "raster", out / "single.trace", "-f", 0, "-o", out / "single/r.####.png")
     check("draws to a single-buffered window" in done.stderr, f"raster of one buffer: {done.stderr}")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Examples of help texts and man pages: each names options that exist, and each that can runs, from top to bottom, on a
-recording.
+"""Examples in help texts and man pages: each names only options that exist, and all that can run here run on a
+recording, in order.
 
 limit: 600 s
 """
@@ -15,7 +15,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "packaging"))
 import manual  # noqa: E402
 
-# Commands that wait for somebody or something that is not here, and what stands in for them.
+# Commands that wait for a person or for something unavailable here, and their replacements.
 CANNOT_RUN = {
     "relume record -o game.trace --start-key F9 -- ./game": "nobody presses the key",
     "relume farm submit game.trace -f 0-499 --chunk 50 -o farm/game.####.exr --gres gpu:1 --sbatch=--partition=gpu":
@@ -24,7 +24,7 @@ CANNOT_RUN = {
     "relume devices --check": "takes minutes; real/test_families.py runs it",
     'relume reduce game.trace --frame 3 -o small.trace': "no frame fails; real/test_reduce.py has one that does",
 }
-# Exit codes besides 0 that are right: recordings differ, frames differ, nobody has approved.
+# Further valid exit codes: recordings or frames differ, or nothing is approved.
 ALSO = {"bisect": (1,), "diff": (1, 4), "ci": (1, 4)}
 PLACE = SCRATCH / "place"
 
@@ -35,7 +35,7 @@ def options_of(verb):
 
 
 def files_of(blocks):
-    """The files and the commands of a page's examples."""
+    """The files and commands of a page's examples."""
     under = False
     for kind, content in blocks:
         under = content == "EXAMPLES" if kind == "heading" else under
@@ -47,17 +47,17 @@ def files_of(blocks):
                 last = named[1]
                 yield last, part[named.end():]
             elif not re.match(r"(xvfb-run -a )?relume ", part):
-                yield last, "\n" + part  # it goes on behind an empty line
+                yield last, "\n" + part  # a file continues after an empty line
             else:
                 yield None, part
 
 
-# Every help text has examples, of its verb, with options that it has.
+# Every help text has examples of its verb, using existing options.
 verbs = [v for v in re.findall(r"^  (\w+) ", relume("help").stdout, re.M) if v != "help"]
 examples = manual.examples()
 check(
     set(examples) == {"relume", *verbs},
-    f"packaging/examples.txt has these and no other verbs: {set(examples) ^ set(verbs)}")
+    f"packaging/examples.txt has exactly the verbs, except: {set(examples) ^ set(verbs)}")
 commands = [("relume", line) for line in examples["relume"] if not line.startswith("#")]
 check(all(line in relume("help").stdout for _, line in commands), "relume help has examples")
 for verb in verbs:
@@ -79,7 +79,7 @@ for form in manual.FORMATS:
                                                            for c in part.split("\n")]
 for page in sorted((BUILD / "pages/man").glob("*.[15]")):
     check(".SH EXAMPLES" in page.read_text(), f"{page.name} has a section EXAMPLES")
-# No help text names a file of the source, which nobody has who installed a package.
+# No help text names a source file, because users of a package do not have it.
 for word in ["", *verbs, *(f"{form.name}-file" for form in manual.FORMATS)]:
     named = re.findall(r"\b[a-z]+(?:/[a-z_]+)*/[\w.]+\.(?:h|c|md|cl)\b",
                        relume("help", *([word] if word else [])).stdout)
@@ -95,7 +95,7 @@ for verb, line in commands:
             unknown = given - options_of(found[1])
             check(not unknown, f"{line}: relume {found[1]} has no {unknown}")
 
-# A folder as somebody has it who tries them.
+# A folder as it would be for a user who tries the examples.
 (PLACE / "bin").mkdir(parents=True)
 (PLACE / "bin/relume").symlink_to(RELUME)
 game = PLACE / "game"

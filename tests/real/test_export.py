@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""relume export: valid glTF 2.0 whose triangles are, in eye space, those of `relume scene`, on recordings of two kinds.
+"""relume export: valid glTF 2.0 whose triangles equal those of `relume scene` in eye space, for two kinds of
+recordings.
 """
 import json
 import math
@@ -18,8 +19,8 @@ COLOR = 7
 
 
 def expected_eye(scene):
-    """Corners of the triangles of each draw that writes colour, in eye space; those with one corner twice cover
-    nothing."""
+    """Corners of the triangles of each draw that writes colour, in eye space; triangles with two equal corners cover
+    nothing and are omitted."""
     found = {}
     for item in scene["instances"]:
         mesh, material = scene["meshes"][item["mesh"]], scene["materials"][item["material"]]
@@ -35,7 +36,7 @@ def expected_eye(scene):
 
 
 def same(left, right):
-    """The same corners; which of a triangle's comes first, and in which sense, is glTF's affair."""
+    """The same corners; glTF may choose the first one and the winding."""
     def rows(corners):
         return sorted(sorted(corners[i:i + 3]) for i in range(0, len(corners), 3))
     size = max((abs(c) for corner in right for c in corner), default=0)
@@ -64,7 +65,7 @@ for trace, frame in ((ROOT / "tests/golden/cornell.trace", 1), (ROOT / "tests/go
     lights = glb.json.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])
     check(bool(lights) == bool(lit) and len(lights) <= len(lit), f"{trace.stem}: {len(lights)} lights of {len(lit)}")
     check(len(glb.json.get("cameras", [])) >= 1, f"{trace.stem}: a camera")
-    # Candela: a white surface in the middle, facing the light, has the luminance of the light's colour, 683 cd/m^2 for
+    # Candela: a white surface at the origin, facing the light, has the luminance of the light's colour, 683 cd/m^2 for
     # 1.
     corners = [corner for triangles in exported.values() for corner in triangles]
     for node in (n for n in glb.json["nodes"] if "KHR_lights_punctual" in n.get("extensions", {})):
@@ -78,16 +79,16 @@ for trace, frame in ((ROOT / "tests/golden/cornell.trace", 1), (ROOT / "tests/go
         want /= sum(a * math.sqrt(d2) ** k for k, a in enumerate(told["attenuation"]))
         got = light["intensity"] / d2 / math.pi
         check(light["type"] == "point" and abs(got - want) < 0.01 * want,
-              f"{trace.stem}: luminance {got} and not {want}")
+              f"{trace.stem}: luminance {got}, expected {want}")
 
 
 def turns(corners):
-    """Triangles as sets of corners in their sense."""
+    """Triangles as sets of corners with their winding."""
     triangles = [[tuple(round(c, 4) for c in corner) for corner in corners[i:i + 3]] for i in range(0, len(corners), 3)]
     return sorted(min(t[k:] + t[:k] for k in range(3)) for t in triangles)
 
 
-# A turn mirrors nothing: by 60 degrees about y, where the diagonal of the matrix alone has another sign.
+# A rotation must not mirror: 60 degrees about y, where the diagonal of the matrix alone has another sign.
 turned = Trace(ROOT / "tests/golden/two_triangles.trace")
 for rotate in turned.find("glRotatef"):
     for at, value in ((0, 60.0), (2, 1.0), (3, 0.0)):
@@ -98,14 +99,14 @@ exported = Glb(SCRATCH / "turned.glb").triangles_eye()
 expected = expected_eye(
     json.loads(must(relume("scene", SCRATCH / "turned.trace", "-f", 1, "--json", "--vertices")).stdout))
 check(expected and all(turns(exported[name]) == turns(corners) for name, corners in expected.items()),
-      f"the sense of turned triangles: {exported} {expected}")
+      f"winding of rotated triangles: {exported} {expected}")
 
 done = relume("export", ROOT / "tests/golden/cornell.trace", "-f", 99999, "-o", SCRATCH / "none.glb")
 check(done.returncode == 2 and "no frame 99999" in done.stderr,
-      f"a frame that is not there: {done.returncode} {done.stderr}")
-check(not list(SCRATCH.glob("none*")), "nothing is left of a failed export")
+      f"a missing frame: {done.returncode} {done.stderr}")
+check(not list(SCRATCH.glob("none*")), "a failed export leaves nothing")
 
-# Of several textures the one in colours; what was written, and under which names.
+# Several textures: the one with colours is exported; the messages, and the file names.
 units = SCRATCH / "units.trace"
 record(units, BUILD / "tests/real/units", options=())
 for frame, wanted in ((0, (4, 4)), (1, (4, 4)), (2, None)):
@@ -118,8 +119,8 @@ for frame, wanted in ((0, (4, 4)), (1, (4, 4)), (2, None)):
     ]
     check(sizes == ([wanted] if wanted else []), f"frame {frame}: the texture of {wanted} texels: {sizes}")
     check(f"{file}: frame {frame}, " in done.stderr and "MiB" in done.stderr,
-          f"what was written is said: {done.stderr}")
+          f"the files written are listed: {done.stderr}")
 done = relume("export", units, "-o", SCRATCH / "units.obj")
 check(done.returncode == 2 and ".glb" in done.stderr and not (SCRATCH / "units.obj").exists(),
-      f"another ending: {done.returncode} {done.stderr}")
+      f"an unknown file ending: {done.returncode} {done.stderr}")
 finish()

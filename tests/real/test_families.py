@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The same files, byte by byte, from every family of traversal kernels and their C twins: surfaces seen through each
-other, lines, points, bitmaps, mirrors, shadows, several samples a pixel, textures of all kinds that packs know."""
+"""Every family of traversal kernels and their C twins write the same files, byte for byte: transparent surfaces, lines,
+points, bitmaps, mirrors, shadows, several samples per pixel, all kinds of textures that packs support."""
 from helpers import BUILD, SCRATCH, check, corpus, finish, record, relume, render
 
 FAMILIES = ("packets", "binary", "compressed")

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The short form of `make show-faults`: a few of its faults are caught by their gates and blamed on their draws, a few
-of its variations pass."""
+"""The short form of `make show-faults`: some of its faults must be caught by their gates and blamed on their draws, and
+some of its variations must pass."""
 import pathlib
 import sys
 
@@ -27,9 +27,9 @@ for name, gates, draw, what in faults.FAULTS:
     folder.mkdir()
     code, frame = suite.score(suite.trace, faults.make_fault(suite, folder, what))
     caught, named, failed, first = faults.judge_fault(code, frame, gates, draw)
-    check(caught, f"{name}: {failed} failed, not {' or '.join(gates)}")
+    check(caught, f"{name}: {failed} failed, expected {' or '.join(gates)}")
     check(named, f"{name}: {first} is blamed, not {draw}")
-    # beside the recording itself, which has names: the floor is the draw with its texture
+    # compare with the recording itself, which has names: the floor is the draw with its texture
     if name == "the shadows are gone":
         _, score = diff(suite.trace, folder / "s.####.exr", "-f", faults.FRAME, "--baseline", suite.base)
         blamed = score["frames"][0]["blame"][0]

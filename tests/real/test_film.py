@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""relume film: which pictures it gives to ffmpeg, how long each stands, and the page that plays the film.
+"""relume film: the pictures that it passes to ffmpeg, their durations, and the page that plays the film.
 
-A program named ffmpeg keeps the pictures, read by the real one; `make show-film` makes whole films.
+A fake ffmpeg keeps the pictures, decoded by the real one; `make show-film` makes whole films.
 """
 import json
 import os
@@ -44,12 +44,13 @@ for i in (1, 2, 3, 4):
 
 
 def film(name, *options, of=frames, code=0, env=fake):
-    """Make one; return its pictures and their rate."""
+    """Make a film; returns its pictures and their rate."""
     done = relume("film", of, "-o", SCRATCH / name, *options, env=env)
-    check(done.returncode == code, f"film {name} {options}: exit code {done.returncode} and not {code}: {done.stderr}")
+    check(done.returncode == code,
+          f"film {name} {options}: exit code {done.returncode}, expected {code}: {done.stderr}")
     if code:
         left = [p.name for p in SCRATCH.glob(f"{name}*")]
-        check(not left, f"nothing is left of it: {left}")
+        check(not left, f"a failed film leaves nothing: {left}")
         return done.stderr
     head, data = (SCRATCH / name).read_bytes().split(b"\n", 1)
     size, rate = head.decode().split()
@@ -57,40 +58,40 @@ def film(name, *options, of=frames, code=0, env=fake):
     return numpy.frombuffer(data, numpy.uint8).reshape(-1, height, width, 3), int(rate)
 
 
-# Side by side: what the program showed, and the display picture that render makes.
+# Side by side: the program's picture, and the display picture made by render.
 must(relume("raster", trace, "-f", "1", "-o", SCRATCH / "raster.####.png"))
 shown, traced = whole_codes(SCRATCH / "raster.0001.png"), whole_codes(pngs / "s.0001.png")
 height, width, _ = shown.shape
 pictures, rate = film("plain.webm", "--fps", "25", "--no-labels")
 check(rate == 25 and pictures.shape == (4, height, 2 * width + 4, 3),
       f"four pictures at 25 a second: {rate}, {pictures.shape}")
-check((pictures[1, :, :width] != shown).mean() < 0.001, "on the left what the program showed")
-check((pictures[1, :, width + 4:] == traced).all(), "on the right what render shows")
+check((pictures[1, :, :width] != shown).mean() < 0.001, "on the left the program's picture")
+check((pictures[1, :, width + 4:] == traced).all(), "on the right render's picture")
 check((pictures[:, :, width:width + 4] == 0).all(), "a gap between them")
 again, _ = film("chunks.webm", "--fps", "25", "--no-labels", of=chunks)
 check((again == pictures).all(), "frames rendered in four chunks give the same film")
 
-# One alone, of some frames; both in turns; a line that moves.
+# One picture alone, for some frames; both in turn; a moving divider.
 pictures, _ = film("traced.mp4", "--fps", "10", "--no-labels", "--layout", "traced", "-f", "1-2")
 check(len(pictures) == 2 and (pictures[0] == traced).all(), "traced alone")
 pictures, _ = film("raster.mkv", "--fps", "10", "--no-labels", "--layout", "raster", "--raster", trace, of=pngs)
-check(len(pictures) == 4 and (pictures[1] == shown).mean() > 0.999, "PNG frames, beside the recorded reference")
+check(len(pictures) == 4 and (pictures[1] == shown).mean() > 0.999, "PNG frames, with the recorded reference")
 pictures, _ = film("turns.webm", "--fps", "1", "--no-labels", "--layout", "alternate")
 kinds = [(numpy.abs(p.astype(int) - shown).mean() < numpy.abs(p.astype(int) - traced).mean()) for p in pictures]
 check(set(kinds) == {True, False}, f"alternating: {kinds}")
 pictures, _ = film("wipe.webm", "--fps", "4", "--no-labels", "--layout", "wipe")
 lines = [int((p == 255).all(axis=(0, 2)).argmax()) for p in pictures]
-check(len(set(lines)) == 4 and abs(lines[0] - width // 2) < 4, f"the line moves from the middle: {lines}")
+check(len(set(lines)) == 4 and abs(lines[0] - width // 2) < 4, f"the divider moves from the middle: {lines}")
 
-# Labels stand in a strip below the pictures.
+# Labels are in a strip below the pictures.
 pictures, _ = film("labels.webm", "--fps", "25", "--caption", "a still life")
 strip = pictures[0, height:]
 check(pictures.shape[1] > height and strip[:, :200].max() > 200 and strip[:, width + 4:width + 200].max() > 200,
       "labels")
-check((pictures[1, :height, width + 4:] == traced).all(), "they cover nothing")
+check((pictures[1, :height, width + 4:] == traced).all(), "labels cover no picture")
 check((SCRATCH / "labels.jpg").stat().st_size > 10000, "a poster")
 
-# What is shown as white: what the frames say, but no less than 1; what the program showed stays, and is white beyond 1.
+# White level: taken from the frames, but at least 1. The program's picture is not scaled, and is white at 1 and above.
 said = {}
 for name, change in (("four", ("--sattrib", "relume:white", "4")), ("quarter", ("--sattrib", "relume:white", "0.25")),
                      ("bright", ("--mulc", "2"))):
@@ -100,13 +101,13 @@ for name, change in (("four", ("--sattrib", "relume:white", "4")), ("quarter", (
 asked = film("asked.webm", "--fps", "25", "--no-labels", "-f", "1", "--white", "4")[0][0]
 check((said["four"] == asked).all() and (asked[:, width + 4:] != traced).any(),
       "frames that say white is at 4 look as with --white 4")
-check((said["quarter"][:, width + 4:] == traced).all(), "white at a quarter is none")
-for what, was, now in (("what the program showed", shown, said["bright"][:, :width]), ("the frame", traced,
+check((said["quarter"][:, width + 4:] == traced).all(), "a white level of a quarter is refused")
+for what, was, now in (("the program's picture", shown, said["bright"][:, :width]), ("the frame", traced,
                                                                                        said["bright"][:, width + 4:])):
-    above = was >= 190  # more than half of white, twice of which is beyond it
-    check(above.any() and (now[above] == 255).all(), f"beyond white is white in {what}")
+    above = was >= 190  # above half of white, which doubling makes white
+    check(above.any() and (now[above] == 255).all(), f"values beyond white are white in {what}")
 
-# Without --fps a frame stands as long as the program showed it: the recording's times.
+# Without --fps, a frame is shown as long as the program showed it, according to the recording's times.
 pictures, rate = film("times.webm", "--no-labels", "--layout", "raster")
 times = [
     int(line.split()[1])
@@ -124,7 +125,7 @@ check(
 
 
 def timed(name, *milliseconds):
-    """The same four frames as a program shows them that takes so long for each."""
+    """The same four frames with other durations."""
     (SCRATCH / name).mkdir()
     now = 10 ** 12
     for i, ms in enumerate((0, *milliseconds)):
@@ -137,13 +138,13 @@ def timed(name, *milliseconds):
     return int(head.split()[1]), len(data) // (3 * width * height), "faster than films go" in done.stderr
 
 
-# Every frame is seen, however fast the program was; who dropped none before is shown as before.
-check(timed("unbound", 2, 2, 2) == (60, 4, True), "500 frames a second: each of four stands for a picture")
+# Every frame is shown, however fast the program was; programs that dropped none are shown as before.
+check(timed("unbound", 2, 2, 2) == (60, 4, True), "500 frames a second: each of four frames is one picture")
 check(timed("monitor", 16.7, 16.7, 16.7) == (60, 4, False), "60 frames a second: no frame is dropped")
 check(timed("slow", 100, 100, 100) == (30, 12, False), "10 frames a second: three pictures each")
-check(timed("once", 100, 2, 100) == (30, 10, True), "a frame that came at once is seen, too")
+check(timed("once", 100, 2, 100) == (30, 10, True), "a frame of no duration is shown, too")
 
-# Panoramas and pictures for two eyes are marked.
+# Panoramas and stereo pictures are marked as such.
 for name, projection, eyes, seen in (("around", "panorama", None, ("Spherical Mapping", None)),
                                      ("omni", "panorama", "left above right", ("Spherical Mapping", "top and bottom")),
                                      ("stereo", "stereo", "side by side", (None, "side by side")),
@@ -160,23 +161,23 @@ for name, projection, eyes, seen in (("around", "panorama", None, ("Spherical Ma
         sides = {side["side_data_type"]: side for side in stream.get("side_data_list", ())}
         check(("Spherical Mapping" if "Spherical Mapping" in sides else None) == seen[0], f"{path.name}: {list(sides)}")
         eyes_told = sides.get("Stereo 3D", {}).get("type")
-        if ending == "mp4":  # a box beside the one of Spherical Video V2 makes ffprobe 7 unsure
+        if ending == "mp4":  # an extra box beside that of Spherical Video V2 confuses ffprobe 7
             box = path.read_bytes().partition(b"st3d")[2]
             eyes_told = (None, "top and bottom", "side by side")[box[4] if box else 0]
-        check(eyes_told == seen[1], f"{path.name}: eyes {eyes_told}, not {seen[1]}")
+        check(eyes_told == seen[1], f"{path.name}: eyes {eyes_told}, expected {seen[1]}")
         check((stream["height"] == height) == (name != "cube"), f"{path.name}: no labels in panoramas")
 done = relume("film", SCRATCH / "around", "--fps", "25", "-o", SCRATCH / "beside.webm")
 check(done.returncode == 0 and "will not show the film as a panorama" in done.stderr, f"beside: {done.stderr}")
 
-# What cannot be.
+# Invalid requests.
 check("ffmpeg" in film("none.webm", code=5, env=dict(fake, PATH="/nowhere")), "without ffmpeg: its package is named")
 check("ffmpeg" in film("broken.webm", code=5), "an ffmpeg that fails")
 said = film("film.avi", code=2)
-check(all(kind in said for kind in (".webm", ".mp4", ".mkv")), f"the known endings are told: {said}")
+check(all(kind in said for kind in (".webm", ".mp4", ".mkv")), f"the known endings are listed: {said}")
 check("--raster" in film("gl.webm", of=pngs, code=3), "PNG frames hold no raster picture")
 check("none of the frames" in film("far.webm", "-f", "77", code=3), "no such frame")
 
-# The report plays it.
+# The report plays the film.
 done = relume("diff", trace, frames, "--report", SCRATCH / "report", "--film", SCRATCH / "plain.webm")
 page = (SCRATCH / "report/index.html").read_text()
 check(done.returncode == 0 and page.count('id="film">"data:video/webm;base64,') == 1,

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""Whitted's spheres and a glass box in the Cornell box: every gate on every frame, and glass that shows what is behind
+"""Whitted's spheres and a glass box in the Cornell box: every gate on every frame, and glass shows the objects behind
 it."""
 from exr import Image
 from helpers import SCRATCH, check, check_gates, corpus, diff, finish, record, render
@@ -25,7 +25,7 @@ def bent(image):
 image = rendered("spheres", "spheres")
 spots = bent(image)
 check(len(spots) > 15000, f"spheres: {len(spots)} pixels of glass")
-# A ball of glass turns what is behind it upside down: red and yellow tiles above, blue sky below its middle.
+# A glass ball shows the scene behind it upside down: red and yellow tiles above, blue sky below its middle.
 middle = sum(y for _, y in spots) / len(spots)
 above = [(x, y) for x, y in spots if y < middle - 20]
 below = [(x, y) for x, y in spots if middle + 5 < y < middle + 30]

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""A real program, end to end: glxgears recorded live, ray traced, scored; the same again to the byte; and a trace made
-by apitrace scores the same."""
+"""A real program, end to end: glxgears recorded live, ray traced, scored; rendered again, the same bytes; and a trace
+made by apitrace gets the same score."""
 import hashlib
 import shutil
 
@@ -23,7 +23,7 @@ check(code == 0, f"relume diff exits with {code}")
 check_gates(score, FRAMES, "glxgears")
 page = SCRATCH / "report" / "index.html"
 check(page.exists() and page.stat().st_size > 10000, "the report is written")
-check((SCRATCH / "report" / "sheet.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n", "so is the contact sheet")
+check((SCRATCH / "report" / "sheet.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n", "the contact sheet is written")
 
 first = digests(files)
 for threads in ("1", "2"):
@@ -32,7 +32,7 @@ for threads in ("1", "2"):
 
 if shutil.which("apitrace"):
     theirs = SCRATCH / "theirs.trace"
-    # apitrace ends with the program, and glxgears never ends.
+    # apitrace stops only when the program does, and glxgears never exits on its own.
     on_display("timeout", "--signal=TERM", "4", "apitrace", "trace", "-o", theirs, "glxgears")
     references = SCRATCH / "references"
     must(on_display(RELUME, "raster", theirs, "-f", "5-8", "-o", references / "x.####.png"))

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""The short form of `make show-sweep`: two hacks of xscreensaver's, recorded live, pass all gates.
+"""The short form of `make show-sweep`: two hacks of xscreensaver, recorded live, pass all gates.
 
-atunnel is a large textured area under linear filtering, blinkbox a picture blended from some twenty layers: both agree
-only where filtering and blending round as Mesa's do.
+atunnel is a large area with a linearly filtered texture; blinkbox blends some twenty layers. They pass only if
+filtering and blending round like Mesa's.
 """
 import pathlib
 import shutil

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Programs whose traced picture was worse than OpenGL's (corpus): gate N says so of each as it was, and of none as it
-is now."""
+"""Programs whose traced picture was once worse than OpenGL's (corpus): gate N must fail for each old picture, and for
+no present one."""
 from exr import Image
 from helpers import SCRATCH, check, check_gates, corpus, diff, finish, record, render
 
@@ -29,7 +29,7 @@ for name, (program, *options) in PROGRAMS.items():
     failed = [gate for gate, found in score["frames"][0]["gates"].items() if found["state"] == "failed"]
     check(failed == ["N"], f"{name}, not spared: fails {failed}")
 
-# What covers the window as a framebuffer object's picture is traced: pieces throw shadows on the board.
+# A framebuffer object's picture that covers the window is traced: pieces cast shadows on the board.
 board = {
     shown: Image(SCRATCH / shown / f"{shown}.0000.exr", {"shadow.G"}).planes["shadow.G"]
     for shown in ("board_quad", "board_blit", "board_shader")

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""`relume help`, --help of every verb, and what wrong usage looks like."""
+"""`relume help`, --help of every verb, and messages for wrong usage."""
 import re
 
 from helpers import ROOT, check, finish, relume
@@ -17,14 +17,14 @@ check(
     list(groups) == ["First steps", "Record and inspect", "Render", "Compare", "Farm", "Research", "Help"],
     f"help groups the verbs: {list(groups)}")
 check(groups["First steps"] == ["record", "info", "render", "look", "film", "diff", "approve", "ci"],
-      f"eight come first: {groups['First steps']}")
+      f"the first group has eight verbs: {groups['First steps']}")
 check(sum(groups.values(), []) == verbs and len(set(verbs)) == len(verbs), f"each verb is in one group: {groups}")
-check(relume("help", "help").stdout == overview.stdout, "help of help is help")
+check(relume("help", "help").stdout == overview.stdout, "`help help` prints the help")
 check(relume().returncode == 2, "no verb is wrong usage")
 check(relume("paint").returncode == 2, "an unknown verb is wrong usage")
 near, far = relume("rendr"), relume("paint")
 check("unknown command 'rendr'; did you mean 'render'?" in near.stderr and "did you mean" not in far.stderr,
-      f"a verb that is near is named: {near.stderr}{far.stderr}")
+      f"a similar verb is suggested: {near.stderr}{far.stderr}")
 version = relume("--version")
 check(version.returncode == 0 and version.stdout == f"relume {(ROOT / 'VERSION').read_text()}",
       f"--version: {version.stdout}")
@@ -46,7 +46,7 @@ for verb in verbs:
         continue
     by_option, by_help = relume(verb, "--help"), relume("help", verb)
     check(by_option.returncode == 0 and not by_option.stderr, f"{verb} --help exits with 0, silent on standard error")
-    check(by_option.stdout.startswith(f"usage: relume {verb}"), f"{verb} --help says its usage:\n{by_option.stdout}")
+    check(by_option.stdout.startswith(f"usage: relume {verb}"), f"{verb} --help prints its usage:\n{by_option.stdout}")
     check(by_option.stdout == by_help.stdout, f"help {verb} prints the same")
     wrong = relume(verb, "--no-such-option")
     check(wrong.returncode == 2 and wrong.stderr, f"{verb} refuses an unknown option: exit code {wrong.returncode}")

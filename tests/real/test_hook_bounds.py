@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A hook that writes beyond its array: Oclgrind names the access and the line of the hook's file."""
+"""A hook that writes out of bounds: Oclgrind reports the access and the line of the hook's file."""
 import shutil
 import subprocess
 

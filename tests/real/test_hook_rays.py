@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s: a compilation for each hook
-"""Hooks that say what rays meet and what light arrives: any_hit, bounds with intersection, light; each against a
-picture made without it."""
+"""Hooks that decide what rays hit and what light arrives: any_hit, bounds with intersection, light. Each is compared
+with a picture made without it."""
 import pathlib
 import sys
 
@@ -16,11 +16,11 @@ FUNCTIONS = {
     "intersection": ("request", "crossing crossing"), "ray_generation": ("ray", "pixel pixel")
 }
 SKY = {"miss": "return relume_color((float4)(0.25f, 0.5f, 1.0f, 0.0f));"}
-BOX, BALL = 3, 4  # draws of corpus/still_life
+BOX, BALL = 3, 4  # draw numbers of corpus/still_life
 
 
 def hook(name, functions, parameters=""):
-    """A hook of functions by their bodies."""
+    """A hook with functions of these bodies."""
     path = SCRATCH / f"{name}.cl"
     path.write_text(parameters + "".join(
         f"struct relume_{FUNCTIONS[f][0]} {f}(struct relume_{FUNCTIONS[f][1]}, struct relume_parameters "
@@ -30,7 +30,7 @@ def hook(name, functions, parameters=""):
 
 
 def picture(name, functions=None, *options, parameters="", channels="RGB"):
-    """Rendered with such a hook, in OpenGL's numbers."""
+    """Rendered with such a hook, in display codes."""
     given = ("--hook", hook(name, functions, parameters)) if functions else ()
     must(
         relume("render", TRACE, "-f", 1, "-o", SCRATCH / f"{name}.####.exr", "--encoding", "display", *given, *options,
@@ -39,7 +39,7 @@ def picture(name, functions=None, *options, parameters="", channels="RGB"):
 
 
 def differing(a, b, channels="RGB", most=0.0):
-    """Pixels of which a channel differs by more."""
+    """Pixels with a channel that differs by more than `most`."""
     return sum(
         any(not abs(a.at(c, x, y) - b.at(c, x, y)) <= most
             for c in channels)
@@ -54,19 +54,19 @@ plain = picture("plain", channels=["R", "G", "B", "id", "Z", "gl.R", "gl.G", "gl
 shaded = [(x, y) for y in range(120) for x in range(160) if min(plain.at(c, x, y) for c in SHADOW) < 1]
 check(len(shaded) > 500, f"{len(shaded)} pixels lie in shadow")
 
-# Any hit: no surface for any ray; none for rays to lights; none in mirrors.
+# Any hit: no surface for any ray; none for shadow rays; none in mirrors.
 none = picture("none", {"any_hit": "return relume_ignore();", **SKY},
                channels=["R", "G", "B", "gl.R", "gl.G", "gl.B", "Z"])
-check(differing(none, plain, ("gl.R", "gl.G", "gl.B", "Z")) == 0, "gl.* and Z stay")
+check(differing(none, plain, ("gl.R", "gl.G", "gl.B", "Z")) == 0, "gl.* and Z are unchanged")
 here = [(x, y) for y in range(120) for x in range(160) if plain.at("id", x, y) in (BOX, BALL)]
 check(all(none.at(c, x, y) == v for x, y in here for c, v in (("R", .25), ("G", .5), ("B", 1))),
-      "the sky is there in their place")
+      "the sky shows instead")
 bright = picture("bright", {"any_hit": "return hit.shadow ? relume_ignore() : relume_go_on();"},
                  channels=["R", "G", "B", *SHADOW])
-check(all(bright.at(c, x, y) == 1 for x, y in shaded for c in SHADOW), "rays to lights pass")
+check(all(bright.at(c, x, y) == 1 for x, y in shaded for c in SHADOW), "shadow rays pass")
 check(
     differing(picture("accept", {"any_hit": "return relume_go_on();"}), plain) == 0,
-    "what counts leaves the picture as it was")
+    "accepting every hit leaves the picture unchanged")
 mirrors = SCRATCH / "mirrors.look.yaml"
 mirrors.write_text("surfaces:\n  - { match: { draws: '2' }, reflect: 0.5 }\n")
 seen, unseen = (picture(name, functions, "--look", mirrors) for name, functions in (("seen", None), (
@@ -74,21 +74,21 @@ seen, unseen = (picture(name, functions, "--look", mirrors) for name, functions 
 floor = [(x, y) for y in range(120) for x in range(160) if plain.at("id", x, y) == 2]
 changed = sum(seen.at("G", x, y) > unseen.at("G", x, y) + 0.02 for x, y in floor)
 check(changed > 25 and differing(seen, unseen) <= len(floor),
-      f"the floor mirrors the green ball no longer: {changed} pixels of {len(floor)}")
+      f"the floor no longer mirrors the green ball: {changed} pixels of {len(floor)}")
 
-# Light: all of it; none; and green alone, in the scene and in a mirror.
+# Light: all of it; none; and only green, in the scene and in a mirror.
 whole, dark, green = (picture(name, {"light": f"return relume_color((float4)({color}, 0.0f));"}, "--look", mirrors)
                       for name, color in (("whole", "1, 1, 1"), ("dark", "0, 0, 0"), ("green", "0, 1, 0")))
-check(differing(whole, seen) == 0, "light that arrives whole changes nothing")
+check(differing(whole, seen) == 0, "unchanged light leaves the picture unchanged")
 check(differing(dark, seen, most=0.1) > PIXELS / 5, "without light it is dark")
-check(differing(green, seen, "G") == 0 and differing(green, dark, "RB") == 0, "each colour of the light by itself")
+check(differing(green, seen, "G") == 0 and differing(green, dark, "RB") == 0, "each colour of the light is independent")
 half = picture("half", {"light": "return beam.position.x < 0.0f ? relume_go_on() : relume_color((float4)(0.0f));"})
 check(
     differing(half, plain)
     and not any(half.at(c, x, y) != plain.at(c, x, y) for x in range(60) for y in range(120) for c in "RGB"),
     "the left of the picture keeps its light")
 
-# Intersection: the box that was drawn, told by its six planes, is the box; and a ball is as near as it is.
+# Intersection: a box given by its six planes equals the drawn box; and a sphere is as near as the ball.
 traced = picture("traced", {"ray_generation": "return pixel.ray;"}, "--look", mirrors, channels="RGBZ")
 CHOSEN = SCRATCH / "chosen.look.yaml"
 CHOSEN.write_text(mirrors.read_text() +
@@ -111,13 +111,13 @@ missing = picture("hollow", {"bounds": BOUNDS, "intersection": "return relume_ig
                   parameters=PARAMETER, channels="RGBZ")
 check(
     differing(same, traced, most=0.01) < PIXELS / 100,
-    f"a box told by its planes is that box: {differing(same, traced, most=0.01)} pixels differ")
+    f"a box given by its planes is that box: {differing(same, traced, most=0.01)} pixels differ")
 check(
     differing(same, traced, "Z", most=0.001) < PIXELS / 200,
     f"as far away: {differing(same, traced, 'Z', most=0.001)} pixels differ")
 gone = differing(missing, traced, most=0.01)
 check(gone > sum(plain.at("id", x, y) == BOX for y in range(120) for x in range(160)),
-      f"where nothing is met the box is gone, with its shadow and in the mirror: {gone}")
+      f"without hits the box is gone, with its shadow and in the mirror: {gone}")
 CHOSEN.write_text(CHOSEN.read_text().replace(f"'{BOX}'", f"'{BALL}'"))
 CHOSEN.write_text(CHOSEN.read_text().replace("chosen", "sphere"))
 ball = picture("ball", None, "--hook", ROOT / "corpus/hooks/sphere.cl", "--look", CHOSEN)
@@ -137,7 +137,7 @@ for name in ("cutout", "distance", "gobo"):
         differing(*pair, "RGBZ", most=0.004) < PIXELS / 1000,
         f"{name}: {differing(*pair, 'RGBZ', most=0.004)} pixels differ from the reference device's")
 
-# What is refused.
+# Invalid hooks.
 for name, functions, words in (("lone", {"bounds": "return object.box;"}, "defines bounds without intersection"),
                                ("other", {"intersection": "return relume_ignore();"},
                                 "defines intersection without bounds")):

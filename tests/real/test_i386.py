@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Programs of 32 bits (`make i386`): recorded by the recorder of their class, whether started by themselves or by a
-program of 64 bits, as is one of 64 bits that they start, and every picture as they showed it, be it calculated in the
-x87's registers.
+"""32-bit programs (`make i386`) are recorded by the recorder of their class, whether they are started directly or by a
+64-bit program; so is a 64-bit program started by them. Every picture is as the program showed it, even if computed in
+x87 registers.
 """
 import wine
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, check_gates, diff, finish, must, record, render, run, skip
@@ -33,7 +33,7 @@ for name, options in wine.PROGRAMS.items():
     record(trace, BUILD / "i386" / name, *options, "--frames", FRAMES)
     render(trace, SCRATCH / name, *AS_SHOWN)
     check_gates(diff(trace, SCRATCH / name)[1], FRAMES, name)
-# A program of Debian.
+# A Debian program.
 trace = SCRATCH / "glxgears.trace"
 record(trace, GEARS, options=("--ref", "color,depth", "--quit-after", str(FRAMES)))
 render(trace, SCRATCH / "glxgears", *AS_SHOWN)

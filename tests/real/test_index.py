@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The index: checkpoints restore what the calls lead to, frames are the same bytes however they are come to, and an
-index that is stale, damaged or cannot be written is noticed.
+"""The index: checkpoints restore the state that the calls produce; frames have the same bytes however they are reached;
+and an index that is stale, damaged or cannot be written is noticed.
 
 limit: 200 s
 """
@@ -22,7 +22,8 @@ def index_of(trace):
     return trace.with_name(trace.name + ".index")
 
 
-# Programs with lists, textures, arrays and stacks of all kinds: every checkpoint against the calls, byte by byte.
+# Programs with lists, textures, arrays and stacks of all kinds: every checkpoint is compared with the calls' state,
+# byte by byte.
 live, second = SCRATCH / "live.trace", SCRATCH / "second.trace"
 record(live, corpus("viewer"), "--frames", "400", options=())
 record(second, corpus("viewer"), "--frames", "300", options=())
@@ -32,22 +33,22 @@ for name in ("glxgears", "iv-SceneViewer", "neverball", "rss-lattice", "xss-quee
         traces.append(SCRATCH / f"{name}.trace")
         shutil.copy(TRACES / f"{name}.trace", traces[-1])
 for trace in traces:
-    found, _ = facts(trace, "--check")  # exit code 1 where a state differs
-    check(found["frames"] > 0 and index_of(trace).exists(), f"{trace.name}: the index lies beside it: {found}")
+    found, _ = facts(trace, "--check")  # exit code 1 if a state differs
+    check(found["frames"] > 0 and index_of(trace).exists(), f"{trace.name}: the index is beside it: {found}")
     check(found["checkpoints"] > 0, f"{trace.name}: has checkpoints: {found}")
     check(found["bytes"] < found["trace_bytes"] + (512 << 10),
           f"{trace.name}: the index does not outgrow the trace: {found}")
 
-    check(index_of(trace).stat().st_size == found["bytes"], f"{trace.name}: there is nothing behind the index: {found}")
+    check(index_of(trace).stat().st_size == found["bytes"], f"{trace.name}: the file ends with the index: {found}")
 
-# A state that would take longer to restore than the calls take that lead to it is not kept.
+# A state that would take longer to restore than to replay is not stored.
 if (TRACES / "xss-lament.trace").exists():
     large = SCRATCH / "xss-lament.trace"
     shutil.copy(TRACES / large.name, large)
     found, _ = facts(large, "--check")
     check(found["checkpoints"] == 0, f"textures of 9 MiB, set by 11 MiB of calls: {found}")
 
-# A frame looks the same whether all before it were executed or a checkpoint was restored.
+# A frame is the same whether all earlier ones were executed or a checkpoint was restored.
 trace = traces[-1]
 last = facts(trace)[0]["frames"] - 1
 near = max(last - 28, 0)
@@ -80,18 +81,19 @@ os.utime(live)
 found, said = facts(live)
 check(not said and found["build_us"] == 0, f"a copy with another time is the same trace: {said}")
 
-# Where no file can be written beside the trace, the cache folder takes it; where neither can, the run goes on without.
+# If no file can be written beside the trace, the index goes to the cache folder; if that cannot be written either, the
+# run continues without an index.
 index_of(live).unlink()
 index_of(live).mkdir()
 env = dict(os.environ, XDG_CACHE_HOME=str(SCRATCH / "cache"))
 found, _ = facts(live, env=env)
 check(found["index"].startswith(str(SCRATCH / "cache")), f"the cache folder takes the index: {found}")
 found, _ = facts(live, env=env)
-check(found["build_us"] == 0, "and it is found there")
+check(found["build_us"] == 0, "the index is found in the cache folder")
 done = must(
     relume("render", live, "-f", str(last), "-o", SCRATCH / "y.#.exr", env=dict(os.environ,
                                                                                 XDG_CACHE_HOME="/dev/null")))
-check("cannot be written" in done.stderr, f"an index that cannot be written is said: {done.stderr}")
+check("cannot be written" in done.stderr, f"an index that cannot be written is reported: {done.stderr}")
 check((SCRATCH / f"y.{last}.exr").read_bytes() == (SCRATCH / f"jump.{last}.exr").read_bytes(),
-      "and the frame is the same")
+      "the frame is the same without an index")
 finish()

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A few calls of the system fail in turn: the command does without them, or ends with one line."""
+"""A few system calls fail in turn: the command gives the same result anyway, or ends with one line."""
 import subprocess
 
 from helpers import RELUME, SCRATCH, check, corpus, finish, record
 from injected import check_points, inject
 
-MOST = 7  # of each class
+MOST = 7  # per class
 QUICK = ("index", "info", "scene", "trim", "approve")
 
 check_points(*((name, inject.points_of, 11, MOST) for name in QUICK),

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""diff while memory is short and while its files cannot be read: no frame passes, and no page is written, by what was
-not seen."""
+"""diff while memory is short or its files cannot be read: it must neither pass a frame nor write a page without having
+read its input."""
 from helpers import finish
 from injected import check_points, malloc_places, reads
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""render while memory is short from some place in the code on: no draw is left out of a picture, and none is drawn as
-another."""
+"""render with memory failures from a given place in the code on: no draw may be left out of a picture or drawn
+differently."""
 from helpers import finish
 from injected import check_points, malloc_places_always
 

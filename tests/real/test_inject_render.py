@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""render while memory is short for what is told of a picture, or its recording cannot be read: a picture is whole or
-not there."""
+"""render with memory failures while a picture's attributes are made, or with an unreadable recording: a picture is
+complete or missing."""
 from helpers import finish
 from injected import check_points, last_mallocs, last_places, reads
 

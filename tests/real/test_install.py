@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""make install into a folder: what is installed runs from there, explains itself and is found; uninstall leaves
-nothing."""
+"""make install into a folder: the installed command runs from there, its documentation and files are found; uninstall
+leaves nothing."""
 import os
 import pathlib
 import re
@@ -20,12 +20,12 @@ def make(target, *options):
                "PREFIX=/usr", f"DESTDIR={PLACE}")
 
 
-# Other tests use what is built while this one runs: nothing may be built again. A second `make` has nothing to do.
+# Other tests use the build while this one runs, so nothing may be rebuilt. A second `make` has nothing to do.
 for target in "all", "pages":
     again = make(target, "-n").stdout
     if not check("Nothing to be done" in again, f"make {target} would build again: {again[:1000]}"):
         finish()
-# On a bare machine the first line is ours: without a compiler, and with no other program, make has nothing to say.
+# On a bare machine the first line is ours: without a compiler or other programs, make prints nothing before it.
 tools = SCRATCH / "tools"
 tools.mkdir()
 for name in "make", "sh":
@@ -39,7 +39,7 @@ must(make("install"))
 relume = PREFIX / "bin/relume"
 version = (ROOT / "VERSION").read_text().strip()
 
-# It runs from there, and finds its own recorder, not the one of the build.
+# It runs from there, and finds its own recorder, not that of the build.
 done = must(on_display(relume, "record", "-o", SCRATCH / "gears.trace", "--quit-after", "3", "--", "glxgears"))
 check("3 frames" in done.stderr, f"the installed command records: {done.stderr}")
 maps = run(relume, "record", "-o", SCRATCH / "cat.trace", "--", "cat", "/proc/self/maps").stdout
@@ -52,13 +52,13 @@ recorders = {
 check(found == {str(recorders["x86_64"])}, f"its recorder is the installed one: {found}")
 if with_i386:
     check(recorders["i386"].read_bytes()[4] == 1,
-          "the recorder for programs of 32 bits is installed, and is of their class")
+          "the recorder for programs of 32 bits is installed, and is a 32-bit library")
     done = must(
         on_display(relume, "record", "-o", SCRATCH / "i386.trace", "--", BUILD / "i386/two_triangles", "--frames", "3"))
     check("3 frames" in done.stderr and "preloaded" not in done.stderr,
           f"the installed command records a program of 32 bits: {done.stderr}")
 else:
-    check(not (PREFIX / "lib/relume/lib").exists(), "no folder for the recorders of two classes where there is one")
+    check(not (PREFIX / "lib/relume/lib").exists(), "no folder for two recorders if there is only one")
 must(run(relume, "render", SCRATCH / "gears.trace", "-f", "2", "-o", SCRATCH / "gears.####.exr"))
 check((SCRATCH / "gears.0002.exr").exists(), "the installed command renders")
 done = run(relume, "diff", "--report", SCRATCH / "report", SCRATCH / "gears.0002.exr", SCRATCH / "gears.0002.exr")
@@ -68,7 +68,7 @@ check(done.returncode == 0 and (SCRATCH / "report/sheet.png").exists(),
 check((PREFIX / "share/relume/score.schema.json").read_bytes() == (ROOT / "diff/score/score.schema.json").read_bytes(),
       "the schema of scores is there")
 
-# What the dynamic linker cannot preload is said, not passed over.
+# A path that the dynamic linker cannot preload is reported, not ignored.
 spaced = SCRATCH / "a place"
 shutil.copytree(PREFIX, spaced)
 done = run(spaced / "bin/relume", "record", "-o", SCRATCH / "none.trace", "--", "true")
@@ -85,7 +85,7 @@ program.write_text("#include <relume.h>\nint main(void) { rtMaterialEXT(RT_MIRRO
 must(run("cc", "-I", include, "-o", SCRATCH / "mirror", program))
 check(run(SCRATCH / "mirror").returncode == 0, "a program with the header runs without a recorder")
 
-# A page for every verb that says every option of its help text; no complaint of the formatter.
+# A page for every verb that describes every option of its help text; no complaint from the formatter.
 verbs = re.findall(r"^  (\w+) ", run(relume, "help").stdout, re.M)
 options = {v: set(re.findall(r"^ {2,6}(?:-\w, )?(--[a-z][\w-]*)", run(relume, "help", v).stdout, re.M))
            for v in verbs if v != "help"}
@@ -94,8 +94,8 @@ for verb, known in options.items():
     page = run("man", "--warnings", "-P", "cat", "-l", source, env=dict(os.environ, MANWIDTH="300", LC_ALL="C.UTF-8"))
     check(page.returncode == 0 and not page.stderr, f"man relume-{verb}: {page.stderr}")
     text = re.sub(r".\x08", "", page.stdout)
-    check(all(o in text for o in known), f"man relume-{verb} says every option: {known - set(text.split())}")
-# A page about each format of a file, and in every page a day and examples.
+    check(all(o in text for o in known), f"man relume-{verb} describes every option: {known - set(text.split())}")
+# A page about each file format, and in every page a date and examples.
 formats = re.findall(r"^  (\w+)-file ", run(relume, "help").stdout, re.M)
 pages = sorted((PREFIX / "share/man").rglob("*.[15]"))
 check(
@@ -107,7 +107,7 @@ for source in pages:
     check(page.returncode == 0 and not page.stderr, f"man {source.name}: {page.stderr}")
     check("\nEXAMPLES\n" in text, f"man {source.name} has examples")
     check(re.search(r"^relume +20[2-9]\d-\d\d-\d\d ", text, re.M),
-          f"man {source.name} has a day of our days: {text[-200:]}")
+          f"man {source.name} has a recent date: {text[-200:]}")
 keys = run(relume, "help", "look-file").stdout
 shown = re.sub(
     r"\s+", " ",
@@ -118,7 +118,7 @@ wanted = re.findall(r"^ {8,}(?:- )?(\w+):.* # ", keys, re.M)
 check(
     len(wanted) > 50 and all(f"{key}:" in shown for key in wanted),
     f"man 5 relume-look has every key: {[k for k in wanted if f'{k}:' not in shown]}")
-# The hooks and recipes that the pages speak of.
+# The hooks and recipes that the pages mention.
 examples = PREFIX / "share/doc/relume/examples"
 check((examples / "hooks/toon.cl").exists() and (examples / "hooks/car_paint.look.yaml").exists(),
       "example hooks are installed")
@@ -126,7 +126,7 @@ must(run(relume, "hook", "--check", examples / "hooks/toon.cl", timeout=200))
 for recipe in ("github.yml", "gitlab-ci.yml"):
     text = (examples / "ci" / recipe).read_text()
     check(yaml.safe_load(text) and "relume ci" in text, f"the recipe {recipe} is YAML that runs relume ci")
-# The help texts themselves say every option that the verbs' tables have.
+# The help texts themselves explain every option of the verbs' tables.
 tables = {
     f"--{name}" for folder in ("capture", "diff", "replay", "verbs") for source in (ROOT / folder).rglob("*.c")
     for name in re.findall(r"\{ \"([a-z][a-z-]+)\", (?:0|'\w'), (?:NULL|\"[^\"]+\"), \"", source.read_text())
@@ -135,7 +135,7 @@ check(
     len(tables) > 30 and tables <= set().union(*options.values()),
     f"every option is explained: {tables - set().union(*options.values())}")
 
-# Each shell completes a verb, an option of it, and nothing of another verb.
+# Each shell completes a verb and its options, and no options of another verb.
 BASH = f"""source '{PREFIX}/share/bash-completion/completions/relume'
 COMP_WORDS=(relume "$@"); COMP_CWORD=$#; _relume; printf '%s\\n' "${{COMPREPLY[@]}}\""""
 ZSH = f"""zmodload zsh/zpty; zpty shell zsh -f -i
@@ -175,5 +175,5 @@ for complete in (by_bash, by_zsh, by_fish):
 must(make("uninstall"))
 left = [str(p) for p in pathlib.Path(PLACE).rglob("*") if not p.is_dir()]
 check(not left, f"uninstall leaves nothing: {left}")
-check(not any((PREFIX / folder).exists() for folder in ("lib/relume", "share/relume")), "nor a folder of ours")
+check(not any((PREFIX / folder).exists() for folder in ("lib/relume", "share/relume")), "nor one of our folders")
 finish()

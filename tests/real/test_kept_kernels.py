@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Compiled kernels that are kept for other runs: damaged, cut, empty, of another driver, a folder in their place,
-nowhere to write. The frame is the same to the byte each time, and the file is made anew or a line says why not. PoCL
-keeps its own, so it takes another name."""
+"""Cached compiled kernels: damaged, truncated, empty, from another driver, a folder in their place, no writable place.
+The frame is always the same to the byte, and the file is rebuilt or a line says why not. Because PoCL has a cache of
+its own, it gets another name here."""
 import os
 import random
 import shutil
@@ -17,7 +17,7 @@ chance = random.Random(seed)
 
 
 def render(folder, **more):
-    """The frame's bytes and what was said, with kernels kept in a folder."""
+    """The frame's bytes and the output, with a kernel cache folder."""
     env = dict(os.environ, LD_PRELOAD=str(BUILD / "tests/real/failing_cl.so"), AS_PLATFORM="another", **more)
     out = SCRATCH / "frame.0.exr"
     out.unlink(missing_ok=True)
@@ -40,13 +40,13 @@ check(render(cache) == (want, "") and kept(cache) == before, "a run that finds i
 
 
 def damage(name, data):
-    """Damage a file, render; the file is another one, and whole."""
+    """Damage a file and render; the file must be replaced by a valid one."""
     path = cache / name
     inode = path.stat().st_ino
     path.write_bytes(data)
     frame, words = render(cache)
-    check(frame == want and not words, f"seed {seed}: {name}: another frame, or words: {words}")
-    check(path.stat().st_ino != inode and path.stat().st_size > 1000, f"seed {seed}: {name} is not made anew")
+    check(frame == want and not words, f"seed {seed}: {name}: the frame differs, or messages: {words}")
+    check(path.stat().st_ino != inode and path.stat().st_size > 1000, f"seed {seed}: {name} is not rebuilt")
 
 
 name, data = max(whole.items(), key=lambda item: len(item[1]))
@@ -56,18 +56,18 @@ for length in (0, 47, len(data) // 2):
     damage(name, data[:length])
 damage(name, data + b"more")
 damage(name, next(other for n, other in whole.items() if n != name))
-check(render(cache) == (want, ""), f"seed {seed}: what was made anew")
+check(render(cache) == (want, ""), f"seed {seed}: the rebuilt file")
 
-# Of another driver: the file's name is the same, what it depends on is not.
+# Another driver: the file's name is the same, but its dependencies differ.
 before = kept(cache)
 _, said = render(cache, AS_DRIVER="99")
 check(not said and exr.Image(SCRATCH / "frame.0.exr").planes == planes,
-      f"another driver: another picture, or words: {said}")
+      f"another driver: the picture differs, or messages: {said}")
 after = kept(cache)
 check(after.keys() == before.keys() and all(after[n] != before[n] for n in before),
       "another driver takes the kernels of this one")
 
-# A folder in a file's place; places where nothing can be written.
+# A folder in place of a file; places that cannot be written.
 path = cache / name
 path.unlink()
 path.mkdir()

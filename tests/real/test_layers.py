@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Frames of several looks go through packets in two or three steps (kernels/frame/layered.cl), others stage by stage:
-what tests/real/layers.c draws leaves the files of other kernels and of the twins, byte by byte; in shadow, with mirrors
-and glass by rules, in several rounds (frames 3 and 4), and with pictures that replay asks for (from frame 5 on)."""
+"""Frames of several looks go through packets in two or three steps (kernels/frame/layered.cl), other frames stage by
+stage. tests/real/layers.c must give the same files as other kernels and as the twins, byte for byte: in shadow, with
+mirrors and glass by rules, in several rounds (frames 3 and 4), and with pictures that replay requests (from frame 5
+on)."""
 import json
 
 from helpers import BUILD, SCRATCH, check, finish, must, record, relume, render
@@ -40,5 +41,5 @@ for how, (kernel, rules, options) in WAYS.items():
                 if a.read_bytes() != b.read_bytes()
             ]
             check(not differ and len(pictures[way]) == FRAMES,
-                  f"{how} {device}: packets leave other files than {way}: {differ}")
+                  f"{how} {device}: packets' files differ from those of {way}: {differ}")
 finish()

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
-"""Triangles that leave the view volume: what tests/real/leaving.c draws has the rasterized depth to the last bit, in
-buffers of 24 and 32 bits, and its colours but for the last of 8 bits in a smooth line, those between two numbers of 8
-bits too."""
+"""Triangles that leave the view volume: tests/real/leaving.c must have exactly the raster depth, in buffers of 24 and
+32 bits, and its colours, including those between two 8-bit codes; only a smooth line may be off by one code."""
 import exr
 from helpers import BUILD, SCRATCH, check, check_gates, diff, finish, record, render
 from replayed import reference_depths, reference_frames
@@ -10,8 +9,7 @@ N_FRAMES = 12
 
 
 def differing(image, depth, color):
-    """Pixels whose depth is more than half a step of 24 bits from the reference's, and pixels whose colours are not its
-    own."""
+    """Pixels whose depth is more than half a 24-bit step from the reference, and pixels whose colours differ."""
     width, height, depths = depth
     far = off = 0
     for y in range(height):

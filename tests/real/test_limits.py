@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A recording that asks for more memory than one of its size may: one line, exit code 5, nothing left behind. --no-
-sandbox lifts the limit."""
+"""A recording that requests more memory than its size justifies: one line, exit code 5, no files left. --no-sandbox
+lifts the limit."""
 from helpers import BUILD, SCRATCH, check, finish, record, relume
 
 trace = SCRATCH / "greedy.trace"
@@ -18,7 +18,7 @@ for args in (("info",), ("scene", "-f", "0"), ("export", "-o", out), ("look", "-
         and "--no-sandbox lifts it" in said[0], f"{args[0]} says: {said}")
     check(not done.stdout or args[0] != "info", f"{args[0]} prints: {done.stdout[:200]}")
 for folder in (out.parent, SCRATCH / "rules"):
-    check(not folder.exists(), f"{folder.name} was made for nothing, and stays")
+    check(not folder.exists(), f"{folder.name} was created in vain, and is left")
 done = relume("info", "--no-sandbox", trace)
 check(done.returncode == 0, f"without limits: exit code {done.returncode}: {done.stderr}")
 finish()

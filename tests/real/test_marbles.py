@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""What `make demo` shows: marbles of which rules make a mirror, glass and a lamp with a size. It passes, and differs
-from OpenGL's picture at a glance."""
+"""The scene of `make demo`: rules turn some marbles into a mirror, glass and an area light. It passes, and clearly
+differs from OpenGL's picture."""
 from codes import codes
 from helpers import ROOT, SCRATCH, check, check_gates, corpus, diff, finish, must, record, relume, render
 
@@ -19,6 +19,6 @@ must(relume("render", trace, "-f", "0", "--mode", "gl", "-o", SCRATCH / "gl.png"
 shown, drawn = codes(SCRATCH / "shown.png"), codes(SCRATCH / "gl.png")
 differs = 100 * (abs(shown - drawn).max(axis=0) > 24).mean()
 shaded = 100 * ((drawn - shown).min(axis=0) > 12).mean()
-check(15 < differs < 60, f"{differs:.1f} % of the pixels differ at a glance")
+check(15 < differs < 60, f"{differs:.1f} % of the pixels differ visibly")
 check(shaded > 3, f"{shaded:.1f} % of the pixels lie in shadow")
 finish()

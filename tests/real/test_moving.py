@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""jigglypuff's 4096 triangles move in each frame: their tree is fitted to them from frame to frame, or built where a
-frame comes alone.
+"""jigglypuff's 4096 triangles move in each frame: their tree is refitted from frame to frame, or built if a frame is
+rendered alone.
 
-The frame's file is the same to the byte.
+The frame's file must be the same to the byte.
 """
 import pathlib
 

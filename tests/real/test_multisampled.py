@@ -1,5 +1,7 @@
 #!/usr/bin/python3
-"""The reference of a window with four samples a pixel is what the X server shows of it: the samples' mean."""
+"""The reference of a window with four samples per pixel is the picture that the X server shows: the mean of the
+samples.
+"""
 from helpers import BUILD, RELUME, SCRATCH, check, finish, on_display, skip
 from replayed import reference_depths, reference_frames
 
@@ -23,8 +25,8 @@ for frame, (width, height, rgb) in sorted(frames.items()):
     want = shown[frame * size:(frame + 1) * size]
     colors.append(len({want[i:i + 3] for i in range(0, size, 3)}))
     differ = sum(rgb[i:i + 3] != want[i:i + 3] for i in range(0, size, 3))
-    check((width, height) == (WIDTH, HEIGHT) and differ == 0, f"frame {frame}: {differ} pixels are not what was shown")
+    check((width, height) == (WIDTH, HEIGHT) and differ == 0, f"frame {frame}: {differ} pixels differ from the window")
 check(len(colors) == FRAMES and min(colors[0], colors[2], colors[3]) > 2 * colors[1],
-      f"edges are smooth where multisampling is on: {colors} colours")
+      f"edges are smooth if multisampling is on: {colors} colours")
 check(len(reference_depths(SCRATCH / "m.ref")) == FRAMES, "depths of each frame")
 finish()

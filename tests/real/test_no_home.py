@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A user whose home cannot be written, as of a service: one line, caches elsewhere, and the work is done."""
+"""A user whose home cannot be written, as for a service: one line, caches elsewhere, and the work is done."""
 import os
 import stat
 
@@ -8,7 +8,7 @@ from helpers import RELUME, SCRATCH, check, corpus, finish, must, record, run
 trace = SCRATCH / "x.trace"
 record(trace, corpus("two_triangles"), "--frames", "1", "--size", "64x64", options=())
 blocked = SCRATCH / "home"
-blocked.write_text("")  # a file: not even root can make a folder below it
+blocked.write_text("")  # a file: not even root can create a folder below it
 tmp = SCRATCH / "tmp"
 tmp.mkdir()
 env = {k: v for k, v in os.environ.items() if k != "XDG_CACHE_HOME"}
@@ -21,11 +21,11 @@ def said(done):
 
 
 done = must(run(RELUME, "render", trace, "-f", "0", "-o", SCRATCH / "x.png", env=env, timeout=300))
-check((SCRATCH / "x.png").exists(), "the frame is there")
+check((SCRATCH / "x.png").exists(), "the frame is written")
 check(
     len(said(done)) == 1 and str(caches) in said(done)[0] and "XDG_CACHE_HOME" in said(done)[0],
     f"one line says where caches are: {done.stderr}")
-check(stat.S_IMODE(caches.stat().st_mode) == 0o700, "which is this user's alone")
+check(stat.S_IMODE(caches.stat().st_mode) == 0o700, "the cache folder is private to this user")
 
 # PoCL itself offers no device without its cache.
 bare = {k: v for k, v in env.items() if k != "POCL_CACHE_DIR"}
@@ -35,11 +35,11 @@ done = must(run(RELUME, "devices", env={k: v for k, v in bare.items() if k != "H
 check(
     len(done.stdout.splitlines()) >= 1 and len(said(done)) == 1 and str(caches) in said(done)[0],
     f"no home at all: {done.stdout}{done.stderr}")
-# A name that somebody else has taken, or could write to, is not used.
+# A name that somebody else owns, or could write to, is not used.
 os.chmod(caches, 0o777)
 done = must(run(RELUME, "devices", env=bare))
 check(f"{caches}-" in said(done)[0], f"another folder: {done.stderr}")
-# Where the home can be written nothing is said, and nothing is left in it.
+# With a writable home there is no message, and no file is left in the home.
 blocked.unlink()
 blocked.mkdir()
 done = must(run(RELUME, "devices", env={**bare, "XDG_CACHE_HOME": str(SCRATCH / "caches")}))

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""noof draws over a copy of its own last frame, with smooth lines: each frame needs the pixels of all before it.
+"""noof draws over a copy of its own previous frame, with smooth lines: each frame needs the pixels of all earlier ones.
 
-Frames are asked for with gaps, so that skipped frames must be made up for.
+Frames are requested with gaps, so that skipped frames must be rendered for them.
 """
 import pathlib
 

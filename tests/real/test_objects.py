@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Vertex array objects: what tests/real/objects.c draws is traced as it was rasterized."""
+"""Vertex array objects: tests/real/objects.c traced equals its raster pictures."""
 from helpers import check, check_same_pictures, finish, relume
 
 FRAMES = ("both", "the context's own", "both again", "without colours", "both, one without colours", "one deleted")

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # limit: 600 s
-"""The report's page in a browser (show/operate.js): with 1,000 frames its list, chart, filters, keys, views, zoom, the
-pixel under the pointer; with a baseline, the approved frame beside what it is now. Both on a screen of 390 pixels.
+"""The report's page in a browser (show/operate.js). With 1,000 frames: list, chart, filters, keys, views, zoom, the
+pixel under the pointer. With a baseline: the approved frame beside the present one. Both also on a screen 390 pixels
+wide.
 """
 import base64
 import json
@@ -19,7 +20,7 @@ import numpy  # noqa: E402
 import exr_numpy  # noqa: E402
 from exr_numpy import write_png  # noqa: E402
 
-N_FRAMES, EVERY = 1000, 5  # one of five frames is damaged
+N_FRAMES, EVERY = 1000, 5  # one frame in five is damaged
 SIDE = ["reference", "compared", "difference", "flip"]
 WANTED = {
     "errors": [],
@@ -37,7 +38,7 @@ WANTED = {
     "verdict": "not passed, failed",
     "counts": "800 passed200 failed",
     "bars": N_FRAMES,
-    "bar": [0, 90, 50, "0.86"],  # fidelity 0.9583 on a floor of 0.9, of 86
+    "bar": [0, 90, 50, "0.86"],  # fidelity 0.9583 with the axis from 0.9, and a height of 86
     "chart": "the floor of the chart is 90 %, its top 100 %",
     "heading": "frame 995 failed fidelity 95.833 %",
     "in_sight": True,
@@ -122,7 +123,7 @@ frames = render(trace, SCRATCH / "frames")
 must(relume("approve", SCRATCH / "frames", approved))
 for path in frames[1:3]:
     image = exr_numpy.Image(path)
-    for channel in ("R", "reflect.R"):  # light of no other picture
+    for channel in ("R", "reflect.R"):  # all light channels together
         if channel in image.planes:
             image.planes[channel][PATCH] += image.planes[channel].dtype.type(0.5)
     exr_numpy.write(path, image)
@@ -144,8 +145,8 @@ check({"approved", "change", "changed", "reference", "compared", "beauty", "diff
 told = found.get("verdicts", ["", ""])
 check(
     told[0].startswith("failed: Not as approved: pixels off from the approved frame 6.5") and "R reflect.R" in told[0]
-    or "hashes: R" in told[0], f"which comparison failed: {told}")
-check(told[1] == "passed: As the reference, fidelity 100 %.", f"and which did not: {told}")
+    or "hashes: R" in told[0], f"the failed comparison: {told}")
+check(told[1] == "passed: As the reference, fidelity 100 %.", f"the passed comparison: {told}")
 page = (SCRATCH / "changed/index.html").read_text()
 
 
@@ -157,19 +158,19 @@ def picture_of(frame, name):
 
 change, marks = picture_of(1, "change"), picture_of(1, "changed")
 red = (marks == (255, 40, 30)).all(2)
-check(red[PATCH].all() and red.sum() == 400, f"the marks are the patch: {red.sum()} pixels, {red[PATCH].sum()} in it")
+check(red[PATCH].all() and red.sum() == 400, f"the marks cover the patch: {red.sum()} pixels, {red[PATCH].sum()} in it")
 check((change[PATCH][:, :, 0] > 100).all() and change[red == 0].max() == 0,
       "the difference shows the patch, and nothing else")
 check((abs(picture_of(1, "approved") - picture_of(1, "beauty")).max(2) > 0).sum() == 400,
-      "the approved frame is another one")
+      "the approved frame differs")
 check((picture_of(1, "blame 0") == (255, 40, 30)).all(2).any(), "the blamed draw's picture shows the failing pixels")
 check("approved" not in re.search(r'id="p0">(.*?)</script>', page, re.S)[1],
-      "a frame that is as approved needs no second picture")
+      "an approved frame has no second picture")
 sheet = whole_codes(SCRATCH / "changed/sheet.png").astype(int)
 check(sheet.shape[1] == 8 + 3 * (96 + 8), f"the sheet's columns are approved, now, difference: {sheet.shape}")
 text = (SCRATCH / "changed.md").read_text()
 check("| 1-2 | failed | not as approved: " in text,
-      f"Markdown says which comparison failed, once for both frames:\n{text}")
+      f"Markdown names the failed comparison, once for both frames:\n{text}")
 
 # --- On a narrow screen
 # ----------------------------------------------------------------------------------------------------
@@ -180,8 +181,8 @@ for report in ("report", "changed"):
         len(found) == 4 and all(inner == 390 >= wide for inner, wide in found.values()),
         f"{report} on a screen of 390 pixels: {found}")
 
-# --- For those who see little, hear the page, or use no mouse; and on paper
-# -------------------------------------------------
+# --- Accessibility: low vision, screen readers, keyboard; and print
+# ----------------------------------------------------------
 
 for scheme in ("light", "dark"):
     found = browser.accessible(SCRATCH, SCRATCH / "changed", scheme) or {}

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The modes, functions, operands and terms of the specification's chapters, a panel each, are drawn as Mesa draws them:
-tests/real/panels/. Not among them: the colour maps of glDrawPixels (those of glTexImage2D are). Run with names of
-programs: those alone.
+"""The modes, functions, operands and terms of the specification's chapters, one panel each, must be drawn as Mesa draws
+them: tests/real/panels/. Not included: the colour maps of glDrawPixels (those of glTexImage2D are). Arguments select
+programs by name.
 """
 import sys
 
@@ -19,7 +19,7 @@ PROGRAMS = {
     "compression": ("plain images", "their alpha", "parts", "levels", "alpha of levels", "copies of the screen",
                     "YCbCr"),
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils",
-              "copies of these", "what rectangles go through", "transfer to textures", "indices to textures",
+              "copies of these", "later stages", "transfer to textures", "indices to textures",
               "in lists"),
     "point": ("attenuated", ),
     "program": ("instructions", "bindings", "textures", "fragments", "last bits"),
@@ -30,7 +30,7 @@ PROGRAMS = {
 
 
 def check_kernels(trace, number):
-    """A frame is as Mesa draws it whichever kernels trace it."""
+    """A frame must equal Mesa's with every family of kernels."""
     for kernels in (("--device", "reference"), ("--kernels", "binary")):
         folder = SCRATCH / kernels[1]
         render(trace, folder, *AS_SHOWN, *kernels, "-f", number)
@@ -39,23 +39,23 @@ def check_kernels(trace, number):
               f"frame {number} with {kernels[1]}: {score['frames'][0]['failing_pixels']} pixels fail")
 
 
-NEEDS = {"YCbCr": "GL_MESA_ycbcr_texture"}  # what the Mesa at hand may lack; such a frame is not drawn
+NEEDS = {"YCbCr": "GL_MESA_ycbcr_texture"}  # extensions that Mesa may lack; the frame is then not drawn
 extensions = must(on_display("glxinfo")).stdout
 
 
 def drawn(frames):
     lacking = [what for what in frames if NEEDS.get(what, "") not in extensions]
     for what in lacking:
-        print(f"not tried: {what}: this GL lacks {NEEDS[what]}")
+        print(f"not tested: {what}: this GL lacks {NEEDS[what]}")
     return [what for what in frames if what not in lacking]
 
 
 OTHER_KERNELS = {"vertex_program": "5",
-                 "program": "4"}  # a program's frame: depths that are not the projection's, last bits
+                 "program": "4"}  # a shader program's frame: depths unlike the projection's, to the last bit
 
 for name in sys.argv[1:] or PROGRAMS:
     trace, _ = check_same_pictures(f"panels/{name}", drawn(PROGRAMS[name]))
-    if "program" in name or "shader" in name: # objects are in the index
+    if "program" in name or "shader" in name: # these objects must be in the index
         check_alone(trace, 1, 3)
     if name in OTHER_KERNELS:
         check_kernels(trace, OTHER_KERNELS[name])

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Frames that need no earlier ones are rendered without them, and those that do say so: tests/real/parts.c. Those that
-begin with a picture are the same whether they are drawn layer by layer (packets) or segment by segment."""
+"""Frames that need no earlier ones are rendered alone, and those that do are reported: tests/real/parts.c. Frames that
+start with an existing picture are the same whether drawn layer by layer (packets) or segment by segment."""
 from exr import Image
 from helpers import AS_SHOWN, SCRATCH, check, check_alone, check_same_pictures, finish, must, relume, render
 
@@ -11,10 +11,10 @@ trace, _ = check_same_pictures("parts", FRAMES)
 for frame in range(1, len(FRAMES)):
     done = must(relume("render", trace, "-f", frame, "-o", SCRATCH / "one.####.exr", *AS_SHOWN))
     told = f"frame {frame} needs the pixels of frames before it" in done.stderr
-    check(told == (frame >= 8), f"{FRAMES[frame]}: said to need earlier frames: {told}: {done.stderr}")
+    check(told == (frame >= 8), f"{FRAMES[frame]}: reported as needing earlier frames: {told}: {done.stderr}")
     check_alone(trace, frame)
 
-# Frames that rules of the world name are played before: what they draw and copy is there for later ones.
+# Frames that the world's rules name are replayed first: later frames can use their drawing and copies.
 rules = SCRATCH / "unseen.look.yaml"
 for frame in range(8, len(FRAMES)):
     rules.write_text(
@@ -33,5 +33,5 @@ for device in ((), ("--device", "reference")):
             relume("render", trace, "-f", f"0-{len(FRAMES) - 1}", "-o", folder / "####.exr", "--kernels", kernels,
                    *device))
         ways.append([file.read_bytes() for file in sorted(folder.iterdir())])
-    check(len(ways[0]) == len(FRAMES) and ways[0] == ways[1], f"{device}: packets leave other files than binary")
+    check(len(ways[0]) == len(FRAMES) and ways[0] == ways[1], f"{device}: packets' files differ from those of binary")
 finish()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""A lit knot by fixed function, by a vertex program, a fragment program and GLSL (corpus/phong.c): all gates, and the
-same beauty: where surfaces are and what their normals are, shadows of the knot on the floor and on itself. A program
-with matrices of its own has the same shadows.
+"""A lit knot by fixed function, by a vertex program, a fragment program and GLSL (corpus/phong.c): all gates pass, and
+the beauty is the same: positions and normals of surfaces, shadows of the knot on the floor and on itself. A program
+with its own matrices gives the same shadows.
 """
 from exr import Image
 from helpers import check, check_gates, corpus, diff, finish, frames_of, record, render, SCRATCH
@@ -9,9 +9,9 @@ from helpers import check, check_gates, corpus, diff, finish, frames_of, record,
 FRAMES = 2
 SAME = ("Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z")  # to the bit
 NEAR = ("R", "G", "B", "shadow.R")
-NEAR_BY = 0.02  # most pixels; at the borders of shadows rays go either way
+NEAR_BY = 0.02  # maximum number of pixels; at shadow edges, rays may take either side
 ODD_PIXELS = {"vertex": 100, "fragment": 1200, "glsl": 1200,
-              "own": 200}  # of 43,200. Light between vertices is not light at a fragment: highlights differ
+              "own": 200}  # odd pixels among 43,200; highlights depend on the way
 
 
 def picture(way):
@@ -27,7 +27,7 @@ shadowed = sum(value < 0.5 for row in fixed.planes["shadow.R"] for value in row)
 check(shadowed > 1000, f"{shadowed} pixels lie in shadow")
 for way, most in ODD_PIXELS.items():
     ours = picture(way)
-    for name in SAME if way != "own" else ():  # its eye space is found from the picture
+    for name in SAME if way != "own" else ():  # its eye space is derived from the picture
         check(ours.planes[name] == fixed.planes[name], f"by {way}: {name} is fixed function's")
     for name in NEAR:
         odd = sum(

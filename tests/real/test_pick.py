@@ -1,13 +1,12 @@
 #!/usr/bin/python3
-"""relume pick: what it says of pixels is what `scene` holds, and a rule that it writes changes that surface and nothing
-else."""
+"""relume pick: its output for a pixel agrees with `scene`, and a rule that it writes changes only that surface."""
 import collections
 import json
 
 from exr import Image
 from helpers import SCRATCH, check, corpus, finish, must, record, relume
 
-MOST = 5 # surfaces of a program
+MOST = 5 # surfaces per program
 
 
 def plane(image, name):
@@ -15,7 +14,7 @@ def plane(image, name):
 
 
 def surfaces(image, scene):
-    """Pixels by the number of the instance that they show."""
+    """Pixels by the number of the instance visible there."""
     firsts = [instance["draw"] for instance in scene["instances"]]
     found = collections.defaultdict(list)
     for pixel, draw in enumerate(plane(image, "id")):
@@ -45,7 +44,7 @@ def check_surface(trace, scene, image, instance, found):
     said = must(relume("render", trace, "-f", 1, "-o", SCRATCH / "mirror.####.exr", "--look", file,
                        "--no-cache")).stderr
     check("rule 1 matches 1 draw in 1 of 1 frame" in said, f"{what}: matches one draw: {said}{rule}")
-    # A surface that shines is brighter by as much, and nothing else is.
+    # An emissive surface is brighter by that amount, and no other surface changes.
     file.write_text(rule.replace("reflect: 0.3", "emission: [0, 1, 0]"))
     must(
         relume("render", trace, "-f", 1, "-o", SCRATCH / "shining.####.exr", "--aov", "relight,id", "--look", file,
@@ -57,19 +56,20 @@ def check_surface(trace, scene, image, instance, found):
     }
     blended = {
         pixel for i in found if scene["materials"][scene["instances"][i]["material"]]["blend"] for pixel in found[i]
-    }  # it is seen through these
+    }  # these are transparent, and the surface is visible through them
     others = shines - set(pixels) - blended
-    check(shines and not others, f"{what}: {len(shines)} pixels shine, of {len(pixels)}; {len(others)} are others'")
+    check(shines and not others,
+          f"{what}: {len(shines)} pixels shine, of {len(pixels)}; {len(others)} belong to other surfaces")
     check(len(shines) > 0.9 * len(pixels), f"{what}: {len(shines)} of its {len(pixels)} pixels shine")
     twins = [
         i for i in scene["instances"] if i["mesh"] == mine["mesh"] and scene["materials"][i["material"]] == material
     ]
     check(("draws: " in rule) == (len(twins) > 1),
-          f"{what}: a draw number where it must be, as it holds in one frame alone: {rule}")
+          f"{what}: a draw number only if necessary, since it holds for one frame only: {rule}")
     return "draws: " in rule
 
 
-shared = 0 # rules that only a draw number keeps from matching more
+shared = 0 # rules that need a draw number to match only one surface
 for program in ("blocks", "courtyard"):
     trace = SCRATCH / f"{program}.trace"
     record(trace, corpus(program), "--frames", "2", "--size", "160x120", options=())
@@ -77,7 +77,7 @@ for program in ("blocks", "courtyard"):
     image = Image(SCRATCH / f"{program}.0001.exr")
     scene = json.loads(must(relume("scene", trace, "--json", "-f", 1)).stdout)
     found = surfaces(image, scene)
-    check(found, f"{program}: surfaces are seen")
+    check(found, f"{program}: surfaces are visible")
     for instance in sorted(found, key=lambda i: -len(found[i]))[:MOST]:
         shared += check_surface(trace, scene, image, instance, found)
     text = must(relume("scene", trace, "-f", 1)).stdout
@@ -99,7 +99,7 @@ for program in ("blocks", "courtyard"):
         done = relume("pick", trace, "-f", 1, f"{empty % image.width},{empty // image.width}")
         check(done.returncode == 2 and "nothing is drawn" in done.stderr and not done.stdout,
               f"nothing there: {done.returncode}, {done.stderr}")
-    check(relume("pick", trace, "-f", 7, "0,0").returncode == 2, "a frame that is not there")
+    check(relume("pick", trace, "-f", 7, "0,0").returncode == 2, "a missing frame")
 
-check(shared, "one of them needed a draw number")
+check(shared, "one rule needed a draw number")
 finish()

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # limit: 400 s
 """Plain frames go through packets in one step (kernels/frame/plain.h), those of several looks in two or three; kernels
-of one pixel a work item know plain ones without programs. Without rays (mode gl) the camera's part is in the same step.
-All leave the same files, byte by byte; with rules that have rays to lights start on flat faces, and in light from all
-around, too. There programs take other ways, and the C twins show the same."""
+with one pixel per work item handle plain frames without programs. Without rays (mode gl) the camera's part is in the
+same step. All write the same files, byte for byte; also with rules that start shadow rays on flat faces, and with
+ambient light from all sides, where programs take other paths and the C twins must agree."""
 import json
 
 import exr
@@ -15,7 +15,7 @@ FLAT.write_text("spare: no\n")
 DOME = SCRATCH / "dome.yaml"
 DOME.write_text("sky: { reach: 4, up: [0, 1, 0], light: [1, 0.9, 0.8], ground: [0.3, 0.3, 0.5], lit: 0.5 }\n")
 
-PROGRAMS = {  # and the kernel that their frames go through
+PROGRAMS = {  # and the kernel for their frames
     "box": ("plain", ["cornell", "--size", "317x203", "--animate", "light"]),
     "arena": ("plain", ["arena"]),
     "blocks": ("plain", ["blocks"]),
@@ -24,15 +24,15 @@ PROGRAMS = {  # and the kernel that their frames go through
     "glsl": ("plain", ["phong", "--size", "201x150", "--by", "glsl"]),
     "spheres": ("layered", ["spheres", "--size", "320x240"]),
     "still_life": ("layered", ["still_life", "--size", "320x240"]),
-    "courtyard": ("layered", ["courtyard", "--size", "320x240"]),  # clears its depth again
+    "courtyard": ("layered", ["courtyard", "--size", "320x240"]),  # clears its depth buffer again
 }
 
 IN_DOME = {
     "box": "plain_dome", "arena": "plain_dome", "blocks": "plain_dome", "vertex": "dome_light_packet",
     "fragment": "dome_light_packet"
 }
-WHOLE = ("box", "arena", "blocks", "vertex", "spheres")  # without rays, from the camera to planes in one step
-ONE_BY_ONE = ("box", "arena", "blocks")  # known to kernels of one pixel a work item
+WHOLE = ("box", "arena", "blocks", "vertex", "spheres")  # without rays, one step from the camera to planes
+ONE_BY_ONE = ("box", "arena", "blocks")  # supported by kernels with one pixel per work item
 
 
 def stages(trace, *options):
@@ -57,14 +57,14 @@ for name, (kernel, (program, *options)) in PROGRAMS.items():
           f"{name} in mode gl: goes through {sorted(through)}")
     pictures = [render(trace, SCRATCH / f"{name}-gl-{'-'.join(way)}", *way, "--mode", "gl")[0].read_bytes()
                 for way in (("--kernels", "packets"), ("--kernels", "binary"))]
-    check(pictures[0] == pictures[1], f"{name}, mode gl: packets leave another file than binary")
+    check(pictures[0] == pictures[1], f"{name}, mode gl: packets' file differs from binary's")
     if name in WHOLE:
         pictures = [
             render(trace, SCRATCH / f"{name}-gl-twins-{kernels}", "--device", "reference", "--kernels", kernels,
                    "--mode", "gl")[0].read_bytes() for kernels in ("packets", "binary")
         ]
         check(pictures[0] == pictures[1],
-              f"{name}, mode gl: the twins of packets leave another file than those of binary")
+              f"{name}, mode gl: the twins of packets and of binary write different files")
     through = stages(trace, "--kernels", "binary")
     one = ("plain_color", "plain_ask", "plain_show", "plain_color_dimmed",
            "plain_show_dimmed") if name in ONE_BY_ONE else ("shade", "resolve", "compose")
@@ -73,7 +73,7 @@ for name, (kernel, (program, *options)) in PROGRAMS.items():
     for how, (_, rules) in ways.items():
         pictures = [render(trace, SCRATCH / f"{name}-{how}-{kernels}", "--kernels", kernels, *rules)[0].read_bytes()
                     for kernels in ("packets", "binary")]
-        check(pictures[0] == pictures[1], f"{name}, {how}: packets leave another file than binary")
+        check(pictures[0] == pictures[1], f"{name}, {how}: packets' file differs from binary's")
         check(pictures[0] != default, f"{name}: rules change nothing")
         default = pictures[0]
         if how == "dome":
@@ -81,11 +81,11 @@ for name, (kernel, (program, *options)) in PROGRAMS.items():
             twins, packets = (exr.Image(next((SCRATCH / folder).iterdir())).planes
                               for folder in (f"{name}-twins", f"{name}-dome-packets"))
             odd = sum(abs(a - b) > 1e-3 for c in "RGB" for rows in zip(twins[c], packets[c]) for a, b in zip(*rows))
-            check(odd < 20, f"{name}: {odd} numbers of the C twins are others")
+            check(odd < 20, f"{name}: {odd} numbers of the C twins differ")
     if name in ONE_BY_ONE:
         pictures = [
             render(trace, SCRATCH / f"{name}-twins-{kernels}", "--device", "reference", "--kernels",
                    kernels)[0].read_bytes() for kernels in ("packets", "binary")
         ]
-        check(pictures[0] == pictures[1], f"{name}: the twins of packets leave another file than those of binary")
+        check(pictures[0] == pictures[1], f"{name}: the twins of packets and of binary write different files")
 finish()

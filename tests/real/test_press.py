@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Keys that relume record --press sends: at the very frame, to the window that draws, whatever has the focus, run after
+"""Keys sent by relume record --press arrive at the exact frame, at the drawing window regardless of focus, in every
 run."""
 import sys
 
@@ -31,18 +31,18 @@ def test_frames():
               f"each at its frame, run {turn}: {said(done)}")
     done = press("space@1", program=(KEYS, "14", "child"))
     check(done.stdout == "1 press space 0\n1 release space 0\n",
-          f"the window around the one that draws takes it: {said(done)}")
+          f"the parent of the drawing window receives the key: {said(done)}")
 
 
 def test_waiting():
-    """A program that draws nothing until a key comes: without --press it would wait for ever."""
+    """A program that draws nothing until a key arrives: without --press it would wait forever."""
     done = press("space@1", "a@2", program=(KEYS, "3", "wait"), quit_after=3)
     check(done.returncode == 0 and done.stdout.startswith("1 press space 0\n1 release space 0\n2 press a 0\n"),
           f"waiting: {said(done)}")
 
 
 def test_together():
-    """Two programs on one display, their windows one over the other: each gets its own keys."""
+    """Two programs on one display with overlapping windows: each gets its own keys."""
     words = [
         " ".join(
             map(str, (RELUME, "record", "-o", SCRATCH / f"{key}.trace", "--quit-after", 300, "--press", f"{key}@7",
@@ -56,12 +56,12 @@ def test_together():
 
 
 def test_toolkits():
-    """What GLUT, SDL and a program by EGL make of them."""
+    """Delivery to GLUT, SDL and an EGL program."""
     for what, env in (("by GLX", ()), ("by EGL", ("SDL_VIDEO_X11_FORCE_EGL=1",))):
         done = press("space@4", "Left@6-8", program=(sys.executable, ROOT / "tests/real/sdl_keys.py", 12),
                      quit_after=12, env=(*env, "SDL_VIDEODRIVER=x11"))
         if done.returncode == 77:
-            print("no SDL 2 here: its keys were not tried")
+            print("no SDL 2 here: its keys were not tested")
             return
         check(
             done.returncode == 0 and done.stdout.splitlines()
@@ -70,12 +70,13 @@ def test_toolkits():
 
 
 def test_lost():
-    """A run that did not get its keys is no success."""
+    """A run whose keys were not delivered is not a success."""
     done = press("space@3", program=(KEYS, "14", "deaf"))
     check(done.returncode == 5 and "--press: 1 of 1 keys were lost" in done.stderr,
-          f"a window that takes no keys: {said(done)}")
+          f"a window that accepts no keys: {said(done)}")
     done = press("space@3", "a@9", program=(KEYS, "5", "poll"), quit_after=None)
-    check(done.returncode == 5 and "--press: 1 of 2 keys were pressed" in done.stderr, f"it ends before: {said(done)}")
+    check(done.returncode == 5 and "--press: 1 of 2 keys were pressed" in done.stderr,
+          f"a program that ends before its key: {said(done)}")
     for wrong, why in (("space", "takes a key and the frame"), ("@3", "takes a key"), ("space@0", "from 1 on"),
                        ("space@5-4", "takes a key"), ("space@x", "takes a key"), ("spac@3", "has no key"),
                        ("space@14", "ends after 14 frames")):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A bar on a terminal, one plain line per frame elsewhere; where frames need others before them, what is replayed, why,
-and in whose time."""
+"""A bar on a terminal, one plain line per frame elsewhere; if frames need earlier ones, the frames replayed, the
+reason, and the time they are counted in."""
 import json
 import os
 import pty
@@ -11,7 +11,7 @@ from helpers import BUILD, RELUME, SCRATCH, check, corpus, finish, must, record,
 
 
 def on_terminal(command):
-    """Run with standard error on a terminal; return the exit code and what was shown there."""
+    """Run with standard error on a terminal; returns the exit code and the text shown."""
     ours, theirs = pty.openpty()
     child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=theirs)
     os.close(theirs)
@@ -19,7 +19,7 @@ def on_terminal(command):
     while True:
         try:
             piece = os.read(ours, 4096)
-        except OSError:  # the other side is closed
+        except OSError:  # the other side has closed
             break
         if not piece:
             break
@@ -34,7 +34,7 @@ command = [RELUME, "render", str(trace), "-j", "1", "-f", "0-2", "-o", str(SCRAT
 plain = must(relume(*command[1:]))
 lines = [line for line in plain.stderr.splitlines() if line.startswith("rendered frame")]
 found = [re.match(r"rendered frame (\d+), (\d+) of (\d+): .", line) for line in lines]
-# frames are told as they become whole: two writers pack them, so that a later one may be first
+# frames are reported when complete: two writers compress them, so a later one may come first
 check(
     all(found) and sorted(m[1] for m in found) == ["0", "1", "2"]
     and [m.group(2, 3) for m in found] == [(n, "3") for n in "123"], f"one line per frame: {plain.stderr}")
@@ -59,10 +59,10 @@ check(
         done.stderr), f"a line says why: {done.stderr}")
 events = {event["event"]: event for event in map(json.loads, done.stdout.splitlines())}
 check(events["frame"]["seconds"] > 0.5 * events["end"]["seconds"],
-      f"the frame's time counts those that were replayed for it: {events}")
+      f"the frame's time includes frames replayed for it: {events}")
 code, shown = on_terminal(command)
 check(
     code == 0 and re.search(
         rf"\r\x1b\[Krelume: warning: .*{why}.*\r\n\r\x1b\[Kreplaying \[#*\.*\] 1/{frame}  before frame {frame}: {why}",
-        shown), f"a bar of what is replayed: {shown!r}")
+        shown), f"a bar for replayed frames: {shown!r}")
 finish()

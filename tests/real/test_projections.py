@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What lies before what where programs have a projection of their own is what Mesa says: tests/real/projections.c.
-Nothing is nearer than what the recorded projection shows, nor hidden by it, for any family of kernels.
+"""Occlusion between objects of programs with projections of their own must equal Mesa's: tests/real/projections.c. For
+every family of kernels, no surface is nearer than the recorded projection shows, nor hidden by it.
 """
 from helpers import AS_SHOWN, SCRATCH, check, check_same_pictures, diff, finish, render
 

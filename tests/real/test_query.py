@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""relume query: rays, distances and collisions of a recorded frame, beside what the frame's own triangles say; and what
-it refuses."""
+"""relume query: rays, distances and collisions in a recorded frame, compared with the frame's own triangles; and
+invalid input."""
 import math
 import pathlib
 import struct
@@ -18,7 +18,7 @@ BINARY = {
 
 
 def query(kind, queries, *options, trace=CORNELL):
-    """Answers, a list of words each."""
+    """Answers, each a list of words."""
     done = subprocess.run(
         [RELUME, "query", "-k", kind, *map(str, options), str(trace)], text=True, capture_output=True, timeout=100,
         input="".join(" ".join(map(str, q)) + "\n" for q in queries))
@@ -26,7 +26,7 @@ def query(kind, queries, *options, trace=CORNELL):
     return [line.split() for line in done.stdout.splitlines()]
 
 
-# The frame's own triangles: depth is seen along each pixel of a row by nearest and by any.
+# The frame's own triangles: rays along each pixel of a row, by nearest and by any, must find the depth.
 must(relume("render", CORNELL, "-f", "1", "--mode", "gl", "--aov", "gl,Z,P,id", "-o", SCRATCH / "cornell.####.exr"))
 image = exr.Image(SCRATCH / "cornell.0001.exr")
 point = [image.at(channel, image.width // 3, image.height // 2) for channel in ("P.X", "P.Y", "P.Z", "id")]
@@ -40,26 +40,26 @@ check(
 check(through[1] == ["-"] and through[2] == ["-"], f"before it, and behind the viewer, there is nothing: {through[1:]}")
 check(
     query("any", [(0, 0, 0, 0, x, y, z, 2), (0, 0, 0, 0, x, y, z, 0.5)], "-f", 1) == [["1"], ["0"]],
-    "any hit says the same")
+    "any hit gives the same")
 near = query("distance", [(x, y, z, 1e9), (x, y, z + 1e5, 1)], "-f", 1)
 check(float(near[0][0]) < 2e-3 and near[1] == ["-"], f"the point lies on a surface: {near}")
 every = query("all", [(0, 0, 0, 0, x, y, z, 1e9)], "-f", 1)[0]
 check(
     int(every[0]) >= 1 and every[1] == through[0][0] and every[4] == through[0][3], f"the nearest of all hits: {every}")
 ts = [float(t) for t in every[1::4]]
-check(ts == sorted(ts) and len(ts) == int(every[0]), f"all hits stand in order: {every}")
+check(ts == sorted(ts) and len(ts) == int(every[0]), f"all hits are in order: {every}")
 one = query("all", [(0, 0, 0, 0, x, y, z, 1e9)], "-f", 1, "-m", 1)[0]
 check(one[0] == every[0] and one[1:] == every[1:5], f"--most 1: {one}")
 
-# A small sphere and a small box move there: they stop before the point, by their size at least.
+# A small sphere and a small box move towards the point: they stop before it, at least by their size.
 length = math.sqrt(x * x + y * y + z * z)
 for kind, size in (("sphere", (0.01,)), ("box", (0.01, 0.01, 0.01))):
     stop = query(kind, [(0, 0, 0, *size, x, y, z), (0, 0, 0, *size, -x, -y, -z), (x, y, z, *size, 0, 0, 0)], "-f", 1)
     check(0.9 < float(stop[0][0]) <= 1 - 0.009 / length, f"the {kind} stops before the surface: {stop[0]}")
     check(stop[1] == ["-"] and float(stop[2][0]) == 0,
-          f"the {kind} is free behind, and touches where it stands: {stop[1:]}")
+          f"the {kind} moves freely backwards, and touches at its place: {stop[1:]}")
 
-# Numbers in place of text; a file in place of a pipe; comments.
+# Binary numbers instead of text; a file instead of a pipe; comments.
 text = {
     "nearest": (0, 0, 0, 0, x, y, z, 1e9), "any": (0, 0, 0, 0, x, y, z, 1e9), "distance": (0, 0, 0, 1e9),
     "box": (0, 0, 0, .1, .1, .1, 0, 0, 2 * z), "sphere": (0, 0, 0, .1, 0, 0, 2 * z)
@@ -84,11 +84,11 @@ check(query("nearest", [], "-f", 1) == [], "no queries, no answers")
 check(
     query("nearest", [("nan", 0, 0, 0, 0, 0, -1, 9), (0, 0, 0, 0, 0, 0, "-inf", 9)], "-f", 1) == [["-"], ["-"]],
     "no numbers find nothing")
-# Nothing of this frame is depth-tested: an empty scene.
+# No draw of this frame is depth-tested: an empty scene.
 empty = query("distance", [(0, 0, 0, 1e9)], "-f", 0, trace=ROOT / "tests/golden/two_triangles.trace")
 check(empty == [["-"]], f"a frame without depth: {empty}")
 
-# What it refuses: one line, the right code, nothing half-written.
+# Invalid input: one line, the right code, no partial output.
 (SCRATCH / "bad.txt").write_text("0 0 0 0 0 0 -1 1e9\n0 0 0\n")
 (SCRATCH / "word.txt").write_text("0 0 0 0 0 0 -1 far\n")
 (SCRATCH / "torn.bin").write_bytes(b"\0" * 33)
@@ -107,7 +107,7 @@ for what, code, words in (("too few numbers", 3, (CORNELL, SCRATCH / "bad.txt", 
 check(not (SCRATCH / "none.txt").exists(), "nothing half-written")
 check("bad.txt:2" in relume("query", CORNELL, SCRATCH / "bad.txt").stderr, "the line is named")
 
-# A program of its own: the library, by its public header.
+# A program that uses the library through its public header.
 (SCRATCH / "mine.c").write_text(r"""
 #include <stdio.h>
 #include <relume-rays.h>
@@ -136,5 +136,5 @@ for device in ((), ("reference",)):
           f"a program's own triangle: {done.stdout}{done.stderr}")
 shown = run("nm", "-D", "--defined-only", BUILD / "librelume-rays.so").stdout.split("\n")
 check(all(line.split()[2].startswith("relume_rays_") for line in shown if line),
-      "the library shows its interface and nothing else")
+      "the library exports only its interface")
 finish()

@@ -1,16 +1,16 @@
 #!/usr/bin/python3
 # limit: 600 s
-"""The README's commands do what it shows, and commands of docs/ name options that exist.
+"""The README's commands work as shown, and commands in docs/ use existing options.
 
-A line "$ COMMAND" of the README is run; the lines below it are what it prints, with any numbers, and "..." for any
-lines or words. The examples of its groups are run as well. Commands run from top to bottom in one folder.
+A README line "$ COMMAND" is run; the lines below it are its expected output, with any numbers in place of theirs, and
+"..." for any lines or words. The examples of its groups are run as well. Commands run in order in one folder.
 """
 import os
 import re
 
 from helpers import BUILD, RELUME, ROOT, SCRATCH, check, finish, on_display, relume, run
 
-# Commands that wait for somebody or something that is not here.
+# Commands that wait for a person or for something unavailable here.
 CANNOT_RUN = {
     "make demo": "installs packages; tests/show/suites.py runs it",
     "make": "builds",
@@ -24,13 +24,13 @@ PLACE = SCRATCH / "place"
 
 
 def blocks_of(page):
-    """Blocks of code: their lines, without the indentation."""
+    """Code blocks: their lines, without the indentation."""
     for block in re.findall(r"(?:^    .*\n)+", page.read_text(encoding="utf-8"), re.M):
         yield [line[4:] for line in block.split("\n")[:-1]]
 
 
 def commands_of(page):
-    """[(command, lines that it prints or None)]"""
+    """[(command, expected output lines or None)]"""
     found = []
     for lines in blocks_of(page):
         shows = lines[0].startswith("$ ")
@@ -43,11 +43,11 @@ def commands_of(page):
 
 
 def pattern_of(lines):
-    """A regular expression for what a transcript shows."""
+    """A regular expression for a transcript."""
     def of_line(line):
         if line == "...":
             return r"(?:.*\n)*?"
-        parts = re.split(r"(\d+(?:\.\d+)?|\.\.\.)", line)  # every second one is a number or dots
+        parts = re.split(r"(\d+(?:\.\d+)?|\.\.\.)", line)  # every other part is a number or dots
         return "".join((".*" if part == "..." else r"\d+(?:\.\d+)?") if i % 2 else re.escape(part)
                        for i, part in enumerate(parts)) + "\n"
 
@@ -79,14 +79,14 @@ for page in DOCUMENTS:
             given = {(asked[1], option) for option in re.findall(r"(?<=\s)--?[a-z][a-z-]*", before)}
             given |= {("render", option)
                       for option in re.findall(r"(?<![\w-])--[a-z-]+", behind)} if asked[1] == "farm" else set()
-            check(asked[1] in verbs, f"{page.name}: {command}: there is no verb {asked[1]}")
+            check(asked[1] in verbs, f"{page.name}: {command}: unknown verb {asked[1]}")
             unknown = [option for verb, option in given if option not in options_of(verb)]
             check(not unknown, f"{page.name}: {command}: relume has no {unknown}")
 check(n > 20, f"documents show commands: {n}")
 
 (PLACE / "build").mkdir(parents=True)
 (PLACE / "build/relume").symlink_to(RELUME)
-(BUILD / "tests/cache").mkdir(parents=True, exist_ok=True)  # whose absence Mesa reports
+(BUILD / "tests/cache").mkdir(parents=True, exist_ok=True)  # otherwise Mesa would report that it is missing
 env = {**os.environ, "PATH": f"{PLACE / 'build'}:{os.environ['PATH']}", "XDG_CACHE_HOME": str(BUILD / "tests/cache")}
 ran = 0
 for command, printed in commands_of(ROOT / "README.md"):
@@ -98,7 +98,7 @@ for command, printed in commands_of(ROOT / "README.md"):
         *words, cwd=PLACE, env=env, timeout=200)
     check(done.returncode == 0, f"{command}: exit code {done.returncode}\n{done.stdout[-2000:]}")
     check(printed is None or re.fullmatch(pattern_of(printed), done.stdout),
-          f"{command} prints\n{done.stdout}and not\n" + "\n".join(printed or []))
+          f"{command} prints\n{done.stdout}instead of\n" + "\n".join(printed or []))
     for written in re.findall(r"-o (\S+\.(?:png|trace|exr))", command):
         found = list(PLACE.glob(re.sub(r"#+", "*", written)))
         check(found and all(f.stat().st_size for f in found), f"{command} writes {written}")

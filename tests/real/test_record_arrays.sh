@@ -1,6 +1,6 @@
 #!/bin/sh
-# Arrays in client memory that change, grow, shrink and move between draws, or stay the same for long and then change: the trace
-# replays to the program's pictures. What is kept of arrays goes with the context that drew from them.
+# Client arrays that change, grow, shrink and move between draws, or stay the same for long and then change: the trace
+# must replay to the program's pictures. Copies kept of arrays are released with the context that drew from them.
 tests/xvfb.sh tests/real/record_and_replay.sh 19 "$RELUME_BUILD/tests/trace/mirrors" &&
 	tests/xvfb.sh tests/real/record_and_replay.sh 107 "$RELUME_BUILD/tests/trace/watched" &&
 	tests/xvfb.sh tests/real/record_and_replay.sh 107 "$RELUME_BUILD/tests/trace/watched" on an older kernel &&

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Nothing is lost: what a killed, full or forbidden recording keeps, and what the program notices of it (nothing).
+# No data is lost: recordings that were killed, ran out of space or could not be written. The program must not notice.
 # limit: 180 s
 command -v glxgears >/dev/null || { echo "glxgears (mesa-utils) is not installed"; exit 77; }
 if [ -z "${DISPLAY_IS_OURS:-}" ]; then
@@ -10,7 +10,7 @@ fail() {
 	echo "$*"
 	exit 1
 }
-# Frames that apitrace reads of a trace.
+# Number of frames that apitrace reads from a trace.
 frames_of() {
 	apitrace dump --color=never "$1" 2>/dev/null | grep -cE '^[0-9]+ (glXSwapBuffers|eglSwapBuffers)\('
 }
@@ -18,7 +18,7 @@ said() {
 	sed -n 's/^relume: .*: \([0-9]*\) frames, .*/\1/p' "$1"
 }
 
-# Wait until a trace has something in it.
+# Wait until a trace has contents.
 until_drawn() {
 	for _ in $(seq 300); do
 		[ "$(stat -c %s "$1" 2>/dev/null || echo 0)" -gt 20000 ] && return
@@ -27,7 +27,7 @@ until_drawn() {
 	fail "$1: nothing drawn in 30 s"
 }
 
-# Killed at some moment: every frame that was complete is in the file.
+# Killed at some moment: the file contains every completed frame.
 for delay in 0 0.01 0.05 0.1 0.3; do
 	rm -f "$TMPDIR/kill.trace" "$TMPDIR/pid"
 	"$RELUME" record -o "$TMPDIR/kill.trace" -- sh -c 'echo $$ >"$TMPDIR/pid"; exec glxgears' >/dev/null 2>"$TMPDIR/log" &
@@ -44,7 +44,7 @@ for delay in 0 0.01 0.05 0.1 0.3; do
 	[ "$got" -ge "$complete" ] || fail "killed after $delay s: $complete frames complete, $got in the trace"
 done
 
-# The command killed with the program: the trace is the same.
+# The command killed together with the program: the trace is equally complete.
 "$RELUME" record -o "$TMPDIR/both.trace" -- sh -c 'echo $$ >"$TMPDIR/pid"; exec glxgears' >/dev/null 2>&1 &
 recorder=$!
 until_drawn "$TMPDIR/both.trace"
@@ -52,7 +52,8 @@ kill -KILL $recorder "$(cat "$TMPDIR/pid")"
 wait $recorder 2>/dev/null
 [ "$(frames_of "$TMPDIR/both.trace")" -gt 0 ] || fail "command and program killed: no frame in the trace"
 
-# A file that may not grow (RLIMIT_FSIZE, which raises SIGXFSZ): the recording ends, says so once, the program goes on.
+# A limit on file size (RLIMIT_FSIZE, which raises SIGXFSZ): the recording stops and reports it once; the program
+# continues.
 (
 	ulimit -f 160 # of 512 bytes: the command's own 72 kB of figures must fit
 	SHIM_FRAMES=1200 "$RELUME" record --env "LD_PRELOAD=$RELUME_BUILD/tests/real/checksum_shim.so" -o "$TMPDIR/limit.trace" \
@@ -86,24 +87,24 @@ fi
 [ "$(wc -l <"$TMPDIR/log")" -eq 1 ] || fail "more or less than one line for an unwritable output"
 [ ! -e "$TMPDIR/started" ] || fail "the program was started all the same"
 
-# A program that closes all descriptors it does not know.
+# A program that closes all descriptors that it does not know.
 "$RELUME" record -o "$TMPDIR/closed.trace" --quit-after 20 -- "$RELUME_BUILD/tests/real/closer" >"$TMPDIR/log" 2>&1 ||
 	fail "closer: exit code $?"
 [ "$(frames_of "$TMPDIR/closed.trace")" -eq 20 ] || fail "a program that closes descriptors: $(cat "$TMPDIR/log")"
 [ "$(wc -c <"$TMPDIR/victim")" -eq 6 ] || fail "the recorder wrote into the program's file"
 
-# A program whose child draws as well: a trace each.
+# A program whose child draws as well: one trace each.
 "$RELUME" record -o "$TMPDIR/two.trace" -- sh -c 'timeout 3 glxgears; timeout 3 glxgears; exit 3' >/dev/null 2>"$TMPDIR/log"
 [ $? -eq 3 ] || fail "the program's exit code is not passed on"
 [ "$(frames_of "$TMPDIR/two.trace")" -gt 0 ] && [ "$(frames_of "$TMPDIR/two.1.trace")" -gt 0 ] ||
 	fail "two processes: $(cat "$TMPDIR/log")"
 
-# Children not followed: what the program becomes by exec is recorded, what it starts beside itself is not.
+# --no-children: a program started by exec is recorded, child processes are not.
 "$RELUME" record -o "$TMPDIR/one.trace" --no-children --quit-after 5 -- sh -c 'timeout 1 glxgears; exec glxgears' \
 	>/dev/null 2>"$TMPDIR/log" || fail "no children: exit code $?"
 [ "$(frames_of "$TMPDIR/one.trace")" -eq 5 ] && [ ! -e "$TMPDIR/one.1.trace" ] || fail "no children: $(cat "$TMPDIR/log")"
 
-# A size that is enough: the frame that reaches it is the last one, the program goes on.
+# A maximum size: the frame that reaches it is the last one recorded; the program continues.
 SHIM_FRAMES=1200 "$RELUME" record --env "LD_PRELOAD=$RELUME_BUILD/tests/real/checksum_shim.so" -o "$TMPDIR/size.trace" \
 	--max-size 20K -- glxgears >"$TMPDIR/frames" 2>"$TMPDIR/log" || fail "largest size: exit code $?"
 [ "$(grep -c ^frame "$TMPDIR/frames")" -eq 1200 ] || fail "the program ended with its recording (largest size)"
@@ -111,7 +112,7 @@ size=$(stat -c %s "$TMPDIR/size.trace")
 [ "$size" -ge 20480 ] && [ "$size" -lt 30000 ] || fail "largest size 20K: $size bytes"
 [ "$(frames_of "$TMPDIR/size.trace")" -eq "$(said "$TMPDIR/log")" ] || fail "largest size: $(cat "$TMPDIR/log")"
 
-# A program that leaves by _exit or abort: all that it drew is there, its exit code too.
+# A program that exits by _exit or abort: its drawing is complete, and its exit code is passed on.
 leaver=$RELUME_BUILD/tests/trace/leaver
 "$RELUME" record -o "$TMPDIR/exit.trace" -- "$leaver" _exit 2>"$TMPDIR/log"
 [ $? -eq 9 ] || fail "_exit: exit code is not passed on"
@@ -120,7 +121,8 @@ leaver=$RELUME_BUILD/tests/trace/leaver
 [ $? -eq 134 ] || fail "abort: exit code is not passed on"
 [ "$(frames_of "$TMPDIR/abort.trace")" -eq 20 ] && [ "$(said "$TMPDIR/log")" -eq 20 ] || fail "abort: $(cat "$TMPDIR/log")"
 
-# Forked: child and parent draw at the same time, a trace each; a copy that only ends takes nothing with it.
+# After a fork, child and parent draw at the same time, into a trace each; a copy that exits without drawing removes
+# nothing.
 "$RELUME" record -o "$TMPDIR/fork.trace" -- "$leaver" fork 2>"$TMPDIR/log" || fail "fork: exit code $?: $(cat "$TMPDIR/log")"
 both=$(for trace in "$TMPDIR/fork.trace" "$TMPDIR/fork.1.trace"; do frames_of "$trace"; done | sort -n | tr '\n' ' ')
 [ "$both" = "7 40 " ] || fail "fork: $both frames: $(cat "$TMPDIR/log")"

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Frames of a window while another one is read from keep their size, and have no reference; the others have one:
-tests/real/elsewhere.c."""
+"""While another window is the read drawable, frames keep their own window's size and have no reference; other frames
+have one: tests/real/elsewhere.c."""
 from exr import Image
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, diff, finish, on_display, record, render, skip
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 200 s
-"""Text by glXUseXFont, for which readers of a trace have no X server's font: glretrace's pictures and ours show what
-the program did."""
+"""Text by glXUseXFont, whose font is missing when a trace is replayed: glretrace's pictures and ours must equal the
+program's."""
 import re
 
 from helpers import BUILD, SCRATCH, check, diff, finish, must, on_display, record, relume, render, run
@@ -18,14 +18,14 @@ _, score = diff(trace, SCRATCH / "frames")
 for frame in score["frames"]:
     check(frame["failing_pixels"] == 0, f"frame {frame['frame']}: {frame['failing_pixels']} pixels fail")
 info = must(relume("info", trace)).stdout
-check("every call is executed" in info, f"nothing of it is unhandled: {info}")
+check("every call is executed" in info, f"no call is unhandled: {info}")
 dump = run("apitrace", "dump", "--color=never", trace).stdout
 check(re.search(r"glXUseXFont\(font = \d+, first = 0, count = 256, list = 1000\)", dump),
       "the call itself, as the program made it")
 check(dump.count("glBitmap(") == 512, f"{dump.count('glBitmap(')} bitmaps of 512 characters")
 
-# A character that is taller than 4096 pixels is recorded as one without any, but with its advance; others of its font
-# as they are.
+# A character taller than 4096 pixels is recorded without a bitmap but with its advance; the font's other characters are
+# unaffected.
 fonts, tall = SCRATCH / "fonts", SCRATCH / "tall.trace"
 fonts.mkdir()
 (fonts / "fonts.dir").write_text("1\ntall.bdf tall\n")

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Recordings that begin in the middle of a program: their pictures, replayed by apitrace and by us, are those of the same
-# frames of the whole recording, though these lean on objects, state and pixels made before.
+# Recordings that start in the middle of a program: their pictures, replayed by apitrace and by us, equal those of the
+# whole recording, although they depend on earlier objects, state and pixels.
 if [ -z "${DISPLAY_IS_OURS:-}" ]; then
 	DISPLAY_IS_OURS=1 exec tests/xvfb.sh "$0"
 fi
@@ -45,16 +45,17 @@ sys.exit(1 if bad else 0)
 PYTHON
 done
 
-# No frame: what ends some is told, or that none was asked for.
+# No frame recorded: the message says what ends frames, or that none was requested.
 "$RELUME" record -o "$TMPDIR/none.trace" -- "$RELUME_BUILD/tests/trace/readback" >"$TMPDIR/log" 2>&1
 grep -q "0 frames" "$TMPDIR/log" && grep -q "record it with --frame-end flush, which ends [1-9]" "$TMPDIR/log" || fail "single-buffered: $(cat "$TMPDIR/log")"
 "$RELUME" record -o "$TMPDIR/none.trace" --frames 100- -- "$program" >"$TMPDIR/log" 2>&1
 grep -q "the program ended after 10 frames, before the first" "$TMPDIR/log" || fail "beyond the end: $(cat "$TMPDIR/log")"
 
-# Switched on by a signal, off and on again (in a program of 25 frames a second): what lies between is not there, what comes after is whole.
+# Switched on by a signal, off and on again (in a program with 25 frames per second): the interval is missing, the later
+# part is complete.
 "$RELUME" record -o "$TMPDIR/switched.trace" --ref color --paused --quit-after 40 -- superquadrics -geometry 320x240 >/dev/null 2>"$TMPDIR/log" &
 recorder=$!
-# until CONDITION: 30 s at most
+# until CONDITION: wait for at most 30 s
 until_so() {
 	for _ in $(seq 300); do
 		eval "$1" && return
@@ -82,7 +83,7 @@ wait $recorder || fail "switched: exit code $?: $(cat "$TMPDIR/log")"
 "$RELUME" render "$TMPDIR/switched.trace" --mode gl -f 0,39 -o "$TMPDIR/rendered/x.####.exr" >"$TMPDIR/log" 2>&1 || fail "$(cat "$TMPDIR/log")"
 "$RELUME" diff "$TMPDIR/switched.trace" "$TMPDIR/rendered" -f 0,39 >"$TMPDIR/log" 2>&1 || fail "switched: $(cat "$TMPDIR/log")"
 
-# The same by a key, which the program gets as well. xdotool presses it.
+# The same by a key, which the program receives as well. xdotool presses it.
 command -v xdotool >/dev/null || { echo "xdotool is not installed: the key was not tried"; exit 0; }
 "$RELUME" record -o "$TMPDIR/key.trace" --start-key F9 --quit-after 5 -- glxgears >/dev/null 2>"$TMPDIR/log" &
 recorder=$!

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A recording that the system stops: a full disk, a quota, a limit, a fault. It says so in one line, is whole up to
-there, its figures are those of the file, `record` exits with 5, and --quit-after ends the program, which would draw for
-ever.
+"""A recording that the system stops: a full disk, a quota, a limit, an I/O error. One line reports it; the recording is
+complete up to that point and the reported figures are right; `record` exits with 5; and --quit-after ends the program,
+which would otherwise draw forever.
 """
 import contextlib
 import errno
@@ -21,20 +21,21 @@ GOES_ON = "the program keeps running"
 
 
 def recorded(trace, *options, program=("glxgears",), timeout=60, **variables):
-    """What `record` says; a program that it does not end runs into the time limit."""
+    """Output of `record`; a program that it does not end runs into the time limit."""
     env = dict(os.environ, **{name: str(value) for name, value in variables.items()})
     return on_display("timeout", "--foreground", "-k", 5, timeout, RELUME, "record", "-o", trace, *options, "--",
                       *program, env=env)
 
 
 def check_whole(what, done, trace, reason, after):
-    """One line says that the recording stopped, and its figures are those of the file."""
+    """Require one line that reports the stop, with figures that match the file."""
     said = done.stderr
-    check(done.returncode == 5, f"{what}: exit code {done.returncode}, not 5: {said[-600:]}")
+    check(done.returncode == 5, f"{what}: exit code {done.returncode}, expected 5: {said[-600:]}")
     line = re.findall(
         rf"^relume: {re.escape(str(trace))}: {reason}: recording stopped after (\d+) frames?; {re.escape(after)}$",
         said, re.M)
-    check(len(line) == 1 and said.count("recording stopped") == 1, f"{what}: said once, in its words: {said[-600:]}")
+    check(len(line) == 1 and said.count("recording stopped") == 1,
+          f"{what}: reported once, with the reason: {said[-600:]}")
     total = re.search(r": (\d+) frames?, (\d+) calls?, (\d+) bytes, .*stopped early: ", said)
     info = must(relume("info", trace)).stdout
     held = {name: int(re.search(rf"^{name} +(\d+)", info, re.M)[1]) for name in ("frames", "calls")}
@@ -49,7 +50,7 @@ def check_whole(what, done, trace, reason, after):
     return held["frames"]
 
 
-# Errors that a test cannot have from this machine, with a program that would draw for ever.
+# Errors that this machine cannot produce, with a program that would draw forever.
 for number, reason in ((errno.ENOSPC, "disk full"), (errno.EDQUOT, "disk quota exceeded"),
                        (errno.EFBIG, "file size limit reached"), (errno.EIO, "cannot write: Input/output error")):
     trace = SCRATCH / f"e{number}.trace"
@@ -57,13 +58,14 @@ for number, reason in ((errno.ENOSPC, "disk full"), (errno.EDQUOT, "disk quota e
                     FULL_ERRNO=number)
     check_whole(f"errno {number}", done, trace, reason, ENDS)
 
-# Also where frames end otherwise than by a swap.
+# Also if frames end in another way than by a swap.
 trace = SCRATCH / "flush.trace"
 done = recorded(trace, "--env", FULL, "--quit-after", 1000000, "--frame-end", "clear", FULL_NAME=".trace",
                 FULL_BYTES=50000, FULL_ERRNO=errno.ENOSPC)
 check(done.returncode == 5, f"frames that end with a clear: exit code {done.returncode}: {done.stderr[-600:]}")
 
-# The reference frames alone: the recording goes on to its end, and the exit code says that something is missing.
+# Only the reference frames fail: the recording continues to its end, and the exit code reports that something is
+# missing.
 trace = SCRATCH / "ref.trace"
 done = recorded(trace, "--env", FULL, "--quit-after", 40, "--ref", "color", FULL_NAME=".ref", FULL_BYTES=200000,
                 FULL_ERRNO=errno.ENOSPC)
@@ -77,10 +79,10 @@ frames = SCRATCH / "ref.frames"
 must(relume("render", trace, "-f", "0-2", "--mode", "gl", "--device", "reference", "-o", frames / "ref.####.exr"))
 scored = relume("diff", trace, frames, "-f", "0-2")
 check(scored.returncode == 0 and "3 frames" in scored.stdout,
-      f"what is there of them is whole: {scored.returncode}: {scored.stdout}{scored.stderr}")
+      f"the references written are complete: {scored.returncode}: {scored.stdout}{scored.stderr}")
 
-# The limit of a file's size, whose signal would kill the program. Mesa 25 keeps its shaders in one large file, which
-# would meet it first.
+# The limit on file size, whose signal would kill the program. Mesa 25 keeps its shaders in one large file, which would
+# hit the limit first.
 trace = SCRATCH / "limit.trace"
 done = on_display(
     "sh", "-c",
@@ -91,8 +93,8 @@ check_whole("RLIMIT_FSIZE", done, trace, "file size limit reached", ENDS)
 
 @contextlib.contextmanager
 def small_disk(name):
-    """A folder that holds 200 KiB; None where nothing is to be mounted. One for each case: a file that is removed frees
-    its room later."""
+    """A folder with 200 KiB of space, or None if none can be mounted. One per case, because a removed file frees its
+    space later."""
     folder = SCRATCH / name
     folder.mkdir()
     mounted = run("mount", "-t", "tmpfs", "-o", "size=200k", "none", folder).returncode == 0
@@ -103,16 +105,16 @@ def small_disk(name):
             run("umount", "-l", folder)
 
 
-# A disk that is full.
+# A full disk.
 for name, options in (("plain", ()), ("ref", ("--ref", "color,depth"))):
     with small_disk(name) as small:
         if not small:
-            print("no tmpfs to be mounted here: the full disk was tried by errno alone")
+            print("no tmpfs to be mounted here: the full disk was only simulated by errno")
             finish()
         done = recorded(small / "x.trace", "--quit-after", 1000000, *options)
         check_whole(f"full disk, {name}", done, small / "x.trace", "disk full", ENDS)
 
-# One that was full before: one line, and the program draws what it draws.
+# A disk that is full from the start: one line, and the program draws as usual.
 with small_disk("before") as small:
     (small / "filler").write_bytes(bytes(200 << 10))
     plain = must(on_display("env", CHECKSUMS, "SHIM_FRAMES=30", "glxgears")).stdout
@@ -122,7 +124,7 @@ with small_disk("before") as small:
         and done.stderr.count("x.trace: disk full: recording stopped after 0 frames; the program keeps running") == 1
         and done.stdout == plain, f"a disk without any room: exit code {done.returncode}: {done.stderr}")
 
-# One that fills up: the program draws on, and what it shows is the same as without a recorder.
+# A disk that fills up: the program continues, and shows the same as without a recorder.
 with small_disk("during") as small:
     plain = must(on_display("env", CHECKSUMS, "SHIM_FRAMES=900", "glxgears")).stdout
     done = recorded(small / "x.trace", "--env", CHECKSUMS, "--ref", "color", SHIM_FRAMES=900)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Repeated quads and line loops become lists in the trace: replayed, they are the program's pictures to the bit.
+# Repeated quads and line loops become display lists in the trace; replayed, they give exactly the program's pictures.
 set -eu
 tests/xvfb.sh tests/real/record_and_replay.sh 6 "$RELUME_BUILD/tests/trace/loops"
 apitrace dump --color=never "$TMPDIR/recorded.trace" >"$TMPDIR/dump"

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A program that makes no recording: one line says why and what to do, and the exit code is the program's own failure
-or 5."""
+"""A program that makes no recording: one line gives the reason and advice, and the exit code is the program's own
+failure or 5."""
 import os
 import pathlib
 import shutil
@@ -14,7 +14,7 @@ BARE = {name: value for name, value in os.environ.items() if name not in ("DISPL
 
 
 def told(what, code, words, *program, start=run, env=None, options=()):
-    """One line from us, with the words, and the exit code."""
+    """Require one line from us with the given words, and the exit code."""
     trace = SCRATCH / "x.trace"
     done = start(RELUME, "record", "-o", trace, *options, "--", *program, env=env)
     ours = [line for line in done.stderr.splitlines() if line.startswith("relume: ")]
@@ -25,7 +25,7 @@ def told(what, code, words, *program, start=run, env=None, options=()):
 
 
 def built(name, text, *options):
-    """A small program, or None where this machine cannot build it so."""
+    """A small program, or None if this machine cannot build it."""
     source = SCRATCH / f"{name}.c"
     source.write_text(text)
     done = run("cc", *options, "-o", SCRATCH / name, source)
@@ -42,27 +42,27 @@ told("no OpenGL", 5, ["true: nothing was recorded: the program loaded no OpenGL 
      start=on_display)
 told("no OpenGL, and a failure of its own", 7, ["loaded no OpenGL"], "sh", "-c", "exit 7", start=on_display)
 
-# Vulkan: the library counts, by its name.
+# Vulkan is recognised by the library's name.
 vulkan = built("libvulkan.so.1", "int nothing;\n", "-shared", "-fPIC")
 told("Vulkan", 5, ["the program draws with Vulkan, but Relume records OpenGL", "OpenGL renderer"],
      sys.executable, "-c", f"import ctypes; ctypes.CDLL('{vulkan}')", start=on_display)
 
-# Programs that no recorder is loaded into.
+# Programs that the recorder cannot be loaded into.
 static = built("static", "int usleep(unsigned);\nint main(void)\n{\n\treturn usleep(700000);\n}\n", "-static")
 if static:
     told("a static program", 5,
          ["static: nothing was recorded: the program is linked statically", "link it dynamically"], static)
     told("one that a shell starts", 5, ["sh: nothing was recorded: process 'static' is linked statically"], "sh", "-c",
          f"{static}; :")
-# 32 bits: the head of such a file is enough, as it is not started.
+# 32 bits: the file's header suffices, since it is not started.
 head = b"\x7fELF\x01\x01\x01" + bytes(9) + struct.pack("<HHIIIIIHHHHHH", 2, 3, 1, 0, 52, 0, 0, 52, 32, 1, 0, 0, 0)
 (SCRATCH / "old").write_bytes(head + struct.pack("<IIIIIIII", 3, 84, 84, 84, 0, 0, 4, 1))
 (SCRATCH / "old").chmod(0o755)
 if not pathlib.Path(RELUME).with_name("lib").joinpath("i386-linux-gnu/librelume.so").exists():
     done = told("a program of 32 bits", 5, ["old: is a 32-bit program", "'make i386' builds the other one"],
                 SCRATCH / "old")
-    check("ld.so" not in done.stderr, f"without the loader's words: {done.stderr}")
-# A cleared environment: by `env -i`, as by sudo and sandboxes.
+    check("ld.so" not in done.stderr, f"without the loader's message: {done.stderr}")
+# A cleared environment: by `env -i`, as with sudo and sandboxes.
 sleeper = built("sleeper", "int usleep(unsigned);\nint main(void)\n{\n\treturn usleep(700000);\n}\n")
 told("env -i", 5, [
     "nothing was recorded: process 'sleeper' ran without the recorder: its environment was cleared (env -i, sudo)",
@@ -81,13 +81,13 @@ if os.geteuid() == 0 and sleeper:
     done = run(RELUME, "record", "-o", SCRATCH / "granted.trace", "--", granted)
     check("runs without the rights of its file's owner or group" in done.stderr, f"and so it does: {done.stderr}")
 
-# A namespace of its own hides the command's process, not the figures.
+# A PID namespace hides the command's process, but not the figures.
 if run("unshare", "-r", "true").returncode == 0:
     trace = SCRATCH / "unshared.trace"
     done = on_display(RELUME, "record", "--quit-after", "5", "-o", trace, "--", "unshare", "-r", PROGRAM)
     check(done.returncode == 0 and "unshared.trace: 5 frames, " in done.stderr and "nothing" not in done.stderr,
           f"unshare -r: exit code {done.returncode}: {done.stderr}")
-    # Where their descriptor is closed as well, the recording is there all the same.
+    # If the descriptor is closed as well, the recording is still made.
     closes = f"import os; os.closerange(3, 1000); os.execvp('unshare', ['unshare', '-r', '{PROGRAM}'])"
     trace = SCRATCH / "closed.trace"
     done = on_display(RELUME, "record", "--quit-after", "5", "-o", trace, "--", sys.executable, "-c", closes)
@@ -95,11 +95,11 @@ if run("unshare", "-r", "true").returncode == 0:
         done.returncode == 0 and
         "closed.trace: was recorded, but a sandbox kept the figures; 'relume info' shows what it holds" in done.stderr,
         f"unshare -r without descriptors: exit code {done.returncode}: {done.stderr}")
-    check("\nframes      5\n" in relume("info", trace).stdout, "and is whole")
+    check("\nframes      5\n" in relume("info", trace).stdout, "the recording is complete")
 else:
-    print("no user namespace to be had here: not tried")
+    print("no user namespaces here: not tested")
 
-# A context is never made; one is made and draws nothing.
+# No context is created; one is created but never draws.
 if shutil.which("glxinfo"):
     trace = SCRATCH / "info.trace"
     done = on_display(RELUME, "record", "-o", trace, "--", "glxinfo", "-B")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Programs without a window: EGL with a pbuffer, with no surface, on a device, and OSMesa. What is recorded is whole
-and is theirs."""
+"""Programs without a window: EGL with a pbuffer, without a surface, on a device; and OSMesa. Their recordings are
+complete and show their pictures."""
 import re
 import subprocess
 
@@ -32,12 +32,12 @@ for how, ends in (("pbuffer", "swap"), ("surfaceless", "finish"), ("device", "fi
         f"{how}: {FRAMES} frames")
     check(len(re.findall("relume:time ", calls)) == FRAMES, f"{how}: a time for each frame")
     read = [tuple((folder / name).read_bytes()[:3]) for name in re.findall(r'glReadPixels\(.*blob\("(.*)"\)', calls)]
-    check(tuple(read) == COLORS, f"{how}: what the program read back is {read}")
-    if how in ("pbuffer", "osmesa"):  # the others have no framebuffer of the window system's
+    check(tuple(read) == COLORS, f"{how}: the program's own pixels, {read}")
+    if how in ("pbuffer", "osmesa"):  # the others have no default framebuffer
         check(
             len(render(trace, SCRATCH / how, "--mode", "gl", "--encoding", "display")) == FRAMES,
             f"{how}: {FRAMES} frames rendered")
         check_gates(diff(trace, SCRATCH / how)[1], FRAMES, how)
 if not tried:
-    skip("neither EGL nor OSMesa is there")
+    skip("neither EGL nor OSMesa is available")
 finish()

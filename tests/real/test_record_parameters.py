@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Draws whose parameters and arrays lie partly in buffers, and restarts: what tests/real/parameters.c draws is in the
-trace."""
+"""Draws whose parameters or arrays are partly in buffers, and primitive restart: the trace contains the drawing of
+tests/real/parameters.c."""
 from helpers import BUILD, check_replayed, check_same_pictures, finish, on_display, skip
 
 FRAMES = ("instances", "NV_primitive_restart", "glDrawArraysIndirect from memory", "glDrawArraysIndirect from a buffer",

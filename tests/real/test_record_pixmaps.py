@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Pixmaps (tests/real/pixmaps.c): frames drawn to one have references; one that X draws to is there as a texture, of
-both kinds and where recording begins later. Frames that can have no references are told."""
+"""Pixmaps (tests/real/pixmaps.c): frames drawn to one have references; one that X draws to is recorded as a texture, of
+both kinds, also if recording starts later. Frames that cannot have references are reported."""
 import subprocess
 
 from helpers import (
@@ -11,7 +11,7 @@ REF = ("--ref", "color,depth")
 UNREAD = "neither a window nor a pixmap"
 
 if on_display(PROGRAM, "drawn").returncode == 77 or on_display(PROGRAM).returncode == 77:
-    skip("the X server has no GLX pixmaps, or none as textures")
+    skip("the X server has no GLX pixmaps, or cannot use them as textures")
 
 
 def check_shown(how, *arguments, options=(), frames=FRAMES):

@@ -1,5 +1,6 @@
 #!/bin/sh
-# The program never notices: glxgears draws the same frames, bit by bit, with and without the recorder and its reading back.
+# The program is unaffected: glxgears draws the same frames, bit by bit, with and without the recorder and its reference
+# frames.
 command -v glxgears >/dev/null || { echo "glxgears (mesa-utils) is not installed"; exit 77; }
 if [ -z "${DISPLAY_IS_OURS:-}" ]; then
 	DISPLAY_IS_OURS=1 exec tests/xvfb.sh "$0"

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What relume record says of a program that draws, once and in its words: files that cannot be made, shaders, no
+"""Messages of relume record about a program that draws, each printed once: files that cannot be written, shaders, no
 frames."""
 from helpers import BUILD, RELUME, SCRATCH, check, finish, must, on_display
 
@@ -13,15 +13,15 @@ def told(name, *program, options=(), code=0):
 
 
 def times(text, words, wanted, what):
-    check(text.count(words) == wanted, f"{what}: \"{words}\" {text.count(words)} times, not {wanted}, in: {text}")
+    check(text.count(words) == wanted, f"{what}: \"{words}\" {text.count(words)} times, expected {wanted}, in: {text}")
 
 
 said = told("plain.trace", PROGRAM)
 times(said, "plain.trace: 10 frames, ", 1, "a program of ten frames")
 times(said, "relume: ", 1, "one line")
 
-# Reference frames cannot be written: the recording goes on, the reason is said once, and the exit code says that they
-# are missing.
+# Reference frames cannot be written: the recording continues, the reason is printed once, and the exit code reports
+# that they are missing.
 (SCRATCH / "folder.ref").mkdir()
 said = told("folder.trace", PROGRAM, options=("--ref", "color"), code=5)
 times(said, "folder.trace: 10 frames, ", 1, "without reference frames")
@@ -30,11 +30,11 @@ times(said, "folder.ref: cannot open: Is a directory: no more reference frames; 
 times(said, "no more reference frames", 1, "said once")
 times(said, "bytes of reference frames", 0, "there are none")
 
-# The trace's folder goes away before the program's first call: the program draws all the same.
+# The trace's folder is removed before the program's first call: the program draws as usual.
 (SCRATCH / "gone").mkdir()
 said = told("gone/x.trace", "sh", "-c", f"rmdir {SCRATCH}/gone && exec {PROGRAM}", code=5)
 times(said, "cannot create: No such file or directory", 1, "a folder that went away")
-check(not (SCRATCH / "gone").exists(), "nothing is made there")
+check(not (SCRATCH / "gone").exists(), "no file is created")
 
 said = told("programs.trace", BUILD / "tests/real/panels/program", options=("--max-frames", "1"))
 times(said, "the program uses shaders", 1, "a program with programs")

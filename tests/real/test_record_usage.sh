@@ -1,8 +1,8 @@
 #!/bin/sh
-# relume record and its users: one clear line and the right exit code for what is wrong.
+# Wrong usage of relume record: one clear line and the right exit code.
 set -u
 bad=0
-# expect CODE TEXT ARGUMENTS...: exit code, and a line that holds the text.
+# expect CODE TEXT ARGUMENTS...: exit code, and a line that contains the text.
 expect() {
 	code=$1 text=$2
 	shift 2
@@ -43,7 +43,7 @@ expect 5 "true: nothing was recorded: the program loaded no OpenGL" -o "$TMPDIR/
 expect 7 "nothing was recorded: the program loaded no OpenGL" -o "$TMPDIR/x.trace" -- sh -c 'exit 7'
 expect 143 "nothing was recorded: the program loaded no OpenGL" -o "$TMPDIR/x.trace" -- sh -c 'kill -TERM $$'
 expect 3 "nothing was recorded: the program loaded no OpenGL" -o "$TMPDIR/x.trace" --env WORD=three -- sh -c '[ "$WORD" = three ] && exit 3'
-# A signal that comes when the program has ended is nobody's: neither the recorder nor others of its process group are sent it.
+# A signal that arrives after the program has ended is sent neither to the recorder nor to others of its process group.
 trap 'echo "a signal for the recorder reached others"; bad=1' USR1
 LD_PRELOAD="$RELUME_BUILD/tests/real/signal_shim.so" timeout --foreground 20 "$RELUME" record -o "$TMPDIR/x.trace" -- sh -c 'exit 7' >"$TMPDIR/out" 2>&1
 got=$?
@@ -52,7 +52,7 @@ if [ $got -ne 7 ]; then
 	bad=1
 fi
 trap - USR1
-# A program whose file has a group of its own: the loader preloads nothing where it runs with that group.
+# A set-group-ID program: the loader preloads nothing if it runs with that group.
 group=$(id -G | tr ' ' '\n' | grep -vx "$(id -g)" | head -n 1)
 [ "$(id -u)" = 0 ] && group=60
 cp "$(command -v env)" "$TMPDIR/owned"

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""relume reduce: what is left of a recording still fails as the whole does, and nothing more of it can go."""
+"""relume reduce: the reduced recording still fails like the whole one, and no further call can be removed."""
 import sys
 import tempfile
 
@@ -33,22 +33,23 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
     trace.change(trace.find("glEnable")[20][0], 0x1234)
     trace.save(out / "error.trace")
     calls = reduce(out / "error.trace", out / "small.trace", ERROR)
-    check(calls.count("glEnable") == 1 and len(calls) <= 3, f"what an error needs: {calls}")
+    check(calls.count("glEnable") == 1 and len(calls) <= 3, f"the calls for an error: {calls}")
     reduce(out / "error.trace", out / "alone.trace", ERROR, "--jobs", 1)
-    check((out / "small.trace").read_bytes() == (out / "alone.trace").read_bytes(), "the same whatever runs at once")
+    check((out / "small.trace").read_bytes() == (out / "alone.trace").read_bytes(),
+          "the same for any number of parallel runs")
 
     done = reduce(out / "whole.trace", out / "part.trace", PART)
     dump = must(relume("dump", out / "part.trace")).stdout
     check(
         done.count("glDrawElements") == 1 and "count = 3," in dump and "indices = blob(6)" in dump,
-        f"a triangle of twelve: {dump}")
+        f"one triangle out of twelve: {dump}")
     check(done.count("glTexImage2D") == 1 and "pixels = NULL" in dump, f"an image without its texels: {dump}")
 
     record(out / "pair.trace", corpus("two_triangles"), "--frames", 2)
     calls = reduce(out / "pair.trace", out / "triangles.trace", TWO)
-    check(calls.count("glVertex2f") == 6 and len(calls) <= 12, f"what two triangles need: {calls}")
+    check(calls.count("glVertex2f") == 6 and len(calls) <= 12, f"the calls for two triangles: {calls}")
 
-    # A frame: one colour is wrong, of which the reference frames of before know nothing.
+    # A frame: one colour differs from the unchanged program's reference frames.
     trace = Trace(out / "pair.trace")
     colors = trace.find("glColor3f")
     trace.change(colors[-1][1], 0.5)
@@ -56,14 +57,15 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
     by_frame = ("reduce", out / "colour.trace", "-o", out / "frame.trace", "-f", 1, "--ref", out / "pair.ref")
     done = must(relume(*by_frame, timeout=100))
     calls = must(relume("dump", out / "frame.trace")).stdout
-    check("is still there" in done.stdout and "glBegin" in done.stderr, f"tells the fault: {done.stdout} {done.stderr}")
+    check("is still there" in done.stdout and "glBegin" in done.stderr,
+          f"reports the fault: {done.stdout} {done.stderr}")
     check(
         calls.count("glVertex2f") == 3 and calls.count("glColor3f") == 1 and calls.count("0.5") >= 1,
-        f"what a wrong colour needs: {calls}")
+        f"the calls for a wrong colour: {calls}")
     frame_files = render(out / "frame.trace", out / "frame", "--mode", "gl", "--aov", "gl,id")
     check(len(frame_files) == 1, f"one frame is left: {frame_files}")
     code, score = diff(out / "pair.ref", frame_files[0], "-f", 0)
-    check(code == 1 and score["frames"][0]["blame"], f"which fails still: {score['frames'][0]['outcome']}")
+    check(code == 1 and score["frames"][0]["blame"], f"the frame still fails: {score['frames'][0]['outcome']}")
     for wrong, why in (((*by_frame, "--when", "false"), "both"), (by_frame[:4], "neither"),
                        ((*by_frame[:5], 7, *by_frame[6:]), "no such frame"), (("reduce", out / "pair.trace",
                                                                                *by_frame[2:6]), "a frame that passes")):
@@ -78,5 +80,5 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
     check(
         relume("reduce", out / "missing.trace", "-o", out / "none.trace", "--when", "false").returncode == 3,
         "no such recording")
-    check(not (out / "none.trace").exists(), "nothing is written where nothing was found")
+    check(not (out / "none.trace").exists(), "no file is written if nothing was found")
 finish()

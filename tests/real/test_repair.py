@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Recordings that were cut or damaged: `relume repair` keeps every call up to there, and other tools read the result to
-its end.
+"""Truncated or damaged recordings: `relume repair` keeps every call up to the damage, and other tools read the result
+to its end.
 
 limit: 200 s
 """
@@ -20,7 +20,7 @@ END = re.compile(r"^\d* ?glXSwapBuffers\(")
 
 
 def dump(path):
-    """apitrace's text of a trace, without call numbers, and whatever it complains about."""
+    """apitrace's text of a trace, without call numbers, and its complaints."""
     done = run("apitrace", "dump", "--color=never", "--call-nos=no", "--arg-names=no", path)
     lines = [line for line in done.stdout.splitlines() if line.strip()]
     return lines, done.stderr + "".join(
@@ -32,7 +32,7 @@ def frames(lines):
 
 
 def repaired(path, what):
-    """The calls of what repair makes of a trace, as text."""
+    """The calls of a repaired trace, as text."""
     new = SCRATCH / "new.trace"
     new.unlink(missing_ok=True)
     done = relume("repair", "-o", new, path)
@@ -46,7 +46,7 @@ def repaired(path, what):
     check(found and int(found[2]) == frames(lines), f"{what}: says how many frames there are: {done.stdout}")
     check(f'"frames":{frames(lines)},' in info.stdout.replace(" ", ""),
           f"{what}: relume and apitrace count the same frames")
-    check(not list(SCRATCH.glob("*.part")), f"{what}: no unfinished file is left")
+    check(not list(SCRATCH.glob("*.part")), f"{what}: no partial file is left")
     return lines
 
 
@@ -65,7 +65,7 @@ record(live, corpus("viewer"), "--frames", "40", options=())
 for trace in (live, ROOT / "tests/golden/cornell.trace"):
     data = trace.read_bytes()
     whole, _ = dump(trace)
-    check(repaired(trace, f"{trace.name}, whole") == whole, f"{trace.name}: what is whole stays what it is")
+    check(repaired(trace, f"{trace.name}, whole") == whole, f"{trace.name}: a complete recording is unchanged")
     kept = []
     for i in range(1, CUTS + 1):
         cut.write_bytes(data[:len(data) * i // (CUTS + 1)])
@@ -80,8 +80,8 @@ for trace in (live, ROOT / "tests/golden/cornell.trace"):
     check(kept == sorted(kept) and kept[-1] > 0.8 * len(whole),
           f"{trace.name}: a later cut loses less: {kept} of {len(whole)}")
 
-# A chunk in the middle whose bytes are lost: exactly the frames that end before it. The recorder ends a chunk with
-# each frame.
+# A damaged chunk in the middle: exactly the frames that end before it are kept. The recorder ends a chunk with each
+# frame.
 data, (whole, _) = live.read_bytes(), dump(live)
 found = chunks(data)
 for i in (len(found) // 3, len(found) // 2, len(found) - 2):
@@ -91,9 +91,9 @@ for i in (len(found) // 3, len(found) // 2, len(found) - 2):
     (SCRATCH / "before.trace").write_bytes(data[:at])
     before, _ = dump(SCRATCH / "before.trace")
     check(lines == [line for line in before if "// incomplete" not in line] and frames(lines) == frames(before) > 0,
-          f"chunk {i} damaged: exactly what stands before it: {len(lines)} of {len(before)} calls")
+          f"chunk {i} damaged: exactly the calls before it: {len(lines)} of {len(before)} calls")
 
-# One stream instead of chunks.
+# A single compressed stream instead of chunks.
 stream = bytes(unpack(data))
 packed = gzip.compress(stream)
 cut.write_bytes(packed)
@@ -113,10 +113,10 @@ cut.write_bytes(packed[:len(packed) * 2 // 3])
 lines = repaired(cut, "Brotli cut")
 check(len(lines) > len(whole) // 4 and lines == whole[:len(lines)], f"Brotli cut: {len(lines)} of {len(whole)} calls")
 
-# Another recording in the same file: the first one is kept, and a line says how many bytes follow.
+# A second recording in the same file: the first is kept, and a line reports how many bytes follow.
 other = (ROOT / "tests/golden/two_triangles.trace").read_bytes()
 odd = b"at" + struct.pack("<I", 1 << 16) + b"\x80\x80\x04" + bytes(
-    (1 << 16) - 3)  # read as a chunk, it is shorter than the file
+    (1 << 16) - 3)  # read as a chunk, it ends before the file does
 for what, first, second in (("itself", data, data), ("another one", data, other),
                             ("one that begins with a chunk of 64 KiB",
                              data, odd), ("gzip", gzip.compress(stream),
@@ -140,5 +140,5 @@ for what, content in (("its first bytes", data[:2]), ("its header", data[:12]), 
     check(done.returncode == 3 and not new.exists(), f"{what}: nothing to save: {done.returncode} {done.stderr}")
 check(relume("repair", live).returncode == 2 and relume("repair", "-o", live, live).returncode == 2, "usage")
 check(live.read_bytes() == data, "the recording itself is not written")
-check(relume("repair", "-o", pathlib.Path("/dev/full/x"), live).returncode == 5, "a place where no file can be")
+check(relume("repair", "-o", pathlib.Path("/dev/full/x"), live).returncode == 5, "a place that cannot be written")
 finish()

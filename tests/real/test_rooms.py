@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""Levels of rooms (corpus/rooms): they are sound, every culling draws the same picture, and what is drawn by the tricks
-of their day passes every gate."""
+"""Levels of rooms (corpus/rooms): they are sound, every kind of culling gives the same picture, and the period's
+rendering tricks pass every gate."""
 import json
 
 from helpers import ROOT, SCRATCH, check, check_gates, corpus, diff, finish, must, record, render, run
@@ -12,7 +12,7 @@ TRICKS = ("--mirror", "--shadow")
 done = must(run(corpus("rooms"), "--check", 10))
 check("10 of 10 levels are sound" in done.stdout, done.stdout)
 
-# Zones and polygons of the level that is kept, and its picture by every culling.
+# Zones and polygons of the stored level, and its picture with every kind of culling.
 for culling in ("none", "frustum", "portal", "bsp", "octree"):
     record(SCRATCH / f"{culling}.trace", corpus("rooms"), "--level", ELEVEN, "--frames", 2, "--animate", "camera",
            "--cull", culling, *TRICKS, "--truth", SCRATCH / "truth.json")

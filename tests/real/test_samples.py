@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Windows of several samples a pixel: what tests/real/samples.c draws is traced as it was rasterized and resolved."""
+"""Windows with several samples per pixel: tests/real/samples.c traced equals its raster pictures after resolving."""
 from helpers import check_alone, check_gates, check_same_pictures, finish
 
 FRAMES = ("shared edges", "surfaces through each other", "a floor and strips that leave the view", "lines",

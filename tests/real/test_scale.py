@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # limit: 300 s
 """`render --scale X` and `--size WxH` show what the program would have drawn in a window of that size: programs
-recorded small and large (tests/real/sizes.c, corpus/), held against each other."""
+recorded small and large (tests/real/sizes.c, corpus/) are compared."""
 import numpy
 
 import exr
 from helpers import BUILD, SCRATCH, check, corpus, finish, record, relume, render
 
-SAME = 0.01  # per cent of pixels that may be off by more than a code: rounding in other places of a larger window
+SAME = 0.01  # percentage of pixels that may differ by more than a code, because a larger window rounds at other places
 PLANES = [f"{layer}{c}" for layer in ("", "gl.") for c in "RGB"]
 
 
@@ -41,7 +41,7 @@ sizes = BUILD / "tests/real/sizes"
 compare("sizes by 4", pictures("sizes1", (sizes, 1), "--scale", "4"), pictures("sizes4", (sizes, 4)))
 compare("sizes by 1/2", pictures("sizes4", (sizes, 4), "--scale", "0.5"), pictures("sizes2", (sizes, 2)))
 
-# A window of another shape shows more to both sides, or above and below, and in the middle what the recorded one does.
+# A window of another shape shows more at both sides, or above and below; its middle equals the recorded picture.
 for name, size, rows, columns in (("spheres-small", "480x120", slice(None), slice(160, 320)),
                                   ("spheres-small", "160x240", slice(60, 180), slice(None)),
                                   ("sizes1", "192x72", slice(None), slice(48, 144))):
@@ -51,13 +51,13 @@ for name, size, rows, columns in (("spheres-small", "480x120", slice(None), slic
     outer = numpy.asarray(shown[0]["gl.G"])
     check(outer.shape[::-1] == tuple(map(int, size.split("x"))), f"{name} in {size}: {outer.shape}")
     beside = numpy.count_nonzero(outer != outer[0, 0]) - numpy.count_nonzero(middle[0]["gl.G"] != outer[0, 0])
-    check(beside > 20 or name == "sizes1", f"{name} in {size}: more is seen beside the middle: {beside} pixels")
+    check(beside > 20 or name == "sizes1", f"{name} in {size}: more is visible beside the middle: {beside} pixels")
 odd = exr.Image(render(SCRATCH / "sizes1.trace", SCRATCH / "odd", "--scale", "1.37", "-f", 0)[0], PLANES)
 check((odd.width, odd.height) == (132, 99), f"96x72 by 1.37 is {odd.width}x{odd.height}")
 
 plain, one = (render(SCRATCH / "sizes1.trace", SCRATCH / name, "-f", 0, *options)[0].read_bytes()
               for name, options in (("plain", ()), ("one", ("--scale", "1"))))
-check(plain == one, "by 1 it is the same file as without")
+check(plain == one, "scale 1 gives the same file as no scale")
 for what, options in (("too large", ("--scale", "64", "--mode", "gl")),
                       ("motion", ("--scale", "2", "--aov", "gl,motion")),
                       ("no number", ("--scale", "big")), ("no size", ("--size", "640")),

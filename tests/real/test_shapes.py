@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Shapes whose pixels hang on the last bits of Mesa's arithmetic: what tests/real/shapes.c draws is traced as it was
-rasterized.
+"""Shapes whose pixels depend on the last bits of Mesa's arithmetic: tests/real/shapes.c traced equals its raster
+pictures.
 
-So are the quads of tests/trace/loops.c, which are not plane: the way they are cut shows.
+Also the quads of tests/trace/loops.c, which are not planar, so that the way they are split shows.
 """
 from helpers import BUILD, SCRATCH, check_gates, check_same_pictures, diff, finish, record, render
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A program object whose uniforms two contexts set (tests/real/shared.c): what each draws with, as Mesa has it, from
-the start and from any frame."""
+"""A program object whose uniforms are set by two contexts (tests/real/shared.c): each must draw with the values that
+Mesa uses, from the start and from any frame."""
 from helpers import check_alone, check_same_pictures, finish
 
 FRAMES = ("the same value", "no value", "another value", "another and back", "another element", "no program between",

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""`relume render --fps`: things that deform are found again among others of their kind, though some come and go.
-tests/real/shoal.c at 15 frames a second against itself at 60.
+"""`relume render --fps`: deforming objects are matched among others of their kind, even if some appear and disappear.
+Compares tests/real/shoal.c at 15 frames per second with itself at 60.
 
 limit: 300 s
 """
@@ -23,11 +23,11 @@ done = relume("diff", SCRATCH / "shown", SCRATCH / "film", "--channel", "beauty"
 figures = [frame["gates"]["P"]["figures"][0]["value"] for frame in json.loads(done.stdout)["frames"]]
 check(len(figures) == COUNT, f"{len(figures)} pictures of a second: {COUNT}")
 worst = max((value, number) for number, value in enumerate(figures))
-check(worst[0] <= MOST_FLIP, f"FLIP against what the program shows: {worst[0]:.4f} in picture {worst[1]}")
+check(worst[0] <= MOST_FLIP, f"FLIP against the program's picture: {worst[0]:.4f} in picture {worst[1]}")
 
 texts = [exr.attribute(file, "relume:between").decode() for file in files if exr.attribute(file, "relume:between")]
-check(len(texts) == COUNT - COUNT // 4 - 1, f"{len(texts)} pictures are made")
+check(len(texts) == COUNT - COUNT // 4 - 1, f"{len(texts)} pictures are interpolated")
 counts = numpy.array([(int(text.split()[0]), int(text.split()[3])) for text in texts])
-check(0 < (counts[:, 1] > 0).sum() < len(texts) / 2, f"fish come and go in some: {counts.tolist()}")
-check(counts[:, 1].max() <= 2, "the others are followed")
+check(0 < (counts[:, 1] > 0).sum() < len(texts) / 2, f"fish appear or disappear in some: {counts.tolist()}")
+check(counts[:, 1].max() <= 2, "the others are matched")
 finish()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 500 s
-"""Small programs of single calls and rare uses are drawn as Mesa draws them, and nothing of them is left out:
-tests/real/small/, where each says what it is about. Run with names of programs: those alone.
+"""Small programs of single calls and rare uses must be drawn as Mesa draws them, with no call omitted:
+tests/real/small/, where each describes its subject. Arguments select programs by name.
 """
 import sys
 
@@ -59,7 +59,8 @@ if not sys.argv[1:]:
     render(trace, SCRATCH / "unended", *AS_SHOWN)
     _, score = diff(trace, SCRATCH / "unended")
     outcomes = [frame["outcome"] for frame in score["frames"]]
-    check(outcomes == ["extra", "passed", "extra", "passed"], f"nothing stands for what could not be read: {outcomes}")
+    check(outcomes == ["extra", "passed", "extra", "passed"],
+          f"frames without readable pixels have no reference: {outcomes}")
     trace = SCRATCH / "lacking.trace"
     record(trace, BUILD / "tests/real/small/lacking", options=())
     said = must(relume("info", trace)).stdout
@@ -72,7 +73,7 @@ if not sys.argv[1:]:
     files = render(trace, SCRATCH / "outward", "-f", "2-4")
     _, score = diff(trace, SCRATCH / "outward", "-f", "2-4")
     check(all(frame["outcome"] == "passed" for frame in score["frames"]),
-          f"traced with corners without w: {score['frames']}")
+          f"traced with vertices without w: {score['frames']}")
     mixed, ground = (Image(f, ["P.Y", "P.Z", "id", "shadow.G"]).planes for f in files[1:])
     off = [
         abs(mixed["P.Z"][y][x] + 4 + (mixed["P.Y"][y][x] + 3) / 6)
@@ -82,7 +83,7 @@ if not sys.argv[1:]:
     ]
     check(
         len(off) > 500 and max(off) < 1e-4,
-        f"places between corners of different w: {len(off)} pixels, at most {max(off)} off")
+        f"positions between vertices of different w: {len(off)} pixels, at most {max(off)} off")
     dark = [ground["P.Z"][y][x] for y in range(48) for x in range(64) if ground["shadow.G"][y][x] < 0.5]
     check(
         len(dark) > 20 and all(-6.5 < z < -3.5 for z in dark),

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""The short form of show-soak: some hundred frames and some programs by one process each, and what disturbs a run."""
+"""The short form of show-soak: a few hundred frames and a few programs by one process each, and the disturbances."""
 import pathlib
 import sys
 

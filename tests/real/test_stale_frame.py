@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A stale frame of glxgears is caught, the others pass, and the calls that drew the pixels are named."""
+"""A stale frame of glxgears must be caught, with the calls that drew the pixels named; the other frames must pass."""
 import json
 import os
 import pathlib
@@ -12,7 +12,7 @@ import tempfile
 from replayed import REF_COLOR, REF_DEPTH, records, whole_record
 
 RELUME = os.environ["RELUME"]
-FRAMES = 24  # glxgears turns by the clock: on a fast machine neighbouring frames are nearly the same picture
+FRAMES = 24  # glxgears follows the clock: on a fast machine adjacent frames look nearly the same
 STALE, SHOWN = FRAMES - 1, 1
 
 

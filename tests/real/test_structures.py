@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The same files, to the byte, from every acceleration structure, mirrors, glass and shadows included; and the
-builders' costs beside Embree's."""
+"""Every acceleration structure gives the same files, to the byte, including mirrors, glass and shadows; and the
+builders' costs compared with Embree's."""
 import json
 import subprocess
 
@@ -20,7 +20,7 @@ for name, program in (("cornell", ("--mesh", "--mirror")), ("spheres", ())):
 bad = relume("render", trace, "-o", SCRATCH / "no.#.exr", "--accel", "octree")
 check(bad.returncode == 2, f"--accel octree ends with {bad.returncode}")
 
-# Side by side: what is a matter of the trees alone is the same on every machine.
+# The columns that depend only on the trees are the same on every machine.
 trees = {
     tree["accel"]: tree for tree in json.loads(
         must(relume("bench", "--accel", "all", "--repeat", "1", "--json", timeout=300)).stdout)["trees"]

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""relume look --sheet: the page knows what each pixel shows, and the same rules as relume pick; in a browser, pointing
-and clicking choose one."""
+"""relume look --sheet: the page knows the surface at each pixel and the same rules as relume pick; in a browser,
+pointing and clicking select a surface."""
 import base64
 import json
 import re
@@ -25,9 +25,9 @@ must(relume("render", trace, "-f", 1, "-o", SCRATCH / "f.####.exr", "--aov", "gl
 image = Image(SCRATCH / "f.0001.exr")
 check((data["frame"], data["width"], data["height"]) == (1, 160, 120),
       f"the middle frame: {data['frame']}, {data['width']} x {data['height']}")
-check(not re.search(r"(src|href)=[\"']?(http|//|\w+\.)|@import|url\(", text), "the page needs no other file")
+check(not re.search(r"(src|href)=[\"']?(http|//|\w+\.)|@import|url\(", text), "the page is self-contained")
 
-# What each pixel shows, as channel id has it.
+# The surface at each pixel, as in channel id.
 owners = [number for number, count in zip(data["runs"][::2], data["runs"][1::2]) for _ in range(count)]
 ids = [int(value) for row in image.planes["id"] for value in row]
 names = {0: 0, **{i + 1: int(re.match(r"draw (\d+):", s["name"])[1]) for i, s in enumerate(data["surfaces"])}}
@@ -45,7 +45,7 @@ for number in sorted(set(owners) - {0}):
 
 
 def png_rows(url):
-    """Size and unpacked bytes of a PNG of 8 bits."""
+    """Size and unpacked bytes of an 8-bit PNG."""
     png = base64.b64decode(url.removeprefix("data:image/png;base64,"))
     width, height = (int.from_bytes(png[at:at + 4]) for at in (16, 20))
     at, packed = 8, b""
@@ -62,19 +62,20 @@ check((width, height, len(rows)) == (160, 120, 120 * (1 + 3 * 160)),
 for texture, shown in zip(scene["textures"], data["textures"]):
     check(png_rows(shown["picture"])[:2] == (texture["width"], texture["height"]), f"texture {shown['hash']} is shown")
 
-# With -o both are made; with neither there is nothing to do; what cannot be is refused, and leaves nothing.
+# With -o both files are written; with neither option there is nothing to do; invalid requests are refused and leave no
+# file.
 must(relume("look", trace, "-f", "0-1", "-o", SCRATCH / "rules.yaml", "--sheet", SCRATCH / "both.html"))
 check((SCRATCH / "rules.yaml").exists() and "frame\": 0" in (SCRATCH / "both.html").read_text(),
-      "both, and the first frame asked for")
+      "both, and the first requested frame")
 check(relume("look", trace).returncode == 2, "neither")
 check(
     relume("look", trace, "-f", 9, "--sheet", SCRATCH / "no.html").returncode == 2
-    and not list(SCRATCH.glob("no.html*")), "a frame that is not there")
+    and not list(SCRATCH.glob("no.html*")), "a missing frame")
 
-# Operated: pointing shows, a click keeps, a tile chooses.
+# In the browser: pointing shows a surface, a click keeps it, a tile selects one.
 if shutil.which(browser.NAME):
     pixels = [i for i, owner in enumerate(owners) if owner == 1]
-    pixel = pixels[len(pixels) // 2] # its neighbours are of the same surface: browsers round where a click is
+    pixel = pixels[len(pixels) // 2] # its neighbours belong to the same surface, because browsers round click positions
     script = """<script>
 addEventListener("load", () => setTimeout(() => {
 	const box = at("frame").getBoundingClientRect(), found = {};
@@ -109,6 +110,6 @@ addEventListener("load", () => setTimeout(() => {
             [""])[0] == f"surfaces:\n  - match: {{ texture: \"{data['textures'][0]['hash']}\" }}\n    reflect: 0.3\n",
         f"a texture: {found}")
 else:
-    print(f"no {browser.NAME} here: the page is not operated")
+    print(f"no {browser.NAME} here: the page was not tested")
 
 finish()

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A trimmed recording shows the pictures of the whole one: by our renderer to the last bit, by apitrace, and with its
+"""A trimmed recording shows the pictures of the whole one: exactly in our renderer, in apitrace, and with its
 references.
 
 limit: 300 s
@@ -20,19 +20,19 @@ SAID = re.compile(r": frames (\d+)-(\d+) as 0-(\d+), (\d+) of (\d+) calls, (\d+)
 
 
 def trimmed(trace, first, last, begins):
-    """The trimmed recording, which must begin with a frame."""
+    """The trimmed recording, which must start with the given frame."""
     new = SCRATCH / f"{trace.stem}-cut.trace"
     done = must(relume("trim", "-f", f"{first}-{last}", "-o", new, trace))
     said = SAID.search(done.stdout)
     check(said and int(said[1]) == begins and int(said[2]) == last,
           f"{trace.stem}: begins with frame {begins}: {done.stdout}")
     check(said and bool(said[8]) == (begins < first),
-          f"{trace.stem}: says where it had to begin earlier: {done.stdout}")
+          f"{trace.stem}: reports an earlier start: {done.stdout}")
     check(begins == 0 or said and int(said[4]) < int(said[5]), f"{trace.stem}: calls were left out: {done.stdout}")
     info = relume("info", "--json", new)
     facts = json.loads(info.stdout or "{}")
     check(info.returncode == 0 and not info.stderr and facts["frames"] == last - begins + 1,
-          f"{trace.stem}: has the frames asked for: {info.stderr}")
+          f"{trace.stem}: has the requested frames: {info.stderr}")
     check(facts["gl_errors"] == [], f"{trace.stem}: no call of it is an error: {facts['gl_errors']}")
     check(not run("apitrace", "dump", new).stderr, f"{trace.stem}: apitrace reads it to the end")
     return new
@@ -47,7 +47,7 @@ def same_renders(trace, new, first, last, *options):
 
 
 def same_replays(trace, new, first, begin):
-    """From frame `begin` on: of a trace that apitrace has recorded it draws the first one unreliably."""
+    """From frame `begin` on: apitrace draws the first frame of its own recordings unreliably."""
     done = on_display(sys.executable, __file__, "--replay", trace, new, first, begin, timeout=200)
     check(done.returncode == 0, f"{trace.stem}: apitrace shows the same: {done.stdout}{done.stderr}")
 
@@ -73,13 +73,13 @@ for name, trace in live.items():
     if name == "viewer":
         continue
     same_replays(trace, new, 3, 0)
-    # The references went along: frames of the cut recording are scored against them as those of the whole one are.
+    # The references are trimmed, too: frames of the trimmed recording get the same scores as those of the whole one.
     _, score = diff(new, SCRATCH / f"{name}.cut")
     _, whole = diff(trace, SCRATCH / f"{name}.whole", "-f", "3-4")
     check([f["gates"] for f in score["frames"]] == [f["gates"] for f in whole["frames"]] and len(score["frames"]) == 2,
           f"{name}: scored as the whole one")
 
-# Recorded by apitrace, client arrays stand before each draw.
+# In apitrace's recordings, client arrays precede each draw.
 for program, options in ((BUILD / "tests/trace/state", ()), (BUILD / "tests/bench/static_scene", ("changing", "6"))):
     trace = SCRATCH / f"apitrace-{program.name}.trace"
     must(on_display("apitrace", "trace", "-o", trace, program, *options))
@@ -87,10 +87,10 @@ for program, options in ((BUILD / "tests/trace/state", ()), (BUILD / "tests/benc
     same_renders(trace, new, 4, 5, "--mode", "gl")
     same_replays(trace, new, 4, 1)
     check(not options or new.stat().st_size < 0.4 * trace.stat().st_size,
-          "arrays of draws that are left out are not there")
+          "arrays of omitted draws are omitted")
     check(not new.with_suffix(".ref").exists(), f"{trace.stem}: no references")
 
-# Programs of the shared recordings; xss-noof paints over what it painted before.
+# Programs of the shared recordings; xss-noof draws over its earlier picture.
 for name, first, begins in (("xss-queens", 70, 70), ("xss-noof", 1, 0)):
     trace = SCRATCH / f"shared-{name}.trace"
     if (TRACES / f"{name}.trace").exists():
@@ -103,7 +103,7 @@ for name, first, begins in (("xss-queens", 70, 70), ("xss-noof", 1, 0)):
               f"{name}: info says which frames show others: {facts['show_earlier']}")
         check(not new.with_suffix(".ref").exists(), f"{name}: no references, and none of an older recording")
 
-# Frames that are not there, and wrong usage: the code, one line, and no file.
+# Missing frames, and wrong usage: the code, one line, and no file.
 trace, new = live["viewer"], SCRATCH / "none.trace"
 for options in (("-f", "3-40"), ("-f", "40"), ("-f", "1,5"), ("-f", "1-5x2"), ("-f", "x"), ()):
     done = relume("trim", *options, "-o", new, trace)
@@ -112,7 +112,7 @@ for options in (("-f", "3-40"), ("-f", "40"), ("-f", "1,5"), ("-f", "1-5x2"), ("
 check(
     relume("trim", "-f", "1", "-o", trace, trace).returncode == 2 and trace.stat().st_size > 1000,
     "the recording is not overwritten")
-check(relume("trim", "-f", "1", "-o", "/dev/full/x", trace).returncode == 5, "a place where no file can be")
+check(relume("trim", "-f", "1", "-o", "/dev/full/x", trace).returncode == 5, "a place that cannot be written")
 check(relume("trim", "-f", "1", "-o", new, corpus("viewer")).returncode == 3 and not new.exists(), "not a trace")
-check(not list(SCRATCH.glob("*.part")), "no unfinished file is left")
+check(not list(SCRATCH.glob("*.part")), "no partial file is left")
 finish()

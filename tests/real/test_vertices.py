@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Vertices whose colours are no numbers, whose w is not 1, and that planes cut away: what tests/real/vertices.c draws
-is traced as it was rasterized."""
+"""Vertices with NaN colours, with w other than 1, and cut away by clip planes: tests/real/vertices.c traced equals its
+raster pictures."""
 from helpers import check_same_pictures, finish
 
 check_same_pictures("vertices", ("no numbers", "divided", "planes", "octagon", "provoking", "packed"))

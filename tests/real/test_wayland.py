@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A program with a Wayland window, under Weston without a screen (corpus/wayland): every frame passes every gate."""
+"""A program with a Wayland window, under headless Weston (corpus/wayland): every frame passes every gate."""
 from helpers import AS_SHOWN, RELUME, ROOT, SCRATCH, check_gates, corpus, diff, finish, must, render, run
 
 FRAMES = 10

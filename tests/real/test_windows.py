@@ -1,8 +1,7 @@
 #!/usr/bin/python3
-"""
-Two windows in one recording: each frame is its window's, and so is its reference, also where two threads swap at once
-(tests/real/windows.c).
-What a recording needs is told at its end and by `info`: several windows, programs, the size of references.
+"""Two windows in one recording: each frame and its reference belong to one window, even if two threads swap at once
+(tests/real/windows.c). The messages after recording and from `info` report needs: several windows, programs, the size
+of references.
 """
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, diff, finish, must, record, relume, render
 
@@ -43,17 +42,17 @@ check("reference" not in said, f"record without references says: {said}")
 info = must(relume("info", trace)).stdout
 check("programs that draws used" in info and "  program object " in info, f"info names programs: {info}")
 
-# What is missing is said before the first frame, and the exit code tells it; frames that fail alike share a row.
+# Missing features are reported before the first frame and by the exit code; frames that fail alike share a row.
 to = SCRATCH / "shaders.####.exr"
 done = relume("render", trace, "-o", to, "-f", "0-3", *AS_SHOWN)
 lines = done.stderr.splitlines()
 check(done.returncode == 6, f"missing draws: exit code {done.returncode}")
 check("missing, frames 0 to 9: glUseProgram: a shader samples texture units from 8 on" in lines[0],
-      f"missing draws are foretold: {done.stderr}")
+      f"missing draws are announced: {done.stderr}")
 check("draws are missing" in lines[-1], f"missing draws: {done.stderr}")
 done = relume("render", trace, "-o", to, "-f", "0-3", "--allow-incomplete", *AS_SHOWN)
 check(done.returncode == 0, f"--allow-incomplete: exit code {done.returncode}")
 done = relume("diff", SCRATCH / "windows.trace", SCRATCH / "frames", "-f", "0-14", "--table")
 check("  10-14 missing" in done.stdout and done.stdout.count("missing") == 2,
-      f"five frames that are missing have one row: {done.stdout}")
+      f"five missing frames share one row: {done.stdout}")
 finish()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Programs of Windows under Wine (`make windows`): what they record passes every gate, three corpus programs show the
-very pixels of their Linux builds, and text, shared lists and a pbuffer by WGL are as they were shown. The same three of
-32 bits, where `make i386` made a recorder for them, started by programs of either class. limit: 500 s
+"""Windows programs under Wine (`make windows`): their recordings pass every gate, three corpus programs show exactly
+the pixels of their Linux builds, and WGL's text, shared lists and pbuffers are as displayed. Also the same three as
+32-bit programs, started by programs of either class, if `make i386` has built a recorder for them. limit: 500 s
 """
 import json
 import os
@@ -24,10 +24,10 @@ must(on_display(both, "wineboot", "-i"))
 
 
 def check_recording(trace, name):
-    """Nothing is undone, and every frame passes every gate."""
+    """Every call is supported, and every frame passes every gate."""
     info = json.loads(must(relume("info", "--json", trace)).stdout)
     check(info["frames"] == FRAMES, f"{trace.name}: {info['frames']} frames")
-    check(not info["unsupported"], f"{trace.name}: not done: {info['unsupported']}")
+    check(not info["unsupported"], f"{trace.name}: unsupported: {info['unsupported']}")
     render(trace, frames_of(trace), *AS_SHOWN)
     _, score = diff(trace, frames_of(trace))
     check_gates(score, FRAMES, name)
@@ -55,7 +55,7 @@ for name, options in {**wine.PROGRAMS, "wgl": ()}.items():
         record(of_linux, BUILD / "i386/sse" / name, *options, *frames)
         check(shown(of_32_bits) == shown(of_linux), f"{name} of 32 bits: pixels are those of Linux")
 
-# Each class starts the other: Wine's loaders of 32 and 64 bits take turns.
+# Each class starts the other, using Wine's loaders for 32 and 64 bits in turn.
 if both != "wine":
     for shell, folder, alone in (("system32", "windows32", "tricks.32"), ("syswow64", "windows", "tricks")):
         trace = SCRATCH / f"{shell}.trace"
@@ -67,6 +67,6 @@ if both != "wine":
             shown(trace) == shown(SCRATCH / f"{alone}.trace"),
             f"{folder} started from {shell}: pixels are those of the program alone")
 else:
-    print("not tried: programs of 32 bits ('make i386 windows' has not been run)")
+    print("not tested: 32-bit programs ('make i386 windows' has not been run)")
 run("wineserver", "-k")
 finish()

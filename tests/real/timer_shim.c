@@ -1,6 +1,6 @@
 /*
- * Preloaded before the recorder by tests/show/overhead.py: prints milliseconds a frame of a program that never ends, by
- * the clock and of the processors' time, over SHIM_FRAMES frames after the first hundred, and ends it.
+ * Preloaded before the recorder by tests/show/overhead.py: measures a program that never ends, over SHIM_FRAMES frames
+ * after the first hundred, prints milliseconds per frame of wall time and processor time, and ends the program.
  */
 #include <dlfcn.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /*
- * A disc, half of it white, turns by 30 degrees a frame about its middle, and a white square of 6 pixels goes 24 pixels
- * to the right; a row of bars says which frame it is. Recorded by test_shutter.py.
+ * A half-white disc rotates by 30 degrees per frame about its middle, and a white square of 6 pixels moves 24 pixels to
+ * the right per frame; a row of bars shows the frame number. Recorded by test_shutter.py.
  */
 #include <math.h>
 

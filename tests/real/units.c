@@ -1,7 +1,7 @@
 /*
- * Surfaces with several textures, one of which is their own colour, told apart by their sizes: a shadow by alpha (2 x
- * 2), what is mirrored (8 x 8), and the colour (4 x 4). A frame has the colour behind the shadow and the mirror; the
- * next has the mirror first; the last has no colour. Recorded by test_export.py.
+ * Surfaces with several textures, one of them their own colour, distinguished by size: a shadow by alpha (2 x 2), a
+ * reflection (8 x 8), and the colour (4 x 4). The first frame has the colour after shadow and reflection; the next has
+ * the reflection first; the last has no colour. Recorded by test_export.py.
  */
 #include "tests/trace/window.h"
 
@@ -25,7 +25,7 @@ static void make_textures(void)
 	}
 }
 
-/* Give a unit one of the textures, and use it as what it is. */
+/* Bind one of the textures to a unit, with the environment for its purpose. */
 static void use(int unit, int texture)
 {
 	glActiveTexture(GL_TEXTURE0 + (GLenum)unit);

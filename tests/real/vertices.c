@@ -1,6 +1,6 @@
 /*
- * What vertices carry beyond the usual, one thing a frame: colours that are no numbers, positions whose w is not 1
- * under lights and fog, planes that cut them away. Recorded by test_vertices.py.
+ * Unusual vertex data, one kind per frame: NaN colours, positions with w other than 1 under lights and fog, and user
+ * clip planes. Recorded by test_vertices.py.
  */
 #include <math.h>
 
@@ -30,8 +30,8 @@ static void puff(float x, float y, float size, float alpha)
 	glEnd();
 }
 
-/* As hufo_smoke draws its smoke: the square root of a negative number as alpha; within the window, and cut by its
- * edge. */
+/* As hufo_smoke draws its smoke: the square root of a negative number as alpha; inside the window, and clipped by
+ * its edge. */
 static void no_numbers(void)
 {
 	glEnable(GL_BLEND);
@@ -63,8 +63,7 @@ static void panel(float x, float y, float w)
 	glEnd();
 }
 
-/* Distances to lights and viewer, spots and fog, where w differs from vertex to vertex; a light whose own w is not
- * 1. */
+/* Distances to lights and viewer, spots and fog, with w varying from vertex to vertex; a light whose own w is not 1. */
 static void divided(void)
 {
 	static const float place[4] = { 10, 15, 6, 1 }, shared[4] = { 60, 10, 12, 2 }, down[3] = { 0, 0, -1 },
@@ -118,8 +117,8 @@ static void star(unsigned mode)
 	glEnd();
 }
 
-/* What planes leave, added to what they cut away: gaps and overlaps show; along diagonals through pixel centres,
- * too. */
+/* The parts on both sides of planes, added up, so that gaps and overlaps show; also along diagonals through pixel
+ * centres. */
 static void planes(void)
 {
 	static const unsigned modes[] = { GL_TRIANGLES, GL_LINES, GL_POINTS };
@@ -152,7 +151,7 @@ static void planes(void)
 	glDisable(GL_BLEND);
 }
 
-/* An octagon that eight planes cut from a square, and the same added as a polygon. */
+/* An octagon cut from a square by eight planes, and the same added as a polygon. */
 static void octagon(void)
 {
 	glMatrixMode(GL_PROJECTION);
@@ -175,7 +174,7 @@ static void octagon(void)
 	glDisable(GL_BLEND);
 }
 
-/* All kinds of primitives, each vertex of another colour, under flat shading by either convention
+/* All kinds of primitives, each vertex with another colour, under flat shading with either convention
  * (ARB_provoking_vertex). */
 static void provoking(void)
 {
@@ -205,14 +204,14 @@ static void provoking(void)
 	glShadeModel(GL_SMOOTH);
 }
 
-/* Components of 10, 10, 10 and 2 bits. */
+/* Pack components of 10, 10, 10 and 2 bits. */
 static unsigned pack(int x, int y, int z, int w)
 {
 	return (unsigned)(x & 1023) | (unsigned)(y & 1023) << 10 | (unsigned)(z & 1023) << 20 | (unsigned)(w & 3) << 30;
 }
 
-/* Positions, colours, normals and texture coordinates that come packed, one by one, positions and colours as arrays,
- * too (ARB_vertex_type_2_10_10_10_rev). */
+/* Packed positions, colours, normals and texture coordinates, passed one by one, and positions and colours also as
+ * arrays (ARB_vertex_type_2_10_10_10_rev). */
 static void packed(void)
 {
 	static const int corners[4][2] = { { 4, 4 }, { 28, 4 }, { 28, 20 }, { 4, 20 } };
@@ -237,7 +236,7 @@ static void packed(void)
 	glVertexPointer(4, GL_INT_2_10_10_10_REV, 0, positions);
 	glColorPointer(4, GL_UNSIGNED_INT_2_10_10_10_REV, 0, colors);
 	glDrawArrays(GL_QUADS, 0, 4);
-	glVertexPointer(3, GL_INT_2_10_10_10_REV, 0, normals); /* refused: four components or none */
+	glVertexPointer(3, GL_INT_2_10_10_10_REV, 0, normals); /* refused: it must have four components */
 	glColorPointer(3, GL_INT_2_10_10_10_REV, 0, normals);
 	expect(glGetError() == GL_INVALID_OPERATION, "packed arrays of three components are refused");
 	glTranslatef(0, -2, 0);

@@ -1,6 +1,6 @@
 /*
- * What WGL does otherwise than GLX, for test_wine.py: text by wglUseFontBitmaps, a display list of another context by
- * wglShareLists, a picture that is drawn in a pbuffer. Ten frames of 320 x 240.
+ * Differences between WGL and GLX, for test_wine.py: text by wglUseFontBitmaps, a display list of another context
+ * through wglShareLists, a picture drawn in a pbuffer. Ten frames of 320 x 240.
  */
 #include <windows.h>
 #include <GL/gl.h>
@@ -51,7 +51,7 @@ static void open_window(void)
 	expect(wglMakeCurrent(window_device, window_context), "a context");
 }
 
-/* A list that another context makes, and this one calls. */
+/* A list compiled by another context and called by this one. */
 static void share_list(void)
 {
 	const HGLRC other = wglCreateContext(window_device);
@@ -71,7 +71,7 @@ static void share_list(void)
 	expect(wglMakeCurrent(window_device, window_context) && wglDeleteContext(other), "back to the window's context");
 }
 
-/* A picture that a context of a pbuffer draws, as a texture. */
+/* A texture drawn by a pbuffer's context. */
 static void make_texture(void)
 {
 	static unsigned char pixels[SIDE * SIDE * 4];
@@ -146,7 +146,7 @@ int main(void)
 	make_texture();
 	SelectObject(window_device, GetStockObject(SYSTEM_FONT));
 	expect(wglUseFontBitmapsA(window_device, ' ', 96, GLYPHS), "letters as lists");
-	/* Mesa 22.3.6 is out of memory for a blank's bitmap, which has no bytes, and leaves the blank's list empty */
+	/* Mesa 22.3.6 reports out of memory for a space, whose bitmap has no bytes, and leaves its list empty */
 	glGetError();
 	for (int frame = 0; frame < FRAMES; frame++) {
 		draw(frame);

@@ -1,6 +1,6 @@
 /*
  * Two windows of different sizes and colours, recorded by test_windows.py. One context draws to them in turn; with
- * "shaders" a program is current; with "threads" each has a thread and a context of its own, and both swap at the same
+ * "shaders" a program is in use; with "threads" each window has its own thread and context, and both swap at the same
  * time.
  */
 #include <pthread.h>
@@ -36,7 +36,7 @@ static void draw(int which, int frame, unsigned size)
 	glRectf(-0.5f, -0.5f, 0.1f * (float)frame, which ? 0.2f : 0.7f);
 }
 
-/* Its vertices are textured by what Relume does not run. */
+/* A shader whose vertices use a texture that Relume does not support. */
 static void make_program(void)
 {
 	const char *vertex = "uniform sampler2D heights;\n"
@@ -49,7 +49,7 @@ static void make_program(void)
 	glAttachShader(program, shader);
 	glLinkProgram(program);
 	glUseProgram(program);
-	glUniform1i(glGetUniformLocation(program, "heights"), 9); /* which Relume does not have */
+	glUniform1i(glGetUniformLocation(program, "heights"), 9); /* unsupported by Relume */
 }
 
 static void both_from_one(int shaders)

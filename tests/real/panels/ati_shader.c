@@ -1,11 +1,8 @@
-/*
- * Fragment shaders of ATI_fragment_shader: each instruction, argument, change and texture, over a square that leans
- * away.
- */
+/* ATI_fragment_shader: each instruction, argument, modifier and texture, on a tilted square. */
 #include "programs.h"
 
 #define CHANGES 16
-#define ONES 6 /* arguments that are the same for all */
+#define ONES 6 /* arguments common to all */
 
 static const GLenum registers[6] = {
 	GL_REG_0_ATI, GL_REG_1_ATI, GL_REG_2_ATI, GL_REG_3_ATI, GL_REG_4_ATI, GL_REG_5_ATI
@@ -23,7 +20,7 @@ static void begin(void)
 	glSetFragmentShaderConstantATI(GL_CON_7_ATI, (const float[4]){ 0.45f, 0.4f, 0.5f, 0.45f });
 }
 
-/* The result, within what shows. */
+/* Scale the result into the visible range. */
 static void end(void)
 {
 	glColorFragmentOp3ATI(GL_MAD_ATI, registers[0], GL_NONE, GL_NONE, registers[0], GL_NONE, GL_NONE, GL_CON_6_ATI,
@@ -46,7 +43,7 @@ static void set_registers(void)
 		glPassTexCoordATI(registers[k], GL_TEXTURE0 + k, k == 1 ? GL_SWIZZLE_STQ_ATI : GL_SWIZZLE_STR_ATI);
 }
 
-/* Each instruction, of colours and of alpha, of inputs below 0 and above 1 as well. */
+/* Each instruction, for colours and for alpha, with inputs below 0 and above 1. */
 static void instruction(int i)
 {
 	static const GLenum ones[] = { GL_MOV_ATI }, twos[] = { GL_ADD_ATI, GL_MUL_ATI, GL_SUB_ATI, GL_DOT3_ATI, GL_DOT4_ATI };
@@ -69,7 +66,7 @@ static void instruction(int i)
 	end();
 }
 
-/* An argument's component and its changes: twice, complement, negation, bias. */
+/* Each argument component and modifier: times two, complement, negation, bias. */
 static void argument(int i)
 {
 	static const GLenum components[5] = { GL_NONE, GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA };
@@ -83,7 +80,7 @@ static void argument(int i)
 	end();
 }
 
-/* Where results go: some of the colours, by factors, clamped. */
+/* Destinations: write masks, scale factors, saturation. */
 static void destination(int i)
 {
 	static const GLuint factors[7] = { GL_NONE,         GL_2X_BIT_ATI,      GL_4X_BIT_ATI,    GL_8X_BIT_ATI,
@@ -99,7 +96,7 @@ static void destination(int i)
 	end();
 }
 
-/* What is no register: constants of the shader and of the context, colours. */
+/* Sources other than registers: constants of the shader and of the context, colours. */
 static void source(int i)
 {
 	static const GLenum sources[ONES] = {
@@ -115,8 +112,9 @@ static void source(int i)
 }
 
 /*
- * Coordinates passed on or looked up by, each swizzle, each kind of texture; in a second pass by what the first has
- * made, but for the cube: which of two texels is nearest to a computed direction differs in one of 200 pixels.
+ * Coordinates passed on or used for look-ups, each swizzle, each kind of texture; in the second pass also with
+ * coordinates computed by the first, except for the cube: for 1 in 200 pixels, Mesa finds another nearest texel for a
+ * computed direction.
  */
 static void texture(int i)
 {

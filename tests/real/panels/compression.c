@@ -1,7 +1,7 @@
 /*
- * Plain images in formats that Mesa compresses as it takes them (EXT_texture_compression_s3tc; the generic formats of
- * OpenGL 2.1 sec. 3.8.1): a texel a pixel, so that each block shows what was kept of it. And those that come with less
- * than a colour a texel.
+ * Uncompressed images in formats that Mesa compresses on upload (EXT_texture_compression_s3tc; the generic formats of
+ * OpenGL 2.1 sec. 3.8.1), one texel per pixel, so that the result of each block is visible. Also formats with less than
+ * one colour per texel.
  */
 #include "panels.h"
 
@@ -9,7 +9,7 @@ enum { SIDE = PANEL, N_FORMATS = 8, N_IMAGES = 12 };
 
 static GLubyte texels[SIDE][SIDE][4];
 
-/* A texel's channel: noise, slopes, edges, nearly one colour, few levels; alpha of as many kinds. */
+/* A texel's channel: noise, slopes, edges, nearly one colour, few levels; the same kinds for alpha. */
 static GLubyte texel(int image, int x, int y, int channel)
 {
 	const unsigned at = (unsigned)((y * SIDE + x) * 4 + channel), block = (unsigned)(y / 4 * 8 + x / 4 + 100 * channel);
@@ -73,7 +73,7 @@ static void whole(int i)
 	glTexImage2D(GL_TEXTURE_2D, 0, formats[format], SIDE, SIDE, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 }
 
-/* Sizes that cut blocks, and parts given anew. */
+/* Sizes that cut blocks, and parts that are replaced. */
 static void parts(int i)
 {
 	const int format = choose(&i, N_FORMATS), how = choose(&i, 2);
@@ -86,7 +86,7 @@ static void parts(int i)
 	}
 }
 
-/* Levels made of it: the second. */
+/* Generated mipmaps: shows the second level. */
 static void levels(int i)
 {
 	const int format = choose(&i, N_FORMATS);
@@ -97,7 +97,7 @@ static void levels(int i)
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 1 + i % 2);
 }
 
-/* What was drawn, copied. */
+/* Copied from the framebuffer. */
 static void copied(int i)
 {
 	const int format = choose(&i, N_FORMATS);
@@ -109,8 +109,8 @@ static void copied(int i)
 	glDrawPixels(SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 }
 
-/* Brightness, two and two with one colour (MESA_ycbcr_texture): both orders, swapped, filtered, of odd sizes, a part
- * given anew. */
+/* Luminance with one colour for two texels (MESA_ycbcr_texture): both orders, swapped, filtered, odd sizes, a part
+ * replaced. */
 static void ycbcr(int i)
 {
 	static const GLenum types[2] = { GL_UNSIGNED_SHORT_8_8_MESA, GL_UNSIGNED_SHORT_8_8_REV_MESA };

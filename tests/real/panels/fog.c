@@ -1,6 +1,4 @@
-/*
- * Fog and colour sum (OpenGL 2.1 sec. 3.9 and 3.10): a slope that leads away from the viewer.
- */
+/* Fog and colour sum (OpenGL 2.1 sec. 3.9 and 3.10) on a slope that recedes from the viewer. */
 #include "panels.h"
 
 static void slope(float near, float far)
@@ -28,7 +26,7 @@ static void fog_color(float r, float g, float b, float a)
 	glFogfv(GL_FOG_COLOR, (const float[4]){ r, g, b, a });
 }
 
-/* Each mode, each density or range, by depth and by coordinates, with and without the sum of colours. */
+/* Each mode, density or range, by depth and by coordinates, with and without colour sum. */
 static void mode(int i)
 {
 	static const GLenum modes[3] = { GL_EXP, GL_EXP2, GL_LINEAR };
@@ -48,7 +46,7 @@ static void mode(int i)
 	fog_color(0.2f, 0.4f, texture ? 0.9f : 0.1f, 0.5f);
 }
 
-/* How far from the viewer fog is measured (NV_fog_distance); half of the slope lies to his side. */
+/* Ways of measuring fog distance (NV_fog_distance); half of the slope is to the viewer's side. */
 static void distance(int i)
 {
 	static const GLenum distances[3] = { GL_EYE_RADIAL_NV, GL_EYE_PLANE, GL_EYE_PLANE_ABSOLUTE_NV };
@@ -60,7 +58,7 @@ static void distance(int i)
 	glTranslatef(aside ? 0.8f : 0, 0, 0);
 }
 
-/* Colours of the fog that leave [0, 1]; orthographic projections; alpha, which fog leaves alone. */
+/* Fog colours outside [0, 1]; orthographic projections; alpha, which fog leaves unchanged. */
 static void colored(int i)
 {
 	const int r = choose(&i, 3), ortho = choose(&i, 2), blend = choose(&i, 2), sum = choose(&i, 2), flat = choose(&i, 2);
@@ -83,7 +81,7 @@ static void colored(int i)
 	glShadeModel(flat ? GL_FLAT : GL_SMOOTH);
 }
 
-/* Lit colours and their highlights, kept apart or not, beyond 1 before the fog. */
+/* Lit colours and highlights, separate or not, above 1 before fog. */
 static void lit(int i)
 {
 	static const float white[4] = { 1, 1, 1, 1 }, bright[4] = { 2.5f, 1.5f, 0.8f, 1 };
@@ -115,7 +113,7 @@ static void draw_lit(int i)
 	glEnd();
 }
 
-/* Points and lines, images and bitmaps: fog of what has one depth. */
+/* Points and lines, images and bitmaps: fog of primitives with one depth. */
 static void other(int i)
 {
 	mode(i % 12);

@@ -1,10 +1,10 @@
 /*
- * Per-fragment operations (OpenGL 2.1 sec. 4.1) and what decides on fragments before them: three squares, one above the
- * other, of which the upper two overlap.
+ * Per-fragment operations (OpenGL 2.1 sec. 4.1) and earlier state that discards fragments: three squares at increasing
+ * height, the upper two overlapping.
  */
 #include "panels.h"
 
-/* Square k of those, from the lowest. */
+/* Square k, counted from the lowest. */
 static void square(int k)
 {
 	const float x = -0.9f + 0.35f * (float)k, y = -0.9f + 0.3f * (float)k, z = 0.3f - 0.2f * (float)k;
@@ -35,7 +35,7 @@ static const GLenum factors[15] = {
 	GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_SRC_ALPHA_SATURATE
 };
 
-/* Each factor of the source with each of the destination, for the first twelve and from the fourth on. */
+/* Each source factor with each destination factor; the first twelve factors, and those from the fourth on. */
 static void factor(int i, int first)
 {
 	const int source = choose(&i, 15), target = first + choose(&i, 12);
@@ -54,7 +54,7 @@ static void factor_high(int i)
 	factor(i, 2);
 }
 
-/* Equations, and factors and equations of alpha apart from those of colours. */
+/* Equations, and separate factors and equations for alpha. */
 static void equation(int i)
 {
 	static const GLenum equations[5] = { GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX };
@@ -65,7 +65,7 @@ static void equation(int i)
 	glBlendFuncSeparate(factors[how + 4], factors[how], factors[6 + how], factors[11 - how]);
 }
 
-/* After which one more square shows what alpha was left. */
+/* Afterwards another square shows the alpha that was stored. */
 static void draw_equation(int i)
 {
 	draw_blended(i);
@@ -85,7 +85,7 @@ static void draw_squares(int i)
 		square(k);
 }
 
-/* Alpha and depth tests, ranges of depth, masks, logic ops, faces left out, stipple, offset. */
+/* Alpha and depth tests, depth ranges, masks, logic ops, culling, stipple, offset. */
 static void test(int i)
 {
 	const int what = i / 16, how = i % 16, c = how % 8;
@@ -129,7 +129,7 @@ static void test(int i)
 static const GLenum operations[8] = { GL_KEEP,      GL_ZERO, GL_REPLACE,   GL_INCR,
 	                              GL_INCR_WRAP, GL_DECR, GL_DECR_WRAP, GL_INVERT };
 
-/* Stencil functions, operations at each of their three places, masks and values at the ends of their range. */
+/* Stencil functions, operations for each of the three outcomes, masks and values at the ends of their range. */
 static void stencil(int i)
 {
 	const int function = choose(&i, 8), operation = choose(&i, 8), place = choose(&i, 3);
@@ -144,7 +144,7 @@ static void stencil(int i)
 	            operations[place == 2 ? operation : 7]);
 }
 
-/* What the stencil holds after, in four steps of it. */
+/* Show the final stencil values in four ranges. */
 static void show_stencil(void)
 {
 	glDisable(GL_DEPTH_TEST);
@@ -166,7 +166,7 @@ static void draw_stencilled(int i)
 	show_stencil();
 }
 
-/* A stencil of two sides (sec. 4.1.4): back faces count down where front faces count up. */
+/* Two-sided stencil (sec. 4.1.4): back faces decrement, front faces increment. */
 static void sided(int i)
 {
 	const int front = choose(&i, 8), back = choose(&i, 8);
@@ -191,7 +191,7 @@ static void draw_sided(int i)
 	show_stencil();
 }
 
-/* User planes (sec. 2.12), one to six of them; points and lines are cut, too. */
+/* User clip planes (sec. 2.12), one to six of them; points and lines are clipped, too. */
 static void clipped(int i)
 {
 	const int n = 1 + choose(&i, 6), turn = choose(&i, 4), mode = choose(&i, 3);
@@ -207,7 +207,7 @@ static void clipped(int i)
 	glPointSize(3);
 }
 
-/* What reaches in front of the near plane, of which an edge lies on it; in lines and points, too. */
+/* Geometry that crosses the near plane, with an edge on it; also as lines and points. */
 static void nearby(int i)
 {
 	const int mode = choose(&i, 3), tilt = choose(&i, 8), turn = choose(&i, 3);
@@ -221,7 +221,7 @@ static void nearby(int i)
 	glPointSize(3);
 }
 
-/* Alphas at the reference, and one code beside it. */
+/* Alpha equal to the reference, and one code on either side. */
 static void at_reference(int i)
 {
 	static const int codes[8] = { 1, 2, 77, 102, 127, 128, 204, 254 };

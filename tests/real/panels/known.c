@@ -1,6 +1,6 @@
 /*
- * Where Mesa departs from OpenGL, which a report tells: colours of back sides alone that are the vertices', as other
- * panels have them for both sides. Recorded by test_known.py.
+ * Differences between Mesa and OpenGL that a report lists: colour material for back sides only, where other panels use
+ * it for both sides. Recorded by test_known.py.
  */
 #include "panels.h"
 

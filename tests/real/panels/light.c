@@ -1,11 +1,9 @@
-/*
- * Lighting (OpenGL 2.1 sec. 2.14): a bowl that bends to all sides, under each term of the equations.
- */
+/* Lighting (OpenGL 2.1 sec. 2.14): a bowl with normals in all directions, under each term of the equations. */
 #include <math.h>
 
 #include "panels.h"
 
-/* A cap of a ball that opens to the viewer (up: 1) or away from them (-1); its edge looks to the side. */
+/* A spherical cap that opens towards the viewer (up: 1) or away from them (-1); its rim faces sideways. */
 static void cap(float up, float longer)
 {
 	enum { RINGS = 5, SECTORS = 10 };
@@ -57,7 +55,7 @@ static void material(float shininess)
 	glMaterialf(GL_FRONT_AND_BACK, GL_SHININESS, shininess);
 }
 
-/* Each factor of attenuation, alone and with the others, for lights near and far, with any w. */
+/* Each attenuation factor, alone and with the others, for near and far lights with any w. */
 static void attenuation(int i)
 {
 	static const float constants[3] = { 1, 0.3f, 2 }, linears[4] = { 0, 0.25f, 1, 3 }, squares[4] = { 0, 0.1f, 0.6f, 2 };
@@ -73,7 +71,9 @@ static void attenuation(int i)
 	glLightf(GL_LIGHT0, GL_QUADRATIC_ATTENUATION, squares[q]);
 }
 
-/* Cones of each width and sharpness, towards the cap and past it; those of directional lights count, too. */
+/*
+ * Cones of each width and exponent, aimed at the cap and past it; also for directional lights, where they count, too.
+ */
 static void spot(int i)
 {
 	static const float cutoffs[6] = { 180, 90, 61, 34, 12, 0 }, exponents[5] = { 0, 1, 4.5f, 40, 128 };
@@ -87,8 +87,8 @@ static void spot(int i)
 	glLightfv(GL_LIGHT0, GL_SPOT_DIRECTION, directions[d]);
 }
 
-/* Each colour of light, material and model alone: the light's three, the material's four, the model's; colours below 0
- * and above 1. */
+/* Each colour of light, material and model alone: three of the light, four of the material, one of the model;
+ * colours below 0 and above 1. */
 static void term(int i)
 {
 	static const float black[4] = { 0, 0, 0, 1 }, bright[4] = { 1.4f, 0.6f, 0.3f, 0.5f },
@@ -111,7 +111,7 @@ static void term(int i)
 	glLightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, local);
 }
 
-/* Highlights of each sharpness. */
+/* Each shininess. */
 static void shininess(int i)
 {
 	static const float sharp[8] = { 0, 0.5f, 1, 2.5f, 10, 33, 90, 128 };
@@ -126,7 +126,7 @@ static void shininess(int i)
 	glLightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, local);
 }
 
-/* Sides and the colours that vertices give to materials. */
+/* Two-sided lighting, and vertex colours as material colours. */
 static void side(int i)
 {
 	static const GLenum modes[5] = { GL_EMISSION, GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_AMBIENT_AND_DIFFUSE };
@@ -141,7 +141,7 @@ static void side(int i)
 	light(1, -0.5f, 0.1f, -1.4f, 0);
 	glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, two);
 	glFrontFace(clockwise ? GL_CW : GL_CCW);
-	/* Mesa (22.3.6) leaves green and blue of a back side unknown whose colours alone are the vertices'. */
+	/* Mesa (22.3.6) leaves a back side's green and blue undefined if vertex colours apply to back sides only. */
 	glColorMaterial(faces[two && face == 1 ? 2 : face], modes[mode]);
 	if (tracked)
 		glEnable(GL_COLOR_MATERIAL);
@@ -152,7 +152,7 @@ static void draw_side(int i)
 	cap(i / 5 % 2 ? 1 : -1, 1);
 }
 
-/* Normals of other lengths under matrices that stretch, turn and mirror. */
+/* Normals of other lengths under matrices that stretch, rotate and mirror. */
 static void normal(int i)
 {
 	static const float scales[6][3] = { { 1, 1, 1 },       { 0.5f, 0.5f, 0.5f },  { 1.1f, 1.1f, 1.1f },
@@ -176,7 +176,7 @@ static void draw_normal(int i)
 	cap(1, i / 48 % 2 ? 1 : 0.6f);
 }
 
-/* So short that a float does not hold their squares, or not whole. */
+/* Normals whose squares underflow a float, wholly or partly. */
 static void draw_short_normal(int i)
 {
 	static const float lengths[4] = { 1e-17f, 3e-21f, 1e-30f, 3e-39f };
@@ -184,7 +184,7 @@ static void draw_short_normal(int i)
 	cap(1, lengths[i / 48 % 4]);
 }
 
-/* All lights there are, each of another kind. */
+/* All lights at once, each of a different kind. */
 static void many(int i)
 {
 	material(25);
@@ -197,7 +197,7 @@ static void many(int i)
 		}
 }
 
-/* Which vertex gives a flat colour, by primitive (sec. 2.14.7), lit and not. */
+/* The vertex that provides the flat colour of each primitive (sec. 2.14.7), lit and unlit. */
 static void flat(int i)
 {
 	const int lit = choose(&i, 2), back = choose(&i, 2);

@@ -1,6 +1,6 @@
 /*
- * Lines in dashes (OpenGL 2.1 sec. 3.4.2): where the pattern starts anew and where it goes on, of lines and strips, of
- * polygons drawn as lines, whole and cut, by whatever way the vertices come.
+ * Stippled lines (OpenGL 2.1 sec. 3.4.2): where the pattern restarts and where it continues, for lines and strips and
+ * for polygons drawn as lines, whole and clipped, from all ways of passing vertices.
  */
 #include <math.h>
 
@@ -13,8 +13,8 @@ enum way { IMMEDIATE, LIST, ARRAYS, ELEMENTS, N_WAYS, TWO_IN_LIST = N_WAYS, N_ST
 static float corners[CORNERS][3];
 static int n_corners;
 
-/* Corners of a line that turns back and forth: sides of no whole number of pixels. reach: how far out they lie, the
- * square's side being 1 */
+/* Corners of a zigzag line whose segments do not have integer lengths. reach: their distance from the middle; the
+ * square's side is 1 */
 static void zigzag(int n, float reach, unsigned seed)
 {
 	n_corners = n;
@@ -27,7 +27,7 @@ static void zigzag(int n, float reach, unsigned seed)
 	}
 }
 
-/* Corners of a round; two by two as strips of quads have them */
+/* Corners of a ring; in pairs, as quad strips need them */
 static void round_of(int n, float reach, int by_pairs)
 {
 	n_corners = n;
@@ -95,7 +95,7 @@ static void pattern(int factor, int which)
 static enum way way;
 static GLenum mode;
 
-/* Lines, strips, loops: each pattern and factor, by each way. */
+/* Lines, strips, loops: each pattern and factor, passed in each way. */
 static void strips(int i)
 {
 	static const GLenum modes[3] = { GL_LINE_STRIP, GL_LINES, GL_LINE_LOOP };
@@ -116,8 +116,8 @@ static void draw_strip(int i)
 	draw_corners(way, mode);
 }
 
-/* The same as wide, flat and smooth lines. Not smooth and flat at once: lines that are neither are flat after those
- * with Mesa (22.3.6). */
+/* The same with wide, flat and smooth lines. Smooth and flat are not combined: in Mesa (22.3.6), later lines that
+ * are neither become flat. */
 static void kinds(int i)
 {
 	static const GLenum modes[3] = { GL_LINE_STRIP, GL_LINES, GL_LINE_LOOP };
@@ -137,7 +137,10 @@ static void kinds(int i)
 	zigzag(5, 0.9f, 5);
 }
 
-/* Lines that leave the view volume, by its sides or by planes, and come back; with their first line inside or not. */
+/*
+ * Lines that leave the view volume, through its sides or clip planes, and return; with the first segment inside or
+ * outside.
+ */
 static void cut(int i)
 {
 	static const GLenum modes[3] = { GL_LINE_STRIP, GL_LINES, GL_LINE_LOOP };
@@ -152,7 +155,7 @@ static void cut(int i)
 	zigzag(8, i & 1 ? 2.5f : 1.4f, (unsigned)i);
 }
 
-/* Corners that two lines share: lines start anew there, strips go on. */
+/* Corners shared by two lines: separate lines restart there, strips continue. */
 static void shared(int i)
 {
 	int factor;
@@ -175,7 +178,7 @@ static void draw_shared(int i)
 	glDisableClientState(GL_VERTEX_ARRAY);
 }
 
-/* Polygons drawn as lines: each mode, whole and cut, flat and smooth, by each way. */
+/* Polygons drawn as lines: each mode, whole and clipped, flat and smooth, passed in each way. */
 static void unfilled(int i)
 {
 	static const GLenum modes[6] = { GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN,
@@ -190,7 +193,7 @@ static void unfilled(int i)
 	         mode == GL_QUAD_STRIP || mode == GL_TRIANGLE_STRIP);
 }
 
-/* Sides that are not drawn: of triangles, quads and polygons, whole and cut. */
+/* Edge flags: of triangles, quads and polygons, whole and clipped. */
 static void edges(int i)
 {
 	static const GLenum modes[3] = { GL_TRIANGLES, GL_QUADS, GL_POLYGON };
@@ -213,8 +216,7 @@ static void draw_edges(int i)
 	glEdgeFlag(GL_TRUE);
 }
 
-/* Chains of lines shorter than a pixel: one end lies beside a pixel's centre, nearer than llvmpipe tells places
- * apart. */
+/* Chains of lines shorter than a pixel; one end is beside a pixel's centre, closer than llvmpipe's precision. */
 static void short_chain(int i)
 {
 	const int by = choose(&i, 8), length = choose(&i, 3), beside = choose(&i, 2), width = choose(&i, 2);
@@ -248,7 +250,7 @@ static void draw_chain(int i)
 	glDisable(GL_BLEND);
 }
 
-/* Lines through an image with levels of detail, coarse and fine, near and far, by fixed function and by a program. */
+/* Lines across an image with mipmaps, coarse and fine, near and far, by fixed function and by a program. */
 static void textured(int i)
 {
 	static const GLenum filters[4] = { GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_NEAREST,

@@ -1,6 +1,6 @@
 /*
- * Windows full of panels: each panel draws the same thing under a state of its own, so that one frame tries a whole
- * table of modes, functions, operands or terms of a chapter of the specification. Recorded by test_panels.py.
+ * Windows full of panels. Each panel draws the same object under different state, so that one frame covers a whole
+ * table of modes, functions, operands or terms from a chapter of the specification. Recorded by test_panels.py.
  */
 #pragma once
 
@@ -11,17 +11,19 @@
 
 enum { PANEL = 20, ACROSS = 16, DOWN = 12, PANELS = ACROSS * DOWN };
 
-/** A table: how many rows it has, what sets the state of row i, and what is drawn then in a square from -1 to 1. */
+/**
+ * A table: its number of rows, a function that sets the state of row i, and one that draws into a square from -1 to 1.
+ */
 struct table {
 	int n;
 	void (*set)(int i);
 	void (*draw)(int i);
 };
 
-/** The extension without which a program's last table is left out; NULL: it needs none. */
+/** The extension that a program's last table needs; without it the table is omitted. NULL: none. */
 static const char *last_needs;
 
-/* A table that is one product of choices: the choice of `count` at this place, as i is used up. */
+/* For a table that is a product of choices: returns the current choice out of `count` and divides i by count. */
 static inline int choose(int *i, int count)
 {
 	const int chosen = *i % count;
@@ -38,7 +40,7 @@ static inline float noise(unsigned i)
 	return (float)(i >> 8 & 0xffff) / 65536;
 }
 
-/* turn: the how manieth time the tables are drawn, each time from another side */
+/* turn: how often the tables have been drawn, each time from another side */
 static inline void set_matrices(int turn)
 {
 	glMatrixMode(GL_PROJECTION);
@@ -67,14 +69,14 @@ static inline void draw_table(const struct table *t, int turn)
 		t->set(i);
 		t->draw(i);
 		glPopAttrib();
-		glDisable(GL_COLOR_SUM); /* Mesa (22.3.6) does not bring these two back */
+		glDisable(GL_COLOR_SUM); /* Mesa (22.3.6) does not restore these two */
 		glFogi(GL_FOG_COORD_SRC, GL_FRAGMENT_DEPTH);
 		glActiveTexture(GL_TEXTURE0);
 	}
 }
 
-/** Opens the window, and draws each table as a frame; again, turned, until there are as many as PANEL_FRAMES in the
- * environment asks for. */
+/** Opens the window and draws each table as a frame; then rotated versions, up to the number of frames in the
+ * environment variable PANEL_FRAMES. */
 static inline void draw_tables(const struct table *tables, size_t n, void (*prepare)(void))
 {
 	const char *frames = getenv("PANEL_FRAMES");

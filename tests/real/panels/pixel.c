@@ -1,6 +1,5 @@
 /*
- * Pixel rectangles and bitmaps (OpenGL 2.1 sec. 3.6, 3.7, 4.3.3): how they are unpacked, transferred, zoomed, and put
- * into the window.
+ * Pixel rectangles and bitmaps (OpenGL 2.1 sec. 3.6, 3.7, 4.3.3): unpacking, transfer, zoom, and writing to the window.
  */
 #include "panels.h"
 
@@ -32,7 +31,7 @@ static void draw_rgba(int i)
 	glDrawPixels(SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, bytes);
 }
 
-/* Each format with each type of whole colours. */
+/* Each format with each integer type. */
 static void format(int i)
 {
 	(void)i;
@@ -69,7 +68,7 @@ static void draw_packed(int i)
 	glPixelStorei(GL_UNPACK_SWAP_BYTES, 0);
 }
 
-/* Rows that are longer, and begin later, than what is drawn; with each alignment. */
+/* Row lengths and skips larger than the rectangle, with each alignment. */
 static void draw_stored(int i)
 {
 	static const int alignments[4] = { 1, 2, 4, 8 };
@@ -93,7 +92,7 @@ static void draw_stored(int i)
 	glPixelStorei(GL_UNPACK_LSB_FIRST, 0);
 }
 
-/* Scales and biases of each channel, and the maps of colours. */
+/* Scale and bias of each channel, and the colour maps. */
 static void transfer(int i)
 {
 	static const GLenum scales[4] = { GL_RED_SCALE, GL_GREEN_SCALE, GL_BLUE_SCALE, GL_ALPHA_SCALE };
@@ -118,7 +117,7 @@ static void transfer(int i)
 	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-/* The maps are not among what glPopAttrib brings back. */
+/* glPopAttrib does not restore the maps. */
 static void reset_maps(void)
 {
 	static const GLenum maps[4] = { GL_PIXEL_MAP_R_TO_R, GL_PIXEL_MAP_G_TO_G, GL_PIXEL_MAP_B_TO_B, GL_PIXEL_MAP_A_TO_A };
@@ -133,7 +132,7 @@ static void draw_transferred(int i)
 	reset_maps();
 }
 
-/* Indices through their shift, offset and maps. */
+/* Indices through shift, offset and maps. */
 static void indexed(int i)
 {
 	const int shift = choose(&i, 5) - 2, offset = choose(&i, 3);
@@ -155,7 +154,7 @@ static void draw_indexed(int i)
 	glDrawPixels(SIDE, SIDE, GL_COLOR_INDEX, i % 2 ? GL_UNSIGNED_BYTE : GL_UNSIGNED_SHORT, bytes);
 }
 
-/* As drawn, but by way of a texture. */
+/* As drawn pixels, but uploaded as a texture. */
 static void draw_uploaded(GLenum format, GLenum type)
 {
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -187,7 +186,7 @@ static void draw_indexed_texture(int i)
 
 static const float zooms[8] = { 1, 0.5f, 2.5f, -0.5f, -1.5f, 3, 0.6f, -1 };
 
-/* Zooms of any size and sign, from places off the pixels' corners. */
+/* Zooms of any size and sign, from positions between pixels. */
 static void draw_zoomed(int i)
 {
 	const int x = choose(&i, 8), y = choose(&i, 8), copy = choose(&i, 2);
@@ -206,7 +205,7 @@ static void draw_zoomed(int i)
 		glDrawPixels(SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, bytes);
 }
 
-/* What lies in the depth or the stencil buffer, shown by what passes. */
+/* Show the depth or stencil buffer's contents by drawing with tests. */
 static void show_passing(void)
 {
 	glColorMask(1, 1, 1, 1);
@@ -250,7 +249,7 @@ static void draw_copied_depths(int i)
 	show_passing();
 }
 
-/* Depths and stencils: drawn, then shown by what passes. */
+/* Depths and stencils: drawn, then shown by drawing with tests. */
 static void draw_depths(int i)
 {
 	const int stencil = choose(&i, 2), how = choose(&i, 4), type = choose(&i, 2);
@@ -277,7 +276,7 @@ static void draw_depths(int i)
 	show_passing();
 }
 
-/* What rectangles go through: textures, lights that lit the raster position, tests, the sum of colours. */
+/* Later stages that rectangles pass through: textures, a lit raster position, tests, colour sum. */
 static void through(int i)
 {
 	const int what = choose(&i, 8);
@@ -346,7 +345,7 @@ static void draw_listed(int i)
 	static const unsigned char nothing[sizeof(all_bytes)];
 	static const float map[16] = { 0.9f, 0.1f, 0.8f, 0.3f,  0.7f,  0,     1,     0.5f,
 		                       0.2f, 0.6f, 0.4f, 0.15f, 0.85f, 0.35f, 0.65f, 0.05f };
-	/* Mesa (22.3.6) takes a map's offset for a pointer */
+	/* Mesa (22.3.6) treats a map's buffer offset as a pointer */
 	const int what = choose(&i, 6), in_buffer = choose(&i, 2) && what != 5;
 	const int is_laid_out = choose(&i, 2), twice = choose(&i, 2);
 	const size_t offset = what == 5 ? 8 : 3;
@@ -364,7 +363,8 @@ static void draw_listed(int i)
 	}
 	glPixelStorei(GL_UNPACK_ROW_LENGTH, is_laid_out ? 33 : 0);
 	glPixelStorei(GL_UNPACK_SKIP_PIXELS, is_laid_out);
-	for (GLuint list = 1; list <= 1 + (GLuint)twice; list++) { /* the same pixels in two lists: the last one is called */
+	for (GLuint list = 1; list <= 1 + (GLuint)twice; list++) { /* the same pixels in two lists; the last one is
+	                                                            * called */
 		glNewList(list, GL_COMPILE);
 		give(what, in_buffer ? (const unsigned char *)offset : copy + offset);
 		glEndList();

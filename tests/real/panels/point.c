@@ -1,6 +1,4 @@
-/*
- * Points (OpenGL 2.1 sec. 3.3): their sizes by distance, what fades below the threshold, smooth ones' rims, sprites.
- */
+/* Points (OpenGL 2.1 sec. 3.3): distance attenuation, fading below the threshold, smooth rims, sprites. */
 #include "panels.h"
 
 static void draw_points(int i)

@@ -1,10 +1,7 @@
-/*
- * Fragment programs (ARB_fragment_program): each instruction, operand, binding and option, over a square that leans
- * away.
- */
+/* ARB_fragment_program: each instruction, operand, binding and option, on a tilted square. */
 #include "programs.h"
 
-/* Shade what follows by the text. */
+/* Set a fragment program for the following draws. */
 static void shade(const char *text)
 {
 	set_program(GL_FRAGMENT_PROGRAM_ARB, "!!ARBfp1.0", text);
@@ -16,7 +13,7 @@ static void shade(const char *text)
 	glActiveTexture(GL_TEXTURE0);
 }
 
-/* Each instruction, of inputs that are below 0 and above 1 as well; saturated or not, to all components or two. */
+/* Each instruction, with inputs below 0 and above 1; saturated or not, writing all components or two. */
 static void instruction(int i)
 {
 	static const char *const forms[30] = {
@@ -57,7 +54,7 @@ static void instruction(int i)
 	const char *positive = strchr(forms[form], '|');
 
 	snprintf(one, sizeof(one), "%s", forms[form]);
-	if (positive) /* of a number above 0 */
+	if (positive) /* defined for numbers above 0 */
 		one[positive - forms[form]] = 'p';
 	snprintf(line, sizeof(line), one, saturates ? "_SAT" : "",
 	         form == 22 || form == 27 ? (mask ? ".x" : ".xy") : masks[mask]);
@@ -69,7 +66,7 @@ static void instruction(int i)
 	shade(text);
 }
 
-/* Each binding of state, parameters in arrays and alone. */
+/* Each binding of state, and parameters in arrays and alone. */
 static void binding(int i)
 {
 	static const char *const names[48] = {
@@ -100,9 +97,7 @@ static void binding(int i)
 	glProgramLocalParameter4fvARB(GL_FRAGMENT_PROGRAM_ARB, 5, (const float[4]){ 0.7f, 0.2f, (float)i / 48, 0.5f });
 }
 
-/*
- * Textures: kinds, coordinates that the program has made, levels, projections.
- */
+/* Textures: kinds, computed coordinates, levels, projection. */
 static void texture(int i)
 {
 	static const char *const texts[16] = {
@@ -155,8 +150,8 @@ static void draw_textured(int i)
 	glMatrixMode(GL_MODELVIEW);
 }
 
-/* Fragments that are discarded, other depths, fog by option, lit and flat colours, points and lines, blending and tests
- * after the program. */
+/* Discarded fragments, written depth, fog options, lit and flat colours, points and lines, blending and tests after
+ * the program. */
 static void fragment(int i)
 {
 	static const char *const texts[8] = {
@@ -197,7 +192,7 @@ static void fragment(int i)
 static void draw_fragments(int i)
 {
 	draw_square(i);
-	glBegin(i / 8 % 2 ? GL_LINES : GL_TRIANGLES); /* something behind and before it */
+	glBegin(i / 8 % 2 ? GL_LINES : GL_TRIANGLES); /* geometry behind and in front */
 	for (int k = 0; k < 6; k++) {
 		glColor4f(0.9f, 0.15f * (float)k, 0.3f, 0.8f);
 		glVertex3f(0.9f - 0.35f * (float)k, k % 2 ? -0.9f : 0.9f, 0.4f - 0.3f * (float)k);
@@ -205,8 +200,7 @@ static void draw_fragments(int i)
 	glEnd();
 }
 
-/* What is interpolated, to the last bit: smooth and flat, whole and cut where it reaches behind the viewer, of both
- * sides. */
+/* Interpolation to the last bit: smooth and flat, whole and clipped behind the viewer, on both sides. */
 static void last_bits(int i)
 {
 	static const char *const names[4] = { "fragment.color", "fragment.color.secondary", "fragment.fogcoord",

@@ -1,13 +1,9 @@
-/*
- * What the panels of programs share: textures, state that is nothing's beginning, a square that leans away, programs in
- * assembly.
- */
+/* Shared by the panels of programs: textures, state without default values, a tilted square, assembly programs. */
 #pragma once
 
 #include "panels.h"
 
-static GLuint images[7]; /* of two dimensions with all levels, nearest, a cube, of one dimension, of three, depths, a
-                            cube with all levels */
+static GLuint images[7]; /* 2D with all levels, nearest, a cube, 1D, 3D, depths, a cube with all levels */
 
 static inline void fill(unsigned char *texels, unsigned n, unsigned seed)
 {
@@ -57,7 +53,7 @@ static inline void make_images(void)
 			             GL_RGBA, GL_UNSIGNED_BYTE, texels + 64 * face);
 }
 
-/* State that programs read, none of it as it begins. */
+/* Set all state that programs read to values other than the defaults. */
 static inline void set_state(void)
 {
 	glMaterialfv(GL_FRONT, GL_SPECULAR, (const float[4]){ 0.9f, 0.4f, 0.1f, 0.7f });
@@ -87,7 +83,7 @@ static inline void set_state(void)
 	glMatrixMode(GL_MODELVIEW);
 }
 
-/* What a vertex has at a corner of the unit square, but its place. */
+/* A vertex's attributes at a corner of the unit square, except its position. */
 static inline void set_corner(float u, float v)
 {
 	glColor4f(0.2f + 0.7f * u, 0.9f - 0.6f * v, 0.5f, 0.3f + 0.6f * u);
@@ -112,7 +108,7 @@ static inline void draw_square(int i)
 	glEnd();
 }
 
-/* Let a program in assembly run what follows: the text between its header and END. */
+/* Use an assembly program for the following draws, given as the text between its header and END. */
 static inline void set_program(GLenum target, const char *header, const char *text)
 {
 	char whole[8192];

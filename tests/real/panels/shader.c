@@ -1,6 +1,6 @@
 /*
- * GLSL 1.10 and 1.20: each built-in function, operator, statement, state variable and kind of texture, over a square
- * that leans away; vertex shaders with varyings, attributes and what fixed function reads of them.
+ * GLSL 1.10 and 1.20: each built-in function, operator, statement, state variable and kind of texture, on a tilted
+ * square; vertex shaders with varyings, attributes and their outputs to fixed function.
  */
 #include "programs.h"
 
@@ -22,7 +22,7 @@ static GLuint compile(GLenum type, const char *text)
 	return shader;
 }
 
-static GLuint current; /* the program that is used */
+static GLuint current; /* the program in use */
 static GLuint shadow_map;
 
 static void set_float(const char *name, float value)
@@ -34,7 +34,7 @@ static void set_int(const char *name, int value)
 	glUniform1i(glGetUniformLocation(current, name), value);
 }
 
-/* Shade what follows; vertices: NULL leaves them to fixed function. */
+/* Set shaders for the following draws; without `vertices`, fixed function processes them. */
 static void shade(const char *vertices, const char *fragments)
 {
 	GLint good;
@@ -62,7 +62,7 @@ static void drop_program(void)
 	glDeleteProgram(current);
 }
 
-/* The square that all programs are tried on. */
+/* The square that every program is tried on. */
 static void draw(int i)
 {
 	draw_square(i);
@@ -71,7 +71,7 @@ static void draw(int i)
 
 /* --- Functions --------------------------------------------------------------------------------------------------- */
 
-/* `r` of a, b and p (above 0), of any signs. */
+/* Expressions for `r` from a, b and p; p is positive, the others have any sign. */
 static const char *const functions[] = {
 	"radians(a * 90.0)",
 	"degrees(a * 0.03)",
@@ -181,7 +181,7 @@ static const char *const functions[] = {
 	"fract(mat4(a, b, p, a) * (mat4(b, a, b, p) * p) * 65536.0)",
 	"fract(p * mat4(b, a, b, p) * mat4(a, b, p, a) * 65536.0)",
 	"fract((mat4(a, b, p, a) * 0.3) * p * 65536.0)",
-	/* products that are added and share a factor, and some that look like these */
+	/* sums of products with a common factor, and similar expressions */
 	"fract((a * b + a * p) * 1048576.0)",
 	"fract((a.x * b + b * p) * 1048576.0)",
 	"fract((a * b + p * a + a.wzyx * a) * 1048576.0)",
@@ -209,7 +209,7 @@ static void function(int i)
 
 /* --- Statements -------------------------------------------------------------------------------------------------- */
 
-/* What main does with r, of a, b and p; `before` it, functions and variables. */
+/* Statements of main that compute r from a, b and p, and the functions and variables before main. */
 static const char *const statements[][2] = {
 	{ "", "if (a.x > 0.2) r = b;" },
 	{ "", "if (a.x > 0.2) r = b; else r = p * 0.5;" },
@@ -370,8 +370,8 @@ static const char *const states[] = {
 	"vec4(float(gl_MaxLights) * 0.1, float(gl_MaxTextureUnits) * 0.1, 0.3, 0.0)",
 };
 
-/* Each state variable, for fragments and for vertices. Half-way vectors of lights that were never placed are 0 in Mesa
- * (22.3.6). */
+/* Each state variable, for fragments and for vertices. In Mesa (22.3.6), half vectors of lights that were never
+ * placed are 0. */
 static void state(int i)
 {
 	const int of_vertices = i / (int)COUNT(states);
@@ -401,7 +401,7 @@ static const char *const textures[] = {
 	"textureCube(f, reflect(normalize(a.xyz), b.xyz))",
 };
 
-/* Each unit has its image, and each sampler its unit. */
+/* Each unit has a different image, and each sampler a different unit. */
 static void bind_images(void)
 {
 	static const GLenum targets[7] = { GL_TEXTURE_2D, GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_1D,
@@ -441,7 +441,7 @@ static void texture(int i)
 /* --- Vertices ---------------------------------------------------------------------------------------------------- */
 
 static const char *const vertices[][2] = {
-	/* of vertices, of fragments; NULL: fixed function */
+	/* vertex and fragment shader; NULL: fixed function */
 	{ "void main() { gl_Position = ftransform(); gl_FrontColor = gl_Color.bgra; gl_TexCoord[0] = "
 	  "gl_MultiTexCoord0; }",
 	  NULL },
@@ -552,11 +552,11 @@ static void draw_vertices(int i)
 	glDisable(GL_VERTEX_PROGRAM_TWO_SIDE);
 }
 
-/* --- Attributes that nobody tells the place of ------------------------------------------------------------------- */
+/* --- Attributes without assigned locations ----------------------------------------------------------------------- */
 
 static const struct { const char *text; GLuint place, constants[3];
 } unplaced[] = {
-	/* where Mesa puts them */
+	/* the locations that Mesa assigns */
 	{ "attribute vec4 tint; attribute vec3 place; attribute vec2 more; varying vec4 c; void main() { c = more.xyxy "
 	  "* 0.4 + tint; gl_Position = gl_ModelViewProjectionMatrix * vec4(place, 1.0); }",
 	  1,
@@ -581,7 +581,7 @@ static void unplace(int i)
 	shade(unplaced[i / 3].text, "varying vec4 c; void main() { gl_FragColor = c; }");
 }
 
-/* In the order of the arrays, by indices, and with constants from a list. */
+/* By consecutive elements, by indices, and with constant values from a list. */
 static void draw_unplaced(int i)
 {
 	static const float corners[4][3] = {
@@ -611,7 +611,7 @@ static void draw_unplaced(int i)
 	drop_program();
 }
 
-/* --- What programs were written for ------------------------------------------------------------------------------ */
+/* --- Typical uses of shaders ------------------------------------------------------------------------------------- */
 
 #define EYE "varying vec3 e; varying vec2 t; " \
 	"void main() { vec3 v = vec3(gl_ModelViewMatrix * gl_Vertex), n = gl_NormalMatrix * vec3(0.0, 0.0, 1.0), " \
@@ -623,10 +623,10 @@ static void draw_unplaced(int i)
 #define PLACE \
 	"gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = vec4(v.xyz * 0.4 + 0.5, 1.0); " \
 	"gl_TexCoord[0] = gl_MultiTexCoord0; "
-#define SHADOWS 4 /* the first of them have a shadow map */
+#define SHADOWS 4 /* the first of these use a shadow map */
 
 static const char *const scenes[][2] = {
-	/* of vertices, of fragments; NULL: fixed function */
+	/* vertex and fragment shader; NULL: fixed function */
 	{ LAMP, "uniform sampler2DShadow s; varying vec4 p; void main() { gl_FragColor = gl_Color * (0.3 + 0.7 * "
 	        "shadow2DProj(s, p).r); }" },
 	{ LAMP, "uniform sampler2DShadow s; varying vec4 p; void main() { vec3 q = p.xyz / p.w; gl_FragColor = "
@@ -677,7 +677,7 @@ static const char *const scenes[][2] = {
 	  NULL },
 };
 
-/* Something before the square, and the square. */
+/* Some geometry in front of the square, and the square. */
 static void put_scene(void)
 {
 	glBegin(GL_TRIANGLES);
@@ -689,7 +689,7 @@ static void put_scene(void)
 	draw_square(0);
 }
 
-/* The depths that a lamp sees, as a texture, and the matrix that leads there. */
+/* A texture of the depths seen from a lamp, and the matrix that maps to it. */
 static void make_shadow_map(int compares)
 {
 	static const float to_texture[16] = { 0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.49f, 1 };
@@ -748,12 +748,12 @@ static void draw_scene(int i)
 	draw(i);
 }
 
-/* --- Several buffers --------------------------------------------------------------------------------------------- */
+/* --- Multiple render targets ------------------------------------------------------------------------------------- */
 
 enum { BUFFERS = 3, BUFFER = 32 };
 
 static const char *const targets[] = {
-	/* of fragments that go to three buffers */
+	/* fragment shaders with three outputs */
 	"void main() { gl_FragData[0] = gl_Color; gl_FragData[1] = gl_Color.bgra; gl_FragData[2] = "
 	"vec4(gl_FragCoord.xy * 0.03, 0.5, 0.7); }",
 	"void main() { gl_FragData[2] = gl_SecondaryColor; gl_FragData[1] = vec4(0.3); for (int i = 0; i < 2; i++) "
@@ -778,7 +778,7 @@ static void several(int i)
 	name_images();
 }
 
-/* The square into three textures, and these side by side. */
+/* Draw the square into three textures, and show them side by side. */
 static void draw_several(int i)
 {
 	static const GLenum all[BUFFERS] = { GL_COLOR_ATTACHMENT0_EXT, GL_COLOR_ATTACHMENT1_EXT, GL_COLOR_ATTACHMENT2_EXT };
@@ -798,7 +798,7 @@ static void draw_several(int i)
 	glBindTexture(GL_TEXTURE_2D, images[0]);
 	glViewport(0, 0, BUFFER, BUFFER);
 	glDisable(GL_SCISSOR_TEST);
-	for (int k = 0; k < BUFFERS; k++) { /* each begins otherwise */
+	for (int k = 0; k < BUFFERS; k++) { /* each starts with different contents */
 		glDrawBuffer(all[k]);
 		glClearColor(0.3f * (float)k, 0.5f, 0.9f - 0.4f * (float)k, 1);
 		glClear(GL_COLOR_BUFFER_BIT);

@@ -1,6 +1,6 @@
 /*
- * Environments, combiners and generated coordinates (OpenGL 2.1 sec. 2.11.4, 3.8): a square that leans away, textured
- * by one or two units.
+ * Texture environments, combiners and generated coordinates (OpenGL 2.1 sec. 2.11.4, 3.8): a tilted square with one or
+ * two texture units.
  */
 #include <math.h>
 
@@ -9,7 +9,7 @@
 enum { FORMATS = 6 };
 static const GLenum formats[FORMATS] = { GL_ALPHA, GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_INTENSITY, GL_RGB, GL_RGBA };
 static GLuint textures[FORMATS], cube_map;
-static float turned, reach; /* what the cube map's panels look at: degrees, and how far beside that */
+static float turned, reach; /* target of the cube map's panels: angle in degrees, and extent around it */
 
 static void fill(unsigned char *texels, unsigned n, unsigned seed)
 {
@@ -64,7 +64,7 @@ static void draw_square(int i)
 	glEnd();
 }
 
-/* Each mode with each base format, on one unit and on a second one. */
+/* Each mode with each base format, on one unit and on a second. */
 static void environment(int i)
 {
 	static const GLint modes[5] = { GL_MODULATE, GL_DECAL, GL_BLEND, GL_REPLACE, GL_ADD };
@@ -76,7 +76,7 @@ static void environment(int i)
 	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, modes[mode]);
 	if (how == 1)
 		glEnable(GL_COLOR_SUM);
-	if (how == 2) { /* so that alpha shows */
+	if (how == 2) { /* make alpha visible */
 		glEnable(GL_BLEND);
 		glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 	}
@@ -102,7 +102,7 @@ static void combine(GLenum function, GLenum function_alpha)
 static const GLenum functions[10] = { GL_REPLACE,  GL_MODULATE, GL_ADD,       GL_ADD_SIGNED,   GL_INTERPOLATE,
 	                              GL_SUBTRACT, GL_DOT3_RGB, GL_DOT3_RGBA, GL_DOT3_RGB_EXT, GL_DOT3_RGBA_EXT };
 
-/* Each function of colour and of alpha at each scale. */
+/* Each colour and alpha function with each scale. */
 static void function(int i)
 {
 	const int f = choose(&i, 10), alpha = choose(&i, 6), scale = choose(&i, 3);
@@ -113,7 +113,7 @@ static void function(int i)
 	glTexEnvf(GL_TEXTURE_ENV, GL_ALPHA_SCALE, (float)(4 >> scale));
 }
 
-/* Each operand of each source at each argument; every source that is there. */
+/* Each operand of each source for each argument, including all sources. */
 static void operand(int i)
 {
 	static const GLint sources[6] = { GL_TEXTURE, GL_PREVIOUS, GL_CONSTANT, GL_PRIMARY_COLOR, GL_TEXTURE0, GL_TEXTURE1 };
@@ -129,7 +129,7 @@ static void operand(int i)
 	glTexEnvi(GL_TEXTURE_ENV, GL_OPERAND0_ALPHA + (unsigned)arg, operands[op | 2]);
 }
 
-/* Each way to generate each coordinate, under matrices of the texture and of the model. */
+/* Each generation mode for each coordinate, under texture and modelview matrices. */
 static void generated(int i)
 {
 	static const GLint modes[5] = { GL_OBJECT_LINEAR, GL_EYE_LINEAR, GL_SPHERE_MAP, GL_NORMAL_MAP, GL_REFLECTION_MAP };
@@ -138,11 +138,11 @@ static void generated(int i)
 	};
 	const int mode = choose(&i, 5), which = choose(&i, 4), matrix = choose(&i, 3), turn = choose(&i, 2);
 
-	unit(0, 4); /* filtered linearly: no ties */
+	unit(0, 4); /* linear filtering avoids ties */
 	if (turn)
 		glRotatef(25, 0.3f, 1, 0.1f);
 	for (unsigned c = 0; c < 4; c++) {
-		/* sphere maps have two coordinates, the others of this kind three */
+		/* sphere maps have two coordinates, the other modes of this kind three */
 		const int has = mode == 2 ? c < 2 : mode > 2 ? c < 3 : 1;
 
 		glTexGeni(GL_S + c, GL_TEXTURE_GEN_MODE, has ? modes[mode] : GL_OBJECT_LINEAR);
@@ -170,7 +170,7 @@ static void draw_generated(int i)
 	glMatrixMode(GL_MODELVIEW);
 }
 
-/* Each filter of a cube map beside each other one, larger and smaller than its texels. */
+/* Each combination of cube map filters, magnified and minified. */
 static void cube(int i)
 {
 	static const GLint filters[6] = {

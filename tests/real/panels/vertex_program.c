@@ -1,7 +1,6 @@
 /*
- * Vertex programs (ARB_vertex_program): each instruction, binding and result, addresses, attributes by calls, arrays
- * and lists, with fragment programs and with fixed function, over a sheet that leans away. At last numbers that are
- * none.
+ * ARB_vertex_program: each instruction, binding and result, address registers, attributes by calls, arrays and lists,
+ * with fragment programs and with fixed function, on a tilted sheet. Finally, NaN and infinity.
  */
 #include "programs.h"
 
@@ -23,7 +22,7 @@ static void prepare(void)
 	glGenBuffers(2, buffers);
 }
 
-/* Place what follows by the matrices, and all else by the text. */
+/* Use a vertex program that transforms positions by the matrices and computes the rest by the text. */
 static void transform(const char *text)
 {
 	char whole[4096];
@@ -34,7 +33,7 @@ static void transform(const char *text)
 
 enum { CELLS = 5 };
 
-/* A vertex of the sheet; by_number: with attributes that have numbers. */
+/* A vertex of the sheet; by_number: using numbered attributes. */
 static void put_vertex(int x, int y, int by_number)
 {
 	const float u = (float)x / CELLS, v = (float)y / CELLS;
@@ -66,8 +65,7 @@ static void draw_sheet(int i)
 	put_sheet(1);
 }
 
-/* Each instruction, of inputs that are below 0 and above 1 as well; to all components, to two, and to where vertices
- * are. */
+/* Each instruction, with inputs below 0 and above 1; written to all components, to two, and to the position. */
 static void instruction(int i)
 {
 	static const char *const forms[32] = {
@@ -174,7 +172,10 @@ static void binding(int i)
 	glProgramLocalParameter4fARB(GL_VERTEX_PROGRAM_ARB, 77, 0.2f, 0.4f, 0.6f, 0.8f);
 }
 
-/* Addresses: which bone moves a vertex is one of its attributes; offsets either way; elements that are not there. */
+/*
+ * Address registers: an attribute selects the bone that moves a vertex; positive and negative offsets; elements out of
+ * range.
+ */
 static void address(int i)
 {
 	static const char *const texts[8] = {
@@ -204,8 +205,8 @@ static void address(int i)
 		                           0.5f * noise(3 * k + 1) - 0.25f, 0.4f * noise(3 * k + 2), 0);
 }
 
-/* Results: sides, secondary colours, fog, texture coordinates, sizes of points; clip planes, culling; what runs the
- * fragment stage. */
+/* Results: two-sided and secondary colours, fog, texture coordinates, point sizes; clip planes, culling; each kind
+ * of fragment stage. */
 static void result(int i)
 {
 	static const char *const texts[8] = {
@@ -267,7 +268,7 @@ static void result(int i)
 		            "TEMP t; TEX t, fragment.texcoord[0], texture[0], 2D; MUL result.color, t, fragment.color;");
 }
 
-/* Nothing of the context's own that a panel has set may stay for the next one. */
+/* A panel must not leave its own context state to the next one. */
 static void draw_result(int i)
 {
 	put_sheet(1);
@@ -316,7 +317,7 @@ static void fill_corners(void)
 	}
 }
 
-/* Where arrays lie: in the program's memory, or in a buffer. */
+/* Place arrays in client memory or in a buffer. */
 static const char *place_arrays(int in_buffer)
 {
 	fill_corners();
@@ -380,10 +381,12 @@ static void draw_ways(int i)
 		put_sheet(1);
 }
 
-/* --- What programs were written for ------------------------------------------------------------------------------ */
+/*
+ * --- Typical uses of programs --------------------------------------------------------------------------------------
+ */
 
-/* Light by vertex, cartoons by a table, waves, skinning by two bones, blending of two shapes, reflection maps; beside
- * fixed function. */
+/* Per-vertex lighting, cartoon shading by a table, waves, skinning by two bones, blending of two shapes, reflection
+ * maps; with fixed function beside them. */
 static void scene(int i)
 {
 	static const char *const texts[8] = {
@@ -445,7 +448,7 @@ static void draw_scene(int i)
 	put_sheet(1);
 	glDisable(GL_VERTEX_PROGRAM_ARB);
 	glDisable(GL_FOG);
-	glBegin(GL_TRIANGLES); /* something behind and before it, by fixed function */
+	glBegin(GL_TRIANGLES); /* geometry behind and in front, by fixed function */
 	for (int k = 0; k < 6; k++) {
 		glColor4f(0.9f, 0.15f * (float)k, 0.3f, 0.8f);
 		glVertex3f(0.9f - 0.35f * (float)k, k % 2 ? -0.9f : 0.9f, 0.4f - 0.3f * (float)k);
@@ -454,10 +457,12 @@ static void draw_scene(int i)
 	(void)i;
 }
 
-/* --- Numbers that are none --------------------------------------------------------------------------------------- */
+/*
+ * --- NaN and infinity ----------------------------------------------------------------------------------------------
+ */
 
-/* Places, colours and sizes that are infinite, not a number or too large, behind the viewer, with and without matrices;
- * filled, and as points. */
+/* Positions, colours and sizes that are infinite, NaN or too large, also behind the viewer, with and without
+ * matrices; filled and as points. */
 static void extreme(int i)
 {
 	static const char *const texts[7] = {

@@ -1,5 +1,5 @@
 /*
- * Programs that only ask, and names that extensions gave to what OpenGL 1.1 took over: a frame each. Recorded by
+ * Programs that only query state, and extension names of features that became OpenGL 1.1: one frame each. Recorded by
  * test_small.py.
  */
 #include "tests/trace/window.h"

@@ -1,11 +1,11 @@
 /*
- * A window without depth and stencil buffers, where llvmpipe cuts at twice the view: lines, points and outlines that
- * leave it by a little and by much. A frame each; recorded by test_small.py. Filled triangles are cut at the view
- * there, too: some pixels of their edges differ.
+ * A window without depth and stencil buffers, where llvmpipe clips at twice the view's size: lines, points and outlines
+ * that extend slightly and far out of the view. One frame each; recorded by test_small.py. Filled triangles are clipped
+ * at the view there, too, and some of their edge pixels differ.
  */
 #include "tests/trace/window.h"
 
-/* Ends of lines: within the view, and out of it on each side by less and by more than the view's size. */
+/* Ends of lines: inside the view, and outside on each side by less and by more than the view's size. */
 static const float ends[12][2] = { { 0.9f, -0.9f }, { 0.9f, 0.9f }, { -1.9f, 0 },    { 0.3f, -2.7f },
 	                           { 0, 0 },        { 1.3f, 1.7f }, { -0.4f, 0.2f }, { -3.1f, 1.1f },
 	                           { 0.2f, 0.7f },  { 0.1f, 5 },    { 1.1f, -0.2f }, { -1.2f, -0.6f } };

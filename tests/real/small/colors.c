@@ -1,7 +1,7 @@
 /*
- * Colours and materials in any order, as a generator draws them: glColor and glMaterial between draws and in them,
- * COLOR_MATERIAL on and off and of other parameters, draws by Begin and by arrays, with colours of their own and
- * without. A frame for each seed; recorded by test_small.py.
+ * Colours and materials in random order: glColor and glMaterial between and inside draws, COLOR_MATERIAL on and off and
+ * with other parameters, draws by Begin and by arrays, with and without colour arrays. One frame per seed; recorded by
+ * test_small.py.
  */
 #include "tests/trace/window.h"
 
@@ -61,7 +61,7 @@ static void draw_arrays(int cell, int colors)
 	glDrawArrays(GL_QUADS, 0, 4);
 	glDisableClientState(GL_COLOR_ARRAY);
 	if (colors)
-		glColor4fv(palette[roll(5)]); /* after an array of colours the current one is not defined */
+		glColor4fv(palette[roll(5)]); /* after a colour array the current colour is undefined */
 }
 
 static void draw(int cell)
@@ -71,8 +71,8 @@ static void draw(int cell)
 	ways[roll(2)](cell, (int)roll(3));
 }
 
-/* Of the state, what changes, or is switched on once more: that leaves Mesa's vertex store alone, as all calls do that
- * change nothing. */
+/* Change some state, or enable state that is already enabled: calls that change nothing leave Mesa's vertex store
+ * unchanged. */
 static void change(void)
 {
 	static unsigned mode = 2, ambient = 5;
@@ -94,7 +94,7 @@ static void change(void)
 		mode = (mode + 1 + roll(4)) % 5;
 		glColorMaterial(GL_FRONT_AND_BACK, parameters[mode]);
 		break;
-	default: /* something else that draws look at */
+	default: /* other state that draws use */
 		ambient = (ambient + 1 + roll(4)) % 5;
 		glLightModelfv(GL_LIGHT_MODEL_AMBIENT, palette[ambient]);
 	}

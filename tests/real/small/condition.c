@@ -1,6 +1,6 @@
 /*
- * Conditional rendering (NV_conditional_render): what is drawn, cleared and copied only where a query counted
- * something. A frame each; recorded by test_small.py.
+ * Conditional rendering (NV_conditional_render): draws, clears and copies that only happen if a query counted samples.
+ * One frame each; recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 
@@ -14,7 +14,7 @@ static void rectangle(float x, float y, float z)
 	glEnd();
 }
 
-/* A query of a rectangle that is behind another one, or not. */
+/* Query a rectangle, either visible or hidden behind another. */
 static GLuint ask(int is_seen)
 {
 	GLuint query;
@@ -94,7 +94,7 @@ static void lists_and_arrays(void)
 	}
 }
 
-/* An inverted condition, and one within which something else is asked: that query counts nothing. */
+/* An inverted condition, and one with another query inside: that query counts nothing. */
 static void inverted(void)
 {
 	GLuint inner;

@@ -1,12 +1,12 @@
 /*
- * Copies of parts of framebuffer objects: across their edges, of depth, of colours without alpha; and many small ones
- * of a large object, which take time by what is copied. A frame each; recorded by test_small.py.
+ * Copies of parts of framebuffer objects: across their edges, of depth, of colours without alpha; and many small copies
+ * from a large object, whose time must depend on the copied area. One frame each; recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 
 static GLuint colors, depths, copy;
 
-/* A framebuffer object that was never drawn to: its textures hold what they were given. */
+/* A framebuffer object that was never drawn to: its textures keep their initial contents. */
 static void use_target(GLint format, int width, int height)
 {
 	static GLubyte texels[64 * 48][4];

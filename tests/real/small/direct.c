@@ -1,4 +1,4 @@
-/* EXT_direct_state_access: what is named is changed, and what is bound stays bound. A frame each; recorded by
+/* EXT_direct_state_access: calls change the named object and leave bindings alone. One frame each; recorded by
  * test_small.py. */
 #include "tests/trace/window.h"
 

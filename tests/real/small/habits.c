@@ -1,11 +1,10 @@
 /*
- * Habits of Mesa where the specification has it otherwise, or leaves it open, each met by programs made at random
- * (tests/generated): a frame each. Recorded by test_small.py.
+ * Behaviour of Mesa that differs from the specification, or that the specification leaves open; each case was found by
+ * random programs (tests/generated). One frame each. Recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 
-/* Filled polygons are offset for each of the three switches: the second of two sheets at one depth shows or does not.
- */
+/* Any of the three offset switches applies to filled polygons: the second of two coplanar sheets is visible or not. */
 static void offset(GLenum which, float units)
 {
 	glEnable(GL_DEPTH_TEST);
@@ -32,7 +31,7 @@ static void offset_behind(void)
 	offset(GL_POLYGON_OFFSET_LINE, 10);
 }
 
-/* Each counts for its own polygons where llvmpipe draws in stages, as for stippled and smooth lines. */
+/* Each switch applies to its own kind of polygon only if llvmpipe draws in stages, as for stippled and smooth lines. */
 static void offset_beside(GLenum other)
 {
 	glEnable(other);
@@ -56,7 +55,7 @@ static void offset_beside_smooth_points(void)
 	offset_beside(GL_POINT_SMOOTH);
 }
 
-/* Edge flags count in strips and fans, too. */
+/* Edge flags apply to strips and fans, too. */
 static void outline(GLenum primitive)
 {
 	static const GLfloat corners[8][2] = { { 8, 8 },  { 8, 40 },  { 24, 8 },  { 24, 40 },
@@ -116,7 +115,7 @@ static void textured_square(float s, float t)
 	glEnd();
 }
 
-/* While sprites replace coordinates, all but points have none. */
+/* While point sprites replace texture coordinates, other primitives have none. */
 static void leave_sprites(GLint smaller, GLint larger)
 {
 	set_texture(GL_TEXTURE_2D, 16, 16, smaller, larger);
@@ -146,7 +145,7 @@ static void leave_sprites_on_by_two_filters(void)
 	leave_sprites(GL_NEAREST, GL_LINEAR);
 }
 
-/* Whether texels of rectangles are smaller than pixels is asked of coordinates times the size. */
+/* Whether texels of rectangle textures are smaller than pixels is decided with coordinates multiplied by the size. */
 static void filter_rectangle(float texels)
 {
 	set_texture(GL_TEXTURE_RECTANGLE, 16, 8, GL_LINEAR, GL_NEAREST);
@@ -163,7 +162,7 @@ static void filter_huge_rectangle(void)
 	filter_rectangle(1.5f);
 }
 
-/* The last coordinates come back as the alpha of colours does (kept.c). */
+/* The last texture coordinates return like the alpha of colours (kept.c). */
 static void mix_coordinates(void)
 {
 	set_texture(GL_TEXTURE_2D, 16, 16, GL_NEAREST, GL_NEAREST);
@@ -182,7 +181,7 @@ static void mix_coordinates(void)
 	glDisable(GL_TEXTURE_2D);
 }
 
-/* Coordinates that are the same all over a draw lie exactly on a texel's edge. */
+/* Coordinates that are constant over a draw fall exactly on a texel's edge. */
 static void stay_on_edge(void)
 {
 	static const GLfloat corners[4][3] = { { -9, -6, -12 }, { 8, -7, -25 }, { 9, 6, -14 }, { -7, 8, -30 } };
@@ -200,7 +199,7 @@ static void stay_on_edge(void)
 	glDisable(GL_TEXTURE_2D);
 }
 
-/* If the texture of the first target is not complete, that of the next one is taken. */
+/* If the texture of the first target is incomplete, that of the next target is used. */
 static void leave_cube_map(void)
 {
 	const GLubyte texel[4] = { 255, 255, 255, 255 };
@@ -217,7 +216,7 @@ static void leave_cube_map(void)
 	glDisable(GL_TEXTURE_2D);
 }
 
-/* Edge flags of arrays, element by element. */
+/* Edge flags in arrays, element by element. */
 static void outline_elements(void)
 {
 	static const struct {
@@ -240,7 +239,7 @@ static void outline_elements(void)
 	glEdgeFlag(GL_TRUE);
 }
 
-/* Which diagonal cuts a quad: clip planes count where they clip, and stipple counts. */
+/* The diagonal that splits a quad depends on whether clip planes clip it, and on stipple. */
 static void colored_quad(void)
 {
 	glBegin(GL_QUADS);
@@ -286,7 +285,7 @@ static void stipple_quad(void)
 	glDisable(GL_POLYGON_STIPPLE);
 }
 
-/* Offsets count as well, and sides that are lit apart, beside smooth lines. */
+/* It also depends on offsets and on two-sided lighting, together with smooth lines. */
 static void quad_by_stages(GLenum other)
 {
 	const GLfloat light[4] = { 0, 0, 1, 0 };
@@ -317,8 +316,8 @@ static void quad_beside_dithering(void)
 	quad_by_stages(GL_DITHER);
 }
 
-/* The same in a list that is drawn while it is made, be it by vertices or by arrays and indices; not when it is called.
- */
+/* The same in a list drawn while it is compiled, both from vertices and from arrays with indices; but not when the
+ * list is called. */
 static void list_quad(int by_arrays, int mode)
 {
 	static const GLfloat places[4][2] = { { 8, 8 }, { 56, 4 }, { 50, 44 }, { 4, 38 } };
@@ -357,7 +356,7 @@ static void call_list_of_arrays(void)
 	list_quad(0, GL_COMPILE);
 }
 
-/* Nothing happens without an accumulation buffer. */
+/* Calls have no effect without an accumulation buffer. */
 static void sum_nothing(void)
 {
 	colored_quad();

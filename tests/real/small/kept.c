@@ -1,10 +1,10 @@
 /*
- * Values that Mesa keeps, or does not bring back, where the specification has it otherwise, each met by programs made
- * at random (tests/generated): a frame each. Recorded by test_small.py.
+ * Values that Mesa keeps or fails to restore, unlike the specification; each case was found by random programs
+ * (tests/generated). One frame each. Recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 
-/* The alpha of glColor4 comes back with glColor3, once that has been shortened. */
+/* The alpha of an earlier glColor4 returns with glColor3, once the attribute has shrunk. */
 static void mix_colors(GLenum primitive, int twice)
 {
 	glEnable(GL_BLEND);
@@ -51,7 +51,7 @@ static void mix_colors_between(void)
 	glDisable(GL_BLEND);
 }
 
-/* A colour that PopAttrib brings back is no material's. */
+/* A colour restored by PopAttrib does not become a material. */
 static void pop_color(GLbitfield groups)
 {
 	const GLfloat black[4] = { 0, 0, 0, 1 }, toward[4] = { 0, 0, 1, 0 };
@@ -94,7 +94,7 @@ static void pop_all(void)
 	pop_color(GL_ALL_ATTRIB_BITS);
 }
 
-/* RasterPos lights with normals as they are, NORMALIZE or not. */
+/* RasterPos lights with unmodified normals, whether NORMALIZE is on or not. */
 static void light_bitmap(void)
 {
 	static const GLubyte bits[8] = { 255, 129, 129, 129, 129, 129, 129, 255 };

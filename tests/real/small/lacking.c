@@ -1,6 +1,6 @@
 /*
- * A shader that reads what Relume does not do, and a call after the draw that draws nothing itself; then a texture that
- * is not done, which is no error of this program. Recorded by test_small.py.
+ * A shader that reads something unsupported by Relume, followed by a call that draws nothing; then an unsupported
+ * texture, which must not be blamed on the shader. Recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 

@@ -1,6 +1,6 @@
 /*
- * What the specification leaves open, or where one rounding decides: as Mesa draws it. A frame each; recorded by
- * test_small.py.
+ * Cases that the specification leaves open, or that one rounding decides: the result must be Mesa's. One frame each;
+ * recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 
@@ -66,7 +66,7 @@ static void fog_without_length(void)
 		quad(0.45f * (float)i - 0.9f, -0.25f * (float)i);
 }
 
-/* Each in an object of its own: Mesa 25.0.7 frees twice where one gets a second text. */
+/* A new object for each: Mesa 25.0.7 frees memory twice if an object gets a second text. */
 static void use_program(const char *text)
 {
 	GLuint program;
@@ -89,7 +89,7 @@ static void powers_of_programs(void)
 	}
 }
 
-/* What is known before a program runs is computed by another library: 0 to the power of 0 is 1. */
+/* Constant expressions are evaluated by another library: 0 to the power of 0 is 1. */
 static void known_powers(void)
 {
 	static const char *const known[4] = {
@@ -147,7 +147,7 @@ static void powers_of_shaders(void)
 	}
 }
 
-/* By what a program has that wants whole numbers to be middles of pixels, and by window positions. */
+/* Depends on whether a program requests integer pixel centres, and on window positions. */
 static void places_between_pixels(void)
 {
 	static GLubyte pixels[5 * 5 * 3];
@@ -169,7 +169,7 @@ static void places_between_pixels(void)
 
 void glPolygonOffsetEXT(GLfloat factor, GLfloat bias);
 
-/* Mesa's library has the name alone. */
+/* Mesa's library exports only the name. */
 static void offset_of_ext(void)
 {
 	glEnable(GL_DEPTH_TEST);
@@ -200,7 +200,7 @@ static void use_cube(GLint filter)
 	glEnable(GL_TEXTURE_CUBE_MAP);
 }
 
-/* No direction at all, and those between two or three faces. */
+/* A zero direction, and directions between two or three faces. */
 static void between_faces(GLint filter)
 {
 	static const float along[8][3] = { { 0, 0, 0 }, { 1, 1, 0 },  { 1, 0, 1 },    { 0, 1, 1 },

@@ -1,6 +1,4 @@
-/*
- * Corners far out, with hardly any w or none at all: a frame each; recorded by test_small.py.
- */
+/* Vertices far out, with a w that is zero or nearly zero. One frame each; recorded by test_small.py. */
 #include "tests/trace/window.h"
 
 static void before(void)
@@ -46,7 +44,7 @@ static void hardly_any_w(void)
 	}
 }
 
-/* As z-fail shadow volumes are closed. */
+/* The way z-fail shadow volumes are closed. */
 static void without_w(void)
 {
 	for (int i = 0; i < 3; i++) {
@@ -62,7 +60,7 @@ static void without_w(void)
 	}
 }
 
-/* Corners of different w: the middle of an edge in the volume is not its middle in space. */
+/* Vertices with different w: the middle of an edge in clip space is not its middle in object space. */
 static void mixed_w(void)
 {
 	glBegin(GL_TRIANGLES);
@@ -73,7 +71,7 @@ static void mixed_w(void)
 	glEnd();
 }
 
-/* A ground that reaches to the horizon, and the shadow of a board on it. */
+/* A ground that reaches the horizon, and the shadow of a board on it. */
 static void ground(void)
 {
 	glEnable(GL_LIGHTING);

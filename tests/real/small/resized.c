@@ -1,6 +1,6 @@
 /*
- * Windows whose size is not told by a viewport: it comes late, covers a part or never comes, and the context goes to
- * another window. Recorded by test_small.py.
+ * Windows whose size no viewport reveals: the viewport comes late, covers only a part or never comes; and the context
+ * moves to another window. Recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 
@@ -67,13 +67,13 @@ int main(void)
 	clear(0.8f);
 	glRectf(-0.5f, -0.5f, 0.5f, 0.5f);
 	end_frame();
-	resize(140, 100); /* scissored clears alone */
+	resize(140, 100); /* only scissored clears */
 	clear_parts();
 	end_frame();
-	resize(160, 110); /* pixels alone */
+	resize(160, 110); /* only pixel rectangles */
 	draw_pixels();
 	end_frame();
-	resize(200, 120); /* views of parts, after the clear */
+	resize(200, 120); /* viewports for parts, after the clear */
 	clear(0.1f);
 	quarter_views(200, 120);
 	end_frame();

@@ -1,6 +1,6 @@
 /*
- * GL_FRAMEBUFFER_SRGB (EXT_framebuffer_sRGB): clears, shading, blending and pixels of a window that can hold sRGB, and
- * framebuffer objects of several formats. A frame each; recorded by test_small.py.
+ * GL_FRAMEBUFFER_SRGB (EXT_framebuffer_sRGB): clears, shading, blending and pixel rectangles in an sRGB-capable window,
+ * and framebuffer objects of several formats. One frame each; recorded by test_small.py.
  */
 #include "tests/trace/window.h"
 
@@ -98,7 +98,7 @@ static void lit_and_textured(void)
 	}
 }
 
-/* Into a texture, which is shown then. */
+/* Draw into a texture, then show it. */
 static void through(GLint format)
 {
 	GLuint framebuffer, texture;

@@ -1,6 +1,6 @@
 /*
- * Sums of pictures that do not fit: numbers of Mesa's accumulation buffer begin again at its other end (the
- * specification leaves them open). A frame each. Recorded by test_small.py.
+ * Accumulation that overflows: Mesa's numbers wrap around (undefined in the specification). One frame each. Recorded by
+ * test_small.py.
  */
 #include "tests/trace/window.h"
 

@@ -1,6 +1,6 @@
 /*
- * Frames that end where nothing can be read: between glBegin and glEnd, and while a list is made. Recorded by
- * test_small.py.
+ * Frames that end when reading pixels is not allowed: between glBegin and glEnd, and while a list is compiled. Recorded
+ * by test_small.py.
  */
 #include "tests/trace/window.h"
 
