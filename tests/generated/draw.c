@@ -12,7 +12,7 @@ void step_draw(struct chance *chance, struct program *program)
 	glPopMatrix();
 }
 
-/* A list that draws, and is called at once, later, or both. It calls older ones alone, and none is deleted: so no list
+/* A list that draws, called at once, later, or both. It calls only older lists, and none is deleted, so no list
  * calls itself. */
 void step_list(struct chance *chance, struct program *program)
 {
@@ -66,8 +66,8 @@ void step_call_lists(struct chance *chance, struct program *program)
 	glPopMatrix();
 }
 
-/* Mesa 22.3 loses the current color, normal and texture coordinates where evaluators make some: they are given again.
- */
+/* Mesa 22.3 loses the current colour, normal and texture coordinates if evaluators generate some, so they are set
+ * again. */
 static void give_current(struct chance *chance)
 {
 	GLfloat color[4];
@@ -126,7 +126,7 @@ void step_rectangle(struct chance *chance, struct program *program)
 	glPopMatrix();
 }
 
-/* Push some groups of state, or pop what was pushed. */
+/* Push some groups of state, or pop pushed ones. */
 void step_attributes(struct chance *chance, struct program *program)
 {
 	if (program->pushed_attributes && chance_of(chance, 2)) {

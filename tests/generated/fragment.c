@@ -124,8 +124,8 @@ void step_clear(struct chance *chance, struct program *program)
 	               GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT));
 }
 
-/* A quad of one colour by a logical operation, with all that would make its colour uncertain off: an operation on bits
- * makes much of the last one. */
+/* A quad with one colour under a logical operation, with everything disabled that makes its colour uncertain: an
+ * operation on bits amplifies a difference in the last one. */
 void step_logic(struct chance *chance, struct program *program)
 {
 	(void)program;

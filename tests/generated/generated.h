@@ -1,14 +1,14 @@
-/* A generator of legacy OpenGL programs: its parts' common types. A program is a window, a view and a
- * list of steps; each step draws its choices from a sequence of its own, so that any of them can be left out and the
- * others stay as they are. Everything that a program draws is defined by the specification (no uninitialised texels, no
- * feedback of a texture into itself), though not always to the last bit. */
+/* A generator of legacy OpenGL programs: types shared by its parts. A program is a window, a view and a list of
+ * steps. Each step draws its choices from a sequence of its own, so that any step can be removed without changing
+ * the others. All drawing is defined by the specification (no uninitialised texels, no feedback of a texture into
+ * itself), though not always to the last bit. */
 #pragma once
 
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <stdint.h>
 
-/* One of a list of constants; the first argument is a struct chance *. */
+/* Choose one of a list of constants; the first argument is a struct chance *. */
 #define ONE_OF(chance, ...) \
 	((const GLenum[]){  \
 		__VA_ARGS__ }[chance_below(chance, sizeof((const GLenum[]){ __VA_ARGS__ }) / sizeof(GLenum))])
@@ -20,14 +20,14 @@ struct chance {
 	uint64_t state;
 };
 
-/* A program: its objects so far, and the size of its targets. */
+/* A program: the objects created so far, and the size of its targets. */
 struct program {
 	int width, height;               /* the window's, in pixels */
 	int target_width, target_height; /* the window's, or a framebuffer object's */
 	GLuint textures[MOST_TEXTURES];
 	GLenum targets[MOST_TEXTURES]; /* their targets; 0: no texture */
 	unsigned pushed_matrices, pushed_attributes;
-	GLuint lists[MOST_LISTS]; /* each draws something; 0: none */
+	GLuint lists[MOST_LISTS]; /* lists that draw; 0: none */
 };
 
 struct vertex {
@@ -43,7 +43,7 @@ struct mesh {
 	unsigned indices[MOST_INDICES];
 };
 
-/* Attributes that each vertex gives. */
+/* Attributes passed for each vertex. */
 enum {
 	WITH_NORMAL = 1,
 	WITH_COLOR = 2,
@@ -63,10 +63,10 @@ void chance_color(struct chance *chance, float color[4]); /* components in [0,1]
 
 /* mesh.c: a shape of about unit size around the origin. */
 void mesh_make(struct chance *chance, struct mesh *mesh);
-/* submit.c: hand it to GL in one of the ways that GL has. */
+/* submit.c: pass it to GL in one of the possible ways. */
 void mesh_submit(struct chance *chance, const struct mesh *mesh);
 
-/* A step changes state that later steps draw with, or draws. */
+/* A step draws, or changes state that later steps use. */
 typedef void step(struct chance *chance, struct program *program);
 
 /* view.c */
@@ -87,10 +87,10 @@ step step_draw_pixels, step_bitmap, step_copy_pixels, step_accumulate;
 /* target.c */
 step step_framebuffer;
 
-/* texture.c: a new texture in a slot, in place of an old one, bound to its target. */
+/* texture.c: create a new texture in a slot, replacing an old one, and bind it to its target. */
 void renew_texture(struct program *program, unsigned slot, GLenum target);
-/* texture.c: no unit textures any more; unit 0 is the active one. */
+/* texture.c: disable texturing on all units, and make unit 0 active. */
 void disable_textures(void);
 
-/* Multiply the modelview matrix so that a thing of about unit size is in view; the caller pushes and pops it. */
+/* Multiply the modelview matrix so that an object of about unit size is in view; the caller pushes and pops it. */
 void place_in_view(struct chance *chance, float size);

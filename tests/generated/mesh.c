@@ -29,7 +29,7 @@ static void add_index(struct mesh *mesh, unsigned index)
 		mesh->indices[mesh->n_indices++] = index;
 }
 
-/* Quads, or two triangles each, between the vertices of rows + 1 rows of columns + 1. */
+/* Quads, or two triangles each, between rows + 1 rows of columns + 1 vertices. */
 static void add_grid(struct mesh *mesh, unsigned columns, unsigned rows, int quads)
 {
 	mesh->primitive = quads ? GL_QUADS : GL_TRIANGLES;

@@ -1,6 +1,6 @@
 #include "tests/generated/generated.h"
 
-/* Through the matrices, or in the window. */
+/* Through the matrices, or directly in the window. */
 static void set_raster_position(struct chance *chance, struct program *program)
 {
 	if (chance_of(chance, 2))
@@ -19,8 +19,8 @@ static void set_zoom(struct chance *chance)
 }
 
 /*
- * Pixels go with no texture: where one is on, Mesa's pixels have the coordinates of the draw before, of the picture or
- * none, as the vertices of that draw had them. The caller pops.
+ * Draw pixels without textures: otherwise Mesa's pixels use coordinates of the previous draw, or of none, in whatever
+ * form its vertices passed them. The caller pops.
  */
 static void push_without_textures(void)
 {
@@ -28,7 +28,7 @@ static void push_without_textures(void)
 	disable_textures();
 }
 
-/* Scale and bias. With maps, blue and alpha have no certain value in Mesa. */
+/* Scale and bias. With maps, blue and alpha are undefined in Mesa. */
 static void set_transfer(struct chance *chance)
 {
 	glPixelTransferf(GL_RED_SCALE, chance_between(chance, 0, 2));
@@ -92,7 +92,7 @@ void step_bitmap(struct chance *chance, struct program *program)
 	glPopAttrib();
 }
 
-/* Without pixel maps: with them Mesa 22.3 ends some programs (a stack that is overrun). */
+/* Without pixel maps, because with them Mesa 22.3 crashes some programs (a stack overrun). */
 void step_copy_pixels(struct chance *chance, struct program *program)
 {
 	int width = (int)(4 + chance_below(chance, 30)), height = (int)(4 + chance_below(chance, 30));
@@ -107,12 +107,12 @@ void step_copy_pixels(struct chance *chance, struct program *program)
 	reset_transfer();
 }
 
-/* The accumulation buffer; of a window alone. */
+/* The accumulation buffer, which only windows have. */
 void step_accumulate(struct chance *chance, struct program *program)
 {
 	if (program->target_width != program->width || program->target_height != program->height)
 		return;
-	glFlush(); /* Mesa's bitmaps wait until the next draw, and Accum does not see them */
+	glFlush(); /* Mesa keeps bitmaps until the next draw, where Accum does not see them */
 	glAccum(GL_LOAD, chance_between(chance, 0.3f, 1));
 	step_draw(chance, program);
 	glAccum(GL_ACCUM, chance_between(chance, 0.1f, 0.7f));

@@ -1,6 +1,6 @@
-/* program NUMBER[:STEP,...]...: programs, one a frame, each in a window and a context of its own. Program NUMBER is the
- * same one in each run, on each machine; with steps it has those alone: so are failures made smaller.
- * program --list NUMBER: the steps of a program; program --kinds: how many kinds of steps there are. */
+/* program NUMBER[:STEP,...]...: draws programs, one per frame, each in a window and a context of its own. Program
+ * NUMBER is the same in each run and on each machine; with steps it consists of those only, which serves to reduce
+ * failures. program --list NUMBER: the steps of a program; program --kinds: the number of kinds of steps. */
 #include <GL/glx.h>
 #include <X11/Xlib.h>
 #include <stdio.h>
@@ -57,7 +57,7 @@ static const struct kind {
 
 enum { N_KINDS = sizeof(kinds) / sizeof(kinds[0]) };
 
-/* A program's number and a step's, as a sequence of its own. */
+/* A sequence for a step of a program. */
 static struct chance begin_chance(uint64_t program, uint64_t step)
 {
 	struct chance chance = { program * 0x100000001b3u + step };

@@ -48,7 +48,7 @@ void step_line(struct chance *chance, struct program *program)
 	}
 }
 
-/* Sprites, and no longer: Mesa divides 0 by 0 for all else that is drawn while they are enabled. */
+/* Draw sprites, then disable them: Mesa divides 0 by 0 for other primitives while sprites are enabled. */
 static void draw_sprites(struct chance *chance)
 {
 	glEnable(GL_POINT_SPRITE);

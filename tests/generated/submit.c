@@ -11,8 +11,8 @@ static unsigned choose_attributes(struct chance *chance)
 
 enum { COLOR_4UB, COLOR_3FV, COLOR_4FV, N_COLORS };
 
-/* @return one of them, or N_COLORS: any for each vertex. Mesa begins a primitive again where an attribute grows, and
- * with it strips and stipple, and loses vertices of lists. */
+/* @return one of the kinds, or N_COLORS for any, vertex by vertex. If an attribute grows, Mesa restarts the
+ * primitive, including strips and stipple, and loses vertices of lists. */
 static unsigned choose_color(struct chance *chance, GLenum primitive)
 {
 	GLint list = 0;
@@ -68,7 +68,7 @@ static void submit_immediate(struct chance *chance, const struct mesh *mesh, uns
 	glEnd();
 }
 
-/* Arrays of struct vertex, at an address or in a buffer. */
+/* Set arrays of struct vertex, at an address or in a buffer. */
 static void point_arrays(const char *base, unsigned with)
 {
 	const GLsizei stride = sizeof(struct vertex);
@@ -102,7 +102,7 @@ static void point_arrays(const char *base, unsigned with)
 	}
 }
 
-/* Indices of one of the three types, at an address or in a buffer. */
+/* Draw indices of one of the three types, at an address or in a buffer. */
 static void draw_indices(struct chance *chance, const struct mesh *mesh)
 {
 	GLenum type = ONE_OF(chance, GL_UNSIGNED_INT, GL_UNSIGNED_SHORT, GL_UNSIGNED_BYTE);
@@ -217,7 +217,7 @@ static void submit_interleaved(struct chance *chance, const struct mesh *mesh)
 	glPopClientAttrib();
 }
 
-/* Edges count again behind it: Relume does not call lists with edge flags off, and says so. */
+/* Edge flags are set again at the end: Relume does not support calling lists with edge flags off, and says so. */
 void mesh_submit(struct chance *chance, const struct mesh *mesh)
 {
 	unsigned with = choose_attributes(chance);

@@ -2,7 +2,7 @@
 
 #include "tests/generated/generated.h"
 
-/* Draw into a texture by a framebuffer object of its own, and go on in the window with that texture bound. */
+/* Draw into a texture through a framebuffer object, then continue in the window with that texture bound. */
 void step_framebuffer(struct chance *chance, struct program *program)
 {
 	unsigned slot = chance_below(chance, MOST_TEXTURES);

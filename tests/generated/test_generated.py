@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Programs made at random (tests/generated/program.c) are recorded and drawn as Mesa draws them: a few of those of
+"""Random programs (tests/generated/program.c) are recorded, and must be drawn as Mesa draws them: some of those of
 `make show-generated`, and each kind of step.
 
 limit: 300 s
@@ -26,5 +26,5 @@ for number in numbers:
 check(len(kinds) == int(run(generator.program, "--kinds").stdout), f"kinds of steps: {len(kinds)}")
 score = generator.score(numbers, SCRATCH / "generated")
 bad = {name: gates for name, gates in score.items() if gates and gates is not UNABLE}
-check(len(bad) <= (1 - LEAST) * COUNT, f"programs that are not drawn as Mesa draws them: {bad}")
+check(len(bad) <= (1 - LEAST) * COUNT, f"programs drawn differently from Mesa: {bad}")
 finish()

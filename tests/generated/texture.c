@@ -7,7 +7,7 @@ enum { MOST_SIZE = 64, N_TARGETS = 5 };
 static const GLenum targets[N_TARGETS] = { GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP,
 	                                   GL_TEXTURE_RECTANGLE };
 
-/* Texels: noise, a chessboard or a gradient, by component. */
+/* Texels: noise, a chessboard or a gradient, per component. */
 static void paint(struct chance *chance, GLubyte *texels, unsigned width, unsigned height, unsigned components)
 {
 	unsigned kind = chance_below(chance, 3), cell = 1 + chance_below(chance, 8);
@@ -70,7 +70,7 @@ static void give_image(struct chance *chance, GLenum target, GLint level, GLenum
 	glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 
-/* All levels that a chain has, or one. */
+/* Specify all levels of a mipmap chain, or one. */
 static void give_images(struct chance *chance, GLenum target, int chain)
 {
 	unsigned width = 1u << chance_below(chance, 7), height = 1u << chance_below(chance, 7), depth = 1;
@@ -159,7 +159,7 @@ void disable_textures(void)
 	glActiveTexture(GL_TEXTURE0);
 }
 
-/* On one unit, of one target; a texture made before, or a new one. */
+/* Enable a texture on one unit and target; an existing texture or a new one. */
 void step_texture(struct chance *chance, struct program *program)
 {
 	unsigned unit = chance_of(chance, 3) ? chance_below(chance, MOST_UNITS) : 0,

@@ -1,6 +1,6 @@
 #include "tests/generated/generated.h"
 
-/* Eye space that is seen reaches about from -1 to 1 across, at depths of 4 to 8. */
+/* The visible part of eye space reaches about from -1 to 1, at depths of 4 to 8. */
 void step_projection(struct chance *chance, struct program *program)
 {
 	double aspect = (double)program->target_width / program->target_height;

@@ -1,6 +1,5 @@
 /*
- * Calls into the state machine, without a trace: how the tests of tests/gl speak. Calls in, facts about state or scene
- * out.
+ * Calls into the state machine, without a trace, for the tests of tests/gl: calls in, facts about state or scene out.
  *
  *     struct gl gl = gl_open();                    a context, made current, drawable 64x64
  *     gl_call(&gl, "glRotatef", "ffff", 90.0, 0.0, 0.0, 1.0);
@@ -146,7 +145,7 @@ static inline struct gls_state *gl_state(struct gl *gl)
 	return gl->x->st;
 }
 
-/** The first error since the last question, as GetError answers. */
+/** The first error since the last query, as GetError returns it. */
 static inline uint32_t gl_error(struct gl *gl)
 {
 	uint32_t error = gl_state(gl)->error;
@@ -185,7 +184,7 @@ static inline void gl_close(struct gl *gl)
 	gls_exec_destroy(&gl->x);
 }
 
-/** How many calls were counted as not done. */
+/** Number of calls counted as unsupported. */
 static inline uint64_t gl_unsupported(const struct gl *gl)
 {
 	uint64_t n = 0;
@@ -203,7 +202,7 @@ static inline uint64_t gl_unsupported(const struct gl *gl)
 			              (double)(have)[i_], (double)wanted_[i_]); \
 	} while (0)
 
-/** main of a file of tests. */
+/** main of a test file. */
 #define GL_TESTS(name, ...) \
 	int main(void) \
 	{ \

@@ -46,8 +46,8 @@ START_TEST(test_client_arrays)
 }
 END_TEST
 
-/* Integers as numbers in [-1,1]: of signed types the two lowest are both -1 and 0 is 0, where single calls know no 0
- * (measured on Mesa 22.3.6). */
+/* Integers normalized to [-1,1]: for signed types in arrays the two lowest are both -1 and 0 maps to 0, which single
+ * calls cannot represent (measured on Mesa 22.3.6). */
 START_TEST(test_normalized)
 {
 	static const int8_t bytes[4] = { 100, -100, 0, -128 };
@@ -119,7 +119,7 @@ START_TEST(test_buffers)
 }
 END_TEST
 
-/* A list takes what the arrays held when it was made. */
+/* A list takes the arrays' contents at the time it is compiled. */
 START_TEST(test_into_list)
 {
 	static const float moved[4][2] = { { 5, 0 }, { 6, 0 }, { 6, 1 }, { 5, 1 } };
@@ -140,7 +140,7 @@ START_TEST(test_into_list)
 }
 END_TEST
 
-/* A frame of one triangle from the enabled arrays, an element each. */
+/* A frame with one triangle from the enabled arrays, by glArrayElement. */
 static struct scene *triangle_of_elements(struct gl *gl)
 {
 	struct scene *s;
@@ -167,7 +167,7 @@ START_TEST(test_array_element)
 }
 END_TEST
 
-/* A secondary colour in a buffer, blue first (EXT_vertex_array_bgra). Beyond the buffer's end it is (0, 0, 0). */
+/* A secondary colour in a buffer, in BGRA order (EXT_vertex_array_bgra). Beyond the buffer's end it is (0, 0, 0). */
 START_TEST(test_array_element_bgra)
 {
 	struct gl gl = gl_open();
@@ -210,7 +210,7 @@ START_TEST(test_errors_and_shortness)
 	struct gl gl = gl_open();
 	struct scene *s;
 
-	gl_call(&gl, "glDrawArrays", "eii", GL_TRIANGLES, 0, 3); /* no vertex array: nothing, and no error */
+	gl_call(&gl, "glDrawArrays", "eii", GL_TRIANGLES, 0, 3); /* no vertex array: draws nothing, without an error */
 	ck_assert_uint_eq(gl_error(&gl), 0);
 	client_arrays(&gl);
 	gl_call(&gl, "glDrawArrays", "eii", GL_TRIANGLES, 0, -1);
@@ -228,14 +228,16 @@ START_TEST(test_errors_and_shortness)
 }
 END_TEST
 
-/* NV_primitive_restart and GL 3.1 sec. 2.8.3: an index, the highest of its type, a call between Begin and End. */
+/*
+ * NV_primitive_restart and GL 3.1 sec. 2.8.3: a restart index, the highest of its type, a call between Begin and End.
+ */
 START_TEST(test_restart)
 {
 	static const uint8_t indices[] = { 0, 1, 2, 7, 1, 2, 3 }, highest[] = { 0, 1, 2, 255, 1, 2, 3 };
 	struct gl gl = gl_open();
 	struct scene *s;
 
-	gl_call(&gl, "glEnable", "e", GL_VERTEX_ARRAY); /* as Mesa takes it */
+	gl_call(&gl, "glEnable", "e", GL_VERTEX_ARRAY); /* as Mesa accepts it */
 	gl_call(&gl, "glVertexPointer", "ieib", 2, GL_FLOAT, 0, sizeof(square), square);
 	gl_call(&gl, "glEnableClientState", "e", GL_PRIMITIVE_RESTART_NV);
 	gl_call(&gl, "glPrimitiveRestartIndexNV", "u", 7);
@@ -286,7 +288,7 @@ START_TEST(test_copy_buffer)
 }
 END_TEST
 
-/* Blobs kept by the hash that names them. */
+/* Blobs stored by the hash that names them. */
 static struct { uint64_t name[2]; void *data; size_t n; } kept[64];
 static unsigned n_kept;
 
@@ -330,8 +332,8 @@ static void draw_quad(struct gl *gl, uint32_t object, uint32_t attributes)
 	scene_release(&s);
 }
 
-/* Vertex array objects (GL 3.0 sec. 2.10): each has arrays of its own; so it has after a checkpoint, and on the
- * attribute stack. */
+/* Vertex array objects (GL 3.0 sec. 2.10): each has its own arrays, also after a checkpoint and on the attribute
+ * stack. */
 START_TEST(test_vertex_array_objects)
 {
 	const struct snapshot_blobs blobs = { .put = keep_blob, .get = find_blob };
@@ -381,7 +383,7 @@ START_TEST(test_vertex_array_objects)
 }
 END_TEST
 
-/* Buffers that were never filled: nothing is there to copy or to draw. Undefined without a care (make check
+/* Buffers that were never filled: nothing to copy or to draw. Undefined behaviour if unchecked (make check
  * SAN=undefined). */
 START_TEST(test_empty_buffers)
 {
@@ -404,8 +406,8 @@ START_TEST(test_empty_buffers)
 }
 END_TEST
 
-/* A buffer that is mapped again, and one that is mapped where another was: each is at one address, and none when it is
- * gone. */
+/* A buffer that is mapped again, and one mapped at another's old address: each has one address, and none once
+ * unmapped. */
 START_TEST(test_mapped_again)
 {
 	struct gl gl = gl_open();
@@ -427,8 +429,7 @@ START_TEST(test_mapped_again)
 }
 END_TEST
 
-/* IBM_multimode_draw_arrays: each draw has a mode, and modes are some bytes apart; one that is not there draws
- * nothing. */
+/* IBM_multimode_draw_arrays: each draw has its own mode, with a stride in bytes; an invalid mode draws nothing. */
 START_TEST(test_modes)
 {
 	static const float positions[4][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 }, { 1, 1 } };
@@ -466,7 +467,7 @@ START_TEST(test_modes)
 }
 END_TEST
 
-/* Instances are draws; a damaged recording's without end are counted and not drawn. */
+/* Instances become draws; the endless instances of a damaged recording are counted but not drawn. */
 START_TEST(test_instances)
 {
 	uint32_t commands[4 * 64];

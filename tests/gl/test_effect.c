@@ -1,6 +1,6 @@
 /*
- * What a display list leaves behind in frames that are skipped (replay/gl/geometry/effect.c): the same state and the
- * same errors, to the last bit, as the list itself leaves behind in frames that are built.
+ * Effects of display lists in skipped frames (replay/gl/geometry/effect.c): state and errors must be the same, to the
+ * last bit, as when the list is executed in frames that are built.
  */
 #include <math.h>
 
@@ -19,7 +19,7 @@ static int drop(void *user, const uint64_t name[2], const void *data, size_t n)
 	return 0;
 }
 
-/* Two machines that get the same calls: one builds its frames, the other one skips them. */
+/* Two machines that receive the same calls: one builds its frames, the other skips them. */
 struct pair {
 	struct gl gl[2];
 };
@@ -105,8 +105,8 @@ static void letter(struct pair *pair, unsigned texture, double s)
 	both(pair, "glEnd", "");
 }
 
-/* A word of letters, each a list: three frames on, only the last texture, texture coordinate and nothing of matrices is
- * left. */
+/* A word of letters, each a list: from the third frame on, only the last texture and texture coordinates remain, and
+ * no matrices. */
 START_TEST(test_text)
 {
 	struct pair pair = pair_open();
@@ -138,7 +138,7 @@ START_TEST(test_text)
 	word = table_find(&gl_state(&pair.gl[0])->share->lists, 9);
 	ck_assert_ptr_null(word->effect.ops);
 
-	/* a letter is made anew, and one is taken away; then a texture goes, and comes back as another object */
+	/* recompile a letter and delete one; then replace a texture by another object */
 	both(&pair, "glNewList", "ue", 3u, GL_COMPILE);
 	both(&pair, "glColor3f", "fff", 0.5, 0.5, 0.5);
 	both(&pair, "glEndList", "");
@@ -158,8 +158,7 @@ START_TEST(test_text)
 }
 END_TEST
 
-/* A stack that is nearly full: PushMatrix within the list is an error there, and PopMatrix takes what was pushed
- * outside. */
+/* A nearly full stack: PushMatrix in the list is an error there, and PopMatrix pops an outer level. */
 START_TEST(test_full_stack)
 {
 	struct pair pair = pair_open();
@@ -191,8 +190,7 @@ static unsigned draw(unsigned *state, unsigned n)
 	return (*state >> 16) % n;
 }
 
-/* A list calls only those of higher numbers: of two that call each other, the calls would double at each of 64
- * levels. */
+/* Lists call only those with higher numbers: if two called each other, the calls would double at each of 64 levels. */
 static void random_call(struct pair *pair, unsigned *state, unsigned list)
 {
 	const float light[4] = { 1, (float)draw(state, 4), 3, 1 }, red[4] = { 1, 0, (float)draw(state, 3) * 0.5f, 1 };
@@ -270,7 +268,7 @@ static void random_call(struct pair *pair, unsigned *state, unsigned list)
 	}
 }
 
-/* The matrix stacks, edge flags and primitives that were left behind by lists would hold up all that follows. */
+/* Reset matrix stacks, edge flags and primitives left open by lists, which would impede all later calls. */
 static void tidy(struct pair *pair, unsigned *state)
 {
 	const uint32_t texture = 1 + draw(state, N_TEXTURES);
@@ -323,8 +321,7 @@ START_TEST(test_random)
 }
 END_TEST
 
-/* Lists that call lists a hundred times each, nine deep, and have next to nothing in them: it is soon given up what
- * they leave behind. */
+/* Lists that call lists a hundred times each, nine deep, with almost no contents: their effect is soon given up. */
 START_TEST(test_lists_without_end)
 {
 	struct pair pair = pair_open();

@@ -1,4 +1,4 @@
-/* OpenGL ES 1: fixed-point arguments (OpenGL ES 1.1 sec. 2.3), and extensions of its age. */
+/* OpenGL ES 1: fixed-point arguments (OpenGL ES 1.1 sec. 2.3), and extensions of its time. */
 #include "tests/gl/gl.h"
 
 #define X(v) ((int)((v) * 65536))
@@ -8,7 +8,7 @@ static struct gls_attribs *attribs(struct gl *gl)
 	return &gl_state(gl)->a;
 }
 
-/* Numbers are 16.16 fixed point; enumerants and truth values in their place are not. */
+/* Numbers are 16.16 fixed point; enumerants and booleans in their place are not. */
 START_TEST(test_fixed)
 {
 	struct gl gl = gl_open();
@@ -55,7 +55,7 @@ START_TEST(test_generation)
 }
 END_TEST
 
-/* OES_draw_texture: a rectangle in window coordinates, whatever the matrices are. */
+/* OES_draw_texture: a rectangle in window coordinates, regardless of the matrices. */
 START_TEST(test_draw_texture)
 {
 	struct gl gl = gl_open();
@@ -86,8 +86,8 @@ START_TEST(test_draw_texture)
 }
 END_TEST
 
-/* A base level that no texture has (GL 2.1 sec. 3.8.10: the texture is incomplete) leaves the rectangle without a
- * texture. */
+/* A base level that the texture lacks (GL 2.1 sec. 3.8.10: the texture is incomplete) leaves the rectangle
+ * untextured. */
 START_TEST(test_rectangle_without_level)
 {
 	struct gl gl = gl_open();
@@ -105,7 +105,7 @@ START_TEST(test_rectangle_without_level)
 }
 END_TEST
 
-/* OES_point_size_array: points of one size in a row are one draw. */
+/* OES_point_size_array: consecutive points of one size are one draw. */
 START_TEST(test_point_sizes)
 {
 	const float at[4][2] = { { 0, 0 }, { 0.1f, 0 }, { 0.2f, 0 }, { 0.3f, 0 } }, sizes[4] = { 2, 2, 5, 2 };
@@ -128,7 +128,7 @@ START_TEST(test_point_sizes)
 }
 END_TEST
 
-/* OES_compressed_paletted_texture: all levels behind one palette, a level from a whole byte on. */
+/* OES_compressed_paletted_texture: all levels after one palette; each level starts at a whole byte. */
 START_TEST(test_palette)
 {
 	uint8_t image[16 * 4 + 2 + 1 + 1] = { 0 };
@@ -137,7 +137,7 @@ START_TEST(test_palette)
 
 	for (int i = 0; i < 16; i++)
 		image[4 * i] = (uint8_t)(10 * i);
-	memcpy(image + 64, (const uint8_t[]){ 0x12, 0x34, 0x56, 0x70 }, 4); /* 2 x 2 is two bytes; then 1 x 1 */
+	memcpy(image + 64, (const uint8_t[]){ 0x12, 0x34, 0x56, 0x70 }, 4); /* 2 x 2 takes two bytes; then 1 x 1 */
 	gl_call(&gl, "glCompressedTexImage2D", "eieiiiib", GL_TEXTURE_2D, -1, GL_PALETTE4_RGBA8_OES, 2, 2, 0, 67,
 	        sizeof(image) - 1, image);
 	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);

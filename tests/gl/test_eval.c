@@ -6,8 +6,8 @@
 
 static const float arc[9] = { 0, 0, 0, 1, 2, 0, 2, 0, 0 };
 
-/* A curve's points are those of its Bernstein polynomials over [u1, u2], strides leave numbers out, current values
- * stay. */
+/* A curve's points follow its Bernstein polynomials over [u1, u2], strides skip numbers, and current values are
+ * unchanged. */
 START_TEST(test_curve)
 {
 	static const float spaced[15] = { 0, 0, 0, 9, 9, 1, 2, 0, 9, 9, 2, 0, 0, 9, 9 };
@@ -43,7 +43,7 @@ START_TEST(test_curve)
 }
 END_TEST
 
-/* A mesh over a grid: strips of triangles, normals of themselves, texture coordinates by the map of most components. */
+/* A mesh over a grid: triangle strips, generated normals, texture coordinates by the map with most components. */
 START_TEST(test_surface)
 {
 	static const float plane[12] = { 0, 0, 1, 0, 2, 1, 2, 0, 1, 2, 2, 1 }, coordinates[8] = { 0, 0, 0, 1, 1, 0, 1, 1 };
@@ -92,7 +92,7 @@ START_TEST(test_errors)
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
 	gl_call(&gl, "glEvalMesh1", "eii", GL_FILL, 0, 1);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
-	for (int i = 0; i < 6; i++) /* four times 2^20 points, and no more */
+	for (int i = 0; i < 6; i++) /* four times 2^20 points is the maximum */
 		gl_call(&gl, "glEvalMesh2", "eiiii", GL_LINE, 1, 1024, 1, 1024);
 	ck_assert_uint_eq(gl_unsupported(&gl), 2);
 	gl_call(&gl, "glEvalMesh1", "epp", GL_LINE, (uint64_t)INT64_MAX - 1, (uint64_t)INT64_MAX); /* a damaged
@@ -111,7 +111,7 @@ static int no_blob(void *user, const uint64_t name[2], const void *data, size_t 
 	return 0;
 }
 
-/* Maps are part of a checkpoint: what is restored evaluates alike; bytes that are no maps are refused. */
+/* Maps are part of a checkpoint: after restoring, evaluation is the same; invalid bytes are refused. */
 START_TEST(test_checkpoint)
 {
 	const struct snapshot_blobs blobs = { .put = no_blob };
@@ -139,7 +139,7 @@ START_TEST(test_checkpoint)
 	ck_assert_floats(4, s->meshes[0]->position, 1, 1, 0, 1);
 	scene_release(&s);
 	gl_close(&other);
-	for (size_t n = saved.n - 200; n < saved.n; n += 7) { /* cut within the maps and behind them */
+	for (size_t n = saved.n - 200; n < saved.n; n += 7) { /* truncated within the maps and after them */
 		ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
 		ck_assert_int_eq(snapshot_load(other.x, &blobs, saved.data, n), ERR_INPUT);
 		gl_close(&other);

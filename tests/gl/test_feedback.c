@@ -1,9 +1,9 @@
-/* Pixels that feed back (GL 2.1 sec. 3.8.2, 4.2, 4.3): who asks for which pixels, and what becomes of them. */
+/* Pixels that calls read back (GL 2.1 sec. 3.8.2, 4.2, 4.3): which pixels are requested, and how they are used. */
 #include "tests/gl/gl.h"
 #include "replay/gl/surface/frames.h"
 #include "scene/before.h"
 
-/* A supplier that paints every picture in one colour, and remembers what it was asked. */
+/* A supplier that fills every picture with one colour, and records the requests. */
 struct painter {
 	uint8_t color[4];
 	uint32_t unknown, asked, n_instances, had_start;
@@ -51,7 +51,7 @@ static void textured_triangle(struct gl *gl)
 	gl_call(gl, "glDisable", "e", GL_TEXTURE_2D);
 }
 
-/* CopyTexImage2D (sec. 3.8.2): the screen as the calls so far left it, in the texture's own base format. */
+/* CopyTexImage2D (sec. 3.8.2): the screen as drawn so far, in the texture's own base format. */
 START_TEST(test_copy_tex_image)
 {
 	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
@@ -76,7 +76,9 @@ START_TEST(test_copy_tex_image)
 }
 END_TEST
 
-/* CopyTexSubImage2D of depth, partly off the screen: only what is on it changes; equal screens are rendered once. */
+/*
+ * CopyTexSubImage2D of depth, partly outside the screen: only the part inside changes; equal screens are rendered once.
+ */
 START_TEST(test_copy_tex_sub_image)
 {
 	struct painter p = { { 1, 2, 3, 4 }, 0, 0, 0, 0 };
@@ -103,8 +105,7 @@ START_TEST(test_copy_tex_sub_image)
 }
 END_TEST
 
-/* A frame that is drawn without a clear shows the one before; one that covers it all does not; a cleared one
- * neither. */
+/* A frame without a clear shows the previous one; a frame that covers everything does not, nor does a cleared one. */
 START_TEST(test_previous_frame)
 {
 	struct painter p = { { 9, 9, 9, 9 }, 5, 0, 0, 0 };
@@ -131,7 +132,7 @@ START_TEST(test_previous_frame)
 	scene_release(&s);
 	gl_close(&gl);
 
-	p.unknown = 0; /* now everything is covered: nothing of the last frame is asked for */
+	p.unknown = 0; /* now everything is covered: no pixel of the last frame is requested */
 	gl = open_with(&p);
 	for (int i = 0; i < 2; i++) {
 		triangle(&gl);
@@ -143,7 +144,7 @@ START_TEST(test_previous_frame)
 }
 END_TEST
 
-/* Frames that were skipped: what they drew is asked for only where it shows, and then the replay must start again. */
+/* Skipped frames: their drawing is requested only if it shows; then the replay must start again. */
 START_TEST(test_skipped_frames)
 {
 	struct painter p = { { 9, 9, 9, 9 }, 0, 0, 0, 0 };
@@ -173,7 +174,7 @@ START_TEST(test_skipped_frames)
 }
 END_TEST
 
-/* Drawables keep their events apart: a swap ends the frame of the one that is swapped. */
+/* Events of drawables are separate: a swap ends the frame of the swapped drawable. */
 START_TEST(test_drawables)
 {
 	struct gl gl = gl_open();
@@ -193,7 +194,7 @@ START_TEST(test_drawables)
 }
 END_TEST
 
-/* Nobody renders: counted, the texture stays as it is. */
+/* Without a renderer the copy is counted, and the texture is unchanged. */
 START_TEST(test_no_supplier)
 {
 	struct gl gl = gl_open();
@@ -216,8 +217,7 @@ static struct gl open_deep(struct painter *p)
 
 #define ALL (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT)
 
-/* Clear (sec. 4.2.3) of all that a drawable has: what was drawn before is no part of the scene, but keeps its draw
- * numbers. */
+/* Clear (sec. 4.2.3) of all buffers: earlier draws leave the scene, but keep their draw numbers. */
 START_TEST(test_clear_drops_what_it_covers)
 {
 	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
@@ -246,7 +246,7 @@ START_TEST(test_clear_drops_what_it_covers)
 	ck_assert_uint_eq(s->needs_previous, 0);
 	scene_release(&s);
 
-	/* It need not be the first thing of the frame: what showed the frame before is gone with it. */
+	/* The clear need not come first: the draws that showed the previous frame leave the scene, too. */
 	triangle(&gl);
 	gl_call(&gl, "glClear", "m", ALL);
 	s = gl_swap(&gl);
@@ -258,7 +258,7 @@ START_TEST(test_clear_drops_what_it_covers)
 }
 END_TEST
 
-/* A scissor, a clear of it, and a draw in it. */
+/* Set a scissor, clear it, and draw in it. */
 static void view(struct gl *gl, int x, int width)
 {
 	gl_call(gl, "glEnable", "e", GL_SCISSOR_TEST);
@@ -267,8 +267,8 @@ static void view(struct gl *gl, int x, int width)
 	triangle(gl);
 }
 
-/* Clears of parts that together reach everything: what skipped frames left is not asked for. One column less, and it
- * is. */
+/* Clears of parts that together cover everything: the drawing of skipped frames is not requested. With one column
+ * less, it is. */
 START_TEST(test_clears_of_parts)
 {
 	for (int gap = 0; gap < 2; gap++) {
@@ -295,7 +295,7 @@ START_TEST(test_clears_of_parts)
 }
 END_TEST
 
-/* The scene of a frame that clears no colours; release it. asked: pictures that were rendered for it */
+/* The scene of a frame without a colour clear, released here. asked: receives the number of pictures rendered for it */
 static struct scene *uncleared(struct gl *gl, struct painter *p, uint32_t asked)
 {
 	struct scene *s;
@@ -308,7 +308,10 @@ static struct scene *uncleared(struct gl *gl, struct painter *p, uint32_t asked)
 	return s;
 }
 
-/* What frames begin with is left to who renders them, who says whether it shows: then it is rendered for them. */
+/*
+ * The initial contents of frames are left to the renderer, which finds out whether they show; if so, they are rendered
+ * for it.
+ */
 START_TEST(test_starts_are_left)
 {
 	struct painter p = { { 9, 9, 9, 9 }, 1, 0, 0, 0 };
@@ -339,7 +342,7 @@ START_TEST(test_starts_are_left)
 }
 END_TEST
 
-/* The scenes of two state machines are told apart: a replay that goes back begins another one, with the same
+/* Scenes of two state machines are distinguished: a replay that goes back creates another machine with the same
  * supplier. */
 START_TEST(test_serials)
 {
@@ -358,7 +361,7 @@ START_TEST(test_serials)
 }
 END_TEST
 
-/* Where nobody renders them, few are held. */
+/* Without a renderer, only a few are kept. */
 START_TEST(test_few_are_held)
 {
 	struct painter p = { { 9, 9, 9, 9 }, 0, 0, 0, 0 };
@@ -383,7 +386,7 @@ START_TEST(test_few_are_held)
 }
 END_TEST
 
-/* Depths from before that tests looked at may not be known: such frames begin with a picture. */
+/* Earlier depths that tests used may be unknown: such frames start from a picture. */
 START_TEST(test_looked_at_is_not_left)
 {
 	struct painter p = { { 9, 9, 9, 9 }, 1, 0, 0, 0 };
@@ -404,8 +407,7 @@ START_TEST(test_looked_at_is_not_left)
 }
 END_TEST
 
-/* A part that was cleared is read: the rest may be anything. What is read beside it may not, and neither may depth that
- * tests looked at. */
+/* Reading a part that was cleared needs nothing else. Reading beside it does, and so does depth that tests used. */
 START_TEST(test_parts_are_read)
 {
 	static const struct {
@@ -424,7 +426,7 @@ START_TEST(test_parts_are_read)
 		triangle(&gl);
 		gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_RGB, 0, 0, cases[i].width, 8, 0);
 		ck_assert_msg(gl.x->feedback.rewind == cases[i].rewinds, "case %zu", i);
-		if (!cases[i].rewinds) { /* the picture is no answer to who looks at all of it */
+		if (!cases[i].rewinds) { /* the picture does not serve a reader of all of it */
 			gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_RGB, 0, 0, 64, 64, 0);
 			ck_assert_int_eq(gl.x->feedback.rewind, 1);
 		}
@@ -433,8 +435,8 @@ START_TEST(test_parts_are_read)
 }
 END_TEST
 
-/* A skipped frame copied to part of a texture: who copies to all of that part makes the texture whole again, and nobody
- * else. */
+/* A skipped frame copied to part of a texture: a copy that covers this part makes the texture complete again, no
+ * other does. */
 START_TEST(test_part_of_texture)
 {
 	static const struct { int x, width, rewinds; } cases[] = { { 0, 16, 0 }, { 0, 32, 0 }, { 0, 15, 1 }, { 1, 16, 1 } };
@@ -460,7 +462,7 @@ START_TEST(test_part_of_texture)
 }
 END_TEST
 
-/* Depth that skipped frames left, kept by a frame that does not look at it, is still not known to the next one. */
+/* Depth left by skipped frames, kept by a frame that does not use it, is still unknown in the next frame. */
 START_TEST(test_skipped_depth)
 {
 	for (int cleared = 0; cleared < 2; cleared++) {
@@ -491,7 +493,7 @@ START_TEST(test_skipped_depth)
 }
 END_TEST
 
-/* Clears that leave something of what was drawn leave all of it in the scene. */
+/* A clear that leaves some drawn pixels keeps all draws in the scene. */
 START_TEST(test_clear_that_leaves_something)
 {
 	static const struct { const char *name, *letters; unsigned value, buffers; } cases[] = {
@@ -523,8 +525,8 @@ START_TEST(test_clear_that_leaves_something)
 }
 END_TEST
 
-/* The stencil buffer goes on as it was where nothing drawn changed it, and so does the clear that made it, which others
- * went before. */
+/* The stencil buffer is unchanged if no draw modified it, and the clear that set it is kept although other clears
+ * preceded it. */
 START_TEST(test_clear_keeps_stencil)
 {
 	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
@@ -548,7 +550,7 @@ START_TEST(test_clear_keeps_stencil)
 }
 END_TEST
 
-/* Clears that keep stencil values keep draws that left some, and no others. */
+/* Clears that keep stencil values keep the draws that wrote them, and no others. */
 START_TEST(test_clear_keeps_draws_of_stencil)
 {
 	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
@@ -576,7 +578,7 @@ START_TEST(test_clear_keeps_draws_of_stencil)
 }
 END_TEST
 
-/* What was read before the clear was rendered with what was drawn before it, and what is read after it without. */
+/* Pixels read before the clear include earlier draws; pixels read after it do not. */
 START_TEST(test_clear_after_reading)
 {
 	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
@@ -602,7 +604,7 @@ START_TEST(test_clear_after_reading)
 }
 END_TEST
 
-/* RASTERIZER_DISCARD (GL 3.0 sec. 3.1): nothing is drawn or cleared, nor counted; state changes as ever. */
+/* RASTERIZER_DISCARD (GL 3.0 sec. 3.1): nothing is drawn, cleared or counted; state changes as usual. */
 START_TEST(test_rasterizer_discard)
 {
 	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };

@@ -1,7 +1,7 @@
 /*
- * Internal formats beyond 8 bits of red, green, blue and alpha: small ones, red and green alone, sRGB, packed depth and
- * stencil, compressed blocks; swizzles and border colours (EXT_texture_sRGB, EXT_packed_depth_stencil,
- * EXT_texture_compression_s3tc, 3DFX_texture_compression_FXT1, EXT_texture_swizzle; GL 2.1 sec. 3.8.1, 3.8.3, 3.8.8).
+ * Internal formats other than 8-bit RGBA: small ones, red and green alone, sRGB, packed depth and stencil, compressed
+ * blocks; swizzles and border colours (EXT_texture_sRGB, EXT_packed_depth_stencil, EXT_texture_compression_s3tc,
+ * 3DFX_texture_compression_FXT1, EXT_texture_swizzle; GL 2.1 sec. 3.8.1, 3.8.3, 3.8.8).
  */
 #include "replay/gl/texture/unpack.h"
 #include "tests/gl/gl.h"
@@ -52,7 +52,7 @@ START_TEST(test_texels)
 }
 END_TEST
 
-/* One texel of a format of numbers as the scene shows it, and as it is copied over another one (sec. 3.8.2). */
+/* One texel of a floating-point format as the scene shows it, and copied over another one (sec. 3.8.2). */
 static void check_numbers(uint32_t internal, uint32_t type, const void *pixel, const float wanted[4])
 {
 	const size_t n = type == GL_FLOAT ? 16 : 8;
@@ -76,8 +76,8 @@ static void check_numbers(uint32_t internal, uint32_t type, const void *pixel, c
 	gl_close(&gl);
 }
 
-/* Colours of EXT_texture_sRGB are linear light, within llvmpipe's half a code of 0.1274, 0.3050 and 0.5776; alpha is no
- * light. */
+/* Colours of EXT_texture_sRGB become linear light, within llvmpipe's half a code of 0.1274, 0.3050 and 0.5776; alpha
+ * is not converted. */
 START_TEST(test_linear_light)
 {
 	static const uint8_t rgba[4] = { 100, 150, 200, 90 };
@@ -118,7 +118,7 @@ static void copy_image(struct gl *gl, uint32_t from, uint32_t to, int x, int wid
 	        1, 0, width, 1, 1);
 }
 
-/* ARB_copy_image: texels as they are, between textures and within one; places beyond an image are errors. */
+/* ARB_copy_image: unconverted texels, between textures and within one; regions outside an image are errors. */
 START_TEST(test_copy_image)
 {
 	static const uint8_t bytes[4] = { 10, 20, 30, 40 };
@@ -155,7 +155,7 @@ START_TEST(test_copy_image)
 }
 END_TEST
 
-/* Sec. 3.6.4: images are skipped in three dimensions only. */
+/* Sec. 3.6.4: SKIP_IMAGES applies only to three dimensions. */
 START_TEST(test_skipped_images)
 {
 	static const uint8_t bytes[2] = { 50, 60 };
@@ -179,7 +179,7 @@ START_TEST(test_skipped_images)
 }
 END_TEST
 
-/* Indices through the maps (sec. 3.6.5), levels without texels (ARB_texture_storage), one pixel all over
+/* Indices through the maps (sec. 3.6.5), levels without texels (ARB_texture_storage), a single value everywhere
  * (ARB_clear_texture). */
 START_TEST(test_other_images)
 {
@@ -225,7 +225,7 @@ START_TEST(test_srgb_as_it_is)
 }
 END_TEST
 
-/* Generated levels of encoded colours are means of light; alpha is none. */
+/* Generated levels of sRGB colours average linear light; alpha is averaged directly. */
 START_TEST(test_srgb_levels)
 {
 	static const uint8_t half[16] = { 255, 255, 255, 255, 0, 0, 0, 0, 255, 255, 255, 255, 0, 0, 0, 0 };
@@ -255,8 +255,7 @@ static struct scene *show_block(struct gl *gl, uint32_t internal, int width, int
 	return gl_swap(gl);
 }
 
-/* Channels of their own (ARB_texture_compression_rgtc): 8 levels, or 6 and both ends; signed ones are numbers from -1
- * to 1. */
+/* Independent channels (ARB_texture_compression_rgtc): 8 levels, or 6 and both ends; signed ones range from -1 to 1. */
 START_TEST(test_rgtc)
 {
 	/* texels 0..3 of the first row are codes 0 1 2 6 */
@@ -281,7 +280,7 @@ END_TEST
 
 START_TEST(test_s3tc)
 {
-	/* what lies between is in 1/256 of the way, rounded down, and the middle rounded up: llvmpipe's numbers */
+	/* interpolation in steps of 1/256, rounded down, with the middle rounded up, as in llvmpipe */
 	/* red 31 and blue 31; texels 0..3 of the first row are codes 0 1 2 3, all others code 0 */
 	static const uint8_t four[8] = { 0x00, 0xf8, 0x1f, 0x00, 0xe4, 0, 0, 0 },
 			     three[8] = { 0x1f, 0x00, 0x00, 0xf8, 0xe4, 0, 0, 0 };
@@ -299,7 +298,7 @@ START_TEST(test_s3tc)
 	t = s->textures[0]->texels;
 	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 255, 255, 0, 0, 255, 128, 0, 128, 255, 0, 0, 0, 0 }), 16);
 	scene_release(&s);
-	s = show_block(&gl, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 3, 2, 8, three); /* cut off: three texels of two rows */
+	s = show_block(&gl, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 3, 2, 8, three); /* clipped: three texels of two rows */
 	ck_assert_uint_eq(s->textures[0]->n_bytes, 24);
 	scene_release(&s);
 	s = show_block(&gl, GL_COMPRESSED_RGBA_S3TC_DXT3_EXT, 4, 4, 16, dxt3);
@@ -318,14 +317,13 @@ START_TEST(test_s3tc)
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE); /* too few blocks */
 	gl_call(&gl, "glCompressedTexImage3D", "eieiiiiib", GL_TEXTURE_3D, 0, GL_COMPRESSED_RGB_S3TC_DXT1_EXT,
 	        INT32_MAX, INT32_MAX, INT32_MAX, 0, 8, (size_t)8, four);
-	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE); /* so many that counting them exceeds 64 bits */
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE); /* the block count overflows 64 bits */
 	gl_close(&gl);
 }
 END_TEST
 
-/* The four kinds of blocks. Bits 64 on: colours of 15 bits, blue lowest. */
-/* Plain images become blocks as well: of one colour with 5, 6 and 5 bits of it, of two colours, with one bit of
- * alpha. */
+/* The four kinds of blocks. From bit 64 on: 15-bit colours, blue in the lowest bits. */
+/* Uncompressed images become blocks as well: with one 5-6-5-bit colour, with two colours, with one-bit alpha. */
 START_TEST(test_plain_s3tc)
 {
 	struct gl gl = begin();
@@ -366,7 +364,7 @@ START_TEST(test_fxt1)
 	struct scene *s;
 	const uint8_t *t;
 
-	/* CC_HI: colours at 96 and 111, three bits a texel: 6 and 7 (nothing) are the first two */
+	/* CC_HI: colours at 96 and 111, three bits per texel: 6 and 7 (transparent) are the first two */
 	block[0] = 6 | 7 << 3;
 	block[12] = 31; /* the first is blue */
 	block[15] = 0x3e; /* the second, red: bits 121 to 125 */
@@ -374,7 +372,7 @@ START_TEST(test_fxt1)
 	t = s->textures[0]->texels;
 	ck_assert_mem_eq(t, ((uint8_t[]){ 255, 0, 0, 255, 0, 0, 0, 0, 0, 0, 255, 255 }), 12);
 	scene_release(&s);
-	/* CC_CHROMA: four colours at 64, 79, 94, 109; two bits a texel */
+	/* CC_CHROMA: four colours at 64, 79, 94, 109; two bits per texel */
 	memset(block, 0, 16);
 	block[15] = 0x40 | 0x0f; /* mode 010; red of the fourth: bits 119 to 123 */
 	block[14] = 0x80;
@@ -383,7 +381,7 @@ START_TEST(test_fxt1)
 	t = s->textures[0]->texels;
 	ck_assert_mem_eq(t, ((uint8_t[]){ 255, 0, 0, 255, 0, 0, 0, 255 }), 8);
 	scene_release(&s);
-	/* CC_ALPHA, not interpolated: three colours and alphas at 109, 114, 119; code 3 is nothing */
+	/* CC_ALPHA, not interpolated: three colours and alphas at 109, 114, 119; code 3 is transparent */
 	memset(block, 0, 16);
 	block[15] = 0x60;
 	block[13] = 0xe0; /* alpha of the first: bits 109 to 113 */
@@ -403,8 +401,8 @@ START_TEST(test_fxt1)
 	t = s->textures[0]->texels;
 	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 127, 255, 0, 0, 0, 0, 0, 0, 255, 255 }), 12);
 	scene_release(&s);
-	/* Without it, in thirds; bits 125 and 126 are the lowest ones of green, of the first colour turned by the first
-	 * code's high bit */
+	/* Without it, in thirds; bits 125 and 126 are the lowest bits of green, that of the first colour XORed with
+	 * the first code's high bit */
 	memset(block, 0, 16);
 	block[15] = 0x80 | 0x40;
 	block[8] = 31;
@@ -437,7 +435,7 @@ START_TEST(test_fxt1)
 }
 END_TEST
 
-/* Depth and stencil values of one image: the depth is sampled, both are drawn as pixels. */
+/* Depth and stencil values in one image: the depth is sampled, both are drawn as pixels. */
 START_TEST(test_packed_depth_stencil)
 {
 	static const uint32_t pixels[2] = { 0x80000012, 0xffffff34 };
@@ -467,7 +465,7 @@ START_TEST(test_packed_depth_stencil)
 }
 END_TEST
 
-/* DEPTH_STENCIL of a type that is too small for both, which is an error in GL: nothing beside the pixels is read. */
+/* DEPTH_STENCIL with a type too small for both, an error in GL: no bytes beyond the pixels are read. */
 START_TEST(test_small_depth_stencil)
 {
 	static const struct gls_pixel_store store = { .alignment = 1 };
@@ -502,7 +500,7 @@ START_TEST(test_swizzle_and_border)
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(s->units[0].swizzle, 0);
-	ck_assert_float_eq(s->units[0].border_color[2], 0.25f); /* luminance is what red was */
+	ck_assert_float_eq(s->units[0].border_color[2], 0.25f); /* luminance takes the former red */
 	ck_assert_float_eq(s->units[0].border_color[3], 1);
 	ck_assert_uint_eq(s->units[1].swizzle, SCENE_SWIZZLED | 2 | 2 << 3 | 2 << 6 | 5 << 9);
 	scene_release(&s);

@@ -1,6 +1,6 @@
 /*
- * State of per-fragment operations and of what is drawn to (GL 2.1 sec. 4.1, 4.2.1; EXT_stencil_two_side): what each
- * call sets, and which values are errors, that change nothing.
+ * State of per-fragment operations and draw buffers (GL 2.1 sec. 4.1, 4.2.1; EXT_stencil_two_side): what each call
+ * sets, and values that are errors and change nothing.
  */
 #include <math.h>
 
@@ -9,7 +9,7 @@
 struct setting {
 	const char *call, *letters;
 	uint32_t args[4], error;
-	size_t at; /* in struct gls_attribs: what it sets */
+	size_t at; /* offset in struct gls_attribs of the state set */
 	unsigned n;
 	uint32_t wanted[4];
 };
@@ -83,7 +83,7 @@ static const struct setting settings[] = {
 	{ "glBlendEquationSeparate", "ee", { GL_FUNC_SUBTRACT, GL_MIN }, SETS(color.equation_alpha, 1, GL_MIN) },
 	{ "glBlendEquationSeparate", "ee", { GL_FUNC_ADD, GL_ADD }, GL_INVALID_ENUM, 0, 0, { 0 } },
 	{ "glBlendEquation", "e", { GL_LOGIC_OP }, GL_INVALID_ENUM, 0, 0, { 0 } },
-	/* the reference is clamped to what eight bits hold; masks are kept as they are */
+	/* the reference is clamped to eight bits; masks are stored unchanged */
 	{ "glStencilFunc", "eiu", { GL_LESS, 300, 0x1ff }, SETS(BACK(func), 3, GL_LESS, 255, 0x1ff) },
 	{ "glStencilFunc", "eiu", { GL_NOTEQUAL, -3, 7 }, SETS(FRONT(func), 3, GL_NOTEQUAL, 0, 7) },
 	{ "glStencilFunc", "eiu", { GL_ALWAYS + 1, 0, 7 }, GL_INVALID_ENUM, 0, 0, { 0 } },
@@ -110,7 +110,7 @@ static const struct setting settings[] = {
 	{ "glStencilMaskSeparate", "eu", { GL_FRONT, 0xaa }, SETS(FRONT(write_mask), 1, 0xaa) },
 	{ "glStencilMaskSeparate", "eu", { GL_FRONT, 0x77 }, SETS(BACK(write_mask), 1, 0x55) },
 	{ "glClearStencil", "i", { 9 }, SETS(stencil.clear, 1, 9) },
-	/* with two sides a call that names none sets the active one */
+	/* with two-sided stencil, a call without a face sets the active one */
 	{ "glActiveStencilFaceEXT", "e", { GL_BACK }, SETS(stencil.active_face, 1, GL_BACK) },
 	{ "glEnable", "e", { GL_STENCIL_TEST_TWO_SIDE_EXT }, SETS(stencil.two_side, 1, 1) },
 	{ "glStencilFunc", "eiu", { GL_NEVER, 1, 2 }, SETS(BACK(func), 3, GL_NEVER, 1, 2) },
@@ -156,7 +156,7 @@ START_TEST(test_settings)
 }
 END_TEST
 
-/* Colours are kept as they are, the depth of clears within [0,1]. */
+/* Clear colours are not clamped, the clear depth is clamped to [0,1]. */
 START_TEST(test_numbers)
 {
 	struct gl gl = gl_open();

@@ -1,5 +1,5 @@
-/* Front and back buffer of a window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10): which events reach which, and what
- * a swap does. */
+/* Front and back buffer of a window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10): which events apply to which
+ * buffer, and the effect of a swap. */
 #include "tests/gl/gl.h"
 #include "replay/build/frame.h"
 #include "replay/gl/surface/drawable.h"
@@ -8,7 +8,7 @@
 
 #define ALL (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT)
 
-/* A supplier that makes pictures of clears alone. */
+/* A supplier whose pictures consist only of clears. */
 static int apply_clears(void *user, const struct scene *s, struct scene_picture *p)
 {
 	(void)user;
@@ -66,7 +66,7 @@ static void swap(struct gl *gl)
 	scene_release(&s);
 }
 
-/* A frame's end without a swap. */
+/* Ends a frame without a swap. */
 static struct scene *terminate(struct gl *gl)
 {
 	struct scene *s;
@@ -84,7 +84,7 @@ static const struct scene_picture *read_buffer(struct gl *gl, uint32_t buffer)
 	return gls_read_screen(gl->x, gl_state(gl), NULL);
 }
 
-/* A swap shows the back buffer; what comes after in the back buffer is not at the front. */
+/* A swap shows the back buffer; later drawing to the back buffer does not reach the front. */
 START_TEST(test_swap)
 {
 	struct gl gl = open_with_pictures();
@@ -97,7 +97,7 @@ START_TEST(test_swap)
 	clear(&gl, ALL, 0.4, 0.25);
 	p = read_buffer(&gl, GL_FRONT_LEFT);
 	ck_assert_uint_eq(p->rgba[0], 51);
-	ck_assert_uint_eq(p->depth[0], ((1u << 24) - 1) / 4); /* there is one depth buffer */
+	ck_assert_uint_eq(p->depth[0], ((1u << 24) - 1) / 4); /* both share one depth buffer */
 	ck_assert_uint_eq(read_buffer(&gl, GL_BACK)->rgba[0], 102);
 	swap(&gl);
 	ck_assert_uint_eq(read_buffer(&gl, GL_FRONT)->rgba[0], 102);
@@ -105,7 +105,7 @@ START_TEST(test_swap)
 }
 END_TEST
 
-/* The same where the back buffer is drawn to first, and only then the front buffer: the replay has to start again. */
+/* The same if the front buffer is drawn to only after the back buffer: the replay has to start again. */
 START_TEST(test_known_too_late)
 {
 	for (int fronts = 0; fronts < 2; fronts++) {
@@ -129,7 +129,7 @@ START_TEST(test_known_too_late)
 }
 END_TEST
 
-/* The picture of a swap has what is drawn to the front buffer only where that reaches depth or stencil, and without
+/* The picture of a swap includes draws to the front buffer only if they affect depth or stencil, and without their
  * colours. */
 START_TEST(test_picture_of_back)
 {
@@ -158,7 +158,7 @@ START_TEST(test_picture_of_back)
 }
 END_TEST
 
-/* A frame that ends without a swap shows what is drawn to, on what the last swap showed. */
+/* A frame that ends without a swap shows the draw buffer, on top of the last swap's picture. */
 START_TEST(test_picture_of_front)
 {
 	struct gl gl = open_with_pictures();
@@ -186,7 +186,7 @@ START_TEST(test_picture_of_front)
 }
 END_TEST
 
-/* Events without colours do not pile up in the back buffer of a program that has no use for it. */
+/* In a program that does not use the back buffer, events without colours do not accumulate there. */
 START_TEST(test_front_alone)
 {
 	struct gl gl = open_with_pictures();
@@ -209,7 +209,7 @@ START_TEST(test_front_alone)
 }
 END_TEST
 
-/* A window with one buffer shows it, whatever its name. */
+/* A single-buffered window shows its buffer, under any name. */
 START_TEST(test_single_buffered)
 {
 	struct gl gl = open_with_pictures();

@@ -1,4 +1,4 @@
-/* Lights, materials and colours that follow the current one (GL 2.1 sec. 2.14.1 to 2.14.3, table 2.10). */
+/* Lights, materials and colours that track the current one (GL 2.1 sec. 2.14.1 to 2.14.3, table 2.10). */
 #include <math.h>
 
 #include "tests/gl/gl.h"
@@ -8,7 +8,10 @@ static const struct gls_lighting *lighting(struct gl *gl)
 	return &gl_state(gl)->a.lighting;
 }
 
-/* Positions and directions move to eye space with the modelview that counts when they are set, all three axes of it. */
+/*
+ * Positions and directions are transformed to eye space by the modelview matrix at the time they are set, in all three
+ * axes.
+ */
 START_TEST(test_places)
 {
 	static const float own[16] = { 1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 10, 0, 11, 12, 13, 1 };
@@ -25,7 +28,7 @@ START_TEST(test_places)
 }
 END_TEST
 
-/* Numbers of a light and what is beyond their range. */
+/* Parameters of a light, and values out of range. */
 START_TEST(test_numbers)
 {
 	struct number {
@@ -65,7 +68,7 @@ START_TEST(test_numbers)
 }
 END_TEST
 
-/* Integers stand for colours as table 2.9 says, but for places and numbers as they are. */
+/* Integers are mapped to colours by table 2.9, but positions and scalars are used unchanged. */
 START_TEST(test_integers)
 {
 	static const uint32_t numbers[4] = { 0x7fffffff, 0, 0x1fffffff, 0x3fffffff };
@@ -89,14 +92,14 @@ END_TEST
 
 enum { AMBIENT = 1, DIFFUSE = 2, SPECULAR = 4, EMISSION = 8 };
 
-/* Which of a face's colours have this red. */
+/* Bit mask of a face's colours with this red. */
 static unsigned with_red(const struct scene_face *face, float red)
 {
 	return (face->ambient[0] == red ? AMBIENT : 0) | (face->diffuse[0] == red ? DIFFUSE : 0) |
 	       (face->specular[0] == red ? SPECULAR : 0) | (face->emission[0] == red ? EMISSION : 0);
 }
 
-/* Attributes that wait become current with the next Begin (waiting.h). */
+/* Pending attributes become current with the next Begin (waiting.h). */
 static void draw_nothing(struct gl *gl)
 {
 	gl_call(gl, "glBegin", "e", GL_POINTS);
@@ -104,8 +107,8 @@ static void draw_nothing(struct gl *gl)
 }
 
 /*
- * Sec. 2.14.3: colours of ColorMaterial's faces follow the current one from Enable on, and from a change of the mode on
- * at once; what Material says of them then is lost. They keep what they have when following ends.
+ * Sec. 2.14.3: colours selected by ColorMaterial track the current one from Enable on, and at once after a change of
+ * mode; Material calls for them are ignored meanwhile. They keep their last value when tracking ends.
  */
 START_TEST(test_color_material)
 {
@@ -124,7 +127,7 @@ START_TEST(test_color_material)
 		gl_call(&gl, "glColorMaterial", "ee", face == GL_BACK ? GL_FRONT : GL_BACK, GL_SPECULAR);
 		gl_call(&gl, "glColor3f", "fff", 0.125, 0.0, 0.0);
 		ck_assert_uint_eq(with_red(&have[0], 0.125f) | with_red(&have[1], 0.125f), 0);
-		gl_call(&gl, "glColorMaterial", "ee", face, mode); /* nothing follows yet */
+		gl_call(&gl, "glColorMaterial", "ee", face, mode); /* no tracking yet */
 		ck_assert_uint_eq(with_red(&have[0], 0.125f) | with_red(&have[1], 0.125f), 0);
 		gl_call(&gl, "glEnable", "e", GL_COLOR_MATERIAL);
 		for (unsigned side = 0; side < 2; side++)

@@ -11,7 +11,7 @@ static void triangle(struct gl *gl, float x)
 	gl_call(gl, "glEnd", "");
 }
 
-/* COMPILE executes nothing; a call of it does; what is current inside stays current after it. */
+/* COMPILE executes nothing; calling the list does; values set inside remain current afterwards. */
 START_TEST(test_compile)
 {
 	struct gl gl = gl_open();
@@ -56,7 +56,7 @@ START_TEST(test_compile_and_execute)
 }
 END_TEST
 
-/* Attributes that the list does not set are those current when it is called, even halfway through a primitive. */
+/* Attributes that the list does not set are those current when it is called, even in the middle of a primitive. */
 START_TEST(test_inherited)
 {
 	struct gl gl = gl_open();
@@ -83,8 +83,7 @@ START_TEST(test_inherited)
 }
 END_TEST
 
-/* A value that a list gives to its second primitive says nothing of its first one, even where it was current in a list
- * before. */
+/* A value set for a list's second primitive does not apply to its first, even if it was current in an earlier list. */
 START_TEST(test_inherited_by_the_first)
 {
 	struct gl gl = gl_open();
@@ -114,7 +113,7 @@ START_TEST(test_inherited_by_the_first)
 }
 END_TEST
 
-/* Vertices of a list between Begin and End outside of it. */
+/* Vertices from a list between Begin and End outside it. */
 START_TEST(test_vertices_only)
 {
 	struct gl gl = gl_open();
@@ -171,7 +170,7 @@ START_TEST(test_call_lists)
 }
 END_TEST
 
-/* A list that calls itself ends; a list that is made anew or deleted is another one. */
+/* A list that calls itself ends; a list that is recompiled or deleted is a different one. */
 START_TEST(test_recursion_and_deletion)
 {
 	struct gl gl = gl_open();
@@ -207,7 +206,7 @@ START_TEST(test_errors)
 	gl_call(&gl, "glNewList", "ue", 1u, GL_COMPILE);
 	gl_call(&gl, "glNewList", "ue", 2u, GL_COMPILE);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
-	gl_call(&gl, "glMatrixMode", "e", 3u); /* an error when it is executed, not when it is kept */
+	gl_call(&gl, "glMatrixMode", "e", 3u); /* an error when executed, not when compiled */
 	ck_assert_uint_eq(gl_error(&gl), 0);
 	gl_call(&gl, "glEndList", "");
 	gl_call(&gl, "glCallList", "u", 1u);
@@ -216,7 +215,7 @@ START_TEST(test_errors)
 }
 END_TEST
 
-/* Faces that each send the same material again become one mesh. */
+/* Faces that each repeat the same material become one mesh. */
 START_TEST(test_redundant_state)
 {
 	static const float red[4] = { 1, 0, 0, 1 }, blue[4] = { 0, 0, 1, 1 };
@@ -246,8 +245,8 @@ START_TEST(test_redundant_state)
 }
 END_TEST
 
-/* Lists that call lists twice each, forty deep, end all the same; a list that calls another a thousand times is run
- * whole. */
+/* Lists that call lists twice each, forty deep, still end; a list that calls another a thousand times is executed
+ * completely. */
 START_TEST(test_lists_without_end)
 {
 	struct gl gl = gl_open();

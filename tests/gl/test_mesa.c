@@ -1,4 +1,4 @@
-/* What later versions of Mesa make of the same calls: a marker names the version, scenes follow it (scene/mesa.h). */
+/* The same calls under later versions of Mesa: a marker names the version, and scenes follow it (scene/mesa.h). */
 #include "scene/mesa.h"
 #include "tests/gl/gl.h"
 
@@ -15,7 +15,7 @@ static struct gl open_by(const char *marker)
 	return gl;
 }
 
-/* Bitmaps under COLOR_SUM: no sum, or that of the current secondary colour, not of the raster position's. */
+/* Bitmaps under COLOR_SUM: no sum, or that of the current secondary colour instead of the raster position's. */
 START_TEST(test_bitmaps)
 {
 	static const uint8_t bits[8] = { 0xff, 0, 0, 0, 0xff, 0, 0, 0 };
@@ -40,8 +40,8 @@ START_TEST(test_bitmaps)
 }
 END_TEST
 
-/* Flat shading under a program in assembly: of its colours alone, and quads are cut the other way where it reads
- * some. */
+/* Flat shading under an assembly program: by its own colours only; quads are split along the other diagonal if it
+ * reads any. */
 START_TEST(test_flat_programs)
 {
 	static const char *const texts[2] = { "!!ARBfp1.0\nMOV result.color, fragment.texcoord[0];\nEND\n",
@@ -79,8 +79,7 @@ START_TEST(test_flat_programs)
 }
 END_TEST
 
-/* Textures of brightness with colours for each two: what names their format is refused, and the texture stays without
- * an image. */
+/* YCbCr textures: their format is refused, and the texture has no image. */
 START_TEST(test_ycbcr)
 {
 	static const uint8_t texels[8] = { 200, 90, 60, 160, 30, 90, 120, 160 };

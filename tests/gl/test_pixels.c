@@ -14,7 +14,7 @@ static struct gl open_plain(void)
 	return gl;
 }
 
-/* Sec. 2.13: to the window as a vertex goes; invalid outside of the view; colours of that moment. */
+/* Sec. 2.13: transformed like a vertex; invalid outside the view; with the colours of that moment. */
 START_TEST(test_raster_pos)
 {
 	struct gl gl = open_plain();
@@ -45,7 +45,7 @@ START_TEST(test_raster_pos)
 }
 END_TEST
 
-/* Sec. 3.7: bits as the unpack state of that moment reads them, also out of a list; the position moves on. */
+/* Sec. 3.7: bits are read with the current unpack state, also from a list; the position advances. */
 START_TEST(test_bitmap)
 {
 	static const uint8_t bits[8] = { 0x80, 0, 0, 0, 0x41, 0, 0, 0 };
@@ -118,7 +118,10 @@ START_TEST(test_draw_pixels)
 }
 END_TEST
 
-/* A rectangle's fragments go through texturing, fog and the rest, but not once more through lighting and generation. */
+/*
+ * A rectangle's fragments are textured and fogged as usual, but not lit again, and texture coordinates are not
+ * generated again.
+ */
 START_TEST(test_state_of_rectangles)
 {
 	static const uint8_t depth[4] = { 0, 0, 0, 63 };
@@ -145,7 +148,7 @@ START_TEST(test_state_of_rectangles)
 }
 END_TEST
 
-/* ARB_pixel_buffer_object: maps and stipples out of the bound buffer; beyond its end nothing is drawn. */
+/* ARB_pixel_buffer_object: maps and stipples from the bound buffer; nothing is drawn from beyond its end. */
 START_TEST(test_pixel_buffer)
 {
 	static const uint16_t map[2] = { 0, 0xffff };
@@ -174,8 +177,7 @@ START_TEST(test_pixel_buffer)
 }
 END_TEST
 
-/* Depths that are no numbers are 0, as Mesa clamps them; indices and maps of any floats have a defined meaning
- * (SAN=undefined). */
+/* NaN depths become 0, as Mesa clamps them; indices and maps of any floats are well defined (SAN=undefined). */
 START_TEST(test_no_numbers)
 {
 	static const float wild[4] = { NAN, INFINITY, -1e30f, 4.6e30f };
@@ -200,7 +202,7 @@ START_TEST(test_no_numbers)
 }
 END_TEST
 
-/* A supplier whose every pixel is the same: 10 20 200 100, in the middle of depth, with stencil 7. */
+/* A supplier with the same value for every pixel: 10 20 200 100, depth one half, stencil 7. */
 static int paint(void *user, const struct scene *scene, struct scene_picture *picture)
 {
 	(void)user;
@@ -215,7 +217,7 @@ static int paint(void *user, const struct scene *scene, struct scene_picture *pi
 
 enum { ROOM = 96 };
 
-/* A buffer of bytes 0xee, bound to be read into. */
+/* A buffer of bytes 0xee, bound as the target of reads. */
 static struct gl open_buffer(int renders)
 {
 	struct gl gl = open_plain();
@@ -239,7 +241,7 @@ static void read_pixels(struct gl *gl, int width, int height, uint32_t format, u
 	gl_call(gl, "glReadPixels", "iiiieep", 0, 0, width, height, format, type, offset);
 }
 
-/* Sec. 4.3.2: each format and type as Mesa has it; luminance is a sum. */
+/* Sec. 4.3.2: each format and type as in Mesa; luminance is a sum. */
 START_TEST(test_read_formats)
 {
 	static const struct { uint32_t format, type; uint8_t n, bytes[16]; } all[] = {
@@ -275,8 +277,7 @@ START_TEST(test_read_formats)
 }
 END_TEST
 
-/* Sec. 4.3.2, table 4.5: rows, alignment, swapped bytes, and the state of pixel transfer; what is between rows
- * stays. */
+/* Sec. 4.3.2, table 4.5: rows, alignment, swapped bytes, and pixel transfer state; bytes between rows are unchanged. */
 START_TEST(test_read_storage)
 {
 	struct gl gl = open_buffer(1);
@@ -286,7 +287,7 @@ START_TEST(test_read_storage)
 	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_SKIP_ROWS, 1);
 	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_SKIP_PIXELS, 1);
 	gl_call(&gl, "glPixelStorei", "ei", GL_PACK_ALIGNMENT, 8);
-	read_pixels(&gl, 2, 2, GL_RGB, GL_UNSIGNED_BYTE, 1); /* rows of 9 bytes begin 16 apart: at 1 + 16 + 3 */
+	read_pixels(&gl, 2, 2, GL_RGB, GL_UNSIGNED_BYTE, 1); /* rows of 9 bytes start 16 apart: at 1 + 16 + 3 */
 	data = buffer_of(&gl)->data;
 	ck_assert_mem_eq(data + 19, ((uint8_t[8]){ 0xee, 10, 20, 200, 10, 20, 200, 0xee }), 8);
 	ck_assert_mem_eq(data + 35, ((uint8_t[8]){ 0xee, 10, 20, 200, 10, 20, 200, 0xee }), 8);
@@ -306,7 +307,9 @@ START_TEST(test_read_storage)
 }
 END_TEST
 
-/* ARB_pixel_buffer_object: beyond the buffer's end, or at odd places, nothing is written, however large the numbers. */
+/*
+ * ARB_pixel_buffer_object: nothing is written beyond the buffer's end or at unaligned offsets, even for huge numbers.
+ */
 START_TEST(test_read_beyond)
 {
 	static const struct { int width, height; uint32_t type; uint64_t offset; } wrong[] = {
@@ -332,7 +335,7 @@ START_TEST(test_read_beyond)
 }
 END_TEST
 
-/* Sec. 6.1.4: texels as table 6.1 has them, without pixel transfer. */
+/* Sec. 6.1.4: texels as in table 6.1, without pixel transfer. */
 START_TEST(test_read_texels)
 {
 	static const uint8_t texels[8] = { 10, 20, 200, 100, 255, 0, 51, 1 };
@@ -363,8 +366,8 @@ START_TEST(test_read_texels)
 }
 END_TEST
 
-/* In the program's memory they are not our affair; where nobody renders, or in skipped frames, they are missing until
- * all are written. */
+/* Reads into the program's memory need nothing. In a buffer, without a renderer or in skipped frames, pixels are
+ * missing until all are written. */
 START_TEST(test_read_missing)
 {
 	uint8_t bytes[ROOM] = { 0 };

@@ -1,4 +1,4 @@
-/* Begin/End: how primitives are cut, what varies and what is constant (GL 2.1 sec. 2.6). */
+/* Begin/End: how primitives are split, and which attributes vary or are constant (GL 2.1 sec. 2.6). */
 #include <math.h>
 
 #include "tests/gl/gl.h"
@@ -31,7 +31,7 @@ static void check_cut(uint32_t mode, unsigned n, enum scene_primitive kind, unsi
 	gl_close(&gl);
 }
 
-/* Sec. 2.6.1, and the order in which Mesa 22.3.6 (llvmpipe) cuts, with the provoking vertex last. */
+/* Sec. 2.6.1, and the order in which Mesa 22.3.6 (llvmpipe) splits primitives, with the provoking vertex last. */
 START_TEST(test_cut)
 {
 	check_cut(GL_POINTS, 2, SCENE_POINTS, 2, (uint32_t[]){ 0, 1 });
@@ -49,8 +49,8 @@ START_TEST(test_cut)
 }
 END_TEST
 
-/* ARB_provoking_vertex: what goes by the first vertex; lists were cut when they were made, which is told where it
- * shows. */
+/* ARB_provoking_vertex: primitives that use the first vertex; lists were split when compiled, which is reported if
+ * it shows. */
 START_TEST(test_provoking)
 {
 	static const uint32_t strip[] = { 1, 2, 0, 3, 2, 1 }, fan[] = { 2, 0, 1, 3, 0, 2 };
@@ -72,7 +72,7 @@ START_TEST(test_provoking)
 	gl_call(&gl, "glProvokingVertex", "e", GL_LAST_VERTEX_CONVENTION);
 	gl_call(&gl, "glPopAttrib", "");
 	vertices(&gl, GL_TRIANGLE_STRIP, 4);
-	gl_call(&gl, "glShadeModel", "e", GL_FLAT); /* a mesh of its own */
+	gl_call(&gl, "glShadeModel", "e", GL_FLAT); /* a separate mesh */
 	vertices(&gl, GL_TRIANGLE_FAN, 4);
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(s->n_instances, 4);
@@ -83,7 +83,7 @@ START_TEST(test_provoking)
 }
 END_TEST
 
-/* Sec. 2.6.2: inner edges of what is cut are no edges; flags count for polygons and quads. */
+/* Sec. 2.6.2: inner edges of split primitives are not drawn; flags apply to polygons and quads. */
 START_TEST(test_edges)
 {
 	struct gl gl = gl_open();
@@ -104,7 +104,7 @@ START_TEST(test_edges)
 	ck_assert_uint_eq(s->n_instances, 3);
 	/* 0 1 3: 0-1 and 3-0; 1 2 3: 1-2 and 2-3 */
 	ck_assert_mem_eq(s->meshes[s->instances[0].mesh]->edge_flags, ((uint8_t[]){ 1 | 4, 1 | 2 | SCENE_CONTINUES }), 2);
-	/* 1 2 0: 1-2 is off, 0-1 is on (the flag of 0 begins that edge); 2 3 0: 2-3 and 3-0 */
+	/* 1 2 0: 1-2 is off, 0-1 is on (vertex 0's flag applies to the edge that it starts); 2 3 0: 2-3 and 3-0 */
 	ck_assert_mem_eq(s->meshes[s->instances[1].mesh]->edge_flags, ((uint8_t[]){ 4, 1 | 2 | SCENE_CONTINUES }), 2);
 	ck_assert_ptr_null(s->meshes[s->instances[2].mesh]->edge_flags);
 	scene_release(&s);
@@ -112,7 +112,7 @@ START_TEST(test_edges)
 }
 END_TEST
 
-/* Sec. 2.7: a vertex has the attributes that were current when it was given. */
+/* Sec. 2.7: a vertex has the attributes that were current when it was passed. */
 START_TEST(test_varying)
 {
 	struct gl gl = gl_open();
@@ -126,7 +126,8 @@ START_TEST(test_varying)
 	gl_call(&gl, "glColor4ub", "uuuu", 0u, 255u, 0u, 51u);
 	gl_call(&gl, "glVertex2f", "ff", 1.0, 0.0);
 	gl_call(&gl, "glVertex2f", "ff", 1.0, 1.0);
-	gl_call(&gl, "glColor3f", "fff", 0.0, 0.0, 1.0); /* after the last vertex: nobody's, but current from now on */
+	gl_call(&gl, "glColor3f", "fff", 0.0, 0.0, 1.0); /* after the last vertex: applies to no vertex, but is
+	                                                  * current from now on */
 	gl_call(&gl, "glEnd", "");
 	s = gl_swap(&gl);
 	m = s->meshes[0];
@@ -139,7 +140,7 @@ START_TEST(test_varying)
 }
 END_TEST
 
-/* A colour that is set again to what it is, or set after the last vertex, is constant; equal vertices are one mesh. */
+/* A colour that is set to its own value, or after the last vertex, is constant; equal vertices share a mesh. */
 START_TEST(test_constant_and_same_mesh)
 {
 	struct gl gl = gl_open();
@@ -162,7 +163,7 @@ START_TEST(test_constant_and_same_mesh)
 }
 END_TEST
 
-/* Runs with nothing between but attributes are one mesh; each Begin is a draw of its own. */
+/* Runs separated only by attributes share a mesh; each Begin is a separate draw. */
 START_TEST(test_merged_runs)
 {
 	struct gl gl = gl_open();
@@ -192,7 +193,7 @@ START_TEST(test_merged_runs)
 }
 END_TEST
 
-/* Sec. 2.6.3: what is not allowed between Begin and End; sec. 2.5: it changes nothing. */
+/* Sec. 2.6.3: calls that are invalid between Begin and End; sec. 2.5: they change nothing. */
 START_TEST(test_errors)
 {
 	struct gl gl = gl_open();
@@ -220,7 +221,9 @@ START_TEST(test_errors)
 }
 END_TEST
 
-/* A material between Begin and End: each vertex is lit with the one that was current when it was given (sec. 2.6.3). */
+/*
+ * A material between Begin and End: each vertex is lit with the one that was current when it was passed (sec. 2.6.3).
+ */
 START_TEST(test_material_inside)
 {
 	static const float red[4] = { 1, 0, 0, 1 };
@@ -249,8 +252,8 @@ START_TEST(test_material_inside)
 END_TEST
 
 /*
- * Quads without indices, shaded smoothly and wholly in view are cut from the first to the third vertex (Mesa 22.3.6,
- * llvmpipe); those of lists, flat ones and those to be clipped are not.
+ * Quads without indices that are smooth and completely in view are split from the first to the third vertex (Mesa
+ * 22.3.6, llvmpipe); those of lists, flat ones and those to be clipped are not.
  */
 START_TEST(test_turned_quads)
 {

@@ -1,6 +1,6 @@
 /*
- * State that programs in assembly read (ARB_vertex_program sec. 2.14.1.2, tables X.2 and X.3; ARB_fragment_program
- * table X.3): each binding, as the constant that a draw's scene holds.
+ * State that assembly programs read (ARB_vertex_program sec. 2.14.1.2, tables X.2 and X.3; ARB_fragment_program table
+ * X.3): each binding, as the constant in a draw's scene.
  */
 #include <math.h>
 #include <stdio.h>

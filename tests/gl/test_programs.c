@@ -1,5 +1,5 @@
-/* Programs in assembly (ARB_vertex_program, ARB_fragment_program): objects, what is translated, what a draw's scene
- * holds of it. */
+/* Assembly programs (ARB_vertex_program, ARB_fragment_program): objects, translation, and their data in a draw's
+ * scene. */
 #include <stdio.h>
 
 #include "replay/programs/ati.h"
@@ -36,10 +36,10 @@ static const struct scene_program *vertex_program_of(const struct scene *s, uint
 	return (const struct scene_program *)(s->programs + program - 1);
 }
 
-/* No instruction may name a register or a constant that is not there. */
+/* No instruction may name a register or constant that does not exist. */
 static void check_bounds(const struct gls_program *p)
 {
-	/* what may be written */
+	/* writable registers */
 	const uint32_t first = p->target == GL_VERTEX_PROGRAM_ARB ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR;
 
 	for (uint32_t i = 0; i < p->code.n_instructions; i++) {
@@ -96,7 +96,7 @@ START_TEST(test_objects)
 }
 END_TEST
 
-/* A program has 2048 parameters of its own, those of no call 0; arrays may hold them all but one. */
+/* A program has 2048 local parameters, call 0's excluded; arrays may hold all but one of them. */
 START_TEST(test_many_parameters)
 {
 	static const float four[2][4] = { { 1, 2, 3, 4 }, { 5, 6, 7, 8 } };
@@ -128,8 +128,8 @@ START_TEST(test_many_parameters)
 }
 END_TEST
 
-/* A long program is translated (piglit's has 12,293 instructions of this kind, three of ours each); one that is far too
- * long is refused. */
+/* A long program is translated (piglit's has 12,293 such instructions, three of ours each); one that is far too long
+ * is refused. */
 START_TEST(test_long_texts)
 {
 	static const char head[] = "!!ARBfp1.0 TEMP r; MOV r, 0;", step[] = "ADD r,r.wxyz,.5;",
@@ -155,8 +155,8 @@ START_TEST(test_long_texts)
 }
 END_TEST
 
-/* ATI's shaders: made between Begin and End, of what is called there; constants of their own before the context's;
- * names of their own. */
+/* ATI's shaders: compiled from the calls between Begin and End; local constants take precedence over the context's;
+ * separate names. */
 START_TEST(test_ati)
 {
 	static const float own[4] = { 1, 2, 3, 4 }, shared[4] = { 5, 6, 7, 8 };
@@ -171,7 +171,7 @@ START_TEST(test_ati)
 	set_text(&gl, 7, "!!ARBfp1.0 MOV result.color, fragment.color; END");
 	gl_call(&gl, "glBindFragmentShaderATI", "u", 7u);
 	gl_call(&gl, "glEnable", "e", GL_FRAGMENT_SHADER_ATI);
-	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0); /* without calls it is none */
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0); /* without calls there is no shader */
 	gl_call(&gl, "glBeginFragmentShaderATI", "");
 	gl_call(&gl, "glBeginFragmentShaderATI", "");
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
@@ -193,11 +193,11 @@ START_TEST(test_ati)
 	ck_assert_uint_eq(p->code.inputs, 1u << SCENE_INPUT_TEXCOORD);
 	check_bounds(p);
 	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
-	gl_call(&gl, "glEnable", "e", GL_FRAGMENT_PROGRAM_ARB); /* comes before it */
+	gl_call(&gl, "glEnable", "e", GL_FRAGMENT_PROGRAM_ARB); /* takes precedence */
 	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
 	gl_call(&gl, "glDisable", "e", GL_FRAGMENT_PROGRAM_ARB);
 	gl_call(&gl, "glEnable", "e", GL_FOG);
-	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0); /* not done */
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0); /* unsupported */
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(s->n_instances, 4);
 	ck_assert_uint_eq(s->materials[s->instances[0].material].fragment_program, 0);
@@ -216,7 +216,7 @@ START_TEST(test_ati)
 }
 END_TEST
 
-/* Calls with any tokens: refused or translated, never beyond what is there. */
+/* Calls with random tokens: refused or translated, never out of bounds. */
 START_TEST(test_damaged_ati)
 {
 	static const uint32_t tokens[] = {
@@ -235,7 +235,7 @@ START_TEST(test_damaged_ati)
 		for (unsigned k = 0; k < 4; k++) {
 			calls[k].kind = (seed = seed * 1664525 + 1013904223) >> 8 & 7;
 			calls[k].n_arguments = seed >> 16 & 3;
-			if (seed >> 24 & 7) /* likely ones */
+			if (seed >> 24 & 7) /* plausible ones */
 				calls[k].to = GL_REG_0_ATI + (seed >> 20 & 3);
 		}
 		ck_assert_int_eq(program_translate_ati(calls, sizeof(calls) - (unsigned)(i & 1), &p.code, &p.why), 0);
@@ -247,7 +247,7 @@ START_TEST(test_damaged_ati)
 }
 END_TEST
 
-/* A draw takes the program along, with its constants as they are then; equal ones are there once. */
+/* A draw includes the program with its constants at that time; equal ones are stored once. */
 START_TEST(test_scene)
 {
 	struct gl gl = gl_open();
@@ -270,7 +270,7 @@ START_TEST(test_scene)
 	ck_assert_uint_eq(head->inputs, 1u << (SCENE_INPUT_TEXCOORD + 2));
 	constants = (const float *)((const struct scene_instruction *)(head + 1) + head->n_instructions);
 	ck_assert_floats(4, constants, 0.5, 0.25, 0, 1);
-	ck_assert_uint_eq(s->materials[0].unit_count, 2); /* what is sampled, and what coordinates are read of */
+	ck_assert_uint_eq(s->materials[0].unit_count, 2); /* units that are sampled, and coordinates that are read */
 	ck_assert_uint_eq(s->units[0].unit, 1);
 	ck_assert_uint_eq(s->units[1].unit, 2);
 	ck_assert_uint_eq(gl.x->counts.programs, 0);
@@ -279,8 +279,7 @@ START_TEST(test_scene)
 }
 END_TEST
 
-/* A draw takes its vertex program along, the attributes that have numbers, and what the state says of sizes and
- * sides. */
+/* A draw includes its vertex program, the numbered attributes, and the state for point sizes and two sides. */
 START_TEST(test_vertices)
 {
 	struct gl gl = gl_open();
@@ -350,7 +349,7 @@ static unsigned negations(struct gl *gl, const char *instruction)
 	return n;
 }
 
-/* A minus before an operand counts, of one number as of four. */
+/* Negation of operands is translated, for scalars and vectors. */
 START_TEST(test_negated)
 {
 	static const char *const operations[] = { "MOV r, %sr",        "ABS r, %sr",        "FLR r, %sr",
@@ -372,7 +371,7 @@ START_TEST(test_negated)
 }
 END_TEST
 
-/* Arrays of attributes count where a program draws; attribute 0 comes before the conventional one. */
+/* Attribute arrays apply if a program draws; attribute 0 takes precedence over the conventional position. */
 START_TEST(test_vertex_arrays)
 {
 	struct gl gl = gl_open();
@@ -406,7 +405,7 @@ START_TEST(test_vertex_arrays)
 }
 END_TEST
 
-/* Of its group, ENABLE_BIT brings back what switches programs on. */
+/* PopAttrib restores program enables that are in ENABLE_BIT's group. */
 START_TEST(test_enables)
 {
 	struct gl gl = gl_open();
@@ -422,7 +421,7 @@ START_TEST(test_enables)
 }
 END_TEST
 
-/* What is not translated is drawn as fixed function, and counted with its reason. */
+/* Programs that cannot be translated are drawn by fixed function, and counted with the reason. */
 START_TEST(test_reasons)
 {
 	static const char *const texts[][2] = {
@@ -452,14 +451,14 @@ START_TEST(test_reasons)
 	}
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(gl.x->counts.programs, sizeof(texts) / sizeof(texts[0]));
-	ck_assert_uint_eq(gl.x->counts.program_draws.n, sizeof(texts) / sizeof(texts[0])); /* of as many objects */
+	ck_assert_uint_eq(gl.x->counts.program_draws.n, sizeof(texts) / sizeof(texts[0])); /* for as many objects */
 	ck_assert_uint_eq(s->n_programs, 0);
 	scene_release(&s);
 	gl_close(&gl);
 }
 END_TEST
 
-/* Nothing is drawn while a program is enabled that has no text; nothing of it is missing either. */
+/* Nothing is drawn while a program without a text is enabled; nothing counts as missing either. */
 START_TEST(test_no_text)
 {
 	static const uint32_t targets[] = { GL_VERTEX_PROGRAM_ARB, GL_FRAGMENT_PROGRAM_ARB };
@@ -471,7 +470,7 @@ START_TEST(test_no_text)
 		gl_call(&gl, "glBindProgramARB", "eu", targets[i], 5 + i);
 		gl_call(&gl, "glEnable", "e", targets[i]);
 		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
-		gl_call(&gl, "glEnable", "e", GL_LIGHTING); /* what was collected is drawn */
+		gl_call(&gl, "glEnable", "e", GL_LIGHTING); /* collected vertices are drawn */
 		ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
 		gl_call(&gl, "glDrawPixels", "iieeb", 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texel), texel);
 		ck_assert_uint_eq(gl_error(&gl), i == 0 ? GL_NO_ERROR : GL_INVALID_OPERATION);
@@ -487,7 +486,7 @@ START_TEST(test_no_text)
 }
 END_TEST
 
-/* A wrong text is an error, and leaves the one that was there. */
+/* An invalid text is an error, and leaves the old one. */
 START_TEST(test_wrong_texts)
 {
 	struct gl gl = gl_open();
@@ -498,14 +497,14 @@ START_TEST(test_wrong_texts)
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
 	ck_assert_ptr_null(bound(&gl)->why);
 	ck_assert_uint_eq(bound(&gl)->code.n_instructions, 1);
-	set_text(&gl, 1, "!!ARBfp1.0 OPTION ARB_made_up; END"); /* may well be right: nobody knows here */
+	set_text(&gl, 1, "!!ARBfp1.0 OPTION ARB_made_up; END"); /* possibly valid: Relume cannot know */
 	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
 	ck_assert_ptr_nonnull(bound(&gl)->why);
 	gl_close(&gl);
 }
 END_TEST
 
-/* A text with letters changed, left out and doubled. */
+/* A text with letters changed, omitted and doubled. */
 static void check_damaged(struct gl *gl, uint32_t target, const char *text, size_t length)
 {
 	uint32_t seed = 1, translated = 0;
@@ -536,7 +535,7 @@ static void check_damaged(struct gl *gl, uint32_t target, const char *text, size
 	ck_assert_uint_gt(translated, 100);
 }
 
-/* Texts with letters changed, left out and doubled: refused or translated, never beyond what is there. */
+/* Texts with letters changed, omitted and doubled: refused or translated, never out of bounds. */
 START_TEST(test_damaged_texts)
 {
 	static const char text[] =

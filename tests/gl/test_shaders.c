@@ -1,4 +1,4 @@
-/* Programs of GLSL (GL 2.1 sec. 2.15): objects, locations, uniforms, what a draw's scene holds of them. */
+/* GLSL programs (GL 2.1 sec. 2.15): objects, locations, uniforms, and their data in a draw's scene. */
 #include <stdio.h>
 
 #include "replay/glsl/object.h"
@@ -20,7 +20,7 @@ static void make_shader(struct gl *gl, uint32_t name, uint32_t type, const char 
 	gl_call(gl, "glCompileShader", "u", name);
 }
 
-/* A program of one fragment shader, whose names are `name` and `name` + 100, and used from here on. */
+/* A program with one fragment shader, named `name` and `name` + 100, in use from now on. */
 static struct gls_shader *make_program(struct gl *gl, uint32_t name, const char *text)
 {
 	make_shader(gl, name + 100, GL_FRAGMENT_SHADER, text);
@@ -31,8 +31,8 @@ static struct gls_shader *make_program(struct gl *gl, uint32_t name, const char 
 	return object(gl, name);
 }
 
-/* A shader lives as long as a program has it; a program as long as it is used; what was linked stays when sources
- * change. */
+/* A shader lives as long as a program has it attached, a program as long as it is in use; the linked code survives
+ * changes to sources. */
 START_TEST(test_objects)
 {
 	struct gl gl = gl_open();
@@ -56,7 +56,7 @@ START_TEST(test_objects)
 }
 END_TEST
 
-/* Locations are what the recording was told; arrays, matrices, structures, and those that are none. */
+/* Locations are those in the recording; arrays, matrices, structures, and invalid locations. */
 START_TEST(test_uniforms)
 {
 	struct gl gl = gl_open();
@@ -81,7 +81,7 @@ START_TEST(test_uniforms)
 	ck_assert_floats(4, p->uniforms.values + 8, 1, 3, 2, 4);
 	ck_assert_float_eq(p->uniforms.values[12], 1);
 	ck_assert_floats(8, p->uniforms.values + 16, 0, 0, 0, 0, 0, 9, 8, 7);
-	gl_call(&gl, "glLinkProgram", "u", 1u); /* locations and values go */
+	gl_call(&gl, "glLinkProgram", "u", 1u); /* locations and values are lost */
 	ck_assert_float_eq(p->uniforms.values[12], 0);
 	gl_call(&gl, "glUniform1i", "ii", 21, 5);
 	ck_assert_float_eq(p->uniforms.values[12], 0);
@@ -89,7 +89,7 @@ START_TEST(test_uniforms)
 }
 END_TEST
 
-/* A draw takes the program along, with its uniforms and the units that its samplers name then. */
+/* A draw includes the program with its uniforms, and the units that its samplers refer to at that time. */
 START_TEST(test_scene)
 {
 	struct gl gl = gl_open();
@@ -125,7 +125,7 @@ START_TEST(test_scene)
 }
 END_TEST
 
-/* What is not translated is drawn as fixed function, and counted with its reason. */
+/* Programs that cannot be translated are drawn by fixed function, and counted with the reason. */
 START_TEST(test_reasons)
 {
 	static const char *const texts[][2] = {
@@ -163,7 +163,7 @@ START_TEST(test_reasons)
 }
 END_TEST
 
-/* A reason names the line, and what was counted with it keeps it when the program is linked again or goes. */
+/* A reason names the line; counts keep it when the program is relinked or deleted. */
 START_TEST(test_reasons_stay)
 {
 	static const char first[] = "void main() {\n\ngl_FragColor = nothing; }",
@@ -183,7 +183,7 @@ START_TEST(test_reasons_stay)
 	gl_call(&gl, "glUseProgram", "u", 0u);
 	gl_call(&gl, "glDeleteProgram", "u", 1u);
 	ck_assert_str_eq(gl.x->counts.programs_why, "a shader does not compile here: line 3: 'nothing' is not declared");
-	for (uint32_t i = 300; i < 500; i += 2) { /* more than are kept: the rest share one */
+	for (uint32_t i = 300; i < 500; i += 2) { /* more than are stored separately: the rest share one */
 		char text[64];
 
 		snprintf(text, sizeof(text), "void main() { gl_FragColor = n%u; }", i);
@@ -196,8 +196,8 @@ START_TEST(test_reasons_stay)
 }
 END_TEST
 
-/* Planes clip by a place that is not fixed function's; with colours of both sides that counts as missing. The shader
- * runs all the same. */
+/* Clip planes use a position other than fixed function's; together with two-sided colours this counts as missing.
+ * The shader is run anyway. */
 START_TEST(test_clip_vertex)
 {
 	static const struct { const char *text; uint32_t own;
@@ -269,8 +269,8 @@ START_TEST(test_unlinked)
 }
 END_TEST
 
-/* Attributes lie where the program has bound them, or was told that they are, others where Mesa puts them; fixed
- * function's position stays its own. */
+/* Attributes are at the locations bound by the program or recorded, others where Mesa puts them; fixed function's
+ * position stays separate. */
 START_TEST(test_attributes)
 {
 	struct gl gl = gl_open();
@@ -292,8 +292,8 @@ START_TEST(test_attributes)
 }
 END_TEST
 
-/* How many rows of texture coordinates the fragment stage of a program reads, where the vertex stage writes vec2 a,
- * vec4 b, vec3 c[2]. */
+/* Number of rows of texture coordinates that a program's fragment stage reads, with a vertex stage that writes vec2
+ * a, vec4 b, vec3 c[2]. */
 static int rows_read(uint32_t name, const char *declared, const char *color)
 {
 	static const char vertex[] = "varying vec2 a; varying vec4 b; varying vec3 c[2];\n"
@@ -317,7 +317,7 @@ static int rows_read(uint32_t name, const char *declared, const char *color)
 	return __builtin_popcount(inputs);
 }
 
-/* Varyings of one name and size are the same in both stages (sec. 2.15.3). */
+/* Varyings with the same name and size correspond in both stages (sec. 2.15.3). */
 START_TEST(test_varyings)
 {
 	ck_assert_int_eq(rows_read(1, "", "gl_Color"), 0);
@@ -327,7 +327,7 @@ START_TEST(test_varyings)
 }
 END_TEST
 
-/* From GLSL 1.50 on the vertex stage's results are members of a block. */
+/* From GLSL 1.50 on, the vertex stage's results are members of a block. */
 START_TEST(test_results_in_blocks)
 {
 	static const char vertex[] = "#version 150 compatibility\nin vec4 a; out vec2 b; void main() { b = a.xy; "

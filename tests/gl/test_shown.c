@@ -1,7 +1,7 @@
 /*
- * Pictures of framebuffer objects that reach the window unchanged are the window's scene (replay/gl/surface/shown.h):
- * by a quad of unit 0, or of programs that look one texture up, at coordinates of vertices or of a vertex program; and
- * what is in the way of that.
+ * A framebuffer object's picture that reaches the window unchanged becomes the window's scene
+ * (replay/gl/surface/shown.h): through a quad with unit 0, or with programs that look up one texture, at coordinates
+ * from vertices or from a vertex program. Also cases that prevent it.
  */
 #include "replay/play/player.h"
 #include "tests/gl/gl.h"
@@ -15,19 +15,19 @@ static int paint(void *user, const struct scene *s, struct scene_picture *pictur
 	return 0;
 }
 
-/* How a quad shows texture 5, of the window's size, in which there is a triangle. */
+/* How a quad shows texture 5, which has the window's size and contains a triangle. */
 struct showing {
 	uint32_t unit;
 	const char *vertices, *fragments; /* programs, or NULL */
-	float right, most_s;      /* the quad's right side, and its coordinate there: 1, 1 where it shows all of it */
-	void (*set)(struct gl *); /* what else is set, or NULL */
+	float right, most_s;      /* the quad's right side, and its coordinate there: 1, 1 if it shows everything */
+	void (*set)(struct gl *); /* sets further state, or NULL */
 };
 
 static void begin_to_draw(struct gl *gl)
 {
 	*gl = gl_open();
 	gl->x->feedback.supply = paint;
-	gl_call(gl, "glStringMarkerGREMEDY", "is", 0, "relume:bits 8 0 0"); /* as the object: no depth */
+	gl_call(gl, "glStringMarkerGREMEDY", "is", 0, "relume:bits 8 0 0"); /* like the object: no depth */
 	gl_call(gl, "glBindTexture", "ei", GL_TEXTURE_2D, 5);
 	gl_call(gl, "glTexParameteri", "eei", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
 	gl_call(gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_RGBA, 64, 64, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
@@ -49,7 +49,7 @@ static void use(struct gl *gl, uint32_t target, const char *program)
 	gl_call(gl, "glEnable", "e", target);
 }
 
-/* 1 where the window's scene is the triangle, 0 where it is the quad. */
+/* 1 if the window's scene is the triangle, 0 if it is the quad. */
 static int is_shown(const struct showing *how)
 {
 	const uint32_t unit = GL_TEXTURE0 + how->unit;
@@ -125,7 +125,7 @@ START_TEST(test_quads)
 		{ { 1, NULL, LOOK(1), 1, 1, NULL }, 1 },
 		{ { 3, NULL, LOOK(3), 1, 1, NULL }, 1 },
 		{ { 0, SAME, LOOK(0), 1, 1, NULL }, 1 },
-		{ { 0, TWICE, LOOK(0), 1, 0.5f, NULL }, 0 }, /* both of its coordinates are twice what they are */
+		{ { 0, TWICE, LOOK(0), 1, 0.5f, NULL }, 0 }, /* both of its coordinates are doubled */
 		{ { 0, NULL, PAINT, 1, 1, NULL }, 0 },
 		{ { 0, NULL, NULL, 0.5f, 1, NULL }, 0 },
 		{ { 0, NULL, NULL, 0.5f, 0.75f, NULL }, 0 },
@@ -143,7 +143,7 @@ START_TEST(test_quads)
 }
 END_TEST
 
-/* Pixels that an object's picture has are still its own, not the blit's that showed it. */
+/* An object's pixels remain its own, not those of the blit that showed it. */
 START_TEST(test_pixels)
 {
 	static const uint8_t rgba[3][4] = { { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 } };

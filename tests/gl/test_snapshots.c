@@ -1,4 +1,6 @@
-/* Checkpoints that were damaged: numbers that are places in arrays are refused (replay/index/snapshot.h). */
+/*
+ * Damaged checkpoints: numbers that serve as indices of arrays are refused if out of range (replay/index/snapshot.h).
+ */
 #include "replay/index/snapshot.h"
 #include "base/bytes.h"
 #include "replay/gl/surface/drawable.h"
@@ -32,7 +34,7 @@ static int load(const struct bytes *saved)
 	return err;
 }
 
-/* Where the state of a texture unit stands, by the colour that it alone has. */
+/* The state of a texture unit, found by its unique colour. */
 static struct scene_unit *unit_with(struct bytes *saved, const float color[4], unsigned nth)
 {
 	const size_t at = offsetof(struct scene_unit, env_color);
@@ -43,7 +45,7 @@ static struct scene_unit *unit_with(struct bytes *saved, const float color[4], u
 	ck_abort_msg("no such unit");
 }
 
-/* A unit's own number, in use and on the attribute stack. */
+/* A unit's own number, in the current state and on the attribute stack. */
 START_TEST(units_with_other_numbers)
 {
 	static const float color[4] = { 0.123f, 0.456f, 0.789f, 0.321f };
@@ -69,7 +71,7 @@ START_TEST(units_with_other_numbers)
 }
 END_TEST
 
-/* A program's parameters, of which there are as many as were set. */
+/* A program's parameters and their count. */
 START_TEST(parameters_of_programs)
 {
 	static const float four[4] = { 0.123f, 0.456f, 0.789f, 0.321f };
@@ -99,7 +101,7 @@ START_TEST(parameters_of_programs)
 }
 END_TEST
 
-/* How the library that was recorded sums is one of two ways. */
+/* The recorded library's way of rounding sums, one of two. */
 START_TEST(ways_to_sum)
 {
 	static const float four[4] = { 0.123f, 0.456f, 0.789f, 0.321f };
@@ -122,7 +124,7 @@ START_TEST(ways_to_sum)
 }
 END_TEST
 
-/* Pictures are made of a window's size: one that is too large is refused. */
+/* Pictures have a window's size, so a size that is too large is refused. */
 START_TEST(sizes_of_windows)
 {
 	static const uint64_t size[2] = { 1234, 567 };
@@ -182,7 +184,7 @@ static void drop(struct store *s)
 		free(s->blobs[i].data);
 }
 
-/* What a texture's texels are is one of the formats that there are. */
+/* A texture's texels must have one of the known formats. */
 START_TEST(formats_of_levels)
 {
 	const uint32_t level[] = { 3, 5, 1, 0, GL_RGBA8 };
@@ -212,7 +214,7 @@ START_TEST(formats_of_levels)
 }
 END_TEST
 
-/* A program that has no text but one that is refused. */
+/* A program whose only text was refused. */
 START_TEST(refused_programs)
 {
 	static const char text[] = "!!ARBvp1.0";
@@ -239,7 +241,7 @@ START_TEST(refused_programs)
 }
 END_TEST
 
-/* Each pixel another colour. */
+/* A different colour for each pixel. */
 static int paint(void *user, const struct scene *scene, struct scene_picture *picture)
 {
 	const uint32_t n = scene->width * scene->height;
@@ -258,7 +260,7 @@ static struct gls_surface *window(struct gl *gl)
 	return &((struct gls_drawable *)gls_drawable_of(gl->x, 7))->surface;
 }
 
-/* A window and a renderbuffer, with what was drawn to them. Its planes are of its size. */
+/* A window and a renderbuffer with their pixels. The planes have their sizes. */
 START_TEST(pixels)
 {
 	struct store store = { 0 };
@@ -277,11 +279,11 @@ START_TEST(pixels)
 	gl_call(&gl, "glFramebufferRenderbufferEXT", "eeeu", GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT,
 	        GL_RENDERBUFFER_EXT, 3u);
 	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
-	ck_assert_int_eq(gls_frame_settle(gl.x), 0); /* it waits */
+	ck_assert_int_eq(gls_frame_settle(gl.x), 0); /* pending */
 	gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_RGBA, 0, 0, 16, 8, 0);
 	gl_call(&gl, "glBindFramebufferEXT", "eu", GL_FRAMEBUFFER_EXT, 0u);
 	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
-	ck_assert_int_eq(gls_frame_settle(gl.x), 0); /* the frame goes on */
+	ck_assert_int_eq(gls_frame_settle(gl.x), 0); /* the frame continues */
 	gl_call(&gl, "glXSwapBuffers", "pu", (uint64_t)1, 7u);
 	gls_frame_defer(gl.x);
 	ck_assert_int_eq(gls_frame_settle(gl.x), 1);
@@ -297,7 +299,7 @@ START_TEST(pixels)
 	memcpy(&size, r->content->picture.rgba + 4 * 77, 4);
 	ck_assert_uint_eq(size, 77);
 	gls_exec_destroy(&other.x);
-	for (int i = 0; i < store.n; i++) { /* each plane is asked for */
+	for (int i = 0; i < store.n; i++) { /* each plane is requested */
 		const size_t n = store.blobs[i].n;
 
 		store.blobs[i].n--;
@@ -306,7 +308,7 @@ START_TEST(pixels)
 		gls_exec_destroy(&other.x);
 		store.blobs[i].n = n;
 	}
-	/* Without them it counts as skipped. */
+	/* Without its pixels the frame counts as skipped. */
 	free(saved.data);
 	saved = (struct bytes){ 0 };
 	ck_assert_int_eq(snapshot_save(gl.x, &in_memory, &saved), 0);

@@ -1,5 +1,5 @@
-/* Attribute stacks, materials, contexts, and what a draw sees of the state (GL 2.1 sec. 2.14.3, 6.1.14; GLX 1.4
- * sec. 3.3). */
+/* Attribute stacks, materials, contexts, and the state that a draw uses (GL 2.1 sec. 2.14.3, 6.1.14; GLX 1.4 sec.
+ * 3.3). */
 #include <math.h>
 
 #include "tests/gl/gl.h"
@@ -9,7 +9,7 @@ static void draw(struct gl *gl)
 	gl_call(gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
 }
 
-/* What a group's bit saves is restored, what it does not save is left. */
+/* State in the pushed groups is restored, other state is kept. */
 START_TEST(test_push_attrib)
 {
 	struct gl gl = gl_open();
@@ -39,7 +39,7 @@ START_TEST(test_push_attrib)
 }
 END_TEST
 
-/* Sec. 2.5: the first error stays until it is asked for; the call that made it changed nothing. */
+/* Sec. 2.5: the first error sticks until it is queried; the call that caused it changed nothing. */
 START_TEST(test_first_error)
 {
 	struct gl gl = gl_open();
@@ -53,7 +53,7 @@ START_TEST(test_first_error)
 }
 END_TEST
 
-/* Sec. 2.14.3: a tracked parameter follows the color, cannot be set, and keeps the last color when tracking ends. */
+/* Sec. 2.14.3: a tracked parameter follows the colour, cannot be set, and keeps the last colour when tracking ends. */
 START_TEST(test_color_material)
 {
 	static const float white[4] = { 1, 1, 1, 1 };
@@ -84,7 +84,7 @@ START_TEST(test_color_material)
 }
 END_TEST
 
-/* Pending vertices are drawn with the state they were given under; equal states are one material. */
+/* Pending vertices are drawn with the state they were passed under; equal states share a material. */
 START_TEST(test_state_at_draw)
 {
 	struct gl gl = gl_open();
@@ -105,7 +105,7 @@ START_TEST(test_state_at_draw)
 }
 END_TEST
 
-/* Lights: enabled ones only, in order; the same group once. */
+/* Lights: only enabled ones, in order; each group is stored once. */
 START_TEST(test_lights)
 {
 	struct gl gl = gl_open();
@@ -130,7 +130,7 @@ START_TEST(test_lights)
 }
 END_TEST
 
-/* needs_previous: something is drawn before the whole picture was cleared. */
+/* needs_previous: drawing precedes the clear of the whole picture. */
 START_TEST(test_needs_previous)
 {
 	struct gl gl = gl_open();
@@ -157,7 +157,7 @@ START_TEST(test_needs_previous)
 }
 END_TEST
 
-/* Contexts: state of their own, objects shared on demand, one current per thread. */
+/* Contexts: separate state, objects shared on request, one current context per thread. */
 START_TEST(test_contexts)
 {
 	struct gl gl = gl_open();
@@ -174,7 +174,7 @@ START_TEST(test_contexts)
 	gl_call(&gl, "glCallList", "u", 1u);
 	ck_assert_uint_eq(gl_state(&gl)->a.fog.enabled, 0);
 	gl_call(&gl, "glXMakeCurrent", "pup", (uint64_t)1, 0u, (uint64_t)0);
-	gl_call(&gl, "glEnable", "e", GL_FOG); /* without a context: nothing */
+	gl_call(&gl, "glEnable", "e", GL_FOG); /* without a context: no effect */
 	ck_assert_uint_eq(gl.x->without_context, 1);
 	gl_call(&gl, "glXMakeCurrent", "pup", (uint64_t)1, 7u, (uint64_t)0x10);
 	ck_assert_uint_eq(gl_state(&gl)->a.fog.enabled, 0);
@@ -197,7 +197,7 @@ START_TEST(test_scene_outlives)
 }
 END_TEST
 
-/* rtBuildKdTreeEXT's marker: frames with something drawn after it. */
+/* rtBuildKdTreeEXT's marker: applies to frames with draws after it. */
 START_TEST(test_kd_tree_marker)
 {
 	struct gl gl = gl_open();
@@ -234,7 +234,7 @@ START_TEST(test_surface_marker)
 }
 END_TEST
 
-/* Every command of GL 1.0 - 2.1 that is met is executed, excused or counted: nothing falls through in silence. */
+/* Every command of GL 1.0 - 2.1 is executed, excused or counted: none is silently ignored. */
 START_TEST(test_every_command)
 {
 	struct gl gl = gl_open();

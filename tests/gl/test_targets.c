@@ -1,4 +1,4 @@
-/* What is drawn to (GL 2.1 sec. 4, GLX 1.4 sec. 3.3.3, GL 3.0 sec. 4.4): how many bits it has, framebuffer objects. */
+/* Draw targets (GL 2.1 sec. 4, GLX 1.4 sec. 3.3.3, GL 3.0 sec. 4.4): bit depths, framebuffer objects. */
 #include "tests/gl/gl.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/gl/surface/frames.h"
@@ -18,7 +18,7 @@ static void current_with(struct gl *gl, uint64_t handle, uint64_t visual)
 	gl_call(gl, "glXMakeCurrent", "pup", (uint64_t)1, 7u, handle);
 }
 
-/* What the program asked of a visual, or of the one that it chose, holds for contexts made of it. */
+/* Properties that the program queried or requested for a visual hold for its contexts. */
 START_TEST(test_bits_of_visuals)
 {
 	const uint32_t with[] = { 4, 5, 11, 1, 12, 1, 0 }, without[] = { 4, 12, 11, 0 }; /* 11: a depth size, not the token */
@@ -44,7 +44,7 @@ START_TEST(test_bits_of_visuals)
 }
 END_TEST
 
-/* What our recorder marks counts more; without a depth or stencil buffer their tests are off (sec. 4.1.5, 4.1.6). */
+/* Our recorder's markers take precedence; without a depth or stencil buffer, its test is off (sec. 4.1.5, 4.1.6). */
 START_TEST(test_bits_of_marker)
 {
 	struct gl gl = gl_open();
@@ -67,8 +67,7 @@ START_TEST(test_bits_of_marker)
 }
 END_TEST
 
-/* Samples of a pixel (sec. 3.2.1), what is asked of them, and smoothing, which they take the place of. Only four can be
- * had. */
+/* Multisampling (sec. 3.2.1): queries, and smoothing, which it replaces. Four samples is the only supported number. */
 START_TEST(test_samples)
 {
 	struct gl gl = gl_open();
@@ -103,7 +102,7 @@ START_TEST(test_samples)
 }
 END_TEST
 
-/* A supplier that paints every picture in one colour, and remembers what it was asked. */
+/* A supplier that fills every picture with one colour, and records the requests. */
 struct painter {
 	uint32_t asked, n_instances, width, height, depth_bits, alpha_bits, had_start, unknown; /* unknown: what
 	                                                                                           pictures have */
@@ -132,7 +131,7 @@ static int paint(void *user, const struct scene *s, struct scene_picture *pictur
 	return 0;
 }
 
-/* Texture 5, 16 x 8 of a format, bound and attached to object 3, which stays bound. */
+/* Texture 5, 16 x 8 with the given format, attached to object 3, which stays bound. */
 static struct gl open_object(struct painter *p, uint32_t format)
 {
 	struct gl gl = gl_open();
@@ -155,7 +154,7 @@ static void show(struct gl *gl)
 	gl_call(gl, "glDisable", "e", GL_TEXTURE_2D);
 }
 
-/* Draws to an object are a scene of its own size; the texture holds them, in its base format, when it is drawn with. */
+/* Draws to an object form a scene of its size; the texture contains them, in its base format, when it is used. */
 START_TEST(test_render_to_texture)
 {
 	struct painter p = { 0 };
@@ -182,7 +181,7 @@ START_TEST(test_render_to_texture)
 	ck_assert_uint_eq(gl_unsupported(&gl), 0);
 	scene_release(&s);
 	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-	show(&gl); /* nothing new in it: nothing is rendered */
+	show(&gl); /* unchanged: nothing is rendered */
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(p.asked, 1);
 	scene_release(&s);
@@ -190,7 +189,7 @@ START_TEST(test_render_to_texture)
 }
 END_TEST
 
-/* What is drawn without a clear begins from what the texture holds, be it what the program has put there. */
+/* Drawing without a clear starts from the texture's contents, including those the program uploaded. */
 START_TEST(test_object_keeps)
 {
 	const uint8_t texel[4] = { 1, 2, 3, 4 };
@@ -211,7 +210,7 @@ START_TEST(test_object_keeps)
 }
 END_TEST
 
-/* Renderbuffers give depth and stencil; an object of which nothing is left draws nowhere; a deleted one is unbound. */
+/* Renderbuffers provide depth and stencil; an object without attachments is not drawn to; a deleted one is unbound. */
 START_TEST(test_renderbuffers)
 {
 	struct painter p = { 0 };
@@ -227,7 +226,7 @@ START_TEST(test_renderbuffers)
 	triangle(&gl);
 	show(&gl);
 	ck_assert_uint_eq(p.depth_bits, 16);
-	ck_assert_uint_eq(p.width, 12); /* the smaller one of each */
+	ck_assert_uint_eq(p.width, 12); /* the smaller size of each */
 	ck_assert_uint_eq(p.height, 8);
 	gl_call(&gl, "glBindFramebuffer", "ei", GL_FRAMEBUFFER, 3);
 	gl_call(&gl, "glFramebufferRenderbuffer", "eeei", GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, 0);
@@ -245,7 +244,7 @@ START_TEST(test_renderbuffers)
 }
 END_TEST
 
-/* BlitFramebuffer: a pixel rectangle that no test and no blending touches, in the draw object or the window. */
+/* BlitFramebuffer: a pixel rectangle without tests and blending, in the draw object or the window. */
 START_TEST(test_blit)
 {
 	struct painter p = { 0 };
@@ -271,7 +270,7 @@ START_TEST(test_blit)
 }
 END_TEST
 
-/* What was drawn to a texture in a skipped frame is missing: the replay must start again where it is looked at. */
+/* A texture drawn to in a skipped frame is missing: the replay must start again when it is used. */
 START_TEST(test_object_skipped)
 {
 	struct painter p = { 0 };
@@ -290,14 +289,14 @@ START_TEST(test_object_skipped)
 	triangle(&gl);
 	gls_frame_skip(gl.x);
 	gl.x->want = 1;
-	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT); /* all of it is new */
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT); /* replaces everything */
 	show(&gl);
 	ck_assert_int_eq(gl.x->feedback.rewind, 0);
 	gl_close(&gl);
 }
 END_TEST
 
-/* Where an object has no colours, depths that are cleared are all that somebody can look at. */
+/* If an object has no colours, cleared depths are all that can be seen of it. */
 START_TEST(test_depths_skipped)
 {
 	for (int cleared = 0; cleared < 2; cleared++) {
@@ -325,7 +324,7 @@ START_TEST(test_depths_skipped)
 }
 END_TEST
 
-/* Accum (sec. 4.2.4): sums of what the screen shows, given back as pixels under scissor and mask. */
+/* Accum (sec. 4.2.4): sums of the screen, returned as pixels under scissor and mask. */
 START_TEST(test_accum)
 {
 	struct painter p = { 0 };
@@ -357,12 +356,12 @@ START_TEST(test_accum)
 	ck_assert_uint_eq(r->height, 4);
 	ck_assert_floats(2, s->meshes[s->instances[0].mesh]->position, 10, 60);
 	ck_assert_uint_eq(s->materials[s->instances[0].material].color_mask, 13);
-	/* ((0 0 0 .5) + 2 (10 20 30 40) / 255 + .2) / 2; alpha passes 1 before it is halved, and begins again at -1 */
+	/* ((0 0 0 .5) + 2 (10 20 30 40) / 255 + .2) / 2; alpha exceeds 1 before it is halved, and wraps to -1 */
 	for (int i = 0; i < 4; i++)
 		ck_assert_int_le(abs(s->textures[r->texture]->texels[i] - ((int[4]){ 35, 45, 55, 0 })[i]), 1);
 	scene_release(&s);
 
-	gl.x->want = 0; /* what is summed up unseen is missing, until all of it is loaded */
+	gl.x->want = 0; /* sums of skipped frames are missing, until the buffer is loaded completely */
 	gl_call(&gl, "glAccum", "ef", GL_ACCUM, 1.0);
 	gls_frame_skip(gl.x);
 	gl.x->want = 1;
@@ -381,7 +380,7 @@ START_TEST(test_accum)
 }
 END_TEST
 
-/* Cleared to 0 as a whole, the accumulation buffer takes no memory; in part, or to other values, it does. */
+/* An accumulation buffer completely cleared to 0 takes no memory; cleared in part, or to other values, it does. */
 START_TEST(test_accum_cleared)
 {
 	static const struct {

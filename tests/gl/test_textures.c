@@ -8,7 +8,7 @@ static void draw(struct gl *gl)
 	gl_call(gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
 }
 
-/* A 2x1 texture of a format; its texels as the scene shows them. */
+/* A 2x1 texture with a given format; its texels in the scene must be these. */
 static void check_texels(uint32_t internal, uint32_t format, uint32_t type, size_t n, const void *pixels,
                          const uint8_t wanted[8])
 {
@@ -66,7 +66,7 @@ START_TEST(test_unpack)
 	        sizeof(bytes), bytes);
 	draw(&gl);
 	s = gl_swap(&gl);
-	/* rows of five bytes begin at multiples of four, so every eight */
+	/* rows of five bytes start at multiples of four, so every eight */
 	ck_assert_uint_eq(s->textures[0]->texels[0], 10);
 	ck_assert_uint_eq(s->textures[0]->texels[4], 11);
 	ck_assert_uint_eq(s->textures[0]->texels[8], 18);
@@ -75,7 +75,7 @@ START_TEST(test_unpack)
 }
 END_TEST
 
-/* Sec. 3.8.10: an incomplete texture switches its unit off; generated and given levels complete it. */
+/* Sec. 3.8.10: an incomplete texture disables its unit; generated and specified levels complete it. */
 START_TEST(test_completeness)
 {
 	static const uint8_t white[64] = { 255, 255, 255, 255, 0, 0, 0, 255, 255, 255, 255, 255, 0, 0, 0, 255 };
@@ -86,7 +86,7 @@ START_TEST(test_completeness)
 	draw(&gl); /* no image at all */
 	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE,
 	        sizeof(white), white);
-	draw(&gl); /* the filter that textures begin with wants mipmaps */
+	draw(&gl); /* the default filter needs mipmaps */
 	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
 	draw(&gl);
 	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 8u);
@@ -108,7 +108,7 @@ START_TEST(test_completeness)
 }
 END_TEST
 
-/* A part replaced; a texture of the same content under another name is the same one. */
+/* A part is replaced; a texture with the same contents under another name is the same. */
 START_TEST(test_sub_image_and_content)
 {
 	static const uint8_t dark[16] = { 0 }, light[4] = { 9, 9, 9, 9 };
@@ -138,7 +138,7 @@ START_TEST(test_sub_image_and_content)
 }
 END_TEST
 
-/* Sec. 2.11.4: eye planes move with the inverse of the modelview. */
+/* Sec. 2.11.4: eye planes are transformed by the inverse modelview matrix. */
 START_TEST(test_texgen)
 {
 	static const float plane[4] = { 1, 0, 0, 0 };
@@ -156,8 +156,8 @@ START_TEST(test_texgen)
 }
 END_TEST
 
-/* PushAttrib(TEXTURE_BIT) keeps what is bound, and the parameters of that (sec. 6.1.14, table 6.16), of objects that
- * are still there. */
+/* PushAttrib(TEXTURE_BIT) saves bindings, and the parameters of bound objects that still exist (sec. 6.1.14, table
+ * 6.16). */
 START_TEST(test_pushed_parameters)
 {
 	struct gl gl = gl_open();
@@ -177,7 +177,7 @@ START_TEST(test_pushed_parameters)
 	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
 	gl_call(&gl, "glPopAttrib", "");
 	draw(&gl);
-	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 4u); /* was not bound then */
+	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 4u); /* was not bound at that time */
 	draw(&gl);
 	gl_call(&gl, "glPushAttrib", "m", GL_TEXTURE_BIT);
 	gl_call(&gl, "glDeleteTextures", "iU", 1, 1, (uint32_t[]){ 4 });
@@ -199,8 +199,8 @@ START_TEST(test_pushed_parameters)
 }
 END_TEST
 
-/* Sampler objects (GL 3.3 sec. 3.8.2) stand for the parameters of what is bound to their unit, completeness
- * included. */
+/* Sampler objects (GL 3.3 sec. 3.8.2) replace the parameters of the texture bound to their unit, also for
+ * completeness. */
 START_TEST(test_samplers)
 {
 	struct gl gl = gl_open();
@@ -208,7 +208,7 @@ START_TEST(test_samplers)
 
 	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
 	gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
-	draw(&gl); /* its own filter wants levels that it has not */
+	draw(&gl); /* its own filter needs levels that are missing */
 	gl_call(&gl, "glSamplerParameteri", "uee", 4, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
 	gl_call(&gl, "glSamplerParameteri", "uee", 4, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
 	gl_call(&gl, "glBindSampler", "uu", 0, 4);
@@ -227,8 +227,7 @@ START_TEST(test_samplers)
 }
 END_TEST
 
-/* Sec. 2.5: what there is no memory for is OUT_OF_MEMORY; here where llvmpipe has none. 16384 by 16384 texels it
- * has. */
+/* Sec. 2.5: requests beyond memory give OUT_OF_MEMORY, at llvmpipe's limit. It accepts 16384 by 16384 texels. */
 START_TEST(test_largest)
 {
 	struct gl gl = gl_open();
@@ -243,7 +242,7 @@ START_TEST(test_largest)
 }
 END_TEST
 
-/* Sec. 3.8.1: an image is at least as large as its borders; one that is no larger has no texels. */
+/* Sec. 3.8.1: an image is at least as large as its borders; one of exactly that size has no texels. */
 START_TEST(test_borders_only)
 {
 	struct gl gl = gl_open();
@@ -269,7 +268,7 @@ START_TEST(test_borders_only)
 }
 END_TEST
 
-/* Borders (sec. 3.8.1) lie around each dimension that a texture has. */
+/* Borders (sec. 3.8.1) surround each dimension of a texture. */
 START_TEST(test_borders)
 {
 	static const uint8_t texels[64] = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20 };
@@ -311,8 +310,8 @@ START_TEST(test_borders)
 }
 END_TEST
 
-/* Generated levels of three dimensions are means of eight texels (sec. 3.8.8), of each kind of format that is averaged
- * in a way of its own. */
+/* Generated levels of 3D textures average eight texels (sec. 3.8.8), for each kind of format that is averaged
+ * differently. */
 START_TEST(test_levels_of_volumes)
 {
 	static const uint32_t formats[] = { GL_RGBA8, GL_RGBA32F, GL_RGB9_E5, GL_LUMINANCE8 };

@@ -1,4 +1,4 @@
-/* Matrices, stacks, viewport, clip planes, lights' places (GL 2.1 sec. 2.11, 2.12, 2.14). */
+/* Matrices, stacks, viewport, clip planes, light positions (GL 2.1 sec. 2.11, 2.12, 2.14). */
 #include <math.h>
 
 #include "base/mat4.h"
@@ -26,7 +26,7 @@ START_TEST(test_products)
 }
 END_TEST
 
-/* Equations of Frustum and Ortho; bad arguments are INVALID_VALUE and change nothing. */
+/* Equations of Frustum and Ortho; invalid arguments are INVALID_VALUE and change nothing. */
 START_TEST(test_projections)
 {
 	struct gl gl = gl_open();
@@ -70,7 +70,7 @@ START_TEST(test_stacks)
 }
 END_TEST
 
-/* Sec. 2.12, 2.14.1: planes and lights move into eye space when they are given. */
+/* Sec. 2.12, 2.14.1: planes and lights are transformed to eye space when they are set. */
 START_TEST(test_eye_space)
 {
 	static const double plane[4] = { 0, 1, 0, -2 };
@@ -83,7 +83,7 @@ START_TEST(test_eye_space)
 	gl_call(&gl, "glLightfv", "eeF", GL_LIGHT3, GL_POSITION, 4, light);
 	gl_call(&gl, "glLightfv", "eeF", GL_LIGHT3, GL_SPOT_DIRECTION, 3, down);
 	gl_call(&gl, "glLoadIdentity", "");
-	/* y = 2 before is x = -2 after the quarter turn, whatever the shift along y */
+	/* y = 2 before is x = -2 after the quarter turn, for any translation along y */
 	ck_assert_floats(4, gl_state(&gl)->a.transform.clip_plane_eye[1], -1, 0, 0, -2);
 	ck_assert_floats(4, gl_state(&gl)->a.lighting.lights[3].value.position_eye, -2, 11, 3, 1);
 	ck_assert_floats(3, gl_state(&gl)->a.lighting.lights[3].value.spot_direction_eye, 0, 0, -1);
@@ -99,8 +99,8 @@ static uint32_t space_of(const struct scene *s, unsigned instance)
 }
 
 /*
- * Views: equal ones once; in equal viewport rectangles those in perspective share their eye space, and parallel ones
- * that show x and y alike; scissors are cut to the target.
+ * Views: equal ones are stored once; with equal viewport rectangles, perspective views share their eye space, and so do
+ * parallel ones with the same x and y; scissors are clipped to the target.
  */
 START_TEST(test_views)
 {
@@ -137,7 +137,7 @@ START_TEST(test_views)
 }
 END_TEST
 
-/* The drawable's size: guessed from viewports, until our recorder says it. */
+/* The drawable's size: guessed from viewports, until our recorder's marker gives it. */
 START_TEST(test_drawable)
 {
 	struct gl gl = gl_open();
@@ -170,12 +170,15 @@ START_TEST(test_inverse)
 }
 END_TEST
 
-/* Sums that each operation rounds to float lose two small terms, one after the other; the x87 rounds their sum once. */
+/*
+ * A sum rounded to float after each operation loses two small terms one after the other; the x87 rounds the whole sum
+ * once.
+ */
 START_TEST(test_sums)
 {
 	const float small = 0x1p-24f, sum[] = { 1, 1 + 0x1p-23f };
 	const float m[16] = { 1, 0, 0, 0, small, 1, 0, 0, small, 0, 1, 0, 0, 0, 0, 1 }, ones[16] = { 1, 1, 1 };
-	/* -(far + near) / (far - near), worked out with rational numbers */
+	/* -(far + near) / (far - near), computed with rational numbers */
 	const float depth[] = { -0x1.07a4ep0f, -0x1.07a4dep0f };
 
 	for (int x87 = 0; x87 < 2; x87++) {

@@ -1,7 +1,6 @@
 /*
- * What numbers of vertices mean, by their type (GL 2.1 sec. 2.7, 2.8, 2.10, tables 2.4 and 2.9;
- * ARB_vertex_type_2_10_10_10_rev; GL 3.0 for half and, of OpenGL ES, fixed ones): in arrays, in calls, packed, and of
- * rectangles.
+ * Meaning of vertex data by type (GL 2.1 sec. 2.7, 2.8, 2.10, tables 2.4 and 2.9; ARB_vertex_type_2_10_10_10_rev; GL
+ * 3.0 for half and OpenGL ES for fixed): in arrays, in calls, packed, and for rectangles.
  */
 #include <math.h>
 
@@ -12,7 +11,7 @@ static const uint32_t types[] = { GL_BYTE,         GL_UNSIGNED_BYTE, GL_SHORT,  
 
 enum { N_TYPES = sizeof(types) / sizeof(types[0]) };
 
-/* value: none of 0 */
+/* value: not 0 */
 static uint8_t *put(uint8_t *p, uint32_t type, double value)
 {
 	const int64_t whole = (int64_t)(type == GL_FIXED ? value * 65536 : value);
@@ -31,11 +30,11 @@ static uint8_t *put(uint8_t *p, uint32_t type, double value)
 	}
 }
 
-/* Places are what they are, in every type that there is; colours of integers stand for [0,1] or [-1,1], of which 0 is
- * one in arrays (gls_geometry). */
+/* Positions are used unchanged, in every type; integer colours are mapped to [0,1] or [-1,1], with 0 representable
+ * in arrays (gls_geometry). */
 START_TEST(test_arrays)
 {
-	/* of each type the number that is 1, one in between, and what that is */
+	/* for each type, the number that means 1, one in between, and its meaning */
 	static const double colors[N_TYPES][3] = {
 		{ 127, 25, 25.0 / 127 }, { 255, 51, 0.2 }, { 32767, -1, -1.0 / 32767 }, { 65535, 13107, 0.2 },
 		{ 2147483647, 1073741823, 0.5 }, { 4294967295, 858993459, 0.2 }, { 1, 0.25, 0.25 }, { 1, 0.125, 0.125 },
@@ -96,7 +95,7 @@ static const struct value values[] = {
 	{ "glTexCoord2s", "ii", { 5, -6 }, GLS_ATTR_TEXCOORD, { 5, -6, 0, 1 } },
 	{ "glTexCoord4i", "iiii", { 1, 2, 3, 4 }, GLS_ATTR_TEXCOORD, { 1, 2, 3, 4 } },
 	{ "glMultiTexCoord3i", "eiii", { GL_TEXTURE0 + 2, 7, 8, 9 }, GLS_ATTR_TEXCOORD + 2, { 7, 8, 9, 1 } },
-	/* packed: coordinates are as they are, all else is normalized; numbers that are not given are 0 0 0 1 */
+	/* packed: coordinates are unchanged, other attributes are normalized; missing components are 0 0 0 1 */
 	{ "glTexCoordP2ui", "eu", { UNSIGNED, X1 }, GLS_ATTR_TEXCOORD, { 1, 2, 0, 1 } },
 	{ "glTexCoordP4ui", "eu", { SIGNED, X1 | 1023u | 2u << 30 }, GLS_ATTR_TEXCOORD, { -1, 2, 3, -2 } },
 	{ "glTexCoordP1ui", "eu", { SIGNED, 512 }, GLS_ATTR_TEXCOORD, { -512, 0, 0, 1 } },
@@ -108,7 +107,7 @@ static const struct value values[] = {
 	{ "glSecondaryColorP3ui", "eu", { UNSIGNED, 341u << 20 }, GLS_ATTR_SECONDARY, { 0, 0, 1 / 3.0f, 1 } },
 };
 
-/* Empty Mesa's vertex store (replay/gl/geometry/waiting.h): the next components are filled up. */
+/* Empty Mesa's vertex store (replay/gl/geometry/waiting.h): afterwards missing components are filled in. */
 static void empty_store(struct gl *gl)
 {
 	gl_call(gl, "glBegin", "e", GL_POINTS);
@@ -144,7 +143,7 @@ static float alpha_now(struct gl *gl)
 	return gl_state(gl)->a.current.attribute[GLS_ATTR_COLOR][3];
 }
 
-/* Mesa's last components stay once they have been cut off before; in lists, and in another GL, they never do. */
+/* In Mesa the last components persist after being cut off; in lists, and in other implementations, they never do. */
 START_TEST(test_components)
 {
 	struct gl gl = gl_open();
@@ -175,7 +174,7 @@ START_TEST(test_components)
 }
 END_TEST
 
-/* Places in calls of three kinds, the last of which is packed. */
+/* Positions in three kinds of calls, the last one packed. */
 START_TEST(test_places)
 {
 	struct gl gl = gl_open();
@@ -193,7 +192,7 @@ START_TEST(test_places)
 }
 END_TEST
 
-/* Corners of a rectangle, one by one or as arrays. */
+/* Corners of a rectangle, passed one by one or as arrays. */
 START_TEST(test_rectangles)
 {
 	static const float floats[2][2] = { { 1, 2 }, { 3, 4 } };

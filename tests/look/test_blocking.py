@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 600 s
-"""What stands in light's way without any rules, and what only seems to: frames of tests/real/blocking.c."""
+"""Objects that block light without any rules, and others that only seem to: frames of tests/real/blocking.c."""
 import pathlib
 import sys
 
@@ -25,7 +25,7 @@ def shadowed(frame, rows=range(SIZE)):
 
 
 def differing(a, b, layer=""):
-    """Pixels that differ by more than a step of eight bits."""
+    """Pixels that differ by more than one 8-bit step."""
     return sum(any(abs(a[layer + c][y][x] - b[layer + c][y][x]) > 1 / 255 for c in "RGB")
                for y in range(SIZE) for x in range(SIZE))
 
@@ -45,8 +45,8 @@ check(len(shadowed(passes[0])) > 100, f"lights at once: shadows of two boxes: {l
 for number, what in ((1, "under GL_EQUAL"), (2, "under GL_LEQUAL")):
     check(differing(passes[0], passes[number], "gl.") == 0, f"passes {number}: the same picture without shadows")
     differ = differing(passes[0], passes[number])
-    check(differ == 0, f"light by light {what} is light at once: {differ} pixels differ")
-check(not shadowed(passes[3]), f"a body that is seen through casts no shadow by its depth: {len(shadowed(passes[3]))}")
+    check(differ == 0, f"lights one by one {what} equal all lights at once: {differ} pixels differ")
+check(not shadowed(passes[3]), f"a transparent body casts no shadow by its depth: {len(shadowed(passes[3]))}")
 
 sky = frames("sky")
 GROUND = range(SIZE // 2, SIZE)
@@ -54,7 +54,7 @@ alone = shadowed(sky[0], GROUND)
 check(10 < len(alone) < 1000, f"a box on a floor: {len(alone)} pixels in its shadow")
 for number, what in ((1, "a sky before a clear of the depth"), (2, "a hand after one")):
     differ = shadowed(sky[number], GROUND) ^ alone
-    check(not differ, f"{what} shades nothing: {len(differ)} pixels differ")
+    check(not differ, f"{what} casts no shadow: {len(differ)} pixels differ")
 
 globe = frames("globe")
 BODIES = ("no globe", "twelve unlit strips", "a lit globe", "six faces of a lit box", "an unlit globe without normals")

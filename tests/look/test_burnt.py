@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Things before an empty dark window (corpus/viewer, corpus/cornell) keep OpenGL's lights where rules are found for
-them; and a light that rules make too strong fails gate N."""
+"""Objects in front of an empty dark window (corpus/viewer, corpus/cornell) keep OpenGL's lights when rules are
+generated for them; a light that rules make too strong fails gate N."""
 import pathlib
 import sys
 
@@ -23,7 +23,7 @@ def harm_of(name, text):
 
 
 code, harm = harm_of("same", "lights: []\n")
-check(code == 0 and harm["state"] == "passed", f"as it was: {harm}")
+check(code == 0 and harm["state"] == "passed", f"before the change: {harm}")
 code, harm = harm_of("strong", "lights:\n  - { light: 0, position: [-3, 3, 3, 1], diffuse: [3, 3, 3] }\n")
 check(code == 1 and harm["state"] == "failed" and harm["figures"][2]["value"] > 1, f"a lamp that is too strong: {harm}")
 finish()

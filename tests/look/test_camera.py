@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A recorded frame from elsewhere (`render --camera`): what a program draws from another place is what its frame is
-from there; turntables; and that nobody takes such pictures for the program's own."""
+"""A recorded frame from another place (`render --camera`): it equals the program's picture from there. Also turntables;
+and such pictures are never scored as the program's own."""
 import json
 import pathlib
 import sys
@@ -31,7 +31,7 @@ def equal_share(a, b):
     return sum(max(abs(x - y) for x, y in zip(p, q)) <= NEAR for p, q in zip(a, b)) / len(a)
 
 
-# The program walks 0.15 to the right each frame.
+# The program moves 0.15 to the right per frame.
 there = pixels(render(life, SCRATCH / "there", "-f", 3, "--encoding", "display", "--aov", "gl")[0])
 here = pixels(render(life, SCRATCH / "here", "-f", 0, "--encoding", "display", "--aov", "gl")[0])
 moved = from_elsewhere(life, 0, "moved", "place: [-0.45, 0, 0]\n")
@@ -42,10 +42,10 @@ own = from_elsewhere(life, 0, "own", "place: [0, 0, 0]\nlook_at: [0, 0, -1]\n", 
 check(pixels(own[0]) == here, "from the recorded place it is the recorded picture")
 check(
     Image(moved[0], ["R"]).attributes["relume:camera"].decode().startswith("at -0.45 0 0, towards 0 0 -1"),
-    "the picture says from where it was seen")
+    "the picture records its camera")
 
-# What OpenGL's program turns, by 4 degrees a frame, the look file's world knows: camera 3 in the world, and in frame
-# 0's eye space.
+# The program rotates its view by 4 degrees per frame, and the look file knows the world: camera 3 in world space, and
+# in frame 0's eye space.
 scenes = [json.loads(must(relume("scene", rooms, "-f", f, "--json")).stdout) for f in (0, 3)]
 must(relume("look", rooms, "-o", SCRATCH / "rooms.look.yaml"))
 world = SCRATCH / "world.look.yaml"
@@ -64,12 +64,12 @@ at, up = [p - d for p, d in zip(place, turn[2])], turn[1]
 GL = ("gl.R", "gl.G", "gl.B", "id")
 there = pixels(render(rooms, SCRATCH / "turned", "-f", 3, "--encoding", "display", "--aov", "gl,id")[0], GL)
 here = pixels(render(rooms, SCRATCH / "straight", "-f", 0, "--encoding", "display", "--aov", "gl,id")[0], GL)
-torus = max(p[3] for p in there)  # the last draw; it turns
+torus = max(p[3] for p in there)  # the last draw, which rotates
 
 
 def equal_walls(other):
     walls = [(p[:3], q[:3]) for p, q in zip(there, other) if torus not in (p[3], q[3])]
-    check(len(walls) > 0.8 * len(there), f"most of the picture are walls: {len(walls)} of {len(there)}")
+    check(len(walls) > 0.8 * len(there), f"most of the picture shows walls: {len(walls)} of {len(there)}")
     return equal_share(*zip(*walls))
 
 
@@ -80,11 +80,11 @@ for space in ("eye", "world"):
     share = equal_walls(pixels(moved[0], GL))
     check(
         share >= 0.99,
-        f"frame 0 as frame 3's viewer sees it, but for the torus, its mirror image, and a room that it culls; space "
+        f"frame 0 from frame 3's camera, except the torus, its mirror image, and a culled room; space "
         f"{space}: {share}"
     )
 
-# A turntable: pictures of one frame, numbered from 0; the rest of a run finds those that are there.
+# A turntable: pictures of one frame, numbered from 0; a second run skips existing ones.
 table = "turntable: { frames: 4 }\nsize: [40, 30]\n"
 made = from_elsewhere(life, 2, "table", table, "--chunk", "2/2")
 check([p.name[-8:-4] for p in made] == ["0002", "0003"], f"half of a turntable's pictures: {made}")
@@ -92,19 +92,19 @@ made = from_elsewhere(life, 2, "table", table)
 check(len(made) == 4 and len({str(pixels(p)) for p in made}) == 4, "a turntable shows four sides")
 done = relume("render", life, "-f", 2, "--camera", file, "--encoding", "display", "-o", SCRATCH / "table/life.####.exr",
               "--skip-existing", "--dry-run")
-check(done.stdout.count("leave") == 4, f"what is there is left: {done.stdout}")
+check(done.stdout.count("leave") == 4, f"existing pictures are kept: {done.stdout}")
 must(relume("farm", "submit", "--local", life, "-f", 2, "--chunk", 3, "-o", SCRATCH / "farm.####.exr", "--", "--camera",
             file, "--encoding", "display"))
 check([p.read_bytes() for p in sorted(SCRATCH.glob("farm.*.exr"))] == [p.read_bytes() for p in made],
       "a farm divides the pictures of a turntable")
 done = relume("farm", "status", SCRATCH / "farm.farm")
-check("frames 4 of 4 whole" in done.stdout, f"and counts them: {done.stdout}")
+check("frames 4 of 4 whole" in done.stdout, f"status counts them: {done.stdout}")
 
-# Nobody scores them.
+# They are not scored.
 _, score = diff(life, SCRATCH / "moved", "--frames", 0)
 notes = json.dumps(score)
 check(score["counts"]["passed"] == 0 and "made with --camera" in notes,
-      f"a view from elsewhere is no answer to the reference: {notes[:300]}")
+      f"a view from another camera is not scored against the reference: {notes[:300]}")
 
 for text, options, code, words in ((table, ("-o", SCRATCH / "x.####.exr"), 2, "-f names it"),
                                    (table, ("-f", 1, "-o", SCRATCH / "x.exr"), 2, "no place for the frame number"),

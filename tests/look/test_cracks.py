@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Meshes under `repair` (tests/real/cracks.c): light that fell through a roof's T-junction is gone, a die whose far
-sides are the wrong way round bends light as one of glass, OpenGL's picture and what the camera sees stay, what was
-repaired and what leaks is told; on the first device that there is and by the twins."""
+"""Meshes under `repair` (tests/real/cracks.c): light no longer leaks through a roof's T-junction; a die with reversed
+far sides bends light like one of glass; OpenGL's picture and the camera's view are unchanged; repairs and leaks are
+reported. On the first device and with the twins."""
 import pathlib
 import sys
 
@@ -18,7 +18,7 @@ record(trace, BUILD / "tests/real/cracks")
 
 
 def picture(name, frame, rules, device="reference"):
-    """Of one frame: channels, and what the command and the file's attributes tell."""
+    """One frame: its channels, the command's output and the file's attributes."""
     look, out = SCRATCH / f"{name}.yaml", SCRATCH / f"{name}_{device}.exr"
     look.write_text(rules)
     done = must(relume("render", trace, "-f", frame, "-o", out, "--look", look, "--device", device))
@@ -28,7 +28,7 @@ def picture(name, frame, rules, device="reference"):
 
 
 def lit_floor(planes):
-    """Pixels of the floor that the lamp reaches."""
+    """Pixels of the floor that the lamp lights."""
     return sum(up > 0.9 and light > 0.2 for rows in zip(planes["N.Y"], planes["shadow.G"]) for up, light in zip(*rows))
 
 
@@ -42,16 +42,16 @@ for device in ("reference", "0"):
     check(
         lit_floor(before) > 20 and lit_floor(after) == 0,
         f"{device}: {lit_floor(before)} pixels of the floor were lit through the roof, {lit_floor(after)} are")
-    check(all(before[c] == after[c] for c in KEPT), f"{device}: OpenGL's picture and what the camera sees stay")
+    check(all(before[c] == after[c] for c in KEPT), f"{device}: OpenGL's picture and the camera's view are unchanged")
     merged, _, said_so = picture("merged", 0, "spare: no\nsurfaces:\n  - repair: { weld: 0.006, merge: yes }\n", device)
     check(
         lit_floor(merged) == 0 and all(before[c] == merged[c] for c in KEPT) and " 0 places merged" not in said_so,
-        f"{device}: nor with triangles of one plane merged")
+        f"{device}: unchanged with coplanar triangles merged")
 check("closed mesh" in told and "closed" in told and "leaks" not in said,
-      f"the room is told to be closed: {said}{[line for line in told.splitlines() if 'welded' in line]}")
+      f"the room is reported as closed: {said}{[line for line in told.splitlines() if 'welded' in line]}")
 tight, said, told = picture("tight", 0, "spare: no\nsurfaces:\n  - repair: {}\n")
 check(lit_floor(tight) == lit_floor(picture("before", 0, "spare: no\n")[0]), "a crack wider than the tolerance stays")
-check("still leaks light at" in said and "mesh that leaks" in told, f"and it is told: {said}")
+check("still leaks light at" in said and "mesh that leaks" in told, f"the wider crack is reported: {said}")
 
 whole, _, _ = picture("whole", 2, GLASS.format(""))
 for device in ("reference", "0"):
@@ -61,14 +61,14 @@ for device in ("reference", "0"):
     check(
         most_apart(over, whole, "R") < 0.01
         and most_apart(picture("inside", 3, GLASS.format(""), device)[0], whole, "R") > 0.2,
-        f"{device}: so is a die of which the viewer sees the backs: {most_apart(over, whole, 'R')}")
+        f"{device}: a die seen from its back sides is repaired, too: {most_apart(over, whole, 'R')}")
     same, _, _ = picture("same", 2, GLASS.format("    repair: {}\n"), device)
-    check(most_apart(broken, whole, "refract.R") > 0.2, f"{device}: sides the wrong way round bend light the wrong way")
+    check(most_apart(broken, whole, "refract.R") > 0.2, f"{device}: reversed sides bend light the wrong way")
     check(
         most_apart(mended, whole, "refract.R") < 0.01 and most_apart(mended, whole, "R") < 0.01,
         f"{device}: repaired it is glass: {most_apart(mended, whole, 'refract.R')}")
-    check(all(broken[c] == mended[c] for c in KEPT), f"{device}: OpenGL's picture of the die stays")
-    check(most_apart(same, whole, "R") < 1e-3, f"{device}: what is whole stays")
+    check(all(broken[c] == mended[c] for c in KEPT), f"{device}: OpenGL's picture of the die is unchanged")
+    check(most_apart(same, whole, "R") < 1e-3, f"{device}: a whole mesh is unchanged")
 bad = SCRATCH / "bad.yaml"
 for rule, says in (("repair: { weld: 0.5 }", "weld is 0.5"), ("repair: { glue: yes }", "line 2")):
     bad.write_text(f"surfaces:\n  - {rule}\n")

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Faces that are meant round (corpus/facets): with `crease` a ball of flat faces is lit as the ball with normals of its
-own, by whichever way it is flat, on the first device that there is and by the twins. A die beside it keeps its edges,
-and so does the ball where the angle is less than that between its faces. OpenGL's picture, normals and depth stay."""
+"""Flat faces of round objects (corpus/facets): with `crease`, a faceted ball is lit like one with smooth normals, for
+all ways of making it flat, on the first device and with the twins. A die beside it keeps its edges, and the ball keeps
+its facets if the angle is less than that between them. OpenGL's picture, normals and depth are unchanged."""
 import math
 import pathlib
 import sys
@@ -17,7 +17,7 @@ ROUND = "surfaces:\n  - crease: {}\n"
 
 
 def picture(by, crease=None, *more):
-    """By the twins, but where `more` says otherwise."""
+    """With the twins, unless `more` says otherwise."""
     trace, name = SCRATCH / f"{by}.trace", f"{by}_{crease}_{len(more)}"
     if not trace.exists():
         record(trace, corpus("facets"), "--frames", 2, "--size", "160x120", "--by", by)
@@ -31,7 +31,7 @@ def picture(by, crease=None, *more):
 
 
 def differences(a, b):
-    """Of the red channel in display colours, in steps of 8 bits, for the pixels of the ball (red) and all others."""
+    """Differences of the red channel, in 8-bit display codes, for the pixels of the ball (red) and all others."""
     ball, rest = [], []
     for rows in zip(a["R"], b["R"], a["albedo.R"], a["albedo.B"]):
         for x, y, red, blue in zip(*rows):
@@ -42,12 +42,12 @@ def differences(a, b):
 truth = picture("round", None, "--relight", "--device", "reference")
 for by in ("faces", "flat"):
     bare, smooth, sharp = picture(by), picture(by, 40), picture(by, 4)
-    check(all(bare[c] == smooth[c] for c in KEPT), f"{by}: OpenGL's picture and the geometry stay")
+    check(all(bare[c] == smooth[c] for c in KEPT), f"{by}: OpenGL's picture and the geometry are unchanged")
     off, on, few = (differences(planes, truth)[0] for planes in (bare, smooth, sharp))
     check(on < 1 and off > 3 and on < off / 5,
-          f"{by}: the ball is round: {on:.2f} of 255 beside {off:.2f} without the rule")
+          f"{by}: the ball is round: {on:.2f} of 255, and {off:.2f} without the rule")
     check(few > 3, f"{by}: at 4 degrees it has its faces: {few:.2f}")
-    check(differences(smooth, picture(by, 0.001))[1] < 1, f"{by}: what is sharp stays so")
+    check(differences(smooth, picture(by, 0.001))[1] < 1, f"{by}: sharp edges stay sharp")
 check(differences(picture("faces", 40), picture("faces", 40, "--device", "0"))[0] < 0.1, "a device and the twins agree")
 check(all(math.isfinite(v) for row in picture("faces", 180)["R"] for v in row), "an angle of 180 degrees makes no NaN")
 

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""What a program lays on the ground and paints behind the world (corpus/street, whose viewer stands still): a sky, a
-mark, a blob of shadow, each found once. The blob gives way to the traced shadow of OpenGL's light, or of the sun that
-the sky shows; OpenGL's own picture stays."""
+"""Decals on the ground and paintings behind the world (corpus/street, with a static viewer): a sky, a road mark, a blob
+shadow are each found once. The blob is replaced by the traced shadow of OpenGL's light, or of the sun visible in the
+sky. OpenGL's own picture is unchanged."""
 import pathlib
 import re
 import sys
@@ -12,7 +12,7 @@ from exr import Image  # noqa: E402
 from helpers import SCRATCH, check, corpus, diff, finish, must, record, relume, render  # noqa: E402
 
 COLORS, GL = ["R", "G", "B"], ["gl.R", "gl.G", "gl.B"]
-MARK = (60, 155)  # columns that the mark covers
+MARK = (60, 155)  # columns of the road mark
 
 
 def picture(kind, name, *look):
@@ -30,7 +30,7 @@ def brightness(planes, x0, y0, x1, y1):
 
 
 def without_dome(text):
-    """Rules without light from all around and highlights: shadows alone are compared."""
+    """Rules without ambient occlusion and highlights, so that only shadows are compared."""
     return re.sub(r"^(sky|gloss):.*\n(  .*\n)*", "", text, flags=re.M)
 
 
@@ -53,30 +53,30 @@ for kind in ("lit", "plain"):
 before, after, plain = picture("lit", "before"), picture("lit", "after", "--look",
                                                          rules["lit"]), picture("plain", "after", "--look",
                                                                                 rules["plain"])
-check(worst(before, after, GL) == 0, "OpenGL's picture stays")
+check(worst(before, after, GL) == 0, "OpenGL's picture is unchanged")
 check(worst(before, after, COLORS) > 0.01, "the blob shows without rules")
 beside_mark = [x for x in range(400) if not MARK[0] <= x <= MARK[1]]
 off = worst(after, plain, COLORS, beside_mark)
-check(off < 0.002, f"without it the picture is that of the scene drawn without: off by {off}")
+check(off < 0.002, f"without it the picture equals that of the scene drawn without it: off by {off}")
 rules["lit"].write_text(rules["lit"].read_text().replace("replace: yes", "replace: no"))
 check(worst(picture("lit", "kept", "--look", rules["lit"]), before, COLORS) == 0, "one key keeps the blob")
 
-# The same blob thrown onto the ground by a texture unit: the traced shadow replaces it, in the albedo too.
+# The same blob projected onto the ground by a texture unit: the traced shadow replaces it, in the albedo too.
 must(relume("look", SCRATCH / "thrown.trace", "-o", rules["thrown"]))
 text = rules["thrown"].read_text()
 check(text.count("- role: shadow in a unit\n") == 1 and "shadow_unit: 0" in text, f"thrown: {text}")
 rules["thrown"].write_text(without_dome(text))
 before, after = picture("thrown", "before"), picture("thrown", "after", "--look", rules["thrown"])
-check(worst(before, after, GL) == 0, "thrown: OpenGL's picture stays")
+check(worst(before, after, GL) == 0, "thrown: OpenGL's picture is unchanged")
 off, was = worst(after, plain, COLORS), worst(before, plain, COLORS)
 check(off < 0.006 < was,
-      f"thrown: without it the picture is that of the scene drawn without: off by {off}, with it by {was}")
+      f"thrown: without it the picture equals that of the scene drawn without it: off by {off}, with it by {was}")
 rules["thrown"].write_text(without_dome(text).replace("replace: yes", "replace: no"))
 check(worst(picture("thrown", "kept", "--look", rules["thrown"]), before, COLORS) == 0, "thrown: one key keeps it")
 
-# Where nothing is lit, the sun that the sky shows lights it: the sky and the lamp stay as they are, open ground about
-# so, the ball throws a shadow towards the viewer. Sun: texel (39.5, 25.5) + 0.5 of the picture ahead, the viewer looks
-# down by 10 degrees.
+# In an unlit scene, the sun visible in the sky becomes the light: the sky and the lamp are unchanged, open ground
+# nearly so, and the ball casts a shadow towards the viewer. Sun: texel (39.5, 25.5) + 0.5 of the picture ahead; the
+# viewer looks down by 10 degrees.
 unlit, shaped = picture("unlit", "before"), picture("unlit", "after", "--look", rules["unlit"])
 text = rules["unlit"].read_text()
 found = [float(x) for x in re.search(r"role: sun$.*?position: \[(.*?)\]", text, re.M | re.S)[1].split(",")]
@@ -86,11 +86,12 @@ check(
 check(text.count("- role: lamp\n") == 1 and text.count("- role: light of a lamp\n") == 1, f"the lamp shines: {text}")
 check(
     worst(unlit, shaped, GL) == 0
-    and all(shaped[c][y][x] == unlit[c][y][x] for c in COLORS for y in range(60) for x in range(200)), "the sky stays")
-check(brightness(shaped, 330, 58, 355, 70) == brightness(unlit, 330, 58, 355, 70), "the lamp stays")
+    and all(shaped[c][y][x] == unlit[c][y][x] for c in COLORS for y in range(60) for x in range(200)),
+    "the sky is unchanged")
+check(brightness(shaped, 330, 58, 355, 70) == brightness(unlit, 330, 58, 355, 70), "the lamp is unchanged")
 check(0.85 < brightness(shaped, 330, 230, 390, 290) / brightness(unlit, 330, 230, 390, 290) < 1.15,
-      "so does open ground")
-check(brightness(shaped, 160, 255, 190, 275) < 0.9 * brightness(unlit, 160, 255, 190, 275), "the ball throws a shadow")
+      "open ground is nearly unchanged")
+check(brightness(shaped, 160, 255, 190, 275) < 0.9 * brightness(unlit, 160, 255, 190, 275), "the ball casts a shadow")
 render(SCRATCH / "unlit.trace", SCRATCH / "harm", "-f", 2, "--look", rules["unlit"])
 code, score = diff(SCRATCH / "unlit.trace", SCRATCH / "harm")
 harm = [f["gates"]["N"] for f in score["frames"] if f["frame"] == 2]

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""Lights are found in lightmaps, by multitexture and by a second pass, and in vertex colours: those of a level of
-corpus/rooms, which its program baked in plain C. Walls then take these lights, and their albedo is that of their
+"""Lights are recovered from lightmaps, by multitexture and by a second pass, and from vertex colours: those of a level
+of corpus/rooms, baked by its program in plain C. Walls are then lit by these lights, and their albedo is that of their
 texture alone."""
 import json
 import pathlib
@@ -24,12 +24,12 @@ for lighting, role in (("multitexture", "lightmap in a second unit"), ("pass", "
     took = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
     check(took < 10, f"{lighting}: the study took {took:.1f} s of processor time")
     text = rules.read_text()
-    check(f"role: {role}" in text, f"{lighting}: the lightmap's role is told")
+    check(f"role: {role}" in text, f"{lighting}: the lightmap's role is reported")
     found = compare_lights(json.loads(truth.read_text()), text)
     check(found["found"] == 2 and not found["missed"] and not found["invented"], f"{lighting}: {found}")
     check(found["off"] < 0.02 and found["strength_off"] < 0.1 and found["ambient_off"] < 0.1, f"{lighting}: {found}")
 
-# Colours that are paint are not taken for light.
+# Painted colours are not mistaken for light.
 record(SCRATCH / "paint.trace", corpus("rooms"), "--seed", 3, "--lights", 2, "--frames", 1, "--lighting", "paint",
        options=())
 must(relume("look", SCRATCH / "paint.trace", "-o", SCRATCH / "paint.look.yaml"))
@@ -37,8 +37,8 @@ check("vertex colours" not in (SCRATCH / "paint.look.yaml").read_text(), "paint 
 
 
 def walls_alone(cut, *level, frame=0):
-    """A level's picture with its textures alone. cut: "none" for whole walls, "white" for the small triangles that
-    carry light in their colours."""
+    """A level's picture with only its textures. cut: "none" for whole walls, "white" for the small triangles whose
+    colours carry light."""
     bare, folder = (SCRATCH / f"{cut}{frame}{end}" for end in (".trace", ""))
     record(bare, corpus("rooms"), *level, "--lighting", cut)
     drawn = render(bare, folder, "-f", frame, "--aov", "gl,Z", "--encoding", "display")
@@ -59,8 +59,8 @@ def check_albedo(name, image, texture):
     check(off < 0.005, f"{name}: the albedo is the texels that the program drew: {off}")
 
 
-# The picture relit equals the program's within what lightmaps leave, and the albedo is the same however the lightmap
-# came.
+# The relit picture equals the program's within the lightmaps' precision, and the albedo does not depend on how the
+# lightmap was applied.
 albedos = {lighting: relit(lighting) for lighting in ("multitexture", "pass", "colors")}
 textures = {cut: walls_alone(cut, "--seed", 3, "--frames", 1) for cut in ("none", "white")}
 for lighting, image in albedos.items():
@@ -72,10 +72,10 @@ off = max(
     for c in ("albedo.R", "albedo.G")
     for p, q in zip(albedos["multitexture"].planes[c], albedos["pass"].planes[c])
     for a, b in zip(p, q))
-check(off < 0.01, f"the albedo is the texture's by multitexture as by a pass: {off}")
+check(off < 0.01, f"the albedo is the same with multitexture and a second pass: {off}")
 
-# A wall that no light reaches has one colour, that of ambient light: it is none of its own.
-level = ("--seed", 6, "--frames", 2, "--animate", "camera") # the second frame sees such walls
+# A wall without direct light has one colour, the ambient light, which is not its own colour.
+level = ("--seed", 6, "--frames", 2, "--animate", "camera") # the second frame shows such walls
 record(SCRATCH / "shade.trace", corpus("rooms"), *level, "--lights", 1, "--lighting", "colors", options=())
 must(relume("look", SCRATCH / "shade.trace", "-o", SCRATCH / "shade.look.yaml"))
 check_albedo("shade", relit("shade", 1), walls_alone("white", *level, frame=1))

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""`relume look` finds the camera and what stands still: corpus/rooms turns its viewer by 4 degrees a frame, before one
-torus that turns."""
+"""`relume look` recovers the camera and the static objects: corpus/rooms rotates its viewer by 4 degrees per frame, in
+front of a rotating torus."""
 import json
 import pathlib
 import re
@@ -22,11 +22,11 @@ check(found and found.groups() == (str(FRAMES - 1), str(FRAMES), str(FRAMES - 1)
       f"the camera moves in each frame but the first: {text[:400]}")
 found = re.search(r"meshes: (\d+) static, (\d+) moving, (\d+) with the viewer", text)
 check(found and int(found[1]) > 100 and found[2] == "1" and found[3] == "0",
-      f"walls stand still, the torus turns: {text[:400]}")
-check("world:" in text, "the file says where the world is")
+      f"walls are static, the torus rotates: {text[:400]}")
+check("world:" in text, "the file locates the world")
 
-# A light at its place in the world (the first frame's eye space) is where OpenGL puts it in each frame, and lights
-# alike.
+# A light at its position in world space (the first frame's eye space) is in OpenGL's position in each frame, and lights
+# the scene alike.
 lights = [json.loads(must(relume("scene", trace, "-f", f, "--json")).stdout)["lights"][0] for f in range(FRAMES)]
 check(len({tuple(l["position_eye"]) for l in lights}) == FRAMES, "the light moves in eye space")
 world = text[text.index("world:"):]
@@ -38,14 +38,14 @@ for frame, light in enumerate(lights):
                            "display")[-1:]
     first, second = (Image(p, ["R", "G", "B"]) for p in pictures)
     worst = max(abs(a - b) for c in "RGB" for p, q in zip(first.planes[c], second.planes[c]) for a, b in zip(p, q))
-    check(worst < 0.02, f"frame {frame}: a light of the world stands where it stood: {worst}")
+    check(worst < 0.02, f"frame {frame}: a light of the world keeps its place: {worst}")
 
 # A frame that shows nothing of the world keeps OpenGL's picture.
 rules.write_text("lights:\n- light: 0\n  off: yes\n- position: [0, 0, 0, 1]\n  space: world\n"
                  "world:\n- mesh: \"0123456789abcdef\"\n  at: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n")
 plain, changed = (Image(render(trace, SCRATCH / n, "-f", 0, "--aov", "id", *o)[0], ["R", "G", "B"])
                   for n, o in (("plain", ()), ("lost", ("--look", rules))))
-check(all(plain.planes[c] == changed.planes[c] for c in "RGB"), "no rule applies where the world is not to be seen")
+check(all(plain.planes[c] == changed.planes[c] for c in "RGB"), "no rule applies if the world is not visible")
 done = relume("look", trace, "-f", "90-99", "-o", rules)
-check(done.returncode == 2 and "has 4 frames" in done.stderr, f"frames that are not there: {done.stderr}")
+check(done.returncode == 2 and "has 4 frames" in done.stderr, f"missing frames: {done.stderr}")
 finish()

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Roles and lights travel with a frame that was rendered under rules, and the report has a page of them: each with its
-reason, its confidence and a picture."""
+"""Roles and lights are stored in a frame rendered under rules, and the report shows them on a page: each with reason,
+confidence and picture."""
 import json
 import pathlib
 import re
@@ -14,7 +14,7 @@ record(trace, corpus("tricks"), "planar", "--frames", 3)
 
 
 def told(*look):
-    """What the report's page is told of a frame, and which pictures of roles it has."""
+    """The report page's data about a frame, and the roles that have pictures."""
     frames, report = SCRATCH / f"frames{len(look)}", SCRATCH / f"report{len(look)}"
     render(trace, frames, "-f", 2, *look)
     relume("diff", trace, frames, "-f", 2, "--report", report)
@@ -29,7 +29,7 @@ def told(*look):
 says, pictures = told("--look", "auto")
 roles = {(kind, role): (float(confidence), why) for kind, role, confidence, why in says}
 check(("surface", "planar shadow") in roles and ("light", "light of a planar shadow") in roles,
-      f"the shadow and its light are told: {says}")
+      f"the shadow and its light are listed: {says}")
 check(all(0 < confidence <= 1 and why for confidence, why in roles.values()),
       f"each with confidence and reason: {says}")
 check(len(pictures) >= 2, f"the shadow and its light have pictures: {pictures}")

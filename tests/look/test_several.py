@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Several --look files apply in order, "auto" among them; what each rule matched is said once, and one that matches
-nothing is a warning."""
+"""Several --look files apply in order, "auto" among them; the matches of each rule are reported once, and a rule
+without matches is a warning."""
 import pathlib
 import sys
 
@@ -18,7 +18,7 @@ def rules(name, text):
 
 
 def rendered(name, *looks, options=()):
-    """The frames' bytes, and what `render` says."""
+    """The frames' bytes, and render's output."""
     words = [word for look in looks for word in ("--look", look)]
     done = must(
         relume("render", trace, "-o", SCRATCH / name / "x.####.exr", "--device", "reference", *words, *options,
@@ -27,7 +27,7 @@ def rendered(name, *looks, options=()):
 
 
 def picture(frame):
-    """A file's pixels: what follows its header, which names the settings."""
+    """A file's pixels: the part after its header, which contains the settings."""
     return frame[-len(frame) // 2:]
 
 
@@ -48,13 +48,13 @@ typed = rules(
     "surfaces:\n  - match: { mesh: 0123456789 }\n    reflect: 0.9\n  - match: { lit: yes }\n    roughness: 0\n")
 
 plain, said = rendered("plain")
-check("matches" not in said, f"without rules nothing is said: {said}")
+check("matches" not in said, f"without rules there is no message: {said}")
 shiny, said = rendered("shiny", mirror)
-check(not same(plain, shiny), "the rule is seen")
+check(not same(plain, shiny), "the rule has an effect")
 check(
     said.count(f"{mirror}: rule 2 matches 2 draws in 2 of 2 frames\n") == 1
     and said.count(f"{mirror}: rule 1 matches ") == 1 and "warning" not in said,
-    f"what each rule matched, once: {said}")
+    f"matches of each rule, once: {said}")
 lit, _ = rendered("lit", light)
 whole, _ = rendered("whole", both)
 for name, order in (("first", (mirror, light)), ("second", (light, mirror))):
@@ -63,11 +63,11 @@ for name, order in (("first", (mirror, light)), ("second", (light, mirror))):
 last, _ = rendered("last", mirror, dull)
 check(same(last, plain) and not same(rendered("other", dull, mirror)[0], plain), "the later rule counts")
 
-# With what a study finds, before and behind.
+# Together with a study's rules, before and after them.
 auto, _ = rendered("auto", "auto")
 mine, said = rendered("mine", "auto", mirror)
-check(not same(mine, auto) and f"{mirror}: rule 2 matches" in said, f"a file behind auto is seen: {said}")
-check(same(rendered("behind", mirror, dull, "auto")[0], auto), "and auto comes where it is named")
+check(not same(mine, auto) and f"{mirror}: rule 2 matches" in said, f"a file after auto has an effect: {said}")
+check(same(rendered("behind", mirror, dull, "auto")[0], auto), "auto applies where it is named")
 
 # A mistyped hash.
 _, said = rendered("typed", typed)
@@ -79,11 +79,11 @@ check(
 _, said = rendered("quiet", typed, options=("--progress", "none"))
 check("rule 1 matches nothing" in said and "rule 2" not in said, f"--progress none leaves warnings: {said}")
 
-# Every file belongs to the settings that --skip-existing compares.
+# Every file is part of the settings that --skip-existing compares.
 again = relume("render", trace, "-o", SCRATCH / "first" / "x.####.exr", "--device", "reference", "--skip-existing",
                "--dry-run", "--look", mirror, "--look", light)
 check(again.stdout.count("leave") == 2, f"the same files: {again.stdout}")
 again = relume("render", trace, "-o", SCRATCH / "first" / "x.####.exr", "--device", "reference", "--skip-existing",
                "--dry-run", "--look", dull, "--look", light)
-check("leave" not in again.stdout, f"another first file: {again.stdout}")
+check("leave" not in again.stdout, f"a different first file: {again.stdout}")
 finish()

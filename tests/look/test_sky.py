@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Light from all around where a program has none (corpus/courtyard): corners and what stands on the ground get dark,
-open ground does not, OpenGL's own picture stays, gate N passes, and the picture is the same whatever draws it."""
+"""Ambient occlusion for a program without any (corpus/courtyard): corners and the ground near objects become darker,
+open ground does not, OpenGL's own picture is unchanged, gate N passes, and the picture is the same on all devices."""
 import pathlib
 import sys
 
@@ -20,7 +20,7 @@ bare, lit = SCRATCH / "bare", SCRATCH / "lit"
 render(trace, bare, "-f", 1)
 render(trace, lit, "--look", "auto")
 before, after = (Image(folder / "courtyard.0001.exr", SHOWN).planes for folder in (bare, lit))
-check(all(before[f"gl.{c}"] == after[f"gl.{c}"] for c in "RGB"), "OpenGL's picture stays")
+check(all(before[f"gl.{c}"] == after[f"gl.{c}"] for c in "RGB"), "OpenGL's picture is unchanged")
 
 def mean(planes, channel, x0, y0, x1, y1):
     return sum(sum(row[x0:x1]) for row in planes[channel][y0:y1]) / ((x1 - x0) * (y1 - y0))
@@ -32,7 +32,7 @@ code, score = diff(trace, lit)
 check_gates(score, 2, "courtyard")
 check(score["frames"][-1]["gates"]["N"]["state"] == "passed", f"{score['frames'][-1]['gates']['N']}")
 
-# The same picture by every family of kernels and by the twins, but for ties between neighbours.
+# The same picture from every family of kernels and from the twins, except for ties between neighbours.
 for name, options in (("reference", ("--device", "reference")), ("binary", ("--kernels", "binary")),
                       ("compressed", ("--kernels", "compressed"))):
     render(trace, SCRATCH / name, "-f", 1, "--look", rules, *options)
@@ -40,7 +40,7 @@ for name, options in (("reference", ("--device", "reference")), ("binary", ("--k
     far = sum(abs(a - b) > 0.02 for c in "RGB" for x, y in zip(after[c], other[c]) for a, b in zip(x, y))
     check(far <= 30, f"{name}: {far} numbers differ by more than 0.02")
 
-# What draws are, by six frames together: each role once, and none of the world's.
+# Roles of draws, from six frames together: each role once, and none for the world's draws.
 longer = SCRATCH / "longer.trace"
 record(longer, corpus("courtyard"), "--frames", 6, "--animate", "camera", "--size", "400x300")
 must(relume("look", longer, "-o", rules))
@@ -50,9 +50,9 @@ for role in ("sky", "view model", "particle", "HUD"):
 render(longer, SCRATCH / "longer", "-f", 4, "--look", rules)
 known = Image(SCRATCH / "longer" / "longer.0004.exr", SHOWN).planes
 check(mean(known, "shadow.G", 100, 5, 300, 40) == 1, "the sky keeps its light")
-check(mean(known, "shadow.R", 14, 277, 130, 286) == 1, "so does the HUD")
+check(mean(known, "shadow.R", 14, 277, 130, 286) == 1, "the HUD keeps its light")
 
-# A sky that OpenGL lights is found as well. Nothing throws shadows on it, and it keeps OpenGL's colours.
+# A sky that OpenGL lights is found as well. It receives no shadows, and keeps OpenGL's colours.
 lamp = SCRATCH / "lamp.trace"
 record(lamp, corpus("courtyard"), "lit", "--frames", 6, "--animate", "camera", "--size", "400x300")
 must(relume("look", lamp, "-o", rules))
@@ -63,13 +63,13 @@ for name, options in (("shaded", ()), ("spared", ("--look", rules)), ("twins", (
     render(lamp, SCRATCH / name, "-f", 4, *options)
 shaded, spared, twins = (Image(SCRATCH / name / "lamp.0004.exr", SHOWN).planes
                          for name in ("shaded", "spared", "twins"))
-check(mean(shaded, "shadow.G", 0, 0, 400, 60) < 0.97, "without rules walls throw shadows on the sky")
+check(mean(shaded, "shadow.G", 0, 0, 400, 60) < 0.97, "without rules walls cast shadows on the sky")
 for name, planes in (("packets", spared), ("twins", twins)):
-    check(all(min(map(min, planes[f"shadow.{c}"][:60])) == 1 for c in "RGB"), f"{name}: none does under rules")
+    check(all(min(map(min, planes[f"shadow.{c}"][:60])) == 1 for c in "RGB"), f"{name}: none do under rules")
     check(all(planes[c][:60] == planes[f"gl.{c}"][:60] for c in "RGB"), f"{name}: the lit sky is as OpenGL painted it")
 check(mean(spared, "shadow.G", 340, 118, 400, 148) < 0.9, "a wall is shaded")
 
-# Rules: no dome for what is wood, a key out of range.
+# Rules: no occlusion for wood, a key out of range.
 edited = SCRATCH / "edited.yaml"
 edited.write_text("surfaces:\n  - dome: no\n" + text[text.index("sky:"):])
 render(trace, SCRATCH / "none", "-f", 1, "--look", edited)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""What is spared as a blocker of light is decided once for a recording. corpus/arena --by ball has a lantern at the rim
-of the lit world, and a lit ball every third frame: each frame alone lets the lantern throw a shadow on the figure only
+"""Objects spared as light blockers are decided once per recording. corpus/arena --by ball has a lantern at the edge of
+the lit world, and a lit ball in every third frame. In single frames, the lantern casts a shadow on the figure only
 while the ball is there."""
 import pathlib
 import sys
@@ -16,7 +16,7 @@ record(trace, corpus("arena"), "--frames", FRAMES, "--size", "400x300", "--by", 
 
 
 def shadows(name, *look):
-    """How much light is left where the lantern's shadow may fall on the figure, frame by frame."""
+    """Remaining light where the lantern's shadow may fall on the figure, frame by frame."""
     shares = []
     for picture in sorted(render(trace, SCRATCH / name, "-f", f"0-{FRAMES - 1}", *look)):
         rows = Image(picture, {"shadow.G"}).planes["shadow.G"][136:178]
@@ -27,12 +27,12 @@ def shadows(name, *look):
 must(relume("look", trace, "-o", rules))
 text = rules.read_text()
 check("role: spared" in text and "match: { lit: no }\n    passes: suns" in text,
-      f"the rules say what is spared: {text}")
+      f"the rules list spared objects: {text}")
 alone, once = shadows("alone"), shadows("once", "--look", "auto")
-check(abs(alone[2] - alone[1]) > 0.1, f"each frame alone has a shadow that comes and goes: {alone}")
-check(max(once) - min(once) < 0.005, f"rules of the whole recording keep it as it is: {once}")
+check(abs(alone[2] - alone[1]) > 0.1, f"in single frames the shadow comes and goes: {alone}")
+check(max(once) - min(once) < 0.005, f"rules of the whole recording keep it constant: {once}")
 
-# The last word is the file's: `spare: no`, and what passes by name.
+# The file decides: `spare: no`, and objects named to let light pass.
 rules.write_text("spare: no\n" + text)
 sealed = shadows("sealed", "--look", rules)
 check(max(sealed) < min(once) - 0.1, f"with spare: no walls and lantern stop the light: {sealed}, {once}")
@@ -40,7 +40,7 @@ rules.write_text("surfaces:\n  - match: { lit: no, textured: no }\n    passes: n
 stopped = shadows("stopped", "--look", rules)
 check(
     max(stopped) - min(stopped) < 0.005 and max(stopped) < min(once) - 0.1,
-    f"a lantern that passes nothing throws its shadow in each frame: {stopped}")
+    f"a lantern that lets no light pass casts its shadow in each frame: {stopped}")
 rules.write_text("surfaces:\n  - passes: most\n")
 done = relume("render", trace, "-f", 1, "-o", SCRATCH / "x.####.exr", "--look", rules)
 check(done.returncode == 3 and len(done.stderr.strip().splitlines()) == 1 and "passes" in done.stderr,

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""Tricks that stand for light are told by their matrices (corpus/tricks): light and plane are found to 0.1 %, and the
-beauty without the trick equals that of the same scene drawn without it. OpenGL's own picture stays."""
+"""Drawn substitutes for light are recognised by their matrices (corpus/tricks): light and plane are found to 0.1 %, and
+the beauty without the trick equals that of the same scene drawn without it. OpenGL's own picture is unchanged."""
 import pathlib
 import re
 import sys
@@ -16,14 +16,14 @@ LIGHT, DIRECTION, FLOOR, MIRROR = (2, 2.5, -7, 1), (0.4364358, 0.8728716, 0.2182
 
 
 def traced(kind, rules=None, name="traced"):
-    """The frame's picture, under rules if there are some."""
+    """The frame's picture, under rules if any are given."""
     file = render(SCRATCH / f"{kind}.trace", SCRATCH / f"{kind}-{name}", "-f", FRAME, "--aov", "gl,Z,id",
                   *(("--look", rules) if rules else ()))[0]
     return Image(file, COLORS + GL)
 
 
 def numbers(text, key):
-    """All that a key says, each as a list of numbers."""
+    """All values of a key, each as a list of numbers."""
     return [[float(x) for x in found.split(",")] for found in re.findall(rf"^ +{key}: \[([^]]*)\]", text, re.M)]
 
 
@@ -49,7 +49,7 @@ for kind, role, light, plane in (("planar", "planar shadow", LIGHT,
                                                                                        MIRROR)):
     rules = SCRATCH / f"{kind}.look.yaml"
     must(relume("look", SCRATCH / f"{kind}.trace", "-o", rules))
-    # Of the rules those for tricks: what comes from all around, and highlights, change scenes without tricks as well.
+    # Keep only the rules for tricks: ambient occlusion and highlights also change scenes without tricks.
     text = re.sub(r"\n(sky|gloss):\n( .*\n)*", "\n", rules.read_text())
     rules.write_text(text)
     check(len(re.findall(rf"^  - role: {role}$", text, re.M)) == 1, f"{kind}: found once: {text}")
@@ -63,26 +63,27 @@ for kind, role, light, plane in (("planar", "planar shadow", LIGHT,
         continue
     after = traced(kind, rules, "after")
     off = worst(after, mirror if kind == "mirror" else plain, COLORS)
-    check(off < 0.002, f"{kind}: the beauty is that of the scene without the trick: off by {off}")
+    check(off < 0.002, f"{kind}: the beauty equals that of the scene without the trick: off by {off}")
     if kind == "planar":
         before = traced(kind, name="before")
-        check(all(before.planes[c] == after.planes[c] for c in GL), f"{kind}: OpenGL's picture stays")
+        check(all(before.planes[c] == after.planes[c] for c in GL), f"{kind}: OpenGL's picture is unchanged")
         check(
             worst(before, plain, COLORS) < 0.002,
-            f"{kind}: a drawn shadow of OpenGL's own light gives way without rules, too")
+            f"{kind}: a drawn shadow of OpenGL's own light is replaced without rules, too")
         rules.write_text(text.replace("replace: yes", "replace: no"))
         kept = traced(kind, rules, "kept")
         check(worst(kept, after, COLORS) > 0.02, f"{kind}: one key keeps the trick")
         rules.write_text("spare: no\n")
         check(
             worst(kept, traced(kind, rules, "both"), COLORS) > 0.02,
-            f"{kind}: it is no second shadow, as without sparing")
+            f"{kind}: there is no second shadow, also without sparing")
     if kind == "mirror":
-        # Where no surface is the mirror, as in a frame that draws it otherwise, its picture stays.
+        # If no surface is the mirror, as in a frame that draws it differently, its drawn picture is kept.
         rules.write_text(text.replace("replace: yes", "replace: no"))
         kept = traced(kind, rules, "kept")
         rules.write_text(re.sub(r"in_plane: \[[^]]*\]", "in_plane: [0, 0, 1, 99]", text))
         check(
-            worst(traced(kind, rules, "elsewhere"), kept, COLORS) == 0, f"{kind}: without the mirror its picture stays")
+            worst(traced(kind, rules, "elsewhere"), kept, COLORS) == 0,
+            f"{kind}: without the mirror its picture is kept")
         check(worst(kept, after, COLORS) > 0.02, f"{kind}: the traced mirror differs from its picture")
 finish()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""What stands still and a frame leaves out is there for shadows all the same: corpus/rooms with portal culling, a
-viewer who turns, beside the whole level. Rules that name what other frames draw come from `relume look`."""
+"""Static objects that a frame leaves out still cast shadows: corpus/rooms with portal culling and a rotating viewer,
+compared with the whole level. `relume look` writes rules that name the draws of other frames."""
 import pathlib
 import re
 import sys
@@ -18,7 +18,7 @@ found, none = SCRATCH / "found.look.yaml", SCRATCH / "none.look.yaml"
 must(relume("look", SCRATCH / "portal.trace", "-o", found))
 unseen, world = re.search(r"\nunseen:\n(?:  .*\n)+", found.read_text()), re.search(r"\nworld:\n(?:  .*\n?)+",
                                                                                    found.read_text())
-check(unseen and world, f"what is out of sight is written: {found.read_text()[:1000]}")
+check(unseen and world, f"objects out of sight are listed: {found.read_text()[:1000]}")
 found.write_text("spare: no" + unseen[0] + world[0])
 none.write_text("spare: no\n")
 
@@ -42,9 +42,9 @@ whole, without, restored = (beauty(*of)
                             for of in (("none", none, "whole"), ("portal", none, "without"), ("portal", found, "with")))
 check(
     equal_share(whole, without) < 0.5,
-    f"culling takes shadows away: {equal_share(whole, without)} of the pixels are the same")
+    f"culling removes shadows: {equal_share(whole, without)} of the pixels are the same")
 check(equal_share(whole, restored) > 0.98, f"other frames' draws bring them back: {equal_share(whole, restored)}")
-check(without["gl.G"] == restored["gl.G"], "OpenGL's own picture stays")
+check(without["gl.G"] == restored["gl.G"], "OpenGL's own picture is unchanged")
 relume("look", SCRATCH / "portal.trace", "-o", found)
 found.write_text(found.read_text().replace("unseen:\n", "unseen:\n  - frame: 3\n", 1))
 done = relume("render", SCRATCH / "portal.trace", "-f", FRAME, "-o", SCRATCH / "x.exr", "--look", found)
@@ -56,7 +56,7 @@ record(stair, BUILD / "tests/real/stair")
 must(relume("look", stair, "-o", found))
 parts = set(re.findall(r"\n    part: (\d+)", found.read_text()))
 check("unseen:" not in found.read_text(),
-      f"a stair that gives place to another is not out of sight: {found.read_text()}")
+      f"a staircase replaced by another is not out of sight: {found.read_text()}")
 check(len(parts) == 3, f"each has a part of the recording: {parts}")
 
 ground = SCRATCH / "ground.trace"
@@ -71,5 +71,5 @@ for frame in 8, 15:
         ["R", "G", "B"]).planes for rules in (found, none))
     check(
         equal_share(with_it, alone) > 0.99,
-        f"no shadow of a ground that is cut otherwise now, in frame {frame}: {equal_share(with_it, alone)}")
+        f"no shadow of a ground with another tessellation, in frame {frame}: {equal_share(with_it, alone)}")
 finish()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Cameras that no projection matrix has (look/camera/lens.h): panoramas, cubes and pairs of eyes show what a pinhole
-shows from the same place; a lens blurs everything but the distance in focus. Wrong files are one line each."""
+"""Cameras beyond projection matrices (look/camera/lens.h): panoramas, cubes and stereo pairs show the same as a pinhole
+from the same place; a lens blurs everything except the distance in focus. Errors in files give one line each."""
 import math
 import pathlib
 import sys
@@ -33,10 +33,10 @@ straight = see("pinhole", f"kind: pinhole\nfield_of_view: 90\nsize: [{N}, {N}]\n
 around = see("cube", f"kind: cube\nsize: [{3 * N}, {2 * N}]\n")
 pinhole, cube = picture(straight), picture(around)
 front = cube[:N, N:2 * N]
-# grain of textures differs: rays choose levels by distance, a projection by its pixels
+# grain of textures differs: rays choose mipmap levels by distance, a projection by its pixels
 places = [abs(around[f"P.{c}"][:N, N:2 * N] - straight[f"P.{c}"]) / -straight["P.Z"].clip(max=-1) for c in "XYZ"]
 off = numpy.mean(numpy.max(places, axis=0) > 1e-3)
-check(off < 0.01, f"a cube's front shows the places that a pinhole of 90 degrees does: {100 * off:.2f} % differ")
+check(off < 0.01, f"a cube's front shows the same places as a 90-degree pinhole: {100 * off:.2f} % differ")
 off = float(numpy.median(abs(front - pinhole)))
 check(off < 0.02, f"and their colours: {off:.4f} in the median")
 seams = {"left": (cube[:N, N - 1], cube[:N, N]), "right": (cube[:N, 2 * N - 1], cube[:N, 2 * N]),
@@ -56,7 +56,7 @@ s, t = (x - x0)[..., None], (y - y0)[..., None]
 found = ((1 - s) * (1 - t) * panorama[y0, x0] + s * (1 - t) * panorama[y0, x0 + 1] +
          (1 - s) * t * panorama[y0 + 1, x0] + s * t * panorama[y0 + 1, x0 + 1])
 off = float(numpy.median(abs(found - pinhole)))
-check(off < 0.01, f"the panorama's middle is what a pinhole shows: {off:.4f} in the median")
+check(off < 0.01, f"the panorama's middle equals a pinhole's picture: {off:.4f} in the median")
 
 # A point of the left eye's picture, looked up in the right eye's.
 EYES, CONVERGE, FOV = 0.25, 6, 60
@@ -80,16 +80,16 @@ for row in range(HIGH * 2 // 3, HIGH, 5):  # the floor
             continue
         left, right = points[row, half + low], points[row, half + low + 1]
         if abs(left[2] - at[2]) + abs(right[2] - at[2]) > 0.02 * -at[2]:
-            continue  # something else is before it
+            continue  # hidden by another object
         errors.append(abs((expected - low) - (at[0] - left[0]) / (right[0] - left[0])))
-check(len(errors) > 100, f"points that both eyes see: {len(errors)}")
-check(numpy.median(errors) < 0.1, f"they are where the other eye has them: {numpy.median(errors):.3f} pixels off")
+check(len(errors) > 100, f"points visible to both eyes: {len(errors)}")
+check(numpy.median(errors) < 0.1, f"points are where the other eye sees them: {numpy.median(errors):.3f} pixels off")
 
 both = picture(see("around", f"kind: panorama\neyes: {EYES}\nsize: [{2 * N}, {2 * N}]\n"))
 differ = numpy.mean(abs(both[:N] - both[N:]).max(axis=-1) > 8 / 255)
 check(0.05 < differ < 0.9, f"each eye has its panorama: {100 * differ:.0f} % differ")
 
-# Depth of field: what is in focus stays, and the rest is blurred.
+# Depth of field: objects in focus are sharp, others are blurred.
 sharp = see("sharp", f"field_of_view: 60\nsize: [{N}, {N}]\n")
 blurred = see("blurred", f"field_of_view: 60\naperture: 0.2\nfocus: 5\nsize: [{N}, {N}]\n", "--samples", 64)
 distance = -sharp["P.Z"]

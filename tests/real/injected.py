@@ -1,4 +1,4 @@
-"""What the tests of failing calls share. All calls: make show-inject."""
+"""Shared by the tests of failing calls. All calls: make show-inject."""
 import sys
 import tempfile
 
@@ -9,7 +9,7 @@ import inject  # noqa: E402
 
 
 def last_mallocs(counts, most):
-    """Those of a picture that is traced: what is told of it goes into its attributes."""
+    """The last calls before a traced picture is written, when its attributes are built."""
     return [f"malloc:{counts['malloc'] - i}" for i in range(most)]
 
 
@@ -32,7 +32,7 @@ def reads(counts, most):
 
 
 def check_points(*asked):
-    """asked: (name of a case, its points of counts and most, the least number of them, most)"""
+    """asked: (name of a case, selection of points from the counts, minimum number of points, most)"""
     with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
         inputs = pathlib.Path(folder)
         inject.prepare(BUILD, inputs)

@@ -1,5 +1,5 @@
 /*
- * Closed meshes of many kinds, and ways to break them: what programs do to theirs. For tests of scene/repair. All comes
+ * Closed meshes of many kinds, and ways to break them as programs do. For tests of scene/repair. Everything is derived
  * from a seed.
  */
 #pragma once
@@ -15,7 +15,7 @@ enum { BROKEN_MOST = 60000, BROKEN_KINDS = 6 };
 
 struct broken {
 	uint64_t random;
-	double (*points)[3]; /* each corner of each triangle its own, or shared: see index */
+	double (*points)[3]; /* one for each triangle corner, or shared: see index */
 	uint32_t *index;
 	uint32_t n_points, n_triangles;
 	float *positions; /* [n_points][4] */
@@ -54,7 +54,9 @@ static inline void broken_quad(struct broken *b, uint32_t one, uint32_t two, uin
 
 /* --- Closed meshes, counter-clockwise outside -------------------------------------------------------------------- */
 
-/* A rope of rings, closed at both ends by a pole, or onto itself. place: of ring i of n, corner k of m */
+/*
+ * A chain of rings, closed at both ends by a pole, or joined to itself. place: position of ring i of n, vertex k of m
+ */
 static inline void broken_rings(struct broken *b, uint32_t n, uint32_t m, int round,
                                 void (*place)(const double *how, double i, double k, double out[3]), const double *how)
 {
@@ -101,7 +103,7 @@ static inline void broken_on_torus(const double *how, double i, double k, double
 	out[2] = how[0] * -sin(2 * M_PI * k);
 }
 
-/* A prism: two rings with sharp edges; the poles are the middles of its ends. */
+/* A prism: two rings with sharp edges; the poles are the centres of its ends. */
 static inline void broken_on_prism(const double *how, double i, double k, double out[3])
 {
 	const double off = i == 0 || i == 1 ? 0 : i < 0.5 ? how[0] : how[1];
@@ -112,8 +114,8 @@ static inline void broken_on_prism(const double *how, double i, double k, double
 }
 
 /*
- * Cells of a grid put together: boxes cut into squares, L, T and U, rooms with hollows, bodies that touch along an
- * edge. Faces between a cell that is there and one that is not.
+ * Grid cells put together: boxes cut into squares, L, T and U shapes, rooms with cavities, bodies that touch along an
+ * edge. There is a face between a filled cell and an empty one.
  */
 static inline void broken_cells(struct broken *b, const uint32_t size[3], double share, const double *at[3])
 {
@@ -165,7 +167,7 @@ static inline void broken_make(struct broken *b, uint32_t kind)
 		broken_rings(b, n, m, 1, broken_on_torus, &thin);
 	else if (kind == 2)
 		broken_rings(b, 2, m, 0, broken_on_prism, how);
-	else if (kind == 5) { /* a ball in a ball: glass with air in it */
+	else if (kind == 5) { /* a ball inside a ball: glass with air inside */
 		const double inner[3] = { 0.5 * how[0], 0.5 * how[1], 0.5 * how[2] };
 		const uint32_t from = b->n_triangles;
 
@@ -181,13 +183,13 @@ static inline void broken_make(struct broken *b, uint32_t kind)
 		broken_cells(b, size, kind == 3 ? 1 : 0.6, (const double *[3]){ lines[0], lines[1], lines[2] });
 }
 
-/* --- Where it stands, in floats ---------------------------------------------------------------------------------- */
+/* --- Placement, in floats ---------------------------------------------------------------------------------------- */
 
-/* Turned, moved and scaled; then positions are what floats hold. @return the size of its box's diagonal */
+/* Rotate, move and scale; positions are then rounded to floats. @return the diagonal of its bounding box */
 static inline double broken_place(struct broken *b)
 {
 	const double scale = pow(10, -2 + 5 * broken_next(b)), turn = 6.3 * broken_next(b), tilt = 6.3 * broken_next(b);
-	const int turns = broken_below(b, 3) > 0; /* a third stays along the axes */
+	const int turns = broken_below(b, 3) > 0; /* a third stays aligned with the axes */
 	double away[3], low[3] = { 1e30, 1e30, 1e30 }, high[3] = { -1e30, -1e30, -1e30 };
 
 	for (int k = 0; k < 3; k++)
@@ -201,7 +203,7 @@ static inline double broken_place(struct broken *b)
 		for (int k = 0; k < 3; k++)
 			b->points[p][k] = (float)(scale * (placed[k] + away[k]));
 	}
-	for (uint32_t i = 0; i < 3 * b->n_triangles; i++) /* a grid has corners that no triangle has */
+	for (uint32_t i = 0; i < 3 * b->n_triangles; i++) /* a grid has vertices without triangles */
 		for (int k = 0; k < 3; k++) {
 			low[k] = fmin(low[k], b->points[b->index[i]][k]);
 			high[k] = fmax(high[k], b->points[b->index[i]][k]);
@@ -228,7 +230,7 @@ static inline double broken_volume(const struct broken *b)
 
 /* --- Ways to break it -------------------------------------------------------------------------------------------- */
 
-/* Triangles are cut at places along one of their edges; the neighbour there is not, or elsewhere. */
+/* Cut triangles at places along one of their edges; the neighbour is not cut, or cut elsewhere. */
 static inline void broken_cut(struct broken *b, double share)
 {
 	const uint32_t n = b->n_triangles;
@@ -253,7 +255,7 @@ static inline void broken_cut(struct broken *b, double share)
 	}
 }
 
-/* Corners get vertices of their own, as programs with normals or texture coordinates give them. */
+/* Duplicate vertices, as programs with normals or texture coordinates do. */
 static inline void broken_split(struct broken *b, double share)
 {
 	for (uint32_t i = 0; i < 3 * b->n_triangles; i++)
@@ -264,7 +266,7 @@ static inline void broken_split(struct broken *b, double share)
 		}
 }
 
-/* Each vertex moves by at most so much, any way. */
+/* Move each vertex by at most `most` in any direction. */
 static inline void broken_jitter(struct broken *b, double most)
 {
 	for (uint32_t p = 0; p < b->n_points; p++) {
@@ -300,7 +302,7 @@ static inline void broken_double(struct broken *b, double share)
 		}
 }
 
-/* Triangles without area: of two corners, or three on one line. */
+/* Add triangles without area: with two vertices, or three on a line. */
 static inline void broken_slivers(struct broken *b, double share)
 {
 	for (uint32_t f = 0, n = b->n_triangles; f < n; f++) {
@@ -319,7 +321,7 @@ static inline void broken_slivers(struct broken *b, double share)
 	}
 }
 
-/* Triangles in another order, beginning at other corners: several strips and fans where there was one. */
+/* Reorder triangles and rotate their vertices: several strips and fans instead of one. */
 static inline void broken_shuffle(struct broken *b)
 {
 	for (uint32_t f = b->n_triangles; f > 1; f--) {
@@ -340,7 +342,7 @@ static inline void broken_free(struct broken *b)
 	free(b->positions);
 }
 
-/** Room for a mesh, which is not made yet. */
+/** Allocate memory for a mesh, which is made later. */
 static inline void broken_init(struct broken *b, uint64_t seed)
 {
 	*b = (struct broken){ .random = seed * 0x9E3779B97F4A7C15u + 1 };
@@ -350,7 +352,7 @@ static inline void broken_init(struct broken *b, uint64_t seed)
 		broken_next(b);
 }
 
-/** What was made, as a scene has it. */
+/** The mesh in a scene's format. */
 static inline const struct scene_mesh *broken_mesh(struct broken *b)
 {
 	b->positions = malloc((size_t)b->n_points * 4 * sizeof(float));
@@ -363,10 +365,10 @@ static inline const struct scene_mesh *broken_mesh(struct broken *b)
 }
 
 /**
- * A closed mesh, broken in some of these ways at random, in at least one.
- * @param weld    the tolerance as a share of the size; vertices move by less than half of it, so that two of one place
- * are nearer than it
- * @param volume  receives what it was before
+ * A closed mesh, broken in one or more of these ways at random.
+ * @param weld    the tolerance as a share of the size; vertices move by less than half of it, so that two copies of one
+ * vertex stay within it
+ * @param volume  receives the volume before
  */
 static inline const struct scene_mesh *broken_random(struct broken *b, uint64_t seed, double weld, double *volume)
 {

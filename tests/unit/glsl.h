@@ -1,6 +1,6 @@
 /*
- * What tests of GLSL's front end share: whether texts are taken, and the numbers
- * that uniforms begin with (GLSL 1.20 sec. 4.3.5).
+ * Shared by tests of GLSL's front end: whether texts are accepted, and initial values of uniforms (GLSL 1.20 sec.
+ * 4.3.5).
  */
 #pragma once
 
@@ -16,7 +16,7 @@
 
 static char message[GLSL_MESSAGE];
 
-/* Why a stage of these texts is refused; NULL: it is not. */
+/* Why a stage with these texts is refused, or NULL if it is not. */
 static inline const char *why_of(enum glsl_stage stage, const char *const *texts, uint32_t n)
 {
 	struct glsl_tree tree = { 0 };
@@ -46,7 +46,7 @@ static inline void check_taken(const char *text)
 	check_why(GLSL_FRAGMENT_STAGE, text, NULL);
 }
 
-/* The number that the uniform r begins with. */
+/* The initial value of the uniform r. */
 static inline double value_in(const char *text)
 {
 	struct glsl_tree tree = { 0 };
@@ -62,7 +62,7 @@ static inline double value_in(const char *text)
 	return value;
 }
 
-/* lines: before the declaration of r. */
+/* lines: the text before the declaration of r. */
 static inline void check_value(const char *version, const char *lines, const char *expression, double wanted)
 {
 	char text[1024];

@@ -1,5 +1,5 @@
-/* Trees: every item in one leaf, boxes around what is below, depth bounded; and meshes kept across frames by
- * content. */
+/* Trees: every item is in exactly one leaf, boxes enclose their contents, depth is bounded; and meshes are
+ * recognised across frames by content. */
 #include "tests/check/random_scene.h"
 
 #include "kernels/rays/compressed.h"
@@ -10,13 +10,13 @@
 #include "tracer/accel/sah_build.h"
 
 #define N 70000
-#define CUT_MAX 20000 /* triangles for trees that cut space */
+#define CUT_MAX 20000 /* triangles for trees with spatial splits */
 
 static struct bvh_box boxes[N];
 static struct node2 nodes[N];
 static struct node8 nodes8[N];
 static struct node8c nodes8c[BVH_COMPRESSED_NODES(N, N)];
-static struct triangle triangles[N], triangles8c[N]; /* only their numbers count here */
+static struct triangle triangles[N], triangles8c[N]; /* only their indices matter here */
 static uint32_t order[N], block_first[N], block_count[N];
 static uint8_t seen[N];
 
@@ -64,8 +64,8 @@ static void check_node8(uint32_t index, uint32_t depth)
 	}
 }
 
-/* Boxes hold what is below them, and are no more than two steps of their grid larger. @param below  receives the node's
- * own box */
+/* Boxes must enclose their contents, and may exceed them by at most two steps of their grid. @param below  receives
+ * the node's own box */
 static void check_node8c(uint32_t index, uint32_t depth, struct bvh_box *below)
 {
 	const struct node8c *node = &nodes8c[index];
@@ -97,7 +97,7 @@ static void check_node8c(uint32_t index, uint32_t depth, struct bvh_box *below)
 	}
 }
 
-/* The builder is compiled more than once; all make the same tree, by one thread or more. */
+/* The builder is compiled more than once; all versions must make the same tree, with any number of threads. */
 static void check_same_tree(uint32_t n, uint32_t n_nodes)
 {
 	static struct node2 plain[N];
@@ -159,7 +159,7 @@ static float check_trees(uint32_t n, int linear)
 	return (float)n_nodes / (float)n_nodes8;
 }
 
-/* Leaves that no compressed node has room for become nodes. */
+/* Leaves too large for a compressed node become nodes. */
 static void check_large_leaves(uint32_t n, uint32_t leaf)
 {
 	const struct bvh_input in = { .boxes = boxes, .n = n, .leaf_max = leaf, .threads = 3 };
@@ -179,7 +179,7 @@ static void check_large_leaves(uint32_t n, uint32_t leaf)
 		ck_assert_msg(seen[i], "item %u of %u is in no compressed node", i, n);
 }
 
-/* The same with spatial splits and as kd-trees, whatever the number of threads; leaves are no larger than asked for. */
+/* The same with spatial splits and as kd-trees, for any number of threads; leaves do not exceed the requested size. */
 static void check_cut_trees(const struct triangle *triangles, uint32_t n, uint32_t room)
 {
 	static struct node2 nodes_first[4 * CUT_MAX + 1], nodes_other[4 * CUT_MAX + 1];
@@ -223,8 +223,8 @@ START_TEST(all_items_in_one_leaf)
 		set_box(i, between(&r, -1, 1), between(&r, -1, 1), between(&r, -9, 9), between(&r, 0, 0.1f));
 	for (size_t k = 0; k < sizeof(counts) / sizeof(counts[0]); k++)
 		check_trees(counts[k], _i);
-	ck_assert_float_gt(check_trees(N, _i), 4); /* seven where all were full */
-	for (uint32_t i = 0; i < N; i++) /* not to be divided */
+	ck_assert_float_gt(check_trees(N, _i), 4); /* seven if all were full */
+	for (uint32_t i = 0; i < N; i++) /* cannot be divided */
 		set_box(i, 1, 2, 3, 0);
 	for (uint32_t leaf = 5; leaf <= BVH_COMPRESSED_LEAF; leaf = 3 * leaf + 1)
 		check_large_leaves(N, leaf);
@@ -233,13 +233,13 @@ END_TEST
 
 START_TEST(strange_boxes_keep_the_depth)
 {
-	for (uint32_t i = 0; i < N; i++) /* all the same */
+	for (uint32_t i = 0; i < N; i++) /* all equal */
 		set_box(i, 1, 2, 3, 0);
 	check_trees(N, _i);
 	for (uint32_t i = 0; i < N; i++) /* each farther than all before together */
 		set_box(i, ldexpf(1, (int)(i % 120) - 60), 0, 0, 0);
 	check_trees(N, _i);
-	for (uint32_t i = 0; i < N; i++) /* unbounded ones among small ones */
+	for (uint32_t i = 0; i < N; i++) /* infinite ones among small ones */
 		set_box(i, (float)i, 0, 0, i % 10 ? 0.5f : 1e18f);
 	check_trees(N, _i);
 }
@@ -262,7 +262,7 @@ START_TEST(cut_space_loses_nothing)
 		}
 	}
 	for (size_t k = 0; k < sizeof(counts) / sizeof(counts[0]); k++)
-		for (uint32_t share = 0; share < 4; share++) /* room that is used up, or not */
+		for (uint32_t share = 0; share < 4; share++) /* memory that is used up, or not */
 			check_cut_trees(triangles, counts[k], counts[k] + 1 + counts[k] * share * share / 3);
 }
 END_TEST
@@ -282,7 +282,7 @@ START_TEST(meshes_are_kept_and_dropped)
 	build(s, INSTANCES);
 	ck_assert_uint_eq(s->accel->generation, generation);
 	ck_assert_uint_eq(s->instances[0].node2_first, s->instances[3].node2_first); /* the same mesh */
-	/* Only the last two meshes are used for many frames: the first goes, and theirs move up. */
+	/* Only the last two meshes are used for many frames: the first is dropped, and they move up. */
 	for (int frame = 0; frame < 40; frame++)
 		ck_assert_int_eq(accel_build_frame(s->accel, &s->scene, NULL, NULL, s->instances + 1, 2, &s->view, &s->spaces,
 		                                   &s->n_spaces), 0);
@@ -294,7 +294,7 @@ START_TEST(meshes_are_kept_and_dropped)
 	build(s, INSTANCES);
 	ck_assert_uint_eq(s->accel->n_triangles, triangles);
 	ck_assert_uint_eq(s->accel->n_nodes8c, n_nodes8c);
-	/* A frame with nothing in it. */
+	/* An empty frame. */
 	build(s, 0);
 	ck_assert_uint_eq(s->view.tlas_count, 0);
 	ck_assert_uint_eq(s->spaces[0].n_nodes, 0);
@@ -302,8 +302,8 @@ START_TEST(meshes_are_kept_and_dropped)
 }
 END_TEST
 
-/* What accel_pool says is as it was, is: meshes come, move and go, and a copy is kept up as the tracer keeps its
- * device's. */
+/* Data that accel_pool reports as unchanged must be unchanged: meshes appear, move and disappear, and a copy is
+ * updated as the tracer updates its device. */
 START_TEST(copies_are_kept_up)
 {
 	struct random_scene *s = random_scene_create(3);

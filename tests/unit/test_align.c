@@ -1,5 +1,5 @@
-/* verbs/bisect/align: what is left between hunks agrees, and short scripts are the shortest there are. */
-#include "verbs/bisect/align.h"
+/* bisect/align: the regions between hunks agree, and short scripts are minimal. */
+#include "bisect/align.h"
 
 #include <stdlib.h>
 
@@ -14,7 +14,7 @@ static size_t at_most(size_t n)
 	return (size_t)rand_r(&seed) % (n + 1);
 }
 
-/* @return edits of the script */
+/* @return number of edits in the script */
 static size_t check_hunks(const uint64_t *a, size_t n, const uint64_t *b, size_t m)
 {
 	struct align_hunk *hunks;
@@ -70,7 +70,7 @@ START_TEST(test_shortest)
 }
 END_TEST
 
-/* Too much differs for a script: what occurs once in each holds both together. */
+/* Too many differences for a script: elements that are unique in both sequences align them. */
 START_TEST(test_long)
 {
 	uint64_t *a = malloc(LONG * sizeof(*a)), *b = malloc(LONG * sizeof(*b));

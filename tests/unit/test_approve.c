@@ -1,5 +1,4 @@
-/* What relume approve makes of a baseline: frames in any order, their files, folders that are none of its own
- * (diff/baseline). */
+/* Baselines written by relume approve: frames in any order, their files, and foreign folders (diff/baseline). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -50,7 +49,7 @@ static int is_stored(unsigned frame)
 	return access(path, R_OK) == 0;
 }
 
-/* The baseline holds the frames that a bit says, in order, and each is found. */
+/* The baseline must list the frames whose bits are set, in order, and each must be found. */
 static void check_frames(uint64_t wanted)
 {
 	struct baseline base = { 0 };
@@ -72,7 +71,7 @@ static void check_frames(uint64_t wanted)
 	baseline_close(&base);
 }
 
-/* Frames are approved in any order, many at once, and lines are sorted; each keeps its own hashes. */
+/* Frames are approved in any order, many at once; lines stay sorted, and each frame keeps its own hashes. */
 START_TEST(test_order)
 {
 	const uint64_t approved = ((1ull << 60) - (1ull << 30)) | 0xf8;
@@ -91,7 +90,7 @@ START_TEST(test_order)
 }
 END_TEST
 
-/* Files of frames come and go with --hashes. */
+/* Frame files are added, and removed by --hashes. */
 START_TEST(test_files)
 {
 	trace_frame(1, 0.25f);
@@ -113,8 +112,7 @@ START_TEST(test_files)
 }
 END_TEST
 
-/* A file that somebody has sorted otherwise is read all the same. Folders that are hidden, or hold no baseline, are
- * somebody else's. */
+/* A file that was reordered by hand is still read. Folders that are hidden, or hold no baseline, are left alone. */
 START_TEST(test_other_folders)
 {
 	static const char sheet[] = "format: relume-baseline\nversion: 1\ndevice: \"a device\"\ntrace: "

@@ -1,4 +1,4 @@
-/* Which first draws of a frame are a backdrop (scene/backdrop.h). */
+/* Recognition of a backdrop: the first draws of a frame that serve as background (scene/backdrop.h). */
 #include "scene/backdrop.h"
 
 #include "scene/scene.h"
@@ -16,10 +16,10 @@ static uint32_t backdrop(uint32_t buffers, uint32_t before, int32_t width)
 START_TEST(test_backdrop)
 {
 	ck_assert_uint_eq(backdrop(2, 5, 640), 5);  /* a sky box, then the world */
-	ck_assert_uint_eq(backdrop(6, 5, 640), 5);  /* stencil as well */
-	ck_assert_uint_eq(backdrop(2, 15, 640), 0); /* the world, then what the viewer holds */
-	ck_assert_uint_eq(backdrop(3, 5, 640), 0);  /* nothing of it is seen */
-	ck_assert_uint_eq(backdrop(2, 5, 320), 0);  /* of a part of the window */
+	ck_assert_uint_eq(backdrop(6, 5, 640), 5);  /* stencil is cleared as well */
+	ck_assert_uint_eq(backdrop(2, 15, 640), 0); /* the world, then an object held by the viewer */
+	ck_assert_uint_eq(backdrop(3, 5, 640), 0);  /* nothing is visible */
+	ck_assert_uint_eq(backdrop(2, 5, 320), 0);  /* covers only part of the window */
 	ck_assert_uint_eq(backdrop(1, 5, 640), 0);
 }
 END_TEST

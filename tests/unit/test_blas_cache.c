@@ -1,4 +1,7 @@
-/* Bottom levels that workers share: each made once, whoever wants it; what is in use stays; what fails passes on. */
+/*
+ * Bottom-level trees shared by workers: each is built once; trees in use are kept; after a failure another worker
+ * builds.
+ */
 #include "tests/check/random_scene.h"
 
 #include <pthread.h>
@@ -20,7 +23,7 @@ static struct blas_key key_of(uint32_t i)
 	return (struct blas_key){ { i, 7 }, i % N_ACCEL_KINDS, ACCEL_ROWS };
 }
 
-/* As many nodes as bytes asks for, each holding its number. */
+/* A tree of about `bytes` bytes whose nodes all contain its number. */
 static struct blas make(uint32_t number, size_t bytes)
 {
 	struct blas b = { .n = { [BLAS_NODES2] = bytes / sizeof(struct node2) } };
@@ -42,7 +45,7 @@ static int is_of(const struct blas *b, uint32_t number)
 	return 1;
 }
 
-/* Take it and let it go again. @return 1: it was there; 0: it was made */
+/* Acquire and release it. @return 1: it was cached; 0: it was built */
 static int take(uint32_t number, size_t bytes)
 {
 	const struct blas_key key = key_of(number);
@@ -118,15 +121,15 @@ START_TEST(unused_for_longest_goes_first)
 		ck_assert_int_eq(take(i, 6400), 0);
 	ck_assert_int_eq(take(0, 6400), 1);
 	ck_assert_int_eq(blas_cache_acquire(cache, &key, &held), 0);
-	ck_assert_int_eq(take(3, 6400), 0); /* 2 goes */
+	ck_assert_int_eq(take(3, 6400), 0); /* evicts 2 */
 	ck_assert_int_eq(take(0, 6400), 1);
-	ck_assert_int_eq(take(2, 6400), 0); /* 1 is in use: 3 goes */
-	ck_assert_int_eq(take(3, 1 << 20), 0); /* more than there is room for: all go but what is in use */
+	ck_assert_int_eq(take(2, 6400), 0); /* 1 is in use: evicts 3 */
+	ck_assert_int_eq(take(3, 1 << 20), 0); /* larger than the cache: evicts everything but the tree in use */
 	ck_assert_int_eq(take(0, 6400), 0);
 	ck_assert(is_of(held, 1));
 	ck_assert_int_eq(take(1, 6400), 1);
 	blas_cache_release(cache, held);
-	/* Another kind or other parts are something else. */
+	/* Another kind, or other parts, is a different tree. */
 	for (int i = 0; i < 2; i++) {
 		struct blas_key other = key;
 		const struct blas *got;
@@ -142,7 +145,7 @@ END_TEST
 
 static atomic_uint n_failed;
 
-/* All but the last to come fail to make it. */
+/* Only the last worker to come succeeds in building it. */
 static void *fail_then_make(void *arg)
 {
 	const struct blas_key key = key_of(0);
@@ -176,7 +179,7 @@ START_TEST(what_fails_passes_on)
 }
 END_TEST
 
-/* Two accels of one cache: the second makes no tree of the large meshes, and both pools hold the same. */
+/* Two accels with one cache: the second builds no tree for the large meshes, and both pools are equal. */
 START_TEST(accels_share_trees)
 {
 	struct random_scene *s = random_scene_create(1);

@@ -1,4 +1,7 @@
-/* Trees kept on disk: found again to the byte, never a wrong one, the folder within its bound, failures told once. */
+/*
+ * Trees cached on disk: returned to the byte, never the wrong one; the folder stays within its limit; failures are
+ * reported once.
+ */
 #include "tests/check/random_scene.h"
 
 #include <dirent.h>
@@ -77,7 +80,7 @@ static int is_same(const struct tree *a, const struct tree *b)
 	       memcmp(a->order, b->order, a->n_order * sizeof(*a->order)) == 0;
 }
 
-/* Paths of the files in the folder; how many, and their bytes together. */
+/* Paths of the files in the folder; returns their number, and adds up their sizes. */
 static unsigned list_files(char (*paths)[512], unsigned room, uint64_t *bytes)
 {
 	DIR *dir = opendir(folder);
@@ -147,7 +150,7 @@ START_TEST(large_meshes_alone_are_kept)
 	ck_assert_uint_eq(list_files(paths, 4, &bytes), 0);
 	ck_assert_int_eq(builders_make_tree(&soup, ACCEL_SBVH, (const uint64_t[]){ 3, 4 }, store, &tree), 0);
 	ck_assert_uint_eq(list_files(paths, 4, &bytes), 1);
-	/* What is found is what is taken: boxes of 6000 other triangles do not bring a tree of their own. */
+	/* Keys are exact: the boxes of 6000 other triangles find none of their trees. */
 	for (uint32_t i = 0; i < soup.n; i++)
 		soup.boxes[i].lo[0] = soup.boxes[i].hi[0] = 0;
 	ck_assert_int_eq(builders_make_tree(&soup, ACCEL_SBVH, (const uint64_t[]){ 3, 4 }, store, &again), 0);
@@ -205,7 +208,7 @@ START_TEST(a_damaged_file_is_no_tree)
 }
 END_TEST
 
-/* A tree whose checksum holds, but which would lead a kernel out of its arrays or its stack. */
+/* A tree with a valid checksum that would lead a kernel out of its arrays or its stack. */
 START_TEST(an_unsound_tree_is_no_tree)
 {
 	struct blas_store *store = open_store(BLAS_STORE_BYTES);
@@ -222,9 +225,9 @@ START_TEST(an_unsound_tree_is_no_tree)
 		case 2: tree.nodes[0].child[0] = N - 1; tree.nodes[0].count[0] = 2; break;
 		case 3: tree.nodes[0].child[0] = 7; tree.nodes[0].count[0] = 0xfffffff0u; break;
 		case 4: tree.order[N - 1] = N; break;
-		case 5: tree.nodes[0].child[1] = tree.nodes[0].child[0]; break; /* one child of two sides */
-		case 6: tree.nodes[0].child[0] = 0; tree.nodes[0].count[0] = 9; break; /* a leaf too large */
-		case 7: tree.nodes[0].child[1] = 0; tree.nodes[0].count[1] = 1; break; /* nodes that nobody comes to */
+		case 5: tree.nodes[0].child[1] = tree.nodes[0].child[0]; break; /* one node is a child twice */
+		case 6: tree.nodes[0].child[0] = 0; tree.nodes[0].count[0] = 9; break; /* leaf too large */
+		case 7: tree.nodes[0].child[1] = 0; tree.nodes[0].count[1] = 1; break; /* unreachable nodes */
 		}
 		ck_assert_msg(!tree_is_sound(&tree, N), "case %d", what);
 		blas_store_save(store, &key, &tree);
@@ -232,7 +235,7 @@ START_TEST(an_unsound_tree_is_no_tree)
 		tree.nodes[0] = node;
 		tree.order[N - 1] = item;
 	}
-	/* A path of nodes, one below the other, with an item each; the last one has two. */
+	/* A chain of nodes with an item each; the last has two. */
 	for (uint32_t n = BVH_MAX_DEPTH; n <= BVH_MAX_DEPTH + 1; n++) {
 		for (uint32_t i = 0; i < n; i++) {
 			tree.nodes[i].child[0] = i + 1 < n ? i + 1 : n;
@@ -262,14 +265,14 @@ START_TEST(unused_ones_go_first)
 
 		k.hash[0] = i;
 		blas_store_save(store, &k, &tree);
-		k.hash[0] = 3; /* in use all the time */
+		k.hash[0] = 3; /* used all the time */
 		if (i >= 3) {
-			ck_assert_msg(blas_store_load(store, &k, &got) == 1, "what was just used is gone after %u", i);
+			ck_assert_msg(blas_store_load(store, &k, &got) == 1, "a tree just used is gone after %u", i);
 			tree_free(&got);
 		}
 		list_files(NULL, 0, &bytes);
 		ck_assert_uint_le(bytes, most + most / 16 + each);
-		usleep(2000); /* file times are no finer than the kernel's ticks */
+		usleep(2000); /* file times have the resolution of the kernel's ticks */
 	}
 	ck_assert_uint_ge(bytes, most / 2);
 	tree_free(&tree);
@@ -278,7 +281,7 @@ START_TEST(unused_ones_go_first)
 }
 END_TEST
 
-/* Processes that write, read and remove the same few trees: whatever is found is whole and the right one. */
+/* Processes that write, read and remove the same few trees: any tree found must be complete and the right one. */
 START_TEST(processes_share_a_folder)
 {
 	enum { PROCESSES = 4, KEYS = 6 };
@@ -289,7 +292,7 @@ START_TEST(processes_share_a_folder)
 
 	for (int i = 0; i < KEYS; i++) {
 		trees[i] = build(ACCEL_BVH);
-		trees[i].nodes[0].lo[0][0] -= (float)i; /* told apart */
+		trees[i].nodes[0].lo[0][0] -= (float)i; /* makes them distinct */
 	}
 	bytes = 64 + trees[0].n_nodes * sizeof(*trees[0].nodes) + trees[0].n_order * sizeof(*trees[0].order);
 	for (uint32_t p = 0; p < PROCESSES; p++) {
@@ -332,7 +335,7 @@ START_TEST(processes_share_a_folder)
 }
 END_TEST
 
-/* Lines on standard error while a folder cannot be written; nothing is left there. */
+/* Number of lines on standard error while a folder cannot be written; no file may be left there. */
 static unsigned count_lines(uint64_t most)
 {
 	struct tree tree = build(ACCEL_BVH);
@@ -378,8 +381,8 @@ START_TEST(a_full_disk_is_one_line)
 }
 END_TEST
 
-/* The trees of a given mesh, by version. Where this fails, builders have changed: raise TREE_VERSION and give the new
- * sums. */
+/* Checksums of the trees of a given mesh, by version. If this fails, builders have changed: raise TREE_VERSION and
+ * enter the new sums. */
 START_TEST(other_trees_are_another_version)
 {
 	static const uint64_t sums[N_ACCEL_KINDS] = { [ACCEL_BVH] = 0x1b93a3dbc07afc84u, [ACCEL_SBVH] = 0x8a222f99c945d872u,

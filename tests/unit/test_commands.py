@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Every command of Khronos' registries has a wrapper or a stated reason; the generator's output depends on its input
-alone."""
+"""Every command in Khronos' registries has a wrapper or a stated reason for lacking one; the generator's output depends
+only on its input."""
 import os
 import pathlib
 import re

@@ -1,4 +1,4 @@
-/* The numbers of finished pictures: halves as OpenEXR has them, sRGB's curve as C's library computes it. */
+/* Numbers of finished pictures: halves as OpenEXR rounds them, sRGB's curve as computed by the C library. */
 #define IMATH_HALF_NO_LOOKUP_TABLE
 #include <half.h>
 #include <math.h>
@@ -17,7 +17,7 @@ START_TEST(test_halves)
 			ck_assert(isnan(imath_half_to_float(ours)));
 			continue;
 		}
-		/* from 65520 on to infinity; the two differ in none */
+		/* infinite from 65520 on; both conversions always agree */
 		ck_assert_msg(ours == theirs, "%a: %04x, not %04x", (double)x, ours, theirs);
 		if (fabsf(x) <= 65504)
 			ck_assert_float_eq(compose_rounded(x), imath_half_to_float(theirs));
@@ -47,8 +47,7 @@ START_TEST(test_linear)
 }
 END_TEST
 
-/* GL's numbers come out as the codes that GL rounds them to, in linear light and as they are, however near to a border
- * they lie. */
+/* Display codes survive the conversion to and from linear light, however close they are to a rounding border. */
 START_TEST(test_codes)
 {
 	for (int code = 0; code < 255; code++)

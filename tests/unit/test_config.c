@@ -1,4 +1,4 @@
-/* Configuration files: what is wrong is named with its line, and never half taken. */
+/* Configuration files: errors name their line, and a file with errors is not used in part. */
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +36,7 @@ static const cyaml_schema_value_t schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POIN
 
 static char path[] = "/tmp/relume-config-XXXXXX", said[1000];
 
-/** Load text as a file; what was reported lands in `said`. */
+/** Load text as a file; messages are stored in `said`. */
 static int load(const char *text, void **out)
 {
 	struct said reported;

@@ -1,4 +1,4 @@
-/* Which draws are solid by their depth alone (scene/depths.h). */
+/* Which draws are solid by depth alone (scene/depths.h). */
 #include "scene/depths.h"
 
 #include "gl_tokens.h"
@@ -7,7 +7,7 @@
 
 enum { DEPTH, LIGHT, N };
 
-/* A body by its depth, then with colour: [0] and [1]. What is asked for may be changed. */
+/* A body drawn to depth only, then with colour: [0] and [1]. Tests change the request. */
 struct body {
 	struct scene_instance instances[N];
 	struct scene_material materials[N];
@@ -47,7 +47,7 @@ static unsigned is_solid(const struct body *b)
 	return depths[DEPTH];
 }
 
-/* Change a field of a new body, and ask. */
+/* Change a field of a new body, then ask. */
 #define CHANGED(field, value) (make(&b), b.field = (value), is_solid(&b))
 
 START_TEST(test_depths)
@@ -63,10 +63,10 @@ START_TEST(test_depths)
 	ck_assert_uint_eq(CHANGED(materials[DEPTH].depth_func, GL_LEQUAL), 1);
 	ck_assert_uint_eq(CHANGED(view.depth_range[0], 1), 0);  /* a mask at the far plane */
 	ck_assert_uint_eq(CHANGED(view.target, 1), 0);
-	ck_assert_uint_eq(CHANGED(scene.n_clears, 1), 0);       /* its depth is dropped */
+	ck_assert_uint_eq(CHANGED(scene.n_clears, 1), 0);       /* its depth is cleared later */
 	make(&b);
 	b.scene.n_clears = 1;
-	b.clear.scissor[2] = 32;                                /* only a part of it */
+	b.clear.scissor[2] = 32;                                /* only part of it */
 	ck_assert_uint_eq(is_solid(&b), 1);
 }
 END_TEST
@@ -76,7 +76,8 @@ START_TEST(test_seen_through)
 	struct body b;
 
 	ck_assert_uint_eq(CHANGED(materials[LIGHT].blend_dst_rgb, GL_ONE_MINUS_SRC_ALPHA), 0);
-	ck_assert_uint_eq(CHANGED(materials[LIGHT].blend, 0), 0); /* a pre-pass of what is then drawn as usual */
+	ck_assert_uint_eq(CHANGED(materials[LIGHT].blend, 0), 0); /* a pre-pass for geometry that is then drawn
+	                                                           * normally */
 	b.instances[LIGHT].modelview[12] = 1;                   /* another body */
 	ck_assert_uint_eq(is_solid(&b), 1);
 }

@@ -1,4 +1,4 @@
-/* Devices: what a shared one has in common with its parent, what a profile counts, and what is kept of compiled
+/* Devices: properties that a shared one has in common with its parent, profile counts, and caching of compiled
  * kernels. */
 #include <dirent.h>
 #include <sched.h>
@@ -14,7 +14,7 @@
 #include "tests/driver.h"
 #include "tracer/device/launch.h"
 
-/* A second queue that took the kernels for GPUs on a CPU would be several times slower, and nobody would see why. */
+/* If a second queue used the GPU kernels on a CPU, it would be several times slower without any visible reason. */
 START_TEST(test_shared_device_takes_the_same_kernels)
 {
 	static const char *const choices[] = { "reference", NULL };
@@ -97,7 +97,7 @@ static void run_kernel(struct device *dev)
 	device_release(dev, &visibility.buffer);
 }
 
-/* With a device that keeps programs in a folder. @return how many came from there */
+/* Run with a device that caches programs in a folder. @return number of programs taken from there */
 static unsigned run_kept(const char *folder, int always)
 {
 	struct device *dev = NULL;
@@ -111,7 +111,7 @@ static unsigned run_kept(const char *folder, int always)
 	return found;
 }
 
-/* The one file of a folder, its size, or -1 where there is none. No unfinished one is left. */
+/* The only file in a folder, its size, or -1 if there is none. No partial file may be left. */
 static long the_file(const char *folder, char *path, size_t size)
 {
 	DIR *dir = opendir(folder);
@@ -169,16 +169,19 @@ START_TEST(test_programs_are_kept)
 	long size;
 
 	make_folder(folder, sizeof(folder));
-	ck_assert_uint_eq(run_kept(folder, 0), 0); /* PoCL keeps its own */
+	ck_assert_uint_eq(run_kept(folder, 0), 0); /* PoCL has a cache of its own */
 	ck_assert_int_eq(the_file(folder, path, sizeof(path)), -1);
 	ck_assert_uint_eq(run_kept(folder, 1), 0);
-	/* PoCL's binary grows once its own cache holds the kernels that ran: the size is that of a second compilation. */
+	/*
+	 * PoCL's binary grows once its own cache contains the kernels that ran; this is the size after a second
+	 * compilation.
+	 */
 	ck_assert_int_gt(the_file(folder, path, sizeof(path)), 1000);
 	ck_assert_int_eq(unlink(path), 0);
 	ck_assert_uint_eq(run_kept(folder, 1), 0);
 	size = the_file(folder, path, sizeof(path));
 	ck_assert_uint_eq(run_kept(folder, 1), 1);
-	/* Damaged in its content, in its key, and cut: found out each time, and put right. */
+	/* Damaged contents, a damaged key, a truncated file: each is noticed and repaired. */
 	for (int damage = 0; damage < 3; damage++) {
 		if (damage == 2)
 			ck_assert_int_eq(truncate(path, size / 2), 0);
@@ -188,14 +191,14 @@ START_TEST(test_programs_are_kept)
 		ck_assert_int_eq(the_file(folder, path, sizeof(path)), size);
 		ck_assert_uint_eq(run_kept(folder, 1), 1);
 	}
-	/* Nowhere to write: the kernels run all the same. */
+	/* No writable folder: the kernels run anyway. */
 	ck_assert_uint_eq(run_kept("/proc/self/fdinfo", 1), 0);
 	ck_assert_uint_eq(run_kept("/dev/null/folder", 1), 0);
 	remove_folder(folder, path);
 }
 END_TEST
 
-/* Processes at once. Forked before OpenCL is touched, whose threads do not come along. */
+/* Several processes at once. They fork before OpenCL is used, because its threads do not survive a fork. */
 START_TEST(test_programs_are_shared)
 {
 	char folder[128], path[512];
@@ -218,7 +221,7 @@ START_TEST(test_programs_are_shared)
 }
 END_TEST
 
-/* Whoever asks for a kernel meanwhile waits; nobody has to, and what is left behind is in nobody's way. */
+/* A request for a kernel during the build waits; a build that nobody waits for is harmless. */
 START_TEST(test_program_is_built_early)
 {
 	for (int run = 0; run < 4; run++) {
@@ -240,7 +243,7 @@ START_TEST(test_program_is_built_early)
 }
 END_TEST
 
-/* Threads of this process that may not run on all the cores that it may use. */
+/* Number of this process' threads that may not run on all of its cores. */
 static int count_pinned(const cpu_set_t *all)
 {
 	DIR *folder = opendir("/proc/self/task");
@@ -256,8 +259,8 @@ static int count_pinned(const cpu_set_t *all)
 	return n;
 }
 
-/* A core for each thread of PoCL: only where the process may use all cores (not 1), is asked to (not 2), and there are
- * as many (not 3). */
+/* PoCL's threads are pinned to a core each only if the process may use all cores (not 1), asks for it (not 2), and
+ * there are enough cores (not 3). */
 START_TEST(test_threads_stay_on_cores)
 {
 	const int n = (int)sysconf(_SC_NPROCESSORS_ONLN);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 240 s
-"""relume diff as a command: sets of frames, exit codes, and what it writes."""
+"""relume diff as a command: sets of frames, exit codes, and output."""
 import json
 import os
 import pathlib
@@ -23,7 +23,7 @@ WIDTH, HEIGHT = 48, 40
 
 
 def picture(seed, width=WIDTH, height=HEIGHT):
-    """RGB rows, top first: a box that moves with the seed over a dark background."""
+    """RGB rows, top first: a box on a dark background, whose position depends on the seed."""
     rows = []
     for y in range(height):
         row = bytearray()
@@ -35,8 +35,7 @@ def picture(seed, width=WIDTH, height=HEIGHT):
 
 
 def drifted(rows):
-    """One code too bright all over, which FLIP sees, and one pixel beyond what R1 allows: it has 0.1 % to spare, P
-    decides."""
+    """One code too bright everywhere, which FLIP notices, and one pixel beyond R1, which tolerates 0.1 %: P decides."""
     rows = [bytes(b + 1 if b < 255 else b for b in row) for row in rows]
     return [bytes((rows[0][0] + 2,)) + rows[0][1:]] + rows[1:]
 
@@ -52,7 +51,7 @@ def write_png(path, rows):
 
 
 def read_png(path):
-    """RGB rows of a PNG file of 8 bits without interlacing, whatever its filters."""
+    """RGB rows of an 8-bit PNG file without interlacing, with any filters."""
     data, at, packed = path.read_bytes(), 8, b""
     while at < len(data):
         size, kind = struct.unpack(">I4s", data[at:at + 8])
@@ -74,7 +73,7 @@ def read_png(path):
 
 
 def places(rows, wanted):
-    """Where a picture is found within another one: (x, y)."""
+    """Positions of a picture within another: (x, y)."""
     return [(at.start() // 3, y)
             for y in range(len(rows) - len(wanted) + 1)
             for at in re.finditer(re.escape(wanted[0]), rows[y])
@@ -118,7 +117,7 @@ class Diff(unittest.TestCase):
     def diff(self, *args, expect):
         done = subprocess.run([RELUME, "diff", *map(str, args)], capture_output=True, text=True, timeout=60)
         self.assertEqual(done.returncode, expect, done.stdout + done.stderr)
-        # Kernels without Landlock, and emulated ones, have their warnings.
+        # Kernels without Landlock, and emulated ones, cause warnings.
         done.stderr = re.sub(r"^relume: warning: (this kernel has no Landlock|calls cannot be confined).*\n", "",
                              done.stderr, flags=re.M)
         return done
@@ -187,8 +186,8 @@ class Diff(unittest.TestCase):
         self.assertEqual(self.outcomes(self.ref, self.traced, expect=4)[7], "extra")
 
     def test_windows_of_exr(self):
-        """A picture is its display window: moved data fail, cropped data are compared where they are, overscan is left
-        out, DWA is read."""
+        """A picture is its display window: moved data fail, cropped data are compared in place, overscan is ignored,
+        DWA is read."""
         for name, edit in (("base", []), ("shift", ["--origin", "+5+3"]), ("crop", ["--crop", "20x21+20+10"]),
                            ("dwaa", ["--compression",
                                      "dwaa:1"]), ("dwab", ["--compression",
@@ -225,7 +224,7 @@ class Diff(unittest.TestCase):
         (self.traced / "b.1.png").unlink()
         (self.traced / "b.1.ppm").write_bytes(whole)
         self.diff(self.ref, self.traced, expect=0)
-        # cut; not as PNG: OpenImageIO 2.4 leaks a string when libpng jumps out of it
+        # truncated; not as PNG: OpenImageIO 2.4 leaks a string when libpng's longjmp leaves it
         (self.traced / "b.1.ppm").write_bytes(whole[:len(whole) // 2])
         self.assertEqual(self.outcomes(self.ref, self.traced, expect=3),
                          {1: "unreadable", 2: "passed", 3: "passed", 4: "passed"})
@@ -257,7 +256,7 @@ class Diff(unittest.TestCase):
         self.diff(self.dir / "t.ref", self.traced, expect=0)
         done = self.diff(self.dir / "t.trace", self.traced, "--table", expect=0)
         self.assertIn("not measured: R5 depth: the frame has no channel", done.stdout)
-        (self.dir / "t.ref").write_bytes(data[:-10000])  # the last frame's colour is cut, too
+        (self.dir / "t.ref").write_bytes(data[:-10000])  # truncates the last frame's colour, too
         self.assertEqual(self.outcomes(self.dir / "t.ref", self.traced, expect=4)[4], "extra")
 
     def test_frames_of_another_recording(self):
@@ -294,7 +293,7 @@ class Diff(unittest.TestCase):
                       failed.find("failure").text)
 
     def test_names(self):
-        """Pictures without a number, with one that another has, too, and in folders are matched by path; endings do not
+        """Pictures are matched by path if they have no number, if numbers repeat, and in folders; file endings do not
         matter."""
         for folder in (self.ref, self.traced):
             for n, name in enumerate(("login", "dark/login", "dark/menu.2", "5_on", "5_off")):
@@ -322,7 +321,7 @@ class Diff(unittest.TestCase):
         write_png(self.dir / "other/new.png", picture(1))
         self.assertIn("no numbered image, and none with a path",
                       self.diff(self.ref, self.dir / "other", expect=3).stderr)
-        # beside a file of reference frames there is nothing to compare them with, and that is said
+        # a file of reference frames has no other frames to compare with, and the message says so
         (self.dir / "t.ref").write_bytes(b"RELREF2\n" + b"".join(ref_color(n, picture(n)) for n in range(1, 5)))
         self.assertIn("login.png: has no number", self.diff(self.dir / "t.ref", self.traced, expect=0).stderr)
         write_png(self.traced / "login.tif", picture(9))
@@ -340,8 +339,8 @@ class Diff(unittest.TestCase):
         for block in re.findall(r'<script type="application/json" id="p\d+">(.*?)</script>', page, re.S):
             self.assertTrue(json.loads(block)["thumbnail"].startswith("data:image/png;base64,"))
         self.assertEqual(page.count('"flip": "data:image/png;base64,'), 4)
-        self.assertLess(page.index('id="p3"'), page.index('id="p1"'))  # failed first
-        sheet = read_png(out / "sheet.png")  # a row for each frame, what failed first: reference, compared picture, ...
+        self.assertLess(page.index('id="p3"'), page.index('id="p1"'))  # failures come first
+        sheet = read_png(out / "sheet.png")  # a row for each frame, failures first: reference, compared picture, ...
         (left, top), = places(sheet, picture(3))
         (x, y), = places(sheet, picture(9))
         self.assertEqual(y, top)
@@ -393,7 +392,7 @@ class Diff(unittest.TestCase):
         self.assertEqual([f["outcome"] for f in frames(*better, expect=1)], ["failed", "passed", "failed", "failed"])
 
     def test_runs(self):
-        """Frame 2 is noisy, frame 3 wrong in all runs, frame 4 missing in one; each run is told from the others."""
+        """Frame 2 is noisy, frame 3 is wrong in all runs, frame 4 is missing in one; runs are distinguished."""
         runs = [self.dir / f"run{n}" for n in range(4)]
         for n, run in enumerate(runs):
             for frame in range(1, 5):
@@ -430,7 +429,7 @@ class Diff(unittest.TestCase):
 
     def test_markdown(self):
         write_png(self.traced / "b.2.png", picture(9))
-        for _ in range(2):  # what a job's earlier steps said stays
+        for _ in range(2):  # output of a job's earlier steps is kept
             self.diff("--markdown", self.dir / "sum.md", "--report", self.dir / "report", self.ref, self.traced,
                       expect=1)
         text = (self.dir / "sum.md").read_text()
@@ -480,7 +479,7 @@ class Diff(unittest.TestCase):
         self.assertEqual(len(re.findall("^::error ", done.stdout, re.M)), 2)
 
     def test_annotated_name(self):
-        """What has a meaning in a workflow command is escaped, above all what looks escaped."""
+        """Special characters of workflow commands are escaped, including the escape character itself."""
         odd = self.dir / "50%0A\r\nx"
         for frame in range(1, 5):
             write_png(odd / f"b.{frame}.png", picture(9))
@@ -508,6 +507,6 @@ class Diff(unittest.TestCase):
 if __name__ == "__main__":
     program = unittest.main(exit=False, failfast="RELUME_FIRST_FAILURE" in os.environ)
     failed = len(program.result.failures) + len(program.result.errors)
-    # counted as libcheck counts, for the runner
+    # counts in libcheck's format, for the runner
     print(f"{100 if not failed else 0}%: Checks: {program.result.testsRun}, Failures: {failed}, Errors: 0")
     sys.exit(failed != 0)

@@ -1,5 +1,5 @@
-/* Codes of display pictures (tracer/image/display.h): the curve, the dither, what is brighter than white.
- * real/test_display has the files. */
+/* Codes of display pictures (tracer/image/display.h): curve, dither, values above white. real/test_display covers
+ * the files. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@ enum { SIDE = 16 };
 
 static uint8_t codes[SIDE * SIDE][3];
 
-/* Codes of a picture that is all of one value. @return how many pixels are brighter than white */
+/* Codes of a picture with a single value. @return number of pixels brighter than white */
 static uint64_t show(const struct display_options *options, const char *encoding, float value)
 {
 	struct image img = { .width = SIDE, .height = SIDE };
@@ -32,8 +32,8 @@ static uint64_t show(const struct display_options *options, const char *encoding
 	return over;
 }
 
-/* Each of 64 pixels has a threshold of its own, in steps of 0.9 / 64: as many are rounded up as lie below it, in every
- * square of 8 x 8. */
+/* Each of 64 pixels has a threshold of its own, in steps of 0.9 / 64: in every 8 x 8 square, the pixels with
+ * thresholds below the value are rounded up. */
 START_TEST(test_dither)
 {
 	static const struct display_options options = { 0, 1, 0 };
@@ -57,13 +57,13 @@ START_TEST(test_dither)
 			ck_assert_msg(up == wanted, "%g: %d of 64 are rounded up, not %d", code, up, wanted);
 		}
 	}
-	show(&options, "display", 128.0f / 255); /* a code of its own */
+	show(&options, "display", 128.0f / 255); /* exactly a code */
 	for (int i = 0; i < SIDE * SIDE; i++)
 		ck_assert_uint_eq(codes[i][1], 128);
 }
 END_TEST
 
-/* Light that is shown as white, and how many pixels are brighter, by encoding, exposure and white. */
+/* The light shown as white, and the number of brighter pixels, by encoding, exposure and white. */
 START_TEST(test_white)
 {
 	static const struct { const char *encoding; float value, exposure, white; int code; uint64_t over; } rows[] = {

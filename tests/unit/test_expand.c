@@ -1,7 +1,6 @@
 /*
- * Lines, points and outlines of polygons as quads in the window (tracer/frame/expand.h; GL 2.1
- * sec. 3.3, 3.4, 3.5.4, 3.5.5): where they are, what they carry, what is left of them. The last bits, which are
- * llvmpipe's, are compared by real/test_shapes.
+ * Lines, points and polygon outlines as quads in the window (tracer/frame/expand.h; GL 2.1 sec. 3.3, 3.4, 3.5.4,
+ * 3.5.5): position, attributes, clipping. The last bits, which follow llvmpipe, are compared by real/test_shapes.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -14,7 +13,7 @@
 
 enum { SIDE = 64 };
 
-/* Vertices at places in the window, y up, of which n are drawn. */
+/* Vertices at places in the window, y up; n of them are drawn. */
 struct drawn {
 	struct shaded_vertex vertices[4];
 	uint32_t index[4], draws[2];
@@ -69,7 +68,7 @@ static void expand(struct drawn *d, uint32_t quads)
 	ck_assert_uint_eq(d->out.n_vertices, 4 * quads);
 }
 
-/* The box around a quad, y up. */
+/* The bounding box of a quad must be this one, y up. */
 static void check_box(const struct drawn *d, uint32_t quad, float left, float low, float right, float high)
 {
 	float box[4] = { 1e9f, 1e9f, -1e9f, -1e9f };
@@ -84,8 +83,8 @@ static void check_box(const struct drawn *d, uint32_t quad, float left, float lo
 		ck_assert_msg(fabsf(box[c] - wanted[c]) < 0.51f, "quad %u: side %d at %g, not %g", quad, c, box[c], wanted[c]);
 }
 
-/* Plain ones, with samples, smooth ones: of their width across the greater direction or across themselves, each of its
- * own draw. */
+/* Plain, multisampled and smooth lines, whose width is measured across the major axis or perpendicular to the line;
+ * each is a separate draw. */
 START_TEST(test_lines)
 {
 	static const struct { float ax, ay, bx, by, wide, across; } lines[] = {
@@ -98,7 +97,10 @@ START_TEST(test_lines)
 			const float ax = lines[i].ax, ay = lines[i].ay, bx = lines[i].bx, by = lines[i].by, half = 0.5f * lines[i].wide;
 			const int steep = fabsf(by - ay) > fabsf(bx - ax);
 			const float length = hypotf(bx - ax, by - ay), dx = (bx - ax) / length, dy = (by - ay) / length;
-			/* by samples and smoothly across themselves; smooth ones are longer and wider by half a pixel */
+			/*
+			 * multisampled and smooth ones are perpendicular; smooth ones are longer and wider by half a
+			 * pixel
+			 */
 			const float more = kind == 2 ? 0.5f : 0, side = kind == 2 && lines[i].wide <= 1 ? 1 : half + more;
 			const float x = kind  ? fabsf(dy) * side + fabsf(dx) * more :
 			                steep ? half :
@@ -130,7 +132,7 @@ START_TEST(test_lines)
 }
 END_TEST
 
-/* A line of no length is none, nor is one beyond the view or behind a plane of the program's. */
+/* A line without length draws nothing, nor does one outside the view or behind a clip plane. */
 START_TEST(test_nothing_left)
 {
 	struct drawn d;
@@ -160,8 +162,8 @@ START_TEST(test_nothing_left)
 }
 END_TEST
 
-/* With samples, a line that is less than a pixel is drawn where its rectangle reaches over the left or lower border of
- * one, whatever its direction. */
+/* With samples, a line shorter than a pixel is drawn if its rectangle crosses the left or lower border of one, in
+ * any direction. */
 START_TEST(test_short_lines)
 {
 	uint32_t seed = 1, drawn = 0, tried = 0;
@@ -208,8 +210,8 @@ START_TEST(test_short_lines)
 }
 END_TEST
 
-/* Dashes: runs of the pattern's bits, each repeated by the factor, from the line's first end on; a strip goes on with
- * them. */
+/* Stipple: runs of the pattern's bits, each repeated by the factor, from the line's first end on; strips continue
+ * the pattern. */
 START_TEST(test_stipples)
 {
 	static const uint8_t goes_on[2] = { 0, SCENE_CONTINUES };
@@ -230,7 +232,7 @@ START_TEST(test_stipples)
 	d.index[1] = d.index[2] = 1; /* 10 to 35, and down to 20 */
 	d.index[3] = 3;
 	expand(&d, 4);
-	check_box(&d, 2, 34.5f, 34, 35.5f, 38); /* lines start anew, though they share a corner */
+	check_box(&d, 2, 34.5f, 34, 35.5f, 38); /* separate lines restart, even if they share a vertex */
 	d.mesh.edge_flags = goes_on;
 	expand(&d, 3);
 	check_box(&d, 2, 34.5f, 27, 35.5f, 31); /* 25 are used up: 7 and 2 are off, then 4 are on */
@@ -238,8 +240,8 @@ START_TEST(test_stipples)
 }
 END_TEST
 
-/* Edges of a polygon, the last one first as in Mesa: those that the program drew; flat ones have the last corner's
- * colour; a polygon offset moves their depth. */
+/* Edges of a polygon, the last one first as in Mesa: those with edge flags; flat ones have the last vertex' colour;
+ * polygon offset shifts their depth. */
 START_TEST(test_outlines)
 {
 	static const uint8_t flags[] = { 5 };
@@ -267,7 +269,7 @@ START_TEST(test_outlines)
 		ck_assert_float_eq_tol(d.out.windows[v].z, 0.625f + 0.0625f, 1e-5f);
 		ck_assert_float_eq_tol(d.out.vertices[v].clip[2], 0.0625f / 0.375f, 1e-5f);
 	}
-	d.material.polygon_offset = 1; /* that of points */
+	d.material.polygon_offset = 1; /* the offset for points */
 	expand(&d, 2);
 	ck_assert_float_eq_tol(d.out.windows[0].z, 0.625f, 1e-5f);
 	d.in.cull = INSTANCE_CULL_FRONT;
@@ -284,7 +286,7 @@ START_TEST(test_outlines)
 }
 END_TEST
 
-/* Points: of their size around their place, whole pixels where they are plain; corners of polygons. */
+/* Points: squares of their size around their position, whole pixels if plain; polygon vertices. */
 START_TEST(test_points)
 {
 	struct drawn d;
@@ -301,7 +303,7 @@ START_TEST(test_points)
 	d.material.point_smooth = 1;
 	expand(&d, 1);
 	check_box(&d, 0, 16.5f, 26.5f, 23.5f, 33.5f);
-	place(&d, 0, 65, 30, 0); /* its middle is beyond */
+	place(&d, 0, 65, 30, 0); /* its centre is outside */
 	expand(&d, 0);
 	expanded_free(&d.out);
 	begin(&d, SCENE_TRIANGLES, PREPARED_POINTS);
@@ -314,8 +316,8 @@ START_TEST(test_points)
 }
 END_TEST
 
-/* As later versions of Mesa have them: ends right on a pixel's centre; widths and places that lie half way; sprites;
- * smooth lines of next to no length. */
+/* Rules of later Mesa versions: ends exactly on a pixel's centre; widths and positions half way between; sprites;
+ * smooth lines of nearly no length. */
 START_TEST(test_versions_of_mesa)
 {
 	struct scene_unit unit = { .coord_replace = 1 };

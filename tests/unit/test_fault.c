@@ -1,4 +1,4 @@
-/* Who is blamed when a process that calls OpenCL ends or hangs; what is known of families because of it. */
+/* Assigning blame when a process that uses OpenCL ends or hangs, and the resulting outcome for families. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -89,7 +89,8 @@ START_TEST(test_blame)
 		ck_assert_int_eq(journal->fault.is_build, want[_i].is_build);
 		ck_assert_str_eq(fault_words(&journal->fault, words, sizeof(words)), want[_i].words);
 	}
-	if (_i == BETWEEN) { /* our handler knows better than a guess; had it not come, a kernel may have been compiled */
+	if (_i == BETWEEN) { /* our handler is more precise than a guess; without it, a kernel may have been
+	                      * compiling */
 		ck_assert(WIFSIGNALED(status));
 		fault_guess(journal, WTERMSIG(status));
 		ck_assert_int_eq(journal->fault.kind, FAULT_NONE);
@@ -103,7 +104,7 @@ START_TEST(test_blame)
 }
 END_TEST
 
-/* Seconds of processor time that pass. */
+/* Use this much processor time. */
 static void compute(double seconds)
 {
 	const clock_t begun = clock();
@@ -112,8 +113,8 @@ static void compute(double seconds)
 		;
 }
 
-/* A call of half a second of work: an idle one hangs, a busy one only where it compiles; and one that has ended does
- * not. */
+/* A call that takes half a second: an idle one counts as hung, a busy one only if it compiles, and one that has
+ * ended does not. */
 START_TEST(test_hangs)
 {
 	const int is_idle = _i & 1, compiles = _i & 2, ends = _i & 4;
@@ -160,7 +161,7 @@ START_TEST(test_best_family)
 }
 END_TEST
 
-/* What compilers did is remembered at once, other faults when a picture is there; with another device nothing is. */
+/* Compiler faults are stored at once, other faults once there is a picture; with another device none is stored. */
 START_TEST(test_remembered)
 {
 	struct outcome_run run = { .n = 3, .faults = { { FAULT_SIGNAL, SIGABRT, 0, FAMILY_PACKETS, -1, 1, "a.cl" },

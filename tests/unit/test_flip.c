@@ -1,6 +1,6 @@
 /*
- * FLIP against its authors' implementation: numbers from the Python package flip-evaluator 1.7 (LDR, default 67.0206
- * pixels per degree) on patterns that both sides make by the same rule.
+ * FLIP against its authors' implementation: values from the Python package flip-evaluator 1.7 (LDR, default 67.0206
+ * pixels per degree) on patterns that both sides generate by the same rule.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* base/folder: making folders for output. */
+/* base/folder: creating output folders. */
 #include "base/folder.h"
 
 #include <stdio.h>
@@ -63,7 +63,7 @@ START_TEST(test_in_the_way)
 }
 END_TEST
 
-/* A process that makes a folder early and exits. */
+/* A process that creates a folder early and exits. */
 static void make_early(const char *path, int on_success, int code)
 {
 	const pid_t child = fork();
@@ -89,7 +89,7 @@ START_TEST(test_early)
 	ck_assert(!is_folder("a"));
 	make_early("kept", 0, 0);
 	ck_assert(is_folder("kept"));
-	make_early("kept", 1, 3); /* it was there before */
+	make_early("kept", 1, 3); /* it existed before */
 	ck_assert(is_folder("kept"));
 }
 END_TEST

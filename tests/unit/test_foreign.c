@@ -1,4 +1,4 @@
-/* Pictures read in a process of their own: as in this one, and whatever becomes of that process. */
+/* Pictures read by a separate process must equal those read in this one, whatever happens to that process. */
 #include <dirent.h>
 #include <pthread.h>
 #include <signal.h>
@@ -53,7 +53,7 @@ static void teardown(void)
 	rmdir(folder);
 }
 
-/* A process whose parent is so, or 0. */
+/* A child process of `parent`, or 0. */
 static pid_t child_of(pid_t parent)
 {
 	DIR *all = opendir("/proc");
@@ -104,7 +104,7 @@ START_TEST(as_here)
 }
 END_TEST
 
-/* A pipe is a file that comes to no end; whoever reads it can be ended meanwhile. */
+/* Reading a pipe never ends, so its reader can be killed meanwhile. */
 static void *read_slow(void *code)
 {
 	struct image img = { 0 };
@@ -123,7 +123,7 @@ START_TEST(reader_ended)
 	check_good();
 	ck_assert_int_eq(mkfifo(path_of("slow.png"), 0600), 0);
 	ck_assert_int_eq(pthread_create(&thread, NULL, read_slow, &code), 0);
-	/* the first that is found may be on its way out with the picture before */
+	/* the first one found may still be exiting after the previous picture */
 	while (__atomic_load_n(&code, __ATOMIC_ACQUIRE) > 0) {
 		const pid_t reader = child_of(child_of(getpid()));
 
@@ -149,7 +149,7 @@ START_TEST(server_ended)
 }
 END_TEST
 
-/* In a program that begins with it: main. most_bytes: of its memory @return its status, as waitpid has it */
+/* Read in a new run of this program, see main. most_bytes: memory limit @return its status, as from waitpid */
 static int read_anew(const char *path, rlim_t most_bytes)
 {
 	const pid_t process = fork();
@@ -160,7 +160,7 @@ static int read_anew(const char *path, rlim_t most_bytes)
 	return waitpid(process, &status, 0) == process ? status : -1;
 }
 
-/* TIFF's reader takes the locks of these threads: none may be held where the server starts. */
+/* The TIFF reader takes the locks of these threads: none may be held when the server starts. */
 START_TEST(started_often)
 {
 	char command[200];
@@ -173,7 +173,7 @@ START_TEST(started_often)
 }
 END_TEST
 
-/* Write 16383 x 16383 into the head of a baseline JPEG (ITU T.81 B.2.2). @return whether it has one */
+/* Write a size of 16383 x 16383 into the header of a baseline JPEG (ITU T.81 B.2.2). @return whether it has one */
 static int claim_much(const char *path)
 {
 	FILE *file = fopen(path, "r+b");
@@ -187,7 +187,7 @@ static int claim_much(const char *path)
 	return c != EOF;
 }
 
-/* A picture that memory does not hold is no reason to end: others are read. */
+/* A picture too large for memory does not end the server: others are read. */
 START_TEST(claims_too_much)
 {
 	char command[200];
@@ -227,7 +227,7 @@ static void *read_many(void *count)
 	return NULL;
 }
 
-/* Threads come and go, the one that started the server among them. */
+/* Threads start and end, including the one that started the server. */
 START_TEST(many_at_once)
 {
 	const pid_t before = child_of(getpid());

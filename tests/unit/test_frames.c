@@ -6,7 +6,7 @@
 #include "base/err.h"
 #include "tests/case.h"
 
-/** "0 2 4" for the frames below `end` that a list holds. */
+/** The frames below `end` in a list, such as "0 2 4". */
 static const char *frames_of(const char *text, uint64_t end)
 {
 	static char out[256];
@@ -48,7 +48,7 @@ START_TEST(test_not_ranges)
 }
 END_TEST
 
-/* What must be there, and how many there are of those that are. */
+/* The frames that must exist, and the number of those that do. */
 START_TEST(test_open_ranges)
 {
 	static const struct { const char *text; uint64_t needed, of_20; } cases[] = {
@@ -67,7 +67,7 @@ START_TEST(test_open_ranges)
 }
 END_TEST
 
-/** The frames below 1000 of the i-th of n parts; "none" where it holds none. */
+/** The frames below 1000 in the i-th of n parts, or "none". */
 static const char *chunk_of(const char *text, uint64_t end, uint64_t i, uint64_t n)
 {
 	static char out[256];
@@ -115,17 +115,17 @@ START_TEST(test_last_and_count)
 	ck_assert_uint_eq(frame_list_last(&list), UINT64_MAX);
 	ck_assert_uint_eq(frame_list_count(&list, 12), 12);
 	ck_assert_int_eq(frame_list_parse("3-10x4,5-7,6", &list), 0);
-	ck_assert_uint_eq(frame_list_last(&list), 7); /* 3, 7; not 10, which the step leaves out */
+	ck_assert_uint_eq(frame_list_last(&list), 7); /* 3, 7; not 10, which the step skips */
 	ck_assert_uint_eq(frame_list_count(&list, 100), 4);
 	ck_assert_uint_eq(frame_list_count(&list, 6), 2);
 	frame_list_free(&list);
 	ck_assert_int_eq(frame_list_parse("3,6-x10", &list), 0);
-	ck_assert_uint_eq(frame_list_last(&list), UINT64_MAX); /* whatever the step */
+	ck_assert_uint_eq(frame_list_last(&list), UINT64_MAX); /* for any step */
 	frame_list_free(&list);
 }
 END_TEST
 
-/* A number mistyped names more frames than anybody counts one by one. */
+/* A mistyped number names more frames than can be counted one by one. */
 START_TEST(test_overlapping_ranges)
 {
 	struct frame_list list = { 0 };
@@ -141,7 +141,7 @@ START_TEST(test_overlapping_ranges)
 }
 END_TEST
 
-/* A frame's part is the one that holds it. */
+/* A frame's part is the one that contains it. */
 START_TEST(test_parts_of_frames)
 {
 	static const char *const texts[] = { "3-40", "0-30x3,40-60", "1-6,2-8x2,8", "5,7" };

@@ -1,6 +1,6 @@
 /*
- * The scorer's own test: a good frame passes every gate, each fault fails the gate that is there for it, and harmless
- * differences fail none. The frames are made here: three draws of known colour, depth and number over a background.
+ * Gates of the scorer: a good frame passes all of them, each fault fails its own gate, and harmless differences fail
+ * none. The frames are synthetic: three draws of known colour, depth and number over a background.
  */
 #include <math.h>
 #include <stdio.h>
@@ -14,11 +14,11 @@
 
 enum { WIDTH = 160, HEIGHT = 120, N = WIDTH * HEIGHT };
 
-/* What is drawn; changed by a test before it makes a frame. */
+/* Contents of a frame; tests change it before they make a frame. */
 struct drawing {
 	int box, disc, bar;       /* 1: drawn */
-	int shift_x;              /* of the whole picture, pixels */
-	int texel_shift;          /* of the box's texture */
+	int shift_x;              /* whole picture, in pixels */
+	int texel_shift;          /* the box's texture */
 	int other_texture;
 	double depth_offset, disc_grow;
 	int disc_as_background;   /* the disc has the background's colour */
@@ -82,7 +82,7 @@ static float *add(struct image *img, const char *name)
 	return plane;
 }
 
-/* As set_read makes it of a .ref file. */
+/* In the form that set_read gives to a .ref file. */
 static void make_reference(const struct drawing *d, int with_depth)
 {
 	float *rgb[3], *depth = NULL;
@@ -104,7 +104,7 @@ static void make_reference(const struct drawing *d, int with_depth)
 	ck_assert_int_eq(score_picture_from_image(&reference, "beauty", &picture), 0);
 }
 
-/* A whole traced frame: a shadow falls on part of the box, and the disc mirrors. */
+/* A complete traced frame: a shadow falls on part of the box, and the disc is a mirror. */
 static void make_traced(const struct drawing *d)
 {
 	float *beauty[3], *gl[3], *shadow[3], *reflect[3], *depth, *id;
@@ -207,7 +207,7 @@ START_TEST(good_frame_passes_every_gate)
 }
 END_TEST
 
-/* What halves hold: 11 bits; stored as such, or as floats that hold no more. */
+/* Values that fit halves (11 bits), stored as such or as floats. */
 static void check_halves(int full_float)
 {
 	for (size_t c = 0; c < traced.n_channels; c++) {
@@ -293,7 +293,7 @@ static void shift_codes(int first_row, int last_row, int by)
 
 START_TEST(interior_colour)
 {
-	shift_codes(0, 1, 2); /* two codes on a row are within the bar */
+	shift_codes(0, 1, 2); /* two codes on a row are within the limit */
 	expect_all_passed();
 	shift_codes(0, 1, 1);
 	expect_failed(GATE_R1);
@@ -306,7 +306,7 @@ START_TEST(few_interior_pixels_may_exceed)
 {
 	float *gl = image_channel(&traced, "gl.R"), *beauty = image_channel(&traced, "R");
 
-	for (int i = 0; i < 10; i++) { /* of about 17,000; in the lit part of the box */
+	for (int i = 0; i < 10; i++) { /* out of about 17,000; in the lit part of the box */
 		int at = 70 * WIDTH + 50 + 2 * i;
 
 		gl[at] = beauty[at] =
@@ -339,7 +339,7 @@ START_TEST(edges_may_move_by_a_rounding)
 {
 	struct drawing d = all;
 
-	d.disc_grow = 0.02; /* a pixel here and there */
+	d.disc_grow = 0.02; /* a few scattered pixels */
 	remake_traced(&d);
 	run();
 	ck_assert_int_eq(state(GATE_R1), SCORE_PASSED);
@@ -430,7 +430,7 @@ START_TEST(missing_draw_of_the_background_s_colour)
 	remake_reference(&d, 1);
 	d.disc = 0;
 	remake_traced(&d);
-	expect_failed(GATE_R4); /* only depth tells */
+	expect_failed(GATE_R4); /* only depth differs */
 }
 END_TEST
 
@@ -455,10 +455,10 @@ START_TEST(depth)
 {
 	struct drawing d = all;
 
-	d.depth_offset = 3e-6; /* slopes are 0.0007 to 0.0015 a pixel: 1/256 of these is allowed */
+	d.depth_offset = 3e-6; /* slopes are 0.0007 to 0.0015 per pixel; 1/256 of that is allowed */
 	remake_traced(&d);
 	run();
-	ck_assert_double_gt(score.gates[GATE_R5].value[0], 0); /* the bar is flat: 2^-23 */
+	ck_assert_double_gt(score.gates[GATE_R5].value[0], 0); /* the lower limit: 2^-23 */
 	d.bar = 0;
 	d.depth_offset = 2e-6;
 	remake_reference(&(struct drawing){ .box = 1, .disc = 1 }, 1);
@@ -506,11 +506,11 @@ START_TEST(effects_within_their_range)
 {
 	options.ranges[0] = (struct score_range){ EFFECT_SHADOW, 0.01, 0.5 };
 	options.ranges[1] = (struct score_range){ EFFECT_REFRACT, NAN, 0 };
-	options.ranges[2] = (struct score_range){ EFFECT_SHADOW, 0.9, 1 }; /* not asked for */
+	options.ranges[2] = (struct score_range){ EFFECT_SHADOW, 0.9, 1 }; /* not requested */
 	options.n_ranges = 2;
 	expect_all_passed();
 	ck_assert_int_eq(state(GATE_E3), SCORE_PASSED);
-	for (int c = 0; c < 3; c++) { /* all the shadows are gone, and the channels agree on it */
+	for (int c = 0; c < 3; c++) { /* all shadows are missing, consistently in the channels */
 		const char *shadow = (const char *[]){ "shadow.R", "shadow.G", "shadow.B" }[c];
 		const char *gl = (const char *[]){ "gl.R", "gl.G", "gl.B" }[c];
 		const char *reflect = (const char *[]){ "reflect.R", "reflect.G", "reflect.B" }[c];
@@ -528,8 +528,8 @@ END_TEST
 
 /* N */
 
-/* The traced frame's surfaces: all face the viewer; `fold`: the plane of the box turns away from the light that its
- * normals face. */
+/* Give the traced frame surfaces that all face the viewer; `fold`: the box' plane is turned away from the light that
+ * its normals face. */
 static void add_surfaces(int fold)
 {
 	static const char *const names[9] = { "albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z" };
@@ -548,7 +548,7 @@ static void add_surfaces(int fold)
 	ck_assert_int_eq(image_set_attribute(&traced, "relume:lights", "%s", "1 0 0.25 0"), 0);
 }
 
-/* Let a share of the light through where `where` says so; the channels agree on it. */
+/* Reduce the light to a share of itself where `where` says so, consistently in the channels. */
 static void darken(float share, int where(int i))
 {
 	for (int i = 0; i < N; i++)
@@ -589,7 +589,7 @@ START_TEST(dark_without_an_edge)
 }
 END_TEST
 
-/* A drawn shadow lies where the traced one falls: albedo is the film's, which is black, and says nothing of the floor's
+/* A drawn shadow is where the traced one falls: albedo is that of the black film, and does not reveal the floor's
  * light. */
 START_TEST(dark_below_a_film)
 {
@@ -605,13 +605,12 @@ START_TEST(dark_below_a_film)
 		}
 	expect_all_passed();
 	ck_assert_int_eq(state(GATE_N), SCORE_PASSED);
-	darken(0.2f, on_box); /* the film covers half of it; the dark ends at no edge all the same */
+	darken(0.2f, on_box); /* the film covers half of it; the dark area ends at no edge anyway */
 	expect_failed(GATE_N);
 }
 END_TEST
 
-/* A drawn shadow that the traced one takes the place of is of another place and normal; both end where the floor is
- * lit. */
+/* A drawn shadow replaced by the traced one has another position and normal; both end where the floor is lit. */
 START_TEST(dark_in_place_of_a_trick)
 {
 	static const char *const place[3] = { "P.X", "P.Y", "P.Z" };
@@ -637,7 +636,7 @@ START_TEST(dark_faces_with_lit_normals)
 	darken(0.2f, on_half_of_box);
 	expect_failed(GATE_N);
 	ck_assert_double_gt(score.gates[GATE_N].value[1], 10);
-	/* Light from all around may take so much. */
+	/* Ambient occlusion may remove this much. */
 	ck_assert_int_eq(image_set_attribute(&traced, "relume:dimmed", "%s", "0.51"), 0);
 	run();
 	ck_assert_double_gt(score.gates[GATE_N].value[1], 10);
@@ -662,7 +661,7 @@ START_TEST(named_faults)
 }
 END_TEST
 
-/* Add light, white, where `where` says so, in place of shadows; the channels agree on it. */
+/* Add white light where `where` says so, instead of shadows, consistently in the channels. */
 static void brighten(float light, int where(int i))
 {
 	darken(1, on_box);
@@ -679,7 +678,7 @@ static void brighten(float light, int where(int i))
 	}
 }
 
-/* The box in one colour, as OpenGL shows it and as the surface has it. */
+/* Give the box a single colour, in OpenGL's picture and as its surface. */
 static void color_box(float red, float other)
 {
 	static const char *const names[3][3] = { { "gl.R", "gl.G", "gl.B" },
@@ -721,10 +720,10 @@ START_TEST(burnt_out)
 	ck_assert_double_eq(score.gates[GATE_N].value[0], 0);
 	ck_assert_int_gt(score.n_blame, 0);
 	ck_assert_uint_eq(score.blame[0].draw, 1);
-	ck_assert_int_eq(harm_of_light(0.6f, 0.1f, 0.3f, on_box), SCORE_PASSED); /* brighter, and no channel is full */
-	ck_assert_int_eq(harm_of_light(0.5f, 0.5f, 0.5f, on_box), SCORE_FAILED); /* grey ends in white */
-	ck_assert_int_eq(harm_of_light(1, 1, 0.5f, on_box), SCORE_PASSED);       /* it was white */
-	for (int by = 15; by <= 16; by++) { /* codes that one sees at once */
+	ck_assert_int_eq(harm_of_light(0.6f, 0.1f, 0.3f, on_box), SCORE_PASSED); /* brighter, but no channel is full */
+	ck_assert_int_eq(harm_of_light(0.5f, 0.5f, 0.5f, on_box), SCORE_FAILED); /* grey becomes white */
+	ck_assert_int_eq(harm_of_light(1, 1, 0.5f, on_box), SCORE_PASSED);       /* it was already white */
+	for (int by = 15; by <= 16; by++) { /* codes that differ visibly */
 		const float dark = image_linear_from_display((float)(253 - by) / 255),
 			    light = image_linear_from_display(253.0f / 255);
 
@@ -733,7 +732,7 @@ START_TEST(burnt_out)
 }
 END_TEST
 
-/* A lamp that moves: what was burnt here is burnt there. Full red is a colour, and not burnt. */
+/* A moving lamp: overexposure in one place replaces that in another. Full red is a colour, and not overexposed. */
 START_TEST(burnt_elsewhere)
 {
 	static const char *const shadow[3] = { "shadow.R", "shadow.G", "shadow.B" }, *const gl[3] = { "gl.R", "gl.G", "gl.B" };
@@ -763,15 +762,15 @@ START_TEST(drift_that_no_pixel_shows)
 {
 	struct score_bar bar = { GATE_P, 0, 0.01, NAN, NAN };
 
-	shift_codes(0, HEIGHT, 2); /* no pixel is further off than R1 allows: FLIP is told, and does not decide */
+	shift_codes(0, HEIGHT, 2); /* no pixel differs by more than R1 allows: FLIP is reported, but does not decide */
 	expect_all_passed();
 	ck_assert_double_gt(score.gates[GATE_P].value[0], 0.02);
 	ck_assert_str_eq(score.gates[GATE_P].note, "over its bar, but no pixel is off by more than R1 allows");
-	options.bars = &bar; /* somebody wants it to */
+	options.bars = &bar; /* a bar makes it decide */
 	options.n_bars = 1;
 	expect_failed(GATE_P);
 	options.n_bars = 0;
-	for (int i = 0; i < 3; i++) /* one pixel beyond R1, which has 0.1 % to spare */
+	for (int i = 0; i < 3; i++) /* a pixel beyond R1, which tolerates 0.1 % */
 		image_channel(&traced, (const char *[]){ "gl.R", "gl.G", "gl.B" }[i])[777] = 0.5f;
 	expect_failed(GATE_P);
 	ck_assert_int_eq(state(GATE_R1), SCORE_PASSED);
@@ -830,7 +829,7 @@ START_TEST(warnings_and_improvements)
 	ck_assert_int_eq(state(GATE_P), SCORE_WARNED);
 	bars[0].bar = 0.001;
 	expect_failed(GATE_P);
-	bars[0] = (struct score_bar){ GATE_R1, 0, NAN, NAN, 0.5 }; /* 0 is better than anybody thought */
+	bars[0] = (struct score_bar){ GATE_R1, 0, NAN, NAN, 0.5 }; /* 0 is stricter than the default */
 	bars[0].better = 0.05;
 	expect_failed(GATE_R1);
 	ck_assert(score.gates[GATE_R1].better_than_expected);
@@ -851,7 +850,7 @@ START_TEST(ignored_pixels_do_not_count)
 	expect_all_passed();
 	ck_assert_uint_eq(score.failing_pixels, 0);
 	ck_assert_double_eq(score.gates[GATE_P].value[0], 0);
-	d.disc = 0; /* what is not ignored still counts */
+	d.disc = 0; /* pixels that are not ignored still count */
 	remake_traced(&d);
 	expect_failed(GATE_R3);
 }
@@ -890,7 +889,7 @@ END_TEST
 
 static struct image before;
 
-/* An approved frame as the drawing makes it, and what the traced frame looks like beside it. */
+/* Make an approved frame from the drawing, and its comparison with the traced frame. */
 static void approve(const struct drawing *d, struct score_approved *approved)
 {
 	struct image kept = traced;
@@ -913,10 +912,10 @@ START_TEST(baseline_by_hash)
 
 	run_approved(&approved);
 	ck_assert_int_eq(state(GATE_B), SCORE_PASSED);
-	approved.same_hashes = 0; /* the same device gives the same bytes, or something has changed */
+	approved.same_hashes = 0; /* the same device must give the same bytes; otherwise something has changed */
 	run_approved(&approved);
 	ck_assert_int_eq(state(GATE_B), SCORE_FAILED);
-	approved.same_device = 0; /* nothing to compare with */
+	approved.same_device = 0; /* no frame to compare with */
 	run_approved(&approved);
 	ck_assert_int_eq(state(GATE_B), SCORE_NOT_MEASURED);
 }
@@ -929,7 +928,7 @@ START_TEST(baseline_of_another_device)
 
 	approve(&all, &approved);
 	for (int i = 0; i < N; i++)
-		red[i] *= 1 + 0x1p-11f; /* other last bits */
+		red[i] *= 1 + 0x1p-11f; /* different last bits */
 	run_approved(&approved);
 	ck_assert_int_eq(state(GATE_B), SCORE_PASSED);
 	red[7] += 0.01f; /* 1 of 19,200 pixels is 0.005 % */

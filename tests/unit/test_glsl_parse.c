@@ -1,4 +1,4 @@
-/* GLSL's front end: what a text means, and what is wrong with it. */
+/* GLSL's front end: the meaning of texts, and error messages. */
 #include "tests/unit/glsl.h"
 
 START_TEST(test_operators)
@@ -104,7 +104,7 @@ START_TEST(test_functions_of_constants)
 }
 END_TEST
 
-/* Which function a call means: the one that returns the number wanted. */
+/* Overload resolution: a call must select the function that returns the expected number. */
 START_TEST(test_overloads)
 {
 	static const char functions[] =
@@ -206,7 +206,7 @@ START_TEST(test_names)
 }
 END_TEST
 
-/* Shader objects of one stage share functions and variables, and nothing else. */
+/* Shader objects of one stage share only functions and variables. */
 START_TEST(test_units)
 {
 	static const struct {
@@ -244,7 +244,7 @@ START_TEST(test_units)
 }
 END_TEST
 
-/* mid3 names its arguments twice each: nodes are counted as the tree has them. */
+/* mid3 uses each of its arguments twice: nodes are counted as in the tree. */
 START_TEST(test_shared_nodes)
 {
 	char text[8192] =
@@ -269,7 +269,7 @@ START_TEST(test_shared_nodes)
 }
 END_TEST
 
-/* How many nodes of an operation a text becomes. */
+/* Number of nodes of an operation that a text compiles to. */
 static unsigned count_of(const char *text, bool once, enum glsl_operator operation)
 {
 	struct glsl_tree tree = { 0 };
@@ -284,7 +284,7 @@ static unsigned count_of(const char *text, bool once, enum glsl_operator operati
 	return n;
 }
 
-/* Each text: products of matrices, and of a matrix and a vector, taken apart until nothing is left, and once. */
+/* For each text: products of matrices, and of a matrix and a vector, fully expanded, and computed once. */
 START_TEST(test_chains_of_products)
 {
 	static const struct {

@@ -1,4 +1,4 @@
-/* GLSL's front end: directives, macros, lines, and texts that ask for too much. */
+/* GLSL's front end: directives, macros, line numbers, and texts that exceed limits. */
 #include "tests/unit/glsl.h"
 
 START_TEST(test_macros)
@@ -145,7 +145,7 @@ START_TEST(test_versions_and_extensions)
 }
 END_TEST
 
-/* Lines go on where the text has them, whatever ends them and whatever is between. */
+/* Line numbers follow the text, for all kinds of line ends and anything in between. */
 START_TEST(test_lines)
 {
 	static const char *const texts[][2] = {
@@ -166,7 +166,7 @@ START_TEST(test_lines)
 }
 END_TEST
 
-/* head, n times part, tail */
+/* head, n copies of part, tail */
 static void check_repeated(const char *head, const char *part, const char *tail, unsigned n, const char *wanted)
 {
 	char *text = malloc(strlen(head) + n * strlen(part) + strlen(tail) + 1), *at;

@@ -1,5 +1,5 @@
-/* Heads that claim more than the file has are refused; honest ones pass. That readers take no memory for them:
- * tests/fuzz/kept_oiio. */
+/* Picture headers that claim more data than the file has are refused; honest ones pass. That readers allocate no
+ * memory for them is tested by tests/fuzz/kept_oiio. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,9 +71,9 @@ START_TEST(other_files_pass)
 
 	WRITE(PNG PNG_SIZE "\0\0\0\x08tEXta\0plain\0____");
 	ck_assert_int_eq(heads_check(path), 0);
-	WRITE(PNG PNG_SIZE "\0\0\x10\0IDATcut"); /* libpng says what is wrong */
+	WRITE(PNG PNG_SIZE "\0\0\x10\0IDATcut"); /* libpng reports the fault */
 	ck_assert_int_eq(heads_check(path), 0);
-	WRITE(EXR "lines\0lineOrder\0\x01\0\0\0\0" EXR_TEXT "\0" GIB_LITTLE GIB_LITTLE GIB_LITTLE); /* offsets of chunks */
+	WRITE(EXR "lines\0lineOrder\0\x01\0\0\0\0" EXR_TEXT "\0" GIB_LITTLE GIB_LITTLE GIB_LITTLE); /* chunk offsets */
 	ck_assert_int_eq(heads_check(path), 0);
 	WRITE(EXR_PARTS EXR_TEXT "\0" EXR_TEXT "\0\0" "a\0b\0" GIB_LITTLE);
 	ck_assert_int_eq(heads_check(path), 0);
@@ -88,7 +88,7 @@ START_TEST(other_files_pass)
 	write_file(dpx, sizeof(dpx));
 	ck_assert_int_eq(heads_check(path), 0);
 	unlink(path);
-	ck_assert_int_eq(heads_check(path), 0); /* a file that is gone is not this one's to name */
+	ck_assert_int_eq(heads_check(path), 0); /* a missing file is reported elsewhere */
 }
 END_TEST
 

@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""The house is as docs/architecture.md draws it (tests/house.py); and the drawing notices what it is there to
-notice."""
+"""The sources match the graph in docs/architecture.md (tests/house.py), and the check notices violations."""
 import os
 import pathlib
 import subprocess
@@ -19,7 +18,7 @@ SHOWN = "    replay/gl              -> base replay/machine\n    replay/machine  
 
 
 class Drawn(unittest.TestCase):
-    """A house of three files, built as asked for."""
+    """A source tree of three files, built for the test."""
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()

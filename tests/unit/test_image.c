@@ -1,4 +1,7 @@
-/* struct image and its OpenEXR form: what is written is what is read, byte for byte the same twice, or not at all. */
+/*
+ * struct image and its OpenEXR form: data read equals data written, writing twice gives the same bytes, and errors
+ * leave no partial file.
+ */
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -84,7 +87,10 @@ START_TEST(test_round_trip)
 }
 END_TEST
 
-/* One row per chunk size, noise of every kind: sizes where compressed and raw meet are among them. */
+/*
+ * Rows from one value to a full chunk, with noise of every kind, so that some sizes are near the border between
+ * compressed and raw.
+ */
 START_TEST(test_every_small_size)
 {
 	for (uint32_t width = 1; width < 40; width++)
@@ -131,7 +137,7 @@ __attribute__((noinline)) static void dirty_stack(uint16_t value)
 		stack[i] = value;
 }
 
-/* What memory held before changes no byte of a chunk. */
+/* Earlier contents of memory must not affect any byte of a chunk. */
 START_TEST(test_dirty_stack)
 {
 	const uint32_t width = 640;
@@ -161,7 +167,7 @@ START_TEST(test_dirty_stack)
 }
 END_TEST
 
-/* Rows that come in bands, packed by several threads, make the file that the whole picture makes. */
+/* Rows delivered in bands and compressed by several threads give the same file as the whole picture. */
 START_TEST(test_bands)
 {
 	const uint32_t width = 50, height = 403, ends[] = { 7, 9, 41, 105, 112, 115, 290, 403 };
@@ -170,7 +176,7 @@ START_TEST(test_bands)
 	long n1, n2;
 	char *a, *b;
 
-	for (size_t i = 0; i < (size_t)width * height; i++) { /* rows that change, and rows that do not */
+	for (size_t i = 0; i < (size_t)width * height; i++) { /* some rows change, others repeat */
 		halves[i] = (uint16_t)(i < (size_t)width * 200 ? 14336 : i % 7);
 		img.channels[0].values[i] = img.channels[1].values[i] =
 			i < (size_t)width * 100 || i > (size_t)width * 150 ? 1.0f : (float)(i % 5);
@@ -219,8 +225,7 @@ START_TEST(test_half_rounds_to_nearest_even)
 }
 END_TEST
 
-/* A file cut anywhere is refused or, where the cut is beyond the pixels, read; it never crashes and never half
- * fills. */
+/* A truncated file is refused or, if all pixels are present, read; never a crash or a partly filled image. */
 START_TEST(test_cut_file)
 {
 	struct image img = make_image(40, 40);
@@ -243,7 +248,7 @@ START_TEST(test_cut_file)
 }
 END_TEST
 
-/* A picture that no memory can hold is refused in its words, and keeps the channels that it has. */
+/* A picture too large for memory is refused with a message, and keeps its existing channels. */
 START_TEST(test_no_memory)
 {
 	struct image img = { .width = 0x7fffffff, .height = 0x7fffffff };
@@ -258,10 +263,10 @@ START_TEST(test_no_memory)
 }
 END_TEST
 
-/* A disk that is full after so many bytes: one line that says why, and no file. */
+/* A disk that is full after `most` bytes: one line with the reason, and no file. */
 START_TEST(test_full_disk)
 {
-	static const rlim_t most[] = { 500, 20000 }; /* the line that is said takes some, too */
+	static const rlim_t most[] = { 500, 20000 }; /* the message itself also counts */
 
 	signal(SIGXFSZ, SIG_IGN);
 	for (int i = 0; i < 2; i++) {

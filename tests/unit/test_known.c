@@ -1,4 +1,4 @@
-/* replay/build/known: what clears of parts tell, against a picture of the same clears. */
+/* replay/build/known: areas known from partial clears, compared with a picture of the same clears. */
 #include "replay/build/known.h"
 
 #include <stdlib.h>
@@ -23,7 +23,7 @@ static void make_part(int32_t out[4])
 	out[3] = at_most(HEIGHT - out[1]);
 }
 
-/* Buffers that every pixel of a part has; all of them where it is empty. */
+/* The buffers cleared in every pixel of a part; all of them for an empty part. */
 static uint32_t painted(const uint32_t picture[HEIGHT][WIDTH], const int32_t part[4])
 {
 	uint32_t all = 7;
@@ -49,7 +49,7 @@ START_TEST(test_parts)
 			int32_t part[4], look[4];
 
 			make_part(part);
-			part[2] = at_most(1) ? part[2] : WIDTH - part[0]; /* to the border */
+			part[2] = at_most(1) ? part[2] : WIDTH - part[0]; /* up to the border */
 			part[3] = at_most(1) ? part[3] : HEIGHT - part[1];
 			gls_known_clear(&k, buffers, (const uint32_t[2]){ WIDTH, HEIGHT }, part);
 			for (int32_t y = part[1]; y < part[1] + part[3]; y++)
@@ -57,9 +57,9 @@ START_TEST(test_parts)
 					picture[y][x] |= buffers;
 			make_part(look);
 			good = 7 & ~gls_known_lacks(&k, 7, look);
-			ck_assert_uint_eq(good & ~painted(picture, look), 0); /* never more than is so */
+			ck_assert_uint_eq(good & ~painted(picture, look), 0); /* never more than true */
 			ck_assert_uint_eq(k.whole & ~painted(picture, every), 0);
-			if (i < GLS_KNOWN_PARTS) { /* and all of it, as long as there is room */
+			if (i < GLS_KNOWN_PARTS) { /* and all that is true, while there is room */
 				ck_assert_uint_eq(good, painted(picture, look));
 				ck_assert_uint_eq(k.whole, painted(picture, every));
 			}

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What names the layout of snapshots: members, not the text about them; a pointer that nobody has thought of is refused."""
+"""The snapshot layout's identity depends on members, not on comments; an unknown kind of pointer is refused."""
 import pathlib
 import subprocess
 import tempfile

@@ -1,4 +1,4 @@
-/* A process that reaches a limit ends with exit code 5 and one line, and leaves no file that is not whole. */
+/* A process that reaches a limit ends with exit code 5 and one line, and leaves no partial file. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +27,7 @@ static void work(size_t bytes, double seconds)
 		;
 }
 
-/* What a child does under limits: its exit code, and what it says. */
+/* Run a child under limits; returns its exit code, and stores its message. */
 static int run(const struct limits *limits, size_t bytes, double seconds, char said[1024], const char *path)
 {
 	int ends[2], status;

@@ -1,4 +1,4 @@
-/* Versions of Mesa (scene/mesa.h): what their names tell. How lines and points follow them: test_expand. */
+/* Versions of Mesa (scene/mesa.h) parsed from their names. Their effect on lines and points: test_expand. */
 #include "scene/mesa.h"
 #include "tests/case.h"
 

@@ -1,6 +1,6 @@
 /*
- * Metrics that never decide, against published and independent values: the 34 pairs of Sharma, Wu and Dalal 2005
- * (table 1) for CIEDE2000; SSIM, MS-SSIM and PSNR against values computed apart from this code by their definitions.
+ * Metrics without a gate, against published and independent values: the 34 pairs of Sharma, Wu and Dalal 2005 (table 1)
+ * for CIEDE2000; SSIM, MS-SSIM and PSNR against values computed independently from their definitions.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -65,7 +65,7 @@ START_TEST(lab)
 	ck_assert_double_eq_tol(lab[0], 100, 1e-9);
 	ck_assert_double_eq_tol(lab[1], 0, 1e-9);
 	ck_assert_double_eq_tol(lab[2], 0, 1e-9);
-	metric_lab_from_linear((double[]){ 1, 0, 0 }, lab); /* sRGB's red, as tables of colours give it */
+	metric_lab_from_linear((double[]){ 1, 0, 0 }, lab); /* sRGB's red, as in published tables */
 	ck_assert_double_eq_tol(lab[0], 53.24, 0.01);
 	ck_assert_double_eq_tol(lab[1], 80.09, 0.01);
 	ck_assert_double_eq_tol(lab[2], 67.20, 0.01);
@@ -136,7 +136,7 @@ START_TEST(ciede2000_percentile)
 }
 END_TEST
 
-/* So many pixels have no room anywhere: an error, not a figure that is missing. */
+/* Too many pixels for memory: an error, not a missing figure. */
 START_TEST(without_memory)
 {
 	const uint32_t much = 1u << 24;
@@ -157,7 +157,7 @@ int main(void)
 	tcase_add_test(tests, ssim);
 	tcase_add_test(tests, psnr);
 	tcase_add_test(tests, ciede2000_percentile);
-#ifndef __SANITIZE_ADDRESS__ /* which ends the process */
+#ifndef __SANITIZE_ADDRESS__ /* which would end the process */
 	tcase_add_test(tests, without_memory);
 #endif
 	return run_case(tests, "metrics");

@@ -1,4 +1,4 @@
-/* Command lines by table: values arrive where rows say, wrong ones are refused, and help says every option. */
+/* Command lines parsed by table: values are stored, wrong ones are refused, and help lists every option. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,7 +44,7 @@ static struct options_table table = {
 	.most = 1,
 };
 
-/* Words with spaces between. */
+/* Words separated by spaces. */
 static int parse(const char *words, struct asked *out, struct options_line *line)
 {
 	static char text[256], *argv[32];

@@ -1,4 +1,4 @@
-/* Pieces made by several threads arrive in order, know the same costs in every run, and stop where one fails. */
+/* Pieces made by several threads arrive in order, see the same costs in every run, and stop at the first failure. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@ enum { N = 200, FAILS_AT = 90 };
 
 static size_t spent_at[N];
 
-/** Piece i costs i, and takes its time where i is a multiple of 7. */
+/** Piece i costs i, and takes longer if i is a multiple of 7. */
 static int make(void *context, size_t i, size_t spent, FILE *out, size_t *cost)
 {
 	const size_t *fails_at = context;

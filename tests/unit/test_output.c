@@ -1,5 +1,4 @@
-/* What relume diff prints of scores: the table and its last line, what people read, Markdown, JUnit XML
- * (diff/report). */
+/* Score output of relume diff: the table and its last line, the summary, Markdown, JUnit XML (diff/report). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +16,7 @@ enum { MOST = 64 };
 
 static struct score scores[MOST];
 
-/* So many frames from 10 on, passed, with gates of which only V was measured. */
+/* n passed frames, from number 10 on, of whose gates only V was measured. */
 static struct output_run run_of(size_t n)
 {
 	struct output_run run = { .reference = "a.ref", .traced = "out", .name = "a", .scores = scores, .n_scores = n };
@@ -67,7 +66,7 @@ static void check_says(const char *text, const char *wanted, int often)
 	ck_assert_msg(n == often, "\"%s\" is there %d times, not %d, in:\n%s", wanted, n, often, text);
 }
 
-/* The last line: how many frames, the worst of those that were compared, the first that is wrong. */
+/* The last line: number of frames, the worst of those compared, the first wrong one. */
 START_TEST(test_last_line)
 {
 	struct output_run run = run_of(1);
@@ -94,14 +93,14 @@ START_TEST(test_last_line)
 }
 END_TEST
 
-/* What failed comes first, frames in a row that failed alike in one row; those that passed have a row each. */
+/* Failures come first; consecutive frames with the same failure share a row; passed frames have a row each. */
 START_TEST(test_rows)
 {
 	struct output_run run = run_of(8);
 	char *text;
 
 	for (size_t i = 2; i < 6; i++)
-		fail_frame(&run, i, i == 4 ? 9 : 8); /* 12, 13 and 15 alike, 14 otherwise */
+		fail_frame(&run, i, i == 4 ? 9 : 8); /* 12, 13 and 15 are alike, 14 differs */
 	text = table_of(&run);
 	check_says(text, "  12-13 failed", 1);
 	check_says(text, "     14 failed", 1);
@@ -114,7 +113,7 @@ START_TEST(test_rows)
 }
 END_TEST
 
-/* Gates that were not measured are named once, by the first frame that was compared and is valid. */
+/* Unmeasured gates are listed once, from the first frame that was compared and is valid. */
 START_TEST(test_not_measured)
 {
 	struct output_run run = run_of(3);
@@ -145,7 +144,7 @@ static char *summary_of(const struct output_run *run, const char *report)
 	return text;
 }
 
-/* 100 columns: what failed, alike together, by which comparison, and what to do; nothing of frames that passed. */
+/* 100 columns: failures, grouped by kind, the failed comparison, and advice; passed frames are not mentioned. */
 START_TEST(test_summary)
 {
 	struct output_run run = run_of(30);
@@ -206,7 +205,7 @@ static char *junit_of(const struct output_run *run)
 	return text;
 }
 
-/* A case names the recording, the frame, the picture and the reference, and says in words which comparison failed. */
+/* A case names the recording, frame, picture and reference, and describes which comparison failed. */
 START_TEST(test_junit)
 {
 	struct set_entry entries[2][3] = { { { .frame = 10, .path = "ref/a.10.png" },
@@ -258,7 +257,7 @@ static char *markdown_of(const struct output_run *run)
 	return text;
 }
 
-/* Twenty rows at most, and how many more frames there are; frames in a row that failed the same gates are one row. */
+/* At most twenty rows, and the number of further frames; consecutive frames that failed the same gates share a row. */
 START_TEST(test_markdown)
 {
 	struct output_run run = run_of(40);

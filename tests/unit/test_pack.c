@@ -1,4 +1,4 @@
-/* replay/pack: what is packed comes back, and what does not pack is kept as it is. */
+/* replay/pack: data survives packing, and incompressible data is stored as it is. */
 #include "replay/index/pack.h"
 
 #include <stdint.h>
@@ -9,7 +9,7 @@
 
 #define MAX_BYTES 100000u
 
-/* Bytes of which the first `noisy` have no pattern. */
+/* Fill data with a pattern after `noisy` bytes of noise. */
 static void fill(char *data, size_t n, size_t noisy)
 {
 	uint32_t x = 1;
@@ -56,7 +56,7 @@ START_TEST(test_worth)
 }
 END_TEST
 
-/* An index is not believed: bytes that are no Snappy, or of another size. */
+/* An index is untrusted: bytes that are not Snappy, or have another size. */
 START_TEST(test_damaged)
 {
 	char data[1000], packed[2000];

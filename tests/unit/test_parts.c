@@ -1,4 +1,4 @@
-/* What is written of draws and images of which parts are left out. */
+/* Draws and images written with some of their parts removed. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,10 +10,10 @@
 
 static char from[] = "/tmp/test_parts.XXXXXX", to[sizeof(from) + 4];
 
-/* A trace that holds nothing but the head of its stream. */
+/* A trace with only the stream header. */
 #define EMPTY "at\5\0\0\0\3\10\6\6\0"
 
-/* Write a call with some of its parts, and read what that has become. n: receives how many calls */
+/* Write a call with some of its parts, and read the result. n: receives the number of calls */
 static struct trace_reader *cut(const struct call *call, const char *in, size_t *n)
 {
 	struct trace_reader *reader = NULL;
@@ -43,7 +43,7 @@ static const struct call_sig image = {
 
 #define NUMBER(x) { .type = TRACE_UINT, .u = (x) }
 
-/* Runs that stay become draws of their own; strips keep the sides of their triangles; a last part may be short. */
+/* Remaining runs become separate draws; strips keep the facing of their triangles; the last part may be short. */
 START_TEST(arrays_by_mode)
 {
 	static const struct {
@@ -89,7 +89,10 @@ START_TEST(arrays_by_mode)
 }
 END_TEST
 
-/* Indices in the call are cut, an offset in a buffer moves on; fewer than the count says leave the draw as it is. */
+/*
+ * Inline indices are cut, a buffer offset is advanced; if there are fewer indices than the count, the draw is
+ * unchanged.
+ */
 START_TEST(elements_by_place)
 {
 	static const uint8_t indices[] = { 0, 0, 1, 0, 2, 0, 3, 0, 4, 0, 5, 0 };
@@ -124,7 +127,7 @@ START_TEST(elements_by_place)
 }
 END_TEST
 
-/* An image stays, without its texels. */
+/* The image call stays, without its texels. */
 START_TEST(texels)
 {
 	static const uint8_t bytes[4];

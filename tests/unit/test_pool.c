@@ -1,11 +1,11 @@
-/* Pools: what a frame needs lies where it is said to, is written once, and small things together. */
+/* Pools: a frame's data is placed at the reported offsets and written once, small items together. */
 #include <string.h>
 
 #include "tests/case.h"
 #include "tracer/frame/pool.h"
 
 #define N_SMALL 500
-#define MANY_WORDS 600000 /* more than a pool writes at a time */
+#define MANY_WORDS 600000 /* more than a pool writes at once */
 
 struct thing {
 	uint32_t number, words;
@@ -52,7 +52,7 @@ START_TEST(test_items_are_written_together)
 	ck_assert_int_eq(pool_place(&pool, dev, items, N_SMALL / 2, fill), 0);
 	ck_assert_uint_eq(profile.writes.count, 1);
 	check_items(&pool, dev, items, N_SMALL / 2);
-	/* Half is there already; the large one goes by itself. */
+	/* Half is already placed; the large item is placed alone. */
 	ck_assert_int_eq(pool_place(&pool, dev, items, N_SMALL + 1, fill), 0);
 	ck_assert_uint_eq(profile.writes.count, 3);
 	check_items(&pool, dev, items, N_SMALL + 1);

@@ -1,4 +1,4 @@
-/* look/between/pose: parts of motions against closed forms. */
+/* look/between/pose: fractions of motions against closed forms. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 #define PI 3.14159265358979323846
 
-/* By an angle about a line along y through (x, z), and up that line. */
+/* A rotation about a line along y through (x, z), with a translation along it. */
 static void screw(double out[16], double angle, double x, double z, double up)
 {
 	const double c = cos(angle), s = sin(angle);
@@ -51,7 +51,7 @@ START_TEST(test_slides_are_straight)
 }
 END_TEST
 
-/* Two parts make the whole, one after the other. */
+/* Two successive parts make up the whole. */
 START_TEST(test_rigid_parts_add_up)
 {
 	double a[16], b[16], motion[16], first[16], second[16], both[16];
@@ -79,7 +79,7 @@ START_TEST(test_stretching_ends_where_it_should)
 		motion[i] *= i < 4 ? 1.5 : 0.75;
 	ck_assert(pose_part(found, motion, 1));
 	check_same(found, motion);
-	/* growth alone: about the point that stays */
+	/* scaling only: about the fixed point */
 	memcpy(motion, matrix_identity, sizeof(motion));
 	for (int k = 0; k < 3; k++) {
 		motion[5 * k] = 2;

@@ -1,4 +1,6 @@
-/* base/progress and base/err: what goes to standard error, off a terminal. (The bar: tests/real/test_progress.py.) */
+/*
+ * base/progress and base/err: output to standard error that is not a terminal. (The bar: tests/real/test_progress.py.)
+ */
 #include "base/progress.h"
 
 #include <string.h>
@@ -9,7 +11,7 @@
 
 static char captured[2048];
 
-/** Send standard error to a file while `body` runs; what it wrote is in `captured`. */
+/** Redirect standard error to a file while `body` runs; the output is stored in `captured`. */
 static void capture_stderr(void (*body)(void))
 {
 	struct said said;
@@ -56,7 +58,7 @@ START_TEST(test_lines)
 }
 END_TEST
 
-/* Ten seconds pass between lines; frames of another one begin anew. */
+/* Ten seconds pass between lines; frames of another one start over. */
 static void run_replay(void)
 {
 	struct progress p;
@@ -106,7 +108,7 @@ START_TEST(test_samples)
 }
 END_TEST
 
-/* Forty seconds of compiling, then ten frames a second. */
+/* Forty seconds of compiling, then ten frames per second. */
 static void run_bar(void)
 {
 	struct progress p;
@@ -129,7 +131,7 @@ static void run_bar(void)
 	progress_end(&p);
 }
 
-/* What is left goes by the frames since the first, and is not told before they tell it. */
+/* The time left is estimated from the frames after the first, and is not printed before there are any. */
 START_TEST(test_time_left)
 {
 	const char *line = captured;

@@ -1,4 +1,4 @@
-/* replay/reader: traces written here byte by byte, whole, cut and damaged. */
+/* replay/reader: traces written here byte by byte, whole, truncated and damaged. */
 #include "replay/trace/reader.h"
 
 #include <snappy-c.h>
@@ -50,9 +50,9 @@ static void put_header(struct bytes *b)
 	put_string(b, "");
 }
 
-#define PIECE_BYTES 65536 /* from which on the container delivers chunks apart */
+#define PIECE_BYTES 65536 /* from this size on, the container delivers chunks separately */
 
-/* A header so long that the chunk which holds it is a piece of its own. */
+/* A header so long that its chunk is a piece of its own. */
 static void put_long_header(struct bytes *b)
 {
 	static char filler[PIECE_BYTES + 1];
@@ -66,7 +66,7 @@ static void put_long_header(struct bytes *b)
 	put_string(b, "");
 }
 
-/* Two calls of glVertex2f, the second with the signature left out and values of every type in its arguments. */
+/* Two calls of glVertex2f; the second omits the signature and has arguments of every type. */
 static void put_calls(struct bytes *b)
 {
 	const float f = 1.5f;
@@ -126,7 +126,7 @@ static size_t pack_chunk(const uint8_t *data, size_t here, uint8_t *out)
 	return 4 + packed;
 }
 
-/* A Snappy container of chunks of `chunk` bytes. */
+/* A Snappy container with chunks of `chunk` bytes. */
 static size_t pack_snappy(const struct bytes *b, size_t chunk, uint8_t *out)
 {
 	size_t n = 2;
@@ -137,7 +137,7 @@ static size_t pack_snappy(const struct bytes *b, size_t chunk, uint8_t *out)
 	return n;
 }
 
-/* One of two chunks. */
+/* A Snappy container of two chunks. */
 static size_t pack_in_two(const struct bytes *b, size_t first, uint8_t *out)
 {
 	size_t n = 2;
@@ -209,7 +209,7 @@ START_TEST(test_snappy)
 }
 END_TEST
 
-/* And pieces, of which one does not see the next. */
+/* Also across pieces, which are read independently. */
 START_TEST(test_pieces)
 {
 	static uint8_t file[8 * 32768];
@@ -231,7 +231,7 @@ static uint64_t number_of(unsigned bit)
 	return 0xb7e151628aed2a6bu >> (63 - bit);
 }
 
-/* A call for each length of a number that has it in every place where numbers stand, with arrays of 0 to 20 items. */
+/* For each length of a number, a call with such numbers in every position, and with arrays of 0 to 20 items. */
 static void put_numbers(struct bytes *b)
 {
 	for (unsigned bit = 0; bit < 64; bit++) {
@@ -309,7 +309,7 @@ static void check_numbers(const char *path)
 	trace_reader_close(&r);
 }
 
-/* Numbers of every length, in chunks from one that holds them all down to a byte each. */
+/* Numbers of every length, in chunks that hold all of them down to single bytes. */
 START_TEST(test_numbers)
 {
 	static uint8_t file[8 * 32768];
@@ -338,7 +338,7 @@ START_TEST(test_numbers_over_pieces)
 }
 END_TEST
 
-/* The file's hash is the same however far it was read, in order or not, and whatever stands behind its chunks. */
+/* The file's hash does not depend on the order or extent of reads, or on data after its chunks. */
 START_TEST(test_hash)
 {
 	static uint8_t file[8 * 32768];
@@ -354,7 +354,7 @@ START_TEST(test_hash)
 	put_header(&b);
 	put_numbers(&b);
 	n = pack_snappy(&b, 100, file);
-	memset(file + n, 0, 4); /* where the chunks end */
+	memset(file + n, 0, 4); /* end of the chunks */
 	for (n += 4; n < sizeof(file); n++)
 		file[n] = (uint8_t)(n / 7);
 	path = write_file(file, n);
@@ -375,7 +375,7 @@ START_TEST(test_hash)
 }
 END_TEST
 
-/* A place behind the end, as an index of a longer recording names it. */
+/* An offset beyond the end, as from the index of a longer recording. */
 START_TEST(test_place_behind)
 {
 	static uint8_t file[8 * 32768];
@@ -414,7 +414,7 @@ START_TEST(test_gzip)
 }
 END_TEST
 
-/* Read to the end. @return calls delivered; *last receives the last answer */
+/* Read to the end. @return calls delivered; *last receives the last result */
 static unsigned read_all(const char *path, int *last)
 {
 	struct trace_reader *r;
@@ -430,7 +430,7 @@ static unsigned read_all(const char *path, int *last)
 	return n;
 }
 
-/* Cut at any byte: no error beyond the header, and what is whole is delivered. */
+/* Truncated at any byte: no error after the header, and complete calls are delivered. */
 START_TEST(test_cut)
 {
 	struct bytes b = { .n = 0 };
@@ -442,7 +442,7 @@ START_TEST(test_cut)
 	put_header(&b);
 	header = b.n;
 	put_calls(&b);
-	n = pack_snappy(&b, 8192, file); /* one chunk: unpacked as far as it goes */
+	n = pack_snappy(&b, 8192, file); /* a single chunk, unpacked as far as possible */
 	for (size_t cut = 0; cut <= n; cut++) {
 		calls = read_all(write_file(file, cut), &rc);
 		ck_assert(rc == 0 || (rc == ERR_INPUT && calls == 0 && cut < 2 * header + 16));
@@ -454,7 +454,7 @@ START_TEST(test_cut)
 }
 END_TEST
 
-/* A chunk that does not unpack takes nothing from those before it that are delivered with it. */
+/* A damaged chunk does not affect earlier chunks delivered with it. */
 START_TEST(test_damaged_chunk)
 {
 	struct bytes b = { .n = 0 };
@@ -473,7 +473,7 @@ START_TEST(test_damaged_chunk)
 }
 END_TEST
 
-/* Any byte changed to any of some values: an answer, whatever it is, and no more memory than the file is worth. */
+/* Any byte changed to any of several values: there is a result, and memory stays in proportion to the file. */
 START_TEST(test_damaged)
 {
 	static const uint8_t values[] = { 0, 1, 0x0b, 0x0c, 0x0e, 0x7f, 0x80, 0xff };
@@ -494,7 +494,7 @@ START_TEST(test_damaged)
 }
 END_TEST
 
-/* Counts that promise more than is there, values without end. */
+/* Counts that exceed the data, values without an end. */
 START_TEST(test_impossible)
 {
 	static const char *const details[] = {

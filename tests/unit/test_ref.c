@@ -1,4 +1,4 @@
-/* The reader of reference frames: whole files, files cut at every byte, and files that lie. */
+/* The reader of reference frames: whole files, files truncated at every byte, and inconsistent files. */
 #include <snappy-c.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static size_t file_bytes;
 static size_t record_end[N_FRAMES * 2];
 static size_t most_at_once = SIZE_MAX;
 
-/* The reader's own: as file systems over a network and in user space may, it gives less than was asked for. */
+/* Overrides the reader's pread: it returns less than requested, as network and user-space file systems may. */
 ssize_t pread(int fd, void *to, size_t n, off_t at)
 {
 	return syscall(SYS_pread64, fd, to, n < most_at_once ? n : most_at_once, at);
@@ -121,7 +121,7 @@ START_TEST(test_reads_back_what_was_written)
 }
 END_TEST
 
-/* Other first bytes are none of such a file's, whatever comes after them. */
+/* A file with another signature is refused, whatever follows. */
 START_TEST(test_other_files)
 {
 	for (size_t at = 0; at < 8; at++) {
@@ -156,8 +156,8 @@ START_TEST(test_cut_at_any_byte_keeps_whole_records)
 }
 END_TEST
 
-/* As the recorder writes: frames from `first` on, of two sizes and both kinds. at: receives where each frame's colours
- * begin */
+/* Write like the recorder: frames from `first` on, of two sizes and both kinds. at: receives the offset of each
+ * frame's colours */
 static void make_changes(uint64_t n_frames, size_t at[])
 {
 	struct ref_last last[2] = { 0 };
@@ -231,7 +231,7 @@ START_TEST(test_changes_read_back)
 }
 END_TEST
 
-/* A read may give a part of what was asked for: the rest is asked for again. */
+/* A short read is continued. */
 START_TEST(test_reads_in_parts)
 {
 	struct ref_file ref = { 0 };
@@ -257,10 +257,10 @@ START_TEST(test_bases_that_lie_are_refused)
 	make_changes(3, at);
 	memcpy(&kept, file + at[2] + sizeof(struct ref_head), sizeof(kept));
 	ck_assert_uint_eq(kept, at[1]);
-	bases[0] = at[2];       /* itself */
-	bases[1] = at[1] + 1;   /* no head is there */
+	bases[0] = at[2];       /* the record itself */
+	bases[1] = at[1] + 1;   /* no record starts there */
 	bases[2] = UINT64_MAX;
-	bases[3] = at[0] + sizeof(struct ref_head) + file[at[0] + 20]; /* the first depth */
+	bases[3] = at[0] + sizeof(struct ref_head) + file[at[0] + 20]; /* the first depth record */
 	for (unsigned i = 0; i < 4; i++) {
 		memcpy(file + at[2] + sizeof(struct ref_head), &bases[i], sizeof(kept));
 		write_file(file_bytes);
@@ -270,7 +270,7 @@ START_TEST(test_bases_that_lie_are_refused)
 		ref_close(&ref);
 	}
 	memcpy(file + at[2] + sizeof(struct ref_head), &kept, sizeof(kept));
-	file[at[0] + 1] = 1; /* the first record as a changed one: there is none before it */
+	file[at[0] + 1] = 1; /* the first record as a change: it has no predecessor */
 	write_file(file_bytes);
 	ck_assert_int_eq(ref_open(&ref, path), 0);
 	ck_assert_int_eq(ref_read(&ref, ref_find(&ref, REF_COLOR, 2), &got), ERR_INPUT);
@@ -292,7 +292,7 @@ START_TEST(test_lies_are_refused)
 	ck_assert_int_eq(ref_open(&ref, path), ERR_INPUT);
 
 	make_file();
-	file[8 + 4] = WIDTH + 1; /* a size that the block does not have */
+	file[8 + 4] = WIDTH + 1; /* a size that does not match the block */
 	write_file(file_bytes);
 	ck_assert_int_eq(ref_open(&ref, path), 0);
 	ck_assert_int_eq(ref_read(&ref, &ref.entries[0], &got), ERR_INPUT);
@@ -300,7 +300,7 @@ START_TEST(test_lies_are_refused)
 	ref_close(&ref);
 
 	make_file();
-	memset(file + 8 + 28 + 1, 0xFF, 8); /* a block that is no Snappy */
+	memset(file + 8 + 28 + 1, 0xFF, 8); /* a block that is not Snappy */
 	write_file(file_bytes);
 	ck_assert_int_eq(ref_open(&ref, path), 0);
 	ck_assert_int_eq(ref_read(&ref, &ref.entries[0], &got), ERR_INPUT);

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 240 s
-"""relume diff on pictures of others: a picture beside itself, changed in a way whose verdict is known. Pictures are
-drawn by a seed; each relation is tried both ways round, as reference and as what is compared. All pairs are the frames
+"""relume diff on pairs of pictures whose verdict is known: a picture and a changed version of it. Pictures are
+generated from a seed; each relation is tried in both directions, with either one as the reference. All pairs are frames
 of one run for each set of options.
 """
 import collections
@@ -41,9 +41,9 @@ def write_png(path, codes, depth=8, level=6):
 
 
 def write_exr(path, planes, at=(0, 0), shown=None, in_tile=False):
-    """Planes {name: [height][width], half, float or uint32} as an OpenEXR file without compression. at: the first pixel
-    of the data; shown: x, y, width and height of the display window; None: that of the data. in_tile: all of it is one
-    tile.
+    """Planes {name: [height][width], half, float or uint32} as an uncompressed OpenEXR file. at: first pixel of the
+    data window; shown: x, y, width and height of the display window, or None for that of the data; in_tile: store
+    everything as one tile.
     """
     types = {"uint32": 0, "float16": 1, "float32": 2}
     names = sorted(planes)
@@ -72,7 +72,7 @@ def write_exr(path, planes, at=(0, 0), shown=None, in_tile=False):
 
 
 def converted(source, path, *options):
-    """The same by oiiotool, which knows what we do not write."""
+    """The same written by oiiotool, for formats that we do not write."""
     subprocess.run(["oiiotool", source, *options, "-o", path], check=True, capture_output=True)
 
 
@@ -81,7 +81,7 @@ def converted(source, path, *options):
 
 
 def codes_of(seed, n=3):
-    """A picture of codes: a gradient, noise, shapes of plain colours; with n = 4 also an alpha from 0 to 255."""
+    """A picture of codes: a gradient, noise, shapes with plain colours; with n = 4 also alpha from 0 to 255."""
     random = numpy.random.default_rng(seed)
     y, x = numpy.mgrid[0:HEIGHT, 0:WIDTH]
     out = numpy.stack([40 + 2 * x, 30 + 3 * y, 200 - x - y][:3], -1).astype(int)
@@ -119,7 +119,7 @@ EXTRA_PART = ("--create", "20x10+5+6", "1", "--fullsize", f"{WIDTH}x{HEIGHT}+0+0
               "oiio:subimagename", "extra")
 PATCH = (slice(10, 30), slice(12, 34))
 Case = collections.namedtuple(
-    "Case", "name verdict write_a write_b")  # each writes to a path without its ending, and returns the whole
+    "Case", "name verdict write_a write_b")  # the writers take a path without ending, and return the complete one
 
 
 def png(codes, **how):
@@ -233,7 +233,7 @@ def of_alpha(seed):
         ("with alpha, 16 bits", PASS, base, png(a * 257, depth=16)),
         ("red and blue swapped, with alpha", FAIL, base, png(a[..., [2, 1, 0, 3]])),
         ("with alpha, as TGA", PASS, base,
-         by_oiio(exr(exact), "tga")),  # from PNG oiiotool 2.5 multiplies in linear light and divides codes
+         by_oiio(exr(exact), "tga")),  # from PNG, oiiotool 2.5 multiplies in linear light and divides codes
         ("straight and multiplied", PASS,
          by_oiio(exr(a / 255), "tif", "-d", "uint8", "--attrib", "oiio:UnassociatedAlpha",
                  "1"), by_oiio(exr(times / 255), "tif", "-d", "uint8")),
@@ -320,7 +320,7 @@ def of_light(seed):
 
 
 def of_layers(seed):
-    """Layers by name, and single channels: the option, and pictures that agree and differ in it alone."""
+    """Layers by name, and single channels: the option selects them, and pictures agree or differ only there."""
     a = light_of(codes_of(seed))
     other = {**planes_of(1 - a, prefix="view.diffuse."), **planes_of(2 * a - 1, prefix="N.", dtype="f4")}
     other = {
@@ -343,7 +343,7 @@ def of_layers(seed):
 
 
 def drawn(relations):
-    """The cases of all seeds; those that another program writes, which is slow, of one."""
+    """The cases of all seeds; those written by another program, which is slow, for one seed only."""
     return [
         case for seed in SEEDS for case in relations(seed)
         if seed == SEEDS[0] or not getattr(case.write_b, "is_slow", False)
@@ -351,7 +351,7 @@ def drawn(relations):
 
 
 def of_numbers(seed):
-    """Unsigned integers, as the numbers of draws are, by both readers."""
+    """Unsigned integers, as used for draw numbers, by both readers."""
     ids = {"id": numpy.arange(HEIGHT * WIDTH, dtype="u4").reshape(HEIGHT, WIDTH)}
     base = exr(light_of(codes_of(seed)), more=ids)
     yield Case("in a tile", PASS, base, exr(light_of(codes_of(seed)), more=ids, in_tile=True))
@@ -365,7 +365,7 @@ class Relations(unittest.TestCase):
         self.dir = pathlib.Path(folder.name)
 
     def judge(self, cases, *options):
-        """All cases as frames of two sets, both ways round; the wrong verdicts."""
+        """All cases as frames of two sets, in both directions; returns the wrong verdicts."""
         folders, wrong = [self.dir / "a", self.dir / "b"], []
         for folder, writers in zip(folders, zip(*((case.write_a, case.write_b) for case in cases))):
             shutil.rmtree(folder, ignore_errors=True)
@@ -381,7 +381,7 @@ class Relations(unittest.TestCase):
                 for frame, case in enumerate(cases)
                 if found.get(frame) not in case.verdict
             ]
-        self.assertEqual(wrong, [], f"of {2 * len(cases)} verdicts with {options}")
+        self.assertEqual(wrong, [], f"wrong among {2 * len(cases)} verdicts with {options}")
         print(" ".join((f"{2 * len(cases)} verdicts", *options)) + ": 0 wrong")
 
     def test_codes(self):
@@ -394,7 +394,7 @@ class Relations(unittest.TestCase):
         self.judge(drawn(of_light))
 
     def test_alpha_left_out(self):
-        """With --ignore-alpha what it is no longer matters, and what is behind it does."""
+        """With --ignore-alpha, alpha does not matter, but the colours behind it do."""
         wanted = {
             "with alpha, the same": PASS, "another colour under alpha 0": FAIL, "alpha left out": PASS,
             "alpha opaque": PASS, "alpha turned": PASS, "alpha of black alone": PASS, "colour beside alpha": FAIL,
@@ -410,8 +410,7 @@ class Relations(unittest.TestCase):
         self.judge(drawn(of_numbers), "--channel", "id")
 
     def test_runs(self):
-        """Of several runs: what differs from run to run, in alpha or over white too, is noise; what is wrong in all
-        is not."""
+        """Differences between runs, also in alpha or over white, are noise; faults common to all are not."""
         seed, wanted = SEEDS[0], {}
         pictures = ((png, codes_of(seed, 4), (3,), lambda v: 255 - v), (exr, bright_of(seed), (), lambda v: 2 * v))
         with tempfile.TemporaryDirectory() as folder:
@@ -430,6 +429,6 @@ class Relations(unittest.TestCase):
 if __name__ == "__main__":
     program = unittest.main(exit=False, failfast="RELUME_FIRST_FAILURE" in os.environ)
     failed = len(program.result.failures) + len(program.result.errors)
-    # counted as libcheck counts, for the runner
+    # counts in libcheck's format, for the runner
     print(f"{100 if not failed else 0}%: Checks: {program.result.testsRun}, Failures: {failed}, Errors: 0")
     sys.exit(failed != 0)

@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""What a release consists of: one version everywhere, documents whose links lead somewhere, CI files that run `make
-check`."""
+"""Consistency of a release: one version everywhere, working links in documents, CI files that run `make check`."""
 import pathlib
 import re
 import shutil
@@ -23,7 +22,7 @@ def text(name):
 
 
 def anchors(page):
-    """What GitHub makes of a page's headings."""
+    """GitHub's anchors for a page's headings."""
     headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.M)
     return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
 

@@ -1,9 +1,9 @@
 /*
- * scene/repair: closed meshes, broken at random, come back closed, with their volume; what is whole stays as it is, and
- * what is open stays open.
+ * scene/repair: closed meshes, broken at random, are closed again with their volume; whole meshes are unchanged, and
+ * open ones stay open.
  *
  *   test_repair          as `make check` runs it
- *   test_repair COUNT    so many meshes, and the figures of `make show-rooms`
+ *   test_repair COUNT    COUNT meshes, and the figures of `make show-rooms`
  */
 #include <stdio.h>
 #include <time.h>
@@ -15,12 +15,14 @@
 
 enum { FEW = 120 };
 
-/* A bar for volumes: relative. */
+/* Maximum error of volumes, relative. */
 #define VOLUME 1e-5
 
 struct score {
-	unsigned closed, exact, broken; /* all; of closed ones those with their volume; those that leaked or had a wrong
-	                                   volume before */
+	unsigned closed, exact, broken; /* meshes; closed ones, and those with their volume; those with a leak or
+	                                 *                                           wrong
+	                                 *                                           volume
+	                                 *                                           before */
 	double worst;
 };
 
@@ -37,7 +39,7 @@ static int is_closed(const struct scene_mesh *mesh, double *volume)
 	return found.closed && !found.junctions && !found.dropped;
 }
 
-/* What comes back is looked at again as a mesh of its own: by equal positions, without any tolerance. */
+/* The result is analysed again as a mesh of its own: by equal positions, without tolerance. */
 static void score_one(uint64_t seed, struct score *score, int tells)
 {
 	const struct repair_wants wants = { .weld = REPAIR_WELD, .turn = 1 };
@@ -79,7 +81,7 @@ START_TEST(test_broken)
 }
 END_TEST
 
-/* Each kind of a whole mesh: nothing is there to repair. */
+/* Every kind of whole mesh needs no repair. */
 START_TEST(test_whole)
 {
 	const struct repair_wants wants = { .weld = REPAIR_WELD, .turn = 1 };
@@ -101,7 +103,7 @@ START_TEST(test_whole)
 }
 END_TEST
 
-/* A ball in a ball, broken and repaired: places between them are inside, those in the hollow are not. */
+/* A ball inside a ball, broken and repaired: points between them are inside, those in the cavity are not. */
 START_TEST(test_inside)
 {
 	const double how[3] = { 1, 1, 1 }, half[3] = { 0.5, 0.5, 0.5 };
@@ -121,7 +123,7 @@ START_TEST(test_inside)
 			              (float)(2.4 * broken_next(&b) - 1.2) };
 		const float far = sqrtf(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
 
-		if (fabsf(far - 1) > 0.01f && fabsf(far - 0.5f) > 0.01f) /* faces lie a little within the balls */
+		if (fabsf(far - 1) > 0.01f && fabsf(far - 0.5f) > 0.01f) /* faces are slightly inside the balls */
 			ck_assert_int_eq(holds_place(out, at), far > 0.5f && far < 1);
 	}
 	free(out);
@@ -135,7 +137,7 @@ static const float cube[8][4] = { { 0, 0, 0, 1 }, { 1, 0, 0, 1 }, { 1, 1, 0, 1 }
 static const uint32_t sides[12][3] = { { 0, 3, 2 }, { 0, 2, 1 }, { 4, 5, 6 }, { 4, 6, 7 }, { 0, 1, 5 }, { 0, 5, 4 },
 	                               { 2, 3, 7 }, { 2, 7, 6 }, { 1, 2, 6 }, { 1, 6, 5 }, { 3, 0, 4 }, { 3, 4, 7 } };
 
-/* An opening stays one, and is told; the way faces look is not changed unless asked for. */
+/* An opening remains and is reported; the facing is not changed unless requested. */
 START_TEST(test_openings)
 {
 	const struct scene_mesh box = { .kind = SCENE_TRIANGLES,
@@ -162,12 +164,13 @@ START_TEST(test_openings)
 	ck_assert(out && found.closed && found.turned == 11);
 	ck_assert_double_eq_tol(found.volume, -1, 1e-12);
 	for (int f = 0; f < 12; f++)
-		ck_assert_uint_eq(out->index[3 * f + 2], turned[f][2]); /* the last corner gives the colour under flat shading */
+		ck_assert_uint_eq(out->index[3 * f + 2], turned[f][2]); /* the last vertex gives the colour under
+		                                                         * flat shading */
 	free(out);
 }
 END_TEST
 
-/* A sheet that is drawn from both sides stays; a corner that is no number changes nothing around it. */
+/* A sheet drawn from both sides is kept; a NaN vertex changes nothing around it. */
 START_TEST(test_sheets)
 {
 	static const uint32_t both[4][3] = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 2, 1 }, { 0, 3, 2 } };
@@ -201,8 +204,8 @@ START_TEST(test_sheets)
 }
 END_TEST
 
-/* A wall that two smaller ones meet: its edge gets their corner, in between in all attributes; under flat shading the
- * wall keeps its colour. */
+/* A wall that two smaller ones meet: its edge gets their vertex, with all attributes interpolated; under flat
+ * shading the wall keeps its colour. */
 START_TEST(test_attributes)
 {
 	static const float position[6][4] = { { 0, 0, 0, 1 }, { 4, 0, 0, 1 }, { 0, 4, 0, 1 },
@@ -237,8 +240,8 @@ START_TEST(test_attributes)
 }
 END_TEST
 
-/* Boxes of many squares with cracks become few triangles, with texture coordinates that go on evenly; where those do
- * not, or on round bodies, none go. */
+/* Boxes of many squares with cracks are merged into few triangles if texture coordinates are continuous; otherwise,
+ * and on round bodies, no triangles are merged. */
 START_TEST(test_merge)
 {
 	for (uint64_t seed = 0; seed < 30; seed++) {
@@ -280,7 +283,7 @@ START_TEST(test_merge)
 }
 END_TEST
 
-/* A large mesh of corners of their own: what repair takes grows with its size, or little more. */
+/* A large mesh with duplicated vertices: the cost of repair is about linear in its size. */
 START_TEST(test_large)
 {
 	const struct repair_wants wants = { .weld = REPAIR_WELD, .turn = 1 };

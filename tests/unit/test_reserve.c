@@ -1,5 +1,5 @@
-/* Memory that is there where malloc has none (capture/format/reserve.c): for one at a time, and never less than was
- * asked for. */
+/* Reserved memory for when malloc fails (capture/format/reserve.c): for one user at a time, and never less than
+ * requested. */
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -12,11 +12,11 @@
 #include "tests/case.h"
 #include "tests/emulated.h"
 
-/* C++'s operators new and delete, as Snappy calls them. */
+/* C++'s operators new and delete, as called by Snappy. */
 void *_Znwm(size_t n);
 void _ZdlPv(void *p);
 
-enum { MOST = 175 << 10 }; /* what Snappy asks for at once */
+enum { MOST = 175 << 10 }; /* the largest request of Snappy */
 
 static atomic_int is_taken, others;
 
@@ -32,7 +32,7 @@ START_TEST(test_while_there_is_memory)
 }
 END_TEST
 
-/* From here on malloc has nothing, not even for what libcheck notes. */
+/* From here on malloc fails, even for libcheck's own notes. */
 static void use_up_memory(struct rlimit *before)
 {
 	struct rlimit none;
@@ -41,7 +41,7 @@ static void use_up_memory(struct rlimit *before)
 	none = (struct rlimit){ 0, before->rlim_max };
 	setrlimit(RLIMIT_AS, &none);
 	for (size_t n = 1 << 20; n; n /= 2) {
-		void *volatile taken; /* a compiler may leave out a malloc that nobody looks at */
+		void *volatile taken; /* a compiler may drop a malloc whose result is not used */
 
 		do
 			taken = malloc(n);
@@ -89,7 +89,7 @@ START_TEST(test_one_after_the_other)
 }
 END_TEST
 
-/* Whoever gets it writes all of it: what is more than there is must not be had. */
+/* The test writes all of the memory; a request beyond the reserve must fail. */
 START_TEST(test_more_than_there_is)
 {
 	_Znwm(SIZE_MAX / 4);

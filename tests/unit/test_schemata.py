@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Mutants behind switches (tests/show/schemata.py), of a small program in place of Relume: each one alone, and who
-could tell it."""
+"""Mutants behind switches (tests/show/schemata.py), in a small program instead of Relume: each one alone, and the runs
+that could notice it."""
 import os
 import pathlib
 import subprocess
@@ -56,7 +56,7 @@ class Schemata(unittest.TestCase):
         (SCRATCH / "small.c").write_text(text)
         subprocess.run(["gcc", "-O1", "-w", f"-I{ROOT}", "-o", "small", "small.c"], cwd=SCRATCH, check=True)
         (SCRATCH / "single").mkdir()
-        for number, site in cls.by_number.items():  # as somebody would write it
+        for number, site in cls.by_number.items():  # as if edited by hand
             (SCRATCH / "single.c").write_text(SOURCE[:site.begin] + site.instead + SOURCE[site.end:])
             subprocess.run(["gcc", "-O1", "-w", "-o", f"single/{number}", "single.c"], cwd=SCRATCH, check=True)
 

@@ -1,5 +1,5 @@
-/* Sets of frames (diff/pictures/set.h): which files of a folder are frames, which of a pattern, what a trace names,
- * what a record holds. */
+/* Sets of frames (diff/pictures/set.h): which files of a folder or pattern are frames, the references that a trace
+ * names, the contents of a record. */
 #include <fcntl.h>
 #include <snappy-c.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@
 #include "tests/alone.h"
 #include "tests/said.h"
 
-/* The frames of a set are these, in order. */
+/* The frames of a set must be these, in order. */
 static void check_set(const char *where, size_t n, const uint64_t frames[])
 {
 	struct set set = { 0 };
@@ -45,8 +45,8 @@ static void check_refused(const char *where, int err, const char *words)
 	ck_assert_ptr_null(set.entries);
 }
 
-/* The last number of an image's name is its frame; hidden files and other files are passed over, in folders but not
- * where a pattern names them. */
+/* The last number in an image's name is its frame; hidden files and other files are ignored in folders, but not if a
+ * pattern names them. */
 START_TEST(test_folders)
 {
 	static const char *const names[] = { "a.0007.png",     "a2.0010.EXR", "b3.jpeg",       ".a.0001.png",
@@ -71,7 +71,7 @@ START_TEST(test_folders)
 }
 END_TEST
 
-/* One image is a set whatever its number is. */
+/* A single image is a set, whatever its number. */
 START_TEST(test_single)
 {
 	struct set set = { 0 };
@@ -101,7 +101,7 @@ static void put_record(FILE *out, enum ref_kind kind, uint64_t frame, const void
 	fwrite(packed, 1, n, out);
 }
 
-/* Frames 4 and 2, of which 4 has a depth. */
+/* Frames 4 and 2; frame 4 has a depth. */
 static void write_ref(const char *path)
 {
 	FILE *out = fopen(path, "wb");
@@ -120,7 +120,7 @@ static void write_ref(const char *path)
 	fclose(out);
 }
 
-/* NAME.ref beside a trace of any name; its hash is kept. */
+/* NAME.ref beside a trace of any name; its hash is stored. */
 START_TEST(test_traces)
 {
 	static const char *const traces[] = { "a.trace", "b.c.trace", "plain", "./d.x/trace" };
@@ -147,7 +147,7 @@ START_TEST(test_traces)
 }
 END_TEST
 
-/* A record is turned upside down: the top row first; a depth is there where it was recorded. */
+/* A record is flipped, so that the top row comes first; depth is present if it was recorded. */
 START_TEST(test_records)
 {
 	struct set set = { 0 };
@@ -176,7 +176,7 @@ START_TEST(test_records)
 }
 END_TEST
 
-/* The layer that a reference is compared by: one that is asked for, else what OpenGL drew, else the beauty. */
+/* The layer compared with a reference: a requested one, else OpenGL's picture, else the beauty. */
 START_TEST(test_reference_layers)
 {
 	static const char *const asked[] = { NULL, NULL, "albedo", "none" };
@@ -205,7 +205,7 @@ START_TEST(test_reference_layers)
 }
 END_TEST
 
-/* Effects that show nothing have no picture on the page; other layers have, whatever they show. */
+/* Effects that contribute nothing have no picture on the page; other layers always have one. */
 START_TEST(test_effect_layers)
 {
 	for (int shows = 0; shows < 2; shows++) {

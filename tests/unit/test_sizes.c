@@ -1,5 +1,4 @@
-/* Sizes of what arguments point to: pixel rectangles under every part of the unpack state, evaluator maps, lists,
- * vectors. */
+/* Sizes of data that arguments point to: pixel rectangles under all unpack state, evaluator maps, lists, vectors. */
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <limits.h>
@@ -70,7 +69,7 @@ START_TEST(test_nonsense_is_nothing)
 }
 END_TEST
 
-/* Texels skipped by images, rows and pixels of two thousand millions each: no memory holds them. */
+/* Skips of two thousand million images, rows and pixels each exceed any memory. */
 START_TEST(test_more_than_memory_is_nothing)
 {
 	const struct pixel_layout far = { .image_height = INT_MAX, .skip_images = INT_MAX, .alignment = 1 };

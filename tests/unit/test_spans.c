@@ -1,11 +1,11 @@
-/* verbs/farm/spans: frame numbers in words. */
+/* farm/spans: frame numbers as text. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "tests/case.h"
 #include "verbs/farm/spans.h"
 
-/* The frames of a list that ends with -1, in words. */
+/* A list of frames that ends with -1 must become this text. */
 static void check_words(const int *frames, const char *words)
 {
 	char *text = NULL;

@@ -1,4 +1,4 @@
-/* What frames' tricks agree on (look/study/tricks.h). */
+/* Merging the tricks found in several frames (look/study/tricks.h). */
 #include "look/study/tricks.h"
 
 #include <stdlib.h>
@@ -7,7 +7,10 @@
 #include "look/study/findings.h"
 #include "tests/case.h"
 
-/* A viewer who walks around a mirror sees its plane turned; what is drawn beside it is another one. */
+/*
+ * A viewer who walks around a mirror sees its plane from the other side; content drawn beside it belongs to another
+ * mirror.
+ */
 START_TEST(test_mirror_has_two_sides)
 {
 	struct tricks t = { .n = 0 };
@@ -26,7 +29,7 @@ START_TEST(test_mirror_has_two_sides)
 }
 END_TEST
 
-/* A shadow's plane is told apart: light comes from one side of it. */
+/* Planes of shadows are one-sided: light comes from one side. */
 START_TEST(test_shadow_has_one_side)
 {
 	struct tricks t = { .n = 0 };
@@ -40,7 +43,7 @@ START_TEST(test_shadow_has_one_side)
 }
 END_TEST
 
-/* Shadows on several planes need one rule, since planes are no part of it; others need another. */
+/* Shadows on several planes need one rule, since planes are not part of it; other shadows need another. */
 START_TEST(test_one_rule_for_all_planes)
 {
 	struct tricks t = { .n = 0 };

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""No folder gains habits that make sentences read as translated (tests/words.py); and the count notices them."""
+"""No folder gains habits that make sentences read as translated (tests/words.py), and the count notices them."""
 import pathlib
 import subprocess
 import sys
