@@ -1,6 +1,6 @@
 /*
- * Mains of tests with OpenImageIO, behind which a library waits at exit for a thread that a fork does not have: their
- * tests run in one process. Each may have a folder of its own.
+ * Mains of tests with OpenImageIO: a library that it uses waits at exit for a thread that a fork lacks, so these tests
+ * run in one process. Each may have its own folder.
  */
 #pragma once
 
@@ -12,7 +12,7 @@
 
 static char alone_folder[] = "/tmp/relume_alone.XXXXXX";
 
-/** As run_case, without forks. */
+/** Like run_case, without forks. */
 static inline int run_alone(TCase *tests, const char *name)
 {
 	Suite *suite = suite_create(name);
@@ -28,7 +28,7 @@ static inline int run_alone(TCase *tests, const char *name)
 	return failed != 0;
 }
 
-/** A fixture: each test in a folder of its own, which is empty. */
+/** A fixture: runs each test in an empty folder of its own. */
 static inline void alone_enter(void)
 {
 	char own[] = "XXXXXX";
@@ -38,7 +38,7 @@ static inline void alone_enter(void)
 	ck_assert_int_eq(chdir(own), 0);
 }
 
-/** As run_alone, for tests that begin with alone_enter; their folders are removed. */
+/** Like run_alone, for tests that begin with alone_enter; their folders are removed. */
 static inline int run_alone_in_folders(TCase *tests, const char *name)
 {
 	char command[64];

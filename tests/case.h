@@ -1,9 +1,9 @@
-/** tests/case.h: what the mains of all C tests have in common. */
+/** tests/case.h: shared by the mains of all C tests. */
 #pragma once
 
 #include <check.h>
 
-/** Runs one case or two, which it takes, each test in a process of its own. Returns main's exit code: 0 where all
+/** Runs one or two cases and releases them, with each test in a separate process. Returns main's exit code: 0 if all
  * passed. */
 static inline int run_cases(TCase *first, TCase *second, const char *name)
 {

@@ -1,18 +1,18 @@
-/** tests/driver.h: what tests do where OpenCL has no driver. */
+/** tests/driver.h: skipping tests if OpenCL has no driver. */
 #pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* The exit code of a test that is skipped (tests/run.py). */
+/* The exit code of a skipped test (tests/run.py). */
 enum { SKIPPED = 77 };
 
-/** Whether no driver is installed: says so in a line, as tests/run.py wants a reason. One that does not work is a
- * failure. */
+/** Whether no driver is installed; if so, prints a line with the reason, for tests/run.py. A driver that does not
+ * work is a failure. */
 static inline bool lacks_driver(void)
 {
-	const char *installed = getenv("RELUME_VENDORS"); /* tests/run.py: empty where there is none */
+	const char *installed = getenv("RELUME_VENDORS"); /* set by tests/run.py: empty if there is none */
 
 	if (!installed || *installed)
 		return false;

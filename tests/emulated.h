@@ -1,10 +1,10 @@
-/** tests/emulated.h: what an emulated kernel cannot do. */
+/** tests/emulated.h: limitations of an emulated kernel. */
 #pragma once
 
 #include <stdbool.h>
 #include <stdlib.h>
 
-/** Whether a limit of memory counts the emulator's own, as qemu-user's does (tests/show/suites.py says so). */
+/** Whether memory limits include the emulator's own memory, as under qemu-user (set by tests/show/suites.py). */
 static inline bool memory_is_emulated(void)
 {
 	return getenv("TESTS_EMULATED") != NULL;

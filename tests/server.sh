@@ -1,4 +1,5 @@
-# Sourced by xvfb.sh and wayland.sh, which say in `usage` how they are called: a scratch folder, a server that ends with the command.
+# Sourced by xvfb.sh and wayland.sh, which describe their usage in `usage`: a scratch folder, and a server that ends
+# with the command.
 set -u
 
 if [ $# -eq 0 ]; then
@@ -21,7 +22,7 @@ mkdir -m 700 "$scratch/home" "$scratch/runtime" || exit 5
 export HOME="$scratch/home" XDG_RUNTIME_DIR="$scratch/runtime" LIBGL_ALWAYS_SOFTWARE=1
 unset XDG_CACHE_HOME XDG_CONFIG_HOME XDG_DATA_HOME
 
-# did_not_start WHAT: the server is not there; says why, and leaves.
+# did_not_start WHAT: the server is missing; prints the reason and exits.
 did_not_start() {
 	echo "$0: $1 did not start:" >&2
 	cat "$scratch/log" >&2

@@ -1,8 +1,8 @@
 #!/bin/sh
-# tests/wayland.sh CMD ARGS...: run a command on a Wayland compositor of its own.
+# tests/wayland.sh CMD ARGS...: run a command on a private Wayland compositor.
 #
-# Starts Weston without a screen, and ends it when the command is done. Mesa draws with its software rasterizer. Exits with the command's
-# code; 5 where there is no compositor to be had.
+# Starts headless Weston, and stops it when the command is done. Mesa uses its software rasterizer. Exits with the
+# command's code, or 5 if no compositor can be started.
 usage="tests/wayland.sh CMD ARGS..."
 # shellcheck source=tests/server.sh
 . "$(dirname "$0")/server.sh"

@@ -52,7 +52,7 @@ static double to_segment(const double p[3], const double a[3], const double b[3]
 	return sqrt(dot(d, d));
 }
 
-/* Distance by the three half-spaces over the triangle's edges: above its face where a point lies inside of all. */
+/* Distance by the three half-spaces of the triangle's edges: to its face if a point is inside all of them. */
 static double to_triangle(double v[3][3], const double p[3])
 {
 	double e[3][3], n[3], inward[3], from[3], least;
@@ -94,11 +94,11 @@ int brute_distance(const struct brute *b, const struct relume_rays_point *point,
 	       fabs(sqrt(dot(away, away)) - least) <= band;
 }
 
-/* --- Rays: by the plane across the ray --------------------------------------------------------------------------- */
+/* --- Rays: in the plane perpendicular to the ray ----------------------------------------------------------------- */
 
 enum verdict { MISS, EDGE, HIT };
 
-/* A triangle as a ray sees it: from the ray's origin (s), and the ray's direction (d). */
+/* A triangle relative to a ray: vertices from the ray's origin (s), and the ray's direction (d). */
 struct seen {
 	double v[3][3], e1[3], e2[3], n[3], s[3], d[3];
 };
@@ -115,7 +115,7 @@ static void look_at(const struct brute *b, const struct relume_rays_ray *ray, ui
 	cross(seen->e1, seen->e2, seen->n);
 }
 
-/* The six products of a . (b x c), none taken from another. */
+/* The six products of a . (b x c), summed in absolute value. */
 static double products(const double a[3], const double b[3], const double c[3])
 {
 	double sum = 0;
@@ -132,8 +132,8 @@ static double products(const double a[3], const double b[3], const double c[3])
  * How far single precision may be off on a narrow triangle. Moeller and Trumbore divide triple products: t = e2.(s x
  * e1) / e1.(d x e2), and two weights alike. The cross product rounds each of its products at most twice and the sum of
  * three at most three times; s, e1 and e2 are rounded differences. So a triple product errs by at most 8 units of 2^-24
- * of its six products, however much these cancel: for a sliver nearly all. t: receives what that makes of t. @return
- * what it makes of the place in the triangle
+ * of its six products, even if they cancel, as they nearly do for a sliver. t: receives the resulting error of t.
+ * @return the error of the position in the triangle
  */
 static double narrowness(const struct seen *a, double *t)
 {
@@ -148,7 +148,7 @@ static double narrowness(const struct seen *a, double *t)
 	return unit * ((of_u + all) * length1 + (of_v + all) * length2) / rest;
 }
 
-/* Where the ray passes the triangle's outline, seen along it, and at which t it meets the plane. */
+/* Position of the ray relative to the triangle's outline, seen along the ray, and the t at its plane. */
 static enum verdict meet(const struct brute *b, const struct relume_rays_ray *ray, uint32_t i, double *t, double *slack)
 {
 	const double band = band_of(b, size_of(ray->origin));
@@ -161,13 +161,13 @@ static enum verdict meet(const struct brute *b, const struct relume_rays_ray *ra
 	*t = 0;
 	*slack = INFINITY;
 	if (!(dot(a.n, a.n) > 0) || cosine < 1e-5)
-		return EDGE; /* edge-on, or no area: either answer */
+		return EDGE; /* edge-on, or without area: either answer is right */
 	*t = off = -dot(a.n, a.s) / dot(a.n, a.d);
 	place = fmax(band / cosine, narrowness(&a, &off));
 	*slack = fmax(band / cosine / length, off);
 	for (int k = 0; k < 3; k++)
 		at[k] = ray->origin[k] + *t * a.d[k];
-	/* A hit's weights may leave [0,1] by 1e-6 (kernels/rays/rays.h): of edges that is less than the band. */
+	/* A hit's weights may leave [0,1] by 1e-6 (kernels/rays/rays.h), which for edges is less than the band. */
 	if (to_triangle(a.v, at) > place)
 		return MISS;
 	return fmin(fmin(to_segment(at, a.v[0], a.v[1]), to_segment(at, a.v[1], a.v[2])),
@@ -176,7 +176,7 @@ static enum verdict meet(const struct brute *b, const struct relume_rays_ray *ra
 	               EDGE;
 }
 
-/* Whether t lies in the ray's span: 1 for sure, 0 for sure not, -1 within rounding. */
+/* Whether t is in the ray's span: 1 surely, 0 surely not, -1 within rounding. */
 static int in_span(const struct relume_rays_ray *ray, double t, double slack)
 {
 	if (t > ray->nearest + slack && t < ray->farthest - slack)
@@ -236,7 +236,7 @@ int brute_all(const struct brute *b, const struct relume_rays_ray *ray, const st
 			}
 		if (verdict == HIT && in_span(ray, t, slack) == 1) {
 			sure++;
-			/* Left out only where nearer ones fill the list. */
+			/* It may be missing only if nearer ones fill the list. */
 			if (!given && (kept == count || t < hits[kept - 1].t - slack))
 				return 0;
 		}
@@ -247,7 +247,7 @@ int brute_all(const struct brute *b, const struct relume_rays_ray *ray, const st
 	return count >= sure && count <= may;
 }
 
-/* --- Spheres: the distance along the way is convex, so its least value is found by thirds ------------------------ */
+/* --- Spheres: the distance along the path is convex, so its minimum is found by ternary search -------------------- */
 
 static void moved(const struct relume_rays_body *body, double t, double out[3])
 {
@@ -278,7 +278,7 @@ static double least_distance(double v[3][3], const struct relume_rays_body *body
 	return fmin(distance_at(v, body, lo), fmin(distance_at(v, body, 0), distance_at(v, body, end)));
 }
 
-/* Whether a triangle's bounds lie beyond all that a body reaches on its way to t, for sure. */
+/* Whether a triangle's bounds are surely beyond everything that a body reaches on its way to t. */
 static int is_beyond(double v[3][3], const struct relume_rays_body *body, double t, double band)
 {
 	for (int a = 0; a < 3; a++) {
@@ -314,7 +314,7 @@ int brute_sphere(const struct brute *b, const struct relume_rays_body *body, con
 	return 1;
 }
 
-/* --- Boxes: a triangle is cut by the box's six planes; what is left touches it ----------------------------------- */
+/* --- Boxes: a triangle is clipped by the box's six planes; any rest touches it ------------------------------------ */
 
 static int touches(double v[3][3], const struct relume_rays_body *body, double t, double grow)
 {
@@ -347,7 +347,7 @@ static int touches(double v[3][3], const struct relume_rays_body *body, double t
 	return n > 0;
 }
 
-/* Whether a box that is smaller by the band overlaps the triangle before t, by its projections on thirteen axes. */
+/* Whether a box shrunk by the band overlaps the triangle before t, by projection onto thirteen axes. */
 static int overlaps_before(double v[3][3], const struct relume_rays_body *body, double end, double band)
 {
 	double e[3][3], axes[13][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }, enter = 0, leave = end, move[3];

@@ -1,7 +1,7 @@
 /*
- * Answers of queries judged by all triangles, one by one, in double precision, by other arithmetic than the kernels'.
- * What single precision cannot tell apart counts as right: `band` is ROUNDING times 2^-24 times the largest coordinate
- * in question.
+ * Judges answers of queries by testing all triangles in double precision, with other arithmetic than the kernels'.
+ * Differences that single precision cannot resolve count as right: `band` is ROUNDING times 2^-24 times the largest
+ * coordinate involved.
  */
 #pragma once
 
@@ -16,10 +16,10 @@ struct brute {
 	double extent; /* largest coordinate of a vertex */
 };
 
-/* Each says whether an answer is right. `sampled`: 1: the slower look at moments of a box's way, too. */
+/* Each returns whether an answer is right. `sampled`: 1: also sample a box's path, which is slower. */
 int brute_nearest(const struct brute *b, const struct relume_rays_ray *ray, const struct relume_rays_hit *hit);
 int brute_any(const struct brute *b, const struct relume_rays_ray *ray, uint32_t any);
-/** @param kept  hits that were given, of `count` */
+/** @param kept  number of hits returned, out of `count` */
 int brute_all(const struct brute *b, const struct relume_rays_ray *ray, const struct relume_rays_hit *hits,
               uint32_t kept, uint32_t count);
 int brute_distance(const struct brute *b, const struct relume_rays_point *point,

@@ -1,13 +1,13 @@
 /*
- * Our builders of acceleration structures against Embree's on the same triangles, in one run, taking turns. A program
- * of its own: the command never links Embree.
+ * Our builders of acceleration structures against Embree's on the same triangles, in one alternating run. A separate
+ * program: the command never links Embree.
  *
  * usage: build [--json FILE] [--models DIR] [--repeat N] [--command TEXT] [--bars 0|1]
  *
  * Both sides build binary trees over the same boxes, with leaves of at most four triangles and the same costs of nodes
- * and triangles, on all processors; the cost of both trees is measured by bvh_cost. What Embree takes for a scene that
- * its own traversal can use is printed as well. Figures are medians; times are by the clock, processor time stands
- * beside them. Exit code 0 where the bars hold, 1 where they do not.
+ * and triangles, on all processors; bvh_cost measures both trees. The time of a scene for Embree's own traversal is
+ * printed as well. Figures are medians; times are wall times, with processor time beside them. Exit code 0 if the bars
+ * hold, 1 if not.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,11 +26,11 @@
 #define MAX_REPEATS 99
 #define N_SCENES 2
 
-/* What is compared: a builder of ours and the quality of Embree's that it stands beside. */
+/* A comparison: one of our builders and the corresponding quality of Embree's. */
 static const struct contest {
 	const char *name, *quality_name;
 	enum RTCBuildQuality quality;
-	double time_bar, cost_bar; /* most of the peer's */
+	double time_bar, cost_bar; /* maximum ratios to the peer */
 } contests[] = {
 	{ "binned SAH", "medium", RTC_BUILD_QUALITY_MEDIUM, 0.5, 1.05 },
 	{ "SBVH", "high", RTC_BUILD_QUALITY_HIGH, 1.0, 1.0 },
@@ -39,7 +39,7 @@ static const struct contest {
 
 struct side {
 	double wall_s[MAX_REPEATS], cpu_s[MAX_REPEATS];
-	double wall, cpu; /* their medians */
+	double wall, cpu; /* medians */
 	double cost;
 };
 
@@ -49,7 +49,7 @@ struct result {
 	struct side ours, peer, peer_scene;
 };
 
-/* The triangles as our builders take them, and room for what they make. */
+/* The triangles in our builders' format, and memory for the results. */
 struct input {
 	struct bench_mesh mesh;
 	struct bvh_box *boxes;
@@ -121,7 +121,7 @@ static int run_ours(struct input *in, const struct contest *c, struct side *side
 	return err;
 }
 
-/* seconds: what the peer says itself, without getting ready. */
+/* seconds: as reported by the peer, without preparation. */
 static int run_peer(struct embree_build *peer, const struct contest *c, int scene, struct side *side, size_t slot)
 {
 	const double cpu = processor_s();
@@ -153,7 +153,7 @@ static int compare(struct input *in, struct embree_build *peer, const struct con
 	r->scene = in->mesh.source;
 	r->triangles = in->mesh.n_triangles;
 	for (size_t i = 0; i <= repeats && !err; i++) {
-		const size_t slot = i ? i - 1 : 0; /* the first round warms up */
+		const size_t slot = i ? i - 1 : 0; /* the first round is a warm-up */
 
 		err = run_ours(in, c, &r->ours, slot);
 		if (!err)
@@ -202,7 +202,7 @@ static void write_row(FILE *out, const struct contest *c, const struct result *r
 	        r->ours.cpu, r->peer.cpu, r->peer_scene.wall, last ? "" : ",");
 }
 
-/* The shape of tests/show/table.py; the figure is the worst time ratio of the first contest. */
+/* The format of tests/show/table.py; the figure is the worst time ratio of the first contest. */
 static int write_json(const char *path, struct result results[N_CONTESTS][N_SCENES], const char *command)
 {
 	FILE *out = fopen(path, "w");

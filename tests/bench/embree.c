@@ -1,15 +1,15 @@
 /*
- * Our traversal kernels against Embree's on the same triangles and the same rays, in one run, alternating. A program of
- * its own: the command never links Embree.
+ * Our traversal kernels against Embree's on the same triangles and rays, in one alternating run. A separate program:
+ * the command never links Embree.
  *
  * usage: embree [--bars 1] [--isa avx2] [--json FILE] [--models DIR] [--repeat N] [--command TEXT]
  *
- * Embree gets its best: highest build quality, the fastest of its one-ray, packet (4, 8, 16) and stream calls with the
- * flag that suits the rays, flush-to-zero and denormals-are-zero set, as many threads as ours, its own vector units as
- * it finds them (--isa holds it to narrower ones), rays laid out beforehand as each call likes them. Camera rays are
- * made on both sides while tracing; ours also pay for what a frame with a new camera costs. Figures are medians, by the
- * clock on the wall; the ratio by processor time stands beside, for machines that have other work to do.
- * With --bars: exit code 0 where all kinds of rays reach their bars on both scenes, 1 where they do not.
+ * Embree runs at its best: highest build quality; the fastest of its single-ray, packet (4, 8, 16) and stream calls
+ * with the flag that suits the rays; flush-to-zero and denormals-are-zero set; as many threads as ours; its own choice
+ * of vector units (--isa restricts it to narrower ones); rays laid out beforehand for each call. Camera rays are
+ * generated while tracing on both sides; ours also include the cost of a new camera for a frame. Figures are medians of
+ * wall time; the ratio of processor times is printed beside them, for busy machines. With --bars: exit code 0 if all
+ * kinds of rays reach their bars on both scenes, 1 if not.
  */
 #include "tests/bench/rtcore.h"
 #include <math.h>
@@ -31,13 +31,13 @@
 #define HEIGHT 1200
 #define MAX_REPEATS 99
 #define MAX_THREADS 64
-#define TASK_RAYS 4096 /* rays a thread takes at a time: a multiple of 16 */
+#define TASK_RAYS 4096 /* rays per thread and task: a multiple of 16 */
 
-/* The calls of Embree that are compared. */
+/* Embree's calls that are compared. */
 enum call { CALL_1, CALL_4, CALL_8, CALL_16, CALL_1M, N_CALLS };
 static const char *const call_names[N_CALLS] = { "1", "4", "8", "16", "1M" };
 
-/* What is traced: the camera's rays, or one of the bench's kinds. */
+/* Rays to trace: the camera's, or one of the bench's kinds. */
 enum work { WORK_CAMERA, WORK_SHADOW, WORK_AMBIENT, N_WORKS };
 
 struct peer {
@@ -45,7 +45,7 @@ struct peer {
 	RTCScene scene;
 	const struct bench *bench;
 	unsigned threads;
-	const char *isa; /* what it is held to, or NULL */
+	const char *isa; /* restriction of Embree's vector units, or NULL */
 	double build_s;
 };
 
@@ -55,13 +55,13 @@ struct pass {
 	enum work work;
 	enum call call;
 	size_t n;
-	const struct ray *rays; /* NULL: the camera's */
-	void *laid_out;         /* occlusion rays as the call likes them */
-	struct hit *hits;       /* of camera rays */
+	const struct ray *rays; /* NULL: camera rays */
+	void *laid_out;         /* occlusion rays in the call's layout */
+	struct hit *hits;       /* for camera rays */
 	atomic_size_t next, n_hits;
 };
 
-/* Direction of camera ray i, in the blocks of 4 x 2 pixels that our kernel takes. */
+/* Direction of camera ray i, in blocks of 4 x 2 pixels like our kernel's. */
 static inline void camera_direction(const struct bench *b, size_t i, float d[3])
 {
 	const size_t block = i / 8, lane = i % 8, columns = b->width / 4;
@@ -260,7 +260,7 @@ static void *run_thread(void *arg)
 	}
 }
 
-/* What a pass took, on the wall and of all processors. */
+/* A pass' wall time and the processor time of all threads. */
 struct took {
 	double wall, cpu;
 };
@@ -336,8 +336,7 @@ static int open_peer(const struct bench *b, struct peer *peer)
 	return rtcGetDeviceError(peer->device) ? err_report(ERR_SYSTEM, "Embree", "building failed") : 0;
 }
 
-/* The vector units Embree runs on: those it is held to, or the widest of those it is built for that this processor
- * has. */
+/* Embree's vector units: the given ones, or the widest that it was built for and that this processor has. */
 static const char *peer_isa(const char *held)
 {
 	if (held)
@@ -352,7 +351,7 @@ static const char *peer_isa(const char *held)
 struct result {
 	const char *name, *call, *kernel_name;
 	double ours, peer; /* Mrays/s */
-	double cpu_ratio;  /* of rays per processor second */
+	double cpu_ratio;  /* ratio of rays per processor second */
 	size_t n, our_hits, peer_hits;
 };
 
@@ -379,7 +378,7 @@ static int run_ours(struct bench *b, enum work work, enum kernel kernel, struct 
 	return err;
 }
 
-/* Medians of both clocks. */
+/* Medians of both times. */
 static struct took medians(const struct took *took, size_t n)
 {
 	double wall[MAX_REPEATS], cpu[MAX_REPEATS];
@@ -401,7 +400,7 @@ static int compare(struct bench *b, struct peer *peer, enum work work, size_t re
 	int err = 0;
 
 	pass.n = work == WORK_CAMERA ? (size_t)WIDTH * HEIGHT : b->n_rays[work == WORK_SHADOW ? BENCH_SHADOW : BENCH_AMBIENT];
-	/* Whole packets of 16, so that no call has a tail to treat. */
+	/* Whole packets of 16, so that no call has a remainder. */
 	pass.n -= pass.n % 16;
 	pass.rays = work == WORK_CAMERA ? NULL : b->rays[work == WORK_SHADOW ? BENCH_SHADOW : BENCH_AMBIENT];
 	pass.hits = calloc(pass.n, sizeof(*pass.hits));
@@ -413,7 +412,7 @@ static int compare(struct bench *b, struct peer *peer, enum work work, size_t re
 	r->name = works[work].name;
 	r->n = pass.n;
 	for (size_t i = 0; i <= repeats && !err; i++) {
-		const size_t slot = i ? i - 1 : 0; /* the first round warms up */
+		const size_t slot = i ? i - 1 : 0; /* the first round is a warm-up */
 
 		for (int k = 0; k < 2 && works[work].kernels[k].name && !err; k++)
 			err = run_ours(b, work, works[work].kernels[k].kernel, &ours[k][slot]);
@@ -459,14 +458,14 @@ done:
 
 #define N_SCENES 2
 
-/* One scene's figures. */
+/* Figures of one scene. */
 struct scene_results {
 	struct result works[N_WORKS];
 	uint32_t n_triangles;
 	char source[64];
 };
 
-/* The least of figures over bars. */
+/* The least ratio of a figure to its bar. */
 static double least_share(const struct scene_results *scenes)
 {
 	double least = INFINITY;

@@ -13,13 +13,13 @@
 struct embree_build {
 	const struct bench_mesh *mesh;
 	RTCDevice device;
-	RTCBVH bvh;                           /* keeps its memory from one build to the next */
-	struct RTCBuildPrimitive *boxes;      /* of the triangles */
-	struct RTCBuildPrimitive *primitives; /* [capacity]: the builder's own, which it destroys */
+	RTCBVH bvh;                           /* reuses its memory in later builds */
+	struct RTCBuildPrimitive *boxes;      /* the triangles' boxes */
+	struct RTCBuildPrimitive *primitives; /* [capacity]: working copy, which the builder destroys */
 	size_t capacity;
 };
 
-/* What the callbacks leave. count 0: an inner node. */
+/* A node made by the callbacks. count 0: an inner node. */
 struct peer_node {
 	uint32_t count;
 	uint32_t unused[3];
@@ -58,7 +58,7 @@ static void set_bounds(void *to, const struct RTCBounds **bounds, unsigned n, vo
 static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuildPrimitive *primitives, size_t n,
                          void *user)
 {
-	/* Room for the triangles' numbers, as a leaf of any use has. */
+	/* Memory for the triangles' numbers, as in any usable leaf. */
 	uint32_t *leaf = rtcThreadLocalAlloc(allocator, (1 + n) * sizeof(*leaf), 16);
 
 	(void)user;
@@ -68,7 +68,7 @@ static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuil
 	return leaf;
 }
 
-/* Cut triangle `primitive` at a plane: the box of what lies on each side, within the box it has now. */
+/* Cut triangle `primitive` at a plane: the boxes of both sides, within its present box. */
 static void split_primitive(const struct RTCBuildPrimitive *primitive, unsigned axis, float position,
                             struct RTCBounds *left, struct RTCBounds *right, void *user)
 {
@@ -138,7 +138,7 @@ int embree_build_create(const struct bench_mesh *mesh, unsigned threads, struct 
 	b->mesh = mesh;
 	b->device = rtcNewDevice(config);
 	b->bvh = rtcNewBVH(b->device);
-	/* Twice the triangles: as much as its own scenes allow for parts of split ones. */
+	/* Twice the triangles: Embree's own scenes allow the same for parts of split ones. */
 	b->capacity = 2 * (size_t)mesh->n_triangles;
 	b->boxes = aligned_alloc(64, (mesh->n_triangles * sizeof(*b->boxes) + 63) / 64 * 64);
 	b->primitives = aligned_alloc(64, (b->capacity * sizeof(*b->primitives) + 63) / 64 * 64);
@@ -173,7 +173,7 @@ static uint32_t count_nodes(const struct peer_node *node)
 	return node->count ? 0 : 1 + count_nodes(node->child[0]) + count_nodes(node->child[1]);
 }
 
-/* Into our own shape, parents before their children. Returns the node's number. */
+/* Copy to our own format, parents before children. Returns the node's number. */
 static uint32_t copy_tree(const struct peer_node *from, struct node2 *nodes, uint32_t *n)
 {
 	const uint32_t at = (*n)++;

@@ -1,6 +1,6 @@
 /*
- * Embree's builders on the triangles of a bench_mesh: rtcBuildBVH, whose callbacks leave a binary tree that we can look
- * at, and rtcCommitScene, which makes all that its own traversal wants.
+ * Embree's builders on the triangles of a bench_mesh: rtcBuildBVH, whose callbacks make a binary tree for inspection,
+ * and rtcCommitScene, which builds everything for Embree's own traversal.
  */
 #pragma once
 
@@ -16,12 +16,13 @@ void embree_build_destroy(struct embree_build **b);
 
 /**
  * A binary tree with leaves of at most leaf_max triangles, at the costs of bvh_cost.
- * @param nodes    NULL: only time it; else receives the tree as ours: an array to be freed by the caller. Leaves count,
- *                 but do not say which triangles they hold
- * @param seconds  what the build alone took, copying of boxes and of the tree left out
+ * @param nodes    NULL: only measure time; else receives the tree in our format: an array that the caller frees. Leaves
+ * have
+ *                 counts, but not their triangles
+ * @param seconds  time of the build alone, without copying boxes and the tree
  */
 int embree_build_tree(struct embree_build *b, enum RTCBuildQuality quality, uint32_t leaf_max, struct node2 **nodes,
                       uint32_t *n_nodes, double *seconds);
 
-/** A scene ready to be traced; everything is made anew. */
+/** A scene ready for tracing; everything is rebuilt. */
 int embree_build_scene(struct embree_build *b, enum RTCBuildQuality quality, double *seconds);

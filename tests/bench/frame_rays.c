@@ -1,13 +1,12 @@
 /*
- * What Embree takes for the camera and shadow rays of a recording's frame: the least that a ray traced frame could
- * cost.
+ * Embree's time for the camera and shadow rays of a recorded frame: a lower limit for a ray traced frame.
  *
  * usage: frame_rays TRACE FRAME REPEATS
  *
- * All triangles of the frame stand in one scene of Embree's best quality, in eye space. One ray goes through each
- * pixel's centre, and from what it hits one to each light that the surface faces. Both are laid out beforehand in
- * packets of 4, 8 and 16 and as a stream; the fastest counts. Prints processor milliseconds on one thread, medians:
- * camera, shadow, and how many rays each are.
+ * All triangles of the frame are in one Embree scene of the best quality, in eye space. One ray goes through each
+ * pixel's centre, and from its hit one to each light that the surface faces. Both are laid out beforehand in packets of
+ * 4, 8 and 16 and as a stream; the fastest counts. Prints processor milliseconds on one thread, medians: camera,
+ * shadow, and the number of rays of each.
  */
 #include "tests/bench/rtcore.h"
 #include <math.h>
@@ -24,14 +23,14 @@
 #include "verbs/render/bench/bench.h"
 
 #define MAX_REPEATS 99
-#define STREAM 256 /* rays of a call of the stream */
+#define STREAM 256 /* rays per stream call */
 #define FAR 1e30f
 
-/* Rays and what they hit, as one packet of any width has them; hits of camera rays alone. */
+/* Rays and hits, laid out as packets of any width; only camera rays have hits. */
 struct rays {
 	struct RTCRayHit *r;
 	size_t n;
-	int shadow; /* 1: any hit will do */
+	int shadow; /* 1: any hit suffices */
 };
 
 enum { CALL_4, CALL_8, CALL_16, CALL_STREAM, N_CALLS };
@@ -136,7 +135,7 @@ static double trace(RTCScene scene, const struct rays *rays, size_t repeats)
 
 /* --- The frame --------------------------------------------------------------------------------------------------- */
 
-/* One geometry an instance, so that a hit tells whose it is. */
+/* One geometry per instance, so that a hit identifies its instance. */
 static void add_instance(RTCDevice device, RTCScene to, const struct scene *scene, uint32_t number)
 {
 	const struct scene_instance *instance = &scene->instances[number];
@@ -176,7 +175,7 @@ static struct RTCRayHit ray_between(const float from[3], const float to[3], floa
 		                            .instID = { RTC_INVALID_GEOMETRY_ID } } };
 }
 
-/* From the near plane on through pixel centres, in blocks of 4 x 4. */
+/* From the near plane through pixel centres, in blocks of 4 x 4. */
 static void make_camera_rays(const struct scene *scene, struct rays *rays)
 {
 	const uint32_t columns = scene->width / 4;
@@ -200,7 +199,7 @@ static void make_camera_rays(const struct scene *scene, struct rays *rays)
 	}
 }
 
-/* One to each light that the surface faces as much as the camera. */
+/* One ray to each light on the same side of the surface as the camera. */
 static void add_shadow_rays(const struct scene *scene, const struct RTCRayHit *hit, struct rays *rays)
 {
 	const struct scene_material *m;

@@ -1,13 +1,11 @@
-/*
- * The corpus' hall of 262,267 triangles as one bench_mesh: in the eye space of hall.c's first frame.
- */
+/* The hall of corpus/ with 262,267 triangles as one bench_mesh, in the eye space of hall.c's first frame. */
 #pragma once
 
 #include "base/err.h"
 #include "corpus/hall.h"
 #include "verbs/render/bench/bench.h"
 
-/** @return 0 or ERR_SYSTEM (reported); bench_mesh_free frees it */
+/** @return 0 or ERR_SYSTEM (reported); release with bench_mesh_free */
 static inline int hall_mesh_create(struct bench_mesh *out)
 {
 	/* gluLookAt(0, 2.2, 13, 0, 2.4, 0, 0, 1, 0) */

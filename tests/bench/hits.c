@@ -1,25 +1,25 @@
 /*
- * Hits of our kernels beside Embree's: the same triangles, the same rays, ray by ray. A program of its own: the command
- * never links Embree.
+ * Hits of our kernels compared with Embree's, ray by ray, for the same triangles and rays. A separate program: the
+ * command never links Embree.
  *
  * usage: hits [--rays N] [--models DIR] [--seed N] [--json FILE] [--command TEXT]
  *
- * Four scenes (the models; triangles by chance, with slivers and degenerate ones among them, at three scales) get a
- * quarter of the rays each, in turn: anywhere, through a vertex, through a point of an edge, along an axis, from a
- * surface, from a surface along an axis, from far away.
+ * Four scenes (the models; random triangles, including slivers and degenerate ones, at three scales) get a quarter of
+ * the rays each. The kinds of rays alternate: anywhere, through a vertex, through a point of an edge, along an axis,
+ * from a surface, from a surface along an axis, from far away.
  *
- * Every ray is traced through trees of each kind. The first kind is compared with Embree; the others should give its
- * hits to the bit, and are judged as it is where they do not.
+ * Every ray is traced through trees of each kind. The first kind is compared with Embree; the others should give
+ * exactly its hits, and differing hits are judged in the same way.
  *
- * Where the two disagree, geometry in double precision decides. In the plane across the ray, a triangle is sure to be
- * hit where the ray passes at least `band` inside of its outline, sure to be missed at least `band` outside, and on the
- * edge between. band is ROUNDING times 2^-24 times the largest coordinate of the ray's origin and the triangle, and of
- * one from the other: what single precision cannot tell apart.
+ * If the two disagree, geometry in double precision decides. In the plane across the ray, a triangle is sure to be hit
+ * where the ray passes at least `band` inside of its outline, sure to be missed at least `band` outside, and on the
+ * edge in between. band is ROUNDING times 2^-24 times the largest coordinate of the ray's origin and the triangle, and
+ * of their difference: the resolution of single precision.
  *   tie by edge      a triangle that only one side reports has the ray on its edge
- *   tie by distance  both triangles are hit as far off as rounding tells (band over the cosine to the surface)
- *   tie by end       the hit lies so close to t_min or t_max
- *   wrong            everything else: the side that lacks a sure, nearer hit or has a sure miss
- * Exit code 0 where ours is never wrong.
+ *   tie by distance  both hits have the same distance within rounding (band over the cosine to the surface)
+ *   tie by end       the hit is equally close to t_min or t_max
+ *   wrong            everything else: the side that lacks a sure, nearer hit or has a sure miss Exit code 0 if ours
+ *   is never wrong.
  */
 #include "tests/bench/rtcore.h"
 #include <float.h>
@@ -71,7 +71,7 @@ static void *must(void *p)
 	return p;
 }
 
-/* Triangles by chance in a cube of edge 4; slivers, flat ones, ones without area and copies among them. */
+/* Random triangles in a cube of edge 4, including slivers, flat ones, ones without area and copies. */
 static void make_soup(struct bench_mesh *m, float scale)
 {
 	m->n_triangles = SOUP_TRIANGLES;
@@ -88,7 +88,7 @@ static void make_soup(struct bench_mesh *m, float scale)
 			for (int a = 0; a < 3; a++)
 				p[a] = centre[a] + size * chance(-1, 1);
 			if (t % 19 == 5)
-				p[t % 3] = centre[t % 3]; /* flat in an axis */
+				p[t % 3] = centre[t % 3]; /* flat along an axis */
 			p[3] = 1;
 			m->index[t][i] = 3 * t + i;
 		}
@@ -97,7 +97,7 @@ static void make_soup(struct bench_mesh *m, float scale)
 		if (t % 29 == 4) /* a sliver */
 			for (int a = 0; a < 3; a++)
 				m->position[3 * t + 2][a] = 0.5f * (m->position[3 * t][a] + m->position[3 * t + 1][a]) + chance(-1e-5f, 1e-5f);
-		if (t % 23 == 7) /* the one before once more */
+		if (t % 23 == 7) /* a copy of the previous one */
 			memcpy(m->index[t], m->index[t - 1], sizeof(*m->index));
 	}
 	for (uint32_t i = 0; i < m->n_vertices; i++)
@@ -109,7 +109,7 @@ static void make_soup(struct bench_mesh *m, float scale)
 
 struct world {
 	struct bench_mesh mesh;
-	float size; /* of the scene, roughly */
+	float size; /* the scene's, roughly */
 	struct accel *accel;
 	struct scene scene;
 	struct scene_mesh scene_mesh;
@@ -150,7 +150,7 @@ static int open_ours(struct device *dev, struct world *w)
 	return err ? err : traverse_upload_pools(dev, w->accel, &w->trees);
 }
 
-/* What came of a batch of rays in a tree of one kind. */
+/* Results for a batch of rays in one kind of tree. */
 struct outcome {
 	struct hit hits[BATCH];
 	uint32_t occluded[BATCH];
@@ -162,7 +162,7 @@ static int trace_ours(struct device *dev, struct world *w, enum accel_kind kind,
 	struct traverse_rays r;
 	int err;
 
-	/* The trees are there; only the top level and the instance change. */
+	/* The trees exist; only the top level and the instance change. */
 	w->accel->kind = kind;
 	if ((err = accel_build_frame(w->accel, &w->scene, NULL, NULL, &w->instance, 1, &w->view, &w->spaces, &w->n_spaces)) ||
 	    (err = traverse_upload_tlases(dev, w->accel, &w->instance, 1, &w->trees)) ||
@@ -179,7 +179,7 @@ static int trace_ours(struct device *dev, struct world *w, enum accel_kind kind,
 	return err ? err : device_read(dev, w->occluded.buffer, 0, out->occluded, n * sizeof(out->occluded[0]));
 }
 
-/* Robust mode: Embree's own answer to rays through edges. */
+/* Robust mode: Embree's own solution for rays through edges. */
 static void open_peer(RTCDevice peer, struct world *w)
 {
 	const struct bench_mesh *m = &w->mesh;
@@ -255,7 +255,7 @@ static struct ray make_ray(const struct world *w, uint32_t kind)
 
 /* A triangle and a ray in double precision. */
 struct meeting {
-	double t, inside, band, t_band; /* inside: how far inside of the outline, across the ray; negative: outside */
+	double t, inside, band, t_band; /* inside: distance inside the outline, across the ray; negative: outside */
 };
 
 static double along(const double a[3], const double b[3])
@@ -319,7 +319,7 @@ static struct meeting meet(const struct world *w, const struct ray *ray, uint32_
 	return m;
 }
 
-/* Whether t lies at an end of the ray, as far as rounding tells. */
+/* Whether t is at an end of the ray, within rounding. */
 static int at_end(const struct ray *ray, const struct meeting *m)
 {
 	return fabs(m->t - ray->t_min) <= m->t_band || fabs(m->t - ray->t_max) <= m->t_band;
@@ -335,7 +335,7 @@ static enum verdict judge(const struct world *w, const struct ray *ray, uint32_t
 		a = meet(w, ray, ours);
 	if (theirs != SCENE_NONE)
 		b = meet(w, ray, theirs);
-	/* Where t is not finite (no area, or seen edge-on) the outline alone says whether the triangle may be hit. */
+	/* If t is not finite (no area, or edge-on), only the outline determines whether the triangle may be hit. */
 	if (ours != SCENE_NONE && theirs != SCENE_NONE && fabs(a.t - b.t) <= a.t_band + b.t_band)
 		return TIE_DISTANCE;
 	if ((ours != SCENE_NONE && at_end(ray, &a)) || (theirs != SCENE_NONE && at_end(ray, &b)))
@@ -365,7 +365,7 @@ static void count(struct tally *tally, const struct world *w, uint32_t scene, ui
 
 	tally->n[scene][kind][verdict]++;
 	tally->wrong[0] += verdict == WRONG_OURS;
-	/* Any hit and nearest hit must agree to the ray. */
+	/* Any hit and nearest hit must agree for each ray. */
 	tally->occluded_wrong += occluded != (ours != SCENE_NONE);
 	if (verdict != SAME && tally->shown[verdict]++ < 5)
 		printf("%s: %s, %s: o %.9g %.9g %.9g d %.9g %.9g %.9g t %.9g .. %.9g: ours %d, Embree %d\n", verdict_names[verdict],

@@ -1,13 +1,13 @@
 /*
- * Queries of verbs/query/relume-rays.h: their answers beside those of all triangles one by one, and their rates beside
- * Embree's. A program of its own: the command never links Embree.
+ * Queries of query/relume-rays.h: their answers compared with tests of all triangles, and their rates with Embree's. A
+ * separate program: the command never links Embree.
  *
  * usage: queries [--count N] [--seed N] [--rates 0] [--device NAME] [--models DIR] [--json FILE] [--command TEXT]
  *
- * Two scenes get half of the queries of each kind each: triangles by chance, with slivers, some without area and some
- * twice, about the origin and far from it. Rates: on the bench's scene of 250,000 triangles, incoherent rays and points
- * near surfaces, a thread of Embree for each thread of ours; medians of five, by the clock on the wall, alternating.
- * Exit code 0 where no answer is wrong.
+ * Two scenes get half of the queries of each kind each: random triangles, with slivers, some without area and some
+ * duplicates, near the origin and far from it. Rates: on the bench's scene of 250,000 triangles, incoherent rays and
+ * points near surfaces, with as many threads of Embree as ours; medians of five wall times, alternating. Exit code 0 if
+ * no answer is wrong.
  */
 #include "tests/bench/rtcore.h"
 #include <math.h>
@@ -27,7 +27,7 @@
 #define N_RATED 1000000u
 #define REPEATS 5
 #define MAX_THREADS 64
-#define SAMPLED 16 /* of so many boxes one is looked at at moments of its way, too */
+#define SAMPLED 16 /* one box in this many is also sampled along its path */
 
 enum kind { NEAREST, ANY, ALL, DISTANCE, BOX, SPHERE, N_KINDS };
 static const char *const kind_names[N_KINDS] = { "nearest hit", "any hit",    "all hits",
@@ -228,7 +228,7 @@ static void *trace_share(void *user)
 	return NULL;
 }
 
-/* The nearest point of a triangle by regions (Ericson 2005, section 5.1.5): the quick way, for triangles with an
+/* The nearest point of a triangle by regions (Ericson 2005, section 5.1.5): the fast method, for triangles with an
  * area. */
 static float region_distance2(const float p[3], const float a[3], const float b[3], const float c[3])
 {
@@ -334,7 +334,7 @@ static RTCScene peer_scene(RTCDevice device, const struct bench_mesh *mesh)
 	return scene;
 }
 
-/* Points up to 0.1 from surfaces, and rays from there into all directions. */
+/* Points up to 0.1 from surfaces, and rays from there in all directions. */
 static void make_rated(const struct bench_mesh *mesh, struct relume_rays_point *points, struct relume_rays_ray *rays)
 {
 	for (uint32_t i = 0; i < N_RATED; i++) {
@@ -374,7 +374,7 @@ static int run_rates(struct relume_rays *ours, struct rated *r, unsigned threads
 {
 	int rc = 0;
 
-	for (int k = -1; k < REPEATS && !rc; k++) { /* the first one warms up */
+	for (int k = -1; k < REPEATS && !rc; k++) { /* the first run is a warm-up */
 		const int at = k < 0 ? 0 : k;
 		double start = progress_clock_s();
 

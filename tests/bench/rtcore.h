@@ -1,6 +1,6 @@
 /*
- * Embree 3 or 4, whichever is installed, by the same names. A query is what a call of Embree's takes beside the scene
- * and the rays: the context of Embree 3, the arguments of Embree 4 (its README, "Upgrading from Embree 3 to Embree 4").
+ * Embree 3 or 4, whichever is installed, under the same names. A query holds a call's parameters besides scene and
+ * rays: the context of Embree 3, the arguments of Embree 4 (its README, "Upgrading from Embree 3 to Embree 4").
  */
 #pragma once
 
@@ -41,7 +41,7 @@ static inline void peer_occluded(RTCScene scene, struct peer_query *query, struc
 #define PEER_INTERSECT(N, valid, scene, query, r) rtcIntersect##N(valid, scene, r, &(query)->intersect)
 #define PEER_OCCLUDED(N, valid, scene, query, r) rtcOccluded##N(valid, scene, r, &(query)->occluded)
 
-/* Streams of n rays, each `stride` bytes after the one before it. Embree 4 has none: ray by ray. */
+/* Streams of n rays, `stride` bytes apart. Embree 4 has none: ray by ray. */
 static inline void peer_intersect_stream(RTCScene scene, struct peer_query *query, struct RTCRayHit *r, unsigned n,
                                          size_t stride)
 {

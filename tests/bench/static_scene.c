@@ -1,12 +1,12 @@
 /*
- * What recording costs: 10,000 lit triangles, 100 frames, drawn in one of four ways; prints milliseconds a frame by the
- * clock, and of the processors' time that the process used.
+ * Cost of recording: 10,000 lit triangles, 100 frames, drawn in one of four ways; prints milliseconds per frame of wall
+ * time and of the process' processor time.
  *
  *     static_scene immediate|arrays|elements|changing [FRAMES]
  *
  * immediate: Begin..End with a normal and a vertex each; arrays: one glDrawArrays; elements: 20 glDrawElements over the
- * same arrays; changing: as arrays, with vertices that move every frame. Run by show-overhead bare, recorded and under
- * apitrace.
+ * same arrays; changing: like arrays, with vertices that move every frame. show-overhead runs it bare, recorded and
+ * under apitrace.
  */
 #include <GL/gl.h>
 #include <GL/glx.h>
@@ -82,7 +82,7 @@ static double now_ms(void)
 	return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
 }
 
-/* Of all threads. */
+/* Processor time of all threads. */
 static double used_ms(void)
 {
 	struct timespec t;

@@ -1,7 +1,7 @@
 /*
- * tiny DEVICE FAMILY: scenes of a few pixels in which every kernel has work, for tools that watch kernels run and are
- * slow (make show-oclgrind). FAMILY: "packets", "binary" or "compressed", the traversal kernels to take. Prints a line
- * for each picture, with a hash of its channels.
+ * tiny DEVICE FAMILY: scenes of a few pixels that use every kernel, for slow tools that check running kernels (make
+ * show-oclgrind). FAMILY: "packets", "binary" or "compressed", the traversal kernels to use. Prints a line for each
+ * picture, with a hash of its channels.
  */
 #include <stdio.h>
 #include <xxhash.h>
@@ -10,7 +10,7 @@
 
 static const float right[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 };
 
-/* Texels made by the objects' own coordinates. */
+/* Texels selected by generated object coordinates. */
 static const uint8_t texels[] = { 255, 0, 0, 255, 0, 255, 0, 60, 0, 0, 255, 255, 255, 255, 255, 60 };
 static const struct scene_texture texture = { .hash = { 7, 7 },
 	                                      .target = GL_TEXTURE_2D,
@@ -38,7 +38,7 @@ static void add_unit(struct made *t, struct scene_unit *unit)
 	t->scene.n_textures = 1;
 }
 
-/* A sky, a textured floor, a mirror, glass, a film and a leaf with holes, in wire and points too. */
+/* A sky, a textured floor, a mirror, glass, a film and a leaf with holes, also as lines and points. */
 static void make_scene(struct made *t, struct scene_unit *unit, uint32_t size)
 {
 	uint32_t sky, floor, mirror, glass, film, leaf, wire;
@@ -148,7 +148,7 @@ int main(int argc, char **argv)
 	tcase_add_test(tests, render_pictures);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
-	srunner_set_fork_status(runner, CK_NOFORK); /* device simulators do not outlive a fork */
+	srunner_set_fork_status(runner, CK_NOFORK); /* device simulators do not survive a fork */
 	srunner_run_all(runner, CK_NORMAL);
 	failed = srunner_ntests_failed(runner);
 	srunner_free(runner);

@@ -1,6 +1,6 @@
 /*
- * translate: how long a pair of shaders takes from text to instructions (make show-programs). Prints the milliseconds
- * of the first time and the median of those after it, of this process' processor time.
+ * translate: time to compile a pair of shaders from text to instructions (make show-programs). Prints the milliseconds
+ * of the first time and the median of later ones, as processor time of this process.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-"""The OpenCL device of host_cl.c: how clang compiles kernels for it, and the environment that preloads it. It starts
-clang, so that `relume render` needs --no-sandbox with it.
+"""The OpenCL device of host_cl.c: compiling kernels for it with clang, and the environment that preloads it. Since it
+starts clang, `relume render` needs --no-sandbox with it.
 """
 import os
 import pathlib
@@ -14,7 +14,7 @@ COMPILE = [
 
 
 def programs(build):
-    """Where compiled kernels are kept. Those of older texts go."""
+    """Folder for compiled kernels. Kernels of older texts are removed."""
     kept = build / "tests/host-programs"
     kept.mkdir(parents=True, exist_ok=True)
     for file in sorted(kept.glob("*.so"), key=lambda f: f.stat().st_mtime, reverse=True)[300:]:
@@ -23,8 +23,8 @@ def programs(build):
 
 
 def environment(build, options, shims=(), **more):
-    """A process that sees this device alone, with other shims before it; kernels are compiled with the given
-    options."""
+    """Environment of a process that sees only this device, with other shims before it; kernels are compiled with the
+    given options."""
     preload = [*shims, build / "tests/check/host_cl.so"]
     return dict(os.environ, LD_PRELOAD=" ".join(map(str, preload)), HOST_CL_FOLDER=str(programs(build)),
                 HOST_CL_COMPILE=" ".join([*COMPILE, "-I", str(build / "gen"), *options]), **more)

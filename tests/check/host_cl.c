@@ -1,13 +1,13 @@
 /*
- * An OpenCL device that is this process, preloaded before the ICD loader. Kernels are compiled by a command of the
- * caller's choice (with sanitizers, other rounding, nothing inlined: test_host.py), work items run one after the other,
- * the last one first.
- *   HOST_CL_COMPILE  the command: "clang OPTIONS", to which files are added
- *   HOST_CL_FOLDER   where compiled programs are kept
+ * An OpenCL device inside this process, preloaded before the ICD loader. Kernels are compiled by a command that the
+ * caller chooses (with sanitizers, other rounding, no inlining: test_host.py), and work items run sequentially, the
+ * last one first.
+ *   HOST_CL_COMPILE  the command: "clang OPTIONS", followed by file names
+ *   HOST_CL_FOLDER   folder for compiled programs
  *   HOST_CL_FLUSH=1  numbers below 2^-126 count as 0
- *   HOST_CL_WIDTH=N  says that its vectors have so many floats; 8
- * New buffers are full of NaN; bytes behind their end must stay as they are. What UndefinedBehaviorSanitizer finds ends
- * the process.
+ *   HOST_CL_WIDTH=N  reports vectors of N floats; default 8
+ * New buffers are full of NaN; bytes after their end must not change. A finding of UndefinedBehaviorSanitizer ends the
+ * process.
  */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -22,10 +22,10 @@
 
 #define MAX_ARGUMENTS 64
 #define GUARD_BYTES 4096
-#define ALIGNMENT 128 /* CL_DEVICE_MEM_BASE_ADDR_ALIGN at least: of a long16 */
+#define ALIGNMENT 128 /* at least CL_DEVICE_MEM_BASE_ADDR_ALIGN, for a long16 */
 #define FLUSH_TO_ZERO 0x8040u
 
-/* All objects of the interface but memory and programs. */
+/* All objects of the interface except memory and programs. */
 static char platform, device, context, queue;
 #define PLATFORM ((cl_platform_id)(void *)&platform)
 #define DEVICE ((cl_device_id)(void *)&device)
@@ -56,7 +56,7 @@ static void fail(const char *what, const char *more)
 	abort();
 }
 
-/* --- What kernels call ------------------------------------------------------------------------------------------- */
+/* --- Functions called by kernels --------------------------------------------------------------------------------- */
 
 static _Thread_local unsigned long item;
 
@@ -271,7 +271,7 @@ cl_int clReleaseMemObject(cl_mem mem)
 	return CL_SUCCESS;
 }
 
-/* Of CL_MEM_SIZE. */
+/* Only CL_MEM_SIZE. */
 cl_int clGetMemObjectInfo(cl_mem mem, cl_mem_info what, size_t size, void *value, size_t *needed)
 {
 	return what == CL_MEM_SIZE ? tell(&mem->bytes, sizeof(mem->bytes), size, value, needed) : CL_INVALID_VALUE;
@@ -345,7 +345,7 @@ cl_program clCreateProgramWithBinary(cl_context c, cl_uint n, const cl_device_id
 	return NULL;
 }
 
-/* HOST_ENTRY(name, list) for each line that begins a kernel: "... void name(KERNEL_ARGUMENTS(list))". */
+/* HOST_ENTRY(name, list) for each line that starts a kernel: "... void name(KERNEL_ARGUMENTS(list))". */
 static char *entries_of(const char *text)
 {
 	static const char arguments[] = "(KERNEL_ARGUMENTS(";
@@ -371,7 +371,7 @@ static uint64_t hash_of(const char *text, uint64_t hash)
 	return hash;
 }
 
-/* Compile a program to a file. @return 0 or what the compiler ends with */
+/* Compile a program to a file. @return 0 or the compiler's exit code */
 static int compile(const cl_program program, const char *compiler, const char *to)
 {
 	char source[1024], command[8192], *preloaded = strdup(getenv("LD_PRELOAD"));
@@ -465,7 +465,7 @@ cl_int clSetKernelArg(cl_kernel kernel, cl_uint i, size_t bytes, const void *val
 
 	if (i >= MAX_ARGUMENTS || bytes > sizeof(kernel->arguments[0].value))
 		return CL_INVALID_ARG_SIZE;
-	/* A buffer: values of that size there are none (kernels/shared.h). */
+	/* A buffer: no value has that size (kernels/shared.h). */
 	if (bytes == sizeof(buffer) && value)
 		memcpy(&buffer, value, sizeof(buffer));
 	kernel->arguments[i].buffer = buffer;

@@ -1,4 +1,4 @@
-/** tests/check/on_devices.h: kernels run on each device. */
+/** tests/check/on_devices.h: running kernels on each device. */
 #pragma once
 
 #include <check.h>
@@ -17,7 +17,7 @@ static inline struct device_buffer *make_buffer(struct device *dev, const void *
 	return b;
 }
 
-/** Check the twins, then each OpenCL device. check: is given an open device */
+/** Check the twins, then each OpenCL device. check: receives an open device */
 static inline void on_each_device(void (*check)(struct device *dev, void *user), void *user)
 {
 	struct device_description *devices = NULL;

@@ -1,6 +1,6 @@
 /*
- * Scenes by chance for the tests of the traversal kernels: a few meshes under several matrices, with degenerate and
- * repeated triangles among them. Same seed, same scene.
+ * Random scenes for the tests of the traversal kernels: a few meshes under several matrices, including degenerate and
+ * repeated triangles. The same seed gives the same scene.
  */
 #pragma once
 
@@ -46,8 +46,8 @@ static inline float between(struct random_scene *s, float lo, float hi)
 	return lo + (hi - lo) * next_random(s);
 }
 
-/* The seed of this run: RELUME_SEED, or the clock; printed. Called by main: the tests are children of that process, and
- * a clock read by each would be another seed than the one printed last. */
+/* The seed of this run: RELUME_SEED, or the clock; printed. Set by main, because the tests are children of that
+ * process: if each read the clock, its seed would differ from the one printed. */
 static uint32_t seed_of_run;
 
 static inline void choose_seed(void)
@@ -77,14 +77,14 @@ static inline void fill_mesh(struct random_scene *s, int m, uint32_t n)
 		}
 		if (t % 17 == 3) /* no area */
 			memcpy(s->position[m][3 * t + 2], s->position[m][3 * t + 1], 4 * sizeof(float));
-		if (t % 19 == 5) /* flat in an axis */
+		if (t % 19 == 5) /* flat along an axis */
 			for (int i = 0; i < 3; i++)
 				s->position[m][3 * t + (uint32_t)i][t % 3] = centre[t % 3];
-		if (t % 23 == 7 && t) /* the one before once more */
+		if (t % 23 == 7 && t) /* a copy of the previous one */
 			for (int i = 0; i < 3; i++)
 				s->index[m][t][i] = s->index[m][t - 1][i];
 	}
-	if (n > 40) { /* not finite: left out */
+	if (n > 40) { /* not finite: omitted */
 		s->position[m][3 * 37][0] = NAN;
 		s->position[m][3 * 38][1] = INFINITY;
 	}
@@ -93,7 +93,7 @@ static inline void fill_mesh(struct random_scene *s, int m, uint32_t n)
 	s->mesh_list[m] = mesh;
 }
 
-/* A turn about an axis by chance, a scale on each axis, a shift; and its inverse. */
+/* A random rotation, a scale on each axis, a translation; and the inverse. */
 static inline void fill_instance(struct random_scene *s, int i, const float at[3])
 {
 	struct instance *instance = &s->instances[i];
@@ -123,7 +123,9 @@ static inline void fill_instance(struct random_scene *s, int i, const float at[3
 	instance->pad = 0.02f;
 }
 
-/* A scene in front of the viewer, between z = -8 and z = -1, its structures built. Free with random_scene_free. */
+/*
+ * A scene in front of the viewer, between z = -8 and z = -1, with its structures built. Release with random_scene_free.
+ */
 static inline struct random_scene *random_scene_create(uint32_t seed)
 {
 	struct random_scene *s = calloc(1, sizeof(*s));
@@ -152,7 +154,7 @@ static inline struct random_scene *random_scene_create(uint32_t seed)
 	return s;
 }
 
-/** The same scene in trees of another kind. Splits of space must find something to cut in it. */
+/** The same scene with trees of another kind. Spatial splits must find something to cut. */
 static inline void random_scene_rebuild(struct random_scene *s, enum accel_kind kind)
 {
 	const size_t before = s->accel->n_triangles;

@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""Arguments of kernels: what is wrong with them does not compile, neither where a kernel is launched nor in its twin
-nor in OpenCL C."""
+"""Kernel arguments: errors must not compile, neither at a kernel's launch, nor in its twin, nor in OpenCL C."""
 import os
 import pathlib
 import shutil
@@ -44,7 +43,7 @@ __kernel void credit(KERNEL_ARGUMENTS(credit)) { const struct credit_arguments a
 """
 RIGHT = ".paths = paths, .radiance = radiance, .transport = 0, .n = 1, .shaded = shaded"
 
-CASES = [  # text, what goes in, whether it compiles
+CASES = [  # original text, replacement, whether it compiles
     (LAUNCH, RIGHT, True),
     (LAUNCH, ".paths = paths, .radiance = radiance, .transport = 0, .n = 1", False),
     (LAUNCH, RIGHT + ", .bits = 1", False),

@@ -13,7 +13,7 @@
 
 #define SIDE 256
 
-/* OpenGL's own headers define the tokens that gl_tokens.h has, with other spellings. */
+/* OpenGL's own headers define the same tokens as gl_tokens.h, spelled differently. */
 extern void glReadPixels(int x, int y, int width, int height, unsigned format, unsigned type, void *pixels);
 extern void glBegin(unsigned mode), glEnd(void), glEnable(unsigned what), glDisable(unsigned what);
 extern void glColor4ub(unsigned char r, unsigned char g, unsigned char b, unsigned char a), glVertex2i(int x, int y);
@@ -27,7 +27,7 @@ static const struct {
 	{ GL_ONE_MINUS_DST_COLOR, GL_ONE },       { GL_ONE_MINUS_SRC_ALPHA, GL_SRC_ALPHA },
 };
 
-/* Make a context without a window current, whose picture has SIDE x SIDE pixels of four times 8 bits. */
+/* Make a context without a window current, with a picture of SIDE x SIDE pixels and four channels of 8 bits. */
 static EGLDisplay open_picture(void)
 {
 	const EGLint wanted[] = { EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_RED_SIZE, 8,
@@ -91,7 +91,7 @@ START_TEST(every_color)
 }
 END_TEST
 
-/* The kernels' own: what is stored and read back is not changed. */
+/* Kernel only: storing and reading back changes nothing. */
 START_TEST(factors_one_and_zero)
 {
 	for (uint32_t a = 0; a < 256; a++) {

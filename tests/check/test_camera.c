@@ -1,4 +1,4 @@
-/* The camera kernels against their C twins, and the twins against all triangles one by one. */
+/* The camera kernels against their C twins, and the twins against a loop over all triangles. */
 #include "tests/check/random_scene.h"
 
 #include "kernels/camera/camera.h"
@@ -87,7 +87,9 @@ static void transform(struct frame *f)
 	}
 }
 
-/* Columns from some order number on, of every seventh pixel from a later one on; where they go on, some have ended. */
+/*
+ * Columns start at some order number, those of every seventh pixel at a later one; when they continue, some have ended.
+ */
 static void begin_columns(struct frame *f, uint32_t least)
 {
 	for (uint32_t i = 0; i < PIXELS; i++)
@@ -99,7 +101,10 @@ static struct frame make_frame(uint32_t seed, int orthographic)
 	struct frame f = { random_scene_create(seed), NULL, NULL, NULL };
 	struct random_scene *s = f.s;
 
-	/* Some instances near the viewer, so that triangles reach behind; some with culling; one in the window itself. */
+	/*
+	 * Some instances near the viewer, so that triangles extend behind it; some with culling; one in window
+	 * coordinates.
+	 */
 	set_view(&s->view, orthographic);
 	s->instances[1].eye_from_obj[11] += 2;
 	s->instances[3].flags |= INSTANCE_CULL_BACK;
@@ -122,7 +127,7 @@ static struct frame make_frame(uint32_t seed, int orthographic)
 	return f;
 }
 
-/* Let the view look at the place of a sample instead of pixel centres. */
+/* Sample at an offset instead of pixel centres. */
 static void look_aside(struct frame *f, int aside)
 {
 	f->s->view.sample[0] = aside ? -96 : 0;
@@ -190,7 +195,7 @@ static void compare_fragment(const struct fragment *a, const struct fragment *b,
 	              pixel / WIDTH, b->b1, b->b2, b->depth, a->b1, a->b2, a->depth);
 }
 
-/* Is this the fragment of a triangle seen edge-on, nearer than any vertex of it (camera.h)? */
+/* Whether this is a fragment of a triangle seen edge-on, nearer than any of its vertices (camera.h). */
 static int stands_out(const struct frame *f, const struct fragment *n)
 {
 	const struct instance *instance = &f->s->instances[n->instance];
@@ -272,7 +277,7 @@ START_TEST(kernels_agree_with_twins)
 }
 END_TEST
 
-/* The twins must find in the trees what a tree of one leaf around everything would give: boxes lose nothing. */
+/* The twins must find the same in the trees as in a single leaf around everything: boxes lose nothing. */
 START_TEST(boxes_lose_nothing)
 {
 	static struct result want, got;
@@ -317,7 +322,7 @@ START_TEST(boxes_lose_nothing)
 }
 END_TEST
 
-/* Whatever the tree: triangles that lie in several leaves count once, and their pieces' boxes lose nothing. */
+/* For any tree: triangles in several leaves count once, and the boxes of their pieces lose nothing. */
 START_TEST(trees_change_nothing)
 {
 	static struct result want, got;
@@ -347,7 +352,7 @@ START_TEST(trees_change_nothing)
 }
 END_TEST
 
-/* Let boxes that are not empty, n numbers of their bounds, hold all there is. */
+/* Enlarge nonempty boxes, n numbers of their bounds, to contain everything. */
 static void widen(float *lo, float *hi, int n)
 {
 	for (int i = 0; i < n; i++)
@@ -357,7 +362,7 @@ static void widen(float *lo, float *hi, int n)
 		}
 }
 
-/* A fan of triangles over the whole window, centres on many edges: each pixel belongs to exactly one. */
+/* A fan of triangles over the whole window, with centres on many edges: each pixel belongs to exactly one. */
 START_TEST(shared_edges_belong_to_one)
 {
 	static struct result got;
@@ -367,7 +372,7 @@ START_TEST(shared_edges_belong_to_one)
 	const int32_t ring[9][2] = { { 0, 0 }, { 5120, 0 }, { 20480, 0 }, { 20480, 5248 }, { 20480, 15360 },
 		                     { 9344, 15360 }, { 0, 15360 }, { 0, 8064 }, { 0, 0 } };
 
-	/* Mesh 1 alone, eight of its triangles placed in the window; all others have no area. */
+	/* Only mesh 1 is used, with eight of its triangles placed in the window; all others have no area. */
 	for (uint32_t i = 0; i < s->n_vertices; i++)
 		f.window[i] = (struct window_vertex){ 0, 0, 0.5f, 1 };
 	for (uint32_t t = 0; t < 8; t++)

@@ -1,7 +1,7 @@
 /*
- * The compose kernels on each device against their C twins: pixels by chance, with equal, strange and huge colours
- * among them, in pictures whose rows are no whole packets; and the packets against the kernel that takes one pixel at a
- * time, bit by bit.
+ * The compose kernels on each device against their C twins: random pixels, including equal, unusual and huge colours,
+ * in pictures whose rows are not whole packets; and the packets against the kernel with one pixel per work item, bit by
+ * bit.
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@
 #define WIDTH 21u
 #define HEIGHT 21u
 #define PIXELS (WIDTH * HEIGHT)
-#define ROWS (2u * HEIGHT) /* of FRAME_ROW pixels */
+#define ROWS (2u * HEIGHT) /* in FRAME_ROW pixels */
 #define GUARD 64u
 #define N_HALVES (N_COMPOSE_HALVES * PIXELS + GUARD)
 #define N_FLOATS (N_COMPOSE_FLOATS * PIXELS + GUARD)
@@ -29,8 +29,8 @@ struct planes {
 
 struct content {
 	uint32_t random;
-	struct frame_pixel frame[PIXELS]; /* cleared where nobody drew */
-	struct frame_pixel unwritten[PIXELS]; /* the same where somebody drew */
+	struct frame_pixel frame[PIXELS]; /* the part not drawn to is cleared */
+	struct frame_pixel unwritten[PIXELS]; /* the same for the part drawn to */
 	struct frame_pixel cleared;
 	uint32_t drawn[ROWS];
 	float sums[PIXELS * PASS_PARTS];
@@ -87,7 +87,7 @@ static void fill(struct content *c)
 	}
 }
 
-/* Rows to which nobody drew. */
+/* Rows without any drawing. */
 static void leave_undrawn(struct content *c)
 {
 	c->cleared = c->frame[0];
@@ -139,8 +139,8 @@ static void run(struct device *dev, const struct content *c, const struct compos
 	}
 }
 
-/* Devices that divide less exactly than the twins may differ by a step of a half, and where a part is no effect any
- * more. */
+/* Devices that divide less exactly than the twins may differ by one half-float step, and where a contribution
+ * becomes too small to count. */
 static void check_close(const struct planes *a, const struct planes *b, const char *name)
 {
 	uint32_t differ = 0;
@@ -155,7 +155,7 @@ static void check_close(const struct planes *a, const struct planes *b, const ch
 START_TEST(test_packets_and_twins)
 {
 	static const struct {
-		uint32_t n_passes, display, normals, without; /* without: a plane that is not wanted */
+		uint32_t n_passes, display, normals, without; /* without: a plane that is not requested */
 	} cases[] = { { 1, 0, 0, N_COMPOSE_HALVES },
 		      { 3, 0, 0, COMPOSE_RELIGHT + 1 },
 		      { 1, 1, 0, 0 },

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""test_host.py [BUILD] (with BUILD as `make show-host`): the kernels' text as clang makes processor code of it.
+"""test_host.py [BUILD] (with BUILD as `make show-host`): the kernels' text compiled to processor code by clang.
 
-host_cl.c is an OpenCL device of this process. Kernels are compiled for it with every freedom that OpenCL C leaves to a
-device, one build after the other, and each must agree with the C twins: `tiny` with every family, to the bit where the
-build rounds as the twins do, and the tests of tests/check that compare devices with twins. UndefinedBehaviorSanitizer
-watches the first build; new buffers and variables hold what nobody wrote.
+host_cl.c is an OpenCL device in this process. Kernels are compiled for it with every freedom that OpenCL C leaves to a
+device, one build after the other. Each build must agree with the C twins: `tiny` with every family, to the bit if the
+build rounds like the twins, and the tests of tests/check that compare devices with twins. UndefinedBehaviorSanitizer
+checks the first build; new buffers and variables have poisoned contents.
 
-The test runs two builds. `make show-host` runs them all, and frames of recordings too.
+The test runs two builds. `make show-host` runs all of them, and frames of recordings too.
 
 limit: 300 s
 """
@@ -32,7 +32,7 @@ SCRATCH = pathlib.Path(os.environ.get("TMPDIR", "/tmp"))
 FAMILIES = ("packets", "binary", "compressed")
 SANITIZE = ["-fsanitize=undefined,float-cast-overflow", "-fsanitize-minimal-runtime"]
 
-# Builds: options, environment, whether results are the twins' to the bit.
+# Builds: options, environment, whether results equal the twins' to the bit.
 BUILDS = {
     "sanitized, not optimised": (["-O0", *SANITIZE], {}, True),
     "this processor, other NaN, zeros and ulps": (["-O0", "-march=native", "-ffp-contract=on", "-DHOST_OTHERWISE"],
@@ -70,7 +70,7 @@ def check(good, what):
 
 
 def pictures(text):
-    """Lines of tiny that tell of a picture, without the hash and with it."""
+    """Lines of tiny about a picture, without the hash and with it."""
     return re.findall(r"^((?:packets|binary|compressed) .*), (all channels .*)$", text, re.MULTILINE)
 
 
@@ -98,7 +98,7 @@ def try_build(name, options, more, exact):
             code, said, got = frame(trace, "--kernels", family, env=env)
             check(code == 0, f"{name}: {trace} with {family}: {said}")
             check(not exact or planes(got) == planes(want),
-                  f"{name}: {trace} with {family}: another picture than the twins'")
+                  f"{name}: {trace} with {family}: the picture differs from the twins'")
 
 
 def planes(path):

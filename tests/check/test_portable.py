@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""The kernels' text as other devices take it: OpenCL C 1.2 without a warning, for GPUs, for SPIR, and on PoCL; no
-function is left for others to define, as an inline one is that is not static and that a compiler chooses to call; no
-vector has three components, which a compiler of processors' vectors loses (kernels/README.md)."""
+"""The kernels' text must compile on other devices: as OpenCL C 1.2 without a warning, for GPUs, for SPIR, and on PoCL.
+No function may be left undefined, as happens to a non-static inline function that a compiler chooses to call; and no
+vector may have three components, which a CPU vectoriser loses (kernels/README.md)."""
 import os
 import pathlib
 import re
@@ -47,9 +47,8 @@ with tempfile.TemporaryDirectory() as folder:
             if left:
                 failed += 1
                 print(f"wrong: {file.name} for {target}: these are not defined: {left}")
-# PoCL builds them for its device, with all that it would only warn of made an error; where the processor has AVX-512
-# and can hide it, also as on one that has not. PoCL 6.0 ends there if a text breaks the rule on branches in
-# kernels/README.md.
+# PoCL builds them for its device, with its warnings as errors; if the processor has AVX-512 and can hide it, also as on
+# one without. PoCL 6.0 fails there if a text breaks the rule on branches in kernels/README.md.
 devices = [{}]
 flags = re.search(r"^flags.*$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
 flags = set(flags.group().split()) if flags else set()

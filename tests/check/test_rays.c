@@ -1,4 +1,4 @@
-/* The occlude and intersect kernels against their C twins, and the twins against all triangles one by one. */
+/* The occlude and intersect kernels against their C twins, and the twins against a loop over all triangles. */
 #include "tests/check/random_scene.h"
 
 #include "kernels/rays/rays.h"
@@ -11,7 +11,7 @@
 #define GUARD_WORD 0xa5a5a5a5u
 
 struct result {
-	uint32_t occluded[N_RAYS + GUARD], to_lights[N_RAYS + GUARD]; /* the same of rays to lights */
+	uint32_t occluded[N_RAYS + GUARD], to_lights[N_RAYS + GUARD]; /* the same for shadow rays */
 	struct hit hits[N_RAYS + GUARD];
 };
 
@@ -22,7 +22,7 @@ static struct ray *make_rays(struct random_scene *s)
 	for (uint32_t i = 0; i < N_RAYS; i++) {
 		struct ray *r = &rays[i];
 
-		/* Coherent for the first half, then all about; then what is strange. */
+		/* Coherent in the first half, then in all directions; then special cases. */
 		for (int a = 0; a < 3; a++) {
 			r->o[a] = i < N_RAYS / 2 ? 0 : between(s, -4, 4);
 			r->d[a] = i < N_RAYS / 2 ? (a == 2 ? -1 : ((float)(a ? i / 64 % 64 : i % 64) - 32) / 40) : between(s, -1, 1);
@@ -45,7 +45,7 @@ static struct ray *make_rays(struct random_scene *s)
 		case 37:
 			r->d[i % 3] = i % 2 ? NAN : INFINITY;
 			break;
-		case 41: /* nothing between */
+		case 41: /* empty interval */
 			r->t_min = 2;
 			r->t_max = 1;
 			break;
@@ -57,14 +57,14 @@ static struct ray *make_rays(struct random_scene *s)
 				r->o[a] -= 1e6f * r->d[a];
 			}
 			break;
-		case 61: /* from where object space has no numbers for */
+		case 61: /* from beyond the range of object space */
 			r->o[i % 3] = i % 2 ? 3e38f : -3e38f;
 			break;
 		case 53: /* a tiny direction, and a huge one */
 			for (int a = 0; a < 3; a++)
 				r->d[a] *= i % 2 ? 1e-12f : 1e12f;
 			break;
-		case 59: /* into a corner that triangles have in common */
+		case 59: /* at a vertex that triangles share */
 			for (int a = 0; a < 3; a++)
 				r->d[a] = s->instances[0].eye_from_obj[4 * a + 3] - r->o[a];
 			break;
@@ -157,7 +157,10 @@ static struct hit hit_all(const struct random_scene *s, const struct ray *ray, i
 			b2 = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2]) / det;
 			t = (e2[0] * q[0] + e2[1] * q[1] + e2[2] * q[2]) / det;
 			edge = fmin(fmin(b1, b2), 1 - b1 - b2);
-			/* How close any candidate comes to an edge, an end of the ray or the nearest hit: too close to call. */
+			/*
+			 * How close any candidate is to an edge, an end of the ray or the nearest hit: too close to
+			 * decide.
+			 */
 			if (edge > -1e-3 && t > -1e9 && t < 1e9)
 				*margin = fmin(*margin, fmin(fabs(edge), fmin(fabs(t - ray->t_min), fabs(t - ray->t_max)) / (1 + fabs(t))));
 			if (to_lights && s->instances[k].flags & (det > 0 ? INSTANCE_PASS_COUNTER : INSTANCE_PASS_CLOCKWISE))
@@ -244,7 +247,7 @@ static void compare(const struct result *want, const struct result *got, const c
 	}
 }
 
-/* Besides the run's own seed, one whose rays from far away once decided otherwise in the kernel. */
+/* Besides the run's own seed, one with rays from far away that the kernel once decided differently. */
 static const uint32_t hard_seeds[] = { 1036 };
 
 START_TEST(kernels_agree_with_twins)
@@ -284,7 +287,7 @@ START_TEST(kernels_agree_with_twins)
 }
 END_TEST
 
-/* Which tree it was is not to be seen: the nearest hit is the same to the bit, ties included. */
+/* The tree must not matter: the nearest hit is the same to the bit, including ties. */
 START_TEST(hits_depend_on_no_tree)
 {
 	struct random_scene *s = random_scene_create(seed_of_run);
@@ -312,7 +315,7 @@ START_TEST(hits_depend_on_no_tree)
 }
 END_TEST
 
-/* Rays along the axes through triangles without area: what rounding makes of them is no hit, for either query. */
+/* Rays along the axes through triangles without area: rounding must not produce a hit, for either query. */
 START_TEST(any_hit_and_nearest_hit_decide_alike)
 {
 	struct random_scene *s = random_scene_create(seed_of_run);
@@ -364,7 +367,7 @@ START_TEST(any_hit_and_nearest_hit_decide_alike)
 }
 END_TEST
 
-/* A mesh whose vertices move keeps its tree, and what is hit is what a new tree would give. */
+/* A mesh whose vertices move keeps its tree, refitted; hits must equal those of a new tree. */
 START_TEST(hits_depend_on_no_fitting)
 {
 	struct random_scene *s = random_scene_create(seed_of_run);
@@ -382,7 +385,7 @@ START_TEST(hits_depend_on_no_fitting)
 	for (uint64_t frame = 0; frame < 8; frame++) {
 		const uint64_t made = moving->n_made, fitted = moving->n_fitted;
 
-		/* A wave runs through it, as high at last as the mesh is; in frame 6 everything is somewhere else. */
+		/* A wave moves through it, finally as high as the mesh; in frame 6 everything moves elsewhere. */
 		for (uint32_t v = 0; v < mesh->vertex_count && frame; v++)
 			for (int a = 0; a < 3; a++)
 				s->position[0][v][a] += frame == 6 ? between(s, -2, 2) :

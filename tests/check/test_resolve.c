@@ -1,7 +1,7 @@
 /*
- * resolve_packet against resolve on each device and on the twins, bit by bit: fragments by chance, of materials with
- * all factors, equations and masks, over pixels of chance. Some rows of pixels are still to be cleared, which
- * resolve_packet does before it draws.
+ * resolve_packet against resolve on each device and on the twins, bit by bit: random fragments, of materials with all
+ * factors, equations and masks, over random pixels. Some rows of pixels are still to be cleared, which resolve_packet
+ * does before it draws.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 #include "tests/check/on_devices.h"
 #include "tracer/device/launch.h"
 
-#define WIDTH 70u /* rows end within a row of FRAME_ROW */
+#define WIDTH 70u /* rows end inside a row of FRAME_ROW */
 #define HEIGHT 48u
 #define PIXELS (WIDTH * HEIGHT)
 #define ROWS (5u * HEIGHT)
@@ -26,7 +26,7 @@ struct content {
 	struct fragment fragments[FRAGMENTS];
 	struct shaded shaded[FRAGMENTS];
 	uint32_t first[PIXELS], counts[PIXELS];
-	struct frame_pixel frame[PIXELS]; /* cleared where nobody drew */
+	struct frame_pixel frame[PIXELS]; /* the part not drawn to is cleared */
 	uint32_t drawn[ROWS];
 	struct frame_pixel cleared;
 };
@@ -98,7 +98,7 @@ static void fill_numbers(float *numbers, size_t n)
 		numbers[i] = next_number();
 }
 
-/* The row of FRAME_ROW pixels that a pixel lies in. */
+/* The row of FRAME_ROW pixels that contains a pixel. */
 static uint32_t row_of(uint32_t pixel)
 {
 	return pixel / WIDTH * frame_columns(WIDTH) + pixel % WIDTH / FRAME_ROW;
@@ -137,7 +137,7 @@ static void fill(struct content *c)
 			c->frame[i] = c->cleared;
 }
 
-/* Pixels that are still to be cleared, as memory that nobody wrote: `from` receives them. */
+/* Pixels still to be cleared, whose memory is uninitialised, are filled with other values in `from`. */
 static void forget_cleared(const struct content *c, struct frame_pixel *from)
 {
 	memcpy(from, c->frame, sizeof(c->frame));
@@ -146,7 +146,7 @@ static void forget_cleared(const struct content *c, struct frame_pixel *from)
 			memset(&from[i], 0xee, sizeof(from[i]));
 }
 
-/* A packet's rows that are still to be cleared have no fragments, and nobody wrote to them: clear them. */
+/* A packet's rows still to be cleared have no fragments and were not written: clear them. */
 static void clear_rest(const struct content *c, const uint32_t *drawn, struct frame_pixel *frame)
 {
 	struct frame_pixel unwritten;

@@ -1,4 +1,4 @@
-/* Prefix sums: the kernels and their C twins against a plain loop, at sizes about every border of a level. */
+/* Prefix sums: the kernels and their C twins against a plain loop, at sizes around every border of a level. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /*
- * The shading kernels on an OpenCL device against the same text compiled as C: one scene with everything that shades
- * (lights near and far, specular, two sides, flat and smooth, fog, blending, shadows, a mirror, glass), channel by
- * channel; with one sample a pixel and with several, and as rules change it.
+ * The shading kernels on an OpenCL device against the same text compiled as C: one scene with every feature that
+ * affects shading (lights near and far, specular, two sides, flat and smooth, fog, blending, shadows, a mirror, glass),
+ * channel by channel; with one sample per pixel and with several, and under rules.
  */
 #include <math.h>
 #include <stdio.h>
@@ -51,7 +51,7 @@ static void make_scene(struct made *t)
 	made_add_square(t, film, (float[3]){ 0.3f, -0.5f, -5 }, x, y, 0.9f, 1);
 }
 
-/* Four samples a pixel; the film covers whole pixels, and so do the tests of all samples there. */
+/* Four samples per pixel; the film and its tests cover all samples of a pixel. */
 static void take_samples(struct made *t)
 {
 	t->scene.samples = SCENE_SAMPLES;
@@ -60,8 +60,8 @@ static void take_samples(struct made *t)
 	t->materials[0].samples_off = 2;
 }
 
-/* Lamps of rules, the last one a spot: for the wall in place of OpenGL's own lights, and for what OpenGL does not
- * light. */
+/* Lamps from rules, the last one a spot: for the wall instead of OpenGL's own lights, and for surfaces that OpenGL
+ * does not light. */
 static void take_lamps(struct made *t)
 {
 	struct scene_light *spot = &t->lights[made_add_light(t, 0.5f, 2, -5, 1)];
@@ -78,8 +78,8 @@ static void take_lamps(struct made *t)
 	t->materials[3].lighting = 0;
 }
 
-/* As rules want it: light from all around, in which some see the ground; highlights that mirror what is near, a blended
- * board that mirrors. */
+/* Rules: ambient occlusion, where some rays hit the ground; glossy highlights of near objects, a blended board that
+ * reflects. */
 static void take_rules(struct made *t)
 {
 	t->scene.dome = (struct scene_dome){ .up_eye = { 0, 1, 0 },
@@ -109,7 +109,7 @@ START_TEST(test_device_against_twins)
 	size_t n = 0;
 
 	if (device_list(&devices, &n) != 0 || n == 0)
-		return; /* no OpenCL here; said on standard error */
+		return; /* no OpenCL here; reported on standard error */
 	make_scene(&t);
 	if (_i == 1)
 		take_samples(&t);
@@ -133,7 +133,7 @@ START_TEST(test_device_against_twins)
 
 				differ += !(fabsf(a - b) <= 2e-3f * fmaxf(1, fabsf(a)));
 			}
-			/* A ray that grazes an edge may fall on either side of it. */
+			/* A ray that grazes an edge may pass on either side of it. */
 			ck_assert_msg(differ <= SIZE * SIZE / 1000, "channel %s differs at %u pixels on device %zu",
 			              c.channels[i].name, differ, d);
 		}
@@ -150,6 +150,6 @@ int main(void)
 	TCase *tests = tcase_create("devices");
 
 	tcase_set_timeout(tests, 240);
-	tcase_add_loop_test(tests, test_device_against_twins, 0, 3); /* one sample a pixel, several, rules */
+	tcase_add_loop_test(tests, test_device_against_twins, 0, 3); /* one sample per pixel, several, rules */
 	return run_case(tests, "shade");
 }

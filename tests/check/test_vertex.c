@@ -1,6 +1,6 @@
 /*
  * vertex_packet against vertex on each device and on the twins, bit by bit: meshes of a few to many vertices, under
- * lights, materials, matrices and normals by chance.
+ * random lights, materials, matrices and normals.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -13,14 +13,14 @@
 #include "tracer/device/launch.h"
 
 #define MESHES 400u
-#define LONGEST 90u /* vertices */
+#define LONGEST 90u /* in vertices */
 #define MATERIALS 128u
 #define LIGHTS 8u
 #define UNITS 2u
 #define VIEWS 4u
 #define CURRENTS 4u
 #define VERTICES (MESHES * LONGEST)
-/* numbers of a vertex */
+/* numbers per vertex */
 #define EACH (4u + 3u + 4u + 4u + 1u + UNITS * 4u + sizeof(struct scene_face) / sizeof(float) * 2u)
 #define HEIGHT 480u
 
@@ -55,7 +55,7 @@ static float between(float lo, float hi)
 	return lo + (hi - lo) * (float)next_below(1u << 20) / (float)(1u << 20);
 }
 
-/* Around 0 and 1; now and then what arithmetic treats in its own way. */
+/* Numbers around 0 and 1, and sometimes special values of arithmetic. */
 static float next_number(void)
 {
 	static const float strange[] = { 0, -0.0f, 1, -1, 2, 1e-30f, 1e30f, NAN, INFINITY };
@@ -135,7 +135,7 @@ static void fill_material(struct content *c, uint32_t i)
 	}
 }
 
-/* A mesh's arrays, as prepare_layout has them. */
+/* A mesh's arrays, as prepare_layout arranges them. */
 static uint32_t fill_attributes(struct content *c, struct geometry *g, uint32_t at)
 {
 	const uint32_t n = g->vertex_count, from = at;
@@ -154,7 +154,7 @@ static uint32_t fill_attributes(struct content *c, struct geometry *g, uint32_t 
 	g->face = at += g->attributes & (SCENE_HAS_TEXCOORD << 1) ? 4 * n : 0;
 	at += g->attributes & SCENE_HAS_FACE ? (uint32_t)(2 * sizeof(struct scene_face) / sizeof(float)) * n : 0;
 	fill_numbers(&c->attributes[from], at - from);
-	for (uint32_t i = 0; i < 4 * n; i++) /* most vertices lie in the view volume */
+	for (uint32_t i = 0; i < 4 * n; i++) /* most vertices are in the view volume */
 		c->attributes[from + i] = i % 4 == 3 ? 1 : next_below(200) ? between(-0.6f, 0.6f) : next_number();
 	if (next_below(2)) /* short and long normals */
 		for (uint32_t i = g->normal; i < g->color; i++)
@@ -232,7 +232,7 @@ static void run(struct device *dev, const struct content *c, int packet, struct 
 		device_release(dev, &b[i]);
 }
 
-/* The same bits, or no number either. */
+/* The bits must be equal, or both NaN. */
 static void check_words(const char *device, const char *what, const void *one, const void *packet, size_t bytes,
                         size_t each)
 {

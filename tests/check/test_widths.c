@@ -1,7 +1,6 @@
 /*
- * One kernel launched on several queues at once, wider and wider, with more threads than there are cores: PoCL's count
- * of the kernel's users goes wrong where launches of several widths run at once (tracer/device/cl_launch.h), and ends
- * the process.
+ * One kernel launched on several queues at once with growing widths and more threads than cores: PoCL miscounts the
+ * kernel's users if launches of several widths run at once (tracer/device/cl_launch.h), and ends the process.
  */
 #include <pthread.h>
 #include <stdatomic.h>
@@ -15,7 +14,7 @@
 
 #define QUEUES 8
 #define LAUNCHES 250u
-#define STEP 50u /* work items: the last launches have groups of their own */
+#define STEP 50u /* work items, so that the last launches have groups of their own */
 #define MOST (SCAN_CHUNK * (2 + STEP * LAUNCHES * QUEUES))
 
 struct queue {
@@ -26,7 +25,7 @@ struct queue {
 
 static atomic_uint n_launched;
 
-/* Sums of ones: each launch, of all queues, is a little wider than those before. */
+/* Sums of ones: each launch, on any queue, is slightly wider than earlier ones. */
 static void *launch_all(void *user)
 {
 	struct queue *q = user;

@@ -1,8 +1,8 @@
-"""A Slurm cluster on this machine alone: munge, slurmctld and one slurmd for each node, all in a scratch folder.
+"""A private Slurm cluster on this machine: munge, slurmctld and one slurmd for each node, all in a scratch folder.
 
-Every daemon is the real one of Debian. Ports are free ones of the loopback interface, munge has a key and a socket of
-its own, and nothing is read from or written to /etc, so that it neither needs nor disturbs a cluster that is there
-already. Each node has one core, and its slurmd and all its tasks are bound to it.
+Every daemon is Debian's real one. Ports are free ones of the loopback interface, munge has its own key and socket, and
+nothing in /etc is read or written, so an existing cluster is neither needed nor disturbed. Each node has one core,
+which its slurmd and all its tasks are bound to.
 """
 import os
 import pathlib
@@ -21,7 +21,7 @@ def missing_programs():
 
 
 def free_ports(count):
-    """Ports that nobody listens on; held all at once, so that they differ."""
+    """Unused ports, all held at once, so that they differ."""
     held = [socket.socket() for _ in range(count)]
     for s in held:
         s.bind(("127.0.0.1", 0))
@@ -38,7 +38,7 @@ def parents():
         try:
             text = stat.read_text(errors="replace")
         except OSError:
-            continue  # it ended meanwhile
+            continue  # it has already ended
         name, fields = text[text.index("(") + 1:text.rindex(")")], text[text.rindex(")") + 2:].split()
         if fields[0] not in "ZX":
             found[int(stat.parent.name)] = (int(fields[1]), name)
@@ -46,7 +46,7 @@ def parents():
 
 
 class Cluster:
-    """Started and ended by `with`. `env` holds what slurm's commands need to find it."""
+    """Started and stopped by `with`. `env` is the environment for Slurm's commands."""
 
     def __init__(self, folder, n_nodes=2, gres=None, settings=()):
         self.folder = pathlib.Path(folder)
@@ -111,10 +111,10 @@ class Cluster:
             "PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP",
         ]
         self.config.write_text("\n".join(lines) + "\n")
-        # No control groups: a slurmd that looks for them by itself does not start where /sys/fs/cgroup is not mounted.
+        # No control groups: a slurmd that detects them automatically does not start if /sys/fs/cgroup is not mounted.
         (self.folder / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\n")
         if self.gres:
-            # Device files of the right kind are all that Slurm asks for.
+            # Slurm only requires device files of the right kind.
             (self.folder / "gres.conf").write_text("Name=gpu File=/dev/null\n")
 
     def _start_munge(self):
@@ -125,7 +125,7 @@ class Cluster:
         self._spawn("munged", ["munged", "--foreground", "--force", f"--key-file={key}", f"--socket={munge}/socket",
                                f"--pid-file={munge}/pid", f"--seed-file={munge}/seed", f"--log-file={munge}/log"])
         self._wait(lambda: (munge / "socket").exists(), 20, "munged has no socket")
-        # Others than the owner may speak to it: the folder alone says who.
+        # Accessible to other users: the folder's permissions decide.
         munge.chmod(0o711)
 
     def _spawn(self, name, command):
@@ -135,7 +135,7 @@ class Cluster:
         log.close()
 
     def start(self, name):
-        """Start (again) slurmctld or the slurmd of a node."""
+        """Start or restart slurmctld or the slurmd of a node."""
         if name == "slurmctld":
             self._spawn(name, ["slurmctld", "-D", "-f", self.config])
         else:
@@ -143,13 +143,13 @@ class Cluster:
             self._spawn(name, ["taskset", "-c", str(core), "slurmd", "-D", "-N", name, "-f", self.config])
 
     def kill(self, name):
-        """SIGKILL a daemon, as a crash does; its children live on."""
+        """SIGKILL a daemon, like a crash; its children survive."""
         daemon = self.daemons.pop(name)
         daemon.kill()
         daemon.wait()
 
     def ended(self):
-        """Daemons that ended by themselves."""
+        """Daemons that ended unexpectedly."""
         return [name for name, daemon in self.daemons.items() if daemon.poll() is not None]
 
     def run(self, *command, timeout=60, **more):
@@ -167,7 +167,7 @@ class Cluster:
             time.sleep(0.1)
 
     def wait_ready(self):
-        """Every node idle or at work."""
+        """Every node is idle or at work."""
         def ready():
             done = self.run("sinfo", "-h", "-N", "-o", "%N %t")
             states = dict(line.split() for line in done.stdout.splitlines()) if done.returncode == 0 else {}
@@ -175,7 +175,7 @@ class Cluster:
         self._wait(ready, 60, "the nodes are not ready")
 
     def queue(self):
-        """Lines of squeue: job, task, state; None while the controller does not answer."""
+        """Lines of squeue: job, task, state; None while the controller does not respond."""
         try:
             done = self.run("squeue", "-h", "-r", "-o", "%A %K %T", timeout=15)
         except subprocess.TimeoutExpired:
@@ -183,12 +183,14 @@ class Cluster:
         return None if done.returncode else [line.split() for line in done.stdout.splitlines()]
 
     def wait_empty(self, seconds):
-        """Nothing waits or runs, at two looks: one alone could fall between two states of a task."""
+        """Wait until no task waits or runs in two successive queries: a single one could fall between two states of a
+        task.
+        """
         self._wait(lambda: self.queue() == [] and not time.sleep(0.5) and self.queue() == [], seconds,
                    "jobs are left in the queue")
 
     def story(self, job):
-        """What became of a job's tasks, for a test that failed: Slurm's words and the end of each log."""
+        """Report on a job's tasks for a failed test: Slurm's states and the end of each log."""
         states = self.run("scontrol", "-o", "show", "job").stdout
         logs = "".join(f"--- {log.name}\n{log.read_text(errors='replace')[-1500:]}\n"
                        for log in sorted((pathlib.Path(job) / "log").glob("*")))
@@ -197,7 +199,7 @@ class Cluster:
         return f"{states}\n{logs}{nodes}"
 
     def below(self, name=None):
-        """Processes below this cluster's daemons and the step daemons that left them: [(pid, command)]."""
+        """Processes below this cluster's daemons, and step daemons that left them: [(pid, command)]."""
         table = parents()
         daemons = {d.pid for d in self.daemons.values()}
 
@@ -205,8 +207,8 @@ class Cluster:
             more = {p for p, (parent, _) in table.items() if parent in found} - found
             return with_children(found | more) if more else found
 
-        # A slurmstepd leaves its slurmd's process tree when that is killed (in Slurm 24 at once), and writes its title
-        # over its environment: its task's environment tells whose it is.
+        # A slurmstepd leaves the process tree of a killed slurmd (in Slurm 24 at once), and overwrites its environment
+        # with its title; the environment of its task identifies the cluster.
         strays = {p for p in table.keys() - with_children({os.getpid()}) if self._is_ours(p)}
         steps = {table[p][0] for p in strays if table.get(table[p][0], (0, ""))[1] == "slurmstepd"}
         return [(p, table[p][1])

@@ -10,7 +10,7 @@ IN_MOVED_TO = 0x80
 
 
 class Landings:
-    """How often each frame's file was renamed into a folder, as the kernel tells it."""
+    """Counts how often each frame's file was renamed into a folder, as reported by the kernel."""
 
     def __init__(self, folder):
         libc = ctypes.CDLL(None, use_errno=True)
@@ -36,12 +36,12 @@ class Landings:
 
 
 class Killer:
-    """Kills by turns what is there, and starts daemons again after a while, as an init system does."""
+    """Kills running processes in turn, and restarts daemons after a while, like an init system."""
 
     def __init__(self, cluster, seed):
         self.cluster = cluster
         self.random = random.Random(seed)
-        self.down = {}  # daemon: when it is to be started again
+        self.down = {}  # daemon: time of its restart
         self.done = {"task": 0, "slurmd": 0, "slurmctld": 0}
 
     def total(self):
@@ -52,13 +52,12 @@ class Killer:
             if everything or time.monotonic() > when:
                 self.cluster.start(name)
                 del self.down[name]
-        # A controller that comes back before the port of the killed one is free ends at once; an init system tries
-        # again.
+        # A controller that restarts before the killed one's port is free exits at once; an init system tries again.
         for name in self.cluster.ended():
             self.cluster.start(name)
 
     def strike(self):
-        """Kill one thing. Tasks are most often hit, daemons now and then."""
+        """Kill one process: usually a task, sometimes a daemon."""
         kind = self.random.choices(("task", "slurmd", "slurmctld"), (6, 3, 1))[0]
         if kind == "task":
             victims = [pid for pid, command in self.cluster.below() if command == "relume"]
@@ -76,17 +75,16 @@ class Killer:
                 return
             name = self.random.choice(names)
             self.cluster.kill(name)
-            # Mostly back at once; a node that stays away longer than SlurmdTimeout is given up and its task started
-            # again.
+            # Usually back at once; a node that stays away longer than SlurmdTimeout is given up and its task restarted.
             away = 15 if kind == "slurmd" and self.random.random() < 0.2 else self.random.uniform(0.2, 2)
             self.down[name] = time.monotonic() + away
         self.done[kind] += 1
 
 
 def campaign(cluster, killer, landings, folder, relume, n_kills, end_s, pause=(0.2, 1.5)):
-    """Strike until there were n_kills or nothing is left to do, with `relume farm retry` every few seconds, as a person
-    would type it; then bring everything back and retry until all frames are whole. Returns how many retries started
-    tasks. Kills begin when the first frame has landed.
+    """Kill until there were n_kills or all work is done, with `relume farm retry` every few seconds, as a person would
+    type it; then restart everything and retry until all frames are complete. Returns the number of retries that started
+    tasks. Kills begin when the first frame has been written.
     """
     retries = 0
     end = time.monotonic() + end_s
@@ -100,11 +98,11 @@ def campaign(cluster, killer, landings, folder, relume, n_kills, end_s, pause=(0
         if killer.total() < n_kills:
             killer.strike()
         time.sleep(killer.random.uniform(*pause))
-        # Slurm's commands wait for a controller that does not answer, and it is brought back here.
+        # Slurm's commands wait for a missing controller, which is restarted here.
         if time.monotonic() < next_retry or "slurmctld" in killer.down or cluster.queue() is None:
             continue
         next_retry = time.monotonic() + 5
         if cluster.run(relume, "farm", "status", folder, timeout=300).returncode == 0:
             killer.revive(everything=True)
-            return retries  # the caller sees how many kills there were
+            return retries  # the caller checks the number of kills
         retries += "\nrender " in cluster.run(relume, "farm", "retry", folder, timeout=300).stdout

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 600 s
-"""relume farm on a real Slurm of two nodes on this machine, and without Slurm: the same frames as a local run, to the
+"""relume farm on a real Slurm with two nodes on this machine, and without Slurm: the same frames as a local run, to the
 byte."""
 import hashlib
 import os
@@ -16,7 +16,7 @@ from helpers import RELUME, SCRATCH, check, finish, must, record, run  # noqa: E
 FRAMES = 24
 trace = SCRATCH / "it's gears.trace"
 record(trace, "glxgears", options=("--ref", "color,depth", "--quit-after", str(FRAMES)))
-# Words that a shell would take apart.
+# A name that a shell would split.
 NAME = "a $b 'c"
 
 
@@ -37,7 +37,7 @@ def words(pattern, chunk, *options):
     ]
 
 
-# Without Slurm: a PATH that has none of it. (PoCL links kernels by ld.)
+# Without Slurm: a PATH that lacks it. (PoCL links kernels with ld.)
 bare = SCRATCH / "bin"
 bare.mkdir()
 for tool in ("sh", "realpath", "mkdir", "flock", "seq", "ld"):
@@ -47,7 +47,7 @@ done = must(run(RELUME, "farm", "submit", *words(pattern, 5), cwd=SCRATCH, env=d
 local = digests(folder)
 check(len(local) == FRAMES, f"locally {len(local)} frames of {FRAMES}")
 check((job / "report/index.html").stat().st_size > 10000 and f"job {job}" in done.stdout,
-      "and the page, and the job's name")
+      "the page exists, with the job's name")
 single = SCRATCH / "single"
 must(run(RELUME, "render", trace, "-f", f"0-{FRAMES - 1}", "-o", single / f"{NAME}.####.exr", "--mode", "whitted"))
 check(digests(single) == local, "the same bytes as one run of relume render")
@@ -67,7 +67,7 @@ for what, code, text, arguments in (
 check(not job.exists(), "nothing was written")
 done = run(RELUME, "farm", "status", SCRATCH)
 check(done.returncode == 3 and "is no job" in done.stderr,
-      f"status of a folder that is no job: {done.returncode}, {done.stderr}")
+      f"status of a folder without a job: {done.returncode}, {done.stderr}")
 
 # Scripts for other engines.
 for engine, start in (("parallel", ["sh"]), ("make", ["make", "-k", "-j2", "-f"])):
@@ -80,7 +80,7 @@ for engine, start in (("parallel", ["sh"]), ("make", ["make", "-k", "-j2", "-f"]
     check(digests(folder) == local, f"{engine}: the same frames")
     check((job / "report/index.html").exists(), f"{engine}: the page")
 
-# For nodes with GPUs: the tasks ask for them, the report does not.
+# For GPU nodes: the tasks request GPUs, the report does not.
 script = must(
     run(RELUME, "farm", "script", "--for", "slurm",
         *words(SCRATCH / "gpu" / f"{NAME}.####.exr", 9, "--gres", "gpu:1", "--sbatch=--partition=night"),
@@ -89,7 +89,7 @@ submits = re.findall(r"\bsbatch .*", script)
 check(
     len(submits) == 2 and all("--partition=night" in line for line in submits), f"both go to the partition: {submits}")
 check("--gres 'gpu:1'" in submits[0] and "--array" in submits[0] and "--gres" not in submits[1],
-      f"tasks ask for GPUs: {submits}")
+      f"tasks request GPUs: {submits}")
 
 missing = slurm.missing_programs()
 check(not missing, f"Slurm is installed: {missing}")
@@ -104,7 +104,7 @@ with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
     told = cluster.run("scontrol", "show", "job", found[1]).stdout
     check(
         re.search("gres[:/]gpu:1", told) and "Comment=night run" in told,
-        f"sbatch got what it was to get: {told[:3000]}")
+        f"sbatch received its options: {told[:3000]}")
     check(f"afterany:{found[1]}" in cluster.run("scontrol", "show", "job", found[2]).stdout,
           "the report waits for the frames")
     done = farm("status", job)
@@ -119,7 +119,7 @@ with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
           f"status afterwards: {done.returncode}, {done.stdout}")
     check("rendered frame 0" in (job / "log/1").read_text(), "each task has a log")
 
-    # One frame lost, one torn, one of other settings: only these are rendered again, by their tasks alone.
+    # One frame lost, one torn, one with other settings: only these are rendered again, by their tasks alone.
     files = sorted(folder.glob("*.exr"))
     files[1].unlink()
     files[12].write_bytes(files[12].read_bytes()[:5000])
@@ -134,13 +134,13 @@ with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
     check("tasks 1,3\n" in done.stdout, f"retry starts two of five tasks: {done.stdout}")
     again = farm("retry", job)
     check(again.returncode == 0 and "waits or runs already" in again.stdout,
-          f"retry leaves alone what is under way: {again.stdout}")
+          f"retry ignores tasks already running: {again.stdout}")
     cluster.wait_empty(120)
-    check(digests(folder) == local, "after retry the same bytes again") or print(cluster.story(job))
+    check(digests(folder) == local, "after retry: the same bytes again") or print(cluster.story(job))
     landed = set(landings.read())
     check(landed == {files[1].name, files[12].name, files[13].name}, f"only the three were rendered: {landed}")
 
-    # Cancel ends all, and what was done stays done.
+    # Cancel stops everything, and keeps finished frames.
     folder, pattern, job = place("cancelled")
     must(farm("submit", *words(pattern, 1)))
     landings = kills.Landings(folder)
@@ -150,7 +150,7 @@ with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
     cluster.wait_empty(60)
     kept = digests(folder)
     check(0 < len(kept) < FRAMES and kept.items() <= local.items(), f"cancelled after {len(kept)} frames, all whole")
-    check(not list(folder.glob("*.part")), "nothing half-written is left")
+    check(not list(folder.glob("*.part")), "no partial file is left")
 
     # Killed at random.
     folder, pattern, job = place("killed")
@@ -163,10 +163,10 @@ with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
     check(digests(folder) == local, f"after {killer.done} killed: the same bytes as locally")
     check(set(counts.values()) == {1}, f"every frame landed once: {counts}")
 
-    # More tasks than an array may have.
+    # More tasks than an array allows.
     folder, pattern, job = place("many")
     done = cluster.run(RELUME, "farm", "submit", trace, "-f", f"0-{FRAMES - 1}", "-o", pattern, "--gres", "gpu:2")
-    check(done.returncode == 5, f"what no node has is refused: {done.returncode}, {done.stderr}")
+    check(done.returncode == 5, f"requests that no node can satisfy are refused: {done.returncode}, {done.stderr}")
 
 with slurm.Cluster(SCRATCH / "small", n_nodes=1, settings=["MaxArraySize=9"]) as cluster:
     done = cluster.run(RELUME, "farm", "submit", *words(pattern, 2), cwd=SCRATCH)

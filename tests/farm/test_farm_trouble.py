@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""A farm in trouble, on a real Slurm of two nodes: which frames, which tasks, why, and where the log is; two jobs for
-the same frames; what runs at the end; pictures that cannot be scored.
+"""A farm in trouble, on a real Slurm with two nodes: which frames and tasks failed, the reason, and the log's place;
+two jobs for the same frames; commands at the end; pictures that cannot be scored.
 """
 import contextlib
 import os
@@ -19,9 +19,9 @@ from helpers import RELUME, SCRATCH, check, finish, must, record, run  # noqa: E
 FRAMES = 24
 trace = SCRATCH / "gears.trace"
 record(trace, "glxgears", options=("--ref", "color", "--quit-after", str(FRAMES)))
-# The scalar twins: nothing is compiled, so the first frame comes soon on a busy machine as well.
+# The scalar twins need no compilation, so the first frame comes soon even on a busy machine.
 QUICK = ("--device", "reference", "--mode", "gl", "--aov", "gl")
-# Long enough to be interrupted: a task takes longer than Slurm and a status do.
+# Long enough to be interrupted: a task takes longer than Slurm and a status query.
 SLOW = ("--device", "reference", "--depth=3", "--samples=4")
 
 
@@ -46,7 +46,7 @@ def until(ready, what, seconds=60):
 missing = slurm.missing_programs()
 check(not missing, f"Slurm is installed: {missing}")
 
-# Without Slurm: a run holds its folder to its end, whoever starts another.
+# Without Slurm: a run locks its folder until it ends.
 folder, pattern, job = place("local")
 first = subprocess.Popen([RELUME, "farm", "submit", "--local", *map(str, words(pattern, 5, render=SLOW))], cwd=SCRATCH,
                          stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -64,20 +64,20 @@ script = SCRATCH / "parallel.sh"
 script.write_text(must(run(RELUME, "farm", "script", "--for", "parallel", *words(pattern, 5), cwd=SCRATCH)).stdout)
 third = run("sh", script)
 check(third.returncode == 2 and f"process {first.pid} still renders there" in third.stderr,
-      f"a script as well: {third.returncode}, {third.stderr}")
+      f"a script is refused as well: {third.returncode}, {third.stderr}")
 first.terminate()
 check(first.wait() in (143, -signal.SIGTERM), f"the first ended by SIGTERM: {first.returncode}")
 until(lambda: "nothing is at work" in run(RELUME, "farm", "status", job, cwd=SCRATCH).stdout, "nothing at work")
 check(before.items() <= {f.name: f.stat().st_mtime_ns for f in folder.glob("*.exr")}.items(),
-      "what it had rendered is untouched")
+      "its frames are unchanged")
 done = must(
     run(RELUME, "farm", "submit", "--local",
         *words(pattern, 5, "--at-end", 'echo "$RELUME_CODE $RELUME_FARM" >"local/end"'), cwd=SCRATCH))
 check(re.search(r"^rendered again, for other settings: \d+ frames?$", done.stdout, re.M),
-      f"a later run says what it replaces: {done.stdout}")
+      f"a later run names what it replaces: {done.stdout}")
 check((folder / "end").read_text() == f"0 {job}\n", f"the command at the end: {(folder / 'end').read_text()}")
 done = run(RELUME, "farm", "script", "--for", "make", *words(pattern, 5, "--at-end", "true"), cwd=SCRATCH)
-check(done.returncode == 2 and "behind make's" in done.stderr, f"make has its own way: {done.stderr}")
+check(done.returncode == 2 and "behind make's" in done.stderr, f"make runs in its own way: {done.stderr}")
 
 with slurm.Cluster(SCRATCH / "slurm") as cluster:
     def farm(*arguments, **more):
@@ -96,7 +96,7 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
             rf"{job}' shows it; submit with --replace to cancel it first, or to another -o\n", second.stderr),
         f"a second job is refused: {second.returncode}, {second.stderr}")
     check(number in second.stderr, f"by its number: {second.stderr}")
-    check(SLOW[-1].encode() in (SCRATCH / job / "arguments").read_bytes(), "and the first is as it was")
+    check(SLOW[-1].encode() in (SCRATCH / job / "arguments").read_bytes(), "the first job is unchanged")
     told = farm("status", job)
     until(lambda: len(list(folder.glob("*.exr"))) >= 3, "three frames")
     told = farm("status", job)
@@ -110,7 +110,7 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
           f"at least three in {took:.1f} s since the submission: {told.stdout}")
     wanting = re.search(r"^missing: frames (.*)$", told.stdout, re.M)
     check(wanting and all(re.fullmatch(r"\d+(-\d+)?", part) for part in wanting[1].split(",")),
-          f"the frames that are missing: {told.stdout}")
+          f"the missing frames: {told.stdout}")
     done = must(farm("submit", *words(pattern, 4, "--replace"), timeout=150))
     watched = farm("status", "--watch=1", job, timeout=120)
     check(
@@ -118,9 +118,9 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
         and "report exit code 0" in watched.stdout,
         f"replaced, and watched to its end: {watched.returncode}, {watched.stdout}{watched.stderr}")
     check(re.search(r"^\d\d:\d\d:\d\d  frames \d+ of 24; tasks \d running, ", watched.stdout, re.M),
-          f"a line now and then: {watched.stdout}")
+          f"a line from time to time: {watched.stdout}")
 
-    # A frame that cannot be written, a renderer that is killed, a task that is killed with its script.
+    # A frame that cannot be written, a renderer that is killed, a task killed together with its script.
     folder, pattern, job = place("trouble")
     (folder / "x.0006.exr").mkdir()
     end = '{ echo "$RELUME_CODE"; relume_farm=$RELUME_FARM; echo "$relume_farm"; } >"trouble/end"'
@@ -128,7 +128,9 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
     killed = {}
 
     def kill_task(task, everything):
-        """Kill the renderer of a task, or all of its processes: stopped first, so that none sees another's end."""
+        """Kill the renderer of a task, or all of its processes: they are stopped first, so that none reacts to
+        another's end.
+        """
         ours = []
         renders = False
         for pid, command in cluster.below():
@@ -141,10 +143,10 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
                 ours.append(pid)
                 renders |= command == "relume"
         if not renders:
-            return  # its script has not said yet that it begins
+            return  # its script has not reported its start yet
         for sign in (signal.SIGSTOP, signal.SIGKILL):
             for pid in ours:
-                with contextlib.suppress(ProcessLookupError):  # it went with its parent
+                with contextlib.suppress(ProcessLookupError):  # it ended with its parent
                     os.kill(pid, sign)
                 killed[task] = True
 
@@ -159,7 +161,7 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
                  r"^'relume farm retry trouble/x\.farm' renders what is missing$",
                  r"; report exit code 5$"):
         check(re.search(what, told.stdout, re.M), f"{what} in:\n{told.stdout}") or print(cluster.story(SCRATCH / job))
-    check(not re.search(r"^task [156]", told.stdout, re.M), f"tasks that did their work are not named:\n{told.stdout}")
+    check(not re.search(r"^task [156]", told.stdout, re.M), f"successful tasks are not named:\n{told.stdout}")
     check((folder / "end").read_text() == f"5\n{job}\n", f"the command at the end: {(folder / 'end').read_text()}")
 
     # With accounting Slurm knows more: a task that ran out of memory.
@@ -179,7 +181,7 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
     told = farm("status", job)
     check(told.returncode == 0 and "task " not in told.stdout, f"after retry: {told.stdout}")
 
-    # Pictures to look at, another camera, no channels gl.*: nothing is scored, and it says why.
+    # Display pictures, another camera, missing channels gl.*: there is no score, and the reason is printed.
     for name, output, render, why in (("png", "x.####.png", ("--mode", "gl"),
                                        "only .exr holds the channels gl.* that can be"),
                                       ("aov", "x.####.exr", ("--mode", "gl", "--aov=albedo"),
@@ -197,7 +199,7 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
             "submit",
             *words("end/x.####.png", 12, "--at-end", 'echo "$RELUME_CODE" >"end/end"',
                    render=("--device", "reference", "--mode", "gl"))))
-    check(re.search(r"^at the end \d+$", done.stdout, re.M), f"the command is a job of its own: {done.stdout}")
+    check(re.search(r"^at the end \d+$", done.stdout, re.M), f"the command is a separate job: {done.stdout}")
     cluster.wait_empty(100)
-    check((folder / "end").read_text() == "0\n", "and knows that all frames are whole")
+    check((folder / "end").read_text() == "0\n", "the command knows that all frames are complete")
 finish()

@@ -93,17 +93,17 @@ void calls_invent(unsigned *state, uint8_t *slot, const uint8_t *near)
 	set_command(slot, &calls_commands[i]);
 }
 
-/* What the calls' values point to, and who takes the calls. */
+/* The data that the calls' values point to, and the receiver of the calls. */
 struct calls {
-	int (*take)(void *user, const struct call *call); /* not 0: no more of them */
+	int (*take)(void *user, const struct call *call); /* returns nonzero to stop */
 	void *user;
 	struct trace_value args[CALLS_MAX_PARAMS], items[CALLS_MAX_PARAMS][MAX_ITEMS];
 	uint8_t blob[CALLS_MAX_PARAMS][MAX_BLOB];
 	struct call_sig sig;
-	struct call call; /* as a reader's, it is there until the next one */
+	struct call call; /* as from a reader, valid until the next one */
 };
 
-static const struct trace_values_sig NAMELESS = { 0 }; /* of enums and bitmasks */
+static const struct trace_values_sig NAMELESS = { 0 }; /* for enums and bitmasks */
 
 static int64_t int_of(uint32_t v)
 {
@@ -113,7 +113,7 @@ static int64_t int_of(uint32_t v)
 		return v & 7;
 	if (how < 208)
 		return v & 255;
-	/* Sides of pictures among them, which are not so large that the time goes into filling them. */
+	/* Include some sizes of pictures that are not so large that all time goes into filling them. */
 	return how < 232 ? EXTREME_INTS[v % (sizeof(EXTREME_INTS) / sizeof(EXTREME_INTS[0]))] : (int16_t)(v << 4) / 8;
 }
 
@@ -131,7 +131,7 @@ static uint32_t token_of(uint32_t v, const struct calls_group *group)
 	return v < 0xF800 ? group->values[v % group->n] : calls_groups[0].values[v % calls_groups[0].n];
 }
 
-/* Some numbers of a parameter that may be a token are tokens. */
+/* For a parameter that may be a token, some numbers are tokens. */
 static int is_token(char letter, uint32_t v, const struct calls_group *group)
 {
 	return letter != 'e' && letter != 'm' && group != calls_groups && v >> 8 >= 192 && v >> 8 < 224;
@@ -189,7 +189,7 @@ static struct trace_value blob_of(struct calls *c, unsigned i, uint32_t v)
 static struct trace_value value_of(struct calls *c, unsigned i, char letter, uint32_t v,
                                    const struct calls_group *group)
 {
-	if (v >> 8 == 255) /* what a recorder might not have written */
+	if (v >> 8 == 255) /* values that a recorder would not write */
 		return (struct trace_value){ .type = v & 1 ? TRACE_NULL : TRACE_NONE };
 	switch (letter) {
 	case 'b':
@@ -208,7 +208,7 @@ static struct trace_value value_of(struct calls *c, unsigned i, char letter, uin
 	}
 }
 
-/* Programs in assembly, whole and broken. Random bytes would hardly be one. */
+/* Assembly programs, valid and broken. Random bytes would hardly ever be one. */
 static struct trace_value program_of(uint32_t v)
 {
 	static const char *const texts[] = {
@@ -272,7 +272,7 @@ static int swap(struct calls *c)
 	return call(c, "glXSwapBuffers", NONE, 2, (struct trace_value[]){ CONTEXT, WINDOW });
 }
 
-/* Blobs of a snapshot, one after the other. Nothing but zeros, such as a texture that nobody filled, takes no room. */
+/* Blobs of a snapshot, in order. A blob of zeros, such as a texture that nobody filled, takes no memory. */
 struct blob {
 	struct blob *next;
 	uint64_t name[2];
@@ -306,8 +306,8 @@ static uint8_t *get(void *user, const uint64_t name[2], size_t n)
 	return NULL;
 }
 
-/* Saved, loaded and saved again. @return 0 the same bytes, or nothing that can be saved; 1 other bytes, which is
- * told */
+/* Save, load and save again. @return 0: the same bytes, or a state that cannot be saved; 1: different bytes, which
+ * is reported */
 static int check_saved(struct gls_exec *x,
                        int (*save)(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out))
 {
@@ -342,7 +342,7 @@ int calls_check_snapshot(struct gls_exec *x)
 	return check_saved(x, snapshot_save) || (gls_frame_settle(x) && check_saved(x, snapshot_save_pixels));
 }
 
-/* What replay.c does where a frame begins. */
+/* Start a frame as replay.c does. */
 static void begin_frame(struct gls_exec *x, size_t size, const struct calls_painter *painter)
 {
 	x->frame_ended = 0;
@@ -351,7 +351,7 @@ static void begin_frame(struct gls_exec *x, size_t size, const struct calls_pain
 		gls_frame_end_deferred(x);
 }
 
-/* The same where it has ended. */
+/* End a frame likewise. */
 static int end_frame(struct gls_exec *x, const struct calls_painter *painter)
 {
 	struct scene *scene = NULL;
@@ -430,7 +430,7 @@ static int execute(void *x, const struct call *call)
 	return gls_exec_call(x, call);
 }
 
-/* @return NULL without memory; to be freed with free() */
+/* @return NULL if out of memory; release with free() */
 static struct calls *create(int (*take)(void *user, const struct call *call), void *user)
 {
 	struct calls *c = calloc(1, sizeof(*c));

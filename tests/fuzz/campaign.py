@@ -4,11 +4,11 @@
 usage: campaign.py BUILD run SECONDS [TARGET...] | campaign.py BUILD keep [TARGET...] | campaign.py BUILD pack FILE
 INPUT...
 
-`run` goes round the targets (tests/fuzz/fuzz_NAME.c), one process at a time, a slice each, until SECONDS are over. A
-campaign goes on where the last one stopped: inputs that reach new code stay in BUILD/fuzz/found_NAME, what breaks in
-BUILD/fuzz/NAME-crash-*, sums of all campaigns in BUILD/fuzz/sums.json. Exits with 1 where something broke. `keep` takes
-the fewest small inputs that reach all that was reached into tests/fuzz, and adds the sums to tests/fuzz/sums.json,
-which `make show-fuzz` prints. `pack` adds inputs, such as one that broke something, to what is kept of a target.
+`run` cycles through the targets (tests/fuzz/fuzz_NAME.c), one process at a time, a slice each, until SECONDS have
+passed. A campaign continues where the last one stopped: inputs that reach new code are in BUILD/fuzz/found_NAME,
+crashes in BUILD/fuzz/NAME-crash-*, sums of all campaigns in BUILD/fuzz/sums.json. Exits with 1 if a target crashed.
+`keep` stores a minimal set of small inputs with the same coverage in tests/fuzz, and adds the sums to
+tests/fuzz/sums.json, which `make show-fuzz` prints. `pack` adds inputs, such as a crash, to a target's kept inputs.
 """
 import json
 import os
@@ -26,15 +26,15 @@ ROOT = HERE.parent.parent
 sys.path.insert(0, str(HERE))
 from seeds import make_seeds, read_pack  # noqa: E402
 
-SLICE_S = 900  # at most: what was found before is read first, which takes minutes
+SLICE_S = 900  # maximum; each slice starts by reading earlier inputs, which takes minutes
 LONGEST = {
     "calls": 16384, "verbs": 250_000, "snapshot": 200_000, "index": 150_000, "exr": 100_000, "oiio": 100_000,
     "ref": 100_000
 }
-SMALL = {"calls": 2048, "snapshot": 60_000, "index": 100_000}  # what is kept is smaller
-EDGES_ALONE = ("-set_cover_merge=1", "-use_counters=0")  # how often each is passed would be thousands of inputs
-MOST_MB = {"replay": 8192}  # windows of 16384 x 16384 pixels take what they take
-TIMEOUT_S = 60  # by the clock, of a process that gives way to all others
+SMALL = {"calls": 2048, "snapshot": 60_000, "index": 100_000}  # kept inputs are smaller
+EDGES_ALONE = ("-set_cover_merge=1", "-use_counters=0")  # distinguishing hit counts would keep thousands of inputs
+MOST_MB = {"replay": 8192}  # windows of 16384 x 16384 pixels need this much
+TIMEOUT_S = 60  # wall time of a process with low priority
 
 
 def all_targets():
@@ -46,14 +46,14 @@ def write_pack(path, parts):
 
 
 def kept_of(target):
-    """What is kept of a target: a folder of traces' streams for `replay`, a pack for each other one."""
+    """A target's kept inputs: a folder of trace streams for `replay`, a pack for every other one."""
     if target == "replay":
         return [path.read_bytes() for path in (HERE / "kept").iterdir()]
     return read_pack(HERE / f"kept_{target}")
 
 
 def unpacked(folder, target):
-    """The kept inputs as files, in a folder of their own."""
+    """The kept inputs as files in a temporary folder."""
     kept = folder / f"kept_{target}"
     shutil.rmtree(kept, ignore_errors=True)
     kept.mkdir(parents=True)
@@ -63,7 +63,7 @@ def unpacked(folder, target):
 
 
 def environment(target, **more):
-    free = int(target != "oiio")  # its readers leak, and its sandbox lets no symbolizer start, which ends the process
+    free = int(target != "oiio")  # leaks in its readers are not ours
     return dict(os.environ, ASAN_OPTIONS=f"allocator_may_return_null=1:detect_leaks={free}:symbolize={free}",
                 UBSAN_OPTIONS=f"print_stacktrace=1:symbolize={free}", **more)
 
@@ -79,13 +79,13 @@ def add(sums, target, **more):
 
 
 def slice_of(folder, target, seconds):
-    """One run of libFuzzer. What it says of itself goes into the sums; returns 1 where something broke."""
+    """One run of libFuzzer. Its statistics are added to the sums; returns 1 after a crash."""
     found = folder / f"found_{target}"
     found.mkdir(exist_ok=True)
     work = folder / "tmp"
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir()
-    program = work / target  # a copy: it may be built anew meanwhile
+    program = work / target  # a copy, because it may be rebuilt meanwhile
     try:
         shutil.copy(folder / target, program)
     except OSError as why:
@@ -113,7 +113,7 @@ def slice_of(folder, target, seconds):
         findings=done.returncode != 0)
     (folder / "sums.json").write_text(json.dumps(sums, indent=1))
     if done.returncode:
-        print(f"{target}: broke something",
+        print(f"{target}: crashed",
               *re.findall(r".*(?:ERROR: |runtime error: |SUMMARY: |Test unit written).*", text), sep="\n  ", flush=True)
     row = sums[target]
     print(f"{target}: {row['runs']:.0f} runs in {row['seconds']:.0f} s, {row['edges']} of {row['of']} edges",
@@ -137,7 +137,7 @@ def run(build, seconds, targets):
 
 
 def keep(build, targets):
-    """Fewest small inputs that reach what all reach; then the sums."""
+    """Select a minimal set of small inputs with the coverage of all; then add the sums."""
     folder = build / "fuzz"
     for target in targets:
         most = SMALL.get(target, 3072)

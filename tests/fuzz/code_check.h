@@ -1,19 +1,19 @@
-/* Instructions of programs as translators leave them: they stay within their registers, constants and samplers, or the
- * target ends. */
+/* Checks translated instructions of programs: they must stay within their registers, constants and samplers, or the
+ * target aborts. */
 #pragma once
 
 #include <stdlib.h>
 
 #include "replay/programs/code.h"
 
-/* n numbers from an operand on are there. */
+/* Whether n numbers exist from an operand on. */
 static inline int code_is_there(const struct program_code *code, uint32_t operand, uint32_t n)
 {
 	return operand >= SCENE_PROGRAM_CONSTANT ? operand - SCENE_PROGRAM_CONSTANT + n <= 4 * code->n_constants :
 	                                           operand + n <= code->n_registers;
 }
 
-/* first: its results begin there. n_textures: numbers of textures are below it */
+/* first: where its results start. n_textures: limit of texture numbers */
 static inline void code_check(const struct program_code *code, uint32_t first, uint32_t n_textures)
 {
 	for (uint32_t i = 0; i < code->n_instructions; i++) {

@@ -1,10 +1,10 @@
 /*
- * drive replay TARGET FILE...: inputs that were kept (pack_calls.py), one after the other.
- * drive mutate TARGET COUNT SEED FILE...: inputs damaged in COUNT ways.
+ * drive replay TARGET FILE...: runs kept inputs (pack_calls.py), one after the other. drive mutate TARGET COUNT SEED
+ * FILE...: runs COUNT mutants of the inputs.
  *
- * All targets of libFuzzer in one program, without it: no crash, no more than 10 s of processor time, no more than 1
- * GiB beyond what the process began with. What breaks is written to NAME.crash-NUMBER in the current folder. Prints the
- * count as libcheck does; exits with 1 where something broke.
+ * All libFuzzer targets in one program, without libFuzzer: an input must not crash, take more than 10 s of processor
+ * time, or use 1 GiB more than the process started with. A failing input is written to NAME.crash-NUMBER in the current
+ * folder. Prints the count like libcheck; exits with 1 if an input failed.
  */
 #include <ctype.h>
 #include <stdio.h>
@@ -20,8 +20,8 @@
 #include "tests/fuzz/target.h"
 #include "tests/fuzz/targets.h"
 
-#define SECONDS 10       /* of processor time: others may need the machine */
-#define MOST_SECONDS 120 /* by the clock: it waits for what does not come */
+#define SECONDS 10       /* processor time */
+#define MOST_SECONDS 120 /* wall time, in case it waits forever */
 #define MEMORY_KB ((long)1 << 20)
 #define MOST_INPUTS 65536
 #define MOST_BYTES ((size_t)1 << 23)
@@ -45,10 +45,10 @@ struct input {
 static struct input inputs[MOST_INPUTS];
 static size_t n_inputs;
 
-/* Memory that a child tells its parent through. */
+/* Shared memory, where a child reports to its parent. */
 static struct progress {
-	size_t done; /* inputs that were run whole */
-	int heavy;   /* the next one took too much memory */
+	size_t done; /* inputs that ran to completion */
+	int heavy;   /* the next one used too much memory */
 } *progress;
 
 static void add_inputs(const char *path)
@@ -79,7 +79,7 @@ static unsigned draw(unsigned *state, size_t n)
 	return n ? (*state >> 4) % (unsigned)n : 0;
 }
 
-/* As mutate.py: bytes flipped, set, cut out, doubled, spliced; numbers made extreme. @return the new size */
+/* As in mutate.py: bytes flipped, set, removed, doubled, spliced; numbers made extreme. @return the new size */
 static size_t mutate(uint8_t *data, size_t n, size_t room, unsigned *state)
 {
 	static const size_t lengths[] = { 1, 2, 8, 100, 5000 };
@@ -111,7 +111,7 @@ static size_t mutate(uint8_t *data, size_t n, size_t room, unsigned *state)
 	return n && draw(state, 10) == 0 ? draw(state, n) : n;
 }
 
-/* The input of a number: a kept one, or one that is damaged in a way of its own. */
+/* The input with this number: a kept one, or a mutant. */
 static size_t make(size_t number, unsigned seed, int mutates, uint8_t *out)
 {
 	unsigned state = (unsigned)number * 2654435761u + seed;
@@ -121,14 +121,14 @@ static size_t make(size_t number, unsigned seed, int mutates, uint8_t *out)
 	return mutates ? mutate(out, in->n, MOST_BYTES, &state) : in->n;
 }
 
-/* How long an input may take; 0, 0: the end of it. A signal ends the process. */
+/* Set limits for an input; 0, 0 ends them. A signal ends the process. */
 static void allow(unsigned processor_s, unsigned s)
 {
 	setitimer(ITIMER_PROF, &(struct itimerval){ .it_value = { .tv_sec = processor_s } }, NULL);
 	alarm(s);
 }
 
-/* Runs in a child until all are done or one breaks. */
+/* Run in a child until all inputs are done or one fails. */
 static void run_from(const struct target *target, size_t first, size_t end, unsigned seed, int mutates, uint8_t *room)
 {
 	struct rusage usage;
@@ -154,7 +154,7 @@ static void run_from(const struct target *target, size_t first, size_t end, unsi
 		progress->done = i + 1;
 	}
 	target_end();
-	_exit(0); /* a library behind OpenImageIO waits at exit for a thread that a fork does not have */
+	_exit(0); /* at exit, a library used by OpenImageIO waits for a thread that a fork lacks */
 }
 
 static void keep(const char *name, size_t number, const uint8_t *bytes, size_t n, int status)
@@ -199,7 +199,7 @@ static size_t run_all(const struct target *target, size_t count, unsigned seed, 
 		if (child < 0 || waitpid(child, &status, 0) != child)
 			return count;
 		first = progress->done;
-		if (first < count) { /* ended on its way */
+		if (first < count) { /* it ended early */
 			size_t n = make(first, seed, mutates, room);
 
 			keep(target->name, first++, room, n, status);

@@ -1,5 +1,4 @@
-/* ARB assembly programs: their translation. An input is a stage and the text. What comes out must stay within its
- * registers. */
+/* Translation of ARB assembly programs. An input is a stage and the text. The result must stay within its registers. */
 #include "replay/programs/arb.h"
 #include "tests/fuzz/code_check.h"
 #include "tests/fuzz/target.h"

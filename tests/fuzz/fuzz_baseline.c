@@ -1,4 +1,4 @@
-/* baseline.yaml of one device: read, looked up, written again, read again. */
+/* A device's baseline.yaml: read, searched, written again, read again. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -40,7 +40,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	}
 	if (base.n_variants && !baseline_write(base.folders[0], base.variants[0])) {
 		if (baseline_open(target_folder(), &again))
-			abort(); /* what we write we read */
+			abort(); /* must be able to read its own output */
 		baseline_close(&again);
 	}
 	baseline_close(&base);

@@ -1,4 +1,4 @@
-/* libFuzzer's target for the state machine alone: the input is a sequence of calls (calls.h), and is changed call by
+/* libFuzzer target for the state machine alone: the input is a sequence of calls (calls.h), and is mutated call by
  * call. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsi
 size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out,
                                  size_t max_size, unsigned seed);
 
-/* What is reported about senseless calls is of no interest here. */
+/* Messages about nonsensical calls are of no interest. */
 int LLVMFuzzerInitialize(int *argc, char ***argv)
 {
 	(void)argc;
@@ -28,8 +28,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	return 0;
 }
 
-/* Calls that were not there, each with some to do with the one before; or one that was there, again. @return how
- * many */
+/* Insert new calls, each related to the previous one, or repeat an existing one. @return the number inserted */
 static size_t insert(uint8_t *data, size_t n, size_t most, unsigned *seed)
 {
 	size_t at = calls_draw(seed, (unsigned)n + 1), count = calls_draw(seed, 3) ? 1 : 1 + calls_draw(seed, 8);

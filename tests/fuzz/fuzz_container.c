@@ -1,4 +1,7 @@
-/* Traces as files: Snappy chunks, gzip, Brotli; every call that is whole, as text, twice: read on, and sought. */
+/*
+ * Traces as files: Snappy chunks, gzip, Brotli. Every complete call is read as text twice: sequentially, and by
+ * seeking.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -9,7 +12,7 @@
 #include "tests/fuzz/target.h"
 
 #define MOST_CALLS 20000
-#define MOST_BYTES ((size_t)64 << 20) /* a bomb unpacks without end, and is read piece by piece */
+#define MOST_BYTES ((size_t)64 << 20) /* a decompression bomb is endless, and is read piece by piece */
 
 static FILE *nowhere;
 

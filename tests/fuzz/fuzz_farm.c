@@ -1,4 +1,4 @@
-/* The folder of a job: its words (the input, behind the folder they were typed in), its script made again, its
+/* A job's folder: its arguments (the input, after the folder they were typed in), its script generated again, its
  * tasks. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Shaders of GLSL: their translation. An input is a stage and its text, as the program gave it. What comes out must
- * stay within its registers. */
+/* Translation of GLSL shaders. An input is a stage and the program's text. The result must stay within its
+ * registers. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /*
- * Scenes of senseless calls as glTF, JSON and text. The first four bytes choose numbers of the scene that are spoiled
- * before: what a damaged recording may leave in any float. The rest is calls (calls.h).
+ * Scenes of nonsensical calls exported as glTF, JSON and text. The first four bytes select numbers of the scene to
+ * spoil first, because a damaged recording may leave any value in any float. The rest is calls (calls.h).
  */
 #include <math.h>
 #include <stdio.h>

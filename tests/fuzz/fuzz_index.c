@@ -1,6 +1,6 @@
 /*
- * An index beside its trace. The input is the table of contents' size (32 bits, low first), the table, and the blobs in
- * front of it; head and checksum are made for it. Each checkpoint is restored; the calls behind it are executed.
+ * An index beside its trace. The input is the table of contents' size (32 bits, low byte first), the table, and the
+ * blobs before it; header and checksum are added. Each checkpoint is restored, and the calls after it are executed.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,4 @@
-/* What of a recording stands in JSON is text of the recording's: the result stays one string of JSON and well-formed
- * UTF-8, whatever it is. */
+/* Text from a recording written as JSON: the result must be a single JSON string of well-formed UTF-8 for any input. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +6,7 @@
 #include "base/json.h"
 #include "tests/fuzz/target.h"
 
-/* RFC 3629: how many bytes a character has; 0: none is well-formed here */
+/* RFC 3629: the number of bytes of a character, or 0 if none is well-formed here */
 static size_t character(const unsigned char *p, const unsigned char *end)
 {
 	size_t n = p[0] < 0x80                 ? 1 :

@@ -1,8 +1,8 @@
 /*
- * Pictures as the bridge to OpenImageIO reads them, in this process: the command does it in one of its own
- * (tracer/image/foreign.h), and survives what breaks here. The first byte of the input says which name the file ends
- * in, and so which of its readers comes first. OpenImageIO and what it stands on are Debian's: without counters of
- * edges, watched where they allocate, copy and free.
+ * Pictures read through the bridge to OpenImageIO, in this process; the command uses a separate one
+ * (tracer/image/foreign.h), which survives crashes found here. The first byte of the input selects the file name's
+ * ending, and thus the reader tried first. OpenImageIO and its libraries are Debian's: without edge counters, but with
+ * their allocations, copies and frees checked.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
 
 	(void)argc;
 	(void)argv;
-	if (!getenv("FUZZ_FREE") /* libFuzzer's merge starts itself */ &&
+	if (!getenv("FUZZ_FREE") /* libFuzzer's merge restarts this program */ &&
 	    confine_to(files, sizeof(files) / sizeof(files[0]), CONFINE_READER))
 		return 1;
 	return freopen("/dev/null", "w", stdout) ? 0 : 1;

@@ -1,4 +1,4 @@
-/* What is kept about devices and of compiled kernels: files of base/kept.h. The first byte as in fuzz_tree.c. */
+/* Stored facts about devices, and cached kernels: files of base/kept.h. The first byte is used as in fuzz_tree.c. */
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>

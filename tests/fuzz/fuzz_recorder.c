@@ -1,7 +1,7 @@
 /*
- * What the recorder reads of a program's memory: texts, lists of texts, blobs and pixels at any address, with pages
- * that are not there. The input is the memory's first bytes and calls. Beside that nothing breaks, what is read is
- * compared: bytes as they are, zeros where a page is missing.
+ * The recorder's reads of program memory: texts, lists of texts, blobs and pixels at any address, with some pages
+ * unmapped. The input is the first bytes of the memory, and calls. Results are compared: bytes must be unchanged, and
+ * zeros where a page is missing.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -15,10 +15,10 @@
 
 #define PAGE ((size_t)4096)
 #define PAGES 8
-#define FILLED 256 /* bytes of the input that are spread over the memory */
+#define FILLED 256 /* bytes of the input that are repeated over the memory */
 #define MOST_BYTES (PAGE * PAGES)
 
-/* One call: what, where from (or a wild address), how much. */
+/* One call: kind, address (or a wild one), size. */
 struct __attribute__((packed)) step {
 	uint8_t what, wild;
 	uint16_t at;
@@ -109,7 +109,7 @@ static void run(const struct step *s, const uint8_t *bytes)
 		put_blob(chunk, from, n < (long)(4 * MOST_BYTES) ? n : 0);
 		break;
 	case 6:
-		if (s->wild & 16 && size > 16) /* shorter ones are read as they are */
+		if (s->wild & 16 && size > 16) /* shorter ones are read directly */
 			put_array_f32(chunk, (const float *)(const void *)from, size);
 		else
 			put_zeros(chunk, from, size % 4096);

@@ -1,7 +1,7 @@
 /*
- * libFuzzer's target for reader and state machine: the input is a trace's logical stream (see capture/format/trace.md),
- * put into a Snappy container and replayed with the scenes of its first frames, or of every other one. Links no tracer:
- * whoever needs pixels gets grey ones. Most changes are to its calls (stream.h), the others to its bytes.
+ * libFuzzer target for reader and state machine: the input is a trace's logical stream (capture/format/trace.md), which
+ * is put into a Snappy container and replayed with the scenes of its first frames, or of every other one. Links no
+ * tracer: requests for pixels get grey ones. Most mutations change its calls (stream.h), the others its bytes.
  */
 #include <stdint.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 #include "tests/fuzz/target.h"
 
 #define MAX_FRAMES 8
-#define MOST_PIXELS (1u << 20) /* of a picture: larger ones cannot be had, which takes less time than to fill them */
+#define MOST_PIXELS (1u << 20) /* per picture; larger ones are refused, which is faster than filling them */
 
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size);
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);

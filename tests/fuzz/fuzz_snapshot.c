@@ -1,5 +1,4 @@
-/* A snapshot whose names are not compared with what they name: what an index lets through whose hashes somebody has
- * made right. Input: snapshot.h. */
+/* A snapshot whose hashes are not verified, as in an index where someone has corrected them. Input: snapshot.h. */
 #include <stdlib.h>
 
 #include "replay/gl/dispatch.h"
@@ -15,7 +14,7 @@ struct file {
 	size_t size;
 };
 
-/* A blob of that name; cut or filled up where another size is asked for. */
+/* The blob with that name, cut or padded if another size is requested. */
 static uint8_t *get(void *user, const uint64_t name[2], size_t n)
 {
 	struct file rest = *(const struct file *)user;

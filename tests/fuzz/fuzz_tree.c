@@ -1,6 +1,6 @@
 /*
- * Trees of meshes on disk. The first byte says what the file is: odd, the input as it is; even, its content under a
- * right key and a right checksum. A tree that is taken is walked by what makes other nodes of it.
+ * Trees of meshes on disk. The first byte selects the file's form: odd, the input itself; even, its contents with a
+ * correct key and checksum. An accepted tree is then converted to other kinds of nodes.
  */
 #include <dirent.h>
 #include <stdio.h>
@@ -21,7 +21,7 @@ static struct blas_store *store;
 static char file[4096];
 static uint64_t file_key[2];
 
-/* The store writes a tree: its name and key are known then. */
+/* The store writes a tree, which reveals its name and key. */
 static void begin(void)
 {
 	struct node2 node = { .lo = { { 1 }, { 1 } } };

@@ -1,7 +1,7 @@
 /*
- * The verbs that read a recording, whole and in one process, and what replays that go back do with it: the low bits of
- * the first byte choose one. The rest is the trace's file; where the first byte's highest bit is set it is the logical
- * stream in it, and most changes are to its calls (stream.h). What they write goes into a folder of this process.
+ * The verbs that read a recording, run completely in one process, and their data in replays that go back; the low bits
+ * of the first byte select one. The rest is the trace's file, or, if the highest bit of the first byte is set, the
+ * logical stream in it, with most mutations applied to its calls (stream.h). Output goes to a folder of this process.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,11 +19,11 @@
 
 #define MOST_WORDS 12
 #define MOST_FRAMES 8
-/* of a drawable whose picture is made: each takes 9 bytes and more, in several pictures */
+/* largest drawable whose picture is made: each pixel takes at least 9 bytes, in several pictures */
 #define MOST_PIXELS (1u << 23)
-#define STREAM 128 /* of the first byte */
+#define STREAM 128 /* flag in the first byte */
 
-size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size) __attribute__((weak)); /* drive.c has none */
+size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size) __attribute__((weak)); /* missing in drive.c */
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
 
 static int has_large_drawable(const struct gls_exec *x)
@@ -37,8 +37,7 @@ static int has_large_drawable(const struct gls_exec *x)
 	return 0;
 }
 
-/* Scenes of most frames, with pixels that have little to do with them; after each the state is saved, loaded and saved
- * again. */
+/* Build the scenes of most frames, with pixels unrelated to them; after each, save, load and save the state again. */
 static int states_main(int argc, char **argv)
 {
 	struct player p;
@@ -63,7 +62,7 @@ static int states_main(int argc, char **argv)
 
 static const struct verb {
 	int (*main)(int argc, char **argv);
-	const char *words[MOST_WORDS]; /* IN and OUT are files */
+	const char *words[MOST_WORDS]; /* IN and OUT are replaced by files */
 } verbs[] = {
 	{ info_main, { "info", "--json", "--no-sandbox", "IN" } },
 	{ scene_main, { "scene", "--json", "-f", "1", "--no-sandbox", "IN" } },

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""gen_commands.py OUT HANDLER_SOURCE...: what tests/fuzz/calls.c makes calls of, as C: each command that a handler of
-replay/ knows, with a letter for each parameter, the enumerants that the registry says belong there, and the chapter:
-which source handles it.
+"""gen_commands.py OUT HANDLER_SOURCE...: the commands that tests/fuzz/calls.c makes calls of, as C: each command that
+replay/ handles, with a letter for each parameter, its enumerants according to the registry, and its chapter, the source
+that handles it.
 
-Commands go by a number made of their name, so that what was kept means the same when others have come. Letters: e enum,
-m bitmask, i and u integers, f and d floats, p address, b bytes or an offset, s string; E I F D arrays of these.
+A command's number is derived from its name, so that kept inputs stay valid when commands are added. Letters: e enum, m
+bitmask, i and u integers, f and d floats, p address, b bytes or an offset, s string; E I F D arrays of these.
 """
 import sys
 import zlib
@@ -18,7 +18,7 @@ SCALARS = {
     **dict.fromkeys(("GLint", "GLsizei", "GLshort", "GLbyte", "GLintptr", "GLsizeiptr", "GLintptrARB", "GLsizeiptrARB", "int", "int64_t", "Bool"), "i"),
     **dict.fromkeys(("GLuint", "GLushort", "GLubyte", "GLboolean", "GLXDrawable", "GLXPbuffer", "GLhandleARB", "Font", "unsigned long"), "u")
 }
-# What no registry of GL's or GLX' knows.
+# Commands missing from the registries of GL and GLX.
 OTHERS = {
     "memcpy": "pbi", "eglChooseConfig": "pIIiI", "eglGetConfigAttrib": "ppeI", "eglCreateContext": "pppI",
     "eglDestroyContext": "pp", "eglMakeCurrent": "pppp", "eglSwapBuffers": "pp", "eglSwapBuffersWithDamageEXT": "ppIi",
@@ -26,7 +26,7 @@ OTHERS = {
     "OSMesaCreateContextAttribs": "Ip", "OSMesaDestroyContext": "p", "OSMesaMakeCurrent": "ppeii"
 }
 MOST_PARAMS = 15
-# Numbers that may be tokens, as the registry does not say: values of parameters, of which these groups hold most.
+# Numeric parameters that may be tokens, which the registry does not say; these groups contain most of their values.
 VALUED = ("glTexParameter", "glSamplerParameter", "glTexEnv", "glTexGen", "glFog", "glLightModel", "glPointParameter")
 VALUES = ("TextureMinFilter", "TextureMagFilter", "TextureWrapMode", "TextureEnvMode", "TextureGenMode", "FogMode",
           "LightModelColorControl", "DepthFunction", "BlendingFactor", "PixelFormat", "TextureUnit")

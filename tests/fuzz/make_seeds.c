@@ -1,9 +1,8 @@
 /*
- * make_seeds index TRACE FILE: the input of fuzz_index.c for an index of the trace with a checkpoint at each frame.
- * make_seeds snapshot FOLDER: inputs of fuzz_snapshot.c: states that some of the kept sequences of calls lead to.
- * make_seeds traces FOLDER: the kept sequences of calls as recordings.
- * make_seeds programs FOLDER: recordings that show a drawn texture by each kept shader and assembly program.
- * make_seeds tree FILE: the input of fuzz_tree.c for a tree of 64 triangles.
+ * make_seeds index TRACE FILE: input of fuzz_index.c, an index of the trace with a checkpoint at each frame. make_seeds
+ * snapshot FOLDER: inputs of fuzz_snapshot.c, states reached by some of the kept sequences of calls. make_seeds traces
+ * FOLDER: the kept sequences of calls as recordings. make_seeds programs FOLDER: recordings that show a drawn texture
+ * through each kept shader and assembly program. make_seeds tree FILE: input of fuzz_tree.c, a tree of 64 triangles.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,9 +21,9 @@
 #include "tracer/accel/tree.h"
 
 #define KEPT "tests/fuzz/kept_"
-#define LIKE "tests/golden/two_triangles.trace" /* traces have its properties */
+#define LIKE "tests/golden/two_triangles.trace" /* traces take its properties */
 #define LARGEST 65536
-#define EVERY 24 /* sequence of the kept ones */
+#define EVERY 24 /* uses one kept sequence in this many */
 #define MOST_CHECKPOINTS 3
 #define MOST_SIGS 2048
 
@@ -128,8 +127,7 @@ static void make_index(const char *path, const char *to)
 
 /* --- Sequences of calls ------------------------------------------------------------------------------------------ */
 
-/* The next of the kept inputs. @return its bytes, which are there until the next one, and a zero; NULL: there is
- * none */
+/* The next kept input. @return its bytes and a zero, valid until the next one; NULL: none */
 static const uint8_t *next_kept(FILE *file, uint32_t *size)
 {
 	static uint8_t input[LARGEST + 1];
@@ -152,7 +150,7 @@ static FILE *open_kept(const char *target)
 	return file;
 }
 
-/* What is written, and the signatures of its calls, which trace_out.h knows by their addresses. */
+/* The output, and the signatures of its calls, which trace_out.h identifies by address. */
 struct written {
 	struct trace_out *out;
 	struct call_sig sigs[MOST_SIGS];
@@ -179,7 +177,7 @@ static int write_call(void *user, const struct call *call)
 	return trace_out_call(written->out, &again);
 }
 
-/* A recording of what `say` hands to write_call. */
+/* A recording of the calls that `say` passes to write_call. */
 static void make_trace(const char *folder, const char *target, int number, const uint8_t *input, uint32_t size,
                        int (*say)(struct written *written, const uint8_t *input, uint32_t size))
 {
@@ -241,7 +239,7 @@ static int say(struct written *written, const struct said *said, size_t n)
 
 #define SAY(written, said) say(written, said, sizeof(said) / sizeof((said)[0]))
 
-/* A window, and a texture of its size that is drawn to. */
+/* A window, and a texture of its size as the draw target. */
 static int say_target(struct written *written)
 {
 	static const struct said said[] = {
@@ -269,7 +267,7 @@ static int say_target(struct written *written)
 	return SAY(written, said);
 }
 
-/* The texture over all of the window, twice. */
+/* Draw the texture over the whole window, twice. */
 static int say_shown(struct written *written)
 {
 	static const struct said said[] = {
@@ -285,7 +283,7 @@ static int say_shown(struct written *written)
 	return SAY(written, said) || SAY(written, said);
 }
 
-/* fuzz_glsl.c's input */
+/* in the format of fuzz_glsl.c */
 static int say_shader(struct written *written, const uint8_t *input, uint32_t size)
 {
 	const char *text = size ? (const char *)input + 1 : "";
@@ -305,7 +303,7 @@ static int say_shader(struct written *written, const uint8_t *input, uint32_t si
 	return say_target(written) || SAY(written, said) || say_shown(written);
 }
 
-/* fuzz_arb.c's input */
+/* in the format of fuzz_arb.c */
 static int say_assembly(struct written *written, const uint8_t *input, uint32_t size)
 {
 	const char *text = size ? (const char *)input + 1 : "";

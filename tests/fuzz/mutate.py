@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Damage a trace in many ways and see that `relume info` and `relume scene` stay in one piece.
+"""Damage a trace in many ways, and check that `relume info` and `relume scene` handle it.
 
 usage: mutate.py TRACE [COUNT [SEED [BYTES]]]
 
-Bytes of the unpacked stream are flipped, cut out, doubled and spliced, and the file itself is cut. Each run must end
-within 10 s, within 1 GiB of address space beyond what the whole trace needs, and with exit code 0 or 3. A mutant that
-breaks a run is kept beside the trace as NAME.crash-N.
+Bytes of the unpacked stream are flipped, removed, doubled and spliced, and the file itself is cut. Each run must end
+within 10 s, within 1 GiB of address space more than the whole trace needs, and with exit code 0 or 3. A mutant that
+fails is kept beside the trace as NAME.crash-N.
 """
 import os
 import pathlib
@@ -16,7 +16,7 @@ import subprocess
 import sys
 
 RELUME = os.environ.get("RELUME", "build/relume")
-SANITIZED = "san" in RELUME  # address space means nothing there
+SANITIZED = "san" in RELUME  # sanitizers make address space meaningless
 
 
 def uint(data, at):
@@ -116,7 +116,7 @@ def limit_memory():
 
 
 def run(path):
-    """What is wrong with the runs on a file, or ""."""
+    """The fault of the runs on a file, or ""."""
     for verb in (["info", "--json"], ["scene", "-f", "3", "--json"]):
         try:
             done = subprocess.run([RELUME, *verb, str(path)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,

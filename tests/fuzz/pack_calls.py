@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""pack_calls.py pack FILE FOLDER | unpack FILE FOLDER: kept sequences of calls are many and short, so that they stand
-in one file: the length of each as 32 bits, low first, and its bytes; in the order of their names."""
+"""pack_calls.py pack FILE FOLDER | unpack FILE FOLDER: kept sequences of calls are many and short, so they share one
+file: for each, in the order of names, its length as 32 bits, low byte first, and its bytes."""
 import hashlib
 import pathlib
 import sys

@@ -1,5 +1,5 @@
-"""What libFuzzer and mutants start from: files as Relume and others make them, one folder BUILD/fuzz/seeds_TARGET
-each."""
+"""Initial inputs of libFuzzer and of mutants: files made by Relume and other programs, in a folder
+BUILD/fuzz/seeds_TARGET each."""
 import gzip
 import pathlib
 import re
@@ -73,20 +73,20 @@ frames:
   - { frame: 1, width: 4, height: 3, channels: "R:0123456789abcdef" }
   - { frame: 2, width: 4, height: 3, file: frame.0002.exr, channels: "A:0123456789abcdef R:0123456789abcdef" }
 """
-# Two frames of 2 x 2 pixels, colour and depth (capture/format/ref.h); a block of Snappy's that is one literal.
+# Two frames of 2 x 2 pixels, colour and depth (capture/format/ref.h), in a Snappy block with one literal.
 REF = b"RELREF2\n" + b"".join(
     struct.pack("<IIIQQ", kind, 2, 2, frame, 18) + b"\x10\x3c" + bytes(range(16))
     for frame in (3, 4)
     for kind in (1, 2))
 REF += struct.pack("<IIIQQQ", 0x101, 2, 2, 5, 26, 8) + b"\x10\x3c" + bytes(range(16))
-# Memory of eight pages, the third of which is missing, and a call of each kind (fuzz_recorder.c).
+# Memory of eight pages, with the third one missing, and a call of each kind (fuzz_recorder.c).
 RECORDER = bytes([0xfb, *b"a text" * 20]).ljust(256, b"\0") + b"".join(
     struct.pack("<BBHi5i", what, wild, 8000, 300, 0x1908, 0x1401, 16, 16, 1) for what in range(8) for wild in (0, 1, 9))
 FARM = b"x.trace\0-f\0001-50x5\0-o\0x.####.exr\0--chunk\00010\0--sbatch=--partition=night\0--for\0slurm\0--\0--mode\0gl\0"
 
 
 def read_pack(path):
-    """The inputs in a file: the length of each as 32 bits, low first, and its bytes."""
+    """The inputs in a file: for each, its length as 32 bits, low byte first, and its bytes."""
     data, at, parts = path.read_bytes() if path.exists() else b"", 0, []
     while at < len(data):
         size = int.from_bytes(data[at:at + 4], "little")
@@ -95,13 +95,13 @@ def read_pack(path):
     return parts
 
 
-VERBS = 10  # of fuzz_verbs.c
-SCENE, STATES = 1, 9  # those of them that build all of a frame, and of all frames
-STREAM = 128  # of the same byte: no container around the stream
+VERBS = 10  # in fuzz_verbs.c
+SCENE, STATES = 1, 9  # verbs that build a whole frame, and all frames
+STREAM = 128  # flag in the same byte: a stream without a container
 
 
 def record(build, folder):
-    """Recordings of programs of ours, two frames each (panels: all), with what they showed."""
+    """Recordings of our programs, two frames each (panels: all), with reference frames."""
     folder.mkdir(parents=True, exist_ok=True)
     for program in [
             *(build / "corpus").iterdir(), *(build / "tests/real").glob("*"), *(build / "tests/real/panels").iterdir()
@@ -115,8 +115,8 @@ def record(build, folder):
 
 
 def cut_panels(build, folder):
-    """Recordings of panels, whose calls are more varied than any other program's, a frame each: short ones are changed
-    more often."""
+    """Recordings of panels, one frame each: their calls are the most varied, and short recordings are mutated more
+    often."""
     cut = folder / "cut"
     cut.mkdir(exist_ok=True)
     for program in (build / "tests/real/panels").glob("*.d"):
@@ -131,7 +131,7 @@ def cut_panels(build, folder):
 
 
 def made_traces(build, traces, out):
-    """What is kept of `calls`, `glsl` and `arb`, as recordings."""
+    """The kept inputs of `calls`, `glsl` and `arb`, as recordings."""
     folder = traces / "made"
     folder.mkdir(exist_ok=True)
     for what in ("traces", "programs"):
@@ -144,7 +144,7 @@ def made_traces(build, traces, out):
 
 
 def pictures(build, traces, out):
-    """Frames by Relume, and what oiiotool makes of them; the first byte of each is the number of its name's ending
+    """Frames by Relume, and conversions by oiiotool; the first byte of each is the number of its name's ending
     (fuzz_oiio.c)."""
     trace = ROOT / "tests/golden/two_triangles.trace"
     subprocess.run(
@@ -181,7 +181,7 @@ def assembly():
 
 
 def make_seeds(build, folder):
-    """Once; the folders' names end in the targets'."""
+    """Run once; the folders' names end with the targets' names."""
     names = ("calls", "replay", "container", "verbs", "index", "snapshot", "ref", "exr", "oiio", "look", "rules",
              "baseline", "json", "gltf", "tree", "outcome", "farm", "recorder", "glsl", "arb")
     out = {name: folder / f"seeds_{name}" for name in names}

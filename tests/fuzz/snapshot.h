@@ -1,7 +1,7 @@
 /*
- * A snapshot of the state machine (replay/index/snapshot.h) as one file: records of a name (16 bytes), a size (32 bits,
- * low first) and so many bytes. The first is the snapshot, the others are its blobs, one may be calls (calls.h) to be
- * executed once it is loaded: its name is all 0xff.
+ * A snapshot of the state machine (replay/index/snapshot.h) as one file: records with a name (16 bytes), a size (32
+ * bits, low byte first) and that number of bytes. The first is the snapshot, the others are its blobs; a record whose
+ * name is all 0xff holds calls (calls.h) to execute after loading.
  */
 #pragma once
 
@@ -15,9 +15,9 @@ struct snapshot_record {
 	const uint8_t *bytes;
 };
 
-#define SNAPSHOT_HEAD 20 /* bytes before those of a record */
+#define SNAPSHOT_HEAD 20 /* size of a record's header */
 
-/** The next record. @param data, size  go behind it. @return 0: there is none; the last may be cut */
+/** The next record. @param data, size  advanced past it. @return 0: there is none; the last may be cut */
 static inline int snapshot_record_next(const uint8_t **data, size_t *size, struct snapshot_record *out)
 {
 	if (*size < SNAPSHOT_HEAD)

@@ -6,9 +6,9 @@
 #include "capture/format/call.h"
 #include "tests/fuzz/calls.h"
 
-#define MAX_ID 16384  /* of a signature that is read */
-#define MAX_SIGS 1024 /* of a kind that are written */
-#define MAX_ENUMS 256 /* that are remembered */
+#define MAX_ID 16384  /* largest signature number read */
+#define MAX_SIGS 1024 /* signatures written, per kind */
+#define MAX_ENUMS 256 /* enums remembered */
 #define MAX_CALLS 4096
 #define MAX_NESTING 8
 
@@ -19,7 +19,7 @@ struct span {
 	size_t n;
 };
 
-/* What is defined in a stream, and its calls: the details of their two events without the byte that ends them. */
+/* Definitions in a stream, and its calls: the details of their two events without the terminating byte. */
 struct stream {
 	struct span sigs[N_KINDS][MAX_ID];
 	struct span enums[MAX_ENUMS];
@@ -32,14 +32,14 @@ struct stream {
 	struct span head;
 };
 
-/* What is written. */
+/* The output. */
 struct out {
 	uint8_t *at, *end;
 	int full;
 	struct span sigs[N_KINDS][MAX_SIGS]; /* defined so far */
 	size_t n_sigs[N_KINDS];
 	unsigned *state;
-	unsigned before_change; /* values that are copied before one is changed */
+	unsigned before_change; /* values to copy before one is changed */
 };
 
 struct cursor {
@@ -77,7 +77,7 @@ static void skip_text(struct cursor *c)
 	skip(c, get_uint(c));
 }
 
-/* The definition of a signature. */
+/* Skip the definition of a signature. */
 static void skip_definition(struct cursor *c, enum kind kind)
 {
 	uint64_t n;
@@ -94,7 +94,7 @@ static void skip_definition(struct cursor *c, enum kind kind)
 	}
 }
 
-/* How many members a struct has. */
+/* The number of members of a struct. */
 static uint64_t members_of(struct span definition)
 {
 	struct cursor c = { definition.at, definition.at ? definition.at + definition.n : NULL, 0 };
@@ -129,7 +129,7 @@ static void put_uint(struct out *o, uint64_t value)
 	put_byte(o, (unsigned)value);
 }
 
-/* A signature's number, and what it is where that has not been said. */
+/* Write a signature's number, with its definition if that has not been written yet. */
 static void put_sig(struct out *o, enum kind kind, struct span sig)
 {
 	size_t i = 0;
@@ -151,7 +151,7 @@ static void put_sig(struct out *o, enum kind kind, struct span sig)
 
 /* ---- values ---- */
 
-/* A signature's number is read, with its definition where it stands there; and written. */
+/* Read a signature's number, with its definition if it follows, and write it. */
 static struct span copy_sig(struct stream *s, struct cursor *c, struct out *o, enum kind kind)
 {
 	uint64_t id = get_uint(c);
@@ -183,7 +183,7 @@ static void put_random_bytes(struct out *o)
 		put_byte(o, what < 256 ? what : calls_draw(o->state, 256));
 }
 
-/* Any value at all in the place of another; most often one of its type. */
+/* Any value in place of another, usually one of the same type. */
 static void put_other(struct out *o, unsigned tag, const struct stream *s)
 {
 	static const uint64_t NUMBERS[] = { 0,       1,          2,          3,          7,
@@ -208,7 +208,7 @@ static void put_other(struct out *o, unsigned tag, const struct stream *s)
 		put(o, &d, 8);
 	else if (tag == TRACE_STRING || tag == TRACE_BLOB)
 		put_random_bytes(o);
-	else if (tag == TRACE_ENUM && sig.at && get_uint(&c) == 1) { /* one that the stream has */
+	else if (tag == TRACE_ENUM && sig.at && get_uint(&c) == 1) { /* one defined in the stream */
 		skip_text(&c);
 		skip(&c, 1);
 		put_uint(o, get_uint(&c));
@@ -218,7 +218,7 @@ static void put_other(struct out *o, unsigned tag, const struct stream *s)
 		put_uint(o, number);
 }
 
-/* Read a value and write it (o NULL: only read it), or another one. */
+/* Read a value and write it (o NULL: only read it), or write another one. */
 static void copy_value(struct stream *s, struct cursor *c, struct out *o, unsigned depth)
 {
 	const uint8_t *from = c->p;
@@ -262,7 +262,7 @@ static void copy_value(struct stream *s, struct cursor *c, struct out *o, unsign
 		put(o, from, (size_t)(c->p - from));
 }
 
-/* The details of an event up to the byte that ends them, which is read but not written. */
+/* Copy the details of an event, and read the terminating byte without writing it. */
 static void copy_details(struct stream *s, struct cursor *c, struct out *o)
 {
 	while (!c->failed) {
@@ -290,7 +290,7 @@ static struct span details(struct stream *s, struct cursor *c)
 	return (struct span){ from, (size_t)(c->p - from) };
 }
 
-/* What is whole of a stream. @return 0: there is no such thing */
+/* Parse the complete part of a stream. @return 0: there is none */
 static int take_apart(struct stream *s, const uint8_t *data, size_t size)
 {
 	struct cursor c = { data, data, 0 };
@@ -348,14 +348,14 @@ static void copy_call(struct stream *s, const struct stream_call *call, struct s
 	put_byte(o, 0);
 }
 
-/* A call that is to be written. */
+/* A call to be written. */
 struct place {
 	struct stream *from;
-	size_t call, name; /* name: the call whose signature it gets */
+	size_t call, name; /* name: the call whose signature it uses */
 	int changed;
 };
 
-/* One change to n places, of which there may be MAX_CALLS. @return how many there are then */
+/* Apply one change to n places (at most MAX_CALLS). @return the new number of places */
 static size_t change_order(struct place *places, size_t n, struct stream *a, struct stream *b, unsigned *state)
 {
 	size_t at = calls_draw(state, (unsigned)n), to = calls_draw(state, (unsigned)n + 1), most = n - at, count;
@@ -364,22 +364,22 @@ static size_t change_order(struct place *places, size_t n, struct stream *a, str
 
 	count = 1 + calls_draw(state, most < 16 ? (unsigned)most : 16);
 	switch (n ? calls_draw(state, 7) : 6) {
-	case 0: /* left out */
+	case 0: /* omitted */
 		memmove(places + at, places + at + count, (n - at - count) * sizeof(*places));
 		return n - count;
-	case 1: /* others' names */
+	case 1: /* swapped names */
 		places[at].name = calls_draw(state, (unsigned)places[at].from->n_calls);
 		return n;
 	case 2:
 	case 3:
-	case 4: /* other values */
+	case 4: /* different values */
 		for (size_t i = 0; i < 1 + count / 4; i++)
 			places[calls_draw(state, (unsigned)n)].changed = 1;
 		return n;
-	case 5: /* some of what stands there, again */
+	case 5: /* repeat some existing calls */
 		memcpy(moved, places + at, count * sizeof(*places));
 		break;
-	default: /* some of a stream */
+	default: /* part of a stream */
 		at = calls_draw(state, (unsigned)from->n_calls);
 		count = count < from->n_calls - at ? count : from->n_calls - at;
 		for (size_t i = 0; i < count; i++)

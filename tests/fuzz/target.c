@@ -13,7 +13,7 @@
 
 static char folder[2048];
 
-/* What is reported about damaged input is of no interest here. A target with more to do has a function of its own. */
+/* Messages about damaged input are of no interest. A target that needs more setup has a function of its own. */
 __attribute__((weak)) int LLVMFuzzerInitialize(int *argc, char ***argv)
 {
 	(void)argc;

@@ -1,4 +1,4 @@
-/* The targets that drive.c knows: fuzz_NAME.c of each. `replay` and `calls` have tests of their own. */
+/* The targets in drive.c, one fuzz_NAME.c each. `replay` and `calls` have tests of their own. */
 #pragma once
 
 #include <stddef.h>

@@ -1,7 +1,6 @@
 /*
- * Calls in any order with any values (calls.h): the state machine stays in one piece, and what is saved between two
- * frames is what is loaded. The kept ones are what libFuzzer found worth keeping, with every sequence that ever broke
- * something.
+ * Calls in any order with any values (calls.h): the state machine must not crash, and a state saved between two frames
+ * must be restored exactly. The kept inputs were found by libFuzzer, and include every sequence that ever failed.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""What libFuzzer found worth keeping, with every input that ever broke something: info and scene answer each time, and
-in order."""
+"""Inputs found by libFuzzer, including every one that ever failed: info and scene must handle each of them properly."""
 import pathlib
 import sys
 

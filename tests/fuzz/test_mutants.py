@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A recording of one of our programs, damaged in many ways: info and scene answer each time, and in order."""
+"""A recording of one of our programs, damaged in many ways: info and scene must handle each mutant properly."""
 import pathlib
 import sys
 

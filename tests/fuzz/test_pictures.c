@@ -1,6 +1,6 @@
 /*
- * Pictures of what calls in any order with any values draw (calls.h): kernels and C twins stay in one piece, and agree
- * to the last bit. Pictures that calls read go on from the one read before, and show what the whole scene does.
+ * Pictures drawn by calls in any order with any values (calls.h): kernels and C twins must not crash, and must agree to
+ * the last bit. A picture read by a call is continued afterwards, and must equal that of the whole scene.
  *
  * limit: 400 s
  */
@@ -16,7 +16,7 @@
 #define N_PARTS 13
 #define N_RANDOM 8
 #define CALLS_A_RUN 200
-#define MOST_TWICE 32 /* instances of scenes that are drawn once more as a whole */
+#define MOST_TWICE 32 /* limit on instances for drawing a scene again as a whole */
 
 enum { TWIN, KERNELS, N_DEVICES };
 
@@ -26,7 +26,7 @@ struct painter {
 	struct device *dev[N_DEVICES];
 	struct tracer *tracer[N_DEVICES];
 	struct supply supply, whole;
-	const char *what; /* is painted */
+	const char *what; /* picture being drawn */
 	int number, part;
 	unsigned n_drawn;
 };
@@ -55,7 +55,7 @@ static void paint(void *user, const struct scene *scene)
 	p->n_drawn++;
 }
 
-/* Draw a scene as if it were another that has not been drawn before, and look for the same picture. */
+/* Draw a scene as if it were a different, new one, and require the same picture. */
 static void compare_whole(struct painter *p, const struct scene *scene, const struct scene_picture *picture)
 {
 	const size_t n = (size_t)scene->width * scene->height;
@@ -69,7 +69,7 @@ static void compare_whole(struct painter *p, const struct scene *scene, const st
 	                      !memcmp(whole->depth, picture->depth, n * sizeof(*whole->depth)) &&
 	                      !memcmp(whole->stencil, picture->stencil, n) &&
 	                      (!whole->colors || !memcmp(whole->colors, picture->colors, 4 * n * sizeof(float))),
-	              "%s %d of part %d: what was drawn over a picture differs from the whole", p->what, p->number,
+	              "%s %d of part %d: drawing over a picture differs from the whole", p->what, p->number,
 	              p->part);
 	picture_free(whole);
 }

@@ -1,4 +1,4 @@
-/* Streams whose calls are changed are still read to their ends: that is how they get past the reader. */
+/* Streams with changed calls must still be read to their ends, or they would not pass the reader. */
 #include <snappy-c.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,7 +37,7 @@ static void setup(void)
 	n_cornell = unpack("tests/golden/cornell.trace", cornell);
 }
 
-/* How many calls a stream holds; -1: it is damaged or cut. */
+/* The number of calls in a stream, or -1 if it is damaged or truncated. */
 static long count_calls(const uint8_t *stream, size_t size)
 {
 	char path[] = "/tmp/stream-XXXXXX";
@@ -103,7 +103,7 @@ START_TEST(what_is_no_stream)
 
 	ck_assert_uint_eq(stream_change((const uint8_t *)"", 0, NULL, 0, out, sizeof(out), &state), 0);
 	ck_assert_uint_eq(stream_change((const uint8_t *)"nonsense", 8, NULL, 0, out, sizeof(out), &state), 0);
-	for (size_t n = 0; n < n_two_triangles && n < 3000; n += 7) /* cut anywhere */
+	for (size_t n = 0; n < n_two_triangles && n < 3000; n += 7) /* truncated anywhere */
 		ck_assert_uint_le(stream_change(two_triangles, n, NULL, 0, out, sizeof(out), &state), sizeof(out));
 }
 END_TEST

@@ -144,7 +144,7 @@ START_TEST(test_text)
 	both(&pair, "glEndList", "");
 	both(&pair, "glCallList", "u", 9u);
 	swap(&pair);
-	compare(&pair, "a letter made anew", 0);
+	compare(&pair, "a recompiled letter", 0);
 	ck_assert_floats(3, gl_state(&pair.gl[1])->a.current.attribute[GLS_ATTR_COLOR], 0.5, 0.5, 0.5);
 	both(&pair, "glDeleteLists", "ui", 3u, 1);
 	both(&pair, "glDeleteTextures", "iU", 1, 1, ((const uint32_t[]){ 1 }));

@@ -407,7 +407,7 @@ START_TEST(test_looked_at_is_not_left)
 }
 END_TEST
 
-/* Reading a part that was cleared needs nothing else. Reading beside it does, and so does depth that tests used. */
+/* Reading a part that was cleared needs nothing else. Reading beside it does; depth that tests used does, too. */
 START_TEST(test_parts_are_read)
 {
 	static const struct {

@@ -500,7 +500,7 @@ START_TEST(test_swizzle_and_border)
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(s->units[0].swizzle, 0);
-	ck_assert_float_eq(s->units[0].border_color[2], 0.25f); /* luminance takes the former red */
+	ck_assert_float_eq(s->units[0].border_color[2], 0.25f); /* luminance takes the value that red had */
 	ck_assert_float_eq(s->units[0].border_color[3], 1);
 	ck_assert_uint_eq(s->units[1].swizzle, SCENE_SWIZZLED | 2 | 2 << 3 | 2 << 6 | 5 << 9);
 	scene_release(&s);

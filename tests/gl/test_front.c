@@ -1,5 +1,5 @@
-/* Front and back buffer of a window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10): which events apply to which
- * buffer, and the effect of a swap. */
+/* Front and back buffer of a window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10): the buffer that each event
+ * applies to, and the effect of a swap. */
 #include "tests/gl/gl.h"
 #include "replay/build/frame.h"
 #include "replay/gl/surface/drawable.h"

@@ -31,7 +31,7 @@ static void check_cut(uint32_t mode, unsigned n, enum scene_primitive kind, unsi
 	gl_close(&gl);
 }
 
-/* Sec. 2.6.1, and the order in which Mesa 22.3.6 (llvmpipe) splits primitives, with the provoking vertex last. */
+/* Sec. 2.6.1; the order of triangles is that of Mesa 22.3.6 (llvmpipe), with the provoking vertex last. */
 START_TEST(test_cut)
 {
 	check_cut(GL_POINTS, 2, SCENE_POINTS, 2, (uint32_t[]){ 0, 1 });
@@ -127,7 +127,7 @@ START_TEST(test_varying)
 	gl_call(&gl, "glVertex2f", "ff", 1.0, 0.0);
 	gl_call(&gl, "glVertex2f", "ff", 1.0, 1.0);
 	gl_call(&gl, "glColor3f", "fff", 0.0, 0.0, 1.0); /* after the last vertex: applies to no vertex, but is
-	                                                  * current from now on */
+	                                                    current from now on */
 	gl_call(&gl, "glEnd", "");
 	s = gl_swap(&gl);
 	m = s->meshes[0];

@@ -75,7 +75,7 @@ START_TEST(test_uniforms)
 	gl_call(&gl, "glUniformMatrix2fv", "iuuF", 20, 1u, 1u, 4, numbers);
 	gl_call(&gl, "glUniform1i", "ii", 21, 5);
 	gl_call(&gl, "glUniform3f", "ifff", 30, 9.0, 8.0, 7.0);
-	gl_call(&gl, "glUniform4f", "iffff", 30, 1.0, 1.0, 1.0, 1.0); /* of another size */
+	gl_call(&gl, "glUniform4f", "iffff", 30, 1.0, 1.0, 1.0, 1.0); /* wrong size */
 	gl_call(&gl, "glUniform1f", "if", 31, 3.0);
 	ck_assert_floats(8, p->uniforms.values, 0, 0, 1, 2, 3, 4, 0, 0);
 	ck_assert_floats(4, p->uniforms.values + 8, 1, 3, 2, 4);

@@ -99,7 +99,7 @@ static uint32_t space_of(const struct scene *s, unsigned instance)
 }
 
 /*
- * Views: equal ones are stored once; with equal viewport rectangles, perspective views share their eye space, and so do
+ * Views: equal ones are stored once; with equal viewport rectangles, perspective views share their eye space, as do
  * parallel ones with the same x and y; scissors are clipped to the target.
  */
 START_TEST(test_views)

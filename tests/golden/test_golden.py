@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Recordings kept here, rendered and scored against approved frames: on the C twins, then on the first OpenCL device.
+"""Stored recordings, rendered and scored against approved frames: on the C twins, then on the first OpenCL device.
 
-`make golden-update` (--update) renders the approved frames anew, on the C twins; look at them before you commit them.
+`make golden-update` (--update) renders the approved frames again, on the C twins; inspect them before you commit.
 """
 import pathlib
 import sys

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""The runner notices every way in which a test can fail. Each case is a tree with one test, and what must come of
-it. Its own limit is named, as those of its cases are in its first lines.
+"""The runner must notice every way that a test can fail. Each case is a tree with one test, and the expected outcome.
+Like its cases, this file states its own limit in its first lines.
 
-limit: 120 s"""
+limit: 120 s
+"""
 import os
 import pathlib
 import subprocess
@@ -15,7 +16,7 @@ BUILD = pathlib.Path(os.environ["RELUME_BUILD"])
 FAILS = f'exec "{BUILD}/tests/harness/fails"'
 SANITIZED = b"__asan_init" in (BUILD / "tests/harness/fails").read_bytes()
 
-# name: shell text of the test, last line of the runner, text that its report must hold
+# name: the test as shell text, last line of the runner, text that its report must contain
 CASES = {
     "a check passes": (f"{FAILS} pass", "1 passed, 0 failed, 0 skipped", ""),
     "a check fails": (f"{FAILS} fail", "0 passed, 1 failed, 0 skipped", "'1 == 2' failed"),
@@ -80,7 +81,7 @@ def check_not_built():
 
 
 def check_stragglers():
-    """What a test leaves behind is gone when the runner is, even out of its process group."""
+    """Processes left by a test are gone when the runner ends, even from another process group."""
     with tempfile.TemporaryDirectory() as tree:
         pid_file = pathlib.Path(tree, "pid")
         write_test(tree, "python3 -c \"import os, time; os.setpgid(0, 0); "

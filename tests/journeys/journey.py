@@ -1,4 +1,4 @@
-"""What journeys share: a folder as a person has it, lines as a person types them, and pictures that are looked at."""
+"""Shared by the journeys: a user's folder, typed command lines, and checks of pictures."""
 import os
 import pathlib
 import resource
@@ -23,17 +23,17 @@ def begin(program="spheres", frames=10, *options):
 
 
 def typed(line, code=0, says=None, **variables):
-    """Type a line; check the exit code, and that a word is said. Returns all that was printed."""
+    """Run a typed line; check the exit code and a word of the output. Returns the output."""
     env = {**os.environ, "PATH": f"{PLACE / 'bin'}:{os.environ['PATH']}", **variables}
     done = on_display("sh", "-c", line, cwd=PLACE, env=env, timeout=300)
     said = done.stdout + done.stderr
-    check(done.returncode == code, f"{line}: exit code {done.returncode} and not {code}: {said[-1500:]}")
+    check(done.returncode == code, f"{line}: exit code {done.returncode}, expected {code}: {said[-1500:]}")
     check(says is None or says in said, f"{line} says {says!r}: {said[-1500:]}")
     return said
 
 
 def seen(name):
-    """A picture, 0 to 255, that shows something: more than one colour, neither black nor white throughout."""
+    """A picture, 0 to 255, that is not blank: more than one colour, neither black nor white throughout."""
     found = codes(PLACE / name).transpose(1, 2, 0)  # [row][column][channel]
     check(found.std() > 10 and 10 < found.mean() < 245,
           f"{name} shows something: mean {found.mean():.1f}, deviation {found.std():.1f}")
@@ -41,7 +41,7 @@ def seen(name):
 
 
 def share(these):
-    """The share of pixels, in per cent."""
+    """The percentage of pixels."""
     return 100 * these.mean()
 
 

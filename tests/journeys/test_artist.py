@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""An artist: finds the draw of a thing, makes it a mirror under a soft light, walks around it, and takes it to a
+"""An artist: finds the draw of an object, makes it a mirror under a soft light, walks around it, and exports it to a
 modeller."""
 import re
 
@@ -23,7 +23,7 @@ typed("relume export -f 1 -o game.glb game.trace")
 
 changed = share(abs(seen("mine.png") - seen("plain.png")).max(axis=-1) > 20)
 check(1 < changed < 60,
-      f"the mirror and the soft shadow show, and the rest stays: {changed:.1f} % of the pixels differ")
+      f"the mirror and the soft shadow show, and the rest is unchanged: {changed:.1f} % of the pixels differ")
 turns = [seen(f"turn.{i:04}.png") for i in range(3)]
 check(all(abs(turns[i] - turns[i - 1]).mean() > 5 for i in range(3)), "three views")
 model = (PLACE / "game.glb").read_bytes()

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A CI engineer: a new program, approved; the same again; then a change that must be seen, and where."""
+"""A CI engineer: a new program is approved; an unchanged run; then a change that must be reported, with its place."""
 import re
 import xml.etree.ElementTree
 
@@ -16,9 +16,9 @@ typed("xvfb-run -a relume ci", code=1, says="2 failed")
 
 cases = list(xml.etree.ElementTree.parse(PLACE / "ci/game/junit.xml").getroot().iter("testcase"))
 check(len(cases) == 2 and all(c.find("failure") is not None for c in cases), f"junit.xml fails {len(cases)} cases")
-check(re.search(r"2 failed", (PLACE / "ci/game/summary.md").read_text()), "the summary says so")
+check(re.search(r"2 failed", (PLACE / "ci/game/summary.md").read_text()), "the summary reports the failure")
 check(
     "<svg" in (PLACE / "ci/game/report/index.html").read_text()
-    or "data:image" in (PLACE / "ci/game/report/index.html").read_text(), "the page has pictures in it")
+    or "data:image" in (PLACE / "ci/game/report/index.html").read_text(), "the page contains pictures")
 seen("ci/game/report/sheet.png")
 end()

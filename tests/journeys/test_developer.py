@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A curious developer: records a program, looks at a first picture, at a nicer one, and at a page beside what the
-program showed."""
+"""A curious developer: records a program, looks at a first picture, at a nicer one, and at a page that compares it with
+the program's picture."""
 from journey import PLACE, begin, check, end, seen, share, typed
 
 begin()
@@ -18,7 +18,7 @@ darker = share((gl - first).min(axis=-1) > 20)
 other = share(abs(gl - first).max(axis=-1) > 20)
 check(darker > 0.5, f"shadows: {darker:.1f} % of the pixels are darker than OpenGL's")
 check(other > 5, f"mirror and glass: {other:.1f} % of the pixels differ from OpenGL's")
-check(abs(nice - first).mean() < 40, "the nicer picture is of the same frame")
+check(abs(nice - first).mean() < 40, "the nicer picture shows the same frame")
 check((PLACE / "report/index.html").stat().st_size > 10000, "the page holds its pictures")
 seen("report/sheet.png")
 end()

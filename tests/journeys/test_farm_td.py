@@ -11,7 +11,7 @@ script = typed(
     "relume farm script --for slurm game.trace -f 0-7 --chunk 3 -o far/game.####.exr --gres gpu:1 "
     "--sbatch=--partition=night"
 )
-check(re.search(r"sbatch .*--partition=night.*--gres 'gpu:1' --array", script), "the script asks Slurm for GPUs")
+check(re.search(r"sbatch .*--partition=night.*--gres 'gpu:1' --array", script), "the script requests GPUs from Slurm")
 typed("relume farm submit game.trace -f 0-7 --chunk 3 -o out/game.####.exr --local -- --samples 2")
 typed("relume farm status out/game.farm", says="8")
 (PLACE / "out/game.0003.exr").unlink()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A person in trouble: a recording that was cut, a typing error, a home that cannot be written, a build that draws
-otherwise."""
+"""A user in trouble: a truncated recording, a typing error, a home that cannot be written, a build that draws
+differently."""
 from journey import PLACE, begin, check, end, seen, typed
 
 begin("cornell", 6)

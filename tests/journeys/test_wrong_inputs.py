@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Forty wrong inputs: one line that says what is wrong, the right exit code, nothing half-written."""
+"""Forty wrong inputs: one line with the reason, the right exit code, no partial output."""
 import os
 
 import wrong_inputs

@@ -1,4 +1,4 @@
-"""Forty wrong inputs as people make them: what is typed, the exit code, and a word that the one line must say."""
+"""Forty wrong inputs that users make: the typed line, the exit code, and a word that the message must contain."""
 import dataclasses
 import os
 import pathlib
@@ -6,7 +6,7 @@ import subprocess
 
 USAGE, INPUT, SYSTEM = 2, 3, 5
 
-# What lies in the folder besides game.trace and out/, three frames of it.
+# Files in the folder besides game.trace and out/, which holds three of its frames.
 FILES = {
     "empty.trace": "",
     "text.trace": "this is no recording\n",
@@ -20,7 +20,7 @@ FILES = {
     "ci.yaml": "programs:\n  - { comand: [./game] }\n",
 }
 
-# (what is typed behind "relume", exit code, what the line says)
+# (text after "relume", exit code, word of the message)
 CASES = (
     ("rendr game.trace -o x.png", USAGE, "did you mean 'render'"),
     ("help lok-file", USAGE, "look-file"),
@@ -70,7 +70,7 @@ class Outcome:
     typed: str
     code: int
     line: str
-    faults: list  # none: one line that says it, the right exit code, and nothing written
+    faults: list  # empty if there is one line with the reason, the right exit code, and no new file
 
 
 def prepare(place):
@@ -79,7 +79,7 @@ def prepare(place):
 
 
 def try_all(relume, place, env=None):
-    """Type each in a folder that holds game.trace, game and out/; yields an Outcome."""
+    """Type each in a folder with game.trace, game and out/; yields an Outcome."""
     prepare(place)
     for typed, code, word in CASES:
         before = {p: p.stat().st_size for p in pathlib.Path(place).rglob("*")}

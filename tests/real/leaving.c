@@ -85,7 +85,7 @@ static void faint(void)
 static void frame(int n)
 {
 	static const float blue[3] = { 0.4f, 0.2f, 1 }, between[3] = { 0.9f, 0.3f, 0.1f }; /* two numbers of 8 bits
-	                                                                                    * each */
+	                                                                                      each */
 	const float angle = 31.0f * (float)n, transposed[16] = { 1, 0, 0, 0, 0, 0.8f, -0.6f, 0, 0, 0.6f, 0.8f, 0, 0, 0, 0, 1 };
 
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

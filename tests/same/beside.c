@@ -1,4 +1,4 @@
-/* What is drawn beside the world and changes no picture. */
+/* Additional drawing beside the world that must not change the picture. */
 #include "tests/same/relations.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 #include "gl_tokens.h"
 #include "tests/same/story.h"
 
-/* ---- flat sheets, and what else has nothing to do with the world ---- */
+/* ---- flat sheets, and other drawing unrelated to the world ---- */
 
 void begin_flat(struct story *s, const float projection[16])
 {
@@ -52,7 +52,7 @@ static void say_color(struct story *s, const float color[4])
 	say(s, "glColor4f", "ffff", color[0], color[1], color[2], color[3]);
 }
 
-/* All of the window, at a depth of clip space [-1,1], through this projection. Parts: so many strips, a draw each. */
+/* Cover the window at a depth in clip space [-1,1], through this projection. parts: number of strips, a draw each. */
 static void say_sheet(struct story *s, const float projection[16], float depth, unsigned parts)
 {
 	float inverse[16];
@@ -74,7 +74,7 @@ static void say_sheet(struct story *s, const float projection[16], float depth, 
 	}
 }
 
-/* amount 1: with depth writes, at the depth of the clear */
+/* amount 1: with depth writes, at the clear depth */
 void cleared_behind(struct story *s)
 {
 	const struct gls_attribs *a = &s->x->st->a;
@@ -90,7 +90,7 @@ void cleared_behind(struct story *s)
 	end_flat(s);
 }
 
-/* amount: a sky of so many draws before a clear of depth; 0: a sheet before the far plane, without depth */
+/* amount: number of draws of a sky before a depth clear; 0: a sheet before the far plane, without depth */
 void first_sky(struct story *s)
 {
 	const float *projection = stack_top(&s->x->st->projection);
@@ -109,7 +109,7 @@ void first_sky(struct story *s)
 	end_flat(s);
 }
 
-/* Sheets that GL shows nothing of, each for another reason. */
+/* Sheets that GL does not show, each for another reason. */
 void first_unseen(struct story *s)
 {
 	static const uint32_t whys[4] = { GL_CULL_FACE, GL_DEPTH_TEST, GL_ALPHA_TEST, GL_DEPTH_TEST };
@@ -131,7 +131,7 @@ void first_unseen(struct story *s)
 	}
 }
 
-/* Of glass without colour over all, twice. */
+/* Colourless glass over everything, twice. */
 void frame_hud(struct story *s)
 {
 	if (s->x->st->draw_framebuffer)
@@ -154,7 +154,7 @@ void cleared_lamps(struct story *s)
 	s->step = 0;
 }
 
-/* A body about a light, small beside how far the light is from what it shines on here and from the eye. */
+/* A body around a light, small relative to the light's distance from its surfaces and from the eye. */
 static void say_lamp(struct story *s, const struct scene_light *light, const struct story_run *run)
 {
 	static const float corners[6][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { -1, 0, 0 }, { 0, -1, 0 }, { 0, 0, -1 } };
@@ -193,7 +193,7 @@ void run_lamps(struct story *s, const struct story_run *run)
 	const struct gls_state *st = s->x->st;
 
 	if (st->a.lighting.enabled && __builtin_popcount(lights_on(st)) > 1)
-		not_for(s, "a lamp would stand in the way of another light");
+		not_for(s, "a lamp would block another light");
 	if (st->surface.reflect > 0 || st->surface.transmit > 0)
 		not_for(s, "mirrors would show the lamp");
 	for (unsigned i = 0; i < GLS_MAX_LIGHTS && st->a.lighting.enabled && is_solid(st, run); i++) {

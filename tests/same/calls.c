@@ -1,4 +1,4 @@
-/* The same vertices by other calls, and state that is what it was. */
+/* The same vertices through other calls, and redundant state changes. */
 #include "tests/same/relations.h"
 
 #include <stdlib.h>
@@ -38,7 +38,7 @@ void run_listed(struct story *s, const struct story_run *run)
 	say(s, "glCallList", "u", name);
 }
 
-/* One array of a draw, of floats. a: an attribute; STORY_ATTRIBUTES: positions */
+/* One float array of a draw. a: an attribute; STORY_ATTRIBUTES: positions */
 static void say_array(struct story *s, unsigned a, const float *floats, size_t n, int on)
 {
 	static const char *const names[] = { "glNormalPointer", "glColorPointer", "glSecondaryColorPointer",
@@ -60,7 +60,7 @@ static void say_array(struct story *s, unsigned a, const float *floats, size_t n
 		say(s, names[a], "uuub", a == GLS_ATTR_COLOR ? 4 : 3, GL_FLOAT, 16, floats, 16 * n);
 }
 
-/* amount 1: by indices, the vertices backwards */
+/* amount 1: by indices, with vertices in reverse order */
 void run_arrays(struct story *s, const struct story_run *run)
 {
 	const uint32_t *order, cut = run->mode == GL_QUADS ? run_triangles(s, run, &order) : 0, n = cut ? 3 * cut : run->n;
@@ -107,7 +107,7 @@ void run_cut(struct story *s, const struct story_run *run)
 		run_as_it_is(s, run);
 }
 
-/* One strip of all triangles, joined by empty ones: six between two keep the side. */
+/* One strip for all triangles, joined by degenerate ones: six between two preserve the facing. */
 void run_strip(struct story *s, const struct story_run *run)
 {
 	const uint32_t *order, n = run_triangles(s, run, &order);
@@ -169,7 +169,7 @@ void call_join(struct story *s, const struct call *c, int draws)
 	say_call(s, c);
 }
 
-/* ---- state that is what it was ---- */
+/* ---- redundant state changes ---- */
 
 void say_matrices(struct story *s, const float modelview[16], const float projection[16])
 {

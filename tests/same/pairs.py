@@ -1,11 +1,11 @@
-"""Pairs of recordings that tell the same scene, and what is demanded of their pictures.
+"""Pairs of recordings that draw the same scene, and the requirements on their pictures.
 
-A frame of a recording is cut out (relume trim) and told otherwise (relations.c); `relume render` makes both pictures.
-Compared are `gl.*`, GL's picture, and R G B, the traced one, in display numbers (--encoding display). Two pixels are
-the same where no channel is apart by more than TOLERANCE, and not one pixel may differ. Where a relation rounds numbers
-otherwise, it is ROUNDED_TOLERANCE, and edges may lie one pixel elsewhere: a pixel then differs where it lies outside of
-what the 3 x 3 pixels around it span in the other picture, and a share of ROUNDED may, or of COARSELY. In passes, the
-same share may: of surfaces at the same depth another one is seen.
+A frame of a recording is cut out (relume trim) and drawn in another way (relations.c); `relume render` makes both
+pictures. `gl.*`, GL's picture, and R G B, the traced one, are compared in display codes (--encoding display). Two
+pixels are equal if no channel differs by more than TOLERANCE, and no pixel may differ. If a relation changes rounding,
+the tolerance is ROUNDED_TOLERANCE, and edges may shift by one pixel: a pixel then differs if it is outside the range of
+the 3 x 3 pixels around it in the other picture, and a share of ROUNDED, or of COARSELY, may differ. In several passes
+the same share may differ, because another one of coplanar surfaces may be visible.
 """
 import pathlib
 import subprocess
@@ -19,16 +19,16 @@ import exr_numpy as exr  # noqa: E402
 
 RUNS, ALL, PASSES, ROUNDS, SATURATES, COVERS, COARSE, TRIPLES = (1 << i for i in range(8))
 TOLERANCE = 1.01 / 255
-ROUNDED_TOLERANCE = 4.01 / 255  # where numbers are rounded otherwise, also light that is added in passes
+ROUNDED_TOLERANCE = 4.01 / 255  # if rounding differs, also for light added in passes
 ROUNDED = 5e-4
 COARSELY = 1e-2
-COVERED = 0.1  # of the picture, where GL's own may differ
+COVERED = 0.1  # share of the picture where GL's own may differ
 PICTURES = {"gl": ("gl.R", "gl.G", "gl.B"), "traced": ("R", "G", "B")}
-TRIMMED = "trimmed"  # the frame cut out, beside the whole recording
+TRIMMED = "trimmed"  # the frame cut out, compared with the whole recording
 
 
 class Verdict:
-    """same: True, False, or None where the relation does not apply: then why."""
+    """same: True, False, or None if the relation does not apply, with the reason."""
 
     def __init__(self, same, why="", share=0.0, picture="", where=None, draw=None):
         self.same, self.why, self.share, self.picture, self.where, self.draw = same, why, share, picture, where, draw
@@ -41,13 +41,15 @@ class Verdict:
 
 
 def run(*args):
-    """A program's result. What is not done after five minutes counts as failed."""
+    """Run a program; after five minutes it counts as failed."""
     return subprocess.run(["timeout", "300", *map(str, args)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
                           errors="replace", check=False)
 
 
 def read_relations(tool):
-    """{name: (base, flags, what)}, in order. base: a relation, "-" the recording itself, "" it is only a base."""
+    """{name: (base, flags, what)}, in order. base: a relation, "-" for the recording itself, "" for a relation that is
+    only a base.
+    """
     rows = [line.split("\t") for line in run(tool).stdout.splitlines()]
     return {TRIMMED: ("-", 0, "the frame cut out by relume trim"),
             **{name: (base, int(flags), what) for name, base, flags, what in rows}}
@@ -61,13 +63,13 @@ def around(plane, take):
 
 
 def outside(plane, other, tolerance):
-    """Pixels of a plane that are not within what those around them span in the other one."""
+    """Pixels of a plane outside the range of the pixels around them in the other one."""
     low, high = around(other, numpy.minimum) - tolerance, around(other, numpy.maximum) + tolerance
     return ~((plane >= low) & (plane <= high))
 
 
 def differing(ours, theirs, tolerance, rounds):
-    """Pixels that are not the same in both."""
+    """Pixels that differ between both."""
     bad = numpy.logical_or.reduce([~(abs(p - q) <= tolerance) for p, q in zip(ours, theirs)])
     if rounds and bad.any():
         both = [*zip(ours, theirs), *zip(theirs, ours)]
@@ -76,7 +78,7 @@ def differing(ours, theirs, tolerance, rounds):
 
 
 def compare(image, other, flags):
-    """The verdict on two pictures: image is the base's."""
+    """The verdict on two pictures; image is the base's."""
     tolerance = ROUNDED_TOLERANCE if flags & (ROUNDS | SATURATES) else TOLERANCE
     allowed = COARSELY if flags & COARSE else ROUNDED if flags & (ROUNDS | PASSES | COVERS) else 0
     planes = {name: [[i.planes[c].astype("f4") for c in channels] for i in (image, other)]
@@ -102,7 +104,7 @@ def compare(image, other, flags):
 
 
 class Told:
-    """A frame of a recording, and how else it is told. Files go into a folder of its own."""
+    """A frame of a recording, and its variants. Files go into a folder of its own."""
 
     def __init__(self, build, trace, frame, folder):
         self.build, self.trace, self.frame = build, pathlib.Path(trace), frame
@@ -113,11 +115,11 @@ class Told:
         done = run(build / "relume", "trim", "-f", frame, "-o", self.cut, trace)
         if done.returncode:
             raise ValueError(f"{trace}: {done.stderr}")
-        before = done.stdout.rpartition("it is frame ")[2].split()  # it may need frames before it, which are kept
+        before = done.stdout.rpartition("it is frame ")[2].split()  # it may need earlier frames, which are kept
         self.cut_frame = int(before[0]) if "it is frame " in done.stdout else 0
 
     def render(self, trace, frame, name):
-        """The picture, or a verdict why there is none."""
+        """The picture, or a verdict with the reason why there is none."""
         path = self.folder / f"{name}.exr"
         done = run(self.build / "relume", "render", trace, "-f", frame, "-o", path, "--encoding", "display",
                    "--aov", "gl,id", "--progress", "none")
@@ -128,7 +130,9 @@ class Told:
         return image
 
     def tell(self, name):
-        """The picture of the frame as a relation tells it, or a verdict why there is none. Bases are kept."""
+        """The frame's picture as drawn under a relation, or a verdict with the reason why there is none. Bases are
+        cached.
+        """
         if name in self.images:
             return self.images[name]
         if name == TRIMMED:

@@ -52,14 +52,14 @@ void run_prepass(struct story *s, const struct story_run *run)
 	}
 }
 
-/* Draws stay in the last pass. */
+/* Draws remain in the last pass. */
 void call_prepass(struct story *s, const struct call *c, int draws)
 {
 	if (!draws || s->pass == 0 || s->pass == s->n_passes)
 		say_call(s, c);
 }
 
-/* Light of a quarter: colours of vertices are cut off at 1, which the sum of several passes is not. */
+/* A quarter of the light: vertex colours are clamped at 1, the sum of several passes is not. */
 void call_dimmed(struct story *s, const struct call *c, int draws)
 {
 	const int light = begins(c, "glLight") && !begins(c, "glLightM");
@@ -86,12 +86,12 @@ void call_dimmed(struct story *s, const struct call *c, int draws)
 	}
 }
 
-/* Other draws stay in the first pass. */
+/* Other draws remain in the first pass. */
 void call_lights(struct story *s, const struct call *c, int draws)
 {
 	if (draws && s->pass > 1)
 		return;
-	s->step |= (uint32_t)draws << 31; /* run_lights: something lies over what is lit */
+	s->step |= (uint32_t)draws << 31; /* run_lights: a draw covers lit surfaces */
 	call_dimmed(s, c, draws);
 }
 
@@ -121,7 +121,7 @@ static void say_lights(struct story *s, uint32_t mask)
 		say(s, mask >> i & 1 ? "glEnable" : "glDisable", "u", GL_LIGHT0 + i);
 }
 
-/* step: lights that are on, and bit 31 where light cannot be added at the end */
+/* step: enabled lights, and bit 31 if light cannot be added at the end */
 void run_lights(struct story *s, const struct story_run *run)
 {
 	static const float black[4] = { 0, 0, 0, 1 };

@@ -1,17 +1,17 @@
-/* The relations: what may be told otherwise, and must show the same picture. */
+/* Relations: changes to a recording that must not change its picture. */
 #pragma once
 
 #include "tests/same/story.h"
 
 enum {
-	RELATION_RUNS = 1,       /* wants runs of vertices: story.h */
-	RELATION_ALL = 2,        /* does not apply where something foreign is drawn */
-	RELATION_PASSES = 4,     /* what is drawn between two clears is told several times */
-	RELATION_ROUNDS = 8,     /* numbers are rounded otherwise: edges may lie by one pixel elsewhere */
-	RELATION_SATURATES = 16, /* where light is cut off at 1 nothing is demanded */
-	RELATION_COVERS = 32,    /* GL's picture may differ: such pixels are not looked at, if they are few */
-	RELATION_COARSE = 64,    /* places are so coarse that shadows may lie elsewhere, too */
-	RELATION_TRIPLES = 128   /* the picture is three times as large: each middle pixel is looked at */
+	RELATION_RUNS = 1,       /* needs runs of vertices: story.h */
+	RELATION_ALL = 2,        /* does not apply if there are foreign draws */
+	RELATION_PASSES = 4,     /* draws between two clears are repeated in several passes */
+	RELATION_ROUNDS = 8,     /* changes rounding: edges may shift by one pixel */
+	RELATION_SATURATES = 16, /* no requirement where light is clamped at 1 */
+	RELATION_COVERS = 32,    /* GL's picture may differ: such pixels are ignored if they are few */
+	RELATION_COARSE = 64,    /* positions are so coarse that shadows may move, too */
+	RELATION_TRIPLES = 128   /* the picture is three times as large: each middle pixel is compared */
 };
 
 typedef void relation_call(struct story *s, const struct call *c, int draws);
@@ -20,15 +20,15 @@ typedef void relation_event(struct story *s);
 
 struct relation {
 	const char *name, *what;
-	const char *idle; /* why it does not apply where it has changed nothing */
+	const char *idle; /* the reason for not applying if nothing was changed */
 	uint32_t flags;
-	double amount;    /* what the relation takes it for */
-	const char *base; /* what it is compared with: a relation, "-" the recording itself, "": it is only a base itself.
-	                     NULL: "immediate" for those that want runs, else "-" */
-	relation_call *call;     /* write a call; NULL: as it is */
-	relation_run *run;       /* write a run; NULL: as it is */
+	double amount;    /* parameter of the relation */
+	const char *base; /* what it is compared with: a relation, "-" the recording itself, "": it is only a base
+	                     itself. NULL: "immediate" for those that need runs, else "-" */
+	relation_call *call;     /* writes a call; NULL: unchanged */
+	relation_run *run;       /* writes a run; NULL: unchanged */
 	relation_event *cleared; /* the whole window was cleared, colour and depth */
-	relation_event *first;   /* something is about to be drawn for the first time since */
+	relation_event *first;   /* before the first draw after that */
 	relation_event *frame;   /* a frame is about to end */
 };
 
@@ -43,7 +43,7 @@ extern relation_run run_as_it_is, run_arrays, run_culled, run_cut, run_doubled, 
 extern relation_event cleared_behind, cleared_lamps, first_sky, first_unseen, frame_hud, frame_target;
 
 #define ALL_ATTRIBS 0xfffffu
-#define OURS 0x7001u /* a name that no program uses, of any kind of object */
+#define OURS 0x7001u /* a name that no program uses, for any kind of object */
 
 /** The current matrix of a stack. */
 static inline const float *stack_top(const struct gls_matrix_stack *stack)
@@ -51,25 +51,27 @@ static inline const float *stack_top(const struct gls_matrix_stack *stack)
 	return stack->matrices[stack->depth];
 }
 
-/** Write a run with these vertices. Quads are cut: Mesa cuts those otherwise that come from lists or by indices. */
+/**
+ * Write a run with these vertices. Quads are split, because Mesa splits those from lists or with indices differently.
+ */
 void say_plain(struct story *s, const struct story_run *run, const struct story_vertex *v);
 
 /** Load the modelview and projection matrices; say_own_matrices: those of the state. */
 void say_matrices(struct story *s, const float modelview[16], const float projection[16]);
 void say_own_matrices(struct story *s);
 
-/** A call of four booleans, from bits. */
+/** A call with four booleans, from bits. */
 void say_mask(struct story *s, const char *name, uint32_t mask);
 
-/** Up to four numbers of an argument. Those of OpenGL ES may be fixed-point ones. */
+/** Up to four numbers of an argument. Those of OpenGL ES may be fixed-point. */
 void read_numbers(const struct call *c, unsigned i, float v[4]);
 
-/** 1: what this draws hides all behind it, by depth. */
+/** 1: the draw hides everything behind it, by depth. */
 int is_solid(const struct gls_state *st, const struct story_run *run);
 
-/** Lights that are on: 1 << number. */
+/** Enabled lights: 1 << number. */
 uint32_t lights_on(const struct gls_state *st);
 
-/** Between these, nothing but colours is drawn, and eye space is the world's. */
+/** Between these, only colours are drawn, and eye space is the world's. */
 void begin_flat(struct story *s, const float projection[16]);
 void end_flat(struct story *s);

@@ -23,7 +23,7 @@ void not_for(struct story *s, const char *why)
 	s->why_not = s->why_not ? s->why_not : why;
 }
 
-/* The signature of a command that we call, by its name, a literal. */
+/* The signature of a command, by its name, a literal. */
 static const struct call_sig *sig_of(const char *name, uint32_t n_args)
 {
 	static const char *arg_names[] = { "a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l" };
@@ -83,7 +83,7 @@ static void make(struct story *s, int lasts, const char *name, const char *form,
 			v->blob = va_arg(list, const uint8_t *);
 			v->count = va_arg(list, size_t);
 			break;
-		case 'v': /* of four floats */
+		case 'v': /* four floats */
 		case 'm': /* a matrix */
 			*v = (struct trace_value){ .type = TRACE_ARRAY, .count = form[i] == 'm' ? 16 : 4, .items = numbers[i] };
 			floats = va_arg(list, const float *);

@@ -80,9 +80,9 @@ static void items_free(struct story_items *items)
 	free(items);
 }
 
-/* ---- what is performed: held, or handed to the relation ---- */
+/* ---- draws and calls: held back, or passed to the relation ---- */
 
-/* Something is about to be drawn. */
+/* Called before a draw. */
 static void before_draw(struct story *s)
 {
 	if (s->fresh && s->relation->first && !s->holds)
@@ -93,17 +93,17 @@ static void before_draw(struct story *s)
 static void perform_run(struct story *s, const struct story_run *run)
 {
 	before_draw(s);
-	for (unsigned a = 0; a < STORY_ATTRIBUTES; a++) /* what Begin and End left: earlier passes left it, too */
+	for (unsigned a = 0; a < STORY_ATTRIBUTES; a++) /* set by Begin and End, also in earlier passes */
 		if (s->pass && memcmp(s->x->st->a.current.attribute[a], run->after[a], sizeof(run->after[a])) != 0)
 			put_attribute(s, a, run->after[a], 1);
 	(s->relation->run ? s->relation->run : run_as_it_is)(s, run);
-	say_current(s); /* also where the run itself comes later, or not at all */
+	say_current(s); /* even if the run itself comes later, or is dropped */
 }
 
 static void perform_call(struct story *s, const struct call *c, int foreign)
 {
 	if (foreign && s->relation->flags & RELATION_ALL)
-		not_for(s, "it has draws whose vertices are not seen (programs, evaluators, pixels)");
+		not_for(s, "it has draws with unknown vertices (programs, evaluators, pixels)");
 	if (foreign)
 		before_draw(s);
 	if (s->relation->call)
@@ -116,7 +116,7 @@ static void perform_call(struct story *s, const struct call *c, int foreign)
 static void take_run(struct story *s, struct story_run *run)
 {
 	memcpy(run->after, s->x->st->a.current.attribute, sizeof(run->after));
-	if (s->x->st->rasterizer_discard) { /* of frames that trim has left out */
+	if (s->x->st->rasterizer_discard) { /* a frame that trim has omitted */
 		say_current(s);
 		return;
 	}
@@ -163,7 +163,7 @@ static void restore(struct story *s)
 	tell(s, "glActiveTexture", "u", GL_TEXTURE0 + saved.unit);
 	for (unsigned i = 0; i < 3; i++) {
 		if (stack_of(s, i)->depth < saved.depth[i])
-			not_for(s, "matrices are popped that were pushed before a clear");
+			not_for(s, "it pops matrices that were pushed before a clear");
 		tell(s, "glMatrixMode", "u", modes[i]);
 		while (stack_of(s, i)->depth > saved.depth[i])
 			tell(s, "glPopMatrix", "");
@@ -184,7 +184,7 @@ static void hold(struct story *s)
 	save(s);
 }
 
-/* Objects are made once. */
+/* Calls that create objects are made only once. */
 static int is_done_once(const struct call *c)
 {
 	static const char *const names[] = { "glGen", "glDelete", "glCreate",     "glRead",
@@ -196,7 +196,7 @@ static int is_done_once(const struct call *c)
 	return c->ret.type != TRACE_NONE;
 }
 
-/* The first pass, number 0, has looked at all; now they are written. */
+/* The first pass, number 0, has inspected everything; now the passes are written. */
 static void release(struct story *s)
 {
 	if (!s->holds)
@@ -378,7 +378,7 @@ static void play_lists(struct story *s, const struct call *c)
 	const uint8_t *bytes = arg_blob(c, 2, &n);
 
 	if (type >= sizeof(sizes) || !bytes)
-		not_for(s, "display lists are called by names of a rare kind");
+		not_for(s, "display lists are called by names of an unsupported type");
 	for (int64_t i = 0; !s->why_not && i < arg_i(c, 0) && (size_t)(i + 1) * sizes[type] <= n; i++) {
 		uint32_t name = 0;
 
@@ -387,7 +387,7 @@ static void play_lists(struct story *s, const struct call *c)
 	}
 }
 
-/* A call while a list is made. Nothing of it is written: what calls the list has the calls themselves. */
+/* A call while a list is compiled. It is not written: each call of the list writes its contents. */
 static void keep_in_list(struct story *s, const struct call *c)
 {
 	const struct gls_command *k = &gls_commands[c->sig->command];
@@ -406,11 +406,11 @@ static void keep_in_list(struct story *s, const struct call *c)
 		return;
 	}
 	if (begins(c, "glBitmap") || begins(c, "glDrawPixels") || begins(c, "glTexImage") || begins(c, "glTexSubImage"))
-		not_for(s, "display lists hold pixels");
+		not_for(s, "display lists contain pixels");
 	if (k->kind == GLS_KIND_ARRAY && read_draw(s, c, &run))
 		items_add(s->list, NULL, &run);
 	else if (k->kind == GLS_KIND_ARRAY)
-		not_for(s, "display lists hold draws of a rare kind");
+		not_for(s, "display lists contain unsupported draws");
 	else if (k->kind == GLS_KIND_VERTEX || k->kind == GLS_KIND_INSIDE || k->kind == GLS_KIND_STATE ||
 	         k->kind == GLS_KIND_MATRIX)
 		items_add(s->list, c, NULL);

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 600 s
-"""The same scene, told otherwise, gives the same picture: relations (relations.c) over a lit room with a mirror, and
-some over a street with a sky. Not here: what is known to differ, which `make show-same` counts."""
+"""The same scene, drawn in another way, must give the same picture: relations (relations.c) on a lit room with a
+mirror, and some on a street with a sky. Known differences are not tested here; `make show-same` counts them."""
 import pathlib
 import sys
 
@@ -11,7 +11,7 @@ from pairs import ROUNDS, Told, compare  # noqa: E402
 
 DIFFER = {"farther", "lights"}  # shadows from nothing; mirrors show only the first pass
 SOME = {"trimmed", "immediate", "lists", "elements", "split", "undone", "wound"}
-BEHIND = {"sky"}  # in the hall a lamp is behind the viewer, and a sky before a clear of depth before it
+BEHIND = {"sky"}  # in the hall, a lamp is behind the viewer, and a sky before a depth clear is in front of it
 
 golden = ROOT / "tests/golden/cornell.trace"
 street = SCRATCH / "street.trace"
@@ -27,7 +27,7 @@ for trace, some in ((golden, None), (street, SOME), (hall, BEHIND)):
     applied = sum(verdict.same is True for verdict in verdicts.values())
     check(applied >= (len(some) if some else 30), f"{trace.stem}: {applied} relations apply")
 
-# What the comparison must see: another frame, and one pixel; and what it must not, where edges may lie elsewhere.
+# The comparison must notice another frame and a single pixel, but must tolerate shifted edges where allowed.
 told = Told(BUILD, golden, 1, SCRATCH / "controls")
 image, other = told.tell("-"), told.render(golden, 0, "other")
 verdict = compare(image, other, ROUNDS)
@@ -43,8 +43,8 @@ for name, picture in (("R", "traced"), ("gl.R", "gl")):
 for name, plane in other.planes.items():
     other.planes[name] = plane.copy()
     other.planes[name][:, 1:] = plane[:, :-1]
-check(compare(image, other, 0).same is False, "moved by a pixel it is another picture")
-check(compare(image, other, ROUNDS).same is True, "but not where edges may lie one pixel elsewhere")
+check(compare(image, other, 0).same is False, "moved by a pixel, the picture differs")
+check(compare(image, other, ROUNDS).same is True, "moved by a pixel, it is equal if edges may shift")
 
 told = Told(BUILD, ROOT / "tests/golden/two_triangles.trace", 1, SCRATCH / "flat")
 verdict = told.pair("lamps")

@@ -1,4 +1,4 @@
-/* The same picture by way of a framebuffer object, and a larger window. */
+/* The same picture through a framebuffer object, and in a larger window. */
 #include "tests/same/relations.h"
 
 #include <math.h>
@@ -53,7 +53,7 @@ void call_target(struct story *s, const struct call *c, int draws)
 		say_call(s, c);
 }
 
-/* amount 1: by a textured quad */
+/* amount 1: as a textured quad */
 void frame_target(struct story *s)
 {
 	const struct gls_drawable *d = gls_drawable_of(s->x, s->x->st->drawable);
@@ -102,7 +102,7 @@ void call_thrice(struct story *s, const struct call *c, int draws)
 
 	if (s->x->st && !s->target && (draws || is(c, "glClear")) && !s->x->st->list) {
 		s->target = 1;
-		for (unsigned unit = 0; unit < GLS_MAX_UNITS; unit++) { /* the same level of detail */
+		for (unsigned unit = 0; unit < GLS_MAX_UNITS; unit++) { /* preserves the level of detail */
 			say(s, "glActiveTexture", "u", GL_TEXTURE0 + unit);
 			say(s, "glTexEnvf", "uuf", GL_TEXTURE_FILTER_CONTROL, GL_TEXTURE_LOD_BIAS, log2(3));
 		}
@@ -113,7 +113,7 @@ void call_thrice(struct story *s, const struct call *c, int draws)
 		not_for(s, "pixels do not grow with the window");
 	if ((is(c, "glBegin") || begins(c, "glDrawArrays") || begins(c, "glDrawElements") || begins(c, "glDrawRange")) &&
 	    gls_mode_kind(arg_u(c, 0)) != SCENE_TRIANGLES)
-		not_for(s, "lines and points are cut otherwise");
+		not_for(s, "lines and points are clipped differently");
 	if (is(c, "glViewport") || is(c, "glScissor")) {
 		say(s, c->sig->name[2] == 'V' ? "glViewport" : "glScissor", "uuuu", 3 * arg_u(c, 0), 3 * arg_u(c, 1),
 		    3 * arg_u(c, 2), 3 * arg_u(c, 3));

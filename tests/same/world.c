@@ -1,4 +1,4 @@
-/* The same world elsewhere, or larger, and another eye space. */
+/* The same world moved or scaled, and in another eye space. */
 #include "tests/same/relations.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "replay/machine/commands.h"
 #include "tests/same/story.h"
 
-/* ---- the world elsewhere ---- */
+/* ---- the world moved ---- */
 
 void read_numbers(const struct call *c, unsigned i, float v[4])
 {
@@ -31,7 +31,9 @@ void run_measured(struct story *s, const struct story_run *run)
 	}
 }
 
-/* amount: how far, in distances from the eye to things; below 0: vertices are only rounded as they are there */
+/*
+ * amount: distance, relative to that from the eye to objects; negative: vertices are only rounded as in the moved world
+ */
 void run_moved(struct story *s, const struct story_run *run)
 {
 	const float d = (float)(fabs(s->relation->amount) * exp2(ceil(s->distance / log(2))));
@@ -44,7 +46,7 @@ void run_moved(struct story *s, const struct story_run *run)
 		for (unsigned k = 0; k < 4; k++)
 			if (st->a.texturing.units[unit].gen_enabled >> k & 1 &&
 			    st->a.texturing.units[unit].value.gen_mode[k] == GL_OBJECT_LINEAR)
-				not_for(s, "texture coordinates come from places in the object");
+				not_for(s, "texture coordinates are generated from object positions");
 	memcpy(v, run->v, run->n * sizeof(*v));
 	for (uint32_t i = 0; i < run->n; i++)
 		for (unsigned k = 0; k < 3; k++) {
@@ -66,7 +68,7 @@ void run_moved(struct story *s, const struct story_run *run)
 	free(v);
 }
 
-/* ---- another eye space: K before all that leads there, its inverse before all that leads on ---- */
+/* ---- another eye space: K is applied on the way into it, its inverse on the way out ---- */
 
 static void eye_matrices(const struct story *s, float k[16], float inverse[16])
 {
@@ -92,7 +94,7 @@ static void load_other_eye(struct story *s)
 	say_matrices(s, modelview, projection);
 }
 
-/* Does the state mean the same in the other eye space? */
+/* Whether the state means the same in the other eye space. */
 static void check_eye(struct story *s)
 {
 	const struct gls_attribs *a = &s->x->st->a;
@@ -101,20 +103,20 @@ static void check_eye(struct story *s)
 	if (amount > 0 && (a->point.attenuation[1] != 0 || a->point.attenuation[2] != 0))
 		not_for(s, "points shrink with distance");
 	if (amount < 0 && a->fog.enabled)
-		not_for(s, "fog goes by one direction of eye space");
+		not_for(s, "fog depends on a direction in eye space");
 	for (unsigned i = 0; amount < 0 && a->lighting.enabled && !a->lighting.local_viewer && i < GLS_MAX_LIGHTS; i++)
 		for (unsigned k = 0; k < 3 && a->lighting.lights[i].enabled; k++)
 			if (a->lighting.lights[i].value.specular[k] *
 			        (a->lighting.face[0].specular[k] + a->lighting.face[1].specular[k]) >
 			    0)
-				not_for(s, "highlights go by one direction of eye space");
+				not_for(s, "highlights depend on a direction in eye space");
 	for (unsigned u = 0; amount <= 0 && u < GLS_MAX_UNITS; u++)
 		for (unsigned k = 0; k < 4; k++) {
 			const struct gls_unit *unit = &a->texturing.units[u];
 
 			if (unit->enabled && unit->gen_enabled >> k & 1 && unit->value.gen_mode[k] != GL_EYE_LINEAR &&
 			    unit->value.gen_mode[k] != GL_OBJECT_LINEAR)
-				not_for(s, "textures mirror by directions of eye space");
+				not_for(s, "reflection textures depend on directions in eye space");
 		}
 }
 
@@ -129,7 +131,7 @@ void run_eye(struct story *s, const struct story_run *run)
 
 	check_eye(s);
 	eye_matrices(s, k, inverse);
-	for (unsigned i = 0; i < GLS_MAX_LIGHTS && !s->n_changes; i++) { /* nobody may have placed them */
+	for (unsigned i = 0; i < GLS_MAX_LIGHTS && !s->n_changes; i++) { /* the program may not have placed them */
 		if (memcmp(a->lighting.lights[i].value.position_eye, (float[]){ 0, 0, 1, 0 }, 16) != 0)
 			continue;
 		say_matrices(s, k, stack_top(&s->x->st->projection));

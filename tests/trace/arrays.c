@@ -1,4 +1,4 @@
-/* Vertex arrays in client memory and in buffers, by every way to draw them; one that ends before what is drawn. */
+/* Vertex arrays in client memory and in buffers, drawn in every way; one of them ends too early. */
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -8,8 +8,8 @@ static const float triangle[3][3] = { { -1, -1, 0 }, { 1, -1, 0 }, { 0, 1, 0 } }
 static const unsigned char colors[3][4] = { { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 } };
 
 /*
- * Enabled, too short for what is drawn, and of no use to it: texturing is off, so the GL does not look at texture
- * coordinates. Two of three elements are readable.
+ * An enabled array that is too short but unused: texturing is off, so GL does not read texture coordinates. Two of
+ * three elements are readable.
  */
 static void draw_with_short_array(void)
 {
@@ -30,7 +30,7 @@ int main(void)
 	static const unsigned short indices[4] = { 2, 1, 0, 65535 };
 	static const float interleaved[3][6] = { { 1, 0, 0, -1, -1, 0 }, { 0, 1, 0, 1, -1, 0 }, { 0, 0, 1, 0, 1, 0 } };
 	static const int first[2] = { 0, 0 }, counts[2] = { 3, 2 };
-	static const unsigned modes[3] = { GL_TRIANGLES, GL_TRIANGLE_FAN, GL_QUADS }; /* apart by 8 bytes, and by 4 */
+	static const unsigned modes[3] = { GL_TRIANGLES, GL_TRIANGLE_FAN, GL_QUADS }; /* strides of 8 bytes, and of 4 */
 	const void *const many[2] = { indices, indices + 1 };
 	unsigned buffer;
 
@@ -53,7 +53,7 @@ int main(void)
 	glEnd();
 	draw_with_short_array();
 
-	/* Colours from a buffer, positions from memory. */
+	/* Colours from a buffer, positions from client memory. */
 	glGenBuffers(1, &buffer);
 	glBindBuffer(GL_ARRAY_BUFFER, buffer);
 	glBufferData(GL_ARRAY_BUFFER, sizeof(colors), colors, GL_STATIC_DRAW);
@@ -64,7 +64,7 @@ int main(void)
 	glInterleavedArrays(GL_C3F_V3F, 0, interleaved);
 	glDrawArrays(GL_TRIANGLES, 0, 3);
 
-	/* The restart index is no vertex. */
+	/* The restart index is not a vertex. */
 	glEnable(GL_PRIMITIVE_RESTART);
 	glPrimitiveRestartIndex(65535);
 	glDrawElements(GL_LINE_STRIP, 4, GL_UNSIGNED_SHORT, indices);

@@ -1,6 +1,7 @@
 /*
- * Contexts that come and go, each of which draws from a large array of the program's several times: what the recorder
- * keeps of the array goes with the context, so that the process does not grow. Run by tests/real/test_record_arrays.sh.
+ * Contexts that are created and destroyed; each draws several times from a large array of the program's. The recorder's
+ * copy of the array must be released with the context, so that the process does not grow. Run by
+ * tests/real/test_record_arrays.sh.
  */
 #include <unistd.h>
 

@@ -1,7 +1,7 @@
 /*
- * Text by glXUseXFont: the X server's characters, made into lists while the unpack state is one that no bitmap of
- * theirs has. An argument names a folder with a font "tall", whose A is taller than what is recorded of a character,
- * and whose B is a box.
+ * Text by glXUseXFont: the X server's characters are compiled into lists while the unpack state differs from that of
+ * their bitmaps. An argument names a folder with a font "tall", whose A is taller than any recorded character, and
+ * whose B is a box.
  */
 #include "window.h"
 
@@ -49,12 +49,12 @@ int main(int argc, char **argv)
 	glPixelStorei(GL_UNPACK_SKIP_PIXELS, 3);
 	glPixelStorei(GL_UNPACK_LSB_FIRST, 1);
 	use_font("fixed", 0, 256, BASE);
-	use_font("cursor", 0, 256, CURSORS); /* characters of many sizes, left and below of where they stand; the last
-	                                        do not exist */
+	use_font("cursor", 0, 256, CURSORS); /* characters of many sizes, left of and below their origin; the last do
+	                                        not exist */
 	expect(glIsList(BASE) && glIsList(CURSORS + 255) && !glIsList(BASE + 256), "a list for each character");
 	if (argc > 1)
 		use_tall_font(argv[1]);
-	glGetError(); /* Mesa's own, for characters without pixels */
+	glGetError(); /* Mesa's own error, for characters without pixels */
 	for (int frame = 0; frame < FRAMES; frame++) {
 		glClearColor(0, 0, 0.1f * (float)frame, 1);
 		glClear(GL_COLOR_BUFFER_BIT);
@@ -65,7 +65,7 @@ int main(int argc, char **argv)
 		glGetFloatv(GL_CURRENT_RASTER_POSITION, at);
 		expect(at[0] > 12, "text moves the raster position");
 		if (argc > 1)
-			write_text(40, 2 + frame, TALL, "\x01"); /* B; there is no picture of A to be replayed */
+			write_text(40, 2 + frame, TALL, "\x01"); /* B; A has no bitmap to replay */
 		end_frame();
 	}
 	expect(glGetError() == GL_NO_ERROR, "no error");

@@ -1,7 +1,6 @@
 /*
- * Ten frames of which each leans on what earlier ones made, set and drew: the same pictures in every run. Nothing
- * clears the whole window after the first frame, but where an argument is given. For recordings that begin in the
- * middle.
+ * Ten frames, each based on objects, state and pixels of earlier ones; the pictures are the same in every run. The
+ * window is not cleared after the first frame, unless an argument is given. For recordings that start in the middle.
  */
 #include "window.h"
 
@@ -47,7 +46,7 @@ static unsigned make_texture(int copy)
 	return texture;
 }
 
-/* What later frames need. */
+/* Objects that later frames need. */
 static void make_objects(void)
 {
 	glClearColor(0.1f, 0.2f, 0.3f, 1);
@@ -72,7 +71,7 @@ static void draw_to_texture(int frame)
 	glViewport(0, 0, 16, 16);
 	glClearColor(0, 0.1f * (float)frame, 0.5f, 1);
 	glClear(GL_COLOR_BUFFER_BIT);
-	glRectf(-0.5f, -0.5f, 0.5f, 0.5f); /* in the colour that the frame before has left */
+	glRectf(-0.5f, -0.5f, 0.5f, 0.5f); /* in the colour left by the previous frame */
 	glBindFramebuffer(GL_FRAMEBUFFER, 0);
 	glPopAttrib();
 }
@@ -88,11 +87,11 @@ static void draw(int frame)
 	textured_square(copied, -1, 0.4f);
 	textured_square(drawn_to, 0.4f, 0.4f);
 	glEnable(GL_DEPTH_TEST);
-	glBegin(GL_TRIANGLES); /* a little nearer with each frame, over what is there */
+	glBegin(GL_TRIANGLES); /* a little nearer in each frame, over the existing picture */
 	glColor3f(0.2f, 0.1f * (float)frame, 0.8f);
 	glVertex3f(at, -0.9f, 0.9f - 0.05f * (float)frame);
 	glVertex3f(at + 0.4f, -0.9f, 0.1f);
-	glColor3f(1, 0.2f, 0.1f * (float)frame); /* the last colour is what the next frame begins with */
+	glColor3f(1, 0.2f, 0.1f * (float)frame); /* the next frame starts with the last colour */
 	glVertex3f(at, -0.3f, 0);
 	glEnd();
 	glDisable(GL_DEPTH_TEST);
@@ -101,8 +100,8 @@ static void draw(int frame)
 	corners[4] = 0.02f * (float)frame;
 	glDrawArrays(GL_TRIANGLES, 0, 3);
 	glDisableClientState(GL_VERTEX_ARRAY);
-	glPixelStorei(GL_UNPACK_ROW_LENGTH, frame); /* left set */
-	glEnable(GL_SCISSOR_TEST);                  /* and this one */
+	glPixelStorei(GL_UNPACK_ROW_LENGTH, frame); /* left set for the next frame */
+	glEnable(GL_SCISSOR_TEST);                  /* also left set */
 	glScissor(0, 0, 64, 40 + frame % 8);
 	if (frame % 3 == 0) {
 		glBindTexture(GL_TEXTURE_2D, copied);

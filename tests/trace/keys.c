@@ -1,10 +1,10 @@
 /*
- * Prints the keys that it gets, each with the number of the frame that it draws next: "3 press space 0".
+ * Prints the keys that it receives, each with the number of the frame that it draws next: "3 press space 0".
  *
  *   keys FRAMES poll|wait|child|deaf
  *
- * poll: draws all the time. wait: draws its first frame, and another one for each press. child: draws into a window
- * within the one that takes keys. deaf: takes none.
+ * poll: draws continuously. wait: draws its first frame, then one for each press. child: draws into a child window of
+ * the one that receives keys. deaf: accepts none.
  */
 #include <X11/keysym.h>
 

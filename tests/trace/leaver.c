@@ -1,7 +1,6 @@
 /*
- * leaver HOW: draws FRAMES frames and leaves without a word to anybody. HOW: _exit, abort, or fork: a child draws CHILD
- * frames on a display of its own and calls _exit, while its parent goes on for as many frames again. Run by
- * test_record_durable.sh.
+ * leaver HOW: draws FRAMES frames and exits without any clean-up. HOW: _exit, abort, or fork: a child draws CHILD
+ * frames on a display of its own and calls _exit, while its parent draws FRAMES more. Run by test_record_durable.sh.
  */
 #include "window.h"
 
@@ -32,7 +31,7 @@ int main(int argc, char **argv)
 	}
 	open_window();
 	draw(FRAMES);
-	glClear(GL_COLOR_BUFFER_BIT); /* a frame that never ends */
+	glClear(GL_COLOR_BUFFER_BIT); /* an incomplete frame */
 	if (strcmp(how, "_exit") == 0)
 		_exit(CODE);
 	if (strcmp(how, "abort") == 0)
@@ -40,7 +39,7 @@ int main(int argc, char **argv)
 	if (strcmp(how, "fork") == 0) {
 		expect(waitpid(child, &status, 0) == child && WEXITSTATUS(status) == CODE, "the child ended as it should");
 		if ((child = fork()) == 0)
-			_exit(CODE); /* a copy of a recording process that ends must not end the recording */
+			_exit(CODE); /* an exiting copy of a recording process must not end the recording */
 		expect(waitpid(child, &status, 0) == child && WEXITSTATUS(status) == CODE, "the copy ended as it should");
 		draw(FRAMES);
 	}

@@ -1,4 +1,7 @@
-/* Everything by hand: OSMesa by dlopen and dlsym, its gl* by OSMesaGetProcAddress, and a name that no GL has. */
+/*
+ * Everything loaded by hand: OSMesa by dlopen and dlsym, its gl* by OSMesaGetProcAddress, and a name that does not
+ * exist in any GL.
+ */
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>

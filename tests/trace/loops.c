@@ -1,7 +1,7 @@
 /*
- * Quads and line loops that repeat themselves from frame to frame, which drivers' lists may draw otherwise than
- * immediate mode; with the argument "back" lit faces whose back alone follows the colour, set in one run and in front
- * of the next.
+ * Quads and line loops that repeat from frame to frame, which drivers may draw differently from lists than in immediate
+ * mode. With the argument "back": lit faces whose colour material applies to the back only, set inside one run and
+ * before the next.
  */
 #include "window.h"
 
@@ -33,7 +33,7 @@ static void light(void)
 	glEnable(GL_LIGHTING);
 }
 
-/* From front and behind, the colour of each corner or of all. */
+/* From front and behind, with a colour per vertex or for all. */
 static void lit_faces(void)
 {
 	for (int side = -1; side <= 1; side += 2)

@@ -1,7 +1,7 @@
 /*
- * Persistent mappings that end without being unmapped: of buffers that are deleted, as many as can be followed at once,
- * and of a context that is destroyed. What is stored in one after them is recorded. One that is only read is not
- * followed. Exits with 77 where the GL has none.
+ * Persistent mappings that end without an unmap: of deleted buffers, of as many as can be tracked at once, and of a
+ * destroyed context. Stores to a later mapping must be recorded. A read-only mapping is not tracked. Exits with 77 if
+ * GL has no persistent mappings.
  */
 #include "window.h"
 

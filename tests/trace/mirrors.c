@@ -1,6 +1,6 @@
 /*
- * Client arrays that change in every way between draws, for twenty frames: recorded and replayed, the pictures must be
- * the program's. Run by tests/real/test_record_arrays.sh; calls the same draws in each frame with other data.
+ * Client arrays that change in every way between draws, for twenty frames; the replayed recording must show the
+ * program's pictures. Run by tests/real/test_record_arrays.sh; makes the same draws in each frame with other data.
  */
 #include <sys/mman.h>
 
@@ -33,7 +33,7 @@ static void shade(float c[3], int i, int seed)
 		c[k] = (float)((i / 6 * 37 + seed * 101 + k * 59) % 256) / 255;
 }
 
-/* Members of one struct, of which a few change, each time others. */
+/* Members of a struct; a few change, different ones each time. */
 static void draw_structs(int frame)
 {
 	for (int i = 0; i < CORNERS; i++) {
@@ -45,10 +45,10 @@ static void draw_structs(int frame)
 	glVertexPointer(2, GL_FLOAT, sizeof(corners[0]), corners[0].position);
 	glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(corners[0]), corners[0].color);
 	glDrawArrays(GL_TRIANGLES, 600, 600);
-	glDrawArrays(GL_TRIANGLES, 300 + 6 * frame, 120); /* overlaps what is known, from below */
+	glDrawArrays(GL_TRIANGLES, 300 + 6 * frame, 120); /* overlaps the known range from below */
 }
 
-/* Ranges that grow, indices that change, and contents that take turns at one address. */
+/* Growing ranges, changing indices, and alternating contents at one address. */
 static void draw_elements(int frame)
 {
 	int base = 1200;
@@ -70,7 +70,7 @@ static void draw_elements(int frame)
 	}
 }
 
-/* Another array at the address of one that was unmapped. */
+/* Another array at the address of an unmapped one. */
 static void draw_remapped(int frame)
 {
 	const size_t bytes = 16384;

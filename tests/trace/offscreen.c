@@ -1,8 +1,8 @@
 /*
- * Programs without a window: offscreen pbuffer|surfaceless|device|osmesa. A triangle on a coloured ground, another one
- * in each of three frames; the first ends its frames by eglSwapBuffers, the others by glFinish. Where there is no
- * surface it is drawn into a framebuffer object. Each picture's middle is read back and checked by the program itself.
- * Recorded by test_record_offscreen.py; exits with 77 where the library or platform is not there.
+ * Programs without a window: offscreen pbuffer|surfaceless|device|osmesa. A triangle on a coloured ground, a different
+ * one in each of three frames; pbuffer ends its frames by eglSwapBuffers, the others by glFinish. Without a surface, a
+ * framebuffer object is the target. The program reads back and checks the middle of each picture. Recorded by
+ * test_record_offscreen.py; exits with 77 if the library or platform is missing.
  */
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum { SIDE = 32, FRAMES = 3 };
-/* After EGL/egl.h, EGL/eglext.h. */
+/* Constants newer than EGL/egl.h and EGL/eglext.h. */
 enum {
 	EGL_NONE_ = 0x3038, EGL_SURFACE_TYPE_ = 0x3033, EGL_PBUFFER_BIT_ = 1, EGL_RENDERABLE_TYPE_ = 0x3040,
 	EGL_OPENGL_BIT_ = 8, EGL_DEPTH_SIZE_ = 0x3025, EGL_RED_SIZE_ = 0x3024, EGL_HEIGHT_ = 0x3056, EGL_WIDTH_ = 0x3057,
@@ -94,7 +94,7 @@ static void begin_osmesa(void)
 	if (!((unsigned char (*)(void *, void *, unsigned, int, int))dlsym(library, "OSMesaMakeCurrent"))(
 		    context, osmesa_pixels, GL_UNSIGNED_BYTE, SIDE, SIDE))
 		give_up("OSMesa context");
-	egl_library = library; /* where its gl* are */
+	egl_library = library; /* the library with its gl* functions */
 }
 
 #define GL(name, ...) ((void (*)(__VA_ARGS__))gl(#name))

@@ -1,4 +1,4 @@
-/* Pixels in client memory under the unpack state, in buffers, in mappings; texts; lists; errors that stay the
+/* Pixels in client memory under unpack state, in buffers, in mappings; texts; lists; errors that must remain the
  * program's. */
 #include "capture/relume.h"
 #include "window.h"
@@ -54,11 +54,11 @@ int main(void)
 	static const float matrices[8] = { 1, 2, 3, 4, 5, 6, 7, 8 };
 	static float feedback[3];
 
-	glUniformMatrix2fv(-1, 2, GL_FALSE, matrices); /* no program: an error, with all its values */
+	glUniformMatrix2fv(-1, 2, GL_FALSE, matrices); /* no program: an error, recorded with all values */
 	expect(glGetError() == GL_INVALID_OPERATION, "no program, no uniform");
 	glFeedbackBuffer(3, GL_2D, feedback);
 	glPushMatrix();
-	glClear(0x100000); /* an error, unasked while the frame is read back */
+	glClear(0x100000); /* an error that the program does not query before the frame is read back */
 	end_frame();
 	expect(glGetError() == GL_INVALID_VALUE, "the program's error is still there");
 	expect(glGetError() == GL_NO_ERROR, "and the recorder made none");

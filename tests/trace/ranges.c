@@ -1,5 +1,5 @@
-/* Which elements of arrays in memory draws read, and no others: of one vertex, of empty parts, of long lists of
- * indices, of parameters in memory. */
+/* Exactly the elements of client arrays that draws read: a single vertex, empty parts, long index lists, parameters
+ * in memory. */
 #include "window.h"
 
 enum { MANY = 9000, HIGHEST = 7 };
@@ -9,7 +9,7 @@ static unsigned short wide[MANY];
 static unsigned char narrow[MANY];
 static unsigned longest[MANY];
 
-/* The highest index is among the last ones. */
+/* The highest index is near the end. */
 static void draw_many(unsigned type, const void *indices)
 {
 	unsigned buffer;

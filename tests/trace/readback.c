@@ -1,4 +1,4 @@
-/* What a program reads back, and frames that end without a swap. */
+/* A program's own reads of pixels, and frames that end without a swap. */
 #include "window.h"
 
 int main(void)
@@ -21,7 +21,7 @@ int main(void)
 		glFinish();
 	}
 	glBegin(GL_POINTS);
-	glReadPixels(0, 0, 1, 1, GL_RGB, GL_UNSIGNED_BYTE, pixels); /* an error, and no frame */
+	glReadPixels(0, 0, 1, 1, GL_RGB, GL_UNSIGNED_BYTE, pixels); /* an error, which ends no frame */
 	glEnd();
 	expect(glGetError() == GL_INVALID_OPERATION, "no reading within Begin and End");
 

@@ -1,6 +1,7 @@
 /*
- * Everything that changes what glReadPixels gives is set oddly, one thing at the end of each frame. The recorder reads
- * frames back beside the program, and leaves all of it as it was. With an argument nothing is set: the same pictures.
+ * All state that affects glReadPixels is set to unusual values, one kind at the end of each frame. The recorder reads
+ * frames back within the program, and must leave all of it unchanged. With an argument nothing is set: the same
+ * pictures.
  */
 #include "window.h"
 

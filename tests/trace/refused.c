@@ -1,4 +1,4 @@
-/* Calls that GL refuses may point anywhere: the recorder must not look there as if it were safe. */
+/* Calls that GL refuses may have invalid pointers: the recorder must not read there. */
 #include "window.h"
 
 #include <limits.h>
@@ -7,8 +7,7 @@
 #define PAGE 4096
 #define RESERVED (8 << 20) /* bytes */
 
-/* Arrays where nothing is, of a few values and of more than there is memory; the last one has its first values
- * alone. */
+/* Unmapped arrays of a few values and of more than memory holds; the last one has only its first values. */
 static void pass_arrays(void)
 {
 	const float *nowhere = (const float *)8;
@@ -19,11 +18,11 @@ static void pass_arrays(void)
 	       "one page that can be read, and none behind it");
 	memset(pages, 7, PAGE);
 	glPixelMapfv(GL_PIXEL_MAP_R_TO_R, 1 << 30, nowhere);
-	expect(glGetError() == GL_INVALID_VALUE, "no map is so long");
+	expect(glGetError() == GL_INVALID_VALUE, "no map is that long");
 	glPixelMapfv(GL_PIXEL_MAP_R_TO_R, 1 << 20, (const float *)pages);
 	expect(glGetError() == GL_INVALID_VALUE, "nor where there is something");
 	glMap2f(GL_MAP2_VERTEX_3, 0, 1, INT_MAX, INT_MAX, 0, 1, 1 << 30, 7, (const float *)pages); /* 2^64 + 20 bytes */
-	expect(glGetError() == GL_INVALID_VALUE, "no map is of so high an order");
+	expect(glGetError() == GL_INVALID_VALUE, "no map has such a high order");
 	glTexImage2D(GL_TEXTURE_1D, 0, GL_RGBA, 1 << 30, 1 << 29, 0, GL_RGBA, GL_UNSIGNED_BYTE, pages);
 	expect(glGetError() == GL_INVALID_ENUM, "no target for two dimensions");
 	glPixelMapusv(GL_PIXEL_MAP_I_TO_R, 20, end);

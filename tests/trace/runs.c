@@ -1,11 +1,11 @@
-/* Immediate mode that repeats itself: what may become a list that only the trace has, and what may not. */
+/* Immediate mode that repeats: runs that may become a list in the trace only, and runs that may not. */
 #include <stdio.h>
 
 #include "window.h"
 
 enum { CORNERS = 12 };
 
-/* A fan of enough calls to be worth a list. */
+/* A fan with enough calls to be worth a list. */
 static void fan(float shade)
 {
 	glBegin(GL_TRIANGLE_FAN);
@@ -16,7 +16,7 @@ static void fan(float shade)
 	glEnd();
 }
 
-/* With a call between that is no part of any run: all of it is written as it came. */
+/* With a call inside that no run may contain: everything is written unchanged. */
 static void interrupted(void)
 {
 	glBegin(GL_TRIANGLE_FAN);
@@ -34,7 +34,7 @@ int main(void)
 	unsigned list;
 
 	open_window();
-	fan(0.25f); /* seen first: a list at once, while few have been made in vain */
+	fan(0.25f); /* first seen: a list at once, while few have been made in vain */
 	fan(0.25f);
 	interrupted();
 	interrupted();
@@ -44,7 +44,7 @@ int main(void)
 	glEnd();
 	end_frame();
 
-	/* A list of the program's own keeps its calls, and its name is its own affair. */
+	/* A list of the program's own keeps its calls and its name. */
 	list = glGenLists(2);
 	printf("lists from %u\n", list);
 	glNewList(list, GL_COMPILE_AND_EXECUTE);
@@ -55,13 +55,13 @@ int main(void)
 	glCallList(list);
 	fan(0.75f);
 
-	/* The program takes one of the names that are for such lists: no more are made. */
+	/* The program uses one of the names reserved for such lists: no more are made. */
 	glNewList(0xF00001, GL_COMPILE);
 	glEndList();
 	fan(0.5f);
 	fan(0.5f);
 
-	/* From here on vertices depend on an edge flag set outside of their run. */
+	/* From here on vertices depend on an edge flag set outside their run. */
 	glEdgeFlag(GL_FALSE);
 	fan(0.25f);
 	expect(glGetError() == GL_NO_ERROR, "no error");

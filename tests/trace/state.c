@@ -1,7 +1,7 @@
 /*
- * Frames that go on from what earlier frames left: lists that move, turn and colour, called plainly, by number, between
- * Begin and End and while they are made; a texture that is written to a little each frame; attributes set without a
- * draw; a raster position that bitmaps move; client arrays. Every frame clears the window.
+ * Frames that continue from earlier state: lists that move, rotate and colour, called plainly, by number, between Begin
+ * and End and while they are compiled; a texture that is modified in each frame; attributes set without a draw; a
+ * raster position moved by bitmaps; client arrays. Every frame clears the window.
  */
 #include "window.h"
 
@@ -75,7 +75,7 @@ int main(void)
 		glBitmap(8, 4, 0, 0, 3, 0, bits);
 		glCallList(TURN);
 		glCallList(NESTED);
-		glRectf(0.5f, -0.9f, 0.8f, -0.6f); /* of the colour that a list left */
+		glRectf(0.5f, -0.9f, 0.8f, -0.6f); /* in the colour left by a list */
 		glNewList(MADE, GL_COMPILE_AND_EXECUTE);
 		glColor3f(0.1f * (float)frame, 1, 0.5f);
 		glRectf(-0.9f, 0, -0.7f, 0.2f);

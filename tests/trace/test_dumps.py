@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Small GL programs, recorded and dumped by apitrace, compared with what they should give.
+"""Small GL programs, recorded, dumped by apitrace, and compared with the expected calls.
 
 NAME.c beside this file is the program, NAME.ref.txt its calls as `apitrace dump` prints them, without call numbers.
-Each line of it must come in this order; <name> matches anything, <=name> a number that is the same wherever it stands,
+Each of its lines must occur in this order; <name> matches anything, <=name> a number that is the same in all places,
 "..." any number of lines. Run with --print NAME [OPTIONS of relume record] to see a dump.
 """
 import os
@@ -26,7 +26,9 @@ def run(*command):
 
 
 def dump(name, *options):
-    """The calls of a program under the recorder, as a list of lines without numbers. It prints what it does without."""
+    """The recorded calls of a program, as a list of lines without numbers. Its own output must be the same as without a
+    recorder.
+    """
     program = BUILD / "tests" / "trace" / name
     with tempfile.TemporaryDirectory() as folder:
         trace = pathlib.Path(folder, "x.trace")
@@ -40,7 +42,7 @@ def dump(name, *options):
 
 
 def matcher(line, numbers):
-    """@param numbers  {name: what it was}"""
+    """@param numbers  {name: its value so far}"""
     text = ""
     for part in re.split(r"(<=?\w+>)", line):
         name = part[2:-1] if part.startswith("<=") else None
@@ -67,7 +69,7 @@ class Dumps(unittest.TestCase):
                 here += 1
             self.assertTrue(
                 here < len(got) and pattern.fullmatch(got[here]),
-                f"{name}.ref.txt:{number}: {line}\nnot found; the dump goes on with\n" + "\n".join(got[at:at + 5]))
+                f"{name}.ref.txt:{number}: {line}\nnot found; the dump continues with\n" + "\n".join(got[at:at + 5]))
             numbers |= pattern.fullmatch(got[here]).groupdict()
             at, anywhere = here + 1, False
 
@@ -98,7 +100,7 @@ class Dumps(unittest.TestCase):
         self.compare("readback", "--frame-end", "readpixels", "--ref", "color,depth")
 
     def test_frames_end_where_asked(self):
-        """The terminator stands right before a clear or a reading, right after a flush or a finish."""
+        """The terminator comes directly before a clear or a read, and directly after a flush or a finish."""
         for end, call, frames in (("clear", "glClear(", 1), ("readpixels", "glReadPixels(", 2),
                                   ("flush", "glFlush(", 2), ("finish", "glFinish(", 2)):
             got = [line for line in dump("readback", "--frame-end", end) if not line.startswith("glStringMarker")]
@@ -115,12 +117,12 @@ class Dumps(unittest.TestCase):
     def test_what_frames_that_are_left_out_leave(self):
         got = dump("runs", "--frames", "2-2")
         fan = ["glBegin(mode = GL_TRIANGLE_FAN)", "glColor3f(red = 0.25, green = 0.9166667, blue = 0)",
-               "glEnd()"]  # of twelve colours the last
+               "glEnd()"]  # the last of twelve colours
         at = got.index(fan[0])
         self.assertEqual(got[at:at + 3], fan)
 
     def test_threads(self):
-        """Two threads draw at once: every call of both is there, whole, in each thread's order."""
+        """Two threads draw at once: the trace contains every call of both completely, in each thread's order."""
         got = dump("threads")
         calls = [re.sub(r"^@\d+ ", "", line) for line in got]
         self.assertEqual(sum(c.startswith("glXSwapBuffers") for c in calls), 2 * 20)

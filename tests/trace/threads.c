@@ -1,5 +1,4 @@
-/* Two threads, each with a window and a context of its own, drawing at the same time by functions from
- * glXGetProcAddress. */
+/* Two threads, each with its own window and context, draw at the same time, using functions from glXGetProcAddress. */
 #include <pthread.h>
 
 #include "window.h"

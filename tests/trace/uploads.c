@@ -1,7 +1,7 @@
 /*
- * Textures and pixel rectangles that are uploaded again and again: two pictures that take turns, and a part of one of
- * them under other unpack states. Recorded and replayed, the pictures must be the program's, and each content be stored
- * at most twice. Run by tests/real/test_record_uploads.sh.
+ * Textures and pixel rectangles that are uploaded repeatedly: two alternating pictures, and a part of one of them under
+ * other unpack state. The replayed recording must show the program's pictures and store each content at most twice. Run
+ * by tests/real/test_record_uploads.sh.
  */
 #include "window.h"
 
@@ -15,7 +15,7 @@ int main(void)
 
 	open_window();
 	for (unsigned char *p = &pictures[0][0][0][0]; p < &pictures[0][0][0][0] + sizeof(pictures); p++)
-		*p = (unsigned char)((seed = seed * 1664525u + 1013904223u) >> 24); /* cannot be packed */
+		*p = (unsigned char)((seed = seed * 1664525u + 1013904223u) >> 24); /* incompressible */
 	glGenTextures(1, &texture);
 	glBindTexture(GL_TEXTURE_2D, texture);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);

@@ -1,8 +1,8 @@
 /*
  * Client arrays that stay the same for long and then change in every way that memory can change: by a store, from
- * another thread, by the kernel, by being given back, by being mapped anew, and in a child, whose memory is its own.
- * Recorded and replayed, the pictures must be the program's. With an argument the kernel is an older one, which cannot
- * tell of stores: the program's descriptors are the same afterwards. Run by tests/real/test_record_arrays.sh.
+ * another thread, by the kernel, by being released, by being remapped, and in a child, whose memory is separate. The
+ * replayed recording must show the program's pictures. With an argument an older kernel is simulated, which cannot
+ * report stores: the program's descriptors must be unaffected. Run by tests/real/test_record_arrays.sh.
  */
 #include <dirent.h>
 #include <errno.h>
@@ -26,7 +26,7 @@ enum {
 	CELLS = 400,
 	CORNERS = 6 * CELLS,
 	DRAWS = 10,
-	STILL = 9 /* frames between changes: long enough to be trusted */
+	STILL = 9 /* frames between changes: long enough for an array to be trusted */
 };
 enum { CHANGES = 12, PAGE = 4096 };
 
@@ -72,7 +72,7 @@ static void *store(void *cell)
 	return NULL;
 }
 
-/* 60 corners, from the middle of a page to the middle of another. */
+/* 60 vertices, from the middle of a page to the middle of another. */
 static void read_from_kernel(int seed)
 {
 	struct corner some[60];
@@ -109,7 +109,7 @@ static void change(int what)
 		map_anew(what);
 		break;
 	default:
-		if (fork() == 0) { /* changes nothing here */
+		if (fork() == 0) { /* does not change this process' memory */
 			shade(3, 99);
 			_exit(0);
 		}
@@ -117,7 +117,7 @@ static void change(int what)
 	}
 }
 
-/* Before Linux 6.7 UFFDIO_API fails where stores are to be told without faults. */
+/* Before Linux 6.7, UFFDIO_API fails when asked to report stores without faults. */
 static void use_older_kernel(void)
 {
 	struct sock_filter rules[] = {
@@ -134,7 +134,7 @@ static void use_older_kernel(void)
 	       "a filter of system calls");
 }
 
-/* Descriptors of this process by which memory is watched. */
+/* Descriptors of this process that watch memory. */
 static int count_watching(void)
 {
 	DIR *folder = opendir("/proc/self/fd");
@@ -175,7 +175,7 @@ int main(int argc, char **argv)
 		expect(glGetError() == GL_NO_ERROR, "no error");
 		expect(fstat(0, &same) == 0 && same.st_dev == input.st_dev && same.st_ino == input.st_ino,
 		       "standard input is what it was");
-		expect(argc == 1 || count_watching() == 0, "what cannot be used is closed");
+		expect(argc == 1 || count_watching() == 0, "unusable descriptors are closed");
 		end_frame();
 	}
 	return 0;

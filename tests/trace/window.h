@@ -1,5 +1,5 @@
-/* A GLX window for the small programs of this folder, of 64 x 48 pixels unless a program says otherwise before it opens
- * it. */
+/* A GLX window for the small programs in this folder, 64 x 48 pixels unless a program sets another size before
+ * opening it. */
 #pragma once
 
 #include <GL/gl.h>
@@ -13,7 +13,7 @@
 static Display *display;
 static Window window;
 static unsigned window_size[2] = { 64, 48 };
-static const char *window_kind = "a plain one"; /* what not every GL has of it: Mesa 25 has neither samples nor
+static const char *window_kind = "a plain one"; /* a property that some GLs lack: Mesa 25 has neither samples nor
                                                    accumulation buffers */
 
 static inline void open_window_of(int *attributes)
@@ -71,7 +71,7 @@ static inline void begin_view(void)
 	glLoadIdentity();
 }
 
-/** An empty window whose pixels are object space, and white as the colour. */
+/** An empty window where object space is pixels, and the colour is white. */
 static inline void begin_pixels(void)
 {
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -82,7 +82,7 @@ static inline void begin_pixels(void)
 	glColor4f(1, 1, 1, 1);
 }
 
-/** One function a frame, each after `before`. */
+/** One function per frame, each after `before`. */
 static inline void draw_frames(void (*const *frames)(void), size_t n, void (*before)(void))
 {
 	for (size_t i = 0; i < n; i++) {
@@ -92,7 +92,7 @@ static inline void draw_frames(void (*const *frames)(void), size_t n, void (*bef
 	}
 }
 
-/** The program's own check that nothing odd happened to it. */
+/** The program's own check that it was not disturbed. */
 static inline void expect(int truth, const char *what)
 {
 	if (!truth) {

@@ -1,4 +1,4 @@
-/* A wall that light comes to by way of mirrors and glass alone (tracer/frame/photons.h). */
+/* A wall that receives light only through mirrors and glass (tracer/frame/photons.h). */
 #pragma once
 
 #include <math.h>
@@ -15,7 +15,7 @@ static inline struct tracer_options options_of(unsigned photons)
 	return (struct tracer_options){ .mode = TRACER_WHITTED, .display = 1, .depth = 4, .photons = photons };
 }
 
-/* Glass as clear as it can be, or a mirror. */
+/* Perfectly clear glass, or a mirror. */
 static inline uint32_t add_material(struct made *t, float reflect, float transmit)
 {
 	const uint32_t m = made_add_material(t, 1);
@@ -26,7 +26,7 @@ static inline uint32_t add_material(struct made *t, float reflect, float transmi
 	return m;
 }
 
-/* A wall across the view, which nothing else stands in. */
+/* A wall across the view, with no other object in view. */
 static inline void begin(struct made *t, float x, float y, float z, float w)
 {
 	made_init(t, SIZE, SIZE, 0.2f);
@@ -35,7 +35,7 @@ static inline void begin(struct made *t, float x, float y, float z, float w)
 	                (float[3]){ 0, 1, 0 }, 30, 1);
 }
 
-/* Where the wall's pixels are. */
+/* Position of a pixel on the wall. */
 static inline double wall_at(uint32_t pixel)
 {
 	return ((double)pixel + 0.5 - SIZE / 2.0) / (SIZE / 2.0) * 0.2 * -WALL;

@@ -1,4 +1,4 @@
-/* What the truth tests do with scenes built by hand (verbs/render/check/made.h). */
+/* Helpers of the truth tests for scenes built by hand (render/check/made.h). */
 #pragma once
 
 #include <check.h>
@@ -13,7 +13,7 @@
 #include "tracer/image/image.h"
 #include "tracer/frame/trace.h"
 
-/** One number of a channel; x from the left, y from the top. */
+/** One value of a channel; x from the left, y from the top. */
 static inline float truth_at(const struct image *img, const char *channel, uint32_t x, uint32_t y)
 {
 	const float *plane = image_channel(img, channel);
@@ -22,7 +22,7 @@ static inline float truth_at(const struct image *img, const char *channel, uint3
 	return plane[(size_t)y * img->width + x];
 }
 
-/** Beauty is what its parts say, at every pixel. */
+/** Beauty must equal the sum of its parts at every pixel. */
 static inline void truth_check_closure(const struct image *img)
 {
 	static const char letters[] = "RGB";
@@ -44,7 +44,7 @@ static inline void truth_check_closure(const struct image *img)
 			}
 }
 
-/** Render on the device that environment RELUME_TEST_DEVICE names ("reference" where it names none). */
+/** Render on the device named by the environment variable RELUME_TEST_DEVICE (default: "reference"). */
 static inline void truth_render_with(const struct made *made, const struct tracer_options *options, struct image *img)
 {
 	const char *choice = getenv("RELUME_TEST_DEVICE");

@@ -1,6 +1,6 @@
 /*
- * A frame is drawn band by band of rows; what comes out does not depend on how many bands there are. Frames with
- * blending, stencil, scissors, mirrors, glass, several samples a pixel, several passes, and pixels from before.
+ * A frame is drawn in bands of rows; the result must not depend on their number. Frames with blending, stencil,
+ * scissors, mirrors, glass, several samples per pixel, several passes, and existing pixels.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -34,7 +34,7 @@ static uint32_t film(struct made *t)
 	return m;
 }
 
-/* Writes the stencil buffer where it passes, and draws where the buffer says so. */
+/* Writes the stencil buffer where it passes, and draws only where the buffer allows. */
 static uint32_t stencilled(struct made *t, uint32_t func)
 {
 	struct scene_material *m;
@@ -82,7 +82,7 @@ static void compare(const struct image *a, const struct image *b, const char *wh
 
 static void check(struct tracer *tracer, const struct made *t, struct tracer_options options, const char *what)
 {
-	static const unsigned rows[] = { 1, 64 }; /* 1: as few as there can be */
+	static const unsigned rows[] = { 1, 64 }; /* 1: the smallest bands */
 	struct image whole = { .width = 0 };
 
 	options.band_rows = HEIGHT + 32;

@@ -1,4 +1,4 @@
-/* Scenes seen from elsewhere (look/camera/): files that are wrong, and pictures whose content is known. */
+/* Scenes from another camera (look/camera/): invalid files, and pictures with known contents. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@
 static char path[] = "/tmp/relume-camera-XXXXXX", said[1000];
 static const float right[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 }, ahead[3] = { 0, 0, -10 };
 
-/* Load text as a file; what was reported lands in `said`. */
+/* Load text as a file; messages are stored in `said`. */
 static int load(const char *text, struct camera **out)
 {
 	struct said reported;
@@ -64,7 +64,7 @@ START_TEST(test_wrong_files)
 }
 END_TEST
 
-/* A scene rendered as a file's camera sees it. */
+/* Render a scene through a file's camera. */
 static void render_from(const struct scene *scene, const char *text, uint32_t number, const char *mode,
                         struct image *img)
 {
@@ -81,7 +81,7 @@ static void render_from(const struct scene *scene, const char *text, uint32_t nu
 	camera_free(&camera);
 }
 
-/* A grey square before a light at the viewer's right; another one behind it, at its side. */
+/* A grey square in front of a light on the viewer's right; another one behind it, to the side. */
 static void make_squares(struct made *t, float tangent)
 {
 	uint32_t grey;
@@ -93,7 +93,7 @@ static void make_squares(struct made *t, float tangent)
 	made_add_square(t, grey, (const float[3]){ -3, 0.5f, -14 }, right, up, 1.5f, 3);
 }
 
-/* The recorded camera, said in full, makes the recorded picture, to the last bit. */
+/* The recorded camera, written out in full, gives the recorded picture to the last bit. */
 START_TEST(test_own_camera)
 {
 	static const char *const own[] = { "space: eye\n", "place: [0, 0, 0]\nlook_at: [0, 0, -3]\nup: [0, 2, 0]\n",
@@ -104,7 +104,7 @@ START_TEST(test_own_camera)
 		struct made t;
 
 		make_squares(&t, i % 2 ? 0 : 0.5f);
-		t.scene.n_instances = i >= 4 ? 1 : 2; /* a turntable's middle lies straight ahead for one of them alone */
+		t.scene.n_instances = i >= 4 ? 1 : 2; /* a turntable's centre is straight ahead for only one of them */
 		truth_render(&t, "whitted", &a);
 		render_from(&t.scene, own[i / 2], 0, "whitted", &b);
 		ck_assert_uint_eq(a.n_channels, b.n_channels);
@@ -119,7 +119,7 @@ START_TEST(test_own_camera)
 }
 END_TEST
 
-/* How many pixels of a rectangle [x0, x1) x [y0, y1) are lit, and how many outside of it. */
+/* Count the lit pixels inside and outside a rectangle [x0, x1) x [y0, y1). */
 static void count_lit(const struct image *img, int x0, int x1, int y0, int y1, int *in, int *out)
 {
 	*in = *out = 0;
@@ -129,7 +129,7 @@ static void count_lit(const struct image *img, int x0, int x1, int y0, int y1, i
 				++*((int)x >= x0 && (int)x < x1 && (int)y >= y0 && (int)y < y1 ? in : out);
 }
 
-/* A square of 2 units, seen 4 units high on 64 pixels, is 32 x 32 of them, however far it is. */
+/* A square of 2 units, in a view 4 units high with 64 pixels, covers 32 x 32 of them at any distance. */
 START_TEST(test_orthographic)
 {
 	static const struct { const char *text; int x0, x1, y0, y1;
@@ -164,8 +164,8 @@ START_TEST(test_orthographic)
 }
 END_TEST
 
-/* What a square diffusely sends at its middle does not depend on who looks; its light stands. From the side it is a
- * line, from behind dark. */
+/* The diffuse light from the middle of a square does not depend on the camera, because its light is fixed. Seen from
+ * the side it is a line, from behind dark. */
 START_TEST(test_turntable)
 {
 	struct camera *camera = NULL;
@@ -191,7 +191,7 @@ START_TEST(test_turntable)
 		if (k == 0)
 			ck_assert_float_ge(middle, 0.3f);
 		else if (k < 3 || k > 9)
-			ck_assert_float_eq_tol(middle, first, 0.02f); /* a pixel's middle lies elsewhere on the square */
+			ck_assert_float_eq_tol(middle, first, 0.02f); /* a pixel's centre is elsewhere on the square */
 		else if (k > 3 && k < 9)
 			ck_assert_float_eq_tol(middle, 0, 1e-6f); /* the light is on the other side */
 		image_free(&img);
@@ -200,7 +200,7 @@ START_TEST(test_turntable)
 }
 END_TEST
 
-/* A light's shadow stays where it is on what it falls on. */
+/* A light's shadow stays in place on the surface that receives it. */
 START_TEST(test_shadow)
 {
 	static const char *const from[] = { "place: [0, 0, 0]\nlook_at: [0, 0, -20]\n",
@@ -231,7 +231,7 @@ START_TEST(test_shadow)
 }
 END_TEST
 
-/* HUDs are left out, what is behind all stays; a sky stays around the viewer; a ground without depth is part of the
+/* HUDs are omitted, the background is kept; a sky stays around the viewer; a ground without depth is part of the
  * world. */
 START_TEST(test_what_stays)
 {
@@ -246,7 +246,7 @@ START_TEST(test_what_stays)
 	flat = made_add_material(&t, 0.5f);
 	t.materials[flat].lighting = t.materials[flat].depth_test = 0;
 	deep = made_add_material(&t, 0.5f);
-	made_add_square(&t, flat, (const float[3]){ 0, 0, -1 }, right, up, 1, 1);   /* a gradient behind all */
+	made_add_square(&t, flat, (const float[3]){ 0, 0, -1 }, right, up, 1, 1);   /* a gradient as background */
 	made_add_ball(&t, flat, (const float[3]){ 0, 0, 0 }, 5, 4, 1);              /* a sky */
 	made_add_square(&t, flat, (const float[3]){ 0, 0, 0 }, right, ahead, 2, 1); /* a ground */
 	made_add_square(&t, deep, ahead, right, up, 1, 1);
@@ -277,7 +277,7 @@ START_TEST(test_what_stays)
 }
 END_TEST
 
-/* Clip planes, planes of texture coordinates, spots and skies' light are in eye space, and move with it. */
+/* Clip planes, planes for texture coordinates, spots and sky light are in eye space, and move with it. */
 START_TEST(test_state)
 {
 	struct scene_unit unit = { .gen_mode = { GL_EYE_LINEAR }, .gen_eye_plane = { { 1, 2, 3, 4 } } };
@@ -297,7 +297,7 @@ START_TEST(test_state)
 	t.scene.n_clears = 0;
 	ck_assert_int_eq(load("place: [0, 0, -20]\nlook_at: [0, 0, -10]\nup: [-1, 0, 0]\n", &camera), 0);
 	ck_assert_int_eq(elsewhere_make(camera, NULL, &t.scene, 0, &e), 0);
-	/* there x is -y, y is -x, z is -z - 20 */
+	/* x is -y there, y is -x, z is -z - 20 */
 	plane = e.scene.materials[0].clip_plane_eye[0];
 	ck_assert(plane[0] == -1 && plane[1] == 0 && plane[2] == 0 && plane[3] == 0.25f);
 	made = e.scene.units[0].gen_eye_plane[0];
@@ -307,7 +307,7 @@ START_TEST(test_state)
 	ck_assert(e.scene.lights[0].spot_direction_eye[2] == 1);
 	ck_assert(e.scene.dome.up_eye[0] == 0 && e.scene.dome.up_eye[1] == -1);
 	ck_assert_uint_eq(e.scene.needs_previous, 0);
-	ck_assert_uint_eq(e.scene.n_clears, 1); /* nobody clears for this view */
+	ck_assert_uint_eq(e.scene.n_clears, 1); /* no clear applies to this view */
 	ck_assert(e.scene.clears[0].buffers == 7 && e.scene.clears[0].depth == 1 && e.scene.clears[0].scissor[2] == SIZE);
 	elsewhere_release(&e);
 	camera_free(&camera);
@@ -315,11 +315,11 @@ START_TEST(test_state)
 }
 END_TEST
 
-/* A program that puts its camera into the projection matrix: its own camera is one in the space of that camera. */
+/* A program that puts its camera into the projection matrix: the camera is relative to that camera's space. */
 START_TEST(test_camera_in_projection)
 {
 	static const char text[] = "place: [2, 0, 1]\nlook_at: [0, 0, -10]\n";
-	/* eye space as it would be, from that of the draws */
+	/* eye space as it would be, relative to that of the draws */
 	static const float world[16] = { 0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 3, -2, 5, 1 };
 	static const float back[16] = { 0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, -5, 2, 3, 1 };
 	struct image a, b;
@@ -342,7 +342,7 @@ START_TEST(test_camera_in_projection)
 }
 END_TEST
 
-/* Vertices that a program places move as all others do. */
+/* Vertices positioned by a program move like all others. */
 START_TEST(test_programs)
 {
 	static const char text[] = "place: [4, 1, -2]\nlook_at: [0, 0, -11]\n";
@@ -357,7 +357,7 @@ START_TEST(test_programs)
 	make_squares(&t, 0.5f);
 	t.materials[0].lighting = 0;
 	render_from(&t.scene, text, 0, "gl", &a);
-	/* position = projection . vertex, as four sums; the vertex is one of eye space. Then its colour */
+	/* position = projection . vertex, as four sums; the vertex is in eye space. Then its colour */
 	*head = (struct scene_program){ .n_instructions = 5,
 		                        .n_constants = 20,
 		                        .n_registers = SCENE_VERTEX_FIRST,

@@ -1,13 +1,13 @@
 /*
- * A glass ball's light (tracer/frame/photons.h) against a path tracer for this one scene, from the wall backwards, in
- * formulas and no triangles. RELUME_CAUSTICS_SAMPLES sets how many paths a pixel has there.
+ * A glass ball's light (tracer/frame/photons.h) against a path tracer for this one scene, which works backwards from
+ * the wall with formulas instead of triangles. RELUME_CAUSTICS_SAMPLES sets its number of paths per pixel.
  */
 #include "tests/case.h"
 #include "tests/truth/caustics.h"
 
 /*
- * Off the view, between the wall's middle and a light, a disk that looks at the ball: photons start there evenly, and
- * each place of it sends as much in all directions.
+ * Out of view, between the wall's middle and a light, a disk facing the ball: photons start there uniformly, and each
+ * point of it emits the same in all directions.
  */
 static const double ball[3] = { 3, 0, WALL + 3 }, lamp[3] = { 12, 0, WALL + 12 };
 #define BALL 0.8
@@ -32,7 +32,7 @@ static double chance(uint64_t *state)
 	return (double)(*state >> 11) * 0x1p-53;
 }
 
-/* How far along a way the ball's surface is, beyond a little; below 0: it is not met. */
+/* Distance along a path to the ball's surface, beyond a minimum; negative if it is missed. */
 static double ball_along(const struct way *w)
 {
 	const double off[3] = { w->at[0] - ball[0], w->at[1] - ball[1], w->at[2] - ball[2] };
@@ -43,8 +43,7 @@ static double ball_along(const struct way *w)
 	return -b - sqrt(root) > 1e-9 ? -b - sqrt(root) : -b + sqrt(root) > 1e-9 ? -b + sqrt(root) : -1;
 }
 
-/* Mirrored or bent at the ball's surface, as often as light goes there (Fresnel's equations, light of no direction of
- * swing). */
+/* Reflect or refract at the ball's surface, with the probabilities of Fresnel's equations for unpolarised light. */
 static void bend(struct way *w, uint64_t *state)
 {
 	double n[3], cosine, eta = 1 / IOR, beyond, across, along, share = 1;
@@ -52,7 +51,7 @@ static void bend(struct way *w, uint64_t *state)
 	for (int i = 0; i < 3; i++)
 		n[i] = (w->at[i] - ball[i]) / BALL;
 	cosine = -dot(n, w->d);
-	if (cosine < 0) { /* on its way out */
+	if (cosine < 0) { /* leaving the ball */
 		eta = IOR;
 		cosine = -cosine;
 		for (int i = 0; i < 3; i++)
@@ -73,8 +72,8 @@ static void bend(struct way *w, uint64_t *state)
 			w->d[i] = eta * w->d[i] + (eta * cosine - beyond) * n[i];
 }
 
-/* What one way from a place of the wall finds of the lamp, by its disk's own brightness: 1 over the cosine there, or
- * 0. */
+/* Contribution of one path from a point of the wall to the lamp, relative to its disk's brightness: 1 over the
+ * cosine there, or 0. */
 static double follow(struct way w, uint64_t *state)
 {
 	double axis[3], size, toward, t, off = 0;
@@ -111,8 +110,8 @@ static double follow(struct way w, uint64_t *state)
 	return t > 0 && off < LAMP * LAMP ? 1 / toward : 0;
 }
 
-/* The light that comes to a place of the wall: ways evenly over the cone about the ball. The lamp's power: 1 at 17, by
- * the square. */
+/* Light that reaches a point of the wall: paths distributed uniformly over the cone around the ball. The lamp's
+ * power: 1 at 17, falling with the square. */
 static double by_ball(double x, double y, unsigned samples, uint64_t *state)
 {
 	const double axis[3] = { ball[0] - x, ball[1] - y, ball[2] - WALL }, distance = sqrt(dot(axis, axis));

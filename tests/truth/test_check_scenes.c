@@ -1,6 +1,6 @@
 /*
- * The scenes of `relume devices --check` show what they are there for: without it each is another picture, by the
- * bounds of the check. A device that does not do it is found out.
+ * Each scene of `relume devices --check` must exercise its features: without one of them its picture must differ by
+ * more than the check's bounds, so that a device with that fault is found.
  */
 #include <math.h>
 #include <stdio.h>
@@ -81,7 +81,7 @@ static void no_stencil_test(struct check_world *w)
 	ALL(w, stencil_test, 0);
 }
 
-/* What a volume's hidden faces count. */
+/* Disable the effect of a volume's hidden faces. */
 static void no_volume(struct check_world *w)
 {
 	ALL(w, stencil_back.zfail, GL_KEEP);
@@ -159,7 +159,7 @@ static const struct {
 	{ CHECK_LINEAR, "glass", no_glass },
 };
 
-/* Draw a scene with the C twins, changed where `change` is not NULL. */
+/* Draw a scene with the C twins, modified by `change` unless that is NULL. */
 static void draw(enum check_scene scene, void (*change)(struct check_world *w), struct image *img)
 {
 	struct check_world *w = malloc(sizeof(*w));
@@ -191,7 +191,7 @@ START_TEST(test_each_shows)
 }
 END_TEST
 
-/* What is no number, out of bounds at a pixel in a thousand, or missing. */
+/* NaN, values out of bounds at a pixel in a thousand, or missing ones. */
 START_TEST(test_bounds)
 {
 	struct image want, found;

@@ -1,6 +1,6 @@
 /*
- * Clears before all draws (GL 2.1 sec. 4.2.3): any of colour, depth and stencil, under masks and scissors, one after
- * the other and whole ones done at once, against a plain account of what each leaves.
+ * Clears before all draws (GL 2.1 sec. 4.2.3): any of colour, depth and stencil, under masks and scissors, executed in
+ * sequence with whole ones combined, against a simple simulation.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -35,7 +35,7 @@ static struct scene_clear random_clear(uint32_t *seed)
 	for (int i = 0; i < 4; i++)
 		c.color[i] = (float)(next_random(seed) % 256) / 255.0f;
 	if (next_random(seed) % 4 == 0)
-		c.scissor[next_random(seed) % 4]++; /* less on the left or below; more than there is counts for nothing */
+		c.scissor[next_random(seed) % 4]++; /* smaller at the left or bottom; parts outside do not count */
 	if (next_random(seed) % 4 == 0)
 		c.scissor[2 + next_random(seed) % 2] -= 2;
 	return c;
@@ -81,7 +81,7 @@ START_TEST(test_clears_against_account)
 	ck_assert_int_eq(device_open(choice ? choice : "reference", 0, &dev), 0);
 	ck_assert_int_eq(tracer_create(&tracer, dev), 0);
 	for (int round = 0; round < ROUNDS; round++) {
-		memset(&expected, 0, sizeof(expected)); /* what nobody clears, depth too */
+		memset(&expected, 0, sizeof(expected)); /* initial values, also of depth */
 		t.scene.n_clears = 1 + next_random(&seed) % MOST;
 		for (uint32_t i = 0; i < t.scene.n_clears; i++) {
 			clears[i] = random_clear(&seed);

@@ -1,8 +1,8 @@
-/* Light by way of flat mirrors and glass (tracer/frame/photons.h), in closed form. */
+/* Light through flat mirrors and glass (tracer/frame/photons.h), in closed form. */
 #include "tests/case.h"
 #include "tests/truth/caustics.h"
 
-/* A square off the wall's middle along `to`, its normal n in the plane of x and z. */
+/* A square off the wall's middle, displaced along `to`, with its normal n in the plane of x and z. */
 static void add_square(struct made *t, uint32_t material, const double to[3], double distance, const double n[3],
                        float r)
 {
@@ -11,8 +11,8 @@ static void add_square(struct made *t, uint32_t material, const double to[3], do
 	made_add_square(t, material, centre, (float[3]){ (float)n[2], 0, (float)-n[0] }, (float[3]){ 0, 1, 0 }, r, 4);
 }
 
-/* Photons on the wall against a truth for each of its places: all light within 1 %, and what pixels are off by, root
- * mean square. */
+/* Photons on the wall against the true value at each place: total light within 1 %, and the root mean square error
+ * of pixels. */
 static void check_wall(struct made *t, double (*truth)(double x, double y), double noise)
 {
 	const struct tracer_options options = options_of(1u << 19);
@@ -34,8 +34,8 @@ static void check_wall(struct made *t, double (*truth)(double x, double y), doub
 	image_free(&img);
 }
 
-/* Parallel light straight through a plate: what is not mirrored at either side, or at both and both again (two bends,
- * two mirrors: depth 4). */
+/* Parallel light straight through a plate: the light reflected at neither side, or twice inside (two refractions,
+ * two reflections: depth 4). */
 static double behind_plate(double x, double y)
 {
 	const double r = (IOR - 1) * (IOR - 1) / ((IOR + 1) * (IOR + 1));
@@ -61,8 +61,8 @@ START_TEST(test_plate)
 END_TEST
 
 /*
- * A flat mirror shows a second light behind it, as strong as its share of the first one's, at the whole way's length.
- * The light weakens by the square of the distance, from 1 at 50.
+ * A flat mirror creates a virtual light behind it, with the mirror's share of the light's strength, at the distance of
+ * the whole path. The light falls with the square of the distance, from 1 at 50.
  */
 static double by_mirror(double x, double y)
 {
@@ -95,7 +95,7 @@ START_TEST(test_mirror)
 }
 END_TEST
 
-/* Part of a disk of radius 1 that lies on the side x < a. */
+/* Share of a unit disk on the side x < a. */
 static double disk_part(double a)
 {
 	a = fmin(fmax(a, -1), 1);
@@ -103,9 +103,9 @@ static double disk_part(double a)
 }
 
 /*
- * The same mirror, but low, and a light of some size: above and below lies a penumbra, in which a part of the light is
- * seen in the mirror. Another mirror comes first, and sends its light away: each has numbers of its own, and each
- * photon its place on the light and its direction.
+ * The same mirror, but low, with a light of some size: there is a penumbra above and below, where part of the light is
+ * visible in the mirror. Another mirror before it sends its light away: each has its own random numbers, and each
+ * photon its own place on the light and direction.
  */
 START_TEST(test_penumbra_of_a_mirror)
 {
@@ -141,7 +141,8 @@ START_TEST(test_penumbra_of_a_mirror)
 			is += (double)truth_at(&img, "caustics.G", x, y);
 			whole += (double)truth_at(&img, "caustics.G", x, SIZE / 2);
 		}
-		ck_assert_double_eq_tol(is / whole, ought, 0.06); /* the penumbra is 10 rows; photons are counted around a place */
+		ck_assert_double_eq_tol(is / whole, ought, 0.06); /* the penumbra is 10 rows; photons are gathered
+		                                                     around each place */
 	}
 	image_free(&img);
 	made_free(&t);

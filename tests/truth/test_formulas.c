@@ -1,7 +1,7 @@
 /*
- * The formulas of kernels/gl/ at numbers that the specification gives in closed form (GL 2.1). Kernel and twin share
- * their text, so that no comparison of the two tells whether it is right; pictures by a real OpenGL (real/test_panels)
- * tell the same of whole draws.
+ * The formulas of kernels/gl/ at values that the specification gives in closed form (GL 2.1). Kernel and twin share
+ * their text, so comparing them cannot show whether it is right; comparisons with a real OpenGL (real/test_panels)
+ * check whole draws.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -89,8 +89,7 @@ static struct scene_material grey_material(void)
 		                        .color_material_mode = GL_AMBIENT_AND_DIFFUSE };
 }
 
-/* Emission, ambient, diffuse and specular terms; which of them the vertex colour takes part in; the specular one kept
- * apart. */
+/* Emission, ambient, diffuse and specular terms; those that use the vertex colour; separate specular colour. */
 START_TEST(test_light_terms)
 {
 	static const struct { uint32_t face, mode, tracked; } rows[] = {
@@ -118,7 +117,7 @@ START_TEST(test_light_terms)
 			m.local_viewer = (uint32_t)local;
 			memcpy(light.position_eye, (float[4]){ 0.8f, 0, 0.6f, 0 }, 16);
 			lit = lit_by(&m, &light, (uint32_t)back);
-			/* the half-way vector is (0.8, 0, 1.6), wherever the viewer is: the vertex lies on the axis */
+			/* the half vector is (0.8, 0, 1.6) for any viewer, because the vertex is on the axis */
 			for (int c = 0; c < 3; c++) {
 				const float shine = powf(1.6f / sqrtf(3.2f), face.shininess);
 
@@ -139,7 +138,7 @@ START_TEST(test_light_terms)
 }
 END_TEST
 
-/* From behind there is ambient light alone; colours that are not clamped; a viewer that is not on the axis. */
+/* From behind there is only ambient light; unclamped colours; a viewer that is not on the axis. */
 START_TEST(test_light_sides)
 {
 	struct scene_material m = grey_material();
@@ -159,14 +158,14 @@ START_TEST(test_light_sides)
 	m.unclamped = 2;
 	lit = lit_by(&m, &light, 0);
 	ck_assert_float_eq_tol(lit.color.x, 0.0625f + 0.125f + 0.125f + 5 + 0.5f, ALMOST);
-	m.local_viewer = 1; /* from (4, 0, 3) over 5: half-way (-0.8, 0, 1.6) */
+	m.local_viewer = 1; /* from (4, 0, 3) over 5: half vector (-0.8, 0, 1.6) */
 	lit = light_vertex(&m, &light, light_list(0, 1), 0, v4(4, 0, -3, 1), v3(0, 0, 1), &face, v4(0, 0, 0, 0), 0,
 	                   (const struct vec3 *)0);
 	ck_assert_float_eq_tol(lit.color.x, 0.0625f + 0.125f + 0.125f + 5 + 0.5f * 0.8f, ALMOST);
 }
 END_TEST
 
-/* --- Generated coordinates, sizes of points (sec. 2.11.4, 3.3) --------------------------------------------------- */
+/* --- Generated coordinates, point sizes (sec. 2.11.4, 3.3) ------------------------------------------------------ */
 
 START_TEST(test_generated)
 {
@@ -207,7 +206,7 @@ START_TEST(test_point_sizes)
 		{ { 1, 0, 0 }, 0, 5, 5 }, { { 0.25f, 0, 0 }, 0, 12, 12 }, { { 0, 0, 0 }, 0, 100, 8 },
 	};
 
-	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) { /* at depth 5, which Mesa takes for the distance */
+	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) { /* at depth 5, which Mesa uses as the distance */
 		struct scene_material m = { .point_size = 8, .point_size_min = rows[i].least, .point_size_max = rows[i].most };
 		float have;
 
@@ -221,7 +220,7 @@ START_TEST(test_point_sizes)
 }
 END_TEST
 
-/* Where clip coordinates fall in the window, y down. */
+/* Position of clip coordinates in the window, y down. */
 START_TEST(test_window)
 {
 	const struct view view = { .viewport = { 10, 20, 60, 40 } };
@@ -315,12 +314,12 @@ START_TEST(test_levels)
 	for (int k = -20; k <= 20; k++)
 		ck_assert_float_eq(texture_half_log2(ldexpf(1, 2 * k)), (float)k);
 	ck_assert_float_eq(texture_half_log2(1.5f), 0.25f);
-	ck_assert_float_eq(texture_half_log2(0), -100); /* what is less than 1e-30 is as good as nothing */
+	ck_assert_float_eq(texture_half_log2(0), -100); /* values below 1e-30 count as zero */
 	ck_assert_float_eq(texture_half_log2(0.99e-30f), -100);
 	ck_assert_float_eq_tol(texture_half_log2(1.01e-30f), -49.8f, 0.1f);
 	ck_assert_float_eq(texture_half_log2(INFINITY), 100);
 	ck_assert_float_eq(texture_lod(&unit, &slope, 0), 3);
-	/* the short axis, 2 texels: the long one is not over four times as long */
+	/* the short axis, 2 texels: the long one is at most four times as long */
 	ck_assert_float_eq(texture_lod(&unit, &slope, 1), 1);
 	unit.max_anisotropy = 2;
 	ck_assert_float_eq(texture_lod(&unit, &slope, 1), 2);
@@ -336,7 +335,7 @@ END_TEST
 START_TEST(test_mixed_texels)
 {
 	for (uint32_t weight = 0; weight < 256; weight += 51)
-		for (int c = 0; c < 4; c++) { /* each channel by itself */
+		for (int c = 0; c < 4; c++) { /* each channel separately */
 			const uint32_t a = 200u << 8 * c, b = 40u << 8 * c, have = texture_mix_8(a, b, weight);
 
 			ck_assert_uint_eq(have, ((200 * (256 - weight) + 40 * weight + 128) >> 8) << 8 * c);
@@ -345,7 +344,7 @@ START_TEST(test_mixed_texels)
 }
 END_TEST
 
-/* Pixels' lists side by side, and where a column goes on that is full. */
+/* Adjacent pixels' lists, and the place where a full column continues. */
 START_TEST(test_gathered)
 {
 	uint32_t counts[4] = { 1, 0, 2, 1 }, first[4] = { 0, 1, 1, 3 }, pixels[4], after[4];
@@ -371,7 +370,7 @@ START_TEST(test_gathered)
 }
 END_TEST
 
-/* Passes add up, the first begins; pixels of another turn keep what they have. */
+/* Passes add up, and the first one starts; pixels of other turns keep their values. */
 START_TEST(test_passes)
 {
 	struct frame_pixel frame[64];

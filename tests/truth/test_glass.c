@@ -1,6 +1,6 @@
 /*
- * Glass in closed form: Snell's law by a slab that moves what stands behind it, Fresnel's weights at one boundary,
- * total reflection, Beer's law; and the shadows of what lets light through.
+ * Glass in closed form: Snell's law through a slab that displaces the scene behind it, Fresnel's weights at one
+ * boundary, total reflection, Beer's law; and shadows of transparent objects.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 static const float up[3] = { 0, 1, 0 };
 
-/* A material that glows, and shows nothing else. */
+/* A purely emissive material. */
 static uint32_t add_glow(struct made *t, float emission)
 {
 	uint32_t m = made_add_material(t, 0);
@@ -31,7 +31,7 @@ static uint32_t add_glass(struct made *t, float ior)
 	return m;
 }
 
-/* A square at `centre`, turned by `angle` about the vertical; its front looks at the viewer, or away from him. */
+/* A square at `centre`, rotated by `angle` about the vertical; its front faces the viewer, or away from them. */
 static void add_pane(struct made *t, uint32_t material, const float centre[3], float angle, int away)
 {
 	float across[3] = { cosf(angle), 0, sinf(angle) }, down[3] = { 0, -1, 0 };
@@ -51,7 +51,7 @@ static float fresnel(float n1, float n2, float angle)
 	return (across * across + along * along) / 2;
 }
 
-/* Where the border between a bright left and a dark right half of the picture is, in units of the view. */
+/* Position of the border between a bright left and a dark right half of the picture, in view units. */
 static float border(const struct image *img)
 {
 	uint32_t x = 0;
@@ -61,7 +61,7 @@ static float border(const struct image *img)
 	return 2 * (float)x / SIZE - 1;
 }
 
-/* A slab of thickness d, turned by a, moves a ray sideways by d sin(a - b) / cos(b), sin(b) = sin(a) / n. */
+/* A slab of thickness d, rotated by a, displaces a ray by d sin(a - b) / cos(b), sin(b) = sin(a) / n. */
 START_TEST(test_snell)
 {
 	static const float angles_deg[] = { 0, 20, 35, 50, 65 }, iors[] = { 1, 1.33f, 1.5f, 2.4f };
@@ -82,7 +82,10 @@ START_TEST(test_snell)
 			add_pane(&t, glass, (float[3]){ half[0], half[1], -10 + half[2] }, a, 0);
 			add_pane(&t, glass, (float[3]){ -half[0], -half[1], -10 - half[2] }, a, 1);
 			truth_render(&t, "whitted", &img);
-			/* turned to face left: inside, light leans towards the normal, and comes out moved to the right */
+			/*
+			 * rotated to face left: inside, light bends towards the normal, and leaves displaced to the
+			 * right
+			 */
 			ck_assert_float_eq_tol(border(&img), -moved, 1.5f * 2 / SIZE);
 			truth_check_closure(&img);
 			image_free(&img);
@@ -91,8 +94,8 @@ START_TEST(test_snell)
 }
 END_TEST
 
-/* One boundary before a glow, seen from either side: what comes through is 1 - F, and nothing at all past the critical
- * angle. */
+/* One boundary in front of an emissive wall, seen from either side: 1 - F is transmitted, and nothing past the
+ * critical angle. */
 START_TEST(test_fresnel)
 {
 	for (int i = 0; i < 2; i++)
@@ -108,7 +111,7 @@ START_TEST(test_fresnel)
 			made_add_square(&t, bright, (float[3]){ 0, 0, -90 }, (float[3]){ 1, 0, 0 }, up, 89, 1);
 			add_pane(&t, glass, (float[3]){ 0, 0, -10 }, a, i);
 			truth_render(&t, "whitted", &img);
-			if (f < 1) /* bent rays all meet the wall */
+			if (f < 1) /* all refracted rays hit the wall */
 				ck_assert_float_eq_tol(truth_at(&img, "refract.R", SIZE / 2, SIZE / 2), 1 - f, 2e-3f);
 			else
 				ck_assert_float_eq(truth_at(&img, "refract.R", SIZE / 2, SIZE / 2), 0);
@@ -119,7 +122,7 @@ START_TEST(test_fresnel)
 }
 END_TEST
 
-/* Past the critical angle a boundary from within is a perfect mirror. */
+/* Past the critical angle, a boundary is a perfect mirror from inside. */
 START_TEST(test_total_reflection)
 {
 	const float a = 0.7853981634f; /* 45 degrees: beyond asin(1 / 1.5) */
@@ -130,7 +133,7 @@ START_TEST(test_total_reflection)
 	made_init(&t, SIZE, SIZE, 0);
 	bright = add_glow(&t, 0.7f);
 	glass = add_glass(&t, 1.5f);
-	/* the pane sends what looks along -z to -x */
+	/* the pane reflects -z to -x */
 	made_add_square(&t, bright, (float[3]){ -20, 0, -10 }, (float[3]){ 0, 0, -1 }, up, 15, 1);
 	add_pane(&t, glass, (float[3]){ 0, 0, -10 }, a, 1);
 	truth_render(&t, "whitted", &img);
@@ -142,8 +145,7 @@ START_TEST(test_total_reflection)
 }
 END_TEST
 
-/* A slab across the view: (1 - F)^2 exp(-absorb x thickness), and the light that goes to and fro within. At any
- * scale. */
+/* A slab across the view: (1 - F)^2 exp(-absorb x thickness), and the light reflected inside. At any scale. */
 START_TEST(test_beer)
 {
 	static const float scales[] = { 1e-3f, 1, 1e3f };
@@ -178,7 +180,7 @@ START_TEST(test_beer)
 }
 END_TEST
 
-/* What of a light comes through a caster over a floor, seen from below past it: material -> shadow.R, shadow.G. */
+/* Light transmitted through a caster above a floor, seen from below: material -> shadow.R, shadow.G. */
 static void check_shadow(void (*change)(struct scene_material *m), float red, float green)
 {
 	struct made t;
@@ -191,7 +193,7 @@ static void check_shadow(void (*change)(struct scene_material *m), float red, fl
 	caster = made_add_material(&t, 1);
 	change(&t.materials[caster]);
 	made_add_square(&t, floor, (float[3]){ 0, 0, -10 }, (float[3]){ 1, 0, 0 }, up, 3, 1);
-	/* nearer than the viewer's near plane: not in the picture, only in the light's way */
+	/* nearer than the viewer's near plane: invisible, but in the light's path */
 	made_add_square(&t, caster, (float[3]){ 0, 0, 10 }, (float[3]){ 1, 0, 0 }, up, 5, 1);
 	truth_render(&t, "whitted", &img);
 	ck_assert_float_eq_tol(truth_at(&img, "shadow.R", SIZE / 2, SIZE / 2), red, 2e-3f);
@@ -217,7 +219,9 @@ static void change_film(struct scene_material *m)
 	m->depth_write = 0;
 }
 
-/* Multiplied in: what GL shows behind it takes the film's colour. Unlit, so that the colour is the current one. */
+/*
+ * Multiplicative blending: GL tints the background with the film's colour. Unlit, so that the current colour is used.
+ */
 static void change_filter(struct scene_material *m)
 {
 	m->lighting = 1;

@@ -1,4 +1,4 @@
-/* Instructions of programs (scene/program.h) at numbers that are known, the four of a quad at once;
+/* Instructions of programs (scene/program.h) at known values, for the four pixels of a quad at once;
  * kernels/gl/instructions.h. */
 #include <math.h>
 #include <string.h>
@@ -31,7 +31,7 @@ static const struct row rows[] = {
 	ONE(TRUNCATE, 1.75f, -1.75f, 2, -0.25f) { 1, -1, 2, 0 } },
 	ONE(ROUND, 1.5f, 2.5f, -1.75f, 0.25f) { 2, 2, -2, 0 } },
 	ONE(DX, 1, 4, 10, 30) { 3, 3, 20, 20 } },
-	ONE(DY, 1, 4, 10, 30) { -9, -26, -9, -26 } }, /* the first two lie above */
+	ONE(DY, 1, 4, 10, 30) { -9, -26, -9, -26 } }, /* the first two are in the upper row */
 	TWO(ADD, FOUR(1, 2, -3, 0), FOUR(0.5f, -2, 4, 0)) { 1.5f, 0, 1, 0 } },
 	TWO(MULTIPLY, FOUR(1, 2, -3, 0), FOUR(0.5f, -2, 4, 7)) { 0.5f, -4, -12, 0 } },
 	TWO(MINIMUM, FOUR(1, 2, -3, 0), FOUR(0.5f, -2, 4, 0)) { 0.5f, -2, -3, 0 } },
@@ -66,11 +66,11 @@ START_TEST(test_results)
 			              "operation %u, number %d: %.9g, not %.9g", rows[i].operation, k, have[k],
 			              rows[i].wanted[k]);
 	}
-	ck_assert_uint_eq(tried, (1u << SCENE_OP_KILL) - 1); /* all that have a result of numbers alone */
+	ck_assert_uint_eq(tried, (1u << SCENE_OP_KILL) - 1); /* all instructions with a purely numeric result */
 }
 END_TEST
 
-/* Those that take no part in costly ones are left alone; so are those of a mask when a result is kept. */
+/* Inactive lanes are left alone by expensive instructions and by masked stores of results. */
 START_TEST(test_lanes)
 {
 	struct program_run run = { .lanes = 15, .mask = 15 };

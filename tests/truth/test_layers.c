@@ -1,8 +1,8 @@
 /*
- * The channel "layers": how many fragments were blended into a pixel since it was last written over. Gate R1b allows
- * half a code for each, so that a wrong number would hide faults or find some where there are none.
+ * The channel "layers": the number of fragments blended into a pixel since it was last overwritten. Gate R1b allows
+ * half a code for each, so a wrong number would hide faults or report false ones.
  *
- * Eight sheets, each from a strip of its own to the right border, drawn in order; the numbers are counted by hand.
+ * Eight sheets, each from its own strip to the right border, drawn in order; the numbers are counted by hand.
  */
 
 #include "tests/truth/scenes.h"
@@ -10,7 +10,7 @@
 
 enum { STRIPS = 8, STRIP = 8, SIZE = STRIPS * STRIP, CLEARED_ROWS = 16 };
 
-/** A sheet over the full height, from the left border of a strip to the right one of the picture. */
+/** A sheet over the full height, from the left border of a strip to the picture's right border. */
 static void add_sheet(struct made *t, uint32_t material, int first_strip, float z)
 {
 	float left = 2.0f * (float)first_strip / STRIPS - 1, half = (1 - left) / 2;
@@ -31,7 +31,7 @@ static uint32_t add_film(struct made *t)
 
 START_TEST(test_number_of_layers)
 {
-	/* wall and what follows it, see below */
+	/* by the wall and later sheets, see below */
 	static const float counted[STRIPS] = { 1, 1, 2, 2, 2, 2, 0, 1 }, after_clear[STRIPS] = { 0, 0, 0, 0, 0, 0, 0, 1 };
 	static const char *const modes[] = { "gl", "whitted" };
 	struct made t;
@@ -44,12 +44,12 @@ START_TEST(test_number_of_layers)
 	t.materials[discarded].alpha_func = GL_NEVER;
 	t.materials[red].color_mask = 1;
 	add_sheet(&t, wall, 1, -10);
-	add_sheet(&t, film, 0, -9);      /* over the wall, and over nothing: 1 */
+	add_sheet(&t, film, 0, -9);      /* over the wall, and over the background: 1 */
 	add_sheet(&t, film, 2, -8);      /* 2 */
 	add_sheet(&t, film, 3, -20);     /* hidden by the wall: still 2 */
 	add_sheet(&t, discarded, 4, -7); /* still 2 */
-	add_sheet(&t, red, 5, -6);       /* green and blue are what was blended before: still 2 */
-	add_sheet(&t, wall, 6, -5);      /* written over: 0 */
+	add_sheet(&t, red, 5, -6);       /* green and blue were blended before: still 2 */
+	add_sheet(&t, wall, 6, -5);      /* overwritten: 0 */
 	add_sheet(&t, film, 7, -4);      /* 1 */
 
 	/* before the last sheet, the lowest rows are cleared */

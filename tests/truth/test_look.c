@@ -1,4 +1,4 @@
-/* Rules (look/rules.h): files that are wrong, what rules match, and what they make of a picture. */
+/* Rules (look/rules.h): invalid files, matching, and the effect on a picture. */
 #include <malloc.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@
 
 static char path[] = "/tmp/relume-look-XXXXXX", said[1000];
 
-/* Load text as a file; what was reported lands in `said`. */
+/* Load text as a file; messages are stored in `said`. */
 static int load(const char *text, struct look **out)
 {
 	struct said reported;
@@ -56,7 +56,7 @@ START_TEST(test_wrong_files)
 }
 END_TEST
 
-/* Four squares with one draw each, and what is known of them beside. */
+/* Four squares with one draw each, and the draws' properties. */
 static void make_squares(struct made *t, struct scene_draw *draws)
 {
 	static const float up[3] = { 0, 1, 0 }, right[3] = { 1, 0, 0 };
@@ -110,8 +110,8 @@ START_TEST(test_matches)
 }
 END_TEST
 
-/* A lightmap's place is taken by OpenGL's own lights where no rule is about lights: each surface has room for its own
- * list of them. */
+/* A lightmap is replaced by OpenGL's own lights if no rule is about lights: each surface has room for a list of
+ * them. */
 START_TEST(test_lightmap_under_own_lights)
 {
 	struct scene_draw draws[5];
@@ -130,7 +130,7 @@ START_TEST(test_lightmap_under_own_lights)
 }
 END_TEST
 
-/* The middle of each square of the picture: lit above, unlit below. */
+/* The middle of each quadrant of the picture: lit above, unlit below. */
 static float corner(const struct image *img, const char *channel, int square)
 {
 	return truth_at(img, channel, square < 2 ? SIZE / 4 : 3 * SIZE / 4, square % 2 ? 3 * SIZE / 4 : SIZE / 4);
@@ -150,7 +150,7 @@ static void render_under(const struct made *t, const char *text, struct image *i
 	rules_free(&look);
 }
 
-/* Light from straight ahead: Lambert's cosine is 1. OpenGL's own picture is 0.5 above and the white current colour
+/* Light from straight ahead: Lambert's cosine is 1. OpenGL's own picture is 0.5 above, and the white current colour
  * below. */
 START_TEST(test_lights)
 {
@@ -159,7 +159,7 @@ START_TEST(test_lights)
 	struct image img;
 
 	make_squares(&t, draws);
-	/* GL's light off, one of 0.4 in its place, also for what GL does not light */
+	/* GL's light off, replaced by one of 0.4 that also lights surfaces GL does not light */
 	render_under(&t, "surfaces:\n- match: { draws: \"2\" }\n  lit: yes\nlights:\n- light: 0\n  off: yes\n"
 	             "- position: [0, 0, 1, 0]\n  diffuse: [0.4, 0.2, 0]\n", &img);
 	for (int i = 0; i < 4; i++)
@@ -171,11 +171,11 @@ START_TEST(test_lights)
 	ck_assert_float_eq_tol(corner(&img, "B", 1), 0, 1e-3f);
 	ck_assert_float_eq_tol(corner(&img, "R", 3), 1, 1e-3f); /* no rule, no light */
 	image_free(&img);
-	/* GL's light moved to a slant of 60 degrees */
+	/* GL's light moved to an angle of 60 degrees */
 	render_under(&t, "lights:\n- light: 0\n  position: [1.7320508, 0, 1, 0]\n", &img);
 	ck_assert_float_eq_tol(corner(&img, "R", 0), 0.25f, 1e-3f);
 	image_free(&img);
-	/* its own light beside what GL shows, in the channel that says so */
+	/* emission in addition to GL's colours, in its own channel */
 	render_under(&t, "surfaces:\n- emission: [0.125, 0, 0]\n", &img);
 	ck_assert_float_eq_tol(corner(&img, "relight.R", 0), 0.125f, 1e-3f);
 	ck_assert_float_eq_tol(corner(&img, "R", 2), 0.625f, 1e-3f);
@@ -184,9 +184,9 @@ START_TEST(test_lights)
 }
 END_TEST
 
-/* A position in an object's space goes where the object was drawn. */
-/* GL's light or an added one, from aside on a wall with a plate before it: the plate throws a shadow, unless nothing
- * stops the light. */
+/* A position in an object's space moves with the object. */
+/* GL's light or an added one, from the side on a wall with a plate in front: the plate casts a shadow unless nothing
+ * blocks the light. */
 START_TEST(test_light_that_nothing_stops)
 {
 	static const float right[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 };

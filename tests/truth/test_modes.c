@@ -1,6 +1,6 @@
 /*
- * Light of a size, openness, and light between surfaces in closed form: the width and course of a penumbra, a plane
- * under a disk, a white furnace; pixels that are means of several pictures; light at pixels instead of vertices.
+ * Area lights, ambient occlusion and light between surfaces in closed form: width and profile of a penumbra, a plane
+ * under a disk, a white furnace; pixels averaged over several pictures; lighting per pixel instead of per vertex.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@ static struct tracer_options options_of(enum tracer_mode mode)
 	return (struct tracer_options){ .mode = mode, .display = 1, .depth = 4 };
 }
 
-/* Part of a disk of radius 1 that lies on the side x < a. */
+/* Share of a unit disk on the side x < a. */
 static float disk_part(float a)
 {
 	a = fminf(fmaxf(a, -1), 1);
@@ -25,8 +25,8 @@ static float disk_part(float a)
 }
 
 /*
- * A half plane between a spherical light and a floor: the penumbra is (receiver - blocker) / blocker x light width
- * wide, distances from the light, and what arrives within follows the part of the light's disk that is seen.
+ * A half plane between a spherical light and a floor: the penumbra's width is (receiver - blocker) / blocker x light
+ * width, with distances from the light; the light inside follows the visible share of the light's disk.
  */
 START_TEST(test_penumbra)
 {
@@ -46,7 +46,7 @@ START_TEST(test_penumbra)
 		options.rays = 256;
 		matte = made_add_material(&t, 1);
 		made_add_square(&t, matte, (float[3]){ 0, 0, -10 }, right, up, 2, 1);
-		/* its edge is at x = 0; beyond the viewer, so that the picture shows the floor alone */
+		/* its edge is at x = 0; behind the viewer, so that the picture shows only the floor */
 		made_add_square(&t, matte, (float[3]){ -20, 0, receiver - 10 - blocker }, right, up, 20, 1);
 		truth_render_with(&t, &options, &img);
 		for (uint32_t x = 0; x < SIZE; x++) {
@@ -65,7 +65,7 @@ START_TEST(test_penumbra)
 }
 END_TEST
 
-/* Under the middle of a disk of radius r at height h a plane is open by h^2 / (r^2 + h^2). */
+/* Under the middle of a disk of radius r at height h, a plane's openness is h^2 / (r^2 + h^2). */
 START_TEST(test_openness_under_disk)
 {
 	enum { SEGMENTS = 96, SIDE = 16 };
@@ -89,7 +89,7 @@ START_TEST(test_openness_under_disk)
 				normal[3 * s + k][2] = -1;
 			}
 		made_init(&t, SIDE, SIDE, 0);
-		t.view.projection[0] = t.view.projection[5] = 20; /* a tenth of a unit across */
+		t.view.projection[0] = t.view.projection[5] = 20; /* the view is a tenth of a unit wide */
 		options.rays = 1024;
 		matte = made_add_material(&t, 1);
 		made_add_square(&t, matte, (float[3]){ 0, 0, -10 }, right, up, 1, 1);
@@ -98,7 +98,7 @@ START_TEST(test_openness_under_disk)
 		ck_assert_float_eq_tol(truth_at(&img, "R", SIDE / 2, SIDE / 2), h * h / (r * r + h * h), 0.005f);
 		truth_check_closure(&img);
 		image_free(&img);
-		options.reach = h * 0.9f; /* nothing within reach */
+		options.reach = h * 0.9f; /* no object within reach */
 		truth_render_with(&t, &options, &img);
 		ck_assert_float_eq(truth_at(&img, "R", SIDE / 2, SIDE / 2), 1);
 		image_free(&img);
@@ -109,7 +109,7 @@ START_TEST(test_openness_under_disk)
 }
 END_TEST
 
-/* A ball of radius 3 around `centre`, seen from outside or, turned inside out, from within. */
+/* A ball of radius 3 around `centre`, seen from outside or, with reversed faces, from inside. */
 static void add_ball(struct made *t, uint32_t material, const float centre[3], float r, int inside)
 {
 	enum { RINGS = 16, SECTORS = 32, N = RINGS * SECTORS * 6 };
@@ -139,8 +139,8 @@ static void glow(struct made *t, uint32_t m, float emission)
 		t->materials[m].front.emission[c] = t->materials[m].back.emission[c] = emission;
 }
 
-/* A ball in a white surrounding returns what it reflects of it, whatever the ball's place; and a mirror and a glass
- * ball all of it. */
+/* A ball in white surroundings returns its reflectance, at any position; a mirror and a glass ball return
+ * everything. */
 START_TEST(test_white_furnace)
 {
 	struct tracer_options options = options_of(TRACER_PATH);
@@ -155,7 +155,7 @@ START_TEST(test_white_furnace)
 		made_init(&t, SIZE, SIZE, 0);
 		for (int c = 0; c < 3; c++)
 			t.clear.color[c] = 1;
-		options.depth = kind == 2 ? 32 : 4; /* light goes to and fro in glass for long */
+		options.depth = kind == 2 ? 32 : 4; /* many reflections inside glass */
 		matte = made_add_material(&t, albedo);
 		t.materials[matte].surface.reflect = kind == 1;
 		t.materials[matte].surface.transmit = kind == 2;
@@ -180,7 +180,7 @@ START_TEST(test_white_furnace)
 }
 END_TEST
 
-/* Within a ball that glows by e and reflects a: e (1 + a + a^2 + ...), as many terms as there are bounces, and one in
+/* Inside a ball with emission e and reflectance a: e (1 + a + a^2 + ...), with as many terms as bounces, and one in
  * `diffuse`. */
 START_TEST(test_glowing_ball)
 {
@@ -214,7 +214,7 @@ START_TEST(test_glowing_ball)
 }
 END_TEST
 
-/* The same as linear light: GL's numbers are taken for display codes of it, and a mean of samples is one of light. */
+/* The same in linear light: GL's values are taken as display codes, and a mean of samples is a mean of light. */
 START_TEST(test_glowing_ball_in_linear_light)
 {
 	const float e = 0.5f, a = 0.8f, e_lin = image_linear_from_display(e), a_lin = image_linear_from_display(a);
@@ -246,9 +246,8 @@ START_TEST(test_glowing_ball_in_linear_light)
 END_TEST
 
 /*
- * A plane under a light, seen from above: what GL shows where light falls straight is what linear light shows there;
- * where it falls at an angle, the cosine dims light and not codes. A pixel that is half lit in the mean is half as
- * bright, not half the code.
+ * A plane under a light, seen from above: under perpendicular light, linear light shows GL's colours; at an angle, the
+ * cosine dims light instead of codes. A pixel that is half lit on average is half as bright, not half the code.
  */
 START_TEST(test_light_falls_in_linear_light)
 {
@@ -284,7 +283,7 @@ START_TEST(test_light_falls_in_linear_light)
 }
 END_TEST
 
-/* A pixel that an upright edge halves by 30 % is 30 % bright in the mean; GL's own picture stays that of pixel
+/* A pixel covered to 30 % by a vertical edge is 30 % bright on average; GL's own picture is still sampled at pixel
  * centres. */
 START_TEST(test_samples)
 {
@@ -324,8 +323,8 @@ START_TEST(test_samples)
 END_TEST
 
 /*
- * The same edge with four samples: pixels along it have different ones, so that a column shows all quarters about as
- * often as evenly strewn samples would, and its mean comes out; moved all alike, all pixels would be the same.
+ * The same edge with four samples: pixels along it use different samples, so that a column shows all quarters about as
+ * often as uniform samples would, and has the right mean; with the same offset everywhere, all pixels would be equal.
  */
 START_TEST(test_samples_differ_from_pixel_to_pixel)
 {
@@ -352,13 +351,13 @@ START_TEST(test_samples_differ_from_pixel_to_pixel)
 	for (int i = 0; i < 5; i++)
 		kinds += seen[i] > 0;
 	ck_assert_uint_ge(kinds, 2);
-	ck_assert_float_eq_tol(mean, 0.4f * 0.75f, 0.15f); /* the sample at the centre sees nothing of it */
+	ck_assert_float_eq_tol(mean, 0.4f * 0.75f, 0.15f); /* the sample at the centre misses it */
 	image_free(&img);
 	made_free(&t);
 }
 END_TEST
 
-/* One square with a light close above: between its corners OpenGL sees nothing of it, Phong's way does. */
+/* One square with a light close above: between its corners OpenGL shows none of it, Phong shading does. */
 START_TEST(test_relight)
 {
 	struct tracer_options options = options_of(TRACER_WHITTED);

@@ -1,6 +1,6 @@
 /*
- * Motion vectors in closed form: a viewer who steps aside, a square that turns, one whose vertices move, and what is
- * new. And depth moves nothing that stands in the middle.
+ * Motion vectors in closed form: a viewer who moves sideways, a rotating square, one with moving vertices, and new
+ * objects. Depth must not affect static ones.
  */
 #include <math.h>
 
@@ -12,7 +12,7 @@
 
 static const float right[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 };
 
-/* The vectors of a frame after another. */
+/* The motion vectors of a frame relative to another. */
 static void find(const struct made *before, const struct made *now, struct image *img)
 {
 	const struct tracer_options options = { .mode = TRACER_GL, .display = 1 };
@@ -29,7 +29,7 @@ static void make_square(struct made *t, float tangent, float r)
 	made_add_square(t, made_add_material(t, 1), (float[3]){ 0, 0, -10 }, right, up, r, 2);
 }
 
-/* Each pixel of the picture's middle is at (x, y), from the middle, and was at a place that `was` says. */
+/* In the picture's central part, each pixel at (x, y) from the middle must have been at the position given by `was`. */
 static void check(const struct image *img, void (*was)(float x, float y, float out[2]))
 {
 	for (uint32_t y = SIZE / 4; y < SIZE * 3 / 4; y++)
@@ -57,7 +57,7 @@ static void was_nearer(float x, float y, float out[2])
 	out[1] = y * 10 / 8;
 }
 
-/* A turn counter-clockwise, as seen, by 0.2; y runs down. */
+/* A counter-clockwise rotation, as seen, by 0.2; y points down. */
 static void was_turned(float x, float y, float out[2])
 {
 	out[0] = cosf(0.2f) * x - sinf(0.2f) * y;
@@ -101,7 +101,7 @@ START_TEST(test_moved)
 }
 END_TEST
 
-/* What was not there, what shows nothing, and a first frame have no vector. */
+/* New objects, empty pixels, and first frames have no vectors. */
 START_TEST(test_unknown)
 {
 	struct made before, now;

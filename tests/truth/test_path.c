@@ -1,6 +1,6 @@
 /*
- * Light followed from surface to surface in closed form, where it takes many samples: an integrating sphere, mirrors in
- * a furnace; and what a bound of a sample's light leaves.
+ * Light across many surfaces in closed form, which takes many samples: an integrating sphere, mirrors in a furnace; and
+ * the effect of clamping samples.
  */
 #include <math.h>
 
@@ -20,7 +20,7 @@ static void glow(struct made *t, uint32_t m, float emission)
 		t->materials[m].front.emission[c] = t->materials[m].back.emission[c] = emission;
 }
 
-/* Half of a ball of radius 5 about the viewer, turned inside out. side: -1: before the viewer, 1: behind */
+/* Half of a ball of radius 5 around the viewer, with reversed faces. side: -1: in front of the viewer, 1: behind */
 static void add_half_ball(struct made *t, uint32_t material, float side)
 {
 	enum { CELLS = 32, N = CELLS * CELLS * 6 };
@@ -41,9 +41,9 @@ static void add_half_ball(struct made *t, uint32_t material, float side)
 }
 
 /*
- * Points of a sphere send each other the same share of their light wherever they lie (the principle of the integrating
- * sphere). One half glows; the other, which the viewer sees, gets the mean. Numbers of different bounces must not
- * depend on each other: each pixel comes to the same.
+ * Points of a sphere send each other the same share of their light from any position (the principle of the integrating
+ * sphere). One half is emissive; the other, which the viewer sees, receives the mean. Random numbers of different
+ * bounces must be independent: each pixel has the same value.
  */
 START_TEST(test_integrating_sphere)
 {
@@ -79,8 +79,8 @@ START_TEST(test_integrating_sphere)
 }
 END_TEST
 
-/* Within a ball that glows by e, mirrors a share of r, evenly or roughly, and scatters a of the rest, each bounce keeps
- * r + (1 - r) a. */
+/* Inside a ball with emission e and specular share r, sharp or rough, that scatters a of the rest, each bounce
+ * retains r + (1 - r) a. */
 START_TEST(test_furnace_with_mirror)
 {
 	const float e = 0.3f, a = 0.5f, r = 0.6f, keep = r + (1 - r) * a;
@@ -114,7 +114,7 @@ START_TEST(test_furnace_with_mirror)
 }
 END_TEST
 
-/* The part of what a point sees above it that a square fills, parallel and right above: of half its side, at a
+/* Share of the hemisphere above a point that a parallel square fills, directly above: of the given half side, at a
  * height. */
 static double square_part(double half, double height)
 {
@@ -123,7 +123,7 @@ static double square_part(double half, double height)
 	return 4 * a / b * atan(a / b) / M_PI;
 }
 
-/* The part of what a point at the origin sees above it (z) that a polygon fills, all of it above (J. H. Lambert,
+/* Share of the hemisphere (z) above the origin that a polygon fills, entirely above it (J. H. Lambert,
  * "Photometria", 1760). */
 static double polygon_part(const double (*corner)[3], int n)
 {
@@ -140,8 +140,8 @@ static double polygon_part(const double (*corner)[3], int n)
 }
 
 /*
- * A sheet that a square beside it lights at an angle, wherever its mesh has its origin, be it a corner; one behind it
- * lights its other side, and this one neither more nor less.
+ * A sheet lit at an angle by a square beside it, wherever its mesh has its origin, even at a corner; a square behind it
+ * lights its other side, and leaves this one unchanged.
  */
 START_TEST(test_squares_beside_and_behind)
 {
@@ -160,7 +160,7 @@ START_TEST(test_squares_beside_and_behind)
 		struct made t;
 
 		made_init(&t, SIDE, SIDE, 0);
-		t.view.projection[0] = t.view.projection[5] = 20; /* a tenth of a unit across */
+		t.view.projection[0] = t.view.projection[5] = 20; /* the view is a tenth of a unit wide */
 		made_add_square(&t, made_add_material(&t, albedo), (float[3]){ 0, 0, -10 }, x, y, 3, 1);
 		lamp = made_add_material(&t, 0);
 		glow(&t, lamp, e);
@@ -181,7 +181,7 @@ START_TEST(test_squares_beside_and_behind)
 }
 END_TEST
 
-/* A floor under a square that glows, far and near, by its own material and by a rule, in OpenGL's numbers and in linear
+/* A floor under an emissive square, far and near, by its own material and by a rule, in OpenGL's codes and in linear
  * light. */
 START_TEST(test_square_over_floor)
 {
@@ -200,7 +200,7 @@ START_TEST(test_square_over_floor)
 
 		truth *= linear ? image_linear_from_display(albedo) * image_linear_from_display(e) : albedo * e;
 		made_init(&t, SIZE, SIZE, 0);
-		t.view.projection[0] = t.view.projection[5] = 20; /* a tenth of a unit across */
+		t.view.projection[0] = t.view.projection[5] = 20; /* the view is a tenth of a unit wide */
 		made_add_square(&t, made_add_material(&t, albedo), (float[3]){ 0, 0, -10 }, x, y, 1, 1);
 		lamp = made_add_material(&t, 0);
 		if (by_rule)
@@ -224,8 +224,8 @@ START_TEST(test_square_over_floor)
 }
 END_TEST
 
-/* A sphere of light over a floor: right under it what OpenGL's point gives; half of that where an edge hides half of
- * the sphere. */
+/* A spherical light over a floor: directly below, the same as OpenGL's point light; half of that if an edge hides
+ * half of the sphere. */
 START_TEST(test_sphere_over_floor)
 {
 	static const float x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 };
@@ -254,7 +254,7 @@ START_TEST(test_sphere_over_floor)
 }
 END_TEST
 
-/* A bound leaves a surface's own light, and no more than that of what each bounce brings. */
+/* Clamping keeps a surface's own light, and limits the light of each bounce. */
 START_TEST(test_clamp)
 {
 	const float e = 0.5f, a = 1, most = 0.1f;

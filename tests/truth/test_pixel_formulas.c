@@ -1,7 +1,7 @@
 /*
- * Per-fragment operations of kernels/gl/pixel.h and blend.h at numbers that the specification gives (GL 2.1 sec. 4.1):
- * tests, stencil, blending, logic operations, and what a pixel keeps of them. As test_formulas: kernel and twin share
- * this text.
+ * Per-fragment operations of kernels/gl/pixel.h and blend.h at values that the specification gives (GL 2.1 sec. 4.1):
+ * tests, stencil, blending, logic operations, and the resulting pixel. As in test_formulas, kernel and twin share this
+ * text.
  */
 #include <math.h>
 #include <string.h>
@@ -51,7 +51,7 @@ END_TEST
 
 START_TEST(test_logic_operations)
 {
-	static const struct { uint32_t op, wanted; } rows[] = { /* of 1100 1100 over 1010 1010 */
+	static const struct { uint32_t op, wanted; } rows[] = { /* for 1100 1100 over 1010 1010 */
 		{ GL_CLEAR, 0 }, { GL_AND, 0x88 }, { GL_AND_REVERSE, 0x44 }, { GL_COPY, 0xcc }, { GL_AND_INVERTED, 0x22 },
 		{ GL_NOOP, 0xaa }, { GL_XOR, 0x66 }, { GL_OR, 0xee }, { GL_NOR, 0x11 }, { GL_EQUIV, 0x99 }, { GL_INVERT, 0x55 },
 		{ GL_OR_REVERSE, 0xdd }, { GL_COPY_INVERTED, 0x33 }, { GL_OR_INVERTED, 0xbb }, { GL_NAND, 0x77 }, { GL_SET, 0xff },
@@ -65,7 +65,7 @@ END_TEST
 static const float source[4] = { 0.2f, 0.4f, 0.6f, 0.8f }, destination[4] = { 1, 0.6f, 0.2f, 0.4f },
 		   constant[4] = { 0.8f, 0.2f, 0.4f, 0.6f };
 
-/* A factor for a channel, as table 4.2 has it. */
+/* A channel's blend factor by table 4.2. */
 static float factor_of(uint32_t factor, int c)
 {
 	switch (factor) {
@@ -87,7 +87,7 @@ static float factor_of(uint32_t factor, int c)
 	}
 }
 
-/* Every factor and equation, in 8 bits, in floats and in halves. */
+/* Every factor and equation, in 8 bits, floats and halves. */
 START_TEST(test_blending)
 {
 	static const uint32_t factors[] = {
@@ -131,7 +131,7 @@ START_TEST(test_blending)
 }
 END_TEST
 
-/* Halves are cut off, the largest and the smallest, too. */
+/* Halves are truncated, including the largest and smallest. */
 START_TEST(test_halves)
 {
 	static const float rows[][2] = { { 1, 1 },
@@ -158,14 +158,14 @@ static struct shaded fragment_of(float alpha, float depth)
 	return (struct shaded){ .gl = { 1, 1, 1, alpha }, .depth = depth, .flags = SHADED_THERE | SHADED_FRONT };
 }
 
-/* Alpha, stencil and depth test one after the other, and what each leaves in the buffers. */
+/* Alpha, stencil and depth test in sequence, and the values each leaves in the buffers. */
 START_TEST(test_stencil_test)
 {
 	static const struct { uint32_t func, ref, mask, stored, depth_passes; int drawn; uint32_t left; } rows[] = {
 		{ GL_EQUAL, 0x35, 0x0f, 0x05, 1, 1, 0x06 },  /* zpass: INCR */
 		{ GL_EQUAL, 0x35, 0x1f, 0x05, 1, 0, 0x04 },  /* fail: DECR */
 		{ GL_EQUAL, 0x05, 0x0f, 0xf5, 0, 0, 0x0a },  /* zfail: INVERT */
-		{ GL_LESS, 0x07, 0x0e, 0x07, 1, 0, 0x06 },   /* 6 < 6 is not */
+		{ GL_LESS, 0x07, 0x0e, 0x07, 1, 0, 0x06 },   /* 6 < 6 is false */
 		{ GL_LESS, 0x05, 0x0e, 0x07, 1, 1, 0x08 },   /* 4 < 6 */
 		{ GL_GREATER, 0xf1, 0x0f, 0x00, 1, 1, 0x01 },
 		{ GL_ALWAYS, 0, 0, 0xff, 1, 1, 0xff }, { GL_NEVER, 0, 255, 0, 1, 0, 0 },
@@ -190,7 +190,7 @@ START_TEST(test_stencil_test)
 }
 END_TEST
 
-/* Without their buffers, stencil and depth test let all pass. */
+/* Without their buffers, stencil and depth test always pass. */
 START_TEST(test_depth_test)
 {
 	struct scene_material m = { .stencil_test = 1,
@@ -216,7 +216,7 @@ START_TEST(test_depth_test)
 }
 END_TEST
 
-/* Alpha tests in eight bits; alpha as coverage of four samples; samples that are off. */
+/* Alpha tests in eight bits; alpha as coverage of four samples; disabled samples. */
 START_TEST(test_alpha_and_samples)
 {
 	struct scene_material m = { .alpha_test = 1, .alpha_func = GL_GREATER, .alpha_ref = 0.5f };
@@ -246,8 +246,8 @@ START_TEST(test_alpha_and_samples)
 END_TEST
 
 /*
- * What a pixel keeps: draw, layers, the surface; films that leave no depth are none where there is another. Colours
- * that leave nothing of those before, blended or not, are known.
+ * A pixel's records: draw, layers, surface; films without depth do not count if there is another surface. Colours that
+ * replace all earlier ones, blended or not, are recognised.
  */
 START_TEST(test_marks)
 {

@@ -1,5 +1,5 @@
-/* What a program makes of a colour that several lights made together: where one of them is blocked it gets the others',
- * each light alone. */
+/* A program's result from a colour made by several lights: if one of them is blocked, the program gets the colour of
+ * the others, each light alone. */
 #include "tests/case.h"
 #include "tests/truth/scenes.h"
 
@@ -9,7 +9,7 @@ enum { SIZE = 32 };
 
 static const float right[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 };
 
-/* What a program that makes so much of each colour takes. */
+/* Inputs of a program that scales each colour. */
 struct dimming {
 	struct scene_program head;
 	struct scene_instruction instruction;
@@ -28,7 +28,7 @@ static void set_program(struct made *t, uint32_t material, float share, struct d
 	t->materials[material].fragment_program = 1;
 }
 
-/* Two lights from afar, straight down and from the right. One square above the picture's middle, and out of it, blocks
+/* Two distant lights, from straight ahead and from the right. A square out of view above the picture's middle blocks
  * the second. */
 START_TEST(test_two_lights)
 {

@@ -1,6 +1,6 @@
 /*
- * Pictures whose every pixel is known in closed form: Lambert's law on a square and inside a sphere, the outline of a
- * shadow, a mirror that shows a plane, a lit corner without a spot of shadow.
+ * Pictures with every pixel known in closed form: Lambert's law on a square and inside a sphere, the outline of a
+ * shadow, a mirror that shows a plane, a lit corner without specks of shadow.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static float at(const struct image *img, const char *channel, uint32_t x, uint32
 	return plane[(size_t)y * img->width + x];
 }
 
-/* A square at distance 10 under a point light at height h over it: cos(angle), interpolated between fine cells. */
+/* A square at distance 10 under a point light at height h above it: cos(angle), interpolated between fine cells. */
 START_TEST(test_square_under_point_light)
 {
 	struct made t;
@@ -47,7 +47,7 @@ START_TEST(test_square_under_point_light)
 }
 END_TEST
 
-/* Inside a sphere lit from its centre every point sees the light head on: the picture is one number. */
+/* Inside a sphere lit from its centre, light arrives perpendicularly everywhere: all pixels are equal. */
 START_TEST(test_enclosing_sphere)
 {
 	enum { RINGS = 24, SECTORS = 48, N = RINGS * SECTORS * 6 };
@@ -86,9 +86,8 @@ START_TEST(test_enclosing_sphere)
 END_TEST
 
 /*
- * A small square of side 2 s halfway between a point light and a wall throws a shadow of side 4 s. Seen from the
- * light's side through a parallel view it is hidden behind the square up to 2 s; the rest of the shadow shows around
- * it.
+ * A small square of side 2 s halfway between a point light and a wall casts a shadow of side 4 s. In a parallel view
+ * from the light's side it is hidden behind the square up to 2 s; the rest of the shadow shows around it.
  */
 START_TEST(test_shadow_shape)
 {
@@ -109,7 +108,7 @@ START_TEST(test_shadow_shape)
 			float out = fmaxf(px, py);
 
 			if (fabsf(out - s) < 1e-3f || fabsf(out - 2 * s) < 1e-3f)
-				continue; /* an edge itself */
+				continue; /* exactly on an edge */
 			ck_assert_float_eq(at(&img, "id", x, y), out < s ? 2 : 1);
 			ck_assert_float_eq(at(&img, "shadow.B", x, y), out > s && out < 2 * s ? 0 : 1);
 			ck_assert_float_eq_tol(at(&img, "B", x, y), at(&img, "gl.B", x, y) * at(&img, "shadow.B", x, y), 1e-6f);
@@ -119,7 +118,7 @@ START_TEST(test_shadow_shape)
 }
 END_TEST
 
-/* A perfect mirror, tilted by 45 degrees, shows a wall to its left that is lit past the mirror, at 45 degrees. */
+/* A perfect mirror, tilted by 45 degrees, shows a wall on its left, which is lit past the mirror at 45 degrees. */
 START_TEST(test_mirror)
 {
 	struct made t;
@@ -133,7 +132,7 @@ START_TEST(test_mirror)
 	mirror = made_add_material(&t, 0.2f);
 	t.materials[mirror].surface.reflect = 1;
 	made_add_square(&t, mirror, (float[3]){ 0, 0, -10 }, (float[3]){ r, 0, r }, (float[3]){ 0, 1, 0 }, 0.5f, 1);
-	/* out of the picture, facing right; the mirror turns -z into -x */
+	/* out of view, facing right; the mirror turns -z into -x */
 	made_add_square(&t, matte, (float[3]){ -4, 0, -10 }, (float[3]){ 0, 0, -1 }, (float[3]){ 0, 1, 0 }, 3, 4);
 	truth_render(&t, "whitted", &img);
 	ck_assert_float_eq_tol(at(&img, "R", SIZE / 2, SIZE / 2), 0.6f * r, 1e-3f);
@@ -145,7 +144,7 @@ START_TEST(test_mirror)
 }
 END_TEST
 
-/* Turn a direction about y, then about x. */
+/* Rotate a direction about y, then about x. */
 static void turn(float turn_y, float turn_x, const float in[3], float out[3])
 {
 	float x = cosf(turn_y) * in[0] + sinf(turn_y) * in[2], z = cosf(turn_y) * in[2] - sinf(turn_y) * in[0];
@@ -155,7 +154,7 @@ static void turn(float turn_y, float turn_x, const float in[3], float out[3])
 	out[2] = sinf(turn_x) * in[1] + cosf(turn_x) * z;
 }
 
-/* Whether a pixel shows a wall from the room's side: not what of it runs on behind another wall. */
+/* Whether a pixel shows a wall inside the room, not its extension behind another wall. */
 static int inside(const struct image *img, uint32_t x, uint32_t y, const float middle[3], float e[3][3], float scale)
 {
 	float p[3] = { at(img, "P.X", x, y), at(img, "P.Y", x, y), at(img, "P.Z", x, y) };
@@ -172,8 +171,8 @@ static int inside(const struct image *img, uint32_t x, uint32_t y, const float m
 }
 
 /*
- * Three walls that meet in a corner and run on past each other by `overlap`, with a light on their side: every pixel
- * sees the light, above all those along the junctions, whose shadow rays start next to another wall.
+ * Three walls that meet in a corner and extend past each other by `overlap`, with a light on the inside: every pixel
+ * sees the light, including those along the edges, whose shadow rays start next to another wall.
  * @return pixels in shadow
  */
 static uint32_t corner_specks(float turn_y, float turn_x, float overlap, uint32_t cells, float scale)
@@ -193,7 +192,7 @@ static uint32_t corner_specks(float turn_y, float turn_x, float overlap, uint32_
 	                middle[1] + 0.3f * scale * (e[0][1] + e[1][1] + e[2][1]),
 	                middle[2] + 0.3f * scale * (e[0][2] + e[1][2] + e[2][2]), 1);
 	material = made_add_material(&t, 0.7f);
-	for (int i = 0; i < 3; i++) { /* the wall at -1 on axis i; -overlap .. beyond it on the others */
+	for (int i = 0; i < 3; i++) { /* the wall at -1 on axis i; from -overlap to beyond it on the others */
 		float centre[3];
 
 		for (int k = 0; k < 3; k++)
@@ -225,8 +224,8 @@ START_TEST(test_corner_without_specks)
 END_TEST
 
 /*
- * A wall that stands on a floor, a light on one side of it: whatever the unit of length, the floor is dark right up to
- * the wall on the far side and bright right up to it on the near one; and the corner above has no specks.
+ * A wall on a floor with a light on one side: at any scale, the floor is dark up to the wall on the far side and bright
+ * up to it on the near side; and the corner above has no specks.
  */
 START_TEST(test_shadows_at_any_scale)
 {
@@ -250,7 +249,7 @@ START_TEST(test_shadows_at_any_scale)
 			for (uint32_t x = 0; x < SIZE; x++) {
 				float from_wall = at(&img, "P.X", x, y) / s;
 
-				/* 2^-14 of six units is where rays start: closer to the wall than that nothing is promised */
+				/* rays start at 2^-14 of six units; closer to the wall nothing is guaranteed */
 				if (at(&img, "id", x, y) != 1 || fabsf(from_wall) < 1e-3f)
 					continue;
 				ck_assert_msg(at(&img, "shadow.G", x, y) == (from_wall > 0), "scale %g: shadow %g at %g", (double)s,
@@ -268,10 +267,10 @@ START_TEST(test_shadows_at_any_scale)
 END_TEST
 
 /*
- * A smooth line one pixel wide has a triangle's profile across, two pixels wide: the coverages of the pixels that a
- * column of a level line meets sum to 1, and of a line at 45 degrees that passes between two pixels' centres to 2 -
- * sqrt(1/2). Here a square of two by two pieces, cut into triangles, alpha 1, no blending: a column that meets three
- * level lines and two diagonals, none of them where another is.
+ * A smooth line one pixel wide has a triangular profile, two pixels wide: the coverages of a column of pixels across a
+ * horizontal line sum to 1, and across a 45-degree line between two pixels' centres to 2 - sqrt(1/2). Here: a square of
+ * two by two pieces, split into triangles, alpha 1, no blending; a column that crosses three horizontal lines and two
+ * diagonals, all at different places.
  */
 START_TEST(test_smooth_lines_cover_their_width)
 {

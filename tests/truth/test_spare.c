@@ -1,4 +1,4 @@
-/* What is spared as a blocker of light (look/spare.h), and what is not: shares of a surface that lie in shadow. */
+/* Objects spared as light blockers (look/spare.h), and others that are not: the share of a surface in shadow. */
 #include "base/err.h"
 #include "look/apply/apply.h"
 #include "look/rules.h"
@@ -10,7 +10,7 @@
 static const float x_axis[3] = { 1, 0, 0 }, y_axis[3] = { 0, 1, 0 }, z_axis[3] = { 0, 0, 1 };
 static const float minus_x[3] = { -1, 0, 0 }, minus_z[3] = { 0, 0, -1 };
 
-/* The share of the pixels of draw 1 that are lit but for a shadow. rules: NULL: none */
+/* The share of draw 1's lit pixels that are in shadow. rules: NULL: none */
 static float dark_share(struct made *t, const char *rules)
 {
 	struct look *look = NULL;
@@ -39,7 +39,7 @@ static float dark_share(struct made *t, const char *rules)
 	return dark / all;
 }
 
-/* A room of six walls that show their fronts inwards, and a table top within. Draw 1 is the floor, 7 the table. */
+/* A room of six walls that face inwards, with a table top inside. Draw 1 is the floor, 7 the table. */
 static void build_room(struct made *t, int two_side, float w)
 {
 	uint32_t walls;
@@ -66,7 +66,7 @@ START_TEST(test_closed_room_is_lit_from_outside)
 		build_room(&t, k & 1, k & 2 ? 1 : 0);
 		dark = dark_share(&t, NULL);
 		ck_assert_msg(dark > 0.01f && dark < 0.5f,
-		              "room %d: %g of the floor is dark, not the table's shadow alone", k, (double)dark);
+		              "room %d: %g of the floor is dark, expected only the table's shadow", k, (double)dark);
 		ck_assert_float_eq(dark_share(&t, "spare: no\n"), 1);
 		ck_assert_float_eq(dark_share(&t, "surfaces:\n- shadows: yes\n"), 1);
 		made_free(&t);
@@ -74,7 +74,7 @@ START_TEST(test_closed_room_is_lit_from_outside)
 }
 END_TEST
 
-/* Its walls once more, in the depth buffer alone: they are solid, and spared as well. */
+/* The walls drawn again, to depth only: they count as solid, and are spared as well. */
 START_TEST(test_depth_of_a_closed_room)
 {
 	struct made t;
@@ -100,7 +100,7 @@ START_TEST(test_depth_of_a_closed_room)
 }
 END_TEST
 
-/* How a roof over a floor is drawn. */
+/* Ways to draw a roof above a floor. */
 static void lit_below(struct scene_material *m)
 {
 	(void)m;
@@ -127,12 +127,12 @@ static void unlit(struct scene_material *m)
 	m->lighting = 0;
 }
 
-/* Light from above falls through a roof that shows its underside alone, and is blocked by any other. */
+/* Light from above passes a roof that shows only its underside, and is blocked by any other. */
 START_TEST(test_roofs)
 {
 	static const struct {
 		void (*draw)(struct scene_material *);
-		int turned, shades; /* its normals and its front point upwards */
+		int turned, shades; /* its normals and front face upwards */
 	} roofs[] = {
 		{ lit_below, 0, 0 }, { lit_below, 1, 1 },    { lit_on_both_sides, 0, 1 }, { culled_above, 0, 0 },
 		{ culled_above, 1, 1 }, { culled_below, 0, 1 }, { culled_below, 1, 0 },      { unlit, 0, 1 },
@@ -157,8 +157,7 @@ START_TEST(test_roofs)
 }
 END_TEST
 
-/* Walls that OpenGL does not light, around a small lit square: a backdrop. The same wall within a lit plain: an
- * object. */
+/* Unlit walls around a small lit square are a backdrop. The same wall inside a lit plane is an object. */
 START_TEST(test_unlit_walls)
 {
 	struct made t;
@@ -174,7 +173,7 @@ START_TEST(test_unlit_walls)
 	       sizeof(t.instances[0].modelview));
 	made_add_square(&t, unlit, (float[3]){ 3, 0, -6 }, minus_z, y_axis, 6, 1);
 	for (uint32_t blend = 0; blend < 2; blend++) {
-		t.materials[unlit].blend = blend; /* by an alpha of 1: opaque all the same */
+		t.materials[unlit].blend = blend; /* with an alpha of 1, still opaque */
 		t.materials[unlit].blend_src_rgb = t.materials[unlit].blend_src_alpha = GL_SRC_ALPHA;
 		t.materials[unlit].blend_dst_rgb = t.materials[unlit].blend_dst_alpha = GL_ONE_MINUS_SRC_ALPHA;
 		ck_assert_float_eq(dark_share(&t, NULL), 0);

@@ -1,6 +1,6 @@
 /*
- * The border between light and shade on round shapes of few faces. Alone, a convex shape with smooth normals shades
- * nothing of itself, wherever the light stands and however large all is; something before it does shade it.
+ * The border between light and shade on round shapes with few faces. A convex shape with smooth normals must not shade
+ * itself, for any position of the light and any scale; an object in front does shade it.
  */
 #include <math.h>
 
@@ -9,7 +9,7 @@
 
 #define SIZE 96
 
-/* A sphere of a few faces, its corners' normals pointing from its centre. */
+/* A sphere with few faces and radial normals. */
 static void add_sphere(struct made *t, uint32_t material, float z, float radius)
 {
 	enum { RINGS = 5, SECTORS = 8, N = RINGS * SECTORS * 6 };
@@ -31,7 +31,7 @@ static void add_sphere(struct made *t, uint32_t material, float z, float radius)
 	made_add_triangles(t, material, (const float (*)[3])position, (const float (*)[3])normal, N);
 }
 
-/* Pixels of the sphere that are lit but for a shadow; *lit: that are lit. */
+/* The sphere's lit pixels that are in shadow; *lit: number of lit pixels. */
 static uint32_t shaded_pixels(const struct made *t, uint32_t *lit)
 {
 	struct image img;
@@ -100,8 +100,8 @@ START_TEST(test_others_shade_it_alike_at_any_scale)
 }
 END_TEST
 
-/* A sheet alone, as fins are drawn: its corners' normals lie on both of its sides. Wherever the light stands, nothing
- * is in its way. */
+/* A single sheet with fin-like normals, which point to both of its sides. It must not shade itself for any position
+ * of the light. */
 START_TEST(test_thin_sheet_shades_nothing_of_itself)
 {
 	static const float corners[3][3] = { { -2, -1.5f, -6 }, { 2, -1, -6 }, { 0, 2, -6 } };
@@ -130,7 +130,7 @@ START_TEST(test_thin_sheet_shades_nothing_of_itself)
 }
 END_TEST
 
-/* In mode path a surface that shines behind a wall lights nothing of the side that is seen, whichever way its corners'
+/* In mode path, an emissive surface behind a wall lights nothing on the visible side, whichever way the wall's
  * normals lean. */
 START_TEST(test_lamp_behind_lights_nothing)
 {

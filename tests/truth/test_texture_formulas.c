@@ -1,5 +1,5 @@
-/* Sampling of kernels/gl/texture.h at numbers that are known: wraps, levels and filters, elliptic footprints (GL 2.1
- * sec. 3.8.7, 3.8.8). As test_formulas. */
+/* Sampling of kernels/gl/texture.h at known values: wraps, levels and filters, elliptical footprints (GL 2.1 sec.
+ * 3.8.7, 3.8.8). As in test_formulas. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "kernels/gl/stages.h"
 #include "tests/case.h"
 
-/* Which of four texels is nearest, by coordinates below, within and beyond the image. */
+/* The nearest of four texels, for coordinates below, inside and beyond the image. */
 START_TEST(test_wraps)
 {
 	enum { OUT = TEXTURE_OUTSIDE };
@@ -30,7 +30,7 @@ START_TEST(test_wraps)
 				ck_assert_msg(i0 == rows[r].wanted[i], "wrap %#x, border %u, at %g: %d, not %d",
 				              rows[r].wrap, rows[r].border, at[i], i0, rows[r].wanted[i]);
 			}
-	for (int i = 0; i < 5; i++) { /* between two texels, each with its share */
+	for (int i = 0; i < 5; i++) { /* between two texels, weighted */
 		static const struct {
 			float s;
 			int i0, i1;
@@ -58,7 +58,7 @@ struct world {
 	struct tables tables;
 };
 
-/* Levels of 8, 4, 2 and 1 texels a side, of which each has a shade of its own. */
+/* Levels with 8, 4, 2 and 1 texels per side, each with a shade of its own. */
 static void begin(struct world *w)
 {
 	memset(w, 0, sizeof(*w));
@@ -84,7 +84,7 @@ static float shade(const struct world *w, const struct texture_slope *slope, flo
 	return texture_sample(&w->tables, &w->unit, v4(s, t, 0, 1), slope).x * 255;
 }
 
-/* The level by the slopes, the filter and the anisotropy. */
+/* The level as a function of slopes, filter and anisotropy. */
 START_TEST(test_levels)
 {
 	static const struct { uint32_t filter; float lod, anisotropy, wanted; } rows[] = {
@@ -93,7 +93,7 @@ START_TEST(test_levels)
 		{ GL_LINEAR_MIPMAP_NEAREST, 9, 1, 160 }, { GL_NEAREST_MIPMAP_LINEAR, 1.5f, 1, 85 },
 		{ GL_LINEAR_MIPMAP_LINEAR, 0.5f, 1, 35 }, { GL_LINEAR_MIPMAP_LINEAR, 5, 1, 160 },
 		{ GL_LINEAR_MIPMAP_LINEAR, -2, 1, 10 }, { GL_NEAREST_MIPMAP_NEAREST, -2, 1, 10 },
-		/* the footprint is long by so much: the level is that of its short side, one level where an ellipse is averaged */
+		/* elongated footprint: the level is that of its short side, one level if an ellipse is averaged */
 		{ GL_LINEAR, 3, 4, 10 }, { GL_LINEAR_MIPMAP_NEAREST, 3, 4, 60 }, { GL_LINEAR_MIPMAP_LINEAR, 3, 4, 60 },
 		{ GL_LINEAR_MIPMAP_LINEAR, 3, 2, 110 }, { GL_NEAREST, 3, 4, 10 },
 	};
@@ -106,7 +106,7 @@ START_TEST(test_levels)
 		begin(&w);
 		w.unit.min_filter = rows[i].filter;
 		w.unit.max_anisotropy = rows[i].anisotropy;
-		/* llvmpipe's logarithm is straight between powers of its square */
+		/* llvmpipe's logarithm is linear between powers of its square */
 		slope.right.x = rows[i].anisotropy > 1 ? exp2f(rows[i].lod) :
 		                                         sqrtf(exp2f(floorf(2 * rows[i].lod)) *
 		                                               (1 + 2 * rows[i].lod - floorf(2 * rows[i].lod)));
@@ -117,7 +117,7 @@ START_TEST(test_levels)
 }
 END_TEST
 
-/* An ellipse of texels under a Gaussian, added up here as Heckbert has it. */
+/* An ellipse of texels under a Gaussian, summed here by Heckbert's method. */
 START_TEST(test_ellipses)
 {
 	static const float slopes[][4] = {
@@ -136,7 +136,7 @@ START_TEST(test_ellipses)
 		w.unit.max_anisotropy = 16;
 		for (uint32_t k = 0; k < 64; k++)
 			w.texels[k] = 0x01010101u * (k * 37 % 251);
-		for (int y = -SIDE; y < 2 * SIDE; y++) /* texels of the edge go on beyond it */
+		for (int y = -SIDE; y < 2 * SIDE; y++) /* edge texels continue outside */
 			for (int x = -SIDE; x < 2 * SIDE; x++) {
 				const double u = x + 0.5 - 0.4 * SIDE, v = y + 0.5 - 0.6 * SIDE, q = (a * u * u + b * u * v + c * v * v) / f;
 

@@ -1,13 +1,13 @@
-/* How much light a surface lets through at numbers that are known: glass by Fresnel's equations and absorption,
- * stipples; kernels/frame/transparency.h. */
+/* Transmission of light through surfaces at known values: glass by Fresnel's equations and absorption, stipple;
+ * kernels/frame/transparency.h. */
 #include <math.h>
 #include <string.h>
 
 #include "kernels/frame/transparency.h"
 #include "tests/case.h"
 
-/* A triangle in the plane z = -4 that faces the eye; a ray meets its middle, from the front or from the back, at four
- * units a step. */
+/* A triangle in the plane z = -4 that faces the eye; a ray hits its middle, from the front or from the back, with
+ * four units per step. */
 struct world {
 	struct geometry geometry;
 	struct scene_material material;
@@ -69,12 +69,12 @@ START_TEST(test_opaque)
 }
 END_TEST
 
-/* Glass: the root of its colour at each of two surfaces, what is not mirrored at right angles, and on the way out what
- * the body leaves. */
+/* Glass: the square root of its colour at each of two surfaces, times the share not reflected at normal incidence,
+ * and on the way out times the body's transmission. */
 START_TEST(test_glass)
 {
 	for (int back = 0; back < 2; back++) {
-		const float through = 0.5f * 0.96f; /* ((1.5 - 1) / (1.5 + 1))^2 is mirrored */
+		const float through = 0.5f * 0.96f; /* ((1.5 - 1) / (1.5 + 1))^2 is reflected */
 		struct world w;
 
 		begin(&w, back);
@@ -86,12 +86,12 @@ START_TEST(test_glass)
 		             back ? "glass that absorbs, over a unit of length" : "glass on the way in");
 		w.material.surface.ior = 0;
 		w.material.surface.transmit = 3;
-		check_passes(&w, 0.5f, back ? expf(-2) : 1, 0.25f, "of no index and all transparent");
+		check_passes(&w, 0.5f, back ? expf(-2) : 1, 0.25f, "completely transparent, without an index");
 	}
 }
 END_TEST
 
-/* Fresnel's equations: at right angles, at Brewster's angle, beyond the critical angle. */
+/* Fresnel's equations: at normal incidence, at Brewster's angle, beyond the critical angle. */
 START_TEST(test_fresnel)
 {
 	const float brewster = atanf(1.5f),

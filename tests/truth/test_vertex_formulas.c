@@ -1,7 +1,7 @@
 /*
- * The vertex stage of kernels/gl/vertex.h, what vertex programs read, and questions about points of triangles (point.h,
- * stages.h) at numbers that are known: attributes from arrays and current ones, both sides' colours, which side is
- * seen. As test_formulas.
+ * The vertex stage of kernels/gl/vertex.h, inputs of vertex programs, and queries about points of triangles (point.h,
+ * stages.h) at known values: attributes from arrays and current ones, two-sided colours, visible side. As in
+ * test_formulas.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -15,9 +15,9 @@
 
 #define ALMOST 1e-5f
 
-enum { VERTICES = 3, FIRST = 2, UNITS = 2 }; /* the geometry's first vertex among the frame's */
+enum { VERTICES = 3, FIRST = 2, UNITS = 2 }; /* the geometry's first vertex in the frame */
 
-/* A frame of one geometry: its arrays one after the other, from a place on that is not the first. */
+/* A frame with one geometry: its arrays in sequence, not starting at offset 0. */
 struct world {
 	float attributes[256];
 	struct geometry geometry;
@@ -116,7 +116,7 @@ static void check_floats(const float *have, const float *wanted, int n, const ch
 		ck_assert_msg(fabsf(have[c] - wanted[c]) < ALMOST, "%s: number %d is %g, not %g", what, c, have[c], wanted[c]);
 }
 
-/* From arrays, and what is current where there are none. */
+/* From arrays, and current values if there is none. */
 START_TEST(test_attributes)
 {
 	for (int arrays = 0; arrays < 2; arrays++) {
@@ -148,12 +148,12 @@ START_TEST(test_attributes)
 				             "texture coordinates");
 		}
 		ck_assert_float_eq(w.coords[4 * 3 - 1], -7);
-		ck_assert_float_eq(w.coords[4 * (3 + UNITS * VERTICES)], -7); /* nothing beyond them is written */
+		ck_assert_float_eq(w.coords[4 * (3 + UNITS * VERTICES)], -7); /* nothing is written beyond them */
 	}
 }
 END_TEST
 
-/* Each side has its own material and normal where both are lit, else the front's colour. */
+/* Each side has its own material and normal if both are lit, else the front's colour. */
 START_TEST(test_sides)
 {
 	struct world w;
@@ -183,7 +183,7 @@ START_TEST(test_sides)
 }
 END_TEST
 
-/* What vertex programs read: attributes by their numbers, of which those that have no array are current. */
+/* Inputs of vertex programs: numbered attributes, current ones if there is no array. */
 START_TEST(test_inputs)
 {
 	struct world w;
@@ -241,7 +241,7 @@ static struct point point_of(struct world *w)
 	return p;
 }
 
-/* The normal is one of length 1 on the side that is seen: the vertices' where the draw is lit, else the plane's. */
+/* The normal has length 1 and points to the visible side: from the vertices if the draw is lit, else from the plane. */
 START_TEST(test_normals)
 {
 	struct world w;
@@ -252,7 +252,7 @@ START_TEST(test_normals)
 	p = point_of(&w);
 	for (unsigned i = 0; i < 16; i++) {
 		const int lit = i & 1, back = i >> 1 & 1, turned = i >> 2 & 1, clockwise = i >> 3;
-		/* a clockwise front is seen where the plane's normal points away */
+		/* a clockwise front is visible from where the plane's normal points away */
 		const float side = back == clockwise ? 1 : -1;
 
 		w.material.lighting = (uint32_t)lit;
@@ -276,8 +276,7 @@ START_TEST(test_normals)
 }
 END_TEST
 
-/* The other pixels of a quad see the same triangle, each at its own middle; the fragment's own pixel sees it as it
- * is. */
+/* The other pixels of a quad use the same triangle, each at its own centre; the fragment's own pixel is unchanged. */
 START_TEST(test_neighbours)
 {
 	static const float corners[3][2] = { { -1, -1 }, { 1, -1 }, { -1, 1 } };
@@ -303,7 +302,7 @@ START_TEST(test_neighbours)
 }
 END_TEST
 
-/* Planes of the program's cut away what lies behind one of those that are enabled. */
+/* Clip planes remove points behind any enabled plane. */
 START_TEST(test_clip_planes)
 {
 	struct world w;
@@ -325,8 +324,8 @@ START_TEST(test_clip_planes)
 }
 END_TEST
 
-/* What a plane leaves of a polygon: cut sides have a new corner; of one that crosses the plane more often than a
- * polygon can, as many as there is room for. */
+/* Clipping a polygon by a plane: cut sides get a new vertex; a polygon that crosses the plane too often is limited
+ * to the room. */
 START_TEST(test_cut_polygons)
 {
 	const struct userclip_plane plane = { { 1, -1, -1 } };
@@ -354,8 +353,7 @@ START_TEST(test_cut_polygons)
 }
 END_TEST
 
-/* The side that shows is that of the places in the window, however far away; of clip space where one of them has
- * none. */
+/* The visible side follows from window positions, at any distance; from clip space if a vertex has none. */
 START_TEST(test_sides_of_triangles)
 {
 	struct window_vertex windows[3] = { { 0, 0, 0, 0.01f }, { 256, 0, 0, 0.01f }, { 0, 256, 0, 0.01f } };
@@ -366,7 +364,7 @@ START_TEST(test_sides_of_triangles)
 	p = point_of(&w);
 	memcpy(w.shaded[0].clip, (float[4]){ 0, 0, 0, 1 }, 16);
 	memcpy(w.shaded[1].clip, (float[4]){ 0, 1, 0, 1 }, 16);
-	memcpy(w.shaded[2].clip, (float[4]){ 1, 0, 0, 1 }, 16); /* the other way round */
+	memcpy(w.shaded[2].clip, (float[4]){ 1, 0, 0, 1 }, 16); /* reversed */
 	ck_assert_int_eq(point_shows_front(&p, windows), 1);
 	w.material.front_face = GL_CW;
 	ck_assert_int_eq(point_shows_front(&p, windows), 0);
@@ -377,8 +375,8 @@ START_TEST(test_sides_of_triangles)
 }
 END_TEST
 
-/* Which draws a vertex program lights anew: lit ones of a program, that rules do not light, with lights that are asked
- * for. */
+/* Which draws have vertices lit again by a program: lit draws of a program that no rule lights, with requested
+ * lights. */
 START_TEST(test_lit_by_programs)
 {
 	for (unsigned i = 0; i < 32; i++) {
@@ -394,8 +392,8 @@ START_TEST(test_lit_by_programs)
 }
 END_TEST
 
-/* Lights that rays go to: those that light the vertices, or the point where it is lit anew, in mode path all that stand
- * before it. */
+/* Lights that receive shadow rays: those that light the vertices, or the point if it is lit again; in mode path all
+ * in front of it. */
 START_TEST(test_asked_lights)
 {
 	struct scene_light lights[4];
@@ -408,7 +406,7 @@ START_TEST(test_asked_lights)
 		lights[i] = w.light;
 		lights[i].diffuse[0] = lights[i].diffuse[1] = lights[i].diffuse[2] = i == 2;
 	}
-	lights[1].radius = -1;          /* nothing stops it */
+	lights[1].radius = -1;          /* no object blocks it */
 	lights[3].position_eye[2] = -1; /* behind */
 	w.tables.lights = lights;
 	w.material.lighting = 1;
@@ -423,7 +421,7 @@ START_TEST(test_asked_lights)
 }
 END_TEST
 
-/* Pixels of a line that are none of those drawn: before the first column or row, behind the last row. */
+/* Pixels of a line that are not drawn: before the first column or row, after the last row. */
 START_TEST(test_undrawn)
 {
 	struct world w;

@@ -77,7 +77,7 @@ START_TEST(test_seen_through)
 
 	ck_assert_uint_eq(CHANGED(materials[LIGHT].blend_dst_rgb, GL_ONE_MINUS_SRC_ALPHA), 0);
 	ck_assert_uint_eq(CHANGED(materials[LIGHT].blend, 0), 0); /* a pre-pass for geometry that is then drawn
-	                                                           * normally */
+	                                                             normally */
 	b.instances[LIGHT].modelview[12] = 1;                   /* another body */
 	ck_assert_uint_eq(is_solid(&b), 1);
 }

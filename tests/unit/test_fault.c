@@ -90,7 +90,7 @@ START_TEST(test_blame)
 		ck_assert_str_eq(fault_words(&journal->fault, words, sizeof(words)), want[_i].words);
 	}
 	if (_i == BETWEEN) { /* our handler is more precise than a guess; without it, a kernel may have been
-	                      * compiling */
+	                        compiling */
 		ck_assert(WIFSIGNALED(status));
 		fault_guess(journal, WTERMSIG(status));
 		ck_assert_int_eq(journal->fault.kind, FAULT_NONE);

@@ -20,9 +20,7 @@ enum { FEW = 120 };
 
 struct score {
 	unsigned closed, exact, broken; /* meshes; closed ones, and those with their volume; those with a leak or
-	                                 *                                           wrong
-	                                 *                                           volume
-	                                 *                                           before */
+	                                   wrong volume before */
 	double worst;
 };
 
@@ -165,7 +163,7 @@ START_TEST(test_openings)
 	ck_assert_double_eq_tol(found.volume, -1, 1e-12);
 	for (int f = 0; f < 12; f++)
 		ck_assert_uint_eq(out->index[3 * f + 2], turned[f][2]); /* the last vertex gives the colour under
-		                                                         * flat shading */
+		                                                           flat shading */
 	free(out);
 }
 END_TEST

@@ -364,7 +364,7 @@ static void draw_listed(int i)
 	glPixelStorei(GL_UNPACK_ROW_LENGTH, is_laid_out ? 33 : 0);
 	glPixelStorei(GL_UNPACK_SKIP_PIXELS, is_laid_out);
 	for (GLuint list = 1; list <= 1 + (GLuint)twice; list++) { /* the same pixels in two lists; the last one is
-	                                                            * called */
+	                                                              called */
 		glNewList(list, GL_COMPILE);
 		give(what, in_buffer ? (const unsigned char *)offset : copy + offset);
 		glEndList();
