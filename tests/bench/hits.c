@@ -353,8 +353,8 @@ static enum verdict judge(const struct world *w, const struct ray *ray, uint32_t
 
 struct tally {
 	uint64_t n[N_SCENES][N_KINDS][N_VERDICTS], occluded_wrong, shown[N_VERDICTS];
-	uint64_t differ[N_ACCEL_KINDS], wrong[N_ACCEL_KINDS]; /* rays whose hit in trees of a kind is not that of the
-	                                                         first; of them, wrong ones */
+	/* rays whose hit in trees of a kind differs from that in the first kind; wrong hits among them */
+	uint64_t differ[N_ACCEL_KINDS], wrong[N_ACCEL_KINDS];
 };
 
 static void count(struct tally *tally, const struct world *w, uint32_t scene, uint32_t kind, const struct ray *ray,

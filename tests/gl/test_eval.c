@@ -95,9 +95,8 @@ START_TEST(test_errors)
 	for (int i = 0; i < 6; i++) /* four times 2^20 points is the maximum */
 		gl_call(&gl, "glEvalMesh2", "eiiii", GL_LINE, 1, 1024, 1, 1024);
 	ck_assert_uint_eq(gl_unsupported(&gl), 2);
-	gl_call(&gl, "glEvalMesh1", "epp", GL_LINE, (uint64_t)INT64_MAX - 1, (uint64_t)INT64_MAX); /* a damaged
-	                                                                                              recording's: it
-	                                                                                              ends */
+	/* as in a damaged recording: must end */
+	gl_call(&gl, "glEvalMesh1", "epp", GL_LINE, (uint64_t)INT64_MAX - 1, (uint64_t)INT64_MAX);
 	gl_call(&gl, "glEvalMesh2", "epppp", GL_LINE, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX,
 	        (uint64_t)INT64_MAX);
 	gl_close(&gl);

@@ -298,9 +298,8 @@ START_TEST(test_read_storage)
 	gl_call(&gl, "glPixelTransferf", "ef", GL_RED_SCALE, 2.0);
 	read_pixels(&gl, 1, 1, GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1, 0);
 	ck_assert_mem_eq(data, ((uint8_t[2]){ 0x10, 0xb0 }), 2);
-	gl_call(&gl, "glReadPixels", "iiiieep", -1, 63, 2, 2, GL_GREEN, GL_UNSIGNED_BYTE, (uint64_t)64); /* but for one,
-	                                                                                                    off the
-	                                                                                                    screen */
+	/* only one pixel is on the screen */
+	gl_call(&gl, "glReadPixels", "iiiieep", -1, 63, 2, 2, GL_GREEN, GL_UNSIGNED_BYTE, (uint64_t)64);
 	ck_assert_mem_eq(data + 64, ((uint8_t[10]){ 0xee, 20, 0xee, 0xee, 0xee, 0xee, 0xee, 0xee, 0xee, 0xee }), 10);
 	ck_assert_uint_eq(gl_error(&gl), 0);
 	gl_close(&gl);

@@ -104,8 +104,8 @@ END_TEST
 
 /* A supplier that fills every picture with one colour, and records the requests. */
 struct painter {
-	uint32_t asked, n_instances, width, height, depth_bits, alpha_bits, had_start, unknown; /* unknown: what
-	                                                                                           pictures have */
+	/* unknown: the buffers that pictures report as unknown */
+	uint32_t asked, n_instances, width, height, depth_bits, alpha_bits, had_start, unknown;
 	uint8_t start[4];
 };
 

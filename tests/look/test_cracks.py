@@ -50,7 +50,7 @@ for device in ("reference", "0"):
 check("closed mesh" in told and "closed" in told and "leaks" not in said,
       f"the room is reported as closed: {said}{[line for line in told.splitlines() if 'welded' in line]}")
 tight, said, told = picture("tight", 0, "spare: no\nsurfaces:\n  - repair: {}\n")
-check(lit_floor(tight) == lit_floor(picture("before", 0, "spare: no\n")[0]), "a crack wider than the tolerance stays")
+check(lit_floor(tight) == lit_floor(picture("before", 0, "spare: no\n")[0]), "a crack wider than the tolerance remains")
 check("still leaks light at" in said and "mesh that leaks" in told, f"the wider crack is reported: {said}")
 
 whole, _, _ = picture("whole", 2, GLASS.format(""))

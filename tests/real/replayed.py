@@ -46,7 +46,7 @@ def records(path, wanted):
         block = data[begin + HEAD.size:at]
         if kind & REF_CHANGED:
             if int.from_bytes(block[:8], "little") != last[0]:
-                sys.exit(f"frame {frame} of {path} builds on another record than the last one of its kind")
+                sys.exit(f"frame {frame} of {path} is based on a record other than the last one of its kind")
             pixels = changed(last[1], unpack(block[8:], width * height * 4))
         else:
             pixels = unpack(block, width * height * 4)

@@ -76,7 +76,7 @@ check(all("approved hash" in f["gates"]["B"]["note"] for f in frames), "its own 
 
 (out / "c.0002.exr").unlink()
 found, _ = outcomes(0, "--baseline", base, out)
-check(found == ["passed", "passed"], f"only what is there is scored: {found}")
+check(found == ["passed", "passed"], f"only existing frames are scored: {found}")
 found, _ = outcomes(1, "--baseline", base, "--all", out)
 check(found == ["passed", "passed", "missing"], f"an approved frame without a traced one: {found}")
 

@@ -18,7 +18,7 @@ out = SCRATCH / "out"
 
 def render(*options, to=out, code=0):
     done = relume("render", trace, "-o", to / "x.{frame}.exr", *options)
-    check(done.returncode == code, f"render {options}: exit code {done.returncode} and not {code}: {done.stderr}")
+    check(done.returncode == code, f"render {options}: exit code {done.returncode}, expected {code}: {done.stderr}")
     return done
 
 
@@ -38,7 +38,7 @@ render("-f", "8", code=2)
 # One or three frames in parallel, in order or in chunks: the same bytes.
 render("-j", "1")
 whole = files()
-check(sorted(whole) == [f"x.{i}.exr" for i in range(8)], f"all frames are there and nothing else: {sorted(whole)}")
+check(sorted(whole) == [f"x.{i}.exr" for i in range(8)], f"exactly the frames are there: {sorted(whole)}")
 for i in (1, 2):
     render("-j", "3", "--chunk", f"{i}/2", to=SCRATCH / "parallel")
 check(files(SCRATCH / "parallel") == whole, "three at once and in two chunks: the same bytes")
@@ -58,7 +58,7 @@ check(files(SCRATCH / "shared") == files(SCRATCH / "alone"), "two devices leave 
 
 # Complete frames are kept; those that are torn, zeroed, missing or made with other settings are rendered.
 done = render("--skip-existing")
-check(done.stderr.count("there already") == 9, f"all are there: {done.stderr}")  # in eight lines and the summary
+check(done.stderr.count("there already") == 9, f"all frames exist: {done.stderr}")  # in eight lines and the summary
 (out / "x.1.exr").write_bytes(whole["x.1.exr"][:-100])
 hole = bytearray(whole["x.2.exr"])
 hole[len(hole) // 2:len(hole) // 2 + 512] = bytes(512)

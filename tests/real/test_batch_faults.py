@@ -43,7 +43,7 @@ def judge(what, done, folder, code, words):
     """Check the consequences of a fault, then remove it and continue the run."""
     left = files(folder)
     lines = [line for line in done.stderr.splitlines() if line.startswith("relume: ") and "warning" not in line]
-    good = [check(done.returncode == code, f"{what}: exit code {done.returncode} and not {code}: {done.stderr}"),
+    good = [check(done.returncode == code, f"{what}: exit code {done.returncode}, expected {code}: {done.stderr}"),
             check(any(words in line for line in lines), f"{what}: a line contains '{words}': {done.stderr}"),
             check(all(whole.get(name) == data for name, data in left.items()),
                   f"{what}: no partial file: {sorted(left)}")]

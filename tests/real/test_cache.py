@@ -28,12 +28,12 @@ home = dict(os.environ, XDG_CACHE_HOME=str(SCRATCH / "home"))
 want, said = render("without", "--no-cache", env=home)
 check(not kept(SCRATCH / "home"), f"--no-cache leaves {kept(SCRATCH / 'home')}")
 
-check(render("first", "--cache", FOLDER)[0] == want, "a run that stores a tree: another frame")
+check(render("first", "--cache", FOLDER)[0] == want, "a run that stores a tree: the frame differs")
 files = kept(FOLDER)
 check(len(files) == 1 and files[0].suffix == ".tree", f"kept: {files}")
 whole, inode = files[0].read_bytes(), files[0].stat().st_ino
 os.utime(files[0], (1, 1))
-check(render("again", "--cache", FOLDER)[0] == want, "a run that finds a tree: another frame")
+check(render("again", "--cache", FOLDER)[0] == want, "a run that finds a tree: the frame differs")
 check(files[0].stat().st_ino == inode and files[0].stat().st_mtime > 1,
       "a cached tree is marked as used, and not rewritten")
 
@@ -45,7 +45,7 @@ for what, text in (("cut", whole[:len(whole) // 2]),
                    ("damaged", whole[:5000] + bytes([whole[5000] ^ 4]) + whole[5001:]), ("empty", b"")):
     files[0].write_bytes(text)
     frame, said = render(what, "--cache", FOLDER)
-    check(frame == want, f"{what} file: another frame")
+    check(frame == want, f"{what} file: the frame differs")
     check(files[0].read_bytes() == whole, f"{what} file is not replaced")
 
 shared = SCRATCH / "shared"
@@ -54,12 +54,12 @@ runs = [
     for i in range(2)
 ]
 check([run.wait(timeout=120) for run in runs] == [0, 0], "two runs at once fail")
-check(all((SCRATCH / f"both{i}.0.exr").read_bytes() == want for i in range(2)), "two runs at once: another frame")
+check(all((SCRATCH / f"both{i}.0.exr").read_bytes() == want for i in range(2)), "two runs at once: the frame differs")
 check([f.name for f in kept(shared)] == [files[0].name] and kept(shared)[0].read_bytes() == whole,
       f"two runs keep {kept(shared)}")
 
 frame, said = render("nowhere", "--cache", "/dev/null/trees")
-check(frame == want, "without a folder: another frame")
+check(frame == want, "without a folder: the frame differs")
 check(said.count("\n") == 1 and "/dev/null/trees" in said, f"an impossible folder: {said!r}")
 frame, said = render("little", "--cache", SCRATCH / "little", "--cache-size", "100K")
 check(frame == want and not said and not kept(SCRATCH / "little"),

@@ -48,9 +48,9 @@ def test_programs():
         before = {f: f.stat().st_mtime_ns for f in (KEPT / name).rglob("*.exr")}
         done = ci(name, "--", *program)
         check(done.returncode == 0, f"{name}: approved: {said(done)}")
-        check(NOTHING in done.stdout, f"{name}: nothing is recorded where nothing changed")
+        check(NOTHING in done.stdout, f"{name}: nothing is recorded without a change")
         check(len(before) == 3 and before == {f: f.stat().st_mtime_ns for f in (KEPT / name).rglob("*.exr")},
-              f"{name}: nothing is rendered where nothing changed")
+              f"{name}: nothing is rendered without a change")
     done = ci("box", "--", corpus("cornell"), "--frames", "3", "--mirror")
     check(done.returncode == 1, f"a changed picture fails: {said(done)}")
     page, cases, failures = kept("box")
@@ -66,8 +66,7 @@ def test_programs():
     check(done.returncode == 5 and "nothing was recorded" in done.stderr, f"a program without pictures: {said(done)}")
 
 
-# --- Any change causes a recording
-# ---------------------------------------------------------------------------------------
+# --- Any change causes a recording ----------------------------------------------------------------------------------
 
 def build_shape(facing):
     must(
@@ -141,7 +140,7 @@ def test_changes():
 def test_opened():
     """Every file that the program opens, as listed by strace, is watched, or reported as not watched."""
     if not shutil.which("strace"):
-        print("no strace here: what a program opens is not listed")
+        print("no strace here: opened files are not listed")
         return
     must(
         on_display("strace", "-f", "-e", "trace=open,openat,execve", "-o", SCRATCH / "opened", "./viewer", "model.obj",
@@ -176,7 +175,7 @@ def test_touched():
     """The short form of show-ci: some of the files that a program opens are touched, one at a time; only watched ones
     cause a recording."""
     if not shutil.which("strace"):
-        print("no strace here: what a program opens is not touched")
+        print("no strace here: opened files are not touched")
         return
     folder = SCRATCH / "touched"
     folder.mkdir()
@@ -308,7 +307,7 @@ def test_jobs():
 def test_bisect():
     """Exit codes for git bisect run: 125 if a commit cannot be judged."""
     (SCRATCH / "relume-ci.yaml").unlink(missing_ok=True)
-    check(ci("bisected", "--bisect", *VIEWER).returncode == 125, "--bisect, nobody has approved it")
+    check(ci("bisected", "--bisect", *VIEWER).returncode == 125, "--bisect, not approved")
     approve("bisected")
     for program, code in ((("--", "false"), 125), (("--", "no-such-program"), 125), (VIEWER, 0),
                           (("--env", "VIEWER_GREEN=0.9", *VIEWER), 1)):

@@ -31,7 +31,8 @@ for name, planes in zip(FRAMES[1:], others):
     check(not any(differ.values()), f"{name}: pixels that differ from views drawn in the window: {differ}")
 must(relume("render", trace, "-f", "2", "-o", SCRATCH / "alone.exr"))
 alone = planes_of(SCRATCH / "alone.exr")
-check(all((alone[name] == first[name]).all() for name in PLANES), "a frame rendered alone shows what earlier ones drew")
+check(all((alone[name] == first[name]).all() for name in PLANES),
+      "a frame rendered alone shows the drawing of earlier ones")
 check_gates(diff(trace, SCRATCH / "composed")[1], len(FRAMES), "composed")
 
 os.environ["XDG_CACHE_HOME"] = str(SCRATCH / "cache")

@@ -96,7 +96,7 @@ check("reflect.G" not in before.names or not reflecting(before), "nothing reflec
 spots = reflecting(after)
 check(len(spots) > 3000, f"the mirror shows something: {len(spots)} pixels")
 check(all(x < WIDTH / 2 for x, _ in spots), "only the left wall reflects")
-check(before.planes["gl.R"] == after.planes["gl.R"], "the mirror does not change what OpenGL drew")
+check(before.planes["gl.R"] == after.planes["gl.R"], "the mirror does not change OpenGL's picture")
 
 
 def display(linear):

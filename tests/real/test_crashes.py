@@ -55,8 +55,7 @@ for family in ("compressed", "binary", "packets"):  # also fills PoCL's cache
 check(want["packets"] == want["binary"], "families draw the same")
 want = want["binary"]
 
-# --- Another family takes over
-# -----------------------------------------------------------------------------------------
+# --- Another family takes over --------------------------------------------------------------------------------------
 
 CASES = {
     "abort in clBuildProgram": (f"abort,build,{PACKETS}", {}, (), "SIGABRT in kernels/frame/whole_packet.cl"),
@@ -127,12 +126,11 @@ for what, fault, again in (("all programs", "abort,build,", 0), ("all launches",
         done, found = render(trace, what.replace(" ", "-"), faulty(fault))
         check(one_line(done, 5, "packets failed", "binary failed", "compressed failed", "--device reference"),
               f"{what}: {done.returncode}: {done.stderr}")
-        check(not found and n_met() == n, f"{what}: met {n_met()} times, not {n}; files {list(found)}")
+        check(not found and n_met() == n, f"{what}: met {n_met()} times, expected {n}; files {list(found)}")
 done, found = render(trace, "all-programs", ENV, "--device", "reference")
 check(done.returncode == 0 and len(found) == 6 and not done.stderr, f"--device reference: {done.stderr}")
 
-# --- In the middle of a run
-# --------------------------------------------------------------------------------------------
+# --- In the middle of a run -----------------------------------------------------------------------------------------
 
 done, found = render(trace, "middle", faulty("abort,launch,camera_packet,4"), "-j", "1", "--progress", "json")
 events = [json.loads(line) for line in done.stdout.splitlines()]
@@ -155,8 +153,7 @@ done, found = render(pixels, "alone", ENV, "--mode", "gl")
 check(done.returncode == 0 and not done.stderr and found == whole,
       f"families that made other frames are not blamed: {done.stderr}")
 
-# --- Signals
-# -----------------------------------------------------------------------------------------------------------
+# --- Signals --------------------------------------------------------------------------------------------------------
 
 
 def start_hung():
@@ -204,7 +201,7 @@ parent, worker = start_hung()
 os.kill(worker, signal.SIGSEGV)
 found, said = ended(parent)
 check(found == -signal.SIGSEGV and not said,
-      f"a signal from elsewhere ends the run, and blames nobody: {found}, {said}")
+      f"a signal from elsewhere ends the run without blame: {found}, {said}")
 # The frame rendered beside the one that hangs may exist, but only completely.
 left = {p.name: p.read_bytes() for p in (SCRATCH / "hung").glob("*")}
 check(left.items() <= want.items(), f"nothing half-written is left: {list(left)}")

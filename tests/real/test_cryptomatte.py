@@ -79,7 +79,7 @@ for layer, known in (("CryptoDraw", None), ("CryptoMesh", hashes["meshes"]), ("C
                     (layer, i), name) != name or (known is None and name != f"draw {int(i)}")
     check(wrong == 0 and pixels > 10000, f"{layer}: {wrong} pixels wrong of {pixels}")
     check({name for (of, _), name in seen.items() if of == layer} == set(manifest),
-          f"{layer}: the manifest names what is seen")
+          f"{layer}: the manifest names visible objects")
 check(len({name for (layer, _), name in seen.items() if layer == "CryptoMesh"}) > 2, "several meshes")
 check(
     relume("render", trace, "-o", SCRATCH / "x.####.exr", "--aov", "cryptomate").returncode == 2,

@@ -88,7 +88,7 @@ check(space < noisy / 8, f"without them: {noisy:.4f} becomes {space:.4f}")
 check(time < space, f"neighbouring frames help: {time:.5f} and {space:.5f}")
 edge = WIDTH // 2 + SPEED * 2
 near = error(SCRATCH / "time.0002.exr", 2, lambda x, y: y < HEIGHT // 2 and abs(x - edge) < 4)
-check(near < 0.03, f"the shadow's edge stays where it is: {near:.4f}")
+check(near < 0.03, f"the shadow's edge stays in place: {near:.4f}")
 
 make(SCRATCH / "mixed", other_border=1.4)
 must(relume("denoise", SCRATCH / "mixed", "-o", SCRATCH / "mixed.exr", "-f", "2"))

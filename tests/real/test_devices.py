@@ -108,5 +108,5 @@ check(
     f"the failure is reported once: {done.stderr[-600:]}")
 shares = [int(n) for n in re.findall(r"^  device \d+: (\d+) frames?", done.stderr, re.MULTILINE)]
 check(len(shares) == 2 and sum(shares) == FRAMES and min(shares) > 0, f"shares {shares}")
-check(files(SCRATCH / "left") == files(SCRATCH / "alone"), "one of two devices fails: every frame is there and whole")
+check(files(SCRATCH / "left") == files(SCRATCH / "alone"), "one of two devices fails: every frame is complete")
 finish()

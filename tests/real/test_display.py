@@ -13,7 +13,7 @@ record(trace, corpus("still_life"), "--frames", "4", options=("--ref", "color"))
 
 def render(folder, *options, ending="png", code=0):
     done = relume("render", trace, "-o", out / folder / f"s.####.{ending}", *options)
-    check(done.returncode == code, f"render {options}: exit code {done.returncode} and not {code}: {done.stderr}")
+    check(done.returncode == code, f"render {options}: exit code {done.returncode}, expected {code}: {done.stderr}")
     return done.stderr
 
 

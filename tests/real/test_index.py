@@ -56,9 +56,9 @@ must(relume("render", trace, "-f", f"{near}-{last}x7", "-o", SCRATCH / "near.#.e
 index_of(trace).unlink()
 calls = json.loads(must(relume("scene", "-f", str(last), "--json", trace)).stdout)
 must(relume("render", trace, "-f", str(last), "-o", SCRATCH / "jump.#.exr"))
-check(calls["frame"] == last, "relume scene shows the frame asked for")
+check(calls["frame"] == last, "relume scene shows the requested frame")
 chain = sorted(SCRATCH.glob("near.*.exr"))
-check(len(chain) == len(range(near, last + 1, 7)), f"all frames are there: {chain}")
+check(len(chain) == len(range(near, last + 1, 7)), f"all frames exist: {chain}")
 if (last - near) % 7 == 0:
     check((SCRATCH / f"near.{last}.exr").read_bytes() == (SCRATCH / f"jump.{last}.exr").read_bytes(),
           "the same bytes by a jump and step by step")

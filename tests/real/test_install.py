@@ -66,7 +66,7 @@ check(done.returncode == 0 and (SCRATCH / "report/sheet.png").exists(),
       f"and scores, with pictures: {done.returncode}, {done.stderr}")
 
 check((PREFIX / "share/relume/score.schema.json").read_bytes() == (ROOT / "diff/score/score.schema.json").read_bytes(),
-      "the schema of scores is there")
+      "the schema of scores is installed")
 
 # A path that the dynamic linker cannot preload is reported, not ignored.
 spaced = SCRATCH / "a place"

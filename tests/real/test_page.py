@@ -113,8 +113,7 @@ found = browser.operate(SCRATCH, SCRATCH / "report", "#995") or {}
 for name, value in WANTED.items():
     check(found.get(name) == value, f"{name}: {found.get(name)} instead of {value}")
 
-# --- With a baseline: frames 1 and 2 of 4 have changed
-# -------------------------------------------------------------------
+# --- With a baseline: frames 1 and 2 of 4 have changed --------------------------------------------------------------
 
 PATCH = (slice(10, 30), slice(40, 60))
 trace, approved = SCRATCH / "a.trace", SCRATCH / "approved"
@@ -172,8 +171,7 @@ text = (SCRATCH / "changed.md").read_text()
 check("| 1-2 | failed | not as approved: " in text,
       f"Markdown names the failed comparison, once for both frames:\n{text}")
 
-# --- On a narrow screen
-# ----------------------------------------------------------------------------------------------------
+# --- On a narrow screen ---------------------------------------------------------------------------------------------
 
 for report in ("report", "changed"):
     found = browser.narrow(SCRATCH, SCRATCH / report, 390) or {}
@@ -181,8 +179,7 @@ for report in ("report", "changed"):
         len(found) == 4 and all(inner == 390 >= wide for inner, wide in found.values()),
         f"{report} on a screen of 390 pixels: {found}")
 
-# --- Accessibility: low vision, screen readers, keyboard; and print
-# ----------------------------------------------------------
+# --- Accessibility: low vision, screen readers, keyboard; and print -------------------------------------------------
 
 for scheme in ("light", "dark"):
     found = browser.accessible(SCRATCH, SCRATCH / "changed", scheme) or {}

@@ -47,7 +47,7 @@ check(code == 0, f"exit code {code} on a terminal")
 check(re.search(r"\r\x1b\[Krendered \[#*\.*\] 3/3 .*frames/s.*left", shown), f"a bar on a terminal: {shown!r}")
 check("rendered frame 0" not in shown, "no plain lines on a terminal")
 
-# A frame that shows what frames before it drew.
+# A frame that shows the drawing of earlier frames.
 trace, frame = SCRATCH / "front.trace", 13
 record(trace, BUILD / "tests/real/front", options=("--frame-end", "flush"))
 command = [RELUME, "render", str(trace), "-f", str(frame), "-o", str(SCRATCH / "front.####.exr")]

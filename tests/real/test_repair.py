@@ -43,7 +43,7 @@ def repaired(path, what):
     info = relume("info", "--json", new)
     check(info.returncode == 0 and not info.stderr, f"{what}: relume reads it without a warning: {info.stderr}")
     found = re.match(r"kept  (\d+) calls?, (\d+) frames?", done.stdout)
-    check(found and int(found[2]) == frames(lines), f"{what}: says how many frames there are: {done.stdout}")
+    check(found and int(found[2]) == frames(lines), f"{what}: reports the number of frames: {done.stdout}")
     check(f'"frames":{frames(lines)},' in info.stdout.replace(" ", ""),
           f"{what}: relume and apitrace count the same frames")
     check(not list(SCRATCH.glob("*.part")), f"{what}: no partial file is left")

@@ -55,7 +55,7 @@ check(0 < samples("coarse.exr") < samples("fine.exr") < 512,
       f"samples: {samples('coarse.exr')} and {samples('fine.exr')}")
 truth = planes("truth.exr")
 for name, bar in (("coarse.exr", 0.2), ("fine.exr", 0.06)):
-    check(bar / 6 < error(name, truth) < bar, f"{name}: noise {error(name, truth):.4f}, asked for {bar}")
+    check(bar / 6 < error(name, truth) < bar, f"{name}: noise {error(name, truth):.4f}, requested {bar}")
 must(render("most.exr", "--noise", "0.000001", "--samples", "8"))
 must(render("eight.exr", "--samples", "8"))
 check(planes("most.exr") == planes("eight.exr"), "--samples is the maximum")

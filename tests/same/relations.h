@@ -23,8 +23,8 @@ struct relation {
 	const char *idle; /* the reason for not applying if nothing was changed */
 	uint32_t flags;
 	double amount;    /* parameter of the relation */
-	const char *base; /* what it is compared with: a relation, "-" the recording itself, "": it is only a base
-	                     itself. NULL: "immediate" for those that need runs, else "-" */
+	const char *base; /* base of the comparison: a relation, "-" for the recording itself, "" if only a base.
+	                     NULL: "immediate" for those that need runs, else "-" */
 	relation_call *call;     /* writes a call; NULL: unchanged */
 	relation_run *run;       /* writes a run; NULL: unchanged */
 	relation_event *cleared; /* the whole window was cleared, colour and depth */

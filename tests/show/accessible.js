@@ -1,20 +1,20 @@
 /*
- * Run in the report's page, after its own script: what a person needs who sees little, hears the page, or uses no mouse. Says what is wrong on the
- * console. The list is made by hand, after WCAG 2.2; each entry names its criterion.
+ * Run in the report's page, after its own script: checks accessibility for low vision, screen readers and keyboard
+ * use, and prints faults on the console. The list is hand-written, after WCAG 2.2; each entry names its criterion.
  */
 const wrong = [];
 const check = (good, what) => { if (!good) wrong.push(what); };
 const all = selector => [...document.querySelectorAll(selector)];
 const key = (k, at = document) => at.dispatchEvent(new KeyboardEvent("keydown", { key: k, bubbles: true, cancelable: true }));
 
-/* What a control is called, as far as this page goes. */
+/* A control's accessible name, as far as this page needs it. */
 function name_of(node)
 {
 	const of_label = node.closest("label");
 	return (node.getAttribute("aria-label") || node.getAttribute("alt") || (of_label && of_label.textContent) || node.textContent || "").trim();
 }
 
-/* Relative luminance and contrast, WCAG's definitions. */
+/* Relative luminance and contrast, as WCAG defines them. */
 function luminance(color)
 {
 	const [r, g, b] = color.match(/[\d.]+/g).map(v => v / 255).map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
@@ -68,7 +68,7 @@ async function operate()
 	}
 	check(all("#list > *").every(item => item.getAttribute("role") === "option" && item.hasAttribute("aria-selected") && item.hasAttribute("aria-checked")),
 		"4.1.2 options without state");
-	/* All by keyboard: to a frame, to its selection, to the last one; and menus keep their own keys. */
+	/* Keyboard only: to a frame, select it, to the last one; menus keep their own keys. */
 	list.focus();
 	check(document.activeElement === list, "2.1.1 the list takes no focus");
 	key("Home", list);

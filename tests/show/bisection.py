@@ -93,7 +93,7 @@ def main(folder, only):
                 continue
             with tempfile.TemporaryDirectory() as scratch:
                 what, figure, good = kind(relume, pathlib.Path(scratch), *case)
-            shown.row(what, figure, "the very call, and no other", good)
+            shown.row(what, figure, "exactly this call", good)
     return shown.finish()
 
 

@@ -207,7 +207,7 @@ def touched(build):
                   flush=True)
         shutil.rmtree(program.kept)
     if skipped:
-        print(f"{skipped} files were not touched: this system lets nobody mount")
+        print(f"{skipped} files were not touched: this system does not allow mounting")
     return wrong, n
 
 

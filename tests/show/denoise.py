@@ -11,9 +11,8 @@ frame with the previous frame's error. A constant error does not flicker.
 
 `relume denoise --oidn` and `relume render --oidn`, which is confined, load the same OIDN, and must give its pictures.
 
-Bars: each still picture, denoised, is no farther from the truth than 1.1 times what OIDN leaves; in both films it
-flickers less than without a denoiser, and with frames before and after less than without; --oidn departs from OIDN by
-at most 1 / 1000.
+Bars: the error of each denoised still picture is at most 1.1 times OIDN's; both films flicker less than without a
+denoiser, and less with neighbouring frames than without; --oidn differs from OIDN by at most 1 / 1000.
 """
 import json
 import os

@@ -7,13 +7,14 @@ each compiling for AVX-512 (where the processor has it) and for AVX2, and scored
 "no options" uses the family that `relume render` chooses there. Times are processor time, which other load lengthens:
 if a bar is missed, the least of TRIES counts.
 
-  cold, kept  a whole run for one frame of the Cornell box, from an empty cache and once more; of it, kernels slowest
-  the file that took longest to compile, or the kernel where that is compiled once it runs (tests/real/build_shim.c)
-  ms a frame  of each program: what its frames take after the first one, the replay between them counted
+  cold, kept  a whole run for one frame of the Cornell box, from an empty cache and once more; slowest: the file that
+              took longest to compile, or the kernel if compiled when it runs
+              (tests/real/build_shim.c)
+  ms a frame  for each program: time of its frames after the first, including the replay between them
 
-Oclgrind interprets kernels and rusticl (Mesa's llvmpipe) is young: `relume devices --check` tells how far these come.
-Recordings stay in BUILD/show/parity, which `make show-parity` uses as well; --only takes parts of implementations'
-names.
+Oclgrind interprets kernels, and rusticl (Mesa's llvmpipe) is young: for these, the result of `relume devices --check`
+is printed. Recordings stay in BUILD/show/parity, which `make show-parity` uses as well; --only selects implementations
+by part of the name.
 """
 import argparse
 import dataclasses

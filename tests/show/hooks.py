@@ -136,7 +136,7 @@ class Show:
                 same(paths[0].with_name(f"f.{i:04}.exr"), paths[1].with_name(f"f.{i:04}.exr")) for i in range(FRAMES))
             times = [[processor_s(*command) for command in commands] for _ in range(ROUNDS)]
             without, with_hook = (statistics.median(column) for column in zip(*times))
-            self.row(f"repeat, {what}: frames of the same numbers", f"{equal} of {FRAMES}", f"{FRAMES} of {FRAMES}",
+            self.row(f"repeat, {what}: identical frames", f"{equal} of {FRAMES}", f"{FRAMES} of {FRAMES}",
                      equal == FRAMES)
             self.row(
                 f"repeat, {what}: times the processor time ({without:.2f} s for {FRAMES} frames, with the hook "

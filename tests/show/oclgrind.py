@@ -50,7 +50,7 @@ def main(build):
                              capture_output=True, text=True, check=False)
         problems = len(re.findall(r"== (?:Conditional jump|Use of uninit|Invalid read|Invalid write)", run.stderr))
         rows.append({
-            "what": f"{family}, C twins: values that nobody set, invalid accesses", "figure": f"{problems}", "bar": "0",
+            "what": f"{family}, C twins: uninitialised values, invalid accesses", "figure": f"{problems}", "bar": "0",
             "peer": "Valgrind", "passed": problems == 0 and run.returncode == 0
         })
     out = build / "show" / "oclgrind.json"

@@ -1,4 +1,4 @@
-/* Run in the report's page, after its own script: operates it as a person would, and says what came of it on the console. */
+/* Run in the report's page, after its own script: operates it like a person, and prints the results on the console. */
 const found = { errors: window.wrong };
 
 async function operate()
@@ -20,7 +20,7 @@ async function operate()
 	};
 	await wait(200);
 
-	/* What is there at once. */
+	/* Contents after loading. */
 	found.opened = now();
 	found.shown_at_first = [list.children.length, control("outcome").value];
 	found.title = document.title;
@@ -45,7 +45,7 @@ async function operate()
 	found.approve = [...document.querySelectorAll("#frame code")].pop().textContent.replace(/ \S*$/, "").replace(/ \/\S*/g, "");
 	found.outcomes = [...control("outcome").options].map(option => option.value);
 
-	/* Going from frame to frame. */
+	/* Moving from frame to frame. */
 	list.children[0].click(); found.clicked = [now(), location.hash, [...list.children].filter(item => item.getAttribute("aria-selected") === "true").length];
 	await wait(200); found.thumbnails = [list.children[0], list.lastChild].map(item => item.querySelector("img").src.slice(0, 11));
 	key("k"); found.before_first = now();
@@ -71,7 +71,7 @@ async function operate()
 	found.both = type("1");
 	change(control("outcome"), ""); type("");
 
-	/* Frames to approve: by box, by key, all that are shown; a second time drops them. */
+	/* Selecting frames to approve: by box, by key, all those shown; repeating deselects them. */
 	const chosen = () => $("chosen").textContent.replace(/ \S* \S*$/, "");
 	const marked = () => [...list.children].filter(item => item.getAttribute("aria-checked") === "true").length;
 	found.nothing_chosen = [chosen(), $("copy").disabled];

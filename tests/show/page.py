@@ -79,7 +79,7 @@ def main(build):
         size = (work / f"report-{name}" / "index.html").stat().st_size / 1e6
         what = f"{N_FRAMES} frames of glxgears, {'all passed' if not code else f'{N_DAMAGED} failed'}"
         rows.append({
-            "what": f"{what}: seconds to a page that can be used",
+            "what": f"{what}: seconds until the page can be used",
             "figure": f"{ready} s; browser's start to end {wall:.1f} s", "bar": f"{BAR_OPEN_S} s",
             "peer": "Chromium, headless", "passed": ready is not None and ready <= BAR_OPEN_S
         })

@@ -127,7 +127,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--only", action="append", default=[], help="part of a line's name")
-    parser.add_argument("--record", action="store_true", help="record anew")
+    parser.add_argument("--record", action="store_true", help="record again")
     options = parser.parse_args()
     need_display()
     os.nice(15)

@@ -2,7 +2,7 @@
 
 All are packages of Debian 12. One line per program; `keys` are steps for tests/show/recording.py: "wait SECONDS", "key
 NAME", "click X Y", "type TEXT", with the pointer in the middle of the screen (no window manager: the keyboard's focus
-follows it). A program with keys, or one that is said to take `seconds`, is recorded for so long and its last frames are
+follows it). A program with keys, or with a value for `seconds`, is recorded for that time and its last frames are
 scored; the others are recorded for a number of frames, and frames spread over these are scored.
 """
 import dataclasses

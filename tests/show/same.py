@@ -92,7 +92,7 @@ def main(build, only):
     n = counts[True] + counts[False]
     shown.row(f"pairs of pictures of one scene, drawn in two ways, of {counts['recordings']} recordings, that differ",
               f"{len(differ)} of {n}", 0, n > 0 and not differ, f"worst: {max(differ)[1]}" if differ else None)
-    shown.row("pairs to which a relation does not apply, each with its reason", counts[None], None, None)
+    shown.row("pairs that a relation does not apply to, each with the reason", counts[None], None, None)
     return shown.finish()
 
 

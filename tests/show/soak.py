@@ -98,8 +98,7 @@ class Soak:
         if done.returncode:
             sys.exit(f"record: {done.stdout}{done.stderr}")
 
-    # --- No growth
-    # ---------------------------------------------------------------------------------------------------------
+    # --- No growth --------------------------------------------------------------------------------------------------
 
     def frames(self, count):
         trace, out = self.work / "long.trace", self.work / "frames"
@@ -164,8 +163,7 @@ class Soak:
             print((self.work / "record.log").read_text()[-2000:])
         shutil.rmtree(out)
 
-    # --- Disturbed
-    # ---------------------------------------------------------------------------------------------------------
+    # --- Disturbed --------------------------------------------------------------------------------------------------
 
     def digests(self, folder):
         return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.glob("*.exr")}

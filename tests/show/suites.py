@@ -2,19 +2,20 @@
 """tests/show/suites.py BUILD [--only SUITE] (as `make show-suites SUITE=...`): README's commands on the releases that
 we support.
 
-For each suite debootstrap makes a chroot of its minimal variant with only `make` added (BUILD/suites/SUITE.bare, kept
-between runs). In a copy of it (BUILD/suites/SUITE, left for a look) `make demo` runs twice and `make check` once, as
-root, in a clone of what is committed. The second demo must install and compile nothing.
+For each suite debootstrap makes a chroot of its minimal variant plus `make` (BUILD/suites/SUITE.bare, kept between
+runs). In a copy of it (BUILD/suites/SUITE, left for inspection) `make demo` runs twice and `make check` once, as root,
+in a clone of the last commit. The second demo must install and compile nothing.
 
 The suite `arm64` cross-compiles for 64-bit ARM on bookworm, runs tests of unit/, gl/ and check/ under qemu-user, and
 renders recordings that were made on x86 with the reference device of both: all channels must have the same bytes. Two
-checks of test_foreign and test_reserve do nothing there: they limit memory, and would limit the emulator's.
+checks of test_foreign and test_reserve are disabled there, because they limit memory, which would include the
+emulator's.
 
-The suite `container` builds packaging/Containerfile by buildah, on the bare chroot of bookworm as its base image, and
-renders in it.
+The suite `container` builds packaging/Containerfile with buildah, using the bare chroot of bookworm as base image, and
+renders in the container.
 
-Needs root, debootstrap, 10 GB below BUILD, and most of an hour for each suite. SUITES_MIRROR names another mirror of
-Debian.
+Needs root, debootstrap, 10 GB below BUILD, and nearly an hour for each suite. SUITES_MIRROR selects another Debian
+mirror.
 """
 import argparse
 import os
@@ -177,7 +178,7 @@ def show_demo(suite, shown):
         f"{suite.name}: make demo again",
         f"exit code {code}, {compiled[1] if compiled else '?'} files compiled",
         "exit code 0, installs nothing, compiles 0 files",
-        code == 0 and "nothing, all is there" in printed and bool(compiled) and compiled[1] == "0",
+        code == 0 and "nothing: everything is installed" in printed and bool(compiled) and compiled[1] == "0",
     )
 
 

@@ -143,7 +143,7 @@ def main():
         if line["good"] != "True":
             print(tell(line) + (f"; {line['blame']}" if line["blame"] else ""))
     if len(present) < len(chosen):
-        print(f"{len(chosen) - len(present)} programs were not reached: run it again to go on")
+        print(f"{len(chosen) - len(present)} programs were not reached: run it again to continue")
     print(f"a line each: {table}")
     return 1 if any(row["passed"] is False for row in rows) or len(present) < len(chosen) else 0
 

@@ -174,7 +174,7 @@ int main(int argc, char **argv)
 		}
 		expect(glGetError() == GL_NO_ERROR, "no error");
 		expect(fstat(0, &same) == 0 && same.st_dev == input.st_dev && same.st_ino == input.st_ino,
-		       "standard input is what it was");
+		       "standard input is unchanged");
 		expect(argc == 1 || count_watching() == 0, "unusable descriptors are closed");
 		end_frame();
 	}

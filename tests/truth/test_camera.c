@@ -137,9 +137,8 @@ START_TEST(test_orthographic)
 		{ "kind: orthographic\nheight: 4\n", 16, 48, 16, 48 },
 		{ "height: 4\nplace: [0.5, -0.25, 20]\nlook_at: [0.5, -0.25, 0]\n", 8, 40, 12, 44 },
 		{ "height: 4\nplace: [0, 0, -30]\nlook_at: [0, 0, -10]\n", 16, 48, 16, 48 },      /* from behind */
-		{ "kind: orthographic\nlook_at: [0, 0, -10]\n", 32 - 6, 32 + 6, 32 - 6, 32 + 6 }, /* as large as in
-		                                                                                     perspective, 10
-		                                                                                     units high there */
+		/* as large as in perspective, where the view is 10 units high */
+		{ "kind: orthographic\nlook_at: [0, 0, -10]\n", 32 - 6, 32 + 6, 32 - 6, 32 + 6 },
 		{ "height: 4\nsize: [96, 48]\n", 48 - 12, 48 + 12, 24 - 12, 24 + 12 },
 		{ "height: 4\nnear: 11\n", 0, 0, 0, 0 },
 		{ "height: 4\nfar: 9\n", 0, 0, 0, 0 },

@@ -195,8 +195,8 @@ START_TEST(good_frame_passes_every_gate)
 {
 	expect_all_passed();
 	for (int g = 0; g < N_GATES; g++)
-		if (g != GATE_R1B && g != GATE_E3 && g != GATE_N && g != GATE_B) /* no layers, no range, no normals,
-		                                                                    nothing approved */
+		/* not measured: there are no layers, ranges, normals or approved frames */
+		if (g != GATE_R1B && g != GATE_E3 && g != GATE_N && g != GATE_B)
 			ck_assert_msg(state((enum score_gate_id)g) == SCORE_PASSED, "%s", score_gates[g].name);
 	ck_assert_double_eq(score.fidelity, 1);
 	ck_assert_double_eq(score.gates[GATE_P].value[0], 0);
@@ -869,7 +869,7 @@ START_TEST(demanded_channels)
 }
 END_TEST
 
-/* 0: told not to write them; 1: the beauty was denoised. */
+/* 0: effects were disabled; 1: the beauty was denoised. */
 START_TEST(left_out_effects_are_not_measured)
 {
 	static const char *const why[][2] = { { "relume:aov", "gl,reflect,relight,refract" }, { "relume:denoised", "1" } };

@@ -63,7 +63,7 @@ static void check_says(const char *text, const char *wanted, int often)
 
 	for (const char *at = text; (at = strstr(at, wanted)); at++)
 		n++;
-	ck_assert_msg(n == often, "\"%s\" is there %d times, not %d, in:\n%s", wanted, n, often, text);
+	ck_assert_msg(n == often, "\"%s\" occurs %d times, expected %d, in:\n%s", wanted, n, often, text);
 }
 
 /* The last line: number of frames, the worst of those compared, the first wrong one. */

@@ -6,8 +6,8 @@
 #include <math.h>
 
 enum { SIDE = 6 };
-static unsigned char all_bytes[4 * 4 * SIDE * SIDE + PANELS], *bytes; /* bytes: of this panel, as Mesa keeps what it
-                                                                         drew by its place */
+/* bytes: those of this panel; Mesa caches drawn pixels by address */
+static unsigned char all_bytes[4 * 4 * SIDE * SIDE + PANELS], *bytes;
 
 static void prepare(void)
 {

@@ -20,7 +20,7 @@ static void ask_framebuffers(void)
 {
 	GLint made;
 
-	expect(!glIsFramebufferEXT(1) && !glIsRenderbufferEXT(1) && !glIsQuery(1), "nothing of these is there");
+	expect(!glIsFramebufferEXT(1) && !glIsRenderbufferEXT(1) && !glIsQuery(1), "none of these exists");
 	/* an error: nothing is bound */
 	glGetRenderbufferParameterivEXT(GL_RENDERBUFFER_EXT, GL_RENDERBUFFER_WIDTH_EXT, &made);
 	expect(glGetError() == GL_INVALID_OPERATION, "nothing is bound");
