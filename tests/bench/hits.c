@@ -534,7 +534,7 @@ int main(int argc, char **argv)
 	printf("\nany hit and nearest hit disagree: %llu; bar: 0 of ours wrong, 0 of these\n",
 	       (unsigned long long)tally.occluded_wrong);
 	for (int a = 1; a < N_ACCEL_KINDS; a++)
-		printf("%s: %llu hits are not those of %s to the bit, %llu of them wrong; bar: 0 wrong\n", accel_kind_names[a],
+		printf("%s: %llu hits differ from those of %s, %llu of them wrong; bar: 0 wrong\n", accel_kind_names[a],
 		       (unsigned long long)tally.differ[a], accel_kind_names[0], (unsigned long long)tally.wrong[a]);
 	if (json)
 		err = write_json(json, &tally, device_name(dev), command);

@@ -453,15 +453,16 @@ static uint64_t print(const struct tally *t, const struct rates *rates, int with
 	uint64_t wrong = 0;
 
 	for (int kind = 0; kind < N_KINDS; kind++) {
-		printf("%-14s %9llu queries, %9llu find something, %llu wrong (bar: 0)\n", kind_names[kind],
+		printf("%-14s %9llu queries, %9llu with a result, %llu wrong (bar: 0)\n", kind_names[kind],
 		       (unsigned long long)t->asked[kind], (unsigned long long)t->found[kind],
 		       (unsigned long long)t->wrong[kind]);
 		wrong += t->wrong[kind];
 	}
 	if (with_rates) {
-		printf("nearest hit    %.2f million a second, %.2f times rtcIntersect1M; %u of %u differ by more than 0.001\n",
+		printf("nearest hit    %.2f million per second, %.2f times rtcIntersect1M; "
+		       "%u of %u differ by more than 0.001\n",
 		       N_RATED / rates->ray[0] / 1e6, rates->ray[1] / rates->ray[0], rates->hits_differ, N_RATED);
-		printf("distance       %.2f million a second, %.2f times rtcPointQuery; apart by at most %.2g\n",
+		printf("distance       %.2f million per second, %.2f times rtcPointQuery; apart by at most %.2g\n",
 		       N_RATED / rates->point[0] / 1e6, rates->point[1] / rates->point[0], rates->apart);
 	}
 	return wrong;

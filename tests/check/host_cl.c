@@ -415,7 +415,7 @@ cl_int clBuildProgram(cl_program program, cl_uint n, const cl_device_id *devices
 		return CL_BUILD_PROGRAM_FAILURE;
 	program->library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
 	if (!program->library)
-		fail("a program is not whole: ", dlerror());
+		fail("incomplete program: ", dlerror());
 	return CL_SUCCESS;
 }
 

@@ -233,7 +233,8 @@ static void compare(const struct frame *f, const struct result *want, const stru
 		for (uint32_t k = 0; k < (mode == CAMERA_COLUMN ? want->counts[i] : 1); k++)
 			compare_fragment(&want->fragments[i * stride + k], &got->fragments[i * stride + k], i, what);
 	}
-	ck_assert_msg(n_standing_out <= 2, "%s: %u pixels differ by triangles seen edge-on", what, n_standing_out);
+	ck_assert_msg(n_standing_out <= 2, "%s: %u pixels differ because of triangles seen edge-on", what,
+	              n_standing_out);
 }
 
 START_TEST(kernels_agree_with_twins)

@@ -156,7 +156,7 @@ static void clear_rest(const struct content *c, const uint32_t *drawn, struct fr
 		if (drawn[row_of(i)])
 			continue;
 		ck_assert_msg(c->counts[i] == 0 && memcmp(&frame[i], &unwritten, sizeof(unwritten)) == 0,
-		              "row %u is called undrawn", row_of(i));
+		              "row %u is reported as undrawn", row_of(i));
 		frame[i] = c->cleared;
 	}
 }

@@ -44,7 +44,7 @@ static void check_scan(struct device *dev, uint32_t n, int kind)
 	}
 	ck_assert_uint_eq(total, want);
 	for (uint32_t i = total ? n : 0; i < n + GUARD; i++)
-		ck_assert_msg(got[i] == GUARD_WORD, "something is written past the end, or where there is nothing to place");
+		ck_assert_msg(got[i] == GUARD_WORD, "data was written past the end, or without an item to place");
 	device_release(dev, &from.buffer);
 	device_release(dev, &places.buffer);
 	device_release(dev, &scratch.buffer);

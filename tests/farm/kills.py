@@ -1,4 +1,4 @@
-"""Kill tasks, slurmd and slurmctld at random while a farm renders, and count how often each frame lands."""
+"""Kill tasks, slurmd and slurmctld at random while a farm renders, and count how often each frame is written."""
 import ctypes
 import os
 import random

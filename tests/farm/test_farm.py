@@ -149,7 +149,7 @@ with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
     must(farm("cancel", job))
     cluster.wait_empty(60)
     kept = digests(folder)
-    check(0 < len(kept) < FRAMES and kept.items() <= local.items(), f"cancelled after {len(kept)} frames, all whole")
+    check(0 < len(kept) < FRAMES and kept.items() <= local.items(), f"cancelled after {len(kept)} frames, all complete")
     check(not list(folder.glob("*.part")), "no partial file is left")
 
     # Killed at random.
@@ -161,7 +161,7 @@ with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
     counts = landings.read()
     check(killer.total() >= 3, f"killed {killer.done}")
     check(digests(folder) == local, f"after {killer.done} killed: the same bytes as locally")
-    check(set(counts.values()) == {1}, f"every frame landed once: {counts}")
+    check(set(counts.values()) == {1}, f"every frame was written once: {counts}")
 
     # More tasks than an array allows.
     folder, pattern, job = place("many")

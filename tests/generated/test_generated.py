@@ -21,7 +21,7 @@ if run(ROOT / "tests/xvfb.sh", generator.program, numbers[0]).returncode == 77:
 kinds = set()
 for number in numbers:
     steps = generator.steps(number)
-    check(steps == generator.steps(number), f"program {number} is the same one each time")
+    check(steps == generator.steps(number), f"program {number} is the same each time")
     kinds |= set(steps.values())
 check(len(kinds) == int(run(generator.program, "--kinds").stdout), f"kinds of steps: {len(kinds)}")
 score = generator.score(numbers, SCRATCH / "generated")

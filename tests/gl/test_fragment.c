@@ -148,9 +148,10 @@ START_TEST(test_settings)
 		error = gl_error(&gl);
 		ck_assert_msg(error == s->error, "row %zu, %s: error %#x, not %#x", i, s->call, error, s->error);
 		if (error)
-			ck_assert_msg(!memcmp(&before, a, sizeof(before)), "row %zu, %s: an error that changes something", i, s->call);
+			ck_assert_msg(!memcmp(&before, a, sizeof(before)), "row %zu, %s: an error changed state", i,
+			              s->call);
 		ck_assert_msg(!memcmp((const char *)a + s->at, s->wanted, s->n * sizeof(uint32_t)),
-		              "row %zu, %s: something else is set", i, s->call);
+		              "row %zu, %s: wrong state was set", i, s->call);
 	}
 	gl_close(&gl);
 }

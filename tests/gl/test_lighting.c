@@ -56,7 +56,7 @@ START_TEST(test_numbers)
 		gl_call(&gl, "glLightf", "eef", GL_LIGHT0 + 7, n->name, (double)n->good);
 		ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
 		gl_call(&gl, "glLightf", "eef", GL_LIGHT0 + 7, n->name, (double)n->wrong);
-		ck_assert_msg(gl_error(&gl) == GL_INVALID_VALUE, "%g of %#x is no error", n->wrong, n->name);
+		ck_assert_msg(gl_error(&gl) == GL_INVALID_VALUE, "%g of %#x is accepted", n->wrong, n->name);
 		memcpy(&have, light + n->at, sizeof(have));
 		ck_assert_msg(have == n->good, "%#x is %g, not %g", n->name, have, n->good);
 	}

@@ -211,7 +211,7 @@ START_TEST(test_ati)
 	ck_assert_uint_eq(gl.x->counts.programs, 1);
 	scene_release(&s);
 	gl_call(&gl, "glDeleteFragmentShaderATI", "u", 7u);
-	ck_assert_ptr_nonnull(bound(&gl)); /* the program in assembly of this name */
+	ck_assert_ptr_nonnull(bound(&gl)); /* the assembly program of this name */
 	gl_close(&gl);
 }
 END_TEST

@@ -71,7 +71,7 @@ START_TEST(test_uniforms)
 	gl_answered(&gl, 21, "glGetUniformLocation", "us", 1u, "b");
 	gl_answered(&gl, 30, "glGetUniformLocation", "us", 1u, "s[1].y");
 	gl_answered(&gl, 31, "glGetUniformLocation", "us", 1u, "nothing");
-	gl_call(&gl, "glUniform2fv", "iuF", 8, 9u, 8, numbers); /* more than there are */
+	gl_call(&gl, "glUniform2fv", "iuF", 8, 9u, 8, numbers); /* more than there are elements */
 	gl_call(&gl, "glUniformMatrix2fv", "iuuF", 20, 1u, 1u, 4, numbers);
 	gl_call(&gl, "glUniform1i", "ii", 21, 5);
 	gl_call(&gl, "glUniform3f", "ifff", 30, 9.0, 8.0, 7.0);

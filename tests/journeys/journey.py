@@ -36,7 +36,7 @@ def seen(name):
     """A picture, 0 to 255, that is not blank: more than one colour, neither black nor white throughout."""
     found = codes(PLACE / name).transpose(1, 2, 0)  # [row][column][channel]
     check(found.std() > 10 and 10 < found.mean() < 245,
-          f"{name} shows something: mean {found.mean():.1f}, deviation {found.std():.1f}")
+          f"{name} is not blank: mean {found.mean():.1f}, deviation {found.std():.1f}")
     return found
 
 

@@ -90,11 +90,11 @@ def try_all(relume, place, env=None):
         after = {p: p.stat().st_size for p in pathlib.Path(place).rglob("*") if p.name != "game.trace.index"}
         faults = []
         if done.returncode != code:
-            faults.append(f"exit code {done.returncode}, not {code}")
+            faults.append(f"exit code {done.returncode}, expected {code}")
         if len(lines) != 1 or not lines[0].startswith("relume: "):
             faults.append(f"{len(lines)} lines: {lines[:4]}")
         elif word not in lines[0]:
-            faults.append(f"says nothing of {word}")
+            faults.append(f"does not mention {word}")
         if set(after) - set(before) or any(after.get(p, size) != size for p, size in before.items()):
             faults.append(f"wrote {sorted(p.name for p in set(after) - set(before))}")
         yield Outcome(f"relume {typed}", done.returncode, lines[0] if lines else "", faults)

@@ -37,9 +37,9 @@ here = pixels(render(life, SCRATCH / "here", "-f", 0, "--encoding", "display", "
 moved = from_elsewhere(life, 0, "moved", "place: [-0.45, 0, 0]\n")
 check(equal_share(there, here) < 0.9, f"the program's frames differ: {equal_share(there, here)}")
 share = equal_share(there, pixels(moved[0]))
-check(share >= 0.999, f"frame 0 from frame 3's place is frame 3: {share}")
+check(share >= 0.999, f"frame 0 seen from frame 3's place equals frame 3: {share}")
 own = from_elsewhere(life, 0, "own", "place: [0, 0, 0]\nlook_at: [0, 0, -1]\n", "--aov", "gl")
-check(pixels(own[0]) == here, "from the recorded place it is the recorded picture")
+check(pixels(own[0]) == here, "from the recorded place, the recorded picture")
 check(
     Image(moved[0], ["R"]).attributes["relume:camera"].decode().startswith("at -0.45 0 0, towards 0 0 -1"),
     "the picture records its camera")
@@ -96,7 +96,7 @@ check(done.stdout.count("leave") == 4, f"existing pictures are kept: {done.stdou
 must(relume("farm", "submit", "--local", life, "-f", 2, "--chunk", 3, "-o", SCRATCH / "farm.####.exr", "--", "--camera",
             file, "--encoding", "display"))
 check([p.read_bytes() for p in sorted(SCRATCH.glob("farm.*.exr"))] == [p.read_bytes() for p in made],
-      "a farm divides the pictures of a turntable")
+      "a farm splits a turntable's pictures")
 done = relume("farm", "status", SCRATCH / "farm.farm")
 check("frames 4 of 4 whole" in done.stdout, f"status counts them: {done.stdout}")
 

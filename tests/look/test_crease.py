@@ -46,13 +46,13 @@ for by in ("faces", "flat"):
     off, on, few = (differences(planes, truth)[0] for planes in (bare, smooth, sharp))
     check(on < 1 and off > 3 and on < off / 5,
           f"{by}: the ball is round: {on:.2f} of 255, and {off:.2f} without the rule")
-    check(few > 3, f"{by}: at 4 degrees it has its faces: {few:.2f}")
+    check(few > 3, f"{by}: at 4 degrees it keeps its facets: {few:.2f}")
     check(differences(smooth, picture(by, 0.001))[1] < 1, f"{by}: sharp edges stay sharp")
 check(differences(picture("faces", 40), picture("faces", 40, "--device", "0"))[0] < 0.1, "a device and the twins agree")
-check(all(math.isfinite(v) for row in picture("faces", 180)["R"] for v in row), "an angle of 180 degrees makes no NaN")
+check(all(math.isfinite(v) for row in picture("faces", 180)["R"] for v in row), "an angle of 180 degrees gives no NaN")
 
 SCRATCH.joinpath("bad.yaml").write_text(ROUND.format(200))
 done = relume("render", SCRATCH / "faces.trace", "-f", 1, "-o", SCRATCH / "bad.exr", "--look", SCRATCH / "bad.yaml")
 check(done.returncode == 3 and "crease is 200" in done.stderr and not (SCRATCH / "bad.exr").exists(),
-      f"a wrong angle is one line: {done.stderr}")
+      f"a wrong angle gives one line: {done.stderr}")
 finish()

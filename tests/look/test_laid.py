@@ -46,7 +46,7 @@ for kind in ("lit", "unlit", "plain", "thrown"):
     for role, times in (("sky", 1), ("decal", kind != "plain"), ("blob shadow", kind != "plain")):
         check(text.count(f"- role: {role}\n") == times, f"{kind}: {role}: {text}")
     check(("left_out: yes" in text) == (kind != "plain") and ("role: sun" in text) == (kind == "unlit"),
-          f"{kind}: a light, and no blob beside it: {text}")
+          f"{kind}: a light, and no second blob: {text}")
 
 for kind in ("lit", "plain"):
     rules[kind].write_text(without_dome(rules[kind].read_text()))
@@ -82,7 +82,7 @@ text = rules["unlit"].read_text()
 found = [float(x) for x in re.search(r"role: sun$.*?position: \[(.*?)\]", text, re.M | re.S)[1].split(",")]
 check(
     sum((a - b)**2 for a, b in zip(found, (0.2336, 0.4269, -0.8736, 0))) < 0.01**2,
-    f"the sun is where the sky has it: {found}")
+    f"the sun is where the sky shows it: {found}")
 check(text.count("- role: lamp\n") == 1 and text.count("- role: light of a lamp\n") == 1, f"the lamp shines: {text}")
 check(
     worst(unlit, shaped, GL) == 0

@@ -33,7 +33,7 @@ for lighting, role in (("multitexture", "lightmap in a second unit"), ("pass", "
 record(SCRATCH / "paint.trace", corpus("rooms"), "--seed", 3, "--lights", 2, "--frames", 1, "--lighting", "paint",
        options=())
 must(relume("look", SCRATCH / "paint.trace", "-o", SCRATCH / "paint.look.yaml"))
-check("vertex colours" not in (SCRATCH / "paint.look.yaml").read_text(), "paint is no light")
+check("vertex colours" not in (SCRATCH / "paint.look.yaml").read_text(), "paint is not taken for light")
 
 
 def walls_alone(cut, *level, frame=0):
@@ -56,7 +56,7 @@ def relit(name, frame=0):
 def check_albedo(name, image, texture):
     off = max(
         abs(a - b) for c in "RG" for p, q in zip(image.planes[f"albedo.{c}"], texture[f"gl.{c}"]) for a, b in zip(p, q))
-    check(off < 0.005, f"{name}: the albedo is the texels that the program drew: {off}")
+    check(off < 0.005, f"{name}: the albedo equals the drawn texels: {off}")
 
 
 # The relit picture equals the program's within the lightmaps' precision, and the albedo does not depend on how the

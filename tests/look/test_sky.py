@@ -13,7 +13,7 @@ trace, rules = SCRATCH / "courtyard.trace", SCRATCH / "courtyard.look.yaml"
 record(trace, corpus("courtyard"), "--frames", 2, "--animate", "camera", "--size", "400x300")
 must(relume("look", trace, "-o", rules))
 text = rules.read_text()
-check("role: sky light" in text and "space: world" in text, f"there is a sky light, and up is known: {text}")
+check("role: sky light" in text and "space: world" in text, f"a sky light is found, and the up direction: {text}")
 
 SHOWN = {f"{layer}{c}" for layer in ("", "gl.", "shadow.") for c in "RGB"}
 bare, lit = SCRATCH / "bare", SCRATCH / "lit"
@@ -27,7 +27,7 @@ def mean(planes, channel, x0, y0, x1, y1):
 
 open_ground, between_crates = mean(after, "shadow.G", 250, 200, 270, 215), mean(after, "shadow.G", 78, 150, 84, 190)
 check(open_ground > 0.9, f"open ground keeps {open_ground:.2f} of its light")
-check(between_crates < 0.75, f"between crates {between_crates:.2f} of it is left")
+check(between_crates < 0.75, f"between crates it keeps {between_crates:.2f} of its light")
 code, score = diff(trace, lit)
 check_gates(score, 2, "courtyard")
 check(score["frames"][-1]["gates"]["N"]["state"] == "passed", f"{score['frames'][-1]['gates']['N']}")
@@ -74,7 +74,7 @@ edited = SCRATCH / "edited.yaml"
 edited.write_text("surfaces:\n  - dome: no\n" + text[text.index("sky:"):])
 render(trace, SCRATCH / "none", "-f", 1, "--look", edited)
 none = Image(SCRATCH / "none" / "courtyard.0001.exr", SHOWN).planes
-check(all(none[c] == before[c] for c in "RGB"), "with dome: no everywhere the beauty is as without rules")
+check(all(none[c] == before[c] for c in "RGB"), "with dome: no everywhere, the beauty equals that without rules")
 for bad in ("sky: { up: [0, 1, 0] }\n", "sky: { reach: 0 }\n", "sky: { reach: 1, up: [0, 0, 0] }\n",
             "sky: { reach: 1, space: moon }\n"):
     edited.write_text(bad)

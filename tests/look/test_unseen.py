@@ -49,7 +49,7 @@ relume("look", SCRATCH / "portal.trace", "-o", found)
 found.write_text(found.read_text().replace("unseen:\n", "unseen:\n  - frame: 3\n", 1))
 done = relume("render", SCRATCH / "portal.trace", "-f", FRAME, "-o", SCRATCH / "x.exr", "--look", found)
 check(done.returncode == 3 and "needs a frame and draws" in done.stderr,
-      f"a rule without draws is no rule: {done.stderr}")
+      f"a rule without draws is refused: {done.stderr}")
 
 stair = SCRATCH / "stair.trace"
 record(stair, BUILD / "tests/real/stair")

@@ -38,7 +38,7 @@ places = [abs(around[f"P.{c}"][:N, N:2 * N] - straight[f"P.{c}"]) / -straight["P
 off = numpy.mean(numpy.max(places, axis=0) > 1e-3)
 check(off < 0.01, f"a cube's front shows the same places as a 90-degree pinhole: {100 * off:.2f} % differ")
 off = float(numpy.median(abs(front - pinhole)))
-check(off < 0.02, f"and their colours: {off:.4f} in the median")
+check(off < 0.02, f"a cube's front shows the same colours: {off:.4f} in the median")
 seams = {"left": (cube[:N, N - 1], cube[:N, N]), "right": (cube[:N, 2 * N - 1], cube[:N, 2 * N]),
          "down": (cube[N, :N], front[N - 1]), "up": (cube[2 * N - 1, 2 * N:], front[0])}
 for side, (one, other) in seams.items():
@@ -96,7 +96,7 @@ distance = -sharp["P.Z"]
 change = abs(picture(sharp) - picture(blurred)).max(axis=-1)
 near, far = (float(numpy.mean(change[part]))
              for part in (abs(distance - 5) < 0.4, (distance > 12) & (distance < 1e3)))
-check(far > 1.5 * near, f"off focus more changes: {near:.4f} at its distance, {far:.4f} far off")
+check(far > 1.5 * near, f"more changes out of focus: {near:.4f} at its distance, {far:.4f} far off")
 
 for what, text, words in (
     ("no such kind", "kind: fisheye\n", "panorama"), ("no eyes", "kind: stereo\n", "eyes"),

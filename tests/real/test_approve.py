@@ -114,6 +114,6 @@ check(found[1] == "failed" and '"approved": "data:image/png' in (SCRATCH / "page
 sheet.write_text(sheet.read_text().replace("version: 1", "version: one"))
 done = relume("diff", trace, out, "--baseline", base)
 check(done.returncode == 3 and "line 2" in done.stderr, f"a damaged file: {done.stderr}")
-check(relume("approve", trace, base).returncode != 0, "a trace is no set of traced frames")
+check(relume("approve", trace, base).returncode != 0, "a trace is not a set of traced frames")
 check(relume("approve", out).returncode == 2, "two names are required")
 finish()

@@ -54,7 +54,7 @@ shares = [int(n) for n in re.findall(r"^  device \d+: (\d+) frames?", shared.std
 check(
     len(shares) == 2 and min(shares) > 0 and sum(shares) == 60,
     f"two devices share sixty frames: {shared.stderr[-400:]}")
-check(files(SCRATCH / "shared") == files(SCRATCH / "alone"), "two devices leave the bytes of one")
+check(files(SCRATCH / "shared") == files(SCRATCH / "alone"), "two devices write the bytes of one")
 
 # Complete frames are kept; those that are torn, zeroed, missing or made with other settings are rendered.
 done = render("--skip-existing")

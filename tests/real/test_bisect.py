@@ -65,9 +65,9 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
           "its pictures")
     check(
         relume("bisect", good, out / "argument.trace", "--by", "pictures", "-p", "0").returncode == 125,
-        "no pictures, no verdict")
+        "without pictures there is no verdict")
     check(relume("bisect", good, out / "missing.trace").returncode == 125, "no such recording")
     (out / "cut.trace").write_bytes(good.read_bytes()[:300])
-    check(relume("bisect", good, out / "cut.trace").returncode in (1, 125), "a recording that was cut")
+    check(relume("bisect", good, out / "cut.trace").returncode in (1, 125), "a truncated recording")
     check(relume("bisect", good).returncode == 2, "one recording cannot be compared")
 finish()

@@ -26,7 +26,7 @@ def kept(folder):
 record(TRACE, corpus("cornell"), "--frames", "1", "--mesh", options=())
 home = dict(os.environ, XDG_CACHE_HOME=str(SCRATCH / "home"))
 want, said = render("without", "--no-cache", env=home)
-check(not kept(SCRATCH / "home"), f"--no-cache leaves {kept(SCRATCH / 'home')}")
+check(not kept(SCRATCH / "home"), f"--no-cache leaves files: {kept(SCRATCH / 'home')}")
 
 check(render("first", "--cache", FOLDER)[0] == want, "a run that stores a tree: the frame differs")
 files = kept(FOLDER)
@@ -56,7 +56,7 @@ runs = [
 check([run.wait(timeout=120) for run in runs] == [0, 0], "two runs at once fail")
 check(all((SCRATCH / f"both{i}.0.exr").read_bytes() == want for i in range(2)), "two runs at once: the frame differs")
 check([f.name for f in kept(shared)] == [files[0].name] and kept(shared)[0].read_bytes() == whole,
-      f"two runs keep {kept(shared)}")
+      f"two runs store {kept(shared)}")
 
 frame, said = render("nowhere", "--cache", "/dev/null/trees")
 check(frame == want, "without a folder: the frame differs")

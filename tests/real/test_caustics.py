@@ -26,7 +26,7 @@ value, x, y = brightest(all_channels)
 floor, above = all_channels.planes["albedo.R"][y][x], [v for row in all_channels.planes["caustics.R"][:6] for v in row]
 check(value > floor > 0,
       f"the ball focuses: {value:.2f} at {x}, {y}, where a light alone gives {floor:.2f} at most")
-check(max(above) == 0, "the sky gathers none")
+check(max(above) == 0, "the sky receives none")
 few = render("few.exr", "--aov", "gl,caustics")
 check("shadow.R" not in few.names and few.planes["caustics.G"] == all_channels.planes["caustics.G"],
       f"the same channels alone: {few.names}")

@@ -294,7 +294,7 @@ def test_jobs():
         and not junit_faults(KEPT / "a/junit.xml"), f"pictures have changed: {said(done)}")
     write("relume-ci.yaml", TIMED[:TIMED.index("- {name: d")])
     if not shutil.which("xvfb-run"):
-        print("no xvfb-run here: displays of their own were not tried")
+        print("no xvfb-run here: separate displays were not tested")
         return
     done = server("-j", "3", "--xvfb", start=None)
     check(done.returncode == 0 and "a: passed\nb: passed\nc: passed\n" in done.stdout and not annotations(done.stdout),

@@ -95,12 +95,12 @@ must(relume("denoise", SCRATCH / "mixed", "-o", SCRATCH / "mixed.exr", "-f", "2"
 planes = [Image(SCRATCH / name).planes["R"][HEIGHT // 2 - 1] for name in ("mixed.exr", "space.0002.exr")]
 check(
     sum(planes[0]) < 1.02 * sum(planes[1]),
-    f"pixels at a surface's border keep their own light: {sum(planes[0]) / sum(planes[1]):.4f}")
+    f"pixels at a surface's border are not mixed with others: {sum(planes[0]) / sum(planes[1]):.4f}")
 
 image = Image(SCRATCH / "time.0002.exr")
 check({"R", "G", "B", "albedo.R", "N.X", "Z", *MOTION} <= set(image.names), f"channels: {image.names}")
 check(not [n for n in image.names if n.split(".")[0] in ("shadow", "reflect", "refract")],
-      f"effects are gone: {image.names}")
+      f"effect channels are removed: {image.names}")
 check(image.attributes.get("relume:time") == b"7", "attributes stay")
 
 must(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "one.exr", "-f", "2"))
@@ -117,7 +117,7 @@ check(poor.returncode == 3 and "albedo.G" in poor.stderr and not list(SCRATCH.gl
       f"no albedo: {poor.returncode} {poor.stderr}")
 check(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "x.png").returncode == 2, "no PNG")
 check(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "x.exr").returncode == 2, "five frames need five names")
-check(relume("denoise", SCRATCH / "none", "-o", SCRATCH / "x.####.exr").returncode == 3, "a folder that is not there")
+check(relume("denoise", SCRATCH / "none", "-o", SCRATCH / "x.####.exr").returncode == 3, "a missing folder")
 
 # Open Image Denoise itself is compared by make show-denoise
 with_oidn = relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "oidn.####.exr", "--oidn")

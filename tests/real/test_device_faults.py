@@ -103,7 +103,7 @@ for what, env, words in (("100 KB of memory", {"AS_MEMORY": "100000"}, "are need
     done = render(scene, folder, fake(AS_TYPE="gpu", **env), *FRAMES)
     check(done.returncode == 5 and len(lines_of(done)) == 1 and words in done.stderr,
           f"{what}: exit code {done.returncode}: {done.stderr}")
-    check(not files(SCRATCH / folder), f"{what}: something was written: {list(files(SCRATCH / folder))}")
+    check(not files(SCRATCH / folder), f"{what}: files were written: {list(files(SCRATCH / folder))}")
     needed = re.search(r"(\d+) MiB are needed on this device, which has (\d+)", done.stderr)
     check(not needed or int(needed[1]) > int(needed[2]), f"{what}: needs more than available: {done.stderr}")
 

@@ -49,7 +49,7 @@ for kind, family in (("cpu", "packets"), ("gpu", "compressed"), ("accelerator", 
         must(render(f"{kind}-{choice}", "-f", "0-1", "--device", choice, env=env))
         check(files(SCRATCH / f"{kind}-{choice}").keys() == whole.keys(), f"--device {choice}: frames")
     other = {n for n, data in files(SCRATCH / f"{kind}-{kind}").items() if data != whole[n]}
-    check(not other, f"a device of type {kind} leaves other files: {other}")
+    check(not other, f"a device of type {kind} writes other files: {other}")
 done = must(relume("bench", "--models", "", "--repeat", 1, "--json", env=fake(AS_TYPE="gpu"), timeout=150))
 measured = {figure["kernel"] for figure in json.loads(done.stdout)["figures"]}
 check(
@@ -85,7 +85,7 @@ for name, words in (("AS_MEMORY", "are needed on this device, which has 2"), ("A
     lines = [line for line in done.stderr.splitlines() if line.startswith("relume: ")]
     check(done.returncode == 5 and len(lines) == 1 and words in lines[0],
           f"{name}: exit code {done.returncode}, {done.stderr}")
-    check(not files(SCRATCH / "small"), f"{name}: something was written")
+    check(not files(SCRATCH / "small"), f"{name}: files were written")
 
 # Messages distinguish between no driver and a driver without a device.
 (SCRATCH / "vendors").mkdir()
@@ -95,7 +95,7 @@ for name, env, words in (("no driver", {"OCL_ICD_VENDORS": str(SCRATCH / "vendor
                           "1 driver is installed, without a device here (CL_DEVICE_NOT_FOUND)")):
     done = render("none", "-f", "0", env=dict(os.environ, **env))
     check(done.returncode == 5 and words in done.stderr, f"{name}: exit code {done.returncode}, {done.stderr}")
-    check(not files(SCRATCH / "none"), f"{name}: something was written")
+    check(not files(SCRATCH / "none"), f"{name}: files were written")
 
 # One of two devices fails during a run: the other takes over its frames, and every frame is written.
 must(render("alone"))

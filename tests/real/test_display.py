@@ -55,7 +55,7 @@ check(status == 0 and len(score["frames"]) == 4 and all(f["failing_pixels"] == 0
       "mode gl passes")
 must(relume("raster", trace, "-f", "1", "-o", SCRATCH / "raster.####.png"))
 apart = codes(out / "gl/s.0001.png") != codes(SCRATCH / "raster.0001.png")
-check(apart.mean() < 0.001, f"mode gl: {100 * apart.mean()} % of the codes are not those of the raster frame")
+check(apart.mean() < 0.001, f"mode gl: {100 * apart.mean()} % of the codes differ from the raster frame")
 
 # The same bytes in one run and in chunks; a second run keeps complete files and replaces torn ones.
 render("whole")

@@ -100,7 +100,7 @@ for name, change in (("four", ("--sattrib", "relume:white", "4")), ("quarter", (
     said[name] = film(f"{name}.webm", "--fps", "25", "--no-labels", of=SCRATCH / name)[0][0]
 asked = film("asked.webm", "--fps", "25", "--no-labels", "-f", "1", "--white", "4")[0][0]
 check((said["four"] == asked).all() and (asked[:, width + 4:] != traced).any(),
-      "frames that say white is at 4 look as with --white 4")
+      "frames that record white as 4 look like --white 4")
 check((said["quarter"][:, width + 4:] == traced).all(), "a white level of a quarter is refused")
 for what, was, now in (("the program's picture", shown, said["bright"][:, :width]), ("the frame", traced,
                                                                                        said["bright"][:, width + 4:])):
@@ -174,7 +174,7 @@ check("ffmpeg" in film("none.webm", code=5, env=dict(fake, PATH="/nowhere")), "w
 check("ffmpeg" in film("broken.webm", code=5), "an ffmpeg that fails")
 said = film("film.avi", code=2)
 check(all(kind in said for kind in (".webm", ".mp4", ".mkv")), f"the known endings are listed: {said}")
-check("--raster" in film("gl.webm", of=pngs, code=3), "PNG frames hold no raster picture")
+check("--raster" in film("gl.webm", of=pngs, code=3), "PNG frames contain no raster picture")
 check("none of the frames" in film("far.webm", "-f", "77", code=3), "no such frame")
 
 # The report plays the film.

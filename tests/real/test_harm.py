@@ -35,7 +35,7 @@ board = {
     for shown in ("board_quad", "board_blit", "board_shader")
 }
 dark = sum(share < 0.9 for row in board["board_quad"] for share in row)
-check(5000 < dark < 50000, f"{dark} pixels of the board lie in shadow")
+check(5000 < dark < 50000, f"{dark} pixels of the board are in shadow")
 for way in ("board_blit", "board_shader"):
     check(board["board_quad"] == board[way], f"by a quad and by {way[6:]} the board is the same")
 finish()

@@ -15,7 +15,7 @@ groups = {
 }
 check(
     list(groups) == ["First steps", "Record and inspect", "Render", "Compare", "Farm", "Research", "Help"],
-    f"help groups the verbs: {list(groups)}")
+    f"the verbs are in groups: {list(groups)}")
 check(groups["First steps"] == ["record", "info", "render", "look", "film", "diff", "approve", "ci"],
       f"the first group has eight verbs: {groups['First steps']}")
 check(sum(groups.values(), []) == verbs and len(set(verbs)) == len(verbs), f"each verb is in one group: {groups}")

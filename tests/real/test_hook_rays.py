@@ -52,7 +52,7 @@ PIXELS = 160 * 120
 SHADOW = [f"shadow.{c}" for c in "RGB"]
 plain = picture("plain", channels=["R", "G", "B", "id", "Z", "gl.R", "gl.G", "gl.B", *SHADOW])
 shaded = [(x, y) for y in range(120) for x in range(160) if min(plain.at(c, x, y) for c in SHADOW) < 1]
-check(len(shaded) > 500, f"{len(shaded)} pixels lie in shadow")
+check(len(shaded) > 500, f"{len(shaded)} pixels are in shadow")
 
 # Any hit: no surface for any ray; none for shadow rays; none in mirrors.
 none = picture("none", {"any_hit": "return relume_ignore();", **SKY},
@@ -114,7 +114,7 @@ check(
     f"a box given by its planes is that box: {differing(same, traced, most=0.01)} pixels differ")
 check(
     differing(same, traced, "Z", most=0.001) < PIXELS / 200,
-    f"as far away: {differing(same, traced, 'Z', most=0.001)} pixels differ")
+    f"at the same distance: {differing(same, traced, 'Z', most=0.001)} pixels differ")
 gone = differing(missing, traced, most=0.01)
 check(gone > sum(plain.at("id", x, y) == BOX for y in range(120) for x in range(160)),
       f"without hits the box is gone, with its shadow and in the mirror: {gone}")

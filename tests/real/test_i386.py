@@ -11,7 +11,7 @@ PROGRAM = BUILD / "i386/windows"
 GEARS = "glxgears.i386-linux-gnu"
 
 if not (BUILD / "lib/i386-linux-gnu/librelume.so").exists() or not PROGRAM.exists():
-    skip("'make i386' has not been run: no recorder for programs of 32 bits")
+    skip("'make i386' has not been run: no recorder for 32-bit programs")
 
 source, parent = SCRATCH / "parent.c", SCRATCH / "parent"
 source.write_text("#include <unistd.h>\nint main(int n, char **v) { return n > 1 ? execv(v[1], v + 1) : 1; }\n")

@@ -61,7 +61,7 @@ chain = sorted(SCRATCH.glob("near.*.exr"))
 check(len(chain) == len(range(near, last + 1, 7)), f"all frames exist: {chain}")
 if (last - near) % 7 == 0:
     check((SCRATCH / f"near.{last}.exr").read_bytes() == (SCRATCH / f"jump.{last}.exr").read_bytes(),
-          "the same bytes by a jump and step by step")
+          "the same bytes by seeking and step by step")
 
 # Another trace under the same name, damage, and a file that is not an index: noticed, and the index is rebuilt.
 good = index_of(live).read_bytes()
@@ -73,13 +73,13 @@ for what, data in (("its middle", good[:len(good) // 2] + b"\0" * 64 + good[len(
     check("rebuilding it" in done.stderr or "damaged" in done.stderr or index_of(live).read_bytes() == data,
           f"damage of {what} is said: {done.stderr}")
     found, said = facts(live, "--check")
-    check(found["frames"] == 400, f"damage of {what}: the index is right again: {found} {said}")
+    check(found["frames"] == 400, f"damage of {what}: the index is rebuilt: {found} {said}")
 shutil.copy(trace, live)
 found, said = facts(live)
 check("out of date; rebuilding it" in said and found["frames"] == last + 1, f"another trace under the same name: {said}")
 os.utime(live)
 found, said = facts(live)
-check(not said and found["build_us"] == 0, f"a copy with another time is the same trace: {said}")
+check(not said and found["build_us"] == 0, f"a copy with another time counts as the same trace: {said}")
 
 # If no file can be written beside the trace, the index goes to the cache folder; if that cannot be written either, the
 # run continues without an index.
@@ -87,7 +87,7 @@ index_of(live).unlink()
 index_of(live).mkdir()
 env = dict(os.environ, XDG_CACHE_HOME=str(SCRATCH / "cache"))
 found, _ = facts(live, env=env)
-check(found["index"].startswith(str(SCRATCH / "cache")), f"the cache folder takes the index: {found}")
+check(found["index"].startswith(str(SCRATCH / "cache")), f"the index is in the cache folder: {found}")
 found, _ = facts(live, env=env)
 check(found["build_us"] == 0, "the index is found in the cache folder")
 done = must(

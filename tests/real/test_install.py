@@ -56,14 +56,14 @@ if with_i386:
     done = must(
         on_display(relume, "record", "-o", SCRATCH / "i386.trace", "--", BUILD / "i386/two_triangles", "--frames", "3"))
     check("3 frames" in done.stderr and "preloaded" not in done.stderr,
-          f"the installed command records a program of 32 bits: {done.stderr}")
+          f"the installed command records a 32-bit program: {done.stderr}")
 else:
     check(not (PREFIX / "lib/relume/lib").exists(), "no folder for two recorders if there is only one")
 must(run(relume, "render", SCRATCH / "gears.trace", "-f", "2", "-o", SCRATCH / "gears.####.exr"))
 check((SCRATCH / "gears.0002.exr").exists(), "the installed command renders")
 done = run(relume, "diff", "--report", SCRATCH / "report", SCRATCH / "gears.0002.exr", SCRATCH / "gears.0002.exr")
 check(done.returncode == 0 and (SCRATCH / "report/sheet.png").exists(),
-      f"and scores, with pictures: {done.returncode}, {done.stderr}")
+      f"the installed command scores, with pictures: {done.returncode}, {done.stderr}")
 
 check((PREFIX / "share/relume/score.schema.json").read_bytes() == (ROOT / "diff/score/score.schema.json").read_bytes(),
       "the schema of scores is installed")

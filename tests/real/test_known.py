@@ -13,7 +13,7 @@ render(trace, frames_of(trace), *AS_SHOWN)
 _, score = diff(trace, frames_of(trace))
 blame = score["frames"][0]["blame"]
 if MESA >= (25, 0):
-    check(not blame and score["frames"][0]["outcome"] == "passed", f"Mesa 25 draws them as OpenGL says: {blame}")
+    check(not blame and score["frames"][0]["outcome"] == "passed", f"Mesa 25 draws them as OpenGL specifies: {blame}")
     finish()
 check(blame and all("Mesa" in b.get("known", "") for b in blame), f"the failures are known: {blame}")
 check(all(b["box"][2] < 5 * 20 for b in blame), f"the five two-sided panels do not fail: {blame}")

@@ -10,7 +10,7 @@ PROGRAM = BUILD / "tests/real/multisampled"
 
 bare = on_display(PROGRAM, SCRATCH / "bare")
 if bare.returncode == 77:
-    skip("this GL has no visual with four samples a pixel")
+    skip("this GL has no visual with four samples per pixel")
 check(bare.returncode == 0, f"the program runs: {bare.stderr}")
 done = on_display(RELUME, "record", "-o", SCRATCH / "m.trace", "--ref", "color,depth", "--", PROGRAM,
                   SCRATCH / "recorded")

@@ -98,7 +98,7 @@ WANTED = {
 }
 
 if not shutil.which(browser.NAME):
-    skip(f"no {browser.NAME} here: the report's page is not operated")
+    skip(f"no {browser.NAME} here: the report's page was not tested")
 for side in ("ref", "run"):
     (SCRATCH / side).mkdir()
 for frame in range(N_FRAMES):

@@ -24,11 +24,11 @@ def picture(way):
 
 fixed = picture("fixed")
 shadowed = sum(value < 0.5 for row in fixed.planes["shadow.R"] for value in row)
-check(shadowed > 1000, f"{shadowed} pixels lie in shadow")
+check(shadowed > 1000, f"{shadowed} pixels are in shadow")
 for way, most in ODD_PIXELS.items():
     ours = picture(way)
     for name in SAME if way != "own" else ():  # its eye space is derived from the picture
-        check(ours.planes[name] == fixed.planes[name], f"by {way}: {name} is fixed function's")
+        check(ours.planes[name] == fixed.planes[name], f"by {way}: {name} equals fixed function's")
     for name in NEAR:
         odd = sum(
             abs(a - b) > NEAR_BY

@@ -98,7 +98,7 @@ for program in ("blocks", "courtyard"):
     if empty is not None:
         done = relume("pick", trace, "-f", 1, f"{empty % image.width},{empty // image.width}")
         check(done.returncode == 2 and "nothing is drawn" in done.stderr and not done.stdout,
-              f"nothing there: {done.returncode}, {done.stderr}")
+              f"an empty pixel: {done.returncode}, {done.stderr}")
     check(relume("pick", trace, "-f", 7, "0,0").returncode == 2, "a missing frame")
 
 check(shared, "one rule needed a draw number")

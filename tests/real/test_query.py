@@ -37,7 +37,7 @@ through = query("nearest", [(0, 0, 0, 0, x, y, z, 1e9), (0, 0, 0, 0, x, y, z, 0.
 check(
     abs(float(through[0][0]) - 1) < 2e-3 and int(through[0][4]) == int(draw),
     f"the ray through that pixel ends there: {through[0]}, id {draw}")
-check(through[1] == ["-"] and through[2] == ["-"], f"before it, and behind the viewer, there is nothing: {through[1:]}")
+check(through[1] == ["-"] and through[2] == ["-"], f"no hit before it or behind the viewer: {through[1:]}")
 check(
     query("any", [(0, 0, 0, 0, x, y, z, 2), (0, 0, 0, 0, x, y, z, 0.5)], "-f", 1) == [["1"], ["0"]],
     "any hit gives the same")
@@ -80,10 +80,10 @@ for kind, (asked, answered) in BINARY.items():
 done = relume("query", "-f", 1, CORNELL, SCRATCH / "queries.txt")
 check(done.returncode == 0 and len(done.stdout.splitlines()) == 2 and done.stdout.splitlines()[1] == "-",
       f"comments: {done.stdout}{done.stderr}")
-check(query("nearest", [], "-f", 1) == [], "no queries, no answers")
+check(query("nearest", [], "-f", 1) == [], "no queries give no answers")
 check(
     query("nearest", [("nan", 0, 0, 0, 0, 0, -1, 9), (0, 0, 0, 0, 0, 0, "-inf", 9)], "-f", 1) == [["-"], ["-"]],
-    "no numbers find nothing")
+    "NaN queries find nothing")
 # No draw of this frame is depth-tested: an empty scene.
 empty = query("distance", [(0, 0, 0, 1e9)], "-f", 0, trace=ROOT / "tests/golden/two_triangles.trace")
 check(empty == [["-"]], f"a frame without depth: {empty}")

@@ -5,7 +5,7 @@ from exr import Image
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, diff, finish, on_display, record, render, skip
 
 if on_display(BUILD / "tests/real/elsewhere").returncode == 77:
-    skip("no other window can be read from")
+    skip("no other window can be the read drawable")
 trace = SCRATCH / "elsewhere.trace"
 said = record(trace, BUILD / "tests/real/elsewhere").stderr
 check(" 4 frames, " in said and said.count("another read drawable") == 1, f"it is said, once: {said}")

@@ -8,7 +8,7 @@ PROGRAM = BUILD / "tests/trace/frames"  # ten frames
 
 def told(name, *program, options=(), code=0):
     done = on_display(RELUME, "record", "-o", SCRATCH / name, *options, "--", *program)
-    check(done.returncode == code, f"{name}: exit code {done.returncode}, not {code}: {done.stderr}")
+    check(done.returncode == code, f"{name}: exit code {done.returncode}, expected {code}: {done.stderr}")
     return done.stderr
 
 

@@ -21,7 +21,7 @@ def reduce(trace, new, command, *options):
     done = must(relume("reduce", trace, "-o", new, "--when", command, *options, timeout=300))
     check(
         len(names(new)) == int(done.stdout.split(": ")[1].split(" of ")[0]),
-        f"tells how many calls are left: {done.stdout}")
+        f"reports the number of remaining calls: {done.stdout}")
     check(not run("apitrace", "dump", new).stderr, f"apitrace reads {new.name}")
     return names(new)
 

@@ -71,7 +71,7 @@ for trace in (live, ROOT / "tests/golden/cornell.trace"):
         cut.write_bytes(data[:len(data) * i // (CUTS + 1)])
         reads, _ = dump(cut)
         lines = repaired(cut, f"{trace.name} cut at {i} of {CUTS + 1}")
-        check(lines == whole[:len(lines)], f"{trace.name} cut at {i}: the calls are the recorded ones")
+        check(lines == whole[:len(lines)], f"{trace.name} cut at {i}: the calls equal the recorded ones")
         shown = [line for line in reads if "// incomplete" not in line]
         check(
             len(lines) >= len(shown),

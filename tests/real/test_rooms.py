@@ -38,5 +38,5 @@ wrong = SCRATCH / "wrong.level"
 wrong.write_text("subtract box 0 0 0 4 4 4 0\nadd cylinder 1 1 0.5 0 2 2 0\n")
 done = run(corpus("rooms"), "--level", wrong)
 check(done.returncode == 2 and f"{wrong}:2: " in done.stderr,
-      f"a level that is wrong is named with its line: {done.stderr}")
+      f"an invalid level is reported with its line: {done.stderr}")
 finish()

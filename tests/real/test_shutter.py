@@ -73,7 +73,7 @@ for file, (first, last) in zip(ends, ((-0.5, 0.5), (4.5, 5.5))):
           f"nothing moves before the first frame and after the last: from {first}")
 RATES = ("--recorded-fps", 10, "--fps", 3)
 slow = shutter("slow", *RATES, "--shutter", 0.6, "--samples", 64)
-check(error(red(slow[1]), 10 / 3 - 1, 10 / 3 + 1) < 0.01, "pictures of a rate: the shutter is open for two frames")
+check(error(red(slow[1]), 10 / 3 - 1, 10 / 3 + 1) < 0.01, "at another rate, the shutter is open for two frames")
 check(exr.attribute(slow[1], "relume:shutter") == b"0.6", "files record the shutter")
 
 MOTION = ("--aov", "gl,Z,id,P,motion")

@@ -25,10 +25,10 @@ def trimmed(trace, first, last, begins):
     done = must(relume("trim", "-f", f"{first}-{last}", "-o", new, trace))
     said = SAID.search(done.stdout)
     check(said and int(said[1]) == begins and int(said[2]) == last,
-          f"{trace.stem}: begins with frame {begins}: {done.stdout}")
+          f"{trace.stem}: starts with frame {begins}: {done.stdout}")
     check(said and bool(said[8]) == (begins < first),
           f"{trace.stem}: reports an earlier start: {done.stdout}")
-    check(begins == 0 or said and int(said[4]) < int(said[5]), f"{trace.stem}: calls were left out: {done.stdout}")
+    check(begins == 0 or said and int(said[4]) < int(said[5]), f"{trace.stem}: calls were omitted: {done.stdout}")
     info = relume("info", "--json", new)
     facts = json.loads(info.stdout or "{}")
     check(info.returncode == 0 and not info.stderr and facts["frames"] == last - begins + 1,
@@ -77,7 +77,7 @@ for name, trace in live.items():
     _, score = diff(new, SCRATCH / f"{name}.cut")
     _, whole = diff(trace, SCRATCH / f"{name}.whole", "-f", "3-4")
     check([f["gates"] for f in score["frames"]] == [f["gates"] for f in whole["frames"]] and len(score["frames"]) == 2,
-          f"{name}: scored as the whole one")
+          f"{name}: scored like the whole one")
 
 # In apitrace's recordings, client arrays precede each draw.
 for program, options in ((BUILD / "tests/trace/state", ()), (BUILD / "tests/bench/static_scene", ("changing", "6"))):

@@ -16,7 +16,7 @@ from helpers import (
 FRAMES = 10
 
 if not (BUILD / "windows/wgl.exe").exists() or not shutil.which("wine"):
-    skip("'make windows' has not been run: no programs of Windows")
+    skip("'make windows' has not been run: no Windows programs")
 
 both = wine.loader(BUILD)
 os.environ.update(wine.environment(SCRATCH / "wine"))
@@ -47,13 +47,13 @@ for name, options in {**wine.PROGRAMS, "wgl": ()}.items():
         continue
     of_linux = SCRATCH / f"{name}.linux.trace"
     record(of_linux, corpus(name), *options, *frames)
-    check(len(shown(trace)) == FRAMES and shown(trace) == shown(of_linux), f"{name}: pixels are those of Linux")
+    check(len(shown(trace)) == FRAMES and shown(trace) == shown(of_linux), f"{name}: pixels equal those of Linux")
     if both != "wine":
         of_32_bits = SCRATCH / f"{name}.32.trace"
         record(of_32_bits, both, BUILD / f"windows32/{name}.exe", *options, *frames)
         check_recording(of_32_bits, f"{name} of 32 bits")
         record(of_linux, BUILD / "i386/sse" / name, *options, *frames)
-        check(shown(of_32_bits) == shown(of_linux), f"{name} of 32 bits: pixels are those of Linux")
+        check(shown(of_32_bits) == shown(of_linux), f"{name} as a 32-bit program: pixels equal those of Linux")
 
 # Each class starts the other, using Wine's loaders for 32 and 64 bits in turn.
 if both != "wine":
@@ -65,7 +65,7 @@ if both != "wine":
                        "/c", *options, cwd=BUILD / folder))
         check(
             shown(trace) == shown(SCRATCH / f"{alone}.trace"),
-            f"{folder} started from {shell}: pixels are those of the program alone")
+            f"{folder} started from {shell}: pixels equal those of the program alone")
 else:
     print("not tested: 32-bit programs ('make i386 windows' has not been run)")
 run("wineserver", "-k")

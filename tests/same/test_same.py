@@ -31,9 +31,9 @@ for trace, some in ((golden, None), (street, SOME), (hall, BEHIND)):
 told = Told(BUILD, golden, 1, SCRATCH / "controls")
 image, other = told.tell("-"), told.render(golden, 0, "other")
 verdict = compare(image, other, ROUNDS)
-check(verdict.same is False and verdict.share > 0.001 and verdict.draw, f"two frames are not the same: {verdict}")
+check(verdict.same is False and verdict.share > 0.001 and verdict.draw, f"two frames differ: {verdict}")
 other = told.tell("trimmed")
-check(compare(image, other, 0).same is True, "a picture is the same as itself")
+check(compare(image, other, 0).same is True, "a picture equals itself")
 for name, picture in (("R", "traced"), ("gl.R", "gl")):
     kept, other.planes[name] = other.planes[name], other.planes[name].copy()
     other.planes[name][300, 400] += 0.01
@@ -48,5 +48,6 @@ check(compare(image, other, ROUNDS).same is True, "moved by a pixel, it is equal
 
 told = Told(BUILD, ROOT / "tests/golden/two_triangles.trace", 1, SCRATCH / "flat")
 verdict = told.pair("lamps")
-check(verdict.same is None and str(verdict) == "no light has a place", f"without light no lamp, and why: {verdict}")
+check(verdict.same is None and str(verdict) == "no light has a place",
+      f"without light there is no lamp, with the reason: {verdict}")
 finish()

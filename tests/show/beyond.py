@@ -93,7 +93,7 @@ class Recordings:
 def show_sizes(shown, recordings):
     for name in PROGRAMS:
         passed, frames, fidelity = recordings.score(name)
-        shown.row(f"size: {name}, {WIDTH}x{HEIGHT} by {FACTOR} against one recorded so",
+        shown.row(f"size: {name}, {WIDTH}x{HEIGHT} scaled by {FACTOR}, against a recording of that size",
                   f"{passed} of {frames} frames pass, fidelity {fidelity:.3f} %", f"all, {FIDELITY} %",
                   passed == frames == FRAMES and fidelity >= FIDELITY, "Mesa")
     for name in ("hall", "spheres"):
@@ -103,8 +103,8 @@ def show_sizes(shown, recordings):
             recordings.seconds(*way)
         pairs = [[recordings.seconds(*way) for way in ways] for _ in range(RUNS)]
         cost = statistics.median(scaled / recorded for scaled, recorded in pairs)
-        shown.row(f"size: {name}, processor time beside one recorded so", f"{cost:.2f} times", f"{MOST_COST} times",
-                  cost <= MOST_COST)
+        shown.row(f"size: {name}, processor time relative to a recording of that size", f"{cost:.2f} times",
+                  f"{MOST_COST} times", cost <= MOST_COST)
 
 
 def show_moments(shown, recordings):

@@ -74,7 +74,7 @@ def build(source, program):
 def built(relume, work, name, line, instead, was, now):
     source = (ROOT / "corpus" / f"{name}.c").read_text()
     if source.count(line) != 1:
-        sys.exit(f"corpus/{name}.c: the line to change is not there once")
+        sys.exit(f"corpus/{name}.c: the line to change does not occur exactly once")
     for side, text in (("good", source), ("bad", source.replace(line, instead))):
         (work / f"{side}.c").write_text(text)
         build(work / f"{side}.c", work / side)

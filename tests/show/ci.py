@@ -130,7 +130,7 @@ class Repository:
         text, changed = source.read_text(encoding="utf-8"), []
         for was, now in pairs:
             if text.count(was) != 1:
-                sys.exit(f"{name}: corpus/still_life.c does not hold '{was}' once")
+                sys.exit(f"{name}: corpus/still_life.c does not contain '{was}' exactly once")
             changed.append((text.index(was), was, now))
         for at, was, now in sorted(changed, reverse=True):
             text = text[:at] + now + text[at + len(was):]
@@ -215,7 +215,7 @@ def main(build, only):
     shown = Shown(build, "ci")
     if not only or "touched" in only:
         wrong, n = touched(build) if shutil.which("strace") else ([], 0)
-        shown.row("touched files: wrong verdicts", f"{len(wrong)} of {n}" if n else "there is no strace", "0",
+        shown.row("touched files: wrong verdicts", f"{len(wrong)} of {n}" if n else "strace is not installed", "0",
                   not wrong if n else None)
         if only == ["touched"]:
             return shown.finish()

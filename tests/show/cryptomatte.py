@@ -79,7 +79,7 @@ def compare(build, program):
                 matte = planes[next(iter(planes))]
                 truth = numpy.isin(image.planes["id"], list(draws_of(scene, layer, name)))
                 if not truth.any():
-                    sys.exit(f"{program}: no pixel shows {name} of {layer}, which the manifest has")
+                    sys.exit(f"{program}: no pixel shows {name} of {layer}, although the manifest lists it")
                 wrong += int((matte != truth).sum())
             rows.append((layer, len(objects), wrong))
         return rows, json.loads(told.group(1))["version"]
@@ -95,7 +95,7 @@ def main(build):
             print(f"{name + ', ' + layer:32}{objects:9}{wrong:20}", flush=True)
             good &= wrong == 0
             rows.append({
-                "what": f"{name}, {layer}: pixels of {objects} mattes that are not the frame's", "figure": wrong,
+                "what": f"{name}, {layer}: pixels of {objects} mattes that differ from the frame", "figure": wrong,
                 "bar": 0, "peer": f"Blender {version}", "passed": wrong == 0
             })
     out = build / "show" / "cryptomatte.json"

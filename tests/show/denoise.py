@@ -95,11 +95,11 @@ def loaded(build, rows):
         most = {n: float(numpy.abs(colors(folder / f"{n}.exr") - own).max()) for n in ("render", "denoise")}
     passed = max(most.values()) <= 1e-3 < float(numpy.abs(noisy - own).max())
     print(
-        f"\n--oidn departs from OIDN by {most['render']:.5f} in relume render, by {most['denoise']:.5f} in relume "
+        f"\n--oidn differs from OIDN by {most['render']:.5f} in relume render, by {most['denoise']:.5f} in relume "
         f"denoise, at most",
         flush=True)
     rows.append({
-        "what": "--oidn beside OIDN itself, most of any pixel: render; denoise",
+        "what": "--oidn against OIDN itself, largest difference of a pixel: render; denoise",
         "figure": f"{most['render']:.5f}; {most['denoise']:.5f}", "bar": "0.001", "peer": None, "passed": passed
     })
     return passed
@@ -165,9 +165,9 @@ def films(build, many, frames, rows):
             f"{name:16}" + "".join(f"{figures[n]:9.4f}" for n in kinds) + "   " + ", ".join(f"{m:.4f}" for m in means),
             flush=True)
         rows.append({
-            "what": f"flicker over {frames} frames, moving {name}: alone; in time",
+            "what": f"flicker over {frames} frames, moving {name}: single frames; with neighbours",
             "figure": f"{figures['alone']:.4f}; {figures['time']:.4f}",
-            "bar": f"below {figures['noisy']:.4f}; below alone",
+            "bar": f"below {figures['noisy']:.4f}; below single frames",
             "peer": f"OIDN {figures['oidn']:.4f}; noisy {figures['noisy']:.4f}", "passed": passed
         })
     return good

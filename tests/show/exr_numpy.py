@@ -52,7 +52,7 @@ class Image:
         self.planes = {name: numpy.zeros((height, width), DTYPES[kind]) for name, kind in channels}
         compression = self.header["compression"][1][0]
         if compression not in LINES_PER_CHUNK:
-            raise ValueError("a compression that is not read here")
+            raise ValueError("unsupported compression")
         per_chunk = LINES_PER_CHUNK[compression]
         for offset in struct.unpack_from(f"<{-(-height // per_chunk)}Q", data, at):
             y, size = struct.unpack_from("<ii", data, offset)

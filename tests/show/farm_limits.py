@@ -106,12 +106,12 @@ def main(build, trace, frames=1_000_000):
     # Scale the recording to the length of the film.
     m["trace"] *= frames / m["frames"]
     print(
-        f"measured: start {m['start']:.2f} s, {m['frame']:.3f} s/frame, {1e3 * m['skip']:.3f} ms to read past a frame, "
-        f"{1e3 * m['look']:.2f} ms to look at one, {m['bytes'] / 1e6:.2f} MB/frame; trace of {frames:,} frames "
+        f"measured: start {m['start']:.2f} s, {m['frame']:.3f} s/frame, {1e3 * m['skip']:.3f} ms to skip a frame, "
+        f"{1e3 * m['look']:.2f} ms to check one, {m['bytes'] / 1e6:.2f} MB/frame; trace of {frames:,} frames "
         f"{m['trace'] / 1e9:.2f} GB"
     )
     print("assumed:  " + ", ".join(f"{name} {rate:g}" for name, rate in ASSUMED.items()))
-    print(f"status and retry look at every frame: {m['look'] * frames:.0f} s\n")
+    print(f"status and retry check every frame: {m['look'] * frames:.0f} s\n")
     ways = {
         "every task reads from the start of the trace": (m["trace"], lambda first: first * m["skip"]),
         "index: a task reads its own part": (None, lambda first: m["skip"]),

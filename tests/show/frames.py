@@ -173,7 +173,7 @@ def show_memory(show):
     trace = show.corpus("hall", "3840x2160", 3)
     for jobs in (1, 2, 8):
         most = show.render(trace, 3, "--jobs", jobs).gigabytes
-        show.say(f"hall 3840x2160, {jobs} frames under way: memory", most, f"{most:.2f} GB", BARS["memory"])
+        show.say(f"hall 3840x2160, {jobs} frames in parallel: memory", most, f"{most:.2f} GB", BARS["memory"])
 
 
 def show_start(show):
@@ -195,9 +195,9 @@ def show_pixels(show):
         show.render(trace, 1)
         ms, = medians(ROUNDS, [lambda: show.frame_ms(lambda n: show.render(trace, n), 1, many)])
         costs[size] = 1e6 * ms / (width * height)
-        show.say(f"hall {size}: a frame", ms, f"{ms:.0f} ms, {costs[size]:.0f} ns a pixel", None)
+        show.say(f"hall {size}: a frame", ms, f"{ms:.0f} ms, {costs[size]:.0f} ns per pixel", None)
     spread = max(costs.values()) / min(costs.values())
-    show.say("hall: dearest pixel / cheapest over the sizes", spread, f"{spread:.2f}", BARS["pixels"])
+    show.say("hall: highest / lowest cost per pixel over the sizes", spread, f"{spread:.2f}", BARS["pixels"])
 
 
 def main():

@@ -98,8 +98,8 @@ class Show:
         run(self.build / "relume", "render", self.traces[program], "-o", out, *look_file(self.work, options))
 
     def examples(self):
-        found = {path.stem for path in (ROOT / "corpus/hooks").glob("*.cl")}
-        self.row("examples of corpus/hooks/ that are rendered here", len(found & EXAMPLES.keys()),
+        found = {path.stem for path in (ROOT / "hooks").glob("*.cl")}
+        self.row("examples of hooks/ rendered here", len(found & EXAMPLES.keys()),
                  len(found | EXAMPLES.keys()), found == EXAMPLES.keys())
         for name, (program, *options) in EXAMPLES.items():
             rules = ROOT / f"corpus/hooks/{name}.look.yaml"
@@ -115,7 +115,7 @@ class Show:
                 self.row("example repeat: every number of every channel",
                          "the same" if same(hooked, plain) else "other", "the same", same(hooked, plain))
             else:
-                self.row(f"example {name}: pixels that it changes, of a hundred", round(share, 1),
+                self.row(f"example {name}: percentage of pixels changed", round(share, 1),
                          "more than 1, and all finite", share > 1 and bool(numpy.isfinite(a).all()))
 
     def repeat(self):
@@ -154,7 +154,7 @@ class Show:
         done = run("oclgrind", "--build-options", "-cl-opt-disable -D LANES_PORTABLE", "--max-errors", "2",
                    self.build / "relume", "hook", "--check", "--seconds", 300, path, good=False)
         said = "Invalid write of size 4" in done.stdout + done.stderr and "At line 6" in done.stdout + done.stderr
-        self.row("a wrong hook, a write beyond an array, under Oclgrind",
+        self.row("a wrong hook, an out-of-bounds write, under Oclgrind",
                  "Invalid write of size 4, At line 6" if said else (done.stdout + done.stderr)[-300:],
                  "the write and its line", said)
 

@@ -44,7 +44,7 @@ def show_journeys(shown, build):
         seconds = float((re.search(r"^([\d.]+) s of processor time", done.stdout, re.M) or [0, "inf"])[1])
         checks = re.search(r"Checks: (\d+), Failures: (\d+)", done.stdout)
         figure = f"{int(checks[1]) - int(checks[2])} of {checks[1]} checks, {seconds:.1f} s" if checks else f"exit code {done.returncode}"
-        shown.row(f"{name.replace('_', ' ')}, from start to a picture", figure,
+        shown.row(f"{name.replace('_', ' ')}, from the start to a picture", figure,
                   f"all checks, {MOST_SECONDS} s of processor time", done.returncode == 0 and seconds <= MOST_SECONDS)
 
 
@@ -63,7 +63,7 @@ def show_wrong_inputs(shown, build, tmp):
         good += not outcome.faults
         print(f"       {outcome.typed}\n           {outcome.code}  {outcome.line.removeprefix('relume: ')}",
               *outcome.faults, sep="\n           FAULT: ")
-    shown.row("wrong inputs: one line, the right exit code, nothing half-written",
+    shown.row("wrong inputs: one line, the right exit code, no partial output",
               f"{good} of {len(wrong_inputs.CASES)}", f"{WRONG} of {WRONG}", good == len(wrong_inputs.CASES) == WRONG)
 
 

@@ -184,15 +184,16 @@ def main(build):
             row(f"{lighting}: lights of {LEVELS} levels found, missed, invented",
                 ", ".join(str(n) for n in total.values()), "none missed or invented", not total["missed"]
                 and not total["invented"])
-            row(f"{lighting}: farthest off, of the level's size", f"{max(s['off'] for s in scores):.4f}", PLACE,
+            row(f"{lighting}: largest position error, relative to the level's size",
+                f"{max(s['off'] for s in scores):.4f}", PLACE,
                 max(s["off"] for s in scores) <= PLACE)
-            row(f"{lighting}: strength off at most", f"{max(s['strength_off'] for s in scores):.4f}", STRENGTH,
+            row(f"{lighting}: largest error of strength", f"{max(s['strength_off'] for s in scores):.4f}", STRENGTH,
                 max(s["strength_off"] for s in scores) <= STRENGTH)
-            row(f"{lighting}: mean FLIP of a relit level at most", f"{max(s['flip'] for s in scores):.4f}", FLIP,
+            row(f"{lighting}: largest mean FLIP of a relit level", f"{max(s['flip'] for s in scores):.4f}", FLIP,
                 max(s["flip"] for s in scores) <= FLIP)
             off = max(s["albedo_off"] for s in scores)
-            row(f"{lighting}: albedo off the texture's texels, as Mesa filters them, at most", f"{off:.4f}", ALBEDO, off
-                <= ALBEDO)
+            row(f"{lighting}: largest error of albedo against the texels as Mesa filters them", f"{off:.4f}", ALBEDO,
+                off <= ALBEDO)
             row(f"{lighting}: processor seconds of a study", f"{seconds / LEVELS:.2f}", None, None)
         for kind, key, true in (("planar", "position", (2, 2.5, -7, 1)), ("zpass", "position", (2, 2.5, -7, 1)),
                                 ("zfail", "position", (2, 2.5, -7, 1)), ("directional", "position",

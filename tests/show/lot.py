@@ -49,14 +49,15 @@ def count(seen, of, verdict):
 
 
 def show_verdicts(shown, seen, n):
-    shown.row("programs drawn, with a picture, and looked at", f"{len(seen)} of {n}", f"{n}", len(seen) == n)
+    shown.row("programs drawn, with a picture, and inspected", f"{len(seen)} of {n}", f"{n}", len(seen) == n)
     for of in ("default", "auto"):
         worse = count(seen, of, "worse")
         shown.row(f"{of}: worse than the raster frame", f"{len(worse)}: {', '.join(worse)}" if worse else "0", "0",
                   not worse)
     lit = [name for name, line in seen.items() if line["lit"]]
     better = [name for name in lit if "better" in (seen[name]["default"], seen[name]["auto"])]
-    shown.row("better, of those where anything is lit or casts", f"{len(better)} of {len(lit)}", f"{LEAST_BETTER:.0%}",
+    shown.row("better, among scenes that are lit or have shadows", f"{len(better)} of {len(lit)}",
+              f"{LEAST_BETTER:.0%}",
               len(better) >= LEAST_BETTER * len(lit))
 
 
@@ -86,7 +87,7 @@ def main():
         line = known.get(seed, {}).get(program.name)
         if line:
             seen[program.name] = line
-        print(f"{program.name}: {line or 'look at'} {path}", flush=True)
+        print(f"{program.name}: {line or 'inspect'} {path}", flush=True)
     show_verdicts(shown, seen, options.programs)
     sys.exit(shown.finish())
 

@@ -120,17 +120,18 @@ def main(build):
     streams = [bytes(mutate.unpack(trace.read_bytes(), HEAD)[:HEAD]) for trace in traces]
     share = COMMANDS // len(traces)
     for seed, trace in enumerate(traces):
-        row(f"{trace.stem}, by info and scene of the command", share,
+        row(f"{trace.stem}, through the command's info and scene", share,
             lambda trace=trace, seed=seed: mutate.main(trace, share, seed, HEAD))
     count = TRACES - share * len(traces)
     parts = [bytes([seeds.STREAM | verb]) + stream for stream in streams for verb in range(seeds.VERBS)]
-    row(f"{len(traces)} recordings, by {seeds.VERBS} verbs", count, lambda: drive(build, folder, "verbs", count, parts))
+    row(f"{len(traces)} recordings, through {seeds.VERBS} verbs", count,
+        lambda: drive(build, folder, "verbs", count, parts))
     seeds.make_seeds(build, build / "fuzz")
     for target in sorted(path.stem[5:] for path in (ROOT / "tests/fuzz").glob("fuzz_*.c")):
         parts = [path.read_bytes() for path in sorted((build / f"fuzz/seeds_{target}").glob("*"))] + seeds.read_pack(
             ROOT / f"tests/fuzz/kept_{target}")
         if target == "oiio":
-            row("pictures, by diff of the command", OTHERS,
+            row("pictures, through the command's diff", OTHERS,
                 lambda parts=parts: compare(build, folder, OTHERS, parts, mutate))
         elif target not in ("verbs", "replay", "calls"):
             row(target, OTHERS, lambda target=target, parts=parts: drive(build, folder, target, OTHERS, parts))

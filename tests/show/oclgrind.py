@@ -42,7 +42,7 @@ def main(build):
     rows = []
     for family in FAMILIES:
         pictures, problems = oclgrind(build, family)
-        rows.append({"what": f"{family}: {PICTURES} pictures, accesses out of bounds and races",
+        rows.append({"what": f"{family}: {PICTURES} pictures, out-of-bounds accesses and races",
                      "figure": f"{problems} in {pictures} pictures", "bar": f"0 in {PICTURES} pictures",
                      "peer": f"Oclgrind {version}", "passed": problems == 0 and pictures == PICTURES})
     for family in FAMILIES:

@@ -148,7 +148,7 @@ def main(build, many):
         same = abs(mean) < 0.005 and off < 3 * noise if name in EQUAL else None
         good &= same is not False
         print(
-            f"{'':14}at {seconds:.2f} s {figure:.5f} and {bar:.5f}: {bar / figure:.2f} times less; references: means "
+            f"{'':14}at {seconds:.2f} s {figure:.5f} and {bar:.5f}: {bar / figure:.2f} times lower; references: means "
             f"{100 * mean:+.2f} % apart, "
             f"pixels {off:.6f}, their noise {noise:.6f}", flush=True)
         rows.append({
@@ -157,7 +157,7 @@ def main(build, many):
             "peer": f"Cycles {version} {bar:.5f} in {seconds:.2f} s", "passed": passed
         })
         rows.append({
-            "what": f"{name}: references apart, mean; mean square of nine pixels in ten",
+            "what": f"{name}: difference of references: mean; mean square over nine tenths of the pixels",
             "figure": f"{100 * mean:+.2f} %; {off:.6f}", "bar": f"0.5 %; {3 * noise:.6f}" if name in EQUAL else None,
             "peer": None, "passed": same
         })

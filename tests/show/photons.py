@@ -30,7 +30,7 @@ def main(build):
                 r"(\d+) photons.*energy ([-+.\d]+) %.*pixels ([.\d]+) %.* ([.\d]+) %", done.stdout):
             shown.row(f"{name}: a glass ball's caustic, {photons} photons", f"energy {energy} %", "1 %",
                       abs(float(energy)) < 1)
-            shown.row(f"{name}: pixels off in the mean, of these blocks of 4 x 4", f"{pixels} %, {blocks} %", None,
+            shown.row(f"{name}: mean error of pixels; of blocks of 4 x 4", f"{pixels} %, {blocks} %", None,
                       None)
     return shown.finish()
 

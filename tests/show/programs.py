@@ -21,9 +21,9 @@ class Program:
     package: str
     command: tuple
     keys: tuple = ()
-    seconds: float = 0  # record for so long instead of a number of frames
+    seconds: float = 0  # record for this time instead of a number of frames
     ref_every: int = 5  # frames per reference frame
-    files: tuple = ()  # (name below the home folder, text) that must be there before the start
+    files: tuple = ()  # (name below the home folder, text) of files needed before the start
     group: str = ""  # its group in the sweep's counts
     environment: tuple = ()
 
@@ -66,7 +66,7 @@ OPEN = (
 
 # Hacks with GLSL shaders of their own, counted separately.
 WITH_SHADERS = {"etruscanvenus", "hypertorus", "klein", "projectiveplane", "romanboy", "sphereeversion"}
-# Installed beside the hacks and no hacks: a helper, and two that need the network.
+# Installed with the hacks, but not hacks: a helper, and two that need the network.
 NO_HACKS = {"xscreensaver-gl-visual", "mapscroller", "mapscroller.pl"}
 
 

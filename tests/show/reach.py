@@ -29,7 +29,7 @@ GATES = ("V", "R1", "R2", "R3", "R4", "R5", "P")
 
 
 def kinds(build):
-    """(kind, name, command that --frames N may follow, gates that can be measured)"""
+    """(kind, name, command that accepts --frames N, gates that can be measured)"""
     for name, options in wine.PROGRAMS.items():
         yield "Wine", name, ["wine", build / f"windows/{name}.exe", *options], GATES
     yield "Wine, 32 bits", "tricks", [wine.loader(build), build / "windows32/tricks.exe",
@@ -103,7 +103,7 @@ def show_deep(shown, build):
             ratios.append((frame_s / bare_s, frame_s, bare_s))
         ratio, frame_s, bare_s = sorted(ratios)[1]
         shown.row("256 blended slices of a volume, 512 x 512",
-                  f"{ratio:.1f} times llvmpipe's processor time ({frame_s:.2f} s and {bare_s:.2f} s a frame)",
+                  f"{ratio:.1f} times llvmpipe's processor time ({frame_s:.2f} s and {bare_s:.2f} s per frame)",
                   f"at most {DEEP_BAR} times", ratio <= DEEP_BAR)
 
 

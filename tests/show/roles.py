@@ -181,7 +181,7 @@ def score(build, work, row):
         name = entry.get("trace") or entry.get("program") or " ".join(str(x) for x in entry["record"][:2])
         trace = trace_of(entry, build, work)
         if not trace:
-            print(f"{name}: not there, not compared", flush=True)
+            print(f"{name}: missing, not compared", flush=True)
             continue
         seen = collections.Counter(compare(entry, trace, build, work))
         print(

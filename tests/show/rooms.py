@@ -67,9 +67,9 @@ def score_repair(build, row):
         r"(\d+) of \d+ meshes closed, (\d+) with their volume within 1e-05; the worst volume is off by (\S+);",
         done.stdout).groups()
     print(done.stderr, end="")
-    row("meshes broken at random that come back closed", f"{closed} of {MESHES}", f"{MESHES} of {MESHES}",
+    row("meshes broken at random that are closed again", f"{closed} of {MESHES}", f"{MESHES} of {MESHES}",
         int(closed) == MESHES)
-    row("meshes closed with their volume within 1e-5", f"{exact} of {MESHES}, the worst off by {worst}",
+    row("meshes closed with their volume within 1e-5", f"{exact} of {MESHES}, largest error {worst}",
         f"{MESHES} of {MESHES}",
         int(exact) == MESHES)
 

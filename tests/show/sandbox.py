@@ -69,14 +69,15 @@ def main(build):
         run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", work / "x.trace", "--", build / "corpus/cornell",
             "--frames", FRAMES)
         n, strangers, sockets, programs = traced(build, work)
-        row(f"files opened once confined, of {n}, that are not the verb's own", len(strangers), 0, not strangers)
+        row(f"files opened once confined, out of {n}, that are not the verb's own", len(strangers), 0, not strangers)
         print(*strangers, sep="\n")
         row("sockets opened", len(sockets), 0, not sockets)
         row("programs started", " ".join(programs) or "none", "ld",
             all(p.rsplit("/", 1)[1].startswith("ld") for p in programs))
         done = subprocess.run([ROOT / "tests/real/test_confined.py"], capture_output=True, text=True, check=False,
                               env=dict(os.environ, RELUME_BUILD=str(build.resolve())))
-        row("breaking out of eleven verbs", done.stdout.strip().splitlines()[-1], "no failure", done.returncode == 0)
+        row("attempts to break out of eleven verbs", done.stdout.strip().splitlines()[-1], "no failure",
+            done.returncode == 0)
         seconds(build, work)
         pairs = [(seconds(build, work), seconds(build, work, "--no-sandbox")) for _ in range(ROUNDS)]
         cost = 100 * (statistics.median(a for a, _ in pairs) / statistics.median(b for _, b in pairs) - 1)

@@ -136,7 +136,7 @@ def main(build, long_frames):
         if long_frames:
             _, _, _, early, late = busy(build, trace, long_frames, folder, ("--mode", "gl", "--aov", "gl"))
             rows.append({
-                "what": f"peak memory over {long_frames} frames, over that of the first third ({early >> 20} MiB)",
+                "what": f"peak memory over {long_frames} frames, relative to the first third ({early >> 20} MiB)",
                 "figure": f"{late / early:.2f}x", "bar": "1.1x", "peer": None, "passed": late <= 1.1 * early
             })
     for row in rows:

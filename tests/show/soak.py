@@ -218,17 +218,17 @@ class Soak:
         disk = self.work / "disk"
         disk.mkdir()
         if self.run("mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", disk).returncode:
-            print("a full disk: left out, as nothing can be mounted here")
+            print("a full disk: skipped, because nothing can be mounted here")
             return
         try:
             done = self.render(trace, disk)
             torn = [p.name for p in disk.iterdir() if p.suffix != ".exr"]
             said = done.stderr.strip().splitlines()
-            self.row("rendered onto a full disk: exit code", done.returncode, 5, done.returncode == 5 and not torn
+            self.row("rendered to a full disk: exit code", done.returncode, 5, done.returncode == 5 and not torn
                      and bool(said) and "No space" in done.stderr)
             self.run("mount", "-o", "remount,size=64m", disk)
             done = self.render(trace, disk, "--skip-existing")
-            self.row("and again once it has room: frames that differ", differing(plain, self.digests(disk)), 0,
+            self.row("rendered again once there is room: frames that differ", differing(plain, self.digests(disk)), 0,
                      done.returncode == 0 and self.digests(disk) == plain)
         finally:
             self.run("umount", disk)

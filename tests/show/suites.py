@@ -171,7 +171,7 @@ def show_demo(suite, shown):
         code == 0 and frames == f"{DEMO_FRAMES} of {DEMO_FRAMES} frames",
     )
     first = printed.split("\n", 1)[0]
-    shown.row(f"{suite.name}: its first line", first, "one of ours", first.startswith("install"))
+    shown.row(f"{suite.name}: first line of make demo", first, "one of ours", first.startswith("install"))
     code, seconds, printed = suite.run("demo-again", "cd relume && make demo")
     compiled = re.search(r"^build .* (\d+) files compiled$", printed, re.M)
     shown.row(
@@ -264,7 +264,7 @@ def show_arm64(suite, build, shown):
     say_tests(printed)
     same = [name for name in GOLDEN if same_pixels(suite, build, name)]
     shown.row(
-        "arm64: recordings that the reference device renders to the channels of x86, byte for byte",
+        "arm64: recordings rendered by the reference device to the same channels as on x86, byte for byte",
         f"{len(same)} of {len(GOLDEN)}",
         f"{len(GOLDEN)}",
         len(same) == len(GOLDEN),

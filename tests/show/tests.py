@@ -202,7 +202,7 @@ class Campaign:
                                                                                        for part in TWINS_TESTS):
                     continue
                 if time.monotonic() > end:
-                    print(f"{key} and those after it were not run yet")
+                    print(f"{key} and later tests have not been run yet")
                     break
                 path.write_bytes(bytes(1 + max(self.mutants.by_number)))
                 outcome, seconds = self.mutants.test(test, SLOW_S, RELUME_MUTANTS=str(path), **self.env(way))
@@ -312,7 +312,7 @@ def main(options):
                       noticed >= BAR * len(of) if folder == "all" else None)
     told = len(tried) - sum(not verdict["by"] and name in reasons for name, verdict in tried.items())
     if told:
-        shown.row(f"without {len(tried) - told} that change no result (left.txt)",
+        shown.row(f"without {len(tried) - told} mutants that change no result (left.txt)",
                   f"{noticed} of {told}: {100 * noticed / told:.1f} %", None, None)
     return shown.finish()
 
@@ -324,5 +324,5 @@ if __name__ == "__main__":
     parser.add_argument("--count", type=int, default=200, help="approximate number of mutants")
     parser.add_argument("--seconds", type=float, default=1e9,
                         help="wall time limit; the next run continues")
-    parser.add_argument("--most", type=float, default=120, help="seconds of processor time for a mutant")
+    parser.add_argument("--most", type=float, default=120, help="seconds of processor time per mutant")
     sys.exit(main(parser.parse_args()))

@@ -131,7 +131,7 @@ def povray(glb, folder):
     whole = time.monotonic() - begin
     found = re.findall(r"Trace Time:.*\(([0-9.]+) seconds\)", said)
     if not found:
-        sys.exit(f"POV-Ray does not tell its trace time:\n{said[-1500:]}")
+        sys.exit(f"POV-Ray does not report its trace time:\n{said[-1500:]}")
     return 1 / whole, 1 / max(float(found[-1]), 1e-3)
 
 
@@ -182,7 +182,7 @@ def main(build):
             f"{'holds' if passed else 'FAILS'}",
             flush=True)
         rows.append({
-            "what": f"{name}: times POV-Ray whole, times Cycles",
+            "what": f"{name}: ratio to POV-Ray (whole), ratio to Cycles",
             "figure": f"{whole / pov_whole:.1f}, {traced / cycles:.1f}", "bar": f"at least {BAR}",
             "peer": f"ours {whole:.2f}, {traced:.2f}; thesis {gtx} (GTX 970), {iris} (Iris 6100); POV-Ray "
                     f"{pov_whole:.2f}, {pov_traced:.2f}; "

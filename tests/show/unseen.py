@@ -11,7 +11,7 @@ import sheet
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SEEDS, FRAMES, SHOWN = (5, 7), 120, (6, 40, 90)
-BAR = 99 # per cent of the pixels
+BAR = 99 # percentage of the pixels
 NEAR = 2 # codes, of 255
 
 
@@ -45,11 +45,11 @@ def rows(build, work):
                 list_of.append(equal_share(work / "whole.exr", work / f"{name}.exr"))
         print(
             f"rooms {seed}, culled: equals the whole level on {min(shares['with']):.2f} % of the pixels of its worst "
-            f"frame (without what other frames "
+            f"frame (without geometry that other frames "
             f"draw: {min(shares['without']):.2f} %; bar: {BAR} %)", flush=True)
         yield {
             "what": f"rooms, seed {seed}: pixels of the culled recording that equal the whole one, worst of "
                     f"{len(SHOWN)} frames",
-            "figure": f"{min(shares['with']):.2f} % (without what other frames draw: {min(shares['without']):.2f} %)",
+            "figure": f"{min(shares['with']):.2f} % (without that of other frames: {min(shares['without']):.2f} %)",
             "bar": f"{BAR} %", "peer": None, "passed": min(shares["with"]) >= BAR
         }

@@ -44,7 +44,7 @@ int main(void)
 		glXMakeCurrent(display, None, NULL);
 		glXDestroyContext(display, context);
 		settled = i < SETTLED ? resident_bytes() : settled;
-		expect(resident_bytes() < settled + 3 * sizeof(corners), "contexts that are gone hold no memory");
+		expect(resident_bytes() < settled + 3 * sizeof(corners), "destroyed contexts hold no memory");
 	}
 	return 0;
 }

@@ -61,6 +61,6 @@ int main(void)
 	glClear(0x100000); /* an error that the program does not query before the frame is read back */
 	end_frame();
 	expect(glGetError() == GL_INVALID_VALUE, "the program's error is still there");
-	expect(glGetError() == GL_NO_ERROR, "and the recorder made none");
+	expect(glGetError() == GL_NO_ERROR, "the recorder caused no error");
 	return 0;
 }

@@ -23,7 +23,7 @@ int main(void)
 	glBegin(GL_POINTS);
 	glReadPixels(0, 0, 1, 1, GL_RGB, GL_UNSIGNED_BYTE, pixels); /* an error, which ends no frame */
 	glEnd();
-	expect(glGetError() == GL_INVALID_OPERATION, "no reading within Begin and End");
+	expect(glGetError() == GL_INVALID_OPERATION, "no reads between Begin and End");
 
 	glGenTextures(1, &texture);
 	glBindTexture(GL_TEXTURE_2D, texture);

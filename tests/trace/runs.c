@@ -50,7 +50,7 @@ int main(void)
 	glNewList(list, GL_COMPILE_AND_EXECUTE);
 	fan(0.25f);
 	glEndList();
-	expect(!glIsList(0xFFFFFF), "no list of the recorder's in the program");
+	expect(!glIsList(0xFFFFFF), "the program sees no list of the recorder's");
 	fan(0.25f);
 	glCallList(list);
 	fan(0.75f);

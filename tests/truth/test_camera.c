@@ -155,7 +155,7 @@ START_TEST(test_orthographic)
 		t.materials[0].back.emission[1] = 0.5f;
 		render_from(&t.scene, views[i].text, 0, "gl", &img);
 		count_lit(&img, views[i].x0, views[i].x1, views[i].y0, views[i].y1, &in, &out);
-		ck_assert_msg(out == 0, "case %zu: %d pixels elsewhere", i, out);
+		ck_assert_msg(out == 0, "case %zu: %d pixels outside", i, out);
 		ck_assert_int_ge(in, (views[i].x1 - views[i].x0 - (i == 3)) * (views[i].y1 - views[i].y0 - (i == 3)));
 		image_free(&img);
 		made_free(&t);

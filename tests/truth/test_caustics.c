@@ -151,7 +151,7 @@ static void check_ball(struct made *t, unsigned photons, const double (*ought)[S
 		}
 	for (int i = 0; i < SIZE / BLOCK * (SIZE / BLOCK); i++)
 		off_blocks += fabs(block[i / (SIZE / BLOCK)][i % (SIZE / BLOCK)]);
-	printf("a glass ball's caustic, %u photons, against %u paths a pixel: energy %+.2f %%; off in the mean: pixels "
+	printf("a glass ball's caustic, %u photons, against %u paths per pixel: energy %+.2f %%; mean error: pixels "
 	       "%.2f %%, blocks of %d x %d %.2f %%\n",
 	       photons, samples, 100 * (sum / all - 1), 100 * off / all, BLOCK, BLOCK, 100 * off_blocks / all);
 	fflush(stdout);

@@ -211,7 +211,7 @@ START_TEST(test_light_that_nothing_stops)
 		render_under(&t, text, &img);
 		for (uint32_t i = 0; i < SIZE * SIZE; i++)
 			dark += truth_at(&img, "R", i % SIZE, i / SIZE) < 0.2f;
-		ck_assert_msg(way & 1 ? dark > 10 : dark == 0, "%s: %d pixels lie in shadow", text, dark);
+		ck_assert_msg(way & 1 ? dark > 10 : dark == 0, "%s: %d pixels are in shadow", text, dark);
 		image_free(&img);
 	}
 	made_free(&t);

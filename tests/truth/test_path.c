@@ -72,7 +72,7 @@ START_TEST(test_integrating_sphere)
 	sum /= SIZE * SIZE;
 	squares = sqrt(squares / (SIZE * SIZE));
 	ck_assert_msg(fabs(sum) < 0.004 * (double)truth && squares < 0.07 * (double)truth,
-	              "off by %g in the mean, by %g a pixel; truth %g", sum, squares, (double)truth);
+	              "off by %g on average, by %g per pixel; truth %g", sum, squares, (double)truth);
 	truth_check_closure(&img);
 	image_free(&img);
 	made_free(&t);

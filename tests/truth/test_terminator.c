@@ -70,7 +70,8 @@ START_TEST(test_round_shape_shades_nothing_of_itself)
 
 			set_up(&t, scales[i], 0.4f * (float)k, w);
 			dark = shaded_pixels(&t, &lit);
-			ck_assert_msg(dark == 0, "scale %g, light %d: %u of %u lit pixels lie in shadow", (double)scales[i], k, dark, lit);
+			ck_assert_msg(dark == 0, "scale %g, light %d: %u of %u lit pixels are in shadow",
+			              (double)scales[i], k, dark, lit);
 			made_free(&t);
 		}
 }
@@ -122,7 +123,8 @@ START_TEST(test_thin_sheet_shades_nothing_of_itself)
 			made_add_light(&t, 5 * cosf(0.2f + 0.4f * (float)k), 3, 5 * sinf(0.2f + 0.4f * (float)k), 0);
 			made_add_triangles(&t, made_add_material(&t, 0.7f), corners, normals[i], 3);
 			dark = shaded_pixels(&t, &lit);
-			ck_assert_msg(dark == 0, "normals %d, light %d: %u of %u lit pixels lie in shadow", i, k, dark, lit);
+			ck_assert_msg(dark == 0, "normals %d, light %d: %u of %u lit pixels are in shadow", i, k, dark,
+			              lit);
 			seen += lit;
 			made_free(&t);
 		}

@@ -188,7 +188,8 @@ START_TEST(a_damaged_file_is_no_tree)
 		const uint8_t change = (uint8_t)(1u << i % 8);
 
 		write_byte(path[0], at, change);
-		ck_assert_msg(blas_store_load(store, &key, &got) == 0, "bit %d of byte %ld is not missed", i % 8, (long)at);
+		ck_assert_msg(blas_store_load(store, &key, &got) == 0, "a flipped bit %d of byte %ld goes unnoticed",
+		              i % 8, (long)at);
 		ck_assert_ptr_null(got.nodes);
 		write_byte(path[0], at, change);
 	}

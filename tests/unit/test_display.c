@@ -77,7 +77,7 @@ START_TEST(test_white)
 		const struct display_options options = { rows[i].exposure, rows[i].white, 1 };
 
 		ck_assert_msg(show(&options, rows[i].encoding, rows[i].value) == rows[i].over,
-		              "row %zu: another number of pixels is brighter than white", i);
+		              "row %zu: wrong number of pixels brighter than white", i);
 		ck_assert_msg(codes[7][1] == rows[i].code, "row %zu: code %u, not %d", i, codes[7][1], rows[i].code);
 	}
 }

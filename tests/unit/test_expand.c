@@ -64,7 +64,8 @@ static void expand(struct drawn *d, uint32_t quads)
 {
 	expanded_free(&d->out);
 	ck_assert_int_eq(expand_primitives(&d->in, &d->out), 0);
-	ck_assert_msg(d->out.n_primitives == 2 * quads, "%u triangles, not of %u quads", d->out.n_primitives, quads);
+	ck_assert_msg(d->out.n_primitives == 2 * quads, "%u triangles, expected those of %u quads", d->out.n_primitives,
+	              quads);
 	ck_assert_uint_eq(d->out.n_vertices, 4 * quads);
 }
 

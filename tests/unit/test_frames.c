@@ -42,7 +42,7 @@ START_TEST(test_not_ranges)
 	struct frame_list list = { 0 };
 
 	for (size_t i = 0; i < sizeof(bad) / sizeof(bad[0]); i++) {
-		ck_assert_msg(frame_list_parse(bad[i], &list) == ERR_USAGE, "'%s' was taken as a range", bad[i]);
+		ck_assert_msg(frame_list_parse(bad[i], &list) == ERR_USAGE, "'%s' was accepted as a range", bad[i]);
 		ck_assert_ptr_null(list.ranges);
 	}
 }

@@ -75,7 +75,8 @@ START_TEST(test_broken)
 		score_one(seed, &score, 1);
 	ck_assert_msg(score.broken > FEW * 9 / 10, "%u were broken", score.broken);
 	ck_assert_uint_eq(score.closed, FEW);
-	ck_assert_msg(score.exact == FEW, "%u have their volume; one is off by %g", score.exact, score.worst);
+	ck_assert_msg(score.exact == FEW, "%u have the right volume; the largest error is %g", score.exact,
+	              score.worst);
 }
 END_TEST
 
