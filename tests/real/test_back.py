@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A frame that shows what earlier ones drew goes back as far as it must, and no farther, with the same picture:
-tests/real/back.c. On the way it leaves pixels in the cache for those that come later.
+"""A frame that shows the drawing of earlier frames starts from the latest frame possible, and gives the same picture:
+tests/real/back.c. On the way it caches pixels for later frames.
 """
 import os
 import re
@@ -14,7 +14,7 @@ render(trace, whole, *AS_SHOWN, "-f", "0-239")
 
 
 def beginnings(frames, *options):
-    """Render some frames alone; they show what they show among all others. Returns where frames were played from."""
+    """Render some frames alone; they must equal those of a full run. Returns the frames that replay started from."""
     out = SCRATCH / f"alone{frames}"
     done = must(relume("render", trace, "-f", frames, "-o", out / "x.####.exr", *AS_SHOWN, *options))
     for frame in frames.split(","):
@@ -22,14 +22,14 @@ def beginnings(frames, *options):
         same, = whole.glob(f"*.{frame:>04}.exr")
         check(
             must(relume("diff", same, one)).returncode == 0 and one.read_bytes() == same.read_bytes(),
-            f"{frames}: frame {frame} is another picture")
+            f"{frames}: frame {frame} differs")
     return [(int(frame), int(first))
             for frame, first in re.findall(r"frame (\d+) needs the pixels .*playing them from frame (\d+)", done.stderr)
             ]
 
 
 def kept():
-    """Frames that have pixels in the cache, and their files."""
+    """Frames with pixels in the cache, and their files."""
     return {int(path.stem.rpartition("-")[2]): path for path in PIXELS.glob("*.index")}
 
 
@@ -40,8 +40,8 @@ check([frame for frame, _ in near] == [135] and 60 < near[0][1] <= 119, f"frame 
 far = beginnings("230", "--no-cache")
 check(len(far) == 2 and 140 < far[0][1] <= 214 and 60 < far[1][1] <= 102, f"frame 230 needs them from frame 140: {far}")
 check(beginnings("140") == [], "frame 140 needs none")
-check(len(beginnings("95,115,135", "--no-cache")) == 1, "what one frame needs, the next ones get at once")
-check(not kept(), "--no-cache keeps no pixels")
+check(len(beginnings("95,115,135", "--no-cache")) == 1, "the next frames reuse the pixels made for one")
+check(not kept(), "--no-cache caches no pixels")
 
 def last_kept(frame):
     return max(number for number in kept() if number <= frame)
@@ -49,15 +49,15 @@ def last_kept(frame):
 
 beginnings("230")
 there = sorted(kept())
-check(there and 60 <= there[0] <= 230 and there[-1] <= 230, f"pixels are kept on the way: {there}")
+check(there and 60 <= there[0] <= 230 and there[-1] <= 230, f"pixels are cached on the way: {there}")
 for frame in (230, 239, 200, 191, 150):
     begins = last_kept(frame)
     found = beginnings(str(frame))
-    check(found in ([(frame, begins)], []), f"frame {frame} begins with the pixels of frame {begins}: {found}")
+    check(found in ([(frame, begins)], []), f"frame {frame} starts from the pixels of frame {begins}: {found}")
 damaged, gone = sorted(number for number in kept() if number <= 230)[-1:-3:-1]
 kept()[damaged].write_bytes(kept()[damaged].read_bytes()[:-50])
 kept()[gone].unlink()
 found = beginnings("230")
-check(found[-1][1] <= last_kept(damaged - 1), f"frame 230 does without the damaged pixels of frame {damaged}: {found}")
-check(len(beginnings("230")) <= 1, "they are made anew")
+check(found[-1][1] <= last_kept(damaged - 1), f"frame 230 ignores the damaged pixels of frame {damaged}: {found}")
+check(len(beginnings("230")) <= 1, "damaged pixels are rebuilt")
 finish()

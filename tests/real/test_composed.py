@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A view that a program draws into a framebuffer object and shows in a part of its window is traced as one that it
-draws there: tests/real/composed.c, whose frames show the same."""
+"""A view drawn into a framebuffer object and shown in a part of the window is traced like one drawn there directly:
+tests/real/composed.c, whose frames all look the same."""
 import os
 import re
 
@@ -9,9 +9,9 @@ import numpy
 import exr
 from helpers import BUILD, RELUME, SCRATCH, check, check_gates, diff, finish, must, record, relume, render, run
 
-ALONE = 33  # the first frame that is rendered alone: the recording does not say how far back it must go
+ALONE = 33  # the first frame rendered alone; the recording does not say how far back replay must go
 FRAMES = ("drawn there", "by quads", "shown again", "by a blit", "drawn on after")
-# the window's own depth is not that of the objects, as gates check
+# the window's depth differs from the objects' depth, which the gates verify
 PLANES = ("R", "G", "B", "gl.R", "gl.G", "gl.B", "Z", "P.X", "P.Y", "P.Z", "N.Y", "shadow.R", "layers")
 
 trace = SCRATCH / "composed.trace"
@@ -25,7 +25,7 @@ def planes_of(file):
 
 files = render(trace, SCRATCH / "composed")
 first, *others = [planes_of(file) for file in files]
-check(numpy.count_nonzero(first["shadow.R"] < 0.5) > 300, "the boxes throw shadows")
+check(numpy.count_nonzero(first["shadow.R"] < 0.5) > 300, "the boxes cast shadows")
 for name, planes in zip(FRAMES[1:], others):
     differ = {plane: int(numpy.count_nonzero(planes[plane] != first[plane])) for plane in PLANES}
     check(not any(differ.values()), f"{name}: pixels that differ from views drawn in the window: {differ}")
@@ -37,7 +37,7 @@ check_gates(diff(trace, SCRATCH / "composed")[1], len(FRAMES), "composed")
 
 os.environ["XDG_CACHE_HOME"] = str(SCRATCH / "cache")
 PIXELS = SCRATCH / "cache/relume/pixels"
-# from a checkpoint with pixels, which holds none of what drew them
+# from a checkpoint with pixels, which does not contain the draws that made them
 long = SCRATCH / "long.trace"
 record(long, BUILD / "tests/real/composed", ALONE + 3)
 for number in range(ALONE, ALONE + 3):
@@ -45,7 +45,7 @@ for number in range(ALONE, ALONE + 3):
     later = planes_of(SCRATCH / "later.exr")
     kept = {int(path.stem.rpartition("-")[2]) for path in PIXELS.glob("*.index")}
     begins = {int(first) for first in re.findall(r"playing them from frame (\d+)", said)}
-    check(number == ALONE or begins & kept, f"frame {number} begins at kept pixels: {begins}, {kept}")
+    check(number == ALONE or begins & kept, f"frame {number} starts from cached pixels: {begins}, {kept}")
     differ = {plane: int(numpy.count_nonzero(later[plane] != first[plane])) for plane in PLANES}
     check(not any(differ.values()), f"frame {number} of {ALONE + 3}, alone: pixels that differ: {differ}")
 
@@ -53,7 +53,7 @@ scenes = [must(relume("scene", trace, "-f", number)).stdout for number in "01"]
 listed = [text.count(", lit") for text in scenes]
 check(listed == [2, 2] or listed == [4, 4], f"scene lists the lit draws of both views: {listed}")
 
-# Qt's programs are compiled each time: as binaries from its cache they could not be translated
+# makes Qt compile its shaders each time: cached binaries could not be translated
 kept = {"": "1", "QT_DISABLE_SHADER_DISK_CACHE=0": "0"}
 for setting, value in kept.items():
     said = run("env", *setting.split(), RELUME, "record", "-o", SCRATCH / "none.trace", "--", "env").stdout

@@ -68,7 +68,7 @@ told("env -i", 5, [
     "nothing was recorded: process 'sleeper' ran without the recorder: its environment was cleared (env -i, sudo)",
     "put 'relume record -- ' behind that"
 ], "env", "-i", sleeper)
-# A script that starts a program with its group's rights, as old games have for their scores.
+# A script that starts a set-group-ID program, as old games are for their score files.
 if os.geteuid() == 0 and sleeper:
     granted = SCRATCH / "granted"
     shutil.copy(sleeper, granted)
@@ -79,7 +79,8 @@ if os.geteuid() == 0 and sleeper:
         "'relume record -- ' before that file itself"
     ], "sh", "-c", f"{granted}; :")
     done = run(RELUME, "record", "-o", SCRATCH / "granted.trace", "--", granted)
-    check("runs without the rights of its file's owner or group" in done.stderr, f"and so it does: {done.stderr}")
+    check("runs without the rights of its file's owner or group" in done.stderr,
+          f"the directly recorded program runs without these rights: {done.stderr}")
 
 # A PID namespace hides the command's process, but not the figures.
 if run("unshare", "-r", "true").returncode == 0:

@@ -1,5 +1,5 @@
 /*
- * Windows whose depth nobody clears, with pictures of framebuffer objects in them: a frame each; recorded by
+ * Windows whose depth is never cleared, showing pictures of framebuffer objects. One frame each; recorded by
  * test_small.py.
  */
 #include "tests/trace/window.h"
